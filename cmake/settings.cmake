@@ -1,0 +1,14 @@
+# pinocchio_settings: what every target of ours is compiled with. Linked PRIVATE, so nothing leaks to
+# a consumer and no global flag is set.
+add_library(pinocchio_settings INTERFACE)
+target_compile_features(pinocchio_settings INTERFACE cxx_std_20)
+target_include_directories(pinocchio_settings INTERFACE ${PROJECT_SOURCE_DIR})
+# No silent contraction: a*b+c is two roundings on every machine, or the picture would depend on
+# which machine drew it.
+target_compile_options(pinocchio_settings INTERFACE -Wall -Wextra -Wpedantic -Wshadow -ffp-contract=off
+                       $<$<BOOL:${PINOCCHIO_WARNINGS_AS_ERRORS}>:-Werror>)
+target_compile_definitions(pinocchio_settings INTERFACE GLM_FORCE_EXPLICIT_CTOR)
+if(PINOCCHIO_SANITIZE)
+  target_compile_options(pinocchio_settings INTERFACE -fsanitize=${PINOCCHIO_SANITIZE} -fno-omit-frame-pointer)
+  target_link_options(pinocchio_settings INTERFACE -fsanitize=${PINOCCHIO_SANITIZE})
+endif()

@@ -1,0 +1,155 @@
+#include "core/bsp/build.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "core/bsp/clip.h"
+#include "core/bsp/split.h"
+
+namespace pinocchio {
+namespace {
+
+using References = std::vector<BuildReference>;
+
+// Wald and Havran 2006: 8 + 1.3 log2 n holds for triangle meshes of every size.
+int default_depth(std::size_t triangles) {
+  return static_cast<int>(8.0 + 1.3 * std::log2(static_cast<double>(triangles)));
+}
+
+class Builder {
+ public:
+  Builder(const Scene& scene, const BuildOptions& options, BspTree& tree)
+      : scene_(scene), options_(options), tree_(tree) {
+    const int wanted = options.max_depth > 0 ? options.max_depth : default_depth(scene.triangles.size());
+    max_depth_ = std::clamp(wanted, 1, kMaxTreeDepth);
+  }
+
+  void build() {
+    References all = all_references();
+    for (const BuildReference& r : all) tree_.bounds.add(r.bounds);
+    tree_.nodes.resize(2, BspNode::leaf(0, 0));
+    build_node(0, std::move(all), tree_.bounds, 0);
+  }
+
+ private:
+  // A triangle without area is met by no ray and stays out of the tree.
+  [[nodiscard]] References all_references() const {
+    References all;
+    all.reserve(scene_.triangles.size());
+    for (std::uint32_t i = 0; i < scene_.triangles.size(); ++i) {
+      if (std::isnan(tree_.triangles[i].n_u)) continue;
+      Bounds b;
+      for (int k = 0; k < 3; ++k) b.add(corner(i, k));
+      all.push_back({i, b});
+    }
+    return all;
+  }
+
+  [[nodiscard]] const glm::vec3& corner(std::uint32_t triangle, int k) const {
+    return scene_.positions[scene_.triangles[triangle][k]];
+  }
+
+  void build_node(std::uint32_t index, References references, const Bounds& box, int depth) {
+    tree_.depth = std::max(tree_.depth, depth);
+    const std::optional<SplitPlane> plane = depth < max_depth_ ? choose(references, box) : std::nullopt;
+    if (!plane) {
+      make_leaf(index, references);
+      return;
+    }
+    Bounds low_box = box, high_box = box;
+    low_box.hi[plane->axis] = plane->position;
+    high_box.lo[plane->axis] = plane->position;
+    References low, high;
+    partition(references, *plane, low_box, high_box, low, high);
+    if (low.size() >= references.size() && high.size() >= references.size()) {  // nothing was told apart
+      make_leaf(index, references);
+      return;
+    }
+    References().swap(references);  // the parent's are not needed while its children are built
+
+    const auto children = static_cast<std::uint32_t>(tree_.nodes.size());
+    tree_.nodes.resize(tree_.nodes.size() + 2, BspNode::leaf(0, 0));
+    tree_.nodes[index] = BspNode::inner(plane->axis, plane->position, children);
+    build_node(children, std::move(low), low_box, depth + 1);
+    build_node(children + 1, std::move(high), high_box, depth + 1);
+  }
+
+  [[nodiscard]] std::optional<SplitPlane> choose(const References& references, const Bounds& box) const {
+    if (references.size() <= static_cast<std::size_t>(options_.leaf_size)) return std::nullopt;
+    switch (options_.rule) {
+      case SplitRule::spatial_median: return find_spatial_median(box);
+      case SplitRule::object_median: return find_object_median(references, box);
+      case SplitRule::sah: break;
+    }
+    const std::optional<SplitPlane> best = find_sah_split(references, box, options_);
+    const float leaf_cost = options_.cost_intersection * static_cast<float>(references.size());
+    return best && best->cost < leaf_cost ? best : std::nullopt;
+  }
+
+  void partition(const References& references, const SplitPlane& plane, const Bounds& low_box,
+                 const Bounds& high_box, References& low, References& high) const {
+    for (const BuildReference& r : references) {
+      const float lo = r.bounds.lo[plane.axis], hi = r.bounds.hi[plane.axis];
+      if (lo == plane.position && hi == plane.position) {
+        (plane.flat_goes_low ? low : high).push_back(r);
+      } else if (hi <= plane.position) {
+        low.push_back(r);
+      } else if (lo >= plane.position) {
+        high.push_back(r);
+      } else {
+        add_clipped(r.triangle, low_box, low);
+        add_clipped(r.triangle, high_box, high);
+      }
+    }
+  }
+
+  void add_clipped(std::uint32_t triangle, const Bounds& box, References& to) const {
+    const Bounds b = clipped_bounds(corner(triangle, 0), corner(triangle, 1), corner(triangle, 2), box);
+    if (!b.empty()) to.push_back({triangle, b});
+  }
+
+  void make_leaf(std::uint32_t index, const References& references) {
+    const auto first = static_cast<std::uint32_t>(tree_.references.size());
+    tree_.nodes[index] = BspNode::leaf(first, static_cast<std::uint32_t>(references.size()));
+    for (const BuildReference& r : references) tree_.references.push_back(r.triangle);
+  }
+
+  const Scene& scene_;
+  const BuildOptions& options_;
+  BspTree& tree_;
+  int max_depth_;
+};
+
+// A ray computes its entry into the box with three roundings; flat scenes need some thickness, too.
+void widen(Bounds& bounds) {
+  if (bounds.empty()) return;
+  const glm::vec3 largest = glm::max(glm::abs(bounds.lo), glm::abs(bounds.hi));
+  const float margin = 1e-6f * std::max({largest.x, largest.y, largest.z, 1e-30f});
+  bounds.lo -= margin;
+  bounds.hi += margin;
+}
+
+}  // namespace
+
+std::optional<SplitRule> parse_split_rule(std::string_view name) {
+  if (name == "sah") return SplitRule::sah;
+  if (name == "spatial-median") return SplitRule::spatial_median;
+  if (name == "object-median") return SplitRule::object_median;
+  return std::nullopt;
+}
+
+BspTree build_tree(const Scene& scene, const BuildOptions& options) {
+  BspTree tree;
+  tree.triangles.reserve(scene.triangles.size());
+  for (std::uint32_t i = 0; i < scene.triangles.size(); ++i) {
+    const glm::uvec3& t = scene.triangles[i];
+    tree.triangles.push_back(
+        ProjectedTriangle::from(scene.positions[t.x], scene.positions[t.y], scene.positions[t.z], i));
+  }
+  Builder(scene, options, tree).build();
+  widen(tree.bounds);
+  return tree;
+}
+
+}  // namespace pinocchio

@@ -1,0 +1,34 @@
+#include "core/bsp/projected_triangle.h"
+
+#include <cmath>
+#include <limits>
+
+namespace pinocchio {
+
+ProjectedTriangle ProjectedTriangle::from(const glm::vec3& a, const glm::vec3& b, const glm::vec3& c,
+                                          std::uint32_t id) {
+  const glm::dvec3 ab = glm::dvec3(b) - glm::dvec3(a);
+  const glm::dvec3 ac = glm::dvec3(c) - glm::dvec3(a);
+  const glm::dvec3 n = glm::cross(ab, ac);
+
+  int k = 0;
+  if (std::abs(n.y) > std::abs(n[k])) k = 1;
+  if (std::abs(n.z) > std::abs(n[k])) k = 2;
+  const int u = (k + 1) % 3, v = (k + 2) % 3;
+
+  // In the plane (u, v), h - a = beta * ab + gamma * ac; the determinant is the normal's component k.
+  const double det = n[k] != 0.0 ? n[k] : std::numeric_limits<double>::quiet_NaN();
+  ProjectedTriangle triangle{};
+  for (int i = 0; i < 3; ++i) triangle.a[i] = a[i];
+  triangle.k = static_cast<std::uint32_t>(k);
+  triangle.n_u = static_cast<float>(n[u] / det);
+  triangle.n_v = static_cast<float>(n[v] / det);
+  triangle.beta_u = static_cast<float>(ac[v] / det);
+  triangle.beta_v = static_cast<float>(-ac[u] / det);
+  triangle.gamma_u = static_cast<float>(-ab[v] / det);
+  triangle.gamma_v = static_cast<float>(ab[u] / det);
+  triangle.id = id;
+  return triangle;
+}
+
+}  // namespace pinocchio

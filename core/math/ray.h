@@ -1,0 +1,28 @@
+#pragma once
+
+#include <cstdint>
+#include <glm/glm.hpp>
+#include <limits>
+
+namespace pinocchio {
+
+inline constexpr std::uint32_t kNoTriangle = 0xffffffffu;
+inline constexpr float kInfinity = std::numeric_limits<float>::infinity();
+
+// Points origin + t * direction with 0 < t < t_max. The direction need not be a unit vector: t counts
+// in its length (a primary ray's t is z_eye, a shadow ray's light sits at t = 1).
+struct Ray {
+  glm::vec3 origin;
+  float t_max = kInfinity;
+  glm::vec3 direction;
+};
+
+struct Hit {
+  float t = kInfinity;
+  std::uint32_t triangle = kNoTriangle;  // index in the scene's triangle order
+
+  [[nodiscard]] bool valid() const { return triangle != kNoTriangle; }
+  friend bool operator==(const Hit&, const Hit&) = default;
+};
+
+}  // namespace pinocchio

@@ -1,0 +1,44 @@
+#pragma once
+
+#include <condition_variable>
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <mutex>
+#include <thread>
+#include <vector>
+
+namespace pinocchio {
+
+// Worker threads that live as long as this object and take tiles of one job at a time.
+class Workers {
+ public:
+  // `threads` in all, the caller's own among them; 0: one a core.
+  explicit Workers(int threads = 0);
+  ~Workers();
+  Workers(const Workers&) = delete;
+  Workers& operator=(const Workers&) = delete;
+
+  [[nodiscard]] int count() const { return static_cast<int>(threads_.size()) + 1; }
+
+  // Calls body(i) once for every i in [0, n), on all threads, and returns when all are done. What a body
+  // throws reaches the caller (the first of them; the rest of the job is dropped). One job at a time; a
+  // body must not start another.
+  void for_each(std::size_t n, const std::function<void(std::size_t)>& body);
+
+ private:
+  struct Job;
+  void work(Job& job);
+  void run_thread();
+
+  std::mutex mutex_;
+  std::condition_variable wake_;
+  std::condition_variable done_;
+  Job* job_ = nullptr;
+  std::uint64_t generation_ = 0;  // counts jobs, so that a thread takes each once
+  int busy_ = 0;
+  bool stop_ = false;
+  std::vector<std::thread> threads_;
+};
+
+}  // namespace pinocchio

@@ -1,0 +1,220 @@
+// The traversal and the triangle test, written once over a namespace's lanes. A file kernel_ISA.cpp
+// includes lanes_ISA.h, names the namespace in PINOCCHIO_LANES and includes this. Everything here lives
+// inside that namespace: a function compiled for AVX must never be the one the linker keeps for all.
+#include "core/math/ray.h"
+#include "core/bsp/tree.h"
+#include "core/trace/kernels.h"
+
+namespace pinocchio::PINOCCHIO_LANES {
+namespace {
+
+// A computed distance to a plane, (split - o) * (1 / d), is off by three roundings at most; both
+// children are entered where the true distance may lie in either.
+constexpr float kStepError = 4.0f * 0x1p-24f;
+
+// Rays of one direction octant: all of them meet the two sides of a split plane in the same order.
+struct Packet {
+  Float o[3], d[3];
+  Float inverse_early[3], inverse_late[3];  // 1 / d, less and more by the rounding of a step
+  Float t_max;
+  bool negative[3];  // direction falls along this axis
+};
+
+// Closest hits so far; t_best also ends the walk.
+struct Hits {
+  Float t;
+  Int triangle;
+};
+
+// t and the weights of B and C of the packet against one triangle. The order of operations is fixed.
+inline Mask meets(const ProjectedTriangle& tri, const Packet& p, Float& t) {
+  const unsigned k = tri.k, u = k == 2 ? 0 : k + 1, v = u == 2 ? 0 : u + 1;
+  const Float n_u(tri.n_u), n_v(tri.n_v);
+  const Float away = p.d[k] + n_u * p.d[u] + n_v * p.d[v];
+  const Float o_k = Float(tri.a[k]) - p.o[k], o_u = Float(tri.a[u]) - p.o[u], o_v = Float(tri.a[v]) - p.o[v];
+  t = (o_k + n_u * o_u + n_v * o_v) / away;
+  const Float h_u = t * p.d[u] - o_u, h_v = t * p.d[v] - o_v;
+  const Float beta = h_u * Float(tri.beta_u) + h_v * Float(tri.beta_v);
+  const Float gamma = h_u * Float(tri.gamma_u) + h_v * Float(tri.gamma_v);
+  const Float zero(0.0f);
+  // Written so that NaN (no area, a ray in the plane) fails.
+  return (zero <= beta) & (zero <= gamma) & (beta + gamma <= Float(1.0f)) & (zero < t);
+}
+
+// Narrows [t_near, t_far] to the tree's box. min and max give their second operand for NaN, so a ray
+// that runs in a face of the box (0 * inf) leaves the interval as it was.
+inline void enter_bounds(const Bounds& b, const Packet& p, Float& t_near, Float& t_far) {
+  for (int axis = 0; axis < 3; ++axis) {
+    const Float lo(b.lo[axis]), hi(b.hi[axis]);
+    const Float& first = p.negative[axis] ? hi : lo;
+    const Float& last = p.negative[axis] ? lo : hi;
+    t_near = max((first - p.o[axis]) * p.inverse_early[axis], t_near);
+    t_far = min((last - p.o[axis]) * p.inverse_late[axis], t_far);
+  }
+}
+
+struct StackEntry {
+  Float t_near, t_far;
+  std::uint32_t node;
+};
+
+// Walks the tree front to back and calls leaf(node, lanes) for every leaf that a living lane passes.
+// A lane lives while its interval within the node is not empty; `t_best`, which the leaf may lower, ends
+// its interval. Which leaves a lane sees depends on that lane's ray alone.
+template <class Leaf>
+inline void walk(const BspTree& tree, const Packet& p, Mask lanes, const Float& t_best, Leaf leaf) {
+  Float t_near(0.0f), t_far = t_best;
+  enter_bounds(tree.bounds, p, t_near, t_far);
+  StackEntry stack[kMaxTreeDepth];
+  int top = 0;
+  const BspNode* nodes = tree.nodes.data();
+  std::uint32_t index = 0;
+  while (true) {
+    Mask alive = lanes & (t_near <= t_far);
+    if (alive.bits() != 0) {
+      const BspNode node = nodes[index];
+      if (!node.is_leaf()) {
+        const int axis = node.axis();
+        const Float to_plane = Float(node.split()) - p.o[axis];
+        const Float t_early = to_plane * p.inverse_early[axis], t_late = to_plane * p.inverse_late[axis];
+        const std::uint32_t low = node.first_child();
+        const std::uint32_t first = p.negative[axis] ? low + 1 : low, second = p.negative[axis] ? low : low + 1;
+        // NaN (a ray that runs in the plane) must enter both: ask who may skip a side, not who enters.
+        const bool skip_first = (alive & ~(t_late < t_near)).bits() == 0;
+        const bool skip_second = (alive & ~(t_far < t_early)).bits() == 0;
+        if (skip_first) {
+          index = second;
+        } else if (skip_second) {
+          index = first;
+        } else {
+          stack[top++] = {max(t_early, t_near), t_far, second};
+          t_far = min(t_late, t_far);
+          index = first;
+        }
+        continue;
+      }
+      if (node.reference_count() > 0) leaf(node, alive);
+    }
+    if (top == 0) return;
+    const StackEntry& entry = stack[--top];
+    index = entry.node;
+    t_near = entry.t_near;
+    t_far = min(entry.t_far, t_best);
+  }
+}
+
+inline bool finite(float x) { return x - x == 0.0f; }
+
+inline bool traceable(const Ray& r) {
+  for (int i = 0; i < 3; ++i)
+    if (!finite(r.origin[i]) || !finite(r.direction[i])) return false;
+  return r.t_max > 0.0f && (r.direction.x != 0.0f || r.direction.y != 0.0f || r.direction.z != 0.0f);
+}
+
+// -0 counts as +0, so that a ray along an axis belongs to one octant.
+inline unsigned octant(const glm::vec3& d) {
+  return (d.x < 0.0f ? 1u : 0u) | (d.y < 0.0f ? 2u : 0u) | (d.z < 0.0f ? 4u : 0u);
+}
+
+// Up to kWidth rays, transposed; `body(packet, lanes)` is called for each octant among them.
+template <class Body>
+inline void for_each_octant(const Ray* rays, std::size_t n, Body body) {
+  alignas(64) float o[3][kWidth], d[3][kWidth], t_max[kWidth];
+  unsigned octants[kWidth];
+  unsigned waiting = 0;
+  for (std::size_t lane = 0; lane < kWidth; ++lane) {
+    const Ray& r = rays[lane < n ? lane : 0];
+    const bool use = lane < n && traceable(r);
+    for (int i = 0; i < 3; ++i) {
+      o[i][lane] = use ? r.origin[i] : 0.0f;
+      d[i][lane] = use ? r.direction[i] + 0.0f : 1.0f;  // + 0 turns -0 into +0
+    }
+    t_max[lane] = use ? r.t_max : -1.0f;
+    octants[lane] = octant(r.direction);
+    if (use) waiting |= 1u << lane;
+  }
+  if (waiting == 0) return;
+  Packet p;
+  for (int i = 0; i < 3; ++i) {
+    p.o[i] = Float::load(o[i]);
+    p.d[i] = Float::load(d[i]);
+    const Float inverse = Float(1.0f) / p.d[i];
+    p.inverse_early[i] = inverse * Float(1.0f - kStepError);
+    p.inverse_late[i] = inverse * Float(1.0f + kStepError);
+  }
+  p.t_max = Float::load(t_max);
+  while (waiting != 0) {
+    const unsigned way = octants[__builtin_ctz(waiting)];
+    unsigned same = 0;
+    for (unsigned lane = 0; lane < kWidth; ++lane)
+      if ((waiting >> lane & 1u) && octants[lane] == way) same |= 1u << lane;
+    for (int i = 0; i < 3; ++i) p.negative[i] = (way >> i & 1u) != 0;
+    body(p, Mask::from_bits(same));
+    waiting &= ~same;
+  }
+}
+
+inline void closest_in_leaf(const BspTree& tree, const BspNode& leaf, const Packet& p, Mask lanes, Hits& hits) {
+  const std::uint32_t* references = tree.references.data() + leaf.first_reference();
+  for (std::uint32_t i = 0; i < leaf.reference_count(); ++i) {
+    const ProjectedTriangle& tri = tree.triangles[references[i]];
+    Float t;
+    const Mask inside = lanes & meets(tri, p, t);
+    const Int id(tri.id);
+    const Mask closer = inside & ((t < hits.t) | ((t == hits.t) & (id < hits.triangle)));
+    hits.t = select(closer, t, hits.t);
+    hits.triangle = select(closer, id, hits.triangle);
+  }
+}
+
+void closest_hits(const BspTree& tree, const Ray* rays, Hit* out, std::size_t n) {
+  alignas(64) float t[kWidth];
+  alignas(64) std::uint32_t triangle[kWidth];
+  for (std::size_t i = 0; i < n; i += kWidth) {
+    const std::size_t count = n - i < kWidth ? n - i : kWidth;
+    for (std::size_t lane = 0; lane < count; ++lane) out[i + lane] = Hit{};
+    for_each_octant(rays + i, count, [&](const Packet& p, Mask lanes) {
+      Hits hits{p.t_max, Int(kNoTriangle)};
+      walk(tree, p, lanes, hits.t, [&](const BspNode& leaf, Mask alive) {
+        closest_in_leaf(tree, leaf, p, alive, hits);
+      });
+      hits.t.store(t);
+      hits.triangle.store(triangle);
+      const unsigned mine = lanes.bits();
+      for (std::size_t lane = 0; lane < count; ++lane)
+        if ((mine >> lane & 1u) && triangle[lane] != kNoTriangle) out[i + lane] = {t[lane], triangle[lane]};
+    });
+  }
+}
+
+void occluded(const BspTree& tree, const Ray* rays, std::uint8_t* blocked, std::size_t n) {
+  for (std::size_t i = 0; i < n; i += kWidth) {
+    const std::size_t count = n - i < kWidth ? n - i : kWidth;
+    for (std::size_t lane = 0; lane < count; ++lane) blocked[i + lane] = 0;
+    for_each_octant(rays + i, count, [&](const Packet& p, Mask lanes) {
+      Float t_best = p.t_max;
+      unsigned hit = 0;
+      walk(tree, p, lanes, t_best, [&](const BspNode& leaf, Mask alive) {
+        const std::uint32_t* references = tree.references.data() + leaf.first_reference();
+        for (std::uint32_t k = 0; k < leaf.reference_count(); ++k) {
+          Float t;
+          Mask inside = alive & meets(tree.triangles[references[k]], p, t);
+          inside = inside & (t < t_best);
+          if (inside.bits() == 0) continue;
+          hit |= inside.bits();
+          t_best = select(inside, Float(-1.0f), t_best);  // this lane is done
+          alive = alive & ~inside;
+          if (alive.bits() == 0) return;
+        }
+      });
+      for (std::size_t lane = 0; lane < count; ++lane)
+        if (hit >> lane & 1u) blocked[i + lane] = 1;
+    });
+  }
+}
+
+}  // namespace
+
+const Kernel kKernel{closest_hits, occluded};
+
+}  // namespace pinocchio::PINOCCHIO_LANES

@@ -1,0 +1,4 @@
+#include "core/simd/lanes_scalar.h"
+
+#define PINOCCHIO_LANES scalar
+#include "core/trace/kernel.h"

@@ -1,0 +1,54 @@
+// The CPU's passes over a picture. Each takes the visible triangle of every pixel, wherever that came
+// from (the GPU's visibility buffer or trace_visibility), and none waits for a GPU.
+#pragma once
+
+#include <cstdint>
+#include <glm/glm.hpp>
+
+#include "core/image/image.h"
+#include "core/parallel/workers.h"
+#include "core/scene/scene.h"
+#include "core/trace/mask_image.h"
+#include "core/trace/shared.h"
+#include "core/trace/tracer.h"
+
+namespace pinocchio {
+
+struct RayCounts {
+  std::uint64_t primary = 0, shadow = 0, reflection = 0, refraction = 0;
+
+  RayCounts& operator+=(const RayCounts& o) {
+    primary += o.primary;
+    shadow += o.shadow;
+    reflection += o.reflection;
+    refraction += o.refraction;
+    return *this;
+  }
+};
+
+// What every pass reads: the scene, its tree, the threads and the picture's rays.
+struct TraceJob {
+  const Scene& scene;
+  const Tracer& tracer;
+  Workers& workers;
+  shared::ViewParams view;
+};
+
+// The triangle that each pixel's centre sees (kNoTriangle: none), by rays. ids: any size.
+RayCounts trace_visibility(const TraceJob& job, Image<std::uint32_t>& ids);
+
+// Bit i of a pixel: the casting light in mask slot i reaches the visible point. 0 where nothing is seen
+// or the surface faces away. mask is resized to ids' size and MaskImage::bits_for the scene's lights.
+RayCounts trace_shadow_mask(const TraceJob& job, const Image<std::uint32_t>& ids, MaskImage& mask);
+
+// Mirrored plus refracted light of every pixel, linear, without the direct light of the visible point
+// itself; generation by generation, `depth` of them at most. radiance is resized to ids' size.
+RayCounts trace_reflection(const TraceJob& job, const Image<std::uint32_t>& ids, int depth,
+                           Image<glm::vec3>& radiance);
+
+// The CPU's composite: Phong per light times its mask bit, plus reflection (empty: none). RGBA, linear;
+// A is 1 where something is hit. mask of 0 bits: no light casts.
+void shade(const TraceJob& job, const Image<std::uint32_t>& ids, const MaskImage& mask,
+           const Image<glm::vec3>& reflection, Image<glm::vec4>& color);
+
+}  // namespace pinocchio

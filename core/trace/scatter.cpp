@@ -1,0 +1,56 @@
+#include "core/trace/scatter.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace pinocchio {
+namespace {
+
+void push(const Surface& surface, const glm::vec3& direction, const glm::vec3& weight, std::uint32_t pixel,
+          bool refracted, std::vector<PathRay>& out) {
+  if (std::max({weight.x, weight.y, weight.z}) < kLeastContribution) return;
+  out.push_back({{offset_origin(surface, direction), kInfinity, direction}, weight, pixel, refracted});
+}
+
+// About the shading normal, unless that sends the ray into the surface; then about the geometric one.
+glm::vec3 mirrored(const Surface& surface) {
+  const glm::vec3 direction = glm::reflect(-surface.to_viewer, surface.n_shading);
+  return glm::dot(direction, surface.n_geometric) > 0.0f ? direction
+                                                         : glm::reflect(-surface.to_viewer, surface.n_geometric);
+}
+
+// Likewise; zero beyond the critical angle. glm::refract takes the inverse of eta.
+glm::vec3 refracted(const Surface& surface, float eta) {
+  const glm::vec3 direction = glm::refract(-surface.to_viewer, surface.n_shading, 1.0f / eta);
+  return glm::dot(direction, surface.n_geometric) < 0.0f
+             ? direction
+             : glm::refract(-surface.to_viewer, surface.n_geometric, 1.0f / eta);
+}
+
+}  // namespace
+
+float fresnel_dielectric(float cos_in, float eta) {
+  const float sin2_out = (1.0f - cos_in * cos_in) / (eta * eta);
+  if (sin2_out >= 1.0f) return 1.0f;
+  const float cos_out = std::sqrt(1.0f - sin2_out);
+  const float parallel = (eta * cos_in - cos_out) / (eta * cos_in + cos_out);
+  const float perpendicular = (cos_in - eta * cos_out) / (cos_in + eta * cos_out);
+  return 0.5f * (parallel * parallel + perpendicular * perpendicular);
+}
+
+void scatter(const Surface& surface, const glm::vec3& weight, std::uint32_t pixel, std::vector<PathRay>& out) {
+  const Material& m = *surface.material;
+  const float cos_in = std::clamp(glm::dot(surface.n_shading, surface.to_viewer), 0.0f, 1.0f);
+  if (m.transmits()) {
+    const float eta = surface.leaving ? 1.0f / m.ior : m.ior;
+    const float share = fresnel_dielectric(cos_in, eta);
+    push(surface, mirrored(surface), weight * share, pixel, false, out);
+    const glm::vec3 through = refracted(surface, eta);
+    if (through != glm::vec3(0.0f)) push(surface, through, weight * (1.0f - share) * m.transmittance, pixel, true, out);
+  } else if (m.reflects()) {
+    const float grazing = m.fresnel ? std::pow(1.0f - cos_in, 5.0f) : 0.0f;
+    push(surface, mirrored(surface), weight * (m.reflectance + (1.0f - m.reflectance) * grazing), pixel, false, out);
+  }
+}
+
+}  // namespace pinocchio

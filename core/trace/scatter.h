@@ -1,0 +1,33 @@
+#pragma once
+
+#include <cstdint>
+#include <glm/glm.hpp>
+#include <vector>
+
+#include "core/math/ray.h"
+#include "core/trace/surface.h"
+
+namespace pinocchio {
+
+// A ray of some generation and what it is worth to its pixel.
+struct PathRay {
+  Ray ray;
+  glm::vec3 weight;     // product of the reflectances and transmittances on its way
+  std::uint32_t pixel;  // index in the picture
+  bool refracted;       // else mirrored
+};
+
+// Contributions below this are not followed: less than half a step of an 8-bit sRGB picture, even on
+// black (slope 12.92).
+inline constexpr float kLeastContribution = 0x1p-13f;
+
+// Appends the mirrored and the refracted ray that leave the surface, each with its share of `weight`.
+// Dielectrics share by Fresnel's equations (all is mirrored beyond the critical angle); opaque mirrors
+// have a constant reflectance or Schlick's.
+void scatter(const Surface& surface, const glm::vec3& weight, std::uint32_t pixel, std::vector<PathRay>& out);
+
+// Share of unpolarised light that a smooth dielectric mirrors (Fresnel). eta: index of the side the
+// light goes to over the side it comes from; cos_in in [0, 1].
+[[nodiscard]] float fresnel_dielectric(float cos_in, float eta);
+
+}  // namespace pinocchio

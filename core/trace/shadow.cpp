@@ -1,0 +1,60 @@
+#include <array>
+#include <atomic>
+
+#include "core/parallel/tiles.h"
+#include "core/trace/passes.h"
+#include "core/trace/surface.h"
+#include "core/trace/view.h"
+
+namespace pinocchio {
+namespace {
+
+// The shadow rays of one tile towards one light, and the pixel each answers for.
+struct LightRays {
+  std::vector<Ray> rays;
+  std::vector<glm::ivec2> pixels;
+};
+
+using Slots = std::vector<shared::LightParams>;
+
+void collect(const Slots& lights, const Surface& surface, glm::ivec2 pixel, std::span<LightRays> out) {
+  for (std::size_t slot = 0; slot < lights.size(); ++slot) {
+    if (const std::optional<Ray> ray = shadow_ray(lights[slot], surface)) {
+      out[slot].rays.push_back(*ray);
+      out[slot].pixels.push_back(pixel);
+    }
+  }
+}
+
+}  // namespace
+
+RayCounts trace_shadow_mask(const TraceJob& job, const Image<std::uint32_t>& ids, MaskImage& mask) {
+  Slots lights;
+  for (const int i : casting_lights(job.scene)) lights.push_back(light_params(job.scene.lights[static_cast<std::size_t>(i)]));
+  mask.resize(ids.size(), MaskImage::bits_for(static_cast<int>(lights.size())));
+  if (lights.empty()) return {};
+
+  std::atomic<std::uint64_t> fired{0};
+  const TileGrid grid(ids.size());
+  job.workers.for_each(grid.count(), [&](std::size_t i) {
+    std::array<LightRays, kMaxCastingLights> by_light;
+    TileGrid::for_each_pixel(grid.tile(i), [&](int x, int y) {
+      const std::uint32_t id = ids.at(x, y);
+      if (id == kNoTriangle) return;
+      const Ray ray = pixel_ray(job.view, x, y);
+      collect(lights, surface_at(job.scene, id, ray.origin, ray.direction), {x, y}, by_light);
+    });
+    std::vector<std::uint8_t> blocked;
+    for (std::size_t slot = 0; slot < lights.size(); ++slot) {
+      const LightRays& work = by_light[slot];
+      blocked.resize(work.rays.size());
+      job.tracer.occluded(work.rays, blocked);
+      for (std::size_t k = 0; k < blocked.size(); ++k)
+        if (!blocked[k]) mask.set_bit(work.pixels[k].x, work.pixels[k].y, static_cast<int>(slot));
+      fired += work.rays.size();
+    }
+  });
+  return {.shadow = fired};
+}
+
+}  // namespace pinocchio

@@ -1,0 +1,101 @@
+#include "core/trace/surface.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/image/tonemap.h"
+
+namespace pinocchio {
+namespace {
+
+// A point on a triangle is off its plane by a few roundings of its coordinates, and a triangle test errs
+// by a few more of the distances it works with (Wächter and Binder 2019; Mitsuba 3 takes 32 as well).
+constexpr float kOffsetError = 32.0f * 0x1p-24f;
+
+float largest_component(const glm::vec3& v) {
+  return std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)});
+}
+
+shared::PhongParams phong_params(const Scene& scene, const Material& m, const glm::uvec3& corners,
+                                 const glm::vec3& weights) {
+  shared::PhongParams phong{m.ambient, m.diffuse, m.specular, m.shininess, m.emission};
+  if (m.diffuse_texture >= 0 && !scene.texcoords.empty()) {
+    const glm::vec2 texcoord = weights.x * scene.texcoords[corners.x] + weights.y * scene.texcoords[corners.y] +
+                               weights.z * scene.texcoords[corners.z];
+    const glm::vec3 color = sample_texture(scene.textures[static_cast<std::size_t>(m.diffuse_texture)], texcoord);
+    phong.ambient *= color;
+    phong.diffuse *= color;
+  }
+  return phong;
+}
+
+int wrap(int i, int n) {
+  const int r = i % n;
+  return r < 0 ? r + n : r;
+}
+
+}  // namespace
+
+Surface surface_at(const Scene& scene, std::uint32_t id, const glm::vec3& origin, const glm::vec3& direction) {
+  const glm::uvec3 corners = scene.triangles[id];
+  const glm::vec3 &a = scene.positions[corners.x], &b = scene.positions[corners.y], &c = scene.positions[corners.z];
+  const glm::vec3 weights = shared::barycentric_of(origin, direction, a, b, c);
+
+  Surface s;
+  s.to_viewer = -glm::normalize(direction);
+  s.p_world = shared::point_on_triangle(weights, a, b, c);
+  const glm::vec3 n_geometric = shared::geometric_normal(a, b, c, s.to_viewer);
+  const glm::vec3 n_shading = shared::shading_normal(weights, scene.normals[corners.x], scene.normals[corners.y],
+                                                     scene.normals[corners.z], n_geometric);
+  const shared::FacingNormals facing = shared::face_viewer(n_geometric, n_shading, s.to_viewer);
+  s.n_geometric = facing.geometric;
+  s.n_shading = facing.shading;
+  s.leaving = facing.leaving;
+  s.offset = kOffsetError * (largest_component(s.p_world) +
+                             std::max(largest_component(b - a), largest_component(c - a)));
+  s.material = &scene.material_of(id);
+  s.phong = phong_params(scene, *s.material, corners, weights);
+  return s;
+}
+
+glm::vec3 offset_origin(const Surface& surface, const glm::vec3& direction) {
+  const float side = glm::dot(surface.n_geometric, direction) < 0.0f ? -surface.offset : surface.offset;
+  return surface.p_world + side * surface.n_geometric;
+}
+
+shared::LightParams light_params(const Light& light) {
+  const int kind = light.kind == Light::Kind::directional ? shared::kLightDirectional
+                   : light.kind == Light::Kind::spot      ? shared::kLightSpot
+                                                          : shared::kLightPoint;
+  return {kind,
+          light.falloff == Light::Falloff::inverse_square,
+          light.position,
+          light.direction,
+          light.color * light.intensity,
+          light.range,
+          light.cos_inner,
+          light.cos_outer};
+}
+
+std::optional<Ray> shadow_ray(const shared::LightParams& light, const Surface& surface) {
+  const shared::Incident incident = shared::incident_light(light, surface.p_world);
+  if (incident.radiance == glm::vec3(0.0f)) return std::nullopt;
+  if (!shared::faces_light(surface.n_shading, surface.n_geometric, incident.to_light)) return std::nullopt;
+  const glm::vec3 origin = offset_origin(surface, incident.to_light);
+  if (light.kind == shared::kLightDirectional) return Ray{origin, kInfinity, incident.to_light};
+  return Ray{origin, 1.0f, light.position - origin};  // the light sits at t = 1
+}
+
+glm::vec3 sample_texture(const Texture& texture, glm::vec2 texcoord) {
+  const glm::ivec2 size = texture.texels.size();
+  const glm::vec2 at = glm::fract(texcoord) * glm::vec2(size) - 0.5f;
+  const glm::vec2 base = glm::floor(at), f = at - base;
+  const auto texel = [&](int dx, int dy) {
+    const glm::u8vec4& t = texture.texels.at(wrap(static_cast<int>(base.x) + dx, size.x),
+                                             wrap(static_cast<int>(base.y) + dy, size.y));
+    return glm::vec3(srgb8_to_linear(t.r), srgb8_to_linear(t.g), srgb8_to_linear(t.b));
+  };
+  return glm::mix(glm::mix(texel(0, 0), texel(1, 0), f.x), glm::mix(texel(0, 1), texel(1, 1), f.x), f.y);
+}
+
+}  // namespace pinocchio

@@ -1,0 +1,42 @@
+#pragma once
+
+#include <cstdint>
+#include <glm/glm.hpp>
+#include <optional>
+
+#include "core/math/ray.h"
+#include "core/scene/scene.h"
+#include "core/trace/shared.h"
+
+namespace pinocchio {
+
+// What a ray sees where it meets a triangle, turned to the side that the ray came from.
+struct Surface {
+  glm::vec3 p_world;
+  glm::vec3 n_geometric;    // unit, towards the viewer
+  glm::vec3 n_shading;      // unit, on n_geometric's side
+  glm::vec3 to_viewer;      // unit
+  bool leaving;             // the ray was inside: it meets the surface from behind
+  float offset;             // how far off the surface a new ray starts, scene units
+  const Material* material;
+  shared::PhongParams phong;  // the material here, texture applied
+};
+
+// The point of triangle `id` that the ray meets, on the triangle to float precision.
+[[nodiscard]] Surface surface_at(const Scene& scene, std::uint32_t id, const glm::vec3& origin,
+                                 const glm::vec3& direction);
+
+// Where a ray leaving the surface towards `direction` starts: off the plane by more than the rounding of
+// the point and of a triangle test, so that it meets neither its own triangle nor a coplanar neighbour.
+[[nodiscard]] glm::vec3 offset_origin(const Surface& surface, const glm::vec3& direction);
+
+[[nodiscard]] shared::LightParams light_params(const Light& light);
+
+// The ray that asks whether the light reaches the surface; nothing where it cannot anyway: the surface
+// faces away, or the light does not reach this far or this way.
+[[nodiscard]] std::optional<Ray> shadow_ray(const shared::LightParams& light, const Surface& surface);
+
+// Colour of a texture, bilinear, repeating, linear light.
+[[nodiscard]] glm::vec3 sample_texture(const Texture& texture, glm::vec2 texcoord);
+
+}  // namespace pinocchio

@@ -1,0 +1,72 @@
+#include "core/trace/tracer.h"
+
+#include <array>
+#include <cassert>
+#include <string>
+
+#include "core/base/error.h"
+#include "core/trace/kernels.h"
+
+namespace pinocchio {
+namespace {
+
+struct IsaEntry {
+  Isa isa;
+  std::string_view name;
+  const Kernel& kernel;
+};
+
+// Narrowest first.
+const std::array<IsaEntry, 2> kIsas{{
+    {Isa::scalar, "scalar", scalar::kKernel},
+    {Isa::sse4, "sse4", sse4::kKernel},
+}};
+
+const IsaEntry& entry_of(Isa isa) { return kIsas[static_cast<std::size_t>(isa)]; }
+
+Isa choose(std::optional<Isa> wanted) {
+  if (!wanted) return supported_isas().back();
+  if (!isa_supported(*wanted))
+    throw EnvironmentError("--isa " + std::string(isa_name(*wanted)) + ": this processor does not have it");
+  return *wanted;
+}
+
+}  // namespace
+
+std::string_view isa_name(Isa isa) { return entry_of(isa).name; }
+
+std::optional<Isa> parse_isa(std::string_view name) {
+  for (const IsaEntry& e : kIsas)
+    if (e.name == name) return e.isa;
+  return std::nullopt;
+}
+
+bool isa_supported(Isa isa) {
+  switch (isa) {
+    case Isa::scalar: return true;
+    case Isa::sse4: return __builtin_cpu_supports("sse4.1");
+  }
+  return false;
+}
+
+std::vector<Isa> supported_isas() {
+  std::vector<Isa> found;
+  for (const IsaEntry& e : kIsas)
+    if (isa_supported(e.isa)) found.push_back(e.isa);
+  return found;
+}
+
+Tracer::Tracer(const Scene& scene, const BuildOptions& options, std::optional<Isa> isa)
+    : tree_(build_tree(scene, options)), isa_(choose(isa)) {}
+
+void Tracer::closest_hits(std::span<const Ray> rays, std::span<Hit> hits) const {
+  assert(rays.size() == hits.size());
+  entry_of(isa_).kernel.closest_hits(tree_, rays.data(), hits.data(), rays.size());
+}
+
+void Tracer::occluded(std::span<const Ray> rays, std::span<std::uint8_t> blocked) const {
+  assert(rays.size() == blocked.size());
+  entry_of(isa_).kernel.occluded(tree_, rays.data(), blocked.data(), rays.size());
+}
+
+}  // namespace pinocchio

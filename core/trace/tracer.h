@@ -1,0 +1,47 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string_view>
+#include <vector>
+
+#include "core/bsp/build.h"
+#include "core/math/ray.h"
+
+namespace pinocchio {
+
+// Width of the packets that rays are traced in.
+enum class Isa { scalar, sse4 };
+
+[[nodiscard]] std::string_view isa_name(Isa isa);
+[[nodiscard]] std::optional<Isa> parse_isa(std::string_view name);
+[[nodiscard]] bool isa_supported(Isa isa);            // by this processor
+[[nodiscard]] std::vector<Isa> supported_isas();      // narrowest first
+
+// The rays' way into a tree: closest hits and occlusion of any number of rays, which need not belong
+// together; neighbours in the span that go the same way are traced as one packet. What a ray hits does
+// not depend on its neighbours nor on the packet's width, to the last bit. Of triangles at one distance
+// the lowest id is hit. A ray whose origin or direction is NaN or infinite, or whose direction is zero,
+// hits nothing. Safe to call from many threads.
+class Tracer {
+ public:
+  // `isa`: nothing asks for the widest that this processor has; one that it lacks throws EnvironmentError.
+  explicit Tracer(const Scene& scene, const BuildOptions& options = {}, std::optional<Isa> isa = {});
+
+  // hits.size() == rays.size()
+  void closest_hits(std::span<const Ray> rays, std::span<Hit> hits) const;
+  // blocked[i] = 1 where any triangle lies within ray i, else 0; blocked.size() == rays.size()
+  void occluded(std::span<const Ray> rays, std::span<std::uint8_t> blocked) const;
+
+  [[nodiscard]] const BspTree& tree() const { return tree_; }
+  [[nodiscard]] Isa isa() const { return isa_; }
+
+ private:
+  BspTree tree_;
+  Isa isa_;
+};
+
+}  // namespace pinocchio

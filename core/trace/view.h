@@ -1,0 +1,27 @@
+#pragma once
+
+#include <glm/glm.hpp>
+
+#include "core/math/ray.h"
+#include "core/scene/camera.h"
+#include "core/trace/shared.h"
+
+namespace pinocchio {
+
+// A camera's orthonormal axes, right-handed: right x up = -forward.
+struct CameraAxes {
+  glm::vec3 right, up, forward;
+};
+[[nodiscard]] CameraAxes camera_axes(const Camera& camera);
+
+// The rays of a width x height picture. Pixel (x, y), row 0 on top, is sampled at its centre moved by
+// `jitter` (pixels, [-0.5, 0.5)).
+[[nodiscard]] shared::ViewParams view_params(const Camera& camera, glm::ivec2 size, glm::vec2 jitter = glm::vec2(0.0f));
+
+// The ray of the pixel (x, y); its t is z_eye.
+[[nodiscard]] inline Ray pixel_ray(const shared::ViewParams& view, int x, int y) {
+  return {view.eye, kInfinity,
+          shared::pixel_direction(view, glm::vec2(static_cast<float>(x), static_cast<float>(y)))};
+}
+
+}  // namespace pinocchio

@@ -1,0 +1,20 @@
+#pragma once
+
+#include <cstddef>
+
+#include "core/scene/scene.h"
+
+namespace pinocchio {
+
+// What a scene asks of a frame; the plan models nothing beyond it.
+struct Needs {
+  std::size_t triangles = 0;
+  int lights = 0;
+  int casting_lights = 0;
+  bool mirrors = false;  // some triangle's material reflects or transmits
+};
+
+// One walk over lights and triangles.
+[[nodiscard]] Needs take_census(const Scene& scene);
+
+}  // namespace pinocchio

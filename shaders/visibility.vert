@@ -1,0 +1,14 @@
+#version 330 core
+// Every triangle of the scene in one draw; the fragment's primitive id is the triangle's index.
+
+layout(location = 0) in vec3 p_world;
+
+uniform vec3 eye;
+uniform mat3 picture_from_eye;  // (p_world - eye) to clip x, y, w; row 0 of the picture is GL's row 0
+uniform float z_near;
+
+void main() {
+  // Relative to the eye first: far from the origin a combined matrix would lose the digits that matter.
+  vec3 clip = picture_from_eye * (p_world - eye);
+  gl_Position = vec4(clip.xy, z_near, clip.z);  // reversed, infinite depth: z_near / z_eye
+}
