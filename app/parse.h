@@ -1,0 +1,28 @@
+// Values as the command line writes them. Each returns nothing where the text is not one.
+#pragma once
+
+#include <glm/glm.hpp>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/parallel/tiles.h"
+#include "core/scene/light.h"
+
+namespace pinocchio::app {
+
+[[nodiscard]] std::vector<std::string> split(const std::string& text, char separator);
+[[nodiscard]] std::optional<float> parse_float(const std::string& text);  // finite
+[[nodiscard]] std::optional<int> parse_int(const std::string& text);
+[[nodiscard]] std::optional<glm::vec3> parse_vec3(const std::string& text);    // x,y,z
+[[nodiscard]] std::optional<glm::ivec2> parse_size(const std::string& text);   // WxH
+[[nodiscard]] std::optional<PixelBox> parse_box(const std::string& text);      // x0,y0,x1,y1
+[[nodiscard]] std::optional<Light> parse_light(const std::string& text);       // x,y,z[,intensity[,cast|nocast]]
+
+// A-B[xSTEP], or A alone.
+struct FrameRange {
+  int first = 0, last = 0, step = 1;
+};
+[[nodiscard]] std::optional<FrameRange> parse_frames(const std::string& text);
+
+}  // namespace pinocchio::app
