@@ -11,8 +11,8 @@ namespace {
 
 // An option whose text `parse` turns into a value; anything else is a usage error that says what is wanted.
 template <class T, class Parse, class Store>
-CLI::Option* add_parsed(CLI::App& verb, const std::string& name, const std::string& help, const std::string& wanted,
-                        Parse parse, Store store) {
+CLI::Option* add_parsed(CLI::App& verb, const std::string& name, const std::string& help,
+                        const std::string& wanted, Parse parse, Store store) {
   const auto take = [=](const std::string& text) {
     const std::optional<T> value = parse(text);
     if (!value) throw CLI::ValidationError(name, "'" + text + "' is not " + wanted);
@@ -21,13 +21,20 @@ CLI::Option* add_parsed(CLI::App& verb, const std::string& name, const std::stri
   return verb.add_option_function<std::string>(name, take, help)->type_name(wanted);
 }
 
-void add_vec3(CLI::App& verb, const std::string& name, const std::string& help, std::optional<glm::vec3>& to) {
+void add_vec3(CLI::App& verb, const std::string& name, const std::string& help,
+              std::optional<glm::vec3>& to) {
   add_parsed<glm::vec3>(verb, name, help, "x,y,z", parse_vec3, [&to](const glm::vec3& v) { to = v; });
 }
 
 std::optional<Mode> parse_mode(const std::string& text) {
   for (const Mode mode : {Mode::hybrid, Mode::raytrace, Mode::raster})
     if (text == mode_name(mode)) return mode;
+  return std::nullopt;
+}
+
+std::optional<Exchange> parse_exchange(const std::string& text) {
+  for (const Exchange exchange : {Exchange::sync, Exchange::pipelined})
+    if (text == exchange_name(exchange)) return exchange;
   return std::nullopt;
 }
 
@@ -43,37 +50,48 @@ void add_picture_options(CLI::App& verb, DrawOptions& o) {
                              std::to_string(kMaxPixels) + " pixels",
                          parse_picture_size, [&o](glm::ivec2 v) { o.size = v; })
       ->type_name("WxH");
-  add_parsed<Mode>(verb, "--mode", "who draws: both, CPU alone, GPU alone (hybrid)", "hybrid, raytrace or raster",
-                   parse_mode, [&o](Mode v) { o.mode = v; });
+  add_parsed<Mode>(verb, "--mode", "who draws: both, CPU alone, GPU alone (hybrid)",
+                   "hybrid, raytrace or raster", parse_mode, [&o](Mode v) { o.mode = v; });
   verb.add_option("--design", "where the parts meet: 1, on the GPU (1)")->check(CLI::IsMember({"1"}));
-  verb.add_option("--exchange", "sync: wait for the CPU (sync)")->check(CLI::IsMember({"sync"}));
-  verb.add_option("--plan", "auto: model and send only what the scene needs (auto)")->check(CLI::IsMember({"auto"}));
-  add_parsed<PixelBox>(verb, "--crop", "half-open pixel box; the EXR keeps the full displayWindow (whole frame)",
+  add_parsed<Exchange>(
+      verb, "--exchange",
+      "sync: wait for the CPU; pipelined: its part comes two frames later, GPU and CPU work on "
+      "different frames (pipelined over frame ranges, sync for one frame)",
+      "sync or pipelined", parse_exchange, [&o](Exchange v) { o.exchange = v; });
+  verb.add_option("--plan", "auto: model and send only what the scene needs (auto)")
+      ->check(CLI::IsMember({"auto"}));
+  add_parsed<PixelBox>(verb, "--crop",
+                       "half-open pixel box; the EXR keeps the full displayWindow (whole frame)",
                        "x0,y0,x1,y1", parse_box, [&o](const PixelBox& v) { o.crop = v; });
   verb.add_option("--spp", o.spp, "jittered samples a pixel, averaged in linear light (1)")
       ->check(CLI::Range(1, 65536));
   verb.add_option("--depth", o.depth, "most bounces (8)")->check(CLI::Range(0, 64));
-  verb.add_option("--exposure", o.exposure_ev, "of the preview, in stops (0)")->check(CLI::Range(-64.0, 64.0));
 }
 
 void add_camera_options(CLI::App& verb, DrawOptions& o) {
-  verb.add_option("--camera", o.camera, "one of the scene's, by name or number from 0 (first; whole scene in view)");
+  verb.add_option("--camera", o.camera,
+                  "one of the scene's, by name or number from 0 (first; whole scene in view)");
   add_vec3(verb, "--eye", "camera position, scene units", o.eye);
   add_vec3(verb, "--target", "what the camera looks at", o.target);
   add_vec3(verb, "--up", "which way is up (0,1,0)", o.up);
-  add_parsed<float>(verb, "--fov", "vertical field of view, degrees", "between 0 and 180", [](const std::string& s) {
-    const std::optional<float> v = parse_float(s);
-    return v && *v > 0.0f && *v < 180.0f ? v : std::nullopt;
-  }, [&o](float v) { o.fov_deg = v; })->type_name("DEG");
+  add_parsed<float>(
+      verb, "--fov", "vertical field of view, degrees", "between 0 and 180",
+      [](const std::string& s) {
+        const std::optional<float> v = parse_float(s);
+        return v && *v > 0.0f && *v < 180.0f ? v : std::nullopt;
+      },
+      [&o](float v) { o.fov_deg = v; })
+      ->type_name("DEG");
   const auto take_lights = [&o](const std::vector<std::string>& texts) {
     for (const std::string& text : texts) {
       const std::optional<Light> light = parse_light(text);
-      if (!light) throw CLI::ValidationError("--light", "'" + text + "' is not x,y,z[,intensity[,cast|nocast]]");
+      if (!light)
+        throw CLI::ValidationError("--light", "'" + text + "' is not x,y,z[,intensity[,cast|nocast]]");
       o.lights.push_back(*light);
     }
   };
-  verb.add_option_function<std::vector<std::string>>("--light", take_lights,
-                                                     "add a point light, same strength at any distance (repeatable)")
+  verb.add_option_function<std::vector<std::string>>(
+          "--light", take_lights, "add a point light, same strength at any distance (repeatable)")
       ->type_name("x,y,z[,intensity[,cast|nocast]]")
       ->expected(1)
       ->take_all();
@@ -88,11 +106,13 @@ void add_machine_options(CLI::App& verb, DrawOptions& o) {
   add_parsed<Isa>(verb, "--isa", "SIMD level, never above what the processor has (best)", "scalar or sse4",
                   parse_isa, [&o](Isa v) {
                     if (!isa_supported(v))
-                      throw CLI::ValidationError("--isa", "this processor does not have " + std::string(isa_name(v)));
+                      throw CLI::ValidationError("--isa",
+                                                 "this processor does not have " + std::string(isa_name(v)));
                     o.isa = v;
                   });
-  add_parsed<SplitRule>(verb, "--tree", "how the BSP tree is split (sah)", "sah, spatial-median or object-median",
-                        parse_split_rule, [&o](SplitRule v) { o.tree.rule = v; });
+  add_parsed<SplitRule>(verb, "--tree", "how the BSP tree is split (sah)",
+                        "sah, spatial-median or object-median", parse_split_rule,
+                        [&o](SplitRule v) { o.tree.rule = v; });
   verb.add_option("--tree-depth", o.tree.max_depth, "most levels of the BSP tree (from the triangle count)")
       ->check(CLI::Range(1, kMaxTreeDepth));
   verb.add_option("--tree-leaf", o.tree.leaf_size, "triangles that are not split further (2)")
@@ -115,7 +135,8 @@ Scene load_scene_for(const DrawOptions& options) {
   std::vector<std::string> warnings;
   Scene scene = value_or_exit(load_scene(options.scene, &warnings), kBadScene);
   if (!options.quiet)
-    for (const std::string& warning : warnings) std::fprintf(stderr, "pinocchio: warning: %s\n", warning.c_str());
+    for (const std::string& warning : warnings)
+      std::fprintf(stderr, "pinocchio: warning: %s\n", warning.c_str());
   scene.lights.insert(scene.lights.end(), options.lights.begin(), options.lights.end());
   if (scene.lights.empty()) {
     scene.lights.push_back(default_light(scene, camera_for(options, scene)));
@@ -145,7 +166,8 @@ Camera camera_for(const DrawOptions& options, const Scene& scene) {
   if (options.target) camera.target = *options.target;
   if (options.up) camera.up = *options.up;
   if (options.fov_deg) camera.fov_deg = *options.fov_deg;
-  if (camera.eye == camera.target) throw Exit(kUsage, "--eye and --target are the same point; move one of them");
+  if (camera.eye == camera.target)
+    throw Exit(kUsage, "--eye and --target are the same point; move one of them");
   return camera;
 }
 

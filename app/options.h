@@ -11,31 +11,32 @@
 #include "core/parallel/tiles.h"
 #include "core/scene/scene.h"
 #include "core/trace/tracer.h"
+#include "hybrid/frame.h"
 #include "hybrid/plan.h"
 
 namespace pinocchio::app {
 
-inline constexpr int kMaxSide = 16384;             // of a picture, pixels
-inline constexpr long long kMaxPixels = 1LL << 27; // of a picture
+inline constexpr int kMaxSide = 16384;              // of a picture, pixels
+inline constexpr long long kMaxPixels = 1LL << 27;  // of a picture
 
 // What every verb that draws takes from the command line, checked.
 struct DrawOptions {
   std::string scene;
   glm::ivec2 size{800, 600};
   Mode mode = Mode::hybrid;
+  std::optional<Exchange> exchange;  // nothing: pipelined over frame ranges, sync for one frame
   std::string backend = "auto";
   std::string device;
-  std::string camera;                 // name or index; empty: the first, else the whole scene in view
+  std::string camera;  // name or index; empty: the first, else the whole scene in view
   std::optional<glm::vec3> eye, target, up;
   std::optional<float> fov_deg;
-  std::vector<Light> lights;          // added to the scene's
+  std::vector<Light> lights;  // added to the scene's
   std::optional<PixelBox> crop;
   int spp = 1;
   int depth = 8;
-  int threads = 0;                    // 0: all cores
+  int threads = 0;  // 0: all cores
   std::optional<Isa> isa;
   BuildOptions tree;
-  float exposure_ev = 0.0f;
   std::string progress = "auto";
   bool quiet = false;
 };

@@ -44,11 +44,14 @@ std::optional<float> parse_float(const std::string& text) {
   return value && std::isfinite(*value) ? value : std::nullopt;
 }
 
-std::optional<int> parse_int(const std::string& text) { return parse_number<int>(text); }
+std::optional<int> parse_int(const std::string& text) {
+  return parse_number<int>(text);
+}
 
 std::optional<glm::vec3> parse_vec3(const std::string& text) {
   const auto v = parse_list<float, 3>(split(text, ','));
-  if (!v || !std::isfinite((*v)[0]) || !std::isfinite((*v)[1]) || !std::isfinite((*v)[2])) return std::nullopt;
+  if (!v || !std::isfinite((*v)[0]) || !std::isfinite((*v)[1]) || !std::isfinite((*v)[2]))
+    return std::nullopt;
   return glm::vec3((*v)[0], (*v)[1], (*v)[2]);
 }
 

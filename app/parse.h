@@ -14,10 +14,10 @@ namespace pinocchio::app {
 [[nodiscard]] std::vector<std::string> split(const std::string& text, char separator);
 [[nodiscard]] std::optional<float> parse_float(const std::string& text);  // finite
 [[nodiscard]] std::optional<int> parse_int(const std::string& text);
-[[nodiscard]] std::optional<glm::vec3> parse_vec3(const std::string& text);    // x,y,z
-[[nodiscard]] std::optional<glm::ivec2> parse_size(const std::string& text);   // WxH
-[[nodiscard]] std::optional<PixelBox> parse_box(const std::string& text);      // x0,y0,x1,y1
-[[nodiscard]] std::optional<Light> parse_light(const std::string& text);       // x,y,z[,intensity[,cast|nocast]]
+[[nodiscard]] std::optional<glm::vec3> parse_vec3(const std::string& text);   // x,y,z
+[[nodiscard]] std::optional<glm::ivec2> parse_size(const std::string& text);  // WxH
+[[nodiscard]] std::optional<PixelBox> parse_box(const std::string& text);     // x0,y0,x1,y1
+[[nodiscard]] std::optional<Light> parse_light(const std::string& text);  // x,y,z[,intensity[,cast|nocast]]
 
 // A-B[xSTEP], or A alone.
 struct FrameRange {

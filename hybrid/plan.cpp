@@ -9,11 +9,13 @@ namespace pinocchio {
 
 Expected<Plan> make_plan(const Needs& needs, Mode mode, int depth) {
   if (needs.casting_lights > kMaxCastingLights)
-    return Unexpected(InputError{.what = "the scene has " + std::to_string(needs.casting_lights) +
-                                         " lights that cast shadows, the shadow mask holds " +
-                                         std::to_string(kMaxCastingLights),
-                                 .remedy = "let some not cast (extras.pinocchio.castsShadow, or "
-                                           "--light x,y,z,intensity,nocast)"});
+    return Unexpected(InputError{{},
+                                 0,
+                                 "the scene has " + std::to_string(needs.casting_lights) +
+                                     " lights that cast shadows, the shadow mask holds " +
+                                     std::to_string(kMaxCastingLights),
+                                 "let some not cast (extras.pinocchio.castsShadow, or "
+                                 "--light x,y,z,intensity,nocast)"});
   Plan plan;
   plan.mode = mode;
   plan.id_bits = needs.triangles < 0xffffu ? 16 : 32;
@@ -26,9 +28,12 @@ Expected<Plan> make_plan(const Needs& needs, Mode mode, int depth) {
 
 const char* mode_name(Mode mode) {
   switch (mode) {
-    case Mode::hybrid: return "hybrid";
-    case Mode::raytrace: return "raytrace";
-    case Mode::raster: return "raster";
+    case Mode::hybrid:
+      return "hybrid";
+    case Mode::raytrace:
+      return "raytrace";
+    case Mode::raster:
+      return "raster";
   }
   return "";
 }

@@ -17,6 +17,9 @@ struct Plan {
   int mask_bits = 0;        // a pixel: 0 (no shadow pass), 1, 2, 4 or 8
   bool reflection = false;  // whether there is a reflection pass; its result travels as half RGB
   int depth = 0;            // most bounces
+
+  // Whether anything is left for the CPU to trace.
+  [[nodiscard]] bool traces() const { return mask_bits > 0 || reflection; }
 };
 
 // The least that draws the scene exactly. An error where the scene needs what no plan has (more casting

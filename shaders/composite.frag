@@ -17,6 +17,7 @@ uniform vec3 eye;
 uniform vec3 corner;
 uniform vec3 step_x;
 uniform vec3 step_y;
+uniform vec2 first;
 uniform vec3 ambient_light;
 uniform int light_count;
 #ifdef HAS_MASK
@@ -47,7 +48,7 @@ void main() {
   color = vec4(0.0);
   if (id == no_triangle) return;
 
-  ViewParams view = ViewParams(eye, corner, step_x, step_y);
+  ViewParams view = ViewParams(eye, corner, step_x, step_y, first);
   vec3 direction = pixel_direction(view, vec2(pixel));
   uvec3 corners = fetch_corners(id);
   vec3 a = fetch_vec3(positions, corners.x), b = fetch_vec3(positions, corners.y), c = fetch_vec3(positions, corners.z);

@@ -6,19 +6,20 @@
 
 namespace pinocchio {
 
-SurfaceImages surface_images(const TraceJob& job, const Image<std::uint32_t>& ids) {
+SurfaceImages surface_images(const Scene& scene, const shared::ViewParams& view, Workers& workers,
+                             const Image<std::uint32_t>& ids) {
   const glm::ivec2 size = ids.size();
   SurfaceImages images{Image<float>(size, kInfinity), Image<glm::vec3>(size, glm::vec3(0.0f)),
                        Image<glm::vec3>(size, glm::vec3(0.0f)), Image<glm::vec3>(size, glm::vec3(0.0f))};
-  const glm::vec3 forward = -glm::normalize(glm::cross(job.view.step_x, -job.view.step_y));
+  const glm::vec3 forward = -glm::normalize(glm::cross(view.step_x, -view.step_y));
   const TileGrid grid(size);
-  job.workers.for_each(grid.count(), [&](std::size_t i) {
+  workers.for_each(grid.count(), [&](std::size_t i) {
     TileGrid::for_each_pixel(grid.tile(i), [&](int x, int y) {
       const std::size_t pixel = ids.index(x, y);
       if (ids[pixel] == kNoTriangle) return;
-      const Ray ray = pixel_ray(job.view, x, y);
-      const Surface s = surface_at(job.scene, ids[pixel], ray.origin, ray.direction);
-      images.z_eye[pixel] = glm::dot(s.p_world - job.view.eye, forward);
+      const Ray ray = pixel_ray(view, x, y);
+      const Surface s = surface_at(scene, ids[pixel], ray.origin, ray.direction);
+      images.z_eye[pixel] = glm::dot(s.p_world - view.eye, forward);
       images.p_world[pixel] = s.p_world;
       images.n_shading[pixel] = s.n_shading;
       images.albedo[pixel] = s.phong.diffuse;

@@ -3,7 +3,9 @@
 #include <cstdint>
 
 #include "core/image/image.h"
-#include "core/trace/passes.h"
+#include "core/parallel/workers.h"
+#include "core/scene/scene.h"
+#include "core/trace/shared.h"
 
 namespace pinocchio {
 
@@ -15,6 +17,7 @@ struct SurfaceImages {
   Image<glm::vec3> albedo;     // diffuse colour, linear
 };
 
-[[nodiscard]] SurfaceImages surface_images(const TraceJob& job, const Image<std::uint32_t>& ids);
+[[nodiscard]] SurfaceImages surface_images(const Scene& scene, const shared::ViewParams& view,
+                                           Workers& workers, const Image<std::uint32_t>& ids);
 
 }  // namespace pinocchio

@@ -13,7 +13,7 @@ CameraAxes camera_axes(const Camera& camera) {
   return {glm::vec3(right), glm::vec3(glm::cross(right, forward)), glm::vec3(forward)};
 }
 
-shared::ViewParams view_params(const Camera& camera, glm::ivec2 size, glm::vec2 jitter) {
+shared::ViewParams view_params(const Camera& camera, glm::ivec2 size, glm::vec2 jitter, glm::ivec2 first) {
   const CameraAxes axes = camera_axes(camera);
   const float half_height = std::tan(glm::radians(camera.fov_deg) * 0.5f);
   const float pixel = 2.0f * half_height / static_cast<float>(size.y);
@@ -23,6 +23,7 @@ shared::ViewParams view_params(const Camera& camera, glm::ivec2 size, glm::vec2 
   view.step_y = axes.up * -pixel;
   const glm::vec2 to_first_center = glm::vec2(0.5f) + jitter - 0.5f * glm::vec2(size);
   view.corner = axes.forward + to_first_center.x * view.step_x + to_first_center.y * view.step_y;
+  view.first = glm::vec2(first);
   return view;
 }
 

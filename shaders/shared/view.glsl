@@ -6,9 +6,11 @@ struct ViewParams {
   vec3 corner;  // direction through the centre of the top left pixel; its forward component is 1
   vec3 step_x;  // one pixel to the right
   vec3 step_y;  // one pixel down
+  vec2 first;   // the picture's pixel that is called (0, 0): not zero where only a part is drawn
 };
 
 // Not a unit vector: its length along the view axis is 1, so t along the ray is z_eye.
 SHARED vec3 pixel_direction(ViewParams view, vec2 pixel) {
-  return view.corner + pixel.x * view.step_x + pixel.y * view.step_y;
+  vec2 at = view.first + pixel;  // whole numbers: a part's rays are the whole's to the last bit
+  return view.corner + at.x * view.step_x + at.y * view.step_y;
 }

@@ -1,0 +1,35 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "app/options.h"
+#include "core/scene/camera.h"
+
+namespace pinocchio::app {
+
+// A frame of an animation and the camera it is seen by.
+struct CameraFrame {
+  int number = 0;
+  Camera camera;
+};
+
+// --frames, --turntable, --path
+struct AnimationOptions {
+  std::string frames;  // A-B[xSTEP]
+  int turntable = 0;   // frames once around the target; 0: none
+  std::string path;    // JSON file of key frames
+};
+
+void add_animation_options(CLI::App& verb, AnimationOptions& options);
+
+// The frames that the options ask for, in order; one, number 0, where they ask for none. Ends the verb
+// with kUsage where the options contradict each other or the path cannot be read.
+//
+// A path file holds key frames, between which the camera moves in a straight line:
+//   {"keyframes": [{"frame": 0, "eye": [x, y, z], "target": [x, y, z], "up": [x, y, z], "fov": degrees},
+//   ...]}
+// up and fov may be left out.
+[[nodiscard]] std::vector<CameraFrame> animate(const AnimationOptions& options, const Camera& camera);
+
+}  // namespace pinocchio::app

@@ -1,0 +1,41 @@
+// generate: writes a procedural scene to glTF or OBJ.
+#include <cstdio>
+#include <memory>
+
+#include "app/errors.h"
+#include "app/verbs.h"
+#include "core/procedural/scenes.h"
+#include "core/scene/save.h"
+
+namespace pinocchio::app {
+namespace {
+
+struct GenerateOptions {
+  std::string name;
+  std::string file;
+  ProceduralOptions procedural;
+};
+
+int generate(const GenerateOptions& options) {
+  const Scene scene = value_or_exit(make_procedural(options.name, options.procedural), kUsage);
+  const std::string file = options.file.empty() ? options.name + ".gltf" : options.file;
+  save_scene(scene, file);
+  std::printf("%s: %zu triangles\n", file.c_str(), scene.triangles.size());
+  return kDone;
+}
+
+}  // namespace
+
+Run add_generate(CLI::App& program) {
+  auto options = std::make_shared<GenerateOptions>();
+  std::string names;
+  for (const std::string& name : procedural_names()) names += (names.empty() ? "" : ", ") + name;
+  CLI::App& verb = *program.add_subcommand("generate", "write a procedural scene to a glTF or OBJ file");
+  verb.add_option("NAME", options->name, names)->required();
+  verb.add_option("--triangles", options->procedural.triangles, "about how many (the scene's own number)")
+      ->check(CLI::Range(100, 100'000'000));
+  verb.add_option("-o", options->file, "file: .gltf, .glb or .obj (NAME.gltf)");
+  return [options] { return generate(*options); };
+}
+
+}  // namespace pinocchio::app

@@ -1,0 +1,144 @@
+// info: what a scene holds and needs; with --system, what this machine can do.
+#include <cstdio>
+#include <memory>
+#include <nlohmann/json.hpp>
+
+#include "app/errors.h"
+#include "app/stats.h"
+#include "app/verbs.h"
+#include "core/base/system_info.h"
+#include "core/scene/load.h"
+#include "core/trace/tracer.h"
+#include "gl/open.h"
+#include "hybrid/needs.h"
+
+namespace pinocchio::app {
+namespace {
+
+struct InfoOptions {
+  std::string scene;
+  bool system = false;
+  bool json = false;
+};
+
+nlohmann::json vec3_json(const glm::vec3& v) {
+  return {v.x, v.y, v.z};
+}
+
+nlohmann::json scene_json(const Scene& scene) {
+  const Needs needs = take_census(scene);
+  const Bounds bounds = scene.bounds();
+  nlohmann::json lights = nlohmann::json::array(), cameras = nlohmann::json::array();
+  for (const Light& light : scene.lights)
+    lights.push_back({{"name", light.name}, {"casts", light.casts_shadow}});
+  for (const Camera& camera : scene.cameras) cameras.push_back(camera.name);
+  return {{"file", scene.source},
+          {"triangles", scene.triangles.size()},
+          {"vertices", scene.positions.size()},
+          {"materials", scene.materials.size()},
+          {"textures", scene.textures.size()},
+          {"lights", lights},
+          {"cameras", cameras},
+          {"bounds", {{"lo", vec3_json(bounds.lo)}, {"hi", vec3_json(bounds.hi)}}},
+          {"needs",
+           {{"casting_lights", needs.casting_lights},
+            {"reflection", needs.mirrors},
+            {"mask_bits", MaskImage::bits_for(std::min(needs.casting_lights, kMaxCastingLights))}}}};
+}
+
+void print_scene(const Scene& scene) {
+  const Needs needs = take_census(scene);
+  const Bounds b = scene.bounds();
+  std::printf("%s\n", scene.source.c_str());
+  std::printf("  %zu triangles, %zu vertices, %zu materials, %zu textures\n", scene.triangles.size(),
+              scene.positions.size(), scene.materials.size(), scene.textures.size());
+  std::printf("  bounds (%g, %g, %g) to (%g, %g, %g)\n", static_cast<double>(b.lo.x),
+              static_cast<double>(b.lo.y), static_cast<double>(b.lo.z), static_cast<double>(b.hi.x),
+              static_cast<double>(b.hi.y), static_cast<double>(b.hi.z));
+  for (const Light& light : scene.lights)
+    std::printf("  light '%s'%s\n", light.name.c_str(), light.casts_shadow ? ", casts shadows" : "");
+  for (const Camera& camera : scene.cameras)
+    std::printf("  camera '%s', %g degrees\n", camera.name.c_str(), static_cast<double>(camera.fov_deg));
+  std::printf("needs\n");
+  if (needs.casting_lights == 0) {
+    std::printf("  no shadow mask: no light casts\n");
+  } else {
+    std::printf("  shadow mask for %d casting light%s (at most %d)\n", needs.casting_lights,
+                needs.casting_lights == 1 ? "" : "s", kMaxCastingLights);
+  }
+  std::printf(needs.mirrors ? "  reflection pass: something mirrors or refracts\n"
+                            : "  no reflection pass: nothing mirrors or refracts\n");
+}
+
+nlohmann::json attempts_json(const std::vector<gl::Attempt>& attempts) {
+  nlohmann::json json = nlohmann::json::array();
+  for (const gl::Attempt& a : attempts) {
+    nlohmann::json entry{{"tried", a.what}, {"works", a.failure.empty()}};
+    if (a.failure.empty()) {
+      entry["renderer"] = a.info.renderer;
+      entry["version"] = a.info.version;
+      entry["kind"] = a.info.software ? "software" : "hardware";
+    } else {
+      entry["failure"] = a.failure;
+    }
+    json.push_back(entry);
+  }
+  return json;
+}
+
+void print_system(const std::vector<gl::Attempt>& attempts) {
+  const SystemInfo system = system_info();
+  std::printf("pinocchio %s\nprocessor  %s, %d cores\nSIMD       ", version(), system.cpu.c_str(),
+              system.cores);
+  for (const Isa isa : supported_isas()) std::printf("%s ", std::string(isa_name(isa)).c_str());
+  std::printf("\nOpenGL contexts without a display, in the order they are tried:\n");
+  for (const gl::Attempt& a : attempts) {
+    if (a.failure.empty()) {
+      std::printf("  %-28s works   %s, %s, OpenGL %s\n", a.what.c_str(),
+                  a.info.software ? "software" : "hardware", a.info.renderer.c_str(), a.info.version.c_str());
+    } else {
+      std::printf("  %-28s fails   %s\n", a.what.c_str(), a.failure.c_str());
+    }
+  }
+}
+
+int show_system(const InfoOptions& options) {
+  const std::vector<gl::Attempt> attempts = gl::try_all_contexts();
+  if (!options.json) {
+    print_system(attempts);
+    return kDone;
+  }
+  nlohmann::json json = system_json(nullptr);
+  json["contexts"] = attempts_json(attempts);
+  std::printf("%s\n", json.dump(2).c_str());
+  return kDone;
+}
+
+int show_scene(const InfoOptions& options) {
+  std::vector<std::string> warnings;
+  const Scene scene = value_or_exit(load_scene(options.scene, &warnings), kBadScene);
+  for (const std::string& warning : warnings)
+    std::fprintf(stderr, "pinocchio: warning: %s\n", warning.c_str());
+  if (options.json) {
+    std::printf("%s\n", scene_json(scene).dump(2).c_str());
+  } else {
+    print_scene(scene);
+  }
+  return kDone;
+}
+
+}  // namespace
+
+Run add_info(CLI::App& program) {
+  auto options = std::make_shared<InfoOptions>();
+  CLI::App& verb =
+      *program.add_subcommand("info", "what a scene holds and needs; --system: what this machine has");
+  CLI::Option* scene = verb.add_option("SCENE", options->scene, "glTF (.gltf, .glb) or OBJ file");
+  verb.add_flag("--system", options->system,
+                "processor, SIMD levels, OpenGL contexts: what was tried, what failed")
+      ->excludes(scene);
+  verb.add_flag("--json", options->json, "as JSON");
+  return [options] { return options->scene.empty() ? show_system(*options) : show_scene(*options); };
+}
+
+}  // namespace pinocchio::app

@@ -1,0 +1,44 @@
+#pragma once
+
+#include <filesystem>
+#include <memory>
+#include <nlohmann/json_fwd.hpp>
+
+#include "app/options.h"
+#include "gl/context.h"
+#include "hybrid/prepared_scene.h"
+
+namespace pinocchio::app {
+
+// Everything that a verb draws with: the OpenGL context (none in raytrace mode), the worker threads, the
+// plan and the scene made ready for it.
+class Machine {
+ public:
+  // Ends the verb with kBadScene where no plan draws the scene; throws gl::NoContextError.
+  Machine(const DrawOptions& options, Scene scene);
+
+  [[nodiscard]] const PreparedScene& scene() const { return *scene_; }
+  [[nodiscard]] const std::shared_ptr<const PreparedScene>& shared_scene() const { return scene_; }
+  [[nodiscard]] const Plan& plan() const { return plan_; }
+  [[nodiscard]] Workers& workers() { return workers_; }
+  [[nodiscard]] const gl::ContextInfo* gl_info() const { return context_ ? &context_->info() : nullptr; }
+  // With PINOCCHIO_GL_DEBUG set, what the driver complains about is an error.
+  void throw_gl_complaints() const {
+    if (context_) context_->throw_complaints();
+  }
+
+ private:
+  Plan plan_;
+  std::unique_ptr<gl::Context> context_;  // outlives what was made in it
+  Workers workers_;
+  std::shared_ptr<const PreparedScene> scene_;
+};
+
+// The pixels to draw: --crop within --size, or all. Ends the verb with kUsage where they are none.
+[[nodiscard]] PixelBox part_of(const DrawOptions& options);
+
+// Ends the verb with kFailed where the file cannot be written, before work is done for it.
+void check_json(const std::filesystem::path& file);
+void write_json(const std::filesystem::path& file, const nlohmann::json& json);
+
+}  // namespace pinocchio::app

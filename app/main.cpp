@@ -1,0 +1,64 @@
+// pinocchio VERB SCENE [options]
+#include <CLI/CLI.hpp>
+#include <cstdio>
+#include <new>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "app/console.h"
+#include "app/errors.h"
+#include "app/verbs.h"
+#include "core/base/system_info.h"
+#include "gl/error.h"
+
+namespace pinocchio::app {
+namespace {
+
+int say(const std::string& line, ExitCode code) {
+  std::fprintf(stderr, "pinocchio: %s\n", one_line(line).c_str());
+  return code;
+}
+
+// The verbs' errors end here, each as one line and its exit code.
+int run_verb(const Run& run) {
+  try {
+    return run();
+  } catch (const Exit& end) {
+    return say(end.what(), end.code());
+  } catch (const gl::NoContextError& error) {
+    return say(error.what(), kNoContext);
+  } catch (const std::bad_alloc&) {
+    return say("out of memory; draw a smaller --size, or --crop parts of it", kFailed);
+  } catch (const std::exception& error) {
+    return say(error.what(), kFailed);
+  }
+}
+
+int parse_and_run(int argc, char** argv) {
+  CLI::App program("Pinocchio: a CPU ray tracer and OpenGL sharing every frame", "pinocchio");
+  program.set_version_flag("--version", std::string("pinocchio ") + version());
+  program.require_subcommand(1);
+  program.failure_message([](const CLI::App*, const CLI::Error&) { return std::string(); });
+  const std::vector<std::pair<std::string, Run>> verbs{
+      {"render", add_render(program)}, {"info", add_info(program)}, {"generate", add_generate(program)}};
+  try {
+    program.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    if (error.get_exit_code() == 0) return program.exit(error);  // --help, --version
+    const std::vector<CLI::App*> chosen = program.get_subcommands();
+    const std::string verb = chosen.empty() ? "" : " " + chosen.front()->get_name();
+    return say(std::string(error.what()) + "; 'pinocchio" + verb + " --help' tells what there is", kUsage);
+  }
+  catch_interrupts();
+  for (const auto& [name, run] : verbs)
+    if (program.got_subcommand(name)) return run_verb(run);
+  return kUsage;
+}
+
+}  // namespace
+}  // namespace pinocchio::app
+
+int main(int argc, char** argv) {
+  return pinocchio::app::parse_and_run(argc, argv);
+}

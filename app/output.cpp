@@ -1,0 +1,78 @@
+#include "app/output.h"
+
+#include <nlohmann/json.hpp>
+
+#include "app/errors.h"
+#include "core/image/atomic_file.h"
+#include "core/image/png.h"
+#include "core/output/frame_exr.h"
+#include "core/trace/view.h"
+
+namespace pinocchio::app {
+namespace {
+
+std::string check_extension(const std::string& file, const std::string& extension) {
+  if (std::filesystem::path(file).extension() == extension) return {};
+  return "'" + file + "' does not end in " + extension;
+}
+
+}  // namespace
+
+void add_output_options(CLI::App& verb, OutputOptions& options) {
+  verb.add_option("-o,--output", options.exr,
+                  "the picture and its layers, scene-linear; #### is the frame's number")
+      ->type_name("FILE.exr")
+      ->check([](const std::string& file) { return check_extension(file, ".exr"); });
+  verb.add_option("--preview", options.preview, "the picture as a screen shows it (sRGB, 8 bits)")
+      ->type_name("FILE.png")
+      ->check([](const std::string& file) { return check_extension(file, ".png"); });
+  verb.add_option("--aov", options.aovs,
+                  "EXR layers: all, none or some of Z,P,N,Albedo,id,shadow,reflection (all)")
+      ->type_name("LIST")
+      ->check([](const std::string& text) {
+        const Expected<AovSet> aovs = parse_aovs(text);
+        return aovs ? std::string() : aovs.error().message();
+      });
+  verb.add_option("--exposure", options.exposure_ev, "of the preview, in stops (0)")
+      ->check(CLI::Range(-64.0, 64.0));
+  verb.add_flag("--deterministic", options.deterministic, "leave the render time out of the EXR");
+}
+
+std::filesystem::path numbered(const std::string& pattern, int number) {
+  const std::size_t first = pattern.find('#');
+  if (first == std::string::npos) return pattern;
+  const std::size_t end = std::min(pattern.find_first_not_of('#', first), pattern.size());
+  std::string digits = std::to_string(number);
+  if (digits.size() < end - first) digits.insert(0, end - first - digits.size(), '0');
+  return pattern.substr(0, first) + digits + pattern.substr(end);
+}
+
+void check_outputs(const OutputOptions& options, const std::vector<int>& frame_numbers) {
+  if (options.exr.empty() && options.preview.empty())
+    throw Exit(kUsage, "nothing to write; name a file with -o FILE.exr or --preview FILE.png");
+  for (const std::string& pattern : {options.exr, options.preview}) {
+    if (pattern.empty()) continue;
+    if (frame_numbers.size() > 1 && pattern.find('#') == std::string::npos)
+      throw Exit(kUsage, pattern + ": would hold " + std::to_string(frame_numbers.size()) +
+                             " frames; put #### where the frame's number goes");
+    check_writable(numbered(pattern, frame_numbers.front()));
+  }
+}
+
+void write_outputs(const OutputOptions& options, int frame_number, const PreparedScene& scene,
+                   const Plan& plan, const View& view, const Picture& picture, Workers& workers,
+                   std::optional<double> render_s) {
+  if (!options.exr.empty()) {
+    const SurfaceImages surfaces =
+        surface_images(scene.scene, view_params(view.camera, view.size, glm::vec2(0.0f), view.part.lo),
+                       workers, picture.ids);
+    const FrameOutput frame{view.size,   view.part,    scene.scene,        view.camera, picture.color,
+                            picture.ids, picture.mask, picture.reflection, surfaces,    to_json(plan).dump(),
+                            render_s};
+    write_exr(numbered(options.exr, frame_number), frame_exr(frame, *parse_aovs(options.aovs)));
+  }
+  if (!options.preview.empty())
+    write_png(numbered(options.preview, frame_number), preview(picture.color, options.exposure_ev));
+}
+
+}  // namespace pinocchio::app

@@ -1,0 +1,37 @@
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <filesystem>
+#include <optional>
+#include <string>
+
+#include "core/scene/scene.h"
+#include "hybrid/plan.h"
+#include "hybrid/renderer.h"
+
+namespace pinocchio::app {
+
+// -o, --preview, --aov, --exposure, --deterministic
+struct OutputOptions {
+  std::string exr;      // "####" is the frame's number
+  std::string preview;  // PNG
+  std::string aovs = "all";
+  float exposure_ev = 0.0f;
+  bool deterministic = false;
+};
+
+void add_output_options(CLI::App& verb, OutputOptions& options);
+
+// `pattern` with its run of # replaced by the number, filled up with zeros.
+[[nodiscard]] std::filesystem::path numbered(const std::string& pattern, int number);
+
+// Ends the verb before anything is drawn: with kUsage where several frames would go to one file, with
+// kFailed where a file cannot be written.
+void check_outputs(const OutputOptions& options, const std::vector<int>& frame_numbers);
+
+// Writes the picture of one frame to the files that the options name, each whole or not at all.
+void write_outputs(const OutputOptions& options, int frame_number, const PreparedScene& scene,
+                   const Plan& plan, const View& view, const Picture& picture, Workers& workers,
+                   std::optional<double> render_s);
+
+}  // namespace pinocchio::app

@@ -1,0 +1,124 @@
+// render: headless, one frame or a range, to EXR and PNG.
+#include <nlohmann/json.hpp>
+
+#include <cstdio>
+#include <deque>
+#include <memory>
+
+#include "app/animation.h"
+#include "app/console.h"
+#include "app/errors.h"
+#include "app/machine.h"
+#include "app/options.h"
+#include "app/output.h"
+#include "app/stats.h"
+#include "app/verbs.h"
+
+namespace pinocchio::app {
+namespace {
+
+struct RenderOptions {
+  DrawOptions draw;
+  AnimationOptions animation;
+  OutputOptions output;
+  std::string stats_json;
+};
+
+// One run of the verb: what is drawn, and what has been delivered so far.
+class RenderRun {
+ public:
+  explicit RenderRun(const RenderOptions& options) : options_(options) {}
+
+  int run() {
+    const double begin_s = now_s();
+    Scene scene = load_scene_for(options_.draw);
+    const Camera camera = camera_for(options_.draw, scene);
+    frames_ = animate(options_.animation, camera);
+    check();
+    Machine machine(options_.draw, std::move(scene));
+    const double ready_s = now_s();
+    draw(machine);
+    if (!options_.stats_json.empty())
+      write_json(options_.stats_json,
+                 figures(records_, machine.plan(), machine.scene().scene, machine.gl_info()));
+    if (!options_.draw.quiet) report(machine, ready_s - begin_s);
+    return interrupted() ? kInterrupted : kDone;
+  }
+
+ private:
+  void check() const {
+    std::vector<int> numbers;
+    for (const CameraFrame& frame : frames_) numbers.push_back(frame.number);
+    check_outputs(options_.output, numbers);
+    if (!options_.stats_json.empty()) check_json(options_.stats_json);
+  }
+
+  void draw(Machine& machine) {
+    Progress progress(options_.draw.quiet ? "off" : options_.draw.progress, "render", frames_.size());
+    const Renderer::Sinks sinks{[&](Picture&& picture) {
+                                  deliver(machine, picture);
+                                  progress.step();
+                                },
+                                [&](const FrameRecord& record) { records_.push_back(record); }};
+    const Exchange exchange =
+        options_.draw.exchange.value_or(frames_.size() > 1 ? Exchange::pipelined : Exchange::sync);
+    Renderer renderer(machine.shared_scene(), machine.plan(), machine.workers(),
+                      {exchange, gl::Mapping::each_time, options_.draw.spp}, sinks);
+    for (const CameraFrame& frame : frames_) {
+      if (interrupted()) break;
+      begun_s_.push_back(now_s());
+      renderer.submit(view_of(frame));
+    }
+    renderer.drain();
+  }
+
+  [[nodiscard]] View view_of(const CameraFrame& frame) const {
+    return {frame.camera, options_.draw.size, part_of(options_.draw)};
+  }
+
+  void deliver(Machine& machine, const Picture& picture) {
+    const CameraFrame& frame = frames_[delivered_];
+    const double render_s = now_s() - begun_s_[delivered_];
+    ++delivered_;
+    write_outputs(options_.output, frame.number, machine.scene(), machine.plan(), view_of(frame), picture,
+                  machine.workers(), options_.output.deterministic ? std::nullopt : std::optional(render_s));
+    machine.throw_gl_complaints();
+  }
+
+  void report(const Machine& machine, double load_s) const {
+    const auto line = [](const char* what, double ms) { std::printf("  %-18s %10.2f ms\n", what, ms); };
+    std::printf("%s: %zu triangles, %s, %dx%d%s\n", machine.scene().scene.source.c_str(),
+                machine.scene().scene.triangles.size(), mode_name(machine.plan().mode), options_.draw.size.x,
+                options_.draw.size.y, machine.gl_info() ? (", " + machine.gl_info()->renderer).c_str() : "");
+    line("load and build", 1e3 * load_s);
+    for (std::size_t i = 0; i < kStageNames.size(); ++i) {
+      double sum_ms = 0.0;
+      for (const FrameRecord& record : records_) sum_ms += record.stages[i].ms();
+      if (sum_ms > 0.0)
+        line(std::string(kStageNames[i]).c_str(), sum_ms / static_cast<double>(records_.size()));
+    }
+    for (std::size_t i = 0; i < delivered_; ++i)
+      for (const std::string& pattern : {options_.output.exr, options_.output.preview})
+        if (!pattern.empty()) std::printf("%s\n", numbered(pattern, frames_[i].number).c_str());
+  }
+
+  const RenderOptions& options_;
+  std::vector<CameraFrame> frames_;
+  std::vector<double> begun_s_;
+  std::vector<FrameRecord> records_;
+  std::size_t delivered_ = 0;
+};
+
+}  // namespace
+
+Run add_render(CLI::App& program) {
+  auto options = std::make_shared<RenderOptions>();
+  CLI::App& verb = *program.add_subcommand("render", "draw a scene to EXR and PNG, without a display");
+  add_draw_options(verb, options->draw);
+  add_animation_options(verb, options->animation);
+  add_output_options(verb, options->output);
+  verb.add_option("--stats-json", options->stats_json, "write the figures of the run as JSON");
+  return [options] { return RenderRun(*options).run(); };
+}
+
+}  // namespace pinocchio::app

@@ -1,0 +1,16 @@
+// One function a verb: adds it to the command line; what it returns runs it, after parsing, and gives the
+// exit code or throws Exit.
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <functional>
+
+namespace pinocchio::app {
+
+using Run = std::function<int()>;
+
+[[nodiscard]] Run add_render(CLI::App& program);
+[[nodiscard]] Run add_info(CLI::App& program);
+[[nodiscard]] Run add_generate(CLI::App& program);
+
+}  // namespace pinocchio::app

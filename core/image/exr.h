@@ -1,0 +1,44 @@
+#pragma once
+
+#include <filesystem>
+#include <glm/glm.hpp>
+#include <map>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "core/base/error.h"
+#include "core/parallel/tiles.h"
+
+namespace pinocchio {
+
+// One channel of an EXR: a value a pixel of the data window, row by row from the top. Halves are held as
+// floats and rounded when they are written; what is finite stays finite (clamped to 65504).
+struct ExrChannel {
+  enum class Type { half, real, uint };
+
+  std::string name;
+  Type type = Type::half;
+  std::vector<float> values;         // half, real
+  std::vector<std::uint32_t> uints;  // uint
+};
+
+using ExrAttribute = std::variant<std::string, float, glm::mat4>;
+
+struct ExrFile {
+  glm::ivec2 display_size{0, 0};  // displayWindow: (0, 0) to this
+  PixelBox data_window;           // the pixels there are
+  std::vector<ExrChannel> channels;
+  // Matrices are column vectors' (GLM's); the file holds OpenEXR's row vectors', the transpose.
+  std::map<std::string, ExrAttribute> attributes;
+
+  [[nodiscard]] const ExrChannel* find(const std::string& name) const;
+};
+
+// One part, scan lines, ZIP, Rec. 709 chromaticities; whole or not at all. Throws EnvironmentError.
+void write_exr(const std::filesystem::path& file, const ExrFile& exr);
+
+// Reads any single-part EXR with unsubsampled channels. Errors name the file and what is wrong with it.
+[[nodiscard]] Expected<ExrFile> read_exr(const std::filesystem::path& file);
+
+}  // namespace pinocchio

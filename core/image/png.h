@@ -1,0 +1,16 @@
+#pragma once
+
+#include <filesystem>
+#include <glm/glm.hpp>
+
+#include "core/image/image.h"
+
+namespace pinocchio {
+
+// Linear RGBA as a screen shows it: `exposure_ev` stops brighter, sRGB, 8 bits; over black.
+[[nodiscard]] Image<glm::u8vec3> preview(const Image<glm::vec4>& color, float exposure_ev);
+
+// Whole or not at all. Throws EnvironmentError.
+void write_png(const std::filesystem::path& file, const Image<glm::u8vec3>& pixels);
+
+}  // namespace pinocchio

@@ -1,0 +1,43 @@
+#pragma once
+
+#include <glm/glm.hpp>
+#include <optional>
+#include <string>
+
+#include "core/image/exr.h"
+#include "core/image/image.h"
+#include "core/output/aovs.h"
+#include "core/scene/camera.h"
+#include "core/scene/scene.h"
+#include "core/trace/aov.h"
+#include "core/trace/mask_image.h"
+
+namespace pinocchio {
+
+// A frame as its EXR describes it; all images have the size of `part`.
+struct FrameOutput {
+  glm::ivec2 size{0, 0};  // of the whole picture, pixels
+  PixelBox part;          // of it that was drawn
+  const Scene& scene;
+  const Camera& camera;
+  const Image<glm::vec4>& color;
+  const Image<std::uint32_t>& ids;
+  const MaskImage& mask;               // 0 bits: no light casts
+  const Image<glm::vec3>& reflection;  // empty: none
+  const SurfaceImages& surfaces;
+  std::string plan_json;
+  std::optional<double> render_s;
+};
+
+// Channels and attributes of the frame, as many layers as asked for.
+[[nodiscard]] ExrFile frame_exr(const FrameOutput& frame, const AovSet& aovs);
+
+// World to OpenEXR's camera space: left-handed, x right, y up, looking along +z. Column vectors.
+[[nodiscard]] glm::mat4 world_to_camera(const Camera& camera);
+// World to x and y in [0, 1] across the picture, y down, after division by w = z_eye; z is z_near / z_eye
+// of an infinite view, 1 at z_eye = 1, 0 at infinity.
+[[nodiscard]] glm::mat4 world_to_ndc(const Camera& camera, glm::ivec2 size);
+// For each mask slot: the light's name, kind, world position or direction.
+[[nodiscard]] std::string lights_json(const Scene& scene);
+
+}  // namespace pinocchio

@@ -1,0 +1,43 @@
+#include "core/scene/scene.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace pinocchio {
+
+std::vector<int> casting_lights(const Scene& scene) {
+  std::vector<int> casting;
+  for (std::size_t i = 0; i < scene.lights.size(); ++i)
+    if (scene.lights[i].casts_shadow) casting.push_back(static_cast<int>(i));
+  return casting;
+}
+
+const Camera* find_camera(const Scene& scene, const std::string& name) {
+  const auto found = std::find_if(scene.cameras.begin(), scene.cameras.end(),
+                                  [&name](const Camera& camera) { return camera.name == name; });
+  return found == scene.cameras.end() ? nullptr : &*found;
+}
+
+Camera camera_for_whole_scene(const Scene& scene) {
+  const Bounds bounds = scene.bounds();
+  const float radius = std::max(0.5f * bounds.diagonal(), 1e-6f);
+  Camera camera;
+  camera.name = "whole scene";
+  camera.target = bounds.center();
+  const glm::vec3 towards_eye = glm::normalize(glm::vec3(0.5f, 0.35f, 1.0f));
+  // The bounding sphere touches the upper and lower edge of a picture that is not taller than wide.
+  const float distance = 1.05f * radius / std::sin(glm::radians(0.5f * camera.fov_deg));
+  camera.eye = camera.target + distance * towards_eye;
+  return camera;
+}
+
+Light default_light(const Scene& scene, const Camera& camera) {
+  const float reach = std::max(glm::length(camera.eye - camera.target), scene.bounds().diagonal());
+  const glm::vec3 right = glm::normalize(glm::cross(camera.target - camera.eye, camera.up) + glm::vec3(1e-9f));
+  Light light;
+  light.name = "default";
+  light.position = camera.eye + reach * (0.4f * right + 0.6f * glm::normalize(camera.up));
+  return light;
+}
+
+}  // namespace pinocchio

@@ -1,0 +1,30 @@
+#include "gl/fence.h"
+
+#include "gl/error.h"
+
+namespace pinocchio::gl {
+
+Fence Fence::insert() {
+  Fence fence;
+  fence.sync_ = glFenceSync(GL_SYNC_GPU_COMMANDS_COMPLETE, 0);
+  glFlush();  // or a fence that is only polled might never pass
+  return fence;
+}
+
+bool Fence::passed() const {
+  if (!sync_) return true;
+  const GLenum status = glClientWaitSync(sync_, 0, 0);
+  return status == GL_ALREADY_SIGNALED || status == GL_CONDITION_SATISFIED;
+}
+
+void Fence::wait() const {
+  if (!sync_) return;
+  constexpr GLuint64 kOneSecond_ns = 1'000'000'000;
+  for (;;) {
+    const GLenum status = glClientWaitSync(sync_, 0, kOneSecond_ns);
+    if (status == GL_ALREADY_SIGNALED || status == GL_CONDITION_SATISFIED) return;
+    if (status == GL_WAIT_FAILED) throw Error("waiting for the GPU failed: the context is lost");
+  }
+}
+
+}  // namespace pinocchio::gl

@@ -1,0 +1,56 @@
+#include "gl/open.h"
+
+#include "gl/egl.h"
+#include "gl/error.h"
+#include "gl/osmesa.h"
+
+namespace pinocchio::gl {
+namespace {
+
+std::vector<Candidate> all_candidates() {
+  std::vector<Candidate> candidates = egl_candidates();
+  candidates.push_back(osmesa_candidate());
+  return candidates;
+}
+
+bool wanted(const Candidate& candidate, const ContextRequest& request) {
+  if (request.backend != "auto" && candidate.backend != request.backend) return false;
+  if (request.device.empty()) return true;
+  if (request.device == "software") return candidate.software;
+  return candidate.device && std::to_string(*candidate.device) == request.device;
+}
+
+}  // namespace
+
+std::unique_ptr<Context> open_context(const ContextRequest& request) {
+  std::string failures;
+  for (const Candidate& candidate : all_candidates()) {
+    if (!wanted(candidate, request)) continue;
+    try {
+      return candidate.open(request.debug);
+    } catch (const Error& error) {
+      failures += (failures.empty() ? "" : "; ") + candidate.what + ": " + error.what();
+    }
+  }
+  const std::string asked = (request.backend == "auto" ? "" : " --backend " + request.backend) +
+                            (request.device.empty() ? "" : " --device " + request.device);
+  throw NoContextError("no OpenGL context" + (asked.empty() ? asked : " for" + asked) + ": " +
+                       (failures.empty() ? "no such device" : failures) +
+                       "; 'pinocchio info --system' lists what was tried, --mode raytrace needs none");
+}
+
+std::vector<Attempt> try_all_contexts() {
+  std::vector<Attempt> attempts;
+  for (const Candidate& candidate : all_candidates()) {
+    Attempt attempt{candidate.what, "", {}};
+    try {
+      attempt.info = candidate.open(false)->info();
+    } catch (const Error& error) {
+      attempt.failure = error.what();
+    }
+    attempts.push_back(std::move(attempt));
+  }
+  return attempts;
+}
+
+}  // namespace pinocchio::gl

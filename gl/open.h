@@ -1,0 +1,31 @@
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "gl/context.h"
+
+namespace pinocchio::gl {
+
+struct ContextRequest {
+  std::string backend = "auto";  // "auto", "egl", "osmesa"
+  std::string device;            // EGL's device number, "software", or empty: the first that works
+  bool debug = false;            // listen to the driver (Context::complaints)
+};
+
+// Opens the first context that works, makes it current and returns it: hardware devices, then software
+// ones, EGL's surfaceless platform, its default display, OSMesa. Throws NoContextError.
+[[nodiscard]] std::unique_ptr<Context> open_context(const ContextRequest& request = {});
+
+// One way to a context, tried.
+struct Attempt {
+  std::string what;
+  std::string failure;  // empty: it works
+  ContextInfo info;     // where it works
+};
+
+// Tries every way there is, each by itself; none is current afterwards.
+[[nodiscard]] std::vector<Attempt> try_all_contexts();
+
+}  // namespace pinocchio::gl

@@ -1,0 +1,95 @@
+#include "gl/osmesa.h"
+
+#include <dlfcn.h>
+
+#include <array>
+#include <utility>
+
+#include "gl/error.h"
+
+namespace pinocchio::gl {
+namespace {
+
+// From GL/osmesa.h, which brings GL/gl.h along and so cannot stand beside glad.
+constexpr int kProfile = 0x33, kCoreProfile = 0x34, kMajorVersion = 0x36, kMinorVersion = 0x37;
+using OsmesaContextHandle = struct osmesa_context*;
+
+struct Osmesa {
+  OsmesaContextHandle (*create_context)(const int* attributes, OsmesaContextHandle share) = nullptr;
+  void (*destroy_context)(OsmesaContextHandle) = nullptr;
+  GLboolean (*make_current)(OsmesaContextHandle, void* buffer, GLenum type, GLsizei width,
+                            GLsizei height) = nullptr;
+  GLADapiproc (*get_proc_address)(const char* name) = nullptr;
+};
+
+// Never unloaded, for the reason that EGL is not. Throws Error where the library cannot be had.
+const Osmesa& load_osmesa() {
+  static const Osmesa osmesa = [] {
+    void* library = nullptr;
+    for (const char* name : {"libOSMesa.so.8", "libOSMesa.so.6", "libOSMesa.so"})
+      if ((library = dlopen(name, RTLD_NOW | RTLD_LOCAL))) break;
+    if (!library) throw Error(dlerror());
+    Osmesa functions;
+    const auto resolve = [library](auto& function, const char* name) {
+      function = reinterpret_cast<std::remove_reference_t<decltype(function)>>(dlsym(library, name));
+      if (!function) throw Error(std::string("libOSMesa has no ") + name);
+    };
+    resolve(functions.create_context, "OSMesaCreateContextAttribs");
+    resolve(functions.destroy_context, "OSMesaDestroyContext");
+    resolve(functions.make_current, "OSMesaMakeCurrent");
+    resolve(functions.get_proc_address, "OSMesaGetProcAddress");
+    return functions;
+  }();
+  return osmesa;
+}
+
+class OsmesaContext final : public Context {
+ public:
+  explicit OsmesaContext(bool debug) : osmesa_(load_osmesa()) {
+    for (const auto& [major, minor] : {std::pair(4, 5), std::pair(3, 3)}) {
+      const std::array<int, 7> attributes{kProfile, kCoreProfile, kMajorVersion, major, kMinorVersion, minor,
+                                          0};
+      context_ = osmesa_.create_context(attributes.data(), nullptr);
+      if (context_) break;
+    }
+    if (!context_) throw Error("OSMesaCreateContextAttribs (OpenGL 3.3 core) failed");
+    try {
+      make_current();
+      describe("osmesa", "OSMesa", debug);
+    } catch (...) {
+      destroy();
+      throw;
+    }
+  }
+  ~OsmesaContext() override { destroy(); }
+
+  void release() override { osmesa_.make_current(nullptr, nullptr, GL_UNSIGNED_BYTE, 0, 0); }
+
+ private:
+  void bind() override {
+    if (!osmesa_.make_current(context_, default_framebuffer_.data(), GL_UNSIGNED_BYTE, 1, 1))
+      throw Error("OSMesaMakeCurrent failed");
+  }
+  [[nodiscard]] GLADloadfunc loader() const override { return osmesa_.get_proc_address; }
+  void destroy() {
+    release();
+    osmesa_.destroy_context(context_);
+  }
+
+  const Osmesa& osmesa_;
+  OsmesaContextHandle context_ = nullptr;
+  std::array<GLubyte, 4> default_framebuffer_{};  // OSMesa wants one; we draw into framebuffer objects
+};
+
+}  // namespace
+
+Candidate osmesa_candidate() {
+  Candidate c;
+  c.backend = "osmesa";
+  c.what = "OSMesa";
+  c.software = true;
+  c.open = [](bool debug) { return std::make_unique<OsmesaContext>(debug); };
+  return c;
+}
+
+}  // namespace pinocchio::gl

@@ -1,0 +1,96 @@
+#include "gl/transfer.h"
+
+#include <cassert>
+#include <string>
+
+#include "gl/error.h"
+
+namespace pinocchio::gl {
+
+void PixelBuffer::reserve(std::size_t bytes) {
+  if (bytes <= capacity_) return;
+  GLuint name = 0;
+  glGenBuffers(1, &name);
+  handle_ = BufferHandle(name);
+  mapped_ = nullptr;
+  bind();
+  const auto size = static_cast<GLsizeiptr>(bytes);
+  if (mapping_ == Mapping::persistent && !glBufferStorage) mapping_ = Mapping::each_time;
+  if (mapping_ == Mapping::persistent) {
+    const GLbitfield flags = GL_MAP_PERSISTENT_BIT | GL_MAP_COHERENT_BIT |
+                             (use_ == Use::readback ? GL_MAP_READ_BIT : GL_MAP_WRITE_BIT);
+    glBufferStorage(target(), size, nullptr, flags);
+    mapped_ = static_cast<std::byte*>(glMapBufferRange(target(), 0, size, flags));
+  } else {
+    glBufferData(target(), size, nullptr, use_ == Use::readback ? GL_STREAM_READ : GL_STREAM_DRAW);
+  }
+  unbind();
+  if (glGetError() == GL_OUT_OF_MEMORY || (mapping_ == Mapping::persistent && !mapped_))
+    throw Error("the GPU has no room for a transfer buffer of " + std::to_string(bytes) + " bytes");
+  capacity_ = bytes;
+}
+
+std::span<std::byte> PixelBuffer::map(std::size_t bytes) {
+  assert(bytes <= capacity_);
+  if (!mapped_) {
+    bind();
+    // The fences keep CPU and GPU apart: the driver need not.
+    const GLbitfield flags =
+        use_ == Use::readback ? GL_MAP_READ_BIT : GL_MAP_WRITE_BIT | GL_MAP_UNSYNCHRONIZED_BIT;
+    mapped_ = static_cast<std::byte*>(glMapBufferRange(target(), 0, static_cast<GLsizeiptr>(bytes), flags));
+    unbind();
+    if (!mapped_) throw Error("a transfer buffer of " + std::to_string(bytes) + " bytes cannot be mapped");
+  }
+  return {mapped_, bytes};
+}
+
+void PixelBuffer::unmap() {
+  if (mapping_ == Mapping::persistent || !mapped_) return;
+  bind();
+  glUnmapBuffer(target());
+  unbind();
+  mapped_ = nullptr;
+}
+
+void PixelBuffer::bind() const {
+  glBindBuffer(target(), handle_.name());
+}
+void PixelBuffer::unbind() const {
+  glBindBuffer(target(), 0);
+}
+
+void Readback::start(const Framebuffer& source) {
+  bytes_ = source.color().bytes();
+  buffer_.reserve(bytes_);
+  glBindFramebuffer(GL_READ_FRAMEBUFFER, source.name());
+  buffer_.bind();
+  glPixelStorei(GL_PACK_ALIGNMENT, 1);
+  const PixelFormat& format = source.color().format();
+  glReadPixels(0, 0, source.size().x, source.size().y, format.format, format.type, nullptr);
+  buffer_.unbind();
+  fence_ = Fence::insert();
+}
+
+std::span<const std::byte> Readback::open() {
+  fence_.wait();
+  return buffer_.map(bytes_);
+}
+
+std::span<std::byte> Upload::open(std::size_t bytes) {
+  fence_.wait();
+  buffer_.reserve(bytes);
+  return buffer_.map(bytes);
+}
+
+void Upload::send(const Texture& target) {
+  buffer_.unmap();
+  buffer_.bind();
+  glBindTexture(GL_TEXTURE_2D, target.name());
+  glPixelStorei(GL_UNPACK_ALIGNMENT, 1);
+  glTexSubImage2D(GL_TEXTURE_2D, 0, 0, 0, target.size().x, target.size().y, target.format().format,
+                  target.format().type, nullptr);
+  buffer_.unbind();
+  fence_ = Fence::insert();
+}
+
+}  // namespace pinocchio::gl

@@ -1,0 +1,128 @@
+#include "hybrid/gpu_scene.h"
+
+#include <algorithm>
+#include <limits>
+#include <span>
+#include <vector>
+
+#include "core/trace/surface.h"
+
+namespace pinocchio {
+namespace {
+
+// Layouts of shaders/scene_fetch.glsl.
+struct MaterialTexels {
+  glm::vec4 ambient_shininess, diffuse, specular, emission, texture_place;
+};
+struct LightTexels {
+  glm::vec4 position_kind, direction_falloff, radiance_range, cone_slot;
+};
+
+// A texture's first texel is split over two floats, exact up to 2^24 each.
+constexpr std::size_t kPlaceDigit = 4096;
+
+std::vector<std::size_t> first_texels(const Scene& scene) {
+  std::vector<std::size_t> first;
+  std::size_t next = 0;
+  for (const Texture& texture : scene.textures) {
+    first.push_back(next);
+    next += texture.texels.pixels().size();
+  }
+  return first;
+}
+
+std::vector<MaterialTexels> material_texels(const Scene& scene) {
+  const std::vector<std::size_t> first = first_texels(scene);
+  std::vector<MaterialTexels> texels;
+  for (const Material& m : scene.materials) {
+    MaterialTexels t{glm::vec4(m.ambient, m.shininess), glm::vec4(m.diffuse, 0.0f),
+                     glm::vec4(m.specular, 0.0f), glm::vec4(m.emission, 0.0f), glm::vec4(0.0f)};
+    if (m.diffuse_texture >= 0) {
+      const auto i = static_cast<std::size_t>(m.diffuse_texture);
+      const glm::ivec2 size = scene.textures[i].texels.size();
+      t.texture_place = {static_cast<float>(first[i] / kPlaceDigit),
+                         static_cast<float>(first[i] % kPlaceDigit), static_cast<float>(size.x),
+                         static_cast<float>(size.y)};
+    }
+    texels.push_back(t);
+  }
+  return texels;
+}
+
+std::vector<LightTexels> light_texels(const Scene& scene) {
+  std::vector<LightTexels> texels;
+  int next_slot = 0;
+  for (const Light& light : scene.lights) {
+    const shared::LightParams p = light_params(light);
+    const float slot = light.casts_shadow ? static_cast<float>(next_slot++) : -1.0f;
+    texels.push_back({glm::vec4(p.position, static_cast<float>(p.kind)),
+                      glm::vec4(p.direction, p.inverse_square ? 1.0f : 0.0f), glm::vec4(p.radiance, p.range),
+                      glm::vec4(p.cos_inner, p.cos_outer, slot, 0.0f)});
+  }
+  if (texels.empty()) texels.resize(1);  // a texture buffer of no size is none
+  return texels;
+}
+
+std::vector<glm::u8vec4> all_texels(const Scene& scene) {
+  std::vector<glm::u8vec4> texels;
+  for (const Texture& texture : scene.textures)
+    texels.insert(texels.end(), texture.texels.pixels().begin(), texture.texels.pixels().end());
+  return texels;
+}
+
+template <class T>
+gl::TextureBuffer floats(const std::vector<T>& data) {
+  return {std::span<const T>(data), GL_R32F, sizeof(float)};
+}
+
+template <class T>
+gl::TextureBuffer quads(const std::vector<T>& data) {
+  return {std::span<const T>(data), GL_RGBA32F, sizeof(glm::vec4)};
+}
+
+template <class T>
+gl::TextureBuffer unsigneds(const std::vector<T>& data) {
+  return {std::span<const T>(data), GL_R32UI, sizeof(std::uint32_t)};
+}
+
+bool has_textures(const Scene& scene) {
+  const auto textured = [](const Material& m) { return m.diffuse_texture >= 0; };
+  return !scene.texcoords.empty() && std::any_of(scene.materials.begin(), scene.materials.end(), textured);
+}
+
+}  // namespace
+
+GpuScene::GpuScene(const Scene& scene)
+    : mesh_(scene.positions, scene.triangles),
+      corners_(unsigneds(scene.triangles)),
+      triangle_materials_(unsigneds(scene.triangle_materials)),
+      positions_(floats(scene.positions)),
+      normals_(floats(scene.normals)),
+      materials_(quads(material_texels(scene))),
+      lights_(quads(light_texels(scene))),
+      ambient_light_(scene.ambient_light),
+      light_count_(static_cast<int>(scene.lights.size())),
+      textured_(has_textures(scene)),
+      // Reversed float depth is as fine far away as near by, so the near plane may be next to nothing.
+      z_near_(std::max(scene.bounds().diagonal() * 1e-6f, std::numeric_limits<float>::min())) {
+  if (!textured_) return;
+  texcoords_ = floats(scene.texcoords);
+  texels_ = {std::span<const glm::u8vec4>(all_texels(scene)), GL_RGBA8, sizeof(glm::u8vec4)};
+}
+
+void GpuScene::bind(const gl::Program& program, int first_unit) const {
+  int unit = first_unit;
+  program.set("triangle_corners", unit++, corners_);
+  program.set("triangle_materials", unit++, triangle_materials_);
+  program.set("positions", unit++, positions_);
+  program.set("normals", unit++, normals_);
+  program.set("materials", unit++, materials_);
+  program.set("lights", unit++, lights_);
+  program.set("ambient_light", ambient_light_);
+  program.set("light_count", light_count_);
+  if (!textured_) return;
+  program.set("texcoords", unit++, texcoords_);
+  program.set("texels", unit++, texels_);
+}
+
+}  // namespace pinocchio

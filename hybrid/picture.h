@@ -1,0 +1,19 @@
+#pragma once
+
+#include <cstdint>
+
+#include "core/image/image.h"
+#include "core/trace/mask_image.h"
+
+namespace pinocchio {
+
+// A finished picture with what it was made of.
+struct Picture {
+  Image<glm::vec4> color;  // linear RGBA, mean of the samples
+  // Of the first sample, at the pixels' centres:
+  Image<std::uint32_t> ids;     // kNoTriangle where nothing is seen
+  MaskImage mask;               // 0 bits where the plan has none
+  Image<glm::vec3> reflection;  // empty where the plan has none
+};
+
+}  // namespace pinocchio

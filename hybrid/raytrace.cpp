@@ -1,0 +1,34 @@
+#include "hybrid/raytrace.h"
+
+#include "core/trace/view.h"
+
+namespace pinocchio {
+
+FrameRecord raytrace(const FrameRequest& request, Workers& workers, Picture& picture) {
+  FrameRecord record;
+  record.frame.begin_s = now_s();
+  const Plan& plan = request.plan;
+  const TraceJob job{request.scene->scene, *request.scene->tracer, workers,
+                     view_params(request.camera, request.size, request.jitter, request.part.lo)};
+  {
+    const StageTimer timer(record, Stage::raster);
+    picture.ids = Image<std::uint32_t>(request.part.size());
+    record.rays += trace_visibility(job, picture.ids);
+  }
+  if (plan.mask_bits > 0) {
+    const StageTimer timer(record, Stage::trace_shadow);
+    record.rays += trace_shadow_mask(job, picture.ids, picture.mask);
+  }
+  if (plan.reflection) {
+    const StageTimer timer(record, Stage::trace_reflection);
+    record.rays += trace_reflection(job, picture.ids, plan.depth, picture.reflection);
+  }
+  {
+    const StageTimer timer(record, Stage::composite);
+    shade(job, picture.ids, picture.mask, picture.reflection, picture.color);
+  }
+  record.frame.end_s = now_s();
+  return record;
+}
+
+}  // namespace pinocchio

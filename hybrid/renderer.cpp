@@ -1,0 +1,75 @@
+#include "hybrid/renderer.h"
+
+#include "hybrid/raytrace.h"
+#include "hybrid/shader_folder.h"
+
+namespace pinocchio {
+namespace {
+
+// Offset of sample k from the pixel's centre: the R2 sequence (Roberts 2018), even at any length.
+glm::vec2 jitter_of(int k) {
+  const glm::dvec2 step(0.75487766624669276, 0.56984029099805327);
+  return glm::vec2(glm::fract(0.5 + static_cast<double>(k) * step) - 0.5);
+}
+
+}  // namespace
+
+Renderer::Renderer(std::shared_ptr<const PreparedScene> scene, const Plan& plan, Workers& workers,
+                   const Settings& settings, Sinks sinks)
+    : scene_(std::move(scene)),
+      plan_(plan),
+      workers_(workers),
+      settings_(settings),
+      sinks_(std::move(sinks)) {
+  if (plan.mode == Mode::raytrace) return;
+  loop_.emplace(workers, shader_folder(), settings.exchange, settings.mapping,
+                FrameLoop::Sinks{[this](Flight& frame) { take(frame); }, sinks_.record});
+}
+
+void Renderer::submit(const View& view) {
+  for (int k = 0; k < settings_.spp; ++k)
+    submit_sample({scene_, plan_, view.camera, view.size, view.part, jitter_of(k)});
+}
+
+void Renderer::drain() {
+  if (loop_) loop_->drain();
+}
+
+void Renderer::submit_sample(const FrameRequest& request) {
+  if (loop_) {
+    loop_->submit(request);
+    return;
+  }
+  Picture sample;
+  FrameRecord record = raytrace(request, workers_, sample);
+  record.number = next_number_++;
+  add_sample(std::move(sample));
+  sinks_.record(record);
+}
+
+void Renderer::take(Flight& frame) {
+  Picture sample;
+  loop_->steps().read_picture(frame, sample.color);
+  if (samples_ == 0) {
+    loop_->steps().read_ids(frame);
+    sample.ids = frame.ids;
+    if (plan_.mask_bits > 0) sample.mask = frame.mask;
+    if (plan_.reflection) sample.reflection = frame.reflection;
+  }
+  add_sample(std::move(sample));
+}
+
+void Renderer::add_sample(Picture&& sample) {
+  if (samples_ == 0) {
+    picture_ = std::move(sample);
+  } else {
+    for (std::size_t i = 0; i < picture_.color.pixels().size(); ++i) picture_.color[i] += sample.color[i];
+  }
+  if (++samples_ < settings_.spp) return;
+  if (samples_ > 1)
+    for (glm::vec4& pixel : picture_.color.pixels()) pixel /= static_cast<float>(samples_);
+  samples_ = 0;
+  sinks_.picture(std::move(picture_));
+}
+
+}  // namespace pinocchio

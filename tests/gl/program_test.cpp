@@ -1,0 +1,66 @@
+#include "gl/program.h"
+
+#include <filesystem>
+#include <fstream>
+
+#include "gl/error.h"
+#include "gl/shader_source.h"
+#include "tests/support/gl_test.h"
+
+namespace pinocchio {
+namespace {
+
+const std::filesystem::path kShaders = std::filesystem::path(PINOCCHIO_SOURCE_DIR) / "shaders";
+
+std::filesystem::path folder_with(const std::string& file, const std::string& text) {
+  const std::filesystem::path folder = std::filesystem::path(testing::TempDir()) / "shaders";
+  std::filesystem::create_directories(folder);
+  std::ofstream(folder / file) << text;
+  return folder;
+}
+
+std::string error_of(const std::function<void()>& act) {
+  try {
+    act();
+  } catch (const gl::Error& error) {
+    return error.what();
+  }
+  return "";
+}
+
+using ProgramTest = GlTest;
+INSTANTIATE_TEST_SUITE_P(Backends, ProgramTest, kBackends, backend_name);
+
+TEST_P(ProgramTest, EveryShaderCompilesInEveryVariant) {
+  EXPECT_NO_THROW(gl::Program(kShaders, "visibility.vert", "visibility.frag"));
+  for (const std::vector<std::string>& definitions : {std::vector<std::string>{},
+                                                      {"HAS_MASK", "MASK_BITS 1"},
+                                                      {"HAS_MASK", "MASK_BITS 8", "HAS_REFLECTION"},
+                                                      {"HAS_TEXTURES", "HAS_REFLECTION"}})
+    EXPECT_NO_THROW(gl::Program(kShaders, "fullscreen.vert", "composite.frag", definitions));
+}
+
+TEST_P(ProgramTest, MistakeIsNamedWithFileAndLine) {
+  const auto folder = folder_with("part.glsl", "// fine\nfloat broken( { }\n");
+  folder_with("bad.frag",
+              "#version 330 core\n#include \"part.glsl\"\nout vec4 c;\nvoid main() { c = vec4(0.0); }\n");
+  folder_with("good.vert", "#version 330 core\nvoid main() { gl_Position = vec4(0.0); }\n");
+  const std::string error = error_of([&] { gl::Program(folder, "good.vert", "bad.frag"); });
+  EXPECT_NE(error.find("part.glsl:2"), std::string::npos) << error;
+}
+
+TEST(ShaderSource, MissingFileAndEndlessIncludeAreErrors) {
+  EXPECT_NE(error_of([] { (void)gl::load_shader_source(kShaders, "none.frag", {}); }).find("none.frag"),
+            std::string::npos);
+  const auto folder = folder_with("self.glsl", "#include \"self.glsl\"\n");
+  EXPECT_NE(error_of([&] { (void)gl::load_shader_source(folder, "self.glsl", {}); }).find("includes itself"),
+            std::string::npos);
+}
+
+TEST(ShaderSource, NamesFilesInBothVendorsWords) {
+  EXPECT_EQ(gl::name_files("1:12(3): error: x", {"a.frag", "b.glsl"}), "b.glsl:12: error: x");
+  EXPECT_EQ(gl::name_files("0(7) : error C0000: x", {"a.frag"}), "a.frag:7 : error C0000: x");
+}
+
+}  // namespace
+}  // namespace pinocchio
