@@ -14,4 +14,10 @@ struct Camera {
   float fov_deg = 45.0f;  // vertical field of view
 };
 
+// A camera's orthonormal axes, right-handed: right x up = -forward.
+struct CameraAxes {
+  glm::vec3 right, up, forward;
+};
+[[nodiscard]] CameraAxes camera_axes(const Camera& camera);
+
 }  // namespace pinocchio

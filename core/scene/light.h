@@ -12,14 +12,14 @@ struct Light {
 
   std::string name;
   Kind kind = Kind::point;
-  glm::vec3 position{0.0f};                   // point, spot; world space
-  glm::vec3 direction{0.0f, -1.0f, 0.0f};     // directional, spot: unit vector the light travels along
-  glm::vec3 color{1.0f};                      // linear
-  float intensity = 1.0f;                     // multiplies colour
+  glm::vec3 position{0.0f};                // point, spot; world space
+  glm::vec3 direction{0.0f, -1.0f, 0.0f};  // directional, spot: unit vector the light travels along
+  glm::vec3 color{1.0f};                   // linear
+  float intensity = 1.0f;                  // multiplies colour
   Falloff falloff = Falloff::none;
   float range = std::numeric_limits<float>::infinity();  // no light reaches beyond; scene units
-  float cos_inner = 1.0f;                     // spot: full strength inside this cone ...
-  float cos_outer = -1.0f;                    // ... none outside this one
+  float cos_inner = 1.0f;                                // spot: full strength inside this cone ...
+  float cos_outer = -1.0f;                               // ... none outside this one
   bool casts_shadow = true;
 };
 

@@ -1,20 +1,28 @@
 #pragma once
 
 #include <filesystem>
+#include <string>
+#include <vector>
 
 #include "core/base/error.h"
 #include "core/scene/scene.h"
 
 namespace pinocchio {
 
+using Warnings = std::vector<std::string>;
+
 // Reads glTF 2.0 (.gltf, .glb) or Wavefront OBJ+MTL (.obj), chosen by the file's extension. A path
 // without extension, or a folder, stands for the one scene file of that name (scenes/cornell ->
-// scenes/cornell.gltf). The result is checked: at least one triangle, indices in range, finite positions.
-// Errors name the file and, for text formats, the line.
-[[nodiscard]] Expected<Scene> load_scene(const std::filesystem::path& path);
+// scenes/cornell.gltf). The result has passed check_scene. Errors name the file and, for text formats,
+// the line; what a picture can do without is added to `warnings` instead.
+[[nodiscard]] Expected<Scene> load_scene(const std::filesystem::path& path, Warnings* warnings = nullptr);
 
 // The readers behind load_scene, one a format.
-[[nodiscard]] Expected<Scene> load_obj(const std::filesystem::path& path);
-[[nodiscard]] Expected<Scene> load_gltf(const std::filesystem::path& path);
+[[nodiscard]] Expected<Scene> load_obj(const std::filesystem::path& path, Warnings& warnings);
+[[nodiscard]] Expected<Scene> load_gltf(const std::filesystem::path& path, Warnings& warnings);
+
+// What the rest of the program relies on: at least one triangle, at most kMaxTriangles, indices and
+// materials in range, finite positions, a normal a position.
+[[nodiscard]] Expected<void> check_scene(const Scene& scene);
 
 }  // namespace pinocchio

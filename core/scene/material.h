@@ -11,13 +11,13 @@ struct Material {
   glm::vec3 ambient{0.8f};
   glm::vec3 diffuse{0.8f};
   glm::vec3 specular{0.0f};
-  float shininess = 1.0f;          // exponent of (R.V), not of the half vector
-  glm::vec3 reflectance{0.0f};     // weight of the mirrored ray; with `fresnel` its value at normal incidence
-  glm::vec3 transmittance{0.0f};   // weight of the refracted ray; any component > 0 makes a dielectric
-  float ior = 1.0f;                // of the inside against the outside
-  bool fresnel = false;            // opaque: reflectance rises to 1 at grazing angles (Schlick 1994)
+  float shininess = 1.0f;         // exponent of (R.V), not of the half vector
+  glm::vec3 reflectance{0.0f};    // weight of the mirrored ray; with `fresnel` its value at normal incidence
+  glm::vec3 transmittance{0.0f};  // weight of the refracted ray; any component > 0 makes a dielectric
+  float ior = 1.0f;               // of the inside against the outside
+  bool fresnel = false;           // opaque: reflectance rises to 1 at grazing angles (Schlick 1994)
   glm::vec3 emission{0.0f};
-  int diffuse_texture = -1;        // index in Scene::textures, its colour multiplies ambient and diffuse
+  int diffuse_texture = -1;  // index in Scene::textures, its colour multiplies ambient and diffuse
 
   [[nodiscard]] bool reflects() const { return reflectance.x + reflectance.y + reflectance.z > 0.0f; }
   [[nodiscard]] bool transmits() const { return transmittance.x + transmittance.y + transmittance.z > 0.0f; }

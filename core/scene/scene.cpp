@@ -33,7 +33,8 @@ Camera camera_for_whole_scene(const Scene& scene) {
 
 Light default_light(const Scene& scene, const Camera& camera) {
   const float reach = std::max(glm::length(camera.eye - camera.target), scene.bounds().diagonal());
-  const glm::vec3 right = glm::normalize(glm::cross(camera.target - camera.eye, camera.up) + glm::vec3(1e-9f));
+  const glm::vec3 right =
+      glm::normalize(glm::cross(camera.target - camera.eye, camera.up) + glm::vec3(1e-9f));
   Light light;
   light.name = "default";
   light.position = camera.eye + reach * (0.4f * right + 0.6f * glm::normalize(camera.up));

@@ -8,12 +8,6 @@
 
 namespace pinocchio {
 
-// A camera's orthonormal axes, right-handed: right x up = -forward.
-struct CameraAxes {
-  glm::vec3 right, up, forward;
-};
-[[nodiscard]] CameraAxes camera_axes(const Camera& camera);
-
 // The rays of a width x height picture. Pixel (x, y), row 0 on top, is sampled at its centre moved by
 // `jitter` (pixels, [-0.5, 0.5)). Where only a part of the picture is drawn, its pixel (0, 0) is `first`.
 [[nodiscard]] shared::ViewParams view_params(const Camera& camera, glm::ivec2 size, glm::vec2 jitter = glm::vec2(0.0f),

@@ -1,0 +1,196 @@
+#include "core/scene/gltf_file.h"
+
+#include <cstring>
+
+namespace pinocchio {
+namespace {
+
+// Elements of an accessor or of its sparse part, known to lie within their buffer.
+struct Elements {
+  const unsigned char* first = nullptr;
+  std::size_t stride = 0;
+  std::size_t count = 0;
+  int component_type = 0;
+};
+
+template <class T>
+T read(const unsigned char* at) {
+  T value;
+  std::memcpy(&value, at, sizeof value);
+  return value;
+}
+
+double component(const unsigned char* at, int type) {
+  switch (type) {
+    case TINYGLTF_COMPONENT_TYPE_BYTE:
+      return read<std::int8_t>(at);
+    case TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE:
+      return read<std::uint8_t>(at);
+    case TINYGLTF_COMPONENT_TYPE_SHORT:
+      return read<std::int16_t>(at);
+    case TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT:
+      return read<std::uint16_t>(at);
+    case TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT:
+      return read<std::uint32_t>(at);
+    case TINYGLTF_COMPONENT_TYPE_FLOAT:
+      return static_cast<double>(read<float>(at));
+    default:
+      return 0.0;
+  }
+}
+
+double largest_value(int type) {
+  switch (type) {
+    case TINYGLTF_COMPONENT_TYPE_BYTE:
+      return 127.0;
+    case TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE:
+      return 255.0;
+    case TINYGLTF_COMPONENT_TYPE_SHORT:
+      return 32767.0;
+    case TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT:
+      return 65535.0;
+    default:
+      return 1.0;
+  }
+}
+
+template <class T>
+bool in_range(int index, const std::vector<T>& items) {
+  return index >= 0 && static_cast<std::size_t>(index) < items.size();
+}
+
+Expected<Elements> elements(const GltfFile& file, const std::string& whose, int view_index,
+                            std::size_t offset, std::size_t count, int component_type, int components) {
+  const tinygltf::Model& model = file.model;
+  const int component_bytes = tinygltf::GetComponentSizeInBytes(static_cast<std::uint32_t>(component_type));
+  if (component_bytes <= 0) return file.error(whose + " has an unknown component type");
+  if (!in_range(view_index, model.bufferViews))
+    return file.error(whose + " names a buffer view that there is not");
+  const tinygltf::BufferView& view = model.bufferViews[static_cast<std::size_t>(view_index)];
+  if (!in_range(view.buffer, model.buffers)) return file.error(whose + " names a buffer that there is not");
+  const std::vector<unsigned char>& data = model.buffers[static_cast<std::size_t>(view.buffer)].data;
+
+  const auto element_bytes = static_cast<std::size_t>(component_bytes) * static_cast<std::size_t>(components);
+  const std::size_t stride = view.byteStride > 0 ? view.byteStride : element_bytes;
+  const bool view_fits = view.byteOffset <= data.size() && view.byteLength <= data.size() - view.byteOffset;
+  const bool fits = count == 0 || (offset <= view.byteLength && element_bytes <= view.byteLength - offset &&
+                                   (count - 1) <= (view.byteLength - offset - element_bytes) / stride);
+  if (!view_fits || !fits) return file.error(whose + " reaches beyond its buffer");
+  return Elements{data.data() + view.byteOffset + offset, stride, count, component_type};
+}
+
+// Numbers as stored, not yet normalised.
+Expected<std::vector<double>> raw_numbers(const GltfFile& file, int index, int components) {
+  const std::string whose = "accessor " + std::to_string(index);
+  if (!in_range(index, file.model.accessors)) return file.error(whose + " is used and missing");
+  const tinygltf::Accessor& accessor = file.model.accessors[static_cast<std::size_t>(index)];
+  if (tinygltf::GetNumComponentsInType(static_cast<std::uint32_t>(accessor.type)) != components)
+    return file.error(whose + " does not hold " + std::to_string(components) + " numbers an element");
+  constexpr std::size_t kMostElements = 0xffffffffu;
+  if (accessor.count > kMostElements) return file.error(whose + " holds too many elements");
+
+  const auto width = static_cast<std::size_t>(components);
+  const auto component_bytes = static_cast<std::size_t>(
+      tinygltf::GetComponentSizeInBytes(static_cast<std::uint32_t>(accessor.componentType)));
+  std::vector<double> numbers;
+  const auto put = [&](const Elements& from, std::size_t element, std::size_t to) {
+    for (std::size_t c = 0; c < width; ++c)
+      numbers[width * to + c] =
+          component(from.first + element * from.stride + c * component_bytes, accessor.componentType);
+  };
+  if (accessor.bufferView >= 0) {
+    const Expected<Elements> from = elements(file, whose, accessor.bufferView, accessor.byteOffset,
+                                             accessor.count, accessor.componentType, components);
+    if (!from) return Unexpected(from.error());
+    numbers.resize(width * accessor.count);
+    for (std::size_t i = 0; i < accessor.count; ++i) put(*from, i, i);
+  } else {
+    if (!accessor.sparse.isSparse) return file.error(whose + " has no data");
+    numbers.resize(width * accessor.count, 0.0);
+  }
+  if (!accessor.sparse.isSparse) return numbers;
+
+  const auto count = static_cast<std::size_t>(std::max(accessor.sparse.count, 0));
+  const auto& where = accessor.sparse.indices;
+  const Expected<Elements> places =
+      elements(file, whose + "'s sparse part", where.bufferView, static_cast<std::size_t>(where.byteOffset),
+               count, where.componentType, 1);
+  if (!places) return Unexpected(places.error());
+  const auto& what = accessor.sparse.values;
+  const Expected<Elements> values =
+      elements(file, whose + "'s sparse part", what.bufferView, static_cast<std::size_t>(what.byteOffset),
+               count, accessor.componentType, components);
+  if (!values) return Unexpected(values.error());
+  for (std::size_t i = 0; i < count; ++i) {
+    const auto to =
+        static_cast<std::size_t>(component(places->first + i * places->stride, where.componentType));
+    if (to >= accessor.count) return file.error(whose + "'s sparse part reaches beyond it");
+    put(*values, i, to);
+  }
+  return numbers;
+}
+
+}  // namespace
+
+Expected<std::vector<float>> GltfFile::floats(int accessor, int components) const {
+  const Expected<std::vector<double>> numbers = raw_numbers(*this, accessor, components);
+  if (!numbers) return Unexpected(numbers.error());
+  const tinygltf::Accessor& a = model.accessors[static_cast<std::size_t>(accessor)];
+  const double scale = a.normalized ? 1.0 / largest_value(a.componentType) : 1.0;
+  std::vector<float> result;
+  result.reserve(numbers->size());
+  for (const double n : *numbers) result.push_back(static_cast<float>(n * scale));
+  return result;
+}
+
+Expected<std::vector<std::uint32_t>> GltfFile::indices(int accessor) const {
+  const Expected<std::vector<double>> numbers = raw_numbers(*this, accessor, 1);
+  if (!numbers) return Unexpected(numbers.error());
+  const int type = model.accessors[static_cast<std::size_t>(accessor)].componentType;
+  if (type != TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE && type != TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT &&
+      type != TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT)
+    return error("accessor " + std::to_string(accessor) + " holds indices that are not unsigned integers");
+  std::vector<std::uint32_t> result;
+  result.reserve(numbers->size());
+  for (const double n : *numbers) result.push_back(static_cast<std::uint32_t>(n));
+  return result;
+}
+
+const tinygltf::Value* member(const tinygltf::Value& object, const std::string& key) {
+  return object.IsObject() && object.Has(key) ? &object.Get(key) : nullptr;
+}
+
+const tinygltf::Value* extension(const tinygltf::ExtensionMap& extensions, const std::string& name) {
+  const auto found = extensions.find(name);
+  return found == extensions.end() ? nullptr : &found->second;
+}
+
+const tinygltf::Value* our_extras(const tinygltf::Value& extras) {
+  return member(extras, "pinocchio");
+}
+
+std::optional<float> number_member(const tinygltf::Value* object, const std::string& key) {
+  const tinygltf::Value* value = object ? member(*object, key) : nullptr;
+  if (!value || !value->IsNumber()) return std::nullopt;
+  return static_cast<float>(value->GetNumberAsDouble());
+}
+
+std::optional<bool> bool_member(const tinygltf::Value* object, const std::string& key) {
+  const tinygltf::Value* value = object ? member(*object, key) : nullptr;
+  if (!value || !value->IsBool()) return std::nullopt;
+  return value->Get<bool>();
+}
+
+std::optional<glm::vec3> vec3_member(const tinygltf::Value* object, const std::string& key) {
+  if (const std::optional<float> all = number_member(object, key)) return glm::vec3(*all);
+  const tinygltf::Value* value = object ? member(*object, key) : nullptr;
+  if (!value || !value->IsArray() || value->ArrayLen() != 3) return std::nullopt;
+  glm::vec3 result;
+  for (int i = 0; i < 3; ++i) {
+    if (!value->Get(i).IsNumber()) return std::nullopt;
+    result[i] = static_cast<float>(value->Get(i).GetNumberAsDouble());
+  }
+  return result;
+}
+
+}  // namespace pinocchio

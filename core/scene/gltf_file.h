@@ -1,0 +1,57 @@
+// tinygltf's model, read with suspicion: every index and range is checked before it is followed.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#pragma GCC diagnostic push
+#pragma GCC diagnostic ignored "-Wshadow"
+#define TINYGLTF_NO_STB_IMAGE_WRITE
+#include <tiny_gltf.h>
+#pragma GCC diagnostic pop
+
+#include "core/base/error.h"
+#include "core/scene/scene.h"
+
+namespace pinocchio {
+
+struct GltfFile {
+  std::filesystem::path path;
+  tinygltf::Model model;
+
+  [[nodiscard]] Unexpected error(const std::string& what,
+                                 const std::string& remedy = "export the file again") const {
+    return Unexpected(InputError{path.string(), 0, what, remedy});
+  }
+
+  // An accessor's elements of `components` numbers each, one after the other. Integers are normalised
+  // where the accessor says so. Sparse accessors are filled in.
+  [[nodiscard]] Expected<std::vector<float>> floats(int accessor, int components) const;
+  // An accessor of scalar unsigned integers.
+  [[nodiscard]] Expected<std::vector<std::uint32_t>> indices(int accessor) const;
+};
+
+// Members of an object that a file may or may not have, of the type that is wanted.
+[[nodiscard]] const tinygltf::Value* member(const tinygltf::Value& object, const std::string& key);
+[[nodiscard]] const tinygltf::Value* extension(const tinygltf::ExtensionMap& extensions,
+                                               const std::string& name);
+// extras.pinocchio
+[[nodiscard]] const tinygltf::Value* our_extras(const tinygltf::Value& extras);
+[[nodiscard]] std::optional<float> number_member(const tinygltf::Value* object, const std::string& key);
+[[nodiscard]] std::optional<bool> bool_member(const tinygltf::Value* object, const std::string& key);
+// [x, y, z], or one number for all three
+[[nodiscard]] std::optional<glm::vec3> vec3_member(const tinygltf::Value* object, const std::string& key);
+
+// The file's materials as Phong's, in the file's order.
+[[nodiscard]] std::vector<Material> gltf_materials(const GltfFile& file);
+
+// Appends the triangles of a mesh, placed by `world_from_mesh`. Materials are the file's indices; -1
+// becomes `default_material`.
+[[nodiscard]] Expected<void> add_gltf_mesh(const GltfFile& file, int mesh, const glm::mat4& world_from_mesh,
+                                           std::uint32_t default_material, Scene& scene,
+                                           std::vector<std::string>& warnings);
+
+}  // namespace pinocchio

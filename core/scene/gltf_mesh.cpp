@@ -1,0 +1,150 @@
+#include <array>
+#include <map>
+#include <numeric>
+
+#include "core/scene/gltf_file.h"
+
+namespace pinocchio {
+namespace {
+
+// Accessors of a primitive's attributes; -1: it has none.
+struct Attributes {
+  int position = -1, normal = -1, texcoord = -1;
+  auto operator<=>(const Attributes&) const = default;
+};
+
+int attribute(const tinygltf::Primitive& primitive, const char* name) {
+  const auto found = primitive.attributes.find(name);
+  return found == primitive.attributes.end() ? -1 : found->second;
+}
+
+// Where triangle i of a list, strip or fan finds its corners; a strip turns every other one around.
+std::array<std::size_t, 3> corners_of(int mode, std::size_t i) {
+  if (mode == TINYGLTF_MODE_TRIANGLE_STRIP)
+    return i % 2 == 0 ? std::array{i, i + 1, i + 2} : std::array{i + 1, i, i + 2};
+  if (mode == TINYGLTF_MODE_TRIANGLE_FAN) return {0, i + 1, i + 2};
+  return {3 * i, 3 * i + 1, 3 * i + 2};
+}
+
+std::size_t triangle_count(int mode, std::size_t indices) {
+  if (mode == TINYGLTF_MODE_TRIANGLES) return indices / 3;
+  return indices < 3 ? 0 : indices - 2;
+}
+
+class MeshPlacer {
+ public:
+  MeshPlacer(const GltfFile& file, const glm::mat4& world_from_mesh, Scene& scene)
+      : file_(file),
+        world_from_mesh_(world_from_mesh),
+        normals_to_world_(glm::transpose(glm::inverse(glm::mat3(world_from_mesh)))),
+        mirrored_(glm::determinant(glm::mat3(world_from_mesh)) < 0.0f),
+        identity_(world_from_mesh == glm::mat4(1.0f)),
+        scene_(scene) {}
+
+  Expected<void> add(const tinygltf::Primitive& primitive, std::uint32_t default_material) {
+    const Expected<std::uint32_t> first =
+        vertices({attribute(primitive, "POSITION"), attribute(primitive, "NORMAL"),
+                  attribute(primitive, "TEXCOORD_0")});
+    if (!first) return Unexpected(first.error());
+    const std::size_t vertex_count = counts_[*first];
+    std::vector<std::uint32_t> indices(vertex_count);
+    std::iota(indices.begin(), indices.end(), 0u);
+    if (primitive.indices >= 0) {
+      Expected<std::vector<std::uint32_t>> given = file_.indices(primitive.indices);
+      if (!given) return Unexpected(given.error());
+      indices = std::move(*given);
+    }
+    for (const std::uint32_t index : indices)
+      if (index >= vertex_count)
+        return file_.error("a primitive names vertex " + std::to_string(index) + ", it has " +
+                           std::to_string(vertex_count));
+    if (primitive.material >= 0 &&
+        static_cast<std::size_t>(primitive.material) >= file_.model.materials.size())
+      return file_.error("a primitive names material " + std::to_string(primitive.material) + ", there are " +
+                         std::to_string(file_.model.materials.size()));
+
+    const std::size_t count = triangle_count(primitive.mode, indices.size());
+    for (std::size_t i = 0; i < count; ++i) {
+      const std::array<std::size_t, 3> at = corners_of(primitive.mode, i);
+      glm::uvec3 triangle(indices[at[0]], indices[at[1]], indices[at[2]]);
+      if (mirrored_) std::swap(triangle.y, triangle.z);
+      scene_.triangles.push_back(triangle + *first);
+      scene_.triangle_materials.push_back(
+          primitive.material >= 0 ? static_cast<std::uint32_t>(primitive.material) : default_material);
+    }
+    return {};
+  }
+
+ private:
+  // First of the scene's vertices made of these accessors; primitives that share them share the vertices.
+  Expected<std::uint32_t> vertices(const Attributes& attributes) {
+    const auto [at, is_new] =
+        placed_.try_emplace(attributes, static_cast<std::uint32_t>(scene_.positions.size()));
+    if (!is_new) return at->second;
+    const Expected<std::vector<float>> positions = file_.floats(attributes.position, 3);
+    if (!positions) return Unexpected(positions.error());
+    const std::size_t count = positions->size() / 3;
+    const Expected<std::vector<float>> normals = optional(attributes.normal, 3, count);
+    if (!normals) return Unexpected(normals.error());
+    const Expected<std::vector<float>> texcoords = optional(attributes.texcoord, 2, count);
+    if (!texcoords) return Unexpected(texcoords.error());
+    for (std::size_t i = 0; i < count; ++i) {
+      const float *p = &(*positions)[3 * i], *n = &(*normals)[3 * i], *t = &(*texcoords)[2 * i];
+      scene_.positions.push_back(placed({p[0], p[1], p[2]}));
+      scene_.normals.push_back(placed_normal({n[0], n[1], n[2]}));
+      scene_.texcoords.emplace_back(t[0], t[1]);
+    }
+    counts_[at->second] = count;
+    return at->second;
+  }
+
+  // Zeros where the primitive has no such attribute.
+  Expected<std::vector<float>> optional(int accessor, int components, std::size_t count) const {
+    const std::size_t size = count * static_cast<std::size_t>(components);
+    if (accessor < 0) return std::vector<float>(size, 0.0f);
+    Expected<std::vector<float>> values = file_.floats(accessor, components);
+    if (values && values->size() != size)
+      return file_.error("accessor " + std::to_string(accessor) + " does not hold one element a vertex");
+    return values;
+  }
+
+  // The identity keeps every bit, -0 and all.
+  [[nodiscard]] glm::vec3 placed(const glm::vec3& p) const {
+    return identity_ ? p : glm::vec3(world_from_mesh_ * glm::vec4(p, 1.0f));
+  }
+  [[nodiscard]] glm::vec3 placed_normal(const glm::vec3& n) const {
+    if (identity_ || n == glm::vec3(0.0f)) return n;
+    const glm::vec3 world = normals_to_world_ * n;
+    const float length = glm::length(world);
+    return length > 0.0f && std::isfinite(length) ? world / length : glm::vec3(0.0f);
+  }
+
+  const GltfFile& file_;
+  glm::mat4 world_from_mesh_;
+  glm::mat3 normals_to_world_;
+  bool mirrored_, identity_;
+  Scene& scene_;
+  std::map<Attributes, std::uint32_t> placed_;
+  std::map<std::uint32_t, std::size_t> counts_;  // of vertices, by the first of them
+};
+
+}  // namespace
+
+Expected<void> add_gltf_mesh(const GltfFile& file, int mesh, const glm::mat4& world_from_mesh,
+                             std::uint32_t default_material, Scene& scene,
+                             std::vector<std::string>& warnings) {
+  if (mesh < 0 || static_cast<std::size_t>(mesh) >= file.model.meshes.size())
+    return file.error("a node names mesh " + std::to_string(mesh) + ", there are " +
+                      std::to_string(file.model.meshes.size()));
+  MeshPlacer placer(file, world_from_mesh, scene);
+  for (const tinygltf::Primitive& primitive : file.model.meshes[static_cast<std::size_t>(mesh)].primitives) {
+    if (primitive.mode >= TINYGLTF_MODE_POINTS && primitive.mode <= TINYGLTF_MODE_LINE_STRIP) {
+      warnings.push_back(file.path.string() + ": points and lines are left out");
+      continue;
+    }
+    if (const Expected<void> added = placer.add(primitive, default_material); !added) return added;
+  }
+  return {};
+}
+
+}  // namespace pinocchio

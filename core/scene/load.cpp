@@ -1,0 +1,89 @@
+#include "core/scene/load.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace pinocchio {
+namespace {
+
+constexpr std::array<const char*, 3> kExtensions{".gltf", ".glb", ".obj"};
+
+Unexpected error(const std::filesystem::path& path, const std::string& what, const std::string& remedy) {
+  return Unexpected(InputError{path.string(), 0, what, remedy});
+}
+
+std::string lower(std::string text) {
+  std::transform(text.begin(), text.end(), text.begin(), [](unsigned char c) { return std::tolower(c); });
+  return text;
+}
+
+// scenes/cornell -> scenes/cornell.gltf, scenes/cornell/ -> scenes/cornell/cornell.gltf
+Expected<std::filesystem::path> find_scene_file(const std::filesystem::path& path) {
+  std::error_code ignored;
+  if (std::filesystem::is_regular_file(path, ignored)) return path;
+  const std::filesystem::path trimmed = path.has_filename() ? path : path.parent_path();
+  for (const std::filesystem::path& stem : {trimmed, trimmed / trimmed.filename()})
+    for (const char* extension : kExtensions)
+      if (std::filesystem::path file = stem.string() + extension;
+          std::filesystem::is_regular_file(file, ignored))
+        return file;
+  if (std::filesystem::is_directory(path, ignored))
+    return error(path, "is a folder without a scene of that name", "name a .gltf, .glb or .obj file in it");
+  return error(path, "there is no such file", "check its name");
+}
+
+Expected<Scene> load_by_extension(const std::filesystem::path& file, Warnings& warnings) {
+  const std::string extension = lower(file.extension().string());
+  if (extension == ".obj") return load_obj(file, warnings);
+  if (extension == ".gltf" || extension == ".glb") return load_gltf(file, warnings);
+  return error(file, "is not of a format that can be read", "convert it to .gltf, .glb or .obj");
+}
+
+bool finite(const glm::vec3& v) {
+  return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
+}
+
+}  // namespace
+
+Expected<Scene> load_scene(const std::filesystem::path& path, Warnings* warnings) {
+  const Expected<std::filesystem::path> file = find_scene_file(path);
+  if (!file) return Unexpected(file.error());
+  std::error_code ignored;
+  if (std::filesystem::file_size(*file, ignored) == 0)
+    return error(*file, "is empty", "is the export complete?");
+  Warnings unheard;
+  Expected<Scene> scene = load_by_extension(*file, warnings ? *warnings : unheard);
+  if (!scene) return scene;
+  scene->source = file->string();
+  if (const Expected<void> checked = check_scene(*scene); !checked) return Unexpected(checked.error());
+  return scene;
+}
+
+Expected<void> check_scene(const Scene& scene) {
+  const auto fail = [&scene](const std::string& what, const std::string& remedy) {
+    return error(scene.source, what, remedy);
+  };
+  if (scene.triangles.empty()) return fail("holds no triangles", "there is nothing to draw");
+  if (scene.triangles.size() > kMaxTriangles)
+    return fail("holds " + std::to_string(scene.triangles.size()) + " triangles, the limit is " +
+                    std::to_string(kMaxTriangles),
+                "split it");
+  if (scene.normals.size() != scene.positions.size() ||
+      scene.triangle_materials.size() != scene.triangles.size() ||
+      (!scene.texcoords.empty() && scene.texcoords.size() != scene.positions.size()))
+    return fail("does not hold one of everything for each vertex and triangle", "export it again");
+  for (std::size_t i = 0; i < scene.positions.size(); ++i)
+    if (!finite(scene.positions[i]) || !finite(scene.normals[i]))
+      return fail("vertex " + std::to_string(i) + " is not a finite number", "export it again");
+  for (std::size_t i = 0; i < scene.triangles.size(); ++i) {
+    const glm::uvec3& t = scene.triangles[i];
+    if (std::max({t.x, t.y, t.z}) >= scene.positions.size() ||
+        scene.triangle_materials[i] >= scene.materials.size())
+      return fail("triangle " + std::to_string(i) + " names a vertex or material that there is not",
+                  "export it again");
+  }
+  return {};
+}
+
+}  // namespace pinocchio

@@ -1,0 +1,222 @@
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <glm/gtc/quaternion.hpp>
+#include <glm/gtc/type_ptr.hpp>
+
+#include "core/scene/gltf_file.h"
+#include "core/scene/load.h"
+
+namespace pinocchio {
+namespace {
+
+constexpr std::array<const char*, 8> kKnownExtensions{"KHR_lights_punctual",
+                                                      "KHR_materials_ior",
+                                                      "KHR_materials_transmission",
+                                                      "KHR_materials_volume",
+                                                      "KHR_materials_specular",
+                                                      "KHR_materials_unlit",
+                                                      "KHR_materials_emissive_strength",
+                                                      "KHR_mesh_quantization"};
+
+glm::mat4 matrix_of(const tinygltf::Node& node) {
+  if (node.matrix.size() == 16) return glm::mat4(glm::make_mat4(node.matrix.data()));
+  glm::mat4 m(1.0f);
+  if (node.translation.size() == 3)
+    m[3] = glm::vec4(glm::vec3(glm::make_vec3(node.translation.data())), 1.0f);
+  if (node.rotation.size() == 4) {
+    const std::vector<double>& r = node.rotation;
+    m *= glm::mat4(glm::mat4_cast(glm::normalize(glm::dquat(r[3], r[0], r[1], r[2]))));
+  }
+  if (node.scale.size() == 3)
+    for (int i = 0; i < 3; ++i) m[i] *= static_cast<float>(node.scale[static_cast<std::size_t>(i)]);
+  return m;
+}
+
+glm::vec3 direction_of(const glm::mat4& world, const glm::vec3& local) {
+  const glm::vec3 d(world * glm::vec4(local, 0.0f));
+  const float length = glm::length(d);
+  return length > 0.0f ? d / length : local;
+}
+
+Light light_of(const tinygltf::Light& l, const tinygltf::Node& node, const glm::mat4& world) {
+  Light light;
+  light.name = !l.name.empty() ? l.name : node.name;
+  light.kind = l.type == "directional" ? Light::Kind::directional
+               : l.type == "spot"      ? Light::Kind::spot
+                                       : Light::Kind::point;
+  light.position = glm::vec3(world[3]);
+  light.direction = direction_of(world, {0, 0, -1});
+  if (l.color.size() == 3) light.color = glm::vec3(glm::make_vec3(l.color.data()));
+  light.intensity = static_cast<float>(l.intensity);
+  light.falloff =
+      light.kind == Light::Kind::directional ? Light::Falloff::none : Light::Falloff::inverse_square;
+  if (l.range > 0.0) light.range = static_cast<float>(l.range);
+  if (light.kind == Light::Kind::spot) {
+    light.cos_inner = static_cast<float>(std::cos(l.spot.innerConeAngle));
+    light.cos_outer = static_cast<float>(std::cos(l.spot.outerConeAngle));
+  }
+  for (const tinygltf::Value* extras : {our_extras(l.extras), our_extras(node.extras)}) {
+    light.casts_shadow = bool_member(extras, "castsShadow").value_or(light.casts_shadow);
+    const tinygltf::Value* falloff = extras ? member(*extras, "falloff") : nullptr;
+    if (falloff && falloff->IsString() && falloff->Get<std::string>() == "none")
+      light.falloff = Light::Falloff::none;
+  }
+  return light;
+}
+
+// Looks along -Z; how far the target is, only `target` of our extras tells.
+Camera camera_of(const tinygltf::Camera& c, const tinygltf::Node& node, const glm::mat4& world) {
+  Camera camera;
+  camera.name = !node.name.empty() ? node.name : c.name;
+  camera.eye = glm::vec3(world[3]);
+  camera.target =
+      vec3_member(our_extras(node.extras), "target").value_or(camera.eye + direction_of(world, {0, 0, -1}));
+  camera.up = vec3_member(our_extras(node.extras), "up").value_or(direction_of(world, {0, 1, 0}));
+  camera.fov_deg = static_cast<float>(glm::degrees(c.perspective.yfov));
+  return camera;
+}
+
+class SceneReader {
+ public:
+  SceneReader(const GltfFile& file, Warnings& warnings)
+      : file_(file), model_(file.model), warnings_(warnings) {
+    scene_.materials = gltf_materials(file);
+    scene_.materials.emplace_back().name = "default";
+  }
+
+  Expected<Scene> read() {
+    std::vector<Placed> open;
+    for (const int root : roots()) open.push_back({root, glm::mat4(1.0f)});
+    std::reverse(open.begin(), open.end());  // the file's order, from the back
+    std::vector<bool> seen(model_.nodes.size(), false);
+    while (!open.empty()) {
+      const Placed at = open.back();
+      open.pop_back();
+      if (at.node < 0 || static_cast<std::size_t>(at.node) >= model_.nodes.size())
+        return file_.error("names node " + std::to_string(at.node) + ", there are " +
+                           std::to_string(model_.nodes.size()));
+      const auto index = static_cast<std::size_t>(at.node);
+      if (seen[index])
+        return file_.error("reaches node " + std::to_string(at.node) + " twice: nodes are no tree");
+      seen[index] = true;
+      const tinygltf::Node& node = model_.nodes[index];
+      const glm::mat4 world = at.parent * matrix_of(node);
+      if (const Expected<void> added = add(node, world); !added) return Unexpected(added.error());
+      for (auto child = node.children.rbegin(); child != node.children.rend(); ++child)
+        open.push_back({*child, world});
+    }
+    finish();
+    return std::move(scene_);
+  }
+
+ private:
+  struct Placed {
+    int node;
+    glm::mat4 parent;
+  };
+
+  // The default scene's, else the first scene's, else every node that is nobody's child.
+  [[nodiscard]] std::vector<int> roots() const {
+    const auto scenes = static_cast<int>(model_.scenes.size());
+    if (scenes > 0)
+      return model_
+          .scenes[static_cast<std::size_t>(
+              model_.defaultScene >= 0 && model_.defaultScene < scenes ? model_.defaultScene : 0)]
+          .nodes;
+    std::vector<bool> is_child(model_.nodes.size(), false);
+    for (const tinygltf::Node& node : model_.nodes)
+      for (const int child : node.children)
+        if (child >= 0 && static_cast<std::size_t>(child) < is_child.size())
+          is_child[static_cast<std::size_t>(child)] = true;
+    std::vector<int> found;
+    for (std::size_t i = 0; i < is_child.size(); ++i)
+      if (!is_child[i]) found.push_back(static_cast<int>(i));
+    return found;
+  }
+
+  Expected<void> add(const tinygltf::Node& node, const glm::mat4& world) {
+    if (node.mesh >= 0) {
+      const auto default_material = static_cast<std::uint32_t>(scene_.materials.size() - 1);
+      const Expected<void> added =
+          add_gltf_mesh(file_, node.mesh, world, default_material, scene_, warnings_);
+      if (!added) return added;
+    }
+    if (node.camera >= 0 && static_cast<std::size_t>(node.camera) < model_.cameras.size()) {
+      const tinygltf::Camera& camera = model_.cameras[static_cast<std::size_t>(node.camera)];
+      if (camera.type == "perspective") {
+        scene_.cameras.push_back(camera_of(camera, node, world));
+      } else {
+        warnings_.push_back(file_.path.string() + ": camera '" + camera.name +
+                            "' is not perspective and left out");
+      }
+    }
+    const std::optional<float> light =
+        number_member(extension(node.extensions, "KHR_lights_punctual"), "light");
+    if (light) {
+      const auto i = static_cast<std::size_t>(std::max(*light, 0.0f));
+      if (i >= model_.lights.size())
+        return file_.error("a node names light " + std::to_string(i) + ", there are " +
+                           std::to_string(model_.lights.size()));
+      scene_.lights.push_back(light_of(model_.lights[i], node, world));
+    }
+    return {};
+  }
+
+  void finish() {
+    for (const tinygltf::Image& image : model_.images) scene_.textures.push_back(texture_of(image));
+    const bool textured = std::any_of(scene_.materials.begin(), scene_.materials.end(),
+                                      [](const Material& m) { return m.diffuse_texture >= 0; });
+    if (!textured) scene_.texcoords.clear();
+    if (!model_.scenes.empty()) {
+      const int shown = model_.defaultScene >= 0 ? model_.defaultScene : 0;
+      const auto i = std::min(static_cast<std::size_t>(shown), model_.scenes.size() - 1);
+      scene_.ambient_light =
+          vec3_member(our_extras(model_.scenes[i].extras), "ambient").value_or(scene_.ambient_light);
+    }
+    const auto last = static_cast<std::uint32_t>(scene_.materials.size() - 1);
+    if (std::find(scene_.triangle_materials.begin(), scene_.triangle_materials.end(), last) ==
+            scene_.triangle_materials.end() &&
+        last > 0)
+      scene_.materials.pop_back();  // nobody needs the default
+  }
+
+  static Texture texture_of(const tinygltf::Image& image) {
+    if (image.width <= 0 || image.height <= 0 || image.component != 4 || image.bits != 8)
+      return {image.name, Image<glm::u8vec4>({1, 1}, glm::u8vec4(255))};
+    Texture texture{image.name, Image<glm::u8vec4>({image.width, image.height})};
+    const std::size_t texels = std::min(texture.texels.pixels().size(), image.image.size() / 4);
+    std::copy_n(reinterpret_cast<const glm::u8vec4*>(image.image.data()), texels,
+                texture.texels.pixels().begin());
+    return texture;
+  }
+
+  const GltfFile& file_;
+  const tinygltf::Model& model_;
+  Warnings& warnings_;
+  Scene scene_;
+};
+
+std::string first_line(const std::string& text) {
+  return text.substr(0, text.find('\n'));
+}
+
+}  // namespace
+
+Expected<Scene> load_gltf(const std::filesystem::path& path, Warnings& warnings) {
+  GltfFile file{path, {}};
+  tinygltf::TinyGLTF reader;
+  std::string error, warning;
+  const bool binary = path.extension() == ".glb" || path.extension() == ".GLB";
+  const bool read = binary ? reader.LoadBinaryFromFile(&file.model, &error, &warning, path.string())
+                           : reader.LoadASCIIFromFile(&file.model, &error, &warning, path.string());
+  if (!read)
+    return file.error("is not glTF 2.0 that can be read: " + first_line(error), "is the export complete?");
+  if (!warning.empty()) warnings.push_back(path.string() + ": " + first_line(warning));
+  for (const std::string& name : file.model.extensionsRequired)
+    if (std::find(kKnownExtensions.begin(), kKnownExtensions.end(), name) == kKnownExtensions.end())
+      return file.error("requires the extension " + name + ", which is not supported", "export it without");
+  return SceneReader(file, warnings).read();
+}
+
+}  // namespace pinocchio

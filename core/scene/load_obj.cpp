@@ -1,0 +1,194 @@
+#include <cmath>
+#include <fstream>
+#include <map>
+#include <sstream>
+#include <tuple>
+#include <unordered_map>
+
+#pragma GCC diagnostic push
+#pragma GCC diagnostic ignored "-Wshadow"
+#include <tiny_obj_loader.h>
+#pragma GCC diagnostic pop
+
+#include "core/scene/load.h"
+#include "core/scene/obj_check.h"
+#include "core/scene/texture_file.h"
+
+namespace pinocchio {
+namespace {
+
+glm::vec3 vec3_of(const float* v) {
+  return {v[0], v[1], v[2]};
+}
+
+// MTL's illumination models: 2 highlight, 3 mirror, 4 glass, 5 Fresnel mirror, 6 refraction, 7 refraction
+// with Fresnel. Exporters write 4, 6 and 7 for plain materials too: only what has an index of refraction
+// and lets light through (Tf above 0, or d below 1) refracts.
+Material material_of(const tinyobj::material_t& m) {
+  Material material;
+  material.name = m.name;
+  material.diffuse = vec3_of(m.diffuse);
+  material.ambient = vec3_of(m.ambient);
+  if (material.ambient == glm::vec3(0.0f)) material.ambient = material.diffuse;  // Ka is seldom written
+  material.specular = m.illum >= 2 ? vec3_of(m.specular) : glm::vec3(0.0f);
+  material.shininess = std::max(m.shininess, 1.0f);
+  material.emission = vec3_of(m.emission);
+
+  const glm::vec3 filter = vec3_of(m.transmittance);
+  const bool refracting_model = m.illum == 4 || m.illum == 6 || m.illum == 7;
+  const bool lets_light_through = filter != glm::vec3(0.0f) || m.dissolve < 1.0f;
+  if (refracting_model && m.ior > 1.0f && lets_light_through) {
+    material.ior = m.ior;
+    material.transmittance = filter != glm::vec3(0.0f) ? filter : glm::vec3(1.0f - m.dissolve);
+  } else if (m.illum == 3 || m.illum == 5) {
+    material.reflectance = vec3_of(m.specular);
+    material.fresnel = m.illum == 5;
+  }
+  return material;
+}
+
+Material default_material() {
+  Material material;
+  material.name = "default";
+  return material;
+}
+
+// Reads the MTL files that the OBJ names; one that is missing leaves its materials grey.
+class MtlReader final : public tinyobj::MaterialReader {
+ public:
+  MtlReader(const std::filesystem::path& file, Warnings& warnings) : file_(file), warnings_(warnings) {}
+
+  bool operator()(const std::string& name, std::vector<tinyobj::material_t>* materials,
+                  std::map<std::string, int>* by_name, std::string* warning, std::string* error) override {
+    const std::filesystem::path mtl = file_.parent_path() / name;
+    std::ifstream in(mtl);
+    if (!in) {
+      warnings_.push_back(file_.string() + ": its materials " + mtl.string() +
+                          " cannot be read; grey is used");
+      return false;
+    }
+    tinyobj::LoadMtl(by_name, materials, &in, warning, error);
+    return true;
+  }
+
+ private:
+  const std::filesystem::path& file_;
+  Warnings& warnings_;
+};
+
+struct ObjFile {
+  tinyobj::attrib_t attributes;
+  std::vector<tinyobj::shape_t> shapes;
+  std::vector<tinyobj::material_t> materials;
+};
+
+// One vertex of ours stands for one combination of position, normal, texture coordinate and, where
+// normals are made from a smoothing group, that group.
+class SceneBuilder {
+ public:
+  explicit SceneBuilder(const ObjFile& obj) : obj_(obj) {
+    scene_.materials.push_back(default_material());
+    for (const tinyobj::material_t& m : obj.materials) scene_.materials.push_back(material_of(m));
+  }
+
+  Scene build() {
+    for (const tinyobj::shape_t& shape : obj_.shapes) {
+      const tinyobj::mesh_t& mesh = shape.mesh;
+      for (std::size_t face = 0; face < mesh.num_face_vertices.size(); ++face) {
+        const unsigned group = face < mesh.smoothing_group_ids.size() ? mesh.smoothing_group_ids[face] : 0;
+        add_triangle(&mesh.indices[3 * face], group, mesh.material_ids[face]);
+      }
+    }
+    for (const std::uint32_t vertex : smooth_vertices_)
+      if (glm::vec3& n = scene_.normals[vertex]; n != glm::vec3(0.0f)) n = glm::normalize(n);
+    if (!any_texcoord_) scene_.texcoords.clear();
+    return std::move(scene_);
+  }
+
+ private:
+  using Key = std::tuple<int, int, int, unsigned>;
+
+  void add_triangle(const tinyobj::index_t* corners, unsigned group, int material) {
+    glm::uvec3 triangle;
+    for (int i = 0; i < 3; ++i) triangle[i] = vertex_of(corners[i], group);
+    scene_.triangles.push_back(triangle);
+    scene_.triangle_materials.push_back(static_cast<std::uint32_t>(material + 1));
+    if (group == 0) return;
+    const glm::vec3 a = scene_.positions[triangle.x];
+    const glm::vec3 n = glm::cross(scene_.positions[triangle.y] - a, scene_.positions[triangle.z] - a);
+    for (int i = 0; i < 3; ++i)
+      if (corners[i].normal_index < 0) scene_.normals[triangle[i]] += n;  // weighed by area
+  }
+
+  std::uint32_t vertex_of(const tinyobj::index_t& corner, unsigned group) {
+    const bool smooth = corner.normal_index < 0 && group > 0;
+    const Key key{corner.vertex_index, corner.normal_index, corner.texcoord_index, smooth ? group : 0};
+    const auto [at, is_new] = vertices_.try_emplace(key, static_cast<std::uint32_t>(scene_.positions.size()));
+    if (!is_new) return at->second;
+    const tinyobj::attrib_t& a = obj_.attributes;
+    scene_.positions.push_back(vec3_of(&a.vertices[3 * static_cast<std::size_t>(corner.vertex_index)]));
+    scene_.normals.push_back(corner.normal_index < 0
+                                 ? glm::vec3(0.0f)
+                                 : vec3_of(&a.normals[3 * static_cast<std::size_t>(corner.normal_index)]));
+    if (smooth) smooth_vertices_.push_back(at->second);
+    glm::vec2 texcoord(0.0f);
+    if (corner.texcoord_index >= 0) {
+      const float* t = &a.texcoords[2 * static_cast<std::size_t>(corner.texcoord_index)];
+      texcoord = {t[0], 1.0f - t[1]};  // OBJ's v grows upwards
+      any_texcoord_ = true;
+    }
+    scene_.texcoords.push_back(texcoord);
+    return at->second;
+  }
+
+  const ObjFile& obj_;
+  Scene scene_;
+  std::map<Key, std::uint32_t> vertices_;
+  std::vector<std::uint32_t> smooth_vertices_;
+  bool any_texcoord_ = false;
+};
+
+void load_textures(const ObjFile& obj, const std::filesystem::path& file, Scene& scene, Warnings& warnings) {
+  std::unordered_map<std::string, int> loaded;
+  for (std::size_t i = 0; i < obj.materials.size(); ++i) {
+    const std::string& name = obj.materials[i].diffuse_texname;
+    if (name.empty() || scene.texcoords.empty()) continue;
+    if (const auto known = loaded.find(name); known != loaded.end()) {
+      scene.materials[i + 1].diffuse_texture = known->second;
+      continue;
+    }
+    std::optional<Texture> texture = load_texture(file.parent_path() / name);
+    if (!texture) {
+      warnings.push_back(file.string() + ": its texture " + name +
+                         " cannot be read; the plain colour is used");
+      continue;
+    }
+    loaded[name] = scene.materials[i + 1].diffuse_texture = static_cast<int>(scene.textures.size());
+    scene.textures.push_back(std::move(*texture));
+  }
+}
+
+}  // namespace
+
+Expected<Scene> load_obj(const std::filesystem::path& path, Warnings& warnings) {
+  std::ifstream in(path, std::ios::binary);
+  std::stringstream text;
+  text << in.rdbuf();
+  if (!in) return Unexpected(InputError{path.string(), 0, "cannot be read", "is it yours to read?"});
+  if (const Expected<void> checked = check_obj_text(text.view(), path); !checked)
+    return Unexpected(checked.error());
+
+  ObjFile obj;
+  MtlReader mtl(path, warnings);
+  std::string warning, error;
+  constexpr bool kTriangulate = true, kVertexColors = false;
+  if (!tinyobj::LoadObj(&obj.attributes, &obj.shapes, &obj.materials, &warning, &error, &text, &mtl,
+                        kTriangulate, kVertexColors))
+    return Unexpected(
+        InputError{path.string(), 0, error.substr(0, error.find('\n')), "export the file again"});
+  Scene scene = SceneBuilder(obj).build();
+  load_textures(obj, path, scene, warnings);
+  return scene;
+}
+
+}  // namespace pinocchio

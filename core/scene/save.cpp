@@ -1,0 +1,17 @@
+#include "core/scene/save.h"
+
+#include "core/base/error.h"
+
+namespace pinocchio {
+
+void save_scene(const Scene& scene, const std::filesystem::path& file) {
+  if (!scene.textures.empty())
+    throw EnvironmentError(file.string() + ": scenes with textures cannot be written; remove them");
+  const std::string extension = file.extension().string();
+  if (extension == ".gltf" || extension == ".glb") return save_gltf(scene, file);
+  if (extension == ".obj") return save_obj(scene, file);
+  throw EnvironmentError(file.string() +
+                         ": is not of a format that can be written; choose .gltf, .glb or .obj");
+}
+
+}  // namespace pinocchio

@@ -1,0 +1,21 @@
+#pragma once
+
+#include <filesystem>
+
+#include "core/scene/scene.h"
+
+namespace pinocchio {
+
+// Writes the scene by the file's extension, so that load_scene returns the same triangles in the same
+// order and the same materials:
+//   .gltf (with a .bin beside it), .glb   everything, Phong under extras.pinocchio
+//   .obj (with a .mtl beside it)          triangles and materials; OBJ has no lights and cameras
+// Each file is written whole or not at all. Throws EnvironmentError where it cannot be written, where the
+// extension is another one, or where the scene has textures (which are not written).
+void save_scene(const Scene& scene, const std::filesystem::path& file);
+
+// The writers behind save_scene.
+void save_gltf(const Scene& scene, const std::filesystem::path& file);
+void save_obj(const Scene& scene, const std::filesystem::path& file);
+
+}  // namespace pinocchio

@@ -1,0 +1,233 @@
+#include <cstring>
+#include <glm/gtc/type_ptr.hpp>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "core/image/atomic_file.h"
+#include "core/scene/save.h"
+
+namespace pinocchio {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+constexpr int kUnsignedInt = 5125, kFloat = 5126;  // glTF's component types
+
+Json vec3_json(const glm::vec3& v) {
+  return {v.x, v.y, v.z};
+}
+
+// One number where all three are the same.
+Json color_json(const glm::vec3& v) {
+  return v.x == v.y && v.y == v.z ? Json(v.x) : vec3_json(v);
+}
+
+Json phong_json(const Material& m) {
+  const Material plain;
+  const glm::vec3 none(0.0f);
+  Json json{{"kd", color_json(m.diffuse)}};
+  if (m.ambient != m.diffuse) json["ka"] = color_json(m.ambient);
+  if (m.specular != none) json["ks"] = color_json(m.specular);
+  if (m.shininess != plain.shininess) json["shininess"] = m.shininess;
+  if (m.reflectance != none) json["reflect"] = color_json(m.reflectance);
+  if (m.transmittance != none) json["transmit"] = color_json(m.transmittance);
+  if (m.ior != plain.ior) json["ior"] = m.ior;
+  if (m.fresnel) json["fresnel"] = true;
+  return json;
+}
+
+// Phong for us, and what other viewers understand.
+Json material_json(const Material& m, bool& strong_emission) {
+  const glm::vec3 base =
+      glm::min(m.reflects() ? glm::max(m.diffuse, m.reflectance) : m.diffuse, glm::vec3(1.0f));
+  const float roughness = m.spawns_rays() ? 0.0f : std::sqrt(std::sqrt(2.0f / (4.0f * m.shininess + 2.0f)));
+  Json json{{"name", m.name},
+            {"pbrMetallicRoughness",
+             {{"baseColorFactor", {base.r, base.g, base.b, 1.0f}},
+              {"metallicFactor", m.reflects() && !m.fresnel ? 1.0f : 0.0f},
+              {"roughnessFactor", roughness}}},
+            {"extras", {{"pinocchio", {{"phong", phong_json(m)}}}}}};
+  const float strength = std::max({m.emission.r, m.emission.g, m.emission.b});
+  if (strength > 1.0f) {
+    strong_emission = true;
+    json["emissiveFactor"] = vec3_json(m.emission / strength);
+    json["extensions"]["KHR_materials_emissive_strength"] = {{"emissiveStrength", strength}};
+  } else if (strength > 0.0f) {
+    json["emissiveFactor"] = vec3_json(m.emission);
+  }
+  return json;
+}
+
+// A rotation whose -Z is `forward`.
+Json aimed_matrix(const glm::vec3& position, const glm::vec3& right, const glm::vec3& up,
+                  const glm::vec3& forward) {
+  const glm::mat4 m(glm::vec4(right, 0), glm::vec4(up, 0), glm::vec4(-forward, 0), glm::vec4(position, 1));
+  return std::vector<float>(glm::value_ptr(m), glm::value_ptr(m) + 16);
+}
+
+class GltfWriter {
+ public:
+  explicit GltfWriter(const Scene& scene) : scene_(scene) {
+    json_["asset"] = {{"version", "2.0"}, {"generator", "Pinocchio"}};
+    json_["scene"] = 0;
+    json_["scenes"] =
+        Json::array({{{"nodes", Json::array()},
+                      {"extras", {{"pinocchio", {{"ambient", color_json(scene.ambient_light)}}}}}}});
+    add_materials();
+    add_mesh();
+    for (const Camera& camera : scene.cameras) add_camera(camera);
+    for (const Light& light : scene.lights) add_light(light);
+    for (const std::string& name : extensions_) json_["extensionsUsed"].push_back(name);
+  }
+
+  // The JSON with its buffer's place filled in.
+  Json finish(const std::string& buffer_uri) {
+    Json buffer{{"byteLength", binary_.size()}};
+    if (!buffer_uri.empty()) buffer["uri"] = buffer_uri;
+    json_["buffers"] = Json::array({buffer});
+    return json_;
+  }
+  [[nodiscard]] const std::string& binary() const { return binary_; }
+
+ private:
+  void add_node(Json node) {
+    json_["scenes"][0]["nodes"].push_back(json_["nodes"].size());
+    json_["nodes"].push_back(std::move(node));
+  }
+
+  template <class T>
+  int add_accessor(const std::vector<T>& elements, int component_type, const char* type) {
+    const std::size_t bytes = elements.size() * sizeof(T);
+    const auto view = static_cast<int>(json_["bufferViews"].size());
+    json_["bufferViews"].push_back({{"buffer", 0}, {"byteOffset", binary_.size()}, {"byteLength", bytes}});
+    binary_.append(reinterpret_cast<const char*>(elements.data()), bytes);
+    json_["accessors"].push_back({{"bufferView", view},
+                                  {"componentType", component_type},
+                                  {"count", elements.size()},
+                                  {"type", type}});
+    return static_cast<int>(json_["accessors"].size()) - 1;
+  }
+
+  void add_materials() {
+    bool strong_emission = false;
+    for (const Material& m : scene_.materials)
+      json_["materials"].push_back(material_json(m, strong_emission));
+    if (strong_emission) extensions_.emplace_back("KHR_materials_emissive_strength");
+  }
+
+  // Runs of triangles of one material are primitives over the same vertices: the order of triangles stays.
+  void add_mesh() {
+    Json attributes{{"POSITION", add_accessor(scene_.positions, kFloat, "VEC3")}};
+    const Bounds b = all_positions();
+    json_["accessors"].back()["min"] = vec3_json(b.lo);  // the specification wants them of positions
+    json_["accessors"].back()["max"] = vec3_json(b.hi);
+    const auto given = [](const glm::vec3& n) { return n != glm::vec3(0.0f); };
+    if (std::any_of(scene_.normals.begin(), scene_.normals.end(), given))
+      attributes["NORMAL"] = add_accessor(scene_.normals, kFloat, "VEC3");
+    Json primitives = Json::array();
+    for (std::size_t first = 0; first < scene_.triangles.size();) {
+      const std::uint32_t material = scene_.triangle_materials[first];
+      std::size_t end = first;
+      while (end < scene_.triangles.size() && scene_.triangle_materials[end] == material) ++end;
+      std::vector<std::uint32_t> indices;
+      for (std::size_t i = first; i < end; ++i)
+        for (int c = 0; c < 3; ++c) indices.push_back(scene_.triangles[i][c]);
+      primitives.push_back({{"attributes", attributes},
+                            {"indices", add_accessor(indices, kUnsignedInt, "SCALAR")},
+                            {"material", material}});
+      first = end;
+    }
+    json_["meshes"] = Json::array({{{"primitives", primitives}}});
+    add_node({{"mesh", 0}});
+  }
+
+  [[nodiscard]] Bounds all_positions() const {
+    Bounds b;
+    for (const glm::vec3& p : scene_.positions) b.add(p);
+    return b;
+  }
+
+  void add_camera(const Camera& camera) {
+    const CameraAxes axes = camera_axes(camera);
+    add_node(
+        {{"name", camera.name},
+         {"camera", json_["cameras"].size()},
+         {"matrix", aimed_matrix(camera.eye, axes.right, axes.up, axes.forward)},
+         {"extras", {{"pinocchio", {{"target", vec3_json(camera.target)}, {"up", vec3_json(camera.up)}}}}}});
+    const double yfov = glm::radians(static_cast<double>(camera.fov_deg));
+    json_["cameras"].push_back({{"type", "perspective"}, {"perspective", {{"yfov", yfov}, {"znear", 0.01}}}});
+  }
+
+  void add_light(const Light& light) {
+    Json& lights = json_["extensions"]["KHR_lights_punctual"]["lights"];
+    if (lights.empty()) extensions_.emplace_back("KHR_lights_punctual");
+    constexpr const char* kTypes[] = {"point", "directional", "spot"};
+    Json json{{"name", light.name},
+              {"type", kTypes[static_cast<int>(light.kind)]},
+              {"color", vec3_json(light.color)},
+              {"intensity", light.intensity}};
+    if (std::isfinite(light.range)) json["range"] = light.range;
+    if (light.kind == Light::Kind::spot)
+      json["spot"] = {{"innerConeAngle", std::acos(light.cos_inner)},
+                      {"outerConeAngle", std::acos(light.cos_outer)}};
+    Json ours = Json::object();
+    if (!light.casts_shadow) ours["castsShadow"] = false;
+    if (light.kind != Light::Kind::directional && light.falloff == Light::Falloff::none)
+      ours["falloff"] = "none";
+    if (!ours.empty()) json["extras"]["pinocchio"] = ours;
+
+    const CameraAxes axes = camera_axes({{}, light.position, light.position + light.direction, {0, 1, 0}, 0});
+    Json node{{"name", light.name}, {"extensions", {{"KHR_lights_punctual", {{"light", lights.size()}}}}}};
+    if (light.kind == Light::Kind::point) {
+      node["translation"] = vec3_json(light.position);
+    } else {
+      node["matrix"] = aimed_matrix(light.position, axes.right, axes.up, axes.forward);
+    }
+    lights.push_back(json);
+    add_node(node);
+  }
+
+  const Scene& scene_;
+  Json json_;
+  std::string binary_;
+  std::vector<std::string> extensions_;
+};
+
+void append_u32(std::string& to, std::size_t value) {
+  const auto word = static_cast<std::uint32_t>(value);
+  to.append(reinterpret_cast<const char*>(&word), sizeof word);
+}
+
+void append_chunk(std::string& to, const char* type, std::string data, char padding) {
+  while (data.size() % 4 != 0) data += padding;
+  append_u32(to, data.size());
+  to.append(type, 4);
+  to += data;
+}
+
+std::string glb_of(GltfWriter& writer) {
+  std::string chunks;
+  append_chunk(chunks, "JSON", writer.finish("").dump(), ' ');
+  append_chunk(chunks, "BIN\0", writer.binary(), '\0');
+  std::string glb = "glTF";
+  append_u32(glb, 2);  // version
+  append_u32(glb, chunks.size() + 12);
+  return glb + chunks;
+}
+
+}  // namespace
+
+void save_gltf(const Scene& scene, const std::filesystem::path& file) {
+  GltfWriter writer(scene);
+  if (file.extension() == ".glb") {
+    write_text(file, glb_of(writer));
+    return;
+  }
+  std::filesystem::path binary = file;
+  binary.replace_extension(".bin");
+  write_text(binary, writer.binary());
+  write_text(file, writer.finish(binary.filename().string()).dump(1) + "\n");
+}
+
+}  // namespace pinocchio
