@@ -41,7 +41,7 @@ int parse_and_run(int argc, char** argv) {
   program.require_subcommand(1);
   program.failure_message([](const CLI::App*, const CLI::Error&) { return std::string(); });
   const std::vector<std::pair<std::string, Run>> verbs{
-      {"render", add_render(program)}, {"info", add_info(program)}};
+      {"render", add_render(program)}, {"info", add_info(program)}, {"generate", add_generate(program)}};
   try {
     program.parse(argc, argv);
   } catch (const CLI::ParseError& error) {

@@ -1,0 +1,27 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "core/base/error.h"
+#include "core/scene/scene.h"
+
+namespace pinocchio {
+
+struct ProceduralOptions {
+  int triangles =
+      0;  // about how many; 0: as many as the scene has by itself. Scenes of fixed shape ignore it.
+};
+
+// Scenes made by our own code, the same on every machine.
+[[nodiscard]] std::vector<std::string> procedural_names();
+[[nodiscard]] Expected<Scene> make_procedural(const std::string& name, const ProceduralOptions& options = {});
+
+// The scenes behind make_procedural; `triangles` is about how many.
+[[nodiscard]] Scene make_two_lights();
+[[nodiscard]] Scene make_speedboat(int triangles);
+[[nodiscard]] Scene make_cornell();
+[[nodiscard]] Scene make_forest(int triangles);
+[[nodiscard]] Scene make_spd_balls(int triangles);
+
+}  // namespace pinocchio
