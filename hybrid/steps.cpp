@@ -20,7 +20,7 @@ void fit(gl::Texture& texture, glm::ivec2 size, const gl::PixelFormat& format) {
 }
 
 TraceJob job_of(const Flight& frame, Workers& workers) {
-  return {frame.request.scene->scene, *frame.request.scene->tracer, workers, frame.view};
+  return {frame.request.scene->scene, frame.request.scene->tracer.value(), workers, frame.view};
 }
 
 Span span_of(const gl::GpuTimer& timer, const gl::GpuClock& clock) {

@@ -35,6 +35,7 @@ inline Mask operator==(Float a, Float b) { return {a.v == b.v}; }
 // The second operand where either is NaN, as the SSE instructions have it.
 inline Float min(Float a, Float b) { return Float(a.v < b.v ? a.v : b.v); }
 inline Float max(Float a, Float b) { return Float(a.v > b.v ? a.v : b.v); }
+inline Float abs(Float a) { return Float(__builtin_fabsf(a.v)); }
 inline Float select(Mask m, Float yes, Float no) { return m.m ? yes : no; }
 
 // Triangle ids, below 2^30; kNoTriangle compares as -1.

@@ -38,6 +38,7 @@ inline Mask operator<=(Float a, Float b) { return {_mm_cmple_ps(a.v, b.v)}; }
 inline Mask operator==(Float a, Float b) { return {_mm_cmpeq_ps(a.v, b.v)}; }
 inline Float min(Float a, Float b) { return _mm_min_ps(a.v, b.v); }
 inline Float max(Float a, Float b) { return _mm_max_ps(a.v, b.v); }
+inline Float abs(Float a) { return _mm_andnot_ps(_mm_set1_ps(-0.0f), a.v); }
 inline Float select(Mask m, Float yes, Float no) { return _mm_blendv_ps(no.v, yes.v, m.m); }
 
 struct Int {

@@ -1,8 +1,8 @@
 // The traversal and the triangle test, written once over a namespace's lanes. A file kernel_ISA.cpp
 // includes lanes_ISA.h, names the namespace in PINOCCHIO_LANES and includes this. Everything here lives
 // inside that namespace: a function compiled for AVX must never be the one the linker keeps for all.
-#include "core/math/ray.h"
 #include "core/bsp/tree.h"
+#include "core/math/ray.h"
 #include "core/trace/kernels.h"
 
 namespace pinocchio::PINOCCHIO_LANES {
@@ -16,6 +16,7 @@ constexpr float kStepError = 4.0f * 0x1p-24f;
 struct Packet {
   Float o[3], d[3];
   Float inverse_early[3], inverse_late[3];  // 1 / d, less and more by the rounding of a step
+  Float reach;                              // |d_x| + |d_y| + |d_z|
   Float t_max;
   bool negative[3];  // direction falls along this axis
 };
@@ -26,7 +27,15 @@ struct Hits {
   Int triangle;
 };
 
-// t and the weights of B and C of the packet against one triangle. The order of operations is fixed.
+// Rounding of the triangle test: of each sum and product on the way to a weight, a few units in the last
+// place of the distances that go in.
+constexpr float kTestError = 2.0f * 0x1p-24f;
+// No triangle grows by more than this share of itself, however thin it is.
+constexpr float kMostGrowth = 0.5f;
+
+// Whether the packet's rays meet the triangle, and at which t. A weight may be less than 0 by as much as
+// its rounding error: neighbours that share an edge both take a ray that their roundings disagree about,
+// so that none slips through between them. The order of operations is fixed.
 inline Mask meets(const ProjectedTriangle& tri, const Packet& p, Float& t) {
   const unsigned k = tri.k, u = k == 2 ? 0 : k + 1, v = u == 2 ? 0 : u + 1;
   const Float n_u(tri.n_u), n_v(tri.n_v);
@@ -36,9 +45,18 @@ inline Mask meets(const ProjectedTriangle& tri, const Packet& p, Float& t) {
   const Float h_u = t * p.d[u] - o_u, h_v = t * p.d[v] - o_v;
   const Float beta = h_u * Float(tri.beta_u) + h_v * Float(tri.beta_v);
   const Float gamma = h_u * Float(tri.gamma_u) + h_v * Float(tri.gamma_v);
-  const Float zero(0.0f);
+  // t is off by the rounding of its sums over |away| (no coefficient of the normal is above 1); the point
+  // (h_u, h_v) by that along the ray, and by its own rounding.
+  const Float from_origin = abs(o_k) + abs(o_u) + abs(o_v);
+  const Float slide = max(abs(p.d[u]), abs(p.d[v])) / abs(away);
+  const Float error = Float(kTestError) * (from_origin + abs(t) * p.reach) * (Float(1.0f) + slide);
+  const Float slope_beta(__builtin_fabsf(tri.beta_u) + __builtin_fabsf(tri.beta_v));
+  const Float slope_gamma(__builtin_fabsf(tri.gamma_u) + __builtin_fabsf(tri.gamma_v));
+  const Float most(kMostGrowth), zero(0.0f);
+  const Float grown_beta = min(error * slope_beta, most), grown_gamma = min(error * slope_gamma, most);
   // Written so that NaN (no area, a ray in the plane) fails.
-  return (zero <= beta) & (zero <= gamma) & (beta + gamma <= Float(1.0f)) & (zero < t);
+  return (zero <= beta + grown_beta) & (zero <= gamma + grown_gamma) &
+         (beta + gamma <= Float(1.0f) + min(grown_beta + grown_gamma, most)) & (zero < t);
 }
 
 // Narrows [t_near, t_far] to the tree's box. min and max give their second operand for NaN, so a ray
@@ -78,7 +96,8 @@ inline void walk(const BspTree& tree, const Packet& p, Mask lanes, const Float& 
         const Float to_plane = Float(node.split()) - p.o[axis];
         const Float t_early = to_plane * p.inverse_early[axis], t_late = to_plane * p.inverse_late[axis];
         const std::uint32_t low = node.first_child();
-        const std::uint32_t first = p.negative[axis] ? low + 1 : low, second = p.negative[axis] ? low : low + 1;
+        const std::uint32_t first = p.negative[axis] ? low + 1 : low,
+                            second = p.negative[axis] ? low : low + 1;
         // NaN (a ray that runs in the plane) must enter both: ask who may skip a side, not who enters.
         const bool skip_first = (alive & ~(t_late < t_near)).bits() == 0;
         const bool skip_second = (alive & ~(t_far < t_early)).bits() == 0;
@@ -103,7 +122,9 @@ inline void walk(const BspTree& tree, const Packet& p, Mask lanes, const Float& 
   }
 }
 
-inline bool finite(float x) { return x - x == 0.0f; }
+inline bool finite(float x) {
+  return x - x == 0.0f;
+}
 
 inline bool traceable(const Ray& r) {
   for (int i = 0; i < 3; ++i)
@@ -142,6 +163,7 @@ inline void for_each_octant(const Ray* rays, std::size_t n, Body body) {
     p.inverse_early[i] = inverse * Float(1.0f - kStepError);
     p.inverse_late[i] = inverse * Float(1.0f + kStepError);
   }
+  p.reach = abs(p.d[0]) + abs(p.d[1]) + abs(p.d[2]);
   p.t_max = Float::load(t_max);
   while (waiting != 0) {
     const unsigned way = octants[__builtin_ctz(waiting)];
@@ -154,7 +176,8 @@ inline void for_each_octant(const Ray* rays, std::size_t n, Body body) {
   }
 }
 
-inline void closest_in_leaf(const BspTree& tree, const BspNode& leaf, const Packet& p, Mask lanes, Hits& hits) {
+inline void closest_in_leaf(const BspTree& tree, const BspNode& leaf, const Packet& p, Mask lanes,
+                            Hits& hits) {
   const std::uint32_t* references = tree.references.data() + leaf.first_reference();
   for (std::uint32_t i = 0; i < leaf.reference_count(); ++i) {
     const ProjectedTriangle& tri = tree.triangles[references[i]];
@@ -175,9 +198,8 @@ void closest_hits(const BspTree& tree, const Ray* rays, Hit* out, std::size_t n)
     for (std::size_t lane = 0; lane < count; ++lane) out[i + lane] = Hit{};
     for_each_octant(rays + i, count, [&](const Packet& p, Mask lanes) {
       Hits hits{p.t_max, Int(kNoTriangle)};
-      walk(tree, p, lanes, hits.t, [&](const BspNode& leaf, Mask alive) {
-        closest_in_leaf(tree, leaf, p, alive, hits);
-      });
+      walk(tree, p, lanes, hits.t,
+           [&](const BspNode& leaf, Mask alive) { closest_in_leaf(tree, leaf, p, alive, hits); });
       hits.t.store(t);
       hits.triangle.store(triangle);
       const unsigned mine = lanes.bits();

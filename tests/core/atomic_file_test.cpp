@@ -1,0 +1,79 @@
+#include "core/image/atomic_file.h"
+
+#include <gtest/gtest.h>
+
+#include <fstream>
+
+#include "core/base/error.h"
+#include "core/image/png.h"
+#include "core/image/tonemap.h"
+
+namespace pinocchio {
+namespace {
+
+class AtomicFile : public testing::Test {
+ protected:
+  void SetUp() override {
+    std::filesystem::remove_all(folder_);
+    std::filesystem::create_directories(folder_);
+  }
+  [[nodiscard]] std::string read(const std::string& name) const {
+    std::ifstream in(folder_ / name);
+    return {std::istreambuf_iterator<char>(in), {}};
+  }
+  [[nodiscard]] std::size_t files() const {
+    return static_cast<std::size_t>(std::distance(std::filesystem::directory_iterator(folder_), {}));
+  }
+  std::filesystem::path folder_ = std::filesystem::path(testing::TempDir()) / "atomic";
+};
+
+TEST_F(AtomicFile, ReplacesTheOldFileAsAWhole) {
+  write_text(folder_ / "a.txt", "old");
+  write_text(folder_ / "a.txt", "new");
+  EXPECT_EQ(read("a.txt"), "new");
+  EXPECT_EQ(files(), 1u);
+}
+
+TEST_F(AtomicFile, AFailureLeavesTheOldFileAndNothingElse) {
+  write_text(folder_ / "a.txt", "old");
+  const auto fail = [](const std::filesystem::path& temporary) {
+    std::ofstream(temporary) << "half";
+    throw std::runtime_error("disk full");
+  };
+  EXPECT_THROW(write_atomically(folder_ / "a.txt", fail), std::runtime_error);
+  EXPECT_EQ(read("a.txt"), "old");
+  EXPECT_EQ(files(), 1u);
+}
+
+TEST_F(AtomicFile, SaysBeforehandWhatCannotBeWritten) {
+  EXPECT_NO_THROW(check_writable(folder_ / "fine.txt"));
+  EXPECT_EQ(files(), 0u);
+  EXPECT_THROW(check_writable(folder_ / "nowhere" / "x.txt"), EnvironmentError);
+  EXPECT_THROW(check_writable(folder_), EnvironmentError);
+  EXPECT_THROW(check_writable("/dev/full"), EnvironmentError);
+  EXPECT_THROW(check_writable("/proc/x.txt"), EnvironmentError);  // root or not
+}
+
+TEST_F(AtomicFile, PngBeginsAsPngsDo) {
+  write_png(folder_ / "a.png", Image<glm::u8vec3>({5, 3}, glm::u8vec3(9)));
+  EXPECT_EQ(read("a.png").substr(1, 3), "PNG");
+}
+
+TEST(Tonemap, FollowsTheSrgbCurveBothWays) {
+  for (int i = 0; i < 256; ++i) {
+    const auto byte = static_cast<std::uint8_t>(i);
+    EXPECT_EQ(linear_to_srgb8(srgb8_to_linear(byte)), byte);
+  }
+  EXPECT_EQ(linear_to_srgb8(-1.0f), 0);
+  EXPECT_EQ(linear_to_srgb8(7.0f), 255);
+  EXPECT_EQ(linear_to_srgb8(std::nanf("")), 0);
+  EXPECT_NEAR(srgb8_to_linear(188), 0.5029f, 1e-4f);
+}
+
+TEST(Tonemap, ExposureIsInStops) {
+  const Image<glm::vec4> half({1, 1}, glm::vec4(0.25f));
+  EXPECT_EQ(preview(half, 1.0f)[0].x, linear_to_srgb8(0.5f));
+}
+
+}  // namespace
+}  // namespace pinocchio

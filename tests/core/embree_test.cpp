@@ -1,0 +1,248 @@
+// Embree 3 as an oracle: primary hits, shadow mask bits and first reflection hits of whole pictures.
+#include <embree3/rtcore.h>
+
+#include <cmath>
+#include <memory>
+
+#include "core/trace/passes.h"
+#include "core/trace/scatter.h"
+#include "core/trace/surface.h"
+#include "core/trace/view.h"
+#include "tests/support/scenes.h"
+
+namespace pinocchio {
+namespace {
+
+constexpr glm::ivec2 kSize{800, 600};
+constexpr double kLeastAgreement = 0.9999;
+// Two hits are one where they name the same triangle, or meet where two triangles do.
+constexpr float kSamePlace = 1e-5f;  // relative distance
+
+class Embree {
+ public:
+  explicit Embree(const Scene& scene) : device_(rtcNewDevice(nullptr)), scene_(rtcNewScene(device_)) {
+    rtcSetSceneFlags(scene_, RTC_SCENE_FLAG_ROBUST);
+    const RTCGeometry geometry = rtcNewGeometry(device_, RTC_GEOMETRY_TYPE_TRIANGLE);
+    void* vertices = rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3,
+                                             sizeof(glm::vec3), scene.positions.size());
+    std::copy(scene.positions.begin(), scene.positions.end(), static_cast<glm::vec3*>(vertices));
+    void* indices = rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3,
+                                            sizeof(glm::uvec3), scene.triangles.size());
+    std::copy(scene.triangles.begin(), scene.triangles.end(), static_cast<glm::uvec3*>(indices));
+    rtcCommitGeometry(geometry);
+    rtcAttachGeometry(scene_, geometry);
+    rtcReleaseGeometry(geometry);
+    rtcCommitScene(scene_);
+  }
+  ~Embree() {
+    rtcReleaseScene(scene_);
+    rtcReleaseDevice(device_);
+  }
+  Embree(const Embree&) = delete;
+  Embree& operator=(const Embree&) = delete;
+
+  [[nodiscard]] Hit closest_hit(const Ray& ray) const {
+    RTCIntersectContext context;
+    rtcInitIntersectContext(&context);
+    RTCRayHit query{embree_ray(ray), {}};
+    query.hit.geomID = RTC_INVALID_GEOMETRY_ID;
+    rtcIntersect1(scene_, &context, &query);
+    return query.hit.geomID == RTC_INVALID_GEOMETRY_ID ? Hit{} : Hit{query.ray.tfar, query.hit.primID};
+  }
+
+  [[nodiscard]] bool occluded(const Ray& ray) const {
+    RTCIntersectContext context;
+    rtcInitIntersectContext(&context);
+    RTCRay query = embree_ray(ray);
+    rtcOccluded1(scene_, &context, &query);
+    return query.tfar < 0.0f;
+  }
+
+ private:
+  static RTCRay embree_ray(const Ray& ray) {
+    RTCRay r{};
+    r.org_x = ray.origin.x, r.org_y = ray.origin.y, r.org_z = ray.origin.z;
+    r.dir_x = ray.direction.x, r.dir_y = ray.direction.y, r.dir_z = ray.direction.z;
+    r.tfar = ray.t_max;
+    r.mask = 0xffffffffu;
+    return r;
+  }
+
+  RTCDevice device_;
+  RTCScene scene_;
+};
+
+bool same(const Hit& a, const Hit& b) {
+  if (a.triangle == b.triangle) return true;
+  return a.valid() && b.valid() && std::abs(a.t - b.t) <= kSamePlace * std::max(a.t, b.t);
+}
+
+// Whether something changes within one pixel: a silhouette, by Embree's distances alone.
+bool at_silhouette(const Image<Hit>& hits, int x, int y) {
+  constexpr float kJump = 0.002f;  // relative distance from one pixel to the next
+  const float t = hits.at(x, y).t;
+  for (int dy = -1; dy <= 1; ++dy)
+    for (int dx = -1; dx <= 1; ++dx) {
+      const int nx = x + dx, ny = y + dy;
+      if (nx < 0 || ny < 0 || nx >= kSize.x || ny >= kSize.y) return true;
+      const Hit& n = hits.at(nx, ny);
+      if (n.valid() != hits.at(x, y).valid() || std::abs(n.t - t) > kJump * std::min(n.t, t)) return true;
+    }
+  return false;
+}
+
+// ... or a shadow's edge.
+bool at_shadow_edge(const Image<unsigned>& masks, int x, int y) {
+  for (int dy = -1; dy <= 1; ++dy)
+    for (int dx = -1; dx <= 1; ++dx) {
+      const int nx = std::clamp(x + dx, 0, kSize.x - 1), ny = std::clamp(y + dy, 0, kSize.y - 1);
+      if (masks.at(nx, ny) != masks.at(x, y)) return true;
+    }
+  return false;
+}
+
+// Ours and Embree's answer for every pixel.
+struct Comparison {
+  explicit Comparison(Scene s)
+      : scene(std::move(s)), tracer(scene), embree(scene), workers(2), view(view_params(camera(), kSize)) {
+    const TraceJob job{scene, tracer, workers, view};
+    trace_visibility(job, ids);
+    trace_shadow_mask(job, ids, mask);
+    for (int y = 0; y < kSize.y; ++y)
+      for (int x = 0; x < kSize.x; ++x) {
+        const Ray ray = pixel_ray(view, x, y);
+        tracer.closest_hits({&ray, 1}, {&ours.at(x, y), 1});
+        theirs.at(x, y) = embree.closest_hit(ray);
+      }
+  }
+
+  [[nodiscard]] Camera camera() const {
+    return scene.cameras.empty() ? camera_for_whole_scene(scene) : scene.cameras.front();
+  }
+
+  Scene scene;
+  Tracer tracer;
+  Embree embree;
+  Workers workers;
+  shared::ViewParams view;
+  Image<std::uint32_t> ids{kSize};
+  MaskImage mask;
+  Image<Hit> ours{kSize}, theirs{kSize};
+};
+
+// Counts pixels, prints the share that agrees, and fails below the bar or where a disagreement is not at
+// an edge.
+class Tally {
+ public:
+  explicit Tally(std::string what) : what_(std::move(what)) {}
+  void add(bool agrees, int x, int y, const std::function<bool()>& at_edge) {
+    ++all_;
+    if (agrees) return;
+    ++different_;
+    EXPECT_TRUE(at_edge()) << what_ << " disagree away from any edge at pixel " << x << ", " << y;
+  }
+  void finish() const {
+    const double share = all_ == 0 ? 1.0 : 1.0 - static_cast<double>(different_) / static_cast<double>(all_);
+    std::printf("  %-22s %zu of %zu differ, %.4f %% agree\n", what_.c_str(), different_, all_, 100.0 * share);
+    EXPECT_GE(share, kLeastAgreement) << what_;
+  }
+
+ private:
+  std::string what_;
+  std::size_t all_ = 0, different_ = 0;
+};
+
+// The bits by Embree alone: its hit, its occlusion, the point in double precision.
+unsigned embree_mask(const Comparison& c, const Hit& hit, const Ray& ray) {
+  if (!hit.valid()) return 0;
+  const Surface surface = surface_at(c.scene, hit.triangle, ray.origin, ray.direction);
+  const glm::vec3 size = glm::abs(surface.p_world);
+  const double largest = static_cast<double>(std::max({size.x, size.y, size.z}));
+  const glm::dvec3 point = glm::dvec3(ray.origin) + static_cast<double>(hit.t) * glm::dvec3(ray.direction) +
+                           4e-6 * largest * glm::dvec3(surface.n_geometric);
+  unsigned bits = 0;
+  const std::vector<int> casting = casting_lights(c.scene);
+  for (std::size_t slot = 0; slot < casting.size(); ++slot) {
+    const Light& light = c.scene.lights[static_cast<std::size_t>(casting[slot])];
+    if (!shadow_ray(light_params(light), surface)) continue;
+    const glm::vec3 origin(point);
+    if (!c.embree.occluded({origin, 1.0f, light.position - origin})) bits |= 1u << slot;
+  }
+  return bits;
+}
+
+void compare_primary(const Comparison& c) {
+  Tally tally("primary hits");
+  for (int y = 0; y < kSize.y; ++y)
+    for (int x = 0; x < kSize.x; ++x) {
+      EXPECT_EQ(c.ids.at(x, y), c.ours.at(x, y).triangle);
+      tally.add(same(c.ours.at(x, y), c.theirs.at(x, y)), x, y,
+                [&] { return at_silhouette(c.theirs, x, y); });
+    }
+  tally.finish();
+}
+
+void compare_masks(const Comparison& c) {
+  Image<unsigned> theirs(kSize, 0u);
+  for (int y = 0; y < kSize.y; ++y)
+    for (int x = 0; x < kSize.x; ++x)
+      theirs.at(x, y) = embree_mask(c, c.theirs.at(x, y), pixel_ray(c.view, x, y));
+  Tally tally("shadow mask");
+  for (int y = 0; y < kSize.y; ++y)
+    for (int x = 0; x < kSize.x; ++x)
+      tally.add(c.mask.get(x, y) == theirs.at(x, y), x, y,
+                [&] { return at_shadow_edge(theirs, x, y) || at_silhouette(c.theirs, x, y); });
+  tally.finish();
+}
+
+void compare_reflections(const Comparison& c) {
+  // The first generation's rays, ours; what they hit, both. A pixel without such a ray has a hit at 0.
+  Image<Hit> ours(kSize, Hit{0.0f, kNoTriangle}), theirs = ours;
+  std::vector<PathRay> rays;
+  for (int y = 0; y < kSize.y; ++y)
+    for (int x = 0; x < kSize.x; ++x) {
+      if (!c.ours.at(x, y).valid()) continue;
+      const Ray ray = pixel_ray(c.view, x, y);
+      rays.clear();
+      scatter(surface_at(c.scene, c.ours.at(x, y).triangle, ray.origin, ray.direction), glm::vec3(1.0f), 0,
+              rays);
+      if (rays.empty()) continue;
+      c.tracer.closest_hits({&rays.front().ray, 1}, {&ours.at(x, y), 1});
+      theirs.at(x, y) = c.embree.closest_hit(rays.front().ray);
+    }
+  Tally tally("first reflection hits");
+  for (int y = 0; y < kSize.y; ++y)
+    for (int x = 0; x < kSize.x; ++x)
+      if (ours.at(x, y).t > 0.0f)
+        tally.add(same(ours.at(x, y), theirs.at(x, y)), x, y, [&] { return at_silhouette(theirs, x, y); });
+  tally.finish();
+}
+
+void compare(const Scene& scene) {
+  const Comparison comparison(scene);
+  compare_primary(comparison);
+  compare_masks(comparison);
+  compare_reflections(comparison);
+}
+
+class EmbreeTest : public testing::TestWithParam<std::string> {};
+INSTANTIATE_TEST_SUITE_P(Scenes, EmbreeTest, testing::ValuesIn(own_scenes()),
+                         [](const auto& scene) { return "scene" + std::to_string(scene.index); });
+
+TEST_P(EmbreeTest, Agrees) {
+  std::printf("  %s\n", GetParam().c_str());
+  compare(load_or_die(source_path(GetParam())));
+}
+
+TEST(EmbreeBunny, Agrees) {
+  const std::optional<std::filesystem::path> path = extra_scene("stanford-bunny.obj");
+  if (!path) GTEST_SKIP() << "PINOCCHIO_EXTRA_SCENES is not set: the bunny is not compared";
+  Scene scene = load_or_die(*path);
+  for (Material& material : scene.materials)
+    material.reflectance = glm::vec3(0.5f);  // or it has no reflections
+  scene.lights = {default_light(scene, camera_for_whole_scene(scene)), point_light({0.3f, 0.5f, 0.2f})};
+  compare(scene);
+}
+
+}  // namespace
+}  // namespace pinocchio

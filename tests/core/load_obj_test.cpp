@@ -1,0 +1,135 @@
+#include <fstream>
+
+#include "tests/support/scenes.h"
+
+namespace pinocchio {
+namespace {
+
+std::filesystem::path write_file(const std::string& name, const std::string& text) {
+  const std::filesystem::path path = std::filesystem::path(testing::TempDir()) / name;
+  std::ofstream(path) << text;
+  return path;
+}
+
+Scene load_text(const std::string& obj, const std::string& mtl = "", Warnings* warnings = nullptr) {
+  write_file("test.mtl", mtl);
+  Expected<Scene> scene = load_scene(write_file("test.obj", "mtllib test.mtl\n" + obj), warnings);
+  EXPECT_TRUE(scene) << scene.error().message();
+  return scene ? std::move(*scene) : Scene{};
+}
+
+InputError error_of(const std::string& obj) {
+  const Expected<Scene> scene = load_scene(write_file("bad.obj", obj));
+  EXPECT_FALSE(scene);
+  return scene ? InputError{} : scene.error();
+}
+
+const std::string kTriangle = "v 0 0 0\nv 1 0 0\nv 0 1 0\n";
+
+TEST(LoadObj, ReadsTrianglesPolygonsAndRelativeIndices) {
+  const Scene scene = load_text(kTriangle + "v 1 1 0\nf 1 2 4 3\nf -4 -3 -2\n");
+  EXPECT_EQ(scene.triangles.size(), 3u);
+  EXPECT_EQ(scene.normals[0], glm::vec3(0.0f));  // flat: no normals, no smoothing group
+  EXPECT_EQ(scene.materials[scene.triangle_materials[0]].name, "default");
+}
+
+TEST(LoadObj, SmoothingGroupsMakeNormals) {
+  // Two triangles that meet at a right angle along the z axis.
+  const std::string roof = "v 0 0 0\nv 0 0 1\nv -1 -1 0\nv 1 -1 0\n";
+  const Scene smooth = load_text(roof + "s 1\nf 1 3 2\nf 1 2 4\n");
+  ASSERT_EQ(smooth.positions.size(), 4u);
+  EXPECT_NEAR(std::abs(smooth.normals[0].y), 1.0f, 1e-6f);
+  const Scene apart = load_text(roof + "s 1\nf 1 3 2\ns 2\nf 1 2 4\n");
+  EXPECT_EQ(apart.positions.size(), 6u);
+  EXPECT_NEAR(std::abs(apart.normals[0].y), std::sqrt(0.5f), 1e-6f);
+  const Scene off = load_text(roof + "s off\nf 1 3 2\nf 1 2 4\n");
+  EXPECT_EQ(off.normals[0], glm::vec3(0.0f));
+}
+
+TEST(LoadObj, IlluminationModels) {
+  const std::string faces =
+      kTriangle +
+      "usemtl plain\nf 1 2 3\nusemtl mirror\nf 1 2 3\nusemtl glass\nf 1 2 3\nusemtl not_glass\nf 1 2 "
+      "3\nusemtl varnish\nf 1 2 3\nusemtl by_d\nf 1 2 3\n";
+  const Scene scene = load_text(faces,
+                                "newmtl plain\nKd .1 .2 .3\nKs .4 .4 .4\nNs 50\nillum 2\nKe 1 2 3\n"
+                                "newmtl mirror\nKd .1 .1 .1\nKs .9 .9 .9\nillum 3\n"
+                                "newmtl glass\nKd 0 0 0\nKs 1 1 1\nNi 1.5\nTf .9 .8 .7\nillum 7\n"
+                                "newmtl not_glass\nKd .5 .5 .5\nKs 1 1 1\nNi 1.5\nd 1\nillum 7\n"
+                                "newmtl varnish\nKd .5 .5 .5\nKs .04 .04 .04\nillum 5\n"
+                                "newmtl by_d\nKd .5 .5 .5\nNi 1.3\nd 0.25\nillum 4\n");
+  const auto material = [&](std::uint32_t i) { return scene.material_of(i); };
+  EXPECT_EQ(material(0).diffuse, glm::vec3(0.1f, 0.2f, 0.3f));
+  EXPECT_EQ(material(0).ambient, material(0).diffuse);  // no Ka
+  EXPECT_EQ(material(0).shininess, 50.0f);
+  EXPECT_EQ(material(0).emission, glm::vec3(1, 2, 3));
+  EXPECT_FALSE(material(0).spawns_rays());
+  EXPECT_EQ(material(1).reflectance, glm::vec3(0.9f));
+  EXPECT_FALSE(material(1).fresnel);
+  EXPECT_EQ(material(2).transmittance, glm::vec3(0.9f, 0.8f, 0.7f));
+  EXPECT_EQ(material(2).ior, 1.5f);
+  EXPECT_FALSE(material(3).transmits());  // exporters write illum 7 for plain materials
+  EXPECT_TRUE(material(4).fresnel);
+  EXPECT_EQ(material(5).transmittance, glm::vec3(0.75f));
+}
+
+TEST(LoadObj, MissingMaterialsAndTexturesAreWarnings) {
+  Warnings warnings;
+  const Expected<Scene> scene =
+      load_scene(write_file("w.obj", "mtllib nowhere.mtl\n" + kTriangle + "usemtl m\nf 1 2 3\n"), &warnings);
+  ASSERT_TRUE(scene);
+  ASSERT_FALSE(warnings.empty());
+  EXPECT_NE(warnings[0].find("nowhere.mtl"), std::string::npos);
+  warnings.clear();
+  (void)load_text(kTriangle + "vt 0 0\nusemtl m\nf 1/1 2/1 3/1\n", "newmtl m\nmap_Kd none.png\n", &warnings);
+  ASSERT_FALSE(warnings.empty());
+  EXPECT_NE(warnings[0].find("none.png"), std::string::npos);
+}
+
+TEST(LoadObj, TextureCoordinatesGrowDownwards) {
+  write_file("t.ppm", "P3 1 1 255 10 20 30\n");  // not what stb reads as text; P6 is
+  std::ofstream(std::filesystem::path(testing::TempDir()) / "t.ppm", std::ios::binary) << "P6 1 1 255\n"
+                                                                                       << "\x0a\x14\x1e";
+  const Scene scene =
+      load_text(kTriangle + "vt 0.25 0.75\nusemtl m\nf 1/1 2/1 3/1\n", "newmtl m\nmap_Kd t.ppm\n");
+  ASSERT_EQ(scene.textures.size(), 1u);
+  EXPECT_EQ(scene.textures[0].texels.at(0, 0), glm::u8vec4(10, 20, 30, 255));
+  EXPECT_EQ(scene.texcoords[0], glm::vec2(0.25f, 0.25f));
+}
+
+TEST(LoadObj, BadInputNamesTheLine) {
+  EXPECT_EQ(error_of(kTriangle + "f 1 2 9\n").line, 4);
+  EXPECT_EQ(error_of(kTriangle + "f 1 2 0\n").line, 4);
+  EXPECT_EQ(error_of(kTriangle + "f -1 -2 -4\n").line, 4);
+  EXPECT_EQ(error_of(kTriangle + "f 1/5 2/5 3/5\n").line, 4);
+  EXPECT_EQ(error_of(kTriangle + "\n# comment\nf 1 2\n").line, 6);
+  EXPECT_EQ(error_of("v 0 0 0\nv nan 0 0\n").line, 2);
+  EXPECT_EQ(error_of("v 0 0 0\nv 0 inf 0\n").line, 2);
+  EXPECT_EQ(error_of("v 0 0 0\nv 0 1e99 0\n").line, 2);
+  EXPECT_EQ(error_of("v 0 0 0\nv 0 0\n").line, 2);
+  EXPECT_EQ(error_of("v a b c\n").line, 1);
+  EXPECT_NE(error_of(kTriangle).what.find("no triangles"), std::string::npos);
+  EXPECT_NE(error_of("").what.find("empty"), std::string::npos);
+}
+
+TEST(LoadObj, RandomBytesNeverCrash) {
+  Random random(5);
+  const std::string letters = "vfnt 0123456789.-/\n\r\t\\eusmtl#\0\xff";
+  for (int i = 0; i < 300; ++i) {
+    std::string text = i % 2 ? kTriangle : "";
+    for (std::uint32_t n = random.next() % 400; n > 0; --n) text += letters[random.next() % letters.size()];
+    (void)load_scene(write_file("random.obj", text));
+  }
+}
+
+TEST(LoadScene, FindsTheFileOfAName) {
+  EXPECT_TRUE(load_scene(source_path("scenes/cornell")));
+  EXPECT_TRUE(load_scene(source_path("scenes/speedboat")));
+  const auto message = [](const std::filesystem::path& path) { return load_scene(path).error().message(); };
+  EXPECT_NE(message("nowhere.obj").find("no such file"), std::string::npos);
+  EXPECT_NE(message(source_path("core")).find("folder"), std::string::npos);
+  EXPECT_NE(message(source_path("README.md")).find("format"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace pinocchio

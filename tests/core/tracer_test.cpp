@@ -1,0 +1,202 @@
+#include "core/trace/tracer.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "core/bsp/projected_triangle.h"
+#include "core/procedural/mesh_builder.h"
+#include "core/trace/view.h"
+#include "tests/support/scenes.h"
+
+namespace pinocchio {
+namespace {
+
+std::vector<Ray> random_rays(int count, std::uint64_t seed) {
+  Random random(seed);
+  std::vector<Ray> rays;
+  for (int i = 0; i < count; ++i) {
+    const glm::vec3 from = random_point(random, 2.0f), to = random_point(random, 0.8f);
+    rays.push_back({from, i % 3 == 0 ? 1.5f : kInfinity, to - from});
+  }
+  return rays;
+}
+
+std::vector<Hit> trace(const Tracer& tracer, const std::vector<Ray>& rays) {
+  std::vector<Hit> hits(rays.size());
+  tracer.closest_hits(rays, hits);
+  return hits;
+}
+
+std::vector<std::uint8_t> blocked(const Tracer& tracer, const std::vector<Ray>& rays) {
+  std::vector<std::uint8_t> result(rays.size());
+  tracer.occluded(rays, result);
+  return result;
+}
+
+// Every triangle in a leaf of its own tree: nothing to traverse.
+Hit brute_force(const Scene& scene, const Ray& ray) {
+  Hit best{ray.t_max, kNoTriangle};
+  for (std::uint32_t i = 0; i < scene.triangles.size(); ++i) {
+    Scene one;
+    for (int c = 0; c < 3; ++c) {
+      one.positions.push_back(scene.positions[scene.triangles[i][c]]);
+      one.normals.emplace_back(0.0f);
+    }
+    one.triangles.emplace_back(0, 1, 2);
+    one.triangle_materials.push_back(0);
+    one.materials.emplace_back();
+    const Tracer tracer(one, {}, Isa::scalar);
+    Hit hit;
+    tracer.closest_hits({&ray, 1}, {&hit, 1});
+    if (hit.valid() && hit.t < best.t) best = {hit.t, i};
+  }
+  return best.valid() ? best : Hit{};
+}
+
+TEST(Tracer, FindsWhatLookingAtEveryTriangleFinds) {
+  const Scene scene = random_soup(60, 0.5f, 11);
+  const std::vector<Ray> rays = random_rays(600, 12);
+  int hits = 0;
+  for (const SplitRule rule : {SplitRule::sah, SplitRule::spatial_median, SplitRule::object_median}) {
+    const Tracer tracer(scene, {.rule = rule});
+    const std::vector<Hit> found = trace(tracer, rays);
+    const std::vector<std::uint8_t> stopped = blocked(tracer, rays);
+    for (std::size_t i = 0; i < rays.size(); ++i) {
+      const Hit expected = brute_force(scene, rays[i]);
+      EXPECT_EQ(found[i], expected) << "ray " << i;
+      EXPECT_EQ(stopped[i] != 0, expected.valid()) << "ray " << i;
+      hits += expected.valid() ? 1 : 0;
+    }
+  }
+  EXPECT_GT(hits, 300);
+}
+
+TEST(Tracer, SameBitsAtEveryWidthAndGrouping) {
+  for (const std::uint64_t seed : {21u, 22u, 23u}) {
+    const Scene scene = random_soup(5000, 0.05f * static_cast<float>(seed - 20), seed);
+    const std::vector<Ray> rays = random_rays(20000, seed + 100);
+    const Tracer reference(scene, {}, Isa::scalar);
+    const std::vector<Hit> expected = trace(reference, rays);
+    const std::vector<std::uint8_t> expected_blocked = blocked(reference, rays);
+    for (const Isa isa : supported_isas()) {
+      const Tracer tracer(scene, {}, isa);
+      EXPECT_EQ(trace(tracer, rays), expected) << isa_name(isa);
+      EXPECT_EQ(blocked(tracer, rays), expected_blocked) << isa_name(isa);
+      std::vector<Ray> shifted(rays.begin() + 3, rays.end());  // every packet has other members
+      const std::vector<Hit> hits = trace(tracer, shifted);
+      EXPECT_TRUE(std::equal(hits.begin(), hits.end(), expected.begin() + 3)) << isa_name(isa);
+    }
+  }
+}
+
+TEST(Tracer, SameBitsOnTheScenes) {
+  for (const std::string& name : own_scenes()) {
+    const Scene scene = load_or_die(source_path(name));
+    const shared::ViewParams view = view_params(scene.cameras.front(), {160, 120});
+    std::vector<Ray> rays;
+    for (int y = 0; y < 120; ++y)
+      for (int x = 0; x < 160; ++x) rays.push_back(pixel_ray(view, x, y));
+    const std::vector<Hit> expected = trace(Tracer(scene, {}, Isa::scalar), rays);
+    for (const Isa isa : supported_isas()) EXPECT_EQ(trace(Tracer(scene, {}, isa), rays), expected) << name;
+  }
+}
+
+// From the middle of a closed, jagged ball towards points on its edges and at its vertices: a ray that
+// hits nothing slipped through between two triangles.
+TEST(Tracer, NothingLeaksThroughEdgesAndVertices) {
+  for (const glm::vec3& center : {glm::vec3(0.0f), glm::vec3(1000.0f, -300.0f, 20.0f)}) {
+    Scene ball;
+    MeshBuilder mesh(ball);
+    mesh.use(Material{});
+    mesh.sphere(center, 1.0f, 32);
+    Random random(41);
+    for (glm::vec3& p : ball.positions) p = center + (p - center) * random.between(0.7f, 1.3f);
+    std::vector<Ray> rays;
+    for (int i = 0; i < 400000; ++i) {
+      const glm::uvec3& t = ball.triangles[random.next() % ball.triangles.size()];
+      const glm::vec3 a = ball.positions[t.x], b = ball.positions[t.y];
+      const glm::vec3 target = i % 4 == 0 ? a : glm::mix(a, b, random.between(0.0f, 1.0f));
+      const glm::vec3 origin = center + 0.3f * random_point(random, 1.0f);
+      rays.push_back({origin, kInfinity, target - origin});
+    }
+    for (const Isa isa : supported_isas()) {
+      const Tracer tracer(ball, {}, isa);
+      const std::vector<Hit> hits = trace(tracer, rays);
+      EXPECT_EQ(std::count_if(hits.begin(), hits.end(), [](const Hit& h) { return !h.valid(); }), 0)
+          << center.x;
+      const std::vector<std::uint8_t> stopped = blocked(tracer, rays);
+      EXPECT_EQ(std::count(stopped.begin(), stopped.end(), 0), 0);
+    }
+  }
+}
+
+TEST(Tracer, EqualDistancesGoToTheLowerId) {
+  Scene scene;
+  for (int i = 0; i < 9; ++i) add_triangle(scene, {-1, -1, 0}, {1, -1, 0}, {0, 1, 0});
+  for (const Isa isa : supported_isas()) {
+    const Tracer tracer(scene, {}, isa);
+    const Hit hit = trace(tracer, {{{0, 0, 3}, kInfinity, {0, 0, -1}}}).front();
+    EXPECT_EQ(hit.triangle, 0u);
+    EXPECT_EQ(hit.t, 3.0f);
+  }
+}
+
+TEST(Tracer, RaysThatAreNoneHitNothing) {
+  const Scene scene = random_soup(2000, 0.3f, 31);
+  const float nan = std::numeric_limits<float>::quiet_NaN();
+  const std::vector<Ray> rays{{{nan, 0, 0}, kInfinity, {0, 0, 1}},
+                              {{0, 0, -3}, kInfinity, {0, nan, 1}},
+                              {{0, 0, -3}, kInfinity, {0, 0, 0}},
+                              {{0, 0, -3}, kInfinity, {0, 0, kInfinity}},
+                              {{kInfinity, 0, 0}, kInfinity, {-1, 0, 0}},
+                              {{0, 0, -3}, nan, {0, 0, 1}},
+                              {{0, 0, -3}, 0.0f, {0, 0, 1}},
+                              {{0, 0, -3}, -1.0f, {0, 0, 1}}};
+  for (const Isa isa : supported_isas()) {
+    const Tracer tracer(scene, {}, isa);
+    for (const Hit& hit : trace(tracer, rays)) EXPECT_FALSE(hit.valid());
+    for (const std::uint8_t b : blocked(tracer, rays)) EXPECT_EQ(b, 0);
+  }
+}
+
+TEST(Tracer, AxisParallelRaysWithSignedZerosHit) {
+  // A closed box of twelve triangles around the origin: every ray from inside must hit.
+  Scene scene;
+  const glm::vec3 lo(-1.0f), hi(1.0f);
+  for (int axis = 0; axis < 3; ++axis)
+    for (const float side : {lo.x, hi.x}) {
+      const auto corner = [&](float u, float v) {
+        glm::vec3 p;
+        p[axis] = side;
+        p[(axis + 1) % 3] = u;
+        p[(axis + 2) % 3] = v;
+        return p;
+      };
+      add_triangle(scene, corner(-1, -1), corner(1, -1), corner(1, 1));
+      add_triangle(scene, corner(-1, -1), corner(1, 1), corner(-1, 1));
+    }
+  for (const Isa isa : supported_isas()) {
+    const Tracer tracer(scene, {}, isa);
+    for (const float x : {-1.0f, -0.0f, 0.0f, 1.0f})
+      for (const float y : {-1.0f, -0.0f, 0.0f, 1.0f})
+        for (const float z : {-1.0f, -0.0f, 0.0f, 1.0f}) {
+          if (x == 0.0f && y == 0.0f && z == 0.0f) continue;
+          const Ray ray{{0.1f, 0.2f, 0.3f}, kInfinity, {x, y, z}};
+          EXPECT_TRUE(trace(tracer, {ray}).front().valid()) << x << " " << y << " " << z;
+        }
+  }
+}
+
+TEST(Tracer, RefusesWhatTheProcessorLacks) {
+  EXPECT_EQ(parse_isa("sse4"), Isa::sse4);
+  EXPECT_EQ(parse_isa("mmx"), std::nullopt);
+  EXPECT_EQ(supported_isas().front(), Isa::scalar);
+}
+
+TEST(ProjectedTriangle, FillsThreeQuartersOfACacheLine) {
+  EXPECT_EQ(sizeof(ProjectedTriangle), 48u);
+}
+
+}  // namespace
+}  // namespace pinocchio

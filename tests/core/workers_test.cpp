@@ -1,0 +1,48 @@
+#include "core/parallel/workers.h"
+
+#include <gtest/gtest.h>
+
+#include <atomic>
+#include <stdexcept>
+
+#include "core/parallel/tiles.h"
+
+namespace pinocchio {
+namespace {
+
+TEST(Workers, DoEveryItemOnce) {
+  for (const int threads : {1, 2, 5}) {
+    Workers workers(threads);
+    EXPECT_EQ(workers.count(), threads);
+    for (const std::size_t n : {0u, 1u, 3u, 1000u}) {
+      std::vector<std::atomic<int>> done(n);
+      workers.for_each(n, [&](std::size_t i) { ++done[i]; });
+      for (const std::atomic<int>& d : done) EXPECT_EQ(d, 1);
+    }
+  }
+}
+
+TEST(Workers, WhatABodyThrowsReachesTheCallerAndTheNextJobRuns) {
+  Workers workers(4);
+  const auto fail = [](std::size_t i) {
+    if (i == 17) throw std::runtime_error("seventeen");
+  };
+  EXPECT_THROW(workers.for_each(100, fail), std::runtime_error);
+  std::atomic<int> done{0};
+  workers.for_each(100, [&](std::size_t) { ++done; });
+  EXPECT_EQ(done, 100);
+}
+
+TEST(Tiles, CoverEveryPixelOnce) {
+  for (const glm::ivec2 size : {glm::ivec2(1, 1), glm::ivec2(33, 65), glm::ivec2(7, 130)}) {
+    const TileGrid grid(size);
+    std::vector<int> seen(static_cast<std::size_t>(size.x * size.y), 0);
+    for (std::size_t i = 0; i < grid.count(); ++i)
+      TileGrid::for_each_pixel(grid.tile(i),
+                               [&](int x, int y) { ++seen[static_cast<std::size_t>(y * size.x + x)]; });
+    for (const int s : seen) EXPECT_EQ(s, 1);
+  }
+}
+
+}  // namespace
+}  // namespace pinocchio

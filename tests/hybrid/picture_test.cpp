@@ -1,0 +1,166 @@
+// Pictures of the GPU and of the CPU against each other.
+#include <cmath>
+
+#include "core/image/tonemap.h"
+#include "core/trace/view.h"
+#include "hybrid/steps.h"
+#include "tests/support/draw.h"
+#include "tests/support/gl_test.h"
+
+namespace pinocchio {
+namespace {
+
+constexpr glm::ivec2 kSize{800, 600};
+
+// As a screen shows it, 0 to 255.
+glm::vec3 shown(const glm::vec4& linear) {
+  glm::vec3 result;
+  for (int c = 0; c < 3; ++c) result[c] = 255.0f * linear_to_srgb(std::clamp(linear[c], 0.0f, 1.0f));
+  return result;
+}
+
+float largest_difference(const glm::vec4& a, const glm::vec4& b) {
+  const glm::vec3 on_screen = glm::abs(shown(a) - shown(b));
+  const glm::vec3 linear =
+      255.0f * glm::abs(glm::clamp(glm::vec3(a), 0.0f, 1.0f) - glm::clamp(glm::vec3(b), 0.0f, 1.0f));
+  return std::max({on_screen.x, on_screen.y, on_screen.z, linear.x, linear.y, linear.z});
+}
+
+void compare_modes(const Scene& scene, const std::string& name) {
+  const Picture hybrid = draw_one(scene, {.mode = Mode::hybrid, .size = kSize});
+  const Picture traced = draw_one(scene, {.mode = Mode::raytrace, .size = kSize});
+  std::size_t other_triangle = 0;
+  float largest = 0.0f;
+  for (std::size_t i = 0; i < hybrid.ids.pixels().size(); ++i) {
+    if (hybrid.ids[i] != traced.ids[i]) {
+      ++other_triangle;
+    } else {
+      largest = std::max(largest, largest_difference(hybrid.color[i], traced.color[i]));
+    }
+  }
+  const double share = static_cast<double>(other_triangle) / static_cast<double>(hybrid.ids.pixels().size());
+  std::printf("  %s: another triangle at %zu pixels (%.4f %%), elsewhere at most %.3f/255 apart\n",
+              name.c_str(), other_triangle, 100.0 * share, static_cast<double>(largest));
+  EXPECT_LT(share, 0.005);
+  EXPECT_LT(largest, 2.0f);
+}
+
+class Modes : public testing::TestWithParam<std::string> {};
+INSTANTIATE_TEST_SUITE_P(Scenes, Modes, testing::ValuesIn(own_scenes()),
+                         [](const auto& scene) { return "scene" + std::to_string(scene.index); });
+
+TEST_P(Modes, HybridIsRaytrace) {
+  compare_modes(load_or_die(source_path(GetParam())), GetParam());
+}
+
+TEST(ModesOfTheBunny, HybridIsRaytrace) {
+  const std::optional<std::filesystem::path> path = extra_scene("stanford-bunny.obj");
+  if (!path) GTEST_SKIP() << "PINOCCHIO_EXTRA_SCENES is not set: the bunny is not compared";
+  Scene scene = load_or_die(*path);
+  scene.lights = {default_light(scene, camera_for_whole_scene(scene)), point_light({0.3f, 0.5f, 0.2f})};
+  compare_modes(scene, "stanford-bunny.obj");
+}
+
+// Every light on, by the GPU and by the CPU, at the GPU's hits.
+TEST_P(Modes, PhongOfTheGpuIsPhongOfTheCpu) {
+  const Scene scene = load_or_die(source_path(GetParam()));
+  const Picture raster = draw_one(scene, {.mode = Mode::raster, .size = kSize});
+  Workers workers(2);
+  const Tracer tracer(scene);
+  const TraceJob job{scene, tracer, workers, view_params(first_camera(scene), kSize)};
+  MaskImage lit(kSize, MaskImage::bits_for(static_cast<int>(casting_lights(scene).size())));
+  for (int y = 0; y < kSize.y; ++y)
+    for (int x = 0; x < kSize.x; ++x)
+      for (int slot = 0; slot < lit.bits(); ++slot) lit.set_bit(x, y, slot);
+  Image<glm::vec4> by_cpu;
+  shade(job, raster.ids, lit, {}, by_cpu);
+  float largest = 0.0f;
+  for (std::size_t i = 0; i < by_cpu.pixels().size(); ++i)
+    largest = std::max(largest, largest_difference(by_cpu[i], raster.color[i]));
+  std::printf("  %s: at most %.3f/255 apart\n", GetParam().c_str(), static_cast<double>(largest));
+  EXPECT_LE(largest, 1.0f);
+}
+
+TEST_P(Modes, EglAndOsmesaDrawTheSame) {
+  const Scene scene = load_or_die(source_path(GetParam()));
+  EXPECT_TRUE(same_pixels(draw_one(scene, {.backend = "egl"}), draw_one(scene, {.backend = "osmesa"})));
+}
+
+TEST_P(Modes, SamePixelsForAnyNumberOfThreads) {
+  const Scene scene = load_or_die(source_path(GetParam()));
+  for (const Mode mode : {Mode::hybrid, Mode::raytrace}) {
+    const Picture one = draw_one(scene, {.mode = mode, .threads = 1});
+    for (const int threads : {2, 4})
+      EXPECT_TRUE(same_pixels(one, draw_one(scene, {.mode = mode, .threads = threads}))) << threads;
+  }
+}
+
+TEST_P(Modes, APartIsThatPartOfTheWhole) {
+  const Scene scene = load_or_die(source_path(GetParam()));
+  const PixelBox part{{101, 57}, {214, 190}};
+  for (const Mode mode : {Mode::hybrid, Mode::raytrace}) {
+    const Picture whole = draw_one(scene, {.mode = mode}),
+                  cut = draw_one(scene, {.mode = mode, .part = part});
+    ASSERT_EQ(cut.color.size(), part.size());
+    int other_triangle = 0;
+    for (int y = 0; y < part.size().y; ++y)
+      for (int x = 0; x < part.size().x; ++x) {
+        if (cut.ids.at(x, y) != whole.ids.at(part.lo.x + x, part.lo.y + y)) {
+          ++other_triangle;
+        } else {
+          ASSERT_EQ(cut.color.at(x, y), whole.color.at(part.lo.x + x, part.lo.y + y));
+        }
+      }
+    // A rasteriser snaps vertices relative to its viewport; rays know no such thing.
+    EXPECT_LE(other_triangle, mode == Mode::raytrace ? 0 : 5);
+  }
+}
+
+TEST(Samples, AreAveragedAndTheFirstIsThePixelsCentre) {
+  const Scene scene = load_or_die(source_path("scenes/two-lights"));
+  const Picture one = draw_one(scene, {.mode = Mode::raytrace}),
+                many = draw_one(scene, {.mode = Mode::raytrace, .spp = 16});
+  EXPECT_TRUE(std::ranges::equal(one.ids.pixels(), many.ids.pixels()));
+  double mean_one = 0.0, mean_many = 0.0;
+  for (std::size_t i = 0; i < one.color.pixels().size(); ++i) {
+    mean_one += static_cast<double>(one.color[i].g);
+    mean_many += static_cast<double>(many.color[i].g);
+  }
+  EXPECT_NEAR(mean_many / mean_one, 1.0, 0.01);
+  EXPECT_FALSE(std::ranges::equal(one.color.pixels(), many.color.pixels()));
+}
+
+TEST(Textures, LookTheSameOnBothSides) {
+  Scene scene = plate_over_floor();
+  scene.lights = {point_light({1, 6, 5})};
+  Texture texture{"t", Image<glm::u8vec4>({5, 3})};
+  Random random(9);
+  for (glm::u8vec4& t : texture.texels.pixels())
+    t = glm::u8vec4(random.next() % 256, random.next() % 256, random.next() % 256, 255);
+  scene.textures = {texture, texture};
+  scene.materials[0].diffuse_texture = 1;
+  for (const glm::vec3& p : scene.positions) scene.texcoords.emplace_back(0.37f * p.x, -0.53f * p.z);
+  compare_modes(scene, "textured plate");
+}
+
+TEST(Lights, OfEveryKindLookTheSameOnBothSides) {
+  Scene scene = plate_over_floor();
+  Light sun;
+  sun.kind = Light::Kind::directional;
+  sun.direction = glm::normalize(glm::vec3(-1, -2, -1));
+  Light spot = point_light({2, 5, 1});
+  spot.kind = Light::Kind::spot;
+  spot.direction = glm::normalize(glm::vec3(-0.3f, -1, 0));
+  spot.cos_inner = 0.95f;
+  spot.cos_outer = 0.7f;
+  Light bulb = point_light({-2, 3, 2}, false);
+  bulb.falloff = Light::Falloff::inverse_square;
+  bulb.intensity = 6.0f;
+  bulb.range = 5.0f;
+  scene.lights = {sun, spot, bulb};
+  for (Light& light : scene.lights) light.intensity *= 0.4f;
+  compare_modes(scene, "lights of every kind");
+}
+
+}  // namespace
+}  // namespace pinocchio
