@@ -22,7 +22,8 @@ Path read_path(const std::string& file, const Camera& camera) {
   if (!in) throw Exit(kUsage, file + ": cannot be read; --path takes a JSON file of key frames");
   Path path;
   try {
-    for (const nlohmann::json& key : nlohmann::json::parse(in).at("keyframes")) {
+    const nlohmann::json json = nlohmann::json::parse(in);
+    for (const nlohmann::json& key : json.at("keyframes")) {
       CameraFrame frame{key.at("frame").get<int>(), camera};
       frame.camera.eye = vec3_of(key.at("eye"));
       frame.camera.target = vec3_of(key.at("target"));

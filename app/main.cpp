@@ -48,6 +48,8 @@ int parse_and_run(int argc, char** argv) {
     if (error.get_exit_code() == 0) return program.exit(error);  // --help, --version
     const std::vector<CLI::App*> chosen = program.get_subcommands();
     const std::string verb = chosen.empty() ? "" : " " + chosen.front()->get_name();
+    if (chosen.empty() && argc > 1 && argv[1][0] != '-')
+      return say(std::string("'") + argv[1] + "' is no verb; 'pinocchio --help' lists them", kUsage);
     return say(std::string(error.what()) + "; 'pinocchio" + verb + " --help' tells what there is", kUsage);
   }
   catch_interrupts();

@@ -1,5 +1,7 @@
 // Many thin triangles and as many shadow edges: what trees and builders find hard.
+#include <algorithm>
 #include <cmath>
+#include <string>
 
 #include "core/procedural/mesh_builder.h"
 #include "core/procedural/paint.h"
@@ -35,6 +37,20 @@ void add_needles(MeshBuilder& mesh, Random& random, const glm::vec3& foot, float
   }
 }
 
+// Evening haze behind the trees: half a ring on the side away from the sun, which it must not hide.
+void add_haze(MeshBuilder& mesh, float half) {
+  constexpr int kBands = 16;
+  const float radius = 2.2f * half, below = -0.15f * half - 2.0f, above = 0.44f * half + 8.0f;
+  for (int band = 0; band < kBands; ++band) {
+    const float t0 = static_cast<float>(band) / kBands, t1 = static_cast<float>(band + 1) / kBands;
+    const glm::vec3 low(0.62f, 0.60f, 0.52f), high(0.22f, 0.38f, 0.58f);
+    mesh.use(glowing("haze " + std::to_string(band), glm::mix(low, high, 0.5f * (t0 + t1))));
+    mesh.surface(32, 1, false, [=](float u, float v) {  // seen from within
+      return polar(radius, -3.1415927f * (1.0f - u), glm::mix(below, above, glm::mix(t0, t1, v)));
+    });
+  }
+}
+
 }  // namespace
 
 Scene make_forest(int triangles) {
@@ -56,6 +72,7 @@ Scene make_forest(int triangles) {
   for (int i = 0; i < trees; ++i)
     stand.push_back(
         {{random.between(-half, half), -0.1f, random.between(-half, half)}, random.between(2.0f, 4.5f)});
+  add_haze(mesh, half);
   mesh.use(matt("bark", {0.11f, 0.06f, 0.03f}));
   for (const Tree& tree : stand) add_trunk(mesh, tree.foot, tree.height);
   mesh.use(glossy("needles", {0.07f, 0.22f, 0.06f}, 0.15f, 20.0f));

@@ -1,8 +1,9 @@
 // "balls" of Eric Haines' Standard Procedural Databases (1987): a sphere with nine smaller ones around it,
 // each with nine of its own, and so on; here of triangles.
+#include <algorithm>
 #include <array>
 #include <cmath>
-#include <glm/gtc/matrix_transform.hpp>
+#include <string>
 
 #include "core/procedural/mesh_builder.h"
 #include "core/procedural/paint.h"
@@ -32,16 +33,66 @@ glm::mat3 frame_of(const glm::vec3& up) {
   return {glm::cross(up, z), up, z};
 }
 
-void add_balls(MeshBuilder& mesh, const glm::vec3& center, float radius, const glm::mat3& frame, int levels,
-               int around) {
-  mesh.sphere(center, radius, around);
-  if (levels == 0) return;
+// How finely the spheres of a level are cut: the small ones, of which there are many, coarsely.
+int around_of(int level, int finest) {
+  const float around = static_cast<float>(finest) / std::pow(2.0f, static_cast<float>(level));
+  return std::max(8, 2 * static_cast<int>(std::lround(0.5f * around)));
+}
+
+long long count_of(int levels, int finest) {
+  long long spheres = 1, sum = 0;
+  for (int level = 0; level <= levels; ++level, spheres *= 9) {
+    const int around = around_of(level, finest);
+    sum += spheres * 2 * around * (around / 2 - 1);
+  }
+  return sum;
+}
+
+struct Fineness {
+  int levels = 0;  // below the first sphere
+  int finest = 8;  // corners around the first sphere
+};
+
+// As many levels as there are triangles for, then as fine as they allow.
+Fineness fineness_for(int triangles) {
+  constexpr int kRound = 48, kMaxLevels = 7;  // a first sphere that looks round
+  Fineness fineness;
+  while (fineness.levels < kMaxLevels && count_of(fineness.levels + 1, kRound) <= triangles)
+    ++fineness.levels;
+  while (count_of(fineness.levels, fineness.finest + 2) <= triangles) fineness.finest += 2;
+  return fineness;
+}
+
+void add_balls(MeshBuilder& mesh, const glm::vec3& center, float radius, const glm::mat3& frame, int level,
+               const Fineness& fineness) {
+  mesh.sphere(center, radius, around_of(level, fineness.finest));
+  if (level == fineness.levels) return;
   static const std::array<glm::vec3, 9> kDirections = nine_directions();
   const float smaller = radius / 3.0f;
   for (const glm::vec3& direction : kDirections) {
     const glm::vec3 up = glm::normalize(frame * direction);
-    add_balls(mesh, center + (radius + smaller) * up, smaller, frame_of(up), levels - 1,
-              std::max(8, around * 2 / 3));
+    add_balls(mesh, center + (radius + smaller) * up, smaller, frame_of(up), level + 1, fineness);
+  }
+}
+
+// A sky for the spheres to mirror, above the lights, and a floor that reaches it.
+void add_surroundings(MeshBuilder& mesh) {
+  constexpr int kBands = 16;
+  const float radius = 40.0f, floor = -0.5f;
+  mesh.use(matt("floor", {0.62f, 0.44f, 0.22f}));
+  mesh.quad({-radius, floor, radius}, {radius, floor, radius}, {radius, floor, -radius},
+            {-radius, floor, -radius});
+  const glm::vec3 low(0.42f, 0.56f, 0.72f), high(0.05f, 0.20f, 0.46f);
+  for (int band = 0; band < kBands; ++band) {
+    const float t0 = static_cast<float>(band) / kBands, t1 = static_cast<float>(band + 1) / kBands;
+    mesh.use(glowing("sky " + std::to_string(band), glm::mix(low, high, std::sqrt(0.5f * (t0 + t1)))));
+    mesh.surface(32, 1, true, [=](float u, float v) {  // seen from within
+      const bool top = band == kBands - 1 && v == 1.0f;
+      const float e = 1.5707963f * glm::mix(t0, t1, v), phi = 6.2831853f * u;
+      const float ring = top ? 0.0f : std::cos(e);
+      return glm::vec3(radius * ring * std::cos(phi), floor + radius * std::sin(e),
+                       radius * ring * std::sin(phi));
+    });
   }
 }
 
@@ -50,22 +101,11 @@ void add_balls(MeshBuilder& mesh, const glm::vec3& center, float radius, const g
 Scene make_spd_balls(int triangles) {
   Scene scene;
   MeshBuilder mesh(scene);
-  mesh.use(matt("floor", {0.55f, 0.50f, 0.40f}));
-  mesh.quad({-8, -0.5f, 8}, {8, -0.5f, 8}, {8, -0.5f, -8}, {-8, -0.5f, -8});
-  Material steel = mirror("steel", glm::vec3(0.5f));
-  steel.ambient = steel.diffuse = {0.35f, 0.30f, 0.22f};
-  mesh.use(steel);
-  // As many levels as there are triangles for.
-  const auto count = [](int levels) {
-    long long spheres = 1, sum = 0;
-    int around = 48;
-    for (int i = 0; i <= levels; ++i, spheres *= 9, around = std::max(8, around * 2 / 3))
-      sum += spheres * 2 * around * (around / 2 - 1);
-    return sum;
-  };
-  int levels = 0;
-  while (levels < 7 && count(levels + 1) <= triangles * 5LL / 4) ++levels;
-  add_balls(mesh, {0, 0, 0}, 0.5f, glm::mat3(1.0f), levels, 48);
+  add_surroundings(mesh);
+  Material gold = mirror("gold", {0.55f, 0.48f, 0.36f});
+  gold.ambient = gold.diffuse = {0.34f, 0.22f, 0.09f};
+  mesh.use(gold);
+  add_balls(mesh, {0, 0, 0}, 0.5f, glm::mat3(1.0f), 0, fineness_for(triangles));
 
   scene.ambient_light = glm::vec3(0.15f);
   const std::array<glm::vec3, 3> places{{{4, 5, 3}, {-3, 4, 4}, {1, 3, -4}}};

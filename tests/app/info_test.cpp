@@ -1,0 +1,38 @@
+#include <nlohmann/json.hpp>
+
+#include "tests/app/program_test.h"
+
+namespace pinocchio {
+namespace {
+
+using InfoTest = ProgramTest;
+
+TEST_F(InfoTest, SystemListsWhatWasTriedAndWhyItFailed) {
+  const CommandResult result = run("info --system");
+  EXPECT_EQ(result.exit_code, 0);
+  EXPECT_NE(result.out.find("OSMesa"), std::string::npos);
+  const nlohmann::json json = nlohmann::json::parse(run("info --system --json").out);
+  EXPECT_FALSE(json["contexts"].empty());
+  for (const nlohmann::json& context : json["contexts"])
+    EXPECT_TRUE(context["works"].get<bool>() ? context.contains("renderer") : context.contains("failure"));
+}
+
+TEST_F(InfoTest, SceneIsDescribed) {
+  const CommandResult result = run("info" + scene("two-lights"));
+  EXPECT_EQ(result.exit_code, 0);
+  EXPECT_NE(result.out.find("light 'key', casts shadows"), std::string::npos) << result.out;
+  const nlohmann::json json = nlohmann::json::parse(run("info --json" + scene("two-lights")).out);
+  EXPECT_EQ(json["needs"]["casting_lights"], 1);
+  EXPECT_EQ(json["needs"]["reflection"], true);
+}
+
+TEST_F(InfoTest, HelpNamesUnitsAndVersionIsTold) {
+  EXPECT_EQ(run("--version").exit_code, 0);
+  const CommandResult help = run("render --help");
+  EXPECT_EQ(help.exit_code, 0);
+  for (const char* word : {"degrees", "pixels", "stops", "--size", "--backend"})
+    EXPECT_NE(help.out.find(word), std::string::npos) << word;
+}
+
+}  // namespace
+}  // namespace pinocchio

@@ -1,0 +1,110 @@
+// Includes run one way: app -> hybrid -> {core, gl}; core and gl never see each other, and within core a
+// room sees only rooms below it.
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+#include <map>
+#include <regex>
+#include <set>
+#include <string>
+#include <vector>
+
+namespace pinocchio {
+namespace {
+
+using Rooms = std::map<std::string, std::set<std::string>>;
+
+// What each room may include beside itself.
+const Rooms kMaySee{{"core", {"shaders"}},
+                    {"gl", {}},
+                    {"hybrid", {"core", "gl"}},
+                    {"app", {"core", "gl", "hybrid"}},
+                    {"bench", {"core"}}};
+const Rooms kMaySeeInCore{{"base", {}},
+                          {"math", {}},
+                          {"simd", {}},
+                          {"parallel", {"base"}},
+                          {"image", {"base", "math", "parallel"}},
+                          {"scene", {"base", "math", "image"}},
+                          {"procedural", {"base", "math", "scene"}},
+                          {"bsp", {"base", "math", "scene"}},
+                          {"trace", {"base", "math", "image", "scene", "bsp", "simd", "parallel"}},
+                          {"output", {"base", "math", "image", "scene", "parallel", "trace"}}};
+
+std::vector<std::string> includes_of(const std::filesystem::path& file) {
+  std::vector<std::string> found;
+  std::ifstream in(file);
+  for (std::string line; std::getline(in, line);) {
+    constexpr std::string_view kInclude = "#include \"";
+    if (line.rfind(kInclude, 0) == 0)
+      found.push_back(line.substr(kInclude.size(), line.rfind('"') - kInclude.size()));
+  }
+  return found;
+}
+
+bool is_source(const std::filesystem::path& file) {
+  return file.extension() == ".h" || file.extension() == ".cpp";
+}
+
+// "file includes what" for every include that no rule allows. Rooms are folders of `root`; includes
+// begin with `prefix`.
+std::vector<std::string> violations(const std::filesystem::path& root, const std::string& prefix,
+                                    const Rooms& may_see) {
+  std::vector<std::string> found;
+  for (const auto& [room, others] : may_see) {
+    if (!std::filesystem::exists(root / room)) continue;
+    for (const auto& entry : std::filesystem::recursive_directory_iterator(root / room)) {
+      if (!is_source(entry.path())) continue;
+      for (const std::string& include : includes_of(entry.path())) {
+        if (include.rfind(prefix, 0) != 0) continue;
+        const std::string rest = include.substr(prefix.size());
+        const std::string other = rest.substr(0, rest.find('/'));
+        if (other != room && !others.count(other))
+          found.push_back(entry.path().string() + " includes " + include);
+      }
+    }
+  }
+  return found;
+}
+
+TEST(Layers, IncludesRunOneWay) {
+  for (const std::string& violation : violations(PINOCCHIO_SOURCE_DIR, "", kMaySee))
+    ADD_FAILURE() << violation;
+}
+
+TEST(Layers, WithinCoreToo) {
+  const std::filesystem::path core = std::filesystem::path(PINOCCHIO_SOURCE_DIR) / "core";
+  for (const std::string& violation : violations(core, "core/", kMaySeeInCore)) ADD_FAILURE() << violation;
+  for (const auto& entry : std::filesystem::directory_iterator(core)) {
+    if (entry.is_directory()) {
+      EXPECT_TRUE(kMaySeeInCore.count(entry.path().filename().string())) << entry.path() << " has no rule";
+    }
+  }
+}
+
+TEST(Layers, GlCallsLiveInGlAlone) {
+  const std::filesystem::path root(PINOCCHIO_SOURCE_DIR);
+  const std::regex kCall(R"(\bgl[A-Z]\w*\()");
+  for (const char* room : {"core", "hybrid", "app"})
+    for (const auto& entry : std::filesystem::recursive_directory_iterator(root / room)) {
+      if (!is_source(entry.path())) continue;
+      std::ifstream in(entry.path());
+      const std::string text((std::istreambuf_iterator<char>(in)), {});
+      std::smatch call;
+      EXPECT_FALSE(std::regex_search(text, call, kCall)) << entry.path() << " calls " << call.str();
+    }
+}
+
+TEST(Layers, AViolationIsFound) {
+  const std::filesystem::path root = std::filesystem::path(testing::TempDir()) / "layers";
+  std::filesystem::create_directories(root / "core/math");
+  std::filesystem::create_directories(root / "gl");
+  std::ofstream(root / "core/math/bad.h") << "#pragma once\n#include \"gl/context.h\"\n";
+  std::ofstream(root / "gl/bad.cpp") << "#include \"core/scene/scene.h\"\n#include \"gl/good.h\"\n";
+  EXPECT_EQ(violations(root, "", kMaySee).size(), 2u);
+  std::filesystem::remove_all(root);
+}
+
+}  // namespace
+}  // namespace pinocchio

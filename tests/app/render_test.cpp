@@ -1,0 +1,145 @@
+#include <nlohmann/json.hpp>
+
+#include "core/image/exr.h"
+#include "tests/app/program_test.h"
+
+namespace pinocchio {
+namespace {
+
+class RenderTest : public ProgramTest {
+ protected:
+  [[nodiscard]] ExrFile exr(const std::string& name) const {
+    Expected<ExrFile> file = read_exr(folder_ / name);
+    EXPECT_TRUE(file) << file.error().message();
+    return file ? std::move(*file) : ExrFile{};
+  }
+  [[nodiscard]] nlohmann::json json(const std::string& name) const {
+    std::ifstream in(folder_ / name);
+    return nlohmann::json::parse(in, nullptr, false);
+  }
+  void expect_done(const std::string& arguments) {
+    const CommandResult result = run(arguments);
+    EXPECT_EQ(result.exit_code, 0) << arguments << "\n" << result.err;
+  }
+};
+
+const std::string kSmall = "--size 80x60 --quiet ";
+
+bool same_pixels(const ExrFile& a, const ExrFile& b) {
+  if (a.channels.size() != b.channels.size()) return false;
+  for (std::size_t i = 0; i < a.channels.size(); ++i)
+    if (a.channels[i].values != b.channels[i].values || a.channels[i].uints != b.channels[i].uints)
+      return false;
+  return true;
+}
+
+TEST_F(RenderTest, WritesEveryChannelAndTheFigures) {
+  expect_done("render" + scene("two-lights") + kSmall + "-o x.exr --preview x.png --stats-json x.json");
+  const ExrFile file = exr("x.exr");
+  for (const char* name :
+       {"R", "G", "B", "A", "Z", "P.X", "P.Y", "P.Z", "N.X", "N.Y", "N.Z", "Albedo.R", "Albedo.G", "Albedo.B",
+        "id.triangle", "shadow.mask", "reflection.R", "reflection.G", "reflection.B"})
+    EXPECT_NE(file.find(name), nullptr) << name;
+  for (const char* name : {"worldToCamera", "worldToNDC", "pinocchio.version", "pinocchio.plan",
+                           "pinocchio.lights", "renderTimeSeconds"})
+    EXPECT_EQ(file.attributes.count(name), 1u) << name;
+  EXPECT_TRUE(exists("x.png"));
+
+  const nlohmann::json figures = json("x.json");
+  EXPECT_EQ(figures["bytes"]["gpu_to_cpu"], 80 * 60 * 2);            // 16-bit ids
+  EXPECT_EQ(figures["bytes"]["cpu_to_gpu"], 10 * 60 + 80 * 60 * 6);  // one bit, and half RGB
+  EXPECT_EQ(figures["bytes"]["buffers"]["mask"], 10 * 60);
+  EXPECT_EQ(figures["latency"]["frames"], 0);
+  for (const char* stage :
+       {"raster", "readback", "trace_shadow", "trace_reflection", "upload", "composite", "present"})
+    for (const char* p : {"p50", "p95", "p99"})
+      EXPECT_TRUE(figures["stages"][stage]["ms"][p].is_number()) << stage;
+  for (const char* kind : {"primary", "shadow", "reflection", "refraction"})
+    EXPECT_TRUE(figures["rays"][kind].is_number());
+  EXPECT_GT(figures["rays"]["shadow"], 0);
+  EXPECT_GT(figures["fps"], 0.0);
+  EXPECT_EQ(figures["plan"]["mask_bits"], 1);
+  EXPECT_TRUE(figures["system"]["gl"]["kind"] == "software" || figures["system"]["gl"]["kind"] == "hardware");
+}
+
+TEST_F(RenderTest, DeterministicFilesAreEqualToTheByte) {
+  for (const char* name : {"a.exr", "b.exr"})
+    expect_done("render" + scene("cornell") + kSmall + "--deterministic -o " + name);
+  EXPECT_EQ(run_command("cd '" + folder_.string() + "' && cmp a.exr b.exr", folder_ / "scratch").exit_code,
+            0);
+}
+
+TEST_F(RenderTest, ThreadsIsaAndExchangeDoNotChangeThePixels) {
+  expect_done("render" + scene("two-lights") + kSmall + "-o a.exr");
+  for (const char* options :
+       {"--threads 1", "--threads 4", "--isa scalar", "--isa sse4", "--exchange pipelined"}) {
+    expect_done("render" + scene("two-lights") + kSmall + options + " -o b.exr");
+    EXPECT_TRUE(same_pixels(exr("a.exr"), exr("b.exr"))) << options;
+  }
+  expect_done("render" + scene("two-lights") + kSmall + "--backend osmesa -o b.exr");
+  EXPECT_TRUE(same_pixels(exr("a.exr"), exr("b.exr"))) << "osmesa";
+}
+
+TEST_F(RenderTest, CropKeepsTheDisplayWindow) {
+  expect_done("render" + scene("cornell") + kSmall + "--crop 10,20,50,45 --mode raytrace -o x.exr");
+  EXPECT_EQ(exr("x.exr").display_size, glm::ivec2(80, 60));
+  EXPECT_EQ(exr("x.exr").data_window, (PixelBox{{10, 20}, {50, 45}}));
+}
+
+TEST_F(RenderTest, FramesAreNumbered) {
+  expect_done("render" + scene("cornell") + kSmall + "--turntable 4 --stats-json x.json -o f####.exr");
+  for (const char* name : {"f0000.exr", "f0001.exr", "f0002.exr", "f0003.exr"})
+    EXPECT_TRUE(exists(name)) << name;
+  EXPECT_FALSE(same_pixels(exr("f0000.exr"), exr("f0001.exr")));
+  EXPECT_EQ(json("x.json")["latency"]["frames"], 2);  // over a range, pipelined
+  expect_done("render" + scene("cornell") + kSmall + "--turntable 4 --frames 1-3x2 -o g#.exr");
+  EXPECT_TRUE(exists("g1.exr") && exists("g3.exr") && !exists("g0.exr") && !exists("g2.exr"));
+  EXPECT_TRUE(same_pixels(exr("f0003.exr"), exr("g3.exr")));
+}
+
+TEST_F(RenderTest, CameraPath) {
+  write("path.json", R"({"keyframes": [{"frame": 0, "eye": [0, 1, 3], "target": [0, 1, 0]},
+                                       {"frame": 2, "eye": [0.4, 1, 3], "target": [0, 1, 0], "fov": 40}]})");
+  expect_done("render" + scene("cornell") + kSmall + "--path path.json -o p#.exr");
+  EXPECT_TRUE(exists("p0.exr") && exists("p1.exr") && exists("p2.exr") && !exists("p3.exr"));
+  expect_done("render" + scene("cornell") + kSmall + "--eye 0.2,1,3 --target 0,1,0 --fov 44 -o direct.exr");
+  expect_done("render" + scene("cornell") + kSmall + "--eye 0,1,3 --target 0,1,0 -o first.exr");
+  EXPECT_TRUE(same_pixels(exr("p0.exr"), exr("first.exr")));
+}
+
+TEST_F(RenderTest, LightsAreAddedAndADefaultOneIsSaid) {
+  write("t.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
+  const CommandResult result = run("render t.obj --size 80x60 --mode raytrace -o x.exr");
+  EXPECT_EQ(result.exit_code, 0);
+  EXPECT_NE(result.err.find("no light"), std::string::npos);
+  EXPECT_EQ(std::get<std::string>(exr("x.exr").attributes["pinocchio.lights"]).find("--light"),
+            std::string::npos);
+  expect_done("render t.obj " + kSmall + "--mode raytrace --light 1,2,3,0.5,nocast --light 3,2,1 -o x.exr");
+  const std::string lights = std::get<std::string>(exr("x.exr").attributes["pinocchio.lights"]);
+  EXPECT_EQ(nlohmann::json::parse(lights).size(), 1u);  // the one that casts
+}
+
+TEST_F(RenderTest, GeneratesScenesThatItCanDraw) {
+  for (const char* name : {"spd:balls", "forest"})
+    for (const char* file : {"s.gltf", "s.glb", "s.obj"}) {
+      expect_done(std::string("generate ") + name + " --triangles 5000 -o " + file);
+      expect_done("render " + std::string(file) + " " + kSmall + "--light 2,3,4 -o x.exr");
+    }
+}
+
+TEST_F(RenderTest, InterruptEndsWith130AndKeepsWhatWasFinished) {
+  const CommandResult result = run_command(
+      "cd '" + folder_.string() + "' && ( '" PINOCCHIO_PROGRAM "' render" + scene("cornell") +
+          "--size 320x240 --quiet --mode raytrace --spp 4 --turntable 100000 -o f######.exr & pid=$!; "
+          "while [ ! -e f000002.exr ]; do sleep 0.05; done; kill -INT $pid; wait $pid )",
+      folder_ / "scratch");
+  EXPECT_EQ(result.exit_code, 130) << result.err;
+  for (const auto& entry : std::filesystem::directory_iterator(folder_)) {
+    if (entry.path().extension() == ".exr") {
+      EXPECT_TRUE(read_exr(entry.path())) << entry.path();
+    }
+  }
+}
+
+}  // namespace
+}  // namespace pinocchio
