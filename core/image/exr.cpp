@@ -9,11 +9,14 @@
 #include <ImfMatrixAttribute.h>
 #include <ImfOutputFile.h>
 #include <ImfStandardAttributes.h>
+#include <ImfStdIO.h>
 #include <ImfStringAttribute.h>
 #include <half.h>
 
 #include <algorithm>
 #include <cmath>
+#include <fstream>
+#include <stdexcept>
 
 #include "core/image/atomic_file.h"
 
@@ -104,9 +107,15 @@ void write_file(const std::filesystem::path& file, const ExrFile& exr) {
         break;
     }
   }
-  Imf::OutputFile out(file.c_str(), header_of(exr));
-  out.setFrameBuffer(pixels);
-  out.writePixels(exr.data_window.size().y);
+  // OutputFile's destructor swallows a failure to write the last bytes: the stream is ours, to ask it.
+  std::ofstream stream(file, std::ios::binary);
+  {
+    Imf::StdOFStream to(stream, file.c_str());
+    Imf::OutputFile out(to, header_of(exr));
+    out.setFrameBuffer(pixels);
+    out.writePixels(exr.data_window.size().y);
+  }
+  if (!stream.flush()) throw std::runtime_error("is the disk full?");
 }
 
 void read_attributes(const Imf::Header& header, ExrFile& exr) {
@@ -121,8 +130,22 @@ void read_attributes(const Imf::Header& header, ExrFile& exr) {
   }
 }
 
+// A damaged header may speak of more pixels than there is memory for; no file of this size holds them.
+void check_plausible(const Imf::Header& header, std::uintmax_t file_bytes) {
+  constexpr double kAlwaysRead = 1024.0 * 1024.0 * 1024.0;  // bytes
+  constexpr double kMostPacked = 2048.0;                    // deflate stays below 1032
+  const Imath::Box2i& data = header.dataWindow();
+  const double pixels = (static_cast<double>(data.max.x) - data.min.x + 1.0) *
+                        (static_cast<double>(data.max.y) - data.min.y + 1.0);
+  double bytes = 0.0;
+  for (auto it = header.channels().begin(); it != header.channels().end(); ++it) bytes += 4.0 * pixels;
+  if (bytes > kAlwaysRead && bytes > kMostPacked * static_cast<double>(file_bytes))
+    throw std::runtime_error("its header speaks of more pixels than the file can hold");
+}
+
 ExrFile read_file(const std::filesystem::path& file) {
   Imf::InputFile in(file.c_str());
+  check_plausible(in.header(), std::filesystem::file_size(file));
   const Imath::Box2i &display = in.header().displayWindow(), &data = in.header().dataWindow();
   ExrFile exr;
   exr.display_size = {display.max.x - display.min.x + 1, display.max.y - display.min.y + 1};

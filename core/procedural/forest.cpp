@@ -13,6 +13,7 @@ namespace {
 
 constexpr int kTrianglesOfTree = 640;
 constexpr int kTrianglesOfTrunk = 40;
+constexpr int kTrianglesAround = 2176;  // ground and haze
 
 glm::vec3 polar(float radius, float angle, float height) {
   return {radius * std::cos(angle), height, radius * std::sin(angle)};
@@ -37,10 +38,15 @@ void add_needles(MeshBuilder& mesh, Random& random, const glm::vec3& foot, float
   }
 }
 
+// From the middle to the haze; the trees stand within `half`.
+float reach_of(float half) {
+  return 2.2f * half + 8.0f;
+}
+
 // Evening haze behind the trees: half a ring on the side away from the sun, which it must not hide.
 void add_haze(MeshBuilder& mesh, float half) {
   constexpr int kBands = 16;
-  const float radius = 2.2f * half, below = -0.15f * half - 2.0f, above = 0.44f * half + 8.0f;
+  const float radius = reach_of(half), below = -0.5f, above = 0.44f * half + 9.0f;
   for (int band = 0; band < kBands; ++band) {
     const float t0 = static_cast<float>(band) / kBands, t1 = static_cast<float>(band + 1) / kBands;
     const glm::vec3 low(0.62f, 0.60f, 0.52f), high(0.22f, 0.38f, 0.58f);
@@ -56,11 +62,11 @@ void add_haze(MeshBuilder& mesh, float half) {
 Scene make_forest(int triangles) {
   Scene scene;
   MeshBuilder mesh(scene);
-  const int trees = std::max(1, triangles / kTrianglesOfTree);
+  const int trees = std::max(1, (triangles - kTrianglesAround) / kTrianglesOfTree);
   const float half = 1.1f * std::sqrt(static_cast<float>(trees));
   mesh.use(matt("ground", {0.16f, 0.12f, 0.07f}));
-  mesh.surface(24, 24, false, [half](float u, float v) {
-    const float x = (2.0f * u - 1.0f) * 1.5f * half, z = (1.0f - 2.0f * v) * 1.5f * half;
+  mesh.surface(24, 24, false, [reach = reach_of(half)](float u, float v) {
+    const float x = (2.0f * u - 1.0f) * reach, z = (1.0f - 2.0f * v) * reach;
     return glm::vec3(x, 0.15f * std::sin(0.4f * x) * std::cos(0.3f * z) - 0.15f, z);
   });
   struct Tree {

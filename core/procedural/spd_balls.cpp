@@ -77,18 +77,18 @@ void add_balls(MeshBuilder& mesh, const glm::vec3& center, float radius, const g
 
 // A sky for the spheres to mirror, above the lights, and a floor that reaches it.
 void add_surroundings(MeshBuilder& mesh) {
-  constexpr int kBands = 16;
-  const float radius = 40.0f, floor = -0.5f;
-  mesh.use(matt("floor", {0.62f, 0.44f, 0.22f}));
+  constexpr int kBands = 24;
+  const float radius = 18.0f, floor = -0.5f;
+  mesh.use(matt("floor", {0.26f, 0.29f, 0.33f}));
   mesh.quad({-radius, floor, radius}, {radius, floor, radius}, {radius, floor, -radius},
             {-radius, floor, -radius});
-  const glm::vec3 low(0.42f, 0.56f, 0.72f), high(0.05f, 0.20f, 0.46f);
+  const glm::vec3 low(0.52f, 0.58f, 0.63f), high(0.05f, 0.20f, 0.46f);
   for (int band = 0; band < kBands; ++band) {
     const float t0 = static_cast<float>(band) / kBands, t1 = static_cast<float>(band + 1) / kBands;
-    mesh.use(glowing("sky " + std::to_string(band), glm::mix(low, high, std::sqrt(0.5f * (t0 + t1)))));
+    mesh.use(glowing("sky " + std::to_string(band), glm::mix(low, high, 0.5f * (t0 + t1))));
     mesh.surface(32, 1, true, [=](float u, float v) {  // seen from within
       const bool top = band == kBands - 1 && v == 1.0f;
-      const float e = 1.5707963f * glm::mix(t0, t1, v), phi = 6.2831853f * u;
+      const float e = 1.5707963f * std::pow(glm::mix(t0, t1, v), 1.5f), phi = 6.2831853f * u;
       const float ring = top ? 0.0f : std::cos(e);
       return glm::vec3(radius * ring * std::cos(phi), floor + radius * std::sin(e),
                        radius * ring * std::sin(phi));
@@ -102,8 +102,8 @@ Scene make_spd_balls(int triangles) {
   Scene scene;
   MeshBuilder mesh(scene);
   add_surroundings(mesh);
-  Material gold = mirror("gold", {0.55f, 0.48f, 0.36f});
-  gold.ambient = gold.diffuse = {0.34f, 0.22f, 0.09f};
+  Material gold = mirror("gold", {0.60f, 0.48f, 0.28f});
+  gold.ambient = gold.diffuse = {0.42f, 0.25f, 0.07f};
   mesh.use(gold);
   add_balls(mesh, {0, 0, 0}, 0.5f, glm::mat3(1.0f), 0, fineness_for(triangles));
 
@@ -116,7 +116,7 @@ Scene make_spd_balls(int triangles) {
     light.intensity = 0.4f;
     scene.lights.push_back(light);
   }
-  scene.cameras = {{"front", {2.1f, 1.3f, 2.6f}, {0, 0, 0}, {0, 1, 0}, 35.0f}};
+  scene.cameras = {{"front", {2.2f, 0.95f, 2.75f}, {0.0f, 0.10f, 0.0f}, {0, 1, 0}, 35.0f}};
   return scene;
 }
 

@@ -1,5 +1,6 @@
 #include "core/scene/gltf_file.h"
 
+#include <algorithm>
 #include <cstring>
 
 namespace pinocchio {
@@ -54,6 +55,17 @@ double largest_value(int type) {
   }
 }
 
+bool is_index_type(int type) {
+  return type == TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE || type == TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT ||
+         type == TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT;
+}
+
+// tinygltf knows INT and DOUBLE too, glTF does not.
+bool is_component_type(int type) {
+  return is_index_type(type) || type == TINYGLTF_COMPONENT_TYPE_BYTE ||
+         type == TINYGLTF_COMPONENT_TYPE_SHORT || type == TINYGLTF_COMPONENT_TYPE_FLOAT;
+}
+
 template <class T>
 bool in_range(int index, const std::vector<T>& items) {
   return index >= 0 && static_cast<std::size_t>(index) < items.size();
@@ -62,8 +74,10 @@ bool in_range(int index, const std::vector<T>& items) {
 Expected<Elements> elements(const GltfFile& file, const std::string& whose, int view_index,
                             std::size_t offset, std::size_t count, int component_type, int components) {
   const tinygltf::Model& model = file.model;
+  if (!is_component_type(component_type))
+    return file.error(whose + " has the component type " + std::to_string(component_type) +
+                      ", which glTF does not know");
   const int component_bytes = tinygltf::GetComponentSizeInBytes(static_cast<std::uint32_t>(component_type));
-  if (component_bytes <= 0) return file.error(whose + " has an unknown component type");
   if (!in_range(view_index, model.bufferViews))
     return file.error(whose + " names a buffer view that there is not");
   const tinygltf::BufferView& view = model.bufferViews[static_cast<std::size_t>(view_index)];
@@ -87,6 +101,7 @@ Expected<std::vector<double>> raw_numbers(const GltfFile& file, int index, int c
   if (tinygltf::GetNumComponentsInType(static_cast<std::uint32_t>(accessor.type)) != components)
     return file.error(whose + " does not hold " + std::to_string(components) + " numbers an element");
   constexpr std::size_t kMostElements = 0xffffffffu;
+  constexpr std::size_t kMostImplied = std::size_t{1} << 24;  // zeros that no bytes of the file stand for
   if (accessor.count > kMostElements) return file.error(whose + " holds too many elements");
 
   const auto width = static_cast<std::size_t>(components);
@@ -106,12 +121,16 @@ Expected<std::vector<double>> raw_numbers(const GltfFile& file, int index, int c
     for (std::size_t i = 0; i < accessor.count; ++i) put(*from, i, i);
   } else {
     if (!accessor.sparse.isSparse) return file.error(whose + " has no data");
+    if (!is_component_type(accessor.componentType) || accessor.count > kMostImplied)
+      return file.error(whose + " has too many elements that are not in the file, or of no known type");
     numbers.resize(width * accessor.count, 0.0);
   }
   if (!accessor.sparse.isSparse) return numbers;
 
   const auto count = static_cast<std::size_t>(std::max(accessor.sparse.count, 0));
   const auto& where = accessor.sparse.indices;
+  if (!is_index_type(where.componentType))
+    return file.error(whose + "'s sparse part has indices that are not unsigned integers");
   const Expected<Elements> places =
       elements(file, whose + "'s sparse part", where.bufferView, static_cast<std::size_t>(where.byteOffset),
                count, where.componentType, 1);
@@ -132,6 +151,16 @@ Expected<std::vector<double>> raw_numbers(const GltfFile& file, int index, int c
 
 }  // namespace
 
+Expected<std::span<const unsigned char>> GltfFile::bytes(int buffer_view, const std::string& whose) const {
+  if (!in_range(buffer_view, model.bufferViews))
+    return error(whose + " names a buffer view that there is not");
+  const std::size_t count = model.bufferViews[static_cast<std::size_t>(buffer_view)].byteLength;
+  const Expected<Elements> all = elements(*this, whose, buffer_view, 0, std::min<std::size_t>(count, 1),
+                                          TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE, 1);
+  if (!all) return Unexpected(all.error());
+  return std::span(all->first, count);
+}
+
 Expected<std::vector<float>> GltfFile::floats(int accessor, int components) const {
   const Expected<std::vector<double>> numbers = raw_numbers(*this, accessor, components);
   if (!numbers) return Unexpected(numbers.error());
@@ -147,8 +176,7 @@ Expected<std::vector<std::uint32_t>> GltfFile::indices(int accessor) const {
   const Expected<std::vector<double>> numbers = raw_numbers(*this, accessor, 1);
   if (!numbers) return Unexpected(numbers.error());
   const int type = model.accessors[static_cast<std::size_t>(accessor)].componentType;
-  if (type != TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE && type != TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT &&
-      type != TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT)
+  if (!is_index_type(type))
     return error("accessor " + std::to_string(accessor) + " holds indices that are not unsigned integers");
   std::vector<std::uint32_t> result;
   result.reserve(numbers->size());

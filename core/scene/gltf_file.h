@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -32,7 +33,15 @@ struct GltfFile {
   [[nodiscard]] Expected<std::vector<float>> floats(int accessor, int components) const;
   // An accessor of scalar unsigned integers.
   [[nodiscard]] Expected<std::vector<std::uint32_t>> indices(int accessor) const;
+  // A buffer view's bytes; `whose` says in an error who wants them.
+  [[nodiscard]] Expected<std::span<const unsigned char>> bytes(int buffer_view,
+                                                               const std::string& whose) const;
 };
+
+// Reads and parses the file; images stay encoded, their bytes in Image::image where they are not in a
+// buffer view. Refuses what would overrun tinygltf: JSON nested deeper than any scene's.
+[[nodiscard]] Expected<GltfFile> read_gltf_file(const std::filesystem::path& path,
+                                                std::vector<std::string>& warnings);
 
 // Members of an object that a file may or may not have, of the type that is wanted.
 [[nodiscard]] const tinygltf::Value* member(const tinygltf::Value& object, const std::string& key);
@@ -45,8 +54,12 @@ struct GltfFile {
 // [x, y, z], or one number for all three
 [[nodiscard]] std::optional<glm::vec3> vec3_member(const tinygltf::Value* object, const std::string& key);
 
-// The file's materials as Phong's, in the file's order.
+// The file's materials as Phong's, in the file's order. diffuse_texture is the file's image yet.
 [[nodiscard]] std::vector<Material> gltf_materials(const GltfFile& file);
+
+// Decodes the images that materials use and makes their diffuse_texture the scene's; an image that cannot
+// be read is a warning and leaves the plain colour.
+void add_gltf_textures(const GltfFile& file, Scene& scene, std::vector<std::string>& warnings);
 
 // Appends the triangles of a mesh, placed by `world_from_mesh`. Materials are the file's indices; -1
 // becomes `default_material`.

@@ -58,8 +58,7 @@ Material material_of(const GltfFile& file, const tinygltf::Material& m) {
   const int texture = m.pbrMetallicRoughness.baseColorTexture.index;
   if (texture >= 0 && static_cast<std::size_t>(texture) < file.model.textures.size()) {
     const int image = file.model.textures[static_cast<std::size_t>(texture)].source;
-    if (image >= 0 && static_cast<std::size_t>(image) < file.model.images.size() &&
-        file.model.images[static_cast<std::size_t>(image)].width > 0)
+    if (image >= 0 && static_cast<std::size_t>(image) < file.model.images.size())
       material.diffuse_texture = image;
   }
   return material;

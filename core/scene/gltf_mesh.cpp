@@ -142,6 +142,14 @@ Expected<void> add_gltf_mesh(const GltfFile& file, int mesh, const glm::mat4& wo
       warnings.push_back(file.path.string() + ": points and lines are left out");
       continue;
     }
+    if (primitive.mode != TINYGLTF_MODE_TRIANGLES && primitive.mode != TINYGLTF_MODE_TRIANGLE_STRIP &&
+        primitive.mode != TINYGLTF_MODE_TRIANGLE_FAN)
+      return file.error("a primitive has the mode " + std::to_string(primitive.mode) +
+                        ", which glTF does not know");
+    if (attribute(primitive, "POSITION") < 0) {
+      warnings.push_back(file.path.string() + ": a primitive without positions is left out");
+      continue;
+    }
     if (const Expected<void> added = placer.add(primitive, default_material); !added) return added;
   }
   return {};

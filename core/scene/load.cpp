@@ -76,6 +76,14 @@ Expected<void> check_scene(const Scene& scene) {
   for (std::size_t i = 0; i < scene.positions.size(); ++i)
     if (!finite(scene.positions[i]) || !finite(scene.normals[i]))
       return fail("vertex " + std::to_string(i) + " is not a finite number", "export it again");
+  for (std::size_t i = 0; i < scene.positions.size(); ++i)
+    if (const glm::vec3 p = glm::abs(scene.positions[i]); std::max({p.x, p.y, p.z}) > kFarthest)
+      return fail("vertex " + std::to_string(i) + " is more than 1e9 from the origin",
+                  "scale the scene down");
+  for (std::size_t i = 0; i < scene.texcoords.size(); ++i)
+    if (!finite({scene.texcoords[i], 0.0f}))
+      return fail("the texture coordinate of vertex " + std::to_string(i) + " is not a finite number",
+                  "export it again");
   for (std::size_t i = 0; i < scene.triangles.size(); ++i) {
     const glm::uvec3& t = scene.triangles[i];
     if (std::max({t.x, t.y, t.z}) >= scene.positions.size() ||

@@ -22,7 +22,8 @@ using Warnings = std::vector<std::string>;
 [[nodiscard]] Expected<Scene> load_gltf(const std::filesystem::path& path, Warnings& warnings);
 
 // What the rest of the program relies on: at least one triangle, at most kMaxTriangles, indices and
-// materials in range, finite positions, a normal a position.
+// materials in range, finite positions within kFarthest, a finite normal (and texture coordinate) a position.
+inline constexpr float kFarthest = 1e9f;  // of a coordinate: beyond, areas overflow single precision
 [[nodiscard]] Expected<void> check_scene(const Scene& scene);
 
 }  // namespace pinocchio

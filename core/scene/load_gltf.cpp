@@ -70,11 +70,27 @@ Camera camera_of(const tinygltf::Camera& c, const tinygltf::Node& node, const gl
   Camera camera;
   camera.name = !node.name.empty() ? node.name : c.name;
   camera.eye = glm::vec3(world[3]);
-  camera.target =
-      vec3_member(our_extras(node.extras), "target").value_or(camera.eye + direction_of(world, {0, 0, -1}));
-  camera.up = vec3_member(our_extras(node.extras), "up").value_or(direction_of(world, {0, 1, 0}));
+  camera.target = camera.eye + direction_of(world, {0, 0, -1});
+  camera.up = direction_of(world, {0, 1, 0});
+  const std::optional<glm::vec3> target = vec3_member(our_extras(node.extras), "target");
+  if (target && *target != camera.eye) camera.target = *target;
+  const std::optional<glm::vec3> up = vec3_member(our_extras(node.extras), "up");
+  if (up && *up != glm::vec3(0.0f)) camera.up = *up;
   camera.fov_deg = static_cast<float>(glm::degrees(c.perspective.yfov));
   return camera;
+}
+
+bool finite(const glm::vec3& v) {
+  return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
+}
+
+bool can_look(const Camera& camera) {
+  return camera.fov_deg > 0.0f && camera.fov_deg < 180.0f && finite(camera.eye) && finite(camera.target) &&
+         finite(camera.up);
+}
+
+bool can_shine(const Light& light) {
+  return finite(light.position) && finite(light.direction) && finite(light.intensity * light.color);
 }
 
 class SceneReader {
@@ -144,27 +160,35 @@ class SceneReader {
     }
     if (node.camera >= 0 && static_cast<std::size_t>(node.camera) < model_.cameras.size()) {
       const tinygltf::Camera& camera = model_.cameras[static_cast<std::size_t>(node.camera)];
-      if (camera.type == "perspective") {
-        scene_.cameras.push_back(camera_of(camera, node, world));
+      const Camera ours = camera_of(camera, node, world);
+      if (camera.type != "perspective") {
+        warn("camera '" + ours.name + "' is not perspective and left out");
+      } else if (!can_look(ours)) {
+        warn("camera '" + ours.name + "' has no field of view within 0 and 180 degrees and is left out");
       } else {
-        warnings_.push_back(file_.path.string() + ": camera '" + camera.name +
-                            "' is not perspective and left out");
+        scene_.cameras.push_back(ours);
       }
     }
     const std::optional<float> light =
         number_member(extension(node.extensions, "KHR_lights_punctual"), "light");
     if (light) {
-      const auto i = static_cast<std::size_t>(std::max(*light, 0.0f));
-      if (i >= model_.lights.size())
-        return file_.error("a node names light " + std::to_string(i) + ", there are " +
+      if (!(*light >= 0.0f && *light < static_cast<float>(model_.lights.size())))
+        return file_.error("a node names a light that there is not, there are " +
                            std::to_string(model_.lights.size()));
-      scene_.lights.push_back(light_of(model_.lights[i], node, world));
+      const Light ours = light_of(model_.lights[static_cast<std::size_t>(*light)], node, world);
+      if (can_shine(ours)) {
+        scene_.lights.push_back(ours);
+      } else {
+        warn("light '" + ours.name + "' is not of finite numbers and left out");
+      }
     }
     return {};
   }
 
+  void warn(const std::string& what) { warnings_.push_back(file_.path.string() + ": " + what); }
+
   void finish() {
-    for (const tinygltf::Image& image : model_.images) scene_.textures.push_back(texture_of(image));
+    add_gltf_textures(file_, scene_, warnings_);
     const bool textured = std::any_of(scene_.materials.begin(), scene_.materials.end(),
                                       [](const Material& m) { return m.diffuse_texture >= 0; });
     if (!textured) scene_.texcoords.clear();
@@ -181,42 +205,21 @@ class SceneReader {
       scene_.materials.pop_back();  // nobody needs the default
   }
 
-  static Texture texture_of(const tinygltf::Image& image) {
-    if (image.width <= 0 || image.height <= 0 || image.component != 4 || image.bits != 8)
-      return {image.name, Image<glm::u8vec4>({1, 1}, glm::u8vec4(255))};
-    Texture texture{image.name, Image<glm::u8vec4>({image.width, image.height})};
-    const std::size_t texels = std::min(texture.texels.pixels().size(), image.image.size() / 4);
-    std::copy_n(reinterpret_cast<const glm::u8vec4*>(image.image.data()), texels,
-                texture.texels.pixels().begin());
-    return texture;
-  }
-
   const GltfFile& file_;
   const tinygltf::Model& model_;
   Warnings& warnings_;
   Scene scene_;
 };
 
-std::string first_line(const std::string& text) {
-  return text.substr(0, text.find('\n'));
-}
-
 }  // namespace
 
 Expected<Scene> load_gltf(const std::filesystem::path& path, Warnings& warnings) {
-  GltfFile file{path, {}};
-  tinygltf::TinyGLTF reader;
-  std::string error, warning;
-  const bool binary = path.extension() == ".glb" || path.extension() == ".GLB";
-  const bool read = binary ? reader.LoadBinaryFromFile(&file.model, &error, &warning, path.string())
-                           : reader.LoadASCIIFromFile(&file.model, &error, &warning, path.string());
-  if (!read)
-    return file.error("is not glTF 2.0 that can be read: " + first_line(error), "is the export complete?");
-  if (!warning.empty()) warnings.push_back(path.string() + ": " + first_line(warning));
-  for (const std::string& name : file.model.extensionsRequired)
+  const Expected<GltfFile> file = read_gltf_file(path, warnings);
+  if (!file) return Unexpected(file.error());
+  for (const std::string& name : file->model.extensionsRequired)
     if (std::find(kKnownExtensions.begin(), kKnownExtensions.end(), name) == kKnownExtensions.end())
-      return file.error("requires the extension " + name + ", which is not supported", "export it without");
-  return SceneReader(file, warnings).read();
+      return file->error("requires the extension " + name + ", which is not supported", "export it without");
+  return SceneReader(*file, warnings).read();
 }
 
 }  // namespace pinocchio

@@ -1,4 +1,4 @@
-#include <cmath>
+#include <algorithm>
 #include <fstream>
 #include <map>
 #include <sstream>
@@ -53,15 +53,33 @@ Material default_material() {
   return material;
 }
 
+// The whole rest of every mtllib line: the parser cuts names at their spaces.
+std::vector<std::string> mtllib_names(const std::string& text) {
+  constexpr std::string_view kKeyword = "mtllib ";
+  std::vector<std::string> names;
+  for (std::size_t at = text.find(kKeyword); at != std::string::npos; at = text.find(kKeyword, at)) {
+    at += kKeyword.size();
+    names.push_back(text.substr(at, std::min(text.find_first_of("\r\n", at), text.size()) - at));
+  }
+  return names;
+}
+
 // Reads the MTL files that the OBJ names; one that is missing leaves its materials grey.
 class MtlReader final : public tinyobj::MaterialReader {
  public:
-  MtlReader(const std::filesystem::path& file, Warnings& warnings) : file_(file), warnings_(warnings) {}
+  MtlReader(const std::filesystem::path& file, std::vector<std::string> full_names, Warnings& warnings)
+      : file_(file), full_names_(std::move(full_names)), warnings_(warnings) {}
 
   bool operator()(const std::string& name, std::vector<tinyobj::material_t>* materials,
                   std::map<std::string, int>* by_name, std::string* warning, std::string* error) override {
-    const std::filesystem::path mtl = file_.parent_path() / name;
+    std::filesystem::path mtl = file_.parent_path() / name;
     std::ifstream in(mtl);
+    for (const std::string& full_name : full_names_)
+      if (!in.is_open() && full_name.starts_with(name)) {
+        mtl = file_.parent_path() / full_name;
+        in.clear();
+        in.open(mtl);
+      }
     if (!in) {
       warnings_.push_back(file_.string() + ": its materials " + mtl.string() +
                           " cannot be read; grey is used");
@@ -73,8 +91,21 @@ class MtlReader final : public tinyobj::MaterialReader {
 
  private:
   const std::filesystem::path& file_;
+  std::vector<std::string> full_names_;
   Warnings& warnings_;
 };
+
+// What of the parser's warnings matters: materials that no MTL file explains.
+void add_unknown_materials(const std::string& parser_warnings, const std::filesystem::path& file,
+                           Warnings& warnings) {
+  std::istringstream lines(parser_warnings);
+  for (std::string line; std::getline(lines, line);) {
+    const std::string warning = file.string() + ": " + line + "; grey is used";
+    if (line.starts_with("material [") &&
+        std::find(warnings.begin(), warnings.end(), warning) == warnings.end())
+      warnings.push_back(warning);
+  }
+}
 
 struct ObjFile {
   tinyobj::attrib_t attributes;
@@ -151,7 +182,8 @@ class SceneBuilder {
 void load_textures(const ObjFile& obj, const std::filesystem::path& file, Scene& scene, Warnings& warnings) {
   std::unordered_map<std::string, int> loaded;
   for (std::size_t i = 0; i < obj.materials.size(); ++i) {
-    const std::string& name = obj.materials[i].diffuse_texname;
+    std::string name = obj.materials[i].diffuse_texname;
+    std::replace(name.begin(), name.end(), '\\', '/');  // from Windows
     if (name.empty() || scene.texcoords.empty()) continue;
     if (const auto known = loaded.find(name); known != loaded.end()) {
       scene.materials[i + 1].diffuse_texture = known->second;
@@ -172,20 +204,20 @@ void load_textures(const ObjFile& obj, const std::filesystem::path& file, Scene&
 
 Expected<Scene> load_obj(const std::filesystem::path& path, Warnings& warnings) {
   std::ifstream in(path, std::ios::binary);
-  std::stringstream text;
-  text << in.rdbuf();
+  std::string text(std::istreambuf_iterator<char>(in), {});
   if (!in) return Unexpected(InputError{path.string(), 0, "cannot be read", "is it yours to read?"});
-  if (const Expected<void> checked = check_obj_text(text.view(), path); !checked)
-    return Unexpected(checked.error());
+  if (const Expected<void> checked = check_obj_text(text, path); !checked) return Unexpected(checked.error());
 
   ObjFile obj;
-  MtlReader mtl(path, warnings);
+  MtlReader mtl(path, mtllib_names(text), warnings);
+  std::istringstream stream(std::move(text));
   std::string warning, error;
   constexpr bool kTriangulate = true, kVertexColors = false;
-  if (!tinyobj::LoadObj(&obj.attributes, &obj.shapes, &obj.materials, &warning, &error, &text, &mtl,
+  if (!tinyobj::LoadObj(&obj.attributes, &obj.shapes, &obj.materials, &warning, &error, &stream, &mtl,
                         kTriangulate, kVertexColors))
     return Unexpected(
         InputError{path.string(), 0, error.substr(0, error.find('\n')), "export the file again"});
+  add_unknown_materials(warning, path, warnings);
   Scene scene = SceneBuilder(obj).build();
   load_textures(obj, path, scene, warnings);
   return scene;

@@ -3,7 +3,9 @@
 #include <array>
 #include <charconv>
 #include <cmath>
+#include <cstdlib>
 #include <optional>
+#include <string_view>
 #include <vector>
 
 namespace pinocchio {
@@ -25,7 +27,7 @@ std::optional<T> number(std::string_view word) {
   T value{};
   const auto [end, failure] = std::from_chars(word.data(), word.data() + word.size(), value);
   if (failure == std::errc::result_out_of_range && std::is_floating_point_v<T>)
-    return T{};  // 1e-60 and the like
+    return static_cast<T>(std::strtod(std::string(word).c_str(), nullptr));  // 1e-400: 0, 1e400: infinity
   if (failure != std::errc() || end != word.data() + word.size()) return std::nullopt;
   return value;
 }
@@ -36,15 +38,18 @@ constexpr std::array<const char*, kKinds> kKindNames{"vertex", "texture coordina
 
 class Checker {
  public:
-  explicit Checker(const std::filesystem::path& file) : file_(file) {}
+  Checker(std::string& text, const std::filesystem::path& file) : text_(text), file_(file) {}
 
-  Expected<void> check(std::string_view text) {
+  Expected<void> check() {
+    std::string_view text = text_;
     while (!text.empty()) {
       ++line_;
-      const std::size_t end = std::min(text.find('\n'), text.size());
+      // As the parser has it: CR LF, LF or CR alone.
+      const std::size_t end = std::min(text.find_first_of("\r\n"), text.size());
       const Expected<void> checked = check_line(text.substr(0, end));
       if (!checked) return checked;
-      text.remove_prefix(std::min(end + 1, text.size()));
+      text.remove_prefix(end);
+      text.remove_prefix(text.starts_with("\r\n") ? 2 : std::min<std::size_t>(1, text.size()));
     }
     // Forward references are allowed, so only the end tells.
     for (int kind = 0; kind < kKinds; ++kind)
@@ -67,16 +72,17 @@ class Checker {
 
   Expected<void> check_line(std::string_view line) {
     const std::string_view word = next_word(line);
-    if (word == "v") return check_numbers(line, 3, kVertex);
-    if (word == "vn") return check_numbers(line, 3, kNormal);
-    if (word == "vt") return check_numbers(line, 1, kTexcoord);
+    if (word == "v") return check_numbers(line, 3, 3, kVertex);
+    if (word == "vn") return check_numbers(line, 3, 3, kNormal);
+    if (word == "vt") return check_numbers(line, 1, 2, kTexcoord);
     if (word == "f") return check_face(line);
     return {};
   }
 
-  Expected<void> check_numbers(std::string_view line, int count, Kind kind) {
-    for (int i = 0; i < count; ++i) {
+  Expected<void> check_numbers(std::string_view line, int least, int most, Kind kind) {
+    for (int i = 0; i < most; ++i) {
       const std::string_view word = next_word(line);
+      if (i >= least && (word.empty() || word.front() == '#')) break;
       const std::optional<double> value = number<double>(word);
       if (!value || !std::isfinite(static_cast<float>(*value)))
         return fail(line_,
@@ -89,6 +95,8 @@ class Checker {
   Expected<void> check_face(std::string_view line) {
     int corners = 0;
     for (std::string_view corner; !(corner = next_word(line)).empty() && corner.front() != '#'; ++corners) {
+      const std::string_view whole = corner;
+      blank_last_slashes(corner);
       for (int kind = 0; kind < kKinds; ++kind) {
         const std::size_t end = std::min(corner.find('/'), corner.size());
         const std::string_view word = corner.substr(0, end);
@@ -100,12 +108,22 @@ class Checker {
                                  "', there are " + std::to_string(counts_[kind]) + " so far");
         if (*index > highest_[kind].index) highest_[kind] = {*index, line_};
       }
+      if (!corner.empty())
+        return fail(line_, "a face has the corner '" + std::string(whole) + "', it ends after the normal");
     }
     if (corners < 3)
       return fail(line_, "a face has " + std::to_string(corners) + " corners, it needs 3 or more");
     return {};
   }
 
+  void blank_last_slashes(std::string_view& corner) {
+    while (corner.ends_with('/')) {
+      corner.remove_suffix(1);
+      text_[static_cast<std::size_t>(corner.data() - text_.data()) + corner.size()] = ' ';
+    }
+  }
+
+  std::string& text_;
   const std::filesystem::path& file_;
   int line_ = 0;
   std::array<long long, kKinds> counts_{};
@@ -114,8 +132,8 @@ class Checker {
 
 }  // namespace
 
-Expected<void> check_obj_text(std::string_view text, const std::filesystem::path& file) {
-  return Checker(file).check(text);
+Expected<void> check_obj_text(std::string& text, const std::filesystem::path& file) {
+  return Checker(text, file).check();
 }
 
 }  // namespace pinocchio

@@ -194,6 +194,11 @@ class GltfWriter {
   std::vector<std::string> extensions_;
 };
 
+// Names that are not UTF-8 (an old OBJ's) lose what JSON cannot say.
+std::string text_of(const Json& json, int indent) {
+  return json.dump(indent, ' ', false, Json::error_handler_t::replace);
+}
+
 void append_u32(std::string& to, std::size_t value) {
   const auto word = static_cast<std::uint32_t>(value);
   to.append(reinterpret_cast<const char*>(&word), sizeof word);
@@ -208,7 +213,7 @@ void append_chunk(std::string& to, const char* type, std::string data, char padd
 
 std::string glb_of(GltfWriter& writer) {
   std::string chunks;
-  append_chunk(chunks, "JSON", writer.finish("").dump(), ' ');
+  append_chunk(chunks, "JSON", text_of(writer.finish(""), -1), ' ');
   append_chunk(chunks, "BIN\0", writer.binary(), '\0');
   std::string glb = "glTF";
   append_u32(glb, 2);  // version
@@ -227,7 +232,7 @@ void save_gltf(const Scene& scene, const std::filesystem::path& file) {
   std::filesystem::path binary = file;
   binary.replace_extension(".bin");
   write_text(binary, writer.binary());
-  write_text(file, writer.finish(binary.filename().string()).dump(1) + "\n");
+  write_text(file, text_of(writer.finish(binary.filename().string()), 1) + "\n");
 }
 
 }  // namespace pinocchio

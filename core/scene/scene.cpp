@@ -19,8 +19,11 @@ const Camera* find_camera(const Scene& scene, const std::string& name) {
 }
 
 Camera camera_for_whole_scene(const Scene& scene) {
-  const Bounds bounds = scene.bounds();
-  const float radius = std::max(0.5f * bounds.diagonal(), 1e-6f);
+  Bounds bounds = scene.bounds();
+  if (bounds.empty()) bounds.add(glm::vec3(0.0f));
+  // Not below what single precision can tell from the centre, or the eye would be where it looks.
+  const float least = std::max(1e-4f * glm::length(bounds.center()), 1e-6f);
+  const float radius = std::max(0.5f * bounds.diagonal(), least);
   Camera camera;
   camera.name = "whole scene";
   camera.target = bounds.center();
@@ -33,11 +36,11 @@ Camera camera_for_whole_scene(const Scene& scene) {
 
 Light default_light(const Scene& scene, const Camera& camera) {
   const float reach = std::max(glm::length(camera.eye - camera.target), scene.bounds().diagonal());
-  const glm::vec3 right =
-      glm::normalize(glm::cross(camera.target - camera.eye, camera.up) + glm::vec3(1e-9f));
+  const CameraAxes axes = camera_axes(camera);
+  const glm::vec3 up = glm::length(camera.up) > 0.0f ? glm::normalize(camera.up) : axes.up;
   Light light;
   light.name = "default";
-  light.position = camera.eye + reach * (0.4f * right + 0.6f * glm::normalize(camera.up));
+  light.position = camera.eye + reach * (0.4f * axes.right + 0.6f * up);
   return light;
 }
 

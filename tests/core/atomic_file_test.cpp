@@ -5,8 +5,6 @@
 #include <fstream>
 
 #include "core/base/error.h"
-#include "core/image/png.h"
-#include "core/image/tonemap.h"
 
 namespace pinocchio {
 namespace {
@@ -52,27 +50,6 @@ TEST_F(AtomicFile, SaysBeforehandWhatCannotBeWritten) {
   EXPECT_THROW(check_writable(folder_), EnvironmentError);
   EXPECT_THROW(check_writable("/dev/full"), EnvironmentError);
   EXPECT_THROW(check_writable("/proc/x.txt"), EnvironmentError);  // root or not
-}
-
-TEST_F(AtomicFile, PngBeginsAsPngsDo) {
-  write_png(folder_ / "a.png", Image<glm::u8vec3>({5, 3}, glm::u8vec3(9)));
-  EXPECT_EQ(read("a.png").substr(1, 3), "PNG");
-}
-
-TEST(Tonemap, FollowsTheSrgbCurveBothWays) {
-  for (int i = 0; i < 256; ++i) {
-    const auto byte = static_cast<std::uint8_t>(i);
-    EXPECT_EQ(linear_to_srgb8(srgb8_to_linear(byte)), byte);
-  }
-  EXPECT_EQ(linear_to_srgb8(-1.0f), 0);
-  EXPECT_EQ(linear_to_srgb8(7.0f), 255);
-  EXPECT_EQ(linear_to_srgb8(std::nanf("")), 0);
-  EXPECT_NEAR(srgb8_to_linear(188), 0.5029f, 1e-4f);
-}
-
-TEST(Tonemap, ExposureIsInStops) {
-  const Image<glm::vec4> half({1, 1}, glm::vec4(0.25f));
-  EXPECT_EQ(preview(half, 1.0f)[0].x, linear_to_srgb8(0.5f));
 }
 
 }  // namespace

@@ -1,7 +1,11 @@
 #include "core/image/exr.h"
 
+#include <sys/resource.h>
+
 #include <array>
 #include <cmath>
+#include <csignal>
+#include <cstring>
 #include <fstream>
 
 #include "core/output/frame_exr.h"
@@ -139,6 +143,74 @@ TEST(Exr, WhatIsNoExrIsAnErrorThatNamesIt) {
   EXPECT_FALSE(read_exr(temporary("cut.exr")));
 }
 
+// One channel of 64 x 48 that packs well: its last bytes wait in a buffer until the file is closed.
+ExrFile ramp() {
+  ExrFile exr;
+  exr.display_size = {64, 48};
+  exr.data_window = {{0, 0}, {64, 48}};
+  exr.channels = {{"id", ExrChannel::Type::uint, {}, {}}};
+  for (std::uint32_t i = 0; i < 64 * 48; ++i) exr.channels[0].uints.push_back(i);
+  return exr;
+}
+
+// No file of this process grows beyond `bytes`, as on a disk that is full.
+class FullDisk {
+ public:
+  explicit FullDisk(std::uintmax_t bytes) : signal_(std::signal(SIGXFSZ, SIG_IGN)) {
+    getrlimit(RLIMIT_FSIZE, &before_);
+    rlimit limit = before_;
+    limit.rlim_cur = bytes;
+    setrlimit(RLIMIT_FSIZE, &limit);
+  }
+  ~FullDisk() {
+    setrlimit(RLIMIT_FSIZE, &before_);
+    std::signal(SIGXFSZ, signal_);
+  }
+  FullDisk(const FullDisk&) = delete;
+  FullDisk& operator=(const FullDisk&) = delete;
+
+ private:
+  rlimit before_{};
+  void (*signal_)(int);
+};
+
+TEST(Exr, AFullDiskIsNeverSilentAndKeepsTheOldFile) {
+  const std::filesystem::path file = temporary("full.exr");
+  write_exr(file, ramp());
+  const std::uintmax_t whole = std::filesystem::file_size(file);
+  for (std::uintmax_t bytes = 1; bytes < whole; bytes += 7) {
+    bool thrown = false;
+    {
+      const FullDisk disk(bytes);
+      try {
+        write_exr(file, ramp());
+      } catch (const EnvironmentError&) {
+        thrown = true;
+      }
+    }
+    ASSERT_TRUE(thrown) << bytes << " of " << whole << " bytes fit";
+    ASSERT_EQ(std::filesystem::file_size(file), whole);
+  }
+  EXPECT_TRUE(read_exr(file));
+}
+
+TEST(Exr, AHeaderOfMorePixelsThanTheFileHoldsIsAnError) {
+  write_exr(temporary("bomb.exr"), ramp());
+  std::ifstream in(temporary("bomb.exr"), std::ios::binary);
+  std::string bytes{std::istreambuf_iterator<char>(in), {}};
+  const std::array<std::int32_t, 4> window{0, 0, 199999, 199999};
+  for (const std::string name : {"dataWindow", "displayWindow"}) {
+    const std::size_t type = bytes.find("box2i", bytes.find(name));
+    ASSERT_NE(type, std::string::npos);
+    std::memcpy(&bytes[type + 6 + 4], window.data(), sizeof(window));  // after the type's 0 and the size
+  }
+  bytes.append(200000, '\0');  // room for the table of 12500 chunks
+  std::ofstream(temporary("bomb.exr"), std::ios::binary) << bytes;
+  const Expected<ExrFile> read = read_exr(temporary("bomb.exr"));
+  ASSERT_FALSE(read);
+  EXPECT_NE(read.error().message().find("more pixels"), std::string::npos) << read.error().message();
+}
+
 TEST(Exr, HugeValuesStayFiniteInHalf) {
   ExrFile exr;
   exr.display_size = {2, 1};
@@ -153,6 +225,8 @@ TEST(Aovs, AreChosenByName) {
   EXPECT_EQ(parse_aovs("Z,id.triangle")->size(), 2u);
   EXPECT_TRUE(parse_aovs("none")->empty());
   EXPECT_FALSE(parse_aovs("Z,depth"));
+  EXPECT_FALSE(parse_aovs("id.bogus"));
+  EXPECT_EQ(*parse_aovs("P.X,reflection.G"), (AovSet{"P", "reflection"}));
   EXPECT_EQ(small_frame(lit_scene(), *parse_aovs("Z")).channels.size(), 5u);
 }
 

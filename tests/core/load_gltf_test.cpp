@@ -226,6 +226,101 @@ TEST(LoadGltf, BadFilesAreErrorsThatSayWhat) {
   EXPECT_NE(error_of(json).find("no triangles"), std::string::npos);
 }
 
+TEST(LoadGltf, WhatTheFileDoesNotHoldIsNotBelieved) {
+  Json json = triangle_json();
+  json["accessors"][0] = {{"componentType", 5126},
+                          {"count", 4000000000u},
+                          {"type", "VEC3"},
+                          {"sparse",
+                           {{"count", 1},
+                            {"indices", {{"bufferView", 1}, {"componentType", 5123}}},
+                            {"values", {{"bufferView", 0}}}}}};
+  EXPECT_NE(error_of(json).find("not in the file"), std::string::npos);
+  json["accessors"][0]["count"] = 4;
+  json["accessors"][0]["sparse"]["indices"]["componentType"] = 5126;
+  EXPECT_NE(error_of(json).find("unsigned integers"), std::string::npos);
+  json = triangle_json();
+  json["accessors"][0]["componentType"] = 5124;  // tinygltf's INT
+  EXPECT_NE(error_of(json).find("component type 5124"), std::string::npos);
+  json = triangle_json();
+  json["nodes"][0]["extensions"]["KHR_lights_punctual"]["light"] = -1;
+  EXPECT_NE(error_of(json).find("light"), std::string::npos);
+  json = triangle_json();
+  json["meshes"][0]["primitives"][0]["mode"] = 99;
+  EXPECT_NE(error_of(json).find("mode 99"), std::string::npos);
+}
+
+TEST(LoadGltf, SparseAccessorsAreFilledIn) {
+  Json json = triangle_json();
+  json["accessors"][0]["sparse"] = {
+      {"count", 1},
+      {"indices", {{"bufferView", 1}, {"byteOffset", 2}, {"componentType", 5123}}},
+      {"values", {{"bufferView", 0}, {"byteOffset", 36}}}};
+  EXPECT_EQ(load_good(json).positions[1], glm::vec3(1, 1, 0));  // the fourth's place in the second
+}
+
+TEST(LoadGltf, DeepNestingIsAnError) {
+  std::string text = triangle_json().dump();
+  text.pop_back();
+  text += R"(,"extras":)" + std::string(200000, '[') + std::string(200000, ']') + "}";
+  const std::filesystem::path path = std::filesystem::path(testing::TempDir()) / "deep.gltf";
+  std::ofstream(path) << text;
+  const Expected<Scene> scene = load_scene(path);
+  ASSERT_FALSE(scene);
+  EXPECT_NE(scene.error().what.find("nested"), std::string::npos);
+}
+
+// A material whose base colour is image 0 of the file.
+Json textured_json(const Json& image) {
+  Json json = triangle_json();
+  json["images"] = {image};
+  json["textures"] = {{{"source", 0}}};
+  json["materials"] = {{{"pbrMetallicRoughness", {{"baseColorTexture", {{"index", 0}}}}}}};
+  json["meshes"][0]["primitives"][0]["material"] = 0;
+  return json;
+}
+
+TEST(LoadGltf, ImagesBesideTheFileAreTextures) {
+  std::ofstream(std::filesystem::path(testing::TempDir()) / "texel.ppm", std::ios::binary)
+      << "P6 1 1 255\n\x0a\x14\x1e";
+  const Scene scene = load_good(textured_json({{"uri", "texel.ppm"}}));
+  ASSERT_EQ(scene.textures.size(), 1u);
+  EXPECT_EQ(scene.materials[0].diffuse_texture, 0);
+  EXPECT_EQ(scene.textures[0].texels.at(0, 0), glm::u8vec4(10, 20, 30, 255));
+}
+
+TEST(LoadGltf, ImagesThatCannotBeReadAreWarnings) {
+  for (const Json& image : {Json{{"uri", "nowhere.png"}}, Json{{"uri", "data:image/png;base64,AAAA"}},
+                            Json{{"bufferView", 0}, {"mimeType", "image/png"}}}) {
+    Json json = textured_json(image);
+    Warnings warnings;
+    const Expected<Scene> scene = load(json, &warnings);
+    ASSERT_TRUE(scene) << scene.error().message();
+    EXPECT_EQ(scene->materials[0].diffuse_texture, -1);
+    EXPECT_FALSE(warnings.empty());
+  }
+}
+
+TEST(LoadGltf, CamerasAndLightsThatCannotWorkAreLeftOut) {
+  Json json = triangle_json();
+  json["cameras"] = {{{"type", "perspective"}, {"perspective", {{"yfov", 0.0}, {"znear", 0.1}}}},
+                     {{"type", "perspective"}, {"perspective", {{"yfov", 1.0}, {"znear", 0.1}}}}};
+  json["extensions"]["KHR_lights_punctual"]["lights"] = {{{"type", "point"}, {"intensity", 1e300}}};
+  json["nodes"] = {{{"mesh", 0}},
+                   {{"camera", 0}},
+                   {{"camera", 1}, {"extras", {{"pinocchio", {{"target", 0}, {"up", 0}}}}}},
+                   {{"extensions", {{"KHR_lights_punctual", {{"light", 0}}}}}}};
+  json["scenes"][0]["nodes"] = {0, 1, 2, 3};
+  Warnings warnings;
+  const Expected<Scene> scene = load(json, &warnings);
+  ASSERT_TRUE(scene) << scene.error().message();
+  EXPECT_EQ(warnings.size(), 2u);
+  EXPECT_TRUE(scene->lights.empty());
+  ASSERT_EQ(scene->cameras.size(), 1u);
+  EXPECT_EQ(scene->cameras[0].target, glm::vec3(0, 0, -1));  // the one in the file is the eye itself
+  EXPECT_EQ(scene->cameras[0].up, glm::vec3(0, 1, 0));
+}
+
 TEST(LoadGltf, DamagedFilesNeverCrash) {
   const std::filesystem::path glb = source_path("scenes/speedboat.glb");
   std::ifstream in(glb, std::ios::binary);

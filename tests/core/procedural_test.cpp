@@ -1,6 +1,8 @@
 #include <map>
 
 #include "core/procedural/scenes.h"
+#include "core/trace/tracer.h"
+#include "core/trace/view.h"
 #include "tests/support/scenes.h"
 
 namespace pinocchio {
@@ -25,11 +27,50 @@ TEST(Procedural, EveryNameMakesASoundScene) {
   EXPECT_FALSE(make_procedural("nothing"));
 }
 
+void expect_about(const std::string& name, int triangles, int asked, double tolerance) {
+  const auto made = static_cast<double>(make(name, asked).triangles.size());
+  EXPECT_NEAR(made, triangles, tolerance * triangles) << name << " asked for " << asked;
+}
+
 TEST(Procedural, ScenesScale) {
-  EXPECT_NEAR(static_cast<double>(make("speedboat").triangles.size()), 16000.0, 1600.0);
-  EXPECT_NEAR(static_cast<double>(make("speedboat", 100000).triangles.size()), 100000.0, 20000.0);
-  EXPECT_NEAR(static_cast<double>(make("forest", 50000).triangles.size()), 50000.0, 5000.0);
-  EXPECT_GT(make("spd:balls").triangles.size(), 100000u);
+  expect_about("speedboat", 16'000, 0, 0.10);
+  expect_about("forest", 1'000'000, 0, 0.05);
+  expect_about("spd:balls", 400'000, 0, 0.10);
+  for (const int asked : {10'000, 50'000, 100'000, 400'000}) {
+    expect_about("speedboat", asked, asked, 0.10);
+    expect_about("spd:balls", asked, asked, 0.25);  // spheres are cut in coarse steps
+  }
+  for (const int asked : {50'000, 400'000}) expect_about("forest", asked, asked, 0.10);
+}
+
+TEST(Procedural, TheSphereflakeHasFourLevels) {
+  // A sphere of triangles has V - E + F = 2 and E = 3/2 F, so each adds 4 to 2 V - F.
+  const Scene scene = make("spd:balls");
+  long long corners = 0, faces = 0;
+  std::vector<bool> seen(scene.positions.size(), false);
+  for (std::uint32_t i = 0; i < scene.triangles.size(); ++i) {
+    if (scene.material_of(i).name != "gold") continue;
+    ++faces;
+    for (int c = 0; c < 3; ++c) {
+      corners += seen[scene.triangles[i][c]] ? 0 : 1;
+      seen[scene.triangles[i][c]] = true;
+    }
+  }
+  EXPECT_EQ(2 * corners - faces, 4 * (1 + 9 + 81 + 729 + 6561));
+}
+
+TEST(Procedural, NothingIsSeenOfTheVoid) {
+  for (const std::string& name : procedural_names()) {
+    const Scene scene = make(name, 20000);
+    const Tracer tracer(scene);
+    const shared::ViewParams view = view_params(scene.cameras.front(), {80, 60});
+    std::vector<Ray> rays;
+    for (int y = 0; y < 60; ++y)
+      for (int x = 0; x < 80; ++x) rays.push_back(pixel_ray(view, x, y));
+    std::vector<Hit> hits(rays.size());
+    tracer.closest_hits(rays, hits);
+    for (const Hit& hit : hits) ASSERT_TRUE(hit.valid()) << name;
+  }
 }
 
 TEST(Procedural, TwoLightsHasTwoLightsOfWhichOneCasts) {
@@ -42,7 +83,9 @@ TEST(Procedural, SameEveryTime) {
   for (const std::string& name : procedural_names()) {
     const Scene a = make(name, 10000), b = make(name, 10000);
     EXPECT_EQ(a.positions, b.positions);
+    EXPECT_EQ(a.normals, b.normals);
     EXPECT_EQ(a.triangles, b.triangles);
+    EXPECT_EQ(a.triangle_materials, b.triangle_materials);
   }
 }
 

@@ -88,6 +88,35 @@ TEST(Save, ObjBringsTrianglesAndMaterialsBack) {
   }
 }
 
+TEST(Save, ObjKeepsEveryBitOfOddNumbers) {
+  Random random(11);
+  Scene saved;
+  for (int i = 0; i < 500; ++i) {
+    const auto odd = [&random] {
+      return std::ldexp(random.between(-1.0f, 1.0f), static_cast<int>(random.next() % 40) - 20);
+    };
+    const auto point = [&odd] {
+      const float x = odd(), y = odd();
+      return glm::vec3(x, y, odd());
+    };
+    const glm::vec3 a = point(), b = point();
+    add_triangle(saved, a, b, point());
+  }
+  save_scene(saved, temporary("odd numbers.obj"));  // nor does a space in the name lose the materials
+  Warnings warnings;
+  const Expected<Scene> loaded = load_scene(temporary("odd numbers.obj"), &warnings);
+  ASSERT_TRUE(loaded);
+  EXPECT_TRUE(warnings.empty());
+  expect_same_triangles(saved, *loaded);
+}
+
+TEST(Save, NamesThatAreNotUtf8DoNotStopIt) {
+  Scene scene = plate_over_floor();
+  scene.materials[0].name = "gr\xfcn";
+  save_scene(scene, temporary("latin.gltf"));
+  EXPECT_EQ(load_or_die(temporary("latin.gltf")).triangles.size(), scene.triangles.size());
+}
+
 TEST(Save, WhatCannotBeWrittenIsAnError) {
   const Scene scene = plate_over_floor();
   EXPECT_THROW(save_scene(scene, "/nowhere/x.gltf"), EnvironmentError);

@@ -1,0 +1,141 @@
+#include "core/output/frame_exr.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "core/math/ray.h"
+#include "core/trace/view.h"
+
+namespace pinocchio {
+namespace {
+
+constexpr glm::ivec2 kSize{4, 3};
+
+// A camera that no axis of the world lines up with.
+Camera slanted_camera() {
+  Camera camera;
+  camera.eye = {3.0f, 2.0f, -4.0f};
+  camera.target = {-1.0f, 0.5f, 2.0f};
+  camera.fov_deg = 50.0f;
+  return camera;
+}
+
+// x and y across the picture.
+glm::vec2 ndc_of(const Camera& camera, const glm::vec3& p_world) {
+  const glm::vec4 p = world_to_ndc(camera, kSize) * glm::vec4(p_world, 1.0f);
+  return glm::vec2(p) / p.w;
+}
+
+void expect_near(const glm::vec2& a, const glm::vec2& b) {
+  EXPECT_NEAR(a.x, b.x, 1e-5f);
+  EXPECT_NEAR(a.y, b.y, 1e-5f);
+}
+
+// What a frame of 4 x 3 is made of, by hand: triangle i in pixel i, nothing in the last.
+struct HandMade {
+  Scene scene;
+  Camera camera = slanted_camera();
+  Image<glm::vec4> color{kSize, glm::vec4(0.25f, 0.5f, 2.0f, 1.0f)};
+  Image<std::uint32_t> ids{kSize};
+  MaskImage mask{kSize, 2};
+  Image<glm::vec3> reflection;
+  SurfaceImages surfaces{Image<float>(kSize, 1.0f), Image<glm::vec3>(kSize, glm::vec3(1, 2, 3)),
+                         Image<glm::vec3>(kSize, glm::vec3(0, 1, 0)),
+                         Image<glm::vec3>(kSize, glm::vec3(0.5f))};
+
+  HandMade() {
+    for (std::size_t i = 0; i < ids.pixels().size(); ++i) ids[i] = static_cast<std::uint32_t>(i);
+    ids.at(3, 2) = 0xffffffffu;
+    surfaces.z_eye.at(3, 2) = kInfinity;
+    mask.set_bit(1, 0, 0);
+    mask.set_bit(2, 1, 1);
+  }
+  [[nodiscard]] ExrFile exr(std::optional<double> render_s) const {
+    return frame_exr(
+        {kSize, {{0, 0}, kSize}, scene, camera, color, ids, mask, reflection, surfaces, "{}", render_s},
+        *parse_aovs("all"));
+  }
+};
+
+TEST(FrameExr, HoldsEachChannelInItsType) {
+  const ExrFile exr = HandMade().exr({});
+  const auto expect_type = [&exr](const std::vector<std::string>& names, ExrChannel::Type type) {
+    for (const std::string& name : names) {
+      const ExrChannel* channel = exr.find(name);
+      ASSERT_NE(channel, nullptr) << name;
+      EXPECT_EQ(channel->type, type) << name;
+      EXPECT_EQ(channel->values.size() + channel->uints.size(), 12u) << name;
+    }
+  };
+  expect_type({"R", "G", "B", "A", "N.X", "N.Y", "N.Z", "Albedo.R", "Albedo.G", "Albedo.B", "reflection.R",
+               "reflection.G", "reflection.B"},
+              ExrChannel::Type::half);
+  expect_type({"Z", "P.X", "P.Y", "P.Z"}, ExrChannel::Type::real);
+  expect_type({"id.triangle", "shadow.mask"}, ExrChannel::Type::uint);
+  EXPECT_EQ(exr.channels.size(), 19u);
+}
+
+TEST(FrameExr, HoldsWhatEachPixelIs) {
+  const ExrFile exr = HandMade().exr({});
+  EXPECT_EQ(exr.find("B")->values[5], 2.0f);
+  EXPECT_EQ(exr.find("P.Y")->values[5], 2.0f);
+  EXPECT_EQ(exr.find("N.Y")->values[5], 1.0f);
+  EXPECT_EQ(exr.find("id.triangle")->uints[5], 5u);
+  EXPECT_EQ(exr.find("id.triangle")->uints[11], 0xffffffffu);
+  EXPECT_EQ(exr.find("Z")->values[11], kInfinity);
+  EXPECT_EQ(exr.find("shadow.mask")->uints, (std::vector<std::uint32_t>{0, 1, 0, 0, 0, 0, 2, 0, 0, 0, 0, 0}));
+  EXPECT_EQ(exr.find("reflection.G")->values, std::vector<float>(12, 0.0f));  // the plan has none
+}
+
+TEST(FrameExr, RenderTimeIsThereOnlyIfGiven) {
+  EXPECT_EQ(HandMade().exr({}).attributes.count("renderTimeSeconds"), 0u);
+  EXPECT_EQ(std::get<float>(HandMade().exr(2.5).attributes.at("renderTimeSeconds")), 2.5f);
+}
+
+TEST(FrameExr, CameraSpaceIsLeftHandedAndLooksAlongZ) {
+  const Camera camera = slanted_camera();
+  const CameraAxes axes = camera_axes(camera);
+  const glm::mat4 to_camera = world_to_camera(camera);
+  const auto expect_at = [&](const glm::vec3& p_world, const glm::vec3& expected) {
+    const glm::vec4 p = to_camera * glm::vec4(p_world, 1.0f);
+    for (int c = 0; c < 3; ++c) EXPECT_NEAR(p[c], expected[c], 1e-5f);
+  };
+  expect_at(camera.eye, {0, 0, 0});
+  expect_at(camera.eye + 2.0f * axes.forward, {0, 0, 2});
+  expect_at(camera.eye + axes.right + axes.forward, {1, 0, 1});
+  expect_at(camera.eye + axes.up + axes.forward, {0, 1, 1});
+  EXPECT_LT(glm::determinant(glm::mat3(to_camera)), 0.0f);
+}
+
+TEST(FrameExr, NdcRunsFromTheTopLeftCornerToTheBottomRight) {
+  const Camera camera = slanted_camera();
+  const CameraAxes axes = camera_axes(camera);
+  const float half_height = std::tan(glm::radians(camera.fov_deg) * 0.5f);
+  const glm::vec3 up = axes.up * half_height,
+                  right =
+                      axes.right * (half_height * static_cast<float>(kSize.x) / static_cast<float>(kSize.y));
+  for (const float z_eye : {0.5f, 1.0f, 40.0f}) {
+    const auto ndc = [&](const glm::vec3& direction) {
+      return ndc_of(camera, camera.eye + z_eye * direction);
+    };
+    expect_near(ndc(axes.forward), {0.5f, 0.5f});
+    expect_near(ndc(axes.forward - right + up), {0.0f, 0.0f});
+    expect_near(ndc(axes.forward + right + up), {1.0f, 0.0f});
+    expect_near(ndc(axes.forward + right - up), {1.0f, 1.0f});
+  }
+}
+
+TEST(FrameExr, NdcAgreesWithThePixelsRays) {
+  const Camera camera = slanted_camera();
+  const shared::ViewParams view = view_params(camera, kSize);
+  for (int y = 0; y < kSize.y; ++y)
+    for (int x = 0; x < kSize.x; ++x) {
+      const glm::vec2 pixel(static_cast<float>(x), static_cast<float>(y));
+      const glm::vec3 p_world = view.eye + 7.0f * shared::pixel_direction(view, pixel);
+      expect_near(ndc_of(camera, p_world), (pixel + 0.5f) / glm::vec2(kSize));
+    }
+}
+
+}  // namespace
+}  // namespace pinocchio

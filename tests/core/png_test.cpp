@@ -1,0 +1,47 @@
+#include "core/image/png.h"
+
+#include <gtest/gtest.h>
+
+#include <memory>
+
+#include "core/base/error.h"
+
+#define STB_IMAGE_STATIC
+#define STB_IMAGE_IMPLEMENTATION
+#define STBI_ONLY_PNG
+#pragma GCC diagnostic push
+#pragma GCC diagnostic ignored "-Wunused-function"
+#pragma GCC diagnostic ignored "-Wsign-compare"
+#pragma GCC diagnostic ignored "-Wunused-but-set-variable"
+#include <stb/stb_image.h>
+#pragma GCC diagnostic pop
+
+namespace pinocchio {
+namespace {
+
+TEST(Png, PixelsComeBackFromTheTopLeft) {
+  Image<glm::u8vec3> written({5, 3});
+  for (int y = 0; y < 3; ++y)
+    for (int x = 0; x < 5; ++x) written.at(x, y) = glm::u8vec3(10 * x, 20 * y, 255 - x - y);
+  const std::filesystem::path file = std::filesystem::path(testing::TempDir()) / "back.png";
+  write_png(file, written);
+
+  int width = 0, height = 0, channels = 0;
+  const std::unique_ptr<stbi_uc, void (*)(void*)> read(stbi_load(file.c_str(), &width, &height, &channels, 0),
+                                                       stbi_image_free);
+  ASSERT_NE(read, nullptr) << stbi_failure_reason();
+  ASSERT_EQ(glm::ivec3(width, height, channels), glm::ivec3(5, 3, 3));
+  const stbi_uc* byte = read.get();
+  for (const glm::u8vec3& pixel : written.pixels())
+    for (int c = 0; c < 3; ++c) EXPECT_EQ(*byte++, pixel[c]);
+}
+
+TEST(Png, WhereNothingCanBeWrittenThrows) {
+  const Image<glm::u8vec3> pixels({1, 1});
+  EXPECT_THROW(write_png("/dev/full", pixels), EnvironmentError);
+  EXPECT_THROW(write_png(std::filesystem::path(testing::TempDir()) / "nowhere" / "x.png", pixels),
+               EnvironmentError);
+}
+
+}  // namespace
+}  // namespace pinocchio

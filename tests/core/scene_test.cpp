@@ -1,0 +1,100 @@
+#include "core/scene/scene.h"
+
+#include <cmath>
+
+#include "tests/support/scenes.h"
+
+namespace pinocchio {
+namespace {
+
+bool finite(const glm::vec3& v) {
+  return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
+}
+
+std::string complaint_of(const Scene& scene) {
+  const Expected<void> checked = check_scene(scene);
+  return checked ? "" : checked.error().message();
+}
+
+TEST(Scene, CastingLightsAreInSceneOrder) {
+  Scene scene;
+  scene.lights = {point_light({0, 0, 0}, false), point_light({1, 0, 0}), point_light({2, 0, 0}, false),
+                  point_light({3, 0, 0})};
+  EXPECT_EQ(casting_lights(scene), (std::vector<int>{1, 3}));
+}
+
+TEST(Scene, CamerasAreFoundByName) {
+  const Scene scene = plate_over_floor();
+  ASSERT_NE(find_camera(scene, "above"), nullptr);
+  EXPECT_EQ(find_camera(scene, "above")->eye, glm::vec3(0, 9, 6));
+  EXPECT_EQ(find_camera(scene, "below"), nullptr);
+}
+
+TEST(Scene, TheCameraForTheWholeSceneSeesEveryVertex) {
+  const Scene scene = random_soup(200, 0.5f, 7);
+  const Camera camera = camera_for_whole_scene(scene);
+  const CameraAxes axes = camera_axes(camera);
+  const float edge = std::tan(glm::radians(0.5f * camera.fov_deg));
+  for (const glm::vec3& p : scene.positions) {
+    const glm::vec3 d = p - camera.eye;
+    const float depth = glm::dot(d, axes.forward);
+    ASSERT_GT(depth, 0.0f);
+    EXPECT_LT(std::abs(glm::dot(d, axes.right)), edge * depth);
+    EXPECT_LT(std::abs(glm::dot(d, axes.up)), edge * depth);
+  }
+  EXPECT_GT(camera.eye.y, camera.target.y);
+}
+
+TEST(Scene, DegenerateScenesGetACameraAndALight) {
+  Scene point;
+  add_triangle(point, {1000, 0, 0}, {1000, 0, 0}, {1000, 0, 0});
+  for (const Scene& scene : {Scene{}, point}) {
+    const Camera camera = camera_for_whole_scene(scene);
+    EXPECT_TRUE(finite(camera.eye) && finite(camera.target));
+    EXPECT_TRUE(finite(camera_axes(camera).right));
+    EXPECT_TRUE(finite(default_light(scene, camera).position));
+  }
+}
+
+TEST(Scene, TheDefaultLightIsAboveAndBesideTheEye) {
+  const Scene scene = plate_over_floor();
+  Camera camera = scene.cameras[0];
+  const Light light = default_light(scene, camera);
+  EXPECT_TRUE(light.casts_shadow);
+  EXPECT_GT(light.position.y, camera.eye.y);
+  EXPECT_GT(glm::dot(light.position - camera.eye, camera_axes(camera).right), 0.0f);
+  camera.up = camera.target - camera.eye;  // looks along `up`
+  EXPECT_TRUE(finite(default_light(scene, camera).position));
+}
+
+TEST(CheckScene, SaysWhatIsWrong) {
+  const Scene good = plate_over_floor();
+  EXPECT_EQ(complaint_of(good), "");
+  EXPECT_NE(complaint_of(Scene{}).find("no triangles"), std::string::npos);
+  Scene bad = good;
+  bad.triangles[1].z = 99;
+  EXPECT_NE(complaint_of(bad).find("triangle 1"), std::string::npos);
+  bad = good;
+  bad.triangle_materials[2] = 5;
+  EXPECT_NE(complaint_of(bad).find("triangle 2"), std::string::npos);
+  bad = good;
+  bad.positions[3].y = std::nanf("");
+  EXPECT_NE(complaint_of(bad).find("vertex 3"), std::string::npos);
+  bad = good;
+  bad.normals[4].x = INFINITY;
+  EXPECT_NE(complaint_of(bad).find("vertex 4"), std::string::npos);
+  bad = good;
+  bad.normals.pop_back();
+  EXPECT_NE(complaint_of(bad).find("one of everything"), std::string::npos);
+  bad = good;
+  bad.positions[0].x = -2.0f * kFarthest;
+  EXPECT_NE(complaint_of(bad).find("scale the scene down"), std::string::npos);
+  bad = good;
+  bad.texcoords.assign(bad.positions.size(), glm::vec2(0.0f));
+  EXPECT_EQ(complaint_of(bad), "");
+  bad.texcoords[2].y = std::nanf("");
+  EXPECT_NE(complaint_of(bad).find("texture coordinate of vertex 2"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace pinocchio
