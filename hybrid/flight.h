@@ -25,10 +25,32 @@ struct FrameRequest {
   glm::vec2 jitter{0.0f};  // where pixels are sampled off their centre, pixels
 };
 
-// One frame in flight: what it was asked for, and every buffer that is its own.
+// A picture on its way to the CPU: where it is drawn, and the buffer it travels in.
+struct Outgoing {
+  explicit Outgoing(gl::Mapping mapping) : back(mapping) {}
+  gl::Framebuffer target;
+  gl::Readback back;
+};
+
+// A picture on its way to the GPU: the open buffer that any thread may fill, and the texture it ends in.
+struct Incoming {
+  explicit Incoming(gl::Mapping mapping) : up(mapping) {}
+  gl::Upload up;
+  std::span<std::byte> bytes;
+  gl::Texture texture;
+};
+
+// One frame in flight: what it was asked for, and every buffer that is its own. A plan uses some of them.
 struct Flight {
   explicit Flight(gl::Mapping mapping)
-      : ids_back(mapping), mask_up(mapping), reflection_up(mapping), picture_back(mapping) {}
+      : visibility(mapping),
+        normals(mapping),
+        gbuffer(mapping),
+        phong(mapping),
+        mask_in(mapping),
+        reflection_in(mapping),
+        picture_in(mapping),
+        picture(mapping) {}
 
   enum class State { idle, drawn, tracing, finished };
   State state = State::idle;
@@ -36,20 +58,20 @@ struct Flight {
   shared::ViewParams view;
   FrameRecord record;
 
-  gl::Framebuffer visibility;  // ids, with depth
-  gl::Readback ids_back;
+  // GPU: what is seen. CPU: the same, where it is asked for.
+  Outgoing visibility;               // ids, with depth
+  Outgoing normals, gbuffer, phong;  // as the plan asks for them
   Image<std::uint32_t> ids;
+  Image<glm::u8vec3> phong_srgb;     // design 2: light that needs no shadow ray
 
+  // CPU: the answer, and its way to the GPU.
   std::future<void> tracing;
   MaskImage mask;
   Image<glm::vec3> reflection;
+  Incoming mask_in, reflection_in;  // design 1
+  Incoming picture_in;              // design 2
 
-  gl::Upload mask_up, reflection_up;
-  std::span<std::byte> mask_bytes, reflection_bytes;  // the uploads' memory, open while the frame is traced
-  gl::Texture mask_texture, reflection_texture;
-
-  gl::Framebuffer picture;
-  gl::Readback picture_back;
+  Outgoing picture;  // RGBA16F, linear light
 
   gl::GpuTimer raster_timer, composite_timer;
 };

@@ -6,8 +6,11 @@
 #include "core/trace/mask_image.h"
 
 namespace pinocchio {
+namespace {
 
-Expected<Plan> make_plan(const Needs& needs, Mode mode, int depth) {
+constexpr std::size_t kMost16BitIds = 0xffff, kMost24BitIds = 0xffffff;  // one value less, as "none" is one
+
+Expected<void> check_limits(const Needs& needs, const PlanRequest& request) {
   if (needs.casting_lights > kMaxCastingLights)
     return Unexpected(InputError{{},
                                  0,
@@ -16,32 +19,63 @@ Expected<Plan> make_plan(const Needs& needs, Mode mode, int depth) {
                                      std::to_string(kMaxCastingLights),
                                  "let some not cast (extras.pinocchio.castsShadow, or "
                                  "--light x,y,z,intensity,nocast)"});
-  Plan plan;
-  plan.mode = mode;
-  plan.id_bits = needs.triangles < 0xffffu ? 16 : 32;
-  if (mode == Mode::raster) return plan;
+  if (request.slides && needs.triangles >= kMost24BitIds)
+    return Unexpected(InputError{{},
+                                 0,
+                                 "the scene has " + std::to_string(needs.triangles) +
+                                     " triangles, the slides' 24-bit ids name " + std::to_string(kMost24BitIds - 1),
+                                 "use --plan auto"});
+  return {};
+}
+
+// What the scene asks for, whatever format it travels in.
+void plan_passes(const Needs& needs, const PlanRequest& request, Plan& plan) {
   plan.mask_bits = MaskImage::bits_for(needs.casting_lights);
-  plan.depth = needs.mirrors ? depth : 0;
-  plan.reflection = plan.depth > 0;
+  plan.depth = needs.mirrors ? request.depth : 0;
+  if (plan.depth > 0) plan.reflection = ReflectionFormat::half;
+}
+
+}  // namespace
+
+Expected<Plan> make_plan(const Needs& needs, const PlanRequest& request) {
+  if (const Expected<void> checked = check_limits(needs, request); !checked) return Unexpected(checked.error());
+  Plan plan;
+  plan.mode = request.mode;
+  plan.design = request.design;
+  plan.id_bits = needs.triangles < kMost16BitIds ? 16 : 32;
+  if (request.mode == Mode::raster) return plan;
+  plan_passes(needs, request, plan);
+  if (!request.slides || request.mode != Mode::hybrid) return plan;
+  plan.mask_bits = 8;
+  plan.reflection = ReflectionFormat::rgb8;
+  if (request.design == 1) {
+    plan.id_bits = 24;
+    plan.normals = true;
+  } else {
+    plan.id_bits = 32;
+    plan.wide = true;
+  }
   return plan;
 }
 
 const char* mode_name(Mode mode) {
   switch (mode) {
-    case Mode::hybrid:
-      return "hybrid";
-    case Mode::raytrace:
-      return "raytrace";
-    case Mode::raster:
-      return "raster";
+    case Mode::hybrid: return "hybrid";
+    case Mode::raytrace: return "raytrace";
+    case Mode::raster: return "raster";
   }
   return "";
 }
 
 nlohmann::json to_json(const Plan& plan) {
+  constexpr const char* kFormats[] = {"none", "rgb8", "half"};
   nlohmann::json json{{"mode", mode_name(plan.mode)}, {"mask_bits", plan.mask_bits}, {"depth", plan.depth}};
-  json["reflection"] = plan.reflection ? "half" : "none";
-  if (plan.mode == Mode::hybrid) json["id_bits"] = plan.id_bits;
+  json["reflection"] = kFormats[static_cast<int>(plan.reflection)];
+  if (plan.mode != Mode::hybrid) return json;
+  json["design"] = plan.design;
+  json["id_bits"] = plan.id_bits;
+  json["normals"] = plan.normals;
+  json["wide"] = plan.wide;
   return json;
 }
 

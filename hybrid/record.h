@@ -12,8 +12,14 @@ namespace pinocchio {
 
 // The stages of a frame, in the order a frame goes through them; names as in the figures.
 enum class Stage { raster, readback, trace_shadow, trace_reflection, upload, composite, present };
-inline constexpr std::array<std::string_view, 7> kStageNames{
-    "raster", "readback", "trace_shadow", "trace_reflection", "upload", "composite", "present"};
+inline constexpr std::array<std::string_view, 7> kStageNames{"raster", "readback",  "trace_shadow", "trace_reflection",
+                                                             "upload", "composite", "present"};
+
+// What travels: the first four from GPU to CPU, the others back.
+enum class Transfer { ids, normals, gbuffer, phong, mask, reflection, picture };
+inline constexpr std::array<std::string_view, 7> kTransferNames{"ids",  "normals",    "gbuffer", "phong",
+                                                                "mask", "reflection", "picture"};
+[[nodiscard]] inline bool goes_to_cpu(Transfer transfer) { return transfer < Transfer::mask; }
 
 // The steady clock, seconds: the one time base of CPU and GPU stages.
 [[nodiscard]] inline double now_s() {
@@ -29,16 +35,30 @@ struct Span {
 
 // What one frame cost.
 struct FrameRecord {
-  std::uint64_t number = 0;                          // of the frame, in the order they were asked for
-  std::array<Span, kStageNames.size()> stages{};     // empty: the plan has no such stage
-  Span frame;                                        // camera sampled to picture delivered
-  int latency_frames = 0;                            // frames begun between the two
-  std::size_t id_bytes = 0;                          // GPU to CPU
-  std::size_t mask_bytes = 0, reflection_bytes = 0;  // CPU to GPU
+  std::uint64_t number = 0;                         // of the frame, in the order they were asked for
+  std::array<Span, kStageNames.size()> stages{};    // empty: the plan has no such stage
+  Span frame;                                       // camera sampled to picture delivered
+  int latency_frames = 0;                           // frames begun between the two
+  int age_frames = 0;                               // how much older the mask and reflection shown are
+  double exchange_ms = 0.0;                         // of this thread, in copies, maps, fences and uploads
+  std::array<std::size_t, kTransferNames.size()> bytes{};
   RayCounts rays;
 
   [[nodiscard]] Span& operator[](Stage stage) { return stages[static_cast<std::size_t>(stage)]; }
   [[nodiscard]] const Span& operator[](Stage stage) const { return stages[static_cast<std::size_t>(stage)]; }
+  [[nodiscard]] std::size_t& operator[](Transfer transfer) { return bytes[static_cast<std::size_t>(transfer)]; }
+  [[nodiscard]] std::size_t operator[](Transfer transfer) const { return bytes[static_cast<std::size_t>(transfer)]; }
+  // Of all that goes to the CPU, or to the GPU.
+  [[nodiscard]] std::size_t bytes_to_cpu() const { return sum_bytes(true); }
+  [[nodiscard]] std::size_t bytes_to_gpu() const { return sum_bytes(false); }
+
+ private:
+  [[nodiscard]] std::size_t sum_bytes(bool to_cpu) const {
+    std::size_t sum = 0;
+    for (std::size_t i = 0; i < bytes.size(); ++i)
+      if (goes_to_cpu(static_cast<Transfer>(i)) == to_cpu) sum += bytes[i];
+    return sum;
+  }
 };
 
 // Notes when a stage begins and ends on the CPU.
@@ -51,6 +71,19 @@ class StageTimer {
 
  private:
   Span& span_;
+};
+
+// Adds to the time that the frame's exchange takes on this thread.
+class ExchangeTimer {
+ public:
+  explicit ExchangeTimer(FrameRecord& record) : ms_(record.exchange_ms) {}
+  ~ExchangeTimer() { ms_ += 1e3 * (now_s() - begin_s_); }
+  ExchangeTimer(const ExchangeTimer&) = delete;
+  ExchangeTimer& operator=(const ExchangeTimer&) = delete;
+
+ private:
+  double& ms_;
+  double begin_s_ = now_s();
 };
 
 }  // namespace pinocchio

@@ -1,23 +1,23 @@
 #version 330 core
 // Phong per light times its mask bit, plus the traced reflection: the picture. Phong and composite are one
 // pass, as the mask weighs each light by itself and the sum of lights cannot be weighed afterwards.
-//   HAS_MASK        the CPU's shadow mask, MASK_BITS a pixel; without it every light reaches everything
-//   HAS_REFLECTION  the CPU's mirrored and refracted light
-//   HAS_TEXTURES    some material has a texture
+//   ID_BITS           16, 24 or 32
+//   HAS_MASK          the CPU's shadow mask, MASK_BITS a pixel; without it every light reaches everything
+//   FREE_LIGHTS_ONLY  lights that cast are left out: the CPU adds them (design 2)
+//   HAS_REFLECTION    the CPU's mirrored and refracted light
+//   HAS_TEXTURES      some material has a texture
+//   REPROJECT         mask and reflection are of an older frame, whose view and ids are given: each pixel
+//                     looks up where its point was seen then. Where that frame saw another triangle there,
+//                     nor one of the neighbours does, the pixel is a hole: every light reaches it, and it
+//                     takes the reflection that is there.
 
 #define SHARED
 #include "shared/view.glsl"
 #include "shared/surface.glsl"
 #include "shared/phong.glsl"
 #include "scene_fetch.glsl"
+#include "pixel_surface.glsl"
 
-uniform usampler2D ids;
-uniform uint no_triangle;
-uniform vec3 eye;
-uniform vec3 corner;
-uniform vec3 step_x;
-uniform vec3 step_y;
-uniform vec2 first;
 uniform vec3 ambient_light;
 uniform int light_count;
 #ifdef HAS_MASK
@@ -26,16 +26,50 @@ uniform usampler2D mask;
 #ifdef HAS_REFLECTION
 uniform sampler2D reflection;
 #endif
+#ifdef REPROJECT
+uniform usampler2D old_ids;
+uniform vec3 old_eye;
+uniform mat3 old_pixel_from_eye;  // (p_world - old_eye) to pixel x, y times z, and z
+#endif
 
 out vec4 color;
 
 const float kLargestHalf = 65504.0;
 
-bool light_reaches(ivec2 pixel, int slot) {
-#ifdef HAS_MASK
+// Where mask and reflection of a pixel are to be found.
+struct Source {
+  ivec2 pixel;
+  bool hole;
+};
+
+Source source_of(ivec2 pixel, uint id, vec3 p_world) {
+#ifdef REPROJECT
+  vec3 at = old_pixel_from_eye * (p_world - old_eye);
+  ivec2 last = textureSize(old_ids, 0) - 1;
+  ivec2 nearest = clamp(ivec2(floor(at.xy / max(at.z, 1e-20) + 0.5)), ivec2(0), last);
+  if (at.z > 0.0) {
+    // The pixel itself first, then its neighbours.
+    for (int i = 0; i < 9; ++i) {
+      int k = i == 0 ? 4 : i <= 4 ? i - 1 : i;
+      ivec2 there = clamp(nearest + ivec2(k % 3 - 1, k / 3 - 1), ivec2(0), last);
+      if (fetch_id(old_ids, there) == id) return Source(there, false);
+    }
+  }
+  return Source(nearest, true);
+#else
+  return Source(pixel, false);
+#endif
+}
+
+bool light_reaches(Source source, int slot) {
   if (slot < 0) return true;
-  int bit = pixel.x * MASK_BITS + slot;
-  uint byte_of_mask = texelFetch(mask, ivec2(bit / 8, pixel.y), 0).r;
+#ifdef FREE_LIGHTS_ONLY
+  return false;
+#endif
+#ifdef HAS_MASK
+  if (source.hole) return true;
+  int bit = source.pixel.x * MASK_BITS + slot;
+  uint byte_of_mask = texelFetch(mask, ivec2(bit / 8, source.pixel.y), 0).r;
   return (byte_of_mask >> uint(bit % 8) & 1u) != 0u;
 #else
   return true;
@@ -44,32 +78,22 @@ bool light_reaches(ivec2 pixel, int slot) {
 
 void main() {
   ivec2 pixel = ivec2(gl_FragCoord.xy);
-  uint id = texelFetch(ids, pixel, 0).r;
+  uint id = fetch_id(ids, pixel);
   color = vec4(0.0);
-  if (id == no_triangle) return;
+  if (id == kNoTriangle) return;
 
-  ViewParams view = ViewParams(eye, corner, step_x, step_y, first);
-  vec3 direction = pixel_direction(view, vec2(pixel));
-  uvec3 corners = fetch_corners(id);
-  vec3 a = fetch_vec3(positions, corners.x), b = fetch_vec3(positions, corners.y), c = fetch_vec3(positions, corners.z);
-  vec3 weights = barycentric_of(eye, direction, a, b, c);
-  vec3 p_world = point_on_triangle(weights, a, b, c);
-  vec3 to_viewer = -normalize(direction);
-  vec3 n_geometric = geometric_normal(a, b, c, to_viewer);
-  vec3 n_shading = shading_normal(weights, fetch_vec3(normals, corners.x), fetch_vec3(normals, corners.y),
-                                  fetch_vec3(normals, corners.z), n_geometric);
-  FacingNormals n = face_viewer(n_geometric, n_shading, to_viewer);
-
-  PhongParams material = fetch_material(id, corners, weights);
+  PixelSurface s = surface_of(id, pixel);
+  PhongParams material = fetch_material(id, s.corners, s.weights);
+  Source source = source_of(pixel, id, s.p_world);
   vec3 sum = phong_ambient(material, ambient_light);
   for (int i = 0; i < light_count; ++i) {
-    if (!light_reaches(pixel, fetch_mask_slot(i))) continue;
-    Incident incident = incident_light(fetch_light(i), p_world);
-    if (!faces_light(n.shading, n.geometric, incident.to_light)) continue;
-    sum += phong_light(material, incident, n.shading, to_viewer);
+    if (!light_reaches(source, fetch_mask_slot(i))) continue;
+    Incident incident = incident_light(fetch_light(i), s.p_world);
+    if (!faces_light(s.n.shading, s.n.geometric, incident.to_light)) continue;
+    sum += phong_light(material, incident, s.n.shading, s.to_viewer);
   }
 #ifdef HAS_REFLECTION
-  sum += texelFetch(reflection, pixel, 0).rgb;
+  sum += texelFetch(reflection, source.pixel, 0).rgb;
 #endif
   color = vec4(min(sum, kLargestHalf), 1.0);
 }

@@ -1,12 +1,13 @@
 #include <fstream>
 
+#include "tests/support/own_file.h"
 #include "tests/support/scenes.h"
 
 namespace pinocchio {
 namespace {
 
 std::filesystem::path write_file(const std::string& name, const std::string& text) {
-  const std::filesystem::path path = std::filesystem::path(testing::TempDir()) / name;
+  const std::filesystem::path path = own_file(name);
   std::ofstream(path) << text;
   return path;
 }
@@ -88,8 +89,8 @@ TEST(LoadObj, MissingMaterialsAndTexturesAreWarnings) {
 
 TEST(LoadObj, TextureCoordinatesGrowDownwards) {
   write_file("t.ppm", "P3 1 1 255 10 20 30\n");  // not what stb reads as text; P6 is
-  std::ofstream(std::filesystem::path(testing::TempDir()) / "t.ppm", std::ios::binary) << "P6 1 1 255\n"
-                                                                                       << "\x0a\x14\x1e";
+  std::ofstream(own_file("t.ppm"), std::ios::binary) << "P6 1 1 255\n"
+                                                     << "\x0a\x14\x1e";
   const Scene scene =
       load_text(kTriangle + "vt 0.25 0.75\nusemtl m\nf 1/1 2/1 3/1\n", "newmtl m\nmap_Kd t.ppm\n");
   ASSERT_EQ(scene.textures.size(), 1u);

@@ -1,0 +1,125 @@
+#include "tests/support/gltf.h"
+
+namespace pinocchio {
+namespace {
+
+TEST(LoadGltfBad, BadFilesAreErrorsThatSayWhat) {
+  Json json = triangle_json();
+  json["accessors"][0]["count"] = 400;
+  EXPECT_NE(error_of(json).find("accessor 0 reaches beyond its buffer"), std::string::npos);
+  json = triangle_json();
+  json["accessors"][0]["bufferView"] = 7;
+  EXPECT_NE(error_of(json).find("buffer view"), std::string::npos);
+  json = triangle_json();
+  json["accessors"][0]["type"] = "VEC2";
+  EXPECT_NE(error_of(json).find("3 numbers"), std::string::npos);
+  json = triangle_json();
+  json["accessors"][0]["count"] = 2;  // the index 2 is out of range now
+  EXPECT_NE(error_of(json).find("names vertex 2"), std::string::npos);
+  json = triangle_json();
+  json["meshes"][0]["primitives"][0]["material"] = 3;
+  EXPECT_NE(error_of(json).find("material 3"), std::string::npos);
+  json = triangle_json();
+  json["nodes"] = {{{"children", {1}}}, {{"children", {0}}, {"mesh", 0}}};
+  EXPECT_NE(error_of(json).find("twice"), std::string::npos);
+  json = triangle_json();
+  json["nodes"][0]["mesh"] = 4;
+  EXPECT_NE(error_of(json).find("mesh 4"), std::string::npos);
+  json = triangle_json();
+  json["buffers"][0]["uri"] = "nowhere.bin";
+  EXPECT_NE(error_of(json).find("glTF"), std::string::npos);
+  json = triangle_json();
+  json["extensionsRequired"] = {"KHR_draco_mesh_compression"};
+  EXPECT_NE(error_of(json).find("KHR_draco_mesh_compression"), std::string::npos);
+  json = triangle_json();
+  json["scenes"][0]["nodes"] = Json::array();
+  EXPECT_NE(error_of(json).find("no triangles"), std::string::npos);
+}
+
+TEST(LoadGltfBad, WhatTheFileDoesNotHoldIsNotBelieved) {
+  Json json = triangle_json();
+  json["accessors"][0] = {{"componentType", 5126},
+                          {"count", 4000000000u},
+                          {"type", "VEC3"},
+                          {"sparse",
+                           {{"count", 1},
+                            {"indices", {{"bufferView", 1}, {"componentType", 5123}}},
+                            {"values", {{"bufferView", 0}}}}}};
+  EXPECT_NE(error_of(json).find("not in the file"), std::string::npos);
+  json["accessors"][0]["count"] = 4;
+  json["accessors"][0]["sparse"]["indices"]["componentType"] = 5126;
+  EXPECT_NE(error_of(json).find("unsigned integers"), std::string::npos);
+  json = triangle_json();
+  json["accessors"][0]["componentType"] = 5124;  // tinygltf's INT
+  EXPECT_NE(error_of(json).find("component type 5124"), std::string::npos);
+  json = triangle_json();
+  json["nodes"][0]["extensions"]["KHR_lights_punctual"]["light"] = -1;
+  EXPECT_NE(error_of(json).find("light"), std::string::npos);
+  json = triangle_json();
+  json["meshes"][0]["primitives"][0]["mode"] = 99;
+  EXPECT_NE(error_of(json).find("mode 99"), std::string::npos);
+}
+
+TEST(LoadGltfBad, DeepNestingIsAnError) {
+  std::string text = triangle_json().dump();
+  text.pop_back();
+  text += R"(,"extras":)" + std::string(200000, '[') + std::string(200000, ']') + "}";
+  const std::filesystem::path path = own_file("deep.gltf");
+  std::ofstream(path) << text;
+  const Expected<Scene> scene = load_scene(path);
+  ASSERT_FALSE(scene);
+  EXPECT_NE(scene.error().what.find("nested"), std::string::npos);
+}
+
+TEST(LoadGltfBad, ImagesThatCannotBeReadAreWarnings) {
+  for (const Json& image : {Json{{"uri", "nowhere.png"}}, Json{{"uri", "data:image/png;base64,AAAA"}},
+                            Json{{"bufferView", 0}, {"mimeType", "image/png"}}}) {
+    Json json = textured_json(image);
+    Warnings warnings;
+    const Expected<Scene> scene = load(json, &warnings);
+    ASSERT_TRUE(scene) << scene.error().message();
+    EXPECT_EQ(scene->materials[0].diffuse_texture, -1);
+    EXPECT_FALSE(warnings.empty());
+  }
+}
+
+TEST(LoadGltfBad, CamerasAndLightsThatCannotWorkAreLeftOut) {
+  Json json = triangle_json();
+  json["cameras"] = {{{"type", "perspective"}, {"perspective", {{"yfov", 0.0}, {"znear", 0.1}}}},
+                     {{"type", "perspective"}, {"perspective", {{"yfov", 1.0}, {"znear", 0.1}}}}};
+  json["extensions"]["KHR_lights_punctual"]["lights"] = {{{"type", "point"}, {"intensity", 1e300}}};
+  json["nodes"] = {{{"mesh", 0}},
+                   {{"camera", 0}},
+                   {{"camera", 1}, {"extras", {{"pinocchio", {{"target", 0}, {"up", 0}}}}}},
+                   {{"extensions", {{"KHR_lights_punctual", {{"light", 0}}}}}}};
+  json["scenes"][0]["nodes"] = {0, 1, 2, 3};
+  Warnings warnings;
+  const Expected<Scene> scene = load(json, &warnings);
+  ASSERT_TRUE(scene) << scene.error().message();
+  EXPECT_EQ(warnings.size(), 2u);
+  EXPECT_TRUE(scene->lights.empty());
+  ASSERT_EQ(scene->cameras.size(), 1u);
+  EXPECT_EQ(scene->cameras[0].target, glm::vec3(0, 0, -1));  // the one in the file is the eye itself
+  EXPECT_EQ(scene->cameras[0].up, glm::vec3(0, 1, 0));
+}
+
+TEST(LoadGltfBad, DamagedFilesNeverCrash) {
+  const std::filesystem::path glb = source_path("scenes/speedboat.glb");
+  std::ifstream in(glb, std::ios::binary);
+  const std::string whole((std::istreambuf_iterator<char>(in)), {});
+  const std::filesystem::path damaged = own_file("damaged.glb");
+  Random random(3);
+  for (int i = 0; i < 60; ++i) {
+    std::string bytes = whole;
+    if (i % 3 == 0) bytes.resize(random.next() % bytes.size());
+    // Mostly in the JSON, which is what is interpreted.
+    for (int k = 0; k < 20; ++k)
+      bytes[random.next() % std::min<std::size_t>(bytes.size(), 20000)] ^=
+          static_cast<char>(1u << random.next() % 8);
+    std::ofstream(damaged, std::ios::binary) << bytes;
+    (void)load_scene(damaged);
+  }
+}
+
+}  // namespace
+}  // namespace pinocchio
