@@ -9,13 +9,20 @@
 
 namespace pinocchio::app {
 
-Machine::Machine(const DrawOptions& options, Scene scene)
-    : plan_(value_or_exit(make_plan(take_census(scene), options.mode, options.depth), kBadScene)),
+Machine::Machine(const DrawOptions& options, Scene scene, std::optional<Sides> sides)
+    : plan_(value_or_exit(make_plan(take_census(scene), plan_request(options)), kBadScene)),
       workers_(options.threads) {
-  if (plan_.mode != Mode::raytrace)
+  const Sides wanted = sides.value_or(sides_of(plan_));
+  if (wanted.gpu) {
+    if (options.gl_threads > 0) setenv("LP_NUM_THREADS", std::to_string(options.gl_threads).c_str(), 1);
     context_ =
         gl::open_context({options.backend, options.device, std::getenv("PINOCCHIO_GL_DEBUG") != nullptr});
-  scene_ = std::make_shared<const PreparedScene>(std::move(scene), plan_, options.tree, options.isa);
+  }
+  scene_ = std::make_shared<const PreparedScene>(std::move(scene), wanted, options.tree, options.isa);
+}
+
+PlanRequest plan_request(const DrawOptions& options) {
+  return {options.mode, options.design, options.depth, options.slides};
 }
 
 PixelBox part_of(const DrawOptions& options) {

@@ -3,6 +3,7 @@
 #include <filesystem>
 #include <memory>
 #include <nlohmann/json_fwd.hpp>
+#include <optional>
 
 #include "app/options.h"
 #include "gl/context.h"
@@ -14,8 +15,9 @@ namespace pinocchio::app {
 // plan and the scene made ready for it.
 class Machine {
  public:
-  // Ends the verb with kBadScene where no plan draws the scene; throws gl::NoContextError.
-  Machine(const DrawOptions& options, Scene scene);
+  // `sides`: nothing asks for what the options' plan needs. Ends the verb with kBadScene where no plan draws
+  // the scene; throws gl::NoContextError.
+  Machine(const DrawOptions& options, Scene scene, std::optional<Sides> sides = {});
 
   [[nodiscard]] const PreparedScene& scene() const { return *scene_; }
   [[nodiscard]] const std::shared_ptr<const PreparedScene>& shared_scene() const { return scene_; }
@@ -33,6 +35,9 @@ class Machine {
   Workers workers_;
   std::shared_ptr<const PreparedScene> scene_;
 };
+
+// What the options ask of a plan.
+[[nodiscard]] PlanRequest plan_request(const DrawOptions& options);
 
 // The pixels to draw: --crop within --size, or all. Ends the verb with kUsage where they are none.
 [[nodiscard]] PixelBox part_of(const DrawOptions& options);

@@ -33,7 +33,7 @@ std::optional<Mode> parse_mode(const std::string& text) {
 }
 
 std::optional<Exchange> parse_exchange(const std::string& text) {
-  for (const Exchange exchange : {Exchange::sync, Exchange::pipelined})
+  for (const Exchange exchange : {Exchange::sync, Exchange::pipelined, Exchange::reproject})
     if (text == exchange_name(exchange)) return exchange;
   return std::nullopt;
 }
@@ -52,14 +52,22 @@ void add_picture_options(CLI::App& verb, DrawOptions& o) {
       ->type_name("WxH");
   add_parsed<Mode>(verb, "--mode", "who draws: both, CPU alone, GPU alone (hybrid)",
                    "hybrid, raytrace or raster", parse_mode, [&o](Mode v) { o.mode = v; });
-  verb.add_option("--design", "where the parts meet: 1, on the GPU (1)")->check(CLI::IsMember({"1"}));
+  verb.add_option("--design", o.design, "where the parts meet: 1, on the GPU; 2, on the CPU (1)")
+      ->check(CLI::Range(1, 2));
   add_parsed<Exchange>(
       verb, "--exchange",
       "sync: wait for the CPU; pipelined: its part comes two frames later, GPU and CPU work on "
-      "different frames (pipelined over frame ranges, sync for one frame)",
-      "sync or pipelined", parse_exchange, [&o](Exchange v) { o.exchange = v; });
-  verb.add_option("--plan", "auto: model and send only what the scene needs (auto)")
-      ->check(CLI::IsMember({"auto"}));
+      "different frames; reproject: newest raster, the last mask and reflection warped to it (pipelined over "
+      "frame ranges, sync for one frame)",
+      "sync, pipelined or reproject", parse_exchange, [&o](Exchange v) { o.exchange = v; });
+  add_parsed<bool>(
+      verb, "--plan",
+      "auto: model and send only what the scene needs; slides: the fixed bytes of 2005 (auto)",
+      "auto or slides",
+      [](const std::string& text) {
+        return text == "auto" || text == "slides" ? std::optional(text == "slides") : std::nullopt;
+      },
+      [&o](bool slides) { o.slides = slides; });
   add_parsed<PixelBox>(verb, "--crop",
                        "half-open pixel box; the EXR keeps the full displayWindow (whole frame)",
                        "x0,y0,x1,y1", parse_box, [&o](const PixelBox& v) { o.crop = v; });
@@ -102,9 +110,12 @@ void add_machine_options(CLI::App& verb, DrawOptions& o) {
       ->check(CLI::IsMember({"auto", "egl", "osmesa"}))
       ->envname("PINOCCHIO_BACKEND");
   verb.add_option("--device", o.device, "EGL device number, or software")->envname("PINOCCHIO_DEVICE");
+  verb.add_option("--gl-threads", o.gl_threads,
+                  "threads of a software rasteriser (its own choice: all cores)")
+      ->check(CLI::Range(1, 32));
   verb.add_option("--threads", o.threads, "worker threads (all cores)")->check(CLI::Range(1, 1024));
-  add_parsed<Isa>(verb, "--isa", "SIMD level, never above what the processor has (best)", "scalar or sse4",
-                  parse_isa, [&o](Isa v) {
+  add_parsed<Isa>(verb, "--isa", "SIMD level, never above what the processor has (best)",
+                  "scalar, sse4, avx2 or avx512", parse_isa, [&o](Isa v) {
                     if (!isa_supported(v))
                       throw CLI::ValidationError("--isa",
                                                  "this processor does not have " + std::string(isa_name(v)));

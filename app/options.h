@@ -34,7 +34,10 @@ struct DrawOptions {
   std::optional<PixelBox> crop;
   int spp = 1;
   int depth = 8;
-  int threads = 0;  // 0: all cores
+  int design = 1;
+  bool slides = false;  // --plan slides
+  int gl_threads = 0;   // of a software rasteriser; 0: its own choice
+  int threads = 0;      // 0: all cores
   std::optional<Isa> isa;
   BuildOptions tree;
   std::string progress = "auto";

@@ -28,16 +28,13 @@ nlohmann::json spread(const std::vector<FrameRecord>& records, Milliseconds ms) 
 }
 
 nlohmann::json bytes_json(const std::vector<FrameRecord>& records) {
-  const auto ids = [](const FrameRecord& r) { return r.id_bytes; };
-  const auto mask = [](const FrameRecord& r) { return r.mask_bytes; };
-  const auto reflection = [](const FrameRecord& r) { return r.reflection_bytes; };
-  return {{"gpu_to_cpu", per_frame(records, ids)},
-          {"cpu_to_gpu",
-           per_frame(records, [](const FrameRecord& r) { return r.mask_bytes + r.reflection_bytes; })},
-          {"buffers",
-           {{"ids", per_frame(records, ids)},
-            {"mask", per_frame(records, mask)},
-            {"reflection", per_frame(records, reflection)}}}};
+  nlohmann::json buffers;
+  for (std::size_t i = 0; i < kTransferNames.size(); ++i)
+    buffers[std::string(kTransferNames[i])] =
+        per_frame(records, [i](const FrameRecord& r) { return r.bytes[i]; });
+  return {{"gpu_to_cpu", per_frame(records, [](const FrameRecord& r) { return r.bytes_to_cpu(); })},
+          {"cpu_to_gpu", per_frame(records, [](const FrameRecord& r) { return r.bytes_to_gpu(); })},
+          {"buffers", buffers}};
 }
 
 nlohmann::json rays_json(const std::vector<FrameRecord>& records) {

@@ -33,7 +33,7 @@ void begin_depth_pass(const Framebuffer& target, std::uint32_t clear, glm::ivec2
   glClipControl(GL_LOWER_LEFT, GL_ZERO_TO_ONE);
   glEnable(GL_DEPTH_TEST);
   glDepthFunc(GL_GREATER);
-  const GLuint color[4] = {clear, 0, 0, 0};
+  const GLuint color[4] = {clear, clear, clear, clear};
   const GLfloat infinitely_far = 0.0f;
   glClearBufferuiv(GL_COLOR, 0, color);
   glClearBufferfv(GL_DEPTH, 0, &infinitely_far);
@@ -42,6 +42,7 @@ void begin_depth_pass(const Framebuffer& target, std::uint32_t clear, glm::ivec2
 void begin_fullscreen_pass(const Framebuffer& target) {
   target.bind();
   glDisable(GL_DEPTH_TEST);
+  glEnable(GL_FRAMEBUFFER_SRGB);  // shaders write linear light, whatever the format
 }
 
 }  // namespace pinocchio::gl

@@ -33,7 +33,7 @@ class FullscreenTriangle {
 };
 
 // Draws into `target` begin here, nearest surface wins: reversed depth, 0 (infinitely far) to 1 (the near
-// plane). Colour and depth are cleared, the colour to the unsigned integer `clear`. `target` shows the
+// plane). Colour and depth are cleared, the colour to unsigned integers `clear`. `target` shows the
 // part of a picture of `picture_size` that starts at pixel `first`.
 void begin_depth_pass(const Framebuffer& target, std::uint32_t clear, glm::ivec2 picture_size,
                       glm::ivec2 first);

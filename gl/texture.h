@@ -14,14 +14,19 @@ struct PixelFormat {
   GLenum internal;
   GLenum format;
   GLenum type;
-  std::size_t bytes;  // a pixel
+  std::size_t bytes;  // a pixel, on its way
 
   friend bool operator==(const PixelFormat&, const PixelFormat&) = default;
 };
 inline constexpr PixelFormat kR8Ui{GL_R8UI, GL_RED_INTEGER, GL_UNSIGNED_BYTE, 1};
 inline constexpr PixelFormat kR16Ui{GL_R16UI, GL_RED_INTEGER, GL_UNSIGNED_SHORT, 2};
 inline constexpr PixelFormat kR32Ui{GL_R32UI, GL_RED_INTEGER, GL_UNSIGNED_INT, 4};
-inline constexpr PixelFormat kRgb16F{GL_RGB16F, GL_RGB, GL_HALF_FLOAT, 6};
+inline constexpr PixelFormat kId24{GL_RGBA8UI, GL_RGB_INTEGER, GL_UNSIGNED_BYTE, 3};  // the fourth byte stays
+inline constexpr PixelFormat kRgba32Ui{GL_RGBA32UI, GL_RGBA_INTEGER, GL_UNSIGNED_INT, 16};
+inline constexpr PixelFormat kRgb8{GL_RGBA8, GL_RGB, GL_UNSIGNED_BYTE, 3};
+inline constexpr PixelFormat kSrgb8{GL_SRGB8_ALPHA8, GL_RGB, GL_UNSIGNED_BYTE, 3};
+inline constexpr PixelFormat kR8{GL_R8, GL_RED, GL_UNSIGNED_BYTE, 1};
+inline constexpr PixelFormat kR16F{GL_R16F, GL_RED, GL_HALF_FLOAT, 2};
 inline constexpr PixelFormat kRgba16F{GL_RGBA16F, GL_RGBA, GL_HALF_FLOAT, 8};
 inline constexpr PixelFormat kDepth32F{GL_DEPTH_COMPONENT32F, GL_DEPTH_COMPONENT, GL_FLOAT, 4};
 

@@ -2,41 +2,80 @@
 
 #include <filesystem>
 
-#include "hybrid/composite_pass.h"
 #include "hybrid/flight.h"
+#include "hybrid/shading_passes.h"
 #include "hybrid/visibility_pass.h"
 
 namespace pinocchio {
 
-// What is done to a frame, one function a step; the order is hybrid/frame.cpp's. None waits for the GPU
-// but fetch_ids and the last three.
-class Steps {
- public:
-  Steps(Workers& workers, const std::filesystem::path& shaders);
-
-  // GPU: which triangle each pixel sees; where the plan traces, the ids set out for the CPU.
-  void draw_visibility(Flight& frame) const;
-  // Takes the ids and opens the buffers that the CPU's answer will travel in.
-  void fetch_ids(Flight& frame) const;
-  // CPU, on any thread: shadow mask and reflection, written where they travel.
-  void trace(Flight& frame) const;
-  // Sends them off.
-  void upload(Flight& frame) const;
-  // GPU: Phong per light times its mask bit, plus reflection.
-  void composite(Flight& frame);
-
-  // The finished picture on the CPU, linear RGBA; waits for the GPU.
-  void read_picture(Flight& frame, Image<glm::vec4>& color) const;
-  // Flight::ids, also where the plan needs none on the CPU; waits for the GPU.
-  void read_ids(Flight& frame) const;
-  // Fills in what only the GPU's clock knows; waits for the GPU.
-  void complete_record(Flight& frame);
-
- private:
-  Workers& workers_;
-  VisibilityPass visibility_;
-  CompositePass composite_;
-  gl::GpuClock clock_;
+// What the designs share.
+struct Passes {
+  explicit Passes(const std::filesystem::path& shaders) : visibility(shaders), shading(shaders) {}
+  VisibilityPass visibility;
+  ShadingPasses shading;
 };
+
+// What is done to a frame, one function a step; the order is hybrid/frame.cpp's. None waits for the GPU
+// but fetch.
+class Design {
+ public:
+  Design(Workers& workers, Passes& passes) : workers_(workers), passes_(passes) {}
+  virtual ~Design() = default;
+  Design(const Design&) = delete;
+  Design& operator=(const Design&) = delete;
+
+  // GPU: what each pixel sees; where the plan traces, it sets out for the CPU.
+  virtual void draw(Flight& frame) const = 0;
+  // Takes what has come, and opens the buffers that the CPU's answer will travel in.
+  virtual void fetch(Flight& frame) const = 0;
+  // CPU, on any thread: shadow mask, reflection and what the design makes of them, written where it travels.
+  virtual void trace(Flight& frame) const = 0;
+  // Sends it off.
+  virtual void upload(Flight& frame) const = 0;
+  // GPU: the picture. `older`: the frame whose mask and reflection are warped to this one, else its own.
+  virtual void composite(Flight& frame, const Flight* older) const = 0;
+
+ protected:
+  void draw_ids(Flight& frame) const;
+  void send_to_cpu(Flight& frame, Outgoing& picture, Transfer transfer) const;
+  [[nodiscard]] ShadingPasses::Inputs inputs_of(const Flight& frame) const;
+  [[nodiscard]] TraceJob job_of(const Flight& frame) const;
+  // Shadow mask and reflection, as the plan asks for them.
+  void trace_plan(Flight& frame) const;
+
+  Workers& workers_;
+  Passes& passes_;
+};
+
+// The slides' first: the CPU sends mask and reflection, the GPU puts the picture together.
+class Design1 final : public Design {
+ public:
+  using Design::Design;
+  void draw(Flight& frame) const override;
+  void fetch(Flight& frame) const override;
+  void trace(Flight& frame) const override;
+  void upload(Flight& frame) const override;
+  void composite(Flight& frame, const Flight* older) const override;
+};
+
+// The slides' second: the GPU sends the light that needs no shadow ray, the CPU adds the rest and sends the
+// finished picture, 24 bit sRGB.
+class Design2 final : public Design {
+ public:
+  using Design::Design;
+  void draw(Flight& frame) const override;
+  void fetch(Flight& frame) const override;
+  void trace(Flight& frame) const override;
+  void upload(Flight& frame) const override;
+  void composite(Flight& frame, const Flight* older) const override;
+};
+
+// Buffers are made anew only where size or format changed since the slot's last frame.
+void fit(gl::Framebuffer& target, glm::ivec2 size, const gl::PixelFormat& format, bool with_depth = false);
+void fit(gl::Texture& texture, glm::ivec2 size, const gl::PixelFormat& format);
+template <class T>
+void fit(Image<T>& image, glm::ivec2 size) {
+  if (image.size() != size) image = Image<T>(size);
+}
 
 }  // namespace pinocchio

@@ -52,7 +52,7 @@ struct Flight {
         picture_in(mapping),
         picture(mapping) {}
 
-  enum class State { idle, drawn, tracing, finished };
+  enum class State { idle, drawn, delivered };
   State state = State::idle;
   FrameRequest request;
   shared::ViewParams view;
@@ -62,10 +62,11 @@ struct Flight {
   Outgoing visibility;               // ids, with depth
   Outgoing normals, gbuffer, phong;  // as the plan asks for them
   Image<std::uint32_t> ids;
-  Image<glm::u8vec3> phong_srgb;     // design 2: light that needs no shadow ray
+  Image<glm::u8vec3> phong_srgb;  // design 2: light that needs no shadow ray
 
   // CPU: the answer, and its way to the GPU.
-  std::future<void> tracing;
+  std::future<void> tracing;  // valid from the start of the trace until its answer is taken
+  bool answered = false;      // the answer is on the GPU
   MaskImage mask;
   Image<glm::vec3> reflection;
   Incoming mask_in, reflection_in;  // design 1

@@ -3,18 +3,43 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <glm/glm.hpp>
 #include <span>
 
 #include "core/image/image.h"
 #include "core/parallel/workers.h"
+#include "gl/texture.h"
+#include "hybrid/plan.h"
 
 namespace pinocchio {
 
-// Ids as the GPU sends them (16 or 32 bits; all bits set: nothing seen) to 32 bits.
+// How ids are stored and travel, and the value (of a component) that says nothing is seen.
+struct IdFormat {
+  gl::PixelFormat pixel;
+  std::uint32_t none;
+};
+[[nodiscard]] IdFormat id_format(int id_bits);
+
+// Ids as the GPU sends them to 32 bits.
 void unpack_ids(std::span<const std::byte> bytes, int id_bits, Image<std::uint32_t>& ids);
 
-// Linear light to half RGB, rounded to nearest; above 65504 clamped.
-void pack_radiance(const Image<glm::vec3>& radiance, Workers& workers, std::span<std::byte> bytes);
+// Ids out of design 2's 128-bit pixels.
+void unpack_gbuffer_ids(std::span<const std::byte> bytes, Image<std::uint32_t>& ids);
+
+// RGB travels as one component a texel, three texels a pixel: a driver may have no three-component format
+// of its own and convert, at ten times a copy's cost.
+[[nodiscard]] gl::PixelFormat component_format(ReflectionFormat format);
+[[nodiscard]] inline glm::ivec2 component_size(glm::ivec2 size) {
+  return {3 * size.x, size.y};
+}
+
+// Linear light in the reflection's format, rounded to nearest; what is too bright for it is clipped.
+void pack_radiance(const Image<glm::vec3>& radiance, ReflectionFormat format, Workers& workers,
+                   std::span<std::byte> bytes);
+
+// sRGB bytes to linear light and back.
+void unpack_srgb(std::span<const glm::u8vec3> srgb, Workers& workers, Image<glm::vec3>& light);
+void pack_srgb(const Image<glm::vec3>& light, Workers& workers, std::span<std::byte> bytes);
 
 // Half RGBA to floats.
 void unpack_picture(std::span<const std::byte> bytes, Image<glm::vec4>& color);

@@ -1,34 +1,70 @@
 #include "hybrid/frame.h"
 
+#include <algorithm>
+#include <utility>
+
+#include "hybrid/formats.h"
+
 namespace pinocchio {
+namespace {
+
+Span span_of(const gl::GpuTimer& timer, const gl::GpuClock& clock) {
+  const gl::GpuSpan measured = timer.span(clock);
+  return {measured.begin_s, measured.end_s};
+}
+
+// Whether the older frame's mask and reflection mean the same in the newer one.
+bool reprojects_to(const Flight& older, const Flight& newer) {
+  return older.answered && older.request.scene == newer.request.scene &&
+         older.request.plan.mask_bits == newer.request.plan.mask_bits &&
+         older.request.plan.reflection == newer.request.plan.reflection &&
+         older.request.plan.id_bits == newer.request.plan.id_bits;
+}
+
+}  // namespace
 
 const char* exchange_name(Exchange exchange) {
-  return exchange == Exchange::sync ? "sync" : "pipelined";
+  switch (exchange) {
+    case Exchange::sync:
+      return "sync";
+    case Exchange::pipelined:
+      return "pipelined";
+    case Exchange::reproject:
+      return "reproject";
+  }
+  return "";
 }
 
 FrameLoop::FrameLoop(Workers& workers, const std::filesystem::path& shaders, Exchange exchange,
                      gl::Mapping mapping, Sinks sinks)
-    : steps_(workers, shaders), exchange_(exchange), sinks_(std::move(sinks)) {
+    : passes_(shaders),
+      design1_(workers, passes_),
+      design2_(workers, passes_),
+      exchange_(exchange),
+      sinks_(std::move(sinks)) {
   for (int i = 0; i < kFramesInFlight; ++i) slots_.push_back(std::make_unique<Flight>(mapping));
+  clock_.calibrate();
 }
 
-// The order of a frame. Left to right is a frame's way, top to bottom what happens at one time:
+// The order of a frame. Left to right is a frame's way, top to bottom what happens at one time (design 1,
+// pipelined):
 //
-//   frame n    GPU  draw_visibility
-//   frame n-1  CPU                  fetch_ids  trace
-//   frame n-2  GPU                                   upload  composite
+//   frame n    GPU  draw
+//   frame n-1  CPU        fetch  trace
+//   frame n-2  GPU                      upload  composite
 void FrameLoop::submit(const FrameRequest& request) {
   Flight& now = begin(request);
-  steps_.draw_visibility(now);
-  if (exchange_ == Exchange::sync || !request.plan.traces()) {
-    drain();
-    return;
+  design_of(now).draw(now);
+  if (exchange_ == Exchange::reproject && request.plan.traces()) return submit_reprojected(now);
+  const int latency = latency_of(request.plan);
+  if (latency > 0) {
+    // The CPU traces one frame at a time, and is not idle while the GPU finishes another.
+    Flight* const oldest = frames_back(kLatencyFrames);
+    if (oldest && oldest->tracing.valid()) oldest->tracing.wait();
+    if (Flight* const last = frames_back(1)) start_trace(*last);
   }
-  Flight* const last = frames_back(1);
-  Flight* const oldest = frames_back(kLatencyFrames);
-  if (oldest && oldest->tracing.valid()) oldest->tracing.wait();  // the CPU traces one frame at a time ...
-  if (last) start_trace(*last);  // ... and is not idle while the GPU finishes one
-  if (oldest) finish(*oldest);
+  for (int n = kLatencyFrames; n >= latency; --n)
+    if (Flight* const due = frames_back(n)) finish(*due);
 }
 
 void FrameLoop::drain() {
@@ -38,10 +74,34 @@ void FrameLoop::drain() {
     if (Flight* const frame = frames_back(n)) retire(*frame);
 }
 
+const Design& FrameLoop::design_of(const Flight& frame) const {
+  const Plan& plan = frame.request.plan;
+  if (plan.mode == Mode::hybrid && plan.design == 2) return design2_;
+  return design1_;
+}
+
+int FrameLoop::latency_of(const Plan& plan) const {
+  if (exchange_ != Exchange::pipelined || !plan.traces()) return 0;
+  return plan.design == 2 ? kLatencyFramesDesign2 : kLatencyFrames;
+}
+
+// The newest raster at once. While the CPU traces the frame before, this one is shown with the answer to
+// the one before that; the first frame, and one that no answer fits, waits for its own.
+void FrameLoop::submit_reprojected(Flight& now) {
+  Flight *const last = frames_back(1), *const oldest = frames_back(kLatencyFrames);
+  if (oldest) take_traced(*oldest);
+  if (last && last->state == Flight::State::delivered) start_trace(*last);
+  for (const Flight* const source : {last, oldest})
+    if (source && reprojects_to(*source, now)) return deliver(now, source);
+  if (last) take_traced(*last);
+  finish(now);
+}
+
 Flight& FrameLoop::begin(const FrameRequest& request) {
   Flight& frame = *slots_[next_number_ % kFramesInFlight];
   retire(frame);
   frame.request = request;
+  frame.answered = false;
   frame.record = FrameRecord{};
   frame.record.number = next_number_++;
   frame.record.frame.begin_s = now_s();
@@ -55,32 +115,67 @@ Flight* FrameLoop::frames_back(int n) {
 }
 
 void FrameLoop::start_trace(Flight& frame) {
-  if (frame.state != Flight::State::drawn || !frame.request.plan.traces()) return;
-  steps_.fetch_ids(frame);
-  frame.tracing = std::async(std::launch::async, [this, &frame] { steps_.trace(frame); });
-  frame.state = Flight::State::tracing;
+  if (frame.state == Flight::State::idle || frame.tracing.valid() || frame.answered) return;
+  if (!frame.request.plan.traces()) return;
+  const Design& design = design_of(frame);
+  design.fetch(frame);
+  frame.record[Stage::readback].end_s = now_s();
+  frame.tracing = std::async(std::launch::async, [&design, &frame] { design.trace(frame); });
+}
+
+// Waits for the CPU's part and sends it to the GPU. Throws what tracing threw; the frame is lost then.
+void FrameLoop::take_traced(Flight& frame) {
+  if (!frame.tracing.valid()) return;
+  const Flight::State state = std::exchange(frame.state, Flight::State::idle);
+  frame.tracing.get();
+  design_of(frame).upload(frame);
+  frame.answered = true;
+  frame.state = state;
 }
 
 void FrameLoop::finish(Flight& frame) {
+  if (frame.state != Flight::State::drawn) return;
   start_trace(frame);
-  if (frame.state != Flight::State::drawn && frame.state != Flight::State::tracing) return;
+  take_traced(frame);
+  deliver(frame, nullptr);
+}
+
+void FrameLoop::deliver(Flight& frame, const Flight* older) {
   frame.state = Flight::State::idle;  // lost, should a line below throw
-  if (frame.tracing.valid()) {
-    frame.tracing.get();
-    steps_.upload(frame);
-  }
-  steps_.composite(frame);
-  frame.state = Flight::State::finished;
+  design_of(frame).composite(frame, older);
+  frame.state = Flight::State::delivered;
   frame.record.latency_frames = static_cast<int>(next_number_ - 1 - frame.record.number);
+  if (older) frame.record.age_frames = static_cast<int>(frame.record.number - older->record.number);
   sinks_.picture(frame);
 }
 
 // The GPU is done with the frame long since, unless it was the last one.
 void FrameLoop::retire(Flight& frame) {
-  if (frame.state != Flight::State::finished) return;
-  steps_.complete_record(frame);
+  take_traced(frame);
+  if (frame.state != Flight::State::delivered) return;
+  FrameRecord& record = frame.record;
+  record[Stage::raster] = span_of(frame.raster_timer, clock_);
+  record[Stage::composite] = span_of(frame.composite_timer, clock_);
+  if (record[Stage::readback].end_s > 0.0) record[Stage::readback].begin_s = record[Stage::raster].end_s;
+  record.frame.end_s = std::max(record[Stage::composite].end_s, record[Stage::present].end_s);
   frame.state = Flight::State::idle;
-  sinks_.record(frame.record);
+  sinks_.record(record);
+}
+
+void FrameLoop::read_picture(Flight& frame, Image<glm::vec4>& color) {
+  const StageTimer timer(frame.record, Stage::present);
+  fit(color, frame.picture.target.size());
+  frame.picture.back.start(frame.picture.target);
+  unpack_picture(frame.picture.back.open(), color);
+  frame.picture.back.close();
+}
+
+void FrameLoop::read_ids(Flight& frame) {
+  if (frame.request.plan.traces()) return;  // they came for the CPU
+  frame.visibility.back.start(frame.visibility.target);
+  fit(frame.ids, frame.visibility.target.size());
+  unpack_ids(frame.visibility.back.open(), frame.request.plan.id_bits, frame.ids);
+  frame.visibility.back.close();
 }
 
 }  // namespace pinocchio

@@ -1,28 +1,31 @@
 #pragma once
 
-#include <deque>
+#include <array>
 #include <functional>
 #include <memory>
 #include <vector>
 
+#include "hybrid/design.h"
 #include "hybrid/flight.h"
-#include "hybrid/steps.h"
 
 namespace pinocchio {
 
 // When the GPU gets the CPU's part of a frame.
 enum class Exchange {
   sync,       // at once: everybody waits
-  pipelined,  // two frames later: GPU and CPU work on different frames meanwhile
+  pipelined,  // frames later: GPU and CPU work on different frames meanwhile
+  reproject,  // never waited for: the newest raster at once, with an older frame's part warped to it
 };
 [[nodiscard]] const char* exchange_name(Exchange exchange);
 
-// From the frame whose camera was sampled to the one whose turn it is when its picture is delivered.
+// From the frame whose camera was sampled to the one whose turn it is when its picture is delivered,
+// pipelined: design 1 uploads after the CPU is done, design 2's CPU part fits beside the next raster.
 inline constexpr int kLatencyFrames = 2;
+inline constexpr int kLatencyFramesDesign2 = 1;
 inline constexpr int kFramesInFlight = kLatencyFrames + 1;
 
-// Draws frames, several in flight at once, and delivers each once, in order; a picture is made of its own
-// frame's parts alone. Lives on the thread of the GL context.
+// Draws frames, several in flight at once, and delivers each once, in order; unless reprojected, a picture
+// is made of its own frame's parts alone. Lives on the thread of the GL context.
 class FrameLoop {
  public:
   struct Sinks {
@@ -39,18 +42,29 @@ class FrameLoop {
   // Delivers every frame that is still in flight.
   void drain();
 
-  [[nodiscard]] const Steps& steps() const { return steps_; }
+  // The finished picture on the CPU, linear RGBA; waits for the GPU.
+  static void read_picture(Flight& frame, Image<glm::vec4>& color);
+  // Flight::ids, also where the plan needs none on the CPU; waits for the GPU.
+  static void read_ids(Flight& frame);
 
  private:
-  Flight& begin(const FrameRequest& request);
+  [[nodiscard]] const Design& design_of(const Flight& frame) const;
+  [[nodiscard]] int latency_of(const Plan& plan) const;
   [[nodiscard]] Flight* frames_back(int n);  // begun n frames before the newest; null: there is none
+  Flight& begin(const FrameRequest& request);
+  void submit_reprojected(Flight& now);
   void start_trace(Flight& frame);
+  void take_traced(Flight& frame);
   void finish(Flight& frame);
+  void deliver(Flight& frame, const Flight* older);
   void retire(Flight& frame);
 
-  Steps steps_;
+  Passes passes_;
+  Design1 design1_;
+  Design2 design2_;
   Exchange exchange_;
   Sinks sinks_;
+  gl::GpuClock clock_;
   std::uint64_t next_number_ = 0;
   std::vector<std::unique_ptr<Flight>> slots_;  // frame n is in slot n % kFramesInFlight
 };

@@ -110,7 +110,7 @@ GpuScene::GpuScene(const Scene& scene)
   texels_ = {std::span<const glm::u8vec4>(all_texels(scene)), GL_RGBA8, sizeof(glm::u8vec4)};
 }
 
-void GpuScene::bind(const gl::Program& program, int first_unit) const {
+int GpuScene::bind(const gl::Program& program, int first_unit) const {
   int unit = first_unit;
   program.set("triangle_corners", unit++, corners_);
   program.set("triangle_materials", unit++, triangle_materials_);
@@ -120,9 +120,10 @@ void GpuScene::bind(const gl::Program& program, int first_unit) const {
   program.set("lights", unit++, lights_);
   program.set("ambient_light", ambient_light_);
   program.set("light_count", light_count_);
-  if (!textured_) return;
+  if (!textured_) return unit;
   program.set("texcoords", unit++, texcoords_);
   program.set("texels", unit++, texels_);
+  return unit;
 }
 
 }  // namespace pinocchio

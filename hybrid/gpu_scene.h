@@ -14,8 +14,9 @@ class GpuScene {
   explicit GpuScene(const Scene& scene);
 
   void draw() const { mesh_.draw(); }
-  // Gives the program in use the buffers and the lights; takes texture units from `first_unit` on.
-  void bind(const gl::Program& program, int first_unit) const;
+  // Gives the program in use the buffers and the lights, on texture units from `first_unit` on; returns the
+  // next free one.
+  int bind(const gl::Program& program, int first_unit) const;
 
   [[nodiscard]] bool textured() const { return textured_; }
   [[nodiscard]] float z_near() const { return z_near_; }  // scene units

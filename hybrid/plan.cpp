@@ -23,7 +23,8 @@ Expected<void> check_limits(const Needs& needs, const PlanRequest& request) {
     return Unexpected(InputError{{},
                                  0,
                                  "the scene has " + std::to_string(needs.triangles) +
-                                     " triangles, the slides' 24-bit ids name " + std::to_string(kMost24BitIds - 1),
+                                     " triangles, the slides' 24-bit ids name " +
+                                     std::to_string(kMost24BitIds - 1),
                                  "use --plan auto"});
   return {};
 }
@@ -38,7 +39,8 @@ void plan_passes(const Needs& needs, const PlanRequest& request, Plan& plan) {
 }  // namespace
 
 Expected<Plan> make_plan(const Needs& needs, const PlanRequest& request) {
-  if (const Expected<void> checked = check_limits(needs, request); !checked) return Unexpected(checked.error());
+  if (const Expected<void> checked = check_limits(needs, request); !checked)
+    return Unexpected(checked.error());
   Plan plan;
   plan.mode = request.mode;
   plan.design = request.design;
@@ -58,11 +60,28 @@ Expected<Plan> make_plan(const Needs& needs, const PlanRequest& request) {
   return plan;
 }
 
+TrafficBytes traffic_of(const Plan& plan, glm::ivec2 size) {
+  if (plan.mode != Mode::hybrid || !plan.traces()) return {};
+  const std::size_t pixels = static_cast<std::size_t>(size.x) * static_cast<std::size_t>(size.y);
+  constexpr std::size_t kRgb8 = 3, kHalfRgb = 6, kWide = 16;
+  const auto id_bytes = static_cast<std::size_t>(plan.id_bits / 8);
+  if (plan.design == 2) return {pixels * ((plan.wide ? kWide : id_bytes) + kRgb8), pixels * kRgb8};
+  const std::size_t mask = static_cast<std::size_t>(MaskImage::row_bytes_for(size.x, plan.mask_bits)) *
+                           static_cast<std::size_t>(size.y);
+  const std::size_t reflection = plan.reflection == ReflectionFormat::none   ? 0
+                                 : plan.reflection == ReflectionFormat::rgb8 ? kRgb8
+                                                                             : kHalfRgb;
+  return {pixels * (id_bytes + (plan.normals ? kRgb8 : 0)), mask + pixels * reflection};
+}
+
 const char* mode_name(Mode mode) {
   switch (mode) {
-    case Mode::hybrid: return "hybrid";
-    case Mode::raytrace: return "raytrace";
-    case Mode::raster: return "raster";
+    case Mode::hybrid:
+      return "hybrid";
+    case Mode::raytrace:
+      return "raytrace";
+    case Mode::raster:
+      return "raster";
   }
   return "";
 }

@@ -20,13 +20,13 @@ enum class ReflectionFormat {
 // What a frame models and what travels between GPU and CPU for it.
 struct Plan {
   Mode mode = Mode::hybrid;
-  int design = 1;           // where the parts meet: 1, on the GPU; 2, on the CPU
-  int id_bits = 32;         // of a triangle id on its way to the CPU: 16, 24 or 32; the highest value is "none"
-  bool normals = false;     // design 1: shading normals go to the CPU as well, 3 bytes a pixel
-  bool wide = false;        // design 2: the 128-bit buffer of shaders/gbuffer.frag goes to the CPU, not ids alone
-  int mask_bits = 0;        // a pixel: 0 (no shadow pass), 1, 2, 4 or 8
+  int design = 1;        // where the parts meet: 1, on the GPU; 2, on the CPU
+  int id_bits = 32;      // of a triangle id on its way to the CPU: 16, 24 or 32; the highest value is "none"
+  bool normals = false;  // design 1: shading normals go to the CPU as well, 3 bytes a pixel
+  bool wide = false;  // design 2: the 128-bit buffer of shaders/gbuffer.frag goes to the CPU, not ids alone
+  int mask_bits = 0;  // a pixel: 0 (no shadow pass), 1, 2, 4 or 8
   ReflectionFormat reflection = ReflectionFormat::none;  // none: no reflection pass
-  int depth = 0;            // most bounces
+  int depth = 0;                                         // most bounces
 
   // Whether anything is left for the CPU to do.
   [[nodiscard]] bool traces() const {
@@ -45,6 +45,12 @@ struct PlanRequest {
 // The least that draws the scene exactly, or the slides' fixed budget. An error where the scene needs what
 // no plan has (more casting lights than mask slots, more triangles than 24-bit ids).
 [[nodiscard]] Expected<Plan> make_plan(const Needs& needs, const PlanRequest& request);
+
+// What a hybrid frame of this plan moves, bytes.
+struct TrafficBytes {
+  std::size_t to_cpu = 0, to_gpu = 0;
+};
+[[nodiscard]] TrafficBytes traffic_of(const Plan& plan, glm::ivec2 size);
 
 [[nodiscard]] const char* mode_name(Mode mode);
 [[nodiscard]] nlohmann::json to_json(const Plan& plan);

@@ -9,17 +9,25 @@
 
 namespace pinocchio {
 
-// The scene with what the plan's passes need of it: the CPU's tree, the GPU's buffers. It stays where it
-// is, as the tree's users point into it.
+// Which of the two a plan's passes run on.
+struct Sides {
+  bool cpu = true, gpu = true;
+};
+[[nodiscard]] inline Sides sides_of(const Plan& plan) {
+  return {plan.traces() || plan.mode == Mode::raytrace, plan.mode != Mode::raytrace};
+}
+
+// The scene with what the sides need of it: the CPU's tree, the GPU's buffers. It stays where it is, as
+// the tree's users point into it.
 struct PreparedScene {
   Scene scene;
   std::optional<Tracer> tracer;
   std::optional<GpuScene> gpu;
 
-  PreparedScene(Scene s, const Plan& plan, const BuildOptions& tree, std::optional<Isa> isa)
+  PreparedScene(Scene s, Sides sides, const BuildOptions& tree, std::optional<Isa> isa)
       : scene(std::move(s)) {
-    if (plan.traces() || plan.mode == Mode::raytrace) tracer.emplace(scene, tree, isa);
-    if (plan.mode != Mode::raytrace) gpu.emplace(scene);
+    if (sides.cpu) tracer.emplace(scene, tree, isa);
+    if (sides.gpu) gpu.emplace(scene);
   }
   PreparedScene(const PreparedScene&) = delete;
   PreparedScene& operator=(const PreparedScene&) = delete;

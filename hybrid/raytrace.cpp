@@ -17,9 +17,9 @@ FrameRecord raytrace(const FrameRequest& request, Workers& workers, Picture& pic
   }
   if (plan.mask_bits > 0) {
     const StageTimer timer(record, Stage::trace_shadow);
-    record.rays += trace_shadow_mask(job, picture.ids, picture.mask);
+    record.rays += trace_shadow_mask(job, picture.ids, plan.mask_bits, picture.mask);
   }
-  if (plan.reflection) {
+  if (plan.reflects()) {
     const StageTimer timer(record, Stage::trace_reflection);
     record.rays += trace_reflection(job, picture.ids, plan.depth, picture.reflection);
   }

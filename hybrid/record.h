@@ -12,14 +12,16 @@ namespace pinocchio {
 
 // The stages of a frame, in the order a frame goes through them; names as in the figures.
 enum class Stage { raster, readback, trace_shadow, trace_reflection, upload, composite, present };
-inline constexpr std::array<std::string_view, 7> kStageNames{"raster", "readback",  "trace_shadow", "trace_reflection",
-                                                             "upload", "composite", "present"};
+inline constexpr std::array<std::string_view, 7> kStageNames{
+    "raster", "readback", "trace_shadow", "trace_reflection", "upload", "composite", "present"};
 
 // What travels: the first four from GPU to CPU, the others back.
 enum class Transfer { ids, normals, gbuffer, phong, mask, reflection, picture };
 inline constexpr std::array<std::string_view, 7> kTransferNames{"ids",  "normals",    "gbuffer", "phong",
                                                                 "mask", "reflection", "picture"};
-[[nodiscard]] inline bool goes_to_cpu(Transfer transfer) { return transfer < Transfer::mask; }
+[[nodiscard]] inline bool goes_to_cpu(Transfer transfer) {
+  return transfer < Transfer::mask;
+}
 
 // The steady clock, seconds: the one time base of CPU and GPU stages.
 [[nodiscard]] inline double now_s() {
@@ -35,19 +37,23 @@ struct Span {
 
 // What one frame cost.
 struct FrameRecord {
-  std::uint64_t number = 0;                         // of the frame, in the order they were asked for
-  std::array<Span, kStageNames.size()> stages{};    // empty: the plan has no such stage
-  Span frame;                                       // camera sampled to picture delivered
-  int latency_frames = 0;                           // frames begun between the two
-  int age_frames = 0;                               // how much older the mask and reflection shown are
-  double exchange_ms = 0.0;                         // of this thread, in copies, maps, fences and uploads
+  std::uint64_t number = 0;                       // of the frame, in the order they were asked for
+  std::array<Span, kStageNames.size()> stages{};  // empty: the plan has no such stage
+  Span frame;                                     // camera sampled to picture delivered
+  int latency_frames = 0;                         // frames begun between the two
+  int age_frames = 0;                             // how much older the mask and reflection shown are
+  double exchange_ms = 0.0;                       // of this thread, in copies, maps, fences and uploads
   std::array<std::size_t, kTransferNames.size()> bytes{};
   RayCounts rays;
 
   [[nodiscard]] Span& operator[](Stage stage) { return stages[static_cast<std::size_t>(stage)]; }
   [[nodiscard]] const Span& operator[](Stage stage) const { return stages[static_cast<std::size_t>(stage)]; }
-  [[nodiscard]] std::size_t& operator[](Transfer transfer) { return bytes[static_cast<std::size_t>(transfer)]; }
-  [[nodiscard]] std::size_t operator[](Transfer transfer) const { return bytes[static_cast<std::size_t>(transfer)]; }
+  [[nodiscard]] std::size_t& operator[](Transfer transfer) {
+    return bytes[static_cast<std::size_t>(transfer)];
+  }
+  [[nodiscard]] std::size_t operator[](Transfer transfer) const {
+    return bytes[static_cast<std::size_t>(transfer)];
+  }
   // Of all that goes to the CPU, or to the GPU.
   [[nodiscard]] std::size_t bytes_to_cpu() const { return sum_bytes(true); }
   [[nodiscard]] std::size_t bytes_to_gpu() const { return sum_bytes(false); }

@@ -43,18 +43,19 @@ void Renderer::submit_sample(const FrameRequest& request) {
   Picture sample;
   FrameRecord record = raytrace(request, workers_, sample);
   record.number = next_number_++;
-  add_sample(std::move(sample));
+  if (settings_.pictures) add_sample(std::move(sample));
   sinks_.record(record);
 }
 
 void Renderer::take(Flight& frame) {
+  if (!settings_.pictures) return;
   Picture sample;
-  loop_->steps().read_picture(frame, sample.color);
+  FrameLoop::read_picture(frame, sample.color);
   if (samples_ == 0) {
-    loop_->steps().read_ids(frame);
+    FrameLoop::read_ids(frame);
     sample.ids = frame.ids;
     if (plan_.mask_bits > 0) sample.mask = frame.mask;
-    if (plan_.reflection) sample.reflection = frame.reflection;
+    if (plan_.reflects()) sample.reflection = frame.reflection;
   }
   add_sample(std::move(sample));
 }

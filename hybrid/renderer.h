@@ -23,7 +23,8 @@ class Renderer {
   struct Settings {
     Exchange exchange = Exchange::sync;
     gl::Mapping mapping = gl::Mapping::each_time;
-    int spp = 1;  // samples a pixel: the first at its centre, the others spread over it
+    int spp = 1;           // samples a pixel: the first at its centre, the others spread over it
+    bool pictures = true;  // brought to the CPU; else they stay on the GPU and only records are delivered
   };
   struct Sinks {
     std::function<void(Picture&&)> picture;

@@ -1,27 +1,40 @@
 #include "hybrid/visibility_pass.h"
 
+#include <string>
+
+#include "hybrid/formats.h"
+
 namespace pinocchio {
 
+glm::dmat3 pixel_from_eye(const shared::ViewParams& view) {
+  // p - eye = z (corner + (first + pixel) . (step_x, step_y))
+  const glm::dvec3 x(view.step_x), y(view.step_y);
+  const glm::dvec2 first(view.first);
+  return glm::inverse(glm::dmat3(x, y, glm::dvec3(view.corner) + first.x * x + first.y * y));
+}
+
 glm::mat3 picture_from_eye(const shared::ViewParams& view, glm::ivec2 picture_size) {
-  // p - eye = z (corner + x step_x + y step_y): the inverse gives (z x, z y, z) of the pixel (x, y), whose
-  // centre is at x + 1/2 of the viewport.
-  const glm::dmat3 pixel_from_eye = glm::inverse(glm::dmat3(view.step_x, view.step_y, view.corner));
+  // The centre of the pixel x is at x + 1/2 of the viewport.
   const glm::dvec2 scale = 2.0 / glm::dvec2(picture_size);
   const glm::dmat3 clip_from_pixel(glm::dvec3(scale.x, 0, 0), glm::dvec3(0, scale.y, 0),
                                    glm::dvec3(0.5 * scale - 1.0, 1));
-  return glm::mat3(clip_from_pixel * pixel_from_eye);
+  shared::ViewParams whole = view;  // the part is cut out by the viewport
+  whole.first = glm::vec2(0.0f);
+  return glm::mat3(clip_from_pixel * pixel_from_eye(whole));
 }
 
-VisibilityPass::VisibilityPass(const std::filesystem::path& shaders)
-    : program_(shaders, "visibility.vert", "visibility.frag") {}
-
 void VisibilityPass::draw(const GpuScene& scene, const shared::ViewParams& view, glm::ivec2 picture_size,
-                          const gl::Framebuffer& target) const {
-  gl::begin_depth_pass(target, 0xffffffffu, picture_size, glm::ivec2(view.first));
-  program_.use();
-  program_.set("eye", view.eye);
-  program_.set("picture_from_eye", picture_from_eye(view, picture_size));
-  program_.set("z_near", scene.z_near());
+                          int id_bits, const gl::Framebuffer& target) {
+  const bool as_bytes = id_bits == 24;
+  const auto [program, is_new] = programs_.try_emplace(as_bytes);
+  if (is_new)
+    program->second = gl::Program(shaders_, "visibility.vert", "visibility.frag",
+                                  {"ID_BITS " + std::to_string(as_bytes ? 24 : 32)});
+  gl::begin_depth_pass(target, id_format(id_bits).none, picture_size, glm::ivec2(view.first));
+  program->second.use();
+  program->second.set("eye", view.eye);
+  program->second.set("picture_from_eye", picture_from_eye(view, picture_size));
+  program->second.set("z_near", scene.z_near());
   scene.draw();
 }
 

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <map>
 
 #include "core/trace/shared.h"
 #include "gl/framebuffer.h"
@@ -12,18 +13,22 @@ namespace pinocchio {
 // reads: the scene's triangles. writes: the id of the nearest triangle at each pixel's centre.
 class VisibilityPass {
  public:
-  explicit VisibilityPass(const std::filesystem::path& shaders);
+  explicit VisibilityPass(std::filesystem::path shaders) : shaders_(std::move(shaders)) {}
 
-  // target: R16UI or R32UI with depth, the part of a picture of `picture_size` that view.first names.
-  // Where nothing is seen, all bits are set.
-  void draw(const GpuScene& scene, const shared::ViewParams& view, glm::ivec2 picture_size,
-            const gl::Framebuffer& target) const;
+  // target: of id_format(id_bits), with depth; the part of a picture of `picture_size` that view.first
+  // names. Where nothing is seen, all bits are set.
+  void draw(const GpuScene& scene, const shared::ViewParams& view, glm::ivec2 picture_size, int id_bits,
+            const gl::Framebuffer& target);
 
  private:
-  gl::Program program_;
+  std::filesystem::path shaders_;
+  std::map<bool, gl::Program> programs_;  // by whether ids are bytes
 };
 
-// What turns (p_world - eye) into clip x, y and w. Row 0 of the picture is GL's row 0.
+// What turns (p_world - eye) into (z x, z y, z) of the pixel (x, y) that sees the point, counted from
+// view.first.
+[[nodiscard]] glm::dmat3 pixel_from_eye(const shared::ViewParams& view);
+// ... and into clip x, y and w. Row 0 of the picture is GL's row 0.
 [[nodiscard]] glm::mat3 picture_from_eye(const shared::ViewParams& view, glm::ivec2 picture_size);
 
 }  // namespace pinocchio

@@ -4,7 +4,7 @@
 //   ID_BITS           16, 24 or 32
 //   HAS_MASK          the CPU's shadow mask, MASK_BITS a pixel; without it every light reaches everything
 //   FREE_LIGHTS_ONLY  lights that cast are left out: the CPU adds them (design 2)
-//   HAS_REFLECTION    the CPU's mirrored and refracted light
+//   HAS_REFLECTION    the CPU's mirrored and refracted light; REFLECTION_IS_SRGB: in bytes
 //   HAS_TEXTURES      some material has a texture
 //   REPROJECT         mask and reflection are of an older frame, whose view and ids are given: each pixel
 //                     looks up where its point was seen then. Where that frame saw another triangle there,
@@ -93,7 +93,11 @@ void main() {
     sum += phong_light(material, incident, s.n.shading, s.to_viewer);
   }
 #ifdef HAS_REFLECTION
-  sum += texelFetch(reflection, source.pixel, 0).rgb;
+#ifdef REFLECTION_IS_SRGB
+  sum += linear_from_srgb(fetch_rgb(reflection, source.pixel));
+#else
+  sum += fetch_rgb(reflection, source.pixel);
+#endif
 #endif
   color = vec4(min(sum, kLargestHalf), 1.0);
 }

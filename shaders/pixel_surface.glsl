@@ -25,6 +25,12 @@ uint fetch_id(usampler2D from, ivec2 pixel) {
 #endif
 }
 
+// RGB that travelled as three texels a pixel.
+vec3 fetch_rgb(sampler2D from, ivec2 pixel) {
+  ivec2 at = ivec2(3 * pixel.x, pixel.y);
+  return vec3(texelFetch(from, at, 0).r, texelFetch(from, at + ivec2(1, 0), 0).r, texelFetch(from, at + ivec2(2, 0), 0).r);
+}
+
 struct PixelSurface {
   uvec3 corners;
   vec3 weights;

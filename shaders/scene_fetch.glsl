@@ -21,6 +21,10 @@ uvec3 fetch_corners(uint triangle) {
                texelFetch(triangle_corners, first + 2).r);
 }
 
+vec3 linear_from_srgb(vec3 c) {
+  return mix(c / 12.92, pow((c + 0.055) / 1.055, vec3(2.4)), greaterThan(c, vec3(0.04045)));
+}
+
 #ifdef HAS_TEXTURES
 uniform samplerBuffer texcoords;  // 2 texels a vertex
 uniform samplerBuffer texels;     // RGBA of all textures, one after the other, as stored (sRGB)
@@ -32,8 +36,7 @@ vec2 fetch_texcoord(uint i) {
 vec3 linear_texel(ivec2 at, int first, ivec2 size) {
   at = ivec2(at.x - size.x * int(floor(float(at.x) / float(size.x))),
              at.y - size.y * int(floor(float(at.y) / float(size.y))));
-  vec3 c = texelFetch(texels, first + at.y * size.x + at.x).rgb;
-  return mix(c / 12.92, pow((c + 0.055) / 1.055, vec3(2.4)), greaterThan(c, vec3(0.04045)));
+  return linear_from_srgb(texelFetch(texels, first + at.y * size.x + at.x).rgb);
 }
 
 // Bilinear by hand, as core/trace/surface.cpp does it: hardware filters with 8 bits of weight.

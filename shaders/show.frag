@@ -1,8 +1,19 @@
 #version 330 core
 // Design 2: the CPU's finished picture, sRGB, to linear light.
+//   ID_BITS  16, 24 or 32
+
+#define SHARED
+#include "shared/view.glsl"
+#include "shared/surface.glsl"
+#include "shared/phong.glsl"
+#include "scene_fetch.glsl"
+#include "pixel_surface.glsl"
 
 uniform sampler2D finished;
 
 out vec4 color;
 
-void main() { color = vec4(texelFetch(finished, ivec2(gl_FragCoord.xy), 0).rgb, 1.0); }
+void main() {
+  ivec2 pixel = ivec2(gl_FragCoord.xy);
+  color = vec4(linear_from_srgb(fetch_rgb(finished, pixel)), fetch_id(ids, pixel) == kNoTriangle ? 0.0 : 1.0);
+}

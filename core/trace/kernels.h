@@ -21,5 +21,11 @@ extern const Kernel kKernel;
 namespace sse4 {
 extern const Kernel kKernel;
 }
+namespace avx2 {
+extern const Kernel kKernel;
+}
+namespace avx512 {
+extern const Kernel kKernel;
+}
 
 }  // namespace pinocchio

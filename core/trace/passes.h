@@ -38,8 +38,9 @@ struct TraceJob {
 RayCounts trace_visibility(const TraceJob& job, Image<std::uint32_t>& ids);
 
 // Bit i of a pixel: the casting light in mask slot i reaches the visible point. 0 where nothing is seen
-// or the surface faces away. mask is resized to ids' size and MaskImage::bits_for the scene's lights.
-RayCounts trace_shadow_mask(const TraceJob& job, const Image<std::uint32_t>& ids, MaskImage& mask);
+// or the surface faces away. mask is resized to ids' size and `bits` a pixel (1, 2, 4 or 8, no fewer than
+// lights that cast).
+RayCounts trace_shadow_mask(const TraceJob& job, const Image<std::uint32_t>& ids, int bits, MaskImage& mask);
 
 // Mirrored plus refracted light of every pixel, linear, without the direct light of the visible point
 // itself; generation by generation, `depth` of them at most. radiance is resized to ids' size.
@@ -50,5 +51,9 @@ RayCounts trace_reflection(const TraceJob& job, const Image<std::uint32_t>& ids,
 // A is 1 where something is hit. mask of 0 bits: no light casts.
 void shade(const TraceJob& job, const Image<std::uint32_t>& ids, const MaskImage& mask,
            const Image<glm::vec3>& reflection, Image<glm::vec4>& color);
+
+// The part of it that the mask decides, and the reflection: added to what `light` holds, linear RGB.
+void add_traced_light(const TraceJob& job, const Image<std::uint32_t>& ids, const MaskImage& mask,
+                      const Image<glm::vec3>& reflection, Image<glm::vec3>& light);
 
 }  // namespace pinocchio

@@ -45,7 +45,8 @@ class DirectLight {
       const shared::LightParams& light = lights_.params[i];
       const shared::Incident incident = shared::incident_light(light, surface.p_world);
       if (!shared::faces_light(surface.n_shading, surface.n_geometric, incident.to_light)) continue;
-      const glm::vec3 term = shared::phong_light(surface.phong, incident, surface.n_shading, surface.to_viewer);
+      const glm::vec3 term =
+          shared::phong_light(surface.phong, incident, surface.n_shading, surface.to_viewer);
       if (!lights_.casts[i]) {
         sum += term;
       } else if (const std::optional<Ray> ray = shadow_ray(light, surface)) {
@@ -73,13 +74,15 @@ class DirectLight {
 };
 
 void count(const std::vector<PathRay>& queue, Counters& counters) {
-  const auto refracted = std::count_if(queue.begin(), queue.end(), [](const PathRay& r) { return r.refracted; });
+  const auto refracted =
+      std::count_if(queue.begin(), queue.end(), [](const PathRay& r) { return r.refracted; });
   counters.refraction += static_cast<std::uint64_t>(refracted);
   counters.reflection += queue.size() - static_cast<std::uint64_t>(refracted);
 }
 
 // The rays that leave the visible points of one tile.
-std::vector<PathRay> first_generation(const TraceJob& job, const Image<std::uint32_t>& ids, const PixelBox& tile) {
+std::vector<PathRay> first_generation(const TraceJob& job, const Image<std::uint32_t>& ids,
+                                      const PixelBox& tile) {
   std::vector<PathRay> queue;
   TileGrid::for_each_pixel(tile, [&](int x, int y) {
     const std::uint32_t id = ids.at(x, y);

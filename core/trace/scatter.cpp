@@ -15,8 +15,9 @@ void push(const Surface& surface, const glm::vec3& direction, const glm::vec3& w
 // About the shading normal, unless that sends the ray into the surface; then about the geometric one.
 glm::vec3 mirrored(const Surface& surface) {
   const glm::vec3 direction = glm::reflect(-surface.to_viewer, surface.n_shading);
-  return glm::dot(direction, surface.n_geometric) > 0.0f ? direction
-                                                         : glm::reflect(-surface.to_viewer, surface.n_geometric);
+  return glm::dot(direction, surface.n_geometric) > 0.0f
+             ? direction
+             : glm::reflect(-surface.to_viewer, surface.n_geometric);
 }
 
 // Likewise; zero beyond the critical angle. glm::refract takes the inverse of eta.
@@ -38,7 +39,8 @@ float fresnel_dielectric(float cos_in, float eta) {
   return 0.5f * (parallel * parallel + perpendicular * perpendicular);
 }
 
-void scatter(const Surface& surface, const glm::vec3& weight, std::uint32_t pixel, std::vector<PathRay>& out) {
+void scatter(const Surface& surface, const glm::vec3& weight, std::uint32_t pixel,
+             std::vector<PathRay>& out) {
   const Material& m = *surface.material;
   const float cos_in = std::clamp(glm::dot(surface.n_shading, surface.to_viewer), 0.0f, 1.0f);
   if (m.transmits()) {
@@ -46,10 +48,12 @@ void scatter(const Surface& surface, const glm::vec3& weight, std::uint32_t pixe
     const float share = fresnel_dielectric(cos_in, eta);
     push(surface, mirrored(surface), weight * share, pixel, false, out);
     const glm::vec3 through = refracted(surface, eta);
-    if (through != glm::vec3(0.0f)) push(surface, through, weight * (1.0f - share) * m.transmittance, pixel, true, out);
+    if (through != glm::vec3(0.0f))
+      push(surface, through, weight * (1.0f - share) * m.transmittance, pixel, true, out);
   } else if (m.reflects()) {
     const float grazing = m.fresnel ? std::pow(1.0f - cos_in, 5.0f) : 0.0f;
-    push(surface, mirrored(surface), weight * (m.reflectance + (1.0f - m.reflectance) * grazing), pixel, false, out);
+    push(surface, mirrored(surface), weight * (m.reflectance + (1.0f - m.reflectance) * grazing), pixel,
+         false, out);
   }
 }
 

@@ -1,3 +1,5 @@
+#include <algorithm>
+
 #include "core/parallel/tiles.h"
 #include "core/trace/passes.h"
 #include "core/trace/surface.h"
@@ -19,8 +21,9 @@ std::vector<ShadedLight> shaded_lights(const Scene& scene) {
   return lights;
 }
 
-glm::vec3 direct_light(const Scene& scene, const std::vector<ShadedLight>& lights, const Surface& s, unsigned bits) {
-  glm::vec3 sum = shared::phong_ambient(s.phong, scene.ambient_light);
+// Light of the lights that reach the surface; `bits` is its mask.
+glm::vec3 sum_of_lights(const std::vector<ShadedLight>& lights, const Surface& s, unsigned bits) {
+  glm::vec3 sum(0.0f);
   for (const ShadedLight& light : lights) {
     if (light.slot >= 0 && !(bits >> light.slot & 1u)) continue;
     const shared::Incident incident = shared::incident_light(light.params, s.p_world);
@@ -30,25 +33,43 @@ glm::vec3 direct_light(const Scene& scene, const std::vector<ShadedLight>& light
   return sum;
 }
 
+// Calls shade_pixel(pixel, surface, mask bits) for every pixel that sees something, on all threads.
+template <class ShadePixel>
+void for_each_surface(const TraceJob& job, const Image<std::uint32_t>& ids, const MaskImage& mask,
+                      ShadePixel shade_pixel) {
+  const TileGrid grid(ids.size());
+  job.workers.for_each(grid.count(), [&](std::size_t i) {
+    TileGrid::for_each_pixel(grid.tile(i), [&](int x, int y) {
+      const std::size_t pixel = ids.index(x, y);
+      if (ids[pixel] == kNoTriangle) return;
+      const Ray ray = pixel_ray(job.view, x, y);
+      shade_pixel(pixel, surface_at(job.scene, ids[pixel], ray.origin, ray.direction), mask.get(x, y));
+    });
+  });
+}
+
 }  // namespace
 
 void shade(const TraceJob& job, const Image<std::uint32_t>& ids, const MaskImage& mask,
            const Image<glm::vec3>& reflection, Image<glm::vec4>& color) {
   if (color.size() != ids.size()) color = Image<glm::vec4>(ids.size());
+  std::fill(color.pixels().begin(), color.pixels().end(), glm::vec4(0.0f));
   const std::vector<ShadedLight> lights = shaded_lights(job.scene);
-  const TileGrid grid(ids.size());
-  job.workers.for_each(grid.count(), [&](std::size_t i) {
-    TileGrid::for_each_pixel(grid.tile(i), [&](int x, int y) {
-      const std::size_t pixel = ids.index(x, y);
-      const std::uint32_t id = ids[pixel];
-      color[pixel] = glm::vec4(0.0f);
-      if (id == kNoTriangle) return;
-      const Ray ray = pixel_ray(job.view, x, y);
-      const Surface surface = surface_at(job.scene, id, ray.origin, ray.direction);
-      glm::vec3 sum = direct_light(job.scene, lights, surface, mask.get(x, y));
-      if (!reflection.empty()) sum += reflection[pixel];
-      color[pixel] = glm::vec4(sum, 1.0f);
-    });
+  for_each_surface(job, ids, mask, [&](std::size_t pixel, const Surface& surface, unsigned bits) {
+    glm::vec3 sum =
+        shared::phong_ambient(surface.phong, job.scene.ambient_light) + sum_of_lights(lights, surface, bits);
+    if (!reflection.empty()) sum += reflection[pixel];
+    color[pixel] = glm::vec4(sum, 1.0f);
+  });
+}
+
+void add_traced_light(const TraceJob& job, const Image<std::uint32_t>& ids, const MaskImage& mask,
+                      const Image<glm::vec3>& reflection, Image<glm::vec3>& light) {
+  std::vector<ShadedLight> casting = shaded_lights(job.scene);
+  std::erase_if(casting, [](const ShadedLight& l) { return l.slot < 0; });
+  for_each_surface(job, ids, mask, [&](std::size_t pixel, const Surface& surface, unsigned bits) {
+    light[pixel] += sum_of_lights(casting, surface, bits);
+    if (!reflection.empty()) light[pixel] += reflection[pixel];
   });
 }
 

@@ -1,5 +1,6 @@
 #include <array>
 #include <atomic>
+#include <cassert>
 
 #include "core/parallel/tiles.h"
 #include "core/trace/passes.h"
@@ -28,10 +29,12 @@ void collect(const Slots& lights, const Surface& surface, glm::ivec2 pixel, std:
 
 }  // namespace
 
-RayCounts trace_shadow_mask(const TraceJob& job, const Image<std::uint32_t>& ids, MaskImage& mask) {
+RayCounts trace_shadow_mask(const TraceJob& job, const Image<std::uint32_t>& ids, int bits, MaskImage& mask) {
   Slots lights;
-  for (const int i : casting_lights(job.scene)) lights.push_back(light_params(job.scene.lights[static_cast<std::size_t>(i)]));
-  mask.resize(ids.size(), MaskImage::bits_for(static_cast<int>(lights.size())));
+  for (const int i : casting_lights(job.scene))
+    lights.push_back(light_params(job.scene.lights[static_cast<std::size_t>(i)]));
+  assert(static_cast<int>(lights.size()) <= bits);
+  mask.resize(ids.size(), bits);
   if (lights.empty()) return {};
 
   std::atomic<std::uint64_t> fired{0};

@@ -20,9 +20,11 @@ shared::PhongParams phong_params(const Scene& scene, const Material& m, const gl
                                  const glm::vec3& weights) {
   shared::PhongParams phong{m.ambient, m.diffuse, m.specular, m.shininess, m.emission};
   if (m.diffuse_texture >= 0 && !scene.texcoords.empty()) {
-    const glm::vec2 texcoord = weights.x * scene.texcoords[corners.x] + weights.y * scene.texcoords[corners.y] +
+    const glm::vec2 texcoord = weights.x * scene.texcoords[corners.x] +
+                               weights.y * scene.texcoords[corners.y] +
                                weights.z * scene.texcoords[corners.z];
-    const glm::vec3 color = sample_texture(scene.textures[static_cast<std::size_t>(m.diffuse_texture)], texcoord);
+    const glm::vec3 color =
+        sample_texture(scene.textures[static_cast<std::size_t>(m.diffuse_texture)], texcoord);
     phong.ambient *= color;
     phong.diffuse *= color;
   }
@@ -36,23 +38,25 @@ int wrap(int i, int n) {
 
 }  // namespace
 
-Surface surface_at(const Scene& scene, std::uint32_t id, const glm::vec3& origin, const glm::vec3& direction) {
+Surface surface_at(const Scene& scene, std::uint32_t id, const glm::vec3& origin,
+                   const glm::vec3& direction) {
   const glm::uvec3 corners = scene.triangles[id];
-  const glm::vec3 &a = scene.positions[corners.x], &b = scene.positions[corners.y], &c = scene.positions[corners.z];
+  const glm::vec3 &a = scene.positions[corners.x], &b = scene.positions[corners.y],
+                  &c = scene.positions[corners.z];
   const glm::vec3 weights = shared::barycentric_of(origin, direction, a, b, c);
 
   Surface s;
   s.to_viewer = -glm::normalize(direction);
   s.p_world = shared::point_on_triangle(weights, a, b, c);
   const glm::vec3 n_geometric = shared::geometric_normal(a, b, c, s.to_viewer);
-  const glm::vec3 n_shading = shared::shading_normal(weights, scene.normals[corners.x], scene.normals[corners.y],
-                                                     scene.normals[corners.z], n_geometric);
+  const glm::vec3 n_shading = shared::shading_normal(
+      weights, scene.normals[corners.x], scene.normals[corners.y], scene.normals[corners.z], n_geometric);
   const shared::FacingNormals facing = shared::face_viewer(n_geometric, n_shading, s.to_viewer);
   s.n_geometric = facing.geometric;
   s.n_shading = facing.shading;
   s.leaving = facing.leaving;
-  s.offset = kOffsetError * (largest_component(s.p_world) +
-                             std::max(largest_component(b - a), largest_component(c - a)));
+  s.offset = kOffsetError *
+             (largest_component(s.p_world) + std::max(largest_component(b - a), largest_component(c - a)));
   s.material = &scene.material_of(id);
   s.phong = phong_params(scene, *s.material, corners, weights);
   return s;

@@ -17,15 +17,19 @@ struct IsaEntry {
 };
 
 // Narrowest first.
-const std::array<IsaEntry, 2> kIsas{{
+const std::array<IsaEntry, 4> kIsas{{
     {Isa::scalar, "scalar", scalar::kKernel},
     {Isa::sse4, "sse4", sse4::kKernel},
+    {Isa::avx2, "avx2", avx2::kKernel},
+    {Isa::avx512, "avx512", avx512::kKernel},
 }};
 
-const IsaEntry& entry_of(Isa isa) { return kIsas[static_cast<std::size_t>(isa)]; }
+const IsaEntry& entry_of(Isa isa) {
+  return kIsas[static_cast<std::size_t>(isa)];
+}
 
 Isa choose(std::optional<Isa> wanted) {
-  if (!wanted) return supported_isas().back();
+  if (!wanted) return default_isa();
   if (!isa_supported(*wanted))
     throw EnvironmentError("--isa " + std::string(isa_name(*wanted)) + ": this processor does not have it");
   return *wanted;
@@ -33,7 +37,9 @@ Isa choose(std::optional<Isa> wanted) {
 
 }  // namespace
 
-std::string_view isa_name(Isa isa) { return entry_of(isa).name; }
+std::string_view isa_name(Isa isa) {
+  return entry_of(isa).name;
+}
 
 std::optional<Isa> parse_isa(std::string_view name) {
   for (const IsaEntry& e : kIsas)
@@ -43,8 +49,14 @@ std::optional<Isa> parse_isa(std::string_view name) {
 
 bool isa_supported(Isa isa) {
   switch (isa) {
-    case Isa::scalar: return true;
-    case Isa::sse4: return __builtin_cpu_supports("sse4.1");
+    case Isa::scalar:
+      return true;
+    case Isa::sse4:
+      return __builtin_cpu_supports("sse4.1");
+    case Isa::avx2:
+      return __builtin_cpu_supports("avx2");
+    case Isa::avx512:
+      return __builtin_cpu_supports("avx512f");
   }
   return false;
 }
@@ -54,6 +66,12 @@ std::vector<Isa> supported_isas() {
   for (const IsaEntry& e : kIsas)
     if (isa_supported(e.isa)) found.push_back(e.isa);
   return found;
+}
+
+Isa default_isa() {
+  for (const Isa isa : {Isa::avx2, Isa::sse4})
+    if (isa_supported(isa)) return isa;
+  return Isa::scalar;
 }
 
 Tracer::Tracer(const Scene& scene, const BuildOptions& options, std::optional<Isa> isa)

@@ -14,12 +14,16 @@
 namespace pinocchio {
 
 // Width of the packets that rays are traced in.
-enum class Isa { scalar, sse4 };
+enum class Isa { scalar, sse4, avx2, avx512 };
 
 [[nodiscard]] std::string_view isa_name(Isa isa);
 [[nodiscard]] std::optional<Isa> parse_isa(std::string_view name);
 [[nodiscard]] bool isa_supported(Isa isa);            // by this processor
 [[nodiscard]] std::vector<Isa> supported_isas();      // narrowest first
+
+// The fastest of this processor's by measurement (docs/measurements.md), which is not always the widest.
+// avx512 has not been measured yet: it is taken only where it is asked for.
+[[nodiscard]] Isa default_isa();
 
 // The rays' way into a tree: closest hits and occlusion of any number of rays, which need not belong
 // together; neighbours in the span that go the same way are traced as one packet. What a ray hits does
@@ -28,7 +32,7 @@ enum class Isa { scalar, sse4 };
 // hits nothing. Safe to call from many threads.
 class Tracer {
  public:
-  // `isa`: nothing asks for the widest that this processor has; one that it lacks throws EnvironmentError.
+  // `isa`: nothing asks for default_isa(); one that the processor lacks throws EnvironmentError.
   explicit Tracer(const Scene& scene, const BuildOptions& options = {}, std::optional<Isa> isa = {});
 
   // hits.size() == rays.size()

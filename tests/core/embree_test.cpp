@@ -107,7 +107,7 @@ struct Comparison {
       : scene(std::move(s)), tracer(scene), embree(scene), workers(2), view(view_params(camera(), kSize)) {
     const TraceJob job{scene, tracer, workers, view};
     trace_visibility(job, ids);
-    trace_shadow_mask(job, ids, mask);
+    trace_shadow_mask(job, ids, MaskImage::bits_for(static_cast<int>(casting_lights(scene).size())), mask);
     for (int y = 0; y < kSize.y; ++y)
       for (int x = 0; x < kSize.x; ++x) {
         const Ray ray = pixel_ray(view, x, y);

@@ -34,7 +34,7 @@ ExrFile small_frame(const Scene& scene, const AovSet& aovs) {
   Image<glm::vec3> reflection;
   Image<glm::vec4> color;
   trace_visibility(job, ids);
-  trace_shadow_mask(job, ids, mask);
+  trace_shadow_mask(job, ids, 2, mask);
   shade(job, ids, mask, reflection, color);
   const SurfaceImages surfaces = surface_images(scene, job.view, workers, ids);
   return frame_exr(

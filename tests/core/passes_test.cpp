@@ -23,7 +23,8 @@ Drawn draw(const Scene& scene, int threads = 2, std::optional<Isa> isa = {}, int
   const TraceJob job{scene, tracer, workers, view_params(scene.cameras.front(), kSize)};
   Drawn drawn;
   drawn.rays += trace_visibility(job, drawn.ids);
-  drawn.rays += trace_shadow_mask(job, drawn.ids, drawn.mask);
+  const int casting = static_cast<int>(casting_lights(scene).size());
+  if (casting > 0) drawn.rays += trace_shadow_mask(job, drawn.ids, MaskImage::bits_for(casting), drawn.mask);
   drawn.rays += trace_reflection(job, drawn.ids, depth, drawn.reflection);
   shade(job, drawn.ids, drawn.mask, drawn.reflection, drawn.color);
   return drawn;

@@ -32,12 +32,19 @@ using ProgramTest = GlTest;
 INSTANTIATE_TEST_SUITE_P(Backends, ProgramTest, kBackends, backend_name);
 
 TEST_P(ProgramTest, EveryShaderCompilesInEveryVariant) {
-  EXPECT_NO_THROW(gl::Program(kShaders, "visibility.vert", "visibility.frag"));
-  for (const std::vector<std::string>& definitions : {std::vector<std::string>{},
-                                                      {"HAS_MASK", "MASK_BITS 1"},
-                                                      {"HAS_MASK", "MASK_BITS 8", "HAS_REFLECTION"},
-                                                      {"HAS_TEXTURES", "HAS_REFLECTION"}})
-    EXPECT_NO_THROW(gl::Program(kShaders, "fullscreen.vert", "composite.frag", definitions));
+  for (const char* bits : {"ID_BITS 16", "ID_BITS 24", "ID_BITS 32"}) {
+    EXPECT_NO_THROW(gl::Program(kShaders, "visibility.vert", "visibility.frag", {bits}));
+    for (const char* file : {"composite.frag", "gbuffer.frag", "show.frag"})
+      EXPECT_NO_THROW(gl::Program(kShaders, "fullscreen.vert", file, {bits}));
+    for (std::vector<std::string> definitions : std::initializer_list<std::vector<std::string>>{
+             {"HAS_MASK", "MASK_BITS 1"},
+             {"HAS_MASK", "MASK_BITS 8", "HAS_REFLECTION", "REPROJECT"},
+             {"HAS_TEXTURES", "FREE_LIGHTS_ONLY"}}) {
+      definitions.emplace_back(bits);
+      EXPECT_NO_THROW(gl::Program(kShaders, "fullscreen.vert", "composite.frag", definitions));
+    }
+    EXPECT_NO_THROW(gl::Program(kShaders, "fullscreen.vert", "gbuffer.frag", {bits, "NORMALS_ONLY"}));
+  }
 }
 
 TEST_P(ProgramTest, MistakeIsNamedWithFileAndLine) {

@@ -24,7 +24,7 @@ TEST(Formats, RadianceIsRoundedToNearestAndStaysFinite) {
   radiance[5] = {2.5f, -1.0f, 65504.0f};
   std::vector<std::byte> bytes(6 * 6);
   Workers workers(2);
-  pack_radiance(radiance, workers, bytes);
+  pack_radiance(radiance, ReflectionFormat::half, workers, bytes);
   const auto* halves = reinterpret_cast<const std::uint16_t*>(bytes.data());
   EXPECT_EQ(halves[3], glm::packHalf1x16(1.0f / 3.0f));
   EXPECT_EQ(glm::unpackHalf1x16(halves[4]), 65504.0f);

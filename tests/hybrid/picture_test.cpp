@@ -3,7 +3,6 @@
 
 #include "core/image/tonemap.h"
 #include "core/trace/view.h"
-#include "hybrid/steps.h"
 #include "tests/support/draw.h"
 #include "tests/support/gl_test.h"
 
@@ -113,6 +112,37 @@ TEST_P(Modes, APartIsThatPartOfTheWhole) {
       }
     // A rasteriser snaps vertices relative to its viewport; rays know no such thing.
     EXPECT_LE(other_triangle, mode == Mode::raytrace ? 0 : 5);
+  }
+}
+
+// Largest difference on a screen, of 255, where both see the same triangle.
+float largest_on_screen(const Picture& a, const Picture& b) {
+  float largest = 0.0f;
+  for (std::size_t i = 0; i < a.ids.pixels().size(); ++i) {
+    if (a.ids[i] != b.ids[i]) continue;
+    const glm::vec3 d = glm::abs(shown(a.color[i]) - shown(b.color[i]));
+    largest = std::max({largest, d.x, d.y, d.z});
+  }
+  return largest;
+}
+
+// 24 bits a pixel, there and back, are two roundings of half a step each.
+TEST_P(Modes, OtherDesignsAndPlansAreTheSamePictureWithinTheirFormats) {
+  const Scene scene = load_or_die(source_path(GetParam()));
+  const Picture exact = draw_one(scene, {});
+  struct Way {
+    const char* name;
+    int design;
+    bool slides;
+  };
+  for (const Way& way :
+       {Way{"design 2", 2, false}, Way{"design 1, slides", 1, true}, Way{"design 2, slides", 2, true}}) {
+    const Picture other = draw_one(scene, {.design = way.design, .slides = way.slides});
+    const float largest = largest_on_screen(exact, other);
+    std::printf("  %s, %s: at most %.2f/255 apart\n", GetParam().c_str(), way.name,
+                static_cast<double>(largest));
+    EXPECT_LE(largest, 1.5f) << way.name;
+    EXPECT_TRUE(std::ranges::equal(exact.ids.pixels(), other.ids.pixels()));
   }
 }
 

@@ -18,6 +18,8 @@ inline Camera first_camera(const Scene& scene) {
 
 struct DrawRequest {
   Mode mode = Mode::hybrid;
+  int design = 1;
+  bool slides = false;
   glm::ivec2 size{320, 240};
   PixelBox part{};  // empty: whole
   Exchange exchange = Exchange::sync;
@@ -33,9 +35,9 @@ inline std::vector<Picture> draw_all(const Scene& scene, const DrawRequest& requ
   const auto context =
       request.mode == Mode::raytrace ? nullptr : gl::open_context({request.backend, "", true});
   Workers workers(request.threads);
-  const Plan plan = make_plan(take_census(scene), request.mode, 8).value();
+  const Plan plan = make_plan(take_census(scene), {request.mode, request.design, 8, request.slides}).value();
   const auto prepared =
-      std::make_shared<const PreparedScene>(scene, plan, BuildOptions{}, std::optional<Isa>());
+      std::make_shared<const PreparedScene>(scene, sides_of(plan), BuildOptions{}, std::optional<Isa>());
   std::vector<Picture> pictures;
   {
     Renderer renderer(

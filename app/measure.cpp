@@ -1,0 +1,241 @@
+// measure: frames along a camera path; what each moved, took and waited for.
+#include <cstdio>
+#include <memory>
+#include <nlohmann/json.hpp>
+
+#include "app/animation.h"
+#include "app/chrome_trace.h"
+#include "app/console.h"
+#include "app/errors.h"
+#include "app/machine.h"
+#include "app/options.h"
+#include "app/overlap.h"
+#include "app/stats.h"
+#include "app/verbs.h"
+#include "hybrid/exchange_cost.h"
+#include "hybrid/renderer.h"
+
+namespace pinocchio::app {
+namespace {
+
+constexpr int kDefaultFrames = 120;
+
+struct MeasureOptions {
+  DrawOptions draw;
+  AnimationOptions animation;
+  std::string stats_json, trace;
+  bool compare = false;
+  bool persistent = false;
+};
+
+// One way to draw, measured.
+struct Measured {
+  std::string name;
+  Plan plan;
+  Exchange exchange = Exchange::sync;
+  std::vector<FrameRecord> records;
+};
+
+gl::Mapping mapping_of(const MeasureOptions& options) {
+  return options.persistent ? gl::Mapping::persistent : gl::Mapping::each_time;
+}
+
+double frames_per_second(const Measured& run) {
+  const double wall_s = overlap_of(run.records).wall_s;
+  return wall_s > 0.0 ? static_cast<double>(run.records.size()) / wall_s : 0.0;
+}
+
+// Frames until the first pictures are out, or buffers and shaders are being made, are not counted.
+void drop_warm_up(std::vector<FrameRecord>& records) {
+  const std::size_t warm_up = std::min<std::size_t>(kFramesInFlight, records.size() / 2);
+  records.erase(records.begin(), records.begin() + static_cast<std::ptrdiff_t>(warm_up));
+}
+
+void draw(Machine& machine, const MeasureOptions& options, const std::vector<CameraFrame>& frames,
+          Measured& run) {
+  Progress progress(options.draw.quiet ? "off" : options.draw.progress, run.name, frames.size());
+  Renderer renderer(machine.shared_scene(), run.plan, machine.workers(),
+                    {run.exchange, mapping_of(options), 1, false},
+                    {[](Picture&&) {},
+                     [&](const FrameRecord& record) {
+                       run.records.push_back(record);
+                       progress.step();
+                     }});
+  for (const CameraFrame& frame : frames) {
+    if (interrupted()) break;
+    renderer.submit({frame.camera, options.draw.size, part_of(options.draw)});
+  }
+  renderer.drain();
+  machine.throw_gl_complaints();
+  drop_warm_up(run.records);
+}
+
+// The exchange alone: no frame to wait for.
+nlohmann::json exchange_json(const Measured& run, const MeasureOptions& options) {
+  nlohmann::json json{{"kind", exchange_name(run.exchange)}};
+  const glm::ivec2 size = part_of(options.draw).size();
+  const TrafficBytes traffic = traffic_of(run.plan, size);
+  if (traffic.to_cpu == 0) return json;
+  const ExchangeCost cost = measure_exchange(run.plan, size, mapping_of(options));
+  const auto direction = [](std::size_t bytes, double ms, double copy_ms) {
+    return nlohmann::json{{"ms", ms},
+                          {"gb_per_s", static_cast<double>(bytes) / (ms * 1e6)},
+                          {"memcpy_ms", copy_ms},
+                          {"ratio_to_memcpy", ms / copy_ms}};
+  };
+  json["gpu_to_cpu"] = direction(traffic.to_cpu, cost.to_cpu_ms, cost.memcpy_to_cpu_ms);
+  json["cpu_to_gpu"] = direction(traffic.to_gpu, cost.to_gpu_ms, cost.memcpy_to_gpu_ms);
+  return json;
+}
+
+nlohmann::json overlap_json(const Measured& run) {
+  const Overlap o = overlap_of(run.records);
+  const double wall_s = std::max(o.wall_s, 1e-9);
+  return {{"gpu_busy", o.gpu_s / wall_s}, {"cpu_busy", o.cpu_s / wall_s}, {"both_busy", o.both_s / wall_s}};
+}
+
+nlohmann::json run_json(const Measured& run, const Machine& machine, const MeasureOptions& options) {
+  nlohmann::json json = figures(run.records, run.plan, machine.scene().scene,
+                                run.plan.mode == Mode::raytrace ? nullptr : machine.gl_info());
+  json["name"] = run.name;
+  json["exchange"] = exchange_json(run, options);
+  json["overlap"] = overlap_json(run);
+  return json;
+}
+
+void print_header(const Machine& machine, const MeasureOptions& options) {
+  std::printf("%s: %zu triangles, %dx%d, %d worker threads\n", machine.scene().scene.source.c_str(),
+              machine.scene().scene.triangles.size(), options.draw.size.x, options.draw.size.y,
+              const_cast<Machine&>(machine).workers().count());
+  if (const gl::ContextInfo* gl = machine.gl_info())
+    std::printf("OpenGL: %s, %s\n", gl->renderer.c_str(),
+                gl->software ? "software: it shares these cores, and no bus is crossed" : "hardware");
+}
+
+void print_traffic(const Machine& machine, const MeasureOptions& options) {
+  std::printf("bytes a frame          GPU to CPU   CPU to GPU\n");
+  const Needs needs = take_census(machine.scene().scene);
+  for (const bool slides : {false, true}) {
+    PlanRequest request = plan_request(options.draw);
+    request.mode = Mode::hybrid;
+    request.slides = slides;
+    const Expected<Plan> plan = make_plan(needs, request);
+    if (!plan) continue;
+    const TrafficBytes traffic = traffic_of(*plan, part_of(options.draw).size());
+    std::printf("  --plan %-12s %12zu %12zu\n", slides ? "slides" : "auto", traffic.to_cpu, traffic.to_gpu);
+  }
+}
+
+void print_run(const Measured& run, const nlohmann::json& json) {
+  std::printf("%s: %.1f frames/s, latency %d frames\n", run.name.c_str(), json["fps"].get<double>(),
+              json["latency"]["frames"].get<int>());
+  std::printf("  milliseconds            p50        p95        p99\n");
+  const auto line = [](const std::string& name, const nlohmann::json& ms) {
+    if (ms["p99"].get<double>() == 0.0) return;
+    std::printf("  %-18s %8.2f   %8.2f   %8.2f\n", name.c_str(), ms["p50"].get<double>(),
+                ms["p95"].get<double>(), ms["p99"].get<double>());
+  };
+  for (const std::string_view stage : kStageNames)
+    line(std::string(stage), json["stages"][std::string(stage)]["ms"]);
+  line("camera to picture", json["latency"]["ms"]);
+  for (const char* way : {"gpu_to_cpu", "cpu_to_gpu"}) {
+    if (!json["exchange"].contains(way)) continue;
+    const nlohmann::json& cost = json["exchange"][way];
+    std::printf("  %s alone: %.2f ms (%.1f GB/s), memcpy %.2f ms: %.1f times\n", way,
+                cost["ms"].get<double>(), cost["gb_per_s"].get<double>(), cost["memcpy_ms"].get<double>(),
+                cost["ratio_to_memcpy"].get<double>());
+  }
+  const nlohmann::json& overlap = json["overlap"];
+  std::printf("  busy: GPU %.0f %%, CPU %.0f %%, both at once %.0f %% of the time\n",
+              100.0 * overlap["gpu_busy"].get<double>(), 100.0 * overlap["cpu_busy"].get<double>(),
+              100.0 * overlap["both_busy"].get<double>());
+}
+
+void print_comparison(const std::vector<Measured>& runs, const nlohmann::json& json) {
+  std::printf("%-22s %9s %9s %8s %8s %4s %12s %12s\n", "", "frames/s", "frame ms", "latency", "ms", "age",
+              "GPU to CPU", "CPU to GPU");
+  for (std::size_t i = 0; i < runs.size(); ++i) {
+    const nlohmann::json& j = json[i];
+    const FrameRecord& last = runs[i].records.back();
+    std::printf("%-22s %9.1f %9.2f %8d %8.2f %4d %12zu %12zu\n", runs[i].name.c_str(),
+                frames_per_second(runs[i]), 1e3 / std::max(frames_per_second(runs[i]), 1e-9),
+                j["latency"]["frames"].get<int>(), j["latency"]["ms"]["p50"].get<double>(), last.age_frames,
+                last.bytes_to_cpu(), last.bytes_to_gpu());
+  }
+}
+
+// What --compare draws, or the one way that the options name.
+std::vector<Measured> runs_of(const Machine& machine, const MeasureOptions& options) {
+  const Exchange exchange = options.draw.exchange.value_or(Exchange::pipelined);
+  if (!options.compare) {
+    const bool hybrid = machine.plan().mode == Mode::hybrid;
+    const std::string name =
+        hybrid ? "design " + std::to_string(machine.plan().design) + " " + exchange_name(exchange)
+               : mode_name(machine.plan().mode);
+    return {{name, machine.plan(), hybrid ? exchange : Exchange::sync, {}}};
+  }
+  const Needs needs = take_census(machine.scene().scene);
+  const auto plan = [&](Mode mode, int design) {
+    PlanRequest request = plan_request(options.draw);
+    request.mode = mode;
+    request.design = design;
+    return value_or_exit(make_plan(needs, request), kBadScene);
+  };
+  return {{"design 1 sync", plan(Mode::hybrid, 1), Exchange::sync, {}},
+          {"design 1 pipelined", plan(Mode::hybrid, 1), Exchange::pipelined, {}},
+          {"design 1 reproject", plan(Mode::hybrid, 1), Exchange::reproject, {}},
+          {"design 2 sync", plan(Mode::hybrid, 2), Exchange::sync, {}},
+          {"design 2 pipelined", plan(Mode::hybrid, 2), Exchange::pipelined, {}},
+          {"raytrace", plan(Mode::raytrace, 1), Exchange::sync, {}},
+          {"raster", plan(Mode::raster, 1), Exchange::sync, {}}};
+}
+
+int measure(MeasureOptions& options) {
+  Scene scene = load_scene_for(options.draw);
+  const Camera camera = camera_for(options.draw, scene);
+  if (options.animation.turntable == 0 && options.animation.path.empty())
+    options.animation.turntable = kDefaultFrames;
+  const std::vector<CameraFrame> frames = animate(options.animation, camera);
+  for (const std::string& file : {options.stats_json, options.trace})
+    if (!file.empty()) check_json(file);
+
+  Machine machine(options.draw, std::move(scene), options.compare ? std::optional(Sides{}) : std::nullopt);
+  std::vector<Measured> runs = runs_of(machine, options);
+  nlohmann::json json = nlohmann::json::array();
+  for (Measured& run : runs) {
+    draw(machine, options, frames, run);
+    if (interrupted()) return kInterrupted;
+    json.push_back(run_json(run, machine, options));
+  }
+  if (!options.stats_json.empty())
+    write_json(options.stats_json, options.compare ? nlohmann::json{{"runs", json}} : json.front());
+  if (!options.trace.empty()) write_json(options.trace, chrome_trace(runs.front().records));
+  if (options.draw.quiet) return kDone;
+  print_header(machine, options);
+  print_traffic(machine, options);
+  if (options.compare) {
+    print_comparison(runs, json);
+  } else {
+    print_run(runs.front(), json.front());
+  }
+  return kDone;
+}
+
+}  // namespace
+
+Run add_measure(CLI::App& program) {
+  auto options = std::make_shared<MeasureOptions>();
+  CLI::App& verb =
+      *program.add_subcommand("measure", "draw frames along a camera path; report bytes, times, latency");
+  add_draw_options(verb, options->draw);
+  add_animation_options(verb, options->animation);
+  verb.add_flag("--compare", options->compare,
+                "both designs, every exchange, raytrace and raster, in one table");
+  verb.add_flag("--persistent", options->persistent,
+                "keep transfer buffers mapped (they are mapped each time)");
+  verb.add_option("--stats-json", options->stats_json, "write the figures as JSON");
+  verb.add_option("--trace", options->trace, "write a Chrome trace (opens in Perfetto and chrome://tracing)");
+  return [options] { return measure(*options); };
+}
+
+}  // namespace pinocchio::app

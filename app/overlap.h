@@ -1,0 +1,18 @@
+#pragma once
+
+#include <vector>
+
+#include "hybrid/record.h"
+
+namespace pinocchio::app {
+
+// How much of a run each side worked, and both at once.
+struct Overlap {
+  double wall_s = 0.0;  // first frame's begin to last frame's end
+  double gpu_s = 0.0, cpu_s = 0.0, both_s = 0.0;
+};
+
+// GPU: raster and composite. CPU: shadow and reflection.
+[[nodiscard]] Overlap overlap_of(const std::vector<FrameRecord>& records);
+
+}  // namespace pinocchio::app

@@ -1,0 +1,52 @@
+#include "hybrid/design.h"
+
+#include "core/trace/view.h"
+#include "hybrid/formats.h"
+
+namespace pinocchio {
+
+void Design::draw_ids(Flight& frame) const {
+  const FrameRequest& request = frame.request;
+  frame.view = view_params(request.camera, request.size, request.jitter, request.part.lo);
+  fit(frame.visibility.target, request.part.size(), id_format(request.plan.id_bits).pixel, true);
+  passes_.visibility.draw(*request.scene->gpu, frame.view, request.size, request.plan.id_bits,
+                          frame.visibility.target);
+}
+
+void Design::send_to_cpu(Flight& frame, Outgoing& picture, Transfer transfer) const {
+  const ExchangeTimer timer(frame.record);
+  picture.back.start(picture.target);
+  frame.record[transfer] = picture.back.bytes();
+}
+
+ShadingPasses::Inputs Design::inputs_of(const Flight& frame) const {
+  return {*frame.request.scene->gpu, frame.view, frame.visibility.target.color(), frame.request.plan.id_bits};
+}
+
+TraceJob Design::job_of(const Flight& frame) const {
+  return {frame.request.scene->scene, frame.request.scene->tracer.value(), workers_, frame.view};
+}
+
+void Design::trace_plan(Flight& frame) const {
+  const TraceJob job = job_of(frame);
+  const Plan& plan = frame.request.plan;
+  if (plan.mask_bits > 0) {
+    const StageTimer timer(frame.record, Stage::trace_shadow);
+    frame.record.rays += trace_shadow_mask(job, frame.ids, plan.mask_bits, frame.mask);
+  }
+  if (plan.reflects()) {
+    const StageTimer timer(frame.record, Stage::trace_reflection);
+    frame.record.rays += trace_reflection(job, frame.ids, plan.depth, frame.reflection);
+  }
+}
+
+void fit(gl::Framebuffer& target, glm::ivec2 size, const gl::PixelFormat& format, bool with_depth) {
+  if (target.size() != size || target.color().format() != format)
+    target = gl::Framebuffer(size, format, with_depth);
+}
+
+void fit(gl::Texture& texture, glm::ivec2 size, const gl::PixelFormat& format) {
+  if (texture.size() != size || texture.format() != format) texture = gl::Texture(size, format);
+}
+
+}  // namespace pinocchio

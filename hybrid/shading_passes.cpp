@@ -1,0 +1,81 @@
+#include "hybrid/shading_passes.h"
+
+#include "hybrid/visibility_pass.h"
+
+namespace pinocchio {
+
+void ShadingPasses::composite(const Inputs& inputs, LightSet lights, const Traced& traced,
+                              const gl::Framebuffer& target) {
+  Definitions definitions = definitions_of(inputs);
+  if (lights == LightSet::free) definitions.emplace_back("FREE_LIGHTS_ONLY");
+  if (traced.mask) {
+    definitions.emplace_back("HAS_MASK");
+    definitions.emplace_back("MASK_BITS " + std::to_string(traced.mask_bits));
+  }
+  if (traced.reflection) definitions.emplace_back("HAS_REFLECTION");
+  if (traced.reflection_format == ReflectionFormat::rgb8) definitions.emplace_back("REFLECTION_IS_SRGB");
+  if (traced.of) definitions.emplace_back("REPROJECT");
+
+  gl::begin_fullscreen_pass(target);
+  const gl::Program& p = program("composite.frag", definitions);
+  p.use();
+  int unit = bind(p, inputs);
+  if (traced.mask) p.set("mask", unit++, *traced.mask);
+  if (traced.reflection) p.set("reflection", unit++, *traced.reflection);
+  if (traced.of) {
+    p.set("old_ids", unit++, traced.of->ids);
+    p.set("old_eye", traced.of->view.eye);
+    p.set("old_pixel_from_eye", glm::mat3(pixel_from_eye(traced.of->view)));
+  }
+  triangle_.draw();
+}
+
+void ShadingPasses::normals(const Inputs& inputs, const gl::Framebuffer& target) {
+  Definitions definitions = definitions_of(inputs);
+  definitions.emplace_back("NORMALS_ONLY");
+  gl::begin_fullscreen_pass(target);
+  const gl::Program& p = program("gbuffer.frag", definitions);
+  p.use();
+  bind(p, inputs);
+  triangle_.draw();
+}
+
+void ShadingPasses::gbuffer(const Inputs& inputs, const gl::Framebuffer& target) {
+  gl::begin_fullscreen_pass(target);
+  const gl::Program& p = program("gbuffer.frag", definitions_of(inputs));
+  p.use();
+  bind(p, inputs);
+  triangle_.draw();
+}
+
+void ShadingPasses::show(const gl::Texture& finished, const Inputs& inputs, const gl::Framebuffer& target) {
+  gl::begin_fullscreen_pass(target);
+  const gl::Program& p = program("show.frag", definitions_of(inputs));
+  p.use();
+  p.set("finished", bind(p, inputs), finished);
+  triangle_.draw();
+}
+
+const gl::Program& ShadingPasses::program(const std::string& file, const Definitions& definitions) {
+  const auto [at, is_new] = programs_.try_emplace({file, definitions});
+  if (is_new) at->second = gl::Program(shaders_, "fullscreen.vert", file, definitions);
+  return at->second;
+}
+
+int ShadingPasses::bind(const gl::Program& program, const Inputs& inputs) const {
+  program.set("eye", inputs.view.eye);
+  program.set("corner", inputs.view.corner);
+  program.set("step_x", inputs.view.step_x);
+  program.set("step_y", inputs.view.step_y);
+  program.set("first", inputs.view.first);
+  program.set("ids", 0, inputs.ids);
+  return inputs.scene.bind(program, 1);
+}
+
+ShadingPasses::Definitions ShadingPasses::definitions_of(const Inputs& inputs) {
+  Definitions definitions{"ID_BITS " + std::to_string(inputs.id_bits)};
+  if (inputs.scene.textured()) definitions.emplace_back("HAS_TEXTURES");
+  return definitions;
+}
+
+}  // namespace pinocchio

@@ -1,0 +1,70 @@
+#pragma once
+
+#include <compare>
+#include <filesystem>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "core/trace/shared.h"
+#include "gl/draw.h"
+#include "gl/program.h"
+#include "hybrid/gpu_scene.h"
+#include "hybrid/plan.h"
+
+namespace pinocchio {
+
+// Which lights a pass adds up.
+enum class LightSet {
+  all,   // those that cast where the mask says so, or everywhere without one
+  free,  // those that do not cast
+};
+
+// An older frame whose mask and reflection are warped to this one.
+struct OlderFrame {
+  const gl::Texture& ids;
+  shared::ViewParams view;
+};
+
+// The passes that shade pixels from their ids (shaders/composite.frag, gbuffer.frag, show.frag).
+class ShadingPasses {
+ public:
+  struct Inputs {
+    const GpuScene& scene;
+    shared::ViewParams view;
+    const gl::Texture& ids;
+    int id_bits;
+  };
+  struct Traced {
+    const gl::Texture* mask = nullptr;  // R8UI, MaskImage's packed rows; null: every light reaches all
+    int mask_bits = 0;
+    const gl::Texture* reflection = nullptr;  // three texels a pixel; null: none
+    ReflectionFormat reflection_format = ReflectionFormat::none;
+    const OlderFrame* of = nullptr;  // whose they are; null: this frame's
+  };
+
+  explicit ShadingPasses(std::filesystem::path shaders) : shaders_(std::move(shaders)) {}
+
+  // Phong per light, plus reflection, linear light; alpha 0 where nothing is seen.
+  void composite(const Inputs& inputs, LightSet lights, const Traced& traced, const gl::Framebuffer& target);
+  // Shading normals, 0.5 n + 0.5.
+  void normals(const Inputs& inputs, const gl::Framebuffer& target);
+  // Design 2's 128 bits a pixel.
+  void gbuffer(const Inputs& inputs, const gl::Framebuffer& target);
+  // A finished sRGB picture to linear light; alpha as above.
+  void show(const gl::Texture& finished, const Inputs& inputs, const gl::Framebuffer& target);
+
+ private:
+  using Definitions = std::vector<std::string>;
+  // Compiled when first asked for: a scene pays for what it has.
+  const gl::Program& program(const std::string& file, const Definitions& definitions);
+  // Sets what every pass over ids reads; returns the next free texture unit.
+  int bind(const gl::Program& program, const Inputs& inputs) const;
+  [[nodiscard]] static Definitions definitions_of(const Inputs& inputs);
+
+  std::filesystem::path shaders_;
+  std::map<std::pair<std::string, Definitions>, gl::Program> programs_;
+  gl::FullscreenTriangle triangle_;
+};
+
+}  // namespace pinocchio

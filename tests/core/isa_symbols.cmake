@@ -1,0 +1,33 @@
+# Looks at the kernels in the archive ARCHIVE with NM: a function that a kernel's file shares with others
+# (weak, or global outside its own namespace) may be the one the linker keeps, and then every processor
+# would run, say, AVX2 code. Run as a script by ctest.
+if(NOT NM OR NM MATCHES "NOTFOUND")
+  message("skipped: nm is missing")
+  return()
+endif()
+execute_process(COMMAND ${NM} -C -A --defined-only ${ARCHIVE} OUTPUT_VARIABLE lines
+                COMMAND_ERROR_IS_FATAL ANY)
+string(REPLACE ";" "," lines "${lines}")
+string(REPLACE "\n" ";" lines "${lines}")
+
+set(kernels 0)
+set(leaks "")
+foreach(line IN LISTS lines)
+  if(NOT line MATCHES "kernel_([a-z0-9]+)\\.cpp[^:]*:[^ ]* ([A-Za-z]) (.*)$")
+    continue()
+  endif()
+  set(isa ${CMAKE_MATCH_1})
+  set(kind ${CMAKE_MATCH_2})
+  set(name "${CMAKE_MATCH_3}")
+  if(name STREQUAL "pinocchio::${isa}::kKernel")
+    math(EXPR kernels "${kernels} + 1")
+  elseif(kind MATCHES "[TWVuvw]" AND NOT name MATCHES "^(DW\\.ref|pinocchio::${isa}::)")
+    string(APPEND leaks "\n  kernel_${isa}.cpp: ${name}")
+  endif()
+endforeach()
+if(leaks)
+  message(FATAL_ERROR "compiled for one instruction set and seen by all:${leaks}")
+elseif(NOT kernels EQUAL 4)
+  message(FATAL_ERROR "found ${kernels} kernels in ${ARCHIVE}, not 4: this test looks at nothing")
+endif()
+message("${kernels} kernels, no function of theirs is seen outside")
