@@ -171,7 +171,7 @@ void FrameLoop::read_picture(Flight& frame, Image<glm::vec4>& color) {
 }
 
 void FrameLoop::read_ids(Flight& frame) {
-  if (frame.request.plan.traces()) return;  // they came for the CPU
+  if (frame.answered) return;  // they came for the CPU
   frame.visibility.back.start(frame.visibility.target);
   fit(frame.ids, frame.visibility.target.size());
   unpack_ids(frame.visibility.back.open(), frame.request.plan.id_bits, frame.ids);

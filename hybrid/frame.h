@@ -44,7 +44,7 @@ class FrameLoop {
 
   // The finished picture on the CPU, linear RGBA; waits for the GPU.
   static void read_picture(Flight& frame, Image<glm::vec4>& color);
-  // Flight::ids, also where the plan needs none on the CPU; waits for the GPU.
+  // Flight::ids, also where the CPU does not have them (yet); waits for the GPU.
   static void read_ids(Flight& frame);
 
  private:

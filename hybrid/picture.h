@@ -12,8 +12,8 @@ struct Picture {
   Image<glm::vec4> color;  // linear RGBA, mean of the samples
   // Of the first sample, at the pixels' centres:
   Image<std::uint32_t> ids;     // kNoTriangle where nothing is seen
-  MaskImage mask;               // 0 bits where the plan has none
-  Image<glm::vec3> reflection;  // empty where the plan has none
+  MaskImage mask;               // 0 bits where the plan has none, or the frame's own is not traced yet
+  Image<glm::vec3> reflection;  // empty, likewise
 };
 
 }  // namespace pinocchio

@@ -54,8 +54,8 @@ void Renderer::take(Flight& frame) {
   if (samples_ == 0) {
     FrameLoop::read_ids(frame);
     sample.ids = frame.ids;
-    if (plan_.mask_bits > 0) sample.mask = frame.mask;
-    if (plan_.reflects()) sample.reflection = frame.reflection;
+    if (frame.answered && plan_.mask_bits > 0) sample.mask = frame.mask;
+    if (frame.answered && plan_.reflects()) sample.reflection = frame.reflection;
   }
   add_sample(std::move(sample));
 }
