@@ -2,6 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <future>
+#include <system_error>
+#include <thread>
 #include <utility>
 
 #include "core/bsp/clip.h"
@@ -17,10 +20,39 @@ int default_depth(std::size_t triangles) {
   return static_cast<int>(8.0 + 1.3 * std::log2(static_cast<double>(triangles)));
 }
 
+// Fewer references than this are not worth a thread.
+constexpr std::size_t kLeastForThread = 4096;
+
+// A part of the tree on its own: its root is node 0, node 1 is padding, first_child and first_reference
+// count from its own beginning.
+struct Subtree {
+  AlignedVector<BspNode> nodes = AlignedVector<BspNode>(2, BspNode::leaf(0, 0));
+  AlignedVector<std::uint32_t> references;
+  int depth = 0;
+};
+
+// Puts `part` behind what is in `to`, its root in node `index`: as if it had been built there.
+void splice(const Subtree& part, Subtree& to, std::uint32_t index) {
+  const auto nodes = static_cast<std::uint32_t>(to.nodes.size()) - 2;
+  const auto references = static_cast<std::uint32_t>(to.references.size());
+  const auto moved = [&](const BspNode& n) {
+    return n.is_leaf() ? BspNode::leaf(n.first_reference() + references, n.reference_count())
+                       : BspNode::inner(n.axis(), n.split(), n.first_child() + nodes);
+  };
+  to.nodes[index] = moved(part.nodes[0]);
+  for (std::size_t i = 2; i < part.nodes.size(); ++i) to.nodes.push_back(moved(part.nodes[i]));
+  to.references.insert(to.references.end(), part.references.begin(), part.references.end());
+  to.depth = std::max(to.depth, part.depth);
+}
+
 class Builder {
  public:
   Builder(const Scene& scene, const BuildOptions& options, BspTree& tree)
       : scene_(scene), options_(options), tree_(tree) {
+    const int threads =
+        options.threads > 0 ? options.threads : static_cast<int>(std::thread::hardware_concurrency());
+    while ((1 << fork_depth_) < threads) ++fork_depth_;
+    if (threads > 1) fork_depth_ += 2;  // halves are seldom equal: some more parts than threads
     const int wanted = options.max_depth > 0 ? options.max_depth : default_depth(scene.triangles.size());
     max_depth_ = std::clamp(wanted, 1, kMaxTreeDepth);
   }
@@ -28,8 +60,13 @@ class Builder {
   void build() {
     References all = all_references();
     for (const BuildReference& r : all) tree_.bounds.add(r.bounds);
-    tree_.nodes.resize(2, BspNode::leaf(0, 0));
-    build_node(0, std::move(all), tree_.bounds, 0);
+    Subtree whole;
+    build_node(whole, 0, std::move(all), tree_.bounds, 0);
+    whole.nodes.shrink_to_fit();
+    whole.references.shrink_to_fit();
+    tree_.nodes = std::move(whole.nodes);
+    tree_.references = std::move(whole.references);
+    tree_.depth = whole.depth;
   }
 
  private:
@@ -50,11 +87,12 @@ class Builder {
     return scene_.positions[scene_.triangles[triangle][k]];
   }
 
-  void build_node(std::uint32_t index, References references, const Bounds& box, int depth) {
-    tree_.depth = std::max(tree_.depth, depth);
+  void build_node(Subtree& to, std::uint32_t index, References references, const Bounds& box,
+                  int depth) const {
+    to.depth = std::max(to.depth, depth);
     const std::optional<SplitPlane> plane = depth < max_depth_ ? choose(references, box) : std::nullopt;
     if (!plane) {
-      make_leaf(index, references);
+      make_leaf(to, index, references);
       return;
     }
     Bounds low_box = box, high_box = box;
@@ -63,24 +101,47 @@ class Builder {
     References low, high;
     partition(references, *plane, low_box, high_box, low, high);
     if (low.size() >= references.size() && high.size() >= references.size()) {  // nothing was told apart
-      make_leaf(index, references);
+      make_leaf(to, index, references);
       return;
     }
     References().swap(references);  // the parent's are not needed while its children are built
 
-    const auto children = static_cast<std::uint32_t>(tree_.nodes.size());
-    tree_.nodes.resize(tree_.nodes.size() + 2, BspNode::leaf(0, 0));
-    tree_.nodes[index] = BspNode::inner(plane->axis, plane->position, children);
-    build_node(children, std::move(low), low_box, depth + 1);
-    build_node(children + 1, std::move(high), high_box, depth + 1);
+    const auto children = static_cast<std::uint32_t>(to.nodes.size());
+    to.nodes.resize(to.nodes.size() + 2, BspNode::leaf(0, 0));
+    to.nodes[index] = BspNode::inner(plane->axis, plane->position, children);
+    std::future<Subtree> other;
+    if (depth < fork_depth_ && std::min(low.size(), high.size()) >= kLeastForThread)
+      other = fork(high, high_box, depth + 1);
+    build_node(to, children, std::move(low), low_box, depth + 1);
+    if (other.valid())
+      splice(other.get(), to, children + 1);
+    else
+      build_node(to, children + 1, std::move(high), high_box, depth + 1);
+  }
+
+  // Builds the node on a thread of its own; nothing, and `references` as they were, where none is to be had.
+  [[nodiscard]] std::future<Subtree> fork(References& references, const Bounds& box, int depth) const {
+    const auto work = [this, &references, box, depth] {
+      Subtree part;
+      build_node(part, 0, std::move(references), box, depth);
+      return part;
+    };
+    try {
+      return std::async(std::launch::async, work);
+    } catch (const std::system_error&) {
+      return {};
+    }
   }
 
   [[nodiscard]] std::optional<SplitPlane> choose(const References& references, const Bounds& box) const {
     if (references.size() <= static_cast<std::size_t>(options_.leaf_size)) return std::nullopt;
     switch (options_.rule) {
-      case SplitRule::spatial_median: return find_spatial_median(box);
-      case SplitRule::object_median: return find_object_median(references, box);
-      case SplitRule::sah: break;
+      case SplitRule::spatial_median:
+        return find_spatial_median(box);
+      case SplitRule::object_median:
+        return find_object_median(references, box);
+      case SplitRule::sah:
+        break;
     }
     const std::optional<SplitPlane> best = find_sah_split(references, box, options_);
     const float leaf_cost = options_.cost_intersection * static_cast<float>(references.size());
@@ -109,16 +170,17 @@ class Builder {
     if (!b.empty()) to.push_back({triangle, b});
   }
 
-  void make_leaf(std::uint32_t index, const References& references) {
-    const auto first = static_cast<std::uint32_t>(tree_.references.size());
-    tree_.nodes[index] = BspNode::leaf(first, static_cast<std::uint32_t>(references.size()));
-    for (const BuildReference& r : references) tree_.references.push_back(r.triangle);
+  static void make_leaf(Subtree& to, std::uint32_t index, const References& references) {
+    const auto first = static_cast<std::uint32_t>(to.references.size());
+    to.nodes[index] = BspNode::leaf(first, static_cast<std::uint32_t>(references.size()));
+    for (const BuildReference& r : references) to.references.push_back(r.triangle);
   }
 
   const Scene& scene_;
   const BuildOptions& options_;
   BspTree& tree_;
   int max_depth_;
+  int fork_depth_ = 0;  // nodes above this depth may be shared out to two threads
 };
 
 // A ray computes its entry into the box with three roundings; flat scenes need some thickness, too.

@@ -21,6 +21,7 @@ struct BuildOptions {
   SplitRule rule = SplitRule::sah;
   int max_depth = 0;     // 0: from the number of triangles; never above kMaxTreeDepth
   int leaf_size = 2;     // a node with no more references is not split (sah: unless empty space can be cut off)
+  int threads = 0;       // that build; 0: one a core. The tree is the same for any number
   float cost_step = 1.0f;         // of a traversal step ...
   float cost_intersection = 0.5f; // ... against a triangle test (SAH's cost comparison)
 };

@@ -2,14 +2,16 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <vector>
 
 namespace pinocchio {
 namespace {
 
-// Above this many references planes are tried at kBins equal slabs a side instead of at every bound.
-constexpr std::size_t kSweepLimit = 1u << 15;
-constexpr int kBins = 256;
+// Above this many references planes are tried at kBins equal slabs a side instead of at every bound: rays
+// are traced no slower (measured by pinocchio-bench), and the build takes two thirds of the time.
+constexpr std::size_t kSweepLimit = 256;
+constexpr int kBins = 32;
 
 // Cutting off empty space is worth more than its area says: it ends rays early (Wald and Havran 2006).
 constexpr float kEmptyBonus = 0.8f;
@@ -32,7 +34,8 @@ class CostModel {
     Bounds below = node_, above = node_;
     below.hi[axis] = position;
     above.lo[axis] = position;
-    const float area_below = below.half_area() * inverse_area_, area_above = above.half_area() * inverse_area_;
+    const float area_below = below.half_area() * inverse_area_,
+                area_above = above.half_area() * inverse_area_;
     const float with_low = cost(area_below, low + flat, area_above, high);
     const float with_high = cost(area_below, low, area_above, flat + high);
     const bool flat_goes_low = with_low <= with_high;
@@ -52,49 +55,63 @@ class CostModel {
   float inverse_area_;
 };
 
-// Sorted so that at one position parts end before flat ones lie before others start.
-struct Event {
+// Sorted so that at one position parts end before flat ones lie before others start. One whole number, so
+// that sorting, most of the work, compares without a branch: the position's bits, ordered as floats are,
+// above the kind.
+class Event {
+ public:
   enum Kind : std::uint8_t { end, flat, start };
-  float position;
-  Kind kind;
-  friend bool operator<(const Event& a, const Event& b) {
-    return a.position < b.position || (a.position == b.position && a.kind < b.kind);
+
+  Event(float position, Kind kind) : key_(ordered(position + 0.0f) << 2 | kind) {}  // + 0: no -0
+
+  [[nodiscard]] Kind kind() const { return static_cast<Kind>(key_ & 3u); }
+  [[nodiscard]] float position() const {
+    const auto bits = static_cast<std::uint32_t>(key_ >> 2);
+    return std::bit_cast<float>(bits & kSign ? bits ^ kSign : ~bits);
   }
+  friend bool operator<(const Event& a, const Event& b) { return a.key_ < b.key_; }
+
+ private:
+  static constexpr std::uint32_t kSign = 0x80000000u;
+  static std::uint64_t ordered(float x) {
+    const auto bits = std::bit_cast<std::uint32_t>(x);
+    return bits & kSign ? ~bits : bits | kSign;
+  }
+  std::uint64_t key_;
 };
 
 void sweep_axis(std::span<const BuildReference> references, int axis, const CostModel& model,
                 std::vector<Event>& events, std::optional<SplitPlane>& best) {
   events.clear();
+  events.reserve(2 * references.size());
   for (const BuildReference& r : references) {
     const float lo = r.bounds.lo[axis], hi = r.bounds.hi[axis];
     if (lo == hi) {
-      events.push_back({lo, Event::flat});
+      events.emplace_back(lo, Event::flat);
     } else {
-      events.push_back({lo, Event::start});
-      events.push_back({hi, Event::end});
+      events.emplace_back(lo, Event::start);
+      events.emplace_back(hi, Event::end);
     }
   }
   std::sort(events.begin(), events.end());
 
   std::size_t low = 0, high = references.size();
   for (auto e = events.begin(); e != events.end();) {
-    const float position = e->position;
+    const float position = e->position();
     std::array<std::size_t, 3> count{};
-    for (; e != events.end() && e->position == position; ++e) ++count[e->kind];
+    for (; e != events.end() && e->position() == position; ++e) ++count[e->kind()];
     high -= count[Event::end] + count[Event::flat];
     model.consider(axis, position, low, count[Event::flat], high, best);
     low += count[Event::flat] + count[Event::start];
   }
 }
 
-void bin_axis(std::span<const BuildReference> references, const Bounds& node, int axis, const CostModel& model,
-              std::optional<SplitPlane>& best) {
+void bin_axis(std::span<const BuildReference> references, const Bounds& node, int axis,
+              const CostModel& model, std::optional<SplitPlane>& best) {
   const float lo = node.lo[axis], width = node.hi[axis] - lo;
   if (!(width > 0.0f)) return;
   const float scale = static_cast<float>(kBins) / width;
-  const auto bin_of = [&](float x) {
-    return std::clamp(static_cast<int>((x - lo) * scale), 0, kBins - 1);
-  };
+  const auto bin_of = [&](float x) { return std::clamp(static_cast<int>((x - lo) * scale), 0, kBins - 1); };
   std::array<std::size_t, kBins> starts{}, ends{};
   for (const BuildReference& r : references) {
     ++starts[static_cast<std::size_t>(bin_of(r.bounds.lo[axis]))];

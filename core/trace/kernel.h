@@ -33,36 +33,30 @@ constexpr float kTestError = 2.0f * 0x1p-24f;
 // No triangle grows by more than this share of itself, however thin it is.
 constexpr float kMostGrowth = 0.5f;
 
-// Which of `lanes` meet the triangle at 0 < t <= t_best, and at which t. A weight may be less than 0 by as
-// much as its rounding error: neighbours that share an edge both take a ray that their roundings disagree
-// about, so that none slips through between them. The order of operations is fixed.
-inline Mask meets(const ProjectedTriangle& tri, const Packet& p, Mask lanes, const Float& t_best, Float& t) {
+// Whether the packet's rays meet the triangle, and at which t. A weight may be less than 0 by as much as
+// its rounding error: neighbours that share an edge both take a ray that their roundings disagree about,
+// so that none slips through between them. The order of operations is fixed.
+inline Mask meets(const ProjectedTriangle& tri, const Packet& p, Float& t) {
   const unsigned k = tri.k, u = k == 2 ? 0 : k + 1, v = u == 2 ? 0 : u + 1;
-  const Float n_u(tri.n_u), n_v(tri.n_v), zero(0.0f), one(1.0f), most(kMostGrowth);
+  const Float n_u(tri.n_u), n_v(tri.n_v);
   const Float away = p.d[k] + n_u * p.d[u] + n_v * p.d[v];
   const Float o_k = Float(tri.a[k]) - p.o[k], o_u = Float(tri.a[u]) - p.o[u], o_v = Float(tri.a[v]) - p.o[v];
   t = (o_k + n_u * o_u + n_v * o_v) / away;
-  // Every test is written so that NaN (no area, a ray in the plane) fails.
-  const Mask in_reach = lanes & (zero < t) & (t <= t_best);
-  if (in_reach.bits() == 0) return in_reach;
   const Float h_u = t * p.d[u] - o_u, h_v = t * p.d[v] - o_v;
   const Float beta = h_u * Float(tri.beta_u) + h_v * Float(tri.beta_v);
   const Float gamma = h_u * Float(tri.gamma_u) + h_v * Float(tri.gamma_v);
-  // Whatever the error is, lanes inside stay inside, and those further out than it can grow are outside.
-  const Float sum = beta + gamma, least = zero - most;
-  const Mask inside = in_reach & (zero <= beta) & (zero <= gamma) & (sum <= one);
-  const Mask near = in_reach & (least <= beta) & (least <= gamma) & (sum <= one + most);
-  if (near.bits() == inside.bits()) return inside;
   // t is off by the rounding of its sums over |away| (no coefficient of the normal is above 1); the point
   // (h_u, h_v) by that along the ray, and by its own rounding.
   const Float from_origin = abs(o_k) + abs(o_u) + abs(o_v);
   const Float slide = max(abs(p.d[u]), abs(p.d[v])) / abs(away);
-  const Float error = Float(kTestError) * (from_origin + abs(t) * p.reach) * (one + slide);
+  const Float error = Float(kTestError) * (from_origin + abs(t) * p.reach) * (Float(1.0f) + slide);
   const Float slope_beta(__builtin_fabsf(tri.beta_u) + __builtin_fabsf(tri.beta_v));
   const Float slope_gamma(__builtin_fabsf(tri.gamma_u) + __builtin_fabsf(tri.gamma_v));
+  const Float most(kMostGrowth), zero(0.0f);
   const Float grown_beta = min(error * slope_beta, most), grown_gamma = min(error * slope_gamma, most);
-  return near & (zero <= beta + grown_beta) & (zero <= gamma + grown_gamma) &
-         (sum <= one + min(grown_beta + grown_gamma, most));
+  // Written so that NaN (no area, a ray in the plane) fails.
+  return (zero <= beta + grown_beta) & (zero <= gamma + grown_gamma) &
+         (beta + gamma <= Float(1.0f) + min(grown_beta + grown_gamma, most)) & (zero < t);
 }
 
 // Narrows [t_near, t_far] to the tree's box. min and max give their second operand for NaN, so a ray
@@ -94,9 +88,8 @@ inline void walk(const BspTree& tree, const Packet& p, Mask lanes, const Float& 
   const BspNode* nodes = tree.nodes.data();
   std::uint32_t index = 0;
   while (true) {
-    const Mask alive = lanes & (t_near <= t_far);
-    const unsigned living = alive.bits();
-    if (living != 0) {
+    Mask alive = lanes & (t_near <= t_far);
+    if (alive.bits() != 0) {
       const BspNode node = nodes[index];
       if (!node.is_leaf()) {
         const int axis = node.axis();
@@ -106,8 +99,8 @@ inline void walk(const BspTree& tree, const Packet& p, Mask lanes, const Float& 
         const std::uint32_t first = p.negative[axis] ? low + 1 : low,
                             second = p.negative[axis] ? low : low + 1;
         // NaN (a ray that runs in the plane) must enter both: ask who may skip a side, not who enters.
-        const bool skip_first = (living & ~(t_late < t_near).bits()) == 0;
-        const bool skip_second = (living & ~(t_far < t_early).bits()) == 0;
+        const bool skip_first = (alive & ~(t_late < t_near)).bits() == 0;
+        const bool skip_second = (alive & ~(t_far < t_early)).bits() == 0;
         if (skip_first) {
           index = second;
         } else if (skip_second) {
@@ -144,20 +137,24 @@ inline unsigned octant(const glm::vec3& d) {
   return (d.x < 0.0f ? 1u : 0u) | (d.y < 0.0f ? 2u : 0u) | (d.z < 0.0f ? 4u : 0u);
 }
 
-// Rays that are sorted by octant at a time, so that packets are full where neighbours go different ways.
-constexpr std::size_t kBlock = 1024;
-
-// Rays with places in `order`, transposed; lanes without a ray hold the first one's, and are never alive.
-inline Packet pack(const Ray* rays, const std::uint16_t* order, std::size_t count, unsigned way) {
+// Up to kWidth rays, transposed; `body(packet, lanes)` is called for each octant among them.
+template <class Body>
+inline void for_each_octant(const Ray* rays, std::size_t n, Body body) {
   alignas(64) float o[3][kWidth], d[3][kWidth], t_max[kWidth];
+  unsigned octants[kWidth];
+  unsigned waiting = 0;
   for (std::size_t lane = 0; lane < kWidth; ++lane) {
-    const Ray& r = rays[order[lane < count ? lane : 0]];
+    const Ray& r = rays[lane < n ? lane : 0];
+    const bool use = lane < n && traceable(r);
     for (int i = 0; i < 3; ++i) {
-      o[i][lane] = r.origin[i];
-      d[i][lane] = r.direction[i] + 0.0f;  // + 0 turns -0 into +0
+      o[i][lane] = use ? r.origin[i] : 0.0f;
+      d[i][lane] = use ? r.direction[i] + 0.0f : 1.0f;  // + 0 turns -0 into +0
     }
-    t_max[lane] = r.t_max;
+    t_max[lane] = use ? r.t_max : -1.0f;
+    octants[lane] = octant(r.direction);
+    if (use) waiting |= 1u << lane;
   }
+  if (waiting == 0) return;
   Packet p;
   for (int i = 0; i < 3; ++i) {
     p.o[i] = Float::load(o[i]);
@@ -165,33 +162,18 @@ inline Packet pack(const Ray* rays, const std::uint16_t* order, std::size_t coun
     const Float inverse = Float(1.0f) / p.d[i];
     p.inverse_early[i] = inverse * Float(1.0f - kStepError);
     p.inverse_late[i] = inverse * Float(1.0f + kStepError);
-    p.negative[i] = (way >> i & 1u) != 0;
   }
   p.reach = abs(p.d[0]) + abs(p.d[1]) + abs(p.d[2]);
   p.t_max = Float::load(t_max);
-  return p;
-}
-
-// Calls body(packet, lanes, places): rays of one octant, lane i being rays[places[i]]. n <= kBlock.
-template <class Body>
-inline void for_each_packet(const Ray* rays, std::size_t n, Body body) {
-  constexpr unsigned kOctants = 8;
-  std::uint8_t ways[kBlock];
-  std::uint16_t order[kBlock];
-  std::size_t start[kOctants + 2] = {};  // of each octant in `order`; the last: rays that are none
-  for (std::size_t i = 0; i < n; ++i) {
-    ways[i] = static_cast<std::uint8_t>(traceable(rays[i]) ? octant(rays[i].direction) : kOctants);
-    ++start[ways[i] + 1u];
+  while (waiting != 0) {
+    const unsigned way = octants[__builtin_ctz(waiting)];
+    unsigned same = 0;
+    for (unsigned lane = 0; lane < kWidth; ++lane)
+      if ((waiting >> lane & 1u) && octants[lane] == way) same |= 1u << lane;
+    for (int i = 0; i < 3; ++i) p.negative[i] = (way >> i & 1u) != 0;
+    body(p, Mask::from_bits(same));
+    waiting &= ~same;
   }
-  for (unsigned way = 0; way < kOctants; ++way) start[way + 1] += start[way];
-  std::size_t end[kOctants + 1];
-  for (unsigned way = 0; way <= kOctants; ++way) end[way] = start[way];
-  for (std::size_t i = 0; i < n; ++i) order[end[ways[i]]++] = static_cast<std::uint16_t>(i);
-  for (unsigned way = 0; way < kOctants; ++way)
-    for (std::size_t i = start[way]; i < end[way]; i += kWidth) {
-      const std::size_t count = end[way] - i < kWidth ? end[way] - i : kWidth;
-      body(pack(rays, order + i, count, way), Mask::from_bits((1u << count) - 1u), order + i);
-    }
 }
 
 inline void closest_in_leaf(const BspTree& tree, const BspNode& leaf, const Packet& p, Mask lanes,
@@ -200,69 +182,57 @@ inline void closest_in_leaf(const BspTree& tree, const BspNode& leaf, const Pack
   for (std::uint32_t i = 0; i < leaf.reference_count(); ++i) {
     const ProjectedTriangle& tri = tree.triangles[references[i]];
     Float t;
-    const Mask met = meets(tri, p, lanes, hits.t, t);
-    if (met.bits() == 0) continue;
+    const Mask inside = lanes & meets(tri, p, t);
     const Int id(tri.id);
-    const Mask closer = met & ((t < hits.t) | (id < hits.triangle));
+    const Mask closer = inside & ((t < hits.t) | ((t == hits.t) & (id < hits.triangle)));
     hits.t = select(closer, t, hits.t);
     hits.triangle = select(closer, id, hits.triangle);
   }
 }
 
-inline void closest_in_block(const BspTree& tree, const Ray* rays, Hit* out, std::size_t n) {
+void closest_hits(const BspTree& tree, const Ray* rays, Hit* out, std::size_t n) {
   alignas(64) float t[kWidth];
   alignas(64) std::uint32_t triangle[kWidth];
-  for (std::size_t i = 0; i < n; ++i) out[i] = Hit{};
-  for_each_packet(rays, n, [&](const Packet& p, Mask lanes, const std::uint16_t* places) {
-    Hits hits{p.t_max, Int(kNoTriangle)};
-    walk(tree, p, lanes, hits.t,
-         [&](const BspNode& leaf, Mask alive) { closest_in_leaf(tree, leaf, p, alive, hits); });
-    hits.t.store(t);
-    hits.triangle.store(triangle);
-    const unsigned mine = lanes.bits();
-    for (unsigned lane = 0; lane < kWidth; ++lane)
-      if ((mine >> lane & 1u) && triangle[lane] != kNoTriangle) out[places[lane]] = {t[lane], triangle[lane]};
-  });
-}
-
-// Marks the lanes that the leaf's triangles block; these live no longer.
-inline unsigned blocked_in_leaf(const BspTree& tree, const BspNode& leaf, const Packet& p, Mask alive,
-                                Float& t_best) {
-  unsigned hit = 0;
-  const std::uint32_t* references = tree.references.data() + leaf.first_reference();
-  for (std::uint32_t k = 0; k < leaf.reference_count(); ++k) {
-    Float t;
-    Mask met = meets(tree.triangles[references[k]], p, alive, t_best, t);
-    met = met & (t < t_best);
-    if (met.bits() == 0) continue;
-    hit |= met.bits();
-    t_best = select(met, Float(-1.0f), t_best);
-    alive = alive & ~met;
-    if (alive.bits() == 0) break;
+  for (std::size_t i = 0; i < n; i += kWidth) {
+    const std::size_t count = n - i < kWidth ? n - i : kWidth;
+    for (std::size_t lane = 0; lane < count; ++lane) out[i + lane] = Hit{};
+    for_each_octant(rays + i, count, [&](const Packet& p, Mask lanes) {
+      Hits hits{p.t_max, Int(kNoTriangle)};
+      walk(tree, p, lanes, hits.t,
+           [&](const BspNode& leaf, Mask alive) { closest_in_leaf(tree, leaf, p, alive, hits); });
+      hits.t.store(t);
+      hits.triangle.store(triangle);
+      const unsigned mine = lanes.bits();
+      for (std::size_t lane = 0; lane < count; ++lane)
+        if ((mine >> lane & 1u) && triangle[lane] != kNoTriangle) out[i + lane] = {t[lane], triangle[lane]};
+    });
   }
-  return hit;
-}
-
-inline void occluded_in_block(const BspTree& tree, const Ray* rays, std::uint8_t* blocked, std::size_t n) {
-  for (std::size_t i = 0; i < n; ++i) blocked[i] = 0;
-  for_each_packet(rays, n, [&](const Packet& p, Mask lanes, const std::uint16_t* places) {
-    Float t_best = p.t_max;
-    unsigned hit = 0;
-    walk(tree, p, lanes, t_best,
-         [&](const BspNode& leaf, Mask alive) { hit |= blocked_in_leaf(tree, leaf, p, alive, t_best); });
-    for (unsigned lane = 0; lane < kWidth; ++lane)
-      if (hit >> lane & 1u) blocked[places[lane]] = 1;
-  });
-}
-
-void closest_hits(const BspTree& tree, const Ray* rays, Hit* out, std::size_t n) {
-  for (std::size_t i = 0; i < n; i += kBlock)
-    closest_in_block(tree, rays + i, out + i, n - i < kBlock ? n - i : kBlock);
 }
 
 void occluded(const BspTree& tree, const Ray* rays, std::uint8_t* blocked, std::size_t n) {
-  for (std::size_t i = 0; i < n; i += kBlock)
-    occluded_in_block(tree, rays + i, blocked + i, n - i < kBlock ? n - i : kBlock);
+  for (std::size_t i = 0; i < n; i += kWidth) {
+    const std::size_t count = n - i < kWidth ? n - i : kWidth;
+    for (std::size_t lane = 0; lane < count; ++lane) blocked[i + lane] = 0;
+    for_each_octant(rays + i, count, [&](const Packet& p, Mask lanes) {
+      Float t_best = p.t_max;
+      unsigned hit = 0;
+      walk(tree, p, lanes, t_best, [&](const BspNode& leaf, Mask alive) {
+        const std::uint32_t* references = tree.references.data() + leaf.first_reference();
+        for (std::uint32_t k = 0; k < leaf.reference_count(); ++k) {
+          Float t;
+          Mask inside = alive & meets(tree.triangles[references[k]], p, t);
+          inside = inside & (t < t_best);
+          if (inside.bits() == 0) continue;
+          hit |= inside.bits();
+          t_best = select(inside, Float(-1.0f), t_best);  // this lane is done
+          alive = alive & ~inside;
+          if (alive.bits() == 0) return;
+        }
+      });
+      for (std::size_t lane = 0; lane < count; ++lane)
+        if (hit >> lane & 1u) blocked[i + lane] = 1;
+    });
+  }
 }
 
 }  // namespace

@@ -1,0 +1,76 @@
+#include <nlohmann/json.hpp>
+#include <set>
+
+#include "tests/app/program_test.h"
+
+namespace pinocchio {
+namespace {
+
+class MeasureTest : public ProgramTest {
+ protected:
+  [[nodiscard]] nlohmann::json json(const std::string& name) const {
+    std::ifstream in(folder_ / name);
+    return nlohmann::json::parse(in, nullptr, false);
+  }
+};
+
+const std::string kSmall = "--size 80x60 --turntable 9 ";
+
+TEST_F(MeasureTest, PrintsATableAndWritesTheFigures) {
+  const CommandResult result = run("measure" + scene("two-lights") + kSmall + "--stats-json m.json");
+  EXPECT_EQ(result.exit_code, 0) << result.err;
+  for (const char* word :
+       {"frames/s", "p50", "trace_shadow", "--plan slides", "latency 2 frames", "busy: GPU"})
+    EXPECT_NE(result.out.find(word), std::string::npos) << word << "\n" << result.out;
+  const nlohmann::json figures = json("m.json");
+  EXPECT_EQ(figures["latency"]["frames"], 2);
+  EXPECT_GT(figures["exchange"]["gpu_to_cpu"]["ratio_to_memcpy"], 0.0);
+  EXPECT_GT(figures["overlap"]["cpu_busy"], 0.0);
+  EXPECT_LE(figures["overlap"]["both_busy"], figures["overlap"]["cpu_busy"]);
+  EXPECT_EQ(figures["bytes"]["gpu_to_cpu"], 80 * 60 * 2);
+}
+
+TEST_F(MeasureTest, ComparesDesignsAndExchangesInOneRun) {
+  const CommandResult result = run("measure" + scene("cornell") + kSmall + "--compare --stats-json m.json");
+  EXPECT_EQ(result.exit_code, 0) << result.err;
+  std::set<std::string> names;
+  const nlohmann::json figures = json("m.json");
+  for (const nlohmann::json& one : figures["runs"]) names.insert(one["name"].get<std::string>());
+  EXPECT_EQ(names, (std::set<std::string>{"design 1 sync", "design 1 pipelined", "design 1 reproject",
+                                          "design 2 sync", "design 2 pipelined", "raytrace", "raster"}));
+  for (const std::string& name : names) EXPECT_NE(result.out.find(name), std::string::npos) << name;
+}
+
+TEST_F(MeasureTest, SlidesMoveTheirBytesAtTheirSize) {
+  const struct {
+    const char* design;
+    int to_cpu, to_gpu;
+  } kWanted[] = {{"1", 2'880'000, 1'920'000}, {"2", 9'120'000, 1'440'000}};
+  for (const auto& wanted : kWanted) {
+    const CommandResult result =
+        run("measure" + scene("cornell") +
+            "--turntable 4 --plan slides --quiet --stats-json m.json --design " + wanted.design);
+    EXPECT_EQ(result.exit_code, 0) << result.err;
+    EXPECT_EQ(json("m.json")["bytes"]["gpu_to_cpu"], wanted.to_cpu);
+    EXPECT_EQ(json("m.json")["bytes"]["cpu_to_gpu"], wanted.to_gpu);
+  }
+}
+
+TEST_F(MeasureTest, TraceIsChromesFormat) {
+  EXPECT_EQ(run("measure" + scene("cornell") + kSmall + "--quiet --trace t.json").exit_code, 0);
+  const nlohmann::json trace = json("t.json");
+  std::set<std::string> phases;
+  std::set<int> rows;
+  for (const nlohmann::json& event : trace["traceEvents"]) {
+    phases.insert(event["ph"].get<std::string>());
+    rows.insert(event["tid"].get<int>());
+    if (event["ph"] == "X") {
+      EXPECT_GE(event["dur"].get<double>(), 0.0);
+    }
+  }
+  EXPECT_EQ(phases, (std::set<std::string>{"M", "X", "s", "t", "f"}));
+  EXPECT_EQ(rows.size(), 3u);
+}
+
+}  // namespace
+}  // namespace pinocchio
