@@ -1,6 +1,7 @@
 // render: headless, one frame or a range, to EXR and PNG.
 #include <nlohmann/json.hpp>
 
+#include <algorithm>
 #include <cstdio>
 #include <deque>
 #include <memory>
@@ -38,14 +39,20 @@ class RenderRun {
     Machine machine(options_.draw, std::move(scene));
     const double ready_s = now_s();
     draw(machine);
-    if (!options_.stats_json.empty())
-      write_json(options_.stats_json,
-                 figures(records_, machine.plan(), machine.scene().scene, machine.gl_info()));
+    if (!options_.stats_json.empty()) write_json(options_.stats_json, stats(machine));
     if (!options_.draw.quiet) report(machine, ready_s - begin_s);
     return interrupted() ? kInterrupted : kDone;
   }
 
  private:
+  [[nodiscard]] nlohmann::json stats(const Machine& machine) const {
+    nlohmann::json json = figures(records_, machine.plan(), machine.scene().scene, machine.gl_info());
+    if (options_.draw.exchange == Exchange::reproject)
+      json["reproject"]["holes"] =
+          static_cast<double>(holes_) / static_cast<double>(std::max<std::size_t>(delivered_, 1));
+    return json;
+  }
+
   void check() const {
     std::vector<int> numbers;
     for (const CameraFrame& frame : frames_) numbers.push_back(frame.number);
@@ -80,6 +87,7 @@ class RenderRun {
     const CameraFrame& frame = frames_[delivered_];
     const double render_s = now_s() - begun_s_[delivered_];
     ++delivered_;
+    holes_ += picture.holes;
     write_outputs(options_.output, frame.number, machine.scene(), machine.plan(), view_of(frame), picture,
                   machine.workers(), options_.output.deterministic ? std::nullopt : std::optional(render_s));
     machine.throw_gl_complaints();
@@ -97,6 +105,9 @@ class RenderRun {
       if (sum_ms > 0.0)
         line(std::string(kStageNames[i]).c_str(), sum_ms / static_cast<double>(records_.size()));
     }
+    if (options_.draw.exchange == Exchange::reproject)
+      std::printf("  %zu pixels a frame are holes of the reprojection\n",
+                  holes_ / std::max<std::size_t>(delivered_, 1));
     for (std::size_t i = 0; i < delivered_; ++i)
       for (const std::string& pattern : {options_.output.exr, options_.output.preview})
         if (!pattern.empty()) std::printf("%s\n", numbered(pattern, frames_[i].number).c_str());
@@ -107,6 +118,7 @@ class RenderRun {
   std::vector<double> begun_s_;
   std::vector<FrameRecord> records_;
   std::size_t delivered_ = 0;
+  std::size_t holes_ = 0;  // reprojected: pixels that no older frame had an answer for
 };
 
 }  // namespace

@@ -88,7 +88,7 @@ void run(const Options& o) {
   report.all_mirrors = make_mirrors(scene, o.mirror_all);
 
   Workers all(o.threads), one(1);
-  const BuildOptions tree{.rule = parse_split_rule(o.tree).value()};
+  const BuildOptions tree{.rule = parse_split_rule(o.tree).value(), .threads = o.threads};
   std::vector<std::unique_ptr<Tracer>> tracers;
   Contenders contenders;
   for (const Isa isa : chosen_isas(o.isas)) {

@@ -12,6 +12,17 @@ glm::vec2 jitter_of(int k) {
   return glm::vec2(glm::fract(0.5 + static_cast<double>(k) * step) - 0.5);
 }
 
+// Counts the pixels that the composite marked, and makes them opaque as they are.
+std::size_t close_holes(Image<glm::vec4>& color) {
+  std::size_t holes = 0;
+  for (glm::vec4& pixel : color.pixels())
+    if (pixel.a > 0.0f && pixel.a < 1.0f) {
+      pixel.a = 1.0f;
+      ++holes;
+    }
+  return holes;
+}
+
 }  // namespace
 
 Renderer::Renderer(std::shared_ptr<const PreparedScene> scene, const Plan& plan, Workers& workers,
@@ -51,6 +62,7 @@ void Renderer::take(Flight& frame) {
   if (!settings_.pictures) return;
   Picture sample;
   FrameLoop::read_picture(frame, sample.color);
+  if (frame.record.age_frames > 0) sample.holes = close_holes(sample.color);
   if (samples_ == 0) {
     FrameLoop::read_ids(frame);
     sample.ids = frame.ids;

@@ -9,7 +9,7 @@
 //   REPROJECT         mask and reflection are of an older frame, whose view and ids are given: each pixel
 //                     looks up where its point was seen then. Where that frame saw another triangle there,
 //                     nor one of the neighbours does, the pixel is a hole: every light reaches it, and it
-//                     takes the reflection that is there.
+//                     takes the reflection that is there; its alpha is 1/2.
 
 #define SHARED
 #include "shared/view.glsl"
@@ -99,5 +99,6 @@ void main() {
   sum += fetch_rgb(reflection, source.pixel);
 #endif
 #endif
-  color = vec4(min(sum, kLargestHalf), 1.0);
+  // Alpha 1/2 marks a hole.
+  color = vec4(min(sum, kLargestHalf), source.hole ? 0.5 : 1.0);
 }

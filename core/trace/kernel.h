@@ -35,8 +35,9 @@ constexpr float kMostGrowth = 0.5f;
 
 // Whether the packet's rays meet the triangle, and at which t. A weight may be less than 0 by as much as
 // its rounding error: neighbours that share an edge both take a ray that their roundings disagree about,
-// so that none slips through between them. The order of operations is fixed.
-inline Mask meets(const ProjectedTriangle& tri, const Packet& p, Float& t) {
+// so that none slips through between them. The order of operations is fixed. Inlined by force: a call costs
+// 3 % of all rays.
+[[gnu::always_inline]] inline Mask meets(const ProjectedTriangle& tri, const Packet& p, Float& t) {
   const unsigned k = tri.k, u = k == 2 ? 0 : k + 1, v = u == 2 ? 0 : u + 1;
   const Float n_u(tri.n_u), n_v(tri.n_v);
   const Float away = p.d[k] + n_u * p.d[u] + n_v * p.d[v];
@@ -88,8 +89,9 @@ inline void walk(const BspTree& tree, const Packet& p, Mask lanes, const Float& 
   const BspNode* nodes = tree.nodes.data();
   std::uint32_t index = 0;
   while (true) {
-    Mask alive = lanes & (t_near <= t_far);
-    if (alive.bits() != 0) {
+    const Mask alive = lanes & (t_near <= t_far);
+    const unsigned living = alive.bits();
+    if (living != 0) {
       const BspNode node = nodes[index];
       if (!node.is_leaf()) {
         const int axis = node.axis();
@@ -99,8 +101,8 @@ inline void walk(const BspTree& tree, const Packet& p, Mask lanes, const Float& 
         const std::uint32_t first = p.negative[axis] ? low + 1 : low,
                             second = p.negative[axis] ? low : low + 1;
         // NaN (a ray that runs in the plane) must enter both: ask who may skip a side, not who enters.
-        const bool skip_first = (alive & ~(t_late < t_near)).bits() == 0;
-        const bool skip_second = (alive & ~(t_far < t_early)).bits() == 0;
+        const bool skip_first = (living & ~(t_late < t_near).bits()) == 0;
+        const bool skip_second = (living & ~(t_far < t_early).bits()) == 0;
         if (skip_first) {
           index = second;
         } else if (skip_second) {

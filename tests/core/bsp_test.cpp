@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <string>
 
 #include "core/bsp/build.h"
 #include "core/trace/tracer.h"
@@ -75,6 +76,23 @@ TEST(Bsp, SahBeatsTheSimplerRulesWhereTrianglesAreUneven) {
   };
   EXPECT_LT(cost(SplitRule::sah), cost(SplitRule::spatial_median));
   EXPECT_LT(cost(SplitRule::sah), cost(SplitRule::object_median));
+}
+
+TEST(Bsp, IsTheSameOnAnyNumberOfThreads) {
+  const Scene scene = random_soup(30000, 0.02f, 5);  // enough that threads share the work
+  const auto bytes = [](const BspTree& tree) {
+    const auto* first = reinterpret_cast<const char*>(tree.nodes.data());
+    return std::string(first, tree.nodes.size() * sizeof(BspNode));
+  };
+  for (const SplitRule rule : kRules) {
+    const BspTree alone = build_tree(scene, {.rule = rule, .threads = 1});
+    for (const int threads : {2, 3, 8}) {
+      const BspTree tree = build_tree(scene, {.rule = rule, .threads = threads});
+      EXPECT_TRUE(bytes(tree) == bytes(alone)) << threads;
+      EXPECT_TRUE(tree.references == alone.references) << threads;
+      EXPECT_EQ(tree.depth, alone.depth);
+    }
+  }
 }
 
 TEST(Bsp, OddScenesBuild) {

@@ -80,6 +80,9 @@ TEST(Reproject, UnderMotionBeatsAnOldPictureAndHasNoBlackOrNan) {
   const double warped_error = mean_difference(warped, sync), late_error = mean_difference(late, sync);
   std::printf("  error under motion: reprojected %.5f, two frames late %.5f\n", warped_error, late_error);
   EXPECT_LT(warped_error, 0.5 * late_error);
+  EXPECT_EQ(warped.front().holes, 0u);  // waited for its own
+  EXPECT_GT(warped.back().holes, 0u);   // what comes into view
+  EXPECT_LT(warped.back().holes, warped.back().ids.pixels().size() / 10);
   for (std::size_t f = 0; f < warped.size(); ++f)
     for (std::size_t i = 0; i < warped[f].color.pixels().size(); ++i) {
       const glm::vec4& c = warped[f].color[i];
