@@ -29,6 +29,7 @@ Workers::~Workers() {
 }
 
 void Workers::for_each(std::size_t n, const std::function<void(std::size_t)>& body) {
+  const std::lock_guard turn(turn_);
   Job job{body, n, {}, {}, {}};
   {
     const std::lock_guard lock(mutex_);

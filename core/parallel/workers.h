@@ -22,8 +22,8 @@ class Workers {
   [[nodiscard]] int count() const { return static_cast<int>(threads_.size()) + 1; }
 
   // Calls body(i) once for every i in [0, n), on all threads, and returns when all are done. What a body
-  // throws reaches the caller (the first of them; the rest of the job is dropped). One job at a time; a
-  // body must not start another.
+  // throws reaches the caller (the first of them; the rest of the job is dropped). One job at a time:
+  // callers on several threads take turns; a body must not start another.
   void for_each(std::size_t n, const std::function<void(std::size_t)>& body);
 
  private:
@@ -31,6 +31,7 @@ class Workers {
   void work(Job& job);
   void run_thread();
 
+  std::mutex turn_;  // held by the caller whose job it is
   std::mutex mutex_;
   std::condition_variable wake_;
   std::condition_variable done_;

@@ -4,6 +4,7 @@
 
 #include <atomic>
 #include <stdexcept>
+#include <thread>
 
 #include "core/parallel/tiles.h"
 
@@ -31,6 +32,19 @@ TEST(Workers, WhatABodyThrowsReachesTheCallerAndTheNextJobRuns) {
   std::atomic<int> done{0};
   workers.for_each(100, [&](std::size_t) { ++done; });
   EXPECT_EQ(done, 100);
+}
+
+TEST(Workers, CallersOnSeveralThreadsTakeTurns) {
+  Workers workers(3);
+  std::atomic<int> done{0};
+  const auto call = [&] {
+    for (int i = 0; i < 2000; ++i) workers.for_each(7, [&](std::size_t) { ++done; });
+  };
+  std::thread other(call), third(call);
+  call();
+  other.join();
+  third.join();
+  EXPECT_EQ(done, 3 * 2000 * 7);
 }
 
 TEST(Tiles, CoverEveryPixelOnce) {
