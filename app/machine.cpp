@@ -22,7 +22,7 @@ Machine::Machine(const DrawOptions& options, Scene scene, std::optional<Sides> s
 }
 
 PlanRequest plan_request(const DrawOptions& options) {
-  return {options.mode, options.design, options.depth, options.slides};
+  return {options.mode, options.design, options.depth, options.slides, options.precise};
 }
 
 PixelBox part_of(const DrawOptions& options) {

@@ -74,6 +74,15 @@ void add_picture_options(CLI::App& verb, DrawOptions& o) {
   verb.add_option("--spp", o.spp, "jittered samples a pixel, averaged in linear light (1)")
       ->check(CLI::Range(1, 65536));
   verb.add_option("--depth", o.depth, "most bounces (8)")->check(CLI::Range(0, 64));
+  verb.add_flag(
+      "--precise", o.precise,
+      "with --mode raytrace: the reference, in double precision, without shortcuts; slow, and in glass "
+      "twice the time with each bounce");
+  verb.parse_complete_callback([&o] {
+    if (o.precise && o.mode != Mode::raytrace)
+      throw CLI::ValidationError(
+          "--precise", "draws with --mode raytrace alone, not with " + std::string(mode_name(o.mode)));
+  });
 }
 
 void add_camera_options(CLI::App& verb, DrawOptions& o) {

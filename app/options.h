@@ -36,8 +36,9 @@ struct DrawOptions {
   int depth = 8;
   int design = 1;
   bool slides = false;  // --plan slides
-  int gl_threads = 0;   // of a software rasteriser; 0: its own choice
-  int threads = 0;      // 0: all cores
+  bool precise = false;
+  int gl_threads = 0;  // of a software rasteriser; 0: its own choice
+  int threads = 0;     // 0: all cores
   std::optional<Isa> isa;
   BuildOptions tree;
   std::string progress = "auto";

@@ -44,6 +44,7 @@ Expected<Plan> make_plan(const Needs& needs, const PlanRequest& request) {
   Plan plan;
   plan.mode = request.mode;
   plan.design = request.design;
+  plan.precise = request.precise && request.mode == Mode::raytrace;
   plan.id_bits = needs.triangles < kMost16BitIds ? 16 : 32;
   if (request.mode == Mode::raster) return plan;
   plan_passes(needs, request, plan);
@@ -90,6 +91,7 @@ nlohmann::json to_json(const Plan& plan) {
   constexpr const char* kFormats[] = {"none", "rgb8", "half"};
   nlohmann::json json{{"mode", mode_name(plan.mode)}, {"mask_bits", plan.mask_bits}, {"depth", plan.depth}};
   json["reflection"] = kFormats[static_cast<int>(plan.reflection)];
+  if (plan.precise) json["precise"] = true;
   if (plan.mode != Mode::hybrid) return json;
   json["design"] = plan.design;
   json["id_bits"] = plan.id_bits;

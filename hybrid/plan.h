@@ -27,6 +27,7 @@ struct Plan {
   int mask_bits = 0;  // a pixel: 0 (no shadow pass), 1, 2, 4 or 8
   ReflectionFormat reflection = ReflectionFormat::none;  // none: no reflection pass
   int depth = 0;                                         // most bounces
+  bool precise = false;                                  // raytrace: drawn by core/reference, in double
 
   // Whether anything is left for the CPU to do.
   [[nodiscard]] bool traces() const {
@@ -40,6 +41,7 @@ struct PlanRequest {
   int design = 1;
   int depth = 8;
   bool slides = false;  // the fixed budget of 2005: design 1 6 bytes a pixel up and 4 down, design 2 19 and 3
+  bool precise = false;  // raytrace: by the reference in double; other modes have none and ignore it
 };
 
 // The least that draws the scene exactly, or the slides' fixed budget. An error where the scene needs what

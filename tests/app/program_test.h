@@ -4,14 +4,14 @@
 #include <gtest/gtest.h>
 
 #include "tests/support/command.h"
+#include "tests/support/own_file.h"
 
 namespace pinocchio {
 
 class ProgramTest : public testing::Test {
  protected:
   void SetUp() override {
-    const testing::TestInfo& test = *testing::UnitTest::GetInstance()->current_test_info();
-    folder_ = std::filesystem::path(testing::TempDir()) / (std::string("pinocchio_") + test.name());
+    folder_ = own_folder() / "run";
     std::filesystem::remove_all(folder_);
     std::filesystem::create_directories(folder_ / "scratch");
   }

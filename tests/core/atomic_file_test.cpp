@@ -5,6 +5,7 @@
 #include <fstream>
 
 #include "core/base/error.h"
+#include "tests/support/own_file.h"
 
 namespace pinocchio {
 namespace {
@@ -22,7 +23,7 @@ class AtomicFile : public testing::Test {
   [[nodiscard]] std::size_t files() const {
     return static_cast<std::size_t>(std::distance(std::filesystem::directory_iterator(folder_), {}));
   }
-  std::filesystem::path folder_ = std::filesystem::path(testing::TempDir()) / "atomic";
+  std::filesystem::path folder_ = own_folder() / "atomic";
 };
 
 TEST_F(AtomicFile, ReplacesTheOldFileAsAWhole) {

@@ -11,6 +11,7 @@
 #include "core/output/frame_exr.h"
 #include "core/trace/passes.h"
 #include "core/trace/view.h"
+#include "tests/support/own_file.h"
 #include "tests/support/scenes.h"
 
 namespace pinocchio {
@@ -20,7 +21,7 @@ constexpr glm::ivec2 kSize{40, 30};
 constexpr PixelBox kPart{{8, 4}, {33, 21}};
 
 std::filesystem::path temporary(const std::string& name) {
-  return std::filesystem::path(testing::TempDir()) / name;
+  return own_file(name);
 }
 
 // A small frame with everything in it, cropped.

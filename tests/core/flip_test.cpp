@@ -2,6 +2,7 @@
 #include "core/compare/flip.h"
 
 #include <gtest/gtest.h>
+#include "tests/support/own_file.h"
 
 #include <cmath>
 #include <numeric>
@@ -122,7 +123,7 @@ TEST(FLIP, RecordedReference) {
 }
 
 TEST(FLIP, LiveReference) {
-  const std::filesystem::path folder = std::filesystem::path(testing::TempDir()) / "pinocchio_flip";
+  const std::filesystem::path folder = own_folder() / "flip";
   std::filesystem::create_directories(folder);
   const auto write = [&](const char* name, const Picture& image) {
     std::ofstream(folder / name, std::ios::binary)

@@ -1,6 +1,7 @@
 #include "core/image/png.h"
 
 #include <gtest/gtest.h>
+#include "tests/support/own_file.h"
 
 #include <memory>
 
@@ -23,7 +24,7 @@ TEST(Png, PixelsComeBackFromTheTopLeft) {
   Image<glm::u8vec3> written({5, 3});
   for (int y = 0; y < 3; ++y)
     for (int x = 0; x < 5; ++x) written.at(x, y) = glm::u8vec3(10 * x, 20 * y, 255 - x - y);
-  const std::filesystem::path file = std::filesystem::path(testing::TempDir()) / "back.png";
+  const std::filesystem::path file = own_file("back.png");
   write_png(file, written);
 
   int width = 0, height = 0, channels = 0;
@@ -39,8 +40,7 @@ TEST(Png, PixelsComeBackFromTheTopLeft) {
 TEST(Png, WhereNothingCanBeWrittenThrows) {
   const Image<glm::u8vec3> pixels({1, 1});
   EXPECT_THROW(write_png("/dev/full", pixels), EnvironmentError);
-  EXPECT_THROW(write_png(std::filesystem::path(testing::TempDir()) / "nowhere" / "x.png", pixels),
-               EnvironmentError);
+  EXPECT_THROW(write_png(own_folder() / "nowhere" / "x.png", pixels), EnvironmentError);
 }
 
 }  // namespace

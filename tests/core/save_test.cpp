@@ -2,13 +2,14 @@
 
 #include "core/base/error.h"
 #include "core/procedural/scenes.h"
+#include "tests/support/own_file.h"
 #include "tests/support/scenes.h"
 
 namespace pinocchio {
 namespace {
 
 std::filesystem::path temporary(const std::string& name) {
-  return std::filesystem::path(testing::TempDir()) / name;
+  return own_file(name);
 }
 
 void expect_same_material(const Material& a, const Material& b) {

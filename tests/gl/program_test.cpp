@@ -6,6 +6,7 @@
 #include "gl/error.h"
 #include "gl/shader_source.h"
 #include "tests/support/gl_test.h"
+#include "tests/support/own_file.h"
 
 namespace pinocchio {
 namespace {
@@ -13,7 +14,7 @@ namespace {
 const std::filesystem::path kShaders = std::filesystem::path(PINOCCHIO_SOURCE_DIR) / "shaders";
 
 std::filesystem::path folder_with(const std::string& file, const std::string& text) {
-  const std::filesystem::path folder = std::filesystem::path(testing::TempDir()) / "shaders";
+  const std::filesystem::path folder = own_folder() / "shaders";
   std::filesystem::create_directories(folder);
   std::ofstream(folder / file) << text;
   return folder;

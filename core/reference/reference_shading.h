@@ -1,0 +1,36 @@
+#pragma once
+
+#include <array>
+#include <glm/glm.hpp>
+#include <optional>
+
+#include "core/reference/reference_surface.h"
+
+namespace pinocchio {
+
+// Light of one lamp at a point, before anything stands in its way.
+struct ReferenceLight {
+  glm::dvec3 to_light;  // unit
+  glm::dvec3 radiance;  // linear
+  ReferenceRay shadow;  // what hits it blocks the light
+};
+
+// Nothing where the light does not reach: too far, outside the cone, or behind the surface.
+[[nodiscard]] std::optional<ReferenceLight> reference_light(const Light& light,
+                                                            const ReferenceSurface& surface);
+
+// Id + Is of that light (Phong, "Illumination for Computer Generated Pictures", CACM 18(6), 1975):
+//   I (kd (N.L) + ks (R.V)^n),  R = 2 (N.L) N - L
+[[nodiscard]] glm::dvec3 reference_phong(const ReferenceSurface& surface, const ReferenceLight& light);
+
+// A ray that leaves the surface, and its share of the light.
+struct ReferenceBounce {
+  glm::dvec3 weight{0.0};  // zero: no such ray
+  ReferenceRay ray{};
+};
+
+// Mirrored, refracted. Dielectrics share by Fresnel's equations; opaque mirrors have a constant
+// reflectance or Schlick's.
+[[nodiscard]] std::array<ReferenceBounce, 2> reference_bounces(const ReferenceSurface& surface);
+
+}  // namespace pinocchio

@@ -1,0 +1,29 @@
+#pragma once
+
+#include <glm/glm.hpp>
+
+#include "core/reference/reference_hit.h"
+#include "core/scene/scene.h"
+
+namespace pinocchio {
+
+// What a ray sees where it meets a triangle, in double.
+struct ReferenceSurface {
+  glm::dvec3 p_world;
+  glm::dvec3 n_geometric;  // unit, towards the viewer
+  glm::dvec3 n_shading;    // unit, interpolated, turned with n_geometric
+  glm::dvec3 to_viewer;    // unit
+  bool leaving;            // the ray was inside: it meets the surface from behind
+  double error;            // how far off the triangle p_world can be, scene units
+  const Material* material;
+  glm::dvec3 ambient, diffuse;  // the material's, texture applied
+};
+
+// hit.valid(), and `hit` is the ray's.
+[[nodiscard]] ReferenceSurface reference_surface(const Scene& scene, const ReferenceRay& ray,
+                                                 const ReferenceHit& hit);
+
+// Where a ray towards `direction` starts: off the surface by its error, on that side.
+[[nodiscard]] glm::dvec3 leave(const ReferenceSurface& surface, const glm::dvec3& direction);
+
+}  // namespace pinocchio

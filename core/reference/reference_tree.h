@@ -1,0 +1,41 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "core/math/bounds.h"
+#include "core/reference/reference_hit.h"
+#include "core/scene/scene.h"
+
+namespace pinocchio {
+
+// A bounding volume hierarchy with nothing clever in it: halves by the median centroid along the longest
+// axis, down to four triangles. Nothing in common with the tracer's tree, so that each checks the other.
+class ReferenceTree {
+ public:
+  // `scene` stays where it is as long as this lives.
+  explicit ReferenceTree(const Scene& scene);
+
+  // The closest triangle within the ray; of several at the same t the lowest id. A ray that is not finite
+  // or has no direction hits nothing. Safe to call from many threads.
+  [[nodiscard]] ReferenceHit closest_hit(const ReferenceRay& ray) const;
+  [[nodiscard]] bool occluded(const ReferenceRay& ray) const { return closest_hit(ray).valid(); }
+
+ private:
+  struct Node {
+    Bounds box;                          // of the triangles' corners, which are floats: exact
+    std::uint32_t first = 0, count = 0;  // of order_
+    std::uint32_t children = 0;          // the two stand side by side; 0: a leaf
+  };
+
+  void build();
+  [[nodiscard]] Bounds bounds_of(const Node& node) const;
+  void halve(const Node& node);
+
+  const Scene& scene_;
+  double reach_ = 0.0;                // largest coordinate of the scene
+  std::vector<std::uint32_t> order_;  // triangle ids, leaf by leaf
+  std::vector<Node> nodes_;           // root first
+};
+
+}  // namespace pinocchio
