@@ -2,6 +2,7 @@
 #include <cstdio>
 #include <memory>
 #include <nlohmann/json.hpp>
+#include <optional>
 
 #include "app/errors.h"
 #include "app/stats.h"
@@ -10,7 +11,7 @@
 #include "core/scene/load.h"
 #include "core/trace/tracer.h"
 #include "gl/open.h"
-#include "hybrid/needs.h"
+#include "hybrid/explain.h"
 
 namespace pinocchio::app {
 namespace {
@@ -19,6 +20,7 @@ struct InfoOptions {
   std::string scene;
   bool system = false;
   bool json = false;
+  bool plan = false;
 };
 
 nlohmann::json vec3_json(const glm::vec3& v) {
@@ -41,9 +43,12 @@ nlohmann::json scene_json(const Scene& scene) {
           {"cameras", cameras},
           {"bounds", {{"lo", vec3_json(bounds.lo)}, {"hi", vec3_json(bounds.hi)}}},
           {"needs",
-           {{"casting_lights", needs.casting_lights},
+           {{"lights", needs.lights},
+            {"casting_lights", needs.casting_lights},
             {"reflection", needs.mirrors},
-            {"mask_bits", MaskImage::bits_for(std::min(needs.casting_lights, kMaxCastingLights))}}}};
+            {"mirror_share", needs.mirror_share},
+            {"transmits", needs.transmits},
+            {"textures", needs.textures}}}};
 }
 
 void print_scene(const Scene& scene) {
@@ -60,14 +65,16 @@ void print_scene(const Scene& scene) {
   for (const Camera& camera : scene.cameras)
     std::printf("  camera '%s', %g degrees\n", camera.name.c_str(), static_cast<double>(camera.fov_deg));
   std::printf("needs\n");
-  if (needs.casting_lights == 0) {
-    std::printf("  no shadow mask: no light casts\n");
-  } else {
-    std::printf("  shadow mask for %d casting light%s (at most %d)\n", needs.casting_lights,
-                needs.casting_lights == 1 ? "" : "s", kMaxCastingLights);
-  }
-  std::printf(needs.mirrors ? "  reflection pass: something mirrors or refracts\n"
-                            : "  no reflection pass: nothing mirrors or refracts\n");
+  std::printf("  %d of %d lights cast shadows (at most %d may)\n", needs.casting_lights, needs.lights,
+              kMaxCastingLights);
+  std::printf("  %.1f %% of the surface mirrors or refracts%s\n", 100.0 * needs.mirror_share,
+              needs.textures ? "; some has textures" : "");
+}
+
+void print_plan(const Needs& needs, const Plan& plan) {
+  std::printf("plan\n");
+  for (const std::string& line : explain(needs, plan)) std::printf("  %s\n", line.c_str());
+  std::printf("  %s\n", to_json(plan).dump().c_str());
 }
 
 nlohmann::json attempts_json(const std::vector<gl::Attempt>& attempts) {
@@ -119,10 +126,17 @@ int show_scene(const InfoOptions& options) {
   const Scene scene = value_or_exit(load_scene(options.scene, &warnings), kBadScene);
   for (const std::string& warning : warnings)
     std::fprintf(stderr, "pinocchio: warning: %s\n", warning.c_str());
+  const Needs needs = take_census(scene);
+  std::optional<Plan> plan;
+  if (options.plan) plan = value_or_exit(make_plan(needs, {}), kBadScene);
   if (options.json) {
-    std::printf("%s\n", scene_json(scene).dump(2).c_str());
+    nlohmann::json json = scene_json(scene);
+    if (plan) json["plan"] = to_json(*plan);
+    if (plan) json["why"] = explain(needs, *plan);
+    std::printf("%s\n", json.dump(2).c_str());
   } else {
     print_scene(scene);
+    if (plan) print_plan(needs, *plan);
   }
   return kDone;
 }
@@ -137,6 +151,7 @@ Run add_info(CLI::App& program) {
   verb.add_flag("--system", options->system,
                 "processor, SIMD levels, OpenGL contexts: what was tried, what failed")
       ->excludes(scene);
+  verb.add_flag("--plan", options->plan, "how a hybrid frame of it is drawn, and why");
   verb.add_flag("--json", options->json, "as JSON");
   return [options] { return options->scene.empty() ? show_system(*options) : show_scene(*options); };
 }

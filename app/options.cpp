@@ -122,7 +122,11 @@ void add_machine_options(CLI::App& verb, DrawOptions& o) {
   verb.add_option("--gl-threads", o.gl_threads,
                   "threads of a software rasteriser (its own choice: all cores)")
       ->check(CLI::Range(1, 32));
-  verb.add_option("--threads", o.threads, "worker threads (all cores)")->check(CLI::Range(1, 1024));
+  verb.add_option_function<int>(
+          "--threads", [&o](int threads) { o.threads = o.tree.threads = threads; },
+          "worker threads (all cores)")
+      ->type_name("INT")
+      ->check(CLI::Range(1, 1024));
   add_parsed<Isa>(verb, "--isa", "SIMD level, never above what the processor has (best)",
                   "scalar, sse4, avx2 or avx512", parse_isa, [&o](Isa v) {
                     if (!isa_supported(v))

@@ -48,8 +48,6 @@ std::filesystem::path numbered(const std::string& pattern, int number) {
 }
 
 void check_outputs(const OutputOptions& options, const std::vector<int>& frame_numbers) {
-  if (options.exr.empty() && options.preview.empty())
-    throw Exit(kUsage, "nothing to write; name a file with -o FILE.exr or --preview FILE.png");
   for (const std::string& pattern : {options.exr, options.preview}) {
     if (pattern.empty()) continue;
     if (frame_numbers.size() > 1 && pattern.find('#') == std::string::npos)

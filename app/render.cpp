@@ -54,6 +54,9 @@ class RenderRun {
   }
 
   void check() const {
+    if (options_.output.exr.empty() && options_.output.preview.empty() && options_.stats_json.empty())
+      throw Exit(kUsage,
+                 "nothing to write; name a file with -o FILE.exr, --preview FILE.png or --stats-json");
     std::vector<int> numbers;
     for (const CameraFrame& frame : frames_) numbers.push_back(frame.number);
     check_outputs(options_.output, numbers);

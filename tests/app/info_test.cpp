@@ -26,6 +26,19 @@ TEST_F(InfoTest, SceneIsDescribed) {
   EXPECT_EQ(json["needs"]["reflection"], true);
 }
 
+TEST_F(InfoTest, PlanIsExplainedALineAChoice) {
+  const CommandResult result = run("info --plan" + scene("two-lights"));
+  EXPECT_EQ(result.exit_code, 0);
+  for (const char* words :
+       {"ids of 16 bits", "shadow mask of 1 bit a pixel: 1 light casts", "reflection pass to depth 8"})
+    EXPECT_NE(result.out.find(words), std::string::npos) << words << "\n" << result.out;
+  write("t.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
+  const nlohmann::json json = nlohmann::json::parse(run("info --plan --json t.obj").out);
+  EXPECT_EQ(json["plan"]["mask_bits"], 0);
+  EXPECT_EQ(json["plan"]["reflection"], "none");
+  EXPECT_FALSE(json["why"].empty());
+}
+
 TEST_F(InfoTest, HelpNamesUnitsAndVersionIsTold) {
   EXPECT_EQ(run("--version").exit_code, 0);
   const CommandResult help = run("render --help");
