@@ -22,6 +22,10 @@ Machine::Machine(const DrawOptions& options, Scene scene, std::optional<Sides> s
 }
 
 PlanRequest plan_request(const DrawOptions& options) {
+  if (options.exchange == Exchange::reproject && options.design == 2)
+    throw Exit(
+        kUsage,
+        "--exchange reproject: warps mask and reflection, which design 2 does not send; use --design 1");
   return {options.mode, options.design, options.depth, options.slides, options.precise};
 }
 

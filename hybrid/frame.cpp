@@ -55,7 +55,8 @@ FrameLoop::FrameLoop(Workers& workers, const std::filesystem::path& shaders, Exc
 void FrameLoop::submit(const FrameRequest& request) {
   Flight& now = begin(request);
   design_of(now).draw(now);
-  if (exchange_ == Exchange::reproject && request.plan.traces()) return submit_reprojected(now);
+  if (exchange_ == Exchange::reproject && request.plan.traces() && request.plan.design == 1)
+    return submit_reprojected(now);
   const int latency = latency_of(request.plan);
   if (latency > 0) {
     // The CPU traces one frame at a time, and is not idle while the GPU finishes another.

@@ -14,7 +14,8 @@ namespace pinocchio {
 enum class Exchange {
   sync,       // at once: everybody waits
   pipelined,  // frames later: GPU and CPU work on different frames meanwhile
-  reproject,  // never waited for: the newest raster at once, with an older frame's part warped to it
+  reproject,  // never waited for: the newest raster at once, with an older frame's part warped to it (design
+              // 1)
 };
 [[nodiscard]] const char* exchange_name(Exchange exchange);
 
