@@ -160,8 +160,8 @@ void print_comparison(const std::vector<Measured>& runs, const nlohmann::json& j
     const FrameRecord& usual = runs[i].records[runs[i].records.size() / 2];
     std::printf("%-22s %9.1f %9.2f %8d %8.2f %4d %12zu %12zu\n", runs[i].name.c_str(),
                 frames_per_second(runs[i]), 1e3 / std::max(frames_per_second(runs[i]), 1e-9),
-                j["latency"]["frames"].get<int>(), j["latency"]["ms"]["p50"].get<double>(), last.age_frames,
-                last.bytes_to_cpu(), last.bytes_to_gpu());
+                j["latency"]["frames"].get<int>(), j["latency"]["ms"]["p50"].get<double>(), usual.age_frames,
+                usual.bytes_to_cpu(), usual.bytes_to_gpu());
   }
 }
 
