@@ -14,7 +14,11 @@ namespace {
 
 // Same folder, or the rename would be a copy; same extension, as some writers go by it.
 std::filesystem::path temporary_name(const std::filesystem::path& file) {
-  std::filesystem::path name = "." + file.stem().string() + "." + std::to_string(getpid()) + ".part";
+  std::filesystem::path name(".");
+  name += file.stem();
+  name += "-";
+  name += std::to_string(getpid());
+  name += ".part";
   name += file.extension();
   return file.parent_path() / name;
 }
