@@ -40,11 +40,6 @@ gl::Mapping mapping_of(const MeasureOptions& options) {
   return options.persistent ? gl::Mapping::persistent : gl::Mapping::each_time;
 }
 
-double frames_per_second(const Measured& run) {
-  const double wall_s = overlap_of(run.records).wall_s;
-  return wall_s > 0.0 ? static_cast<double>(run.records.size()) / wall_s : 0.0;
-}
-
 // Frames until the first pictures are out, or buffers and shaders are being made, are not counted.
 void drop_warm_up(std::vector<FrameRecord>& records) {
   const std::size_t warm_up = std::min<std::size_t>(kFramesInFlight, records.size() / 2);
@@ -95,7 +90,7 @@ nlohmann::json overlap_json(const Measured& run) {
 }
 
 nlohmann::json run_json(const Measured& run, const Machine& machine, const MeasureOptions& options) {
-  nlohmann::json json = figures(run.records, run.plan, machine.scene().scene,
+  nlohmann::json json = figures(run.records, run.plan, machine.scene(),
                                 run.plan.mode == Mode::raytrace ? nullptr : machine.gl_info());
   json["name"] = run.name;
   json["exchange"] = exchange_json(run, options);
@@ -103,10 +98,10 @@ nlohmann::json run_json(const Measured& run, const Machine& machine, const Measu
   return json;
 }
 
-void print_header(const Machine& machine, const MeasureOptions& options) {
+void print_header(Machine& machine, const MeasureOptions& options) {
   std::printf("%s: %zu triangles, %dx%d, %d worker threads\n", machine.scene().scene.source.c_str(),
               machine.scene().scene.triangles.size(), options.draw.size.x, options.draw.size.y,
-              const_cast<Machine&>(machine).workers().count());
+              machine.workers().count());
   if (const gl::ContextInfo* gl = machine.gl_info())
     std::printf("OpenGL: %s, %s\n", gl->renderer.c_str(),
                 gl->software ? "software: it shares these cores, and no bus is crossed" : "hardware");
@@ -156,12 +151,13 @@ void print_comparison(const std::vector<Measured>& runs, const nlohmann::json& j
               "GPU to CPU", "CPU to GPU");
   for (std::size_t i = 0; i < runs.size(); ++i) {
     const nlohmann::json& j = json[i];
+    const double fps = j["fps"];
     // Not the last: a reprojected frame's own mask and reflection travel after it was shown.
     const FrameRecord& usual = runs[i].records[runs[i].records.size() / 2];
-    std::printf("%-22s %9.1f %9.2f %8d %8.2f %4d %12zu %12zu\n", runs[i].name.c_str(),
-                frames_per_second(runs[i]), 1e3 / std::max(frames_per_second(runs[i]), 1e-9),
-                j["latency"]["frames"].get<int>(), j["latency"]["ms"]["p50"].get<double>(), usual.age_frames,
-                usual.bytes_to_cpu(), usual.bytes_to_gpu());
+    std::printf("%-22s %9.1f %9.2f %8d %8.2f %4d %12zu %12zu\n", runs[i].name.c_str(), fps,
+                1e3 / std::max(fps, 1e-9), j["latency"]["frames"].get<int>(),
+                j["latency"]["ms"]["p50"].get<double>(), usual.age_frames, usual.bytes_to_cpu(),
+                usual.bytes_to_gpu());
   }
 }
 

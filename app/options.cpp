@@ -118,7 +118,15 @@ void add_machine_options(CLI::App& verb, DrawOptions& o) {
   verb.add_option("--backend", o.backend, "OpenGL context: auto, egl, osmesa (auto)")
       ->check(CLI::IsMember({"auto", "egl", "osmesa"}))
       ->envname("PINOCCHIO_BACKEND");
-  verb.add_option("--device", o.device, "EGL device number, or software")->envname("PINOCCHIO_DEVICE");
+  verb.add_option("--device", o.device, "EGL device number, or software")
+      ->check([](const std::string& text) {
+        const std::optional<int> number = parse_int(text);
+        return text == "software" || (number && *number >= 0)
+                   ? std::string()
+                   : "'" + text +
+                         "' is not a device number or software ('pinocchio info --system' lists them)";
+      })
+      ->envname("PINOCCHIO_DEVICE");
   verb.add_option("--gl-threads", o.gl_threads,
                   "threads of a software rasteriser (its own choice: all cores)")
       ->check(CLI::Range(1, 32));
@@ -127,7 +135,7 @@ void add_machine_options(CLI::App& verb, DrawOptions& o) {
           "worker threads (all cores)")
       ->type_name("INT")
       ->check(CLI::Range(1, 1024));
-  add_parsed<Isa>(verb, "--isa", "SIMD level, never above what the processor has (best)",
+  add_parsed<Isa>(verb, "--isa", "SIMD level, never above what the processor has (the fastest measured)",
                   "scalar, sse4, avx2 or avx512", parse_isa, [&o](Isa v) {
                     if (!isa_supported(v))
                       throw CLI::ValidationError("--isa",

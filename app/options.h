@@ -17,7 +17,7 @@
 namespace pinocchio::app {
 
 inline constexpr int kMaxSide = 16384;              // of a picture, pixels
-inline constexpr long long kMaxPixels = 1LL << 27;  // of a picture
+inline constexpr long long kMaxPixels = 1LL << 26;  // of a picture: about 12 GB with every EXR layer
 
 // What every verb that draws takes from the command line, checked.
 struct DrawOptions {

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cstdio>
-#include <deque>
 #include <memory>
 
 #include "app/animation.h"
@@ -46,7 +45,7 @@ class RenderRun {
 
  private:
   [[nodiscard]] nlohmann::json stats(const Machine& machine) const {
-    nlohmann::json json = figures(records_, machine.plan(), machine.scene().scene, machine.gl_info());
+    nlohmann::json json = figures(records_, machine.plan(), machine.scene(), machine.gl_info());
     if (options_.draw.exchange == Exchange::reproject)
       json["reproject"]["holes"] =
           static_cast<double>(holes_) / static_cast<double>(std::max<std::size_t>(delivered_, 1));

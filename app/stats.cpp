@@ -5,7 +5,6 @@
 #include <nlohmann/json.hpp>
 
 #include "core/base/system_info.h"
-#include "core/trace/tracer.h"
 
 namespace pinocchio::app {
 namespace {
@@ -62,13 +61,13 @@ nlohmann::json percentiles(std::vector<double> values) {
   return {{"p50", rank(0.50)}, {"p95", rank(0.95)}, {"p99", rank(0.99)}};
 }
 
-nlohmann::json system_json(const gl::ContextInfo* context) {
+nlohmann::json system_json(const gl::ContextInfo* context, Isa used) {
   const SystemInfo system = system_info();
   nlohmann::json levels = nlohmann::json::array();
   for (const Isa isa : supported_isas()) levels.push_back(isa_name(isa));
   nlohmann::json json{{"cpu", system.cpu},
                       {"cores", system.cores},
-                      {"simd", isa_name(supported_isas().back())},
+                      {"simd", isa_name(used)},
                       {"simd_levels", levels},
                       {"pinocchio", version()}};
   if (context)
@@ -78,8 +77,9 @@ nlohmann::json system_json(const gl::ContextInfo* context) {
   return json;
 }
 
-nlohmann::json figures(const std::vector<FrameRecord>& records, const Plan& plan, const Scene& scene,
-                       const gl::ContextInfo* context) {
+nlohmann::json figures(const std::vector<FrameRecord>& records, const Plan& plan,
+                       const PreparedScene& prepared, const gl::ContextInfo* context) {
+  const Scene& scene = prepared.scene;
   nlohmann::json stages;
   for (std::size_t i = 0; i < kStageNames.size(); ++i)
     stages[std::string(kStageNames[i])] =
@@ -101,7 +101,7 @@ nlohmann::json figures(const std::vector<FrameRecord>& records, const Plan& plan
             {"triangles", scene.triangles.size()},
             {"materials", scene.materials.size()},
             {"lights", scene.lights.size()}}},
-          {"system", system_json(context)}};
+          {"system", system_json(context, prepared.tracer ? prepared.tracer->isa() : default_isa())}};
 }
 
 }  // namespace pinocchio::app

@@ -3,9 +3,10 @@
 #include <nlohmann/json_fwd.hpp>
 #include <vector>
 
-#include "core/scene/scene.h"
+#include "core/trace/tracer.h"
 #include "gl/context.h"
 #include "hybrid/plan.h"
+#include "hybrid/prepared_scene.h"
 #include "hybrid/record.h"
 
 namespace pinocchio::app {
@@ -13,11 +14,11 @@ namespace pinocchio::app {
 // {"p50", "p95", "p99"} by nearest rank; zeros where there are no values.
 [[nodiscard]] nlohmann::json percentiles(std::vector<double> values);
 
-// CPU, cores, SIMD level, OpenGL and versions. context: null where none was opened.
-[[nodiscard]] nlohmann::json system_json(const gl::ContextInfo* context);
+// CPU, cores, SIMD level (`used`), OpenGL and versions. context: null where none was opened.
+[[nodiscard]] nlohmann::json system_json(const gl::ContextInfo* context, Isa used = default_isa());
 
 // The figures of a run (--stats-json): times in milliseconds, sizes in bytes, per frame.
 [[nodiscard]] nlohmann::json figures(const std::vector<FrameRecord>& records, const Plan& plan,
-                                     const Scene& scene, const gl::ContextInfo* context);
+                                     const PreparedScene& scene, const gl::ContextInfo* context);
 
 }  // namespace pinocchio::app

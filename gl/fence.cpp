@@ -7,14 +7,8 @@ namespace pinocchio::gl {
 Fence Fence::insert() {
   Fence fence;
   fence.sync_ = glFenceSync(GL_SYNC_GPU_COMMANDS_COMPLETE, 0);
-  glFlush();  // or a fence that is only polled might never pass
+  glFlush();  // or the GPU might not begin before somebody waits
   return fence;
-}
-
-bool Fence::passed() const {
-  if (!sync_) return true;
-  const GLenum status = glClientWaitSync(sync_, 0, 0);
-  return status == GL_ALREADY_SIGNALED || status == GL_CONDITION_SATISFIED;
 }
 
 void Fence::wait() const {

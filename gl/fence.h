@@ -23,9 +23,8 @@ class Fence {
   // Marks the work given to the GPU so far, and sends it off.
   static Fence insert();
 
-  // Whether the GPU has come this far; never waits. An empty fence has always passed.
-  [[nodiscard]] bool passed() const;
-  // Returns when the GPU has. Throws Error when the context is lost.
+  // Returns when the GPU has come this far; an empty fence does at once. Throws Error when the context is
+  // lost.
   void wait() const;
 
  private:

@@ -45,8 +45,6 @@ class Readback {
 
   // Sends the framebuffer's colour off, row 0 first, rows tightly packed. Does not wait.
   void start(const Framebuffer& source);
-  // Whether open() would not wait.
-  [[nodiscard]] bool ready() const { return fence_.passed(); }
   // The bytes of the last start(); waits for them where it must. Valid until close().
   [[nodiscard]] std::span<const std::byte> open();
   void close() { buffer_.unmap(); }

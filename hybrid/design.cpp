@@ -14,7 +14,6 @@ void Design::draw_ids(Flight& frame) const {
 }
 
 void Design::send_to_cpu(Flight& frame, Outgoing& picture, Transfer transfer) const {
-  const ExchangeTimer timer(frame.record);
   picture.back.start(picture.target);
   frame.record[transfer] = picture.back.bytes();
 }

@@ -20,7 +20,6 @@ void Design1::draw(Flight& frame) const {
 }
 
 void Design1::fetch(Flight& frame) const {
-  const ExchangeTimer timer(frame.record);
   const Plan& plan = frame.request.plan;
   const glm::ivec2 size = frame.request.part.size();
   fit(frame.ids, size);
@@ -52,7 +51,6 @@ void Design1::trace(Flight& frame) const {
 
 void Design1::upload(Flight& frame) const {
   const StageTimer stage(frame.record, Stage::upload);
-  const ExchangeTimer timer(frame.record);
   if (frame.request.plan.mask_bits > 0) frame.mask_in.up.send(frame.mask_in.texture);
   if (frame.request.plan.reflects()) frame.reflection_in.up.send(frame.reflection_in.texture);
 }

@@ -24,7 +24,6 @@ void Design2::draw(Flight& frame) const {
 }
 
 void Design2::fetch(Flight& frame) const {
-  const ExchangeTimer timer(frame.record);
   const Plan& plan = frame.request.plan;
   const glm::ivec2 size = frame.request.part.size();
   fit(frame.ids, size);
@@ -57,7 +56,6 @@ void Design2::trace(Flight& frame) const {
 
 void Design2::upload(Flight& frame) const {
   const StageTimer stage(frame.record, Stage::upload);
-  const ExchangeTimer timer(frame.record);
   frame.picture_in.up.send(frame.picture_in.texture);
 }
 

@@ -8,6 +8,9 @@
 namespace pinocchio {
 namespace {
 
+// The GPU's clock and the CPU's drift apart.
+constexpr std::uint64_t kFramesBetweenCalibrations = 256;
+
 Span span_of(const gl::GpuTimer& timer, const gl::GpuClock& clock) {
   const gl::GpuSpan measured = timer.span(clock);
   return {measured.begin_s, measured.end_s};
@@ -43,7 +46,6 @@ FrameLoop::FrameLoop(Workers& workers, const std::filesystem::path& shaders, Exc
       exchange_(exchange),
       sinks_(std::move(sinks)) {
   for (int i = 0; i < kFramesInFlight; ++i) slots_.push_back(std::make_unique<Flight>(mapping));
-  clock_.calibrate();
 }
 
 // The order of a frame. Left to right is a frame's way, top to bottom what happens at one time (design 1,
@@ -101,6 +103,7 @@ void FrameLoop::submit_reprojected(Flight& now) {
 Flight& FrameLoop::begin(const FrameRequest& request) {
   Flight& frame = *slots_[next_number_ % kFramesInFlight];
   retire(frame);
+  if (next_number_ % kFramesBetweenCalibrations == 0) clock_.calibrate();
   frame.request = request;
   frame.answered = false;
   frame.record = FrameRecord{};

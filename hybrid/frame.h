@@ -1,6 +1,5 @@
 #pragma once
 
-#include <array>
 #include <functional>
 #include <memory>
 #include <vector>
@@ -14,8 +13,7 @@ namespace pinocchio {
 enum class Exchange {
   sync,       // at once: everybody waits
   pipelined,  // frames later: GPU and CPU work on different frames meanwhile
-  reproject,  // never waited for: the newest raster at once, with an older frame's part warped to it (design
-              // 1)
+  reproject,  // design 1, never waited for: the newest raster at once, an older frame's part warped to it
 };
 [[nodiscard]] const char* exchange_name(Exchange exchange);
 

@@ -51,10 +51,10 @@ std::vector<MaterialTexels> material_texels(const Scene& scene) {
 
 std::vector<LightTexels> light_texels(const Scene& scene) {
   std::vector<LightTexels> texels;
-  int next_slot = 0;
-  for (const Light& light : scene.lights) {
-    const shared::LightParams p = light_params(light);
-    const float slot = light.casts_shadow ? static_cast<float>(next_slot++) : -1.0f;
+  const std::vector<int> slots = mask_slots(scene);
+  for (std::size_t i = 0; i < slots.size(); ++i) {
+    const shared::LightParams p = light_params(scene.lights[i]);
+    const auto slot = static_cast<float>(slots[i]);
     texels.push_back({glm::vec4(p.position, static_cast<float>(p.kind)),
                       glm::vec4(p.direction, p.inverse_square ? 1.0f : 0.0f), glm::vec4(p.radiance, p.range),
                       glm::vec4(p.cos_inner, p.cos_outer, slot, 0.0f)});

@@ -14,7 +14,8 @@ struct Sides {
   bool cpu = true, gpu = true;
 };
 [[nodiscard]] inline Sides sides_of(const Plan& plan) {
-  return {plan.traces() || plan.mode == Mode::raytrace, plan.mode != Mode::raytrace};
+  if (plan.mode == Mode::raytrace) return {!plan.precise, false};  // the reference has a tree of its own
+  return {plan.traces(), true};
 }
 
 // The scene with what the sides need of it: the CPU's tree, the GPU's buffers. It stays where it is, as

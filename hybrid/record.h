@@ -1,12 +1,12 @@
 #pragma once
 
 #include <array>
-#include <chrono>
 #include <cstddef>
 #include <cstdint>
 #include <string_view>
 
 #include "core/trace/passes.h"
+#include "gl/timer.h"
 
 namespace pinocchio {
 
@@ -23,9 +23,9 @@ inline constexpr std::array<std::string_view, 7> kTransferNames{"ids",  "normals
   return transfer < Transfer::mask;
 }
 
-// The steady clock, seconds: the one time base of CPU and GPU stages.
+// The steady clock, seconds, to which gl::GpuClock turns the GPU's: the one time base of all stages.
 [[nodiscard]] inline double now_s() {
-  return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
+  return gl::steady_now_s();
 }
 
 // When something was done.
@@ -42,7 +42,6 @@ struct FrameRecord {
   Span frame;                                     // camera sampled to picture delivered
   int latency_frames = 0;                         // frames begun between the two
   int age_frames = 0;                             // how much older the mask and reflection shown are
-  double exchange_ms = 0.0;                       // of this thread, in copies, maps, fences and uploads
   std::array<std::size_t, kTransferNames.size()> bytes{};
   RayCounts rays;
 
@@ -77,19 +76,6 @@ class StageTimer {
 
  private:
   Span& span_;
-};
-
-// Adds to the time that the frame's exchange takes on this thread.
-class ExchangeTimer {
- public:
-  explicit ExchangeTimer(FrameRecord& record) : ms_(record.exchange_ms) {}
-  ~ExchangeTimer() { ms_ += 1e3 * (now_s() - begin_s_); }
-  ExchangeTimer(const ExchangeTimer&) = delete;
-  ExchangeTimer& operator=(const ExchangeTimer&) = delete;
-
- private:
-  double& ms_;
-  double begin_s_ = now_s();
 };
 
 }  // namespace pinocchio

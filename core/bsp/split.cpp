@@ -9,7 +9,7 @@ namespace pinocchio {
 namespace {
 
 // Above this many references planes are tried at kBins equal slabs a side instead of at every bound. A
-// trade: builds take about half the time, primary rays 2 to 9 % more (docs/measurements.md).
+// trade: builds take about two thirds of the time, rays up to 2 % more (docs/measurements.md).
 constexpr std::size_t kSweepLimit = 4096;
 constexpr int kBins = 256;
 

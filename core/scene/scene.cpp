@@ -12,6 +12,13 @@ std::vector<int> casting_lights(const Scene& scene) {
   return casting;
 }
 
+std::vector<int> mask_slots(const Scene& scene) {
+  std::vector<int> slots(scene.lights.size(), -1);
+  int next = 0;
+  for (const int light : casting_lights(scene)) slots[static_cast<std::size_t>(light)] = next++;
+  return slots;
+}
+
 const Camera* find_camera(const Scene& scene, const std::string& name) {
   const auto found = std::find_if(scene.cameras.begin(), scene.cameras.end(),
                                   [&name](const Camera& camera) { return camera.name == name; });

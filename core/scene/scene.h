@@ -50,6 +50,9 @@ struct Scene {
 // Indices in scene.lights of the lights that cast shadows; position in the result is the mask slot.
 [[nodiscard]] std::vector<int> casting_lights(const Scene& scene);
 
+// The other way round: each light's mask slot, -1 where it does not cast.
+[[nodiscard]] std::vector<int> mask_slots(const Scene& scene);
+
 // First camera named `name`, else nullptr.
 [[nodiscard]] const Camera* find_camera(const Scene& scene, const std::string& name);
 

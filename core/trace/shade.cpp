@@ -15,9 +15,8 @@ struct ShadedLight {
 
 std::vector<ShadedLight> shaded_lights(const Scene& scene) {
   std::vector<ShadedLight> lights;
-  int next_slot = 0;
-  for (const Light& light : scene.lights)
-    lights.push_back({light_params(light), light.casts_shadow ? next_slot++ : -1});
+  const std::vector<int> slots = mask_slots(scene);
+  for (std::size_t i = 0; i < slots.size(); ++i) lights.push_back({light_params(scene.lights[i]), slots[i]});
   return lights;
 }
 

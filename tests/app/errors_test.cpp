@@ -88,6 +88,7 @@ TEST_F(ErrorsTest, Contexts) {
   const std::string render = "render" + scene("cornell") + "--size 32x24 -o x.exr ";
   expect_error(render + "--backend egl --device 99", 3, "--device 99");
   expect_error(render + "--backend glut", 2, "--backend");
+  expect_error(render + "--device zwei", 2, "--device");
   EXPECT_EQ(run(render, "PINOCCHIO_BACKEND=egl PINOCCHIO_DEVICE=99").exit_code, 3);
 }
 

@@ -1,6 +1,4 @@
 // The reference beside others on the project's own scenes: Embree's primary hits, the tracer's pictures.
-#include <embree3/rtcore.h>
-
 #include <cmath>
 #include <memory>
 
@@ -8,6 +6,7 @@
 #include "core/reference/reference_tree.h"
 #include "core/trace/passes.h"
 #include "core/trace/view.h"
+#include "tests/support/embree.h"
 #include "tests/support/scenes.h"
 
 namespace pinocchio {
@@ -15,39 +14,6 @@ namespace {
 
 Camera first_camera_of(const Scene& scene) {
   return scene.cameras.empty() ? camera_for_whole_scene(scene) : scene.cameras.front();
-}
-
-using EmbreeDevice = std::unique_ptr<RTCDeviceTy, decltype(&rtcReleaseDevice)>;
-using EmbreeScene = std::unique_ptr<RTCSceneTy, decltype(&rtcReleaseScene)>;
-
-EmbreeScene embree_scene(RTCDevice device, const Scene& scene) {
-  EmbreeScene result(rtcNewScene(device), &rtcReleaseScene);
-  rtcSetSceneFlags(result.get(), RTC_SCENE_FLAG_ROBUST);
-  const RTCGeometry geometry = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_TRIANGLE);
-  void* vertices = rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3,
-                                           sizeof(glm::vec3), scene.positions.size());
-  std::copy(scene.positions.begin(), scene.positions.end(), static_cast<glm::vec3*>(vertices));
-  void* indices = rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3,
-                                          sizeof(glm::uvec3), scene.triangles.size());
-  std::copy(scene.triangles.begin(), scene.triangles.end(), static_cast<glm::uvec3*>(indices));
-  rtcCommitGeometry(geometry);
-  rtcAttachGeometry(result.get(), geometry);
-  rtcReleaseGeometry(geometry);
-  rtcCommitScene(result.get());
-  return result;
-}
-
-Hit embree_hit(RTCScene scene, const Ray& ray) {
-  RTCIntersectContext context;
-  rtcInitIntersectContext(&context);
-  RTCRayHit query{};
-  query.ray.org_x = ray.origin.x, query.ray.org_y = ray.origin.y, query.ray.org_z = ray.origin.z;
-  query.ray.dir_x = ray.direction.x, query.ray.dir_y = ray.direction.y, query.ray.dir_z = ray.direction.z;
-  query.ray.tfar = kInfinity;
-  query.ray.mask = 0xffffffffu;
-  query.hit.geomID = RTC_INVALID_GEOMETRY_ID;
-  rtcIntersect1(scene, &context, &query);
-  return query.hit.geomID == RTC_INVALID_GEOMETRY_ID ? Hit{} : Hit{query.ray.tfar, query.hit.primID};
 }
 
 // Two hits are one where they name the same triangle, or meet where two triangles do.
@@ -78,8 +44,7 @@ TEST_P(ReferenceAgreement, EmbreeHitsTheSame) {
   constexpr glm::ivec2 kSize{200, 150};
   const Scene scene = load_or_die(source_path(GetParam()));
   const ReferenceTree tree(scene);
-  const EmbreeDevice device(rtcNewDevice(nullptr), &rtcReleaseDevice);
-  const EmbreeScene embree = embree_scene(device.get(), scene);
+  const Embree embree(scene);
   const shared::ViewParams view = view_params(first_camera_of(scene), kSize);
   int different = 0;
   for (int y = 0; y < kSize.y; ++y)
@@ -87,7 +52,7 @@ TEST_P(ReferenceAgreement, EmbreeHitsTheSame) {
       const Ray ray = pixel_ray(view, x, y);
       const ReferenceRay same_ray{glm::dvec3(ray.origin), glm::dvec3(ray.direction)};
       const ReferenceHit hit = tree.closest_hit(same_ray);
-      if (same(hit, embree_hit(embree.get(), ray))) continue;
+      if (same(hit, embree.closest_hit(ray))) continue;
       ++different;
       EXPECT_TRUE(at_silhouette(tree, view, same_ray, hit)) << "pixel " << x << ", " << y;
     }

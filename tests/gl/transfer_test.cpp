@@ -50,7 +50,6 @@ TEST_P(TransferTest, FenceAndTimerTellThatTheGpuIsDone) {
   timer.end();
   const gl::Fence fence = gl::Fence::insert();
   fence.wait();
-  EXPECT_TRUE(fence.passed());
   const gl::GpuSpan span = timer.span(clock);
   EXPECT_LE(span.begin_s, span.end_s);
   constexpr double kClockError_s = 0.01;  // of the calibration

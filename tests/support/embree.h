@@ -1,0 +1,67 @@
+// Embree 3, by its robust test, over a scene of ours.
+#pragma once
+
+#include <embree3/rtcore.h>
+
+#include <algorithm>
+
+#include "core/math/ray.h"
+#include "core/scene/scene.h"
+
+namespace pinocchio {
+
+class Embree {
+ public:
+  explicit Embree(const Scene& scene) : device_(rtcNewDevice(nullptr)), scene_(rtcNewScene(device_)) {
+    rtcSetSceneFlags(scene_, RTC_SCENE_FLAG_ROBUST);
+    const RTCGeometry geometry = rtcNewGeometry(device_, RTC_GEOMETRY_TYPE_TRIANGLE);
+    void* vertices = rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3,
+                                             sizeof(glm::vec3), scene.positions.size());
+    std::copy(scene.positions.begin(), scene.positions.end(), static_cast<glm::vec3*>(vertices));
+    void* indices = rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3,
+                                            sizeof(glm::uvec3), scene.triangles.size());
+    std::copy(scene.triangles.begin(), scene.triangles.end(), static_cast<glm::uvec3*>(indices));
+    rtcCommitGeometry(geometry);
+    rtcAttachGeometry(scene_, geometry);
+    rtcReleaseGeometry(geometry);
+    rtcCommitScene(scene_);
+  }
+  ~Embree() {
+    rtcReleaseScene(scene_);
+    rtcReleaseDevice(device_);
+  }
+  Embree(const Embree&) = delete;
+  Embree& operator=(const Embree&) = delete;
+
+  [[nodiscard]] Hit closest_hit(const Ray& ray) const {
+    RTCIntersectContext context;
+    rtcInitIntersectContext(&context);
+    RTCRayHit query{embree_ray(ray), {}};
+    query.hit.geomID = RTC_INVALID_GEOMETRY_ID;
+    rtcIntersect1(scene_, &context, &query);
+    return query.hit.geomID == RTC_INVALID_GEOMETRY_ID ? Hit{} : Hit{query.ray.tfar, query.hit.primID};
+  }
+
+  [[nodiscard]] bool occluded(const Ray& ray) const {
+    RTCIntersectContext context;
+    rtcInitIntersectContext(&context);
+    RTCRay query = embree_ray(ray);
+    rtcOccluded1(scene_, &context, &query);
+    return query.tfar < 0.0f;
+  }
+
+ private:
+  static RTCRay embree_ray(const Ray& ray) {
+    RTCRay r{};
+    r.org_x = ray.origin.x, r.org_y = ray.origin.y, r.org_z = ray.origin.z;
+    r.dir_x = ray.direction.x, r.dir_y = ray.direction.y, r.dir_z = ray.direction.z;
+    r.tfar = ray.t_max;
+    r.mask = 0xffffffffu;
+    return r;
+  }
+
+  RTCDevice device_;
+  RTCScene scene_;
+};
+
+}  // namespace pinocchio
