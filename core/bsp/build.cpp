@@ -192,6 +192,17 @@ void widen(Bounds& bounds) {
   bounds.hi += margin;
 }
 
+AlignedVector<CornerTriangle> corner_triangles(const Scene& scene) {
+  AlignedVector<CornerTriangle> result(scene.triangles.size());
+  for (std::uint32_t i = 0; i < result.size(); ++i) {
+    result[i].id = i;
+    for (int corner = 0; corner < 3; ++corner)
+      for (int axis = 0; axis < 3; ++axis)
+        result[i].corners[corner][axis] = scene.positions[scene.triangles[i][corner]][axis];
+  }
+  return result;
+}
+
 }  // namespace
 
 std::optional<SplitRule> parse_split_rule(std::string_view name) {
@@ -209,6 +220,12 @@ BspTree build_tree(const Scene& scene, const BuildOptions& options) {
     tree.triangles.push_back(
         ProjectedTriangle::from(scene.positions[t.x], scene.positions[t.y], scene.positions[t.z], i));
   }
+  if (options.triangle_test == TriangleTest::moeller_trumbore ||
+      options.triangle_test == TriangleTest::watertight)
+    tree.corner_triangles = corner_triangles(scene);
+  tree.test = options.triangle_test;
+  tree.positions = scene.positions;
+  tree.corners = scene.triangles;
   Builder(scene, options, tree).build();
   widen(tree.bounds);
   return tree;

@@ -18,8 +18,8 @@ enum class Isa { scalar, sse4, avx2, avx512 };
 
 [[nodiscard]] std::string_view isa_name(Isa isa);
 [[nodiscard]] std::optional<Isa> parse_isa(std::string_view name);
-[[nodiscard]] bool isa_supported(Isa isa);            // by this processor
-[[nodiscard]] std::vector<Isa> supported_isas();      // narrowest first
+[[nodiscard]] bool isa_supported(Isa isa);        // by this processor
+[[nodiscard]] std::vector<Isa> supported_isas();  // narrowest first
 
 // The fastest of this processor's by measurement (docs/measurements.md), which is not always the widest.
 // avx512 has not been measured yet: it is taken only where it is asked for.
@@ -33,7 +33,9 @@ enum class Isa { scalar, sse4, avx2, avx512 };
 class Tracer {
  public:
   // `isa`: nothing asks for default_isa(); one that the processor lacks throws EnvironmentError.
+  // `scene` stays where it is as long as this lives.
   explicit Tracer(const Scene& scene, const BuildOptions& options = {}, std::optional<Isa> isa = {});
+  explicit Tracer(const Scene&&, const BuildOptions& = {}, std::optional<Isa> = {}) = delete;
 
   // hits.size() == rays.size()
   void closest_hits(std::span<const Ray> rays, std::span<Hit> hits) const;
