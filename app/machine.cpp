@@ -18,7 +18,8 @@ Machine::Machine(const DrawOptions& options, Scene scene, std::optional<Sides> s
     context_ =
         gl::open_context({options.backend, options.device, std::getenv("PINOCCHIO_GL_DEBUG") != nullptr});
   }
-  scene_ = std::make_shared<const PreparedScene>(std::move(scene), wanted, options.tree, options.isa);
+  scene_ = std::make_shared<const PreparedScene>(std::move(scene), wanted, options.tree, options.isa,
+                                                 options.offset);
 }
 
 PlanRequest plan_request(const DrawOptions& options) {

@@ -78,8 +78,8 @@ Isa default_isa() {
   return Isa::scalar;
 }
 
-Tracer::Tracer(const Scene& scene, const BuildOptions& options, std::optional<Isa> isa)
-    : tree_(build_tree(scene, options)), isa_(choose(isa)) {}
+Tracer::Tracer(const Scene& scene, const BuildOptions& options, std::optional<Isa> isa, OffsetMethod offset)
+    : tree_(build_tree(scene, options)), isa_(choose(isa)), offset_(RayOffset::of(offset, tree_.bounds)) {}
 
 void Tracer::closest_hits(std::span<const Ray> rays, std::span<Hit> hits) const {
   assert(rays.size() == hits.size());

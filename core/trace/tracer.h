@@ -10,6 +10,7 @@
 
 #include "core/bsp/build.h"
 #include "core/math/ray.h"
+#include "core/trace/ray_offset.h"
 
 namespace pinocchio {
 
@@ -34,8 +35,10 @@ class Tracer {
  public:
   // `isa`: nothing asks for default_isa(); one that the processor lacks throws EnvironmentError.
   // `scene` stays where it is as long as this lives.
-  explicit Tracer(const Scene& scene, const BuildOptions& options = {}, std::optional<Isa> isa = {});
-  explicit Tracer(const Scene&&, const BuildOptions& = {}, std::optional<Isa> = {}) = delete;
+  explicit Tracer(const Scene& scene, const BuildOptions& options = {}, std::optional<Isa> isa = {},
+                  OffsetMethod offset = OffsetMethod::error_bound);
+  explicit Tracer(const Scene&&, const BuildOptions& = {}, std::optional<Isa> = {},
+                  OffsetMethod = {}) = delete;
 
   // hits.size() == rays.size()
   void closest_hits(std::span<const Ray> rays, std::span<Hit> hits) const;
@@ -44,10 +47,13 @@ class Tracer {
 
   [[nodiscard]] const BspTree& tree() const { return tree_; }
   [[nodiscard]] Isa isa() const { return isa_; }
+  // Of the rays that start on its surfaces: what surface_at wants.
+  [[nodiscard]] const RayOffset& offset() const { return offset_; }
 
  private:
   BspTree tree_;
   Isa isa_;
+  RayOffset offset_;
 };
 
 }  // namespace pinocchio
