@@ -8,21 +8,12 @@
 namespace pinocchio::stability {
 namespace {
 
-constexpr int kCells = 8;  // of a box of half side 1: planes at multiples of a quarter
-
 Scene unit_box() {
-  return box(glm::vec3(-1.0f), glm::vec3(1.0f), kCells);
+  return box(glm::vec3(-1.0f), glm::vec3(1.0f), 8);
 }
 
 float pick(Random& random, std::span<const float> values) {
   return values[random.next() % values.size()];
-}
-
-// A point inside the box where planes, edges' lines and vertices' axes of its sides cross.
-glm::vec3 lattice_point(Random& random) {
-  constexpr std::array kInside{-0.75f, -0.5f, -0.25f, -0.0f, 0.0f, 0.25f, 0.5f, 0.75f};
-  const float x = pick(random, kInside), y = pick(random, kInside);
-  return {x, y, pick(random, kInside)};
 }
 
 glm::vec3 direction_of(Random& random, std::span<const float> values) {
@@ -45,14 +36,21 @@ Tally zeros_and_denormals(const Method& method, int rays) {
   return count_misses(method.tracer(scene), odd);
 }
 
+// Along an axis through a vertex of a rough ball: the ray runs in planes that the ball is split at, and meets
+// the edges of several triangles at once.
 Tally in_split_planes(const Method& method, int rays) {
-  const Scene scene = unit_box();
-  constexpr std::array kValues{-1.0f, -0.0f, 0.0f, 1.0f};
+  const Scene scene = ball(glm::vec3(0.0f), 1.0f, 32, 0.3f);
   Random random(52);
   std::vector<Ray> odd;
-  for (int i = 0; i < rays; ++i) {
-    const glm::vec3 origin = lattice_point(random);
-    odd.push_back({origin, kInfinity, direction_of(random, kValues)});
+  while (odd.size() < static_cast<std::size_t>(rays)) {
+    glm::vec3 origin = scene.positions[random.next() % scene.positions.size()];
+    const int axis = static_cast<int>(random.next() % 3);
+    const float side = origin[axis] < 0.0f ? -1.0f : 1.0f;
+    origin[axis] = random.between(-0.1f, 0.1f);
+    if (glm::length(origin) > 0.6f) continue;  // else it might begin outside
+    glm::vec3 direction(odd.size() % 2 == 0 ? 0.0f : -0.0f);
+    direction[axis] = side;
+    odd.push_back({origin, kInfinity, direction});
   }
   return count_misses(method.tracer(scene), odd);
 }

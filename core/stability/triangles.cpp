@@ -85,7 +85,7 @@ Tally through_one_point(const Method& method, int rays) {
   const Scene scene = double_cone(4096);
   Random random(64);
   std::vector<Ray> some;
-  for (int i = 0; i < rays; ++i) {
+  for (int i = 0; i < rays / 20; ++i) {  // each is tested against thousands
     const glm::vec3 origin = random_point(random, 0.3f);
     const glm::vec3 tip(0.0f, i % 2 == 0 ? 1.0f : -1.0f, 0.0f);
     const auto slice = random.next() % static_cast<std::uint32_t>(scene.triangles.size());
