@@ -27,6 +27,7 @@ struct PreparedScene {
 
   PreparedScene(Scene s, Sides sides, const BuildOptions& tree, std::optional<Isa> isa)
       : scene(std::move(s)) {
+    drop_idle_casters(scene);
     if (sides.cpu) tracer.emplace(scene, tree, isa);
     if (sides.gpu) gpu.emplace(scene);
   }
