@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 
 #include "app/animation.h"
+#include "app/budget.h"
 #include "app/chrome_trace.h"
 #include "app/console.h"
 #include "app/errors.h"
@@ -23,6 +24,7 @@ constexpr int kDefaultFrames = 120;
 struct MeasureOptions {
   DrawOptions draw;
   AnimationOptions animation;
+  BudgetOptions budget;
   std::string stats_json, trace;
   bool compare = false;
   bool persistent = false;
@@ -34,6 +36,7 @@ struct Measured {
   Plan plan;
   Exchange exchange = Exchange::sync;
   std::vector<FrameRecord> records;
+  std::optional<BudgetRun> budget{};
 };
 
 gl::Mapping mapping_of(const MeasureOptions& options) {
@@ -58,7 +61,10 @@ void draw(Machine& machine, const MeasureOptions& options, const std::vector<Cam
                      }});
   for (const CameraFrame& frame : frames) {
     if (interrupted()) break;
+    if (run.budget) renderer.use(run.budget->plan());
+    const double begin_s = now_s();
     renderer.submit({frame.camera, options.draw.size, part_of(options.draw)});
+    if (run.budget) run.budget->note(1e3 * (now_s() - begin_s));
   }
   renderer.drain();
   machine.throw_gl_complaints();
@@ -70,16 +76,17 @@ nlohmann::json exchange_json(const Measured& run, const MeasureOptions& options)
   nlohmann::json json{{"kind", exchange_name(run.exchange)}};
   const glm::ivec2 size = part_of(options.draw).size();
   const TrafficBytes traffic = traffic_of(run.plan, size);
-  if (traffic.to_cpu == 0) return json;
+  if (traffic.to_cpu + traffic.to_gpu == 0) return json;
   const ExchangeCost cost = measure_exchange(run.plan, size, mapping_of(options));
-  const auto direction = [](std::size_t bytes, double ms, double copy_ms) {
-    return nlohmann::json{{"ms", ms},
-                          {"gb_per_s", static_cast<double>(bytes) / (ms * 1e6)},
-                          {"memcpy_ms", copy_ms},
-                          {"ratio_to_memcpy", ms / copy_ms}};
+  const auto add = [&](const char* way, std::size_t bytes, double ms, double copy_ms) {
+    if (bytes == 0) return;
+    json[way] = {{"ms", ms},
+                 {"gb_per_s", static_cast<double>(bytes) / (ms * 1e6)},
+                 {"memcpy_ms", copy_ms},
+                 {"ratio_to_memcpy", ms / copy_ms}};
   };
-  json["gpu_to_cpu"] = direction(traffic.to_cpu, cost.to_cpu_ms, cost.memcpy_to_cpu_ms);
-  json["cpu_to_gpu"] = direction(traffic.to_gpu, cost.to_gpu_ms, cost.memcpy_to_gpu_ms);
+  add("gpu_to_cpu", traffic.to_cpu, cost.to_cpu_ms, cost.memcpy_to_cpu_ms);
+  add("cpu_to_gpu", traffic.to_gpu, cost.to_gpu_ms, cost.memcpy_to_gpu_ms);
   return json;
 }
 
@@ -95,6 +102,7 @@ nlohmann::json run_json(const Measured& run, const Machine& machine, const Measu
   json["name"] = run.name;
   json["exchange"] = exchange_json(run, options);
   json["overlap"] = overlap_json(run);
+  if (run.budget) json["budget"] = run.budget->json();
   return json;
 }
 
@@ -108,13 +116,12 @@ void print_header(Machine& machine, const MeasureOptions& options) {
 }
 
 void print_traffic(const Machine& machine, const MeasureOptions& options) {
-  std::printf("bytes a frame          GPU to CPU   CPU to GPU\n");
-  const Needs needs = take_census(machine.scene().scene);
+  std::printf("bytes a frame, at most GPU to CPU   CPU to GPU\n");
   for (const bool slides : {false, true}) {
-    PlanRequest request = plan_request(options.draw);
+    PlanRequest request = machine.request();
     request.mode = Mode::hybrid;
     request.slides = slides;
-    const Expected<Plan> plan = make_plan(needs, request);
+    const Expected<Plan> plan = make_plan(machine.needs(), request);
     if (!plan) continue;
     const TrafficBytes traffic = traffic_of(*plan, part_of(options.draw).size());
     std::printf("  --plan %-12s %12zu %12zu\n", slides ? "slides" : "auto", traffic.to_cpu, traffic.to_gpu);
@@ -171,16 +178,16 @@ std::vector<Measured> runs_of(const Machine& machine, const MeasureOptions& opti
                : mode_name(machine.plan().mode);
     return {{name, machine.plan(), hybrid ? exchange : Exchange::sync, {}}};
   }
-  const Needs needs = take_census(machine.scene().scene);
-  const auto plan = [&](Mode mode, int design) {
-    PlanRequest request = plan_request(options.draw);
+  const auto plan = [&](Mode mode, int design, bool reprojects = false) {
+    PlanRequest request = machine.request();
     request.mode = mode;
     request.design = design;
-    return value_or_exit(make_plan(needs, request), kBadScene);
+    request.reprojects = reprojects;
+    return value_or_exit(make_plan(machine.needs(), request), kBadScene);
   };
   return {{"design 1 sync", plan(Mode::hybrid, 1), Exchange::sync, {}},
           {"design 1 pipelined", plan(Mode::hybrid, 1), Exchange::pipelined, {}},
-          {"design 1 reproject", plan(Mode::hybrid, 1), Exchange::reproject, {}},
+          {"design 1 reproject", plan(Mode::hybrid, 1, true), Exchange::reproject, {}},
           {"design 2 sync", plan(Mode::hybrid, 2), Exchange::sync, {}},
           {"design 2 pipelined", plan(Mode::hybrid, 2), Exchange::pipelined, {}},
           {"raytrace", plan(Mode::raytrace, 1), Exchange::sync, {}},
@@ -188,6 +195,10 @@ std::vector<Measured> runs_of(const Machine& machine, const MeasureOptions& opti
 }
 
 int measure(MeasureOptions& options) {
+  if (options.compare && options.budget.any())
+    throw Exit(kUsage, "--compare: draws without a budget; leave out --budget and --max-error");
+  if (options.compare && !options.draw.plan_file.empty())
+    throw Exit(kUsage, "--compare: draws by plans of its own; leave out --plan " + options.draw.plan_file);
   Scene scene = load_scene_for(options.draw);
   const Camera camera = camera_for(options.draw, scene);
   if (options.animation.turntable == 0 && options.animation.path.empty())
@@ -196,8 +207,10 @@ int measure(MeasureOptions& options) {
   for (const std::string& file : {options.stats_json, options.trace})
     if (!file.empty()) check_json(file);
 
-  Machine machine(options.draw, std::move(scene), options.compare ? std::optional(Sides{}) : std::nullopt);
+  Machine machine(options.draw, std::move(scene), false, options.compare);
   std::vector<Measured> runs = runs_of(machine, options);
+  if (options.budget.any())
+    runs.front().budget.emplace(machine, options.draw, options.budget, runs.front().exchange, frames);
   nlohmann::json json = nlohmann::json::array();
   for (Measured& run : runs) {
     draw(machine, options, frames, run);
@@ -214,6 +227,7 @@ int measure(MeasureOptions& options) {
     print_comparison(runs, json);
   } else {
     print_run(runs.front(), json.front());
+    if (runs.front().budget) runs.front().budget->report();
   }
   return kDone;
 }
@@ -226,6 +240,7 @@ Run add_measure(CLI::App& program) {
       *program.add_subcommand("measure", "draw frames along a camera path; report bytes, times, latency");
   add_draw_options(verb, options->draw);
   add_animation_options(verb, options->animation);
+  add_budget_options(verb, options->budget);
   verb.add_flag("--compare", options->compare,
                 "both designs, every exchange, raytrace and raster, in one table");
   verb.add_flag("--persistent", options->persistent,

@@ -7,6 +7,7 @@
 #include "core/image/png.h"
 #include "core/output/frame_exr.h"
 #include "core/trace/view.h"
+#include "hybrid/plan_json.h"
 
 namespace pinocchio::app {
 namespace {
@@ -57,16 +58,21 @@ void check_outputs(const OutputOptions& options, const std::vector<int>& frame_n
   }
 }
 
+bool keeps_mask(const OutputOptions& options) {
+  return !options.exr.empty() && parse_aovs(options.aovs)->contains("shadow");
+}
+
 void write_outputs(const OutputOptions& options, int frame_number, const PreparedScene& scene,
-                   const Plan& plan, const View& view, const Picture& picture, Workers& workers,
+                   const View& view, const Picture& picture, Workers& workers,
                    std::optional<double> render_s) {
   if (!options.exr.empty()) {
     const SurfaceImages surfaces =
         surface_images(scene.scene, view_params(view.camera, view.size, glm::vec2(0.0f), view.part.lo),
                        workers, picture.ids);
-    const FrameOutput frame{view.size,   view.part,    scene.scene,        view.camera, picture.color,
-                            picture.ids, picture.mask, picture.reflection, surfaces,    to_json(plan).dump(),
-                            render_s};
+    const FrameOutput frame{
+        view.size,   view.part,    scene.scene,        view.camera, picture.color,
+        picture.ids, picture.mask, picture.reflection, surfaces,    to_json(picture.plan).dump(),
+        render_s};
     write_exr(numbered(options.exr, frame_number), frame_exr(frame, *parse_aovs(options.aovs)));
   }
   if (!options.preview.empty())

@@ -28,6 +28,7 @@ struct PreparedScene {
   PreparedScene(Scene s, Sides sides, const BuildOptions& tree, std::optional<Isa> isa,
                 OffsetMethod offset = OffsetMethod::error_bound)
       : scene(std::move(s)) {
+    drop_idle_casters(scene);
     if (sides.cpu) tracer.emplace(scene, tree, isa, offset);
     if (sides.gpu) gpu.emplace(scene);
   }

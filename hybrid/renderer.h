@@ -35,6 +35,8 @@ class Renderer {
   Renderer(std::shared_ptr<const PreparedScene> scene, const Plan& plan, Workers& workers,
            const Settings& settings, Sinks sinks);
 
+  // Draws what is submitted from now on by another plan of the same mode, that the scene is prepared for.
+  void use(const Plan& plan) { plan_ = plan; }
   // Begins a picture and delivers what that finishes.
   void submit(const View& view);
   // Delivers what is still in flight.
@@ -50,9 +52,11 @@ class Renderer {
   Workers& workers_;
   Settings settings_;
   Sinks sinks_;
-  std::optional<FrameLoop> loop_;  // none where the CPU draws alone
-  std::uint64_t next_number_ = 0;  // of samples, where there is no loop
-  Picture picture_;                // of which samples_ samples are in
+  std::optional<FrameLoop> loop_;             // none where the CPU draws alone
+  std::uint64_t next_number_ = 0;             // of samples, where there is no loop
+  std::optional<FrameRequest> last_request_;  // likewise; last_sample_ is its picture, where the plan reuses
+  Picture last_sample_;
+  Picture picture_;  // of which samples_ samples are in
   int samples_ = 0;
 };
 
