@@ -2,7 +2,7 @@
 #include <array>
 #include <cmath>
 
-#include "core/procedural/mesh_builder.h"
+#include "core/reference/reference.h"
 #include "core/stability/count.h"
 #include "core/stability/shapes.h"
 #include "core/trace/passes.h"
@@ -52,29 +52,65 @@ Drawn draw(const Scene& scene, const Camera& camera, const Method& method, int r
   return drawn;
 }
 
-// Pixels of glass, in a room that glows with 1: all light gets there but what too many bounces hold back, so
-// a pixel is 1, or less by at most `lost`.
-Tally in_a_furnace(Scene scene, float size, const Method& method, int rays, float lost) {
-  append(scene, box(glm::vec3(-8.0f * size), glm::vec3(8.0f * size), 2), glowing(1.0f));
+// A room around it whose six sides glow, each as it alone does.
+void append_glowing_room(Scene& scene, float size) {
+  const Scene room = box(glm::vec3(-8.0f * size), glm::vec3(8.0f * size), 1);
+  append(scene, room, glowing(0.2f));
+  const std::size_t first = scene.triangles.size() - room.triangles.size();
+  for (std::uint32_t side = 1; side < 6; ++side) {
+    scene.materials.push_back(glowing(0.2f + 0.15f * static_cast<float>(side)));
+    for (const std::size_t half : {0, 1})
+      scene.triangle_materials[first + 2 * side + half] =
+          static_cast<std::uint32_t>(scene.materials.size() - 1);
+  }
+}
+
+Image<glm::vec3> by_reference(const Scene& scene, shared::ViewParams view, glm::ivec2 size, float shift,
+                              int depth) {
+  view.corner += shift * (view.step_x + view.step_y);
+  Workers one(1);
+  Image<std::uint32_t> ids(size);
+  MaskImage mask;
+  Image<glm::vec3> reflection;
+  Image<glm::vec4> color;
+  reference_picture(scene, one, view, depth, ids, mask, reflection, color);
+  return reflection;
+}
+
+// Pixels of glass against the reference's. Glass spreads rays that are a hair apart: where the reference
+// itself changes within a thirtieth of a pixel, it cannot tell.
+Tally against_reference(Scene scene, float size, const Method& method, int rays) {
+  constexpr int kDepth = 8;
+  constexpr float kTolerance = 0.01f, kShift = 0.03f;
+  append_glowing_room(scene, size);
   const Camera camera{"", size * glm::vec3(0.3f, 0.4f, 4.0f), glm::vec3(0.0f), {0, 1, 0}, 35.0f};
-  Drawn drawn = draw(scene, camera, method, rays, 24);
+  Drawn drawn = draw(scene, camera, method, rays, kDepth);
+  const glm::ivec2 pixels = drawn.ids.size();
+  const shared::ViewParams view = view_params(camera, pixels);
+  const Image<glm::vec3> expected = by_reference(scene, view, pixels, 0.0f, kDepth);
+  const Image<glm::vec3> beside = by_reference(scene, view, pixels, kShift, kDepth);
   for (std::size_t i = 0; i < drawn.ids.pixels().size(); ++i) {
     if (drawn.ids[i] == kNoTriangle || !scene.material_of(drawn.ids[i]).transmits()) continue;
     ++drawn.tally.trials;
-    const float light = drawn.radiance[i].x;
-    drawn.tally.failures += light >= 1.0f - lost && light <= 1.0f + 1e-4f ? 0 : 1;  // NaN is a failure
+    const bool same = std::abs(drawn.radiance[i].x - expected[i].x) <= kTolerance;  // NaN is not
+    const bool steady = std::abs(beside[i].x - expected[i].x) <= kTolerance;
+    drawn.tally.excused += !same && !steady ? 1 : 0;
+    drawn.tally.failures += !same && (steady || !std::isfinite(drawn.radiance[i].x)) ? 1 : 0;
   }
   return drawn.tally;
 }
 
-// A ball of water in a ball of glass; small, where an offset of one length for all is no longer small.
+// As it is, and where an offset of one length for all is no longer small.
+constexpr std::array kSizes{1.0f, 0x1p-14f};
+
+// A ball of water in a ball of glass.
 Tally glass_in_glass(const Method& method, int rays) {
   Tally tally;
-  for (const float size : {1.0f, 0x1p-14f}) {
+  for (const float size : kSizes) {
     Scene scene;
     append(scene, ball(glm::vec3(0.0f), size, 32), glass(1.5f));
     append(scene, ball(glm::vec3(0.0f), 0.6f * size, 32), glass(1.33f / 1.5f));
-    tally += in_a_furnace(std::move(scene), size, method, rays / 2, 0.05f);
+    tally += against_reference(std::move(scene), size, method, rays / 2);
   }
   return tally;
 }
@@ -82,10 +118,10 @@ Tally glass_in_glass(const Method& method, int rays) {
 // From inside a block of glass: beyond the critical angle all is mirrored, many times over.
 Tally total_reflection(const Method& method, int rays) {
   Tally tally;
-  for (const float size : {1.0f, 0x1p-14f}) {
+  for (const float size : kSizes) {
     Scene scene;
     append(scene, box(size * glm::vec3(-1, -0.5f, -0.25f), size * glm::vec3(1, 0.5f, 0.25f), 4), glass(2.0f));
-    tally += in_a_furnace(std::move(scene), size, method, rays / 2, 0.05f);
+    tally += against_reference(std::move(scene), size, method, rays / 2);
   }
   return tally;
 }
@@ -98,7 +134,7 @@ Tally mirror_to_mirror(const Method& method, int rays) {
   Material mirror = glowing(kGlow);
   mirror.reflectance = glm::vec3(1.0f);
   Tally tally;
-  for (const float size : {1.0f, 0x1p-14f}) {
+  for (const float size : kSizes) {
     Scene scene;
     append(scene, box(-size * glm::vec3(1, 0.5f, 0.5f), size * glm::vec3(1, 0.5f, 0.5f), 8), mirror);
     const Camera camera{"", glm::vec3(0.0f), size * glm::vec3(1.0f, 0.1f, 0.2f), {0, 1, 0}, 90.0f};
@@ -113,8 +149,8 @@ Tally mirror_to_mirror(const Method& method, int rays) {
 }
 
 constexpr std::array kTroubles{
-    Trouble{"glass inside glass", "pixels with light lost or won", glass_in_glass},
-    Trouble{"total internal reflection", "pixels with light lost or won", total_reflection},
+    Trouble{"glass inside glass", "pixels unlike the reference's", glass_in_glass},
+    Trouble{"total internal reflection", "pixels unlike the reference's", total_reflection},
     Trouble{"mirror against mirror", "pixels whose ray got out", mirror_to_mirror},
 };
 
