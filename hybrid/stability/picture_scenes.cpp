@@ -67,8 +67,14 @@ Shot grazing_triangles() {
   Scene scene = room();
   MeshBuilder mesh(scene);
   mesh.use(matte({0.3f, 0.8f, 0.4f}));
-  add_floor(mesh, 3.5f, 0.0f, 60);
-  return still(std::move(scene), looking({0.05f, 1e-3f, 3.4f}, {0.0f, 0.0f, -3.0f}));
+  const glm::vec3 eye(0.05f, 0.02f, 3.4f);
+  for (int i = -20; i <= 20; ++i) {  // fins along the line of sight, each missing the eye by a thousandth
+    const float angle = 0.02f * static_cast<float>(i) + 0.003f;
+    const glm::vec3 along(std::sin(angle), 0.0f, -std::cos(angle)), aside(1e-3f, 0.0f, 0.0f), up(0, 1, 0);
+    const glm::vec3 front = eye + along + aside, back = eye + 6.0f * along + aside;
+    mesh.quad(front - 0.3f * up, back - 2.0f * up, back + 2.0f * up, front + 0.3f * up);
+  }
+  return still(std::move(scene), looking(eye, {0.0f, 0.0f, -3.0f}));
 }
 
 Shot sub_pixel_triangles() {

@@ -13,7 +13,7 @@ struct Shot {
 };
 
 // Each in a closed room with a light that casts shadows; three frames of one camera.
-[[nodiscard]] Shot grazing_triangles();    // a fine floor, the eye a thousandth above it
+[[nodiscard]] Shot grazing_triangles();    // fins that are seen edge on
 [[nodiscard]] Shot sub_pixel_triangles();  // ten thousand, most smaller than a pixel
 [[nodiscard]] Shot near_plane();  // walls that the eye all but touches, and bars through the near plane
 [[nodiscard]] Shot z_fighting();  // two floors of other triangles in one plane
