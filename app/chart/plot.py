@@ -28,14 +28,14 @@ plt.rcParams.update({
 METRICS = {"flip": "mean FLIP", "rmse": "RMSE", "relmse": "relative MSE"}
 AXES = {
     "design": "design and mode", "exchange": "exchange", "primary": "who finds what is seen",
-    "reflection-format": "format of mirrored light", "reflection-scale": "mirrored light, resolution",
-    "mask-scale": "shadow mask, resolution", "tiles": "tiles of mirrored light that are sent",
+    "reflection-format": "reflection, format", "reflection-scale": "reflection, resolution",
+    "mask-scale": "shadow mask, resolution", "tiles": "tiles that are sent",
     "depth": "most bounces", "cutoff": "contribution cut-off", "tree": "tree builder",
     "triangle-test": "triangle test", "offset": "ray offset", "simd": "SIMD width", "threads": "threads",
     "spp": "samples a pixel", "combined": "combinations"}
 COLOURS = ["#3b6fb6", "#d1495b", "#2a9d8f", "#e09f3e", "#7d5ba6", "#5c946e", "#b56576", "#4d908e",
-           "#c9713a", "#6c757d", "#8d99ae", "#a26769", "#577590", "#9a8c98", "#386641", "#bc4749"]
-MARKERS = "osD^vPX<>phd*H8s"
+           "#c9713a", "#6c757d", "#8d99ae", "#a26769", "#577590", "#9a8c98", "#386641", "#111111"]
+MARKERS = "osD^vPX<>phd8H*P"
 FRONT_COLOUR = "#222222"
 
 

@@ -105,16 +105,20 @@ void reflection_formats(Sweep& sweep) {
                         [i](Plan& plan) { plan.reflection = static_cast<ReflectionFormat>(i); });
 }
 
+std::string scale_name(int scale) {
+  return scale == 1 ? "1" : "1/" + std::to_string(scale);
+}
+
 void reflection_scales(Sweep& sweep) {
   if (!sweep.base().plan.reflects()) return;
   for (const int scale : {1, 2, 4})
-    sweep.add_plan_file("1-" + std::to_string(scale), [scale](Plan& plan) { plan.reflection_scale = scale; });
+    sweep.add_plan_file(scale_name(scale), [scale](Plan& plan) { plan.reflection_scale = scale; });
 }
 
 void mask_scales(Sweep& sweep) {
   if (sweep.base().plan.mask_bits == 0) return;
   for (const int scale : {1, 2, 4})
-    sweep.add_plan_file("1-" + std::to_string(scale), [scale](Plan& plan) { plan.mask_scale = scale; });
+    sweep.add_plan_file(scale_name(scale), [scale](Plan& plan) { plan.mask_scale = scale; });
 }
 
 void tiles(Sweep& sweep) {
@@ -146,7 +150,7 @@ void cutoffs(Sweep& sweep) {
       sweep.request().quick ? std::vector{13, 8, 4} : std::vector{13, 10, 8, 6, 4, 2};
   sweep.add_plan_file("0", [&](Plan& plan) { set_cutoff(plan, sweep.request().needs, 0.0f); });
   for (const int power : powers)
-    sweep.add_plan_file("2^-" + std::to_string(power), [&, power](Plan& plan) {
+    sweep.add_plan_file("1/" + std::to_string(1 << power), [&, power](Plan& plan) {
       set_cutoff(plan, sweep.request().needs, 1.0f / static_cast<float>(1 << power));
     });
 }
