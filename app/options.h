@@ -51,6 +51,11 @@ struct DrawOptions {
 // be is a CLI::ValidationError, so exit code 2 and a line that says what is wanted.
 void add_draw_options(CLI::App& verb, DrawOptions& options);
 
+// The parts of it that do not say how a picture is made: scene, camera, lights, OpenGL context, messages; and
+// --size, whose help names the verb's own default.
+void add_scene_options(CLI::App& verb, DrawOptions& options);
+void add_size_option(CLI::App& verb, DrawOptions& options, const std::string& help);
+
 // Loads the scene, adds the options' lights, and a default light where there is none (said on stderr).
 // Ends the verb with kBadScene where the file cannot be read.
 [[nodiscard]] Scene load_scene_for(const DrawOptions& options);

@@ -41,7 +41,7 @@ struct Drawn {
 };
 
 Drawn draw(const Scene& scene, const Camera& camera, const Method& method, int rays, int depth) {
-  const int side = std::max(16, static_cast<int>(std::sqrt(static_cast<float>(rays) / 16.0f)));
+  const int side = std::clamp(static_cast<int>(std::sqrt(static_cast<float>(rays) / 16.0f)), 16, 64);
   Drawn drawn{Image<std::uint32_t>(glm::ivec2(side)), {}, {}};
   const Tracer tracer = method.tracer(scene);
   Workers one(1);
