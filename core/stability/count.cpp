@@ -1,8 +1,15 @@
 #include "core/stability/count.h"
 
 #include <cmath>
+#include <ctime>
 
 namespace pinocchio::stability {
+
+double Timed::thread_seconds() {
+  timespec time{};
+  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &time);
+  return static_cast<double>(time.tv_sec) + 1e-9 * static_cast<double>(time.tv_nsec);
+}
 
 std::vector<Hit> trace(const Tracer& tracer, const std::vector<Ray>& rays, Tally& tally) {
   std::vector<Hit> hits(rays.size());

@@ -1,23 +1,24 @@
 #pragma once
 
-#include <chrono>
 #include <vector>
 
 #include "core/stability/trouble.h"
 
 namespace pinocchio::stability {
 
-struct Timed {
+// Adds the processor time that this thread takes to a tally: other work on the machine does not count.
+class Timed {
+ public:
   explicit Timed(Tally& tally) : tally_(tally) {}
-  ~Timed() {
-    tally_.seconds += std::chrono::duration<double>(std::chrono::steady_clock::now() - begin_).count();
-  }
+  ~Timed() { tally_.seconds += thread_seconds() - begin_s_; }
   Timed(const Timed&) = delete;
   Timed& operator=(const Timed&) = delete;
 
  private:
+  static double thread_seconds();
+
   Tally& tally_;
-  std::chrono::steady_clock::time_point begin_ = std::chrono::steady_clock::now();
+  double begin_s_ = thread_seconds();
 };
 
 // The closest hits; their time is the tally's.

@@ -25,14 +25,18 @@ Tally usual_rays(const Method& method, int rays) {
   return count_misses(method.tracer(scene), some);
 }
 
+constexpr int kMoreAtEdges = 5;
+
 Tally jagged_ball(const Method& method, int rays) {
-  Tally tally = of_ball(method, rays / 2, glm::vec3(0.0f), 1.0f, 32);
-  return tally += of_ball(method, rays / 2, glm::vec3(0.0f), 1.0f, 16);
+  const int half = kMoreAtEdges * rays / 2;
+  Tally tally = of_ball(method, half, glm::vec3(0.0f), 1.0f, 32);
+  return tally += of_ball(method, half, glm::vec3(0.0f), 1.0f, 16);
 }
 
 Tally far_from_origin(const Method& method, int rays) {
-  Tally tally = of_ball(method, rays / 2, {1000.0f, -300.0f, 20.0f}, 1.0f, 32);
-  return tally += of_ball(method, rays / 2, {148376.0f, 1234.0f, -223423.0f}, 100.0f, 100);
+  const int half = kMoreAtEdges * rays / 2;
+  Tally tally = of_ball(method, half, {1000.0f, -300.0f, 20.0f}, 1.0f, 32);
+  return tally += of_ball(method, half, {148376.0f, 1234.0f, -223423.0f}, 100.0f, 100);
 }
 
 Tally needles(const Method& method, int rays) {

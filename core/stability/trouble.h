@@ -15,7 +15,7 @@ struct Tally {
   std::uint64_t trials = 0;
   std::uint64_t failures = 0;
   std::uint64_t excused = 0;  // misses that are the scene's fault, by the reference in double
-  double seconds = 0.0;       // of the tracing alone
+  double seconds = 0.0;       // of the tracing alone, of a processor
 
   Tally& operator+=(const Tally& o) {
     trials += o.trials;
@@ -29,13 +29,14 @@ struct Tally {
 struct Trouble {
   std::string_view name;
   std::string_view failure;  // what is counted
-  // rays: about how many trials to make; the same ones for every method.
+  // rays: how many trials to make, about; at edges five times as many, where each is dear fewer. They are the
+  // same ones for every method.
   Tally (*run)(const Method& method, int rays);
   bool limit = false;  // no method is without it: counted, not held to zero
 };
 
 // Rays against closed meshes, odd directions, odd triangles: core/stability/leaks.cpp, directions.cpp,
-// degenerate.cpp. Shadows and offsets at every scale: shadows.cpp. Mirrors and glass: bounces.cpp.
+// triangles.cpp. Shadows and offsets at every scale: shadows.cpp. Mirrors and glass: bounces.cpp.
 [[nodiscard]] std::span<const Trouble> leak_troubles();
 [[nodiscard]] std::span<const Trouble> direction_troubles();
 [[nodiscard]] std::span<const Trouble> triangle_troubles();

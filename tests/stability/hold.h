@@ -11,7 +11,7 @@
 
 namespace pinocchio::stability {
 
-inline constexpr int kRays = 10000;  // `pinocchio chart --stability` takes millions
+inline constexpr int kRays = 10000;  // `pinocchio chart --stability` takes twenty times as many
 
 inline std::ostream& operator<<(std::ostream& out, const Trouble& trouble) {
   return out << trouble.name;
