@@ -20,8 +20,8 @@
 namespace pinocchio::app {
 namespace {
 
-constexpr int kRays = 200000, kQuickRays = 10000;  // a trouble; a million at edges
-constexpr int kSide = 256, kQuickSide = 128;
+constexpr int kRays = 200000, kQuickRays = 2000;  // a trouble; a million at edges
+constexpr int kSide = 256, kQuickSide = 64;
 
 // One cell of the table.
 struct Cell {

@@ -8,7 +8,7 @@ namespace pinocchio::app {
 
 struct StabilityRequest {
   std::filesystem::path folder;  // made where it is not there
-  bool quick = false;            // a twentieth of the rays
+  bool quick = false;            // a hundredth of the rays
   const DrawOptions* draw;       // context, progress and quiet
 };
 

@@ -169,6 +169,7 @@ TEST_F(ChartTest, WrongUseIsOneLine) {
                 {"--quick", 2, "--output"},
                 {kSmall + "--turntable 4", 2, "the camera's motion has 4 frames"},
                 {kSmall + "--repeat 0", 2, "--repeat"},
+                {kSmall + "--stability", 2, "give a SCENE or --stability"},
                 {"-o file/d --quick", 1, "cannot be made a folder"}};
   write("file", "");
   for (const auto& wrong : kCases) {
@@ -177,6 +178,21 @@ TEST_F(ChartTest, WrongUseIsOneLine) {
     EXPECT_NE(result.err.find(wrong.says), std::string::npos) << result.err;
     EXPECT_EQ(std::count(result.err.begin(), result.err.end(), '\n'), 1) << result.err;
   }
+}
+
+TEST_F(ChartTest, StabilityNeedsNoSceneAndFindsNoFailureOfTheDefaults) {
+  EXPECT_EQ(run("chart " + kSmall).exit_code, 2);
+  const CommandResult result = run("chart --stability --quick -o d");
+  EXPECT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_NE(result.out.find("\n0 failures of the defaults\n"), std::string::npos) << result.out;
+  for (const char* file : {"d/stability.md", "d/stability.csv"}) EXPECT_TRUE(exists(file)) << file;
+  std::ifstream in(folder_ / "d/stability.json");
+  const nlohmann::json json = nlohmann::json::parse(in, nullptr, false);
+  ASSERT_TRUE(json.contains("rays") && json.contains("pictures"));
+  const auto fails = [](const nlohmann::json& cell) {
+    return cell["failures"] != 0 && cell["limit"] == false;
+  };
+  EXPECT_TRUE(std::any_of(json["rays"].begin(), json["rays"].end(), fails));  // of the cheaper methods
 }
 
 }  // namespace

@@ -62,6 +62,8 @@ TEST_F(ErrorsTest, Usage) {
   expect_error(render + "--spp 0 -o x.exr", 2, "--spp");
   expect_error(render + "--threads 0 -o x.exr", 2, "--threads");
   expect_error(render + "--isa mmx -o x.exr", 2, "--isa");
+  expect_error(render + "--triangle-test none -o x.exr", 2, "--triangle-test");
+  expect_error(render + "--offset 0.1 -o x.exr", 2, "--offset");
   expect_error(render + "--camera nobody -o x.exr", 2, "only these cameras: front");
   expect_error(render + "--crop 900,900,950,950 -o x.exr", 2, "--crop");
   expect_error(render + "--frames 5-2 -o x.exr", 2, "--frames");
