@@ -90,6 +90,21 @@ TEST(Tracer, SameBitsAtEveryWidthAndGrouping) {
   }
 }
 
+TEST(Tracer, EveryTriangleTestHasTheSameBitsAtEveryWidth) {
+  const Scene scene = random_soup(2000, 0.1f, 24);
+  const std::vector<Ray> rays = random_rays(10000, 124);
+  for (const TriangleTest test : kTriangleTests) {
+    const Tracer reference(scene, {.triangle_test = test}, Isa::scalar);
+    const std::vector<Hit> expected = trace(reference, rays);
+    const std::vector<std::uint8_t> expected_blocked = blocked(reference, rays);
+    for (const Isa isa : supported_isas()) {
+      const Tracer tracer(scene, {.triangle_test = test}, isa);
+      EXPECT_EQ(trace(tracer, rays), expected) << triangle_test_name(test) << " " << isa_name(isa);
+      EXPECT_EQ(blocked(tracer, rays), expected_blocked) << triangle_test_name(test) << " " << isa_name(isa);
+    }
+  }
+}
+
 TEST(Tracer, SameBitsOnTheScenes) {
   for (const std::string& name : own_scenes()) {
     const Scene scene = load_or_die(source_path(name));
