@@ -95,8 +95,10 @@ std::string number(const char* format, double value) {
 }
 
 std::string text_of(const Cell& cell) {
-  std::string text = std::to_string(cell.failures) + " (" + number("%.2f", cell.ratio) + ")";
-  if (cell.more.contains("other_ids"))
+  std::string text = std::to_string(cell.failures);
+  if (!cell.more.contains("other_ids"))
+    text += " (" + number("%.2f", cell.ratio) + ")";
+  else  // whose times, of all threads and the GPU, say little on a busy machine: they are in the files
     text += ", ids " + std::to_string(cell.more["other_ids"].get<std::uint64_t>()) + ", mean " +
             number("%.4f", cell.more["mean_difference"].get<double>());
   if (cell.more.contains("holes") && cell.more["holes"] != 0)
@@ -152,8 +154,9 @@ std::uint64_t default_failures(const Table& table) {
 }
 
 void write_tables(const std::filesystem::path& folder, const Table& rays, const Table& pictures) {
-  write_text(folder / "stability.md", "Failures, and in brackets the time beside the default's.\n\n" +
-                                          markdown(rays) + "\n" + markdown(pictures));
+  write_text(folder / "stability.md",
+             "Failures, and in brackets the processor time beside the default's.\n\n" + markdown(rays) +
+                 "\n" + markdown(pictures));
   write_text(folder / "stability.csv",
              "trouble,counted,method,limit,trials,failures,excused,seconds,ratio_to_default\n" +
                  csv_lines(rays) + csv_lines(pictures));
