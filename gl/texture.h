@@ -28,6 +28,7 @@ inline constexpr PixelFormat kSrgb8{GL_SRGB8_ALPHA8, GL_RGB, GL_UNSIGNED_BYTE, 3
 inline constexpr PixelFormat kR8{GL_R8, GL_RED, GL_UNSIGNED_BYTE, 1};
 inline constexpr PixelFormat kR16F{GL_R16F, GL_RED, GL_HALF_FLOAT, 2};
 inline constexpr PixelFormat kRgba16F{GL_RGBA16F, GL_RGBA, GL_HALF_FLOAT, 8};
+inline constexpr PixelFormat kRgba32F{GL_RGBA32F, GL_RGBA, GL_FLOAT, 16};
 inline constexpr PixelFormat kDepth32F{GL_DEPTH_COMPONENT32F, GL_DEPTH_COMPONENT, GL_FLOAT, 4};
 
 struct DeleteTexture {

@@ -23,7 +23,7 @@ ShadingPasses::Inputs Design::inputs_of(const Flight& frame) const {
 }
 
 TraceJob Design::job_of(const Flight& frame) const {
-  return {frame.request.scene->scene, frame.request.scene->tracer.value(), workers_, frame.view};
+  return {frame.request.scene->scene, frame.request.scene->required_tracer(), workers_, frame.view};
 }
 
 void Design::trace_plan(Flight& frame) const {

@@ -48,6 +48,11 @@ FrameLoop::FrameLoop(Workers& workers, const std::filesystem::path& shaders, Exc
   for (int i = 0; i < kFramesInFlight; ++i) slots_.push_back(std::make_unique<Flight>(mapping));
 }
 
+FrameLoop::~FrameLoop() {
+  for (const std::unique_ptr<Flight>& frame : slots_)
+    if (frame->tracing.valid()) frame->tracing.wait();
+}
+
 // The order of a frame. Left to right is a frame's way, top to bottom what happens at one time (design 1,
 // pipelined):
 //
@@ -75,6 +80,12 @@ void FrameLoop::drain() {
     if (Flight* const frame = frames_back(n)) finish(*frame);
   for (int n = kLatencyFrames; n >= 0; --n)
     if (Flight* const frame = frames_back(n)) retire(*frame);
+}
+
+void FrameLoop::set_exchange(Exchange exchange) {
+  if (exchange == exchange_) return;
+  drain();
+  exchange_ = exchange;
 }
 
 const Design& FrameLoop::design_of(const Flight& frame) const {

@@ -34,12 +34,16 @@ class FrameLoop {
 
   FrameLoop(Workers& workers, const std::filesystem::path& shaders, Exchange exchange, gl::Mapping mapping,
             Sinks sinks);
+  // Waits for the threads that trace; what is in flight is lost.
+  ~FrameLoop();
 
   // Begins a frame and delivers what that finishes. What went wrong on a thread that traced a frame is
   // thrown when that frame would have been delivered; the frame is lost, the others are not.
   void submit(const FrameRequest& request);
   // Delivers every frame that is still in flight.
   void drain();
+  // From the next frame on; delivers what is in flight.
+  void set_exchange(Exchange exchange);
 
   // The finished picture on the CPU, linear RGBA; waits for the GPU.
   static void read_picture(Flight& frame, Image<glm::vec4>& color);

@@ -34,6 +34,7 @@ struct Plan {
     return mask_bits > 0 || reflection != ReflectionFormat::none || (mode == Mode::hybrid && design == 2);
   }
   [[nodiscard]] bool reflects() const { return reflection != ReflectionFormat::none; }
+  friend bool operator==(const Plan&, const Plan&) = default;
 };
 
 struct PlanRequest {

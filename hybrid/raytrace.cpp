@@ -30,7 +30,7 @@ FrameRecord raytrace(const FrameRequest& request, Workers& workers, Picture& pic
   FrameRecord record;
   record.frame.begin_s = now_s();
   const Plan& plan = request.plan;
-  const TraceJob job{request.scene->scene, *request.scene->tracer, workers, view_of(request)};
+  const TraceJob job{request.scene->scene, request.scene->required_tracer(), workers, view_of(request)};
   {
     const StageTimer timer(record, Stage::raster);
     picture.ids = Image<std::uint32_t>(request.part.size());
