@@ -10,8 +10,10 @@
 #include "core/base/system_info.h"
 #include "core/scene/load.h"
 #include "core/trace/tracer.h"
+#include "gl/error.h"
 #include "gl/open.h"
 #include "hybrid/explain.h"
+#include "hybrid/plan_json.h"
 
 namespace pinocchio::app {
 namespace {
@@ -45,10 +47,14 @@ nlohmann::json scene_json(const Scene& scene) {
           {"needs",
            {{"lights", needs.lights},
             {"casting_lights", needs.casting_lights},
+            {"idle_lights", needs.idle_lights},
             {"reflection", needs.mirrors},
             {"mirror_share", needs.mirror_share},
-            {"transmits", needs.transmits},
-            {"textures", needs.textures}}}};
+            {"transmits", needs.transmits()},
+            {"transmitting_share", needs.transmitting_share},
+            {"useful_depth", needs.useful_depth},
+            {"textures", needs.textures},
+            {"gpu_normals", false}}}};  // no file we read has normals that the CPU does not know
 }
 
 void print_scene(const Scene& scene) {
@@ -65,10 +71,13 @@ void print_scene(const Scene& scene) {
   for (const Camera& camera : scene.cameras)
     std::printf("  camera '%s', %g degrees\n", camera.name.c_str(), static_cast<double>(camera.fov_deg));
   std::printf("needs\n");
-  std::printf("  %d of %d lights cast shadows (at most %d may)\n", needs.casting_lights, needs.lights,
-              kMaxCastingLights);
-  std::printf("  %.1f %% of the surface mirrors or refracts%s\n", 100.0 * needs.mirror_share,
+  std::printf("  %d of %d lights cast shadows (at most %d may); %d reach nothing\n", needs.casting_lights,
+              needs.lights, kMaxCastingLights, needs.idle_lights);
+  std::printf("  %.1f %% of the surface mirrors or refracts, %.1f %% refracts%s\n",
+              100.0 * needs.mirror_share, 100.0 * needs.transmitting_share,
               needs.textures ? "; some has textures" : "");
+  if (needs.mirrors) std::printf("  %d bounces at most are worth following\n", needs.useful_depth);
+  std::printf("  every shading normal is known to the CPU: none has to be sent\n");
 }
 
 void print_plan(const Needs& needs, const Plan& plan) {
@@ -121,6 +130,17 @@ int show_system(const InfoOptions& options) {
   return kDone;
 }
 
+// The plan of a hybrid frame on this machine; without any OpenGL, of one with a GPU.
+Expected<Plan> plan_here(const Needs& needs) {
+  PlanRequest request;
+  try {
+    request.software_gl = gl::open_context({})->info().software;
+  } catch (const gl::NoContextError&) {
+    std::fprintf(stderr, "pinocchio: no OpenGL here ('pinocchio info --system'); the plan is for a GPU\n");
+  }
+  return make_plan(needs, request);
+}
+
 int show_scene(const InfoOptions& options) {
   std::vector<std::string> warnings;
   const Scene scene = value_or_exit(load_scene(options.scene, &warnings), kBadScene);
@@ -128,7 +148,7 @@ int show_scene(const InfoOptions& options) {
     std::fprintf(stderr, "pinocchio: warning: %s\n", warning.c_str());
   const Needs needs = take_census(scene);
   std::optional<Plan> plan;
-  if (options.plan) plan = value_or_exit(make_plan(needs, {}), kBadScene);
+  if (options.plan) plan = value_or_exit(plan_here(needs), kBadScene);
   if (options.json) {
     nlohmann::json json = scene_json(scene);
     if (plan) json["plan"] = to_json(*plan);

@@ -70,16 +70,17 @@ nlohmann::json exchange_json(const Measured& run, const MeasureOptions& options)
   nlohmann::json json{{"kind", exchange_name(run.exchange)}};
   const glm::ivec2 size = part_of(options.draw).size();
   const TrafficBytes traffic = traffic_of(run.plan, size);
-  if (traffic.to_cpu == 0) return json;
+  if (traffic.to_cpu + traffic.to_gpu == 0) return json;
   const ExchangeCost cost = measure_exchange(run.plan, size, mapping_of(options));
-  const auto direction = [](std::size_t bytes, double ms, double copy_ms) {
-    return nlohmann::json{{"ms", ms},
-                          {"gb_per_s", static_cast<double>(bytes) / (ms * 1e6)},
-                          {"memcpy_ms", copy_ms},
-                          {"ratio_to_memcpy", ms / copy_ms}};
+  const auto add = [&](const char* way, std::size_t bytes, double ms, double copy_ms) {
+    if (bytes == 0) return;
+    json[way] = {{"ms", ms},
+                 {"gb_per_s", static_cast<double>(bytes) / (ms * 1e6)},
+                 {"memcpy_ms", copy_ms},
+                 {"ratio_to_memcpy", ms / copy_ms}};
   };
-  json["gpu_to_cpu"] = direction(traffic.to_cpu, cost.to_cpu_ms, cost.memcpy_to_cpu_ms);
-  json["cpu_to_gpu"] = direction(traffic.to_gpu, cost.to_gpu_ms, cost.memcpy_to_gpu_ms);
+  add("gpu_to_cpu", traffic.to_cpu, cost.to_cpu_ms, cost.memcpy_to_cpu_ms);
+  add("cpu_to_gpu", traffic.to_gpu, cost.to_gpu_ms, cost.memcpy_to_gpu_ms);
   return json;
 }
 
@@ -108,13 +109,12 @@ void print_header(Machine& machine, const MeasureOptions& options) {
 }
 
 void print_traffic(const Machine& machine, const MeasureOptions& options) {
-  std::printf("bytes a frame          GPU to CPU   CPU to GPU\n");
-  const Needs needs = take_census(machine.scene().scene);
+  std::printf("bytes a frame, at most GPU to CPU   CPU to GPU\n");
   for (const bool slides : {false, true}) {
-    PlanRequest request = plan_request(options.draw);
+    PlanRequest request = machine.request();
     request.mode = Mode::hybrid;
     request.slides = slides;
-    const Expected<Plan> plan = make_plan(needs, request);
+    const Expected<Plan> plan = make_plan(machine.needs(), request);
     if (!plan) continue;
     const TrafficBytes traffic = traffic_of(*plan, part_of(options.draw).size());
     std::printf("  --plan %-12s %12zu %12zu\n", slides ? "slides" : "auto", traffic.to_cpu, traffic.to_gpu);
@@ -171,16 +171,16 @@ std::vector<Measured> runs_of(const Machine& machine, const MeasureOptions& opti
                : mode_name(machine.plan().mode);
     return {{name, machine.plan(), hybrid ? exchange : Exchange::sync, {}}};
   }
-  const Needs needs = take_census(machine.scene().scene);
-  const auto plan = [&](Mode mode, int design) {
-    PlanRequest request = plan_request(options.draw);
+  const auto plan = [&](Mode mode, int design, bool reprojects = false) {
+    PlanRequest request = machine.request();
     request.mode = mode;
     request.design = design;
-    return value_or_exit(make_plan(needs, request), kBadScene);
+    request.reprojects = reprojects;
+    return value_or_exit(make_plan(machine.needs(), request), kBadScene);
   };
   return {{"design 1 sync", plan(Mode::hybrid, 1), Exchange::sync, {}},
           {"design 1 pipelined", plan(Mode::hybrid, 1), Exchange::pipelined, {}},
-          {"design 1 reproject", plan(Mode::hybrid, 1), Exchange::reproject, {}},
+          {"design 1 reproject", plan(Mode::hybrid, 1, true), Exchange::reproject, {}},
           {"design 2 sync", plan(Mode::hybrid, 2), Exchange::sync, {}},
           {"design 2 pipelined", plan(Mode::hybrid, 2), Exchange::pipelined, {}},
           {"raytrace", plan(Mode::raytrace, 1), Exchange::sync, {}},
@@ -188,6 +188,8 @@ std::vector<Measured> runs_of(const Machine& machine, const MeasureOptions& opti
 }
 
 int measure(MeasureOptions& options) {
+  if (options.compare && !options.draw.plan_file.empty())
+    throw Exit(kUsage, "--compare: draws by plans of its own; leave out --plan " + options.draw.plan_file);
   Scene scene = load_scene_for(options.draw);
   const Camera camera = camera_for(options.draw, scene);
   if (options.animation.turntable == 0 && options.animation.path.empty())
@@ -196,7 +198,7 @@ int measure(MeasureOptions& options) {
   for (const std::string& file : {options.stats_json, options.trace})
     if (!file.empty()) check_json(file);
 
-  Machine machine(options.draw, std::move(scene), options.compare ? std::optional(Sides{}) : std::nullopt);
+  Machine machine(options.draw, std::move(scene), false, options.compare);
   std::vector<Measured> runs = runs_of(machine, options);
   nlohmann::json json = nlohmann::json::array();
   for (Measured& run : runs) {

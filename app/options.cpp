@@ -60,25 +60,35 @@ void add_picture_options(CLI::App& verb, DrawOptions& o) {
       "different frames; reproject: newest raster, the last mask and reflection warped to it (pipelined over "
       "frame ranges, sync for one frame)",
       "sync, pipelined or reproject", parse_exchange, [&o](Exchange v) { o.exchange = v; });
-  add_parsed<bool>(
-      verb, "--plan",
-      "auto: model and send only what the scene needs; slides: the fixed bytes of 2005 (auto)",
-      "auto or slides",
-      [](const std::string& text) {
-        return text == "auto" || text == "slides" ? std::optional(text == "slides") : std::nullopt;
-      },
-      [&o](bool slides) { o.slides = slides; });
+  verb.add_option_function<std::string>(
+          "--plan",
+          [&o](const std::string& text) {
+            o.slides = text == "slides";
+            if (text.ends_with(".json")) {
+              o.plan_file = text;
+            } else if (text != "auto" && !o.slides) {
+              throw CLI::ValidationError("--plan",
+                                         "'" + text + "' is not auto, slides or a plan's FILE.json");
+            }
+          },
+          "auto: model and send only what the scene needs; slides: the fixed bytes of 2005; FILE.json: a "
+          "plan, as 'info SCENE --plan --json' writes it; it says mode, design and depth too (auto)")
+      ->type_name("auto|slides|FILE.json");
   add_parsed<PixelBox>(verb, "--crop",
                        "half-open pixel box; the EXR keeps the full displayWindow (whole frame)",
                        "x0,y0,x1,y1", parse_box, [&o](const PixelBox& v) { o.crop = v; });
   verb.add_option("--spp", o.spp, "jittered samples a pixel, averaged in linear light (1)")
       ->check(CLI::Range(1, 65536));
-  verb.add_option("--depth", o.depth, "most bounces (8)")->check(CLI::Range(0, 64));
+  verb.add_option("--depth", o.depth, "most bounces (8)")->check(CLI::Range(0, kMostBounces));
   verb.add_flag(
       "--precise", o.precise,
       "with --mode raytrace: the reference, in double precision, without shortcuts; slow, and in glass "
       "twice the time with each bounce");
-  verb.parse_complete_callback([&o] {
+  verb.parse_complete_callback([&o, &verb] {
+    for (const char* said : {"--mode", "--design", "--depth"})
+      if (!o.plan_file.empty() && verb.count(said) > 0)
+        throw CLI::ValidationError(said,
+                                   "is what " + o.plan_file + " says; change it there, or leave out --plan");
     if (o.precise && o.mode != Mode::raytrace)
       throw CLI::ValidationError(
           "--precise", "draws with --mode raytrace alone, not with " + std::string(mode_name(o.mode)));
@@ -134,7 +144,7 @@ void add_machine_options(CLI::App& verb, DrawOptions& o) {
           "--threads", [&o](int threads) { o.threads = o.tree.threads = threads; },
           "worker threads (all cores)")
       ->type_name("INT")
-      ->check(CLI::Range(1, 1024));
+      ->check(CLI::Range(1, kMostThreads));
   add_parsed<Isa>(verb, "--isa", "SIMD level, never above what the processor has (the fastest measured)",
                   "scalar, sse4, avx2 or avx512", parse_isa, [&o](Isa v) {
                     if (!isa_supported(v))

@@ -35,7 +35,8 @@ struct DrawOptions {
   int spp = 1;
   int depth = 8;
   int design = 1;
-  bool slides = false;  // --plan slides
+  bool slides = false;    // --plan slides
+  std::string plan_file;  // --plan FILE.json
   bool precise = false;
   int gl_threads = 0;  // of a software rasteriser; 0: its own choice
   int threads = 0;     // 0: all cores

@@ -7,6 +7,7 @@
 #include "core/image/png.h"
 #include "core/output/frame_exr.h"
 #include "core/trace/view.h"
+#include "hybrid/plan_json.h"
 
 namespace pinocchio::app {
 namespace {
@@ -55,6 +56,10 @@ void check_outputs(const OutputOptions& options, const std::vector<int>& frame_n
                              " frames; put #### where the frame's number goes");
     check_writable(numbered(pattern, frame_numbers.front()));
   }
+}
+
+bool keeps_mask(const OutputOptions& options) {
+  return !options.exr.empty() && parse_aovs(options.aovs)->contains("shadow");
 }
 
 void write_outputs(const OutputOptions& options, int frame_number, const PreparedScene& scene,

@@ -29,6 +29,9 @@ void add_output_options(CLI::App& verb, OutputOptions& options);
 // kFailed where a file cannot be written.
 void check_outputs(const OutputOptions& options, const std::vector<int>& frame_numbers);
 
+// Whether an EXR with the shadow mask in it is asked for.
+[[nodiscard]] bool keeps_mask(const OutputOptions& options);
+
 // Writes the picture of one frame to the files that the options name, each whole or not at all.
 void write_outputs(const OutputOptions& options, int frame_number, const PreparedScene& scene,
                    const Plan& plan, const View& view, const Picture& picture, Workers& workers,

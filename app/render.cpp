@@ -35,7 +35,7 @@ class RenderRun {
     const Camera camera = camera_for(options_.draw, scene);
     frames_ = animate(options_.animation, camera);
     check();
-    Machine machine(options_.draw, std::move(scene));
+    Machine machine(options_.draw, std::move(scene), keeps_mask(options_.output));
     const double ready_s = now_s();
     draw(machine);
     if (!options_.stats_json.empty()) write_json(options_.stats_json, stats(machine));

@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "core/base/system_info.h"
+#include "hybrid/plan_json.h"
 
 namespace pinocchio::app {
 namespace {

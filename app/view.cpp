@@ -5,7 +5,6 @@
 
 #include "app/console.h"
 #include "app/errors.h"
-#include "app/machine.h"
 #include "app/verbs.h"
 #include "app/view/session.h"
 #include "gl/error.h"
@@ -27,7 +26,9 @@ int view(const ViewOptions& options) {
   if (options.draw.crop || options.draw.precise)
     throw Exit(kUsage, std::string(options.draw.crop ? "--crop" : "--precise") +
                            ": a window shows whole pictures while you wait; use it with 'pinocchio render'");
-  (void)plan_request(options.draw);  // what cannot go together ends here
+  if (options.draw.exchange == Exchange::reproject && options.draw.design == 2)
+    throw Exit(kUsage,
+               "--exchange reproject: warps mask and reflection, which design 2 does not send; use design 1");
   const std::unique_ptr<gl::Window> window = open_window(options);
   bool loading = false;
   {

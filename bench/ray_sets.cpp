@@ -41,7 +41,8 @@ std::vector<Ray> mirrored(const Scene& scene, const std::vector<Seen>& seen) {
   std::vector<PathRay> spawned;
   for (const Seen& s : seen) {
     spawned.clear();
-    scatter(surface_at(scene, s.triangle, s.ray.origin, s.ray.direction), glm::vec3(1.0f), 0, spawned);
+    scatter(surface_at(scene, s.triangle, s.ray.origin, s.ray.direction), glm::vec3(1.0f), 0,
+            kLeastContribution, spawned);
     for (const PathRay& path : spawned)
       if (!path.refracted) rays.push_back(path.ray);
   }

@@ -82,13 +82,17 @@ std::span<std::byte> Upload::open(std::size_t bytes) {
   return buffer_.map(bytes);
 }
 
-void Upload::send(const Texture& target) {
+void Upload::send(std::initializer_list<Piece> pieces) {
   buffer_.unmap();
   buffer_.bind();
-  glBindTexture(GL_TEXTURE_2D, target.name());
   glPixelStorei(GL_UNPACK_ALIGNMENT, 1);
-  glTexSubImage2D(GL_TEXTURE_2D, 0, 0, 0, target.size().x, target.size().y, target.format().format,
-                  target.format().type, nullptr);
+  for (const Piece& piece : pieces) {
+    if (piece.size.x <= 0 || piece.size.y <= 0) continue;
+    const PixelFormat& format = piece.target->format();
+    glBindTexture(GL_TEXTURE_2D, piece.target->name());
+    glTexSubImage2D(GL_TEXTURE_2D, 0, piece.at.x, piece.at.y, piece.size.x, piece.size.y, format.format,
+                    format.type, reinterpret_cast<const void*>(piece.first_byte));
+  }
   buffer_.unbind();
   fence_ = Fence::insert();
 }

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstddef>
+#include <initializer_list>
 #include <span>
 
 #include "gl/fence.h"
@@ -64,7 +65,16 @@ class Upload {
   // Room for one picture; waits where the GPU still reads the one before. Any thread may fill it.
   [[nodiscard]] std::span<std::byte> open(std::size_t bytes);
   // Sends what was written on its way into the whole of `target`. Does not wait.
-  void send(const Texture& target);
+  void send(const Texture& target) { send({{&target, {0, 0}, target.size(), 0}}); }
+
+  // A box of a texture, and where in the buffer its rows begin, tightly packed.
+  struct Piece {
+    const Texture* target;
+    glm::ivec2 at, size;
+    std::size_t first_byte;
+  };
+  // Only these; the rest of what was opened does not travel.
+  void send(std::initializer_list<Piece> pieces);
 
  private:
   PixelBuffer buffer_;

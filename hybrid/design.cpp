@@ -19,24 +19,7 @@ void Design::send_to_cpu(Flight& frame, Outgoing& picture, Transfer transfer) co
 }
 
 ShadingPasses::Inputs Design::inputs_of(const Flight& frame) const {
-  return {*frame.request.scene->gpu, frame.view, frame.visibility.target.color(), frame.request.plan.id_bits};
-}
-
-TraceJob Design::job_of(const Flight& frame) const {
-  return {frame.request.scene->scene, frame.request.scene->required_tracer(), workers_, frame.view};
-}
-
-void Design::trace_plan(Flight& frame) const {
-  const TraceJob job = job_of(frame);
-  const Plan& plan = frame.request.plan;
-  if (plan.mask_bits > 0) {
-    const StageTimer timer(frame.record, Stage::trace_shadow);
-    frame.record.rays += trace_shadow_mask(job, frame.ids, plan.mask_bits, frame.mask);
-  }
-  if (plan.reflects()) {
-    const StageTimer timer(frame.record, Stage::trace_reflection);
-    frame.record.rays += trace_reflection(job, frame.ids, plan.depth, frame.reflection);
-  }
+  return {*frame.request.scene->gpu, frame.view, frame.ids_texture(), frame.request.plan.id_bits};
 }
 
 void fit(gl::Framebuffer& target, glm::ivec2 size, const gl::PixelFormat& format, bool with_depth) {

@@ -39,10 +39,6 @@ class Design {
   void draw_ids(Flight& frame) const;
   void send_to_cpu(Flight& frame, Outgoing& picture, Transfer transfer) const;
   [[nodiscard]] ShadingPasses::Inputs inputs_of(const Flight& frame) const;
-  [[nodiscard]] TraceJob job_of(const Flight& frame) const;
-  // Shadow mask and reflection, as the plan asks for them.
-  void trace_plan(Flight& frame) const;
-
   Workers& workers_;
   Passes& passes_;
 };

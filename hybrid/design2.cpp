@@ -1,5 +1,6 @@
 #include "hybrid/design.h"
 #include "hybrid/formats.h"
+#include "hybrid/trace_answer.h"
 
 namespace pinocchio {
 
@@ -45,11 +46,11 @@ void Design2::fetch(Flight& frame) const {
 }
 
 void Design2::trace(Flight& frame) const {
-  trace_plan(frame);
+  trace_answer(frame.request, frame.view, workers_, frame.ids, frame.mask, frame.reflection, frame.record);
   Image<glm::vec3> light(frame.ids.size());
   unpack_srgb(frame.phong_srgb.pixels(), workers_, light);
   const Image<glm::vec3> none;
-  add_traced_light(job_of(frame), frame.ids, frame.mask,
+  add_traced_light(trace_job(frame.request, frame.view, workers_), frame.ids, frame.mask,
                    frame.request.plan.reflects() ? frame.reflection : none, light);
   pack_srgb(light, workers_, frame.picture_in.bytes);
 }

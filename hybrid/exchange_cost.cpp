@@ -59,16 +59,23 @@ void add_upload(glm::ivec2 size, const gl::PixelFormat& format, gl::Mapping mapp
 ExchangeCost measure_exchange(const Plan& plan, glm::ivec2 size, gl::Mapping mapping) {
   ExchangeCost cost;
   if (plan.mode != Mode::hybrid || !plan.traces()) return cost;
-  add_readback(size, plan.wide ? gl::kRgba32Ui : id_format(plan.id_bits).pixel, mapping, cost);
+  if (plan.primary == Primary::rays) {
+    add_upload(size, id_format(plan.id_bits).pixel, mapping, cost);
+  } else {
+    add_readback(size, plan.wide ? gl::kRgba32Ui : id_format(plan.id_bits).pixel, mapping, cost);
+  }
   if (plan.design == 2) {
     add_readback(size, gl::kSrgb8, mapping, cost);
     add_upload(component_size(size), gl::kR8, mapping, cost);
     return cost;
   }
   if (plan.normals) add_readback(size, gl::kRgb8, mapping, cost);
+  const glm::ivec2 mask = scaled_size(size, plan.mask_scale),
+                   reflection = scaled_size(size, plan.reflection_scale);
   if (plan.mask_bits > 0)
-    add_upload({MaskImage::row_bytes_for(size.x, plan.mask_bits), size.y}, gl::kR8Ui, mapping, cost);
-  if (plan.reflects()) add_upload(component_size(size), component_format(plan.reflection), mapping, cost);
+    add_upload({MaskImage::row_bytes_for(mask.x, plan.mask_bits), mask.y}, gl::kR8Ui, mapping, cost);
+  const auto [pixel, texels] = texel_format(plan.reflection);
+  if (plan.reflects()) add_upload({texels * reflection.x, reflection.y}, pixel, mapping, cost);
   return cost;
 }
 

@@ -23,6 +23,8 @@ struct FrameRequest {
   glm::ivec2 size{0, 0};   // of the whole picture, pixels
   PixelBox part;           // of it that is drawn
   glm::vec2 jitter{0.0f};  // where pixels are sampled off their centre, pixels
+
+  friend bool operator==(const FrameRequest&, const FrameRequest&) = default;
 };
 
 // A picture on its way to the CPU: where it is drawn, and the buffer it travels in.
@@ -47,6 +49,7 @@ struct Flight {
         normals(mapping),
         gbuffer(mapping),
         phong(mapping),
+        ids_in(mapping),
         mask_in(mapping),
         reflection_in(mapping),
         picture_in(mapping),
@@ -65,14 +68,23 @@ struct Flight {
   Image<glm::u8vec3> phong_srgb;  // design 2: light that needs no shadow ray
 
   // CPU: the answer, and its way to the GPU.
-  std::future<void> tracing;  // valid from the start of the trace until its answer is taken
-  bool answered = false;      // the answer is on the GPU
-  MaskImage mask;
-  Image<glm::vec3> reflection;
-  Incoming mask_in, reflection_in;  // design 1
-  Incoming picture_in;              // design 2
+  std::future<void> tracing;         // valid from the start of the trace until its answer is taken
+  bool answered = false;             // the answer is on the GPU
+  MaskImage mask;                    // one sample for plan.mask_scale pixels a side
+  Image<glm::vec3> reflection;       // likewise
+  Incoming ids_in;                   // design 1, primary rays
+  Incoming mask_in, reflection_in;   // design 1
+  gl::Texture reflection_index;      // where its tiles are in reflection_in's texture
+  std::size_t reflection_tiles = 0;  // of the answer
+  Incoming picture_in;               // design 2
 
-  Outgoing picture;  // RGBA16F, linear light
+  Outgoing picture;       // RGBA16F, linear light
+  bool complete = false;  // made of this frame's own parts
+
+  // Who finds what is seen decides where the GPU has it.
+  [[nodiscard]] const gl::Texture& ids_texture() const {
+    return request.plan.primary == Primary::rays ? ids_in.texture : visibility.target.color();
+  }
 
   gl::GpuTimer raster_timer, composite_timer;
 };

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cassert>
+#include <cmath>
 #include <cstring>
 
 #include "core/image/tonemap.h"
@@ -29,13 +30,18 @@ void for_each_row(glm::ivec2 size, Workers& workers, Body body) {
                    [&](std::size_t row) { body(row * width, (row + 1) * width); });
 }
 
-void pack_halves(const Image<glm::vec3>& radiance, Workers& workers, std::span<std::byte> bytes) {
-  assert(bytes.size() == radiance.pixels().size() * 3 * sizeof(std::uint16_t));
-  auto* const halves = reinterpret_cast<std::uint16_t*>(bytes.data());
-  for_each_row(radiance.size(), workers, [&](std::size_t first, std::size_t end) {
-    for (std::size_t i = first; i < end; ++i)
-      for (int c = 0; c < 3; ++c) halves[3 * i + static_cast<std::size_t>(c)] = half_bits(radiance[i][c]);
-  });
+// As OpenGL's EXT_texture_shared_exponent has it: the exponent is the brightest colour's.
+std::uint32_t rgb9e5_bits(const glm::vec3& light) {
+  constexpr int kMantissaBits = 9, kBias = 15;
+  constexpr float kLargest = 65408.0f;  // (2^9 - 1) / 2^9 * 2^16
+  const glm::vec3 c = glm::clamp(light, 0.0f, kLargest);
+  int exponent = std::max(-kBias - 1, std::ilogb(std::max({c.r, c.g, c.b, 0x1p-30f}))) + 1 + kBias;
+  const auto mantissa = [&](float v) {
+    return static_cast<std::uint32_t>(std::floor(std::ldexp(v, kMantissaBits + kBias - exponent) + 0.5f));
+  };
+  if (mantissa(std::max({c.r, c.g, c.b})) == 1u << kMantissaBits) ++exponent;
+  return mantissa(c.r) | mantissa(c.g) << 9u | mantissa(c.b) << 18u |
+         static_cast<std::uint32_t>(exponent) << 27u;
 }
 
 }  // namespace
@@ -70,17 +76,62 @@ void unpack_gbuffer_ids(std::span<const std::byte> bytes, Image<std::uint32_t>& 
   for (std::size_t i = 0; i < ids.pixels().size(); ++i) ids[i] = words[4 * i];
 }
 
-gl::PixelFormat component_format(ReflectionFormat format) {
-  return format == ReflectionFormat::rgb8 ? gl::kR8 : gl::kR16F;
+void pack_ids(const Image<std::uint32_t>& ids, int id_bits, std::span<std::byte> bytes) {
+  const auto id_bytes = static_cast<std::size_t>(id_bits / 8);
+  assert(bytes.size() == ids.pixels().size() * id_bytes);
+  std::byte* to = bytes.data();
+  for (const std::uint32_t id : ids.pixels()) {  // "none" is all ones in any number of bits
+    for (std::size_t k = 0; k < id_bytes; ++k) to[k] = static_cast<std::byte>(id >> 8 * k);
+    to += id_bytes;
+  }
+}
+
+TexelFormat texel_format(ReflectionFormat format) {
+  switch (format) {
+    case ReflectionFormat::rgb8:
+      return {gl::kR8, kComponents};
+    case ReflectionFormat::rgb9e5:
+      return {gl::kRgb9E5, 1};
+    case ReflectionFormat::full:
+      return {gl::kR32F, kComponents};
+    default:
+      return {gl::kR16F, kComponents};
+  }
+}
+
+void pack_pixels(std::span<const glm::vec3> radiance, ReflectionFormat format, std::byte* to) {
+  switch (format) {
+    case ReflectionFormat::none:
+      return;
+    case ReflectionFormat::rgb8:
+      for (const glm::vec3& light : radiance)
+        for (int c = 0; c < kComponents; ++c) *to++ = static_cast<std::byte>(linear_to_srgb8(light[c]));
+      return;
+    case ReflectionFormat::rgb9e5:
+      for (std::size_t i = 0; i < radiance.size(); ++i) {
+        const std::uint32_t bits = rgb9e5_bits(radiance[i]);
+        std::memcpy(to + i * sizeof(bits), &bits, sizeof(bits));
+      }
+      return;
+    case ReflectionFormat::half: {
+      auto* halves = reinterpret_cast<std::uint16_t*>(to);
+      for (const glm::vec3& light : radiance)
+        for (int c = 0; c < kComponents; ++c) *halves++ = half_bits(light[c]);
+      return;
+    }
+    case ReflectionFormat::full:
+      std::memcpy(to, radiance.data(), radiance.size_bytes());
+      return;
+  }
 }
 
 void pack_radiance(const Image<glm::vec3>& radiance, ReflectionFormat format, Workers& workers,
                    std::span<std::byte> bytes) {
-  if (format == ReflectionFormat::rgb8) {
-    pack_srgb(radiance, workers, bytes);
-  } else {
-    pack_halves(radiance, workers, bytes);
-  }
+  const auto pixel_bytes = static_cast<std::size_t>(bytes_per_pixel(format));
+  assert(bytes.size() == radiance.pixels().size() * pixel_bytes);
+  for_each_row(radiance.size(), workers, [&](std::size_t first, std::size_t end) {
+    pack_pixels({&radiance[first], end - first}, format, bytes.data() + first * pixel_bytes);
+  });
 }
 
 void unpack_srgb(std::span<const glm::u8vec3> srgb, Workers& workers, Image<glm::vec3>& light) {
@@ -92,12 +143,7 @@ void unpack_srgb(std::span<const glm::u8vec3> srgb, Workers& workers, Image<glm:
 }
 
 void pack_srgb(const Image<glm::vec3>& light, Workers& workers, std::span<std::byte> bytes) {
-  assert(bytes.size() == light.pixels().size() * 3);
-  auto* const to = reinterpret_cast<std::uint8_t*>(bytes.data());
-  for_each_row(light.size(), workers, [&](std::size_t first, std::size_t end) {
-    for (std::size_t i = first; i < end; ++i)
-      for (int c = 0; c < 3; ++c) to[3 * i + static_cast<std::size_t>(c)] = linear_to_srgb8(light[i][c]);
-  });
+  pack_radiance(light, ReflectionFormat::rgb8, workers, bytes);
 }
 
 void unpack_picture(std::span<const std::byte> bytes, Image<glm::vec4>& color) {

@@ -60,9 +60,11 @@ FrameLoop::~FrameLoop() {
 //   frame n-1  CPU        fetch  trace
 //   frame n-2  GPU                      upload  composite
 void FrameLoop::submit(const FrameRequest& request) {
+  if (repeat(request)) return;
   Flight& now = begin(request);
   design_of(now).draw(now);
-  if (exchange_ == Exchange::reproject && request.plan.traces() && request.plan.design == 1)
+  if (exchange_ == Exchange::reproject && request.plan.traces() && request.plan.design == 1 &&
+      request.plan.primary == Primary::raster)
     return submit_reprojected(now);
   const int latency = latency_of(request.plan);
   if (latency > 0) {
@@ -111,12 +113,31 @@ void FrameLoop::submit_reprojected(Flight& now) {
   finish(now);
 }
 
+bool FrameLoop::repeat(const FrameRequest& request) {
+  Flight* const last = frames_back(0);
+  if (!last || !request.plan.reuse || !(last->request == request)) return false;
+  if (last->state == Flight::State::delivered && !last->complete) start_trace(*last);
+  drain();
+  if (!last->complete) {  // shown with an older frame's answer: its own, now
+    if (!last->answered) return false;
+    design_of(*last).composite(*last, nullptr);
+    last->complete = true;
+  }
+  last->record = FrameRecord{};
+  last->record.number = next_number_++;
+  last->record.frame.begin_s = now_s();
+  sinks_.picture(*last);
+  last->record.frame.end_s = now_s();
+  sinks_.record(last->record);
+  return true;
+}
+
 Flight& FrameLoop::begin(const FrameRequest& request) {
-  Flight& frame = *slots_[next_number_ % kFramesInFlight];
+  Flight& frame = *slots_[drawn_++ % kFramesInFlight];
   retire(frame);
-  if (next_number_ % kFramesBetweenCalibrations == 0) clock_.calibrate();
+  if (drawn_ % kFramesBetweenCalibrations == 1) clock_.calibrate();
   frame.request = request;
-  frame.answered = false;
+  frame.answered = frame.complete = false;
   frame.record = FrameRecord{};
   frame.record.number = next_number_++;
   frame.record.frame.begin_s = now_s();
@@ -126,7 +147,7 @@ Flight& FrameLoop::begin(const FrameRequest& request) {
 
 Flight* FrameLoop::frames_back(int n) {
   const auto back = static_cast<std::uint64_t>(n) + 1;
-  return next_number_ < back ? nullptr : slots_[(next_number_ - back) % kFramesInFlight].get();
+  return drawn_ < back ? nullptr : slots_[(drawn_ - back) % kFramesInFlight].get();
 }
 
 void FrameLoop::start_trace(Flight& frame) {
@@ -159,6 +180,7 @@ void FrameLoop::deliver(Flight& frame, const Flight* older) {
   frame.state = Flight::State::idle;  // lost, should a line below throw
   design_of(frame).composite(frame, older);
   frame.state = Flight::State::delivered;
+  frame.complete = !older;
   frame.record.latency_frames = static_cast<int>(next_number_ - 1 - frame.record.number);
   if (older) frame.record.age_frames = static_cast<int>(frame.record.number - older->record.number);
   sinks_.picture(frame);
@@ -169,9 +191,14 @@ void FrameLoop::retire(Flight& frame) {
   take_traced(frame);
   if (frame.state != Flight::State::delivered) return;
   FrameRecord& record = frame.record;
-  record[Stage::raster] = span_of(frame.raster_timer, clock_);
+  Span& readback = record[Stage::readback];
+  if (frame.request.plan.primary == Primary::rays) {
+    readback = {};  // nothing was
+  } else {
+    record[Stage::raster] = span_of(frame.raster_timer, clock_);
+    if (readback.end_s > 0.0) readback.begin_s = record[Stage::raster].end_s;
+  }
   record[Stage::composite] = span_of(frame.composite_timer, clock_);
-  if (record[Stage::readback].end_s > 0.0) record[Stage::readback].begin_s = record[Stage::raster].end_s;
   record.frame.end_s = std::max(record[Stage::composite].end_s, record[Stage::present].end_s);
   frame.state = Flight::State::idle;
   sinks_.record(record);

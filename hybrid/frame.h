@@ -37,8 +37,10 @@ class FrameLoop {
   // Waits for the threads that trace; what is in flight is lost.
   ~FrameLoop();
 
-  // Begins a frame and delivers what that finishes. What went wrong on a thread that traced a frame is
-  // thrown when that frame would have been delivered; the frame is lost, the others are not.
+  // Begins a frame and delivers what that finishes. Where the plan reuses and the request is the last one
+  // again, nothing is drawn, traced or sent: all in flight is delivered, then the last picture once more.
+  // What went wrong on a thread that traced a frame is thrown when that frame would have been delivered; the
+  // frame is lost, the others are not.
   void submit(const FrameRequest& request);
   // Delivers every frame that is still in flight.
   void drain();
@@ -54,6 +56,7 @@ class FrameLoop {
   [[nodiscard]] const Design& design_of(const Flight& frame) const;
   [[nodiscard]] int latency_of(const Plan& plan) const;
   [[nodiscard]] Flight* frames_back(int n);  // begun n frames before the newest; null: there is none
+  bool repeat(const FrameRequest& request);
   Flight& begin(const FrameRequest& request);
   void submit_reprojected(Flight& now);
   void start_trace(Flight& frame);
@@ -69,7 +72,8 @@ class FrameLoop {
   Sinks sinks_;
   gl::GpuClock clock_;
   std::uint64_t next_number_ = 0;
-  std::vector<std::unique_ptr<Flight>> slots_;  // frame n is in slot n % kFramesInFlight
+  std::uint64_t drawn_ = 0;                     // frames that were not repeats
+  std::vector<std::unique_ptr<Flight>> slots_;  // the n-th of them is in slot n % kFramesInFlight
 };
 
 }  // namespace pinocchio

@@ -1,5 +1,11 @@
 #include "hybrid/needs.h"
 
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "core/trace/scatter.h"
+
 namespace pinocchio {
 namespace {
 
@@ -8,14 +14,57 @@ double area_of(const Scene& scene, const glm::uvec3& t) {
   return 0.5 * glm::length(glm::cross(b - a, c - a));
 }
 
+// Looks at mirror after mirror, to tell how often light can be mirrored.
+class MirrorWalk {
+ public:
+  MirrorWalk(const Scene& scene, const Bounds& bounds)
+      : scene_(scene), slack_(1e-7 * static_cast<double>(bounds.diagonal())) {}
+
+  void add(const glm::uvec3& t, const Material& m) {
+    const bool unlimited = m.transmits() || m.fresnel;
+    const float most = std::max({m.reflectance.x, m.reflectance.y, m.reflectance.z});
+    most_ = std::max(most_, unlimited ? 1.0 : static_cast<double>(most));
+    if (flat_) flat_ = !m.transmits() && in_plane(t);
+  }
+
+  [[nodiscard]] int useful_depth() const {
+    if (flat_) return 1;  // what leaves a plane does not come back to it
+    if (most_ >= 1.0) return kMostBounces;
+    const double bounces = std::log(static_cast<double>(kLeastContribution)) / std::log(most_);
+    return std::clamp(static_cast<int>(bounces), 1, kMostBounces);
+  }
+
+ private:
+  // Whether the triangle lies in the plane of the first one that has a plane.
+  bool in_plane(const glm::uvec3& t) {
+    const glm::dvec3 a(scene_.positions[t.x]), b(scene_.positions[t.y]), c(scene_.positions[t.z]);
+    if (n_ == glm::dvec3(0.0)) {
+      const glm::dvec3 n = glm::cross(b - a, c - a);
+      if (glm::length(n) == 0.0) return true;
+      n_ = glm::normalize(n);
+      d_ = glm::dot(n_, a);
+    }
+    const auto off = [&](const glm::dvec3& p) { return std::abs(glm::dot(n_, p) - d_); };
+    return std::max({off(a), off(b), off(c)}) <= slack_;
+  }
+
+  const Scene& scene_;
+  double slack_;
+  double most_ = 0.0;
+  bool flat_ = true;
+  glm::dvec3 n_{0.0};
+  double d_ = 0.0;
+};
+
 }  // namespace
 
 Needs take_census(const Scene& scene) {
   Needs needs;
   needs.triangles = scene.triangles.size();
-  needs.lights = static_cast<int>(scene.lights.size());
-  needs.casting_lights = static_cast<int>(casting_lights(scene).size());
-  double all = 0.0, mirroring = 0.0;
+  needs.bounds = scene.bounds();
+  recount_lights(scene, needs);
+  double all = 0.0, mirroring = 0.0, transmitting = 0.0;
+  MirrorWalk walk(scene, needs.bounds);
   // Materials that no triangle has are not needed.
   for (std::size_t i = 0; i < scene.triangles.size(); ++i) {
     const Material& material = scene.materials[scene.triangle_materials[i]];
@@ -24,11 +73,26 @@ Needs take_census(const Scene& scene) {
     needs.textures = needs.textures || material.diffuse_texture >= 0;
     if (!material.spawns_rays()) continue;
     needs.mirrors = true;
-    needs.transmits = needs.transmits || material.transmits();
     mirroring += area;
+    if (material.transmits()) transmitting += area;
+    walk.add(scene.triangles[i], material);
   }
-  needs.mirror_share = all > 0.0 ? mirroring / all : 0.0;
+  if (all > 0.0) needs.mirror_share = mirroring / all;
+  if (all > 0.0) needs.transmitting_share = transmitting / all;
+  needs.useful_depth = needs.mirrors ? walk.useful_depth() : 0;
   return needs;
+}
+
+void recount_lights(const Scene& scene, Needs& needs) {
+  needs.lights = static_cast<int>(scene.lights.size());
+  needs.casting_lights = needs.idle_lights = 0;
+  for (const Light& light : scene.lights) {
+    if (!reaches(light, needs.bounds)) {
+      ++needs.idle_lights;
+    } else if (light.casts_shadow) {
+      ++needs.casting_lights;
+    }
+  }
 }
 
 }  // namespace pinocchio

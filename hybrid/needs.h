@@ -6,18 +6,30 @@
 
 namespace pinocchio {
 
-// What a scene asks of a frame; the plan models nothing beyond it.
+inline constexpr int kMostBounces = 64;
+
+// What a scene asks of a frame; the plan models nothing beyond it. Every shading normal is a vertex's, which
+// the CPU has too: there are none that only the GPU knows.
 struct Needs {
   std::size_t triangles = 0;
+  Bounds bounds{};  // world space
   int lights = 0;
-  int casting_lights = 0;
-  bool mirrors = false;       // some triangle's material reflects or transmits
-  double mirror_share = 0.0;  // of the scene's surface that reflects or transmits
-  bool transmits = false;     // some of it transmits
-  bool textures = false;      // some triangle's material has one
+  int casting_lights = 0;           // of those that reach something
+  int idle_lights = 0;              // that reach nothing
+  bool mirrors = false;             // some triangle's material reflects or transmits
+  double mirror_share = 0.0;        // of the scene's surface that reflects or transmits
+  double transmitting_share = 0.0;  // of it that transmits
+  bool textures = false;            // some triangle's material has one
+  // Bounces beyond which no ray brings its pixel kLeastContribution, or none finds another mirror.
+  int useful_depth = kMostBounces;
+
+  [[nodiscard]] bool transmits() const { return transmitting_share > 0.0; }
 };
 
 // One walk over lights and triangles.
 [[nodiscard]] Needs take_census(const Scene& scene);
+
+// After a change of lights alone: what `needs` says of them, anew; the triangles are not walked.
+void recount_lights(const Scene& scene, Needs& needs);
 
 }  // namespace pinocchio

@@ -29,6 +29,7 @@ struct PreparedScene {
 
   PreparedScene(Scene s, Sides sides, const BuildOptions& tree, std::optional<Isa> isa)
       : scene(std::move(s)) {
+    drop_idle_casters(scene);
     if (sides.cpu) tracer = std::make_shared<const Tracer>(scene, tree, isa);
     if (sides.gpu) gpu.emplace(scene);
   }
@@ -43,6 +44,7 @@ struct PreparedScene {
   // Changes the lights in place; no frame in flight may be using it.
   void relight(std::vector<Light> lights) {
     scene.lights = std::move(lights);
+    drop_idle_casters(scene);
     if (gpu) gpu->relight(scene);
   }
 

@@ -2,6 +2,7 @@
 
 #include "core/reference/reference.h"
 #include "core/trace/view.h"
+#include "hybrid/trace_answer.h"
 
 namespace pinocchio {
 namespace {
@@ -29,21 +30,13 @@ FrameRecord raytrace(const FrameRequest& request, Workers& workers, Picture& pic
   if (request.plan.precise) return raytrace_precise(request, workers, picture);
   FrameRecord record;
   record.frame.begin_s = now_s();
-  const Plan& plan = request.plan;
-  const TraceJob job{request.scene->scene, request.scene->required_tracer(), workers, view_of(request)};
+  const TraceJob job = trace_job(request, view_of(request), workers);
   {
     const StageTimer timer(record, Stage::raster);
     picture.ids = Image<std::uint32_t>(request.part.size());
     record.rays += trace_visibility(job, picture.ids);
   }
-  if (plan.mask_bits > 0) {
-    const StageTimer timer(record, Stage::trace_shadow);
-    record.rays += trace_shadow_mask(job, picture.ids, plan.mask_bits, picture.mask);
-  }
-  if (plan.reflects()) {
-    const StageTimer timer(record, Stage::trace_reflection);
-    record.rays += trace_reflection(job, picture.ids, plan.depth, picture.reflection);
-  }
+  trace_answer(request, job.view, workers, picture.ids, picture.mask, picture.reflection, record);
   {
     const StageTimer timer(record, Stage::composite);
     shade(job, picture.ids, picture.mask, picture.reflection, picture.color);

@@ -16,11 +16,11 @@ inline constexpr std::array<std::string_view, 7> kStageNames{
     "raster", "readback", "trace_shadow", "trace_reflection", "upload", "composite", "present"};
 
 // What travels: the first four from GPU to CPU, the others back.
-enum class Transfer { ids, normals, gbuffer, phong, mask, reflection, picture };
-inline constexpr std::array<std::string_view, 7> kTransferNames{"ids",  "normals",    "gbuffer", "phong",
-                                                                "mask", "reflection", "picture"};
+enum class Transfer { ids, normals, gbuffer, phong, traced_ids, mask, reflection, picture };
+inline constexpr std::array<std::string_view, 8> kTransferNames{
+    "ids", "normals", "gbuffer", "phong", "traced_ids", "mask", "reflection", "picture"};
 [[nodiscard]] inline bool goes_to_cpu(Transfer transfer) {
-  return transfer < Transfer::mask;
+  return transfer < Transfer::traced_ids;
 }
 
 // The steady clock, seconds, to which gl::GpuClock turns the GPU's: the one time base of all stages.

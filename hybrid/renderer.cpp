@@ -2,6 +2,7 @@
 
 #include "hybrid/raytrace.h"
 #include "hybrid/shader_folder.h"
+#include "hybrid/trace_answer.h"
 
 namespace pinocchio {
 namespace {
@@ -21,6 +22,17 @@ std::size_t close_holes(Image<glm::vec4>& color) {
       ++holes;
     }
   return holes;
+}
+
+// Mask and reflection at every pixel.
+void take_answer(const Flight& frame, Picture& sample) {
+  const Plan& plan = frame.request.plan;
+  const glm::ivec2 size = frame.ids.size();
+  if (plan.mask_bits > 0)
+    sample.mask = plan.mask_scale == 1 ? frame.mask : enlarged(frame.mask, plan.mask_scale, size);
+  if (plan.reflects())
+    sample.reflection = plan.reflection_scale == 1 ? frame.reflection
+                                                   : enlarged(frame.reflection, plan.reflection_scale, size);
 }
 
 }  // namespace
@@ -51,10 +63,15 @@ void Renderer::submit_sample(const FrameRequest& request) {
     loop_->submit(request);
     return;
   }
-  Picture sample;
-  FrameRecord record = raytrace(request, workers_, sample);
+  FrameRecord record;
+  if (plan_.reuse && last_request_ == request) {
+    record.frame.begin_s = record.frame.end_s = now_s();
+  } else {
+    record = raytrace(request, workers_, last_sample_);
+    last_request_ = request;
+  }
   record.number = next_number_++;
-  if (settings_.pictures) add_sample(std::move(sample));
+  if (settings_.pictures) add_sample(Picture(last_sample_));
   sinks_.record(record);
 }
 
@@ -66,8 +83,7 @@ void Renderer::take(Flight& frame) {
   if (samples_ == 0) {
     FrameLoop::read_ids(frame);
     sample.ids = frame.ids;
-    if (frame.answered && plan_.mask_bits > 0) sample.mask = frame.mask;
-    if (frame.answered && plan_.reflects()) sample.reflection = frame.reflection;
+    if (frame.answered) take_answer(frame, sample);
   }
   add_sample(std::move(sample));
 }

@@ -50,9 +50,11 @@ class Renderer {
   Workers& workers_;
   Settings settings_;
   Sinks sinks_;
-  std::optional<FrameLoop> loop_;  // none where the CPU draws alone
-  std::uint64_t next_number_ = 0;  // of samples, where there is no loop
-  Picture picture_;                // of which samples_ samples are in
+  std::optional<FrameLoop> loop_;             // none where the CPU draws alone
+  std::uint64_t next_number_ = 0;             // of samples, where there is no loop
+  std::optional<FrameRequest> last_request_;  // likewise; last_sample_ is its picture, where the plan reuses
+  Picture last_sample_;
+  Picture picture_;  // of which samples_ samples are in
   int samples_ = 0;
 };
 

@@ -1,31 +1,44 @@
 #include "hybrid/shading_passes.h"
 
+#include "hybrid/formats.h"
+#include "hybrid/reflection_tiles.h"
 #include "hybrid/visibility_pass.h"
 
 namespace pinocchio {
 
 void ShadingPasses::composite(const Inputs& inputs, LightSet lights, const Traced& traced,
                               const gl::Framebuffer& target) {
+  const auto& [mask, reflection, of] = traced;
   Definitions definitions = definitions_of(inputs);
+  const auto define = [&](const std::string& name, int value) {
+    definitions.push_back(name + " " + std::to_string(value));
+  };
   if (lights == LightSet::free) definitions.emplace_back("FREE_LIGHTS_ONLY");
-  if (traced.mask) {
+  if (mask.texture) {
     definitions.emplace_back("HAS_MASK");
-    definitions.emplace_back("MASK_BITS " + std::to_string(traced.mask_bits));
+    define("MASK_BITS", mask.bits);
+    define("MASK_SCALE", mask.scale);
   }
-  if (traced.reflection) definitions.emplace_back("HAS_REFLECTION");
-  if (traced.reflection_format == ReflectionFormat::rgb8) definitions.emplace_back("REFLECTION_IS_SRGB");
-  if (traced.of) definitions.emplace_back("REPROJECT");
+  if (reflection.texture) {
+    definitions.emplace_back("HAS_REFLECTION");
+    define("REFLECTION_SCALE", reflection.scale);
+    define("REFLECTION_TEXELS", texel_format(reflection.format).texels);
+    if (reflection.format == ReflectionFormat::rgb8) definitions.emplace_back("REFLECTION_IS_SRGB");
+    if (reflection.index) define("REFLECTION_TILE", kReflectionTile);
+  }
+  if (of) definitions.emplace_back("REPROJECT");
 
   gl::begin_fullscreen_pass(target);
   const gl::Program& p = program("composite.frag", definitions);
   p.use();
   int unit = bind(p, inputs);
-  if (traced.mask) p.set("mask", unit++, *traced.mask);
-  if (traced.reflection) p.set("reflection", unit++, *traced.reflection);
-  if (traced.of) {
-    p.set("old_ids", unit++, traced.of->ids);
-    p.set("old_eye", traced.of->view.eye);
-    p.set("old_pixel_from_eye", glm::mat3(pixel_from_eye(traced.of->view)));
+  if (mask.texture) p.set("mask", unit++, *mask.texture);
+  if (reflection.texture) p.set("reflection", unit++, *reflection.texture);
+  if (reflection.index) p.set("reflection_tiles", unit++, *reflection.index);
+  if (of) {
+    p.set("old_ids", unit++, of->ids);
+    p.set("old_eye", of->view.eye);
+    p.set("old_pixel_from_eye", glm::mat3(pixel_from_eye(of->view)));
   }
   triangle_.draw();
 }

@@ -35,11 +35,19 @@ class ShadingPasses {
     const gl::Texture& ids;
     int id_bits;
   };
+  // The CPU's answer; what is null is not in it.
   struct Traced {
-    const gl::Texture* mask = nullptr;  // R8UI, MaskImage's packed rows; null: every light reaches all
-    int mask_bits = 0;
-    const gl::Texture* reflection = nullptr;  // three texels a pixel; null: none
-    ReflectionFormat reflection_format = ReflectionFormat::none;
+    struct Mask {
+      const gl::Texture* texture = nullptr;  // R8UI, MaskImage's packed rows; null: every light reaches all
+      int bits = 0;                          // a sample
+      int scale = 1;                         // one sample for scale x scale pixels
+    } mask;
+    struct Reflection {
+      const gl::Texture* texture = nullptr;
+      const gl::Texture* index = nullptr;  // where its tiles are; null: it is whole
+      ReflectionFormat format = ReflectionFormat::none;
+      int scale = 1;
+    } reflection;
     const OlderFrame* of = nullptr;  // whose they are; null: this frame's
   };
 

@@ -2,9 +2,9 @@
 // Phong per light times its mask bit, plus the traced reflection: the picture. Phong and composite are one
 // pass, as the mask weighs each light by itself and the sum of lights cannot be weighed afterwards.
 //   ID_BITS           16, 24 or 32
-//   HAS_MASK          the CPU's shadow mask, MASK_BITS a pixel; without it every light reaches everything
+//   HAS_MASK          the CPU's shadow mask; without it every light reaches everything
 //   FREE_LIGHTS_ONLY  lights that cast are left out: the CPU adds them (design 2)
-//   HAS_REFLECTION    the CPU's mirrored and refracted light; REFLECTION_IS_SRGB: in bytes
+//   HAS_REFLECTION    the CPU's mirrored and refracted light; traced_light.glsl has its formats
 //   HAS_TEXTURES      some material has a texture
 //   REPROJECT         mask and reflection are of an older frame, whose view and ids are given: each pixel
 //                     looks up where its point was seen then. Where that frame saw another triangle there,
@@ -17,17 +17,11 @@
 #include "shared/phong.glsl"
 #include "scene_fetch.glsl"
 #include "pixel_surface.glsl"
+#include "traced_light.glsl"
 
 uniform vec3 ambient_light;
 uniform int light_count;
-#ifdef HAS_MASK
-uniform usampler2D mask;
-#endif
-#ifdef HAS_REFLECTION
-uniform sampler2D reflection;
-#endif
 #ifdef REPROJECT
-uniform usampler2D old_ids;
 uniform vec3 old_eye;
 uniform mat3 old_pixel_from_eye;  // (p_world - old_eye) to pixel x, y times z, and z
 #endif
@@ -61,18 +55,32 @@ Source source_of(ivec2 pixel, uint id, vec3 p_world) {
 #endif
 }
 
-bool light_reaches(Source source, int slot) {
-  if (slot < 0) return true;
+// How much of a light reaches the pixel.
+struct Reach {
+  Source source;
+#ifdef HAS_MASK
+#if MASK_SCALE > 1
+  Samples samples;
+#endif
+#endif
+};
+
+float reach_of_light(Reach reach, int slot) {
+  if (slot < 0) return 1.0;
 #ifdef FREE_LIGHTS_ONLY
-  return false;
+  return 0.0;
 #endif
 #ifdef HAS_MASK
-  if (source.hole) return true;
-  int bit = source.pixel.x * MASK_BITS + slot;
-  uint byte_of_mask = texelFetch(mask, ivec2(bit / 8, source.pixel.y), 0).r;
-  return (byte_of_mask >> uint(bit % 8) & 1u) != 0u;
+  if (reach.source.hole) return 1.0;
+#if MASK_SCALE > 1
+  float sum = 0.0;
+  for (int k = 0; k < 4; ++k) sum += reach.samples.weight[k] * mask_bit(reach.samples.at[k], slot);
+  return sum;
 #else
-  return true;
+  return mask_bit(reach.source.pixel, slot);
+#endif
+#else
+  return 1.0;
 #endif
 }
 
@@ -85,19 +93,23 @@ void main() {
   PixelSurface s = surface_of(id, pixel);
   PhongParams material = fetch_material(id, s.corners, s.weights);
   Source source = source_of(pixel, id, s.p_world);
+  Reach reach;
+  reach.source = source;
+#ifdef HAS_MASK
+#if MASK_SCALE > 1
+  reach.samples = samples_near(source.pixel, id, MASK_SCALE);
+#endif
+#endif
   vec3 sum = phong_ambient(material, ambient_light);
   for (int i = 0; i < light_count; ++i) {
-    if (!light_reaches(source, fetch_mask_slot(i))) continue;
+    float share = reach_of_light(reach, fetch_mask_slot(i));
+    if (share == 0.0) continue;
     Incident incident = incident_light(fetch_light(i), s.p_world);
     if (!faces_light(s.n.shading, s.n.geometric, incident.to_light)) continue;
-    sum += phong_light(material, incident, s.n.shading, s.to_viewer);
+    sum += share * phong_light(material, incident, s.n.shading, s.to_viewer);
   }
 #ifdef HAS_REFLECTION
-#ifdef REFLECTION_IS_SRGB
-  sum += linear_from_srgb(fetch_rgb(reflection, source.pixel));
-#else
-  sum += fetch_rgb(reflection, source.pixel);
-#endif
+  sum += reflected_light(source.pixel, id);
 #endif
   // Alpha 1/2 marks a hole.
   color = vec4(min(sum, kLargestHalf), source.hole ? 0.5 : 1.0);

@@ -18,9 +18,6 @@ void LiveScene::set_lights(const std::vector<Light>& lights, bool casting) {
   std::vector<Light> wanted = lights;
   if (!casting)
     for (Light& light : wanted) light.casts_shadow = false;
-  needs_.lights = static_cast<int>(wanted.size());
-  needs_.casting_lights = static_cast<int>(
-      std::count_if(wanted.begin(), wanted.end(), [](const Light& light) { return light.casts_shadow; }));
   // One reference is the list's own.
   const auto unused = std::find_if(all_.begin(), all_.end(), [this](const std::shared_ptr<PreparedScene>& s) {
     return s != shown_ && s.use_count() == 1;
@@ -32,6 +29,7 @@ void LiveScene::set_lights(const std::vector<Light>& lights, bool casting) {
     shown_ = std::make_shared<PreparedScene>(*shown_, std::move(wanted));
     all_.push_back(shown_);
   }
+  recount_lights(shown_->scene, needs_);
 }
 
 }  // namespace pinocchio::app

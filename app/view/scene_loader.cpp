@@ -32,6 +32,7 @@ struct SceneLoader::Job {
     begin_phase("reading " + options.scene);
     Scene read = load_scene_for(options);
     const Camera camera = camera_for(options, read);
+    const std::vector<Light> lights = read.lights;
     const auto scene =
         std::make_shared<PreparedScene>(std::move(read), Sides{false, false}, options.tree, options.isa);
     begin_phase("building the tree of " + std::to_string(scene->scene.triangles.size()) + " triangles");
@@ -39,6 +40,7 @@ struct SceneLoader::Job {
       const std::scoped_lock lock(mutex);
       news.scene = scene;
       news.camera = camera;
+      news.lights = lights;
     }
     auto tracer = std::make_shared<const Tracer>(scene->scene, options.tree, options.isa);
     begin_phase({});

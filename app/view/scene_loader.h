@@ -24,6 +24,7 @@ class SceneLoader {
   struct News {
     std::shared_ptr<PreparedScene> scene;  // read: without tree, with GPU buffers
     Camera camera;                         // that the options ask for in it
+    std::vector<Light> lights;             // as they were read: also those that reach nothing may cast
     std::shared_ptr<const Tracer> tracer;  // its tree is built
     std::string error;                     // one line: it could not be loaded
     ExitCode code = kDone;                 // what the error would end a verb with

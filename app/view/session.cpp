@@ -7,6 +7,7 @@
 #include "app/console.h"
 #include "app/errors.h"
 #include "app/view/overlay.h"
+#include "hybrid/plan_json.h"
 #include "hybrid/shader_folder.h"
 
 namespace pinocchio::app {
@@ -20,7 +21,9 @@ ViewSettings settings_of(const ViewOptions& options) {
   settings.mode = options.draw.mode;
   settings.design = options.draw.design;
   settings.exchange = options.draw.exchange.value_or(Exchange::pipelined);
-  settings.slides = options.draw.slides;
+  settings.has_plan_file = !options.draw.plan_file.empty();
+  if (settings.has_plan_file) settings.plan = PlanSource::file;
+  if (options.draw.slides) settings.plan = PlanSource::slides;
   settings.depth = options.draw.depth;
   settings.exposure_ev = options.exposure_ev;
   settings.vsync = options.vsync;
@@ -147,7 +150,7 @@ void Session::take_news() {
     model_.camera.set_scene(news.scene->scene.bounds());
     if (!again) model_.camera.set_camera(news.camera);
     first_camera_ = news.camera;
-    model_.lights = applied_lights_ = news.scene->scene.lights;
+    model_.lights = applied_lights_ = news.lights;
     model_.lights_changed = !model_.settings.shadows;
     model_.error.clear();
     model_.history.clear();
@@ -156,11 +159,21 @@ void Session::take_news() {
   if (news.tracer) model_.scene.set_tracer(news.tracer);
 }
 
+Expected<Plan> Session::plan_for(const ViewSettings& settings) const {
+  const bool has_tree = model_.scene.shown()->tracer != nullptr;
+  if (settings.plan == PlanSource::file && has_tree)
+    return load_plan(options_.draw.plan_file, model_.scene.needs());
+  PlanRequest request = plan_request(settings);
+  if (!has_tree) request.mode = Mode::raster;  // until it is built
+  request.software_gl = window_.context().info().software;
+  request.keeps_mask = false;
+  request.size = picture_size();
+  return make_plan(model_.scene.needs(), request);
+}
+
 // A plan for the settings and lights; where there is none, the error is shown.
 bool Session::try_plan(const ViewSettings& settings) {
-  PlanRequest request = plan_request(settings);
-  if (!model_.scene.shown()->tracer) request.mode = Mode::raster;  // until the tree is built
-  const Expected<Plan> plan = make_plan(model_.scene.needs(), request);
+  const Expected<Plan> plan = plan_for(settings);
   if (plan) {
     model_.plan = *plan;
   } else {
@@ -192,9 +205,13 @@ void Session::apply_changes() {
   (void)try_plan(wanted);
 }
 
-FrameRequest Session::next_request() const {
+glm::ivec2 Session::picture_size() const {
   const glm::vec2 wanted = glm::round(glm::vec2(window_.pixels()) * applied_.scale);
-  const glm::ivec2 size = glm::clamp(glm::ivec2(wanted), glm::ivec2(1), glm::ivec2(kMaxSide));
+  return glm::clamp(glm::ivec2(wanted), glm::ivec2(1), glm::ivec2(kMaxSide));
+}
+
+FrameRequest Session::next_request() const {
+  const glm::ivec2 size = picture_size();
   return {model_.scene.shown(), model_.plan, model_.camera.camera(), size, {{0, 0}, size}, glm::vec2(0.0f)};
 }
 

@@ -32,8 +32,10 @@ class Session {
   void perform_setting(Action action);
   void take_news();
   void apply_changes();
+  [[nodiscard]] Expected<Plan> plan_for(const ViewSettings& settings) const;
   [[nodiscard]] bool try_plan(const ViewSettings& settings);
   void draw();
+  [[nodiscard]] glm::ivec2 picture_size() const;
   [[nodiscard]] FrameRequest next_request() const;
   void take_painted(const Painted& painted);
   void show(const gl::Texture* picture);

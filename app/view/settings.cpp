@@ -36,7 +36,7 @@ void change_setting(Action action, ViewSettings& s) {
       s.exchange = next(s.exchange, s.design == 2 ? 2 : 3);  // design 2 has nothing to reproject
       break;
     case Action::next_plan:
-      toggle(s.slides);
+      s.plan = next(s.plan, s.has_plan_file ? 3 : 2);
       break;
     case Action::shadows:
       toggle(s.shadows);
@@ -84,7 +84,8 @@ PlanRequest plan_request(const ViewSettings& settings) {
   request.mode = settings.mode;
   request.design = settings.design;
   request.depth = settings.reflections ? settings.depth : 0;
-  request.slides = settings.slides;
+  request.slides = settings.plan == PlanSource::slides;
+  request.reprojects = settings.exchange == Exchange::reproject;
   return request;
 }
 

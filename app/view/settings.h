@@ -6,12 +6,19 @@
 
 namespace pinocchio::app {
 
+enum class PlanSource {
+  automatic,  // what the scene needs
+  slides,
+  file,  // of the command line; says mode, design and depth, too
+};
+
 // What a person at the window can change while it draws.
 struct ViewSettings {
   Mode mode = Mode::hybrid;
   int design = 1;
   Exchange exchange = Exchange::pipelined;
-  bool slides = false;
+  PlanSource plan = PlanSource::automatic;
+  bool has_plan_file = false;
   bool shadows = true;  // off: no light casts
   bool reflections = true;
   int depth = 8;

@@ -12,6 +12,8 @@ struct Camera {
   glm::vec3 target{0.0f};
   glm::vec3 up{0.0f, 1.0f, 0.0f};
   float fov_deg = 45.0f;  // vertical field of view
+
+  friend bool operator==(const Camera&, const Camera&) = default;
 };
 
 // A camera's orthonormal axes, right-handed: right x up = -forward.

@@ -19,6 +19,25 @@ std::vector<int> mask_slots(const Scene& scene) {
   return slots;
 }
 
+bool reaches(const Light& light, const Bounds& box) {
+  if (box.empty() || light.color * light.intensity == glm::vec3(0.0f)) return false;
+  if (light.kind == Light::Kind::directional) return true;
+  if (glm::distance(light.position, glm::clamp(light.position, box.lo, box.hi)) > light.range) return false;
+  if (light.kind == Light::Kind::point) return true;
+  // The cone against the ball around the box.
+  const glm::vec3 to_center = box.center() - light.position;
+  const float distance = glm::length(to_center), radius = 0.5f * box.diagonal();
+  if (distance <= radius) return true;
+  constexpr float kSlack = 1e-3f;  // radians: far beyond any rounding
+  const float angle = std::acos(glm::clamp(glm::dot(to_center / distance, light.direction), -1.0f, 1.0f));
+  return angle - std::asin(radius / distance) <= std::acos(glm::clamp(light.cos_outer, -1.0f, 1.0f)) + kSlack;
+}
+
+void drop_idle_casters(Scene& scene) {
+  const Bounds box = scene.bounds();
+  for (Light& light : scene.lights) light.casts_shadow = light.casts_shadow && reaches(light, box);
+}
+
 const Camera* find_camera(const Scene& scene, const std::string& name) {
   const auto found = std::find_if(scene.cameras.begin(), scene.cameras.end(),
                                   [&name](const Camera& camera) { return camera.name == name; });

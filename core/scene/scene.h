@@ -53,6 +53,13 @@ struct Scene {
 // The other way round: each light's mask slot, -1 where it does not cast.
 [[nodiscard]] std::vector<int> mask_slots(const Scene& scene);
 
+// Whether any of the box may be lit by it. False only where surely none is: no radiance, out of range, or
+// outside the spot's cone.
+[[nodiscard]] bool reaches(const Light& light, const Bounds& box);
+
+// Lights that reach nothing cast nothing: no mask slot is spent on them.
+void drop_idle_casters(Scene& scene);
+
 // First camera named `name`, else nullptr.
 [[nodiscard]] const Camera* find_camera(const Scene& scene, const std::string& name);
 

@@ -9,6 +9,7 @@
 #include "core/parallel/workers.h"
 #include "core/scene/scene.h"
 #include "core/trace/mask_image.h"
+#include "core/trace/scatter.h"
 #include "core/trace/shared.h"
 #include "core/trace/tracer.h"
 
@@ -32,14 +33,18 @@ struct TraceJob {
   const Tracer& tracer;
   Workers& workers;
   shared::ViewParams view;
+  // Light that a ray brings its pixel, linear, below which it is not fired: mirrored and refracted rays and
+  // the shadow rays of what they see; and shadow rays of visible points (0: all are fired, so that every bit
+  // of the mask is true).
+  float least_contribution = kLeastContribution, least_light = 0.0f;
 };
 
 // The triangle that each pixel's centre sees (kNoTriangle: none), by rays. ids: any size.
 RayCounts trace_visibility(const TraceJob& job, Image<std::uint32_t>& ids);
 
 // Bit i of a pixel: the casting light in mask slot i reaches the visible point. 0 where nothing is seen
-// or the surface faces away. mask is resized to ids' size and `bits` a pixel (1, 2, 4 or 8, no fewer than
-// lights that cast).
+// or the surface faces away, or the light brings less than job.least_light. mask is resized to ids' size and
+// `bits` a pixel (1, 2, 4 or 8, no fewer than lights that cast).
 RayCounts trace_shadow_mask(const TraceJob& job, const Image<std::uint32_t>& ids, int bits, MaskImage& mask);
 
 // Mirrored plus refracted light of every pixel, linear, without the direct light of the visible point

@@ -25,6 +25,10 @@ struct Lights {
   std::vector<bool> casts;
 };
 
+float brightest(const glm::vec3& light) {
+  return std::max({light.r, light.g, light.b});
+}
+
 Lights all_lights(const Scene& scene) {
   Lights lights;
   for (const Light& light : scene.lights) {
@@ -49,6 +53,8 @@ class DirectLight {
           shared::phong_light(surface.phong, incident, surface.n_shading, surface.to_viewer);
       if (!lights_.casts[i]) {
         sum += term;
+      } else if (brightest(weight * term) < job_.least_contribution) {
+        continue;
       } else if (const std::optional<Ray> ray = shadow_ray(light, surface)) {
         rays_.push_back(*ray);
         waiting_.push_back({weight * term, pixel});
@@ -89,7 +95,8 @@ std::vector<PathRay> first_generation(const TraceJob& job, const Image<std::uint
     if (id == kNoTriangle || !job.scene.material_of(id).spawns_rays()) return;
     const Ray ray = pixel_ray(job.view, x, y);
     const Surface surface = surface_at(job.scene, id, ray.origin, ray.direction);
-    scatter(surface, glm::vec3(1.0f), static_cast<std::uint32_t>(ids.index(x, y)), queue);
+    scatter(surface, glm::vec3(1.0f), static_cast<std::uint32_t>(ids.index(x, y)), job.least_contribution,
+            queue);
   });
   return queue;
 }
@@ -110,7 +117,8 @@ std::vector<PathRay> trace_queue(const TraceJob& job, const Lights& lights, cons
     const PathRay& path = queue[k];
     const Surface surface = surface_at(job.scene, hits[k].triangle, path.ray.origin, path.ray.direction);
     direct.add(surface, path.weight, path.pixel, radiance);
-    if (!last && surface.material->spawns_rays()) scatter(surface, path.weight, path.pixel, next);
+    if (!last && surface.material->spawns_rays())
+      scatter(surface, path.weight, path.pixel, job.least_contribution, next);
   }
   counters.shadow += direct.finish(radiance);
   return next;

@@ -7,8 +7,8 @@ namespace pinocchio {
 namespace {
 
 void push(const Surface& surface, const glm::vec3& direction, const glm::vec3& weight, std::uint32_t pixel,
-          bool refracted, std::vector<PathRay>& out) {
-  if (std::max({weight.x, weight.y, weight.z}) < kLeastContribution) return;
+          bool refracted, float least, std::vector<PathRay>& out) {
+  if (std::max({weight.x, weight.y, weight.z}) < least) return;
   out.push_back({{offset_origin(surface, direction), kInfinity, direction}, weight, pixel, refracted});
 }
 
@@ -39,21 +39,21 @@ float fresnel_dielectric(float cos_in, float eta) {
   return 0.5f * (parallel * parallel + perpendicular * perpendicular);
 }
 
-void scatter(const Surface& surface, const glm::vec3& weight, std::uint32_t pixel,
+void scatter(const Surface& surface, const glm::vec3& weight, std::uint32_t pixel, float least,
              std::vector<PathRay>& out) {
   const Material& m = *surface.material;
   const float cos_in = std::clamp(glm::dot(surface.n_shading, surface.to_viewer), 0.0f, 1.0f);
   if (m.transmits()) {
     const float eta = surface.leaving ? 1.0f / m.ior : m.ior;
     const float share = fresnel_dielectric(cos_in, eta);
-    push(surface, mirrored(surface), weight * share, pixel, false, out);
+    push(surface, mirrored(surface), weight * share, pixel, false, least, out);
     const glm::vec3 through = refracted(surface, eta);
     if (through != glm::vec3(0.0f))
-      push(surface, through, weight * (1.0f - share) * m.transmittance, pixel, true, out);
+      push(surface, through, weight * (1.0f - share) * m.transmittance, pixel, true, least, out);
   } else if (m.reflects()) {
     const float grazing = m.fresnel ? std::pow(1.0f - cos_in, 5.0f) : 0.0f;
     push(surface, mirrored(surface), weight * (m.reflectance + (1.0f - m.reflectance) * grazing), pixel,
-         false, out);
+         false, least, out);
   }
 }
 

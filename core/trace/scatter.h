@@ -21,10 +21,12 @@ struct PathRay {
 // black (slope 12.92).
 inline constexpr float kLeastContribution = 0x1p-13f;
 
-// Appends the mirrored and the refracted ray that leave the surface, each with its share of `weight`.
+// Appends the mirrored and the refracted ray that leave the surface, each with its share of `weight`, unless
+// that is below `least` in every colour.
 // Dielectrics share by Fresnel's equations (all is mirrored beyond the critical angle); opaque mirrors
 // have a constant reflectance or Schlick's.
-void scatter(const Surface& surface, const glm::vec3& weight, std::uint32_t pixel, std::vector<PathRay>& out);
+void scatter(const Surface& surface, const glm::vec3& weight, std::uint32_t pixel, float least,
+             std::vector<PathRay>& out);
 
 // Share of unpolarised light that a smooth dielectric mirrors (Fresnel). eta: index of the side the
 // light goes to over the side it comes from; cos_in in [0, 1].

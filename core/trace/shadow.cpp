@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <array>
 #include <atomic>
 #include <cassert>
@@ -18,8 +19,19 @@ struct LightRays {
 
 using Slots = std::vector<shared::LightParams>;
 
-void collect(const Slots& lights, const Surface& surface, glm::ivec2 pixel, std::span<LightRays> out) {
+// No less than what the light brings the point, in its brightest colour: Phong's terms with cosine and
+// highlight at their greatest.
+float most_light(const shared::LightParams& light, const Surface& surface) {
+  const shared::Incident incident = shared::incident_light(light, surface.p_world);
+  const float n_dot_l = std::max(glm::dot(surface.n_shading, incident.to_light), 0.0f);
+  const glm::vec3 most = incident.radiance * (surface.phong.diffuse * n_dot_l + surface.phong.specular);
+  return std::max({most.r, most.g, most.b});
+}
+
+void collect(const Slots& lights, const Surface& surface, glm::ivec2 pixel, float least_light,
+             std::span<LightRays> out) {
   for (std::size_t slot = 0; slot < lights.size(); ++slot) {
+    if (least_light > 0.0f && most_light(lights[slot], surface) < least_light) continue;
     if (const std::optional<Ray> ray = shadow_ray(lights[slot], surface)) {
       out[slot].rays.push_back(*ray);
       out[slot].pixels.push_back(pixel);
@@ -45,7 +57,8 @@ RayCounts trace_shadow_mask(const TraceJob& job, const Image<std::uint32_t>& ids
       const std::uint32_t id = ids.at(x, y);
       if (id == kNoTriangle) return;
       const Ray ray = pixel_ray(job.view, x, y);
-      collect(lights, surface_at(job.scene, id, ray.origin, ray.direction), {x, y}, by_light);
+      collect(lights, surface_at(job.scene, id, ray.origin, ray.direction), {x, y}, job.least_light,
+              by_light);
     });
     std::vector<std::uint8_t> blocked;
     for (std::size_t slot = 0; slot < lights.size(); ++slot) {

@@ -20,7 +20,7 @@ Surface surface_seen_at(float angle, const Material& material, bool leaving = fa
 
 std::vector<PathRay> scattered(const Surface& surface) {
   std::vector<PathRay> rays;
-  scatter(surface, glm::vec3(1.0f), 0, rays);
+  scatter(surface, glm::vec3(1.0f), 0, kLeastContribution, rays);
   return rays;
 }
 

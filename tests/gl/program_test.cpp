@@ -38,8 +38,11 @@ TEST_P(ProgramTest, EveryShaderCompilesInEveryVariant) {
     for (const char* file : {"composite.frag", "gbuffer.frag", "show.frag"})
       EXPECT_NO_THROW(gl::Program(kShaders, "fullscreen.vert", file, {bits}));
     for (std::vector<std::string> definitions : std::initializer_list<std::vector<std::string>>{
-             {"HAS_MASK", "MASK_BITS 1"},
-             {"HAS_MASK", "MASK_BITS 8", "HAS_REFLECTION", "REPROJECT"},
+             {"HAS_MASK", "MASK_BITS 1", "MASK_SCALE 1"},
+             {"HAS_MASK", "MASK_BITS 8", "MASK_SCALE 1", "HAS_REFLECTION", "REFLECTION_SCALE 1",
+              "REFLECTION_TEXELS 3", "REPROJECT"},
+             {"HAS_MASK", "MASK_BITS 2", "MASK_SCALE 4", "HAS_REFLECTION", "REFLECTION_SCALE 2",
+              "REFLECTION_TEXELS 1", "REFLECTION_TILE 16"},
              {"HAS_TEXTURES", "FREE_LIGHTS_ONLY"}}) {
       definitions.emplace_back(bits);
       EXPECT_NO_THROW(gl::Program(kShaders, "fullscreen.vert", "composite.frag", definitions));

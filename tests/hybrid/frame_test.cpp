@@ -113,9 +113,11 @@ class LoopTest : public GlTest {
         std::make_shared<const PreparedScene>(scene, sides_of(plan), BuildOptions{}, std::optional<Isa>()));
     return scenes_.back();
   }
-  static FrameRequest request(const std::shared_ptr<const PreparedScene>& scene, const Plan& plan,
-                              glm::ivec2 size) {
-    return {scene, plan, first_camera(scene->scene), size, {{0, 0}, size}, glm::vec2(0.0f)};
+  // The camera moves a little each time: no frame is the last one again.
+  FrameRequest request(const std::shared_ptr<const PreparedScene>& scene, const Plan& plan, glm::ivec2 size) {
+    FrameRequest next{scene, plan, first_camera(scene->scene), size, {{0, 0}, size}, glm::vec2(0.0f)};
+    next.camera.eye.x += 1e-3f * static_cast<float>(++requests_);
+    return next;
   }
 
   struct Delivery {
@@ -135,6 +137,7 @@ class LoopTest : public GlTest {
     deliveries_.push_back(std::move(delivery));
   }
   std::vector<std::shared_ptr<const PreparedScene>> scenes_;
+  int requests_ = 0;
 };
 INSTANTIATE_TEST_SUITE_P(Backends, LoopTest, kBackends, backend_name);
 
@@ -162,7 +165,8 @@ TEST_P(LoopTest, DeliversEachFrameOnceInOrderTwoFramesLater) {
     }
     EXPECT_EQ(records_[i][Transfer::ids], 96u * 64 * 2);
     EXPECT_EQ(records_[i][Transfer::mask], 96u / 8 * 64);
-    EXPECT_EQ(records_[i][Transfer::reflection], 96u * 64 * 6);
+    EXPECT_GT(records_[i][Transfer::reflection], 0u);
+    EXPECT_LT(records_[i][Transfer::reflection], 96u * 64 * 6);
     EXPECT_GT(records_[i].rays.shadow, 0u);
     EXPECT_GT(records_[i].frame.ms(), 0.0);
   }
@@ -235,7 +239,8 @@ TEST_P(LoopTest, RecordsHoldTheBytesOfThePlan) {
   const Scene scene = load_or_die(source_path("scenes/cornell"));
   for (const int design : {1, 2})
     for (const bool slides : {false, true}) {
-      const Plan plan = *make_plan(take_census(scene), {.design = design, .slides = slides});
+      Plan plan = *make_plan(take_census(scene), {.design = design, .slides = slides});
+      plan.tiles = false;  // whose bytes depend on the picture (economy_test)
       records_.clear();
       loop_->submit(request(prepare(scene, plan), plan, {80, 60}));
       loop_->drain();

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -27,22 +28,29 @@ struct DrawRequest {
   int threads = 2;
   int spp = 1;
   std::string backend = "egl";
+  std::optional<Plan> plan{};  // instead of one made for the above
 };
 
 // One picture a camera.
 inline std::vector<Picture> draw_all(const Scene& scene, const DrawRequest& request,
-                                     const std::vector<Camera>& cameras) {
-  const auto context =
-      request.mode == Mode::raytrace ? nullptr : gl::open_context({request.backend, "", true});
+                                     const std::vector<Camera>& cameras,
+                                     std::vector<FrameRecord>* records = nullptr) {
   Workers workers(request.threads);
-  const Plan plan = make_plan(take_census(scene), {request.mode, request.design, 8, request.slides}).value();
+  const Plan plan =
+      request.plan ? *request.plan
+                   : make_plan(take_census(scene),
+                               {.mode = request.mode, .design = request.design, .slides = request.slides})
+                         .value();
+  const auto context = plan.mode == Mode::raytrace ? nullptr : gl::open_context({request.backend, "", true});
   const auto prepared =
       std::make_shared<const PreparedScene>(scene, sides_of(plan), BuildOptions{}, std::optional<Isa>());
   std::vector<Picture> pictures;
   {
-    Renderer renderer(
-        prepared, plan, workers, {request.exchange, request.mapping, request.spp},
-        {[&](Picture&& picture) { pictures.push_back(std::move(picture)); }, [](const FrameRecord&) {}});
+    Renderer renderer(prepared, plan, workers, {request.exchange, request.mapping, request.spp},
+                      {[&](Picture&& picture) { pictures.push_back(std::move(picture)); },
+                       [&](const FrameRecord& record) {
+                         if (records) records->push_back(record);
+                       }});
     const PixelBox whole{{0, 0}, request.size};
     for (const Camera& camera : cameras)
       renderer.submit({camera, request.size, request.part.empty() ? whole : request.part});

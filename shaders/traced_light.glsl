@@ -1,0 +1,98 @@
+// What the CPU traced for a pixel: mask and reflection, looked up where the composite says. Expects
+// pixel_surface.glsl and scene_fetch.glsl before it.
+//   HAS_MASK        MASK_BITS a sample, one sample for MASK_SCALE x MASK_SCALE pixels
+//   HAS_REFLECTION  one sample for REFLECTION_SCALE x REFLECTION_SCALE pixels, of REFLECTION_TEXELS texels;
+//                   REFLECTION_IS_SRGB: in bytes; REFLECTION_TILE: only tiles of so many samples a side that
+//                   have some light in them, and an index that says where each is
+
+#ifdef REPROJECT
+uniform usampler2D old_ids;
+#define traced_ids old_ids
+#else
+#define traced_ids ids
+#endif
+
+#ifdef HAS_MASK
+uniform usampler2D mask;
+#endif
+#ifdef HAS_REFLECTION
+uniform sampler2D reflection;
+#ifdef REFLECTION_TILE
+uniform usampler2D reflection_tiles;
+#endif
+#endif
+
+// The four samples around a pixel, where there is one for scale x scale pixels. Near ones count more; of
+// them those that saw the pixel's own triangle most, then its material, and others only where there is no
+// such one (joint bilateral upsampling: Kopf et al. 2007).
+struct Samples {
+  ivec2 at[4];
+  float weight[4];  // adding up to 1
+};
+
+uint material_of(uint id) {
+  return texelFetch(triangle_materials, int(id)).r;
+}
+
+float likeness(uint a, uint b) {
+  if (a == b) return 1.0;
+  if (a == kNoTriangle) return 1e-8;
+  return material_of(a) == material_of(b) ? 0.1 : 1e-4;
+}
+
+Samples samples_near(ivec2 pixel, uint id, int scale) {
+  ivec2 last = (textureSize(traced_ids, 0) - 1) / scale;
+  ivec2 first = pixel / scale;
+  vec2 part = vec2(pixel - scale * first) / float(scale);
+  Samples s;
+  float sum = 0.0;
+  for (int k = 0; k < 4; ++k) {
+    ivec2 step_to = ivec2(k & 1, k >> 1);
+    s.at[k] = min(first + step_to, last);
+    vec2 near = mix(1.0 - part, part, vec2(step_to));
+    s.weight[k] = (near.x * near.y + 1e-6) * likeness(fetch_id(traced_ids, s.at[k] * scale), id);
+    sum += s.weight[k];
+  }
+  for (int k = 0; k < 4; ++k) s.weight[k] /= sum;
+  return s;
+}
+
+#ifdef HAS_MASK
+float mask_bit(ivec2 at, int slot) {
+  int bit = at.x * MASK_BITS + slot;
+  uint byte_of_mask = texelFetch(mask, ivec2(bit / 8, at.y), 0).r;
+  return float(byte_of_mask >> uint(bit % 8) & 1u);
+}
+#endif
+
+#ifdef HAS_REFLECTION
+vec3 reflection_at(ivec2 at) {
+#ifdef REFLECTION_TILE
+  ivec2 cell = at / REFLECTION_TILE;
+  uint tile = texelFetch(reflection_tiles, cell, 0).r;
+  if (tile == 0xffffffffu) return vec3(0.0);
+  int columns = textureSize(reflection_tiles, 0).x;
+  at += REFLECTION_TILE * (ivec2(int(tile) % columns, int(tile) / columns) - cell);
+#endif
+#if REFLECTION_TEXELS == 1
+  vec3 light = texelFetch(reflection, at, 0).rgb;
+#else
+  vec3 light = fetch_rgb(reflection, at);
+#endif
+#ifdef REFLECTION_IS_SRGB
+  light = linear_from_srgb(light);
+#endif
+  return light;
+}
+
+vec3 reflected_light(ivec2 pixel, uint id) {
+#if REFLECTION_SCALE == 1
+  return reflection_at(pixel);
+#else
+  Samples s = samples_near(pixel, id, REFLECTION_SCALE);
+  vec3 sum = vec3(0.0);
+  for (int k = 0; k < 4; ++k) sum += s.weight[k] * reflection_at(s.at[k]);
+  return sum;
+#endif
+}
+#endif
