@@ -165,8 +165,7 @@ void Window::set_vsync(bool on) {
 
 void Window::present() {
   glfwSwapBuffers(handle());
-  if (glGetGraphicsResetStatus && glGetGraphicsResetStatus() != GL_NO_ERROR)
-    throw Error("the GPU was reset and its context is lost; start again");
+  if (context_lost()) throw Error("the GPU was reset and its OpenGL context is lost; start again");
 }
 
 }  // namespace pinocchio::gl

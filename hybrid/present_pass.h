@@ -1,18 +1,17 @@
 #pragma once
 
-#include <filesystem>
+#include <memory>
 
 #include "core/parallel/tiles.h"
 #include "gl/draw.h"
-#include "gl/program.h"
+#include "hybrid/programs.h"
 
 namespace pinocchio {
 
 // reads: a picture. writes: the window, as a display shows it.
 class PresentPass {
  public:
-  explicit PresentPass(const std::filesystem::path& shaders)
-      : program_(shaders, "fullscreen.vert", "present.frag") {}
+  explicit PresentPass(std::shared_ptr<Programs> programs) : programs_(std::move(programs)) {}
 
   // picture: linear light, row 0 on top; it is stretched over the whole window, of which `box` (pixels, from
   // the top left) is drawn. exposure_ev: stops brighter.
@@ -22,7 +21,7 @@ class PresentPass {
   void clear(glm::ivec2 window_pixels) const;
 
  private:
-  gl::Program program_;
+  std::shared_ptr<Programs> programs_;
   gl::FullscreenTriangle triangle_;
 };
 

@@ -63,6 +63,7 @@ void Renderer::submit_sample(const FrameRequest& request) {
     record.frame.begin_s = record.frame.end_s = now_s();
   } else {
     record = raytrace(request, workers_, last_sample_);
+    last_sample_.plan = request.plan;
     last_request_ = request;
   }
   record.number = next_number_++;
@@ -78,6 +79,7 @@ void Renderer::take(Flight& frame) {
   if (samples_ == 0) {
     FrameLoop::read_ids(frame);
     sample.ids = frame.ids;
+    sample.plan = frame.request.plan;
     if (frame.answered) take_answer(frame, sample);
   }
   add_sample(std::move(sample));

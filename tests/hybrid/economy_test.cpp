@@ -262,7 +262,7 @@ TEST(ReflectionTiles, OnlyThoseWithLight) {
   // Two tiles side by side in the texture's first, incomplete row.
   const auto* light = reinterpret_cast<const glm::vec3*>(bytes.data());
   EXPECT_EQ(light[3 * 2 * kReflectionTile + 1], glm::vec3(1.0f, 2.0f, 3.0f));
-  EXPECT_EQ(light[3 * 2 * kReflectionTile + kReflectionTile + 1], glm::vec3(0.5f));
+  EXPECT_EQ(light[1 * 2 * kReflectionTile + kReflectionTile + 1], glm::vec3(0.5f));
 }
 
 }  // namespace
