@@ -135,7 +135,11 @@ bool Window::minimised() const {
 float Window::content_scale() const {
   float x = 1.0f, y = 1.0f;
   glfwGetWindowContentScale(handle(), &x, &y);
-  return x > 0.0f ? x : 1.0f;
+  // Where the display itself enlarges windows, their units are large already.
+  int width = 0;
+  glfwGetWindowSize(handle(), &width, nullptr);
+  const float pixels_a_unit = width > 0 ? static_cast<float>(pixels().x) / static_cast<float>(width) : 1.0f;
+  return x > 0.0f && pixels_a_unit > 0.0f ? x / pixels_a_unit : 1.0f;
 }
 
 bool Window::full_screen() const {
@@ -157,6 +161,10 @@ void Window::set_full_screen(bool on) {
 
 void Window::set_title(const std::string& title) {
   glfwSetWindowTitle(handle(), title.c_str());
+}
+
+void Window::set_clipboard(const std::string& text) {
+  glfwSetClipboardString(handle(), text.c_str());
 }
 
 void Window::set_vsync(bool on) {

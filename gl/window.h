@@ -71,11 +71,13 @@ class Window {
   void ask_close();
   [[nodiscard]] glm::ivec2 pixels() const;  // size of the framebuffer; 0 where it is minimised
   [[nodiscard]] bool minimised() const;
-  [[nodiscard]] float content_scale() const;  // of text and lines: 2 on a high-DPI display
+  // Of text and lines, against a usual display's: 2 on a high-DPI display.
+  [[nodiscard]] float content_scale() const;
   [[nodiscard]] bool full_screen() const;
   void set_full_screen(bool on);
   void set_title(const std::string& title);
   void set_vsync(bool on);
+  void set_clipboard(const std::string& text);
 
   // Shows what was drawn; with vsync, waits for the display. Throws Error where the GPU was reset or the
   // context lost.

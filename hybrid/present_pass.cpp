@@ -16,8 +16,8 @@ void PresentPass::draw(const gl::Texture& picture, glm::ivec2 window_pixels, con
   gl::end_window_pass();
 }
 
-void PresentPass::clear(glm::ivec2 window_pixels) const {
-  gl::begin_window_pass(window_pixels, {0, 0}, window_pixels);
+void PresentPass::clear(glm::ivec2 window_pixels, const PixelBox& box) const {
+  gl::begin_window_pass(window_pixels, box.lo, box.size());
   const gl::Program& program = programs_->get("fullscreen.vert", "present.frag");
   program.use();
   program.set("gain", 0.0f);

@@ -18,7 +18,8 @@ class PresentPass {
   void draw(const gl::Texture& picture, glm::ivec2 window_pixels, const PixelBox& box,
             float exposure_ev) const;
   // Nothing to see yet.
-  void clear(glm::ivec2 window_pixels) const;
+  void clear(glm::ivec2 window_pixels) const { clear(window_pixels, {{0, 0}, window_pixels}); }
+  void clear(glm::ivec2 window_pixels, const PixelBox& box) const;
 
  private:
   std::shared_ptr<Programs> programs_;

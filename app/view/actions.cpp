@@ -25,6 +25,8 @@ const std::vector<KeyBinding>& key_bindings() {
       {gl::kKeyMinus, "-", Action::darker, "half a stop darker"},
       {']', "]", Action::finer, "more pixels"},
       {'[', "[", Action::coarser, "fewer pixels"},
+      {'V', "V", Action::next_buffer, "look at ids, normals, mask, reflection, age"},
+      {'B', "B", Action::split, "beside the reference; its heat map; off"},
       {'N', "N", Action::accumulate, "a still camera gathers samples"},
       {'Y', "Y", Action::vsync, "wait for the display (vsync)"},
       {gl::kKeyF12, "F12", Action::screenshot, "screenshot: PNG of the window, EXR of the picture"},

@@ -23,6 +23,8 @@ enum class Action {
   darker,
   finer,
   coarser,
+  next_buffer,
+  split,
   accumulate,
   vsync,
   screenshot,

@@ -30,7 +30,8 @@ FileWatch::Stamps FileWatch::look() const {
     std::error_code gone;  // between listing and looking
     if (!at->is_regular_file(gone) || gone) continue;
     const std::string extension = at->path().extension().string();
-    if (!extensions_.empty() && std::find(extensions_.begin(), extensions_.end(), extension) == extensions_.end())
+    if (!extensions_.empty() &&
+        std::find(extensions_.begin(), extensions_.end(), extension) == extensions_.end())
       continue;
     const auto time = at->last_write_time(gone);
     const std::uintmax_t size = at->file_size(gone);

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <deque>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -31,7 +32,9 @@ struct Model {
   int samples = 0;  // gathered by the still camera
 
   SceneLoader::Progress loading;
-  std::string error;  // stays until it is mended
+  std::map<std::string, std::string> errors;  // by what failed; each stays until it is mended
+  std::string legend;                         // what the buffer's colours mean; empty: the picture is shown
+  std::string comparison;                     // with the reference, in words; empty: there is none
   std::deque<Notice> notices;
   std::vector<Action> asked;  // by the overlay's buttons
 

@@ -68,10 +68,11 @@ void draw_loading(const SceneLoader::Progress& loading, float scale) {
 }
 
 void draw_messages(Model& model) {
-  if (!model.error.empty()) {
+  if (!model.errors.empty()) {
     begin_message("error", 0.12f);
     ImGui::PushTextWrapPos(0.62f * ImGui::GetIO().DisplaySize.x);
-    ImGui::TextColored(ImVec4(1.0f, 0.45f, 0.38f, 1.0f), "%s", model.error.c_str());
+    for (const auto& [what, error] : model.errors)
+      ImGui::TextColored(ImVec4(1.0f, 0.45f, 0.38f, 1.0f), "%s", error.c_str());
     ImGui::PopTextWrapPos();
     ImGui::End();
   }
@@ -84,11 +85,44 @@ void draw_messages(Model& model) {
   ImGui::End();
 }
 
+// The line between the two halves, to drag, and what is on its right.
+void draw_divider(Model& model, float scale) {
+  if (model.settings.split == Split::off) return;
+  const ImVec2 display = ImGui::GetIO().DisplaySize;
+  const float x = model.settings.split_at * display.x, grip = 6.0f * scale;
+  ImGui::SetNextWindowPos(ImVec2(x - grip, 0.0f));
+  ImGui::SetNextWindowSize(ImVec2(2.0f * grip, display.y));
+  ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, ImVec2(0.0f, 0.0f));
+  ImGui::Begin("divider", nullptr,
+               kBare | ImGuiWindowFlags_NoBackground | ImGuiWindowFlags_NoBringToFrontOnFocus);
+  ImGui::InvisibleButton("grip", ImVec2(2.0f * grip, display.y));
+  if (ImGui::IsItemActive()) model.settings.split_at += ImGui::GetIO().MouseDelta.x / display.x;
+  const bool held = ImGui::IsItemActive() || ImGui::IsItemHovered();
+  if (held) ImGui::SetMouseCursor(ImGuiMouseCursor_ResizeEW);
+  ImGui::End();
+  ImGui::PopStyleVar();
+  ImGui::GetBackgroundDrawList()->AddLine({x, 0.0f}, {x, display.y},
+                                          IM_COL32(255, 255, 255, held ? 255 : 150), 1.5f * scale);
+}
+
+void draw_captions(const Model& model) {
+  if (model.legend.empty() && model.comparison.empty()) return;
+  begin_message("caption", 0.04f);
+  if (!model.legend.empty()) ImGui::TextUnformatted(model.legend.c_str());
+  if (!model.comparison.empty())
+    ImGui::Text("left: as drawn   right: %s   %s",
+                model.settings.split == Split::heat_map ? "difference (FLIP)" : "precise",
+                model.comparison.c_str());
+  ImGui::End();
+}
+
 }  // namespace
 
 void draw_overlay(Model& model, float scale) {
   if (model.settings.overlay) {
     if (model.scene) draw_light_handles(model, scale);
+    draw_divider(model, scale);
+    draw_captions(model);
     draw_panels(model, scale);
   }
   draw_loading(model.loading, scale);

@@ -62,6 +62,30 @@ void draw_quality_controls(ViewSettings& s) {
   ImGui::Checkbox("vsync", &s.vsync);
 }
 
+void draw_looking(Model& model) {
+  ViewSettings& s = model.settings;
+  label("look at");
+  const std::string chosen(kBufferViewNames[static_cast<std::size_t>(s.buffer)]);
+  const int slots = model.scene ? model.scene.needs().casting_lights : 0;
+  const bool is_mask = s.buffer == BufferView::mask;
+  if (ImGui::BeginCombo("##buffer",
+                        is_mask ? (chosen + " " + std::to_string(s.mask_slot)).c_str() : chosen.c_str())) {
+    for (std::size_t i = 0; i < kBufferViewNames.size(); ++i) {
+      const auto view = static_cast<BufferView>(i);
+      for (int slot = 0; slot < (view == BufferView::mask ? std::max(slots, 1) : 1); ++slot) {
+        std::string name(kBufferViewNames[i]);
+        if (view == BufferView::mask) name += " " + std::to_string(slot);
+        if (ImGui::Selectable(name.c_str(), s.buffer == view && (!is_mask || s.mask_slot == slot))) {
+          s.buffer = view;
+          s.mask_slot = slot;
+        }
+      }
+    }
+    ImGui::EndCombo();
+  }
+  choose("beside", {"off", "precise", "heat map"}, s.split);
+}
+
 void draw_camera(Model& model) {
   const Camera& camera = model.camera.camera();
   ImGui::Text("eye %.2f, %.2f, %.2f", static_cast<double>(camera.eye.x), static_cast<double>(camera.eye.y),
@@ -96,6 +120,8 @@ void draw_controls(Model& model, float) {
   choose("exchange", {"sync", "pipelined", "reproject"}, model.settings.exchange);
   ImGui::Separator();
   draw_quality_controls(model.settings);
+  ImGui::Separator();
+  draw_looking(model);
   if (model.scene && ImGui::CollapsingHeader("Lights", ImGuiTreeNodeFlags_DefaultOpen))
     draw_light_controls(model);
   if (ImGui::CollapsingHeader("Camera", ImGuiTreeNodeFlags_DefaultOpen)) draw_camera(model);

@@ -7,31 +7,24 @@
 
 namespace pinocchio::app {
 
-Painter::Painter(Workers& workers, const std::filesystem::path& shaders, Exchange exchange, Sinks sinks)
-    : workers_(workers), shaders_(shaders), exchange_(exchange), sinks_(std::move(sinks)) {
-  loop_ = make_loop(loop_sinks());
-}
+Painter::Painter(Workers& workers, std::shared_ptr<Programs> programs, Exchange exchange, Sinks sinks)
+    : workers_(workers),
+      sinks_(std::move(sinks)),
+      loop_(workers, std::move(programs), exchange, gl::Mapping::each_time,
+            {[this](Flight& frame) {
+               sinks_.painted({frame.picture.target.color(), frame.request, frame.record, &frame});
+             },
+             sinks_.record}) {}
 
 Painter::~Painter() {
   if (raytraced_.valid()) raytraced_.wait();
 }
 
-std::unique_ptr<FrameLoop> Painter::make_loop(FrameLoop::Sinks sinks) const {
-  return std::make_unique<FrameLoop>(workers_, shaders_, exchange_, gl::Mapping::each_time, std::move(sinks));
-}
-
-FrameLoop::Sinks Painter::loop_sinks() {
-  return {[this](Flight& frame) {
-            sinks_.painted({frame.picture.target.color(), frame.request, frame.record, &frame});
-          },
-          sinks_.record};
-}
-
 void Painter::draw(const FrameRequest& request) {
   deliver_raytraced();
-  if (request.plan.mode != Mode::raytrace) return loop_->submit(request);
-  loop_->drain();
-  if (raytraced_.valid()) return;
+  if (request.plan.mode != Mode::raytrace) return loop_.submit(request);
+  loop_.drain();
+  if (raytraced_.valid() || last_raytraced_ == request) return;
   raytraced_ = std::async(std::launch::async, [this, request] {
     Raytraced result{request, {}, {}};
     result.record = raytrace(request, workers_, result.picture);
@@ -40,7 +33,7 @@ void Painter::draw(const FrameRequest& request) {
 }
 
 void Painter::drain() {
-  loop_->drain();
+  loop_.drain();
   if (raytraced_.valid()) raytraced_.wait();
   deliver_raytraced();
 }
@@ -58,20 +51,10 @@ void Painter::deliver_raytraced() {
     std::ranges::copy(std::as_bytes(color.pixels()), bytes.begin());
     upload_.send(texture_);
   }
+  last_raytraced_ = result.request;
   sinks_.painted({texture_, result.request, result.record, nullptr});
   result.record.frame.end_s = std::max(result.record.frame.end_s, result.record[Stage::present].end_s);
   sinks_.record(result.record);
-}
-
-void Painter::reload_shaders(const FrameRequest* like) {
-  if (like) {
-    FrameLoop trial(workers_, shaders_, Exchange::sync, gl::Mapping::each_time,
-                    {[](Flight&) {}, [](const FrameRecord&) {}});
-    trial.submit(*like);
-    trial.drain();
-  }
-  loop_->drain();
-  loop_ = make_loop(loop_sinks());
 }
 
 }  // namespace pinocchio::app

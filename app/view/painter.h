@@ -1,9 +1,9 @@
 #pragma once
 
-#include <filesystem>
 #include <functional>
 #include <future>
 #include <memory>
+#include <optional>
 
 #include "hybrid/frame.h"
 #include "hybrid/picture.h"
@@ -27,7 +27,7 @@ class Painter {
     std::function<void(const FrameRecord&)> record;
   };
 
-  Painter(Workers& workers, const std::filesystem::path& shaders, Exchange exchange, Sinks sinks);
+  Painter(Workers& workers, std::shared_ptr<Programs> programs, Exchange exchange, Sinks sinks);
   ~Painter();
 
   // Begins the frame, or in raytrace mode where one is still being drawn, does not. Delivers what is
@@ -35,13 +35,7 @@ class Painter {
   void draw(const FrameRequest& request);
   // Delivers what is in flight.
   void drain();
-  void set_exchange(Exchange exchange) {
-    exchange_ = exchange;
-    loop_->set_exchange(exchange);
-  }
-  // Takes the shaders anew, tries them on a frame like this one (null: none) and keeps the old ones where
-  // that throws.
-  void reload_shaders(const FrameRequest* like);
+  void set_exchange(Exchange exchange) { loop_.set_exchange(exchange); }
   [[nodiscard]] bool raytracing() const { return raytraced_.valid(); }
 
  private:
@@ -50,19 +44,16 @@ class Painter {
     FrameRecord record;
     Picture picture;
   };
-  [[nodiscard]] std::unique_ptr<FrameLoop> make_loop(FrameLoop::Sinks sinks) const;
-  [[nodiscard]] FrameLoop::Sinks loop_sinks();
   void deliver_raytraced();
 
   Workers& workers_;
-  std::filesystem::path shaders_;
-  Exchange exchange_;
   Sinks sinks_;
-  std::unique_ptr<FrameLoop> loop_;
+  FrameLoop loop_;
   std::future<Raytraced> raytraced_;
-  std::uint64_t next_number_ = 0;  // of raytraced frames
+  std::optional<FrameRequest> last_raytraced_;  // whose picture texture_ holds
+  std::uint64_t next_number_ = 0;               // of raytraced frames
   gl::Upload upload_;
-  gl::Texture texture_;  // of the last raytraced picture
+  gl::Texture texture_;
 };
 
 }  // namespace pinocchio::app

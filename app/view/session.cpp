@@ -1,12 +1,10 @@
 #include "app/view/session.h"
 
 #include <algorithm>
-#include <cmath>
-#include <cstdio>
+#include <utility>
 
 #include "app/console.h"
 #include "app/errors.h"
-#include "app/view/overlay.h"
 #include "hybrid/plan_json.h"
 #include "hybrid/shader_folder.h"
 
@@ -14,7 +12,6 @@ namespace pinocchio::app {
 namespace {
 
 constexpr double kLongestStep_s = 0.1;  // of flight, however long a frame took
-constexpr double kErrorPause_s = 0.2;   // before a frame that failed is tried again
 
 ViewSettings settings_of(const ViewOptions& options) {
   ViewSettings settings;
@@ -30,6 +27,11 @@ ViewSettings settings_of(const ViewOptions& options) {
   return possible(settings);
 }
 
+// What a scene may be made of.
+std::vector<std::string> scene_extensions() {
+  return {".gltf", ".glb", ".bin", ".obj", ".mtl", ".png", ".jpg", ".jpeg"};
+}
+
 }  // namespace
 
 Session::Session(gl::Window& window, const ViewOptions& options)
@@ -38,15 +40,19 @@ Session::Session(gl::Window& window, const ViewOptions& options)
       workers_(options.draw.threads),
       navigation_(model_.camera),
       gui_(window),
-      present_(std::make_unique<PresentPass>(shader_folder())) {
-  model_.settings = applied_ = settings_of(options);
+      programs_(std::make_shared<Programs>(shader_folder())),
+      present_(programs_),
+      inspect_(programs_),
+      accumulator_(programs_),
+      painter_(workers_, programs_, settings_of(options).exchange,
+               {[this](const Painted& painted) { take_painted(painted); },
+                [this](const FrameRecord& record) { model_.history.add(record); }}),
+      applied_(settings_of(options)) {
+  model_.settings = applied_;
   model_.renderer = window.context().info().renderer;
   model_.threads = workers_.count();
-  painter_ = std::make_unique<Painter>(
-      workers_, shader_folder(), applied_.exchange,
-      Painter::Sinks{[this](const Painted& painted) { take_painted(painted); },
-                     [this](const FrameRecord& record) { model_.history.add(record); }});
   window_.set_vsync(applied_.vsync);
+  if (options_.watch) shader_watch_.emplace(shader_folder(), std::vector<std::string>{});
   loader_.start(options_.draw);
 }
 
@@ -58,15 +64,16 @@ void Session::run() {
     navigation_.advance(static_cast<float>(std::min(turn_s - last_turn_s_, kLongestStep_s)));
     last_turn_s_ = turn_s;
     take_news();
+    if (options_.watch) take_file_changes();
     apply_changes();
     if (!window_.minimised()) draw();
   }
 }
 
-// How long to wait for a person before the next picture.
+// How long to wait for a person before the next turn: what draws or loads needs the processor.
 double Session::patience_s() const {
   if (window_.minimised()) return 0.1;
-  if (!model_.scene || painter_->raytracing()) return 0.015;  // leave the processor to who works
+  if (!model_.scene || idle_ || painter_.raytracing()) return 0.02;
   return 0.0;
 }
 
@@ -87,14 +94,8 @@ void Session::take_events() {
 void Session::take_key(const gl::KeyEvent& event) {
   if (event.down && gui_.wants_text()) return;
   if (navigation_.take(event) || !event.down || event.with.control || event.with.alt) return;
-  if (const int number = event.key - '1'; number >= 0 && number < 9 && model_.scene) {
-    const std::vector<Camera>& cameras = model_.scene.shown()->scene.cameras;
-    if (static_cast<std::size_t>(number) < cameras.size()) {
-      model_.camera.set_camera(cameras[static_cast<std::size_t>(number)]);
-      model_.notify("camera " + cameras[static_cast<std::size_t>(number)].name);
-    } else {
-      model_.notify("the scene has " + std::to_string(cameras.size()) + " cameras");
-    }
+  if (const int number = event.key - '1'; number >= 0 && number < 9) {
+    show_camera(static_cast<std::size_t>(number));
   } else if (const KeyBinding* const binding = binding_of(event)) {
     perform(binding->action);
   }
@@ -104,7 +105,7 @@ void Session::take_drop(const gl::DropEvent& event) {
   if (event.files.empty()) return;
   DrawOptions& draw = options_.draw;
   draw.scene = event.files.front().string();
-  // What the command line said of the camera and lights was about another scene.
+  // What the command line said of camera and lights was about another scene.
   draw.camera.clear();
   draw.eye = draw.target = draw.up = std::nullopt;
   draw.fov_deg = std::nullopt;
@@ -112,68 +113,65 @@ void Session::take_drop(const gl::DropEvent& event) {
   loader_.start(draw);
 }
 
-void Session::perform(Action action) {
-  switch (action) {
-    case Action::frame_all:
-    case Action::reset_camera:
-      return perform_camera(action);
-    case Action::full_screen:
-      return window_.set_full_screen(!window_.full_screen());
-    case Action::close:
-      return window_.ask_close();
-    default:
-      return perform_setting(action);
-  }
-}
-
-void Session::perform_camera(Action action) {
-  if (action == Action::reset_camera) return model_.camera.set_camera(first_camera_);
-  const glm::vec2 size(window_.pixels());
-  model_.camera.frame_all(size.x / std::max(size.y, 1.0f));
-}
-
-void Session::perform_setting(Action action) {
-  change_setting(action, model_.settings);
-}
-
 void Session::take_news() {
   const SceneLoader::News news = loader_.poll();
   model_.loading = loader_.progress();
   if (!news.error.empty()) {
     if (!model_.scene) throw Exit(news.code, news.error);
-    model_.error = news.error;
+    model_.errors["scene"] = news.error;
   }
-  if (news.scene) {
-    const bool again = model_.scene && model_.scene.shown()->scene.source == news.scene->scene.source;
-    painter_->drain();
-    model_.scene.set_scene(news.scene);
-    model_.camera.set_scene(news.scene->scene.bounds());
-    if (!again) model_.camera.set_camera(news.camera);
-    first_camera_ = news.camera;
-    model_.lights = applied_lights_ = news.lights;
-    model_.lights_changed = !model_.settings.shadows;
-    model_.error.clear();
-    model_.history.clear();
-    window_.set_title(news.scene->scene.source + " - Pinocchio");
-  }
+  if (news.scene) take_scene(news);
   if (news.tracer) model_.scene.set_tracer(news.tracer);
 }
 
-Expected<Plan> Session::plan_for(const ViewSettings& settings) const {
+void Session::take_scene(const SceneLoader::News& news) {
+  const Scene& scene = news.scene->scene;
+  const bool again = model_.scene && model_.scene.shown()->scene.source == scene.source;
+  painter_.drain();
+  model_.scene.set_scene(news.scene);
+  model_.camera.set_scene(model_.scene.needs().bounds);
+  if (!again) model_.camera.set_camera(news.camera);
+  first_camera_ = news.camera;
+  model_.lights = applied_lights_ = news.lights;
+  model_.lights_changed = !model_.settings.shadows;
+  lights_edited_ = false;
+  model_.errors.erase("scene");
+  model_.history.clear();
+  window_.set_title(scene.source + " - Pinocchio");
+  if (!options_.watch) return;
+  if (again) model_.notify(scene.source + " was loaded anew");
+  if (!again) scene_watch_.emplace(std::filesystem::path(scene.source).parent_path(), scene_extensions());
+}
+
+void Session::take_file_changes() {
+  if (scene_watch_ && scene_watch_->changed(now_s())) loader_.start(options_.draw);
+  if (!shader_watch_->changed(now_s())) return;
+  if (const Expected<void> reloaded = programs_->reload()) {
+    model_.errors.erase("shaders");
+    model_.notify("the shaders were loaded anew");
+  } else {
+    model_.errors["shaders"] = reloaded.error().message();
+  }
+  asked_.reset();  // the same picture is another one now
+  sample_ = 0;
+  accumulator_.reset();
+}
+
+Expected<Plan> Session::plan_for(const ViewSettings& settings, bool keeps_mask) const {
   const bool has_tree = model_.scene.shown()->tracer != nullptr;
   if (settings.plan == PlanSource::file && has_tree)
     return load_plan(options_.draw.plan_file, model_.scene.needs());
   PlanRequest request = plan_request(settings);
   if (!has_tree) request.mode = Mode::raster;  // until it is built
   request.software_gl = window_.context().info().software;
-  request.keeps_mask = false;
+  request.keeps_mask = request.keeps_mask || keeps_mask;
   request.size = picture_size();
   return make_plan(model_.scene.needs(), request);
 }
 
-// A plan for the settings and lights; where there is none, the error is shown.
+// A plan for the settings and lights; where there is none, why.
 bool Session::try_plan(const ViewSettings& settings) {
-  const Expected<Plan> plan = plan_for(settings);
+  const Expected<Plan> plan = plan_for(settings, false);
   if (plan) {
     model_.plan = *plan;
   } else {
@@ -186,13 +184,14 @@ void Session::apply_changes() {
   ViewSettings& wanted = model_.settings;
   wanted = possible(wanted);
   if (wanted.vsync != applied_.vsync) window_.set_vsync(wanted.vsync);
-  if (wanted.exchange != applied_.exchange) painter_->set_exchange(wanted.exchange);
+  if (wanted.exchange != applied_.exchange) painter_.set_exchange(wanted.exchange);
   if (!model_.scene) {
     applied_ = wanted;
     return;
   }
-  const bool relight = std::exchange(model_.lights_changed, false) || wanted.shadows != applied_.shadows;
-  if (relight) model_.scene.set_lights(model_.lights, wanted.shadows);
+  const bool edited = std::exchange(model_.lights_changed, false);
+  lights_edited_ = lights_edited_ || edited;
+  if (edited || wanted.shadows != applied_.shadows) model_.scene.set_lights(model_.lights, wanted.shadows);
   if (try_plan(wanted)) {
     applied_ = wanted;
     applied_lights_ = model_.lights;
@@ -203,52 +202,6 @@ void Session::apply_changes() {
   model_.lights = applied_lights_;
   model_.scene.set_lights(model_.lights, wanted.shadows);
   (void)try_plan(wanted);
-}
-
-glm::ivec2 Session::picture_size() const {
-  const glm::vec2 wanted = glm::round(glm::vec2(window_.pixels()) * applied_.scale);
-  return glm::clamp(glm::ivec2(wanted), glm::ivec2(1), glm::ivec2(kMaxSide));
-}
-
-FrameRequest Session::next_request() const {
-  const glm::ivec2 size = picture_size();
-  return {model_.scene.shown(), model_.plan, model_.camera.camera(), size, {{0, 0}, size}, glm::vec2(0.0f)};
-}
-
-void Session::draw() {
-  shown_anything_ = false;
-  if (model_.scene) {
-    const FrameRequest request = next_request();
-    model_.picture_size = request.size;
-    try {
-      painter_->draw(request);
-    } catch (const std::exception& error) {
-      model_.error = one_line(error.what());
-    }
-  }
-  if (!shown_anything_) show(last_);
-}
-
-void Session::take_painted(const Painted& painted) {
-  const StageTimer timer(painted.record, Stage::present);
-  last_ = &painted.picture;
-  show(last_);
-}
-
-void Session::show(const gl::Texture* picture) {
-  const glm::ivec2 pixels = window_.pixels();
-  if (pixels.x < 1 || pixels.y < 1) return;
-  shown_anything_ = true;
-  model_.window_pixels = pixels;
-  if (picture) {
-    present_->draw(*picture, pixels, {{0, 0}, pixels}, applied_.exposure_ev);
-  } else {
-    present_->clear(pixels);
-  }
-  gui_.begin_frame();
-  draw_overlay(model_, gui_.scale());
-  gui_.end_frame();
-  window_.present();
 }
 
 }  // namespace pinocchio::app

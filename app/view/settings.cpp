@@ -65,6 +65,9 @@ void change_setting(Action action, ViewSettings& s) {
     case Action::accumulate:
       toggle(s.accumulate);
       break;
+    case Action::split:
+      s.split = next(s.split, 3);
+      break;
     case Action::vsync:
       toggle(s.vsync);
       break;
@@ -79,12 +82,22 @@ void change_setting(Action action, ViewSettings& s) {
   }
 }
 
+void next_buffer(ViewSettings& s, int mask_slots) {
+  if (s.buffer == BufferView::mask && s.mask_slot + 1 < mask_slots) {
+    ++s.mask_slot;
+    return;
+  }
+  s.mask_slot = 0;
+  s.buffer = next(s.buffer, static_cast<int>(kBufferViewNames.size()));
+}
+
 PlanRequest plan_request(const ViewSettings& settings) {
   PlanRequest request;
   request.mode = settings.mode;
   request.design = settings.design;
   request.depth = settings.reflections ? settings.depth : 0;
   request.slides = settings.plan == PlanSource::slides;
+  request.keeps_mask = settings.buffer == BufferView::mask;
   request.reprojects = settings.exchange == Exchange::reproject;
   return request;
 }
@@ -94,6 +107,8 @@ ViewSettings possible(ViewSettings settings) {
     settings.exchange = Exchange::pipelined;
   settings.depth = std::clamp(settings.depth, 0, kMostDepth);
   settings.scale = std::clamp(settings.scale, kLeastScale, kMostScale);
+  settings.mask_slot = std::max(settings.mask_slot, 0);
+  settings.split_at = std::clamp(settings.split_at, 0.05f, 0.95f);
   settings.exposure_ev = std::clamp(settings.exposure_ev, -kMostExposure, kMostExposure);
   return settings;
 }
