@@ -11,7 +11,7 @@ namespace {
 constexpr ImGuiWindowFlags kPanel = ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoResize |
                                     ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_NoNav;
 constexpr ImGuiWindowFlags kBare = kPanel | ImGuiWindowFlags_NoDecoration;
-constexpr float kMargin = 10.0f, kPanelWidth = 318.0f, kTimelineHeight = 132.0f;
+constexpr float kMargin = 10.0f, kPanelWidth = 318.0f, kTimelineHeight = 142.0f;
 
 // A panel at the window's left or right edge, as high as its content, at most to the timeline.
 void place_panel(bool at_right, float scale) {

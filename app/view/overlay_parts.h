@@ -7,7 +7,7 @@
 namespace pinocchio::app {
 
 // Who does a stage: a row of the timeline each.
-enum class Lane { gpu, exchange, cpu };
+enum class Lane { gpu, exchange, cpu, window };
 [[nodiscard]] Lane lane_of(Stage stage, const Plan& plan);
 [[nodiscard]] const char* lane_name(Lane lane);
 [[nodiscard]] ImVec4 lane_color(Lane lane);

@@ -9,7 +9,7 @@ namespace pinocchio::app {
 namespace {
 
 constexpr std::size_t kFramesShown = 6;
-constexpr std::array<Lane, 3> kLanes{Lane::gpu, Lane::exchange, Lane::cpu};
+constexpr std::array<Lane, 4> kLanes{Lane::gpu, Lane::exchange, Lane::cpu, Lane::window};
 
 // Where times and rows are on the screen.
 struct Chart {
@@ -35,19 +35,21 @@ ImU32 color_of(Lane lane, std::uint64_t frame, float alpha) {
 void draw_span(const Chart& chart, const FrameRecord& record, Stage stage, Lane lane) {
   const Span& span = record[stage];
   if (span.end_s <= span.begin_s || span.end_s <= chart.begin_s) return;
-  const ImVec2 lo(chart.x(span.begin_s), chart.y(lane) + 2.0f);
-  const ImVec2 hi(std::max(chart.x(span.end_s), lo.x + 1.0f), lo.y + chart.row_height - 4.0f);
+  // On their way, the ids of one frame overlap the next one's: each has its half of the row.
+  const bool travels = stage == Stage::readback;
+  const float height = (travels ? 0.5f : 1.0f) * (chart.row_height - 4.0f);
+  const float top = travels && record.number % 2 == 1 ? height : 0.0f;
+  const ImVec2 lo(chart.x(span.begin_s), chart.y(lane) + 2.0f + top);
+  const ImVec2 hi(std::max(chart.x(span.end_s), lo.x + 1.0f), lo.y + height);
   ImDrawList& list = *ImGui::GetWindowDrawList();
-  // What waits for the display is no work.
-  const bool waits = stage == Stage::present || stage == Stage::readback;
-  list.AddRectFilled(lo, hi, color_of(lane, record.number, waits ? 0.35f : 1.0f), 2.0f);
+  list.AddRectFilled(lo, hi, color_of(lane, record.number, travels ? 0.4f : 1.0f), 2.0f);
   const std::string name(kStageNames[static_cast<std::size_t>(stage)]);
   const std::string label = name + " " + std::to_string(record.number);
   for (const std::string& text : {label, name}) {
     const ImVec2 extent = ImGui::CalcTextSize(text.c_str());
-    if (extent.x + 6.0f > hi.x - lo.x) continue;
+    if (travels || extent.x + 6.0f > hi.x - lo.x) continue;
     const ImVec2 at(lo.x + 3.0f, 0.5f * (lo.y + hi.y - extent.y));
-    list.AddText(at, waits ? IM_COL32(255, 255, 255, 210) : IM_COL32(10, 10, 12, 255), text.c_str());
+    list.AddText(at, IM_COL32(10, 10, 12, 255), text.c_str());
     break;
   }
   if (ImGui::IsMouseHoveringRect(lo, hi))
@@ -98,19 +100,21 @@ Lane lane_of(Stage stage, const Plan& plan) {
     case Stage::trace_shadow:
     case Stage::trace_reflection:
       return Lane::cpu;
+    case Stage::present:
+      return Lane::window;
     default:
       return Lane::exchange;
   }
 }
 
 const char* lane_name(Lane lane) {
-  constexpr std::array<const char*, 3> kNames{"GPU", "exchange", "CPU"};
+  constexpr std::array<const char*, 4> kNames{"GPU", "exchange", "CPU", "window"};
   return kNames[static_cast<std::size_t>(lane)];
 }
 
 ImVec4 lane_color(Lane lane) {
-  constexpr std::array<std::array<float, 3>, 3> kColors{
-      {{0.47f, 0.80f, 0.52f}, {0.50f, 0.70f, 0.95f}, {0.98f, 0.68f, 0.34f}}};
+  constexpr std::array<std::array<float, 3>, 4> kColors{
+      {{0.47f, 0.80f, 0.52f}, {0.50f, 0.70f, 0.95f}, {0.98f, 0.68f, 0.34f}, {0.72f, 0.66f, 0.88f}}};
   const auto& c = kColors[static_cast<std::size_t>(lane)];
   return {c[0], c[1], c[2], 1.0f};
 }
@@ -125,8 +129,11 @@ void draw_timeline(const Model& model, float) {
   const float label_width = ImGui::CalcTextSize("exchange  ").x;
   const ImVec2 at = ImGui::GetCursorScreenPos();
   const ImVec2 room = ImGui::GetContentRegionAvail();
-  const Chart chart{
-      {at.x + label_width, at.y}, {room.x - label_width, room.y}, begin_s, end_s, room.y / 3.0f};
+  const Chart chart{{at.x + label_width, at.y},
+                    {room.x - label_width, room.y},
+                    begin_s,
+                    end_s,
+                    room.y / static_cast<float>(kLanes.size())};
   ImDrawList& list = *ImGui::GetWindowDrawList();
   for (const Lane lane : kLanes) {
     const float y = chart.y(lane);
