@@ -24,7 +24,7 @@ struct ReferenceView {
   friend bool operator==(const ReferenceView&, const ReferenceView&) = default;
 };
 
-// The precise picture (core/reference) of what is looked at, made in the background on threads of the lowest
+// The precise picture (core/reference) of what is looked at, made in the background on threads of low
 // priority while frames are drawn: first one pixel in 4 x 4, shown as squares, then one in 2 x 2, then all,
 // tile by tile. One thread's object; no call waits for the background's work but the destructor, which
 // waits for the pixels begun.
