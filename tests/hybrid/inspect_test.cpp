@@ -5,6 +5,7 @@
 #include "core/image/tonemap.h"
 #include "core/trace/aov.h"
 #include "hybrid/inspect_pass.h"
+#include "hybrid/raytrace.h"
 #include "tests/support/frames.h"
 
 namespace pinocchio {
@@ -169,11 +170,30 @@ TEST_P(InspectTest, AgeIsFlatUnlessReprojectedAndThenTellsHoles) {
         }
         holes += hole;
       }
-      EXPECT_FALSE(legend(BufferView::age, 0, frame).empty());
+      EXPECT_FALSE(legend(BufferView::age, 0, frame.request, frame.record).empty());
     });
     EXPECT_EQ(aged > 0, exchange == Exchange::reproject);
     EXPECT_EQ(holes > 0, exchange == Exchange::reproject);
   }
+}
+
+TEST_P(InspectTest, OfAPictureByTheCpuAloneToo) {
+  const Scene scene = load_or_die(source_path("scenes/cornell"));
+  const auto prepared = prepare(scene);
+  FrameRequest by_cpu = request(prepared, plan_of(scene, {.mode = Mode::raytrace}), kSize);
+  Picture picture;
+  (void)raytrace(by_cpu, workers_, picture);
+  draw({request(prepared, plan_of(scene), kSize)}, Exchange::sync, [&](Flight& frame) {
+    for (const BufferView what :
+         {BufferView::ids, BufferView::normals, BufferView::mask, BufferView::reflection}) {
+      const Image<glm::vec4> hybrid = view(frame, what), cpu = read(pass_->draw(by_cpu, picture, what, 0));
+      std::size_t other = 0;
+      for (std::size_t i = 0; i < hybrid.pixels().size(); ++i)
+        other += glm::distance(hybrid[i], cpu[i]) > 0.002f * (1.0f + glm::length(hybrid[i]));
+      EXPECT_LT(other, hybrid.pixels().size() / 200) << kBufferViewNames[static_cast<std::size_t>(what)];
+    }
+  });
+  EXPECT_NE(missing(BufferView::age, 0, by_cpu.plan), "");
 }
 
 // A reprojected frame's mask is the older one's where its points were then: what the picture shows.
