@@ -30,6 +30,9 @@ inline constexpr std::array<std::string_view, 6> kBufferViewNames{"picture", "id
 // What the colours mean, in words; or why there are none.
 [[nodiscard]] std::string legend(BufferView view, int slot, const FrameRequest& request,
                                  const FrameRecord& record);
+[[nodiscard]] inline std::string legend(BufferView view, int slot, const Flight& frame) {
+  return legend(view, slot, frame.request, frame.record);
+}
 
 // reads: a delivered frame's buffers. writes: one of them as a picture for people.
 class InspectPass {
