@@ -50,11 +50,6 @@ FrameLoop::FrameLoop(Workers& workers, std::shared_ptr<Programs> programs, Excha
   for (int i = 0; i < kFramesInFlight; ++i) slots_.push_back(std::make_unique<Flight>(mapping));
 }
 
-FrameLoop::~FrameLoop() {
-  for (const std::unique_ptr<Flight>& frame : slots_)
-    if (frame->tracing.valid()) frame->tracing.wait();
-}
-
 // The order of a frame. Left to right is a frame's way, top to bottom what happens at one time (design 1,
 // pipelined):
 //

@@ -37,8 +37,6 @@ class FrameLoop {
   FrameLoop(Workers& workers, const std::filesystem::path& shaders, Exchange exchange, gl::Mapping mapping,
             Sinks sinks)
       : FrameLoop(workers, std::make_shared<Programs>(shaders), exchange, mapping, std::move(sinks)) {}
-  // Waits for the threads that trace; what is in flight is lost.
-  ~FrameLoop();
 
   // Begins a frame and delivers what that finishes. Where the plan reuses and the request is the last one
   // again, nothing is drawn, traced or sent: all in flight is delivered, then the last picture once more.

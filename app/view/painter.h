@@ -15,7 +15,9 @@ struct Painted {
   const gl::Texture& picture;
   const FrameRequest& request;
   FrameRecord& record;  // without the present stage, which is the taker's
-  Flight* flight;       // null: the CPU drew alone
+  // One of the two is null: whether the GPU had a part in it, or the CPU drew alone.
+  Flight* flight;
+  const Picture* raytraced;
 };
 
 // Draws frames in any mode, so that the window never waits for the CPU alone: in raytrace mode a thread
@@ -30,28 +32,30 @@ class Painter {
   Painter(Workers& workers, std::shared_ptr<Programs> programs, Exchange exchange, Sinks sinks);
   ~Painter();
 
-  // Begins the frame, or in raytrace mode where one is still being drawn, does not. Delivers what is
-  // finished. Throws what went wrong; that frame is lost.
-  void draw(const FrameRequest& request);
+  // Begins the frame; in raytrace mode, where one is still being drawn, does not and says false. Delivers
+  // what is finished. Throws what went wrong; that frame is lost.
+  bool draw(const FrameRequest& request);
   // Delivers what is in flight.
   void drain();
   void set_exchange(Exchange exchange) { loop_.set_exchange(exchange); }
   [[nodiscard]] bool raytracing() const { return raytraced_.valid(); }
-
- private:
+  // The last picture in raytrace mode; empty: there is none.
   struct Raytraced {
     FrameRequest request;
     FrameRecord record;
     Picture picture;
   };
+  [[nodiscard]] const std::optional<Raytraced>& last_raytraced() const { return last_; }
+
+ private:
   void deliver_raytraced();
 
   Workers& workers_;
   Sinks sinks_;
   FrameLoop loop_;
   std::future<Raytraced> raytraced_;
-  std::optional<FrameRequest> last_raytraced_;  // whose picture texture_ holds
-  std::uint64_t next_number_ = 0;               // of raytraced frames
+  std::optional<Raytraced> last_;  // whose picture texture_ holds
+  std::uint64_t next_number_ = 0;  // of raytraced frames
   gl::Upload upload_;
   gl::Texture texture_;
 };

@@ -44,6 +44,7 @@ class Session {
   // session_draw.cpp
   void draw();
   void draw_scene();
+  void follow_reference(const FrameRequest& request);
   [[nodiscard]] bool gathers() const;
   [[nodiscard]] glm::ivec2 picture_size() const;
   [[nodiscard]] FrameRequest next_request();
@@ -79,7 +80,7 @@ class Session {
   std::optional<FileWatch> shader_watch_, scene_watch_;  // with --watch
 
   const gl::Texture* last_ = nullptr;  // picture shown last
-  float last_exposure_ev_ = 0.0f;      // that it is shown with
+  bool last_is_light_ = true;          // exposure is for light alone
   std::optional<FrameRequest> asked_;  // of the newest frame
   int sample_ = 0;                     // of the still camera, the next to ask for
   bool shown_ = false;                 // something, this turn

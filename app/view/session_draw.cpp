@@ -26,8 +26,7 @@ glm::ivec2 Session::picture_size() const {
 
 // Whether a still camera's samples are gathered: a buffer, and what is compared, is of one sample.
 bool Session::gathers() const {
-  return applied_.accumulate && applied_.buffer == BufferView::picture && applied_.split == Split::off &&
-         model_.plan.mode != Mode::raytrace;
+  return applied_.accumulate && applied_.buffer == BufferView::picture && applied_.split == Split::off;
 }
 
 FrameRequest Session::next_request() {
@@ -59,22 +58,26 @@ void Session::draw_scene() {
   const FrameRequest request = next_request();
   model_.picture_size = request.size;
   idle_ = asked_ == request;
-  asked_ = request;
-  if (applied_.split == Split::off) {
-    comparison_.reset();
-    model_.comparison.clear();
-  } else {
-    if (!comparison_) comparison_ = std::make_unique<Comparison>();
-    comparison_->follow({request.scene, request.camera, request.size, request.part, request.jitter,
-                         std::max(model_.settings.depth, 0)});
-    model_.comparison = comparison_->text();
-  }
+  follow_reference(request);
   if (idle_ && gathers()) {
     painter_.drain();  // the last samples
-  } else {
-    painter_.draw(request);
+  } else if (painter_.draw(request)) {
+    asked_ = request;
     ++sample_;
   }
+}
+
+// With the screen split.
+void Session::follow_reference(const FrameRequest& request) {
+  model_.comparison.clear();
+  if (applied_.split == Split::off) return comparison_.reset();
+  if (!comparison_) comparison_ = std::make_unique<Comparison>();
+  comparison_->follow(
+      {request.scene, request.camera, request.size, request.part, request.jitter, applied_.depth});
+  model_.comparison = comparison_->text();
+  const std::optional<Painter::Raytraced>& raytraced = painter_.last_raytraced();
+  if (comparison_->wants_picture() && raytraced && raytraced->request == request)
+    comparison_->compare(raytraced->picture.color);
 }
 
 void Session::take_painted(const Painted& painted) {
@@ -86,19 +89,23 @@ void Session::take_painted(const Painted& painted) {
 
 // What of the frame is looked at.
 const gl::Texture& Session::chosen_buffer(const Painted& painted) {
+  const FrameRequest& request = painted.request;
+  const BufferView buffer = applied_.buffer;
   model_.samples = 1;
   model_.legend.clear();
-  last_exposure_ev_ = applied_.exposure_ev;
-  if (!painted.flight) return painted.picture;
-  const Flight& flight = *painted.flight;
-  if (applied_.buffer != BufferView::picture) {
-    const std::string why_not = missing(applied_.buffer, applied_.mask_slot, flight.request.plan);
-    model_.legend = why_not.empty() ? legend(applied_.buffer, applied_.mask_slot, flight) : why_not;
-    if (applied_.buffer != BufferView::reflection) last_exposure_ev_ = 0.0f;
-    return inspect_.draw(flight, applied_.buffer, applied_.mask_slot).color();
+  last_is_light_ = buffer == BufferView::picture || buffer == BufferView::reflection;
+  if (buffer != BufferView::picture) {
+    model_.legend = legend(buffer, applied_.mask_slot, request, painted.record);
+    return (painted.flight ? inspect_.draw(*painted.flight, buffer, applied_.mask_slot)
+                           : inspect_.draw(request, *painted.raytraced, buffer, applied_.mask_slot))
+        .color();
   }
-  if (!gathers() || flight.request.camera != model_.camera.camera()) return painted.picture;
-  accumulator_.add(flight);
+  if (!gathers() || request.camera != model_.camera.camera()) return painted.picture;
+  if (painted.flight) {
+    accumulator_.add(*painted.flight);
+  } else {
+    accumulator_.add(request, painted.picture);
+  }
   if (accumulator_.samples() == 0) return painted.picture;
   model_.samples = accumulator_.samples();
   return accumulator_.average().color();
@@ -135,7 +142,7 @@ void Session::present(const gl::Texture& picture) {
                                    : applied_.split == Split::reference ? comparison_->reference()
                                                                         : comparison_->heat();
   const PixelBox left{{0, 0}, {comparison_ ? split : pixels.x, pixels.y}}, right{{split, 0}, pixels};
-  present_.draw(picture, pixels, left, last_exposure_ev_);
+  present_.draw(picture, pixels, left, last_is_light_ ? applied_.exposure_ev : 0.0f);
   if (!comparison_) return;
   if (other) {
     present_.draw(*other, pixels, right, applied_.split == Split::reference ? applied_.exposure_ev : 0.0f);
