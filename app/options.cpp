@@ -120,8 +120,8 @@ void add_camera_options(CLI::App& verb, DrawOptions& o) {
 }
 
 void add_gl_options(CLI::App& verb, DrawOptions& o) {
-  verb.add_option("--backend", o.backend, "OpenGL context: auto, egl, osmesa (auto)")
-      ->check(CLI::IsMember({"auto", "egl", "osmesa"}))
+  verb.add_option("--backend", o.backend, "OpenGL context: auto, egl, osmesa, glfw (a display's) (auto)")
+      ->check(CLI::IsMember({"auto", "egl", "osmesa", "glfw"}))
       ->envname("PINOCCHIO_BACKEND");
   verb.add_option("--device", o.device, "EGL device number, or software")
       ->check([](const std::string& text) {

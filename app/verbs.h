@@ -10,6 +10,7 @@ namespace pinocchio::app {
 using Run = std::function<int()>;
 
 [[nodiscard]] Run add_render(CLI::App& program);
+[[nodiscard]] Run add_view(CLI::App& program);
 [[nodiscard]] Run add_info(CLI::App& program);
 [[nodiscard]] Run add_measure(CLI::App& program);
 [[nodiscard]] Run add_chart(CLI::App& program);

@@ -16,19 +16,22 @@ bool same_view(FrameRequest a, const FrameRequest& b) {
 }  // namespace
 
 void Accumulator::add(const Flight& frame) {
-  const FrameRequest& request = frame.request;
-  if (frame.answer_of && !same_view(frame.answer_of->request, request)) return reset();
+  if (frame.answer_of && !same_view(frame.answer_of->request, frame.request)) return reset();
+  add(frame.request, frame.picture.target.color());
+}
+
+void Accumulator::add(const FrameRequest& request, const gl::Texture& picture) {
   if (samples_ > 0 && *of_ == request) return;
   if (!of_ || !same_view(*of_, request)) reset();
   of_ = request;
 
   const std::size_t next = 1 - newest_;
-  fit(averages_[next], frame.picture.target.size(), gl::kRgba32F);
+  fit(averages_[next], picture.size(), gl::kRgba32F);
   gl::begin_fullscreen_pass(averages_[next]);
   const gl::Program& program = programs_->get("fullscreen.vert", "accumulate.frag");
   program.use();
-  program.set("picture", 0, frame.picture.target.color());
-  program.set("average", 1, samples_ > 0 ? averages_[newest_].color() : frame.picture.target.color());
+  program.set("picture", 0, picture);
+  program.set("average", 1, samples_ > 0 ? averages_[newest_].color() : picture);
   program.set("samples", samples_);
   triangle_.draw();
   newest_ = next;

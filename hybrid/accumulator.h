@@ -21,6 +21,8 @@ class Accumulator {
   // those of the frames before; a sample that was the last one added is not added twice. A reprojected frame
   // whose answer is of another view is no sample of this one: samples() is 0 after it.
   void add(const Flight& frame);
+  // The same of a picture drawn by the CPU alone: RGBA, linear, of the request's part.
+  void add(const FrameRequest& request, const gl::Texture& picture);
   void reset() { samples_ = 0; }
 
   [[nodiscard]] int samples() const { return samples_; }

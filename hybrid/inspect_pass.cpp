@@ -1,7 +1,10 @@
 #include "hybrid/inspect_pass.h"
 
 #include <algorithm>
+#include <cassert>
+#include <optional>
 
+#include "core/trace/view.h"
 #include "hybrid/design.h"
 #include "hybrid/formats.h"
 
@@ -32,11 +35,11 @@ std::string name_of_slot(int slot, const Scene& scene) {
          (name.empty() ? "" : " '" + name + "'");
 }
 
-std::string legend_of_age(const Flight& frame) {
-  if (frame.record.age_frames > 0)
-    return "shadows and reflections of " + std::to_string(frame.record.age_frames) +
+std::string legend_of_age(const FrameRecord& record) {
+  if (record.age_frames > 0)
+    return "shadows and reflections of " + std::to_string(record.age_frames) +
            " frame(s) before, warped: yellow 1, orange 2, red more; pink: a hole, nothing older fits";
-  const int late = frame.record.latency_frames;
+  const int late = record.latency_frames;
   return "green: shadows and reflections are the picture's own" +
          (late > 0 ? "; the whole picture is " + std::to_string(late) + " frame(s) late" : std::string());
 }
@@ -44,6 +47,8 @@ std::string legend_of_age(const Flight& frame) {
 }  // namespace
 
 std::string missing(BufferView view, int slot, const Plan& plan) {
+  if (view == BufferView::age && plan.mode == Mode::raytrace)
+    return "mode raytrace: the CPU draws alone, nothing is older than the rest";
   if (is_traced(view) && !plan.traces())
     return plan.mode == Mode::raster ? "mode raster traces nothing: every light reaches everything"
                                      : "this scene needs nothing traced: no light casts, nothing mirrors";
@@ -55,10 +60,11 @@ std::string missing(BufferView view, int slot, const Plan& plan) {
   return {};
 }
 
-std::string legend(BufferView view, int slot, const Flight& frame) {
-  const Plan& plan = frame.request.plan;
+std::string legend(BufferView view, int slot, const FrameRequest& request, const FrameRecord& record) {
+  const Plan& plan = request.plan;
   if (std::string why = missing(view, slot, plan); !why.empty()) return why;
-  const std::string where = plan.design == 2 ? "; from the CPU, which has it alone (design 2)" : "";
+  const std::string where =
+      plan.mode == Mode::hybrid && plan.design == 2 ? "; from the CPU, which has it alone (design 2)" : "";
   switch (view) {
     case BufferView::picture:
       return "the finished picture";
@@ -67,12 +73,12 @@ std::string legend(BufferView view, int slot, const Flight& frame) {
     case BufferView::normals:
       return "shading normals, world space: red X, green Y, blue Z, from -1 (dark) to 1 (bright)";
     case BufferView::mask:
-      return name_of_slot(slot, frame.request.scene->scene) +
+      return name_of_slot(slot, request.scene->scene) +
              ": white lit, black in shadow, grey not asked (faces away, or nothing seen)" + where;
     case BufferView::reflection:
       return "mirrored and refracted light" + where;
     case BufferView::age:
-      return legend_of_age(frame);
+      return legend_of_age(record);
   }
   return {};
 }
@@ -85,31 +91,49 @@ const gl::Framebuffer& InspectPass::draw(const Flight& frame, BufferView view, i
   const bool has_it = missing(view, slot, request.plan).empty() && (!is_traced(view) || frame.answer_of);
   ShadingPasses::Inspected what;
   if (has_it) what = {kDefinitions[static_cast<std::size_t>(view)], slot, frame.record.age_frames};
-
-  fit(target_, request.part.size(), gl::kRgba16F);
-  const ShadingPasses::Inputs inputs{*request.scene->gpu, frame.view, frame.ids_texture(),
-                                     request.plan.id_bits};
   ShadingPasses::Traced traced;
-  if (has_it && is_traced(view))
-    traced = request.plan.design == 2 ? send_from_cpu(frame, view) : answer_on_gpu(*frame.answer_of);
   std::optional<OlderFrame> older;
-  if (has_it && is_traced(view) && frame.answer_of != &frame)
-    traced.of = &older.emplace(frame.answer_of->ids_texture(), frame.answer_of->view);
-  shading_.inspect(inputs, traced, what, target_);
+  if (has_it && is_traced(view)) {
+    traced = request.plan.design == 2 ? send_from_cpu(frame.mask, frame.reflection, view)
+                                      : answer_on_gpu(*frame.answer_of);
+    if (frame.answer_of != &frame)
+      traced.of = &older.emplace(frame.answer_of->ids_texture(), frame.answer_of->view);
+  }
+  fit(target_, request.part.size(), gl::kRgba16F);
+  shading_.inspect({*request.scene->gpu, frame.view, frame.ids_texture(), request.plan.id_bits}, traced, what,
+                   target_);
   return target_;
 }
 
-ShadingPasses::Traced InspectPass::send_from_cpu(const Flight& frame, BufferView view) {
-  const Plan& plan = frame.request.plan;
+const gl::Framebuffer& InspectPass::draw(const FrameRequest& request, const Picture& picture, BufferView view,
+                                         int slot) {
+  assert(view != BufferView::picture);
+  constexpr int kIdBits = 32;  // as the CPU has them
+  send(std::as_bytes(picture.ids.pixels()), picture.ids.size(), id_format(kIdBits).pixel, ids_);
+  ShadingPasses::Inspected what;
+  ShadingPasses::Traced traced;
+  if (missing(view, slot, request.plan).empty()) {
+    what = {kDefinitions[static_cast<std::size_t>(view)], slot, 0};
+    traced = send_from_cpu(picture.mask, picture.reflection, view);
+  }
+  fit(target_, request.part.size(), gl::kRgba16F);
+  const shared::ViewParams seen_from =
+      view_params(request.camera, request.size, request.jitter, request.part.lo);
+  shading_.inspect({*request.scene->gpu, seen_from, ids_.texture, kIdBits}, traced, what, target_);
+  return target_;
+}
+
+ShadingPasses::Traced InspectPass::send_from_cpu(const MaskImage& mask, const Image<glm::vec3>& reflection,
+                                                 BufferView view) {
   ShadingPasses::Traced traced;
   if (view == BufferView::mask) {
-    send(std::as_bytes(frame.mask.bytes()), {frame.mask.row_bytes(), frame.mask.size().y}, gl::kR8Ui, mask_);
-    traced.mask = {&mask_.texture, plan.mask_bits, 1};
+    send(std::as_bytes(mask.bytes()), {mask.row_bytes(), mask.size().y}, gl::kR8Ui, mask_);
+    traced.mask = {&mask_.texture, mask.bits(), 1};
   }
   if (view == BufferView::reflection) {
     constexpr ReflectionFormat kFormat = ReflectionFormat::full;  // as the CPU has it
-    send(std::as_bytes(frame.reflection.pixels()), component_size(frame.reflection.size()),
-         texel_format(kFormat).pixel, reflection_);
+    send(std::as_bytes(reflection.pixels()), component_size(reflection.size()), texel_format(kFormat).pixel,
+         reflection_);
     traced.reflection = {&reflection_.texture, nullptr, kFormat, 1};
   }
   return traced;

@@ -7,6 +7,7 @@
 
 #include "gl/framebuffer.h"
 #include "hybrid/flight.h"
+#include "hybrid/picture.h"
 #include "hybrid/programs.h"
 #include "hybrid/shading_passes.h"
 
@@ -26,8 +27,12 @@ inline constexpr std::array<std::string_view, 6> kBufferViewNames{"picture", "id
 
 // Why a frame of this plan has nothing to show there, in words; empty: it has. `slot`: of the mask.
 [[nodiscard]] std::string missing(BufferView view, int slot, const Plan& plan);
-// What the colours mean, in words.
-[[nodiscard]] std::string legend(BufferView view, int slot, const Flight& frame);
+// What the colours mean, in words; or why there are none.
+[[nodiscard]] std::string legend(BufferView view, int slot, const FrameRequest& request,
+                                 const FrameRecord& record);
+[[nodiscard]] inline std::string legend(BufferView view, int slot, const Flight& frame) {
+  return legend(view, slot, frame.request, frame.record);
+}
 
 // reads: a delivered frame's buffers. writes: one of them as a picture for people.
 class InspectPass {
@@ -38,14 +43,18 @@ class InspectPass {
   // linear light, to be shown as the picture is (exposure is for `picture` and `reflection` alone); it is the
   // frame's own for `picture`, else this object's until the next call. Where `missing` says so, it is grey.
   const gl::Framebuffer& draw(const Flight& frame, BufferView view, int slot);
+  // The same of a picture drawn by the CPU alone, whose scene is on the GPU too; not of `picture`, which
+  // there is on the CPU.
+  const gl::Framebuffer& draw(const FrameRequest& request, const Picture& picture, BufferView view, int slot);
 
  private:
-  // Design 2 keeps mask and reflection on the CPU.
-  [[nodiscard]] ShadingPasses::Traced send_from_cpu(const Flight& frame, BufferView view);
+  // Design 2 and the CPU alone keep mask and reflection on the CPU.
+  [[nodiscard]] ShadingPasses::Traced send_from_cpu(const MaskImage& mask, const Image<glm::vec3>& reflection,
+                                                    BufferView view);
 
   ShadingPasses shading_;
   gl::Framebuffer target_;
-  Incoming mask_{gl::Mapping::each_time}, reflection_{gl::Mapping::each_time};
+  Incoming ids_{gl::Mapping::each_time}, mask_{gl::Mapping::each_time}, reflection_{gl::Mapping::each_time};
 };
 
 }  // namespace pinocchio

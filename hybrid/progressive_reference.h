@@ -24,10 +24,10 @@ struct ReferenceView {
   friend bool operator==(const ReferenceView&, const ReferenceView&) = default;
 };
 
-// The precise picture (core/reference) of what is looked at, made in the background on threads of the lowest
-// priority while frames are drawn: first one pixel in 4 x 4, shown as squares, then one in 2 x 2, then all,
-// tile by tile. One thread's object; no call waits for the background's work but the destructor, which
-// waits for the pixels begun.
+// The precise picture (core/reference) of what is looked at, made in the background on threads of low
+// priority while frames are drawn: first one pixel in 8 x 8, shown as squares, then one in 4 x 4, in 2 x 2,
+// and all, each time tile by tile. One thread's object; no call waits for the background's work but the
+// destructor, which waits for the pixels begun.
 class ProgressiveReference {
  public:
   explicit ProgressiveReference(int threads = 1);
@@ -57,6 +57,7 @@ class ProgressiveReference {
   int threads_;
   std::unique_ptr<ReferenceView> view_;  // null: none
   Image<glm::vec4> shown_;
+  bool shown_is_clear_ = true;
   // Scenes that the background may still be reading. They hold OpenGL names, and so must die on the
   // caller's thread.
   std::vector<std::shared_ptr<const PreparedScene>> scenes_;

@@ -18,6 +18,7 @@ TEST_P(ContextTest, IsCoreAndSaysWhatItIs) {
   GLint profile = 0;
   glGetIntegerv(GL_CONTEXT_PROFILE_MASK, &profile);
   EXPECT_EQ(profile, GL_CONTEXT_CORE_PROFILE_BIT);
+  EXPECT_FALSE(gl::context_lost());
 }
 
 TEST(Open, TriesSoftwareDevicesAfterHardware) {

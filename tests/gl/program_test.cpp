@@ -35,7 +35,8 @@ INSTANTIATE_TEST_SUITE_P(Backends, ProgramTest, kBackends, backend_name);
 TEST_P(ProgramTest, EveryShaderCompilesInEveryVariant) {
   for (const char* bits : {"ID_BITS 16", "ID_BITS 24", "ID_BITS 32"}) {
     EXPECT_NO_THROW(gl::Program(kShaders, "visibility.vert", "visibility.frag", {bits}));
-    for (const char* file : {"composite.frag", "gbuffer.frag", "show.frag"})
+    for (const char* file :
+         {"accumulate.frag", "composite.frag", "gbuffer.frag", "inspect.frag", "show.frag"})
       EXPECT_NO_THROW(gl::Program(kShaders, "fullscreen.vert", file, {bits}));
     for (std::vector<std::string> definitions : std::initializer_list<std::vector<std::string>>{
              {"HAS_MASK", "MASK_BITS 1", "MASK_SCALE 1"},
@@ -46,6 +47,11 @@ TEST_P(ProgramTest, EveryShaderCompilesInEveryVariant) {
              {"HAS_TEXTURES", "FREE_LIGHTS_ONLY"}}) {
       definitions.emplace_back(bits);
       EXPECT_NO_THROW(gl::Program(kShaders, "fullscreen.vert", "composite.frag", definitions));
+      for (const char* shown : {"SHOW_IDS", "SHOW_NORMALS", "SHOW_MASK", "SHOW_AGE"}) {
+        std::vector<std::string> with = definitions;
+        with.emplace_back(shown);
+        EXPECT_NO_THROW(gl::Program(kShaders, "fullscreen.vert", "inspect.frag", with)) << shown;
+      }
     }
     EXPECT_NO_THROW(gl::Program(kShaders, "fullscreen.vert", "gbuffer.frag", {bits, "NORMALS_ONLY"}));
   }

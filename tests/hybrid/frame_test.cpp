@@ -222,6 +222,21 @@ TEST_P(LoopTest, AnErrorOnATracingThreadSurfacesWithItsFrameAlone) {
   for (const Delivery& delivery : deliveries_) EXPECT_NE(delivery.number, 3u);
 }
 
+TEST_P(LoopTest, MayEndWithFramesInFlight) {
+  const Scene scene = load_or_die(source_path("scenes/cornell"));
+  const Plan plan = auto_plan(scene);
+  const auto prepared = prepare(scene, plan);
+  for (int frames = 1; frames <= 3; ++frames) {
+    FrameLoop loop(workers_, shader_folder(), Exchange::pipelined, gl::Mapping::each_time,
+                   {[](Flight&) {}, [](const FrameRecord&) {}});
+    for (int i = 0; i < frames; ++i) {
+      FrameRequest moved = request(prepared, plan, {320, 240});
+      moved.camera.eye.x += 0.1f * static_cast<float>(i);
+      loop.submit(moved);
+    }
+  }
+}
+
 TEST_P(LoopTest, Design2IsOneFrameLate) {
   const Scene scene = load_or_die(source_path("scenes/cornell"));
   const Plan plan = *make_plan(take_census(scene), {.design = 2});

@@ -5,6 +5,7 @@
 #include "core/image/tonemap.h"
 #include "core/trace/aov.h"
 #include "hybrid/inspect_pass.h"
+#include "hybrid/raytrace.h"
 #include "tests/support/frames.h"
 
 namespace pinocchio {
@@ -45,6 +46,7 @@ TEST_P(InspectTest, IdsHaveAColourEach) {
   for (const int id_bits : {16, 24, 32}) {
     Plan plan = plan_of(scene);
     plan.id_bits = id_bits;
+    if (id_bits == 32) plan.primary = Primary::rays;
     look_at(scene, plan, [&](Flight& frame) {
       const Image<glm::vec4> picture = view(frame, BufferView::ids);
       std::map<std::uint32_t, glm::vec4> color_of;
@@ -93,7 +95,8 @@ glm::ivec3 check_mask(const Image<glm::vec4>& picture, const Flight& frame, int 
 }
 
 TEST_P(InspectTest, MasksAreWhiteWhereLitBlackInShadowGreyWhereNotAsked) {
-  const Scene scene = load_or_die(source_path("scenes/two-lights"));
+  Scene scene = load_or_die(source_path("scenes/two-lights"));
+  for (Light& light : scene.lights) light.casts_shadow = true;
   for (const int design : {1, 2})
     look_at(scene, plan_of(scene, {.design = design}), [&](Flight& frame) {
       for (int slot = 0; slot < 2; ++slot) {
@@ -175,6 +178,25 @@ TEST_P(InspectTest, AgeIsFlatUnlessReprojectedAndThenTellsHoles) {
   }
 }
 
+TEST_P(InspectTest, OfAPictureByTheCpuAloneToo) {
+  const Scene scene = load_or_die(source_path("scenes/cornell"));
+  const auto prepared = prepare(scene);
+  FrameRequest by_cpu = request(prepared, plan_of(scene, {.mode = Mode::raytrace}), kSize);
+  Picture picture;
+  (void)raytrace(by_cpu, workers_, picture);
+  draw({request(prepared, plan_of(scene), kSize)}, Exchange::sync, [&](Flight& frame) {
+    for (const BufferView what :
+         {BufferView::ids, BufferView::normals, BufferView::mask, BufferView::reflection}) {
+      const Image<glm::vec4> hybrid = view(frame, what), cpu = read(pass_->draw(by_cpu, picture, what, 0));
+      std::size_t other = 0;
+      for (std::size_t i = 0; i < hybrid.pixels().size(); ++i)
+        other += glm::distance(hybrid[i], cpu[i]) > 0.002f * (1.0f + glm::length(hybrid[i]));
+      EXPECT_LT(other, hybrid.pixels().size() / 200) << kBufferViewNames[static_cast<std::size_t>(what)];
+    }
+  });
+  EXPECT_NE(missing(BufferView::age, 0, by_cpu.plan), "");
+}
+
 // A reprojected frame's mask is the older one's where its points were then: what the picture shows.
 TEST_P(InspectTest, AReprojectedMaskFollowsThePicture) {
   const Scene scene = load_or_die(source_path("scenes/two-lights"));
@@ -209,8 +231,8 @@ TEST_P(InspectTest, WhatAPlanHasNotIsSaidAndGrey) {
     EXPECT_EQ(&pass_->draw(frame, BufferView::picture, 0), &frame.picture.target);
   });
   const Plan plan = plan_of(scene);
-  EXPECT_EQ(missing(BufferView::mask, 1, plan), "");
-  EXPECT_NE(missing(BufferView::mask, 2, plan), "");
+  EXPECT_EQ(missing(BufferView::mask, 0, plan), "");
+  EXPECT_NE(missing(BufferView::mask, 1, plan), "");  // its other light does not cast
 }
 
 }  // namespace

@@ -1,6 +1,8 @@
 // The precise picture in the background, against the one made at once.
 #include "hybrid/progressive_reference.h"
 
+#include <sys/resource.h>
+
 #include <chrono>
 #include <filesystem>
 #include <fstream>
@@ -73,6 +75,7 @@ TEST(ProgressiveReference, GrowsFromSquaresOfExactPixels) {
   for (bool done = false; !done;) {
     const auto [color, share, changed] = reference.poll();
     done = share == 1.0;
+    std::this_thread::sleep_for(std::chrono::milliseconds(1));
     ASSERT_EQ(changed, share > last_share);
     last_share = share;
     ASSERT_EQ(color.size(), kSize);
@@ -80,7 +83,7 @@ TEST(ProgressiveReference, GrowsFromSquaresOfExactPixels) {
       for (int x = 0; x < kSize.x; ++x) {
         const glm::vec4& c = color.at(x, y);
         const auto from = [&](int step) { return exact.at(x - x % step, y - y % step); };
-        ASSERT_TRUE(c == glm::vec4(0.0f) || c == from(4) || c == from(2) || c == from(1));
+        ASSERT_TRUE(c == glm::vec4(0.0f) || c == from(8) || c == from(4) || c == from(2) || c == from(1));
       }
   }
 }
@@ -124,7 +127,7 @@ TEST(ProgressiveReference, LetsGoOfScenesOnTheCallersThread) {
   reference.show(view_of(first));
   reference.show(view_of(second));
   finish(reference);
-  EXPECT_EQ(first.use_count(), 2 - (reference.poll(), 1));
+  while (first.use_count() > 1) (void)reference.poll();  // as soon as the background is through with it
   EXPECT_GT(second.use_count(), 1);
 }
 
@@ -141,21 +144,22 @@ TEST(ProgressiveReference, EndsInTheMiddleOfATreeOrAPicture) {
 }
 
 // The 19th field of a thread's stat is its nice value.
-TEST(ProgressiveReference, RunsAtTheLowestPriority) {
+TEST(ProgressiveReference, GivesWayToOtherThreads) {
   ProgressiveReference reference(2);
   const auto scene = prepare(plate_over_floor());
   reference.show(view_of(scene));
   finish(reference);
-  int lowest = 0;
+  const int own = getpriority(PRIO_PROCESS, 0);
+  int lowered = 0;
   for (const auto& task : std::filesystem::directory_iterator("/proc/self/task")) {
     std::ifstream in(task.path() / "stat");
     std::string text((std::istreambuf_iterator<char>(in)), {});
     std::istringstream fields(text.substr(text.rfind(')') + 2));
     std::string field;
     for (int i = 3; i <= 19; ++i) fields >> field;
-    lowest += field == "19";
+    lowered += std::stoi(field) >= own + 10 || field == "19";
   }
-  EXPECT_EQ(lowest, 2);
+  EXPECT_EQ(lowered, 2);
 }
 
 TEST(ReferenceErrors, AreTheFiguresAndTheHeat) {

@@ -2,6 +2,7 @@
 #include <fstream>
 #include <sstream>
 
+#include "gl/error.h"
 #include "tests/support/frames.h"
 #include "tests/support/own_file.h"
 
