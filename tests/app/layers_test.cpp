@@ -34,7 +34,8 @@ const Rooms kMaySeeInCore{
     {"bsp", {"base", "math", "scene"}},
     {"trace", {"base", "math", "image", "scene", "bsp", "simd", "parallel"}},
     {"reference", {"base", "math", "image", "scene", "parallel", "trace"}},
-    {"stability", {"base", "math", "image", "scene", "procedural", "bsp", "parallel", "trace", "reference"}},
+    {"stability",
+     {"base", "math", "image", "scene", "procedural", "bsp", "simd", "parallel", "trace", "reference"}},
     {"output", {"base", "math", "image", "scene", "parallel", "trace"}}};
 
 std::vector<std::string> includes_of(const std::filesystem::path& file) {
