@@ -14,6 +14,7 @@ volatile std::sig_atomic_t interrupt_count = 0;
 void on_interrupt(int) {
   interrupt_count = interrupt_count + 1;
   std::signal(SIGINT, SIG_DFL);
+  std::signal(SIGTERM, SIG_DFL);
 }
 
 }  // namespace
@@ -26,6 +27,7 @@ std::string one_line(std::string text) {
 
 void catch_interrupts() {
   std::signal(SIGINT, on_interrupt);
+  std::signal(SIGTERM, on_interrupt);
 }
 bool interrupted() {
   return interrupt_count > 0;

@@ -9,7 +9,7 @@ namespace pinocchio::app {
 // Line breaks become blanks: an error is one line.
 [[nodiscard]] std::string one_line(std::string text);
 
-// From here on Ctrl-C asks for an end (interrupted()); a second one ends at once.
+// From here on Ctrl-C, or SIGTERM, asks for an end (interrupted()); a second one ends at once.
 void catch_interrupts();
 [[nodiscard]] bool interrupted();
 

@@ -11,7 +11,7 @@ namespace pinocchio::gl {
 
 // One way to a context, not yet tried.
 struct Candidate {
-  std::string backend;                                       // "egl", "osmesa"
+  std::string backend;                                       // "egl", "osmesa", "glfw"
   std::string what;                                          // for people
   std::optional<int> device;                                 // EGL's device number
   bool software = false;                                     // known to be, before it is opened

@@ -8,7 +8,7 @@
 namespace pinocchio::gl {
 
 struct ContextInfo {
-  std::string backend;  // "egl", "osmesa"
+  std::string backend;  // "egl", "osmesa", "glfw"
   std::string device;   // what was opened, in words
   std::string vendor, renderer, version;
   int major = 0, minor = 0;

@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <glm/glm.hpp>
 #include <span>
+#include <vector>
 
 #include "gl/buffer.h"
 #include "gl/framebuffer.h"
@@ -40,5 +41,13 @@ void begin_depth_pass(const Framebuffer& target, std::uint32_t clear, glm::ivec2
 
 // Draws into `target` begin here, without depth; every pixel will be written.
 void begin_fullscreen_pass(const Framebuffer& target);
+
+// Draws into the window of `window_pixels` begin here, into the box at `lo` (from the top left) of `size`
+// alone; shaders write what the display shows.
+void begin_window_pass(glm::ivec2 window_pixels, glm::ivec2 lo, glm::ivec2 size);
+void end_window_pass();
+
+// The window's pixels as drawn so far, before they are presented; row 0 on top. Waits for the GPU.
+[[nodiscard]] std::vector<glm::u8vec3> read_window(glm::ivec2 window_pixels);
 
 }  // namespace pinocchio::gl

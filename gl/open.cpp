@@ -2,6 +2,7 @@
 
 #include "gl/egl.h"
 #include "gl/error.h"
+#include "gl/glfw.h"
 #include "gl/osmesa.h"
 
 namespace pinocchio::gl {
@@ -10,11 +11,14 @@ namespace {
 std::vector<Candidate> all_candidates() {
   std::vector<Candidate> candidates = egl_candidates();
   candidates.push_back(osmesa_candidate());
+  candidates.push_back(glfw_candidate());
   return candidates;
 }
 
 bool wanted(const Candidate& candidate, const ContextRequest& request) {
-  if (request.backend != "auto" && candidate.backend != request.backend) return false;
+  // A window of the display is taken only where it is asked for.
+  if (request.backend == "auto" ? candidate.backend == "glfw" : candidate.backend != request.backend)
+    return false;
   if (request.device.empty()) return true;
   if (request.device == "software") return candidate.software;
   return candidate.device && std::to_string(*candidate.device) == request.device;

@@ -9,7 +9,7 @@
 namespace pinocchio::gl {
 
 struct ContextRequest {
-  std::string backend = "auto";  // "auto", "egl", "osmesa"
+  std::string backend = "auto";  // "auto" (never "glfw"), "egl", "osmesa", "glfw"
   std::string device;            // EGL's device number, "software", or empty: the first that works
   bool debug = false;            // listen to the driver (Context::complaints)
 };

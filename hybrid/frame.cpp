@@ -81,6 +81,12 @@ void FrameLoop::drain() {
     if (Flight* const frame = frames_back(n)) retire(*frame);
 }
 
+void FrameLoop::set_exchange(Exchange exchange) {
+  if (exchange == exchange_) return;
+  drain();
+  exchange_ = exchange;
+}
+
 const Design& FrameLoop::design_of(const Flight& frame) const {
   const Plan& plan = frame.request.plan;
   if (plan.mode == Mode::hybrid && plan.design == 2) return design2_;

@@ -47,6 +47,8 @@ class FrameLoop {
   [[nodiscard]] const std::shared_ptr<Programs>& programs() const { return passes_.programs; }
   // Delivers every frame that is still in flight.
   void drain();
+  // From the next frame on; delivers what is in flight.
+  void set_exchange(Exchange exchange);
 
   // The finished picture on the CPU, linear RGBA; waits for the GPU.
   static void read_picture(Flight& frame, Image<glm::vec4>& color);

@@ -92,37 +92,45 @@ bool has_textures(const Scene& scene) {
 
 }  // namespace
 
+GpuScene::Shared::Shared(const Scene& scene)
+    : mesh(scene.positions, scene.triangles),
+      corners(unsigneds(scene.triangles)),
+      triangle_materials(unsigneds(scene.triangle_materials)),
+      positions(floats(scene.positions)),
+      normals(floats(scene.normals)),
+      materials(quads(material_texels(scene))) {
+  if (!has_textures(scene)) return;
+  texcoords = floats(scene.texcoords);
+  texels = {std::span<const glm::u8vec4>(all_texels(scene)), GL_RGBA8, sizeof(glm::u8vec4)};
+}
+
 GpuScene::GpuScene(const Scene& scene)
-    : mesh_(scene.positions, scene.triangles),
-      corners_(unsigneds(scene.triangles)),
-      triangle_materials_(unsigneds(scene.triangle_materials)),
-      positions_(floats(scene.positions)),
-      normals_(floats(scene.normals)),
-      materials_(quads(material_texels(scene))),
-      lights_(quads(light_texels(scene))),
+    : shared_(std::make_shared<const Shared>(scene)),
       ambient_light_(scene.ambient_light),
-      light_count_(static_cast<int>(scene.lights.size())),
       textured_(has_textures(scene)),
       // Reversed float depth is as fine far away as near by, so the near plane may be next to nothing.
       z_near_(std::max(scene.bounds().diagonal() * 1e-6f, std::numeric_limits<float>::min())) {
-  if (!textured_) return;
-  texcoords_ = floats(scene.texcoords);
-  texels_ = {std::span<const glm::u8vec4>(all_texels(scene)), GL_RGBA8, sizeof(glm::u8vec4)};
+  relight(scene);
+}
+
+void GpuScene::relight(const Scene& scene) {
+  lights_ = std::make_shared<const gl::TextureBuffer>(quads(light_texels(scene)));
+  light_count_ = static_cast<int>(scene.lights.size());
 }
 
 int GpuScene::bind(const gl::Program& program, int first_unit) const {
   int unit = first_unit;
-  program.set("triangle_corners", unit++, corners_);
-  program.set("triangle_materials", unit++, triangle_materials_);
-  program.set("positions", unit++, positions_);
-  program.set("normals", unit++, normals_);
-  program.set("materials", unit++, materials_);
-  program.set("lights", unit++, lights_);
+  program.set("triangle_corners", unit++, shared_->corners);
+  program.set("triangle_materials", unit++, shared_->triangle_materials);
+  program.set("positions", unit++, shared_->positions);
+  program.set("normals", unit++, shared_->normals);
+  program.set("materials", unit++, shared_->materials);
+  program.set("lights", unit++, *lights_);
   program.set("ambient_light", ambient_light_);
   program.set("light_count", light_count_);
   if (!textured_) return unit;
-  program.set("texcoords", unit++, texcoords_);
-  program.set("texels", unit++, texels_);
+  program.set("texcoords", unit++, shared_->texcoords);
+  program.set("texels", unit++, shared_->texels);
   return unit;
 }
 

@@ -1,6 +1,9 @@
 #pragma once
 
+#include <memory>
 #include <optional>
+#include <stdexcept>
+#include <vector>
 
 #include "core/scene/scene.h"
 #include "core/trace/tracer.h"
@@ -18,21 +21,41 @@ struct Sides {
   return {plan.traces(), true};
 }
 
-// The scene with what the sides need of it: the CPU's tree, the GPU's buffers. It stays where it is, as
-// the tree's users point into it.
+// The scene with what the sides need of it: the CPU's tree, the GPU's buffers.
 struct PreparedScene {
   Scene scene;
-  std::optional<Tracer> tracer;
+  std::shared_ptr<const Tracer> tracer;  // null: nothing traces (yet)
   std::optional<GpuScene> gpu;
 
-  PreparedScene(Scene s, Sides sides, const BuildOptions& tree, std::optional<Isa> isa)
+  PreparedScene(Scene s, Sides sides, const BuildOptions& tree, std::optional<Isa> isa,
+                OffsetMethod offset = OffsetMethod::error_bound)
       : scene(std::move(s)) {
     drop_idle_casters(scene);
-    if (sides.cpu) tracer.emplace(scene, tree, isa);
+    if (sides.cpu) tracer = std::make_shared<const Tracer>(scene, tree, isa, offset);
     if (sides.gpu) gpu.emplace(scene);
+  }
+  // The same triangles under other lights: a copy of the scene, that shares tree and GPU buffers.
+  PreparedScene(const std::shared_ptr<const PreparedScene>& of, std::vector<Light> lights)
+      : scene(of->scene), tracer(of->tracer), gpu(of->gpu), origin_(of->origin_ ? of->origin_ : of) {
+    relight(std::move(lights));
   }
   PreparedScene(const PreparedScene&) = delete;
   PreparedScene& operator=(const PreparedScene&) = delete;
+
+  // Changes the lights in place; no frame in flight may be using it.
+  void relight(std::vector<Light> lights) {
+    scene.lights = std::move(lights);
+    drop_idle_casters(scene);
+    if (gpu) gpu->relight(scene);
+  }
+
+  [[nodiscard]] const Tracer& required_tracer() const {
+    if (!tracer) throw std::logic_error("a plan that traces was given a scene without a tree");
+    return *tracer;
+  }
+
+ private:
+  std::shared_ptr<const PreparedScene> origin_;  // whose triangles the tree looks into; null: this one's
 };
 
 }  // namespace pinocchio

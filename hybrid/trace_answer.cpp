@@ -18,7 +18,7 @@ const Image<std::uint32_t>& sampled(const Image<std::uint32_t>& ids, int scale, 
 }  // namespace
 
 TraceJob trace_job(const FrameRequest& request, const shared::ViewParams& view, Workers& workers, int scale) {
-  return {request.scene->scene,     request.scene->tracer.value(),   workers,
+  return {request.scene->scene,     request.scene->required_tracer(),   workers,
           scaled_view(view, scale), request.plan.least_contribution, request.plan.least_light};
 }
 

@@ -1,0 +1,60 @@
+// view: the window.
+#include <cstdio>
+#include <cstdlib>
+#include <memory>
+
+#include "app/console.h"
+#include "app/errors.h"
+#include "app/verbs.h"
+#include "app/view/session.h"
+#include "gl/error.h"
+
+namespace pinocchio::app {
+namespace {
+
+std::unique_ptr<gl::Window> open_window(const ViewOptions& options) {
+  try {
+    return std::make_unique<gl::Window>("Pinocchio", options.draw.size,
+                                        std::getenv("PINOCCHIO_GL_DEBUG") != nullptr);
+  } catch (const gl::NoContextError& error) {
+    throw Exit(kNoContext, std::string(error.what()) + "; 'pinocchio render " + options.draw.scene +
+                               " --preview picture.png' draws without a display");
+  }
+}
+
+int view(const ViewOptions& options) {
+  if (options.draw.crop || options.draw.precise)
+    throw Exit(kUsage, std::string(options.draw.crop ? "--crop" : "--precise") +
+                           ": a window shows whole pictures while you wait; use it with 'pinocchio render'");
+  if (options.draw.exchange == Exchange::reproject && options.draw.design == 2)
+    throw Exit(kUsage,
+               "--exchange reproject: warps mask and reflection, which design 2 does not send; use design 1");
+  const std::unique_ptr<gl::Window> window = open_window(options);
+  bool loading = false;
+  {
+    Session session(*window, options);
+    session.run();
+    loading = session.loading();
+  }
+  window->context().throw_complaints();
+  const int code = interrupted() ? kInterrupted : kDone;
+  if (!loading) return code;
+  // A scene is still being read that nobody wants any more; nothing is left to be written.
+  std::fflush(nullptr);
+  std::_Exit(code);
+}
+
+}  // namespace
+
+Run add_view(CLI::App& program) {
+  auto options = std::make_shared<ViewOptions>();
+  CLI::App& verb = *program.add_subcommand("view", "open a scene in a window (F1 there: the keys)");
+  add_draw_options(verb, options->draw);
+  verb.add_option("--exposure", options->exposure_ev, "stops brighter (0)")
+      ->check(CLI::Range(-kMostExposure, kMostExposure));
+  verb.add_flag("--watch", options->watch, "load the scene and the shaders anew when their files change");
+  verb.add_flag("!--no-vsync", options->vsync, "do not wait for the display between frames");
+  return [options] { return view(*options); };
+}
+
+}  // namespace pinocchio::app

@@ -1,0 +1,40 @@
+#pragma once
+
+#include <glm/glm.hpp>
+
+#include "core/math/bounds.h"
+#include "core/scene/camera.h"
+
+namespace pinocchio::app {
+
+// How mouse and keys move the camera: a turntable around its target (up stays up), and flight. Knows no
+// window; distances on the screen are in pixels, y downwards.
+class CameraControl {
+ public:
+  // What the scene is like: frame_all() shows it, flight is as fast as it is large.
+  void set_scene(const Bounds& bounds) { bounds_ = bounds; }
+  void set_camera(const Camera& camera) { camera_ = camera; }
+  [[nodiscard]] const Camera& camera() const { return camera_; }
+
+  // Turns around the target: the window's height is half a turn.
+  void orbit(glm::vec2 pixels, float window_height);
+  // Turns the view, the eye stays.
+  void look(glm::vec2 pixels, float window_height);
+  // Moves sideways so that what is at the target's distance follows the pointer.
+  void pan(glm::vec2 pixels, float window_height);
+  // Nearer to the target (positive) or away; a step is a tenth of the distance.
+  void zoom(float steps);
+  // Flies along its own right, up and forward axes (each -1 to 1); the target keeps its distance.
+  void fly(const glm::vec3& along, float seconds, bool fast);
+  // The whole scene in view, seen from the same side. aspect: width / height.
+  void frame_all(float aspect);
+
+ private:
+  [[nodiscard]] float distance() const;
+  void turn(glm::vec3& arm, glm::vec2 pixels, float window_height) const;
+
+  Camera camera_;
+  Bounds bounds_;
+};
+
+}  // namespace pinocchio::app

@@ -1,0 +1,35 @@
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <map>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace pinocchio::app {
+
+// Tells when files change, by looking at their times and sizes now and then.
+class FileWatch {
+ public:
+  // Files of `folder` and below whose extension is one of these; any where there are none. Looks at no more
+  // than kMost files.
+  FileWatch(std::filesystem::path folder, std::vector<std::string> extensions);
+
+  // Whether they differ from what they were at the start, or at the last true. A change counts when it has
+  // lasted from one look to the next: a file that is still being written is waited for. Looks at most every
+  // `period_s`.
+  [[nodiscard]] bool changed(double now_s, double period_s = 0.3);
+
+ private:
+  static constexpr std::size_t kMost = 2000;
+  using Stamps = std::map<std::string, std::pair<std::int64_t, std::uintmax_t>>;
+  [[nodiscard]] Stamps look() const;
+
+  std::filesystem::path folder_;
+  std::vector<std::string> extensions_;
+  Stamps known_, pending_;
+  double looked_s_ = 0.0;
+};
+
+}  // namespace pinocchio::app

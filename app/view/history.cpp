@@ -1,0 +1,40 @@
+#include "app/view/history.h"
+
+#include <algorithm>
+
+namespace pinocchio::app {
+
+void History::add(const FrameRecord& record) {
+  records_.push_back(record);
+  if (records_.size() > kMost) records_.pop_front();
+}
+
+std::vector<float> History::frame_ms() const {
+  std::vector<float> values;
+  for (std::size_t i = 1; i < records_.size(); ++i)
+    values.push_back(static_cast<float>(1e3 * (records_[i].frame.end_s - records_[i - 1].frame.end_s)));
+  return values;
+}
+
+std::vector<float> History::latency_ms() const {
+  std::vector<float> values;
+  for (const FrameRecord& record : records_) values.push_back(static_cast<float>(record.frame.ms()));
+  return values;
+}
+
+std::vector<float> History::stage_ms(Stage stage) const {
+  std::vector<float> values;
+  for (const FrameRecord& record : records_) values.push_back(static_cast<float>(record[stage].ms()));
+  return values;
+}
+
+float median_of_newest(const std::vector<float>& values, std::size_t count) {
+  std::vector<float> newest(values.end() - static_cast<std::ptrdiff_t>(std::min(count, values.size())),
+                            values.end());
+  if (newest.empty()) return 0.0f;
+  const auto middle = newest.begin() + static_cast<std::ptrdiff_t>(newest.size() / 2);
+  std::nth_element(newest.begin(), middle, newest.end());
+  return *middle;
+}
+
+}  // namespace pinocchio::app

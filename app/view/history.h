@@ -1,0 +1,34 @@
+#pragma once
+
+#include <cstddef>
+#include <deque>
+#include <vector>
+
+#include "hybrid/record.h"
+
+namespace pinocchio::app {
+
+// What the last frames cost, newest last.
+class History {
+ public:
+  static constexpr std::size_t kMost = 240;
+
+  void add(const FrameRecord& record);
+  void clear() { records_.clear(); }
+
+  [[nodiscard]] bool empty() const { return records_.empty(); }
+  [[nodiscard]] const std::deque<FrameRecord>& records() const { return records_; }
+
+  // From one frame's end to the next one's, ms.
+  [[nodiscard]] std::vector<float> frame_ms() const;
+  [[nodiscard]] std::vector<float> latency_ms() const;
+  [[nodiscard]] std::vector<float> stage_ms(Stage stage) const;
+
+ private:
+  std::deque<FrameRecord> records_;
+};
+
+// Of the newest `count` values; 0 where there are none.
+[[nodiscard]] float median_of_newest(const std::vector<float>& values, std::size_t count);
+
+}  // namespace pinocchio::app

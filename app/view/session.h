@@ -1,0 +1,96 @@
+#pragma once
+
+#include <memory>
+#include <optional>
+
+#include "app/view/comparison.h"
+#include "app/view/file_watch.h"
+#include "app/view/gui.h"
+#include "app/view/model.h"
+#include "app/view/navigation.h"
+#include "app/view/painter.h"
+#include "app/view/view_options.h"
+#include "hybrid/accumulator.h"
+#include "hybrid/inspect_pass.h"
+#include "hybrid/present_pass.h"
+
+namespace pinocchio::app {
+
+// A scene in a window, from opening to closing: session.cpp takes events and changes, session_draw.cpp draws,
+// session_actions.cpp does what keys and buttons ask.
+class Session {
+ public:
+  Session(gl::Window& window, const ViewOptions& options);
+
+  // Returns when the window is closed or the program interrupted. Ends the verb where the scene of the
+  // command line cannot be read.
+  void run();
+  // Whether a thread still reads a scene.
+  [[nodiscard]] bool loading() const { return loader_.busy(); }
+
+ private:
+  // session.cpp
+  void take_events();
+  void take_key(const gl::KeyEvent& event);
+  void take_drop(const gl::DropEvent& event);
+  void take_news();
+  void take_scene(const SceneLoader::News& news);
+  void take_file_changes();
+  void apply_changes();
+  [[nodiscard]] Expected<Plan> plan_for(const ViewSettings& settings, bool keeps_mask) const;
+  [[nodiscard]] bool try_plan(const ViewSettings& settings);
+  [[nodiscard]] double patience_s() const;
+
+  // session_draw.cpp
+  void draw();
+  void draw_scene();
+  void follow_reference(const FrameRequest& request);
+  [[nodiscard]] bool gathers() const;
+  [[nodiscard]] glm::ivec2 picture_size() const;
+  [[nodiscard]] FrameRequest next_request();
+  void take_painted(const Painted& painted);
+  [[nodiscard]] const gl::Texture& chosen_buffer(const Painted& painted);
+  void compare(const Painted& painted);
+  void show(const gl::Texture* picture);
+  void present(const gl::Texture& picture);
+
+  // session_actions.cpp
+  void perform(Action action);
+  void show_camera(std::size_t number);
+  void take_screenshot();
+  void write_frame_exr(const std::string& file);
+  void write_window_png();
+  void save_camera();
+  void print_command();
+  [[nodiscard]] std::string file_name(const std::vector<std::string>& extensions) const;
+
+  gl::Window& window_;
+  ViewOptions options_;
+  Workers workers_;
+  Model model_;
+  Navigation navigation_;
+  SceneLoader loader_;
+  Gui gui_;
+  std::shared_ptr<Programs> programs_;
+  PresentPass present_;
+  InspectPass inspect_;
+  Accumulator accumulator_;
+  std::unique_ptr<Comparison> comparison_;  // null: none is asked for
+  Painter painter_;
+  std::optional<FileWatch> shader_watch_, scene_watch_;  // with --watch
+
+  const gl::Texture* last_ = nullptr;  // picture shown last
+  bool last_is_light_ = true;          // exposure is for light alone
+  std::optional<FrameRequest> asked_;  // of the newest frame
+  int sample_ = 0;                     // of the still camera, the next to ask for
+  bool shown_ = false;                 // something, this turn
+  bool idle_ = false;                  // nothing new was asked for
+  Camera first_camera_;
+  ViewSettings applied_;
+  std::vector<Light> applied_lights_;
+  bool lights_edited_ = false;  // they are not the file's
+  std::string png_file_;        // to write the window to, when it is drawn next
+  double last_turn_s_ = 0.0;
+};
+
+}  // namespace pinocchio::app

@@ -1,0 +1,139 @@
+#include <algorithm>
+#include <cstdio>
+#include <nlohmann/json.hpp>
+
+#include "app/output.h"
+#include "app/view/session.h"
+#include "app/view/takeaway.h"
+#include "core/image/atomic_file.h"
+#include "core/image/png.h"
+#include "core/scene/save.h"
+#include "hybrid/renderer.h"
+
+namespace pinocchio::app {
+namespace {
+
+// The lights that the scene's file lacks: of the command line, or the default.
+std::vector<Light> extra_lights(const std::vector<Light>& lights, const DrawOptions& options) {
+  if (options.lights.empty() && lights.size() == 1 && lights.front().name == "default") return lights;
+  return options.lights;
+}
+
+}  // namespace
+
+void Session::perform(Action action) {
+  const glm::vec2 size(window_.pixels());
+  try {
+    switch (action) {
+      case Action::frame_all:
+        return model_.camera.frame_all(size.x / std::max(size.y, 1.0f));
+      case Action::reset_camera:
+        return model_.camera.set_camera(first_camera_);
+      case Action::next_buffer:
+        return next_buffer(model_.settings, model_.scene ? model_.scene.needs().casting_lights : 0);
+      case Action::screenshot:
+        return take_screenshot();
+      case Action::save_camera:
+        return save_camera();
+      case Action::print_command:
+        return print_command();
+      case Action::full_screen:
+        return window_.set_full_screen(!window_.full_screen());
+      case Action::close:
+        return window_.ask_close();
+      default:
+        return change_setting(action, model_.settings);
+    }
+  } catch (const std::exception& error) {  // a file that cannot be written
+    model_.notify(error.what(), 8.0);
+  }
+}
+
+void Session::show_camera(std::size_t number) {
+  if (!model_.scene) return;
+  const std::vector<Camera>& cameras = model_.scene.shown()->scene.cameras;
+  if (number < cameras.size()) {
+    model_.camera.set_camera(cameras[number]);
+    model_.notify("camera " + cameras[number].name);
+  } else {
+    model_.notify("the scene has " + std::to_string(cameras.size()) +
+                  (cameras.size() == 1 ? " camera" : " cameras"));
+  }
+}
+
+// In the working directory, named after the scene.
+std::string Session::file_name(const std::vector<std::string>& extensions) const {
+  const std::string stem = std::filesystem::path(options_.draw.scene).stem().string();
+  return unused_name(stem.empty() ? "view" : stem, extensions);
+}
+
+void Session::take_screenshot() {
+  if (!model_.scene) return;
+  const std::string name = file_name({".png", ".exr"});
+  write_frame_exr(name + ".exr");
+  png_file_ = name + ".png";  // when the window is drawn next
+}
+
+void Session::write_frame_exr(const std::string& file) {
+  painter_.drain();
+  const double begin_s = now_s();
+  const Plan plan = plan_for(applied_, true).value_or(model_.plan);
+  Picture picture;
+  Renderer renderer(model_.scene.shown(), plan, workers_, {},
+                    {[&](Picture&& p) { picture = std::move(p); }, [](const FrameRecord&) {}});
+  const glm::ivec2 size = picture_size();
+  const View view{model_.camera.camera(), size, {{0, 0}, size}};
+  renderer.submit(view);
+  renderer.drain();
+  // The layers are of one sample, the picture of all that were gathered.
+  if (gathers() && accumulator_.samples() > 1 && accumulator_.average().size() == size)
+    accumulator_.read_average(picture.color);
+  OutputOptions output;
+  output.exr = file;
+  write_outputs(output, 0, *model_.scene.shown(), view, picture, workers_, now_s() - begin_s);
+}
+
+// What the window shows, to the pixel.
+void Session::write_window_png() {
+  const std::string file = std::exchange(png_file_, {});
+  const glm::ivec2 size = model_.window_pixels;
+  Image<glm::u8vec3> image(size);
+  std::ranges::copy(gl::read_window(size), image.pixels().begin());
+  try {
+    write_png(file, image);
+    model_.notify(file + " and .exr written");
+    std::printf("%s\n%s\n", file.c_str(), std::filesystem::path(file).replace_extension(".exr").c_str());
+    std::fflush(stdout);
+  } catch (const EnvironmentError& error) {
+    model_.notify(error.what(), 8.0);
+  }
+}
+
+void Session::save_camera() {
+  const std::string file = file_name({"-camera.json"}) + "-camera.json";
+  write_text(file, camera_path_json(model_.camera.camera()));
+  model_.notify(file + " written: for --path");
+  std::printf("%s\n", file.c_str());
+  std::fflush(stdout);
+}
+
+void Session::print_command() {
+  if (!model_.scene) return;
+  const std::string name = file_name({".png", ".exr", ".gltf"});
+  const bool relit = lights_edited_ || !applied_.shadows;
+  std::string file = model_.scene.shown()->scene.source;
+  if (relit) {  // the lights are in no file yet
+    file = name + ".gltf";
+    save_scene(model_.scene.shown()->scene, file);
+  }
+  const std::vector<Light> lights = relit ? std::vector<Light>() : extra_lights(model_.lights, options_.draw);
+  const std::string command = render_command({file, options_.draw, applied_, model_.camera.camera(), lights,
+                                              picture_size(), gathers() ? std::max(model_.samples, 1) : 1},
+                                             name);
+  std::printf("%s\n", command.c_str());
+  std::fflush(stdout);
+  window_.set_clipboard(command);
+  model_.notify("printed, and in the clipboard:\n" + command, 8.0);
+}
+
+}  // namespace pinocchio::app

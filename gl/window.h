@@ -1,0 +1,94 @@
+#pragma once
+
+#include <filesystem>
+#include <glm/glm.hpp>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "gl/glfw.h"
+
+namespace pinocchio::gl {
+
+// Keys that print nothing; the others are the character that a US keyboard prints there, upper case.
+enum Key : int {
+  kKeySpace = 32,
+  kKeyEscape = 256,
+  kKeyEnter = 257,
+  kKeyTab = 258,
+  kKeyHome = 268,
+  kKeyF1 = 290,
+  kKeyF11 = 300,
+  kKeyF12 = 301,
+  kKeyPlus = 334,   // of the number pad
+  kKeyMinus = 333,  // of the number pad
+};
+
+struct Modifiers {
+  bool shift = false, control = false, alt = false;
+};
+
+// What a person did to the window. Positions are in pixels of the framebuffer, from the top left.
+struct KeyEvent {
+  int key = 0;        // where it is on the keyboard (Key)
+  int character = 0;  // what is printed on it, upper case; else as `key`
+  bool down = false;
+  bool repeated = false;  // held so long that it counts again
+  Modifiers with;
+};
+struct ButtonEvent {
+  int button = 0;  // 0 left, 1 right, 2 middle
+  bool down = false;
+  Modifiers with;
+};
+struct PointerEvent {
+  glm::vec2 position{0.0f};
+};
+struct ScrollEvent {
+  float steps = 0.0f;  // away from the person: positive
+};
+struct DropEvent {
+  std::vector<std::filesystem::path> files;
+};
+using WindowEvent = std::variant<KeyEvent, ButtonEvent, PointerEvent, ScrollEvent, DropEvent>;
+
+// A window on the display with its OpenGL context, current on the thread that opened it: the main one.
+class Window {
+ public:
+  // Throws NoContextError where there is no display, or OpenGL is not enough.
+  Window(const std::string& title, glm::ivec2 size, bool debug);
+
+  [[nodiscard]] const Context& context() const { return context_; }
+  // For what draws into the window by itself (Dear ImGui).
+  [[nodiscard]] GLFWwindow* handle() const { return context_.window(); }
+
+  // What happened since the last call, in order; waits up to `timeout_s` for something to happen.
+  [[nodiscard]] std::vector<WindowEvent> take_events(double timeout_s = 0.0);
+  // Whether a key is down, by its place on the keyboard.
+  [[nodiscard]] bool is_down(int key) const;
+
+  [[nodiscard]] bool close_asked() const;
+  void ask_close();
+  [[nodiscard]] glm::ivec2 pixels() const;  // size of the framebuffer; 0 where it is minimised
+  [[nodiscard]] bool minimised() const;
+  // Of text and lines, against a usual display's: 2 on a high-DPI display.
+  [[nodiscard]] float content_scale() const;
+  [[nodiscard]] bool full_screen() const;
+  void set_full_screen(bool on);
+  void set_title(const std::string& title);
+  void set_vsync(bool on);
+  void set_clipboard(const std::string& text);
+
+  // Shows what was drawn; with vsync, waits for the display. Throws Error where the GPU was reset or the
+  // context lost.
+  void present();
+
+ private:
+  void listen();
+
+  GlfwContext context_;
+  std::vector<WindowEvent> events_;
+  glm::ivec4 windowed_{0};  // position and size before full screen
+};
+
+}  // namespace pinocchio::gl

@@ -1,0 +1,32 @@
+#version 330 core
+// A linear picture as a display shows it: exposure, the sRGB curve, stretched over the window.
+
+uniform sampler2D picture;
+uniform vec2 window_pixels;
+uniform float gain;  // 0: black
+
+out vec4 shown;
+
+vec3 fetch(ivec2 pixel, ivec2 size) {
+  return texelFetch(picture, clamp(pixel, ivec2(0), size - 1), 0).rgb;
+}
+
+// Between the four pixels around `at`, in linear light.
+vec3 interpolate(vec2 at, ivec2 size) {
+  ivec2 lo = ivec2(floor(at - 0.5));
+  vec2 t = at - 0.5 - vec2(lo);
+  vec3 above = mix(fetch(lo, size), fetch(lo + ivec2(1, 0), size), t.x);
+  vec3 below = mix(fetch(lo + ivec2(0, 1), size), fetch(lo + ivec2(1, 1), size), t.x);
+  return mix(above, below, t.y);
+}
+
+void main() {
+  shown = vec4(0.0, 0.0, 0.0, 1.0);
+  if (gain == 0.0) return;
+  ivec2 size = textureSize(picture, 0);
+  // The picture's row 0 is its top row, the window's its bottom row.
+  vec2 at = vec2(gl_FragCoord.x, window_pixels.y - gl_FragCoord.y) / window_pixels * vec2(size);
+  vec3 light = vec2(size) == window_pixels ? fetch(ivec2(at), size) : interpolate(at, size);
+  vec3 c = clamp(light * gain, 0.0, 1.0);
+  shown.rgb = mix(12.92 * c, 1.055 * pow(c, vec3(1.0 / 2.4)) - 0.055, vec3(greaterThan(c, vec3(0.0031308))));
+}
