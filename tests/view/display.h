@@ -5,6 +5,7 @@
 #include <fcntl.h>
 #include <gtest/gtest.h>
 #include <signal.h>
+#include <sys/prctl.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -40,7 +41,7 @@ inline std::string text_of(const std::filesystem::path& file) {
   return {std::istreambuf_iterator<char>(in), {}};
 }
 
-// A program that runs beside the test, in its own process group; killed at the end.
+// A program that runs beside the test; killed at the end.
 class Process {
  public:
   // environment: "NAME=VALUE"; an empty value takes the name out.
@@ -49,7 +50,7 @@ class Process {
           const std::filesystem::path& err) {
     id_ = fork();
     if (id_ != 0) return;
-    setpgid(0, 0);
+    prctl(PR_SET_PDEATHSIG, SIGKILL);  // nothing outlives the test
     for (const std::string& setting : environment) {
       const std::size_t at = setting.find('=');
       if (at + 1 == setting.size()) {
@@ -212,9 +213,9 @@ class WindowTest : public testing::Test {
   [[nodiscard]] static std::string scene(const std::string& name) {
     return std::string(PINOCCHIO_SOURCE_DIR "/scenes/") + name;
   }
-  // Closed as a person would; it says nothing and leaves well.
+  // Closed by the window manager, as a person would; it says nothing and leaves well.
   void expect_clean_close() {
-    xdo("windowquit " + window_);
+    xdo("windowfocus --sync " + window_ + " key alt+F4");
     EXPECT_EQ(program_->wait(), 0) << errors();
     EXPECT_EQ(errors(), "");
   }
