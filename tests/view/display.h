@@ -69,10 +69,11 @@ class Process {
     _exit(127);
   }
   ~Process() {
-    if (!status_) {
-      kill(id_, SIGKILL);
-      (void)wait(30.0);
-    }
+    if (!running()) return;
+    kill(id_, SIGTERM);  // an X server tidies up
+    if (wait(10.0) != -2) return;
+    kill(id_, SIGKILL);
+    (void)wait(30.0);
   }
   Process(const Process&) = delete;
   Process& operator=(const Process&) = delete;
@@ -228,7 +229,7 @@ class WindowTest : public testing::Test {
   void start_display() {
     const std::filesystem::path number = folder_ / "display.txt";
     server_.emplace(std::vector<std::string>{"Xvfb", "-displayfd", "1", "-screen", "0", "1280x800x24",
-                                             "-nolisten", "tcp"},
+                                             "-noreset", "-nolisten", "tcp"},
                     folder_, std::vector<std::string>{}, number, folder_ / "xvfb.txt");
     ASSERT_TRUE(becomes([&] { return text_of(number).find('\n') != std::string::npos; }))
         << text_of(folder_ / "xvfb.txt");
