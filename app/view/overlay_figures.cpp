@@ -39,7 +39,7 @@ float height_of(std::vector<float> values) {
 void graph(const char* id, const std::vector<float>& values, float height, ImVec4 color) {
   ImGui::PushStyleColor(ImGuiCol_PlotLines, color);
   ImGui::PlotLines(id, values.data(), static_cast<int>(values.size()), 0, nullptr, 0.0f, height_of(values),
-                   ImVec2(-1.0f, height));
+                   ImVec2(ImGui::GetContentRegionAvail().x, height));
   ImGui::PopStyleColor();
 }
 
