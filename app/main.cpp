@@ -43,6 +43,7 @@ int parse_and_run(int argc, char** argv) {
   const std::vector<std::pair<std::string, Run>> verbs{{"render", add_render(program)},
                                                        {"view", add_view(program)},
                                                        {"measure", add_measure(program)},
+                                                       {"chart", add_chart(program)},
                                                        {"compare", add_compare(program)},
                                                        {"info", add_info(program)},
                                                        {"generate", add_generate(program)}};

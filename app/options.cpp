@@ -45,11 +45,6 @@ std::optional<glm::ivec2> parse_picture_size(const std::string& text) {
 }
 
 void add_picture_options(CLI::App& verb, DrawOptions& o) {
-  add_parsed<glm::ivec2>(verb, "--size", "pixels (800x600)",
-                         "WxH, each from 1 to " + std::to_string(kMaxSide) + " and at most " +
-                             std::to_string(kMaxPixels) + " pixels",
-                         parse_picture_size, [&o](glm::ivec2 v) { o.size = v; })
-      ->type_name("WxH");
   add_parsed<Mode>(verb, "--mode", "who draws: both, CPU alone, GPU alone (hybrid)",
                    "hybrid, raytrace or raster", parse_mode, [&o](Mode v) { o.mode = v; });
   verb.add_option("--design", o.design, "where the parts meet: 1, on the GPU; 2, on the CPU (1)")
@@ -124,7 +119,7 @@ void add_camera_options(CLI::App& verb, DrawOptions& o) {
       ->take_all();
 }
 
-void add_machine_options(CLI::App& verb, DrawOptions& o) {
+void add_gl_options(CLI::App& verb, DrawOptions& o) {
   verb.add_option("--backend", o.backend, "OpenGL context: auto, egl, osmesa, glfw (a display's) (auto)")
       ->check(CLI::IsMember({"auto", "egl", "osmesa", "glfw"}))
       ->envname("PINOCCHIO_BACKEND");
@@ -140,6 +135,9 @@ void add_machine_options(CLI::App& verb, DrawOptions& o) {
   verb.add_option("--gl-threads", o.gl_threads,
                   "threads of a software rasteriser (its own choice: all cores)")
       ->check(CLI::Range(1, 32));
+}
+
+void add_tracer_options(CLI::App& verb, DrawOptions& o) {
   verb.add_option_function<int>(
           "--threads", [&o](int threads) { o.threads = o.tree.threads = threads; },
           "worker threads (all cores)")
@@ -155,6 +153,15 @@ void add_machine_options(CLI::App& verb, DrawOptions& o) {
   add_parsed<SplitRule>(verb, "--tree", "how the BSP tree is split (sah)",
                         "sah, spatial-median or object-median", parse_split_rule,
                         [&o](SplitRule v) { o.tree.rule = v; });
+  add_parsed<TriangleTest>(verb, "--triangle-test",
+                           "how a ray meets a triangle (filtered: safe, docs/stability.md)",
+                           "projected, moeller-trumbore, watertight or filtered", parse_triangle_test,
+                           [&o](TriangleTest v) { o.tree.triangle_test = v; });
+  add_parsed<OffsetMethod>(
+      verb, "--offset",
+      "how far off a surface its shadow and mirrored rays start: one length, one a scene, or "
+      "what rounding can do there (error-bound)",
+      "fixed, scaled or error-bound", parse_offset_method, [&o](OffsetMethod v) { o.offset = v; });
   verb.add_option("--tree-depth", o.tree.max_depth, "most levels of the BSP tree (from the triangle count)")
       ->check(CLI::Range(1, kMaxTreeDepth));
   verb.add_option("--tree-leaf", o.tree.leaf_size, "triangles that are not split further (2)")
@@ -163,14 +170,28 @@ void add_machine_options(CLI::App& verb, DrawOptions& o) {
 
 }  // namespace
 
-void add_draw_options(CLI::App& verb, DrawOptions& o) {
+void add_size_option(CLI::App& verb, DrawOptions& o, const std::string& help) {
+  add_parsed<glm::ivec2>(verb, "--size", help,
+                         "WxH, each from 1 to " + std::to_string(kMaxSide) + " and at most " +
+                             std::to_string(kMaxPixels) + " pixels",
+                         parse_picture_size, [&o](glm::ivec2 v) { o.size = v; })
+      ->type_name("WxH");
+}
+
+void add_scene_options(CLI::App& verb, DrawOptions& o) {
   verb.add_option("SCENE", o.scene, "glTF (.gltf, .glb) or OBJ file")->required();
-  add_picture_options(verb, o);
   add_camera_options(verb, o);
-  add_machine_options(verb, o);
+  add_gl_options(verb, o);
   verb.add_flag("--quiet", o.quiet, "print errors only");
   verb.add_option("--progress", o.progress, "progress bar: auto (on a terminal), on, off (auto)")
       ->check(CLI::IsMember({"auto", "on", "off"}));
+}
+
+void add_draw_options(CLI::App& verb, DrawOptions& o) {
+  add_scene_options(verb, o);
+  add_size_option(verb, o, "pixels (800x600)");
+  add_picture_options(verb, o);
+  add_tracer_options(verb, o);
 }
 
 Scene load_scene_for(const DrawOptions& options) {

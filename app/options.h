@@ -42,6 +42,7 @@ struct DrawOptions {
   int threads = 0;     // 0: all cores
   std::optional<Isa> isa;
   BuildOptions tree;
+  OffsetMethod offset = OffsetMethod::error_bound;
   std::string progress = "auto";
   bool quiet = false;
 };
@@ -49,6 +50,11 @@ struct DrawOptions {
 // Adds the options to a verb; they are in `options` once the command line is parsed. A value that cannot
 // be is a CLI::ValidationError, so exit code 2 and a line that says what is wanted.
 void add_draw_options(CLI::App& verb, DrawOptions& options);
+
+// The parts of it that do not say how a picture is made: scene, camera, lights, OpenGL context, messages; and
+// --size, whose help names the verb's own default.
+void add_scene_options(CLI::App& verb, DrawOptions& options);
+void add_size_option(CLI::App& verb, DrawOptions& options, const std::string& help);
 
 // Loads the scene, adds the options' lights, and a default light where there is none (said on stderr).
 // Ends the verb with kBadScene where the file cannot be read.

@@ -13,6 +13,7 @@ using Run = std::function<int()>;
 [[nodiscard]] Run add_view(CLI::App& program);
 [[nodiscard]] Run add_info(CLI::App& program);
 [[nodiscard]] Run add_measure(CLI::App& program);
+[[nodiscard]] Run add_chart(CLI::App& program);
 [[nodiscard]] Run add_generate(CLI::App& program);
 [[nodiscard]] Run add_compare(CLI::App& program);
 

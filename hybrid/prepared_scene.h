@@ -27,15 +27,16 @@ struct PreparedScene {
   std::shared_ptr<const Tracer> tracer;  // null: nothing traces (yet)
   std::optional<GpuScene> gpu;
 
-  PreparedScene(Scene s, Sides sides, const BuildOptions& tree, std::optional<Isa> isa)
+  PreparedScene(Scene s, Sides sides, const BuildOptions& tree, std::optional<Isa> isa,
+                OffsetMethod offset = OffsetMethod::error_bound)
       : scene(std::move(s)) {
     drop_idle_casters(scene);
-    if (sides.cpu) tracer = std::make_shared<const Tracer>(scene, tree, isa);
+    if (sides.cpu) tracer = std::make_shared<const Tracer>(scene, tree, isa, offset);
     if (sides.gpu) gpu.emplace(scene);
   }
   // The same triangles under other lights: a copy of the scene, that shares tree and GPU buffers.
-  PreparedScene(const PreparedScene& of, std::vector<Light> lights)
-      : scene(of.scene), tracer(of.tracer), gpu(of.gpu) {
+  PreparedScene(const std::shared_ptr<const PreparedScene>& of, std::vector<Light> lights)
+      : scene(of->scene), tracer(of->tracer), gpu(of->gpu), origin_(of->origin_ ? of->origin_ : of) {
     relight(std::move(lights));
   }
   PreparedScene(const PreparedScene&) = delete;
@@ -52,6 +53,9 @@ struct PreparedScene {
     if (!tracer) throw std::logic_error("a plan that traces was given a scene without a tree");
     return *tracer;
   }
+
+ private:
+  std::shared_ptr<const PreparedScene> origin_;  // whose triangles the tree looks into; null: this one's
 };
 
 }  // namespace pinocchio

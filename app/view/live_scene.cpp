@@ -26,7 +26,7 @@ void LiveScene::set_lights(const std::vector<Light>& lights, bool casting) {
     (*unused)->relight(std::move(wanted));
     shown_ = *unused;
   } else {
-    shown_ = std::make_shared<PreparedScene>(*shown_, std::move(wanted));
+    shown_ = std::make_shared<PreparedScene>(shown_, std::move(wanted));
     all_.push_back(shown_);
   }
   recount_lights(shown_->scene, needs_);

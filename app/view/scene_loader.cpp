@@ -42,7 +42,7 @@ struct SceneLoader::Job {
       news.camera = camera;
       news.lights = lights;
     }
-    auto tracer = std::make_shared<const Tracer>(scene->scene, options.tree, options.isa);
+    auto tracer = std::make_shared<const Tracer>(scene->scene, options.tree, options.isa, options.offset);
     begin_phase({});
     const std::scoped_lock lock(mutex);
     news.tracer = std::move(tracer);

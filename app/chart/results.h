@@ -1,0 +1,59 @@
+// What a chart has measured so far, as it is kept in its folder.
+#pragma once
+
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <string>
+
+#include "app/chart/sweep.h"
+#include "core/base/error.h"
+
+namespace pinocchio::app {
+
+// One configuration, measured along the camera's motion.
+struct PointFigures {
+  // Frame time against raster-only's in the same rounds: median, least and most of the rounds.
+  double ratio = 0.0, ratio_low = 0.0, ratio_high = 0.0;
+  double frame_ms = 0.0, raster_ms = 0.0;  // medians of the rounds
+  double latency_ms = 0.0;                 // camera sampled to picture delivered, median
+  int latency_frames = 0, age_frames = 0;
+  double bytes_gpu_to_cpu = 0.0, bytes_cpu_to_gpu = 0.0;  // a frame
+  // Of what is on the screen against what should be there then; means over frames.
+  std::string reference;  // Configuration::reference
+  double rmse = 0.0, relative_mse = 0.0, flip = 0.0;
+  std::string failure;  // why there are no errors: NaN or infinity in the picture
+};
+[[nodiscard]] nlohmann::json to_json(const PointFigures& figures);
+
+// results.json and results.csv in a folder: {"run": ..., "points": [...]}, of each configuration
+// its axis, value, options, settings, figures, `picture` (name of its files) and `pareto` (the charts on
+// whose front it is: rmse, relmse, flip against the frame time, bytes against FLIP).
+class Results {
+ public:
+  // `run`: what makes two runs one (scene, size, cameras, machine, version). Reads what the folder holds;
+  // errors: that is of another run (and what differs), or cannot be read.
+  [[nodiscard]] static Expected<Results> open(const std::filesystem::path& folder, const nlohmann::json& run,
+                                              bool restart);
+
+  [[nodiscard]] bool has(const Configuration& configuration) const;
+  // A point with the same settings and reference, on whatever axis: it need not be measured again.
+  [[nodiscard]] const nlohmann::json* find_equal(const Configuration& configuration) const;
+
+  // Adds the configuration with the figures (and the picture) of a point, and writes both files, each whole
+  // or not at all. Throws EnvironmentError.
+  void add(const Configuration& configuration, const nlohmann::json& figures, const std::string& picture);
+
+  [[nodiscard]] const nlohmann::json& json() const { return json_; }
+
+ private:
+  Results(std::filesystem::path folder, nlohmann::json json)
+      : folder_(std::move(folder)), json_(std::move(json)) {}
+  void mark_fronts();
+  [[nodiscard]] std::string csv() const;
+
+  std::filesystem::path folder_;
+  nlohmann::json json_;
+};
+
+}  // namespace pinocchio::app

@@ -1,0 +1,67 @@
+// What a chart sweeps: every method that can be swapped, one axis at a time from the default, and some
+// combinations.
+#pragma once
+
+#include <nlohmann/json_fwd.hpp>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "core/base/error.h"
+#include "core/bsp/build.h"
+#include "core/trace/tracer.h"
+#include "hybrid/frame.h"
+#include "hybrid/plan.h"
+
+namespace pinocchio::app {
+
+// How the scene is made ready for the tracer.
+struct TracerSettings {
+  SplitRule tree = SplitRule::sah;
+  std::optional<Isa> isa;
+
+  friend bool operator==(const TracerSettings&, const TracerSettings&) = default;
+};
+
+// All that the cost and the error of a picture depend on beside scene, camera and size.
+struct Settings {
+  Plan plan;
+  Exchange exchange = Exchange::sync;
+  int spp = 1;
+  TracerSettings tracer;
+};
+[[nodiscard]] nlohmann::json to_json(const Settings& settings);
+
+struct Configuration {
+  std::string axis, value;
+  std::string options;         // that give it; files are named from the chart's folder. Empty: the default
+  bool has_plan_file = false;  // plan_file() is among them
+  Settings settings;
+  // What it is measured against: "centre", one ray a pixel as most pictures have; "area", the mean over
+  // the pixel, which is what more samples come closer to.
+  std::string reference = "centre";
+
+  // Of files about it: letters, digits, '.' and '-'.
+  [[nodiscard]] std::string name() const;
+  [[nodiscard]] std::string plan_file() const { return "plans/" + name() + ".json"; }
+};
+
+struct SweepRequest {
+  Needs needs;
+  PlanRequest plan;  // of the default: hybrid, design 1
+  int cores = 1;
+  bool quick = false;             // fewer points an axis
+  std::vector<std::string> only;  // axes; empty: all
+};
+
+// The configurations of every axis, the default among them on each. An axis on which the scene leaves
+// nothing to choose has none (no mirrors: no formats of reflection).
+[[nodiscard]] Expected<std::vector<Configuration>> make_sweep(const SweepRequest& request);
+
+struct AxisName {
+  std::string_view name, what;
+};
+[[nodiscard]] std::vector<AxisName> axis_names();
+
+}  // namespace pinocchio::app

@@ -1,0 +1,183 @@
+#include <nlohmann/json.hpp>
+#include <set>
+#include <sstream>
+
+#include "tests/app/program_test.h"
+
+namespace pinocchio {
+namespace {
+
+const std::string kSmall = "-o d --quick --size 48x36 --repeat 1 --quiet ";
+
+class ChartTest : public ProgramTest {
+ protected:
+  [[nodiscard]] nlohmann::json results() const {
+    std::ifstream in(folder_ / "d/results.json");
+    return nlohmann::json::parse(in, nullptr, false);
+  }
+  [[nodiscard]] std::set<std::string> values_of(const std::string& axis) const {
+    std::set<std::string> values;
+    const nlohmann::json json = results();
+    for (const nlohmann::json& point : json["points"])
+      if (point["axis"] == axis) values.insert(point["value"].get<std::string>());
+    return values;
+  }
+  [[nodiscard]] std::string first_line(const std::string& name) const {
+    std::ifstream in(folder_ / name);
+    std::string line;
+    std::getline(in, line);
+    return line;
+  }
+};
+
+TEST_F(ChartTest, WritesFiguresPicturesAndAPageOfCharts) {
+  const CommandResult result =
+      run("chart" + scene("two-lights") + kSmall + "--only design,exchange,reflection-format,mask-scale,spp");
+  ASSERT_EQ(result.exit_code, 0) << result.err;
+  for (const char* file :
+       {"index.html", "results.csv", "error-flip.svg", "error-rmse.svg", "error-relmse.svg",
+        "error-bytes.svg", "axis-design.svg", "pictures/design-raster-flip.png",
+        "pictures/reference-centre.png", "pictures/reference-area.png"})
+    EXPECT_TRUE(exists(std::string("d/") + file)) << file;
+  EXPECT_EQ(values_of("exchange"),
+            (std::set<std::string>{"1 sync", "1 pipelined", "1 reproject", "2 sync", "2 pipelined"}));
+  EXPECT_EQ(values_of("reflection-format"), (std::set<std::string>{"rgb8", "rgb9e5", "half", "float"}));
+  EXPECT_EQ(values_of("mask-scale"), (std::set<std::string>{"1", "1/2", "1/4"}));
+  EXPECT_EQ(first_line("d/results.csv"),
+            "axis,value,options,ratio,ratio_low,ratio_high,frame_ms,raster_ms,latency_ms,latency_frames,"
+            "age_frames,bytes_gpu_to_cpu,bytes_cpu_to_gpu,reference,rmse,relmse,flip,pareto");
+  const CommandResult xml =
+      run_command("cd '" + folder_.string() +
+                      "/d' && python3 -c 'import glob, xml.dom.minidom as m; [m.parse(f) for f in "
+                      "glob.glob(\"*.svg\")]'",
+                  folder_ / "scratch");
+  EXPECT_EQ(xml.exit_code, 0) << xml.err;
+}
+
+TEST_F(ChartTest, ErrorsAreThoseOfWhatIsOnTheScreen) {
+  ASSERT_EQ(run("chart" + scene("cornell") + kSmall + "--only design,exchange,mask-scale").exit_code, 0);
+  std::map<std::string, nlohmann::json> points;
+  const nlohmann::json json = results();
+  for (const nlohmann::json& point : json["points"])
+    points[point["axis"].get<std::string>() + " " + point["value"].get<std::string>()] = point;
+  // Sees no shadow and no mirror; sees the motion two frames late; sees all.
+  EXPECT_GT(points["design raster"]["flip"], 0.05);
+  EXPECT_LT(points["design raytrace"]["rmse"], 1e-3);
+  EXPECT_LT(points["exchange 1 sync"]["rmse"], 1e-3);
+  EXPECT_GT(points["exchange 1 pipelined"]["flip"], 0.01);
+  EXPECT_EQ(points["exchange 1 pipelined"]["latency_frames"], 2);
+  EXPECT_EQ(points["exchange 1 reproject"]["age_frames"], 2);
+  EXPECT_LT(points["exchange 1 reproject"]["flip"], points["exchange 1 pipelined"]["flip"]);
+  EXPECT_LT(points["mask-scale 1/2"]["flip"], points["mask-scale 1/4"]["flip"]);
+  EXPECT_GT(points["exchange 1 sync"]["latency_ms"], 0.0);
+  EXPECT_EQ(points["design 2 slides"]["bytes_gpu_to_cpu"], 48 * 36 * 19);
+}
+
+TEST_F(ChartTest, TheFrontIsBeatenByNoPoint) {
+  ASSERT_EQ(run("chart" + scene("cornell") + kSmall + "--only design,mask-scale,depth").exit_code, 0);
+  const nlohmann::json json = results();
+  const nlohmann::json& points = json["points"];
+  const auto on_front = [](const nlohmann::json& point) {
+    const nlohmann::json& fronts = point["pareto"];
+    return std::find(fronts.begin(), fronts.end(), "flip") != fronts.end();
+  };
+  std::size_t members = 0;
+  for (const nlohmann::json& point : points) {
+    bool beaten = false;
+    for (const nlohmann::json& other : points)
+      beaten = beaten || (other["ratio"] <= point["ratio"] && other["flip"] <= point["flip"] &&
+                          (other["ratio"] < point["ratio"] || other["flip"] < point["flip"]));
+    if (on_front(point)) ++members;
+    EXPECT_FALSE(on_front(point) && beaten) << point.dump(2);
+  }
+  EXPECT_GE(members, 2u);
+}
+
+TEST_F(ChartTest, WhatIsMeasuredIsNotMeasuredAgain) {
+  const std::string chart = "chart" + scene("cornell") + kSmall;
+  ASSERT_EQ(run(chart + "--only depth").exit_code, 0);
+  nlohmann::json json = results();
+  const std::size_t before = json["points"].size();
+  for (nlohmann::json& point : json["points"]) point["latency_ms"] = 12345.0;
+  std::ofstream(folder_ / "d/results.json") << json.dump();
+  ASSERT_EQ(run(chart + "--only depth,tiles").exit_code, 0);
+  json = results();
+  ASSERT_GT(json["points"].size(), before);
+  for (std::size_t i = 0; i < before; ++i) EXPECT_EQ(json["points"][i]["latency_ms"], 12345.0);
+  EXPECT_EQ(values_of("tiles").size(), 2u);
+}
+
+TEST_F(ChartTest, CtrlCKeepsWhatIsDone) {
+  const std::string program = "'" PINOCCHIO_PROGRAM "' chart" + scene("cornell") + "-o d --quiet";
+  const CommandResult result = run_command(
+      "cd '" + folder_.string() + "' && " + program + " & pid=$!; while kill -0 $pid && [ ! -e '" +
+          folder_.string() + "/d/results.csv' ]; do sleep 0.05; done; kill -INT $pid; wait $pid",
+      folder_ / "scratch");
+  EXPECT_EQ(result.exit_code, 130) << result.err;
+  EXPECT_GE(results()["points"].size(), 1u);
+}
+
+TEST_F(ChartTest, AFolderHoldsOneChart) {
+  ASSERT_EQ(run("chart" + scene("cornell") + kSmall + "--only tiles").exit_code, 0);
+  const std::string other = "chart" + scene("two-lights") + kSmall + "--only tiles";
+  const CommandResult refused = run(other);
+  EXPECT_EQ(refused.exit_code, 2);
+  EXPECT_NE(refused.err.find("d/results.json: is the chart of another run (scene differs)"),
+            std::string::npos)
+      << refused.err;
+  EXPECT_NE(refused.err.find("--restart"), std::string::npos);
+  EXPECT_EQ(run(other + " --restart").exit_code, 0);
+  EXPECT_EQ(results()["run"]["scene"]["name"], "two-lights");
+  write("d/results.json", "{\"run\":");
+  EXPECT_EQ(run(other).exit_code, 2);
+  write("d/results.json", "{\"run\": {}, \"points\": [{}]}");
+  EXPECT_EQ(run(other).exit_code, 2);
+}
+
+TEST_F(ChartTest, ThePlansItNamesDrawTheScene) {
+  ASSERT_EQ(run("chart" + scene("two-lights") + kSmall + "--only mask-scale,combined").exit_code, 0);
+  std::size_t plans = 0;
+  for (const nlohmann::json& json = results(); const nlohmann::json& point : json["points"]) {
+    const auto options = point["options"].get<std::string>();
+    if (options.find("--plan plans/") == std::string::npos) continue;
+    ++plans;
+    const CommandResult drawn =
+        run("render" + scene("two-lights") + "--size 48x36 --quiet --preview d/x.png --plan d/" +
+            options.substr(options.find("plans/")));
+    EXPECT_EQ(drawn.exit_code, 0) << drawn.err;
+  }
+  EXPECT_GE(plans, 5u);
+}
+
+TEST_F(ChartTest, WithoutMatplotlibTheFiguresAreThereAndOneLineSaysWhatToInstall) {
+  write("scratch/matplotlib.py", "raise ImportError('none')\n");
+  const CommandResult result =
+      run("chart" + scene("cornell") + kSmall + "--only tiles", "PYTHONPATH=\"$PWD/scratch\"");
+  EXPECT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_NE(result.err.find("install python3-matplotlib"), std::string::npos) << result.err;
+  EXPECT_EQ(std::count(result.err.begin(), result.err.end(), '\n'), 1) << result.err;
+  EXPECT_TRUE(exists("d/results.csv"));
+  EXPECT_FALSE(exists("d/index.html"));
+}
+
+TEST_F(ChartTest, WrongUseIsOneLine) {
+  const struct {
+    std::string arguments;
+    int exit_code;
+    const char* says;
+  } kCases[] = {{kSmall + "--only depth,colour", 2, "'colour' is no axis; there are design, exchange"},
+                {"--quick", 2, "--output"},
+                {kSmall + "--turntable 4", 2, "the camera's motion has 4 frames"},
+                {kSmall + "--repeat 0", 2, "--repeat"},
+                {"-o file/d --quick", 1, "cannot be made a folder"}};
+  write("file", "");
+  for (const auto& wrong : kCases) {
+    const CommandResult result = run("chart" + scene("cornell") + wrong.arguments);
+    EXPECT_EQ(result.exit_code, wrong.exit_code) << wrong.arguments;
+    EXPECT_NE(result.err.find(wrong.says), std::string::npos) << result.err;
+    EXPECT_EQ(std::count(result.err.begin(), result.err.end(), '\n'), 1) << result.err;
+  }
+}
+
+}  // namespace
+}  // namespace pinocchio
