@@ -78,7 +78,7 @@ void Session::take_screenshot() {
 void Session::write_frame_exr(const std::string& file) {
   painter_.drain();
   const double begin_s = now_s();
-  const Plan plan = plan_for(applied_, true).value_or(model_.plan);
+  const Plan plan = plan_for(applied_, model_.scene.needs(), true).value_or(model_.plan);
   Picture picture;
   Renderer renderer(model_.scene.shown(), plan, workers_, {},
                     {[&](Picture&& p) { picture = std::move(p); }, [](const FrameRecord&) {}});
