@@ -78,14 +78,17 @@ double Session::patience_s() const {
 }
 
 void Session::take_events() {
-  for (const gl::WindowEvent& event : window_.take_events(patience_s())) {
+  const std::vector<gl::WindowEvent> events = window_.take_events(patience_s());
+  // As the last frame had it: a panel that was hidden since takes nothing.
+  const bool over_panel = model_.settings.overlay && gui_.wants_pointer();
+  for (const gl::WindowEvent& event : events) {
     if (const auto* key = std::get_if<gl::KeyEvent>(&event)) take_key(*key);
     if (const auto* button = std::get_if<gl::ButtonEvent>(&event))
-      if (!button->down || !gui_.wants_pointer()) navigation_.take(*button);
+      if (!button->down || !over_panel) navigation_.take(*button);
     if (const auto* pointer = std::get_if<gl::PointerEvent>(&event))
       navigation_.take(*pointer, static_cast<float>(window_.pixels().y));
     if (const auto* scroll = std::get_if<gl::ScrollEvent>(&event))
-      if (!gui_.wants_pointer()) navigation_.take(*scroll);
+      if (!over_panel) navigation_.take(*scroll);
     if (const auto* drop = std::get_if<gl::DropEvent>(&event)) take_drop(*drop);
   }
   for (const Action action : std::exchange(model_.asked, {})) perform(action);
