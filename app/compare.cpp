@@ -9,6 +9,7 @@
 #include <optional>
 #include <system_error>
 
+#include "app/error_limit.h"
 #include "app/errors.h"
 #include "app/parse.h"
 #include "app/verbs.h"
@@ -20,35 +21,15 @@
 namespace pinocchio::app {
 namespace {
 
-constexpr std::array<const char*, 6> kMetrics{"rmse", "relmse", "psnr", "max", "flip", "mask"};
-
-struct Limit {
-  std::string metric;
-  double value = 0.0;
-};
+constexpr std::array<std::string_view, 6> kMetrics{"rmse", "relmse", "psnr", "max", "flip", "mask"};
 
 struct Options {
   std::string a, b;
   CompareOptions compare;
   std::string heatmap;
-  std::vector<Limit> limits;
+  std::vector<ErrorLimit> limits;
   bool json = false;
 };
-
-Limit limit_of(const std::string& text) {
-  const std::string wanted = "--max-error: '" + text +
-                             "' is no METRIC=VALUE; METRIC is rmse, relmse, psnr, max, flip or mask, VALUE a "
-                             "number of 0 or more";
-  const std::size_t equals = text.find('=');
-  if (equals == std::string::npos) throw CLI::ValidationError(wanted);
-  Limit limit{text.substr(0, equals), 0.0};
-  const char* const end = text.data() + text.size();
-  const auto [rest, error] = std::from_chars(text.data() + equals + 1, end, limit.value);
-  const bool number = error == std::errc() && rest == end && std::isfinite(limit.value) && limit.value >= 0.0;
-  if (!number || std::find(kMetrics.begin(), kMetrics.end(), limit.metric) == kMetrics.end())
-    throw CLI::ValidationError(wanted);
-  return limit;
-}
 
 // CLI::Range lets NaN through.
 std::string is_ppd(const std::string& text) {
@@ -57,7 +38,7 @@ std::string is_ppd(const std::string& text) {
   return "'" + text + "' is no number of pixels per degree from 1 to 1000";
 }
 
-std::optional<double> figure(const Comparison& result, const std::string& metric) {
+std::optional<double> figure(const Comparison& result, const std::string_view metric) {
   if (metric == "rmse") return result.rgb.rmse;
   if (metric == "relmse") return result.rgb.relative_mse;
   if (metric == "psnr") return result.rgb.psnr_db;
@@ -74,7 +55,7 @@ std::string number(double value) {
 }
 
 // What a person reads beside a figure.
-std::string remark(const Comparison& result, const Options& options, const std::string& metric) {
+std::string remark(const Comparison& result, const Options& options, const std::string_view metric) {
   if (metric == "relmse") return "mean of (a - b)^2 / (b^2 + 0.01)";
   if (metric == "psnr") return "dB, peak 1, of the values clamped to [0, 1]";
   if (metric == "flip")
@@ -88,10 +69,10 @@ std::string remark(const Comparison& result, const Options& options, const std::
 
 void print(const Comparison& result, const Options& options) {
   std::printf("%s against %s\n", options.a.c_str(), options.b.c_str());
-  for (const char* metric : kMetrics) {
+  for (const std::string_view metric : kMetrics) {
     const std::optional<double> value = figure(result, metric);
     const std::string said = remark(result, options, metric);
-    std::printf("  %-7s %s\n", metric,
+    std::printf("  %-7s %s\n", metric.data(),
                 ((value ? number(*value) : "-") + (said.empty() ? "" : "  " + said)).c_str());
   }
   for (const auto& [name, c] : result.channels) {
@@ -125,9 +106,9 @@ void print_json(const Comparison& result, const Options& options) {
                       {"pixels_per_degree", options.compare.pixels_per_degree},
                       {"mask_bits", nullptr},
                       {"channels", nlohmann::json::object()}};
-  for (const char* metric : kMetrics) {
+  for (const std::string_view metric : kMetrics) {
     const std::optional<double> value = figure(result, metric);
-    json[metric] = value && std::isfinite(*value) ? nlohmann::json(*value) : nlohmann::json();
+    json[std::string(metric)] = value && std::isfinite(*value) ? nlohmann::json(*value) : nlohmann::json();
   }
   if (result.mask)
     json["mask_bits"] = {{"slots", result.mask->slots},
@@ -141,7 +122,7 @@ void print_json(const Comparison& result, const Options& options) {
 // "rmse 0.2 is above 0.1, ..."; empty where all limits are kept.
 std::string broken_limits(const Comparison& result, const Options& options) {
   std::string broken;
-  for (const Limit& limit : options.limits) {
+  for (const ErrorLimit& limit : options.limits) {
     const std::optional<double> value = figure(result, limit.metric);
     if (!value) throw Exit(kFailed, "--max-error mask: " + result.no_mask);
     const bool more_is_better = limit.metric == "psnr";
@@ -183,7 +164,8 @@ Run add_compare(CLI::App& program) {
   verb.add_option_function<std::vector<std::string>>(
           "--max-error",
           [options](const std::vector<std::string>& texts) {
-            for (const std::string& text : texts) options->limits.push_back(limit_of(text));
+            for (const std::string& text : texts)
+              options->limits.push_back(parse_error_limit(text, kMetrics));
           },
           "METRIC=VALUE: exit code 5 above it (psnr: below); rmse, relmse, psnr, max, flip or mask (share of "
           "bits, 0 to 1); may be repeated")

@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 
 #include "app/animation.h"
+#include "app/budget.h"
 #include "app/chrome_trace.h"
 #include "app/console.h"
 #include "app/errors.h"
@@ -23,6 +24,7 @@ constexpr int kDefaultFrames = 120;
 struct MeasureOptions {
   DrawOptions draw;
   AnimationOptions animation;
+  BudgetOptions budget;
   std::string stats_json, trace;
   bool compare = false;
   bool persistent = false;
@@ -34,6 +36,7 @@ struct Measured {
   Plan plan;
   Exchange exchange = Exchange::sync;
   std::vector<FrameRecord> records;
+  std::optional<BudgetRun> budget{};
 };
 
 gl::Mapping mapping_of(const MeasureOptions& options) {
@@ -58,7 +61,10 @@ void draw(Machine& machine, const MeasureOptions& options, const std::vector<Cam
                      }});
   for (const CameraFrame& frame : frames) {
     if (interrupted()) break;
+    if (run.budget) renderer.use(run.budget->plan());
+    const double begin_s = now_s();
     renderer.submit({frame.camera, options.draw.size, part_of(options.draw)});
+    if (run.budget) run.budget->note(1e3 * (now_s() - begin_s));
   }
   renderer.drain();
   machine.throw_gl_complaints();
@@ -96,6 +102,7 @@ nlohmann::json run_json(const Measured& run, const Machine& machine, const Measu
   json["name"] = run.name;
   json["exchange"] = exchange_json(run, options);
   json["overlap"] = overlap_json(run);
+  if (run.budget) json["budget"] = run.budget->json();
   return json;
 }
 
@@ -188,6 +195,8 @@ std::vector<Measured> runs_of(const Machine& machine, const MeasureOptions& opti
 }
 
 int measure(MeasureOptions& options) {
+  if (options.compare && options.budget.any())
+    throw Exit(kUsage, "--compare: draws without a budget; leave out --budget and --max-error");
   if (options.compare && !options.draw.plan_file.empty())
     throw Exit(kUsage, "--compare: draws by plans of its own; leave out --plan " + options.draw.plan_file);
   Scene scene = load_scene_for(options.draw);
@@ -200,6 +209,8 @@ int measure(MeasureOptions& options) {
 
   Machine machine(options.draw, std::move(scene), false, options.compare);
   std::vector<Measured> runs = runs_of(machine, options);
+  if (options.budget.any())
+    runs.front().budget.emplace(machine, options.draw, options.budget, runs.front().exchange, frames);
   nlohmann::json json = nlohmann::json::array();
   for (Measured& run : runs) {
     draw(machine, options, frames, run);
@@ -216,6 +227,7 @@ int measure(MeasureOptions& options) {
     print_comparison(runs, json);
   } else {
     print_run(runs.front(), json.front());
+    if (runs.front().budget) runs.front().budget->report();
   }
   return kDone;
 }
@@ -228,6 +240,7 @@ Run add_measure(CLI::App& program) {
       *program.add_subcommand("measure", "draw frames along a camera path; report bytes, times, latency");
   add_draw_options(verb, options->draw);
   add_animation_options(verb, options->animation);
+  add_budget_options(verb, options->budget);
   verb.add_flag("--compare", options->compare,
                 "both designs, every exchange, raytrace and raster, in one table");
   verb.add_flag("--persistent", options->persistent,

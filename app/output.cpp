@@ -63,15 +63,16 @@ bool keeps_mask(const OutputOptions& options) {
 }
 
 void write_outputs(const OutputOptions& options, int frame_number, const PreparedScene& scene,
-                   const Plan& plan, const View& view, const Picture& picture, Workers& workers,
+                   const View& view, const Picture& picture, Workers& workers,
                    std::optional<double> render_s) {
   if (!options.exr.empty()) {
     const SurfaceImages surfaces =
         surface_images(scene.scene, view_params(view.camera, view.size, glm::vec2(0.0f), view.part.lo),
                        workers, picture.ids);
-    const FrameOutput frame{view.size,   view.part,    scene.scene,        view.camera, picture.color,
-                            picture.ids, picture.mask, picture.reflection, surfaces,    to_json(plan).dump(),
-                            render_s};
+    const FrameOutput frame{
+        view.size,   view.part,    scene.scene,        view.camera, picture.color,
+        picture.ids, picture.mask, picture.reflection, surfaces,    to_json(picture.plan).dump(),
+        render_s};
     write_exr(numbered(options.exr, frame_number), frame_exr(frame, *parse_aovs(options.aovs)));
   }
   if (!options.preview.empty())

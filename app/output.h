@@ -34,7 +34,7 @@ void check_outputs(const OutputOptions& options, const std::vector<int>& frame_n
 
 // Writes the picture of one frame to the files that the options name, each whole or not at all.
 void write_outputs(const OutputOptions& options, int frame_number, const PreparedScene& scene,
-                   const Plan& plan, const View& view, const Picture& picture, Workers& workers,
+                   const View& view, const Picture& picture, Workers& workers,
                    std::optional<double> render_s);
 
 }  // namespace pinocchio::app

@@ -6,6 +6,7 @@
 #include <memory>
 
 #include "app/animation.h"
+#include "app/budget.h"
 #include "app/console.h"
 #include "app/errors.h"
 #include "app/machine.h"
@@ -20,6 +21,7 @@ namespace {
 struct RenderOptions {
   DrawOptions draw;
   AnimationOptions animation;
+  BudgetOptions budget;
   OutputOptions output;
   std::string stats_json;
 };
@@ -49,6 +51,7 @@ class RenderRun {
     if (options_.draw.exchange == Exchange::reproject)
       json["reproject"]["holes"] =
           static_cast<double>(holes_) / static_cast<double>(std::max<std::size_t>(delivered_, 1));
+    if (budget_) json["budget"] = budget_->json();
     return json;
   }
 
@@ -71,12 +74,16 @@ class RenderRun {
                                 [&](const FrameRecord& record) { records_.push_back(record); }};
     const Exchange exchange =
         options_.draw.exchange.value_or(frames_.size() > 1 ? Exchange::pipelined : Exchange::sync);
+    if (options_.budget.any()) budget_.emplace(machine, options_.draw, options_.budget, exchange, frames_);
     Renderer renderer(machine.shared_scene(), machine.plan(), machine.workers(),
                       {exchange, gl::Mapping::each_time, options_.draw.spp}, sinks);
     for (const CameraFrame& frame : frames_) {
       if (interrupted()) break;
       begun_s_.push_back(now_s());
+      delivering_s_ = 0.0;
+      if (budget_) renderer.use(budget_->plan());
       renderer.submit(view_of(frame));
+      if (budget_) budget_->note(1e3 * (now_s() - begun_s_.back() - delivering_s_));
     }
     renderer.drain();
   }
@@ -87,12 +94,13 @@ class RenderRun {
 
   void deliver(Machine& machine, const Picture& picture) {
     const CameraFrame& frame = frames_[delivered_];
-    const double render_s = now_s() - begun_s_[delivered_];
+    const double begin_s = now_s(), render_s = begin_s - begun_s_[delivered_];
     ++delivered_;
     holes_ += picture.holes;
-    write_outputs(options_.output, frame.number, machine.scene(), machine.plan(), view_of(frame), picture,
-                  machine.workers(), options_.output.deterministic ? std::nullopt : std::optional(render_s));
+    write_outputs(options_.output, frame.number, machine.scene(), view_of(frame), picture, machine.workers(),
+                  options_.output.deterministic ? std::nullopt : std::optional(render_s));
     machine.throw_gl_complaints();
+    delivering_s_ += now_s() - begin_s;
   }
 
   void report(const Machine& machine, double load_s) const {
@@ -110,6 +118,7 @@ class RenderRun {
     if (options_.draw.exchange == Exchange::reproject)
       std::printf("  %zu pixels a frame are holes of the reprojection\n",
                   holes_ / std::max<std::size_t>(delivered_, 1));
+    if (budget_) budget_->report();
     for (std::size_t i = 0; i < delivered_; ++i)
       for (const std::string& pattern : {options_.output.exr, options_.output.preview})
         if (!pattern.empty()) std::printf("%s\n", numbered(pattern, frames_[i].number).c_str());
@@ -118,6 +127,8 @@ class RenderRun {
   const RenderOptions& options_;
   std::vector<CameraFrame> frames_;
   std::vector<double> begun_s_;
+  double delivering_s_ = 0.0;  // of the frame that is submitted: writing files is not drawing
+  std::optional<BudgetRun> budget_;
   std::vector<FrameRecord> records_;
   std::size_t delivered_ = 0;
   std::size_t holes_ = 0;  // reprojected: pixels that no older frame had an answer for
@@ -130,6 +141,7 @@ Run add_render(CLI::App& program) {
   CLI::App& verb = *program.add_subcommand("render", "draw a scene to EXR and PNG, without a display");
   add_draw_options(verb, options->draw);
   add_animation_options(verb, options->animation);
+  add_budget_options(verb, options->budget);
   add_output_options(verb, options->output);
   verb.add_option("--stats-json", options->stats_json, "write the figures of the run as JSON");
   return [options] { return RenderRun(*options).run(); };

@@ -60,4 +60,8 @@ void Context::describe(const std::string& backend, const std::string& device, bo
   }
 }
 
+bool context_lost() {
+  return glGetGraphicsResetStatus && glGetGraphicsResetStatus() != GL_NO_ERROR;
+}
+
 }  // namespace pinocchio::gl

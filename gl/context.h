@@ -50,4 +50,8 @@ class Context {
   std::vector<std::string> complaints_;
 };
 
+// Whether the GPU was reset and this thread's context is lost with all that was in it. A driver that does
+// not tell (OpenGL older than 4.5, or no reset notification) never is.
+[[nodiscard]] bool context_lost();
+
 }  // namespace pinocchio::gl

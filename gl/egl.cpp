@@ -108,17 +108,18 @@ bool lists(const char* extensions, const char* name) {
   return false;
 }
 
-// Attributes that choose a context: newest version first, debug where asked.
-std::vector<EGLint> context_attributes(int major, int minor, bool debug) {
-  return {EGL_CONTEXT_MAJOR_VERSION,
-          major,
-          EGL_CONTEXT_MINOR_VERSION,
-          minor,
-          EGL_CONTEXT_OPENGL_PROFILE_MASK,
-          EGL_CONTEXT_OPENGL_CORE_PROFILE_BIT,
-          EGL_CONTEXT_OPENGL_DEBUG,
-          debug ? EGL_TRUE : EGL_FALSE,
-          EGL_NONE};
+// Attributes that choose a context: newest version first, debug where asked; `tells`: that it is lost, should
+// the GPU be reset.
+std::vector<EGLint> context_attributes(int major, int minor, bool debug, bool tells) {
+  std::vector<EGLint> attributes{EGL_CONTEXT_MAJOR_VERSION,       major,
+                                 EGL_CONTEXT_MINOR_VERSION,       minor,
+                                 EGL_CONTEXT_OPENGL_PROFILE_MASK, EGL_CONTEXT_OPENGL_CORE_PROFILE_BIT,
+                                 EGL_CONTEXT_OPENGL_DEBUG,        debug ? EGL_TRUE : EGL_FALSE};
+  if (tells)
+    attributes.insert(attributes.end(),
+                      {EGL_CONTEXT_OPENGL_RESET_NOTIFICATION_STRATEGY, EGL_LOSE_CONTEXT_ON_RESET});
+  attributes.push_back(EGL_NONE);
+  return attributes;
 }
 
 class EglContext final : public Context {
@@ -152,11 +153,12 @@ class EglContext final : public Context {
       surface_ = egl_.create_pbuffer(display_, config, one_pixel.data());
       if (surface_ == EGL_NO_SURFACE) fail(egl_, "eglCreatePbufferSurface");
     }
-    for (const auto& [major, minor] : {std::pair(4, 5), std::pair(3, 3)}) {
-      context_ = egl_.create_context(display_, config, EGL_NO_CONTEXT,
-                                     context_attributes(major, minor, debug).data());
-      if (context_ != EGL_NO_CONTEXT) return;
-    }
+    for (const auto& [major, minor] : {std::pair(4, 5), std::pair(3, 3)})
+      for (const bool tells : {true, false}) {  // many a driver does not
+        context_ = egl_.create_context(display_, config, EGL_NO_CONTEXT,
+                                       context_attributes(major, minor, debug, tells).data());
+        if (context_ != EGL_NO_CONTEXT) return;
+      }
     fail(egl_, "eglCreateContext (OpenGL 3.3 core)");
   }
 

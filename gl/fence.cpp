@@ -1,5 +1,6 @@
 #include "gl/fence.h"
 
+#include "gl/context.h"
 #include "gl/error.h"
 
 namespace pinocchio::gl {
@@ -17,7 +18,8 @@ void Fence::wait() const {
   for (;;) {
     const GLenum status = glClientWaitSync(sync_, 0, kOneSecond_ns);
     if (status == GL_ALREADY_SIGNALED || status == GL_CONDITION_SATISFIED) return;
-    if (status == GL_WAIT_FAILED) throw Error("waiting for the GPU failed: the context is lost");
+    if (status == GL_WAIT_FAILED || context_lost())
+      throw Error("waiting for the GPU failed: the context is lost");
   }
 }
 

@@ -1,6 +1,6 @@
 #pragma once
 
-#include <filesystem>
+#include <memory>
 
 #include "hybrid/flight.h"
 #include "hybrid/shading_passes.h"
@@ -10,7 +10,9 @@ namespace pinocchio {
 
 // What the designs share.
 struct Passes {
-  explicit Passes(const std::filesystem::path& shaders) : visibility(shaders), shading(shaders) {}
+  explicit Passes(std::shared_ptr<Programs> of)
+      : programs(std::move(of)), visibility(programs), shading(programs) {}
+  std::shared_ptr<Programs> programs;
   VisibilityPass visibility;
   ShadingPasses shading;
 };
@@ -65,6 +67,9 @@ class Design2 final : public Design {
   void upload(Flight& frame) const override;
   void composite(Flight& frame, const Flight* older) const override;
 };
+
+// Design 1: the frame's answer where the GPU has it, as the composite reads it.
+[[nodiscard]] ShadingPasses::Traced answer_on_gpu(const Flight& traced);
 
 // Buffers are made anew only where size or format changed since the slot's last frame.
 void fit(gl::Framebuffer& target, glm::ivec2 size, const gl::PixelFormat& format, bool with_depth = false);

@@ -137,17 +137,22 @@ void Design1::upload(Flight& frame) const {
   }
 }
 
-void Design1::composite(Flight& frame, const Flight* older) const {
-  const Flight& traced = older ? *older : frame;
-  const Plan& plan = frame.request.plan;
-  fit(frame.picture.target, frame.request.part.size(), gl::kRgba16F);
-  frame.composite_timer.begin();
-  const OlderFrame of{traced.ids_texture(), traced.view};
+ShadingPasses::Traced answer_on_gpu(const Flight& traced) {
+  const Plan& plan = traced.request.plan;
   ShadingPasses::Traced answer;
   if (plan.mask_bits > 0) answer.mask = {&traced.mask_in.texture, plan.mask_bits, plan.mask_scale};
   if (plan.reflects())
     answer.reflection = {&traced.reflection_in.texture, plan.tiles ? &traced.reflection_index : nullptr,
                          plan.reflection, plan.reflection_scale};
+  return answer;
+}
+
+void Design1::composite(Flight& frame, const Flight* older) const {
+  const Flight& traced = older ? *older : frame;
+  fit(frame.picture.target, frame.request.part.size(), gl::kRgba16F);
+  frame.composite_timer.begin();
+  const OlderFrame of{traced.ids_texture(), traced.view};
+  ShadingPasses::Traced answer = answer_on_gpu(traced);
   if (older) answer.of = &of;
   passes_.shading.composite(inputs_of(frame), LightSet::all, answer, frame.picture.target);
   frame.composite_timer.end();

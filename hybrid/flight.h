@@ -80,6 +80,9 @@ struct Flight {
 
   Outgoing picture;       // RGBA16F, linear light
   bool complete = false;  // made of this frame's own parts
+  // Whose mask and reflection the picture shows: this frame's or, reprojected, an older one's, and then only
+  // while the picture is delivered. Null: nothing was traced for it.
+  const Flight* answer_of = nullptr;
 
   // Who finds what is seen decides where the GPU has it.
   [[nodiscard]] const gl::Texture& ids_texture() const {

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <utility>
 
+#include "core/base/error.h"
+#include "gl/context.h"
 #include "hybrid/formats.h"
 
 namespace pinocchio {
@@ -38,9 +40,9 @@ const char* exchange_name(Exchange exchange) {
   return "";
 }
 
-FrameLoop::FrameLoop(Workers& workers, const std::filesystem::path& shaders, Exchange exchange,
+FrameLoop::FrameLoop(Workers& workers, std::shared_ptr<Programs> programs, Exchange exchange,
                      gl::Mapping mapping, Sinks sinks)
-    : passes_(shaders),
+    : passes_(std::move(programs)),
       design1_(workers, passes_),
       design2_(workers, passes_),
       exchange_(exchange),
@@ -111,6 +113,7 @@ bool FrameLoop::repeat(const FrameRequest& request) {
     if (!last->answered) return false;
     design_of(*last).composite(*last, nullptr);
     last->complete = true;
+    last->answer_of = last;
   }
   last->record = FrameRecord{};
   last->record.number = next_number_++;
@@ -122,11 +125,14 @@ bool FrameLoop::repeat(const FrameRequest& request) {
 }
 
 Flight& FrameLoop::begin(const FrameRequest& request) {
+  if (gl::context_lost())
+    throw EnvironmentError("the GPU was reset and its OpenGL context is lost; start again");
   Flight& frame = *slots_[drawn_++ % kFramesInFlight];
   retire(frame);
   if (drawn_ % kFramesBetweenCalibrations == 1) clock_.calibrate();
   frame.request = request;
   frame.answered = frame.complete = false;
+  frame.answer_of = nullptr;
   frame.record = FrameRecord{};
   frame.record.number = next_number_++;
   frame.record.frame.begin_s = now_s();
@@ -168,6 +174,7 @@ void FrameLoop::finish(Flight& frame) {
 void FrameLoop::deliver(Flight& frame, const Flight* older) {
   frame.state = Flight::State::idle;  // lost, should a line below throw
   design_of(frame).composite(frame, older);
+  frame.answer_of = older ? older : frame.answered ? &frame : nullptr;
   frame.state = Flight::State::delivered;
   frame.complete = !older;
   frame.record.latency_frames = static_cast<int>(next_number_ - 1 - frame.record.number);

@@ -32,14 +32,19 @@ class FrameLoop {
     std::function<void(const FrameRecord&)> record;  // later, when the GPU's clock has told all
   };
 
-  FrameLoop(Workers& workers, const std::filesystem::path& shaders, Exchange exchange, gl::Mapping mapping,
+  FrameLoop(Workers& workers, std::shared_ptr<Programs> programs, Exchange exchange, gl::Mapping mapping,
             Sinks sinks);
+  FrameLoop(Workers& workers, const std::filesystem::path& shaders, Exchange exchange, gl::Mapping mapping,
+            Sinks sinks)
+      : FrameLoop(workers, std::make_shared<Programs>(shaders), exchange, mapping, std::move(sinks)) {}
 
   // Begins a frame and delivers what that finishes. Where the plan reuses and the request is the last one
   // again, nothing is drawn, traced or sent: all in flight is delivered, then the last picture once more.
   // What went wrong on a thread that traced a frame is thrown when that frame would have been delivered; the
-  // frame is lost, the others are not.
+  // frame is lost, the others are not. Throws EnvironmentError where the context is lost.
   void submit(const FrameRequest& request);
+  // The passes' programs, to share with others' or to reload when their files change.
+  [[nodiscard]] const std::shared_ptr<Programs>& programs() const { return passes_.programs; }
   // Delivers every frame that is still in flight.
   void drain();
 

@@ -15,7 +15,7 @@ constexpr std::size_t kMost16BitIds = 0xffff, kMost24BitIds = 0xffffff;  // one 
 
 // A software rasteriser takes about as long for this many triangles as the tracer's primary rays for a
 // pixel (docs/measurements.md, "Who finds what is seen").
-constexpr double kTrianglesPerPixelForRays = 0.25;
+constexpr double kTrianglesPerPixelForRays = 2.0;
 
 Unexpected refused(const std::string& what, const std::string& remedy) {
   return Unexpected(InputError{{}, 0, what, remedy});

@@ -1,17 +1,12 @@
 #include "hybrid/renderer.h"
 
+#include "hybrid/jitter.h"
 #include "hybrid/raytrace.h"
 #include "hybrid/shader_folder.h"
 #include "hybrid/trace_answer.h"
 
 namespace pinocchio {
 namespace {
-
-// Offset of sample k from the pixel's centre: the R2 sequence (Roberts 2018), even at any length.
-glm::vec2 jitter_of(int k) {
-  const glm::dvec2 step(0.75487766624669276, 0.56984029099805327);
-  return glm::vec2(glm::fract(0.5 + static_cast<double>(k) * step) - 0.5);
-}
 
 // Counts the pixels that the composite marked, and makes them opaque as they are.
 std::size_t close_holes(Image<glm::vec4>& color) {
@@ -68,6 +63,7 @@ void Renderer::submit_sample(const FrameRequest& request) {
     record.frame.begin_s = record.frame.end_s = now_s();
   } else {
     record = raytrace(request, workers_, last_sample_);
+    last_sample_.plan = request.plan;
     last_request_ = request;
   }
   record.number = next_number_++;
@@ -83,6 +79,7 @@ void Renderer::take(Flight& frame) {
   if (samples_ == 0) {
     FrameLoop::read_ids(frame);
     sample.ids = frame.ids;
+    sample.plan = frame.request.plan;
     if (frame.answered) take_answer(frame, sample);
   }
   add_sample(std::move(sample));

@@ -35,6 +35,8 @@ class Renderer {
   Renderer(std::shared_ptr<const PreparedScene> scene, const Plan& plan, Workers& workers,
            const Settings& settings, Sinks sinks);
 
+  // Draws what is submitted from now on by another plan of the same mode, that the scene is prepared for.
+  void use(const Plan& plan) { plan_ = plan; }
   // Begins a picture and delivers what that finishes.
   void submit(const View& view);
   // Delivers what is still in flight.

@@ -8,38 +8,25 @@ namespace pinocchio {
 
 void ShadingPasses::composite(const Inputs& inputs, LightSet lights, const Traced& traced,
                               const gl::Framebuffer& target) {
-  const auto& [mask, reflection, of] = traced;
-  Definitions definitions = definitions_of(inputs);
-  const auto define = [&](const std::string& name, int value) {
-    definitions.push_back(name + " " + std::to_string(value));
-  };
+  Definitions definitions = definitions_of(inputs, traced);
   if (lights == LightSet::free) definitions.emplace_back("FREE_LIGHTS_ONLY");
-  if (mask.texture) {
-    definitions.emplace_back("HAS_MASK");
-    define("MASK_BITS", mask.bits);
-    define("MASK_SCALE", mask.scale);
-  }
-  if (reflection.texture) {
-    definitions.emplace_back("HAS_REFLECTION");
-    define("REFLECTION_SCALE", reflection.scale);
-    define("REFLECTION_TEXELS", texel_format(reflection.format).texels);
-    if (reflection.format == ReflectionFormat::rgb8) definitions.emplace_back("REFLECTION_IS_SRGB");
-    if (reflection.index) define("REFLECTION_TILE", kReflectionTile);
-  }
-  if (of) definitions.emplace_back("REPROJECT");
-
   gl::begin_fullscreen_pass(target);
   const gl::Program& p = program("composite.frag", definitions);
   p.use();
-  int unit = bind(p, inputs);
-  if (mask.texture) p.set("mask", unit++, *mask.texture);
-  if (reflection.texture) p.set("reflection", unit++, *reflection.texture);
-  if (reflection.index) p.set("reflection_tiles", unit++, *reflection.index);
-  if (of) {
-    p.set("old_ids", unit++, of->ids);
-    p.set("old_eye", of->view.eye);
-    p.set("old_pixel_from_eye", glm::mat3(pixel_from_eye(of->view)));
-  }
+  bind(p, inputs, traced);
+  triangle_.draw();
+}
+
+void ShadingPasses::inspect(const Inputs& inputs, const Traced& traced, const Inspected& what,
+                            const gl::Framebuffer& target) {
+  Definitions definitions = definitions_of(inputs, traced);
+  if (!what.definition.empty()) definitions.push_back(what.definition);
+  gl::begin_fullscreen_pass(target);
+  const gl::Program& p = program("inspect.frag", definitions);
+  p.use();
+  bind(p, inputs, traced);
+  p.set("slot", what.slot);
+  p.set("age_frames", what.age_frames);
   triangle_.draw();
 }
 
@@ -69,10 +56,8 @@ void ShadingPasses::show(const gl::Texture& finished, const Inputs& inputs, cons
   triangle_.draw();
 }
 
-const gl::Program& ShadingPasses::program(const std::string& file, const Definitions& definitions) {
-  const auto [at, is_new] = programs_.try_emplace({file, definitions});
-  if (is_new) at->second = gl::Program(shaders_, "fullscreen.vert", file, definitions);
-  return at->second;
+const gl::Program& ShadingPasses::program(const std::string& file, const Definitions& definitions) const {
+  return programs_->get("fullscreen.vert", file, definitions);
 }
 
 int ShadingPasses::bind(const gl::Program& program, const Inputs& inputs) const {
@@ -85,9 +70,45 @@ int ShadingPasses::bind(const gl::Program& program, const Inputs& inputs) const 
   return inputs.scene.bind(program, 1);
 }
 
+int ShadingPasses::bind(const gl::Program& program, const Inputs& inputs, const Traced& traced) const {
+  const auto& [mask, reflection, of] = traced;
+  int unit = bind(program, inputs);
+  if (mask.texture) program.set("mask", unit++, *mask.texture);
+  if (reflection.texture) program.set("reflection", unit++, *reflection.texture);
+  if (reflection.index) program.set("reflection_tiles", unit++, *reflection.index);
+  if (of) {
+    program.set("old_ids", unit++, of->ids);
+    program.set("old_eye", of->view.eye);
+    program.set("old_pixel_from_eye", glm::mat3(pixel_from_eye(of->view)));
+  }
+  return unit;
+}
+
 ShadingPasses::Definitions ShadingPasses::definitions_of(const Inputs& inputs) {
   Definitions definitions{"ID_BITS " + std::to_string(inputs.id_bits)};
   if (inputs.scene.textured()) definitions.emplace_back("HAS_TEXTURES");
+  return definitions;
+}
+
+ShadingPasses::Definitions ShadingPasses::definitions_of(const Inputs& inputs, const Traced& traced) {
+  const auto& [mask, reflection, of] = traced;
+  Definitions definitions = definitions_of(inputs);
+  const auto define = [&](const std::string& name, int value) {
+    definitions.push_back(name + " " + std::to_string(value));
+  };
+  if (mask.texture) {
+    definitions.emplace_back("HAS_MASK");
+    define("MASK_BITS", mask.bits);
+    define("MASK_SCALE", mask.scale);
+  }
+  if (reflection.texture) {
+    definitions.emplace_back("HAS_REFLECTION");
+    define("REFLECTION_SCALE", reflection.scale);
+    define("REFLECTION_TEXELS", texel_format(reflection.format).texels);
+    if (reflection.format == ReflectionFormat::rgb8) definitions.emplace_back("REFLECTION_IS_SRGB");
+    if (reflection.index) define("REFLECTION_TILE", kReflectionTile);
+  }
+  if (of) definitions.emplace_back("REPROJECT");
   return definitions;
 }
 

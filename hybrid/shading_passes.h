@@ -1,8 +1,6 @@
 #pragma once
 
-#include <compare>
-#include <filesystem>
-#include <map>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -11,6 +9,7 @@
 #include "gl/program.h"
 #include "hybrid/gpu_scene.h"
 #include "hybrid/plan.h"
+#include "hybrid/programs.h"
 
 namespace pinocchio {
 
@@ -26,7 +25,8 @@ struct OlderFrame {
   shared::ViewParams view;
 };
 
-// The passes that shade pixels from their ids (shaders/composite.frag, gbuffer.frag, show.frag).
+// The passes that shade pixels from their ids (shaders/composite.frag, gbuffer.frag, show.frag,
+// inspect.frag).
 class ShadingPasses {
  public:
   struct Inputs {
@@ -51,10 +51,18 @@ class ShadingPasses {
     const OlderFrame* of = nullptr;  // whose they are; null: this frame's
   };
 
-  explicit ShadingPasses(std::filesystem::path shaders) : shaders_(std::move(shaders)) {}
+  explicit ShadingPasses(std::shared_ptr<Programs> programs) : programs_(std::move(programs)) {}
 
   // Phong per light, plus reflection, linear light; alpha 0 where nothing is seen.
   void composite(const Inputs& inputs, LightSet lights, const Traced& traced, const gl::Framebuffer& target);
+  // One of a frame's buffers for people: which, as a definition of shaders/inspect.frag (empty: none).
+  struct Inspected {
+    std::string definition;
+    int slot = 0;  // of the mask
+    int age_frames = 0;
+  };
+  void inspect(const Inputs& inputs, const Traced& traced, const Inspected& what,
+               const gl::Framebuffer& target);
   // Shading normals, 0.5 n + 0.5.
   void normals(const Inputs& inputs, const gl::Framebuffer& target);
   // Design 2's 128 bits a pixel.
@@ -63,15 +71,15 @@ class ShadingPasses {
   void show(const gl::Texture& finished, const Inputs& inputs, const gl::Framebuffer& target);
 
  private:
-  using Definitions = std::vector<std::string>;
-  // Compiled when first asked for: a scene pays for what it has.
-  const gl::Program& program(const std::string& file, const Definitions& definitions);
+  using Definitions = Programs::Definitions;
+  [[nodiscard]] const gl::Program& program(const std::string& file, const Definitions& definitions) const;
   // Sets what every pass over ids reads; returns the next free texture unit.
   int bind(const gl::Program& program, const Inputs& inputs) const;
+  int bind(const gl::Program& program, const Inputs& inputs, const Traced& traced) const;
   [[nodiscard]] static Definitions definitions_of(const Inputs& inputs);
+  [[nodiscard]] static Definitions definitions_of(const Inputs& inputs, const Traced& traced);
 
-  std::filesystem::path shaders_;
-  std::map<std::pair<std::string, Definitions>, gl::Program> programs_;
+  std::shared_ptr<Programs> programs_;
   gl::FullscreenTriangle triangle_;
 };
 

@@ -24,17 +24,14 @@ glm::mat3 picture_from_eye(const shared::ViewParams& view, glm::ivec2 picture_si
 }
 
 void VisibilityPass::draw(const GpuScene& scene, const shared::ViewParams& view, glm::ivec2 picture_size,
-                          int id_bits, const gl::Framebuffer& target) {
-  const bool as_bytes = id_bits == 24;
-  const auto [program, is_new] = programs_.try_emplace(as_bytes);
-  if (is_new)
-    program->second = gl::Program(shaders_, "visibility.vert", "visibility.frag",
-                                  {"ID_BITS " + std::to_string(as_bytes ? 24 : 32)});
+                          int id_bits, const gl::Framebuffer& target) const {
+  const gl::Program& program = programs_->get("visibility.vert", "visibility.frag",
+                                              {"ID_BITS " + std::to_string(id_bits == 24 ? 24 : 32)});
   gl::begin_depth_pass(target, id_format(id_bits).none, picture_size, glm::ivec2(view.first));
-  program->second.use();
-  program->second.set("eye", view.eye);
-  program->second.set("picture_from_eye", picture_from_eye(view, picture_size));
-  program->second.set("z_near", scene.z_near());
+  program.use();
+  program.set("eye", view.eye);
+  program.set("picture_from_eye", picture_from_eye(view, picture_size));
+  program.set("z_near", scene.z_near());
   scene.draw();
 }
 

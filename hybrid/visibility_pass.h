@@ -1,28 +1,26 @@
 #pragma once
 
-#include <filesystem>
-#include <map>
+#include <memory>
 
 #include "core/trace/shared.h"
 #include "gl/framebuffer.h"
-#include "gl/program.h"
 #include "hybrid/gpu_scene.h"
+#include "hybrid/programs.h"
 
 namespace pinocchio {
 
 // reads: the scene's triangles. writes: the id of the nearest triangle at each pixel's centre.
 class VisibilityPass {
  public:
-  explicit VisibilityPass(std::filesystem::path shaders) : shaders_(std::move(shaders)) {}
+  explicit VisibilityPass(std::shared_ptr<Programs> programs) : programs_(std::move(programs)) {}
 
   // target: of id_format(id_bits), with depth; the part of a picture of `picture_size` that view.first
   // names. Where nothing is seen, all bits are set.
   void draw(const GpuScene& scene, const shared::ViewParams& view, glm::ivec2 picture_size, int id_bits,
-            const gl::Framebuffer& target);
+            const gl::Framebuffer& target) const;
 
  private:
-  std::filesystem::path shaders_;
-  std::map<bool, gl::Program> programs_;  // by whether ids are bytes
+  std::shared_ptr<Programs> programs_;
 };
 
 // What turns (p_world - eye) into (z x, z y, z) of the pixel (x, y) that sees the point, counted from

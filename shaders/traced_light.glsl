@@ -1,12 +1,15 @@
-// What the CPU traced for a pixel: mask and reflection, looked up where the composite says. Expects
-// pixel_surface.glsl and scene_fetch.glsl before it.
+// What the CPU traced for a pixel: mask and reflection, and where in them it is. Expects pixel_surface.glsl
+// and scene_fetch.glsl before it.
 //   HAS_MASK        MASK_BITS a sample, one sample for MASK_SCALE x MASK_SCALE pixels
 //   HAS_REFLECTION  one sample for REFLECTION_SCALE x REFLECTION_SCALE pixels, of REFLECTION_TEXELS texels;
 //                   REFLECTION_IS_SRGB: in bytes; REFLECTION_TILE: only tiles of so many samples a side that
 //                   have some light in them, and an index that says where each is
+//   REPROJECT       they are of an older frame, whose view and ids are given
 
 #ifdef REPROJECT
 uniform usampler2D old_ids;
+uniform vec3 old_eye;
+uniform mat3 old_pixel_from_eye;  // (p_world - old_eye) to pixel x, y times z, and z
 #define traced_ids old_ids
 #else
 #define traced_ids ids
@@ -96,3 +99,66 @@ vec3 reflected_light(ivec2 pixel, uint id) {
 #endif
 }
 #endif
+
+// Where mask and reflection of a pixel are to be found.
+struct Source {
+  ivec2 pixel;
+  bool hole;
+};
+
+Source source_of(ivec2 pixel, uint id, vec3 p_world) {
+#ifdef REPROJECT
+  vec3 at = old_pixel_from_eye * (p_world - old_eye);
+  ivec2 last = textureSize(old_ids, 0) - 1;
+  ivec2 nearest = clamp(ivec2(floor(at.xy / max(at.z, 1e-20) + 0.5)), ivec2(0), last);
+  if (at.z > 0.0) {
+    // The pixel itself first, then its neighbours.
+    for (int i = 0; i < 9; ++i) {
+      int k = i == 0 ? 4 : i <= 4 ? i - 1 : i;
+      ivec2 there = clamp(nearest + ivec2(k % 3 - 1, k / 3 - 1), ivec2(0), last);
+      if (fetch_id(old_ids, there) == id) return Source(there, false);
+    }
+  }
+  return Source(nearest, true);
+#else
+  return Source(pixel, false);
+#endif
+}
+
+// How much of each light reaches the pixel: looked up once for all lights.
+struct Reach {
+  Source source;
+#ifdef HAS_MASK
+#if MASK_SCALE > 1
+  Samples samples;
+#endif
+#endif
+};
+
+Reach reach_from(Source source, uint id) {
+  Reach reach;
+  reach.source = source;
+#ifdef HAS_MASK
+#if MASK_SCALE > 1
+  reach.samples = samples_near(source.pixel, id, MASK_SCALE);
+#endif
+#endif
+  return reach;
+}
+
+// slot: -1 where the light does not cast.
+float reach_of_light(Reach reach, int slot) {
+  if (slot < 0) return 1.0;
+#ifdef HAS_MASK
+  if (reach.source.hole) return 1.0;
+#if MASK_SCALE > 1
+  float sum = 0.0;
+  for (int k = 0; k < 4; ++k) sum += reach.samples.weight[k] * mask_bit(reach.samples.at[k], slot);
+  return sum;
+#else
+  return mask_bit(reach.source.pixel, slot);
+#endif
+#else
+  return 1.0;
+#endif
+}

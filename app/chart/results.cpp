@@ -49,8 +49,9 @@ bool is_results(const nlohmann::json& json) {
          json["points"].is_array() && std::all_of(json["points"].begin(), json["points"].end(), is_point);
 }
 
-// What of two runs is not the same; empty: nothing.
+// What of two runs is not the same, the scene before what follows from it; empty: nothing.
 std::string difference(const nlohmann::json& old_run, const nlohmann::json& run) {
+  if (old_run.value("scene", nlohmann::json()) != run.at("scene")) return "scene";
   for (const auto& [key, value] : run.items())
     if (!old_run.contains(key) || old_run[key] != value) return key;
   return old_run.size() == run.size() ? "" : "version";

@@ -8,7 +8,7 @@
 
 #include "core/image/image.h"
 #include "core/parallel/workers.h"
-#include "core/reference/reference_hit.h"
+#include "core/reference/reference_tracer.h"
 #include "core/scene/scene.h"
 #include "core/trace/mask_image.h"
 #include "core/trace/shared.h"
@@ -21,13 +21,8 @@ namespace pinocchio {
 //     casting lights, which are at most kMaxCastingLights
 //   reflection: mirrored plus refracted light, linear, `depth` bounces at most; empty with depth 0
 //   color: RGBA, linear; A is 1 where something is hit
-// Every bounce is followed whatever it is worth, and in glass each is two: time can double with each
-// bounce.
 void reference_picture(const Scene& scene, Workers& workers, const shared::ViewParams& view, int depth,
                        Image<std::uint32_t>& ids, MaskImage& mask, Image<glm::vec3>& reflection,
                        Image<glm::vec4>& color);
-
-// The ray of the pixel (x, y); its t is z_eye.
-[[nodiscard]] ReferenceRay reference_pixel_ray(const shared::ViewParams& view, int x, int y);
 
 }  // namespace pinocchio

@@ -43,15 +43,21 @@ double entry(const ReferenceRay& ray, const Bounds& box, double margin, double t
 
 }  // namespace
 
-ReferenceTree::ReferenceTree(const Scene& scene) : scene_(scene), order_(scene.triangles.size()) {
+ReferenceTree::ReferenceTree(const Scene& scene, const std::stop_token& stop)
+    : scene_(scene), order_(scene.triangles.size()) {
   std::iota(order_.begin(), order_.end(), 0u);
-  if (!order_.empty()) build();
+  if (!order_.empty()) build(stop);
 }
 
-void ReferenceTree::build() {
+void ReferenceTree::build(const std::stop_token& stop) {
   nodes_.reserve(2 * order_.size());
   nodes_.push_back({{}, 0, static_cast<std::uint32_t>(order_.size()), 0});
   for (std::size_t i = 0; i < nodes_.size(); ++i) {
+    if (stop.stop_requested()) {
+      stopped_ = true;
+      nodes_.clear();
+      return;
+    }
     nodes_[i].box = bounds_of(nodes_[i]);
     if (nodes_[i].count <= kLeafSize) continue;
     const Node node = nodes_[i];

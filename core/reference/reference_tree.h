@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <stop_token>
 #include <vector>
 
 #include "core/math/bounds.h"
@@ -13,8 +14,11 @@ namespace pinocchio {
 // axis, down to four triangles. Nothing in common with the tracer's tree, so that each checks the other.
 class ReferenceTree {
  public:
-  // `scene` stays where it is as long as this lives.
-  explicit ReferenceTree(const Scene& scene);
+  // `scene` stays where it is as long as this lives. Where `stop` asks for it while the tree is built, it is
+  // left without triangles, and stopped().
+  explicit ReferenceTree(const Scene& scene, const std::stop_token& stop = {});
+
+  [[nodiscard]] bool stopped() const { return stopped_; }
 
   // The closest triangle within the ray; of several at the same t the lowest id. A ray that is not finite
   // or has no direction hits nothing. Safe to call from many threads.
@@ -28,11 +32,12 @@ class ReferenceTree {
     std::uint32_t children = 0;          // the two stand side by side; 0: a leaf
   };
 
-  void build();
+  void build(const std::stop_token& stop);
   [[nodiscard]] Bounds bounds_of(const Node& node) const;
   void halve(const Node& node);
 
   const Scene& scene_;
+  bool stopped_ = false;
   double reach_ = 0.0;                // largest coordinate of the scene
   std::vector<std::uint32_t> order_;  // triangle ids, leaf by leaf
   std::vector<Node> nodes_;           // root first

@@ -108,7 +108,7 @@ TEST_F(ChartTest, WhatIsMeasuredIsNotMeasuredAgain) {
 }
 
 TEST_F(ChartTest, CtrlCKeepsWhatIsDone) {
-  const std::string program = "'" PINOCCHIO_PROGRAM "' chart" + scene("cornell") + "-o d --quiet";
+  const std::string program = "'" PINOCCHIO_PROGRAM "' chart" + scene("cornell") + "-o d --size 100x75 --quiet";
   const CommandResult result = run_command(
       "cd '" + folder_.string() + "' && " + program + " & pid=$!; while kill -0 $pid && [ ! -e '" +
           folder_.string() + "/d/results.csv' ]; do sleep 0.05; done; kill -INT $pid; wait $pid",

@@ -73,5 +73,45 @@ TEST_F(MeasureTest, TraceIsChromesFormat) {
   EXPECT_EQ(rows.size(), 3u);
 }
 
+TEST_F(MeasureTest, ABudgetIsMeasuredKeptAndReported) {
+  const CommandResult result = run("measure" + scene("two-lights") + kSmall +
+                                   "--max-error FLIP=0.05 --budget 10s --stats-json m.json");
+  EXPECT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_NE(result.out.find("kept by 9 of 9 frames"), std::string::npos) << result.out;
+  EXPECT_NE(result.out.find("from frame 0: "), std::string::npos) << result.out;
+  const nlohmann::json budget = json("m.json")["budget"];
+  EXPECT_EQ(budget["frames"], 9);
+  EXPECT_EQ(budget["metric"], "flip");
+  EXPECT_GE(budget["front"].size(), 2u);
+  EXPECT_EQ(budget["front"][0]["error"], 0.0);
+  for (std::size_t i = 1; i < budget["front"].size(); ++i) {
+    EXPECT_GT(budget["front"][i]["error"], budget["front"][i - 1]["error"]);
+    EXPECT_LT(budget["front"][i]["frame_ms"], budget["front"][i - 1]["frame_ms"]);
+  }
+  EXPECT_EQ(budget["used"][0]["error"], 0.0);  // ten seconds are enough for the exact plan
+  EXPECT_EQ(run("measure" + scene("cornell") + kSmall + "--budget soon").exit_code, 2);
+  EXPECT_EQ(run("measure" + scene("cornell") + kSmall + "--max-error flop=1").exit_code, 2);
+  EXPECT_EQ(run("measure" + scene("cornell") + kSmall + "--budget 9ms --mode raytrace").exit_code, 2);
+}
+
+TEST_F(MeasureTest, AWrittenPlanIsGivenBack) {
+  const CommandResult written = run("info --plan --json" + scene("two-lights"));
+  EXPECT_EQ(written.exit_code, 0) << written.err;
+  nlohmann::json plan = nlohmann::json::parse(written.out);
+  plan["plan"]["reflection_scale"] = 2;
+  std::ofstream(folder_ / "plan.json") << plan.dump(2);
+  const CommandResult result =
+      run("measure" + scene("two-lights") + kSmall + "--plan plan.json --quiet --stats-json m.json");
+  EXPECT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_EQ(json("m.json")["plan"], plan["plan"]);
+  const std::string measure = "measure" + scene("two-lights") + kSmall;
+  EXPECT_EQ(run(measure + "--plan plan.json --depth 2").exit_code, 2);
+  EXPECT_EQ(run(measure + "--plan none.json").exit_code, 2);
+  EXPECT_EQ(run(measure + "--plan plan.json --compare").exit_code, 2);
+  std::ofstream(folder_ / "plan.json") << "{\n  \"mask_bits\": 3\n}";
+  EXPECT_NE(run(measure + "--plan plan.json").err.find("mask_bits is not 0, 1, 2, 4 or 8"),
+            std::string::npos);
+}
+
 }  // namespace
 }  // namespace pinocchio

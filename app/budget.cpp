@@ -1,0 +1,197 @@
+#include "app/budget.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdio>
+#include <nlohmann/json.hpp>
+
+#include "app/console.h"
+#include "app/errors.h"
+#include "core/compare/figures.h"
+#include "core/compare/flip.h"
+#include "hybrid/plan_json.h"
+#include "hybrid/renderer.h"
+
+namespace pinocchio::app {
+namespace {
+
+constexpr std::array<std::string_view, 4> kMetrics{"rmse", "relmse", "max", "flip"};
+constexpr int kTimedFrames = 3;
+
+// "16ms", "0.5s" or plain milliseconds; nothing where it is no time above zero.
+std::optional<double> parse_milliseconds(const std::string& text) {
+  std::size_t used = 0;
+  double value = 0.0;
+  try {
+    value = std::stod(text, &used);
+  } catch (const std::exception&) {
+    return std::nullopt;
+  }
+  const std::string unit = text.substr(used);
+  if (unit == "s") value *= 1e3;
+  if ((!unit.empty() && unit != "s" && unit != "ms") || !std::isfinite(value) || value <= 0.0)
+    return std::nullopt;
+  return value;
+}
+
+Image<glm::vec3> rgb_of(const Picture& picture) {
+  Image<glm::vec3> rgb(picture.color.size());
+  for (std::size_t i = 0; i < rgb.pixels().size(); ++i) rgb[i] = glm::vec3(picture.color[i]);
+  return rgb;
+}
+
+double error_of(const Image<glm::vec3>& picture, const Image<glm::vec3>& exact, const std::string& metric,
+                Workers& workers) {
+  if (metric == "flip") {
+    const Image<float> errors = flip(picture, exact, kFlipPixelsPerDegree, workers);
+    double sum = 0.0;
+    for (const float error : errors.pixels()) sum += static_cast<double>(error);
+    return sum / static_cast<double>(errors.pixels().size());
+  }
+  const ErrorFigures figures = error_figures(picture.pixels(), exact.pixels());
+  if (metric == "rmse") return figures.rmse;
+  return metric == "max" ? figures.max_difference : figures.relative_mse;
+}
+
+// Measures plans on frames of the run.
+class Trial {
+ public:
+  Trial(Machine& machine, const DrawOptions& draw, Exchange exchange, const std::vector<CameraFrame>& frames)
+      : machine_(machine), draw_(draw), exchange_(exchange), frames_(frames) {}
+
+  // Against the first plan's picture.
+  std::vector<MeasuredPlan> measure(const std::vector<Plan>& plans, const std::string& metric) {
+    std::vector<MeasuredPlan> measured;
+    Image<glm::vec3> exact;
+    Picture picture;
+    Renderer pictures(machine_.shared_scene(), plans.front(), machine_.workers(), {Exchange::sync},
+                      {[&](Picture&& one) { picture = std::move(one); }, [](const FrameRecord&) {}});
+    Renderer times(machine_.shared_scene(), plans.front(), machine_.workers(),
+                   {exchange_, gl::Mapping::each_time, 1, false},
+                   {[](Picture&&) {}, [](const FrameRecord&) {}});
+    Progress progress(draw_.quiet ? "off" : draw_.progress, "measuring plans", plans.size());
+    for (Plan plan : plans) {
+      if (interrupted()) break;
+      pictures.use(plan);
+      pictures.submit(view(0));
+      pictures.drain();
+      Image<glm::vec3> rgb = rgb_of(picture);
+      if (measured.empty()) exact = rgb;
+      const double error = error_of(rgb, exact, metric, machine_.workers());
+      measured.push_back({plan, time_ms(times, plan), error});
+      progress.step();
+    }
+    return measured;
+  }
+
+ private:
+  // Of a frame, once its shaders are compiled and its buffers are there.
+  double time_ms(Renderer& renderer, Plan plan) {
+    plan.reuse = false;  // the frames of a still camera would cost nothing
+    renderer.use(plan);
+    renderer.submit(view(0));
+    renderer.drain();
+    const double begin_s = now_s();
+    for (int i = 0; i < kTimedFrames; ++i) renderer.submit(view(i + 1));
+    renderer.drain();
+    return 1e3 * (now_s() - begin_s) / kTimedFrames;
+  }
+
+  // Spread over the run.
+  [[nodiscard]] View view(int i) const {
+    const std::size_t at = static_cast<std::size_t>(i) * frames_.size() / (kTimedFrames + 1);
+    return {frames_[at].camera, draw_.size, part_of(draw_)};
+  }
+
+  Machine& machine_;
+  const DrawOptions& draw_;
+  Exchange exchange_;
+  const std::vector<CameraFrame>& frames_;
+};
+
+std::vector<MeasuredPlan> front_of(Machine& machine, const DrawOptions& draw, const BudgetOptions& options,
+                                   Exchange exchange, const std::vector<CameraFrame>& frames) {
+  if (machine.plan().mode != Mode::hybrid || machine.plan().design != 1)
+    throw Exit(kUsage, "--budget and --max-error choose among plans of --mode hybrid --design 1; use those");
+  const std::string metric = options.error ? options.error->metric : "flip";
+  return pareto_front(Trial(machine, draw, exchange, frames).measure(cheaper_plans(machine.plan()), metric));
+}
+
+Budget limits(const BudgetOptions& options) {
+  return {options.frame_ms, options.error ? std::optional(options.error->value) : std::nullopt};
+}
+
+}  // namespace
+
+void add_budget_options(CLI::App& verb, BudgetOptions& options) {
+  verb.add_option_function<std::string>(
+          "--budget",
+          [&options](const std::string& text) {
+            options.frame_ms = parse_milliseconds(text);
+            if (!options.frame_ms)
+              throw CLI::ValidationError("--budget", "'" + text + "' is not a time such as 16ms");
+          },
+          "time a frame may take: the most accurate plan that keeps it is measured and used, and changed "
+          "where the load changes")
+      ->type_name("TIME");
+  verb.add_option_function<std::string>(
+          "--max-error",
+          [&options](const std::string& text) { options.error = parse_error_limit(text, kMetrics); },
+          "METRIC=VALUE: the fastest plan whose picture is no further from the exact plan's; rmse, relmse, "
+          "max or flip")
+      ->type_name("METRIC=VALUE");
+}
+
+BudgetRun::BudgetRun(Machine& machine, const DrawOptions& draw, const BudgetOptions& options,
+                     Exchange exchange, const std::vector<CameraFrame>& frames)
+    : options_(options),
+      exact_(machine.plan()),
+      front_(front_of(machine, draw, options, exchange, frames)),
+      keeper_(front_, limits(options)),
+      uses_{{0, keeper_.now()}} {}
+
+void BudgetRun::note(double frame_ms) {
+  ++frames_;
+  if (options_.frame_ms && frame_ms > *options_.frame_ms) ++over_;
+  if (keeper_.note(frame_ms)) uses_.push_back({frames_, keeper_.now()});
+}
+
+std::string BudgetRun::said(const MeasuredPlan& measured) const {
+  const std::string lost = given_up(exact_, measured.plan);
+  char figures[96];
+  std::snprintf(figures, sizeof figures, " (%.1f ms, %s %.4g, as measured)", measured.frame_ms,
+                options_.error ? options_.error->metric.c_str() : "flip", measured.error);
+  return (lost.empty() ? "nothing given up" : "given up: " + lost) + figures;
+}
+
+void BudgetRun::report() const {
+  if (options_.frame_ms)
+    std::printf("budget of %g ms: kept by %zu of %zu frames\n", *options_.frame_ms, frames_ - over_, frames_);
+  if (options_.frame_ms && uses_.front().measured.frame_ms > *options_.frame_ms)
+    std::printf("  no plan%s keeps it here\n", options_.error ? " within the error" : "");
+  for (const Use& use : uses_)
+    std::printf("  from frame %zu: %s\n", use.first_frame, said(use.measured).c_str());
+}
+
+nlohmann::json BudgetRun::json() const {
+  const auto plan_json = [&](const MeasuredPlan& m) {
+    return nlohmann::json{{"frame_ms", m.frame_ms},
+                          {"error", m.error},
+                          {"given_up", given_up(exact_, m.plan)},
+                          {"plan", to_json(m.plan)}};
+  };
+  nlohmann::json json{{"frames", frames_}, {"over", over_}, {"metric", "flip"}};
+  if (options_.frame_ms) json["frame_ms"] = *options_.frame_ms;
+  if (options_.error) json["metric"] = options_.error->metric;
+  if (options_.error) json["max_error"] = options_.error->value;
+  for (const MeasuredPlan& m : front_) json["front"].push_back(plan_json(m));
+  for (const Use& use : uses_) {
+    nlohmann::json used = plan_json(use.measured);
+    used["from_frame"] = use.first_frame;
+    json["used"].push_back(used);
+  }
+  return json;
+}
+
+}  // namespace pinocchio::app

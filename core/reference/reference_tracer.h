@@ -1,0 +1,42 @@
+#pragma once
+
+#include <cstdint>
+#include <glm/glm.hpp>
+
+#include "core/reference/reference_surface.h"
+#include "core/reference/reference_tree.h"
+#include "core/trace/shared.h"
+
+namespace pinocchio {
+
+// The reference, a pixel at a time. Light along rays: I = Ia + sum over lights of (Id + Is) + Ir(R) + It(T)
+// + emission (Whitted, "An Improved Illumination Model for Shaded Display", CACM 23(6), 1980). Every bounce
+// is followed whatever it is worth, and in glass each is two: time can double with each bounce. Safe to call
+// from many threads.
+class ReferenceTracer {
+ public:
+  // `tree` may be of another scene with the same triangles. Both stay as long as this lives.
+  ReferenceTracer(const Scene& scene, const ReferenceTree& tree) : scene_(scene), tree_(tree) {}
+
+  struct Pixel {
+    std::uint32_t triangle = kNoTriangle;  // seen at the sample point
+    unsigned mask = 0;                     // bit i: casting light i reaches it
+    glm::vec3 reflection{0.0f};            // mirrored plus refracted light, linear
+    glm::vec4 color{0.0f};                 // linear; A is 1 where something is hit
+  };
+  // The pixel (x, y), counted from view.first; `depth` bounces at most.
+  [[nodiscard]] Pixel pixel(const shared::ViewParams& view, int x, int y, int depth) const;
+
+ private:
+  glm::dvec3 direct(const ReferenceSurface& surface, unsigned& bits) const;
+  [[nodiscard]] glm::dvec3 bounced(const ReferenceSurface& surface, int depth) const;
+  [[nodiscard]] glm::dvec3 seen(const ReferenceRay& ray, int depth) const;
+
+  const Scene& scene_;
+  const ReferenceTree& tree_;
+};
+
+// The ray of the pixel (x, y); its t is z_eye.
+[[nodiscard]] ReferenceRay reference_pixel_ray(const shared::ViewParams& view, int x, int y);
+
+}  // namespace pinocchio

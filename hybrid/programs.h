@@ -1,0 +1,41 @@
+#pragma once
+
+#include <filesystem>
+#include <map>
+#include <string>
+#include <tuple>
+#include <vector>
+
+#include "core/base/error.h"
+#include "gl/program.h"
+
+namespace pinocchio {
+
+// The passes' programs, compiled from a folder of shaders when first asked for: a scene pays for what it has.
+class Programs {
+ public:
+  using Definitions = std::vector<std::string>;
+
+  explicit Programs(std::filesystem::path folder) : folder_(std::move(folder)) {}
+
+  // Stays where it is as long as this lives; after reload() it is the new one. Throws gl::Error with file,
+  // line and the compiler's message.
+  [[nodiscard]] const gl::Program& get(const std::string& vertex_file, const std::string& fragment_file,
+                                       const Definitions& definitions = {});
+
+  // Compiles every program that was asked for so far anew, from the files as they are now. Where one fails,
+  // all stay as they were and the error says why: file, line, the compiler's message.
+  [[nodiscard]] Expected<void> reload();
+
+  [[nodiscard]] const std::filesystem::path& folder() const { return folder_; }
+
+ private:
+  using Key = std::tuple<std::string, std::string, Definitions>;
+
+  [[nodiscard]] gl::Program compile(const Key& key) const;
+
+  std::filesystem::path folder_;
+  std::map<Key, gl::Program> programs_;
+};
+
+}  // namespace pinocchio

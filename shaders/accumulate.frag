@@ -1,0 +1,17 @@
+#version 330 core
+// One more sample into the mean of those before (hybrid/accumulator.h).
+
+uniform sampler2D picture;
+uniform sampler2D average;
+uniform int samples;  // that are in `average`; 0: it holds nothing
+
+out vec4 color;
+
+void main() {
+  ivec2 pixel = ivec2(gl_FragCoord.xy);
+  color = texelFetch(picture, pixel, 0);
+  if (color.a > 0.0) color.a = 1.0;  // a reprojected picture's hole is covered too
+  if (samples == 0) return;
+  vec4 before = texelFetch(average, pixel, 0);
+  color = before + (color - before) / float(samples + 1);
+}

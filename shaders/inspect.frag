@@ -1,0 +1,78 @@
+#version 330 core
+// One of a frame's buffers as a picture for people (hybrid/inspect_pass.h), in linear light; a screen's sRGB
+// curve is still to come. Mask and reflection are looked up by what the composite looks them up with.
+//   ID_BITS          16, 24 or 32
+//   one of SHOW_IDS, SHOW_NORMALS, SHOW_MASK, SHOW_REFLECTION, SHOW_AGE; with none, all is grey
+//   HAS_MASK, HAS_REFLECTION, REPROJECT and what goes with them: traced_light.glsl
+
+#define SHARED
+#include "shared/view.glsl"
+#include "shared/surface.glsl"
+#include "shared/phong.glsl"
+#include "scene_fetch.glsl"
+#include "pixel_surface.glsl"
+#include "traced_light.glsl"
+
+uniform int light_count;
+uniform int slot;        // SHOW_MASK: of the mask
+uniform int age_frames;  // SHOW_AGE: of the answer that is shown
+
+out vec4 color;
+
+const vec3 kDark = vec3(0.01);
+const vec3 kNothingAsked = vec3(0.18);
+const vec3 kAges[4] = vec3[](vec3(0.02, 0.35, 0.07), vec3(0.75, 0.6, 0.02), vec3(0.8, 0.2, 0.01), vec3(0.6, 0.0, 0.0));
+const vec3 kHole = vec3(0.8, 0.0, 0.6);
+
+// Neighbours' ids are close to each other, and their colours must not be (PCG: Jarzynski and Olano 2020).
+vec3 color_of(uint id) {
+  uint state = id * 747796405u + 2891336453u;
+  uint word = ((state >> ((state >> 28u) + 4u)) ^ state) * 277803737u;
+  uint hash = (word >> 22u) ^ word;
+  vec3 rgb = vec3(hash & 0xffu, hash >> 8u & 0xffu, hash >> 16u & 0xffu) / 255.0;
+  return linear_from_srgb(0.25 + 0.75 * rgb);
+}
+
+#ifdef SHOW_MASK
+// Whether a shadow ray is fired from there to the light of that slot.
+bool asked(PixelSurface s) {
+  for (int i = 0; i < light_count; ++i)
+    if (fetch_mask_slot(i) == slot)
+      return faces_light(s.n.shading, s.n.geometric, incident_light(fetch_light(i), s.p_world).to_light);
+  return false;
+}
+
+vec3 color_of_mask(uint id, ivec2 pixel) {
+  PixelSurface s = surface_of(id, pixel);
+  float reach = reach_of_light(reach_from(source_of(pixel, id, s.p_world), id), slot);
+  return reach > 0.0 || asked(s) ? vec3(reach) : kNothingAsked;
+}
+#endif
+
+vec3 color_of_pixel(uint id, ivec2 pixel) {
+#if defined(SHOW_IDS)
+  return color_of(id);
+#elif defined(SHOW_NORMALS)
+  return linear_from_srgb(0.5 * surface_of(id, pixel).n.shading + 0.5);
+#elif defined(SHOW_MASK)
+  return color_of_mask(id, pixel);
+#elif defined(SHOW_REFLECTION)
+  return reflected_light(source_of(pixel, id, surface_of(id, pixel).p_world).pixel, id);
+#elif defined(SHOW_AGE)
+  bool hole = source_of(pixel, id, surface_of(id, pixel).p_world).hole;
+  return hole ? kHole : kAges[clamp(age_frames, 0, 3)];
+#else
+  return kNothingAsked;
+#endif
+}
+
+void main() {
+  ivec2 pixel = ivec2(gl_FragCoord.xy);
+  uint id = fetch_id(ids, pixel);
+#ifdef SHOW_MASK
+  vec3 nothing_seen = kNothingAsked;
+#else
+  vec3 nothing_seen = kDark;
+#endif
+  color = vec4(id == kNoTriangle ? nothing_seen : color_of_pixel(id, pixel), 1.0);
+}

@@ -1,0 +1,183 @@
+// The precise picture in the background, against the one made at once.
+#include "hybrid/progressive_reference.h"
+
+#include <chrono>
+#include <filesystem>
+#include <fstream>
+
+#include "core/compare/figures.h"
+#include "core/reference/reference.h"
+#include "core/trace/view.h"
+#include "hybrid/reference_error.h"
+#include "tests/support/draw.h"
+
+namespace pinocchio {
+namespace {
+
+constexpr glm::ivec2 kSize{70, 50};  // tiles and squares cut at the edges
+
+std::shared_ptr<const PreparedScene> prepare(const Scene& scene) {
+  return std::make_shared<const PreparedScene>(scene, Sides{false, false}, BuildOptions{},
+                                               std::optional<Isa>());
+}
+
+ReferenceView view_of(const std::shared_ptr<const PreparedScene>& scene) {
+  return {scene, first_camera(scene->scene), kSize, {{0, 0}, kSize}, glm::vec2(0.0f), 4};
+}
+
+Image<glm::vec4> at_once(const ReferenceView& view) {
+  Workers workers(2);
+  Image<std::uint32_t> ids(view.part.size());
+  MaskImage mask;
+  Image<glm::vec3> reflection;
+  Image<glm::vec4> color;
+  reference_picture(view.scene->scene, workers,
+                    view_params(view.camera, view.size, view.jitter, view.part.lo), view.depth, ids, mask,
+                    reflection, color);
+  return color;
+}
+
+// Waits a moment between polls; ctest's time limit ends what never finishes.
+Image<glm::vec4> finish(ProgressiveReference& reference) {
+  for (;;) {
+    const ProgressiveReference::Progress progress = reference.poll();
+    if (progress.share == 1.0) return progress.color;
+    std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  }
+}
+
+TEST(ProgressiveReference, EndsAsThePictureMadeAtOnce) {
+  const auto scene = prepare(load_or_die(source_path("scenes/cornell")));
+  ReferenceView view = view_of(scene);
+  for (const int threads : {1, 3}) {
+    ProgressiveReference reference(threads);
+    view.part = {{0, 0}, kSize};
+    reference.show(view);
+    EXPECT_TRUE(std::ranges::equal(finish(reference).pixels(), at_once(view).pixels()));
+    view.part = {{13, 7}, {50, 41}};
+    view.jitter = {0.25f, -0.125f};
+    reference.show(view);
+    EXPECT_TRUE(std::ranges::equal(finish(reference).pixels(), at_once(view).pixels()));
+    reference.show(view);  // again: it is there
+    EXPECT_EQ(reference.poll().share, 1.0);
+  }
+}
+
+TEST(ProgressiveReference, GrowsFromSquaresOfExactPixels) {
+  const auto scene = prepare(load_or_die(source_path("scenes/two-lights")));
+  const ReferenceView view = view_of(scene);
+  const Image<glm::vec4> exact = at_once(view);
+  ProgressiveReference reference;
+  reference.show(view);
+  double last_share = 0.0;
+  for (bool done = false; !done;) {
+    const auto [color, share, changed] = reference.poll();
+    done = share == 1.0;
+    ASSERT_EQ(changed, share > last_share);
+    last_share = share;
+    ASSERT_EQ(color.size(), kSize);
+    for (int y = 0; y < kSize.y; ++y)
+      for (int x = 0; x < kSize.x; ++x) {
+        const glm::vec4& c = color.at(x, y);
+        const auto from = [&](int step) { return exact.at(x - x % step, y - y % step); };
+        ASSERT_TRUE(c == glm::vec4(0.0f) || c == from(4) || c == from(2) || c == from(1));
+      }
+  }
+}
+
+TEST(ProgressiveReference, AnotherViewDropsTheOneBefore) {
+  const auto cornell = prepare(load_or_die(source_path("scenes/cornell"))),
+             lights = prepare(load_or_die(source_path("scenes/two-lights")));
+  ProgressiveReference reference(2);
+  ReferenceView view;
+  for (int i = 0; i < 40; ++i) {
+    view = view_of(i % 3 == 2 ? cornell : lights);
+    view.camera.eye.x += 0.01f * static_cast<float>(i);
+    reference.show(view);
+    const auto [color, share, changed] = reference.poll();
+    EXPECT_EQ(color.size(), kSize);
+    EXPECT_LE(share, 1.0);
+  }
+  EXPECT_TRUE(std::ranges::equal(finish(reference).pixels(), at_once(view).pixels()));
+  reference.stop();
+  EXPECT_EQ(reference.poll().share, 0.0);
+  reference.show(view);
+  EXPECT_TRUE(std::ranges::equal(finish(reference).pixels(), at_once(view).pixels()));
+}
+
+TEST(ProgressiveReference, OtherLightsOnTheSameTriangles) {
+  Scene scene = plate_over_floor();
+  scene.lights = {point_light({1, 5, 1})};
+  ProgressiveReference reference;
+  for (int i = 0; i < 4; ++i) {
+    scene.lights.front().position.x = static_cast<float>(i);
+    const ReferenceView view = view_of(prepare(scene));
+    reference.show(view);
+    EXPECT_TRUE(std::ranges::equal(finish(reference).pixels(), at_once(view).pixels()));
+  }
+}
+
+TEST(ProgressiveReference, LetsGoOfScenesOnTheCallersThread) {
+  ProgressiveReference reference;
+  auto first = prepare(load_or_die(source_path("scenes/cornell"))),
+       second = prepare(load_or_die(source_path("scenes/two-lights")));
+  reference.show(view_of(first));
+  reference.show(view_of(second));
+  finish(reference);
+  EXPECT_EQ(first.use_count(), 2 - (reference.poll(), 1));
+  EXPECT_GT(second.use_count(), 1);
+}
+
+TEST(ProgressiveReference, EndsInTheMiddleOfATreeOrAPicture) {
+  const auto soup = prepare(random_soup(200000, 0.02f, 1));
+  ReferenceView view = view_of(soup);
+  view.size = view.part.hi = {800, 600};
+  for (int i = 0; i < 5; ++i) {
+    ProgressiveReference reference(2);
+    reference.show(view);
+    std::this_thread::sleep_for(std::chrono::milliseconds(3 * i));
+  }
+  SUCCEED();
+}
+
+// The 19th field of a thread's stat is its nice value.
+TEST(ProgressiveReference, RunsAtTheLowestPriority) {
+  ProgressiveReference reference(2);
+  const auto scene = prepare(plate_over_floor());
+  reference.show(view_of(scene));
+  finish(reference);
+  int lowest = 0;
+  for (const auto& task : std::filesystem::directory_iterator("/proc/self/task")) {
+    std::ifstream in(task.path() / "stat");
+    std::string text((std::istreambuf_iterator<char>(in)), {});
+    std::istringstream fields(text.substr(text.rfind(')') + 2));
+    std::string field;
+    for (int i = 3; i <= 19; ++i) fields >> field;
+    lowest += field == "19";
+  }
+  EXPECT_EQ(lowest, 2);
+}
+
+TEST(ReferenceErrors, AreTheFiguresAndTheHeat) {
+  Workers workers(2);
+  const ReferenceView view = view_of(prepare(load_or_die(source_path("scenes/two-lights"))));
+  const Image<glm::vec4> exact = at_once(view);
+  for (const ErrorMap map : {ErrorMap::flip, ErrorMap::difference}) {
+    const ReferenceError none = error_against(exact, exact, map, workers);
+    EXPECT_EQ(none.rmse, 0.0);
+    EXPECT_EQ(none.mean_flip, 0.0);
+    for (const glm::u8vec3& heat : none.heat.pixels()) ASSERT_LT(heat.r + heat.g + heat.b, 12);
+  }
+  Image<glm::vec4> off = exact;
+  off.at(20, 30) += glm::vec4(1.0f, 0.5f, 0.0f, 0.0f);
+  off.at(40, 10).g = std::numeric_limits<float>::quiet_NaN();
+  const ReferenceError some = error_against(off, exact, ErrorMap::difference, workers);
+  const double nan_error = static_cast<double>(exact.at(40, 10).g);
+  EXPECT_NEAR(some.rmse, std::sqrt((1.25 + nan_error * nan_error) / (3.0 * kSize.x * kSize.y)), 1e-6);
+  EXPECT_GT(some.mean_flip, 0.0);
+  const glm::u8vec3 heat = some.heat.at(20, 30);
+  EXPECT_GT(heat.r + heat.g + heat.b, 500);
+}
+
+}  // namespace
+}  // namespace pinocchio
