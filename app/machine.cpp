@@ -39,7 +39,7 @@ Machine::Machine(const DrawOptions& options, Scene scene, bool keeps_mask, bool 
                "--exchange reproject: warps mask and reflection, which design 2 does not send; use design 1");
   workers_.emplace(plan_.threads);
   scene_ = std::make_shared<const PreparedScene>(std::move(scene), all_sides ? Sides{} : sides_of(plan_),
-                                                 options.tree, options.isa);
+                                                 options.tree, options.isa, options.offset);
 }
 
 PlanRequest Machine::request() const {

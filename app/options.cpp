@@ -153,6 +153,15 @@ void add_tracer_options(CLI::App& verb, DrawOptions& o) {
   add_parsed<SplitRule>(verb, "--tree", "how the BSP tree is split (sah)",
                         "sah, spatial-median or object-median", parse_split_rule,
                         [&o](SplitRule v) { o.tree.rule = v; });
+  add_parsed<TriangleTest>(verb, "--triangle-test",
+                           "how a ray meets a triangle (filtered: safe, docs/stability.md)",
+                           "projected, moeller-trumbore, watertight or filtered", parse_triangle_test,
+                           [&o](TriangleTest v) { o.tree.triangle_test = v; });
+  add_parsed<OffsetMethod>(
+      verb, "--offset",
+      "how far off a surface its shadow and mirrored rays start: one length, one a scene, or "
+      "what rounding can do there (error-bound)",
+      "fixed, scaled or error-bound", parse_offset_method, [&o](OffsetMethod v) { o.offset = v; });
   verb.add_option("--tree-depth", o.tree.max_depth, "most levels of the BSP tree (from the triangle count)")
       ->check(CLI::Range(1, kMaxTreeDepth));
   verb.add_option("--tree-leaf", o.tree.leaf_size, "triangles that are not split further (2)")

@@ -42,6 +42,7 @@ struct DrawOptions {
   int threads = 0;     // 0: all cores
   std::optional<Isa> isa;
   BuildOptions tree;
+  OffsetMethod offset = OffsetMethod::error_bound;
   std::string progress = "auto";
   bool quiet = false;
 };

@@ -21,7 +21,7 @@ constexpr float kMirror = 0.5f;  // reflectance where --mirror-all makes every m
 struct Options {
   std::string scene, generate, json;
   std::vector<std::string> isas;
-  std::string tree = "sah";
+  std::string tree = "sah", test{triangle_test_name(BuildOptions{}.triangle_test)};
   int triangles = 0, repeat = 7, build_repeat = 3, threads = 0;
   bool mirror_all = false, robust = false;
 };
@@ -38,6 +38,8 @@ void add_options(CLI::App& program, Options& o) {
       ->check(CLI::IsMember({"scalar", "sse4", "avx2", "avx512", "all"}));
   program.add_option("--tree", o.tree, "how our BSP tree is split (sah)")
       ->check(CLI::IsMember({"sah", "spatial-median", "object-median"}));
+  program.add_option("--triangle-test", o.test, "how our rays meet a triangle (filtered)")
+      ->check(CLI::IsMember({"projected", "moeller-trumbore", "watertight", "filtered"}));
   program.add_option("--repeat", o.repeat, "repetitions, of which the median counts (7)")
       ->check(CLI::Range(1, 1000));
   program.add_option("--build-repeat", o.build_repeat, "builds, of which the median counts (3)")
@@ -88,7 +90,9 @@ void run(const Options& o) {
   report.all_mirrors = make_mirrors(scene, o.mirror_all);
 
   Workers all(o.threads), one(1);
-  const BuildOptions tree{.rule = parse_split_rule(o.tree).value(), .threads = o.threads};
+  const BuildOptions tree{.rule = parse_split_rule(o.tree).value(),
+                          .threads = o.threads,
+                          .triangle_test = parse_triangle_test(o.test).value()};
   std::vector<std::unique_ptr<Tracer>> tracers;
   Contenders contenders;
   for (const Isa isa : chosen_isas(o.isas)) {

@@ -25,10 +25,11 @@ struct PreparedScene {
   std::optional<Tracer> tracer;
   std::optional<GpuScene> gpu;
 
-  PreparedScene(Scene s, Sides sides, const BuildOptions& tree, std::optional<Isa> isa)
+  PreparedScene(Scene s, Sides sides, const BuildOptions& tree, std::optional<Isa> isa,
+                OffsetMethod offset = OffsetMethod::error_bound)
       : scene(std::move(s)) {
     drop_idle_casters(scene);
-    if (sides.cpu) tracer.emplace(scene, tree, isa);
+    if (sides.cpu) tracer.emplace(scene, tree, isa, offset);
     if (sides.gpu) gpu.emplace(scene);
   }
   PreparedScene(const PreparedScene&) = delete;

@@ -73,8 +73,9 @@ std::shared_ptr<const PreparedScene> Bench::prepared(const Settings& settings) {
   if (settings.tracer == TracerSettings{}) return prepared_ = machine_.shared_scene();
   BuildOptions tree;
   tree.rule = settings.tracer.tree;
+  tree.triangle_test = settings.tracer.triangle_test;
   return prepared_ = std::make_shared<const PreparedScene>(machine_.scene().scene, Sides{}, tree,
-                                                           settings.tracer.isa);
+                                                           settings.tracer.isa, settings.tracer.offset);
 }
 
 bool Bench::measure_time(const Settings& settings, Workers& workers, PointFigures& figures) {

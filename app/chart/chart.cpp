@@ -9,6 +9,7 @@
 #include "app/chart/digest.h"
 #include "app/chart/page.h"
 #include "app/chart/results.h"
+#include "app/chart/stability.h"
 #include "app/chart/sweep.h"
 #include "app/console.h"
 #include "app/errors.h"
@@ -35,7 +36,7 @@ struct ChartOptions {
   std::string folder;
   std::vector<std::string> only;
   int repeat = 0;  // 0: by default
-  bool quick = false, restart = false;
+  bool quick = false, restart = false, stability = false;
 };
 
 std::string axis_list() {
@@ -206,7 +207,18 @@ Run add_chart(CLI::App& program) {
           "these axes alone, separated by commas: " + axis_list() + " (all)")
       ->type_name("AXES");
   verb.add_flag("--restart", options->restart, "begin afresh, whatever the folder holds");
+  verb.add_flag(
+      "--stability", options->stability,
+      "no scene: how often each method fails where methods fail, and what it costs (with --quick fewer "
+      "rays)");
+  verb.get_option("SCENE")->required(false);
+  verb.parse_complete_callback([options] {
+    if (options->draw.scene.empty() != options->stability)
+      throw CLI::ValidationError("chart", "give a SCENE or --stability");
+  });
   return [options, &verb] {
+    if (options->stability)
+      return run_stability({.folder = options->folder, .quick = options->quick, .draw = &options->draw});
     options->size_given = verb.count("--size") > 0;
     return ChartRun(*options).run();
   };

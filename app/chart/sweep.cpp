@@ -163,6 +163,24 @@ void trees(Sweep& sweep) {
   }
 }
 
+void triangle_tests(Sweep& sweep) {
+  for (const TriangleTest test : kTriangleTests) {
+    Settings settings = sweep.base();
+    settings.tracer.triangle_test = test;
+    const std::string name(triangle_test_name(test));
+    sweep.add(name, settings.tracer == sweep.base().tracer ? "" : "--triangle-test " + name, settings);
+  }
+}
+
+void offsets(Sweep& sweep) {
+  for (const OffsetMethod offset : kOffsetMethods) {
+    Settings settings = sweep.base();
+    settings.tracer.offset = offset;
+    const std::string name(offset_method_name(offset));
+    sweep.add(name, settings.tracer == sweep.base().tracer ? "" : "--offset " + name, settings);
+  }
+}
+
 void simd_widths(Sweep& sweep) {
   for (const Isa isa : supported_isas()) {
     Settings settings = sweep.base();
@@ -242,6 +260,8 @@ constexpr std::array kAxes{
     Axis{{"depth", "bounces"}, depths},
     Axis{{"cutoff", "least light that a ray is fired for"}, cutoffs},
     Axis{{"tree", "how the BSP tree is split"}, trees},
+    Axis{{"triangle-test", "how a ray meets a triangle"}, triangle_tests},
+    Axis{{"offset", "how rays keep off their surface"}, offsets},
     Axis{{"simd", "SIMD level"}, simd_widths},
     Axis{{"threads", "worker threads"}, thread_counts},
     Axis{{"spp", "samples a pixel"}, sample_counts, "area"},
@@ -267,7 +287,9 @@ nlohmann::json to_json(const Settings& settings) {
           {"exchange", exchange_name(settings.exchange)},
           {"spp", settings.spp},
           {"tree", kTrees[static_cast<std::size_t>(settings.tracer.tree)]},
-          {"isa", isa_name(settings.tracer.isa.value_or(default_isa()))}};
+          {"isa", isa_name(settings.tracer.isa.value_or(default_isa()))},
+          {"triangle_test", triangle_test_name(settings.tracer.triangle_test)},
+          {"offset", offset_method_name(settings.tracer.offset)}};
 }
 
 Expected<std::vector<Configuration>> make_sweep(const SweepRequest& request) {

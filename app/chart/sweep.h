@@ -20,6 +20,8 @@ namespace pinocchio::app {
 struct TracerSettings {
   SplitRule tree = SplitRule::sah;
   std::optional<Isa> isa;
+  TriangleTest triangle_test = BuildOptions{}.triangle_test;
+  OffsetMethod offset = OffsetMethod::error_bound;
 
   friend bool operator==(const TracerSettings&, const TracerSettings&) = default;
 };

@@ -20,6 +20,10 @@ int default_depth(std::size_t triangles) {
   return static_cast<int>(8.0 + 1.3 * std::log2(static_cast<double>(triangles)));
 }
 
+// The median rules do not ask what a split gains: after this many above a node that sent most references to both
+// sides, it is a leaf. Else thousands of triangles through one point double at every level.
+constexpr int kMostWasted = 3;
+
 // Fewer references than this are not worth a thread.
 constexpr std::size_t kLeastForThread = 4096;
 
@@ -61,7 +65,7 @@ class Builder {
     References all = all_references();
     for (const BuildReference& r : all) tree_.bounds.add(r.bounds);
     Subtree whole;
-    build_node(whole, 0, std::move(all), tree_.bounds, 0);
+    build_node(whole, 0, std::move(all), tree_.bounds, 0, 0);
     whole.nodes.shrink_to_fit();
     whole.references.shrink_to_fit();
     tree_.nodes = std::move(whole.nodes);
@@ -87,8 +91,8 @@ class Builder {
     return scene_.positions[scene_.triangles[triangle][k]];
   }
 
-  void build_node(Subtree& to, std::uint32_t index, References references, const Bounds& box,
-                  int depth) const {
+  void build_node(Subtree& to, std::uint32_t index, References references, const Bounds& box, int depth,
+                  int wasted) const {
     to.depth = std::max(to.depth, depth);
     const std::optional<SplitPlane> plane = depth < max_depth_ ? choose(references, box) : std::nullopt;
     if (!plane) {
@@ -100,7 +104,11 @@ class Builder {
     high_box.lo[plane->axis] = plane->position;
     References low, high;
     partition(references, *plane, low_box, high_box, low, high);
-    if (low.size() >= references.size() && high.size() >= references.size()) {  // nothing was told apart
+    const bool wastes =
+        options_.rule != SplitRule::sah && 2 * (low.size() + high.size()) > 3 * references.size();
+    if (wastes) ++wasted;
+    const bool told_apart = low.size() < references.size() || high.size() < references.size();
+    if (!told_apart || wasted > kMostWasted) {
       make_leaf(to, index, references);
       return;
     }
@@ -111,19 +119,20 @@ class Builder {
     to.nodes[index] = BspNode::inner(plane->axis, plane->position, children);
     std::future<Subtree> other;
     if (depth < fork_depth_ && std::min(low.size(), high.size()) >= kLeastForThread)
-      other = fork(high, high_box, depth + 1);
-    build_node(to, children, std::move(low), low_box, depth + 1);
+      other = fork(high, high_box, depth + 1, wasted);
+    build_node(to, children, std::move(low), low_box, depth + 1, wasted);
     if (other.valid())
       splice(other.get(), to, children + 1);
     else
-      build_node(to, children + 1, std::move(high), high_box, depth + 1);
+      build_node(to, children + 1, std::move(high), high_box, depth + 1, wasted);
   }
 
   // Builds the node on a thread of its own; nothing, and `references` as they were, where none is to be had.
-  [[nodiscard]] std::future<Subtree> fork(References& references, const Bounds& box, int depth) const {
-    const auto work = [this, &references, box, depth] {
+  [[nodiscard]] std::future<Subtree> fork(References& references, const Bounds& box, int depth,
+                                          int wasted) const {
+    const auto work = [this, &references, box, depth, wasted] {
       Subtree part;
-      build_node(part, 0, std::move(references), box, depth);
+      build_node(part, 0, std::move(references), box, depth, wasted);
       return part;
     };
     try {
@@ -192,6 +201,17 @@ void widen(Bounds& bounds) {
   bounds.hi += margin;
 }
 
+AlignedVector<CornerTriangle> corner_triangles(const Scene& scene) {
+  AlignedVector<CornerTriangle> result(scene.triangles.size());
+  for (std::uint32_t i = 0; i < result.size(); ++i) {
+    result[i].id = i;
+    for (int corner = 0; corner < 3; ++corner)
+      for (int axis = 0; axis < 3; ++axis)
+        result[i].corners[corner][axis] = scene.positions[scene.triangles[i][corner]][axis];
+  }
+  return result;
+}
+
 }  // namespace
 
 std::optional<SplitRule> parse_split_rule(std::string_view name) {
@@ -209,6 +229,12 @@ BspTree build_tree(const Scene& scene, const BuildOptions& options) {
     tree.triangles.push_back(
         ProjectedTriangle::from(scene.positions[t.x], scene.positions[t.y], scene.positions[t.z], i));
   }
+  if (options.triangle_test == TriangleTest::moeller_trumbore ||
+      options.triangle_test == TriangleTest::watertight)
+    tree.corner_triangles = corner_triangles(scene);
+  tree.test = options.triangle_test;
+  tree.positions = scene.positions;
+  tree.corners = scene.triangles;
   Builder(scene, options, tree).build();
   widen(tree.bounds);
   return tree;

@@ -27,6 +27,8 @@ ProjectedTriangle ProjectedTriangle::from(const glm::vec3& a, const glm::vec3& b
   triangle.beta_v = static_cast<float>(-ac[u] / det);
   triangle.gamma_u = static_cast<float>(-ab[v] / det);
   triangle.gamma_v = static_cast<float>(ab[u] / det);
+  triangle.slope = std::abs(triangle.beta_u) + std::abs(triangle.beta_v) + std::abs(triangle.gamma_u) +
+                   std::abs(triangle.gamma_v);
   triangle.id = id;
   return triangle;
 }

@@ -10,13 +10,13 @@ namespace pinocchio {
 // (k+1, k+2) mod 3. Coordinates are kept relative to vertex A rather than to the origin, which the thesis
 // does not do: no digits are lost where a small triangle lies far out.
 struct ProjectedTriangle {
-  float a[3];                // vertex A, in world axis order
-  std::uint32_t k;           // the dropped axis
-  float n_u, n_v;            // normal divided by its component k
-  float beta_u, beta_v;      // weight of B  = beta_u * (h_u - a_u) + beta_v * (h_v - a_v)
-  float gamma_u, gamma_v;    // weight of C, likewise
-  std::uint32_t id;          // index in the scene's triangle order
-  std::uint32_t unused;
+  float a[3];              // vertex A, in world axis order
+  std::uint32_t k;         // the dropped axis
+  float n_u, n_v;          // normal divided by its component k
+  float beta_u, beta_v;    // weight of B  = beta_u * (h_u - a_u) + beta_v * (h_v - a_v)
+  float gamma_u, gamma_v;  // weight of C, likewise
+  std::uint32_t id;        // index in the scene's triangle order
+  float slope;             // what the sum of both weights changes by, at most, a unit of h_u and h_v
 
   // A triangle without area becomes one that no ray meets (its weights are NaN).
   static ProjectedTriangle from(const glm::vec3& a, const glm::vec3& b, const glm::vec3& c, std::uint32_t id);

@@ -89,9 +89,11 @@ std::array<ReferenceBounce, 2> reference_bounces(const ReferenceSurface& s) {
   const double cos_in = std::clamp(glm::dot(s.n_shading, s.to_viewer), 0.0, 1.0);
   if (m.transmits()) {
     const double ior = m.ior, eta = s.leaving ? 1.0 / ior : ior;
-    const double share = fresnel(cos_in, eta);
+    const glm::dvec3 through = refracted(s, eta);
+    // Where the two normals disagree there may be no way through although Fresnel has a share for it.
+    const double share = through == glm::dvec3(0.0) ? 1.0 : fresnel(cos_in, eta);
     return {bounce(s, mirrored(s), glm::dvec3(share)),
-            bounce(s, refracted(s, eta), (1.0 - share) * glm::dvec3(m.transmittance))};
+            bounce(s, through, (1.0 - share) * glm::dvec3(m.transmittance))};
   }
   if (!m.reflects()) return {};
   // Schlick, "An Inexpensive BRDF Model for Physically-based Rendering", 1994.

@@ -1,64 +1,25 @@
-// The traversal and the triangle test, written once over a namespace's lanes. A file kernel_ISA.cpp
-// includes lanes_ISA.h, names the namespace in PINOCCHIO_LANES and includes this. Everything here lives
-// inside that namespace: a function compiled for AVX must never be the one the linker keeps for all.
+// The traversal, written once over a namespace's lanes and over the triangle tests (triangle_tests/). A file
+// kernel_ISA.cpp includes lanes_ISA.h, names the namespace in PINOCCHIO_LANES and includes this. Everything
+// here lives inside that namespace: a function compiled for AVX must never be the one the linker keeps for
+// all.
 #include "core/bsp/tree.h"
 #include "core/math/ray.h"
+#include "core/trace/exact_triangle.h"
 #include "core/trace/kernels.h"
+#include "core/trace/packet.h"
+#include "core/trace/triangle_tests/filtered.h"
+#include "core/trace/triangle_tests/moeller_trumbore.h"
+#include "core/trace/triangle_tests/projected.h"
+#include "core/trace/triangle_tests/watertight.h"
 
 namespace pinocchio::PINOCCHIO_LANES {
 namespace {
-
-// A computed distance to a plane, (split - o) * (1 / d), is off by three roundings at most; both
-// children are entered where the true distance may lie in either.
-constexpr float kStepError = 4.0f * 0x1p-24f;
-
-// Rays of one direction octant: all of them meet the two sides of a split plane in the same order.
-struct Packet {
-  Float o[3], d[3];
-  Float inverse_early[3], inverse_late[3];  // 1 / d, less and more by the rounding of a step
-  Float reach;                              // |d_x| + |d_y| + |d_z|
-  Float t_max;
-  bool negative[3];  // direction falls along this axis
-};
 
 // Closest hits so far; t_best also ends the walk.
 struct Hits {
   Float t;
   Int triangle;
 };
-
-// Rounding of the triangle test: of each sum and product on the way to a weight, a few units in the last
-// place of the distances that go in.
-constexpr float kTestError = 2.0f * 0x1p-24f;
-// No triangle grows by more than this share of itself, however thin it is.
-constexpr float kMostGrowth = 0.5f;
-
-// Whether the packet's rays meet the triangle, and at which t. A weight may be less than 0 by as much as
-// its rounding error: neighbours that share an edge both take a ray that their roundings disagree about,
-// so that none slips through between them. The order of operations is fixed. Inlined by force: a call costs
-// 3 % of all rays.
-[[gnu::always_inline]] inline Mask meets(const ProjectedTriangle& tri, const Packet& p, Float& t) {
-  const unsigned k = tri.k, u = k == 2 ? 0 : k + 1, v = u == 2 ? 0 : u + 1;
-  const Float n_u(tri.n_u), n_v(tri.n_v);
-  const Float away = p.d[k] + n_u * p.d[u] + n_v * p.d[v];
-  const Float o_k = Float(tri.a[k]) - p.o[k], o_u = Float(tri.a[u]) - p.o[u], o_v = Float(tri.a[v]) - p.o[v];
-  t = (o_k + n_u * o_u + n_v * o_v) / away;
-  const Float h_u = t * p.d[u] - o_u, h_v = t * p.d[v] - o_v;
-  const Float beta = h_u * Float(tri.beta_u) + h_v * Float(tri.beta_v);
-  const Float gamma = h_u * Float(tri.gamma_u) + h_v * Float(tri.gamma_v);
-  // t is off by the rounding of its sums over |away| (no coefficient of the normal is above 1); the point
-  // (h_u, h_v) by that along the ray, and by its own rounding.
-  const Float from_origin = abs(o_k) + abs(o_u) + abs(o_v);
-  const Float slide = max(abs(p.d[u]), abs(p.d[v])) / abs(away);
-  const Float error = Float(kTestError) * (from_origin + abs(t) * p.reach) * (Float(1.0f) + slide);
-  const Float slope_beta(__builtin_fabsf(tri.beta_u) + __builtin_fabsf(tri.beta_v));
-  const Float slope_gamma(__builtin_fabsf(tri.gamma_u) + __builtin_fabsf(tri.gamma_v));
-  const Float most(kMostGrowth), zero(0.0f);
-  const Float grown_beta = min(error * slope_beta, most), grown_gamma = min(error * slope_gamma, most);
-  // Written so that NaN (no area, a ray in the plane) fails.
-  return (zero <= beta + grown_beta) & (zero <= gamma + grown_gamma) &
-         (beta + gamma <= Float(1.0f) + min(grown_beta + grown_gamma, most)) & (zero < t);
-}
 
 // Narrows [t_near, t_far] to the tree's box. min and max give their second operand for NaN, so a ray
 // that runs in a face of the box (0 * inf) leaves the interval as it was.
@@ -178,13 +139,15 @@ inline void for_each_octant(const Ray* rays, std::size_t n, Body body) {
   }
 }
 
-inline void closest_in_leaf(const BspTree& tree, const BspNode& leaf, const Packet& p, Mask lanes,
+template <class Test>
+inline void closest_in_leaf(const BspTree& tree, const BspNode& leaf, const Test& test, Mask lanes,
                             Hits& hits) {
   const std::uint32_t* references = tree.references.data() + leaf.first_reference();
+  const auto* const triangles = Test::stored(tree);
   for (std::uint32_t i = 0; i < leaf.reference_count(); ++i) {
-    const ProjectedTriangle& tri = tree.triangles[references[i]];
+    const auto& tri = triangles[references[i]];
     Float t;
-    const Mask inside = lanes & meets(tri, p, t);
+    const Mask inside = test.meets(tri, lanes, t);
     const Int id(tri.id);
     const Mask closer = inside & ((t < hits.t) | ((t == hits.t) & (id < hits.triangle)));
     hits.t = select(closer, t, hits.t);
@@ -192,6 +155,7 @@ inline void closest_in_leaf(const BspTree& tree, const BspNode& leaf, const Pack
   }
 }
 
+template <class Test>
 void closest_hits(const BspTree& tree, const Ray* rays, Hit* out, std::size_t n) {
   alignas(64) float t[kWidth];
   alignas(64) std::uint32_t triangle[kWidth];
@@ -199,9 +163,10 @@ void closest_hits(const BspTree& tree, const Ray* rays, Hit* out, std::size_t n)
     const std::size_t count = n - i < kWidth ? n - i : kWidth;
     for (std::size_t lane = 0; lane < count; ++lane) out[i + lane] = Hit{};
     for_each_octant(rays + i, count, [&](const Packet& p, Mask lanes) {
+      const Test test(tree, p);
       Hits hits{p.t_max, Int(kNoTriangle)};
       walk(tree, p, lanes, hits.t,
-           [&](const BspNode& leaf, Mask alive) { closest_in_leaf(tree, leaf, p, alive, hits); });
+           [&](const BspNode& leaf, Mask alive) { closest_in_leaf(tree, leaf, test, alive, hits); });
       hits.t.store(t);
       hits.triangle.store(triangle);
       const unsigned mine = lanes.bits();
@@ -211,18 +176,21 @@ void closest_hits(const BspTree& tree, const Ray* rays, Hit* out, std::size_t n)
   }
 }
 
+template <class Test>
 void occluded(const BspTree& tree, const Ray* rays, std::uint8_t* blocked, std::size_t n) {
   for (std::size_t i = 0; i < n; i += kWidth) {
     const std::size_t count = n - i < kWidth ? n - i : kWidth;
     for (std::size_t lane = 0; lane < count; ++lane) blocked[i + lane] = 0;
     for_each_octant(rays + i, count, [&](const Packet& p, Mask lanes) {
+      const Test test(tree, p);
       Float t_best = p.t_max;
       unsigned hit = 0;
       walk(tree, p, lanes, t_best, [&](const BspNode& leaf, Mask alive) {
         const std::uint32_t* references = tree.references.data() + leaf.first_reference();
+        const auto* const triangles = Test::stored(tree);
         for (std::uint32_t k = 0; k < leaf.reference_count(); ++k) {
           Float t;
-          Mask inside = alive & meets(tree.triangles[references[k]], p, t);
+          Mask inside = test.meets(triangles[references[k]], alive, t);
           inside = inside & (t < t_best);
           if (inside.bits() == 0) continue;
           hit |= inside.bits();
@@ -237,8 +205,13 @@ void occluded(const BspTree& tree, const Ray* rays, std::uint8_t* blocked, std::
   }
 }
 
+template <class Test>
+constexpr Kernel kKernelOf{closest_hits<Test>, occluded<Test>};
+
 }  // namespace
 
-const Kernel kKernel{closest_hits, occluded};
+// In the order of TriangleTest.
+const Kernels kKernels{kKernelOf<ProjectedTest>, kKernelOf<MoellerTrumboreTest>, kKernelOf<WatertightTest>,
+                       kKernelOf<FilteredTest>};
 
 }  // namespace pinocchio::PINOCCHIO_LANES

@@ -1,7 +1,8 @@
-// The entry points of each instruction set's kernel: trace/kernel.h compiled once a file, with that
-// file's own flags.
+// The entry points of each instruction set's kernels, one a triangle test: trace/kernel.h compiled once a
+// file, with that file's own flags.
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 
@@ -15,17 +16,19 @@ struct Kernel {
   void (*occluded)(const BspTree& tree, const Ray* rays, std::uint8_t* blocked, std::size_t n);
 };
 
+using Kernels = std::array<Kernel, kTriangleTests.size()>;  // by TriangleTest
+
 namespace scalar {
-extern const Kernel kKernel;
+extern const Kernels kKernels;
 }
 namespace sse4 {
-extern const Kernel kKernel;
+extern const Kernels kKernels;
 }
 namespace avx2 {
-extern const Kernel kKernel;
+extern const Kernels kKernels;
 }
 namespace avx512 {
-extern const Kernel kKernel;
+extern const Kernels kKernels;
 }
 
 }  // namespace pinocchio

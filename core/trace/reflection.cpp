@@ -94,7 +94,7 @@ std::vector<PathRay> first_generation(const TraceJob& job, const Image<std::uint
     const std::uint32_t id = ids.at(x, y);
     if (id == kNoTriangle || !job.scene.material_of(id).spawns_rays()) return;
     const Ray ray = pixel_ray(job.view, x, y);
-    const Surface surface = surface_at(job.scene, id, ray.origin, ray.direction);
+    const Surface surface = surface_at(job.scene, id, ray.origin, ray.direction, job.tracer.offset());
     scatter(surface, glm::vec3(1.0f), static_cast<std::uint32_t>(ids.index(x, y)), job.least_contribution,
             queue);
   });
@@ -115,7 +115,8 @@ std::vector<PathRay> trace_queue(const TraceJob& job, const Lights& lights, cons
   for (std::size_t k = 0; k < hits.size(); ++k) {
     if (!hits[k].valid()) continue;
     const PathRay& path = queue[k];
-    const Surface surface = surface_at(job.scene, hits[k].triangle, path.ray.origin, path.ray.direction);
+    const Surface surface =
+        surface_at(job.scene, hits[k].triangle, path.ray.origin, path.ray.direction, job.tracer.offset());
     direct.add(surface, path.weight, path.pixel, radiance);
     if (!last && surface.material->spawns_rays())
       scatter(surface, path.weight, path.pixel, job.least_contribution, next);

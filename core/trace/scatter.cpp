@@ -45,11 +45,11 @@ void scatter(const Surface& surface, const glm::vec3& weight, std::uint32_t pixe
   const float cos_in = std::clamp(glm::dot(surface.n_shading, surface.to_viewer), 0.0f, 1.0f);
   if (m.transmits()) {
     const float eta = surface.leaving ? 1.0f / m.ior : m.ior;
-    const float share = fresnel_dielectric(cos_in, eta);
-    push(surface, mirrored(surface), weight * share, pixel, false, least, out);
     const glm::vec3 through = refracted(surface, eta);
-    if (through != glm::vec3(0.0f))
-      push(surface, through, weight * (1.0f - share) * m.transmittance, pixel, true, least, out);
+    // Where the two normals disagree there may be no way through although Fresnel has a share for it.
+    const float share = through == glm::vec3(0.0f) ? 1.0f : fresnel_dielectric(cos_in, eta);
+    push(surface, mirrored(surface), weight * share, pixel, false, least, out);
+    push(surface, through, weight * (1.0f - share) * m.transmittance, pixel, true, least, out);
   } else if (m.reflects()) {
     const float grazing = m.fresnel ? std::pow(1.0f - cos_in, 5.0f) : 0.0f;
     push(surface, mirrored(surface), weight * (m.reflectance + (1.0f - m.reflectance) * grazing), pixel,

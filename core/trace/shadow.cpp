@@ -57,8 +57,8 @@ RayCounts trace_shadow_mask(const TraceJob& job, const Image<std::uint32_t>& ids
       const std::uint32_t id = ids.at(x, y);
       if (id == kNoTriangle) return;
       const Ray ray = pixel_ray(job.view, x, y);
-      collect(lights, surface_at(job.scene, id, ray.origin, ray.direction), {x, y}, job.least_light,
-              by_light);
+      collect(lights, surface_at(job.scene, id, ray.origin, ray.direction, job.tracer.offset()), {x, y},
+              job.least_light, by_light);
     });
     std::vector<std::uint8_t> blocked;
     for (std::size_t slot = 0; slot < lights.size(); ++slot) {

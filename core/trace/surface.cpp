@@ -8,12 +8,22 @@
 namespace pinocchio {
 namespace {
 
-// A point on a triangle is off its plane by a few roundings of its coordinates, and a triangle test errs
-// by a few more of the distances it works with (Wächter and Binder 2019; Mitsuba 3 takes 32 as well).
-constexpr float kOffsetError = 32.0f * 0x1p-24f;
+constexpr float kRounding = 0x1p-24f;  // of a float, half a unit in its last place
+
+// A ray's origin is rounded once, from the exact point moved along the normal: twice that keeps it on its
+// side.
+constexpr float kPointError = 2.0f * kRounding;
+// A triangle test errs by a few roundings of the distances it works with (Wächter and Binder 2019 take 32 of
+// all coordinates).
+constexpr float kTestError = 32.0f * kRounding;
 
 float largest_component(const glm::vec3& v) {
   return std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)});
+}
+
+float error_bound(const glm::dvec3& p, const glm::vec3& n, const glm::vec3& ab, const glm::vec3& ac) {
+  return kPointError * glm::dot(glm::abs(n), glm::vec3(glm::abs(p))) +
+         kTestError * std::max(largest_component(ab), largest_component(ac));
 }
 
 shared::PhongParams phong_params(const Scene& scene, const Material& m, const glm::uvec3& corners,
@@ -38,8 +48,8 @@ int wrap(int i, int n) {
 
 }  // namespace
 
-Surface surface_at(const Scene& scene, std::uint32_t id, const glm::vec3& origin,
-                   const glm::vec3& direction) {
+Surface surface_at(const Scene& scene, std::uint32_t id, const glm::vec3& origin, const glm::vec3& direction,
+                   const RayOffset& offset) {
   const glm::uvec3 corners = scene.triangles[id];
   const glm::vec3 &a = scene.positions[corners.x], &b = scene.positions[corners.y],
                   &c = scene.positions[corners.z];
@@ -47,7 +57,9 @@ Surface surface_at(const Scene& scene, std::uint32_t id, const glm::vec3& origin
 
   Surface s;
   s.to_viewer = -glm::normalize(direction);
-  s.p_world = shared::point_on_triangle(weights, a, b, c);
+  s.p_exact = glm::dvec3(a) + static_cast<double>(weights.y) * (glm::dvec3(b) - glm::dvec3(a)) +
+              static_cast<double>(weights.z) * (glm::dvec3(c) - glm::dvec3(a));
+  s.p_world = glm::vec3(s.p_exact);
   const glm::vec3 n_geometric = shared::geometric_normal(a, b, c, s.to_viewer);
   const glm::vec3 n_shading = shared::shading_normal(
       weights, scene.normals[corners.x], scene.normals[corners.y], scene.normals[corners.z], n_geometric);
@@ -55,8 +67,8 @@ Surface surface_at(const Scene& scene, std::uint32_t id, const glm::vec3& origin
   s.n_geometric = facing.geometric;
   s.n_shading = facing.shading;
   s.leaving = facing.leaving;
-  s.offset = kOffsetError *
-             (largest_component(s.p_world) + std::max(largest_component(b - a), largest_component(c - a)));
+  s.offset = offset.method == OffsetMethod::error_bound ? error_bound(s.p_exact, s.n_geometric, b - a, c - a)
+                                                        : offset.length;
   s.material = &scene.material_of(id);
   s.phong = phong_params(scene, *s.material, corners, weights);
   return s;
@@ -64,7 +76,7 @@ Surface surface_at(const Scene& scene, std::uint32_t id, const glm::vec3& origin
 
 glm::vec3 offset_origin(const Surface& surface, const glm::vec3& direction) {
   const float side = glm::dot(surface.n_geometric, direction) < 0.0f ? -surface.offset : surface.offset;
-  return surface.p_world + side * surface.n_geometric;
+  return glm::vec3(surface.p_exact + glm::dvec3(side * surface.n_geometric));
 }
 
 shared::LightParams light_params(const Light& light) {

@@ -6,6 +6,7 @@
 
 #include "core/math/ray.h"
 #include "core/scene/scene.h"
+#include "core/trace/ray_offset.h"
 #include "core/trace/shared.h"
 
 namespace pinocchio {
@@ -13,21 +14,24 @@ namespace pinocchio {
 // What a ray sees where it meets a triangle, turned to the side that the ray came from.
 struct Surface {
   glm::vec3 p_world;
-  glm::vec3 n_geometric;    // unit, towards the viewer
-  glm::vec3 n_shading;      // unit, on n_geometric's side
-  glm::vec3 to_viewer;      // unit
-  bool leaving;             // the ray was inside: it meets the surface from behind
-  float offset;             // how far off the surface a new ray starts, scene units
+  glm::dvec3 p_exact;     // p_world before it was rounded: in the triangle's plane
+  glm::vec3 n_geometric;  // unit, towards the viewer
+  glm::vec3 n_shading;    // unit, on n_geometric's side
+  glm::vec3 to_viewer;    // unit
+  bool leaving;           // the ray was inside: it meets the surface from behind
+  float offset;           // how far off the surface a new ray starts, scene units
   const Material* material;
   shared::PhongParams phong;  // the material here, texture applied
 };
 
-// The point of triangle `id` that the ray meets, on the triangle to float precision.
+// The point of triangle `id` that the ray meets, on the triangle to float precision; `offset` is how new rays
+// keep off it.
 [[nodiscard]] Surface surface_at(const Scene& scene, std::uint32_t id, const glm::vec3& origin,
-                                 const glm::vec3& direction);
+                                 const glm::vec3& direction, const RayOffset& offset = {});
 
-// Where a ray leaving the surface towards `direction` starts: off the plane by more than the rounding of
-// the point and of a triangle test, so that it meets neither its own triangle nor a coplanar neighbour.
+// Where a ray leaving the surface towards `direction` starts. By an error bound: off the plane by more than
+// the rounding of the point and of a triangle test, so that it meets neither its own triangle nor a coplanar
+// neighbour.
 [[nodiscard]] glm::vec3 offset_origin(const Surface& surface, const glm::vec3& direction);
 
 [[nodiscard]] shared::LightParams light_params(const Light& light);

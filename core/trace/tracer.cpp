@@ -13,19 +13,23 @@ namespace {
 struct IsaEntry {
   Isa isa;
   std::string_view name;
-  const Kernel& kernel;
+  const Kernels& kernels;
 };
 
 // Narrowest first.
 const std::array<IsaEntry, 4> kIsas{{
-    {Isa::scalar, "scalar", scalar::kKernel},
-    {Isa::sse4, "sse4", sse4::kKernel},
-    {Isa::avx2, "avx2", avx2::kKernel},
-    {Isa::avx512, "avx512", avx512::kKernel},
+    {Isa::scalar, "scalar", scalar::kKernels},
+    {Isa::sse4, "sse4", sse4::kKernels},
+    {Isa::avx2, "avx2", avx2::kKernels},
+    {Isa::avx512, "avx512", avx512::kKernels},
 }};
 
 const IsaEntry& entry_of(Isa isa) {
   return kIsas[static_cast<std::size_t>(isa)];
+}
+
+const Kernel& kernel_of(Isa isa, TriangleTest test) {
+  return entry_of(isa).kernels[static_cast<std::size_t>(test)];
 }
 
 Isa choose(std::optional<Isa> wanted) {
@@ -74,17 +78,17 @@ Isa default_isa() {
   return Isa::scalar;
 }
 
-Tracer::Tracer(const Scene& scene, const BuildOptions& options, std::optional<Isa> isa)
-    : tree_(build_tree(scene, options)), isa_(choose(isa)) {}
+Tracer::Tracer(const Scene& scene, const BuildOptions& options, std::optional<Isa> isa, OffsetMethod offset)
+    : tree_(build_tree(scene, options)), isa_(choose(isa)), offset_(RayOffset::of(offset, tree_.bounds)) {}
 
 void Tracer::closest_hits(std::span<const Ray> rays, std::span<Hit> hits) const {
   assert(rays.size() == hits.size());
-  entry_of(isa_).kernel.closest_hits(tree_, rays.data(), hits.data(), rays.size());
+  kernel_of(isa_, tree_.test).closest_hits(tree_, rays.data(), hits.data(), rays.size());
 }
 
 void Tracer::occluded(std::span<const Ray> rays, std::span<std::uint8_t> blocked) const {
   assert(rays.size() == blocked.size());
-  entry_of(isa_).kernel.occluded(tree_, rays.data(), blocked.data(), rays.size());
+  kernel_of(isa_, tree_.test).occluded(tree_, rays.data(), blocked.data(), rays.size());
 }
 
 }  // namespace pinocchio

@@ -10,6 +10,7 @@
 
 #include "core/bsp/build.h"
 #include "core/math/ray.h"
+#include "core/trace/ray_offset.h"
 
 namespace pinocchio {
 
@@ -18,8 +19,8 @@ enum class Isa { scalar, sse4, avx2, avx512 };
 
 [[nodiscard]] std::string_view isa_name(Isa isa);
 [[nodiscard]] std::optional<Isa> parse_isa(std::string_view name);
-[[nodiscard]] bool isa_supported(Isa isa);            // by this processor
-[[nodiscard]] std::vector<Isa> supported_isas();      // narrowest first
+[[nodiscard]] bool isa_supported(Isa isa);        // by this processor
+[[nodiscard]] std::vector<Isa> supported_isas();  // narrowest first
 
 // The fastest of this processor's by measurement (docs/measurements.md), which is not always the widest.
 // avx512 has not been measured yet: it is taken only where it is asked for.
@@ -33,7 +34,11 @@ enum class Isa { scalar, sse4, avx2, avx512 };
 class Tracer {
  public:
   // `isa`: nothing asks for default_isa(); one that the processor lacks throws EnvironmentError.
-  explicit Tracer(const Scene& scene, const BuildOptions& options = {}, std::optional<Isa> isa = {});
+  // `scene` stays where it is as long as this lives.
+  explicit Tracer(const Scene& scene, const BuildOptions& options = {}, std::optional<Isa> isa = {},
+                  OffsetMethod offset = OffsetMethod::error_bound);
+  explicit Tracer(const Scene&&, const BuildOptions& = {}, std::optional<Isa> = {},
+                  OffsetMethod = {}) = delete;
 
   // hits.size() == rays.size()
   void closest_hits(std::span<const Ray> rays, std::span<Hit> hits) const;
@@ -42,10 +47,13 @@ class Tracer {
 
   [[nodiscard]] const BspTree& tree() const { return tree_; }
   [[nodiscard]] Isa isa() const { return isa_; }
+  // Of the rays that start on its surfaces: what surface_at wants.
+  [[nodiscard]] const RayOffset& offset() const { return offset_; }
 
  private:
   BspTree tree_;
   Isa isa_;
+  RayOffset offset_;
 };
 
 }  // namespace pinocchio

@@ -22,18 +22,20 @@ const Rooms kMaySee{{"core", {"shaders"}},
                     {"hybrid", {"core", "gl"}},
                     {"app", {"core", "gl", "hybrid"}},
                     {"bench", {"core"}}};
-const Rooms kMaySeeInCore{{"base", {}},
-                          {"math", {}},
-                          {"simd", {}},
-                          {"parallel", {"base"}},
-                          {"image", {"base", "math", "parallel"}},
-                          {"compare", {"base", "math", "image", "parallel"}},
-                          {"scene", {"base", "math", "image"}},
-                          {"procedural", {"base", "math", "scene"}},
-                          {"bsp", {"base", "math", "scene"}},
-                          {"trace", {"base", "math", "image", "scene", "bsp", "simd", "parallel"}},
-                          {"reference", {"base", "math", "image", "scene", "parallel", "trace"}},
-                          {"output", {"base", "math", "image", "scene", "parallel", "trace"}}};
+const Rooms kMaySeeInCore{
+    {"base", {}},
+    {"math", {}},
+    {"simd", {}},
+    {"parallel", {"base"}},
+    {"image", {"base", "math", "parallel"}},
+    {"compare", {"base", "math", "image", "parallel"}},
+    {"scene", {"base", "math", "image"}},
+    {"procedural", {"base", "math", "scene"}},
+    {"bsp", {"base", "math", "scene"}},
+    {"trace", {"base", "math", "image", "scene", "bsp", "simd", "parallel"}},
+    {"reference", {"base", "math", "image", "scene", "parallel", "trace"}},
+    {"stability", {"base", "math", "image", "scene", "procedural", "bsp", "parallel", "trace", "reference"}},
+    {"output", {"base", "math", "image", "scene", "parallel", "trace"}}};
 
 std::vector<std::string> includes_of(const std::filesystem::path& file) {
   std::vector<std::string> found;

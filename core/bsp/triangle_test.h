@@ -1,0 +1,23 @@
+#pragma once
+
+#include <array>
+#include <optional>
+#include <string_view>
+
+namespace pinocchio {
+
+// How a ray is asked whether it meets a triangle (core/trace/triangle_tests/).
+enum class TriangleTest {
+  projected,         // Wald 2004, as of 2005: dropped along an axis, weights looked up in the plane
+  moeller_trumbore,  // Möller and Trumbore 1997: weights by cross products of the corners
+  watertight,        // Woop, Benthin and Wald 2013: signs of edge functions in the ray's own frame
+  filtered,  // projected, with a bound of its own error; what that leaves in doubt is decided in double
+};
+
+inline constexpr std::array kTriangleTests{TriangleTest::projected, TriangleTest::moeller_trumbore,
+                                           TriangleTest::watertight, TriangleTest::filtered};
+
+[[nodiscard]] std::string_view triangle_test_name(TriangleTest test);
+[[nodiscard]] std::optional<TriangleTest> parse_triangle_test(std::string_view name);
+
+}  // namespace pinocchio

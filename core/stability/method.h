@@ -1,0 +1,29 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/trace/tracer.h"
+
+namespace pinocchio::stability {
+
+// One way to trace, to be driven to where it fails.
+struct Method {
+  std::string name = "default";
+  BuildOptions tree{};
+  OffsetMethod offset = OffsetMethod::error_bound;
+  std::optional<Isa> isa{};
+
+  [[nodiscard]] Tracer tracer(const Scene& scene) const { return Tracer(scene, tree, isa, offset); }
+};
+
+// The default first; then each method that could stand in its place, one at a time: triangle tests, ray
+// offsets, tree builders, and every packet width that this processor has.
+[[nodiscard]] std::vector<Method> all_methods();
+
+// The default but for its triangle test, or its offset.
+[[nodiscard]] Method with(TriangleTest test);
+[[nodiscard]] Method with(OffsetMethod offset);
+
+}  // namespace pinocchio::stability

@@ -1,0 +1,25 @@
+#include "core/stability/steps.h"
+
+#include "core/simd/lanes_scalar.h"
+
+// The scalar kernel's text under a name of its own, so that its walk can be given other leaves.
+namespace pinocchio::counting {
+using namespace pinocchio::scalar;
+}
+#define PINOCCHIO_LANES counting
+#include "core/trace/kernel.h"
+
+namespace pinocchio::stability {
+
+Steps steps_of(const BspTree& tree, const Ray& ray) {
+  Steps steps;
+  counting::for_each_octant(&ray, 1, [&](const counting::Packet& packet, scalar::Mask lanes) {
+    counting::walk(tree, packet, lanes, packet.t_max, [&](const BspNode& leaf, scalar::Mask) {
+      ++steps.leaves;
+      steps.triangle_tests += leaf.reference_count();
+    });
+  });
+  return steps;
+}
+
+}  // namespace pinocchio::stability

@@ -1,0 +1,32 @@
+#pragma once
+
+#include <array>
+#include <optional>
+#include <string_view>
+
+#include "core/math/bounds.h"
+
+namespace pinocchio {
+
+// How far off a surface its shadow, mirrored and refracted rays start.
+enum class OffsetMethod {
+  fixed,        // one length for every scene
+  scaled,       // one length a scene, from its size
+  error_bound,  // by what rounding can do at that point
+};
+
+inline constexpr std::array kOffsetMethods{OffsetMethod::fixed, OffsetMethod::scaled,
+                                           OffsetMethod::error_bound};
+
+[[nodiscard]] std::string_view offset_method_name(OffsetMethod method);
+[[nodiscard]] std::optional<OffsetMethod> parse_offset_method(std::string_view name);
+
+// The method with the scene's length; by default the error bound, which needs none.
+struct RayOffset {
+  OffsetMethod method = OffsetMethod::error_bound;
+  float length = 0.0f;  // scene units; fixed, scaled
+
+  [[nodiscard]] static RayOffset of(OffsetMethod method, const Bounds& scene);
+};
+
+}  // namespace pinocchio
