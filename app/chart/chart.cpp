@@ -26,7 +26,7 @@ namespace {
 
 constexpr int kDefaultTurntable = 360;  // frames once around: a degree a frame
 constexpr glm::ivec2 kDefaultSize{400, 300}, kQuickSize{160, 120};
-constexpr std::size_t kFrames = 12, kQuickFrames = 8;  // of the motion; the first warm up
+constexpr std::size_t kFrames = 10, kQuickFrames = 8;  // of the motion; the first warm up
 constexpr BenchSettings kBench{5, 3, 6}, kQuickBench{3, 2, 3};
 
 struct ChartOptions {
