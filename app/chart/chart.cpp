@@ -199,8 +199,7 @@ Run add_chart(CLI::App& program) {
       ->required()
       ->type_name("DIR");
   verb.add_flag("--quick", options->quick, "a small picture and fewer points: under a minute");
-  verb.add_option("--repeat", options->repeat,
-                  "rounds of frames that a time is the median of (5; with --quick 3)")
+  verb.add_option("--repeat", options->repeat, "rounds of frames, whose fastest count (5; with --quick 3)")
       ->check(CLI::Range(1, 1000));
   verb.add_option_function<std::string>(
           "--only", [options](const std::string& text) { options->only = parse_axes(text); },

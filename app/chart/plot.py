@@ -60,6 +60,14 @@ def charted(points, reference="centre"):
     return chosen
 
 
+def short(value):
+    """A tick's label: 0.05, 20, 500 k, 2 M."""
+    for size, letter in ((1e6, " M"), (1e3, " k")):
+        if value >= size:
+            return f"{value / size:g}{letter}"
+    return f"{value:g}"
+
+
 class LogScale:
     """Places values on a log axis; 0, which has no place there, on a floor below the least of the others."""
 
@@ -85,7 +93,7 @@ class LogScale:
             steps = [1, 2, 5] if decades > 0.7 else [1, 1.5, 2, 3, 4, 5, 6, 8]
             ticks = [m * 10.0 ** e for e in range(-12, 12) for m in steps if low <= m * 10.0 ** e <= high]
             axis.set_ticks(ticks)
-            axis.set_major_formatter(FuncFormatter(lambda v, _: f"{v:g}"))
+            axis.set_major_formatter(FuncFormatter(lambda v, _: short(v)))
         axis.set_minor_formatter(NullFormatter())
         if self.has_zero:
             line = axes.axhline if which == "y" else axes.axvline
@@ -165,14 +173,13 @@ def axis_chart(path, points, axis):
     place = LogScale([p["flip"] for p in mine], "exact")
     colour, marker = style(axis)
     xs, ys = [p["ratio"] for p in mine], [place(p["flip"]) for p in mine]
-    errors = [[p["ratio"] - p["ratio_low"] for p in mine], [p["ratio_high"] - p["ratio"] for p in mine]]
     if axis not in ("design", "combined", "exchange"):  # those have no order
         axes.plot(xs, ys, color=colour, linewidth=0.9, alpha=0.6)
-    axes.errorbar(xs, ys, xerr=errors, fmt=marker, color=colour, markersize=5, elinewidth=0.7, alpha=0.9)
+    axes.plot(xs, ys, marker, color=colour, markersize=5.5, alpha=0.9)
     width = (max(xs) / min(xs)) if xs else 1
     axes.set_xscale("log")
     room = max(width ** 0.18, 1.25)
-    low, high = min(p["ratio_low"] for p in mine) / 1.1, max(p["ratio_high"] for p in mine) * room
+    low, high = min(xs) / 1.12, max(xs) * room
     axes.set_xlim(low, high)
     ticks = [m * 10.0 ** e for e in range(-3, 6) for m in ((1, 2, 5) if high / low > 4 else (1, 1.5, 2, 3, 4, 5, 6, 8))
              if low <= m * 10.0 ** e <= high]
@@ -257,8 +264,8 @@ def intro(run):
     return (f"<p>{scene['triangles']} triangles, {size[0]}×{size[1]} pixels; {html.escape(run['cpu'])}, "
             f"{run['cores']} cores; OpenGL: {html.escape(run['gl'])}; pinocchio {html.escape(run['pinocchio'])}.</p>"
             f"<p class=note>Every way to draw is measured along the same motion: {motion_text(run)}. Its frame time "
-            f"is divided by that of <code>--mode raster</code>, drawn in turns with it (median of {run['rounds']} "
-            "rounds; bars: least and most). Its error is that of the picture on the screen against "
+            f"is divided by that of <code>--mode raster</code>, drawn in turns with it (the fastest frames of {run['rounds']} "
+            "rounds, as other programs only ever add to a time). Its error is that of the picture on the screen against "
             "<code>--mode raytrace --precise</code> of the frame that should be there then "
             f"(mean of {run['error_frames']} frames), so what is delivered late is wrong by as much as the camera "
             "has moved. Unless an exchange is named, frames are synchronous. Samples a pixel are measured against "

@@ -33,6 +33,12 @@ TimedRenderer::Round TimedRenderer::draw(const std::vector<View>& views) {
   const std::size_t first = kWarmUpFrames, last = views.size() - 1;
   round.frame_ms = 1e3 * (first_sample(last).frame.begin_s - first_sample(first).frame.begin_s) /
                    static_cast<double>(last - first);
+  round.least_ms = round.frame_ms;
+  for (std::size_t frame = first; frame + kFramesInFlight <= last; ++frame)
+    round.least_ms = std::min(
+        round.least_ms,
+        1e3 * (first_sample(frame + kFramesInFlight).frame.begin_s - first_sample(frame).frame.begin_s) /
+            kFramesInFlight);
   std::vector<double> latencies_ms;
   for (std::size_t frame = first; frame < last; ++frame)
     latencies_ms.push_back(

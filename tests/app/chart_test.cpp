@@ -44,7 +44,7 @@ TEST_F(ChartTest, WritesFiguresPicturesAndAPageOfCharts) {
   EXPECT_EQ(values_of("reflection-format"), (std::set<std::string>{"rgb8", "rgb9e5", "half", "float"}));
   EXPECT_EQ(values_of("mask-scale"), (std::set<std::string>{"1", "1/2", "1/4"}));
   EXPECT_EQ(first_line("d/results.csv"),
-            "axis,value,options,ratio,ratio_low,ratio_high,frame_ms,raster_ms,latency_ms,latency_frames,"
+            "axis,value,options,ratio,ratio_median,frame_ms,raster_ms,latency_ms,latency_frames,"
             "age_frames,bytes_gpu_to_cpu,bytes_cpu_to_gpu,reference,rmse,relmse,flip,pareto");
   const CommandResult xml =
       run_command("cd '" + folder_.string() +
@@ -108,7 +108,8 @@ TEST_F(ChartTest, WhatIsMeasuredIsNotMeasuredAgain) {
 }
 
 TEST_F(ChartTest, CtrlCKeepsWhatIsDone) {
-  const std::string program = "'" PINOCCHIO_PROGRAM "' chart" + scene("cornell") + "-o d --size 100x75 --quiet";
+  const std::string program =
+      "'" PINOCCHIO_PROGRAM "' chart" + scene("cornell") + "-o d --size 100x75 --quiet";
   const CommandResult result = run_command(
       "cd '" + folder_.string() + "' && " + program + " & pid=$!; while kill -0 $pid && [ ! -e '" +
           folder_.string() + "/d/results.csv' ]; do sleep 0.05; done; kill -INT $pid; wait $pid",
