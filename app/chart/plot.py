@@ -25,6 +25,7 @@ plt.rcParams.update({
     "axes.labelcolor": "#333333", "xtick.color": "#555555", "ytick.color": "#555555",
     "axes.titlesize": 11, "axes.titlelocation": "left", "figure.facecolor": "white"})
 
+CLOCKS = {"frame": "frame time", "cpu": "processor time a frame"}
 METRICS = {"flip": "mean FLIP", "rmse": "RMSE", "relmse": "relative MSE"}
 AXES = {
     "design": "design and mode", "exchange": "exchange", "primary": "who finds what is seen",
@@ -164,7 +165,7 @@ def list_front(figure, axes, on_front, cost, error):
                   frameon=False, handletextpad=0.2, columnspacing=0.8, labelspacing=0.35)
 
 
-def axis_chart(path, points, axis):
+def axis_chart(path, points, axis, clock):
     """One axis: its values by time and FLIP, in their order."""
     mine = [p for p in points if p["axis"] == axis and p["flip"] is not None]
     figure, axes = plt.subplots(figsize=(4.7, 3.3))
@@ -197,7 +198,7 @@ def axis_chart(path, points, axis):
         axes.annotate(name, (x, y), xytext=(5, free_offset(axes, x, y, taken)), textcoords="offset points",
                       fontsize=8.2, color="#333333")
     axes.set_title(AXES.get(axis, axis))
-    axes.set_xlabel("frame time, times raster-only")
+    axes.set_xlabel(f"{clock}, times raster-only")
     axes.set_ylabel("mean FLIP" + (" (area)" if mine and mine[0]["reference"] == "area" else ""))
     save(figure, path)
 
@@ -220,16 +221,16 @@ def ratio(point):
     return point["ratio"]
 
 
-def draw_charts(folder, points):
+def draw_charts(folder, points, clock):
     """The charts' files with their titles, in the page's order."""
     charts = []
     exchanged = [p for p in points if bytes_moved(p) > 0]
     if charted(points):
         for error, label in METRICS.items():
             name = f"error-{error}.svg"
-            front_chart(folder / name, points, error, ratio, "frame time, times raster-only in the same rounds",
-                        error, f"{label} against frame time", "")
-            charts.append((name, f"{label} against frame time, with the Pareto front"))
+            front_chart(folder / name, points, error, ratio, f"{clock}, times raster-only in the same rounds",
+                        error, f"{label} against {clock}", "")
+            charts.append((name, f"{label} against {clock}, with the Pareto front"))
     if charted(exchanged):
         front_chart(folder / "error-bytes.svg", exchanged, "bytes", bytes_moved,
                     "bytes a frame, both ways", "flip", "mean FLIP against bytes exchanged", "none")
@@ -237,7 +238,7 @@ def draw_charts(folder, points):
     panels = []
     for axis in dict.fromkeys(p["axis"] for p in points):
         if any(p["axis"] == axis and p["flip"] is not None for p in points):
-            axis_chart(folder / f"axis-{axis}.svg", points, axis)
+            axis_chart(folder / f"axis-{axis}.svg", points, axis, clock)
             panels.append((f"axis-{axis}.svg", AXES.get(axis, axis)))
     return charts, panels
 
@@ -263,8 +264,8 @@ def intro(run):
     scene, size = run["scene"], run["size"]
     return (f"<p>{scene['triangles']} triangles, {size[0]}×{size[1]} pixels; {html.escape(run['cpu'])}, "
             f"{run['cores']} cores; OpenGL: {html.escape(run['gl'])}; pinocchio {html.escape(run['pinocchio'])}.</p>"
-            f"<p class=note>Every way to draw is measured along the same motion: {motion_text(run)}. Its frame time "
-            f"is divided by that of <code>--mode raster</code>, drawn in turns with it (the fastest frames of {run['rounds']} "
+            f"<p class=note>Every way to draw is measured along the same motion: {motion_text(run)}. Its "
+            f"{CLOCKS[run['clock']]} is divided by that of <code>--mode raster</code>, drawn in turns with it (the least of {run['rounds']} "
             "rounds, as other programs only ever add to a time). Its error is that of the picture on the screen against "
             "<code>--mode raytrace --precise</code> of the frame that should be there then "
             f"(mean of {run['error_frames']} frames), so what is delivered late is wrong by as much as the camera "
@@ -309,7 +310,7 @@ def thumbnails(points):
 
 def page(folder, results):
     run, points = results["run"], results["points"]
-    charts, panels = draw_charts(folder, points)
+    charts, panels = draw_charts(folder, points, CLOCKS[run["clock"]])
     title = f"{html.escape(run['scene']['name'])}: error against time"
     reference = ("<img src='pictures/reference-centre.png' alt='reference'>"
                  if (folder / "pictures/reference-centre.png").exists() else "")

@@ -14,9 +14,9 @@ namespace pinocchio::app {
 namespace {
 
 constexpr std::array kFigures{
-    "ratio",      "ratio_median",     "frame_ms",         "raster_ms", "latency_ms", "latency_frames",
-    "age_frames", "bytes_gpu_to_cpu", "bytes_cpu_to_gpu", "reference", "rmse",       "relmse",
-    "flip"};
+    "ratio",      "ratio_median",   "frame_ms",   "raster_ms",        "cpu_ms",           "raster_cpu_ms",
+    "latency_ms", "latency_frames", "age_frames", "bytes_gpu_to_cpu", "bytes_cpu_to_gpu", "reference",
+    "rmse",       "relmse",         "flip"};
 
 // A chart: its name, and what its axes are.
 struct Front {
@@ -87,6 +87,8 @@ nlohmann::json to_json(const PointFigures& f) {
                       {"ratio_median", f.ratio_median},
                       {"frame_ms", f.frame_ms},
                       {"raster_ms", f.raster_ms},
+                      {"cpu_ms", f.cpu_ms},
+                      {"raster_cpu_ms", f.raster_cpu_ms},
                       {"latency_ms", f.latency_ms},
                       {"latency_frames", f.latency_frames},
                       {"age_frames", f.age_frames},

@@ -13,10 +13,12 @@ namespace pinocchio::app {
 
 // One configuration, measured along the camera's motion.
 struct PointFigures {
-  // Frame time against raster-only's in the same rounds. Of the fastest frames in a row of each, as other
-  // programs on the machine only ever add to a time; and the median of the rounds' own ratios.
+  // Time against raster-only's in the same rounds, by the run's clock: of the fastest frames in a row, as
+  // other programs on the machine only ever add to a time, or of the processor time. And the median of the
+  // rounds' own ratios.
   double ratio = 0.0, ratio_median = 0.0;
-  double frame_ms = 0.0, raster_ms = 0.0;  // of the fastest frames in a row
+  double frame_ms = 0.0, raster_ms = 0.0;    // of the fastest frames in a row
+  double cpu_ms = 0.0, raster_cpu_ms = 0.0;  // of all threads, a frame; least of the rounds
   double latency_ms = 0.0;  // camera sampled to picture delivered, least of the rounds' medians
   int latency_frames = 0, age_frames = 0;
   double bytes_gpu_to_cpu = 0.0, bytes_cpu_to_gpu = 0.0;  // a frame

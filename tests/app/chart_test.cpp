@@ -44,7 +44,8 @@ TEST_F(ChartTest, WritesFiguresPicturesAndAPageOfCharts) {
   EXPECT_EQ(values_of("reflection-format"), (std::set<std::string>{"rgb8", "rgb9e5", "half", "float"}));
   EXPECT_EQ(values_of("mask-scale"), (std::set<std::string>{"1", "1/2", "1/4"}));
   EXPECT_EQ(first_line("d/results.csv"),
-            "axis,value,options,ratio,ratio_median,frame_ms,raster_ms,latency_ms,latency_frames,"
+            "axis,value,options,ratio,ratio_median,frame_ms,raster_ms,cpu_ms,raster_cpu_ms,latency_ms,"
+            "latency_frames,"
             "age_frames,bytes_gpu_to_cpu,bytes_cpu_to_gpu,reference,rmse,relmse,flip,pareto");
   const CommandResult xml =
       run_command("cd '" + folder_.string() +
@@ -159,6 +160,20 @@ TEST_F(ChartTest, WithoutMatplotlibTheFiguresAreThereAndOneLineSaysWhatToInstall
   EXPECT_EQ(std::count(result.err.begin(), result.err.end(), '\n'), 1) << result.err;
   EXPECT_TRUE(exists("d/results.csv"));
   EXPECT_FALSE(exists("d/index.html"));
+}
+
+TEST_F(ChartTest, TimeIsTheFramesOrTheProcessors) {
+  for (const std::string clock : {"frame", "cpu"}) {
+    ASSERT_EQ(run("chart" + scene("cornell") + kSmall + "--restart --only tiles --clock " + clock).exit_code,
+              0);
+    const nlohmann::json json = results();
+    const std::string time = clock == "cpu" ? "cpu_ms" : "frame_ms";
+    const std::string raster = clock == "cpu" ? "raster_cpu_ms" : "raster_ms";
+    for (const nlohmann::json& point : json["points"]) {
+      EXPECT_GT(point[raster], 0.0);
+      EXPECT_DOUBLE_EQ(point["ratio"], point[time].get<double>() / point[raster].get<double>());
+    }
+  }
 }
 
 TEST_F(ChartTest, WrongUseIsOneLine) {
