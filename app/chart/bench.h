@@ -54,6 +54,7 @@ class Bench {
   TimedRenderer raster_;
   TracerSettings prepared_for_;
   std::shared_ptr<const PreparedScene> prepared_;
+  bool warm_ = false;
 };
 
 }  // namespace pinocchio::app

@@ -171,7 +171,8 @@ class ChartRun {
     return true;
   }
 
-  int finish(const Results& results) const {
+  int finish(Results& results) const {
+    results.write();
     const bool drawn = draw_page(folder_);
     if (!drawn)
       std::fprintf(stderr,

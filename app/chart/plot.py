@@ -8,6 +8,7 @@ import json
 import math
 import pathlib
 import sys
+import textwrap
 
 try:
     import matplotlib
@@ -158,8 +159,9 @@ def list_front(figure, axes, on_front, cost, error):
     y = 0.905 - line
     for number, p in enumerate(on_front, 1):
         figure.text(left, y, f"{number}", fontsize=8.8, fontweight="bold", color=FRONT_COLOUR)
-        figure.text(left + 0.022, y, named(p), fontsize=8.8, color="#333333")
-        y -= line
+        for part in textwrap.wrap(named(p), 44, break_long_words=False, break_on_hyphens=False):
+            figure.text(left + 0.022, y, part, fontsize=8.8, color="#333333")
+            y -= line
     handles, labels = axes.get_legend_handles_labels()
     figure.legend(handles, labels, loc="lower left", bbox_to_anchor=(left - 0.012, 0.02), fontsize=8.2, ncol=2,
                   frameon=False, handletextpad=0.2, columnspacing=0.8, labelspacing=0.35)
@@ -228,7 +230,7 @@ def draw_charts(folder, points, clock):
     if charted(points):
         for error, label in METRICS.items():
             name = f"error-{error}.svg"
-            front_chart(folder / name, points, error, ratio, f"{clock}, times raster-only in the same rounds",
+            front_chart(folder / name, points, error, ratio, f"{clock}, times raster-only in the same run",
                         error, f"{label} against {clock}", "")
             charts.append((name, f"{label} against {clock}, with the Pareto front"))
     if charted(exchanged):
@@ -265,8 +267,8 @@ def intro(run):
     return (f"<p>{scene['triangles']} triangles, {size[0]}×{size[1]} pixels; {html.escape(run['cpu'])}, "
             f"{run['cores']} cores; OpenGL: {html.escape(run['gl'])}; pinocchio {html.escape(run['pinocchio'])}.</p>"
             f"<p class=note>Every way to draw is measured along the same motion: {motion_text(run)}. Its "
-            f"{CLOCKS[run['clock']]} is divided by that of <code>--mode raster</code>, drawn in turns with it (the least of {run['rounds']} "
-            "rounds, as other programs only ever add to a time). Its error is that of the picture on the screen against "
+            f"{CLOCKS[run['clock']]} (the least of {run['rounds']} rounds, as other programs only ever add to a time) "
+            "is divided by that of <code>--mode raster</code>, drawn in turns with it. Its error is that of the picture on the screen against "
             "<code>--mode raytrace --precise</code> of the frame that should be there then "
             f"(mean of {run['error_frames']} frames), so what is delivered late is wrong by as much as the camera "
             "has moved. Unless an exchange is named, frames are synchronous. Samples a pixel are measured against "

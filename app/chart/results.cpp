@@ -83,8 +83,7 @@ std::vector<std::size_t> on_charts(const nlohmann::json& points) {
 }  // namespace
 
 nlohmann::json to_json(const PointFigures& f) {
-  nlohmann::json json{{"ratio", f.ratio},
-                      {"ratio_median", f.ratio_median},
+  nlohmann::json json{{"ratio_median", f.ratio_median},
                       {"frame_ms", f.frame_ms},
                       {"raster_ms", f.raster_ms},
                       {"cpu_ms", f.cpu_ms},
@@ -138,12 +137,26 @@ void Results::add(const Configuration& c, const nlohmann::json& figures, const s
                        {"options", c.options},
                        {"settings", to_json(c.settings)},
                        {"picture", picture}};
-  for (const char* name : kFigures) point[name] = figures[name];
+  for (const char* name : kFigures) point[name] = figures.value(name, nlohmann::json());
   if (figures.contains("failure")) point["failure"] = figures["failure"];
   json_["points"].push_back(std::move(point));
+  write();
+}
+
+void Results::write() {
+  set_ratios();
   mark_fronts();
   write_text(folder_ / "results.json", json_.dump(2) + "\n");
   write_text(folder_ / "results.csv", csv());
+}
+
+void Results::set_ratios() {
+  const bool by_cpu = json_["run"]["clock"] == "cpu";
+  const char* const time = by_cpu ? "cpu_ms" : "frame_ms";
+  const char* const raster = by_cpu ? "raster_cpu_ms" : "raster_ms";
+  double least = std::numeric_limits<double>::infinity();
+  for (const nlohmann::json& point : json_["points"]) least = std::min(least, point[raster].get<double>());
+  for (nlohmann::json& point : json_["points"]) point["ratio"] = point[time].get<double>() / least;
 }
 
 void Results::mark_fronts() {

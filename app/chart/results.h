@@ -13,10 +13,7 @@ namespace pinocchio::app {
 
 // One configuration, measured along the camera's motion.
 struct PointFigures {
-  // Time against raster-only's in the same rounds, by the run's clock: of the fastest frames in a row, as
-  // other programs on the machine only ever add to a time, or of the processor time. And the median of the
-  // rounds' own ratios.
-  double ratio = 0.0, ratio_median = 0.0;
+  double ratio_median = 0.0;                 // to raster-only's of the same round, by the run's clock
   double frame_ms = 0.0, raster_ms = 0.0;    // of the fastest frames in a row
   double cpu_ms = 0.0, raster_cpu_ms = 0.0;  // of all threads, a frame; least of the rounds
   double latency_ms = 0.0;  // camera sampled to picture delivered, least of the rounds' medians
@@ -29,9 +26,11 @@ struct PointFigures {
 };
 [[nodiscard]] nlohmann::json to_json(const PointFigures& figures);
 
-// results.json and results.csv in a folder: {"run": ..., "points": [...]}, of each configuration
-// its axis, value, options, settings, figures, `picture` (name of its files) and `pareto` (the charts on
-// whose front it is: rmse, relmse, flip against the frame time, bytes against FLIP).
+// results.json and results.csv in a folder: {"run": ..., "points": [...]}, of each configuration its ratio
+// (its least time by the run's clock, over the least of raster-only in the whole run: other programs on the
+// machine only ever add to a time), its axis, value, options, settings, figures, `picture` (name of its
+// files) and `pareto` (the charts on whose front it is: rmse, relmse, flip against the frame time, bytes
+// against FLIP).
 class Results {
  public:
   // `run`: what makes two runs one (scene, size, cameras, machine, version). Reads what the folder holds;
@@ -47,11 +46,15 @@ class Results {
   // or not at all. Throws EnvironmentError.
   void add(const Configuration& configuration, const nlohmann::json& figures, const std::string& picture);
 
+  // Both files, each whole or not at all. Throws EnvironmentError.
+  void write();
+
   [[nodiscard]] const nlohmann::json& json() const { return json_; }
 
  private:
   Results(std::filesystem::path folder, nlohmann::json json)
       : folder_(std::move(folder)), json_(std::move(json)) {}
+  void set_ratios();
   void mark_fronts();
   [[nodiscard]] std::string csv() const;
 
