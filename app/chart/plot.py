@@ -171,7 +171,7 @@ def axis_chart(path, points, axis, clock):
     """One axis: its values by time and FLIP, in their order."""
     mine = [p for p in points if p["axis"] == axis and p["flip"] is not None]
     figure, axes = plt.subplots(figsize=(4.7, 3.3))
-    figure.subplots_adjust(left=0.145, right=0.955, top=0.9, bottom=0.15)
+    figure.subplots_adjust(left=0.175, right=0.955, top=0.9, bottom=0.15)
     grid(axes)
     place = LogScale([p["flip"] for p in mine], "exact")
     colour, marker = style(axis)
