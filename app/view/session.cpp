@@ -60,14 +60,18 @@ void Session::run() {
   last_turn_s_ = now_s();
   while (!window_.close_asked() && !interrupted()) {
     take_events();
-    const double turn_s = now_s();
-    navigation_.advance(static_cast<float>(std::min(turn_s - last_turn_s_, kLongestStep_s)));
-    last_turn_s_ = turn_s;
+    fly_on();
     take_news();
     if (options_.watch) take_file_changes();
     apply_changes();
     if (!window_.minimised()) draw();
   }
+}
+
+void Session::fly_on() {
+  const double turn_s = now_s();
+  navigation_.advance(static_cast<float>(std::min(turn_s - last_turn_s_, kLongestStep_s)));
+  last_turn_s_ = turn_s;
 }
 
 // How long to wait for a person before the next turn: what draws or loads needs the processor.

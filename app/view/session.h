@@ -31,6 +31,7 @@ class Session {
  private:
   // session.cpp
   void take_events();
+  void fly_on();
   void take_key(const gl::KeyEvent& event);
   void take_drop(const gl::DropEvent& event);
   void take_news();
@@ -59,6 +60,7 @@ class Session {
   // session_actions.cpp
   void perform(Action action);
   void show_camera(std::size_t number);
+  void catch_up();
   void take_screenshot();
   void write_frame_exr(const std::string& file);
   void write_window_png();

@@ -67,9 +67,15 @@ std::string Session::file_name(const std::vector<std::string>& extensions) const
   return unused_name(stem.empty() ? "view" : stem, extensions);
 }
 
+// With the keys that were pressed just before.
+void Session::catch_up() {
+  fly_on();
+  apply_changes();
+}
+
 void Session::take_screenshot() {
   if (!model_.scene) return;
-  apply_changes();  // of keys that were pressed just before
+  catch_up();
   const std::string name = file_name({".png", ".exr"});
   write_frame_exr(name + ".exr");
   png_file_ = name + ".png";  // when the window is drawn next
@@ -111,6 +117,7 @@ void Session::write_window_png() {
 }
 
 void Session::save_camera() {
+  catch_up();
   const std::string file = file_name({"-camera.json"}) + "-camera.json";
   write_text(file, camera_path_json(model_.camera.camera()));
   model_.notify(file + " written: for --path");
@@ -120,7 +127,7 @@ void Session::save_camera() {
 
 void Session::print_command() {
   if (!model_.scene) return;
-  apply_changes();  // of keys that were pressed just before
+  catch_up();
   const std::string name = file_name({".png", ".exr", ".gltf"});
   const bool relit = lights_edited_ || !applied_.shadows;
   std::string file = model_.scene.shown()->scene.source;
