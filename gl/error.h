@@ -17,4 +17,10 @@ class NoContextError : public Error {
   using Error::Error;
 };
 
+// The GPU was reset, and the context is lost with all that was in it.
+class ContextLostError : public Error {
+ public:
+  using Error::Error;
+};
+
 }  // namespace pinocchio::gl

@@ -173,7 +173,7 @@ void Window::set_vsync(bool on) {
 
 void Window::present() {
   glfwSwapBuffers(handle());
-  if (context_lost()) throw Error("the GPU was reset and its OpenGL context is lost; start again");
+  if (context_lost()) throw ContextLostError("the GPU was reset and its OpenGL context is lost; start again");
 }
 
 }  // namespace pinocchio::gl

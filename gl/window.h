@@ -79,8 +79,7 @@ class Window {
   void set_vsync(bool on);
   void set_clipboard(const std::string& text);
 
-  // Shows what was drawn; with vsync, waits for the display. Throws Error where the GPU was reset or the
-  // context lost.
+  // Shows what was drawn; with vsync, waits for the display. Throws ContextLostError.
   void present();
 
  private:

@@ -73,7 +73,6 @@ struct Flight {
   Image<glm::u8vec3> phong_srgb;  // design 2: light that needs no shadow ray
 
   // CPU: the answer, and its way to the GPU.
-  std::future<void> tracing;         // valid from the start of the trace until its answer is taken
   bool answered = false;             // the answer is on the GPU
   MaskImage mask;                    // one sample for plan.mask_scale pixels a side
   Image<glm::vec3> reflection;       // likewise
@@ -95,6 +94,10 @@ struct Flight {
   }
 
   gl::GpuTimer raster_timer, composite_timer;
+
+  // CPU: valid from the start of the trace until its answer is taken. Last, so destroyed first: that waits
+  // for the thread, which writes to what stands above.
+  std::future<void> tracing;
 };
 
 }  // namespace pinocchio

@@ -74,7 +74,8 @@ std::string legend(BufferView view, int slot, const FrameRequest& request, const
       return "shading normals, world space: red X, green Y, blue Z, from -1 (dark) to 1 (bright)";
     case BufferView::mask:
       return name_of_slot(slot, request.scene->scene) +
-             ": white lit, black in shadow, grey not asked (faces away, or nothing seen)" + where;
+             ": white lit, black in shadow, grey not asked (faces away, or nothing seen)" +
+             (plan.least_light > 0.0f ? "; black too where it is too faint for a ray" : "") + where;
     case BufferView::reflection:
       return "mirrored and refracted light" + where;
     case BufferView::age:

@@ -13,11 +13,18 @@
 
 namespace pinocchio::app {
 
+// What a chart calls time.
+enum class Clock {
+  frame,  // from frame to frame, as a person waits
+  cpu,    // the processor's, of all threads: hardly changed by other programs; blind to what overlaps
+};
+
 // How a chart is measured.
 struct BenchSettings {
   int rounds = 5;        // of frames, raster-only's and the configuration's by turns
   int error_frames = 3;  // whose pictures are compared, spread over the frames that count
   int area_side = 6;     // the area reference has the square of it samples a pixel
+  Clock clock = Clock::frame;
 };
 
 class Bench {
@@ -47,6 +54,7 @@ class Bench {
   TimedRenderer raster_;
   TracerSettings prepared_for_;
   std::shared_ptr<const PreparedScene> prepared_;
+  bool warm_ = false;
 };
 
 }  // namespace pinocchio::app

@@ -8,6 +8,7 @@ import json
 import math
 import pathlib
 import sys
+import textwrap
 
 try:
     import matplotlib
@@ -25,6 +26,7 @@ plt.rcParams.update({
     "axes.labelcolor": "#333333", "xtick.color": "#555555", "ytick.color": "#555555",
     "axes.titlesize": 11, "axes.titlelocation": "left", "figure.facecolor": "white"})
 
+CLOCKS = {"frame": "frame time", "cpu": "processor time a frame"}
 METRICS = {"flip": "mean FLIP", "rmse": "RMSE", "relmse": "relative MSE"}
 AXES = {
     "design": "design and mode", "exchange": "exchange", "primary": "who finds what is seen",
@@ -60,6 +62,14 @@ def charted(points, reference="centre"):
     return chosen
 
 
+def short(value):
+    """A tick's label: 0.05, 20, 500 k, 2 M."""
+    for size, letter in ((1e6, " M"), (1e3, " k")):
+        if value >= size:
+            return f"{value / size:g}{letter}"
+    return f"{value:g}"
+
+
 class LogScale:
     """Places values on a log axis; 0, which has no place there, on a floor below the least of the others."""
 
@@ -85,7 +95,7 @@ class LogScale:
             steps = [1, 2, 5] if decades > 0.7 else [1, 1.5, 2, 3, 4, 5, 6, 8]
             ticks = [m * 10.0 ** e for e in range(-12, 12) for m in steps if low <= m * 10.0 ** e <= high]
             axis.set_ticks(ticks)
-            axis.set_major_formatter(FuncFormatter(lambda v, _: f"{v:g}"))
+            axis.set_major_formatter(FuncFormatter(lambda v, _: short(v)))
         axis.set_minor_formatter(NullFormatter())
         if self.has_zero:
             line = axes.axhline if which == "y" else axes.axvline
@@ -149,14 +159,15 @@ def list_front(figure, axes, on_front, cost, error):
     y = 0.905 - line
     for number, p in enumerate(on_front, 1):
         figure.text(left, y, f"{number}", fontsize=8.8, fontweight="bold", color=FRONT_COLOUR)
-        figure.text(left + 0.022, y, named(p), fontsize=8.8, color="#333333")
-        y -= line
+        for part in textwrap.wrap(named(p), 44, break_long_words=False, break_on_hyphens=False):
+            figure.text(left + 0.022, y, part, fontsize=8.8, color="#333333")
+            y -= line
     handles, labels = axes.get_legend_handles_labels()
     figure.legend(handles, labels, loc="lower left", bbox_to_anchor=(left - 0.012, 0.02), fontsize=8.2, ncol=2,
                   frameon=False, handletextpad=0.2, columnspacing=0.8, labelspacing=0.35)
 
 
-def axis_chart(path, points, axis):
+def axis_chart(path, points, axis, clock):
     """One axis: its values by time and FLIP, in their order."""
     mine = [p for p in points if p["axis"] == axis and p["flip"] is not None]
     figure, axes = plt.subplots(figsize=(4.7, 3.3))
@@ -165,14 +176,13 @@ def axis_chart(path, points, axis):
     place = LogScale([p["flip"] for p in mine], "exact")
     colour, marker = style(axis)
     xs, ys = [p["ratio"] for p in mine], [place(p["flip"]) for p in mine]
-    errors = [[p["ratio"] - p["ratio_low"] for p in mine], [p["ratio_high"] - p["ratio"] for p in mine]]
     if axis not in ("design", "combined", "exchange"):  # those have no order
         axes.plot(xs, ys, color=colour, linewidth=0.9, alpha=0.6)
-    axes.errorbar(xs, ys, xerr=errors, fmt=marker, color=colour, markersize=5, elinewidth=0.7, alpha=0.9)
+    axes.plot(xs, ys, marker, color=colour, markersize=5.5, alpha=0.9)
     width = (max(xs) / min(xs)) if xs else 1
     axes.set_xscale("log")
     room = max(width ** 0.18, 1.25)
-    low, high = min(p["ratio_low"] for p in mine) / 1.1, max(p["ratio_high"] for p in mine) * room
+    low, high = min(xs) / 1.12, max(xs) * room
     axes.set_xlim(low, high)
     ticks = [m * 10.0 ** e for e in range(-3, 6) for m in ((1, 2, 5) if high / low > 4 else (1, 1.5, 2, 3, 4, 5, 6, 8))
              if low <= m * 10.0 ** e <= high]
@@ -190,7 +200,7 @@ def axis_chart(path, points, axis):
         axes.annotate(name, (x, y), xytext=(5, free_offset(axes, x, y, taken)), textcoords="offset points",
                       fontsize=8.2, color="#333333")
     axes.set_title(AXES.get(axis, axis))
-    axes.set_xlabel("frame time, times raster-only")
+    axes.set_xlabel(f"{clock}, times raster-only")
     axes.set_ylabel("mean FLIP" + (" (area)" if mine and mine[0]["reference"] == "area" else ""))
     save(figure, path)
 
@@ -213,16 +223,16 @@ def ratio(point):
     return point["ratio"]
 
 
-def draw_charts(folder, points):
+def draw_charts(folder, points, clock):
     """The charts' files with their titles, in the page's order."""
     charts = []
     exchanged = [p for p in points if bytes_moved(p) > 0]
     if charted(points):
         for error, label in METRICS.items():
             name = f"error-{error}.svg"
-            front_chart(folder / name, points, error, ratio, "frame time, times raster-only in the same rounds",
-                        error, f"{label} against frame time", "")
-            charts.append((name, f"{label} against frame time, with the Pareto front"))
+            front_chart(folder / name, points, error, ratio, f"{clock}, times raster-only in the same run",
+                        error, f"{label} against {clock}", "")
+            charts.append((name, f"{label} against {clock}, with the Pareto front"))
     if charted(exchanged):
         front_chart(folder / "error-bytes.svg", exchanged, "bytes", bytes_moved,
                     "bytes a frame, both ways", "flip", "mean FLIP against bytes exchanged", "none")
@@ -230,7 +240,7 @@ def draw_charts(folder, points):
     panels = []
     for axis in dict.fromkeys(p["axis"] for p in points):
         if any(p["axis"] == axis and p["flip"] is not None for p in points):
-            axis_chart(folder / f"axis-{axis}.svg", points, axis)
+            axis_chart(folder / f"axis-{axis}.svg", points, axis, clock)
             panels.append((f"axis-{axis}.svg", AXES.get(axis, axis)))
     return charts, panels
 
@@ -256,9 +266,9 @@ def intro(run):
     scene, size = run["scene"], run["size"]
     return (f"<p>{scene['triangles']} triangles, {size[0]}×{size[1]} pixels; {html.escape(run['cpu'])}, "
             f"{run['cores']} cores; OpenGL: {html.escape(run['gl'])}; pinocchio {html.escape(run['pinocchio'])}.</p>"
-            f"<p class=note>Every way to draw is measured along the same motion: {motion_text(run)}. Its frame time "
-            f"is divided by that of <code>--mode raster</code>, drawn in turns with it (median of {run['rounds']} "
-            "rounds; bars: least and most). Its error is that of the picture on the screen against "
+            f"<p class=note>Every way to draw is measured along the same motion: {motion_text(run)}. Its "
+            f"{CLOCKS[run['clock']]} (the least of {run['rounds']} rounds, as other programs only ever add to a time) "
+            "is divided by that of <code>--mode raster</code>, drawn in turns with it. Its error is that of the picture on the screen against "
             "<code>--mode raytrace --precise</code> of the frame that should be there then "
             f"(mean of {run['error_frames']} frames), so what is delivered late is wrong by as much as the camera "
             "has moved. Unless an exchange is named, frames are synchronous. Samples a pixel are measured against "
@@ -302,7 +312,7 @@ def thumbnails(points):
 
 def page(folder, results):
     run, points = results["run"], results["points"]
-    charts, panels = draw_charts(folder, points)
+    charts, panels = draw_charts(folder, points, CLOCKS[run["clock"]])
     title = f"{html.escape(run['scene']['name'])}: error against time"
     reference = ("<img src='pictures/reference-centre.png' alt='reference'>"
                  if (folder / "pictures/reference-centre.png").exists() else "")

@@ -14,9 +14,9 @@ namespace pinocchio::app {
 namespace {
 
 constexpr std::array kFigures{
-    "ratio",          "ratio_low",  "ratio_high",       "frame_ms",         "raster_ms", "latency_ms",
-    "latency_frames", "age_frames", "bytes_gpu_to_cpu", "bytes_cpu_to_gpu", "reference", "rmse",
-    "relmse",         "flip"};
+    "ratio",      "ratio_median",   "frame_ms",   "raster_ms",        "cpu_ms",           "raster_cpu_ms",
+    "latency_ms", "latency_frames", "age_frames", "bytes_gpu_to_cpu", "bytes_cpu_to_gpu", "reference",
+    "rmse",       "relmse",         "flip"};
 
 // A chart: its name, and what its axes are.
 struct Front {
@@ -27,8 +27,10 @@ struct Front {
 double ratio_of(const nlohmann::json& point) {
   return point["ratio"].get<double>();
 }
+// Who exchanges nothing is on no chart of the exchange.
 double bytes_of(const nlohmann::json& point) {
-  return point["bytes_gpu_to_cpu"].get<double>() + point["bytes_cpu_to_gpu"].get<double>();
+  const double bytes = point["bytes_gpu_to_cpu"].get<double>() + point["bytes_cpu_to_gpu"].get<double>();
+  return bytes > 0.0 ? bytes : std::numeric_limits<double>::quiet_NaN();
 }
 constexpr std::array kFronts{Front{"rmse", ratio_of, "rmse"}, Front{"relmse", ratio_of, "relmse"},
                              Front{"flip", ratio_of, "flip"}, Front{"bytes", bytes_of, "flip"}};
@@ -49,8 +51,9 @@ bool is_results(const nlohmann::json& json) {
          json["points"].is_array() && std::all_of(json["points"].begin(), json["points"].end(), is_point);
 }
 
-// What of two runs is not the same; empty: nothing.
+// What of two runs is not the same, the scene before what follows from it; empty: nothing.
 std::string difference(const nlohmann::json& old_run, const nlohmann::json& run) {
+  if (old_run.value("scene", nlohmann::json()) != run.at("scene")) return "scene";
   for (const auto& [key, value] : run.items())
     if (!old_run.contains(key) || old_run[key] != value) return key;
   return old_run.size() == run.size() ? "" : "version";
@@ -80,11 +83,11 @@ std::vector<std::size_t> on_charts(const nlohmann::json& points) {
 }  // namespace
 
 nlohmann::json to_json(const PointFigures& f) {
-  nlohmann::json json{{"ratio", f.ratio},
-                      {"ratio_low", f.ratio_low},
-                      {"ratio_high", f.ratio_high},
+  nlohmann::json json{{"ratio_median", f.ratio_median},
                       {"frame_ms", f.frame_ms},
                       {"raster_ms", f.raster_ms},
+                      {"cpu_ms", f.cpu_ms},
+                      {"raster_cpu_ms", f.raster_cpu_ms},
                       {"latency_ms", f.latency_ms},
                       {"latency_frames", f.latency_frames},
                       {"age_frames", f.age_frames},
@@ -134,12 +137,26 @@ void Results::add(const Configuration& c, const nlohmann::json& figures, const s
                        {"options", c.options},
                        {"settings", to_json(c.settings)},
                        {"picture", picture}};
-  for (const char* name : kFigures) point[name] = figures[name];
+  for (const char* name : kFigures) point[name] = figures.value(name, nlohmann::json());
   if (figures.contains("failure")) point["failure"] = figures["failure"];
   json_["points"].push_back(std::move(point));
+  write();
+}
+
+void Results::write() {
+  set_ratios();
   mark_fronts();
   write_text(folder_ / "results.json", json_.dump(2) + "\n");
   write_text(folder_ / "results.csv", csv());
+}
+
+void Results::set_ratios() {
+  const bool by_cpu = json_["run"]["clock"] == "cpu";
+  const char* const time = by_cpu ? "cpu_ms" : "frame_ms";
+  const char* const raster = by_cpu ? "raster_cpu_ms" : "raster_ms";
+  double least = std::numeric_limits<double>::infinity();
+  for (const nlohmann::json& point : json_["points"]) least = std::min(least, point[raster].get<double>());
+  for (nlohmann::json& point : json_["points"]) point["ratio"] = point[time].get<double>() / least;
 }
 
 void Results::mark_fronts() {

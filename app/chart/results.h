@@ -13,10 +13,10 @@ namespace pinocchio::app {
 
 // One configuration, measured along the camera's motion.
 struct PointFigures {
-  // Frame time against raster-only's in the same rounds: median, least and most of the rounds.
-  double ratio = 0.0, ratio_low = 0.0, ratio_high = 0.0;
-  double frame_ms = 0.0, raster_ms = 0.0;  // medians of the rounds
-  double latency_ms = 0.0;                 // camera sampled to picture delivered, median
+  double ratio_median = 0.0;                 // to raster-only's of the same round, by the run's clock
+  double frame_ms = 0.0, raster_ms = 0.0;    // of the fastest frames in a row
+  double cpu_ms = 0.0, raster_cpu_ms = 0.0;  // of all threads, a frame; least of the rounds
+  double latency_ms = 0.0;  // camera sampled to picture delivered, least of the rounds' medians
   int latency_frames = 0, age_frames = 0;
   double bytes_gpu_to_cpu = 0.0, bytes_cpu_to_gpu = 0.0;  // a frame
   // Of what is on the screen against what should be there then; means over frames.
@@ -26,9 +26,11 @@ struct PointFigures {
 };
 [[nodiscard]] nlohmann::json to_json(const PointFigures& figures);
 
-// results.json and results.csv in a folder: {"run": ..., "points": [...]}, of each configuration
-// its axis, value, options, settings, figures, `picture` (name of its files) and `pareto` (the charts on
-// whose front it is: rmse, relmse, flip against the frame time, bytes against FLIP).
+// results.json and results.csv in a folder: {"run": ..., "points": [...]}, of each configuration its ratio
+// (its least time by the run's clock, over the least of raster-only in the whole run: other programs on the
+// machine only ever add to a time), its axis, value, options, settings, figures, `picture` (name of its
+// files) and `pareto` (the charts on whose front it is: rmse, relmse, flip against the frame time, bytes
+// against FLIP).
 class Results {
  public:
   // `run`: what makes two runs one (scene, size, cameras, machine, version). Reads what the folder holds;
@@ -44,11 +46,15 @@ class Results {
   // or not at all. Throws EnvironmentError.
   void add(const Configuration& configuration, const nlohmann::json& figures, const std::string& picture);
 
+  // Both files, each whole or not at all. Throws EnvironmentError.
+  void write();
+
   [[nodiscard]] const nlohmann::json& json() const { return json_; }
 
  private:
   Results(std::filesystem::path folder, nlohmann::json json)
       : folder_(std::move(folder)), json_(std::move(json)) {}
+  void set_ratios();
   void mark_fronts();
   [[nodiscard]] std::string csv() const;
 

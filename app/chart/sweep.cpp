@@ -200,7 +200,7 @@ void thread_counts(Sweep& sweep) {
 }
 
 void sample_counts(Sweep& sweep) {
-  const std::vector<int> counts = sweep.request().quick ? std::vector{1, 4} : std::vector{1, 2, 4, 8, 16};
+  const std::vector<int> counts = sweep.request().quick ? std::vector{1, 4} : std::vector{1, 2, 4, 8};
   for (const int spp : counts) {
     Settings settings = sweep.base();
     settings.spp = spp;

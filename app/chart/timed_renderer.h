@@ -19,7 +19,9 @@ inline constexpr std::size_t kWarmUpFrames = kFramesInFlight;
 class TimedRenderer {
  public:
   struct Round {
-    double frame_ms = 0.0;    // from a frame's begin to the next one's, mean of those that count
+    double frame_ms = 0.0;  // from a frame's begin to the next one's, mean of those that count
+    double least_ms = 0.0;  // the same of the fastest kFramesInFlight in a row (the fewer there are, of all)
+    double cpu_ms = 0.0;    // processor time a frame, of all threads, warming up included
     double latency_ms = 0.0;  // camera sampled to picture delivered, median
     int latency_frames = 0, age_frames = 0;
     double bytes_to_cpu = 0.0, bytes_to_gpu = 0.0;  // of a usual frame

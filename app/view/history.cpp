@@ -5,6 +5,7 @@
 namespace pinocchio::app {
 
 void History::add(const FrameRecord& record) {
+  if (record[Stage::composite].end_s <= 0.0) return;
   records_.push_back(record);
   if (records_.size() > kMost) records_.pop_front();
 }
@@ -12,7 +13,8 @@ void History::add(const FrameRecord& record) {
 std::vector<float> History::frame_ms() const {
   std::vector<float> values;
   for (std::size_t i = 1; i < records_.size(); ++i)
-    values.push_back(static_cast<float>(1e3 * (records_[i].frame.end_s - records_[i - 1].frame.end_s)));
+    if (records_[i].number == records_[i - 1].number + 1)
+      values.push_back(static_cast<float>(1e3 * (records_[i].frame.end_s - records_[i - 1].frame.end_s)));
   return values;
 }
 

@@ -4,10 +4,10 @@
 
 namespace pinocchio::app {
 
-void LiveScene::set_scene(std::shared_ptr<PreparedScene> scene) {
+void LiveScene::set_scene(std::shared_ptr<PreparedScene> scene, const Needs& needs) {
   shown_ = std::move(scene);
   all_ = {shown_};
-  needs_ = take_census(shown_->scene);
+  needs_ = needs;
 }
 
 void LiveScene::set_tracer(const std::shared_ptr<const Tracer>& tracer) {

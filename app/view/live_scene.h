@@ -13,8 +13,8 @@ namespace pinocchio::app {
 // uses any more is used again, so there are never more than frames in flight.
 class LiveScene {
  public:
-  // A new scene, with GPU buffers, perhaps still without its tree.
-  void set_scene(std::shared_ptr<PreparedScene> scene);
+  // A new scene, with GPU buffers, perhaps still without its tree, and its needs.
+  void set_scene(std::shared_ptr<PreparedScene> scene, const Needs& needs);
   // No frame in flight traces before this.
   void set_tracer(const std::shared_ptr<const Tracer>& tracer);
   // Of the scene that is shown; casting: false lets none cast a shadow.

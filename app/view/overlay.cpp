@@ -47,7 +47,8 @@ bool begin_message(const char* name, float height) {
   const ImVec2 display = ImGui::GetIO().DisplaySize;
   ImGui::SetNextWindowPos(ImVec2(0.5f * display.x, height * display.y), ImGuiCond_Always, ImVec2(0.5f, 0.5f));
   ImGui::SetNextWindowSizeConstraints(ImVec2(0.0f, 0.0f), ImVec2(0.7f * display.x, display.y));
-  return ImGui::Begin(name, nullptr, kBare | ImGuiWindowFlags_AlwaysAutoResize);
+  // The picture below takes the mouse.
+  return ImGui::Begin(name, nullptr, kBare | ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoInputs);
 }
 
 void draw_loading(const SceneLoader::Progress& loading, float scale) {
@@ -67,7 +68,7 @@ void draw_loading(const SceneLoader::Progress& loading, float scale) {
   ImGui::End();
 }
 
-void draw_messages(Model& model) {
+void draw_errors(const Model& model) {
   if (!model.errors.empty()) {
     begin_message("error", 0.12f);
     ImGui::PushTextWrapPos(0.62f * ImGui::GetIO().DisplaySize.x);
@@ -76,6 +77,9 @@ void draw_messages(Model& model) {
     ImGui::PopTextWrapPos();
     ImGui::End();
   }
+}
+
+void draw_notices(Model& model) {
   while (!model.notices.empty() && model.notices.front().until_s < now_s()) model.notices.pop_front();
   if (model.notices.empty()) return;
   begin_message("notices", 0.74f);
@@ -124,9 +128,10 @@ void draw_overlay(Model& model, float scale) {
     draw_divider(model, scale);
     draw_captions(model);
     draw_panels(model, scale);
+    draw_notices(model);
   }
   draw_loading(model.loading, scale);
-  draw_messages(model);
+  draw_errors(model);
   if (model.settings.help) {
     begin_message("keys", 0.5f);
     draw_help();

@@ -28,11 +28,18 @@ std::string count_text(std::uint64_t count) {
   return text.data();
 }
 
+// High enough for nearly all: one slow frame (shaders being compiled) does not flatten the rest.
+float height_of(std::vector<float> values) {
+  if (values.empty()) return 1.0f;
+  const auto nearly_last = values.begin() + static_cast<std::ptrdiff_t>(values.size() * 19 / 20);
+  std::nth_element(values.begin(), nearly_last, values.end());
+  return std::max(1.3f * *nearly_last, 1e-3f);
+}
+
 void graph(const char* id, const std::vector<float>& values, float height, ImVec4 color) {
-  const float most = values.empty() ? 1.0f : std::max(*std::max_element(values.begin(), values.end()), 1e-3f);
   ImGui::PushStyleColor(ImGuiCol_PlotLines, color);
-  ImGui::PlotLines(id, values.data(), static_cast<int>(values.size()), 0, nullptr, 0.0f, 1.1f * most,
-                   ImVec2(-1.0f, height));
+  ImGui::PlotLines(id, values.data(), static_cast<int>(values.size()), 0, nullptr, 0.0f, height_of(values),
+                   ImVec2(ImGui::GetContentRegionAvail().x, height));
   ImGui::PopStyleColor();
 }
 
@@ -118,24 +125,16 @@ void draw_rays(const FrameRecord& record) {
   row("rays a second", text.data());
 }
 
-// The newest frame that was drawn, not repeated.
-const FrameRecord* newest_drawn(const History& history) {
-  const auto& records = history.records();
-  const auto drawn = std::find_if(records.rbegin(), records.rend(),
-                                  [](const FrameRecord& r) { return r[Stage::composite].end_s > 0.0; });
-  return drawn == records.rend() ? nullptr : &*drawn;
-}
-
 }  // namespace
 
 void draw_figures(const Model& model, float scale) {
   draw_times(model, scale);
   draw_stages(model);
-  if (const FrameRecord* const newest = newest_drawn(model.history)) {
+  if (!model.history.empty()) {
     ImGui::Separator();
-    draw_traffic(*newest);
+    draw_traffic(model.history.records().back());
     ImGui::Separator();
-    draw_rays(*newest);
+    draw_rays(model.history.records().back());
   }
   if (model.scene && ImGui::CollapsingHeader("Why so", ImGuiTreeNodeFlags_DefaultOpen)) {
     ImGui::PushTextWrapPos(0.0f);

@@ -35,10 +35,12 @@ struct SceneLoader::Job {
     const std::vector<Light> lights = read.lights;
     const auto scene =
         std::make_shared<PreparedScene>(std::move(read), Sides{false, false}, options.tree, options.isa);
+    const Needs needs = take_census(scene->scene);
     begin_phase("building the tree of " + std::to_string(scene->scene.triangles.size()) + " triangles");
     {
       const std::scoped_lock lock(mutex);
       news.scene = scene;
+      news.needs = needs;
       news.camera = camera;
       news.lights = lights;
     }

@@ -7,6 +7,7 @@
 
 #include "app/exit_codes.h"
 #include "app/options.h"
+#include "hybrid/needs.h"
 #include "hybrid/prepared_scene.h"
 
 namespace pinocchio::app {
@@ -23,6 +24,7 @@ class SceneLoader {
   // What a call of poll() found; mostly nothing.
   struct News {
     std::shared_ptr<PreparedScene> scene;  // read: without tree, with GPU buffers
+    Needs needs;                           // its own
     Camera camera;                         // that the options ask for in it
     std::vector<Light> lights;             // as they were read: also those that reach nothing may cast
     std::shared_ptr<const Tracer> tracer;  // its tree is built
@@ -32,6 +34,8 @@ class SceneLoader {
 
   // Begins; what was being loaded before is forgotten.
   void start(const DrawOptions& options);
+  // What is being loaded is not wanted.
+  void forget() { job_.reset(); }
   // On the thread of the GL context.
   [[nodiscard]] News poll();
   [[nodiscard]] Progress progress() const;

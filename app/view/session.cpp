@@ -78,14 +78,17 @@ double Session::patience_s() const {
 }
 
 void Session::take_events() {
-  for (const gl::WindowEvent& event : window_.take_events(patience_s())) {
+  const std::vector<gl::WindowEvent> events = window_.take_events(patience_s());
+  // As the last frame had it: a panel that was hidden since takes nothing.
+  const bool over_panel = model_.settings.overlay && gui_.wants_pointer();
+  for (const gl::WindowEvent& event : events) {
     if (const auto* key = std::get_if<gl::KeyEvent>(&event)) take_key(*key);
     if (const auto* button = std::get_if<gl::ButtonEvent>(&event))
-      if (!button->down || !gui_.wants_pointer()) navigation_.take(*button);
+      if (!button->down || !over_panel) navigation_.take(*button);
     if (const auto* pointer = std::get_if<gl::PointerEvent>(&event))
       navigation_.take(*pointer, static_cast<float>(window_.pixels().y));
     if (const auto* scroll = std::get_if<gl::ScrollEvent>(&event))
-      if (!gui_.wants_pointer()) navigation_.take(*scroll);
+      if (!over_panel) navigation_.take(*scroll);
     if (const auto* drop = std::get_if<gl::DropEvent>(&event)) take_drop(*drop);
   }
   for (const Action action : std::exchange(model_.asked, {})) perform(action);
@@ -120,15 +123,33 @@ void Session::take_news() {
     if (!model_.scene) throw Exit(news.code, news.error);
     model_.errors["scene"] = news.error;
   }
-  if (news.scene) take_scene(news);
-  if (news.tracer) model_.scene.set_tracer(news.tracer);
+  const bool wanted = news.scene && can_draw(news);
+  if (wanted) take_scene(news);
+  if (news.tracer && (wanted || !news.scene)) model_.scene.set_tracer(news.tracer);
+}
+
+// Whether there is a plan for it; where there is none, the verb ends, or the scene before stays.
+bool Session::can_draw(const SceneLoader::News& news) {
+  if (!options_.draw.plan_file.empty()) {
+    const Expected<Plan> plan = load_plan(options_.draw.plan_file, news.needs);
+    if (!plan && !model_.scene) throw Exit(kUsage, plan.error().message());
+    file_plan_ = plan ? std::optional(*plan) : std::nullopt;
+    model_.settings.has_plan_file = plan.has_value();
+    if (!plan && model_.settings.plan == PlanSource::file) model_.settings.plan = PlanSource::automatic;
+  }
+  const Expected<Plan> plan = plan_for(model_.settings, news.needs, false);
+  if (plan) return true;
+  if (!model_.scene) throw Exit(kBadScene, plan.error().message());
+  model_.errors["scene"] = plan.error().message();
+  loader_.forget();
+  return false;
 }
 
 void Session::take_scene(const SceneLoader::News& news) {
   const Scene& scene = news.scene->scene;
   const bool again = model_.scene && model_.scene.shown()->scene.source == scene.source;
   painter_.drain();
-  model_.scene.set_scene(news.scene);
+  model_.scene.set_scene(news.scene, news.needs);
   model_.camera.set_scene(model_.scene.needs().bounds);
   if (!again) model_.camera.set_camera(news.camera);
   first_camera_ = news.camera;
@@ -157,21 +178,29 @@ void Session::take_file_changes() {
   accumulator_.reset();
 }
 
-Expected<Plan> Session::plan_for(const ViewSettings& settings, bool keeps_mask) const {
-  const bool has_tree = model_.scene.shown()->tracer != nullptr;
-  if (settings.plan == PlanSource::file && has_tree)
-    return load_plan(options_.draw.plan_file, model_.scene.needs());
+Expected<Plan> Session::plan_for(const ViewSettings& settings, const Needs& needs, bool keeps_mask) const {
+  if (settings.plan == PlanSource::file && file_plan_) {
+    if (const Expected<void> checked = check_plan(*file_plan_, needs); !checked)
+      return Unexpected(checked.error());
+    return *file_plan_;
+  }
   PlanRequest request = plan_request(settings);
-  if (!has_tree) request.mode = Mode::raster;  // until it is built
+  request.threads = options_.draw.threads;
   request.software_gl = window_.context().info().software;
   request.keeps_mask = request.keeps_mask || keeps_mask;
   request.size = picture_size();
-  return make_plan(model_.scene.needs(), request);
+  return make_plan(needs, request);
 }
 
 // A plan for the settings and lights; where there is none, why.
 bool Session::try_plan(const ViewSettings& settings) {
-  const Expected<Plan> plan = plan_for(settings, false);
+  const bool has_tree = model_.scene.shown()->tracer != nullptr;
+  ViewSettings now = settings;
+  if (!has_tree) {  // until it is built
+    now.plan = PlanSource::automatic;
+    now.mode = Mode::raster;
+  }
+  const Expected<Plan> plan = plan_for(now, model_.scene.needs(), false);
   if (plan) {
     model_.plan = *plan;
   } else {

@@ -37,7 +37,9 @@ class Session {
   void take_scene(const SceneLoader::News& news);
   void take_file_changes();
   void apply_changes();
-  [[nodiscard]] Expected<Plan> plan_for(const ViewSettings& settings, bool keeps_mask) const;
+  [[nodiscard]] bool can_draw(const SceneLoader::News& news);
+  [[nodiscard]] Expected<Plan> plan_for(const ViewSettings& settings, const Needs& needs,
+                                        bool keeps_mask) const;
   [[nodiscard]] bool try_plan(const ViewSettings& settings);
   [[nodiscard]] double patience_s() const;
 
@@ -85,6 +87,7 @@ class Session {
   int sample_ = 0;                     // of the still camera, the next to ask for
   bool shown_ = false;                 // something, this turn
   bool idle_ = false;                  // nothing new was asked for
+  std::optional<Plan> file_plan_;      // of the command line's --plan FILE.json
   Camera first_camera_;
   ViewSettings applied_;
   std::vector<Light> applied_lights_;

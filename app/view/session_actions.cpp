@@ -69,6 +69,7 @@ std::string Session::file_name(const std::vector<std::string>& extensions) const
 
 void Session::take_screenshot() {
   if (!model_.scene) return;
+  apply_changes();  // of keys that were pressed just before
   const std::string name = file_name({".png", ".exr"});
   write_frame_exr(name + ".exr");
   png_file_ = name + ".png";  // when the window is drawn next
@@ -77,7 +78,7 @@ void Session::take_screenshot() {
 void Session::write_frame_exr(const std::string& file) {
   painter_.drain();
   const double begin_s = now_s();
-  const Plan plan = plan_for(applied_, true).value_or(model_.plan);
+  const Plan plan = plan_for(applied_, model_.scene.needs(), true).value_or(model_.plan);
   Picture picture;
   Renderer renderer(model_.scene.shown(), plan, workers_, {},
                     {[&](Picture&& p) { picture = std::move(p); }, [](const FrameRecord&) {}});
@@ -119,6 +120,7 @@ void Session::save_camera() {
 
 void Session::print_command() {
   if (!model_.scene) return;
+  apply_changes();  // of keys that were pressed just before
   const std::string name = file_name({".png", ".exr", ".gltf"});
   const bool relit = lights_edited_ || !applied_.shadows;
   std::string file = model_.scene.shown()->scene.source;

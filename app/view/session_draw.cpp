@@ -3,6 +3,7 @@
 #include "app/console.h"
 #include "app/view/overlay.h"
 #include "app/view/session.h"
+#include "gl/error.h"
 #include "hybrid/jitter.h"
 
 namespace pinocchio::app {
@@ -44,8 +45,10 @@ void Session::draw() {
     try {
       draw_scene();
       model_.errors.erase("drawing");
+    } catch (const gl::ContextLostError&) {
+      throw;
     } catch (const EnvironmentError&) {
-      throw;  // the context is lost
+      throw;
     } catch (const std::exception& error) {
       model_.errors["drawing"] = one_line(error.what());
       idle_ = true;

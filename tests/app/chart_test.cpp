@@ -44,7 +44,8 @@ TEST_F(ChartTest, WritesFiguresPicturesAndAPageOfCharts) {
   EXPECT_EQ(values_of("reflection-format"), (std::set<std::string>{"rgb8", "rgb9e5", "half", "float"}));
   EXPECT_EQ(values_of("mask-scale"), (std::set<std::string>{"1", "1/2", "1/4"}));
   EXPECT_EQ(first_line("d/results.csv"),
-            "axis,value,options,ratio,ratio_low,ratio_high,frame_ms,raster_ms,latency_ms,latency_frames,"
+            "axis,value,options,ratio,ratio_median,frame_ms,raster_ms,cpu_ms,raster_cpu_ms,latency_ms,"
+            "latency_frames,"
             "age_frames,bytes_gpu_to_cpu,bytes_cpu_to_gpu,reference,rmse,relmse,flip,pareto");
   const CommandResult xml =
       run_command("cd '" + folder_.string() +
@@ -108,7 +109,8 @@ TEST_F(ChartTest, WhatIsMeasuredIsNotMeasuredAgain) {
 }
 
 TEST_F(ChartTest, CtrlCKeepsWhatIsDone) {
-  const std::string program = "'" PINOCCHIO_PROGRAM "' chart" + scene("cornell") + "-o d --quiet";
+  const std::string program =
+      "'" PINOCCHIO_PROGRAM "' chart" + scene("cornell") + "-o d --size 100x75 --quiet";
   const CommandResult result = run_command(
       "cd '" + folder_.string() + "' && " + program + " & pid=$!; while kill -0 $pid && [ ! -e '" +
           folder_.string() + "/d/results.csv' ]; do sleep 0.05; done; kill -INT $pid; wait $pid",
@@ -158,6 +160,21 @@ TEST_F(ChartTest, WithoutMatplotlibTheFiguresAreThereAndOneLineSaysWhatToInstall
   EXPECT_EQ(std::count(result.err.begin(), result.err.end(), '\n'), 1) << result.err;
   EXPECT_TRUE(exists("d/results.csv"));
   EXPECT_FALSE(exists("d/index.html"));
+}
+
+TEST_F(ChartTest, TimeIsTheFramesOrTheProcessors) {
+  for (const std::string clock : {"frame", "cpu"}) {
+    ASSERT_EQ(run("chart" + scene("cornell") + kSmall + "--restart --only tiles --clock " + clock).exit_code,
+              0);
+    const nlohmann::json json = results();
+    const std::string time = clock == "cpu" ? "cpu_ms" : "frame_ms";
+    const std::string raster = clock == "cpu" ? "raster_cpu_ms" : "raster_ms";
+    double least = 1e9;
+    for (const nlohmann::json& point : json["points"]) least = std::min(least, point[raster].get<double>());
+    EXPECT_GT(least, 0.0);
+    for (const nlohmann::json& point : json["points"])
+      EXPECT_DOUBLE_EQ(point["ratio"], point[time].get<double>() / least);
+  }
 }
 
 TEST_F(ChartTest, WrongUseIsOneLine) {

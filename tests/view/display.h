@@ -5,6 +5,7 @@
 #include <fcntl.h>
 #include <gtest/gtest.h>
 #include <signal.h>
+#include <sys/prctl.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -40,7 +41,7 @@ inline std::string text_of(const std::filesystem::path& file) {
   return {std::istreambuf_iterator<char>(in), {}};
 }
 
-// A program that runs beside the test, in its own process group; killed at the end.
+// A program that runs beside the test; killed at the end.
 class Process {
  public:
   // environment: "NAME=VALUE"; an empty value takes the name out.
@@ -49,7 +50,7 @@ class Process {
           const std::filesystem::path& err) {
     id_ = fork();
     if (id_ != 0) return;
-    setpgid(0, 0);
+    prctl(PR_SET_PDEATHSIG, SIGKILL);  // nothing outlives the test
     for (const std::string& setting : environment) {
       const std::size_t at = setting.find('=');
       if (at + 1 == setting.size()) {
@@ -68,10 +69,11 @@ class Process {
     _exit(127);
   }
   ~Process() {
-    if (!status_) {
-      kill(id_, SIGKILL);
-      (void)wait(30.0);
-    }
+    if (!running()) return;
+    kill(id_, SIGTERM);  // an X server tidies up
+    if (wait(10.0) != -2) return;
+    kill(id_, SIGKILL);
+    (void)wait(30.0);
   }
   Process(const Process&) = delete;
   Process& operator=(const Process&) = delete;
@@ -212,9 +214,9 @@ class WindowTest : public testing::Test {
   [[nodiscard]] static std::string scene(const std::string& name) {
     return std::string(PINOCCHIO_SOURCE_DIR "/scenes/") + name;
   }
-  // Closed as a person would; it says nothing and leaves well.
+  // Closed by the window manager, as a person would; it says nothing and leaves well.
   void expect_clean_close() {
-    xdo("windowquit " + window_);
+    xdo("windowfocus --sync " + window_ + " key alt+F4");
     EXPECT_EQ(program_->wait(), 0) << errors();
     EXPECT_EQ(errors(), "");
   }
@@ -227,7 +229,7 @@ class WindowTest : public testing::Test {
   void start_display() {
     const std::filesystem::path number = folder_ / "display.txt";
     server_.emplace(std::vector<std::string>{"Xvfb", "-displayfd", "1", "-screen", "0", "1280x800x24",
-                                             "-nolisten", "tcp"},
+                                             "-noreset", "-nolisten", "tcp"},
                     folder_, std::vector<std::string>{}, number, folder_ / "xvfb.txt");
     ASSERT_TRUE(becomes([&] { return text_of(number).find('\n') != std::string::npos; }))
         << text_of(folder_ / "xvfb.txt");

@@ -68,10 +68,13 @@ TEST(History, TimesAreFromEndToEndAndOldFramesAreDropped) {
   History history;
   for (std::size_t i = 0; i < History::kMost + 10; ++i) {
     FrameRecord record;
+    record.number = i;
+    record[Stage::composite] = {1.0, 1.001};
     record.frame = {0.01 * static_cast<double>(i), 0.01 * static_cast<double>(i) + 0.03};
     record[Stage::raster] = {0.0, 0.002};
     history.add(record);
   }
+  history.add(FrameRecord{});  // shown once more
   EXPECT_EQ(history.records().size(), History::kMost);
   EXPECT_NEAR(median_of_newest(history.frame_ms(), 20), 10.0f, 1e-2f);
   EXPECT_NEAR(median_of_newest(history.latency_ms(), 20), 30.0f, 1e-2f);

@@ -143,8 +143,8 @@ TEST_F(WindowTest, ResizedAHundredTimesAndMinimised) {
   pause_ms(500);
   const double before_mb = program_->memory_mb();
   resize(20, 120);
-  xdo("windowminimize --sync " + window_ + " sleep 0.3 windowmap --sync " + window_ + " windowfocus --sync " +
-      window_);
+  xdo("windowminimize " + window_ + " sleep 0.4 windowactivate --sync " + window_ + " mousemove --window " +
+      window_ + " 40 40 click 1 windowfocus --sync " + window_);
   pause_ms(500);
   EXPECT_LT(program_->memory_mb(), before_mb + 60.0);
   xdo("windowsize --sync " + window_ + " 320 240");
