@@ -55,11 +55,6 @@ struct Flight {
         picture_in(mapping),
         picture(mapping) {}
 
-  // What is being traced writes into the rest.
-  ~Flight() {
-    if (tracing.valid()) tracing.wait();
-  }
-
   enum class State { idle, drawn, delivered };
   State state = State::idle;
   FrameRequest request;
