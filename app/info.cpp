@@ -107,7 +107,7 @@ void print_system(const std::vector<gl::Attempt>& attempts) {
   std::printf("pinocchio %s\nprocessor  %s, %d cores\nSIMD       ", version(), system.cpu.c_str(),
               system.cores);
   for (const Isa isa : supported_isas()) std::printf("%s ", std::string(isa_name(isa)).c_str());
-  std::printf("\nOpenGL contexts without a display, in the order they are tried:\n");
+  std::printf("\nOpenGL contexts, in the order they are tried (a window only by view):\n");
   for (const gl::Attempt& a : attempts) {
     if (a.failure.empty()) {
       std::printf("  %-28s works   %s, %s, OpenGL %s\n", a.what.c_str(),

@@ -14,10 +14,20 @@ bool FileWatch::changed(double now_s, double period_s) {
   if (now_s - looked_s_ < period_s) return false;
   looked_s_ = now_s;
   Stamps seen = look();
-  if (seen == known_) return false;
-  const bool settled = seen == pending_;
+  // File by file: one that is written all the time does not hold up the others.
+  bool settled = false;
+  for (const auto& [file, stamp] : seen) {
+    const auto before = pending_.find(file), known = known_.find(file);
+    if (before == pending_.end() || before->second != stamp) continue;
+    if (known != known_.end() && known->second == stamp) continue;
+    known_[file] = stamp;
+    settled = true;
+  }
+  const auto gone = [&](const auto& one) {
+    return !seen.contains(one.first) && !pending_.contains(one.first);
+  };
+  settled = std::erase_if(known_, gone) > 0 || settled;
   pending_ = std::move(seen);
-  if (settled) known_ = pending_;
   return settled;
 }
 

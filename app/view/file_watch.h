@@ -17,8 +17,8 @@ class FileWatch {
   FileWatch(std::filesystem::path folder, std::vector<std::string> extensions);
 
   // Whether they differ from what they were at the start, or at the last true. A change counts when it has
-  // lasted from one look to the next: a file that is still being written is waited for. Looks at most every
-  // `period_s`.
+  // lasted from one look to the next: a file that is still being written is waited for, and does not hold up
+  // the others. Looks at most every `period_s`.
   [[nodiscard]] bool changed(double now_s, double period_s = 0.3);
 
  private:

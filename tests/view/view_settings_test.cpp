@@ -122,5 +122,23 @@ TEST(FileWatch, AChangeCountsOnceAndWhenItHasSettled) {
   EXPECT_FALSE(look());
 }
 
+TEST(FileWatch, AFileThatIsWrittenAllTheTimeHoldsUpNoOther) {
+  const std::filesystem::path folder = own_folder() / "busy";
+  std::filesystem::create_directories(folder);
+  FileWatch watch(folder, {});
+  std::string log = "x";
+  double now = 1.0;
+  const auto look = [&] {
+    std::ofstream(folder / "log.txt") << (log += "x");
+    return watch.changed(now += 1.0);
+  };
+  EXPECT_FALSE(look());
+  std::ofstream(folder / "scene.gltf") << "a";
+  EXPECT_FALSE(look());
+  EXPECT_TRUE(look());
+  EXPECT_FALSE(look());
+  std::filesystem::remove_all(folder);
+}
+
 }  // namespace
 }  // namespace pinocchio::app
