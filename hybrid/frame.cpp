@@ -113,6 +113,7 @@ void FrameLoop::submit_reprojected(Flight& now) {
 bool FrameLoop::repeat(const FrameRequest& request) {
   Flight* const last = frames_back(0);
   if (!last || !request.plan.reuse || !(last->request == request)) return false;
+  if (generation_ != passes_.programs->generation()) return false;
   if (last->state == Flight::State::delivered && !last->complete) start_trace(*last);
   drain();
   if (!last->complete) {  // shown with an older frame's answer: its own, now
@@ -136,6 +137,7 @@ Flight& FrameLoop::begin(const FrameRequest& request) {
   Flight& frame = *slots_[drawn_++ % kFramesInFlight];
   retire(frame);
   if (drawn_ % kFramesBetweenCalibrations == 1) clock_.calibrate();
+  generation_ = passes_.programs->generation();
   frame.request = request;
   frame.answered = frame.complete = false;
   frame.answer_of = nullptr;

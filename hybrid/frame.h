@@ -75,6 +75,7 @@ class FrameLoop {
   Sinks sinks_;
   gl::GpuClock clock_;
   std::uint64_t next_number_ = 0;
+  int generation_ = 0;                          // of the programs that drew the newest frame
   std::uint64_t drawn_ = 0;                     // frames that were not repeats
   std::vector<std::unique_ptr<Flight>> slots_;  // the n-th of them is in slot n % kFramesInFlight
 };

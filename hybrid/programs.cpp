@@ -21,6 +21,7 @@ Expected<void> Programs::reload() {
     return Unexpected(InputError{{}, 0, error.what(), "the last good shaders stay in use"});
   }
   for (auto& [key, program] : programs_) program = std::move(fresh.at(key));
+  ++generation_;
   return {};
 }
 

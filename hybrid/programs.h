@@ -27,6 +27,9 @@ class Programs {
   // all stay as they were and the error says why: file, line, the compiler's message.
   [[nodiscard]] Expected<void> reload();
 
+  // How often reload() has succeeded: what was drawn before is not what would be drawn now.
+  [[nodiscard]] int generation() const { return generation_; }
+
   [[nodiscard]] const std::filesystem::path& folder() const { return folder_; }
 
  private:
@@ -36,6 +39,7 @@ class Programs {
 
   std::filesystem::path folder_;
   std::map<Key, gl::Program> programs_;
+  int generation_ = 0;
 };
 
 }  // namespace pinocchio

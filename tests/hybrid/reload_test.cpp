@@ -23,7 +23,6 @@ class ReloadTest : public FramesTest {
     Scene scene = plate_over_floor();
     scene.lights = {point_light({1, 5, 1})};
     request_ = request(prepare(scene), plan_of(scene), kSize);
-    request_.plan.reuse = false;
   }
   void TearDown() override {
     loop_.reset();
