@@ -13,8 +13,10 @@ namespace pinocchio::stability {
 
 Steps steps_of(const BspTree& tree, const Ray& ray) {
   Steps steps;
-  counting::for_each_octant(&ray, 1, [&](const counting::Packet& packet, scalar::Mask lanes) {
-    counting::walk(tree, packet, lanes, packet.t_max, [&](const BspNode& leaf, scalar::Mask) {
+  counting::Packet packet;
+  packet.load(&ray, 1);
+  counting::for_each_octant(packet, packet.living, [&](const counting::Course& course, scalar::Mask lanes) {
+    counting::walk(tree, packet, course, lanes, packet.t_max, [&](const BspNode& leaf, scalar::Mask) {
       ++steps.leaves;
       steps.triangle_tests += leaf.reference_count();
     });

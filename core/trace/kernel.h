@@ -23,13 +23,13 @@ struct Hits {
 
 // Narrows [t_near, t_far] to the tree's box. min and max give their second operand for NaN, so a ray
 // that runs in a face of the box (0 * inf) leaves the interval as it was.
-inline void enter_bounds(const Bounds& b, const Packet& p, Float& t_near, Float& t_far) {
+inline void enter_bounds(const Bounds& b, const Packet& p, const Course& c, Float& t_near, Float& t_far) {
   for (int axis = 0; axis < 3; ++axis) {
     const Float lo(b.lo[axis]), hi(b.hi[axis]);
-    const Float& first = p.negative[axis] ? hi : lo;
-    const Float& last = p.negative[axis] ? lo : hi;
-    t_near = max((first - p.o[axis]) * p.inverse_early[axis], t_near);
-    t_far = min((last - p.o[axis]) * p.inverse_late[axis], t_far);
+    const Float& first = c.negative[axis] ? hi : lo;
+    const Float& last = c.negative[axis] ? lo : hi;
+    t_near = max((first - p.o[axis]) * c.inverse_early[axis], t_near);
+    t_far = min((last - p.o[axis]) * c.inverse_late[axis], t_far);
   }
 }
 
@@ -42,9 +42,9 @@ struct StackEntry {
 // A lane lives while its interval within the node is not empty; `t_best`, which the leaf may lower, ends
 // its interval. Which leaves a lane sees depends on that lane's ray alone.
 template <class Leaf>
-inline void walk(const BspTree& tree, const Packet& p, Mask lanes, const Float& t_best, Leaf leaf) {
+inline void walk(const BspTree& tree, const Packet& p, const Course& c, Mask lanes, const Float& t_best, Leaf leaf) {
   Float t_near(0.0f), t_far = t_best;
-  enter_bounds(tree.bounds, p, t_near, t_far);
+  enter_bounds(tree.bounds, p, c, t_near, t_far);
   StackEntry stack[kMaxTreeDepth];
   int top = 0;
   const BspNode* nodes = tree.nodes.data();
@@ -57,10 +57,10 @@ inline void walk(const BspTree& tree, const Packet& p, Mask lanes, const Float& 
       if (!node.is_leaf()) {
         const int axis = node.axis();
         const Float to_plane = Float(node.split()) - p.o[axis];
-        const Float t_early = to_plane * p.inverse_early[axis], t_late = to_plane * p.inverse_late[axis];
+        const Float t_early = to_plane * c.inverse_early[axis], t_late = to_plane * c.inverse_late[axis];
         const std::uint32_t low = node.first_child();
-        const std::uint32_t first = p.negative[axis] ? low + 1 : low,
-                            second = p.negative[axis] ? low : low + 1;
+        const std::uint32_t first = c.negative[axis] ? low + 1 : low,
+                            second = c.negative[axis] ? low : low + 1;
         // NaN (a ray that runs in the plane) must enter both: ask who may skip a side, not who enters.
         const bool skip_first = (living & ~(t_late < t_near).bits()) == 0;
         const bool skip_second = (living & ~(t_far < t_early).bits()) == 0;
@@ -85,56 +85,24 @@ inline void walk(const BspTree& tree, const Packet& p, Mask lanes, const Float& 
   }
 }
 
-inline bool finite(float x) {
-  return x - x == 0.0f;
-}
-
-inline bool traceable(const Ray& r) {
-  for (int i = 0; i < 3; ++i)
-    if (!finite(r.origin[i]) || !finite(r.direction[i])) return false;
-  return r.t_max > 0.0f && (r.direction.x != 0.0f || r.direction.y != 0.0f || r.direction.z != 0.0f);
-}
-
-// -0 counts as +0, so that a ray along an axis belongs to one octant.
-inline unsigned octant(const glm::vec3& d) {
-  return (d.x < 0.0f ? 1u : 0u) | (d.y < 0.0f ? 2u : 0u) | (d.z < 0.0f ? 4u : 0u);
-}
-
-// Up to kWidth rays, transposed; `body(packet, lanes)` is called for each octant among them.
+// Calls body(course, lanes) for each octant among the packet's `waiting` rays.
 template <class Body>
-inline void for_each_octant(const Ray* rays, std::size_t n, Body body) {
-  alignas(64) float o[3][kWidth], d[3][kWidth], t_max[kWidth];
-  unsigned octants[kWidth];
-  unsigned waiting = 0;
-  for (std::size_t lane = 0; lane < kWidth; ++lane) {
-    const Ray& r = rays[lane < n ? lane : 0];
-    const bool use = lane < n && traceable(r);
-    for (int i = 0; i < 3; ++i) {
-      o[i][lane] = use ? r.origin[i] : 0.0f;
-      d[i][lane] = use ? r.direction[i] + 0.0f : 1.0f;  // + 0 turns -0 into +0
-    }
-    t_max[lane] = use ? r.t_max : -1.0f;
-    octants[lane] = octant(r.direction);
-    if (use) waiting |= 1u << lane;
-  }
-  if (waiting == 0) return;
-  Packet p;
+inline void for_each_octant(const Packet& p, unsigned waiting, Body body) {
+  Course course;
+  unsigned falling[3];
   for (int i = 0; i < 3; ++i) {
-    p.o[i] = Float::load(o[i]);
-    p.d[i] = Float::load(d[i]);
     const Float inverse = Float(1.0f) / p.d[i];
-    p.inverse_early[i] = inverse * Float(1.0f - kStepError);
-    p.inverse_late[i] = inverse * Float(1.0f + kStepError);
+    course.inverse_early[i] = inverse * Float(1.0f - kStepError);
+    course.inverse_late[i] = inverse * Float(1.0f + kStepError);
+    falling[i] = (p.d[i] < Float(0.0f)).bits();
   }
-  p.reach = abs(p.d[0]) + abs(p.d[1]) + abs(p.d[2]);
-  p.t_max = Float::load(t_max);
   while (waiting != 0) {
-    const unsigned way = octants[__builtin_ctz(waiting)];
-    unsigned same = 0;
-    for (unsigned lane = 0; lane < kWidth; ++lane)
-      if ((waiting >> lane & 1u) && octants[lane] == way) same |= 1u << lane;
-    for (int i = 0; i < 3; ++i) p.negative[i] = (way >> i & 1u) != 0;
-    body(p, Mask::from_bits(same));
+    unsigned same = waiting;
+    for (int i = 0; i < 3; ++i) {
+      course.negative[i] = (falling[i] >> __builtin_ctz(waiting) & 1u) != 0;
+      same &= course.negative[i] ? falling[i] : ~falling[i];
+    }
+    body(course, Mask::from_bits(same));
     waiting &= ~same;
   }
 }
@@ -162,10 +130,12 @@ void closest_hits(const BspTree& tree, const Ray* rays, Hit* out, std::size_t n)
   for (std::size_t i = 0; i < n; i += kWidth) {
     const std::size_t count = n - i < kWidth ? n - i : kWidth;
     for (std::size_t lane = 0; lane < count; ++lane) out[i + lane] = Hit{};
-    for_each_octant(rays + i, count, [&](const Packet& p, Mask lanes) {
-      const Test test(tree, p);
+    Packet p;
+    p.load(rays + i, count);
+    const Test test(tree, p);
+    for_each_octant(p, p.living, [&](const Course& course, Mask lanes) {
       Hits hits{p.t_max, Int(kNoTriangle)};
-      walk(tree, p, lanes, hits.t,
+      walk(tree, p, course, lanes, hits.t,
            [&](const BspNode& leaf, Mask alive) { closest_in_leaf(tree, leaf, test, alive, hits); });
       hits.t.store(t);
       hits.triangle.store(triangle);
@@ -181,11 +151,13 @@ void occluded(const BspTree& tree, const Ray* rays, std::uint8_t* blocked, std::
   for (std::size_t i = 0; i < n; i += kWidth) {
     const std::size_t count = n - i < kWidth ? n - i : kWidth;
     for (std::size_t lane = 0; lane < count; ++lane) blocked[i + lane] = 0;
-    for_each_octant(rays + i, count, [&](const Packet& p, Mask lanes) {
-      const Test test(tree, p);
+    Packet p;
+    p.load(rays + i, count);
+    const Test test(tree, p);
+    for_each_octant(p, p.living, [&](const Course& course, Mask lanes) {
       Float t_best = p.t_max;
       unsigned hit = 0;
-      walk(tree, p, lanes, t_best, [&](const BspNode& leaf, Mask alive) {
+      walk(tree, p, course, lanes, t_best, [&](const BspNode& leaf, Mask alive) {
         const std::uint32_t* references = tree.references.data() + leaf.first_reference();
         const auto* const triangles = Test::stored(tree);
         for (std::uint32_t k = 0; k < leaf.reference_count(); ++k) {
