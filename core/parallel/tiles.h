@@ -32,19 +32,26 @@ class TileGrid {
     return {lo, glm::min(lo + kTileSize, size_)};
   }
 
-  // Calls visit(x, y) for every pixel of `box`, 2x2 quads together, so that four rays in a row are
-  // neighbours in the picture.
+  // Calls visit(x, y) for every pixel of `box`, no larger than a tile, along a Z curve: 4, 8, 16 or 64 in a row
+  // are neighbours in the picture, whatever the width of a packet.
   template <class Visit>
   static void for_each_pixel(const PixelBox& box, Visit visit) {
-    for (int y = box.lo.y; y < box.hi.y; y += 2)
-      for (int x = box.lo.x; x < box.hi.x; x += 2)
-        for (int k = 0; k < 4; ++k) {
-          const int px = x + (k & 1), py = y + (k >> 1);
-          if (px < box.hi.x && py < box.hi.y) visit(px, py);
-        }
+    for (int i = 0; i < kTileSize * kTileSize; ++i) {
+      const int x = box.lo.x + even_bits(i), y = box.lo.y + even_bits(i >> 1);
+      if (x < box.hi.x && y < box.hi.y) visit(x, y);
+    }
   }
 
  private:
+  static_assert(kTileSize == 32);
+  // Bits 0, 2, 4, 6 and 8 of i, side by side.
+  static constexpr int even_bits(int i) {
+    i &= 0x155;
+    i = (i | i >> 1) & 0x133;
+    i = (i | i >> 2) & 0x10f;
+    return (i | i >> 4) & 0x1f;
+  }
+
   glm::ivec2 size_;
   glm::ivec2 tiles_;
 };

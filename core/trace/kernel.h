@@ -28,8 +28,8 @@ inline void enter_bounds(const Bounds& b, const Packet& p, const Course& c, Floa
     const Float lo(b.lo[axis]), hi(b.hi[axis]);
     const Float& first = c.negative[axis] ? hi : lo;
     const Float& last = c.negative[axis] ? lo : hi;
-    t_near = max((first - p.o[axis]) * c.inverse_early[axis], t_near);
-    t_far = min((last - p.o[axis]) * c.inverse_late[axis], t_far);
+    t_near = max((first - p.o[axis]) * c.inverse[axis] * Float(kEarly), t_near);
+    t_far = min((last - p.o[axis]) * c.inverse[axis] * Float(kLate), t_far);
   }
 }
 
@@ -43,35 +43,36 @@ struct StackEntry {
 // its interval. Which leaves a lane sees depends on that lane's ray alone.
 template <class Leaf>
 inline void walk(const BspTree& tree, const Packet& p, const Course& c, Mask lanes, const Float& t_best, Leaf leaf) {
-  Float t_near(0.0f), t_far = t_best;
+  Float t_near(0.0f), t_far = t_best * Float(kLate);
   enter_bounds(tree.bounds, p, c, t_near, t_far);
   StackEntry stack[kMaxTreeDepth];
   int top = 0;
   const BspNode* nodes = tree.nodes.data();
   std::uint32_t index = 0;
+  Mask alive = lanes & (t_near <= t_far);
+  unsigned living = alive.bits();
   while (true) {
-    const Mask alive = lanes & (t_near <= t_far);
-    const unsigned living = alive.bits();
     if (living != 0) {
       const BspNode node = nodes[index];
       if (!node.is_leaf()) {
         const int axis = node.axis();
-        const Float to_plane = Float(node.split()) - p.o[axis];
-        const Float t_early = to_plane * c.inverse_early[axis], t_late = to_plane * c.inverse_late[axis];
+        const Float t = (Float(node.split()) - p.o[axis]) * c.inverse[axis];
         const std::uint32_t low = node.first_child();
         const std::uint32_t first = c.negative[axis] ? low + 1 : low,
                             second = c.negative[axis] ? low : low + 1;
         // NaN (a ray that runs in the plane) must enter both: ask who may skip a side, not who enters.
-        const bool skip_first = (living & ~(t_late < t_near).bits()) == 0;
-        const bool skip_second = (living & ~(t_far < t_early).bits()) == 0;
+        const bool skip_first = (living & ~(t < t_near).bits()) == 0;
+        const bool skip_second = (living & ~(t_far < t).bits()) == 0;
         if (skip_first) {
           index = second;
         } else if (skip_second) {
           index = first;
         } else {
-          stack[top++] = {max(t_early, t_near), t_far, second};
-          t_far = min(t_late, t_far);
+          stack[top++] = {max(t * Float(kEarly), t_near), t_far, second};
+          t_far = min(t * Float(kLate), t_far);
           index = first;
+          alive = lanes & (t_near <= t_far);
+          living = alive.bits();
         }
         continue;
       }
@@ -81,7 +82,9 @@ inline void walk(const BspTree& tree, const Packet& p, const Course& c, Mask lan
     const StackEntry& entry = stack[--top];
     index = entry.node;
     t_near = entry.t_near;
-    t_far = min(entry.t_far, t_best);
+    t_far = min(entry.t_far, t_best * Float(kLate));
+    alive = lanes & (t_near <= t_far);
+    living = alive.bits();
   }
 }
 
@@ -91,9 +94,7 @@ inline void for_each_octant(const Packet& p, unsigned waiting, Body body) {
   Course course;
   unsigned falling[3];
   for (int i = 0; i < 3; ++i) {
-    const Float inverse = Float(1.0f) / p.d[i];
-    course.inverse_early[i] = inverse * Float(1.0f - kStepError);
-    course.inverse_late[i] = inverse * Float(1.0f + kStepError);
+    course.inverse[i] = Float(1.0f) / p.d[i];
     falling[i] = (p.d[i] < Float(0.0f)).bits();
   }
   while (waiting != 0) {

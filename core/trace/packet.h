@@ -4,9 +4,9 @@
 namespace pinocchio::PINOCCHIO_LANES {
 namespace {
 
-// A computed distance to a plane, (split - o) * (1 / d), is off by three roundings at most; both
-// children are entered where the true distance may lie in either.
-constexpr float kStepError = 4.0f * 0x1p-24f;
+// A computed distance to a plane, (split - o) * (1 / d), is off by three roundings at most. Stretches are kept
+// wider by twice that and its own rounding, so that distances can be held against their ends as they are.
+constexpr float kEarly = 1.0f - 0x1p-21f, kLate = 1.0f + 0x1p-21f;
 
 inline bool finite(float x) {
   return x - x == 0.0f;
@@ -50,8 +50,8 @@ struct Packet {
 // How a packet's rays of one direction octant, which meet the two sides of a split plane in the same order,
 // step through the tree.
 struct Course {
-  Float inverse_early[3], inverse_late[3];  // 1 / d, less and more by the rounding of a step
-  bool negative[3];                         // direction falls along this axis
+  Float inverse[3];  // 1 / d
+  bool negative[3];  // direction falls along this axis
 };
 
 // A triangle test is a class made once for a packet (it may prepare the packet's rays):
