@@ -8,6 +8,7 @@
 #include "core/image/image.h"
 #include "core/parallel/workers.h"
 #include "core/scene/scene.h"
+#include "core/trace/lit_cells.h"
 #include "core/trace/mask_image.h"
 #include "core/trace/scatter.h"
 #include "core/trace/shared.h"
@@ -37,6 +38,7 @@ struct TraceJob {
   // the shadow rays of what they see; and shadow rays of visible points (0: all are fired, so that every bit
   // of the mask is true).
   float least_contribution = kLeastContribution, least_light = 0.0f;
+  LitCells* cells = nullptr;  // of this scene and tracer: what shadow passes of earlier frames have taught
 };
 
 // The triangle that each pixel's centre sees (kNoTriangle: none), by rays. ids: any size.

@@ -21,11 +21,6 @@ float largest_component(const glm::vec3& v) {
   return std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)});
 }
 
-float error_bound(const glm::dvec3& p, const glm::vec3& n, const glm::vec3& ab, const glm::vec3& ac) {
-  return kPointError * glm::dot(glm::abs(n), glm::vec3(glm::abs(p))) +
-         kTestError * std::max(largest_component(ab), largest_component(ac));
-}
-
 shared::PhongParams phong_params(const Scene& scene, const Material& m, const glm::uvec3& corners,
                                  const glm::vec3& weights) {
   shared::PhongParams phong{m.ambient, m.diffuse, m.specular, m.shininess, m.emission};
@@ -48,6 +43,14 @@ int wrap(int i, int n) {
 
 }  // namespace
 
+float error_bound_offset(const glm::dvec3& p, const glm::vec3& n, const glm::vec3& ab, const glm::vec3& ac) {
+  return kPointError * glm::dot(glm::abs(n), glm::vec3(glm::abs(p))) + least_error_bound_offset(ab, ac);
+}
+
+float least_error_bound_offset(const glm::vec3& ab, const glm::vec3& ac) {
+  return kTestError * std::max(largest_component(ab), largest_component(ac));
+}
+
 Surface surface_at(const Scene& scene, std::uint32_t id, const glm::vec3& origin, const glm::vec3& direction,
                    const RayOffset& offset) {
   const glm::uvec3 corners = scene.triangles[id];
@@ -67,7 +70,7 @@ Surface surface_at(const Scene& scene, std::uint32_t id, const glm::vec3& origin
   s.n_geometric = facing.geometric;
   s.n_shading = facing.shading;
   s.leaving = facing.leaving;
-  s.offset = offset.method == OffsetMethod::error_bound ? error_bound(s.p_exact, s.n_geometric, b - a, c - a)
+  s.offset = offset.method == OffsetMethod::error_bound ? error_bound_offset(s.p_exact, s.n_geometric, b - a, c - a)
                                                         : offset.length;
   s.material = &scene.material_of(id);
   s.phong = phong_params(scene, *s.material, corners, weights);

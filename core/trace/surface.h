@@ -29,6 +29,12 @@ struct Surface {
 [[nodiscard]] Surface surface_at(const Scene& scene, std::uint32_t id, const glm::vec3& origin,
                                  const glm::vec3& direction, const RayOffset& offset = {});
 
+// By an error bound: how far off triangle (a, a + ab, a + ac) with normal n a ray from its point p starts, and
+// what that is never below.
+[[nodiscard]] float error_bound_offset(const glm::dvec3& p, const glm::vec3& n, const glm::vec3& ab,
+                                       const glm::vec3& ac);
+[[nodiscard]] float least_error_bound_offset(const glm::vec3& ab, const glm::vec3& ac);
+
 // Where a ray leaving the surface towards `direction` starts. By an error bound: off the plane by more than
 // the rounding of the point and of a triangle test, so that it meets neither its own triangle nor a coplanar
 // neighbour.

@@ -1,0 +1,290 @@
+#include "core/trace/lit_cells.h"
+
+#include <algorithm>
+#include <array>
+#include <atomic>
+#include <cmath>
+#include <optional>
+
+#include "core/trace/shaft.h"
+#include "core/trace/surface.h"
+
+namespace pinocchio {
+namespace {
+
+// A cell's state: pixels that asked so far, below kDue, or one of these.
+constexpr std::uint8_t kDue = 32;  // looking into a cell costs about as much as so many rays
+constexpr std::uint8_t kLeftToRays = 253, kTurnedAway = 254, kLit = 255;
+
+// Looked into at the beginning of one pass, at most: a few milliseconds.
+constexpr std::size_t kMostAPass = 4096;
+constexpr std::size_t kChunk = 64;
+
+constexpr int kMostCuts = 64;
+constexpr float kCellsAcross = 200.0f;          // cells along the scene's diagonal ...
+constexpr std::size_t kMostCells = 1u << 22;    // ... fewer where that makes more than so many, beside
+constexpr std::size_t kMostCellsATriangle = 4;  // so many a triangle
+
+// Cells keep this share of themselves off the triangle's edges: a shaft may be wider than its rays and yet not
+// touch the neighbours. Pixels between are left to rays.
+constexpr float kEdge = 1.0f / 256.0f;
+
+// Sines and lengths (of unit vectors) below this are too near zero to be sure of their sign.
+constexpr double kSure = 1e-4;
+
+bool same(const shared::LightParams& a, const shared::LightParams& b) {
+  return a.kind == b.kind && a.inverse_square == b.inverse_square && a.position == b.position &&
+         a.direction == b.direction && a.radiance == b.radiance && a.range == b.range &&
+         a.cos_inner == b.cos_inner && a.cos_outer == b.cos_outer;
+}
+
+std::array<glm::vec3, 3> corners_of(const Scene& scene, std::uint32_t triangle) {
+  const glm::uvec3& ids = scene.triangles[triangle];
+  return {scene.positions[ids.x], scene.positions[ids.y], scene.positions[ids.z]};
+}
+
+// Weights of b and c at the corners of cell `i` of a triangle whose edges are cut into `cuts`: row by row along b,
+// in a row by turns a cell that stands and one that hangs.
+std::array<glm::dvec2, 3> cell_corners(int i, int cuts) {
+  int row = 0;
+  for (; i >= 2 * (cuts - row) - 1; ++row) i -= 2 * (cuts - row) - 1;
+  const glm::dvec2 at(row, i / 2);
+  std::array<glm::dvec2, 3> corners{at, at + glm::dvec2(1, 0), at + glm::dvec2(0, 1)};
+  if (i % 2 == 1) corners[0] += glm::dvec2(1, 1);
+  const double edge = static_cast<double>(kEdge) / cuts;
+  for (glm::dvec2& corner : corners) corner = edge + (1.0 - 3.0 * edge) * corner / static_cast<double>(cuts);
+  return corners;
+}
+
+// A cell, with what its pixels' normals and lights are made of.
+struct Cell {
+  Piece piece;
+  std::array<glm::dvec3, 3> n_shading;  // at the corners, not of unit length, on the piece's side
+  const Material* material;
+};
+
+// Nothing where the normals do not agree on the side that is seen.
+std::optional<Cell> make_cell(const Scene& scene, std::uint32_t triangle, bool back,
+                              const std::array<glm::dvec2, 3>& weights) {
+  const std::array<glm::vec3, 3> corners = corners_of(scene, triangle);
+  const glm::dvec3 a(corners[0]), ab = glm::dvec3(corners[1]) - a, ac = glm::dvec3(corners[2]) - a;
+  const glm::dvec3 cross = glm::cross(ab, ac);
+  if (!(glm::length(cross) > 0.0)) return std::nullopt;
+  const glm::dvec3 n_winding = glm::normalize(cross);
+  const glm::uvec3& ids = scene.triangles[triangle];
+
+  Cell cell;
+  cell.material = &scene.material_of(triangle);
+  cell.piece.triangle = triangle;
+  cell.piece.n = back ? -n_winding : n_winding;
+  const glm::vec3 n(cell.piece.n), edge_ab = corners[1] - corners[0], edge_ac = corners[2] - corners[0];
+  cell.piece.lift_least = least_error_bound_offset(edge_ab, edge_ac);
+  cell.piece.lift_most = 0.0;
+  std::array<double, 3> agree;
+  for (std::size_t i = 0; i < 3; ++i) {
+    const double b = weights[i].x, c = weights[i].y;
+    cell.piece.corners[i] = a + b * ab + c * ac;
+    cell.piece.lift_most = std::max<double>(
+        cell.piece.lift_most, error_bound_offset(cell.piece.corners[i], n, edge_ab, edge_ac));
+    cell.n_shading[i] = (1.0 - b - c) * glm::dvec3(scene.normals[ids.x]) +
+                        b * glm::dvec3(scene.normals[ids.y]) + c * glm::dvec3(scene.normals[ids.z]);
+    agree[i] = glm::dot(cell.n_shading[i], cell.piece.n);
+  }
+  const auto none = [](const glm::dvec3& v) { return v == glm::dvec3(0.0); };
+  if (std::all_of(cell.n_shading.begin(), cell.n_shading.end(), none)) {  // shared::shading_normal
+    cell.n_shading.fill(cell.piece.n);
+    agree.fill(1.0);
+  }
+  // shared::face_viewer turns both normals to the viewer, as one.
+  const auto [least, most] = std::minmax_element(agree.begin(), agree.end());
+  if (*least < kSure && *most > -kSure) return std::nullopt;
+  if (*most < 0.0)
+    for (glm::dvec3& normal : cell.n_shading) normal = -normal;
+  return cell;
+}
+
+// Bounds over a cell's points: sines between the light and the surface, and how far the light is.
+struct Incidence {
+  double geometric_least, geometric_most, shading_least, shading_most;
+  double distance_most;
+};
+
+Incidence incidence_of(const Cell& cell, const shared::LightParams& light) {
+  const bool parallel = light.kind == shared::kLightDirectional;
+  Incidence r{kInfinity, -kInfinity, kInfinity, -kInfinity, 0.0};
+  std::array<glm::dvec3, 3> ways;
+  double normal_most = 0.0;
+  for (std::size_t i = 0; i < 3; ++i) {
+    ways[i] = parallel ? -glm::dvec3(light.direction) : glm::dvec3(light.position) - cell.piece.corners[i];
+    r.distance_most = std::max(r.distance_most, glm::length(ways[i]));
+    normal_most = std::max(normal_most, glm::length(cell.n_shading[i]));
+  }
+  // Normal and way are both linear over the cell: their product is a mixture of the products at the corners.
+  for (const glm::dvec3& way : ways) {
+    const double geometric = glm::dot(cell.piece.n, way) / r.distance_most;
+    r.geometric_least = std::min(r.geometric_least, geometric);
+    r.geometric_most = std::max(r.geometric_most, geometric);
+    for (const glm::dvec3& n : cell.n_shading) {
+      const double shading = glm::dot(n, way) / (normal_most * r.distance_most);
+      r.shading_least = std::min(r.shading_least, shading);
+      r.shading_most = std::max(r.shading_most, shading);
+    }
+  }
+  return r;
+}
+
+// No more than the light brings any point of the cell (of radiance, before the material).
+glm::vec3 least_radiance(const Cell& cell, const shared::LightParams& light, double distance_most) {
+  if (light.kind == shared::kLightDirectional) return light.radiance;
+  if (!(distance_most < static_cast<double>(light.range) * (1.0 - kSure))) return glm::vec3(0.0f);
+  double strength = light.inverse_square ? 1.0 / std::max(distance_most * distance_most, 1e-12) : 1.0;
+  if (light.kind == shared::kLightSpot) {
+    if (light.cos_outer < 0.0f) return glm::vec3(0.0f);  // the points it reaches are no convex set
+    double cos_least = 1.0;
+    for (const glm::dvec3& p : cell.piece.corners)
+      cos_least = std::min(cos_least, glm::dot(glm::normalize(p - glm::dvec3(light.position)), glm::dvec3(light.direction)));
+    const double wide = std::max(static_cast<double>(light.cos_inner) - light.cos_outer, 1e-6);
+    const double cone = std::clamp((cos_least - kSure - light.cos_outer) / wide, 0.0, 1.0);
+    strength *= cone * cone;
+  }
+  return light.radiance * static_cast<float>(strength);
+}
+
+// Whether every point's light is above the least for which rays are fired (and above nothing).
+bool bright(const Cell& cell, const shared::LightParams& light, const Incidence& incidence, float least_light) {
+  const glm::vec3 radiance = least_radiance(cell, light, incidence.distance_most);
+  const bool textured = cell.material->diffuse_texture >= 0;  // it may be black
+  const glm::vec3 diffuse = textured ? glm::vec3(0.0f) : cell.material->diffuse;
+  const glm::vec3 most = radiance * (diffuse * static_cast<float>(incidence.shading_least) + cell.material->specular);
+  constexpr float kLeastNormal = 1e-30f;
+  return std::max({radiance.r, radiance.g, radiance.b}) > kLeastNormal &&
+         (least_light <= 0.0f || std::max({most.r, most.g, most.b}) > 1.001f * least_light);
+}
+
+}  // namespace
+
+bool LitCells::suits(const Tracer& tracer) {
+  return tracer.offset().method == OffsetMethod::error_bound && tracer.tree().test == TriangleTest::filtered;
+}
+
+LitCells::LitCells(const Scene& scene, const Tracer& tracer) : scene_(scene), tracer_(tracer) {
+  cut_triangles();
+}
+
+void LitCells::cut_triangles() {
+  float cell_size = tracer_.tree().bounds.diagonal() / kCellsAcross;
+  const std::size_t most = kMostCells + kMostCellsATriangle * scene_.triangles.size();
+  first_.resize(scene_.triangles.size());
+  cuts_.resize(scene_.triangles.size());
+  do {
+    cells_ = 0;
+    for (std::uint32_t i = 0; i < first_.size(); ++i) {
+      const auto [a, b, c] = corners_of(scene_, i);
+      const float longest = std::max({glm::distance(a, b), glm::distance(b, c), glm::distance(c, a)});
+      const int cuts = std::clamp(static_cast<int>(std::min(longest / cell_size, float{kMostCuts})), 1, kMostCuts);
+      first_[i] = static_cast<std::uint32_t>(cells_);
+      cuts_[i] = static_cast<std::uint8_t>(cuts);
+      cells_ += 2 * static_cast<std::size_t>(cuts * cuts);
+    }
+    cell_size *= 2.0f;
+  } while (cells_ > most);
+}
+
+void LitCells::forget_what_changed(std::span<const shared::LightParams> lights, float least_light) {
+  const bool all = lights.size() != lights_.size() || least_light != least_light_;
+  if (all) states_.assign(lights.size() * cells_, 0);
+  for (std::size_t slot = 0; slot < lights.size(); ++slot) {
+    if (!all && same(lights[slot], lights_[slot])) continue;
+    std::fill_n(states_.begin() + static_cast<std::ptrdiff_t>(slot * cells_), all ? 0 : cells_, 0);
+    std::erase_if(due_, [&](const Due& due) { return all || due.slot == slot; });
+  }
+  lights_.assign(lights.begin(), lights.end());
+  least_light_ = least_light;
+}
+
+void LitCells::begin_pass(std::span<const shared::LightParams> lights, float least_light, Workers& workers) {
+  forget_what_changed(lights, least_light);
+  std::sort(due_.begin(), due_.end());  // threads noted them in any order
+  const std::size_t now = std::min(due_.size(), kMostAPass);
+  workers.for_each((now + kChunk - 1) / kChunk, [&](std::size_t chunk) {
+    for (std::size_t i = chunk * kChunk; i < std::min(now, (chunk + 1) * kChunk); ++i) look_into(due_[i]);
+  });
+  due_.erase(due_.begin(), due_.begin() + static_cast<std::ptrdiff_t>(now));
+}
+
+void LitCells::look_into(const Due& due) {
+  std::uint8_t& result = state(due);
+  if (result != kDue) return;  // a ray was blocked meanwhile
+  result = kLeftToRays;
+  const auto triangle =
+      static_cast<std::uint32_t>(std::upper_bound(first_.begin(), first_.end(), due.cell) - first_.begin() - 1);
+  const int cuts = cuts_[triangle], cell_number = static_cast<int>(due.cell - first_[triangle]);
+  const bool back = cell_number >= cuts * cuts;
+  const auto cell =
+      make_cell(scene_, triangle, back, cell_corners(back ? cell_number - cuts * cuts : cell_number, cuts));
+  if (!cell) return;
+  const shared::LightParams& light = lights_[due.slot];
+  const Incidence incidence = incidence_of(*cell, light);
+  if (incidence.geometric_most < -kSure || incidence.shading_most < -kSure) {
+    result = kTurnedAway;
+  } else if (incidence.geometric_least > kSure && incidence.shading_least > kSure &&
+             bright(*cell, light, incidence, least_light_)) {
+    const std::optional<Shaft> shaft = Shaft::of(cell->piece, light);
+    if (shaft && shaft->clear(tracer_.tree())) result = kLit;
+  }
+}
+
+LitCells::Side LitCells::side_of(std::uint32_t triangle, const glm::vec3& eye) const {
+  const std::array<glm::vec3, 3> corners = corners_of(scene_, triangle);
+  const glm::dvec3 ab(corners[1] - corners[0]), ac(corners[2] - corners[0]), to_eye(eye - corners[0]);
+  const glm::dvec3 n = glm::cross(ab, ac);
+  const double height = glm::dot(n, to_eye);
+  const double reach = glm::length(n) * (glm::length(to_eye) + glm::length(ab) + glm::length(ac));
+  if (!(std::abs(height) > kSure * reach)) return {};
+  const int cuts = cuts_[triangle];
+  return {first_[triangle] + static_cast<std::uint32_t>(height > 0.0 ? 0 : cuts * cuts), cuts};
+}
+
+std::optional<std::uint32_t> LitCells::cell_of(const Side& side, const glm::vec3& weights) {
+  if (side.cuts == 0) return std::nullopt;
+  const auto cuts = static_cast<float>(side.cuts);
+  const float edge = kEdge / cuts, scale = cuts / (1.0f - 3.0f * edge);
+  const float b = (weights.y - edge) * scale, c = (weights.z - edge) * scale;
+  if (!(b >= 0.0f && c >= 0.0f && b + c <= cuts)) return std::nullopt;
+  if (side.cuts == 1) return side.first;
+  const int row = std::min(static_cast<int>(b), side.cuts - 1);
+  const int column = std::min(static_cast<int>(c), side.cuts - 1 - row);
+  const bool hangs = column < side.cuts - 1 - row && b - static_cast<float>(row) + c - static_cast<float>(column) > 1.0f;
+  return side.first + static_cast<std::uint32_t>(row * (2 * side.cuts - row) + 2 * column + (hangs ? 1 : 0));
+}
+
+LitCells::Known LitCells::known(std::uint32_t cell, std::size_t slot) const {
+  const std::uint8_t state = std::atomic_ref(const_cast<std::uint8_t&>(states_[slot * cells_ + cell])).load(std::memory_order_relaxed);
+  return state == kLit ? Known::lit : state == kTurnedAway ? Known::turned_away : Known::nothing;
+}
+
+void LitCells::note(std::span<const Finding> findings) {
+  std::vector<Due> due;
+  for (const Finding& f : findings) {
+    const Due one{f.slot, f.cell};
+    std::atomic_ref<std::uint8_t> shared_state(state(one));
+    std::uint8_t count = shared_state.load(std::memory_order_relaxed);
+    if (f.blocked) {
+      shared_state.store(kLeftToRays, std::memory_order_relaxed);
+      continue;
+    }
+    while (count < kDue && !shared_state.compare_exchange_weak(count, count + 1, std::memory_order_relaxed)) {
+    }
+    if (count + 1 == kDue) due.push_back(one);
+  }
+  if (due.empty()) return;
+  const std::lock_guard lock(mutex_);
+  due_.insert(due_.end(), due.begin(), due.end());
+}
+
+LitCells::Count LitCells::count() const {
+  return {static_cast<std::size_t>(std::count(states_.begin(), states_.end(), kLit)),
+          static_cast<std::size_t>(std::count(states_.begin(), states_.end(), kTurnedAway))};
+}
+
+}  // namespace pinocchio

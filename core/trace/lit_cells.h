@@ -1,0 +1,91 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <mutex>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "core/parallel/workers.h"
+#include "core/scene/scene.h"
+#include "core/trace/shared.h"
+#include "core/trace/tracer.h"
+
+namespace pinocchio {
+
+// What earlier frames have taught about the lights: pieces of triangles (cells) that a light reaches as a
+// whole, or that turn away from it as a whole. Their pixels need no shadow ray, not even their surface, and
+// their mask bits are the ones that rays would give. A cell is looked into once its pixels have cost about
+// as much as looking; a single ray that is blocked settles that it never is. Large triangles are cut into
+// many cells. What is known holds for one side of a triangle, from wherever it is looked at, until a light
+// changes.
+//
+// One pass at a time: begin_pass, then any thread may ask and note. What is known changes in begin_pass alone,
+// so that a pass fires the same rays on any number of threads.
+class LitCells {
+ public:
+  enum class Known : std::uint8_t { nothing, lit, turned_away };
+
+  // Whether a tracer's rays are exact enough to be spared: an error bound as offset, no rounding in its triangle
+  // test.
+  [[nodiscard]] static bool suits(const Tracer& tracer);
+
+  // Both stay where they are as long as this lives.
+  LitCells(const Scene& scene, const Tracer& tracer);
+
+  // Of the coming pass: the casting lights in the order of mask slots, and the light below which no ray is
+  // fired. Looks into the cells that are due, a bounded number of them.
+  void begin_pass(std::span<const shared::LightParams> lights, float least_light, Workers& workers);
+
+  // One side of a triangle.
+  struct Side {
+    std::uint32_t first = 0;  // its first cell
+    int cuts = 0;             // each edge is cut into so many; 0: nothing is known of it
+  };
+  // The side that `eye` sees; nothing where the eye is too near the triangle's plane.
+  [[nodiscard]] Side side_of(std::uint32_t triangle, const glm::vec3& eye) const;
+  // Weights are those of the triangle's corners. Nothing close to its edges.
+  [[nodiscard]] static std::optional<std::uint32_t> cell_of(const Side& side, const glm::vec3& weights);
+
+  [[nodiscard]] Known known(std::uint32_t cell, std::size_t slot) const;
+
+  // A pixel of the cell and what became of its ray towards the light of a slot; none was needed: not blocked.
+  struct Finding {
+    std::uint32_t cell;
+    std::uint8_t slot;
+    bool blocked;
+  };
+  void note(std::span<const Finding> findings);
+
+  // Cells that need no rays, of all that were looked at; for people.
+  struct Count {
+    std::size_t lit = 0, turned_away = 0;
+  };
+  [[nodiscard]] Count count() const;
+
+ private:
+  struct Due {
+    std::uint8_t slot;
+    std::uint32_t cell;
+    friend auto operator<=>(const Due&, const Due&) = default;
+  };
+
+  void cut_triangles();
+  void forget_what_changed(std::span<const shared::LightParams> lights, float least_light);
+  [[nodiscard]] std::uint8_t& state(const Due& due) { return states_[due.slot * cells_ + due.cell]; }
+  void look_into(const Due& due);
+
+  const Scene& scene_;
+  const Tracer& tracer_;
+  std::vector<std::uint32_t> first_;  // a triangle's first cell, those of its front before those of its back
+  std::vector<std::uint8_t> cuts_;
+  std::size_t cells_ = 0;
+  std::vector<shared::LightParams> lights_;
+  float least_light_ = 0.0f;
+  std::vector<std::uint8_t> states_;  // [slot][cell]: pixels counted, or one of the ends (lit_cells.cpp)
+  std::mutex mutex_;                  // of due_
+  std::vector<Due> due_;
+};
+
+}  // namespace pinocchio
