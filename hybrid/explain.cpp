@@ -90,8 +90,9 @@ std::string why_threads(const Plan& plan) {
 }
 
 std::string why_rays(const Plan& plan) {
-  const std::string still =
-      plan.reuse ? "a frame that is the last one again costs no ray" : "no frame is reused";
+  const std::string still = plan.reuse ? "a frame that is the last one again costs no ray, and what a light "
+                                         "is known to reach costs no shadow ray"
+                                       : "nothing of earlier frames is reused";
   return plan.least_light > 0.0f
              ? "no shadow ray where a light brings less than half a step of an 8-bit picture; " + still
              : "a shadow ray wherever a light may reach: the mask itself is kept; " + still;

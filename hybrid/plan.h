@@ -48,7 +48,9 @@ struct Plan {
   int threads = 0;                                       // workers; 0: all cores
   // Light that a ray brings its pixel, below which no ray is fired, linear. Shadow rays: 0, all are fired.
   float least_contribution = kLeastContribution, least_light = 0.0f;
-  bool reuse = true;  // nothing is drawn or traced again for a frame that asks for what the last one did
+  // Nothing is drawn or traced again for a frame that asks for what the last one did, and no shadow ray is fired
+  // where earlier frames have shown that the light comes through (core/trace/lit_cells.h).
+  bool reuse = true;
 
   // Design 1 alone:
   Primary primary = Primary::raster;

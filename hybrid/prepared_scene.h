@@ -1,11 +1,13 @@
 #pragma once
 
 #include <memory>
+#include <mutex>
 #include <optional>
 #include <stdexcept>
 #include <vector>
 
 #include "core/scene/scene.h"
+#include "core/trace/lit_cells.h"
 #include "core/trace/tracer.h"
 #include "hybrid/gpu_scene.h"
 #include "hybrid/plan.h"
@@ -54,7 +56,14 @@ struct PreparedScene {
     return *tracer;
   }
 
+  // What shadow passes of this scene have learned, for the next one: of any thread. Null for the first pass
+  // (a single picture learns nothing that it could use) and where rays are not exact enough to be spared.
+  [[nodiscard]] LitCells* lit_cells() const;
+
  private:
+  mutable std::mutex cells_mutex_;
+  mutable std::shared_ptr<const Tracer> cells_tracer_;  // that they were made for
+  mutable std::unique_ptr<LitCells> cells_;
   std::shared_ptr<const PreparedScene> origin_;  // whose triangles the tree looks into; null: this one's
 };
 

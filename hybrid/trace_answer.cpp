@@ -18,8 +18,8 @@ const Image<std::uint32_t>& sampled(const Image<std::uint32_t>& ids, int scale, 
 }  // namespace
 
 TraceJob trace_job(const FrameRequest& request, const shared::ViewParams& view, Workers& workers, int scale) {
-  return {request.scene->scene,     request.scene->required_tracer(),   workers,
-          scaled_view(view, scale), request.plan.least_contribution, request.plan.least_light};
+  return {request.scene->scene,     request.scene->required_tracer(), workers,
+          scaled_view(view, scale), request.plan.least_contribution,  request.plan.least_light};
 }
 
 void trace_answer(const FrameRequest& request, const shared::ViewParams& view, Workers& workers,
@@ -29,8 +29,9 @@ void trace_answer(const FrameRequest& request, const shared::ViewParams& view, W
   Image<std::uint32_t> store;
   if (plan.mask_bits > 0) {
     const StageTimer timer(record, Stage::trace_shadow);
-    record.rays += trace_shadow_mask(trace_job(request, view, workers, plan.mask_scale),
-                                     sampled(ids, plan.mask_scale, store), plan.mask_bits, mask);
+    TraceJob job = trace_job(request, view, workers, plan.mask_scale);
+    if (plan.reuse) job.cells = request.scene->lit_cells();
+    record.rays += trace_shadow_mask(job, sampled(ids, plan.mask_scale, store), plan.mask_bits, mask);
   }
   if (plan.reflects()) {
     const StageTimer timer(record, Stage::trace_reflection);

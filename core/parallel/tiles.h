@@ -1,7 +1,8 @@
 #pragma once
 
-#include <glm/glm.hpp>
+#include <bit>
 #include <cstddef>
+#include <glm/glm.hpp>
 
 namespace pinocchio {
 
@@ -32,11 +33,13 @@ class TileGrid {
     return {lo, glm::min(lo + kTileSize, size_)};
   }
 
-  // Calls visit(x, y) for every pixel of `box`, no larger than a tile, along a Z curve: 4, 8, 16 or 64 in a row
-  // are neighbours in the picture, whatever the width of a packet.
+  // Calls visit(x, y) for every pixel of `box`, no larger than a tile, along a Z curve: 4, 8, 16 or 64 in a
+  // row are neighbours in the picture, whatever the width of a packet.
   template <class Visit>
   static void for_each_pixel(const PixelBox& box, Visit visit) {
-    for (int i = 0; i < kTileSize * kTileSize; ++i) {
+    const glm::ivec2 size = box.size();
+    const auto side = std::bit_ceil(static_cast<unsigned>(size.x > size.y ? size.x : size.y));
+    for (int i = 0; i < static_cast<int>(side * side); ++i) {
       const int x = box.lo.x + even_bits(i), y = box.lo.y + even_bits(i >> 1);
       if (x < box.hi.x && y < box.hi.y) visit(x, y);
     }

@@ -42,7 +42,8 @@ struct StackEntry {
 // A lane lives while its interval within the node is not empty; `t_best`, which the leaf may lower, ends
 // its interval. Which leaves a lane sees depends on that lane's ray alone.
 template <class Leaf>
-inline void walk(const BspTree& tree, const Packet& p, const Course& c, Mask lanes, const Float& t_best, Leaf leaf) {
+inline void walk(const BspTree& tree, const Packet& p, const Course& c, Mask lanes, const Float& t_best,
+                 Leaf leaf) {
   Float t_near(0.0f), t_far = t_best * Float(kLate);
   enter_bounds(tree.bounds, p, c, t_near, t_far);
   StackEntry stack[kMaxTreeDepth];

@@ -25,9 +25,12 @@ constexpr float kCellsAcross = 200.0f;          // cells along the scene's diago
 constexpr std::size_t kMostCells = 1u << 22;    // ... fewer where that makes more than so many, beside
 constexpr std::size_t kMostCellsATriangle = 4;  // so many a triangle
 
-// Cells keep this share of themselves off the triangle's edges: a shaft may be wider than its rays and yet not
-// touch the neighbours. Pixels between are left to rays.
+// Cells keep this share of themselves off the triangle's edges: a shaft may be wider than its rays and yet
+// not touch the neighbours. Pixels between are left to rays.
 constexpr float kEdge = 1.0f / 256.0f;
+
+// More than the rounding of a weight, in cells.
+constexpr float kRounded = 0.01f;
 
 // Sines and lengths (of unit vectors) below this are too near zero to be sure of their sign.
 constexpr double kSure = 1e-4;
@@ -43,8 +46,8 @@ std::array<glm::vec3, 3> corners_of(const Scene& scene, std::uint32_t triangle) 
   return {scene.positions[ids.x], scene.positions[ids.y], scene.positions[ids.z]};
 }
 
-// Weights of b and c at the corners of cell `i` of a triangle whose edges are cut into `cuts`: row by row along b,
-// in a row by turns a cell that stands and one that hangs.
+// Weights of b and c at the corners of cell `i` of a triangle whose edges are cut into `cuts`: row by row
+// along b, in a row by turns a cell that stands and one that hangs.
 std::array<glm::dvec2, 3> cell_corners(int i, int cuts) {
   int row = 0;
   for (; i >= 2 * (cuts - row) - 1; ++row) i -= 2 * (cuts - row) - 1;
@@ -84,8 +87,8 @@ std::optional<Cell> make_cell(const Scene& scene, std::uint32_t triangle, bool b
   for (std::size_t i = 0; i < 3; ++i) {
     const double b = weights[i].x, c = weights[i].y;
     cell.piece.corners[i] = a + b * ab + c * ac;
-    cell.piece.lift_most = std::max<double>(
-        cell.piece.lift_most, error_bound_offset(cell.piece.corners[i], n, edge_ab, edge_ac));
+    cell.piece.lift_most = std::max<double>(cell.piece.lift_most,
+                                            error_bound_offset(cell.piece.corners[i], n, edge_ab, edge_ac));
     cell.n_shading[i] = (1.0 - b - c) * glm::dvec3(scene.normals[ids.x]) +
                         b * glm::dvec3(scene.normals[ids.y]) + c * glm::dvec3(scene.normals[ids.z]);
     agree[i] = glm::dot(cell.n_shading[i], cell.piece.n);
@@ -97,7 +100,7 @@ std::optional<Cell> make_cell(const Scene& scene, std::uint32_t triangle, bool b
   }
   // shared::face_viewer turns both normals to the viewer, as one.
   const auto [least, most] = std::minmax_element(agree.begin(), agree.end());
-  if (*least < kSure && *most > -kSure) return std::nullopt;
+  if (*least<kSure&& * most> - kSure) return std::nullopt;
   if (*most < 0.0)
     for (glm::dvec3& normal : cell.n_shading) normal = -normal;
   return cell;
@@ -142,7 +145,8 @@ glm::vec3 least_radiance(const Cell& cell, const shared::LightParams& light, dou
     if (light.cos_outer < 0.0f) return glm::vec3(0.0f);  // the points it reaches are no convex set
     double cos_least = 1.0;
     for (const glm::dvec3& p : cell.piece.corners)
-      cos_least = std::min(cos_least, glm::dot(glm::normalize(p - glm::dvec3(light.position)), glm::dvec3(light.direction)));
+      cos_least = std::min(
+          cos_least, glm::dot(glm::normalize(p - glm::dvec3(light.position)), glm::dvec3(light.direction)));
     const double wide = std::max(static_cast<double>(light.cos_inner) - light.cos_outer, 1e-6);
     const double cone = std::clamp((cos_least - kSure - light.cos_outer) / wide, 0.0, 1.0);
     strength *= cone * cone;
@@ -151,11 +155,13 @@ glm::vec3 least_radiance(const Cell& cell, const shared::LightParams& light, dou
 }
 
 // Whether every point's light is above the least for which rays are fired (and above nothing).
-bool bright(const Cell& cell, const shared::LightParams& light, const Incidence& incidence, float least_light) {
+bool bright(const Cell& cell, const shared::LightParams& light, const Incidence& incidence,
+            float least_light) {
   const glm::vec3 radiance = least_radiance(cell, light, incidence.distance_most);
   const bool textured = cell.material->diffuse_texture >= 0;  // it may be black
   const glm::vec3 diffuse = textured ? glm::vec3(0.0f) : cell.material->diffuse;
-  const glm::vec3 most = radiance * (diffuse * static_cast<float>(incidence.shading_least) + cell.material->specular);
+  const glm::vec3 most =
+      radiance * (diffuse * static_cast<float>(incidence.shading_least) + cell.material->specular);
   constexpr float kLeastNormal = 1e-30f;
   return std::max({radiance.r, radiance.g, radiance.b}) > kLeastNormal &&
          (least_light <= 0.0f || std::max({most.r, most.g, most.b}) > 1.001f * least_light);
@@ -181,7 +187,8 @@ void LitCells::cut_triangles() {
     for (std::uint32_t i = 0; i < first_.size(); ++i) {
       const auto [a, b, c] = corners_of(scene_, i);
       const float longest = std::max({glm::distance(a, b), glm::distance(b, c), glm::distance(c, a)});
-      const int cuts = std::clamp(static_cast<int>(std::min(longest / cell_size, float{kMostCuts})), 1, kMostCuts);
+      const int cuts =
+          std::clamp(static_cast<int>(std::min(longest / cell_size, float{kMostCuts})), 1, kMostCuts);
       first_[i] = static_cast<std::uint32_t>(cells_);
       cuts_[i] = static_cast<std::uint8_t>(cuts);
       cells_ += 2 * static_cast<std::size_t>(cuts * cuts);
@@ -202,7 +209,9 @@ void LitCells::forget_what_changed(std::span<const shared::LightParams> lights, 
   least_light_ = least_light;
 }
 
-void LitCells::begin_pass(std::span<const shared::LightParams> lights, float least_light, Workers& workers) {
+std::unique_lock<std::mutex> LitCells::begin_pass(std::span<const shared::LightParams> lights,
+                                                  float least_light, Workers& workers) {
+  std::unique_lock pass(pass_);
   forget_what_changed(lights, least_light);
   std::sort(due_.begin(), due_.end());  // threads noted them in any order
   const std::size_t now = std::min(due_.size(), kMostAPass);
@@ -210,14 +219,15 @@ void LitCells::begin_pass(std::span<const shared::LightParams> lights, float lea
     for (std::size_t i = chunk * kChunk; i < std::min(now, (chunk + 1) * kChunk); ++i) look_into(due_[i]);
   });
   due_.erase(due_.begin(), due_.begin() + static_cast<std::ptrdiff_t>(now));
+  return pass;
 }
 
 void LitCells::look_into(const Due& due) {
   std::uint8_t& result = state(due);
   if (result != kDue) return;  // a ray was blocked meanwhile
   result = kLeftToRays;
-  const auto triangle =
-      static_cast<std::uint32_t>(std::upper_bound(first_.begin(), first_.end(), due.cell) - first_.begin() - 1);
+  const auto triangle = static_cast<std::uint32_t>(std::upper_bound(first_.begin(), first_.end(), due.cell) -
+                                                   first_.begin() - 1);
   const int cuts = cuts_[triangle], cell_number = static_cast<int>(due.cell - first_[triangle]);
   const bool back = cell_number >= cuts * cuts;
   const auto cell =
@@ -242,25 +252,57 @@ LitCells::Side LitCells::side_of(std::uint32_t triangle, const glm::vec3& eye) c
   const double reach = glm::length(n) * (glm::length(to_eye) + glm::length(ab) + glm::length(ac));
   if (!(std::abs(height) > kSure * reach)) return {};
   const int cuts = cuts_[triangle];
-  return {first_[triangle] + static_cast<std::uint32_t>(height > 0.0 ? 0 : cuts * cuts), cuts};
+  const float edge = kEdge / static_cast<float>(cuts);
+  return {first_[triangle] + static_cast<std::uint32_t>(height > 0.0 ? 0 : cuts * cuts), cuts, edge,
+          static_cast<float>(cuts) / (1.0f - 3.0f * edge)};
 }
 
 std::optional<std::uint32_t> LitCells::cell_of(const Side& side, const glm::vec3& weights) {
-  if (side.cuts == 0) return std::nullopt;
-  const auto cuts = static_cast<float>(side.cuts);
-  const float edge = kEdge / cuts, scale = cuts / (1.0f - 3.0f * edge);
-  const float b = (weights.y - edge) * scale, c = (weights.z - edge) * scale;
-  if (!(b >= 0.0f && c >= 0.0f && b + c <= cuts)) return std::nullopt;
-  if (side.cuts == 1) return side.first;
+  const float b = (weights.y - side.edge) * side.scale, c = (weights.z - side.edge) * side.scale;
+  if (!(b >= 0.0f && c >= 0.0f && b + c <= static_cast<float>(side.cuts)))
+    return std::nullopt;  // or no cuts at all
+  if (side.cuts <= 1) return side.cuts == 1 ? std::optional(side.first) : std::nullopt;
   const int row = std::min(static_cast<int>(b), side.cuts - 1);
   const int column = std::min(static_cast<int>(c), side.cuts - 1 - row);
-  const bool hangs = column < side.cuts - 1 - row && b - static_cast<float>(row) + c - static_cast<float>(column) > 1.0f;
-  return side.first + static_cast<std::uint32_t>(row * (2 * side.cuts - row) + 2 * column + (hangs ? 1 : 0));
+  const float across = b - static_cast<float>(row) + c - static_cast<float>(column);
+  const int hangs = (across > 1.0f) & (column < side.cuts - 1 - row);
+  return side.first + static_cast<std::uint32_t>(row * (2 * side.cuts - row) + 2 * column + hangs);
 }
 
 LitCells::Known LitCells::known(std::uint32_t cell, std::size_t slot) const {
-  const std::uint8_t state = std::atomic_ref(const_cast<std::uint8_t&>(states_[slot * cells_ + cell])).load(std::memory_order_relaxed);
+  const std::uint8_t state = std::atomic_ref(const_cast<std::uint8_t&>(states_[slot * cells_ + cell]))
+                                 .load(std::memory_order_relaxed);
   return state == kLit ? Known::lit : state == kTurnedAway ? Known::turned_away : Known::nothing;
+}
+
+LitCells::Known LitCells::known_between(const Side& side, std::span<const glm::vec3> weights,
+                                        std::size_t slot) const {
+  if (side.cuts == 0) return Known::nothing;
+  float b_least = kInfinity, b_most = -kInfinity, c_least = kInfinity, c_most = -kInfinity,
+        sum_most = -kInfinity;
+  for (const glm::vec3& w : weights) {
+    const float b = (w.y - side.edge) * side.scale, c = (w.z - side.edge) * side.scale;
+    b_least = std::min(b_least, b), b_most = std::max(b_most, b);
+    c_least = std::min(c_least, c), c_most = std::max(c_most, c);
+    sum_most = std::max(sum_most, b + c);
+  }
+  // Points between may be rounded past the outermost.
+  b_least -= kRounded, c_least -= kRounded, b_most += kRounded, c_most += kRounded;
+  if (!(b_least >= 0.0f && c_least >= 0.0f && sum_most + kRounded <= static_cast<float>(side.cuts)))
+    return Known::nothing;
+  Known result = Known::nothing;
+  for (int row = static_cast<int>(b_least); row <= std::min(static_cast<int>(b_most), side.cuts - 1); ++row) {
+    const int last = std::min(static_cast<int>(c_most), side.cuts - 1 - row);
+    for (int column = static_cast<int>(c_least); column <= last; ++column) {
+      for (int hangs = 0; hangs <= (column < side.cuts - 1 - row ? 1 : 0); ++hangs) {
+        const Known here = known(
+            side.first + static_cast<std::uint32_t>(row * (2 * side.cuts - row) + 2 * column + hangs), slot);
+        if (here == Known::nothing || (result != Known::nothing && here != result)) return Known::nothing;
+        result = here;
+      }
+    }
+  }
+  return result;
 }
 
 void LitCells::note(std::span<const Finding> findings) {
@@ -278,7 +320,7 @@ void LitCells::note(std::span<const Finding> findings) {
     if (count + 1 == kDue) due.push_back(one);
   }
   if (due.empty()) return;
-  const std::lock_guard lock(mutex_);
+  const std::lock_guard lock(noting_);
   due_.insert(due_.end(), due.begin(), due.end());
 }
 

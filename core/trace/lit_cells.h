@@ -21,27 +21,30 @@ namespace pinocchio {
 // many cells. What is known holds for one side of a triangle, from wherever it is looked at, until a light
 // changes.
 //
-// One pass at a time: begin_pass, then any thread may ask and note. What is known changes in begin_pass alone,
-// so that a pass fires the same rays on any number of threads.
+// One pass at a time: begin_pass, then any thread may ask and note. What is known changes in begin_pass
+// alone, so that a pass fires the same rays on any number of threads.
 class LitCells {
  public:
   enum class Known : std::uint8_t { nothing, lit, turned_away };
 
-  // Whether a tracer's rays are exact enough to be spared: an error bound as offset, no rounding in its triangle
-  // test.
+  // Whether a tracer's rays are exact enough to be spared: an error bound as offset, no rounding in its
+  // triangle test.
   [[nodiscard]] static bool suits(const Tracer& tracer);
 
   // Both stay where they are as long as this lives.
   LitCells(const Scene& scene, const Tracer& tracer);
 
-  // Of the coming pass: the casting lights in the order of mask slots, and the light below which no ray is
-  // fired. Looks into the cells that are due, a bounded number of them.
-  void begin_pass(std::span<const shared::LightParams> lights, float least_light, Workers& workers);
+  // The casting lights in the order of mask slots, and the light below which no ray is fired. Looks into the
+  // cells that are due, a bounded number of them. The pass lasts as long as what is returned.
+  [[nodiscard]] std::unique_lock<std::mutex> begin_pass(std::span<const shared::LightParams> lights,
+                                                        float least_light, Workers& workers);
 
   // One side of a triangle.
   struct Side {
     std::uint32_t first = 0;  // its first cell
     int cuts = 0;             // each edge is cut into so many; 0: nothing is known of it
+    float edge = 0.0f;        // no cell has weights below this
+    float scale = 0.0f;       // cells in a unit of weight
   };
   // The side that `eye` sees; nothing where the eye is too near the triangle's plane.
   [[nodiscard]] Side side_of(std::uint32_t triangle, const glm::vec3& eye) const;
@@ -49,6 +52,9 @@ class LitCells {
   [[nodiscard]] static std::optional<std::uint32_t> cell_of(const Side& side, const glm::vec3& weights);
 
   [[nodiscard]] Known known(std::uint32_t cell, std::size_t slot) const;
+  // What is known alike of all cells between the points with these weights (in their convex hull).
+  [[nodiscard]] Known known_between(const Side& side, std::span<const glm::vec3> weights,
+                                    std::size_t slot) const;
 
   // A pixel of the cell and what became of its ray towards the light of a slot; none was needed: not blocked.
   struct Finding {
@@ -84,7 +90,8 @@ class LitCells {
   std::vector<shared::LightParams> lights_;
   float least_light_ = 0.0f;
   std::vector<std::uint8_t> states_;  // [slot][cell]: pixels counted, or one of the ends (lit_cells.cpp)
-  std::mutex mutex_;                  // of due_
+  std::mutex pass_;
+  std::mutex noting_;  // of due_
   std::vector<Due> due_;
 };
 

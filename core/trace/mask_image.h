@@ -42,6 +42,15 @@ class MaskImage {
     bytes_[byte_of(x, y)] |= static_cast<std::uint8_t>(1u << (shift_of(x) + slot));
   }
 
+  // The same in 8 x 8 pixels; x is a multiple of 8.
+  void set_block(int x, int y, int slot) {
+    // Pixels of 1, 2, 4 and 8 bits repeat within a byte.
+    const unsigned every = bits_ == 1 ? 0xffu : bits_ == 2 ? 0x55u : bits_ == 4 ? 0x11u : 0x01u;
+    for (int row = y; row < y + 8; ++row)
+      for (int i = 0; i < bits_; ++i)
+        bytes_[byte_of(x, row) + static_cast<std::size_t>(i)] |= static_cast<std::uint8_t>(every << slot);
+  }
+
  private:
   [[nodiscard]] std::size_t byte_of(int x, int y) const {
     return static_cast<std::size_t>(y) * static_cast<std::size_t>(row_bytes_) +

@@ -4,8 +4,9 @@
 namespace pinocchio::PINOCCHIO_LANES {
 namespace {
 
-// A computed distance to a plane, (split - o) * (1 / d), is off by three roundings at most. Stretches are kept
-// wider by twice that and its own rounding, so that distances can be held against their ends as they are.
+// A computed distance to a plane, (split - o) * (1 / d), is off by three roundings at most. Stretches are
+// kept wider by twice that and its own rounding, so that distances can be held against their ends as they
+// are.
 constexpr float kEarly = 1.0f - 0x1p-21f, kLate = 1.0f + 0x1p-21f;
 
 inline bool finite(float x) {

@@ -12,6 +12,7 @@ namespace pinocchio {
 namespace {
 
 constexpr std::uint32_t kNoCell = 0xffffffffu;
+constexpr int kBlock = 8;  // pixels a side that are looked up together
 
 // The shadow rays of one tile towards one light, and the pixel and cell each answers for.
 struct LightRays {
@@ -34,28 +35,15 @@ float most_light(const shared::LightParams& light, const Surface& surface) {
 // One tile of the pass.
 class TileShadows {
  public:
-  TileShadows(const TraceJob& job, const Slots& lights, MaskImage& mask) : job_(job), lights_(lights), mask_(mask) {}
+  TileShadows(const TraceJob& job, const Slots& lights, MaskImage& mask)
+      : job_(job), lights_(lights), mask_(mask) {}
 
-  void add(std::uint32_t id, glm::ivec2 pixel) {
-    const Ray ray = pixel_ray(job_.view, pixel.x, pixel.y);
-    const std::uint32_t cell = job_.cells ? cell_of(id, ray) : kNoCell;
-    unsigned open = (1u << lights_.size()) - 1u;  // slots of which nothing is known
-    if (cell != kNoCell) open = take_known(cell, pixel);
-    if (open == 0) return;
-    const Surface surface = surface_at(job_.scene, id, ray.origin, ray.direction, job_.tracer.offset());
-    for (std::size_t slot = 0; slot < lights_.size(); ++slot) {
-      if (!(open >> slot & 1u)) continue;
-      const bool dim = job_.least_light > 0.0f && most_light(lights_[slot], surface) < job_.least_light;
-      if (const std::optional<Ray> to_light = dim ? std::nullopt : shadow_ray(lights_[slot], surface)) {
-        by_light_[slot].rays.push_back(*to_light);
-        by_light_[slot].pixels.push_back(pixel);
-        by_light_[slot].cells.push_back(cell);
-      } else if (cell != kNoCell) {
-        findings_.push_back({cell, static_cast<std::uint8_t>(slot), false});
-      }
-    }
+  void add(const Image<std::uint32_t>& ids, const PixelBox& block) {
+    if (job_.cells && all_known(ids, block)) return;
+    TileGrid::for_each_pixel(block, [&](int x, int y) {
+      if (const std::uint32_t id = ids.at(x, y); id != kNoTriangle) add(id, {x, y});
+    });
   }
-
   // Rays fired.
   std::uint64_t finish() {
     std::uint64_t fired = 0;
@@ -76,17 +64,65 @@ class TileShadows {
   }
 
  private:
-  std::uint32_t cell_of(std::uint32_t id, const Ray& ray) {
-    if (id != triangle_) {  // neighbours often see the same
-      triangle_ = id;
-      side_ = job_.cells->side_of(id, ray.origin);
+  void add(std::uint32_t id, glm::ivec2 pixel) {
+    const Ray ray = pixel_ray(job_.view, pixel.x, pixel.y);
+    const std::uint32_t cell = job_.cells ? cell_of(id, ray) : kNoCell;
+    unsigned open = (1u << lights_.size()) - 1u;  // slots of which nothing is known
+    if (cell != kNoCell) open = take_known(cell, pixel);
+    if (open == 0) return;
+    const auto surface_of = job_.least_light > 0.0f ? surface_at : bare_surface_at;
+    const Surface surface = surface_of(job_.scene, id, ray.origin, ray.direction, job_.tracer.offset());
+    for (std::size_t slot = 0; slot < lights_.size(); ++slot) {
+      if (!(open >> slot & 1u)) continue;
+      const bool dim = job_.least_light > 0.0f && most_light(lights_[slot], surface) < job_.least_light;
+      if (const std::optional<Ray> to_light = dim ? std::nullopt : shadow_ray(lights_[slot], surface)) {
+        by_light_[slot].rays.push_back(*to_light);
+        by_light_[slot].pixels.push_back(pixel);
+        by_light_[slot].cells.push_back(cell);
+      } else if (cell != kNoCell) {
+        findings_.push_back({cell, static_cast<std::uint8_t>(slot), false});
+      }
     }
-    if (side_.cuts == 0) return kNoCell;
-    const glm::uvec3& corners = job_.scene.triangles[id];
-    const std::vector<glm::vec3>& p = job_.scene.positions;
-    return LitCells::cell_of(side_, shared::barycentric_of(ray.origin, ray.direction, p[corners.x],
-                                                           p[corners.y], p[corners.z]))
-        .value_or(kNoCell);
+  }
+
+  // Whether one triangle fills the block and all of its lights are known: then their mask bits are set.
+  bool all_known(const Image<std::uint32_t>& ids, const PixelBox& block) {
+    if (block.size() != glm::ivec2(kBlock)) return false;
+    const std::uint32_t id = ids.at(block.lo.x, block.lo.y);
+    if (id == kNoTriangle) return false;
+    bool same = true;
+    for (int y = block.lo.y; y < block.hi.y; ++y)
+      for (int x = block.lo.x; x < block.hi.x; ++x) same &= ids.at(x, y) == id;
+    if (!same) return false;
+    std::array<glm::vec3, 4> weights;
+    for (int i = 0; i < 4; ++i) {
+      const Ray ray =
+          pixel_ray(job_.view, i % 2 == 0 ? block.lo.x : block.hi.x - 1, i < 2 ? block.lo.y : block.hi.y - 1);
+      look_at(id, ray.origin);
+      weights[static_cast<std::size_t>(i)] = weights_at(job_.scene, id, ray.origin, ray.direction);
+    }
+    std::array<LitCells::Known, kMaxCastingLights> known;
+    for (std::size_t slot = 0; slot < lights_.size(); ++slot) {
+      known[slot] = job_.cells->known_between(side_, weights, slot);
+      if (known[slot] == LitCells::Known::nothing) return false;
+    }
+    for (std::size_t slot = 0; slot < lights_.size(); ++slot)
+      if (known[slot] == LitCells::Known::lit)
+        mask_.set_block(block.lo.x, block.lo.y, static_cast<int>(slot));
+    return true;
+  }
+
+  void look_at(std::uint32_t id, const glm::vec3& eye) {
+    if (id == triangle_) return;  // neighbours often see the same
+    triangle_ = id;
+    side_ = job_.cells->side_of(id, eye);
+  }
+
+  std::uint32_t cell_of(std::uint32_t id, const Ray& ray) {
+    look_at(id, ray.origin);
+    return side_.cuts == 0 ? kNoCell
+                           : LitCells::cell_of(side_, weights_at(job_.scene, id, ray.origin, ray.direction))
+                                 .value_or(kNoCell);
   }
 
   // Sets the mask bits that are known; the slots that are not.
@@ -119,14 +155,16 @@ RayCounts trace_shadow_mask(const TraceJob& job, const Image<std::uint32_t>& ids
   mask.resize(ids.size(), bits);
   if (lights.empty()) return {};
 
-  if (job.cells) job.cells->begin_pass(lights, job.least_light, job.workers);
+  std::unique_lock<std::mutex> pass;
+  if (job.cells) pass = job.cells->begin_pass(lights, job.least_light, job.workers);
   std::atomic<std::uint64_t> fired{0};
   const TileGrid grid(ids.size());
   job.workers.for_each(grid.count(), [&](std::size_t i) {
     TileShadows tile(job, lights, mask);
-    TileGrid::for_each_pixel(grid.tile(i), [&](int x, int y) {
-      if (const std::uint32_t id = ids.at(x, y); id != kNoTriangle) tile.add(id, {x, y});
-    });
+    const PixelBox box = grid.tile(i);
+    for (int y = box.lo.y; y < box.hi.y; y += kBlock)
+      for (int x = box.lo.x; x < box.hi.x; x += kBlock)
+        tile.add(ids, {{x, y}, glm::min(glm::ivec2(x, y) + kBlock, box.hi)});
     fired += tile.finish();
   });
   return {.shadow = fired};

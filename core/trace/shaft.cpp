@@ -30,8 +30,8 @@ std::optional<Shaft> Shaft::of(const Piece& piece, const shared::LightParams& li
     lowest = std::min(lowest, glm::dot(piece.n, glm::normalize(shaft.towards_light(corner))));
   }
   if (!(lowest > kLowest)) return std::nullopt;
-  // Lifted off the piece, a ray's start moves out of a slanting shaft. Its direction is rounded: by the light, where
-  // there is one, it may be off by so much.
+  // Lifted off the piece, a ray's start moves out of a slanting shaft. Its direction is rounded: by the
+  // light, where there is one, it may be off by so much.
   shaft.aside_ = kStartMargin * largest + piece.lift_most / lowest;
   if (!shaft.parallel_) shaft.end_margin_ = kEndMargin * std::max(largest, largest_of(shaft.light_));
   const glm::dvec3 middle = (corners[0] + corners[1] + corners[2]) / 3.0;
@@ -64,8 +64,8 @@ bool Shaft::meets(const Bounds& box) const {
   });
 }
 
-// Whether a plane through the light and the edge between the first two corners has the triangle on one side and all
-// rays on the other.
+// Whether a plane through the light and the edge between the first two corners has the triangle on one side
+// and all rays on the other.
 bool Shaft::beside(const std::array<glm::dvec3, 3>& triangle) const {
   const glm::dvec3 &a = triangle[0], edge = triangle[1] - a, &opposite = triangle[2];
   const glm::dvec3 way = towards_light(a);
@@ -77,7 +77,8 @@ bool Shaft::beside(const std::array<glm::dvec3, 3>& triangle) const {
   if (glm::dot(tilted, n) < 0.0) tilted = -tilted;
   const double least = -aside_ * glm::length(tilted);
   return glm::dot(tilted, opposite - a) >= 0.0 &&
-         std::all_of(grown_.begin(), grown_.end(), [&](const glm::dvec3& p) { return glm::dot(tilted, p - a) < least; });
+         std::all_of(grown_.begin(), grown_.end(),
+                     [&](const glm::dvec3& p) { return glm::dot(tilted, p - a) < least; });
 }
 
 bool Shaft::may_block(const BspTree& tree, std::uint32_t triangle) const {

@@ -17,8 +17,8 @@ struct Piece {
   double lift_least, lift_most;       // how high above the triangle's plane shadow rays start
 };
 
-// The space between a piece and a light: every shadow ray of the piece runs in it. What it says is on the safe
-// side by more than rounding: it may miss that nothing is in the way, never claim it wrongly.
+// The space between a piece and a light: every shadow ray of the piece runs in it. What it says is on the
+// safe side by more than rounding: it may miss that nothing is in the way, never claim it wrongly.
 class Shaft {
  public:
   // Nothing where the light is (nearly) in the piece's plane or behind it.
@@ -42,12 +42,12 @@ class Shaft {
   [[nodiscard]] bool may_block(const BspTree& tree, std::uint32_t triangle) const;
 
   Piece piece_;
-  bool parallel_ = false;  // directional light
-  glm::dvec3 light_;       // its place, or the way to it
-  double end_margin_ = 0.0;  // how far a ray may miss the light
-  double aside_ = 0.0;       // how far beside the piece it may start
+  bool parallel_ = false;            // directional light
+  glm::dvec3 light_;                 // its place, or the way to it
+  double end_margin_ = 0.0;          // how far a ray may miss the light
+  double aside_ = 0.0;               // how far beside the piece it may start
   std::array<glm::dvec3, 3> grown_;  // the piece's corners, outwards by the rounding of the points in it
-  std::array<Plane, 4> planes_;  // three sides and, lifted to where rays start, the bottom
+  std::array<Plane, 4> planes_;      // three sides and, lifted to where rays start, the bottom
 };
 
 }  // namespace pinocchio

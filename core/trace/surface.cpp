@@ -41,22 +41,11 @@ int wrap(int i, int n) {
   return r < 0 ? r + n : r;
 }
 
-}  // namespace
-
-float error_bound_offset(const glm::dvec3& p, const glm::vec3& n, const glm::vec3& ab, const glm::vec3& ac) {
-  return kPointError * glm::dot(glm::abs(n), glm::vec3(glm::abs(p))) + least_error_bound_offset(ab, ac);
-}
-
-float least_error_bound_offset(const glm::vec3& ab, const glm::vec3& ac) {
-  return kTestError * std::max(largest_component(ab), largest_component(ac));
-}
-
-Surface surface_at(const Scene& scene, std::uint32_t id, const glm::vec3& origin, const glm::vec3& direction,
-                   const RayOffset& offset) {
+Surface geometry_at(const Scene& scene, std::uint32_t id, const glm::vec3& direction,
+                    const glm::vec3& weights, const RayOffset& offset) {
   const glm::uvec3 corners = scene.triangles[id];
   const glm::vec3 &a = scene.positions[corners.x], &b = scene.positions[corners.y],
                   &c = scene.positions[corners.z];
-  const glm::vec3 weights = shared::barycentric_of(origin, direction, a, b, c);
 
   Surface s;
   s.to_viewer = -glm::normalize(direction);
@@ -70,11 +59,41 @@ Surface surface_at(const Scene& scene, std::uint32_t id, const glm::vec3& origin
   s.n_geometric = facing.geometric;
   s.n_shading = facing.shading;
   s.leaving = facing.leaving;
-  s.offset = offset.method == OffsetMethod::error_bound ? error_bound_offset(s.p_exact, s.n_geometric, b - a, c - a)
-                                                        : offset.length;
+  s.offset = offset.method == OffsetMethod::error_bound
+                 ? error_bound_offset(s.p_exact, s.n_geometric, b - a, c - a)
+                 : offset.length;
   s.material = &scene.material_of(id);
-  s.phong = phong_params(scene, *s.material, corners, weights);
   return s;
+}
+
+}  // namespace
+
+float error_bound_offset(const glm::dvec3& p, const glm::vec3& n, const glm::vec3& ab, const glm::vec3& ac) {
+  return kPointError * glm::dot(glm::abs(n), glm::vec3(glm::abs(p))) + least_error_bound_offset(ab, ac);
+}
+
+float least_error_bound_offset(const glm::vec3& ab, const glm::vec3& ac) {
+  return kTestError * std::max(largest_component(ab), largest_component(ac));
+}
+
+Surface surface_at(const Scene& scene, std::uint32_t id, const glm::vec3& origin, const glm::vec3& direction,
+                   const RayOffset& offset) {
+  const glm::vec3 weights = weights_at(scene, id, origin, direction);
+  Surface s = geometry_at(scene, id, direction, weights, offset);
+  s.phong = phong_params(scene, *s.material, scene.triangles[id], weights);
+  return s;
+}
+
+Surface bare_surface_at(const Scene& scene, std::uint32_t id, const glm::vec3& origin,
+                        const glm::vec3& direction, const RayOffset& offset) {
+  return geometry_at(scene, id, direction, weights_at(scene, id, origin, direction), offset);
+}
+
+glm::vec3 weights_at(const Scene& scene, std::uint32_t id, const glm::vec3& origin,
+                     const glm::vec3& direction) {
+  const glm::uvec3& corners = scene.triangles[id];
+  return shared::barycentric_of(origin, direction, scene.positions[corners.x], scene.positions[corners.y],
+                                scene.positions[corners.z]);
 }
 
 glm::vec3 offset_origin(const Surface& surface, const glm::vec3& direction) {
