@@ -2,6 +2,7 @@
 
 #include <embree3/rtcore.h>
 
+#include <algorithm>
 #include <atomic>
 #include <string>
 
@@ -197,6 +198,24 @@ std::unique_ptr<Contender> EmbreeSide::single() const {
 }
 std::unique_ptr<Contender> EmbreeSide::packets() const {
   return std::make_unique<Packets>(held_->scene);
+}
+
+void EmbreeSide::occluded(std::span<const Ray> rays, std::span<std::uint8_t> blocked) const {
+  RTCIntersectContext context;
+  rtcInitIntersectContext(&context);
+  context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
+  alignas(64) int valid[kPacket];
+  RTCRay16 packet{};
+  for (std::size_t i = 0; i < rays.size(); i += kPacket) {
+    const std::size_t count = std::min(kPacket, rays.size() - i);
+    for (std::size_t lane = 0; lane < kPacket; ++lane) {
+      valid[lane] = lane < count ? -1 : 0;
+      packet.tnear[lane] = 0.0f;
+      if (lane < count) put(rays[i + lane], packet, lane);
+    }
+    rtcOccluded16(valid, held_->scene, &context, &packet);
+    for (std::size_t lane = 0; lane < count; ++lane) blocked[i + lane] = packet.tfar[lane] < 0.0f ? 1 : 0;
+  }
 }
 
 const char* embree_version() {

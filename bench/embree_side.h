@@ -1,6 +1,7 @@
 #pragma once
 
 #include <memory>
+#include <span>
 
 #include "bench/contender.h"
 #include "core/scene/scene.h"
@@ -23,6 +24,9 @@ class EmbreeSide {
   // coherent flag.
   [[nodiscard]] std::unique_ptr<Contender> single() const;
   [[nodiscard]] std::unique_ptr<Contender> packets() const;
+
+  // Coherent packets of 16; blocked[i] = 1 where anything lies within ray i, else 0. Called by many threads.
+  void occluded(std::span<const Ray> rays, std::span<std::uint8_t> blocked) const;
 
  private:
   struct Held;

@@ -114,6 +114,9 @@ void run(const Options& o) {
       report.speeds.insert(report.speeds.end(), speeds.begin(), speeds.end());
     }
   }
+  std::vector<Workers*> on{&one};
+  if (all.count() > 1) on.push_back(&all);
+  report.shadow_passes = measure_shadow_passes(scene, *tracers.front(), embree, kSize, on);
   print_report(report);
   if (!o.json.empty()) save_report(report, o.json);
 }

@@ -10,12 +10,6 @@ namespace {
 // Two hits are one where they name one triangle or meet where two triangles do.
 constexpr float kSamePlace = 1e-5f;  // relative distance
 
-double seconds_of(const std::function<void()>& run) {
-  const auto start = std::chrono::steady_clock::now();
-  run();
-  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-}
-
 double median(std::vector<double> times) {
   std::sort(times.begin(), times.end());
   const std::size_t n = times.size();
@@ -41,6 +35,12 @@ void trace_all(Contender& contender, std::size_t rays, Workers& workers) {
 }
 
 }  // namespace
+
+double seconds_of(const std::function<void()>& run) {
+  const auto start = std::chrono::steady_clock::now();
+  run();
+  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+}
 
 double median_seconds(int repeat, const std::function<void()>& prepare, const std::function<void()>& run) {
   std::vector<double> times;

@@ -14,6 +14,9 @@ namespace pinocchio::bench {
 [[nodiscard]] double median_seconds(int repeat, const std::function<void()>& prepare,
                                     const std::function<void()>& run);
 
+// Wall time of one call, seconds.
+[[nodiscard]] double seconds_of(const std::function<void()>& run);
+
 // How fast one contender traced one set.
 struct Speed {
   std::string set;

@@ -32,8 +32,28 @@ void print_row(const Report& report, const Speed& ours) {
               ours.mrays / std::max(single.mrays, packets.mrays), ours.differ);
 }
 
+// How long Embree takes for so many shadow rays alone, its better way.
+double embrees_rays_ms(const Report& report, const ShadowPass& pass) {
+  double mrays = 0.0;
+  for (const Speed& s : report.speeds)
+    if (!is_ours(s) && s.set == "shadow" && s.threads == pass.threads) mrays = std::max(mrays, s.mrays);
+  return static_cast<double>(pass.rays) / mrays * 1e-3;
+}
+
+void print_pass(const Report& report, const ShadowPass& pass) {
+  const double rays_ms = embrees_rays_ms(report, pass);
+  std::printf("%7d %9zu %9zu %9.1f %9.1f %12.1f %12.1f %9.2f %9.2f %7zu\n", pass.threads, pass.rays,
+              pass.fired, pass.first_ms, pass.ours_ms, pass.embree_ms, rays_ms, pass.embree_ms / pass.ours_ms,
+              rays_ms / pass.ours_ms, pass.differ);
+}
+
 nlohmann::json to_json(const BuildCost& cost) {
   return {{"seconds", cost.seconds}, {"bytes", cost.bytes}};
+}
+
+nlohmann::json to_json(const ShadowPass& p) {
+  return {{"threads", p.threads}, {"rays", p.rays},           {"fired", p.fired},  {"first_ms", p.first_ms},
+          {"ours_ms", p.ours_ms}, {"embree_ms", p.embree_ms}, {"differ", p.differ}};
 }
 
 nlohmann::json to_json(const Speed& s) {
@@ -56,6 +76,11 @@ void print_report(const Report& report) {
               "embree 1", "embree 16", "ours/best", "differ");
   for (const Speed& speed : report.speeds)
     if (is_ours(speed)) print_row(report, speed);
+  if (report.shadow_passes.empty()) return;
+  std::printf("the whole shadow pass, camera going round, milliseconds a frame:\n");
+  std::printf("%7s %9s %9s %9s %9s %12s %12s %9s %9s %7s\n", "threads", "rays", "we fire", "first", "ours",
+              "Embree's", "its rays", "pass", "rays", "differ");
+  for (const ShadowPass& pass : report.shadow_passes) print_pass(report, pass);
 }
 
 void save_report(const Report& report, const std::filesystem::path& file) {
@@ -75,6 +100,8 @@ void save_report(const Report& report, const std::filesystem::path& file) {
                       {"build", {{"ours", to_json(report.ours)}, {"embree", to_json(report.embree)}}}};
   nlohmann::json& speeds = json["speeds"] = nlohmann::json::array();
   for (const Speed& speed : report.speeds) speeds.push_back(to_json(speed));
+  nlohmann::json& passes = json["shadow_passes"] = nlohmann::json::array();
+  for (const ShadowPass& pass : report.shadow_passes) passes.push_back(to_json(pass));
   // A path may hold bytes that are no UTF-8: replaced, or dump would throw.
   write_text(file, json.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + "\n");
 }

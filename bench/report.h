@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "bench/measure.h"
+#include "bench/shadow_pass.h"
 
 namespace pinocchio::bench {
 
@@ -18,6 +19,7 @@ struct Report {
   int repeat = 0;
   BuildCost ours, embree;
   std::vector<Speed> speeds;
+  std::vector<ShadowPass> shadow_passes;
 };
 
 // Tables for people, on stdout.
