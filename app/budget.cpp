@@ -10,6 +10,7 @@
 #include "app/errors.h"
 #include "core/compare/figures.h"
 #include "core/compare/flip.h"
+#include "core/image/rgb.h"
 #include "hybrid/plan_json.h"
 #include "hybrid/renderer.h"
 
@@ -35,20 +36,9 @@ std::optional<double> parse_milliseconds(const std::string& text) {
   return value;
 }
 
-Image<glm::vec3> rgb_of(const Picture& picture) {
-  Image<glm::vec3> rgb(picture.color.size());
-  for (std::size_t i = 0; i < rgb.pixels().size(); ++i) rgb[i] = glm::vec3(picture.color[i]);
-  return rgb;
-}
-
 double error_of(const Image<glm::vec3>& picture, const Image<glm::vec3>& exact, const std::string& metric,
                 Workers& workers) {
-  if (metric == "flip") {
-    const Image<float> errors = flip(picture, exact, kFlipPixelsPerDegree, workers);
-    double sum = 0.0;
-    for (const float error : errors.pixels()) sum += static_cast<double>(error);
-    return sum / static_cast<double>(errors.pixels().size());
-  }
+  if (metric == "flip") return mean(flip(picture, exact, kFlipPixelsPerDegree, workers));
   const ErrorFigures figures = error_figures(picture.pixels(), exact.pixels());
   if (metric == "rmse") return figures.rmse;
   return metric == "max" ? figures.max_difference : figures.relative_mse;
@@ -76,7 +66,7 @@ class Trial {
       pictures.use(plan);
       pictures.submit(view(0));
       pictures.drain();
-      Image<glm::vec3> rgb = rgb_of(picture);
+      Image<glm::vec3> rgb = finite_rgb_of(picture.color);
       if (measured.empty()) exact = rgb;
       const double error = error_of(rgb, exact, metric, machine_.workers());
       measured.push_back({plan, time_ms(times, plan), error});

@@ -4,6 +4,8 @@
 #include <chrono>
 #include <cmath>
 
+#include "core/math/median.h"
+
 namespace pinocchio::bench {
 namespace {
 
@@ -14,12 +16,6 @@ double seconds_of(const std::function<void()>& run) {
   const auto start = std::chrono::steady_clock::now();
   run();
   return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-}
-
-double median(std::vector<double> times) {
-  std::sort(times.begin(), times.end());
-  const std::size_t n = times.size();
-  return n % 2 == 1 ? times[n / 2] : 0.5 * (times[n / 2 - 1] + times[n / 2]);
 }
 
 bool same(const Hit& a, const Hit& b) {
