@@ -22,6 +22,9 @@ struct OutputOptions {
 
 void add_output_options(CLI::App& verb, OutputOptions& options);
 
+// Makes the folder and those above it that are missing. Ends the verb with kFailed where it cannot.
+void make_folder(const std::filesystem::path& folder);
+
 // `pattern` with its run of # replaced by the number, filled up with zeros.
 [[nodiscard]] std::filesystem::path numbered(const std::string& pattern, int number);
 

@@ -56,6 +56,7 @@ Expected<Scene> load_scene(const std::filesystem::path& path, Warnings* warnings
   Expected<Scene> scene = load_by_extension(*file, warnings ? *warnings : unheard);
   if (!scene) return scene;
   scene->source = file->string();
+  scene->source_files.insert(scene->source_files.begin(), scene->source);
   if (const Expected<void> checked = check_scene(*scene); !checked) return Unexpected(checked.error());
   return scene;
 }

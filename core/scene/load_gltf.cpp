@@ -188,6 +188,7 @@ class SceneReader {
   void warn(const std::string& what) { warnings_.push_back(file_.path.string() + ": " + what); }
 
   void finish() {
+    scene_.source_files = file_.named_files;
     add_gltf_textures(file_, scene_, warnings_);
     const bool textured = std::any_of(scene_.materials.begin(), scene_.materials.end(),
                                       [](const Material& m) { return m.diffuse_texture >= 0; });
