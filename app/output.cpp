@@ -40,6 +40,10 @@ void add_output_options(CLI::App& verb, OutputOptions& options) {
   verb.add_flag("--deterministic", options.deterministic, "leave the render time out of the EXR");
 }
 
+void write_json(const std::filesystem::path& file, const nlohmann::json& json) {
+  write_text(file, json.dump(2) + "\n");
+}
+
 void make_folder(const std::filesystem::path& folder) {
   std::error_code error;
   std::filesystem::create_directories(folder, error);

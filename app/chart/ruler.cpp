@@ -4,6 +4,7 @@
 
 #include "app/console.h"
 #include "core/image/rgb.h"
+#include "core/math/finite.h"
 #include "hybrid/raytrace.h"
 
 namespace pinocchio::app {

@@ -4,7 +4,7 @@
 #include <array>
 #include <nlohmann/json.hpp>
 
-#include "core/image/rgb.h"
+#include "core/math/finite.h"
 
 namespace pinocchio {
 namespace {

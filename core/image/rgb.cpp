@@ -27,8 +27,4 @@ Image<glm::vec4> opaque(const Image<glm::vec3>& rgb) {
   return picture;
 }
 
-bool is_finite(const glm::vec3& v) {
-  return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
-}
-
 }  // namespace pinocchio

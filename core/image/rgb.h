@@ -15,6 +15,4 @@ namespace pinocchio {
 // With an alpha of 1.
 [[nodiscard]] Image<glm::vec4> opaque(const Image<glm::vec3>& rgb);
 
-[[nodiscard]] bool is_finite(const glm::vec3& v);
-
 }  // namespace pinocchio
