@@ -1,13 +1,12 @@
 #include "app/budget.h"
 
-#include <algorithm>
 #include <array>
-#include <cmath>
 #include <cstdio>
 #include <nlohmann/json.hpp>
 
 #include "app/console.h"
 #include "app/errors.h"
+#include "app/parse.h"
 #include "core/compare/figures.h"
 #include "core/compare/flip.h"
 #include "core/image/rgb.h"
@@ -19,22 +18,6 @@ namespace {
 
 constexpr std::array<std::string_view, 4> kMetrics{"rmse", "relmse", "max", "flip"};
 constexpr int kTimedFrames = 3;
-
-// "16ms", "0.5s" or plain milliseconds; nothing where it is no time above zero.
-std::optional<double> parse_milliseconds(const std::string& text) {
-  std::size_t used = 0;
-  double value = 0.0;
-  try {
-    value = std::stod(text, &used);
-  } catch (const std::exception&) {
-    return std::nullopt;
-  }
-  const std::string unit = text.substr(used);
-  if (unit == "s") value *= 1e3;
-  if ((!unit.empty() && unit != "s" && unit != "ms") || !std::isfinite(value) || value <= 0.0)
-    return std::nullopt;
-  return value;
-}
 
 double error_of(const Image<glm::vec3>& picture, const Image<glm::vec3>& exact, const std::string& metric,
                 Workers& workers) {
@@ -50,7 +33,7 @@ class Trial {
   Trial(Machine& machine, const DrawOptions& draw, Exchange exchange, const std::vector<CameraFrame>& frames)
       : machine_(machine), draw_(draw), exchange_(exchange), frames_(frames) {}
 
-  // Against the first plan's picture.
+  // Against the first plan's picture; that plan at the least, also where the user asked for an end.
   std::vector<MeasuredPlan> measure(const std::vector<Plan>& plans, const std::string& metric) {
     std::vector<MeasuredPlan> measured;
     Image<glm::vec3> exact;
@@ -62,7 +45,7 @@ class Trial {
                    {[](Picture&&) {}, [](const FrameRecord&) {}});
     Progress progress(draw_.quiet ? "off" : draw_.progress, "measuring plans", plans.size());
     for (Plan plan : plans) {
-      if (interrupted()) break;
+      if (interrupted() && !measured.empty()) break;
       pictures.use(plan);
       pictures.submit(view(0));
       pictures.drain();
