@@ -1,15 +1,15 @@
 #include "app/budget.h"
 
-#include <algorithm>
 #include <array>
-#include <cmath>
 #include <cstdio>
 #include <nlohmann/json.hpp>
 
 #include "app/console.h"
 #include "app/errors.h"
+#include "app/parse.h"
 #include "core/compare/figures.h"
 #include "core/compare/flip.h"
+#include "core/image/rgb.h"
 #include "hybrid/plan_json.h"
 #include "hybrid/renderer.h"
 
@@ -19,36 +19,9 @@ namespace {
 constexpr std::array<std::string_view, 4> kMetrics{"rmse", "relmse", "max", "flip"};
 constexpr int kTimedFrames = 3;
 
-// "16ms", "0.5s" or plain milliseconds; nothing where it is no time above zero.
-std::optional<double> parse_milliseconds(const std::string& text) {
-  std::size_t used = 0;
-  double value = 0.0;
-  try {
-    value = std::stod(text, &used);
-  } catch (const std::exception&) {
-    return std::nullopt;
-  }
-  const std::string unit = text.substr(used);
-  if (unit == "s") value *= 1e3;
-  if ((!unit.empty() && unit != "s" && unit != "ms") || !std::isfinite(value) || value <= 0.0)
-    return std::nullopt;
-  return value;
-}
-
-Image<glm::vec3> rgb_of(const Picture& picture) {
-  Image<glm::vec3> rgb(picture.color.size());
-  for (std::size_t i = 0; i < rgb.pixels().size(); ++i) rgb[i] = glm::vec3(picture.color[i]);
-  return rgb;
-}
-
 double error_of(const Image<glm::vec3>& picture, const Image<glm::vec3>& exact, const std::string& metric,
                 Workers& workers) {
-  if (metric == "flip") {
-    const Image<float> errors = flip(picture, exact, kFlipPixelsPerDegree, workers);
-    double sum = 0.0;
-    for (const float error : errors.pixels()) sum += static_cast<double>(error);
-    return sum / static_cast<double>(errors.pixels().size());
-  }
+  if (metric == "flip") return mean(flip(picture, exact, kFlipPixelsPerDegree, workers));
   const ErrorFigures figures = error_figures(picture.pixels(), exact.pixels());
   if (metric == "rmse") return figures.rmse;
   return metric == "max" ? figures.max_difference : figures.relative_mse;
@@ -60,7 +33,7 @@ class Trial {
   Trial(Machine& machine, const DrawOptions& draw, Exchange exchange, const std::vector<CameraFrame>& frames)
       : machine_(machine), draw_(draw), exchange_(exchange), frames_(frames) {}
 
-  // Against the first plan's picture.
+  // Against the first plan's picture; that plan at the least, also where the user asked for an end.
   std::vector<MeasuredPlan> measure(const std::vector<Plan>& plans, const std::string& metric) {
     std::vector<MeasuredPlan> measured;
     Image<glm::vec3> exact;
@@ -72,11 +45,11 @@ class Trial {
                    {[](Picture&&) {}, [](const FrameRecord&) {}});
     Progress progress(draw_.quiet ? "off" : draw_.progress, "measuring plans", plans.size());
     for (Plan plan : plans) {
-      if (interrupted()) break;
+      if (interrupted() && !measured.empty()) break;
       pictures.use(plan);
       pictures.submit(view(0));
       pictures.drain();
-      Image<glm::vec3> rgb = rgb_of(picture);
+      Image<glm::vec3> rgb = finite_rgb_of(picture.color);
       if (measured.empty()) exact = rgb;
       const double error = error_of(rgb, exact, metric, machine_.workers());
       measured.push_back({plan, time_ms(times, plan), error});

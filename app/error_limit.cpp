@@ -3,8 +3,8 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cctype>
-#include <charconv>
-#include <cmath>
+
+#include "app/parse.h"
 
 namespace pinocchio::app {
 namespace {
@@ -23,13 +23,11 @@ ErrorLimit parse_error_limit(const std::string& text, std::span<const std::strin
   ErrorLimit limit{text.substr(0, equals), 0.0};
   std::transform(limit.metric.begin(), limit.metric.end(), limit.metric.begin(),
                  [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  const char* const end = text.data() + text.size();
-  const auto [rest, error] =
-      std::from_chars(text.data() + std::min(equals + 1, text.size()), end, limit.value);
-  const bool number = error == std::errc() && rest == end && std::isfinite(limit.value) && limit.value >= 0.0;
-  if (!number || std::find(metrics.begin(), metrics.end(), limit.metric) == metrics.end())
+  const std::optional<double> value = parse_double(text.substr(std::min(equals + 1, text.size())));
+  if (!value || *value < 0.0 || std::find(metrics.begin(), metrics.end(), limit.metric) == metrics.end())
     throw CLI::ValidationError("--max-error: '" + text + "' is no METRIC=VALUE; METRIC is " + list(metrics) +
                                ", VALUE a number of 0 or more");
+  limit.value = *value;
   return limit;
 }
 

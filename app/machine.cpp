@@ -1,10 +1,8 @@
 #include "app/machine.h"
 
 #include <cstdlib>
-#include <nlohmann/json.hpp>
 
 #include "app/errors.h"
-#include "core/image/atomic_file.h"
 #include "gl/open.h"
 #include "hybrid/plan_json.h"
 
@@ -62,14 +60,6 @@ PixelBox part_of(const DrawOptions& options) {
   if (part.empty())
     throw Exit(kUsage, "--crop: no pixel of the picture is in the box; it is x0,y0,x1,y1, half-open");
   return part;
-}
-
-void check_json(const std::filesystem::path& file) {
-  check_writable(file);
-}
-
-void write_json(const std::filesystem::path& file, const nlohmann::json& json) {
-  write_text(file, json.dump(2) + "\n");
 }
 
 }  // namespace pinocchio::app

@@ -1,8 +1,6 @@
 #pragma once
 
-#include <filesystem>
 #include <memory>
-#include <nlohmann/json_fwd.hpp>
 #include <optional>
 
 #include "app/options.h"
@@ -44,9 +42,5 @@ class Machine {
 
 // The pixels to draw: --crop within --size, or all. Ends the verb with kUsage where they are none.
 [[nodiscard]] PixelBox part_of(const DrawOptions& options);
-
-// Ends the verb with kFailed where the file cannot be written, before work is done for it.
-void check_json(const std::filesystem::path& file);
-void write_json(const std::filesystem::path& file, const nlohmann::json& json);
 
 }  // namespace pinocchio::app

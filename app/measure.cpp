@@ -10,9 +10,11 @@
 #include "app/errors.h"
 #include "app/machine.h"
 #include "app/options.h"
+#include "app/output.h"
 #include "app/overlap.h"
 #include "app/stats.h"
 #include "app/verbs.h"
+#include "core/image/atomic_file.h"
 #include "hybrid/exchange_cost.h"
 #include "hybrid/renderer.h"
 
@@ -205,7 +207,7 @@ int measure(MeasureOptions& options) {
     options.animation.turntable = kDefaultFrames;
   const std::vector<CameraFrame> frames = animate(options.animation, camera);
   for (const std::string& file : {options.stats_json, options.trace})
-    if (!file.empty()) check_json(file);
+    if (!file.empty()) check_writable(file);
 
   Machine machine(options.draw, std::move(scene), false, options.compare);
   std::vector<Measured> runs = runs_of(machine, options);

@@ -1,6 +1,7 @@
 #include "app/output.h"
 
 #include <nlohmann/json.hpp>
+#include <system_error>
 
 #include "app/errors.h"
 #include "core/image/atomic_file.h"
@@ -37,6 +38,18 @@ void add_output_options(CLI::App& verb, OutputOptions& options) {
   verb.add_option("--exposure", options.exposure_ev, "of the preview, in stops (0)")
       ->check(CLI::Range(-64.0, 64.0));
   verb.add_flag("--deterministic", options.deterministic, "leave the render time out of the EXR");
+}
+
+void write_json(const std::filesystem::path& file, const nlohmann::json& json) {
+  write_text(file, json.dump(2) + "\n");
+}
+
+void make_folder(const std::filesystem::path& folder) {
+  std::error_code error;
+  std::filesystem::create_directories(folder, error);
+  if (error)
+    throw Exit(kFailed, folder.string() + ": cannot be made a folder (" + error.message() +
+                            "); name one that can be written with -o DIR");
 }
 
 std::filesystem::path numbered(const std::string& pattern, int number) {

@@ -2,6 +2,7 @@
 
 #include <CLI/CLI.hpp>
 #include <filesystem>
+#include <nlohmann/json_fwd.hpp>
 #include <optional>
 #include <string>
 
@@ -21,6 +22,11 @@ struct OutputOptions {
 };
 
 void add_output_options(CLI::App& verb, OutputOptions& options);
+
+void write_json(const std::filesystem::path& file, const nlohmann::json& json);
+
+// Makes the folder and those above it that are missing. Ends the verb with kFailed where it cannot.
+void make_folder(const std::filesystem::path& folder);
 
 // `pattern` with its run of # replaced by the number, filled up with zeros.
 [[nodiscard]] std::filesystem::path numbered(const std::string& pattern, int number);

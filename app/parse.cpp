@@ -1,5 +1,6 @@
 #include "app/parse.h"
 
+#include <algorithm>
 #include <array>
 #include <charconv>
 #include <cmath>
@@ -42,6 +43,19 @@ std::vector<std::string> split(const std::string& text, char separator) {
 std::optional<float> parse_float(const std::string& text) {
   const std::optional<float> value = parse_number<float>(text);
   return value && std::isfinite(*value) ? value : std::nullopt;
+}
+
+std::optional<double> parse_double(const std::string& text) {
+  const std::optional<double> value = parse_number<double>(text);
+  return value && std::isfinite(*value) ? value : std::nullopt;
+}
+
+std::optional<double> parse_milliseconds(const std::string& text) {
+  const std::size_t unit_at = std::min(text.find_first_of("ms"), text.size());
+  const std::string unit = text.substr(unit_at);
+  const std::optional<double> value = parse_double(text.substr(0, unit_at));
+  if (!value || *value <= 0.0 || (!unit.empty() && unit != "ms" && unit != "s")) return std::nullopt;
+  return unit == "s" ? 1e3 * *value : *value;
 }
 
 std::optional<int> parse_int(const std::string& text) {

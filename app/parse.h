@@ -12,7 +12,9 @@
 namespace pinocchio::app {
 
 [[nodiscard]] std::vector<std::string> split(const std::string& text, char separator);
-[[nodiscard]] std::optional<float> parse_float(const std::string& text);  // finite
+[[nodiscard]] std::optional<float> parse_float(const std::string& text);          // finite
+[[nodiscard]] std::optional<double> parse_double(const std::string& text);        // finite
+[[nodiscard]] std::optional<double> parse_milliseconds(const std::string& text);  // 16, 16ms or 0.5s; above 0
 [[nodiscard]] std::optional<int> parse_int(const std::string& text);
 [[nodiscard]] std::optional<glm::vec3> parse_vec3(const std::string& text);   // x,y,z
 [[nodiscard]] std::optional<glm::ivec2> parse_size(const std::string& text);  // WxH

@@ -1,9 +1,8 @@
 // render: headless, one frame or a range, to EXR and PNG.
-#include <nlohmann/json.hpp>
-
 #include <algorithm>
 #include <cstdio>
 #include <memory>
+#include <nlohmann/json.hpp>
 
 #include "app/animation.h"
 #include "app/budget.h"
@@ -14,6 +13,7 @@
 #include "app/output.h"
 #include "app/stats.h"
 #include "app/verbs.h"
+#include "core/image/atomic_file.h"
 
 namespace pinocchio::app {
 namespace {
@@ -62,7 +62,7 @@ class RenderRun {
     std::vector<int> numbers;
     for (const CameraFrame& frame : frames_) numbers.push_back(frame.number);
     check_outputs(options_.output, numbers);
-    if (!options_.stats_json.empty()) check_json(options_.stats_json);
+    if (!options_.stats_json.empty()) check_writable(options_.stats_json);
   }
 
   void draw(Machine& machine) {

@@ -6,6 +6,7 @@
 #include <atomic>
 #include <string>
 
+#include "bench/embree_ray.h"
 #include "bench/measure.h"
 #include "core/base/error.h"
 
@@ -18,15 +19,6 @@ static_assert(kChunk % kPacket == 0);
 bool count_bytes(void* total, ssize_t bytes, bool) {
   *static_cast<std::atomic<ssize_t>*>(total) += bytes;
   return true;
-}
-
-RTCRay to_embree(const Ray& ray) {
-  RTCRay r{};
-  r.org_x = ray.origin.x, r.org_y = ray.origin.y, r.org_z = ray.origin.z;
-  r.dir_x = ray.direction.x, r.dir_y = ray.direction.y, r.dir_z = ray.direction.z;
-  r.tfar = ray.t_max;
-  r.mask = 0xffffffffu;
-  return r;
 }
 
 // Embree says "blocked" by a negative tfar.

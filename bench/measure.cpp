@@ -4,17 +4,13 @@
 #include <chrono>
 #include <cmath>
 
+#include "core/math/median.h"
+
 namespace pinocchio::bench {
 namespace {
 
 // Two hits are one where they name one triangle or meet where two triangles do.
 constexpr float kSamePlace = 1e-5f;  // relative distance
-
-double median(std::vector<double> times) {
-  std::sort(times.begin(), times.end());
-  const std::size_t n = times.size();
-  return n % 2 == 1 ? times[n / 2] : 0.5 * (times[n / 2 - 1] + times[n / 2]);
-}
 
 bool same(const Hit& a, const Hit& b) {
   if (a.triangle == b.triangle) return true;

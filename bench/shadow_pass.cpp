@@ -1,11 +1,11 @@
 #include "bench/shadow_pass.h"
 
-#include <algorithm>
 #include <bit>
 #include <glm/gtc/matrix_transform.hpp>
 #include <optional>
 
 #include "bench/measure.h"
+#include "core/math/median.h"
 #include "core/parallel/tiles.h"
 #include "core/trace/passes.h"
 #include "core/trace/surface.h"
@@ -88,9 +88,8 @@ ShadowPass measure(const Scene& scene, const Tracer& tracer, const EmbreeSide& e
     result.rays = trace_shadow_mask(job, ids, bits, mask).shadow;
     result.differ = differing_bits(mask, embrees);
   }
-  const auto last_ms = [](std::vector<double>& times) {
-    std::sort(times.end() - kLastFrames, times.end());
-    return 1e3 * times[times.size() - kLastFrames / 2];
+  const auto last_ms = [](const std::vector<double>& times) {
+    return 1e3 * median(std::vector(times.end() - kLastFrames, times.end()));
   };
   result.first_ms = 1e3 * ours.front();
   result.ours_ms = last_ms(ours);

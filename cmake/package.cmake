@@ -5,7 +5,7 @@ install(RUNTIME_DEPENDENCY_SET pinocchio_libraries
         PRE_EXCLUDE_REGEXES "^ld-linux" "^lib(c|m|dl|rt|pthread)\\.so" "^lib(GL|EGL|OpenGL|GLX|OSMesa)"
         DESTINATION lib)
 install(DIRECTORY shaders scenes DESTINATION share/pinocchio)
-install(FILES app/chart/plot.py DESTINATION share/pinocchio/chart)
+install(FILES app/chart/charts.py app/chart/plot.py DESTINATION share/pinocchio/chart)
 install(FILES README.md LICENSE CHANGELOG.md DESTINATION share/doc/pinocchio)
 # What is installed finds its libraries beside it, and they each other.
 set_target_properties(pinocchio PROPERTIES INSTALL_RPATH "$ORIGIN/../lib")

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <limits>
 
+#include "core/math/median.h"
+
 namespace pinocchio {
 namespace {
 
@@ -27,7 +29,7 @@ bool BudgetKeeper::note(double frame_ms) {
   if (times_ms_.size() == kWindow) times_ms_.erase(times_ms_.begin());
   times_ms_.push_back(frame_ms);
   if (times_ms_.size() < kWindow) return false;
-  const double ms = median_ms();
+  const double ms = median(times_ms_);
   if (ms > limit_ms_) {
     if (at_ + 1 == front_.size()) return false;
     if (climbed_) patience_ = std::min(2 * patience_, kMostPatience);
@@ -39,12 +41,6 @@ bool BudgetKeeper::note(double frame_ms) {
   if (expected_ms > kRoom * limit_ms_) return false;
   climbed_ = true;
   return change_to(at_ - 1);
-}
-
-double BudgetKeeper::median_ms() const {
-  std::vector<double> sorted = times_ms_;
-  std::nth_element(sorted.begin(), sorted.begin() + kWindow / 2, sorted.end());
-  return sorted[kWindow / 2];
 }
 
 bool BudgetKeeper::change_to(std::size_t at) {

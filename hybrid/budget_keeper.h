@@ -20,7 +20,6 @@ class BudgetKeeper {
   bool note(double frame_ms);
 
  private:
-  [[nodiscard]] double median_ms() const;
   bool change_to(std::size_t at);
 
   std::vector<MeasuredPlan> front_;

@@ -1,9 +1,10 @@
 #include "hybrid/exchange_cost.h"
 
-#include <algorithm>
 #include <cstring>
+#include <utility>
 #include <vector>
 
+#include "core/math/median.h"
 #include "core/trace/mask_image.h"
 #include "hybrid/formats.h"
 #include "hybrid/record.h"
@@ -21,8 +22,7 @@ double median_ms(Act act) {
     act();
     times_ms.push_back(1e3 * (now_s() - begin_s));
   }
-  std::nth_element(times_ms.begin(), times_ms.begin() + kTries / 2, times_ms.end());
-  return times_ms[kTries / 2];
+  return median(std::move(times_ms));
 }
 
 double copy_ms(std::size_t bytes) {

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "core/compare/pareto.h"
+
 namespace pinocchio {
 namespace {
 
@@ -88,13 +90,12 @@ std::string given_up(const Plan& exact, const Plan& plan) {
   return text;
 }
 
-std::vector<MeasuredPlan> pareto_front(std::vector<MeasuredPlan> plans) {
-  std::stable_sort(plans.begin(), plans.end(), [](const MeasuredPlan& a, const MeasuredPlan& b) {
-    return a.error != b.error ? a.error < b.error : a.frame_ms < b.frame_ms;
-  });
+std::vector<MeasuredPlan> pareto_front(const std::vector<MeasuredPlan>& plans) {
+  std::vector<CostAndError> costs;
+  for (const MeasuredPlan& one : plans) costs.push_back({one.frame_ms, one.error});
   std::vector<MeasuredPlan> front;
-  for (const MeasuredPlan& one : plans)
-    if (front.empty() || one.frame_ms < front.back().frame_ms) front.push_back(one);
+  for (const std::size_t i : pareto_front(costs)) front.push_back(plans[i]);
+  std::reverse(front.begin(), front.end());
   return front;
 }
 

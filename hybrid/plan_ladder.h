@@ -24,7 +24,7 @@ struct MeasuredPlan {
 };
 
 // Those that no other beats in both time and error, slowest (and so most accurate) first.
-[[nodiscard]] std::vector<MeasuredPlan> pareto_front(std::vector<MeasuredPlan> plans);
+[[nodiscard]] std::vector<MeasuredPlan> pareto_front(const std::vector<MeasuredPlan>& plans);
 
 struct Budget {
   std::optional<double> frame_ms, error;

@@ -2,11 +2,12 @@
 
 #include <algorithm>
 
-#include "app/chart/median.h"
 #include "app/console.h"
 #include "app/errors.h"
 #include "core/compare/magma.h"
 #include "core/image/png.h"
+#include "core/image/rgb.h"
+#include "core/math/median.h"
 
 namespace pinocchio::app {
 namespace {
@@ -134,7 +135,7 @@ bool Bench::measure_error(const Configuration& configuration, Workers& workers, 
     const Image<glm::vec4>& color = screen.show(views_[frame]);
     if (interrupted()) return false;
     if (std::find(compared.begin(), compared.end(), frame) == compared.end()) continue;
-    const std::optional<PictureError> error = ruler_.measure(color, frame, area);
+    const std::optional<RuledError> error = ruler_.measure(color, frame, area);
     if (!error) return false;
     if (error->not_finite > 0) {
       figures.failure = "NaN or infinity in " + std::to_string(error->not_finite) + " pixels";

@@ -5,9 +5,9 @@
 #include <optional>
 #include <vector>
 
+#include "app/chart/configuration.h"
 #include "app/chart/results.h"
 #include "app/chart/ruler.h"
-#include "app/chart/sweep.h"
 #include "app/chart/timed_renderer.h"
 #include "app/machine.h"
 

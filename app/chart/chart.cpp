@@ -2,7 +2,6 @@
 #include <cstdio>
 #include <memory>
 #include <nlohmann/json.hpp>
-#include <system_error>
 
 #include "app/animation.h"
 #include "app/chart/bench.h"
@@ -15,6 +14,7 @@
 #include "app/errors.h"
 #include "app/machine.h"
 #include "app/options.h"
+#include "app/output.h"
 #include "app/parse.h"
 #include "app/verbs.h"
 #include "core/base/system_info.h"
@@ -100,13 +100,7 @@ class ChartRun {
   }
 
   void make_folders() const {
-    for (const char* name : {"plans", "pictures"}) {
-      std::error_code error;
-      std::filesystem::create_directories(folder_ / name, error);
-      if (error)
-        throw Exit(kFailed, folder_.string() + ": cannot be made a folder (" + error.message() +
-                                "); name one that can be written with -o DIR");
-    }
+    for (const char* name : {"plans", "pictures"}) make_folder(folder_ / name);
     check_writable(folder_ / "results.json");
   }
 

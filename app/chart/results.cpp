@@ -7,7 +7,7 @@
 #include <sstream>
 #include <system_error>
 
-#include "app/chart/pareto.h"
+#include "core/compare/pareto.h"
 #include "core/image/atomic_file.h"
 
 namespace pinocchio::app {

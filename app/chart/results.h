@@ -6,7 +6,7 @@
 #include <optional>
 #include <string>
 
-#include "app/chart/sweep.h"
+#include "app/chart/configuration.h"
 #include "core/base/error.h"
 
 namespace pinocchio::app {

@@ -7,7 +7,7 @@
 #include <utility>
 #include <vector>
 
-#include "core/compare/figures.h"
+#include "core/compare/picture_error.h"
 #include "core/image/image.h"
 #include "core/parallel/workers.h"
 #include "hybrid/prepared_scene.h"
@@ -15,11 +15,7 @@
 
 namespace pinocchio::app {
 
-// How far a picture is from the reference.
-struct PictureError {
-  ErrorFigures rgb;
-  double mean_flip = 0.0;
-  Image<float> flip;
+struct RuledError : PictureError {
   std::size_t not_finite = 0;  // pixels with a NaN or infinity; above 0 the other figures are 0
 };
 
@@ -36,8 +32,8 @@ class Ruler {
   [[nodiscard]] const Image<glm::vec3>* reference(std::size_t frame, bool area);
 
   // RGB of a picture against the reference of the frame. Nothing where the user asked for an end.
-  [[nodiscard]] std::optional<PictureError> measure(const Image<glm::vec4>& color, std::size_t frame,
-                                                    bool area);
+  [[nodiscard]] std::optional<RuledError> measure(const Image<glm::vec4>& color, std::size_t frame,
+                                                  bool area);
 
  private:
   [[nodiscard]] Image<glm::vec3> drawn(std::size_t frame, glm::vec2 jitter);
@@ -49,8 +45,5 @@ class Ruler {
   Workers& workers_;
   std::map<std::pair<std::size_t, bool>, Image<glm::vec3>> references_;
 };
-
-// Linear RGB of a picture, as write_png's preview takes it.
-[[nodiscard]] Image<glm::vec4> opaque(const Image<glm::vec3>& rgb);
 
 }  // namespace pinocchio::app

@@ -5,12 +5,12 @@
 #include <cstdio>
 #include <nlohmann/json.hpp>
 #include <string>
-#include <system_error>
 #include <vector>
 
 #include "app/console.h"
-#include "app/errors.h"
+#include "app/exit_codes.h"
 #include "app/machine.h"
+#include "app/output.h"
 #include "core/base/system_info.h"
 #include "core/image/atomic_file.h"
 #include "core/stability/trouble.h"
@@ -37,50 +37,43 @@ struct Table {
   std::vector<Cell> cells;  // row by row, the default first
 };
 
-double ratio(double seconds, double of_default) {
-  return seconds / std::max(of_default, 1e-9);
+Cell cell_of(const stability::Trouble& trouble, const stability::Tally& tally) {
+  Cell cell;
+  cell.failure = trouble.failure;
+  cell.limit = trouble.limit;
+  cell.trials = tally.trials;
+  cell.failures = tally.failures;
+  cell.excused = tally.excused;
+  cell.seconds = tally.seconds;
+  return cell;
 }
 
-bool fill_rays(int rays, Progress& progress, Table& table) {
-  const std::vector<stability::Method> methods = stability::all_methods();
-  for (const stability::Method& method : methods) table.methods.push_back(method.name);
-  for (const stability::Trouble& trouble : stability::all_troubles()) {
-    double of_default = 0.0;
-    for (const stability::Method& method : methods) {
-      if (interrupted()) return false;
-      const stability::Tally tally = trouble.run(method, rays);
-      if (&method == &methods.front()) of_default = tally.seconds;
-      table.cells.push_back({std::string(trouble.name), std::string(trouble.failure), method.name,
-                             trouble.limit, tally.trials, tally.failures, tally.excused, tally.seconds,
-                             ratio(tally.seconds, of_default)});
-      progress.step();
-    }
-  }
-  return true;
+Cell cell_of(const stability::PictureTrouble&, const stability::PictureTally& tally) {
+  Cell cell;
+  cell.failure = "black or NaN pixels";
+  cell.trials = tally.pixels;
+  cell.failures = tally.failures;
+  cell.seconds = tally.seconds;
+  cell.more = {{"other_ids", tally.other_ids},
+               {"worst_difference_there", tally.worst_there},
+               {"mean_difference", tally.mean_error},
+               {"holes", tally.holes}};
+  return cell;
 }
 
-bool fill_pictures(int side, Progress& progress, Table& table) {
-  const std::vector<stability::DrawMethod> methods = stability::all_draw_methods();
-  for (const stability::DrawMethod& method : methods) table.methods.push_back(method.name);
-  for (const stability::PictureTrouble& trouble : stability::picture_troubles()) {
-    double of_default = 0.0;
-    for (const stability::DrawMethod& method : methods) {
+// Runs every trouble, as large as `size`, by every method. False where the user asked for an end.
+template <class Troubles, class Methods>
+bool fill(const Troubles& troubles, const Methods& methods, int size, Progress& progress, Table& table) {
+  for (const auto& method : methods) table.methods.push_back(method.name);
+  for (const auto& trouble : troubles) {
+    double default_seconds = 0.0;
+    for (const auto& method : methods) {
       if (interrupted()) return false;
-      const stability::PictureTally tally = trouble.run(method, side);
-      if (&method == &methods.front()) of_default = tally.seconds;
-      Cell cell{std::string(trouble.name),
-                "black or NaN pixels",
-                method.name,
-                false,
-                tally.pixels,
-                tally.failures,
-                0,
-                tally.seconds,
-                ratio(tally.seconds, of_default)};
-      cell.more = {{"other_ids", tally.other_ids},
-                   {"worst_difference_there", tally.worst_there},
-                   {"mean_difference", tally.mean_error},
-                   {"holes", tally.holes}};
+      Cell cell = cell_of(trouble, trouble.run(method, size));
+      cell.trouble = trouble.name;
+      cell.method = method.name;
+      if (&method == &methods.front()) default_seconds = cell.seconds;
+      cell.ratio = cell.seconds / std::max(default_seconds, 1e-9);
       table.cells.push_back(std::move(cell));
       progress.step();
     }
@@ -171,21 +164,20 @@ void write_tables(const std::filesystem::path& folder, const Table& rays, const 
 }  // namespace
 
 int run_stability(const StabilityRequest& request) {
-  std::error_code error;
-  std::filesystem::create_directories(request.folder, error);
-  if (error)
-    throw Exit(kFailed, request.folder.string() + ": cannot be made a folder (" + error.message() +
-                            "); name one that can be written with -o DIR");
+  make_folder(request.folder);
   check_writable(request.folder / "stability.json");
   const DrawOptions& draw = *request.draw;
   const auto context = gl::open_context({draw.backend, draw.device, false});
-  const std::size_t steps = stability::all_methods().size() * stability::all_troubles().size() +
-                            stability::all_draw_methods().size() * stability::picture_troubles().size();
+  const auto methods = stability::all_methods();
+  const auto draw_methods = stability::all_draw_methods();
+  const auto troubles = stability::all_troubles();
+  const auto picture_troubles = stability::picture_troubles();
   Table rays, pictures;
   {
-    Progress progress(draw.quiet ? "off" : draw.progress, "stability", steps);
-    if (!fill_rays(request.quick ? kQuickRays : kRays, progress, rays) ||
-        !fill_pictures(request.quick ? kQuickSide : kSide, progress, pictures))
+    Progress progress(draw.quiet ? "off" : draw.progress, "stability",
+                      methods.size() * troubles.size() + draw_methods.size() * picture_troubles.size());
+    if (!fill(troubles, methods, request.quick ? kQuickRays : kRays, progress, rays) ||
+        !fill(picture_troubles, draw_methods, request.quick ? kQuickSide : kSide, progress, pictures))
       return kInterrupted;
   }
   write_tables(request.folder, rays, pictures);

@@ -2,16 +2,10 @@
 
 #include <algorithm>
 #include <array>
-#include <cctype>
 #include <functional>
-#include <nlohmann/json.hpp>
-
-#include "hybrid/plan_json.h"
 
 namespace pinocchio::app {
 namespace {
-
-constexpr std::array kTrees{"sah", "spatial-median", "object-median"};
 
 // The configurations of a sweep as they are collected.
 class Sweep {
@@ -41,6 +35,13 @@ class Sweep {
     settings.plan = *plan;
     settings.exchange = exchange;
     add(value, options, settings);
+  }
+  // The default's plan by another tracer, named as its option names it.
+  void add_tracer(const std::string& name, const std::string& option,
+                  const std::function<void(TracerSettings&)>& change) {
+    Settings settings = base_;
+    change(settings.tracer);
+    add(name, settings.tracer == base_.tracer ? "" : option + " " + name, settings);
   }
   // The default's plan with a change that only a plan's file can say.
   void add_plan_file(const std::string& value, const std::function<void(Plan&)>& change,
@@ -156,38 +157,27 @@ void cutoffs(Sweep& sweep) {
 }
 
 void trees(Sweep& sweep) {
-  for (const char* const name : kTrees) {
-    Settings settings = sweep.base();
-    settings.tracer.tree = *parse_split_rule(name);
-    sweep.add(name, settings.tracer == sweep.base().tracer ? "" : std::string("--tree ") + name, settings);
-  }
+  for (const char* const name : kSplitRuleNames)
+    sweep.add_tracer(name, "--tree", [name](TracerSettings& t) { t.tree = *parse_split_rule(name); });
 }
 
 void triangle_tests(Sweep& sweep) {
-  for (const TriangleTest test : kTriangleTests) {
-    Settings settings = sweep.base();
-    settings.tracer.triangle_test = test;
-    const std::string name(triangle_test_name(test));
-    sweep.add(name, settings.tracer == sweep.base().tracer ? "" : "--triangle-test " + name, settings);
-  }
+  for (const TriangleTest test : kTriangleTests)
+    sweep.add_tracer(std::string(triangle_test_name(test)), "--triangle-test",
+                     [test](TracerSettings& t) { t.triangle_test = test; });
 }
 
 void offsets(Sweep& sweep) {
-  for (const OffsetMethod offset : kOffsetMethods) {
-    Settings settings = sweep.base();
-    settings.tracer.offset = offset;
-    const std::string name(offset_method_name(offset));
-    sweep.add(name, settings.tracer == sweep.base().tracer ? "" : "--offset " + name, settings);
-  }
+  for (const OffsetMethod offset : kOffsetMethods)
+    sweep.add_tracer(std::string(offset_method_name(offset)), "--offset",
+                     [offset](TracerSettings& t) { t.offset = offset; });
 }
 
 void simd_widths(Sweep& sweep) {
-  for (const Isa isa : supported_isas()) {
-    Settings settings = sweep.base();
-    const std::string name(isa_name(isa));
-    if (isa != default_isa()) settings.tracer.isa = isa;
-    sweep.add(name, isa == default_isa() ? "" : "--isa " + name, settings);
-  }
+  for (const Isa isa : supported_isas())
+    sweep.add_tracer(std::string(isa_name(isa)), "--isa", [isa](TracerSettings& t) {
+      if (isa != default_isa()) t.isa = isa;
+    });
 }
 
 void thread_counts(Sweep& sweep) {
@@ -274,23 +264,6 @@ bool is_wanted(const SweepRequest& request, std::string_view axis) {
 }
 
 }  // namespace
-
-std::string Configuration::name() const {
-  std::string name = axis + "-" + value;
-  for (char& c : name)
-    if (std::isalnum(static_cast<unsigned char>(c)) == 0 && c != '.') c = '-';
-  return name;
-}
-
-nlohmann::json to_json(const Settings& settings) {
-  return {{"plan", to_json(settings.plan)},
-          {"exchange", exchange_name(settings.exchange)},
-          {"spp", settings.spp},
-          {"tree", kTrees[static_cast<std::size_t>(settings.tracer.tree)]},
-          {"isa", isa_name(settings.tracer.isa.value_or(default_isa()))},
-          {"triangle_test", triangle_test_name(settings.tracer.triangle_test)},
-          {"offset", offset_method_name(settings.tracer.offset)}};
-}
 
 Expected<std::vector<Configuration>> make_sweep(const SweepRequest& request) {
   const Expected<Plan> plan = make_plan(request.needs, request.plan);

@@ -4,8 +4,8 @@
 #include <cassert>
 #include <ctime>
 
-#include "app/chart/median.h"
 #include "app/console.h"
+#include "core/math/median.h"
 
 namespace pinocchio::app {
 namespace {

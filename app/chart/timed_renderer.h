@@ -3,7 +3,7 @@
 #include <memory>
 #include <vector>
 
-#include "app/chart/sweep.h"
+#include "app/chart/configuration.h"
 #include "core/parallel/workers.h"
 #include "hybrid/prepared_scene.h"
 #include "hybrid/renderer.h"

@@ -1,13 +1,33 @@
 #include "app/view/file_watch.h"
 
 #include <algorithm>
+#include <utility>
 
 namespace pinocchio::app {
 
-FileWatch::FileWatch(std::filesystem::path folder, std::vector<std::string> extensions)
-    : folder_(std::move(folder)), extensions_(std::move(extensions)) {
-  if (folder_.empty()) folder_ = ".";
+namespace {
+
+bool contains(const std::vector<std::string>& files, const std::string& file) {
+  return std::find(files.begin(), files.end(), file) != files.end();
+}
+
+}  // namespace
+
+FileWatch::FileWatch(std::filesystem::path folder) : folder_(std::move(folder)) {
   known_ = pending_ = look();
+}
+
+FileWatch::FileWatch(std::vector<std::string> files) : files_(std::move(files)) {
+  known_ = pending_ = look();
+}
+
+void FileWatch::follow(std::vector<std::string> files) {
+  const std::vector<std::string> before = std::exchange(files_, std::move(files));
+  const auto dropped = [this](const auto& one) { return !contains(files_, one.first); };
+  std::erase_if(known_, dropped);
+  std::erase_if(pending_, dropped);
+  for (const auto& [file, stamp] : look())
+    if (!contains(before, file)) known_[file] = pending_[file] = stamp;
 }
 
 bool FileWatch::changed(double now_s, double period_s) {
@@ -33,20 +53,20 @@ bool FileWatch::changed(double now_s, double period_s) {
 
 FileWatch::Stamps FileWatch::look() const {
   Stamps stamps;
+  const auto add = [&stamps](const std::filesystem::directory_entry& file) {
+    std::error_code gone;  // between listing and looking, or not there yet
+    if (!file.is_regular_file(gone) || gone) return;
+    const auto time = file.last_write_time(gone);
+    const std::uintmax_t size = file.file_size(gone);
+    if (!gone) stamps[file.path().string()] = {time.time_since_epoch().count(), size};
+  };
   std::error_code error;
+  for (const std::string& file : files_) add(std::filesystem::directory_entry(file, error));
+  if (folder_.empty()) return stamps;
   using Iterator = std::filesystem::recursive_directory_iterator;
   for (Iterator at(folder_, std::filesystem::directory_options::skip_permission_denied, error), end;
-       !error && at != end && stamps.size() < kMost; at.increment(error)) {
-    std::error_code gone;  // between listing and looking
-    if (!at->is_regular_file(gone) || gone) continue;
-    const std::string extension = at->path().extension().string();
-    if (!extensions_.empty() &&
-        std::find(extensions_.begin(), extensions_.end(), extension) == extensions_.end())
-      continue;
-    const auto time = at->last_write_time(gone);
-    const std::uintmax_t size = at->file_size(gone);
-    if (!gone) stamps[at->path().string()] = {time.time_since_epoch().count(), size};
-  }
+       !error && at != end && stamps.size() < kMost; at.increment(error))
+    add(*at);
   return stamps;
 }
 

@@ -12,9 +12,13 @@ namespace pinocchio::app {
 // Tells when files change, by looking at their times and sizes now and then.
 class FileWatch {
  public:
-  // Files of `folder` and below whose extension is one of these; any where there are none. Looks at no more
-  // than kMost files.
-  FileWatch(std::filesystem::path folder, std::vector<std::string> extensions);
+  // All files of `folder` and below, at most kMost.
+  explicit FileWatch(std::filesystem::path folder);
+  // These, whether they are there yet or not.
+  explicit FileWatch(std::vector<std::string> files);
+
+  // These from now on, of a watch of files. What has changed in one that was watched before still counts.
+  void follow(std::vector<std::string> files);
 
   // Whether they differ from what they were at the start, or at the last true. A change counts when it has
   // lasted from one look to the next: a file that is still being written is waited for, and does not hold up
@@ -26,8 +30,8 @@ class FileWatch {
   using Stamps = std::map<std::string, std::pair<std::int64_t, std::uintmax_t>>;
   [[nodiscard]] Stamps look() const;
 
-  std::filesystem::path folder_;
-  std::vector<std::string> extensions_;
+  std::filesystem::path folder_;    // empty: files_
+  std::vector<std::string> files_;  // not of a folder
   Stamps known_, pending_;
   double looked_s_ = 0.0;
 };

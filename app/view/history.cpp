@@ -1,6 +1,9 @@
 #include "app/view/history.h"
 
 #include <algorithm>
+#include <utility>
+
+#include "core/math/median.h"
 
 namespace pinocchio::app {
 
@@ -33,10 +36,7 @@ std::vector<float> History::stage_ms(Stage stage) const {
 float median_of_newest(const std::vector<float>& values, std::size_t count) {
   std::vector<float> newest(values.end() - static_cast<std::ptrdiff_t>(std::min(count, values.size())),
                             values.end());
-  if (newest.empty()) return 0.0f;
-  const auto middle = newest.begin() + static_cast<std::ptrdiff_t>(newest.size() / 2);
-  std::nth_element(newest.begin(), middle, newest.end());
-  return *middle;
+  return newest.empty() ? 0.0f : median(std::move(newest));
 }
 
 }  // namespace pinocchio::app

@@ -27,11 +27,6 @@ ViewSettings settings_of(const ViewOptions& options) {
   return possible(settings);
 }
 
-// What a scene may be made of.
-std::vector<std::string> scene_extensions() {
-  return {".gltf", ".glb", ".bin", ".obj", ".mtl", ".png", ".jpg", ".jpeg"};
-}
-
 }  // namespace
 
 Session::Session(gl::Window& window, const ViewOptions& options)
@@ -52,7 +47,7 @@ Session::Session(gl::Window& window, const ViewOptions& options)
   model_.renderer = window.context().info().renderer;
   model_.threads = workers_.count();
   window_.set_vsync(applied_.vsync);
-  if (options_.watch) shader_watch_.emplace(shader_folder(), std::vector<std::string>{});
+  if (options_.watch) shader_watch_.emplace(shader_folder());
   loader_.start(options_.draw);
 }
 
@@ -164,8 +159,12 @@ void Session::take_scene(const SceneLoader::News& news) {
   model_.history.clear();
   window_.set_title(scene.source + " - Pinocchio");
   if (!options_.watch) return;
-  if (again) model_.notify(scene.source + " was loaded anew");
-  if (!again) scene_watch_.emplace(std::filesystem::path(scene.source).parent_path(), scene_extensions());
+  if (again) {
+    model_.notify(scene.source + " was loaded anew");
+    scene_watch_->follow(scene.source_files);
+  } else {
+    scene_watch_.emplace(scene.source_files);
+  }
 }
 
 void Session::take_file_changes() {

@@ -2,9 +2,9 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <nlohmann/json.hpp>
-#include <numeric>
+
+#include "core/math/finite.h"
 
 namespace pinocchio {
 namespace {
@@ -41,8 +41,7 @@ Expected<void> check_finite(const NamedExr& file, const Image<glm::vec3>& rgb) {
   glm::ivec2 first(0);
   for (int y = rgb.height() - 1; y >= 0; --y)
     for (int x = rgb.width() - 1; x >= 0; --x) {
-      const glm::vec3& p = rgb.at(x, y);
-      if (std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z)) continue;
+      if (is_finite(rgb.at(x, y))) continue;
       ++count;
       first = {x, y};
     }
@@ -140,11 +139,7 @@ Expected<Comparison> compare(const NamedExr& a, const NamedExr& b, const Compare
   Comparison result;
   if (const auto done = compare_channels(a, b, options, result); !done) return Unexpected(done.error());
   compare_masks(a, b, result);
-  result.rgb = error_figures(rgb_a->pixels(), rgb_b->pixels());
-  result.flip = flip(*rgb_a, *rgb_b, options.pixels_per_degree, workers);
-  const auto errors = result.flip.pixels();
-  result.mean_flip =
-      std::accumulate(errors.begin(), errors.end(), 0.0) / std::max(1.0, static_cast<double>(errors.size()));
+  static_cast<PictureError&>(result) = picture_error(*rgb_a, *rgb_b, options.pixels_per_degree, workers);
   return result;
 }
 

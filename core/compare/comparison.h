@@ -7,8 +7,7 @@
 #include <vector>
 
 #include "core/base/error.h"
-#include "core/compare/figures.h"
-#include "core/compare/flip.h"
+#include "core/compare/picture_error.h"
 #include "core/image/exr.h"
 
 namespace pinocchio {
@@ -24,10 +23,7 @@ struct CompareOptions {
   bool all_channels = false;          // all that both files have
 };
 
-struct Comparison {
-  ErrorFigures rgb;
-  Image<float> flip;  // of the data window
-  double mean_flip = 0.0;
+struct Comparison : PictureError {  // of the data window
   std::optional<MaskFigures> mask;
   std::string no_mask;                                           // why there is no `mask`
   std::vector<std::pair<std::string, ChannelFigures>> channels;  // by name, in the order asked

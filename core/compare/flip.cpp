@@ -5,6 +5,7 @@
 #include <cassert>
 #include <cmath>
 #include <numbers>
+#include <numeric>
 #include <vector>
 
 namespace pinocchio {
@@ -199,6 +200,12 @@ Image<float> flip(const Image<glm::vec3>& a, const Image<glm::vec3>& b, float pi
     errors[i] = std::pow(errors[i], 1.0f - feature_error(features_a[i], features_b[i]));
   });
   return errors;
+}
+
+double mean(const Image<float>& errors) {
+  const auto values = errors.pixels();
+  return std::accumulate(values.begin(), values.end(), 0.0) /
+         std::max(1.0, static_cast<double>(values.size()));
 }
 
 }  // namespace pinocchio

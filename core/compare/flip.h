@@ -17,4 +17,7 @@ inline constexpr float kLeastPixelsPerDegree = 1.0f, kMostPixelsPerDegree = 1000
 [[nodiscard]] Image<float> flip(const Image<glm::vec3>& a, const Image<glm::vec3>& b, float pixels_per_degree,
                                 Workers& workers);
 
+// Of all pixels' errors, as one figure; 0 where there are none.
+[[nodiscard]] double mean(const Image<float>& errors);
+
 }  // namespace pinocchio

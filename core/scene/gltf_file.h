@@ -22,6 +22,7 @@ namespace pinocchio {
 struct GltfFile {
   std::filesystem::path path;
   tinygltf::Model model;
+  std::vector<std::string> named_files;  // looked for beside it, found or not
 
   [[nodiscard]] Unexpected error(const std::string& what,
                                  const std::string& remedy = "export the file again") const {

@@ -43,6 +43,11 @@ bool keep_encoded(tinygltf::Image* image, const int, std::string*, std::string*,
   return true;
 }
 
+bool find_named_file(const std::string& file, void* named_files) {
+  static_cast<std::vector<std::string>*>(named_files)->push_back(file);
+  return tinygltf::FileExists(file, nullptr);
+}
+
 std::string first_line(const std::string& text) {
   return text.substr(0, text.find('\n'));
 }
@@ -50,7 +55,7 @@ std::string first_line(const std::string& text) {
 }  // namespace
 
 Expected<GltfFile> read_gltf_file(const std::filesystem::path& path, std::vector<std::string>& warnings) {
-  GltfFile file{path, {}};
+  GltfFile file{path, {}, {}};
   std::ifstream in(path, std::ios::binary);
   const std::string bytes(std::istreambuf_iterator<char>(in), {});
   if (!in || bytes.empty()) return file.error("cannot be read", "is it yours to read?");
@@ -60,6 +65,8 @@ Expected<GltfFile> read_gltf_file(const std::filesystem::path& path, std::vector
 
   tinygltf::TinyGLTF reader;
   reader.SetImageLoader(keep_encoded, nullptr);
+  reader.SetFsCallbacks({find_named_file, tinygltf::ExpandFilePath, tinygltf::ReadWholeFile,
+                         tinygltf::WriteWholeFile, &file.named_files});
   const auto size = static_cast<unsigned>(bytes.size());
   const std::string folder = path.has_parent_path() ? path.parent_path().string() : ".";
   std::string error, warning;

@@ -2,7 +2,8 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
+
+#include "core/math/finite.h"
 
 namespace pinocchio {
 namespace {
@@ -40,10 +41,6 @@ Expected<Scene> load_by_extension(const std::filesystem::path& file, Warnings& w
   return error(file, "is not of a format that can be read", "convert it to .gltf, .glb or .obj");
 }
 
-bool finite(const glm::vec3& v) {
-  return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
-}
-
 }  // namespace
 
 Expected<Scene> load_scene(const std::filesystem::path& path, Warnings* warnings) {
@@ -56,6 +53,7 @@ Expected<Scene> load_scene(const std::filesystem::path& path, Warnings* warnings
   Expected<Scene> scene = load_by_extension(*file, warnings ? *warnings : unheard);
   if (!scene) return scene;
   scene->source = file->string();
+  scene->source_files.insert(scene->source_files.begin(), scene->source);
   if (const Expected<void> checked = check_scene(*scene); !checked) return Unexpected(checked.error());
   return scene;
 }
@@ -74,14 +72,14 @@ Expected<void> check_scene(const Scene& scene) {
       (!scene.texcoords.empty() && scene.texcoords.size() != scene.positions.size()))
     return fail("does not hold one of everything for each vertex and triangle", "export it again");
   for (std::size_t i = 0; i < scene.positions.size(); ++i)
-    if (!finite(scene.positions[i]) || !finite(scene.normals[i]))
+    if (!is_finite(scene.positions[i]) || !is_finite(scene.normals[i]))
       return fail("vertex " + std::to_string(i) + " is not a finite number", "export it again");
   for (std::size_t i = 0; i < scene.positions.size(); ++i)
     if (const glm::vec3 p = glm::abs(scene.positions[i]); std::max({p.x, p.y, p.z}) > kFarthest)
       return fail("vertex " + std::to_string(i) + " is more than 1e9 from the origin",
                   "scale the scene down");
   for (std::size_t i = 0; i < scene.texcoords.size(); ++i)
-    if (!finite({scene.texcoords[i], 0.0f}))
+    if (!is_finite({scene.texcoords[i], 0.0f}))
       return fail("the texture coordinate of vertex " + std::to_string(i) + " is not a finite number",
                   "export it again");
   for (std::size_t i = 0; i < scene.triangles.size(); ++i) {

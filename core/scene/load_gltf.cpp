@@ -4,6 +4,7 @@
 #include <glm/gtc/quaternion.hpp>
 #include <glm/gtc/type_ptr.hpp>
 
+#include "core/math/finite.h"
 #include "core/scene/gltf_file.h"
 #include "core/scene/load.h"
 
@@ -80,17 +81,13 @@ Camera camera_of(const tinygltf::Camera& c, const tinygltf::Node& node, const gl
   return camera;
 }
 
-bool finite(const glm::vec3& v) {
-  return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
-}
-
 bool can_look(const Camera& camera) {
-  return camera.fov_deg > 0.0f && camera.fov_deg < 180.0f && finite(camera.eye) && finite(camera.target) &&
-         finite(camera.up);
+  return camera.fov_deg > 0.0f && camera.fov_deg < 180.0f && is_finite(camera.eye) &&
+         is_finite(camera.target) && is_finite(camera.up);
 }
 
 bool can_shine(const Light& light) {
-  return finite(light.position) && finite(light.direction) && finite(light.intensity * light.color);
+  return is_finite(light.position) && is_finite(light.direction) && is_finite(light.intensity * light.color);
 }
 
 class SceneReader {
@@ -188,6 +185,7 @@ class SceneReader {
   void warn(const std::string& what) { warnings_.push_back(file_.path.string() + ": " + what); }
 
   void finish() {
+    scene_.source_files = file_.named_files;
     add_gltf_textures(file_, scene_, warnings_);
     const bool textured = std::any_of(scene_.materials.begin(), scene_.materials.end(),
                                       [](const Material& m) { return m.diffuse_texture >= 0; });

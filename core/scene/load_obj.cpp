@@ -80,6 +80,7 @@ class MtlReader final : public tinyobj::MaterialReader {
         in.clear();
         in.open(mtl);
       }
+    files_.push_back(mtl.string());
     if (!in) {
       warnings_.push_back(file_.string() + ": its materials " + mtl.string() +
                           " cannot be read; grey is used");
@@ -89,8 +90,12 @@ class MtlReader final : public tinyobj::MaterialReader {
     return true;
   }
 
+  // Asked for so far, found or not.
+  [[nodiscard]] const std::vector<std::string>& files() const { return files_; }
+
  private:
   const std::filesystem::path& file_;
+  std::vector<std::string> files_;
   std::vector<std::string> full_names_;
   Warnings& warnings_;
 };
@@ -189,7 +194,9 @@ void load_textures(const ObjFile& obj, const std::filesystem::path& file, Scene&
       scene.materials[i + 1].diffuse_texture = known->second;
       continue;
     }
-    std::optional<Texture> texture = load_texture(file.parent_path() / name);
+    const std::filesystem::path texture_file = file.parent_path() / name;
+    scene.source_files.push_back(texture_file.string());
+    std::optional<Texture> texture = load_texture(texture_file);
     if (!texture) {
       warnings.push_back(file.string() + ": its texture " + name +
                          " cannot be read; the plain colour is used");
@@ -219,6 +226,7 @@ Expected<Scene> load_obj(const std::filesystem::path& path, Warnings& warnings) 
         InputError{path.string(), 0, error.substr(0, error.find('\n')), "export the file again"});
   add_unknown_materials(warning, path, warnings);
   Scene scene = SceneBuilder(obj).build();
+  scene.source_files = mtl.files();
   load_textures(obj, path, scene, warnings);
   return scene;
 }

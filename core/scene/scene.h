@@ -22,7 +22,8 @@ struct Texture {
 // One soup of indexed triangles in world space. A triangle's index here is its id everywhere: in the
 // GPU's visibility buffer, in every Hit and in the EXR.
 struct Scene {
-  std::string source;  // path it was loaded from
+  std::string source;                     // path it was loaded from
+  std::vector<std::string> source_files;  // that path and all files it names, also those that are missing
 
   std::vector<glm::vec3> positions;
   std::vector<glm::vec3> normals;  // one a position; a zero vector asks for the triangle's own (flat) normal

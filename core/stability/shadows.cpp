@@ -102,31 +102,21 @@ Set dark_room(float size, const glm::vec3& center) {
           2.0f * spacing};
 }
 
-Tally acne_scaled(const Method& method, int rays) {
+using MakeSet = Set (*)(float size, const glm::vec3& center);
+
+template <MakeSet make, bool expected>
+Tally scaled(const Method& method, int rays) {
   Tally tally;
-  for (const float s : kScales) tally += near_and_far(lit_body(s, glm::vec3(0.0f)), method, rays / 5, false);
+  for (const float s : kScales) tally += near_and_far(make(s, glm::vec3(0.0f)), method, rays / 5, expected);
   return tally;
 }
 
-Tally acne_moved(const Method& method, int rays) {
+template <MakeSet make, bool expected>
+Tally moved(const Method& method, int rays) {
   Tally tally;
   for (const float s : kScales)
     for (const float m : kMoves)
-      tally += near_and_far(lit_body(s, s * m * glm::vec3(1, -1, 1)), method, rays / 10, false);
-  return tally;
-}
-
-Tally leaks_scaled(const Method& method, int rays) {
-  Tally tally;
-  for (const float s : kScales) tally += near_and_far(dark_room(s, glm::vec3(0.0f)), method, rays / 5, true);
-  return tally;
-}
-
-Tally leaks_moved(const Method& method, int rays) {
-  Tally tally;
-  for (const float s : kScales)
-    for (const float m : kMoves)
-      tally += near_and_far(dark_room(s, s * m * glm::vec3(1, -1, 1)), method, rays / 10, true);
+      tally += near_and_far(make(s, s * m * glm::vec3(1, -1, 1)), method, rays / 10, expected);
   return tally;
 }
 
@@ -181,10 +171,10 @@ Tally dark_facets(const Method& method, int rays) {
 }
 
 constexpr std::array kTroubles{
-    Trouble{"scaled by 1e-6 to 1e6: acne", "lit points in shadow", acne_scaled},
-    Trouble{"moved by 1e6 sizes: acne", "lit points in shadow", acne_moved},
-    Trouble{"scaled, closed room", "light leaks", leaks_scaled},
-    Trouble{"moved, closed room", "light leaks", leaks_moved},
+    Trouble{"scaled by 1e-6 to 1e6: acne", "lit points in shadow", scaled<lit_body, false>},
+    Trouble{"moved by 1e6 sizes: acne", "lit points in shadow", moved<lit_body, false>},
+    Trouble{"scaled, closed room", "light leaks", scaled<dark_room, true>},
+    Trouble{"moved, closed room", "light leaks", moved<dark_room, true>},
     Trouble{"beside one 1e6 times larger", "lit points in shadow", beside_one_far_larger},
     Trouble{"low-poly ball, grazing light", "lit points in shadow", grazing_light},
     Trouble{"shadow terminator", "points of facets turned away", dark_facets, true},

@@ -2,9 +2,9 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <memory>
 
+#include "core/math/finite.h"
 #include "hybrid/renderer.h"
 #include "hybrid/stability/picture_scenes.h"
 
@@ -32,8 +32,7 @@ std::vector<Picture> draw(const Shot& shot, const Plan& plan, Exchange exchange,
 }
 
 bool is_lit(const glm::vec4& color) {
-  return std::isfinite(color.r) && std::isfinite(color.g) && std::isfinite(color.b) &&
-         std::max({color.r, color.g, color.b}) >= kBlack;
+  return is_finite(glm::vec3(color)) && std::max({color.r, color.g, color.b}) >= kBlack;
 }
 
 double difference(const glm::vec4& a, const glm::vec4& b) {

@@ -58,6 +58,10 @@ TEST_F(ErrorsTest, Usage) {
   expect_error(render + "--eye 1,2 -o x.exr", 2, "--eye");
   expect_error(render + "--eye 1,2,nan -o x.exr", 2, "--eye");
   expect_error(render + "--fov 180 -o x.exr", 2, "--fov");
+  for (const char* time : {"0ms", "-1s", "0x10ms", "16sm", "ms", "nan", "1e400"})
+    expect_error(render + "--budget=" + time + " -o x.exr", 2, "is not a time such as 16ms");
+  for (const char* limit : {"flip", "flip=", "flip=-1", "flip=nan", "psnr=3", "=1"})
+    expect_error(render + "--max-error " + limit + " -o x.exr", 2, "is no METRIC=VALUE");
   expect_error(render + "--light 1,2,3,bright -o x.exr", 2, "--light");
   expect_error(render + "--spp 0 -o x.exr", 2, "--spp");
   expect_error(render + "--threads 0 -o x.exr", 2, "--threads");

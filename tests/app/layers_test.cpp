@@ -9,6 +9,7 @@
 #include <set>
 #include <string>
 #include <vector>
+
 #include "tests/support/own_file.h"
 
 namespace pinocchio {

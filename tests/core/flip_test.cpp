@@ -5,7 +5,6 @@
 #include "tests/support/own_file.h"
 
 #include <cmath>
-#include <numeric>
 #include <string>
 
 #include "tests/support/command.h"
@@ -66,11 +65,6 @@ std::vector<Pair> pairs() {
            67.0f, 0.6023084, 0.9577616},
           {"edges from near", picture({97, 61}, edges),
            picture({97, 61}, [](int x, int y) { return edges(x + 2, y + 1); }), 25.0f, 0.5344010, 0.9852274}};
-}
-
-double mean(const Image<float>& errors) {
-  const auto pixels = errors.pixels();
-  return std::accumulate(pixels.begin(), pixels.end(), 0.0) / static_cast<double>(pixels.size());
 }
 
 double largest(const Image<float>& errors) {

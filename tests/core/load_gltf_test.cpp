@@ -164,6 +164,9 @@ TEST(LoadGltf, ImagesBesideTheFileAreTextures) {
   ASSERT_EQ(scene.textures.size(), 1u);
   EXPECT_EQ(scene.materials[0].diffuse_texture, 0);
   EXPECT_EQ(scene.textures[0].texels.at(0, 0), glm::u8vec4(10, 20, 30, 255));
+  ASSERT_EQ(scene.source_files.size(), 3u);  // and a buffer
+  EXPECT_EQ(scene.source_files.front(), scene.source);
+  EXPECT_EQ(std::filesystem::path(scene.source_files.back()), own_file("texel.ppm"));
 }
 
 }  // namespace

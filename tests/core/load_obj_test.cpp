@@ -31,6 +31,9 @@ TEST(LoadObj, ReadsTrianglesPolygonsAndRelativeIndices) {
   const Scene scene = load_text(kTriangle + "v 1 1 0\nf 1 2 4 3\nf -4 -3 -2\n");
   EXPECT_EQ(scene.triangles.size(), 3u);
   EXPECT_EQ(scene.normals[0], glm::vec3(0.0f));  // flat: no normals, no smoothing group
+  ASSERT_EQ(scene.source_files.size(), 2u);
+  EXPECT_EQ(scene.source_files[0], scene.source);
+  EXPECT_EQ(std::filesystem::path(scene.source_files[1]).filename(), "test.mtl");
   EXPECT_EQ(scene.materials[scene.triangle_materials[0]].name, "default");
 }
 

@@ -150,6 +150,7 @@ TEST(ProgressiveReference, GivesWayToOtherThreads) {
   reference.show(view_of(scene));
   finish(reference);
   const int own = getpriority(PRIO_PROCESS, 0);
+  if (own > 9) GTEST_SKIP() << "the test itself runs at a low priority";
   int lowered = 0;
   for (const auto& task : std::filesystem::directory_iterator("/proc/self/task")) {
     std::ifstream in(task.path() / "stat");
@@ -157,7 +158,7 @@ TEST(ProgressiveReference, GivesWayToOtherThreads) {
     std::istringstream fields(text.substr(text.rfind(')') + 2));
     std::string field;
     for (int i = 3; i <= 19; ++i) fields >> field;
-    lowered += std::stoi(field) >= own + 10 || field == "19";
+    lowered += std::stoi(field) >= own + 10;
   }
   EXPECT_EQ(lowered, 2);
 }

@@ -5,7 +5,7 @@
 
 #include <algorithm>
 
-#include "core/math/ray.h"
+#include "bench/embree_ray.h"
 #include "core/scene/scene.h"
 
 namespace pinocchio {
@@ -36,7 +36,7 @@ class Embree {
   [[nodiscard]] Hit closest_hit(const Ray& ray) const {
     RTCIntersectContext context;
     rtcInitIntersectContext(&context);
-    RTCRayHit query{embree_ray(ray), {}};
+    RTCRayHit query{to_embree(ray), {}};
     query.hit.geomID = RTC_INVALID_GEOMETRY_ID;
     rtcIntersect1(scene_, &context, &query);
     return query.hit.geomID == RTC_INVALID_GEOMETRY_ID ? Hit{} : Hit{query.ray.tfar, query.hit.primID};
@@ -45,21 +45,12 @@ class Embree {
   [[nodiscard]] bool occluded(const Ray& ray) const {
     RTCIntersectContext context;
     rtcInitIntersectContext(&context);
-    RTCRay query = embree_ray(ray);
+    RTCRay query = to_embree(ray);
     rtcOccluded1(scene_, &context, &query);
     return query.tfar < 0.0f;
   }
 
  private:
-  static RTCRay embree_ray(const Ray& ray) {
-    RTCRay r{};
-    r.org_x = ray.origin.x, r.org_y = ray.origin.y, r.org_z = ray.origin.z;
-    r.dir_x = ray.direction.x, r.dir_y = ray.direction.y, r.dir_z = ray.direction.z;
-    r.tfar = ray.t_max;
-    r.mask = 0xffffffffu;
-    return r;
-  }
-
   RTCDevice device_;
   RTCScene scene_;
 };

@@ -101,12 +101,9 @@ TEST(FileWatch, AChangeCountsOnceAndWhenItHasSettled) {
   const std::filesystem::path folder = own_folder() / "watched";
   std::filesystem::create_directories(folder / "below");
   std::ofstream(folder / "below/a.frag") << "a";
-  std::ofstream(folder / "b.txt") << "b";
-  FileWatch watch(folder, {".frag"});
+  FileWatch watch(folder);
   double now = 1.0;
   const auto look = [&] { return watch.changed(now += 1.0); };
-  EXPECT_FALSE(look());
-  std::ofstream(folder / "b.txt") << "other";  // not watched
   EXPECT_FALSE(look());
   std::ofstream(folder / "below/a.frag") << "aa";
   EXPECT_FALSE(look());  // perhaps still being written
@@ -125,7 +122,7 @@ TEST(FileWatch, AChangeCountsOnceAndWhenItHasSettled) {
 TEST(FileWatch, AFileThatIsWrittenAllTheTimeHoldsUpNoOther) {
   const std::filesystem::path folder = own_folder() / "busy";
   std::filesystem::create_directories(folder);
-  FileWatch watch(folder, {});
+  FileWatch watch(folder);
   std::string log = "x";
   double now = 1.0;
   const auto look = [&] {
@@ -137,6 +134,33 @@ TEST(FileWatch, AFileThatIsWrittenAllTheTimeHoldsUpNoOther) {
   EXPECT_FALSE(look());
   EXPECT_TRUE(look());
   EXPECT_FALSE(look());
+  std::filesystem::remove_all(folder);
+}
+
+TEST(FileWatch, LooksAtTheFilesItFollowsAlone) {
+  const std::filesystem::path folder = own_folder() / "followed";
+  std::filesystem::create_directories(folder);
+  const std::string scene = (folder / "scene.gltf").string(), texture = (folder / "texture.png").string(),
+                    other = (folder / "other.png").string();
+  std::ofstream(scene) << "a";
+  FileWatch watch(std::vector{scene, texture});
+  double now = 1.0;
+  const auto changes = [&] {
+    const bool at_once = watch.changed(now += 1.0);
+    return watch.changed(now += 1.0) || at_once;
+  };
+  std::ofstream(folder / "screenshot-001.png") << "beside it";
+  EXPECT_FALSE(changes());
+  std::ofstream(texture) << "was missing";
+  EXPECT_TRUE(changes());
+  std::ofstream(other) << "a";
+  std::ofstream(scene) << "names other.png now";
+  watch.follow({scene, other});
+  EXPECT_TRUE(changes());  // the scene's change came before follow(), and counts
+  std::ofstream(texture) << "of no more use";
+  EXPECT_FALSE(changes());
+  std::ofstream(other) << "changed";
+  EXPECT_TRUE(changes());
   std::filesystem::remove_all(folder);
 }
 

@@ -1,11 +1,11 @@
-#include "app/chart/pareto.h"
+#include "core/compare/pareto.h"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <tuple>
 
-namespace pinocchio::app {
+namespace pinocchio {
 
 std::vector<std::size_t> pareto_front(std::span<const CostAndError> points) {
   std::vector<std::size_t> order;
@@ -24,4 +24,4 @@ std::vector<std::size_t> pareto_front(std::span<const CostAndError> points) {
   return front;
 }
 
-}  // namespace pinocchio::app
+}  // namespace pinocchio

@@ -1,4 +1,4 @@
-#include "app/chart/pareto.h"
+#include "core/compare/pareto.h"
 
 #include <gtest/gtest.h>
 
@@ -6,7 +6,7 @@
 #include <cmath>
 #include <random>
 
-namespace pinocchio::app {
+namespace pinocchio {
 namespace {
 
 bool beats(const CostAndError& a, const CostAndError& b) {
@@ -42,4 +42,4 @@ TEST(Pareto, NothingWithNaNAndNothingOfNothing) {
 }
 
 }  // namespace
-}  // namespace pinocchio::app
+}  // namespace pinocchio

@@ -4,7 +4,7 @@
 #include <span>
 #include <vector>
 
-namespace pinocchio::app {
+namespace pinocchio {
 
 // A way to draw, by what it costs and how far it is from the truth: less is better in both.
 struct CostAndError {
@@ -15,4 +15,4 @@ struct CostAndError {
 // equal points the first. Points with a NaN are on no front.
 [[nodiscard]] std::vector<std::size_t> pareto_front(std::span<const CostAndError> points);
 
-}  // namespace pinocchio::app
+}  // namespace pinocchio

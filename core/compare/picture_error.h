@@ -1,0 +1,23 @@
+#pragma once
+
+#include <glm/glm.hpp>
+
+#include "core/compare/figures.h"
+#include "core/compare/flip.h"
+#include "core/image/image.h"
+#include "core/parallel/workers.h"
+
+namespace pinocchio {
+
+// How far a picture is from its reference: in numbers, and as it seems to a person.
+struct PictureError {
+  ErrorFigures rgb;
+  Image<float> flip;
+  double mean_flip = 0.0;
+};
+
+// picture, reference: the same size, linear RGB, finite.
+[[nodiscard]] PictureError picture_error(const Image<glm::vec3>& picture, const Image<glm::vec3>& reference,
+                                         float pixels_per_degree, Workers& workers);
+
+}  // namespace pinocchio
