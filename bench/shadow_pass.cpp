@@ -27,9 +27,7 @@ Camera turned(Camera camera, int frame) {
 // What trace_shadow_mask does without anything learned, with Embree's rays.
 void embree_pass(const TraceJob& job, const EmbreeSide& embree, const Image<std::uint32_t>& ids, int bits,
                  MaskImage& mask) {
-  std::vector<shared::LightParams> lights;
-  for (const int i : casting_lights(job.scene))
-    lights.push_back(light_params(job.scene.lights[static_cast<std::size_t>(i)]));
+  const std::vector<shared::LightParams> lights = casting_light_params(job.scene);
   mask.resize(ids.size(), bits);
   const TileGrid grid(ids.size());
   job.workers.for_each(grid.count(), [&](std::size_t i) {

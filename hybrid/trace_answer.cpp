@@ -27,16 +27,21 @@ void trace_answer(const FrameRequest& request, const shared::ViewParams& view, W
                   FrameRecord& record) {
   const Plan& plan = request.plan;
   Image<std::uint32_t> store;
+  LitCells* const cells = plan.reuse ? request.scene->lit_cells() : nullptr;
+  const auto job = [&](int scale) {
+    TraceJob with_cells = trace_job(request, view, workers, scale);
+    with_cells.cells = cells;
+    return with_cells;
+  };
   if (plan.mask_bits > 0) {
     const StageTimer timer(record, Stage::trace_shadow);
-    TraceJob job = trace_job(request, view, workers, plan.mask_scale);
-    if (plan.reuse) job.cells = request.scene->lit_cells();
-    record.rays += trace_shadow_mask(job, sampled(ids, plan.mask_scale, store), plan.mask_bits, mask);
+    record.rays +=
+        trace_shadow_mask(job(plan.mask_scale), sampled(ids, plan.mask_scale, store), plan.mask_bits, mask);
   }
   if (plan.reflects()) {
     const StageTimer timer(record, Stage::trace_reflection);
-    record.rays += trace_reflection(trace_job(request, view, workers, plan.reflection_scale),
-                                    sampled(ids, plan.reflection_scale, store), plan.depth, reflection);
+    record.rays += trace_reflection(job(plan.reflection_scale), sampled(ids, plan.reflection_scale, store),
+                                    plan.depth, reflection);
   }
 }
 

@@ -22,7 +22,7 @@ struct Counters {
 
 struct Lights {
   std::vector<shared::LightParams> params;
-  std::vector<bool> casts;
+  std::vector<int> slots;  // among those that cast; -1: it does not
 };
 
 float brightest(const glm::vec3& light) {
@@ -31,52 +31,81 @@ float brightest(const glm::vec3& light) {
 
 Lights all_lights(const Scene& scene) {
   Lights lights;
-  for (const Light& light : scene.lights) {
-    lights.params.push_back(light_params(light));
-    lights.casts.push_back(light.casts_shadow);
-  }
+  for (const Light& light : scene.lights) lights.params.push_back(light_params(light));
+  lights.slots = mask_slots(scene);
   return lights;
 }
 
-// Direct light at the hits of one tile's rays: lights that cast wait for their shadow ray.
+// Direct light at the hits of one tile's rays: lights that cast wait for their shadow ray, where one is
+// needed.
 class DirectLight {
  public:
   DirectLight(const TraceJob& job, const Lights& lights) : job_(job), lights_(lights) {}
 
-  void add(const Surface& surface, const glm::vec3& weight, std::uint32_t pixel, Image<glm::vec3>& radiance) {
+  void add(const PathRay& path, std::uint32_t triangle, const Surface& surface, Image<glm::vec3>& radiance) {
     glm::vec3 sum = shared::phong_ambient(surface.phong, job_.scene.ambient_light);
+    std::optional<std::uint32_t> cell;
+    bool looked_up = false;
     for (std::size_t i = 0; i < lights_.params.size(); ++i) {
       const shared::LightParams& light = lights_.params[i];
       const shared::Incident incident = shared::incident_light(light, surface.p_world);
       if (!shared::faces_light(surface.n_shading, surface.n_geometric, incident.to_light)) continue;
       const glm::vec3 term =
           shared::phong_light(surface.phong, incident, surface.n_shading, surface.to_viewer);
-      if (!lights_.casts[i]) {
+      if (lights_.slots[i] < 0) {
         sum += term;
-      } else if (brightest(weight * term) < job_.least_contribution) {
+      } else if (brightest(path.weight * term) < job_.least_contribution) {
         continue;
       } else if (const std::optional<Ray> ray = shadow_ray(light, surface)) {
-        rays_.push_back(*ray);
-        waiting_.push_back({weight * term, pixel});
+        if (job_.cells && !looked_up) cell = cell_of(path.ray, triangle);
+        looked_up = true;
+        wait({path.weight * term, path.pixel, cell, static_cast<std::size_t>(lights_.slots[i])}, *ray);
       }
     }
-    radiance[pixel] += weight * sum;
+    radiance[path.pixel] += path.weight * sum;
   }
 
   // Fires the shadow rays; returns how many.
   std::uint64_t finish(Image<glm::vec3>& radiance) {
     std::vector<std::uint8_t> blocked(rays_.size());
     job_.tracer.occluded(rays_, blocked);
-    for (std::size_t k = 0; k < blocked.size(); ++k)
-      if (!blocked[k]) radiance[waiting_[k].second] += waiting_[k].first;
+    std::vector<LitCells::Finding> findings;
+    for (const Waiting& w : waiting_) {  // in the order of the hits, whatever is known
+      if (!w.known_lit && w.cell)
+        findings.push_back({*w.cell, static_cast<std::uint8_t>(w.slot), blocked[w.ray] != 0});
+      if (w.known_lit || !blocked[w.ray]) radiance[w.pixel] += w.light;
+    }
+    if (job_.cells) job_.cells->note(findings);
     return blocked.size();
   }
 
  private:
+  // Light that arrives unless its ray is blocked.
+  struct Waiting {
+    glm::vec3 light;
+    std::uint32_t pixel;
+    std::optional<std::uint32_t> cell;
+    std::size_t slot;
+    bool known_lit = false;
+    std::size_t ray = 0;
+  };
+
+  [[nodiscard]] std::optional<std::uint32_t> cell_of(const Ray& from, std::uint32_t triangle) const {
+    const LitCells::Side side = job_.cells->side_of(triangle, from.origin);
+    return LitCells::cell_of(side, weights_at(job_.scene, triangle, from.origin, from.direction));
+  }
+
+  void wait(Waiting w, const Ray& ray) {
+    w.known_lit = w.cell && job_.cells->known(*w.cell, w.slot) == LitCells::Known::lit;
+    w.ray = rays_.size();
+    if (!w.known_lit) rays_.push_back(ray);
+    waiting_.push_back(w);
+  }
+
   const TraceJob& job_;
   const Lights& lights_;
   std::vector<Ray> rays_;
-  std::vector<std::pair<glm::vec3, std::uint32_t>> waiting_;
+  std::vector<Waiting> waiting_;
 };
 
 void count(const std::vector<PathRay>& queue, Counters& counters) {
@@ -117,7 +146,7 @@ std::vector<PathRay> trace_queue(const TraceJob& job, const Lights& lights, cons
     const PathRay& path = queue[k];
     const Surface surface =
         surface_at(job.scene, hits[k].triangle, path.ray.origin, path.ray.direction, job.tracer.offset());
-    direct.add(surface, path.weight, path.pixel, radiance);
+    direct.add(path, hits[k].triangle, surface, radiance);
     if (!last && surface.material->spawns_rays())
       scatter(surface, path.weight, path.pixel, job.least_contribution, next);
   }
@@ -135,6 +164,8 @@ RayCounts trace_reflection(const TraceJob& job, const Image<std::uint32_t>& ids,
 
   const TileGrid grid(ids.size());
   const Lights lights = all_lights(job.scene);
+  std::unique_lock<std::mutex> pass;
+  if (job.cells) pass = job.cells->begin_pass(casting_light_params(job.scene), job.least_light, job.workers);
   Counters counters;
   Generation generation(grid.count());
   job.workers.for_each(grid.count(),

@@ -148,9 +148,7 @@ class TileShadows {
 }  // namespace
 
 RayCounts trace_shadow_mask(const TraceJob& job, const Image<std::uint32_t>& ids, int bits, MaskImage& mask) {
-  Slots lights;
-  for (const int i : casting_lights(job.scene))
-    lights.push_back(light_params(job.scene.lights[static_cast<std::size_t>(i)]));
+  const Slots lights = casting_light_params(job.scene);
   assert(static_cast<int>(lights.size()) <= bits);
   mask.resize(ids.size(), bits);
   if (lights.empty()) return {};

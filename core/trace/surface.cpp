@@ -115,6 +115,13 @@ shared::LightParams light_params(const Light& light) {
           light.cos_outer};
 }
 
+std::vector<shared::LightParams> casting_light_params(const Scene& scene) {
+  std::vector<shared::LightParams> params;
+  for (const int i : casting_lights(scene))
+    params.push_back(light_params(scene.lights[static_cast<std::size_t>(i)]));
+  return params;
+}
+
 std::optional<Ray> shadow_ray(const shared::LightParams& light, const Surface& surface) {
   const shared::Incident incident = shared::incident_light(light, surface.p_world);
   if (incident.radiance == glm::vec3(0.0f)) return std::nullopt;

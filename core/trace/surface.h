@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <glm/glm.hpp>
 #include <optional>
+#include <vector>
 
 #include "core/math/ray.h"
 #include "core/scene/scene.h"
@@ -49,6 +50,8 @@ struct Surface {
 [[nodiscard]] glm::vec3 offset_origin(const Surface& surface, const glm::vec3& direction);
 
 [[nodiscard]] shared::LightParams light_params(const Light& light);
+// Of the casting lights, in the order of mask slots.
+[[nodiscard]] std::vector<shared::LightParams> casting_light_params(const Scene& scene);
 
 // The ray that asks whether the light reaches the surface; nothing where it cannot anyway: the surface
 // faces away, or the light does not reach this far or this way.
