@@ -73,9 +73,7 @@ std::vector<Isa> supported_isas() {
 }
 
 Isa default_isa() {
-  for (const Isa isa : {Isa::avx2, Isa::sse4})
-    if (isa_supported(isa)) return isa;
-  return Isa::scalar;
+  return supported_isas().back();
 }
 
 Tracer::Tracer(const Scene& scene, const BuildOptions& options, std::optional<Isa> isa, OffsetMethod offset)

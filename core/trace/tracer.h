@@ -22,8 +22,7 @@ enum class Isa { scalar, sse4, avx2, avx512 };
 [[nodiscard]] bool isa_supported(Isa isa);        // by this processor
 [[nodiscard]] std::vector<Isa> supported_isas();  // narrowest first
 
-// The fastest of this processor's by measurement (docs/measurements.md), which is not always the widest.
-// avx512 has not been measured yet: it is taken only where it is asked for.
+// The widest that this processor has: wider was faster wherever it was measured (docs/measurements.md).
 [[nodiscard]] Isa default_isa();
 
 // The rays' way into a tree: closest hits and occlusion of any number of rays, which need not belong
