@@ -1,0 +1,109 @@
+#include "core/bsp/candidate_planes.h"
+
+#include <emmintrin.h>
+
+#include <algorithm>
+
+namespace pinocchio {
+namespace {
+
+// Above this many bounds sorting is faster than to compare each with each.
+constexpr std::size_t kCompareLimit = 96;
+
+__m128 select(__m128 mask, __m128 yes, __m128 no) {
+  return _mm_or_ps(_mm_and_ps(mask, yes), _mm_andnot_ps(mask, no));
+}
+
+// The best of the planes that each of four lanes has seen.
+class BestOfLanes {
+ public:
+  BestOfLanes(const SahCost& cost, float to_beat) : cost_(cost), least_(_mm_set1_ps(to_beat)) {}
+
+  void consider(__m128 position, __m128 low, __m128 flat, __m128 high) {
+    const __m128 with_low = cost_(position, _mm_add_ps(low, flat), high);
+    const __m128 with_high = cost_(position, low, _mm_add_ps(high, flat));
+    const __m128 cost = _mm_min_ps(with_low, with_high);
+    const __m128 better = _mm_cmplt_ps(cost, least_);
+    least_ = select(better, cost, least_);
+    position_ = select(better, position, position_);
+    goes_high_ = select(better, _mm_cmplt_ps(with_high, with_low), goes_high_);
+  }
+
+  void put(int axis, SplitPlane& best) const {
+    alignas(16) float cost[4], position[4];
+    _mm_store_ps(cost, least_);
+    _mm_store_ps(position, position_);
+    const int goes_high = _mm_movemask_ps(goes_high_);
+    for (int i = 0; i < 4; ++i)
+      if (cost[i] < best.cost) best = {axis, position[i], !(goes_high >> i & 1), cost[i]};
+  }
+
+ private:
+  const SahCost& cost_;
+  __m128 least_, position_ = _mm_setzero_ps(), goes_high_ = _mm_setzero_ps();
+};
+
+__m128 count_of(__m128i count) {
+  return _mm_cvtepi32_ps(count);
+}
+
+// Compares each plane with each bound: where there are few, nothing sorts as fast.
+void compare_all(const CandidatePlanes& p, const float* candidates, std::size_t n, BestOfLanes& best) {
+  const __m128 before = _mm_set1_ps(p.before), behind = _mm_set1_ps(p.behind);
+  for (std::size_t i = 0; i < n; i += 4) {
+    const __m128 position = _mm_loadu_ps(candidates + i);
+    __m128i low = _mm_setzero_si128(), flat = low, high = low;
+    for (const float x : p.lows)
+      low = _mm_sub_epi32(low, _mm_castps_si128(_mm_cmplt_ps(_mm_set1_ps(x), position)));
+    for (const float x : p.highs)
+      high = _mm_sub_epi32(high, _mm_castps_si128(_mm_cmpgt_ps(_mm_set1_ps(x), position)));
+    for (const float x : p.flats)
+      flat = _mm_sub_epi32(flat, _mm_castps_si128(_mm_cmpeq_ps(_mm_set1_ps(x), position)));
+    best.consider(position, _mm_add_ps(before, count_of(low)), count_of(flat),
+                  _mm_add_ps(behind, count_of(high)));
+  }
+}
+
+void sweep(const CandidatePlanes& p, float* candidates, std::size_t n, BestOfLanes& best) {
+  for (const std::span<float> bounds : {p.lows, p.highs, p.flats, std::span(candidates, n)})
+    std::sort(bounds.begin(), bounds.end());
+  std::fill_n(candidates + n, 3, candidates[n - 1]);
+  std::size_t low = 0, ended = 0, flats_before = 0, flats_to = 0;
+  alignas(16) float counts[3][4];
+  for (std::size_t i = 0; i < n; i += 4) {
+    for (std::size_t lane = 0; lane < 4; ++lane) {
+      const float position = candidates[i + lane];
+      while (low < p.lows.size() && p.lows[low] < position) ++low;
+      while (ended < p.highs.size() && p.highs[ended] <= position) ++ended;
+      while (flats_before < p.flats.size() && p.flats[flats_before] < position) ++flats_before;
+      while (flats_to < p.flats.size() && p.flats[flats_to] <= position) ++flats_to;
+      counts[0][lane] = p.before + static_cast<float>(low);
+      counts[1][lane] = static_cast<float>(flats_to - flats_before);
+      counts[2][lane] = p.behind + static_cast<float>(p.highs.size() - ended);
+    }
+    best.consider(_mm_loadu_ps(candidates + i), _mm_load_ps(counts[0]), _mm_load_ps(counts[1]),
+                  _mm_load_ps(counts[2]));
+  }
+}
+
+}  // namespace
+
+void try_planes(const CandidatePlanes& planes, const SahCost& cost, int axis, std::span<float> buffer,
+                SplitPlane& best) {
+  float* const candidates = buffer.data();
+  std::size_t n = planes.lows.size();
+  std::copy(planes.lows.begin(), planes.lows.end(), candidates);
+  std::copy(planes.highs.begin(), planes.highs.end(), candidates + n);
+  n += planes.highs.size();
+  if (n == 0) return;
+  BestOfLanes lanes(cost, best.cost);
+  if (n <= kCompareLimit) {
+    std::fill_n(candidates + n, 3, candidates[0]);
+    compare_all(planes, candidates, n, lanes);
+  } else {
+    sweep(planes, candidates, n, lanes);
+  }
+  lanes.put(axis, best);
+}
+
+}  // namespace pinocchio
