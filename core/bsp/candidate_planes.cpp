@@ -64,25 +64,27 @@ void compare_all(const CandidatePlanes& p, const float* candidates, std::size_t 
   }
 }
 
-void sweep(const CandidatePlanes& p, float* candidates, std::size_t n, BestOfLanes& best) {
-  for (const std::span<float> bounds : {p.lows, p.highs, p.flats, std::span(candidates, n)})
-    std::sort(bounds.begin(), bounds.end());
-  std::fill_n(candidates + n, 3, candidates[n - 1]);
-  std::size_t low = 0, ended = 0, flats_before = 0, flats_to = 0;
+// Planes in order: `candidates` takes each position once.
+void sweep(const CandidatePlanes& p, float* candidates, BestOfLanes& best) {
+  for (const std::span<float> bounds : {p.lows, p.highs, p.flats}) std::sort(bounds.begin(), bounds.end());
+  float* end = std::merge(p.lows.begin(), p.lows.end(), p.highs.begin(), p.highs.end(), candidates);
+  end = std::unique(candidates, end);
+  std::fill_n(end, 3, end[-1]);
+  std::size_t low = 0, ended = 0, flat = 0;
   alignas(16) float counts[3][4];
-  for (std::size_t i = 0; i < n; i += 4) {
+  for (const float* four = candidates; four < end; four += 4) {
     for (std::size_t lane = 0; lane < 4; ++lane) {
-      const float position = candidates[i + lane];
+      const float position = four[lane];
       while (low < p.lows.size() && p.lows[low] < position) ++low;
       while (ended < p.highs.size() && p.highs[ended] <= position) ++ended;
-      while (flats_before < p.flats.size() && p.flats[flats_before] < position) ++flats_before;
-      while (flats_to < p.flats.size() && p.flats[flats_to] <= position) ++flats_to;
+      while (flat < p.flats.size() && p.flats[flat] < position) ++flat;
+      std::size_t flat_end = flat;
+      while (flat_end < p.flats.size() && p.flats[flat_end] == position) ++flat_end;
       counts[0][lane] = p.before + static_cast<float>(low);
-      counts[1][lane] = static_cast<float>(flats_to - flats_before);
+      counts[1][lane] = static_cast<float>(flat_end - flat);
       counts[2][lane] = p.behind + static_cast<float>(p.highs.size() - ended);
     }
-    best.consider(_mm_loadu_ps(candidates + i), _mm_load_ps(counts[0]), _mm_load_ps(counts[1]),
-                  _mm_load_ps(counts[2]));
+    best.consider(_mm_loadu_ps(four), _mm_load_ps(counts[0]), _mm_load_ps(counts[1]), _mm_load_ps(counts[2]));
   }
 }
 
@@ -91,17 +93,16 @@ void sweep(const CandidatePlanes& p, float* candidates, std::size_t n, BestOfLan
 void try_planes(const CandidatePlanes& planes, const SahCost& cost, int axis, std::span<float> buffer,
                 SplitPlane& best) {
   float* const candidates = buffer.data();
-  std::size_t n = planes.lows.size();
-  std::copy(planes.lows.begin(), planes.lows.end(), candidates);
-  std::copy(planes.highs.begin(), planes.highs.end(), candidates + n);
-  n += planes.highs.size();
+  const std::size_t n = planes.lows.size() + planes.highs.size();
   if (n == 0) return;
   BestOfLanes lanes(cost, best.cost);
-  if (n <= kCompareLimit) {
-    std::fill_n(candidates + n, 3, candidates[0]);
-    compare_all(planes, candidates, n, lanes);
+  if (n > kCompareLimit) {
+    sweep(planes, candidates, lanes);
   } else {
-    sweep(planes, candidates, n, lanes);
+    float* const end = std::copy(planes.highs.begin(), planes.highs.end(),
+                                 std::copy(planes.lows.begin(), planes.lows.end(), candidates));
+    std::fill_n(end, 3, candidates[0]);
+    compare_all(planes, candidates, n, lanes);
   }
   lanes.put(axis, best);
 }

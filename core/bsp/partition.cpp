@@ -28,8 +28,8 @@ Halves partition(const Scene& scene, std::span<const BuildReference> references,
                  const SplitPlane& plane, BuildReference* low, BuildReference* high) {
   Halves n;
   for (const BuildReference& at : references) {
+    const Sides sides(at, plane);
     const BuildReference r = at;  // `high` may write over it
-    const Sides sides(r, plane);
     low[n.low] = r;
     high[n.high] = r;
     if (sides.low && sides.high) {

@@ -14,10 +14,11 @@ constexpr std::size_t kSlabsFrom = 24;
 
 // Slabs a side for so many references: more of them tell more, and take longer to look through.
 int slab_count(std::size_t references) {
-  if (references < 128) return 16;
-  if (references < 512) return 32;
-  if (references < 2048) return 64;
-  return 128;
+  if (references < 64) return 16;
+  if (references < 128) return 32;
+  if (references < 256) return 64;
+  if (references < 1024) return 128;
+  return Slabs::kMost;
 }
 
 // What the slabs of one axis say: edge i lies before slab i.
@@ -85,21 +86,20 @@ std::optional<SplitPlane> unless_leaf(const SplitPlane& best) {
 void try_all(std::span<const BuildReference> references, const Bounds& node, int axis, const SahCost& cost,
              SplitScratch& s, SplitPlane& best) {
   std::size_t lows = 0, highs = 0, flats = 0;
+  unsigned before = 0, behind = 0;  // bounds at the node's own sides: no planes
   const float lo = node.lo[axis], hi = node.hi[axis];
   for (const BuildReference& r : references) {
     const float a = r.lo[axis], b = r.hi[axis];
     s.lows[lows] = a;
-    lows += a > lo && a < hi ? 1 : 0;
     s.highs[highs] = b;
-    highs += b > lo && b < hi ? 1 : 0;
     s.flats[flats] = a;
-    flats += a == b && a > lo && a < hi ? 1 : 0;
-  }
-  // Bounds at the node's own sides: they begin before any plane, or end behind it.
-  std::size_t before = 0, behind = 0;
-  for (const BuildReference& r : references) {
-    before += r.lo[axis] <= lo ? 1 : 0;
-    behind += r.hi[axis] >= hi ? 1 : 0;
+    const unsigned a_counts = unsigned{a > lo} & unsigned{a < hi},
+                   b_counts = unsigned{b > lo} & unsigned{b < hi};
+    lows += a_counts;
+    highs += b_counts;
+    flats += a_counts & unsigned{a == b};
+    before += unsigned{a <= lo};
+    behind += unsigned{b >= hi};
   }
   try_planes({std::span(s.lows).first(lows), std::span(s.highs).first(highs), std::span(s.flats).first(flats),
               static_cast<float>(before), static_cast<float>(behind)},
@@ -110,20 +110,17 @@ void try_all(std::span<const BuildReference> references, const Bounds& node, int
 struct Open {
   std::array<int, Slabs::kMost> slabs;
   int count = 0;
-  // By slab: the next place for a bound, in an array of all; those of slabs not to be looked into go to one
-  // place.
-  std::array<std::uint32_t, Slabs::kMost> low, high, flat;
+  std::array<bool, Slabs::kMost> is_open;
+  std::array<std::uint32_t, Slabs::kMost> low, high, flat;  // by slab: the next place in an array of all
 };
 
-Open open_slabs(const Slabs& slabs, const SlabCosts& costs, int axis, float to_beat, std::uint32_t waste) {
+Open open_slabs(const Slabs& slabs, const SlabCosts& costs, int axis, float to_beat) {
   Open open;
   std::uint32_t low = 0, high = 0;
   for (int i = 0; i < slabs.count(); ++i) {
     const auto k = static_cast<std::size_t>(i);
-    if (!costs.may_beat(to_beat, i)) {
-      open.low[k] = open.high[k] = open.flat[k] = waste;
-      continue;
-    }
+    open.is_open[k] = costs.may_beat(to_beat, i);
+    if (!open.is_open[k]) continue;
     open.slabs[static_cast<std::size_t>(open.count++)] = i;
     open.low[k] = open.flat[k] = low;
     open.high[k] = high;
@@ -133,27 +130,29 @@ Open open_slabs(const Slabs& slabs, const SlabCosts& costs, int axis, float to_b
   return open;
 }
 
+// Puts the bounds of open slabs, slab by slab, into the scratch arrays.
+void gather(std::span<const BuildReference> references, const Bounds& node, int axis, Open& open,
+            SplitScratch& s) {
+  const float lo = node.lo[axis], hi = node.hi[axis];
+  for (std::size_t i = 0; i < references.size(); ++i) {
+    const std::size_t first = s.ends[i].first[axis], last = s.ends[i].last[axis];
+    if (!(open.is_open[first] | open.is_open[last])) continue;
+    const float a = references[i].lo[axis], b = references[i].hi[axis];
+    if (open.is_open[first] && a > lo && a < hi) {
+      s.lows[open.low[first]++] = a;
+      if (a == b) s.flats[open.flat[first]++] = a;
+    }
+    if (open.is_open[last] && b > lo && b < hi) s.highs[open.high[last]++] = b;
+  }
+}
+
 void look_into(std::span<const BuildReference> references, const Bounds& node, const Slabs& slabs,
                const SlabCosts& costs, int axis, const SahCost& cost, SplitScratch& s, float to_beat,
                SplitPlane& best) {
-  const float lo = node.lo[axis], hi = node.hi[axis];
-  const auto waste = static_cast<std::uint32_t>(references.size());
-  Open open = open_slabs(slabs, costs, axis, to_beat, waste);
+  Open open = open_slabs(slabs, costs, axis, to_beat);
   if (open.count == 0) return;
   const Open begin = open;
-  for (const BuildReference& r : references) {
-    const float a = r.lo[axis], b = r.hi[axis];
-    const auto first = static_cast<std::size_t>(slabs.slab_of(a, axis));
-    const auto last = static_cast<std::size_t>(slabs.slab_of(b, axis));
-    s.lows[open.low[first]] = a;
-    s.highs[open.high[last]] = b;
-    s.flats[open.flat[first]] = a;
-    const unsigned a_counts = open.low[first] != waste && a > lo && a < hi;
-    const unsigned b_counts = open.high[last] != waste && b > lo && b < hi;
-    open.low[first] += a_counts;
-    open.high[last] += b_counts;
-    open.flat[first] += a_counts & static_cast<unsigned>(a == b);
-  }
+  gather(references, node, axis, open, s);
   for (int i = 0; i < open.count; ++i) {
     const auto k = static_cast<std::size_t>(open.slabs[static_cast<std::size_t>(i)]);
     if (!(costs.least(static_cast<int>(k)) * 0.9999f < best.cost)) continue;
@@ -194,7 +193,8 @@ std::optional<SplitPlane> find_sah_split(std::span<const BuildReference> referen
     return unless_leaf(best);
   }
   Slabs slabs(node, slab_count(references.size()));
-  slabs.add(references);
+  if (scratch.ends.size() < references.size()) scratch.ends.resize(references.size());
+  slabs.add(references, scratch.ends.data());
   const SahCost cost[3] = {{node, 0, options}, {node, 1, options}, {node, 2, options}};
   const SlabCosts costs[3] = {{slabs, references.size(), cost[0], 0},
                               {slabs, references.size(), cost[1], 1},

@@ -30,12 +30,7 @@ Slabs::Slabs(const Bounds& node, int count) : count_(count) {
     for (auto& axis : *counts) std::fill_n(axis.begin(), count, 0u);
 }
 
-int Slabs::slab_of(float x, int axis) const {
-  const float slab = (x - lo_[axis]) * scale_[axis];
-  return static_cast<int>(std::min(std::max(slab, 0.0f), static_cast<float>(count_ - 1)));
-}
-
-void Slabs::add(std::span<const BuildReference> references) {
+void Slabs::add(std::span<const BuildReference> references, Ends* memory) {
   const __m128 lo = _mm_load_ps(lo_), hi = _mm_load_ps(hi_), scale = _mm_load_ps(scale_);
   const __m128 last = _mm_set1_ps(static_cast<float>(count_ - 1));
   // Without the fourth lane, which holds no float: arithmetic on what it holds would be slow.
@@ -46,13 +41,14 @@ void Slabs::add(std::span<const BuildReference> references) {
     const __m128 r_lo = _mm_and_ps(xyz, _mm_load_ps(&r.lo.x)), r_hi = _mm_and_ps(xyz, _mm_load_ps(&r.hi.x));
     at_lo = _mm_sub_epi32(at_lo, _mm_castps_si128(_mm_cmple_ps(r_lo, lo)));
     at_hi = _mm_sub_epi32(at_hi, _mm_castps_si128(_mm_cmpge_ps(r_hi, hi)));
-    const __m128i first = slabs_of(r_lo, lo, scale, last), final = slabs_of(r_hi, lo, scale, last);
-    ++starts_[0][static_cast<std::size_t>(_mm_extract_epi16(first, 0))];
-    ++starts_[1][static_cast<std::size_t>(_mm_extract_epi16(first, 2))];
-    ++starts_[2][static_cast<std::size_t>(_mm_extract_epi16(first, 4))];
-    ++ends_[0][static_cast<std::size_t>(_mm_extract_epi16(final, 0))];
-    ++ends_[1][static_cast<std::size_t>(_mm_extract_epi16(final, 2))];
-    ++ends_[2][static_cast<std::size_t>(_mm_extract_epi16(final, 4))];
+    const __m128i ends = _mm_packs_epi32(slabs_of(r_lo, lo, scale, last), slabs_of(r_hi, lo, scale, last));
+    ++starts_[0][static_cast<std::size_t>(_mm_extract_epi16(ends, 0))];
+    ++starts_[1][static_cast<std::size_t>(_mm_extract_epi16(ends, 1))];
+    ++starts_[2][static_cast<std::size_t>(_mm_extract_epi16(ends, 2))];
+    ++ends_[0][static_cast<std::size_t>(_mm_extract_epi16(ends, 4))];
+    ++ends_[1][static_cast<std::size_t>(_mm_extract_epi16(ends, 5))];
+    ++ends_[2][static_cast<std::size_t>(_mm_extract_epi16(ends, 6))];
+    if (memory) _mm_storel_epi64(reinterpret_cast<__m128i*>(memory++), _mm_packus_epi16(ends, ends));
   }
   _mm_store_si128(reinterpret_cast<__m128i*>(at_lo_), at_lo);
   _mm_store_si128(reinterpret_cast<__m128i*>(at_hi_), at_hi);

@@ -9,7 +9,8 @@
 
 namespace pinocchio {
 
-// How many references begin and end in each of equal slabs of a node, on all three axes.
+// How many references begin and end in each of equal slabs of a node, on all three axes. Of two bounds in
+// different slabs the one in the lower slab is lower, whatever was rounded.
 class Slabs {
  public:
   static constexpr int kMost = 256;
@@ -17,12 +18,14 @@ class Slabs {
   // `count`: slabs a side, a multiple of 4 and no more than kMost.
   Slabs(const Bounds& node, int count);
 
-  void add(std::span<const BuildReference> references);
+  // `memory`: one a reference, told in which slabs it begins and ends; or nothing.
+  struct Ends {
+    std::uint8_t first[4], last[4];  // by axis; the fourth is of no meaning
+  };
+  void add(std::span<const BuildReference> references, Ends* memory = nullptr);
   void add(const Slabs& other);  // of the same node, as many
 
   [[nodiscard]] int count() const { return count_; }
-  // Never falls as x grows: so the slab alone tells which of two bounds is lower, where they differ in it.
-  [[nodiscard]] int slab_of(float x, int axis) const;
   [[nodiscard]] float edge(int i, int axis) const { return lo_[axis] + static_cast<float>(i) * width_[axis]; }
   // References that begin and that end in slab i, but not at the node's own side: no plane is there.
   [[nodiscard]] std::uint32_t starts(int i, int axis) const {

@@ -21,6 +21,7 @@ struct SplitPlane {
 // What a search writes on the way; kept from node to node, so that none allocates.
 struct SplitScratch {
   std::vector<float> lows, highs, flats, candidates;
+  std::vector<Slabs::Ends> ends;
 };
 
 // Best plane by the surface area heuristic over every bound of every reference that is cheaper than a leaf.
