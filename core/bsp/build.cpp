@@ -1,10 +1,11 @@
 #include "core/bsp/build.h"
 
 #include <algorithm>
-#include <atomic>
 #include <cmath>
+#include <optional>
 #include <utility>
 
+#include "core/bsp/part_queue.h"
 #include "core/bsp/top.h"
 #include "core/parallel/workers.h"
 
@@ -56,30 +57,63 @@ References prepare(const Scene& scene, Workers& workers, BspTree& tree) {
   return all;
 }
 
-// Puts the parts behind the tree's top, each root in the node that was left for it.
-void join(const TreeTop& top, const std::vector<Subtree>& parts, Workers& workers, BspTree& tree) {
-  std::vector<std::uint32_t> first_node(parts.size()), first_reference(parts.size());
-  std::size_t nodes = top.nodes.size(), references = 0;
-  for (std::size_t i = 0; i < parts.size(); ++i) {
-    first_node[i] = static_cast<std::uint32_t>(nodes);
-    first_reference[i] = static_cast<std::uint32_t>(references);
-    nodes += parts[i].nodes.size() - 2;
-    references += parts[i].references.size();
-    tree.depth = std::max(tree.depth, parts[i].depth);
+// A part in its place in the tree.
+struct Placed {
+  const Subtree* part;
+  std::uint32_t root;  // where its node 0 goes
+  std::uint32_t first_node, first_reference;
+};
+
+// Gives every part its place: behind the top, each followed by those that it handed over. The queue's
+// numbers, which depend on who was first, do not matter.
+class Layout {
+ public:
+  Layout(const PartQueue& queue, std::size_t top_nodes)
+      : queue_(queue), nodes_(static_cast<std::uint32_t>(top_nodes)) {
+    placed.reserve(queue.size());
   }
-  tree.nodes.assign(nodes, BspNode::leaf(0, 0));
-  tree.references.resize(references);
+
+  void place(std::size_t number, std::uint32_t root) {
+    const Subtree& part = queue_.made(number);
+    const std::uint32_t first_node = nodes_;
+    placed.push_back({&part, root, first_node, references_});
+    nodes_ += static_cast<std::uint32_t>(part.nodes.size()) - 2;
+    references_ += static_cast<std::uint32_t>(part.references.size());
+    for (const Subtree::Handed& handed : part.handed) place(handed.part, handed.index - 2 + first_node);
+  }
+
+  [[nodiscard]] std::size_t nodes() const { return nodes_; }
+  [[nodiscard]] std::size_t references() const { return references_; }
+
+  std::vector<Placed> placed;
+
+ private:
+  const PartQueue& queue_;
+  std::uint32_t nodes_, references_ = 0;
+};
+
+BspNode moved(const BspNode& n, const Placed& to) {
+  return n.is_leaf() ? BspNode::leaf(n.first_reference() + to.first_reference, n.reference_count())
+                     : BspNode::inner(n.axis(), n.split(), n.first_child() - 2 + to.first_node);
+}
+
+void copy(const Placed& from, BspTree& tree) {
+  const Subtree& part = *from.part;
+  std::transform(part.nodes.begin() + 2, part.nodes.end(), tree.nodes.begin() + from.first_node,
+                 [&](const BspNode& n) { return moved(n, from); });
+  std::copy(part.references.begin(), part.references.end(), tree.references.begin() + from.first_reference);
+}
+
+void join(const TreeTop& top, const Layout& layout, Workers& workers, BspTree& tree) {
+  tree.nodes.assign(layout.nodes(), BspNode::leaf(0, 0));
+  tree.references.resize(layout.references());
   std::copy(top.nodes.begin(), top.nodes.end(), tree.nodes.begin());
-  workers.for_each(parts.size(), [&](std::size_t i) {
-    const Subtree& part = parts[i];
-    const auto moved = [&](const BspNode& n) {
-      return n.is_leaf() ? BspNode::leaf(n.first_reference() + first_reference[i], n.reference_count())
-                         : BspNode::inner(n.axis(), n.split(), n.first_child() - 2 + first_node[i]);
-    };
-    tree.nodes[top.parts[i].index] = moved(part.nodes[0]);
-    std::transform(part.nodes.begin() + 2, part.nodes.end(), tree.nodes.begin() + first_node[i], moved);
-    std::copy(part.references.begin(), part.references.end(), tree.references.begin() + first_reference[i]);
-  });
+  workers.for_each(layout.placed.size(), [&](std::size_t i) { copy(layout.placed[i], tree); });
+  // A root's place is in another part, which is copied by now.
+  for (const Placed& p : layout.placed) {
+    tree.nodes[p.root] = moved(p.part->nodes[0], p);
+    tree.depth = std::max(tree.depth, p.part->depth);
+  }
 }
 
 void build_nodes(const Scene& scene, const BuildOptions& options, Workers& workers, BspTree& tree) {
@@ -87,16 +121,25 @@ void build_nodes(const Scene& scene, const BuildOptions& options, Workers& worke
   const int max_depth = depth_of(options, scene.triangles.size());
   TreeTop top = build_top(scene, options, max_depth, std::move(all), tree.bounds, workers);
 
-  std::vector<Subtree> parts(top.parts.size());
-  std::atomic<std::size_t> next{0};
+  PartQueue queue;
+  std::vector<std::uint32_t> roots;
+  for (TreePart& part : top.parts) {
+    roots.push_back(part.index);
+    queue.put(std::move(part));
+  }
   workers.for_each(static_cast<std::size_t>(workers.count()), [&](std::size_t) {
-    SubtreeBuilder builder(scene, options, max_depth);
-    for (std::size_t i; (i = next.fetch_add(1)) < parts.size();) {
-      parts[i] = builder.build(top.parts[i].references.span(), top.parts[i].node);
-      top.parts[i].references = {};
+    SubtreeBuilder builder(scene, options, max_depth, queue);
+    try {
+      while (std::optional<PartQueue::Taken> taken = queue.take())
+        queue.give(taken->number, builder.build(taken->part.references.span(), taken->part.node));
+    } catch (...) {
+      queue.abandon();
+      throw;
     }
   });
-  join(top, parts, workers, tree);
+  Layout layout(queue, top.nodes.size());
+  for (std::size_t i = 0; i < roots.size(); ++i) layout.place(i, roots[i]);
+  join(top, layout, workers, tree);
 }
 
 // A ray computes its entry into the box with three roundings; flat scenes need some thickness, too.

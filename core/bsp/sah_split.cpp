@@ -12,6 +12,9 @@ namespace {
 // Fewer references than this are looked at one by one.
 constexpr std::size_t kSlabsFrom = 24;
 
+// Of more references the best edge between slabs is taken: to look into slabs is worth less than it takes.
+constexpr std::size_t kExactLimit = 4096;
+
 // Slabs a side for so many references: more of them tell more, and take longer to look through.
 int slab_count(std::size_t references) {
   if (references < 64) return 16;
@@ -181,6 +184,11 @@ std::optional<SplitPlane> find_slab_edge(const Slabs& slabs, std::size_t referen
 std::optional<SplitPlane> find_sah_split(std::span<const BuildReference> references, const Bounds& node,
                                          const BuildOptions& options, SplitScratch& scratch) {
   if (!(node.half_area() > 0.0f)) return std::nullopt;
+  if (references.size() > kExactLimit) {
+    Slabs slabs(node, Slabs::kMost);
+    slabs.add(references);
+    return find_slab_edge(slabs, references.size(), node, options);
+  }
   for (std::vector<float>* v : {&scratch.lows, &scratch.highs, &scratch.flats})
     if (v->size() < references.size() + 1) v->resize(references.size() + 1);
   if (scratch.candidates.size() < 2 * references.size() + 4)

@@ -24,9 +24,9 @@ struct SplitScratch {
   std::vector<Slabs::Ends> ends;
 };
 
-// Best plane by the surface area heuristic over every bound of every reference that is cheaper than a leaf.
+// Best plane by the surface area heuristic over every bound of every reference, if it is cheaper than a leaf.
 // Many references are first counted in slabs: a slab whose cost cannot be below the best edge's is not
-// looked into (branch and bound).
+// looked into (branch and bound). Of more than a few thousand the best edge itself is taken.
 [[nodiscard]] std::optional<SplitPlane> find_sah_split(std::span<const BuildReference> references,
                                                        const Bounds& node, const BuildOptions& options,
                                                        SplitScratch& scratch);

@@ -1,6 +1,9 @@
 #include "core/bsp/subtree.h"
 
 #include <algorithm>
+#include <utility>
+
+#include "core/bsp/part_queue.h"
 
 namespace pinocchio {
 namespace {
@@ -8,6 +11,11 @@ namespace {
 // The median rules do not ask what a split gains: after this many above a node that sent most references to
 // both sides, it is a leaf. Else thousands of triangles through one point double at every level.
 constexpr int kMostWasted = 3;
+
+// A node of more references hands its upper child over to another thread, if that has no fewer than the
+// second.
+constexpr std::size_t kShared = 2048;
+constexpr std::size_t kLeastHanded = 512;
 
 }  // namespace
 
@@ -22,6 +30,7 @@ bool pays(const Halves& halves, std::size_t parent, SplitRule rule, OpenPair& ch
 
 Subtree SubtreeBuilder::build(std::span<const BuildReference> references, const OpenNode& root) {
   made_.references.clear();
+  made_.handed.clear();
   made_.depth = 0;
   made_.nodes.assign(2, BspNode::leaf(0, 0));
   if (stack_.size() < 2 * references.size() + 2) stack_.resize(2 * references.size() + 2);
@@ -52,8 +61,14 @@ void SubtreeBuilder::build_node(std::uint32_t index, std::size_t begin, std::siz
   const auto first = static_cast<std::uint32_t>(made_.nodes.size());
   made_.nodes.resize(made_.nodes.size() + 2, BspNode::leaf(0, 0));
   made_.nodes[index] = BspNode::inner(plane->axis, plane->position, first);
+  const bool hands_over = count > kShared && n.high >= kLeastHanded;
+  if (hands_over) {
+    References high(n.high);
+    high.put(std::span(stack_).subspan(begin, n.high), 0);
+    made_.handed.push_back({first + 1, queue_.put({first + 1, children.high, std::move(high)})});
+  }
   build_node(first, high_end, high_end + n.low, children.low);
-  build_node(first + 1, begin, high_end, children.high);
+  if (!hands_over) build_node(first + 1, begin, high_end, children.high);
 }
 
 std::optional<SplitPlane> SubtreeBuilder::choose(std::span<const BuildReference> references,

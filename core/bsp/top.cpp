@@ -9,9 +9,8 @@
 namespace pinocchio {
 namespace {
 
-// A node of no more references is a part. In larger ones planes are tried at Slabs::kMost equal slabs a side
-// instead of at every bound.
-constexpr std::size_t kLargestPart = 4096;
+// A node of no more references is a part. (All threads in one node have to wait for each other.)
+constexpr std::size_t kLargestPart = 65536;
 
 // References that a thread takes at a time.
 constexpr std::size_t kChunk = 16384;
