@@ -43,7 +43,7 @@ References prepare(const Scene& scene, Workers& workers, BspTree& tree) {
       const glm::vec3 &a = scene.positions[t.x], &b = scene.positions[t.y], &c = scene.positions[t.z];
       const auto id = static_cast<std::uint32_t>(i);
       tree.triangles[i] = ProjectedTriangle::from(a, b, c, id);
-      all[i] = {glm::min(glm::min(a, b), c), id, glm::max(glm::max(a, b), c), 0};
+      all[i] = BuildReference::of(id, {glm::min(glm::min(a, b), c), glm::max(glm::max(a, b), c)});
     }
   });
   std::size_t kept = 0;
@@ -51,7 +51,7 @@ References prepare(const Scene& scene, Workers& workers, BspTree& tree) {
     if (std::isnan(tree.triangles[i].n_u)) continue;
     if (kept != i) all[kept] = all[i];
     ++kept;
-    tree.bounds.add(Bounds{all[i].lo, all[i].hi});
+    tree.bounds.add(all[i].bounds());
   }
   all.shrink(kept);
   return all;

@@ -47,20 +47,34 @@ __m128 count_of(__m128i count) {
   return _mm_cvtepi32_ps(count);
 }
 
+// How many of `bounds` are below (or above, or at) each of eight positions.
+struct Eight {
+  __m128i first = _mm_setzero_si128(), second = _mm_setzero_si128();
+};
+template <class Compare>
+Eight count(std::span<const float> bounds, __m128 first, __m128 second, Compare compare) {
+  Eight n;
+  for (const float x : bounds) {
+    const __m128 bound = _mm_set1_ps(x);
+    n.first = _mm_sub_epi32(n.first, _mm_castps_si128(compare(bound, first)));
+    n.second = _mm_sub_epi32(n.second, _mm_castps_si128(compare(bound, second)));
+  }
+  return n;
+}
+
 // Compares each plane with each bound: where there are few, nothing sorts as fast.
 void compare_all(const CandidatePlanes& p, const float* candidates, std::size_t n, BestOfLanes& best) {
   const __m128 before = _mm_set1_ps(p.before), behind = _mm_set1_ps(p.behind);
-  for (std::size_t i = 0; i < n; i += 4) {
-    const __m128 position = _mm_loadu_ps(candidates + i);
-    __m128i low = _mm_setzero_si128(), flat = low, high = low;
-    for (const float x : p.lows)
-      low = _mm_sub_epi32(low, _mm_castps_si128(_mm_cmplt_ps(_mm_set1_ps(x), position)));
-    for (const float x : p.highs)
-      high = _mm_sub_epi32(high, _mm_castps_si128(_mm_cmpgt_ps(_mm_set1_ps(x), position)));
-    for (const float x : p.flats)
-      flat = _mm_sub_epi32(flat, _mm_castps_si128(_mm_cmpeq_ps(_mm_set1_ps(x), position)));
-    best.consider(position, _mm_add_ps(before, count_of(low)), count_of(flat),
-                  _mm_add_ps(behind, count_of(high)));
+  const auto sum = [](__m128 base, __m128i count) { return _mm_add_ps(base, _mm_cvtepi32_ps(count)); };
+  const __m128 zero = _mm_setzero_ps();
+  for (std::size_t i = 0; i < n; i += 8) {
+    const __m128 first = _mm_loadu_ps(candidates + i), second = _mm_loadu_ps(candidates + i + 4);
+    const Eight low = count(p.lows, first, second, [](__m128 x, __m128 at) { return _mm_cmplt_ps(x, at); });
+    const Eight high = count(p.highs, first, second, [](__m128 x, __m128 at) { return _mm_cmpgt_ps(x, at); });
+    const Eight flat = count(p.flats, first, second, [](__m128 x, __m128 at) { return _mm_cmpeq_ps(x, at); });
+    best.consider(first, sum(before, low.first), sum(zero, flat.first), sum(behind, high.first));
+    if (i + 4 < n)
+      best.consider(second, sum(before, low.second), sum(zero, flat.second), sum(behind, high.second));
   }
 }
 
@@ -69,7 +83,7 @@ void sweep(const CandidatePlanes& p, float* candidates, BestOfLanes& best) {
   for (const std::span<float> bounds : {p.lows, p.highs, p.flats}) std::sort(bounds.begin(), bounds.end());
   float* end = std::merge(p.lows.begin(), p.lows.end(), p.highs.begin(), p.highs.end(), candidates);
   end = std::unique(candidates, end);
-  std::fill_n(end, 3, end[-1]);
+  std::fill_n(end, kAtOnce - 1, end[-1]);
   std::size_t low = 0, ended = 0, flat = 0;
   alignas(16) float counts[3][4];
   for (const float* four = candidates; four < end; four += 4) {
@@ -101,7 +115,7 @@ void try_planes(const CandidatePlanes& planes, const SahCost& cost, int axis, st
   } else {
     float* const end = std::copy(planes.highs.begin(), planes.highs.end(),
                                  std::copy(planes.lows.begin(), planes.lows.end(), candidates));
-    std::fill_n(end, 3, candidates[0]);
+    std::fill_n(end, kAtOnce - 1, candidates[0]);
     compare_all(planes, candidates, n, lanes);
   }
   lanes.put(axis, best);

@@ -16,8 +16,11 @@ struct CandidatePlanes {
   float behind = 0.0f;           // ... and that end behind it
 };
 
-// Tries a plane at every bound and takes those that cost less than `best`. `buffer` holds no less than all
-// bounds and four more.
+// Planes looked at in one go.
+inline constexpr std::size_t kAtOnce = 8;
+
+// Tries a plane at every bound and takes those that cost less than `best`. `buffer` has room for all bounds
+// and for kAtOnce more.
 void try_planes(const CandidatePlanes& planes, const SahCost& cost, int axis, std::span<float> buffer,
                 SplitPlane& best);
 

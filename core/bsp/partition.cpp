@@ -1,5 +1,7 @@
 #include "core/bsp/partition.h"
 
+#include <emmintrin.h>
+
 #include "core/bsp/clip.h"
 
 namespace pinocchio {
@@ -7,9 +9,15 @@ namespace {
 
 // What a part's bounds cannot be beyond: they were bounds of a larger part of the triangle.
 Bounds within(Bounds part, const BuildReference& r) {
-  part.lo = glm::max(part.lo, r.lo);
-  part.hi = glm::min(part.hi, r.hi);
+  const Bounds larger = r.bounds();
+  part.lo = glm::max(part.lo, larger.lo);
+  part.hi = glm::min(part.hi, larger.hi);
   return part;
+}
+
+void put(__m128 lo, __m128 hi, BuildReference& to) {
+  _mm_store_ps(to.lo, lo);
+  _mm_store_ps(to.hi, hi);
 }
 
 }  // namespace
@@ -29,10 +37,11 @@ Halves partition(const Scene& scene, std::span<const BuildReference> references,
   Halves n;
   for (const BuildReference& at : references) {
     const Sides sides(at, plane);
-    const BuildReference r = at;  // `high` may write over it
-    low[n.low] = r;
-    high[n.high] = r;
-    if (sides.low && sides.high) {
+    const __m128 lo = _mm_load_ps(at.lo), hi = _mm_load_ps(at.hi);
+    put(lo, hi, low[n.low]);
+    put(lo, hi, high[n.high]);  // perhaps over `at`
+    if (sides.low & sides.high) {
+      const BuildReference r = low[n.low];
       const glm::uvec3& t = scene.triangles[r.triangle];
       const ClippedHalves cut = clipped_halves(scene.positions[t.x], scene.positions[t.y],
                                                scene.positions[t.z], box, plane.axis, plane.position);

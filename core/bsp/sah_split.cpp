@@ -191,8 +191,8 @@ std::optional<SplitPlane> find_sah_split(std::span<const BuildReference> referen
   }
   for (std::vector<float>* v : {&scratch.lows, &scratch.highs, &scratch.flats})
     if (v->size() < references.size() + 1) v->resize(references.size() + 1);
-  if (scratch.candidates.size() < 2 * references.size() + 4)
-    scratch.candidates.resize(2 * references.size() + 4);
+  if (scratch.candidates.size() < 2 * references.size() + kAtOnce)
+    scratch.candidates.resize(2 * references.size() + kAtOnce);
   SplitPlane best = leaf(references.size(), options);
   if (references.size() < kSlabsFrom) {
     for (int axis = 0; axis < 3; ++axis)

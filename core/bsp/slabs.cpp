@@ -38,7 +38,7 @@ void Slabs::add(std::span<const BuildReference> references, Ends* memory) {
   __m128i at_lo = _mm_load_si128(reinterpret_cast<const __m128i*>(at_lo_));
   __m128i at_hi = _mm_load_si128(reinterpret_cast<const __m128i*>(at_hi_));
   for (const BuildReference& r : references) {
-    const __m128 r_lo = _mm_and_ps(xyz, _mm_load_ps(&r.lo.x)), r_hi = _mm_and_ps(xyz, _mm_load_ps(&r.hi.x));
+    const __m128 r_lo = _mm_and_ps(xyz, _mm_load_ps(r.lo)), r_hi = _mm_and_ps(xyz, _mm_load_ps(r.hi));
     at_lo = _mm_sub_epi32(at_lo, _mm_castps_si128(_mm_cmple_ps(r_lo, lo)));
     at_hi = _mm_sub_epi32(at_hi, _mm_castps_si128(_mm_cmpge_ps(r_hi, hi)));
     const __m128i ends = _mm_packs_epi32(slabs_of(r_lo, lo, scale, last), slabs_of(r_hi, lo, scale, last));
