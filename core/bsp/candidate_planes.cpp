@@ -43,10 +43,6 @@ class BestOfLanes {
   __m128 least_, position_ = _mm_setzero_ps(), goes_high_ = _mm_setzero_ps();
 };
 
-__m128 count_of(__m128i count) {
-  return _mm_cvtepi32_ps(count);
-}
-
 // How many of `bounds` are below (or above, or at) each of eight positions.
 struct Eight {
   __m128i first = _mm_setzero_si128(), second = _mm_setzero_si128();
