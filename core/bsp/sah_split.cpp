@@ -55,18 +55,19 @@ class SlabCosts {
   // The best edge between two slabs, if it costs less than `best`.
   void try_edges(SplitPlane& best) const {
     for (int i = 1; i < slabs_.count(); ++i)
-      if (edge_cost_[i] < best.cost) best = {axis_, position_[i], true, edge_cost_[i]};
+      if (edge_cost_[i] < best.cost && slabs_.inside(position_[i], axis_))
+        best = {axis_, position_[i], true, edge_cost_[i]};
   }
 
-  // Whether a bound in slab i may be better than `cost` (up to rounding).
+  // Whether a bound in slab i may be better than `cost`.
   [[nodiscard]] bool may_beat(float cost, int i) const {
-    return least_[i] * 0.9999f < cost && slabs_.starts(i, axis_) + slabs_.ends(i, axis_) > 0;
+    return least_[i] * kRounding < cost && slabs_.starts(i, axis_) + slabs_.ends(i, axis_) > 0;
   }
-  [[nodiscard]] float least(int i) const { return least_[i]; }
   [[nodiscard]] float before(int i) const { return low_[i]; }
   [[nodiscard]] float behind(int i) const { return high_[i + 1]; }
 
  private:
+  static constexpr float kRounding = 0.9999f;  // of the slabs' edges and of the costs
   static constexpr int kEdges = Slabs::kMost + 4;
   const Slabs& slabs_;
   int axis_;
@@ -158,7 +159,7 @@ void look_into(std::span<const BuildReference> references, const Bounds& node, c
   gather(references, node, axis, open, s);
   for (int i = 0; i < open.count; ++i) {
     const auto k = static_cast<std::size_t>(open.slabs[static_cast<std::size_t>(i)]);
-    if (!(costs.least(static_cast<int>(k)) * 0.9999f < best.cost)) continue;
+    if (!costs.may_beat(best.cost, static_cast<int>(k))) continue;
     const auto part = [k](std::vector<float>& v, const auto& from, const auto& to) {
       return std::span(v).subspan(from[k], to[k] - from[k]);
     };
@@ -167,6 +168,33 @@ void look_into(std::span<const BuildReference> references, const Bounds& node, c
                 costs.behind(static_cast<int>(k))},
                cost, axis, s.candidates, best);
   }
+}
+
+void make_room(SplitScratch& s, std::size_t references) {
+  if (s.ends.size() >= references && !s.candidates.empty()) return;
+  for (std::vector<float>* v : {&s.lows, &s.highs, &s.flats}) v->resize(references + 1);
+  s.candidates.resize(2 * references + kAtOnce);
+  s.ends.resize(references);
+}
+
+// Counts in slabs, and looks into those that may hold the best plane.
+void search_slabs(std::span<const BuildReference> references, const Bounds& node, const BuildOptions& options,
+                  SplitScratch& scratch, SplitPlane& best) {
+  Slabs slabs(node, slab_count(references.size()));
+  slabs.add(references, scratch.ends.data());
+  const SahCost cost[3] = {{node, 0, options}, {node, 1, options}, {node, 2, options}};
+  const SlabCosts costs[3] = {{slabs, references.size(), cost[0], 0},
+                              {slabs, references.size(), cost[1], 1},
+                              {slabs, references.size(), cost[2], 2}};
+  SplitPlane edge = best;
+  for (int axis = 0; axis < 3; ++axis)
+    if (node.hi[axis] > node.lo[axis]) costs[axis].try_edges(edge);
+  // The best edge's axis first: what it finds closes more slabs of the others.
+  const int first = std::max(edge.axis, 0);
+  for (const int axis : {first, (first + 1) % 3, (first + 2) % 3})
+    if (node.hi[axis] > node.lo[axis])
+      look_into(references, node, slabs, costs[axis], axis, cost[axis], scratch,
+                std::min(edge.cost, best.cost), best);
 }
 
 }  // namespace
@@ -189,33 +217,15 @@ std::optional<SplitPlane> find_sah_split(std::span<const BuildReference> referen
     slabs.add(references);
     return find_slab_edge(slabs, references.size(), node, options);
   }
-  for (std::vector<float>* v : {&scratch.lows, &scratch.highs, &scratch.flats})
-    if (v->size() < references.size() + 1) v->resize(references.size() + 1);
-  if (scratch.candidates.size() < 2 * references.size() + kAtOnce)
-    scratch.candidates.resize(2 * references.size() + kAtOnce);
+  make_room(scratch, references.size());
   SplitPlane best = leaf(references.size(), options);
-  if (references.size() < kSlabsFrom) {
+  if (references.size() >= kSlabsFrom) {
+    search_slabs(references, node, options, scratch, best);
+  } else {
     for (int axis = 0; axis < 3; ++axis)
       if (node.hi[axis] > node.lo[axis])
         try_all(references, node, axis, SahCost(node, axis, options), scratch, best);
-    return unless_leaf(best);
   }
-  Slabs slabs(node, slab_count(references.size()));
-  if (scratch.ends.size() < references.size()) scratch.ends.resize(references.size());
-  slabs.add(references, scratch.ends.data());
-  const SahCost cost[3] = {{node, 0, options}, {node, 1, options}, {node, 2, options}};
-  const SlabCosts costs[3] = {{slabs, references.size(), cost[0], 0},
-                              {slabs, references.size(), cost[1], 1},
-                              {slabs, references.size(), cost[2], 2}};
-  SplitPlane edge = best;
-  for (int axis = 0; axis < 3; ++axis)
-    if (node.hi[axis] > node.lo[axis]) costs[axis].try_edges(edge);
-  // The best edge's axis first: what it finds closes more slabs of the others.
-  const int first = std::max(edge.axis, 0);
-  for (const int axis : {first, (first + 1) % 3, (first + 2) % 3})
-    if (node.hi[axis] > node.lo[axis])
-      look_into(references, node, slabs, costs[axis], axis, cost[axis], scratch,
-                std::min(edge.cost, best.cost), best);
   return unless_leaf(best);
 }
 

@@ -26,6 +26,8 @@ class Slabs {
   void add(const Slabs& other);  // of the same node, as many
 
   [[nodiscard]] int count() const { return count_; }
+  // Whether a plane there has some of the node to either side.
+  [[nodiscard]] bool inside(float x, int axis) const { return x > lo_[axis] && x < hi_[axis]; }
   [[nodiscard]] float edge(int i, int axis) const { return lo_[axis] + static_cast<float>(i) * width_[axis]; }
   // References that begin and that end in slab i, but not at the node's own side: no plane is there.
   [[nodiscard]] std::uint32_t starts(int i, int axis) const {
