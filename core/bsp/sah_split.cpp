@@ -1,6 +1,5 @@
 #include <algorithm>
 #include <array>
-#include <limits>
 
 #include "core/bsp/candidate_planes.h"
 #include "core/bsp/sah_cost.h"
