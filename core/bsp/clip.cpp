@@ -1,7 +1,9 @@
 #include "core/bsp/clip.h"
 
 #include <array>
-#include <cmath>
+#include <bit>
+#include <cstdint>
+#include <limits>
 
 namespace pinocchio {
 namespace {
@@ -13,54 +15,91 @@ struct Polygon {
   void push(const glm::dvec3& p) { points[static_cast<std::size_t>(count++)] = p; }
 };
 
+glm::dvec3 cut(const glm::dvec3& p, const glm::dvec3& q, double side_p, double side_q, int axis,
+               double plane) {
+  glm::dvec3 at = p + (q - p) * (side_p / (side_p - side_q));
+  at[axis] = plane;
+  return at;
+}
+
 // Keeps the part with sign * (p[axis] - plane) <= 0 (Sutherland and Hodgman 1974).
 Polygon clip(const Polygon& in, int axis, double plane, double sign) {
   Polygon out;
   for (int i = 0; i < in.count; ++i) {
     const glm::dvec3& p = in.points[static_cast<std::size_t>(i)];
-    const glm::dvec3& q = in.points[static_cast<std::size_t>((i + 1) % in.count)];
+    const glm::dvec3& q = in.points[static_cast<std::size_t>(i + 1 < in.count ? i + 1 : 0)];
     const double side_p = sign * (p[axis] - plane), side_q = sign * (q[axis] - plane);
     if (side_p <= 0.0) out.push(p);
-    if ((side_p < 0.0 && side_q > 0.0) || (side_p > 0.0 && side_q < 0.0)) {
-      glm::dvec3 cut = p + (q - p) * (side_p / (side_p - side_q));
-      cut[axis] = plane;
-      out.push(cut);
-    }
+    if ((side_p < 0.0 && side_q > 0.0) || (side_p > 0.0 && side_q < 0.0))
+      out.push(cut(p, q, side_p, side_q, axis, plane));
   }
   return out;
 }
 
+// The next float towards minus (-1) or plus (1) infinity.
+float neighbour(float f, int direction) {
+  const auto bits = std::bit_cast<std::int32_t>(f);
+  if ((bits & 0x7fffffff) == 0)
+    return static_cast<float>(direction) * std::numeric_limits<float>::denorm_min();
+  return std::bit_cast<float>(bits + (bits > 0 ? direction : -direction));
+}
+
 float round_down(double x) {
   const auto f = static_cast<float>(x);
-  return static_cast<double>(f) > x ? std::nextafterf(f, -INFINITY) : f;
+  return static_cast<double>(f) > x ? neighbour(f, -1) : f;
 }
 float round_up(double x) {
   const auto f = static_cast<float>(x);
-  return static_cast<double>(f) < x ? std::nextafterf(f, INFINITY) : f;
+  return static_cast<double>(f) < x ? neighbour(f, 1) : f;
 }
+
+struct ExactBounds {
+  glm::dvec3 lo{std::numeric_limits<double>::infinity()};
+  glm::dvec3 hi{-std::numeric_limits<double>::infinity()};
+  void add(const glm::dvec3& p) {
+    lo = glm::min(lo, p);
+    hi = glm::max(hi, p);
+  }
+  // Rounded outwards, but not out of `box`.
+  [[nodiscard]] Bounds rounded(const Bounds& box) const {
+    Bounds bounds;
+    if (lo.x > hi.x) return bounds;
+    bounds.lo = glm::max(glm::vec3(round_down(lo.x), round_down(lo.y), round_down(lo.z)), box.lo);
+    bounds.hi = glm::min(glm::vec3(round_up(hi.x), round_up(hi.y), round_up(hi.z)), box.hi);
+    return bounds;
+  }
+};
 
 }  // namespace
 
-Bounds clipped_bounds(const glm::vec3& a, const glm::vec3& b, const glm::vec3& c, const Bounds& box) {
+ClippedHalves clipped_halves(const glm::vec3& a, const glm::vec3& b, const glm::vec3& c, const Bounds& box,
+                             int axis, float position) {
   Polygon polygon;
   polygon.push(glm::dvec3(a));
   polygon.push(glm::dvec3(b));
   polygon.push(glm::dvec3(c));
-  for (int axis = 0; axis < 3 && polygon.count > 0; ++axis) {
-    polygon = clip(polygon, axis, box.lo[axis], -1.0);
-    if (polygon.count > 0) polygon = clip(polygon, axis, box.hi[axis], 1.0);
+  const glm::vec3 lo = glm::min(glm::min(a, b), c), hi = glm::max(glm::max(a, b), c);
+  for (int k = 0; k < 3; ++k) {
+    if (lo[k] < box.lo[k]) polygon = clip(polygon, k, static_cast<double>(box.lo[k]), -1.0);
+    if (hi[k] > box.hi[k]) polygon = clip(polygon, k, static_cast<double>(box.hi[k]), 1.0);
   }
-  Bounds bounds;
+  ExactBounds low, high;
+  const auto plane = static_cast<double>(position);
   for (int i = 0; i < polygon.count; ++i) {
     const glm::dvec3& p = polygon.points[static_cast<std::size_t>(i)];
-    bounds.lo = glm::min(bounds.lo, glm::vec3(round_down(p.x), round_down(p.y), round_down(p.z)));
-    bounds.hi = glm::max(bounds.hi, glm::vec3(round_up(p.x), round_up(p.y), round_up(p.z)));
+    const glm::dvec3& q = polygon.points[static_cast<std::size_t>(i + 1 < polygon.count ? i + 1 : 0)];
+    const double side_p = p[axis] - plane, side_q = q[axis] - plane;
+    if (side_p <= 0.0) low.add(p);
+    if (side_p >= 0.0) high.add(p);
+    if ((side_p < 0.0 && side_q > 0.0) || (side_p > 0.0 && side_q < 0.0)) {
+      const glm::dvec3 both = cut(p, q, side_p, side_q, axis, plane);
+      low.add(both);
+      high.add(both);
+    }
   }
-  if (polygon.count > 0) {  // rounding outwards must not leave the box
-    bounds.lo = glm::max(bounds.lo, box.lo);
-    bounds.hi = glm::min(bounds.hi, box.hi);
-  }
-  return bounds;
+  Bounds low_box = box, high_box = box;
+  low_box.hi[axis] = high_box.lo[axis] = position;
+  return {low.rounded(low_box), high.rounded(high_box)};
 }
 
 }  // namespace pinocchio

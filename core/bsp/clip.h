@@ -6,8 +6,12 @@
 
 namespace pinocchio {
 
-// Bounds of the part of triangle abc inside `box`, rounded outwards to float; empty where they are apart.
-[[nodiscard]] Bounds clipped_bounds(const glm::vec3& a, const glm::vec3& b, const glm::vec3& c,
-                                    const Bounds& box);
+struct ClippedHalves {
+  Bounds low, high;  // empty where nothing of the triangle is
+};
+
+// Bounds, rounded outwards to float, of the parts of triangle abc inside `box` below and above the plane.
+[[nodiscard]] ClippedHalves clipped_halves(const glm::vec3& a, const glm::vec3& b, const glm::vec3& c,
+                                           const Bounds& box, int axis, float position);
 
 }  // namespace pinocchio

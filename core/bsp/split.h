@@ -1,19 +1,15 @@
 #pragma once
 
-#include <cstdint>
 #include <optional>
 #include <span>
+#include <vector>
 
 #include "core/bsp/build.h"
+#include "core/bsp/build_reference.h"
+#include "core/bsp/slabs.h"
 #include "core/math/bounds.h"
 
 namespace pinocchio {
-
-// A triangle in a node under construction: `bounds` is of the part of it inside the node.
-struct BuildReference {
-  std::uint32_t triangle;
-  Bounds bounds;
-};
 
 struct SplitPlane {
   int axis = 0;
@@ -22,9 +18,21 @@ struct SplitPlane {
   float cost = 0.0f;          // expected cost of the node once split (sah only)
 };
 
-// Best plane by the surface area heuristic over every bound of every reference (a sweep over sorted
-// bounds), or over equal slabs where `references` are many and a sweep would cost more than it gains.
+// What a search writes on the way; kept from node to node, so that none allocates.
+struct SplitScratch {
+  std::vector<float> lows, highs, flats, candidates;
+  std::vector<Slabs::Ends> ends;
+};
+
+// Best plane by the surface area heuristic over every bound of every reference, if it is cheaper than a leaf.
+// Many references are first counted in slabs: a slab whose cost cannot be below the best edge's is not
+// looked into (branch and bound). Of more than a few thousand the best edge itself is taken.
 [[nodiscard]] std::optional<SplitPlane> find_sah_split(std::span<const BuildReference> references,
+                                                       const Bounds& node, const BuildOptions& options,
+                                                       SplitScratch& scratch);
+
+// Best of the edges between slabs, for nodes of so many references that no more is worth the time.
+[[nodiscard]] std::optional<SplitPlane> find_slab_edge(const Slabs& slabs, std::size_t references,
                                                        const Bounds& node, const BuildOptions& options);
 
 [[nodiscard]] std::optional<SplitPlane> find_spatial_median(const Bounds& node);

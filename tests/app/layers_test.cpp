@@ -32,7 +32,7 @@ const Rooms kMaySeeInCore{
     {"compare", {"base", "math", "image", "parallel"}},
     {"scene", {"base", "math", "image"}},
     {"procedural", {"base", "math", "scene"}},
-    {"bsp", {"base", "math", "scene"}},
+    {"bsp", {"base", "math", "parallel", "scene"}},
     {"trace", {"base", "math", "image", "scene", "bsp", "simd", "parallel"}},
     {"reference", {"base", "math", "image", "scene", "parallel", "trace"}},
     {"stability",

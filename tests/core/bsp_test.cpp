@@ -79,7 +79,7 @@ TEST(Bsp, SahBeatsTheSimplerRulesWhereTrianglesAreUneven) {
 }
 
 TEST(Bsp, IsTheSameOnAnyNumberOfThreads) {
-  const Scene scene = random_soup(30000, 0.02f, 5);  // enough that threads share the work
+  const Scene scene = random_soup(80000, 0.01f, 5);  // enough that threads share nodes and parts
   const auto bytes = [](const BspTree& tree) {
     const auto* first = reinterpret_cast<const char*>(tree.nodes.data());
     return std::string(first, tree.nodes.size() * sizeof(BspNode));

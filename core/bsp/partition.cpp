@@ -1,0 +1,61 @@
+#include "core/bsp/partition.h"
+
+#include <emmintrin.h>
+
+#include "core/bsp/clip.h"
+
+namespace pinocchio {
+namespace {
+
+// What a part's bounds cannot be beyond: they were bounds of a larger part of the triangle.
+Bounds within(Bounds part, const BuildReference& r) {
+  const Bounds larger = r.bounds();
+  part.lo = glm::max(part.lo, larger.lo);
+  part.hi = glm::min(part.hi, larger.hi);
+  return part;
+}
+
+void put(__m128 lo, __m128 hi, BuildReference& to) {
+  _mm_store_ps(to.lo, lo);
+  _mm_store_ps(to.hi, hi);
+}
+
+}  // namespace
+
+Halves count_halves(std::span<const BuildReference> references, const SplitPlane& plane) {
+  Halves n;
+  for (const BuildReference& r : references) {
+    const Sides sides(r, plane);
+    n.low += sides.low ? 1 : 0;
+    n.high += sides.high ? 1 : 0;
+  }
+  return n;
+}
+
+Halves partition(const Scene& scene, std::span<const BuildReference> references, const Bounds& box,
+                 const SplitPlane& plane, BuildReference* low, BuildReference* high) {
+  Halves n;
+  for (const BuildReference& at : references) {
+    const Sides sides(at, plane);
+    const __m128 lo = _mm_load_ps(at.lo), hi = _mm_load_ps(at.hi);
+    put(lo, hi, low[n.low]);
+    put(lo, hi, high[n.high]);  // perhaps over `at`
+    if (sides.low & sides.high) {
+      const BuildReference r = low[n.low];
+      const glm::uvec3& t = scene.triangles[r.triangle];
+      const ClippedHalves cut = clipped_halves(scene.positions[t.x], scene.positions[t.y],
+                                               scene.positions[t.z], box, plane.axis, plane.position);
+      const Bounds below = within(cut.low, r), above = within(cut.high, r);
+      low[n.low] = BuildReference::of(r.triangle, below);
+      high[n.high] = BuildReference::of(r.triangle, above);
+      n.low += below.empty() ? 0 : 1;
+      n.high += above.empty() ? 0 : 1;
+      continue;
+    }
+    n.low += sides.low ? 1 : 0;
+    n.high += sides.high ? 1 : 0;
+  }
+  return n;
+}
+
+}  // namespace pinocchio

@@ -1,0 +1,59 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <span>
+
+#include "core/bsp/build_reference.h"
+#include "core/math/bounds.h"
+
+namespace pinocchio {
+
+// How many references begin and end in each of equal slabs of a node, on all three axes. Of two bounds in
+// different slabs the one in the lower slab is lower, whatever was rounded.
+class Slabs {
+ public:
+  static constexpr int kMost = 256;
+
+  // `count`: slabs a side, a multiple of 4 and no more than kMost.
+  Slabs(const Bounds& node, int count);
+
+  // `memory`: one a reference, told in which slabs it begins and ends; or nothing.
+  struct Ends {
+    std::uint8_t first[4], last[4];  // by axis; the fourth is of no meaning
+  };
+  void add(std::span<const BuildReference> references, Ends* memory = nullptr);
+  void add(const Slabs& other);  // of the same node, as many
+
+  [[nodiscard]] int count() const { return count_; }
+  // Whether a plane there has some of the node to either side.
+  [[nodiscard]] bool inside(float x, int axis) const { return x > lo_[axis] && x < hi_[axis]; }
+  [[nodiscard]] float edge(int i, int axis) const { return lo_[axis] + static_cast<float>(i) * width_[axis]; }
+  // References that begin and that end in slab i, but not at the node's own side: no plane is there.
+  [[nodiscard]] std::uint32_t starts(int i, int axis) const {
+    return at(starts_, i, axis) - (i == 0 ? at_lo_[axis] : 0);
+  }
+  [[nodiscard]] std::uint32_t ends(int i, int axis) const {
+    return at(ends_, i, axis) - (i == count_ - 1 ? at_hi_[axis] : 0);
+  }
+  // References that begin at the node's lower side, or end at its upper.
+  [[nodiscard]] std::uint32_t before_all(int axis) const { return at_lo_[axis]; }
+  [[nodiscard]] std::uint32_t behind_all(int axis) const { return at_hi_[axis]; }
+
+ private:
+  using Counts = std::array<std::array<std::uint32_t, kMost>, 3>;
+  static std::uint32_t at(const Counts& counts, int i, int axis) {
+    return counts[static_cast<std::size_t>(axis)][static_cast<std::size_t>(i)];
+  }
+
+  int count_;
+  alignas(16) float lo_[4];
+  alignas(16) float hi_[4];
+  alignas(16) float scale_[4];
+  float width_[3];
+  alignas(16) std::uint32_t at_lo_[4] = {};
+  alignas(16) std::uint32_t at_hi_[4] = {};
+  Counts starts_, ends_;
+};
+
+}  // namespace pinocchio

@@ -1,0 +1,95 @@
+#include "core/bsp/subtree.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "core/bsp/part_queue.h"
+
+namespace pinocchio {
+namespace {
+
+// The median rules do not ask what a split gains: after this many above a node that sent most references to
+// both sides, it is a leaf. Else thousands of triangles through one point double at every level.
+constexpr int kMostWasted = 3;
+
+// A node of more references hands its upper child over to another thread, if that has no fewer than the
+// second.
+constexpr std::size_t kShared = 2048;
+constexpr std::size_t kLeastHanded = 512;
+
+}  // namespace
+
+bool pays(const Halves& halves, std::size_t parent, SplitRule rule, OpenPair& children) {
+  if (rule != SplitRule::sah && 2 * (halves.low + halves.high) > 3 * parent) {
+    ++children.low.wasted;
+    ++children.high.wasted;
+  }
+  const bool told_apart = halves.low < parent || halves.high < parent;
+  return told_apart && children.low.wasted <= kMostWasted;
+}
+
+Subtree SubtreeBuilder::build(std::span<const BuildReference> references, const OpenNode& root) {
+  made_.references.clear();
+  made_.handed.clear();
+  made_.depth = 0;
+  made_.nodes.assign(2, BspNode::leaf(0, 0));
+  if (stack_.size() < 2 * references.size() + 2) stack_.resize(2 * references.size() + 2);
+  std::copy(references.begin(), references.end(), stack_.begin());
+  build_node(0, 0, references.size(), root);
+  return made_;  // a copy has the size it needs
+}
+
+void SubtreeBuilder::build_node(std::uint32_t index, std::size_t begin, std::size_t end,
+                                const OpenNode& node) {
+  made_.depth = std::max(made_.depth, node.depth);
+  const std::size_t count = end - begin;
+  const std::span references(stack_.data() + begin, count);
+  const std::optional<SplitPlane> plane = choose(references, node);
+  if (!plane) return make_leaf(index, begin, end);
+  OpenPair children(node, *plane);
+  if (options_.rule != SplitRule::sah &&
+      !pays(count_halves(references, *plane), count, options_.rule, children))
+    return make_leaf(index, begin, end);
+
+  // The upper child's stay where the parent's were, the lower child's go on top of them.
+  if (low_.size() < count + 1) low_.resize(count + 1);
+  const Halves n = partition(scene_, references, node.box, *plane, low_.data(), stack_.data() + begin);
+  const std::size_t high_end = begin + n.high;
+  if (stack_.size() < high_end + n.low + 1) stack_.resize(2 * (high_end + n.low));
+  std::copy_n(low_.begin(), n.low, stack_.begin() + static_cast<std::ptrdiff_t>(high_end));
+
+  const auto first = static_cast<std::uint32_t>(made_.nodes.size());
+  made_.nodes.resize(made_.nodes.size() + 2, BspNode::leaf(0, 0));
+  made_.nodes[index] = BspNode::inner(plane->axis, plane->position, first);
+  const bool hands_over = count > kShared && n.high >= kLeastHanded;
+  if (hands_over) {
+    References high(n.high);
+    high.put(std::span(stack_).subspan(begin, n.high), 0);
+    made_.handed.push_back({first + 1, queue_.put({first + 1, children.high, std::move(high)})});
+  }
+  build_node(first, high_end, high_end + n.low, children.low);
+  if (!hands_over) build_node(first + 1, begin, high_end, children.high);
+}
+
+std::optional<SplitPlane> SubtreeBuilder::choose(std::span<const BuildReference> references,
+                                                 const OpenNode& node) {
+  if (node.depth >= max_depth_ || references.size() <= static_cast<std::size_t>(options_.leaf_size))
+    return std::nullopt;
+  switch (options_.rule) {
+    case SplitRule::spatial_median:
+      return find_spatial_median(node.box);
+    case SplitRule::object_median:
+      return find_object_median(references, node.box);
+    case SplitRule::sah:
+      break;
+  }
+  return find_sah_split(references, node.box, options_, scratch_);
+}
+
+void SubtreeBuilder::make_leaf(std::uint32_t index, std::size_t begin, std::size_t end) {
+  made_.nodes[index] = BspNode::leaf(static_cast<std::uint32_t>(made_.references.size()),
+                                     static_cast<std::uint32_t>(end - begin));
+  for (std::size_t i = begin; i < end; ++i) made_.references.push_back(stack_[i].triangle);
+}
+
+}  // namespace pinocchio

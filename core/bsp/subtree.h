@@ -1,0 +1,83 @@
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "core/bsp/partition.h"
+#include "core/bsp/references.h"
+#include "core/bsp/split.h"
+#include "core/bsp/tree.h"
+
+namespace pinocchio {
+
+// A node under construction.
+struct OpenNode {
+  Bounds box;
+  int depth = 0;
+  int wasted = 0;  // nodes above that a median rule split in vain
+};
+
+// Children of a node, by a plane.
+struct OpenPair {
+  OpenNode low, high;
+  OpenPair(const OpenNode& node, const SplitPlane& plane) : low(node), high(node) {
+    low.box.hi[plane.axis] = high.box.lo[plane.axis] = plane.position;
+    ++low.depth;
+    ++high.depth;
+  }
+};
+
+// Counts in `children` what the split of `parent` references wasted; whether it is to be made at all.
+[[nodiscard]] bool pays(const Halves& halves, std::size_t parent, SplitRule rule, OpenPair& children);
+
+// A node that a thread builds with all below it, save what it hands over.
+struct TreePart {
+  std::uint32_t index = 0;  // of its root in the part that handed it over, or in the tree's top
+  OpenNode node;
+  References references;
+};
+
+class PartQueue;
+
+// A part of the tree on its own: its root is node 0, node 1 is padding, first_child and first_reference
+// count from its own beginning.
+struct Subtree {
+  std::vector<BspNode> nodes;
+  std::vector<std::uint32_t> references;
+  int depth = 0;  // of its deepest leaf, from the whole tree's root
+  // Nodes that others build: their indices here, and the queue's numbers of the parts.
+  struct Handed {
+    std::uint32_t index;
+    std::size_t part;
+  };
+  std::vector<Handed> handed;
+};
+
+// Builds subtrees, one after the other, on one thread; keeps its memory in between.
+class SubtreeBuilder {
+ public:
+  // Large nodes' upper children go to `queue` instead of being built. What is large is a constant: the parts
+  // are the same for any number of threads.
+  SubtreeBuilder(const Scene& scene, const BuildOptions& options, int max_depth, PartQueue& queue)
+      : scene_(scene), options_(options), max_depth_(max_depth), queue_(queue) {}
+
+  [[nodiscard]] Subtree build(std::span<const BuildReference> references, const OpenNode& root);
+
+ private:
+  void build_node(std::uint32_t index, std::size_t begin, std::size_t end, const OpenNode& node);
+  void make_leaf(std::uint32_t index, std::size_t begin, std::size_t end);
+  [[nodiscard]] std::optional<SplitPlane> choose(std::span<const BuildReference> references,
+                                                 const OpenNode& node);
+
+  const Scene& scene_;
+  const BuildOptions& options_;
+  int max_depth_;
+  PartQueue& queue_;
+  Subtree made_;
+  std::vector<BuildReference> stack_;  // of the nodes that are still to be built, the next one's on top
+  std::vector<BuildReference> low_;
+  SplitScratch scratch_;
+};
+
+}  // namespace pinocchio
