@@ -17,12 +17,18 @@ double processor_ms() {
   return 1e3 * static_cast<double>(time.tv_sec) + 1e-6 * static_cast<double>(time.tv_nsec);
 }
 
+// A point of the chart says nothing of the frames that another has drawn.
+Plan without_memory(Plan plan) {
+  plan.reuse = false;
+  return plan;
+}
+
 }  // namespace
 
 TimedRenderer::TimedRenderer(std::shared_ptr<const PreparedScene> scene, const Settings& settings,
                              Workers& workers)
     : spp_(settings.spp),
-      renderer_(std::move(scene), settings.plan, workers,
+      renderer_(std::move(scene), without_memory(settings.plan), workers,
                 {settings.exchange, gl::Mapping::each_time, settings.spp, false},
                 {[](Picture&&) {}, [this](const FrameRecord& record) { records_.push_back(record); }}) {}
 

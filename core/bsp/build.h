@@ -24,7 +24,7 @@ struct BuildOptions {
   int leaf_size = 2;  // a node with no more references is not split (sah: unless empty space can be cut off)
   int threads = 0;    // that build; 0: one a core. The tree is the same for any number
   float cost_step = 1.0f;                               // of a traversal step ...
-  float cost_intersection = 0.5f;                       // ... against a triangle test (SAH's cost comparison)
+  float cost_intersection = 0.39f;                      // ... against a triangle test (SAH's cost comparison)
   TriangleTest triangle_test = TriangleTest::filtered;  // that triangles are stored for
 };
 

@@ -44,7 +44,8 @@ class TileShadows {
       if (const std::uint32_t id = ids.at(x, y); id != kNoTriangle) add(id, {x, y});
     });
   }
-  // Rays fired.
+
+  // Fires the rays that are needed; returns how many.
   std::uint64_t finish() {
     std::uint64_t fired = 0;
     std::vector<std::uint8_t> blocked;
