@@ -20,7 +20,7 @@ constexpr std::size_t kMostAPass = 4096;
 constexpr std::size_t kChunk = 64;
 
 // An eye this near a triangle's plane (in parts of its distance) does not know its side.
-constexpr double kNearPlane = 1e-4;
+constexpr float kNearPlane = 2e-4f;
 
 constexpr int kMostCuts = 64;
 constexpr float kCellsAcross = 200.0f;          // cells along the scene's diagonal ...
@@ -69,23 +69,24 @@ LitCells::LitCells(const Scene& scene, const Tracer& tracer) : scene_(scene), tr
 }
 
 void LitCells::cut_triangles() {
-  float cell_size = tracer_.tree().bounds.diagonal() / kCellsAcross;
+  diagonal_ = tracer_.tree().bounds.diagonal();
+  cell_size_ = diagonal_ / kCellsAcross;
   const std::size_t most = kMostCells + kMostCellsATriangle * scene_.triangles.size();
   first_.resize(scene_.triangles.size());
   cuts_.resize(scene_.triangles.size());
-  do {
+  for (;; cell_size_ *= 2.0f) {
     cells_ = 0;
     for (std::uint32_t i = 0; i < first_.size(); ++i) {
       const auto [a, b, c] = corners_of(scene_, i);
       const float longest = std::max({glm::distance(a, b), glm::distance(b, c), glm::distance(c, a)});
       const int cuts =
-          std::clamp(static_cast<int>(std::min(longest / cell_size, float{kMostCuts})), 1, kMostCuts);
+          std::clamp(static_cast<int>(std::min(longest / cell_size_, float{kMostCuts})), 1, kMostCuts);
       first_[i] = static_cast<std::uint32_t>(cells_);
       cuts_[i] = static_cast<std::uint8_t>(cuts);
       cells_ += 2 * static_cast<std::size_t>(cuts * cuts);
     }
-    cell_size *= 2.0f;
-  } while (cells_ > most);
+    if (cells_ <= most) return;
+  }
 }
 
 void LitCells::forget_what_changed(std::span<const shared::LightParams> lights, float least_light) {
@@ -121,24 +122,33 @@ void LitCells::look_into(const Due& due) {
                                                    first_.begin() - 1);
   const int cuts = cuts_[triangle], cell_number = static_cast<int>(due.cell - first_[triangle]);
   const bool back = cell_number >= cuts * cuts;
-  const Proof proof =
-      prove(scene_, tracer_.tree(),
-            {triangle, back, cell_corners(back ? cell_number - cuts * cuts : cell_number, cuts)},
-            lights_[due.slot], least_light_);
+  const CellPlace place{triangle, back != falls(triangle),
+                        cell_corners(back ? cell_number - cuts * cuts : cell_number, cuts)};
+  const Proof proof = prove(scene_, tracer_.tree(), place, lights_[due.slot], least_light_);
   if (proof == Proof::lit) result = kLit;
   if (proof == Proof::turned_away) result = kTurnedAway;
 }
 
-LitCells::Side LitCells::side_of(std::uint32_t triangle, const glm::vec3& eye) const {
+// Whether the normal of a triangle's winding falls along the axis of its projection: side_of goes by the one
+// that rises.
+bool LitCells::falls(std::uint32_t triangle) const {
   const std::array<glm::vec3, 3> corners = corners_of(scene_, triangle);
-  const glm::dvec3 ab(corners[1] - corners[0]), ac(corners[2] - corners[0]), to_eye(eye - corners[0]);
-  const glm::dvec3 n = glm::cross(ab, ac);
-  const double height = glm::dot(n, to_eye);
-  const double reach = glm::length(n) * (glm::length(to_eye) + glm::length(ab) + glm::length(ac));
-  if (!(std::abs(height) > kNearPlane * reach)) return {};
+  const glm::dvec3 a(corners[0]);
+  const glm::dvec3 n = glm::cross(glm::dvec3(corners[1]) - a, glm::dvec3(corners[2]) - a);
+  return n[static_cast<int>(tracer_.tree().triangles[triangle].k)] < 0.0;
+}
+
+LitCells::Side LitCells::side_of(std::uint32_t triangle, const glm::vec3& eye) const {
+  const ProjectedTriangle& t = tracer_.tree().triangles[triangle];
+  const int k = static_cast<int>(t.k), u = (k + 1) % 3, v = (k + 2) % 3;
+  const glm::vec3 from_a = eye - glm::vec3(t.a[0], t.a[1], t.a[2]);
+  const float height = from_a[k] + t.n_u * from_a[u] + t.n_v * from_a[v];
   const int cuts = cuts_[triangle];
+  const float longest = cuts < kMostCuts ? static_cast<float>(cuts + 1) * cell_size_ : diagonal_;
+  const float reach = std::abs(from_a.x) + std::abs(from_a.y) + std::abs(from_a.z) + longest;
+  if (!(std::abs(height) > kNearPlane * reach)) return {};
   const float edge = kEdge / static_cast<float>(cuts);
-  return {first_[triangle] + static_cast<std::uint32_t>(height > 0.0 ? 0 : cuts * cuts), cuts, edge,
+  return {first_[triangle] + static_cast<std::uint32_t>(height > 0.0f ? 0 : cuts * cuts), cuts, edge,
           static_cast<float>(cuts) / (1.0f - 3.0f * edge)};
 }
 

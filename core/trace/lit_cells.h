@@ -81,12 +81,14 @@ class LitCells {
   void forget_what_changed(std::span<const shared::LightParams> lights, float least_light);
   [[nodiscard]] std::uint8_t& state(const Due& due) { return states_[due.slot * cells_ + due.cell]; }
   void look_into(const Due& due);
+  [[nodiscard]] bool falls(std::uint32_t triangle) const;
 
   const Scene& scene_;
   const Tracer& tracer_;
-  std::vector<std::uint32_t> first_;  // a triangle's first cell, those of its front before those of its back
+  std::vector<std::uint32_t> first_;  // a triangle's first cell; those of its other side follow
   std::vector<std::uint8_t> cuts_;
   std::size_t cells_ = 0;
+  float cell_size_ = 0.0f, diagonal_ = 0.0f;  // scene units
   std::vector<shared::LightParams> lights_;
   float least_light_ = 0.0f;
   std::vector<std::uint8_t> states_;  // [slot][cell]: pixels counted, or one of the ends (lit_cells.cpp)
