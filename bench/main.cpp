@@ -23,7 +23,7 @@ struct Options {
   std::vector<std::string> isas;
   std::string tree = "sah", test{triangle_test_name(BuildOptions{}.triangle_test)};
   int triangles = 0, repeat = 7, build_repeat = 3, threads = 0;
-  bool mirror_all = false, robust = false;
+  bool mirror_all = false, robust = false, no_pass = false;
 };
 
 void add_options(CLI::App& program, Options& o) {
@@ -48,6 +48,7 @@ void add_options(CLI::App& program, Options& o) {
       ->check(CLI::Range(1, 1024));
   program.add_flag("--mirror-all", o.mirror_all, "every material mirrors (where the scene has no mirror)");
   program.add_flag("--embree-robust", o.robust, "Embree's watertight test, not its fast one");
+  program.add_flag("--no-pass", o.no_pass, "leave out the whole shadow pass");
   program.add_option("--json", o.json, "write everything to this file");
 }
 
@@ -116,7 +117,7 @@ void run(const Options& o) {
   }
   std::vector<Workers*> on{&one};
   if (all.count() > 1) on.push_back(&all);
-  report.shadow_passes = measure_shadow_passes(scene, *tracers.front(), embree, kSize, on);
+  if (!o.no_pass) report.shadow_passes = measure_shadow_passes(scene, *tracers.front(), embree, kSize, on);
   print_report(report);
   if (!o.json.empty()) save_report(report, o.json);
 }

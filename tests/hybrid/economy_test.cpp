@@ -253,6 +253,35 @@ TEST(Economy, AStillCameraCostsNoRays) {
     }
 }
 
+TEST(Economy, FramesTeachTheNextWhereLightReaches) {
+  const Scene scene = load_or_die(source_path("scenes/two-lights"));
+  std::vector<Camera> cameras;
+  for (int i = 0; i < 16; ++i) {
+    cameras.push_back(first_camera(scene));
+    cameras.back().eye.x += 0.02f * static_cast<float>(i);
+  }
+  const auto draw = [&](Plan plan, bool reuse, Exchange exchange, std::vector<FrameRecord>& records) {
+    plan.reuse = reuse;
+    DrawRequest request{.size = kSize, .exchange = exchange};
+    request.plan = plan;
+    return draw_all(scene, request, cameras, &records);
+  };
+  for (const Mode mode : {Mode::hybrid, Mode::raytrace})
+    for (const int design : {1, 2})
+      for (const Exchange exchange : {Exchange::sync, Exchange::pipelined}) {
+        SCOPED_TRACE(std::string(mode_name(mode)) + " " + std::to_string(design) + " " +
+                     exchange_name(exchange));
+        const Plan plan = *make_plan(take_census(scene), {.mode = mode, .design = design});
+        std::vector<FrameRecord> taught, anew;
+        const std::vector<Picture> pictures = draw(plan, true, exchange, taught);
+        const std::vector<Picture> wanted = draw(plan, false, exchange, anew);
+        for (std::size_t i = 0; i < pictures.size(); ++i)
+          EXPECT_TRUE(std::ranges::equal(pictures[i].color.pixels(), wanted[i].color.pixels())) << i;
+        EXPECT_EQ(taught.front().rays.shadow, anew.front().rays.shadow);
+        EXPECT_LT(taught.back().rays.shadow, anew.back().rays.shadow * 2 / 3);
+      }
+}
+
 TEST(ReflectionTiles, OnlyThoseWithLight) {
   Workers workers(2);
   Image<glm::vec3> image(glm::ivec2(26, 10));  // 4 x 2 tiles, the last ones cut
