@@ -256,7 +256,7 @@ TEST(Economy, AStillCameraCostsNoRays) {
 TEST(Economy, FramesTeachTheNextWhereLightReaches) {
   const Scene scene = load_or_die(source_path("scenes/two-lights"));
   std::vector<Camera> cameras;
-  for (int i = 0; i < 16; ++i) {
+  for (int i = 0; i < 10; ++i) {
     cameras.push_back(first_camera(scene));
     cameras.back().eye.x += 0.02f * static_cast<float>(i);
   }
@@ -266,20 +266,24 @@ TEST(Economy, FramesTeachTheNextWhereLightReaches) {
     request.plan = plan;
     return draw_all(scene, request, cameras, &records);
   };
-  for (const Mode mode : {Mode::hybrid, Mode::raytrace})
-    for (const int design : {1, 2})
-      for (const Exchange exchange : {Exchange::sync, Exchange::pipelined}) {
-        SCOPED_TRACE(std::string(mode_name(mode)) + " " + std::to_string(design) + " " +
-                     exchange_name(exchange));
-        const Plan plan = *make_plan(take_census(scene), {.mode = mode, .design = design});
-        std::vector<FrameRecord> taught, anew;
-        const std::vector<Picture> pictures = draw(plan, true, exchange, taught);
-        const std::vector<Picture> wanted = draw(plan, false, exchange, anew);
-        for (std::size_t i = 0; i < pictures.size(); ++i)
-          EXPECT_TRUE(std::ranges::equal(pictures[i].color.pixels(), wanted[i].color.pixels())) << i;
-        EXPECT_EQ(taught.front().rays.shadow, anew.front().rays.shadow);
-        EXPECT_LT(taught.back().rays.shadow, anew.back().rays.shadow * 2 / 3);
-      }
+  struct Way {
+    Mode mode;
+    int design;
+    Exchange exchange;
+  };
+  for (const Way& way : {Way{Mode::hybrid, 1, Exchange::sync}, Way{Mode::hybrid, 1, Exchange::pipelined},
+                         Way{Mode::hybrid, 2, Exchange::sync}, Way{Mode::raytrace, 1, Exchange::sync}}) {
+    SCOPED_TRACE(std::string(mode_name(way.mode)) + " " + std::to_string(way.design) + " " +
+                 exchange_name(way.exchange));
+    const Plan plan = *make_plan(take_census(scene), {.mode = way.mode, .design = way.design});
+    std::vector<FrameRecord> taught, anew;
+    const std::vector<Picture> pictures = draw(plan, true, way.exchange, taught);
+    const std::vector<Picture> wanted = draw(plan, false, way.exchange, anew);
+    for (std::size_t i = 0; i < pictures.size(); ++i)
+      EXPECT_TRUE(std::ranges::equal(pictures[i].color.pixels(), wanted[i].color.pixels())) << i;
+    EXPECT_EQ(taught.front().rays.shadow, anew.front().rays.shadow);
+    EXPECT_LT(taught.back().rays.shadow, anew.back().rays.shadow * 2 / 3);
+  }
 }
 
 TEST(ReflectionTiles, OnlyThoseWithLight) {
