@@ -27,7 +27,7 @@ void trace_answer(const FrameRequest& request, const shared::ViewParams& view, W
                   FrameRecord& record) {
   const Plan& plan = request.plan;
   Image<std::uint32_t> store;
-  LitCells* const cells = plan.reuse ? request.scene->lit_cells() : nullptr;
+  LitCells* const cells = plan.reuse && plan.mask_bits > 0 ? request.scene->lit_cells() : nullptr;
   const auto job = [&](int scale) {
     TraceJob with_cells = trace_job(request, view, workers, scale);
     with_cells.cells = cells;

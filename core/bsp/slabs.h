@@ -36,9 +36,8 @@ class Slabs {
   [[nodiscard]] std::uint32_t ends(int i, int axis) const {
     return at(ends_, i, axis) - (i == count_ - 1 ? at_hi_[axis] : 0);
   }
-  // References that begin at the node's lower side, or end at its upper.
+  // References that begin at the node's lower side.
   [[nodiscard]] std::uint32_t before_all(int axis) const { return at_lo_[axis]; }
-  [[nodiscard]] std::uint32_t behind_all(int axis) const { return at_hi_[axis]; }
 
  private:
   using Counts = std::array<std::array<std::uint32_t, kMost>, 3>;

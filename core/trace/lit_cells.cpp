@@ -58,6 +58,14 @@ std::array<glm::dvec2, 3> cell_corners(int i, int cuts) {
   return corners;
 }
 
+// One where lengths leave float's range or the scene has none.
+int cuts_of(const std::array<glm::vec3, 3>& corners, float cell_size) {
+  const auto& [a, b, c] = corners;
+  const float cuts = std::max({glm::distance(a, b), glm::distance(b, c), glm::distance(c, a)}) / cell_size;
+  if (!(cell_size > 0.0f) || !std::isfinite(cuts)) return 1;
+  return static_cast<int>(std::clamp(cuts, 1.0f, float{kMostCuts}));
+}
+
 }  // namespace
 
 bool LitCells::suits(const Tracer& tracer) {
@@ -77,10 +85,7 @@ void LitCells::cut_triangles() {
   for (;; cell_size_ *= 2.0f) {
     cells_ = 0;
     for (std::uint32_t i = 0; i < first_.size(); ++i) {
-      const auto [a, b, c] = corners_of(scene_, i);
-      const float longest = std::max({glm::distance(a, b), glm::distance(b, c), glm::distance(c, a)});
-      const int cuts =
-          std::clamp(static_cast<int>(std::min(longest / cell_size_, float{kMostCuts})), 1, kMostCuts);
+      const int cuts = cuts_of(corners_of(scene_, i), cell_size_);
       first_[i] = static_cast<std::uint32_t>(cells_);
       cuts_[i] = static_cast<std::uint8_t>(cuts);
       cells_ += 2 * static_cast<std::size_t>(cuts * cuts);
@@ -90,12 +95,15 @@ void LitCells::cut_triangles() {
 }
 
 void LitCells::forget_what_changed(std::span<const shared::LightParams> lights, float least_light) {
-  const bool all = lights.size() != lights_.size() || least_light != least_light_;
-  if (all) states_.assign(lights.size() * cells_, 0);
-  for (std::size_t slot = 0; slot < lights.size(); ++slot) {
-    if (!all && same(lights[slot], lights_[slot])) continue;
-    std::fill_n(states_.begin() + static_cast<std::ptrdiff_t>(slot * cells_), all ? 0 : cells_, 0);
-    std::erase_if(due_, [&](const Due& due) { return all || due.slot == slot; });
+  if (lights.size() != lights_.size() || least_light != least_light_) {
+    states_.assign(lights.size() * cells_, 0);
+    due_.clear();
+  } else {
+    for (std::size_t slot = 0; slot < lights.size(); ++slot) {
+      if (same(lights[slot], lights_[slot])) continue;
+      std::fill_n(states_.begin() + static_cast<std::ptrdiff_t>(slot * cells_), cells_, 0);
+      std::erase_if(due_, [&](const Due& due) { return due.slot == slot; });
+    }
   }
   lights_.assign(lights.begin(), lights.end());
   least_light_ = least_light;
@@ -217,11 +225,6 @@ void LitCells::note(std::span<const Finding> findings) {
   if (due.empty()) return;
   const std::lock_guard lock(noting_);
   due_.insert(due_.end(), due.begin(), due.end());
-}
-
-LitCells::Count LitCells::count() const {
-  return {static_cast<std::size_t>(std::count(states_.begin(), states_.end(), kLit)),
-          static_cast<std::size_t>(std::count(states_.begin(), states_.end(), kTurnedAway))};
 }
 
 }  // namespace pinocchio

@@ -64,12 +64,6 @@ class LitCells {
   };
   void note(std::span<const Finding> findings);
 
-  // Cells that need no rays, of all that were looked at; for people.
-  struct Count {
-    std::size_t lit = 0, turned_away = 0;
-  };
-  [[nodiscard]] Count count() const;
-
  private:
   struct Due {
     std::uint8_t slot;

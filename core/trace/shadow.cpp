@@ -11,14 +11,13 @@
 namespace pinocchio {
 namespace {
 
-constexpr std::uint32_t kNoCell = 0xffffffffu;
 constexpr int kBlock = 8;  // pixels a side that are looked up together
 
 // The shadow rays of one tile towards one light, and the pixel and cell each answers for.
 struct LightRays {
   std::vector<Ray> rays;
   std::vector<glm::ivec2> pixels;
-  std::vector<std::uint32_t> cells;
+  std::vector<std::optional<std::uint32_t>> cells;
 };
 
 using Slots = std::vector<shared::LightParams>;
@@ -55,8 +54,8 @@ class TileShadows {
       job_.tracer.occluded(work.rays, blocked);
       for (std::size_t k = 0; k < blocked.size(); ++k) {
         if (!blocked[k]) mask_.set_bit(work.pixels[k].x, work.pixels[k].y, static_cast<int>(slot));
-        if (work.cells[k] != kNoCell)
-          findings_.push_back({work.cells[k], static_cast<std::uint8_t>(slot), blocked[k] != 0});
+        if (work.cells[k])
+          findings_.push_back({*work.cells[k], static_cast<std::uint8_t>(slot), blocked[k] != 0});
       }
       fired += work.rays.size();
     }
@@ -67,9 +66,9 @@ class TileShadows {
  private:
   void add(std::uint32_t id, glm::ivec2 pixel) {
     const Ray ray = pixel_ray(job_.view, pixel.x, pixel.y);
-    const std::uint32_t cell = job_.cells ? cell_of(id, ray) : kNoCell;
+    const std::optional<std::uint32_t> cell = job_.cells ? cell_of(id, ray) : std::nullopt;
     unsigned open = (1u << lights_.size()) - 1u;  // slots of which nothing is known
-    if (cell != kNoCell) open = take_known(cell, pixel);
+    if (cell) open = take_known(*cell, pixel);
     if (open == 0) return;
     const auto surface_of = job_.least_light > 0.0f ? surface_at : bare_surface_at;
     const Surface surface = surface_of(job_.scene, id, ray.origin, ray.direction, job_.tracer.offset());
@@ -80,8 +79,8 @@ class TileShadows {
         by_light_[slot].rays.push_back(*to_light);
         by_light_[slot].pixels.push_back(pixel);
         by_light_[slot].cells.push_back(cell);
-      } else if (cell != kNoCell) {
-        findings_.push_back({cell, static_cast<std::uint8_t>(slot), false});
+      } else if (cell) {
+        findings_.push_back({*cell, static_cast<std::uint8_t>(slot), false});
       }
     }
   }
@@ -119,11 +118,10 @@ class TileShadows {
     side_ = job_.cells->side_of(id, eye);
   }
 
-  std::uint32_t cell_of(std::uint32_t id, const Ray& ray) {
+  std::optional<std::uint32_t> cell_of(std::uint32_t id, const Ray& ray) {
     look_at(id, ray.origin);
-    return side_.cuts == 0 ? kNoCell
-                           : LitCells::cell_of(side_, weights_at(job_.scene, id, ray.origin, ray.direction))
-                                 .value_or(kNoCell);
+    if (side_.cuts == 0) return std::nullopt;
+    return LitCells::cell_of(side_, weights_at(job_.scene, id, ray.origin, ray.direction));
   }
 
   // Sets the mask bits that are known; the slots that are not.

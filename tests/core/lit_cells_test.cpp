@@ -100,6 +100,20 @@ TEST(LitCells, MasksStayAtAnyScale) {
   }
 }
 
+// Without area, or too large for float's range: nothing is cut, and nothing hangs.
+TEST(LitCells, TrianglesWithoutASize) {
+  for (const float size : {0.0f, 1e-42f, 1e25f}) {
+    Scene scene;
+    for (int i = 0; i < 2000; ++i) {
+      const float x = static_cast<float>(i) * size;
+      add_triangle(scene, {x, 0, 0}, {x, size, 0}, {x, 0, size});
+    }
+    scene.cameras = {{"at", {3, 1, 1}, {0, 0, 0}, {0, 1, 0}, 45.0f}};
+    scene.lights = {point_light({2, 2, 2})};
+    expect_same_masks(scene, 3);
+  }
+}
+
 TEST(LitCells, EveryKindOfLight) {
   Scene scene = plate_over_floor();
   Light sun = point_light({0, 0, 0}), spot = point_light({3, 5, 1}), near = point_light({-2, 2, 1});
