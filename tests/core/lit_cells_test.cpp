@@ -100,8 +100,14 @@ TEST(LitCells, MasksStayAtAnyScale) {
   }
 }
 
-// Without area, or too large for float's range: nothing is cut, and nothing hangs.
+// Nothing but triangles without area, or too small or too large for float's range: nothing is cut, and
+// nothing hangs.
 TEST(LitCells, TrianglesWithoutASize) {
+  Scene lines;
+  for (int i = 0; i < 2000; ++i) add_triangle(lines, {0, 0, 0}, {1, 0, 0}, {2, 0, 0});
+  lines.lights = {point_light({2, 2, 2})};
+  lines.cameras = {{"at", {3, 1, 1}, {0, 0, 0}, {0, 1, 0}, 45.0f}};
+  expect_same_masks(lines, 3);
   for (const float size : {0.0f, 1e-42f, 1e25f}) {
     Scene scene;
     for (int i = 0; i < 2000; ++i) {

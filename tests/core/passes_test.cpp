@@ -53,6 +53,18 @@ const glm::vec3 kShadowed{2.0f, 0.0f,
                           0.0f};  // of a light at (-4, 4, 0): the plate is in between at (0.5, 1, 0)
 const glm::vec3 kLit{2.0f, 0.0f, 3.0f};
 
+TEST(ShadowMask, ABlockIsItsPixels) {
+  for (const int bits : {1, 2, 4, 8}) {
+    MaskImage block({24, 16}, bits), pixels({24, 16}, bits);
+    for (int slot = 0; slot < bits; slot += 3) {
+      block.set_block(8, 8, slot);
+      for (int y = 8; y < 16; ++y)
+        for (int x = 8; x < 16; ++x) pixels.set_bit(x, y, slot);
+    }
+    EXPECT_TRUE(std::ranges::equal(block.bytes(), pixels.bytes())) << bits;
+  }
+}
+
 TEST(ShadowMask, OneBitALight) {
   Scene scene = plate_over_floor();
   scene.lights = {point_light({-4, 4, 0}), point_light({0.1f, 6, 9})};
