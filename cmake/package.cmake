@@ -1,10 +1,10 @@
 # cpack -G TGZ: an archive that runs where it is unpacked, on any x86-64 Linux as new as the one that built
-# it: program, shaders, scenes, and the libraries it needs beside it, except libc and OpenGL.
+# it: program, scenes, and the libraries it needs beside it, except libc and OpenGL.
 install(TARGETS pinocchio RUNTIME_DEPENDENCY_SET pinocchio_libraries DESTINATION bin)
 install(RUNTIME_DEPENDENCY_SET pinocchio_libraries
         PRE_EXCLUDE_REGEXES "^ld-linux" "^lib(c|m|dl|rt|pthread)\\.so" "^lib(GL|EGL|OpenGL|GLX|OSMesa)"
         DESTINATION lib)
-install(DIRECTORY shaders scenes DESTINATION share/pinocchio)
+install(DIRECTORY scenes DESTINATION share/pinocchio)
 install(FILES app/chart/charts.py app/chart/plot.py DESTINATION share/pinocchio/chart)
 install(FILES README.md LICENSE CHANGELOG.md DESTINATION share/doc/pinocchio)
 # What is installed finds its libraries beside it, and they each other.

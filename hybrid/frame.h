@@ -34,7 +34,7 @@ class FrameLoop {
 
   FrameLoop(Workers& workers, std::shared_ptr<Programs> programs, Exchange exchange, gl::Mapping mapping,
             Sinks sinks);
-  FrameLoop(Workers& workers, const std::filesystem::path& shaders, Exchange exchange, gl::Mapping mapping,
+  FrameLoop(Workers& workers, const gl::ShaderSource& shaders, Exchange exchange, gl::Mapping mapping,
             Sinks sinks)
       : FrameLoop(workers, std::make_shared<Programs>(shaders), exchange, mapping, std::move(sinks)) {}
 

@@ -2,7 +2,7 @@
 
 #include "hybrid/jitter.h"
 #include "hybrid/raytrace.h"
-#include "hybrid/shader_folder.h"
+#include "hybrid/shaders.h"
 #include "hybrid/trace_answer.h"
 
 namespace pinocchio {
@@ -40,7 +40,7 @@ Renderer::Renderer(std::shared_ptr<const PreparedScene> scene, const Plan& plan,
       settings_(settings),
       sinks_(std::move(sinks)) {
   if (plan.mode == Mode::raytrace) return;
-  loop_.emplace(workers, shader_folder(), settings.exchange, settings.mapping,
+  loop_.emplace(workers, shader_source(), settings.exchange, settings.mapping,
                 FrameLoop::Sinks{[this](Flight& frame) { take(frame); }, sinks_.record});
 }
 
