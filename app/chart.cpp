@@ -19,6 +19,7 @@
 #include "bench/stability/table.h"
 #include "core/base/system_info.h"
 #include "core/image/atomic_file.h"
+#include "gl/open.h"
 #include "hybrid/plan_json.h"
 
 namespace pinocchio::app {
@@ -27,7 +28,8 @@ namespace {
 constexpr int kDefaultTurntable = 360;  // frames once around: a degree a frame
 constexpr glm::ivec2 kDefaultSize{400, 300}, kQuickSize{160, 120};
 constexpr std::size_t kFrames = 10, kQuickFrames = 8;  // of the motion; the first warm up
-constexpr BenchSettings kBench{5, 3, 6, Clock::frame}, kQuickBench{3, 2, 3, Clock::frame};
+constexpr BenchSettings kBench{5, 3, 6, Clock::frame, interrupted};
+constexpr BenchSettings kQuickBench{3, 2, 3, Clock::frame, interrupted};
 
 struct ChartOptions {
   DrawOptions draw;
@@ -67,11 +69,14 @@ class ChartRun {
     const std::vector<View> views = motion(camera_for(draw, scene));
     make_folders();
     Machine machine(draw, std::move(scene), false, true);
-    const std::vector<Configuration> sweep = value_or_exit(make_sweep(sweep_request(machine)), kBadScene);
+    const SweepRequest request{machine.needs(), machine.request(), system_info().cores, options_.quick,
+                               options_.only};
+    const std::vector<Configuration> sweep = value_or_exit(make_sweep(request), kBadScene);
     Results results =
         value_or_exit(Results::open(folder_, run_json(machine, views), options_.restart), kUsage);
     write_plans(sweep);
-    if (!measure(machine, views, sweep, results)) return kInterrupted;
+    Bench bench(machine.shared_scene(), request, machine.workers(), bench_settings(), views, folder_);
+    if (!measure(machine, bench, sweep, results)) return kInterrupted;
     return finish(results);
   }
 
@@ -102,10 +107,6 @@ class ChartRun {
   void make_folders() const {
     for (const char* name : {"plans", "pictures"}) make_folder(folder_ / name);
     check_writable(folder_ / "results.json");
-  }
-
-  [[nodiscard]] SweepRequest sweep_request(const Machine& machine) const {
-    return {machine.needs(), machine.request(), system_info().cores, options_.quick, options_.only};
   }
 
   // What a chart's figures depend on beside the configuration.
@@ -144,19 +145,18 @@ class ChartRun {
   }
 
   // False where the user asked for an end; what was measured by then is kept.
-  bool measure(Machine& machine, const std::vector<View>& views, const std::vector<Configuration>& sweep,
+  bool measure(const Machine& machine, Bench& bench, const std::vector<Configuration>& sweep,
                Results& results) const {
     Progress progress(options_.draw.quiet ? "off" : options_.draw.progress, "chart", sweep.size());
-    std::optional<Bench> bench;
     for (const Configuration& configuration : sweep) {
       if (!results.has(configuration)) {
         const nlohmann::json* const known = results.find_equal(configuration);
         if (known) {
           results.add(configuration, nlohmann::json(*known), known->at("picture").get<std::string>());
         } else {
-          if (!bench) bench.emplace(machine, bench_settings(), views, folder_);
-          const std::optional<PointFigures> figures = bench->measure(configuration);
+          const std::optional<PointFigures> figures = bench.measure(configuration);
           if (!figures) return false;
+          machine.throw_gl_complaints();
           results.add(configuration, to_json(*figures), configuration.name());
         }
       }
@@ -181,6 +181,30 @@ class ChartRun {
   ChartOptions& options_;
   std::filesystem::path folder_;
 };
+
+// chart --stability: kFailed where a default method failed.
+int run_stability(const ChartOptions& options) {
+  const std::filesystem::path folder = options.folder;
+  const DrawOptions& draw = options.draw;
+  make_folder(folder);
+  check_writable(folder / "stability.json");
+  const auto context = gl::open_context({draw.backend, draw.device, false});
+  std::optional<stability::Tables> tables;
+  {
+    Progress progress(draw.quiet ? "off" : draw.progress, "stability", stability::table_cells());
+    tables = stability::make_tables(options.quick, [&] {
+      progress.step();
+      return !interrupted();
+    });
+  }
+  if (!tables) return kInterrupted;
+  tables->write(folder);
+  const std::uint64_t failures = tables->default_failures();
+  if (!draw.quiet)
+    std::printf("%s\n%llu failures of the defaults\n%s\n", tables->text().c_str(),
+                static_cast<unsigned long long>(failures), (folder / "stability.md").c_str());
+  return failures == 0 ? kDone : kFailed;
+}
 
 }  // namespace
 
@@ -218,8 +242,7 @@ Run add_chart(CLI::App& program) {
       throw CLI::ValidationError("chart", "give a SCENE or --stability");
   });
   return [options, &verb] {
-    if (options->stability)
-      return run_stability({.folder = options->folder, .quick = options->quick, .draw = &options->draw});
+    if (options->stability) return run_stability(*options);
     options->size_given = verb.count("--size") > 0;
     return ChartRun(*options).run();
   };

@@ -2,8 +2,6 @@
 
 #include <algorithm>
 
-#include "app/console.h"
-#include "app/errors.h"
 #include "core/compare/magma.h"
 #include "core/image/png.h"
 #include "core/image/rgb.h"
@@ -12,17 +10,12 @@
 namespace pinocchio::app {
 namespace {
 
-Plan plan_of(Machine& machine, Mode mode, bool precise) {
-  PlanRequest request = machine.request();
+// The sweep's default in another mode, which draws whatever the default draws.
+Plan plan_of(const SweepRequest& sweep, Mode mode, bool precise) {
+  PlanRequest request = sweep.plan;
   request.mode = mode;
   request.precise = precise;
-  return value_or_exit(make_plan(machine.needs(), request), kBadScene);
-}
-
-Settings raster_settings(Machine& machine) {
-  Settings settings;
-  settings.plan = plan_of(machine, Mode::raster, false);
-  return settings;
+  return make_plan(sweep.needs, request).value();
 }
 
 // What a person sees: after each frame of the motion is asked for, the picture that is there by then.
@@ -46,16 +39,16 @@ class Screen {
 
 }  // namespace
 
-Bench::Bench(Machine& machine, const BenchSettings& settings, std::vector<View> views,
-             std::filesystem::path folder)
-    : machine_(machine),
+Bench::Bench(std::shared_ptr<const PreparedScene> scene, const SweepRequest& sweep, Workers& workers,
+             const BenchSettings& settings, std::vector<View> views, std::filesystem::path folder)
+    : scene_(std::move(scene)),
       settings_(settings),
       views_(std::move(views)),
       folder_(std::move(folder)),
-      ruler_(machine.shared_scene(), plan_of(machine, Mode::raytrace, true), settings.area_side, views_,
-             machine.workers()),
-      raster_(machine.shared_scene(), raster_settings(machine), machine.workers()),
-      prepared_(machine.shared_scene()) {}
+      ruler_(scene_, plan_of(sweep, Mode::raytrace, true), settings.area_side, views_, workers,
+             settings.interrupted),
+      raster_(scene_, {plan_of(sweep, Mode::raster, false), Exchange::sync, 1, {}}, workers),
+      prepared_(scene_) {}
 
 std::optional<PointFigures> Bench::measure(const Configuration& configuration) {
   const Settings& settings = configuration.settings;
@@ -63,7 +56,6 @@ std::optional<PointFigures> Bench::measure(const Configuration& configuration) {
   PointFigures figures;
   if (!measure_time(settings, workers, figures)) return std::nullopt;
   if (!measure_error(configuration, workers, figures)) return std::nullopt;
-  machine_.throw_gl_complaints();
   return figures;
 }
 
@@ -71,28 +63,28 @@ std::optional<PointFigures> Bench::measure(const Configuration& configuration) {
 std::shared_ptr<const PreparedScene> Bench::prepared(const Settings& settings) {
   if (settings.tracer == prepared_for_) return prepared_;
   prepared_for_ = settings.tracer;
-  if (settings.tracer == TracerSettings{}) return prepared_ = machine_.shared_scene();
+  if (settings.tracer == TracerSettings{}) return prepared_ = scene_;
   BuildOptions tree;
   tree.rule = settings.tracer.tree;
   tree.triangle_test = settings.tracer.triangle_test;
-  return prepared_ = std::make_shared<const PreparedScene>(machine_.scene().scene, Sides{}, tree,
-                                                           settings.tracer.isa, settings.tracer.offset);
+  return prepared_ = std::make_shared<const PreparedScene>(scene_->scene, Sides{}, tree, settings.tracer.isa,
+                                                           settings.tracer.offset);
 }
 
 bool Bench::measure_time(const Settings& settings, Workers& workers, PointFigures& figures) {
   TimedRenderer renderer(prepared(settings), settings, workers);
   if (!warm_) {  // the process's first frames pay for what later ones find: memory, threads, shaders
-    (void)raster_.draw(views_);
-    (void)renderer.draw(views_);
+    (void)raster_.draw(views_, settings_.interrupted);
+    (void)renderer.draw(views_, settings_.interrupted);
     warm_ = true;
   }
   std::vector<double> ratios, frame_ms, raster_ms, cpu_ms, raster_cpu_ms, latency_ms;
   const bool by_cpu = settings_.clock == Clock::cpu;
   TimedRenderer::Round round;
   for (int i = 0; i < settings_.rounds; ++i) {
-    const TimedRenderer::Round raster = raster_.draw(views_);
-    round = renderer.draw(views_);
-    if (interrupted()) return false;
+    const TimedRenderer::Round raster = raster_.draw(views_, settings_.interrupted);
+    round = renderer.draw(views_, settings_.interrupted);
+    if (settings_.interrupted()) return false;
     ratios.push_back(by_cpu ? round.cpu_ms / raster.cpu_ms : round.frame_ms / raster.frame_ms);
     frame_ms.push_back(round.least_ms);
     raster_ms.push_back(raster.least_ms);
@@ -133,7 +125,7 @@ bool Bench::measure_error(const Configuration& configuration, Workers& workers, 
   Screen screen(prepared(configuration.settings), configuration.settings, workers);
   for (std::size_t frame = 0; frame < views_.size(); ++frame) {
     const Image<glm::vec4>& color = screen.show(views_[frame]);
-    if (interrupted()) return false;
+    if (settings_.interrupted()) return false;
     if (std::find(compared.begin(), compared.end(), frame) == compared.end()) continue;
     const std::optional<RuledError> error = ruler_.measure(color, frame, area);
     if (!error) return false;

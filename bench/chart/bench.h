@@ -5,10 +5,10 @@
 #include <optional>
 #include <vector>
 
-#include "app/machine.h"
 #include "bench/chart/configuration.h"
 #include "bench/chart/results.h"
 #include "bench/chart/ruler.h"
+#include "bench/chart/sweep.h"
 #include "bench/chart/timed_renderer.h"
 
 namespace pinocchio::app {
@@ -25,13 +25,16 @@ struct BenchSettings {
   int error_frames = 3;  // whose pictures are compared, spread over the frames that count
   int area_side = 6;     // the area reference has the square of it samples a pixel
   Clock clock = Clock::frame;
+  Interrupted interrupted = [] { return false; };
 };
 
 class Bench {
  public:
-  // views: more than kWarmUpFrames + error_frames. folder: pictures go to its "pictures".
-  Bench(Machine& machine, const BenchSettings& settings, std::vector<View> views,
-        std::filesystem::path folder);
+  // scene: prepared for any plan by the default methods; sweep: the one made for it. workers: draw the
+  // reference and the rasteriser's frames. views: more than kWarmUpFrames + error_frames. folder: pictures go
+  // to its "pictures".
+  Bench(std::shared_ptr<const PreparedScene> scene, const SweepRequest& sweep, Workers& workers,
+        const BenchSettings& settings, std::vector<View> views, std::filesystem::path folder);
 
   // The figures, and in the folder pictures/NAME.png with its FLIP heat map pictures/NAME-flip.png of the
   // last frame compared. Nothing where the user asked for an end.
@@ -46,7 +49,7 @@ class Bench {
   void write_pictures(const std::string& name, const Image<glm::vec4>& color, const PictureError& error,
                       const Image<glm::vec3>& truth, bool area) const;
 
-  Machine& machine_;
+  std::shared_ptr<const PreparedScene> scene_;
   BenchSettings settings_;
   std::vector<View> views_;
   std::filesystem::path folder_;

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 
-#include "app/console.h"
 #include "core/image/rgb.h"
 #include "core/math/finite.h"
 #include "hybrid/raytrace.h"
@@ -22,7 +21,7 @@ const Image<glm::vec3>* Ruler::reference(std::size_t frame, bool area) {
   const int side = area ? area_side_ : 1;
   Image<glm::vec3> mean(views_[frame].part.size());
   for (int k = 0; k < side * side; ++k) {
-    if (interrupted()) return nullptr;
+    if (interrupted_()) return nullptr;
     const glm::vec2 place(static_cast<float>(k % side), static_cast<float>(k / side));
     const Image<glm::vec3> sample = drawn(frame, (place + 0.5f) / static_cast<float>(side) - 0.5f);
     for (std::size_t i = 0; i < mean.pixels().size(); ++i)

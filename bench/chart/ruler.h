@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "bench/chart/timed_renderer.h"
 #include "core/compare/picture_error.h"
 #include "core/image/image.h"
 #include "core/parallel/workers.h"
@@ -25,8 +26,13 @@ class Ruler {
   // plan: Mode::raytrace, precise. area_side: the area reference is the mean of so many times so many
   // samples, evenly spread over the pixel.
   Ruler(std::shared_ptr<const PreparedScene> scene, const Plan& plan, int area_side,
-        const std::vector<View>& views, Workers& workers)
-      : scene_(std::move(scene)), plan_(plan), area_side_(area_side), views_(views), workers_(workers) {}
+        const std::vector<View>& views, Workers& workers, Interrupted interrupted)
+      : scene_(std::move(scene)),
+        plan_(plan),
+        area_side_(area_side),
+        views_(views),
+        workers_(workers),
+        interrupted_(interrupted) {}
 
   // Linear RGB of the frame: at the pixels' centres, or their means. Null where the user asked for an end.
   [[nodiscard]] const Image<glm::vec3>* reference(std::size_t frame, bool area);
@@ -43,6 +49,7 @@ class Ruler {
   int area_side_;
   const std::vector<View>& views_;
   Workers& workers_;
+  Interrupted interrupted_;
   std::map<std::pair<std::size_t, bool>, Image<glm::vec3>> references_;
 };
 

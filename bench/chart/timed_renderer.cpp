@@ -4,7 +4,6 @@
 #include <cassert>
 #include <ctime>
 
-#include "app/console.h"
 #include "core/math/median.h"
 
 namespace pinocchio::app {
@@ -32,7 +31,7 @@ TimedRenderer::TimedRenderer(std::shared_ptr<const PreparedScene> scene, const S
                 {settings.exchange, gl::Mapping::each_time, settings.spp, false},
                 {[](Picture&&) {}, [this](const FrameRecord& record) { records_.push_back(record); }}) {}
 
-TimedRenderer::Round TimedRenderer::draw(const std::vector<View>& views) {
+TimedRenderer::Round TimedRenderer::draw(const std::vector<View>& views, Interrupted interrupted) {
   assert(views.size() > kWarmUpFrames + 1);
   records_.clear();
   const double begin_cpu_ms = processor_ms();

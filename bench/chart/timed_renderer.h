@@ -14,6 +14,9 @@ namespace pinocchio::app {
 // on their way.
 inline constexpr std::size_t kWarmUpFrames = kFramesInFlight;
 
+// Whether the user asked for an end.
+using Interrupted = bool (*)();
+
 // Draws rounds of frames along a camera's motion, whose pictures stay where they are drawn, and
 // takes their times.
 class TimedRenderer {
@@ -31,7 +34,7 @@ class TimedRenderer {
   TimedRenderer(std::shared_ptr<const PreparedScene> scene, const Settings& settings, Workers& workers);
 
   // views: more than kWarmUpFrames + 1. The round is not whole where the user asked for an end.
-  Round draw(const std::vector<View>& views);
+  Round draw(const std::vector<View>& views, Interrupted interrupted);
 
  private:
   int spp_;

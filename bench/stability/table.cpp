@@ -1,43 +1,20 @@
-// chart --stability: methods against troubles, failures and cost, on one table.
 #include "bench/stability/table.h"
 
 #include <algorithm>
 #include <cstdio>
-#include <nlohmann/json.hpp>
-#include <string>
-#include <vector>
 
-#include "app/console.h"
-#include "app/exit_codes.h"
-#include "app/machine.h"
-#include "app/output.h"
 #include "bench/stability/picture_trouble.h"
 #include "bench/stability/trouble.h"
 #include "core/base/system_info.h"
 #include "core/image/atomic_file.h"
-#include "gl/open.h"
 
-namespace pinocchio::app {
+namespace pinocchio::stability {
 namespace {
 
 constexpr int kRays = 200000, kQuickRays = 2000;  // a trouble; a million at edges
 constexpr int kSide = 256, kQuickSide = 64;
 
-// One cell of the table.
-struct Cell {
-  std::string trouble, failure, method;
-  bool limit = false;  // no method is without it
-  std::uint64_t trials = 0, failures = 0, excused = 0;
-  double seconds = 0.0, ratio = 0.0;  // to the default's, in the same run
-  nlohmann::json more = nlohmann::json::object();
-};
-
-struct Table {
-  std::vector<std::string> methods;
-  std::vector<Cell> cells;  // row by row, the default first
-};
-
-Cell cell_of(const stability::Trouble& trouble, const stability::Tally& tally) {
+Cell cell_of(const Trouble& trouble, const Tally& tally) {
   Cell cell;
   cell.failure = trouble.failure;
   cell.limit = trouble.limit;
@@ -48,7 +25,7 @@ Cell cell_of(const stability::Trouble& trouble, const stability::Tally& tally) {
   return cell;
 }
 
-Cell cell_of(const stability::PictureTrouble&, const stability::PictureTally& tally) {
+Cell cell_of(const PictureTrouble&, const PictureTally& tally) {
   Cell cell;
   cell.failure = "black or NaN pixels";
   cell.trials = tally.pixels;
@@ -61,21 +38,21 @@ Cell cell_of(const stability::PictureTrouble&, const stability::PictureTally& ta
   return cell;
 }
 
-// Runs every trouble, as large as `size`, by every method. False where the user asked for an end.
+// Runs every trouble, as large as `size`, by every method. False where `after_cell` says so.
 template <class Troubles, class Methods>
-bool fill(const Troubles& troubles, const Methods& methods, int size, Progress& progress, Table& table) {
+bool fill(const Troubles& troubles, const Methods& methods, int size,
+          const std::function<bool()>& after_cell, Table& table) {
   for (const auto& method : methods) table.methods.push_back(method.name);
   for (const auto& trouble : troubles) {
     double default_seconds = 0.0;
     for (const auto& method : methods) {
-      if (interrupted()) return false;
       Cell cell = cell_of(trouble, trouble.run(method, size));
       cell.trouble = trouble.name;
       cell.method = method.name;
       if (&method == &methods.front()) default_seconds = cell.seconds;
       cell.ratio = cell.seconds / std::max(default_seconds, 1e-9);
       table.cells.push_back(std::move(cell));
-      progress.step();
+      if (!after_cell()) return false;
     }
   }
   return true;
@@ -146,47 +123,41 @@ std::uint64_t default_failures(const Table& table) {
   return sum;
 }
 
-void write_tables(const std::filesystem::path& folder, const Table& rays, const Table& pictures) {
+}  // namespace
+
+std::size_t table_cells() {
+  return all_methods().size() * all_troubles().size() + all_draw_methods().size() * picture_troubles().size();
+}
+
+std::optional<Tables> make_tables(bool quick, const std::function<bool()>& after_cell) {
+  Tables tables;
+  if (!fill(all_troubles(), all_methods(), quick ? kQuickRays : kRays, after_cell, tables.rays) ||
+      !fill(picture_troubles(), all_draw_methods(), quick ? kQuickSide : kSide, after_cell, tables.pictures))
+    return std::nullopt;
+  return tables;
+}
+
+std::string Tables::text() const {
+  return markdown(rays) + "\n" + markdown(pictures);
+}
+
+std::uint64_t Tables::default_failures() const {
+  return stability::default_failures(rays) + stability::default_failures(pictures);
+}
+
+void Tables::write(const std::filesystem::path& folder) const {
   write_text(folder / "stability.md",
-             "Failures, and in brackets the processor time beside the default's.\n\n" + markdown(rays) +
-                 "\n" + markdown(pictures));
+             "Failures, and in brackets the processor time beside the default's.\n\n" + text());
   write_text(folder / "stability.csv",
              "trouble,counted,method,limit,trials,failures,excused,seconds,ratio_to_default\n" +
                  csv_lines(rays) + csv_lines(pictures));
   const SystemInfo system = system_info();
-  write_json(folder / "stability.json", {{"pinocchio", version()},
-                                         {"cpu", system.cpu},
-                                         {"cores", system.cores},
-                                         {"rays", to_json(rays)},
-                                         {"pictures", to_json(pictures)}});
+  const nlohmann::json json{{"pinocchio", version()},
+                            {"cpu", system.cpu},
+                            {"cores", system.cores},
+                            {"rays", to_json(rays)},
+                            {"pictures", to_json(pictures)}};
+  write_text(folder / "stability.json", json.dump(2) + "\n");
 }
 
-}  // namespace
-
-int run_stability(const StabilityRequest& request) {
-  make_folder(request.folder);
-  check_writable(request.folder / "stability.json");
-  const DrawOptions& draw = *request.draw;
-  const auto context = gl::open_context({draw.backend, draw.device, false});
-  const auto methods = stability::all_methods();
-  const auto draw_methods = stability::all_draw_methods();
-  const auto troubles = stability::all_troubles();
-  const auto picture_troubles = stability::picture_troubles();
-  Table rays, pictures;
-  {
-    Progress progress(draw.quiet ? "off" : draw.progress, "stability",
-                      methods.size() * troubles.size() + draw_methods.size() * picture_troubles.size());
-    if (!fill(troubles, methods, request.quick ? kQuickRays : kRays, progress, rays) ||
-        !fill(picture_troubles, draw_methods, request.quick ? kQuickSide : kSide, progress, pictures))
-      return kInterrupted;
-  }
-  write_tables(request.folder, rays, pictures);
-  const std::uint64_t failures = default_failures(rays) + default_failures(pictures);
-  if (!draw.quiet)
-    std::printf("%s\n%s\n%llu failures of the defaults\n%s\n", markdown(rays).c_str(),
-                markdown(pictures).c_str(), static_cast<unsigned long long>(failures),
-                (request.folder / "stability.md").c_str());
-  return failures == 0 ? kDone : kFailed;
-}
-
-}  // namespace pinocchio::app
+}  // namespace pinocchio::stability

@@ -1,20 +1,43 @@
+// Every method driven to where methods fail: failures and cost on two tables, of rays and of pictures.
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
+#include <functional>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <string>
+#include <vector>
 
-#include "app/options.h"
+namespace pinocchio::stability {
 
-namespace pinocchio::app {
-
-struct StabilityRequest {
-  std::filesystem::path folder;  // made where it is not there
-  bool quick = false;            // a hundredth of the rays
-  const DrawOptions* draw;       // context, progress and quiet
+struct Cell {
+  std::string trouble, failure, method;
+  bool limit = false;  // no method is without it
+  std::uint64_t trials = 0, failures = 0, excused = 0;
+  double seconds = 0.0, ratio = 0.0;  // to the default's, in the same run
+  nlohmann::json more = nlohmann::json::object();
 };
 
-// `chart --stability`: drives every method to where methods fail, prints the table and
-// writes it as stability.md, .csv and .json. Gives the exit code: kDone, kFailed where a default method
-// failed, kInterrupted.
-[[nodiscard]] int run_stability(const StabilityRequest& request);
+struct Table {
+  std::vector<std::string> methods;
+  std::vector<Cell> cells;  // row by row, the default first
+};
 
-}  // namespace pinocchio::app
+struct Tables {
+  Table rays, pictures;
+
+  [[nodiscard]] std::string text() const;                // Markdown
+  [[nodiscard]] std::uint64_t default_failures() const;  // but for what no method is without
+  // stability.md, .csv and .json. Throws EnvironmentError.
+  void write(const std::filesystem::path& folder) const;
+};
+
+// How many cells the two have.
+[[nodiscard]] std::size_t table_cells();
+
+// Wants a current OpenGL context. quick: a hundredth of the rays, small pictures. Calls `after_cell`; nothing
+// comes back where it says false.
+[[nodiscard]] std::optional<Tables> make_tables(bool quick, const std::function<bool()>& after_cell);
+
+}  // namespace pinocchio::stability
