@@ -1,7 +1,7 @@
 #include <limits>
 
-#include "core/stability/shapes.h"
-#include "core/stability/steps.h"
+#include "bench/stability/shapes.h"
+#include "bench/stability/steps.h"
 #include "tests/stability/hold.h"
 
 namespace pinocchio::stability {

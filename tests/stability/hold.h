@@ -7,7 +7,7 @@
 #include <stdexcept>
 #include <string>
 
-#include "core/stability/trouble.h"
+#include "bench/stability/trouble.h"
 
 namespace pinocchio::stability {
 

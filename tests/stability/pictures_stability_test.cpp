@@ -1,7 +1,7 @@
 // Pictures that GPU and CPU share, where they see different triangles or the camera outruns them.
 #include <cstdio>
 
-#include "hybrid/stability/picture_trouble.h"
+#include "bench/stability/picture_trouble.h"
 #include "tests/support/gl_test.h"
 
 namespace pinocchio::stability {

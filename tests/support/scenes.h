@@ -9,8 +9,8 @@
 #include <string>
 #include <vector>
 
-#include "core/procedural/random.h"
 #include "core/scene/load.h"
+#include "scenes/generator/random.h"
 
 namespace pinocchio {
 
