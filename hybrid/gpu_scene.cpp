@@ -24,7 +24,7 @@ constexpr std::size_t kPlaceDigit = 4096;
 std::vector<std::size_t> first_texels(const Scene& scene) {
   std::vector<std::size_t> first;
   std::size_t next = 0;
-  for (const Texture& texture : scene.textures) {
+  for (const Texture& texture : scene.mesh->textures) {
     first.push_back(next);
     next += texture.texels.pixels().size();
   }
@@ -34,12 +34,12 @@ std::vector<std::size_t> first_texels(const Scene& scene) {
 std::vector<MaterialTexels> material_texels(const Scene& scene) {
   const std::vector<std::size_t> first = first_texels(scene);
   std::vector<MaterialTexels> texels;
-  for (const Material& m : scene.materials) {
+  for (const Material& m : scene.mesh->materials) {
     MaterialTexels t{glm::vec4(m.ambient, m.shininess), glm::vec4(m.diffuse, 0.0f),
                      glm::vec4(m.specular, 0.0f), glm::vec4(m.emission, 0.0f), glm::vec4(0.0f)};
     if (m.diffuse_texture >= 0) {
       const auto i = static_cast<std::size_t>(m.diffuse_texture);
-      const glm::ivec2 size = scene.textures[i].texels.size();
+      const glm::ivec2 size = scene.mesh->textures[i].texels.size();
       t.texture_place = {static_cast<float>(first[i] / kPlaceDigit),
                          static_cast<float>(first[i] % kPlaceDigit), static_cast<float>(size.x),
                          static_cast<float>(size.y)};
@@ -65,7 +65,7 @@ std::vector<LightTexels> light_texels(const Scene& scene) {
 
 std::vector<glm::u8vec4> all_texels(const Scene& scene) {
   std::vector<glm::u8vec4> texels;
-  for (const Texture& texture : scene.textures)
+  for (const Texture& texture : scene.mesh->textures)
     texels.insert(texels.end(), texture.texels.pixels().begin(), texture.texels.pixels().end());
   return texels;
 }
@@ -85,31 +85,31 @@ gl::TextureBuffer unsigneds(const std::vector<T>& data) {
   return {std::span<const T>(data), GL_R32UI, sizeof(std::uint32_t)};
 }
 
-bool has_textures(const Scene& scene) {
+bool has_textures(const Mesh& mesh) {
   const auto textured = [](const Material& m) { return m.diffuse_texture >= 0; };
-  return !scene.texcoords.empty() && std::any_of(scene.materials.begin(), scene.materials.end(), textured);
+  return !mesh.texcoords.empty() && std::any_of(mesh.materials.begin(), mesh.materials.end(), textured);
 }
 
 }  // namespace
 
 GpuScene::Shared::Shared(const Scene& scene)
-    : mesh(scene.positions, scene.triangles),
-      corners(unsigneds(scene.triangles)),
-      triangle_materials(unsigneds(scene.triangle_materials)),
-      positions(floats(scene.positions)),
-      normals(floats(scene.normals)),
+    : mesh(scene.mesh->positions, scene.mesh->triangles),
+      corners(unsigneds(scene.mesh->triangles)),
+      triangle_materials(unsigneds(scene.mesh->triangle_materials)),
+      positions(floats(scene.mesh->positions)),
+      normals(floats(scene.mesh->normals)),
       materials(quads(material_texels(scene))) {
-  if (!has_textures(scene)) return;
-  texcoords = floats(scene.texcoords);
+  if (!has_textures(*scene.mesh)) return;
+  texcoords = floats(scene.mesh->texcoords);
   texels = {std::span<const glm::u8vec4>(all_texels(scene)), GL_RGBA8, sizeof(glm::u8vec4)};
 }
 
 GpuScene::GpuScene(const Scene& scene)
     : shared_(std::make_shared<const Shared>(scene)),
       ambient_light_(scene.ambient_light),
-      textured_(has_textures(scene)),
+      textured_(has_textures(*scene.mesh)),
       // Reversed float depth is as fine far away as near by, so the near plane may be next to nothing.
-      z_near_(std::max(scene.bounds().diagonal() * 1e-6f, std::numeric_limits<float>::min())) {
+      z_near_(std::max(scene.mesh->bounds().diagonal() * 1e-6f, std::numeric_limits<float>::min())) {
   relight(scene);
 }
 

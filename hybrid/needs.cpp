@@ -9,16 +9,16 @@
 namespace pinocchio {
 namespace {
 
-double area_of(const Scene& scene, const glm::uvec3& t) {
-  const glm::dvec3 a(scene.positions[t.x]), b(scene.positions[t.y]), c(scene.positions[t.z]);
+double area_of(const Mesh& mesh, const glm::uvec3& t) {
+  const glm::dvec3 a(mesh.positions[t.x]), b(mesh.positions[t.y]), c(mesh.positions[t.z]);
   return 0.5 * glm::length(glm::cross(b - a, c - a));
 }
 
 // Looks at mirror after mirror, to tell how often light can be mirrored.
 class MirrorWalk {
  public:
-  MirrorWalk(const Scene& scene, const Bounds& bounds)
-      : scene_(scene), slack_(1e-7 * static_cast<double>(bounds.diagonal())) {}
+  MirrorWalk(const Mesh& mesh, const Bounds& bounds)
+      : mesh_(mesh), slack_(1e-7 * static_cast<double>(bounds.diagonal())) {}
 
   void add(const glm::uvec3& t, const Material& m) {
     const bool unlimited = m.transmits() || m.fresnel;
@@ -37,7 +37,7 @@ class MirrorWalk {
  private:
   // Whether the triangle lies in the plane of the first one that has a plane.
   bool in_plane(const glm::uvec3& t) {
-    const glm::dvec3 a(scene_.positions[t.x]), b(scene_.positions[t.y]), c(scene_.positions[t.z]);
+    const glm::dvec3 a(mesh_.positions[t.x]), b(mesh_.positions[t.y]), c(mesh_.positions[t.z]);
     if (n_ == glm::dvec3(0.0)) {
       const glm::dvec3 n = glm::cross(b - a, c - a);
       if (glm::length(n) == 0.0) return true;
@@ -48,7 +48,7 @@ class MirrorWalk {
     return std::max({off(a), off(b), off(c)}) <= slack_;
   }
 
-  const Scene& scene_;
+  const Mesh& mesh_;
   double slack_;
   double most_ = 0.0;
   bool flat_ = true;
@@ -59,23 +59,24 @@ class MirrorWalk {
 }  // namespace
 
 Needs take_census(const Scene& scene) {
+  const Mesh& mesh = *scene.mesh;
   Needs needs;
-  needs.triangles = scene.triangles.size();
-  needs.bounds = scene.bounds();
+  needs.triangles = mesh.triangles.size();
+  needs.bounds = mesh.bounds();
   recount_lights(scene, needs);
   double all = 0.0, mirroring = 0.0, transmitting = 0.0;
-  MirrorWalk walk(scene, needs.bounds);
+  MirrorWalk walk(mesh, needs.bounds);
   // Materials that no triangle has are not needed.
-  for (std::size_t i = 0; i < scene.triangles.size(); ++i) {
-    const Material& material = scene.materials[scene.triangle_materials[i]];
-    const double area = area_of(scene, scene.triangles[i]);
+  for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
+    const Material& material = mesh.materials[mesh.triangle_materials[i]];
+    const double area = area_of(mesh, mesh.triangles[i]);
     all += area;
     needs.textures = needs.textures || material.diffuse_texture >= 0;
     if (!material.spawns_rays()) continue;
     needs.mirrors = true;
     mirroring += area;
     if (material.transmits()) transmitting += area;
-    walk.add(scene.triangles[i], material);
+    walk.add(mesh.triangles[i], material);
   }
   if (all > 0.0) needs.mirror_share = mirroring / all;
   if (all > 0.0) needs.transmitting_share = transmitting / all;

@@ -10,7 +10,7 @@ LitCells* PreparedScene::lit_cells() const {
     cells_.reset();
     return nullptr;
   }
-  if (!cells_) cells_ = std::make_unique<LitCells>(scene, *tracer);
+  if (!cells_) cells_ = std::make_unique<LitCells>(*tracer);
   return cells_.get();
 }
 

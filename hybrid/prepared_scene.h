@@ -33,12 +33,12 @@ struct PreparedScene {
                 OffsetMethod offset = OffsetMethod::error_bound)
       : scene(std::move(s)) {
     drop_idle_casters(scene);
-    if (sides.cpu) tracer = std::make_shared<const Tracer>(scene, tree, isa, offset);
+    if (sides.cpu) tracer = std::make_shared<const Tracer>(scene.mesh, tree, isa, offset);
     if (sides.gpu) gpu.emplace(scene);
   }
-  // The same triangles under other lights: a copy of the scene, that shares tree and GPU buffers.
+  // The same mesh under other lights; tree and GPU buffers are shared, too.
   PreparedScene(const std::shared_ptr<const PreparedScene>& of, std::vector<Light> lights)
-      : scene(of->scene), tracer(of->tracer), gpu(of->gpu), origin_(of->origin_ ? of->origin_ : of) {
+      : scene(of->scene), tracer(of->tracer), gpu(of->gpu) {
     relight(std::move(lights));
   }
   PreparedScene(const PreparedScene&) = delete;
@@ -64,7 +64,6 @@ struct PreparedScene {
   mutable std::mutex cells_mutex_;
   mutable std::shared_ptr<const Tracer> cells_tracer_;  // that they were made for
   mutable std::unique_ptr<LitCells> cells_;
-  std::shared_ptr<const PreparedScene> origin_;  // whose triangles the tree looks into; null: this one's
 };
 
 }  // namespace pinocchio

@@ -25,7 +25,7 @@ void give_way() {
   setpriority(PRIO_PROCESS, 0, getpriority(PRIO_PROCESS, 0) + kNicer);
 }
 
-bool same_triangles(const Scene& a, const Scene& b) {
+bool same_triangles(const Mesh& a, const Mesh& b) {
   return &a == &b ||
          (std::ranges::equal(a.triangles, b.triangles) && std::ranges::equal(a.positions, b.positions));
 }
@@ -70,12 +70,11 @@ class ProgressiveReference::Artist {
   explicit Artist(int threads) : workers_(threads) {}
 
   void draw(Job& job) {
-    if (!tree_ || !same_triangles(*tree_scene_, job.scene->scene)) {
+    if (!tree_ || !same_triangles(*tree_mesh_, *job.scene->scene.mesh)) {
       tree_.reset();
-      tree_scene_ = nullptr;
-      tree_.emplace(job.scene->scene, job.of_scene.get_token());
+      tree_mesh_ = job.scene->scene.mesh;
+      tree_.emplace(*tree_mesh_, job.of_scene.get_token());
       if (tree_->stopped()) return tree_.reset();
-      tree_scene_ = &job.scene->scene;
       tree_of_ = job.scene;
     }
     const ReferenceTracer tracer(job.scene->scene, *tree_);
@@ -103,7 +102,7 @@ class ProgressiveReference::Artist {
 
   Workers workers_;
   std::optional<ReferenceTree> tree_;
-  const Scene* tree_scene_ = nullptr;
+  std::shared_ptr<const Mesh> tree_mesh_;
   const PreparedScene* tree_of_ = nullptr;
 };
 
