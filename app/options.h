@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "core/base/error.h"
-#include "core/bsp/build.h"
+#include "core/bsp/build_options.h"
 #include "core/parallel/tiles.h"
 #include "core/scene/scene.h"
 #include "core/trace/tracer.h"

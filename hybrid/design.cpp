@@ -1,6 +1,6 @@
 #include "hybrid/design.h"
 
-#include "core/trace/view.h"
+#include "core/trace/view_params.h"
 #include "hybrid/formats.h"
 
 namespace pinocchio {

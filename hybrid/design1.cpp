@@ -1,6 +1,6 @@
 #include <cstring>
 
-#include "core/trace/view.h"
+#include "core/trace/view_params.h"
 #include "hybrid/design.h"
 #include "hybrid/formats.h"
 #include "hybrid/reflection_tiles.h"

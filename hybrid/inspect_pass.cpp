@@ -4,7 +4,7 @@
 #include <cassert>
 #include <optional>
 
-#include "core/trace/view.h"
+#include "core/trace/view_params.h"
 #include "hybrid/design.h"
 #include "hybrid/formats.h"
 

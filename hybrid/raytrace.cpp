@@ -1,7 +1,7 @@
 #include "hybrid/raytrace.h"
 
 #include "core/reference/reference.h"
-#include "core/trace/view.h"
+#include "core/trace/view_params.h"
 #include "hybrid/trace_answer.h"
 
 namespace pinocchio {

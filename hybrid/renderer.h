@@ -4,17 +4,11 @@
 #include <memory>
 #include <optional>
 
+#include "core/trace/view.h"
 #include "hybrid/frame.h"
 #include "hybrid/picture.h"
 
 namespace pinocchio {
-
-// What a picture shows.
-struct View {
-  Camera camera;
-  glm::ivec2 size{0, 0};  // of the whole picture, pixels
-  PixelBox part;          // of it that is drawn
-};
 
 // Draws pictures of one scene in any mode and brings them to the CPU: each once, in order, on the
 // caller's thread.

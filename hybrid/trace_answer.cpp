@@ -1,6 +1,6 @@
 #include "hybrid/trace_answer.h"
 
-#include "core/trace/view.h"
+#include "core/trace/view_params.h"
 #include "hybrid/formats.h"
 
 namespace pinocchio {
