@@ -56,7 +56,7 @@ std::vector<Isa> chosen_isas(const std::vector<std::string>& names) {
   if (names.empty()) return {default_isa()};
   if (std::find(names.begin(), names.end(), "all") != names.end()) return supported_isas();
   std::vector<Isa> isas;
-  for (const std::string& name : names) isas.push_back(parse_isa(name).value());
+  for (const std::string& name : names) isas.push_back(parse_name<Isa>(kIsaNames, name).value());
   return isas;
 }
 
@@ -91,9 +91,9 @@ void run(const Options& o) {
   report.all_mirrors = make_mirrors(scene, o.mirror_all);
 
   Workers all(o.threads), one(1);
-  const BuildOptions tree{.rule = parse_split_rule(o.tree).value(),
+  const BuildOptions tree{.rule = parse_name<SplitRule>(kSplitRuleNames, o.tree).value(),
                           .threads = o.threads,
-                          .triangle_test = parse_triangle_test(o.test).value()};
+                          .triangle_test = parse_name<TriangleTest>(kTriangleTestNames, o.test).value()};
   std::vector<std::unique_ptr<Tracer>> tracers;
   Contenders contenders;
   for (const Isa isa : chosen_isas(o.isas)) {

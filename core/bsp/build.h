@@ -1,8 +1,6 @@
 #pragma once
 
-#include <optional>
-#include <string_view>
-
+#include "core/base/names.h"
 #include "core/bsp/tree.h"
 #include "core/scene/scene.h"
 
@@ -15,8 +13,7 @@ enum class SplitRule {
   object_median,   // half of the triangles' centres to each side of the longest side
 };
 
-[[nodiscard]] std::optional<SplitRule> parse_split_rule(
-    std::string_view name);  // "sah", "spatial-median", ...
+inline constexpr std::array<std::string_view, 3> kSplitRuleNames{"sah", "spatial-median", "object-median"};
 
 struct BuildOptions {
   SplitRule rule = SplitRule::sah;

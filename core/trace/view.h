@@ -3,16 +3,31 @@
 #include <glm/glm.hpp>
 
 #include "core/math/ray.h"
+#include "core/parallel/tiles.h"
 #include "core/scene/camera.h"
 #include "core/trace/shared.h"
 
 namespace pinocchio {
+
+// What a picture shows.
+struct View {
+  Camera camera;
+  glm::ivec2 size{0, 0};   // of the whole picture, pixels
+  PixelBox part{};         // of it that is drawn; empty: all
+  glm::vec2 jitter{0.0f};  // where pixels are sampled off their centre, pixels, [-0.5, 0.5)
+
+  [[nodiscard]] PixelBox box() const { return part.empty() ? PixelBox{{0, 0}, size} : part; }
+  friend bool operator==(const View&, const View&) = default;
+};
 
 // The rays of a width x height picture. Pixel (x, y), row 0 on top, is sampled at its centre moved by
 // `jitter` (pixels, [-0.5, 0.5)). Where only a part of the picture is drawn, its pixel (0, 0) is `first`.
 [[nodiscard]] shared::ViewParams view_params(const Camera& camera, glm::ivec2 size,
                                              glm::vec2 jitter = glm::vec2(0.0f),
                                              glm::ivec2 first = glm::ivec2(0));
+[[nodiscard]] inline shared::ViewParams view_params(const View& view) {
+  return view_params(view.camera, view.size, view.jitter, view.box().lo);
+}
 
 // Every scale-th pixel of the picture, across and down; scale is a power of two, so that the rays are the
 // same to the last bit.
