@@ -20,7 +20,7 @@ int generate(const GenerateOptions& options) {
   const Scene scene = value_or_exit(make_procedural(options.name, options.procedural), kUsage);
   const std::string file = options.file.empty() ? options.name + ".gltf" : options.file;
   save_scene(scene, file);
-  std::printf("%s: %zu triangles\n", file.c_str(), scene.triangles.size());
+  std::printf("%s: %zu triangles\n", file.c_str(), scene.mesh->triangles.size());
   return kDone;
 }
 

@@ -31,16 +31,16 @@ nlohmann::json vec3_json(const glm::vec3& v) {
 
 nlohmann::json scene_json(const Scene& scene) {
   const Needs needs = take_census(scene);
-  const Bounds bounds = scene.bounds();
+  const Bounds bounds = scene.mesh->bounds();
   nlohmann::json lights = nlohmann::json::array(), cameras = nlohmann::json::array();
   for (const Light& light : scene.lights)
     lights.push_back({{"name", light.name}, {"casts", light.casts_shadow}});
   for (const Camera& camera : scene.cameras) cameras.push_back(camera.name);
   return {{"file", scene.source},
-          {"triangles", scene.triangles.size()},
-          {"vertices", scene.positions.size()},
-          {"materials", scene.materials.size()},
-          {"textures", scene.textures.size()},
+          {"triangles", scene.mesh->triangles.size()},
+          {"vertices", scene.mesh->positions.size()},
+          {"materials", scene.mesh->materials.size()},
+          {"textures", scene.mesh->textures.size()},
           {"lights", lights},
           {"cameras", cameras},
           {"bounds", {{"lo", vec3_json(bounds.lo)}, {"hi", vec3_json(bounds.hi)}}},
@@ -59,10 +59,10 @@ nlohmann::json scene_json(const Scene& scene) {
 
 void print_scene(const Scene& scene) {
   const Needs needs = take_census(scene);
-  const Bounds b = scene.bounds();
+  const Bounds b = scene.mesh->bounds();
   std::printf("%s\n", scene.source.c_str());
-  std::printf("  %zu triangles, %zu vertices, %zu materials, %zu textures\n", scene.triangles.size(),
-              scene.positions.size(), scene.materials.size(), scene.textures.size());
+  std::printf("  %zu triangles, %zu vertices, %zu materials, %zu textures\n", scene.mesh->triangles.size(),
+              scene.mesh->positions.size(), scene.mesh->materials.size(), scene.mesh->textures.size());
   std::printf("  bounds (%g, %g, %g) to (%g, %g, %g)\n", static_cast<double>(b.lo.x),
               static_cast<double>(b.lo.y), static_cast<double>(b.lo.z), static_cast<double>(b.hi.x),
               static_cast<double>(b.hi.y), static_cast<double>(b.hi.z));

@@ -110,7 +110,7 @@ nlohmann::json run_json(const Measured& run, const Machine& machine, const Measu
 
 void print_header(Machine& machine, const MeasureOptions& options) {
   std::printf("%s: %zu triangles, %dx%d, %d worker threads\n", machine.scene().scene.source.c_str(),
-              machine.scene().scene.triangles.size(), options.draw.size.x, options.draw.size.y,
+              machine.scene().scene.mesh->triangles.size(), options.draw.size.x, options.draw.size.y,
               machine.workers().count());
   if (const gl::ContextInfo* gl = machine.gl_info())
     std::printf("OpenGL: %s, %s\n", gl->renderer.c_str(),

@@ -80,7 +80,7 @@ void write_outputs(const OutputOptions& options, int frame_number, const Prepare
                    std::optional<double> render_s) {
   if (!options.exr.empty()) {
     const SurfaceImages surfaces =
-        surface_images(scene.scene, view_params(view.camera, view.size, glm::vec2(0.0f), view.part.lo),
+        surface_images(*scene.scene.mesh, view_params(view.camera, view.size, glm::vec2(0.0f), view.part.lo),
                        workers, picture.ids);
     const FrameOutput frame{
         view.size,   view.part,    scene.scene,        view.camera, picture.color,

@@ -106,8 +106,9 @@ class RenderRun {
   void report(const Machine& machine, double load_s) const {
     const auto line = [](const char* what, double ms) { std::printf("  %-18s %10.2f ms\n", what, ms); };
     std::printf("%s: %zu triangles, %s, %dx%d%s\n", machine.scene().scene.source.c_str(),
-                machine.scene().scene.triangles.size(), mode_name(machine.plan().mode), options_.draw.size.x,
-                options_.draw.size.y, machine.gl_info() ? (", " + machine.gl_info()->renderer).c_str() : "");
+                machine.scene().scene.mesh->triangles.size(), mode_name(machine.plan().mode),
+                options_.draw.size.x, options_.draw.size.y,
+                machine.gl_info() ? (", " + machine.gl_info()->renderer).c_str() : "");
     line("load and build", 1e3 * load_s);
     for (std::size_t i = 0; i < kStageNames.size(); ++i) {
       double sum_ms = 0.0;

@@ -99,8 +99,8 @@ nlohmann::json figures(const std::vector<FrameRecord>& records, const Plan& plan
           {"plan", to_json(plan)},
           {"scene",
            {{"file", scene.source},
-            {"triangles", scene.triangles.size()},
-            {"materials", scene.materials.size()},
+            {"triangles", scene.mesh->triangles.size()},
+            {"materials", scene.mesh->materials.size()},
             {"lights", scene.lights.size()}}},
           {"system", system_json(context, prepared.tracer ? prepared.tracer->isa() : default_isa())}};
 }

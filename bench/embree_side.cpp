@@ -151,7 +151,7 @@ struct EmbreeSide::Held {
   }
 
   // The scene with its geometry, not yet built.
-  void attach(const Scene& from, bool robust) {
+  void attach(const Mesh& from, bool robust) {
     if (scene) rtcReleaseScene(scene);
     scene = rtcNewScene(device);
     rtcSetSceneFlags(scene, robust ? RTC_SCENE_FLAG_ROBUST : RTC_SCENE_FLAG_NONE);
@@ -168,16 +168,16 @@ struct EmbreeSide::Held {
   }
 };
 
-EmbreeSide::EmbreeSide(const Scene& scene, bool robust, int threads, int repeat)
+EmbreeSide::EmbreeSide(const Mesh& mesh, bool robust, int threads, int repeat)
     : held_(std::make_unique<Held>()) {
-  held_->positions = scene.positions;
+  held_->positions = mesh.positions;
   held_->positions.emplace_back(0.0f);
   held_->device = rtcNewDevice(("threads=" + std::to_string(threads)).c_str());
   if (!held_->device) throw EnvironmentError("Embree cannot be started on this machine");
   rtcSetDeviceMemoryMonitorFunction(held_->device, count_bytes, &held_->bytes);
   cost_.name = "embree";
   cost_.seconds = median_seconds(
-      repeat, [&] { held_->attach(scene, robust); }, [&] { rtcCommitScene(held_->scene); });
+      repeat, [&] { held_->attach(mesh, robust); }, [&] { rtcCommitScene(held_->scene); });
   cost_.bytes = static_cast<std::size_t>(held_->bytes.load());
   if (rtcGetDeviceError(held_->device) != RTC_ERROR_NONE)
     throw EnvironmentError("Embree could not build the scene");

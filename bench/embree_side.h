@@ -4,7 +4,7 @@
 #include <span>
 
 #include "bench/contender.h"
-#include "core/scene/scene.h"
+#include "core/scene/mesh.h"
 
 namespace pinocchio::bench {
 
@@ -13,7 +13,7 @@ class EmbreeSide {
  public:
   // `robust`: Embree's watertight triangle test, slower; by default its fast one. Builds `repeat` times
   // and keeps the last. Throws EnvironmentError where Embree fails.
-  EmbreeSide(const Scene& scene, bool robust, int threads, int repeat);
+  EmbreeSide(const Mesh& mesh, bool robust, int threads, int repeat);
   ~EmbreeSide();
   EmbreeSide(const EmbreeSide&) = delete;
   EmbreeSide& operator=(const EmbreeSide&) = delete;

@@ -74,8 +74,10 @@ Scene scene_of(const Options& o) {
 // Whether it did: asked to, or because nothing in the scene mirrors.
 bool make_mirrors(Scene& scene, bool wanted) {
   const auto reflects = [](const Material& m) { return m.reflects(); };
-  if (!wanted && std::any_of(scene.materials.begin(), scene.materials.end(), reflects)) return false;
-  for (Material& material : scene.materials) material.reflectance = glm::vec3(kMirror);
+  MeshData mesh = *scene.mesh;
+  if (!wanted && std::any_of(mesh.materials.begin(), mesh.materials.end(), reflects)) return false;
+  for (Material& material : mesh.materials) material.reflectance = glm::vec3(kMirror);
+  scene.mesh = std::make_shared<const Mesh>(std::move(mesh));
   return true;
 }
 
@@ -84,7 +86,7 @@ void run(const Options& o) {
   Scene scene = scene_of(o);
   Report report;
   report.scene = o.generate.empty() ? o.scene : o.generate;
-  report.triangles = scene.triangles.size();
+  report.triangles = scene.mesh->triangles.size();
   report.tree = o.tree;
   report.robust = o.robust;
   report.repeat = o.repeat;
@@ -98,11 +100,11 @@ void run(const Options& o) {
   Contenders contenders;
   for (const Isa isa : chosen_isas(o.isas)) {
     BuildCost cost;  // the tree is the same for each: the first tells the time
-    tracers.push_back(build_ours(scene, tree, isa, tracers.empty() ? o.build_repeat : 1, cost));
+    tracers.push_back(build_ours(scene.mesh, tree, isa, tracers.empty() ? o.build_repeat : 1, cost));
     if (tracers.size() == 1) report.ours = cost;
     contenders.push_back(our_contender(*tracers.back()));
   }
-  const EmbreeSide embree(scene, o.robust, all.count(), o.build_repeat);
+  const EmbreeSide embree(*scene.mesh, o.robust, all.count(), o.build_repeat);
   report.embree = embree.cost();
   contenders.push_back(embree.packets());
   contenders.push_back(embree.single());

@@ -53,12 +53,12 @@ std::size_t held(const Vector& v) {
 
 }  // namespace
 
-std::unique_ptr<Tracer> build_ours(const Scene& scene, const BuildOptions& options, Isa isa, int repeat,
-                                   BuildCost& cost) {
+std::unique_ptr<Tracer> build_ours(const std::shared_ptr<const Mesh>& mesh, const BuildOptions& options,
+                                   Isa isa, int repeat, BuildCost& cost) {
   std::unique_ptr<Tracer> tracer;
   cost.name = "ours";
   cost.seconds = median_seconds(
-      repeat, [&] { tracer.reset(); }, [&] { tracer = std::make_unique<Tracer>(scene, options, isa); });
+      repeat, [&] { tracer.reset(); }, [&] { tracer = std::make_unique<Tracer>(mesh, options, isa); });
   const BspTree& tree = tracer->tree();
   cost.bytes = held(tree.nodes) + held(tree.references) + held(tree.triangles) + held(tree.corner_triangles);
   return tracer;

@@ -36,12 +36,12 @@ void append(const std::vector<Ray>& from, std::vector<Ray>& to) {
   to.insert(to.end(), from.begin(), from.end());
 }
 
-std::vector<Ray> mirrored(const Scene& scene, const std::vector<Seen>& seen) {
+std::vector<Ray> mirrored(const Mesh& mesh, const std::vector<Seen>& seen) {
   std::vector<Ray> rays;
   std::vector<PathRay> spawned;
   for (const Seen& s : seen) {
     spawned.clear();
-    scatter(surface_at(scene, s.triangle, s.ray.origin, s.ray.direction), glm::vec3(1.0f), 0,
+    scatter(surface_at(mesh, s.triangle, s.ray.origin, s.ray.direction), glm::vec3(1.0f), 0,
             kLeastContribution, spawned);
     for (const PathRay& path : spawned)
       if (!path.refracted) rays.push_back(path.ray);
@@ -54,7 +54,7 @@ std::vector<Ray> towards_lights(const Scene& scene, const std::vector<Seen>& see
   for (const int i : casting_lights(scene)) {
     const shared::LightParams light = light_params(scene.lights[static_cast<std::size_t>(i)]);
     for (const Seen& s : seen) {
-      const Surface surface = surface_at(scene, s.triangle, s.ray.origin, s.ray.direction);
+      const Surface surface = surface_at(*scene.mesh, s.triangle, s.ray.origin, s.ray.direction);
       if (const std::optional<Ray> ray = shadow_ray(light, surface)) rays.push_back(*ray);
     }
   }
@@ -72,11 +72,11 @@ std::vector<RaySet> frame_ray_sets(const Scene& scene, const Tracer& tracer, glm
   for (std::size_t i = 0; i < grid.count(); ++i) {
     const std::vector<Ray> rays = tile_rays(view, grid.tile(i));
     const std::vector<Seen> seen = hits_of(tracer, rays);
-    const std::vector<Ray> reflections = mirrored(scene, seen);
+    const std::vector<Ray> reflections = mirrored(*scene.mesh, seen);
     append(rays, primary.rays);
     append(towards_lights(scene, seen), shadow.rays);
     append(reflections, first.rays);
-    append(mirrored(scene, hits_of(tracer, reflections)), second.rays);
+    append(mirrored(*scene.mesh, hits_of(tracer, reflections)), second.rays);
   }
   std::vector<RaySet> sets;
   for (RaySet* set : {&primary, &shadow, &first, &second}) sets.push_back(std::move(*set));

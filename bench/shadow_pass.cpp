@@ -38,7 +38,7 @@ void embree_pass(const TraceJob& job, const EmbreeSide& embree, const Image<std:
       if (id == kNoTriangle) return;
       const Ray seen = pixel_ray(job.view, x, y);
       const Surface surface =
-          bare_surface_at(job.scene, id, seen.origin, seen.direction, job.tracer.offset());
+          bare_surface_at(job.tracer.mesh(), id, seen.origin, seen.direction, job.tracer.offset());
       for (std::size_t slot = 0; slot < lights.size(); ++slot) {
         if (const std::optional<Ray> ray = shadow_ray(lights[slot], surface)) {
           rays[slot].push_back(*ray);
@@ -67,7 +67,7 @@ ShadowPass measure(const Scene& scene, const Tracer& tracer, const EmbreeSide& e
                    Workers& workers) {
   const Camera camera = scene.cameras.empty() ? camera_for_whole_scene(scene) : scene.cameras.front();
   const int bits = MaskImage::bits_for(static_cast<int>(casting_lights(scene).size()));
-  LitCells cells(scene, tracer);
+  LitCells cells(tracer);
   ShadowPass result;
   result.threads = workers.count();
   std::vector<double> ours, theirs;

@@ -107,7 +107,7 @@ Expected<FrameResult> Engine::render(const Scene& scene, const View& view, const
   const Expected<Settings> resolved = resolve(scene, view.box().size(), settings);
   if (!resolved) return Unexpected(resolved.error());
   std::shared_ptr<const Tracer>& tracer = parts_->last_tracer;
-  if (!tracer || tracer->mesh() != scene.mesh || !same_tree(*resolved, parts_->last_settings))
+  if (!tracer || &tracer->mesh() != scene.mesh.get() || !same_tree(*resolved, parts_->last_settings))
     tracer = prepare(scene, *resolved);
   parts_->last_settings = *resolved;
   FrameResult result;

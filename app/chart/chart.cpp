@@ -123,7 +123,7 @@ class ChartRun {
     return {{"pinocchio", version()},
             {"scene",
              {{"name", std::filesystem::path(scene.source).stem().string()},
-              {"triangles", scene.triangles.size()},
+              {"triangles", scene.mesh->triangles.size()},
               {"digest", digest_of(scene)}}},
             {"size", {options_.draw.size.x, options_.draw.size.y}},
             {"cameras", cameras},

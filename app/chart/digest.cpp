@@ -45,13 +45,13 @@ void add_light(Digest& digest, const Light& l) {
 
 std::uint32_t digest_of(const Scene& scene) {
   Digest digest;
-  digest.add_all(scene.positions);
-  digest.add_all(scene.normals);
-  digest.add_all(scene.texcoords);
-  digest.add_all(scene.triangles);
-  digest.add_all(scene.triangle_materials);
-  for (const Material& material : scene.materials) add_material(digest, material);
-  for (const Texture& texture : scene.textures) {
+  digest.add_all(scene.mesh->positions);
+  digest.add_all(scene.mesh->normals);
+  digest.add_all(scene.mesh->texcoords);
+  digest.add_all(scene.mesh->triangles);
+  digest.add_all(scene.mesh->triangle_materials);
+  for (const Material& material : scene.mesh->materials) add_material(digest, material);
+  for (const Texture& texture : scene.mesh->textures) {
     digest.add(texture.texels.size());
     digest.add_all(texture.texels.pixels());
   }

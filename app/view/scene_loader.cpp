@@ -36,7 +36,7 @@ struct SceneLoader::Job {
     const auto scene =
         std::make_shared<PreparedScene>(std::move(read), Sides{false, false}, options.tree, options.isa);
     const Needs needs = take_census(scene->scene);
-    begin_phase("building the tree of " + std::to_string(scene->scene.triangles.size()) + " triangles");
+    begin_phase("building the tree of " + std::to_string(scene->scene.mesh->triangles.size()) + " triangles");
     {
       const std::scoped_lock lock(mutex);
       news.scene = scene;
@@ -44,7 +44,8 @@ struct SceneLoader::Job {
       news.camera = camera;
       news.lights = lights;
     }
-    auto tracer = std::make_shared<const Tracer>(scene->scene, options.tree, options.isa, options.offset);
+    auto tracer =
+        std::make_shared<const Tracer>(scene->scene.mesh, options.tree, options.isa, options.offset);
     begin_phase({});
     const std::scoped_lock lock(mutex);
     news.tracer = std::move(tracer);

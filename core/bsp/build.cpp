@@ -33,14 +33,14 @@ void for_each_chunk(Workers& workers, std::size_t n, const Body& body) {
 
 // Prepares the triangles, and the references that the tree is built of. A triangle without area is met by no
 // ray and stays out of the tree.
-References prepare(const Scene& scene, Workers& workers, BspTree& tree) {
-  const std::size_t n = scene.triangles.size();
+References prepare(const Mesh& mesh, Workers& workers, BspTree& tree) {
+  const std::size_t n = mesh.triangles.size();
   tree.triangles.resize(n);
   References all(n);
   for_each_chunk(workers, n, [&](std::size_t first, std::size_t last) {
     for (std::size_t i = first; i < last; ++i) {
-      const glm::uvec3& t = scene.triangles[i];
-      const glm::vec3 &a = scene.positions[t.x], &b = scene.positions[t.y], &c = scene.positions[t.z];
+      const glm::uvec3& t = mesh.triangles[i];
+      const glm::vec3 &a = mesh.positions[t.x], &b = mesh.positions[t.y], &c = mesh.positions[t.z];
       const auto id = static_cast<std::uint32_t>(i);
       tree.triangles[i] = ProjectedTriangle::from(a, b, c, id);
       all[i] = BuildReference::of(id, {glm::min(glm::min(a, b), c), glm::max(glm::max(a, b), c)});
@@ -116,10 +116,10 @@ void join(const TreeTop& top, const Layout& layout, Workers& workers, BspTree& t
   }
 }
 
-void build_nodes(const Scene& scene, const BuildOptions& options, Workers& workers, BspTree& tree) {
-  References all = prepare(scene, workers, tree);
-  const int max_depth = depth_of(options, scene.triangles.size());
-  TreeTop top = build_top(scene, options, max_depth, std::move(all), tree.bounds, workers);
+void build_nodes(const Mesh& mesh, const BuildOptions& options, Workers& workers, BspTree& tree) {
+  References all = prepare(mesh, workers, tree);
+  const int max_depth = depth_of(options, mesh.triangles.size());
+  TreeTop top = build_top(mesh, options, max_depth, std::move(all), tree.bounds, workers);
 
   PartQueue queue;
   std::vector<std::uint32_t> roots;
@@ -128,7 +128,7 @@ void build_nodes(const Scene& scene, const BuildOptions& options, Workers& worke
     queue.put(std::move(part));
   }
   workers.for_each(static_cast<std::size_t>(workers.count()), [&](std::size_t) {
-    SubtreeBuilder builder(scene, options, max_depth, queue);
+    SubtreeBuilder builder(mesh, options, max_depth, queue);
     try {
       while (std::optional<PartQueue::Taken> taken = queue.take())
         queue.give(taken->number, builder.build(taken->part.references.span(), taken->part.node));
@@ -151,29 +151,29 @@ void widen(Bounds& bounds) {
   bounds.hi += margin;
 }
 
-AlignedVector<CornerTriangle> corner_triangles(const Scene& scene) {
-  AlignedVector<CornerTriangle> result(scene.triangles.size());
+AlignedVector<CornerTriangle> corner_triangles(const Mesh& mesh) {
+  AlignedVector<CornerTriangle> result(mesh.triangles.size());
   for (std::uint32_t i = 0; i < result.size(); ++i) {
     result[i].id = i;
     for (int corner = 0; corner < 3; ++corner)
       for (int axis = 0; axis < 3; ++axis)
-        result[i].corners[corner][axis] = scene.positions[scene.triangles[i][corner]][axis];
+        result[i].corners[corner][axis] = mesh.positions[mesh.triangles[i][corner]][axis];
   }
   return result;
 }
 
 }  // namespace
 
-BspTree build_tree(const Scene& scene, const BuildOptions& options) {
+BspTree build_tree(const Mesh& mesh, const BuildOptions& options) {
   BspTree tree;
   Workers workers(options.threads);
   if (options.triangle_test == TriangleTest::moeller_trumbore ||
       options.triangle_test == TriangleTest::watertight)
-    tree.corner_triangles = corner_triangles(scene);
+    tree.corner_triangles = corner_triangles(mesh);
   tree.test = options.triangle_test;
-  tree.positions = scene.positions;
-  tree.corners = scene.triangles;
-  build_nodes(scene, options, workers, tree);
+  tree.positions = mesh.positions;
+  tree.corners = mesh.triangles;
+  build_nodes(mesh, options, workers, tree);
   widen(tree.bounds);
   return tree;
 }

@@ -2,7 +2,7 @@
 
 #include "core/base/names.h"
 #include "core/bsp/tree.h"
-#include "core/scene/scene.h"
+#include "core/scene/mesh.h"
 
 namespace pinocchio {
 
@@ -25,8 +25,8 @@ struct BuildOptions {
   TriangleTest triangle_test = TriangleTest::filtered;  // that triangles are stored for
 };
 
-// The scene needs at least one triangle and finite positions (check_scene holds both). The tree looks into
+// The mesh needs at least one triangle and finite positions (check_scene holds both). The tree looks into
 // it: it stays where it is as long as the tree lives.
-[[nodiscard]] BspTree build_tree(const Scene& scene, const BuildOptions& options = {});
+[[nodiscard]] BspTree build_tree(const Mesh& mesh, const BuildOptions& options = {});
 
 }  // namespace pinocchio

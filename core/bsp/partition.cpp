@@ -32,7 +32,7 @@ Halves count_halves(std::span<const BuildReference> references, const SplitPlane
   return n;
 }
 
-Halves partition(const Scene& scene, std::span<const BuildReference> references, const Bounds& box,
+Halves partition(const Mesh& mesh, std::span<const BuildReference> references, const Bounds& box,
                  const SplitPlane& plane, BuildReference* low, BuildReference* high) {
   Halves n;
   for (const BuildReference& at : references) {
@@ -42,9 +42,9 @@ Halves partition(const Scene& scene, std::span<const BuildReference> references,
     put(lo, hi, high[n.high]);  // perhaps over `at`
     if (sides.low & sides.high) {
       const BuildReference r = low[n.low];
-      const glm::uvec3& t = scene.triangles[r.triangle];
-      const ClippedHalves cut = clipped_halves(scene.positions[t.x], scene.positions[t.y],
-                                               scene.positions[t.z], box, plane.axis, plane.position);
+      const glm::uvec3& t = mesh.triangles[r.triangle];
+      const ClippedHalves cut = clipped_halves(mesh.positions[t.x], mesh.positions[t.y],
+                                               mesh.positions[t.z], box, plane.axis, plane.position);
       const Bounds below = within(cut.low, r), above = within(cut.high, r);
       low[n.low] = BuildReference::of(r.triangle, below);
       high[n.high] = BuildReference::of(r.triangle, above);

@@ -53,7 +53,7 @@ void SubtreeBuilder::build_node(std::uint32_t index, std::size_t begin, std::siz
 
   // The upper child's stay where the parent's were, the lower child's go on top of them.
   if (low_.size() < count + 1) low_.resize(count + 1);
-  const Halves n = partition(scene_, references, node.box, *plane, low_.data(), stack_.data() + begin);
+  const Halves n = partition(mesh_, references, node.box, *plane, low_.data(), stack_.data() + begin);
   const std::size_t high_end = begin + n.high;
   if (stack_.size() < high_end + n.low + 1) stack_.resize(2 * (high_end + n.low));
   std::copy_n(low_.begin(), n.low, stack_.begin() + static_cast<std::ptrdiff_t>(high_end));

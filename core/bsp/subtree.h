@@ -59,8 +59,8 @@ class SubtreeBuilder {
  public:
   // Large nodes' upper children go to `queue` instead of being built. What is large is a constant: the parts
   // are the same for any number of threads.
-  SubtreeBuilder(const Scene& scene, const BuildOptions& options, int max_depth, PartQueue& queue)
-      : scene_(scene), options_(options), max_depth_(max_depth), queue_(queue) {}
+  SubtreeBuilder(const Mesh& mesh, const BuildOptions& options, int max_depth, PartQueue& queue)
+      : mesh_(mesh), options_(options), max_depth_(max_depth), queue_(queue) {}
 
   [[nodiscard]] Subtree build(std::span<const BuildReference> references, const OpenNode& root);
 
@@ -70,7 +70,7 @@ class SubtreeBuilder {
   [[nodiscard]] std::optional<SplitPlane> choose(std::span<const BuildReference> references,
                                                  const OpenNode& node);
 
-  const Scene& scene_;
+  const Mesh& mesh_;
   const BuildOptions& options_;
   int max_depth_;
   PartQueue& queue_;

@@ -66,8 +66,8 @@ void choose_by_median(Level& level, SplitRule rule, Workers& workers) {
 
 class TopBuilder {
  public:
-  TopBuilder(const Scene& scene, const BuildOptions& options, int max_depth, Workers& workers)
-      : scene_(scene), options_(options), max_depth_(max_depth), workers_(workers) {}
+  TopBuilder(const Mesh& mesh, const BuildOptions& options, int max_depth, Workers& workers)
+      : mesh_(mesh), options_(options), max_depth_(max_depth), workers_(workers) {}
 
   TreeTop build(References all, const Bounds& bounds) {
     top_.nodes.assign(2, BspNode::leaf(0, 0));
@@ -116,7 +116,7 @@ class TopBuilder {
       if (!level.planes[c.node]) return;
       c.low = References(c.count + 1);
       c.high = References(c.count + 1);
-      c.halves = partition(scene_, level.references(c), level.nodes[c.node].node.box, *level.planes[c.node],
+      c.halves = partition(mesh_, level.references(c), level.nodes[c.node].node.box, *level.planes[c.node],
                            &c.low[0], &c.high[0]);
     });
     std::vector<Halves> sizes(level.nodes.size());
@@ -159,7 +159,7 @@ class TopBuilder {
     });
   }
 
-  const Scene& scene_;
+  const Mesh& mesh_;
   const BuildOptions& options_;
   int max_depth_;
   Workers& workers_;
@@ -168,9 +168,9 @@ class TopBuilder {
 
 }  // namespace
 
-TreeTop build_top(const Scene& scene, const BuildOptions& options, int max_depth, References all,
+TreeTop build_top(const Mesh& mesh, const BuildOptions& options, int max_depth, References all,
                   const Bounds& bounds, Workers& workers) {
-  return TopBuilder(scene, options, max_depth, workers).build(std::move(all), bounds);
+  return TopBuilder(mesh, options, max_depth, workers).build(std::move(all), bounds);
 }
 
 }  // namespace pinocchio

@@ -20,18 +20,18 @@ inline constexpr std::size_t kCacheLine = 64;
 template <class T>
 using AlignedVector = std::vector<T, boost::alignment::aligned_allocator<T, kCacheLine>>;
 
-// Binary space partition over the scene's triangles; built once (bsp/build.h), then only read. It looks
-// into the scene, which stays where it is as long as this lives.
+// Binary space partition over a mesh's triangles; built once (bsp/build.h), then only read. It looks into
+// the mesh, which stays where it is as long as this lives.
 struct BspTree {
   Bounds bounds;                               // widened by the rounding of a traversal step
   AlignedVector<BspNode> nodes;                // root first; node 1 is padding, so that siblings share a line
   AlignedVector<std::uint32_t> references;     // of leaves, into `triangles`
-  AlignedVector<ProjectedTriangle> triangles;  // in the scene's order
+  AlignedVector<ProjectedTriangle> triangles;  // in the mesh's order
   AlignedVector<CornerTriangle> corner_triangles;  // likewise, for the tests that take corners; else empty
   int depth = 0;                                   // of the deepest leaf
   TriangleTest test = TriangleTest::filtered;      // that these triangles are stored for
-  std::span<const glm::vec3> positions;            // the scene's
-  std::span<const glm::uvec3> corners;             // the scene's triangles
+  std::span<const glm::vec3> positions;            // the mesh's
+  std::span<const glm::uvec3> corners;             // the mesh's triangles
 
   [[nodiscard]] std::size_t bytes() const {
     return nodes.size() * sizeof(BspNode) + references.size() * sizeof(std::uint32_t) +

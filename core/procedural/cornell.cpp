@@ -8,8 +8,8 @@
 namespace pinocchio {
 
 Scene make_cornell() {
-  Scene scene;
-  MeshBuilder mesh(scene);
+  MeshData data;
+  MeshBuilder mesh(data);
   const float h = 1.0f;      // half the room's width
   const float front = 3.4f;  // the wall behind the camera, which the mirror shows
   mesh.use(matt("white", glm::vec3(0.68f, 0.66f, 0.62f)));
@@ -34,6 +34,7 @@ Scene make_cornell() {
   mesh.use(glass("glass", glm::vec3(0.96f), 1.5f));
   mesh.sphere({0.42f, 0.36f, 0.28f}, 0.355f, 96);
 
+  Scene scene(std::move(data));
   scene.ambient_light = glm::vec3(0.18f);
   Light lamp;
   lamp.name = "lamp";

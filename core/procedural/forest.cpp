@@ -60,8 +60,8 @@ void add_haze(MeshBuilder& mesh, float half) {
 }  // namespace
 
 Scene make_forest(int triangles) {
-  Scene scene;
-  MeshBuilder mesh(scene);
+  MeshData data;
+  MeshBuilder mesh(data);
   const int trees = std::max(1, (triangles - kTrianglesAround) / kTrianglesOfTree);
   const float half = 1.1f * std::sqrt(static_cast<float>(trees));
   mesh.use(matt("ground", {0.16f, 0.12f, 0.07f}));
@@ -84,6 +84,7 @@ Scene make_forest(int triangles) {
   mesh.use(glossy("needles", {0.07f, 0.22f, 0.06f}, 0.15f, 20.0f));
   for (const Tree& tree : stand) add_needles(mesh, random, tree.foot, tree.height);
 
+  Scene scene(std::move(data));
   scene.ambient_light = glm::vec3(0.2f, 0.24f, 0.3f);
   Light sun;
   sun.name = "sun";

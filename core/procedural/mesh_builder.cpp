@@ -20,20 +20,20 @@ glm::vec3 unit_or_zero(const glm::vec3& v) {
 }  // namespace
 
 void MeshBuilder::use(const Material& material) {
-  scene_.materials.push_back(material);
+  mesh_.materials.push_back(material);
 }
 
 std::uint32_t MeshBuilder::vertex(const glm::vec3& p, const glm::vec3& n) {
-  scene_.positions.emplace_back(place_ * glm::vec4(p, 1.0f));
-  scene_.normals.push_back(unit_or_zero(glm::transpose(glm::inverse(glm::mat3(place_))) * n));
-  return static_cast<std::uint32_t>(scene_.positions.size() - 1);
+  mesh_.positions.emplace_back(place_ * glm::vec4(p, 1.0f));
+  mesh_.normals.push_back(unit_or_zero(glm::transpose(glm::inverse(glm::mat3(place_))) * n));
+  return static_cast<std::uint32_t>(mesh_.positions.size() - 1);
 }
 
 void MeshBuilder::face(std::uint32_t a, std::uint32_t b, std::uint32_t c) {
-  const std::vector<glm::vec3>& p = scene_.positions;
+  const std::vector<glm::vec3>& p = mesh_.positions;
   if (p[a] == p[b] || p[b] == p[c] || p[c] == p[a]) return;
-  scene_.triangles.emplace_back(a, b, c);
-  scene_.triangle_materials.push_back(static_cast<std::uint32_t>(scene_.materials.size() - 1));
+  mesh_.triangles.emplace_back(a, b, c);
+  mesh_.triangle_materials.push_back(static_cast<std::uint32_t>(mesh_.materials.size() - 1));
 }
 
 void MeshBuilder::triangle(const glm::vec3& a, const glm::vec3& b, const glm::vec3& c) {
@@ -73,7 +73,7 @@ void MeshBuilder::surface(int nu, int nv, bool closed_u, const Surface& point) {
       const glm::vec3 n = glm::cross(points[c] - points[a], points[d] - points[b]);
       for (const std::size_t corner : {a, b, c, d}) normals[corner] += n;
     }
-  const auto first = static_cast<std::uint32_t>(scene_.positions.size());
+  const auto first = static_cast<std::uint32_t>(mesh_.positions.size());
   for (std::size_t i = 0; i < points.size(); ++i) vertex(points[i], normals[i]);
   for (int j = 0; j < nv; ++j)
     for (int i = 0; i < nu; ++i) {
@@ -89,7 +89,7 @@ void MeshBuilder::sphere(const glm::vec3& center, float radius, int around) {
   std::uint32_t previous = top;
   for (int j = 1; j < rings; ++j) {
     const float theta = 0.5f * kTau * fraction(j, rings);
-    const auto ring = static_cast<std::uint32_t>(scene_.positions.size());
+    const auto ring = static_cast<std::uint32_t>(mesh_.positions.size());
     for (int i = 0; i < around; ++i) {
       const float phi = kTau * fraction(i, around);
       const glm::vec3 n(std::sin(theta) * std::cos(phi), std::cos(theta), -std::sin(theta) * std::sin(phi));

@@ -5,15 +5,15 @@
 #include <glm/glm.hpp>
 #include <vector>
 
-#include "core/scene/scene.h"
+#include "core/scene/mesh.h"
 
 namespace pinocchio {
 
-// Appends shapes to a scene. Corners run counter-clockwise seen from outside; what is placed goes through
+// Appends shapes to a mesh. Corners run counter-clockwise seen from outside; what is placed goes through
 // the current transform (which must not mirror).
 class MeshBuilder {
  public:
-  explicit MeshBuilder(Scene& scene) : scene_(scene) {}
+  explicit MeshBuilder(MeshData& mesh) : mesh_(mesh) {}
 
   // Shapes from here on are of this material.
   void use(const Material& material);
@@ -42,7 +42,7 @@ class MeshBuilder {
   std::uint32_t vertex(const glm::vec3& p, const glm::vec3& n);
   void face(std::uint32_t a, std::uint32_t b, std::uint32_t c);
 
-  Scene& scene_;
+  MeshData& mesh_;
   glm::mat4 place_{1.0f};
 };
 

@@ -99,14 +99,15 @@ void add_surroundings(MeshBuilder& mesh) {
 }  // namespace
 
 Scene make_spd_balls(int triangles) {
-  Scene scene;
-  MeshBuilder mesh(scene);
+  MeshData data;
+  MeshBuilder mesh(data);
   add_surroundings(mesh);
   Material gold = mirror("gold", {0.60f, 0.48f, 0.28f});
   gold.ambient = gold.diffuse = {0.42f, 0.25f, 0.07f};
   mesh.use(gold);
   add_balls(mesh, {0, 0, 0}, 0.5f, glm::mat3(1.0f), 0, fineness_for(triangles));
 
+  Scene scene(std::move(data));
   scene.ambient_light = glm::vec3(0.15f);
   const std::array<glm::vec3, 3> places{{{4, 5, 3}, {-3, 4, 4}, {1, 3, -4}}};
   for (std::size_t i = 0; i < places.size(); ++i) {

@@ -244,9 +244,9 @@ void add_fittings(MeshBuilder& mesh, const Paints& paint, float scale) {
 }
 
 // `scale` multiplies the cells along each side of the tessellated surfaces.
-Scene meshes_of(float scale) {
-  Scene scene;
-  MeshBuilder mesh(scene);
+MeshData meshes_of(float scale) {
+  MeshData data;
+  MeshBuilder mesh(data);
   const Paints paint;
   add_hull(mesh, paint, scale);
   add_decks(mesh, paint, scale);
@@ -255,27 +255,27 @@ Scene meshes_of(float scale) {
   add_windscreen(mesh, paint, scale);
   add_fittings(mesh, paint, scale);
   add_lake(mesh, scale);
-  return scene;
+  return data;
 }
 
 // Pipes and posts grow less than in proportion to the cells, so the scale is corrected by what came out.
-Scene meshes_of_about(int triangles) {
+MeshData meshes_of_about(int triangles) {
   const auto wanted = static_cast<float>(triangles);
   float scale = std::sqrt(wanted / 16000.0f);
-  Scene scene = meshes_of(scale);
+  MeshData data = meshes_of(scale);
   for (int round = 0; round < 3; ++round) {
-    const float ratio = wanted / static_cast<float>(scene.triangles.size());
+    const float ratio = wanted / static_cast<float>(data.triangles.size());
     if (ratio > 0.95f && ratio < 1.05f) break;
     scale *= std::sqrt(ratio);
-    scene = meshes_of(scale);
+    data = meshes_of(scale);
   }
-  return scene;
+  return data;
 }
 
 }  // namespace
 
 Scene make_speedboat(int triangles) {
-  Scene scene = meshes_of_about(triangles);
+  Scene scene(meshes_of_about(triangles));
   scene.ambient_light = {0.26f, 0.29f, 0.34f};
   Light sun;
   sun.name = "sun";

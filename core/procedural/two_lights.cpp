@@ -147,8 +147,8 @@ void add_queen(MeshBuilder& mesh, const glm::mat4& where) {
 }  // namespace
 
 Scene make_two_lights() {
-  Scene scene;
-  MeshBuilder mesh(scene);
+  MeshData data;
+  MeshBuilder mesh(data);
   add_room(mesh);
   add_board(mesh);
   add_mirror(mesh);
@@ -163,6 +163,7 @@ Scene make_two_lights() {
   add_pawn(mesh, at(-0.5f, 2.5f));
   mesh.place(glm::mat4(1.0f));
 
+  Scene scene(std::move(data));
   scene.ambient_light = glm::vec3(0.16f);
   Light key;
   key.name = "key";

@@ -15,7 +15,7 @@ void reference_picture(const Scene& scene, Workers& workers, const shared::ViewP
   reflection = depth > 0 ? Image<glm::vec3>(ids.size()) : Image<glm::vec3>();
   color = Image<glm::vec4>(ids.size());
 
-  const ReferenceTree tree(scene);
+  const ReferenceTree tree(*scene.mesh);
   const ReferenceTracer tracer(scene, tree);
   const auto draw_pixel = [&](int x, int y) {
     const ReferenceTracer::Pixel pixel = tracer.pixel(view, x, y, depth);

@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "core/reference/reference_surface.h"
+#include "core/scene/light.h"
 
 namespace pinocchio {
 

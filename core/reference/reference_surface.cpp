@@ -36,13 +36,13 @@ glm::dvec3 texture_color(const Texture& texture, const glm::dvec2& texcoord) {
   return (1.0 - f.y) * upper + f.y * lower;
 }
 
-glm::dvec3 color_factor(const Scene& scene, const Material& m, const glm::uvec3& corners,
+glm::dvec3 color_factor(const Mesh& mesh, const Material& m, const glm::uvec3& corners,
                         const glm::dvec3& weights) {
-  if (m.diffuse_texture < 0 || scene.texcoords.empty()) return glm::dvec3(1.0);
-  const glm::dvec2 texcoord = weights.x * glm::dvec2(scene.texcoords[corners.x]) +
-                              weights.y * glm::dvec2(scene.texcoords[corners.y]) +
-                              weights.z * glm::dvec2(scene.texcoords[corners.z]);
-  return texture_color(scene.textures[static_cast<std::size_t>(m.diffuse_texture)], texcoord);
+  if (m.diffuse_texture < 0 || mesh.texcoords.empty()) return glm::dvec3(1.0);
+  const glm::dvec2 texcoord = weights.x * glm::dvec2(mesh.texcoords[corners.x]) +
+                              weights.y * glm::dvec2(mesh.texcoords[corners.y]) +
+                              weights.z * glm::dvec2(mesh.texcoords[corners.z]);
+  return texture_color(mesh.textures[static_cast<std::size_t>(m.diffuse_texture)], texcoord);
 }
 
 // A triangle's own normal has no length where it has no area, vertex normals none where they cancel.
@@ -53,10 +53,10 @@ glm::dvec3 unit_or(const glm::dvec3& n, double least_square, const glm::dvec3& o
 
 }  // namespace
 
-ReferenceSurface reference_surface(const Scene& scene, const ReferenceRay& ray, const ReferenceHit& hit) {
-  const glm::uvec3 corners = scene.triangles[hit.triangle];
-  const glm::dvec3 a(scene.positions[corners.x]), b(scene.positions[corners.y]),
-      c(scene.positions[corners.z]);
+ReferenceSurface reference_surface(const Mesh& mesh, const ReferenceRay& ray, const ReferenceHit& hit) {
+  const glm::uvec3 corners = mesh.triangles[hit.triangle];
+  const glm::dvec3 a(mesh.positions[corners.x]), b(mesh.positions[corners.y]),
+      c(mesh.positions[corners.z]);
   const glm::dvec3 ab = b - a, ac = c - a;
 
   ReferenceSurface s;
@@ -66,9 +66,9 @@ ReferenceSurface reference_surface(const Scene& scene, const ReferenceRay& ray, 
       kPointError * (largest_component(s.p_world) + std::max(largest_component(ab), largest_component(ac)));
 
   s.n_geometric = unit_or(glm::cross(ab, ac), 0.0, s.to_viewer);
-  const glm::dvec3 interpolated = hit.weights.x * glm::dvec3(scene.normals[corners.x]) +
-                                  hit.weights.y * glm::dvec3(scene.normals[corners.y]) +
-                                  hit.weights.z * glm::dvec3(scene.normals[corners.z]);
+  const glm::dvec3 interpolated = hit.weights.x * glm::dvec3(mesh.normals[corners.x]) +
+                                  hit.weights.y * glm::dvec3(mesh.normals[corners.y]) +
+                                  hit.weights.z * glm::dvec3(mesh.normals[corners.z]);
   s.n_shading = unit_or(interpolated, 1e-12, s.n_geometric);
   // Where winding and vertex normals disagree about the outside, the normals are right.
   if (glm::dot(s.n_geometric, s.n_shading) < 0.0) s.n_geometric = -s.n_geometric;
@@ -78,8 +78,8 @@ ReferenceSurface reference_surface(const Scene& scene, const ReferenceRay& ray, 
     s.n_shading = -s.n_shading;
   }
 
-  s.material = &scene.material_of(hit.triangle);
-  const glm::dvec3 color = color_factor(scene, *s.material, corners, hit.weights);
+  s.material = &mesh.material_of(hit.triangle);
+  const glm::dvec3 color = color_factor(mesh, *s.material, corners, hit.weights);
   s.ambient = glm::dvec3(s.material->ambient) * color;
   s.diffuse = glm::dvec3(s.material->diffuse) * color;
   return s;

@@ -3,7 +3,7 @@
 #include <glm/glm.hpp>
 
 #include "core/reference/reference_hit.h"
-#include "core/scene/scene.h"
+#include "core/scene/mesh.h"
 
 namespace pinocchio {
 
@@ -20,7 +20,7 @@ struct ReferenceSurface {
 };
 
 // hit.valid(), and `hit` is the ray's.
-[[nodiscard]] ReferenceSurface reference_surface(const Scene& scene, const ReferenceRay& ray,
+[[nodiscard]] ReferenceSurface reference_surface(const Mesh& mesh, const ReferenceRay& ray,
                                                  const ReferenceHit& hit);
 
 // Where a ray towards `direction` starts: off the surface by its error, on that side.

@@ -10,7 +10,7 @@ ReferenceTracer::Pixel ReferenceTracer::pixel(const shared::ViewParams& view, in
   Pixel pixel;
   pixel.triangle = hit.triangle;
   if (!hit.valid()) return pixel;
-  const ReferenceSurface surface = reference_surface(scene_, ray, hit);
+  const ReferenceSurface surface = reference_surface(*scene_.mesh, ray, hit);
   const glm::dvec3 own = direct(surface, pixel.mask), mirrored = bounced(surface, depth);
   pixel.reflection = glm::vec3(mirrored);
   pixel.color = glm::vec4(glm::vec3(own + mirrored), 1.0f);
@@ -47,7 +47,7 @@ glm::dvec3 ReferenceTracer::bounced(const ReferenceSurface& surface, int depth) 
 glm::dvec3 ReferenceTracer::seen(const ReferenceRay& ray, int depth) const {
   const ReferenceHit hit = tree_.closest_hit(ray);
   if (!hit.valid()) return glm::dvec3(0.0);
-  const ReferenceSurface surface = reference_surface(scene_, ray, hit);
+  const ReferenceSurface surface = reference_surface(*scene_.mesh, ray, hit);
   unsigned bits = 0;
   return direct(surface, bits) + bounced(surface, depth);
 }

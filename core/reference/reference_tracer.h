@@ -5,6 +5,7 @@
 
 #include "core/reference/reference_surface.h"
 #include "core/reference/reference_tree.h"
+#include "core/scene/scene.h"
 #include "core/trace/shared.h"
 
 namespace pinocchio {

@@ -43,8 +43,8 @@ double entry(const ReferenceRay& ray, const Bounds& box, double margin, double t
 
 }  // namespace
 
-ReferenceTree::ReferenceTree(const Scene& scene, const std::stop_token& stop)
-    : scene_(scene), order_(scene.triangles.size()) {
+ReferenceTree::ReferenceTree(const Mesh& mesh, const std::stop_token& stop)
+    : mesh_(mesh), order_(mesh.triangles.size()) {
   std::iota(order_.begin(), order_.end(), 0u);
   if (!order_.empty()) build(stop);
 }
@@ -74,16 +74,16 @@ void ReferenceTree::build(const std::stop_token& stop) {
 Bounds ReferenceTree::bounds_of(const Node& node) const {
   Bounds box;
   for (std::uint32_t k = node.first; k < node.first + node.count; ++k)
-    for (int corner = 0; corner < 3; ++corner) box.add(scene_.positions[scene_.triangles[order_[k]][corner]]);
+    for (int corner = 0; corner < 3; ++corner) box.add(mesh_.positions[mesh_.triangles[order_[k]][corner]]);
   return box;
 }
 
 // Sorts the node's triangles into the half of lower and the half of higher centroids.
 void ReferenceTree::halve(const Node& node) {
   const auto centroid_times_3 = [&](std::uint32_t id) {
-    const glm::uvec3& t = scene_.triangles[id];
-    return glm::dvec3(scene_.positions[t.x]) + glm::dvec3(scene_.positions[t.y]) +
-           glm::dvec3(scene_.positions[t.z]);
+    const glm::uvec3& t = mesh_.triangles[id];
+    return glm::dvec3(mesh_.positions[t.x]) + glm::dvec3(mesh_.positions[t.y]) +
+           glm::dvec3(mesh_.positions[t.z]);
   };
   const auto begin = order_.begin() + node.first, end = begin + node.count;
   glm::dvec3 lo(std::numeric_limits<double>::infinity()), hi = -lo;
@@ -119,8 +119,8 @@ ReferenceHit ReferenceTree::closest_hit(const ReferenceRay& ray) const {
       continue;
     }
     for (std::uint32_t k = node.first; k < node.first + node.count; ++k) {
-      const glm::uvec3& t = scene_.triangles[order_[k]];
-      test.meet(order_[k], scene_.positions[t.x], scene_.positions[t.y], scene_.positions[t.z], hit);
+      const glm::uvec3& t = mesh_.triangles[order_[k]];
+      test.meet(order_[k], mesh_.positions[t.x], mesh_.positions[t.y], mesh_.positions[t.z], hit);
     }
   }
   return hit;

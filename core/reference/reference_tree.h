@@ -6,7 +6,7 @@
 
 #include "core/math/bounds.h"
 #include "core/reference/reference_hit.h"
-#include "core/scene/scene.h"
+#include "core/scene/mesh.h"
 
 namespace pinocchio {
 
@@ -16,7 +16,7 @@ class ReferenceTree {
  public:
   // `scene` stays where it is as long as this lives. Where `stop` asks for it while the tree is built, it is
   // left without triangles, and stopped().
-  explicit ReferenceTree(const Scene& scene, const std::stop_token& stop = {});
+  explicit ReferenceTree(const Mesh& mesh, const std::stop_token& stop = {});
 
   [[nodiscard]] bool stopped() const { return stopped_; }
 
@@ -36,7 +36,7 @@ class ReferenceTree {
   [[nodiscard]] Bounds bounds_of(const Node& node) const;
   void halve(const Node& node);
 
-  const Scene& scene_;
+  const Mesh& mesh_;
   bool stopped_ = false;
   double reach_ = 0.0;                // largest coordinate of the scene
   std::vector<std::uint32_t> order_;  // triangle ids, leaf by leaf

@@ -15,7 +15,7 @@
 #pragma GCC diagnostic pop
 
 #include "core/base/error.h"
-#include "core/scene/scene.h"
+#include "core/scene/mesh.h"
 
 namespace pinocchio {
 
@@ -60,12 +60,12 @@ struct GltfFile {
 
 // Decodes the images that materials use and makes their diffuse_texture the scene's; an image that cannot
 // be read is a warning and leaves the plain colour.
-void add_gltf_textures(const GltfFile& file, Scene& scene, std::vector<std::string>& warnings);
+void add_gltf_textures(const GltfFile& file, MeshData& mesh, std::vector<std::string>& warnings);
 
 // Appends the triangles of a mesh, placed by `world_from_mesh`. Materials are the file's indices; -1
 // becomes `default_material`.
 [[nodiscard]] Expected<void> add_gltf_mesh(const GltfFile& file, int mesh, const glm::mat4& world_from_mesh,
-                                           std::uint32_t default_material, Scene& scene,
+                                           std::uint32_t default_material, MeshData& to,
                                            std::vector<std::string>& warnings);
 
 }  // namespace pinocchio

@@ -33,13 +33,13 @@ std::size_t triangle_count(int mode, std::size_t indices) {
 
 class MeshPlacer {
  public:
-  MeshPlacer(const GltfFile& file, const glm::mat4& world_from_mesh, Scene& scene)
+  MeshPlacer(const GltfFile& file, const glm::mat4& world_from_mesh, MeshData& mesh)
       : file_(file),
         world_from_mesh_(world_from_mesh),
         normals_to_world_(glm::transpose(glm::inverse(glm::mat3(world_from_mesh)))),
         mirrored_(glm::determinant(glm::mat3(world_from_mesh)) < 0.0f),
         identity_(world_from_mesh == glm::mat4(1.0f)),
-        scene_(scene) {}
+        mesh_(mesh) {}
 
   Expected<void> add(const tinygltf::Primitive& primitive, std::uint32_t default_material) {
     const Expected<std::uint32_t> first =
@@ -68,8 +68,8 @@ class MeshPlacer {
       const std::array<std::size_t, 3> at = corners_of(primitive.mode, i);
       glm::uvec3 triangle(indices[at[0]], indices[at[1]], indices[at[2]]);
       if (mirrored_) std::swap(triangle.y, triangle.z);
-      scene_.triangles.push_back(triangle + *first);
-      scene_.triangle_materials.push_back(
+      mesh_.triangles.push_back(triangle + *first);
+      mesh_.triangle_materials.push_back(
           primitive.material >= 0 ? static_cast<std::uint32_t>(primitive.material) : default_material);
     }
     return {};
@@ -79,7 +79,7 @@ class MeshPlacer {
   // First of the scene's vertices made of these accessors; primitives that share them share the vertices.
   Expected<std::uint32_t> vertices(const Attributes& attributes) {
     const auto [at, is_new] =
-        placed_.try_emplace(attributes, static_cast<std::uint32_t>(scene_.positions.size()));
+        placed_.try_emplace(attributes, static_cast<std::uint32_t>(mesh_.positions.size()));
     if (!is_new) return at->second;
     const Expected<std::vector<float>> positions = file_.floats(attributes.position, 3);
     if (!positions) return Unexpected(positions.error());
@@ -90,9 +90,9 @@ class MeshPlacer {
     if (!texcoords) return Unexpected(texcoords.error());
     for (std::size_t i = 0; i < count; ++i) {
       const float *p = &(*positions)[3 * i], *n = &(*normals)[3 * i], *t = &(*texcoords)[2 * i];
-      scene_.positions.push_back(placed({p[0], p[1], p[2]}));
-      scene_.normals.push_back(placed_normal({n[0], n[1], n[2]}));
-      scene_.texcoords.emplace_back(t[0], t[1]);
+      mesh_.positions.push_back(placed({p[0], p[1], p[2]}));
+      mesh_.normals.push_back(placed_normal({n[0], n[1], n[2]}));
+      mesh_.texcoords.emplace_back(t[0], t[1]);
     }
     counts_[at->second] = count;
     return at->second;
@@ -123,7 +123,7 @@ class MeshPlacer {
   glm::mat4 world_from_mesh_;
   glm::mat3 normals_to_world_;
   bool mirrored_, identity_;
-  Scene& scene_;
+  MeshData& mesh_;
   std::map<Attributes, std::uint32_t> placed_;
   std::map<std::uint32_t, std::size_t> counts_;  // of vertices, by the first of them
 };
@@ -131,12 +131,12 @@ class MeshPlacer {
 }  // namespace
 
 Expected<void> add_gltf_mesh(const GltfFile& file, int mesh, const glm::mat4& world_from_mesh,
-                             std::uint32_t default_material, Scene& scene,
+                             std::uint32_t default_material, MeshData& to,
                              std::vector<std::string>& warnings) {
   if (mesh < 0 || static_cast<std::size_t>(mesh) >= file.model.meshes.size())
     return file.error("a node names mesh " + std::to_string(mesh) + ", there are " +
                       std::to_string(file.model.meshes.size()));
-  MeshPlacer placer(file, world_from_mesh, scene);
+  MeshPlacer placer(file, world_from_mesh, to);
   for (const tinygltf::Primitive& primitive : file.model.meshes[static_cast<std::size_t>(mesh)].primitives) {
     if (primitive.mode >= TINYGLTF_MODE_POINTS && primitive.mode <= TINYGLTF_MODE_LINE_STRIP) {
       warnings.push_back(file.path.string() + ": points and lines are left out");

@@ -16,15 +16,15 @@ std::optional<Texture> texture_of(const GltfFile& file, int index) {
 
 }  // namespace
 
-void add_gltf_textures(const GltfFile& file, Scene& scene, std::vector<std::string>& warnings) {
+void add_gltf_textures(const GltfFile& file, MeshData& mesh, std::vector<std::string>& warnings) {
   std::map<int, int> texture_of_image;
-  for (Material& material : scene.materials) {
+  for (Material& material : mesh.materials) {
     if (material.diffuse_texture < 0) continue;
     const auto [at, is_new] = texture_of_image.try_emplace(material.diffuse_texture, -1);
     if (is_new) {
       if (std::optional<Texture> texture = texture_of(file, at->first)) {
-        at->second = static_cast<int>(scene.textures.size());
-        scene.textures.push_back(std::move(*texture));
+        at->second = static_cast<int>(mesh.textures.size());
+        mesh.textures.push_back(std::move(*texture));
       } else {
         warnings.push_back(file.path.string() + ": its image " + std::to_string(at->first) +
                            " cannot be read; the plain colour is used");

@@ -21,6 +21,8 @@ struct Light {
   float cos_inner = 1.0f;                                // spot: full strength inside this cone ...
   float cos_outer = -1.0f;                               // ... none outside this one
   bool casts_shadow = true;
+
+  friend bool operator==(const Light&, const Light&) = default;
 };
 
 // Mask slots: casting lights in scene order, one bit each.

@@ -62,30 +62,31 @@ Expected<void> check_scene(const Scene& scene) {
   const auto fail = [&scene](const std::string& what, const std::string& remedy) {
     return error(scene.source, what, remedy);
   };
-  if (scene.triangles.empty()) return fail("holds no triangles", "there is nothing to draw");
-  if (scene.triangles.size() > kMaxTriangles)
-    return fail("holds " + std::to_string(scene.triangles.size()) + " triangles, the limit is " +
+  const Mesh& mesh = *scene.mesh;
+  if (mesh.triangles.empty()) return fail("holds no triangles", "there is nothing to draw");
+  if (mesh.triangles.size() > kMaxTriangles)
+    return fail("holds " + std::to_string(mesh.triangles.size()) + " triangles, the limit is " +
                     std::to_string(kMaxTriangles),
                 "split it");
-  if (scene.normals.size() != scene.positions.size() ||
-      scene.triangle_materials.size() != scene.triangles.size() ||
-      (!scene.texcoords.empty() && scene.texcoords.size() != scene.positions.size()))
+  if (mesh.normals.size() != mesh.positions.size() ||
+      mesh.triangle_materials.size() != mesh.triangles.size() ||
+      (!mesh.texcoords.empty() && mesh.texcoords.size() != mesh.positions.size()))
     return fail("does not hold one of everything for each vertex and triangle", "export it again");
-  for (std::size_t i = 0; i < scene.positions.size(); ++i)
-    if (!is_finite(scene.positions[i]) || !is_finite(scene.normals[i]))
+  for (std::size_t i = 0; i < mesh.positions.size(); ++i)
+    if (!is_finite(mesh.positions[i]) || !is_finite(mesh.normals[i]))
       return fail("vertex " + std::to_string(i) + " is not a finite number", "export it again");
-  for (std::size_t i = 0; i < scene.positions.size(); ++i)
-    if (const glm::vec3 p = glm::abs(scene.positions[i]); std::max({p.x, p.y, p.z}) > kFarthest)
+  for (std::size_t i = 0; i < mesh.positions.size(); ++i)
+    if (const glm::vec3 p = glm::abs(mesh.positions[i]); std::max({p.x, p.y, p.z}) > kFarthest)
       return fail("vertex " + std::to_string(i) + " is more than 1e9 from the origin",
                   "scale the scene down");
-  for (std::size_t i = 0; i < scene.texcoords.size(); ++i)
-    if (!is_finite({scene.texcoords[i], 0.0f}))
+  for (std::size_t i = 0; i < mesh.texcoords.size(); ++i)
+    if (!is_finite({mesh.texcoords[i], 0.0f}))
       return fail("the texture coordinate of vertex " + std::to_string(i) + " is not a finite number",
                   "export it again");
-  for (std::size_t i = 0; i < scene.triangles.size(); ++i) {
-    const glm::uvec3& t = scene.triangles[i];
-    if (std::max({t.x, t.y, t.z}) >= scene.positions.size() ||
-        scene.triangle_materials[i] >= scene.materials.size())
+  for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
+    const glm::uvec3& t = mesh.triangles[i];
+    if (std::max({t.x, t.y, t.z}) >= mesh.positions.size() ||
+        mesh.triangle_materials[i] >= mesh.materials.size())
       return fail("triangle " + std::to_string(i) + " names a vertex or material that there is not",
                   "export it again");
   }

@@ -94,8 +94,8 @@ class SceneReader {
  public:
   SceneReader(const GltfFile& file, Warnings& warnings)
       : file_(file), model_(file.model), warnings_(warnings) {
-    scene_.materials = gltf_materials(file);
-    scene_.materials.emplace_back().name = "default";
+    mesh_.materials = gltf_materials(file);
+    mesh_.materials.emplace_back().name = "default";
   }
 
   Expected<Scene> read() {
@@ -120,6 +120,7 @@ class SceneReader {
         open.push_back({*child, world});
     }
     finish();
+    scene_.mesh = std::make_shared<const Mesh>(std::move(mesh_));
     return std::move(scene_);
   }
 
@@ -150,9 +151,9 @@ class SceneReader {
 
   Expected<void> add(const tinygltf::Node& node, const glm::mat4& world) {
     if (node.mesh >= 0) {
-      const auto default_material = static_cast<std::uint32_t>(scene_.materials.size() - 1);
+      const auto default_material = static_cast<std::uint32_t>(mesh_.materials.size() - 1);
       const Expected<void> added =
-          add_gltf_mesh(file_, node.mesh, world, default_material, scene_, warnings_);
+          add_gltf_mesh(file_, node.mesh, world, default_material, mesh_, warnings_);
       if (!added) return added;
     }
     if (node.camera >= 0 && static_cast<std::size_t>(node.camera) < model_.cameras.size()) {
@@ -186,27 +187,28 @@ class SceneReader {
 
   void finish() {
     scene_.source_files = file_.named_files;
-    add_gltf_textures(file_, scene_, warnings_);
-    const bool textured = std::any_of(scene_.materials.begin(), scene_.materials.end(),
+    add_gltf_textures(file_, mesh_, warnings_);
+    const bool textured = std::any_of(mesh_.materials.begin(), mesh_.materials.end(),
                                       [](const Material& m) { return m.diffuse_texture >= 0; });
-    if (!textured) scene_.texcoords.clear();
+    if (!textured) mesh_.texcoords.clear();
     if (!model_.scenes.empty()) {
       const int shown = model_.defaultScene >= 0 ? model_.defaultScene : 0;
       const auto i = std::min(static_cast<std::size_t>(shown), model_.scenes.size() - 1);
       scene_.ambient_light =
           vec3_member(our_extras(model_.scenes[i].extras), "ambient").value_or(scene_.ambient_light);
     }
-    const auto last = static_cast<std::uint32_t>(scene_.materials.size() - 1);
-    if (std::find(scene_.triangle_materials.begin(), scene_.triangle_materials.end(), last) ==
-            scene_.triangle_materials.end() &&
+    const auto last = static_cast<std::uint32_t>(mesh_.materials.size() - 1);
+    if (std::find(mesh_.triangle_materials.begin(), mesh_.triangle_materials.end(), last) ==
+            mesh_.triangle_materials.end() &&
         last > 0)
-      scene_.materials.pop_back();  // nobody needs the default
+      mesh_.materials.pop_back();  // nobody needs the default
   }
 
   const GltfFile& file_;
   const tinygltf::Model& model_;
   Warnings& warnings_;
   Scene scene_;
+  MeshData mesh_;
 };
 
 }  // namespace

@@ -120,14 +120,14 @@ struct ObjFile {
 
 // One vertex of ours stands for one combination of position, normal, texture coordinate and, where
 // normals are made from a smoothing group, that group.
-class SceneBuilder {
+class ObjMesh {
  public:
-  explicit SceneBuilder(const ObjFile& obj) : obj_(obj) {
-    scene_.materials.push_back(default_material());
-    for (const tinyobj::material_t& m : obj.materials) scene_.materials.push_back(material_of(m));
+  explicit ObjMesh(const ObjFile& obj) : obj_(obj) {
+    mesh_.materials.push_back(default_material());
+    for (const tinyobj::material_t& m : obj.materials) mesh_.materials.push_back(material_of(m));
   }
 
-  Scene build() {
+  MeshData build() {
     for (const tinyobj::shape_t& shape : obj_.shapes) {
       const tinyobj::mesh_t& mesh = shape.mesh;
       for (std::size_t face = 0; face < mesh.num_face_vertices.size(); ++face) {
@@ -136,9 +136,9 @@ class SceneBuilder {
       }
     }
     for (const std::uint32_t vertex : smooth_vertices_)
-      if (glm::vec3& n = scene_.normals[vertex]; n != glm::vec3(0.0f)) n = glm::normalize(n);
-    if (!any_texcoord_) scene_.texcoords.clear();
-    return std::move(scene_);
+      if (glm::vec3& n = mesh_.normals[vertex]; n != glm::vec3(0.0f)) n = glm::normalize(n);
+    if (!any_texcoord_) mesh_.texcoords.clear();
+    return std::move(mesh_);
   }
 
  private:
@@ -147,23 +147,23 @@ class SceneBuilder {
   void add_triangle(const tinyobj::index_t* corners, unsigned group, int material) {
     glm::uvec3 triangle;
     for (int i = 0; i < 3; ++i) triangle[i] = vertex_of(corners[i], group);
-    scene_.triangles.push_back(triangle);
-    scene_.triangle_materials.push_back(static_cast<std::uint32_t>(material + 1));
+    mesh_.triangles.push_back(triangle);
+    mesh_.triangle_materials.push_back(static_cast<std::uint32_t>(material + 1));
     if (group == 0) return;
-    const glm::vec3 a = scene_.positions[triangle.x];
-    const glm::vec3 n = glm::cross(scene_.positions[triangle.y] - a, scene_.positions[triangle.z] - a);
+    const glm::vec3 a = mesh_.positions[triangle.x];
+    const glm::vec3 n = glm::cross(mesh_.positions[triangle.y] - a, mesh_.positions[triangle.z] - a);
     for (int i = 0; i < 3; ++i)
-      if (corners[i].normal_index < 0) scene_.normals[triangle[i]] += n;  // weighed by area
+      if (corners[i].normal_index < 0) mesh_.normals[triangle[i]] += n;  // weighed by area
   }
 
   std::uint32_t vertex_of(const tinyobj::index_t& corner, unsigned group) {
     const bool smooth = corner.normal_index < 0 && group > 0;
     const Key key{corner.vertex_index, corner.normal_index, corner.texcoord_index, smooth ? group : 0};
-    const auto [at, is_new] = vertices_.try_emplace(key, static_cast<std::uint32_t>(scene_.positions.size()));
+    const auto [at, is_new] = vertices_.try_emplace(key, static_cast<std::uint32_t>(mesh_.positions.size()));
     if (!is_new) return at->second;
     const tinyobj::attrib_t& a = obj_.attributes;
-    scene_.positions.push_back(vec3_of(&a.vertices[3 * static_cast<std::size_t>(corner.vertex_index)]));
-    scene_.normals.push_back(corner.normal_index < 0
+    mesh_.positions.push_back(vec3_of(&a.vertices[3 * static_cast<std::size_t>(corner.vertex_index)]));
+    mesh_.normals.push_back(corner.normal_index < 0
                                  ? glm::vec3(0.0f)
                                  : vec3_of(&a.normals[3 * static_cast<std::size_t>(corner.normal_index)]));
     if (smooth) smooth_vertices_.push_back(at->second);
@@ -173,37 +173,38 @@ class SceneBuilder {
       texcoord = {t[0], 1.0f - t[1]};  // OBJ's v grows upwards
       any_texcoord_ = true;
     }
-    scene_.texcoords.push_back(texcoord);
+    mesh_.texcoords.push_back(texcoord);
     return at->second;
   }
 
   const ObjFile& obj_;
-  Scene scene_;
+  MeshData mesh_;
   std::map<Key, std::uint32_t> vertices_;
   std::vector<std::uint32_t> smooth_vertices_;
   bool any_texcoord_ = false;
 };
 
-void load_textures(const ObjFile& obj, const std::filesystem::path& file, Scene& scene, Warnings& warnings) {
+void load_textures(const ObjFile& obj, const std::filesystem::path& file, MeshData& mesh,
+                   std::vector<std::string>& source_files, Warnings& warnings) {
   std::unordered_map<std::string, int> loaded;
   for (std::size_t i = 0; i < obj.materials.size(); ++i) {
     std::string name = obj.materials[i].diffuse_texname;
     std::replace(name.begin(), name.end(), '\\', '/');  // from Windows
-    if (name.empty() || scene.texcoords.empty()) continue;
+    if (name.empty() || mesh.texcoords.empty()) continue;
     if (const auto known = loaded.find(name); known != loaded.end()) {
-      scene.materials[i + 1].diffuse_texture = known->second;
+      mesh.materials[i + 1].diffuse_texture = known->second;
       continue;
     }
     const std::filesystem::path texture_file = file.parent_path() / name;
-    scene.source_files.push_back(texture_file.string());
+    source_files.push_back(texture_file.string());
     std::optional<Texture> texture = load_texture(texture_file);
     if (!texture) {
       warnings.push_back(file.string() + ": its texture " + name +
                          " cannot be read; the plain colour is used");
       continue;
     }
-    loaded[name] = scene.materials[i + 1].diffuse_texture = static_cast<int>(scene.textures.size());
-    scene.textures.push_back(std::move(*texture));
+    loaded[name] = mesh.materials[i + 1].diffuse_texture = static_cast<int>(mesh.textures.size());
+    mesh.textures.push_back(std::move(*texture));
   }
 }
 
@@ -225,9 +226,11 @@ Expected<Scene> load_obj(const std::filesystem::path& path, Warnings& warnings) 
     return Unexpected(
         InputError{path.string(), 0, error.substr(0, error.find('\n')), "export the file again"});
   add_unknown_materials(warning, path, warnings);
-  Scene scene = SceneBuilder(obj).build();
-  scene.source_files = mtl.files();
-  load_textures(obj, path, scene, warnings);
+  MeshData mesh = ObjMesh(obj).build();
+  std::vector<std::string> source_files = mtl.files();
+  load_textures(obj, path, mesh, source_files, warnings);
+  Scene scene(std::move(mesh));
+  scene.source_files = std::move(source_files);
   return scene;
 }
 

@@ -17,12 +17,14 @@ struct Material {
   float ior = 1.0f;               // of the inside against the outside
   bool fresnel = false;           // opaque: reflectance rises to 1 at grazing angles (Schlick 1994)
   glm::vec3 emission{0.0f};
-  int diffuse_texture = -1;  // index in Scene::textures, its colour multiplies ambient and diffuse
+  int diffuse_texture = -1;  // index in MeshData::textures, its colour multiplies ambient and diffuse
 
   [[nodiscard]] bool reflects() const { return reflectance.x + reflectance.y + reflectance.z > 0.0f; }
   [[nodiscard]] bool transmits() const { return transmittance.x + transmittance.y + transmittance.z > 0.0f; }
   // Whether any ray leaves a hit on this material.
   [[nodiscard]] bool spawns_rays() const { return reflects() || transmits(); }
+
+  friend bool operator==(const Material&, const Material&) = default;
 };
 
 }  // namespace pinocchio

@@ -5,7 +5,7 @@
 namespace pinocchio {
 
 void save_scene(const Scene& scene, const std::filesystem::path& file) {
-  if (!scene.textures.empty())
+  if (!scene.mesh->textures.empty())
     throw EnvironmentError(file.string() + ": scenes with textures cannot be written; remove them");
   const std::string extension = file.extension().string();
   if (extension == ".gltf" || extension == ".glb") return save_gltf(scene, file);

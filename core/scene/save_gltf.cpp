@@ -68,7 +68,7 @@ Json aimed_matrix(const glm::vec3& position, const glm::vec3& right, const glm::
 
 class GltfWriter {
  public:
-  explicit GltfWriter(const Scene& scene) : scene_(scene) {
+  explicit GltfWriter(const Scene& scene) : mesh_(*scene.mesh) {
     json_["asset"] = {{"version", "2.0"}, {"generator", "Pinocchio"}};
     json_["scene"] = 0;
     json_["scenes"] =
@@ -111,28 +111,28 @@ class GltfWriter {
 
   void add_materials() {
     bool strong_emission = false;
-    for (const Material& m : scene_.materials)
+    for (const Material& m : mesh_.materials)
       json_["materials"].push_back(material_json(m, strong_emission));
     if (strong_emission) extensions_.emplace_back("KHR_materials_emissive_strength");
   }
 
   // Runs of triangles of one material are primitives over the same vertices: the order of triangles stays.
   void add_mesh() {
-    Json attributes{{"POSITION", add_accessor(scene_.positions, kFloat, "VEC3")}};
+    Json attributes{{"POSITION", add_accessor(mesh_.positions, kFloat, "VEC3")}};
     const Bounds b = all_positions();
     json_["accessors"].back()["min"] = vec3_json(b.lo);  // the specification wants them of positions
     json_["accessors"].back()["max"] = vec3_json(b.hi);
     const auto given = [](const glm::vec3& n) { return n != glm::vec3(0.0f); };
-    if (std::any_of(scene_.normals.begin(), scene_.normals.end(), given))
-      attributes["NORMAL"] = add_accessor(scene_.normals, kFloat, "VEC3");
+    if (std::any_of(mesh_.normals.begin(), mesh_.normals.end(), given))
+      attributes["NORMAL"] = add_accessor(mesh_.normals, kFloat, "VEC3");
     Json primitives = Json::array();
-    for (std::size_t first = 0; first < scene_.triangles.size();) {
-      const std::uint32_t material = scene_.triangle_materials[first];
+    for (std::size_t first = 0; first < mesh_.triangles.size();) {
+      const std::uint32_t material = mesh_.triangle_materials[first];
       std::size_t end = first;
-      while (end < scene_.triangles.size() && scene_.triangle_materials[end] == material) ++end;
+      while (end < mesh_.triangles.size() && mesh_.triangle_materials[end] == material) ++end;
       std::vector<std::uint32_t> indices;
       for (std::size_t i = first; i < end; ++i)
-        for (int c = 0; c < 3; ++c) indices.push_back(scene_.triangles[i][c]);
+        for (int c = 0; c < 3; ++c) indices.push_back(mesh_.triangles[i][c]);
       primitives.push_back({{"attributes", attributes},
                             {"indices", add_accessor(indices, kUnsignedInt, "SCALAR")},
                             {"material", material}});
@@ -144,7 +144,7 @@ class GltfWriter {
 
   [[nodiscard]] Bounds all_positions() const {
     Bounds b;
-    for (const glm::vec3& p : scene_.positions) b.add(p);
+    for (const glm::vec3& p : mesh_.positions) b.add(p);
     return b;
   }
 
@@ -188,7 +188,7 @@ class GltfWriter {
     add_node(node);
   }
 
-  const Scene& scene_;
+  const Mesh& mesh_;
   Json json_;
   std::string binary_;
   std::vector<std::string> extensions_;

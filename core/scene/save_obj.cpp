@@ -29,10 +29,10 @@ std::string material_name(std::size_t i, const Material& m) {
   return std::to_string(i) + "_" + name;  // MTL tells materials apart by name alone
 }
 
-std::string mtl_text(const Scene& scene) {
+std::string mtl_text(const Mesh& mesh) {
   std::string text = "# Pinocchio\n";
-  for (std::size_t i = 0; i < scene.materials.size(); ++i) {
-    const Material& m = scene.materials[i];
+  for (std::size_t i = 0; i < mesh.materials.size(); ++i) {
+    const Material& m = mesh.materials[i];
     text += "\nnewmtl " + material_name(i, m) + "\n";
     add_vec3(text, "Ka", m.ambient);
     add_vec3(text, "Kd", m.diffuse);
@@ -52,19 +52,19 @@ std::string mtl_text(const Scene& scene) {
   return text;
 }
 
-std::string obj_text(const Scene& scene, const std::string& mtl_name) {
+std::string obj_text(const Mesh& mesh, const std::string& mtl_name) {
   std::string text = "# Pinocchio\nmtllib " + mtl_name + "\n";
-  for (const glm::vec3& p : scene.positions) add_vec3(text, "v", p);
-  for (const glm::vec3& n : scene.normals) add_vec3(text, "vn", n);
+  for (const glm::vec3& p : mesh.positions) add_vec3(text, "v", p);
+  for (const glm::vec3& n : mesh.normals) add_vec3(text, "vn", n);
   std::uint32_t material = 0xffffffffu;
-  for (std::size_t i = 0; i < scene.triangles.size(); ++i) {
-    if (scene.triangle_materials[i] != material) {
-      material = scene.triangle_materials[i];
-      text += "usemtl " + material_name(material, scene.materials[material]) + "\n";
+  for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
+    if (mesh.triangle_materials[i] != material) {
+      material = mesh.triangle_materials[i];
+      text += "usemtl " + material_name(material, mesh.materials[material]) + "\n";
     }
     text += "f";
     for (int c = 0; c < 3; ++c) {
-      const std::string vertex = std::to_string(scene.triangles[i][c] + 1);
+      const std::string vertex = std::to_string(mesh.triangles[i][c] + 1);
       text += " " + vertex + "//" + vertex;
     }
     text += "\n";
@@ -77,8 +77,8 @@ std::string obj_text(const Scene& scene, const std::string& mtl_name) {
 void save_obj(const Scene& scene, const std::filesystem::path& file) {
   std::filesystem::path mtl = file;
   mtl.replace_extension(".mtl");
-  write_text(mtl, mtl_text(scene));
-  write_text(file, obj_text(scene, mtl.filename().string()));
+  write_text(mtl, mtl_text(*scene.mesh));
+  write_text(file, obj_text(*scene.mesh, mtl.filename().string()));
 }
 
 }  // namespace pinocchio

@@ -34,7 +34,7 @@ bool reaches(const Light& light, const Bounds& box) {
 }
 
 void drop_idle_casters(Scene& scene) {
-  const Bounds box = scene.bounds();
+  const Bounds& box = scene.mesh->bounds();
   for (Light& light : scene.lights) light.casts_shadow = light.casts_shadow && reaches(light, box);
 }
 
@@ -45,7 +45,7 @@ const Camera* find_camera(const Scene& scene, const std::string& name) {
 }
 
 Camera camera_for_whole_scene(const Scene& scene) {
-  Bounds bounds = scene.bounds();
+  Bounds bounds = scene.mesh->bounds();
   if (bounds.empty()) bounds.add(glm::vec3(0.0f));
   // Not below what single precision can tell from the centre, or the eye would be where it looks.
   const float least = std::max(1e-4f * glm::length(bounds.center()), 1e-6f);
@@ -61,7 +61,7 @@ Camera camera_for_whole_scene(const Scene& scene) {
 }
 
 Light default_light(const Scene& scene, const Camera& camera) {
-  const float reach = std::max(glm::length(camera.eye - camera.target), scene.bounds().diagonal());
+  const float reach = std::max(glm::length(camera.eye - camera.target), scene.mesh->bounds().diagonal());
   const CameraAxes axes = camera_axes(camera);
   const glm::vec3 up = glm::length(camera.up) > 0.0f ? glm::normalize(camera.up) : axes.up;
   Light light;

@@ -1,50 +1,34 @@
 #pragma once
 
-#include <cstdint>
 #include <glm/glm.hpp>
+#include <memory>
 #include <string>
+#include <utility>
 #include <vector>
 
-#include "core/image/image.h"
 #include "core/math/bounds.h"
 #include "core/scene/camera.h"
 #include "core/scene/light.h"
-#include "core/scene/material.h"
+#include "core/scene/mesh.h"
 
 namespace pinocchio {
 
-// RGBA, 8 bits a channel; colour is sRGB as the file stores it, alpha linear. Row 0 is the top row.
-struct Texture {
-  std::string name;
-  Image<glm::u8vec4> texels;
-};
-
-// One soup of indexed triangles in world space. A triangle's index here is its id everywhere: in the
-// GPU's visibility buffer, in every Hit and in the EXR.
+// A cheap value: copies share the mesh, so that moving a light copies no geometry.
 struct Scene {
-  std::string source;                     // path it was loaded from
-  std::vector<std::string> source_files;  // that path and all files it names, also those that are missing
+  Scene() = default;
+  explicit Scene(MeshData data) : mesh(std::make_shared<const Mesh>(std::move(data))) {}
 
-  std::vector<glm::vec3> positions;
-  std::vector<glm::vec3> normals;  // one a position; a zero vector asks for the triangle's own (flat) normal
-  std::vector<glm::vec2> texcoords;  // one a position, or empty where nothing is textured; v grows downwards
-  std::vector<glm::uvec3> triangles;
-  std::vector<std::uint32_t> triangle_materials;  // one a triangle
-
-  std::vector<Material> materials;
-  std::vector<Texture> textures;
+  std::shared_ptr<const Mesh> mesh = std::make_shared<const Mesh>();  // never null
   std::vector<Light> lights;
   std::vector<Camera> cameras;
   glm::vec3 ambient_light{0.1f};  // Ia; no file format we read carries it
 
-  [[nodiscard]] Bounds bounds() const {
-    Bounds b;
-    for (const glm::uvec3& t : triangles)
-      for (int i = 0; i < 3; ++i) b.add(positions[t[i]]);
-    return b;
-  }
-  [[nodiscard]] const Material& material_of(std::uint32_t triangle) const {
-    return materials[triangle_materials[triangle]];
+  std::string source;                     // path it was loaded from
+  std::vector<std::string> source_files;  // that path and all files it names, also those that are missing
+
+  // Whether they look the same, from anywhere.
+  friend bool operator==(const Scene& a, const Scene& b) {
+    return a.mesh == b.mesh && a.lights == b.lights && a.ambient_light == b.ambient_light;
   }
 };
 

@@ -5,7 +5,7 @@
 #include <span>
 #include <string>
 
-#include "core/scene/scene.h"
+#include "core/scene/mesh.h"
 
 namespace pinocchio {
 

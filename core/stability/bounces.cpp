@@ -25,7 +25,7 @@ Material glass(float ior) {
   return m;
 }
 
-void append(Scene& to, const Scene& from, const Material& material) {
+void append(MeshData& to, const MeshData& from, const Material& material) {
   const auto first = static_cast<std::uint32_t>(to.positions.size());
   to.positions.insert(to.positions.end(), from.positions.begin(), from.positions.end());
   to.normals.insert(to.normals.end(), from.normals.begin(), from.normals.end());
@@ -43,7 +43,7 @@ struct Drawn {
 Drawn draw(const Scene& scene, const Camera& camera, const Method& method, int rays, int depth) {
   const int side = std::clamp(static_cast<int>(std::sqrt(static_cast<float>(rays) / 16.0f)), 16, 64);
   Drawn drawn{Image<std::uint32_t>(glm::ivec2(side)), {}, {}};
-  const Tracer tracer = method.tracer(scene);
+  const Tracer tracer = method.tracer(*scene.mesh);
   Workers one(1);
   const TraceJob job{scene, tracer, one, view_params(camera, drawn.ids.size())};
   const Timed timed(drawn.tally);
@@ -53,15 +53,15 @@ Drawn draw(const Scene& scene, const Camera& camera, const Method& method, int r
 }
 
 // A room around it whose six sides glow, each as it alone does.
-void append_glowing_room(Scene& scene, float size) {
-  const Scene room = box(glm::vec3(-8.0f * size), glm::vec3(8.0f * size), 1);
-  append(scene, room, glowing(0.2f));
-  const std::size_t first = scene.triangles.size() - room.triangles.size();
+void append_glowing_room(MeshData& mesh, float size) {
+  const MeshData room = box(glm::vec3(-8.0f * size), glm::vec3(8.0f * size), 1);
+  append(mesh, room, glowing(0.2f));
+  const std::size_t first = mesh.triangles.size() - room.triangles.size();
   for (std::uint32_t side = 1; side < 6; ++side) {
-    scene.materials.push_back(glowing(0.2f + 0.15f * static_cast<float>(side)));
+    mesh.materials.push_back(glowing(0.2f + 0.15f * static_cast<float>(side)));
     for (const std::size_t half : {0, 1})
-      scene.triangle_materials[first + 2 * side + half] =
-          static_cast<std::uint32_t>(scene.materials.size() - 1);
+      mesh.triangle_materials[first + 2 * side + half] =
+          static_cast<std::uint32_t>(mesh.materials.size() - 1);
   }
 }
 
@@ -79,10 +79,11 @@ Image<glm::vec3> by_reference(const Scene& scene, shared::ViewParams view, glm::
 
 // Pixels of glass against the reference's. Glass spreads rays that are a hair apart: where the reference
 // itself changes within a thirtieth of a pixel, it cannot tell.
-Tally against_reference(Scene scene, float size, const Method& method, int rays) {
+Tally against_reference(MeshData mesh, float size, const Method& method, int rays) {
   constexpr int kDepth = 8;
   constexpr float kTolerance = 0.01f, kShift = 0.03f;
-  append_glowing_room(scene, size);
+  append_glowing_room(mesh, size);
+  const Scene scene(std::move(mesh));
   const Camera camera{"", size * glm::vec3(0.3f, 0.4f, 4.0f), glm::vec3(0.0f), {0, 1, 0}, 35.0f};
   Drawn drawn = draw(scene, camera, method, rays, kDepth);
   const glm::ivec2 pixels = drawn.ids.size();
@@ -90,7 +91,7 @@ Tally against_reference(Scene scene, float size, const Method& method, int rays)
   const Image<glm::vec3> expected = by_reference(scene, view, pixels, 0.0f, kDepth);
   const Image<glm::vec3> beside = by_reference(scene, view, pixels, kShift, kDepth);
   for (std::size_t i = 0; i < drawn.ids.pixels().size(); ++i) {
-    if (drawn.ids[i] == kNoTriangle || !scene.material_of(drawn.ids[i]).transmits()) continue;
+    if (drawn.ids[i] == kNoTriangle || !scene.mesh->material_of(drawn.ids[i]).transmits()) continue;
     ++drawn.tally.trials;
     const bool same = std::abs(drawn.radiance[i].x - expected[i].x) <= kTolerance;  // NaN is not
     const bool steady = std::abs(beside[i].x - expected[i].x) <= kTolerance;
@@ -107,10 +108,10 @@ constexpr std::array kSizes{1.0f, 0x1p-14f};
 Tally glass_in_glass(const Method& method, int rays) {
   Tally tally;
   for (const float size : kSizes) {
-    Scene scene;
-    append(scene, ball(glm::vec3(0.0f), size, 32), glass(1.5f));
-    append(scene, ball(glm::vec3(0.0f), 0.6f * size, 32), glass(1.33f / 1.5f));
-    tally += against_reference(std::move(scene), size, method, rays / 2);
+    MeshData mesh;
+    append(mesh, ball(glm::vec3(0.0f), size, 32), glass(1.5f));
+    append(mesh, ball(glm::vec3(0.0f), 0.6f * size, 32), glass(1.33f / 1.5f));
+    tally += against_reference(std::move(mesh), size, method, rays / 2);
   }
   return tally;
 }
@@ -119,9 +120,9 @@ Tally glass_in_glass(const Method& method, int rays) {
 Tally total_reflection(const Method& method, int rays) {
   Tally tally;
   for (const float size : kSizes) {
-    Scene scene;
-    append(scene, box(size * glm::vec3(-1, -0.5f, -0.25f), size * glm::vec3(1, 0.5f, 0.25f), 4), glass(2.0f));
-    tally += against_reference(std::move(scene), size, method, rays / 2);
+    MeshData mesh;
+    append(mesh, box(size * glm::vec3(-1, -0.5f, -0.25f), size * glm::vec3(1, 0.5f, 0.25f), 4), glass(2.0f));
+    tally += against_reference(std::move(mesh), size, method, rays / 2);
   }
   return tally;
 }
@@ -135,10 +136,10 @@ Tally mirror_to_mirror(const Method& method, int rays) {
   mirror.reflectance = glm::vec3(1.0f);
   Tally tally;
   for (const float size : kSizes) {
-    Scene scene;
-    append(scene, box(-size * glm::vec3(1, 0.5f, 0.5f), size * glm::vec3(1, 0.5f, 0.5f), 8), mirror);
+    MeshData mesh;
+    append(mesh, box(-size * glm::vec3(1, 0.5f, 0.5f), size * glm::vec3(1, 0.5f, 0.5f), 8), mirror);
     const Camera camera{"", glm::vec3(0.0f), size * glm::vec3(1.0f, 0.1f, 0.2f), {0, 1, 0}, 90.0f};
-    Drawn drawn = draw(scene, camera, method, rays / 2, kDepth);
+    Drawn drawn = draw(Scene(std::move(mesh)), camera, method, rays / 2, kDepth);
     for (const glm::vec3& radiance : drawn.radiance.pixels()) {
       ++drawn.tally.trials;
       drawn.tally.failures += radiance.x == kGlow * static_cast<float>(kDepth) ? 0 : 1;

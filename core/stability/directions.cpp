@@ -8,7 +8,7 @@
 namespace pinocchio::stability {
 namespace {
 
-Scene unit_box() {
+MeshData unit_box() {
   return box(glm::vec3(-1.0f), glm::vec3(1.0f), 8);
 }
 
@@ -25,7 +25,7 @@ glm::vec3 direction_of(Random& random, std::span<const float> values) {
 }
 
 Tally zeros_and_denormals(const Method& method, int rays) {
-  const Scene scene = unit_box();
+  const MeshData mesh = unit_box();
   constexpr std::array kValues{-1.0f, -0.5f, -0.0f, 0.0f, 0.5f, 1.0f, 1e-45f, -1e-40f, 1e-38f, -1e-30f};
   Random random(51);
   std::vector<Ray> odd;
@@ -33,17 +33,17 @@ Tally zeros_and_denormals(const Method& method, int rays) {
     const glm::vec3 origin = random_point(random, 0.9f);
     odd.push_back({origin, kInfinity, direction_of(random, kValues)});
   }
-  return count_misses(method.tracer(scene), odd);
+  return count_misses(method.tracer(mesh), odd);
 }
 
 // Along an axis through a vertex of a rough ball: the ray runs in planes that the ball is split at, and meets
 // the edges of several triangles at once.
 Tally in_split_planes(const Method& method, int rays) {
-  const Scene scene = ball(glm::vec3(0.0f), 1.0f, 32, 0.3f);
+  const MeshData mesh = ball(glm::vec3(0.0f), 1.0f, 32, 0.3f);
   Random random(52);
   std::vector<Ray> odd;
   while (odd.size() < static_cast<std::size_t>(rays)) {
-    glm::vec3 origin = scene.positions[random.next() % scene.positions.size()];
+    glm::vec3 origin = mesh.positions[random.next() % mesh.positions.size()];
     const int axis = static_cast<int>(random.next() % 3);
     const float side = origin[axis] < 0.0f ? -1.0f : 1.0f;
     origin[axis] = random.between(-0.1f, 0.1f);
@@ -52,23 +52,23 @@ Tally in_split_planes(const Method& method, int rays) {
     direction[axis] = side;
     odd.push_back({origin, kInfinity, direction});
   }
-  return count_misses(method.tracer(scene), odd);
+  return count_misses(method.tracer(mesh), odd);
 }
 
 // From points of a rough ball's own vertices, edges and sides, to its middle: the far side has to be hit.
 Tally origins_on_surface(const Method& method, int rays) {
-  const Scene scene = ball(glm::vec3(0.0f), 1.0f, 32, 0.1f);
+  const MeshData mesh = ball(glm::vec3(0.0f), 1.0f, 32, 0.1f);
   Random random(53);
   std::vector<Ray> odd;
-  for (const Ray& r : rays_at_edges(scene, glm::vec3(0.0f), 0.1f, rays)) {
+  for (const Ray& r : rays_at_edges(mesh, glm::vec3(0.0f), 0.1f, rays)) {
     const glm::vec3 origin = r.origin + r.direction;
     odd.push_back({origin, kInfinity, random_point(random, 0.3f) - origin});
   }
-  return count_misses(method.tracer(scene), odd);
+  return count_misses(method.tracer(mesh), odd);
 }
 
 Tally no_rays(const Method& method, int rays) {
-  const Scene scene = ball(glm::vec3(0.0f), 1.0f, 32, 0.3f);
+  const MeshData mesh = ball(glm::vec3(0.0f), 1.0f, 32, 0.3f);
   const float nan = std::numeric_limits<float>::quiet_NaN();
   std::vector<Ray> odd;
   for (int i = 0; i < rays; ++i) {
@@ -101,7 +101,7 @@ Tally no_rays(const Method& method, int rays) {
   }
   Tally tally;
   tally.trials = odd.size();
-  const Tracer tracer = method.tracer(scene);
+  const Tracer tracer = method.tracer(mesh);
   for (const Hit& hit : trace(tracer, odd, tally)) tally.failures += hit.valid() ? 1 : 0;
   std::vector<std::uint8_t> blocked(odd.size());
   tracer.occluded(odd, blocked);

@@ -9,20 +9,20 @@ namespace pinocchio::stability {
 namespace {
 
 Tally of_ball(const Method& method, int rays, const glm::vec3& center, float radius, int around) {
-  const Scene scene = ball(center, radius, around, 0.3f);
-  return count_misses(method.tracer(scene), rays_at_edges(scene, center, 0.3f * radius, rays));
+  const MeshData mesh = ball(center, radius, around, 0.3f);
+  return count_misses(method.tracer(mesh), rays_at_edges(mesh, center, 0.3f * radius, rays));
 }
 
 // Random points of a rough ball from its middle: what the other troubles' cost is to be seen against.
 Tally usual_rays(const Method& method, int rays) {
-  const Scene scene = ball(glm::vec3(0.0f), 1.0f, 32, 0.3f);
+  const MeshData mesh = ball(glm::vec3(0.0f), 1.0f, 32, 0.3f);
   Random random(42);
   std::vector<Ray> some;
   for (int i = 0; i < rays; ++i) {
     const glm::vec3 origin = random_point(random, 0.3f);
     some.push_back({origin, kInfinity, random_point(random, 1.0f) - origin});
   }
-  return count_misses(method.tracer(scene), some);
+  return count_misses(method.tracer(mesh), some);
 }
 
 constexpr int kMoreAtEdges = 5;
@@ -40,18 +40,19 @@ Tally far_from_origin(const Method& method, int rays) {
 }
 
 Tally needles(const Method& method, int rays) {
-  const Scene scene = room_of_strips(256);
-  return count_misses(method.tracer(scene), rays_at_edges(scene, {0.0f, 0.0f, -0.5f}, 0.4f, rays));
+  const MeshData mesh = room_of_strips(256);
+  return count_misses(method.tracer(mesh), rays_at_edges(mesh, {0.0f, 0.0f, -0.5f}, 0.4f, rays));
 }
 
 // Some rays truly pass between: a failure is what the reference hits and the method misses.
 Tally t_junctions(const Method& method, int rays) {
-  const Scene scene = ball_with_t_junctions(32);
-  const ReferenceTree reference(scene);
-  const std::vector<Ray> at_edges = rays_at_edges(scene, {0.1f, 0.2f, 0.3f}, 0.3f, rays);
+  const MeshData mesh = ball_with_t_junctions(32);
+  const Tracer tracer = method.tracer(mesh);
+  const ReferenceTree reference(tracer.mesh());
+  const std::vector<Ray> at_edges = rays_at_edges(mesh, {0.1f, 0.2f, 0.3f}, 0.3f, rays);
   Tally tally;
   tally.trials = at_edges.size();
-  const std::vector<Hit> hits = trace(method.tracer(scene), at_edges, tally);
+  const std::vector<Hit> hits = trace(tracer, at_edges, tally);
   for (std::size_t i = 0; i < hits.size(); ++i) {
     const bool gap =
         !reference.closest_hit({glm::dvec3(at_edges[i].origin), glm::dvec3(at_edges[i].direction)}).valid();

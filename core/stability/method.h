@@ -15,7 +15,9 @@ struct Method {
   OffsetMethod offset = OffsetMethod::error_bound;
   std::optional<Isa> isa{};
 
-  [[nodiscard]] Tracer tracer(const Scene& scene) const { return Tracer(scene, tree, isa, offset); }
+  [[nodiscard]] Tracer tracer(MeshData mesh) const {
+    return Tracer(std::make_shared<const Mesh>(std::move(mesh)), tree, isa, offset);
+  }
 };
 
 // The default first; then each method that could stand in its place, one at a time: triangle tests, ray

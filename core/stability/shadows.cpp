@@ -14,7 +14,7 @@ constexpr std::array kScales{0x1p-20f, 0x1p-10f, 1.0f, 0x1p10f, 0x1p20f};
 constexpr std::array kMoves{0x1p10f, 0x1p20f};  // sizes away from the origin
 
 struct Set {
-  Scene scene;
+  MeshData mesh;
   glm::vec3 eye{0.0f};
   Light light{};
   glm::vec3 center{0.0f};
@@ -37,10 +37,10 @@ std::vector<Ray> shadow_rays(const Set& set, const Tracer& tracer, int rays) {
   Random random(71);
   std::vector<Ray> primary;
   for (int i = 0; i < rays; ++i) {
-    const auto id = random.next() % static_cast<std::uint32_t>(set.scene.triangles.size());
+    const auto id = random.next() % static_cast<std::uint32_t>(set.mesh.triangles.size());
     const float u = random.between(0.01f, 0.98f), v = random.between(0.01f, 0.99f - u);
-    const glm::vec3 a = corner(set.scene, id, 0);
-    const glm::vec3 in_triangle = u * (corner(set.scene, id, 1) - a) + v * (corner(set.scene, id, 2) - a);
+    const glm::vec3 a = corner(set.mesh, id, 0);
+    const glm::vec3 in_triangle = u * (corner(set.mesh, id, 1) - a) + v * (corner(set.mesh, id, 2) - a);
     primary.push_back({set.eye, kInfinity, (a - set.eye) + in_triangle});
   }
   std::vector<Hit> hits(primary.size());
@@ -50,7 +50,7 @@ std::vector<Ray> shadow_rays(const Set& set, const Tracer& tracer, int rays) {
   for (std::size_t i = 0; i < hits.size(); ++i) {
     if (!hits[i].valid()) continue;
     const Surface surface =
-        surface_at(set.scene, hits[i].triangle, primary[i].origin, primary[i].direction, tracer.offset());
+        surface_at(tracer.mesh(), hits[i].triangle, primary[i].origin, primary[i].direction, tracer.offset());
     if (!is_clear(set, surface)) continue;
     if (const std::optional<Ray> ray = shadow_ray(light, surface)) shadow.push_back(*ray);
   }
@@ -58,7 +58,7 @@ std::vector<Ray> shadow_rays(const Set& set, const Tracer& tracer, int rays) {
 }
 
 Tally count_shadows(const Set& set, const Method& method, int rays, bool expected) {
-  const Tracer tracer = method.tracer(set.scene);
+  const Tracer tracer = method.tracer(set.mesh);
   const std::vector<Ray> shadow = shadow_rays(set, tracer, rays);
   std::vector<std::uint8_t> blocked(shadow.size());
   Tally tally;
@@ -123,21 +123,21 @@ Tally moved(const Method& method, int rays) {
 // A tile in the hole of a floor a million times its size, all in one plane.
 Tally beside_one_far_larger(const Method& method, int rays) {
   constexpr float kFar = 1e6f;
-  Scene scene;
+  MeshData mesh;
   const std::array<glm::vec3, 4> inner{{{0, 0, 0}, {1, 0, 0}, {1, 0, 1}, {0, 0, 1}}};
   const std::array<glm::vec3, 4> outer{
       {{-kFar, 0, -kFar}, {kFar, 0, -kFar}, {kFar, 0, kFar}, {-kFar, 0, kFar}}};
   for (std::size_t i = 0; i < 4; ++i) {
     const std::size_t j = (i + 1) % 4;
-    add(scene, inner[i], outer[i], outer[j]);
-    add(scene, inner[i], outer[j], inner[j]);
+    add(mesh, inner[i], outer[i], outer[j]);
+    add(mesh, inner[i], outer[j], inner[j]);
   }
-  add(scene, inner[0], inner[2], inner[1]);
-  add(scene, inner[0], inner[3], inner[2]);
-  return count_shadows({scene, {0.5f, 2.0f, 0.5f}, light_at({3.0f, 2.0f, 1.0f})}, method, rays, false);
+  add(mesh, inner[0], inner[2], inner[1]);
+  add(mesh, inner[0], inner[3], inner[2]);
+  return count_shadows({mesh, {0.5f, 2.0f, 0.5f}, light_at({3.0f, 2.0f, 1.0f})}, method, rays, false);
 }
 
-Scene coarse_ball() {
+MeshData coarse_ball() {
   return ball(glm::vec3(0.0f), 1.0f, 12);
 }
 
@@ -152,16 +152,16 @@ Tally grazing_light(const Method& method, int rays) {
 
 // Facets that turn away from the light although the smooth ball does not: dark, with an edge to be seen.
 Tally dark_facets(const Method& method, int rays) {
-  const Scene scene = coarse_ball();
+  const Tracer tracer = method.tracer(coarse_ball());
   const glm::vec3 eye(0, 0, 6), light(10.0f, 0.5f, 0.5f);
   Tally tally;
   Random random(72);
   std::vector<Ray> primary;
   for (int i = 0; i < rays; ++i) primary.push_back({eye, kInfinity, random_point(random, 0.9f) - eye});
-  const std::vector<Hit> hits = trace(method.tracer(scene), primary, tally);
+  const std::vector<Hit> hits = trace(tracer, primary, tally);
   for (std::size_t i = 0; i < hits.size(); ++i) {
     if (!hits[i].valid()) continue;
-    const Surface s = surface_at(scene, hits[i].triangle, eye, primary[i].direction);
+    const Surface s = surface_at(tracer.mesh(), hits[i].triangle, eye, primary[i].direction);
     const glm::vec3 to_light = light - s.p_world;
     if (glm::dot(s.n_shading, to_light) <= 0.0f) continue;
     ++tally.trials;

@@ -6,7 +6,7 @@
 
 namespace pinocchio {
 
-SurfaceImages surface_images(const Scene& scene, const shared::ViewParams& view, Workers& workers,
+SurfaceImages surface_images(const Mesh& mesh, const shared::ViewParams& view, Workers& workers,
                              const Image<std::uint32_t>& ids) {
   const glm::ivec2 size = ids.size();
   SurfaceImages images{Image<float>(size, kInfinity), Image<glm::vec3>(size, glm::vec3(0.0f)),
@@ -18,7 +18,7 @@ SurfaceImages surface_images(const Scene& scene, const shared::ViewParams& view,
       const std::size_t pixel = ids.index(x, y);
       if (ids[pixel] == kNoTriangle) return;
       const Ray ray = pixel_ray(view, x, y);
-      const Surface s = surface_at(scene, ids[pixel], ray.origin, ray.direction);
+      const Surface s = surface_at(mesh, ids[pixel], ray.origin, ray.direction);
       images.z_eye[pixel] = glm::dot(s.p_world - view.eye, forward);
       images.p_world[pixel] = s.p_world;
       images.n_shading[pixel] = s.n_shading;

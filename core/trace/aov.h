@@ -4,7 +4,7 @@
 
 #include "core/image/image.h"
 #include "core/parallel/workers.h"
-#include "core/scene/scene.h"
+#include "core/scene/mesh.h"
 #include "core/trace/shared.h"
 
 namespace pinocchio {
@@ -17,7 +17,7 @@ struct SurfaceImages {
   Image<glm::vec3> albedo;     // diffuse colour, linear
 };
 
-[[nodiscard]] SurfaceImages surface_images(const Scene& scene, const shared::ViewParams& view,
+[[nodiscard]] SurfaceImages surface_images(const Mesh& mesh, const shared::ViewParams& view,
                                            Workers& workers, const Image<std::uint32_t>& ids);
 
 }  // namespace pinocchio

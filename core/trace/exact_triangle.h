@@ -6,7 +6,7 @@
 
 namespace pinocchio {
 
-// Whether the ray meets triangle `id` of the tree's scene at t > 0, edges included, by the watertight test in
+// Whether the ray meets triangle `id` of the tree's mesh at t > 0, edges included, by the watertight test in
 // double (Woop, Benthin and Wald 2013); sets t where it does. A triangle seen edge on is not met. For the
 // few rays that float leaves in doubt: compiled for every processor, called from each kernel.
 [[nodiscard]] bool meets_exactly(const BspTree& tree, std::uint32_t id, const float (&origin)[3],

@@ -40,9 +40,9 @@ bool same(const shared::LightParams& a, const shared::LightParams& b) {
          a.cos_inner == b.cos_inner && a.cos_outer == b.cos_outer;
 }
 
-std::array<glm::vec3, 3> corners_of(const Scene& scene, std::uint32_t triangle) {
-  const glm::uvec3& ids = scene.triangles[triangle];
-  return {scene.positions[ids.x], scene.positions[ids.y], scene.positions[ids.z]};
+std::array<glm::vec3, 3> corners_of(const Mesh& mesh, std::uint32_t triangle) {
+  const glm::uvec3& ids = mesh.triangles[triangle];
+  return {mesh.positions[ids.x], mesh.positions[ids.y], mesh.positions[ids.z]};
 }
 
 // Weights of b and c at the corners of cell `i` of a triangle whose edges are cut into `cuts`: row by row
@@ -72,20 +72,20 @@ bool LitCells::suits(const Tracer& tracer) {
   return tracer.offset().method == OffsetMethod::error_bound && tracer.tree().test == TriangleTest::filtered;
 }
 
-LitCells::LitCells(const Scene& scene, const Tracer& tracer) : scene_(scene), tracer_(tracer) {
+LitCells::LitCells(const Tracer& tracer) : tracer_(tracer) {
   cut_triangles();
 }
 
 void LitCells::cut_triangles() {
   diagonal_ = tracer_.tree().bounds.diagonal();
   cell_size_ = diagonal_ / kCellsAcross;
-  const std::size_t most = kMostCells + kMostCellsATriangle * scene_.triangles.size();
-  first_.resize(scene_.triangles.size());
-  cuts_.resize(scene_.triangles.size());
+  const std::size_t most = kMostCells + kMostCellsATriangle * tracer_.mesh().triangles.size();
+  first_.resize(tracer_.mesh().triangles.size());
+  cuts_.resize(first_.size());
   for (;; cell_size_ *= 2.0f) {
     cells_ = 0;
     for (std::uint32_t i = 0; i < first_.size(); ++i) {
-      const int cuts = cuts_of(corners_of(scene_, i), cell_size_);
+      const int cuts = cuts_of(corners_of(tracer_.mesh(), i), cell_size_);
       first_[i] = static_cast<std::uint32_t>(cells_);
       cuts_[i] = static_cast<std::uint8_t>(cuts);
       cells_ += 2 * static_cast<std::size_t>(cuts * cuts);
@@ -132,7 +132,7 @@ void LitCells::look_into(const Due& due) {
   const bool back = cell_number >= cuts * cuts;
   const CellPlace place{triangle, back != falls(triangle),
                         cell_corners(back ? cell_number - cuts * cuts : cell_number, cuts)};
-  const Proof proof = prove(scene_, tracer_.tree(), place, lights_[due.slot], least_light_);
+  const Proof proof = prove(tracer_.mesh(), tracer_.tree(), place, lights_[due.slot], least_light_);
   if (proof == Proof::lit) result = kLit;
   if (proof == Proof::turned_away) result = kTurnedAway;
 }
@@ -140,7 +140,7 @@ void LitCells::look_into(const Due& due) {
 // Whether the normal of a triangle's winding falls along the axis of its projection: side_of goes by the one
 // that rises.
 bool LitCells::falls(std::uint32_t triangle) const {
-  const std::array<glm::vec3, 3> corners = corners_of(scene_, triangle);
+  const std::array<glm::vec3, 3> corners = corners_of(tracer_.mesh(), triangle);
   const glm::dvec3 a(corners[0]);
   const glm::dvec3 n = glm::cross(glm::dvec3(corners[1]) - a, glm::dvec3(corners[2]) - a);
   return n[static_cast<int>(tracer_.tree().triangles[triangle].k)] < 0.0;

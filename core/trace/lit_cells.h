@@ -8,7 +8,6 @@
 #include <vector>
 
 #include "core/parallel/workers.h"
-#include "core/scene/scene.h"
 #include "core/trace/shared.h"
 #include "core/trace/tracer.h"
 
@@ -31,8 +30,8 @@ class LitCells {
   // triangle test.
   [[nodiscard]] static bool suits(const Tracer& tracer);
 
-  // Both stay where they are as long as this lives.
-  LitCells(const Scene& scene, const Tracer& tracer);
+  // The tracer stays where it is as long as this lives.
+  explicit LitCells(const Tracer& tracer);
 
   // The casting lights in the order of mask slots, and the light below which no ray is fired. Looks into the
   // cells that are due, a bounded number of them. The pass lasts as long as what is returned.
@@ -77,7 +76,6 @@ class LitCells {
   void look_into(const Due& due);
   [[nodiscard]] bool falls(std::uint32_t triangle) const;
 
-  const Scene& scene_;
   const Tracer& tracer_;
   std::vector<std::uint32_t> first_;  // a triangle's first cell; those of its other side follow
   std::vector<std::uint8_t> cuts_;

@@ -21,18 +21,18 @@ struct Cell {
 };
 
 // Nothing where the normals do not agree on the side that is seen.
-std::optional<Cell> make_cell(const Scene& scene, const CellPlace& place) {
+std::optional<Cell> make_cell(const Mesh& mesh, const CellPlace& place) {
   const auto& [triangle, back, weights] = place;
-  const glm::uvec3& ids = scene.triangles[triangle];
-  const std::array<glm::vec3, 3> corners{scene.positions[ids.x], scene.positions[ids.y],
-                                         scene.positions[ids.z]};
+  const glm::uvec3& ids = mesh.triangles[triangle];
+  const std::array<glm::vec3, 3> corners{mesh.positions[ids.x], mesh.positions[ids.y],
+                                         mesh.positions[ids.z]};
   const glm::dvec3 a(corners[0]), ab = glm::dvec3(corners[1]) - a, ac = glm::dvec3(corners[2]) - a;
   const glm::dvec3 cross = glm::cross(ab, ac);
   if (!(glm::length(cross) > 0.0)) return std::nullopt;
   const glm::dvec3 n_winding = glm::normalize(cross);
 
   Cell cell;
-  cell.material = &scene.material_of(triangle);
+  cell.material = &mesh.material_of(triangle);
   cell.piece.triangle = triangle;
   cell.piece.n = back ? -n_winding : n_winding;
   const glm::vec3 n(cell.piece.n), edge_ab = corners[1] - corners[0], edge_ac = corners[2] - corners[0];
@@ -44,8 +44,8 @@ std::optional<Cell> make_cell(const Scene& scene, const CellPlace& place) {
     cell.piece.corners[i] = a + b * ab + c * ac;
     cell.piece.lift_most = std::max<double>(cell.piece.lift_most,
                                             error_bound_offset(cell.piece.corners[i], n, edge_ab, edge_ac));
-    cell.n_shading[i] = (1.0 - b - c) * glm::dvec3(scene.normals[ids.x]) +
-                        b * glm::dvec3(scene.normals[ids.y]) + c * glm::dvec3(scene.normals[ids.z]);
+    cell.n_shading[i] = (1.0 - b - c) * glm::dvec3(mesh.normals[ids.x]) +
+                        b * glm::dvec3(mesh.normals[ids.y]) + c * glm::dvec3(mesh.normals[ids.z]);
     agree[i] = glm::dot(cell.n_shading[i], cell.piece.n);
   }
   const auto none = [](const glm::dvec3& v) { return v == glm::dvec3(0.0); };
@@ -124,9 +124,9 @@ bool bright(const Cell& cell, const shared::LightParams& light, const Incidence&
 
 }  // namespace
 
-Proof prove(const Scene& scene, const BspTree& tree, const CellPlace& place, const shared::LightParams& light,
+Proof prove(const Mesh& mesh, const BspTree& tree, const CellPlace& place, const shared::LightParams& light,
             float least_light) {
-  const std::optional<Cell> cell = make_cell(scene, place);
+  const std::optional<Cell> cell = make_cell(mesh, place);
   if (!cell) return Proof::none;
   const Incidence incidence = incidence_of(*cell, light);
   if (incidence.geometric_most < -kSure || incidence.shading_most < -kSure) return Proof::turned_away;

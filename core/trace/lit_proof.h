@@ -5,7 +5,7 @@
 #include <glm/glm.hpp>
 
 #include "core/bsp/tree.h"
-#include "core/scene/scene.h"
+#include "core/scene/mesh.h"
 #include "core/trace/shared.h"
 
 namespace pinocchio {
@@ -25,7 +25,7 @@ enum class Proof {
 };
 
 // Never more than rays would find. least_light: as in TraceJob.
-[[nodiscard]] Proof prove(const Scene& scene, const BspTree& tree, const CellPlace& place,
+[[nodiscard]] Proof prove(const Mesh& mesh, const BspTree& tree, const CellPlace& place,
                           const shared::LightParams& light, float least_light);
 
 }  // namespace pinocchio

@@ -19,7 +19,7 @@ namespace pinocchio {
 
 // What every pass reads: the scene, its tree, the threads and the picture's rays.
 struct TraceJob {
-  const Scene& scene;
+  const Scene& scene;  // its mesh is the tracer's
   const Tracer& tracer;
   Workers& workers;
   shared::ViewParams view;
@@ -27,7 +27,7 @@ struct TraceJob {
   // the shadow rays of what they see; and shadow rays of visible points (0: all are fired, so that every bit
   // of the mask is true).
   float least_contribution = kLeastContribution, least_light = 0.0f;
-  LitCells* cells = nullptr;  // of this scene and tracer: what shadow passes of earlier frames have taught
+  LitCells* cells = nullptr;  // of this tracer: what shadow passes of earlier frames have taught
 };
 
 // The triangle that each pixel's centre sees (kNoTriangle: none), by rays. ids: any size.

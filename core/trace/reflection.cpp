@@ -92,7 +92,7 @@ class DirectLight {
 
   [[nodiscard]] std::optional<std::uint32_t> cell_of(const Ray& from, std::uint32_t triangle) const {
     const LitCells::Side side = job_.cells->side_of(triangle, from.origin);
-    return LitCells::cell_of(side, weights_at(job_.scene, triangle, from.origin, from.direction));
+    return LitCells::cell_of(side, weights_at(job_.tracer.mesh(), triangle, from.origin, from.direction));
   }
 
   void wait(Waiting w, const Ray& ray) {
@@ -121,9 +121,9 @@ std::vector<PathRay> first_generation(const TraceJob& job, const Image<std::uint
   std::vector<PathRay> queue;
   TileGrid::for_each_pixel(tile, [&](int x, int y) {
     const std::uint32_t id = ids.at(x, y);
-    if (id == kNoTriangle || !job.scene.material_of(id).spawns_rays()) return;
+    if (id == kNoTriangle || !job.tracer.mesh().material_of(id).spawns_rays()) return;
     const Ray ray = pixel_ray(job.view, x, y);
-    const Surface surface = surface_at(job.scene, id, ray.origin, ray.direction, job.tracer.offset());
+    const Surface surface = surface_at(job.tracer.mesh(), id, ray.origin, ray.direction, job.tracer.offset());
     scatter(surface, glm::vec3(1.0f), static_cast<std::uint32_t>(ids.index(x, y)), job.least_contribution,
             queue);
   });
@@ -144,8 +144,8 @@ std::vector<PathRay> trace_queue(const TraceJob& job, const Lights& lights, cons
   for (std::size_t k = 0; k < hits.size(); ++k) {
     if (!hits[k].valid()) continue;
     const PathRay& path = queue[k];
-    const Surface surface =
-        surface_at(job.scene, hits[k].triangle, path.ray.origin, path.ray.direction, job.tracer.offset());
+    const Surface surface = surface_at(job.tracer.mesh(), hits[k].triangle, path.ray.origin,
+                                       path.ray.direction, job.tracer.offset());
     direct.add(path, hits[k].triangle, surface, radiance);
     if (!last && surface.material->spawns_rays())
       scatter(surface, path.weight, path.pixel, job.least_contribution, next);

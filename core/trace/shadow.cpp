@@ -71,7 +71,8 @@ class TileShadows {
     if (cell) open = take_known(*cell, pixel);
     if (open == 0) return;
     const auto surface_of = job_.least_light > 0.0f ? surface_at : bare_surface_at;
-    const Surface surface = surface_of(job_.scene, id, ray.origin, ray.direction, job_.tracer.offset());
+    const Surface surface =
+        surface_of(job_.tracer.mesh(), id, ray.origin, ray.direction, job_.tracer.offset());
     for (std::size_t slot = 0; slot < lights_.size(); ++slot) {
       if (!(open >> slot & 1u)) continue;
       const bool dim = job_.least_light > 0.0f && most_light(lights_[slot], surface) < job_.least_light;
@@ -99,7 +100,7 @@ class TileShadows {
       const Ray ray =
           pixel_ray(job_.view, i % 2 == 0 ? block.lo.x : block.hi.x - 1, i < 2 ? block.lo.y : block.hi.y - 1);
       look_at(id, ray.origin);
-      weights[static_cast<std::size_t>(i)] = weights_at(job_.scene, id, ray.origin, ray.direction);
+      weights[static_cast<std::size_t>(i)] = weights_at(job_.tracer.mesh(), id, ray.origin, ray.direction);
     }
     std::array<LitCells::Known, kMaxCastingLights> known;
     for (std::size_t slot = 0; slot < lights_.size(); ++slot) {
@@ -121,7 +122,7 @@ class TileShadows {
   std::optional<std::uint32_t> cell_of(std::uint32_t id, const Ray& ray) {
     look_at(id, ray.origin);
     if (side_.cuts == 0) return std::nullopt;
-    return LitCells::cell_of(side_, weights_at(job_.scene, id, ray.origin, ray.direction));
+    return LitCells::cell_of(side_, weights_at(job_.tracer.mesh(), id, ray.origin, ray.direction));
   }
 
   // Sets the mask bits that are known; the slots that are not.

@@ -21,15 +21,15 @@ float largest_component(const glm::vec3& v) {
   return std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)});
 }
 
-shared::PhongParams phong_params(const Scene& scene, const Material& m, const glm::uvec3& corners,
+shared::PhongParams phong_params(const Mesh& mesh, const Material& m, const glm::uvec3& corners,
                                  const glm::vec3& weights) {
   shared::PhongParams phong{m.ambient, m.diffuse, m.specular, m.shininess, m.emission};
-  if (m.diffuse_texture >= 0 && !scene.texcoords.empty()) {
-    const glm::vec2 texcoord = weights.x * scene.texcoords[corners.x] +
-                               weights.y * scene.texcoords[corners.y] +
-                               weights.z * scene.texcoords[corners.z];
+  if (m.diffuse_texture >= 0 && !mesh.texcoords.empty()) {
+    const glm::vec2 texcoord = weights.x * mesh.texcoords[corners.x] +
+                               weights.y * mesh.texcoords[corners.y] +
+                               weights.z * mesh.texcoords[corners.z];
     const glm::vec3 color =
-        sample_texture(scene.textures[static_cast<std::size_t>(m.diffuse_texture)], texcoord);
+        sample_texture(mesh.textures[static_cast<std::size_t>(m.diffuse_texture)], texcoord);
     phong.ambient *= color;
     phong.diffuse *= color;
   }
@@ -41,11 +41,11 @@ int wrap(int i, int n) {
   return r < 0 ? r + n : r;
 }
 
-Surface geometry_at(const Scene& scene, std::uint32_t id, const glm::vec3& direction,
+Surface geometry_at(const Mesh& mesh, std::uint32_t id, const glm::vec3& direction,
                     const glm::vec3& weights, const RayOffset& offset) {
-  const glm::uvec3 corners = scene.triangles[id];
-  const glm::vec3 &a = scene.positions[corners.x], &b = scene.positions[corners.y],
-                  &c = scene.positions[corners.z];
+  const glm::uvec3 corners = mesh.triangles[id];
+  const glm::vec3 &a = mesh.positions[corners.x], &b = mesh.positions[corners.y],
+                  &c = mesh.positions[corners.z];
 
   Surface s;
   s.to_viewer = -glm::normalize(direction);
@@ -54,7 +54,7 @@ Surface geometry_at(const Scene& scene, std::uint32_t id, const glm::vec3& direc
   s.p_world = glm::vec3(s.p_exact);
   const glm::vec3 n_geometric = shared::geometric_normal(a, b, c, s.to_viewer);
   const glm::vec3 n_shading = shared::shading_normal(
-      weights, scene.normals[corners.x], scene.normals[corners.y], scene.normals[corners.z], n_geometric);
+      weights, mesh.normals[corners.x], mesh.normals[corners.y], mesh.normals[corners.z], n_geometric);
   const shared::FacingNormals facing = shared::face_viewer(n_geometric, n_shading, s.to_viewer);
   s.n_geometric = facing.geometric;
   s.n_shading = facing.shading;
@@ -62,7 +62,7 @@ Surface geometry_at(const Scene& scene, std::uint32_t id, const glm::vec3& direc
   s.offset = offset.method == OffsetMethod::error_bound
                  ? error_bound_offset(s.p_exact, s.n_geometric, b - a, c - a)
                  : offset.length;
-  s.material = &scene.material_of(id);
+  s.material = &mesh.material_of(id);
   return s;
 }
 
@@ -76,24 +76,24 @@ float least_error_bound_offset(const glm::vec3& ab, const glm::vec3& ac) {
   return kTestError * std::max(largest_component(ab), largest_component(ac));
 }
 
-Surface surface_at(const Scene& scene, std::uint32_t id, const glm::vec3& origin, const glm::vec3& direction,
+Surface surface_at(const Mesh& mesh, std::uint32_t id, const glm::vec3& origin, const glm::vec3& direction,
                    const RayOffset& offset) {
-  const glm::vec3 weights = weights_at(scene, id, origin, direction);
-  Surface s = geometry_at(scene, id, direction, weights, offset);
-  s.phong = phong_params(scene, *s.material, scene.triangles[id], weights);
+  const glm::vec3 weights = weights_at(mesh, id, origin, direction);
+  Surface s = geometry_at(mesh, id, direction, weights, offset);
+  s.phong = phong_params(mesh, *s.material, mesh.triangles[id], weights);
   return s;
 }
 
-Surface bare_surface_at(const Scene& scene, std::uint32_t id, const glm::vec3& origin,
+Surface bare_surface_at(const Mesh& mesh, std::uint32_t id, const glm::vec3& origin,
                         const glm::vec3& direction, const RayOffset& offset) {
-  return geometry_at(scene, id, direction, weights_at(scene, id, origin, direction), offset);
+  return geometry_at(mesh, id, direction, weights_at(mesh, id, origin, direction), offset);
 }
 
-glm::vec3 weights_at(const Scene& scene, std::uint32_t id, const glm::vec3& origin,
+glm::vec3 weights_at(const Mesh& mesh, std::uint32_t id, const glm::vec3& origin,
                      const glm::vec3& direction) {
-  const glm::uvec3& corners = scene.triangles[id];
-  return shared::barycentric_of(origin, direction, scene.positions[corners.x], scene.positions[corners.y],
-                                scene.positions[corners.z]);
+  const glm::uvec3& corners = mesh.triangles[id];
+  return shared::barycentric_of(origin, direction, mesh.positions[corners.x], mesh.positions[corners.y],
+                                mesh.positions[corners.z]);
 }
 
 glm::vec3 offset_origin(const Surface& surface, const glm::vec3& direction) {

@@ -27,15 +27,15 @@ struct Surface {
 
 // The point of triangle `id` that the ray meets, on the triangle to float precision; `offset` is how new rays
 // keep off it.
-[[nodiscard]] Surface surface_at(const Scene& scene, std::uint32_t id, const glm::vec3& origin,
+[[nodiscard]] Surface surface_at(const Mesh& mesh, std::uint32_t id, const glm::vec3& origin,
                                  const glm::vec3& direction, const RayOffset& offset = {});
 
 // Barycentric weights of that point.
-[[nodiscard]] glm::vec3 weights_at(const Scene& scene, std::uint32_t id, const glm::vec3& origin,
+[[nodiscard]] glm::vec3 weights_at(const Mesh& mesh, std::uint32_t id, const glm::vec3& origin,
                                    const glm::vec3& direction);
 
 // The surface alone, its phong left as it was made.
-[[nodiscard]] Surface bare_surface_at(const Scene& scene, std::uint32_t id, const glm::vec3& origin,
+[[nodiscard]] Surface bare_surface_at(const Mesh& mesh, std::uint32_t id, const glm::vec3& origin,
                                       const glm::vec3& direction, const RayOffset& offset = {});
 
 // By an error bound: how far off triangle (a, a + ab, a + ac) with normal n a ray from its point p starts,

@@ -3,6 +3,7 @@
 #include <array>
 #include <cassert>
 #include <string>
+#include <utility>
 
 #include "core/base/error.h"
 #include "core/trace/kernels.h"
@@ -52,8 +53,12 @@ Isa default_isa() {
   return supported_isas().back();
 }
 
-Tracer::Tracer(const Scene& scene, const BuildOptions& options, std::optional<Isa> isa, OffsetMethod offset)
-    : tree_(build_tree(scene, options)), isa_(choose(isa)), offset_(RayOffset::of(offset, tree_.bounds)) {}
+Tracer::Tracer(std::shared_ptr<const Mesh> mesh, const BuildOptions& options, std::optional<Isa> isa,
+               OffsetMethod offset)
+    : mesh_(std::move(mesh)),
+      tree_(build_tree(*mesh_, options)),
+      isa_(choose(isa)),
+      offset_(RayOffset::of(offset, tree_.bounds)) {}
 
 void Tracer::closest_hits(std::span<const Ray> rays, std::span<Hit> hits) const {
   assert(rays.size() == hits.size());

@@ -25,31 +25,30 @@ inline constexpr std::array<std::string_view, 4> kIsaNames{"scalar", "sse4", "av
 // The widest that this processor has: wider was faster wherever it was measured (docs/measurements.md).
 [[nodiscard]] Isa default_isa();
 
-// The rays' way into a tree: closest hits and occlusion of any number of rays, which need not belong
-// together; neighbours in the span that go the same way are traced as one packet. What a ray hits does
+// A mesh, which it shares, and its tree: closest hits and occlusion of any number of rays, which need not
+// belong together; neighbours in the span that go the same way are traced as one packet. What a ray hits does
 // not depend on its neighbours nor on the packet's width, to the last bit. Of triangles at one distance
 // the lowest id is hit. A ray whose origin or direction is NaN or infinite, or whose direction is zero,
 // hits nothing. Safe to call from many threads.
 class Tracer {
  public:
   // `isa`: nothing asks for default_isa(); one that the processor lacks throws EnvironmentError.
-  // `scene` stays where it is as long as this lives.
-  explicit Tracer(const Scene& scene, const BuildOptions& options = {}, std::optional<Isa> isa = {},
-                  OffsetMethod offset = OffsetMethod::error_bound);
-  explicit Tracer(const Scene&&, const BuildOptions& = {}, std::optional<Isa> = {},
-                  OffsetMethod = {}) = delete;
+  explicit Tracer(std::shared_ptr<const Mesh> mesh, const BuildOptions& options = {},
+                  std::optional<Isa> isa = {}, OffsetMethod offset = OffsetMethod::error_bound);
 
   // hits.size() == rays.size()
   void closest_hits(std::span<const Ray> rays, std::span<Hit> hits) const;
   // blocked[i] = 1 where any triangle lies within ray i, else 0; blocked.size() == rays.size()
   void occluded(std::span<const Ray> rays, std::span<std::uint8_t> blocked) const;
 
+  [[nodiscard]] const Mesh& mesh() const { return *mesh_; }
   [[nodiscard]] const BspTree& tree() const { return tree_; }
   [[nodiscard]] Isa isa() const { return isa_; }
   // Of the rays that start on its surfaces: what surface_at wants.
   [[nodiscard]] const RayOffset& offset() const { return offset_; }
 
  private:
+  std::shared_ptr<const Mesh> mesh_;
   BspTree tree_;
   Isa isa_;
   RayOffset offset_;

@@ -17,15 +17,18 @@ Material matte(const glm::vec3& color) {
   return m;
 }
 
-// A closed box of half side 4 around the origin, and a light in it.
-Scene room() {
-  Scene scene;
-  MeshBuilder mesh(scene);
+// A closed box of half side 4 around the origin; `lit` puts a light in it.
+MeshData room() {
+  MeshData data;
+  MeshBuilder mesh(data);
   mesh.use(matte({0.8f, 0.7f, 0.6f}));
   mesh.box(glm::vec3(-4.0f), glm::vec3(4.0f));
-  Light light;
-  light.position = {1.5f, 3.0f, 2.0f};
-  scene.lights = {light};
+  return data;
+}
+
+Scene lit(MeshData data) {
+  Scene scene(std::move(data));
+  scene.lights.emplace_back().position = {1.5f, 3.0f, 2.0f};
   return scene;
 }
 
@@ -33,8 +36,8 @@ Camera looking(const glm::vec3& eye, const glm::vec3& target) {
   return {"", eye, target, {0, 1, 0}, 60.0f};
 }
 
-Shot still(Scene scene, const Camera& camera) {
-  return {std::move(scene), std::vector<Camera>(kStillFrames, camera)};
+Shot still(MeshData data, const Camera& camera) {
+  return {lit(std::move(data)), std::vector<Camera>(kStillFrames, camera)};
 }
 
 void add_floor(MeshBuilder& mesh, float half, float y, int cells) {
@@ -47,8 +50,8 @@ void add_floor(MeshBuilder& mesh, float half, float y, int cells) {
 }
 
 Scene room_with_bars() {
-  Scene scene = room();
-  MeshBuilder mesh(scene);
+  MeshData data = room();
+  MeshBuilder mesh(data);
   Material mirror = matte(glm::vec3(0.3f));
   mirror.reflectance = glm::vec3(0.7f);
   mesh.use(mirror);
@@ -58,14 +61,14 @@ Scene room_with_bars() {
     const float x = 0.5f * static_cast<float>(i) - 2.0f;
     mesh.box({x, -4.0f, 1.0f}, {x + 0.03f, 2.0f, 1.03f});
   }
-  return scene;
+  return lit(std::move(data));
 }
 
 }  // namespace
 
 Shot grazing_triangles() {
-  Scene scene = room();
-  MeshBuilder mesh(scene);
+  MeshData data = room();
+  MeshBuilder mesh(data);
   mesh.use(matte({0.3f, 0.8f, 0.4f}));
   const glm::vec3 eye(0.05f, 0.02f, 3.4f);
   for (int i = -20; i <= 20; ++i) {  // fins along the line of sight, each missing the eye by a thousandth
@@ -74,12 +77,12 @@ Shot grazing_triangles() {
     const glm::vec3 front = eye + along + aside, back = eye + 6.0f * along + aside;
     mesh.quad(front - 0.3f * up, back - 2.0f * up, back + 2.0f * up, front + 0.3f * up);
   }
-  return still(std::move(scene), looking(eye, {0.0f, 0.0f, -3.0f}));
+  return still(std::move(data), looking(eye, {0.0f, 0.0f, -3.0f}));
 }
 
 Shot sub_pixel_triangles() {
-  Scene scene = room();
-  MeshBuilder mesh(scene);
+  MeshData data = room();
+  MeshBuilder mesh(data);
   mesh.use(matte({0.9f, 0.4f, 0.3f}));
   Random random(81);
   const auto point = [&random](float reach) {
@@ -90,12 +93,12 @@ Shot sub_pixel_triangles() {
     const glm::vec3 at = point(1.5f), b = at + point(0.01f), c = at + point(0.01f);
     mesh.triangle(at, b, c);
   }
-  return still(std::move(scene), looking({0.3f, 0.4f, 3.5f}, glm::vec3(0.0f)));
+  return still(std::move(data), looking({0.3f, 0.4f, 3.5f}, glm::vec3(0.0f)));
 }
 
 Shot near_plane() {
-  Scene scene = room();
-  MeshBuilder mesh(scene);
+  MeshData data = room();
+  MeshBuilder mesh(data);
   mesh.use(matte({0.4f, 0.4f, 0.9f}));
   const glm::vec3 eye(3.999f, -0.5f, 3.0f);  // a thousandth from the wall
   for (int i = 0; i < 20; ++i) {  // long bars that pass beside the eye, from before it to behind it
@@ -104,17 +107,17 @@ Shot near_plane() {
     mesh.triangle(eye + beside + glm::vec3(0, 0, 0.9f), eye + 1.2f * beside + glm::vec3(0, 0, 0.9f),
                   eye + 400.0f * beside * glm::vec3(0.0f, 1.0f, 0.0f) - glm::vec3(2.0f, 0.0f, 6.0f));
   }
-  return still(std::move(scene), looking(eye, {3.0f, -0.6f, -3.0f}));
+  return still(std::move(data), looking(eye, {3.0f, -0.6f, -3.0f}));
 }
 
 Shot z_fighting() {
-  Scene scene = room();
-  MeshBuilder mesh(scene);
+  MeshData data = room();
+  MeshBuilder mesh(data);
   mesh.use(matte({0.9f, 0.2f, 0.2f}));
   add_floor(mesh, 3.0f, -1.0f, 7);
   mesh.use(matte({0.2f, 0.9f, 0.2f}));
   add_floor(mesh, 2.7f, -1.0f, 10);
-  return still(std::move(scene), looking({1.0f, 1.0f, 3.5f}, {0.0f, -1.0f, 0.0f}));
+  return still(std::move(data), looking({1.0f, 1.0f, 3.5f}, {0.0f, -1.0f, 0.0f}));
 }
 
 Shot fast_turn() {

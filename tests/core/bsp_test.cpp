@@ -30,13 +30,13 @@ TEST(Bsp, EndsAtMaximumDepthAndLeafSize) {
   const Scene scene = random_soup(3000, 0.05f, 1);
   for (const SplitRule rule : kRules) {
     for (const int depth : {1, 5, kMaxTreeDepth}) {
-      const BspTree tree = build_tree(scene, {.rule = rule, .max_depth = depth});
+      const BspTree tree = build_tree(*scene.mesh, {.rule = rule, .max_depth = depth});
       const Counted counted = count(tree);
       EXPECT_LE(counted.deepest, depth);
       EXPECT_EQ(counted.deepest, tree.depth);
     }
-    const Counted coarse = count(build_tree(scene, {.rule = rule, .leaf_size = 64}));
-    const Counted fine = count(build_tree(scene, {.rule = rule, .leaf_size = 1}));
+    const Counted coarse = count(build_tree(*scene.mesh, {.rule = rule, .leaf_size = 64}));
+    const Counted fine = count(build_tree(*scene.mesh, {.rule = rule, .leaf_size = 1}));
     EXPECT_LT(coarse.deepest, fine.deepest);
   }
 }
@@ -46,11 +46,13 @@ TEST(Bsp, CostComparisonEndsTheSah) {
   BuildOptions dear_steps, cheap_steps;
   dear_steps.cost_step = 100.0f;
   cheap_steps.cost_step = 0.1f;
-  EXPECT_LT(build_tree(scene, dear_steps).nodes.size(), build_tree(scene, cheap_steps).nodes.size());
+  EXPECT_LT(build_tree(*scene.mesh, dear_steps).nodes.size(),
+            build_tree(*scene.mesh, cheap_steps).nodes.size());
 }
 
 TEST(Bsp, StorageBeginsAtCacheLines) {
-  const BspTree tree = build_tree(random_soup(100, 0.1f, 3));
+  const Scene scene = random_soup(100, 0.1f, 3);
+  const BspTree tree = build_tree(*scene.mesh);
   for (const void* first :
        {static_cast<const void*>(tree.nodes.data()), static_cast<const void*>(tree.triangles.data()),
         static_cast<const void*>(tree.references.data())})
@@ -60,9 +62,9 @@ TEST(Bsp, StorageBeginsAtCacheLines) {
 TEST(Bsp, SahBeatsTheSimplerRulesWhereTrianglesAreUneven) {
   // Expected cost of a ray by the SAH's own measure, on a scene with much empty space.
   Scene scene = random_soup(2000, 0.01f, 4);
-  add_triangle(scene, {-50, -2, -50}, {50, -2, -50}, {0, -2, 50});
+  add_triangle(*MeshEdit(scene), {-50, -2, -50}, {50, -2, -50}, {0, -2, 50});
   const auto cost = [&scene](SplitRule rule) {
-    const BspTree tree = build_tree(scene, {.rule = rule});
+    const BspTree tree = build_tree(*scene.mesh, {.rule = rule});
     const std::function<double(std::uint32_t, Bounds)> expected = [&](std::uint32_t node,
                                                                       Bounds b) -> double {
       const BspNode& n = tree.nodes[node];
@@ -85,9 +87,9 @@ TEST(Bsp, IsTheSameOnAnyNumberOfThreads) {
     return std::string(first, tree.nodes.size() * sizeof(BspNode));
   };
   for (const SplitRule rule : kRules) {
-    const BspTree alone = build_tree(scene, {.rule = rule, .threads = 1});
+    const BspTree alone = build_tree(*scene.mesh, {.rule = rule, .threads = 1});
     for (const int threads : {2, 3, 8}) {
-      const BspTree tree = build_tree(scene, {.rule = rule, .threads = threads});
+      const BspTree tree = build_tree(*scene.mesh, {.rule = rule, .threads = threads});
       EXPECT_TRUE(bytes(tree) == bytes(alone)) << threads;
       EXPECT_TRUE(tree.references == alone.references) << threads;
       EXPECT_EQ(tree.depth, alone.depth);
@@ -96,17 +98,18 @@ TEST(Bsp, IsTheSameOnAnyNumberOfThreads) {
 }
 
 TEST(Bsp, OddScenesBuild) {
-  Scene flat;
+  MeshData flat;
   for (int i = 0; i < 200; ++i) add_triangle(flat, {i, 0, 0}, {i + 1, 0, 0}, {i, 0, 1});
-  Scene same;
+  MeshData same;
   for (int i = 0; i < 500; ++i) add_triangle(same, {0, 0, 0}, {1, 0, 0}, {0, 1, 0});
-  Scene point;
+  MeshData point;
   for (int i = 0; i < 50; ++i) add_triangle(point, {1, 2, 3}, {1, 2, 3}, {1, 2, 3});
-  for (const Scene* scene : {&flat, &same, &point})
+  for (const MeshData* data : {&flat, &same, &point})
     for (const SplitRule rule : kRules) {
-      const BspTree tree = build_tree(*scene, {.rule = rule});
+      const Mesh mesh(*data);
+      const BspTree tree = build_tree(mesh, {.rule = rule});
       EXPECT_LE(tree.depth, kMaxTreeDepth);
-      EXPECT_LE(tree.references.size(), 40 * scene->triangles.size());
+      EXPECT_LE(tree.references.size(), 40 * data->triangles.size());
     }
 }
 

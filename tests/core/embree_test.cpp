@@ -49,7 +49,11 @@ bool at_shadow_edge(const Image<unsigned>& masks, int x, int y) {
 // Ours and Embree's answer for every pixel.
 struct Comparison {
   explicit Comparison(Scene s)
-      : scene(std::move(s)), tracer(scene), embree(scene), workers(2), view(view_params(camera(), kSize)) {
+      : scene(std::move(s)),
+        tracer(scene.mesh),
+        embree(*scene.mesh),
+        workers(2),
+        view(view_params(camera(), kSize)) {
     const TraceJob job{scene, tracer, workers, view};
     trace_visibility(job, ids);
     trace_shadow_mask(job, ids, MaskImage::bits_for(static_cast<int>(casting_lights(scene).size())), mask);
@@ -100,7 +104,7 @@ class Tally {
 // The bits by Embree alone: its hit, its occlusion, the point in double precision.
 unsigned embree_mask(const Comparison& c, const Hit& hit, const Ray& ray) {
   if (!hit.valid()) return 0;
-  const Surface surface = surface_at(c.scene, hit.triangle, ray.origin, ray.direction);
+  const Surface surface = surface_at(*c.scene.mesh, hit.triangle, ray.origin, ray.direction);
   const glm::vec3 size = glm::abs(surface.p_world);
   const double largest = static_cast<double>(std::max({size.x, size.y, size.z}));
   const glm::dvec3 point = glm::dvec3(ray.origin) + static_cast<double>(hit.t) * glm::dvec3(ray.direction) +
@@ -149,8 +153,8 @@ void compare_reflections(const Comparison& c) {
       if (!c.ours.at(x, y).valid()) continue;
       const Ray ray = pixel_ray(c.view, x, y);
       rays.clear();
-      scatter(surface_at(c.scene, c.ours.at(x, y).triangle, ray.origin, ray.direction), glm::vec3(1.0f), 0,
-              kLeastContribution, rays);
+      scatter(surface_at(*c.scene.mesh, c.ours.at(x, y).triangle, ray.origin, ray.direction),
+              glm::vec3(1.0f), 0, kLeastContribution, rays);
       if (rays.empty()) continue;
       c.tracer.closest_hits({&rays.front().ray, 1}, {&ours.at(x, y), 1});
       theirs.at(x, y) = c.embree.closest_hit(rays.front().ray);
@@ -183,7 +187,7 @@ TEST(EmbreeBunny, Agrees) {
   const std::optional<std::filesystem::path> path = extra_scene("stanford-bunny.obj");
   if (!path) GTEST_SKIP() << "PINOCCHIO_EXTRA_SCENES is not set: the bunny is not compared";
   Scene scene = load_or_die(*path);
-  for (Material& material : scene.materials)
+  for (MeshEdit mesh(scene); Material& material : mesh->materials)
     material.reflectance = glm::vec3(0.5f);  // or it has no reflections
   scene.lights = {default_light(scene, camera_for_whole_scene(scene)), point_light({0.3f, 0.5f, 0.2f})};
   compare(scene);

@@ -26,7 +26,7 @@ std::filesystem::path temporary(const std::string& name) {
 
 // A small frame with everything in it, cropped.
 ExrFile small_frame(const Scene& scene, const AovSet& aovs) {
-  const Tracer tracer(scene);
+  const Tracer tracer(scene.mesh);
   Workers workers(1);
   const TraceJob job{scene, tracer, workers,
                      view_params(scene.cameras.front(), kSize, glm::vec2(0.0f), kPart.lo)};
@@ -37,7 +37,7 @@ ExrFile small_frame(const Scene& scene, const AovSet& aovs) {
   trace_visibility(job, ids);
   trace_shadow_mask(job, ids, 2, mask);
   shade(job, ids, mask, reflection, color);
-  const SurfaceImages surfaces = surface_images(scene, job.view, workers, ids);
+  const SurfaceImages surfaces = surface_images(*scene.mesh, job.view, workers, ids);
   return frame_exr(
       {kSize, kPart, scene, scene.cameras.front(), color, ids, mask, reflection, surfaces, "{\"p\":1}", 1.5},
       aovs);

@@ -53,9 +53,9 @@ Camera first_camera_of(const Scene& scene) {
 // Every frame's mask is the one that all rays would give. Returns the rays of the last frame: all, and fired.
 std::pair<std::uint64_t, std::uint64_t> expect_same_masks(const Scene& scene, int frames,
                                                           float least_light = 0.0f) {
-  const Tracer tracer(scene);
+  const Tracer tracer(scene.mesh);
   Workers workers(2);
-  LitCells cells(scene, tracer);
+  LitCells cells(tracer);
   std::pair<std::uint64_t, std::uint64_t> last;
   for (int frame = 0; frame < frames; ++frame) {
     const Camera camera = camera_at(first_camera_of(scene), frame);
@@ -92,7 +92,7 @@ TEST(LitCells, MasksStayAtAnyScale) {
       Scene scene = plate_over_floor();
       scene.lights = {point_light({-4, 4, 0}), point_light({0.1f, 6, 9})};
       const auto move = [&](glm::vec3& p) { p = scale * (p + glm::vec3(away, 0.0f, 0.0f)); };
-      for (glm::vec3& p : scene.positions) move(p);
+      for (MeshEdit mesh(scene); glm::vec3& p : mesh->positions) move(p);
       for (Light& light : scene.lights) move(light.position);
       for (Camera& camera : scene.cameras) move(camera.eye), move(camera.target);
       expect_same_masks(scene, 20);
@@ -103,17 +103,19 @@ TEST(LitCells, MasksStayAtAnyScale) {
 // Nothing but triangles without area, or too small or too large for float's range: nothing is cut, and
 // nothing hangs.
 TEST(LitCells, TrianglesWithoutASize) {
-  Scene lines;
-  for (int i = 0; i < 2000; ++i) add_triangle(lines, {0, 0, 0}, {1, 0, 0}, {2, 0, 0});
+  MeshData segments;
+  for (int i = 0; i < 2000; ++i) add_triangle(segments, {0, 0, 0}, {1, 0, 0}, {2, 0, 0});
+  Scene lines(std::move(segments));
   lines.lights = {point_light({2, 2, 2})};
   lines.cameras = {{"at", {3, 1, 1}, {0, 0, 0}, {0, 1, 0}, 45.0f}};
   expect_same_masks(lines, 3);
   for (const float size : {0.0f, 1e-42f, 1e25f}) {
-    Scene scene;
+    MeshData mesh;
     for (int i = 0; i < 2000; ++i) {
       const float x = static_cast<float>(i) * size;
-      add_triangle(scene, {x, 0, 0}, {x, size, 0}, {x, 0, size});
+      add_triangle(mesh, {x, 0, 0}, {x, size, 0}, {x, 0, size});
     }
+    Scene scene(std::move(mesh));
     scene.cameras = {{"at", {3, 1, 1}, {0, 0, 0}, {0, 1, 0}, 45.0f}};
     scene.lights = {point_light({2, 2, 2})};
     expect_same_masks(scene, 3);
@@ -140,9 +142,9 @@ TEST(LitCells, EveryKindOfLight) {
 // What mirrors show is the same to the last bit, with fewer rays to the lights.
 TEST(LitCells, ReflectionsStayWhatRaysMakeThem) {
   const Scene scene = load_or_die(source_path("scenes/speedboat.glb"));
-  const Tracer tracer(scene);
+  const Tracer tracer(scene.mesh);
   Workers workers(2);
-  LitCells cells(scene, tracer);
+  LitCells cells(tracer);
   RayCounts all, spared;
   for (int frame = 0; frame < 16; ++frame) {
     TraceJob job{scene, tracer, workers, view_params(camera_at(scene.cameras.front(), frame), kSize)};
@@ -160,9 +162,9 @@ TEST(LitCells, ReflectionsStayWhatRaysMakeThem) {
 
 TEST(LitCells, ForgetsWhenALightMoves) {
   Scene scene = load_or_die(source_path("scenes/two-lights.gltf"));
-  const Tracer tracer(scene);
+  const Tracer tracer(scene.mesh);
   Workers workers(2);
-  LitCells cells(scene, tracer);
+  LitCells cells(tracer);
   const Camera camera = scene.cameras.front();
   std::uint64_t last = 0;
   for (int frame = 0; frame < 12; ++frame) last = shadow_pass(scene, tracer, workers, camera, &cells).fired;
@@ -177,11 +179,11 @@ TEST(LitCells, ForgetsWhenALightMoves) {
 
 TEST(LitCells, FiresTheSameRaysOnAnyNumberOfThreads) {
   const Scene scene = load_or_die(source_path("scenes/speedboat.glb"));
-  const Tracer tracer(scene);
+  const Tracer tracer(scene.mesh);
   std::vector<std::uint64_t> fired[2];
   for (const int threads : {1, 3}) {
     Workers workers(threads);
-    LitCells cells(scene, tracer);
+    LitCells cells(tracer);
     for (int frame = 0; frame < 15; ++frame)
       fired[threads / 2].push_back(
           shadow_pass(scene, tracer, workers, camera_at(scene.cameras.front(), frame), &cells).fired);
@@ -211,18 +213,18 @@ TEST(Shaft, NeverClaimsWrongly) {
   int clear = 0, not_clear = 0;
   for (std::uint64_t seed = 1; seed <= 24; ++seed) {
     const Scene scene = random_soup(120, 0.7f, seed);
-    const Tracer tracer(scene);
+    const Tracer tracer(scene.mesh);
     Random random(seed + 100);
-    for (std::uint32_t t = 0; t < scene.triangles.size(); ++t) {
+    for (std::uint32_t t = 0; t < scene.mesh->triangles.size(); ++t) {
       Light light = point_light(random_point(random, 3.0f));
       if (t % 3 == 0) {
         light.kind = Light::Kind::directional;
         light.direction = glm::normalize(random_point(random, 1.0f));
       }
       const shared::LightParams params = light_params(light);
-      const glm::uvec3& ids = scene.triangles[t];
-      const glm::vec3 &a = scene.positions[ids.x], ab = scene.positions[ids.y] - a,
-                      ac = scene.positions[ids.z] - a;
+      const glm::uvec3& ids = scene.mesh->triangles[t];
+      const glm::vec3 &a = scene.mesh->positions[ids.x], ab = scene.mesh->positions[ids.y] - a,
+                      ac = scene.mesh->positions[ids.z] - a;
       const glm::vec3 middle = a + (ab + ac) / 3.0f;
       const glm::vec3 to_light = shared::incident_light(params, middle).to_light;
       glm::vec3 n = glm::normalize(glm::cross(ab, ac));
@@ -246,7 +248,7 @@ TEST(Shaft, NeverClaimsWrongly) {
         const glm::dvec3 p = piece.corners[0] + u * (piece.corners[1] - piece.corners[0]) +
                              v * (piece.corners[2] - piece.corners[0]);
         const glm::vec3 eye = glm::vec3(p) + n;
-        const Surface surface = surface_at(scene, t, eye, -n);
+        const Surface surface = surface_at(*scene.mesh, t, eye, -n);
         const std::optional<Ray> ray = shadow_ray(params, surface);
         ASSERT_TRUE(ray);
         std::uint8_t blocked = 0;

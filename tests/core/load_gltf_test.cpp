@@ -6,18 +6,18 @@ namespace {
 
 TEST(LoadGltf, ReadsATriangle) {
   const Scene scene = load_good(triangle_json());
-  ASSERT_EQ(scene.triangles.size(), 1u);
-  EXPECT_EQ(scene.positions[scene.triangles[0].y], glm::vec3(1, 0, 0));
-  EXPECT_EQ(scene.material_of(0).name, "default");
+  ASSERT_EQ(scene.mesh->triangles.size(), 1u);
+  EXPECT_EQ(scene.mesh->positions[scene.mesh->triangles[0].y], glm::vec3(1, 0, 0));
+  EXPECT_EQ(scene.mesh->material_of(0).name, "default");
 }
 
 TEST(LoadGltf, StripsAndFans) {
   Json json = triangle_json();
   json["accessors"][1]["count"] = 4;
   json["meshes"][0]["primitives"][0]["mode"] = 5;
-  EXPECT_EQ(load_good(json).triangles, (std::vector<glm::uvec3>{{0, 1, 2}, {2, 1, 3}}));
+  EXPECT_EQ(load_good(json).mesh->triangles, (std::vector<glm::uvec3>{{0, 1, 2}, {2, 1, 3}}));
   json["meshes"][0]["primitives"][0]["mode"] = 6;
-  EXPECT_EQ(load_good(json).triangles, (std::vector<glm::uvec3>{{0, 1, 2}, {0, 2, 3}}));
+  EXPECT_EQ(load_good(json).mesh->triangles, (std::vector<glm::uvec3>{{0, 1, 2}, {0, 2, 3}}));
 }
 
 TEST(LoadGltf, NodeTransformsAreChained) {
@@ -25,7 +25,7 @@ TEST(LoadGltf, NodeTransformsAreChained) {
   json["nodes"] = {{{"children", {1}}, {"translation", {0, 0, 5}}},
                    {{"mesh", 0}, {"rotation", {0, 0, 0.70710678, 0.70710678}}, {"scale", {2, 2, 2}}}};
   const Scene scene = load_good(json);
-  const glm::vec3 p = scene.positions[1];  // (1,0,0) twice as long, turned to +y, moved
+  const glm::vec3 p = scene.mesh->positions[1];  // (1,0,0) twice as long, turned to +y, moved
   EXPECT_NEAR(p.x, 0.0f, 1e-6f);
   EXPECT_NEAR(p.y, 2.0f, 1e-6f);
   EXPECT_NEAR(p.z, 5.0f, 1e-6f);
@@ -34,7 +34,7 @@ TEST(LoadGltf, NodeTransformsAreChained) {
 TEST(LoadGltf, MirroringTransformsTurnTrianglesAround) {
   Json json = triangle_json();
   json["nodes"][0]["scale"] = {-1, 1, 1};
-  EXPECT_EQ(load_good(json).triangles[0], glm::uvec3(0, 2, 1));
+  EXPECT_EQ(load_good(json).mesh->triangles[0], glm::uvec3(0, 2, 1));
 }
 
 TEST(LoadGltf, LightsWithOurExtras) {
@@ -117,18 +117,18 @@ TEST(LoadGltf, PhongExtrasAndExtensions) {
                         {"pbrMetallicRoughness", {{"baseColorFactor", {0.2, 0.4, 0.6, 1}}}},
                         {"extensions", {{"KHR_materials_unlit", Json::object()}}}}};
   const Scene scene = load_good(json);
-  EXPECT_EQ(scene.materials[0].diffuse, glm::vec3(0.1f, 0.2f, 0.3f));
-  EXPECT_EQ(scene.materials[0].specular, glm::vec3(0.5f));
-  EXPECT_EQ(scene.materials[0].shininess, 30.0f);
-  EXPECT_EQ(scene.materials[0].reflectance, glm::vec3(0.25f));
-  EXPECT_EQ(scene.materials[0].transmittance, glm::vec3(0.75f));
-  EXPECT_EQ(scene.materials[0].ior, 1.33f);
-  EXPECT_EQ(scene.materials[1].emission, glm::vec3(4, 2, 0));
-  EXPECT_EQ(scene.materials[2].ior, 1.4f);
-  EXPECT_TRUE(scene.materials[2].transmits());
-  EXPECT_EQ(scene.materials[3].ior, 1.0f);  // infinitely thin: straight through
-  EXPECT_EQ(scene.materials[4].emission, glm::vec3(0.2f, 0.4f, 0.6f));
-  EXPECT_EQ(scene.materials[4].diffuse, glm::vec3(0.0f));
+  EXPECT_EQ(scene.mesh->materials[0].diffuse, glm::vec3(0.1f, 0.2f, 0.3f));
+  EXPECT_EQ(scene.mesh->materials[0].specular, glm::vec3(0.5f));
+  EXPECT_EQ(scene.mesh->materials[0].shininess, 30.0f);
+  EXPECT_EQ(scene.mesh->materials[0].reflectance, glm::vec3(0.25f));
+  EXPECT_EQ(scene.mesh->materials[0].transmittance, glm::vec3(0.75f));
+  EXPECT_EQ(scene.mesh->materials[0].ior, 1.33f);
+  EXPECT_EQ(scene.mesh->materials[1].emission, glm::vec3(4, 2, 0));
+  EXPECT_EQ(scene.mesh->materials[2].ior, 1.4f);
+  EXPECT_TRUE(scene.mesh->materials[2].transmits());
+  EXPECT_EQ(scene.mesh->materials[3].ior, 1.0f);  // infinitely thin: straight through
+  EXPECT_EQ(scene.mesh->materials[4].emission, glm::vec3(0.2f, 0.4f, 0.6f));
+  EXPECT_EQ(scene.mesh->materials[4].diffuse, glm::vec3(0.0f));
 }
 
 TEST(PhongFromGltf, FollowsItsFormula) {
@@ -155,15 +155,15 @@ TEST(LoadGltf, SparseAccessorsAreFilledIn) {
       {"count", 1},
       {"indices", {{"bufferView", 1}, {"byteOffset", 2}, {"componentType", 5123}}},
       {"values", {{"bufferView", 0}, {"byteOffset", 36}}}};
-  EXPECT_EQ(load_good(json).positions[1], glm::vec3(1, 1, 0));  // the fourth's place in the second
+  EXPECT_EQ(load_good(json).mesh->positions[1], glm::vec3(1, 1, 0));  // the fourth's place in the second
 }
 
 TEST(LoadGltf, ImagesBesideTheFileAreTextures) {
   std::ofstream(own_file("texel.ppm"), std::ios::binary) << "P6 1 1 255\n\x0a\x14\x1e";
   const Scene scene = load_good(textured_json({{"uri", "texel.ppm"}}));
-  ASSERT_EQ(scene.textures.size(), 1u);
-  EXPECT_EQ(scene.materials[0].diffuse_texture, 0);
-  EXPECT_EQ(scene.textures[0].texels.at(0, 0), glm::u8vec4(10, 20, 30, 255));
+  ASSERT_EQ(scene.mesh->textures.size(), 1u);
+  EXPECT_EQ(scene.mesh->materials[0].diffuse_texture, 0);
+  EXPECT_EQ(scene.mesh->textures[0].texels.at(0, 0), glm::u8vec4(10, 20, 30, 255));
   ASSERT_EQ(scene.source_files.size(), 3u);  // and a buffer
   EXPECT_EQ(scene.source_files.front(), scene.source);
   EXPECT_EQ(std::filesystem::path(scene.source_files.back()), own_file("texel.ppm"));

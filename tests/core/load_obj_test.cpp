@@ -29,25 +29,25 @@ const std::string kTriangle = "v 0 0 0\nv 1 0 0\nv 0 1 0\n";
 
 TEST(LoadObj, ReadsTrianglesPolygonsAndRelativeIndices) {
   const Scene scene = load_text(kTriangle + "v 1 1 0\nf 1 2 4 3\nf -4 -3 -2\n");
-  EXPECT_EQ(scene.triangles.size(), 3u);
-  EXPECT_EQ(scene.normals[0], glm::vec3(0.0f));  // flat: no normals, no smoothing group
+  EXPECT_EQ(scene.mesh->triangles.size(), 3u);
+  EXPECT_EQ(scene.mesh->normals[0], glm::vec3(0.0f));  // flat: no normals, no smoothing group
   ASSERT_EQ(scene.source_files.size(), 2u);
   EXPECT_EQ(scene.source_files[0], scene.source);
   EXPECT_EQ(std::filesystem::path(scene.source_files[1]).filename(), "test.mtl");
-  EXPECT_EQ(scene.materials[scene.triangle_materials[0]].name, "default");
+  EXPECT_EQ(scene.mesh->materials[scene.mesh->triangle_materials[0]].name, "default");
 }
 
 TEST(LoadObj, SmoothingGroupsMakeNormals) {
   // Two triangles that meet at a right angle along the z axis.
   const std::string roof = "v 0 0 0\nv 0 0 1\nv -1 -1 0\nv 1 -1 0\n";
   const Scene smooth = load_text(roof + "s 1\nf 1 3 2\nf 1 2 4\n");
-  ASSERT_EQ(smooth.positions.size(), 4u);
-  EXPECT_NEAR(std::abs(smooth.normals[0].y), 1.0f, 1e-6f);
+  ASSERT_EQ(smooth.mesh->positions.size(), 4u);
+  EXPECT_NEAR(std::abs(smooth.mesh->normals[0].y), 1.0f, 1e-6f);
   const Scene apart = load_text(roof + "s 1\nf 1 3 2\ns 2\nf 1 2 4\n");
-  EXPECT_EQ(apart.positions.size(), 6u);
-  EXPECT_NEAR(std::abs(apart.normals[0].y), std::sqrt(0.5f), 1e-6f);
+  EXPECT_EQ(apart.mesh->positions.size(), 6u);
+  EXPECT_NEAR(std::abs(apart.mesh->normals[0].y), std::sqrt(0.5f), 1e-6f);
   const Scene off = load_text(roof + "s off\nf 1 3 2\nf 1 2 4\n");
-  EXPECT_EQ(off.normals[0], glm::vec3(0.0f));
+  EXPECT_EQ(off.mesh->normals[0], glm::vec3(0.0f));
 }
 
 TEST(LoadObj, IlluminationModels) {
@@ -62,7 +62,7 @@ TEST(LoadObj, IlluminationModels) {
                                 "newmtl not_glass\nKd .5 .5 .5\nKs 1 1 1\nNi 1.5\nd 1\nillum 7\n"
                                 "newmtl varnish\nKd .5 .5 .5\nKs .04 .04 .04\nillum 5\n"
                                 "newmtl by_d\nKd .5 .5 .5\nNi 1.3\nd 0.25\nillum 4\n");
-  const auto material = [&](std::uint32_t i) { return scene.material_of(i); };
+  const auto material = [&](std::uint32_t i) { return scene.mesh->material_of(i); };
   EXPECT_EQ(material(0).diffuse, glm::vec3(0.1f, 0.2f, 0.3f));
   EXPECT_EQ(material(0).ambient, material(0).diffuse);  // no Ka
   EXPECT_EQ(material(0).shininess, 50.0f);
@@ -96,22 +96,22 @@ TEST(LoadObj, TextureCoordinatesGrowDownwards) {
                                                      << "\x0a\x14\x1e";
   const Scene scene =
       load_text(kTriangle + "vt 0.25 0.75\nusemtl m\nf 1/1 2/1 3/1\n", "newmtl m\nmap_Kd t.ppm\n");
-  ASSERT_EQ(scene.textures.size(), 1u);
-  EXPECT_EQ(scene.textures[0].texels.at(0, 0), glm::u8vec4(10, 20, 30, 255));
-  EXPECT_EQ(scene.texcoords[0], glm::vec2(0.25f, 0.25f));
+  ASSERT_EQ(scene.mesh->textures.size(), 1u);
+  EXPECT_EQ(scene.mesh->textures[0].texels.at(0, 0), glm::u8vec4(10, 20, 30, 255));
+  EXPECT_EQ(scene.mesh->texcoords[0], glm::vec2(0.25f, 0.25f));
 }
 
 TEST(LoadObj, LinesMayEndInACarriageReturnAlone) {
   const Scene scene = load_text("v 0 0 0\rv 1 0 0\rv 0 1 0\rf 1 2 3\r");
-  EXPECT_EQ(scene.triangles.size(), 1u);
+  EXPECT_EQ(scene.mesh->triangles.size(), 1u);
   EXPECT_EQ(error_of("v 0 0 0\rv 1 0 0\rv 0 1 0\rf 1 2 9999999\r").line, 4);
   EXPECT_EQ(error_of("v 0 0 0\r\nv 1 0 0\r\nv 0 1 0\r\nf 1 2 9\r\n").line, 4);
 }
 
 TEST(LoadObj, SlashesMayEndACorner) {
   // The parser would take the next corner's vertex for a normal that there is not.
-  EXPECT_EQ(load_text(kTriangle + "f 1// 2// 3//\n").triangles[0], glm::uvec3(0, 1, 2));
-  EXPECT_EQ(load_text(kTriangle + "vt 0 0\nf 1/1/ 2/1/ 3/1/\n").triangles[0], glm::uvec3(0, 1, 2));
+  EXPECT_EQ(load_text(kTriangle + "f 1// 2// 3//\n").mesh->triangles[0], glm::uvec3(0, 1, 2));
+  EXPECT_EQ(load_text(kTriangle + "vt 0 0\nf 1/1/ 2/1/ 3/1/\n").mesh->triangles[0], glm::uvec3(0, 1, 2));
   EXPECT_EQ(error_of(kTriangle + "f 1/2/3/4 2 3\n").line, 4);
 }
 
@@ -121,7 +121,7 @@ TEST(LoadObj, MaterialFilesMayHaveSpacesInTheirNames) {
   const std::string text = "mtllib my red.mtl\n" + kTriangle + "usemtl red\nf 1 2 3\n";
   const Expected<Scene> scene = load_scene(write_file("my red.obj", text), &warnings);
   ASSERT_TRUE(scene);
-  EXPECT_EQ(scene->material_of(0).diffuse, glm::vec3(1, 0, 0));
+  EXPECT_EQ(scene->mesh->material_of(0).diffuse, glm::vec3(1, 0, 0));
   EXPECT_TRUE(warnings.empty()) << warnings[0];
 }
 
@@ -129,7 +129,7 @@ TEST(LoadObj, MaterialsThatNoFileExplainsAreWarnings) {
   Warnings warnings;
   const Scene scene =
       load_text(kTriangle + "usemtl blue\nf 1 2 3\nusemtl blue\nf 1 2 3\n", "newmtl red\n", &warnings);
-  EXPECT_EQ(scene.material_of(0).name, "default");
+  EXPECT_EQ(scene.mesh->material_of(0).name, "default");
   ASSERT_EQ(warnings.size(), 1u);
   EXPECT_NE(warnings[0].find("blue"), std::string::npos);
 }

@@ -18,7 +18,7 @@ struct Drawn {
 };
 
 Drawn draw(const Scene& scene, int threads = 2, std::optional<Isa> isa = {}, int depth = 8) {
-  const Tracer tracer(scene, {}, isa);
+  const Tracer tracer(scene.mesh, {}, isa);
   Workers workers(threads);
   const TraceJob job{scene, tracer, workers, view_params(scene.cameras.front(), kSize)};
   Drawn drawn;
@@ -142,11 +142,13 @@ TEST(MaskImage, PacksEveryWidth) {
 
 TEST(Reflection, ShowsWhatTheMirrorSees) {
   Scene scene = plate_over_floor();  // the floor mirrors; above the plate glows
-  scene.materials.resize(2);
-  scene.materials[1].ambient = scene.materials[1].diffuse = glm::vec3(0.0f);
-  scene.materials[1].reflectance = glm::vec3(0.5f);
-  scene.materials[0].emission = {1.0f, 0.5f, 0.25f};
-  scene.triangle_materials = {1, 1, 0, 0};
+  MeshData mesh = *scene.mesh;
+  mesh.materials.resize(2);
+  mesh.materials[1].ambient = mesh.materials[1].diffuse = glm::vec3(0.0f);
+  mesh.materials[1].reflectance = glm::vec3(0.5f);
+  mesh.materials[0].emission = {1.0f, 0.5f, 0.25f};
+  mesh.triangle_materials = {1, 1, 0, 0};
+  scene.mesh = std::make_shared<const Mesh>(std::move(mesh));
   scene.ambient_light = glm::vec3(0.0f);
   const Drawn drawn = draw(scene);
   float most = 0.0f;
@@ -162,10 +164,11 @@ TEST(Reflection, ShowsWhatTheMirrorSees) {
 
 TEST(Reflection, DepthLimitsTheGenerations) {
   // Two mirrors face each other: every generation has as many rays as the one before.
-  Scene scene;
-  add_triangle(scene, {-50, 0, 50}, {50, 0, 50}, {0, 0, -50});
-  add_triangle(scene, {-50, 10, 50}, {0, 10, -50}, {50, 10, 50});
-  scene.materials[0].reflectance = glm::vec3(1.0f);
+  MeshData mesh;
+  add_triangle(mesh, {-50, 0, 50}, {50, 0, 50}, {0, 0, -50});
+  add_triangle(mesh, {-50, 10, 50}, {0, 10, -50}, {50, 10, 50});
+  mesh.materials[0].reflectance = glm::vec3(1.0f);
+  Scene scene(std::move(mesh));
   scene.cameras = {{"between", {0, 5, 0}, {0, 0, -0.01f}, {0, 1, 0}, 20.0f}};
   const std::uint64_t pixels = static_cast<std::uint64_t>(kSize.x) * kSize.y;
   for (const int depth : {0, 1, 3})

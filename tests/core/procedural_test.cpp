@@ -19,7 +19,7 @@ TEST(Procedural, EveryNameMakesASoundScene) {
     EXPECT_TRUE(checked) << name << ": " << checked.error().message();
     EXPECT_FALSE(scene.lights.empty()) << name;
     EXPECT_FALSE(scene.cameras.empty()) << name;
-    for (const glm::vec3& n : scene.normals) {
+    for (const glm::vec3& n : scene.mesh->normals) {
       const float length = glm::length(n);
       ASSERT_TRUE(length == 0.0f || std::abs(length - 1.0f) < 1e-4f) << name << " " << length;
     }
@@ -28,7 +28,7 @@ TEST(Procedural, EveryNameMakesASoundScene) {
 }
 
 void expect_about(const std::string& name, int triangles, int asked, double tolerance) {
-  const auto made = static_cast<double>(make(name, asked).triangles.size());
+  const auto made = static_cast<double>(make(name, asked).mesh->triangles.size());
   EXPECT_NEAR(made, triangles, tolerance * triangles) << name << " asked for " << asked;
 }
 
@@ -47,13 +47,13 @@ TEST(Procedural, TheSphereflakeHasFourLevels) {
   // A sphere of triangles has V - E + F = 2 and E = 3/2 F, so each adds 4 to 2 V - F.
   const Scene scene = make("spd:balls");
   long long corners = 0, faces = 0;
-  std::vector<bool> seen(scene.positions.size(), false);
-  for (std::uint32_t i = 0; i < scene.triangles.size(); ++i) {
-    if (scene.material_of(i).name != "gold") continue;
+  std::vector<bool> seen(scene.mesh->positions.size(), false);
+  for (std::uint32_t i = 0; i < scene.mesh->triangles.size(); ++i) {
+    if (scene.mesh->material_of(i).name != "gold") continue;
     ++faces;
     for (int c = 0; c < 3; ++c) {
-      corners += seen[scene.triangles[i][c]] ? 0 : 1;
-      seen[scene.triangles[i][c]] = true;
+      corners += seen[scene.mesh->triangles[i][c]] ? 0 : 1;
+      seen[scene.mesh->triangles[i][c]] = true;
     }
   }
   EXPECT_EQ(2 * corners - faces, 4 * (1 + 9 + 81 + 729 + 6561));
@@ -62,7 +62,7 @@ TEST(Procedural, TheSphereflakeHasFourLevels) {
 TEST(Procedural, NothingIsSeenOfTheVoid) {
   for (const std::string& name : procedural_names()) {
     const Scene scene = make(name, 20000);
-    const Tracer tracer(scene);
+    const Tracer tracer(scene.mesh);
     const shared::ViewParams view = view_params(scene.cameras.front(), {80, 60});
     std::vector<Ray> rays;
     for (int y = 0; y < 60; ++y)
@@ -82,19 +82,19 @@ TEST(Procedural, TwoLightsHasTwoLightsOfWhichOneCasts) {
 TEST(Procedural, SameEveryTime) {
   for (const std::string& name : procedural_names()) {
     const Scene a = make(name, 10000), b = make(name, 10000);
-    EXPECT_EQ(a.positions, b.positions);
-    EXPECT_EQ(a.normals, b.normals);
-    EXPECT_EQ(a.triangles, b.triangles);
-    EXPECT_EQ(a.triangle_materials, b.triangle_materials);
+    EXPECT_EQ(a.mesh->positions, b.mesh->positions);
+    EXPECT_EQ(a.mesh->normals, b.mesh->normals);
+    EXPECT_EQ(a.mesh->triangles, b.mesh->triangles);
+    EXPECT_EQ(a.mesh->triangle_materials, b.mesh->triangle_materials);
   }
 }
 
 TEST(Procedural, NoTriangleIsWithoutArea) {
   for (const char* name : {"two-lights", "cornell", "speedboat"}) {
     const Scene scene = make(name);
-    for (const glm::uvec3& t : scene.triangles) {
-      const glm::vec3 n = glm::cross(scene.positions[t.y] - scene.positions[t.x],
-                                     scene.positions[t.z] - scene.positions[t.x]);
+    for (const glm::uvec3& t : scene.mesh->triangles) {
+      const glm::vec3 n = glm::cross(scene.mesh->positions[t.y] - scene.mesh->positions[t.x],
+                                     scene.mesh->positions[t.z] - scene.mesh->positions[t.x]);
       ASSERT_GT(glm::length(n), 0.0f) << name;
     }
   }
@@ -104,12 +104,13 @@ TEST(Procedural, TheGlassBallIsClosedAndItsOutsideIsOut) {
   const Scene scene = make("cornell");
   std::map<std::pair<std::uint32_t, std::uint32_t>, int> edges;
   double volume = 0.0;
-  for (std::uint32_t i = 0; i < scene.triangles.size(); ++i) {
-    if (!scene.material_of(i).transmits()) continue;
-    const glm::uvec3& t = scene.triangles[i];
+  const Mesh& mesh = *scene.mesh;
+  for (std::uint32_t i = 0; i < mesh.triangles.size(); ++i) {
+    if (!mesh.material_of(i).transmits()) continue;
+    const glm::uvec3& t = mesh.triangles[i];
     for (int c = 0; c < 3; ++c) ++edges[{t[c], t[(c + 1) % 3]}];
-    volume += glm::dot(glm::dvec3(scene.positions[t.x]),
-                       glm::cross(glm::dvec3(scene.positions[t.y]), glm::dvec3(scene.positions[t.z]))) /
+    volume += glm::dot(glm::dvec3(mesh.positions[t.x]),
+                       glm::cross(glm::dvec3(mesh.positions[t.y]), glm::dvec3(mesh.positions[t.z]))) /
               6.0;
   }
   ASSERT_FALSE(edges.empty());

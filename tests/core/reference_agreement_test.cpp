@@ -43,8 +43,8 @@ INSTANTIATE_TEST_SUITE_P(Scenes, ReferenceAgreement, testing::ValuesIn(own_scene
 TEST_P(ReferenceAgreement, EmbreeHitsTheSame) {
   constexpr glm::ivec2 kSize{200, 150};
   const Scene scene = load_or_die(source_path(GetParam()));
-  const ReferenceTree tree(scene);
-  const Embree embree(scene);
+  const ReferenceTree tree(*scene.mesh);
+  const Embree embree(*scene.mesh);
   const shared::ViewParams view = view_params(first_camera_of(scene), kSize);
   int different = 0;
   for (int y = 0; y < kSize.y; ++y)
@@ -67,7 +67,7 @@ struct Drawn {
 };
 
 Drawn by_tracer(const Scene& scene, Workers& workers, const shared::ViewParams& view, glm::ivec2 size) {
-  const Tracer tracer(scene);
+  const Tracer tracer(scene.mesh);
   const TraceJob job{scene, tracer, workers, view};
   Drawn drawn{Image<std::uint32_t>(size), {}, {}, {}};
   trace_visibility(job, drawn.ids);

@@ -67,11 +67,12 @@ struct Verdicts {
 
 // A floor (triangles 0 and 1) at y = 0, a ball and a lamp above it.
 Scene ball_over_floor(const Ball& ball) {
-  Scene scene;
-  MeshBuilder builder(scene);
+  MeshData mesh;
+  MeshBuilder builder(mesh);
   builder.use(Material{});
   builder.quad({-9, 0, 9}, {9, 0, 9}, {9, 0, -9}, {-9, 0, -9});
   builder.sphere(ball.center, ball.radius, Ball::kAround);
+  Scene scene(std::move(mesh));
   scene.lights = {point_light({0.5f, 6.0f, 0.25f})};
   scene.cameras = {{"", {0, 5, 9}, {0, 1, 0}, {0, 1, 0}, 50.0f}};
   return scene;
@@ -117,8 +118,8 @@ TEST(Reference, SphereThrowsItsShadow) {
 TEST(Reference, MirrorShowsAPatchWhereItsImageIs) {
   constexpr double kHalf = 0.25;
   const glm::dvec3 center(2.0, 0.5, -0.75);
-  Scene scene;
-  MeshBuilder builder(scene);
+  MeshData mesh;
+  MeshBuilder builder(mesh);
   Material mirror;
   mirror.ambient = mirror.diffuse = glm::vec3(0.0f);
   mirror.reflectance = glm::vec3(1.0f);
@@ -129,6 +130,7 @@ TEST(Reference, MirrorShowsAPatchWhereItsImageIs) {
   lamp.emission = glm::vec3(3.0f);
   builder.use(lamp);
   builder.quad({2, 0.25f, -1}, {2, 0.25f, -0.5f}, {2, 0.75f, -0.5f}, {2, 0.75f, -1});
+  Scene scene(std::move(mesh));
   scene.cameras = {{"", {3, 0, 2.5f}, {0, 0.25f, 0}, {0, 1, 0}, 50.0f}};
 
   const Drawn drawn(scene, 1);
@@ -148,16 +150,16 @@ TEST(Reference, MirrorShowsAPatchWhereItsImageIs) {
 }
 
 // The ray that goes on refracted from where `ray` hits.
-ReferenceRay through(const Scene& scene, const ReferenceTree& tree, const ReferenceRay& ray) {
+ReferenceRay through(const Mesh& mesh, const ReferenceTree& tree, const ReferenceRay& ray) {
   const ReferenceHit hit = tree.closest_hit(ray);
   EXPECT_TRUE(hit.valid());
-  return reference_bounces(reference_surface(scene, ray, hit))[1].ray;
+  return reference_bounces(reference_surface(mesh, ray, hit))[1].ray;
 }
 
 TEST(Reference, SlabShiftsARayAsSnellSays) {
   constexpr double kIor = 1.5, kThickness = 2.0;
-  Scene scene;
-  MeshBuilder builder(scene);
+  MeshData mesh;
+  MeshBuilder builder(mesh);
   builder.use(Material{});
   builder.quad({-90, -5, 90}, {90, -5, 90}, {90, -5, -90}, {-90, -5, -90});
   Material glass;
@@ -165,15 +167,16 @@ TEST(Reference, SlabShiftsARayAsSnellSays) {
   glass.ior = static_cast<float>(kIor);
   builder.use(glass);
   builder.box({-90, -1, -90}, {90, 1, 90});
-  const ReferenceTree tree(scene);
+  const Scene scene(std::move(mesh));
+  const ReferenceTree tree(*scene.mesh);
   for (const double degrees : {0.0, 10.0, 45.0, 70.0, 85.0}) {
     const double angle = degrees * std::numbers::pi / 180.0, inside = std::asin(std::sin(angle) / kIor);
     const glm::dvec3 origin(0.125, 3.0, 0.375), direction(std::sin(angle), -std::cos(angle), 0.0);
-    const ReferenceRay in_glass = through(scene, tree, {origin, direction});
-    const ReferenceRay out = through(scene, tree, in_glass);
+    const ReferenceRay in_glass = through(*scene.mesh, tree, {origin, direction});
+    const ReferenceRay out = through(*scene.mesh, tree, in_glass);
     const ReferenceHit hit = tree.closest_hit(out);
     ASSERT_LE(hit.triangle, 1u) << degrees;
-    const glm::dvec3 point = reference_surface(scene, out, hit).p_world;
+    const glm::dvec3 point = reference_surface(*scene.mesh, out, hit).p_world;
     const double x = origin.x + (8.0 - kThickness) * std::tan(angle) + kThickness * std::tan(inside);
     EXPECT_NEAR(point.x, x, 1e-9 * x) << degrees;
     EXPECT_NEAR(point.y, -5.0, 1e-9) << degrees;
@@ -187,36 +190,36 @@ float roughness_at(const glm::vec3& p) {
   return x - std::floor(x);
 }
 
-void add_jagged(Scene& scene, const glm::vec3& a, const glm::vec3& b, const glm::vec3& c, int rounds) {
+void add_jagged(MeshData& mesh, const glm::vec3& a, const glm::vec3& b, const glm::vec3& c, int rounds) {
   if (rounds == 0) {
     const auto pulled = [](const glm::vec3& p) { return p * (0.6f + 0.8f * roughness_at(p)); };
-    add_triangle(scene, pulled(a), pulled(b), pulled(c));
+    add_triangle(mesh, pulled(a), pulled(b), pulled(c));
     return;
   }
   const glm::vec3 ab = glm::normalize(a + b), bc = glm::normalize(b + c), ca = glm::normalize(c + a);
-  add_jagged(scene, a, ab, ca, rounds - 1);
-  add_jagged(scene, ab, b, bc, rounds - 1);
-  add_jagged(scene, ca, bc, c, rounds - 1);
-  add_jagged(scene, ab, bc, ca, rounds - 1);
+  add_jagged(mesh, a, ab, ca, rounds - 1);
+  add_jagged(mesh, ab, b, bc, rounds - 1);
+  add_jagged(mesh, ca, bc, c, rounds - 1);
+  add_jagged(mesh, ab, bc, ca, rounds - 1);
 }
 
 // Closed and full of spikes: an octahedron's faces cut in four, and every corner pulled in or out.
-Scene jagged_sphere() {
-  Scene scene;
+Mesh jagged_sphere() {
+  MeshData mesh;
   for (const float x : {-1.0f, 1.0f})
     for (const float y : {-1.0f, 1.0f})
-      for (const float z : {-1.0f, 1.0f}) add_jagged(scene, {x, 0, 0}, {0, y, 0}, {0, 0, z}, 5);
-  return scene;
+      for (const float z : {-1.0f, 1.0f}) add_jagged(mesh, {x, 0, 0}, {0, y, 0}, {0, 0, z}, 5);
+  return Mesh(std::move(mesh));
 }
 
 TEST(Reference, NothingLeaksOutOfAJaggedSphere) {
-  const Scene scene = jagged_sphere();
-  const ReferenceTree tree(scene);
+  const Mesh mesh = jagged_sphere();
+  const ReferenceTree tree(mesh);
   Random random(5);
   int leaks = 0;
   for (std::uint32_t k = 0; k < 100'000; ++k) {
-    const glm::uvec3 t = scene.triangles[k % scene.triangles.size()];
-    const glm::dvec3 a(scene.positions[t.x]), b(scene.positions[t.y]), c(scene.positions[t.z]);
+    const glm::uvec3 t = mesh.triangles[k % mesh.triangles.size()];
+    const glm::dvec3 a(mesh.positions[t.x]), b(mesh.positions[t.y]), c(mesh.positions[t.z]);
     const double share = random.between(0.0f, 1.0f);
     const glm::dvec3 on_edge = share * a + (1.0 - share) * b;
     const glm::dvec3 aim = k % 3 == 0 ? a : k % 3 == 1 ? on_edge : (a + b + c) / 3.0;
@@ -227,21 +230,22 @@ TEST(Reference, NothingLeaksOutOfAJaggedSphere) {
 }
 
 TEST(Reference, OfCoincidentTrianglesTheLowestIdIsHit) {
-  Scene scene;
-  for (int i = 0; i < 20; ++i) add_triangle(scene, {0, 0, 0}, {1, 0, 0}, {0, 1, 0});
-  const ReferenceTree tree(scene);
+  MeshData data;
+  for (int i = 0; i < 20; ++i) add_triangle(data, {0, 0, 0}, {1, 0, 0}, {0, 1, 0});
+  const Mesh mesh(std::move(data));
+  const ReferenceTree tree(mesh);
   for (const glm::dvec3& at : {glm::dvec3(0.25, 0.25, 0), glm::dvec3(0.0), glm::dvec3(0.5, 0.5, 0)})
     EXPECT_EQ(tree.closest_hit({at + glm::dvec3(0, 0, 1), {0, 0, -1}}).triangle, 0u);
 }
 
 TEST(Reference, OddRaysAndNoTrianglesHitNothing) {
   const Scene scene = plate_over_floor(), empty;
-  const ReferenceTree tree(scene);
+  const ReferenceTree tree(*scene.mesh);
   constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
   EXPECT_FALSE(tree.closest_hit({{0, 5, 0}, {0, 0, 0}}).valid());
   EXPECT_FALSE(tree.closest_hit({{0, 5, 0}, {0, kNan, 0}}).valid());
   EXPECT_FALSE(tree.closest_hit({{kNan, 5, 0}, {0, -1, 0}}).valid());
-  EXPECT_FALSE(ReferenceTree(empty).closest_hit({{0, 5, 0}, {0, -1, 0}}).valid());
+  EXPECT_FALSE(ReferenceTree(*empty.mesh).closest_hit({{0, 5, 0}, {0, -1, 0}}).valid());
   EXPECT_TRUE(tree.closest_hit({{0, 5, 0}, {0, -1, 0}}).valid());
 }
 

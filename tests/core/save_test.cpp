@@ -24,7 +24,7 @@ void expect_same_material(const Material& a, const Material& b) {
   for (int c = 0; c < 3; ++c) EXPECT_NEAR(a.emission[c], b.emission[c], 1e-6f * (1.0f + a.emission[c]));
 }
 
-void expect_same_triangles(const Scene& a, const Scene& b) {
+void expect_same_triangles(const Mesh& a, const Mesh& b) {
   ASSERT_EQ(a.triangles.size(), b.triangles.size());
   for (std::size_t i = 0; i < a.triangles.size(); ++i)
     for (int c = 0; c < 3; ++c)
@@ -38,10 +38,10 @@ TEST(Save, GltfBringsEverythingBack) {
       const std::filesystem::path file = temporary(std::string("saved") + extension);
       save_scene(saved, file);
       const Scene loaded = load_or_die(file);
-      expect_same_triangles(saved, loaded);
-      EXPECT_EQ(saved.triangle_materials, loaded.triangle_materials);
-      for (std::size_t i = 0; i < saved.materials.size(); ++i)
-        expect_same_material(saved.materials[i], loaded.materials[i]);
+      expect_same_triangles(*saved.mesh, *loaded.mesh);
+      EXPECT_EQ(saved.mesh->triangle_materials, loaded.mesh->triangle_materials);
+      for (std::size_t i = 0; i < saved.mesh->materials.size(); ++i)
+        expect_same_material(saved.mesh->materials[i], loaded.mesh->materials[i]);
       EXPECT_EQ(saved.ambient_light, loaded.ambient_light);
       ASSERT_EQ(saved.lights.size(), loaded.lights.size());
       for (std::size_t i = 0; i < saved.lights.size(); ++i) {
@@ -81,17 +81,17 @@ TEST(Save, ObjBringsTrianglesAndMaterialsBack) {
   const Scene saved = *make_procedural("cornell");
   save_scene(saved, temporary("saved.obj"));
   const Scene loaded = load_or_die(temporary("saved.obj"));
-  expect_same_triangles(saved, loaded);
-  for (std::uint32_t i = 0; i < saved.triangles.size(); i += 97) {
-    EXPECT_EQ(saved.material_of(i).diffuse, loaded.material_of(i).diffuse);
-    EXPECT_EQ(saved.material_of(i).reflectance, loaded.material_of(i).reflectance);
-    EXPECT_EQ(saved.material_of(i).transmittance, loaded.material_of(i).transmittance);
+  expect_same_triangles(*saved.mesh, *loaded.mesh);
+  for (std::uint32_t i = 0; i < saved.mesh->triangles.size(); i += 97) {
+    EXPECT_EQ(saved.mesh->material_of(i).diffuse, loaded.mesh->material_of(i).diffuse);
+    EXPECT_EQ(saved.mesh->material_of(i).reflectance, loaded.mesh->material_of(i).reflectance);
+    EXPECT_EQ(saved.mesh->material_of(i).transmittance, loaded.mesh->material_of(i).transmittance);
   }
 }
 
 TEST(Save, ObjKeepsEveryBitOfOddNumbers) {
   Random random(11);
-  Scene saved;
+  MeshData mesh;
   for (int i = 0; i < 500; ++i) {
     const auto odd = [&random] {
       return std::ldexp(random.between(-1.0f, 1.0f), static_cast<int>(random.next() % 40) - 20);
@@ -101,21 +101,22 @@ TEST(Save, ObjKeepsEveryBitOfOddNumbers) {
       return glm::vec3(x, y, odd());
     };
     const glm::vec3 a = point(), b = point();
-    add_triangle(saved, a, b, point());
+    add_triangle(mesh, a, b, point());
   }
+  const Scene saved(std::move(mesh));
   save_scene(saved, temporary("odd numbers.obj"));  // nor does a space in the name lose the materials
   Warnings warnings;
   const Expected<Scene> loaded = load_scene(temporary("odd numbers.obj"), &warnings);
   ASSERT_TRUE(loaded);
   EXPECT_TRUE(warnings.empty());
-  expect_same_triangles(saved, *loaded);
+  expect_same_triangles(*saved.mesh, *loaded->mesh);
 }
 
 TEST(Save, NamesThatAreNotUtf8DoNotStopIt) {
   Scene scene = plate_over_floor();
-  scene.materials[0].name = "gr\xfcn";
+  MeshEdit(scene)->materials[0].name = "gr\xfcn";
   save_scene(scene, temporary("latin.gltf"));
-  EXPECT_EQ(load_or_die(temporary("latin.gltf")).triangles.size(), scene.triangles.size());
+  EXPECT_EQ(load_or_die(temporary("latin.gltf")).mesh->triangles.size(), scene.mesh->triangles.size());
 }
 
 TEST(Save, WhatCannotBeWrittenIsAnError) {
@@ -128,12 +129,12 @@ TEST(Save, TheScenesInTheRepositoryAreWhatTheGeneratorMakes) {
   for (const char* name : {"two-lights", "cornell", "speedboat"}) {
     const Scene made = *make_procedural(name),
                 stored = load_or_die(source_path(std::string("scenes/") + name));
-    ASSERT_EQ(made.triangles.size(), stored.triangles.size())
+    ASSERT_EQ(made.mesh->triangles.size(), stored.mesh->triangles.size())
         << "write scenes/" << name << " again: pinocchio generate";
     float largest = 0.0f;  // sines may differ in the last bit between libraries
-    for (std::size_t i = 0; i < made.triangles.size(); ++i)
-      largest = std::max(largest, glm::length(made.positions[made.triangles[i].x] -
-                                              stored.positions[stored.triangles[i].x]));
+    for (std::size_t i = 0; i < made.mesh->triangles.size(); ++i)
+      largest = std::max(largest, glm::length(made.mesh->positions[made.mesh->triangles[i].x] -
+                                              stored.mesh->positions[stored.mesh->triangles[i].x]));
     EXPECT_LT(largest, 1e-3f) << name;
   }
 }

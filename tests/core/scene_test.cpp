@@ -35,7 +35,7 @@ TEST(Scene, TheCameraForTheWholeSceneSeesEveryVertex) {
   const Camera camera = camera_for_whole_scene(scene);
   const CameraAxes axes = camera_axes(camera);
   const float edge = std::tan(glm::radians(0.5f * camera.fov_deg));
-  for (const glm::vec3& p : scene.positions) {
+  for (const glm::vec3& p : scene.mesh->positions) {
     const glm::vec3 d = p - camera.eye;
     const float depth = glm::dot(d, axes.forward);
     ASSERT_GT(depth, 0.0f);
@@ -45,10 +45,20 @@ TEST(Scene, TheCameraForTheWholeSceneSeesEveryVertex) {
   EXPECT_GT(camera.eye.y, camera.target.y);
 }
 
+TEST(Scene, MovingALightCopiesNoGeometry) {
+  const Scene scene = plate_over_floor();
+  Scene relit = scene;
+  relit.lights = {point_light({0, 5, 0})};
+  drop_idle_casters(relit);
+  EXPECT_EQ(relit.mesh, scene.mesh);
+  EXPECT_EQ(scene.mesh->bounds().lo, glm::vec3(-4, 0, -4));
+  EXPECT_EQ(scene.mesh->bounds().hi, glm::vec3(4, 1, 4));
+}
+
 TEST(Scene, DegenerateScenesGetACameraAndALight) {
-  Scene point;
+  MeshData point;
   add_triangle(point, {1000, 0, 0}, {1000, 0, 0}, {1000, 0, 0});
-  for (const Scene& scene : {Scene{}, point}) {
+  for (const Scene& scene : {Scene{}, Scene(point)}) {
     const Camera camera = camera_for_whole_scene(scene);
     EXPECT_TRUE(finite(camera.eye) && finite(camera.target));
     EXPECT_TRUE(finite(camera_axes(camera).right));
@@ -72,27 +82,27 @@ TEST(CheckScene, SaysWhatIsWrong) {
   EXPECT_EQ(complaint_of(good), "");
   EXPECT_NE(complaint_of(Scene{}).find("no triangles"), std::string::npos);
   Scene bad = good;
-  bad.triangles[1].z = 99;
+  MeshEdit(bad)->triangles[1].z = 99;
   EXPECT_NE(complaint_of(bad).find("triangle 1"), std::string::npos);
   bad = good;
-  bad.triangle_materials[2] = 5;
+  MeshEdit(bad)->triangle_materials[2] = 5;
   EXPECT_NE(complaint_of(bad).find("triangle 2"), std::string::npos);
   bad = good;
-  bad.positions[3].y = std::nanf("");
+  MeshEdit(bad)->positions[3].y = std::nanf("");
   EXPECT_NE(complaint_of(bad).find("vertex 3"), std::string::npos);
   bad = good;
-  bad.normals[4].x = INFINITY;
+  MeshEdit(bad)->normals[4].x = INFINITY;
   EXPECT_NE(complaint_of(bad).find("vertex 4"), std::string::npos);
   bad = good;
-  bad.normals.pop_back();
+  MeshEdit(bad)->normals.pop_back();
   EXPECT_NE(complaint_of(bad).find("one of everything"), std::string::npos);
   bad = good;
-  bad.positions[0].x = -2.0f * kFarthest;
+  MeshEdit(bad)->positions[0].x = -2.0f * kFarthest;
   EXPECT_NE(complaint_of(bad).find("scale the scene down"), std::string::npos);
   bad = good;
-  bad.texcoords.assign(bad.positions.size(), glm::vec2(0.0f));
+  MeshEdit(bad)->texcoords.assign(bad.mesh->positions.size(), glm::vec2(0.0f));
   EXPECT_EQ(complaint_of(bad), "");
-  bad.texcoords[2].y = std::nanf("");
+  MeshEdit(bad)->texcoords[2].y = std::nanf("");
   EXPECT_NE(complaint_of(bad).find("texture coordinate of vertex 2"), std::string::npos);
 }
 

@@ -134,16 +134,16 @@ TEST(Split, PartitionLosesNothingAndMayOverwriteItsInput) {
   const Scene scene = random_soup(500, 0.3f, 8);
   std::vector<BuildReference> references;
   Bounds box;
-  for (std::uint32_t i = 0; i < scene.triangles.size(); ++i) {
+  for (std::uint32_t i = 0; i < scene.mesh->triangles.size(); ++i) {
     Bounds b;
-    for (int k = 0; k < 3; ++k) b.add(scene.positions[scene.triangles[i][k]]);
+    for (int k = 0; k < 3; ++k) b.add(scene.mesh->positions[scene.mesh->triangles[i][k]]);
     references.push_back(BuildReference::of(i, b));
     box.add(b);
   }
   const SplitPlane plane{1, 0.1f, true, 0.0f};
   std::vector<BuildReference> low(references.size() + 1), high(references.size() + 1), in_place = references;
-  const Halves n = partition(scene, references, box, plane, low.data(), high.data());
-  const Halves again = partition(scene, in_place, box, plane, low.data(), in_place.data());
+  const Halves n = partition(*scene.mesh, references, box, plane, low.data(), high.data());
+  const Halves again = partition(*scene.mesh, in_place, box, plane, low.data(), in_place.data());
   EXPECT_EQ(n.low, again.low);
   EXPECT_EQ(n.high, again.high);
   std::vector<int> seen(references.size());

@@ -35,18 +35,13 @@ std::vector<std::uint8_t> blocked(const Tracer& tracer, const std::vector<Ray>& 
 }
 
 // Every triangle in a leaf of its own tree: nothing to traverse.
-Hit brute_force(const Scene& scene, const Ray& ray) {
+Hit brute_force(const Mesh& mesh, const Ray& ray) {
   Hit best{ray.t_max, kNoTriangle};
-  for (std::uint32_t i = 0; i < scene.triangles.size(); ++i) {
-    Scene one;
-    for (int c = 0; c < 3; ++c) {
-      one.positions.push_back(scene.positions[scene.triangles[i][c]]);
-      one.normals.emplace_back(0.0f);
-    }
-    one.triangles.emplace_back(0, 1, 2);
-    one.triangle_materials.push_back(0);
-    one.materials.emplace_back();
-    const Tracer tracer(one, {}, Isa::scalar);
+  for (std::uint32_t i = 0; i < mesh.triangles.size(); ++i) {
+    const glm::uvec3& t = mesh.triangles[i];
+    MeshData one;
+    add_triangle(one, mesh.positions[t.x], mesh.positions[t.y], mesh.positions[t.z]);
+    const Tracer tracer(std::make_shared<const Mesh>(std::move(one)), {}, Isa::scalar);
     Hit hit;
     tracer.closest_hits({&ray, 1}, {&hit, 1});
     if (hit.valid() && hit.t < best.t) best = {hit.t, i};
@@ -59,11 +54,11 @@ TEST(Tracer, FindsWhatLookingAtEveryTriangleFinds) {
   const std::vector<Ray> rays = random_rays(600, 12);
   int hits = 0;
   for (const SplitRule rule : {SplitRule::sah, SplitRule::spatial_median, SplitRule::object_median}) {
-    const Tracer tracer(scene, {.rule = rule});
+    const Tracer tracer(scene.mesh, {.rule = rule});
     const std::vector<Hit> found = trace(tracer, rays);
     const std::vector<std::uint8_t> stopped = blocked(tracer, rays);
     for (std::size_t i = 0; i < rays.size(); ++i) {
-      const Hit expected = brute_force(scene, rays[i]);
+      const Hit expected = brute_force(*scene.mesh, rays[i]);
       EXPECT_EQ(found[i], expected) << "ray " << i;
       EXPECT_EQ(stopped[i] != 0, expected.valid()) << "ray " << i;
       hits += expected.valid() ? 1 : 0;
@@ -76,11 +71,11 @@ TEST(Tracer, SameBitsAtEveryWidthAndGrouping) {
   for (const std::uint64_t seed : {21u, 22u, 23u}) {
     const Scene scene = random_soup(5000, 0.05f * static_cast<float>(seed - 20), seed);
     const std::vector<Ray> rays = random_rays(20000, seed + 100);
-    const Tracer reference(scene, {}, Isa::scalar);
+    const Tracer reference(scene.mesh, {}, Isa::scalar);
     const std::vector<Hit> expected = trace(reference, rays);
     const std::vector<std::uint8_t> expected_blocked = blocked(reference, rays);
     for (const Isa isa : supported_isas()) {
-      const Tracer tracer(scene, {}, isa);
+      const Tracer tracer(scene.mesh, {}, isa);
       EXPECT_EQ(trace(tracer, rays), expected) << isa_name(isa);
       EXPECT_EQ(blocked(tracer, rays), expected_blocked) << isa_name(isa);
       std::vector<Ray> shifted(rays.begin() + 3, rays.end());  // every packet has other members
@@ -94,11 +89,11 @@ TEST(Tracer, EveryTriangleTestHasTheSameBitsAtEveryWidth) {
   const Scene scene = random_soup(2000, 0.1f, 24);
   const std::vector<Ray> rays = random_rays(10000, 124);
   for (const TriangleTest test : kTriangleTests) {
-    const Tracer reference(scene, {.triangle_test = test}, Isa::scalar);
+    const Tracer reference(scene.mesh, {.triangle_test = test}, Isa::scalar);
     const std::vector<Hit> expected = trace(reference, rays);
     const std::vector<std::uint8_t> expected_blocked = blocked(reference, rays);
     for (const Isa isa : supported_isas()) {
-      const Tracer tracer(scene, {.triangle_test = test}, isa);
+      const Tracer tracer(scene.mesh, {.triangle_test = test}, isa);
       EXPECT_EQ(trace(tracer, rays), expected) << triangle_test_name(test) << " " << isa_name(isa);
       EXPECT_EQ(blocked(tracer, rays), expected_blocked) << triangle_test_name(test) << " " << isa_name(isa);
     }
@@ -112,8 +107,9 @@ TEST(Tracer, SameBitsOnTheScenes) {
     std::vector<Ray> rays;
     for (int y = 0; y < 120; ++y)
       for (int x = 0; x < 160; ++x) rays.push_back(pixel_ray(view, x, y));
-    const std::vector<Hit> expected = trace(Tracer(scene, {}, Isa::scalar), rays);
-    for (const Isa isa : supported_isas()) EXPECT_EQ(trace(Tracer(scene, {}, isa), rays), expected) << name;
+    const std::vector<Hit> expected = trace(Tracer(scene.mesh, {}, Isa::scalar), rays);
+    for (const Isa isa : supported_isas())
+      EXPECT_EQ(trace(Tracer(scene.mesh, {}, isa), rays), expected) << name;
   }
 }
 
@@ -121,16 +117,17 @@ TEST(Tracer, SameBitsOnTheScenes) {
 // hits nothing slipped through between two triangles.
 TEST(Tracer, NothingLeaksThroughEdgesAndVertices) {
   for (const glm::vec3& center : {glm::vec3(0.0f), glm::vec3(1000.0f, -300.0f, 20.0f)}) {
-    Scene ball;
-    MeshBuilder mesh(ball);
-    mesh.use(Material{});
-    mesh.sphere(center, 1.0f, 32);
+    MeshData data;
+    MeshBuilder builder(data);
+    builder.use(Material{});
+    builder.sphere(center, 1.0f, 32);
     Random random(41);
-    for (glm::vec3& p : ball.positions) p = center + (p - center) * random.between(0.7f, 1.3f);
+    for (glm::vec3& p : data.positions) p = center + (p - center) * random.between(0.7f, 1.3f);
+    const auto ball = std::make_shared<const Mesh>(std::move(data));
     std::vector<Ray> rays;
     for (int i = 0; i < 400000; ++i) {
-      const glm::uvec3& t = ball.triangles[random.next() % ball.triangles.size()];
-      const glm::vec3 a = ball.positions[t.x], b = ball.positions[t.y];
+      const glm::uvec3& t = ball->triangles[random.next() % ball->triangles.size()];
+      const glm::vec3 a = ball->positions[t.x], b = ball->positions[t.y];
       const glm::vec3 target = i % 4 == 0 ? a : glm::mix(a, b, random.between(0.0f, 1.0f));
       const glm::vec3 origin = center + 0.3f * random_point(random, 1.0f);
       rays.push_back({origin, kInfinity, target - origin});
@@ -147,14 +144,23 @@ TEST(Tracer, NothingLeaksThroughEdgesAndVertices) {
 }
 
 TEST(Tracer, EqualDistancesGoToTheLowerId) {
-  Scene scene;
-  for (int i = 0; i < 9; ++i) add_triangle(scene, {-1, -1, 0}, {1, -1, 0}, {0, 1, 0});
+  MeshData data;
+  for (int i = 0; i < 9; ++i) add_triangle(data, {-1, -1, 0}, {1, -1, 0}, {0, 1, 0});
+  const auto mesh = std::make_shared<const Mesh>(std::move(data));
   for (const Isa isa : supported_isas()) {
-    const Tracer tracer(scene, {}, isa);
+    const Tracer tracer(mesh, {}, isa);
     const Hit hit = trace(tracer, {{{0, 0, 3}, kInfinity, {0, 0, -1}}}).front();
     EXPECT_EQ(hit.triangle, 0u);
     EXPECT_EQ(hit.t, 3.0f);
   }
+}
+
+TEST(Tracer, OutlivesTheSceneItWasMadeFrom) {
+  auto scene = std::make_unique<Scene>(plate_over_floor());
+  const Tracer tracer(scene->mesh);
+  scene.reset();
+  EXPECT_EQ(tracer.mesh().triangles.size(), 4u);
+  EXPECT_EQ(trace(tracer, {{{0, 5, 0.5f}, kInfinity, {0, -1, 0}}}).front().t, 4.0f);
 }
 
 TEST(Tracer, RaysThatAreNoneHitNothing) {
@@ -169,7 +175,7 @@ TEST(Tracer, RaysThatAreNoneHitNothing) {
                               {{0, 0, -3}, 0.0f, {0, 0, 1}},
                               {{0, 0, -3}, -1.0f, {0, 0, 1}}};
   for (const Isa isa : supported_isas()) {
-    const Tracer tracer(scene, {}, isa);
+    const Tracer tracer(scene.mesh, {}, isa);
     for (const Hit& hit : trace(tracer, rays)) EXPECT_FALSE(hit.valid());
     for (const std::uint8_t b : blocked(tracer, rays)) EXPECT_EQ(b, 0);
   }
@@ -177,7 +183,7 @@ TEST(Tracer, RaysThatAreNoneHitNothing) {
 
 TEST(Tracer, AxisParallelRaysWithSignedZerosHit) {
   // A closed box of twelve triangles around the origin: every ray from inside must hit.
-  Scene scene;
+  MeshData data;
   const glm::vec3 lo(-1.0f), hi(1.0f);
   for (int axis = 0; axis < 3; ++axis)
     for (const float side : {lo.x, hi.x}) {
@@ -188,11 +194,12 @@ TEST(Tracer, AxisParallelRaysWithSignedZerosHit) {
         p[(axis + 2) % 3] = v;
         return p;
       };
-      add_triangle(scene, corner(-1, -1), corner(1, -1), corner(1, 1));
-      add_triangle(scene, corner(-1, -1), corner(1, 1), corner(-1, 1));
+      add_triangle(data, corner(-1, -1), corner(1, -1), corner(1, 1));
+      add_triangle(data, corner(-1, -1), corner(1, 1), corner(-1, 1));
     }
+  const auto mesh = std::make_shared<const Mesh>(std::move(data));
   for (const Isa isa : supported_isas()) {
-    const Tracer tracer(scene, {}, isa);
+    const Tracer tracer(mesh, {}, isa);
     for (const float x : {-1.0f, -0.0f, 0.0f, 1.0f})
       for (const float y : {-1.0f, -0.0f, 0.0f, 1.0f})
         for (const float z : {-1.0f, -0.0f, 0.0f, 1.0f}) {

@@ -11,7 +11,7 @@ namespace {
 Plan exact_plan() {
   Scene scene = plate_over_floor();
   scene.lights = {point_light({0, 5, 0})};
-  scene.materials[0].reflectance = glm::vec3(0.9f);
+  MeshEdit(scene)->materials[0].reflectance = glm::vec3(0.9f);
   return *make_plan(take_census(scene), {});
 }
 
@@ -26,7 +26,7 @@ TEST(PlanLadder, EveryRungIsAPlanOfTheSceneAndNoneIsThereTwice) {
   Scene scene = plate_over_floor();
   scene.lights = {point_light({0, 5, 0})};
   for (const bool mirrors : {false, true}) {
-    if (mirrors) scene.materials[0].reflectance = glm::vec3(0.9f);
+    if (mirrors) MeshEdit(scene)->materials[0].reflectance = glm::vec3(0.9f);
     const Needs needs = take_census(scene);
     const std::vector<Plan> plans = cheaper_plans(*make_plan(needs, {}));
     EXPECT_GE(plans.size(), mirrors ? 12u : 4u);

@@ -41,21 +41,23 @@ Scene room(int casting, float mirror_share) {
   scene.lights.push_back(fill);
   if (mirror_share <= 0.0f) return scene;
   const CameraAxes axes = camera_axes(camera);
+  MeshData mesh = *scene.mesh;
   // Something to see in it: a wall behind the camera.
   const glm::vec3 behind = camera.eye - 4.0f * axes.forward, wx = 40.0f * axes.right, wy = 40.0f * axes.up;
-  add_triangle(scene, behind - wx - wy, behind + wx - wy, behind + wx + wy);
-  add_triangle(scene, behind - wx - wy, behind + wx + wy, behind - wx + wy);
+  add_triangle(mesh, behind - wx - wy, behind + wx - wy, behind + wx + wy);
+  add_triangle(mesh, behind - wx - wy, behind + wx + wy, behind - wx + wy);
   const float half_height = std::tan(glm::radians(0.5f * camera.fov_deg)) * std::sqrt(mirror_share);
   const glm::vec3 x = axes.right * (half_height * 4.0f / 3.0f), y = axes.up * half_height;
   const glm::vec3 center = camera.eye + axes.forward;
-  add_triangle(scene, center - x - y, center + x - y, center + x + y);
-  add_triangle(scene, center - x - y, center + x + y, center - x + y);
+  add_triangle(mesh, center - x - y, center + x - y, center + x + y);
+  add_triangle(mesh, center - x - y, center + x + y, center - x + y);
   Material mirror;
   mirror.diffuse = mirror.ambient = glm::vec3(0.0f);
   mirror.reflectance = glm::vec3(0.9f);
-  scene.materials.push_back(mirror);
-  for (std::size_t i = scene.triangles.size() - 2; i < scene.triangles.size(); ++i)
-    scene.triangle_materials[i] = static_cast<std::uint32_t>(scene.materials.size() - 1);
+  mesh.materials.push_back(mirror);
+  for (std::size_t i = mesh.triangles.size() - 2; i < mesh.triangles.size(); ++i)
+    mesh.triangle_materials[i] = static_cast<std::uint32_t>(mesh.materials.size() - 1);
+  scene.mesh = std::make_shared<const Mesh>(std::move(mesh));
   return scene;
 }
 
@@ -135,7 +137,7 @@ TEST(Economy, TilesAreTheSamePixels) {
 
 TEST(Economy, NoShadowRayForWhatHalfAStepDoesNotShow) {
   Scene scene = room(2, 0.0f);
-  for (Material& m : scene.materials) m.diffuse = m.specular = glm::vec3(0.0f);
+  for (MeshEdit mesh(scene); Material& m : mesh->materials) m.diffuse = m.specular = glm::vec3(0.0f);
   Plan plan = auto_plan(scene);
   EXPECT_EQ(draw_by(scene, plan).record.rays.shadow, 0u);
   plan.least_light = 0.0f;  // where the mask itself is wanted

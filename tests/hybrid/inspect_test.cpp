@@ -69,7 +69,7 @@ TEST_P(InspectTest, NormalsAreTheTracers) {
   const Scene scene = load_or_die(source_path("scenes/two-lights"));
   look_at(scene, plan_of(scene), [&](Flight& frame) {
     const Image<glm::vec4> picture = view(frame, BufferView::normals);
-    const Image<glm::vec3> n = surface_images(scene, frame.view, workers_, frame.ids).n_shading;
+    const Image<glm::vec3> n = surface_images(*scene.mesh, frame.view, workers_, frame.ids).n_shading;
     for (std::size_t i = 0; i < picture.pixels().size(); ++i) {
       if (frame.ids[i] == kNoTriangle) continue;
       for (int c = 0; c < 3; ++c) ASSERT_NEAR(linear_to_srgb(picture[i][c]), 0.5f * n[i][c] + 0.5f, 0.002f);

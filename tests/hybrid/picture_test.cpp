@@ -65,7 +65,7 @@ TEST_P(Modes, PhongOfTheGpuIsPhongOfTheCpu) {
   const Scene scene = load_or_die(source_path(GetParam()));
   const Picture raster = draw_one(scene, {.mode = Mode::raster, .size = kSize});
   Workers workers(2);
-  const Tracer tracer(scene);
+  const Tracer tracer(scene.mesh);
   const TraceJob job{scene, tracer, workers, view_params(first_camera(scene), kSize)};
   MaskImage lit(kSize, MaskImage::bits_for(static_cast<int>(casting_lights(scene).size())));
   for (int y = 0; y < kSize.y; ++y)
@@ -167,9 +167,11 @@ TEST(Textures, LookTheSameOnBothSides) {
   Random random(9);
   for (glm::u8vec4& t : texture.texels.pixels())
     t = glm::u8vec4(random.next() % 256, random.next() % 256, random.next() % 256, 255);
-  scene.textures = {texture, texture};
-  scene.materials[0].diffuse_texture = 1;
-  for (const glm::vec3& p : scene.positions) scene.texcoords.emplace_back(0.37f * p.x, -0.53f * p.z);
+  MeshData mesh = *scene.mesh;
+  mesh.textures = {texture, texture};
+  mesh.materials[0].diffuse_texture = 1;
+  for (const glm::vec3& p : mesh.positions) mesh.texcoords.emplace_back(0.37f * p.x, -0.53f * p.z);
+  scene.mesh = std::make_shared<const Mesh>(std::move(mesh));
   compare_modes(scene, "textured plate");
 }
 

@@ -16,7 +16,7 @@ Scene scene_with(int casting, int plain, bool mirror) {
   Scene scene = plate_over_floor();
   for (int i = 0; i < casting; ++i) scene.lights.push_back(point_light({0, 5, 0}));
   for (int i = 0; i < plain; ++i) scene.lights.push_back(point_light({0, 5, 0}, false));
-  if (mirror) scene.materials[0].reflectance = glm::vec3(0.5f);
+  if (mirror) MeshEdit(scene)->materials[0].reflectance = glm::vec3(0.5f);
   return scene;
 }
 
@@ -37,7 +37,7 @@ TEST(Plan, ModelsWhatTheSceneNeeds) {
 
 TEST(Plan, AMaterialThatNoTriangleHasIsNotNeeded) {
   Scene scene = scene_with(1, 0, false);
-  scene.materials.emplace_back().reflectance = glm::vec3(1.0f);
+  MeshEdit(scene)->materials.emplace_back().reflectance = glm::vec3(1.0f);
   EXPECT_FALSE(plan_of(scene).reflects());
 }
 
@@ -93,7 +93,7 @@ TEST(Plan, SoftwareRasterisersLeaveManyTrianglesToTheRays) {
 
 TEST(Needs, LightsThatReachNothingAreIdle) {
   Scene scene = plate_over_floor();
-  const Bounds box = scene.bounds();
+  const Bounds box = scene.mesh->bounds();
   const glm::vec3 above = box.center() + glm::vec3(0.0f, 2.0f * box.diagonal(), 0.0f);
   Light black = point_light(above), near = point_light(above), far = point_light(above);
   black.intensity = 0.0f;
@@ -122,19 +122,19 @@ TEST(Needs, LightsThatReachNothingAreIdle) {
 TEST(Needs, DepthThatIsWorthFollowing) {
   Scene scene = plate_over_floor();
   EXPECT_EQ(take_census(scene).useful_depth, 0);
-  for (Material& m : scene.materials) m.reflectance = glm::vec3(0.5f);
+  for (MeshEdit mesh(scene); Material& m : mesh->materials) m.reflectance = glm::vec3(0.5f);
   EXPECT_EQ(take_census(scene).useful_depth, 13);  // 0.5^13 = kLeastContribution
-  for (Material& m : scene.materials) m.reflectance = glm::vec3(1.0f);
+  for (MeshEdit mesh(scene); Material& m : mesh->materials) m.reflectance = glm::vec3(1.0f);
   EXPECT_EQ(take_census(scene).useful_depth, kMostBounces);
-  Scene flat;
+  MeshData flat;
   flat.positions = {{0, 0, 0}, {1, 0, 0}, {0, 0, 1}, {5, 0, 5}};
   flat.normals.resize(4, glm::vec3(0.0f));
   flat.triangles = {{0, 1, 2}, {1, 2, 3}};
   flat.triangle_materials = {0, 0};
   flat.materials.emplace_back().reflectance = glm::vec3(1.0f);
-  EXPECT_EQ(take_census(flat).useful_depth, 1);  // no mirror sees another
+  EXPECT_EQ(take_census(Scene(flat)).useful_depth, 1);  // no mirror sees another
   flat.positions[3].y = 0.01f;
-  EXPECT_EQ(take_census(flat).useful_depth, kMostBounces);
+  EXPECT_EQ(take_census(Scene(flat)).useful_depth, kMostBounces);
 }
 
 class PlanFileTest : public ::testing::Test {

@@ -34,6 +34,7 @@ TEST_P(RelightTest, IsTheSceneAsIfPreparedWithThoseLights) {
   for (const std::vector<Light>& lights : changes_of(scene.lights)) {
     const auto changed = std::make_shared<const PreparedScene>(before, lights);
     EXPECT_EQ(changed->tracer, before->tracer);
+    EXPECT_EQ(changed->scene.mesh, before->scene.mesh);
     Scene other = scene;
     other.lights = lights;
     const Plan plan = *make_plan(take_census(other), {});

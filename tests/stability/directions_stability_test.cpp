@@ -20,8 +20,8 @@ TEST(Directions, TheProjectedTestLeaksAlongSplitPlanes) {
 // What the issue asks of time is asked of work here: what is no ray walks nowhere, and a ray with zeros in
 // its direction through hardly more than others.
 TEST(Directions, OddRaysWalkNoFurther) {
-  const Scene scene = ball(glm::vec3(0.0f), 1.0f, 64, 0.3f);
-  const BspTree tree = build_tree(scene);
+  const Mesh mesh(ball(glm::vec3(0.0f), 1.0f, 64, 0.3f));
+  const BspTree tree = build_tree(mesh);
   const auto walked = [&](const glm::vec3& origin, const glm::vec3& direction) {
     return steps_of(tree, {origin, kInfinity, direction}).triangle_tests;
   };

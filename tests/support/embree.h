@@ -6,21 +6,21 @@
 #include <algorithm>
 
 #include "bench/embree_ray.h"
-#include "core/scene/scene.h"
+#include "core/scene/mesh.h"
 
 namespace pinocchio {
 
 class Embree {
  public:
-  explicit Embree(const Scene& scene) : device_(rtcNewDevice(nullptr)), scene_(rtcNewScene(device_)) {
+  explicit Embree(const Mesh& mesh) : device_(rtcNewDevice(nullptr)), scene_(rtcNewScene(device_)) {
     rtcSetSceneFlags(scene_, RTC_SCENE_FLAG_ROBUST);
     const RTCGeometry geometry = rtcNewGeometry(device_, RTC_GEOMETRY_TYPE_TRIANGLE);
     void* vertices = rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3,
-                                             sizeof(glm::vec3), scene.positions.size());
-    std::copy(scene.positions.begin(), scene.positions.end(), static_cast<glm::vec3*>(vertices));
+                                             sizeof(glm::vec3), mesh.positions.size());
+    std::copy(mesh.positions.begin(), mesh.positions.end(), static_cast<glm::vec3*>(vertices));
     void* indices = rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3,
-                                            sizeof(glm::uvec3), scene.triangles.size());
-    std::copy(scene.triangles.begin(), scene.triangles.end(), static_cast<glm::uvec3*>(indices));
+                                            sizeof(glm::uvec3), mesh.triangles.size());
+    std::copy(mesh.triangles.begin(), mesh.triangles.end(), static_cast<glm::uvec3*>(indices));
     rtcCommitGeometry(geometry);
     rtcAttachGeometry(scene_, geometry);
     rtcReleaseGeometry(geometry);

@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "core/procedural/random.h"
@@ -45,16 +46,31 @@ inline Light point_light(const glm::vec3& position, bool casts = true) {
   return light;
 }
 
-inline void add_triangle(Scene& scene, const glm::vec3& a, const glm::vec3& b, const glm::vec3& c) {
-  const auto first = static_cast<std::uint32_t>(scene.positions.size());
+inline void add_triangle(MeshData& mesh, const glm::vec3& a, const glm::vec3& b, const glm::vec3& c) {
+  const auto first = static_cast<std::uint32_t>(mesh.positions.size());
   for (const glm::vec3& p : {a, b, c}) {
-    scene.positions.push_back(p);
-    scene.normals.emplace_back(0.0f);
+    mesh.positions.push_back(p);
+    mesh.normals.emplace_back(0.0f);
   }
-  if (scene.materials.empty()) scene.materials.emplace_back();
-  scene.triangles.emplace_back(first, first + 1, first + 2);
-  scene.triangle_materials.push_back(0);
+  if (mesh.materials.empty()) mesh.materials.emplace_back();
+  mesh.triangles.emplace_back(first, first + 1, first + 2);
+  mesh.triangle_materials.push_back(0);
 }
+
+// A scene's mesh, to be changed: as long as this lives it is a copy, that the scene then gets.
+class MeshEdit {
+ public:
+  explicit MeshEdit(Scene& scene) : scene_(scene), mesh_(*scene.mesh) {}
+  ~MeshEdit() { scene_.mesh = std::make_shared<const Mesh>(std::move(mesh_)); }
+  MeshEdit(const MeshEdit&) = delete;
+  MeshEdit& operator=(const MeshEdit&) = delete;
+  MeshData& operator*() { return mesh_; }
+  MeshData* operator->() { return &mesh_; }
+
+ private:
+  Scene& scene_;
+  MeshData mesh_;
+};
 
 inline glm::vec3 random_point(Random& random, float reach) {
   const float x = random.between(-reach, reach), y = random.between(-reach, reach);
@@ -64,24 +80,25 @@ inline glm::vec3 random_point(Random& random, float reach) {
 // `count` triangles of about `size` within a cube of half side 1.
 inline Scene random_soup(int count, float size, std::uint64_t seed) {
   Random random(seed);
-  Scene scene;
+  MeshData mesh;
   for (int i = 0; i < count; ++i) {
     const glm::vec3 at = random_point(random, 1.0f);
     const glm::vec3 b = at + random_point(random, size), c = at + random_point(random, size);
-    add_triangle(scene, at, b, c);
+    add_triangle(mesh, at, b, c);
   }
-  return scene;
+  return Scene(std::move(mesh));
 }
 
 // A floor of 8 x 8 at y = 0 and a plate of 2 x 2 above its middle, at y = 1; the camera looks down.
 inline Scene plate_over_floor() {
-  Scene scene;
-  const auto square = [&scene](float half, float y) {
-    add_triangle(scene, {-half, y, half}, {half, y, half}, {half, y, -half});
-    add_triangle(scene, {-half, y, half}, {half, y, -half}, {-half, y, -half});
+  MeshData mesh;
+  const auto square = [&mesh](float half, float y) {
+    add_triangle(mesh, {-half, y, half}, {half, y, half}, {half, y, -half});
+    add_triangle(mesh, {-half, y, half}, {half, y, -half}, {-half, y, -half});
   };
   square(4.0f, 0.0f);
   square(1.0f, 1.0f);
+  Scene scene(std::move(mesh));
   scene.cameras = {{"above", {0.0f, 9.0f, 6.0f}, {0.0f, 0.0f, 0.0f}, {0, 1, 0}, 45.0f}};
   return scene;
 }
