@@ -12,7 +12,7 @@
 #include "app/parse.h"
 #include "app/verbs.h"
 #include "bench/chart/bench.h"
-#include "bench/chart/digest.h"
+#include "bench/chart/checksum.h"
 #include "bench/chart/page.h"
 #include "bench/chart/results.h"
 #include "bench/chart/sweep.h"
@@ -24,6 +24,8 @@
 
 namespace pinocchio::app {
 namespace {
+
+using namespace chart;
 
 constexpr int kDefaultTurntable = 360;  // frames once around: a degree a frame
 constexpr glm::ivec2 kDefaultSize{400, 300}, kQuickSize{160, 120};
@@ -125,7 +127,7 @@ class ChartRun {
             {"scene",
              {{"name", std::filesystem::path(scene.source).stem().string()},
               {"triangles", scene.triangles.size()},
-              {"digest", digest_of(scene)}}},
+              {"checksum", checksum_of(scene)}}},
             {"size", {options_.draw.size.x, options_.draw.size.y}},
             {"cameras", cameras},
             {"rounds", bench.rounds},

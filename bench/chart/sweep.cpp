@@ -4,7 +4,7 @@
 #include <array>
 #include <functional>
 
-namespace pinocchio::app {
+namespace pinocchio::chart {
 namespace {
 
 // The configurations of a sweep as they are collected.
@@ -283,4 +283,4 @@ std::vector<AxisName> axis_names() {
   return names;
 }
 
-}  // namespace pinocchio::app
+}  // namespace pinocchio::chart

@@ -9,7 +9,7 @@
 #include "bench/chart/configuration.h"
 #include "core/base/error.h"
 
-namespace pinocchio::app {
+namespace pinocchio::chart {
 
 struct SweepRequest {
   Needs needs;
@@ -28,4 +28,4 @@ struct AxisName {
 };
 [[nodiscard]] std::vector<AxisName> axis_names();
 
-}  // namespace pinocchio::app
+}  // namespace pinocchio::chart

@@ -95,23 +95,23 @@ void run(const Options& o) {
                           .threads = o.threads,
                           .triangle_test = parse_triangle_test(o.test).value()};
   std::vector<std::unique_ptr<Tracer>> tracers;
-  Contenders contenders;
+  RayBackends backends;
   for (const Isa isa : chosen_isas(o.isas)) {
     BuildCost cost;  // the tree is the same for each: the first tells the time
     tracers.push_back(build_ours(scene, tree, isa, tracers.empty() ? o.build_repeat : 1, cost));
     if (tracers.size() == 1) report.ours = cost;
-    contenders.push_back(our_contender(*tracers.back()));
+    backends.push_back(our_backend(*tracers.back()));
   }
   const EmbreeSide embree(scene, o.robust, all.count(), o.build_repeat);
   report.embree = embree.cost();
-  contenders.push_back(embree.packets());
-  contenders.push_back(embree.single());
+  backends.push_back(embree.packets());
+  backends.push_back(embree.single());
 
   for (const RaySet& set : frame_ray_sets(scene, *tracers.front(), kSize)) {
     if (set.rays.empty()) continue;
     for (Workers* workers : {&one, &all}) {
       if (workers == &all && all.count() == 1) continue;
-      const std::vector<Speed> speeds = race(set, contenders, *workers, o.repeat);
+      const std::vector<Speed> speeds = race(set, backends, *workers, o.repeat);
       report.speeds.insert(report.speeds.end(), speeds.begin(), speeds.end());
     }
   }

@@ -12,7 +12,7 @@
 namespace pinocchio::stability {
 
 struct Cell {
-  std::string trouble, failure, method;
+  std::string stress_case, failure, method;
   bool limit = false;  // no method is without it
   std::uint64_t trials = 0, failures = 0, excused = 0;
   double seconds = 0.0, ratio = 0.0;  // to the default's, in the same run

@@ -22,7 +22,7 @@ struct DrawMethod {
 // The default first.
 [[nodiscard]] std::vector<DrawMethod> all_draw_methods();
 
-struct PictureTally {
+struct PictureFailureCount {
   std::uint64_t pixels = 0;
   std::uint64_t failures = 0;   // black, NaN or infinite
   std::uint64_t other_ids = 0;  // where the rasteriser sees another triangle than the ray
@@ -32,13 +32,13 @@ struct PictureTally {
   double seconds = 0.0;
 };
 
-struct PictureTrouble {
+struct PictureStressCase {
   std::string_view name;
   // side: pixels of a square picture; wants a current OpenGL context.
-  PictureTally (*run)(const DrawMethod& method, int side);
+  PictureFailureCount (*run)(const DrawMethod& method, int side);
 };
 
 // Grazing and sub-pixel triangles, near-plane clipping, z-fighting planes; a fast turn, a cut, object edges.
-[[nodiscard]] std::span<const PictureTrouble> picture_troubles();
+[[nodiscard]] std::span<const PictureStressCase> picture_cases();
 
 }  // namespace pinocchio::stability

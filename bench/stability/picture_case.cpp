@@ -1,4 +1,4 @@
-#include "bench/stability/picture_trouble.h"
+#include "bench/stability/picture_case.h"
 
 #include <algorithm>
 #include <array>
@@ -40,48 +40,48 @@ double difference(const glm::vec4& a, const glm::vec4& b) {
   return static_cast<double>(std::max({apart.r, apart.g, apart.b}));
 }
 
-void compare(const Picture& drawn, const Picture& traced, PictureTally& tally) {
+void compare(const Picture& drawn, const Picture& traced, PictureFailureCount& count) {
   for (std::size_t i = 0; i < drawn.color.pixels().size(); ++i) {
-    ++tally.pixels;
+    ++count.pixels;
     if (!is_lit(drawn.color[i])) {
-      ++tally.failures;
+      ++count.failures;
       continue;
     }
     const double error = difference(drawn.color[i], traced.color[i]);
-    tally.mean_error += error;
+    count.mean_error += error;
     if (drawn.ids[i] == traced.ids[i]) continue;
-    ++tally.other_ids;
-    tally.worst_there = std::max(tally.worst_there, error);
+    ++count.other_ids;
+    count.worst_there = std::max(count.worst_there, error);
   }
-  tally.holes += drawn.holes;
+  count.holes += drawn.holes;
 }
 
-PictureTally run(const Shot& shot, const DrawMethod& method, int side) {
+PictureFailureCount run(const Shot& shot, const DrawMethod& method, int side) {
   const Needs needs = take_census(shot.scene);
   Plan plan = make_plan(needs, {.design = method.design}).value();
   plan.reuse = false;
   Plan ray_plan = make_plan(needs, {.mode = Mode::raytrace}).value();
-  PictureTally tally;
-  const std::vector<Picture> drawn = draw(shot, plan, method.exchange, side, &tally.seconds);
+  PictureFailureCount count;
+  const std::vector<Picture> drawn = draw(shot, plan, method.exchange, side, &count.seconds);
   const std::vector<Picture> traced = draw(shot, ray_plan, Exchange::sync, side);
-  for (std::size_t i = 0; i < drawn.size(); ++i) compare(drawn[i], traced[i], tally);
-  tally.mean_error /= static_cast<double>(std::max<std::uint64_t>(tally.pixels, 1));
-  return tally;
+  for (std::size_t i = 0; i < drawn.size(); ++i) compare(drawn[i], traced[i], count);
+  count.mean_error /= static_cast<double>(std::max<std::uint64_t>(count.pixels, 1));
+  return count;
 }
 
 template <Shot (*make)()>
-PictureTally run_shot(const DrawMethod& method, int side) {
+PictureFailureCount run_shot(const DrawMethod& method, int side) {
   return run(make(), method, side);
 }
 
-constexpr std::array kTroubles{
-    PictureTrouble{"grazing triangles", run_shot<grazing_triangles>},
-    PictureTrouble{"sub-pixel triangles", run_shot<sub_pixel_triangles>},
-    PictureTrouble{"near-plane clipping", run_shot<near_plane>},
-    PictureTrouble{"z-fighting planes", run_shot<z_fighting>},
-    PictureTrouble{"camera: fast turn", run_shot<fast_turn>},
-    PictureTrouble{"camera: cut", run_shot<cut>},
-    PictureTrouble{"camera: object edges", run_shot<object_edges>},
+constexpr std::array kCases{
+    PictureStressCase{"grazing triangles", run_shot<grazing_triangles>},
+    PictureStressCase{"sub-pixel triangles", run_shot<sub_pixel_triangles>},
+    PictureStressCase{"near-plane clipping", run_shot<near_plane>},
+    PictureStressCase{"z-fighting planes", run_shot<z_fighting>},
+    PictureStressCase{"camera: fast turn", run_shot<fast_turn>},
+    PictureStressCase{"camera: cut", run_shot<cut>},
+    PictureStressCase{"camera: object edges", run_shot<object_edges>},
 };
 
 }  // namespace
@@ -93,8 +93,8 @@ std::vector<DrawMethod> all_draw_methods() {
           {"design 2, pipelined", 2, Exchange::pipelined}};
 }
 
-std::span<const PictureTrouble> picture_troubles() {
-  return kTroubles;
+std::span<const PictureStressCase> picture_cases() {
+  return kCases;
 }
 
 }  // namespace pinocchio::stability

@@ -10,14 +10,14 @@
 
 namespace pinocchio::stability {
 
-// What came of one trouble.
-struct Tally {
+// What came of one case.
+struct FailureCount {
   std::uint64_t trials = 0;
   std::uint64_t failures = 0;
   std::uint64_t excused = 0;  // misses that are the scene's fault, by the reference in double
   double seconds = 0.0;       // of the tracing alone, of a processor
 
-  Tally& operator+=(const Tally& o) {
+  FailureCount& operator+=(const FailureCount& o) {
     trials += o.trials;
     failures += o.failures;
     excused += o.excused;
@@ -26,24 +26,24 @@ struct Tally {
   }
 };
 
-struct Trouble {
+struct StressCase {
   std::string_view name;
   std::string_view failure;  // what is counted
   // rays: how many trials to make, about; at edges five times as many, where each is dear fewer. They are the
   // same ones for every method.
-  Tally (*run)(const Method& method, int rays);
+  FailureCount (*run)(const Method& method, int rays);
   bool limit = false;  // no method is without it: counted, not held to zero
 };
 
-// Rays against closed meshes, odd directions, odd triangles: leaks.cpp, directions.cpp, triangles.cpp. Shadows
-// and offsets at every scale: shadows.cpp. Mirrors and glass: bounces.cpp.
-[[nodiscard]] std::span<const Trouble> leak_troubles();
-[[nodiscard]] std::span<const Trouble> direction_troubles();
-[[nodiscard]] std::span<const Trouble> triangle_troubles();
-[[nodiscard]] std::span<const Trouble> shadow_troubles();
-[[nodiscard]] std::span<const Trouble> bounce_troubles();
+// Rays against closed meshes, odd directions, odd triangles: leaks.cpp, directions.cpp, triangles.cpp.
+// Shadows and offsets at every scale: shadows.cpp. Mirrors and glass: bounces.cpp.
+[[nodiscard]] std::span<const StressCase> leak_cases();
+[[nodiscard]] std::span<const StressCase> direction_cases();
+[[nodiscard]] std::span<const StressCase> triangle_cases();
+[[nodiscard]] std::span<const StressCase> shadow_cases();
+[[nodiscard]] std::span<const StressCase> bounce_cases();
 
 // All of the above, in that order.
-[[nodiscard]] std::vector<Trouble> all_troubles();
+[[nodiscard]] std::vector<StressCase> all_cases();
 
 }  // namespace pinocchio::stability

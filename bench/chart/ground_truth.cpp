@@ -1,4 +1,4 @@
-#include "bench/chart/ruler.h"
+#include "bench/chart/ground_truth.h"
 
 #include <algorithm>
 
@@ -6,16 +6,16 @@
 #include "core/math/finite.h"
 #include "hybrid/raytrace.h"
 
-namespace pinocchio::app {
+namespace pinocchio::chart {
 
-Image<glm::vec3> Ruler::drawn(std::size_t frame, glm::vec2 jitter) {
+Image<glm::vec3> GroundTruth::drawn(std::size_t frame, glm::vec2 jitter) {
   const View& view = views_[frame];
   Picture picture;
   (void)raytrace({scene_, plan_, view.camera, view.size, view.part, jitter}, workers_, picture);
   return rgb_of(picture.color);
 }
 
-const Image<glm::vec3>* Ruler::reference(std::size_t frame, bool area) {
+const Image<glm::vec3>* GroundTruth::reference(std::size_t frame, bool area) {
   const auto known = references_.find({frame, area});
   if (known != references_.end()) return &known->second;
   const int side = area ? area_side_ : 1;
@@ -30,14 +30,15 @@ const Image<glm::vec3>* Ruler::reference(std::size_t frame, bool area) {
   return &references_.emplace(std::pair(frame, area), std::move(mean)).first->second;
 }
 
-std::optional<RuledError> Ruler::measure(const Image<glm::vec4>& color, std::size_t frame, bool area) {
+std::optional<MeasuredError> GroundTruth::measure(const Image<glm::vec4>& color, std::size_t frame,
+                                                  bool area) {
   const Image<glm::vec3>* const truth = reference(frame, area);
   if (!truth) return std::nullopt;
   const Image<glm::vec3> rgb = rgb_of(color);
   const auto finite = std::ranges::count_if(rgb.pixels(), is_finite);
   const std::size_t not_finite = rgb.pixels().size() - static_cast<std::size_t>(finite);
-  if (not_finite > 0) return RuledError{{}, not_finite};
-  return RuledError{picture_error(rgb, *truth, kFlipPixelsPerDegree, workers_)};
+  if (not_finite > 0) return MeasuredError{{}, not_finite};
+  return MeasuredError{picture_error(rgb, *truth, kFlipPixelsPerDegree, workers_)};
 }
 
-}  // namespace pinocchio::app
+}  // namespace pinocchio::chart

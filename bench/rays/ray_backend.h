@@ -13,16 +13,16 @@ namespace pinocchio::bench {
 inline constexpr std::size_t kChunk = 1024;
 
 // One way to trace a set of rays.
-class Contender {
+class RayBackend {
  public:
-  Contender() = default;
-  Contender(const Contender&) = delete;
-  Contender& operator=(const Contender&) = delete;
-  virtual ~Contender() = default;
+  RayBackend() = default;
+  RayBackend(const RayBackend&) = delete;
+  RayBackend& operator=(const RayBackend&) = delete;
+  virtual ~RayBackend() = default;
 
   [[nodiscard]] virtual std::string name() const = 0;
 
-  // Brings the rays into the contender's own layout; before every repetition, not timed.
+  // Brings the rays into the backend's own layout; before every repetition, not timed.
   virtual void load(const RaySet& set) = 0;
 
   // Traces the loaded rays [first, first + count); first is a multiple of kChunk. Called by many threads.

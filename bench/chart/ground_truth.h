@@ -14,19 +14,19 @@
 #include "hybrid/prepared_scene.h"
 #include "hybrid/renderer.h"
 
-namespace pinocchio::app {
+namespace pinocchio::chart {
 
-struct RuledError : PictureError {
+struct MeasuredError : PictureError {
   std::size_t not_finite = 0;  // pixels with a NaN or infinity; above 0 the other figures are 0
 };
 
 // References (core/reference) of some frames of a motion, drawn when they are first asked for.
-class Ruler {
+class GroundTruth {
  public:
   // plan: Mode::raytrace, precise. area_side: the area reference is the mean of so many times so many
   // samples, evenly spread over the pixel.
-  Ruler(std::shared_ptr<const PreparedScene> scene, const Plan& plan, int area_side,
-        const std::vector<View>& views, Workers& workers, Interrupted interrupted)
+  GroundTruth(std::shared_ptr<const PreparedScene> scene, const Plan& plan, int area_side,
+              const std::vector<View>& views, Workers& workers, Interrupted interrupted)
       : scene_(std::move(scene)),
         plan_(plan),
         area_side_(area_side),
@@ -38,8 +38,8 @@ class Ruler {
   [[nodiscard]] const Image<glm::vec3>* reference(std::size_t frame, bool area);
 
   // RGB of a picture against the reference of the frame. Nothing where the user asked for an end.
-  [[nodiscard]] std::optional<RuledError> measure(const Image<glm::vec4>& color, std::size_t frame,
-                                                  bool area);
+  [[nodiscard]] std::optional<MeasuredError> measure(const Image<glm::vec4>& color, std::size_t frame,
+                                                     bool area);
 
  private:
   [[nodiscard]] Image<glm::vec3> drawn(std::size_t frame, glm::vec2 jitter);
@@ -53,4 +53,4 @@ class Ruler {
   std::map<std::pair<std::size_t, bool>, Image<glm::vec3>> references_;
 };
 
-}  // namespace pinocchio::app
+}  // namespace pinocchio::chart
