@@ -4,8 +4,8 @@
 
 #include "app/errors.h"
 #include "app/verbs.h"
-#include "core/procedural/scenes.h"
 #include "core/scene/save.h"
+#include "scenes/generator/scenes.h"
 
 namespace pinocchio::app {
 namespace {

@@ -4,8 +4,8 @@ install(TARGETS pinocchio RUNTIME_DEPENDENCY_SET pinocchio_libraries DESTINATION
 install(RUNTIME_DEPENDENCY_SET pinocchio_libraries
         PRE_EXCLUDE_REGEXES "^ld-linux" "^lib(c|m|dl|rt|pthread)\\.so" "^lib(GL|EGL|OpenGL|GLX|OSMesa)"
         DESTINATION lib)
-install(DIRECTORY shaders scenes DESTINATION share/pinocchio)
-install(FILES app/chart/charts.py app/chart/plot.py DESTINATION share/pinocchio/chart)
+install(DIRECTORY shaders scenes DESTINATION share/pinocchio PATTERN generator EXCLUDE)
+install(FILES bench/chart/charts.py bench/chart/plot.py DESTINATION share/pinocchio/chart)
 install(FILES README.md LICENSE CHANGELOG.md DESTINATION share/doc/pinocchio)
 # What is installed finds its libraries beside it, and they each other.
 set_target_properties(pinocchio PROPERTIES INSTALL_RPATH "$ORIGIN/../lib")

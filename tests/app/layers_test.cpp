@@ -1,5 +1,6 @@
 // Includes run one way: app -> hybrid -> {core, gl}; core and gl never see each other, and within core a
-// room sees only rooms below it.
+// room sees only rooms below it. The laboratory (bench, scenes/generator) sees the libraries, which do not
+// see it, nor does the program but for the verbs that run it.
 #include <gtest/gtest.h>
 
 #include <filesystem>
@@ -21,8 +22,12 @@ using Rooms = std::map<std::string, std::set<std::string>>;
 const Rooms kMaySee{{"core", {"shaders"}},
                     {"gl", {}},
                     {"hybrid", {"core", "gl"}},
-                    {"app", {"core", "gl", "hybrid"}},
-                    {"bench", {"core"}}};
+                    {"app", {"core", "gl", "hybrid", "bench", "scenes"}},
+                    {"scenes", {"core"}},
+                    {"bench", {"core", "gl", "hybrid", "scenes"}}};
+// Who of the program may see the laboratory.
+const std::set<std::string> kLaboratory{"bench", "scenes"}, kLaboratoryVerbs{"chart.cpp", "generate.cpp"};
+const Rooms kMaySeeInBench{{"chart", {}}, {"rays", {}}, {"stability", {}}};
 const Rooms kMaySeeInCore{
     {"base", {}},
     {"math", {}},
@@ -31,12 +36,9 @@ const Rooms kMaySeeInCore{
     {"image", {"base", "math", "parallel"}},
     {"compare", {"base", "math", "image", "parallel"}},
     {"scene", {"base", "math", "image"}},
-    {"procedural", {"base", "math", "scene"}},
     {"bsp", {"base", "math", "parallel", "scene"}},
     {"trace", {"base", "math", "image", "scene", "bsp", "simd", "parallel"}},
     {"reference", {"base", "math", "image", "scene", "parallel", "trace"}},
-    {"stability",
-     {"base", "math", "image", "scene", "procedural", "bsp", "simd", "parallel", "trace", "reference"}},
     {"output", {"base", "math", "image", "scene", "parallel", "trace"}}};
 
 std::vector<std::string> includes_of(const std::filesystem::path& file) {
@@ -90,10 +92,22 @@ TEST(Layers, WithinCoreToo) {
   }
 }
 
+TEST(Layers, TheLaboratoryIsApart) {
+  const std::filesystem::path root(PINOCCHIO_SOURCE_DIR);
+  for (const std::string& violation : violations(root / "bench", "bench/", kMaySeeInBench))
+    ADD_FAILURE() << violation;
+  for (const auto& entry : std::filesystem::recursive_directory_iterator(root / "app")) {
+    if (!is_source(entry.path()) || kLaboratoryVerbs.count(entry.path().filename().string())) continue;
+    for (const std::string& include : includes_of(entry.path()))
+      EXPECT_FALSE(kLaboratory.count(include.substr(0, include.find('/'))))
+          << entry.path() << " includes " << include;
+  }
+}
+
 TEST(Layers, GlCallsLiveInGlAlone) {
   const std::filesystem::path root(PINOCCHIO_SOURCE_DIR);
   const std::regex kCall(R"(\bgl[A-Z]\w*\()");
-  for (const char* room : {"core", "hybrid", "app"})
+  for (const char* room : {"core", "hybrid", "app", "bench", "scenes"})
     for (const auto& entry : std::filesystem::recursive_directory_iterator(root / room)) {
       if (!is_source(entry.path())) continue;
       std::ifstream in(entry.path());
@@ -107,9 +121,12 @@ TEST(Layers, AViolationIsFound) {
   const std::filesystem::path root = own_folder() / "layers";
   std::filesystem::create_directories(root / "core/math");
   std::filesystem::create_directories(root / "gl");
+  std::filesystem::create_directories(root / "hybrid");
   std::ofstream(root / "core/math/bad.h") << "#pragma once\n#include \"gl/context.h\"\n";
   std::ofstream(root / "gl/bad.cpp") << "#include \"core/scene/scene.h\"\n#include \"gl/good.h\"\n";
-  EXPECT_EQ(violations(root, "", kMaySee).size(), 2u);
+  std::ofstream(root / "core/math/worse.h") << "#include \"scenes/generator/random.h\"\n";
+  std::ofstream(root / "hybrid/bad.cpp") << "#include \"bench/stability/table.h\"\n";
+  EXPECT_EQ(violations(root, "", kMaySee).size(), 4u);
   std::filesystem::remove_all(root);
 }
 

@@ -3,11 +3,11 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/procedural/random.h"
 #include "core/trace/passes.h"
 #include "core/trace/shaft.h"
 #include "core/trace/surface.h"
 #include "core/trace/view.h"
+#include "scenes/generator/random.h"
 #include "tests/support/scenes.h"
 
 namespace pinocchio {

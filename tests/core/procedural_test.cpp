@@ -1,8 +1,8 @@
 #include <map>
 
-#include "core/procedural/scenes.h"
 #include "core/trace/tracer.h"
 #include "core/trace/view.h"
+#include "scenes/generator/scenes.h"
 #include "tests/support/scenes.h"
 
 namespace pinocchio {

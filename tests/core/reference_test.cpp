@@ -4,11 +4,11 @@
 #include <cmath>
 #include <numbers>
 
-#include "core/procedural/mesh_builder.h"
 #include "core/reference/reference_shading.h"
 #include "core/reference/reference_surface.h"
 #include "core/reference/reference_tree.h"
 #include "core/trace/view.h"
+#include "scenes/generator/mesh_builder.h"
 #include "tests/support/scenes.h"
 
 namespace pinocchio {

@@ -1,7 +1,7 @@
 #include "core/scene/save.h"
 
 #include "core/base/error.h"
-#include "core/procedural/scenes.h"
+#include "scenes/generator/scenes.h"
 #include "tests/support/own_file.h"
 #include "tests/support/scenes.h"
 

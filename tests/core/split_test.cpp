@@ -9,7 +9,7 @@
 #include "core/bsp/clip.h"
 #include "core/bsp/partition.h"
 #include "core/bsp/split.h"
-#include "core/procedural/random.h"
+#include "scenes/generator/random.h"
 #include "tests/support/scenes.h"
 
 namespace pinocchio {

@@ -5,8 +5,8 @@
 #include <limits>
 
 #include "core/bsp/projected_triangle.h"
-#include "core/procedural/mesh_builder.h"
 #include "core/trace/view.h"
+#include "scenes/generator/mesh_builder.h"
 #include "tests/support/scenes.h"
 
 namespace pinocchio {

@@ -1,8 +1,8 @@
 // Plans by budget: the front, the choice, and that the keeper settles where methods like it swing.
 #include <cmath>
 
-#include "core/procedural/random.h"
 #include "hybrid/budget_keeper.h"
+#include "scenes/generator/random.h"
 #include "tests/support/scenes.h"
 
 namespace pinocchio {

@@ -5,7 +5,7 @@
 
 #include <algorithm>
 
-#include "bench/embree_ray.h"
+#include "bench/rays/embree_ray.h"
 #include "core/scene/mesh.h"
 
 namespace pinocchio {

@@ -10,8 +10,8 @@
 #include <utility>
 #include <vector>
 
-#include "core/procedural/random.h"
 #include "core/scene/load.h"
+#include "scenes/generator/random.h"
 
 namespace pinocchio {
 

@@ -1,0 +1,253 @@
+// chart: sweeps what can be swapped; error against time, on one page.
+#include <cstdio>
+#include <memory>
+#include <nlohmann/json.hpp>
+
+#include "app/animation.h"
+#include "app/console.h"
+#include "app/errors.h"
+#include "app/machine.h"
+#include "app/options.h"
+#include "app/output.h"
+#include "app/parse.h"
+#include "app/verbs.h"
+#include "bench/chart/bench.h"
+#include "bench/chart/checksum.h"
+#include "bench/chart/page.h"
+#include "bench/chart/results.h"
+#include "bench/chart/sweep.h"
+#include "bench/stability/table.h"
+#include "core/base/system_info.h"
+#include "core/image/atomic_file.h"
+#include "gl/open.h"
+#include "hybrid/plan_json.h"
+
+namespace pinocchio::app {
+namespace {
+
+using namespace chart;
+
+constexpr int kDefaultTurntable = 360;  // frames once around: a degree a frame
+constexpr glm::ivec2 kDefaultSize{400, 300}, kQuickSize{160, 120};
+constexpr std::size_t kFrames = 10, kQuickFrames = 8;  // of the motion; the first warm up
+constexpr BenchSettings kBench{5, 3, 6, Clock::frame, interrupted};
+constexpr BenchSettings kQuickBench{3, 2, 3, Clock::frame, interrupted};
+
+struct ChartOptions {
+  DrawOptions draw;
+  bool size_given = false;
+  AnimationOptions animation;
+  std::string folder;
+  std::vector<std::string> only;
+  int repeat = 0;  // 0: by default
+  std::string clock = "frame";
+  bool quick = false, restart = false, stability = false;
+};
+
+std::string axis_list() {
+  std::string list;
+  for (const AxisName& axis : axis_names()) list += (list.empty() ? "" : ", ") + std::string(axis.name);
+  return list;
+}
+
+std::vector<std::string> parse_axes(const std::string& text) {
+  const std::vector<std::string> wanted = split(text, ',');
+  const std::vector<AxisName> known = axis_names();
+  for (const std::string& name : wanted)
+    if (std::none_of(known.begin(), known.end(), [&](const AxisName& axis) { return axis.name == name; }))
+      throw CLI::ValidationError("--only", "'" + name + "' is no axis; there are " + axis_list());
+  return wanted;
+}
+
+// One run of the verb.
+class ChartRun {
+ public:
+  explicit ChartRun(ChartOptions& options) : options_(options), folder_(options.folder) {}
+
+  int run() {
+    DrawOptions& draw = options_.draw;
+    if (!options_.size_given) draw.size = options_.quick ? kQuickSize : kDefaultSize;
+    Scene scene = load_scene_for(draw);
+    const std::vector<View> views = motion(camera_for(draw, scene));
+    make_folders();
+    Machine machine(draw, std::move(scene), false, true);
+    const SweepRequest request{machine.needs(), machine.request(), system_info().cores, options_.quick,
+                               options_.only};
+    const std::vector<Configuration> sweep = value_or_exit(make_sweep(request), kBadScene);
+    Results results =
+        value_or_exit(Results::open(folder_, run_json(machine, views), options_.restart), kUsage);
+    write_plans(sweep);
+    Bench bench(machine.shared_scene(), request, machine.workers(), bench_settings(), views, folder_);
+    if (!measure(machine, bench, sweep, results)) return kInterrupted;
+    return finish(results);
+  }
+
+ private:
+  [[nodiscard]] BenchSettings bench_settings() const {
+    BenchSettings settings = options_.quick ? kQuickBench : kBench;
+    if (options_.repeat > 0) settings.rounds = options_.repeat;
+    if (options_.clock == "cpu") settings.clock = Clock::cpu;
+    return settings;
+  }
+
+  [[nodiscard]] std::vector<View> motion(const Camera& camera) {
+    if (options_.animation.turntable == 0 && options_.animation.path.empty())
+      options_.animation.turntable = kDefaultTurntable;
+    std::vector<CameraFrame> frames = animate(options_.animation, camera);
+    const std::size_t wanted = options_.quick ? kQuickFrames : kFrames;
+    if (frames.size() < wanted)
+      throw Exit(kUsage, "the camera's motion has " + std::to_string(frames.size()) +
+                             " frames, the chart draws " + std::to_string(wanted) +
+                             "; give it a longer --turntable, --path or --frames");
+    frames.resize(wanted);
+    std::vector<View> views;
+    for (const CameraFrame& frame : frames)
+      views.push_back({frame.camera, options_.draw.size, part_of(options_.draw)});
+    return views;
+  }
+
+  void make_folders() const {
+    for (const char* name : {"plans", "pictures"}) make_folder(folder_ / name);
+    check_writable(folder_ / "results.json");
+  }
+
+  // What a chart's figures depend on beside the configuration.
+  [[nodiscard]] nlohmann::json run_json(Machine& machine, const std::vector<View>& views) const {
+    nlohmann::json cameras = nlohmann::json::array();
+    const auto list = [](const glm::vec3& v) { return nlohmann::json{v.x, v.y, v.z}; };
+    for (const View& view : views) {
+      const Camera& c = view.camera;
+      cameras.push_back(
+          {{"eye", list(c.eye)}, {"target", list(c.target)}, {"up", list(c.up)}, {"fov", c.fov_deg}});
+    }
+    const BenchSettings bench = bench_settings();
+    const SystemInfo system = system_info();
+    const Scene& scene = machine.scene().scene;
+    return {{"pinocchio", version()},
+            {"scene",
+             {{"name", std::filesystem::path(scene.source).stem().string()},
+              {"triangles", scene.mesh->triangles.size()},
+              {"digest", digest_of(scene)}}},
+            {"size", {options_.draw.size.x, options_.draw.size.y}},
+            {"cameras", cameras},
+            {"rounds", bench.rounds},
+            {"clock", options_.clock},
+            {"error_frames", bench.error_frames},
+            {"area_samples", bench.area_side * bench.area_side},
+            {"turntable", options_.animation.turntable},
+            {"cpu", system.cpu},
+            {"cores", system.cores},
+            {"gl", machine.gl_info()->renderer}};
+  }
+
+  void write_plans(const std::vector<Configuration>& sweep) const {
+    for (const Configuration& configuration : sweep)
+      if (configuration.has_plan_file)
+        write_json(folder_ / configuration.plan_file(), to_json(configuration.settings.plan));
+  }
+
+  // False where the user asked for an end; what was measured by then is kept.
+  bool measure(const Machine& machine, Bench& bench, const std::vector<Configuration>& sweep,
+               Results& results) const {
+    Progress progress(options_.draw.quiet ? "off" : options_.draw.progress, "chart", sweep.size());
+    for (const Configuration& configuration : sweep) {
+      if (!results.has(configuration)) {
+        const nlohmann::json* const known = results.find_equal(configuration);
+        if (known) {
+          results.add(configuration, nlohmann::json(*known), known->at("picture").get<std::string>());
+        } else {
+          const std::optional<PointFigures> figures = bench.measure(configuration);
+          if (!figures) return false;
+          machine.throw_gl_complaints();
+          results.add(configuration, to_json(*figures), configuration.name());
+        }
+      }
+      progress.step();
+    }
+    return true;
+  }
+
+  int finish(Results& results) const {
+    results.write();
+    const bool drawn = draw_page(folder_);
+    if (!drawn)
+      std::fprintf(stderr,
+                   "pinocchio: no page was drawn, as matplotlib is missing; install python3-matplotlib and "
+                   "give the same command again (results.csv and results.json are whole)\n");
+    if (!options_.draw.quiet)
+      std::printf("%zu points\n%s\n", results.json()["points"].size(),
+                  (folder_ / (drawn ? "index.html" : "results.csv")).c_str());
+    return kDone;
+  }
+
+  ChartOptions& options_;
+  std::filesystem::path folder_;
+};
+
+// chart --stability: kFailed where a default method failed.
+int run_stability(const ChartOptions& options) {
+  const std::filesystem::path folder = options.folder;
+  const DrawOptions& draw = options.draw;
+  make_folder(folder);
+  check_writable(folder / "stability.json");
+  const auto context = gl::open_context({draw.backend, draw.device, false});
+  std::optional<stability::Tables> tables;
+  {
+    Progress progress(draw.quiet ? "off" : draw.progress, "stability", stability::table_cells());
+    tables = stability::make_tables(options.quick, [&] {
+      progress.step();
+      return !interrupted();
+    });
+  }
+  if (!tables) return kInterrupted;
+  tables->write(folder);
+  const std::uint64_t failures = tables->default_failures();
+  if (!draw.quiet)
+    std::printf("%s\n%llu failures of the defaults\n%s\n", tables->text().c_str(),
+                static_cast<unsigned long long>(failures), (folder / "stability.md").c_str());
+  return failures == 0 ? kDone : kFailed;
+}
+
+}  // namespace
+
+Run add_chart(CLI::App& program) {
+  auto options = std::make_shared<ChartOptions>();
+  CLI::App& verb = *program.add_subcommand(
+      "chart", "sweep the settings of a scene's pictures; chart error against time, with the Pareto front");
+  add_scene_options(verb, options->draw);
+  add_size_option(verb, options->draw, "pixels (400x300; with --quick 160x120)");
+  add_animation_options(verb, options->animation);
+  verb.add_option(
+          "-o,--output", options->folder,
+          "folder for the page, the charts and the figures; a run that was ended goes on where it stopped")
+      ->required()
+      ->type_name("DIR");
+  verb.add_flag("--quick", options->quick, "a small picture and fewer points: under a minute");
+  verb.add_option("--repeat", options->repeat, "rounds of frames, whose fastest count (5; with --quick 3)")
+      ->check(CLI::Range(1, 1000));
+  verb.add_option("--clock", options->clock,
+                  "what is charted as time: frame, from one frame to the next; cpu, the processor's of all "
+                  "threads, for a machine that others use (frame)")
+      ->check(CLI::IsMember({"frame", "cpu"}));
+  verb.add_option_function<std::string>(
+          "--only", [options](const std::string& text) { options->only = parse_axes(text); },
+          "these axes alone, separated by commas: " + axis_list() + " (all)")
+      ->type_name("AXES");
+  verb.add_flag("--restart", options->restart, "begin afresh, whatever the folder holds");
+  verb.add_flag(
+      "--stability", options->stability,
+      "no scene: how often each method fails where methods fail, and what it costs (with --quick fewer "
+      "rays)");
+  verb.get_option("SCENE")->required(false);
+  verb.parse_complete_callback([options] {
+    if (options->draw.scene.empty() != options->stability)
+      throw CLI::ValidationError("chart", "give a SCENE or --stability");
+  });
+  return [options, &verb] {
+    if (options->stability) return run_stability(*options);
+    options->size_given = verb.count("--size") > 0;
+    return ChartRun(*options).run();
+  };
+}
+
+}  // namespace pinocchio::app

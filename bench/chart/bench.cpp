@@ -1,0 +1,153 @@
+#include "bench/chart/bench.h"
+
+#include <algorithm>
+
+#include "core/compare/magma.h"
+#include "core/image/png.h"
+#include "core/image/rgb.h"
+#include "core/math/median.h"
+
+namespace pinocchio::chart {
+namespace {
+
+// The sweep's default in another mode, which draws whatever the default draws.
+Plan plan_of(const SweepRequest& sweep, Mode mode, bool precise) {
+  PlanRequest request = sweep.plan;
+  request.mode = mode;
+  request.precise = precise;
+  return make_plan(sweep.needs, request).value();
+}
+
+// What a person sees: after each frame of the motion is asked for, the picture that is there by then.
+class Screen {
+ public:
+  Screen(std::shared_ptr<const PreparedScene> scene, const Settings& settings, Workers& workers)
+      : renderer_(
+            std::move(scene), settings.plan, workers,
+            {settings.exchange, gl::Mapping::each_time, settings.spp, true},
+            {[this](Picture&& picture) { color_ = std::move(picture.color); }, [](const FrameRecord&) {}}) {}
+
+  const Image<glm::vec4>& show(const View& view) {
+    renderer_.submit(view);
+    return color_;
+  }
+
+ private:
+  Image<glm::vec4> color_;
+  Renderer renderer_;
+};
+
+}  // namespace
+
+Bench::Bench(std::shared_ptr<const PreparedScene> scene, const SweepRequest& sweep, Workers& workers,
+             const BenchSettings& settings, std::vector<View> views, std::filesystem::path folder)
+    : scene_(std::move(scene)),
+      settings_(settings),
+      views_(std::move(views)),
+      folder_(std::move(folder)),
+      ground_truth_(scene_, plan_of(sweep, Mode::raytrace, true), settings.area_side, views_, workers,
+                    settings.interrupted),
+      raster_(scene_, {plan_of(sweep, Mode::raster, false), Exchange::sync, 1, {}}, workers),
+      prepared_(scene_) {}
+
+std::optional<PointFigures> Bench::measure(const Configuration& configuration) {
+  const Settings& settings = configuration.settings;
+  Workers workers(settings.plan.threads);
+  PointFigures figures;
+  if (!measure_time(settings, workers, figures)) return std::nullopt;
+  if (!measure_error(configuration, workers, figures)) return std::nullopt;
+  return figures;
+}
+
+// The scene with the tree that the settings ask for; the last one is kept.
+std::shared_ptr<const PreparedScene> Bench::prepared(const Settings& settings) {
+  if (settings.tracer == prepared_for_) return prepared_;
+  prepared_for_ = settings.tracer;
+  if (settings.tracer == TracerSettings{}) return prepared_ = scene_;
+  BuildOptions tree;
+  tree.rule = settings.tracer.tree;
+  tree.triangle_test = settings.tracer.triangle_test;
+  return prepared_ = std::make_shared<const PreparedScene>(scene_->scene, Sides{}, tree, settings.tracer.isa,
+                                                           settings.tracer.offset);
+}
+
+bool Bench::measure_time(const Settings& settings, Workers& workers, PointFigures& figures) {
+  TimedRenderer renderer(prepared(settings), settings, workers);
+  if (!warm_) {  // the process's first frames pay for what later ones find: memory, threads, shaders
+    (void)raster_.draw(views_, settings_.interrupted);
+    (void)renderer.draw(views_, settings_.interrupted);
+    warm_ = true;
+  }
+  std::vector<double> ratios, frame_ms, raster_ms, cpu_ms, raster_cpu_ms, latency_ms;
+  const bool by_cpu = settings_.clock == Clock::cpu;
+  TimedRenderer::Round round;
+  for (int i = 0; i < settings_.rounds; ++i) {
+    const TimedRenderer::Round raster = raster_.draw(views_, settings_.interrupted);
+    round = renderer.draw(views_, settings_.interrupted);
+    if (settings_.interrupted()) return false;
+    ratios.push_back(by_cpu ? round.cpu_ms / raster.cpu_ms : round.frame_ms / raster.frame_ms);
+    frame_ms.push_back(round.least_ms);
+    raster_ms.push_back(raster.least_ms);
+    cpu_ms.push_back(round.cpu_ms);
+    raster_cpu_ms.push_back(raster.cpu_ms);
+    latency_ms.push_back(round.latency_ms);
+  }
+  const auto least = [](const std::vector<double>& values) {
+    return *std::min_element(values.begin(), values.end());
+  };
+  figures.frame_ms = least(frame_ms);
+  figures.raster_ms = least(raster_ms);
+  figures.cpu_ms = least(cpu_ms);
+  figures.raster_cpu_ms = least(raster_cpu_ms);
+  figures.ratio_median = median(std::move(ratios));
+  figures.latency_ms = least(latency_ms);
+  figures.latency_frames = round.latency_frames;
+  figures.age_frames = round.age_frames;
+  figures.bytes_gpu_to_cpu = round.bytes_to_cpu;
+  figures.bytes_cpu_to_gpu = round.bytes_to_gpu;
+  return true;
+}
+
+// The area reference is dear: one frame, the last, is compared with it.
+std::vector<std::size_t> Bench::compared_frames(bool area) const {
+  const std::size_t first = kWarmUpFrames, last = views_.size() - 1;
+  const auto count = static_cast<std::size_t>(area ? 1 : settings_.error_frames);
+  std::vector<std::size_t> frames;
+  for (std::size_t i = 1; i < count; ++i) frames.push_back(first + (last - first) * (i - 1) / (count - 1));
+  frames.push_back(last);
+  return frames;
+}
+
+bool Bench::measure_error(const Configuration& configuration, Workers& workers, PointFigures& figures) {
+  const bool area = configuration.reference == "area";
+  figures.reference = configuration.reference;
+  const std::vector<std::size_t> compared = compared_frames(area);
+  Screen screen(prepared(configuration.settings), configuration.settings, workers);
+  for (std::size_t frame = 0; frame < views_.size(); ++frame) {
+    const Image<glm::vec4>& color = screen.show(views_[frame]);
+    if (settings_.interrupted()) return false;
+    if (std::find(compared.begin(), compared.end(), frame) == compared.end()) continue;
+    const std::optional<MeasuredError> error = ground_truth_.measure(color, frame, area);
+    if (!error) return false;
+    if (error->not_finite > 0) {
+      figures.failure = "NaN or infinity in " + std::to_string(error->not_finite) + " pixels";
+      return true;
+    }
+    figures.rmse += error->rgb.rmse / static_cast<double>(compared.size());
+    figures.relative_mse += error->rgb.relative_mse / static_cast<double>(compared.size());
+    figures.flip += error->mean_flip / static_cast<double>(compared.size());
+    if (frame == compared.back())
+      write_pictures(configuration.name(), color, *error, *ground_truth_.reference(frame, area), area);
+  }
+  return true;
+}
+
+void Bench::write_pictures(const std::string& name, const Image<glm::vec4>& color, const PictureError& error,
+                           const Image<glm::vec3>& truth, bool area) const {
+  const std::filesystem::path pictures = folder_ / "pictures";
+  write_png(pictures / (name + ".png"), preview(color, 0.0f));
+  write_png(pictures / (name + "-flip.png"), magma(error.flip));
+  write_png(pictures / (area ? "reference-area.png" : "reference-centre.png"), preview(opaque(truth), 0.0f));
+}
+
+}  // namespace pinocchio::chart

@@ -1,0 +1,57 @@
+#include "bench/chart/page.h"
+
+#include <spawn.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <array>
+#include <string>
+#include <system_error>
+
+#include "core/base/error.h"
+
+namespace pinocchio::chart {
+namespace {
+
+constexpr int kNoMatplotlib = 3;  // plot.py's exit code
+// The first may be one without the system's packages.
+constexpr std::array kPythons{"python3", "/usr/bin/python3"};
+
+// Beside the installed program, else in the source tree.
+std::filesystem::path plot_script() {
+  std::error_code unknown;
+  const std::filesystem::path program = std::filesystem::read_symlink("/proc/self/exe", unknown);
+  const std::filesystem::path installed =
+      program.parent_path().parent_path() / "share/pinocchio/chart/plot.py";
+  if (!unknown && std::filesystem::exists(installed, unknown)) return installed;
+  return PINOCCHIO_CHART_SOURCE_DIR "/plot.py";
+}
+
+// The exit code; 127 where there is no such program, 128 where a signal ended it.
+int run(const char* program, std::string script, std::string folder) {
+  std::string name = program;
+  const std::array<char*, 4> arguments{name.data(), script.data(), folder.data(), nullptr};
+  pid_t child = 0;
+  if (posix_spawnp(&child, program, nullptr, nullptr, arguments.data(), environ) != 0) return 127;
+  int status = 0;
+  while (waitpid(child, &status, 0) < 0 && errno == EINTR) {
+  }
+  return WIFEXITED(status) ? WEXITSTATUS(status) : 128;
+}
+
+}  // namespace
+
+bool draw_page(const std::filesystem::path& folder) {
+  const std::filesystem::path script = plot_script();
+  for (const char* python : kPythons) {
+    const int code = run(python, script.string(), folder.string());
+    if (code == 0) return true;
+    if (code != kNoMatplotlib && code != 127)
+      throw EnvironmentError(script.string() + ": failed (exit code " + std::to_string(code) +
+                             "), so no page was drawn; results.json and results.csv in " + folder.string() +
+                             " are whole");
+  }
+  return false;
+}
+
+}  // namespace pinocchio::chart

@@ -1,0 +1,11 @@
+#pragma once
+
+#include <filesystem>
+
+namespace pinocchio::chart {
+
+// Draws index.html with its charts out of the folder's results.json: Python and matplotlib do, by plot.py and
+// charts.py. False where one of the two is missing. Throws EnvironmentError where they are there and fail.
+[[nodiscard]] bool draw_page(const std::filesystem::path& folder);
+
+}  // namespace pinocchio::chart

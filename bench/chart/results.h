@@ -1,0 +1,65 @@
+// What a chart has measured so far, as it is kept in its folder.
+#pragma once
+
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <string>
+
+#include "bench/chart/configuration.h"
+#include "core/base/error.h"
+
+namespace pinocchio::chart {
+
+// One configuration, measured along the camera's motion.
+struct PointFigures {
+  double ratio_median = 0.0;                 // to raster-only's of the same round, by the run's clock
+  double frame_ms = 0.0, raster_ms = 0.0;    // of the fastest frames in a row
+  double cpu_ms = 0.0, raster_cpu_ms = 0.0;  // of all threads, a frame; least of the rounds
+  double latency_ms = 0.0;  // camera sampled to picture delivered, least of the rounds' medians
+  int latency_frames = 0, age_frames = 0;
+  double bytes_gpu_to_cpu = 0.0, bytes_cpu_to_gpu = 0.0;  // a frame
+  // Of what is on the screen against what should be there then; means over frames.
+  std::string reference;  // Configuration::reference
+  double rmse = 0.0, relative_mse = 0.0, flip = 0.0;
+  std::string failure;  // why there are no errors: NaN or infinity in the picture
+};
+[[nodiscard]] nlohmann::json to_json(const PointFigures& figures);
+
+// results.json and results.csv in a folder: {"run": ..., "points": [...]}, of each configuration its ratio
+// (its least time by the run's clock, over the least of raster-only in the whole run: other programs on the
+// machine only ever add to a time), its axis, value, options, settings, figures, `picture` (name of its
+// files) and `pareto` (the charts on whose front it is: rmse, relmse, flip against the frame time, bytes
+// against FLIP).
+class Results {
+ public:
+  // `run`: what makes two runs one (scene, size, cameras, machine, version). Reads what the folder holds;
+  // errors: that is of another run (and what differs), or cannot be read.
+  [[nodiscard]] static Expected<Results> open(const std::filesystem::path& folder, const nlohmann::json& run,
+                                              bool restart);
+
+  [[nodiscard]] bool has(const Configuration& configuration) const;
+  // A point with the same settings and reference, on whatever axis: it need not be measured again.
+  [[nodiscard]] const nlohmann::json* find_equal(const Configuration& configuration) const;
+
+  // Adds the configuration with the figures (and the picture) of a point, and writes both files, each whole
+  // or not at all. Throws EnvironmentError.
+  void add(const Configuration& configuration, const nlohmann::json& figures, const std::string& picture);
+
+  // Both files, each whole or not at all. Throws EnvironmentError.
+  void write();
+
+  [[nodiscard]] const nlohmann::json& json() const { return json_; }
+
+ private:
+  Results(std::filesystem::path folder, nlohmann::json json)
+      : folder_(std::move(folder)), json_(std::move(json)) {}
+  void set_ratios();
+  void mark_fronts();
+  [[nodiscard]] std::string csv() const;
+
+  std::filesystem::path folder_;
+  nlohmann::json json_;
+};
+
+}  // namespace pinocchio::chart

@@ -1,0 +1,76 @@
+#include "bench/chart/timed_renderer.h"
+
+#include <algorithm>
+#include <cassert>
+#include <ctime>
+
+#include "core/math/median.h"
+
+namespace pinocchio::chart {
+namespace {
+
+// Of all threads of this process: a software rasteriser's too.
+double processor_ms() {
+  timespec time{};
+  clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &time);
+  return 1e3 * static_cast<double>(time.tv_sec) + 1e-6 * static_cast<double>(time.tv_nsec);
+}
+
+// A point of the chart says nothing of the frames that another has drawn.
+Plan without_memory(Plan plan) {
+  plan.reuse = false;
+  return plan;
+}
+
+}  // namespace
+
+TimedRenderer::TimedRenderer(std::shared_ptr<const PreparedScene> scene, const Settings& settings,
+                             Workers& workers)
+    : spp_(settings.spp),
+      renderer_(std::move(scene), without_memory(settings.plan), workers,
+                {settings.exchange, gl::Mapping::each_time, settings.spp, false},
+                {[](Picture&&) {}, [this](const FrameRecord& record) { records_.push_back(record); }}) {}
+
+TimedRenderer::Round TimedRenderer::draw(const std::vector<View>& views, Interrupted interrupted) {
+  assert(views.size() > kWarmUpFrames + 1);
+  records_.clear();
+  const double begin_cpu_ms = processor_ms();
+  for (const View& view : views) {
+    if (interrupted()) break;
+    renderer_.submit(view);
+  }
+  renderer_.drain();
+  Round round;
+  if (interrupted()) return round;
+  round.cpu_ms = (processor_ms() - begin_cpu_ms) / static_cast<double>(views.size());
+
+  const auto samples = static_cast<std::size_t>(spp_);
+  const auto first_sample = [&](std::size_t frame) -> const FrameRecord& {
+    return records_[frame * samples];
+  };
+  const std::size_t first = kWarmUpFrames, last = views.size() - 1;
+  round.frame_ms = 1e3 * (first_sample(last).frame.begin_s - first_sample(first).frame.begin_s) /
+                   static_cast<double>(last - first);
+  round.least_ms = round.frame_ms;
+  for (std::size_t frame = first; frame + kFramesInFlight <= last; ++frame)
+    round.least_ms = std::min(
+        round.least_ms,
+        1e3 * (first_sample(frame + kFramesInFlight).frame.begin_s - first_sample(frame).frame.begin_s) /
+            kFramesInFlight);
+  std::vector<double> latencies_ms;
+  for (std::size_t frame = first; frame < last; ++frame)
+    latencies_ms.push_back(
+        1e3 * (records_[(frame + 1) * samples - 1].frame.end_s - first_sample(frame).frame.begin_s));
+  round.latency_ms = median(std::move(latencies_ms));
+  // Not the last: a reprojected frame's own mask and reflection travel after it was shown.
+  const std::size_t usual = (first + last) / 2;
+  round.latency_frames = first_sample(usual).latency_frames;
+  round.age_frames = first_sample(usual).age_frames;
+  for (std::size_t k = 0; k < samples; ++k) {
+    round.bytes_to_cpu += static_cast<double>(records_[usual * samples + k].bytes_to_cpu());
+    round.bytes_to_gpu += static_cast<double>(records_[usual * samples + k].bytes_to_gpu());
+  }
+  return round;
+}
+
+}  // namespace pinocchio::chart

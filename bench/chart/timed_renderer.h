@@ -1,0 +1,45 @@
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "bench/chart/configuration.h"
+#include "core/parallel/workers.h"
+#include "hybrid/prepared_scene.h"
+#include "hybrid/renderer.h"
+
+namespace pinocchio::chart {
+
+// Frames of a round that are drawn and not counted: buffers and shaders are made, the first pictures are
+// on their way.
+inline constexpr std::size_t kWarmUpFrames = kFramesInFlight;
+
+// Whether the user asked for an end.
+using Interrupted = bool (*)();
+
+// Draws rounds of frames along a camera's motion, whose pictures stay where they are drawn, and
+// takes their times.
+class TimedRenderer {
+ public:
+  struct Round {
+    double frame_ms = 0.0;  // from a frame's begin to the next one's, mean of those that count
+    double least_ms = 0.0;  // the same of the fastest kFramesInFlight in a row (the fewer there are, of all)
+    double cpu_ms = 0.0;    // processor time a frame, of all threads, warming up included
+    double latency_ms = 0.0;  // camera sampled to picture delivered, median
+    int latency_frames = 0, age_frames = 0;
+    double bytes_to_cpu = 0.0, bytes_to_gpu = 0.0;  // of a usual frame
+  };
+
+  // Wants a current OpenGL context that outlives this, unless the plan is the CPU's alone.
+  TimedRenderer(std::shared_ptr<const PreparedScene> scene, const Settings& settings, Workers& workers);
+
+  // views: more than kWarmUpFrames + 1. The round is not whole where the user asked for an end.
+  Round draw(const std::vector<View>& views, Interrupted interrupted);
+
+ private:
+  int spp_;
+  std::vector<FrameRecord> records_;  // of the round, one a sample
+  Renderer renderer_;
+};
+
+}  // namespace pinocchio::chart

@@ -1,0 +1,154 @@
+// pinocchio-bench SCENE | --generate NAME: our tracer beside Embree on the rays of one frame.
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <cstdio>
+#include <exception>
+#include <utility>
+
+#include "bench/rays/embree_side.h"
+#include "bench/rays/our_side.h"
+#include "bench/rays/report.h"
+#include "core/image/atomic_file.h"
+#include "core/scene/load.h"
+#include "scenes/generator/scenes.h"
+
+namespace pinocchio::bench {
+namespace {
+
+constexpr glm::ivec2 kSize{800, 600};
+constexpr float kMirror = 0.5f;  // reflectance where --mirror-all makes every material a mirror
+
+struct Options {
+  std::string scene, generate, json;
+  std::vector<std::string> isas;
+  std::string tree = "sah", test{triangle_test_name(BuildOptions{}.triangle_test)};
+  int triangles = 0, repeat = 7, build_repeat = 3, threads = 0;
+  bool mirror_all = false, robust = false, no_pass = false;
+};
+
+void add_options(CLI::App& program, Options& o) {
+  const auto scene = program.add_option("SCENE", o.scene, "glTF (.gltf, .glb) or OBJ file");
+  program.add_option("--generate", o.generate, "a scene made by our own code instead")
+      ->check(CLI::IsMember(procedural_names()))
+      ->excludes(scene);
+  program.add_option("--triangles", o.triangles, "about how many triangles to generate")
+      ->check(CLI::Range(1, static_cast<int>(kMaxTriangles)));
+  program
+      .add_option("--isa", o.isas, "SIMD level of ours, repeatable; all: every one of this processor (best)")
+      ->check(CLI::IsMember({"scalar", "sse4", "avx2", "avx512", "all"}));
+  program.add_option("--tree", o.tree, "how our BSP tree is split (sah)")
+      ->check(CLI::IsMember({"sah", "spatial-median", "object-median"}));
+  program.add_option("--triangle-test", o.test, "how our rays meet a triangle (filtered)")
+      ->check(CLI::IsMember({"projected", "moeller-trumbore", "watertight", "filtered"}));
+  program.add_option("--repeat", o.repeat, "repetitions, of which the median counts (7)")
+      ->check(CLI::Range(1, 1000));
+  program.add_option("--build-repeat", o.build_repeat, "builds, of which the median counts (3)")
+      ->check(CLI::Range(1, 1000));
+  program.add_option("--threads", o.threads, "threads beside the runs on one (all cores)")
+      ->check(CLI::Range(1, 1024));
+  program.add_flag("--mirror-all", o.mirror_all, "every material mirrors (where the scene has no mirror)");
+  program.add_flag("--embree-robust", o.robust, "Embree's watertight test, not its fast one");
+  program.add_flag("--no-pass", o.no_pass, "leave out the whole shadow pass");
+  program.add_option("--json", o.json, "write everything to this file");
+}
+
+std::vector<Isa> chosen_isas(const std::vector<std::string>& names) {
+  if (names.empty()) return {default_isa()};
+  if (std::find(names.begin(), names.end(), "all") != names.end()) return supported_isas();
+  std::vector<Isa> isas;
+  for (const std::string& name : names) isas.push_back(parse_name<Isa>(kIsaNames, name).value());
+  return isas;
+}
+
+Scene scene_of(const Options& o) {
+  Expected<Scene> scene =
+      o.generate.empty() ? load_scene(o.scene) : make_procedural(o.generate, {o.triangles});
+  if (!scene) throw EnvironmentError(scene.error().message());
+  if (scene->lights.empty()) {
+    const Camera camera = scene->cameras.empty() ? camera_for_whole_scene(*scene) : scene->cameras.front();
+    scene->lights.push_back(default_light(*scene, camera));
+  }
+  return std::move(*scene);
+}
+
+// Whether it did: asked to, or because nothing in the scene mirrors.
+bool make_mirrors(Scene& scene, bool wanted) {
+  const auto reflects = [](const Material& m) { return m.reflects(); };
+  MeshData mesh = *scene.mesh;
+  if (!wanted && std::any_of(mesh.materials.begin(), mesh.materials.end(), reflects)) return false;
+  for (Material& material : mesh.materials) material.reflectance = glm::vec3(kMirror);
+  scene.mesh = std::make_shared<const Mesh>(std::move(mesh));
+  return true;
+}
+
+void run(const Options& o) {
+  if (!o.json.empty()) check_writable(o.json);
+  Scene scene = scene_of(o);
+  Report report;
+  report.scene = o.generate.empty() ? o.scene : o.generate;
+  report.triangles = scene.mesh->triangles.size();
+  report.tree = o.tree;
+  report.robust = o.robust;
+  report.repeat = o.repeat;
+  report.all_mirrors = make_mirrors(scene, o.mirror_all);
+
+  Workers all(o.threads), one(1);
+  const BuildOptions tree{.rule = parse_name<SplitRule>(kSplitRuleNames, o.tree).value(),
+                          .threads = o.threads,
+                          .triangle_test = parse_name<TriangleTest>(kTriangleTestNames, o.test).value()};
+  std::vector<std::unique_ptr<Tracer>> tracers;
+  RayBackends backends;
+  for (const Isa isa : chosen_isas(o.isas)) {
+    BuildCost cost;  // the tree is the same for each: the first tells the time
+    tracers.push_back(build_ours(scene.mesh, tree, isa, tracers.empty() ? o.build_repeat : 1, cost));
+    if (tracers.size() == 1) report.ours = cost;
+    backends.push_back(our_backend(*tracers.back()));
+  }
+  const EmbreeSide embree(*scene.mesh, o.robust, all.count(), o.build_repeat);
+  report.embree = embree.cost();
+  backends.push_back(embree.packets());
+  backends.push_back(embree.single());
+
+  for (const RaySet& set : frame_ray_sets(scene, *tracers.front(), kSize)) {
+    if (set.rays.empty()) continue;
+    for (Workers* workers : {&one, &all}) {
+      if (workers == &all && all.count() == 1) continue;
+      const std::vector<Speed> speeds = race(set, backends, *workers, o.repeat);
+      report.speeds.insert(report.speeds.end(), speeds.begin(), speeds.end());
+    }
+  }
+  std::vector<Workers*> on{&one};
+  if (all.count() > 1) on.push_back(&all);
+  if (!o.no_pass) report.shadow_passes = measure_shadow_passes(scene, *tracers.front(), embree, kSize, on);
+  print_report(report);
+  if (!o.json.empty()) save_report(report, o.json);
+}
+
+int parse_and_run(int argc, char** argv) {
+  CLI::App program("Our tracer beside Embree on the rays of one frame of 800x600", "pinocchio-bench");
+  Options options;
+  add_options(program, options);
+  try {
+    program.parse(argc, argv);
+    if (options.scene.empty() == options.generate.empty())
+      throw CLI::ValidationError("give a SCENE or --generate NAME");
+  } catch (const CLI::ParseError& error) {
+    if (error.get_exit_code() == 0) return program.exit(error);  // --help
+    std::fprintf(stderr, "pinocchio-bench: %s; --help tells what there is\n", error.what());
+    return 2;
+  }
+  try {
+    run(options);
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "pinocchio-bench: %s\n", error.what());
+    return 1;
+  }
+  return 0;
+}
+
+}  // namespace
+}  // namespace pinocchio::bench
+
+int main(int argc, char** argv) {
+  return pinocchio::bench::parse_and_run(argc, argv);
+}

@@ -1,0 +1,31 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "bench/rays/measure.h"
+#include "bench/rays/shadow_pass.h"
+
+namespace pinocchio::bench {
+
+// Everything one run of the program found.
+struct Report {
+  std::string scene;
+  std::size_t triangles = 0;
+  std::string tree;  // split rule
+  bool robust = false;
+  bool all_mirrors = false;  // every material was made a mirror
+  int repeat = 0;
+  BuildCost ours, embree;
+  std::vector<Speed> speeds;
+  std::vector<ShadowPass> shadow_passes;
+};
+
+// Tables for people, on stdout.
+void print_report(const Report& report);
+
+// The same and the machine, as JSON. Throws EnvironmentError where the file cannot be written.
+void save_report(const Report& report, const std::filesystem::path& file);
+
+}  // namespace pinocchio::bench

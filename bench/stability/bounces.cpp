@@ -1,0 +1,164 @@
+// Mirrors and glass in closed rooms whose light is known: what leaks, or hits its own surface, changes it.
+#include <array>
+#include <cmath>
+
+#include "bench/stability/count.h"
+#include "bench/stability/shapes.h"
+#include "core/reference/reference.h"
+#include "core/trace/passes.h"
+#include "core/trace/view.h"
+
+namespace pinocchio::stability {
+namespace {
+
+Material glowing(float light) {
+  Material m;
+  m.ambient = m.diffuse = glm::vec3(0.0f);
+  m.emission = glm::vec3(light);
+  return m;
+}
+
+Material glass(float ior) {
+  Material m = glowing(0.0f);
+  m.transmittance = glm::vec3(1.0f);
+  m.ior = ior;
+  return m;
+}
+
+void append(MeshData& to, const MeshData& from, const Material& material) {
+  const auto first = static_cast<std::uint32_t>(to.positions.size());
+  to.positions.insert(to.positions.end(), from.positions.begin(), from.positions.end());
+  to.normals.insert(to.normals.end(), from.normals.begin(), from.normals.end());
+  for (const glm::uvec3& t : from.triangles) to.triangles.push_back(t + first);
+  to.materials.push_back(material);
+  to.triangle_materials.resize(to.triangles.size(), static_cast<std::uint32_t>(to.materials.size() - 1));
+}
+
+struct Drawn {
+  Image<std::uint32_t> ids;
+  Image<glm::vec3> radiance;
+  FailureCount count;
+};
+
+Drawn draw(const Scene& scene, const Camera& camera, const Method& method, int rays, int depth) {
+  const int side = std::clamp(static_cast<int>(std::sqrt(static_cast<float>(rays) / 16.0f)), 16, 64);
+  Drawn drawn{Image<std::uint32_t>(glm::ivec2(side)), {}, {}};
+  const Tracer tracer = method.tracer(*scene.mesh);
+  Workers one(1);
+  const TraceJob job{scene, tracer, one, view_params(camera, drawn.ids.size())};
+  const Timed timed(drawn.count);
+  trace_visibility(job, drawn.ids);
+  trace_reflection(job, drawn.ids, depth, drawn.radiance);
+  return drawn;
+}
+
+// A room around it whose six sides glow, each as it alone does.
+void append_glowing_room(MeshData& mesh, float size) {
+  const MeshData room = box(glm::vec3(-8.0f * size), glm::vec3(8.0f * size), 1);
+  append(mesh, room, glowing(0.2f));
+  const std::size_t first = mesh.triangles.size() - room.triangles.size();
+  for (std::uint32_t side = 1; side < 6; ++side) {
+    mesh.materials.push_back(glowing(0.2f + 0.15f * static_cast<float>(side)));
+    for (const std::size_t half : {0, 1})
+      mesh.triangle_materials[first + 2 * side + half] =
+          static_cast<std::uint32_t>(mesh.materials.size() - 1);
+  }
+}
+
+Image<glm::vec3> by_reference(const Scene& scene, shared::ViewParams view, glm::ivec2 size, float shift,
+                              int depth) {
+  view.corner += shift * (view.step_x + view.step_y);
+  Workers one(1);
+  Image<std::uint32_t> ids(size);
+  MaskImage mask;
+  Image<glm::vec3> reflection;
+  Image<glm::vec4> color;
+  reference_picture(scene, one, view, depth, ids, mask, reflection, color);
+  return reflection;
+}
+
+// Pixels of glass against the reference's. Glass spreads rays that are a hair apart: where the reference
+// itself changes within a thirtieth of a pixel, it cannot tell.
+FailureCount against_reference(MeshData mesh, float size, const Method& method, int rays) {
+  constexpr int kDepth = 8;
+  constexpr float kTolerance = 0.01f, kShift = 0.03f;
+  append_glowing_room(mesh, size);
+  const Scene scene(std::move(mesh));
+  const Camera camera{"", size * glm::vec3(0.3f, 0.4f, 4.0f), glm::vec3(0.0f), {0, 1, 0}, 35.0f};
+  Drawn drawn = draw(scene, camera, method, rays, kDepth);
+  const glm::ivec2 pixels = drawn.ids.size();
+  const shared::ViewParams view = view_params(camera, pixels);
+  const Image<glm::vec3> expected = by_reference(scene, view, pixels, 0.0f, kDepth);
+  const Image<glm::vec3> beside = by_reference(scene, view, pixels, kShift, kDepth);
+  for (std::size_t i = 0; i < drawn.ids.pixels().size(); ++i) {
+    if (drawn.ids[i] == kNoTriangle || !scene.mesh->material_of(drawn.ids[i]).transmits()) continue;
+    ++drawn.count.trials;
+    const bool same = std::abs(drawn.radiance[i].x - expected[i].x) <= kTolerance;  // NaN is not
+    const bool steady = std::abs(beside[i].x - expected[i].x) <= kTolerance;
+    drawn.count.excused += !same && !steady ? 1 : 0;
+    drawn.count.failures += !same && (steady || !std::isfinite(drawn.radiance[i].x)) ? 1 : 0;
+  }
+  return drawn.count;
+}
+
+// As it is, and where an offset of one length for all is no longer small.
+constexpr std::array kSizes{1.0f, 0x1p-14f};
+
+// A ball of water in a ball of glass.
+FailureCount glass_in_glass(const Method& method, int rays) {
+  FailureCount count;
+  for (const float size : kSizes) {
+    MeshData mesh;
+    append(mesh, ball(glm::vec3(0.0f), size, 32), glass(1.5f));
+    append(mesh, ball(glm::vec3(0.0f), 0.6f * size, 32), glass(1.33f / 1.5f));
+    count += against_reference(std::move(mesh), size, method, rays / 2);
+  }
+  return count;
+}
+
+// From inside a block of glass: beyond the critical angle all is mirrored, many times over.
+FailureCount total_reflection(const Method& method, int rays) {
+  FailureCount count;
+  for (const float size : kSizes) {
+    MeshData mesh;
+    append(mesh, box(size * glm::vec3(-1, -0.5f, -0.25f), size * glm::vec3(1, 0.5f, 0.25f), 4), glass(2.0f));
+    count += against_reference(std::move(mesh), size, method, rays / 2);
+  }
+  return count;
+}
+
+// A closed room of perfect mirrors that glow a little: every bounce adds the same, so that every pixel is
+// depth times that, if no ray gets out.
+FailureCount mirror_to_mirror(const Method& method, int rays) {
+  constexpr int kDepth = 32;
+  constexpr float kGlow = 0x1p-6f;
+  Material mirror = glowing(kGlow);
+  mirror.reflectance = glm::vec3(1.0f);
+  FailureCount count;
+  for (const float size : kSizes) {
+    MeshData mesh;
+    append(mesh, box(-size * glm::vec3(1, 0.5f, 0.5f), size * glm::vec3(1, 0.5f, 0.5f), 8), mirror);
+    const Camera camera{"", glm::vec3(0.0f), size * glm::vec3(1.0f, 0.1f, 0.2f), {0, 1, 0}, 90.0f};
+    Drawn drawn = draw(Scene(std::move(mesh)), camera, method, rays / 2, kDepth);
+    for (const glm::vec3& radiance : drawn.radiance.pixels()) {
+      ++drawn.count.trials;
+      drawn.count.failures += radiance.x == kGlow * static_cast<float>(kDepth) ? 0 : 1;
+    }
+    count += drawn.count;
+  }
+  return count;
+}
+
+constexpr std::array kCases{
+    StressCase{"glass inside glass", "pixels unlike the reference's", glass_in_glass},
+    StressCase{"total internal reflection", "pixels unlike the reference's", total_reflection},
+    StressCase{"mirror against mirror", "pixels whose ray got out", mirror_to_mirror},
+};
+
+}  // namespace
+
+std::span<const StressCase> bounce_cases() {
+  return kCases;
+}
+
+}  // namespace pinocchio::stability

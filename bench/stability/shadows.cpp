@@ -1,0 +1,189 @@
+// Shadow rays at every scale: convex bodies shadow nothing of themselves, closed rooms let nothing in.
+#include <array>
+#include <cmath>
+
+#include "bench/stability/count.h"
+#include "bench/stability/shapes.h"
+#include "core/trace/surface.h"
+
+namespace pinocchio::stability {
+namespace {
+
+// Powers of two, so that a shape and its copy have the same corners to the last bit.
+constexpr std::array kScales{0x1p-20f, 0x1p-10f, 1.0f, 0x1p10f, 0x1p20f};
+constexpr std::array kMoves{0x1p10f, 0x1p20f};  // sizes away from the origin
+
+struct Set {
+  MeshData mesh;
+  glm::vec3 eye{0.0f};
+  Light light{};
+  glm::vec3 center{0.0f};
+  float half_side = 0.0f;  // of the room
+  float clear = 0.0f;      // points nearer than this to the room's other sides are not asked; 0: all are
+};
+
+// Whether the point is farther than `clear` from all sides of the room but its own.
+bool is_clear(const Set& set, const Surface& surface) {
+  if (set.clear == 0.0f) return true;
+  for (int axis = 0; axis < 3; ++axis) {
+    const bool own = std::abs(surface.n_geometric[axis]) > 0.5f;
+    if (!own && std::abs(surface.p_world[axis] - set.center[axis]) > set.half_side - set.clear) return false;
+  }
+  return true;
+}
+
+// Shadow rays from what random rays out of the eye see, towards the light.
+std::vector<Ray> shadow_rays(const Set& set, const Tracer& tracer, int rays) {
+  Random random(71);
+  std::vector<Ray> primary;
+  for (int i = 0; i < rays; ++i) {
+    const auto id = random.next() % static_cast<std::uint32_t>(set.mesh.triangles.size());
+    const float u = random.between(0.01f, 0.98f), v = random.between(0.01f, 0.99f - u);
+    const glm::vec3 a = corner(set.mesh, id, 0);
+    const glm::vec3 in_triangle = u * (corner(set.mesh, id, 1) - a) + v * (corner(set.mesh, id, 2) - a);
+    primary.push_back({set.eye, kInfinity, (a - set.eye) + in_triangle});
+  }
+  std::vector<Hit> hits(primary.size());
+  tracer.closest_hits(primary, hits);
+  std::vector<Ray> shadow;
+  const shared::LightParams light = light_params(set.light);
+  for (std::size_t i = 0; i < hits.size(); ++i) {
+    if (!hits[i].valid()) continue;
+    const Surface surface =
+        surface_at(tracer.mesh(), hits[i].triangle, primary[i].origin, primary[i].direction, tracer.offset());
+    if (!is_clear(set, surface)) continue;
+    if (const std::optional<Ray> ray = shadow_ray(light, surface)) shadow.push_back(*ray);
+  }
+  return shadow;
+}
+
+FailureCount count_shadows(const Set& set, const Method& method, int rays, bool expected) {
+  const Tracer tracer = method.tracer(set.mesh);
+  const std::vector<Ray> shadow = shadow_rays(set, tracer, rays);
+  std::vector<std::uint8_t> blocked(shadow.size());
+  FailureCount count;
+  count.trials = shadow.size();
+  {
+    const Timed timed(count);
+    tracer.occluded(shadow, blocked);
+  }
+  for (const std::uint8_t b : blocked) count.failures += (b != 0) == expected ? 0 : 1;
+  return count;
+}
+
+Light light_at(const glm::vec3& position) {
+  Light light;
+  light.position = position;
+  return light;
+}
+
+// Half of the rays to the light, half to one as far away as the sun, the same way from the scene's middle.
+FailureCount near_and_far(Set set, const Method& method, int rays, bool expected) {
+  FailureCount count = count_shadows(set, method, rays / 2, expected);
+  set.light.kind = Light::Kind::directional;
+  set.light.direction = -glm::normalize(set.light.position - set.center);
+  return count += count_shadows(set, method, rays / 2, expected);
+}
+
+Set lit_body(float size, const glm::vec3& center) {
+  return {octahedron(center, size, 4), center + size * glm::vec3(2, 1, 3),
+          light_at(center + size * glm::vec3(4, 5, 2)), center};
+}
+
+// A room seen from inside, the light outside it: every shadow ray has to be stopped. Where floats stand so
+// far apart that a point beside a corner cannot be told from one behind the next wall, none is asked.
+Set dark_room(float size, const glm::vec3& center) {
+  const float spacing = 0x1p-23f * glm::length(center);
+  return {box(center - glm::vec3(size), center + glm::vec3(size), 4),
+          center + size * glm::vec3(0.25f, 0.125f, -0.25f),
+          light_at(center + size * glm::vec3(0.5f, 0.25f, 4.0f)),
+          center,
+          size,
+          2.0f * spacing};
+}
+
+using MakeSet = Set (*)(float size, const glm::vec3& center);
+
+template <MakeSet make, bool expected>
+FailureCount scaled(const Method& method, int rays) {
+  FailureCount count;
+  for (const float s : kScales) count += near_and_far(make(s, glm::vec3(0.0f)), method, rays / 5, expected);
+  return count;
+}
+
+template <MakeSet make, bool expected>
+FailureCount moved(const Method& method, int rays) {
+  FailureCount count;
+  for (const float s : kScales)
+    for (const float m : kMoves)
+      count += near_and_far(make(s, s * m * glm::vec3(1, -1, 1)), method, rays / 10, expected);
+  return count;
+}
+
+// A tile in the hole of a floor a million times its size, all in one plane.
+FailureCount beside_one_far_larger(const Method& method, int rays) {
+  constexpr float kFar = 1e6f;
+  MeshData mesh;
+  const std::array<glm::vec3, 4> inner{{{0, 0, 0}, {1, 0, 0}, {1, 0, 1}, {0, 0, 1}}};
+  const std::array<glm::vec3, 4> outer{
+      {{-kFar, 0, -kFar}, {kFar, 0, -kFar}, {kFar, 0, kFar}, {-kFar, 0, kFar}}};
+  for (std::size_t i = 0; i < 4; ++i) {
+    const std::size_t j = (i + 1) % 4;
+    add(mesh, inner[i], outer[i], outer[j]);
+    add(mesh, inner[i], outer[j], inner[j]);
+  }
+  add(mesh, inner[0], inner[2], inner[1]);
+  add(mesh, inner[0], inner[3], inner[2]);
+  return count_shadows({mesh, {0.5f, 2.0f, 0.5f}, light_at({3.0f, 2.0f, 1.0f})}, method, rays, false);
+}
+
+MeshData coarse_ball() {
+  return ball(glm::vec3(0.0f), 1.0f, 12);
+}
+
+// A light that grazes a smooth ball of few triangles: what faces it is lit, as the ball is convex.
+FailureCount grazing_light(const Method& method, int rays) {
+  FailureCount count;
+  for (const float height : {0.0f, 0.5f, 2.0f})
+    count +=
+        count_shadows({coarse_ball(), {0, 0, 6}, light_at({10.0f, height, 0.5f})}, method, rays / 3, false);
+  return count;
+}
+
+// Facets that turn away from the light although the smooth ball does not: dark, with an edge to be seen.
+FailureCount dark_facets(const Method& method, int rays) {
+  const Tracer tracer = method.tracer(coarse_ball());
+  const glm::vec3 eye(0, 0, 6), light(10.0f, 0.5f, 0.5f);
+  FailureCount count;
+  Random random(72);
+  std::vector<Ray> primary;
+  for (int i = 0; i < rays; ++i) primary.push_back({eye, kInfinity, random_point(random, 0.9f) - eye});
+  const std::vector<Hit> hits = trace(tracer, primary, count);
+  for (std::size_t i = 0; i < hits.size(); ++i) {
+    if (!hits[i].valid()) continue;
+    const Surface s = surface_at(tracer.mesh(), hits[i].triangle, eye, primary[i].direction);
+    const glm::vec3 to_light = light - s.p_world;
+    if (glm::dot(s.n_shading, to_light) <= 0.0f) continue;
+    ++count.trials;
+    count.failures += glm::dot(s.n_geometric, to_light) <= 0.0f ? 1 : 0;
+  }
+  return count;
+}
+
+constexpr std::array kCases{
+    StressCase{"scaled by 1e-6 to 1e6: acne", "lit points in shadow", scaled<lit_body, false>},
+    StressCase{"moved by 1e6 sizes: acne", "lit points in shadow", moved<lit_body, false>},
+    StressCase{"scaled, closed room", "light leaks", scaled<dark_room, true>},
+    StressCase{"moved, closed room", "light leaks", moved<dark_room, true>},
+    StressCase{"beside one 1e6 times larger", "lit points in shadow", beside_one_far_larger},
+    StressCase{"low-poly ball, grazing light", "lit points in shadow", grazing_light},
+    StressCase{"shadow terminator", "points of facets turned away", dark_facets, true},
+};
+
+}  // namespace
+
+std::span<const StressCase> shadow_cases() {
+  return kCases;
+}
+
+}  // namespace pinocchio::stability

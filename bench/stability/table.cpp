@@ -1,0 +1,164 @@
+#include "bench/stability/table.h"
+
+#include <algorithm>
+#include <cstdio>
+
+#include "bench/stability/picture_case.h"
+#include "bench/stability/stress_case.h"
+#include "core/base/system_info.h"
+#include "core/image/atomic_file.h"
+
+namespace pinocchio::stability {
+namespace {
+
+constexpr int kRays = 200000, kQuickRays = 2000;  // a case; a million at edges
+constexpr int kSide = 256, kQuickSide = 64;
+
+Cell cell_of(const StressCase& stress_case, const FailureCount& count) {
+  Cell cell;
+  cell.failure = stress_case.failure;
+  cell.limit = stress_case.limit;
+  cell.trials = count.trials;
+  cell.failures = count.failures;
+  cell.excused = count.excused;
+  cell.seconds = count.seconds;
+  return cell;
+}
+
+Cell cell_of(const PictureStressCase&, const PictureFailureCount& count) {
+  Cell cell;
+  cell.failure = "black or NaN pixels";
+  cell.trials = count.pixels;
+  cell.failures = count.failures;
+  cell.seconds = count.seconds;
+  cell.more = {{"other_ids", count.other_ids},
+               {"worst_difference_there", count.worst_there},
+               {"mean_difference", count.mean_error},
+               {"holes", count.holes}};
+  return cell;
+}
+
+// Runs every case, as large as `size`, by every method. False where `after_cell` says so.
+template <class StressCases, class Methods>
+bool fill(const StressCases& cases, const Methods& methods, int size, const std::function<bool()>& after_cell,
+          Table& table) {
+  for (const auto& method : methods) table.methods.push_back(method.name);
+  for (const auto& stress_case : cases) {
+    double default_seconds = 0.0;
+    for (const auto& method : methods) {
+      Cell cell = cell_of(stress_case, stress_case.run(method, size));
+      cell.stress_case = stress_case.name;
+      cell.method = method.name;
+      if (&method == &methods.front()) default_seconds = cell.seconds;
+      cell.ratio = cell.seconds / std::max(default_seconds, 1e-9);
+      table.cells.push_back(std::move(cell));
+      if (!after_cell()) return false;
+    }
+  }
+  return true;
+}
+
+std::string number(const char* format, double value) {
+  char text[32];
+  std::snprintf(text, sizeof(text), format, value);
+  return text;
+}
+
+std::string text_of(const Cell& cell) {
+  std::string text = std::to_string(cell.failures);
+  if (!cell.more.contains("other_ids"))
+    text += " (" + number("%.2f", cell.ratio) + ")";
+  else  // whose times, of all threads and the GPU, say little on a busy machine: they are in the files
+    text += ", ids " + std::to_string(cell.more["other_ids"].get<std::uint64_t>()) + ", mean " +
+            number("%.4f", cell.more["mean_difference"].get<double>());
+  if (cell.more.contains("holes") && cell.more["holes"] != 0)
+    text += ", holes " + std::to_string(cell.more["holes"].get<std::uint64_t>());
+  return text;
+}
+
+// A column a method, a row a case: failures, and in brackets the time beside the default's.
+std::string markdown(const Table& table) {
+  std::string text = "| case | of | counted |";
+  for (const std::string& method : table.methods) text += " " + method + " |";
+  text += "\n|---|---:|---|";
+  for (std::size_t i = 0; i < table.methods.size(); ++i) text += "---:|";
+  text += "\n";
+  for (std::size_t i = 0; i < table.cells.size(); i += table.methods.size()) {
+    const Cell& first = table.cells[i];
+    text += "| " + first.stress_case + (first.limit ? " (limit)" : "") + " | " +
+            std::to_string(first.trials) + " | " + first.failure +
+            (first.excused > 0 ? " (" + std::to_string(first.excused) + " excused)" : "") + " |";
+    for (std::size_t k = 0; k < table.methods.size(); ++k) text += " " + text_of(table.cells[i + k]) + " |";
+    text += "\n";
+  }
+  return text;
+}
+
+nlohmann::json to_json(const Table& table) {
+  nlohmann::json cells = nlohmann::json::array();
+  for (const Cell& c : table.cells) {
+    nlohmann::json cell{{"case", c.stress_case}, {"failure", c.failure}, {"method", c.method},
+                        {"limit", c.limit},      {"trials", c.trials},   {"failures", c.failures},
+                        {"excused", c.excused},  {"seconds", c.seconds}, {"ratio_to_default", c.ratio}};
+    cell.update(c.more);
+    cells.push_back(cell);
+  }
+  return cells;
+}
+
+std::string csv_lines(const Table& table) {
+  std::string text;
+  for (const Cell& c : table.cells)
+    text += '"' + c.stress_case + "\",\"" + c.failure + "\",\"" + c.method + "\"," + (c.limit ? "1" : "0") +
+            "," + std::to_string(c.trials) + "," + std::to_string(c.failures) + "," +
+            std::to_string(c.excused) + "," + number("%.6f", c.seconds) + "," + number("%.3f", c.ratio) +
+            "\n";
+  return text;
+}
+
+// Failures of the defaults: the first column, but for what no method is without.
+std::uint64_t default_failures(const Table& table) {
+  std::uint64_t sum = 0;
+  for (std::size_t i = 0; i < table.cells.size(); i += table.methods.size())
+    if (!table.cells[i].limit) sum += table.cells[i].failures;
+  return sum;
+}
+
+}  // namespace
+
+std::size_t table_cells() {
+  return all_methods().size() * all_cases().size() + all_draw_methods().size() * picture_cases().size();
+}
+
+std::optional<Tables> make_tables(bool quick, const std::function<bool()>& after_cell) {
+  Tables tables;
+  if (!fill(all_cases(), all_methods(), quick ? kQuickRays : kRays, after_cell, tables.rays) ||
+      !fill(picture_cases(), all_draw_methods(), quick ? kQuickSide : kSide, after_cell, tables.pictures))
+    return std::nullopt;
+  return tables;
+}
+
+std::string Tables::text() const {
+  return markdown(rays) + "\n" + markdown(pictures);
+}
+
+std::uint64_t Tables::default_failures() const {
+  return stability::default_failures(rays) + stability::default_failures(pictures);
+}
+
+void Tables::write(const std::filesystem::path& folder) const {
+  write_text(folder / "stability.md",
+             "Failures, and in brackets the processor time beside the default's.\n\n" + text());
+  write_text(folder / "stability.csv",
+             "case,counted,method,limit,trials,failures,excused,seconds,ratio_to_default\n" +
+                 csv_lines(rays) + csv_lines(pictures));
+  const SystemInfo system = system_info();
+  const nlohmann::json json{{"pinocchio", version()},
+                            {"cpu", system.cpu},
+                            {"cores", system.cores},
+                            {"rays", to_json(rays)},
+                            {"pictures", to_json(pictures)}};
+  write_text(folder / "stability.json", json.dump(2) + "\n");
+}
+
+}  // namespace pinocchio::stability

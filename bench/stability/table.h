@@ -1,0 +1,43 @@
+// Every method driven to where methods fail: failures and cost on two tables, of rays and of pictures.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace pinocchio::stability {
+
+struct Cell {
+  std::string stress_case, failure, method;
+  bool limit = false;  // no method is without it
+  std::uint64_t trials = 0, failures = 0, excused = 0;
+  double seconds = 0.0, ratio = 0.0;  // to the default's, in the same run
+  nlohmann::json more = nlohmann::json::object();
+};
+
+struct Table {
+  std::vector<std::string> methods;
+  std::vector<Cell> cells;  // row by row, the default first
+};
+
+struct Tables {
+  Table rays, pictures;
+
+  [[nodiscard]] std::string text() const;                // Markdown
+  [[nodiscard]] std::uint64_t default_failures() const;  // but for what no method is without
+  // stability.md, .csv and .json. Throws EnvironmentError.
+  void write(const std::filesystem::path& folder) const;
+};
+
+// How many cells the two have.
+[[nodiscard]] std::size_t table_cells();
+
+// Wants a current OpenGL context. quick: a hundredth of the rays, small pictures. Calls `after_cell`; nothing
+// comes back where it says false.
+[[nodiscard]] std::optional<Tables> make_tables(bool quick, const std::function<bool()>& after_cell);
+
+}  // namespace pinocchio::stability
