@@ -127,7 +127,7 @@ class ChartRun {
             {"scene",
              {{"name", std::filesystem::path(scene.source).stem().string()},
               {"triangles", scene.mesh->triangles.size()},
-              {"digest", digest_of(scene)}}},
+              {"checksum", checksum_of(scene)}}},
             {"size", {options_.draw.size.x, options_.draw.size.y}},
             {"cameras", cameras},
             {"rounds", bench.rounds},

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <atomic>
+#include <optional>
 
 #include "core/parallel/workers.h"
 #include "core/reference/reference_tracer.h"

@@ -174,9 +174,9 @@ std::string Field::domain() const {
 }
 
 std::string Field::option() const {
-  std::string text = "--" + std::string(name);
-  std::ranges::replace(text, '_', '-');
-  return text;
+  std::string dashed = "--" + std::string(name);
+  std::ranges::replace(dashed, '_', '-');
+  return dashed;
 }
 
 std::span<const Field> settings_table() {
