@@ -12,7 +12,7 @@
 #include "app/parse.h"
 #include "app/verbs.h"
 #include "bench/chart/bench.h"
-#include "bench/chart/digest.h"
+#include "bench/chart/checksum.h"
 #include "bench/chart/page.h"
 #include "bench/chart/results.h"
 #include "bench/chart/sweep.h"
@@ -24,6 +24,8 @@
 
 namespace pinocchio::app {
 namespace {
+
+using namespace chart;
 
 constexpr int kDefaultTurntable = 360;  // frames once around: a degree a frame
 constexpr glm::ivec2 kDefaultSize{400, 300}, kQuickSize{160, 120};
@@ -118,6 +120,8 @@ class ChartRun {
       cameras.push_back(
           {{"eye", list(c.eye)}, {"target", list(c.target)}, {"up", list(c.up)}, {"fov", c.fov_deg}});
     }
+    nlohmann::json axes = nlohmann::json::array();
+    for (const AxisName& axis : axis_names()) axes.push_back({axis.name, axis.title});
     const BenchSettings bench = bench_settings();
     const SystemInfo system = system_info();
     const Scene& scene = machine.scene().scene;
@@ -125,9 +129,10 @@ class ChartRun {
             {"scene",
              {{"name", std::filesystem::path(scene.source).stem().string()},
               {"triangles", scene.mesh->triangles.size()},
-              {"digest", digest_of(scene)}}},
+              {"checksum", checksum_of(scene)}}},
             {"size", {options_.draw.size.x, options_.draw.size.y}},
             {"cameras", cameras},
+            {"axes", axes},
             {"rounds", bench.rounds},
             {"clock", options_.clock},
             {"error_frames", bench.error_frames},

@@ -1,101 +1,283 @@
-#include "hybrid/renderer.h"
+// The order of a frame. Left to right is a frame's way, top to bottom what happens at one time (visibility and
+// composite on the GPU, pipelined):
+//
+//   frame n    GPU  rasterise, send to CPU
+//   frame n-1  CPU                          take, trace
+//   frame n-2  GPU                                       send to GPU, composite, deliver
+#include "hybrid/include/pinocchio/renderer.h"
 
-#include "hybrid/jitter.h"
-#include "hybrid/raytrace.h"
-#include "hybrid/shaders.h"
-#include "hybrid/trace_answer.h"
+#include <algorithm>
+#include <chrono>
+#include <utility>
+
+#include "core/base/clock.h"
+#include "core/base/error.h"
+#include "gl/context.h"
+#include "hybrid/exchange/encode.h"
+#include "hybrid/passes/passes.h"
+#include "hybrid/schedule.h"
 
 namespace pinocchio {
 namespace {
 
-// Counts the pixels that the composite marked, and makes them opaque as they are.
-std::size_t close_holes(Image<glm::vec4>& color) {
-  std::size_t holes = 0;
-  for (glm::vec4& pixel : color.pixels())
-    if (pixel.a > 0.0f && pixel.a < 1.0f) {
-      pixel.a = 1.0f;
-      ++holes;
-    }
-  return holes;
+// The GPU's clock and the CPU's drift apart.
+constexpr std::uint64_t kFramesBetweenCalibrations = 256;
+
+Span span_of(const gl::GpuTimer& timer, const gl::GpuClock& clock) {
+  const gl::GpuSpan measured = timer.span(clock);
+  return {measured.begin_s, measured.end_s};
 }
 
-// Mask and reflection at every pixel.
-void take_answer(const Flight& frame, Picture& sample) {
-  const Plan& plan = frame.request.plan;
-  const glm::ivec2 size = frame.ids.size();
-  if (plan.mask_bits > 0)
-    sample.mask = plan.mask_scale == 1 ? frame.mask : enlarged(frame.mask, plan.mask_scale, size);
-  if (plan.reflects())
-    sample.reflection = plan.reflection_scale == 1 ? frame.reflection
-                                                   : enlarged(frame.reflection, plan.reflection_scale, size);
+// Whether the older frame's mask and reflection mean the same in the newer one.
+bool reprojects_to(const FrameSlot& older, const FrameSlot& newer) {
+  const Settings &a = older.request.settings, &b = newer.request.settings;
+  return older.answered && older.request.scene == newer.request.scene && a.mask_bits == b.mask_bits &&
+         a.reflection == b.reflection && a.id_bits == b.id_bits;
+}
+
+bool is_done(const std::future<void>& tracing) {
+  return tracing.wait_for(std::chrono::seconds(0)) == std::future_status::ready;
 }
 
 }  // namespace
 
-Renderer::Renderer(std::shared_ptr<const PreparedScene> scene, const Plan& plan, Workers& workers,
-                   const Settings& settings, Sinks sinks)
-    : scene_(std::move(scene)),
-      plan_(plan),
-      workers_(workers),
-      settings_(settings),
-      sinks_(std::move(sinks)) {
-  if (plan.mode == Mode::raytrace) return;
-  loop_.emplace(workers, shader_source(), settings.exchange, settings.mapping,
-                FrameLoop::Sinks{[this](Flight& frame) { take(frame); }, sinks_.record});
+class Renderer::Loop {
+ public:
+  Loop(Engine& engine, FrameSinks sinks) : engine_(engine.parts()), sinks_(std::move(sinks)) {
+    slots_.resize(kFramesInFlight);
+  }
+
+  void submit(FrameRequest request);
+  bool try_submit(FrameRequest request);
+  [[nodiscard]] bool is_drawing_alone() const;
+  void drain();
+
+ private:
+  [[nodiscard]] FrameSlot* frames_back(int n);  // begun n frames before the newest; null: there is none
+  bool repeat(const FrameRequest& request);
+  FrameSlot& begin(FrameRequest&& request);
+  void submit_reprojected(FrameSlot& now);
+  void start_trace(FrameSlot& frame);
+  void take_traced(FrameSlot& frame);
+  void finish(FrameSlot& frame);
+  void deliver(FrameSlot& frame, const FrameSlot* older);
+  void give(FrameSlot& frame);
+  void retire(FrameSlot& frame);
+  [[nodiscard]] int generation() const {
+    return engine_.has_gpu() ? engine_.passes->programs->generation() : 0;
+  }
+
+  Engine::Parts& engine_;
+  FrameSinks sinks_;
+  gl::GpuClock clock_;
+  std::uint64_t next_number_ = 0;
+  int generation_ = 0;                             // of the programs that drew the newest frame
+  std::uint64_t drawn_ = 0;                        // frames that were not repeats
+  std::vector<std::unique_ptr<FrameSlot>> slots_;  // the n-th of them is in slot n % kFramesInFlight
+};
+
+void Renderer::Loop::submit(FrameRequest request) {
+  drop_idle_casters(request.scene);
+  if (const FrameSlot* const last = frames_back(0);
+      last && last->request.settings.exchange != request.settings.exchange)
+    drain();
+  if (repeat(request)) return;
+  FrameSlot& now = begin(std::move(request));
+  const Schedule schedule = schedule_of(now.request.settings);
+  if (schedule.reprojects) return submit_reprojected(now);
+  if (schedule.latency > 0) {
+    // The CPU traces one frame at a time, and is not idle while the GPU finishes another.
+    FrameSlot* const oldest = frames_back(kMostLatency);
+    if (oldest && oldest->tracing.valid()) oldest->tracing.wait();
+    if (FrameSlot* const last = frames_back(1)) start_trace(*last);
+  }
+  for (int n = kMostLatency; n >= schedule.latency; --n)
+    if (FrameSlot* const due = frames_back(n)) finish(*due);
 }
 
-void Renderer::submit(const View& view) {
-  for (int k = 0; k < settings_.spp; ++k)
-    submit_sample({scene_, plan_, view.camera, view.size, view.part, jitter_of(k)});
+bool Renderer::Loop::try_submit(FrameRequest request) {
+  if (FrameSlot* const last = frames_back(0);
+      last && last->state == FrameSlot::State::drawn && !schedule_of(last->request.settings).gpu) {
+    if (last->tracing.valid() && !is_done(last->tracing)) return false;
+    finish(*last);
+  }
+  if (schedule_of(request.settings).gpu) {
+    submit(std::move(request));
+    return true;
+  }
+  drop_idle_casters(request.scene);
+  if (repeat(request)) return true;
+  drain();
+  start_trace(begin(std::move(request)));
+  return true;
 }
 
+bool Renderer::Loop::is_drawing_alone() const {
+  return std::ranges::any_of(slots_, [](const std::unique_ptr<FrameSlot>& slot) {
+    return slot && slot->state == FrameSlot::State::drawn && slot->tracing.valid() &&
+           !schedule_of(slot->request.settings).gpu;
+  });
+}
+
+void Renderer::Loop::drain() {
+  for (int n = kMostLatency; n >= 0; --n)
+    if (FrameSlot* const frame = frames_back(n)) finish(*frame);
+  for (int n = kMostLatency; n >= 0; --n)
+    if (FrameSlot* const frame = frames_back(n)) retire(*frame);
+}
+
+// The newest raster at once. While the CPU traces the frame before, this one is shown with the answer to
+// the one before that; the first frame, and one that no answer fits, waits for its own.
+void Renderer::Loop::submit_reprojected(FrameSlot& now) {
+  FrameSlot *const last = frames_back(1), *const oldest = frames_back(kMostLatency);
+  if (oldest) take_traced(*oldest);
+  if (last && last->state == FrameSlot::State::delivered) start_trace(*last);
+  for (const FrameSlot* const source : {last, oldest})
+    if (source && reprojects_to(*source, now)) return deliver(now, source);
+  if (last) take_traced(*last);
+  finish(now);
+}
+
+bool Renderer::Loop::repeat(const FrameRequest& request) {
+  FrameSlot* const last = frames_back(0);
+  if (!last || !request.settings.reuse || !(last->request == request)) return false;
+  if (generation_ != generation()) return false;
+  if (last->state == FrameSlot::State::delivered && !last->complete) start_trace(*last);
+  drain();
+  if (!last->complete) {  // shown with an older frame's answer: its own, now
+    if (!last->answered) return false;
+    composite_on_gpu(engine_.gpu(), *last, nullptr);
+    last->complete = true;
+    last->answer_of = last;
+  }
+  last->record = FrameRecord{};
+  last->record.number = next_number_++;
+  last->record.frame.begin_s = now_s();
+  give(*last);
+  last->record.frame.end_s = now_s();
+  if (sinks_.record) sinks_.record(last->record);
+  return true;
+}
+
+FrameSlot& Renderer::Loop::begin(FrameRequest&& request) {
+  const gl::Mapping mapping =
+      request.settings.persistent ? gl::Mapping::persistent : gl::Mapping::each_time;
+  std::unique_ptr<FrameSlot>& slot = slots_[drawn_ % kFramesInFlight];
+  if (slot) retire(*slot);
+  if (!slot || slot->mapping != mapping) slot = std::make_unique<FrameSlot>(mapping);
+  ++drawn_;
+  FrameSlot& frame = *slot;
+  const bool gpu = schedule_of(request.settings).gpu;
+  if (gpu) {
+    (void)engine_.gpu();
+    if (gl::context_lost())
+      throw EnvironmentError("the GPU was reset and its OpenGL context is lost; start again");
+    if (drawn_ % kFramesBetweenCalibrations == 1) clock_.calibrate();
+  }
+  generation_ = generation();
+  frame.request = std::move(request);
+  frame.answered = frame.complete = frame.is_shown = false;
+  frame.answer_of = nullptr;
+  frame.record = FrameRecord{};
+  frame.record.number = next_number_++;
+  frame.record.frame.begin_s = now_s();
+  frame.view = view_params(frame.request.view);
+  frame.layout = channels_of(frame.request.settings, frame.size());
+  frame.state = FrameSlot::State::drawn;
+  if (!gpu) return frame;
+  frame.mesh = engine_.gpu_mesh(frame.request.scene.mesh);
+  frame.lights.update(frame.request.scene);
+  if (frame.request.settings.visibility == Processor::gpu) {
+    rasterise(engine_.gpu(), frame);
+    send_to_cpu(frame);
+  }
+  return frame;
+}
+
+FrameSlot* Renderer::Loop::frames_back(int n) {
+  const auto back = static_cast<std::uint64_t>(n) + 1;
+  return drawn_ < back ? nullptr : slots_[(drawn_ - back) % kFramesInFlight].get();
+}
+
+void Renderer::Loop::start_trace(FrameSlot& frame) {
+  if (frame.state == FrameSlot::State::idle || frame.tracing.valid() || frame.answered) return;
+  if (!frame.request.settings.traces()) return;
+  take_on_cpu(frame);
+  const CpuTools cpu{engine_, engine_.workers(frame.request.settings.threads)};
+  frame.tracing = engine_.tracing.post([cpu, &frame] {
+    for (const CpuPass& pass : kCpuPasses)
+      if (pass.wanted(frame.request.settings)) pass.run(cpu, frame);
+  });
+}
+
+// Waits for the CPU's part and sends it to the GPU. Throws what tracing threw; the frame is lost then.
+void Renderer::Loop::take_traced(FrameSlot& frame) {
+  if (!frame.tracing.valid()) return;
+  const FrameSlot::State state = std::exchange(frame.state, FrameSlot::State::idle);
+  frame.tracing.get();
+  if (schedule_of(frame.request.settings).gpu) send_to_gpu(frame);
+  frame.answered = true;
+  frame.state = state;
+}
+
+void Renderer::Loop::finish(FrameSlot& frame) {
+  if (frame.state != FrameSlot::State::drawn) return;
+  start_trace(frame);
+  take_traced(frame);
+  deliver(frame, nullptr);
+}
+
+void Renderer::Loop::deliver(FrameSlot& frame, const FrameSlot* older) {
+  frame.state = FrameSlot::State::idle;  // lost, should a line below throw
+  if (schedule_of(frame.request.settings).gpu) composite_on_gpu(engine_.gpu(), frame, older);
+  frame.answer_of = older ? older : frame.answered ? &frame : nullptr;
+  frame.state = FrameSlot::State::delivered;
+  frame.complete = !older;
+  frame.record.latency_frames = static_cast<int>(next_number_ - 1 - frame.record.number);
+  if (older) frame.record.age_frames = static_cast<int>(frame.record.number - older->record.number);
+  give(frame);
+}
+
+void Renderer::Loop::give(FrameSlot& slot) {
+  if (!sinks_.frame) return;
+  Frame frame(slot);
+  sinks_.frame(frame);
+}
+
+// The GPU is done with the frame long since, unless it was the last one.
+void Renderer::Loop::retire(FrameSlot& frame) {
+  take_traced(frame);
+  if (frame.state != FrameSlot::State::delivered) return;
+  FrameRecord& record = frame.record;
+  Span& readback = record[Stage::readback];
+  if (frame.request.settings.visibility == Processor::cpu) {
+    readback = {};  // nothing was
+  } else {
+    record[Stage::raster] = span_of(frame.raster_timer, clock_);
+    if (readback.end_s > 0.0) readback.begin_s = record[Stage::raster].end_s;
+  }
+  if (schedule_of(frame.request.settings).gpu)
+    record[Stage::composite] = span_of(frame.composite_timer, clock_);
+  record.frame.end_s = std::max(record[Stage::composite].end_s, record[Stage::present].end_s);
+  frame.state = FrameSlot::State::idle;
+  if (sinks_.record) sinks_.record(record);
+}
+
+Renderer::Renderer(Engine& engine, FrameSinks sinks)
+    : loop_(std::make_unique<Loop>(engine, std::move(sinks))) {}
+Renderer::~Renderer() = default;
+
+void Renderer::submit(const FrameRequest& request) {
+  loop_->submit(request);
+}
+bool Renderer::try_submit(const FrameRequest& request) {
+  return loop_->try_submit(request);
+}
+bool Renderer::is_drawing_alone() const {
+  return loop_->is_drawing_alone();
+}
 void Renderer::drain() {
-  if (loop_) loop_->drain();
-}
-
-void Renderer::submit_sample(const FrameRequest& request) {
-  if (loop_) {
-    loop_->submit(request);
-    return;
-  }
-  FrameRecord record;
-  if (plan_.reuse && last_request_ == request) {
-    record.frame.begin_s = record.frame.end_s = now_s();
-  } else {
-    record = raytrace(request, workers_, last_sample_);
-    last_sample_.plan = request.plan;
-    last_request_ = request;
-  }
-  record.number = next_number_++;
-  if (settings_.pictures) add_sample(Picture(last_sample_));
-  sinks_.record(record);
-}
-
-void Renderer::take(Flight& frame) {
-  if (!settings_.pictures) return;
-  Picture sample;
-  FrameLoop::read_picture(frame, sample.color);
-  if (frame.record.age_frames > 0) sample.holes = close_holes(sample.color);
-  if (samples_ == 0) {
-    FrameLoop::read_ids(frame);
-    sample.ids = frame.ids;
-    sample.plan = frame.request.plan;
-    if (frame.answered) take_answer(frame, sample);
-  }
-  add_sample(std::move(sample));
-}
-
-void Renderer::add_sample(Picture&& sample) {
-  if (samples_ == 0) {
-    picture_ = std::move(sample);
-  } else {
-    for (std::size_t i = 0; i < picture_.color.pixels().size(); ++i) picture_.color[i] += sample.color[i];
-  }
-  if (++samples_ < settings_.spp) return;
-  if (samples_ > 1)
-    for (glm::vec4& pixel : picture_.color.pixels()) pixel /= static_cast<float>(samples_);
-  samples_ = 0;
-  sinks_.picture(std::move(picture_));
+  loop_->drain();
 }
 
 }  // namespace pinocchio

@@ -7,7 +7,7 @@
 #include "core/image/rgb.h"
 #include "core/math/median.h"
 
-namespace pinocchio::app {
+namespace pinocchio::chart {
 namespace {
 
 // The sweep's default in another mode, which draws whatever the default draws.
@@ -45,8 +45,8 @@ Bench::Bench(std::shared_ptr<const PreparedScene> scene, const SweepRequest& swe
       settings_(settings),
       views_(std::move(views)),
       folder_(std::move(folder)),
-      ruler_(scene_, plan_of(sweep, Mode::raytrace, true), settings.area_side, views_, workers,
-             settings.interrupted),
+      ground_truth_(scene_, plan_of(sweep, Mode::raytrace, true), settings.area_side, views_, workers,
+                    settings.interrupted),
       raster_(scene_, {plan_of(sweep, Mode::raster, false), Exchange::sync, 1, {}}, workers),
       prepared_(scene_) {}
 
@@ -127,7 +127,7 @@ bool Bench::measure_error(const Configuration& configuration, Workers& workers, 
     const Image<glm::vec4>& color = screen.show(views_[frame]);
     if (settings_.interrupted()) return false;
     if (std::find(compared.begin(), compared.end(), frame) == compared.end()) continue;
-    const std::optional<RuledError> error = ruler_.measure(color, frame, area);
+    const std::optional<MeasuredError> error = ground_truth_.measure(color, frame, area);
     if (!error) return false;
     if (error->not_finite > 0) {
       figures.failure = "NaN or infinity in " + std::to_string(error->not_finite) + " pixels";
@@ -137,7 +137,7 @@ bool Bench::measure_error(const Configuration& configuration, Workers& workers, 
     figures.relative_mse += error->rgb.relative_mse / static_cast<double>(compared.size());
     figures.flip += error->mean_flip / static_cast<double>(compared.size());
     if (frame == compared.back())
-      write_pictures(configuration.name(), color, *error, *ruler_.reference(frame, area), area);
+      write_pictures(configuration.name(), color, *error, *ground_truth_.reference(frame, area), area);
   }
   return true;
 }
@@ -150,4 +150,4 @@ void Bench::write_pictures(const std::string& name, const Image<glm::vec4>& colo
   write_png(pictures / (area ? "reference-area.png" : "reference-centre.png"), preview(opaque(truth), 0.0f));
 }
 
-}  // namespace pinocchio::app
+}  // namespace pinocchio::chart

@@ -6,12 +6,12 @@
 #include <vector>
 
 #include "bench/chart/configuration.h"
+#include "bench/chart/ground_truth.h"
 #include "bench/chart/results.h"
-#include "bench/chart/ruler.h"
 #include "bench/chart/sweep.h"
 #include "bench/chart/timed_renderer.h"
 
-namespace pinocchio::app {
+namespace pinocchio::chart {
 
 // What a chart calls time.
 enum class Clock {
@@ -53,11 +53,11 @@ class Bench {
   BenchSettings settings_;
   std::vector<View> views_;
   std::filesystem::path folder_;
-  Ruler ruler_;
+  GroundTruth ground_truth_;
   TimedRenderer raster_;
   TracerSettings prepared_for_;
   std::shared_ptr<const PreparedScene> prepared_;
   bool warm_ = false;
 };
 
-}  // namespace pinocchio::app
+}  // namespace pinocchio::chart

@@ -5,7 +5,7 @@
 
 #include "hybrid/plan_json.h"
 
-namespace pinocchio::app {
+namespace pinocchio::chart {
 
 std::string Configuration::name() const {
   std::string name = axis + "-" + value;
@@ -24,4 +24,4 @@ nlohmann::json to_json(const Settings& settings) {
           {"offset", offset_method_name(settings.tracer.offset)}};
 }
 
-}  // namespace pinocchio::app
+}  // namespace pinocchio::chart

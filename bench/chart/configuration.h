@@ -11,7 +11,7 @@
 #include "hybrid/frame.h"
 #include "hybrid/plan.h"
 
-namespace pinocchio::app {
+namespace pinocchio::chart {
 
 // As --tree has them, in SplitRule's order.
 inline constexpr std::array kSplitRuleNames{"sah", "spatial-median", "object-median"};
@@ -49,4 +49,4 @@ struct Configuration {
   [[nodiscard]] std::string plan_file() const { return "plans/" + name() + ".json"; }
 };
 
-}  // namespace pinocchio::app
+}  // namespace pinocchio::chart

@@ -10,7 +10,7 @@
 
 #include "core/base/error.h"
 
-namespace pinocchio::app {
+namespace pinocchio::chart {
 namespace {
 
 constexpr int kNoMatplotlib = 3;  // plot.py's exit code
@@ -54,4 +54,4 @@ bool draw_page(const std::filesystem::path& folder) {
   return false;
 }
 
-}  // namespace pinocchio::app
+}  // namespace pinocchio::chart

@@ -2,10 +2,10 @@
 
 #include <filesystem>
 
-namespace pinocchio::app {
+namespace pinocchio::chart {
 
 // Draws index.html with its charts out of the folder's results.json: Python and matplotlib do, by plot.py and
 // charts.py. False where one of the two is missing. Throws EnvironmentError where they are there and fail.
 [[nodiscard]] bool draw_page(const std::filesystem::path& folder);
 
-}  // namespace pinocchio::app
+}  // namespace pinocchio::chart

@@ -10,7 +10,7 @@
 #include "core/compare/pareto.h"
 #include "core/image/atomic_file.h"
 
-namespace pinocchio::app {
+namespace pinocchio::chart {
 namespace {
 
 constexpr std::array kFigures{
@@ -67,7 +67,7 @@ std::string cell(const nlohmann::json& value) {
   return value.is_null() ? "" : value.is_string() ? quoted(value.get<std::string>()) : value.dump();
 }
 
-// The first point of each setting, where it has an error to show. Another ruler is another chart.
+// The first point of each setting, where it has an error to show. Another ground truth is another chart.
 std::vector<std::size_t> on_charts(const nlohmann::json& points) {
   std::vector<std::size_t> chosen;
   for (std::size_t i = 0; i < points.size(); ++i) {
@@ -187,4 +187,4 @@ std::string Results::csv() const {
   return out.str();
 }
 
-}  // namespace pinocchio::app
+}  // namespace pinocchio::chart

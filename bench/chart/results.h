@@ -9,7 +9,7 @@
 #include "bench/chart/configuration.h"
 #include "core/base/error.h"
 
-namespace pinocchio::app {
+namespace pinocchio::chart {
 
 // One configuration, measured along the camera's motion.
 struct PointFigures {
@@ -62,4 +62,4 @@ class Results {
   nlohmann::json json_;
 };
 
-}  // namespace pinocchio::app
+}  // namespace pinocchio::chart

@@ -9,7 +9,7 @@
 #include "bench/chart/configuration.h"
 #include "core/base/error.h"
 
-namespace pinocchio::app {
+namespace pinocchio::chart {
 
 struct SweepRequest {
   Needs needs;
@@ -24,8 +24,8 @@ struct SweepRequest {
 [[nodiscard]] Expected<std::vector<Configuration>> make_sweep(const SweepRequest& request);
 
 struct AxisName {
-  std::string_view name, what;
+  std::string_view name, title;
 };
 [[nodiscard]] std::vector<AxisName> axis_names();
 
-}  // namespace pinocchio::app
+}  // namespace pinocchio::chart

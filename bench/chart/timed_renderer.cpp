@@ -6,7 +6,7 @@
 
 #include "core/math/median.h"
 
-namespace pinocchio::app {
+namespace pinocchio::chart {
 namespace {
 
 // Of all threads of this process: a software rasteriser's too.
@@ -73,4 +73,4 @@ TimedRenderer::Round TimedRenderer::draw(const std::vector<View>& views, Interru
   return round;
 }
 
-}  // namespace pinocchio::app
+}  // namespace pinocchio::chart

@@ -8,7 +8,7 @@
 #include "hybrid/prepared_scene.h"
 #include "hybrid/renderer.h"
 
-namespace pinocchio::app {
+namespace pinocchio::chart {
 
 // Frames of a round that are drawn and not counted: buffers and shaders are made, the first pictures are
 // on their way.
@@ -42,4 +42,4 @@ class TimedRenderer {
   Renderer renderer_;
 };
 
-}  // namespace pinocchio::app
+}  // namespace pinocchio::chart

@@ -30,7 +30,7 @@ Hit closest_hit(unsigned geometry, unsigned triangle, float t_far) {
   return geometry == RTC_INVALID_GEOMETRY_ID ? Hit{} : Hit{t_far, triangle};
 }
 
-class Single final : public Contender {
+class Single final : public RayBackend {
  public:
   explicit Single(RTCScene scene) : scene_(scene) {}
 
@@ -82,7 +82,7 @@ void put(const Ray& ray, RTCRay16& to, std::size_t lane) {
   to.mask[lane] = 0xffffffffu;
 }
 
-class Packets final : public Contender {
+class Packets final : public RayBackend {
  public:
   explicit Packets(RTCScene scene) : scene_(scene) {}
 
@@ -185,10 +185,10 @@ EmbreeSide::EmbreeSide(const Mesh& mesh, bool robust, int threads, int repeat)
 
 EmbreeSide::~EmbreeSide() = default;
 
-std::unique_ptr<Contender> EmbreeSide::single() const {
+std::unique_ptr<RayBackend> EmbreeSide::single() const {
   return std::make_unique<Single>(held_->scene);
 }
-std::unique_ptr<Contender> EmbreeSide::packets() const {
+std::unique_ptr<RayBackend> EmbreeSide::packets() const {
   return std::make_unique<Packets>(held_->scene);
 }
 

@@ -3,7 +3,7 @@
 #include <memory>
 #include <span>
 
-#include "bench/rays/contender.h"
+#include "bench/rays/ray_backend.h"
 #include "core/scene/mesh.h"
 
 namespace pinocchio::bench {
@@ -20,10 +20,10 @@ class EmbreeSide {
 
   [[nodiscard]] const BuildCost& cost() const { return cost_; }
 
-  // Contenders over this scene, which must outlive them: rays one by one, and packets of 16 with the
+  // Backends over this scene, which must outlive them: rays one by one, and packets of 16 with the
   // coherent flag.
-  [[nodiscard]] std::unique_ptr<Contender> single() const;
-  [[nodiscard]] std::unique_ptr<Contender> packets() const;
+  [[nodiscard]] std::unique_ptr<RayBackend> single() const;
+  [[nodiscard]] std::unique_ptr<RayBackend> packets() const;
 
   // Coherent packets of 16; blocked[i] = 1 where anything lies within ray i, else 0. Called by many threads.
   void occluded(std::span<const Ray> rays, std::span<std::uint8_t> blocked) const;

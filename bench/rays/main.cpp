@@ -56,7 +56,7 @@ std::vector<Isa> chosen_isas(const std::vector<std::string>& names) {
   if (names.empty()) return {default_isa()};
   if (std::find(names.begin(), names.end(), "all") != names.end()) return supported_isas();
   std::vector<Isa> isas;
-  for (const std::string& name : names) isas.push_back(parse_isa(name).value());
+  for (const std::string& name : names) isas.push_back(parse_name<Isa>(kIsaNames, name).value());
   return isas;
 }
 
@@ -93,27 +93,27 @@ void run(const Options& o) {
   report.all_mirrors = make_mirrors(scene, o.mirror_all);
 
   Workers all(o.threads), one(1);
-  const BuildOptions tree{.rule = parse_split_rule(o.tree).value(),
+  const BuildOptions tree{.rule = parse_name<SplitRule>(kSplitRuleNames, o.tree).value(),
                           .threads = o.threads,
-                          .triangle_test = parse_triangle_test(o.test).value()};
+                          .triangle_test = parse_name<TriangleTest>(kTriangleTestNames, o.test).value()};
   std::vector<std::unique_ptr<Tracer>> tracers;
-  Contenders contenders;
+  RayBackends backends;
   for (const Isa isa : chosen_isas(o.isas)) {
     BuildCost cost;  // the tree is the same for each: the first tells the time
     tracers.push_back(build_ours(scene.mesh, tree, isa, tracers.empty() ? o.build_repeat : 1, cost));
     if (tracers.size() == 1) report.ours = cost;
-    contenders.push_back(our_contender(*tracers.back()));
+    backends.push_back(our_backend(*tracers.back()));
   }
   const EmbreeSide embree(*scene.mesh, o.robust, all.count(), o.build_repeat);
   report.embree = embree.cost();
-  contenders.push_back(embree.packets());
-  contenders.push_back(embree.single());
+  backends.push_back(embree.packets());
+  backends.push_back(embree.single());
 
   for (const RaySet& set : frame_ray_sets(scene, *tracers.front(), kSize)) {
     if (set.rays.empty()) continue;
     for (Workers* workers : {&one, &all}) {
       if (workers == &all && all.count() == 1) continue;
-      const std::vector<Speed> speeds = race(set, contenders, *workers, o.repeat);
+      const std::vector<Speed> speeds = race(set, backends, *workers, o.repeat);
       report.speeds.insert(report.speeds.end(), speeds.begin(), speeds.end());
     }
   }

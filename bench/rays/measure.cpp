@@ -23,10 +23,10 @@ std::size_t count_different(const std::vector<Hit>& a, const std::vector<Hit>& b
   return different;
 }
 
-void trace_all(Contender& contender, std::size_t rays, Workers& workers) {
+void trace_all(RayBackend& backend, std::size_t rays, Workers& workers) {
   workers.for_each((rays + kChunk - 1) / kChunk, [&](std::size_t chunk) {
     const std::size_t first = chunk * kChunk;
-    contender.trace(first, std::min(kChunk, rays - first));
+    backend.trace(first, std::min(kChunk, rays - first));
   });
 }
 
@@ -47,20 +47,20 @@ double median_seconds(int repeat, const std::function<void()>& prepare, const st
   return median(times);
 }
 
-std::vector<Speed> race(const RaySet& set, const Contenders& contenders, Workers& workers, int repeat) {
+std::vector<Speed> race(const RaySet& set, const RayBackends& backends, Workers& workers, int repeat) {
   const std::size_t rays = set.rays.size();
-  std::vector<std::vector<double>> times(contenders.size());
+  std::vector<std::vector<double>> times(backends.size());
   for (int i = 0; i < repeat; ++i)
-    for (std::size_t c = 0; c < contenders.size(); ++c) {
-      contenders[c]->load(set);
-      times[c].push_back(seconds_of([&] { trace_all(*contenders[c], rays, workers); }));
+    for (std::size_t c = 0; c < backends.size(); ++c) {
+      backends[c]->load(set);
+      times[c].push_back(seconds_of([&] { trace_all(*backends[c], rays, workers); }));
     }
-  const std::vector<Hit> judge = contenders.back()->hits();
+  const std::vector<Hit> judge = backends.back()->hits();
   std::vector<Speed> speeds;
-  for (std::size_t c = 0; c < contenders.size(); ++c)
-    speeds.push_back({set.name, contenders[c]->name(), workers.count(), rays,
+  for (std::size_t c = 0; c < backends.size(); ++c)
+    speeds.push_back({set.name, backends[c]->name(), workers.count(), rays,
                       1e-6 * static_cast<double>(rays) / median(times[c]),
-                      count_different(contenders[c]->hits(), judge)});
+                      count_different(backends[c]->hits(), judge)});
   return speeds;
 }
 

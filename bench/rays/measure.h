@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "bench/rays/contender.h"
+#include "bench/rays/ray_backend.h"
 #include "core/parallel/workers.h"
 
 namespace pinocchio::bench {
@@ -17,20 +17,20 @@ namespace pinocchio::bench {
 // Wall time of one call, seconds.
 [[nodiscard]] double seconds_of(const std::function<void()>& run);
 
-// How fast one contender traced one set.
+// How fast one backend traced one set.
 struct Speed {
   std::string set;
-  std::string contender;
+  std::string backend;
   int threads = 1;
   std::size_t rays = 0;
   double mrays = 0.0;      // million rays a second, median
-  std::size_t differ = 0;  // rays that the last contender answers otherwise
+  std::size_t differ = 0;  // rays that the last backend answers otherwise
 };
 
-using Contenders = std::vector<std::unique_ptr<Contender>>;
+using RayBackends = std::vector<std::unique_ptr<RayBackend>>;
 
-// Every contender over the set, taking turns, `repeat` times.
-[[nodiscard]] std::vector<Speed> race(const RaySet& set, const Contenders& contenders, Workers& workers,
+// Every backend over the set, taking turns, `repeat` times.
+[[nodiscard]] std::vector<Speed> race(const RaySet& set, const RayBackends& backends, Workers& workers,
                                       int repeat);
 
 }  // namespace pinocchio::bench

@@ -9,7 +9,7 @@
 namespace pinocchio::bench {
 namespace {
 
-class Ours final : public Contender {
+class Ours final : public RayBackend {
  public:
   explicit Ours(const Tracer& tracer) : tracer_(tracer) {}
 
@@ -65,7 +65,7 @@ std::unique_ptr<Tracer> build_ours(const std::shared_ptr<const Mesh>& mesh, cons
   return tracer;
 }
 
-std::unique_ptr<Contender> our_contender(const Tracer& tracer) {
+std::unique_ptr<RayBackend> our_backend(const Tracer& tracer) {
   return std::make_unique<Ours>(tracer);
 }
 

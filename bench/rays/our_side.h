@@ -3,7 +3,7 @@
 #include <memory>
 #include <vector>
 
-#include "bench/rays/contender.h"
+#include "bench/rays/ray_backend.h"
 #include "core/trace/tracer.h"
 
 namespace pinocchio::bench {
@@ -13,7 +13,7 @@ namespace pinocchio::bench {
                                                  const BuildOptions& options, Isa isa, int repeat,
                                                  BuildCost& cost);
 
-// Our tracer as a contender. `tracer` must outlive it.
-[[nodiscard]] std::unique_ptr<Contender> our_contender(const Tracer& tracer);
+// Our tracer as a backend. `tracer` must outlive it.
+[[nodiscard]] std::unique_ptr<RayBackend> our_backend(const Tracer& tracer);
 
 }  // namespace pinocchio::bench

@@ -12,12 +12,12 @@ namespace pinocchio::bench {
 namespace {
 
 bool is_ours(const Speed& speed) {
-  return speed.contender.rfind("ours", 0) == 0;
+  return speed.backend.rfind("ours", 0) == 0;
 }
 
-const Speed& other(const Report& report, const Speed& ours, const std::string& contender) {
+const Speed& other(const Report& report, const Speed& ours, const std::string& backend) {
   return *std::find_if(report.speeds.begin(), report.speeds.end(), [&](const Speed& s) {
-    return s.set == ours.set && s.threads == ours.threads && s.contender == contender;
+    return s.set == ours.set && s.threads == ours.threads && s.backend == backend;
   });
 }
 
@@ -28,7 +28,7 @@ double per_triangle(const Report& report, const BuildCost& cost) {
 void print_row(const Report& report, const Speed& ours) {
   const Speed &single = other(report, ours, "embree 1"), &packets = other(report, ours, "embree 16");
   std::printf("%-14s %8zu %7d  %-11s %7.2f %9.2f %10.2f %9.2f %9zu\n", ours.set.c_str(), ours.rays,
-              ours.threads, ours.contender.c_str(), ours.mrays, single.mrays, packets.mrays,
+              ours.threads, ours.backend.c_str(), ours.mrays, single.mrays, packets.mrays,
               ours.mrays / std::max(single.mrays, packets.mrays), ours.differ);
 }
 
@@ -57,8 +57,8 @@ nlohmann::json to_json(const ShadowPass& p) {
 }
 
 nlohmann::json to_json(const Speed& s) {
-  return {{"set", s.set},   {"contender", s.contender}, {"threads", s.threads},
-          {"rays", s.rays}, {"mrays_per_s", s.mrays},   {"differ_from_embree_1", s.differ}};
+  return {{"set", s.set},   {"backend", s.backend},   {"threads", s.threads},
+          {"rays", s.rays}, {"mrays_per_s", s.mrays}, {"differ_from_embree_1", s.differ}};
 }
 
 }  // namespace

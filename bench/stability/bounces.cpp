@@ -7,19 +7,13 @@
 #include "core/reference/reference.h"
 #include "core/trace/passes.h"
 #include "core/trace/view_params.h"
+#include "scenes/generator/paint.h"
 
 namespace pinocchio::stability {
 namespace {
 
-Material glowing(float light) {
-  Material m;
-  m.ambient = m.diffuse = glm::vec3(0.0f);
-  m.emission = glm::vec3(light);
-  return m;
-}
-
 Material glass(float ior) {
-  Material m = glowing(0.0f);
+  Material m = glowing("", glm::vec3(0.0f));
   m.transmittance = glm::vec3(1.0f);
   m.ior = ior;
   return m;
@@ -37,7 +31,7 @@ void append(MeshData& to, const MeshData& from, const Material& material) {
 struct Drawn {
   Image<std::uint32_t> ids;
   Image<glm::vec3> radiance;
-  Tally tally;
+  FailureCount count;
 };
 
 Drawn draw(const Scene& scene, const Camera& camera, const Method& method, int rays, int depth) {
@@ -46,7 +40,7 @@ Drawn draw(const Scene& scene, const Camera& camera, const Method& method, int r
   const Tracer tracer = method.tracer(*scene.mesh);
   Workers one(1);
   const TraceJob job{scene, tracer, one, view_params(camera, drawn.ids.size())};
-  const Timed timed(drawn.tally);
+  const Timed timed(drawn.count);
   trace_visibility(job, drawn.ids);
   trace_reflection(job, drawn.ids, depth, drawn.radiance);
   return drawn;
@@ -55,10 +49,10 @@ Drawn draw(const Scene& scene, const Camera& camera, const Method& method, int r
 // A room around it whose six sides glow, each as it alone does.
 void append_glowing_room(MeshData& mesh, float size) {
   const MeshData room = box(glm::vec3(-8.0f * size), glm::vec3(8.0f * size), 1);
-  append(mesh, room, glowing(0.2f));
+  append(mesh, room, glowing("", glm::vec3(0.2f)));
   const std::size_t first = mesh.triangles.size() - room.triangles.size();
   for (std::uint32_t side = 1; side < 6; ++side) {
-    mesh.materials.push_back(glowing(0.2f + 0.15f * static_cast<float>(side)));
+    mesh.materials.push_back(glowing("", glm::vec3(0.2f + 0.15f * static_cast<float>(side))));
     for (const std::size_t half : {0, 1})
       mesh.triangle_materials[first + 2 * side + half] =
           static_cast<std::uint32_t>(mesh.materials.size() - 1);
@@ -79,7 +73,7 @@ Image<glm::vec3> by_reference(const Scene& scene, shared::ViewParams view, glm::
 
 // Pixels of glass against the reference's. Glass spreads rays that are a hair apart: where the reference
 // itself changes within a thirtieth of a pixel, it cannot tell.
-Tally against_reference(MeshData mesh, float size, const Method& method, int rays) {
+FailureCount against_reference(MeshData mesh, float size, const Method& method, int rays) {
   constexpr int kDepth = 8;
   constexpr float kTolerance = 0.01f, kShift = 0.03f;
   append_glowing_room(mesh, size);
@@ -92,73 +86,73 @@ Tally against_reference(MeshData mesh, float size, const Method& method, int ray
   const Image<glm::vec3> beside = by_reference(scene, view, pixels, kShift, kDepth);
   for (std::size_t i = 0; i < drawn.ids.pixels().size(); ++i) {
     if (drawn.ids[i] == kNoTriangle || !scene.mesh->material_of(drawn.ids[i]).transmits()) continue;
-    ++drawn.tally.trials;
+    ++drawn.count.trials;
     const bool same = std::abs(drawn.radiance[i].x - expected[i].x) <= kTolerance;  // NaN is not
     const bool steady = std::abs(beside[i].x - expected[i].x) <= kTolerance;
-    drawn.tally.excused += !same && !steady ? 1 : 0;
-    drawn.tally.failures += !same && (steady || !std::isfinite(drawn.radiance[i].x)) ? 1 : 0;
+    drawn.count.excused += !same && !steady ? 1 : 0;
+    drawn.count.failures += !same && (steady || !std::isfinite(drawn.radiance[i].x)) ? 1 : 0;
   }
-  return drawn.tally;
+  return drawn.count;
 }
 
 // As it is, and where an offset of one length for all is no longer small.
 constexpr std::array kSizes{1.0f, 0x1p-14f};
 
 // A ball of water in a ball of glass.
-Tally glass_in_glass(const Method& method, int rays) {
-  Tally tally;
+FailureCount glass_in_glass(const Method& method, int rays) {
+  FailureCount count;
   for (const float size : kSizes) {
     MeshData mesh;
     append(mesh, ball(glm::vec3(0.0f), size, 32), glass(1.5f));
     append(mesh, ball(glm::vec3(0.0f), 0.6f * size, 32), glass(1.33f / 1.5f));
-    tally += against_reference(std::move(mesh), size, method, rays / 2);
+    count += against_reference(std::move(mesh), size, method, rays / 2);
   }
-  return tally;
+  return count;
 }
 
 // From inside a block of glass: beyond the critical angle all is mirrored, many times over.
-Tally total_reflection(const Method& method, int rays) {
-  Tally tally;
+FailureCount total_reflection(const Method& method, int rays) {
+  FailureCount count;
   for (const float size : kSizes) {
     MeshData mesh;
     append(mesh, box(size * glm::vec3(-1, -0.5f, -0.25f), size * glm::vec3(1, 0.5f, 0.25f), 4), glass(2.0f));
-    tally += against_reference(std::move(mesh), size, method, rays / 2);
+    count += against_reference(std::move(mesh), size, method, rays / 2);
   }
-  return tally;
+  return count;
 }
 
 // A closed room of perfect mirrors that glow a little: every bounce adds the same, so that every pixel is
 // depth times that, if no ray gets out.
-Tally mirror_to_mirror(const Method& method, int rays) {
+FailureCount mirror_to_mirror(const Method& method, int rays) {
   constexpr int kDepth = 32;
   constexpr float kGlow = 0x1p-6f;
-  Material mirror = glowing(kGlow);
+  Material mirror = glowing("", glm::vec3(kGlow));
   mirror.reflectance = glm::vec3(1.0f);
-  Tally tally;
+  FailureCount count;
   for (const float size : kSizes) {
     MeshData mesh;
     append(mesh, box(-size * glm::vec3(1, 0.5f, 0.5f), size * glm::vec3(1, 0.5f, 0.5f), 8), mirror);
     const Camera camera{"", glm::vec3(0.0f), size * glm::vec3(1.0f, 0.1f, 0.2f), {0, 1, 0}, 90.0f};
     Drawn drawn = draw(Scene(std::move(mesh)), camera, method, rays / 2, kDepth);
     for (const glm::vec3& radiance : drawn.radiance.pixels()) {
-      ++drawn.tally.trials;
-      drawn.tally.failures += radiance.x == kGlow * static_cast<float>(kDepth) ? 0 : 1;
+      ++drawn.count.trials;
+      drawn.count.failures += radiance.x == kGlow * static_cast<float>(kDepth) ? 0 : 1;
     }
-    tally += drawn.tally;
+    count += drawn.count;
   }
-  return tally;
+  return count;
 }
 
-constexpr std::array kTroubles{
-    Trouble{"glass inside glass", "pixels unlike the reference's", glass_in_glass},
-    Trouble{"total internal reflection", "pixels unlike the reference's", total_reflection},
-    Trouble{"mirror against mirror", "pixels whose ray got out", mirror_to_mirror},
+constexpr std::array kCases{
+    StressCase{"glass inside glass", "pixels unlike the reference's", glass_in_glass},
+    StressCase{"total internal reflection", "pixels unlike the reference's", total_reflection},
+    StressCase{"mirror against mirror", "pixels whose ray got out", mirror_to_mirror},
 };
 
 }  // namespace
 
-std::span<const Trouble> bounce_troubles() {
-  return kTroubles;
+std::span<const StressCase> bounce_cases() {
+  return kCases;
 }
 
 }  // namespace pinocchio::stability

@@ -11,28 +11,27 @@ double Timed::thread_seconds() {
   return static_cast<double>(time.tv_sec) + 1e-9 * static_cast<double>(time.tv_nsec);
 }
 
-std::vector<Hit> trace(const Tracer& tracer, const std::vector<Ray>& rays, Tally& tally) {
+std::vector<Hit> trace(const Tracer& tracer, const std::vector<Ray>& rays, FailureCount& count) {
   std::vector<Hit> hits(rays.size());
-  const Timed timed(tally);
+  const Timed timed(count);
   tracer.closest_hits(rays, hits);
   return hits;
 }
 
-Tally count_misses(const Tracer& tracer, const std::vector<Ray>& rays) {
-  Tally tally;
-  tally.trials = rays.size();
-  const std::vector<Hit> hits = trace(tracer, rays, tally);
+FailureCount count_misses(const Tracer& tracer, const std::vector<Ray>& rays) {
+  FailureCount count;
+  count.trials = rays.size();
+  const std::vector<Hit> hits = trace(tracer, rays, count);
   std::vector<std::uint8_t> blocked(rays.size());
   tracer.occluded(rays, blocked);
   for (std::size_t i = 0; i < rays.size(); ++i)
-    if (!hits[i].valid() || !std::isfinite(hits[i].t) || !blocked[i]) ++tally.failures;
-  return tally;
+    if (!hits[i].valid() || !std::isfinite(hits[i].t) || !blocked[i]) ++count.failures;
+  return count;
 }
 
-std::vector<Trouble> all_troubles() {
-  std::vector<Trouble> all;
-  for (const auto& some :
-       {leak_troubles(), direction_troubles(), triangle_troubles(), shadow_troubles(), bounce_troubles()})
+std::vector<StressCase> all_cases() {
+  std::vector<StressCase> all;
+  for (const auto& some : {leak_cases(), direction_cases(), triangle_cases(), shadow_cases(), bounce_cases()})
     all.insert(all.end(), some.begin(), some.end());
   return all;
 }

@@ -24,7 +24,7 @@ glm::vec3 direction_of(Random& random, std::span<const float> values) {
   }
 }
 
-Tally zeros_and_denormals(const Method& method, int rays) {
+FailureCount zeros_and_denormals(const Method& method, int rays) {
   const MeshData mesh = unit_box();
   constexpr std::array kValues{-1.0f, -0.5f, -0.0f, 0.0f, 0.5f, 1.0f, 1e-45f, -1e-40f, 1e-38f, -1e-30f};
   Random random(51);
@@ -38,7 +38,7 @@ Tally zeros_and_denormals(const Method& method, int rays) {
 
 // Along an axis through a vertex of a rough ball: the ray runs in planes that the ball is split at, and meets
 // the edges of several triangles at once.
-Tally in_split_planes(const Method& method, int rays) {
+FailureCount in_split_planes(const Method& method, int rays) {
   const MeshData mesh = ball(glm::vec3(0.0f), 1.0f, 32, 0.3f);
   Random random(52);
   std::vector<Ray> odd;
@@ -56,7 +56,7 @@ Tally in_split_planes(const Method& method, int rays) {
 }
 
 // From points of a rough ball's own vertices, edges and sides, to its middle: the far side has to be hit.
-Tally origins_on_surface(const Method& method, int rays) {
+FailureCount origins_on_surface(const Method& method, int rays) {
   const MeshData mesh = ball(glm::vec3(0.0f), 1.0f, 32, 0.1f);
   Random random(53);
   std::vector<Ray> odd;
@@ -67,7 +67,7 @@ Tally origins_on_surface(const Method& method, int rays) {
   return count_misses(method.tracer(mesh), odd);
 }
 
-Tally no_rays(const Method& method, int rays) {
+FailureCount no_rays(const Method& method, int rays) {
   const MeshData mesh = ball(glm::vec3(0.0f), 1.0f, 32, 0.3f);
   const float nan = std::numeric_limits<float>::quiet_NaN();
   std::vector<Ray> odd;
@@ -99,27 +99,27 @@ Tally no_rays(const Method& method, int rays) {
     }
     odd.push_back(ray);
   }
-  Tally tally;
-  tally.trials = odd.size();
+  FailureCount count;
+  count.trials = odd.size();
   const Tracer tracer = method.tracer(mesh);
-  for (const Hit& hit : trace(tracer, odd, tally)) tally.failures += hit.valid() ? 1 : 0;
+  for (const Hit& hit : trace(tracer, odd, count)) count.failures += hit.valid() ? 1 : 0;
   std::vector<std::uint8_t> blocked(odd.size());
   tracer.occluded(odd, blocked);
-  for (const std::uint8_t b : blocked) tally.failures += b;
-  return tally;
+  for (const std::uint8_t b : blocked) count.failures += b;
+  return count;
 }
 
-constexpr std::array kTroubles{
-    Trouble{"+0, -0, denormal directions", "leaks", zeros_and_denormals},
-    Trouble{"axis-parallel in split planes", "leaks", in_split_planes},
-    Trouble{"origins on vertices and edges", "leaks", origins_on_surface},
-    Trouble{"NaN, infinite, zero-length", "hits", no_rays},
+constexpr std::array kCases{
+    StressCase{"+0, -0, denormal directions", "leaks", zeros_and_denormals},
+    StressCase{"axis-parallel in split planes", "leaks", in_split_planes},
+    StressCase{"origins on vertices and edges", "leaks", origins_on_surface},
+    StressCase{"NaN, infinite, zero-length", "hits", no_rays},
 };
 
 }  // namespace
 
-std::span<const Trouble> direction_troubles() {
-  return kTroubles;
+std::span<const StressCase> direction_cases() {
+  return kCases;
 }
 
 }  // namespace pinocchio::stability

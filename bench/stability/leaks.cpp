@@ -8,13 +8,13 @@
 namespace pinocchio::stability {
 namespace {
 
-Tally of_ball(const Method& method, int rays, const glm::vec3& center, float radius, int around) {
+FailureCount of_ball(const Method& method, int rays, const glm::vec3& center, float radius, int around) {
   const MeshData mesh = ball(center, radius, around, 0.3f);
   return count_misses(method.tracer(mesh), rays_at_edges(mesh, center, 0.3f * radius, rays));
 }
 
 // Random points of a rough ball from its middle: what the other troubles' cost is to be seen against.
-Tally usual_rays(const Method& method, int rays) {
+FailureCount usual_rays(const Method& method, int rays) {
   const MeshData mesh = ball(glm::vec3(0.0f), 1.0f, 32, 0.3f);
   Random random(42);
   std::vector<Ray> some;
@@ -27,53 +27,53 @@ Tally usual_rays(const Method& method, int rays) {
 
 constexpr int kMoreAtEdges = 5;
 
-Tally jagged_ball(const Method& method, int rays) {
+FailureCount jagged_ball(const Method& method, int rays) {
   const int half = kMoreAtEdges * rays / 2;
-  Tally tally = of_ball(method, half, glm::vec3(0.0f), 1.0f, 32);
-  return tally += of_ball(method, half, glm::vec3(0.0f), 1.0f, 16);
+  FailureCount count = of_ball(method, half, glm::vec3(0.0f), 1.0f, 32);
+  return count += of_ball(method, half, glm::vec3(0.0f), 1.0f, 16);
 }
 
-Tally far_from_origin(const Method& method, int rays) {
+FailureCount far_from_origin(const Method& method, int rays) {
   const int half = kMoreAtEdges * rays / 2;
-  Tally tally = of_ball(method, half, {1000.0f, -300.0f, 20.0f}, 1.0f, 32);
-  return tally += of_ball(method, half, {148376.0f, 1234.0f, -223423.0f}, 100.0f, 100);
+  FailureCount count = of_ball(method, half, {1000.0f, -300.0f, 20.0f}, 1.0f, 32);
+  return count += of_ball(method, half, {148376.0f, 1234.0f, -223423.0f}, 100.0f, 100);
 }
 
-Tally needles(const Method& method, int rays) {
+FailureCount needles(const Method& method, int rays) {
   const MeshData mesh = room_of_strips(256);
   return count_misses(method.tracer(mesh), rays_at_edges(mesh, {0.0f, 0.0f, -0.5f}, 0.4f, rays));
 }
 
 // Some rays truly pass between: a failure is what the reference hits and the method misses.
-Tally t_junctions(const Method& method, int rays) {
+FailureCount t_junctions(const Method& method, int rays) {
   const MeshData mesh = ball_with_t_junctions(32);
   const Tracer tracer = method.tracer(mesh);
   const ReferenceTree reference(tracer.mesh());
   const std::vector<Ray> at_edges = rays_at_edges(mesh, {0.1f, 0.2f, 0.3f}, 0.3f, rays);
-  Tally tally;
-  tally.trials = at_edges.size();
-  const std::vector<Hit> hits = trace(tracer, at_edges, tally);
+  FailureCount count;
+  count.trials = at_edges.size();
+  const std::vector<Hit> hits = trace(tracer, at_edges, count);
   for (std::size_t i = 0; i < hits.size(); ++i) {
     const bool gap =
         !reference.closest_hit({glm::dvec3(at_edges[i].origin), glm::dvec3(at_edges[i].direction)}).valid();
-    if (gap) ++tally.excused;
-    if (!gap && !hits[i].valid()) ++tally.failures;
+    if (gap) ++count.excused;
+    if (!gap && !hits[i].valid()) ++count.failures;
   }
-  return tally;
+  return count;
 }
 
-constexpr std::array kTroubles{
-    Trouble{"usual rays", "leaks", usual_rays},
-    Trouble{"edges and vertices", "leaks", jagged_ball},
-    Trouble{"edges far from the origin", "leaks", far_from_origin},
-    Trouble{"needles, aspect 1e6", "leaks", needles},
-    Trouble{"T-junctions", "leaks that the reference does not have", t_junctions},
+constexpr std::array kCases{
+    StressCase{"usual rays", "leaks", usual_rays},
+    StressCase{"edges and vertices", "leaks", jagged_ball},
+    StressCase{"edges far from the origin", "leaks", far_from_origin},
+    StressCase{"needles, aspect 1e6", "leaks", needles},
+    StressCase{"T-junctions", "leaks that the reference does not have", t_junctions},
 };
 
 }  // namespace
 
-std::span<const Trouble> leak_troubles() {
-  return kTroubles;
+std::span<const StressCase> leak_cases() {
+  return kCases;
 }
 
 }  // namespace pinocchio::stability

@@ -57,18 +57,18 @@ std::vector<Ray> shadow_rays(const Set& set, const Tracer& tracer, int rays) {
   return shadow;
 }
 
-Tally count_shadows(const Set& set, const Method& method, int rays, bool expected) {
+FailureCount count_shadows(const Set& set, const Method& method, int rays, bool expected) {
   const Tracer tracer = method.tracer(set.mesh);
   const std::vector<Ray> shadow = shadow_rays(set, tracer, rays);
   std::vector<std::uint8_t> blocked(shadow.size());
-  Tally tally;
-  tally.trials = shadow.size();
+  FailureCount count;
+  count.trials = shadow.size();
   {
-    const Timed timed(tally);
+    const Timed timed(count);
     tracer.occluded(shadow, blocked);
   }
-  for (const std::uint8_t b : blocked) tally.failures += (b != 0) == expected ? 0 : 1;
-  return tally;
+  for (const std::uint8_t b : blocked) count.failures += (b != 0) == expected ? 0 : 1;
+  return count;
 }
 
 Light light_at(const glm::vec3& position) {
@@ -78,11 +78,11 @@ Light light_at(const glm::vec3& position) {
 }
 
 // Half of the rays to the light, half to one as far away as the sun, the same way from the scene's middle.
-Tally near_and_far(Set set, const Method& method, int rays, bool expected) {
-  Tally tally = count_shadows(set, method, rays / 2, expected);
+FailureCount near_and_far(Set set, const Method& method, int rays, bool expected) {
+  FailureCount count = count_shadows(set, method, rays / 2, expected);
   set.light.kind = Light::Kind::directional;
   set.light.direction = -glm::normalize(set.light.position - set.center);
-  return tally += count_shadows(set, method, rays / 2, expected);
+  return count += count_shadows(set, method, rays / 2, expected);
 }
 
 Set lit_body(float size, const glm::vec3& center) {
@@ -105,23 +105,23 @@ Set dark_room(float size, const glm::vec3& center) {
 using MakeSet = Set (*)(float size, const glm::vec3& center);
 
 template <MakeSet make, bool expected>
-Tally scaled(const Method& method, int rays) {
-  Tally tally;
-  for (const float s : kScales) tally += near_and_far(make(s, glm::vec3(0.0f)), method, rays / 5, expected);
-  return tally;
+FailureCount scaled(const Method& method, int rays) {
+  FailureCount count;
+  for (const float s : kScales) count += near_and_far(make(s, glm::vec3(0.0f)), method, rays / 5, expected);
+  return count;
 }
 
 template <MakeSet make, bool expected>
-Tally moved(const Method& method, int rays) {
-  Tally tally;
+FailureCount moved(const Method& method, int rays) {
+  FailureCount count;
   for (const float s : kScales)
     for (const float m : kMoves)
-      tally += near_and_far(make(s, s * m * glm::vec3(1, -1, 1)), method, rays / 10, expected);
-  return tally;
+      count += near_and_far(make(s, s * m * glm::vec3(1, -1, 1)), method, rays / 10, expected);
+  return count;
 }
 
 // A tile in the hole of a floor a million times its size, all in one plane.
-Tally beside_one_far_larger(const Method& method, int rays) {
+FailureCount beside_one_far_larger(const Method& method, int rays) {
   constexpr float kFar = 1e6f;
   MeshData mesh;
   const std::array<glm::vec3, 4> inner{{{0, 0, 0}, {1, 0, 0}, {1, 0, 1}, {0, 0, 1}}};
@@ -142,48 +142,48 @@ MeshData coarse_ball() {
 }
 
 // A light that grazes a smooth ball of few triangles: what faces it is lit, as the ball is convex.
-Tally grazing_light(const Method& method, int rays) {
-  Tally tally;
+FailureCount grazing_light(const Method& method, int rays) {
+  FailureCount count;
   for (const float height : {0.0f, 0.5f, 2.0f})
-    tally +=
+    count +=
         count_shadows({coarse_ball(), {0, 0, 6}, light_at({10.0f, height, 0.5f})}, method, rays / 3, false);
-  return tally;
+  return count;
 }
 
 // Facets that turn away from the light although the smooth ball does not: dark, with an edge to be seen.
-Tally dark_facets(const Method& method, int rays) {
+FailureCount dark_facets(const Method& method, int rays) {
   const Tracer tracer = method.tracer(coarse_ball());
   const glm::vec3 eye(0, 0, 6), light(10.0f, 0.5f, 0.5f);
-  Tally tally;
+  FailureCount count;
   Random random(72);
   std::vector<Ray> primary;
   for (int i = 0; i < rays; ++i) primary.push_back({eye, kInfinity, random_point(random, 0.9f) - eye});
-  const std::vector<Hit> hits = trace(tracer, primary, tally);
+  const std::vector<Hit> hits = trace(tracer, primary, count);
   for (std::size_t i = 0; i < hits.size(); ++i) {
     if (!hits[i].valid()) continue;
     const Surface s = surface_at(tracer.mesh(), hits[i].triangle, eye, primary[i].direction);
     const glm::vec3 to_light = light - s.p_world;
     if (glm::dot(s.n_shading, to_light) <= 0.0f) continue;
-    ++tally.trials;
-    tally.failures += glm::dot(s.n_geometric, to_light) <= 0.0f ? 1 : 0;
+    ++count.trials;
+    count.failures += glm::dot(s.n_geometric, to_light) <= 0.0f ? 1 : 0;
   }
-  return tally;
+  return count;
 }
 
-constexpr std::array kTroubles{
-    Trouble{"scaled by 1e-6 to 1e6: acne", "lit points in shadow", scaled<lit_body, false>},
-    Trouble{"moved by 1e6 sizes: acne", "lit points in shadow", moved<lit_body, false>},
-    Trouble{"scaled, closed room", "light leaks", scaled<dark_room, true>},
-    Trouble{"moved, closed room", "light leaks", moved<dark_room, true>},
-    Trouble{"beside one 1e6 times larger", "lit points in shadow", beside_one_far_larger},
-    Trouble{"low-poly ball, grazing light", "lit points in shadow", grazing_light},
-    Trouble{"shadow terminator", "points of facets turned away", dark_facets, true},
+constexpr std::array kCases{
+    StressCase{"scaled by 1e-6 to 1e6: acne", "lit points in shadow", scaled<lit_body, false>},
+    StressCase{"moved by 1e6 sizes: acne", "lit points in shadow", moved<lit_body, false>},
+    StressCase{"scaled, closed room", "light leaks", scaled<dark_room, true>},
+    StressCase{"moved, closed room", "light leaks", moved<dark_room, true>},
+    StressCase{"beside one 1e6 times larger", "lit points in shadow", beside_one_far_larger},
+    StressCase{"low-poly ball, grazing light", "lit points in shadow", grazing_light},
+    StressCase{"shadow terminator", "points of facets turned away", dark_facets, true},
 };
 
 }  // namespace
 
-std::span<const Trouble> shadow_troubles() {
-  return kTroubles;
+std::span<const StressCase> shadow_cases() {
+  return kCases;
 }
 
 }  // namespace pinocchio::stability

@@ -3,55 +3,39 @@
 #include <algorithm>
 #include <cstdio>
 
-#include "bench/stability/picture_trouble.h"
-#include "bench/stability/trouble.h"
+#include "bench/stability/picture_case.h"
 #include "core/base/system_info.h"
 #include "core/image/atomic_file.h"
 
 namespace pinocchio::stability {
 namespace {
 
-constexpr int kRays = 200000, kQuickRays = 2000;  // a trouble; a million at edges
+constexpr int kRays = 200000, kQuickRays = 2000;  // a case; a million at edges
 constexpr int kSide = 256, kQuickSide = 64;
 
-Cell cell_of(const Trouble& trouble, const Tally& tally) {
-  Cell cell;
-  cell.failure = trouble.failure;
-  cell.limit = trouble.limit;
-  cell.trials = tally.trials;
-  cell.failures = tally.failures;
-  cell.excused = tally.excused;
-  cell.seconds = tally.seconds;
-  return cell;
+nlohmann::json details(const FailureCount&) {
+  return nlohmann::json::object();
+}
+nlohmann::json details(const PictureFailureCount& count) {
+  return {{"other_ids", count.other_ids},
+          {"worst_difference_there", count.worst_there},
+          {"mean_difference", count.mean_error},
+          {"holes", count.holes}};
 }
 
-Cell cell_of(const PictureTrouble&, const PictureTally& tally) {
-  Cell cell;
-  cell.failure = "black or NaN pixels";
-  cell.trials = tally.pixels;
-  cell.failures = tally.failures;
-  cell.seconds = tally.seconds;
-  cell.more = {{"other_ids", tally.other_ids},
-               {"worst_difference_there", tally.worst_there},
-               {"mean_difference", tally.mean_error},
-               {"holes", tally.holes}};
-  return cell;
-}
-
-// Runs every trouble, as large as `size`, by every method. False where `after_cell` says so.
-template <class Troubles, class Methods>
-bool fill(const Troubles& troubles, const Methods& methods, int size,
-          const std::function<bool()>& after_cell, Table& table) {
+// Runs every case, as large as `size`, by every method. False where `after_cell` says so.
+template <class StressCases, class Methods>
+bool fill(const StressCases& cases, const Methods& methods, int size, const std::function<bool()>& after_cell,
+          Table& table) {
   for (const auto& method : methods) table.methods.push_back(method.name);
-  for (const auto& trouble : troubles) {
+  for (const auto& stress_case : cases) {
     double default_seconds = 0.0;
     for (const auto& method : methods) {
-      Cell cell = cell_of(trouble, trouble.run(method, size));
-      cell.trouble = trouble.name;
-      cell.method = method.name;
-      if (&method == &methods.front()) default_seconds = cell.seconds;
-      cell.ratio = cell.seconds / std::max(default_seconds, 1e-9);
-      table.cells.push_back(std::move(cell));
+      const auto count = stress_case.run(method, size);
+      if (&method == &methods.front()) default_seconds = count.seconds;
+      table.cells.push_back({std::string(stress_case.name), std::string(stress_case.failure), method.name,
+                             stress_case.limit, count, count.seconds / std::max(default_seconds, 1e-9),
+                             details(count)});
       if (!after_cell()) return false;
     }
   }
@@ -65,7 +49,7 @@ std::string number(const char* format, double value) {
 }
 
 std::string text_of(const Cell& cell) {
-  std::string text = std::to_string(cell.failures);
+  std::string text = std::to_string(cell.count.failures);
   if (!cell.more.contains("other_ids"))
     text += " (" + number("%.2f", cell.ratio) + ")";
   else  // whose times, of all threads and the GPU, say little on a busy machine: they are in the files
@@ -76,18 +60,18 @@ std::string text_of(const Cell& cell) {
   return text;
 }
 
-// A column a method, a row a trouble: failures, and in brackets the time beside the default's.
+// A column a method, a row a case: failures, and in brackets the time beside the default's.
 std::string markdown(const Table& table) {
-  std::string text = "| trouble | of | counted |";
+  std::string text = "| case | of | counted |";
   for (const std::string& method : table.methods) text += " " + method + " |";
   text += "\n|---|---:|---|";
   for (std::size_t i = 0; i < table.methods.size(); ++i) text += "---:|";
   text += "\n";
   for (std::size_t i = 0; i < table.cells.size(); i += table.methods.size()) {
     const Cell& first = table.cells[i];
-    text += "| " + first.trouble + (first.limit ? " (limit)" : "") + " | " + std::to_string(first.trials) +
-            " | " + first.failure +
-            (first.excused > 0 ? " (" + std::to_string(first.excused) + " excused)" : "") + " |";
+    text += "| " + first.stress_case + (first.limit ? " (limit)" : "") + " | " +
+            std::to_string(first.count.trials) + " | " + first.failure +
+            (first.count.excused > 0 ? " (" + std::to_string(first.count.excused) + " excused)" : "") + " |";
     for (std::size_t k = 0; k < table.methods.size(); ++k) text += " " + text_of(table.cells[i + k]) + " |";
     text += "\n";
   }
@@ -97,9 +81,10 @@ std::string markdown(const Table& table) {
 nlohmann::json to_json(const Table& table) {
   nlohmann::json cells = nlohmann::json::array();
   for (const Cell& c : table.cells) {
-    nlohmann::json cell{{"trouble", c.trouble}, {"failure", c.failure}, {"method", c.method},
-                        {"limit", c.limit},     {"trials", c.trials},   {"failures", c.failures},
-                        {"excused", c.excused}, {"seconds", c.seconds}, {"ratio_to_default", c.ratio}};
+    nlohmann::json cell{
+        {"case", c.stress_case},      {"failure", c.failure},       {"method", c.method},
+        {"limit", c.limit},           {"trials", c.count.trials},   {"failures", c.count.failures},
+        {"excused", c.count.excused}, {"seconds", c.count.seconds}, {"ratio_to_default", c.ratio}};
     cell.update(c.more);
     cells.push_back(cell);
   }
@@ -109,9 +94,10 @@ nlohmann::json to_json(const Table& table) {
 std::string csv_lines(const Table& table) {
   std::string text;
   for (const Cell& c : table.cells)
-    text += '"' + c.trouble + "\",\"" + c.failure + "\",\"" + c.method + "\"," + (c.limit ? "1" : "0") + "," +
-            std::to_string(c.trials) + "," + std::to_string(c.failures) + "," + std::to_string(c.excused) +
-            "," + number("%.6f", c.seconds) + "," + number("%.3f", c.ratio) + "\n";
+    text += '"' + c.stress_case + "\",\"" + c.failure + "\",\"" + c.method + "\"," + (c.limit ? "1" : "0") +
+            "," + std::to_string(c.count.trials) + "," + std::to_string(c.count.failures) + "," +
+            std::to_string(c.count.excused) + "," + number("%.6f", c.count.seconds) + "," +
+            number("%.3f", c.ratio) + "\n";
   return text;
 }
 
@@ -119,20 +105,20 @@ std::string csv_lines(const Table& table) {
 std::uint64_t default_failures(const Table& table) {
   std::uint64_t sum = 0;
   for (std::size_t i = 0; i < table.cells.size(); i += table.methods.size())
-    if (!table.cells[i].limit) sum += table.cells[i].failures;
+    if (!table.cells[i].limit) sum += table.cells[i].count.failures;
   return sum;
 }
 
 }  // namespace
 
 std::size_t table_cells() {
-  return all_methods().size() * all_troubles().size() + all_draw_methods().size() * picture_troubles().size();
+  return all_methods().size() * all_cases().size() + all_draw_methods().size() * picture_cases().size();
 }
 
 std::optional<Tables> make_tables(bool quick, const std::function<bool()>& after_cell) {
   Tables tables;
-  if (!fill(all_troubles(), all_methods(), quick ? kQuickRays : kRays, after_cell, tables.rays) ||
-      !fill(picture_troubles(), all_draw_methods(), quick ? kQuickSide : kSide, after_cell, tables.pictures))
+  if (!fill(all_cases(), all_methods(), quick ? kQuickRays : kRays, after_cell, tables.rays) ||
+      !fill(picture_cases(), all_draw_methods(), quick ? kQuickSide : kSide, after_cell, tables.pictures))
     return std::nullopt;
   return tables;
 }
@@ -149,7 +135,7 @@ void Tables::write(const std::filesystem::path& folder) const {
   write_text(folder / "stability.md",
              "Failures, and in brackets the processor time beside the default's.\n\n" + text());
   write_text(folder / "stability.csv",
-             "trouble,counted,method,limit,trials,failures,excused,seconds,ratio_to_default\n" +
+             "case,counted,method,limit,trials,failures,excused,seconds,ratio_to_default\n" +
                  csv_lines(rays) + csv_lines(pictures));
   const SystemInfo system = system_info();
   const nlohmann::json json{{"pinocchio", version()},

@@ -20,7 +20,7 @@ std::vector<Ray> rays_within(const glm::vec3& center, float reach, int rays) {
 }
 
 // Points, segments and slivers of one line in a room: the answer is the room's as if they were not there.
-Tally degenerate(const Method& method, int rays) {
+FailureCount degenerate(const Method& method, int rays) {
   const MeshData room = box(glm::vec3(-2.0f), glm::vec3(2.0f), 4);
   MeshData mesh = room;
   Random random(62);
@@ -33,16 +33,16 @@ Tally degenerate(const Method& method, int rays) {
     if (i % 3 == 2) add(mesh, on_line, on_line + step, on_line + 2.0f * step);
   }
   const std::vector<Ray> some = rays_within(glm::vec3(0.0f), 1.5f, rays);
-  Tally tally, ignored;
-  tally.trials = some.size();
-  const std::vector<Hit> with = trace(method.tracer(mesh), some, tally);
+  FailureCount count, ignored;
+  count.trials = some.size();
+  const std::vector<Hit> with = trace(method.tracer(mesh), some, count);
   const std::vector<Hit> without = trace(method.tracer(room), some, ignored);
-  for (std::size_t i = 0; i < some.size(); ++i) tally.failures += with[i] == without[i] ? 0 : 1;
-  return tally;
+  for (std::size_t i = 0; i < some.size(); ++i) count.failures += with[i] == without[i] ? 0 : 1;
+  return count;
 }
 
 // Everything nine times: of equal triangles the first is seen.
-Tally duplicates(const Method& method, int rays) {
+FailureCount duplicates(const Method& method, int rays) {
   const MeshData once = ball(glm::vec3(0.0f), 1.0f, 16, 0.3f);
   MeshData mesh = once;
   for (int copy = 1; copy < 9; ++copy) {
@@ -50,15 +50,15 @@ Tally duplicates(const Method& method, int rays) {
     mesh.triangle_materials.resize(mesh.triangles.size(), 0);
   }
   const std::vector<Ray> some = rays_at_edges(mesh, glm::vec3(0.0f), 0.3f, rays);
-  Tally tally;
-  tally.trials = some.size();
-  for (const Hit& hit : trace(method.tracer(mesh), some, tally))
-    tally.failures += hit.triangle < once.triangles.size() ? 0 : 1;
-  return tally;
+  FailureCount count;
+  count.trials = some.size();
+  for (const Hit& hit : trace(method.tracer(mesh), some, count))
+    count.failures += hit.triangle < once.triangles.size() ? 0 : 1;
+  return count;
 }
 
 // Large and small triangles over each other in one plane, none of whose edges agree.
-Tally coplanar(const Method& method, int rays) {
+FailureCount coplanar(const Method& method, int rays) {
   MeshData mesh;
   Random random(63);
   add(mesh, {-2, 0, -2}, {2, 0, -2}, {2, 0, 2});
@@ -73,15 +73,15 @@ Tally coplanar(const Method& method, int rays) {
     const glm::vec3 origin = random_point(random, 1.0f) + glm::vec3(0, 2, 0);
     some.push_back({origin, kInfinity, random_point(random, 1.0f) * glm::vec3(1, 0, 1) - origin});
   }
-  Tally tally;
-  tally.trials = some.size();
-  const std::vector<Hit> hits = trace(method.tracer(mesh), some, tally);
+  FailureCount count;
+  count.trials = some.size();
+  const std::vector<Hit> hits = trace(method.tracer(mesh), some, count);
   for (std::size_t i = 0; i < some.size(); ++i)  // the plane is at t = 1
-    tally.failures += hits[i].valid() && std::abs(hits[i].t - 1.0f) < 1e-6f ? 0 : 1;
-  return tally;
+    count.failures += hits[i].valid() && std::abs(hits[i].t - 1.0f) < 1e-6f ? 0 : 1;
+  return count;
 }
 
-Tally through_one_point(const Method& method, int rays) {
+FailureCount through_one_point(const Method& method, int rays) {
   const MeshData mesh = double_cone(4096);
   Random random(64);
   std::vector<Ray> some;
@@ -96,7 +96,7 @@ Tally through_one_point(const Method& method, int rays) {
 }
 
 // A flat scene without volume, seen from above.
-Tally in_one_plane(const Method& method, int rays) {
+FailureCount in_one_plane(const Method& method, int rays) {
   MeshData mesh;
   constexpr int kCells = 64;
   const auto point = [](int i, int j) {
@@ -122,7 +122,7 @@ Tally in_one_plane(const Method& method, int rays) {
 }
 
 // A floor of two triangles a million times as large as the ball above it.
-Tally one_far_larger(const Method& method, int rays) {
+FailureCount one_far_larger(const Method& method, int rays) {
   MeshData mesh = ball({0.3f, 2.0f, 0.2f}, 1.0f, 32, 0.3f);
   constexpr float kFar = 1e6f;
   add(mesh, {-kFar, 0, -kFar}, {kFar, 0, -0.7f * kFar}, {kFar, 0, kFar});
@@ -138,19 +138,19 @@ Tally one_far_larger(const Method& method, int rays) {
   return count_misses(method.tracer(mesh), some);
 }
 
-constexpr std::array kTroubles{
-    Trouble{"degenerate triangles", "answers they change", degenerate},
-    Trouble{"duplicate triangles", "others than the first", duplicates},
-    Trouble{"coplanar triangles", "misses", coplanar},
-    Trouble{"4096 through one point", "leaks", through_one_point},
-    Trouble{"8192 in one plane, no volume", "leaks", in_one_plane},
-    Trouble{"one 1e6 times larger", "leaks", one_far_larger},
+constexpr std::array kCases{
+    StressCase{"degenerate triangles", "answers they change", degenerate},
+    StressCase{"duplicate triangles", "others than the first", duplicates},
+    StressCase{"coplanar triangles", "misses", coplanar},
+    StressCase{"4096 through one point", "leaks", through_one_point},
+    StressCase{"8192 in one plane, no volume", "leaks", in_one_plane},
+    StressCase{"one 1e6 times larger", "leaks", one_far_larger},
 };
 
 }  // namespace
 
-std::span<const Trouble> triangle_troubles() {
-  return kTroubles;
+std::span<const StressCase> triangle_cases() {
+  return kCases;
 }
 
 }  // namespace pinocchio::stability

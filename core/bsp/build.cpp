@@ -164,13 +164,6 @@ AlignedVector<CornerTriangle> corner_triangles(const Mesh& mesh) {
 
 }  // namespace
 
-std::optional<SplitRule> parse_split_rule(std::string_view name) {
-  if (name == "sah") return SplitRule::sah;
-  if (name == "spatial-median") return SplitRule::spatial_median;
-  if (name == "object-median") return SplitRule::object_median;
-  return std::nullopt;
-}
-
 BspTree build_tree(const Mesh& mesh, const BuildOptions& options) {
   BspTree tree;
   Workers workers(options.threads);

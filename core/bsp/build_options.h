@@ -1,6 +1,6 @@
 #pragma once
 
-#include <optional>
+#include <array>
 #include <string_view>
 
 #include "core/bsp/triangle_test.h"
@@ -14,8 +14,7 @@ enum class SplitRule {
   object_median,   // half of the triangles' centres to each side of the longest side
 };
 
-// "sah", "spatial-median", "object-median"
-[[nodiscard]] std::optional<SplitRule> parse_split_rule(std::string_view name);
+inline constexpr std::array<std::string_view, 3> kSplitRuleNames{"sah", "spatial-median", "object-median"};
 
 // Deepest tree the builder makes and the traversal stack holds: one constant for both.
 inline constexpr int kMaxTreeDepth = 64;

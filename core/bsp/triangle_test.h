@@ -1,8 +1,6 @@
 #pragma once
 
-#include <array>
-#include <optional>
-#include <string_view>
+#include "core/base/names.h"
 
 namespace pinocchio {
 
@@ -17,7 +15,10 @@ enum class TriangleTest {
 inline constexpr std::array kTriangleTests{TriangleTest::projected, TriangleTest::moeller_trumbore,
                                            TriangleTest::watertight, TriangleTest::filtered};
 
-[[nodiscard]] std::string_view triangle_test_name(TriangleTest test);
-[[nodiscard]] std::optional<TriangleTest> parse_triangle_test(std::string_view name);
+inline constexpr std::array<std::string_view, 4> kTriangleTestNames{"projected", "moeller-trumbore",
+                                                                    "watertight", "filtered"};
+[[nodiscard]] constexpr std::string_view triangle_test_name(TriangleTest test) {
+  return name_of(kTriangleTestNames, test);
+}
 
 }  // namespace pinocchio

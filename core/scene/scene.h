@@ -25,6 +25,11 @@ struct Scene {
 
   std::string source;                     // path it was loaded from
   std::vector<std::string> source_files;  // that path and all files it names, also those that are missing
+
+  // Whether they look the same, from anywhere.
+  friend bool operator==(const Scene& a, const Scene& b) {
+    return a.mesh == b.mesh && a.lights == b.lights && a.ambient_light == b.ambient_light;
+  }
 };
 
 // Indices in scene.lights of the lights that cast shadows; position in the result is the mask slot.

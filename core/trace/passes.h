@@ -10,23 +10,12 @@
 #include "core/scene/scene.h"
 #include "core/trace/lit_cells.h"
 #include "core/trace/mask_image.h"
+#include "core/trace/ray_counts.h"
 #include "core/trace/scatter.h"
 #include "core/trace/shared.h"
 #include "core/trace/tracer.h"
 
 namespace pinocchio {
-
-struct RayCounts {
-  std::uint64_t primary = 0, shadow = 0, reflection = 0, refraction = 0;
-
-  RayCounts& operator+=(const RayCounts& o) {
-    primary += o.primary;
-    shadow += o.shadow;
-    reflection += o.reflection;
-    refraction += o.refraction;
-    return *this;
-  }
-};
 
 // What every pass reads: the scene, its tree, the threads and the picture's rays.
 struct TraceJob {

@@ -1,9 +1,6 @@
 #pragma once
 
-#include <array>
-#include <optional>
-#include <string_view>
-
+#include "core/base/names.h"
 #include "core/math/bounds.h"
 
 namespace pinocchio {
@@ -18,8 +15,10 @@ enum class OffsetMethod {
 inline constexpr std::array kOffsetMethods{OffsetMethod::fixed, OffsetMethod::scaled,
                                            OffsetMethod::error_bound};
 
-[[nodiscard]] std::string_view offset_method_name(OffsetMethod method);
-[[nodiscard]] std::optional<OffsetMethod> parse_offset_method(std::string_view name);
+inline constexpr std::array<std::string_view, 3> kOffsetMethodNames{"fixed", "scaled", "error-bound"};
+[[nodiscard]] constexpr std::string_view offset_method_name(OffsetMethod method) {
+  return name_of(kOffsetMethodNames, method);
+}
 
 // The method with the scene's length; by default the error bound, which needs none.
 struct RayOffset {

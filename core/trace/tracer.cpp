@@ -12,26 +12,12 @@
 namespace pinocchio {
 namespace {
 
-struct IsaEntry {
-  Isa isa;
-  std::string_view name;
-  const Kernels& kernels;
-};
-
-// Narrowest first.
-const std::array<IsaEntry, 4> kIsas{{
-    {Isa::scalar, "scalar", scalar::kKernels},
-    {Isa::sse4, "sse4", sse4::kKernels},
-    {Isa::avx2, "avx2", avx2::kKernels},
-    {Isa::avx512, "avx512", avx512::kKernels},
-}};
-
-const IsaEntry& entry_of(Isa isa) {
-  return kIsas[static_cast<std::size_t>(isa)];
-}
+// In Isa's order, narrowest first.
+const std::array<const Kernels*, kIsaNames.size()> kKernels{&scalar::kKernels, &sse4::kKernels,
+                                                            &avx2::kKernels, &avx512::kKernels};
 
 const Kernel& kernel_of(Isa isa, TriangleTest test) {
-  return entry_of(isa).kernels[static_cast<std::size_t>(test)];
+  return (*kKernels[static_cast<std::size_t>(isa)])[static_cast<std::size_t>(test)];
 }
 
 Isa choose(std::optional<Isa> wanted) {
@@ -42,16 +28,6 @@ Isa choose(std::optional<Isa> wanted) {
 }
 
 }  // namespace
-
-std::string_view isa_name(Isa isa) {
-  return entry_of(isa).name;
-}
-
-std::optional<Isa> parse_isa(std::string_view name) {
-  for (const IsaEntry& e : kIsas)
-    if (e.name == name) return e.isa;
-  return std::nullopt;
-}
 
 bool isa_supported(Isa isa) {
   switch (isa) {
@@ -69,8 +45,8 @@ bool isa_supported(Isa isa) {
 
 std::vector<Isa> supported_isas() {
   std::vector<Isa> found;
-  for (const IsaEntry& e : kIsas)
-    if (isa_supported(e.isa)) found.push_back(e.isa);
+  for (const Isa isa : {Isa::scalar, Isa::sse4, Isa::avx2, Isa::avx512})
+    if (isa_supported(isa)) found.push_back(isa);
   return found;
 }
 

@@ -7,10 +7,10 @@ TEST_P(DefaultHolds, WithoutFailure) {
   expect_default_holds(GetParam());
 }
 
-INSTANTIATE_TEST_SUITE_P(Bounces, DefaultHolds, testing::ValuesIn(bounce_troubles()), test_name);
+INSTANTIATE_TEST_SUITE_P(Bounces, DefaultHolds, testing::ValuesIn(bounce_cases()), test_name);
 
 TEST(Bounces, OneLengthForAllScenesFails) {
-  for (const Trouble& t : bounce_troubles()) expect_fails(t, with(OffsetMethod::fixed));
+  for (const StressCase& t : bounce_cases()) expect_fails(t, with(OffsetMethod::fixed));
 }
 
 }  // namespace

@@ -7,24 +7,24 @@ TEST_P(DefaultHolds, WithoutFailure) {
   expect_default_holds(GetParam());
 }
 
-INSTANTIATE_TEST_SUITE_P(Leaks, DefaultHolds, testing::ValuesIn(leak_troubles()), test_name);
+INSTANTIATE_TEST_SUITE_P(Leaks, DefaultHolds, testing::ValuesIn(leak_cases()), test_name);
 
 TEST(Leaks, CheaperTestsLeak) {
   for (const char* name :
        {"edges and vertices", "edges far from the origin", "needles, aspect 1e6", "T-junctions"})
     for (const TriangleTest test : {TriangleTest::projected, TriangleTest::moeller_trumbore})
-      expect_fails(trouble(leak_troubles(), name), with(test));
+      expect_fails(stress_case(leak_cases(), name), with(test));
 }
 
 // The watertight test in float closes meshes, but sees gaps that are not there.
 TEST(Leaks, FloatsMoveTheEdgesOfTJunctions) {
-  expect_fails(trouble(leak_troubles(), "T-junctions"), with(TriangleTest::watertight));
+  expect_fails(stress_case(leak_cases(), "T-junctions"), with(TriangleTest::watertight));
 }
 
 TEST(Leaks, TJunctionsHaveGapsThatAreTrue) {
-  const Tally tally = trouble(leak_troubles(), "T-junctions").run(Method{}, kRays);
-  EXPECT_GT(tally.excused, 0u);
-  EXPECT_LT(tally.excused, tally.trials / 10);
+  const FailureCount count = stress_case(leak_cases(), "T-junctions").run(Method{}, kRays);
+  EXPECT_GT(count.excused, 0u);
+  EXPECT_LT(count.excused, count.trials / 10);
 }
 
 }  // namespace

@@ -1,7 +1,7 @@
 // Pictures that GPU and CPU share, where they see different triangles or the camera outruns them.
 #include <cstdio>
 
-#include "bench/stability/picture_trouble.h"
+#include "bench/stability/picture_case.h"
 #include "tests/support/gl_test.h"
 
 namespace pinocchio::stability {
@@ -13,35 +13,35 @@ class Pictures : public GlTest {};
 INSTANTIATE_TEST_SUITE_P(Backends, Pictures, kBackends, backend_name);
 
 TEST_P(Pictures, NoPixelIsBlackOrNan) {
-  for (const PictureTrouble& trouble : picture_troubles())
+  for (const PictureStressCase& stress_case : picture_cases())
     for (const DrawMethod& method : all_draw_methods()) {
-      const PictureTally tally = trouble.run(method, kSide);
+      const PictureFailureCount count = stress_case.run(method, kSide);
       std::printf("  %-22s %-20s %zu of %zu other ids, at most %.3f off, mean %.5f; %zu holes\n",
-                  std::string(trouble.name).c_str(), method.name.c_str(),
-                  static_cast<std::size_t>(tally.other_ids), static_cast<std::size_t>(tally.pixels),
-                  tally.worst_there, tally.mean_error, static_cast<std::size_t>(tally.holes));
-      EXPECT_EQ(tally.failures, 0u) << trouble.name << ", " << method.name;
-      EXPECT_GT(tally.pixels, 0u);
+                  std::string(stress_case.name).c_str(), method.name.c_str(),
+                  static_cast<std::size_t>(count.other_ids), static_cast<std::size_t>(count.trials),
+                  count.worst_there, count.mean_error, static_cast<std::size_t>(count.holes));
+      EXPECT_EQ(count.failures, 0u) << stress_case.name << ", " << method.name;
+      EXPECT_GT(count.trials, 0u);
     }
 }
 
-const PictureTrouble& trouble(std::string_view name) {
-  for (const PictureTrouble& t : picture_troubles())
+const PictureStressCase& stress_case(std::string_view name) {
+  for (const PictureStressCase& t : picture_cases())
     if (t.name == name) return t;
-  throw std::logic_error("no trouble is called " + std::string(name));
+  throw std::logic_error("no case is called " + std::string(name));
 }
 
-// The troubles trouble: in each the two sides do disagree.
+// The cases are hard: in each the two sides do disagree.
 TEST_P(Pictures, GpuAndCpuSeeDifferentTriangles) {
   for (const char* name : {"grazing triangles", "sub-pixel triangles", "z-fighting planes"})
-    EXPECT_GT(trouble(name).run(all_draw_methods().front(), kSide).other_ids, 0u) << name;
+    EXPECT_GT(stress_case(name).run(all_draw_methods().front(), kSide).other_ids, 0u) << name;
 }
 
 // Two frames late is exact all the same; a warped answer is not, and has holes.
 TEST_P(Pictures, OnlyReprojectionErrsUnderMotion) {
   for (const char* name : {"camera: fast turn", "camera: cut", "camera: object edges"}) {
-    const PictureTally late = trouble(name).run({"", 1, Exchange::pipelined}, kSide);
-    const PictureTally warped = trouble(name).run({"", 1, Exchange::reproject}, kSide);
+    const PictureFailureCount late = stress_case(name).run({"", 1, Exchange::pipelined}, kSide);
+    const PictureFailureCount warped = stress_case(name).run({"", 1, Exchange::reproject}, kSide);
     EXPECT_EQ(late.holes, 0u) << name;
     EXPECT_GT(warped.holes, 0u) << name;
     EXPECT_GT(warped.mean_error, 2.0 * late.mean_error) << name;

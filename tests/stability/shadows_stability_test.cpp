@@ -7,9 +7,9 @@ TEST_P(DefaultHolds, WithoutFailure) {
   expect_default_holds(GetParam());
 }
 
-std::vector<Trouble> held_to_zero() {
-  std::vector<Trouble> held;
-  for (const Trouble& t : shadow_troubles())
+std::vector<StressCase> held_to_zero() {
+  std::vector<StressCase> held;
+  for (const StressCase& t : shadow_cases())
     if (!t.limit) held.push_back(t);
   return held;
 }
@@ -18,16 +18,16 @@ INSTANTIATE_TEST_SUITE_P(Shadows, DefaultHolds, testing::ValuesIn(held_to_zero()
 TEST(Shadows, OneLengthForAllScenesFails) {
   for (const char* name : {"scaled by 1e-6 to 1e6: acne", "moved by 1e6 sizes: acne", "scaled, closed room",
                            "moved, closed room"})
-    expect_fails(trouble(shadow_troubles(), name), with(OffsetMethod::fixed));
+    expect_fails(stress_case(shadow_cases(), name), with(OffsetMethod::fixed));
 }
 
 TEST(Shadows, OneLengthASceneFailsFarFromTheOrigin) {
-  expect_fails(trouble(shadow_troubles(), "moved by 1e6 sizes: acne"), with(OffsetMethod::scaled));
+  expect_fails(stress_case(shadow_cases(), "moved by 1e6 sizes: acne"), with(OffsetMethod::scaled));
 }
 
 TEST(Shadows, TheTerminatorIsALimitOfEveryMethod) {
   for (const Method& method : all_methods())
-    expect_fails(trouble(shadow_troubles(), "shadow terminator"), method);
+    expect_fails(stress_case(shadow_cases(), "shadow terminator"), method);
 }
 
 }  // namespace

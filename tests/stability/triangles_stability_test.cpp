@@ -7,14 +7,14 @@ TEST_P(DefaultHolds, WithoutFailure) {
   expect_default_holds(GetParam());
 }
 
-INSTANTIATE_TEST_SUITE_P(Triangles, DefaultHolds, testing::ValuesIn(triangle_troubles()), test_name);
+INSTANTIATE_TEST_SUITE_P(Triangles, DefaultHolds, testing::ValuesIn(triangle_cases()), test_name);
 
 TEST(Triangles, CheaperTestsFail) {
   for (const char* name : {"duplicate triangles", "4096 through one point", "one 1e6 times larger"})
     for (const TriangleTest test : {TriangleTest::projected, TriangleTest::moeller_trumbore})
-      expect_fails(trouble(triangle_troubles(), name), with(test));
+      expect_fails(stress_case(triangle_cases(), name), with(test));
   for (const char* name : {"coplanar triangles", "8192 in one plane, no volume"})
-    expect_fails(trouble(triangle_troubles(), name), with(TriangleTest::moeller_trumbore));
+    expect_fails(stress_case(triangle_cases(), name), with(TriangleTest::moeller_trumbore));
 }
 
 }  // namespace

@@ -1,0 +1,13 @@
+#pragma once
+
+#include <cstdint>
+
+#include "core/scene/scene.h"
+
+namespace pinocchio::chart {
+
+// CRC-32 of everything in a scene that a picture depends on: two scenes with the same checksum
+// are taken to be one.
+[[nodiscard]] std::uint32_t checksum_of(const Scene& scene);
+
+}  // namespace pinocchio::chart

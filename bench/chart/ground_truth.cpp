@@ -1,0 +1,44 @@
+#include "bench/chart/ground_truth.h"
+
+#include <algorithm>
+
+#include "core/image/rgb.h"
+#include "core/math/finite.h"
+#include "hybrid/raytrace.h"
+
+namespace pinocchio::chart {
+
+Image<glm::vec3> GroundTruth::drawn(std::size_t frame, glm::vec2 jitter) {
+  const View& view = views_[frame];
+  Picture picture;
+  (void)raytrace({scene_, plan_, view.camera, view.size, view.part, jitter}, workers_, picture);
+  return rgb_of(picture.color);
+}
+
+const Image<glm::vec3>* GroundTruth::reference(std::size_t frame, bool area) {
+  const auto known = references_.find({frame, area});
+  if (known != references_.end()) return &known->second;
+  const int side = area ? area_side_ : 1;
+  Image<glm::vec3> mean(views_[frame].part.size());
+  for (int k = 0; k < side * side; ++k) {
+    if (interrupted_()) return nullptr;
+    const glm::vec2 place(static_cast<float>(k % side), static_cast<float>(k / side));
+    const Image<glm::vec3> sample = drawn(frame, (place + 0.5f) / static_cast<float>(side) - 0.5f);
+    for (std::size_t i = 0; i < mean.pixels().size(); ++i)
+      mean[i] += sample[i] / static_cast<float>(side * side);
+  }
+  return &references_.emplace(std::pair(frame, area), std::move(mean)).first->second;
+}
+
+std::optional<MeasuredError> GroundTruth::measure(const Image<glm::vec4>& color, std::size_t frame,
+                                                  bool area) {
+  const Image<glm::vec3>* const truth = reference(frame, area);
+  if (!truth) return std::nullopt;
+  const Image<glm::vec3> rgb = rgb_of(color);
+  const auto finite = std::ranges::count_if(rgb.pixels(), is_finite);
+  const std::size_t not_finite = rgb.pixels().size() - static_cast<std::size_t>(finite);
+  if (not_finite > 0) return MeasuredError{{}, not_finite};
+  return MeasuredError{picture_error(rgb, *truth, kFlipPixelsPerDegree, workers_)};
+}
+
+}  // namespace pinocchio::chart

@@ -1,0 +1,56 @@
+// The pictures that others are measured against.
+#pragma once
+
+#include <map>
+#include <memory>
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include "bench/chart/timed_renderer.h"
+#include "core/compare/picture_error.h"
+#include "core/image/image.h"
+#include "core/parallel/workers.h"
+#include "hybrid/prepared_scene.h"
+#include "hybrid/renderer.h"
+
+namespace pinocchio::chart {
+
+struct MeasuredError : PictureError {
+  std::size_t not_finite = 0;  // pixels with a NaN or infinity; above 0 the other figures are 0
+};
+
+// References (core/reference) of some frames of a motion, drawn when they are first asked for.
+class GroundTruth {
+ public:
+  // plan: Mode::raytrace, precise. area_side: the area reference is the mean of so many times so many
+  // samples, evenly spread over the pixel.
+  GroundTruth(std::shared_ptr<const PreparedScene> scene, const Plan& plan, int area_side,
+              const std::vector<View>& views, Workers& workers, Interrupted interrupted)
+      : scene_(std::move(scene)),
+        plan_(plan),
+        area_side_(area_side),
+        views_(views),
+        workers_(workers),
+        interrupted_(interrupted) {}
+
+  // Linear RGB of the frame: at the pixels' centres, or their means. Null where the user asked for an end.
+  [[nodiscard]] const Image<glm::vec3>* reference(std::size_t frame, bool area);
+
+  // RGB of a picture against the reference of the frame. Nothing where the user asked for an end.
+  [[nodiscard]] std::optional<MeasuredError> measure(const Image<glm::vec4>& color, std::size_t frame,
+                                                     bool area);
+
+ private:
+  [[nodiscard]] Image<glm::vec3> drawn(std::size_t frame, glm::vec2 jitter);
+
+  std::shared_ptr<const PreparedScene> scene_;
+  Plan plan_;
+  int area_side_;
+  const std::vector<View>& views_;
+  Workers& workers_;
+  Interrupted interrupted_;
+  std::map<std::pair<std::size_t, bool>, Image<glm::vec3>> references_;
+};
+
+}  // namespace pinocchio::chart

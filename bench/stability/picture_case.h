@@ -1,0 +1,45 @@
+// The stability suite's pictures: where GPU and CPU see different triangles, and where the camera moves
+// faster than the CPU's part follows. Every scene is closed and lit from everywhere a little, so no pixel
+// may be black.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "bench/stability/stress_case.h"
+#include "hybrid/frame.h"
+
+namespace pinocchio::stability {
+
+// One way to share a frame between GPU and CPU.
+struct DrawMethod {
+  std::string name;
+  int design = 1;
+  Exchange exchange = Exchange::sync;
+};
+// The default first.
+[[nodiscard]] std::vector<DrawMethod> all_draw_methods();
+
+// Trials are pixels; seconds, those of the whole drawing.
+struct PictureFailureCount : FailureCount {
+  std::uint64_t other_ids = 0;  // where the rasteriser sees another triangle than the ray
+  double worst_there = 0.0;     // largest difference of such a pixel to the ray traced picture, linear
+  double mean_error = 0.0;      // of all pixels to the ray traced picture of the same camera, linear
+  std::uint64_t holes = 0;      // reprojected: pixels that no older frame had an answer for
+};
+
+struct PictureStressCase {
+  std::string_view name;
+  // side: pixels of a square picture; wants a current OpenGL context.
+  PictureFailureCount (*run)(const DrawMethod& method, int side);
+  std::string_view failure = "black or NaN pixels";
+  bool limit = false;
+};
+
+// Grazing and sub-pixel triangles, near-plane clipping, z-fighting planes; a fast turn, a cut, object edges.
+[[nodiscard]] std::span<const PictureStressCase> picture_cases();
+
+}  // namespace pinocchio::stability

@@ -1,0 +1,49 @@
+// The stability suite: what ray tracers stumble over, and how often a method does. tests/stability holds the
+// default methods to zero; `pinocchio chart --stability` prints the table.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <string_view>
+
+#include "bench/stability/method.h"
+
+namespace pinocchio::stability {
+
+// What came of one case.
+struct FailureCount {
+  std::uint64_t trials = 0;
+  std::uint64_t failures = 0;
+  std::uint64_t excused = 0;  // misses that are the scene's fault, by the reference in double
+  double seconds = 0.0;       // of the tracing alone, of a processor
+
+  FailureCount& operator+=(const FailureCount& o) {
+    trials += o.trials;
+    failures += o.failures;
+    excused += o.excused;
+    seconds += o.seconds;
+    return *this;
+  }
+};
+
+struct StressCase {
+  std::string_view name;
+  std::string_view failure;  // what is counted
+  // rays: how many trials to make, about; at edges five times as many, where each is dear fewer. They are the
+  // same ones for every method.
+  FailureCount (*run)(const Method& method, int rays);
+  bool limit = false;  // no method is without it: counted, not held to zero
+};
+
+// Rays against closed meshes, odd directions, odd triangles: leaks.cpp, directions.cpp, triangles.cpp.
+// Shadows and offsets at every scale: shadows.cpp. Mirrors and glass: bounces.cpp.
+[[nodiscard]] std::span<const StressCase> leak_cases();
+[[nodiscard]] std::span<const StressCase> direction_cases();
+[[nodiscard]] std::span<const StressCase> triangle_cases();
+[[nodiscard]] std::span<const StressCase> shadow_cases();
+[[nodiscard]] std::span<const StressCase> bounce_cases();
+
+// All of the above, in that order.
+[[nodiscard]] std::vector<StressCase> all_cases();
+
+}  // namespace pinocchio::stability

@@ -1,0 +1,25 @@
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <optional>
+#include <string_view>
+
+namespace pinocchio {
+
+// The value of an enumeration whose names stand in its order; nothing where `name` is none of them.
+template <class Enum, std::size_t N>
+[[nodiscard]] std::optional<Enum> parse_name(const std::array<std::string_view, N>& names,
+                                             std::string_view name) {
+  const auto found = std::find(names.begin(), names.end(), name);
+  if (found == names.end()) return std::nullopt;
+  return static_cast<Enum>(found - names.begin());
+}
+
+template <class Enum, std::size_t N>
+[[nodiscard]] constexpr std::string_view name_of(const std::array<std::string_view, N>& names, Enum value) {
+  return names[static_cast<std::size_t>(value)];
+}
+
+}  // namespace pinocchio

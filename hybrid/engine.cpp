@@ -1,0 +1,133 @@
+#include "hybrid/include/pinocchio/engine.h"
+
+#include <cstdlib>
+#include <utility>
+
+#include "gl/foreign.h"
+#include "hybrid/engine_parts.h"
+#include "hybrid/samples.h"
+#include "hybrid/settings/resolve.h"
+
+namespace pinocchio {
+namespace {
+
+// Whether a tree built by the one is the other's.
+bool same_tree(const Settings& a, const Settings& b) {
+  for (const char* name : {"isa", "tree", "tree_depth", "tree_leaf", "triangle_test", "offset"})
+    if (!find_field(name)->same(a, b)) return false;
+  return true;
+}
+
+}  // namespace
+
+std::future<void> TracingThread::post(std::function<void()> job) {
+  std::packaged_task<void()> task(std::move(job));
+  std::future<void> done = task.get_future();
+  {
+    const std::lock_guard lock(mutex_);
+    jobs_.push_back(std::move(task));
+  }
+  wake_.notify_one();
+  return done;
+}
+
+// What was posted is done before the thread ends.
+void TracingThread::run(const std::stop_token& stop) {
+  std::unique_lock lock(mutex_);
+  while (wake_.wait(lock, stop, [this] { return !jobs_.empty(); })) {
+    std::packaged_task<void()> task = std::move(jobs_.front());
+    jobs_.pop_front();
+    lock.unlock();
+    task();
+    lock.lock();
+  }
+}
+
+GpuPasses& Engine::Parts::gpu() {
+  if (passes) return *passes;
+  if (!context) {
+    if (options.gl_threads > 0) setenv("LP_NUM_THREADS", std::to_string(options.gl_threads).c_str(), 1);
+    own = options.get_proc_address
+              ? std::make_unique<gl::ForeignContext>(options.get_proc_address, options.gl_debug)
+              : gl::open_context({options.backend, options.device, options.gl_debug});
+    context = own.get();
+  }
+  passes = std::make_unique<GpuPasses>(std::make_shared<Programs>());
+  return *passes;
+}
+
+Workers& Engine::Parts::workers(int threads) {
+  const std::lock_guard lock(pools_mutex);
+  return pools.try_emplace(threads, threads).first->second;
+}
+
+std::shared_ptr<const GpuMesh> Engine::Parts::gpu_mesh(const std::shared_ptr<const Mesh>& mesh) {
+  std::erase_if(meshes, [&](const auto& entry) { return entry.first != mesh && entry.first.use_count() == 1; });
+  std::shared_ptr<const GpuMesh>& found = meshes[mesh];
+  if (!found) found = std::make_shared<const GpuMesh>(*mesh);
+  return found;
+}
+
+LitCells* Engine::Parts::lit_cells(const std::shared_ptr<const Tracer>& tracer) {
+  if (!LitCells::suits(*tracer)) return nullptr;
+  if (cells_tracer != tracer) {
+    cells.reset();
+    cells_tracer = tracer;
+    return nullptr;
+  }
+  if (!cells) cells = std::make_unique<LitCells>(*tracer);
+  return cells.get();
+}
+
+Engine::Engine(const EngineOptions& options) : parts_(std::make_unique<Parts>(options)) {}
+
+Engine::Engine(gl::Context& context) : Engine() {
+  parts_->context = &context;
+}
+
+Engine::~Engine() = default;
+
+Expected<Settings> Engine::resolve(const Scene& scene, glm::ivec2 size, const Settings& settings,
+                                   bool keeps_mask) const {
+  if (settings.uses_gpu()) open_gl();
+  return pinocchio::resolve(settings, analyze(scene), {size, gl_info() && gl_info()->software, keeps_mask});
+}
+
+std::shared_ptr<const Tracer> Engine::prepare(const Scene& scene, const Settings& settings) {
+  if (!settings.traces()) return nullptr;
+  return std::make_shared<const Tracer>(scene.mesh, build_options(settings), Isa{settings.isa},
+                                        settings.offset);
+}
+
+Expected<FrameResult> Engine::render(const Scene& scene, const View& view, const Settings& settings) {
+  const Expected<Settings> resolved = resolve(scene, view.box().size(), settings);
+  if (!resolved) return Unexpected(resolved.error());
+  std::shared_ptr<const Tracer>& tracer = parts_->last_tracer;
+  if (!tracer || &tracer->mesh() != scene.mesh.get() || !same_tree(*resolved, parts_->last_settings))
+    tracer = prepare(scene, *resolved);
+  parts_->last_settings = *resolved;
+  FrameResult result;
+  SampleMean mean(resolved->spp, [&](FrameResult&& picture) { result = std::move(picture); });
+  Renderer renderer(*this, {[&](Frame& frame) { mean.add(frame); }, {}});
+  submit_samples(renderer, {scene, tracer, *resolved, view});
+  renderer.drain();
+  return result;
+}
+
+Workers& Engine::workers(int threads) const {
+  return parts_->workers(threads);
+}
+
+void Engine::open_gl() const {
+  (void)parts_->gpu();
+}
+
+const gl::ContextInfo* Engine::gl_info() const {
+  return parts_->context ? &parts_->context->info() : nullptr;
+}
+
+void Engine::throw_gl_complaints() const {
+  if (parts_->context) parts_->context->throw_complaints();
+}
+
+}  // namespace pinocchio

@@ -1,0 +1,79 @@
+#pragma once
+
+#include <condition_variable>
+#include <deque>
+#include <functional>
+#include <future>
+#include <map>
+#include <memory>
+#include <mutex>
+#include <thread>
+
+#include "core/parallel/workers.h"
+#include "core/trace/lit_cells.h"
+#include "gl/open.h"
+#include "hybrid/gpu/gpu_mesh.h"
+#include "hybrid/gpu/programs.h"
+#include "hybrid/gpu/shading_passes.h"
+#include "hybrid/gpu/visibility_pass.h"
+#include "hybrid/include/pinocchio/engine.h"
+
+namespace pinocchio {
+
+// One thread that does what it is given, in order: a frame's tracing, while its owner goes on.
+class TracingThread {
+ public:
+  TracingThread() : thread_([this](const std::stop_token& stop) { run(stop); }) {}
+
+  // What `job` throws is in the future.
+  [[nodiscard]] std::future<void> post(std::function<void()> job);
+
+ private:
+  void run(const std::stop_token& stop);
+
+  std::mutex mutex_;
+  std::condition_variable_any wake_;
+  std::deque<std::packaged_task<void()>> jobs_;
+  std::jthread thread_;
+};
+
+// The passes of the GPU, compiled once.
+struct GpuPasses {
+  explicit GpuPasses(std::shared_ptr<Programs> of)
+      : programs(std::move(of)), visibility(programs), shading(programs) {}
+  std::shared_ptr<Programs> programs;
+  VisibilityPass visibility;
+  ShadingPasses shading;
+};
+
+struct Engine::Parts {
+  explicit Parts(const EngineOptions& of) : options(of) {}
+
+  // Opens the context where there is none yet. Throws gl::NoContextError.
+  [[nodiscard]] GpuPasses& gpu();
+  [[nodiscard]] bool has_gpu() const { return passes != nullptr; }
+  [[nodiscard]] Workers& workers(int threads);
+  // The mesh's buffers on the GPU; made when first asked for, let go when nobody else has the mesh.
+  [[nodiscard]] std::shared_ptr<const GpuMesh> gpu_mesh(const std::shared_ptr<const Mesh>& mesh);
+  // What shadow passes in this tree have learned, for the next one. Null for a tree's first pass (a single
+  // picture learns nothing that it could use) and where rays are not exact enough to be spared.
+  [[nodiscard]] LitCells* lit_cells(const std::shared_ptr<const Tracer>& tracer);
+
+  EngineOptions options;
+  std::unique_ptr<gl::Context> own;  // outlives what was made in it
+  gl::Context* context = nullptr;    // own or the caller's; null: none is open
+  std::unique_ptr<GpuPasses> passes;
+  std::mutex pools_mutex;
+  std::map<int, Workers> pools;  // by number of threads; idle ones cost nothing
+  std::map<std::shared_ptr<const Mesh>, std::shared_ptr<const GpuMesh>> meshes;
+  std::shared_ptr<const Tracer> last_tracer;  // of render()
+  Settings last_settings;                     // that it was built by
+
+  // Of the tracing thread:
+  std::shared_ptr<const Tracer> cells_tracer;
+  std::unique_ptr<LitCells> cells;
+
+  TracingThread tracing;  // last: ends first
+};
+
+}  // namespace pinocchio

@@ -1,0 +1,21 @@
+#pragma once
+
+#include <cstddef>
+
+#include <glm/glm.hpp>
+
+#include "hybrid/include/pinocchio/settings.h"
+
+namespace pinocchio {
+
+// What moving a frame's buffers costs by itself, with nothing to wait for: median milliseconds. The tracer
+// reads and writes the mapped buffers, so what it does there is not counted.
+struct ExchangeCost {
+  double to_cpu_ms = 0.0, to_gpu_ms = 0.0;  // framebuffer to mapped memory; from there to a texture
+  double memcpy_to_cpu_ms = 0.0, memcpy_to_gpu_ms = 0.0;  // plain copies of the same bytes
+};
+
+// Wants a current OpenGL context.
+[[nodiscard]] ExchangeCost measure_exchange(const Settings& settings, glm::ivec2 size);
+
+}  // namespace pinocchio

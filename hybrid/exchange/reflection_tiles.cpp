@@ -1,0 +1,60 @@
+#include "hybrid/exchange/reflection_tiles.h"
+
+#include <algorithm>
+#include <cassert>
+
+#include "core/parallel/tiles.h"
+#include "hybrid/exchange/encode.h"
+
+namespace pinocchio {
+namespace {
+
+PixelBox box_of(std::size_t tile, int columns, glm::ivec2 size) {
+  const glm::ivec2 cell(static_cast<int>(tile) % columns, static_cast<int>(tile) / columns);
+  const glm::ivec2 lo = cell * kReflectionTile;
+  return {lo, glm::min(lo + kReflectionTile, size)};
+}
+
+bool has_light(const Image<glm::vec3>& radiance, const PixelBox& box) {
+  for (int y = box.lo.y; y < box.hi.y; ++y)
+    for (int x = box.lo.x; x < box.hi.x; ++x)
+      if (radiance.at(x, y) != glm::vec3(0.0f)) return true;
+  return false;
+}
+
+}  // namespace
+
+std::size_t most_tile_bytes(glm::ivec2 size, ReflectionFormat format) {
+  if (format == ReflectionFormat::none) return 0;
+  const glm::ivec2 tiles = tile_columns_rows(size);
+  const auto count = static_cast<std::size_t>(tiles.x) * static_cast<std::size_t>(tiles.y);
+  return count * (sizeof(std::uint32_t) + bytes_per_tile(format));
+}
+
+std::size_t pack_tiles(const Image<glm::vec3>& radiance, ReflectionFormat format, Workers& workers,
+                       std::span<std::uint32_t> index, std::span<std::byte> tiles) {
+  const glm::ivec2 grid = tile_columns_rows(radiance.size());
+  assert(index.size() == static_cast<std::size_t>(grid.x) * static_cast<std::size_t>(grid.y));
+  workers.for_each(index.size(), [&](std::size_t i) {
+    index[i] = has_light(radiance, box_of(i, grid.x, radiance.size())) ? 0 : kNoTile;
+  });
+  std::uint32_t count = 0;
+  for (std::uint32_t& entry : index)
+    if (entry != kNoTile) entry = count++;
+
+  const auto columns = static_cast<std::size_t>(grid.x);
+  const std::size_t last_row = count / columns, in_last_row = count % columns;
+  const auto tile_row_bytes = static_cast<std::size_t>(kReflectionTile * bytes_per_pixel(format));
+  workers.for_each(index.size(), [&](std::size_t i) {
+    if (index[i] == kNoTile) return;
+    const std::size_t row = index[i] / columns, column = index[i] % columns;
+    const std::size_t width = row == last_row ? in_last_row : columns;
+    std::byte* to = tiles.data() + row * columns * bytes_per_tile(format) + column * tile_row_bytes;
+    const PixelBox box = box_of(i, grid.x, radiance.size());
+    for (int y = box.lo.y; y < box.hi.y; ++y, to += width * tile_row_bytes)
+      pack_pixels({&radiance.at(box.lo.x, y), static_cast<std::size_t>(box.size().x)}, format, to);
+  });
+  return count;
+}
+
+}  // namespace pinocchio

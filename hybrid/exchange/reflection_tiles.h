@@ -1,0 +1,38 @@
+// A reflection image of which only the tiles with some light in them travel: an index that says where each
+// tile is, and those tiles one after the other. The GPU keeps them in a texture of the whole picture's size.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <glm/glm.hpp>
+#include <span>
+
+#include "core/image/image.h"
+#include "core/parallel/workers.h"
+#include "hybrid/include/pinocchio/settings.h"
+
+namespace pinocchio {
+
+inline constexpr int kReflectionTile = 8;             // pixels a side
+inline constexpr std::uint32_t kNoTile = 0xffffffff;  // in the index: all of the tile is black
+
+// How many tiles cover a picture.
+[[nodiscard]] inline glm::ivec2 tile_columns_rows(glm::ivec2 size) {
+  return (size + kReflectionTile - 1) / kReflectionTile;
+}
+
+// One tile's bytes, edges filled up.
+[[nodiscard]] inline std::size_t bytes_per_tile(ReflectionFormat format) {
+  return static_cast<std::size_t>(kReflectionTile * kReflectionTile * bytes_per_pixel(format));
+}
+
+// Index and tiles where every tile has light; 0 where there is no reflection.
+[[nodiscard]] std::size_t most_tile_bytes(glm::ivec2 size, ReflectionFormat format);
+
+// Packs the image, linear light, into `index` (tile_columns_rows(), row by row) and `tiles`: row of tiles
+// by row of tiles as they lie in the texture, tile_columns_rows().x side by side, the last row as wide as it
+// has tiles. Returns how many tiles were written.
+std::size_t pack_tiles(const Image<glm::vec3>& radiance, ReflectionFormat format, Workers& workers,
+                       std::span<std::uint32_t> index, std::span<std::byte> tiles);
+
+}  // namespace pinocchio

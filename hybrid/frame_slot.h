@@ -1,0 +1,129 @@
+#pragma once
+
+#include <array>
+#include <future>
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "core/base/clock.h"
+#include "core/scene/scene.h"
+#include "core/trace/tracer.h"
+#include "core/trace/view_params.h"
+#include "gl/timer.h"
+#include "gl/transfer.h"
+#include "hybrid/exchange/channels.h"
+#include "hybrid/gpu/gpu_mesh.h"
+#include "hybrid/gpu/shading_passes.h"
+#include "hybrid/include/pinocchio/renderer.h"
+
+namespace pinocchio {
+
+// A channel's buffers; a frame uses one side of them. To the CPU: where it is drawn, and the buffer it
+// travels in. To the GPU: the open buffer that any thread may fill, and the texture it ends in.
+struct ChannelBuffer {
+  explicit ChannelBuffer(gl::Mapping mapping) : back(mapping), up(mapping) {}
+  gl::Framebuffer target;
+  gl::Readback back;
+  gl::Upload up;
+  std::span<std::byte> bytes;
+  gl::Texture texture;
+};
+
+// One frame in flight: what it was asked for, and every buffer that is its own. Its settings use some of
+// them; what is not used is never made.
+struct FrameSlot {
+  explicit FrameSlot(gl::Mapping how) : mapping(how), picture_back(how), picture_up(how) {
+    for (std::size_t i = 0; i < kChannelNames.size(); ++i) buffers.emplace_back(how);
+  }
+
+  FrameSlot(const FrameSlot&) = delete;
+  FrameSlot& operator=(const FrameSlot&) = delete;
+  ~FrameSlot() {  // the tracing thread writes to it
+    if (tracing.valid()) tracing.wait();
+  }
+
+  enum class State { idle, drawn, delivered };
+  State state = State::idle;
+  gl::Mapping mapping;
+  FrameRequest request;
+  shared::ViewParams view;
+  FrameRecord record;
+  std::vector<ChannelLayout> layout;  // what travels for it
+
+  std::vector<ChannelBuffer> buffers;  // by channel
+  [[nodiscard]] ChannelBuffer& operator[](Channel c) { return buffers[static_cast<std::size_t>(c)]; }
+  [[nodiscard]] const ChannelBuffer& operator[](Channel c) const {
+    return buffers[static_cast<std::size_t>(c)];
+  }
+
+  // GPU: the scene under this frame's lights.
+  std::shared_ptr<const GpuMesh> mesh;
+  GpuLights lights;
+
+  // CPU: what is seen, and the answer.
+  Image<std::uint32_t> ids;
+  Image<glm::u8vec3> phong_srgb;  // visibility gpu, composite cpu: light that needs no shadow ray
+  bool answered = false;          // the CPU's part is where it belongs
+  MaskImage mask;                 // one sample for mask_scale pixels a side
+  Image<glm::vec3> reflection;    // likewise
+  gl::Texture reflection_index;   // where its tiles are in the reflection's texture
+  std::size_t reflection_tiles = 0;
+  Image<glm::vec4> color;  // the CPU alone: the finished picture, linear
+
+  gl::Framebuffer picture;  // the finished picture, RGBA16F, linear light; none where the CPU draws alone
+  gl::Readback picture_back;
+  gl::Upload picture_up;  // the CPU alone, where its picture is wanted as a texture:
+  gl::Texture shown;
+  bool is_shown = false;  // `shown` is of this frame
+
+  bool complete = false;  // made of this frame's own parts
+  // Whose mask and reflection the picture shows: this frame's or, reprojected, an older one's, and then only
+  // while the picture is delivered. Null: nothing was traced for it.
+  const FrameSlot* answer_of = nullptr;
+
+  [[nodiscard]] glm::ivec2 size() const { return request.view.box().size(); }
+  // Who finds what is seen decides where the GPU has it.
+  [[nodiscard]] const gl::Texture& ids_texture() const {
+    return request.settings.visibility == Processor::cpu ? (*this)[Channel::traced_ids].texture
+                                                         : (*this)[Channel::ids].target.color();
+  }
+  // What the GPU's passes over this frame's ids read.
+  [[nodiscard]] ShadingPasses::Inputs inputs() const {
+    return {*mesh, lights, view, ids_texture(), request.settings.id_bits};
+  }
+  // The CPU's answer where the GPU has it.
+  [[nodiscard]] ShadingPasses::Traced answer_on_gpu() const;
+
+  gl::GpuTimer raster_timer, composite_timer;
+
+  std::future<void> tracing;  // CPU: valid from the start of the trace until its answer is taken
+};
+
+// Notes when a stage begins and ends on the CPU.
+class StageTimer {
+ public:
+  StageTimer(FrameRecord& record, Stage stage) : span_(record[stage]) { span_.begin_s = now_s(); }
+  ~StageTimer() { span_.end_s = now_s(); }
+  StageTimer(const StageTimer&) = delete;
+  StageTimer& operator=(const StageTimer&) = delete;
+
+ private:
+  Span& span_;
+};
+
+// Buffers are made anew only where size or format changed since the slot's last frame.
+inline void fit(gl::Framebuffer& target, glm::ivec2 size, const gl::PixelFormat& format,
+                bool with_depth = false) {
+  if (target.size() != size || target.color().format() != format)
+    target = gl::Framebuffer(size, format, with_depth);
+}
+inline void fit(gl::Texture& texture, glm::ivec2 size, const gl::PixelFormat& format) {
+  if (texture.size() != size || texture.format() != format) texture = gl::Texture(size, format);
+}
+template <class T>
+void fit(Image<T>& image, glm::ivec2 size) {
+  if (image.size() != size) image = Image<T>(size);
+}
+
+}  // namespace pinocchio

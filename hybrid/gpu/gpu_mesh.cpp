@@ -1,0 +1,138 @@
+#include "hybrid/gpu/gpu_mesh.h"
+
+#include <algorithm>
+#include <limits>
+#include <span>
+#include <vector>
+
+#include "core/trace/surface.h"
+
+namespace pinocchio {
+namespace {
+
+// Layouts of shaders/scene_fetch.glsl.
+struct MaterialTexels {
+  glm::vec4 ambient_shininess, diffuse, specular, emission, texture_place;
+};
+struct LightTexels {
+  glm::vec4 position_kind, direction_falloff, radiance_range, cone_slot;
+};
+
+// A texture's first texel is split over two floats, exact up to 2^24 each.
+constexpr std::size_t kPlaceDigit = 4096;
+
+std::vector<std::size_t> first_texels(const Mesh& mesh) {
+  std::vector<std::size_t> first;
+  std::size_t next = 0;
+  for (const Texture& texture : mesh.textures) {
+    first.push_back(next);
+    next += texture.texels.pixels().size();
+  }
+  return first;
+}
+
+std::vector<MaterialTexels> material_texels(const Mesh& mesh) {
+  const std::vector<std::size_t> first = first_texels(mesh);
+  std::vector<MaterialTexels> texels;
+  for (const Material& m : mesh.materials) {
+    MaterialTexels t{glm::vec4(m.ambient, m.shininess), glm::vec4(m.diffuse, 0.0f),
+                     glm::vec4(m.specular, 0.0f), glm::vec4(m.emission, 0.0f), glm::vec4(0.0f)};
+    if (m.diffuse_texture >= 0) {
+      const auto i = static_cast<std::size_t>(m.diffuse_texture);
+      const glm::ivec2 size = mesh.textures[i].texels.size();
+      t.texture_place = {static_cast<float>(first[i] / kPlaceDigit),
+                         static_cast<float>(first[i] % kPlaceDigit), static_cast<float>(size.x),
+                         static_cast<float>(size.y)};
+    }
+    texels.push_back(t);
+  }
+  return texels;
+}
+
+std::vector<LightTexels> light_texels(const Scene& scene) {
+  std::vector<LightTexels> texels;
+  const std::vector<int> slots = mask_slots(scene);
+  for (std::size_t i = 0; i < slots.size(); ++i) {
+    const shared::LightParams p = light_params(scene.lights[i]);
+    const auto slot = static_cast<float>(slots[i]);
+    texels.push_back({glm::vec4(p.position, static_cast<float>(p.kind)),
+                      glm::vec4(p.direction, p.inverse_square ? 1.0f : 0.0f), glm::vec4(p.radiance, p.range),
+                      glm::vec4(p.cos_inner, p.cos_outer, slot, 0.0f)});
+  }
+  if (texels.empty()) texels.resize(1);  // a texture buffer of no size is none
+  return texels;
+}
+
+std::vector<glm::u8vec4> all_texels(const Mesh& mesh) {
+  std::vector<glm::u8vec4> texels;
+  for (const Texture& texture : mesh.textures)
+    texels.insert(texels.end(), texture.texels.pixels().begin(), texture.texels.pixels().end());
+  return texels;
+}
+
+template <class T>
+gl::TextureBuffer floats(const std::vector<T>& data) {
+  return {std::span<const T>(data), GL_R32F, sizeof(float)};
+}
+
+template <class T>
+gl::TextureBuffer quads(const std::vector<T>& data) {
+  return {std::span<const T>(data), GL_RGBA32F, sizeof(glm::vec4)};
+}
+
+template <class T>
+gl::TextureBuffer unsigneds(const std::vector<T>& data) {
+  return {std::span<const T>(data), GL_R32UI, sizeof(std::uint32_t)};
+}
+
+bool has_textures(const Mesh& mesh) {
+  const auto textured = [](const Material& m) { return m.diffuse_texture >= 0; };
+  return !mesh.texcoords.empty() && std::any_of(mesh.materials.begin(), mesh.materials.end(), textured);
+}
+
+}  // namespace
+
+GpuMesh::GpuMesh(const Mesh& mesh)
+    : triangles_(mesh.positions, mesh.triangles),
+      corners_(unsigneds(mesh.triangles)),
+      triangle_materials_(unsigneds(mesh.triangle_materials)),
+      positions_(floats(mesh.positions)),
+      normals_(floats(mesh.normals)),
+      materials_(quads(material_texels(mesh))),
+      textured_(has_textures(mesh)),
+      // Reversed float depth is as fine far away as near by, so the near plane may be next to nothing.
+      z_near_(std::max(mesh.bounds().diagonal() * 1e-6f, std::numeric_limits<float>::min())) {
+  if (!textured_) return;
+  texcoords_ = floats(mesh.texcoords);
+  texels_ = {std::span<const glm::u8vec4>(all_texels(mesh)), GL_RGBA8, sizeof(glm::u8vec4)};
+}
+
+int GpuMesh::bind(const gl::Program& program, int first_unit) const {
+  int unit = first_unit;
+  program.set("triangle_corners", unit++, corners_);
+  program.set("triangle_materials", unit++, triangle_materials_);
+  program.set("positions", unit++, positions_);
+  program.set("normals", unit++, normals_);
+  program.set("materials", unit++, materials_);
+  if (!textured_) return unit;
+  program.set("texcoords", unit++, texcoords_);
+  program.set("texels", unit++, texels_);
+  return unit;
+}
+
+void GpuLights::update(const Scene& scene) {
+  ambient_light_ = scene.ambient_light;
+  if (!empty_ && sent_ == scene.lights) return;
+  lights_ = quads(light_texels(scene));
+  sent_ = scene.lights;
+  empty_ = false;
+}
+
+int GpuLights::bind(const gl::Program& program, int first_unit) const {
+  program.set("lights", first_unit, lights_);
+  program.set("ambient_light", ambient_light_);
+  program.set("light_count", static_cast<int>(sent_.size()));
+  return first_unit + 1;
+}
+
+}  // namespace pinocchio

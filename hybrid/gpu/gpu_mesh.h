@@ -1,0 +1,47 @@
+#pragma once
+
+#include <memory>
+
+#include "core/scene/scene.h"
+#include "gl/draw.h"
+#include "gl/program.h"
+#include "gl/texture.h"
+
+namespace pinocchio {
+
+// A mesh as the GPU's passes read it: triangles for the rasteriser, texture buffers for
+// shaders/scene_fetch.glsl. Throws gl::Error where the GPU has no room.
+class GpuMesh {
+ public:
+  explicit GpuMesh(const Mesh& mesh);
+
+  void draw() const { triangles_.draw(); }
+  // Gives the program in use the buffers, on texture units from `first_unit` on; returns the next free one.
+  int bind(const gl::Program& program, int first_unit) const;
+
+  [[nodiscard]] bool textured() const { return textured_; }
+  [[nodiscard]] float z_near() const { return z_near_; }  // scene units
+
+ private:
+  gl::Mesh triangles_;
+  gl::TextureBuffer corners_, triangle_materials_, positions_, normals_, materials_;
+  gl::TextureBuffer texcoords_, texels_;  // empty where nothing is textured
+  bool textured_;
+  float z_near_;
+};
+
+// A frame's lights, likewise.
+class GpuLights {
+ public:
+  // Sends the scene's lights, unless they are the ones that are there.
+  void update(const Scene& scene);
+  int bind(const gl::Program& program, int first_unit) const;
+
+ private:
+  std::vector<Light> sent_;
+  gl::TextureBuffer lights_;
+  glm::vec3 ambient_light_{0.0f};
+  bool empty_ = true;  // nothing was sent yet
+};
+
+}  // namespace pinocchio

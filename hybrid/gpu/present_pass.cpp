@@ -1,0 +1,29 @@
+#include "hybrid/gpu/present_pass.h"
+
+#include <cmath>
+
+namespace pinocchio {
+
+void PresentPass::draw(const gl::Texture& picture, glm::ivec2 window_pixels, const PixelBox& box,
+                       float exposure_ev) const {
+  gl::begin_window_pass(window_pixels, box.lo, box.size());
+  const gl::Program& program = programs_->get("fullscreen.vert", "present.frag");
+  program.use();
+  program.set("picture", 0, picture);
+  program.set("window_pixels", glm::vec2(window_pixels));
+  program.set("gain", std::exp2(exposure_ev));
+  triangle_.draw();
+  gl::end_window_pass();
+}
+
+void PresentPass::clear(glm::ivec2 window_pixels, const PixelBox& box) const {
+  gl::begin_window_pass(window_pixels, box.lo, box.size());
+  const gl::Program& program = programs_->get("fullscreen.vert", "present.frag");
+  program.use();
+  program.set("gain", 0.0f);
+  program.set("window_pixels", glm::vec2(window_pixels));
+  triangle_.draw();
+  gl::end_window_pass();
+}
+
+}  // namespace pinocchio

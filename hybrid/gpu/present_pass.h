@@ -1,0 +1,29 @@
+#pragma once
+
+#include <memory>
+
+#include "core/parallel/tiles.h"
+#include "gl/draw.h"
+#include "hybrid/gpu/programs.h"
+
+namespace pinocchio {
+
+// reads: a picture. writes: the window, as a display shows it.
+class PresentPass {
+ public:
+  explicit PresentPass(std::shared_ptr<Programs> programs) : programs_(std::move(programs)) {}
+
+  // picture: linear light, row 0 on top; it is stretched over the whole window, of which `box` (pixels, from
+  // the top left) is drawn. exposure_ev: stops brighter.
+  void draw(const gl::Texture& picture, glm::ivec2 window_pixels, const PixelBox& box,
+            float exposure_ev) const;
+  // Nothing to see yet.
+  void clear(glm::ivec2 window_pixels) const { clear(window_pixels, {{0, 0}, window_pixels}); }
+  void clear(glm::ivec2 window_pixels, const PixelBox& box) const;
+
+ private:
+  std::shared_ptr<Programs> programs_;
+  gl::FullscreenTriangle triangle_;
+};
+
+}  // namespace pinocchio

@@ -1,0 +1,115 @@
+#include "hybrid/gpu/shading_passes.h"
+
+#include "hybrid/exchange/encode.h"
+#include "hybrid/exchange/reflection_tiles.h"
+#include "hybrid/gpu/visibility_pass.h"
+
+namespace pinocchio {
+
+void ShadingPasses::composite(const Inputs& inputs, LightSet lights, const Traced& traced,
+                              const gl::Framebuffer& target) {
+  Definitions definitions = definitions_of(inputs, traced);
+  if (lights == LightSet::free) definitions.emplace_back("FREE_LIGHTS_ONLY");
+  gl::begin_fullscreen_pass(target);
+  const gl::Program& p = program("composite.frag", definitions);
+  p.use();
+  bind(p, inputs, traced);
+  triangle_.draw();
+}
+
+void ShadingPasses::inspect(const Inputs& inputs, const Traced& traced, const Inspected& what,
+                            const gl::Framebuffer& target) {
+  Definitions definitions = definitions_of(inputs, traced);
+  if (!what.definition.empty()) definitions.push_back(what.definition);
+  gl::begin_fullscreen_pass(target);
+  const gl::Program& p = program("inspect.frag", definitions);
+  p.use();
+  bind(p, inputs, traced);
+  p.set("slot", what.slot);
+  p.set("age_frames", what.age_frames);
+  triangle_.draw();
+}
+
+void ShadingPasses::normals(const Inputs& inputs, const gl::Framebuffer& target) {
+  Definitions definitions = definitions_of(inputs);
+  definitions.emplace_back("NORMALS_ONLY");
+  gl::begin_fullscreen_pass(target);
+  const gl::Program& p = program("gbuffer.frag", definitions);
+  p.use();
+  bind(p, inputs);
+  triangle_.draw();
+}
+
+void ShadingPasses::gbuffer(const Inputs& inputs, const gl::Framebuffer& target) {
+  gl::begin_fullscreen_pass(target);
+  const gl::Program& p = program("gbuffer.frag", definitions_of(inputs));
+  p.use();
+  bind(p, inputs);
+  triangle_.draw();
+}
+
+void ShadingPasses::show(const gl::Texture& finished, const Inputs& inputs, const gl::Framebuffer& target) {
+  gl::begin_fullscreen_pass(target);
+  const gl::Program& p = program("show.frag", definitions_of(inputs));
+  p.use();
+  p.set("finished", bind(p, inputs), finished);
+  triangle_.draw();
+}
+
+const gl::Program& ShadingPasses::program(const std::string& file, const Definitions& definitions) const {
+  return programs_->get("fullscreen.vert", file, definitions);
+}
+
+int ShadingPasses::bind(const gl::Program& program, const Inputs& inputs) const {
+  program.set("eye", inputs.view.eye);
+  program.set("corner", inputs.view.corner);
+  program.set("step_x", inputs.view.step_x);
+  program.set("step_y", inputs.view.step_y);
+  program.set("first", inputs.view.first);
+  program.set("ids", 0, inputs.ids);
+  return inputs.lights.bind(program, inputs.mesh.bind(program, 1));
+}
+
+int ShadingPasses::bind(const gl::Program& program, const Inputs& inputs, const Traced& traced) const {
+  const auto& [mask, reflection, of] = traced;
+  int unit = bind(program, inputs);
+  if (mask.texture) program.set("mask", unit++, *mask.texture);
+  if (reflection.texture) program.set("reflection", unit++, *reflection.texture);
+  if (reflection.index) program.set("reflection_tiles", unit++, *reflection.index);
+  if (of) {
+    program.set("old_ids", unit++, of->ids);
+    program.set("old_eye", of->view.eye);
+    program.set("old_pixel_from_eye", glm::mat3(pixel_from_eye(of->view)));
+  }
+  return unit;
+}
+
+ShadingPasses::Definitions ShadingPasses::definitions_of(const Inputs& inputs) {
+  Definitions definitions{"ID_BITS " + std::to_string(inputs.id_bits)};
+  if (inputs.mesh.textured()) definitions.emplace_back("HAS_TEXTURES");
+  return definitions;
+}
+
+ShadingPasses::Definitions ShadingPasses::definitions_of(const Inputs& inputs, const Traced& traced) {
+  const auto& [mask, reflection, of] = traced;
+  Definitions definitions = definitions_of(inputs);
+  const auto define = [&](const std::string& name, int value) {
+    definitions.push_back(name + " " + std::to_string(value));
+  };
+  if (mask.texture) {
+    definitions.emplace_back("HAS_MASK");
+    define("MASK_BITS", mask.bits);
+    define("MASK_SCALE", mask.scale);
+  }
+  if (reflection.texture) {
+    definitions.emplace_back("HAS_REFLECTION");
+    define("REFLECTION_SCALE", reflection.scale);
+    define("REFLECTION_TEXELS", texel_format(reflection.format).texels);
+    if (reflection.format == ReflectionFormat::rgb8) definitions.emplace_back("REFLECTION_IS_SRGB");
+    if (reflection.index) define("REFLECTION_TILE", kReflectionTile);
+  }
+  if (of) definitions.emplace_back("REPROJECT");
+  return definitions;
+}
+
+}  // namespace pinocchio

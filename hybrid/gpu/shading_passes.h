@@ -1,0 +1,87 @@
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "core/trace/shared.h"
+#include "gl/draw.h"
+#include "gl/program.h"
+#include "hybrid/gpu/gpu_mesh.h"
+#include "hybrid/include/pinocchio/settings.h"
+#include "hybrid/gpu/programs.h"
+
+namespace pinocchio {
+
+// Which lights a pass adds up.
+enum class LightSet {
+  all,   // those that cast where the mask says so, or everywhere without one
+  free,  // those that do not cast
+};
+
+// An older frame whose mask and reflection are warped to this one.
+struct OlderFrame {
+  const gl::Texture& ids;
+  shared::ViewParams view;
+};
+
+// The passes that shade pixels from their ids (shaders/composite.frag, gbuffer.frag, show.frag,
+// inspect.frag).
+class ShadingPasses {
+ public:
+  struct Inputs {
+    const GpuMesh& mesh;
+    const GpuLights& lights;
+    shared::ViewParams view;
+    const gl::Texture& ids;
+    int id_bits;
+  };
+  // The CPU's answer; what is null is not in it.
+  struct Traced {
+    struct Mask {
+      const gl::Texture* texture = nullptr;  // R8UI, MaskImage's packed rows; null: every light reaches all
+      int bits = 0;                          // a sample
+      int scale = 1;                         // one sample for scale x scale pixels
+    } mask;
+    struct Reflection {
+      const gl::Texture* texture = nullptr;
+      const gl::Texture* index = nullptr;  // where its tiles are; null: it is whole
+      ReflectionFormat format = ReflectionFormat::none;
+      int scale = 1;
+    } reflection;
+    const OlderFrame* of = nullptr;  // whose they are; null: this frame's
+  };
+
+  explicit ShadingPasses(std::shared_ptr<Programs> programs) : programs_(std::move(programs)) {}
+
+  // Phong per light, plus reflection, linear light; alpha 0 where nothing is seen.
+  void composite(const Inputs& inputs, LightSet lights, const Traced& traced, const gl::Framebuffer& target);
+  // One of a frame's buffers for people: which, as a definition of shaders/inspect.frag (empty: none).
+  struct Inspected {
+    std::string definition;
+    int slot = 0;  // of the mask
+    int age_frames = 0;
+  };
+  void inspect(const Inputs& inputs, const Traced& traced, const Inspected& what,
+               const gl::Framebuffer& target);
+  // Shading normals, 0.5 n + 0.5.
+  void normals(const Inputs& inputs, const gl::Framebuffer& target);
+  // Design 2's 128 bits a pixel.
+  void gbuffer(const Inputs& inputs, const gl::Framebuffer& target);
+  // A finished sRGB picture to linear light; alpha as above.
+  void show(const gl::Texture& finished, const Inputs& inputs, const gl::Framebuffer& target);
+
+ private:
+  using Definitions = Programs::Definitions;
+  [[nodiscard]] const gl::Program& program(const std::string& file, const Definitions& definitions) const;
+  // Sets what every pass over ids reads; returns the next free texture unit.
+  int bind(const gl::Program& program, const Inputs& inputs) const;
+  int bind(const gl::Program& program, const Inputs& inputs, const Traced& traced) const;
+  [[nodiscard]] static Definitions definitions_of(const Inputs& inputs);
+  [[nodiscard]] static Definitions definitions_of(const Inputs& inputs, const Traced& traced);
+
+  std::shared_ptr<Programs> programs_;
+  gl::FullscreenTriangle triangle_;
+};
+
+}  // namespace pinocchio

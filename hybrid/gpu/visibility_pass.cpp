@@ -1,0 +1,38 @@
+#include "hybrid/gpu/visibility_pass.h"
+
+#include <string>
+
+#include "hybrid/exchange/encode.h"
+
+namespace pinocchio {
+
+glm::dmat3 pixel_from_eye(const shared::ViewParams& view) {
+  // p - eye = z (corner + (first + pixel) . (step_x, step_y))
+  const glm::dvec3 x(view.step_x), y(view.step_y);
+  const glm::dvec2 first(view.first);
+  return glm::inverse(glm::dmat3(x, y, glm::dvec3(view.corner) + first.x * x + first.y * y));
+}
+
+glm::mat3 picture_from_eye(const shared::ViewParams& view, glm::ivec2 picture_size) {
+  // The centre of the pixel x is at x + 1/2 of the viewport.
+  const glm::dvec2 scale = 2.0 / glm::dvec2(picture_size);
+  const glm::dmat3 clip_from_pixel(glm::dvec3(scale.x, 0, 0), glm::dvec3(0, scale.y, 0),
+                                   glm::dvec3(0.5 * scale - 1.0, 1));
+  shared::ViewParams whole = view;  // the part is cut out by the viewport
+  whole.first = glm::vec2(0.0f);
+  return glm::mat3(clip_from_pixel * pixel_from_eye(whole));
+}
+
+void VisibilityPass::draw(const GpuMesh& mesh, const shared::ViewParams& view, glm::ivec2 picture_size,
+                          int id_bits, const gl::Framebuffer& target) const {
+  const gl::Program& program = programs_->get("visibility.vert", "visibility.frag",
+                                              {"ID_BITS " + std::to_string(id_bits == 24 ? 24 : 32)});
+  gl::begin_depth_pass(target, id_format(id_bits).none, picture_size, glm::ivec2(view.first));
+  program.use();
+  program.set("eye", view.eye);
+  program.set("picture_from_eye", picture_from_eye(view, picture_size));
+  program.set("z_near", mesh.z_near());
+  mesh.draw();
+}
+
+}  // namespace pinocchio

@@ -1,0 +1,72 @@
+// What frames are drawn with.
+#pragma once
+
+#include <glm/glm.hpp>
+#include <memory>
+#include <string>
+
+#include "hybrid/include/pinocchio/renderer.h"
+
+namespace pinocchio {
+
+class Workers;
+namespace gl {
+class Context;
+struct ContextInfo;
+}  // namespace gl
+
+struct EngineOptions {
+  std::string backend = "auto";  // OpenGL context: auto, egl, osmesa or glfw (a display's)
+  std::string device;            // EGL's device number, "software", or empty: the first that works
+  int gl_threads = 0;            // of a software rasteriser; 0: its own choice
+  bool gl_debug = false;         // what the driver complains about is an error
+  // Where a function of OpenGL is: of a context of the caller's that is current on this thread, to be used
+  // instead of one of our own (glfwGetProcAddress, eglGetProcAddress). It must outlive the Engine, and is left
+  // with other state: bindings, viewport, blending.
+  using GetProcAddress = void (*(*)(const char*))();
+  GetProcAddress get_proc_address = nullptr;
+};
+
+// Owns the OpenGL context, worker threads, the tracing thread and the compiled programs; what is not needed is
+// never opened. Used from one thread, but for prepare(). OpenGL's functions belong to a process: one Engine
+// that uses the GPU at a time; any number whose frames the CPU draws alone.
+class Engine {
+ public:
+  explicit Engine(const EngineOptions& options = {});
+  // Draws in a context of the caller's, current on this thread, that outlives the Engine.
+  explicit Engine(gl::Context& context);
+  ~Engine();
+  Engine(const Engine&) = delete;
+  Engine& operator=(const Engine&) = delete;
+
+  // Fills in what the settings leave open, for a picture of `size` pixels of the scene: the least that draws it
+  // exactly. keeps_mask: every bit of the shadow mask is wanted, seen or not. An error where they cannot be.
+  // Throws EnvironmentError where they want OpenGL and there is none.
+  [[nodiscard]] Expected<Settings> resolve(const Scene& scene, glm::ivec2 size, const Settings& settings = {},
+                                           bool keeps_mask = true) const;
+
+  // The tree that frames of these settings trace in; null where they trace nothing. Any thread.
+  [[nodiscard]] static std::shared_ptr<const Tracer> prepare(const Scene& scene, const Settings& settings);
+
+  // One picture, waited for: resolves, prepares (the last scene's tree is kept) and averages the samples.
+  [[nodiscard]] Expected<FrameResult> render(const Scene& scene, const View& view,
+                                             const Settings& settings = {});
+
+  // Worker threads of its own, `threads` of them (0: one a core), for work between frames. Any thread.
+  [[nodiscard]] Workers& workers(int threads = 0) const;
+  // Opens the OpenGL context now, where settings would need it later. Throws EnvironmentError.
+  void open_gl() const;
+  // Of the context; null while none is open.
+  [[nodiscard]] const gl::ContextInfo* gl_info() const;
+  // With gl_debug: throws what the driver complained about.
+  void throw_gl_complaints() const;
+
+  struct Parts;
+  // For the rooms within (hybrid/engine_parts.h).
+  [[nodiscard]] Parts& parts() const { return *parts_; }
+
+ private:
+  std::unique_ptr<Parts> parts_;
+};
+
+}  // namespace pinocchio

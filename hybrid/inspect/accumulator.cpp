@@ -1,0 +1,51 @@
+#include "hybrid/inspect/accumulator.h"
+
+#include <algorithm>
+
+#include "gl/transfer.h"
+#include "hybrid/frame_slot.h"
+
+namespace pinocchio {
+namespace {
+
+bool same_view(FrameRequest a, const FrameRequest& b) {
+  a.view.jitter = b.view.jitter;
+  return a == b;
+}
+
+}  // namespace
+
+void Accumulator::add(const Frame& frame) {
+  const FrameSlot* const of = frame.slot().answer_of;
+  if (of && !same_view(of->request, frame.request())) return reset();
+  add(frame.request(), frame.texture());
+}
+
+void Accumulator::add(const FrameRequest& request, const gl::Texture& picture) {
+  if (samples_ > 0 && *of_ == request) return;
+  if (!of_ || !same_view(*of_, request)) reset();
+  of_ = request;
+
+  const std::size_t next = 1 - newest_;
+  fit(averages_[next], picture.size(), gl::kRgba32F);
+  gl::begin_fullscreen_pass(averages_[next]);
+  const gl::Program& program = programs_->get("fullscreen.vert", "accumulate.frag");
+  program.use();
+  program.set("picture", 0, picture);
+  program.set("average", 1, samples_ > 0 ? averages_[newest_].color() : picture);
+  program.set("samples", samples_);
+  triangle_.draw();
+  newest_ = next;
+  ++samples_;
+}
+
+void Accumulator::read_average(Image<glm::vec4>& color) {
+  fit(color, average().size());
+  gl::Readback back;
+  back.start(average());
+  const std::span<const std::byte> bytes = back.open();
+  std::copy(bytes.begin(), bytes.end(), std::as_writable_bytes(color.pixels()).begin());
+  back.close();
+}
+
+}  // namespace pinocchio

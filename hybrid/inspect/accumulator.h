@@ -1,0 +1,45 @@
+#pragma once
+
+#include <array>
+#include <memory>
+#include <optional>
+
+#include "gl/draw.h"
+#include "gl/framebuffer.h"
+#include "hybrid/include/pinocchio/renderer.h"
+#include "hybrid/gpu/programs.h"
+
+namespace pinocchio {
+
+// A still camera's picture: the mean of the pictures of frames that differ in nothing but where they sample
+// their pixels. Frame k is to be asked for with jitter_of(k) (core/trace/jitter.h).
+class Accumulator {
+ public:
+  explicit Accumulator(std::shared_ptr<Programs> programs) : programs_(std::move(programs)) {}
+
+  // Adds a delivered frame's picture. Begins anew by itself where scene, plan, camera, size or part are not
+  // those of the frames before; a sample that was the last one added is not added twice. A reprojected frame
+  // whose answer is of another view is no sample of this one: samples() is 0 after it.
+  void add(const Frame& frame);
+  void reset() { samples_ = 0; }
+
+  [[nodiscard]] int samples() const { return samples_; }
+  // The mean, RGBA linear, A 0 to 1 as much of the pixel as is covered; samples() > 0.
+  [[nodiscard]] const gl::Framebuffer& average() const { return averages_[newest_]; }
+  // The same on the CPU; waits for the GPU.
+  void read_average(Image<glm::vec4>& color);
+
+ private:
+  void add(const FrameRequest& request, const gl::Texture& picture);
+
+  std::shared_ptr<Programs> programs_;
+  gl::FullscreenTriangle triangle_;
+  // Floats: of the n-th sample an n-th is added, which in halves rounds to nothing from the 2048th on, and
+  // to steps a person sees long before. One is read while the other is written.
+  std::array<gl::Framebuffer, 2> averages_;
+  std::size_t newest_ = 0;
+  int samples_ = 0;
+  std::optional<FrameRequest> of_;  // the newest sample
+};
+
+}  // namespace pinocchio

@@ -1,0 +1,133 @@
+#include "hybrid/inspect/inspect_pass.h"
+
+#include <algorithm>
+#include <optional>
+
+#include "hybrid/engine_parts.h"
+#include "hybrid/exchange/encode.h"
+
+namespace pinocchio {
+namespace {
+
+constexpr std::array<const char*, kBufferViewNames.size()> kDefinitions{
+    "", "SHOW_IDS", "SHOW_NORMALS", "SHOW_MASK", "SHOW_REFLECTION", "SHOW_AGE"};
+
+bool is_traced(BufferView view) {
+  return view == BufferView::mask || view == BufferView::reflection || view == BufferView::age;
+}
+
+void send(std::span<const std::byte> bytes, glm::ivec2 texels, const gl::PixelFormat& format, ChannelBuffer& to) {
+  fit(to.texture, texels, format);
+  const std::span<std::byte> open = to.up.open(bytes.size());
+  std::copy(bytes.begin(), bytes.end(), open.begin());
+  to.up.send(to.texture);
+}
+
+std::string name_of_slot(int slot, const Scene& scene) {
+  const std::vector<int> casting = casting_lights(scene);
+  if (static_cast<std::size_t>(slot) >= casting.size())
+    return "slot " + std::to_string(slot) + ", no light's";
+  const auto light = static_cast<std::size_t>(casting[static_cast<std::size_t>(slot)]);
+  const std::string& name = scene.lights[light].name;
+  return "slot " + std::to_string(slot) + ", light " + std::to_string(light) +
+         (name.empty() ? "" : " '" + name + "'");
+}
+
+std::string legend_of_age(const FrameRecord& record) {
+  if (record.age_frames > 0)
+    return "shadows and reflections of " + std::to_string(record.age_frames) +
+           " frame(s) before, warped: yellow 1, orange 2, red more; pink: a hole, nothing older fits";
+  const int late = record.latency_frames;
+  return "green: shadows and reflections are the picture's own" +
+         (late > 0 ? "; the whole picture is " + std::to_string(late) + " frame(s) late" : std::string());
+}
+
+}  // namespace
+
+std::string missing(BufferView view, int slot, const Settings& s) {
+  if (view == BufferView::age && !s.uses_gpu())
+    return "mode raytrace: the CPU draws alone, nothing is older than the rest";
+  if (is_traced(view) && s.mask_bits == 0 && !s.reflects())
+    return s.mask_bits.given ? "mode raster traces nothing: every light reaches everything"
+                             : "this scene needs nothing traced: no light casts, nothing mirrors";
+  if (view == BufferView::mask && s.mask_bits == 0) return "no light casts shadows: there is no mask";
+  if (view == BufferView::mask && slot >= s.mask_bits)
+    return "the mask has " + std::to_string(s.mask_bits) + " slot(s), counted from 0";
+  if (view == BufferView::reflection && !s.reflects())
+    return "nothing mirrors or refracts: there is no reflection";
+  return {};
+}
+
+std::string legend(BufferView view, int slot, const Frame& frame) {
+  const Settings& s = frame.request().settings;
+  if (std::string why = missing(view, slot, s); !why.empty()) return why;
+  const std::string where = s.uses_gpu() && s.composite == Processor::cpu
+                                ? "; from the CPU, which has it alone (design 2)"
+                                : "";
+  switch (view) {
+    case BufferView::picture:
+      return "the finished picture";
+    case BufferView::ids:
+      return "triangle ids, a colour each; dark: nothing is seen";
+    case BufferView::normals:
+      return "shading normals, world space: red X, green Y, blue Z, from -1 (dark) to 1 (bright)";
+    case BufferView::mask:
+      return name_of_slot(slot, frame.request().scene) +
+             ": white lit, black in shadow, grey not asked (faces away, or nothing seen)" +
+             (s.light_cutoff > 0.0f ? "; black too where it is too faint for a ray" : "") + where;
+    case BufferView::reflection:
+      return "mirrored and refracted light" + where;
+    case BufferView::age:
+      return legend_of_age(frame.record());
+  }
+  return {};
+}
+
+InspectPass::InspectPass(Engine& engine)
+    : engine_(engine), shading_(engine.parts().gpu().programs) {}
+
+const gl::Texture& InspectPass::draw(const Frame& frame, BufferView view, int slot) {
+  if (view == BufferView::picture) return frame.texture();
+  const FrameSlot& shown = frame.slot();
+  const Settings& s = shown.request.settings;
+  const FrameSlot* const of = shown.answer_of;
+  const bool has_it = missing(view, slot, s).empty() && (!is_traced(view) || of);
+  ShadingPasses::Inspected what;
+  if (has_it) what = {kDefinitions[static_cast<std::size_t>(view)], slot, shown.record.age_frames};
+  ShadingPasses::Traced traced;
+  std::optional<OlderFrame> older;
+  if (has_it && is_traced(view)) {
+    traced = s.composite == Processor::cpu ? send_from_cpu(shown.mask, shown.reflection, view)
+                                           : of->answer_on_gpu();
+    if (of != &shown) traced.of = &older.emplace(of->ids_texture(), of->view);
+  }
+  fit(target_, shown.size(), gl::kRgba16F);
+  shading_.inspect(inputs_of(shown), traced, what, target_);
+  return target_.color();
+}
+
+ShadingPasses::Inputs InspectPass::inputs_of(const FrameSlot& frame) {
+  if (frame.request.settings.uses_gpu()) return frame.inputs();
+  constexpr int kIdBits = 32;  // as the CPU has them
+  send(std::as_bytes(frame.ids.pixels()), frame.ids.size(), id_format(kIdBits).pixel, ids_);
+  lights_.update(frame.request.scene);
+  return {*engine_.parts().gpu_mesh(frame.request.scene.mesh), lights_, frame.view, ids_.texture, kIdBits};
+}
+
+ShadingPasses::Traced InspectPass::send_from_cpu(const MaskImage& mask, const Image<glm::vec3>& reflection,
+                                                 BufferView view) {
+  ShadingPasses::Traced traced;
+  if (view == BufferView::mask) {
+    send(std::as_bytes(mask.bytes()), {mask.row_bytes(), mask.size().y}, gl::kR8Ui, mask_);
+    traced.mask = {&mask_.texture, mask.bits(), 1};
+  }
+  if (view == BufferView::reflection) {
+    constexpr ReflectionFormat kFormat = ReflectionFormat::full;  // as the CPU has it
+    send(std::as_bytes(reflection.pixels()), component_size(reflection.size()), texel_format(kFormat).pixel,
+         reflection_);
+    traced.reflection = {&reflection_.texture, nullptr, kFormat, 1};
+  }
+  return traced;
+}
+
+}  // namespace pinocchio

@@ -1,0 +1,183 @@
+#include "hybrid/inspect/progressive_reference.h"
+
+#include <sys/resource.h>
+
+#include <algorithm>
+#include <array>
+#include <atomic>
+#include <optional>
+
+#include "core/parallel/workers.h"
+#include "core/reference/reference_tracer.h"
+#include "core/trace/view_params.h"
+
+namespace pinocchio {
+namespace {
+
+// Pixels from one sample to the next, pass by pass.
+constexpr std::array<int, 4> kSteps{8, 4, 2, 1};
+static_assert(TileGrid::kTileSize % kSteps.front() == 0);  // samples of a tile are the tile's own
+
+// Frames come first; but where they keep every core busy, a tenth of one is left to the reference (at the
+// very lowest priority a sixtieth would be, and no one would wait for it). On Linux a thread has a priority
+// of its own, and hands it on to the threads that it starts.
+void give_way() {
+  constexpr int kNicer = 10;
+  setpriority(PRIO_PROCESS, 0, getpriority(PRIO_PROCESS, 0) + kNicer);
+}
+
+struct Sample {
+  glm::ivec2 at;
+  glm::vec4 color;
+};
+
+}  // namespace
+
+// One view's picture, as far as it is.
+struct ProgressiveReference::Job {
+  Job(const ReferenceView& of, const std::stop_source& mesh_source)
+      : scene(of.scene),
+        view(view_params(of.view)),
+        size(of.view.box().size()),
+        depth(of.depth),
+        of_mesh(mesh_source) {}
+
+  Scene scene;
+  shared::ViewParams view;
+  glm::ivec2 size;
+  int depth;
+  std::stop_source of_view;  // another is wanted
+  std::stop_source of_mesh;  // ... of another mesh
+
+  struct Patch {
+    int step;  // each sample covers step x step pixels
+    std::vector<Sample> samples;
+  };
+  std::mutex mutex;            // of the two below
+  std::vector<Patch> patches;  // finished since the last poll
+  std::exception_ptr error;
+
+  std::size_t samples_taken = 0;  // by poll
+};
+
+// Draws jobs in the background; keeps the tree from one to the next.
+class ProgressiveReference::Artist {
+ public:
+  explicit Artist(int threads) : workers_(threads) {}
+
+  void draw(Job& job) {
+    if (!tree_ || tree_mesh_ != job.scene.mesh) {
+      tree_.reset();
+      tree_mesh_ = job.scene.mesh;
+      tree_.emplace(*tree_mesh_, job.of_mesh.get_token());
+      if (tree_->stopped()) return tree_.reset();
+    }
+    const ReferenceTracer tracer(job.scene, *tree_);
+    const TileGrid grid(job.size);
+    for (std::size_t pass = 0; pass < kSteps.size(); ++pass)
+      workers_.for_each(grid.count(), [&](std::size_t i) { draw_tile(tracer, grid.tile(i), pass, job); });
+  }
+
+ private:
+  static void draw_tile(const ReferenceTracer& tracer, const PixelBox& tile, std::size_t pass, Job& job) {
+    const int step = kSteps[pass], last_step = pass > 0 ? kSteps[pass - 1] : 0;
+    Job::Patch patch{step, {}};
+    for (int y = tile.lo.y; y < tile.hi.y; y += step)
+      for (int x = tile.lo.x; x < tile.hi.x; x += step) {
+        if (job.of_view.stop_requested()) return;
+        if (last_step > 0 && x % last_step == 0 && y % last_step == 0) continue;  // there already
+        patch.samples.push_back({{x, y}, tracer.pixel(job.view, x, y, job.depth).color});
+      }
+    const std::lock_guard lock(job.mutex);
+    job.patches.push_back(std::move(patch));
+  }
+
+  Workers workers_;
+  std::optional<ReferenceTree> tree_;
+  std::shared_ptr<const Mesh> tree_mesh_;
+};
+
+ProgressiveReference::ProgressiveReference(int threads)
+    : threads_(threads), thread_([this](const std::stop_token& stop) { work(stop); }) {}
+
+ProgressiveReference::~ProgressiveReference() {
+  stop();
+  thread_.request_stop();
+  thread_.join();
+}
+
+void ProgressiveReference::show(const ReferenceView& view) {
+  if (view_ && *view_ == view) return;
+  const bool same_mesh = view_ && view_->scene.mesh == view.scene.mesh;
+  const std::stop_source mesh_source = same_mesh ? wanted_->of_mesh : std::stop_source();
+  if (same_mesh) {
+    wanted_->of_view.request_stop();
+  } else {
+    stop();
+  }
+  view_ = std::make_unique<ReferenceView>(view);
+  // Under a moving camera little of the one before was ever shown.
+  if (shown_.size() != view.view.box().size())
+    shown_ = Image<glm::vec4>(view.view.box().size());
+  else if (!shown_is_clear_)
+    std::ranges::fill(shown_.pixels(), glm::vec4(0.0f));
+  shown_is_clear_ = true;
+  {
+    const std::lock_guard lock(mutex_);
+    wanted_ = std::make_shared<Job>(view, mesh_source);
+  }
+  wake_.notify_one();
+}
+
+void ProgressiveReference::stop() {
+  if (!view_) return;
+  wanted_->of_view.request_stop();
+  wanted_->of_mesh.request_stop();
+  const std::lock_guard lock(mutex_);
+  wanted_.reset();
+  view_.reset();
+}
+
+ProgressiveReference::Progress ProgressiveReference::poll() {
+  if (!view_) return {shown_, 0.0, false};
+  Job& job = *wanted_;
+  std::vector<Job::Patch> patches;
+  {
+    const std::lock_guard lock(job.mutex);
+    if (job.error) std::rethrow_exception(std::exchange(job.error, nullptr));
+    patches.swap(job.patches);
+  }
+  for (const auto& [step, samples] : patches) {
+    job.samples_taken += samples.size();
+    for (const auto& [at, color] : samples) {
+      const glm::ivec2 end = glm::min(at + step, shown_.size());
+      for (int y = at.y; y < end.y; ++y)
+        for (int x = at.x; x < end.x; ++x) shown_.at(x, y) = color;
+    }
+  }
+  shown_is_clear_ = shown_is_clear_ && patches.empty();
+  const auto pixels = static_cast<double>(shown_.pixels().size());
+  return {shown_, static_cast<double>(job.samples_taken) / pixels, !patches.empty()};
+}
+
+void ProgressiveReference::work(const std::stop_token& stop) {
+  give_way();
+  Artist artist(threads_);
+  std::shared_ptr<Job> job;
+  for (;;) {
+    {
+      std::unique_lock lock(mutex_);
+      wake_.wait(lock, stop, [&] { return wanted_ && wanted_ != job; });
+      if (stop.stop_requested()) return;
+      job = wanted_;
+    }
+    try {
+      artist.draw(*job);
+    } catch (...) {
+      const std::lock_guard lock(job->mutex);
+      job->error = std::current_exception();
+    }
+  }
+}
+
+}  // namespace pinocchio

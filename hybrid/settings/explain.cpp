@@ -1,0 +1,110 @@
+#include "hybrid/settings/explain.h"
+
+#include <cmath>
+
+namespace pinocchio {
+namespace {
+
+std::string plural(int count, const std::string& noun) {
+  return std::to_string(count) + " " + noun + (count == 1 ? "" : "s");
+}
+
+std::string percent(double share) {
+  return std::to_string(static_cast<int>(std::ceil(100.0 * share))) + " %";
+}
+
+std::string per_sample(int scale) {
+  return scale == 1 ? ""
+                    : ", one sample for " + std::to_string(scale) + "x" + std::to_string(scale) + " pixels";
+}
+
+std::string who_draws(const Settings& s) {
+  if (!s.uses_gpu()) return "the CPU draws alone; no OpenGL is opened";
+  if (!s.traces()) return "the GPU draws alone";
+  return s.composite == Processor::gpu ? "the GPU puts the picture together (design 1)"
+                          : "the GPU finds what is seen, the CPU puts the picture together (design 2)";
+}
+
+std::string why_primary(const SceneStats& stats, const Settings& s) {
+  const std::string triangles = std::to_string(stats.triangles) + " triangles to name";
+  const std::string bits = std::to_string(s.id_bits) + " bits";
+  if (!s.traces()) return "the GPU finds what is seen, and ids stay there: nothing is left for the CPU";
+  if (s.visibility == Processor::cpu)
+    return "the CPU finds what is seen, and ids of " + bits + " go to the GPU: " + triangles +
+           ", more than a software rasteriser draws in the time of a ray for every pixel";
+  return "the GPU finds what is seen, and ids of " + bits + " go to the CPU: " + triangles;
+}
+
+std::string why_mask(const SceneStats& stats, const Settings& s) {
+  if (s.mask_bits == 0 && stats.casting_lights > 0) return "no shadow mask: the plan leaves shadows out";
+  if (s.mask_bits == 0) {
+    if (stats.lights == 0) return "no shadow mask: there is no light";
+    return stats.idle_lights == stats.lights ? "no shadow mask: no light reaches anything"
+                                             : "no shadow mask: no light casts";
+  }
+  return "shadow mask of " + plural(s.mask_bits, "bit") + " a pixel" + per_sample(s.mask_scale) + ": " +
+         plural(stats.casting_lights, "light") + (stats.casting_lights == 1 ? " casts" : " cast");
+}
+
+std::string format_of(const Settings& s) {
+  switch (s.reflection) {
+    case ReflectionFormat::rgb8:
+      return "24-bit sRGB, as the slides have it";
+    case ReflectionFormat::rgb9e5:
+      return "9 bits a colour with a shared exponent, a third less than half RGB";
+    case ReflectionFormat::full:
+      return "float RGB";
+    default:
+      return "half RGB, which keeps what is brighter than white";
+  }
+}
+
+std::string why_reflection(const SceneStats& stats, const Settings& s) {
+  if (!stats.mirrors) return "no reflection pass: nothing mirrors or refracts";
+  if (!s.reflects()) return "no reflection pass: the plan leaves mirrors out (depth 0)";
+  std::string text = "reflection pass";
+  if (s.uses_gpu() && s.composite == Processor::gpu)
+    text += ", sent as " + format_of(s) + per_sample(s.reflection_scale) +
+            (s.tiles ? ", where there is some" : "");
+  return text + ": " + percent(stats.mirror_share) + " of the surface " +
+         (stats.transmits() ? "mirrors or refracts" : "mirrors");
+}
+
+std::string why_depth(const SceneStats& stats, const Settings& s) {
+  const std::string bounces = plural(s.depth, "bounce");
+  if (s.depth < stats.useful_depth) return bounces + ": as many as are asked for";
+  return bounces + (stats.useful_depth == 1 ? ": no mirror sees another"
+                                            : ": after them nothing is left that a pixel could show");
+}
+
+std::string why_threads(const Settings& s) {
+  return s.threads == 0
+             ? "workers on all cores: rasteriser and tracer never finish sooner by sharing them out"
+             : plural(s.threads, "worker thread") + ", as asked for";
+}
+
+std::string why_rays(const Settings& s) {
+  const std::string still = s.reuse ? "a frame that is the last one again costs no ray, and what a light "
+                                         "is known to reach costs no shadow ray"
+                                       : "nothing of earlier frames is reused";
+  return s.light_cutoff > 0.0f
+             ? "no shadow ray where a light brings less than half a step of an 8-bit picture; " + still
+             : "a shadow ray wherever a light may reach: the mask itself is kept; " + still;
+}
+
+}  // namespace
+
+std::vector<std::string> explain(const SceneStats& stats, const Settings& s) {
+  std::vector<std::string> lines{who_draws(s)};
+  if (s.uses_gpu()) lines.push_back(why_primary(stats, s));
+  lines.push_back(why_mask(stats, s));
+  lines.push_back(why_reflection(stats, s));
+  if (s.reflects()) lines.push_back(why_depth(stats, s));
+  if (s.mask_bits > 0) lines.push_back(why_rays(s));
+  if (s.traces()) lines.push_back(why_threads(s));
+  lines.emplace_back(stats.textures ? "textures are looked up: some triangle has one"
+                                    : "no texture code in the shaders: nothing is textured");
+  return lines;
+}
+
+}  // namespace pinocchio

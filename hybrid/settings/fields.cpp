@@ -1,0 +1,222 @@
+// The one table of settings.
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <optional>
+
+#include "hybrid/include/pinocchio/settings.h"
+
+namespace pinocchio {
+namespace {
+
+template <class T>
+struct Member;
+template <class T>
+struct Member<Setting<T> Settings::*> {
+  using Value = T;
+};
+
+std::string text_of_number(auto value) {
+  char text[32];
+  return {text, std::to_chars(text, text + sizeof text, value).ptr};
+}
+
+template <class T>
+std::optional<T> number_of(std::string_view text, double lo, double hi) {
+  T value{};
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  if (error != std::errc() || end != text.data() + text.size()) return std::nullopt;
+  const auto wide = static_cast<double>(value);
+  return wide >= lo && wide <= hi ? std::optional(value) : std::nullopt;
+}
+
+constexpr std::array<std::string_view, 3> kScales{"1", "2", "4"};
+constexpr std::array<std::string_view, 5> kMaskBits{"0", "1", "2", "4", "8"};
+constexpr std::array<std::string_view, 3> kIdBits{"16", "24", "32"};
+constexpr std::array<std::string_view, 2> kFlag{"false", "true"};
+
+// What a field may be.
+struct Domain {
+  std::span<const std::string_view> choices{};
+  double lo = 0.0, hi = 0.0;
+};
+constexpr Domain one_of(std::span<const std::string_view> choices) { return {choices, 0.0, 0.0}; }
+constexpr Domain from_to(double lo, double hi) { return {{}, lo, hi}; }
+constexpr Domain yes_or_no() { return one_of(kFlag); }
+
+// Reading and writing of one field.
+template <auto M>
+struct Access {
+  using T = typename Member<decltype(M)>::Value;
+
+  static std::string text(const Settings& s) {
+    const T value = s.*M;
+    if constexpr (std::is_same_v<T, bool>) {
+      return value ? "true" : "false";
+    } else if constexpr (std::is_enum_v<T>) {
+      return std::string(row().choices[static_cast<std::size_t>(value)]);
+    } else {
+      return text_of_number(value);
+    }
+  }
+  static bool take(std::string_view text, Settings& s) {
+    const Field& field = row();
+    const auto chosen = std::ranges::find(field.choices, text);
+    if (!field.choices.empty() && chosen == field.choices.end()) return false;
+    const auto index = chosen - field.choices.begin();
+    if constexpr (std::is_same_v<T, bool>) {
+      s.*M = index == 1;
+    } else if constexpr (std::is_enum_v<T>) {
+      s.*M = static_cast<T>(index);
+    } else {
+      const bool listed = !field.choices.empty();
+      const std::optional<T> value =
+          number_of<T>(text, listed ? -HUGE_VAL : field.lo, listed ? HUGE_VAL : field.hi);
+      if (!value) return false;
+      s.*M = *value;
+    }
+    return true;
+  }
+  static bool given(const Settings& s) { return (s.*M).given; }
+  static void copy(const Settings& from, Settings& to) { to.*M = from.*M; }
+  static bool same(const Settings& a, const Settings& b) { return (a.*M).value == (b.*M).value; }
+  static const Field& row();
+};
+
+template <auto M>
+constexpr Field field(std::string_view name, Domain domain, std::string_view unset, std::string_view help,
+                      bool of_machine = false, std::string_view formerly = {}) {
+  using T = typename Access<M>::T;
+  const auto kind = std::is_same_v<T, bool>    ? Field::Kind::flag
+                    : std::is_enum_v<T>        ? Field::Kind::choice
+                    : std::is_same_v<T, float> ? Field::Kind::number
+                                               : Field::Kind::whole;
+  using A = Access<M>;
+  return {name,       kind,     domain.choices, domain.lo, domain.hi, unset,    help,
+          of_machine, formerly, &A::text,       &A::take,  &A::given, &A::copy, &A::same};
+}
+
+using S = Settings;
+constexpr bool kOfMachine = true;
+constexpr std::array kTable{
+    field<&S::visibility>("visibility", one_of(kProcessorNames),
+                          "gpu; cpu where a software rasteriser would take longer than the rays",
+                          "who finds the triangle that each pixel sees"),
+    field<&S::composite>("composite", one_of(kProcessorNames), "gpu", "who puts the picture together"),
+    field<&S::exchange>("exchange", one_of(kExchangeNames), "pipelined over several frames, sync for one",
+                        "sync: wait for the CPU; pipelined: its part comes frames later, GPU and CPU work on "
+                        "different frames; reproject: newest raster, the last mask and reflection warped to it"),
+    field<&S::spp>("spp", from_to(1, 65536), "1", "jittered samples a pixel, averaged in linear light"),
+    field<&S::depth>("depth", from_to(0, kMostBounces), "8, or as many as the scene's mirrors make use of",
+                     "most bounces"),
+    field<&S::mask_bits>("mask_bits", one_of(kMaskBits), "the fewest that hold the casting lights",
+                         "bits a pixel of the shadow mask, one a light; 0: no shadows"),
+    field<&S::mask_scale>("mask_scale", one_of(kScales), "1",
+                          "pixels a side that share a sample of the shadow mask"),
+    field<&S::reflection>("reflection", one_of(kReflectionFormatNames), "half where something mirrors",
+                          "how mirrored and refracted light travels to the GPU; none: it is not traced"),
+    field<&S::reflection_scale>("reflection_scale", one_of(kScales), "1",
+                                "pixels a side that share a sample of mirrored light"),
+    field<&S::tiles>("tiles", yes_or_no(), "true where mirrored light travels",
+                     "send only the tiles of 8x8 pixels that have mirrored light in them"),
+    field<&S::id_bits>("id_bits", one_of(kIdBits), "the fewest of 16 and 32 that name every triangle",
+                       "bits of a triangle's id on its way"),
+    field<&S::normals>("normals", yes_or_no(), "false",
+                       "send shading normals to the CPU as well, 3 bytes a pixel, as in 2005"),
+    field<&S::wide>("wide", yes_or_no(), "false",
+                    "send the 128 bits a pixel of 2005 to the CPU instead of ids alone"),
+    field<&S::throughput_cutoff>("throughput_cutoff", from_to(0, 1), "0.00012207031",
+                                 "light that a mirrored ray brings its pixel, linear, below which none is "
+                                 "fired; 0: all are",
+                                 false, "least_contribution"),
+    field<&S::light_cutoff>("light_cutoff", from_to(0, 1),
+                            "0 where the mask itself is kept, else half a step of an 8-bit picture",
+                            "light that a shadow ray brings a visible point, linear, below which none is "
+                            "fired; 0: all are",
+                            false, "least_light"),
+    field<&S::reuse>("reuse", yes_or_no(), "true",
+                     "draw nothing again for a frame that asks for what the last one did"),
+    field<&S::persistent>("persistent", yes_or_no(), "false", "keep transfer buffers mapped", kOfMachine),
+    field<&S::threads>("threads", from_to(0, kMostThreads), "0", "worker threads; 0: one a core",
+                       kOfMachine),
+    field<&S::isa>("isa", one_of(kIsaNames), "the widest that the processor has", "SIMD level", kOfMachine),
+    field<&S::tree>("tree", one_of(kSplitRuleNames), "sah", "how the BSP tree is split"),
+    field<&S::tree_depth>("tree_depth", from_to(0, kMaxTreeDepth), "0",
+                          "most levels of the BSP tree; 0: from the number of triangles"),
+    field<&S::tree_leaf>("tree_leaf", from_to(1, 1 << 20), "2", "triangles that are not split further"),
+    field<&S::triangle_test>("triangle_test", one_of(kTriangleTestNames), "filtered",
+                             "how a ray meets a triangle (docs/stability.md)"),
+    field<&S::offset>("offset", one_of(kOffsetMethodNames), "error-bound",
+                      "how far off a surface its shadow and mirrored rays start: one length, one a scene, or "
+                      "what rounding can do there"),
+};
+
+template <auto M>
+const Field& Access<M>::row() {
+  return *std::ranges::find_if(kTable, [](const Field& f) { return f.copy == &Access<M>::copy; });
+}
+
+std::string listed(std::span<const std::string_view> names) {
+  std::string text;
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    if (i > 0) text += i + 1 == names.size() ? " or " : ", ";
+    text += names[i];
+  }
+  return text;
+}
+
+}  // namespace
+
+std::string Field::domain() const {
+  if (!choices.empty()) return listed(choices);
+  return (kind == Kind::whole ? "a whole number from " : "a number from ") + text_of_number(lo) + " to " +
+         text_of_number(hi);
+}
+
+std::string Field::option() const {
+  std::string dashed = "--" + std::string(name);
+  std::ranges::replace(dashed, '_', '-');
+  return dashed;
+}
+
+std::span<const Field> settings_table() {
+  return kTable;
+}
+
+const Field* find_field(std::string_view name) {
+  const auto* const found = std::ranges::find_if(
+      kTable, [&](const Field& f) { return f.name == name || (!f.formerly.empty() && f.formerly == name); });
+  return found == kTable.end() ? nullptr : found;
+}
+
+Expected<void> set(Settings& settings, std::string_view field, std::string_view text) {
+  const Field* const found = find_field(field);
+  if (!found)
+    return Unexpected(InputError{{}, 0, "there is no setting '" + std::string(field) + "'",
+                                 "'pinocchio info --settings' lists them"});
+  if (!found->take(text, settings))
+    return Unexpected(InputError{{}, 0, std::string(found->name) + " is " + std::string(text),
+                                 "it is " + found->domain()});
+  return {};
+}
+
+void override_with(const Settings& over, Settings& settings) {
+  for (const Field& f : kTable)
+    if (f.given(over)) f.copy(over, settings);
+}
+
+bool operator==(const Settings& a, const Settings& b) {
+  return std::ranges::all_of(kTable, [&](const Field& f) { return f.same(a, b); });
+}
+
+BuildOptions build_options(const Settings& settings) {
+  BuildOptions options;
+  options.rule = settings.tree;
+  options.max_depth = settings.tree_depth;
+  options.leaf_size = settings.tree_leaf;
+  options.threads = settings.threads;
+  options.triangle_test = settings.triangle_test;
+  return options;
+}
+
+}  // namespace pinocchio

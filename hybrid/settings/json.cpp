@@ -1,0 +1,112 @@
+#include "hybrid/settings/json.h"
+
+#include <algorithm>
+#include <fstream>
+#include <iterator>
+#include <nlohmann/json.hpp>
+
+namespace pinocchio {
+namespace {
+
+// The line on which `at` is, from 1.
+int line_of(const std::string& text, std::size_t at) {
+  return 1 + static_cast<int>(std::count(
+                 text.begin(), text.begin() + static_cast<std::ptrdiff_t>(std::min(at, text.size())), '\n'));
+}
+
+// Where the field stands, from 1; 0: nowhere.
+int line_of_field(const std::string& text, const std::string& name) {
+  const std::size_t at = text.find('"' + name + '"');
+  return at == std::string::npos ? 0 : line_of(text, at);
+}
+
+bool suits(const nlohmann::json& value, Field::Kind kind) {
+  switch (kind) {
+    case Field::Kind::choice:
+      return value.is_string();
+    case Field::Kind::whole:
+      return value.is_number_integer();
+    case Field::Kind::number:
+      return value.is_number();
+    case Field::Kind::flag:
+      return value.is_boolean();
+  }
+  return false;
+}
+
+std::string text_of(const nlohmann::json& value) {
+  return value.is_string() ? value.get<std::string>() : value.dump();
+}
+
+// mode, design and primary said together what visibility and composite say now; "precise" was of them, too.
+bool take_former(const nlohmann::json& json, Settings& settings) {
+  const auto text = [&](const char* name) { return json.contains(name) ? text_of(json[name]) : ""; };
+  bool known = true;
+  if (json.contains("design")) known = apply_preset("design", text("design"), settings);
+  if (json.contains("primary")) {
+    known = known && (text("primary") == "raster" || text("primary") == "rays");
+    settings.visibility = text("primary") == "rays" ? Processor::cpu : Processor::gpu;
+  }
+  if (json.contains("mode")) known = known && apply_preset("mode", text("mode"), settings);
+  return known && text("precise") != "true";
+}
+
+bool is_former(const std::string& name) {
+  return name == "mode" || name == "design" || name == "primary" || name == "precise";
+}
+
+Expected<Settings> settings_of(const nlohmann::json& json, const std::string& file, const std::string& text) {
+  Settings settings;
+  for (const auto& [name, value] : json.items()) {
+    if (is_former(name)) continue;
+    const Field* const field = find_field(name);
+    if (!field)
+      return Unexpected(InputError{file, line_of_field(text, name), "there is no setting '" + name + "'",
+                                   "'pinocchio info --settings' lists them"});
+    if (!suits(value, field->kind) || !field->take(text_of(value), settings))
+      return Unexpected(InputError{file, line_of_field(text, name), name + " is " + value.dump(),
+                                   "it is " + field->domain()});
+  }
+  if (!take_former(json, settings))
+    return Unexpected(InputError{file, line_of_field(text, "mode"), "mode, design, primary or precise is unknown",
+                                 "write visibility and composite, each \"cpu\" or \"gpu\"; --precise is said on "
+                                 "the command line"});
+  return settings;
+}
+
+}  // namespace
+
+nlohmann::json to_json(const Settings& settings, bool with_machine) {
+  nlohmann::json json;
+  for (const Field& field : settings_table()) {
+    if (field.of_machine && !with_machine) continue;
+    const std::string text = field.text(settings);
+    json[std::string(field.name)] =
+        field.kind == Field::Kind::choice ? nlohmann::json(text) : nlohmann::json::parse(text);
+  }
+  return json;
+}
+
+Expected<Settings> load_settings(const std::filesystem::path& file) {
+  std::ifstream in(file);
+  std::error_code ignored;
+  if (!in || !std::filesystem::is_regular_file(file, ignored))
+    return Unexpected(
+        InputError{file.string(), 0, "cannot be read", "--plan takes auto, slides or a plan's file"});
+  const std::string text{std::istreambuf_iterator<char>(in), {}};
+  nlohmann::json json;
+  try {
+    json = nlohmann::json::parse(text);
+  } catch (const nlohmann::json::exception& error) {
+    const auto* const where = dynamic_cast<const nlohmann::json::parse_error*>(&error);
+    return Unexpected(InputError{file.string(), where ? line_of(text, where->byte) : 0, "is no JSON",
+                                 "'pinocchio info SCENE --plan --json' writes a plan"});
+  }
+  if (json.is_object() && json.contains("plan")) json = nlohmann::json(json["plan"]);
+  if (!json.is_object())
+    return Unexpected(
+        InputError{file.string(), 0, "is no plan", "'pinocchio info SCENE --plan --json' writes one"});
+  return settings_of(json, file.string(), text);
+}
+
+}  // namespace pinocchio

@@ -1,0 +1,85 @@
+#include "hybrid/settings/resolve.h"
+
+#include <algorithm>
+#include <string>
+
+#include "core/scene/light.h"
+#include "core/trace/mask_image.h"
+#include "core/trace/scatter.h"
+
+namespace pinocchio {
+namespace {
+
+static_assert(kThroughputCutoff == kLeastContribution);
+
+constexpr std::size_t kMost16BitIds = 0xffff, kMost24BitIds = 0xffffff;  // one value less, as "none" is one
+
+// A software rasteriser takes about as long for this many triangles as the tracer's primary rays for a
+// pixel (docs/measurements.md, "Who finds what is seen").
+constexpr double kTrianglesPerPixelForRays = 2.0;
+
+Unexpected refused(const std::string& what, const std::string& remedy) {
+  return Unexpected(InputError{{}, 0, what, remedy});
+}
+
+std::size_t most_ids(int id_bits) {
+  return id_bits == 16 ? kMost16BitIds : id_bits == 24 ? kMost24BitIds : 0xffffffffu;
+}
+
+Expected<void> check(const Settings& s, const SceneStats& stats) {
+  if (const Rule* const rule = broken_rule(s)) return refused(std::string(rule->what), std::string(rule->remedy));
+  if (s.uses_gpu() && stats.triangles >= most_ids(s.id_bits))
+    return refused("id_bits " + std::to_string(s.id_bits) + " cannot name the scene's " +
+                       std::to_string(stats.triangles) + " triangles",
+                   "use more bits (--plan auto, where --plan slides says 24)");
+  if (s.mask_bits != 0 && s.mask_bits < stats.casting_lights)
+    return refused("mask_bits " + std::to_string(s.mask_bits) + " cannot hold the scene's " +
+                       std::to_string(stats.casting_lights) + " casting lights",
+                   "use more bits, or 0 for no shadows");
+  return {};
+}
+
+// Rays keep the cutoff's promise beyond the useful depth, too, so that nothing is lost by the limit.
+void fill_depth(const SceneStats& stats, Settings& s) {
+  if (!stats.mirrors) s.depth.value = 0;
+  if (s.throughput_cutoff >= kThroughputCutoff) s.depth.value = std::min<int>(s.depth, stats.useful_depth);
+  s.reflection.fill(s.depth > 0 ? ReflectionFormat::half : ReflectionFormat::none);
+  if (s.reflection == ReflectionFormat::none) s.depth.value = 0;
+}
+
+}  // namespace
+
+Expected<Settings> resolve(const Settings& settings, const SceneStats& stats, const Circumstances& c) {
+  if (stats.casting_lights > kMaxCastingLights)
+    return refused("the scene has " + std::to_string(stats.casting_lights) +
+                       " lights that cast shadows, the shadow mask holds " + std::to_string(kMaxCastingLights),
+                   "let some not cast (extras.pinocchio.castsShadow, or --light x,y,z,intensity,nocast)");
+  Settings s = settings;
+  s.id_bits.fill(stats.triangles < kMost16BitIds ? 16 : 32);
+  s.mask_bits.fill(MaskImage::bits_for(stats.casting_lights));
+  fill_depth(stats, s);
+  // All lights together stay below half a step.
+  const bool needs_bits = c.keeps_mask || s.mask_bits == 0;
+  s.light_cutoff.fill(
+      needs_bits ? 0.0f : kThroughputCutoff / static_cast<float>(std::max(stats.casting_lights, 1)));
+  s.tiles.fill(s.composite == Processor::gpu && s.reflects());
+  const double pixels = static_cast<double>(c.size.x) * static_cast<double>(c.size.y);
+  const bool faster_by_rays = static_cast<double>(stats.triangles) > kTrianglesPerPixelForRays * pixels;
+  if (c.software_gl && s.exchange != Exchange::reproject && s.composite == Processor::gpu && s.traces() &&
+      faster_by_rays)
+    s.visibility.fill(Processor::cpu);
+  if (const Expected<void> checked = check(s, stats); !checked) return Unexpected(checked.error());
+  return s;
+}
+
+std::vector<std::string> losses(const Settings& s, const SceneStats& stats) {
+  std::vector<std::string> lines;
+  if (s.mask_bits.given && s.mask_bits == 0 && stats.casting_lights > 0)
+    lines.push_back("mask_bits 0: the shadows of " + std::to_string(stats.casting_lights) +
+                    " light(s) are left out");
+  if (s.reflection.given && !s.reflects() && stats.mirrors)
+    lines.emplace_back("reflection none: mirrors and glass are left out");
+  return lines;
+}
+
+}  // namespace pinocchio

@@ -1,0 +1,97 @@
+#include "hybrid/settings/scene_stats.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace pinocchio {
+namespace {
+
+double area_of(const Mesh& mesh, const glm::uvec3& t) {
+  const glm::dvec3 a(mesh.positions[t.x]), b(mesh.positions[t.y]), c(mesh.positions[t.z]);
+  return 0.5 * glm::length(glm::cross(b - a, c - a));
+}
+
+// Looks at mirror after mirror, to tell how often light can be mirrored.
+class MirrorWalk {
+ public:
+  MirrorWalk(const Mesh& mesh, const Bounds& bounds)
+      : mesh_(mesh), slack_(1e-7 * static_cast<double>(bounds.diagonal())) {}
+
+  void add(const glm::uvec3& t, const Material& m) {
+    const bool unlimited = m.transmits() || m.fresnel;
+    const float most = std::max({m.reflectance.x, m.reflectance.y, m.reflectance.z});
+    most_ = std::max(most_, unlimited ? 1.0 : static_cast<double>(most));
+    if (flat_) flat_ = !m.transmits() && in_plane(t);
+  }
+
+  [[nodiscard]] int useful_depth() const {
+    if (flat_) return 1;  // what leaves a plane does not come back to it
+    if (most_ >= 1.0) return kMostBounces;
+    const double bounces = std::log(static_cast<double>(kThroughputCutoff)) / std::log(most_);
+    return std::clamp(static_cast<int>(bounces), 1, kMostBounces);
+  }
+
+ private:
+  // Whether the triangle lies in the plane of the first one that has a plane.
+  bool in_plane(const glm::uvec3& t) {
+    const glm::dvec3 a(mesh_.positions[t.x]), b(mesh_.positions[t.y]), c(mesh_.positions[t.z]);
+    if (n_ == glm::dvec3(0.0)) {
+      const glm::dvec3 n = glm::cross(b - a, c - a);
+      if (glm::length(n) == 0.0) return true;
+      n_ = glm::normalize(n);
+      d_ = glm::dot(n_, a);
+    }
+    const auto off = [&](const glm::dvec3& p) { return std::abs(glm::dot(n_, p) - d_); };
+    return std::max({off(a), off(b), off(c)}) <= slack_;
+  }
+
+  const Mesh& mesh_;
+  double slack_;
+  double most_ = 0.0;
+  bool flat_ = true;
+  glm::dvec3 n_{0.0};
+  double d_ = 0.0;
+};
+
+}  // namespace
+
+SceneStats analyze(const Scene& scene) {
+  const Mesh& mesh = *scene.mesh;
+  SceneStats stats;
+  stats.triangles = mesh.triangles.size();
+  stats.bounds = mesh.bounds();
+  recount_lights(scene, stats);
+  double all = 0.0, mirroring = 0.0, transmitting = 0.0;
+  MirrorWalk walk(mesh, stats.bounds);
+  // Materials that no triangle has are not needed.
+  for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
+    const Material& material = mesh.materials[mesh.triangle_materials[i]];
+    const double area = area_of(mesh, mesh.triangles[i]);
+    all += area;
+    stats.textures = stats.textures || material.diffuse_texture >= 0;
+    if (!material.spawns_rays()) continue;
+    stats.mirrors = true;
+    mirroring += area;
+    if (material.transmits()) transmitting += area;
+    walk.add(mesh.triangles[i], material);
+  }
+  if (all > 0.0) stats.mirror_share = mirroring / all;
+  if (all > 0.0) stats.transmitting_share = transmitting / all;
+  stats.useful_depth = stats.mirrors ? walk.useful_depth() : 0;
+  return stats;
+}
+
+void recount_lights(const Scene& scene, SceneStats& stats) {
+  stats.lights = static_cast<int>(scene.lights.size());
+  stats.casting_lights = stats.idle_lights = 0;
+  for (const Light& light : scene.lights) {
+    if (!reaches(light, stats.bounds)) {
+      ++stats.idle_lights;
+    } else if (light.casts_shadow) {
+      ++stats.casting_lights;
+    }
+  }
+}
+
+}  // namespace pinocchio
