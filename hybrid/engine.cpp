@@ -1,4 +1,4 @@
-#include "hybrid/include/pinocchio/engine.h"
+#include "pinocchio/engine.h"
 
 #include <cstdlib>
 #include <utility>

@@ -5,9 +5,9 @@
 #include <tuple>
 #include <vector>
 
-#include "core/base/error.h"
 #include "gl/program.h"
 #include "hybrid/shaders.h"
+#include "pinocchio/error.h"
 
 namespace pinocchio {
 

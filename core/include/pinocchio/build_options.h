@@ -3,7 +3,7 @@
 #include <array>
 #include <string_view>
 
-#include "core/bsp/triangle_test.h"
+#include "pinocchio/triangle_test.h"
 
 namespace pinocchio {
 
