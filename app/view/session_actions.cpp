@@ -7,8 +7,8 @@
 #include "app/view/takeaway.h"
 #include "core/image/atomic_file.h"
 #include "core/image/png.h"
-#include "core/scene/save.h"
 #include "hybrid/renderer.h"
+#include "pinocchio/save.h"
 
 namespace pinocchio::app {
 namespace {
