@@ -6,7 +6,7 @@
 #include <optional>
 #include <string>
 
-#include "bench/chart/configuration.h"
+#include "bench/chart/sweep.h"
 #include "core/base/error.h"
 
 namespace pinocchio::chart {
