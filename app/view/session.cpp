@@ -6,7 +6,6 @@
 #include "app/console.h"
 #include "app/errors.h"
 #include "hybrid/plan_json.h"
-#include "hybrid/shader_folder.h"
 
 namespace pinocchio::app {
 namespace {
@@ -35,7 +34,7 @@ Session::Session(gl::Window& window, const ViewOptions& options)
       workers_(options.draw.threads),
       navigation_(model_.camera),
       gui_(window),
-      programs_(std::make_shared<Programs>(shader_folder())),
+      programs_(std::make_shared<Programs>()),
       present_(programs_),
       inspect_(programs_),
       accumulator_(programs_),
@@ -47,7 +46,7 @@ Session::Session(gl::Window& window, const ViewOptions& options)
   model_.renderer = window.context().info().renderer;
   model_.threads = workers_.count();
   window_.set_vsync(applied_.vsync);
-  if (options_.watch) shader_watch_.emplace(shader_folder());
+  if (options_.watch && !programs_->folder().empty()) shader_watch_.emplace(programs_->folder());
   loader_.start(options_.draw);
 }
 
@@ -169,7 +168,7 @@ void Session::take_scene(const SceneLoader::News& news) {
 
 void Session::take_file_changes() {
   if (scene_watch_ && scene_watch_->changed(now_s())) loader_.start(options_.draw);
-  if (!shader_watch_->changed(now_s())) return;
+  if (!shader_watch_ || !shader_watch_->changed(now_s())) return;
   if (const Expected<void> reloaded = programs_->reload()) {
     model_.errors.erase("shaders");
     model_.notify("the shaders were loaded anew");

@@ -6,7 +6,7 @@
 #include "bench/stability/shapes.h"
 #include "core/reference/reference.h"
 #include "core/trace/passes.h"
-#include "core/trace/view.h"
+#include "core/trace/view_params.h"
 #include "scenes/generator/paint.h"
 
 namespace pinocchio::stability {
