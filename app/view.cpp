@@ -6,7 +6,7 @@
 #include "app/console.h"
 #include "app/errors.h"
 #include "app/verbs.h"
-#include "app/view/session.h"
+#include "app/window/session.h"
 #include "gl/error.h"
 
 namespace pinocchio::app {

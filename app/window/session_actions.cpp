@@ -3,8 +3,8 @@
 #include <nlohmann/json.hpp>
 
 #include "app/output.h"
-#include "app/view/session.h"
-#include "app/view/takeaway.h"
+#include "app/window/session.h"
+#include "app/window/export.h"
 #include "core/image/atomic_file.h"
 #include "core/image/png.h"
 #include "core/scene/save.h"

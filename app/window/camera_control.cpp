@@ -1,4 +1,4 @@
-#include "app/view/camera_control.h"
+#include "app/window/camera_control.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "app/view/model.h"
+#include "app/window/model.h"
 
 namespace pinocchio::app {
 

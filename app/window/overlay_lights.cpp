@@ -3,8 +3,8 @@
 #include <cmath>
 #include <string>
 
-#include "app/view/overlay_parts.h"
-#include "app/view/projection.h"
+#include "app/window/overlay_parts.h"
+#include "app/window/projection.h"
 
 namespace pinocchio::app {
 namespace {

@@ -1,4 +1,4 @@
-#include "app/view/scene_loader.h"
+#include "app/window/scene_loader.h"
 
 #include <thread>
 #include <utility>

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "app/view/actions.h"
+#include "app/window/actions.h"
 #include "hybrid/frame.h"
 #include "hybrid/inspect_pass.h"
 #include "hybrid/plan.h"

@@ -4,7 +4,7 @@
 #include <string>
 
 #include "app/options.h"
-#include "app/view/settings.h"
+#include "app/window/settings.h"
 
 namespace pinocchio::app {
 

@@ -5,12 +5,12 @@
 #include <string>
 #include <vector>
 
-#include "app/view/actions.h"
-#include "app/view/camera_control.h"
-#include "app/view/history.h"
-#include "app/view/live_scene.h"
-#include "app/view/scene_loader.h"
-#include "app/view/settings.h"
+#include "app/window/actions.h"
+#include "app/window/camera_control.h"
+#include "app/window/history.h"
+#include "app/window/live_scene.h"
+#include "app/window/scene_loader.h"
+#include "app/window/settings.h"
 
 namespace pinocchio::app {
 

@@ -4,7 +4,7 @@
 #include <cstdio>
 #include <string>
 
-#include "app/view/overlay_parts.h"
+#include "app/window/overlay_parts.h"
 #include "hybrid/explain.h"
 
 namespace pinocchio::app {

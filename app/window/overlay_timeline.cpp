@@ -3,7 +3,7 @@
 #include <array>
 #include <string>
 
-#include "app/view/overlay_parts.h"
+#include "app/window/overlay_parts.h"
 
 namespace pinocchio::app {
 namespace {

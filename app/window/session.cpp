@@ -1,4 +1,4 @@
-#include "app/view/session.h"
+#include "app/window/session.h"
 
 #include <algorithm>
 #include <utility>

@@ -3,7 +3,7 @@
 #include <array>
 #include <optional>
 
-#include "app/view/camera_control.h"
+#include "app/window/camera_control.h"
 #include "gl/window.h"
 
 namespace pinocchio::app {

@@ -1,4 +1,4 @@
-#include "app/view/comparison.h"
+#include "app/window/comparison.h"
 
 #include <algorithm>
 #include <array>

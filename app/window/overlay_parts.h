@@ -2,7 +2,7 @@
 
 #include <imgui.h>
 
-#include "app/view/model.h"
+#include "app/window/model.h"
 
 namespace pinocchio::app {
 

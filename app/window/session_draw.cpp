@@ -1,8 +1,8 @@
 #include <algorithm>
 
 #include "app/console.h"
-#include "app/view/overlay.h"
-#include "app/view/session.h"
+#include "app/window/overlay.h"
+#include "app/window/session.h"
 #include "gl/error.h"
 #include "hybrid/jitter.h"
 

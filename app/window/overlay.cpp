@@ -1,9 +1,9 @@
-#include "app/view/overlay.h"
+#include "app/window/overlay.h"
 
 #include <algorithm>
 #include <cmath>
 
-#include "app/view/overlay_parts.h"
+#include "app/window/overlay_parts.h"
 
 namespace pinocchio::app {
 namespace {

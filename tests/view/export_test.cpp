@@ -1,5 +1,5 @@
 // What a person takes along: the command line, the camera's file, names that are not taken yet.
-#include "app/view/takeaway.h"
+#include "app/window/export.h"
 
 #include <gtest/gtest.h>
 

@@ -3,13 +3,13 @@
 #include <memory>
 #include <optional>
 
-#include "app/view/comparison.h"
-#include "app/view/file_watch.h"
-#include "app/view/gui.h"
-#include "app/view/model.h"
-#include "app/view/navigation.h"
-#include "app/view/painter.h"
-#include "app/view/view_options.h"
+#include "app/window/comparison.h"
+#include "app/window/file_watch.h"
+#include "app/window/gui.h"
+#include "app/window/model.h"
+#include "app/window/navigation.h"
+#include "app/window/painter.h"
+#include "app/window/view_options.h"
 #include "hybrid/accumulator.h"
 #include "hybrid/inspect_pass.h"
 #include "hybrid/present_pass.h"

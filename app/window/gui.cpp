@@ -1,4 +1,4 @@
-#include "app/view/gui.h"
+#include "app/window/gui.h"
 
 #include <imgui.h>
 #include <imgui_impl_glfw.h>

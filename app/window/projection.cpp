@@ -1,4 +1,4 @@
-#include "app/view/projection.h"
+#include "app/window/projection.h"
 
 #include <cmath>
 

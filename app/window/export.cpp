@@ -1,4 +1,4 @@
-#include "app/view/takeaway.h"
+#include "app/window/export.h"
 
 #include <array>
 #include <charconv>

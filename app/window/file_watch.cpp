@@ -1,4 +1,4 @@
-#include "app/view/file_watch.h"
+#include "app/window/file_watch.h"
 
 #include <algorithm>
 #include <utility>

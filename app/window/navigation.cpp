@@ -1,4 +1,4 @@
-#include "app/view/navigation.h"
+#include "app/window/navigation.h"
 
 #include <algorithm>
 #include <string_view>

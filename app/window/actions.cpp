@@ -1,4 +1,4 @@
-#include "app/view/actions.h"
+#include "app/window/actions.h"
 
 #include <algorithm>
 

@@ -1,4 +1,4 @@
-#include "app/view/history.h"
+#include "app/window/history.h"
 
 #include <algorithm>
 #include <utility>
