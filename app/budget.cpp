@@ -7,11 +7,11 @@
 #include "app/console.h"
 #include "app/errors.h"
 #include "app/parse.h"
+#include "core/base/clock.h"
 #include "core/compare/figures.h"
 #include "core/compare/flip.h"
 #include "core/image/rgb.h"
-#include "hybrid/plan_json.h"
-#include "hybrid/renderer.h"
+#include "hybrid/settings/json.h"
 
 namespace pinocchio::app {
 namespace {
@@ -27,32 +27,30 @@ double error_of(const Image<glm::vec3>& picture, const Image<glm::vec3>& exact, 
   return metric == "max" ? figures.max_difference : figures.relative_mse;
 }
 
-// Measures plans on frames of the run.
+// Measures settings on frames of the run.
 class Trial {
  public:
-  Trial(Machine& machine, const DrawOptions& draw, Exchange exchange, const std::vector<CameraFrame>& frames)
-      : machine_(machine), draw_(draw), exchange_(exchange), frames_(frames) {}
+  Trial(Drawing& drawing, const DrawOptions& draw, const std::vector<CameraFrame>& frames)
+      : drawing_(drawing), draw_(draw), frames_(frames) {}
 
-  // Against the first plan's picture; that plan at the least, also where the user asked for an end.
-  std::vector<MeasuredPlan> measure(const std::vector<Plan>& plans, const std::string& metric) {
-    std::vector<MeasuredPlan> measured;
+  // Against the picture of the first of them; that one at the least, also where the user asked for an end.
+  std::vector<MeasuredSettings> measure(const std::vector<Settings>& ladder, const std::string& metric) {
+    std::vector<MeasuredSettings> measured;
     Image<glm::vec3> exact;
-    Picture picture;
-    Renderer pictures(machine_.shared_scene(), plans.front(), machine_.workers(), {Exchange::sync},
-                      {[&](Picture&& one) { picture = std::move(one); }, [](const FrameRecord&) {}});
-    Renderer times(machine_.shared_scene(), plans.front(), machine_.workers(),
-                   {exchange_, gl::Mapping::each_time, 1, false},
-                   {[](Picture&&) {}, [](const FrameRecord&) {}});
-    Progress progress(draw_.quiet ? "off" : draw_.progress, "measuring plans", plans.size());
-    for (Plan plan : plans) {
+    Image<glm::vec4> color;
+    Renderer pictures(drawing_.engine(), {[&](Frame& frame) { frame.read_color(color); }, {}});
+    Renderer times(drawing_.engine(), {});
+    Progress progress(draw_.quiet ? "off" : draw_.progress, "measuring plans", ladder.size());
+    for (const Settings& settings : ladder) {
       if (interrupted() && !measured.empty()) break;
-      pictures.use(plan);
-      pictures.submit(view(0));
+      Settings at_once = settings;
+      at_once.exchange = Exchange::sync;
+      pictures.submit(request(at_once, 0));
       pictures.drain();
-      Image<glm::vec3> rgb = finite_rgb_of(picture.color);
+      Image<glm::vec3> rgb = finite_rgb_of(color);
       if (measured.empty()) exact = rgb;
-      const double error = error_of(rgb, exact, metric, machine_.workers());
-      measured.push_back({plan, time_ms(times, plan), error});
+      const double error = error_of(rgb, exact, metric, drawing_.workers());
+      measured.push_back({settings, time_ms(times, settings), error});
       progress.step();
     }
     return measured;
@@ -60,35 +58,35 @@ class Trial {
 
  private:
   // Of a frame, once its shaders are compiled and its buffers are there.
-  double time_ms(Renderer& renderer, Plan plan) {
-    plan.reuse = false;  // the frames of a still camera would cost nothing
-    renderer.use(plan);
-    renderer.submit(view(0));
+  double time_ms(Renderer& renderer, Settings settings) {
+    settings.reuse = false;  // the frames of a still camera would cost nothing
+    renderer.submit(request(settings, 0));
     renderer.drain();
     const double begin_s = now_s();
-    for (int i = 0; i < kTimedFrames; ++i) renderer.submit(view(i + 1));
+    for (int i = 0; i < kTimedFrames; ++i) renderer.submit(request(settings, i + 1));
     renderer.drain();
     return 1e3 * (now_s() - begin_s) / kTimedFrames;
   }
 
   // Spread over the run.
-  [[nodiscard]] View view(int i) const {
+  [[nodiscard]] FrameRequest request(const Settings& settings, int i) const {
     const std::size_t at = static_cast<std::size_t>(i) * frames_.size() / (kTimedFrames + 1);
-    return {frames_[at].camera, draw_.size, part_of(draw_)};
+    return drawing_.request(settings, frames_[at].camera);
   }
 
-  Machine& machine_;
+  Drawing& drawing_;
   const DrawOptions& draw_;
-  Exchange exchange_;
   const std::vector<CameraFrame>& frames_;
 };
 
-std::vector<MeasuredPlan> front_of(Machine& machine, const DrawOptions& draw, const BudgetOptions& options,
-                                   Exchange exchange, const std::vector<CameraFrame>& frames) {
-  if (machine.plan().mode != Mode::hybrid || machine.plan().design != 1)
+std::vector<MeasuredSettings> front_of(Drawing& drawing, const DrawOptions& draw,
+                                       const BudgetOptions& options, const std::vector<CameraFrame>& frames) {
+  const Settings& exact = drawing.settings();
+  const bool raster = exact.mask_bits.given && exact.reflection.given && !exact.traces();
+  if (exact.composite == Processor::cpu || raster)
     throw Exit(kUsage, "--budget and --max-error choose among plans of --mode hybrid --design 1; use those");
   const std::string metric = options.error ? options.error->metric : "flip";
-  return pareto_front(Trial(machine, draw, exchange, frames).measure(cheaper_plans(machine.plan()), metric));
+  return pareto_front(Trial(drawing, draw, frames).measure(quality_ladder(exact), metric));
 }
 
 Budget limits(const BudgetOptions& options) {
@@ -116,22 +114,22 @@ void add_budget_options(CLI::App& verb, BudgetOptions& options) {
       ->type_name("METRIC=VALUE");
 }
 
-BudgetRun::BudgetRun(Machine& machine, const DrawOptions& draw, const BudgetOptions& options,
-                     Exchange exchange, const std::vector<CameraFrame>& frames)
+BudgetRun::BudgetRun(Drawing& drawing, const DrawOptions& draw, const BudgetOptions& options,
+                     const std::vector<CameraFrame>& frames)
     : options_(options),
-      exact_(machine.plan()),
-      front_(front_of(machine, draw, options, exchange, frames)),
-      keeper_(front_, limits(options)),
-      uses_{{0, keeper_.now()}} {}
+      exact_(drawing.settings()),
+      front_(front_of(drawing, draw, options, frames)),
+      controller_(front_, limits(options)),
+      uses_{{0, controller_.now()}} {}
 
 void BudgetRun::note(double frame_ms) {
   ++frames_;
   if (options_.frame_ms && frame_ms > *options_.frame_ms) ++over_;
-  if (keeper_.note(frame_ms)) uses_.push_back({frames_, keeper_.now()});
+  if (controller_.note(frame_ms)) uses_.push_back({frames_, controller_.now()});
 }
 
-std::string BudgetRun::said(const MeasuredPlan& measured) const {
-  const std::string lost = given_up(exact_, measured.plan);
+std::string BudgetRun::said(const MeasuredSettings& measured) const {
+  const std::string lost = given_up(exact_, measured.settings);
   char figures[96];
   std::snprintf(figures, sizeof figures, " (%.1f ms, %s %.4g, as measured)", measured.frame_ms,
                 options_.error ? options_.error->metric.c_str() : "flip", measured.error);
@@ -148,17 +146,17 @@ void BudgetRun::report() const {
 }
 
 nlohmann::json BudgetRun::json() const {
-  const auto plan_json = [&](const MeasuredPlan& m) {
+  const auto plan_json = [&](const MeasuredSettings& m) {
     return nlohmann::json{{"frame_ms", m.frame_ms},
                           {"error", m.error},
-                          {"given_up", given_up(exact_, m.plan)},
-                          {"plan", to_json(m.plan)}};
+                          {"given_up", given_up(exact_, m.settings)},
+                          {"plan", to_json(m.settings)}};
   };
   nlohmann::json json{{"frames", frames_}, {"over", over_}, {"metric", "flip"}};
   if (options_.frame_ms) json["frame_ms"] = *options_.frame_ms;
   if (options_.error) json["metric"] = options_.error->metric;
   if (options_.error) json["max_error"] = options_.error->value;
-  for (const MeasuredPlan& m : front_) json["front"].push_back(plan_json(m));
+  for (const MeasuredSettings& m : front_) json["front"].push_back(plan_json(m));
   for (const Use& use : uses_) {
     nlohmann::json used = plan_json(use.measured);
     used["from_frame"] = use.first_frame;

@@ -7,9 +7,8 @@
 
 #include "app/animation.h"
 #include "app/error_limit.h"
-#include "app/machine.h"
-#include "hybrid/budget_keeper.h"
-#include "hybrid/frame.h"
+#include "app/drawing.h"
+#include "hybrid/settings/quality_controller.h"
 
 namespace pinocchio::app {
 
@@ -23,17 +22,17 @@ struct BudgetOptions {
 
 void add_budget_options(CLI::App& verb, BudgetOptions& options);
 
-// A run that keeps a budget: measures what plans of the scene take and cost here, begins with the one that
+// A run that keeps a budget: measures what ways to draw the scene take and cost here, begins with the one that
 // fits, and follows the load.
 class BudgetRun {
  public:
-  // Draws a few small runs of frames to know. Ends the verb with kUsage where the machine's plan is not of
-  // hybrid design 1, the one whose parts can be thinned out.
-  BudgetRun(Machine& machine, const DrawOptions& draw, const BudgetOptions& options, Exchange exchange,
+  // Draws a few small runs of frames to know. Ends the verb with kUsage where not both processors draw
+  // and the GPU composites: the one schedule whose parts can be thinned out.
+  BudgetRun(Drawing& drawing, const DrawOptions& draw, const BudgetOptions& options,
             const std::vector<CameraFrame>& frames);
 
-  [[nodiscard]] const Plan& plan() const { return keeper_.now().plan; }
-  // What drawing the next frame by plan() took.
+  [[nodiscard]] const Settings& settings() const { return controller_.now().settings; }
+  // What drawing the next frame by settings() took.
   void note(double frame_ms);
 
   // For people: whether the budget was kept, and what was given up for it.
@@ -41,16 +40,16 @@ class BudgetRun {
   [[nodiscard]] nlohmann::json json() const;
 
  private:
-  [[nodiscard]] std::string said(const MeasuredPlan& measured) const;
+  [[nodiscard]] std::string said(const MeasuredSettings& measured) const;
 
   struct Use {
     std::size_t first_frame;
-    MeasuredPlan measured;
+    MeasuredSettings measured;
   };
   BudgetOptions options_;
-  Plan exact_;
-  std::vector<MeasuredPlan> front_;
-  BudgetKeeper keeper_;
+  Settings exact_;
+  std::vector<MeasuredSettings> front_;
+  QualityController controller_;
   std::vector<Use> uses_;
   std::size_t frames_ = 0, over_ = 0;
 };

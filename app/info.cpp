@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "app/errors.h"
+#include "app/options.h"
 #include "app/stats.h"
 #include "app/verbs.h"
 #include "core/base/system_info.h"
@@ -12,15 +13,16 @@
 #include "core/trace/tracer.h"
 #include "gl/error.h"
 #include "gl/open.h"
-#include "hybrid/explain.h"
-#include "hybrid/plan_json.h"
+#include "hybrid/settings/explain.h"
+#include "hybrid/settings/json.h"
+#include "hybrid/settings/resolve.h"
 
 namespace pinocchio::app {
 namespace {
 
 struct InfoOptions {
-  std::string scene;
-  bool system = false;
+  DrawOptions draw;
+  bool system = false, settings = false;
   bool json = false;
   bool plan = false;
 };
@@ -30,7 +32,7 @@ nlohmann::json vec3_json(const glm::vec3& v) {
 }
 
 nlohmann::json scene_json(const Scene& scene) {
-  const Needs needs = take_census(scene);
+  const SceneStats stats = analyze(scene);
   const Bounds bounds = scene.mesh->bounds();
   nlohmann::json lights = nlohmann::json::array(), cameras = nlohmann::json::array();
   for (const Light& light : scene.lights)
@@ -45,20 +47,20 @@ nlohmann::json scene_json(const Scene& scene) {
           {"cameras", cameras},
           {"bounds", {{"lo", vec3_json(bounds.lo)}, {"hi", vec3_json(bounds.hi)}}},
           {"needs",
-           {{"lights", needs.lights},
-            {"casting_lights", needs.casting_lights},
-            {"idle_lights", needs.idle_lights},
-            {"reflection", needs.mirrors},
-            {"mirror_share", needs.mirror_share},
-            {"transmits", needs.transmits()},
-            {"transmitting_share", needs.transmitting_share},
-            {"useful_depth", needs.useful_depth},
-            {"textures", needs.textures},
+           {{"lights", stats.lights},
+            {"casting_lights", stats.casting_lights},
+            {"idle_lights", stats.idle_lights},
+            {"reflection", stats.mirrors},
+            {"mirror_share", stats.mirror_share},
+            {"transmits", stats.transmits()},
+            {"transmitting_share", stats.transmitting_share},
+            {"useful_depth", stats.useful_depth},
+            {"textures", stats.textures},
             {"gpu_normals", false}}}};  // no file we read has normals that the CPU does not know
 }
 
 void print_scene(const Scene& scene) {
-  const Needs needs = take_census(scene);
+  const SceneStats stats = analyze(scene);
   const Bounds b = scene.mesh->bounds();
   std::printf("%s\n", scene.source.c_str());
   std::printf("  %zu triangles, %zu vertices, %zu materials, %zu textures\n", scene.mesh->triangles.size(),
@@ -71,19 +73,19 @@ void print_scene(const Scene& scene) {
   for (const Camera& camera : scene.cameras)
     std::printf("  camera '%s', %g degrees\n", camera.name.c_str(), static_cast<double>(camera.fov_deg));
   std::printf("needs\n");
-  std::printf("  %d of %d lights cast shadows (at most %d may); %d reach nothing\n", needs.casting_lights,
-              needs.lights, kMaxCastingLights, needs.idle_lights);
+  std::printf("  %d of %d lights cast shadows (at most %d may); %d reach nothing\n", stats.casting_lights,
+              stats.lights, kMaxCastingLights, stats.idle_lights);
   std::printf("  %.1f %% of the surface mirrors or refracts, %.1f %% refracts%s\n",
-              100.0 * needs.mirror_share, 100.0 * needs.transmitting_share,
-              needs.textures ? "; some has textures" : "");
-  if (needs.mirrors) std::printf("  %d bounces at most are worth following\n", needs.useful_depth);
+              100.0 * stats.mirror_share, 100.0 * stats.transmitting_share,
+              stats.textures ? "; some has textures" : "");
+  if (stats.mirrors) std::printf("  %d bounces at most are worth following\n", stats.useful_depth);
   std::printf("  every shading normal is known to the CPU: none has to be sent\n");
 }
 
-void print_plan(const Needs& needs, const Plan& plan) {
+void print_plan(const SceneStats& stats, const Settings& settings) {
   std::printf("plan\n");
-  for (const std::string& line : explain(needs, plan)) std::printf("  %s\n", line.c_str());
-  std::printf("  %s\n", to_json(plan).dump().c_str());
+  for (const std::string& line : explain(stats, settings)) std::printf("  %s\n", line.c_str());
+  std::printf("  %s\n", to_json(settings).dump().c_str());
 }
 
 nlohmann::json attempts_json(const std::vector<gl::Attempt>& attempts) {
@@ -130,33 +132,74 @@ int show_system(const InfoOptions& options) {
   return kDone;
 }
 
-// The plan of a hybrid frame on this machine; without any OpenGL, of one with a GPU.
-Expected<Plan> plan_here(const Needs& needs) {
-  PlanRequest request;
+nlohmann::json field_json(const Field& field) {
+  nlohmann::json json{{"name", field.name},       {"option", field.option()}, {"domain", field.domain()},
+                      {"default", field.unset},   {"help", field.help},       {"of_machine", field.of_machine}};
+  for (const std::string_view choice : field.choices) json["choices"].push_back(choice);
+  return json;
+}
+
+Scene load_as_it_is(const std::string& file) {
+  std::vector<std::string> warnings;
+  Scene scene = value_or_exit(load_scene(file, &warnings), kBadScene);
+  for (const std::string& warning : warnings)
+    std::fprintf(stderr, "pinocchio: warning: %s\n", warning.c_str());
+  return scene;
+}
+
+// The page docs/settings.md, or the same as JSON.
+int show_settings(const InfoOptions& options) {
+  if (options.json) {
+    nlohmann::json json{{"settings", nlohmann::json::array()}};
+    for (const Field& field : settings_table()) json["settings"].push_back(field_json(field));
+    for (const Preset& p : presets())
+      json["presets"].push_back({{"option", p.option}, {"value", p.value}, {"help", p.help}});
+    for (const Rule& rule : settings_rules())
+      json["rules"].push_back({{"rule", rule.what}, {"remedy", rule.remedy}});
+    std::printf("%s\n", json.dump(2).c_str());
+    return kDone;
+  }
+  const auto text = [](std::string_view s) { return std::string(s); };
+  std::printf("| setting | option | values | default | what it is |\n|---|---|---|---|---|\n");
+  for (const Field& f : settings_table())
+    std::printf("| `%s` | `%s` | %s | %s | %s |\n", text(f.name).c_str(), f.option().c_str(), f.domain().c_str(),
+                text(f.unset).c_str(), text(f.help).c_str());
+  std::printf("\n| preset | what it sets |\n|---|---|\n");
+  for (const Preset& p : presets())
+    std::printf("| `--%s %s` | %s |\n", text(p.option).c_str(), text(p.value).c_str(), text(p.help).c_str());
+  std::printf("\n| rule | remedy |\n|---|---|\n");
+  for (const Rule& rule : settings_rules())
+    std::printf("| %s | %s |\n", text(rule.what).c_str(), text(rule.remedy).c_str());
+  return kDone;
+}
+
+// How a hybrid frame of it is drawn on this machine; without any OpenGL, by a GPU.
+Expected<Settings> plan_here(const SceneStats& stats) {
+  Circumstances circumstances;
   try {
-    request.software_gl = gl::open_context({})->info().software;
+    circumstances.software_gl = gl::open_context({})->info().software;
   } catch (const gl::NoContextError&) {
     std::fprintf(stderr, "pinocchio: no OpenGL here ('pinocchio info --system'); the plan is for a GPU\n");
   }
-  return make_plan(needs, request);
+  return resolve({}, stats, circumstances);
 }
 
 int show_scene(const InfoOptions& options) {
-  std::vector<std::string> warnings;
-  const Scene scene = value_or_exit(load_scene(options.scene, &warnings), kBadScene);
-  for (const std::string& warning : warnings)
-    std::fprintf(stderr, "pinocchio: warning: %s\n", warning.c_str());
-  const Needs needs = take_census(scene);
-  std::optional<Plan> plan;
-  if (options.plan) plan = value_or_exit(plan_here(needs), kBadScene);
+  DrawOptions draw = options.draw;
+  draw.quiet = !options.plan;
+  // As the verbs draw it: with a light where it has none.
+  const Scene scene = options.plan ? load_scene_for(draw) : load_as_it_is(draw.scene);
+  const SceneStats stats = analyze(scene);
+  std::optional<Settings> plan;
+  if (options.plan) plan = value_or_exit(plan_here(stats), kBadScene);
   if (options.json) {
     nlohmann::json json = scene_json(scene);
     if (plan) json["plan"] = to_json(*plan);
-    if (plan) json["why"] = explain(needs, *plan);
+    if (plan) json["why"] = explain(stats, *plan);
     std::printf("%s\n", json.dump(2).c_str());
   } else {
     print_scene(scene);
-    if (plan) print_plan(needs, *plan);
+    if (plan) print_plan(stats, *plan);
   }
   return kDone;
 }
@@ -167,13 +210,18 @@ Run add_info(CLI::App& program) {
   auto options = std::make_shared<InfoOptions>();
   CLI::App& verb =
       *program.add_subcommand("info", "what a scene holds and needs; --system: what this machine has");
-  CLI::Option* scene = verb.add_option("SCENE", options->scene, "glTF (.gltf, .glb) or OBJ file");
+  CLI::Option* scene = verb.add_option("SCENE", options->draw.scene, "glTF (.gltf, .glb) or OBJ file");
   verb.add_flag("--system", options->system,
                 "processor, SIMD levels, OpenGL contexts: what was tried, what failed")
       ->excludes(scene);
+  verb.add_flag("--settings", options->settings, "every setting: values, default, help; the presets and rules")
+      ->excludes(scene);
   verb.add_flag("--plan", options->plan, "how a hybrid frame of it is drawn, and why");
   verb.add_flag("--json", options->json, "as JSON");
-  return [options] { return options->scene.empty() ? show_system(*options) : show_scene(*options); };
+  return [options] {
+    if (options->settings) return show_settings(*options);
+    return options->draw.scene.empty() ? show_system(*options) : show_scene(*options);
+  };
 }
 
 }  // namespace pinocchio::app

@@ -7,16 +7,19 @@
 #include "app/budget.h"
 #include "app/chrome_trace.h"
 #include "app/console.h"
+#include "app/drawing.h"
 #include "app/errors.h"
-#include "app/machine.h"
 #include "app/options.h"
 #include "app/output.h"
 #include "app/overlap.h"
 #include "app/stats.h"
 #include "app/verbs.h"
 #include "core/image/atomic_file.h"
-#include "hybrid/exchange_cost.h"
-#include "hybrid/renderer.h"
+#include "core/base/clock.h"
+#include "gl/context.h"
+#include "hybrid/exchange/channels.h"
+#include "hybrid/exchange/cost.h"
+#include "hybrid/schedule.h"
 
 namespace pinocchio::app {
 namespace {
@@ -29,21 +32,15 @@ struct MeasureOptions {
   BudgetOptions budget;
   std::string stats_json, trace;
   bool compare = false;
-  bool persistent = false;
 };
 
 // One way to draw, measured.
 struct Measured {
   std::string name;
-  Plan plan;
-  Exchange exchange = Exchange::sync;
+  Settings settings;
   std::vector<FrameRecord> records;
   std::optional<BudgetRun> budget{};
 };
-
-gl::Mapping mapping_of(const MeasureOptions& options) {
-  return options.persistent ? gl::Mapping::persistent : gl::Mapping::each_time;
-}
 
 // Frames until the first pictures are out, or buffers and shaders are being made, are not counted.
 void drop_warm_up(std::vector<FrameRecord>& records) {
@@ -51,35 +48,32 @@ void drop_warm_up(std::vector<FrameRecord>& records) {
   records.erase(records.begin(), records.begin() + static_cast<std::ptrdiff_t>(warm_up));
 }
 
-void draw(Machine& machine, const MeasureOptions& options, const std::vector<CameraFrame>& frames,
+void draw(Drawing& drawing, const MeasureOptions& options, const std::vector<CameraFrame>& frames,
           Measured& run) {
   Progress progress(options.draw.quiet ? "off" : options.draw.progress, run.name, frames.size());
-  Renderer renderer(machine.shared_scene(), run.plan, machine.workers(),
-                    {run.exchange, mapping_of(options), 1, false},
-                    {[](Picture&&) {},
-                     [&](const FrameRecord& record) {
-                       run.records.push_back(record);
-                       progress.step();
-                     }});
+  Renderer renderer(drawing.engine(), {{}, [&](const FrameRecord& record) {
+                                         run.records.push_back(record);
+                                         progress.step();
+                                       }});
   for (const CameraFrame& frame : frames) {
     if (interrupted()) break;
-    if (run.budget) renderer.use(run.budget->plan());
+    if (run.budget) run.settings = run.budget->settings();
     const double begin_s = now_s();
-    renderer.submit({frame.camera, options.draw.size, part_of(options.draw)});
+    renderer.submit(drawing.request(run.settings, frame.camera));
     if (run.budget) run.budget->note(1e3 * (now_s() - begin_s));
   }
   renderer.drain();
-  machine.throw_gl_complaints();
+  drawing.engine().throw_gl_complaints();
   drop_warm_up(run.records);
 }
 
 // The exchange alone: no frame to wait for.
 nlohmann::json exchange_json(const Measured& run, const MeasureOptions& options) {
-  nlohmann::json json{{"kind", exchange_name(run.exchange)}};
+  nlohmann::json json{{"kind", name_of(kExchangeNames, Exchange{run.settings.exchange})}};
   const glm::ivec2 size = part_of(options.draw).size();
-  const TrafficBytes traffic = traffic_of(run.plan, size);
+  const TrafficBytes traffic = traffic_of(run.settings, size);
   if (traffic.to_cpu + traffic.to_gpu == 0) return json;
-  const ExchangeCost cost = measure_exchange(run.plan, size, mapping_of(options));
+  const ExchangeCost cost = measure_exchange(run.settings, size);
   const auto add = [&](const char* way, std::size_t bytes, double ms, double copy_ms) {
     if (bytes == 0) return;
     json[way] = {{"ms", ms},
@@ -98,9 +92,9 @@ nlohmann::json overlap_json(const Measured& run) {
   return {{"gpu_busy", o.gpu_s / wall_s}, {"cpu_busy", o.cpu_s / wall_s}, {"both_busy", o.both_s / wall_s}};
 }
 
-nlohmann::json run_json(const Measured& run, const Machine& machine, const MeasureOptions& options) {
-  nlohmann::json json = figures(run.records, run.plan, machine.scene(),
-                                run.plan.mode == Mode::raytrace ? nullptr : machine.gl_info());
+nlohmann::json run_json(const Measured& run, const Drawing& drawing, const MeasureOptions& options) {
+  nlohmann::json json = figures(run.records, run.settings, drawing.scene(),
+                                run.settings.uses_gpu() ? drawing.gl_info() : nullptr);
   json["name"] = run.name;
   json["exchange"] = exchange_json(run, options);
   json["overlap"] = overlap_json(run);
@@ -108,25 +102,25 @@ nlohmann::json run_json(const Measured& run, const Machine& machine, const Measu
   return json;
 }
 
-void print_header(Machine& machine, const MeasureOptions& options) {
-  std::printf("%s: %zu triangles, %dx%d, %d worker threads\n", machine.scene().scene.source.c_str(),
-              machine.scene().scene.mesh->triangles.size(), options.draw.size.x, options.draw.size.y,
-              machine.workers().count());
-  if (const gl::ContextInfo* gl = machine.gl_info())
+void print_header(const Drawing& drawing, const MeasureOptions& options) {
+  std::printf("%s: %zu triangles, %dx%d, %d worker threads\n", drawing.scene().source.c_str(),
+              drawing.scene().mesh->triangles.size(), options.draw.size.x, options.draw.size.y,
+              drawing.workers().count());
+  if (const gl::ContextInfo* gl = drawing.gl_info())
     std::printf("OpenGL: %s, %s\n", gl->renderer.c_str(),
                 gl->software ? "software: it shares these cores, and no bus is crossed" : "hardware");
 }
 
-void print_traffic(const Machine& machine, const MeasureOptions& options) {
+void print_traffic(const Drawing& drawing, const MeasureOptions& options) {
   std::printf("bytes a frame, at most GPU to CPU   CPU to GPU\n");
-  for (const bool slides : {false, true}) {
-    PlanRequest request = machine.request();
-    request.mode = Mode::hybrid;
-    request.slides = slides;
-    const Expected<Plan> plan = make_plan(machine.needs(), request);
-    if (!plan) continue;
-    const TrafficBytes traffic = traffic_of(*plan, part_of(options.draw).size());
-    std::printf("  --plan %-12s %12zu %12zu\n", slides ? "slides" : "auto", traffic.to_cpu, traffic.to_gpu);
+  for (const char* const plan : {"auto", "slides"}) {
+    Settings wanted;
+    if (drawing.settings().visibility == Processor::gpu) wanted.composite = Processor{drawing.settings().composite};
+    apply_preset("plan", plan, wanted);
+    const Expected<Settings> settings = drawing.resolve(wanted);
+    if (!settings) continue;
+    const TrafficBytes traffic = traffic_of(*settings, part_of(options.draw).size());
+    std::printf("  --plan %-12s %12zu %12zu\n", plan, traffic.to_cpu, traffic.to_gpu);
   }
 }
 
@@ -170,30 +164,32 @@ void print_comparison(const std::vector<Measured>& runs, const nlohmann::json& j
   }
 }
 
+std::string name_of_run(const Settings& s) {
+  const std::string mode = mode_name(s);
+  if (mode != "hybrid") return mode;
+  return std::string(s.composite == Processor::gpu ? "design 1 " : "design 2 ") +
+         std::string(name_of(kExchangeNames, Exchange{s.exchange}));
+}
+
 // What --compare draws, or the one way that the options name.
-std::vector<Measured> runs_of(const Machine& machine, const MeasureOptions& options) {
-  const Exchange exchange = options.draw.exchange.value_or(Exchange::pipelined);
-  if (!options.compare) {
-    const bool hybrid = machine.plan().mode == Mode::hybrid;
-    const std::string name =
-        hybrid ? "design " + std::to_string(machine.plan().design) + " " + exchange_name(exchange)
-               : mode_name(machine.plan().mode);
-    return {{name, machine.plan(), hybrid ? exchange : Exchange::sync, {}}};
-  }
-  const auto plan = [&](Mode mode, int design, bool reprojects = false) {
-    PlanRequest request = machine.request();
-    request.mode = mode;
-    request.design = design;
-    request.reprojects = reprojects;
-    return value_or_exit(make_plan(machine.needs(), request), kBadScene);
+std::vector<Measured> runs_of(const Drawing& drawing, const MeasureOptions& options) {
+  if (!options.compare) return {{name_of_run(drawing.settings()), drawing.settings(), {}}};
+  std::vector<Measured> runs;
+  const auto add = [&](const std::string& name, const char* option, const char* value, Exchange exchange) {
+    Settings wanted = options.draw.settings;
+    apply_preset(option, value, wanted);
+    wanted.exchange = exchange;
+    runs.push_back({name, value_or_exit(drawing.resolve(wanted), kBadScene), {}});
   };
-  return {{"design 1 sync", plan(Mode::hybrid, 1), Exchange::sync, {}},
-          {"design 1 pipelined", plan(Mode::hybrid, 1), Exchange::pipelined, {}},
-          {"design 1 reproject", plan(Mode::hybrid, 1, true), Exchange::reproject, {}},
-          {"design 2 sync", plan(Mode::hybrid, 2), Exchange::sync, {}},
-          {"design 2 pipelined", plan(Mode::hybrid, 2), Exchange::pipelined, {}},
-          {"raytrace", plan(Mode::raytrace, 1), Exchange::sync, {}},
-          {"raster", plan(Mode::raster, 1), Exchange::sync, {}}};
+  for (const Exchange exchange : {Exchange::sync, Exchange::pipelined, Exchange::reproject})
+    for (const char* const design : {"1", "2"})
+      if (design[0] == '1' || exchange != Exchange::reproject)
+        add("design " + std::string(design) + " " + std::string(name_of(kExchangeNames, exchange)), "design",
+            design, exchange);
+  std::ranges::stable_sort(runs, {}, [](const Measured& run) { return run.name.substr(0, 8); });
+  add("raytrace", "mode", "raytrace", Exchange::sync);
+  add("raster", "mode", "raster", Exchange::sync);
+  return runs;
 }
 
 int measure(MeasureOptions& options) {
@@ -209,22 +205,21 @@ int measure(MeasureOptions& options) {
   for (const std::string& file : {options.stats_json, options.trace})
     if (!file.empty()) check_writable(file);
 
-  Machine machine(options.draw, std::move(scene), false, options.compare);
-  std::vector<Measured> runs = runs_of(machine, options);
-  if (options.budget.any())
-    runs.front().budget.emplace(machine, options.draw, options.budget, runs.front().exchange, frames);
+  Drawing drawing(options.draw, std::move(scene), Exchange::pipelined, false, options.compare);
+  std::vector<Measured> runs = runs_of(drawing, options);
+  if (options.budget.any()) runs.front().budget.emplace(drawing, options.draw, options.budget, frames);
   nlohmann::json json = nlohmann::json::array();
   for (Measured& run : runs) {
-    draw(machine, options, frames, run);
+    draw(drawing, options, frames, run);
     if (interrupted()) return kInterrupted;
-    json.push_back(run_json(run, machine, options));
+    json.push_back(run_json(run, drawing, options));
   }
   if (!options.stats_json.empty())
     write_json(options.stats_json, options.compare ? nlohmann::json{{"runs", json}} : json.front());
   if (!options.trace.empty()) write_json(options.trace, chrome_trace(runs.front().records));
   if (options.draw.quiet) return kDone;
-  print_header(machine, options);
-  print_traffic(machine, options);
+  print_header(drawing, options);
+  print_traffic(drawing, options);
   if (options.compare) {
     print_comparison(runs, json);
   } else {
@@ -245,8 +240,6 @@ Run add_measure(CLI::App& program) {
   add_budget_options(verb, options->budget);
   verb.add_flag("--compare", options->compare,
                 "both designs, every exchange, raytrace and raster, in one table");
-  verb.add_flag("--persistent", options->persistent,
-                "keep transfer buffers mapped (they are mapped each time)");
   verb.add_option("--stats-json", options->stats_json, "write the figures as JSON");
   verb.add_option("--trace", options->trace, "write a Chrome trace (opens in Perfetto and chrome://tracing)");
   return [options] { return measure(*options); };

@@ -1,10 +1,12 @@
 #include "app/options.h"
 
 #include <cstdio>
+#include <memory>
 
 #include "app/errors.h"
 #include "app/parse.h"
 #include "core/scene/load.h"
+#include "hybrid/settings/json.h"
 
 namespace pinocchio::app {
 namespace {
@@ -26,68 +28,82 @@ void add_vec3(CLI::App& verb, const std::string& name, const std::string& help,
   add_parsed<glm::vec3>(verb, name, help, "x,y,z", parse_vec3, [&to](const glm::vec3& v) { to = v; });
 }
 
-std::optional<Mode> parse_mode(const std::string& text) {
-  for (const Mode mode : {Mode::hybrid, Mode::raytrace, Mode::raster})
-    if (text == mode_name(mode)) return mode;
-  return std::nullopt;
-}
-
-std::optional<Exchange> parse_exchange(const std::string& text) {
-  for (const Exchange exchange : {Exchange::sync, Exchange::pipelined, Exchange::reproject})
-    if (text == exchange_name(exchange)) return exchange;
-  return std::nullopt;
-}
-
 std::optional<glm::ivec2> parse_picture_size(const std::string& text) {
   const std::optional<glm::ivec2> size = parse_size(text);
   if (!size || size->x < 1 || size->y < 1 || size->x > kMaxSide || size->y > kMaxSide) return std::nullopt;
   return static_cast<long long>(size->x) * size->y <= kMaxPixels ? size : std::nullopt;
 }
 
-void add_picture_options(CLI::App& verb, DrawOptions& o) {
-  add_parsed<Mode>(verb, "--mode", "who draws: both, CPU alone, GPU alone (hybrid)",
-                   "hybrid, raytrace or raster", parse_mode, [&o](Mode v) { o.mode = v; });
-  verb.add_option("--design", o.design, "where the parts meet: 1, on the GPU; 2, on the CPU (1)")
-      ->check(CLI::Range(1, 2));
-  add_parsed<Exchange>(
-      verb, "--exchange",
-      "sync: wait for the CPU; pipelined: its part comes two frames later, GPU and CPU work on "
-      "different frames; reproject: newest raster, the last mask and reflection warped to it (pipelined over "
-      "frame ranges, sync for one frame)",
-      "sync, pipelined or reproject", parse_exchange, [&o](Exchange v) { o.exchange = v; });
+// "--mask-bits" and its like, from the table: what is said goes to `said`.
+void add_field(CLI::App& verb, const Field& field, Settings& said) {
+  const std::string help = std::string(field.help) + " (" + std::string(field.unset) + ")";
+  if (field.kind == Field::Kind::flag) {
+    const std::string name = field.option();
+    verb.add_flag_function(
+        name + ",!--no-" + name.substr(2),
+        [&](std::int64_t count) { field.take(count > 0 ? "true" : "false", said); }, help);
+    return;
+  }
+  std::string type = field.kind == Field::Kind::number ? "NUMBER" : "N";
+  if (!field.choices.empty()) {
+    type.clear();
+    for (const std::string_view choice : field.choices) type += (type.empty() ? "" : "|") + std::string(choice);
+  }
   verb.add_option_function<std::string>(
-          "--plan",
-          [&o](const std::string& text) {
-            o.slides = text == "slides";
-            if (text.ends_with(".json")) {
-              o.plan_file = text;
-            } else if (text != "auto" && !o.slides) {
-              throw CLI::ValidationError("--plan",
-                                         "'" + text + "' is not auto, slides or a plan's FILE.json");
-            }
+          field.option(),
+          [&](const std::string& text) {
+            if (!field.take(text, said))
+              throw CLI::ValidationError(field.option(), "'" + text + "' is not " + field.domain());
           },
-          "auto: model and send only what the scene needs; slides: the fixed bytes of 2005; FILE.json: a "
-          "plan, as 'info SCENE --plan --json' writes it; it says mode, design and depth too (auto)")
-      ->type_name("auto|slides|FILE.json");
-  add_parsed<PixelBox>(verb, "--crop",
-                       "half-open pixel box; the EXR keeps the full displayWindow (whole frame)",
-                       "x0,y0,x1,y1", parse_box, [&o](const PixelBox& v) { o.crop = v; });
-  verb.add_option("--spp", o.spp, "jittered samples a pixel, averaged in linear light (1)")
-      ->check(CLI::Range(1, 65536));
-  verb.add_option("--depth", o.depth, "most bounces (8)")->check(CLI::Range(0, kMostBounces));
-  verb.add_flag(
-      "--precise", o.precise,
-      "with --mode raytrace: the reference, in double precision, without shortcuts; slow, and in glass "
-      "twice the time with each bounce");
-  verb.parse_complete_callback([&o, &verb] {
-    for (const char* said : {"--mode", "--design", "--depth"})
-      if (!o.plan_file.empty() && verb.count(said) > 0)
-        throw CLI::ValidationError(said,
-                                   "is what " + o.plan_file + " says; change it there, or leave out --plan");
-    if (o.precise && o.mode != Mode::raytrace)
-      throw CLI::ValidationError(
-          "--precise", "draws with --mode raytrace alone, not with " + std::string(mode_name(o.mode)));
-  });
+          help)
+      ->type_name(type);
+}
+
+// --mode, --design, --plan as they were said.
+struct Said {
+  Settings settings;
+  std::string mode, design, plan;
+};
+
+void add_preset(CLI::App& verb, const std::string& option, const std::string& help, std::string& said) {
+  std::string type;
+  for (const Preset& preset : presets())
+    if (preset.option == option) type += (type.empty() ? "" : "|") + std::string(preset.value);
+  const bool takes_files = option == "plan";
+  if (takes_files) type += "|FILE.json";
+  verb.add_option("--" + option, said, help)
+      ->type_name(type)
+      ->check([=](const std::string& text) {
+        Settings ignored;
+        const bool known = (takes_files && text.ends_with(".json")) || apply_preset(option, text, ignored);
+        return known ? std::string() : "'" + text + "' is not one of " + type;
+      });
+}
+
+// The plan's file, presets over it, and the single settings over both.
+void settle(const CLI::App& verb, const Said& said, DrawOptions& o) {
+  const auto contradiction = [&](const std::string& option) {
+    return CLI::ValidationError(option,
+                                "is what " + o.plan_file + " says; change it there, or leave out --plan");
+  };
+  if (said.plan.ends_with(".json")) {
+    o.plan_file = said.plan;
+    const Expected<Settings> loaded = load_settings(said.plan);
+    if (!loaded) throw CLI::ValidationError("--plan", loaded.error().message());
+    o.settings = *loaded;
+    for (const Field& field : settings_table())
+      if (!field.of_machine && field.given(said.settings) && field.given(o.settings))
+        throw contradiction(field.option());
+    const bool says_who = o.settings.visibility.given || o.settings.composite.given;
+    for (const char* const option : {"--mode", "--design"})
+      if (says_who && verb.count(option) > 0) throw contradiction(option);
+  }
+  apply_preset("design", said.design, o.settings);
+  apply_preset("mode", said.mode, o.settings);
+  override_with(said.settings, o.settings);
+  if (apply_preset("plan", said.plan, o.settings)) override_with(said.settings, o.settings);
+  if (o.precise && o.settings.uses_gpu())
+    throw CLI::ValidationError("--precise", "draws with --mode raytrace alone");
 }
 
 void add_camera_options(CLI::App& verb, DrawOptions& o) {
@@ -95,7 +111,7 @@ void add_camera_options(CLI::App& verb, DrawOptions& o) {
                   "one of the scene's, by name or number from 0 (first; whole scene in view)");
   add_vec3(verb, "--eye", "camera position, scene units", o.eye);
   add_vec3(verb, "--target", "what the camera looks at", o.target);
-  add_vec3(verb, "--up", "which way is up (0,1,0)", o.up);
+  add_vec3(verb, "--up", "which way is up (0,1,0 with --eye and --target, else the camera's)", o.up);
   add_parsed<float>(
       verb, "--fov", "vertical field of view, degrees", "between 0 and 180",
       [](const std::string& s) {
@@ -119,11 +135,13 @@ void add_camera_options(CLI::App& verb, DrawOptions& o) {
       ->take_all();
 }
 
-void add_gl_options(CLI::App& verb, DrawOptions& o) {
-  verb.add_option("--backend", o.backend, "OpenGL context: auto, egl, osmesa, glfw (a display's) (auto)")
+}  // namespace
+
+void add_context_options(CLI::App& verb, DrawOptions& o) {
+  verb.add_option("--backend", o.engine.backend, "OpenGL context: auto, egl, osmesa, glfw (a display's) (auto)")
       ->check(CLI::IsMember({"auto", "egl", "osmesa", "glfw"}))
       ->envname("PINOCCHIO_BACKEND");
-  verb.add_option("--device", o.device, "EGL device number, or software")
+  verb.add_option("--device", o.engine.device, "EGL device number, or software")
       ->check([](const std::string& text) {
         const std::optional<int> number = parse_int(text);
         return text == "software" || (number && *number >= 0)
@@ -132,43 +150,10 @@ void add_gl_options(CLI::App& verb, DrawOptions& o) {
                          "' is not a device number or software ('pinocchio info --system' lists them)";
       })
       ->envname("PINOCCHIO_DEVICE");
-  verb.add_option("--gl-threads", o.gl_threads,
+  verb.add_option("--gl-threads", o.engine.gl_threads,
                   "threads of a software rasteriser (its own choice: all cores)")
       ->check(CLI::Range(1, 32));
 }
-
-void add_tracer_options(CLI::App& verb, DrawOptions& o) {
-  verb.add_option_function<int>(
-          "--threads", [&o](int threads) { o.threads = o.tree.threads = threads; },
-          "worker threads (all cores)")
-      ->type_name("INT")
-      ->check(CLI::Range(1, kMostThreads));
-  add_parsed<Isa>(verb, "--isa", "SIMD level, never above what the processor has (the fastest measured)",
-                  "scalar, sse4, avx2 or avx512", parse_isa, [&o](Isa v) {
-                    if (!isa_supported(v))
-                      throw CLI::ValidationError("--isa",
-                                                 "this processor does not have " + std::string(isa_name(v)));
-                    o.isa = v;
-                  });
-  add_parsed<SplitRule>(verb, "--tree", "how the BSP tree is split (sah)",
-                        "sah, spatial-median or object-median", parse_split_rule,
-                        [&o](SplitRule v) { o.tree.rule = v; });
-  add_parsed<TriangleTest>(verb, "--triangle-test",
-                           "how a ray meets a triangle (filtered: safe, docs/stability.md)",
-                           "projected, moeller-trumbore, watertight or filtered", parse_triangle_test,
-                           [&o](TriangleTest v) { o.tree.triangle_test = v; });
-  add_parsed<OffsetMethod>(
-      verb, "--offset",
-      "how far off a surface its shadow and mirrored rays start: one length, one a scene, or "
-      "what rounding can do there (error-bound)",
-      "fixed, scaled or error-bound", parse_offset_method, [&o](OffsetMethod v) { o.offset = v; });
-  verb.add_option("--tree-depth", o.tree.max_depth, "most levels of the BSP tree (from the triangle count)")
-      ->check(CLI::Range(1, kMaxTreeDepth));
-  verb.add_option("--tree-leaf", o.tree.leaf_size, "triangles that are not split further (2)")
-      ->check(CLI::Range(1, 1 << 20));
-}
-
-}  // namespace
 
 void add_size_option(CLI::App& verb, DrawOptions& o, const std::string& help) {
   add_parsed<glm::ivec2>(verb, "--size", help,
@@ -181,17 +166,39 @@ void add_size_option(CLI::App& verb, DrawOptions& o, const std::string& help) {
 void add_scene_options(CLI::App& verb, DrawOptions& o) {
   verb.add_option("SCENE", o.scene, "glTF (.gltf, .glb) or OBJ file")->required();
   add_camera_options(verb, o);
-  add_gl_options(verb, o);
   verb.add_flag("--quiet", o.quiet, "print errors only");
   verb.add_option("--progress", o.progress, "progress bar: auto (on a terminal), on, off (auto)")
       ->check(CLI::IsMember({"auto", "on", "off"}));
 }
 
+void add_settings_options(CLI::App& verb, DrawOptions& o) {
+  const auto said = std::make_shared<Said>();
+  add_preset(verb, "mode", "who draws: both, CPU alone, GPU alone (hybrid)", said->mode);
+  add_preset(verb, "design", "where the parts meet: 1, on the GPU; 2, on the CPU (1)", said->design);
+  add_preset(verb, "plan",
+             "auto: model and send only what the scene needs; slides: the fixed bytes of 2005; FILE.json: "
+             "settings, as 'info SCENE --plan --json' writes them (auto)",
+             said->plan);
+  for (const Field& field : settings_table()) add_field(verb, field, said->settings);
+  verb.parse_complete_callback([&verb, &o, said] { settle(verb, *said, o); });
+}
+
+void add_still_options(CLI::App& verb, DrawOptions& o) {
+  add_parsed<PixelBox>(verb, "--crop",
+                       "half-open pixel box; the EXR keeps the full displayWindow (whole frame)",
+                       "x0,y0,x1,y1", parse_box, [&o](const PixelBox& v) { o.crop = v; });
+  verb.add_flag(
+      "--precise", o.precise,
+      "with --mode raytrace: the reference, in double precision, without shortcuts; slow, and in glass "
+      "twice the time with each bounce");
+}
+
 void add_draw_options(CLI::App& verb, DrawOptions& o) {
   add_scene_options(verb, o);
   add_size_option(verb, o, "pixels (800x600)");
-  add_picture_options(verb, o);
-  add_tracer_options(verb, o);
+  add_settings_options(verb, o);
+  add_context_options(verb, o);
+  add_still_options(verb, o);
 }
 
 Scene load_scene_for(const DrawOptions& options) {
@@ -227,11 +234,21 @@ Camera camera_for(const DrawOptions& options, const Scene& scene) {
   }
   if (options.eye) camera.eye = *options.eye;
   if (options.target) camera.target = *options.target;
+  if (options.eye && options.target) camera.up = Camera{}.up;
   if (options.up) camera.up = *options.up;
   if (options.fov_deg) camera.fov_deg = *options.fov_deg;
   if (camera.eye == camera.target)
     throw Exit(kUsage, "--eye and --target are the same point; move one of them");
   return camera;
+}
+
+PixelBox part_of(const DrawOptions& options) {
+  const PixelBox whole{{0, 0}, options.size};
+  if (!options.crop) return whole;
+  const PixelBox part{glm::max(options.crop->lo, whole.lo), glm::min(options.crop->hi, whole.hi)};
+  if (part.empty())
+    throw Exit(kUsage, "--crop: no pixel of the picture is in the box; it is x0,y0,x1,y1, half-open");
+  return part;
 }
 
 }  // namespace pinocchio::app

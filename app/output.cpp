@@ -8,7 +8,7 @@
 #include "core/image/png.h"
 #include "core/output/frame_exr.h"
 #include "core/trace/view.h"
-#include "hybrid/plan_json.h"
+#include "hybrid/settings/json.h"
 
 namespace pinocchio::app {
 namespace {
@@ -75,17 +75,24 @@ bool keeps_mask(const OutputOptions& options) {
   return !options.exr.empty() && parse_aovs(options.aovs)->contains("shadow");
 }
 
-void write_outputs(const OutputOptions& options, int frame_number, const PreparedScene& scene,
-                   const View& view, const Picture& picture, Workers& workers,
-                   std::optional<double> render_s) {
+void write_outputs(const OutputOptions& options, int frame_number, const FrameRequest& request,
+                   const FrameResult& picture, Workers& workers, std::optional<double> render_s) {
   if (!options.exr.empty()) {
+    View view = request.view;
+    view.jitter = glm::vec2(0.0f);
     const SurfaceImages surfaces =
-        surface_images(*scene.scene.mesh, view_params(view.camera, view.size, glm::vec2(0.0f), view.part.lo),
-                       workers, picture.ids);
-    const FrameOutput frame{
-        view.size,   view.part,    scene.scene,        view.camera, picture.color,
-        picture.ids, picture.mask, picture.reflection, surfaces,    to_json(picture.plan).dump(),
-        render_s};
+        surface_images(*request.scene.mesh, view_params(view), workers, picture.ids);
+    const FrameOutput frame{view.size,
+                            view.box(),
+                            request.scene,
+                            view.camera,
+                            picture.color,
+                            picture.ids,
+                            picture.mask,
+                            picture.reflection,
+                            surfaces,
+                            to_json(picture.settings, false).dump(),
+                            render_s};
     write_exr(numbered(options.exr, frame_number), frame_exr(frame, *parse_aovs(options.aovs)));
   }
   if (!options.preview.empty())

@@ -7,8 +7,7 @@
 #include <string>
 
 #include "core/scene/scene.h"
-#include "hybrid/plan.h"
-#include "hybrid/renderer.h"
+#include "hybrid/include/pinocchio/renderer.h"
 
 namespace pinocchio::app {
 
@@ -39,8 +38,7 @@ void check_outputs(const OutputOptions& options, const std::vector<int>& frame_n
 [[nodiscard]] bool keeps_mask(const OutputOptions& options);
 
 // Writes the picture of one frame to the files that the options name, each whole or not at all.
-void write_outputs(const OutputOptions& options, int frame_number, const PreparedScene& scene,
-                   const View& view, const Picture& picture, Workers& workers,
-                   std::optional<double> render_s);
+void write_outputs(const OutputOptions& options, int frame_number, const FrameRequest& request,
+                   const FrameResult& picture, Workers& workers, std::optional<double> render_s);
 
 }  // namespace pinocchio::app

@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "hybrid/record.h"
+#include "hybrid/include/pinocchio/frame.h"
 
 namespace pinocchio::app {
 

@@ -7,13 +7,19 @@
 #include "app/animation.h"
 #include "app/budget.h"
 #include "app/console.h"
+#include "app/drawing.h"
 #include "app/errors.h"
-#include "app/machine.h"
 #include "app/options.h"
 #include "app/output.h"
 #include "app/stats.h"
 #include "app/verbs.h"
+#include "core/base/clock.h"
 #include "core/image/atomic_file.h"
+#include "core/reference/reference.h"
+#include "core/trace/jitter.h"
+#include "gl/context.h"
+#include "hybrid/samples.h"
+#include "hybrid/schedule.h"
 
 namespace pinocchio::app {
 namespace {
@@ -26,6 +32,29 @@ struct RenderOptions {
   std::string stats_json;
 };
 
+// The mean of the reference's samples.
+FrameResult precise(const FrameRequest& request, Workers& workers) {
+  FrameResult mean;
+  mean.settings = request.settings;
+  const int spp = request.settings.spp;
+  for (int k = 0; k < spp && !interrupted(); ++k) {
+    View view = request.view;
+    view.jitter = jitter_of(k);
+    ReferencePicture sample = reference_render(request.scene, view, request.settings.depth, workers);
+    if (k == 0) {
+      mean.color = std::move(sample.color);
+      mean.ids = std::move(sample.ids);
+      mean.mask = std::move(sample.mask);
+      mean.reflection = std::move(sample.reflection);
+    } else {
+      for (std::size_t i = 0; i < mean.color.pixels().size(); ++i) mean.color[i] += sample.color[i];
+    }
+  }
+  if (spp > 1)
+    for (glm::vec4& pixel : mean.color.pixels()) pixel /= static_cast<float>(spp);
+  return mean;
+}
+
 // One run of the verb: what is drawn, and what has been delivered so far.
 class RenderRun {
  public:
@@ -37,18 +66,19 @@ class RenderRun {
     const Camera camera = camera_for(options_.draw, scene);
     frames_ = animate(options_.animation, camera);
     check();
-    Machine machine(options_.draw, std::move(scene), keeps_mask(options_.output));
+    Drawing drawing(options_.draw, std::move(scene),
+                    frames_.size() > 1 ? Exchange::pipelined : Exchange::sync, keeps_mask(options_.output));
     const double ready_s = now_s();
-    draw(machine);
-    if (!options_.stats_json.empty()) write_json(options_.stats_json, stats(machine));
-    if (!options_.draw.quiet) report(machine, ready_s - begin_s);
+    draw(drawing);
+    if (!options_.stats_json.empty()) write_json(options_.stats_json, stats(drawing));
+    if (!options_.draw.quiet) report(drawing, ready_s - begin_s);
     return interrupted() ? kInterrupted : kDone;
   }
 
  private:
-  [[nodiscard]] nlohmann::json stats(const Machine& machine) const {
-    nlohmann::json json = figures(records_, machine.plan(), machine.scene(), machine.gl_info());
-    if (options_.draw.exchange == Exchange::reproject)
+  [[nodiscard]] nlohmann::json stats(const Drawing& drawing) const {
+    nlohmann::json json = figures(records_, drawing.settings(), drawing.scene(), drawing.gl_info());
+    if (drawing.settings().exchange == Exchange::reproject)
       json["reproject"]["holes"] =
           static_cast<double>(holes_) / static_cast<double>(std::max<std::size_t>(delivered_, 1));
     if (budget_) json["budget"] = budget_->json();
@@ -65,50 +95,63 @@ class RenderRun {
     if (!options_.stats_json.empty()) check_writable(options_.stats_json);
   }
 
-  void draw(Machine& machine) {
+  void draw(Drawing& drawing) {
     Progress progress(options_.draw.quiet ? "off" : options_.draw.progress, "render", frames_.size());
-    const Renderer::Sinks sinks{[&](Picture&& picture) {
-                                  deliver(machine, picture);
-                                  progress.step();
-                                },
-                                [&](const FrameRecord& record) { records_.push_back(record); }};
-    const Exchange exchange =
-        options_.draw.exchange.value_or(frames_.size() > 1 ? Exchange::pipelined : Exchange::sync);
-    if (options_.budget.any()) budget_.emplace(machine, options_.draw, options_.budget, exchange, frames_);
-    Renderer renderer(machine.shared_scene(), machine.plan(), machine.workers(),
-                      {exchange, gl::Mapping::each_time, options_.draw.spp}, sinks);
+    if (options_.budget.any()) budget_.emplace(drawing, options_.draw, options_.budget, frames_);
+    const auto take = [&](const FrameRequest& request, const FrameResult& picture) {
+      deliver(drawing, request, picture);
+      progress.step();
+    };
+    if (options_.draw.precise) return draw_precise(drawing, take);
+    SampleMean mean(drawing.settings().spp, [&](FrameResult&& picture) {
+      take(drawing.request(frames_[delivered_].camera), picture);
+    });
+    Renderer renderer(drawing.engine(), {[&](Frame& frame) { mean.add(frame); },
+                                         [&](const FrameRecord& record) { records_.push_back(record); }});
     for (const CameraFrame& frame : frames_) {
       if (interrupted()) break;
       begun_s_.push_back(now_s());
       delivering_s_ = 0.0;
-      if (budget_) renderer.use(budget_->plan());
-      renderer.submit(view_of(frame));
+      submit_samples(renderer,
+                     drawing.request(budget_ ? budget_->settings() : drawing.settings(), frame.camera));
       if (budget_) budget_->note(1e3 * (now_s() - begun_s_.back() - delivering_s_));
     }
     renderer.drain();
   }
 
-  [[nodiscard]] View view_of(const CameraFrame& frame) const {
-    return {frame.camera, options_.draw.size, part_of(options_.draw)};
+  // By the reference: all of a frame counts as composite, and its rays are not counted.
+  template <class Take>
+  void draw_precise(Drawing& drawing, Take take) {
+    for (const CameraFrame& frame : frames_) {
+      if (interrupted()) break;
+      FrameRecord record;
+      record.number = records_.size();
+      begun_s_.push_back(now_s());
+      record[Stage::composite].begin_s = record.frame.begin_s = begun_s_.back();
+      const FrameRequest request = drawing.request(frame.camera);
+      const FrameResult mean = precise(request, drawing.workers());
+      if (interrupted()) break;
+      record[Stage::composite].end_s = record.frame.end_s = now_s();
+      take(request, mean);
+      records_.push_back(record);
+    }
   }
 
-  void deliver(Machine& machine, const Picture& picture) {
-    const CameraFrame& frame = frames_[delivered_];
+  void deliver(Drawing& drawing, const FrameRequest& request, const FrameResult& picture) {
     const double begin_s = now_s(), render_s = begin_s - begun_s_[delivered_];
-    ++delivered_;
+    const int number = frames_[delivered_++].number;
     holes_ += picture.holes;
-    write_outputs(options_.output, frame.number, machine.scene(), view_of(frame), picture, machine.workers(),
+    write_outputs(options_.output, number, request, picture, drawing.workers(),
                   options_.output.deterministic ? std::nullopt : std::optional(render_s));
-    machine.throw_gl_complaints();
+    drawing.engine().throw_gl_complaints();
     delivering_s_ += now_s() - begin_s;
   }
 
-  void report(const Machine& machine, double load_s) const {
+  void report(const Drawing& drawing, double load_s) const {
     const auto line = [](const char* what, double ms) { std::printf("  %-18s %10.2f ms\n", what, ms); };
-    std::printf("%s: %zu triangles, %s, %dx%d%s\n", machine.scene().scene.source.c_str(),
-                machine.scene().scene.mesh->triangles.size(), mode_name(machine.plan().mode),
-                options_.draw.size.x, options_.draw.size.y,
-                machine.gl_info() ? (", " + machine.gl_info()->renderer).c_str() : "");
+    std::printf("%s: %zu triangles, %s, %dx%d%s\n", drawing.scene().source.c_str(),
+                drawing.scene().mesh->triangles.size(), mode_name(drawing.settings()), options_.draw.size.x,
+                options_.draw.size.y, drawing.gl_info() ? (", " + drawing.gl_info()->renderer).c_str() : "");
     line("load and build", 1e3 * load_s);
     for (std::size_t i = 0; i < kStageNames.size(); ++i) {
       double sum_ms = 0.0;
@@ -116,7 +159,7 @@ class RenderRun {
       if (sum_ms > 0.0)
         line(std::string(kStageNames[i]).c_str(), sum_ms / static_cast<double>(records_.size()));
     }
-    if (options_.draw.exchange == Exchange::reproject)
+    if (drawing.settings().exchange == Exchange::reproject)
       std::printf("  %zu pixels a frame are holes of the reprojection\n",
                   holes_ / std::max<std::size_t>(delivered_, 1));
     if (budget_) budget_->report();

@@ -5,7 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "core/base/system_info.h"
-#include "hybrid/plan_json.h"
+#include "hybrid/settings/json.h"
 
 namespace pinocchio::app {
 namespace {
@@ -29,8 +29,8 @@ nlohmann::json spread(const std::vector<FrameRecord>& records, Milliseconds ms) 
 
 nlohmann::json bytes_json(const std::vector<FrameRecord>& records) {
   nlohmann::json buffers;
-  for (std::size_t i = 0; i < kTransferNames.size(); ++i)
-    buffers[std::string(kTransferNames[i])] =
+  for (std::size_t i = 0; i < kChannelNames.size(); ++i)
+    buffers[std::string(kChannelNames[i])] =
         per_frame(records, [i](const FrameRecord& r) { return r.bytes[i]; });
   return {{"gpu_to_cpu", per_frame(records, [](const FrameRecord& r) { return r.bytes_to_cpu(); })},
           {"cpu_to_gpu", per_frame(records, [](const FrameRecord& r) { return r.bytes_to_gpu(); })},
@@ -78,9 +78,8 @@ nlohmann::json system_json(const gl::ContextInfo* context, Isa used) {
   return json;
 }
 
-nlohmann::json figures(const std::vector<FrameRecord>& records, const Plan& plan,
-                       const PreparedScene& prepared, const gl::ContextInfo* context) {
-  const Scene& scene = prepared.scene;
+nlohmann::json figures(const std::vector<FrameRecord>& records, const Settings& settings, const Scene& scene,
+                       const gl::ContextInfo* context) {
   nlohmann::json stages;
   for (std::size_t i = 0; i < kStageNames.size(); ++i)
     stages[std::string(kStageNames[i])] =
@@ -96,13 +95,13 @@ nlohmann::json figures(const std::vector<FrameRecord>& records, const Plan& plan
           {"stages", stages},
           {"rays", rays_json(records)},
           {"fps", frames_per_second(records)},
-          {"plan", to_json(plan)},
+          {"plan", to_json(settings)},
           {"scene",
            {{"file", scene.source},
             {"triangles", scene.mesh->triangles.size()},
             {"materials", scene.mesh->materials.size()},
             {"lights", scene.lights.size()}}},
-          {"system", system_json(context, prepared.tracer ? prepared.tracer->isa() : default_isa())}};
+          {"system", system_json(context, settings.isa)}};
 }
 
 }  // namespace pinocchio::app

@@ -5,9 +5,7 @@
 
 #include "core/trace/tracer.h"
 #include "gl/context.h"
-#include "hybrid/plan.h"
-#include "hybrid/prepared_scene.h"
-#include "hybrid/record.h"
+#include "hybrid/include/pinocchio/frame.h"
 
 namespace pinocchio::app {
 
@@ -18,7 +16,7 @@ namespace pinocchio::app {
 [[nodiscard]] nlohmann::json system_json(const gl::ContextInfo* context, Isa used = default_isa());
 
 // The figures of a run (--stats-json): times in milliseconds, sizes in bytes, per frame.
-[[nodiscard]] nlohmann::json figures(const std::vector<FrameRecord>& records, const Plan& plan,
-                                     const PreparedScene& scene, const gl::ContextInfo* context);
+[[nodiscard]] nlohmann::json figures(const std::vector<FrameRecord>& records, const Settings& settings,
+                                     const Scene& scene, const gl::ContextInfo* context);
 
 }  // namespace pinocchio::app

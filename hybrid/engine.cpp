@@ -58,6 +58,7 @@ GpuPasses& Engine::Parts::gpu() {
 }
 
 Workers& Engine::Parts::workers(int threads) {
+  const std::lock_guard lock(pools_mutex);
   return pools.try_emplace(threads, threads).first->second;
 }
 
@@ -88,13 +89,9 @@ Engine::Engine(gl::Context& context) : Engine() {
 Engine::~Engine() = default;
 
 Expected<Settings> Engine::resolve(const Scene& scene, glm::ivec2 size, const Settings& settings,
-                                   bool keeps_mask) {
-  Circumstances circumstances{size, false, keeps_mask};
-  if (settings.uses_gpu()) {
-    (void)parts_->gpu();
-    circumstances.software_gl = parts_->context->info().software;
-  }
-  return pinocchio::resolve(settings, analyze(scene), circumstances);
+                                   bool keeps_mask) const {
+  if (settings.uses_gpu()) open_gl();
+  return pinocchio::resolve(settings, analyze(scene), {size, gl_info() && gl_info()->software, keeps_mask});
 }
 
 std::shared_ptr<const Tracer> Engine::prepare(const Scene& scene, const Settings& settings) {
@@ -116,6 +113,14 @@ Expected<FrameResult> Engine::render(const Scene& scene, const View& view, const
   submit_samples(renderer, {scene, tracer, *resolved, view});
   renderer.drain();
   return result;
+}
+
+Workers& Engine::workers(int threads) const {
+  return parts_->workers(threads);
+}
+
+void Engine::open_gl() const {
+  (void)parts_->gpu();
 }
 
 const gl::ContextInfo* Engine::gl_info() const {

@@ -63,6 +63,7 @@ struct Engine::Parts {
   std::unique_ptr<gl::Context> own;  // outlives what was made in it
   gl::Context* context = nullptr;    // own or the caller's; null: none is open
   std::unique_ptr<GpuPasses> passes;
+  std::mutex pools_mutex;
   std::map<int, Workers> pools;  // by number of threads; idle ones cost nothing
   std::map<std::shared_ptr<const Mesh>, std::shared_ptr<const GpuMesh>> meshes;
   std::shared_ptr<const Tracer> last_tracer;  // of render()

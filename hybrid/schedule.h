@@ -34,4 +34,9 @@ struct Schedule {
   return schedule;
 }
 
+// In one word, as --mode has it.
+[[nodiscard]] inline const char* mode_name(const Settings& s) {
+  return !s.uses_gpu() ? "raytrace" : s.traces() ? "hybrid" : "raster";
+}
+
 }  // namespace pinocchio

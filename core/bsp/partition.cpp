@@ -43,8 +43,8 @@ Halves partition(const Mesh& mesh, std::span<const BuildReference> references, c
     if (sides.low & sides.high) {
       const BuildReference r = low[n.low];
       const glm::uvec3& t = mesh.triangles[r.triangle];
-      const ClippedHalves cut = clipped_halves(mesh.positions[t.x], mesh.positions[t.y],
-                                               mesh.positions[t.z], box, plane.axis, plane.position);
+      const ClippedHalves cut = clipped_halves(mesh.positions[t.x], mesh.positions[t.y], mesh.positions[t.z],
+                                               box, plane.axis, plane.position);
       const Bounds below = within(cut.low, r), above = within(cut.high, r);
       low[n.low] = BuildReference::of(r.triangle, below);
       high[n.high] = BuildReference::of(r.triangle, above);

@@ -6,27 +6,27 @@
 
 namespace pinocchio {
 
-void reference_picture(const Scene& scene, Workers& workers, const shared::ViewParams& view, int depth,
-                       Image<std::uint32_t>& ids, MaskImage& mask, Image<glm::vec3>& reflection,
-                       Image<glm::vec4>& color) {
+ReferencePicture reference_render(const Scene& scene, const View& view, int depth, Workers& workers) {
   const auto casting = static_cast<int>(casting_lights(scene).size());
   assert(casting <= kMaxCastingLights);
-  mask.resize(ids.size(), MaskImage::bits_for(casting));
-  reflection = depth > 0 ? Image<glm::vec3>(ids.size()) : Image<glm::vec3>();
-  color = Image<glm::vec4>(ids.size());
+  const glm::ivec2 size = view.box().size();
+  ReferencePicture picture{Image<std::uint32_t>(size), MaskImage(size, MaskImage::bits_for(casting)),
+                           depth > 0 ? Image<glm::vec3>(size) : Image<glm::vec3>(), Image<glm::vec4>(size)};
+  const shared::ViewParams rays = view_params(view);
 
   const ReferenceTree tree(*scene.mesh);
   const ReferenceTracer tracer(scene, tree);
   const auto draw_pixel = [&](int x, int y) {
-    const ReferenceTracer::Pixel pixel = tracer.pixel(view, x, y, depth);
-    ids.at(x, y) = pixel.triangle;
+    const ReferenceTracer::Pixel pixel = tracer.pixel(rays, x, y, depth);
+    picture.ids.at(x, y) = pixel.triangle;
     for (int slot = 0; slot < casting; ++slot)
-      if (pixel.mask >> slot & 1u) mask.set_bit(x, y, slot);
-    if (depth > 0) reflection.at(x, y) = pixel.reflection;
-    color.at(x, y) = pixel.color;
+      if (pixel.mask >> slot & 1u) picture.mask.set_bit(x, y, slot);
+    if (depth > 0) picture.reflection.at(x, y) = pixel.reflection;
+    picture.color.at(x, y) = pixel.color;
   };
-  const TileGrid grid(ids.size());  // a tile's row is whole bytes of the mask
+  const TileGrid grid(size);  // a tile's row is whole bytes of the mask
   workers.for_each(grid.count(), [&](std::size_t i) { TileGrid::for_each_pixel(grid.tile(i), draw_pixel); });
+  return picture;
 }
 
 }  // namespace pinocchio

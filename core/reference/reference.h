@@ -11,18 +11,19 @@
 #include "core/reference/reference_tracer.h"
 #include "core/scene/scene.h"
 #include "core/trace/mask_image.h"
-#include "core/trace/shared.h"
+#include "core/trace/view.h"
 
 namespace pinocchio {
 
-// Draws a whole picture of ids' size; the other images are resized to it.
-//   ids: the triangle that each pixel's centre sees, kNoTriangle: none
-//   mask: bit i, the casting light in slot i reaches the visible point; as few bits as hold the scene's
-//     casting lights, which are at most kMaxCastingLights
-//   reflection: mirrored plus refracted light, linear, `depth` bounces at most; empty with depth 0
-//   color: RGBA, linear; A is 1 where something is hit
-void reference_picture(const Scene& scene, Workers& workers, const shared::ViewParams& view, int depth,
-                       Image<std::uint32_t>& ids, MaskImage& mask, Image<glm::vec3>& reflection,
-                       Image<glm::vec4>& color);
+struct ReferencePicture {
+  Image<std::uint32_t> ids;     // the triangle that each pixel's centre sees, kNoTriangle: none
+  MaskImage mask;               // bit i: the casting light in slot i reaches the visible point
+  Image<glm::vec3> reflection;  // mirrored plus refracted light, linear; empty with depth 0
+  Image<glm::vec4> color;       // RGBA, linear; A is 1 where something is hit
+};
+
+// Draws view.box(), `depth` bounces at most. The scene has no more casting lights than kMaxCastingLights.
+[[nodiscard]] ReferencePicture reference_render(const Scene& scene, const View& view, int depth,
+                                                Workers& workers);
 
 }  // namespace pinocchio

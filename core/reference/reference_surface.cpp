@@ -55,8 +55,7 @@ glm::dvec3 unit_or(const glm::dvec3& n, double least_square, const glm::dvec3& o
 
 ReferenceSurface reference_surface(const Mesh& mesh, const ReferenceRay& ray, const ReferenceHit& hit) {
   const glm::uvec3 corners = mesh.triangles[hit.triangle];
-  const glm::dvec3 a(mesh.positions[corners.x]), b(mesh.positions[corners.y]),
-      c(mesh.positions[corners.z]);
+  const glm::dvec3 a(mesh.positions[corners.x]), b(mesh.positions[corners.y]), c(mesh.positions[corners.z]);
   const glm::dvec3 ab = b - a, ac = c - a;
 
   ReferenceSurface s;

@@ -14,7 +14,7 @@ namespace pinocchio {
 // axis, down to four triangles. Nothing in common with the tracer's tree, so that each checks the other.
 class ReferenceTree {
  public:
-  // `scene` stays where it is as long as this lives. Where `stop` asks for it while the tree is built, it is
+  // `mesh` stays where it is as long as this lives. Where `stop` asks for it while the tree is built, it is
   // left without triangles, and stopped().
   explicit ReferenceTree(const Mesh& mesh, const std::stop_token& stop = {});
 

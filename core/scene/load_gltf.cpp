@@ -152,8 +152,7 @@ class SceneReader {
   Expected<void> add(const tinygltf::Node& node, const glm::mat4& world) {
     if (node.mesh >= 0) {
       const auto default_material = static_cast<std::uint32_t>(mesh_.materials.size() - 1);
-      const Expected<void> added =
-          add_gltf_mesh(file_, node.mesh, world, default_material, mesh_, warnings_);
+      const Expected<void> added = add_gltf_mesh(file_, node.mesh, world, default_material, mesh_, warnings_);
       if (!added) return added;
     }
     if (node.camera >= 0 && static_cast<std::size_t>(node.camera) < model_.cameras.size()) {

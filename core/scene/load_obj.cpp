@@ -164,8 +164,8 @@ class ObjMesh {
     const tinyobj::attrib_t& a = obj_.attributes;
     mesh_.positions.push_back(vec3_of(&a.vertices[3 * static_cast<std::size_t>(corner.vertex_index)]));
     mesh_.normals.push_back(corner.normal_index < 0
-                                 ? glm::vec3(0.0f)
-                                 : vec3_of(&a.normals[3 * static_cast<std::size_t>(corner.normal_index)]));
+                                ? glm::vec3(0.0f)
+                                : vec3_of(&a.normals[3 * static_cast<std::size_t>(corner.normal_index)]));
     if (smooth) smooth_vertices_.push_back(at->second);
     glm::vec2 texcoord(0.0f);
     if (corner.texcoord_index >= 0) {

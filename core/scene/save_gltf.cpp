@@ -111,8 +111,7 @@ class GltfWriter {
 
   void add_materials() {
     bool strong_emission = false;
-    for (const Material& m : mesh_.materials)
-      json_["materials"].push_back(material_json(m, strong_emission));
+    for (const Material& m : mesh_.materials) json_["materials"].push_back(material_json(m, strong_emission));
     if (strong_emission) extensions_.emplace_back("KHR_materials_emissive_strength");
   }
 

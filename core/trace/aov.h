@@ -17,7 +17,7 @@ struct SurfaceImages {
   Image<glm::vec3> albedo;     // diffuse colour, linear
 };
 
-[[nodiscard]] SurfaceImages surface_images(const Mesh& mesh, const shared::ViewParams& view,
-                                           Workers& workers, const Image<std::uint32_t>& ids);
+[[nodiscard]] SurfaceImages surface_images(const Mesh& mesh, const shared::ViewParams& view, Workers& workers,
+                                           const Image<std::uint32_t>& ids);
 
 }  // namespace pinocchio

@@ -24,8 +24,7 @@ struct Cell {
 std::optional<Cell> make_cell(const Mesh& mesh, const CellPlace& place) {
   const auto& [triangle, back, weights] = place;
   const glm::uvec3& ids = mesh.triangles[triangle];
-  const std::array<glm::vec3, 3> corners{mesh.positions[ids.x], mesh.positions[ids.y],
-                                         mesh.positions[ids.z]};
+  const std::array<glm::vec3, 3> corners{mesh.positions[ids.x], mesh.positions[ids.y], mesh.positions[ids.z]};
   const glm::dvec3 a(corners[0]), ab = glm::dvec3(corners[1]) - a, ac = glm::dvec3(corners[2]) - a;
   const glm::dvec3 cross = glm::cross(ab, ac);
   if (!(glm::length(cross) > 0.0)) return std::nullopt;

@@ -25,8 +25,7 @@ shared::PhongParams phong_params(const Mesh& mesh, const Material& m, const glm:
                                  const glm::vec3& weights) {
   shared::PhongParams phong{m.ambient, m.diffuse, m.specular, m.shininess, m.emission};
   if (m.diffuse_texture >= 0 && !mesh.texcoords.empty()) {
-    const glm::vec2 texcoord = weights.x * mesh.texcoords[corners.x] +
-                               weights.y * mesh.texcoords[corners.y] +
+    const glm::vec2 texcoord = weights.x * mesh.texcoords[corners.x] + weights.y * mesh.texcoords[corners.y] +
                                weights.z * mesh.texcoords[corners.z];
     const glm::vec3 color =
         sample_texture(mesh.textures[static_cast<std::size_t>(m.diffuse_texture)], texcoord);
@@ -41,8 +40,8 @@ int wrap(int i, int n) {
   return r < 0 ? r + n : r;
 }
 
-Surface geometry_at(const Mesh& mesh, std::uint32_t id, const glm::vec3& direction,
-                    const glm::vec3& weights, const RayOffset& offset) {
+Surface geometry_at(const Mesh& mesh, std::uint32_t id, const glm::vec3& direction, const glm::vec3& weights,
+                    const RayOffset& offset) {
   const glm::uvec3 corners = mesh.triangles[id];
   const glm::vec3 &a = mesh.positions[corners.x], &b = mesh.positions[corners.y],
                   &c = mesh.positions[corners.z];

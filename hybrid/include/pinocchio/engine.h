@@ -9,6 +9,7 @@
 
 namespace pinocchio {
 
+class Workers;
 namespace gl {
 class Context;
 struct ContextInfo;
@@ -42,7 +43,7 @@ class Engine {
   // exactly. keeps_mask: every bit of the shadow mask is wanted, seen or not. An error where they cannot be.
   // Throws EnvironmentError where they want OpenGL and there is none.
   [[nodiscard]] Expected<Settings> resolve(const Scene& scene, glm::ivec2 size, const Settings& settings = {},
-                                           bool keeps_mask = true);
+                                           bool keeps_mask = true) const;
 
   // The tree that frames of these settings trace in; null where they trace nothing. Any thread.
   [[nodiscard]] static std::shared_ptr<const Tracer> prepare(const Scene& scene, const Settings& settings);
@@ -51,6 +52,10 @@ class Engine {
   [[nodiscard]] Expected<FrameResult> render(const Scene& scene, const View& view,
                                              const Settings& settings = {});
 
+  // Worker threads of its own, `threads` of them (0: one a core), for work between frames. Any thread.
+  [[nodiscard]] Workers& workers(int threads = 0) const;
+  // Opens the OpenGL context now, where settings would need it later. Throws EnvironmentError.
+  void open_gl() const;
   // Of the context; null while none is open.
   [[nodiscard]] const gl::ContextInfo* gl_info() const;
   // With gl_debug: throws what the driver complained about.

@@ -1,0 +1,58 @@
+#include "app/drawing.h"
+
+#include <cstdio>
+#include <cstdlib>
+
+#include "app/errors.h"
+#include "gl/context.h"
+
+namespace pinocchio::app {
+namespace {
+
+EngineOptions engine_options(const DrawOptions& options) {
+  EngineOptions engine = options.engine;
+  engine.gl_debug = std::getenv("PINOCCHIO_GL_DEBUG") != nullptr;
+  return engine;
+}
+
+Settings with_usual(Settings settings, Exchange usual) {
+  settings.exchange.fill(usual);
+  return settings;
+}
+
+}  // namespace
+
+Drawing::Drawing(const DrawOptions& options, Scene scene, Exchange usual, bool keeps_mask, bool any_settings)
+    : options_(options),
+      part_(part_of(options)),
+      keeps_mask_(keeps_mask),
+      engine_(engine_options(options)),
+      scene_(std::move(scene)) {
+  drop_idle_casters(scene_);
+  stats_ = analyze(scene_);
+  if (any_settings || options.settings.uses_gpu()) engine_.open_gl();
+  Expected<Settings> resolved = resolve(with_usual(options.settings, usual));
+  if (!resolved) {
+    InputError error = resolved.error();
+    error.file = options.plan_file;
+    throw Exit(options.plan_file.empty() && !broken_rule(with_usual(options.settings, usual)) ? kBadScene : kUsage,
+               error.message());
+  }
+  settings_ = *resolved;
+  if (!options.quiet)
+    for (const std::string& line : losses(settings_, stats_))
+      if (!options.plan_file.empty())
+        std::fprintf(stderr, "pinocchio: warning: %s: %s\n", options.plan_file.c_str(), line.c_str());
+  if (any_settings || (settings_.traces() && !options.precise)) tracer_ = Engine::prepare(scene_, settings_);
+}
+
+Expected<Settings> Drawing::resolve(const Settings& wanted) const {
+  const gl::ContextInfo* const gl = engine_.gl_info();
+  return pinocchio::resolve(wanted, stats_, {part_.size(), gl && gl->software, keeps_mask_});
+}
+
+FrameRequest Drawing::request(const Settings& settings, const Camera& camera) const {
+  return {scene_, tracer_, settings, {camera, options_.size, part_}};
+}
+
+}  // namespace pinocchio::app

@@ -1,0 +1,43 @@
+#pragma once
+
+#include <memory>
+
+#include "app/options.h"
+#include "hybrid/settings/resolve.h"
+
+namespace pinocchio::app {
+
+// What a verb draws with: the Engine, the scene, and the settings resolved for it.
+class Drawing {
+ public:
+  // `usual`: the exchange where the options name none. `keeps_mask`: the mask itself is wanted, not only the
+  // picture. `any_settings`: others than the options' are going to be drawn, too. Ends the verb with kBadScene
+  // (kUsage, where a plan's file says them) where the settings cannot draw the scene; throws
+  // gl::NoContextError.
+  Drawing(const DrawOptions& options, Scene scene, Exchange usual, bool keeps_mask, bool any_settings = false);
+
+  [[nodiscard]] Engine& engine() { return engine_; }
+  [[nodiscard]] const Scene& scene() const { return scene_; }
+  [[nodiscard]] const SceneStats& stats() const { return stats_; }
+  [[nodiscard]] const Settings& settings() const { return settings_; }
+  [[nodiscard]] Workers& workers() const { return engine_.workers(settings_.threads); }
+  // Of the context that the settings draw in; null where the CPU draws alone.
+  [[nodiscard]] const gl::ContextInfo* gl_info() const { return settings_.uses_gpu() ? engine_.gl_info() : nullptr; }
+
+  // Other settings for the same scene.
+  [[nodiscard]] Expected<Settings> resolve(const Settings& wanted) const;
+  [[nodiscard]] FrameRequest request(const Settings& settings, const Camera& camera) const;
+  [[nodiscard]] FrameRequest request(const Camera& camera) const { return request(settings_, camera); }
+
+ private:
+  const DrawOptions& options_;
+  PixelBox part_;
+  bool keeps_mask_;
+  Engine engine_;
+  Scene scene_;
+  SceneStats stats_;
+  Settings settings_;
+  std::shared_ptr<const Tracer> tracer_;
+};
+
+}  // namespace pinocchio::app
