@@ -10,16 +10,6 @@
 #include "hybrid/shader_folder.h"
 
 namespace pinocchio {
-namespace {
-
-// Whether a tree built by the one is the other's.
-bool same_tree(const Settings& a, const Settings& b) {
-  for (const char* name : {"isa", "tree", "tree_depth", "tree_leaf", "triangle_test", "offset"})
-    if (!find_field(name)->same(a, b)) return false;
-  return true;
-}
-
-}  // namespace
 
 std::future<void> TracingThread::post(std::function<void()> job) {
   std::packaged_task<void()> task(std::move(job));

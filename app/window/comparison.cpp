@@ -5,8 +5,8 @@
 #include <chrono>
 #include <cstdio>
 
+#include "core/base/clock.h"
 #include "core/image/tonemap.h"
-#include "hybrid/record.h"
 
 namespace pinocchio::app {
 namespace {

@@ -5,9 +5,9 @@
 #include <optional>
 #include <string>
 
+#include "core/compare/reference_error.h"
 #include "gl/transfer.h"
-#include "hybrid/progressive_reference.h"
-#include "hybrid/reference_error.h"
+#include "hybrid/inspect/progressive_reference.h"
 
 namespace pinocchio::app {
 

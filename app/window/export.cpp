@@ -5,6 +5,8 @@
 #include <cstdio>
 #include <nlohmann/json.hpp>
 
+#include "app/window/settings.h"
+
 namespace pinocchio::app {
 namespace {
 
@@ -28,23 +30,29 @@ std::string quoted(const std::string& text) {
   return result + "'";
 }
 
-std::string drawing_options(const TakenView& view) {
-  const ViewSettings& s = view.settings;
-  if (s.plan == PlanSource::file) return " --plan " + quoted(view.options.plan_file);
+std::string option_of(const Field& field, const Settings& settings) {
+  const std::string name = field.option(), text = field.text(settings);
+  if (field.kind != Field::Kind::flag) return " " + name + " " + text;
+  return text == "true" ? " " + name : " --no-" + name.substr(2);
+}
+
+// What is given, by presets where they hold.
+std::string settings_options(const Settings& settings) {
   std::string text;
-  if (s.plan == PlanSource::slides) text += " --plan slides";
-  if (s.mode != Mode::hybrid) text += std::string(" --mode ") + mode_name(s.mode);
-  if (s.design != 1) text += " --design " + std::to_string(s.design);
-  const int depth = plan_request(s).depth;
-  if (depth != DrawOptions{}.depth) text += " --depth " + std::to_string(depth);
+  Settings said;
+  for (const Preset& preset : presets())
+    if (say(preset, settings, said))
+      text += " --" + std::string(preset.option) + " " + std::string(preset.value);
+  for (const Field& field : settings_table())
+    if (field.given(settings) && !field.given(said) && field.name != "spp") text += option_of(field, settings);
   return text;
 }
 
 }  // namespace
 
-std::string render_command(const TakenView& view, const std::string& name) {
+std::string render_command(const ExportedView& view, const std::string& name) {
   std::string text = "pinocchio render " + quoted(view.scene) + " --size " + std::to_string(view.size.x) +
-                     "x" + std::to_string(view.size.y) + drawing_options(view);
+                     "x" + std::to_string(view.size.y) + settings_options(view.settings);
   const Camera& camera = view.camera;
   text += " --eye " + exact(camera.eye) + " --target " + exact(camera.target);
   if (camera.up != glm::vec3(0, 1, 0)) text += " --up " + exact(camera.up);
@@ -53,7 +61,7 @@ std::string render_command(const TakenView& view, const std::string& name) {
     text += " --light " + exact(light.position) + "," + exact(light.intensity) +
             (light.casts_shadow ? ",cast" : ",nocast");
   if (view.samples > 1) text += " --spp " + std::to_string(view.samples);
-  if (view.settings.exposure_ev != 0.0f) text += " --exposure " + exact(view.settings.exposure_ev);
+  if (view.exposure_ev != 0.0f) text += " --exposure " + exact(view.exposure_ev);
   return text + " -o " + quoted(name + ".exr") + " --preview " + quoted(name + ".png");
 }
 

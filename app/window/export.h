@@ -2,25 +2,26 @@
 
 #include <filesystem>
 #include <string>
+#include <vector>
 
-#include "app/options.h"
-#include "app/window/settings.h"
+#include "core/scene/scene.h"
+#include "hybrid/include/pinocchio/settings.h"
 
 namespace pinocchio::app {
 
 // What a headless picture needs to be the window's.
-struct TakenView {
+struct ExportedView {
   std::string scene;  // file, in which the lights are as they are shown
-  const DrawOptions& options;
-  const ViewSettings& settings;
-  const Camera& camera;
-  const std::vector<Light>& extra_lights;  // that the file lacks
-  glm::ivec2 size{0, 0};                   // pixels
+  Settings settings;  // given
+  Camera camera;
+  std::vector<Light> extra_lights;  // that the file lacks
+  glm::ivec2 size{0, 0};            // pixels
   int samples = 1;
+  float exposure_ev = 0.0f;
 };
 
 // The command line that draws it: name.exr and name.png. Numbers are exact.
-[[nodiscard]] std::string render_command(const TakenView& view, const std::string& name);
+[[nodiscard]] std::string render_command(const ExportedView& view, const std::string& name);
 
 // The camera as a file that --path takes.
 [[nodiscard]] std::string camera_path_json(const Camera& camera);

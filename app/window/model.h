@@ -2,15 +2,16 @@
 
 #include <deque>
 #include <map>
+#include <memory>
 #include <string>
 #include <vector>
 
 #include "app/window/actions.h"
 #include "app/window/camera_control.h"
 #include "app/window/history.h"
-#include "app/window/live_scene.h"
 #include "app/window/scene_loader.h"
 #include "app/window/settings.h"
+#include "core/base/clock.h"
 
 namespace pinocchio::app {
 
@@ -24,10 +25,11 @@ struct Notice {
 struct Model {
   ViewSettings settings;
   CameraControl camera;
-  LiveScene scene;
-  std::vector<Light> lights;    // as edited; of the scene where it casts is left as it is
-  bool lights_changed = false;  // by the overlay: the session takes them over
-  Plan plan;                    // of the frames that are drawn now
+  Scene scene;                           // with the lights as edited
+  SceneStats stats;                      // of it
+  std::shared_ptr<const Tracer> tracer;  // null: nothing is traced, or the tree is not built yet
+  bool lights_changed = false;           // by the overlay: the session takes them over
+  Settings drawn;                        // resolved: by which frames are drawn now
   History history;
   int samples = 0;  // gathered by the still camera
 
@@ -42,6 +44,7 @@ struct Model {
   std::string renderer;  // OpenGL's, in words
   int threads = 0;       // that trace
 
+  [[nodiscard]] bool has_scene() const { return !scene.source.empty(); }
   void notify(const std::string& text, double seconds = 4.0) { notices.push_back({text, now_s() + seconds}); }
 };
 

@@ -124,7 +124,7 @@ void draw_captions(const Model& model) {
 
 void draw_overlay(Model& model, float scale) {
   if (model.settings.overlay) {
-    if (model.scene) draw_light_handles(model, scale);
+    if (model.has_scene()) draw_light_handles(model, scale);
     draw_divider(model, scale);
     draw_captions(model);
     draw_panels(model, scale);

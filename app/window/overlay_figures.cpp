@@ -5,7 +5,7 @@
 #include <string>
 
 #include "app/window/overlay_parts.h"
-#include "hybrid/explain.h"
+#include "hybrid/settings/explain.h"
 
 namespace pinocchio::app {
 namespace {
@@ -81,7 +81,7 @@ void draw_stages(const Model& model) {
     const auto stage = static_cast<Stage>(i);
     const std::vector<float> values = model.history.stage_ms(stage);
     const float ms = median_of_newest(values, kMedianOf);
-    const ImVec4 color = lane_color(lane_of(stage, model.plan));
+    const ImVec4 color = lane_color(lane_of(stage, model.drawn));
     ImGui::TableNextRow();
     ImGui::TableNextColumn();
     ImGui::TextColored(ms > 0.0f ? color : ImGui::GetStyle().Colors[ImGuiCol_TextDisabled], "%s",
@@ -103,9 +103,9 @@ void draw_stages(const Model& model) {
 void draw_traffic(const FrameRecord& record) {
   row("GPU to CPU", megabytes(record.bytes_to_cpu()));
   row("CPU to GPU", megabytes(record.bytes_to_gpu()));
-  for (std::size_t i = 0; i < kTransferNames.size(); ++i) {
+  for (std::size_t i = 0; i < kChannelNames.size(); ++i) {
     if (record.bytes[i] == 0) continue;
-    const std::string name = "   " + std::string(kTransferNames[i]);
+    const std::string name = "   " + std::string(kChannelNames[i]);
     ImGui::PushStyleColor(ImGuiCol_Text, ImGui::GetStyle().Colors[ImGuiCol_TextDisabled]);
     row(name.c_str(), megabytes(record.bytes[i]));
     ImGui::PopStyleColor();
@@ -136,9 +136,9 @@ void draw_figures(const Model& model, float scale) {
     ImGui::Separator();
     draw_rays(model.history.records().back());
   }
-  if (model.scene && ImGui::CollapsingHeader("Why so", ImGuiTreeNodeFlags_DefaultOpen)) {
+  if (model.has_scene() && ImGui::CollapsingHeader("Why so", ImGuiTreeNodeFlags_DefaultOpen)) {
     ImGui::PushTextWrapPos(0.0f);
-    for (const std::string& line : explain(model.scene.needs(), model.plan))
+    for (const std::string& line : explain(model.stats, model.drawn))
       ImGui::TextUnformatted(line.c_str());
     ImGui::PopTextWrapPos();
   }

@@ -13,7 +13,7 @@ constexpr float kMarkRadius = 7.0f;
 
 // How fast dragging a number moves a light, scene units a pixel.
 float drag_speed(const Model& model) {
-  return std::max(1e-3f * model.scene.needs().bounds.diagonal(), 1e-6f);
+  return std::max(1e-3f * model.stats.bounds.diagonal(), 1e-6f);
 }
 
 bool edit_light(Light& light, const Model& model) {
@@ -75,18 +75,18 @@ bool drag_mark(Light& light, int id, const Camera& camera, glm::vec2 display, fl
 }  // namespace
 
 void draw_light_controls(Model& model) {
-  for (std::size_t i = 0; i < model.lights.size(); ++i) {
+  for (std::size_t i = 0; i < model.scene.lights.size(); ++i) {
     ImGui::PushID(static_cast<int>(i));
-    model.lights_changed = edit_light(model.lights[i], model) || model.lights_changed;
+    model.lights_changed = edit_light(model.scene.lights[i], model) || model.lights_changed;
     ImGui::PopID();
   }
 }
 
 void draw_light_handles(Model& model, float scale) {
   const ImVec2 display = ImGui::GetIO().DisplaySize;
-  for (std::size_t i = 0; i < model.lights.size(); ++i)
-    if (model.lights[i].kind != Light::Kind::directional)
-      model.lights_changed = drag_mark(model.lights[i], static_cast<int>(i), model.camera.camera(),
+  for (std::size_t i = 0; i < model.scene.lights.size(); ++i)
+    if (model.scene.lights[i].kind != Light::Kind::directional)
+      model.lights_changed = drag_mark(model.scene.lights[i], static_cast<int>(i), model.camera.camera(),
                                        {display.x, display.y}, scale) ||
                              model.lights_changed;
 }

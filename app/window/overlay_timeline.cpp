@@ -66,37 +66,35 @@ void draw_arrow(const Chart& chart, double from_s, Lane from, double to_s, Lane 
   ImGui::GetWindowDrawList()->AddCircleFilled(b, 2.5f, IM_COL32(255, 255, 255, 200));
 }
 
-void draw_frame(const Chart& chart, const FrameRecord& record, const Plan& plan) {
+void draw_frame(const Chart& chart, const FrameRecord& record, const Settings& settings) {
   for (std::size_t i = 0; i < kStageNames.size(); ++i) {
     const auto stage = static_cast<Stage>(i);
-    draw_span(chart, record, stage, lane_of(stage, plan));
+    draw_span(chart, record, stage, lane_of(stage, settings));
   }
 }
 
-void draw_waits(const Chart& chart, const FrameRecord& record, const Plan& plan) {
+void draw_waits(const Chart& chart, const FrameRecord& record, const Settings& settings) {
   const bool shadow = record[Stage::trace_shadow].end_s > 0.0;
   const bool reflection = record[Stage::trace_reflection].end_s > 0.0;
   if (!shadow && !reflection) return;
   const Span& first = record[shadow ? Stage::trace_shadow : Stage::trace_reflection];
   const Span& last = record[reflection ? Stage::trace_reflection : Stage::trace_shadow];
   if (record[Stage::readback].end_s > 0.0)
-    draw_arrow(chart, record[Stage::raster].end_s, lane_of(Stage::raster, plan), first.begin_s, Lane::cpu);
+    draw_arrow(chart, record[Stage::raster].end_s, lane_of(Stage::raster, settings), first.begin_s, Lane::cpu);
   if (record[Stage::upload].end_s <= 0.0) return;
   draw_arrow(chart, last.end_s, Lane::cpu, record[Stage::upload].begin_s, Lane::exchange);
   draw_arrow(chart, record[Stage::upload].end_s, Lane::exchange, record[Stage::composite].begin_s,
-             lane_of(Stage::composite, plan));
+             lane_of(Stage::composite, settings));
 }
 
 }  // namespace
 
-Lane lane_of(Stage stage, const Plan& plan) {
+Lane lane_of(Stage stage, const Settings& settings) {
   switch (stage) {
     case Stage::raster:
-      return plan.mode == Mode::raytrace || (plan.mode == Mode::hybrid && plan.primary == Primary::rays)
-                 ? Lane::cpu
-                 : Lane::gpu;
+      return settings.visibility == Processor::cpu ? Lane::cpu : Lane::gpu;
     case Stage::composite:
-      return plan.mode == Mode::raytrace ? Lane::cpu : Lane::gpu;
+      return settings.uses_gpu() ? Lane::gpu : Lane::cpu;
     case Stage::trace_shadow:
     case Stage::trace_reflection:
       return Lane::cpu;
@@ -143,8 +141,8 @@ void draw_timeline(const Model& model, float) {
                  ImGui::ColorConvertFloat4ToU32(lane_color(lane)), lane_name(lane));
   }
   if (shown == 0) return;
-  for (std::size_t i = first; i < records.size(); ++i) draw_frame(chart, records[i], model.plan);
-  for (std::size_t i = first; i < records.size(); ++i) draw_waits(chart, records[i], model.plan);
+  for (std::size_t i = first; i < records.size(); ++i) draw_frame(chart, records[i], model.drawn);
+  for (std::size_t i = first; i < records.size(); ++i) draw_waits(chart, records[i], model.drawn);
 }
 
 }  // namespace pinocchio::app

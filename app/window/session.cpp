@@ -5,8 +5,10 @@
 
 #include "app/console.h"
 #include "app/errors.h"
-#include "hybrid/plan_json.h"
-#include "hybrid/shader_folder.h"
+#include "core/parallel/workers.h"
+#include "gl/context.h"
+#include "hybrid/engine_parts.h"
+#include "hybrid/settings/resolve.h"
 
 namespace pinocchio::app {
 namespace {
@@ -15,13 +17,7 @@ constexpr double kLongestStep_s = 0.1;  // of flight, however long a frame took
 
 ViewSettings settings_of(const ViewOptions& options) {
   ViewSettings settings;
-  settings.mode = options.draw.mode;
-  settings.design = options.draw.design;
-  settings.exchange = options.draw.exchange.value_or(Exchange::pipelined);
-  settings.has_plan_file = !options.draw.plan_file.empty();
-  if (settings.has_plan_file) settings.plan = PlanSource::file;
-  if (options.draw.slides) settings.plan = PlanSource::slides;
-  settings.depth = options.draw.depth;
+  settings.settings = options.draw.settings;
   settings.exposure_ev = options.exposure_ev;
   settings.vsync = options.vsync;
   return possible(settings);
@@ -32,23 +28,21 @@ ViewSettings settings_of(const ViewOptions& options) {
 Session::Session(gl::Window& window, const ViewOptions& options)
     : window_(window),
       options_(options),
-      workers_(options.draw.threads),
       navigation_(model_.camera),
       gui_(window),
-      programs_(std::make_shared<Programs>(shader_folder())),
+      engine_(window.context()),
+      programs_(engine_.parts().gpu().programs),
       present_(programs_),
-      inspect_(programs_),
+      inspect_(engine_),
       accumulator_(programs_),
-      painter_(workers_, programs_, settings_of(options).exchange,
-               {[this](const Painted& painted) { take_painted(painted); },
-                [this](const FrameRecord& record) { model_.history.add(record); }}),
+      renderer_(engine_, {[this](const Frame& frame) { take_frame(frame); },
+                          [this](const FrameRecord& record) { model_.history.add(record); }}),
       applied_(settings_of(options)) {
   model_.settings = applied_;
-  model_.renderer = window.context().info().renderer;
-  model_.threads = workers_.count();
+  model_.renderer = engine_.gl_info()->renderer;
   window_.set_vsync(applied_.vsync);
-  if (options_.watch) shader_watch_.emplace(shader_folder());
-  loader_.start(options_.draw);
+  if (options_.watch) shader_watch_.emplace(programs_->folder());
+  load();
 }
 
 void Session::run() {
@@ -72,7 +66,7 @@ void Session::fly_on() {
 // How long to wait for a person before the next turn: what draws or loads needs the processor.
 double Session::patience_s() const {
   if (window_.minimised()) return 0.1;
-  if (!model_.scene || idle_ || painter_.raytracing()) return 0.02;
+  if (!model_.has_scene() || idle_ || renderer_.is_drawing_alone()) return 0.02;
   return 0.0;
 }
 
@@ -112,63 +106,62 @@ void Session::take_drop(const gl::DropEvent& event) {
   draw.eye = draw.target = draw.up = std::nullopt;
   draw.fov_deg = std::nullopt;
   draw.lights.clear();
-  loader_.start(draw);
+  load();
+}
+
+// A tree that is being built is forgotten.
+void Session::load() {
+  tree_of_.reset();
+  loader_.load(options_.draw);
 }
 
 void Session::take_news() {
-  const SceneLoader::News news = loader_.poll();
+  SceneLoader::News news = loader_.poll();
   model_.loading = loader_.progress();
   if (!news.error.empty()) {
-    if (!model_.scene) throw Exit(news.code, news.error);
+    if (!model_.has_scene()) throw Exit(news.code, news.error);
     model_.errors["scene"] = news.error;
   }
-  const bool wanted = news.scene && can_draw(news);
-  if (wanted) take_scene(news);
-  if (news.tracer && (wanted || !news.scene)) model_.scene.set_tracer(news.tracer);
+  if (news.scene && can_draw(news.stats)) take_scene(news);
+  if (news.tracer) model_.tracer = std::move(news.tracer);
 }
 
-// Whether there is a plan for it; where there is none, the verb ends, or the scene before stays.
-bool Session::can_draw(const SceneLoader::News& news) {
-  if (!options_.draw.plan_file.empty()) {
-    const Expected<Plan> plan = load_plan(options_.draw.plan_file, news.needs);
-    if (!plan && !model_.scene) throw Exit(kUsage, plan.error().message());
-    file_plan_ = plan ? std::optional(*plan) : std::nullopt;
-    model_.settings.has_plan_file = plan.has_value();
-    if (!plan && model_.settings.plan == PlanSource::file) model_.settings.plan = PlanSource::automatic;
-  }
-  const Expected<Plan> plan = plan_for(model_.settings, news.needs, false);
-  if (plan) return true;
-  if (!model_.scene) throw Exit(kBadScene, plan.error().message());
-  model_.errors["scene"] = plan.error().message();
-  loader_.forget();
+// Where the settings cannot draw it, the verb ends, or the scene before stays.
+bool Session::can_draw(const SceneStats& stats) {
+  const Expected<Settings> can = resolved(wanted_settings(model_.settings), stats, false);
+  if (can) return true;
+  InputError error = can.error();
+  error.file = options_.draw.plan_file;
+  if (!model_.has_scene()) throw Exit(error.file.empty() ? kBadScene : kUsage, error.message());
+  model_.errors["scene"] = error.message();
   return false;
 }
 
-void Session::take_scene(const SceneLoader::News& news) {
-  const Scene& scene = news.scene->scene;
-  const bool again = model_.scene && model_.scene.shown()->scene.source == scene.source;
-  painter_.drain();
-  model_.scene.set_scene(news.scene, news.needs);
-  model_.camera.set_scene(model_.scene.needs().bounds);
+void Session::take_scene(SceneLoader::News& news) {
+  const Scene& scene = *news.scene;
+  const bool again = model_.scene.source == scene.source;
+  renderer_.drain();
+  model_.stats = news.stats;
+  model_.tracer.reset();
+  model_.camera.set_scene(news.stats.bounds);
   if (!again) model_.camera.set_camera(news.camera);
   first_camera_ = news.camera;
-  model_.lights = applied_lights_ = news.lights;
-  model_.lights_changed = !model_.settings.shadows;
-  lights_edited_ = false;
+  applied_lights_ = scene.lights;
+  model_.lights_changed = lights_edited_ = false;
   model_.errors.erase("scene");
   model_.history.clear();
   window_.set_title(scene.source + " - Pinocchio");
-  if (!options_.watch) return;
-  if (again) {
+  if (options_.watch && again) {
     model_.notify(scene.source + " was loaded anew");
     scene_watch_->follow(scene.source_files);
-  } else {
+  } else if (options_.watch) {
     scene_watch_.emplace(scene.source_files);
   }
+  model_.scene = std::move(*news.scene);
 }
 
 void Session::take_file_changes() {
-  if (scene_watch_ && scene_watch_->changed(now_s())) loader_.start(options_.draw);
+  if (scene_watch_ && scene_watch_->changed(now_s())) load();
   if (!shader_watch_->changed(now_s())) return;
   if (const Expected<void> reloaded = programs_->reload()) {
     model_.errors.erase("shaders");
@@ -181,59 +174,60 @@ void Session::take_file_changes() {
   accumulator_.reset();
 }
 
-Expected<Plan> Session::plan_for(const ViewSettings& settings, const Needs& needs, bool keeps_mask) const {
-  if (settings.plan == PlanSource::file && file_plan_) {
-    if (const Expected<void> checked = check_plan(*file_plan_, needs); !checked)
-      return Unexpected(checked.error());
-    return *file_plan_;
-  }
-  PlanRequest request = plan_request(settings);
-  request.threads = options_.draw.threads;
-  request.software_gl = window_.context().info().software;
-  request.keeps_mask = request.keeps_mask || keeps_mask;
-  request.size = picture_size();
-  return make_plan(needs, request);
+Expected<Settings> Session::resolved(const Settings& wanted, const SceneStats& stats, bool keeps_mask) const {
+  return resolve(wanted, stats, {picture_size(), engine_.gl_info()->software, keeps_mask});
 }
 
-// A plan for the settings and lights; where there is none, why.
-bool Session::try_plan(const ViewSettings& settings) {
-  const bool has_tree = model_.scene.shown()->tracer != nullptr;
-  ViewSettings now = settings;
-  if (!has_tree) {  // until it is built
-    now.plan = PlanSource::automatic;
-    now.mode = Mode::raster;
+// Draws by the settings from now on; until there is a tree, by the GPU alone. Where they cannot be, says why.
+bool Session::try_settings(const ViewSettings& settings) {
+  const bool keeps_mask = settings.buffer == BufferView::mask;
+  Expected<Settings> wanted = resolved(wanted_settings(settings), model_.stats, keeps_mask);
+  if (!wanted) {
+    model_.notify(wanted.error().message(), 8.0);
+    return false;
   }
-  const Expected<Plan> plan = plan_for(now, model_.scene.needs(), false);
-  if (plan) {
-    model_.plan = *plan;
-  } else {
-    model_.notify(plan.error().message(), 8.0);
+  want_tree(*wanted);
+  model_.threads = engine_.workers(wanted->threads).count();
+  if (wanted->traces() && !model_.tracer) {
+    Settings raster;
+    apply_preset("mode", "raster", raster);
+    wanted = resolved(raster, model_.stats, false);
   }
-  return plan.has_value();
+  if (wanted->persistent != model_.drawn.persistent) last_ = nullptr;  // its buffers are made anew
+  model_.drawn = *wanted;
+  return true;
+}
+
+// Frames trace in the old tree, where there is one, until the new one is built.
+void Session::want_tree(const Settings& settings) {
+  if (!settings.traces() || !loader_.progress().phase.empty()) return;
+  if (tree_of_ && same_tree(*tree_of_, settings)) return;
+  tree_of_ = settings;
+  loader_.build_tree(model_.scene, settings);
 }
 
 void Session::apply_changes() {
   ViewSettings& wanted = model_.settings;
   wanted = possible(wanted);
   if (wanted.vsync != applied_.vsync) window_.set_vsync(wanted.vsync);
-  if (wanted.exchange != applied_.exchange) painter_.set_exchange(wanted.exchange);
-  if (!model_.scene) {
+  if (!model_.has_scene()) {
     applied_ = wanted;
     return;
   }
-  const bool edited = std::exchange(model_.lights_changed, false);
-  lights_edited_ = lights_edited_ || edited;
-  if (edited || wanted.shadows != applied_.shadows) model_.scene.set_lights(model_.lights, wanted.shadows);
-  if (try_plan(wanted)) {
+  if (std::exchange(model_.lights_changed, false)) {
+    lights_edited_ = true;
+    recount_lights(model_.scene, model_.stats);
+  }
+  if (try_settings(wanted)) {
     applied_ = wanted;
-    applied_lights_ = model_.lights;
+    applied_lights_ = model_.scene.lights;
     return;
   }
   // Back to what could be drawn.
   wanted = applied_;
-  model_.lights = applied_lights_;
-  model_.scene.set_lights(model_.lights, wanted.shadows);
-  (void)try_plan(wanted);
+  model_.scene.lights = applied_lights_;
+  recount_lights(model_.scene, model_.stats);
+  (void)try_settings(wanted);
 }
 
 }  // namespace pinocchio::app

@@ -8,13 +8,19 @@
 #include "app/window/gui.h"
 #include "app/window/model.h"
 #include "app/window/navigation.h"
-#include "app/window/painter.h"
-#include "app/window/view_options.h"
-#include "hybrid/accumulator.h"
-#include "hybrid/inspect_pass.h"
-#include "hybrid/present_pass.h"
+#include "hybrid/gpu/present_pass.h"
+#include "hybrid/include/pinocchio/renderer.h"
+#include "hybrid/inspect/accumulator.h"
 
 namespace pinocchio::app {
+
+// What `view` takes from the command line.
+struct ViewOptions {
+  DrawOptions draw;
+  float exposure_ev = 0.0f;
+  bool watch = false;  // load scene and shaders anew when they change
+  bool vsync = true;
+};
 
 // A scene in a window, from opening to closing: session.cpp takes events and changes, session_draw.cpp draws,
 // session_actions.cpp does what keys and buttons ask.
@@ -34,14 +40,16 @@ class Session {
   void fly_on();
   void take_key(const gl::KeyEvent& event);
   void take_drop(const gl::DropEvent& event);
+  void load();
   void take_news();
-  void take_scene(const SceneLoader::News& news);
+  void take_scene(SceneLoader::News& news);
   void take_file_changes();
   void apply_changes();
-  [[nodiscard]] bool can_draw(const SceneLoader::News& news);
-  [[nodiscard]] Expected<Plan> plan_for(const ViewSettings& settings, const Needs& needs,
-                                        bool keeps_mask) const;
-  [[nodiscard]] bool try_plan(const ViewSettings& settings);
+  [[nodiscard]] bool can_draw(const SceneStats& stats);
+  [[nodiscard]] Expected<Settings> resolved(const Settings& wanted, const SceneStats& stats,
+                                            bool keeps_mask) const;
+  [[nodiscard]] bool try_settings(const ViewSettings& settings);
+  void want_tree(const Settings& settings);
   [[nodiscard]] double patience_s() const;
 
   // session_draw.cpp
@@ -49,11 +57,13 @@ class Session {
   void draw_scene();
   void follow_reference(const FrameRequest& request);
   [[nodiscard]] bool gathers() const;
+  [[nodiscard]] int most_samples() const;
   [[nodiscard]] glm::ivec2 picture_size() const;
+  [[nodiscard]] FrameRequest request() const;
   [[nodiscard]] FrameRequest next_request();
-  void take_painted(const Painted& painted);
-  [[nodiscard]] const gl::Texture& chosen_buffer(const Painted& painted);
-  void compare(const Painted& painted);
+  void take_frame(const Frame& frame);
+  [[nodiscard]] const gl::Texture& chosen_buffer(const Frame& frame);
+  void compare(const Frame& frame);
   void show(const gl::Texture* picture);
   void present(const gl::Texture& picture);
 
@@ -70,17 +80,17 @@ class Session {
 
   gl::Window& window_;
   ViewOptions options_;
-  Workers workers_;
   Model model_;
   Navigation navigation_;
   SceneLoader loader_;
   Gui gui_;
+  Engine engine_;
   std::shared_ptr<Programs> programs_;
   PresentPass present_;
   InspectPass inspect_;
   Accumulator accumulator_;
   std::unique_ptr<Comparison> comparison_;  // null: none is asked for
-  Painter painter_;
+  Renderer renderer_;
   std::optional<FileWatch> shader_watch_, scene_watch_;  // with --watch
 
   const gl::Texture* last_ = nullptr;  // picture shown last
@@ -89,7 +99,7 @@ class Session {
   int sample_ = 0;                     // of the still camera, the next to ask for
   bool shown_ = false;                 // something, this turn
   bool idle_ = false;                  // nothing new was asked for
-  std::optional<Plan> file_plan_;      // of the command line's --plan FILE.json
+  std::optional<Settings> tree_of_;    // by which the scene's tree was built, or is being built
   Camera first_camera_;
   ViewSettings applied_;
   std::vector<Light> applied_lights_;

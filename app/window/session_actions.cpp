@@ -3,12 +3,12 @@
 #include <nlohmann/json.hpp>
 
 #include "app/output.h"
-#include "app/window/session.h"
 #include "app/window/export.h"
+#include "app/window/session.h"
 #include "core/image/atomic_file.h"
 #include "core/image/png.h"
 #include "core/scene/save.h"
-#include "hybrid/renderer.h"
+#include "gl/framebuffer.h"
 
 namespace pinocchio::app {
 namespace {
@@ -30,7 +30,7 @@ void Session::perform(Action action) {
       case Action::reset_camera:
         return model_.camera.set_camera(first_camera_);
       case Action::next_buffer:
-        return next_buffer(model_.settings, model_.scene ? model_.scene.needs().casting_lights : 0);
+        return next_buffer(model_.settings, model_.stats.casting_lights);
       case Action::screenshot:
         return take_screenshot();
       case Action::save_camera:
@@ -42,7 +42,8 @@ void Session::perform(Action action) {
       case Action::close:
         return window_.ask_close();
       default:
-        return change_setting(action, model_.settings);
+        if (const Rule* const rule = change_setting(action, model_.settings))
+          model_.notify(InputError{{}, 0, std::string(rule->what), std::string(rule->remedy)}.message(), 8.0);
     }
   } catch (const std::exception& error) {  // a file that cannot be written
     model_.notify(error.what(), 8.0);
@@ -50,8 +51,8 @@ void Session::perform(Action action) {
 }
 
 void Session::show_camera(std::size_t number) {
-  if (!model_.scene) return;
-  const std::vector<Camera>& cameras = model_.scene.shown()->scene.cameras;
+  if (!model_.has_scene()) return;
+  const std::vector<Camera>& cameras = model_.scene.cameras;
   if (number < cameras.size()) {
     model_.camera.set_camera(cameras[number]);
     model_.notify("camera " + cameras[number].name);
@@ -74,7 +75,7 @@ void Session::catch_up() {
 }
 
 void Session::take_screenshot() {
-  if (!model_.scene) return;
+  if (!model_.has_scene()) return;
   catch_up();
   const std::string name = file_name({".png", ".exr"});
   write_frame_exr(name + ".exr");
@@ -82,22 +83,24 @@ void Session::take_screenshot() {
 }
 
 void Session::write_frame_exr(const std::string& file) {
-  painter_.drain();
+  renderer_.drain();
   const double begin_s = now_s();
-  const Plan plan = plan_for(applied_, model_.scene.needs(), true).value_or(model_.plan);
-  Picture picture;
-  Renderer renderer(model_.scene.shown(), plan, workers_, {},
-                    {[&](Picture&& p) { picture = std::move(p); }, [](const FrameRecord&) {}});
-  const glm::ivec2 size = picture_size();
-  const View view{model_.camera.camera(), size, {{0, 0}, size}};
-  renderer.submit(view);
+  FrameRequest one = request();
+  if (model_.tracer)
+    one.settings = resolved(wanted_settings(applied_), model_.stats, true).value_or(model_.drawn);
+  FrameResult picture;
+  Renderer renderer(engine_, {[&](const Frame& frame) { picture = frame.read(); }, {}});
+  renderer.submit(one);
   renderer.drain();
   // The layers are of one sample, the picture of all that were gathered.
-  if (gathers() && accumulator_.samples() > 1 && accumulator_.average().size() == size)
+  picture.settings.spp = 1;
+  if (gathers() && accumulator_.samples() > 1 && accumulator_.average().size() == one.view.size) {
     accumulator_.read_average(picture.color);
+    picture.settings.spp = accumulator_.samples();
+  }
   OutputOptions output;
   output.exr = file;
-  write_outputs(output, 0, *model_.scene.shown(), view, picture, workers_, now_s() - begin_s);
+  write_outputs(output, 0, one, picture, engine_.workers(one.settings.threads), now_s() - begin_s);
 }
 
 // What the window shows, to the pixel.
@@ -126,19 +129,19 @@ void Session::save_camera() {
 }
 
 void Session::print_command() {
-  if (!model_.scene) return;
+  if (!model_.has_scene()) return;
   catch_up();
   const std::string name = file_name({".png", ".exr", ".gltf"});
-  const bool relit = lights_edited_ || !applied_.shadows;
-  std::string file = model_.scene.shown()->scene.source;
-  if (relit) {  // the lights are in no file yet
+  std::string file = model_.scene.source;
+  if (lights_edited_) {  // they are in no file yet
     file = name + ".gltf";
-    save_scene(model_.scene.shown()->scene, file);
+    save_scene(model_.scene, file);
   }
-  const std::vector<Light> lights = relit ? std::vector<Light>() : extra_lights(model_.lights, options_.draw);
-  const std::string command = render_command({file, options_.draw, applied_, model_.camera.camera(), lights,
-                                              picture_size(), gathers() ? std::max(model_.samples, 1) : 1},
-                                             name);
+  const std::string command = render_command(
+      {file, wanted_settings(applied_), model_.camera.camera(),
+       lights_edited_ ? std::vector<Light>() : extra_lights(model_.scene.lights, options_.draw),
+       picture_size(), gathers() ? std::max(model_.samples, 1) : 1, applied_.exposure_ev},
+      name);
   std::printf("%s\n", command.c_str());
   std::fflush(stdout);
   window_.set_clipboard(command);

@@ -3,18 +3,19 @@
 #include "app/console.h"
 #include "app/window/overlay.h"
 #include "app/window/session.h"
+#include "core/trace/jitter.h"
 #include "gl/error.h"
-#include "hybrid/jitter.h"
+#include "hybrid/frame_slot.h"
 
 namespace pinocchio::app {
 namespace {
 
-constexpr int kMostSamples = 256;  // of a still camera: beyond, no display shows a difference
+constexpr int kUsualSamples = 256;  // of a still camera: beyond, no display shows a difference
 
 // Apart from where it is sampled.
 bool same_view(const FrameRequest& a, const FrameRequest& b) {
   FrameRequest moved = a;
-  moved.jitter = b.jitter;
+  moved.view.jitter = b.view.jitter;
   return moved == b;
 }
 
@@ -30,18 +31,27 @@ bool Session::gathers() const {
   return applied_.accumulate && applied_.buffer == BufferView::picture && applied_.split == Split::off;
 }
 
-FrameRequest Session::next_request() {
-  const glm::ivec2 size = picture_size();
-  FrameRequest request{model_.scene.shown(), model_.plan,    model_.camera.camera(), size,
-                       {{0, 0}, size},       glm::vec2(0.0f)};
-  if (!asked_ || !same_view(*asked_, request)) sample_ = 0;
-  if (gathers()) request.jitter = jitter_of(std::min(sample_, kMostSamples - 1));
+int Session::most_samples() const {
+  return applied_.settings.spp.given ? applied_.settings.spp.value : kUsualSamples;
+}
+
+// Of pixels' centres.
+FrameRequest Session::request() const {
+  FrameRequest request{model_.scene, model_.tracer, model_.drawn, {model_.camera.camera(), picture_size()}};
+  drop_idle_casters(request.scene);  // as frames have it
   return request;
+}
+
+FrameRequest Session::next_request() {
+  FrameRequest next = request();
+  if (!asked_ || !same_view(*asked_, next)) sample_ = 0;
+  if (gathers()) next.view.jitter = jitter_of(std::min(sample_, most_samples() - 1));
+  return next;
 }
 
 void Session::draw() {
   shown_ = false;
-  if (model_.scene) {
+  if (model_.has_scene()) {
     try {
       draw_scene();
       model_.errors.erase("drawing");
@@ -59,12 +69,12 @@ void Session::draw() {
 
 void Session::draw_scene() {
   const FrameRequest request = next_request();
-  model_.picture_size = request.size;
+  model_.picture_size = request.view.size;
   idle_ = asked_ == request;
   follow_reference(request);
-  if (idle_ && gathers()) {
-    painter_.drain();  // the last samples
-  } else if (painter_.draw(request)) {
+  if (idle_ && gathers() && !renderer_.is_drawing_alone()) {
+    renderer_.drain();  // the last samples
+  } else if (renderer_.try_submit(request)) {
     asked_ = request;
     ++sample_;
   }
@@ -75,49 +85,38 @@ void Session::follow_reference(const FrameRequest& request) {
   model_.comparison.clear();
   if (applied_.split == Split::off) return comparison_.reset();
   if (!comparison_) comparison_ = std::make_unique<Comparison>();
-  comparison_->follow(
-      {request.scene, request.camera, request.size, request.part, request.jitter, applied_.depth});
+  comparison_->follow({request.scene, request.view, applied_.settings.depth});
   model_.comparison = comparison_->text();
-  const std::optional<Painter::Raytraced>& raytraced = painter_.last_raytraced();
-  if (comparison_->wants_picture() && raytraced && raytraced->request == request)
-    comparison_->compare(raytraced->picture.color);
 }
 
-void Session::take_painted(const Painted& painted) {
-  if (comparison_) compare(painted);
-  const StageTimer timer(painted.record, Stage::present);
-  last_ = &chosen_buffer(painted);
+void Session::take_frame(const Frame& frame) {
+  if (comparison_) compare(frame);
+  const StageTimer timer(frame.record(), Stage::present);
+  last_ = &chosen_buffer(frame);
   show(last_);
 }
 
 // What of the frame is looked at.
-const gl::Texture& Session::chosen_buffer(const Painted& painted) {
-  const FrameRequest& request = painted.request;
+const gl::Texture& Session::chosen_buffer(const Frame& frame) {
   const BufferView buffer = applied_.buffer;
   model_.samples = 1;
   model_.legend.clear();
   last_is_light_ = buffer == BufferView::picture || buffer == BufferView::reflection;
   if (buffer != BufferView::picture) {
-    model_.legend = legend(buffer, applied_.mask_slot, request, painted.record);
-    return (painted.flight ? inspect_.draw(*painted.flight, buffer, applied_.mask_slot)
-                           : inspect_.draw(request, *painted.raytraced, buffer, applied_.mask_slot))
-        .color();
+    model_.legend = legend(buffer, applied_.mask_slot, frame);
+    return inspect_.draw(frame, buffer, applied_.mask_slot);
   }
-  if (!gathers() || request.camera != model_.camera.camera()) return painted.picture;
-  if (painted.flight) {
-    accumulator_.add(*painted.flight);
-  } else {
-    accumulator_.add(request, painted.picture);
-  }
-  if (accumulator_.samples() == 0) return painted.picture;
+  if (!gathers() || frame.request().view.camera != model_.camera.camera()) return frame.texture();
+  accumulator_.add(frame);
+  if (accumulator_.samples() == 0) return frame.texture();
   model_.samples = accumulator_.samples();
   return accumulator_.average().color();
 }
 
-void Session::compare(const Painted& painted) {
-  if (!painted.flight || !comparison_->wants_picture() || !asked_ || painted.request != *asked_) return;
+void Session::compare(const Frame& frame) {
+  if (!comparison_->wants_picture() || !asked_ || frame.request() != *asked_) return;
   Image<glm::vec4> picture;
-  FrameLoop::read_picture(*painted.flight, picture);
+  frame.read_color(picture);
   comparison_->compare(std::move(picture));
 }
 

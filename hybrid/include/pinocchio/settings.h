@@ -154,5 +154,7 @@ struct Rule {
 
 // How a tracer's tree is built.
 [[nodiscard]] BuildOptions build_options(const Settings& settings);
+// Whether the tracer that Engine::prepare makes for the one is the other's.
+[[nodiscard]] bool same_tree(const Settings& a, const Settings& b);
 
 }  // namespace pinocchio
