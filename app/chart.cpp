@@ -120,6 +120,8 @@ class ChartRun {
       cameras.push_back(
           {{"eye", list(c.eye)}, {"target", list(c.target)}, {"up", list(c.up)}, {"fov", c.fov_deg}});
     }
+    nlohmann::json axes = nlohmann::json::array();
+    for (const AxisName& axis : axis_names()) axes.push_back({axis.name, axis.title});
     const BenchSettings bench = bench_settings();
     const SystemInfo system = system_info();
     const Scene& scene = machine.scene().scene;
@@ -130,6 +132,7 @@ class ChartRun {
               {"checksum", checksum_of(scene)}}},
             {"size", {options_.draw.size.x, options_.draw.size.y}},
             {"cameras", cameras},
+            {"axes", axes},
             {"rounds", bench.rounds},
             {"clock", options_.clock},
             {"error_frames", bench.error_frames},

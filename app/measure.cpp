@@ -15,6 +15,7 @@
 #include "app/stats.h"
 #include "app/verbs.h"
 #include "core/image/atomic_file.h"
+#include "core/parallel/workers.h"
 #include "core/base/clock.h"
 #include "gl/context.h"
 #include "hybrid/exchange/channels.h"

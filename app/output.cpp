@@ -7,7 +7,7 @@
 #include "core/image/atomic_file.h"
 #include "core/image/png.h"
 #include "core/output/frame_exr.h"
-#include "core/trace/view.h"
+#include "core/trace/view_params.h"
 #include "hybrid/settings/json.h"
 
 namespace pinocchio::app {

@@ -6,6 +6,7 @@
 #include <optional>
 #include <string>
 
+#include "core/parallel/workers.h"
 #include "core/scene/scene.h"
 #include "hybrid/include/pinocchio/renderer.h"
 

@@ -3,6 +3,7 @@
 #include <nlohmann/json_fwd.hpp>
 #include <vector>
 
+#include "core/scene/scene.h"
 #include "core/trace/tracer.h"
 #include "gl/context.h"
 #include "hybrid/include/pinocchio/frame.h"

@@ -51,7 +51,7 @@ Run add_view(CLI::App& program) {
   add_settings_options(verb, options->draw);
   verb.add_option("--exposure", options->exposure_ev, "stops brighter (0)")
       ->check(CLI::Range(-kMostExposure, kMostExposure));
-  verb.add_flag("--watch", options->watch, "load the scene and the shaders anew when their files change");
+  verb.add_flag("--watch", options->watch, "load the scene anew when its files change, and the shaders in PINOCCHIO_SHADERS");
   verb.add_flag("!--no-vsync", options->vsync, "do not wait for the display between frames");
   return [options] { return view(*options); };
 }

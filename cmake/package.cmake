@@ -1,19 +1,41 @@
-# cpack -G TGZ: an archive that runs where it is unpacked, on any x86-64 Linux as new as the one that built
-# it: program, shaders, scenes, and the libraries it needs beside it, except libc and OpenGL.
-install(TARGETS pinocchio RUNTIME_DEPENDENCY_SET pinocchio_libraries DESTINATION bin)
+# What `cmake --install` puts into a prefix, by component: `library` (headers, archives, PinocchioConfig.cmake),
+# `program` (with scenes and docs). The libraries of the system that the program needs (`bundled`) go into the
+# archive of `cpack -G TGZ` alone, which runs where it is unpacked, on any x86-64 Linux as new as the one that
+# built it; libc and OpenGL stay outside.
+include(GNUInstallDirs)
+include(CMakePackageConfigHelpers)
+
+set(config_folder ${CMAKE_INSTALL_LIBDIR}/cmake/Pinocchio)
+install(TARGETS pinocchio_core EXPORT PinocchioCoreTargets COMPONENT library)
+install(EXPORT PinocchioCoreTargets NAMESPACE Pinocchio:: DESTINATION ${config_folder} COMPONENT library)
+install(TARGETS pinocchio_glad pinocchio_gl pinocchio_hybrid EXPORT PinocchioTargets COMPONENT library)
+install(EXPORT PinocchioTargets NAMESPACE Pinocchio:: DESTINATION ${config_folder} COMPONENT library)
+configure_package_config_file(cmake/PinocchioConfig.cmake.in ${PROJECT_BINARY_DIR}/PinocchioConfig.cmake
+                              INSTALL_DESTINATION ${config_folder})
+write_basic_package_version_file(${PROJECT_BINARY_DIR}/PinocchioConfigVersion.cmake COMPATIBILITY SameMinorVersion)
+install(FILES ${PROJECT_BINARY_DIR}/PinocchioConfig.cmake ${PROJECT_BINARY_DIR}/PinocchioConfigVersion.cmake
+        DESTINATION ${config_folder} COMPONENT library)
+
+install(TARGETS pinocchio RUNTIME_DEPENDENCY_SET pinocchio_libraries DESTINATION bin COMPONENT program)
+install(DIRECTORY scenes DESTINATION share/pinocchio COMPONENT program PATTERN generator EXCLUDE)
+install(FILES bench/chart/charts.py bench/chart/plot.py DESTINATION share/pinocchio/chart COMPONENT program)
+install(FILES README.md LICENSE CHANGELOG.md CONTRIBUTING.md DESTINATION share/doc/pinocchio COMPONENT program)
+install(DIRECTORY docs DESTINATION share/doc/pinocchio COMPONENT program)
+
 install(RUNTIME_DEPENDENCY_SET pinocchio_libraries
         PRE_EXCLUDE_REGEXES "^ld-linux" "^lib(c|m|dl|rt|pthread)\\.so" "^lib(GL|EGL|OpenGL|GLX|OSMesa)"
-        DESTINATION lib)
-install(DIRECTORY shaders scenes DESTINATION share/pinocchio PATTERN generator EXCLUDE)
-install(FILES bench/chart/charts.py bench/chart/plot.py DESTINATION share/pinocchio/chart)
-install(FILES README.md LICENSE CHANGELOG.md DESTINATION share/doc/pinocchio)
-# What is installed finds its libraries beside it, and they each other.
+        LIBRARY DESTINATION lib COMPONENT bundled EXCLUDE_FROM_ALL)
+# The program finds bundled libraries beside it, and they each other.
 set_target_properties(pinocchio PROPERTIES INSTALL_RPATH "$ORIGIN/../lib")
 # RPATH, not RUNPATH: it also holds for libraries of libraries.
 target_link_options(pinocchio PRIVATE -Wl,--disable-new-dtags)
 
 set(CPACK_GENERATOR TGZ)
 set(CPACK_PACKAGE_FILE_NAME pinocchio-${PROJECT_VERSION}-linux-x86_64)
+set(CPACK_ARCHIVE_COMPONENT_INSTALL ON)
+set(CPACK_COMPONENTS_ALL program bundled)
+set(CPACK_COMPONENTS_GROUPING ALL_COMPONENTS_IN_ONE)
+set(CPACK_COMPONENT_INCLUDE_TOPLEVEL_DIRECTORY ON)
 set(CPACK_VERBATIM_VARIABLES ON)
 set(CPACK_STRIP_FILES ON)
 include(CPack)

@@ -1,6 +1,10 @@
 # pinocchio_settings: what every target of ours is compiled with. Linked PRIVATE, so nothing leaks to
 # a consumer and no global flag is set.
+find_package(Boost REQUIRED)
+find_package(nlohmann_json REQUIRED)
 add_library(pinocchio_settings INTERFACE)
+# Headers alone: who links our archives needs neither.
+target_link_libraries(pinocchio_settings INTERFACE Boost::headers nlohmann_json::nlohmann_json)
 target_compile_features(pinocchio_settings INTERFACE cxx_std_20)
 target_include_directories(pinocchio_settings INTERFACE ${PROJECT_SOURCE_DIR})
 # No silent contraction: a*b+c is two roundings on every machine, or the picture would depend on

@@ -1,7 +1,6 @@
 #include "gl/program.h"
 
 #include "gl/error.h"
-#include "gl/shader_source.h"
 
 namespace pinocchio::gl {
 namespace {
@@ -23,11 +22,11 @@ std::string read_log(GLint length, GetLog get) {
   return log.substr(0, log.find('\0'));
 }
 
-Shader compile(GLenum stage, const std::filesystem::path& folder, const std::string& file,
+Shader compile(GLenum stage, const ShaderSource& source, const std::string& file,
                const std::vector<std::string>& definitions) {
-  const ShaderSource source = load_shader_source(folder, file, definitions);
+  const AssembledShader assembled = assemble_shader(source, file, definitions);
   Shader shader(glCreateShader(stage));
-  const char* text = source.text.c_str();
+  const char* text = assembled.text.c_str();
   glShaderSource(shader.name(), 1, &text, nullptr);
   glCompileShader(shader.name());
   GLint compiled = 0, length = 0;
@@ -36,15 +35,15 @@ Shader compile(GLenum stage, const std::filesystem::path& folder, const std::str
   glGetShaderiv(shader.name(), GL_INFO_LOG_LENGTH, &length);
   const std::string log =
       read_log(length, [&](GLsizei n, char* to) { glGetShaderInfoLog(shader.name(), n, nullptr, to); });
-  throw Error("shader does not compile: " + first_line(name_files(log, source.files)));
+  throw Error("shader does not compile: " + first_line(name_files(log, assembled.files)));
 }
 
 }  // namespace
 
-Program::Program(const std::filesystem::path& folder, const std::string& vertex_file,
-                 const std::string& fragment_file, const std::vector<std::string>& definitions) {
-  const Shader vertex = compile(GL_VERTEX_SHADER, folder, vertex_file, definitions);
-  const Shader fragment = compile(GL_FRAGMENT_SHADER, folder, fragment_file, definitions);
+Program::Program(const ShaderSource& source, const std::string& vertex_file, const std::string& fragment_file,
+                 const std::vector<std::string>& definitions) {
+  const Shader vertex = compile(GL_VERTEX_SHADER, source, vertex_file, definitions);
+  const Shader fragment = compile(GL_FRAGMENT_SHADER, source, fragment_file, definitions);
   handle_ = Handle<DeleteProgram>(glCreateProgram());
   const GLuint name = handle_.name();
   glAttachShader(name, vertex.name());
@@ -56,7 +55,7 @@ Program::Program(const std::filesystem::path& folder, const std::string& vertex_
   glGetProgramiv(name, GL_INFO_LOG_LENGTH, &length);
   const std::string log =
       read_log(length, [&](GLsizei n, char* to) { glGetProgramInfoLog(name, n, nullptr, to); });
-  throw Error((folder / vertex_file).string() + " and " + fragment_file + " do not link: " + first_line(log));
+  throw Error(source.path(vertex_file) + " and " + fragment_file + " do not link: " + first_line(log));
 }
 
 void Program::set(const char* sampler, int unit, const Texture& texture) const {

@@ -1,11 +1,11 @@
 #pragma once
 
-#include <filesystem>
 #include <glm/glm.hpp>
 #include <string>
 #include <unordered_map>
 #include <vector>
 
+#include "gl/shader_source.h"
 #include "gl/texture.h"
 
 namespace pinocchio::gl {
@@ -18,10 +18,10 @@ struct DeleteProgram {
 class Program {
  public:
   Program() = default;
-  // Files are in `folder`; each definition ("NAME" or "NAME VALUE") is #defined in both. Throws Error
-  // with file, line and the compiler's message.
-  Program(const std::filesystem::path& folder, const std::string& vertex_file,
-          const std::string& fragment_file, const std::vector<std::string>& definitions = {});
+  // Each definition ("NAME" or "NAME VALUE") is #defined in both files. Throws Error with file, line and
+  // the compiler's message.
+  Program(const ShaderSource& source, const std::string& vertex_file, const std::string& fragment_file,
+          const std::vector<std::string>& definitions = {});
 
   void use() const { glUseProgram(handle_.name()); }
 

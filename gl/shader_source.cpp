@@ -1,7 +1,10 @@
 #include "gl/shader_source.h"
 
+#include <algorithm>
 #include <fstream>
+#include <iterator>
 #include <regex>
+#include <sstream>
 
 #include "gl/error.h"
 
@@ -12,17 +15,18 @@ constexpr std::size_t kDeepestInclude = 8;
 
 class Assembler {
  public:
-  Assembler(const std::filesystem::path& folder, const std::vector<std::string>& definitions)
-      : folder_(folder), definitions_(definitions) {}
+  Assembler(const ShaderSource& source, const std::vector<std::string>& definitions)
+      : source_(source), definitions_(definitions) {}
 
   void add(const std::string& file, std::size_t depth) {
-    std::ifstream in(folder_ / file);
-    if (!in) throw Error((folder_ / file).string() + ": cannot be read; is the installation complete?");
-    if (depth > kDeepestInclude) throw Error((folder_ / file).string() + ": includes itself");
-    const std::size_t number = source.files.size();
-    source.files.push_back((folder_ / file).string());
+    const std::optional<std::string> text = source_.read(file);
+    if (!text) throw Error(source_.path(file) + ": cannot be read");
+    if (depth > kDeepestInclude) throw Error(source_.path(file) + ": includes itself");
+    const std::size_t number = shader.files.size();
+    shader.files.push_back(source_.path(file));
     if (number > 0) mark(1, number);
 
+    std::istringstream in(*text);
     std::string line;
     for (int n = 1; std::getline(in, line); ++n) {
       constexpr std::string_view kInclude = "#include \"";
@@ -30,33 +34,47 @@ class Assembler {
         add(line.substr(kInclude.size(), line.rfind('"') - kInclude.size()), depth + 1);
         mark(n + 1, number);
       } else {
-        source.text += line + "\n";
+        shader.text += line + "\n";
         if (line.rfind("#version", 0) == 0) {
-          for (const std::string& definition : definitions_) source.text += "#define " + definition + "\n";
+          for (const std::string& definition : definitions_) shader.text += "#define " + definition + "\n";
           mark(n + 1, number);
         }
       }
     }
   }
 
-  ShaderSource source;
+  AssembledShader shader;
 
  private:
   void mark(int line, std::size_t file) {
-    source.text += "#line " + std::to_string(line) + " " + std::to_string(file) + "\n";
+    shader.text += "#line " + std::to_string(line) + " " + std::to_string(file) + "\n";
   }
 
-  const std::filesystem::path& folder_;
+  const ShaderSource& source_;
   const std::vector<std::string>& definitions_;
 };
 
 }  // namespace
 
-ShaderSource load_shader_source(const std::filesystem::path& folder, const std::string& file,
+std::optional<std::string> ShaderSource::read(const std::string& name) const {
+  if (folder_.empty()) {
+    const auto found = std::ranges::find(built_in_, name, &BuiltInShader::name);
+    return found != built_in_.end() ? std::optional<std::string>(found->text) : std::nullopt;
+  }
+  std::ifstream in(folder_ / name);
+  if (!in) return std::nullopt;
+  return std::string(std::istreambuf_iterator<char>(in), {});
+}
+
+std::string ShaderSource::path(const std::string& name) const {
+  return ((folder_.empty() ? "shaders" : folder_) / name).string();
+}
+
+AssembledShader assemble_shader(const ShaderSource& source, const std::string& file,
                                 const std::vector<std::string>& definitions) {
-  Assembler assembler(folder, definitions);
+  Assembler assembler(source, definitions);
   assembler.add(file, 0);
-  return std::move(assembler.source);
+  return std::move(assembler.shader);
 }
 
 std::string name_files(const std::string& log, const std::vector<std::string>& files) {

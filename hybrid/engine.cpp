@@ -7,7 +7,7 @@
 #include "hybrid/engine_parts.h"
 #include "hybrid/samples.h"
 #include "hybrid/settings/resolve.h"
-#include "hybrid/shader_folder.h"
+#include "hybrid/shaders.h"
 
 namespace pinocchio {
 
@@ -43,7 +43,7 @@ GpuPasses& Engine::Parts::gpu() {
               : gl::open_context({options.backend, options.device, options.gl_debug});
     context = own.get();
   }
-  passes = std::make_unique<GpuPasses>(std::make_shared<Programs>(shader_folder()));
+  passes = std::make_unique<GpuPasses>(std::make_shared<Programs>(shader_source()));
   return *passes;
 }
 

@@ -9,7 +9,7 @@
 #include "core/base/clock.h"
 #include "core/scene/scene.h"
 #include "core/trace/tracer.h"
-#include "core/trace/view.h"
+#include "core/trace/view_params.h"
 #include "gl/timer.h"
 #include "gl/transfer.h"
 #include "hybrid/exchange/channels.h"

@@ -8,24 +8,27 @@
 namespace pinocchio::app {
 namespace {
 
-// A row of buttons of which one is chosen.
-template <class Value>
-void choose(const char* name, const std::vector<const char*>& values, Value& chosen) {
+// A row of buttons of which one is chosen; the one that is clicked, or -1.
+int choose(const char* name, const std::vector<Choice>& choices, std::size_t chosen) {
   ImGui::AlignTextToFramePadding();
   ImGui::TextUnformatted(name);
   const float indent = ImGui::CalcTextSize("resolution  ").x;
   const float gap = 2.0f;
   const float room = ImGui::GetContentRegionAvail().x - indent;
-  const float width = (room + gap) / static_cast<float>(values.size()) - gap;
+  const float width = (room + gap) / static_cast<float>(choices.size()) - gap;
+  int clicked = -1;
   ImGui::PushID(name);
-  for (std::size_t i = 0; i < values.size(); ++i) {
+  for (std::size_t i = 0; i < choices.size(); ++i) {
     ImGui::SameLine(i == 0 ? indent + ImGui::GetStyle().WindowPadding.x : 0.0f, i == 0 ? -1.0f : gap);
-    const bool is_chosen = static_cast<std::size_t>(chosen) == i;
-    if (is_chosen) ImGui::PushStyleColor(ImGuiCol_Button, ImGui::GetStyle().Colors[ImGuiCol_ButtonActive]);
-    if (ImGui::Button(values[i], ImVec2(width, 0.0f))) chosen = static_cast<Value>(i);
-    if (is_chosen) ImGui::PopStyleColor();
+    if (i == chosen) ImGui::PushStyleColor(ImGuiCol_Button, ImGui::GetStyle().Colors[ImGuiCol_ButtonActive]);
+    ImGui::BeginDisabled(!choices[i].allowed);
+    if (ImGui::Button(std::string(choices[i].text).c_str(), ImVec2(width, 0.0f))) clicked = static_cast<int>(i);
+    ImGui::EndDisabled();
+    tooltip(choices[i].tip);
+    if (i == chosen) ImGui::PopStyleColor();
   }
   ImGui::PopID();
+  return clicked;
 }
 
 // A name at the left, in one column with choose(); the control that follows takes the rest.
@@ -36,15 +39,31 @@ void label(const char* name) {
   ImGui::SetNextItemWidth(-1.0f);
 }
 
-void draw_plan_controls(ViewSettings& s) {
-  std::vector<const char*> plans{"auto", "slides"};
-  if (s.has_plan_file) plans.push_back("file");
-  choose("plan", plans, s.plan);
-  if (s.plan == PlanSource::file) return;  // it says the rest
-  choose("mode", {"hybrid", "raytrace", "raster"}, s.mode);
-  int design = s.design - 1;
-  choose("design", {"1: on the GPU", "2: on the CPU"}, design);
-  s.design = design + 1;
+// The rule, if one is broken, else the help.
+Choice choice(std::string_view text, std::string_view help, const Rule* broken) {
+  if (!broken) return {text, std::string(help)};
+  return {text, std::string(broken->what) + "; " + std::string(broken->remedy), false};
+}
+
+void draw_preset(const char* option, ViewSettings& s) {
+  std::vector<Choice> choices;
+  std::size_t chosen = 0;
+  for (const Preset& preset : presets()) {
+    if (preset.option != option) continue;
+    ViewSettings changed = s;
+    choose_preset(option, preset.value, changed);
+    if (preset.value == preset_of(option, s)) chosen = choices.size();
+    choices.push_back(choice(preset.value, preset.help, broken_rule(wanted_settings(changed))));
+  }
+  if (const int clicked = choose(option, choices, chosen); clicked >= 0)
+    choose_preset(option, choices[static_cast<std::size_t>(clicked)].text, s);
+}
+
+void draw_exchange(ViewSettings& s) {
+  const Field& field = *find_field("exchange");
+  const Exchange now = wanted_settings(s).exchange;
+  if (const int clicked = choose("exchange", choices_of(field, s), static_cast<std::size_t>(now)); clicked >= 0)
+    s.settings.exchange = static_cast<Exchange>(clicked);
 }
 
 void draw_quality_controls(ViewSettings& s) {
@@ -52,7 +71,9 @@ void draw_quality_controls(ViewSettings& s) {
   ImGui::SameLine();
   ImGui::Checkbox("reflections", &s.reflections);
   label("depth");
-  ImGui::SliderInt("##depth", &s.depth, 0, 16, s.depth == 1 ? "%d bounce" : "%d bounces");
+  int depth = s.settings.depth;
+  if (ImGui::SliderInt("##depth", &depth, 0, 16, depth == 1 ? "%d bounce" : "%d bounces"))
+    s.settings.depth = depth;
   label("exposure");
   ImGui::SliderFloat("##exposure", &s.exposure_ev, -8.0f, 8.0f, "%+.1f stops");
   label("resolution");
@@ -66,7 +87,7 @@ void draw_looking(Model& model) {
   ViewSettings& s = model.settings;
   label("look at");
   const std::string chosen(kBufferViewNames[static_cast<std::size_t>(s.buffer)]);
-  const int slots = model.scene ? model.scene.needs().casting_lights : 0;
+  const int slots = model.stats.casting_lights;
   const bool is_mask = s.buffer == BufferView::mask;
   if (ImGui::BeginCombo("##buffer",
                         is_mask ? (chosen + " " + std::to_string(s.mask_slot)).c_str() : chosen.c_str())) {
@@ -83,7 +104,9 @@ void draw_looking(Model& model) {
     }
     ImGui::EndCombo();
   }
-  choose("beside", {"off", "precise", "heat map"}, s.split);
+  const std::vector<Choice> sides{{"off"}, {"precise"}, {"heat map"}};
+  if (const int clicked = choose("beside", sides, static_cast<std::size_t>(s.split)); clicked >= 0)
+    s.split = static_cast<Split>(clicked);
 }
 
 void draw_camera(Model& model) {
@@ -115,14 +138,32 @@ void draw_about(const Model& model) {
 
 }  // namespace
 
+void tooltip(const std::string& text) {
+  if (text.empty() || !ImGui::IsItemHovered(ImGuiHoveredFlags_AllowWhenDisabled)) return;
+  ImGui::BeginTooltip();
+  ImGui::PushTextWrapPos(26.0f * ImGui::GetFontSize());
+  ImGui::TextUnformatted(text.c_str());
+  ImGui::PopTextWrapPos();
+  ImGui::EndTooltip();
+}
+
+std::vector<Choice> choices_of(const Field& field, const ViewSettings& settings) {
+  const Settings wanted = wanted_settings(settings);
+  std::vector<Choice> choices;
+  for (const std::string_view value : field.choices)
+    choices.push_back(choice(value, field.help, broken_by(wanted, field.name, value)));
+  return choices;
+}
+
 void draw_controls(Model& model, float) {
-  draw_plan_controls(model.settings);
-  choose("exchange", {"sync", "pipelined", "reproject"}, model.settings.exchange);
+  for (const char* const option : {"plan", "mode", "design"}) draw_preset(option, model.settings);
+  draw_exchange(model.settings);
   ImGui::Separator();
   draw_quality_controls(model.settings);
+  if (ImGui::CollapsingHeader("All settings")) draw_all_settings(model);
   ImGui::Separator();
   draw_looking(model);
-  if (model.scene && ImGui::CollapsingHeader("Lights", ImGuiTreeNodeFlags_DefaultOpen))
+  if (model.has_scene() && ImGui::CollapsingHeader("Lights", ImGuiTreeNodeFlags_DefaultOpen))
     draw_light_controls(model);
   if (ImGui::CollapsingHeader("Camera", ImGuiTreeNodeFlags_DefaultOpen)) draw_camera(model);
   ImGui::Separator();

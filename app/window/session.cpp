@@ -41,7 +41,7 @@ Session::Session(gl::Window& window, const ViewOptions& options)
   model_.settings = applied_;
   model_.renderer = engine_.gl_info()->renderer;
   window_.set_vsync(applied_.vsync);
-  if (options_.watch) shader_watch_.emplace(programs_->folder());
+  if (options_.watch && !programs_->folder().empty()) shader_watch_.emplace(programs_->folder());
   load();
 }
 
@@ -162,7 +162,7 @@ void Session::take_scene(SceneLoader::News& news) {
 
 void Session::take_file_changes() {
   if (scene_watch_ && scene_watch_->changed(now_s())) load();
-  if (!shader_watch_->changed(now_s())) return;
+  if (!shader_watch_ || !shader_watch_->changed(now_s())) return;
   if (const Expected<void> reloaded = programs_->reload()) {
     model_.errors.erase("shaders");
     model_.notify("the shaders were loaded anew");

@@ -22,13 +22,7 @@ plt.rcParams.update({
 
 CLOCKS = {"frame": "frame time", "cpu": "processor time a frame"}
 METRICS = {"flip": "mean FLIP", "rmse": "RMSE", "relmse": "relative MSE"}
-AXES = {
-    "design": "design and mode", "exchange": "exchange", "primary": "who finds what is seen",
-    "reflection-format": "reflection, format", "reflection-scale": "reflection, resolution",
-    "mask-scale": "shadow mask, resolution", "tiles": "tiles that are sent",
-    "depth": "most bounces", "cutoff": "contribution cut-off", "tree": "tree builder",
-    "triangle-test": "triangle test", "offset": "ray offset", "simd": "SIMD width", "threads": "threads",
-    "spp": "samples a pixel", "combined": "combinations"}
+AXES = {}  # names and titles, in their order: results.json has them
 COLOURS = ["#3b6fb6", "#d1495b", "#2a9d8f", "#e09f3e", "#7d5ba6", "#5c946e", "#b56576", "#4d908e",
            "#c9713a", "#6c757d", "#8d99ae", "#a26769", "#577590", "#9a8c98", "#386641", "#111111"]
 MARKERS = "osD^vPX<>phd8H*P"
@@ -217,8 +211,10 @@ def ratio(point):
     return point["ratio"]
 
 
-def draw_charts(folder, points, clock):
+def draw_charts(folder, points, run):
     """The charts' files with their titles, in the page's order."""
+    AXES.update(run["axes"])
+    clock = CLOCKS[run["clock"]]
     charts = []
     exchanged = [p for p in points if bytes_moved(p) > 0]
     if charted(points):

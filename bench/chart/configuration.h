@@ -6,7 +6,7 @@
 #include <optional>
 #include <string>
 
-#include "core/bsp/build.h"
+#include "core/bsp/build_options.h"
 #include "core/trace/tracer.h"
 #include "hybrid/frame.h"
 #include "hybrid/plan.h"

@@ -78,7 +78,7 @@ def thumbnails(points):
 
 def page(folder, results):
     run, points = results["run"], results["points"]
-    charts, panels = draw_charts(folder, points, CLOCKS[run["clock"]])
+    charts, panels = draw_charts(folder, points, run)
     title = f"{html.escape(run['scene']['name'])}: error against time"
     reference = ("<img src='pictures/reference-centre.png' alt='reference'>"
                  if (folder / "pictures/reference-centre.png").exists() else "")

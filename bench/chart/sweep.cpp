@@ -240,22 +240,22 @@ struct Axis {
   std::string_view reference = "centre";
 };
 constexpr std::array kAxes{
-    Axis{{"design", "who draws, and where the parts meet"}, designs},
-    Axis{{"exchange", "when the GPU gets the CPU's part"}, exchanges},
+    Axis{{"design", "design and mode"}, designs},
+    Axis{{"exchange", "exchange"}, exchanges},
     Axis{{"primary", "who finds what is seen"}, primaries},
-    Axis{{"reflection-format", "how mirrored light travels"}, reflection_formats},
-    Axis{{"reflection-scale", "mirrored light a side"}, reflection_scales},
-    Axis{{"mask-scale", "shadow mask a side"}, mask_scales},
-    Axis{{"tiles", "which tiles of mirrored light travel"}, tiles},
-    Axis{{"depth", "bounces"}, depths},
-    Axis{{"cutoff", "least light that a ray is fired for"}, cutoffs},
-    Axis{{"tree", "how the BSP tree is split"}, trees},
-    Axis{{"triangle-test", "how a ray meets a triangle"}, triangle_tests},
-    Axis{{"offset", "how rays keep off their surface"}, offsets},
-    Axis{{"simd", "SIMD level"}, simd_widths},
-    Axis{{"threads", "worker threads"}, thread_counts},
+    Axis{{"reflection-format", "reflection, format"}, reflection_formats},
+    Axis{{"reflection-scale", "reflection, resolution"}, reflection_scales},
+    Axis{{"mask-scale", "shadow mask, resolution"}, mask_scales},
+    Axis{{"tiles", "tiles that are sent"}, tiles},
+    Axis{{"depth", "most bounces"}, depths},
+    Axis{{"cutoff", "contribution cut-off"}, cutoffs},
+    Axis{{"tree", "tree builder"}, trees},
+    Axis{{"triangle-test", "triangle test"}, triangle_tests},
+    Axis{{"offset", "ray offset"}, offsets},
+    Axis{{"simd", "SIMD width"}, simd_widths},
+    Axis{{"threads", "threads"}, thread_counts},
     Axis{{"spp", "samples a pixel"}, sample_counts, "area"},
-    Axis{{"combined", "several at once"}, combinations},
+    Axis{{"combined", "combinations"}, combinations},
 };
 
 bool is_wanted(const SweepRequest& request, std::string_view axis) {

@@ -24,7 +24,7 @@ struct SweepRequest {
 [[nodiscard]] Expected<std::vector<Configuration>> make_sweep(const SweepRequest& request);
 
 struct AxisName {
-  std::string_view name, what;
+  std::string_view name, title;
 };
 [[nodiscard]] std::vector<AxisName> axis_names();
 

@@ -4,6 +4,7 @@
 #include <span>
 
 #include "bench/rays/measure.h"
+#include "core/bsp/tree.h"
 
 namespace pinocchio::bench {
 namespace {

@@ -6,20 +6,14 @@
 #include "bench/stability/shapes.h"
 #include "core/reference/reference.h"
 #include "core/trace/passes.h"
-#include "core/trace/view.h"
+#include "core/trace/view_params.h"
+#include "scenes/generator/paint.h"
 
 namespace pinocchio::stability {
 namespace {
 
-Material glowing(float light) {
-  Material m;
-  m.ambient = m.diffuse = glm::vec3(0.0f);
-  m.emission = glm::vec3(light);
-  return m;
-}
-
 Material glass(float ior) {
-  Material m = glowing(0.0f);
+  Material m = glowing("", glm::vec3(0.0f));
   m.transmittance = glm::vec3(1.0f);
   m.ior = ior;
   return m;
@@ -55,10 +49,10 @@ Drawn draw(const Scene& scene, const Camera& camera, const Method& method, int r
 // A room around it whose six sides glow, each as it alone does.
 void append_glowing_room(MeshData& mesh, float size) {
   const MeshData room = box(glm::vec3(-8.0f * size), glm::vec3(8.0f * size), 1);
-  append(mesh, room, glowing(0.2f));
+  append(mesh, room, glowing("", glm::vec3(0.2f)));
   const std::size_t first = mesh.triangles.size() - room.triangles.size();
   for (std::uint32_t side = 1; side < 6; ++side) {
-    mesh.materials.push_back(glowing(0.2f + 0.15f * static_cast<float>(side)));
+    mesh.materials.push_back(glowing("", glm::vec3(0.2f + 0.15f * static_cast<float>(side))));
     for (const std::size_t half : {0, 1})
       mesh.triangle_materials[first + 2 * side + half] =
           static_cast<std::uint32_t>(mesh.materials.size() - 1);
@@ -132,7 +126,7 @@ FailureCount total_reflection(const Method& method, int rays) {
 FailureCount mirror_to_mirror(const Method& method, int rays) {
   constexpr int kDepth = 32;
   constexpr float kGlow = 0x1p-6f;
-  Material mirror = glowing(kGlow);
+  Material mirror = glowing("", glm::vec3(kGlow));
   mirror.reflectance = glm::vec3(1.0f);
   FailureCount count;
   for (const float size : kSizes) {

@@ -42,7 +42,7 @@ double difference(const glm::vec4& a, const glm::vec4& b) {
 
 void compare(const Picture& drawn, const Picture& traced, PictureFailureCount& count) {
   for (std::size_t i = 0; i < drawn.color.pixels().size(); ++i) {
-    ++count.pixels;
+    ++count.trials;
     if (!is_lit(drawn.color[i])) {
       ++count.failures;
       continue;
@@ -65,7 +65,7 @@ PictureFailureCount run(const Shot& shot, const DrawMethod& method, int side) {
   const std::vector<Picture> drawn = draw(shot, plan, method.exchange, side, &count.seconds);
   const std::vector<Picture> traced = draw(shot, ray_plan, Exchange::sync, side);
   for (std::size_t i = 0; i < drawn.size(); ++i) compare(drawn[i], traced[i], count);
-  count.mean_error /= static_cast<double>(std::max<std::uint64_t>(count.pixels, 1));
+  count.mean_error /= static_cast<double>(std::max<std::uint64_t>(count.trials, 1));
   return count;
 }
 

@@ -9,6 +9,7 @@
 #include <string_view>
 #include <vector>
 
+#include "bench/stability/stress_case.h"
 #include "hybrid/frame.h"
 
 namespace pinocchio::stability {
@@ -22,20 +23,20 @@ struct DrawMethod {
 // The default first.
 [[nodiscard]] std::vector<DrawMethod> all_draw_methods();
 
-struct PictureFailureCount {
-  std::uint64_t pixels = 0;
-  std::uint64_t failures = 0;   // black, NaN or infinite
+// Trials are pixels; seconds, those of the whole drawing.
+struct PictureFailureCount : FailureCount {
   std::uint64_t other_ids = 0;  // where the rasteriser sees another triangle than the ray
   double worst_there = 0.0;     // largest difference of such a pixel to the ray traced picture, linear
   double mean_error = 0.0;      // of all pixels to the ray traced picture of the same camera, linear
   std::uint64_t holes = 0;      // reprojected: pixels that no older frame had an answer for
-  double seconds = 0.0;
 };
 
 struct PictureStressCase {
   std::string_view name;
   // side: pixels of a square picture; wants a current OpenGL context.
   PictureFailureCount (*run)(const DrawMethod& method, int side);
+  std::string_view failure = "black or NaN pixels";
+  bool limit = false;
 };
 
 // Grazing and sub-pixel triangles, near-plane clipping, z-fighting planes; a fast turn, a cut, object edges.

@@ -3,25 +3,20 @@
 #include <cmath>
 #include <glm/gtc/constants.hpp>
 
+#include "bench/stability/shapes.h"
 #include "scenes/generator/mesh_builder.h"
-#include "scenes/generator/random.h"
+#include "scenes/generator/paint.h"
 
 namespace pinocchio::stability {
 namespace {
 
 constexpr int kStillFrames = 3, kMovingFrames = 8;
 
-Material matte(const glm::vec3& color) {
-  Material m;
-  m.ambient = m.diffuse = color;
-  return m;
-}
-
 // A closed box of half side 4 around the origin; `lit` puts a light in it.
 MeshData room() {
   MeshData data;
   MeshBuilder mesh(data);
-  mesh.use(matte({0.8f, 0.7f, 0.6f}));
+  mesh.use(matt("", {0.8f, 0.7f, 0.6f}));
   mesh.box(glm::vec3(-4.0f), glm::vec3(4.0f));
   return data;
 }
@@ -52,11 +47,11 @@ void add_floor(MeshBuilder& mesh, float half, float y, int cells) {
 Scene room_with_bars() {
   MeshData data = room();
   MeshBuilder mesh(data);
-  Material mirror = matte(glm::vec3(0.3f));
+  Material mirror = matt("", glm::vec3(0.3f));
   mirror.reflectance = glm::vec3(0.7f);
   mesh.use(mirror);
   mesh.sphere({0.0f, -1.0f, -0.5f}, 1.2f, 32);
-  mesh.use(matte({0.2f, 0.5f, 0.9f}));
+  mesh.use(matt("", {0.2f, 0.5f, 0.9f}));
   for (int i = 0; i < 9; ++i) {
     const float x = 0.5f * static_cast<float>(i) - 2.0f;
     mesh.box({x, -4.0f, 1.0f}, {x + 0.03f, 2.0f, 1.03f});
@@ -69,7 +64,7 @@ Scene room_with_bars() {
 Shot grazing_triangles() {
   MeshData data = room();
   MeshBuilder mesh(data);
-  mesh.use(matte({0.3f, 0.8f, 0.4f}));
+  mesh.use(matt("", {0.3f, 0.8f, 0.4f}));
   const glm::vec3 eye(0.05f, 0.02f, 3.4f);
   for (int i = -20; i <= 20; ++i) {  // fins along the line of sight, each missing the eye by a thousandth
     const float angle = 0.02f * static_cast<float>(i) + 0.003f;
@@ -83,14 +78,11 @@ Shot grazing_triangles() {
 Shot sub_pixel_triangles() {
   MeshData data = room();
   MeshBuilder mesh(data);
-  mesh.use(matte({0.9f, 0.4f, 0.3f}));
+  mesh.use(matt("", {0.9f, 0.4f, 0.3f}));
   Random random(81);
-  const auto point = [&random](float reach) {
-    const float x = random.between(-reach, reach), y = random.between(-reach, reach);
-    return glm::vec3(x, y, random.between(-reach, reach));
-  };
   for (int i = 0; i < 10000; ++i) {
-    const glm::vec3 at = point(1.5f), b = at + point(0.01f), c = at + point(0.01f);
+    const glm::vec3 at = random_point(random, 1.5f), b = at + random_point(random, 0.01f),
+                    c = at + random_point(random, 0.01f);
     mesh.triangle(at, b, c);
   }
   return still(std::move(data), looking({0.3f, 0.4f, 3.5f}, glm::vec3(0.0f)));
@@ -99,7 +91,7 @@ Shot sub_pixel_triangles() {
 Shot near_plane() {
   MeshData data = room();
   MeshBuilder mesh(data);
-  mesh.use(matte({0.4f, 0.4f, 0.9f}));
+  mesh.use(matt("", {0.4f, 0.4f, 0.9f}));
   const glm::vec3 eye(3.999f, -0.5f, 3.0f);  // a thousandth from the wall
   for (int i = 0; i < 20; ++i) {  // long bars that pass beside the eye, from before it to behind it
     const float angle = glm::two_pi<float>() * static_cast<float>(i) / 20.0f;
@@ -113,9 +105,9 @@ Shot near_plane() {
 Shot z_fighting() {
   MeshData data = room();
   MeshBuilder mesh(data);
-  mesh.use(matte({0.9f, 0.2f, 0.2f}));
+  mesh.use(matt("", {0.9f, 0.2f, 0.2f}));
   add_floor(mesh, 3.0f, -1.0f, 7);
-  mesh.use(matte({0.2f, 0.9f, 0.2f}));
+  mesh.use(matt("", {0.2f, 0.9f, 0.2f}));
   add_floor(mesh, 2.7f, -1.0f, 10);
   return still(std::move(data), looking({1.0f, 1.0f, 3.5f}, {0.0f, -1.0f, 0.0f}));
 }

@@ -4,7 +4,6 @@
 #include <cstdio>
 
 #include "bench/stability/picture_case.h"
-#include "bench/stability/stress_case.h"
 #include "core/base/system_info.h"
 #include "core/image/atomic_file.h"
 
@@ -14,28 +13,14 @@ namespace {
 constexpr int kRays = 200000, kQuickRays = 2000;  // a case; a million at edges
 constexpr int kSide = 256, kQuickSide = 64;
 
-Cell cell_of(const StressCase& stress_case, const FailureCount& count) {
-  Cell cell;
-  cell.failure = stress_case.failure;
-  cell.limit = stress_case.limit;
-  cell.trials = count.trials;
-  cell.failures = count.failures;
-  cell.excused = count.excused;
-  cell.seconds = count.seconds;
-  return cell;
+nlohmann::json details(const FailureCount&) {
+  return nlohmann::json::object();
 }
-
-Cell cell_of(const PictureStressCase&, const PictureFailureCount& count) {
-  Cell cell;
-  cell.failure = "black or NaN pixels";
-  cell.trials = count.pixels;
-  cell.failures = count.failures;
-  cell.seconds = count.seconds;
-  cell.more = {{"other_ids", count.other_ids},
-               {"worst_difference_there", count.worst_there},
-               {"mean_difference", count.mean_error},
-               {"holes", count.holes}};
-  return cell;
+nlohmann::json details(const PictureFailureCount& count) {
+  return {{"other_ids", count.other_ids},
+          {"worst_difference_there", count.worst_there},
+          {"mean_difference", count.mean_error},
+          {"holes", count.holes}};
 }
 
 // Runs every case, as large as `size`, by every method. False where `after_cell` says so.
@@ -46,12 +31,11 @@ bool fill(const StressCases& cases, const Methods& methods, int size, const std:
   for (const auto& stress_case : cases) {
     double default_seconds = 0.0;
     for (const auto& method : methods) {
-      Cell cell = cell_of(stress_case, stress_case.run(method, size));
-      cell.stress_case = stress_case.name;
-      cell.method = method.name;
-      if (&method == &methods.front()) default_seconds = cell.seconds;
-      cell.ratio = cell.seconds / std::max(default_seconds, 1e-9);
-      table.cells.push_back(std::move(cell));
+      const auto count = stress_case.run(method, size);
+      if (&method == &methods.front()) default_seconds = count.seconds;
+      table.cells.push_back({std::string(stress_case.name), std::string(stress_case.failure), method.name,
+                             stress_case.limit, count, count.seconds / std::max(default_seconds, 1e-9),
+                             details(count)});
       if (!after_cell()) return false;
     }
   }
@@ -65,7 +49,7 @@ std::string number(const char* format, double value) {
 }
 
 std::string text_of(const Cell& cell) {
-  std::string text = std::to_string(cell.failures);
+  std::string text = std::to_string(cell.count.failures);
   if (!cell.more.contains("other_ids"))
     text += " (" + number("%.2f", cell.ratio) + ")";
   else  // whose times, of all threads and the GPU, say little on a busy machine: they are in the files
@@ -86,8 +70,8 @@ std::string markdown(const Table& table) {
   for (std::size_t i = 0; i < table.cells.size(); i += table.methods.size()) {
     const Cell& first = table.cells[i];
     text += "| " + first.stress_case + (first.limit ? " (limit)" : "") + " | " +
-            std::to_string(first.trials) + " | " + first.failure +
-            (first.excused > 0 ? " (" + std::to_string(first.excused) + " excused)" : "") + " |";
+            std::to_string(first.count.trials) + " | " + first.failure +
+            (first.count.excused > 0 ? " (" + std::to_string(first.count.excused) + " excused)" : "") + " |";
     for (std::size_t k = 0; k < table.methods.size(); ++k) text += " " + text_of(table.cells[i + k]) + " |";
     text += "\n";
   }
@@ -97,9 +81,10 @@ std::string markdown(const Table& table) {
 nlohmann::json to_json(const Table& table) {
   nlohmann::json cells = nlohmann::json::array();
   for (const Cell& c : table.cells) {
-    nlohmann::json cell{{"case", c.stress_case}, {"failure", c.failure}, {"method", c.method},
-                        {"limit", c.limit},      {"trials", c.trials},   {"failures", c.failures},
-                        {"excused", c.excused},  {"seconds", c.seconds}, {"ratio_to_default", c.ratio}};
+    nlohmann::json cell{
+        {"case", c.stress_case},      {"failure", c.failure},       {"method", c.method},
+        {"limit", c.limit},           {"trials", c.count.trials},   {"failures", c.count.failures},
+        {"excused", c.count.excused}, {"seconds", c.count.seconds}, {"ratio_to_default", c.ratio}};
     cell.update(c.more);
     cells.push_back(cell);
   }
@@ -110,9 +95,9 @@ std::string csv_lines(const Table& table) {
   std::string text;
   for (const Cell& c : table.cells)
     text += '"' + c.stress_case + "\",\"" + c.failure + "\",\"" + c.method + "\"," + (c.limit ? "1" : "0") +
-            "," + std::to_string(c.trials) + "," + std::to_string(c.failures) + "," +
-            std::to_string(c.excused) + "," + number("%.6f", c.seconds) + "," + number("%.3f", c.ratio) +
-            "\n";
+            "," + std::to_string(c.count.trials) + "," + std::to_string(c.count.failures) + "," +
+            std::to_string(c.count.excused) + "," + number("%.6f", c.count.seconds) + "," +
+            number("%.3f", c.ratio) + "\n";
   return text;
 }
 
@@ -120,7 +105,7 @@ std::string csv_lines(const Table& table) {
 std::uint64_t default_failures(const Table& table) {
   std::uint64_t sum = 0;
   for (std::size_t i = 0; i < table.cells.size(); i += table.methods.size())
-    if (!table.cells[i].limit) sum += table.cells[i].failures;
+    if (!table.cells[i].limit) sum += table.cells[i].count.failures;
   return sum;
 }
 

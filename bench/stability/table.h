@@ -9,14 +9,16 @@
 #include <string>
 #include <vector>
 
+#include "bench/stability/stress_case.h"
+
 namespace pinocchio::stability {
 
 struct Cell {
   std::string stress_case, failure, method;
   bool limit = false;  // no method is without it
-  std::uint64_t trials = 0, failures = 0, excused = 0;
-  double seconds = 0.0, ratio = 0.0;  // to the default's, in the same run
-  nlohmann::json more = nlohmann::json::object();
+  FailureCount count;
+  double ratio = 0.0;  // of the seconds to the default's, in the same run
+  nlohmann::json more;
 };
 
 struct Table {

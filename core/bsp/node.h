@@ -5,9 +5,6 @@
 
 namespace pinocchio {
 
-// Deepest tree the builder makes and the traversal stack holds: one constant for both.
-inline constexpr int kMaxTreeDepth = 64;
-
 // Node of the binary space partition, 8 bytes, eight a cache line. The children of an inner node stand
 // side by side, the one below the split plane first.
 class BspNode {

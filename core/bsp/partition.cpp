@@ -25,9 +25,9 @@ void put(__m128 lo, __m128 hi, BuildReference& to) {
 Halves count_halves(std::span<const BuildReference> references, const SplitPlane& plane) {
   Halves n;
   for (const BuildReference& r : references) {
-    const Sides sides(r, plane);
-    n.low += sides.low ? 1 : 0;
-    n.high += sides.high ? 1 : 0;
+    const ChildOverlap overlap(r, plane);
+    n.low += overlap.low ? 1 : 0;
+    n.high += overlap.high ? 1 : 0;
   }
   return n;
 }
@@ -36,11 +36,11 @@ Halves partition(const Mesh& mesh, std::span<const BuildReference> references, c
                  const SplitPlane& plane, BuildReference* low, BuildReference* high) {
   Halves n;
   for (const BuildReference& at : references) {
-    const Sides sides(at, plane);
+    const ChildOverlap overlap(at, plane);
     const __m128 lo = _mm_load_ps(at.lo), hi = _mm_load_ps(at.hi);
     put(lo, hi, low[n.low]);
     put(lo, hi, high[n.high]);  // perhaps over `at`
-    if (sides.low & sides.high) {
+    if (overlap.low & overlap.high) {
       const BuildReference r = low[n.low];
       const glm::uvec3& t = mesh.triangles[r.triangle];
       const ClippedHalves cut = clipped_halves(mesh.positions[t.x], mesh.positions[t.y], mesh.positions[t.z],
@@ -52,8 +52,8 @@ Halves partition(const Mesh& mesh, std::span<const BuildReference> references, c
       n.high += above.empty() ? 0 : 1;
       continue;
     }
-    n.low += sides.low ? 1 : 0;
-    n.high += sides.high ? 1 : 0;
+    n.low += overlap.low ? 1 : 0;
+    n.high += overlap.high ? 1 : 0;
   }
   return n;
 }

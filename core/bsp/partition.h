@@ -10,9 +10,9 @@
 namespace pinocchio {
 
 // Where a reference goes at a split: to one child or, cut in two, to both.
-struct Sides {
+struct ChildOverlap {
   bool low, high;
-  Sides(const BuildReference& r, const SplitPlane& plane) {
+  ChildOverlap(const BuildReference& r, const SplitPlane& plane) {
     const float lo = r.lo[plane.axis], hi = r.hi[plane.axis];
     const bool flat = (lo == plane.position) & (hi == plane.position);
     low = flat ? plane.flat_goes_low : lo < plane.position;

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "core/base/error.h"
-#include "core/parallel/tiles.h"
+#include "core/math/pixel_box.h"
 
 namespace pinocchio {
 

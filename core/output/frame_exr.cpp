@@ -4,7 +4,7 @@
 #include <nlohmann/json.hpp>
 
 #include "core/base/system_info.h"
-#include "core/trace/view.h"
+#include "core/trace/view_params.h"
 
 namespace pinocchio {
 namespace {

@@ -4,17 +4,9 @@
 #include <cstddef>
 #include <glm/glm.hpp>
 
+#include "core/math/pixel_box.h"
+
 namespace pinocchio {
-
-// Half-open box of pixels.
-struct PixelBox {
-  glm::ivec2 lo{0, 0};
-  glm::ivec2 hi{0, 0};
-
-  [[nodiscard]] glm::ivec2 size() const { return hi - lo; }
-  [[nodiscard]] bool empty() const { return hi.x <= lo.x || hi.y <= lo.y; }
-  friend bool operator==(const PixelBox&, const PixelBox&) = default;
-};
 
 // Cuts a picture into square tiles, row by row: the unit of work of a thread and of ray coherence.
 class TileGrid {

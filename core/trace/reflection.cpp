@@ -9,7 +9,7 @@
 #include "core/trace/passes.h"
 #include "core/trace/scatter.h"
 #include "core/trace/surface.h"
-#include "core/trace/view.h"
+#include "core/trace/view_params.h"
 
 namespace pinocchio {
 namespace {

@@ -6,7 +6,7 @@
 #include "core/parallel/tiles.h"
 #include "core/trace/passes.h"
 #include "core/trace/surface.h"
-#include "core/trace/view.h"
+#include "core/trace/view_params.h"
 
 namespace pinocchio {
 namespace {

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/bsp/build_options.h"
+
 namespace pinocchio {
 namespace {
 

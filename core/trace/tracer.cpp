@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "core/base/error.h"
+#include "core/bsp/build.h"
 #include "core/trace/kernels.h"
 
 namespace pinocchio {
@@ -56,18 +57,18 @@ Isa default_isa() {
 Tracer::Tracer(std::shared_ptr<const Mesh> mesh, const BuildOptions& options, std::optional<Isa> isa,
                OffsetMethod offset)
     : mesh_(std::move(mesh)),
-      tree_(build_tree(*mesh_, options)),
+      tree_(std::make_shared<const BspTree>(build_tree(*mesh_, options))),
       isa_(choose(isa)),
-      offset_(RayOffset::of(offset, tree_.bounds)) {}
+      offset_(RayOffset::of(offset, tree_->bounds)) {}
 
 void Tracer::closest_hits(std::span<const Ray> rays, std::span<Hit> hits) const {
   assert(rays.size() == hits.size());
-  kernel_of(isa_, tree_.test).closest_hits(tree_, rays.data(), hits.data(), rays.size());
+  kernel_of(isa_, tree_->test).closest_hits(*tree_, rays.data(), hits.data(), rays.size());
 }
 
 void Tracer::occluded(std::span<const Ray> rays, std::span<std::uint8_t> blocked) const {
   assert(rays.size() == blocked.size());
-  kernel_of(isa_, tree_.test).occluded(tree_, rays.data(), blocked.data(), rays.size());
+  kernel_of(isa_, tree_->test).occluded(*tree_, rays.data(), blocked.data(), rays.size());
 }
 
 }  // namespace pinocchio

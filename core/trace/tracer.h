@@ -8,11 +8,14 @@
 #include <string_view>
 #include <vector>
 
-#include "core/bsp/build.h"
+#include "core/bsp/build_options.h"
 #include "core/math/ray.h"
+#include "core/scene/mesh.h"
 #include "core/trace/ray_offset.h"
 
 namespace pinocchio {
+
+struct BspTree;
 
 // Width of the packets that rays are traced in.
 enum class Isa { scalar, sse4, avx2, avx512 };
@@ -42,14 +45,14 @@ class Tracer {
   void occluded(std::span<const Ray> rays, std::span<std::uint8_t> blocked) const;
 
   [[nodiscard]] const Mesh& mesh() const { return *mesh_; }
-  [[nodiscard]] const BspTree& tree() const { return tree_; }
+  [[nodiscard]] const BspTree& tree() const { return *tree_; }
   [[nodiscard]] Isa isa() const { return isa_; }
   // Of the rays that start on its surfaces: what surface_at wants.
   [[nodiscard]] const RayOffset& offset() const { return offset_; }
 
  private:
   std::shared_ptr<const Mesh> mesh_;
-  BspTree tree_;
+  std::shared_ptr<const BspTree> tree_;
   Isa isa_;
   RayOffset offset_;
 };

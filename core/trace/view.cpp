@@ -2,6 +2,8 @@
 
 #include <cmath>
 
+#include "core/trace/view_params.h"
+
 namespace pinocchio {
 
 shared::ViewParams view_params(const Camera& camera, glm::ivec2 size, glm::vec2 jitter, glm::ivec2 first) {
@@ -16,6 +18,14 @@ shared::ViewParams view_params(const Camera& camera, glm::ivec2 size, glm::vec2 
   view.corner = axes.forward + to_first_center.x * view.step_x + to_first_center.y * view.step_y;
   view.first = glm::vec2(first);
   return view;
+}
+
+Image<Ray> camera_rays(const View& view) {
+  const shared::ViewParams params = view_params(view);
+  Image<Ray> rays(view.box().size());
+  for (int y = 0; y < rays.height(); ++y)
+    for (int x = 0; x < rays.width(); ++x) rays.at(x, y) = pixel_ray(params, x, y);
+  return rays;
 }
 
 }  // namespace pinocchio

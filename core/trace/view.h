@@ -2,10 +2,10 @@
 
 #include <glm/glm.hpp>
 
+#include "core/image/image.h"
+#include "core/math/pixel_box.h"
 #include "core/math/ray.h"
-#include "core/parallel/tiles.h"
 #include "core/scene/camera.h"
-#include "core/trace/shared.h"
 
 namespace pinocchio {
 
@@ -20,29 +20,7 @@ struct View {
   friend bool operator==(const View&, const View&) = default;
 };
 
-// The rays of a width x height picture. Pixel (x, y), row 0 on top, is sampled at its centre moved by
-// `jitter` (pixels, [-0.5, 0.5)). Where only a part of the picture is drawn, its pixel (0, 0) is `first`.
-[[nodiscard]] shared::ViewParams view_params(const Camera& camera, glm::ivec2 size,
-                                             glm::vec2 jitter = glm::vec2(0.0f),
-                                             glm::ivec2 first = glm::ivec2(0));
-[[nodiscard]] inline shared::ViewParams view_params(const View& view) {
-  return view_params(view.camera, view.size, view.jitter, view.box().lo);
-}
-
-// Every scale-th pixel of the picture, across and down; scale is a power of two, so that the rays are the
-// same to the last bit.
-[[nodiscard]] inline shared::ViewParams scaled_view(shared::ViewParams view, int scale) {
-  const auto factor = static_cast<float>(scale);
-  view.step_x *= factor;
-  view.step_y *= factor;
-  view.first /= factor;
-  return view;
-}
-
-// The ray of the pixel (x, y); its t is z_eye.
-[[nodiscard]] inline Ray pixel_ray(const shared::ViewParams& view, int x, int y) {
-  return {view.eye, kInfinity,
-          shared::pixel_direction(view, glm::vec2(static_cast<float>(x), static_cast<float>(y)))};
-}
+// One ray a pixel of view.box(). A ray's t is the distance along the view axis, scene units.
+[[nodiscard]] Image<Ray> camera_rays(const View& view);
 
 }  // namespace pinocchio

@@ -1,6 +1,6 @@
 #include "core/parallel/tiles.h"
 #include "core/trace/passes.h"
-#include "core/trace/view.h"
+#include "core/trace/view_params.h"
 
 namespace pinocchio {
 

@@ -27,7 +27,7 @@ Expected<void> Programs::reload() {
 
 gl::Program Programs::compile(const Key& key) const {
   const auto& [vertex_file, fragment_file, definitions] = key;
-  return {folder_, vertex_file, fragment_file, definitions};
+  return {shaders_, vertex_file, fragment_file, definitions};
 }
 
 }  // namespace pinocchio

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <filesystem>
 #include <map>
 #include <string>
 #include <tuple>
@@ -8,36 +7,38 @@
 
 #include "core/base/error.h"
 #include "gl/program.h"
+#include "hybrid/shaders.h"
 
 namespace pinocchio {
 
-// The passes' programs, compiled from a folder of shaders when first asked for: a scene pays for what it has.
+// The passes' programs, compiled when first asked for: a scene pays for what it has.
 class Programs {
  public:
   using Definitions = std::vector<std::string>;
 
-  explicit Programs(std::filesystem::path folder) : folder_(std::move(folder)) {}
+  explicit Programs(gl::ShaderSource shaders = shader_source()) : shaders_(std::move(shaders)) {}
 
   // Stays where it is as long as this lives; after reload() it is the new one. Throws gl::Error with file,
   // line and the compiler's message.
   [[nodiscard]] const gl::Program& get(const std::string& vertex_file, const std::string& fragment_file,
                                        const Definitions& definitions = {});
 
-  // Compiles every program that was asked for so far anew, from the files as they are now. Where one fails,
+  // Compiles every program that was asked for so far anew, from the files as they are now where a folder has them. Where one fails,
   // all stay as they were and the error says why: file, line, the compiler's message.
   [[nodiscard]] Expected<void> reload();
 
   // How often reload() has succeeded: what was drawn before is not what would be drawn now.
   [[nodiscard]] int generation() const { return generation_; }
 
-  [[nodiscard]] const std::filesystem::path& folder() const { return folder_; }
+  // That the shaders are read from; empty where they are built in.
+  [[nodiscard]] const std::filesystem::path& folder() const { return shaders_.folder(); }
 
  private:
   using Key = std::tuple<std::string, std::string, Definitions>;
 
   [[nodiscard]] gl::Program compile(const Key& key) const;
 
-  std::filesystem::path folder_;
+  gl::ShaderSource shaders_;
   std::map<Key, gl::Program> programs_;
   int generation_ = 0;
 };

@@ -9,7 +9,7 @@
 
 #include "core/parallel/workers.h"
 #include "core/reference/reference_tracer.h"
-#include "core/trace/view.h"
+#include "core/trace/view_params.h"
 
 namespace pinocchio {
 namespace {

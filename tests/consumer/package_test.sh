@@ -21,11 +21,3 @@ fi
 "${clean[@]}" "$program" measure share/pinocchio/scenes/cornell.gltf --size 64x48 --turntable 8 --stats-json "$work/x.json" --quiet
 "${clean[@]}" "$program" info --system
 test -s "$work/x.exr" && test -s "$work/x.json"
-
-# Its shaders are its own: without them it fails, though the tree it was built from is still there.
-mv share/pinocchio/shaders/composite.frag "$work"
-if "${clean[@]}" "$program" render share/pinocchio/scenes/cornell.gltf --size 64x48 -o "$work/y.exr" 2>"$work/line"; then
-  echo "the program takes shaders from elsewhere"
-  exit 1
-fi
-grep -q "share/pinocchio/shaders/composite.frag" "$work/line"

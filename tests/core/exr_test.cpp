@@ -10,7 +10,7 @@
 
 #include "core/output/frame_exr.h"
 #include "core/trace/passes.h"
-#include "core/trace/view.h"
+#include "core/trace/view_params.h"
 #include "tests/support/own_file.h"
 #include "tests/support/scenes.h"
 

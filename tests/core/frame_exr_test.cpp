@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "core/math/ray.h"
-#include "core/trace/view.h"
+#include "core/trace/view_params.h"
 
 namespace pinocchio {
 namespace {

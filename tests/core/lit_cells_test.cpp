@@ -6,7 +6,7 @@
 #include "core/trace/passes.h"
 #include "core/trace/shaft.h"
 #include "core/trace/surface.h"
-#include "core/trace/view.h"
+#include "core/trace/view_params.h"
 #include "scenes/generator/random.h"
 #include "tests/support/scenes.h"
 

@@ -1,6 +1,6 @@
 #include "core/trace/passes.h"
 
-#include "core/trace/view.h"
+#include "core/trace/view_params.h"
 #include "tests/support/scenes.h"
 
 namespace pinocchio {

@@ -5,7 +5,7 @@
 #include "core/reference/reference.h"
 #include "core/reference/reference_tree.h"
 #include "core/trace/passes.h"
-#include "core/trace/view.h"
+#include "core/trace/view_params.h"
 #include "tests/support/embree.h"
 #include "tests/support/scenes.h"
 

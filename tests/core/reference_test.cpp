@@ -7,7 +7,7 @@
 #include "core/reference/reference_shading.h"
 #include "core/reference/reference_surface.h"
 #include "core/reference/reference_tree.h"
-#include "core/trace/view.h"
+#include "core/trace/view_params.h"
 #include "scenes/generator/mesh_builder.h"
 #include "tests/support/scenes.h"
 

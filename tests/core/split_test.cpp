@@ -154,8 +154,8 @@ TEST(Split, PartitionLosesNothingAndMayOverwriteItsInput) {
     EXPECT_TRUE(std::equal(in_place[i].lo, in_place[i].lo + 3, high[i].lo));
   }
   for (const BuildReference& r : references) {
-    const Sides sides(r, plane);
-    EXPECT_EQ(seen[r.triangle], static_cast<int>(sides.low) + static_cast<int>(sides.high));
+    const ChildOverlap overlap(r, plane);
+    EXPECT_EQ(seen[r.triangle], static_cast<int>(overlap.low) + static_cast<int>(overlap.high));
   }
 }
 

@@ -5,7 +5,7 @@
 #include <limits>
 
 #include "core/bsp/projected_triangle.h"
-#include "core/trace/view.h"
+#include "core/trace/view_params.h"
 #include "scenes/generator/mesh_builder.h"
 #include "tests/support/scenes.h"
 

@@ -1,4 +1,4 @@
-#include "core/trace/view.h"
+#include "core/trace/view_params.h"
 
 #include <gtest/gtest.h>
 

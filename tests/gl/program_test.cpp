@@ -67,10 +67,10 @@ TEST_P(ProgramTest, MistakeIsNamedWithFileAndLine) {
 }
 
 TEST(ShaderSource, MissingFileAndEndlessIncludeAreErrors) {
-  EXPECT_NE(error_of([] { (void)gl::load_shader_source(kShaders, "none.frag", {}); }).find("none.frag"),
+  EXPECT_NE(error_of([] { (void)gl::assemble_shader(kShaders, "none.frag", {}); }).find("none.frag"),
             std::string::npos);
   const auto folder = folder_with("self.glsl", "#include \"self.glsl\"\n");
-  EXPECT_NE(error_of([&] { (void)gl::load_shader_source(folder, "self.glsl", {}); }).find("includes itself"),
+  EXPECT_NE(error_of([&] { (void)gl::assemble_shader(folder, "self.glsl", {}); }).find("includes itself"),
             std::string::npos);
 }
 

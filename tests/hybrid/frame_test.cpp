@@ -3,7 +3,6 @@
 
 #include <stdexcept>
 
-#include "hybrid/shader_folder.h"
 #include "tests/support/draw.h"
 #include "tests/support/gl_test.h"
 
@@ -98,7 +97,7 @@ class LoopTest : public GlTest {
  protected:
   void SetUp() override {
     GlTest::SetUp();
-    loop_.emplace(workers_, shader_folder(), Exchange::pipelined, gl::Mapping::each_time,
+    loop_.emplace(workers_, shader_source(), Exchange::pipelined, gl::Mapping::each_time,
                   FrameLoop::Sinks{[this](Flight& frame) { take(frame); },
                                    [this](const FrameRecord& record) { records_.push_back(record); }});
   }
@@ -227,7 +226,7 @@ TEST_P(LoopTest, MayEndWithFramesInFlight) {
   const Plan plan = auto_plan(scene);
   const auto prepared = prepare(scene, plan);
   for (int frames = 1; frames <= 3; ++frames) {
-    FrameLoop loop(workers_, shader_folder(), Exchange::pipelined, gl::Mapping::each_time,
+    FrameLoop loop(workers_, shader_source(), Exchange::pipelined, gl::Mapping::each_time,
                    {[](Flight&) {}, [](const FrameRecord&) {}});
     for (int i = 0; i < frames; ++i) {
       FrameRequest moved = request(prepared, plan, {320, 240});

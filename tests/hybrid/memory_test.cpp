@@ -5,7 +5,6 @@
 #include <fstream>
 
 #include "hybrid/frame.h"
-#include "hybrid/shader_folder.h"
 #include "tests/support/draw.h"
 #include "tests/support/gl_test.h"
 
@@ -35,7 +34,7 @@ TEST(Memory, IsFlatOverManyFramesAndResizes) {
   std::size_t delivered = 0;
   double before_mb = 0.0;
   {
-    FrameLoop loop(workers, shader_folder(), Exchange::pipelined, gl::Mapping::each_time,
+    FrameLoop loop(workers, shader_source(), Exchange::pipelined, gl::Mapping::each_time,
                    {[](Flight&) {}, [&](const FrameRecord&) { ++delivered; }});
     for (int i = 0; i < frames; ++i) {
       const glm::ivec2 size = i / kResizeEvery % 2 == 0 ? glm::ivec2(96, 64) : glm::ivec2(61, 83);

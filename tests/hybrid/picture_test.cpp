@@ -2,7 +2,7 @@
 #include <cmath>
 
 #include "core/image/tonemap.h"
-#include "core/trace/view.h"
+#include "core/trace/view_params.h"
 #include "tests/support/draw.h"
 #include "tests/support/gl_test.h"
 

@@ -9,7 +9,7 @@
 
 #include "core/compare/figures.h"
 #include "core/reference/reference.h"
-#include "core/trace/view.h"
+#include "core/trace/view_params.h"
 #include "hybrid/reference_error.h"
 #include "tests/support/draw.h"
 

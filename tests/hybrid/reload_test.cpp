@@ -16,7 +16,7 @@ class ReloadTest : public FramesTest {
   void SetUp() override {
     FramesTest::SetUp();
     folder_ = own_folder() / "shaders";
-    std::filesystem::copy(shader_folder(), folder_, std::filesystem::copy_options::recursive);
+    std::filesystem::copy(source_path("shaders"), folder_, std::filesystem::copy_options::recursive);
     loop_.emplace(workers_, folder_, Exchange::sync, gl::Mapping::each_time,
                   FrameLoop::Sinks{[this](Flight& frame) { FrameLoop::read_picture(frame, picture_); },
                                    [](const FrameRecord&) {}});
@@ -114,6 +114,26 @@ TEST_P(ReloadTest, AShaderThatIsBrokenFromTheStartCanBeMended) {
   write("composite.frag", old);
   EXPECT_TRUE(loop_->programs()->reload());
   EXPECT_EQ(picture().size(), kSize);
+}
+
+TEST(Shaders, EveryFileIsBuiltInAsItStands) {
+  const gl::ShaderSource folder(source_path("shaders")), built_in(built_in_shaders());
+  std::size_t files = 0;
+  for (const auto& entry : std::filesystem::recursive_directory_iterator(folder.folder())) {
+    if (!entry.is_regular_file()) continue;
+    const std::string name = std::filesystem::relative(entry.path(), folder.folder()).string();
+    EXPECT_EQ(built_in.read(name), folder.read(name)) << name;
+    ++files;
+  }
+  EXPECT_EQ(built_in_shaders().size(), files);
+}
+
+TEST(Shaders, AMistakeInABuiltInOneIsNamedWithFileAndLine) {
+  const gl::AssembledShader shader =
+      gl::assemble_shader(gl::ShaderSource(built_in_shaders()), "composite.frag", {});
+  ASSERT_GT(shader.files.size(), 1u);
+  EXPECT_EQ(gl::name_files("1:12(3): error: x", shader.files), shader.files[1] + ":12: error: x");
+  EXPECT_EQ(shader.files[0], "shaders/composite.frag");
 }
 
 }  // namespace

@@ -18,10 +18,10 @@ TEST_P(Pictures, NoPixelIsBlackOrNan) {
       const PictureFailureCount count = stress_case.run(method, kSide);
       std::printf("  %-22s %-20s %zu of %zu other ids, at most %.3f off, mean %.5f; %zu holes\n",
                   std::string(stress_case.name).c_str(), method.name.c_str(),
-                  static_cast<std::size_t>(count.other_ids), static_cast<std::size_t>(count.pixels),
+                  static_cast<std::size_t>(count.other_ids), static_cast<std::size_t>(count.trials),
                   count.worst_there, count.mean_error, static_cast<std::size_t>(count.holes));
       EXPECT_EQ(count.failures, 0u) << stress_case.name << ", " << method.name;
-      EXPECT_GT(count.pixels, 0u);
+      EXPECT_GT(count.trials, 0u);
     }
 }
 

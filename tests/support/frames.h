@@ -9,7 +9,6 @@
 #include "gl/transfer.h"
 #include "hybrid/formats.h"
 #include "hybrid/frame.h"
-#include "hybrid/shader_folder.h"
 #include "tests/support/draw.h"
 #include "tests/support/gl_test.h"
 
@@ -50,7 +49,7 @@ class FramesTest : public GlTest {
   }
 
   Workers workers_{2};
-  std::shared_ptr<Programs> programs_ = std::make_shared<Programs>(shader_folder());
+  std::shared_ptr<Programs> programs_ = std::make_shared<Programs>();
 };
 
 }  // namespace pinocchio

@@ -139,7 +139,7 @@ struct Preset {
 };
 [[nodiscard]] std::span<const Preset> presets();
 // "mode", "design" or "plan"; false: there is no such value.
-[[nodiscard]] bool apply_preset(std::string_view option, std::string_view value, Settings& settings);
+bool apply_preset(std::string_view option, std::string_view value, Settings& settings);
 
 // What no two fields may say at once, and why.
 struct Rule {
