@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "app/options.h"
-#include "core/scene/camera.h"
+#include "pinocchio/camera.h"
 
 namespace pinocchio::app {
 

@@ -3,7 +3,7 @@
 #include <nlohmann/json_fwd.hpp>
 #include <vector>
 
-#include "hybrid/include/pinocchio/frame.h"
+#include "pinocchio/frame.h"
 
 namespace pinocchio::app {
 

@@ -4,7 +4,7 @@
 #include <string>
 
 #include "app/exit_codes.h"
-#include "core/base/error.h"
+#include "pinocchio/error.h"
 
 namespace pinocchio::app {
 

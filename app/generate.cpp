@@ -4,7 +4,7 @@
 
 #include "app/errors.h"
 #include "app/verbs.h"
-#include "core/scene/save.h"
+#include "pinocchio/save.h"
 #include "scenes/generator/scenes.h"
 
 namespace pinocchio::app {

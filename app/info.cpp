@@ -9,13 +9,13 @@
 #include "app/stats.h"
 #include "app/verbs.h"
 #include "core/base/system_info.h"
-#include "core/scene/load.h"
-#include "core/trace/tracer.h"
 #include "gl/error.h"
 #include "gl/open.h"
 #include "hybrid/settings/explain.h"
 #include "hybrid/settings/json.h"
 #include "hybrid/settings/resolve.h"
+#include "pinocchio/load.h"
+#include "pinocchio/tracer.h"
 
 namespace pinocchio::app {
 namespace {

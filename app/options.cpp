@@ -5,8 +5,8 @@
 
 #include "app/errors.h"
 #include "app/parse.h"
-#include "core/scene/load.h"
 #include "hybrid/settings/json.h"
+#include "pinocchio/load.h"
 
 namespace pinocchio::app {
 namespace {

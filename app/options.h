@@ -6,9 +6,9 @@
 #include <string>
 #include <vector>
 
-#include "core/scene/scene.h"
-#include "core/trace/view.h"
-#include "hybrid/include/pinocchio/engine.h"
+#include "pinocchio/engine.h"
+#include "pinocchio/scene.h"
+#include "pinocchio/view.h"
 
 namespace pinocchio::app {
 

@@ -7,8 +7,8 @@
 #include <string>
 
 #include "core/parallel/workers.h"
-#include "core/scene/scene.h"
-#include "hybrid/include/pinocchio/renderer.h"
+#include "pinocchio/renderer.h"
+#include "pinocchio/scene.h"
 
 namespace pinocchio::app {
 

@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "hybrid/include/pinocchio/frame.h"
+#include "pinocchio/frame.h"
 
 namespace pinocchio::app {
 

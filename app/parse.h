@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "core/parallel/tiles.h"
-#include "core/scene/light.h"
+#include "pinocchio/light.h"
 
 namespace pinocchio::app {
 

@@ -3,10 +3,10 @@
 #include <nlohmann/json_fwd.hpp>
 #include <vector>
 
-#include "core/scene/scene.h"
-#include "core/trace/tracer.h"
 #include "gl/context.h"
-#include "hybrid/include/pinocchio/frame.h"
+#include "pinocchio/frame.h"
+#include "pinocchio/scene.h"
+#include "pinocchio/tracer.h"
 
 namespace pinocchio::app {
 

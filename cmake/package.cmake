@@ -6,9 +6,10 @@ include(GNUInstallDirs)
 include(CMakePackageConfigHelpers)
 
 set(config_folder ${CMAKE_INSTALL_LIBDIR}/cmake/Pinocchio)
-install(TARGETS pinocchio_core EXPORT PinocchioCoreTargets COMPONENT library)
+install(TARGETS pinocchio_core EXPORT PinocchioCoreTargets COMPONENT library FILE_SET HEADERS COMPONENT library)
 install(EXPORT PinocchioCoreTargets NAMESPACE Pinocchio:: DESTINATION ${config_folder} COMPONENT library)
-install(TARGETS pinocchio_glad pinocchio_gl pinocchio_hybrid EXPORT PinocchioTargets COMPONENT library)
+install(TARGETS pinocchio_glad pinocchio_gl pinocchio_hybrid EXPORT PinocchioTargets COMPONENT library
+        FILE_SET HEADERS COMPONENT library)
 install(EXPORT PinocchioTargets NAMESPACE Pinocchio:: DESTINATION ${config_folder} COMPONENT library)
 configure_package_config_file(cmake/PinocchioConfig.cmake.in ${PROJECT_BINARY_DIR}/PinocchioConfig.cmake
                               INSTALL_DESTINATION ${config_folder})

@@ -1,4 +1,4 @@
-#include "hybrid/include/pinocchio/engine.h"
+#include "pinocchio/engine.h"
 
 #include <cstdlib>
 #include <utility>
@@ -7,7 +7,6 @@
 #include "hybrid/engine_parts.h"
 #include "hybrid/samples.h"
 #include "hybrid/settings/resolve.h"
-#include "hybrid/shaders.h"
 
 namespace pinocchio {
 
@@ -43,7 +42,7 @@ GpuPasses& Engine::Parts::gpu() {
               : gl::open_context({options.backend, options.device, options.gl_debug});
     context = own.get();
   }
-  passes = std::make_unique<GpuPasses>(std::make_shared<Programs>(shader_source()));
+  passes = std::make_unique<GpuPasses>(std::make_shared<Programs>());
   return *passes;
 }
 

@@ -16,7 +16,7 @@
 #include "hybrid/gpu/programs.h"
 #include "hybrid/gpu/shading_passes.h"
 #include "hybrid/gpu/visibility_pass.h"
-#include "hybrid/include/pinocchio/engine.h"
+#include "pinocchio/engine.h"
 
 namespace pinocchio {
 

@@ -7,15 +7,15 @@
 #include <vector>
 
 #include "core/base/clock.h"
-#include "core/scene/scene.h"
-#include "core/trace/tracer.h"
 #include "core/trace/view_params.h"
 #include "gl/timer.h"
 #include "gl/transfer.h"
 #include "hybrid/exchange/channels.h"
 #include "hybrid/gpu/gpu_mesh.h"
 #include "hybrid/gpu/shading_passes.h"
-#include "hybrid/include/pinocchio/renderer.h"
+#include "pinocchio/renderer.h"
+#include "pinocchio/scene.h"
+#include "pinocchio/tracer.h"
 
 namespace pinocchio {
 

@@ -4,18 +4,18 @@
 //   frame n    GPU  rasterise, send to CPU
 //   frame n-1  CPU                          take, trace
 //   frame n-2  GPU                                       send to GPU, composite, deliver
-#include "hybrid/include/pinocchio/renderer.h"
+#include "pinocchio/renderer.h"
 
 #include <algorithm>
 #include <chrono>
 #include <utility>
 
 #include "core/base/clock.h"
-#include "core/base/error.h"
 #include "gl/context.h"
 #include "hybrid/exchange/encode.h"
 #include "hybrid/passes/passes.h"
 #include "hybrid/schedule.h"
+#include "pinocchio/error.h"
 
 namespace pinocchio {
 namespace {

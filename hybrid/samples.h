@@ -2,7 +2,7 @@
 
 #include <functional>
 
-#include "hybrid/include/pinocchio/renderer.h"
+#include "pinocchio/renderer.h"
 
 namespace pinocchio {
 

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "hybrid/include/pinocchio/settings.h"
+#include "pinocchio/settings.h"
 
 namespace pinocchio {
 

@@ -2,8 +2,8 @@
 
 #include <glm/glm.hpp>
 
-#include "core/math/bounds.h"
-#include "core/scene/camera.h"
+#include "pinocchio/bounds.h"
+#include "pinocchio/camera.h"
 
 namespace pinocchio::app {
 

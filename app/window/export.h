@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
-#include "core/scene/scene.h"
-#include "hybrid/include/pinocchio/settings.h"
+#include "pinocchio/scene.h"
+#include "pinocchio/settings.h"
 
 namespace pinocchio::app {
 

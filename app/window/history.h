@@ -4,7 +4,7 @@
 #include <deque>
 #include <vector>
 
-#include "hybrid/include/pinocchio/frame.h"
+#include "pinocchio/frame.h"
 
 namespace pinocchio::app {
 

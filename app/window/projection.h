@@ -3,7 +3,7 @@
 #include <glm/glm.hpp>
 #include <optional>
 
-#include "core/scene/camera.h"
+#include "pinocchio/camera.h"
 
 namespace pinocchio::app {
 

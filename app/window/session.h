@@ -9,7 +9,7 @@
 #include "app/window/model.h"
 #include "app/window/navigation.h"
 #include "hybrid/gpu/present_pass.h"
-#include "hybrid/include/pinocchio/renderer.h"
+#include "pinocchio/renderer.h"
 #include "hybrid/inspect/accumulator.h"
 
 namespace pinocchio::app {

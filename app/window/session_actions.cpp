@@ -7,8 +7,8 @@
 #include "app/window/session.h"
 #include "core/image/atomic_file.h"
 #include "core/image/png.h"
-#include "core/scene/save.h"
 #include "gl/framebuffer.h"
+#include "pinocchio/save.h"
 
 namespace pinocchio::app {
 namespace {

@@ -2,7 +2,7 @@
 
 #include <cstdint>
 
-#include "core/scene/scene.h"
+#include "pinocchio/scene.h"
 
 namespace pinocchio::chart {
 

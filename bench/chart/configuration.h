@@ -6,10 +6,10 @@
 #include <optional>
 #include <string>
 
-#include "core/bsp/build_options.h"
-#include "core/trace/tracer.h"
 #include "hybrid/frame.h"
 #include "hybrid/plan.h"
+#include "pinocchio/build_options.h"
+#include "pinocchio/tracer.h"
 
 namespace pinocchio::chart {
 

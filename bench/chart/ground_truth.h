@@ -9,10 +9,10 @@
 
 #include "bench/chart/timed_renderer.h"
 #include "core/compare/picture_error.h"
-#include "core/image/image.h"
 #include "core/parallel/workers.h"
 #include "hybrid/prepared_scene.h"
 #include "hybrid/renderer.h"
+#include "pinocchio/image.h"
 
 namespace pinocchio::chart {
 

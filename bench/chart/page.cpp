@@ -8,7 +8,7 @@
 #include <string>
 #include <system_error>
 
-#include "core/base/error.h"
+#include "pinocchio/error.h"
 
 namespace pinocchio::chart {
 namespace {

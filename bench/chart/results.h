@@ -7,7 +7,7 @@
 #include <string>
 
 #include "bench/chart/configuration.h"
-#include "core/base/error.h"
+#include "pinocchio/error.h"
 
 namespace pinocchio::chart {
 

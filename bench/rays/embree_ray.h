@@ -2,7 +2,7 @@
 
 #include <embree3/rtcore.h>
 
-#include "core/math/ray.h"
+#include "pinocchio/ray.h"
 
 namespace pinocchio {
 

@@ -8,7 +8,7 @@
 
 #include "bench/rays/embree_ray.h"
 #include "bench/rays/measure.h"
-#include "core/base/error.h"
+#include "pinocchio/error.h"
 
 namespace pinocchio::bench {
 namespace {

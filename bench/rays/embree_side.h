@@ -4,7 +4,7 @@
 #include <span>
 
 #include "bench/rays/ray_backend.h"
-#include "core/scene/mesh.h"
+#include "pinocchio/mesh.h"
 
 namespace pinocchio::bench {
 

@@ -9,7 +9,7 @@
 #include "bench/rays/our_side.h"
 #include "bench/rays/report.h"
 #include "core/image/atomic_file.h"
-#include "core/scene/load.h"
+#include "pinocchio/load.h"
 #include "scenes/generator/scenes.h"
 
 namespace pinocchio::bench {

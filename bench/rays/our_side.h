@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "bench/rays/ray_backend.h"
-#include "core/trace/tracer.h"
+#include "pinocchio/tracer.h"
 
 namespace pinocchio::bench {
 

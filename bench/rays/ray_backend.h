@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "bench/rays/ray_sets.h"
-#include "core/math/ray.h"
+#include "pinocchio/ray.h"
 
 namespace pinocchio::bench {
 

@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "core/parallel/workers.h"
-#include "core/scene/scene.h"
-#include "core/trace/tracer.h"
+#include "pinocchio/scene.h"
+#include "pinocchio/tracer.h"
 
 namespace pinocchio::bench {
 

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "bench/rays/embree_side.h"
-#include "core/trace/tracer.h"
+#include "pinocchio/tracer.h"
 
 namespace pinocchio::bench {
 

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "core/trace/tracer.h"
+#include "pinocchio/tracer.h"
 
 namespace pinocchio::stability {
 

@@ -3,8 +3,8 @@
 
 #include <vector>
 
-#include "core/math/ray.h"
-#include "core/scene/mesh.h"
+#include "pinocchio/mesh.h"
+#include "pinocchio/ray.h"
 #include "scenes/generator/random.h"
 
 namespace pinocchio::stability {

@@ -3,7 +3,7 @@
 #include <cstdint>
 
 #include "core/bsp/tree.h"
-#include "core/math/ray.h"
+#include "pinocchio/ray.h"
 
 namespace pinocchio::stability {
 

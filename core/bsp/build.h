@@ -1,8 +1,8 @@
 #pragma once
 
-#include "core/bsp/build_options.h"
 #include "core/bsp/tree.h"
-#include "core/scene/mesh.h"
+#include "pinocchio/build_options.h"
+#include "pinocchio/mesh.h"
 
 namespace pinocchio {
 

@@ -3,7 +3,7 @@
 #include <cstdint>
 #include <glm/glm.hpp>
 
-#include "core/math/bounds.h"
+#include "pinocchio/bounds.h"
 
 namespace pinocchio {
 

@@ -2,7 +2,7 @@
 
 #include <glm/glm.hpp>
 
-#include "core/math/bounds.h"
+#include "pinocchio/bounds.h"
 
 namespace pinocchio {
 

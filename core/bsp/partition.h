@@ -5,7 +5,7 @@
 
 #include "core/bsp/build_reference.h"
 #include "core/bsp/split.h"
-#include "core/scene/mesh.h"
+#include "pinocchio/mesh.h"
 
 namespace pinocchio {
 

@@ -3,7 +3,7 @@
 #include <emmintrin.h>
 
 #include "core/bsp/build.h"
-#include "core/math/bounds.h"
+#include "pinocchio/bounds.h"
 
 namespace pinocchio {
 

@@ -5,7 +5,7 @@
 #include <span>
 
 #include "core/bsp/build_reference.h"
-#include "core/math/bounds.h"
+#include "pinocchio/bounds.h"
 
 namespace pinocchio {
 

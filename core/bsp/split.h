@@ -7,7 +7,7 @@
 #include "core/bsp/build.h"
 #include "core/bsp/build_reference.h"
 #include "core/bsp/slabs.h"
-#include "core/math/bounds.h"
+#include "pinocchio/bounds.h"
 
 namespace pinocchio {
 

@@ -10,8 +10,8 @@
 #include "core/bsp/corner_triangle.h"
 #include "core/bsp/node.h"
 #include "core/bsp/projected_triangle.h"
-#include "core/bsp/triangle_test.h"
-#include "core/math/bounds.h"
+#include "pinocchio/bounds.h"
+#include "pinocchio/triangle_test.h"
 
 namespace pinocchio {
 

@@ -6,9 +6,9 @@
 #include <utility>
 #include <vector>
 
-#include "core/base/error.h"
 #include "core/compare/picture_error.h"
-#include "core/image/exr.h"
+#include "pinocchio/error.h"
+#include "pinocchio/exr.h"
 
 namespace pinocchio {
 

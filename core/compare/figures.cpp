@@ -6,7 +6,7 @@
 #include <cmath>
 #include <limits>
 
-#include "core/math/ray.h"
+#include "pinocchio/ray.h"
 
 namespace pinocchio {
 namespace {

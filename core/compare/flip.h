@@ -3,8 +3,8 @@
 
 #include <glm/glm.hpp>
 
-#include "core/image/image.h"
 #include "core/parallel/workers.h"
+#include "pinocchio/image.h"
 
 namespace pinocchio {
 

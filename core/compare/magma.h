@@ -2,7 +2,7 @@
 
 #include <glm/glm.hpp>
 
-#include "core/image/image.h"
+#include "pinocchio/image.h"
 
 namespace pinocchio {
 

@@ -4,8 +4,8 @@
 
 #include "core/compare/figures.h"
 #include "core/compare/flip.h"
-#include "core/image/image.h"
 #include "core/parallel/workers.h"
+#include "pinocchio/image.h"
 
 namespace pinocchio {
 

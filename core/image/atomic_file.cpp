@@ -7,7 +7,7 @@
 #include <fstream>
 #include <system_error>
 
-#include "core/base/error.h"
+#include "pinocchio/error.h"
 
 namespace pinocchio {
 namespace {

@@ -1,4 +1,4 @@
-#include "core/image/exr.h"
+#include "pinocchio/exr.h"
 
 #include <ImfChannelList.h>
 #include <ImfChromaticitiesAttribute.h>

@@ -3,9 +3,9 @@
 #include <cmath>
 #include <fstream>
 
-#include "core/base/error.h"
 #include "core/image/atomic_file.h"
 #include "core/image/tonemap.h"
+#include "pinocchio/error.h"
 
 #define STB_IMAGE_WRITE_STATIC
 #define STB_IMAGE_WRITE_IMPLEMENTATION

@@ -3,7 +3,7 @@
 #include <filesystem>
 #include <glm/glm.hpp>
 
-#include "core/image/image.h"
+#include "pinocchio/image.h"
 
 namespace pinocchio {
 

@@ -3,7 +3,7 @@
 #include <set>
 #include <string>
 
-#include "core/base/error.h"
+#include "pinocchio/error.h"
 
 namespace pinocchio {
 

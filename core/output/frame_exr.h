@@ -4,13 +4,13 @@
 #include <optional>
 #include <string>
 
-#include "core/image/exr.h"
-#include "core/image/image.h"
 #include "core/output/aovs.h"
-#include "core/scene/camera.h"
-#include "core/scene/scene.h"
 #include "core/trace/aov.h"
-#include "core/trace/mask_image.h"
+#include "pinocchio/camera.h"
+#include "pinocchio/exr.h"
+#include "pinocchio/image.h"
+#include "pinocchio/mask_image.h"
+#include "pinocchio/scene.h"
 
 namespace pinocchio {
 

@@ -4,7 +4,7 @@
 #include <cstddef>
 #include <glm/glm.hpp>
 
-#include "core/math/pixel_box.h"
+#include "pinocchio/pixel_box.h"
 
 namespace pinocchio {
 

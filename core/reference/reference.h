@@ -6,12 +6,12 @@
 #include <cstdint>
 #include <glm/glm.hpp>
 
-#include "core/image/image.h"
 #include "core/parallel/workers.h"
 #include "core/reference/reference_tracer.h"
-#include "core/scene/scene.h"
-#include "core/trace/mask_image.h"
-#include "core/trace/view.h"
+#include "core/trace/view_params.h"
+#include "pinocchio/image.h"
+#include "pinocchio/mask_image.h"
+#include "pinocchio/scene.h"
 
 namespace pinocchio {
 

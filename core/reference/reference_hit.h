@@ -4,7 +4,7 @@
 #include <glm/glm.hpp>
 #include <limits>
 
-#include "core/math/ray.h"
+#include "pinocchio/ray.h"
 
 namespace pinocchio {
 

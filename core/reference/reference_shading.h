@@ -5,7 +5,7 @@
 #include <optional>
 
 #include "core/reference/reference_surface.h"
-#include "core/scene/light.h"
+#include "pinocchio/light.h"
 
 namespace pinocchio {
 

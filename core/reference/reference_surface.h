@@ -3,7 +3,7 @@
 #include <glm/glm.hpp>
 
 #include "core/reference/reference_hit.h"
-#include "core/scene/mesh.h"
+#include "pinocchio/mesh.h"
 
 namespace pinocchio {
 

@@ -5,8 +5,8 @@
 
 #include "core/reference/reference_surface.h"
 #include "core/reference/reference_tree.h"
-#include "core/scene/scene.h"
 #include "core/trace/shared.h"
+#include "pinocchio/scene.h"
 
 namespace pinocchio {
 

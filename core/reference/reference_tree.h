@@ -4,9 +4,9 @@
 #include <stop_token>
 #include <vector>
 
-#include "core/math/bounds.h"
 #include "core/reference/reference_hit.h"
-#include "core/scene/mesh.h"
+#include "pinocchio/bounds.h"
+#include "pinocchio/mesh.h"
 
 namespace pinocchio {
 

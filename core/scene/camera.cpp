@@ -1,4 +1,4 @@
-#include "core/scene/camera.h"
+#include "pinocchio/camera.h"
 
 #include <cmath>
 

@@ -14,8 +14,8 @@
 #include <tiny_gltf.h>
 #pragma GCC diagnostic pop
 
-#include "core/base/error.h"
-#include "core/scene/mesh.h"
+#include "pinocchio/error.h"
+#include "pinocchio/mesh.h"
 
 namespace pinocchio {
 

@@ -1,4 +1,4 @@
-#include "core/scene/load.h"
+#include "pinocchio/load.h"
 
 #include <algorithm>
 #include <array>

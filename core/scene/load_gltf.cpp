@@ -6,7 +6,7 @@
 
 #include "core/math/finite.h"
 #include "core/scene/gltf_file.h"
-#include "core/scene/load.h"
+#include "pinocchio/load.h"
 
 namespace pinocchio {
 namespace {

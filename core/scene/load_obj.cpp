@@ -10,9 +10,9 @@
 #include <tiny_obj_loader.h>
 #pragma GCC diagnostic pop
 
-#include "core/scene/load.h"
 #include "core/scene/obj_check.h"
 #include "core/scene/texture_file.h"
+#include "pinocchio/load.h"
 
 namespace pinocchio {
 namespace {

@@ -1,4 +1,4 @@
-#include "core/scene/mesh.h"
+#include "pinocchio/mesh.h"
 
 namespace pinocchio {
 

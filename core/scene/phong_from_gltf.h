@@ -2,7 +2,7 @@
 
 #include <glm/glm.hpp>
 
-#include "core/scene/material.h"
+#include "pinocchio/material.h"
 
 namespace pinocchio {
 

@@ -1,6 +1,6 @@
-#include "core/scene/save.h"
+#include "pinocchio/save.h"
 
-#include "core/base/error.h"
+#include "pinocchio/error.h"
 
 namespace pinocchio {
 

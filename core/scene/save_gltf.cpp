@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "core/image/atomic_file.h"
-#include "core/scene/save.h"
+#include "pinocchio/save.h"
 
 namespace pinocchio {
 namespace {

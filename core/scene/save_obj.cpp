@@ -3,7 +3,7 @@
 #include <string>
 
 #include "core/image/atomic_file.h"
-#include "core/scene/save.h"
+#include "pinocchio/save.h"
 
 namespace pinocchio {
 namespace {

@@ -1,4 +1,4 @@
-#include "core/scene/scene.h"
+#include "pinocchio/scene.h"
 
 #include <algorithm>
 #include <cmath>

@@ -5,7 +5,7 @@
 #include <span>
 #include <string>
 
-#include "core/scene/mesh.h"
+#include "pinocchio/mesh.h"
 
 namespace pinocchio {
 

@@ -2,10 +2,10 @@
 
 #include <cstdint>
 
-#include "core/image/image.h"
 #include "core/parallel/workers.h"
-#include "core/scene/mesh.h"
 #include "core/trace/shared.h"
+#include "pinocchio/image.h"
+#include "pinocchio/mesh.h"
 
 namespace pinocchio {
 

@@ -2,9 +2,7 @@
 // kernel_ISA.cpp includes lanes_ISA.h, names the namespace in PINOCCHIO_LANES and includes this. Everything
 // here lives inside that namespace: a function compiled for AVX must never be the one the linker keeps for
 // all.
-#include "core/bsp/build_options.h"
 #include "core/bsp/tree.h"
-#include "core/math/ray.h"
 #include "core/trace/exact_triangle.h"
 #include "core/trace/kernels.h"
 #include "core/trace/packet.h"
@@ -12,6 +10,8 @@
 #include "core/trace/triangle_tests/moeller_trumbore.h"
 #include "core/trace/triangle_tests/projected.h"
 #include "core/trace/triangle_tests/watertight.h"
+#include "pinocchio/build_options.h"
+#include "pinocchio/ray.h"
 
 namespace pinocchio::PINOCCHIO_LANES {
 namespace {

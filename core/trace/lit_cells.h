@@ -9,7 +9,7 @@
 
 #include "core/parallel/workers.h"
 #include "core/trace/shared.h"
-#include "core/trace/tracer.h"
+#include "pinocchio/tracer.h"
 
 namespace pinocchio {
 

@@ -5,8 +5,8 @@
 #include <glm/glm.hpp>
 
 #include "core/bsp/tree.h"
-#include "core/scene/mesh.h"
 #include "core/trace/shared.h"
+#include "pinocchio/mesh.h"
 
 namespace pinocchio {
 

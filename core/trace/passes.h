@@ -5,15 +5,15 @@
 #include <cstdint>
 #include <glm/glm.hpp>
 
-#include "core/image/image.h"
 #include "core/parallel/workers.h"
-#include "core/scene/scene.h"
 #include "core/trace/lit_cells.h"
-#include "core/trace/mask_image.h"
-#include "core/trace/ray_counts.h"
 #include "core/trace/scatter.h"
 #include "core/trace/shared.h"
-#include "core/trace/tracer.h"
+#include "pinocchio/image.h"
+#include "pinocchio/mask_image.h"
+#include "pinocchio/ray_counts.h"
+#include "pinocchio/scene.h"
+#include "pinocchio/tracer.h"
 
 namespace pinocchio {
 

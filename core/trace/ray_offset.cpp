@@ -1,4 +1,4 @@
-#include "core/trace/ray_offset.h"
+#include "pinocchio/ray_offset.h"
 
 namespace pinocchio {
 namespace {

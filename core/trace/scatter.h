@@ -4,8 +4,8 @@
 #include <glm/glm.hpp>
 #include <vector>
 
-#include "core/math/ray.h"
 #include "core/trace/surface.h"
+#include "pinocchio/ray.h"
 
 namespace pinocchio {
 

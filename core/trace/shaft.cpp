@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/bsp/build_options.h"
+#include "pinocchio/build_options.h"
 
 namespace pinocchio {
 namespace {

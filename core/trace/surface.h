@@ -5,10 +5,10 @@
 #include <optional>
 #include <vector>
 
-#include "core/math/ray.h"
-#include "core/scene/scene.h"
-#include "core/trace/ray_offset.h"
 #include "core/trace/shared.h"
+#include "pinocchio/ray.h"
+#include "pinocchio/ray_offset.h"
+#include "pinocchio/scene.h"
 
 namespace pinocchio {
 

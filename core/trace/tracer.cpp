@@ -1,13 +1,13 @@
-#include "core/trace/tracer.h"
+#include "pinocchio/tracer.h"
 
 #include <array>
 #include <cassert>
 #include <string>
 #include <utility>
 
-#include "core/base/error.h"
 #include "core/bsp/build.h"
 #include "core/trace/kernels.h"
+#include "pinocchio/error.h"
 
 namespace pinocchio {
 namespace {

@@ -1,4 +1,4 @@
-#include "core/trace/view.h"
+#include "pinocchio/view.h"
 
 #include <cmath>
 

@@ -3,7 +3,7 @@
 #include <glm/glm.hpp>
 
 #include "core/trace/shared.h"
-#include "core/trace/view.h"
+#include "pinocchio/view.h"
 
 namespace pinocchio {
 

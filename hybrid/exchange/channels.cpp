@@ -1,8 +1,8 @@
 #include "hybrid/exchange/channels.h"
 
-#include "core/trace/mask_image.h"
 #include "hybrid/exchange/encode.h"
 #include "hybrid/exchange/reflection_tiles.h"
+#include "pinocchio/mask_image.h"
 
 namespace pinocchio {
 namespace {

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "gl/texture.h"
-#include "hybrid/include/pinocchio/frame.h"
+#include "pinocchio/frame.h"
 
 namespace pinocchio {
 

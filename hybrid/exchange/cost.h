@@ -4,7 +4,7 @@
 
 #include <glm/glm.hpp>
 
-#include "hybrid/include/pinocchio/settings.h"
+#include "pinocchio/settings.h"
 
 namespace pinocchio {
 

@@ -6,10 +6,10 @@
 #include <glm/glm.hpp>
 #include <span>
 
-#include "core/image/image.h"
 #include "core/parallel/workers.h"
 #include "gl/texture.h"
-#include "hybrid/include/pinocchio/settings.h"
+#include "pinocchio/image.h"
+#include "pinocchio/settings.h"
 
 namespace pinocchio {
 

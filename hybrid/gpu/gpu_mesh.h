@@ -2,10 +2,10 @@
 
 #include <memory>
 
-#include "core/scene/scene.h"
 #include "gl/draw.h"
 #include "gl/program.h"
 #include "gl/texture.h"
+#include "pinocchio/scene.h"
 
 namespace pinocchio {
 

@@ -5,9 +5,9 @@
 #include <tuple>
 #include <vector>
 
-#include "core/base/error.h"
 #include "gl/program.h"
 #include "hybrid/shaders.h"
+#include "pinocchio/error.h"
 
 namespace pinocchio {
 
@@ -23,8 +23,8 @@ class Programs {
   [[nodiscard]] const gl::Program& get(const std::string& vertex_file, const std::string& fragment_file,
                                        const Definitions& definitions = {});
 
-  // Compiles every program that was asked for so far anew, from the files as they are now where a folder has them. Where one fails,
-  // all stay as they were and the error says why: file, line, the compiler's message.
+  // Compiles every program that was asked for so far anew, from the files as a folder has them now. Where one
+  // fails, all stay as they were and the error says why: file, line, the compiler's message.
   [[nodiscard]] Expected<void> reload();
 
   // How often reload() has succeeded: what was drawn before is not what would be drawn now.

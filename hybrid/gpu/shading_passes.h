@@ -8,8 +8,8 @@
 #include "gl/draw.h"
 #include "gl/program.h"
 #include "hybrid/gpu/gpu_mesh.h"
-#include "hybrid/include/pinocchio/settings.h"
 #include "hybrid/gpu/programs.h"
+#include "pinocchio/settings.h"
 
 namespace pinocchio {
 

@@ -6,8 +6,8 @@
 
 #include "gl/draw.h"
 #include "gl/framebuffer.h"
-#include "hybrid/include/pinocchio/renderer.h"
 #include "hybrid/gpu/programs.h"
+#include "pinocchio/renderer.h"
 
 namespace pinocchio {
 

@@ -6,10 +6,10 @@
 #include <thread>
 #include <vector>
 
-#include "core/image/image.h"
 #include "core/parallel/tiles.h"
-#include "core/scene/scene.h"
-#include "core/trace/view.h"
+#include "core/trace/view_params.h"
+#include "pinocchio/image.h"
+#include "pinocchio/scene.h"
 
 namespace pinocchio {
 

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <optional>
 
-#include "hybrid/include/pinocchio/settings.h"
+#include "pinocchio/settings.h"
 
 namespace pinocchio {
 namespace {

@@ -3,8 +3,8 @@
 #include <filesystem>
 #include <nlohmann/json_fwd.hpp>
 
-#include "core/base/error.h"
-#include "hybrid/include/pinocchio/settings.h"
+#include "pinocchio/error.h"
+#include "pinocchio/settings.h"
 
 namespace pinocchio {
 

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "hybrid/include/pinocchio/settings.h"
+#include "pinocchio/settings.h"
 
 namespace pinocchio {
 

@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <string>
 
-#include "core/scene/light.h"
-#include "core/trace/mask_image.h"
 #include "core/trace/scatter.h"
+#include "pinocchio/light.h"
+#include "pinocchio/mask_image.h"
 
 namespace pinocchio {
 namespace {

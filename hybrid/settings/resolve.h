@@ -2,9 +2,9 @@
 
 #include <glm/glm.hpp>
 
-#include "core/base/error.h"
-#include "hybrid/include/pinocchio/settings.h"
 #include "hybrid/settings/scene_stats.h"
+#include "pinocchio/error.h"
+#include "pinocchio/settings.h"
 
 namespace pinocchio {
 

@@ -1,7 +1,7 @@
 // Presets, and what no two settings may say at once.
 #include <algorithm>
 
-#include "hybrid/include/pinocchio/settings.h"
+#include "pinocchio/settings.h"
 
 namespace pinocchio {
 namespace {

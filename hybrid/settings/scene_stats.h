@@ -2,8 +2,8 @@
 
 #include <cstddef>
 
-#include "core/scene/scene.h"
-#include "hybrid/include/pinocchio/settings.h"
+#include "pinocchio/scene.h"
+#include "pinocchio/settings.h"
 
 namespace pinocchio {
 

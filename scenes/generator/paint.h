@@ -3,7 +3,7 @@
 #include <glm/glm.hpp>
 #include <string>
 
-#include "core/scene/material.h"
+#include "pinocchio/material.h"
 
 namespace pinocchio {
 

@@ -3,8 +3,8 @@
 #include <string>
 #include <vector>
 
-#include "core/base/error.h"
-#include "core/scene/scene.h"
+#include "pinocchio/error.h"
+#include "pinocchio/scene.h"
 
 namespace pinocchio {
 

@@ -3,7 +3,7 @@
 #include <limits>
 #include <nlohmann/json.hpp>
 
-#include "core/image/exr.h"
+#include "pinocchio/exr.h"
 #include "tests/app/program_test.h"
 
 namespace pinocchio {

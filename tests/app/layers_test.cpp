@@ -123,7 +123,7 @@ TEST(Layers, AViolationIsFound) {
   std::filesystem::create_directories(root / "gl");
   std::filesystem::create_directories(root / "hybrid");
   std::ofstream(root / "core/math/bad.h") << "#pragma once\n#include \"gl/context.h\"\n";
-  std::ofstream(root / "gl/bad.cpp") << "#include \"core/scene/scene.h\"\n#include \"gl/good.h\"\n";
+  std::ofstream(root / "gl/bad.cpp") << "#include \"core/math/finite.h\"\n#include \"gl/good.h\"\n";
   std::ofstream(root / "core/math/worse.h") << "#include \"scenes/generator/random.h\"\n";
   std::ofstream(root / "hybrid/bad.cpp") << "#include \"bench/stability/table.h\"\n";
   EXPECT_EQ(violations(root, "", kMaySee).size(), 4u);

@@ -1,6 +1,6 @@
 #include <nlohmann/json.hpp>
 
-#include "core/image/exr.h"
+#include "pinocchio/exr.h"
 #include "tests/app/program_test.h"
 
 namespace pinocchio {

@@ -4,7 +4,7 @@
 
 #include <fstream>
 
-#include "core/base/error.h"
+#include "pinocchio/error.h"
 #include "tests/support/own_file.h"
 
 namespace pinocchio {

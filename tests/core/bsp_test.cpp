@@ -2,7 +2,7 @@
 #include <string>
 
 #include "core/bsp/build.h"
-#include "core/trace/tracer.h"
+#include "pinocchio/tracer.h"
 #include "tests/support/scenes.h"
 
 namespace pinocchio {

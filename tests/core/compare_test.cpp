@@ -6,7 +6,7 @@
 
 #include "core/compare/comparison.h"
 #include "core/compare/magma.h"
-#include "core/math/ray.h"
+#include "pinocchio/ray.h"
 
 namespace pinocchio {
 namespace {

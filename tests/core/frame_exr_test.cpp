@@ -4,8 +4,8 @@
 
 #include <cmath>
 
-#include "core/math/ray.h"
 #include "core/trace/view_params.h"
+#include "pinocchio/ray.h"
 
 namespace pinocchio {
 namespace {

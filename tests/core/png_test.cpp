@@ -5,7 +5,7 @@
 
 #include <memory>
 
-#include "core/base/error.h"
+#include "pinocchio/error.h"
 
 #define STB_IMAGE_STATIC
 #define STB_IMAGE_IMPLEMENTATION

@@ -1,7 +1,7 @@
 #include <map>
 
-#include "core/trace/tracer.h"
 #include "core/trace/view_params.h"
+#include "pinocchio/tracer.h"
 #include "scenes/generator/scenes.h"
 #include "tests/support/scenes.h"
 

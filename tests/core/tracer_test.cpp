@@ -1,4 +1,4 @@
-#include "core/trace/tracer.h"
+#include "pinocchio/tracer.h"
 
 #include <algorithm>
 #include <cmath>

@@ -6,7 +6,7 @@
 #include <algorithm>
 
 #include "bench/rays/embree_ray.h"
-#include "core/scene/mesh.h"
+#include "pinocchio/mesh.h"
 
 namespace pinocchio {
 

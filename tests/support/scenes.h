@@ -10,7 +10,7 @@
 #include <utility>
 #include <vector>
 
-#include "core/scene/load.h"
+#include "pinocchio/load.h"
 #include "scenes/generator/random.h"
 
 namespace pinocchio {

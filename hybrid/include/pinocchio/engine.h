@@ -5,7 +5,7 @@
 #include <memory>
 #include <string>
 
-#include "hybrid/include/pinocchio/renderer.h"
+#include "pinocchio/renderer.h"
 
 namespace pinocchio {
 

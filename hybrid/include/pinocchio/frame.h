@@ -6,10 +6,10 @@
 #include <cstdint>
 #include <string_view>
 
-#include "core/image/image.h"
-#include "core/trace/mask_image.h"
-#include "core/trace/ray_counts.h"
-#include "hybrid/include/pinocchio/settings.h"
+#include "pinocchio/image.h"
+#include "pinocchio/mask_image.h"
+#include "pinocchio/ray_counts.h"
+#include "pinocchio/settings.h"
 
 namespace pinocchio {
 

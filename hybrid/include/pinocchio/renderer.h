@@ -4,11 +4,11 @@
 #include <functional>
 #include <memory>
 
-#include "core/scene/scene.h"
-#include "core/trace/tracer.h"
-#include "core/trace/view.h"
-#include "hybrid/include/pinocchio/frame.h"
-#include "hybrid/include/pinocchio/settings.h"
+#include "pinocchio/frame.h"
+#include "pinocchio/scene.h"
+#include "pinocchio/settings.h"
+#include "pinocchio/tracer.h"
+#include "pinocchio/view.h"
 
 namespace pinocchio {
 

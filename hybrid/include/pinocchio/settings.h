@@ -8,8 +8,8 @@
 #include <string>
 #include <string_view>
 
-#include "core/base/error.h"
-#include "core/trace/tracer.h"
+#include "pinocchio/error.h"
+#include "pinocchio/tracer.h"
 
 namespace pinocchio {
 

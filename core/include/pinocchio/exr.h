@@ -7,8 +7,8 @@
 #include <variant>
 #include <vector>
 
-#include "core/base/error.h"
-#include "core/math/pixel_box.h"
+#include "pinocchio/error.h"
+#include "pinocchio/pixel_box.h"
 
 namespace pinocchio {
 

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "core/base/names.h"
+#include "pinocchio/names.h"
 
 namespace pinocchio {
 

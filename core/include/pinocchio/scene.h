@@ -6,10 +6,10 @@
 #include <utility>
 #include <vector>
 
-#include "core/math/bounds.h"
-#include "core/scene/camera.h"
-#include "core/scene/light.h"
-#include "core/scene/mesh.h"
+#include "pinocchio/bounds.h"
+#include "pinocchio/camera.h"
+#include "pinocchio/light.h"
+#include "pinocchio/mesh.h"
 
 namespace pinocchio {
 

@@ -2,7 +2,7 @@
 
 #include <filesystem>
 
-#include "core/scene/scene.h"
+#include "pinocchio/scene.h"
 
 namespace pinocchio {
 

@@ -8,10 +8,10 @@
 #include <string_view>
 #include <vector>
 
-#include "core/bsp/build_options.h"
-#include "core/math/ray.h"
-#include "core/scene/mesh.h"
-#include "core/trace/ray_offset.h"
+#include "pinocchio/build_options.h"
+#include "pinocchio/mesh.h"
+#include "pinocchio/ray.h"
+#include "pinocchio/ray_offset.h"
 
 namespace pinocchio {
 

@@ -6,9 +6,9 @@
 #include <utility>
 #include <vector>
 
-#include "core/image/image.h"
-#include "core/math/bounds.h"
-#include "core/scene/material.h"
+#include "pinocchio/bounds.h"
+#include "pinocchio/image.h"
+#include "pinocchio/material.h"
 
 namespace pinocchio {
 

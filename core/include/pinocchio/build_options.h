@@ -1,7 +1,9 @@
 #pragma once
 
-#include "core/base/names.h"
-#include "core/bsp/triangle_test.h"
+#include <array>
+#include <string_view>
+
+#include "pinocchio/triangle_test.h"
 
 namespace pinocchio {
 

@@ -2,10 +2,10 @@
 
 #include <glm/glm.hpp>
 
-#include "core/image/image.h"
-#include "core/math/pixel_box.h"
-#include "core/math/ray.h"
-#include "core/scene/camera.h"
+#include "pinocchio/camera.h"
+#include "pinocchio/image.h"
+#include "pinocchio/pixel_box.h"
+#include "pinocchio/ray.h"
 
 namespace pinocchio {
 

@@ -1,7 +1,7 @@
 #pragma once
 
-#include "core/base/names.h"
-#include "core/math/bounds.h"
+#include "pinocchio/bounds.h"
+#include "pinocchio/names.h"
 
 namespace pinocchio {
 
