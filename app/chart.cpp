@@ -5,22 +5,18 @@
 
 #include "app/animation.h"
 #include "app/console.h"
+#include "app/drawing.h"
 #include "app/errors.h"
-#include "app/machine.h"
-#include "app/options.h"
 #include "app/output.h"
 #include "app/parse.h"
 #include "app/verbs.h"
 #include "bench/chart/bench.h"
 #include "bench/chart/checksum.h"
 #include "bench/chart/page.h"
-#include "bench/chart/results.h"
-#include "bench/chart/sweep.h"
 #include "bench/stability/table.h"
 #include "core/base/system_info.h"
 #include "core/image/atomic_file.h"
-#include "gl/open.h"
-#include "hybrid/plan_json.h"
+#include "gl/context.h"
 
 namespace pinocchio::app {
 namespace {
@@ -69,16 +65,17 @@ class ChartRun {
     if (!options_.size_given) draw.size = options_.quick ? kQuickSize : kDefaultSize;
     Scene scene = load_scene_for(draw);
     const std::vector<View> views = motion(camera_for(draw, scene));
-    make_folders();
-    Machine machine(draw, std::move(scene), false, true);
-    const SweepRequest request{machine.needs(), machine.request(), system_info().cores, options_.quick,
-                               options_.only};
-    const std::vector<Configuration> sweep = value_or_exit(make_sweep(request), kBadScene);
+    make_folder(folder_ / "pictures");
+    check_writable(folder_ / "results.json");
+    Drawing drawing(draw, std::move(scene), Exchange::sync, false, true);
+    const auto resolve = [&](const Settings& settings) { return drawing.resolve(settings); };
+    const std::vector<Configuration> sweep =
+        make_sweep({drawing.settings(), resolve, drawing.stats(), system_info().cores, options_.quick,
+                    options_.only});
     Results results =
-        value_or_exit(Results::open(folder_, run_json(machine, views), options_.restart), kUsage);
-    write_plans(sweep);
-    Bench bench(machine.shared_scene(), request, machine.workers(), bench_settings(), views, folder_);
-    if (!measure(machine, bench, sweep, results)) return kInterrupted;
+        value_or_exit(Results::open(folder_, run_json(drawing, views), options_.restart), kUsage);
+    Bench bench(drawing.engine(), drawing.request({}), bench_settings(), views, folder_);
+    if (!measure(drawing.engine(), bench, sweep, results)) return kInterrupted;
     return finish(results);
   }
 
@@ -102,17 +99,12 @@ class ChartRun {
     frames.resize(wanted);
     std::vector<View> views;
     for (const CameraFrame& frame : frames)
-      views.push_back({frame.camera, options_.draw.size, part_of(options_.draw)});
+      views.push_back({frame.camera, options_.draw.size});
     return views;
   }
 
-  void make_folders() const {
-    for (const char* name : {"plans", "pictures"}) make_folder(folder_ / name);
-    check_writable(folder_ / "results.json");
-  }
-
   // What a chart's figures depend on beside the configuration.
-  [[nodiscard]] nlohmann::json run_json(Machine& machine, const std::vector<View>& views) const {
+  [[nodiscard]] nlohmann::json run_json(Drawing& drawing, const std::vector<View>& views) const {
     nlohmann::json cameras = nlohmann::json::array();
     const auto list = [](const glm::vec3& v) { return nlohmann::json{v.x, v.y, v.z}; };
     for (const View& view : views) {
@@ -124,7 +116,7 @@ class ChartRun {
     for (const AxisName& axis : axis_names()) axes.push_back({axis.name, axis.title});
     const BenchSettings bench = bench_settings();
     const SystemInfo system = system_info();
-    const Scene& scene = machine.scene().scene;
+    const Scene& scene = drawing.scene();
     return {{"pinocchio", version()},
             {"scene",
              {{"name", std::filesystem::path(scene.source).stem().string()},
@@ -140,17 +132,11 @@ class ChartRun {
             {"turntable", options_.animation.turntable},
             {"cpu", system.cpu},
             {"cores", system.cores},
-            {"gl", machine.gl_info()->renderer}};
-  }
-
-  void write_plans(const std::vector<Configuration>& sweep) const {
-    for (const Configuration& configuration : sweep)
-      if (configuration.has_plan_file)
-        write_json(folder_ / configuration.plan_file(), to_json(configuration.settings.plan));
+            {"gl", drawing.gl_info()->renderer}};
   }
 
   // False where the user asked for an end; what was measured by then is kept.
-  bool measure(const Machine& machine, Bench& bench, const std::vector<Configuration>& sweep,
+  bool measure(const Engine& engine, Bench& bench, const std::vector<Configuration>& sweep,
                Results& results) const {
     Progress progress(options_.draw.quiet ? "off" : options_.draw.progress, "chart", sweep.size());
     for (const Configuration& configuration : sweep) {
@@ -161,7 +147,7 @@ class ChartRun {
         } else {
           const std::optional<PointFigures> figures = bench.measure(configuration);
           if (!figures) return false;
-          machine.throw_gl_complaints();
+          engine.throw_gl_complaints();
           results.add(configuration, to_json(*figures), configuration.name());
         }
       }
@@ -193,11 +179,12 @@ int run_stability(const ChartOptions& options) {
   const DrawOptions& draw = options.draw;
   make_folder(folder);
   check_writable(folder / "stability.json");
-  const auto context = gl::open_context({draw.backend, draw.device, false});
+  Engine engine(draw.engine);
+  engine.open_gl();  // now, not after the rays
   std::optional<stability::Tables> tables;
   {
     Progress progress(draw.quiet ? "off" : draw.progress, "stability", stability::table_cells());
-    tables = stability::make_tables(options.quick, [&] {
+    tables = stability::make_tables(engine, options.quick, [&] {
       progress.step();
       return !interrupted();
     });
@@ -218,6 +205,7 @@ Run add_chart(CLI::App& program) {
   CLI::App& verb = *program.add_subcommand(
       "chart", "sweep the settings of a scene's pictures; chart error against time, with the Pareto front");
   add_scene_options(verb, options->draw);
+  add_context_options(verb, options->draw);
   add_size_option(verb, options->draw, "pixels (400x300; with --quick 160x120)");
   add_animation_options(verb, options->animation);
   verb.add_option(

@@ -82,10 +82,18 @@ void print_scene(const Scene& scene) {
   std::printf("  every shading normal is known to the CPU: none has to be sent\n");
 }
 
+// Without what is of a run, not of the scene: a plan that is read back leaves it to the command line.
+nlohmann::json plan_json(const Settings& plan) {
+  nlohmann::json json = to_json(plan, false);
+  json.erase("exchange");
+  json.erase("spp");
+  return json;
+}
+
 void print_plan(const SceneStats& stats, const Settings& settings) {
   std::printf("plan\n");
   for (const std::string& line : explain(stats, settings)) std::printf("  %s\n", line.c_str());
-  std::printf("  %s\n", to_json(settings).dump().c_str());
+  std::printf("  %s\n", plan_json(settings).dump().c_str());
 }
 
 nlohmann::json attempts_json(const std::vector<gl::Attempt>& attempts) {
@@ -194,7 +202,7 @@ int show_scene(const InfoOptions& options) {
   if (options.plan) plan = value_or_exit(plan_here(stats), kBadScene);
   if (options.json) {
     nlohmann::json json = scene_json(scene);
-    if (plan) json["plan"] = to_json(*plan);
+    if (plan) json["plan"] = plan_json(*plan);
     if (plan) json["why"] = explain(stats, *plan);
     std::printf("%s\n", json.dump(2).c_str());
   } else {

@@ -81,22 +81,12 @@ void add_preset(CLI::App& verb, const std::string& option, const std::string& he
 }
 
 // The plan's file, presets over it, and the single settings over both.
-void settle(const CLI::App& verb, const Said& said, DrawOptions& o) {
-  const auto contradiction = [&](const std::string& option) {
-    return CLI::ValidationError(option,
-                                "is what " + o.plan_file + " says; change it there, or leave out --plan");
-  };
+void settle(const Said& said, DrawOptions& o) {
   if (said.plan.ends_with(".json")) {
     o.plan_file = said.plan;
     const Expected<Settings> loaded = load_settings(said.plan);
     if (!loaded) throw CLI::ValidationError("--plan", loaded.error().message());
     o.settings = *loaded;
-    for (const Field& field : settings_table())
-      if (!field.of_machine && field.given(said.settings) && field.given(o.settings))
-        throw contradiction(field.option());
-    const bool says_who = o.settings.visibility.given || o.settings.composite.given;
-    for (const char* const option : {"--mode", "--design"})
-      if (says_who && verb.count(option) > 0) throw contradiction(option);
   }
   apply_preset("design", said.design, o.settings);
   apply_preset("mode", said.mode, o.settings);
@@ -177,10 +167,10 @@ void add_settings_options(CLI::App& verb, DrawOptions& o) {
   add_preset(verb, "design", "where the parts meet: 1, on the GPU; 2, on the CPU (1)", said->design);
   add_preset(verb, "plan",
              "auto: model and send only what the scene needs; slides: the fixed bytes of 2005; FILE.json: "
-             "settings, as 'info SCENE --plan --json' writes them (auto)",
+             "settings, as 'info SCENE --plan --json' writes them, which other options here override (auto)",
              said->plan);
   for (const Field& field : settings_table()) add_field(verb, field, said->settings);
-  verb.parse_complete_callback([&verb, &o, said] { settle(verb, *said, o); });
+  verb.parse_complete_callback([&o, said] { settle(*said, o); });
 }
 
 void add_still_options(CLI::App& verb, DrawOptions& o) {

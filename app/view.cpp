@@ -6,7 +6,7 @@
 #include "app/console.h"
 #include "app/errors.h"
 #include "app/verbs.h"
-#include "app/view/session.h"
+#include "app/window/session.h"
 #include "gl/error.h"
 
 namespace pinocchio::app {
@@ -23,12 +23,9 @@ std::unique_ptr<gl::Window> open_window(const ViewOptions& options) {
 }
 
 int view(const ViewOptions& options) {
-  if (options.draw.crop || options.draw.precise)
-    throw Exit(kUsage, std::string(options.draw.crop ? "--crop" : "--precise") +
-                           ": a window shows whole pictures while you wait; use it with 'pinocchio render'");
-  if (options.draw.exchange == Exchange::reproject && options.draw.design == 2)
-    throw Exit(kUsage,
-               "--exchange reproject: warps mask and reflection, which design 2 does not send; use design 1");
+  if (const Rule* const rule = broken_rule(options.draw.settings))
+    throw Exit(kUsage, InputError{options.draw.plan_file, 0, std::string(rule->what), std::string(rule->remedy)}
+                           .message());
   const std::unique_ptr<gl::Window> window = open_window(options);
   bool loading = false;
   {
@@ -49,7 +46,9 @@ int view(const ViewOptions& options) {
 Run add_view(CLI::App& program) {
   auto options = std::make_shared<ViewOptions>();
   CLI::App& verb = *program.add_subcommand("view", "open a scene in a window (F1 there: the keys)");
-  add_draw_options(verb, options->draw);
+  add_scene_options(verb, options->draw);
+  add_size_option(verb, options->draw, "pixels of the window's inside (800x600)");
+  add_settings_options(verb, options->draw);
   verb.add_option("--exposure", options->exposure_ev, "stops brighter (0)")
       ->check(CLI::Range(-kMostExposure, kMostExposure));
   verb.add_flag("--watch", options->watch, "load the scene anew when its files change, and the shaders in PINOCCHIO_SHADERS");

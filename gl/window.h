@@ -58,7 +58,7 @@ class Window {
   // Throws NoContextError where there is no display, or OpenGL is not enough.
   Window(const std::string& title, glm::ivec2 size, bool debug);
 
-  [[nodiscard]] const Context& context() const { return context_; }
+  [[nodiscard]] Context& context() { return context_; }
   // For what draws into the window by itself (Dear ImGui).
   [[nodiscard]] GLFWwindow* handle() const { return context_.window(); }
 

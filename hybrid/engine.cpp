@@ -9,16 +9,6 @@
 #include "hybrid/settings/resolve.h"
 
 namespace pinocchio {
-namespace {
-
-// Whether a tree built by the one is the other's.
-bool same_tree(const Settings& a, const Settings& b) {
-  for (const char* name : {"isa", "tree", "tree_depth", "tree_leaf", "triangle_test", "offset"})
-    if (!find_field(name)->same(a, b)) return false;
-  return true;
-}
-
-}  // namespace
 
 std::future<void> TracingThread::post(std::function<void()> job) {
   std::packaged_task<void()> task(std::move(job));
@@ -103,7 +93,7 @@ Expected<FrameResult> Engine::render(const Scene& scene, const View& view, const
   const Expected<Settings> resolved = resolve(scene, view.box().size(), settings);
   if (!resolved) return Unexpected(resolved.error());
   std::shared_ptr<const Tracer>& tracer = parts_->last_tracer;
-  if (!tracer || &tracer->mesh() != scene.mesh.get() || !same_tree(*resolved, parts_->last_settings))
+  if (!tracer || &tracer->mesh() != scene.mesh.get() || !same_tracer(*resolved, parts_->last_settings))
     tracer = prepare(scene, *resolved);
   parts_->last_settings = *resolved;
   FrameResult result;

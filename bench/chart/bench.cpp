@@ -6,73 +6,68 @@
 #include "core/image/png.h"
 #include "core/image/rgb.h"
 #include "core/math/median.h"
+#include "hybrid/samples.h"
 
 namespace pinocchio::chart {
 namespace {
 
-// The sweep's default in another mode, which draws whatever the default draws.
-Plan plan_of(const SweepRequest& sweep, Mode mode, bool precise) {
-  PlanRequest request = sweep.plan;
-  request.mode = mode;
-  request.precise = precise;
-  return make_plan(sweep.needs, request).value();
+FrameRequest raster_only(FrameRequest request) {
+  (void)apply_preset("mode", "raster", request.settings);
+  return request;
 }
 
 // What a person sees: after each frame of the motion is asked for, the picture that is there by then.
 class Screen {
  public:
-  Screen(std::shared_ptr<const PreparedScene> scene, const Settings& settings, Workers& workers)
-      : renderer_(
-            std::move(scene), settings.plan, workers,
-            {settings.exchange, gl::Mapping::each_time, settings.spp, true},
-            {[this](Picture&& picture) { color_ = std::move(picture.color); }, [](const FrameRecord&) {}}) {}
+  Screen(Engine& engine, FrameRequest request)
+      : request_(std::move(request)),
+        mean_(request_.settings.spp, [this](FrameResult&& picture) { color_ = std::move(picture.color); }),
+        renderer_(engine, {[this](Frame& frame) { mean_.add(frame); }, {}}) {}
 
   const Image<glm::vec4>& show(const View& view) {
-    renderer_.submit(view);
+    request_.view = view;
+    submit_samples(renderer_, request_);
     return color_;
   }
 
  private:
+  FrameRequest request_;
   Image<glm::vec4> color_;
+  SampleMean mean_;
   Renderer renderer_;
 };
 
 }  // namespace
 
-Bench::Bench(std::shared_ptr<const PreparedScene> scene, const SweepRequest& sweep, Workers& workers,
-             const BenchSettings& settings, std::vector<View> views, std::filesystem::path folder)
-    : scene_(std::move(scene)),
+Bench::Bench(Engine& engine, FrameRequest base, const BenchSettings& settings, std::vector<View> views,
+             std::filesystem::path folder)
+    : engine_(engine),
+      last_(std::move(base)),
       settings_(settings),
       views_(std::move(views)),
       folder_(std::move(folder)),
-      ground_truth_(scene_, plan_of(sweep, Mode::raytrace, true), settings.area_side, views_, workers,
-                    settings.interrupted),
-      raster_(scene_, {plan_of(sweep, Mode::raster, false), Exchange::sync, 1, {}}, workers),
-      prepared_(scene_) {}
+      ground_truth_(last_.scene, last_.settings.depth, settings_.area_side, views_, engine.workers(),
+                    settings_.interrupted),
+      raster_(engine, raster_only(last_)) {}
 
 std::optional<PointFigures> Bench::measure(const Configuration& configuration) {
-  const Settings& settings = configuration.settings;
-  Workers workers(settings.plan.threads);
+  const FrameRequest request = request_for(configuration.settings);
   PointFigures figures;
-  if (!measure_time(settings, workers, figures)) return std::nullopt;
-  if (!measure_error(configuration, workers, figures)) return std::nullopt;
+  if (!measure_time(request, figures)) return std::nullopt;
+  if (!measure_error(configuration, request, figures)) return std::nullopt;
   return figures;
 }
 
-// The scene with the tree that the settings ask for; the last one is kept.
-std::shared_ptr<const PreparedScene> Bench::prepared(const Settings& settings) {
-  if (settings.tracer == prepared_for_) return prepared_;
-  prepared_for_ = settings.tracer;
-  if (settings.tracer == TracerSettings{}) return prepared_ = scene_;
-  BuildOptions tree;
-  tree.rule = settings.tracer.tree;
-  tree.triangle_test = settings.tracer.triangle_test;
-  return prepared_ = std::make_shared<const PreparedScene>(scene_->scene, Sides{}, tree, settings.tracer.isa,
-                                                           settings.tracer.offset);
+// With the tree that the settings ask for; the last one is kept.
+FrameRequest Bench::request_for(const Settings& settings) {
+  if (!last_.tracer || !same_tracer(settings, last_.settings))
+    last_.tracer = Engine::prepare(last_.scene, settings);
+  last_.settings = settings;
+  return last_;
 }
 
-bool Bench::measure_time(const Settings& settings, Workers& workers, PointFigures& figures) {
-  TimedRenderer renderer(prepared(settings), settings, workers);
+bool Bench::measure_time(const FrameRequest& request, PointFigures& figures) {
+  TimedRenderer renderer(engine_, request);
   if (!warm_) {  // the process's first frames pay for what later ones find: memory, threads, shaders
     (void)raster_.draw(views_, settings_.interrupted);
     (void)renderer.draw(views_, settings_.interrupted);
@@ -118,11 +113,12 @@ std::vector<std::size_t> Bench::compared_frames(bool area) const {
   return frames;
 }
 
-bool Bench::measure_error(const Configuration& configuration, Workers& workers, PointFigures& figures) {
+bool Bench::measure_error(const Configuration& configuration, const FrameRequest& request,
+                          PointFigures& figures) {
   const bool area = configuration.reference == "area";
   figures.reference = configuration.reference;
   const std::vector<std::size_t> compared = compared_frames(area);
-  Screen screen(prepared(configuration.settings), configuration.settings, workers);
+  Screen screen(engine_, request);
   for (std::size_t frame = 0; frame < views_.size(); ++frame) {
     const Image<glm::vec4>& color = screen.show(views_[frame]);
     if (settings_.interrupted()) return false;

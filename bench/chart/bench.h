@@ -5,7 +5,6 @@
 #include <optional>
 #include <vector>
 
-#include "bench/chart/configuration.h"
 #include "bench/chart/ground_truth.h"
 #include "bench/chart/results.h"
 #include "bench/chart/sweep.h"
@@ -30,33 +29,31 @@ struct BenchSettings {
 
 class Bench {
  public:
-  // scene: prepared for any plan by the default methods; sweep: the one made for it. workers: draw the
-  // reference and the rasteriser's frames. views: more than kWarmUpFrames + error_frames. folder: pictures go
-  // to its "pictures".
-  Bench(std::shared_ptr<const PreparedScene> scene, const SweepRequest& sweep, Workers& workers,
-        const BenchSettings& settings, std::vector<View> views, std::filesystem::path folder);
+  // base: the default configuration's request, but for the view. views: more than kWarmUpFrames + error_frames.
+  // folder: pictures go to its "pictures".
+  Bench(Engine& engine, FrameRequest base, const BenchSettings& settings, std::vector<View> views,
+        std::filesystem::path folder);
 
   // The figures, and in the folder pictures/NAME.png with its FLIP heat map pictures/NAME-flip.png of the
   // last frame compared. Nothing where the user asked for an end.
   [[nodiscard]] std::optional<PointFigures> measure(const Configuration& configuration);
 
  private:
-  [[nodiscard]] std::shared_ptr<const PreparedScene> prepared(const Settings& settings);
-  [[nodiscard]] bool measure_time(const Settings& settings, Workers& workers, PointFigures& figures);
-  [[nodiscard]] bool measure_error(const Configuration& configuration, Workers& workers,
+  [[nodiscard]] FrameRequest request_for(const Settings& settings);
+  [[nodiscard]] bool measure_time(const FrameRequest& request, PointFigures& figures);
+  [[nodiscard]] bool measure_error(const Configuration& configuration, const FrameRequest& request,
                                    PointFigures& figures);
   [[nodiscard]] std::vector<std::size_t> compared_frames(bool area) const;
   void write_pictures(const std::string& name, const Image<glm::vec4>& color, const PictureError& error,
                       const Image<glm::vec3>& truth, bool area) const;
 
-  std::shared_ptr<const PreparedScene> scene_;
+  Engine& engine_;
+  FrameRequest last_;  // of the configuration measured last
   BenchSettings settings_;
   std::vector<View> views_;
   std::filesystem::path folder_;
   GroundTruth ground_truth_;
   TimedRenderer raster_;
-  TracerSettings prepared_for_;
-  std::shared_ptr<const PreparedScene> prepared_;
   bool warm_ = false;
 };
 

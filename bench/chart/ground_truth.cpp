@@ -4,26 +4,21 @@
 
 #include "core/image/rgb.h"
 #include "core/math/finite.h"
-#include "hybrid/raytrace.h"
+#include "core/reference/reference.h"
 
 namespace pinocchio::chart {
-
-Image<glm::vec3> GroundTruth::drawn(std::size_t frame, glm::vec2 jitter) {
-  const View& view = views_[frame];
-  Picture picture;
-  (void)raytrace({scene_, plan_, view.camera, view.size, view.part, jitter}, workers_, picture);
-  return rgb_of(picture.color);
-}
 
 const Image<glm::vec3>* GroundTruth::reference(std::size_t frame, bool area) {
   const auto known = references_.find({frame, area});
   if (known != references_.end()) return &known->second;
   const int side = area ? area_side_ : 1;
-  Image<glm::vec3> mean(views_[frame].part.size());
+  View view = views_[frame];
+  Image<glm::vec3> mean(view.box().size());
   for (int k = 0; k < side * side; ++k) {
     if (interrupted_()) return nullptr;
     const glm::vec2 place(static_cast<float>(k % side), static_cast<float>(k / side));
-    const Image<glm::vec3> sample = drawn(frame, (place + 0.5f) / static_cast<float>(side) - 0.5f);
+    view.jitter = (place + 0.5f) / static_cast<float>(side) - 0.5f;
+    const Image<glm::vec3> sample = rgb_of(reference_render(scene_, view, depth_, workers_).color);
     for (std::size_t i = 0; i < mean.pixels().size(); ++i)
       mean[i] += sample[i] / static_cast<float>(side * side);
   }

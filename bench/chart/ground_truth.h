@@ -2,7 +2,6 @@
 #pragma once
 
 #include <map>
-#include <memory>
 #include <optional>
 #include <utility>
 #include <vector>
@@ -10,9 +9,6 @@
 #include "bench/chart/timed_renderer.h"
 #include "core/compare/picture_error.h"
 #include "core/parallel/workers.h"
-#include "hybrid/prepared_scene.h"
-#include "hybrid/renderer.h"
-#include "pinocchio/image.h"
 
 namespace pinocchio::chart {
 
@@ -23,12 +19,12 @@ struct MeasuredError : PictureError {
 // References (core/reference) of some frames of a motion, drawn when they are first asked for.
 class GroundTruth {
  public:
-  // plan: Mode::raytrace, precise. area_side: the area reference is the mean of so many times so many
-  // samples, evenly spread over the pixel.
-  GroundTruth(std::shared_ptr<const PreparedScene> scene, const Plan& plan, int area_side,
-              const std::vector<View>& views, Workers& workers, Interrupted interrupted)
-      : scene_(std::move(scene)),
-        plan_(plan),
+  // depth: most bounces. area_side: the area reference is the mean of so many times so many samples, evenly
+  // spread over the pixel.
+  GroundTruth(const Scene& scene, int depth, int area_side, const std::vector<View>& views, Workers& workers,
+              Interrupted interrupted)
+      : scene_(scene),
+        depth_(depth),
         area_side_(area_side),
         views_(views),
         workers_(workers),
@@ -42,11 +38,8 @@ class GroundTruth {
                                                      bool area);
 
  private:
-  [[nodiscard]] Image<glm::vec3> drawn(std::size_t frame, glm::vec2 jitter);
-
-  std::shared_ptr<const PreparedScene> scene_;
-  Plan plan_;
-  int area_side_;
+  const Scene& scene_;
+  int depth_, area_side_;
   const std::vector<View>& views_;
   Workers& workers_;
   Interrupted interrupted_;

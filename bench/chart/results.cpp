@@ -9,6 +9,7 @@
 
 #include "core/compare/pareto.h"
 #include "core/image/atomic_file.h"
+#include "hybrid/settings/json.h"
 
 namespace pinocchio::chart {
 namespace {

@@ -6,7 +6,7 @@
 #include <optional>
 #include <string>
 
-#include "bench/chart/configuration.h"
+#include "bench/chart/sweep.h"
 #include "pinocchio/error.h"
 
 namespace pinocchio::chart {

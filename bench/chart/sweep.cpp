@@ -2,261 +2,182 @@
 
 #include <algorithm>
 #include <array>
-#include <functional>
+#include <cctype>
+#include <utility>
 
 namespace pinocchio::chart {
 namespace {
 
-// The configurations of a sweep as they are collected.
-class Sweep {
- public:
-  Sweep(const SweepRequest& request, const Plan& plan) : request_(request) { base_.plan = plan; }
+// A preset or a field of the settings, and what it is set to.
+using Option = std::pair<std::string_view, std::string>;
+using Options = std::vector<Option>;
 
-  [[nodiscard]] const SweepRequest& request() const { return request_; }
-  [[nodiscard]] const Settings& base() const { return base_; }
-  [[nodiscard]] std::vector<Configuration> take() { return std::move(configurations_); }
-  void begin(std::string_view axis, std::string_view reference) {
-    axis_ = axis;
-    reference_ = reference;
-  }
-
-  void add(const std::string& value, const std::string& options, const Settings& settings) {
-    configurations_.push_back({axis_, value, options, false, settings, reference_});
-  }
-  // What the command line says to a plan; nothing where no such plan draws the scene.
-  void add_plan(const std::string& value, const std::string& options,
-                const std::function<void(PlanRequest&)>& change, Exchange exchange = Exchange::sync) {
-    PlanRequest plan_request = request_.plan;
-    plan_request.reprojects = exchange == Exchange::reproject;
-    change(plan_request);
-    const Expected<Plan> plan = make_plan(request_.needs, plan_request);
-    if (!plan) return;
-    Settings settings = base_;
-    settings.plan = *plan;
-    settings.exchange = exchange;
-    add(value, options, settings);
-  }
-  // The default's plan by another tracer, named as its option names it.
-  void add_tracer(const std::string& name, const std::string& option,
-                  const std::function<void(TracerSettings&)>& change) {
-    Settings settings = base_;
-    change(settings.tracer);
-    add(name, settings.tracer == base_.tracer ? "" : option + " " + name, settings);
-  }
-  // The default's plan with a change that only a plan's file can say.
-  void add_plan_file(const std::string& value, const std::function<void(Plan&)>& change,
-                     Exchange exchange = Exchange::sync) {
-    Settings settings = base_;
-    settings.exchange = exchange;
-    if (exchange == Exchange::reproject) settings.plan.primary = Primary::raster;
-    change(settings.plan);
-    if (!check_plan(settings.plan, request_.needs)) return;
-    add(value, "", settings);
-    Configuration& added = configurations_.back();
-    if (settings.exchange == base_.exchange && settings.plan == base_.plan) return;
-    added.has_plan_file = true;
-    added.options = "--plan " + added.plan_file();
-    if (exchange != Exchange::sync) added.options += std::string(" --exchange ") + exchange_name(exchange);
-  }
-
- private:
-  const SweepRequest& request_;
-  Settings base_;
-  std::string axis_, reference_;
-  std::vector<Configuration> configurations_;
+// One value of an axis: its name on the chart, and what gives it.
+struct Value {
+  std::string name;
+  Options options;
+  bool quick = true;  // drawn with --quick, too
 };
+using Values = std::vector<Value>;
+constexpr bool kFull = false;
 
-void designs(Sweep& sweep) {
-  sweep.add("1", "", sweep.base());
-  sweep.add_plan("2", "--design 2", [](PlanRequest& r) { r.design = 2; });
-  sweep.add_plan("1 slides", "--plan slides", [](PlanRequest& r) { r.slides = true; });
-  sweep.add_plan("2 slides", "--design 2 --plan slides", [](PlanRequest& r) {
-    r.design = 2;
-    r.slides = true;
-  });
-  sweep.add_plan("raytrace", "--mode raytrace", [](PlanRequest& r) { r.mode = Mode::raytrace; });
-  sweep.add_plan("raster", "--mode raster", [](PlanRequest& r) { r.mode = Mode::raster; });
+Values designs(const SweepRequest&) {
+  return {{"1", {}},
+          {"2", {{"design", "2"}}},
+          {"1 slides", {{"plan", "slides"}}},
+          {"2 slides", {{"design", "2"}, {"plan", "slides"}}},
+          {"raytrace", {{"mode", "raytrace"}}},
+          {"raster", {{"mode", "raster"}}}};
 }
 
-void exchanges(Sweep& sweep) {
-  sweep.add("1 sync", "", sweep.base());
-  for (const int design : {1, 2})
-    for (const Exchange exchange : {Exchange::sync, Exchange::pipelined, Exchange::reproject}) {
-      const bool is_base = design == 1 && exchange == Exchange::sync;
-      if (is_base || (design == 2 && exchange == Exchange::reproject)) continue;
-      const std::string name = exchange_name(exchange);
-      sweep.add_plan(
-          std::to_string(design) + " " + name,
-          (design == 2 ? "--design 2 --exchange " : "--exchange ") + name,
-          [design](PlanRequest& r) { r.design = design; }, exchange);
-    }
+Values exchanges(const SweepRequest&) {
+  return {{"1 sync", {}},
+          {"1 pipelined", {{"exchange", "pipelined"}}},
+          {"1 reproject", {{"exchange", "reproject"}}},
+          {"2 sync", {{"design", "2"}, {"exchange", "sync"}}},
+          {"2 pipelined", {{"design", "2"}, {"exchange", "pipelined"}}}};
 }
 
-void primaries(Sweep& sweep) {
-  if (!sweep.base().plan.traces()) return;
-  for (std::size_t i = 0; i < kPrimaryNames.size(); ++i)
-    sweep.add_plan_file(std::string(kPrimaryNames[i]),
-                        [i](Plan& plan) { plan.primary = static_cast<Primary>(i); });
+Values visibilities(const SweepRequest&) {
+  return {{"raster", {{"visibility", "gpu"}}}, {"rays", {{"visibility", "cpu"}}}};
 }
 
-void reflection_formats(Sweep& sweep) {
-  if (!sweep.base().plan.reflects()) return;
-  for (std::size_t i = 1; i < kReflectionFormatNames.size(); ++i)
-    sweep.add_plan_file(std::string(kReflectionFormatNames[i]),
-                        [i](Plan& plan) { plan.reflection = static_cast<ReflectionFormat>(i); });
+// All that a field may be.
+Values choices_of(std::string_view field) {
+  Values values;
+  for (const std::string_view choice : find_field(field)->choices)
+    if (choice != "none") values.push_back({std::string(choice), {{field, std::string(choice)}}});
+  return values;
 }
 
-std::string scale_name(int scale) {
-  return scale == 1 ? "1" : "1/" + std::to_string(scale);
+Values scales(std::string_view field) {
+  return {{"1", {{field, "1"}}}, {"1/2", {{field, "2"}}}, {"1/4", {{field, "4"}}}};
 }
 
-void reflection_scales(Sweep& sweep) {
-  if (!sweep.base().plan.reflects()) return;
-  for (const int scale : {1, 2, 4})
-    sweep.add_plan_file(scale_name(scale), [scale](Plan& plan) { plan.reflection_scale = scale; });
+Values tiles(const SweepRequest&) {
+  return {{"used", {{"tiles", "true"}}}, {"all", {{"tiles", "false"}}}};
 }
 
-void mask_scales(Sweep& sweep) {
-  if (sweep.base().plan.mask_bits == 0) return;
-  for (const int scale : {1, 2, 4})
-    sweep.add_plan_file(scale_name(scale), [scale](Plan& plan) { plan.mask_scale = scale; });
-}
-
-void tiles(Sweep& sweep) {
-  if (!sweep.base().plan.reflects()) return;
-  sweep.add_plan_file("used", [](Plan& plan) { plan.tiles = true; });
-  sweep.add_plan_file("all", [](Plan& plan) { plan.tiles = false; });
-}
-
-void depths(Sweep& sweep) {
-  const int most = sweep.base().plan.depth;
-  if (most == 0) return;
-  for (const int depth : {0, 1, 2, 3, 4, 6}) {
-    if (depth >= most || (sweep.request().quick && depth > 2)) break;
-    sweep.add_plan(std::to_string(depth), "--depth " + std::to_string(depth),
-                   [depth](PlanRequest& r) { r.depth = depth; });
-  }
-  sweep.add(std::to_string(most), "", sweep.base());
+Values depths(const SweepRequest& request) {
+  Values values;
+  for (const int depth : {0, 1, 2, 3, 4, 6})
+    if (const std::string text = std::to_string(depth); depth < request.base.depth)
+      values.push_back({text, {{"depth", text}}, depth <= 2});
+  values.push_back({std::to_string(request.base.depth), {{"depth", std::to_string(request.base.depth)}}});
+  return values;
 }
 
 // Mirrored light below this is not followed, nor a shadow ray fired where all lights bring less.
-void set_cutoff(Plan& plan, const Needs& needs, float least) {
-  plan.least_contribution = least;
-  plan.least_light = least / static_cast<float>(std::max(needs.casting_lights, 1));
+Options cutoff(float least, const SweepRequest& request) {
+  Settings s;
+  s.throughput_cutoff = least;
+  s.light_cutoff = least / static_cast<float>(std::max(request.stats.casting_lights, 1));
+  Options options;
+  for (const char* field : {"throughput_cutoff", "light_cutoff"})
+    options.emplace_back(field, find_field(field)->text(s));
+  return options;
 }
 
-void cutoffs(Sweep& sweep) {
-  if (!sweep.base().plan.traces()) return;
-  const std::vector<int> powers =
-      sweep.request().quick ? std::vector{13, 8, 4} : std::vector{13, 10, 8, 6, 4, 2};
-  sweep.add_plan_file("0", [&](Plan& plan) { set_cutoff(plan, sweep.request().needs, 0.0f); });
-  for (const int power : powers)
-    sweep.add_plan_file("1/" + std::to_string(1 << power), [&, power](Plan& plan) {
-      set_cutoff(plan, sweep.request().needs, 1.0f / static_cast<float>(1 << power));
-    });
+Values cutoffs(const SweepRequest& request) {
+  Values values{{"0", cutoff(0.0f, request)}};
+  for (const int power : {13, 10, 8, 6, 4, 2})
+    values.push_back({"1/" + std::to_string(1 << power),
+                      cutoff(1.0f / static_cast<float>(1 << power), request),
+                      power == 13 || power == 8 || power == 4});
+  return values;
 }
 
-void trees(Sweep& sweep) {
-  for (const char* const name : kSplitRuleNames)
-    sweep.add_tracer(name, "--tree", [name](TracerSettings& t) { t.tree = *parse_split_rule(name); });
+Values thread_counts(const SweepRequest& request) {
+  Values values;
+  for (int threads = 1; threads < request.cores; threads *= 2)
+    values.push_back({std::to_string(threads), {{"threads", std::to_string(threads)}}});
+  values.push_back({std::to_string(request.cores), {}});
+  return values;
 }
 
-void triangle_tests(Sweep& sweep) {
-  for (const TriangleTest test : kTriangleTests)
-    sweep.add_tracer(std::string(triangle_test_name(test)), "--triangle-test",
-                     [test](TracerSettings& t) { t.triangle_test = test; });
+Values sample_counts(const SweepRequest&) {
+  return {{"1", {}}, {"2", {{"spp", "2"}}, kFull}, {"4", {{"spp", "4"}}}, {"8", {{"spp", "8"}}, kFull}};
 }
 
-void offsets(Sweep& sweep) {
-  for (const OffsetMethod offset : kOffsetMethods)
-    sweep.add_tracer(std::string(offset_method_name(offset)), "--offset",
-                     [offset](TracerSettings& t) { t.offset = offset; });
+Options operator+(Options a, const Options& b) {
+  a.insert(a.end(), b.begin(), b.end());
+  return a;
 }
 
-void simd_widths(Sweep& sweep) {
-  for (const Isa isa : supported_isas())
-    sweep.add_tracer(std::string(isa_name(isa)), "--isa", [isa](TracerSettings& t) {
-      if (isa != default_isa()) t.isa = isa;
-    });
-}
-
-void thread_counts(Sweep& sweep) {
-  for (int threads = 1; threads < sweep.request().cores; threads *= 2) {
-    Settings settings = sweep.base();
-    settings.plan.threads = threads;
-    sweep.add(std::to_string(threads), "--threads " + std::to_string(threads), settings);
-  }
-  sweep.add(std::to_string(sweep.request().cores), "", sweep.base());
-}
-
-void sample_counts(Sweep& sweep) {
-  const std::vector<int> counts = sweep.request().quick ? std::vector{1, 4} : std::vector{1, 2, 4, 8};
-  for (const int spp : counts) {
-    Settings settings = sweep.base();
-    settings.spp = spp;
-    sweep.add(std::to_string(spp), spp == 1 ? "" : "--spp " + std::to_string(spp), settings);
-  }
-}
-
-void shrink(Plan& plan, int scale, ReflectionFormat format) {
-  if (plan.mask_bits > 0) plan.mask_scale = scale;
-  if (!plan.reflects()) return;
-  plan.reflection_scale = scale;
-  plan.reflection = format;
-}
-
-void combinations(Sweep& sweep) {
-  if (!sweep.base().plan.traces()) return;
-  const Needs& needs = sweep.request().needs;
-  const auto half = [](Plan& plan) { shrink(plan, 2, ReflectionFormat::rgb9e5); };
-  const auto quarter = [](Plan& plan) { shrink(plan, 4, ReflectionFormat::rgb8); };
-  const auto shallow = [&needs](Plan& plan) {
-    if (plan.reflects()) plan.depth = 1;
-    set_cutoff(plan, needs, 0x1p-6f);
+Values combinations(const SweepRequest& request) {
+  const auto shrunk = [](const char* scale, const char* format) {
+    return Options{{"mask_scale", scale}, {"reflection_scale", scale}, {"reflection", format}};
   };
-  const auto shallow_half = [&](Plan& plan) {
-    shallow(plan);
-    half(plan);
-  };
-  const auto shallow_quarter = [&](Plan& plan) {
-    shallow(plan);
-    quarter(plan);
-  };
-  sweep.add("default", "", sweep.base());
-  sweep.add_plan_file("half", half);
-  sweep.add_plan_file("quarter", quarter);
-  sweep.add_plan_file("shallow-half", shallow_half);
-  if (sweep.request().quick) return;
-  sweep.add_plan_file("shallow", shallow);
-  sweep.add_plan_file("shallow-quarter", shallow_quarter);
-  sweep.add_plan_file("half-pipelined", half, Exchange::pipelined);
-  sweep.add_plan_file("half-reproject", half, Exchange::reproject);
-  sweep.add_plan_file("shallow-quarter-reproject", shallow_quarter, Exchange::reproject);
+  const Options half = shrunk("2", "rgb9e5"), quarter = shrunk("4", "rgb8"),
+                shallow = Options{{"depth", "1"}} + cutoff(0x1p-6f, request),
+                pipelined{{"exchange", "pipelined"}}, reproject{{"exchange", "reproject"}};
+  return {{"default", {}},
+          {"half", half},
+          {"quarter", quarter},
+          {"shallow-half", shallow + half},
+          {"shallow", shallow, kFull},
+          {"shallow-quarter", shallow + quarter, kFull},
+          {"half-pipelined", half + pipelined, kFull},
+          {"half-reproject", half + reproject, kFull},
+          {"shallow-quarter-reproject", shallow + quarter + reproject, kFull}};
 }
 
 struct Axis {
   AxisName name;
-  void (*fill)(Sweep&);
+  Values (*values)(const SweepRequest&);
   std::string_view reference = "centre";
 };
 constexpr std::array kAxes{
     Axis{{"design", "design and mode"}, designs},
     Axis{{"exchange", "exchange"}, exchanges},
-    Axis{{"primary", "who finds what is seen"}, primaries},
-    Axis{{"reflection-format", "reflection, format"}, reflection_formats},
-    Axis{{"reflection-scale", "reflection, resolution"}, reflection_scales},
-    Axis{{"mask-scale", "shadow mask, resolution"}, mask_scales},
+    Axis{{"primary", "who finds what is seen"}, visibilities},
+    Axis{{"reflection-format", "reflection, format"}, [](const SweepRequest&) { return choices_of("reflection"); }},
+    Axis{{"reflection-scale", "reflection, resolution"},
+         [](const SweepRequest&) { return scales("reflection_scale"); }},
+    Axis{{"mask-scale", "shadow mask, resolution"}, [](const SweepRequest&) { return scales("mask_scale"); }},
     Axis{{"tiles", "tiles that are sent"}, tiles},
     Axis{{"depth", "most bounces"}, depths},
     Axis{{"cutoff", "contribution cut-off"}, cutoffs},
-    Axis{{"tree", "tree builder"}, trees},
-    Axis{{"triangle-test", "triangle test"}, triangle_tests},
-    Axis{{"offset", "ray offset"}, offsets},
-    Axis{{"simd", "SIMD width"}, simd_widths},
+    Axis{{"tree", "tree builder"}, [](const SweepRequest&) { return choices_of("tree"); }},
+    Axis{{"triangle-test", "triangle test"}, [](const SweepRequest&) { return choices_of("triangle_test"); }},
+    Axis{{"offset", "ray offset"}, [](const SweepRequest&) { return choices_of("offset"); }},
+    Axis{{"simd", "SIMD width"}, [](const SweepRequest&) { return choices_of("isa"); }},
     Axis{{"threads", "threads"}, thread_counts},
     Axis{{"spp", "samples a pixel"}, sample_counts, "area"},
     Axis{{"combined", "combinations"}, combinations},
 };
+
+// Whether the default draws anything that the option changes.
+bool matters(const Option& option, const Settings& base) {
+  const std::string_view field = option.first;
+  if (field.starts_with("mask") || field == "light_cutoff") return base.mask_bits > 0;
+  if (field.starts_with("reflection") || field == "throughput_cutoff" || field == "tiles" || field == "depth")
+    return base.reflects();
+  return base.traces() || (field != "visibility" && field != "exchange");
+}
+
+Settings settings_of(const Options& options) {
+  Settings settings;
+  for (const auto& [name, value] : options)
+    if (!apply_preset(name, value, settings)) (void)set(settings, name, value);
+  return settings;
+}
+
+// As the command line takes them.
+std::string text_of(const Options& options) {
+  std::string text;
+  for (const auto& [name, value] : options) {
+    const Field* const field = find_field(name);
+    std::string option = field ? field->option() : "--" + std::string(name);
+    if (!field || field->kind != Field::Kind::flag) {
+      option += " " + value;
+    } else if (value == "false") {
+      option.insert(2, "no-");
+    }
+    text += (text.empty() ? "" : " ") + option;
+  }
+  return text;
+}
 
 bool is_wanted(const SweepRequest& request, std::string_view axis) {
   return request.only.empty() ||
@@ -265,16 +186,31 @@ bool is_wanted(const SweepRequest& request, std::string_view axis) {
 
 }  // namespace
 
-Expected<std::vector<Configuration>> make_sweep(const SweepRequest& request) {
-  const Expected<Plan> plan = make_plan(request.needs, request.plan);
-  if (!plan) return Unexpected(plan.error());
-  Sweep sweep(request, *plan);
+std::string Configuration::name() const {
+  std::string name = axis + "-" + value;
+  for (char& c : name)
+    if (std::isalnum(static_cast<unsigned char>(c)) == 0 && c != '.') c = '-';
+  return name;
+}
+
+std::vector<Configuration> make_sweep(const SweepRequest& request) {
+  std::vector<Configuration> sweep;
   for (const Axis& axis : kAxes) {
     if (!is_wanted(request, axis.name.name)) continue;
-    sweep.begin(axis.name.name, axis.reference);
-    axis.fill(sweep);
+    Values values = axis.values(request);
+    for (Value& value : values)
+      std::erase_if(value.options, [&](const Option& o) { return !matters(o, request.base); });
+    if (std::ranges::all_of(values, [](const Value& v) { return v.options.empty(); })) continue;
+    for (const Value& value : values) {
+      if (request.quick && !value.quick) continue;
+      const Expected<Settings> settings = request.resolve(settings_of(value.options));
+      if (!settings) continue;
+      const std::string options = *settings == request.base ? "" : text_of(value.options);
+      sweep.push_back({std::string(axis.name.name), value.name, options, *settings,
+                       std::string(axis.reference)});
+    }
   }
-  return sweep.take();
+  return sweep;
 }
 
 std::vector<AxisName> axis_names() {

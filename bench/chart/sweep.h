@@ -2,26 +2,41 @@
 // combinations.
 #pragma once
 
+#include <functional>
 #include <string>
 #include <string_view>
 #include <vector>
 
-#include "bench/chart/configuration.h"
 #include "pinocchio/error.h"
+#include "hybrid/settings/scene_stats.h"
 
 namespace pinocchio::chart {
 
+// One way to draw, as a chart measures it.
+struct Configuration {
+  std::string axis, value;
+  std::string options;  // of the command line, that give it; empty: the default
+  Settings settings;    // resolved
+  // What it is measured against: "centre", one ray a pixel as most pictures have; "area", the mean over
+  // the pixel, which is what more samples come closer to.
+  std::string reference = "centre";
+
+  // Of files about it: letters, digits, '.' and '-'.
+  [[nodiscard]] std::string name() const;
+};
+
 struct SweepRequest {
-  Needs needs;
-  PlanRequest plan;  // of the default: hybrid, design 1
+  Settings base;  // the default, resolved
+  std::function<Expected<Settings>(const Settings&)> resolve;
+  SceneStats stats;
   int cores = 1;
   bool quick = false;             // fewer points an axis
   std::vector<std::string> only;  // axes; empty: all
 };
 
-// The configurations of every axis, the default among them on each. An axis on which the scene leaves
-// nothing to choose has none (no mirrors: no formats of reflection).
-[[nodiscard]] Expected<std::vector<Configuration>> make_sweep(const SweepRequest& request);
+// The configurations of every axis, the default among them on each; what cannot draw the scene is left out. An
+// axis on which the scene leaves nothing to choose has none (no mirrors: no formats of reflection).
+[[nodiscard]] std::vector<Configuration> make_sweep(const SweepRequest& request);
 
 struct AxisName {
   std::string_view name, title;

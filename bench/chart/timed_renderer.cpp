@@ -5,6 +5,7 @@
 #include <ctime>
 
 #include "core/math/median.h"
+#include "hybrid/samples.h"
 
 namespace pinocchio::chart {
 namespace {
@@ -16,20 +17,14 @@ double processor_ms() {
   return 1e3 * static_cast<double>(time.tv_sec) + 1e-6 * static_cast<double>(time.tv_nsec);
 }
 
-// A point of the chart says nothing of the frames that another has drawn.
-Plan without_memory(Plan plan) {
-  plan.reuse = false;
-  return plan;
-}
-
 }  // namespace
 
-TimedRenderer::TimedRenderer(std::shared_ptr<const PreparedScene> scene, const Settings& settings,
-                             Workers& workers)
-    : spp_(settings.spp),
-      renderer_(std::move(scene), without_memory(settings.plan), workers,
-                {settings.exchange, gl::Mapping::each_time, settings.spp, false},
-                {[](Picture&&) {}, [this](const FrameRecord& record) { records_.push_back(record); }}) {}
+// A point of the chart says nothing of the frames that another has drawn.
+TimedRenderer::TimedRenderer(Engine& engine, FrameRequest request)
+    : request_(std::move(request)),
+      renderer_(engine, {{}, [this](const FrameRecord& record) { records_.push_back(record); }}) {
+  request_.settings.reuse = false;
+}
 
 TimedRenderer::Round TimedRenderer::draw(const std::vector<View>& views, Interrupted interrupted) {
   assert(views.size() > kWarmUpFrames + 1);
@@ -37,14 +32,15 @@ TimedRenderer::Round TimedRenderer::draw(const std::vector<View>& views, Interru
   const double begin_cpu_ms = processor_ms();
   for (const View& view : views) {
     if (interrupted()) break;
-    renderer_.submit(view);
+    request_.view = view;
+    submit_samples(renderer_, request_);
   }
   renderer_.drain();
   Round round;
   if (interrupted()) return round;
   round.cpu_ms = (processor_ms() - begin_cpu_ms) / static_cast<double>(views.size());
 
-  const auto samples = static_cast<std::size_t>(spp_);
+  const auto samples = static_cast<std::size_t>(request_.settings.spp);
   const auto first_sample = [&](std::size_t frame) -> const FrameRecord& {
     return records_[frame * samples];
   };

@@ -1,12 +1,9 @@
 #pragma once
 
-#include <memory>
 #include <vector>
 
-#include "bench/chart/configuration.h"
-#include "core/parallel/workers.h"
-#include "hybrid/prepared_scene.h"
-#include "hybrid/renderer.h"
+#include "pinocchio/engine.h"
+#include "hybrid/schedule.h"
 
 namespace pinocchio::chart {
 
@@ -30,14 +27,14 @@ class TimedRenderer {
     double bytes_to_cpu = 0.0, bytes_to_gpu = 0.0;  // of a usual frame
   };
 
-  // Wants a current OpenGL context that outlives this, unless the plan is the CPU's alone.
-  TimedRenderer(std::shared_ptr<const PreparedScene> scene, const Settings& settings, Workers& workers);
+  // request: all but the view.
+  TimedRenderer(Engine& engine, FrameRequest request);
 
   // views: more than kWarmUpFrames + 1. The round is not whole where the user asked for an end.
   Round draw(const std::vector<View>& views, Interrupted interrupted);
 
  private:
-  int spp_;
+  FrameRequest request_;
   std::vector<FrameRecord> records_;  // of the round, one a sample
   Renderer renderer_;
 };

@@ -59,18 +59,6 @@ void append_glowing_room(MeshData& mesh, float size) {
   }
 }
 
-Image<glm::vec3> by_reference(const Scene& scene, shared::ViewParams view, glm::ivec2 size, float shift,
-                              int depth) {
-  view.corner += shift * (view.step_x + view.step_y);
-  Workers one(1);
-  Image<std::uint32_t> ids(size);
-  MaskImage mask;
-  Image<glm::vec3> reflection;
-  Image<glm::vec4> color;
-  reference_picture(scene, one, view, depth, ids, mask, reflection, color);
-  return reflection;
-}
-
 // Pixels of glass against the reference's. Glass spreads rays that are a hair apart: where the reference
 // itself changes within a thirtieth of a pixel, it cannot tell.
 FailureCount against_reference(MeshData mesh, float size, const Method& method, int rays) {
@@ -80,10 +68,11 @@ FailureCount against_reference(MeshData mesh, float size, const Method& method, 
   const Scene scene(std::move(mesh));
   const Camera camera{"", size * glm::vec3(0.3f, 0.4f, 4.0f), glm::vec3(0.0f), {0, 1, 0}, 35.0f};
   Drawn drawn = draw(scene, camera, method, rays, kDepth);
-  const glm::ivec2 pixels = drawn.ids.size();
-  const shared::ViewParams view = view_params(camera, pixels);
-  const Image<glm::vec3> expected = by_reference(scene, view, pixels, 0.0f, kDepth);
-  const Image<glm::vec3> beside = by_reference(scene, view, pixels, kShift, kDepth);
+  View view{camera, drawn.ids.size()};
+  Workers one(1);
+  const Image<glm::vec3> expected = reference_render(scene, view, kDepth, one).reflection;
+  view.jitter = glm::vec2(kShift);
+  const Image<glm::vec3> beside = reference_render(scene, view, kDepth, one).reflection;
   for (std::size_t i = 0; i < drawn.ids.pixels().size(); ++i) {
     if (drawn.ids[i] == kNoTriangle || !scene.mesh->material_of(drawn.ids[i]).transmits()) continue;
     ++drawn.count.trials;

@@ -2,11 +2,10 @@
 
 #include <algorithm>
 #include <array>
-#include <memory>
 
 #include "bench/stability/picture_scenes.h"
+#include "core/base/clock.h"
 #include "core/math/finite.h"
-#include "hybrid/renderer.h"
 
 namespace pinocchio::stability {
 namespace {
@@ -14,18 +13,16 @@ namespace {
 // Darker than this is black: every surface of these scenes sends a tenth of a colour that is at least 0.2.
 constexpr float kBlack = 0.01f;
 
-std::vector<Picture> draw(const Shot& shot, const Plan& plan, Exchange exchange, int side,
-                          double* seconds = nullptr) {
-  const auto prepared =
-      std::make_shared<const PreparedScene>(shot.scene, sides_of(plan), BuildOptions{}, std::optional<Isa>());
-  Workers workers;
-  std::vector<Picture> pictures;
-  Renderer renderer(
-      prepared, plan, workers, {.exchange = exchange},
-      {[&](Picture&& picture) { pictures.push_back(std::move(picture)); }, [](const FrameRecord&) {}});
+std::vector<FrameResult> draw(Engine& engine, const Shot& shot, const Settings& settings, int side,
+                              double* seconds = nullptr) {
+  std::vector<FrameResult> pictures;
+  Renderer renderer(engine, {[&](Frame& frame) { pictures.push_back(frame.read()); }, {}});
+  FrameRequest request{shot.scene, Engine::prepare(shot.scene, settings), settings, {}};
   const double begin_s = now_s();
-  for (const Camera& camera : shot.cameras)
-    renderer.submit({camera, glm::ivec2(side), {{0, 0}, glm::ivec2(side)}});
+  for (const Camera& camera : shot.cameras) {
+    request.view = {camera, glm::ivec2(side)};
+    renderer.submit(request);
+  }
   renderer.drain();
   if (seconds) *seconds = now_s() - begin_s;
   return pictures;
@@ -40,7 +37,7 @@ double difference(const glm::vec4& a, const glm::vec4& b) {
   return static_cast<double>(std::max({apart.r, apart.g, apart.b}));
 }
 
-void compare(const Picture& drawn, const Picture& traced, PictureFailureCount& count) {
+void compare(const FrameResult& drawn, const FrameResult& traced, PictureFailureCount& count) {
   for (std::size_t i = 0; i < drawn.color.pixels().size(); ++i) {
     ++count.trials;
     if (!is_lit(drawn.color[i])) {
@@ -56,22 +53,25 @@ void compare(const Picture& drawn, const Picture& traced, PictureFailureCount& c
   count.holes += drawn.holes;
 }
 
-PictureFailureCount run(const Shot& shot, const DrawMethod& method, int side) {
-  const Needs needs = take_census(shot.scene);
-  Plan plan = make_plan(needs, {.design = method.design}).value();
-  plan.reuse = false;
-  Plan ray_plan = make_plan(needs, {.mode = Mode::raytrace}).value();
+PictureFailureCount run(Engine& engine, const Shot& shot, const DrawMethod& method, int side) {
+  Settings wanted, rays;
+  wanted.visibility = Processor::gpu;
+  wanted.composite = method.composite;
+  wanted.exchange = method.exchange;
+  wanted.reuse = false;
+  rays.visibility = rays.composite = Processor::cpu;
+  const auto resolved = [&](const Settings& s) { return engine.resolve(shot.scene, glm::ivec2(side), s).value(); };
   PictureFailureCount count;
-  const std::vector<Picture> drawn = draw(shot, plan, method.exchange, side, &count.seconds);
-  const std::vector<Picture> traced = draw(shot, ray_plan, Exchange::sync, side);
+  const std::vector<FrameResult> drawn = draw(engine, shot, resolved(wanted), side, &count.seconds);
+  const std::vector<FrameResult> traced = draw(engine, shot, resolved(rays), side);
   for (std::size_t i = 0; i < drawn.size(); ++i) compare(drawn[i], traced[i], count);
   count.mean_error /= static_cast<double>(std::max<std::uint64_t>(count.trials, 1));
   return count;
 }
 
 template <Shot (*make)()>
-PictureFailureCount run_shot(const DrawMethod& method, int side) {
-  return run(make(), method, side);
+PictureFailureCount run_shot(Engine& engine, const DrawMethod& method, int side) {
+  return run(engine, make(), method, side);
 }
 
 constexpr std::array kCases{
@@ -87,10 +87,10 @@ constexpr std::array kCases{
 }  // namespace
 
 std::vector<DrawMethod> all_draw_methods() {
-  return {{"design 1, pipelined", 1, Exchange::pipelined},
-          {"design 1, sync", 1, Exchange::sync},
-          {"design 1, reproject", 1, Exchange::reproject},
-          {"design 2, pipelined", 2, Exchange::pipelined}};
+  return {{"design 1, pipelined", Processor::gpu, Exchange::pipelined},
+          {"design 1, sync", Processor::gpu, Exchange::sync},
+          {"design 1, reproject", Processor::gpu, Exchange::reproject},
+          {"design 2, pipelined", Processor::cpu, Exchange::pipelined}};
 }
 
 std::span<const PictureStressCase> picture_cases() {

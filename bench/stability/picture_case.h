@@ -10,14 +10,14 @@
 #include <vector>
 
 #include "bench/stability/stress_case.h"
-#include "hybrid/frame.h"
+#include "pinocchio/engine.h"
 
 namespace pinocchio::stability {
 
 // One way to share a frame between GPU and CPU.
 struct DrawMethod {
   std::string name;
-  int design = 1;
+  Processor composite = Processor::gpu;
   Exchange exchange = Exchange::sync;
 };
 // The default first.
@@ -33,8 +33,8 @@ struct PictureFailureCount : FailureCount {
 
 struct PictureStressCase {
   std::string_view name;
-  // side: pixels of a square picture; wants a current OpenGL context.
-  PictureFailureCount (*run)(const DrawMethod& method, int side);
+  // side: pixels of a square picture.
+  PictureFailureCount (*run)(Engine& engine, const DrawMethod& method, int side);
   std::string_view failure = "black or NaN pixels";
   bool limit = false;
 };

@@ -23,15 +23,15 @@ nlohmann::json details(const PictureFailureCount& count) {
           {"holes", count.holes}};
 }
 
-// Runs every case, as large as `size`, by every method. False where `after_cell` says so.
-template <class StressCases, class Methods>
-bool fill(const StressCases& cases, const Methods& methods, int size, const std::function<bool()>& after_cell,
-          Table& table) {
+// Runs every case by every method. False where `after_cell` says so.
+template <class StressCases, class Methods, class Run>
+bool fill(const StressCases& cases, const Methods& methods, const Run& run,
+          const std::function<bool()>& after_cell, Table& table) {
   for (const auto& method : methods) table.methods.push_back(method.name);
   for (const auto& stress_case : cases) {
     double default_seconds = 0.0;
     for (const auto& method : methods) {
-      const auto count = stress_case.run(method, size);
+      const auto count = run(stress_case, method);
       if (&method == &methods.front()) default_seconds = count.seconds;
       table.cells.push_back({std::string(stress_case.name), std::string(stress_case.failure), method.name,
                              stress_case.limit, count, count.seconds / std::max(default_seconds, 1e-9),
@@ -115,10 +115,14 @@ std::size_t table_cells() {
   return all_methods().size() * all_cases().size() + all_draw_methods().size() * picture_cases().size();
 }
 
-std::optional<Tables> make_tables(bool quick, const std::function<bool()>& after_cell) {
+std::optional<Tables> make_tables(Engine& engine, bool quick, const std::function<bool()>& after_cell) {
+  const auto trace = [&](const StressCase& c, const Method& m) { return c.run(m, quick ? kQuickRays : kRays); };
+  const auto draw = [&](const PictureStressCase& c, const DrawMethod& m) {
+    return c.run(engine, m, quick ? kQuickSide : kSide);
+  };
   Tables tables;
-  if (!fill(all_cases(), all_methods(), quick ? kQuickRays : kRays, after_cell, tables.rays) ||
-      !fill(picture_cases(), all_draw_methods(), quick ? kQuickSide : kSide, after_cell, tables.pictures))
+  if (!fill(all_cases(), all_methods(), trace, after_cell, tables.rays) ||
+      !fill(picture_cases(), all_draw_methods(), draw, after_cell, tables.pictures))
     return std::nullopt;
   return tables;
 }

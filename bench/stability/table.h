@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "bench/stability/stress_case.h"
+#include "pinocchio/engine.h"
 
 namespace pinocchio::stability {
 
@@ -38,8 +39,8 @@ struct Tables {
 // How many cells the two have.
 [[nodiscard]] std::size_t table_cells();
 
-// Wants a current OpenGL context. quick: a hundredth of the rays, small pictures. Calls `after_cell`; nothing
-// comes back where it says false.
-[[nodiscard]] std::optional<Tables> make_tables(bool quick, const std::function<bool()>& after_cell);
+// quick: a hundredth of the rays, small pictures. Calls `after_cell`; nothing comes back where it says false.
+[[nodiscard]] std::optional<Tables> make_tables(Engine& engine, bool quick,
+                                                const std::function<bool()>& after_cell);
 
 }  // namespace pinocchio::stability

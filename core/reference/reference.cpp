@@ -3,6 +3,7 @@
 #include <cassert>
 
 #include "core/parallel/tiles.h"
+#include "core/trace/view_params.h"
 
 namespace pinocchio {
 

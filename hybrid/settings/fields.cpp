@@ -219,4 +219,10 @@ BuildOptions build_options(const Settings& settings) {
   return options;
 }
 
+bool same_tracer(const Settings& a, const Settings& b) {
+  for (const char* name : {"isa", "tree", "tree_depth", "tree_leaf", "triangle_test", "offset"})
+    if (!find_field(name)->same(a, b)) return false;
+  return true;
+}
+
 }  // namespace pinocchio

@@ -1,5 +1,5 @@
 // The camera under mouse and keys: no display needed.
-#include "app/view/camera_control.h"
+#include "app/window/camera_control.h"
 
 #include <gtest/gtest.h>
 

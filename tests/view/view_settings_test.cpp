@@ -1,14 +1,14 @@
 // The window's small parts that need no display: settings, history, projection, watched files.
-#include "app/view/settings.h"
+#include "app/window/settings.h"
 
 #include <gtest/gtest.h>
 
 #include <fstream>
 #include <set>
 
-#include "app/view/file_watch.h"
-#include "app/view/history.h"
-#include "app/view/projection.h"
+#include "app/window/file_watch.h"
+#include "app/window/history.h"
+#include "app/window/projection.h"
 #include "tests/support/own_file.h"
 
 namespace pinocchio::app {

@@ -154,5 +154,7 @@ struct Rule {
 
 // How a tracer's tree is built.
 [[nodiscard]] BuildOptions build_options(const Settings& settings);
+// Whether a tracer of the one's is the other's.
+[[nodiscard]] bool same_tracer(const Settings& a, const Settings& b);
 
 }  // namespace pinocchio

@@ -1,0 +1,37 @@
+#pragma once
+
+#include <imgui.h>
+
+#include "app/window/model.h"
+
+namespace pinocchio::app {
+
+// Who does a stage: a row of the timeline each.
+enum class Lane { gpu, exchange, cpu, window };
+[[nodiscard]] Lane lane_of(Stage stage, const Settings& settings);
+[[nodiscard]] const char* lane_name(Lane lane);
+[[nodiscard]] ImVec4 lane_color(Lane lane);
+
+// One button of a row: grey where it is not allowed; `tip` says what it does, or why it cannot be.
+struct Choice {
+  std::string_view text;
+  std::string tip{};
+  bool allowed = true;
+};
+// The values of a field; those that would break a rule are not allowed.
+[[nodiscard]] std::vector<Choice> choices_of(const Field& field, const ViewSettings& settings);
+// While the pointer is on the last item.
+void tooltip(const std::string& text);
+
+// The overlay's parts, each into the ImGui window that is open. scale: pixels for one of a usual display.
+void draw_figures(const Model& model, float scale);
+void draw_timeline(const Model& model, float scale);
+void draw_controls(Model& model, float scale);
+void draw_light_controls(Model& model);
+// Every setting of the table, a row each.
+void draw_all_settings(Model& model);
+// Over the picture, into no window: a handle at each light, to drag.
+void draw_light_handles(Model& model, float scale);
+void draw_help();
+
+}  // namespace pinocchio::app

@@ -1,0 +1,148 @@
+// The last frames' stages, a row for each who works: what overlaps, and who waits for whom.
+#include <algorithm>
+#include <array>
+#include <string>
+
+#include "app/window/overlay_parts.h"
+
+namespace pinocchio::app {
+namespace {
+
+constexpr std::size_t kFramesShown = 6;
+constexpr std::array<Lane, 4> kLanes{Lane::gpu, Lane::exchange, Lane::cpu, Lane::window};
+
+// Where times and rows are on the screen.
+struct Chart {
+  ImVec2 lo, size;
+  double begin_s, end_s;
+  float row_height;
+
+  [[nodiscard]] float x(double at_s) const {
+    const double share = (at_s - begin_s) / (end_s - begin_s);
+    return lo.x + static_cast<float>(std::clamp(share, 0.0, 1.0)) * size.x;
+  }
+  [[nodiscard]] float y(Lane lane) const { return lo.y + static_cast<float>(lane) * row_height; }
+};
+
+// Frames are told apart by brightness, so that each is seen on all rows.
+ImU32 color_of(Lane lane, std::uint64_t frame, float alpha) {
+  constexpr std::array<float, 3> kShades{1.0f, 0.74f, 0.52f};
+  const ImVec4 c = lane_color(lane);
+  const float shade = kShades[frame % kShades.size()];
+  return ImGui::ColorConvertFloat4ToU32(ImVec4(c.x * shade, c.y * shade, c.z * shade, alpha));
+}
+
+void draw_span(const Chart& chart, const FrameRecord& record, Stage stage, Lane lane) {
+  const Span& span = record[stage];
+  if (span.end_s <= span.begin_s || span.end_s <= chart.begin_s) return;
+  // On their way, the ids of one frame overlap the next one's: each has its half of the row.
+  const bool travels = stage == Stage::readback;
+  const float height = (travels ? 0.5f : 1.0f) * (chart.row_height - 4.0f);
+  const float top = travels && record.number % 2 == 1 ? height : 0.0f;
+  const ImVec2 lo(chart.x(span.begin_s), chart.y(lane) + 2.0f + top);
+  const ImVec2 hi(std::max(chart.x(span.end_s), lo.x + 1.0f), lo.y + height);
+  ImDrawList& list = *ImGui::GetWindowDrawList();
+  list.AddRectFilled(lo, hi, color_of(lane, record.number, travels ? 0.4f : 1.0f), 2.0f);
+  const std::string name(kStageNames[static_cast<std::size_t>(stage)]);
+  const std::string label = name + " " + std::to_string(record.number);
+  for (const std::string& text : {label, name}) {
+    const ImVec2 extent = ImGui::CalcTextSize(text.c_str());
+    if (travels || extent.x + 6.0f > hi.x - lo.x) continue;
+    const ImVec2 at(lo.x + 3.0f, 0.5f * (lo.y + hi.y - extent.y));
+    list.AddText(at, IM_COL32(10, 10, 12, 255), text.c_str());
+    break;
+  }
+  if (ImGui::IsMouseHoveringRect(lo, hi))
+    ImGui::SetTooltip("%s of frame %llu: %.2f ms", name.c_str(),
+                      static_cast<unsigned long long>(record.number), span.ms());
+}
+
+// From one row to another: the second waits for the first.
+void draw_arrow(const Chart& chart, double from_s, Lane from, double to_s, Lane to) {
+  if (from_s <= chart.begin_s || to_s <= 0.0 || from == to) return;
+  const float middle = 0.5f * chart.row_height;
+  const ImVec2 a(chart.x(from_s), chart.y(from) + middle), b(chart.x(to_s), chart.y(to) + middle);
+  ImGui::GetWindowDrawList()->AddLine(a, b, IM_COL32(255, 255, 255, 150), 1.0f);
+  ImGui::GetWindowDrawList()->AddCircleFilled(b, 2.5f, IM_COL32(255, 255, 255, 200));
+}
+
+void draw_frame(const Chart& chart, const FrameRecord& record, const Settings& settings) {
+  for (std::size_t i = 0; i < kStageNames.size(); ++i) {
+    const auto stage = static_cast<Stage>(i);
+    draw_span(chart, record, stage, lane_of(stage, settings));
+  }
+}
+
+void draw_waits(const Chart& chart, const FrameRecord& record, const Settings& settings) {
+  const bool shadow = record[Stage::trace_shadow].end_s > 0.0;
+  const bool reflection = record[Stage::trace_reflection].end_s > 0.0;
+  if (!shadow && !reflection) return;
+  const Span& first = record[shadow ? Stage::trace_shadow : Stage::trace_reflection];
+  const Span& last = record[reflection ? Stage::trace_reflection : Stage::trace_shadow];
+  if (record[Stage::readback].end_s > 0.0)
+    draw_arrow(chart, record[Stage::raster].end_s, lane_of(Stage::raster, settings), first.begin_s, Lane::cpu);
+  if (record[Stage::upload].end_s <= 0.0) return;
+  draw_arrow(chart, last.end_s, Lane::cpu, record[Stage::upload].begin_s, Lane::exchange);
+  draw_arrow(chart, record[Stage::upload].end_s, Lane::exchange, record[Stage::composite].begin_s,
+             lane_of(Stage::composite, settings));
+}
+
+}  // namespace
+
+Lane lane_of(Stage stage, const Settings& settings) {
+  switch (stage) {
+    case Stage::raster:
+      return settings.visibility == Processor::cpu ? Lane::cpu : Lane::gpu;
+    case Stage::composite:
+      return settings.uses_gpu() ? Lane::gpu : Lane::cpu;
+    case Stage::trace_shadow:
+    case Stage::trace_reflection:
+      return Lane::cpu;
+    case Stage::present:
+      return Lane::window;
+    default:
+      return Lane::exchange;
+  }
+}
+
+const char* lane_name(Lane lane) {
+  constexpr std::array<const char*, 4> kNames{"GPU", "exchange", "CPU", "window"};
+  return kNames[static_cast<std::size_t>(lane)];
+}
+
+ImVec4 lane_color(Lane lane) {
+  constexpr std::array<std::array<float, 3>, 4> kColors{
+      {{0.47f, 0.80f, 0.52f}, {0.50f, 0.70f, 0.95f}, {0.98f, 0.68f, 0.34f}, {0.72f, 0.66f, 0.88f}}};
+  const auto& c = kColors[static_cast<std::size_t>(lane)];
+  return {c[0], c[1], c[2], 1.0f};
+}
+
+void draw_timeline(const Model& model, float) {
+  const auto& records = model.history.records();
+  const std::size_t shown = std::min(records.size(), kFramesShown);
+  const std::size_t first = records.size() - shown;
+  const double begin_s = shown == 0 ? 0.0 : records[first].frame.begin_s;
+  const double end_s = shown == 0 ? 1.0 : std::max(records.back().frame.end_s, begin_s + 1e-4);
+  ImGui::Text("the last %zu frames, %.1f ms", shown, 1e3 * (end_s - begin_s));
+  const float label_width = ImGui::CalcTextSize("exchange  ").x;
+  const ImVec2 at = ImGui::GetCursorScreenPos();
+  const ImVec2 room = ImGui::GetContentRegionAvail();
+  const Chart chart{{at.x + label_width, at.y},
+                    {room.x - label_width, room.y},
+                    begin_s,
+                    end_s,
+                    room.y / static_cast<float>(kLanes.size())};
+  ImDrawList& list = *ImGui::GetWindowDrawList();
+  for (const Lane lane : kLanes) {
+    const float y = chart.y(lane);
+    list.AddRectFilled({chart.lo.x, y + 1.0f}, {chart.lo.x + chart.size.x, y + chart.row_height - 1.0f},
+                       IM_COL32(255, 255, 255, 12), 2.0f);
+    list.AddText({at.x, y + 0.5f * (chart.row_height - ImGui::GetTextLineHeight())},
+                 ImGui::ColorConvertFloat4ToU32(lane_color(lane)), lane_name(lane));
+  }
+  if (shown == 0) return;
+  for (std::size_t i = first; i < records.size(); ++i) draw_frame(chart, records[i], model.drawn);
+  for (std::size_t i = first; i < records.size(); ++i) draw_waits(chart, records[i], model.drawn);
+}
+
+}  // namespace pinocchio::app

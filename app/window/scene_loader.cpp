@@ -1,0 +1,64 @@
+#include "app/window/scene_loader.h"
+
+#include <chrono>
+#include <thread>
+#include <utility>
+
+#include "app/errors.h"
+#include "core/base/clock.h"
+
+namespace pinocchio::app {
+
+void SceneLoader::load(const DrawOptions& options) {
+  start("reading " + options.scene, options.scene, [options] {
+    News news;
+    news.scene = load_scene_for(options);
+    news.stats = analyze(*news.scene);
+    news.camera = camera_for(options, *news.scene);
+    return news;
+  });
+}
+
+void SceneLoader::build_tree(const Scene& scene, const Settings& settings) {
+  const std::string triangles = std::to_string(scene.mesh->triangles.size());
+  start("building the tree of " + triangles + " triangles", scene.source, [scene, settings] {
+    News news;
+    news.tracer = Engine::prepare(scene, settings);
+    return news;
+  });
+}
+
+// Detached: nobody waits for a scene that is no longer wanted.
+void SceneLoader::start(const std::string& phase, const std::string& source, std::function<News()> work) {
+  phase_ = phase;
+  source_ = source;
+  begin_s_ = now_s();
+  std::packaged_task<News()> task(std::move(work));
+  news_ = task.get_future();
+  std::thread([task = std::move(task), alive = threads_]() mutable { task(); }).detach();
+}
+
+SceneLoader::News SceneLoader::poll() {
+  if (!news_.valid() || news_.wait_for(std::chrono::seconds(0)) != std::future_status::ready) return {};
+  News news;
+  try {
+    return news_.get();
+  } catch (const Exit& end) {
+    news.error = end.what();
+    news.code = end.code();
+  } catch (const std::bad_alloc&) {
+    news.error = source_ + ": out of memory; it is too large for this machine";
+    news.code = kFailed;
+  } catch (const std::exception& error) {
+    news.error = error.what();
+    news.code = kFailed;
+  }
+  return news;
+}
+
+SceneLoader::Progress SceneLoader::progress() const {
+  if (!news_.valid()) return {};
+  return {phase_, now_s() - begin_s_};
+}
+
+}  // namespace pinocchio::app

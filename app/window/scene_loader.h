@@ -1,0 +1,50 @@
+#pragma once
+
+#include <functional>
+#include <future>
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "app/exit_codes.h"
+#include "app/options.h"
+#include "hybrid/settings/scene_stats.h"
+
+namespace pinocchio::app {
+
+// Loads scenes and builds their trees on a thread of its own, while the window lives on: one thing at a time.
+class SceneLoader {
+ public:
+  // How far it is, in words; empty: nothing is being loaded.
+  struct Progress {
+    std::string phase;
+    double seconds = 0.0;  // since it began
+  };
+  // What a call of poll() found; mostly nothing.
+  struct News {
+    std::optional<Scene> scene;  // was read
+    SceneStats stats;            // its own
+    Camera camera;               // that the options ask for in it
+    std::shared_ptr<const Tracer> tracer;  // its tree is built
+    std::string error;                     // one line: it could not be loaded
+    ExitCode code = kDone;                 // what the error would end a verb with
+  };
+
+  // Each begins; what was being loaded before is forgotten.
+  void load(const DrawOptions& options);
+  void build_tree(const Scene& scene, const Settings& settings);
+  [[nodiscard]] News poll();
+  [[nodiscard]] Progress progress() const;
+  // Whether a thread, also a forgotten one, is at work.
+  [[nodiscard]] bool busy() const { return threads_.use_count() > 1; }
+
+ private:
+  void start(const std::string& phase, const std::string& source, std::function<News()> work);
+
+  std::string phase_, source_;
+  double begin_s_ = 0.0;
+  std::future<News> news_;
+  std::shared_ptr<int> threads_ = std::make_shared<int>(0);  // each thread holds a reference
+};
+
+}  // namespace pinocchio::app

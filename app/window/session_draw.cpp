@@ -1,0 +1,156 @@
+#include <algorithm>
+
+#include "app/console.h"
+#include "app/window/overlay.h"
+#include "app/window/session.h"
+#include "core/trace/jitter.h"
+#include "gl/error.h"
+#include "hybrid/frame_slot.h"
+
+namespace pinocchio::app {
+namespace {
+
+constexpr int kUsualSamples = 256;  // of a still camera: beyond, no display shows a difference
+
+// Apart from where it is sampled.
+bool same_view(const FrameRequest& a, const FrameRequest& b) {
+  FrameRequest moved = a;
+  moved.view.jitter = b.view.jitter;
+  return moved == b;
+}
+
+}  // namespace
+
+glm::ivec2 Session::picture_size() const {
+  const glm::vec2 wanted = glm::round(glm::vec2(window_.pixels()) * applied_.scale);
+  return glm::clamp(glm::ivec2(wanted), glm::ivec2(1), glm::ivec2(kMaxSide));
+}
+
+// Whether a still camera's samples are gathered: a buffer, and what is compared, is of one sample.
+bool Session::gathers() const {
+  return applied_.accumulate && applied_.buffer == BufferView::picture && applied_.split == Split::off;
+}
+
+int Session::most_samples() const {
+  return applied_.settings.spp.given ? applied_.settings.spp.value : kUsualSamples;
+}
+
+// Of pixels' centres.
+FrameRequest Session::request() const {
+  FrameRequest request{model_.scene, model_.tracer, model_.drawn, {model_.camera.camera(), picture_size()}};
+  drop_idle_casters(request.scene);  // as frames have it
+  return request;
+}
+
+FrameRequest Session::next_request() {
+  FrameRequest next = request();
+  if (!asked_ || !same_view(*asked_, next)) sample_ = 0;
+  if (gathers()) next.view.jitter = jitter_of(std::min(sample_, most_samples() - 1));
+  return next;
+}
+
+void Session::draw() {
+  shown_ = false;
+  if (model_.has_scene()) {
+    try {
+      draw_scene();
+      model_.errors.erase("drawing");
+    } catch (const gl::ContextLostError&) {
+      throw;
+    } catch (const EnvironmentError&) {
+      throw;
+    } catch (const std::exception& error) {
+      model_.errors["drawing"] = one_line(error.what());
+      idle_ = true;
+    }
+  }
+  if (!shown_) show(last_);
+}
+
+void Session::draw_scene() {
+  const FrameRequest request = next_request();
+  model_.picture_size = request.view.size;
+  idle_ = asked_ == request;
+  follow_reference(request);
+  if (idle_ && gathers() && !renderer_.is_drawing_alone()) {
+    renderer_.drain();  // the last samples
+  } else if (renderer_.try_submit(request)) {
+    asked_ = request;
+    ++sample_;
+  }
+}
+
+// With the screen split.
+void Session::follow_reference(const FrameRequest& request) {
+  model_.comparison.clear();
+  if (applied_.split == Split::off) return comparison_.reset();
+  if (!comparison_) comparison_ = std::make_unique<Comparison>();
+  comparison_->follow({request.scene, request.view, applied_.settings.depth});
+  model_.comparison = comparison_->text();
+}
+
+void Session::take_frame(const Frame& frame) {
+  if (comparison_) compare(frame);
+  const StageTimer timer(frame.record(), Stage::present);
+  last_ = &chosen_buffer(frame);
+  show(last_);
+}
+
+// What of the frame is looked at.
+const gl::Texture& Session::chosen_buffer(const Frame& frame) {
+  const BufferView buffer = applied_.buffer;
+  model_.samples = 1;
+  model_.legend.clear();
+  last_is_light_ = buffer == BufferView::picture || buffer == BufferView::reflection;
+  if (buffer != BufferView::picture) {
+    model_.legend = legend(buffer, applied_.mask_slot, frame);
+    return inspect_.draw(frame, buffer, applied_.mask_slot);
+  }
+  if (!gathers() || frame.request().view.camera != model_.camera.camera()) return frame.texture();
+  accumulator_.add(frame);
+  if (accumulator_.samples() == 0) return frame.texture();
+  model_.samples = accumulator_.samples();
+  return accumulator_.average().color();
+}
+
+void Session::compare(const Frame& frame) {
+  if (!comparison_->wants_picture() || !asked_ || frame.request() != *asked_) return;
+  Image<glm::vec4> picture;
+  frame.read_color(picture);
+  comparison_->compare(std::move(picture));
+}
+
+void Session::show(const gl::Texture* picture) {
+  const glm::ivec2 pixels = window_.pixels();
+  if (pixels.x < 1 || pixels.y < 1) return;
+  shown_ = true;
+  model_.window_pixels = pixels;
+  if (picture) {
+    present(*picture);
+  } else {
+    present_.clear(pixels);
+  }
+  gui_.begin_frame();
+  draw_overlay(model_, gui_.scale());
+  gui_.end_frame();
+  if (!png_file_.empty()) write_window_png();
+  window_.present();
+}
+
+void Session::present(const gl::Texture& picture) {
+  const glm::ivec2 pixels = model_.window_pixels;
+  const int split = static_cast<int>(applied_.split_at * static_cast<float>(pixels.x));
+  const gl::Texture* const other = !comparison_                         ? nullptr
+                                   : applied_.split == Split::reference ? comparison_->reference()
+                                                                        : comparison_->heat();
+  const PixelBox left{{0, 0}, {comparison_ ? split : pixels.x, pixels.y}}, right{{split, 0}, pixels};
+  present_.draw(picture, pixels, left, last_is_light_ ? applied_.exposure_ev : 0.0f);
+  if (!comparison_) return;
+  if (other) {
+    present_.draw(*other, pixels, right, applied_.split == Split::reference ? applied_.exposure_ev : 0.0f);
+  } else {
+    present_.clear(pixels, right);
+  }
+}
+
+}  // namespace pinocchio::app
