@@ -1,6 +1,7 @@
 // What the taker of a finished frame may ask of it.
 #include <algorithm>
 
+#include "hybrid/engine_parts.h"
 #include "hybrid/exchange/encode.h"
 #include "hybrid/frame_slot.h"
 #include "hybrid/passes/passes.h"
@@ -42,6 +43,7 @@ FrameRecord& Frame::record() const {
 const gl::Texture& Frame::texture() const {
   if (slot_.request.settings.uses_gpu()) return slot_.picture.color();
   if (slot_.is_shown) return slot_.shown;
+  (void)slot_.engine.gpu();
   const StageTimer timer(slot_.record, Stage::upload);
   fit(slot_.shown, slot_.color.size(), gl::kRgba32F);
   const std::span<std::byte> bytes = slot_.picture_up.open(slot_.shown.bytes());
