@@ -11,13 +11,13 @@ trap 'rm -rf "$work"' EXIT
 quietly() {
   "$@" >"$work/log" 2>&1 || { cat "$work/log"; exit 1; }
 }
-build() { # SOURCE OPTIONS...
-  quietly cmake -G Ninja -S "$1" -B "$work/build" "${@:2}"
-  quietly cmake --build "$work/build"
+build() { # SOURCE FOLDER OPTIONS...
+  quietly cmake -G Ninja -S "$1" -B "$2" "${@:3}"
+  quietly cmake --build "$2"
 }
 
 if [ "$how" = subdirectory ]; then
-  build "$tree/tests/consumer/subdirectory" -DPINOCCHIO_SOURCE="$tree" "$@"
+  build "$tree/tests/consumer/subdirectory" "$work/build" -DPINOCCHIO_SOURCE="$tree" "$@"
 else
   prefix=$work/prefix
   quietly cmake --install "$built" --prefix "$prefix"
@@ -30,7 +30,10 @@ else
     [ -e "$file" ] || { echo "README.md links to $file, which is not installed"; exit 1; }
   done
   cp -r "$tree/examples" "$work/examples"
-  build "$work/examples/tracer_alone" -DCMAKE_PREFIX_PATH="$prefix" "$@"
+  for example in tracer_alone headless own_window; do
+    build "$work/examples/$example" "$work/build-$example" -DCMAKE_PREFIX_PATH="$prefix" "$@"
+    mkdir -p "$work/build" && mv "$work/build-$example/$example" "$work/build/"
+  done
 fi
 
 "$work/build/tracer_alone" "$tree/scenes/cornell.gltf" >"$work/letters"
@@ -39,3 +42,8 @@ if ldd "$work/build/tracer_alone" | grep -E 'libGL|libEGL|libglfw'; then
   echo "the tracer alone links OpenGL"
   exit 1
 fi
+
+"$work/build/headless" "$tree/scenes/cornell.gltf" "$work/cornell.exr"
+"$built/bin/pinocchio" render "$tree/scenes/cornell.gltf" --depth 4 -o "$work/program.exr" --quiet
+"$built/bin/pinocchio" compare "$work/cornell.exr" "$work/program.exr" --max-error max=0
+quietly xvfb-run -a "$work/build/own_window" "$tree/scenes/cornell.gltf" 5
