@@ -85,9 +85,8 @@ TEST_P(ReferenceAgreement, TracerDrawsTheSame) {
   Workers workers(2);
   const shared::ViewParams view = view_params(first_camera_of(scene), kSize);
   const Drawn tracer = by_tracer(scene, workers, view, kSize);
-  Drawn reference{Image<std::uint32_t>(kSize), {}, {}, {}};
-  reference_picture(scene, workers, view, 8, reference.ids, reference.mask, reference.reflection,
-                    reference.color);
+  const ReferencePicture reference =
+      reference_render(scene, {.camera = first_camera_of(scene), .size = kSize}, 8, workers);
   double sum = 0.0, largest = 0.0;
   int same_ids = 0, other_masks = 0;
   for (int y = 0; y < kSize.y; ++y)

@@ -17,17 +17,14 @@ namespace {
 constexpr glm::ivec2 kSize{160, 120};
 
 // What the reference draws of a scene's first camera.
-struct Drawn {
+struct Drawn : ReferencePicture {
   explicit Drawn(const Scene& scene, int depth = 0) : view(view_params(scene.cameras.front(), kSize)) {
     Workers workers(2);
-    reference_picture(scene, workers, view, depth, ids, mask, reflection, color);
+    static_cast<ReferencePicture&>(*this) =
+        reference_render(scene, {.camera = scene.cameras.front(), .size = kSize}, depth, workers);
   }
 
   shared::ViewParams view;
-  Image<std::uint32_t> ids{kSize};
-  MaskImage mask;
-  Image<glm::vec3> reflection;
-  Image<glm::vec4> color;
 };
 
 double distance_to_line(const glm::dvec3& point, const glm::dvec3& origin, const glm::dvec3& direction) {

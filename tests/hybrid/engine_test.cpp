@@ -5,7 +5,6 @@
 
 #include <thread>
 
-#include "hybrid/shader_folder.h"
 #include "tests/support/frames.h"
 #include "tests/support/own_file.h"
 
@@ -140,7 +139,7 @@ INSTANTIATE_TEST_SUITE_P(Backends, SharedEngineTest, kBackends, backend_name);
 // Nobody could compile them a second time: they are gone.
 TEST_P(SharedEngineTest, CompilesItsProgramsOnceForAllRenderers) {
   const std::filesystem::path folder = own_folder() / "shaders";
-  std::filesystem::copy(shader_folder(), folder, std::filesystem::copy_options::recursive);
+  std::filesystem::copy(source_path("shaders"), folder, std::filesystem::copy_options::recursive);
   setenv("PINOCCHIO_SHADERS", folder.c_str(), 1);
   const Scene scene = cornell();
   const FrameRequest request = this->request(scene, settings_for(scene), {48, 32});

@@ -24,12 +24,7 @@ ReferenceView view_of(const Scene& scene) {
 
 Image<glm::vec4> at_once(const ReferenceView& view) {
   Workers workers(2);
-  Image<std::uint32_t> ids(view.view.box().size());
-  MaskImage mask;
-  Image<glm::vec3> reflection;
-  Image<glm::vec4> color;
-  reference_picture(view.scene, workers, view_params(view.view), view.depth, ids, mask, reflection, color);
-  return color;
+  return reference_render(view.scene, view.view, view.depth, workers).color;
 }
 
 // Waits a moment between polls; ctest's time limit ends what never finishes.

@@ -3,7 +3,6 @@
 #include <sstream>
 
 #include "gl/error.h"
-#include "hybrid/shader_folder.h"
 #include "tests/support/frames.h"
 #include "tests/support/own_file.h"
 
@@ -17,7 +16,7 @@ class ReloadTest : public FramesTest {
   void SetUp() override {
     FramesTest::SetUp();
     folder_ = own_folder() / "shaders";
-    std::filesystem::copy(shader_folder(), folder_, std::filesystem::copy_options::recursive);
+    std::filesystem::copy(source_path("shaders"), folder_, std::filesystem::copy_options::recursive);
     setenv("PINOCCHIO_SHADERS", folder_.c_str(), 1);
     renderer_.emplace(*engine_, FrameSinks{[this](Frame& frame) { frame.read_color(picture_); }, {}});
     Scene scene = plate_over_floor();
