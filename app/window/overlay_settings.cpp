@@ -75,7 +75,7 @@ void draw_row(const Row& row, const Settings& wanted) {
   }
   ImGui::EndDisabled();
   if (!given) return;
-  ImGui::SameLine(ImGui::GetContentRegionMax().x - ImGui::GetFrameHeight());
+  ImGui::SameLine();
   if (ImGui::SmallButton("x")) field.copy(Settings{}, settings);
   tooltip("back to: " + std::string(field.unset));
 }

@@ -120,14 +120,14 @@ TEST_F(WindowTest, GatheringStopsAtTheSamplesThatWereAskedFor) {
 
 // Its mark is in the middle of the window, where the camera looks.
 TEST_F(WindowTest, ADraggedLightIsInAFileThatTheCommandDraws) {
-  open(scene("cornell"), "--eye 0,1,3.4 --target 0,1,0 --light 0,1,0,0.5");
+  open(scene("cornell"), "--eye 0,1,3.4 --target 0,1,0 --light 0,1,0,0.5 --mode raster");
   EXPECT_NE(command_line().find("--light 0,1,0,0.5,cast"), std::string::npos);
   key("h");
-  xdo("windowsize --sync " + window_ + " 640 480");
+  xdo("windowsize --sync " + window_ + " 400 400");
   pause_ms(500);
   const std::string to = "mousemove --window " + window_ + " ";
-  xdo(to + "320 240 sleep 0.3 mousedown 1 sleep 0.2 " + to + "330 245 sleep 0.2 " + to +
-      "340 250 sleep 0.2 mouseup 1");
+  xdo(to + "200 200 sleep 0.5 mousedown 1 sleep 0.4 " + to + "206 203 sleep 0.4 " + to +
+      "212 206 sleep 0.4 mouseup 1");
   const std::string command = command_line();
   EXPECT_NE(command.find("render cornell-001.gltf"), std::string::npos) << command;
   EXPECT_EQ(command.find("--light"), std::string::npos) << command;
