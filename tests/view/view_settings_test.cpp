@@ -1,5 +1,5 @@
 // The window's small parts that need no display: settings, history, projection, watched files.
-#include "app/window/settings.h"
+#include "app/window/actions.h"
 
 #include <gtest/gtest.h>
 
@@ -14,19 +14,23 @@
 namespace pinocchio::app {
 namespace {
 
+const Rule* press(char key, ViewSettings& settings) {
+  return std::get<Change>(binding_of({key, key, true, false, {}})->does)(settings);
+}
+
 TEST(ViewSettings, ReprojectionNeedsDesign1) {
   ViewSettings settings;
   settings.settings.exchange = Exchange::reproject;
-  const Rule* const rule = change_setting(Action::next_design, settings);
+  const Rule* const rule = press('G', settings);
   ASSERT_TRUE(rule);  // and says why
   EXPECT_NE(rule->what.find("reproject"), std::string_view::npos);
   EXPECT_EQ(preset_of("design", settings), "1");
   settings.settings.exchange = Exchange::pipelined;
-  EXPECT_FALSE(change_setting(Action::next_design, settings));
+  EXPECT_FALSE(press('G', settings));
   EXPECT_EQ(preset_of("design", settings), "2");
   std::set<Exchange> seen;
   for (int i = 0; i < 4; ++i) {
-    EXPECT_FALSE(change_setting(Action::next_exchange, settings));
+    EXPECT_FALSE(press('X', settings));
     EXPECT_FALSE(broken_rule(wanted_settings(settings)));
     seen.insert(wanted_settings(settings).exchange);
   }
@@ -48,15 +52,15 @@ TEST(ViewSettings, PresetsCanBeLeft) {
   choose_preset("design", "2", settings);
   const Settings before = wanted_settings(settings);
   for (const char* mode : {"raytrace", "raster", "hybrid"}) {
-    (void)change_setting(Action::next_mode, settings);
+    (void)press('M', settings);
     EXPECT_EQ(preset_of("mode", settings), mode);
   }
   EXPECT_TRUE(wanted_settings(settings) == before);
-  (void)change_setting(Action::next_plan, settings);
+  (void)press('L', settings);
   EXPECT_EQ(wanted_settings(settings).reflection.value, ReflectionFormat::rgb8);
-  (void)change_setting(Action::next_plan, settings);
+  (void)press('L', settings);
   EXPECT_TRUE(wanted_settings(settings) == before);
-  (void)change_setting(Action::next_design, settings);
+  (void)press('G', settings);
   EXPECT_FALSE(settings.settings.visibility.given || settings.settings.composite.given);
 }
 
@@ -93,8 +97,8 @@ TEST(ViewSettings, PresetsThatAreGivenAreTakenAsSuch) {
 TEST(ViewSettings, StepsKeepToTheirLimits) {
   ViewSettings settings;
   for (int i = 0; i < 200; ++i)
-    for (const Action action : {Action::shallower, Action::coarser, Action::darker}) {
-      change_setting(action, settings);
+    for (const char key : {',', '[', '-'}) {
+      (void)press(key, settings);
       settings = possible(settings);
     }
   EXPECT_EQ(settings.settings.depth, 0);
@@ -104,8 +108,8 @@ TEST(ViewSettings, StepsKeepToTheirLimits) {
 
 TEST(ViewSettings, FewerAndMorePixelsMeetWholeSize) {
   ViewSettings settings;
-  for (int i = 0; i < 4; ++i) change_setting(Action::coarser, settings);
-  for (int i = 0; i < 4; ++i) change_setting(Action::finer, settings);
+  for (int i = 0; i < 4; ++i) (void)press('[', settings);
+  for (int i = 0; i < 4; ++i) (void)press(']', settings);
   EXPECT_EQ(settings.scale, 1.0f);
 }
 
