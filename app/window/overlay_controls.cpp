@@ -21,10 +21,10 @@ int choose(const char* name, const std::vector<Choice>& choices, std::size_t cho
   for (std::size_t i = 0; i < choices.size(); ++i) {
     ImGui::SameLine(i == 0 ? indent + ImGui::GetStyle().WindowPadding.x : 0.0f, i == 0 ? -1.0f : gap);
     if (i == chosen) ImGui::PushStyleColor(ImGuiCol_Button, ImGui::GetStyle().Colors[ImGuiCol_ButtonActive]);
-    ImGui::BeginDisabled(!choices[i].allowed);
+    ImGui::BeginDisabled(choices[i].broken);
     if (ImGui::Button(std::string(choices[i].text).c_str(), ImVec2(width, 0.0f))) clicked = static_cast<int>(i);
     ImGui::EndDisabled();
-    tooltip(choices[i].tip);
+    tooltip(choices[i]);
     if (i == chosen) ImGui::PopStyleColor();
   }
   ImGui::PopID();
@@ -39,30 +39,17 @@ void label(const char* name) {
   ImGui::SetNextItemWidth(-1.0f);
 }
 
-// The rule, if one is broken, else the help.
-Choice choice(std::string_view text, std::string_view help, const Rule* broken) {
-  if (!broken) return {text, std::string(help)};
-  return {text, std::string(broken->what) + "; " + std::string(broken->remedy), false};
-}
-
 void draw_preset(const char* option, ViewSettings& s) {
-  std::vector<Choice> choices;
-  std::size_t chosen = 0;
-  for (const Preset& preset : presets()) {
-    if (preset.option != option) continue;
-    ViewSettings changed = s;
-    choose_preset(option, preset.value, changed);
-    if (preset.value == preset_of(option, s)) chosen = choices.size();
-    choices.push_back(choice(preset.value, preset.help, broken_rule(wanted_settings(changed))));
-  }
-  if (const int clicked = choose(option, choices, chosen); clicked >= 0)
+  const std::vector<Choice> choices = preset_choices(option, s);
+  const auto chosen = std::ranges::find(choices, preset_of(option, s), &Choice::text) - choices.begin();
+  if (const int clicked = choose(option, choices, static_cast<std::size_t>(chosen)); clicked >= 0)
     choose_preset(option, choices[static_cast<std::size_t>(clicked)].text, s);
 }
 
 void draw_exchange(ViewSettings& s) {
   const Field& field = *find_field("exchange");
   const Exchange now = wanted_settings(s).exchange;
-  if (const int clicked = choose("exchange", choices_of(field, s), static_cast<std::size_t>(now)); clicked >= 0)
+  if (const int clicked = choose("exchange", field_choices(field, s), static_cast<std::size_t>(now)); clicked >= 0)
     s.settings.exchange = static_cast<Exchange>(clicked);
 }
 
@@ -122,7 +109,7 @@ void draw_camera(Model& model) {
   ImGui::SameLine();
   if (ImGui::Button("print command")) model.asked.push_back(Action::print_command);
   ImGui::SameLine();
-  if (ImGui::Button("keys")) model.asked.push_back(Action::help);
+  if (ImGui::Button("keys")) model.settings.help = !model.settings.help;
 }
 
 void draw_about(const Model& model) {
@@ -147,12 +134,9 @@ void tooltip(const std::string& text) {
   ImGui::EndTooltip();
 }
 
-std::vector<Choice> choices_of(const Field& field, const ViewSettings& settings) {
-  const Settings wanted = wanted_settings(settings);
-  std::vector<Choice> choices;
-  for (const std::string_view value : field.choices)
-    choices.push_back(choice(value, field.help, broken_by(wanted, field.name, value)));
-  return choices;
+void tooltip(const Choice& choice) {
+  tooltip(choice.broken ? std::string(choice.broken->what) + "; " + std::string(choice.broken->remedy)
+                        : std::string(choice.help));
 }
 
 void draw_controls(Model& model, float) {

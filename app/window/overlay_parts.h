@@ -12,16 +12,10 @@ enum class Lane { gpu, exchange, cpu, window };
 [[nodiscard]] const char* lane_name(Lane lane);
 [[nodiscard]] ImVec4 lane_color(Lane lane);
 
-// One button of a row: grey where it is not allowed; `tip` says what it does, or why it cannot be.
-struct Choice {
-  std::string_view text;
-  std::string tip{};
-  bool allowed = true;
-};
-// The values of a field; those that would break a rule are not allowed.
-[[nodiscard]] std::vector<Choice> choices_of(const Field& field, const ViewSettings& settings);
 // While the pointer is on the last item.
 void tooltip(const std::string& text);
+// The rule that the choice would break, else its help.
+void tooltip(const Choice& choice);
 
 // The overlay's parts, each into the ImGui window that is open. scale: pixels for one of a usual display.
 void draw_figures(const Model& model, float scale);

@@ -24,19 +24,19 @@ struct Row {
 void edit_flag(const Row& row) {
   bool on = row.text == "true";
   const Choice& other = row.choices[on ? 0 : 1];
-  ImGui::BeginDisabled(!other.allowed);
+  ImGui::BeginDisabled(other.broken);
   if (ImGui::Checkbox("##flag", &on)) row.take(other.text);
   ImGui::EndDisabled();
-  tooltip(other.tip);
+  tooltip(other);
 }
 
 void edit_choice(const Row& row) {
   if (!ImGui::BeginCombo("##choice", row.text.c_str())) return tooltip(std::string(row.field.help));
   for (const Choice& choice : row.choices) {
-    ImGui::BeginDisabled(!choice.allowed);
+    ImGui::BeginDisabled(choice.broken);
     if (ImGui::Selectable(std::string(choice.text).c_str(), choice.text == row.text)) row.take(choice.text);
     ImGui::EndDisabled();
-    tooltip(choice.tip);
+    tooltip(choice);
   }
   ImGui::EndCombo();
 }
@@ -54,7 +54,8 @@ void edit_number(const Row& row) {
 void draw_row(const Row& row, const Settings& wanted) {
   const Field& field = row.field;
   Settings& settings = row.model.settings.settings;
-  const bool given = field.given(settings), by_others = field.given(wanted) && !(given && field.same(wanted, settings));
+  const bool given = field.given(settings);
+  const bool by_others = field.given(wanted) && !(given && field.same(wanted, settings));
   ImGui::TableNextRow();
   ImGui::TableNextColumn();
   ImGui::AlignTextToFramePadding();
@@ -75,7 +76,7 @@ void draw_row(const Row& row, const Settings& wanted) {
   }
   ImGui::EndDisabled();
   if (!given) return;
-  ImGui::SameLine(ImGui::GetContentRegionMax().x - ImGui::GetFrameHeight());
+  ImGui::SameLine();
   if (ImGui::SmallButton("x")) field.copy(Settings{}, settings);
   tooltip("back to: " + std::string(field.unset));
 }
@@ -90,7 +91,7 @@ void draw_all_settings(Model& model) {
   for (const Field& field : settings_table()) {
     const std::string text = field.text(field.given(wanted) ? wanted : model.drawn);
     ImGui::PushID(field.name.data());
-    draw_row({field, model, text, choices_of(field, model.settings)}, wanted);
+    draw_row({field, model, text, field_choices(field, model.settings)}, wanted);
     ImGui::PopID();
   }
   ImGui::EndTable();

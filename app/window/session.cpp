@@ -93,7 +93,9 @@ void Session::take_key(const gl::KeyEvent& event) {
   if (const int number = event.key - '1'; number >= 0 && number < 9) {
     show_camera(static_cast<std::size_t>(number));
   } else if (const KeyBinding* const binding = binding_of(event)) {
-    perform(binding->action);
+    if (const auto* const action = std::get_if<Action>(&binding->does)) return perform(*action);
+    if (const Rule* const rule = std::get<Change>(binding->does)(model_.settings))
+      model_.notify(InputError{{}, 0, std::string(rule->what), std::string(rule->remedy)}.message(), 8.0);
   }
 }
 

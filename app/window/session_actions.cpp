@@ -40,9 +40,6 @@ void Session::perform(Action action) {
         return window_.set_full_screen(!window_.full_screen());
       case Action::close:
         return window_.ask_close();
-      default:
-        if (const Rule* const rule = change_setting(action, model_.settings))
-          model_.notify(InputError{{}, 0, std::string(rule->what), std::string(rule->remedy)}.message(), 8.0);
     }
   } catch (const std::exception& error) {  // a file that cannot be written
     model_.notify(error.what(), 8.0);

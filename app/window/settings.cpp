@@ -5,23 +5,6 @@
 namespace pinocchio::app {
 namespace {
 
-constexpr float kScaleStep = 1.25f, kExposureStep = 0.5f;
-
-// The next of an enumeration's first `count` values.
-template <class Enum>
-Enum next(Enum value, int count) {
-  return static_cast<Enum>((static_cast<int>(value) + 1) % count);
-}
-
-void toggle(bool& setting) {
-  setting = !setting;
-}
-
-// Steps of the scale meet whole size exactly.
-float near_one(float scale) {
-  return scale > 0.95f && scale < 1.05f ? 1.0f : scale;
-}
-
 // What the preset sets is open again.
 void leave(const Preset& preset, Settings& settings) {
   Settings touched;
@@ -49,41 +32,12 @@ void take_switch(Setting<T>& setting, Off off, const Setting<T>& open, bool& on)
   on = false;
 }
 
-// The first of the values after the one in force that breaks no rule.
-template <class Values>
-const Rule* next_allowed(const Values& values, std::string_view now, ViewSettings& s, auto choose) {
-  const Rule* first = nullptr;
-  const auto at = static_cast<std::size_t>(std::ranges::find(values, now) - std::begin(values));
-  for (std::size_t i = 1; i < values.size(); ++i) {
-    ViewSettings changed = s;
-    choose(values[(at + i) % values.size()], changed);
-    const Rule* const rule = broken_rule(wanted_settings(changed));
-    if (!rule) {
-      s = changed;
-      return nullptr;
-    }
-    if (!first) first = rule;
-  }
-  return first;
-}
-
-const Rule* next_preset(std::string_view option, ViewSettings& s) {
-  std::vector<std::string_view> values;
-  for (const Preset& preset : presets())
-    if (preset.option == option) values.push_back(preset.value);
-  return next_allowed(values, preset_of(option, s), s, [&](std::string_view value, ViewSettings& changed) {
-    choose_preset(option, value, changed);
-  });
-}
-
-const Rule* next_exchange(ViewSettings& s) {
-  const Field& field = *find_field("exchange");
-  return next_allowed(field.choices, field.text(wanted_settings(s)), s,
-                      [&](std::string_view value, ViewSettings& changed) { field.take(value, changed.settings); });
-}
-
-void add_bounces(int more, Settings& s) {
-  s.depth = std::clamp(s.depth + more, 0, kMostBounces);
+// The first after the one in force that breaks no rule; where there is none, the next.
+const Choice& next_of(const std::vector<Choice>& choices, std::string_view now) {
+  const auto at = static_cast<std::size_t>(std::ranges::find(choices, now, &Choice::text) - choices.begin());
+  for (std::size_t i = 1; i < choices.size(); ++i)
+    if (const Choice& choice = choices[(at + i) % choices.size()]; !choice.broken) return choice;
+  return choices[(at + 1) % choices.size()];
 }
 
 }  // namespace
@@ -128,59 +82,38 @@ void choose_preset(std::string_view option, std::string_view value, ViewSettings
   }
 }
 
-const Rule* change_setting(Action action, ViewSettings& s) {
-  switch (action) {
-    case Action::next_mode:
-      return next_preset("mode", s);
-    case Action::next_design:
-      return next_preset("design", s);
-    case Action::next_exchange:
-      return next_exchange(s);
-    case Action::next_plan:
-      return next_preset("plan", s);
-    case Action::shadows:
-      toggle(s.shadows);
-      break;
-    case Action::reflections:
-      toggle(s.reflections);
-      break;
-    case Action::deeper:
-      add_bounces(1, s.settings);
-      break;
-    case Action::shallower:
-      add_bounces(-1, s.settings);
-      break;
-    case Action::brighter:
-      s.exposure_ev += kExposureStep;
-      break;
-    case Action::darker:
-      s.exposure_ev -= kExposureStep;
-      break;
-    case Action::finer:
-      s.scale = near_one(s.scale * kScaleStep);
-      break;
-    case Action::coarser:
-      s.scale = near_one(s.scale / kScaleStep);
-      break;
-    case Action::accumulate:
-      toggle(s.accumulate);
-      break;
-    case Action::split:
-      s.split = next(s.split, 3);
-      break;
-    case Action::vsync:
-      toggle(s.vsync);
-      break;
-    case Action::overlay:
-      toggle(s.overlay);
-      break;
-    case Action::help:
-      toggle(s.help);
-      break;
-    default:
-      break;
+std::vector<Choice> preset_choices(std::string_view option, const ViewSettings& settings) {
+  std::vector<Choice> choices;
+  for (const Preset& preset : presets()) {
+    if (preset.option != option) continue;
+    ViewSettings changed = settings;
+    choose_preset(option, preset.value, changed);
+    choices.push_back({preset.value, preset.help, broken_rule(wanted_settings(changed))});
   }
-  return nullptr;
+  return choices;
+}
+
+std::vector<Choice> field_choices(const Field& field, const ViewSettings& settings) {
+  const Settings wanted = wanted_settings(settings);
+  std::vector<Choice> choices;
+  for (const std::string_view value : field.choices)
+    choices.push_back({value, field.help, broken_by(wanted, field.name, value)});
+  return choices;
+}
+
+const Rule* next_preset(std::string_view option, ViewSettings& s) {
+  const std::vector<Choice> choices = preset_choices(option, s);
+  const Choice& next = next_of(choices, preset_of(option, s));
+  if (!next.broken) choose_preset(option, next.text, s);
+  return next.broken;
+}
+
+const Rule* next_exchange(ViewSettings& s) {
+  const Field& field = *find_field("exchange");
+  const std::vector<Choice> choices = field_choices(field, s);
+  const Choice& next = next_of(choices, field.text(wanted_settings(s)));
+  if (!next.broken) field.take(next.text, s.settings);
+  return next.broken;
 }
 
 void next_buffer(ViewSettings& s, int mask_slots) {

@@ -1,8 +1,8 @@
 #pragma once
 
 #include <string_view>
+#include <vector>
 
-#include "app/window/actions.h"
 #include "hybrid/inspect/inspect_pass.h"
 
 namespace pinocchio::app {
@@ -40,10 +40,23 @@ void choose_preset(std::string_view option, std::string_view value, ViewSettings
 // Applies the preset to `said`, where that says more and nothing that `settings` do not say.
 bool say(const Preset& preset, const Settings& settings, Settings& said);
 
-// What an action that is about settings does to them; others do nothing. The rule that leaves it nothing to
-// do, if there is one.
-const Rule* change_setting(Action action, ViewSettings& settings);
+// One value of a preset's option or of a field, and the rule that it would break; null: it can be had.
+struct Choice {
+  std::string_view text, help{};
+  const Rule* broken = nullptr;
+};
+[[nodiscard]] std::vector<Choice> preset_choices(std::string_view option, const ViewSettings& settings);
+[[nodiscard]] std::vector<Choice> field_choices(const Field& field, const ViewSettings& settings);
 
+// Takes the next value that breaks no rule; where there is none, the rule that one breaks.
+const Rule* next_preset(std::string_view option, ViewSettings& settings);
+const Rule* next_exchange(ViewSettings& settings);
+
+// The next of an enumeration's first `count` values.
+template <class Enum>
+[[nodiscard]] Enum next(Enum value, int count) {
+  return static_cast<Enum>((static_cast<int>(value) + 1) % count);
+}
 // The next of the buffers to look at; of the mask, one of `mask_slots` after the other.
 void next_buffer(ViewSettings& settings, int mask_slots);
 

@@ -1,5 +1,5 @@
 // The window's small parts that need no display: settings, history, projection, watched files.
-#include "app/window/settings.h"
+#include "app/window/actions.h"
 
 #include <gtest/gtest.h>
 
@@ -14,34 +14,102 @@
 namespace pinocchio::app {
 namespace {
 
+const Rule* press(char key, ViewSettings& settings) {
+  return std::get<Change>(binding_of({key, key, true, false, {}})->does)(settings);
+}
+
 TEST(ViewSettings, ReprojectionNeedsDesign1) {
   ViewSettings settings;
-  settings.exchange = Exchange::reproject;
-  EXPECT_EQ(possible(settings).exchange, Exchange::reproject);
-  settings.design = 2;
-  EXPECT_EQ(possible(settings).exchange, Exchange::pipelined);
-  for (int i = 0; i < 6; ++i) {
-    change_setting(Action::next_exchange, settings);
-    EXPECT_EQ(possible(settings).exchange, settings.exchange);
+  settings.settings.exchange = Exchange::reproject;
+  const Rule* const rule = press('G', settings);
+  ASSERT_TRUE(rule);  // and says why
+  EXPECT_NE(rule->what.find("reproject"), std::string_view::npos);
+  EXPECT_EQ(preset_of("design", settings), "1");
+  settings.settings.exchange = Exchange::pipelined;
+  EXPECT_FALSE(press('G', settings));
+  EXPECT_EQ(preset_of("design", settings), "2");
+  std::set<Exchange> seen;
+  for (int i = 0; i < 4; ++i) {
+    EXPECT_FALSE(press('X', settings));
+    EXPECT_FALSE(broken_rule(wanted_settings(settings)));
+    seen.insert(wanted_settings(settings).exchange);
   }
+  EXPECT_EQ(seen, (std::set{Exchange::sync, Exchange::pipelined}));
+}
+
+TEST(ViewSettings, ExchangeIsPipelinedUnlessGivenAndThatIsNotGiven) {
+  ViewSettings settings;
+  EXPECT_EQ(wanted_settings(settings).exchange.value, Exchange::pipelined);
+  EXPECT_FALSE(wanted_settings(settings).exchange.given);
+  settings.settings.exchange = Exchange::sync;
+  EXPECT_EQ(wanted_settings(settings).exchange.value, Exchange::sync);
+}
+
+// What a preset set is not left behind, and what was given before is there again.
+TEST(ViewSettings, PresetsCanBeLeft) {
+  ViewSettings settings;
+  settings.settings.depth = 3;
+  choose_preset("design", "2", settings);
+  const Settings before = wanted_settings(settings);
+  for (const char* mode : {"raytrace", "raster", "hybrid"}) {
+    (void)press('M', settings);
+    EXPECT_EQ(preset_of("mode", settings), mode);
+  }
+  EXPECT_TRUE(wanted_settings(settings) == before);
+  (void)press('L', settings);
+  EXPECT_EQ(wanted_settings(settings).reflection.value, ReflectionFormat::rgb8);
+  (void)press('L', settings);
+  EXPECT_TRUE(wanted_settings(settings) == before);
+  (void)press('G', settings);
+  EXPECT_FALSE(settings.settings.visibility.given || settings.settings.composite.given);
+}
+
+// A command line's presets are the window's, to be left by key.
+TEST(ViewSettings, PresetsThatAreGivenAreTakenAsSuch) {
+  for (const char* mode : {"raytrace", "raster"}) {
+    ViewSettings settings;
+    ASSERT_TRUE(apply_preset("mode", mode, settings.settings));
+    settings = possible(settings);
+    EXPECT_EQ(settings.mode, mode);
+    EXPECT_TRUE(settings.shadows && settings.reflections);
+    settings.mode = "hybrid";
+    EXPECT_TRUE(wanted_settings(settings).traces() && wanted_settings(settings).uses_gpu());
+  }
+  for (const char* design : {"1", "2"}) {
+    ViewSettings settings;
+    ASSERT_TRUE(apply_preset("design", design, settings.settings));
+    ASSERT_TRUE(apply_preset("plan", "slides", settings.settings));
+    const Settings given = settings.settings;
+    settings = possible(settings);
+    EXPECT_EQ(settings.plan, "slides");
+    EXPECT_EQ(preset_of("design", settings), design);
+    EXPECT_TRUE(wanted_settings(settings) == given || !given.exchange.given);
+  }
+  ViewSettings off;
+  off.settings.mask_bits = 0;
+  off.settings.reflection = ReflectionFormat::none;
+  off = possible(off);
+  EXPECT_FALSE(off.shadows || off.reflections);
+  off.shadows = off.reflections = true;
+  EXPECT_FALSE(wanted_settings(off).mask_bits.given || wanted_settings(off).reflection.given);
 }
 
 TEST(ViewSettings, StepsKeepToTheirLimits) {
   ViewSettings settings;
   for (int i = 0; i < 200; ++i)
-    for (const Action action : {Action::shallower, Action::coarser, Action::darker}) {
-      change_setting(action, settings);
+    for (const char key : {',', '[', '-'}) {
+      (void)press(key, settings);
       settings = possible(settings);
     }
-  EXPECT_EQ(settings.depth, 0);
+  EXPECT_EQ(settings.settings.depth, 0);
   EXPECT_EQ(settings.scale, kLeastScale);
   EXPECT_EQ(settings.exposure_ev, -kMostExposure);
 }
 
 TEST(ViewSettings, FewerAndMorePixelsMeetWholeSize) {
   ViewSettings settings;
-  for (int i = 0; i < 4; ++i) change_setting(Action::coarser, settings);
-  for (int i = 0; i < 4; ++i) change_setting(Action::finer, settings);
+  for (int i = 0; i < 4; ++i) (void)press('[', settings);
+  for (int i = 0; i < 4; ++i) (void)press(']', settings);
   EXPECT_EQ(settings.scale, 1.0f);
 }
 
@@ -56,12 +124,13 @@ TEST(ViewSettings, EveryBufferComesAndEachMaskSlot) {
   EXPECT_EQ(settings.buffer, BufferView::picture);
 }
 
-TEST(ViewSettings, ReflectionsOffIsDepthZeroAndTheMaskIsKeptWhereItIsLookedAt) {
+TEST(ViewSettings, ShadowsAndReflectionsAreSwitches) {
   ViewSettings settings;
-  settings.reflections = false;
-  settings.buffer = BufferView::mask;
-  EXPECT_EQ(plan_request(settings).depth, 0);
-  EXPECT_TRUE(plan_request(settings).keeps_mask);
+  settings.shadows = settings.reflections = false;
+  EXPECT_FALSE(wanted_settings(settings).traces());
+  settings.mode = "raytrace";
+  EXPECT_EQ(wanted_settings(settings).mask_bits, 0);
+  EXPECT_FALSE(wanted_settings(settings).reflects());
 }
 
 TEST(History, TimesAreFromEndToEndAndOldFramesAreDropped) {

@@ -79,7 +79,7 @@ TEST_F(WindowTest, KeysChangeWhatIsDrawn) {
   key("g l");
   EXPECT_EQ(option(command_line(), "--plan"), "slides");
   key("l i");
-  EXPECT_EQ(option(command_line(), "--depth"), "0");
+  EXPECT_EQ(option(command_line(), "--reflection"), "none");
   key("i comma comma");
   EXPECT_EQ(option(command_line(), "--depth"), "6");
   key("plus");
@@ -89,11 +89,8 @@ TEST_F(WindowTest, KeysChangeWhatIsDrawn) {
   EXPECT_NE(option(command_line(), "--size"), size);
   key("bracketright");
   EXPECT_EQ(option(command_line(), "--size"), size);
-  // Shadows off: the lights are in a file of their own, which can be read.
   key("o");
-  const std::string relit = command_line();
-  EXPECT_NE(relit.find("render cornell-001.gltf"), std::string::npos) << relit;
-  EXPECT_TRUE(std::filesystem::exists(folder_ / "cornell-001.gltf"));
+  EXPECT_EQ(option(command_line(), "--mask-bits"), "0");
   key("c");
   EXPECT_TRUE(becomes([this] { return std::filesystem::exists(folder_ / "cornell-001-camera.json"); }));
   expect_clean_close();
@@ -109,6 +106,32 @@ TEST_F(WindowTest, AStillCameraGathersSamplesAndMovingDropsBack) {
   key("w");
   key(kStill);  // what was gathered is dropped
   EXPECT_EQ(option(command_line(), "--spp"), "");
+  expect_clean_close();
+}
+
+TEST_F(WindowTest, GatheringStopsAtTheSamplesThatWereAskedFor) {
+  open(scene("cornell"), "--spp 3");
+  const auto samples = [this] { return option(command_line(), "--spp"); };
+  EXPECT_TRUE(becomes([&] { return samples() == "3"; }));
+  pause_ms(1000);
+  EXPECT_EQ(samples(), "3");
+  expect_clean_close();
+}
+
+// Its mark is in the middle of the window, where the camera looks.
+TEST_F(WindowTest, ADraggedLightIsInAFileThatTheCommandDraws) {
+  open(scene("cornell"), "--eye 0,1,3.4 --target 0,1,0 --light 0,1,0,0.5 --mode raster");
+  EXPECT_NE(command_line().find("--light 0,1,0,0.5,cast"), std::string::npos);
+  key("h");
+  xdo("windowsize --sync " + window_ + " 400 400");
+  pause_ms(500);
+  const std::string to = "mousemove --window " + window_ + " ";
+  xdo(to + "200 200 sleep 0.5 mousedown 1 sleep 0.4 " + to + "206 203 sleep 0.4 " + to +
+      "212 206 sleep 0.4 mouseup 1");
+  const std::string command = command_line();
+  EXPECT_NE(command.find("render cornell-001.gltf"), std::string::npos) << command;
+  EXPECT_EQ(command.find("--light"), std::string::npos) << command;
+  EXPECT_TRUE(std::filesystem::exists(folder_ / "cornell-001.gltf"));
   expect_clean_close();
 }
 
@@ -241,6 +264,26 @@ TEST(View, WithoutADisplayItEndsWithThreeAndPointsToRender) {
   EXPECT_EQ(result.exit_code, 3);
   EXPECT_EQ(std::count(result.err.begin(), result.err.end(), '\n'), 1) << result.err;
   EXPECT_NE(result.err.find("pinocchio render"), std::string::npos) << result.err;
+}
+
+TEST(View, OptionsOfAPictureWithoutAWindowAreUnknown) {
+  const std::string view = "'" PINOCCHIO_PROGRAM "' view '" PINOCCHIO_SOURCE_DIR "/scenes/cornell' ";
+  for (const char* option : {"--backend egl", "--device 0", "--crop 0,0,9,9", "--precise", "--gl-threads 1"}) {
+    const CommandResult result = run_command(view + option, own_folder());
+    EXPECT_EQ(result.exit_code, 2) << option << ": " << result.err;
+  }
+  const std::string help = run_command(view + "--help", own_folder()).out;
+  for (const char* option : {"--backend", "--device", "--crop", "--precise"})
+    EXPECT_EQ(help.find(option), std::string::npos) << option;
+  EXPECT_NE(help.find("--spp"), std::string::npos);
+}
+
+TEST(View, SettingsThatContradictAreAUsageErrorBeforeAnythingIsOpened) {
+  const CommandResult result = run_command("env -u DISPLAY '" PINOCCHIO_PROGRAM "' view '" PINOCCHIO_SOURCE_DIR
+                                           "/scenes/cornell' --design 2 --exchange reproject",
+                                           own_folder());
+  EXPECT_EQ(result.exit_code, 2);
+  EXPECT_NE(result.err.find("reproject"), std::string::npos) << result.err;
 }
 
 }  // namespace
