@@ -4,11 +4,10 @@
 #include <system_error>
 
 #include "app/errors.h"
+#include "core/image/aovs.h"
 #include "core/image/atomic_file.h"
 #include "core/image/png.h"
-#include "core/output/frame_exr.h"
-#include "core/trace/view_params.h"
-#include "hybrid/settings/json.h"
+#include "core/image/tonemap.h"
 
 namespace pinocchio::app {
 namespace {
@@ -75,26 +74,10 @@ bool keeps_mask(const OutputOptions& options) {
   return !options.exr.empty() && parse_aovs(options.aovs)->contains("shadow");
 }
 
-void write_outputs(const OutputOptions& options, int frame_number, const FrameRequest& request,
-                   const FrameResult& picture, Workers& workers, std::optional<double> render_s) {
-  if (!options.exr.empty()) {
-    View view = request.view;
-    view.jitter = glm::vec2(0.0f);
-    const SurfaceImages surfaces =
-        surface_images(*request.scene.mesh, view_params(view), workers, picture.ids);
-    const FrameOutput frame{view.size,
-                            view.box(),
-                            request.scene,
-                            view.camera,
-                            picture.color,
-                            picture.ids,
-                            picture.mask,
-                            picture.reflection,
-                            surfaces,
-                            to_json(picture.settings, false).dump(),
-                            render_s};
-    write_exr(numbered(options.exr, frame_number), frame_exr(frame, *parse_aovs(options.aovs)));
-  }
+void write_outputs(const OutputOptions& options, int frame_number, const FrameResult& picture,
+                   std::optional<double> render_s) {
+  if (!options.exr.empty())
+    write_exr(numbered(options.exr, frame_number), picture, options.aovs, render_s);
   if (!options.preview.empty())
     write_png(numbered(options.preview, frame_number), preview(picture.color, options.exposure_ev));
 }

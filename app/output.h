@@ -39,7 +39,7 @@ void check_outputs(const OutputOptions& options, const std::vector<int>& frame_n
 [[nodiscard]] bool keeps_mask(const OutputOptions& options);
 
 // Writes the picture of one frame to the files that the options name, each whole or not at all.
-void write_outputs(const OutputOptions& options, int frame_number, const FrameRequest& request,
-                   const FrameResult& picture, Workers& workers, std::optional<double> render_s);
+void write_outputs(const OutputOptions& options, int frame_number, const FrameResult& picture,
+                   std::optional<double> render_s);
 
 }  // namespace pinocchio::app

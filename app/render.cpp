@@ -35,6 +35,8 @@ struct RenderOptions {
 // The mean of the reference's samples.
 FrameResult precise(const FrameRequest& request, Workers& workers) {
   FrameResult mean;
+  mean.scene = request.scene;
+  mean.view = request.view;
   mean.settings = request.settings;
   const int spp = request.settings.spp;
   for (int k = 0; k < spp && !interrupted(); ++k) {
@@ -98,14 +100,12 @@ class RenderRun {
   void draw(Drawing& drawing) {
     Progress progress(options_.draw.quiet ? "off" : options_.draw.progress, "render", frames_.size());
     if (options_.budget.any()) budget_.emplace(drawing, options_.draw, options_.budget, frames_);
-    const auto take = [&](const FrameRequest& request, const FrameResult& picture) {
-      deliver(drawing, request, picture);
+    const auto take = [&](FrameResult&& picture) {
+      deliver(drawing, picture);
       progress.step();
     };
     if (options_.draw.precise) return draw_precise(drawing, take);
-    SampleMean mean(drawing.settings().spp, [&](FrameResult&& picture) {
-      take(drawing.request(frames_[delivered_].camera), picture);
-    });
+    SampleMean mean(drawing.settings().spp, take);
     Renderer renderer(drawing.engine(), {[&](Frame& frame) { mean.add(frame); },
                                          [&](const FrameRecord& record) { records_.push_back(record); }});
     for (const CameraFrame& frame : frames_) {
@@ -128,20 +128,19 @@ class RenderRun {
       record.number = records_.size();
       begun_s_.push_back(now_s());
       record[Stage::composite].begin_s = record.frame.begin_s = begun_s_.back();
-      const FrameRequest request = drawing.request(frame.camera);
-      const FrameResult mean = precise(request, drawing.workers());
+      FrameResult mean = precise(drawing.request(frame.camera), drawing.workers());
       if (interrupted()) break;
       record[Stage::composite].end_s = record.frame.end_s = now_s();
-      take(request, mean);
+      take(std::move(mean));
       records_.push_back(record);
     }
   }
 
-  void deliver(Drawing& drawing, const FrameRequest& request, const FrameResult& picture) {
+  void deliver(Drawing& drawing, const FrameResult& picture) {
     const double begin_s = now_s(), render_s = begin_s - begun_s_[delivered_];
     const int number = frames_[delivered_++].number;
     holes_ += picture.holes;
-    write_outputs(options_.output, number, request, picture, drawing.workers(),
+    write_outputs(options_.output, number, picture,
                   options_.output.deterministic ? std::nullopt : std::optional(render_s));
     drawing.engine().throw_gl_complaints();
     delivering_s_ += now_s() - begin_s;

@@ -60,7 +60,7 @@ std::shared_ptr<const GpuMesh> Engine::Parts::gpu_mesh(const std::shared_ptr<con
 
 LitCells* Engine::Parts::lit_cells(const std::shared_ptr<const Tracer>& tracer) {
   if (!LitCells::suits(*tracer)) return nullptr;
-  if (cells_tracer != tracer) {
+  if (cells_tracer.lock() != tracer) {
     cells.reset();
     cells_tracer = tracer;
     return nullptr;

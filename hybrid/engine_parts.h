@@ -70,7 +70,7 @@ struct Engine::Parts {
   Settings last_settings;                     // that it was built by
 
   // Of the tracing thread:
-  std::shared_ptr<const Tracer> cells_tracer;
+  std::weak_ptr<const Tracer> cells_tracer;  // a scene that nobody has is let go
   std::unique_ptr<LitCells> cells;
 
   TracingThread tracing;  // last: ends first

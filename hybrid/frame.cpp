@@ -1,9 +1,16 @@
 // What the taker of a finished frame may ask of it.
 #include <algorithm>
+#include <nlohmann/json.hpp>
+#include <stdexcept>
 
+#include "hybrid/engine_parts.h"
+#include "core/image/frame_exr.h"
+#include "core/parallel/workers.h"
+#include "core/trace/aov.h"
 #include "hybrid/exchange/encode.h"
 #include "hybrid/frame_slot.h"
 #include "hybrid/passes/passes.h"
+#include "hybrid/settings/json.h"
 
 namespace pinocchio {
 namespace {
@@ -42,6 +49,7 @@ FrameRecord& Frame::record() const {
 const gl::Texture& Frame::texture() const {
   if (slot_.request.settings.uses_gpu()) return slot_.picture.color();
   if (slot_.is_shown) return slot_.shown;
+  (void)slot_.engine.gpu();
   const StageTimer timer(slot_.record, Stage::upload);
   fit(slot_.shown, slot_.color.size(), gl::kRgba32F);
   const std::span<std::byte> bytes = slot_.picture_up.open(slot_.shown.bytes());
@@ -80,9 +88,25 @@ FrameResult Frame::read() const {
   if (slot_.answered && s.reflects())
     result.reflection =
         s.reflection_scale == 1 ? slot_.reflection : enlarged(slot_.reflection, s.reflection_scale, size);
+  result.scene = slot_.request.scene;
+  result.view = slot_.request.view;
   result.settings = s;
   result.record = slot_.record;
   return result;
+}
+
+void write_exr(const std::filesystem::path& file, const FrameResult& frame, const std::string& layers,
+               std::optional<double> render_s) {
+  const Expected<AovSet> aovs = parse_aovs(layers);
+  if (!aovs) throw std::invalid_argument(aovs.error().message());
+  View view = frame.view;
+  view.jitter = glm::vec2(0.0f);
+  Workers workers(frame.settings.threads);
+  const SurfaceImages surfaces = surface_images(*frame.scene.mesh, view_params(view), workers, frame.ids);
+  const FrameOutput output{view.size,       view.box(), frame.scene,      view.camera, frame.color, frame.ids,
+                           frame.mask,      frame.reflection, surfaces,
+                           to_json(frame.settings, false).dump(), render_s};
+  write_exr(file, frame_exr(output, *aovs));
 }
 
 }  // namespace pinocchio

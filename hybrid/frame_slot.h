@@ -13,6 +13,7 @@
 #include "hybrid/exchange/channels.h"
 #include "hybrid/gpu/gpu_mesh.h"
 #include "hybrid/gpu/shading_passes.h"
+#include "pinocchio/engine.h"
 #include "pinocchio/renderer.h"
 #include "pinocchio/scene.h"
 #include "pinocchio/tracer.h"
@@ -33,7 +34,8 @@ struct ChannelBuffer {
 // One frame in flight: what it was asked for, and every buffer that is its own. Its settings use some of
 // them; what is not used is never made.
 struct FrameSlot {
-  explicit FrameSlot(gl::Mapping how) : mapping(how), picture_back(how), picture_up(how) {
+  FrameSlot(Engine::Parts& of, gl::Mapping how)
+      : engine(of), mapping(how), picture_back(how), picture_up(how) {
     for (std::size_t i = 0; i < kChannelNames.size(); ++i) buffers.emplace_back(how);
   }
 
@@ -45,6 +47,7 @@ struct FrameSlot {
 
   enum class State { idle, drawn, delivered };
   State state = State::idle;
+  Engine::Parts& engine;
   gl::Mapping mapping;
   FrameRequest request;
   shared::ViewParams view;

@@ -28,11 +28,11 @@ Span span_of(const gl::GpuTimer& timer, const gl::GpuClock& clock) {
   return {measured.begin_s, measured.end_s};
 }
 
-// Whether the older frame's mask and reflection mean the same in the newer one.
+// Whether the GPU has the older frame's mask and reflection, and they mean the same in the newer one.
 bool reprojects_to(const FrameSlot& older, const FrameSlot& newer) {
   const Settings &a = older.request.settings, &b = newer.request.settings;
-  return older.answered && older.request.scene == newer.request.scene && a.mask_bits == b.mask_bits &&
-         a.reflection == b.reflection && a.id_bits == b.id_bits;
+  return older.answered && a.composite == b.composite && older.request.scene == newer.request.scene &&
+         a.mask_bits == b.mask_bits && a.reflection == b.reflection && a.id_bits == b.id_bits;
 }
 
 bool is_done(const std::future<void>& tracing) {
@@ -56,6 +56,7 @@ class Renderer::Loop {
   [[nodiscard]] FrameSlot* frames_back(int n);  // begun n frames before the newest; null: there is none
   bool repeat(const FrameRequest& request);
   FrameSlot& begin(FrameRequest&& request);
+  void draw(FrameSlot& frame);
   void submit_reprojected(FrameSlot& now);
   void start_trace(FrameSlot& frame);
   void take_traced(FrameSlot& frame);
@@ -73,6 +74,7 @@ class Renderer::Loop {
   std::uint64_t next_number_ = 0;
   int generation_ = 0;                             // of the programs that drew the newest frame
   std::uint64_t drawn_ = 0;                        // frames that were not repeats
+  std::uint64_t frames_on_gpu_ = 0;                // of them
   std::vector<std::unique_ptr<FrameSlot>> slots_;  // the n-th of them is in slot n % kFramesInFlight
 };
 
@@ -131,6 +133,7 @@ void Renderer::Loop::drain() {
 void Renderer::Loop::submit_reprojected(FrameSlot& now) {
   FrameSlot *const last = frames_back(1), *const oldest = frames_back(kMostLatency);
   if (oldest) take_traced(*oldest);
+  if (last) finish(*last);  // that the CPU drew alone, or an error held up
   if (last && last->state == FrameSlot::State::delivered) start_trace(*last);
   for (const FrameSlot* const source : {last, oldest})
     if (source && reprojects_to(*source, now)) return deliver(now, source);
@@ -164,7 +167,7 @@ FrameSlot& Renderer::Loop::begin(FrameRequest&& request) {
       request.settings.persistent ? gl::Mapping::persistent : gl::Mapping::each_time;
   std::unique_ptr<FrameSlot>& slot = slots_[drawn_ % kFramesInFlight];
   if (slot) retire(*slot);
-  if (!slot || slot->mapping != mapping) slot = std::make_unique<FrameSlot>(mapping);
+  if (!slot || slot->mapping != mapping) slot = std::make_unique<FrameSlot>(engine_, mapping);
   ++drawn_;
   FrameSlot& frame = *slot;
   const bool gpu = schedule_of(request.settings).gpu;
@@ -172,7 +175,7 @@ FrameSlot& Renderer::Loop::begin(FrameRequest&& request) {
     (void)engine_.gpu();
     if (gl::context_lost())
       throw EnvironmentError("the GPU was reset and its OpenGL context is lost; start again");
-    if (drawn_ % kFramesBetweenCalibrations == 1) clock_.calibrate();
+    if (frames_on_gpu_++ % kFramesBetweenCalibrations == 0) clock_.calibrate();
   }
   generation_ = generation();
   frame.request = std::move(request);
@@ -183,15 +186,17 @@ FrameSlot& Renderer::Loop::begin(FrameRequest&& request) {
   frame.record.frame.begin_s = now_s();
   frame.view = view_params(frame.request.view);
   frame.layout = channels_of(frame.request.settings, frame.size());
-  frame.state = FrameSlot::State::drawn;
-  if (!gpu) return frame;
+  if (gpu) draw(frame);
+  frame.state = FrameSlot::State::drawn;  // last: what cannot be drawn is lost
+  return frame;
+}
+
+void Renderer::Loop::draw(FrameSlot& frame) {
   frame.mesh = engine_.gpu_mesh(frame.request.scene.mesh);
   frame.lights.update(frame.request.scene);
-  if (frame.request.settings.visibility == Processor::gpu) {
-    rasterise(engine_.gpu(), frame);
-    send_to_cpu(frame);
-  }
-  return frame;
+  if (frame.request.settings.visibility == Processor::cpu) return;
+  rasterise(engine_.gpu(), frame);
+  send_to_cpu(frame);
 }
 
 FrameSlot* Renderer::Loop::frames_back(int n) {

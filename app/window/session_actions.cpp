@@ -2,7 +2,6 @@
 #include <cstdio>
 #include <nlohmann/json.hpp>
 
-#include "app/output.h"
 #include "app/window/export.h"
 #include "app/window/session.h"
 #include "core/image/atomic_file.h"
@@ -98,9 +97,7 @@ void Session::write_frame_exr(const std::string& file) {
     accumulator_.read_average(picture.color);
     picture.settings.spp = accumulator_.samples();
   }
-  OutputOptions output;
-  output.exr = file;
-  write_outputs(output, 0, one, picture, engine_.workers(one.settings.threads), now_s() - begin_s);
+  write_exr(file, picture, "all", now_s() - begin_s);
 }
 
 // What the window shows, to the pixel.

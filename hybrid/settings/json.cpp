@@ -1,6 +1,7 @@
 #include "hybrid/settings/json.h"
 
 #include <algorithm>
+#include <array>
 #include <fstream>
 #include <iterator>
 #include <nlohmann/json.hpp>
@@ -38,27 +39,20 @@ std::string text_of(const nlohmann::json& value) {
   return value.is_string() ? value.get<std::string>() : value.dump();
 }
 
-// mode, design and primary said together what visibility and composite say now; "precise" was of them, too.
-bool take_former(const nlohmann::json& json, Settings& settings) {
-  const auto text = [&](const char* name) { return json.contains(name) ? text_of(json[name]) : ""; };
-  bool known = true;
-  if (json.contains("design")) known = apply_preset("design", text("design"), settings);
-  if (json.contains("primary")) {
-    known = known && (text("primary") == "raster" || text("primary") == "rays");
-    settings.visibility = text("primary") == "rays" ? Processor::cpu : Processor::gpu;
-  }
-  if (json.contains("mode")) known = known && apply_preset("mode", text("mode"), settings);
-  return known && text("precise") != "true";
-}
+// What mode, design and primary said together, visibility and composite say now; "precise" was of them, too.
+constexpr std::array<const char*, 4> kFormerNames{"design", "primary", "mode", "precise"};
 
-bool is_former(const std::string& name) {
-  return name == "mode" || name == "design" || name == "primary" || name == "precise";
+bool take_former(const std::string& name, const std::string& value, Settings& settings) {
+  if (name == "precise") return value == "false";
+  if (name != "primary") return apply_preset(name, value, settings);
+  settings.visibility = value == "rays" ? Processor::cpu : Processor::gpu;
+  return value == "rays" || value == "raster";
 }
 
 Expected<Settings> settings_of(const nlohmann::json& json, const std::string& file, const std::string& text) {
   Settings settings;
   for (const auto& [name, value] : json.items()) {
-    if (is_former(name)) continue;
+    if (std::ranges::find(kFormerNames, name) != kFormerNames.end()) continue;
     const Field* const field = find_field(name);
     if (!field)
       return Unexpected(InputError{file, line_of_field(text, name), "there is no setting '" + name + "'",
@@ -67,10 +61,11 @@ Expected<Settings> settings_of(const nlohmann::json& json, const std::string& fi
       return Unexpected(InputError{file, line_of_field(text, name), name + " is " + value.dump(),
                                    "it is " + field->domain()});
   }
-  if (!take_former(json, settings))
-    return Unexpected(InputError{file, line_of_field(text, "mode"), "mode, design, primary or precise is unknown",
-                                 "write visibility and composite, each \"cpu\" or \"gpu\"; --precise is said on "
-                                 "the command line"});
+  for (const std::string name : kFormerNames)
+    if (json.contains(name) && !take_former(name, text_of(json[name]), settings))
+      return Unexpected(InputError{file, line_of_field(text, name), name + " is " + json[name].dump(),
+                                   "write visibility and composite, each \"cpu\" or \"gpu\"; --precise is said "
+                                   "on the command line"});
   return settings;
 }
 
@@ -97,10 +92,12 @@ Expected<Settings> load_settings(const std::filesystem::path& file) {
   nlohmann::json json;
   try {
     json = nlohmann::json::parse(text);
-  } catch (const nlohmann::json::exception& error) {
-    const auto* const where = dynamic_cast<const nlohmann::json::parse_error*>(&error);
-    return Unexpected(InputError{file.string(), where ? line_of(text, where->byte) : 0, "is no JSON",
+  } catch (const nlohmann::json::parse_error& error) {
+    return Unexpected(InputError{file.string(), line_of(text, error.byte), "is no JSON",
                                  "'pinocchio info SCENE --plan --json' writes a plan"});
+  } catch (const nlohmann::json::out_of_range&) {
+    return Unexpected(InputError{file.string(), 0, "has a number that is too large",
+                                 "'pinocchio info --settings' says what each setting may be"});
   }
   if (json.is_object() && json.contains("plan")) json = nlohmann::json(json["plan"]);
   if (!json.is_object())

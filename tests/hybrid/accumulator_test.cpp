@@ -1,7 +1,7 @@
 // A still camera's samples, against the renderer's.
-#include "hybrid/accumulator.h"
+#include "hybrid/inspect/accumulator.h"
 
-#include "hybrid/jitter.h"
+#include "core/trace/jitter.h"
 #include "tests/support/frames.h"
 
 namespace pinocchio {
@@ -13,7 +13,7 @@ class AccumulatorTest : public FramesTest {
  protected:
   void SetUp() override {
     FramesTest::SetUp();
-    accumulator_.emplace(programs_);
+    accumulator_.emplace(programs());
   }
   void TearDown() override {
     accumulator_.reset();
@@ -22,7 +22,7 @@ class AccumulatorTest : public FramesTest {
   static std::vector<FrameRequest> samples_of(FrameRequest request, int count) {
     std::vector<FrameRequest> samples;
     for (int k = 0; k < count; ++k) {
-      request.jitter = jitter_of(k);
+      request.view.jitter = jitter_of(k);
       samples.push_back(request);
     }
     return samples;
@@ -37,12 +37,14 @@ TEST_P(AccumulatorTest, IsTheRenderersMeanOfAsManySamples) {
   constexpr int kSamples = 8;
   for (const Exchange exchange : {Exchange::sync, Exchange::pipelined}) {
     accumulator_->reset();
-    draw(samples_of(request(prepare(scene), plan_of(scene), kSize), kSamples), exchange,
-         [&](Flight& frame) { accumulator_->add(frame); });
+    draw(samples_of(request(scene, settings_for(scene), kSize), kSamples), exchange,
+         [&](Frame& frame) { accumulator_->add(frame); });
     ASSERT_EQ(accumulator_->samples(), kSamples);
     Image<glm::vec4> mean;
     accumulator_->read_average(mean);
-    const Picture rendered = draw_one(scene, {.size = kSize, .spp = kSamples, .backend = GetParam()});
+    DrawRequest whole{.size = kSize, .backend = GetParam()};
+    whole.settings.spp = kSamples;
+    const FrameResult rendered = draw_one(scene, whole);
     context().make_current();  // the renderer's has been it
     float largest = 0.0f;
     for (std::size_t i = 0; i < mean.pixels().size(); ++i)
@@ -56,44 +58,43 @@ TEST_P(AccumulatorTest, IsTheRenderersMeanOfAsManySamples) {
 
 TEST_P(AccumulatorTest, BeginsAnewWhereTheViewChangesAndCountsNoSampleTwice) {
   const Scene scene = load_or_die(source_path("scenes/cornell"));
-  const auto prepared = prepare(scene);
-  std::vector<FrameRequest> requests = samples_of(request(prepared, plan_of(scene), kSize), 4);
+  std::vector<FrameRequest> requests = samples_of(request(scene, settings_for(scene), kSize), 4);
   requests.push_back(requests.back());  // the same once more
   FrameRequest moved = requests.front();
-  moved.camera.eye.x += 0.1f;
+  moved.view.camera.eye.x += 0.1f;
   const std::vector<FrameRequest> of_moved = samples_of(moved, 3);
   requests.insert(requests.end(), of_moved.begin(), of_moved.end());
   FrameRequest smaller = moved;
-  smaller.size = smaller.part.hi = kSize / 2;
+  smaller.view.size = kSize / 2;
   requests.push_back(smaller);
   const std::vector<int> expected{1, 2, 3, 4, 4, 1, 2, 3, 1};
   std::vector<int> counts;
-  draw(requests, Exchange::pipelined, [&](Flight& frame) {
+  draw(requests, Exchange::pipelined, [&](Frame& frame) {
     accumulator_->add(frame);
     counts.push_back(accumulator_->samples());
-    EXPECT_EQ(accumulator_->average().size(), frame.request.part.size());
+    EXPECT_EQ(accumulator_->average().size(), frame.request().view.size);
     if (accumulator_->samples() > 1) return;
     Image<glm::vec4> mean;  // the first sample is the frame's own picture
     accumulator_->read_average(mean);
-    EXPECT_TRUE(std::ranges::equal(mean.pixels(), read(frame.picture.target).pixels()));
+    EXPECT_TRUE(std::ranges::equal(mean.pixels(), read(frame.texture()).pixels()));
   });
   EXPECT_EQ(counts, expected);
 }
 
 TEST_P(AccumulatorTest, TakesNoAnswerOfAnotherView) {
   const Scene scene = load_or_die(source_path("scenes/two-lights"));
-  FrameRequest moving = request(prepare(scene), plan_of(scene), kSize);
+  FrameRequest moving = request(scene, settings_for(scene), kSize);
   std::vector<FrameRequest> requests;
   for (int i = 0; i < 4; ++i) {
-    moving.camera.eye.x += 0.05f;
+    moving.view.camera.eye.x += 0.05f;
     requests.push_back(moving);
   }
   const std::vector<FrameRequest> still = samples_of(moving, 5);
   requests.insert(requests.end(), still.begin() + 1, still.end());
   int aged = 0;
-  draw(requests, Exchange::reproject, [&](Flight& frame) {
+  draw(requests, Exchange::reproject, [&](Frame& frame) {
     accumulator_->add(frame);
-    const bool moves = frame.answer_of->request.camera != frame.request.camera;
+    const bool moves = frame.slot().answer_of->request.view.camera != frame.request().view.camera;
     aged += moves;
     EXPECT_EQ(accumulator_->samples() == 0, moves);
   });
@@ -104,21 +105,19 @@ TEST_P(AccumulatorTest, TakesNoAnswerOfAnotherView) {
 TEST_P(AccumulatorTest, StaysPreciseOverManySamples) {
   Scene scene = plate_over_floor();
   scene.lights = {point_light({1, 5, 1})};
-  const auto prepared = prepare(scene);
-  FrameRequest one = request(prepared, plan_of(scene), {8, 6});
+  FrameRequest one = request(scene, settings_for(scene), {8, 6});
   Image<glm::vec4> first, mean;
-  FrameLoop loop(workers_, programs_, Exchange::sync, gl::Mapping::each_time,
-                 {[&](Flight& frame) {
-                    accumulator_->add(frame);
-                    if (accumulator_->samples() == 1) first = read(frame.picture.target);
-                  },
-                  [](const FrameRecord&) {}});
+  Renderer renderer(*engine_, {[&](Frame& frame) {
+                                 accumulator_->add(frame);
+                                 if (accumulator_->samples() == 1) first = read(frame.texture());
+                               },
+                               {}});
   constexpr int kSamples = 3000;
   for (int k = 0; k < kSamples; ++k) {
-    one.jitter = 1e-6f * jitter_of(k);  // as good as the same picture each time
-    loop.submit(one);
+    one.view.jitter = 1e-6f * jitter_of(k);  // as good as the same picture each time
+    renderer.submit(one);
   }
-  loop.drain();
+  renderer.drain();
   ASSERT_EQ(accumulator_->samples(), kSamples);
   accumulator_->read_average(mean);
   for (std::size_t i = 0; i < mean.pixels().size(); ++i)

@@ -1,9 +1,9 @@
-// What a scene does not need is not traced, stored or sent, and the picture is the full plan's.
+// What a scene does not need is not traced, stored or sent, and the picture is as if it were.
 #include <cmath>
 
 #include "core/image/tonemap.h"
-#include "hybrid/formats.h"
-#include "hybrid/reflection_tiles.h"
+#include "hybrid/exchange/reflection_tiles.h"
+#include "hybrid/settings/resolve.h"
 #include "tests/support/draw.h"
 
 namespace pinocchio {
@@ -12,18 +12,21 @@ namespace {
 constexpr glm::ivec2 kSize{320, 240};
 
 // Everything is modelled and sent whole, whatever the scene needs.
-Plan full_plan() {
-  Plan plan;
-  plan.id_bits = 32;
-  plan.mask_bits = 8;
-  plan.reflection = ReflectionFormat::half;
-  plan.depth = 8;
-  plan.reuse = false;
-  return plan;
+Settings full() {
+  Settings s;
+  s.id_bits = 32;
+  s.mask_bits = 8;
+  s.reflection = ReflectionFormat::half;
+  s.depth = 8;
+  s.reuse = false;
+  s.threads = 2;
+  return s;
 }
 
-Plan auto_plan(const Scene& scene) {
-  return *make_plan(take_census(scene), {.keeps_mask = false, .size = kSize});
+Settings least(const Scene& scene, const Settings& wanted = {}, bool keeps_mask = false) {
+  Settings s = resolve(wanted, analyze(scene), {.size = kSize, .keeps_mask = keeps_mask}).value();
+  s.threads = 2;
+  return s;
 }
 
 // A floor with a box on it, and a mirror that is a fraction of the picture's width and height.
@@ -62,21 +65,21 @@ Scene room(int casting, float mirror_share) {
 }
 
 struct Drawn {
-  Picture picture;
+  FrameResult picture;
   FrameRecord record;
 };
 
-Drawn draw_by(const Scene& scene, const Plan& plan, Exchange exchange = Exchange::sync,
+Drawn draw_by(const Scene& scene, Settings settings, Exchange exchange = Exchange::sync,
               glm::ivec2 size = kSize) {
   std::vector<FrameRecord> records;
-  DrawRequest request{.size = size, .exchange = exchange};
-  request.plan = plan;
-  std::vector<Picture> pictures = draw_all(scene, request, {first_camera(scene)}, &records);
+  settings.exchange = exchange;
+  const DrawRequest request{.size = size, .resolved = settings};
+  std::vector<FrameResult> pictures = draw_all(scene, request, {first_camera(scene)}, &records);
   return {std::move(pictures.front()), records.front()};
 }
 
 // The greatest difference as a screen shows it, in steps of 8 bits.
-double most_steps(const Picture& a, const Picture& b) {
+double most_steps(const FrameResult& a, const FrameResult& b) {
   double most = 0.0;
   for (std::size_t i = 0; i < a.color.pixels().size(); ++i)
     for (int c = 0; c < 3; ++c)
@@ -86,7 +89,7 @@ double most_steps(const Picture& a, const Picture& b) {
 }
 
 // The table of docs/measurements.md, "What a scene needs".
-TEST(Economy, ASceneCostsWhatItNeedsAndThePictureIsTheFullPlans) {
+TEST(Economy, ASceneCostsWhatItNeedsAndThePictureIsTheWholes) {
   struct Row {
     const char* name;
     int casting;
@@ -102,21 +105,21 @@ TEST(Economy, ASceneCostsWhatItNeedsAndThePictureIsTheFullPlans) {
         Row{"a mirror on half of it, no casting light", 0, 0.5f, 0}}) {
     SCOPED_TRACE(row.name);
     const Scene scene = room(row.casting, row.mirror);
-    const Drawn full = draw_by(scene, full_plan(), Exchange::sync, kLarge),
-                least = draw_by(scene, auto_plan(scene), Exchange::sync, kLarge);
-    const FrameRecord& r = least.record;
+    const Drawn whole_one = draw_by(scene, full(), Exchange::sync, kLarge),
+                least_one = draw_by(scene, least(scene), Exchange::sync, kLarge);
+    const FrameRecord& r = least_one.record;
     std::printf("  %-42s %7zu up %7zu down, %6llu shadow %6llu reflection rays\n", row.name, r.bytes_to_cpu(),
                 r.bytes_to_gpu(), static_cast<unsigned long long>(r.rays.shadow),
                 static_cast<unsigned long long>(r.rays.reflection));
-    EXPECT_LE(most_steps(full.picture, least.picture), 0.5);
-    EXPECT_EQ(r[Transfer::mask], row.mask_bytes);
+    EXPECT_LE(most_steps(whole_one.picture, least_one.picture), 0.5);
+    EXPECT_EQ(r[Channel::mask], row.mask_bytes);
     if (row.casting == 0 && row.mirror == 0.0f) {
       EXPECT_EQ(r.bytes_to_cpu() + r.bytes_to_gpu(), 0u);
       EXPECT_EQ(r.rays.shadow + r.rays.reflection + r.rays.primary, 0u);
     }
     const double share = static_cast<double>(row.mirror);
     const double whole = static_cast<double>(pixels) * 6.0;
-    EXPECT_LE(static_cast<double>(r[Transfer::reflection]), 1.6 * share * whole + 0.01 * whole);
+    EXPECT_LE(static_cast<double>(r[Channel::reflection]), 1.6 * share * whole + 0.01 * whole);
     EXPECT_LE(static_cast<double>(r.rays.reflection), 1.05 * share * static_cast<double>(pixels));
     EXPECT_GE(static_cast<double>(r.rays.reflection), 0.95 * share * static_cast<double>(pixels));
   }
@@ -125,28 +128,28 @@ TEST(Economy, ASceneCostsWhatItNeedsAndThePictureIsTheFullPlans) {
 TEST(Economy, TilesAreTheSamePixels) {
   for (const std::string& name : own_scenes()) {
     const Scene scene = load_or_die(source_path(name));
-    Plan plan = auto_plan(scene);
-    plan.tiles = false;
-    const Drawn whole = draw_by(scene, plan);
-    plan.tiles = true;
-    const Drawn tiles = draw_by(scene, plan);
+    Settings settings = least(scene);
+    settings.tiles = false;
+    const Drawn whole = draw_by(scene, settings);
+    settings.tiles = true;
+    const Drawn tiles = draw_by(scene, settings);
     EXPECT_TRUE(same_pixels(whole.picture, tiles.picture)) << name;
-    EXPECT_LT(tiles.record[Transfer::reflection], 1.03 * whole.record[Transfer::reflection]) << name;
+    EXPECT_LT(tiles.record[Channel::reflection], 1.03 * whole.record[Channel::reflection]) << name;
   }
 }
 
 TEST(Economy, NoShadowRayForWhatHalfAStepDoesNotShow) {
   Scene scene = room(2, 0.0f);
   for (MeshEdit mesh(scene); Material& m : mesh->materials) m.diffuse = m.specular = glm::vec3(0.0f);
-  Plan plan = auto_plan(scene);
-  EXPECT_EQ(draw_by(scene, plan).record.rays.shadow, 0u);
-  plan.least_light = 0.0f;  // where the mask itself is wanted
-  EXPECT_GT(draw_by(scene, plan).record.rays.shadow, 0u);
+  Settings settings = least(scene);
+  EXPECT_EQ(draw_by(scene, settings).record.rays.shadow, 0u);
+  settings.light_cutoff = 0.0f;  // where the mask itself is wanted
+  EXPECT_GT(draw_by(scene, settings).record.rays.shadow, 0u);
   for (const std::string& name : own_scenes()) {
     const Scene own = load_or_die(source_path(name));
-    Plan every = auto_plan(own);
+    Settings every = least(own);
     const Drawn few = draw_by(own, every);
-    every.least_light = 0.0f;
+    every.light_cutoff = 0.0f;
     const Drawn all = draw_by(own, every);
     EXPECT_LE(few.record.rays.shadow, all.record.rays.shadow);
     EXPECT_LE(most_steps(few.picture, all.picture), 0.5) << name;
@@ -155,12 +158,12 @@ TEST(Economy, NoShadowRayForWhatHalfAStepDoesNotShow) {
 
 TEST(Economy, FormatsKeepTheirPromise) {
   const Scene scene = load_or_die(source_path("scenes/speedboat.glb"));
-  Plan plan = auto_plan(scene);
-  plan.reflection = ReflectionFormat::full;
-  const Drawn exact = draw_by(scene, plan);
+  Settings settings = least(scene);
+  settings.reflection = ReflectionFormat::full;
+  const Drawn exact = draw_by(scene, settings);
   const auto steps_of = [&](ReflectionFormat format) {
-    plan.reflection = format;
-    return most_steps(draw_by(scene, plan).picture, exact.picture);
+    settings.reflection = format;
+    return most_steps(draw_by(scene, settings).picture, exact.picture);
   };
   const double half = steps_of(ReflectionFormat::half), shared = steps_of(ReflectionFormat::rgb9e5),
                srgb = steps_of(ReflectionFormat::rgb8);
@@ -174,12 +177,12 @@ TEST(Economy, FormatsKeepTheirPromise) {
 TEST(Economy, FewerSamplesAreNearThePictureAndCostTheirShare) {
   for (const std::string& name : own_scenes()) {
     const Scene scene = load_or_die(source_path(name));
-    Plan plan = auto_plan(scene);
-    const Drawn all = draw_by(scene, plan);
+    Settings settings = least(scene);
+    const Drawn all = draw_by(scene, settings);
     double last = 0.0;
     for (const int scale : {2, 4}) {
-      plan.mask_scale = plan.reflection_scale = scale;
-      const Drawn few = draw_by(scene, plan);
+      settings.mask_scale = settings.reflection_scale = scale;
+      const Drawn few = draw_by(scene, settings);
       double sum = 0.0;
       for (std::size_t i = 0; i < few.picture.color.pixels().size(); ++i) {
         const glm::vec3 difference = glm::vec3(few.picture.color[i]) - glm::vec3(all.picture.color[i]);
@@ -201,17 +204,17 @@ TEST(Economy, FewerSamplesAreNearThePictureAndCostTheirShare) {
 TEST(Economy, PrimaryRaysSeeWhatTheRaytracerSees) {
   for (const std::string& name : own_scenes()) {
     const Scene scene = load_or_die(source_path(name));
-    Plan plan = auto_plan(scene);
-    plan.primary = Primary::rays;
-    const Drawn rays = draw_by(scene, plan);
-    const Picture traced = draw_one(scene, {.mode = Mode::raytrace, .size = kSize});
+    Settings settings = least(scene);
+    settings.visibility = Processor::cpu;
+    const Drawn rays = draw_by(scene, settings);
+    const FrameResult traced = draw_one(scene, {.settings = by({{"mode", "raytrace"}}), .size = kSize});
     EXPECT_TRUE(std::ranges::equal(rays.picture.ids.pixels(), traced.ids.pixels())) << name;
     EXPECT_LE(most_steps(rays.picture, traced), 0.5) << name;
     EXPECT_EQ(rays.record.bytes_to_cpu(), 0u);
     EXPECT_EQ(rays.record.rays.primary, 320u * 240u);
-    const Drawn pipelined = draw_by(scene, plan, Exchange::pipelined);
+    const Drawn pipelined = draw_by(scene, settings, Exchange::pipelined);
     EXPECT_TRUE(same_pixels(pipelined.picture, rays.picture));
-    EXPECT_TRUE(same_pixels(draw_by(scene, plan, Exchange::reproject).picture, rays.picture));
+    EXPECT_TRUE(same_pixels(draw_by(scene, settings, Exchange::reproject).picture, rays.picture));
   }
 }
 
@@ -219,28 +222,34 @@ TEST(Economy, AStillCameraCostsNoRays) {
   const Scene scene = load_or_die(source_path("scenes/two-lights"));
   std::vector<Camera> cameras(6, first_camera(scene));
   cameras.back().eye.x += 0.1f;  // and then it moves
-  const auto draw = [&](Plan plan, Exchange exchange, std::vector<FrameRecord>* records = nullptr) {
-    DrawRequest request{.size = kSize, .exchange = exchange};
-    request.plan = plan;
-    return draw_all(scene, request, cameras, records);
+  const auto draw = [&](Settings settings, Exchange exchange, std::vector<FrameRecord>* records = nullptr) {
+    settings.exchange = exchange;
+    return draw_all(scene, {.size = kSize, .resolved = settings}, cameras, records);
   };
-  for (const Mode mode : {Mode::hybrid, Mode::raytrace})
-    for (const int design : {1, 2}) {
-      const Plan plan = *make_plan(take_census(scene), {.mode = mode, .design = design});
-      Plan anew = plan;
+  for (const Processor visibility : {Processor::gpu, Processor::cpu})
+    for (const Processor composite : {Processor::gpu, Processor::cpu}) {
+      Settings way;
+      way.visibility = visibility;
+      way.composite = composite;
+      const Settings settings = least(scene, way, true);
+      Settings anew = settings;
       anew.reuse = false;
-      const std::vector<Picture> wanted = draw(anew, Exchange::sync);
+      const std::vector<FrameResult> wanted = draw(anew, Exchange::sync);
       for (const Exchange exchange : {Exchange::sync, Exchange::pipelined, Exchange::reproject}) {
+        Settings asked = settings;
+        asked.exchange = exchange;
+        if (broken_rule(asked)) continue;  // design 2 sends nothing to warp
         std::vector<FrameRecord> records;
-        const std::vector<Picture> pictures = draw(plan, exchange, &records);
+        const std::vector<FrameResult> pictures = draw(settings, exchange, &records);
         ASSERT_EQ(pictures.size(), cameras.size());
         ASSERT_EQ(records.size(), cameras.size());
         EXPECT_GT(records.front().rays.shadow, 0u);
         for (std::size_t i = 0; i < records.size(); ++i) {
           EXPECT_EQ(records[i].number, i);
           const bool moved = i == 0 || i + 1 == records.size();
-          SCOPED_TRACE(std::string(mode_name(mode)) + " " + std::to_string(design) + " " +
-                       exchange_name(exchange) + " " + std::to_string(i));
+          SCOPED_TRACE(std::string(name_of(kProcessorNames, visibility)) + " " +
+                       std::string(name_of(kProcessorNames, composite)) + " " +
+                       std::string(name_of(kExchangeNames, exchange)) + " " + std::to_string(i));
           if (!moved) {
             EXPECT_EQ(records[i].rays.primary + records[i].rays.shadow + records[i].rays.reflection, 0u);
             EXPECT_EQ(records[i].bytes_to_cpu() + records[i].bytes_to_gpu(), 0u);
@@ -262,25 +271,23 @@ TEST(Economy, FramesTeachTheNextWhereLightReaches) {
     cameras.push_back(first_camera(scene));
     cameras.back().eye.x += 0.02f * static_cast<float>(i);
   }
-  const auto draw = [&](Plan plan, bool reuse, Exchange exchange, std::vector<FrameRecord>& records) {
-    plan.reuse = reuse;
-    DrawRequest request{.size = kSize, .exchange = exchange};
-    request.plan = plan;
-    return draw_all(scene, request, cameras, &records);
+  const auto draw = [&](Settings settings, bool reuse, std::vector<FrameRecord>& records) {
+    settings.reuse = reuse;
+    return draw_all(scene, {.size = kSize, .resolved = settings}, cameras, &records);
   };
   struct Way {
-    Mode mode;
-    int design;
+    const char *mode, *design;
     Exchange exchange;
   };
-  for (const Way& way : {Way{Mode::hybrid, 1, Exchange::sync}, Way{Mode::hybrid, 1, Exchange::pipelined},
-                         Way{Mode::hybrid, 2, Exchange::sync}, Way{Mode::raytrace, 1, Exchange::sync}}) {
-    SCOPED_TRACE(std::string(mode_name(way.mode)) + " " + std::to_string(way.design) + " " +
-                 exchange_name(way.exchange));
-    const Plan plan = *make_plan(take_census(scene), {.mode = way.mode, .design = way.design});
+  for (const Way& way : {Way{"hybrid", "1", Exchange::sync}, Way{"hybrid", "1", Exchange::pipelined},
+                         Way{"hybrid", "2", Exchange::sync}, Way{"raytrace", "1", Exchange::sync}}) {
+    SCOPED_TRACE(std::string(way.mode) + " " + way.design + " " +
+                 std::string(name_of(kExchangeNames, way.exchange)));
+    Settings settings = least(scene, by({{"design", way.design}, {"mode", way.mode}}), true);
+    settings.exchange = way.exchange;
     std::vector<FrameRecord> taught, anew;
-    const std::vector<Picture> pictures = draw(plan, true, way.exchange, taught);
-    const std::vector<Picture> wanted = draw(plan, false, way.exchange, anew);
+    const std::vector<FrameResult> pictures = draw(settings, true, taught);
+    const std::vector<FrameResult> wanted = draw(settings, false, anew);
     for (std::size_t i = 0; i < pictures.size(); ++i)
       EXPECT_TRUE(std::ranges::equal(pictures[i].color.pixels(), wanted[i].color.pixels())) << i;
     EXPECT_EQ(taught.front().rays.shadow, anew.front().rays.shadow);

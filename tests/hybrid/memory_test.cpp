@@ -4,9 +4,7 @@
 
 #include <fstream>
 
-#include "hybrid/frame.h"
 #include "tests/support/draw.h"
-#include "tests/support/gl_test.h"
 
 namespace pinocchio {
 namespace {
@@ -25,23 +23,24 @@ double resident_mb() {
 TEST(Memory, IsFlatOverManyFramesAndResizes) {
   const char* wanted = std::getenv("PINOCCHIO_LONG_RUN");
   const int frames = wanted ? std::atoi(wanted) : 1200;
-  const auto context = gl::open_context({"auto", "", true});
+  Engine engine({.gl_debug = true});
   const Scene scene = load_or_die(source_path("scenes/cornell"));
-  const Plan plan = *make_plan(take_census(scene), {});
-  const auto prepared =
-      std::make_shared<const PreparedScene>(scene, sides_of(plan), BuildOptions{}, std::optional<Isa>());
-  Workers workers(2);
+  Settings settings;
+  settings.threads = 2;
+  settings.exchange = Exchange::pipelined;
+  settings = engine.resolve(scene, {96, 64}, settings).value();
+  FrameRequest request{scene, Engine::prepare(scene, settings), settings, {first_camera(scene)}};
   std::size_t delivered = 0;
   double before_mb = 0.0;
   {
-    FrameLoop loop(workers, shader_source(), Exchange::pipelined, gl::Mapping::each_time,
-                   {[](Flight&) {}, [&](const FrameRecord&) { ++delivered; }});
+    Renderer renderer(engine, {{}, [&](const FrameRecord&) { ++delivered; }});
     for (int i = 0; i < frames; ++i) {
-      const glm::ivec2 size = i / kResizeEvery % 2 == 0 ? glm::ivec2(96, 64) : glm::ivec2(61, 83);
-      loop.submit({prepared, plan, first_camera(scene), size, {{0, 0}, size}, glm::vec2(0.0f)});
+      request.view.size = i / kResizeEvery % 2 == 0 ? glm::ivec2(96, 64) : glm::ivec2(61, 83);
+      request.view.camera.eye.x += 1e-5f;  // no frame is the last one again
+      renderer.submit(request);
       if (i == frames / 3) before_mb = resident_mb();  // warm by now
     }
-    loop.drain();
+    renderer.drain();
     const double growth_mb = resident_mb() - before_mb;
     std::printf("  %d frames, a resize every %d: %+.2f MB after the first third\n", frames, kResizeEvery,
                 growth_mb);
@@ -50,7 +49,7 @@ TEST(Memory, IsFlatOverManyFramesAndResizes) {
 #endif
   }
   EXPECT_EQ(delivered, static_cast<std::size_t>(frames));
-  context->throw_complaints();
+  engine.throw_gl_complaints();
 }
 
 }  // namespace

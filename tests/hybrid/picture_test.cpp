@@ -2,9 +2,9 @@
 #include <cmath>
 
 #include "core/image/tonemap.h"
+#include "core/trace/passes.h"
 #include "core/trace/view_params.h"
 #include "tests/support/draw.h"
-#include "tests/support/gl_test.h"
 
 namespace pinocchio {
 namespace {
@@ -25,9 +25,13 @@ float largest_difference(const glm::vec4& a, const glm::vec4& b) {
   return std::max({on_screen.x, on_screen.y, on_screen.z, linear.x, linear.y, linear.z});
 }
 
+DrawRequest by_mode(std::string_view mode, glm::ivec2 size = {320, 240}) {
+  return {.settings = by({{"mode", mode}}), .size = size};
+}
+
 void compare_modes(const Scene& scene, const std::string& name) {
-  const Picture hybrid = draw_one(scene, {.mode = Mode::hybrid, .size = kSize});
-  const Picture traced = draw_one(scene, {.mode = Mode::raytrace, .size = kSize});
+  const FrameResult hybrid = draw_one(scene, by_mode("hybrid", kSize));
+  const FrameResult traced = draw_one(scene, by_mode("raytrace", kSize));
   std::size_t other_triangle = 0;
   float largest = 0.0f;
   for (std::size_t i = 0; i < hybrid.ids.pixels().size(); ++i) {
@@ -63,7 +67,7 @@ TEST(ModesOfTheBunny, HybridIsRaytrace) {
 // Every light on, by the GPU and by the CPU, at the GPU's hits.
 TEST_P(Modes, PhongOfTheGpuIsPhongOfTheCpu) {
   const Scene scene = load_or_die(source_path(GetParam()));
-  const Picture raster = draw_one(scene, {.mode = Mode::raster, .size = kSize});
+  const FrameResult raster = draw_one(scene, by_mode("raster", kSize));
   Workers workers(2);
   const Tracer tracer(scene.mesh);
   const TraceJob job{scene, tracer, workers, view_params(first_camera(scene), kSize)};
@@ -87,19 +91,25 @@ TEST_P(Modes, EglAndOsmesaDrawTheSame) {
 
 TEST_P(Modes, SamePixelsForAnyNumberOfThreads) {
   const Scene scene = load_or_die(source_path(GetParam()));
-  for (const Mode mode : {Mode::hybrid, Mode::raytrace}) {
-    const Picture one = draw_one(scene, {.mode = mode, .threads = 1});
-    for (const int threads : {2, 4})
-      EXPECT_TRUE(same_pixels(one, draw_one(scene, {.mode = mode, .threads = threads}))) << threads;
+  for (const char* mode : {"hybrid", "raytrace"}) {
+    DrawRequest request = by_mode(mode);
+    request.settings.threads = 1;
+    const FrameResult one = draw_one(scene, request);
+    for (const int threads : {2, 4}) {
+      request.settings.threads = threads;
+      EXPECT_TRUE(same_pixels(one, draw_one(scene, request))) << threads;
+    }
   }
 }
 
 TEST_P(Modes, APartIsThatPartOfTheWhole) {
   const Scene scene = load_or_die(source_path(GetParam()));
   const PixelBox part{{101, 57}, {214, 190}};
-  for (const Mode mode : {Mode::hybrid, Mode::raytrace}) {
-    const Picture whole = draw_one(scene, {.mode = mode}),
-                  cut = draw_one(scene, {.mode = mode, .part = part});
+  for (const std::string mode : {"hybrid", "raytrace"}) {
+    DrawRequest request = by_mode(mode);
+    const FrameResult whole = draw_one(scene, request);
+    request.part = part;
+    const FrameResult cut = draw_one(scene, request);
     ASSERT_EQ(cut.color.size(), part.size());
     int other_triangle = 0;
     for (int y = 0; y < part.size().y; ++y)
@@ -111,12 +121,12 @@ TEST_P(Modes, APartIsThatPartOfTheWhole) {
         }
       }
     // A rasteriser snaps vertices relative to its viewport; rays know no such thing.
-    EXPECT_LE(other_triangle, mode == Mode::raytrace ? 0 : 5);
+    EXPECT_LE(other_triangle, mode == "raytrace" ? 0 : 5);
   }
 }
 
 // Largest difference on a screen, of 255, where both see the same triangle.
-float largest_on_screen(const Picture& a, const Picture& b) {
+float largest_on_screen(const FrameResult& a, const FrameResult& b) {
   float largest = 0.0f;
   for (std::size_t i = 0; i < a.ids.pixels().size(); ++i) {
     if (a.ids[i] != b.ids[i]) continue;
@@ -127,17 +137,17 @@ float largest_on_screen(const Picture& a, const Picture& b) {
 }
 
 // 24 bits a pixel, there and back, are two roundings of half a step each.
-TEST_P(Modes, OtherDesignsAndPlansAreTheSamePictureWithinTheirFormats) {
+TEST_P(Modes, OtherDesignsAndTheSlidesAreTheSamePictureWithinTheirFormats) {
   const Scene scene = load_or_die(source_path(GetParam()));
-  const Picture exact = draw_one(scene, {});
+  const FrameResult exact = draw_one(scene, {});
   struct Way {
-    const char* name;
-    int design;
-    bool slides;
+    const char *name, *design, *plan;
   };
   for (const Way& way :
-       {Way{"design 2", 2, false}, Way{"design 1, slides", 1, true}, Way{"design 2, slides", 2, true}}) {
-    const Picture other = draw_one(scene, {.design = way.design, .slides = way.slides});
+       {Way{"design 2", "2", "auto"}, Way{"design 1, slides", "1", "slides"},
+                         Way{"design 2, slides", "2", "slides"}}) {
+    const FrameResult other =
+        draw_one(scene, {.settings = by({{"design", way.design}, {"plan", way.plan}})});
     const float largest = largest_on_screen(exact, other);
     std::printf("  %s, %s: at most %.2f/255 apart\n", GetParam().c_str(), way.name,
                 static_cast<double>(largest));
@@ -146,10 +156,40 @@ TEST_P(Modes, OtherDesignsAndPlansAreTheSamePictureWithinTheirFormats) {
   }
 }
 
+// Who finds what is seen, and who puts the picture together: four schedules, one picture.
+TEST_P(Modes, EveryScheduleDrawsTheSamePicture) {
+  const Scene scene = load_or_die(source_path(GetParam()));
+  const auto draw = [&](Processor visibility, Processor composite) {
+    DrawRequest request;
+    request.settings.visibility = visibility;
+    request.settings.composite = composite;
+    return draw_one(scene, request);
+  };
+  const FrameResult both_gpu = draw(Processor::gpu, Processor::gpu), to_cpu = draw(Processor::gpu, Processor::cpu),
+                    rays = draw(Processor::cpu, Processor::gpu), both_cpu = draw(Processor::cpu, Processor::cpu);
+  // The same ids, the same rays: the same mask and light, to the bit.
+  const auto same_answer = [](const FrameResult& a, const FrameResult& b) {
+    return same(a.ids, b.ids) && std::ranges::equal(a.mask.bytes(), b.mask.bytes()) &&
+           same(a.reflection, b.reflection);
+  };
+  EXPECT_TRUE(same_answer(both_gpu, to_cpu));
+  EXPECT_TRUE(same_answer(rays, both_cpu));
+  EXPECT_TRUE(same_pixels(rays, draw_one(scene, {.resolved = rays.settings})));
+  EXPECT_TRUE(same_pixels(both_cpu, draw_one(scene, by_mode("raytrace"))));
+  EXPECT_LE(largest_on_screen(both_gpu, to_cpu), 1.5f);  // 24 bits a pixel, there and back
+  EXPECT_LE(largest_on_screen(rays, both_cpu), 0.5f);
+  EXPECT_LE(largest_on_screen(both_gpu, rays), 0.5f);
+  std::size_t other_triangle = 0;
+  for (std::size_t i = 0; i < rays.ids.pixels().size(); ++i) other_triangle += rays.ids[i] != both_gpu.ids[i];
+  EXPECT_LT(static_cast<double>(other_triangle), 0.005 * static_cast<double>(rays.ids.pixels().size()));
+}
+
 TEST(Samples, AreAveragedAndTheFirstIsThePixelsCentre) {
   const Scene scene = load_or_die(source_path("scenes/two-lights"));
-  const Picture one = draw_one(scene, {.mode = Mode::raytrace}),
-                many = draw_one(scene, {.mode = Mode::raytrace, .spp = 16});
+  DrawRequest request = by_mode("raytrace");
+  const FrameResult one = draw_one(scene, request);
+  request.settings.spp = 16;
+  const FrameResult many = draw_one(scene, request);
   EXPECT_TRUE(std::ranges::equal(one.ids.pixels(), many.ids.pixels()));
   double mean_one = 0.0, mean_many = 0.0;
   for (std::size_t i = 0; i < one.color.pixels().size(); ++i) {

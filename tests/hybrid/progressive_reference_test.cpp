@@ -1,5 +1,5 @@
 // The precise picture in the background, against the one made at once.
-#include "hybrid/progressive_reference.h"
+#include "hybrid/inspect/progressive_reference.h"
 
 #include <sys/resource.h>
 
@@ -8,9 +8,9 @@
 #include <fstream>
 
 #include "core/compare/figures.h"
+#include "core/compare/reference_error.h"
 #include "core/reference/reference.h"
 #include "core/trace/view_params.h"
-#include "hybrid/reference_error.h"
 #include "tests/support/draw.h"
 
 namespace pinocchio {
@@ -18,24 +18,17 @@ namespace {
 
 constexpr glm::ivec2 kSize{70, 50};  // tiles and squares cut at the edges
 
-std::shared_ptr<const PreparedScene> prepare(const Scene& scene) {
-  return std::make_shared<const PreparedScene>(scene, Sides{false, false}, BuildOptions{},
-                                               std::optional<Isa>());
-}
-
-ReferenceView view_of(const std::shared_ptr<const PreparedScene>& scene) {
-  return {scene, first_camera(scene->scene), kSize, {{0, 0}, kSize}, glm::vec2(0.0f), 4};
+ReferenceView view_of(const Scene& scene) {
+  return {scene, {first_camera(scene), kSize}, 4};
 }
 
 Image<glm::vec4> at_once(const ReferenceView& view) {
   Workers workers(2);
-  Image<std::uint32_t> ids(view.part.size());
+  Image<std::uint32_t> ids(view.view.box().size());
   MaskImage mask;
   Image<glm::vec3> reflection;
   Image<glm::vec4> color;
-  reference_picture(view.scene->scene, workers,
-                    view_params(view.camera, view.size, view.jitter, view.part.lo), view.depth, ids, mask,
-                    reflection, color);
+  reference_picture(view.scene, workers, view_params(view.view), view.depth, ids, mask, reflection, color);
   return color;
 }
 
@@ -49,15 +42,15 @@ Image<glm::vec4> finish(ProgressiveReference& reference) {
 }
 
 TEST(ProgressiveReference, EndsAsThePictureMadeAtOnce) {
-  const auto scene = prepare(load_or_die(source_path("scenes/cornell")));
+  const Scene scene = load_or_die(source_path("scenes/cornell"));
   ReferenceView view = view_of(scene);
   for (const int threads : {1, 3}) {
     ProgressiveReference reference(threads);
-    view.part = {{0, 0}, kSize};
+    view = view_of(scene);
     reference.show(view);
     EXPECT_TRUE(std::ranges::equal(finish(reference).pixels(), at_once(view).pixels()));
-    view.part = {{13, 7}, {50, 41}};
-    view.jitter = {0.25f, -0.125f};
+    view.view.part = {{13, 7}, {50, 41}};
+    view.view.jitter = {0.25f, -0.125f};
     reference.show(view);
     EXPECT_TRUE(std::ranges::equal(finish(reference).pixels(), at_once(view).pixels()));
     reference.show(view);  // again: it is there
@@ -66,7 +59,7 @@ TEST(ProgressiveReference, EndsAsThePictureMadeAtOnce) {
 }
 
 TEST(ProgressiveReference, GrowsFromSquaresOfExactPixels) {
-  const auto scene = prepare(load_or_die(source_path("scenes/two-lights")));
+  const Scene scene = load_or_die(source_path("scenes/two-lights"));
   const ReferenceView view = view_of(scene);
   const Image<glm::vec4> exact = at_once(view);
   ProgressiveReference reference;
@@ -89,13 +82,13 @@ TEST(ProgressiveReference, GrowsFromSquaresOfExactPixels) {
 }
 
 TEST(ProgressiveReference, AnotherViewDropsTheOneBefore) {
-  const auto cornell = prepare(load_or_die(source_path("scenes/cornell"))),
-             lights = prepare(load_or_die(source_path("scenes/two-lights")));
+  const Scene cornell = load_or_die(source_path("scenes/cornell")),
+              lights = load_or_die(source_path("scenes/two-lights"));
   ProgressiveReference reference(2);
   ReferenceView view;
   for (int i = 0; i < 40; ++i) {
     view = view_of(i % 3 == 2 ? cornell : lights);
-    view.camera.eye.x += 0.01f * static_cast<float>(i);
+    view.view.camera.eye.x += 0.01f * static_cast<float>(i);
     reference.show(view);
     const auto [color, share, changed] = reference.poll();
     EXPECT_EQ(color.size(), kSize);
@@ -114,7 +107,7 @@ TEST(ProgressiveReference, OtherLightsOnTheSameTriangles) {
   ProgressiveReference reference;
   for (int i = 0; i < 4; ++i) {
     scene.lights.front().position.x = static_cast<float>(i);
-    const ReferenceView view = view_of(prepare(scene));
+    const ReferenceView view = view_of(scene);
     reference.show(view);
     EXPECT_TRUE(std::ranges::equal(finish(reference).pixels(), at_once(view).pixels()));
   }
@@ -122,19 +115,19 @@ TEST(ProgressiveReference, OtherLightsOnTheSameTriangles) {
 
 TEST(ProgressiveReference, LetsGoOfScenesOnTheCallersThread) {
   ProgressiveReference reference;
-  auto first = prepare(load_or_die(source_path("scenes/cornell"))),
-       second = prepare(load_or_die(source_path("scenes/two-lights")));
+  const Scene first = load_or_die(source_path("scenes/cornell")),
+              second = load_or_die(source_path("scenes/two-lights"));
   reference.show(view_of(first));
   reference.show(view_of(second));
   finish(reference);
-  while (first.use_count() > 1) (void)reference.poll();  // as soon as the background is through with it
-  EXPECT_GT(second.use_count(), 1);
+  while (first.mesh.use_count() > 1) (void)reference.poll();  // as soon as the background is through with it
+  EXPECT_GT(second.mesh.use_count(), 1);
 }
 
 TEST(ProgressiveReference, EndsInTheMiddleOfATreeOrAPicture) {
-  const auto soup = prepare(random_soup(200000, 0.02f, 1));
+  const Scene soup = random_soup(200000, 0.02f, 1);
   ReferenceView view = view_of(soup);
-  view.size = view.part.hi = {800, 600};
+  view.view.size = {800, 600};
   for (int i = 0; i < 5; ++i) {
     ProgressiveReference reference(2);
     reference.show(view);
@@ -146,8 +139,7 @@ TEST(ProgressiveReference, EndsInTheMiddleOfATreeOrAPicture) {
 // The 19th field of a thread's stat is its nice value.
 TEST(ProgressiveReference, GivesWayToOtherThreads) {
   ProgressiveReference reference(2);
-  const auto scene = prepare(plate_over_floor());
-  reference.show(view_of(scene));
+  reference.show(view_of(plate_over_floor()));
   finish(reference);
   const int own = getpriority(PRIO_PROCESS, 0);
   if (own > 9) GTEST_SKIP() << "the test itself runs at a low priority";
@@ -165,7 +157,7 @@ TEST(ProgressiveReference, GivesWayToOtherThreads) {
 
 TEST(ReferenceErrors, AreTheFiguresAndTheHeat) {
   Workers workers(2);
-  const ReferenceView view = view_of(prepare(load_or_die(source_path("scenes/two-lights"))));
+  const ReferenceView view = view_of(load_or_die(source_path("scenes/two-lights")));
   const Image<glm::vec4> exact = at_once(view);
   for (const ErrorMap map : {ErrorMap::flip, ErrorMap::difference}) {
     const ReferenceError none = error_against(exact, exact, map, workers);

@@ -1,4 +1,4 @@
-// Lights changed while frames are in flight, against a scene prepared with them from the start.
+// Lights changed while frames are in flight, against a scene that had them from the start.
 #include "tests/support/frames.h"
 
 namespace pinocchio {
@@ -21,36 +21,38 @@ std::vector<std::vector<Light>> changes_of(const std::vector<Light>& lights) {
   return changes;
 }
 
-Needs recounted(const Scene& scene, Needs needs) {
-  recount_lights(scene, needs);
-  return needs;
+SceneStats recounted(const Scene& scene, SceneStats stats) {
+  recount_lights(scene, stats);
+  return stats;
 }
 
-TEST_P(RelightTest, IsTheSceneAsIfPreparedWithThoseLights) {
+TEST_P(RelightTest, IsTheSceneAsIfItHadThoseLightsFromTheStart) {
   const Scene scene = load_or_die(source_path("scenes/two-lights"));
-  const auto before = prepare(scene);
-  const Needs needs = take_census(scene);
+  const SceneStats stats = analyze(scene);
+  const FrameRequest before = request(scene, settings_for(scene), kSize);
   std::vector<FrameRequest> relit, fresh;
   for (const std::vector<Light>& lights : changes_of(scene.lights)) {
-    const auto changed = std::make_shared<const PreparedScene>(before, lights);
-    EXPECT_EQ(changed->tracer, before->tracer);
-    EXPECT_EQ(changed->scene.mesh, before->scene.mesh);
-    Scene other = scene;
+    FrameRequest changed = before;
+    changed.scene.lights = lights;
+    changed.settings = settings_for(changed.scene);
+    EXPECT_EQ(*resolve({}, recounted(changed.scene, stats)), *resolve({}, analyze(changed.scene)));
+    Scene other = load_or_die(source_path("scenes/two-lights"));
     other.lights = lights;
-    const Plan plan = *make_plan(take_census(other), {});
-    EXPECT_EQ(*make_plan(recounted(changed->scene, needs), {}), plan);
-    relit.push_back(request(before, plan_of(scene), kSize));  // old and new in flight at once
+    relit.push_back(before);  // old and new in flight at once
     fresh.push_back(relit.back());
-    relit.push_back(request(changed, plan, kSize));
-    fresh.push_back(request(prepare(other), plan, kSize));
+    relit.push_back(changed);
+    fresh.push_back(request(other, changed.settings, kSize));
   }
   std::vector<Image<glm::vec4>> expected;
-  draw(fresh, Exchange::sync, [&](Flight& frame) { expected.push_back(read(frame.picture.target)); });
+  draw(fresh, Exchange::sync, [&](Frame& frame) { expected.push_back(read(frame.texture())); });
   std::size_t delivered = 0;
-  draw(relit, Exchange::pipelined, [&](Flight& frame) {
+  std::shared_ptr<const GpuMesh> mesh;
+  draw(relit, Exchange::pipelined, [&](Frame& frame) {
     ASSERT_LT(delivered, expected.size());
-    EXPECT_TRUE(std::ranges::equal(read(frame.picture.target).pixels(), expected[delivered].pixels()))
-        << delivered;
+    EXPECT_TRUE(same(read(frame.texture()), expected[delivered])) << delivered;
+    EXPECT_EQ(frame.request().scene.mesh, scene.mesh);
+    EXPECT_TRUE(!mesh || mesh == frame.slot().mesh) << "geometry was copied";
+    mesh = frame.slot().mesh;
     ++delivered;
   });
   EXPECT_EQ(delivered, expected.size());

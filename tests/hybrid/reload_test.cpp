@@ -3,6 +3,7 @@
 #include <sstream>
 
 #include "gl/error.h"
+#include "hybrid/shader_folder.h"
 #include "tests/support/frames.h"
 #include "tests/support/own_file.h"
 
@@ -16,23 +17,22 @@ class ReloadTest : public FramesTest {
   void SetUp() override {
     FramesTest::SetUp();
     folder_ = own_folder() / "shaders";
-    std::filesystem::copy(source_path("shaders"), folder_, std::filesystem::copy_options::recursive);
-    loop_.emplace(workers_, folder_, Exchange::sync, gl::Mapping::each_time,
-                  FrameLoop::Sinks{[this](Flight& frame) { FrameLoop::read_picture(frame, picture_); },
-                                   [](const FrameRecord&) {}});
+    std::filesystem::copy(shader_folder(), folder_, std::filesystem::copy_options::recursive);
+    setenv("PINOCCHIO_SHADERS", folder_.c_str(), 1);
+    renderer_.emplace(*engine_, FrameSinks{[this](Frame& frame) { frame.read_color(picture_); }, {}});
     Scene scene = plate_over_floor();
     scene.lights = {point_light({1, 5, 1})};
-    request_ = request(prepare(scene), plan_of(scene), kSize);
+    request_ = request(scene, settings_for(scene), kSize);
   }
   void TearDown() override {
-    loop_.reset();
-    request_.scene.reset();
+    renderer_.reset();
+    unsetenv("PINOCCHIO_SHADERS");
     FramesTest::TearDown();
   }
 
   Image<glm::vec4> picture() {
-    loop_->submit(request_);
-    loop_->drain();
+    renderer_->submit(request_);
+    renderer_->drain();
     return picture_;
   }
   [[nodiscard]] std::string text_of(const std::string& file) const {
@@ -54,7 +54,7 @@ class ReloadTest : public FramesTest {
   }
 
   std::filesystem::path folder_;
-  std::optional<FrameLoop> loop_;
+  std::optional<Renderer> renderer_;
   FrameRequest request_;
   Image<glm::vec4> picture_;
 };
@@ -65,12 +65,12 @@ TEST_P(ReloadTest, AChangedShaderDrawsTheNextFrame) {
   const std::string old = replace("composite.frag", "color = vec4(min(sum, kLargestHalf)",
                                   "color = vec4(min(2.0 * sum, kLargestHalf)");
   ASSERT_TRUE(std::ranges::equal(picture().pixels(), before.pixels()));  // not unasked
-  ASSERT_TRUE(loop_->programs()->reload());
+  ASSERT_TRUE(programs()->reload());
   const Image<glm::vec4> after = picture();
   for (std::size_t i = 0; i < before.pixels().size(); ++i)
     ASSERT_EQ(glm::vec3(after[i]), 2.0f * glm::vec3(before[i]));
   write("composite.frag", old);
-  ASSERT_TRUE(loop_->programs()->reload());
+  ASSERT_TRUE(programs()->reload());
   EXPECT_TRUE(std::ranges::equal(picture().pixels(), before.pixels()));
 }
 
@@ -82,7 +82,7 @@ TEST_P(ReloadTest, AnErrorNamesFileAndLineAndTheLastGoodStay) {
   const std::string text = text_of("traced_light.glsl");
   const auto line =
       std::count(text.begin(), text.begin() + static_cast<std::ptrdiff_t>(text.find("nonsense")), '\n');
-  const Expected<void> broken = loop_->programs()->reload();
+  const Expected<void> broken = programs()->reload();
   ASSERT_FALSE(broken);
   const std::string message = broken.error().message();
   std::printf("  %s\n", message.c_str());
@@ -91,19 +91,19 @@ TEST_P(ReloadTest, AnErrorNamesFileAndLineAndTheLastGoodStay) {
   EXPECT_TRUE(std::ranges::equal(picture().pixels(), before.pixels()));
 
   write("traced_light.glsl", old);
-  ASSERT_TRUE(loop_->programs()->reload());
+  ASSERT_TRUE(programs()->reload());
   EXPECT_FALSE(std::ranges::equal(picture().pixels(), before.pixels()));
 }
 
 TEST_P(ReloadTest, AMissingFileIsAnErrorToo) {
   const Image<glm::vec4> before = picture();
   std::filesystem::rename(folder_ / "scene_fetch.glsl", folder_ / "away");
-  const Expected<void> broken = loop_->programs()->reload();
+  const Expected<void> broken = programs()->reload();
   ASSERT_FALSE(broken);
   EXPECT_NE(broken.error().message().find("scene_fetch.glsl"), std::string::npos);
   EXPECT_TRUE(std::ranges::equal(picture().pixels(), before.pixels()));
   std::filesystem::rename(folder_ / "away", folder_ / "scene_fetch.glsl");
-  EXPECT_TRUE(loop_->programs()->reload());
+  EXPECT_TRUE(programs()->reload());
   EXPECT_TRUE(std::ranges::equal(picture().pixels(), before.pixels()));
 }
 
@@ -112,28 +112,8 @@ TEST_P(ReloadTest, AShaderThatIsBrokenFromTheStartCanBeMended) {
   const std::string old = replace("composite.frag", "void main() {", "void main() { nonsense;");
   EXPECT_THROW(picture(), gl::Error);
   write("composite.frag", old);
-  EXPECT_TRUE(loop_->programs()->reload());
+  EXPECT_TRUE(programs()->reload());
   EXPECT_EQ(picture().size(), kSize);
-}
-
-TEST(Shaders, EveryFileIsBuiltInAsItStands) {
-  const gl::ShaderSource folder(source_path("shaders")), built_in(built_in_shaders());
-  std::size_t files = 0;
-  for (const auto& entry : std::filesystem::recursive_directory_iterator(folder.folder())) {
-    if (!entry.is_regular_file()) continue;
-    const std::string name = std::filesystem::relative(entry.path(), folder.folder()).string();
-    EXPECT_EQ(built_in.read(name), folder.read(name)) << name;
-    ++files;
-  }
-  EXPECT_EQ(built_in_shaders().size(), files);
-}
-
-TEST(Shaders, AMistakeInABuiltInOneIsNamedWithFileAndLine) {
-  const gl::AssembledShader shader =
-      gl::assemble_shader(gl::ShaderSource(built_in_shaders()), "composite.frag", {});
-  ASSERT_GT(shader.files.size(), 1u);
-  EXPECT_EQ(gl::name_files("1:12(3): error: x", shader.files), shader.files[1] + ":12: error: x");
-  EXPECT_EQ(shader.files[0], "shaders/composite.frag");
 }
 
 }  // namespace

@@ -2,13 +2,15 @@
 #pragma once
 
 #include <algorithm>
-#include <memory>
+#include <initializer_list>
 #include <optional>
 #include <string>
+#include <string_view>
+#include <utility>
 #include <vector>
 
-#include "gl/open.h"
-#include "hybrid/renderer.h"
+#include "pinocchio/engine.h"
+#include "hybrid/samples.h"
 #include "tests/support/scenes.h"
 
 namespace pinocchio {
@@ -17,58 +19,62 @@ inline Camera first_camera(const Scene& scene) {
   return scene.cameras.empty() ? camera_for_whole_scene(scene) : scene.cameras.front();
 }
 
+// Settings by presets, applied in this order: {{"mode", "raytrace"}}.
+inline Settings by(std::initializer_list<std::pair<std::string_view, std::string_view>> presets) {
+  Settings settings;
+  for (const auto& [option, value] : presets)
+    if (!apply_preset(option, value, settings)) throw std::logic_error("no such preset");
+  return settings;
+}
+
 struct DrawRequest {
-  Mode mode = Mode::hybrid;
-  int design = 1;
-  bool slides = false;
+  Settings settings{};  // resolved for the scene; two threads where they name none
   glm::ivec2 size{320, 240};
   PixelBox part{};  // empty: whole
-  Exchange exchange = Exchange::sync;
-  gl::Mapping mapping = gl::Mapping::each_time;
-  int threads = 2;
-  int spp = 1;
   std::string backend = "egl";
-  std::optional<Plan> plan{};  // instead of one made for the above
+  std::optional<Settings> resolved{};  // instead of those: as they are
 };
 
 // One picture a camera.
-inline std::vector<Picture> draw_all(const Scene& scene, const DrawRequest& request,
-                                     const std::vector<Camera>& cameras,
-                                     std::vector<FrameRecord>* records = nullptr) {
-  Workers workers(request.threads);
-  const Plan plan =
-      request.plan ? *request.plan
-                   : make_plan(take_census(scene),
-                               {.mode = request.mode, .design = request.design, .slides = request.slides})
-                         .value();
-  const auto context = plan.mode == Mode::raytrace ? nullptr : gl::open_context({request.backend, "", true});
-  const auto prepared =
-      std::make_shared<const PreparedScene>(scene, sides_of(plan), BuildOptions{}, std::optional<Isa>());
-  std::vector<Picture> pictures;
+inline std::vector<FrameResult> draw_all(const Scene& scene, const DrawRequest& request,
+                                         const std::vector<Camera>& cameras,
+                                         std::vector<FrameRecord>* records = nullptr) {
+  Engine engine({.backend = request.backend, .gl_debug = true});
+  FrameRequest frame{scene, nullptr, request.settings, {{}, request.size, request.part}};
+  frame.settings.threads.fill(2);
+  frame.settings = request.resolved
+                       ? *request.resolved
+                       : engine.resolve(scene, frame.view.box().size(), frame.settings).value();
+  frame.tracer = Engine::prepare(scene, frame.settings);
+  std::vector<FrameResult> pictures;
+  SampleMean mean(frame.settings.spp, [&](FrameResult&& picture) { pictures.push_back(std::move(picture)); });
   {
-    Renderer renderer(prepared, plan, workers, {request.exchange, request.mapping, request.spp},
-                      {[&](Picture&& picture) { pictures.push_back(std::move(picture)); },
-                       [&](const FrameRecord& record) {
-                         if (records) records->push_back(record);
-                       }});
-    const PixelBox whole{{0, 0}, request.size};
-    for (const Camera& camera : cameras)
-      renderer.submit({camera, request.size, request.part.empty() ? whole : request.part});
+    Renderer renderer(engine, {[&](Frame& delivered) { mean.add(delivered); },
+                               [&](const FrameRecord& record) {
+                                 if (records) records->push_back(record);
+                               }});
+    for (const Camera& camera : cameras) {
+      frame.view.camera = camera;
+      submit_samples(renderer, frame);
+    }
     renderer.drain();
   }
-  if (context) context->throw_complaints();
+  engine.throw_gl_complaints();
   return pictures;
 }
 
-inline Picture draw_one(const Scene& scene, const DrawRequest& request) {
+inline FrameResult draw_one(const Scene& scene, const DrawRequest& request) {
   return std::move(draw_all(scene, request, {first_camera(scene)}).front());
 }
 
-inline bool same_pixels(const Picture& a, const Picture& b) {
-  return std::ranges::equal(a.color.pixels(), b.color.pixels()) &&
-         std::ranges::equal(a.ids.pixels(), b.ids.pixels()) &&
-         std::ranges::equal(a.mask.bytes(), b.mask.bytes()) &&
-         std::ranges::equal(a.reflection.pixels(), b.reflection.pixels());
+template <class T>
+bool same(const Image<T>& a, const Image<T>& b) {
+  return a.size() == b.size() && std::ranges::equal(a.pixels(), b.pixels());
+}
+
+inline bool same_pixels(const FrameResult& a, const FrameResult& b) {
+  return same(a.color, b.color) && same(a.ids, b.ids) && std::ranges::equal(a.mask.bytes(), b.mask.bytes()) &&
+         same(a.reflection, b.reflection);
 }
 
 }  // namespace pinocchio

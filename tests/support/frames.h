@@ -1,4 +1,4 @@
-// Frames through a loop of the test's own, whose buffers may be looked at while each is delivered.
+// Frames through a renderer of the test's own, whose buffers may be looked at while each is delivered.
 #pragma once
 
 #include <functional>
@@ -6,9 +6,9 @@
 #include <optional>
 #include <vector>
 
-#include "gl/transfer.h"
-#include "hybrid/formats.h"
-#include "hybrid/frame.h"
+#include "hybrid/engine_parts.h"
+#include "hybrid/frame_slot.h"
+#include "hybrid/settings/resolve.h"
 #include "tests/support/draw.h"
 #include "tests/support/gl_test.h"
 
@@ -16,40 +16,42 @@ namespace pinocchio {
 
 class FramesTest : public GlTest {
  protected:
+  void SetUp() override {
+    GlTest::SetUp();
+    engine_.emplace(context());
+  }
   void TearDown() override {
-    programs_.reset();
+    engine_.reset();
     GlTest::TearDown();
   }
 
-  static std::shared_ptr<const PreparedScene> prepare(const Scene& scene) {
-    return std::make_shared<const PreparedScene>(scene, Sides{}, BuildOptions{}, std::optional<Isa>());
+  static Settings settings_for(const Scene& scene, Settings wanted = {}) {
+    wanted.threads.fill(2);
+    return resolve(wanted, analyze(scene)).value();
   }
-  static FrameRequest request(const std::shared_ptr<const PreparedScene>& scene, const Plan& plan,
-                              glm::ivec2 size) {
-    return {scene, plan, first_camera(scene->scene), size, {{0, 0}, size}, glm::vec2(0.0f)};
-  }
-  static Plan plan_of(const Scene& scene, const PlanRequest& wanted = {}) {
-    return *make_plan(take_census(scene), wanted);
+  // With a tree of its own, also where nothing is traced.
+  static FrameRequest request(const Scene& scene, const Settings& settings, glm::ivec2 size) {
+    return {scene, std::make_shared<const Tracer>(scene.mesh), settings, {first_camera(scene), size}};
   }
   // Each is given to `look` while it is delivered.
   void draw(const std::vector<FrameRequest>& requests, Exchange exchange,
-            const std::function<void(Flight&)>& look) {
-    FrameLoop loop(workers_, programs_, exchange, gl::Mapping::each_time, {look, [](const FrameRecord&) {}});
-    for (const FrameRequest& r : requests) loop.submit(r);
-    loop.drain();
+            const std::function<void(Frame&)>& look) {
+    Renderer renderer(*engine_, {look, {}});
+    for (FrameRequest r : requests) {
+      r.settings.exchange = exchange;
+      renderer.submit(r);
+    }
+    renderer.drain();
   }
-  // RGBA16F.
-  static Image<glm::vec4> read(const gl::Framebuffer& target) {
-    Image<glm::vec4> color(target.size());
-    gl::Readback back;
-    back.start(target);
-    unpack_picture(back.open(), color);
-    back.close();
+  static Image<glm::vec4> read(const gl::Texture& texture) {
+    Image<glm::vec4> color(texture.size());
+    glBindTexture(GL_TEXTURE_2D, texture.name());
+    glGetTexImage(GL_TEXTURE_2D, 0, GL_RGBA, GL_FLOAT, color.pixels().data());
     return color;
   }
+  [[nodiscard]] const std::shared_ptr<Programs>& programs() { return engine_->parts().gpu().programs; }
 
-  Workers workers_{2};
-  std::shared_ptr<Programs> programs_ = std::make_shared<Programs>();
+  std::optional<Engine> engine_;
 };
 
 }  // namespace pinocchio

@@ -35,7 +35,8 @@ struct ExrFile {
   [[nodiscard]] const ExrChannel* find(const std::string& name) const;
 };
 
-// One part, scan lines, ZIP, Rec. 709 chromaticities; whole or not at all. Throws EnvironmentError.
+// One part, scan lines, ZIP, Rec. 709 chromaticities; whole or not at all. Throws EnvironmentError where it
+// cannot be written. Both may be called from many threads, for files of their own.
 void write_exr(const std::filesystem::path& file, const ExrFile& exr);
 
 // Reads any single-part EXR with unsubsampled channels. Errors name the file and what is wrong with it.

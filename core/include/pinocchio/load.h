@@ -14,7 +14,7 @@ using Warnings = std::vector<std::string>;
 // Reads glTF 2.0 (.gltf, .glb) or Wavefront OBJ+MTL (.obj), chosen by the file's extension. A path
 // without extension, or a folder, stands for the one scene file of that name (scenes/cornell ->
 // scenes/cornell.gltf). The result has passed check_scene. Errors name the file and, for text formats,
-// the line; what a picture can do without is added to `warnings` instead.
+// the line; what a picture can do without is added to `warnings` instead. Any thread.
 [[nodiscard]] Expected<Scene> load_scene(const std::filesystem::path& path, Warnings* warnings = nullptr);
 
 // The readers behind load_scene, one a format.

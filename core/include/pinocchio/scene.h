@@ -13,7 +13,8 @@
 
 namespace pinocchio {
 
-// A cheap value: copies share the mesh, so that moving a light copies no geometry.
+// A cheap value: copies share the mesh, so that moving a light copies no geometry. Lengths are in the file's
+// units ("scene units"), colours linear.
 struct Scene {
   Scene() = default;
   explicit Scene(MeshData data) : mesh(std::make_shared<const Mesh>(std::move(data))) {}

@@ -35,13 +35,15 @@ inline constexpr std::array<std::string_view, 4> kIsaNames{"scalar", "sse4", "av
 // hits nothing. Safe to call from many threads.
 class Tracer {
  public:
-  // `isa`: nothing asks for default_isa(); one that the processor lacks throws EnvironmentError.
+  // Builds the tree, on options.threads threads. The mesh has at least one triangle and finite positions, as
+  // load_scene and check_scene see to. `isa`: nothing asks for default_isa(); one that the processor lacks
+  // throws EnvironmentError.
   explicit Tracer(std::shared_ptr<const Mesh> mesh, const BuildOptions& options = {},
                   std::optional<Isa> isa = {}, OffsetMethod offset = OffsetMethod::error_bound);
 
-  // hits.size() == rays.size()
+  // hits[i] is the closest of ray i, its t in lengths of the ray's direction; hits.size() == rays.size().
   void closest_hits(std::span<const Ray> rays, std::span<Hit> hits) const;
-  // blocked[i] = 1 where any triangle lies within ray i, else 0; blocked.size() == rays.size()
+  // blocked[i] = 1 where any triangle lies within ray i, else 0; blocked.size() == rays.size().
   void occluded(std::span<const Ray> rays, std::span<std::uint8_t> blocked) const;
 
   [[nodiscard]] const Mesh& mesh() const { return *mesh_; }

@@ -20,7 +20,7 @@ struct View {
   friend bool operator==(const View&, const View&) = default;
 };
 
-// One ray a pixel of view.box(). A ray's t is the distance along the view axis, scene units.
+// One ray a pixel of view.box(), row 0 on top. A ray's t is the distance along the view axis, scene units.
 [[nodiscard]] Image<Ray> camera_rays(const View& view);
 
 }  // namespace pinocchio

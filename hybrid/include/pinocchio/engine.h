@@ -17,7 +17,7 @@ struct ContextInfo;
 
 struct EngineOptions {
   std::string backend = "auto";  // OpenGL context: auto, egl, osmesa or glfw (a display's)
-  std::string device;            // EGL's device number, "software", or empty: the first that works
+  std::string device{};          // EGL's device number, "software", or empty: the first that works
   int gl_threads = 0;            // of a software rasteriser; 0: its own choice
   bool gl_debug = false;         // what the driver complains about is an error
   // Where a function of OpenGL is: of a context of the caller's that is current on this thread, to be used

@@ -4,12 +4,17 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
 #include <string_view>
 
 #include "pinocchio/image.h"
 #include "pinocchio/mask_image.h"
 #include "pinocchio/ray_counts.h"
+#include "pinocchio/scene.h"
 #include "pinocchio/settings.h"
+#include "pinocchio/view.h"
 
 namespace pinocchio {
 
@@ -69,9 +74,17 @@ struct FrameResult {
   Image<std::uint32_t> ids;     // kNoTriangle where nothing is seen
   MaskImage mask;               // 0 bits where no light casts, or the frame's own is not traced yet
   Image<glm::vec3> reflection;  // linear light; empty, likewise
+  Scene scene;                  // what it shows, ...
+  View view;                    // ... from where
   Settings settings;            // that it was drawn by
   FrameRecord record;           // without what is known later only: the GPU's times
   std::size_t holes = 0;        // reprojected: pixels that no older frame had an answer for
 };
+
+// The picture with its layers and attributes, one part, scene-linear. layers: "all", "none" or some of Z, P, N,
+// Albedo, id, shadow, reflection with commas between. render_s: what it took, for its header. Whole or not at
+// all; throws EnvironmentError where it cannot be written. Source: OpenEXR's standard attributes.
+void write_exr(const std::filesystem::path& file, const FrameResult& frame, const std::string& layers = "all",
+               std::optional<double> render_s = {});
 
 }  // namespace pinocchio

@@ -37,6 +37,7 @@ class Frame {
   // Without what is known later only: the GPU's times.
   [[nodiscard]] FrameRecord& record() const;
   // The picture on the GPU, linear light, row 0 on top; where the CPU drew alone it is sent there now.
+  // Throws EnvironmentError where there is no OpenGL.
   [[nodiscard]] const gl::Texture& texture() const;
   // Its OpenGL name, for programs with a context of their own.
   [[nodiscard]] unsigned texture_name() const;

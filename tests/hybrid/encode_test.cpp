@@ -1,4 +1,4 @@
-#include "hybrid/formats.h"
+#include "hybrid/exchange/encode.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "core/output/aovs.h"
+#include "core/image/aovs.h"
 
 #include <sstream>
 

@@ -1,0 +1,49 @@
+#!/usr/bin/env bash
+# consumer_test.sh HOW TREE BUILT OPTIONS...: builds the examples in an empty folder and runs them.
+# HOW installed: against the prefix that BUILT installs; subdirectory: by add_subdirectory of TREE. OPTIONS are
+# CMake's.
+set -euo pipefail
+how=$1 tree=$2 built=$3
+shift 3
+work=$(mktemp -d)
+trap 'rm -rf "$work"' EXIT
+
+quietly() {
+  "$@" >"$work/log" 2>&1 || { cat "$work/log"; exit 1; }
+}
+build() { # SOURCE FOLDER OPTIONS...
+  quietly cmake -G Ninja -S "$1" -B "$2" "${@:3}"
+  quietly cmake --build "$2"
+}
+
+if [ "$how" = subdirectory ]; then
+  build "$tree/tests/consumer/subdirectory" "$work/build" -DPINOCCHIO_SOURCE="$tree" "$@"
+else
+  prefix=$work/prefix
+  quietly cmake --install "$built" --prefix "$prefix"
+  if find "$prefix" -name '*.so*' | grep .; then
+    echo "libraries of the system are installed"
+    exit 1
+  fi
+  cd "$prefix/share/doc/pinocchio"
+  grep -oE '\]\([^)#:]+\)' README.md | tr -d '])(' | sort -u | while read -r file; do
+    [ -e "$file" ] || { echo "README.md links to $file, which is not installed"; exit 1; }
+  done
+  cp -r "$tree/examples" "$work/examples"
+  for example in tracer_alone headless own_window; do
+    build "$work/examples/$example" "$work/build-$example" -DCMAKE_PREFIX_PATH="$prefix" "$@"
+    mkdir -p "$work/build" && mv "$work/build-$example/$example" "$work/build/"
+  done
+fi
+
+"$work/build/tracer_alone" "$tree/scenes/cornell.gltf" >"$work/letters"
+grep -q '#' "$work/letters" && grep -q '\.' "$work/letters"
+if ldd "$work/build/tracer_alone" | grep -E 'libGL|libEGL|libglfw'; then
+  echo "the tracer alone links OpenGL"
+  exit 1
+fi
+
+"$work/build/headless" "$tree/scenes/cornell.gltf" "$work/cornell.exr"
+"$built/bin/pinocchio" render "$tree/scenes/cornell.gltf" --depth 4 -o "$work/program.exr" --quiet
+"$built/bin/pinocchio" compare "$work/cornell.exr" "$work/program.exr" --max-error max=0
+quietly xvfb-run -a "$work/build/own_window" "$tree/scenes/cornell.gltf" 5

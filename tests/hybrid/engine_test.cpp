@@ -1,0 +1,172 @@
+// What frames are drawn with: opened when needed, kept from one picture to the next, shared by renderers.
+#include "pinocchio/engine.h"
+
+#include <dlfcn.h>
+
+#include <thread>
+
+#include "hybrid/shader_folder.h"
+#include "tests/support/frames.h"
+#include "tests/support/own_file.h"
+
+namespace pinocchio {
+namespace {
+
+const View& view() {
+  static const View kView{first_camera(load_or_die(source_path("scenes/cornell"))), {96, 64}};
+  return kView;
+}
+
+Scene cornell() {
+  return load_or_die(source_path("scenes/cornell"));
+}
+
+Settings alone() {
+  Settings settings = by({{"mode", "raytrace"}});
+  settings.threads = 2;
+  return settings;
+}
+
+TEST(Engine, WithoutOpenGlThereMayBeAnyNumber) {
+  const Scene scene = cornell();
+  // None would find a context.
+  Engine first({.backend = "none"}), second({.backend = "none"});
+  const FrameResult wanted = first.render(scene, view(), alone()).value();
+  EXPECT_EQ(first.gl_info(), nullptr);
+  EXPECT_TRUE(same_pixels(second.render(scene, view(), alone()).value(), wanted));
+  std::vector<FrameResult> pictures(2);
+  {
+    std::jthread a([&] { pictures[0] = first.render(scene, view(), alone()).value(); }),
+        b([&] { pictures[1] = second.render(scene, view(), alone()).value(); });
+  }
+  for (const FrameResult& picture : pictures) EXPECT_TRUE(same_pixels(picture, wanted));
+  EXPECT_THROW((void)first.render(scene, view()), std::runtime_error);  // the GPU's turn
+  EXPECT_TRUE(same_pixels(first.render(scene, view(), alone()).value(), wanted));
+}
+
+TEST(Engine, KeepsTheTreeOfTheLastPicture) {
+  Engine engine;
+  Scene scene = cornell();
+  const auto tree_after = [&](const Settings& settings, const View& of) {
+    EXPECT_TRUE(engine.render(scene, of, settings));
+    return engine.parts().last_tracer;
+  };
+  const std::shared_ptr<const Tracer> tree = tree_after(alone(), view());
+  ASSERT_NE(tree, nullptr);
+  EXPECT_EQ(tree_after(alone(), view()), tree);
+  View other = view();
+  other.size = {40, 30};
+  EXPECT_EQ(tree_after(alone(), other), tree);
+  scene.lights.front().position.x += 0.1f;
+  EXPECT_EQ(tree_after(alone(), view()), tree);
+  Settings another = alone();
+  another.tree_leaf = 4;
+  const std::shared_ptr<const Tracer> second = tree_after(another, view());
+  EXPECT_NE(second, tree);
+  EXPECT_EQ(tree_after(another, view()), second);
+  scene = cornell();  // the same triangles, another mesh
+  EXPECT_NE(tree_after(another, view()), second);
+}
+
+TEST(Engine, DrawsWhatARendererDraws) {
+  Engine engine({.backend = "egl", .gl_debug = true});
+  const Scene scene = cornell();
+  for (const char* mode : {"hybrid", "raytrace"}) {
+    Settings settings = by({{"mode", mode}});
+    settings.threads = 2;
+    settings.spp = 3;
+    const FrameResult drawn = engine.render(scene, view(), settings).value();
+    EXPECT_TRUE(same_pixels(drawn, draw_all(scene, {.settings = settings, .size = view().size},
+                                            {view().camera})
+                                       .front()));
+    EXPECT_EQ(drawn.settings.spp, 3);
+  }
+  EXPECT_NE(engine.gl_info(), nullptr);
+  engine.throw_gl_complaints();
+}
+
+TEST(Engine, WhatCannotBeDrawnComesBackAsAnError) {
+  Engine engine;
+  Scene scene = plate_over_floor();
+  scene.lights.assign(9, point_light({0, 5, 0}));
+  const Expected<FrameResult> none = engine.render(scene, view(), alone());
+  ASSERT_FALSE(none);
+  EXPECT_NE(none.error().message().find("9 lights"), std::string::npos);
+}
+
+// The CPU's own picture as a texture: OpenGL is opened for it.
+TEST(Engine, ALonePictureMayBeWantedAsATexture) {
+  Engine engine({.backend = "egl", .gl_debug = true});
+  const Scene scene = cornell();
+  const Settings settings = engine.resolve(scene, view().size, alone()).value();
+  EXPECT_EQ(engine.gl_info(), nullptr);
+  int frames = 0;
+  Renderer renderer(engine, {[&](Frame& frame) {
+                               EXPECT_EQ(frame.texture().size(), view().size);
+                               EXPECT_NE(frame.texture_name(), 0u);
+                               ++frames;
+                             },
+                             {}});
+  renderer.submit({scene, Engine::prepare(scene, settings), settings, view()});
+  renderer.drain();
+  EXPECT_EQ(frames, 1);
+  EXPECT_NE(engine.gl_info(), nullptr);
+  engine.throw_gl_complaints();
+}
+
+// By its way to OpenGL's functions alone, as a window library gives it.
+TEST(Engine, DrawsInTheCallersContext) {
+  const auto context = gl::open_context({"egl", "", true});
+  void* const egl = dlopen("libEGL.so.1", RTLD_NOW);
+  ASSERT_NE(egl, nullptr);
+  EngineOptions options;
+  options.get_proc_address = reinterpret_cast<EngineOptions::GetProcAddress>(dlsym(egl, "eglGetProcAddress"));
+  ASSERT_NE(options.get_proc_address, nullptr);
+  const Scene scene = cornell();
+  FrameResult drawn;
+  {
+    Engine engine(options);
+    drawn = engine.render(scene, view()).value();
+    ASSERT_NE(engine.gl_info(), nullptr);
+    EXPECT_EQ(engine.gl_info()->renderer, context->info().renderer);
+  }
+  context->throw_complaints();
+  EXPECT_TRUE(same_pixels(drawn, draw_all(scene, {.size = view().size}, {view().camera}).front()));
+}
+
+using SharedEngineTest = FramesTest;
+INSTANTIATE_TEST_SUITE_P(Backends, SharedEngineTest, kBackends, backend_name);
+
+// Nobody could compile them a second time: they are gone.
+TEST_P(SharedEngineTest, CompilesItsProgramsOnceForAllRenderers) {
+  const std::filesystem::path folder = own_folder() / "shaders";
+  std::filesystem::copy(shader_folder(), folder, std::filesystem::copy_options::recursive);
+  setenv("PINOCCHIO_SHADERS", folder.c_str(), 1);
+  const Scene scene = cornell();
+  const FrameRequest request = this->request(scene, settings_for(scene), {48, 32});
+  std::vector<Image<glm::vec4>> pictures;
+  for (int i = 0; i < 3; ++i) {
+    Renderer renderer(*engine_, {[&](Frame& frame) { frame.read_color(pictures.emplace_back()); }, {}});
+    renderer.submit(request);
+    renderer.drain();
+    std::filesystem::remove_all(folder);
+  }
+  unsetenv("PINOCCHIO_SHADERS");
+  ASSERT_EQ(pictures.size(), 3u);
+  for (const Image<glm::vec4>& picture : pictures) EXPECT_TRUE(same(picture, pictures.front()));
+}
+
+TEST_P(SharedEngineTest, LetsGoOfAMeshThatNobodyHas) {
+  std::weak_ptr<const GpuMesh> first;
+  for (int i = 0; i < 3; ++i) {
+    const Scene scene = cornell();
+    draw({request(scene, settings_for(scene), {48, 32})}, Exchange::sync, [&](Frame& frame) {
+      if (i == 0) first = frame.slot().mesh;
+      EXPECT_LE(engine_->parts().meshes.size(), 1u);
+    });
+  }
+  EXPECT_TRUE(first.expired());
+}
+
+}  // namespace
+}  // namespace pinocchio

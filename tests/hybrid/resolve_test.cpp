@@ -1,0 +1,183 @@
+// What nobody set is the least that draws the scene exactly.
+#include "hybrid/settings/resolve.h"
+
+#include <cmath>
+
+#include "hybrid/exchange/channels.h"
+
+#include "tests/support/scenes.h"
+
+namespace pinocchio {
+namespace {
+
+Scene scene_with(int casting, int plain, bool mirror) {
+  Scene scene = plate_over_floor();
+  for (int i = 0; i < casting; ++i) scene.lights.push_back(point_light({0, 5, 0}));
+  for (int i = 0; i < plain; ++i) scene.lights.push_back(point_light({0, 5, 0}, false));
+  if (mirror) MeshEdit(scene)->materials[0].reflectance = glm::vec3(0.5f);
+  return scene;
+}
+
+Settings settings_for(const Scene& scene, const Settings& wanted = {}) {
+  return resolve(wanted, analyze(scene)).value();
+}
+
+Settings by_mode(std::string_view mode) {
+  Settings settings;
+  EXPECT_TRUE(apply_preset("mode", mode, settings));
+  return settings;
+}
+
+TEST(Resolve, ModelsWhatTheSceneNeeds) {
+  EXPECT_FALSE(settings_for(scene_with(0, 2, false)).traces());
+  EXPECT_EQ(settings_for(scene_with(1, 3, false)).mask_bits, 1);
+  EXPECT_EQ(settings_for(scene_with(2, 0, false)).mask_bits, 2);
+  EXPECT_EQ(settings_for(scene_with(3, 0, false)).mask_bits, 4);
+  EXPECT_EQ(settings_for(scene_with(5, 0, false)).mask_bits, 8);
+  EXPECT_FALSE(settings_for(scene_with(1, 0, false)).reflects());
+  EXPECT_TRUE(settings_for(scene_with(0, 0, true)).reflects());
+  EXPECT_FALSE(settings_for(scene_with(4, 0, true), by_mode("raster")).traces());
+}
+
+TEST(Resolve, AMaterialThatNoTriangleHasIsNotNeeded) {
+  Scene scene = scene_with(1, 0, false);
+  MeshEdit(scene)->materials.emplace_back().reflectance = glm::vec3(1.0f);
+  EXPECT_FALSE(settings_for(scene).reflects());
+}
+
+TEST(Resolve, IdsTakeAsManyBitsAsThereAreTriangles) {
+  SceneStats stats;
+  stats.triangles = 65534;
+  EXPECT_EQ(resolve({}, stats)->id_bits, 16);
+  stats.triangles = 65535;  // 0xffff means nothing seen
+  EXPECT_EQ(resolve({}, stats)->id_bits, 32);
+}
+
+TEST(Resolve, NineCastingLightsAreAnErrorThatNamesTheLimit) {
+  EXPECT_TRUE(resolve({}, analyze(scene_with(8, 1, false))));
+  const Expected<Settings> settings = resolve({}, analyze(scene_with(9, 0, false)));
+  ASSERT_FALSE(settings);
+  EXPECT_NE(settings.error().message().find("9 lights"), std::string::npos);
+  EXPECT_NE(settings.error().message().find("holds 8"), std::string::npos);
+}
+
+TEST(Resolve, WhatASceneDoesNotNeedIsNotSent) {
+  const auto traffic = [](int casting, bool mirror) {
+    return traffic_of(settings_for(scene_with(casting, 1, mirror)), {800, 600});
+  };
+  EXPECT_EQ(traffic(0, false).to_cpu + traffic(0, false).to_gpu, 0u);
+  EXPECT_EQ(traffic(1, false).to_gpu, 60'000u);  // one bit a pixel
+  EXPECT_EQ(traffic(8, false).to_gpu, 480'000u);
+  const std::size_t tiles = 100 * 75;  // of 8 x 8 pixels, each with four bytes to say where it is
+  EXPECT_EQ(traffic(0, true).to_gpu, tiles * (4 + 8 * 8 * 6));  // half RGB, at most
+  EXPECT_EQ(traffic(1, true).to_cpu, 960'000u);                 // 16-bit ids
+}
+
+TEST(Resolve, SoftwareRasterisersLeaveManyTrianglesToTheRays) {
+  SceneStats stats = analyze(scene_with(1, 0, true));
+  const auto visibility = [&](bool software_gl, const Settings& wanted = {}) {
+    return resolve(wanted, stats, {.software_gl = software_gl})->visibility.value;
+  };
+  EXPECT_EQ(visibility(true), Processor::gpu);
+  stats.triangles = 1'000'000;
+  EXPECT_EQ(visibility(true), Processor::cpu);
+  EXPECT_EQ(visibility(false), Processor::gpu);
+  Settings reproject, design2, asked;
+  reproject.exchange = Exchange::reproject;
+  EXPECT_EQ(visibility(true, reproject), Processor::gpu);
+  design2.composite = Processor::cpu;
+  EXPECT_EQ(visibility(true, design2), Processor::gpu);
+  asked.visibility = Processor::gpu;
+  EXPECT_EQ(visibility(true, asked), Processor::gpu);
+  stats.casting_lights = 0;  // nothing to trace: no rays for what is seen either
+  stats.mirrors = false;
+  EXPECT_EQ(visibility(true), Processor::gpu);
+}
+
+TEST(Resolve, WhatIsGivenStaysOrIsAnErrorThatSaysWhy) {
+  const SceneStats stats = analyze(scene_with(2, 0, true));
+  const auto error_of = [&](std::string_view field, std::string_view value, SceneStats of) {
+    Settings wanted;
+    EXPECT_TRUE(set(wanted, field, value));
+    const Expected<Settings> settings = resolve(wanted, of);
+    return settings ? std::string() : settings.error().message();
+  };
+  EXPECT_NE(error_of("mask_bits", "1", stats).find("cannot hold the scene's 2 casting lights"),
+            std::string::npos);
+  SceneStats large = stats;
+  large.triangles = 65535;
+  EXPECT_NE(error_of("id_bits", "16", large).find("cannot name the scene's 65535 triangles"), std::string::npos);
+  large.triangles = 0xffffff;
+  EXPECT_NE(error_of("id_bits", "24", large).find("cannot name"), std::string::npos);
+  EXPECT_EQ(error_of("id_bits", "32", large), "");
+  Settings wanted;
+  wanted.mask_bits = 0;
+  wanted.depth = 3;
+  wanted.reflection = ReflectionFormat::rgb9e5;
+  wanted.light_cutoff = 0.25f;
+  wanted.tiles = false;
+  const Settings settings = resolve(wanted, stats).value();
+  EXPECT_EQ(settings.mask_bits, 0);
+  EXPECT_EQ(settings.depth, 3);
+  EXPECT_EQ(settings.reflection, ReflectionFormat::rgb9e5);
+  EXPECT_EQ(settings.light_cutoff, 0.25f);
+  EXPECT_FALSE(settings.tiles);
+  EXPECT_EQ(losses(settings, stats), (std::vector<std::string>{
+                                         "mask_bits 0: the shadows of 2 light(s) are left out"}));
+  EXPECT_TRUE(losses(resolve({}, stats).value(), stats).empty());
+}
+
+TEST(Resolve, ARayIsSparedOnlyWhereTheMaskIsNotKept) {
+  const SceneStats stats = analyze(scene_with(2, 0, false));
+  EXPECT_EQ(resolve({}, stats)->light_cutoff, 0.0f);
+  EXPECT_EQ(resolve({}, stats, {.keeps_mask = false})->light_cutoff, kThroughputCutoff / 2);
+}
+
+TEST(SceneStats, LightsThatReachNothingAreIdle) {
+  Scene scene = plate_over_floor();
+  const Bounds box = scene.mesh->bounds();
+  const glm::vec3 above = box.center() + glm::vec3(0.0f, 2.0f * box.diagonal(), 0.0f);
+  Light black = point_light(above), near = point_light(above), far = point_light(above);
+  black.intensity = 0.0f;
+  near.range = 0.5f * box.diagonal();
+  far.range = 4.0f * box.diagonal();
+  Light away = point_light(above);
+  away.kind = Light::Kind::spot;
+  away.cos_outer = std::cos(glm::radians(40.0f));
+  Light towards = away;
+  away.direction = {0.0f, 1.0f, 0.0f};
+  towards.direction = {0.0f, -1.0f, 0.0f};
+  scene.lights = {black, near, far, away, towards};
+  const SceneStats stats = analyze(scene);
+  EXPECT_EQ(stats.lights, 5);
+  EXPECT_EQ(stats.idle_lights, 3);
+  EXPECT_EQ(stats.casting_lights, 2);
+  drop_idle_casters(scene);
+  EXPECT_EQ(casting_lights(scene), (std::vector<int>{2, 4}));
+  SceneStats again = stats;
+  scene.lights = {far};
+  recount_lights(scene, again);
+  EXPECT_EQ(again.casting_lights, 1);
+  EXPECT_EQ(again.triangles, stats.triangles);
+}
+
+TEST(SceneStats, DepthThatIsWorthFollowing) {
+  Scene scene = plate_over_floor();
+  EXPECT_EQ(analyze(scene).useful_depth, 0);
+  for (MeshEdit mesh(scene); Material& m : mesh->materials) m.reflectance = glm::vec3(0.5f);
+  EXPECT_EQ(analyze(scene).useful_depth, 13);  // 0.5^13 = kLeastContribution
+  for (MeshEdit mesh(scene); Material& m : mesh->materials) m.reflectance = glm::vec3(1.0f);
+  EXPECT_EQ(analyze(scene).useful_depth, kMostBounces);
+  MeshData flat;
+  flat.positions = {{0, 0, 0}, {1, 0, 0}, {0, 0, 1}, {5, 0, 5}};
+  flat.normals.resize(4, glm::vec3(0.0f));
+  flat.triangles = {{0, 1, 2}, {1, 2, 3}};
+  flat.triangle_materials = {0, 0};
+  flat.materials.emplace_back().reflectance = glm::vec3(1.0f);
+  EXPECT_EQ(analyze(Scene(flat)).useful_depth, 1);  // no mirror sees another
+  flat.positions[3].y = 0.01f;
+  EXPECT_EQ(analyze(Scene(flat)).useful_depth, kMostBounces);
+}
+
+}  // namespace
+}  // namespace pinocchio
