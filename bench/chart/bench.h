@@ -29,8 +29,8 @@ struct BenchSettings {
 
 class Bench {
  public:
-  // base: the default configuration's request, but for the view. views: more than kWarmUpFrames + error_frames.
-  // folder: pictures go to its "pictures".
+  // base: the default configuration's request, but for the view. views: more than kWarmUpFrames +
+  // error_frames. folder: pictures go to its "pictures".
   Bench(Engine& engine, FrameRequest base, const BenchSettings& settings, std::vector<View> views,
         std::filesystem::path folder);
 

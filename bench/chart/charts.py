@@ -142,12 +142,13 @@ def front_chart(path, points, front, cost, cost_label, error, title, costs_nothi
 
 def list_front(figure, axes, on_front, cost, error):
     """The front by its options, and what the marks mean, to the right of the chart."""
-    left, line = 0.625, 0.036
+    wrapped = [textwrap.wrap(named(p), 44, break_long_words=False, break_on_hyphens=False) for p in on_front]
+    left, line = 0.625, min(0.036, 0.55 / max(sum(map(len, wrapped)), 1))
     figure.text(left, 0.905, "Pareto front", fontweight="bold", color=FRONT_COLOUR)
-    y = 0.905 - line
-    for number, p in enumerate(on_front, 1):
+    y = 0.905 - 0.036
+    for number, lines in enumerate(wrapped, 1):
         figure.text(left, y, f"{number}", fontsize=8.8, fontweight="bold", color=FRONT_COLOUR)
-        for part in textwrap.wrap(named(p), 44, break_long_words=False, break_on_hyphens=False):
+        for part in lines:
             figure.text(left + 0.022, y, part, fontsize=8.8, color="#333333")
             y -= line
     handles, labels = axes.get_legend_handles_labels()

@@ -34,8 +34,8 @@ struct SweepRequest {
   std::vector<std::string> only;  // axes; empty: all
 };
 
-// The configurations of every axis, the default among them on each; what cannot draw the scene is left out. An
-// axis on which the scene leaves nothing to choose has none (no mirrors: no formats of reflection).
+// The configurations of every axis, the default among them on each; what cannot draw the scene is left out.
+// An axis on which the scene leaves nothing to choose has none (no mirrors: no formats of reflection).
 [[nodiscard]] std::vector<Configuration> make_sweep(const SweepRequest& request);
 
 struct AxisName {

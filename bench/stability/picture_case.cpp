@@ -60,7 +60,9 @@ PictureFailureCount run(Engine& engine, const Shot& shot, const DrawMethod& meth
   wanted.exchange = method.exchange;
   wanted.reuse = false;
   rays.visibility = rays.composite = Processor::cpu;
-  const auto resolved = [&](const Settings& s) { return engine.resolve(shot.scene, glm::ivec2(side), s).value(); };
+  const auto resolved = [&](const Settings& s) {
+    return engine.resolve(shot.scene, glm::ivec2(side), s).value();
+  };
   PictureFailureCount count;
   const std::vector<FrameResult> drawn = draw(engine, shot, resolved(wanted), side, &count.seconds);
   const std::vector<FrameResult> traced = draw(engine, shot, resolved(rays), side);

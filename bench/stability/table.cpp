@@ -116,7 +116,9 @@ std::size_t table_cells() {
 }
 
 std::optional<Tables> make_tables(Engine& engine, bool quick, const std::function<bool()>& after_cell) {
-  const auto trace = [&](const StressCase& c, const Method& m) { return c.run(m, quick ? kQuickRays : kRays); };
+  const auto trace = [&](const StressCase& c, const Method& m) {
+    return c.run(m, quick ? kQuickRays : kRays);
+  };
   const auto draw = [&](const PictureStressCase& c, const DrawMethod& m) {
     return c.run(engine, m, quick ? kQuickSide : kSide);
   };
