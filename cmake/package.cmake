@@ -1,5 +1,5 @@
-# What `cmake --install` puts into a prefix, by component: `library` (headers, archives, PinocchioConfig.cmake),
-# `program` (with scenes and docs). The libraries of the system that the program needs (`bundled`) go into the
+# What `cmake --install` puts into a prefix, by component: `library` (headers, archives, PinocchioConfig.cmake,
+# examples), `program` (with scenes and docs). The libraries of the system that the program needs (`bundled`) go into the
 # archive of `cpack -G TGZ` alone, which runs where it is unpacked, on any x86-64 Linux as new as the one that
 # built it; libc and OpenGL stay outside.
 include(GNUInstallDirs)
@@ -16,6 +16,7 @@ configure_package_config_file(cmake/PinocchioConfig.cmake.in ${PROJECT_BINARY_DI
 write_basic_package_version_file(${PROJECT_BINARY_DIR}/PinocchioConfigVersion.cmake COMPATIBILITY SameMinorVersion)
 install(FILES ${PROJECT_BINARY_DIR}/PinocchioConfig.cmake ${PROJECT_BINARY_DIR}/PinocchioConfigVersion.cmake
         DESTINATION ${config_folder} COMPONENT library)
+install(DIRECTORY examples DESTINATION share/doc/pinocchio COMPONENT library)
 
 install(TARGETS pinocchio RUNTIME_DEPENDENCY_SET pinocchio_libraries DESTINATION bin COMPONENT program)
 install(DIRECTORY scenes DESTINATION share/pinocchio COMPONENT program PATTERN generator EXCLUDE)

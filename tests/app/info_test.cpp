@@ -1,3 +1,6 @@
+#include <algorithm>
+#include <fstream>
+#include <iterator>
 #include <nlohmann/json.hpp>
 
 #include "tests/app/program_test.h"
@@ -37,6 +40,15 @@ TEST_F(InfoTest, PlanIsExplainedALineAChoice) {
   EXPECT_EQ(json["plan"]["mask_bits"], 0);
   EXPECT_EQ(json["plan"]["reflection"], "none");
   EXPECT_FALSE(json["why"].empty());
+}
+
+TEST_F(InfoTest, ThePageOfSettingsIsTheTable) {
+  std::ifstream file(PINOCCHIO_SOURCE_DIR "/docs/settings.md");
+  const std::string page(std::istreambuf_iterator<char>(file), {});
+  const CommandResult tables = run("info --settings");
+  EXPECT_EQ(tables.exit_code, 0);
+  EXPECT_EQ(page.substr(std::min(page.find("| setting |"), page.size())), tables.out)
+      << "put what 'pinocchio info --settings' prints under the introduction of docs/settings.md";
 }
 
 TEST_F(InfoTest, HelpNamesUnitsAndVersionIsTold) {

@@ -26,10 +26,12 @@ else
     exit 1
   fi
   cd "$prefix/share/doc/pinocchio"
-  grep -oE '\]\([^)#:]+\)' README.md | tr -d '])(' | sort -u | while read -r file; do
-    [ -e "$file" ] || { echo "README.md links to $file, which is not installed"; exit 1; }
+  for page in *.md docs/*.md; do
+    { grep -oE '\]\([^)#:]+\)' "$page" || true; } | tr -d '])(' | sort -u | while read -r file; do
+      [ -e "$(dirname "$page")/$file" ] || { echo "$page links to $file, which is not installed"; exit 1; }
+    done
   done
-  cp -r "$tree/examples" "$work/examples"
+  cp -r "$prefix/share/doc/pinocchio/examples" "$work/examples"
   for example in tracer_alone headless own_window; do
     build "$work/examples/$example" "$work/build-$example" -DCMAKE_PREFIX_PATH="$prefix" "$@"
     mkdir -p "$work/build" && mv "$work/build-$example/$example" "$work/build/"
