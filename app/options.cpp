@@ -66,17 +66,22 @@ struct Said {
 };
 
 void add_preset(CLI::App& verb, const std::string& option, const std::string& help, std::string& said) {
-  std::string type;
-  for (const Preset& preset : presets())
-    if (preset.option == option) type += (type.empty() ? "" : "|") + std::string(preset.value);
   const bool takes_files = option == "plan";
-  if (takes_files) type += "|FILE.json";
+  std::vector<std::string> values;
+  for (const Preset& preset : presets())
+    if (preset.option == option) values.emplace_back(preset.value);
+  if (takes_files) values.emplace_back("FILE.json");
+  std::string type, domain;
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    type += (i == 0 ? "" : "|") + values[i];
+    domain += (i == 0 ? "" : i + 1 == values.size() ? " or " : ", ") + values[i];
+  }
   verb.add_option("--" + option, said, help)
       ->type_name(type)
       ->check([=](const std::string& text) {
         Settings ignored;
         const bool known = (takes_files && text.ends_with(".json")) || apply_preset(option, text, ignored);
-        return known ? std::string() : "'" + text + "' is not one of " + type;
+        return known ? std::string() : "'" + text + "' is not " + domain;
       });
 }
 

@@ -4,7 +4,7 @@
 #include <system_error>
 
 #include "app/errors.h"
-#include "core/image/aovs.h"
+#include "core/output/aovs.h"
 #include "core/image/atomic_file.h"
 #include "core/image/png.h"
 #include "core/image/tonemap.h"

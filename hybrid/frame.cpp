@@ -4,7 +4,7 @@
 #include <stdexcept>
 
 #include "hybrid/engine_parts.h"
-#include "core/image/frame_exr.h"
+#include "core/output/frame_exr.h"
 #include "core/parallel/workers.h"
 #include "core/trace/aov.h"
 #include "hybrid/exchange/encode.h"

@@ -64,7 +64,7 @@ TEST_F(ErrorsTest, Usage) {
     expect_error(render + "--max-error " + limit + " -o x.exr", 2, "is no METRIC=VALUE");
   expect_error(render + "--light 1,2,3,bright -o x.exr", 2, "--light");
   expect_error(render + "--spp 0 -o x.exr", 2, "--spp");
-  expect_error(render + "--threads 0 -o x.exr", 2, "--threads");
+  expect_error(render + "--threads -1 -o x.exr", 2, "--threads");
   expect_error(render + "--isa mmx -o x.exr", 2, "--isa");
   expect_error(render + "--triangle-test none -o x.exr", 2, "--triangle-test");
   expect_error(render + "--offset 0.1 -o x.exr", 2, "--offset");

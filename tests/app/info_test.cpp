@@ -37,9 +37,23 @@ TEST_F(InfoTest, PlanIsExplainedALineAChoice) {
     EXPECT_NE(result.out.find(words), std::string::npos) << words << "\n" << result.out;
   write("t.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
   const nlohmann::json json = nlohmann::json::parse(run("info --plan --json t.obj").out);
-  EXPECT_EQ(json["plan"]["mask_bits"], 0);
+  EXPECT_EQ(json["plan"]["mask_bits"], 1);  // of the default light, as the verbs that draw give it
   EXPECT_EQ(json["plan"]["reflection"], "none");
   EXPECT_FALSE(json["why"].empty());
+}
+
+// Every OBJ is a scene without lights; written without the default light, its plan had no shadows.
+TEST_F(InfoTest, APlanOfASceneWithoutLightsKeepsItsShadows) {
+  write("t.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\nv -1 -1 -1\nv 2 -1 -1\nv 0 2 -1\nf 4 5 6\n");
+  write("plan.json", run("info --plan --json t.obj").out);
+  const std::string small = " t.obj --size 40x30 --quiet -o ";
+  ASSERT_EQ(run("render" + small + "auto.exr").exit_code, 0);
+  ASSERT_EQ(run("render --plan plan.json" + small + "plan.exr").exit_code, 0);
+  EXPECT_EQ(run("compare auto.exr plan.exr --channels --max-error max=0 --max-error mask=0").exit_code, 0);
+  write("none.json", R"({"mask_bits": 0})");
+  const CommandResult without = run("render --plan none.json t.obj --size 40x30 -o none.exr");
+  EXPECT_EQ(without.exit_code, 0);
+  EXPECT_NE(without.err.find("the shadows of 1 light(s) are left out"), std::string::npos) << without.err;
 }
 
 TEST_F(InfoTest, ThePageOfSettingsIsTheTable) {

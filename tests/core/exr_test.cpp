@@ -8,7 +8,7 @@
 #include <cstring>
 #include <fstream>
 
-#include "core/image/frame_exr.h"
+#include "core/output/frame_exr.h"
 #include "core/trace/passes.h"
 #include "core/trace/view_params.h"
 #include "tests/support/own_file.h"

@@ -1,4 +1,4 @@
-#include "core/image/frame_exr.h"
+#include "core/output/frame_exr.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "core/image/aovs.h"
+#include "core/output/aovs.h"
 
 #include <sstream>
 

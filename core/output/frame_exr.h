@@ -4,7 +4,7 @@
 #include <optional>
 #include <string>
 
-#include "core/image/aovs.h"
+#include "core/output/aovs.h"
 #include "core/trace/aov.h"
 #include "pinocchio/camera.h"
 #include "pinocchio/exr.h"
