@@ -13,7 +13,7 @@ class Drawing {
   // `usual`: the exchange where the options name none. `keeps_mask`: the mask itself is wanted, not only the
   // picture. `any_settings`: others than the options' are going to be drawn, too. Ends the verb with kBadScene
   // (kUsage, where a plan's file says them) where the settings cannot draw the scene; throws
-  // gl::NoContextError.
+  // NoOpenGlError.
   Drawing(const DrawOptions& options, Scene scene, Exchange usual, bool keeps_mask, bool any_settings = false);
 
   [[nodiscard]] Engine& engine() { return engine_; }

@@ -11,6 +11,7 @@
 #include "app/verbs.h"
 #include "core/base/system_info.h"
 #include "gl/error.h"
+#include "pinocchio/engine.h"
 
 namespace pinocchio::app {
 namespace {
@@ -27,6 +28,8 @@ int run_verb(const Run& run) {
   } catch (const Exit& end) {
     return say(end.what(), end.code());
   } catch (const gl::NoContextError& error) {
+    return say(error.what(), kNoContext);
+  } catch (const NoOpenGlError& error) {
     return say(error.what(), kNoContext);
   } catch (const std::bad_alloc&) {
     return say("out of memory; draw a smaller --size, or --crop parts of it", kFailed);

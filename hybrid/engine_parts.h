@@ -49,7 +49,7 @@ struct GpuPasses {
 struct Engine::Parts {
   explicit Parts(const EngineOptions& of) : options(of) {}
 
-  // Opens the context where there is none yet. Throws gl::NoContextError.
+  // Opens the context where there is none yet. Throws NoOpenGlError.
   [[nodiscard]] GpuPasses& gpu();
   [[nodiscard]] bool has_gpu() const { return passes != nullptr; }
   [[nodiscard]] Workers& workers(int threads);

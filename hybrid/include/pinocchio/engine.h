@@ -5,6 +5,7 @@
 #include <memory>
 #include <string>
 
+#include "pinocchio/error.h"
 #include "pinocchio/renderer.h"
 
 namespace pinocchio {
@@ -14,6 +15,12 @@ namespace gl {
 class Context;
 struct ContextInfo;
 }  // namespace gl
+
+// There is no OpenGL context to be had; what() lists what was tried and why each failed.
+class NoOpenGlError : public EnvironmentError {
+ public:
+  using EnvironmentError::EnvironmentError;
+};
 
 struct EngineOptions {
   std::string backend = "auto";  // OpenGL context: auto, egl, osmesa or glfw (a display's)
@@ -41,7 +48,7 @@ class Engine {
 
   // Fills in what the settings leave open, for a picture of `size` pixels of the scene: the least that draws it
   // exactly. keeps_mask: every bit of the shadow mask is wanted, seen or not. An error where they cannot be.
-  // Throws EnvironmentError where they want OpenGL and there is none.
+  // Throws NoOpenGlError where they want OpenGL and there is none.
   [[nodiscard]] Expected<Settings> resolve(const Scene& scene, glm::ivec2 size, const Settings& settings = {},
                                            bool keeps_mask = true) const;
 
@@ -54,7 +61,7 @@ class Engine {
 
   // Worker threads of its own, `threads` of them (0: one a core), for work between frames. Any thread.
   [[nodiscard]] Workers& workers(int threads = 0) const;
-  // Opens the OpenGL context now, where settings would need it later. Throws EnvironmentError.
+  // Opens the OpenGL context now, where settings would need it later. Throws NoOpenGlError.
   void open_gl() const;
   // Of the context; null while none is open.
   [[nodiscard]] const gl::ContextInfo* gl_info() const;

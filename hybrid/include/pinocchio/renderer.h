@@ -71,7 +71,7 @@ class Renderer {
   // Begins a frame and delivers what that finishes. Where the settings reuse and the request is the last one
   // again, nothing is drawn, traced or sent: all in flight is delivered, then the last picture once more.
   // What went wrong on the tracing thread is thrown when that frame would have been delivered; the frame is
-  // lost, the others are not. Throws EnvironmentError where there is no OpenGL, or its context is lost.
+  // lost, the others are not. Throws EnvironmentError where there is no OpenGL (NoOpenGlError), or its context is lost.
   void submit(const FrameRequest& request);
   // The same for a window, which never waits for the CPU alone: false, and nothing begun, while the CPU is
   // still drawing the frame before by itself.
