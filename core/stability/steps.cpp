@@ -14,7 +14,8 @@ namespace pinocchio::stability {
 Steps steps_of(const BspTree& tree, const Ray& ray) {
   Steps steps;
   counting::Packet packet;
-  packet.load(&ray, 1);
+  const glm::vec3 &o = ray.origin, &d = ray.direction;
+  packet.load({{&o.x, &o.y, &o.z}, {&d.x, &d.y, &d.z}, &ray.t_max}, 0, 1);
   counting::for_each_octant(packet, packet.living, [&](const counting::Course& course, scalar::Mask lanes) {
     counting::walk(tree, packet, course, lanes, packet.t_max, [&](const BspNode& leaf, scalar::Mask) {
       ++steps.leaves;

@@ -4,8 +4,10 @@
 // all.
 #include "core/bsp/tree.h"
 #include "core/math/ray.h"
+#include "core/simd/double_lanes.h"
 #include "core/trace/exact_triangle.h"
 #include "core/trace/kernels.h"
+#include "core/trace/lane_steps.h"
 #include "core/trace/packet.h"
 #include "core/trace/triangle_tests/filtered.h"
 #include "core/trace/triangle_tests/moeller_trumbore.h"
@@ -126,39 +128,31 @@ inline void closest_in_leaf(const BspTree& tree, const BspNode& leaf, const Test
 }
 
 template <class Test>
-void closest_hits(const BspTree& tree, const Ray* rays, Hit* out, std::size_t n) {
-  alignas(64) float t[kWidth];
-  alignas(64) std::uint32_t triangle[kWidth];
+void closest_hits(const BspTree& tree, const RayColumns& rays, std::size_t n, std::uint32_t* triangle,
+                  float* t) {
   for (std::size_t i = 0; i < n; i += kWidth) {
-    const std::size_t count = n - i < kWidth ? n - i : kWidth;
-    for (std::size_t lane = 0; lane < count; ++lane) out[i + lane] = Hit{};
     Packet p;
-    p.load(rays + i, count);
+    p.load(rays, i, n);
     const Test test(tree, p);
+    Hits hits{p.t_max, Int(kNoTriangle)};
     for_each_octant(p, p.living, [&](const Course& course, Mask lanes) {
-      Hits hits{p.t_max, Int(kNoTriangle)};
       walk(tree, p, course, lanes, hits.t,
            [&](const BspNode& leaf, Mask alive) { closest_in_leaf(tree, leaf, test, alive, hits); });
-      hits.t.store(t);
-      hits.triangle.store(triangle);
-      const unsigned mine = lanes.bits();
-      for (std::size_t lane = 0; lane < count; ++lane)
-        if ((mine >> lane & 1u) && triangle[lane] != kNoTriangle) out[i + lane] = {t[lane], triangle[lane]};
     });
+    hits.triangle.store(triangle + i);
+    if (t) hits.t.store(t + i);
   }
 }
 
 template <class Test>
-void occluded(const BspTree& tree, const Ray* rays, std::uint8_t* blocked, std::size_t n) {
+void occluded(const BspTree& tree, const RayColumns& rays, std::size_t n, std::uint8_t* blocked) {
   for (std::size_t i = 0; i < n; i += kWidth) {
-    const std::size_t count = n - i < kWidth ? n - i : kWidth;
-    for (std::size_t lane = 0; lane < count; ++lane) blocked[i + lane] = 0;
     Packet p;
-    p.load(rays + i, count);
+    p.load(rays, i, n);
     const Test test(tree, p);
+    Float t_best = p.t_max;
+    unsigned hit = 0;
     for_each_octant(p, p.living, [&](const Course& course, Mask lanes) {
-      Float t_best = p.t_max;
-      unsigned hit = 0;
       walk(tree, p, course, lanes, t_best, [&](const BspNode& leaf, Mask alive) {
         const std::uint32_t* references = tree.references.data() + leaf.first_reference();
         const auto* const triangles = Test::stored(tree);
@@ -173,9 +167,9 @@ void occluded(const BspTree& tree, const Ray* rays, std::uint8_t* blocked, std::
           if (alive.bits() == 0) return;
         }
       });
-      for (std::size_t lane = 0; lane < count; ++lane)
-        if (hit >> lane & 1u) blocked[i + lane] = 1;
     });
+    for (unsigned lane = 0; lane < kWidth; ++lane)
+      blocked[i + lane] = static_cast<std::uint8_t>(hit >> lane & 1u);
   }
 }
 

@@ -42,6 +42,16 @@ class MaskImage {
     bytes_[byte_of(x, y)] |= static_cast<std::uint8_t>(1u << (shift_of(x) + slot));
   }
 
+  // All bits of the pixels from (x, y) on; x * bits is a multiple of 8, and they were 0.
+  void set_row(int x, int y, std::span<const std::uint8_t> pixels) {
+    if (bits_ == 0) return;
+    std::uint8_t* const row = bytes_.data() + byte_of(x, y);
+    for (std::size_t i = 0; i < pixels.size(); ++i) {
+      const std::size_t bit = i * static_cast<std::size_t>(bits_);
+      row[bit / 8] |= static_cast<std::uint8_t>(pixels[i] << bit % 8);
+    }
+  }
+
   // The same in 8 x 8 pixels; x is a multiple of 8.
   void set_block(int x, int y, int slot) {
     // Pixels of 1, 2, 4 and 8 bits repeat within a byte.
