@@ -47,14 +47,17 @@ double median_seconds(int repeat, const std::function<void()>& prepare, const st
   return median(times);
 }
 
+double seconds_of_tracing(Contender& contender, const RaySet& set, Workers& workers) {
+  contender.load(set);
+  return seconds_of([&] { trace_all(contender, set.rays.size(), workers); });
+}
+
 std::vector<Speed> race(const RaySet& set, const Contenders& contenders, Workers& workers, int repeat) {
   const std::size_t rays = set.rays.size();
   std::vector<std::vector<double>> times(contenders.size());
   for (int i = 0; i < repeat; ++i)
-    for (std::size_t c = 0; c < contenders.size(); ++c) {
-      contenders[c]->load(set);
-      times[c].push_back(seconds_of([&] { trace_all(*contenders[c], rays, workers); }));
-    }
+    for (std::size_t c = 0; c < contenders.size(); ++c)
+      times[c].push_back(seconds_of_tracing(*contenders[c], set, workers));
   const std::vector<Hit> judge = contenders.back()->hits();
   std::vector<Speed> speeds;
   for (std::size_t c = 0; c < contenders.size(); ++c)

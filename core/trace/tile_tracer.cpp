@@ -108,7 +108,8 @@ void TileTracer::start() {
   plan_->job.tracer.steps().camera_rays(plan_->view, lo, seen_);
 }
 
-void TileTracer::find_hits(RayQueue& rays) {
+void TileTracer::find_hits(RayQueue& rays, int generation) {
+  if (plan_->out.on_rays) plan_->out.on_rays({rays.columns(), rays.size, generation, false});
   plan_->job.tracer.closest_hits(rays.columns(), rays.size, rays.triangle);
 }
 
@@ -119,7 +120,7 @@ void TileTracer::look() {
       seen_.triangle[i] = out.seen->at((tile_.lo.x + x_in_tile(seen_.pixel[i])) * out.scale,
                                        (tile_.lo.y + y_in_tile(seen_.pixel[i])) * out.scale);
   } else {
-    find_hits(seen_);
+    find_hits(seen_, 0);
     counts_.primary += seen_.size;
   }
   if (out.ids)
@@ -152,7 +153,7 @@ void TileTracer::light_visible() {
   step.mirrored = plan_->out.depth > 0 ? rays_.data() : nullptr;
   if (!step.mirrored && step.light_count == 0 && !step.adds_ambient) return;
   bounce(step, seen_, rays_, direct_);
-  fire_shadows(true, direct_);
+  fire_shadows(0, direct_);
 }
 
 // Generation by generation: every ray of one is traced before the next one starts.
@@ -167,23 +168,24 @@ void TileTracer::follow() {
     Bounce step = plan_->further;
     step.mirrored = generation < plan_->out.depth ? next_.data() : nullptr;
     for (RayQueue& queue : rays_) {
-      find_hits(queue);
+      find_hits(queue, generation);
       plan_->job.tracer.steps().keep_hits(queue);
       bounce(step, queue, next_, reflected_);
     }
-    fire_shadows(false, reflected_);
+    fire_shadows(generation, reflected_);
     std::swap(rays_, next_);
   }
 }
 
-void TileTracer::fire_shadows(bool visible, std::array<float, 3 * kPixels>& radiance) {
-  const bool adds = !visible || plan_->visible.adds_light;
+void TileTracer::fire_shadows(int generation, std::array<float, 3 * kPixels>& radiance) {
+  const bool visible = generation == 0, adds = !visible || plan_->visible.adds_light;
   for (const BounceLight& light : plan_->all_lights) {
     if (light.slot < 0) continue;
     const RayQueue& queue = shadow_[static_cast<std::size_t>(light.slot)];
     if (queue.size == 0) continue;
     if (blocked_.size() < queue.size + kQueuePad) blocked_.resize(2 * queue.size + kQueuePad);
     const float reach = light.params.kind == shared::kLightDirectional ? kInfinity : 1.0f;
+    if (plan_->out.on_rays) plan_->out.on_rays({queue.columns(reach), queue.size, generation, true});
     plan_->job.tracer.occluded(queue.columns(reach), queue.size, blocked_.data());
     counts_.shadow += queue.size;
     for (std::size_t i = 0; i < queue.size; ++i) {

@@ -32,13 +32,13 @@ class TileTracer {
   using Generation = std::array<RayQueue, 2>;
 
   void start();
-  void find_hits(RayQueue& rays);
+  void find_hits(RayQueue& rays, int generation);
   void look();
   void light_visible();
   void follow();
   void bounce(Bounce step, const RayQueue& rays, Generation& next, std::array<float, 3 * kPixels>& radiance);
   void make_room(std::size_t rays, Generation& next);
-  void fire_shadows(bool visible, std::array<float, 3 * kPixels>& radiance);
+  void fire_shadows(int generation, std::array<float, 3 * kPixels>& radiance);
   void write();
 
   const TilePlan* plan_ = nullptr;

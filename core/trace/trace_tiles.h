@@ -2,14 +2,25 @@
 // and the composite, each where it is wanted, while the tile's rays are in the cache.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <glm/glm.hpp>
 
 #include "core/image/image.h"
 #include "core/trace/mask_image.h"
 #include "core/trace/passes.h"
+#include "core/trace/ray_queue.h"
 
 namespace pinocchio {
+
+// Rays that are about to be traced together.
+struct RayBatch {
+  RayColumns rays;
+  std::size_t count;
+  int generation;  // 0: the camera's, and the shadow rays of what they see
+  bool shadow;
+};
 
 // What is wanted; null: not.
 struct TileOutputs {
@@ -38,6 +49,9 @@ struct TileOutputs {
   Image<glm::vec4>* color = nullptr;
   // The part of it that rays decide (lights that cast, reflection), added to what the image holds.
   Image<glm::vec3>* added = nullptr;
+
+  // Told of every batch, by all threads.
+  std::function<void(const RayBatch&)> on_rays;
 };
 
 // Seconds of all threads together.
