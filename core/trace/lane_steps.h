@@ -56,7 +56,7 @@ struct Bounce {
   // Where it goes. Queues have room for all rays of the step; null: not wanted.
   RayQueue* shadow;  // one a slot
   RayQueue *mirrored, *refracted;
-  float* radiance;  // RGB of a tile's pixels
+  float* radiance;  // RGBA of a tile's pixels
 };
 
 struct LaneSteps {

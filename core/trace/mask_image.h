@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <cassert>
 #include <cstdint>
 #include <glm/glm.hpp>
@@ -45,10 +46,12 @@ class MaskImage {
   // All bits of the pixels from (x, y) on; x * bits is a multiple of 8, and they were 0.
   void set_row(int x, int y, std::span<const std::uint8_t> pixels) {
     if (bits_ == 0) return;
-    std::uint8_t* const row = bytes_.data() + byte_of(x, y);
-    for (std::size_t i = 0; i < pixels.size(); ++i) {
-      const std::size_t bit = i * static_cast<std::size_t>(bits_);
-      row[bit / 8] |= static_cast<std::uint8_t>(pixels[i] << bit % 8);
+    std::uint8_t* row = bytes_.data() + byte_of(x, y);
+    const auto a_byte = static_cast<std::size_t>(8 / bits_);
+    for (std::size_t first = 0; first < pixels.size(); first += a_byte) {
+      unsigned byte = 0;
+      for (std::size_t i = std::min(first + a_byte, pixels.size()); i-- > first;) byte = byte << bits_ | pixels[i];
+      *row++ |= static_cast<std::uint8_t>(byte);
     }
   }
 

@@ -28,6 +28,12 @@ struct Packet {
   // Rays i and on, of `count` in all; those that cannot be traced are left out.
   void load(const RayColumns& rays, std::size_t i, std::size_t count) {
     const Float zero(0.0f), one(1.0f);
+    if (i >= count) {
+      for (int axis = 0; axis < 3; ++axis) o[axis] = d[axis] = one;
+      reach = t_max = -one;
+      living = 0;
+      return;
+    }
     t_max = rays.t_max ? Float::load(rays.t_max + i) : Float(rays.reach);
     Mask use = lanes_from(i, count) & (zero < t_max), points = Mask::from_bits(0);
     for (int axis = 0; axis < 3; ++axis) {
@@ -47,11 +53,9 @@ struct Packet {
   }
 };
 
-// How a packet's rays of one direction octant, which meet the two sides of a split plane in the same order,
-// step through the tree.
+// How a packet's rays step through the tree.
 struct Course {
   Float inverse[3];  // 1 / d
-  bool negative[3];  // direction falls along this axis
 };
 
 // A triangle test is a class made once for a packet (it may prepare the packet's rays):

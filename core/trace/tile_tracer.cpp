@@ -34,12 +34,32 @@ std::vector<BounceLight> lights_of(const Scene& scene) {
   return lights;
 }
 
-int x_in_tile(std::uint32_t pixel) {
-  return static_cast<int>(pixel) & (TileGrid::kTileSize - 1);
+// The pixels of a tile along a Z curve: packets of any width are neighbours in the picture.
+const std::vector<std::uint32_t>& z_curve() {
+  static const std::vector<std::uint32_t> kCurve = [] {
+    std::vector<std::uint32_t> curve;
+    TileGrid::for_each_pixel({{0, 0}, glm::ivec2(TileGrid::kTileSize)}, [&](int x, int y) {
+      curve.push_back(static_cast<std::uint32_t>(y << kTileBits | x));
+    });
+    return curve;
+  }();
+  return kCurve;
 }
-int y_in_tile(std::uint32_t pixel) {
-  return static_cast<int>(pixel) >> kTileBits;
-}
+
+// Where a tile's pixels stand in an image of `scale` times as many across and down.
+class InImage {
+ public:
+  InImage(const PixelBox& tile, int width, int scale = 1)
+      : first_(at(tile.lo, width) * scale), step_(scale), row_(width * scale) {}
+  [[nodiscard]] std::size_t operator[](std::uint32_t pixel) const {
+    const int p = static_cast<int>(pixel);
+    return static_cast<std::size_t>(first_ + (p & (TileGrid::kTileSize - 1)) * step_ + (p >> kTileBits) * row_);
+  }
+
+ private:
+  static std::ptrdiff_t at(const glm::ivec2& p, int width) { return std::ptrdiff_t{p.y} * width + p.x; }
+  std::ptrdiff_t first_, step_, row_;
+};
 
 }  // namespace
 
@@ -89,23 +109,24 @@ TileResult TileTracer::trace(const TilePlan& plan, const PixelBox& tile) {
   start();
   look();
   times.primary = lap.take();
-  light_visible();
+  if (seen_.size > 0) light_visible();
   times.shadow = lap.take();
-  follow();
+  if (seen_.size > 0) follow();
   times.reflection = lap.take();
   write();
   times.composite = lap.take();
   return {counts_, times};
 }
 
-// The camera's rays along a Z curve: packets of any width are neighbours in the picture.
 void TileTracer::start() {
   seen_.make_room(kPixels);
-  const glm::ivec2 lo = tile_.lo;
-  TileGrid::for_each_pixel(tile_, [&](int x, int y) {
-    seen_.pixel[seen_.size++] = static_cast<std::uint32_t>((y - lo.y) << kTileBits | (x - lo.x));
-  });
-  plan_->job.tracer.steps().camera_rays(plan_->view, lo, seen_);
+  const glm::ivec2 size = tile_.size();
+  for (const std::uint32_t pixel : z_curve()) {
+    const int x = static_cast<int>(pixel) & (TileGrid::kTileSize - 1), y = static_cast<int>(pixel) >> kTileBits;
+    seen_.pixel[seen_.size] = pixel;
+    seen_.size += x < size.x && y < size.y ? 1 : 0;
+  }
+  plan_->job.tracer.steps().camera_rays(plan_->view, tile_.lo, seen_);
 }
 
 void TileTracer::find_hits(RayQueue& rays, int generation) {
@@ -116,20 +137,17 @@ void TileTracer::find_hits(RayQueue& rays, int generation) {
 void TileTracer::look() {
   const TileOutputs& out = plan_->out;
   if (out.seen) {
-    for (std::size_t i = 0; i < seen_.size; ++i)
-      seen_.triangle[i] = out.seen->at((tile_.lo.x + x_in_tile(seen_.pixel[i])) * out.scale,
-                                       (tile_.lo.y + y_in_tile(seen_.pixel[i])) * out.scale);
+    const InImage given(tile_, out.seen->width(), out.scale);
+    for (std::size_t i = 0; i < seen_.size; ++i) seen_.triangle[i] = out.seen->pixels()[given[seen_.pixel[i]]];
   } else {
     find_hits(seen_, 0);
     counts_.primary += seen_.size;
   }
-  if (out.ids)
-    for (std::size_t i = 0; i < seen_.size; ++i)
-      out.ids->at(tile_.lo.x + x_in_tile(seen_.pixel[i]), tile_.lo.y + y_in_tile(seen_.pixel[i])) =
-          seen_.triangle[i];
+  if (out.ids) {
+    const InImage told(tile_, out.ids->width());
+    for (std::size_t i = 0; i < seen_.size; ++i) out.ids->pixels()[told[seen_.pixel[i]]] = seen_.triangle[i];
+  }
   plan_->job.tracer.steps().keep_hits(seen_);
-  hit_.fill(0);
-  for (std::size_t i = 0; i < seen_.size; ++i) hit_[seen_.pixel[i]] = 1;
 }
 
 void TileTracer::make_room(std::size_t rays, Generation& next) {
@@ -138,16 +156,17 @@ void TileTracer::make_room(std::size_t rays, Generation& next) {
 }
 
 void TileTracer::bounce(Bounce step, const RayQueue& rays, Generation& next,
-                        std::array<float, 3 * kPixels>& radiance) {
+                        Radiance& radiance) {
   step.shadow = shadow_.data();
-  step.radiance = radiance.data();
+  step.radiance = &radiance[0].x;
   if (step.mirrored) step.mirrored = &next[0], step.refracted = &next[1];
   plan_->job.tracer.steps().bounce(step, rays);
 }
 
 void TileTracer::light_visible() {
-  direct_.fill(0.0f);
+  direct_.fill(glm::vec4(0.0f));
   mask_.fill(0);
+  for (std::size_t i = 0; i < seen_.size; ++i) direct_[seen_.pixel[i]].a = 1.0f;
   make_room(seen_.size, rays_);
   Bounce step = plan_->visible;
   step.mirrored = plan_->out.depth > 0 ? rays_.data() : nullptr;
@@ -158,7 +177,7 @@ void TileTracer::light_visible() {
 
 // Generation by generation: every ray of one is traced before the next one starts.
 void TileTracer::follow() {
-  reflected_.fill(0.0f);
+  reflected_.fill(glm::vec4(0.0f));
   for (int generation = 1; generation <= plan_->out.depth; ++generation) {
     const std::size_t rays = rays_[0].size + rays_[1].size;
     if (rays == 0) return;
@@ -177,7 +196,7 @@ void TileTracer::follow() {
   }
 }
 
-void TileTracer::fire_shadows(int generation, std::array<float, 3 * kPixels>& radiance) {
+void TileTracer::fire_shadows(int generation, Radiance& radiance) {
   const bool visible = generation == 0, adds = !visible || plan_->visible.adds_light;
   for (const BounceLight& light : plan_->all_lights) {
     if (light.slot < 0) continue;
@@ -192,26 +211,30 @@ void TileTracer::fire_shadows(int generation, std::array<float, 3 * kPixels>& ra
       if (blocked_[i]) continue;
       const std::uint32_t pixel = queue.pixel[i];
       if (visible) mask_[pixel] |= static_cast<std::uint8_t>(1u << light.slot);
-      if (adds)
-        for (std::size_t c = 0; c < 3; ++c) radiance[3 * pixel + c] += queue.light[c][i];
+      if (adds) radiance[pixel] += glm::vec4(queue.light[0][i], queue.light[1][i], queue.light[2][i], 0.0f);
     }
   }
 }
 
-void TileTracer::write() {
+void TileTracer::write() const {
   const TileOutputs& out = plan_->out;
+  const auto width = static_cast<std::size_t>(tile_.size().x);
+  const bool empty = seen_.size == 0;
   for (int y = tile_.lo.y; y < tile_.hi.y; ++y) {
-    const auto row = static_cast<std::size_t>(y - tile_.lo.y) << kTileBits;
-    const auto width = static_cast<std::size_t>(tile_.size().x);
-    for (std::size_t i = 0; i < width; ++i) {
-      const std::size_t pixel = row + i;
-      const int x = tile_.lo.x + static_cast<int>(i);
-      const glm::vec3 reflected(reflected_[3 * pixel], reflected_[3 * pixel + 1], reflected_[3 * pixel + 2]);
-      const glm::vec3 direct(direct_[3 * pixel], direct_[3 * pixel + 1], direct_[3 * pixel + 2]);
-      if (out.reflection) out.reflection->at(x, y) = reflected;
-      if (out.color) out.color->at(x, y) = glm::vec4(direct + reflected, hit_[pixel] ? 1.0f : 0.0f);
-      if (out.added) out.added->at(x, y) += direct + reflected;
+    const std::size_t row = static_cast<std::size_t>(y - tile_.lo.y) << kTileBits;
+    const auto of = [&](auto* image) { return &image->at(tile_.lo.x, y); };
+    if (empty) {
+      if (out.reflection) std::fill_n(of(out.reflection), width, glm::vec3(0.0f));
+      if (out.color) std::fill_n(of(out.color), width, glm::vec4(0.0f));
+      continue;
     }
+    const glm::vec4 *direct = &direct_[row], *reflected = &reflected_[row];
+    if (out.reflection)
+      for (std::size_t i = 0; i < width; ++i) of(out.reflection)[i] = glm::vec3(reflected[i]);
+    if (out.color)
+      for (std::size_t i = 0; i < width; ++i) of(out.color)[i] = direct[i] + reflected[i];
+    if (out.added)
+      for (std::size_t i = 0; i < width; ++i) of(out.added)[i] += glm::vec3(direct[i] + reflected[i]);
     if (out.mask) out.mask->set_row(tile_.lo.x, y, std::span(mask_).subspan(row, width));
   }
 }

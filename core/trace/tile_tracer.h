@@ -30,16 +30,18 @@ class TileTracer {
   static constexpr std::size_t kPixels = std::size_t{TileGrid::kTileSize} * TileGrid::kTileSize;
   // Mirrored rays, then refracted ones.
   using Generation = std::array<RayQueue, 2>;
+  // Linear RGB, and 1 where something is hit.
+  using Radiance = std::array<glm::vec4, kPixels>;
 
   void start();
   void find_hits(RayQueue& rays, int generation);
   void look();
   void light_visible();
   void follow();
-  void bounce(Bounce step, const RayQueue& rays, Generation& next, std::array<float, 3 * kPixels>& radiance);
+  void bounce(Bounce step, const RayQueue& rays, Generation& next, Radiance& radiance);
   void make_room(std::size_t rays, Generation& next);
-  void fire_shadows(int generation, std::array<float, 3 * kPixels>& radiance);
-  void write();
+  void fire_shadows(int generation, Radiance& radiance);
+  void write() const;
 
   const TilePlan* plan_ = nullptr;
   PixelBox tile_;
@@ -48,8 +50,8 @@ class TileTracer {
   Generation rays_, next_;
   std::array<RayQueue, kMaxCastingLights> shadow_;
   std::vector<std::uint8_t> blocked_;
-  std::array<float, 3 * kPixels> direct_, reflected_;
-  std::array<std::uint8_t, kPixels> mask_, hit_;
+  Radiance direct_, reflected_;
+  std::array<std::uint8_t, kPixels> mask_;
 };
 
 }  // namespace pinocchio

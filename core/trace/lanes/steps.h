@@ -51,7 +51,7 @@ inline void add_light(const Vec& light, const std::uint32_t* pixel, Mask lanes, 
   light.z.store(rgb[2]);
   for (unsigned waiting = lanes.bits(); waiting != 0; waiting &= waiting - 1) {
     const int lane = __builtin_ctz(waiting);
-    for (std::size_t c = 0; c < 3; ++c) radiance[3 * pixel[lane] + c] += rgb[c][lane];
+    for (std::size_t c = 0; c < 3; ++c) radiance[4 * pixel[lane] + c] += rgb[c][lane];
   }
 }
 
