@@ -31,24 +31,25 @@ void for_each_chunk(Workers& workers, std::size_t n, const Body& body) {
                    [&](std::size_t i) { body(i * kChunk, std::min(n, (i + 1) * kChunk)); });
 }
 
-// Prepares the triangles, and the references that the tree is built of. A triangle without area is met by no
-// ray and stays out of the tree.
-References prepare(const Scene& scene, Workers& workers, BspTree& tree) {
+// Prepares the triangles, in the scene's order, and the references that the tree is built of. A triangle
+// without area is met by no ray and stays out of the tree.
+References prepare(const Scene& scene, Workers& workers, BspTree& tree,
+                   AlignedVector<ProjectedTriangle>& triangles) {
   const std::size_t n = scene.triangles.size();
-  tree.triangles.resize(n);
+  triangles.resize(n);
   References all(n);
   for_each_chunk(workers, n, [&](std::size_t first, std::size_t last) {
     for (std::size_t i = first; i < last; ++i) {
       const glm::uvec3& t = scene.triangles[i];
       const glm::vec3 &a = scene.positions[t.x], &b = scene.positions[t.y], &c = scene.positions[t.z];
       const auto id = static_cast<std::uint32_t>(i);
-      tree.triangles[i] = ProjectedTriangle::from(a, b, c, id);
+      triangles[i] = ProjectedTriangle::from(a, b, c, id);
       all[i] = BuildReference::of(id, {glm::min(glm::min(a, b), c), glm::max(glm::max(a, b), c)});
     }
   });
   std::size_t kept = 0;
   for (std::size_t i = 0; i < n; ++i) {
-    if (std::isnan(tree.triangles[i].n_u)) continue;
+    if (std::isnan(triangles[i].n_u)) continue;
     if (kept != i) all[kept] = all[i];
     ++kept;
     tree.bounds.add(all[i].bounds());
@@ -97,18 +98,39 @@ BspNode moved(const BspNode& n, const Placed& to) {
                      : BspNode::inner(n.axis(), n.split(), n.first_child() - 2 + to.first_node);
 }
 
-void copy(const Placed& from, BspTree& tree) {
+CornerTriangle corner_triangle(const Scene& scene, std::uint32_t id) {
+  CornerTriangle result;
+  result.id = id;
+  for (int corner = 0; corner < 3; ++corner)
+    for (int axis = 0; axis < 3; ++axis)
+      result.corners[corner][axis] = scene.positions[scene.triangles[id][corner]][axis];
+  return result;
+}
+
+void copy(const Placed& from, const Scene& scene, const AlignedVector<ProjectedTriangle>& triangles,
+          BspTree& tree) {
   const Subtree& part = *from.part;
   std::transform(part.nodes.begin() + 2, part.nodes.end(), tree.nodes.begin() + from.first_node,
                  [&](const BspNode& n) { return moved(n, from); });
-  std::copy(part.references.begin(), part.references.end(), tree.references.begin() + from.first_reference);
+  for (std::size_t i = 0; i < part.references.size(); ++i) {
+    const std::uint32_t id = part.references[i];
+    if (tree.triangles.empty())
+      tree.corner_triangles[from.first_reference + i] = corner_triangle(scene, id);
+    else
+      tree.triangles[from.first_reference + i] = triangles[id];
+  }
 }
 
-void join(const TreeTop& top, const Layout& layout, Workers& workers, BspTree& tree) {
+void join(const TreeTop& top, const Layout& layout, const Scene& scene,
+          const AlignedVector<ProjectedTriangle>& triangles, Workers& workers, BspTree& tree) {
   tree.nodes.assign(layout.nodes(), BspNode::leaf(0, 0));
-  tree.references.resize(layout.references());
+  const bool takes_corners = tree.test == TriangleTest::moeller_trumbore || tree.test == TriangleTest::watertight;
+  if (takes_corners)
+    tree.corner_triangles.resize(layout.references());
+  else
+    tree.triangles.resize(layout.references());
   std::copy(top.nodes.begin(), top.nodes.end(), tree.nodes.begin());
-  workers.for_each(layout.placed.size(), [&](std::size_t i) { copy(layout.placed[i], tree); });
+  workers.for_each(layout.placed.size(), [&](std::size_t i) { copy(layout.placed[i], scene, triangles, tree); });
   // A root's place is in another part, which is copied by now.
   for (const Placed& p : layout.placed) {
     tree.nodes[p.root] = moved(p.part->nodes[0], p);
@@ -117,7 +139,8 @@ void join(const TreeTop& top, const Layout& layout, Workers& workers, BspTree& t
 }
 
 void build_nodes(const Scene& scene, const BuildOptions& options, Workers& workers, BspTree& tree) {
-  References all = prepare(scene, workers, tree);
+  AlignedVector<ProjectedTriangle> triangles;
+  References all = prepare(scene, workers, tree, triangles);
   const int max_depth = depth_of(options, scene.triangles.size());
   TreeTop top = build_top(scene, options, max_depth, std::move(all), tree.bounds, workers);
 
@@ -139,7 +162,7 @@ void build_nodes(const Scene& scene, const BuildOptions& options, Workers& worke
   });
   Layout layout(queue, top.nodes.size());
   for (std::size_t i = 0; i < roots.size(); ++i) layout.place(i, roots[i]);
-  join(top, layout, workers, tree);
+  join(top, layout, scene, triangles, workers, tree);
 }
 
 // A ray computes its entry into the box with three roundings; flat scenes need some thickness, too.
@@ -149,17 +172,6 @@ void widen(Bounds& bounds) {
   const float margin = 1e-6f * std::max({largest.x, largest.y, largest.z, 1e-30f});
   bounds.lo -= margin;
   bounds.hi += margin;
-}
-
-AlignedVector<CornerTriangle> corner_triangles(const Scene& scene) {
-  AlignedVector<CornerTriangle> result(scene.triangles.size());
-  for (std::uint32_t i = 0; i < result.size(); ++i) {
-    result[i].id = i;
-    for (int corner = 0; corner < 3; ++corner)
-      for (int axis = 0; axis < 3; ++axis)
-        result[i].corners[corner][axis] = scene.positions[scene.triangles[i][corner]][axis];
-  }
-  return result;
 }
 
 }  // namespace
@@ -174,9 +186,6 @@ std::optional<SplitRule> parse_split_rule(std::string_view name) {
 BspTree build_tree(const Scene& scene, const BuildOptions& options) {
   BspTree tree;
   Workers workers(options.threads);
-  if (options.triangle_test == TriangleTest::moeller_trumbore ||
-      options.triangle_test == TriangleTest::watertight)
-    tree.corner_triangles = corner_triangles(scene);
   tree.test = options.triangle_test;
   tree.positions = scene.positions;
   tree.corners = scene.triangles;

@@ -25,17 +25,17 @@ using AlignedVector = std::vector<T, boost::alignment::aligned_allocator<T, kCac
 struct BspTree {
   Bounds bounds;                               // widened by the rounding of a traversal step
   AlignedVector<BspNode> nodes;                // root first; node 1 is padding, so that siblings share a line
-  AlignedVector<std::uint32_t> references;     // of leaves, into `triangles`
-  AlignedVector<ProjectedTriangle> triangles;  // in the scene's order
-  AlignedVector<CornerTriangle> corner_triangles;  // likewise, for the tests that take corners; else empty
+  // What leaves refer to, leaf by leaf: a triangle in several leaves stands here as often, so that a leaf's are
+  // side by side. For the tests that take corners the second, else the first; the other is empty.
+  AlignedVector<ProjectedTriangle> triangles;
+  AlignedVector<CornerTriangle> corner_triangles;
   int depth = 0;                                   // of the deepest leaf
   TriangleTest test = TriangleTest::filtered;      // that these triangles are stored for
   std::span<const glm::vec3> positions;            // the scene's
   std::span<const glm::uvec3> corners;             // the scene's triangles
 
   [[nodiscard]] std::size_t bytes() const {
-    return nodes.size() * sizeof(BspNode) + references.size() * sizeof(std::uint32_t) +
-           triangles.size() * sizeof(ProjectedTriangle) + corner_triangles.size() * sizeof(CornerTriangle);
+    return nodes.size() * sizeof(BspNode) + triangles.size() * sizeof(ProjectedTriangle) + corner_triangles.size() * sizeof(CornerTriangle);
   }
 };
 

@@ -76,6 +76,7 @@ class LitCells {
   [[nodiscard]] std::uint8_t& state(const Due& due) { return states_[due.slot * cells_ + due.cell]; }
   void look_into(const Due& due);
   [[nodiscard]] bool falls(std::uint32_t triangle) const;
+  [[nodiscard]] ProjectedTriangle projected(std::uint32_t triangle) const;
 
   const Scene& scene_;
   const Tracer& tracer_;
