@@ -60,7 +60,7 @@ std::unique_ptr<Tracer> build_ours(const Scene& scene, const BuildOptions& optio
   cost.seconds = median_seconds(
       repeat, [&] { tracer.reset(); }, [&] { tracer = std::make_unique<Tracer>(scene, options, isa); });
   const BspTree& tree = tracer->tree();
-  cost.bytes = held(tree.nodes) + held(tree.triangles) + held(tree.corner_triangles);
+  cost.bytes = held(tree.nodes) + held(tree.references) + held(tree.triangles) + held(tree.corner_triangles);
   return tracer;
 }
 

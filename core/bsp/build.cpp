@@ -107,35 +107,50 @@ CornerTriangle corner_triangle(const Scene& scene, std::uint32_t id) {
   return result;
 }
 
-void copy(const Placed& from, const Scene& scene, const AlignedVector<ProjectedTriangle>& triangles,
-          BspTree& tree) {
+void copy(const Placed& from, BspTree& tree) {
   const Subtree& part = *from.part;
   std::transform(part.nodes.begin() + 2, part.nodes.end(), tree.nodes.begin() + from.first_node,
                  [&](const BspNode& n) { return moved(n, from); });
-  for (std::size_t i = 0; i < part.references.size(); ++i) {
-    const std::uint32_t id = part.references[i];
-    if (tree.triangles.empty())
-      tree.corner_triangles[from.first_reference + i] = corner_triangle(scene, id);
-    else
-      tree.triangles[from.first_reference + i] = triangles[id];
-  }
+  std::copy(part.references.begin(), part.references.end(), tree.references.begin() + from.first_reference);
 }
 
-void join(const TreeTop& top, const Layout& layout, const Scene& scene,
-          const AlignedVector<ProjectedTriangle>& triangles, Workers& workers, BspTree& tree) {
+void join(const TreeTop& top, const Layout& layout, Workers& workers, BspTree& tree) {
   tree.nodes.assign(layout.nodes(), BspNode::leaf(0, 0));
-  const bool takes_corners = tree.test == TriangleTest::moeller_trumbore || tree.test == TriangleTest::watertight;
-  if (takes_corners)
-    tree.corner_triangles.resize(layout.references());
-  else
-    tree.triangles.resize(layout.references());
+  tree.references.resize(layout.references());
   std::copy(top.nodes.begin(), top.nodes.end(), tree.nodes.begin());
-  workers.for_each(layout.placed.size(), [&](std::size_t i) { copy(layout.placed[i], scene, triangles, tree); });
+  workers.for_each(layout.placed.size(), [&](std::size_t i) { copy(layout.placed[i], tree); });
   // A root's place is in another part, which is copied by now.
   for (const Placed& p : layout.placed) {
     tree.nodes[p.root] = moved(p.part->nodes[0], p);
     tree.depth = std::max(tree.depth, p.part->depth);
   }
+}
+
+// Stores the triangles that leaves refer to in the order in which they do; references, which were the scene's
+// ids, become places in it.
+void store_triangles(const Scene& scene, const AlignedVector<ProjectedTriangle>& prepared, Workers& workers,
+                     BspTree& tree) {
+  constexpr std::uint32_t kNone = 0xffffffffu;
+  std::vector<std::uint32_t> place(prepared.size(), kNone), order;
+  order.reserve(prepared.size());
+  for (std::uint32_t& reference : tree.references) {
+    std::uint32_t& at = place[reference];
+    if (at == kNone) {
+      at = static_cast<std::uint32_t>(order.size());
+      order.push_back(reference);
+    }
+    reference = at;
+  }
+  const bool corners = tree.test == TriangleTest::moeller_trumbore || tree.test == TriangleTest::watertight;
+  tree.corner_triangles.resize(corners ? order.size() : 0);
+  tree.triangles.resize(corners ? 0 : order.size());
+  for_each_chunk(workers, order.size(), [&](std::size_t first, std::size_t last) {
+    for (std::size_t i = first; i < last; ++i)
+      if (corners)
+        tree.corner_triangles[i] = corner_triangle(scene, order[i]);
+      else
+        tree.triangles[i] = prepared[order[i]];
+  });
 }
 
 void build_nodes(const Scene& scene, const BuildOptions& options, Workers& workers, BspTree& tree) {
@@ -162,7 +177,8 @@ void build_nodes(const Scene& scene, const BuildOptions& options, Workers& worke
   });
   Layout layout(queue, top.nodes.size());
   for (std::size_t i = 0; i < roots.size(); ++i) layout.place(i, roots[i]);
-  join(top, layout, scene, triangles, workers, tree);
+  join(top, layout, workers, tree);
+  store_triangles(scene, triangles, workers, tree);
 }
 
 // A ray computes its entry into the box with three roundings; flat scenes need some thickness, too.

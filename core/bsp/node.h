@@ -19,7 +19,7 @@ class BspNode {
     node.bits_ = first_child << 2 | static_cast<std::uint32_t>(axis);
     return node;
   }
-  // References [first, first + count) of the tree's.
+  // References [first, first + count) in BspTree::references.
   static BspNode leaf(std::uint32_t first, std::uint32_t count) {
     assert(count <= kMaxPayload);
     BspNode node;

@@ -25,8 +25,9 @@ using AlignedVector = std::vector<T, boost::alignment::aligned_allocator<T, kCac
 struct BspTree {
   Bounds bounds;                               // widened by the rounding of a traversal step
   AlignedVector<BspNode> nodes;                // root first; node 1 is padding, so that siblings share a line
-  // What leaves refer to, leaf by leaf: a triangle in several leaves stands here as often, so that a leaf's are
-  // side by side. For the tests that take corners the second, else the first; the other is empty.
+  AlignedVector<std::uint32_t> references;  // of leaves, into the triangles
+  // In the order in which leaves refer to them first: a leaf's are mostly side by side, and near its
+  // neighbours'. For the tests that take corners the second, else the first; the other is empty.
   AlignedVector<ProjectedTriangle> triangles;
   AlignedVector<CornerTriangle> corner_triangles;
   int depth = 0;                                   // of the deepest leaf
@@ -35,7 +36,7 @@ struct BspTree {
   std::span<const glm::uvec3> corners;             // the scene's triangles
 
   [[nodiscard]] std::size_t bytes() const {
-    return nodes.size() * sizeof(BspNode) + triangles.size() * sizeof(ProjectedTriangle) + corner_triangles.size() * sizeof(CornerTriangle);
+    return nodes.size() * sizeof(BspNode) + references.size() * sizeof(std::uint32_t) + triangles.size() * sizeof(ProjectedTriangle) + corner_triangles.size() * sizeof(CornerTriangle);
   }
 };
 

@@ -163,9 +163,9 @@ inline void closest_of_group(const BspTree& tree, const RayColumns& rays, std::s
   const auto* const triangles = Test::stored(tree);
   for_each_octant(group, [&](const bool (&negative)[3], const Mask (&lanes)[kPackets]) {
     walk(tree, group, negative, lanes, t_best, [&](const BspNode& leaf, const unsigned (&living)[kPackets]) {
-      const auto* const of_leaf = triangles + leaf.first_reference();
+      const std::uint32_t* const of_leaf = tree.references.data() + leaf.first_reference();
       for (std::uint32_t r = 0; r < leaf.reference_count(); ++r) {
-        const auto& tri = of_leaf[r];
+        const auto& tri = triangles[of_leaf[r]];
         const Int id(tri.id);
         for (int k = 0; k < kPackets; ++k) {
           if (living[k] == 0) continue;
@@ -195,12 +195,12 @@ inline void occluded_of_group(const BspTree& tree, const RayColumns& rays, std::
   const auto* const triangles = Test::stored(tree);
   for_each_octant(group, [&](const bool (&negative)[3], const Mask (&lanes)[kPackets]) {
     walk(tree, group, negative, lanes, t_best, [&](const BspNode& leaf, const unsigned (&living)[kPackets]) {
-      const auto* const of_leaf = triangles + leaf.first_reference();
+      const std::uint32_t* const of_leaf = tree.references.data() + leaf.first_reference();
       for (int k = 0; k < kPackets; ++k) {
         unsigned open = living[k];
         for (std::uint32_t r = 0; r < leaf.reference_count() && open != 0; ++r) {
           Float at;
-          Mask inside = tests[k].meets(of_leaf[r], Mask::from_bits(open), at);
+          Mask inside = tests[k].meets(triangles[of_leaf[r]], Mask::from_bits(open), at);
           inside = inside & (at < t_best[k]);
           if (inside.bits() == 0) continue;
           hit[k] |= inside.bits();

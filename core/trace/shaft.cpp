@@ -116,7 +116,7 @@ bool Shaft::clear(const BspTree& tree) const {
     const BspNode& node = tree.nodes[at.node];
     if (node.is_leaf()) {
       for (std::uint32_t i = 0; i < node.reference_count(); ++i)
-        if (may_block(tree, tree.triangles[node.first_reference() + i].id)) return false;
+        if (may_block(tree, tree.triangles[tree.references[node.first_reference() + i]].id)) return false;
     } else {
       const int axis = node.axis();
       Entry low{at.box, node.first_child()}, high{at.box, node.first_child() + 1};

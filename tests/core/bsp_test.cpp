@@ -16,7 +16,7 @@ struct Counted {
 Counted count(const BspTree& tree, std::uint32_t node = 0, int depth = 0) {
   const BspNode& n = tree.nodes[node];
   if (n.is_leaf()) {
-    EXPECT_LE(n.first_reference() + n.reference_count(), tree.triangles.size());
+    EXPECT_LE(n.first_reference() + n.reference_count(), tree.references.size());
     return {depth, n.reference_count(), n.reference_count()};
   }
   const Counted a = count(tree, n.first_child(), depth + 1), b = count(tree, n.first_child() + 1, depth + 1);
@@ -52,7 +52,8 @@ TEST(Bsp, CostComparisonEndsTheSah) {
 TEST(Bsp, StorageBeginsAtCacheLines) {
   const BspTree tree = build_tree(random_soup(100, 0.1f, 3));
   for (const void* first :
-       {static_cast<const void*>(tree.nodes.data()), static_cast<const void*>(tree.triangles.data())})
+       {static_cast<const void*>(tree.nodes.data()), static_cast<const void*>(tree.triangles.data()),
+        static_cast<const void*>(tree.references.data())})
     EXPECT_EQ(reinterpret_cast<std::uintptr_t>(first) % kCacheLine, 0u);
 }
 
@@ -87,6 +88,7 @@ TEST(Bsp, IsTheSameOnAnyNumberOfThreads) {
     for (const int threads : {2, 3, 8}) {
       const BspTree tree = build_tree(scene, {.rule = rule, .threads = threads});
       EXPECT_TRUE(std::ranges::equal(bytes(tree.nodes), bytes(alone.nodes))) << threads;
+      EXPECT_TRUE(tree.references == alone.references) << threads;
       EXPECT_TRUE(std::ranges::equal(bytes(tree.triangles), bytes(alone.triangles))) << threads;
       EXPECT_EQ(tree.depth, alone.depth);
     }
@@ -104,7 +106,7 @@ TEST(Bsp, OddScenesBuild) {
     for (const SplitRule rule : kRules) {
       const BspTree tree = build_tree(*scene, {.rule = rule});
       EXPECT_LE(tree.depth, kMaxTreeDepth);
-      EXPECT_LE(tree.triangles.size(), 40 * scene->triangles.size());
+      EXPECT_LE(tree.references.size(), 40 * scene->triangles.size());
     }
 }
 
