@@ -153,11 +153,19 @@ void store_triangles(const Scene& scene, const AlignedVector<ProjectedTriangle>&
   });
 }
 
+std::vector<glm::vec3> light_positions(const Scene& scene) {
+  std::vector<glm::vec3> positions;
+  for (const Light& light : scene.lights)
+    if (light.casts_shadow && light.kind != Light::Kind::directional) positions.push_back(light.position);
+  return positions;
+}
+
 void build_nodes(const Scene& scene, const BuildOptions& options, Workers& workers, BspTree& tree) {
   AlignedVector<ProjectedTriangle> triangles;
   References all = prepare(scene, workers, tree, triangles);
   const int max_depth = depth_of(options, scene.triangles.size());
-  TreeTop top = build_top(scene, options, max_depth, std::move(all), tree.bounds, workers);
+  const CostModel model(options, tree.bounds, light_positions(scene));
+  TreeTop top = build_top(scene, options, model, max_depth, std::move(all), tree.bounds, workers);
 
   PartQueue queue;
   std::vector<std::uint32_t> roots;
@@ -166,7 +174,7 @@ void build_nodes(const Scene& scene, const BuildOptions& options, Workers& worke
     queue.put(std::move(part));
   }
   workers.for_each(static_cast<std::size_t>(workers.count()), [&](std::size_t) {
-    SubtreeBuilder builder(scene, options, max_depth, queue);
+    SubtreeBuilder builder(scene, options, model, max_depth, queue);
     try {
       while (std::optional<PartQueue::Taken> taken = queue.take())
         queue.give(taken->number, builder.build(taken->part.references.span(), taken->part.node));

@@ -45,9 +45,10 @@ struct StackEntry {
   std::uint32_t node;
 };
 
-// Walks the tree front to back and calls leaf(node, alive) for every leaf that a living lane passes. A lane of
-// `lanes` lives while its interval within the node is not empty; `t_best`, which the leaf may lower, ends its
-// interval. `negative`: the lanes' common octant. Which leaves a lane sees depends on that lane's ray alone.
+// Walks the tree front to back and calls leaf(node, alive) for every leaf that a living lane passes. A lane
+// of `lanes` lives while its interval within the node is not empty; `t_best`, which the leaf may lower, ends
+// its interval. `negative`: the lanes' common octant. Which leaves a lane sees depends on that lane's ray
+// alone.
 template <int kPackets, class Leaf>
 inline void walk(const BspTree& tree, const Group<kPackets>& group, const bool (&negative)[3],
                  const Mask (&lanes)[kPackets], const Float (&t_best)[kPackets], Leaf leaf) {
@@ -161,8 +162,8 @@ inline void closest_of_group(const BspTree& tree, const RayColumns& rays, std::s
   Float t_best[kPackets]{group.packets[kIndex].t_max...};
   Int hit[kPackets]{(static_cast<void>(kIndex), Int(kNoTriangle))...};
   const auto* const triangles = Test::stored(tree);
-  for_each_octant(group, [&](const bool (&negative)[3], const Mask (&lanes)[kPackets]) {
-    walk(tree, group, negative, lanes, t_best, [&](const BspNode& leaf, const unsigned (&living)[kPackets]) {
+  for_each_octant(group, [&](const bool(&negative)[3], const Mask(&lanes)[kPackets]) {
+    walk(tree, group, negative, lanes, t_best, [&](const BspNode& leaf, const unsigned(&living)[kPackets]) {
       const std::uint32_t* const of_leaf = tree.references.data() + leaf.first_reference();
       for (std::uint32_t r = 0; r < leaf.reference_count(); ++r) {
         const auto& tri = triangles[of_leaf[r]];
@@ -193,8 +194,8 @@ inline void occluded_of_group(const BspTree& tree, const RayColumns& rays, std::
   Float t_best[kPackets]{group.packets[kIndex].t_max...};
   unsigned hit[kPackets] = {};
   const auto* const triangles = Test::stored(tree);
-  for_each_octant(group, [&](const bool (&negative)[3], const Mask (&lanes)[kPackets]) {
-    walk(tree, group, negative, lanes, t_best, [&](const BspNode& leaf, const unsigned (&living)[kPackets]) {
+  for_each_octant(group, [&](const bool(&negative)[3], const Mask(&lanes)[kPackets]) {
+    walk(tree, group, negative, lanes, t_best, [&](const BspNode& leaf, const unsigned(&living)[kPackets]) {
       const std::uint32_t* const of_leaf = tree.references.data() + leaf.first_reference();
       for (int k = 0; k < kPackets; ++k) {
         unsigned open = living[k];

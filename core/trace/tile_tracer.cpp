@@ -53,7 +53,8 @@ class InImage {
       : first_(at(tile.lo, width) * scale), step_(scale), row_(width * scale) {}
   [[nodiscard]] std::size_t operator[](std::uint32_t pixel) const {
     const int p = static_cast<int>(pixel);
-    return static_cast<std::size_t>(first_ + (p & (TileGrid::kTileSize - 1)) * step_ + (p >> kTileBits) * row_);
+    return static_cast<std::size_t>(first_ + (p & (TileGrid::kTileSize - 1)) * step_ +
+                                    (p >> kTileBits) * row_);
   }
 
  private:
@@ -118,13 +119,28 @@ TileResult TileTracer::trace(const TilePlan& plan, const PixelBox& tile) {
   return {counts_, times};
 }
 
+// The rays of the tile's pixels, or of those alone that are known to see something.
 void TileTracer::start() {
+  const TileOutputs& out = plan_->out;
   seen_.make_room(kPixels);
   const glm::ivec2 size = tile_.size();
-  for (const std::uint32_t pixel : z_curve()) {
-    const int x = static_cast<int>(pixel) & (TileGrid::kTileSize - 1), y = static_cast<int>(pixel) >> kTileBits;
-    seen_.pixel[seen_.size] = pixel;
-    seen_.size += x < size.x && y < size.y ? 1 : 0;
+  const auto inside = [size](std::uint32_t pixel) {
+    return (static_cast<int>(pixel) & (TileGrid::kTileSize - 1)) < size.x &&
+           static_cast<int>(pixel) >> kTileBits < size.y;
+  };
+  if (out.seen) {
+    const InImage given(tile_, out.seen->width(), out.scale);
+    for (const std::uint32_t pixel : z_curve()) {
+      if (!inside(pixel)) continue;
+      seen_.pixel[seen_.size] = pixel;
+      seen_.triangle[seen_.size] = out.seen->pixels()[given[pixel]];
+      seen_.size += seen_.triangle[seen_.size] != kNoTriangle ? 1 : 0;
+    }
+  } else {
+    for (const std::uint32_t pixel : z_curve()) {
+      seen_.pixel[seen_.size] = pixel;
+      seen_.size += inside(pixel) ? 1 : 0;
+    }
   }
   plan_->job.tracer.steps().camera_rays(plan_->view, tile_.lo, seen_);
 }
@@ -136,13 +152,9 @@ void TileTracer::find_hits(RayQueue& rays, int generation) {
 
 void TileTracer::look() {
   const TileOutputs& out = plan_->out;
-  if (out.seen) {
-    const InImage given(tile_, out.seen->width(), out.scale);
-    for (std::size_t i = 0; i < seen_.size; ++i) seen_.triangle[i] = out.seen->pixels()[given[seen_.pixel[i]]];
-  } else {
-    find_hits(seen_, 0);
-    counts_.primary += seen_.size;
-  }
+  if (out.seen) return;
+  find_hits(seen_, 0);
+  counts_.primary += seen_.size;
   if (out.ids) {
     const InImage told(tile_, out.ids->width());
     for (std::size_t i = 0; i < seen_.size; ++i) out.ids->pixels()[told[seen_.pixel[i]]] = seen_.triangle[i];
@@ -155,8 +167,7 @@ void TileTracer::make_room(std::size_t rays, Generation& next) {
   for (RayQueue& queue : shadow_) queue.make_room(rays);
 }
 
-void TileTracer::bounce(Bounce step, const RayQueue& rays, Generation& next,
-                        Radiance& radiance) {
+void TileTracer::bounce(Bounce step, const RayQueue& rays, Generation& next, Radiance& radiance) {
   step.shadow = shadow_.data();
   step.radiance = &radiance[0].x;
   if (step.mirrored) step.mirrored = &next[0], step.refracted = &next[1];

@@ -31,7 +31,7 @@ struct TileOutputs {
   const Image<std::uint32_t>* seen = nullptr;
   int scale = 1;
 
-  Image<std::uint32_t>* ids = nullptr;  // the same told, of every sample
+  Image<std::uint32_t>* ids = nullptr;  // what the camera rays tell
 
   // Bit i of a sample: the casting light in mask slot i reaches the visible point. 0 where nothing is seen or
   // the surface faces away, or the light brings less than job.least_light. mask_bits: 1, 2, 4 or 8, no fewer

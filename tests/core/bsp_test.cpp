@@ -80,9 +80,7 @@ TEST(Bsp, SahBeatsTheSimplerRulesWhereTrianglesAreUneven) {
 
 TEST(Bsp, IsTheSameOnAnyNumberOfThreads) {
   const Scene scene = random_soup(80000, 0.01f, 5);  // enough that threads share nodes and parts
-  const auto bytes = [](const auto& stored) {
-    return std::as_bytes(std::span(stored));
-  };
+  const auto bytes = [](const auto& stored) { return std::as_bytes(std::span(stored)); };
   for (const SplitRule rule : kRules) {
     const BspTree alone = build_tree(scene, {.rule = rule, .threads = 1});
     for (const int threads : {2, 3, 8}) {

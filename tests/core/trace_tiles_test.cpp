@@ -58,7 +58,8 @@ Drawn by_tiles(const TraceJob& job, const Image<std::uint32_t>* seen = nullptr) 
   TileOutputs out;
   out.size = kSize;
   out.seen = seen;
-  out.ids = &drawn.ids;
+  if (seen) drawn.ids = *seen;
+  if (!seen) out.ids = &drawn.ids;
   out.mask_bits = mask_bits_of(job.scene);
   out.mask = &drawn.mask;
   out.depth = kDepth;
