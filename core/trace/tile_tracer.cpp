@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cassert>
 #include <chrono>
+#include <cstring>
 
 #include "core/trace/surface.h"
 #include "core/trace/view.h"
@@ -121,28 +122,38 @@ TileResult TileTracer::trace(const TilePlan& plan, const PixelBox& tile) {
 
 // The rays of the tile's pixels, or of those alone that are known to see something.
 void TileTracer::start() {
-  const TileOutputs& out = plan_->out;
+  const Image<std::uint32_t>* const seen = plan_->out.seen;
   seen_.make_room(kPixels);
+  if (seen && !sees_anything(*seen)) return;
   const glm::ivec2 size = tile_.size();
-  const auto inside = [size](std::uint32_t pixel) {
-    return (static_cast<int>(pixel) & (TileGrid::kTileSize - 1)) < size.x &&
-           static_cast<int>(pixel) >> kTileBits < size.y;
-  };
-  if (out.seen) {
-    const InImage given(tile_, out.seen->width(), out.scale);
-    for (const std::uint32_t pixel : z_curve()) {
-      if (!inside(pixel)) continue;
-      seen_.pixel[seen_.size] = pixel;
-      seen_.triangle[seen_.size] = out.seen->pixels()[given[pixel]];
-      seen_.size += seen_.triangle[seen_.size] != kNoTriangle ? 1 : 0;
-    }
+  const bool whole = size == glm::ivec2(TileGrid::kTileSize);
+  const InImage given(tile_, seen ? seen->width() : 0, plan_->out.scale);
+  if (whole && !seen) {
+    std::copy(z_curve().begin(), z_curve().end(), seen_.pixel);
+    seen_.size = kPixels;
   } else {
     for (const std::uint32_t pixel : z_curve()) {
+      const int x = static_cast<int>(pixel) & (TileGrid::kTileSize - 1),
+                y = static_cast<int>(pixel) >> kTileBits;
+      if (!whole && (x >= size.x || y >= size.y)) continue;
+      const std::uint32_t triangle = seen ? seen->pixels()[given[pixel]] : 0;
       seen_.pixel[seen_.size] = pixel;
-      seen_.size += inside(pixel) ? 1 : 0;
+      seen_.triangle[seen_.size] = triangle;
+      seen_.size += triangle != kNoTriangle ? 1 : 0;
     }
   }
   plan_->job.tracer.steps().camera_rays(plan_->view, tile_.lo, seen_);
+}
+
+bool TileTracer::sees_anything(const Image<std::uint32_t>& seen) const {
+  const int scale = plan_->out.scale;
+  for (int y = tile_.lo.y; y < tile_.hi.y; ++y) {
+    const std::uint32_t* const row = &seen.at(0, y * scale);
+    std::uint32_t all = kNoTriangle;
+    for (int x = tile_.lo.x; x < tile_.hi.x; ++x) all &= row[x * scale];
+    if (all != kNoTriangle) return true;
+  }
+  return false;
 }
 
 void TileTracer::find_hits(RayQueue& rays, int generation) {
@@ -230,18 +241,19 @@ void TileTracer::fire_shadows(int generation, Radiance& radiance) {
 void TileTracer::write() const {
   const TileOutputs& out = plan_->out;
   const auto width = static_cast<std::size_t>(tile_.size().x);
-  const bool empty = seen_.size == 0;
+  const bool empty = seen_.size == 0, mirrors = counts_.reflection + counts_.refraction > 0;
   for (int y = tile_.lo.y; y < tile_.hi.y; ++y) {
     const std::size_t row = static_cast<std::size_t>(y - tile_.lo.y) << kTileBits;
     const auto of = [&](auto* image) { return &image->at(tile_.lo.x, y); };
+    const glm::vec4 *direct = &direct_[row], *reflected = &reflected_[row];
+    if (out.reflection && !mirrors)
+      std::memset(of(out.reflection), 0, width * sizeof(glm::vec3));
+    else if (out.reflection)
+      for (std::size_t i = 0; i < width; ++i) of(out.reflection)[i] = glm::vec3(reflected[i]);
     if (empty) {
-      if (out.reflection) std::fill_n(of(out.reflection), width, glm::vec3(0.0f));
-      if (out.color) std::fill_n(of(out.color), width, glm::vec4(0.0f));
+      if (out.color) std::memset(of(out.color), 0, width * sizeof(glm::vec4));
       continue;
     }
-    const glm::vec4 *direct = &direct_[row], *reflected = &reflected_[row];
-    if (out.reflection)
-      for (std::size_t i = 0; i < width; ++i) of(out.reflection)[i] = glm::vec3(reflected[i]);
     if (out.color)
       for (std::size_t i = 0; i < width; ++i) of(out.color)[i] = direct[i] + reflected[i];
     if (out.added)

@@ -34,6 +34,7 @@ class TileTracer {
   using Radiance = std::array<glm::vec4, kPixels>;
 
   void start();
+  [[nodiscard]] bool sees_anything(const Image<std::uint32_t>& seen) const;
   void find_hits(RayQueue& rays, int generation);
   void look();
   void light_visible();
