@@ -16,6 +16,7 @@ struct Corners {
     for_each_distinct(triangles, lanes, [&](std::uint32_t id, Mask same) {
       const glm::uvec3& corners = scene.triangles[id];
       const std::uint32_t index[3] = {corners.x, corners.y, corners.z};
+#pragma GCC unroll 3  // or the vectors stay in memory
       for (int i = 0; i < 3; ++i) {
         position[i] = select(same, Vec(scene.positions[index[i]]), position[i]);
         normal[i] = select(same, Vec(scene.normals[index[i]]), normal[i]);
