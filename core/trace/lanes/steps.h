@@ -91,11 +91,26 @@ inline Vec light_points(const Bounce& bounce, const LaneSurface& s, const LaneMa
   return sum;
 }
 
+// What the next packets read: triangles of the one after the next, corners of the next.
+inline void prefetch_corners(const SceneArrays& scene, const RayQueue& rays, std::size_t i) {
+  const auto end = [&rays](std::size_t first) {
+    return first + kWidth < rays.size ? first + kWidth : rays.size;
+  };
+  for (std::size_t k = i + 2 * kWidth; k < end(i + 2 * kWidth); ++k)
+    __builtin_prefetch(scene.triangles + rays.triangle[k]);
+  for (std::size_t k = i + kWidth; k < end(i + kWidth); ++k) {
+    const std::uint32_t corner = scene.triangles[rays.triangle[k]].x;
+    __builtin_prefetch(scene.positions + corner);
+    __builtin_prefetch(scene.normals + corner);
+  }
+}
+
 void bounce_rays(const Bounce& bounce, const RayQueue& rays) {
   const bool reads_material =
       bounce.adds_light || bounce.adds_ambient || bounce.mirrored || bounce.least_light > 0.0f;
   const bool reads_texture = bounce.adds_light || bounce.adds_ambient || bounce.least_light > 0.0f;
   for (std::size_t i = 0; i < rays.size; i += kWidth) {
+    prefetch_corners(bounce.scene, rays, i);
     const Mask lanes = lanes_from(i, rays.size);
     const Int triangle = Int::load(rays.triangle + i), pixel = Int::load(rays.pixel + i);
     const Corners corners(bounce.scene, triangle, lanes);
