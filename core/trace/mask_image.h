@@ -50,7 +50,8 @@ class MaskImage {
     const auto a_byte = static_cast<std::size_t>(8 / bits_);
     for (std::size_t first = 0; first < pixels.size(); first += a_byte) {
       unsigned byte = 0;
-      for (std::size_t i = std::min(first + a_byte, pixels.size()); i-- > first;) byte = byte << bits_ | pixels[i];
+      for (std::size_t i = std::min(first + a_byte, pixels.size()); i-- > first;)
+        byte = byte << bits_ | pixels[i];
       *row++ |= static_cast<std::uint8_t>(byte);
     }
   }
