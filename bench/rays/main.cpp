@@ -23,7 +23,7 @@ struct Options {
   std::vector<std::string> isas;
   std::string tree = "sah", test{triangle_test_name(BuildOptions{}.triangle_test)};
   int triangles = 0, repeat = 7, build_repeat = 3, threads = 0;
-  bool mirror_all = false, robust = false, no_pass = false;
+  bool mirror_all = false, robust = false, no_pass = false, no_speeds = false, frame = false;
 };
 
 void add_options(CLI::App& program, Options& o) {
@@ -49,6 +49,8 @@ void add_options(CLI::App& program, Options& o) {
   program.add_flag("--mirror-all", o.mirror_all, "every material mirrors (where the scene has no mirror)");
   program.add_flag("--embree-robust", o.robust, "Embree's watertight test, not its fast one");
   program.add_flag("--no-pass", o.no_pass, "leave out the whole shadow pass");
+  program.add_flag("--no-speeds", o.no_speeds, "leave out the speeds by kind of ray");
+  program.add_flag("--frame", o.frame, "add whole frames, with the materials as they are (or --mirror-all)");
   program.add_option("--json", o.json, "write everything to this file");
 }
 
@@ -90,7 +92,7 @@ void run(const Options& o) {
   report.tree = o.tree;
   report.robust = o.robust;
   report.repeat = o.repeat;
-  report.all_mirrors = make_mirrors(scene, o.mirror_all);
+  if (o.mirror_all) report.all_mirrors = make_mirrors(scene, true);
 
   Workers all(o.threads), one(1);
   const BuildOptions tree{.rule = parse_name<SplitRule>(kSplitRuleNames, o.tree).value(),
@@ -109,16 +111,22 @@ void run(const Options& o) {
   backends.push_back(embree.packets());
   backends.push_back(embree.single());
 
+  std::vector<Workers*> on{&one};
+  if (all.count() > 1) on.push_back(&all);
+  if (o.frame)
+    for (const auto& tracer : tracers) {
+      const std::vector<WholeFrame> frames = measure_frames(scene, *tracer, embree, kSize, on, o.repeat);
+      report.frames.insert(report.frames.end(), frames.begin(), frames.end());
+    }
+  report.all_mirrors |= make_mirrors(scene, false);
   for (const RaySet& set : frame_ray_sets(scene, *tracers.front(), kSize)) {
-    if (set.rays.empty()) continue;
+    if (set.rays.empty() || o.no_speeds) continue;
     for (Workers* workers : {&one, &all}) {
       if (workers == &all && all.count() == 1) continue;
       const std::vector<Speed> speeds = race(set, backends, *workers, o.repeat);
       report.speeds.insert(report.speeds.end(), speeds.begin(), speeds.end());
     }
   }
-  std::vector<Workers*> on{&one};
-  if (all.count() > 1) on.push_back(&all);
   if (!o.no_pass) report.shadow_passes = measure_shadow_passes(scene, *tracers.front(), embree, kSize, on);
   print_report(report);
   if (!o.json.empty()) save_report(report, o.json);

@@ -47,14 +47,17 @@ double median_seconds(int repeat, const std::function<void()>& prepare, const st
   return median(times);
 }
 
+double seconds_of_tracing(RayBackend& backend, const RaySet& set, Workers& workers) {
+  backend.load(set);
+  return seconds_of([&] { trace_all(backend, set.rays.size(), workers); });
+}
+
 std::vector<Speed> race(const RaySet& set, const RayBackends& backends, Workers& workers, int repeat) {
   const std::size_t rays = set.rays.size();
   std::vector<std::vector<double>> times(backends.size());
   for (int i = 0; i < repeat; ++i)
-    for (std::size_t c = 0; c < backends.size(); ++c) {
-      backends[c]->load(set);
-      times[c].push_back(seconds_of([&] { trace_all(*backends[c], rays, workers); }));
-    }
+    for (std::size_t c = 0; c < backends.size(); ++c)
+      times[c].push_back(seconds_of_tracing(*backends[c], set, workers));
   const std::vector<Hit> judge = backends.back()->hits();
   std::vector<Speed> speeds;
   for (std::size_t c = 0; c < backends.size(); ++c)

@@ -17,6 +17,9 @@ namespace pinocchio::bench {
 // Wall time of one call, seconds.
 [[nodiscard]] double seconds_of(const std::function<void()>& run);
 
+// Wall time of one backend for the rays of a set, loaded before; seconds.
+[[nodiscard]] double seconds_of_tracing(RayBackend& backend, const RaySet& set, Workers& workers);
+
 // How fast one backend traced one set.
 struct Speed {
   std::string set;

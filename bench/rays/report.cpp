@@ -47,6 +47,24 @@ void print_pass(const Report& report, const ShadowPass& pass) {
               rays_ms / pass.ours_ms, pass.differ);
 }
 
+void print_passes(const Report& report) {
+  if (report.shadow_passes.empty()) return;
+  std::printf("the whole shadow pass, camera going round, milliseconds a frame:\n");
+  std::printf("%7s %9s %9s %9s %9s %12s %12s %9s %9s %7s\n", "threads", "rays", "we fire", "first", "ours",
+              "Embree's", "its rays", "pass", "rays", "differ");
+  for (const ShadowPass& pass : report.shadow_passes) print_pass(report, pass);
+}
+
+void print_frames(const Report& report) {
+  if (report.frames.empty()) return;
+  std::printf("a whole frame beside Embree's time for its rays, milliseconds:\n");
+  std::printf("%-9s %7s %-7s %9s %9s %9s %12s %9s\n", "mode", "threads", "isa", "rays", "first", "ours",
+              "Embree's rays", "ratio");
+  for (const WholeFrame& f : report.frames)
+    std::printf("%-9s %7d %-7s %9zu %9.1f %9.1f %12.1f %9.2f\n", f.mode.c_str(), f.threads, f.isa.c_str(),
+                f.rays, f.first_ms, f.ours_ms, f.embree_rays_ms, f.ratio());
+}
+
 nlohmann::json to_json(const BuildCost& cost) {
   return {{"seconds", cost.seconds}, {"bytes", cost.bytes}};
 }
@@ -59,6 +77,14 @@ nlohmann::json to_json(const ShadowPass& p) {
 nlohmann::json to_json(const Speed& s) {
   return {{"set", s.set},   {"backend", s.backend},   {"threads", s.threads},
           {"rays", s.rays}, {"mrays_per_s", s.mrays}, {"differ_from_embree_1", s.differ}};
+}
+
+nlohmann::json to_json(const WholeFrame& f, const std::string& scene) {
+  return {{"scene", scene},       {"mode", f.mode},
+          {"threads", f.threads}, {"isa", f.isa},
+          {"rays", f.rays},       {"first_ms", f.first_ms},
+          {"ours_ms", f.ours_ms}, {"embree_rays_ms", f.embree_rays_ms},
+          {"ratio", f.ratio()}};
 }
 
 }  // namespace
@@ -76,11 +102,8 @@ void print_report(const Report& report) {
               "embree 1", "embree 16", "ours/best", "differ");
   for (const Speed& speed : report.speeds)
     if (is_ours(speed)) print_row(report, speed);
-  if (report.shadow_passes.empty()) return;
-  std::printf("the whole shadow pass, camera going round, milliseconds a frame:\n");
-  std::printf("%7s %9s %9s %9s %9s %12s %12s %9s %9s %7s\n", "threads", "rays", "we fire", "first", "ours",
-              "Embree's", "its rays", "pass", "rays", "differ");
-  for (const ShadowPass& pass : report.shadow_passes) print_pass(report, pass);
+  print_passes(report);
+  print_frames(report);
 }
 
 void save_report(const Report& report, const std::filesystem::path& file) {
@@ -102,6 +125,8 @@ void save_report(const Report& report, const std::filesystem::path& file) {
   for (const Speed& speed : report.speeds) speeds.push_back(to_json(speed));
   nlohmann::json& passes = json["shadow_passes"] = nlohmann::json::array();
   for (const ShadowPass& pass : report.shadow_passes) passes.push_back(to_json(pass));
+  nlohmann::json& frames = json["frames"] = nlohmann::json::array();
+  for (const WholeFrame& frame : report.frames) frames.push_back(to_json(frame, report.scene));
   // A path may hold bytes that are no UTF-8: replaced, or dump would throw.
   write_text(file, json.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + "\n");
 }

@@ -6,6 +6,7 @@
 
 #include "bench/rays/measure.h"
 #include "bench/rays/shadow_pass.h"
+#include "bench/rays/whole_frame.h"
 
 namespace pinocchio::bench {
 
@@ -20,6 +21,7 @@ struct Report {
   BuildCost ours, embree;
   std::vector<Speed> speeds;
   std::vector<ShadowPass> shadow_passes;
+  std::vector<WholeFrame> frames;
 };
 
 // Tables for people, on stdout.

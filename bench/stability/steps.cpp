@@ -13,10 +13,12 @@ namespace pinocchio::stability {
 
 Steps steps_of(const BspTree& tree, const Ray& ray) {
   Steps steps;
-  counting::Packet packet;
-  packet.load(&ray, 1);
-  counting::for_each_octant(packet, packet.living, [&](const counting::Course& course, scalar::Mask lanes) {
-    counting::walk(tree, packet, course, lanes, packet.t_max, [&](const BspNode& leaf, scalar::Mask) {
+  counting::Group<1> one;
+  const glm::vec3 &o = ray.origin, &d = ray.direction;
+  one.packets[0].load({{&o.x, &o.y, &o.z}, {&d.x, &d.y, &d.z}, &ray.t_max}, 0, 1);
+  const scalar::Float t_best[1] = {one.packets[0].t_max};
+  counting::for_each_octant(one, [&](const bool(&negative)[3], const scalar::Mask(&lanes)[1]) {
+    counting::walk(tree, one, negative, lanes, t_best, [&](const BspNode& leaf, const unsigned(&)[1]) {
       ++steps.leaves;
       steps.triangle_tests += leaf.reference_count();
     });

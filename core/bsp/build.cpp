@@ -31,24 +31,25 @@ void for_each_chunk(Workers& workers, std::size_t n, const Body& body) {
                    [&](std::size_t i) { body(i * kChunk, std::min(n, (i + 1) * kChunk)); });
 }
 
-// Prepares the triangles, and the references that the tree is built of. A triangle without area is met by no
-// ray and stays out of the tree.
-References prepare(const Mesh& mesh, Workers& workers, BspTree& tree) {
+// Prepares the triangles, in the scene's order, and the references that the tree is built of. A triangle
+// without area is met by no ray and stays out of the tree.
+References prepare(const Mesh& mesh, Workers& workers, BspTree& tree,
+                   AlignedVector<ProjectedTriangle>& triangles) {
   const std::size_t n = mesh.triangles.size();
-  tree.triangles.resize(n);
+  triangles.resize(n);
   References all(n);
   for_each_chunk(workers, n, [&](std::size_t first, std::size_t last) {
     for (std::size_t i = first; i < last; ++i) {
       const glm::uvec3& t = mesh.triangles[i];
       const glm::vec3 &a = mesh.positions[t.x], &b = mesh.positions[t.y], &c = mesh.positions[t.z];
       const auto id = static_cast<std::uint32_t>(i);
-      tree.triangles[i] = ProjectedTriangle::from(a, b, c, id);
+      triangles[i] = ProjectedTriangle::from(a, b, c, id);
       all[i] = BuildReference::of(id, {glm::min(glm::min(a, b), c), glm::max(glm::max(a, b), c)});
     }
   });
   std::size_t kept = 0;
   for (std::size_t i = 0; i < n; ++i) {
-    if (std::isnan(tree.triangles[i].n_u)) continue;
+    if (std::isnan(triangles[i].n_u)) continue;
     if (kept != i) all[kept] = all[i];
     ++kept;
     tree.bounds.add(all[i].bounds());
@@ -97,6 +98,15 @@ BspNode moved(const BspNode& n, const Placed& to) {
                      : BspNode::inner(n.axis(), n.split(), n.first_child() - 2 + to.first_node);
 }
 
+CornerTriangle corner_triangle(const Mesh& mesh, std::uint32_t id) {
+  CornerTriangle result;
+  result.id = id;
+  for (int corner = 0; corner < 3; ++corner)
+    for (int axis = 0; axis < 3; ++axis)
+      result.corners[corner][axis] = mesh.positions[mesh.triangles[id][corner]][axis];
+  return result;
+}
+
 void copy(const Placed& from, BspTree& tree) {
   const Subtree& part = *from.part;
   std::transform(part.nodes.begin() + 2, part.nodes.end(), tree.nodes.begin() + from.first_node,
@@ -116,10 +126,39 @@ void join(const TreeTop& top, const Layout& layout, Workers& workers, BspTree& t
   }
 }
 
+// Stores the triangles that leaves refer to in the order in which they do; references, which were the scene's
+// ids, become places in it.
+void store_triangles(const Mesh& mesh, const AlignedVector<ProjectedTriangle>& prepared, Workers& workers,
+                     BspTree& tree) {
+  constexpr std::uint32_t kNone = 0xffffffffu;
+  std::vector<std::uint32_t> place(prepared.size(), kNone), order;
+  order.reserve(prepared.size());
+  for (std::uint32_t& reference : tree.references) {
+    std::uint32_t& at = place[reference];
+    if (at == kNone) {
+      at = static_cast<std::uint32_t>(order.size());
+      order.push_back(reference);
+    }
+    reference = at;
+  }
+  const bool corners = tree.test == TriangleTest::moeller_trumbore || tree.test == TriangleTest::watertight;
+  tree.corner_triangles.resize(corners ? order.size() : 0);
+  tree.triangles.resize(corners ? 0 : order.size());
+  for_each_chunk(workers, order.size(), [&](std::size_t first, std::size_t last) {
+    for (std::size_t i = first; i < last; ++i)
+      if (corners)
+        tree.corner_triangles[i] = corner_triangle(mesh, order[i]);
+      else
+        tree.triangles[i] = prepared[order[i]];
+  });
+}
+
 void build_nodes(const Mesh& mesh, const BuildOptions& options, Workers& workers, BspTree& tree) {
-  References all = prepare(mesh, workers, tree);
+  AlignedVector<ProjectedTriangle> triangles;
+  References all = prepare(mesh, workers, tree, triangles);
   const int max_depth = depth_of(options, mesh.triangles.size());
-  TreeTop top = build_top(mesh, options, max_depth, std::move(all), tree.bounds, workers);
+  const CostModel model(options, tree.bounds, options.lights);
+  TreeTop top = build_top(mesh, options, model, max_depth, std::move(all), tree.bounds, workers);
 
   PartQueue queue;
   std::vector<std::uint32_t> roots;
@@ -128,7 +167,7 @@ void build_nodes(const Mesh& mesh, const BuildOptions& options, Workers& workers
     queue.put(std::move(part));
   }
   workers.for_each(static_cast<std::size_t>(workers.count()), [&](std::size_t) {
-    SubtreeBuilder builder(mesh, options, max_depth, queue);
+    SubtreeBuilder builder(mesh, options, model, max_depth, queue);
     try {
       while (std::optional<PartQueue::Taken> taken = queue.take())
         queue.give(taken->number, builder.build(taken->part.references.span(), taken->part.node));
@@ -140,6 +179,7 @@ void build_nodes(const Mesh& mesh, const BuildOptions& options, Workers& workers
   Layout layout(queue, top.nodes.size());
   for (std::size_t i = 0; i < roots.size(); ++i) layout.place(i, roots[i]);
   join(top, layout, workers, tree);
+  store_triangles(mesh, triangles, workers, tree);
 }
 
 // A ray computes its entry into the box with three roundings; flat scenes need some thickness, too.
@@ -151,25 +191,11 @@ void widen(Bounds& bounds) {
   bounds.hi += margin;
 }
 
-AlignedVector<CornerTriangle> corner_triangles(const Mesh& mesh) {
-  AlignedVector<CornerTriangle> result(mesh.triangles.size());
-  for (std::uint32_t i = 0; i < result.size(); ++i) {
-    result[i].id = i;
-    for (int corner = 0; corner < 3; ++corner)
-      for (int axis = 0; axis < 3; ++axis)
-        result[i].corners[corner][axis] = mesh.positions[mesh.triangles[i][corner]][axis];
-  }
-  return result;
-}
-
 }  // namespace
 
 BspTree build_tree(const Mesh& mesh, const BuildOptions& options) {
   BspTree tree;
   Workers workers(options.threads);
-  if (options.triangle_test == TriangleTest::moeller_trumbore ||
-      options.triangle_test == TriangleTest::watertight)
-    tree.corner_triangles = corner_triangles(mesh);
   tree.test = options.triangle_test;
   tree.positions = mesh.positions;
   tree.corners = mesh.triangles;

@@ -2,7 +2,7 @@
 
 #include <emmintrin.h>
 
-#include "core/bsp/build.h"
+#include "core/bsp/cost_model.h"
 #include "pinocchio/bounds.h"
 
 namespace pinocchio {
@@ -11,15 +11,17 @@ namespace pinocchio {
 class SahCost {
  public:
   // The node's area must not be zero.
-  SahCost(const Bounds& node, int axis, const BuildOptions& options) {
-    const glm::vec3 e = node.extent();
-    const float u = e[(axis + 1) % 3], v = e[(axis + 2) % 3], inverse_area = 1.0f / node.half_area();
+  SahCost(const Bounds& node, int axis, const NodeCost& node_cost) {
+    const float m = node_cost.margin;
+    const glm::vec3 e = node.extent() + m;
+    const float u = e[(axis + 1) % 3], v = e[(axis + 2) % 3];
+    const float inverse_area = 1.0f / (e.x * e.y + e.y * e.z + e.z * e.x);
     lo_ = _mm_set1_ps(node.lo[axis]);
     hi_ = _mm_set1_ps(node.hi[axis]);
-    ends_ = _mm_set1_ps(u * v * inverse_area);
+    ends_ = _mm_set1_ps((u * v + m * (u + v)) * inverse_area);
     sides_ = _mm_set1_ps((u + v) * inverse_area);
-    step_ = _mm_set1_ps(options.cost_step);
-    intersection_ = _mm_set1_ps(options.cost_intersection);
+    step_ = _mm_set1_ps(node_cost.step);
+    intersection_ = _mm_set1_ps(node_cost.intersection);
   }
 
   // For planes at `position`, with these numbers of references on either side.

@@ -77,8 +77,8 @@ class SlabCosts {
   alignas(16) float least_[kEdges];  // lower bound of the cost of any plane in slab i
 };
 
-SplitPlane leaf(std::size_t references, const BuildOptions& options) {
-  return {-1, 0.0f, true, options.cost_intersection * static_cast<float>(references)};
+SplitPlane leaf(std::size_t references, const NodeCost& cost) {
+  return {-1, 0.0f, true, cost.intersection * static_cast<float>(references)};
 }
 
 std::optional<SplitPlane> unless_leaf(const SplitPlane& best) {
@@ -177,11 +177,11 @@ void make_room(SplitScratch& s, std::size_t references) {
 }
 
 // Counts in slabs, and looks into those that may hold the best plane.
-void search_slabs(std::span<const BuildReference> references, const Bounds& node, const BuildOptions& options,
+void search_slabs(std::span<const BuildReference> references, const Bounds& node, const NodeCost& of_node,
                   SplitScratch& scratch, SplitPlane& best) {
   Slabs slabs(node, slab_count(references.size()));
   slabs.add(references, scratch.ends.data());
-  const SahCost cost[3] = {{node, 0, options}, {node, 1, options}, {node, 2, options}};
+  const SahCost cost[3] = {{node, 0, of_node}, {node, 1, of_node}, {node, 2, of_node}};
   const SlabCosts costs[3] = {{slabs, references.size(), cost[0], 0},
                               {slabs, references.size(), cost[1], 1},
                               {slabs, references.size(), cost[2], 2}};
@@ -199,31 +199,33 @@ void search_slabs(std::span<const BuildReference> references, const Bounds& node
 }  // namespace
 
 std::optional<SplitPlane> find_slab_edge(const Slabs& slabs, std::size_t references, const Bounds& node,
-                                         const BuildOptions& options) {
-  SplitPlane best = leaf(references, options);
+                                         const CostModel& model) {
   if (!(node.half_area() > 0.0f)) return std::nullopt;
+  const NodeCost cost = model.in(node);
+  SplitPlane best = leaf(references, cost);
   for (int axis = 0; axis < 3; ++axis)
     if (node.hi[axis] > node.lo[axis])
-      SlabCosts(slabs, references, SahCost(node, axis, options), axis).try_edges(best);
+      SlabCosts(slabs, references, SahCost(node, axis, cost), axis).try_edges(best);
   return unless_leaf(best);
 }
 
 std::optional<SplitPlane> find_sah_split(std::span<const BuildReference> references, const Bounds& node,
-                                         const BuildOptions& options, SplitScratch& scratch) {
+                                         const CostModel& model, SplitScratch& scratch) {
   if (!(node.half_area() > 0.0f)) return std::nullopt;
   if (references.size() > kExactLimit) {
     Slabs slabs(node, Slabs::kMost);
     slabs.add(references);
-    return find_slab_edge(slabs, references.size(), node, options);
+    return find_slab_edge(slabs, references.size(), node, model);
   }
   make_room(scratch, references.size());
-  SplitPlane best = leaf(references.size(), options);
+  const NodeCost cost = model.in(node);
+  SplitPlane best = leaf(references.size(), cost);
   if (references.size() >= kSlabsFrom) {
-    search_slabs(references, node, options, scratch, best);
+    search_slabs(references, node, cost, scratch, best);
   } else {
     for (int axis = 0; axis < 3; ++axis)
       if (node.hi[axis] > node.lo[axis])
-        try_all(references, node, axis, SahCost(node, axis, options), scratch, best);
+        try_all(references, node, axis, SahCost(node, axis, cost), scratch, best);
   }
   return unless_leaf(best);
 }

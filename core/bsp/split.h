@@ -6,6 +6,7 @@
 
 #include "core/bsp/build.h"
 #include "core/bsp/build_reference.h"
+#include "core/bsp/cost_model.h"
 #include "core/bsp/slabs.h"
 #include "pinocchio/bounds.h"
 
@@ -28,12 +29,12 @@ struct SplitScratch {
 // Many references are first counted in slabs: a slab whose cost cannot be below the best edge's is not
 // looked into (branch and bound). Of more than a few thousand the best edge itself is taken.
 [[nodiscard]] std::optional<SplitPlane> find_sah_split(std::span<const BuildReference> references,
-                                                       const Bounds& node, const BuildOptions& options,
+                                                       const Bounds& node, const CostModel& model,
                                                        SplitScratch& scratch);
 
 // Best of the edges between slabs, for nodes of so many references that no more is worth the time.
 [[nodiscard]] std::optional<SplitPlane> find_slab_edge(const Slabs& slabs, std::size_t references,
-                                                       const Bounds& node, const BuildOptions& options);
+                                                       const Bounds& node, const CostModel& model);
 
 [[nodiscard]] std::optional<SplitPlane> find_spatial_median(const Bounds& node);
 [[nodiscard]] std::optional<SplitPlane> find_object_median(std::span<const BuildReference> references,

@@ -83,7 +83,7 @@ std::optional<SplitPlane> SubtreeBuilder::choose(std::span<const BuildReference>
     case SplitRule::sah:
       break;
   }
-  return find_sah_split(references, node.box, options_, scratch_);
+  return find_sah_split(references, node.box, model_, scratch_);
 }
 
 void SubtreeBuilder::make_leaf(std::uint32_t index, std::size_t begin, std::size_t end) {

@@ -59,8 +59,9 @@ class SubtreeBuilder {
  public:
   // Large nodes' upper children go to `queue` instead of being built. What is large is a constant: the parts
   // are the same for any number of threads.
-  SubtreeBuilder(const Mesh& mesh, const BuildOptions& options, int max_depth, PartQueue& queue)
-      : mesh_(mesh), options_(options), max_depth_(max_depth), queue_(queue) {}
+  SubtreeBuilder(const Mesh& mesh, const BuildOptions& options, const CostModel& model, int max_depth,
+                 PartQueue& queue)
+      : mesh_(mesh), options_(options), model_(model), max_depth_(max_depth), queue_(queue) {}
 
   [[nodiscard]] Subtree build(std::span<const BuildReference> references, const OpenNode& root);
 
@@ -72,6 +73,7 @@ class SubtreeBuilder {
 
   const Mesh& mesh_;
   const BuildOptions& options_;
+  const CostModel& model_;
   int max_depth_;
   PartQueue& queue_;
   Subtree made_;

@@ -39,7 +39,7 @@ std::vector<Chunk> chunks_of(const std::vector<TreePart>& nodes) {
   return chunks;
 }
 
-void choose_by_sah(Level& level, const BuildOptions& options, Workers& workers) {
+void choose_by_sah(Level& level, const CostModel& model, Workers& workers) {
   std::vector<std::optional<Slabs>> slabs(level.chunks.size());
   workers.for_each(level.chunks.size(), [&](std::size_t i) {
     const Chunk& c = level.chunks[i];
@@ -51,7 +51,7 @@ void choose_by_sah(Level& level, const BuildOptions& options, Workers& workers) 
     const TreePart& node = level.nodes[n];
     Slabs& all = *slabs[first[n]];
     for (std::size_t i = first[n] + 1; i < slabs.size() && level.chunks[i].node == n; ++i) all.add(*slabs[i]);
-    level.planes[n] = find_slab_edge(all, node.references.size(), node.node.box, options);
+    level.planes[n] = find_slab_edge(all, node.references.size(), node.node.box, model);
   });
 }
 
@@ -66,8 +66,9 @@ void choose_by_median(Level& level, SplitRule rule, Workers& workers) {
 
 class TopBuilder {
  public:
-  TopBuilder(const Mesh& mesh, const BuildOptions& options, int max_depth, Workers& workers)
-      : mesh_(mesh), options_(options), max_depth_(max_depth), workers_(workers) {}
+  TopBuilder(const Mesh& mesh, const BuildOptions& options, const CostModel& model, int max_depth,
+             Workers& workers)
+      : mesh_(mesh), options_(options), model_(model), max_depth_(max_depth), workers_(workers) {}
 
   TreeTop build(References all, const Bounds& bounds) {
     top_.nodes.assign(2, BspNode::leaf(0, 0));
@@ -88,7 +89,7 @@ class TopBuilder {
     level.chunks = chunks_of(level.nodes);
     level.planes.resize(level.nodes.size());
     if (options_.rule == SplitRule::sah)
-      choose_by_sah(level, options_, workers_);
+      choose_by_sah(level, model_, workers_);
     else
       choose_by_median(level, options_.rule, workers_);
     const std::vector<Halves> sizes = cut(level);
@@ -161,6 +162,7 @@ class TopBuilder {
 
   const Mesh& mesh_;
   const BuildOptions& options_;
+  const CostModel& model_;
   int max_depth_;
   Workers& workers_;
   TreeTop top_;
@@ -168,9 +170,9 @@ class TopBuilder {
 
 }  // namespace
 
-TreeTop build_top(const Mesh& mesh, const BuildOptions& options, int max_depth, References all,
-                  const Bounds& bounds, Workers& workers) {
-  return TopBuilder(mesh, options, max_depth, workers).build(std::move(all), bounds);
+TreeTop build_top(const Mesh& mesh, const BuildOptions& options, const CostModel& model, int max_depth,
+                  References all, const Bounds& bounds, Workers& workers) {
+  return TopBuilder(mesh, options, model, max_depth, workers).build(std::move(all), bounds);
 }
 
 }  // namespace pinocchio

@@ -23,15 +23,17 @@ using AlignedVector = std::vector<T, boost::alignment::aligned_allocator<T, kCac
 // Binary space partition over a mesh's triangles; built once (bsp/build.h), then only read. It looks into
 // the mesh, which stays where it is as long as this lives.
 struct BspTree {
-  Bounds bounds;                               // widened by the rounding of a traversal step
-  AlignedVector<BspNode> nodes;                // root first; node 1 is padding, so that siblings share a line
-  AlignedVector<std::uint32_t> references;     // of leaves, into `triangles`
-  AlignedVector<ProjectedTriangle> triangles;  // in the mesh's order
-  AlignedVector<CornerTriangle> corner_triangles;  // likewise, for the tests that take corners; else empty
-  int depth = 0;                                   // of the deepest leaf
-  TriangleTest test = TriangleTest::filtered;      // that these triangles are stored for
-  std::span<const glm::vec3> positions;            // the mesh's
-  std::span<const glm::uvec3> corners;             // the mesh's triangles
+  Bounds bounds;                            // widened by the rounding of a traversal step
+  AlignedVector<BspNode> nodes;             // root first; node 1 is padding, so that siblings share a line
+  AlignedVector<std::uint32_t> references;  // of leaves, into the triangles
+  // In the order in which leaves refer to them first: a leaf's are mostly side by side, and near its
+  // neighbours'. For the tests that take corners the second, else the first; the other is empty.
+  AlignedVector<ProjectedTriangle> triangles;
+  AlignedVector<CornerTriangle> corner_triangles;
+  int depth = 0;                               // of the deepest leaf
+  TriangleTest test = TriangleTest::filtered;  // that these triangles are stored for
+  std::span<const glm::vec3> positions;        // the scene's
+  std::span<const glm::uvec3> corners;         // the scene's triangles
 
   [[nodiscard]] std::size_t bytes() const {
     return nodes.size() * sizeof(BspNode) + references.size() * sizeof(std::uint32_t) +

@@ -44,6 +44,12 @@ inline Float operator*(Float a, Float b) {
 inline Float operator/(Float a, Float b) {
   return _mm512_div_ps(a.v, b.v);
 }
+inline Float operator-(Float a) {
+  return _mm512_castsi512_ps(_mm512_xor_si512(_mm512_castps_si512(a.v), _mm512_set1_epi32(INT32_MIN)));
+}
+inline Float sqrt(Float a) {
+  return _mm512_sqrt_ps(a.v);
+}
 inline Mask operator<(Float a, Float b) {
   return {_mm512_cmp_ps_mask(a.v, b.v, _CMP_LT_OS)};
 }
@@ -69,16 +75,74 @@ inline Float select(Mask m, Float yes, Float no) {
 struct Int {
   __m512i v;
   Int() = default;
+  Int(__m512i x) : v(x) {}  // NOLINT: what the intrinsics return
   explicit Int(std::uint32_t x) : v(_mm512_set1_epi32(static_cast<int>(x))) {}
+  static Int load(const std::uint32_t* p) { return _mm512_load_si512(p); }
   void store(std::uint32_t* p) const { _mm512_store_si512(p, v); }
 };
 inline Mask operator<(Int a, Int b) {
   return {_mm512_cmplt_epi32_mask(a.v, b.v)};
 }
+inline Mask operator==(Int a, Int b) {
+  return {_mm512_cmpeq_epi32_mask(a.v, b.v)};
+}
+inline Int operator+(Int a, Int b) {
+  return _mm512_add_epi32(a.v, b.v);
+}
+inline Int operator-(Int a, Int b) {
+  return _mm512_sub_epi32(a.v, b.v);
+}
+template <int kBits>
+Int shift_left(Int a) {
+  return _mm512_slli_epi32(a.v, kBits);
+}
+template <int kBits>
+Int shift_right(Int a) {
+  return _mm512_srai_epi32(a.v, kBits);
+}
 inline Int select(Mask m, Int yes, Int no) {
-  Int r;
-  r.v = _mm512_mask_blend_epi32(m.m, no.v, yes.v);
-  return r;
+  return _mm512_mask_blend_epi32(m.m, no.v, yes.v);
+}
+
+inline Int bits_of(Float a) {
+  return _mm512_castps_si512(a.v);
+}
+inline Float from_bits(Int a) {
+  return _mm512_castsi512_ps(a.v);
+}
+inline Float to_float(Int a) {
+  return _mm512_cvtepi32_ps(a.v);
+}
+
+// Packed in a register first: a packing store is slow on some processors.
+inline void store_packed(float* p, Float a, Mask m) {
+  _mm512_storeu_ps(p, _mm512_maskz_compress_ps(m.m, a.v));
+}
+inline void store_packed(std::uint32_t* p, Int a, Mask m) {
+  _mm512_storeu_si512(p, _mm512_maskz_compress_epi32(m.m, a.v));
+}
+
+using NativeDouble = __m512d;
+inline constexpr int kParts = 2;
+inline NativeDouble splat(double x) {
+  return _mm512_set1_pd(x);
+}
+inline NativeDouble min(NativeDouble a, NativeDouble b) {
+  return _mm512_min_pd(a, b);
+}
+inline NativeDouble max(NativeDouble a, NativeDouble b) {
+  return _mm512_max_pd(a, b);
+}
+inline NativeDouble native_exponent(NativeDouble a) {
+  return _mm512_castsi512_pd(_mm512_slli_epi64(_mm512_castpd_si512(a), 52));
+}
+inline void widen(Float a, NativeDouble (&out)[kParts]) {
+  out[0] = _mm512_cvtps_pd(_mm512_castps512_ps256(a.v));
+  out[1] = _mm512_cvtps_pd(_mm256_castpd_ps(_mm512_extractf64x4_pd(_mm512_castps_pd(a.v), 1)));
+}
+inline Float narrow(const NativeDouble (&a)[kParts]) {
+  const __m512d low = _mm512_castps_pd(_mm512_castps256_ps512(_mm512_cvtpd_ps(a[0])));
+  return _mm512_castpd_ps(_mm512_insertf64x4(low, _mm256_castps_pd(_mm512_cvtpd_ps(a[1])), 1));
 }
 
 }  // namespace pinocchio::avx512

@@ -14,9 +14,15 @@ struct Mask {
   [[nodiscard]] unsigned bits() const { return m ? 1u : 0u; }  // bit i: lane i
   static Mask from_bits(unsigned bits) { return {(bits & 1u) != 0}; }
 };
-inline Mask operator&(Mask a, Mask b) { return {a.m && b.m}; }
-inline Mask operator|(Mask a, Mask b) { return {a.m || b.m}; }
-inline Mask operator~(Mask a) { return {!a.m}; }
+inline Mask operator&(Mask a, Mask b) {
+  return {a.m && b.m};
+}
+inline Mask operator|(Mask a, Mask b) {
+  return {a.m || b.m};
+}
+inline Mask operator~(Mask a) {
+  return {!a.m};
+}
 
 struct Float {
   float v;
@@ -25,27 +31,117 @@ struct Float {
   static Float load(const float* p) { return Float(*p); }
   void store(float* p) const { *p = v; }
 };
-inline Float operator+(Float a, Float b) { return Float(a.v + b.v); }
-inline Float operator-(Float a, Float b) { return Float(a.v - b.v); }
-inline Float operator*(Float a, Float b) { return Float(a.v * b.v); }
-inline Float operator/(Float a, Float b) { return Float(a.v / b.v); }
-inline Mask operator<(Float a, Float b) { return {a.v < b.v}; }
-inline Mask operator<=(Float a, Float b) { return {a.v <= b.v}; }
-inline Mask operator==(Float a, Float b) { return {a.v == b.v}; }
+inline Float operator+(Float a, Float b) {
+  return Float(a.v + b.v);
+}
+inline Float operator-(Float a, Float b) {
+  return Float(a.v - b.v);
+}
+inline Float operator*(Float a, Float b) {
+  return Float(a.v * b.v);
+}
+inline Float operator/(Float a, Float b) {
+  return Float(a.v / b.v);
+}
+inline Float operator-(Float a) {
+  return Float(-a.v);
+}
+inline Float sqrt(Float a) {
+  return Float(__builtin_sqrtf(a.v));
+}
+inline Mask operator<(Float a, Float b) {
+  return {a.v < b.v};
+}
+inline Mask operator<=(Float a, Float b) {
+  return {a.v <= b.v};
+}
+inline Mask operator==(Float a, Float b) {
+  return {a.v == b.v};
+}
 // The second operand where either is NaN, as the SSE instructions have it.
-inline Float min(Float a, Float b) { return Float(a.v < b.v ? a.v : b.v); }
-inline Float max(Float a, Float b) { return Float(a.v > b.v ? a.v : b.v); }
-inline Float abs(Float a) { return Float(__builtin_fabsf(a.v)); }
-inline Float select(Mask m, Float yes, Float no) { return m.m ? yes : no; }
+inline Float min(Float a, Float b) {
+  return Float(a.v < b.v ? a.v : b.v);
+}
+inline Float max(Float a, Float b) {
+  return Float(a.v > b.v ? a.v : b.v);
+}
+inline Float abs(Float a) {
+  return Float(__builtin_fabsf(a.v));
+}
+inline Float select(Mask m, Float yes, Float no) {
+  return m.m ? yes : no;
+}
 
 // Triangle ids, below 2^30; kNoTriangle compares as -1.
 struct Int {
   std::int32_t v;
   Int() = default;
   explicit Int(std::uint32_t x) : v(static_cast<std::int32_t>(x)) {}
+  static Int load(const std::uint32_t* p) { return Int(*p); }
   void store(std::uint32_t* p) const { *p = static_cast<std::uint32_t>(v); }
 };
-inline Mask operator<(Int a, Int b) { return {a.v < b.v}; }
-inline Int select(Mask m, Int yes, Int no) { return m.m ? yes : no; }
+inline Mask operator<(Int a, Int b) {
+  return {a.v < b.v};
+}
+inline Mask operator==(Int a, Int b) {
+  return {a.v == b.v};
+}
+inline Int operator+(Int a, Int b) {
+  return Int(static_cast<std::uint32_t>(a.v) + static_cast<std::uint32_t>(b.v));
+}
+inline Int operator-(Int a, Int b) {
+  return Int(static_cast<std::uint32_t>(a.v) - static_cast<std::uint32_t>(b.v));
+}
+template <int kBits>
+Int shift_left(Int a) {
+  return Int(static_cast<std::uint32_t>(a.v) << kBits);
+}
+template <int kBits>
+Int shift_right(Int a) {
+  return Int(static_cast<std::uint32_t>(a.v >> kBits));
+}  // copies of the sign move in
+inline Int select(Mask m, Int yes, Int no) {
+  return m.m ? yes : no;
+}
+
+inline Int bits_of(Float a) {
+  return Int(std::bit_cast<std::uint32_t>(a.v));
+}
+inline Float from_bits(Int a) {
+  return Float(std::bit_cast<float>(a.v));
+}
+inline Float to_float(Int a) {
+  return Float(static_cast<float>(a.v));
+}
+
+// The lanes of m, side by side in their order; p has room for kWidth.
+inline void store_packed(float* p, Float a, Mask m) {
+  if (m.m) *p = a.v;
+}
+inline void store_packed(std::uint32_t* p, Int a, Mask m) {
+  if (m.m) a.store(p);
+}
+
+// Lanes of double are kParts native ones (simd/double_lanes.h).
+using NativeDouble = double;
+inline constexpr int kParts = 1;
+inline NativeDouble splat(double x) {
+  return x;
+}
+inline NativeDouble min(NativeDouble a, NativeDouble b) {
+  return a < b ? a : b;
+}
+inline NativeDouble max(NativeDouble a, NativeDouble b) {
+  return a > b ? a : b;
+}
+inline NativeDouble native_exponent(NativeDouble a) {
+  return std::bit_cast<double>(std::bit_cast<std::uint64_t>(a) << 52);
+}
+inline void widen(Float a, NativeDouble (&out)[kParts]) {
+  out[0] = static_cast<double>(a.v);
+}
+inline Float narrow(const NativeDouble (&a)[kParts]) {
+  return Float(static_cast<float>(a[0]));
+}
 
 }  // namespace pinocchio::scalar

@@ -3,3 +3,4 @@
 
 #define PINOCCHIO_LANES avx2
 #include "core/trace/kernel.h"
+#include "core/trace/lanes/steps.h"

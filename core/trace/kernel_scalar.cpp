@@ -2,3 +2,4 @@
 
 #define PINOCCHIO_LANES scalar
 #include "core/trace/kernel.h"
+#include "core/trace/lanes/steps.h"

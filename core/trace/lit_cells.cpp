@@ -143,11 +143,16 @@ bool LitCells::falls(std::uint32_t triangle) const {
   const std::array<glm::vec3, 3> corners = corners_of(tracer_.mesh(), triangle);
   const glm::dvec3 a(corners[0]);
   const glm::dvec3 n = glm::cross(glm::dvec3(corners[1]) - a, glm::dvec3(corners[2]) - a);
-  return n[static_cast<int>(tracer_.tree().triangles[triangle].k)] < 0.0;
+  return n[static_cast<int>(projected(triangle).k)] < 0.0;
+}
+
+ProjectedTriangle LitCells::projected(std::uint32_t triangle) const {
+  const std::array<glm::vec3, 3> corners = corners_of(scene_, triangle);
+  return ProjectedTriangle::from(corners[0], corners[1], corners[2], triangle);
 }
 
 LitCells::Side LitCells::side_of(std::uint32_t triangle, const glm::vec3& eye) const {
-  const ProjectedTriangle& t = tracer_.tree().triangles[triangle];
+  const ProjectedTriangle t = projected(triangle);
   const int k = static_cast<int>(t.k), u = (k + 1) % 3, v = (k + 2) % 3;
   const glm::vec3 from_a = eye - glm::vec3(t.a[0], t.a[1], t.a[2]);
   const float height = from_a[k] + t.n_u * from_a[u] + t.n_v * from_a[v];

@@ -75,6 +75,7 @@ class LitCells {
   [[nodiscard]] std::uint8_t& state(const Due& due) { return states_[due.slot * cells_ + due.cell]; }
   void look_into(const Due& due);
   [[nodiscard]] bool falls(std::uint32_t triangle) const;
+  [[nodiscard]] ProjectedTriangle projected(std::uint32_t triangle) const;
 
   const Tracer& tracer_;
   std::vector<std::uint32_t> first_;  // a triangle's first cell; those of its other side follow

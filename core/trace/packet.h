@@ -9,54 +9,57 @@ namespace {
 // are.
 constexpr float kEarly = 1.0f - 0x1p-21f, kLate = 1.0f + 0x1p-21f;
 
-inline bool finite(float x) {
-  return x - x == 0.0f;
+inline Mask finite(Float x) {
+  return x - x == Float(0.0f);
 }
 
-inline bool traceable(const Ray& r) {
-  for (int i = 0; i < 3; ++i)
-    if (!finite(r.origin[i]) || !finite(r.direction[i])) return false;
-  return r.t_max > 0.0f && (r.direction.x != 0.0f || r.direction.y != 0.0f || r.direction.z != 0.0f);
+// The lanes from ray i on that hold one.
+inline Mask lanes_from(std::size_t i, std::size_t size) {
+  return Mask::from_bits(size - i < kWidth ? (1u << (size - i)) - 1u : ~0u >> (32 - kWidth));
 }
 
-// Up to kWidth rays, transposed.
+// Up to kWidth rays.
 struct Packet {
   Float o[3], d[3];
   Float reach;  // |d_x| + |d_y| + |d_z|
   Float t_max;
   unsigned living;  // lanes that hold a ray
 
-  void load(const Ray* rays, std::size_t n) {
-    alignas(64) float os[3][kWidth], ds[3][kWidth], t_maxs[kWidth];
-    living = 0;
-    for (std::size_t lane = 0; lane < kWidth; ++lane) {
-      const Ray& r = rays[lane < n ? lane : 0];
-      const bool use = lane < n && traceable(r);
-      for (int i = 0; i < 3; ++i) {
-        os[i][lane] = use ? r.origin[i] : 0.0f;
-        ds[i][lane] = use ? r.direction[i] + 0.0f : 1.0f;  // + 0 turns -0 into +0
-      }
-      t_maxs[lane] = use ? r.t_max : -1.0f;
-      if (use) living |= 1u << lane;
+  // Rays i and on, of `count` in all; those that cannot be traced are left out.
+  void load(const RayColumns& rays, std::size_t i, std::size_t count) {
+    const Float zero(0.0f), one(1.0f);
+    if (i >= count) {
+      for (int axis = 0; axis < 3; ++axis) o[axis] = d[axis] = one;
+      reach = t_max = -one;
+      living = 0;
+      return;
     }
-    for (int i = 0; i < 3; ++i) {
-      o[i] = Float::load(os[i]);
-      d[i] = Float::load(ds[i]);
+    t_max = rays.t_max ? Float::load(rays.t_max + i) : Float(rays.reach);
+    Mask use = lanes_from(i, count) & (zero < t_max), points = Mask::from_bits(0);
+    for (int axis = 0; axis < 3; ++axis) {
+      o[axis] = Float::load(rays.origin[axis] + i);
+      d[axis] = Float::load(rays.direction[axis] + i) + zero;  // turns -0 into +0
+      use = use & finite(o[axis]) & finite(d[axis]);
+      points = points | ~(d[axis] == zero);
     }
+    use = use & points;
+    for (int axis = 0; axis < 3; ++axis) {
+      o[axis] = select(use, o[axis], zero);
+      d[axis] = select(use, d[axis], one);
+    }
+    t_max = select(use, t_max, -one);
     reach = abs(d[0]) + abs(d[1]) + abs(d[2]);
-    t_max = Float::load(t_maxs);
+    living = use.bits();
   }
 };
 
-// How a packet's rays of one direction octant, which meet the two sides of a split plane in the same order,
-// step through the tree.
+// How a packet's rays step through the tree.
 struct Course {
   Float inverse[3];  // 1 / d
-  bool negative[3];  // direction falls along this axis
 };
 
 // A triangle test is a class made once for a packet (it may prepare the packet's rays):
-//   stored(tree)              the triangles as it wants them, in the scene's order
+//   stored(tree)              the triangles as it wants them, in the tree's order
 //   meets(triangle, lanes, t) which of `lanes` meet it at 0 < t; sets their t
 // The order of operations is fixed, and a lane's answer depends on its ray alone.
 

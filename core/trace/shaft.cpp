@@ -118,7 +118,7 @@ bool Shaft::clear(const BspTree& tree) const {
     const BspNode& node = tree.nodes[at.node];
     if (node.is_leaf()) {
       for (std::uint32_t i = 0; i < node.reference_count(); ++i)
-        if (may_block(tree, tree.references[node.first_reference() + i])) return false;
+        if (may_block(tree, tree.triangles[tree.references[node.first_reference() + i]].id)) return false;
     } else {
       const int axis = node.axis();
       Entry low{at.box, node.first_child()}, high{at.box, node.first_child() + 1};

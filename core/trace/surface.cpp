@@ -4,18 +4,10 @@
 #include <cmath>
 
 #include "core/image/tonemap.h"
+#include "core/trace/lane_steps.h"
 
 namespace pinocchio {
 namespace {
-
-constexpr float kRounding = 0x1p-24f;  // of a float, half a unit in its last place
-
-// A ray's origin is rounded once, from the exact point moved along the normal: twice that keeps it on its
-// side.
-constexpr float kPointError = 2.0f * kRounding;
-// A triangle test errs by a few roundings of the distances it works with (Wächter and Binder 2019 take 32 of
-// all coordinates).
-constexpr float kTestError = 32.0f * kRounding;
 
 float largest_component(const glm::vec3& v) {
   return std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)});
@@ -72,7 +64,7 @@ float error_bound_offset(const glm::dvec3& p, const glm::vec3& n, const glm::vec
 }
 
 float least_error_bound_offset(const glm::vec3& ab, const glm::vec3& ac) {
-  return kTestError * std::max(largest_component(ab), largest_component(ac));
+  return kTriangleError * std::max(largest_component(ab), largest_component(ac));
 }
 
 Surface surface_at(const Mesh& mesh, std::uint32_t id, const glm::vec3& origin, const glm::vec3& direction,
@@ -140,6 +132,14 @@ glm::vec3 sample_texture(const Texture& texture, glm::vec2 texcoord) {
     return glm::vec3(srgb8_to_linear(t.r), srgb8_to_linear(t.g), srgb8_to_linear(t.b));
   };
   return glm::mix(glm::mix(texel(0, 0), texel(1, 0), f.x), glm::mix(texel(0, 1), texel(1, 1), f.x), f.y);
+}
+
+glm::vec3 texture_color(const SceneArrays& scene, std::uint32_t triangle, int texture,
+                        const glm::vec3& weights) {
+  const glm::uvec3& corners = scene.triangles[triangle];
+  return sample_texture(scene.textures[texture], weights.x * scene.texcoords[corners.x] +
+                                                     weights.y * scene.texcoords[corners.y] +
+                                                     weights.z * scene.texcoords[corners.z]);
 }
 
 }  // namespace pinocchio

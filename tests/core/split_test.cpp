@@ -81,7 +81,7 @@ TEST(Split, NoPlaneIsBetterThanTheOneFound) {
       for (const float grid : {0.0f, 4.0f, 64.0f}) {
         const std::vector<BuildReference> references = random_references(n, size, grid, seed++);
         const double least = least_cost(references, options);
-        const auto found = find_sah_split(references, kNode, options, scratch);
+        const auto found = find_sah_split(references, kNode, CostModel(options, kNode, {}), scratch);
         const double cost = found ? cost_at(references, found->axis, found->position, options)
                                   : static_cast<double>(options.cost_intersection) * n;
         EXPECT_NEAR(cost, least, 1e-4 * least) << n << " references, size " << size << ", grid " << grid;
@@ -95,7 +95,7 @@ TEST(Split, ManyReferencesTakeASlabEdgeNearTheBest) {
   const BuildOptions options;
   SplitScratch scratch;
   const std::vector<BuildReference> references = random_references(6000, 0.02f, 0.0f, 77);
-  const auto found = find_sah_split(references, kNode, options, scratch);
+  const auto found = find_sah_split(references, kNode, CostModel(options, kNode, {}), scratch);
   ASSERT_TRUE(found);
   EXPECT_LT(static_cast<double>(found->cost), 1.01 * least_cost(references, options));
 }

@@ -1,7 +1,10 @@
 #pragma once
 
 #include <array>
+#include <glm/glm.hpp>
+#include <optional>
 #include <string_view>
+#include <vector>
 
 #include "pinocchio/triangle_test.h"
 
@@ -24,8 +27,17 @@ struct BuildOptions {
   int max_depth = 0;  // 0: from the number of triangles; never above kMaxTreeDepth
   int leaf_size = 2;  // a node with no more references is not split (sah: unless empty space can be cut off)
   int threads = 0;    // that build; 0: one a core. The tree is the same for any number
-  float cost_step = 1.0f;                               // of a traversal step ...
-  float cost_intersection = 0.39f;                      // ... against a triangle test (SAH's cost comparison)
+  // SAH's cost comparison (bsp/cost_model.h): of a traversal step, against a triangle test ...
+  float cost_step = 1.0f;
+  float cost_intersection = 0.39f;
+  float cost_intersection_light = 3.0f;    // ... in nodes that hold a light
+  std::vector<glm::vec3> lights{};         // positions of casting lights; a moved one makes no picture wrong
+  // ... and in nodes whose sides are below this share of the scene's.
+  float cost_intersection_small = 0.2f, small_side = 0.02f;
+  // Where all pictures are taken from one place: a test's cost then, and how much longer the sides of a node
+  // count, of its distance.
+  std::optional<glm::vec3> eye{};
+  float cost_intersection_eye = 0.6f, margin = 0.01f;
   TriangleTest triangle_test = TriangleTest::filtered;  // that triangles are stored for
 };
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <cassert>
 #include <cstdint>
 #include <glm/glm.hpp>
@@ -40,6 +41,19 @@ class MaskImage {
   }
   void set_bit(int x, int y, int slot) {
     bytes_[byte_of(x, y)] |= static_cast<std::uint8_t>(1u << (shift_of(x) + slot));
+  }
+
+  // All bits of the pixels from (x, y) on; x * bits is a multiple of 8, and they were 0.
+  void set_row(int x, int y, std::span<const std::uint8_t> pixels) {
+    if (bits_ == 0) return;
+    std::uint8_t* row = bytes_.data() + byte_of(x, y);
+    const auto a_byte = static_cast<std::size_t>(8 / bits_);
+    for (std::size_t first = 0; first < pixels.size(); first += a_byte) {
+      unsigned byte = 0;
+      for (std::size_t i = std::min(first + a_byte, pixels.size()); i-- > first;)
+        byte = byte << bits_ | pixels[i];
+      *row++ |= static_cast<std::uint8_t>(byte);
+    }
   }
 
   // The same in 8 x 8 pixels; x is a multiple of 8.

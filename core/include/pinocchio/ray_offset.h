@@ -12,6 +12,13 @@ enum class OffsetMethod {
   error_bound,  // by what rounding can do at that point
 };
 
+// Of error_bound. A ray's origin is rounded once, from the exact point moved along the normal: twice that
+// keeps it on its side.
+inline constexpr float kPointError = 2.0f * 0x1p-24f;
+// A triangle test errs by a few roundings of the distances it works with (Wächter and Binder 2019 take 32 of
+// all coordinates).
+inline constexpr float kTriangleError = 32.0f * 0x1p-24f;
+
 inline constexpr std::array kOffsetMethods{OffsetMethod::fixed, OffsetMethod::scaled,
                                            OffsetMethod::error_bound};
 

@@ -16,6 +16,8 @@
 namespace pinocchio {
 
 struct BspTree;
+struct LaneSteps;
+struct RayColumns;
 
 // Width of the packets that rays are traced in.
 enum class Isa { scalar, sse4, avx2, avx512 };
@@ -45,6 +47,12 @@ class Tracer {
   void closest_hits(std::span<const Ray> rays, std::span<Hit> hits) const;
   // blocked[i] = 1 where any triangle lies within ray i, else 0; blocked.size() == rays.size().
   void occluded(std::span<const Ray> rays, std::span<std::uint8_t> blocked) const;
+
+  // The same of `n` rays in columns, as trace/kernels.h has it: what the tile pass uses.
+  void closest_hits(const RayColumns& rays, std::size_t n, std::uint32_t* triangle, float* t = nullptr) const;
+  void occluded(const RayColumns& rays, std::size_t n, std::uint8_t* blocked) const;
+  // Steps of the tile pass at this tracer's width.
+  [[nodiscard]] const LaneSteps& steps() const;
 
   [[nodiscard]] const Mesh& mesh() const { return *mesh_; }
   [[nodiscard]] const BspTree& tree() const { return *tree_; }

@@ -1,0 +1,86 @@
+// The steps of a tile (trace/tile_tracer.h) that are computed in lanes: trace/lanes/ compiled once an
+// instruction set, like the kernels. Scalar is the one that the others are tested against.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <glm/glm.hpp>
+
+#include "core/parallel/tiles.h"
+#include "pinocchio/scene.h"
+#include "pinocchio/ray_offset.h"
+#include "core/trace/ray_queue.h"
+#include "core/trace/shared.h"
+
+namespace pinocchio {
+
+// A pixel's number within its tile: row by row.
+inline constexpr int kTileBits = 5;
+static_assert(1 << kTileBits == TileGrid::kTileSize);
+
+// The scene's arrays as the lanes read them.
+struct SceneArrays {
+  const glm::vec3 *positions, *normals;
+  const glm::vec2* texcoords;  // null: nothing is textured
+  const glm::uvec3* triangles;
+  const std::uint32_t* triangle_materials;
+  const Material* materials;
+  const Texture* textures;
+
+  [[nodiscard]] static SceneArrays of(const Scene& scene);
+};
+
+// Colour of a texture where a triangle has these barycentric weights. For the few lanes that want one:
+// compiled for every processor, called from each.
+[[nodiscard]] glm::vec3 texture_color(const SceneArrays& scene, std::uint32_t triangle, int texture,
+                                      const glm::vec3& weights);
+
+struct BounceLight {
+  shared::LightParams params;
+  int slot;  // of the mask, and of its shadow queue; -1: casts no shadow
+};
+
+// What happens where rays meet triangles.
+struct Bounce {
+  SceneArrays scene;
+  RayOffset offset;
+  const BounceLight* lights;
+  std::size_t light_count;
+  glm::vec3 ambient_light;
+  bool visible;       // the rays are the camera's
+  bool adds_ambient;  // and emission
+  bool adds_light;    // lights that cast none add theirs to `radiance`, shadow rays carry it
+  // Light below which no shadow ray is fired, of visible points and of others; and no path followed.
+  float least_light, least_contribution;
+
+  // Where it goes. Queues have room for all rays of the step; null: not wanted.
+  RayQueue* shadow;  // one a slot
+  RayQueue *mirrored, *refracted;
+  float* radiance;  // RGBA of a tile's pixels
+};
+
+struct LaneSteps {
+  // Directions and origins of the rays of the tile at `corner`; their pixels are set.
+  void (*camera_rays)(const shared::ViewParams& view, glm::ivec2 corner, RayQueue& rays);
+  // Drops the rays whose triangle is kNoTriangle; the others stay in order.
+  void (*keep_hits)(RayQueue& rays);
+  // Appends to the bounce's queues. All rays have hit.
+  void (*bounce)(const Bounce& bounce, const RayQueue& rays);
+  // x^y for x > 0, of `count` pairs, a multiple of 16; for tests.
+  void (*power)(const float* x, const float* y, float* result, std::size_t count);
+};
+
+namespace scalar {
+extern const LaneSteps kSteps;
+}
+namespace sse4 {
+extern const LaneSteps kSteps;
+}
+namespace avx2 {
+extern const LaneSteps kSteps;
+}
+namespace avx512 {
+extern const LaneSteps kSteps;
+}
+
+}  // namespace pinocchio

@@ -1,0 +1,95 @@
+// Part of trace/kernel.h's files: core/trace/scatter.cpp in lanes.
+#pragma once
+
+#include "core/trace/lanes/material.h"
+#include "core/trace/lanes/surface.h"
+
+namespace pinocchio::PINOCCHIO_LANES {
+namespace {
+
+// About the shading normal, unless that sends the ray into the surface; then about the geometric one.
+inline Vec mirrored(const LaneSurface& s) {
+  const Vec direction = reflect(-s.to_viewer, s.n_shading);
+  const Mask good = Float(0.0f) < dot(direction, s.n_geometric);
+  return select(good, direction, reflect(-s.to_viewer, s.n_geometric));
+}
+
+// As glm::refract: `inverse` is 1 / eta; zero beyond the critical angle.
+inline Vec refract(const Vec& incoming, const Vec& n, Float inverse) {
+  const Float zero(0.0f), one(1.0f);
+  const Float cosine = dot(n, incoming);
+  const Float k = one - inverse * inverse * (one - cosine * cosine);
+  const Vec through = incoming * inverse - n * (inverse * cosine + sqrt(k));
+  return select(zero <= k, through, Vec(zero));
+}
+
+inline Vec refracted(const LaneSurface& s, Float eta) {
+  const Float inverse = Float(1.0f) / eta;
+  const Vec direction = refract(-s.to_viewer, s.n_shading, inverse);
+  const Mask good = dot(direction, s.n_geometric) < Float(0.0f);
+  return select(good, direction, refract(-s.to_viewer, s.n_geometric, inverse));
+}
+
+// Share of unpolarised light that a smooth dielectric mirrors. eta: index of the side the light goes to over
+// the side it comes from.
+inline Float fresnel_dielectric(Float cos_in, Float eta) {
+  const Float one(1.0f);
+  const Float sin2_out = (one - cos_in * cos_in) / (eta * eta);
+  const Float cos_out = sqrt(one - sin2_out);
+  const Float parallel = (eta * cos_in - cos_out) / (eta * cos_in + cos_out);
+  const Float perpendicular = (cos_in - eta * cos_out) / (cos_in + eta * cos_out);
+  return select(one <= sin2_out, one, Float(0.5f) * (parallel * parallel + perpendicular * perpendicular));
+}
+
+// A packet's rays behind the last of the queue's; those alone that are worth `least` in any colour.
+inline void append(const Vec& origin, const Vec& direction, const Vec& light, Int pixel, Mask lanes,
+                   RayQueue& queue) {
+  const std::size_t i = queue.size;
+  store_packed(queue.origin[0] + i, origin.x, lanes);
+  store_packed(queue.origin[1] + i, origin.y, lanes);
+  store_packed(queue.origin[2] + i, origin.z, lanes);
+  store_packed(queue.direction[0] + i, direction.x, lanes);
+  store_packed(queue.direction[1] + i, direction.y, lanes);
+  store_packed(queue.direction[2] + i, direction.z, lanes);
+  store_packed(queue.light[0] + i, light.x, lanes);
+  store_packed(queue.light[1] + i, light.y, lanes);
+  store_packed(queue.light[2] + i, light.z, lanes);
+  store_packed(queue.pixel + i, pixel, lanes);
+  queue.size += static_cast<std::size_t>(__builtin_popcount(lanes.bits()));
+}
+
+inline void follow(const LaneSurface& s, const Vec& direction, const Vec& throughput, Int pixel, Mask lanes,
+                   float least, RayQueue& queue) {
+  const Mask worth = lanes & ~(largest(throughput) < Float(least));
+  if (worth.bits() != 0) append(offset_origin(s, direction), direction, throughput, pixel, worth, queue);
+}
+
+inline void scatter(const LaneSurface& s, const LaneMaterial& m, const Vec& throughput, Int pixel, Mask lanes,
+                    const Bounce& bounce) {
+  const unsigned alive = lanes.bits(), glass = m.transmits & alive,
+                 opaque = m.reflects & ~m.transmits & alive;
+  if ((glass | opaque) == 0) return;
+  const Float zero(0.0f), one(1.0f);
+  const Float cos_in = clamp(dot(s.n_shading, s.to_viewer), 0.0f, 1.0f);
+  Vec mirror_share(zero);
+  if (opaque != 0) {
+    // Schlick 1994: (1 - cos)^5.
+    const Float c = one - cos_in, c2 = c * c;
+    const Float grazing = select(Mask::from_bits(m.fresnel), c2 * c2 * c, zero);
+    mirror_share = m.reflectance + (Vec(one) - m.reflectance) * grazing;
+  }
+  if (glass != 0) {
+    const Float eta = select(s.leaving, one / m.ior, m.ior);
+    const Vec through = refracted(s, eta);
+    // Where the two normals disagree there may be no way through although Fresnel has a share for it.
+    const Float share = select(is_dark(through), one, fresnel_dielectric(cos_in, eta));
+    mirror_share = select(Mask::from_bits(glass), Vec(share), mirror_share);
+    follow(s, through, throughput * (one - share) * m.transmittance, pixel, Mask::from_bits(glass),
+           bounce.least_contribution, *bounce.refracted);
+  }
+  follow(s, mirrored(s), throughput * mirror_share, pixel, Mask::from_bits(glass | opaque),
+         bounce.least_contribution, *bounce.mirrored);
+}
+
+}  // namespace
+}  // namespace pinocchio::PINOCCHIO_LANES

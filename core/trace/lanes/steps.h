@@ -1,0 +1,138 @@
+// Part of trace/kernel.h's files: the steps of trace/lane_steps.h, included last.
+#pragma once
+
+#include "core/trace/lanes/light.h"
+#include "core/trace/lanes/scatter.h"
+
+namespace pinocchio::PINOCCHIO_LANES {
+namespace {
+
+void camera_rays(const shared::ViewParams& view, glm::ivec2 corner, RayQueue& rays) {
+  const Vec first(view.corner), step_x(view.step_x), step_y(view.step_y), eye(view.eye);
+  for (std::size_t i = 0; i < rays.size; i += kWidth) {
+    const Int pixel = Int::load(rays.pixel + i), row = shift_right<kTileBits>(pixel);
+    const Float x = Float(view.first.x) +
+                    to_float(pixel - shift_left<kTileBits>(row) + Int(static_cast<std::uint32_t>(corner.x)));
+    const Float y = Float(view.first.y) + to_float(row + Int(static_cast<std::uint32_t>(corner.y)));
+    const Vec direction = first + step_x * x + step_y * y;
+    direction.x.store(rays.direction[0] + i);
+    direction.y.store(rays.direction[1] + i);
+    direction.z.store(rays.direction[2] + i);
+    eye.x.store(rays.origin[0] + i);
+    eye.y.store(rays.origin[1] + i);
+    eye.z.store(rays.origin[2] + i);
+  }
+}
+
+void keep_hits(RayQueue& rays) {
+  const Int none(kNoTriangle);
+  std::size_t kept = 0;
+  for (std::size_t i = 0; i < rays.size; i += kWidth) {
+    const Int triangle = Int::load(rays.triangle + i);
+    const Mask rest = lanes_from(i, rays.size), hits = rest & ~(triangle == none);
+    const unsigned bits = hits.bits();
+    if (bits != 0 && (kept < i || bits != rest.bits())) {
+      for (float* const* columns : {rays.origin, rays.direction, rays.light})
+        for (int axis = 0; axis < 3; ++axis)
+          store_packed(columns[axis] + kept, Float::load(columns[axis] + i), hits);
+      store_packed(rays.pixel + kept, Int::load(rays.pixel + i), hits);
+      store_packed(rays.triangle + kept, triangle, hits);
+    }
+    kept += static_cast<std::size_t>(__builtin_popcount(bits));
+  }
+  rays.size = kept;
+}
+
+// Adds the lanes' light to their pixels, lane after lane.
+inline void add_light(const Vec& light, const std::uint32_t* pixel, Mask lanes, float* radiance) {
+  alignas(64) float rgb[3][kWidth];
+  light.x.store(rgb[0]);
+  light.y.store(rgb[1]);
+  light.z.store(rgb[2]);
+  for (unsigned waiting = lanes.bits(); waiting != 0; waiting &= waiting - 1) {
+    const int lane = __builtin_ctz(waiting);
+    for (std::size_t c = 0; c < 3; ++c) radiance[4 * pixel[lane] + c] += rgb[c][lane];
+  }
+}
+
+// Towards a light that casts: shadow rays for `lanes`, which carry `light`.
+inline void ask(const BounceLight& from, const LaneSurface& s, const LaneIncident& incident, const Vec& light,
+                Int pixel, Mask lanes, RayQueue& queue) {
+  if (lanes.bits() == 0) return;
+  const Vec origin = offset_origin(s, incident.to_light);
+  const bool far = from.params.kind == shared::kLightDirectional;
+  const Vec direction =
+      far ? incident.to_light : Vec(from.params.position) - origin;  // the light sits at t = 1
+  append(origin, direction, light, pixel, lanes, queue);
+}
+
+// What the lights do at the points of a packet; returns what reaches them for certain.
+inline Vec light_points(const Bounce& bounce, const LaneSurface& s, const LaneMaterial& m,
+                        const Vec& throughput, Int pixel, Mask lanes) {
+  Vec sum(Float(0.0f));
+  if (bounce.adds_ambient) sum = m.ambient * Vec(bounce.ambient_light) + m.emission;
+  for (std::size_t i = 0; i < bounce.light_count; ++i) {
+    const BounceLight& light = bounce.lights[i];
+    const LaneIncident incident = incident_light(light.params, s.p_world);
+    Mask lit = lanes & faces_light(s, incident.to_light) & ~is_dark(incident.radiance);
+    if (bounce.visible && light.slot >= 0 && bounce.least_light > 0.0f)
+      lit = lit & ~(most_light(m, incident, s) < Float(bounce.least_light));
+    if (lit.bits() == 0) continue;
+    Vec term(Float(0.0f));
+    if (bounce.adds_light) term = phong_light(m, incident, s, lit);
+    if (light.slot < 0) {
+      sum = select(lit, sum + term, sum);
+      continue;
+    }
+    const Vec carried = throughput * term;
+    if (!bounce.visible) lit = lit & ~(largest(carried) < Float(bounce.least_contribution));
+    ask(light, s, incident, carried, pixel, lit, bounce.shadow[light.slot]);
+  }
+  return sum;
+}
+
+// What the next packets read: triangles of the one after the next, corners of the next.
+inline void prefetch_corners(const SceneArrays& scene, const RayQueue& rays, std::size_t i) {
+  const auto end = [&rays](std::size_t first) {
+    return first + kWidth < rays.size ? first + kWidth : rays.size;
+  };
+  for (std::size_t k = i + 2 * kWidth; k < end(i + 2 * kWidth); ++k)
+    __builtin_prefetch(scene.triangles + rays.triangle[k]);
+  for (std::size_t k = i + kWidth; k < end(i + kWidth); ++k) {
+    const std::uint32_t corner = scene.triangles[rays.triangle[k]].x;
+    __builtin_prefetch(scene.positions + corner);
+    __builtin_prefetch(scene.normals + corner);
+  }
+}
+
+void bounce_rays(const Bounce& bounce, const RayQueue& rays) {
+  const bool reads_material =
+      bounce.adds_light || bounce.adds_ambient || bounce.mirrored || bounce.least_light > 0.0f;
+  const bool reads_texture = bounce.adds_light || bounce.adds_ambient || bounce.least_light > 0.0f;
+  for (std::size_t i = 0; i < rays.size; i += kWidth) {
+    prefetch_corners(bounce.scene, rays, i);
+    const Mask lanes = lanes_from(i, rays.size);
+    const Int triangle = Int::load(rays.triangle + i), pixel = Int::load(rays.pixel + i);
+    const Corners corners(bounce.scene, triangle, lanes);
+    const LaneSurface s =
+        surface_of(corners, Vec::load(rays.origin, i), Vec::load(rays.direction, i), bounce.offset);
+    LaneMaterial m(bounce.scene, corners.material, reads_material ? lanes : Mask::from_bits(0));
+    if (reads_texture && m.textured != 0)
+      m.apply_textures(bounce.scene, triangle, corners.material, s.weights);
+    const Vec throughput = bounce.visible ? Vec(Float(1.0f)) : Vec::load(rays.light, i);
+    const Vec certain = light_points(bounce, s, m, throughput, pixel, lanes);
+    if (bounce.adds_light) add_light(throughput * certain, rays.pixel + i, lanes, bounce.radiance);
+    if (bounce.mirrored) scatter(s, m, throughput, pixel, lanes, bounce);
+  }
+}
+
+void powers(const float* x, const float* y, float* result, std::size_t count) {
+  for (std::size_t i = 0; i < count; i += kWidth)
+    power(Float::load(x + i), Float::load(y + i)).store(result + i);
+}
+
+}  // namespace
+
+const LaneSteps kSteps{camera_rays, keep_hits, bounce_rays, powers};
+
+}  // namespace pinocchio::PINOCCHIO_LANES

@@ -1,0 +1,84 @@
+// Part of trace/kernel.h's files. Vectors of lanes; every operation in the order that GLM has it, so that the
+// lanes' pictures are those of the scalar code.
+#pragma once
+
+namespace pinocchio::PINOCCHIO_LANES {
+namespace {
+
+struct Vec {
+  Float x, y, z;
+  Vec() = default;
+  Vec(Float a, Float b, Float c) : x(a), y(b), z(c) {}
+  explicit Vec(Float all) : x(all), y(all), z(all) {}
+  template <class Triple>  // glm::vec3
+  explicit Vec(const Triple& v) : x(v.x), y(v.y), z(v.z) {}
+
+  static Vec load(float* const (&columns)[3], std::size_t i) {
+    return {Float::load(columns[0] + i), Float::load(columns[1] + i), Float::load(columns[2] + i)};
+  }
+};
+inline Vec operator+(const Vec& a, const Vec& b) {
+  return {a.x + b.x, a.y + b.y, a.z + b.z};
+}
+inline Vec operator-(const Vec& a, const Vec& b) {
+  return {a.x - b.x, a.y - b.y, a.z - b.z};
+}
+inline Vec operator*(const Vec& a, const Vec& b) {
+  return {a.x * b.x, a.y * b.y, a.z * b.z};
+}
+inline Vec operator*(const Vec& a, Float s) {
+  return {a.x * s, a.y * s, a.z * s};
+}
+inline Vec operator/(const Vec& a, Float s) {
+  return {a.x / s, a.y / s, a.z / s};
+}
+inline Vec operator-(const Vec& a) {
+  return {-a.x, -a.y, -a.z};
+}
+inline Vec select(Mask m, const Vec& yes, const Vec& no) {
+  return {select(m, yes.x, no.x), select(m, yes.y, no.y), select(m, yes.z, no.z)};
+}
+inline Float dot(const Vec& a, const Vec& b) {
+  return a.x * b.x + a.y * b.y + a.z * b.z;
+}
+inline Vec cross(const Vec& a, const Vec& b) {
+  return {a.y * b.z - b.y * a.z, a.z * b.x - b.z * a.x, a.x * b.y - b.x * a.y};
+}
+inline Vec normalize(const Vec& a) {
+  return a * (Float(1.0f) / sqrt(dot(a, a)));
+}
+inline Float largest(const Vec& a) {
+  return max(max(a.x, a.y), a.z);
+}
+inline Vec abs(const Vec& a) {
+  return {abs(a.x), abs(a.y), abs(a.z)};
+}
+inline Float clamp(Float a, float lo, float hi) {
+  return min(Float(hi), max(Float(lo), a));
+}
+inline Vec reflect(const Vec& incoming, const Vec& n) {
+  return incoming - n * dot(n, incoming) * Float(2.0f);
+}
+
+// A point in double.
+struct DoubleVec {
+  Double x, y, z;
+};
+
+// Calls take(value, lanes) for each distinct value among the `waiting` lanes: what belongs to it is fetched
+// once and broadcast under a mask, which is faster than a gather where neighbours see the same and no slower
+// where they do not.
+template <class Take>
+inline void for_each_distinct(Int values, Mask lanes, Take take) {
+  alignas(64) std::uint32_t value[kWidth];
+  values.store(value);
+  for (unsigned waiting = lanes.bits(); waiting != 0;) {
+    const std::uint32_t one = value[__builtin_ctz(waiting)];
+    const Mask same = lanes & (values == Int(one));
+    take(one, same);
+    waiting &= ~same.bits();
+  }
+}
+
+}  // namespace
+}  // namespace pinocchio::PINOCCHIO_LANES

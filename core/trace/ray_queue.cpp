@@ -1,0 +1,31 @@
+#include "core/trace/ray_queue.h"
+
+#include <algorithm>
+
+namespace pinocchio {
+namespace {
+
+constexpr std::size_t kFloatColumns = 9, kWordColumns = 2;
+
+}  // namespace
+
+void RayQueue::make_room(std::size_t rays) {
+  size = 0;
+  const std::size_t needed = rays + kQueuePad;
+  if (needed <= room_) return;
+  // Not a power of two apart: columns of one ray would compete for one set of the cache.
+  constexpr std::size_t kLine = kCacheLine / sizeof(float);
+  room_ = (std::max(needed, 2 * room_) + kLine - 1) / kLine * kLine + kLine;
+  floats_ = AlignedVector<float>(kFloatColumns * room_);
+  words_ = AlignedVector<std::uint32_t>(kWordColumns * room_);
+  float* column = floats_.data();
+  for (auto* triple : {&origin, &direction, &light})
+    for (float*& one : *triple) {
+      one = column;
+      column += room_;
+    }
+  pixel = words_.data();
+  triangle = pixel + room_;
+}
+
+}  // namespace pinocchio

@@ -1,0 +1,45 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "core/bsp/tree.h"
+#include "pinocchio/ray.h"
+
+namespace pinocchio {
+
+// More than the lanes of any packet: what a kernel may read and write behind the last ray.
+inline constexpr std::size_t kQueuePad = 16;
+
+// Rays as columns, one value a ray, each column on a cache line of its own.
+struct RayColumns {
+  const float* origin[3];
+  const float* direction[3];
+  const float* t_max;  // null: `reach` for all
+  float reach = kInfinity;
+};
+
+// A thread's rays of one kind: filled packet by packet, traced, and read again. Lanes append to it by storing
+// whole packets behind the last ray, so its size is made before (make_room) and never grows meanwhile.
+struct RayQueue {
+  float *origin[3] = {}, *direction[3] = {};
+  float* light[3] = {};               // a path's throughput; a shadow ray's light, if nothing is in the way
+  std::uint32_t* pixel = nullptr;     // in the tile
+  std::uint32_t* triangle = nullptr;  // that was hit
+  std::size_t size = 0;
+
+  // Empties it; afterwards it has room for `rays` and a packet.
+  void make_room(std::size_t rays);
+
+  [[nodiscard]] RayColumns columns(float reach = kInfinity) const {
+    return {{origin[0], origin[1], origin[2]}, {direction[0], direction[1], direction[2]}, nullptr, reach};
+  }
+
+ private:
+  AlignedVector<float> floats_;
+  AlignedVector<std::uint32_t> words_;
+  std::size_t room_ = 0;
+};
+
+}  // namespace pinocchio

@@ -1,0 +1,265 @@
+#include "core/trace/tile_tracer.h"
+
+#include <algorithm>
+#include <cassert>
+#include <chrono>
+#include <cstring>
+
+#include "core/trace/surface.h"
+#include "pinocchio/view.h"
+
+namespace pinocchio {
+namespace {
+
+double seconds() {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
+}
+
+// Seconds since the last call.
+class Lap {
+ public:
+  double take() {
+    const double now = seconds(), since = now - last_;
+    last_ = now;
+    return since;
+  }
+
+ private:
+  double last_ = seconds();
+};
+
+std::vector<BounceLight> lights_of(const Scene& scene) {
+  std::vector<BounceLight> lights;
+  const std::vector<int> slots = mask_slots(scene);
+  for (std::size_t i = 0; i < slots.size(); ++i) lights.push_back({light_params(scene.lights[i]), slots[i]});
+  return lights;
+}
+
+// The pixels of a tile along a Z curve: packets of any width are neighbours in the picture.
+const std::vector<std::uint32_t>& z_curve() {
+  static const std::vector<std::uint32_t> kCurve = [] {
+    std::vector<std::uint32_t> curve;
+    TileGrid::for_each_pixel({{0, 0}, glm::ivec2(TileGrid::kTileSize)}, [&](int x, int y) {
+      curve.push_back(static_cast<std::uint32_t>(y << kTileBits | x));
+    });
+    return curve;
+  }();
+  return kCurve;
+}
+
+// Where a tile's pixels stand in an image of `scale` times as many across and down.
+class InImage {
+ public:
+  InImage(const PixelBox& tile, int width, int scale = 1)
+      : first_(at(tile.lo, width) * scale), step_(scale), row_(width * scale) {}
+  [[nodiscard]] std::size_t operator[](std::uint32_t pixel) const {
+    const int p = static_cast<int>(pixel);
+    return static_cast<std::size_t>(first_ + (p & (TileGrid::kTileSize - 1)) * step_ +
+                                    (p >> kTileBits) * row_);
+  }
+
+ private:
+  static std::ptrdiff_t at(const glm::ivec2& p, int width) { return std::ptrdiff_t{p.y} * width + p.x; }
+  std::ptrdiff_t first_, step_, row_;
+};
+
+}  // namespace
+
+SceneArrays SceneArrays::of(const Scene& scene) {
+  return {scene.positions.data(),
+          scene.normals.data(),
+          scene.texcoords.empty() ? nullptr : scene.texcoords.data(),
+          scene.triangles.data(),
+          scene.triangle_materials.data(),
+          scene.materials.data(),
+          scene.textures.data()};
+}
+
+TilePlan::TilePlan(const TraceJob& j, const TileOutputs& o)
+    : job(j), out(o), view(scaled_view(j.view, o.scale)), all_lights(lights_of(j.scene)) {
+  further = {SceneArrays::of(job.scene),
+             job.tracer.offset(),
+             all_lights.data(),
+             all_lights.size(),
+             job.scene.ambient_light,
+             false,
+             true,
+             true,
+             0.0f,
+             job.least_contribution,
+             nullptr,
+             nullptr,
+             nullptr,
+             nullptr};
+  visible = further;
+  visible.visible = true;
+  visible.adds_ambient = out.color != nullptr;
+  visible.adds_light = out.color || out.added;
+  visible.least_light = job.least_light;
+  for (const BounceLight& light : all_lights)
+    if (light.slot >= 0 ? out.mask_bits > 0 : visible.adds_ambient) visible_lights.push_back(light);
+  visible.lights = visible_lights.data();
+  visible.light_count = visible_lights.size();
+}
+
+TileResult TileTracer::trace(const TilePlan& plan, const PixelBox& tile) {
+  plan_ = &plan;
+  tile_ = tile;
+  counts_ = {};
+  TileTimes times;
+  Lap lap;
+  start();
+  look();
+  times.primary = lap.take();
+  if (seen_.size > 0) light_visible();
+  times.shadow = lap.take();
+  if (seen_.size > 0) follow();
+  times.reflection = lap.take();
+  write();
+  times.composite = lap.take();
+  return {counts_, times};
+}
+
+// The rays of the tile's pixels, or of those alone that are known to see something.
+void TileTracer::start() {
+  const Image<std::uint32_t>* const seen = plan_->out.seen;
+  seen_.make_room(kPixels);
+  if (seen && !sees_anything(*seen)) return;
+  const glm::ivec2 size = tile_.size();
+  const bool whole = size == glm::ivec2(TileGrid::kTileSize);
+  const InImage given(tile_, seen ? seen->width() : 0, plan_->out.scale);
+  if (whole && !seen) {
+    std::copy(z_curve().begin(), z_curve().end(), seen_.pixel);
+    seen_.size = kPixels;
+  } else {
+    for (const std::uint32_t pixel : z_curve()) {
+      const int x = static_cast<int>(pixel) & (TileGrid::kTileSize - 1),
+                y = static_cast<int>(pixel) >> kTileBits;
+      if (!whole && (x >= size.x || y >= size.y)) continue;
+      const std::uint32_t triangle = seen ? seen->pixels()[given[pixel]] : 0;
+      seen_.pixel[seen_.size] = pixel;
+      seen_.triangle[seen_.size] = triangle;
+      seen_.size += triangle != kNoTriangle ? 1 : 0;
+    }
+  }
+  plan_->job.tracer.steps().camera_rays(plan_->view, tile_.lo, seen_);
+}
+
+bool TileTracer::sees_anything(const Image<std::uint32_t>& seen) const {
+  const int scale = plan_->out.scale;
+  for (int y = tile_.lo.y; y < tile_.hi.y; ++y) {
+    const std::uint32_t* const row = &seen.at(0, y * scale);
+    std::uint32_t all = kNoTriangle;
+    for (int x = tile_.lo.x; x < tile_.hi.x; ++x) all &= row[x * scale];
+    if (all != kNoTriangle) return true;
+  }
+  return false;
+}
+
+void TileTracer::find_hits(RayQueue& rays, int generation) {
+  if (plan_->out.on_rays) plan_->out.on_rays({rays.columns(), rays.size, generation, false});
+  plan_->job.tracer.closest_hits(rays.columns(), rays.size, rays.triangle);
+}
+
+void TileTracer::look() {
+  const TileOutputs& out = plan_->out;
+  if (out.seen) return;
+  find_hits(seen_, 0);
+  counts_.primary += seen_.size;
+  if (out.ids) {
+    const InImage told(tile_, out.ids->width());
+    for (std::size_t i = 0; i < seen_.size; ++i) out.ids->pixels()[told[seen_.pixel[i]]] = seen_.triangle[i];
+  }
+  plan_->job.tracer.steps().keep_hits(seen_);
+}
+
+void TileTracer::make_room(std::size_t rays, Generation& next) {
+  for (RayQueue& queue : next) queue.make_room(rays);
+  for (RayQueue& queue : shadow_) queue.make_room(rays);
+}
+
+void TileTracer::bounce(Bounce step, const RayQueue& rays, Generation& next, Radiance& radiance) {
+  step.shadow = shadow_.data();
+  step.radiance = &radiance[0].x;
+  if (step.mirrored) step.mirrored = &next[0], step.refracted = &next[1];
+  plan_->job.tracer.steps().bounce(step, rays);
+}
+
+void TileTracer::light_visible() {
+  direct_.fill(glm::vec4(0.0f));
+  mask_.fill(0);
+  for (std::size_t i = 0; i < seen_.size; ++i) direct_[seen_.pixel[i]].a = 1.0f;
+  make_room(seen_.size, rays_);
+  Bounce step = plan_->visible;
+  step.mirrored = plan_->out.depth > 0 ? rays_.data() : nullptr;
+  if (!step.mirrored && step.light_count == 0 && !step.adds_ambient) return;
+  bounce(step, seen_, rays_, direct_);
+  fire_shadows(0, direct_);
+}
+
+// Generation by generation: every ray of one is traced before the next one starts.
+void TileTracer::follow() {
+  reflected_.fill(glm::vec4(0.0f));
+  for (int generation = 1; generation <= plan_->out.depth; ++generation) {
+    const std::size_t rays = rays_[0].size + rays_[1].size;
+    if (rays == 0) return;
+    counts_.reflection += rays_[0].size;
+    counts_.refraction += rays_[1].size;
+    make_room(rays, next_);
+    Bounce step = plan_->further;
+    step.mirrored = generation < plan_->out.depth ? next_.data() : nullptr;
+    for (RayQueue& queue : rays_) {
+      find_hits(queue, generation);
+      plan_->job.tracer.steps().keep_hits(queue);
+      bounce(step, queue, next_, reflected_);
+    }
+    fire_shadows(generation, reflected_);
+    std::swap(rays_, next_);
+  }
+}
+
+void TileTracer::fire_shadows(int generation, Radiance& radiance) {
+  const bool visible = generation == 0, adds = !visible || plan_->visible.adds_light;
+  for (const BounceLight& light : plan_->all_lights) {
+    if (light.slot < 0) continue;
+    const RayQueue& queue = shadow_[static_cast<std::size_t>(light.slot)];
+    if (queue.size == 0) continue;
+    if (blocked_.size() < queue.size + kQueuePad) blocked_.resize(2 * queue.size + kQueuePad);
+    const float reach = light.params.kind == shared::kLightDirectional ? kInfinity : 1.0f;
+    if (plan_->out.on_rays) plan_->out.on_rays({queue.columns(reach), queue.size, generation, true});
+    plan_->job.tracer.occluded(queue.columns(reach), queue.size, blocked_.data());
+    counts_.shadow += queue.size;
+    for (std::size_t i = 0; i < queue.size; ++i) {
+      if (blocked_[i]) continue;
+      const std::uint32_t pixel = queue.pixel[i];
+      if (visible) mask_[pixel] |= static_cast<std::uint8_t>(1u << light.slot);
+      if (adds) radiance[pixel] += glm::vec4(queue.light[0][i], queue.light[1][i], queue.light[2][i], 0.0f);
+    }
+  }
+}
+
+void TileTracer::write() const {
+  const TileOutputs& out = plan_->out;
+  const auto width = static_cast<std::size_t>(tile_.size().x);
+  const bool empty = seen_.size == 0, mirrors = counts_.reflection + counts_.refraction > 0;
+  for (int y = tile_.lo.y; y < tile_.hi.y; ++y) {
+    const std::size_t row = static_cast<std::size_t>(y - tile_.lo.y) << kTileBits;
+    const auto of = [&](auto* image) { return &image->at(tile_.lo.x, y); };
+    const glm::vec4 *direct = &direct_[row], *reflected = &reflected_[row];
+    if (out.reflection && !mirrors)
+      std::memset(of(out.reflection), 0, width * sizeof(glm::vec3));
+    else if (out.reflection)
+      for (std::size_t i = 0; i < width; ++i) of(out.reflection)[i] = glm::vec3(reflected[i]);
+    if (empty) {
+      if (out.color) std::memset(of(out.color), 0, width * sizeof(glm::vec4));
+      continue;
+    }
+    if (out.color)
+      for (std::size_t i = 0; i < width; ++i) of(out.color)[i] = direct[i] + reflected[i];
+    if (out.added)
+      for (std::size_t i = 0; i < width; ++i) of(out.added)[i] += glm::vec3(direct[i] + reflected[i]);
+    if (out.mask) out.mask->set_row(tile_.lo.x, y, std::span(mask_).subspan(row, width));
+  }
+}
+
+}  // namespace pinocchio

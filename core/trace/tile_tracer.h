@@ -1,0 +1,58 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "core/parallel/tiles.h"
+#include "core/trace/ray_queue.h"
+#include "core/trace/trace_tiles.h"
+
+namespace pinocchio {
+
+// What all tiles of a picture read.
+struct TilePlan {
+  TilePlan(const TraceJob& job, const TileOutputs& outputs);
+
+  const TraceJob& job;
+  const TileOutputs& out;
+  shared::ViewParams view;  // of the samples
+  std::vector<BounceLight> all_lights, visible_lights;
+  Bounce visible, further;  // the step of the camera's rays, and of those that they spawn
+};
+
+// One thread's memory for tiles, and the tile's way through the steps.
+class TileTracer {
+ public:
+  TileResult trace(const TilePlan& plan, const PixelBox& tile);
+
+ private:
+  static constexpr std::size_t kPixels = std::size_t{TileGrid::kTileSize} * TileGrid::kTileSize;
+  // Mirrored rays, then refracted ones.
+  using Generation = std::array<RayQueue, 2>;
+  // Linear RGB, and 1 where something is hit.
+  using Radiance = std::array<glm::vec4, kPixels>;
+
+  void start();
+  [[nodiscard]] bool sees_anything(const Image<std::uint32_t>& seen) const;
+  void find_hits(RayQueue& rays, int generation);
+  void look();
+  void light_visible();
+  void follow();
+  void bounce(Bounce step, const RayQueue& rays, Generation& next, Radiance& radiance);
+  void make_room(std::size_t rays, Generation& next);
+  void fire_shadows(int generation, Radiance& radiance);
+  void write() const;
+
+  const TilePlan* plan_ = nullptr;
+  PixelBox tile_;
+  RayCounts counts_;
+  RayQueue seen_;
+  Generation rays_, next_;
+  std::array<RayQueue, kMaxCastingLights> shadow_;
+  std::vector<std::uint8_t> blocked_;
+  Radiance direct_, reflected_;
+  std::array<std::uint8_t, kPixels> mask_;
+};
+
+}  // namespace pinocchio
