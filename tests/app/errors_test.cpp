@@ -72,7 +72,7 @@ TEST_F(ErrorsTest, Usage) {
   expect_error(render + "--crop 900,900,950,950 -o x.exr", 2, "--crop");
   expect_error(render + "--frames 5-2 -o x.exr", 2, "--frames");
   expect_error(render + "--turntable 4 -o x.exr", 2, "####");
-  expect_error(render + "--exchange reproject --design 2 -o x.exr", 2, "use design 1");
+  expect_error(render + "--exchange reproject --design 2 -o x.exr", 2, "--design 1");
   expect_error(render + "-o x.jpg", 2, "does not end in .exr");
   expect_error(render + "--aov depth -o x.exr", 2, "depth");
   expect_error(render, 2, "nothing to write");

@@ -184,6 +184,20 @@ TEST_P(Modes, EveryScheduleDrawsTheSamePicture) {
   EXPECT_LT(static_cast<double>(other_triangle), 0.005 * static_cast<double>(rays.ids.pixels().size()));
 }
 
+// No mask: no light casts, whoever draws.
+TEST_P(Modes, WithoutShadowsEveryLightReachesAll) {
+  const Scene scene = load_or_die(source_path(GetParam()));
+  const auto draw = [&](const char* option, const char* value, int mask_bits) {
+    DrawRequest request{.settings = by({{option, value}})};
+    if (mask_bits == 0) request.settings.mask_bits = 0;
+    return draw_one(scene, request);
+  };
+  const FrameResult lit = draw("mode", "raytrace", 0);
+  EXPECT_LE(largest_on_screen(lit, draw("design", "1", 0)), 0.5f);
+  EXPECT_LE(largest_on_screen(lit, draw("design", "2", 0)), 1.5f);
+  EXPECT_GT(largest_on_screen(lit, draw("mode", "raytrace", 8)), 20.0f);
+}
+
 TEST(Samples, AreAveragedAndTheFirstIsThePixelsCentre) {
   const Scene scene = load_or_die(source_path("scenes/two-lights"));
   DrawRequest request = by_mode("raytrace");
