@@ -63,17 +63,6 @@ std::shared_ptr<const GpuMesh> Engine::Parts::gpu_mesh(const std::shared_ptr<con
   return found;
 }
 
-LitCells* Engine::Parts::lit_cells(const std::shared_ptr<const Tracer>& tracer) {
-  if (!LitCells::suits(*tracer)) return nullptr;
-  if (cells_tracer.lock() != tracer) {
-    cells.reset();
-    cells_tracer = tracer;
-    return nullptr;
-  }
-  if (!cells) cells = std::make_unique<LitCells>(*tracer);
-  return cells.get();
-}
-
 Engine::Engine(const EngineOptions& options) : parts_(std::make_unique<Parts>(options)) {}
 
 Engine::Engine(gl::Context& context) : Engine() {
@@ -90,8 +79,10 @@ Expected<Settings> Engine::resolve(const Scene& scene, glm::ivec2 size, const Se
 
 std::shared_ptr<const Tracer> Engine::prepare(const Scene& scene, const Settings& settings) {
   if (!settings.traces()) return nullptr;
-  return std::make_shared<const Tracer>(scene.mesh, build_options(settings), Isa{settings.isa},
-                                        settings.offset);
+  BuildOptions options = build_options(settings);
+  for (const Light& light : scene.lights)
+    if (light.casts_shadow && light.kind != Light::Kind::directional) options.lights.push_back(light.position);
+  return std::make_shared<const Tracer>(scene.mesh, options, Isa{settings.isa}, settings.offset);
 }
 
 Expected<FrameResult> Engine::render(const Scene& scene, const View& view, const Settings& settings) {

@@ -10,7 +10,6 @@
 #include <thread>
 
 #include "core/parallel/workers.h"
-#include "core/trace/lit_cells.h"
 #include "gl/open.h"
 #include "hybrid/gpu/gpu_mesh.h"
 #include "hybrid/gpu/programs.h"
@@ -55,9 +54,6 @@ struct Engine::Parts {
   [[nodiscard]] Workers& workers(int threads);
   // The mesh's buffers on the GPU; made when first asked for, let go when nobody else has the mesh.
   [[nodiscard]] std::shared_ptr<const GpuMesh> gpu_mesh(const std::shared_ptr<const Mesh>& mesh);
-  // What shadow passes in this tree have learned, for the next one. Null for a tree's first pass (a single
-  // picture learns nothing that it could use) and where rays are not exact enough to be spared.
-  [[nodiscard]] LitCells* lit_cells(const std::shared_ptr<const Tracer>& tracer);
 
   EngineOptions options;
   std::unique_ptr<gl::Context> own;  // outlives what was made in it
@@ -68,10 +64,6 @@ struct Engine::Parts {
   std::map<std::shared_ptr<const Mesh>, std::shared_ptr<const GpuMesh>> meshes;
   std::shared_ptr<const Tracer> last_tracer;  // of render()
   Settings last_settings;                     // that it was built by
-
-  // Of the tracing thread:
-  std::weak_ptr<const Tracer> cells_tracer;  // a scene that nobody has is let go
-  std::unique_ptr<LitCells> cells;
 
   TracingThread tracing;  // last: ends first
 };

@@ -215,10 +215,10 @@ void Renderer::Loop::start_trace(FrameSlot& frame) {
   if (frame.state == FrameSlot::State::idle || frame.tracing.valid() || frame.answered) return;
   if (!frame.request.settings.traces()) return;
   take_on_cpu(frame);
-  const CpuTools cpu{engine_, engine_.workers(frame.request.settings.threads)};
-  frame.tracing = engine_.tracing.post([cpu, &frame] {
-    for (const CpuPass& pass : kCpuPasses)
-      if (pass.wanted(frame.request.settings)) pass.run(cpu, frame);
+  Workers& workers = engine_.workers(frame.request.settings.threads);
+  frame.tracing = engine_.tracing.post([&workers, &frame] {
+    trace(workers, frame);
+    encode_answer(workers, frame);
   });
 }
 

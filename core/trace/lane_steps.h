@@ -27,7 +27,7 @@ struct SceneArrays {
   const Material* materials;
   const Texture* textures;
 
-  [[nodiscard]] static SceneArrays of(const Scene& scene);
+  [[nodiscard]] static SceneArrays of(const Mesh& mesh);
 };
 
 // Colour of a texture where a triangle has these barycentric weights. For the few lanes that want one:

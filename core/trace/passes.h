@@ -1,12 +1,11 @@
-// The CPU's passes over a picture. Each takes the visible triangle of every pixel, wherever that came
-// from (the GPU's visibility buffer or trace_visibility), and none waits for a GPU.
+// What the tile pass (core/trace/trace_tiles.h) does, one thing at a time. Each takes the visible triangle of
+// every pixel, wherever that came from (the GPU's visibility buffer or trace_visibility).
 #pragma once
 
 #include <cstdint>
 #include <glm/glm.hpp>
 
 #include "core/parallel/workers.h"
-#include "core/trace/lit_cells.h"
 #include "core/trace/scatter.h"
 #include "core/trace/shared.h"
 #include "pinocchio/image.h"
@@ -27,7 +26,6 @@ struct TraceJob {
   // the shadow rays of what they see; and shadow rays of visible points (0: all are fired, so that every bit
   // of the mask is true).
   float least_contribution = kLeastContribution, least_light = 0.0f;
-  LitCells* cells = nullptr;  // of this tracer: what shadow passes of earlier frames have taught
 };
 
 // The triangle that each pixel's centre sees (kNoTriangle: none), by rays. ids: any size.
@@ -42,14 +40,5 @@ RayCounts trace_shadow_mask(const TraceJob& job, const Image<std::uint32_t>& ids
 // itself; generation by generation, `depth` of them at most. radiance is resized to ids' size.
 RayCounts trace_reflection(const TraceJob& job, const Image<std::uint32_t>& ids, int depth,
                            Image<glm::vec3>& radiance);
-
-// The CPU's composite: Phong per light times its mask bit, plus reflection (empty: none). RGBA, linear;
-// A is 1 where something is hit. mask of 0 bits: no light casts.
-void shade(const TraceJob& job, const Image<std::uint32_t>& ids, const MaskImage& mask,
-           const Image<glm::vec3>& reflection, Image<glm::vec4>& color);
-
-// The part of it that the mask decides, and the reflection: added to what `light` holds, linear RGB.
-void add_traced_light(const TraceJob& job, const Image<std::uint32_t>& ids, const MaskImage& mask,
-                      const Image<glm::vec3>& reflection, Image<glm::vec3>& light);
 
 }  // namespace pinocchio

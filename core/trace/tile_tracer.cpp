@@ -6,7 +6,7 @@
 #include <cstring>
 
 #include "core/trace/surface.h"
-#include "pinocchio/view.h"
+#include "core/trace/view_params.h"
 
 namespace pinocchio {
 namespace {
@@ -65,19 +65,19 @@ class InImage {
 
 }  // namespace
 
-SceneArrays SceneArrays::of(const Scene& scene) {
-  return {scene.positions.data(),
-          scene.normals.data(),
-          scene.texcoords.empty() ? nullptr : scene.texcoords.data(),
-          scene.triangles.data(),
-          scene.triangle_materials.data(),
-          scene.materials.data(),
-          scene.textures.data()};
+SceneArrays SceneArrays::of(const Mesh& mesh) {
+  return {mesh.positions.data(),
+          mesh.normals.data(),
+          mesh.texcoords.empty() ? nullptr : mesh.texcoords.data(),
+          mesh.triangles.data(),
+          mesh.triangle_materials.data(),
+          mesh.materials.data(),
+          mesh.textures.data()};
 }
 
 TilePlan::TilePlan(const TraceJob& j, const TileOutputs& o)
     : job(j), out(o), view(scaled_view(j.view, o.scale)), all_lights(lights_of(j.scene)) {
-  further = {SceneArrays::of(job.scene),
+  further = {SceneArrays::of(*job.scene.mesh),
              job.tracer.offset(),
              all_lights.data(),
              all_lights.size(),

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "core/parallel/tiles.h"
+#include "core/trace/lane_steps.h"
 #include "core/trace/ray_queue.h"
 #include "core/trace/trace_tiles.h"
 

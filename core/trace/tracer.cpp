@@ -8,6 +8,7 @@
 
 #include "core/bsp/build.h"
 #include "core/trace/kernels.h"
+#include "core/trace/lane_steps.h"
 #include "pinocchio/error.h"
 
 namespace pinocchio {

@@ -24,14 +24,14 @@ void take(Channel channel, std::span<const std::byte> bytes, FrameSlot& frame) {
   // Channel::normals: the slides send them; our hit points know better
 }
 
-void encode_reflection(const CpuTools& cpu, FrameSlot& frame) {
+void encode_reflection(Workers& workers, FrameSlot& frame) {
   const Settings& s = frame.request.settings;
   const std::span<std::byte> bytes = frame[Channel::reflection].bytes;
-  if (!s.tiles) return pack_radiance(frame.reflection, s.reflection, cpu.workers, bytes);
+  if (!s.tiles) return pack_radiance(frame.reflection, s.reflection, workers, bytes);
   const glm::ivec2 grid = tile_grid(frame);
   const auto tiles = static_cast<std::size_t>(grid.x) * static_cast<std::size_t>(grid.y);
   frame.reflection_tiles =
-      pack_tiles(frame.reflection, s.reflection, cpu.workers,
+      pack_tiles(frame.reflection, s.reflection, workers,
                  {reinterpret_cast<std::uint32_t*>(bytes.data()), tiles},
                  bytes.subspan(tiles * sizeof(std::uint32_t)));
 }
@@ -84,13 +84,13 @@ void take_on_cpu(FrameSlot& frame) {
   frame.record[Stage::readback].end_s = now_s();
 }
 
-void encode_answer(const CpuTools& cpu, FrameSlot& frame) {
+void encode_answer(Workers& workers, FrameSlot& frame) {
   const Settings& s = frame.request.settings;
   for (const ChannelLayout& c : frame.layout) {
     const std::span<std::byte> bytes = frame[c.channel].bytes;
     if (c.channel == Channel::traced_ids) pack_ids(frame.ids, s.id_bits, bytes);
     if (c.channel == Channel::mask) std::memcpy(bytes.data(), frame.mask.bytes().data(), bytes.size());
-    if (c.channel == Channel::reflection) encode_reflection(cpu, frame);
+    if (c.channel == Channel::reflection) encode_reflection(workers, frame);
   }
 }
 

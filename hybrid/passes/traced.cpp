@@ -1,75 +1,90 @@
-// The CPU's passes: camera rays, shadow rays, mirrored and refracted rays.
-#include "core/trace/passes.h"
-
+// The CPU's part of a frame.
 #include <stdexcept>
 
+#include "core/trace/trace_tiles.h"
 #include "hybrid/exchange/encode.h"
 #include "hybrid/passes/passes.h"
 
 namespace pinocchio {
 namespace {
 
-TraceJob job_of(const CpuTools& cpu, const FrameSlot& frame, int scale) {
-  const FrameRequest& r = frame.request;
-  if (!r.tracer) throw std::logic_error("settings that trace were given no tree (Engine::prepare)");
-  return {r.scene,
-          *r.tracer,
-          cpu.workers,
-          scaled_view(frame.view, scale),
-          r.settings.throughput_cutoff,
-          r.settings.light_cutoff};
+// The phases of a tile are timed on each thread: placed one after the other from where the pass began, each as
+// long as all threads together spent on it, divided by their number.
+void note(const TileTimes& times, double begin_s, int threads, FrameRecord& record) {
+  const auto place = [&](Stage stage, double seconds) {
+    if (seconds <= 0.0) return;
+    Span& span = record[stage];
+    const double before_s = span.end_s - span.begin_s;
+    span = {begin_s, begin_s + before_s + seconds / threads};
+    begin_s = span.end_s;
+  };
+  place(Stage::raster, times.primary);
+  place(Stage::trace_shadow, times.shadow);
+  place(Stage::trace_reflection, times.reflection);
+  place(Stage::composite, times.composite);
 }
 
-// Every scale-th id, across and down; `store` holds them where they are not all of them.
-const Image<std::uint32_t>& sampled(const Image<std::uint32_t>& ids, int scale, Image<std::uint32_t>& store) {
-  if (scale == 1) return ids;
-  store = Image<std::uint32_t>(scaled_size(ids.size(), scale));
-  for (int y = 0; y < store.size().y; ++y)
-    for (int x = 0; x < store.size().x; ++x) store.at(x, y) = ids.at(x * scale, y * scale);
-  return store;
+void run(Workers& workers, FrameSlot& frame, const TileOutputs& outputs) {
+  const FrameRequest& r = frame.request;
+  if (!r.tracer) throw std::logic_error("settings that trace were given no tree (Engine::prepare)");
+  const TraceJob job{r.scene, *r.tracer, workers, frame.view, r.settings.throughput_cutoff, r.settings.light_cutoff};
+  const double begin_s = now_s();
+  const TileResult result = trace_tiles(job, outputs);
+  frame.record.rays += result.rays;
+  note(result.times, begin_s, workers.count(), frame.record);
 }
 
 }  // namespace
 
-void trace_visibility(const CpuTools& cpu, FrameSlot& frame) {
-  const StageTimer timer(frame.record, Stage::raster);
-  fit(frame.ids, frame.size());
-  frame.record.rays += trace_visibility(job_of(cpu, frame, 1), frame.ids);
-}
-
-void trace_shadows(const CpuTools& cpu, FrameSlot& frame) {
-  const StageTimer timer(frame.record, Stage::trace_shadow);
+void trace(Workers& workers, FrameSlot& frame) {
   const Settings& s = frame.request.settings;
-  TraceJob job = job_of(cpu, frame, s.mask_scale);
-  if (s.reuse) job.cells = cpu.engine.lit_cells(frame.request.tracer);
-  Image<std::uint32_t> store;
-  frame.record.rays += trace_shadow_mask(job, sampled(frame.ids, s.mask_scale, store), s.mask_bits, frame.mask);
-}
-
-void trace_mirrors(const CpuTools& cpu, FrameSlot& frame) {
-  const StageTimer timer(frame.record, Stage::trace_reflection);
-  const Settings& s = frame.request.settings;
-  Image<std::uint32_t> store;
-  frame.record.rays +=
-      trace_reflection(job_of(cpu, frame, s.reflection_scale), sampled(frame.ids, s.reflection_scale, store),
-                       s.depth, frame.reflection);
-}
-
-void composite_on_cpu(const CpuTools& cpu, FrameSlot& frame) {
-  const Settings& s = frame.request.settings;
-  const TraceJob job = job_of(cpu, frame, 1);
-  const MaskImage no_mask;
-  const Image<glm::vec3> no_reflection;
-  const MaskImage& mask = s.mask_bits > 0 ? frame.mask : no_mask;
-  const Image<glm::vec3>& reflection = s.reflects() ? frame.reflection : no_reflection;
-  if (s.visibility == Processor::cpu) {
-    const StageTimer timer(frame.record, Stage::composite);
-    return shade(job, frame.ids, mask, reflection, frame.color);
+  const glm::ivec2 size = frame.size();
+  bool has_ids = s.visibility == Processor::gpu;
+  const auto outputs = [&](int scale) {
+    TileOutputs out;
+    out.size = scaled_size(size, scale);
+    out.scale = scale;
+    if (has_ids) {
+      out.seen = &frame.ids;
+    } else {
+      out.ids = &frame.ids;
+    }
+    return out;
+  };
+  const auto add_mask = [&](TileOutputs& out) {
+    if (s.mask_bits == 0) return;
+    out.mask_bits = s.mask_bits;
+    out.mask = &frame.mask;
+  };
+  const auto add_reflection = [&](TileOutputs& out) {
+    if (!s.reflects() || s.depth == 0) return;
+    out.depth = s.depth;
+    out.reflection = &frame.reflection;
+  };
+  if (s.reflects() && s.depth == 0) frame.reflection = Image<glm::vec3>(scaled_size(size, s.reflection_scale));
+  if (!has_ids && (s.mask_scale > 1 || s.reflection_scale > 1)) {
+    run(workers, frame, outputs(1));  // every id travels, whatever is sampled
+    has_ids = true;
   }
-  Image<glm::vec3> light(frame.ids.size());
-  unpack_srgb(frame.phong_srgb.pixels(), cpu.workers, light);
-  add_traced_light(job, frame.ids, mask, reflection, light);
-  pack_srgb(light, cpu.workers, frame[Channel::picture].bytes);
+  if (s.mask_scale != s.reflection_scale && s.mask_bits > 0 && s.reflects()) {
+    TileOutputs mask = outputs(s.mask_scale), reflection = outputs(s.reflection_scale);
+    add_mask(mask);
+    add_reflection(reflection);
+    run(workers, frame, mask);
+    return run(workers, frame, reflection);
+  }
+  TileOutputs all = outputs(s.mask_bits > 0 ? s.mask_scale : s.reflection_scale);
+  add_mask(all);
+  add_reflection(all);
+  Image<glm::vec3> light;
+  if (!s.uses_gpu()) all.color = &frame.color;
+  if (s.uses_gpu() && s.composite == Processor::cpu) {
+    light = Image<glm::vec3>(size);
+    unpack_srgb(frame.phong_srgb.pixels(), workers, light);
+    all.added = &light;
+  }
+  run(workers, frame, all);
+  if (all.added) pack_srgb(light, workers, frame[Channel::picture].bytes);
 }
 
 MaskImage enlarged(const MaskImage& mask, int scale, glm::ivec2 size) {

@@ -13,6 +13,7 @@
 #include "core/trace/view_params.h"
 #include "tests/support/own_file.h"
 #include "tests/support/scenes.h"
+#include "tests/support/shade.h"
 
 namespace pinocchio {
 namespace {

@@ -2,6 +2,7 @@
 
 #include "core/trace/view_params.h"
 #include "tests/support/scenes.h"
+#include "tests/support/shade.h"
 
 namespace pinocchio {
 namespace {

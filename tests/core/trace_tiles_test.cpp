@@ -1,4 +1,5 @@
 // The tile pass against the passes that it replaces, and against itself at every width and number of threads.
+#include "core/trace/lane_steps.h"
 #include "core/trace/trace_tiles.h"
 
 #include <cmath>
@@ -7,6 +8,7 @@
 #include "core/bsp/tree.h"
 #include "pinocchio/view.h"
 #include "tests/support/scenes.h"
+#include "tests/support/shade.h"
 
 namespace pinocchio {
 namespace {
@@ -77,25 +79,28 @@ Camera camera_of(const Scene& scene) {
 Scene all_sorts() {
   Scene scene = random_soup(300, 0.5f, 7);
   Random random(11);
-  scene.materials.assign(5, Material{});
-  scene.materials[1].reflectance = {0.5f, 0.4f, 0.3f};
-  scene.materials[1].fresnel = true;
-  scene.materials[2].transmittance = glm::vec3(0.9f);
-  scene.materials[2].ior = 1.5f;
-  scene.materials[3].specular = glm::vec3(0.7f);
-  scene.materials[3].shininess = 37.5f;
-  scene.materials[3].reflectance = glm::vec3(0.2f);
-  scene.materials[4].diffuse_texture = 0;
-  scene.materials[4].emission = {0.0f, 0.1f, 0.0f};
-  Texture texture{"noise", Image<glm::u8vec4>({7, 5})};
-  for (glm::u8vec4& texel : texture.texels.pixels())
-    texel = glm::u8vec4(random.between(0, 255), random.between(0, 255), random.between(0, 255), 255);
-  scene.textures.push_back(texture);
-  for (std::size_t i = 0; i < scene.triangles.size(); ++i)
-    scene.triangle_materials[i] = static_cast<std::uint32_t>(i % scene.materials.size());
-  for (std::size_t i = 0; i < scene.positions.size(); ++i) {
-    scene.texcoords.emplace_back(random.between(-2, 2), random.between(-2, 2));
-    if (i % 7 < 4) scene.normals[i] = glm::normalize(random_point(random, 1.0f));
+  {
+    MeshEdit mesh(scene);
+    mesh->materials.assign(5, Material{});
+    mesh->materials[1].reflectance = {0.5f, 0.4f, 0.3f};
+    mesh->materials[1].fresnel = true;
+    mesh->materials[2].transmittance = glm::vec3(0.9f);
+    mesh->materials[2].ior = 1.5f;
+    mesh->materials[3].specular = glm::vec3(0.7f);
+    mesh->materials[3].shininess = 37.5f;
+    mesh->materials[3].reflectance = glm::vec3(0.2f);
+    mesh->materials[4].diffuse_texture = 0;
+    mesh->materials[4].emission = {0.0f, 0.1f, 0.0f};
+    Texture texture{"noise", Image<glm::u8vec4>({7, 5})};
+    for (glm::u8vec4& texel : texture.texels.pixels())
+      texel = glm::u8vec4(random.between(0, 255), random.between(0, 255), random.between(0, 255), 255);
+    mesh->textures.push_back(texture);
+    for (std::size_t i = 0; i < mesh->triangles.size(); ++i)
+      mesh->triangle_materials[i] = static_cast<std::uint32_t>(i % mesh->materials.size());
+    for (std::size_t i = 0; i < mesh->positions.size(); ++i) {
+      mesh->texcoords.emplace_back(random.between(-2, 2), random.between(-2, 2));
+      if (i % 7 < 4) mesh->normals[i] = glm::normalize(random_point(random, 1.0f));
+    }
   }
   scene.lights = {point_light({2, 3, 1}), point_light({-1, 2, 3}, false), point_light({0, 4, 0})};
   scene.lights[0].falloff = Light::Falloff::inverse_square;
@@ -137,7 +142,7 @@ void expect_close(const Drawn& tiles, const Drawn& passes) {
 TEST(TraceTiles, DrawWhatThePassesDraw) {
   for (const Scene& scene : scenes()) {
     SCOPED_TRACE(scene.source);
-    const Tracer tracer(scene);
+    const Tracer tracer(scene.mesh);
     Workers workers(2);
     const TraceJob job{scene, tracer, workers, view_params(camera_of(scene), kSize)};
     const Drawn passes = by_passes(job);
@@ -151,7 +156,7 @@ TEST(TraceTiles, DrawWhatThePassesDraw) {
 
 TEST(TraceTiles, LeastLightAsThePassesHaveIt) {
   const Scene scene = all_sorts();
-  const Tracer tracer(scene);
+  const Tracer tracer(scene.mesh);
   Workers workers(2);
   TraceJob job{scene, tracer, workers, view_params(camera_of(scene), kSize)};
   job.least_light = 0.3f;
@@ -165,7 +170,7 @@ TEST(TraceTiles, SameBitsForAnyWidthAndThreads) {
     std::optional<Drawn> expected;
     for (const Isa isa : supported_isas())
       for (const int threads : {1, 3}) {
-        const Tracer tracer(scene, {}, isa);
+        const Tracer tracer(scene.mesh, {}, isa);
         Workers workers(threads);
         const Drawn drawn = by_tiles({scene, tracer, workers, view_params(camera_of(scene), kSize)});
         if (!expected) expected = drawn;
@@ -179,7 +184,7 @@ TEST(TraceTiles, SameBitsForAnyWidthAndThreads) {
 
 TEST(TraceTiles, EachOutputAloneIsWhatItIsAmongAll) {
   const Scene scene = all_sorts();
-  const Tracer tracer(scene);
+  const Tracer tracer(scene.mesh);
   Workers workers(2);
   const TraceJob job{scene, tracer, workers, view_params(camera_of(scene), kSize)};
   const Drawn all = by_tiles(job);
@@ -204,7 +209,7 @@ TEST(TraceTiles, EachOutputAloneIsWhatItIsAmongAll) {
 
 TEST(TraceTiles, AddedLightIsWhatThePassAdds) {
   const Scene scene = all_sorts();
-  const Tracer tracer(scene);
+  const Tracer tracer(scene.mesh);
   Workers workers(2);
   const TraceJob job{scene, tracer, workers, view_params(camera_of(scene), kSize)};
   const Drawn passes = by_passes(job);
@@ -223,7 +228,7 @@ TEST(TraceTiles, AddedLightIsWhatThePassAdds) {
 
 TEST(TraceTiles, EverySecondPixelOfAPart) {
   const Scene scene = all_sorts();
-  const Tracer tracer(scene);
+  const Tracer tracer(scene.mesh);
   Workers workers(2);
   const TraceJob job{scene, tracer, workers, view_params(camera_of(scene), {200, 120}, {}, {33, 17})};
   Image<std::uint32_t> ids(kSize);
@@ -266,7 +271,7 @@ TEST(Power, WithinHalfAUnitOfLibmAtEveryWidth) {
   double worst = 0.0;
   for (const Isa isa : supported_isas()) {
     const Scene scene = plate_over_floor();
-    Tracer(scene, {}, isa).steps().power(x.data(), y.data(), ours.data(), kCount);
+    Tracer(scene.mesh, {}, isa).steps().power(x.data(), y.data(), ours.data(), kCount);
     if (isa == Isa::scalar) first = ours;
     EXPECT_EQ(std::memcmp(ours.data(), first.data(), kCount * sizeof(float)), 0) << isa_name(isa);
     for (std::size_t i = 0; i < kCount; ++i) {

@@ -5,6 +5,7 @@
 #include "core/trace/passes.h"
 #include "core/trace/view_params.h"
 #include "tests/support/draw.h"
+#include "tests/support/shade.h"
 
 namespace pinocchio {
 namespace {

@@ -1,3 +1,6 @@
+// The composite one pixel at a time, from a mask and a reflection that are given: what the lanes are held against.
+#pragma once
+
 #include <algorithm>
 
 #include "core/parallel/tiles.h"
@@ -6,14 +9,13 @@
 #include "core/trace/view_params.h"
 
 namespace pinocchio {
-namespace {
 
 struct ShadedLight {
   shared::LightParams params;
   int slot;  // in the mask; -1: does not cast
 };
 
-std::vector<ShadedLight> shaded_lights(const Scene& scene) {
+inline std::vector<ShadedLight> shaded_lights(const Scene& scene) {
   std::vector<ShadedLight> lights;
   const std::vector<int> slots = mask_slots(scene);
   for (std::size_t i = 0; i < slots.size(); ++i) lights.push_back({light_params(scene.lights[i]), slots[i]});
@@ -21,7 +23,7 @@ std::vector<ShadedLight> shaded_lights(const Scene& scene) {
 }
 
 // Light of the lights that reach the surface; `bits` is its mask.
-glm::vec3 sum_of_lights(const std::vector<ShadedLight>& lights, const Surface& s, unsigned bits) {
+inline glm::vec3 sum_of_lights(const std::vector<ShadedLight>& lights, const Surface& s, unsigned bits) {
   glm::vec3 sum(0.0f);
   for (const ShadedLight& light : lights) {
     if (light.slot >= 0 && !(bits >> light.slot & 1u)) continue;
@@ -48,9 +50,9 @@ void for_each_surface(const TraceJob& job, const Image<std::uint32_t>& ids, cons
   });
 }
 
-}  // namespace
-
-void shade(const TraceJob& job, const Image<std::uint32_t>& ids, const MaskImage& mask,
+// Phong per light times its mask bit, plus reflection (empty: none). RGBA, linear; A is 1 where something is hit.
+// mask of 0 bits: no light casts.
+inline void shade(const TraceJob& job, const Image<std::uint32_t>& ids, const MaskImage& mask,
            const Image<glm::vec3>& reflection, Image<glm::vec4>& color) {
   if (color.size() != ids.size()) color = Image<glm::vec4>(ids.size());
   std::fill(color.pixels().begin(), color.pixels().end(), glm::vec4(0.0f));
@@ -63,7 +65,8 @@ void shade(const TraceJob& job, const Image<std::uint32_t>& ids, const MaskImage
   });
 }
 
-void add_traced_light(const TraceJob& job, const Image<std::uint32_t>& ids, const MaskImage& mask,
+// The part of it that the mask decides, and the reflection: added to what `light` holds, linear RGB.
+inline void add_traced_light(const TraceJob& job, const Image<std::uint32_t>& ids, const MaskImage& mask,
                       const Image<glm::vec3>& reflection, Image<glm::vec3>& light) {
   std::vector<ShadedLight> casting = shaded_lights(job.scene);
   std::erase_if(casting, [](const ShadedLight& l) { return l.slot < 0; });
