@@ -22,7 +22,7 @@ namespace {
 
 // Narrows [t_near, t_far] to the tree's box. min and max give their second operand for NaN, so a ray
 // that runs in a face of the box (0 * inf) leaves the interval as it was.
-inline void enter_bounds(const Bounds& b, const Packet& p, const Course& c, const bool (&negative)[3],
+inline void enter_bounds(const Bounds& b, const Packet& p, const Octant& c, const bool (&negative)[3],
                          Float& t_near, Float& t_far) {
   for (int axis = 0; axis < 3; ++axis) {
     const Float lo(b.lo[axis]), hi(b.hi[axis]);
@@ -37,7 +37,7 @@ inline void enter_bounds(const Bounds& b, const Packet& p, const Course& c, cons
 template <int kPackets>
 struct Group {
   Packet packets[kPackets];
-  Course courses[kPackets];
+  Octant octants[kPackets];
 };
 
 template <int kPackets>
@@ -60,7 +60,7 @@ inline void walk(const BspTree& tree, const Group<kPackets>& group, const bool (
   for (int k = 0; k < kPackets; ++k) {
     t_near[k] = Float(0.0f);
     t_far[k] = t_best[k] * Float(kLate);
-    enter_bounds(tree.bounds, group.packets[k], group.courses[k], negative, t_near[k], t_far[k]);
+    enter_bounds(tree.bounds, group.packets[k], group.octants[k], negative, t_near[k], t_far[k]);
     living[k] = (lanes[k] & (t_near[k] <= t_far[k])).bits();
     any |= living[k];
   }
@@ -81,7 +81,7 @@ inline void walk(const BspTree& tree, const Group<kPackets>& group, const bool (
         unsigned enter_first = 0, enter_second = 0;
 #pragma GCC unroll 4
         for (int k = 0; k < kPackets; ++k) {
-          t[k] = (split - group.packets[k].o[axis]) * group.courses[k].inverse[axis];
+          t[k] = (split - group.packets[k].o[axis]) * group.octants[k].inverse[axis];
           enter_first |= living[k] & ~(t[k] < t_near[k]).bits();
           enter_second |= living[k] & ~(t_far[k] < t[k]).bits();
         }
@@ -130,7 +130,7 @@ inline void for_each_octant(Group<kPackets>& group, Body body) {
     waiting[k] = p.living;
     any |= p.living;
     for (int axis = 0; axis < 3; ++axis) {
-      group.courses[k].inverse[axis] = Float(1.0f) / p.d[axis];
+      group.octants[k].inverse[axis] = Float(1.0f) / p.d[axis];
       falling[k][axis] = (p.d[axis] < Float(0.0f)).bits();
     }
   }

@@ -54,7 +54,7 @@ struct Packet {
 };
 
 // How a packet's rays step through the tree.
-struct Course {
+struct Octant {
   Float inverse[3];  // 1 / d
 };
 
