@@ -172,7 +172,7 @@ inline void closest_of_group(const BspTree& tree, const RayColumns& rays, std::s
         for (int k = 0; k < kPackets; ++k) {
           if (living[k] == 0) continue;
           Float at;
-          const Mask inside = tests[k].meets(tri, Mask::from_bits(living[k]), at);
+          const Mask inside = tests[k].intersect(tri, Mask::from_bits(living[k]), at);
           const Mask closer = inside & ((at < t_best[k]) | ((at == t_best[k]) & (id < hit[k])));
           t_best[k] = select(closer, at, t_best[k]);
           hit[k] = select(closer, id, hit[k]);
@@ -202,7 +202,7 @@ inline void occluded_of_group(const BspTree& tree, const RayColumns& rays, std::
         unsigned open = living[k];
         for (std::uint32_t r = 0; r < leaf.reference_count() && open != 0; ++r) {
           Float at;
-          Mask inside = tests[k].meets(triangles[of_leaf[r]], Mask::from_bits(open), at);
+          Mask inside = tests[k].intersect(triangles[of_leaf[r]], Mask::from_bits(open), at);
           inside = inside & (at < t_best[k]);
           if (inside.bits() == 0) continue;
           hit[k] |= inside.bits();

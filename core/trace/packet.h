@@ -60,7 +60,7 @@ struct Octant {
 
 // A triangle test is a class made once for a packet (it may prepare the packet's rays):
 //   stored(tree)              the triangles as it wants them, in the tree's order
-//   meets(triangle, lanes, t) which of `lanes` meet it at 0 < t; sets their t
+//   intersect(triangle, lanes, t) which of `lanes` meet it at 0 < t; sets their t
 // The order of operations is fixed, and a lane's answer depends on its ray alone.
 
 }  // namespace

@@ -12,7 +12,7 @@ class MoellerTrumboreTest {
 
   static const CornerTriangle* stored(const BspTree& tree) { return tree.corner_triangles.data(); }
 
-  [[gnu::always_inline]] inline Mask meets(const CornerTriangle& tri, Mask lanes, Float& t) const {
+  [[gnu::always_inline]] inline Mask intersect(const CornerTriangle& tri, Mask lanes, Float& t) const {
     Float ab[3], ac[3], from_a[3], p[3], q[3];
     for (int i = 0; i < 3; ++i) {
       ab[i] = Float(tri.corners[1][i] - tri.corners[0][i]);

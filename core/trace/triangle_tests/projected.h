@@ -12,7 +12,7 @@ class ProjectedTest {
 
   static const ProjectedTriangle* stored(const BspTree& tree) { return tree.triangles.data(); }
 
-  [[gnu::always_inline]] inline Mask meets(const ProjectedTriangle& tri, Mask lanes, Float& t) const {
+  [[gnu::always_inline]] inline Mask intersect(const ProjectedTriangle& tri, Mask lanes, Float& t) const {
     const unsigned k = tri.k, u = k == 2 ? 0 : k + 1, v = u == 2 ? 0 : u + 1;
     const Float n_u(tri.n_u), n_v(tri.n_v);
     const Float away = p_.d[k] + n_u * p_.d[u] + n_v * p_.d[v];

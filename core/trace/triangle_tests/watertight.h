@@ -21,7 +21,7 @@ class WatertightTest {
 
   static const CornerTriangle* stored(const BspTree& tree) { return tree.corner_triangles.data(); }
 
-  [[gnu::always_inline]] inline Mask meets(const CornerTriangle& tri, Mask lanes, Float& t) const {
+  [[gnu::always_inline]] inline Mask intersect(const CornerTriangle& tri, Mask lanes, Float& t) const {
     Float a[3], b[3], c[3];
     in_ray_frame(tri.corners[0], a);
     in_ray_frame(tri.corners[1], b);
