@@ -54,7 +54,7 @@ std::vector<Ray> towards_lights(const Scene& scene, const std::vector<Seen>& see
   for (const int i : casting_lights(scene)) {
     const shared::LightParams light = light_params(scene.lights[static_cast<std::size_t>(i)]);
     for (const Seen& s : seen) {
-      const Surface surface = surface_at(*scene.mesh, s.triangle, s.ray.origin, s.ray.direction);
+      const SurfaceInteraction surface = surface_at(*scene.mesh, s.triangle, s.ray.origin, s.ray.direction);
       if (const std::optional<Ray> ray = shadow_ray(light, surface)) rays.push_back(*ray);
     }
   }

@@ -37,7 +37,7 @@ void embree_pass(const TraceJob& job, const EmbreeSide& embree, const Image<std:
       const std::uint32_t id = ids.at(x, y);
       if (id == kNoTriangle) return;
       const Ray seen = pixel_ray(job.view, x, y);
-      const Surface surface =
+      const SurfaceInteraction surface =
           bare_surface_at(job.tracer.mesh(), id, seen.origin, seen.direction, job.tracer.offset());
       for (std::size_t slot = 0; slot < lights.size(); ++slot) {
         if (const std::optional<Ray> ray = shadow_ray(lights[slot], surface)) {

@@ -23,7 +23,7 @@ struct Set {
 };
 
 // Whether the point is farther than `clear` from all sides of the room but its own.
-bool is_clear(const Set& set, const Surface& surface) {
+bool is_clear(const Set& set, const SurfaceInteraction& surface) {
   if (set.clear == 0.0f) return true;
   for (int axis = 0; axis < 3; ++axis) {
     const bool own = std::abs(surface.n_geometric[axis]) > 0.5f;
@@ -49,7 +49,7 @@ std::vector<Ray> shadow_rays(const Set& set, const Tracer& tracer, int rays) {
   const shared::LightParams light = light_params(set.light);
   for (std::size_t i = 0; i < hits.size(); ++i) {
     if (!hits[i].valid()) continue;
-    const Surface surface =
+    const SurfaceInteraction surface =
         surface_at(tracer.mesh(), hits[i].triangle, primary[i].origin, primary[i].direction, tracer.offset());
     if (!is_clear(set, surface)) continue;
     if (const std::optional<Ray> ray = shadow_ray(light, surface)) shadow.push_back(*ray);
@@ -161,7 +161,7 @@ FailureCount dark_facets(const Method& method, int rays) {
   const std::vector<Hit> hits = trace(tracer, primary, count);
   for (std::size_t i = 0; i < hits.size(); ++i) {
     if (!hits[i].valid()) continue;
-    const Surface s = surface_at(tracer.mesh(), hits[i].triangle, eye, primary[i].direction);
+    const SurfaceInteraction s = surface_at(tracer.mesh(), hits[i].triangle, eye, primary[i].direction);
     const glm::vec3 to_light = light - s.p_world;
     if (glm::dot(s.n_shading, to_light) <= 0.0f) continue;
     ++count.trials;

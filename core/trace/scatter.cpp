@@ -6,14 +6,14 @@
 namespace pinocchio {
 namespace {
 
-void push(const Surface& surface, const glm::vec3& direction, const glm::vec3& weight, std::uint32_t pixel,
+void push(const SurfaceInteraction& surface, const glm::vec3& direction, const glm::vec3& weight, std::uint32_t pixel,
           bool refracted, float least, std::vector<PathRay>& out) {
   if (std::max({weight.x, weight.y, weight.z}) < least) return;
   out.push_back({{offset_origin(surface, direction), kInfinity, direction}, weight, pixel, refracted});
 }
 
 // About the shading normal, unless that sends the ray into the surface; then about the geometric one.
-glm::vec3 mirrored(const Surface& surface) {
+glm::vec3 mirrored(const SurfaceInteraction& surface) {
   const glm::vec3 direction = glm::reflect(-surface.to_viewer, surface.n_shading);
   return glm::dot(direction, surface.n_geometric) > 0.0f
              ? direction
@@ -21,7 +21,7 @@ glm::vec3 mirrored(const Surface& surface) {
 }
 
 // Likewise; zero beyond the critical angle. glm::refract takes the inverse of eta.
-glm::vec3 refracted(const Surface& surface, float eta) {
+glm::vec3 refracted(const SurfaceInteraction& surface, float eta) {
   const glm::vec3 direction = glm::refract(-surface.to_viewer, surface.n_shading, 1.0f / eta);
   return glm::dot(direction, surface.n_geometric) < 0.0f
              ? direction
@@ -39,7 +39,7 @@ float fresnel_dielectric(float cos_in, float eta) {
   return 0.5f * (parallel * parallel + perpendicular * perpendicular);
 }
 
-void scatter(const Surface& surface, const glm::vec3& weight, std::uint32_t pixel, float least,
+void scatter(const SurfaceInteraction& surface, const glm::vec3& weight, std::uint32_t pixel, float least,
              std::vector<PathRay>& out) {
   const Material& m = *surface.material;
   const float cos_in = std::clamp(glm::dot(surface.n_shading, surface.to_viewer), 0.0f, 1.0f);

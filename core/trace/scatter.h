@@ -25,7 +25,7 @@ inline constexpr float kLeastContribution = 0x1p-13f;
 // that is below `least` in every colour.
 // Dielectrics share by Fresnel's equations (all is mirrored beyond the critical angle); opaque mirrors
 // have a constant reflectance or Schlick's.
-void scatter(const Surface& surface, const glm::vec3& weight, std::uint32_t pixel, float least,
+void scatter(const SurfaceInteraction& surface, const glm::vec3& weight, std::uint32_t pixel, float least,
              std::vector<PathRay>& out);
 
 // Share of unpolarised light that a smooth dielectric mirrors (Fresnel). eta: index of the side the

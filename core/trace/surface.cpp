@@ -32,13 +32,13 @@ int wrap(int i, int n) {
   return r < 0 ? r + n : r;
 }
 
-Surface geometry_at(const Mesh& mesh, std::uint32_t id, const glm::vec3& direction, const glm::vec3& weights,
+SurfaceInteraction geometry_at(const Mesh& mesh, std::uint32_t id, const glm::vec3& direction, const glm::vec3& weights,
                     const RayOffset& offset) {
   const glm::uvec3 corners = mesh.triangles[id];
   const glm::vec3 &a = mesh.positions[corners.x], &b = mesh.positions[corners.y],
                   &c = mesh.positions[corners.z];
 
-  Surface s;
+  SurfaceInteraction s;
   s.to_viewer = -glm::normalize(direction);
   s.p_exact = glm::dvec3(a) + static_cast<double>(weights.y) * (glm::dvec3(b) - glm::dvec3(a)) +
               static_cast<double>(weights.z) * (glm::dvec3(c) - glm::dvec3(a));
@@ -67,15 +67,15 @@ float least_error_bound_offset(const glm::vec3& ab, const glm::vec3& ac) {
   return kTriangleError * std::max(largest_component(ab), largest_component(ac));
 }
 
-Surface surface_at(const Mesh& mesh, std::uint32_t id, const glm::vec3& origin, const glm::vec3& direction,
+SurfaceInteraction surface_at(const Mesh& mesh, std::uint32_t id, const glm::vec3& origin, const glm::vec3& direction,
                    const RayOffset& offset) {
   const glm::vec3 weights = weights_at(mesh, id, origin, direction);
-  Surface s = geometry_at(mesh, id, direction, weights, offset);
+  SurfaceInteraction s = geometry_at(mesh, id, direction, weights, offset);
   s.phong = phong_params(mesh, *s.material, mesh.triangles[id], weights);
   return s;
 }
 
-Surface bare_surface_at(const Mesh& mesh, std::uint32_t id, const glm::vec3& origin,
+SurfaceInteraction bare_surface_at(const Mesh& mesh, std::uint32_t id, const glm::vec3& origin,
                         const glm::vec3& direction, const RayOffset& offset) {
   return geometry_at(mesh, id, direction, weights_at(mesh, id, origin, direction), offset);
 }
@@ -87,7 +87,7 @@ glm::vec3 weights_at(const Mesh& mesh, std::uint32_t id, const glm::vec3& origin
                                 mesh.positions[corners.z]);
 }
 
-glm::vec3 offset_origin(const Surface& surface, const glm::vec3& direction) {
+glm::vec3 offset_origin(const SurfaceInteraction& surface, const glm::vec3& direction) {
   const float side = glm::dot(surface.n_geometric, direction) < 0.0f ? -surface.offset : surface.offset;
   return glm::vec3(surface.p_exact + glm::dvec3(side * surface.n_geometric));
 }
@@ -113,7 +113,7 @@ std::vector<shared::LightParams> casting_light_params(const Scene& scene) {
   return params;
 }
 
-std::optional<Ray> shadow_ray(const shared::LightParams& light, const Surface& surface) {
+std::optional<Ray> shadow_ray(const shared::LightParams& light, const SurfaceInteraction& surface) {
   const shared::Incident incident = shared::incident_light(light, surface.p_world);
   if (incident.radiance == glm::vec3(0.0f)) return std::nullopt;
   if (!shared::faces_light(surface.n_shading, surface.n_geometric, incident.to_light)) return std::nullopt;

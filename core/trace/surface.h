@@ -13,7 +13,7 @@
 namespace pinocchio {
 
 // What a ray sees where it meets a triangle, turned to the side that the ray came from.
-struct Surface {
+struct SurfaceInteraction {
   glm::vec3 p_world;
   glm::dvec3 p_exact;     // p_world before it was rounded: in the triangle's plane
   glm::vec3 n_geometric;  // unit, towards the viewer
@@ -27,7 +27,7 @@ struct Surface {
 
 // The point of triangle `id` that the ray meets, on the triangle to float precision; `offset` is how new rays
 // keep off it.
-[[nodiscard]] Surface surface_at(const Mesh& mesh, std::uint32_t id, const glm::vec3& origin,
+[[nodiscard]] SurfaceInteraction surface_at(const Mesh& mesh, std::uint32_t id, const glm::vec3& origin,
                                  const glm::vec3& direction, const RayOffset& offset = {});
 
 // Barycentric weights of that point.
@@ -35,7 +35,7 @@ struct Surface {
                                    const glm::vec3& direction);
 
 // The surface alone, its phong left as it was made.
-[[nodiscard]] Surface bare_surface_at(const Mesh& mesh, std::uint32_t id, const glm::vec3& origin,
+[[nodiscard]] SurfaceInteraction bare_surface_at(const Mesh& mesh, std::uint32_t id, const glm::vec3& origin,
                                       const glm::vec3& direction, const RayOffset& offset = {});
 
 // By an error bound: how far off triangle (a, a + ab, a + ac) with normal n a ray from its point p starts,
@@ -47,7 +47,7 @@ struct Surface {
 // Where a ray leaving the surface towards `direction` starts. By an error bound: off the plane by more than
 // the rounding of the point and of a triangle test, so that it meets neither its own triangle nor a coplanar
 // neighbour.
-[[nodiscard]] glm::vec3 offset_origin(const Surface& surface, const glm::vec3& direction);
+[[nodiscard]] glm::vec3 offset_origin(const SurfaceInteraction& surface, const glm::vec3& direction);
 
 [[nodiscard]] shared::LightParams light_params(const Light& light);
 // Of the casting lights, in the order of mask slots.
@@ -55,7 +55,7 @@ struct Surface {
 
 // The ray that asks whether the light reaches the surface; nothing where it cannot anyway: the surface
 // faces away, or the light does not reach this far or this way.
-[[nodiscard]] std::optional<Ray> shadow_ray(const shared::LightParams& light, const Surface& surface);
+[[nodiscard]] std::optional<Ray> shadow_ray(const shared::LightParams& light, const SurfaceInteraction& surface);
 
 // Colour of a texture, bilinear, repeating, linear light.
 [[nodiscard]] glm::vec3 sample_texture(const Texture& texture, glm::vec2 texcoord);

@@ -104,7 +104,7 @@ class Tally {
 // The bits by Embree alone: its hit, its occlusion, the point in double precision.
 unsigned embree_mask(const Comparison& c, const Hit& hit, const Ray& ray) {
   if (!hit.valid()) return 0;
-  const Surface surface = surface_at(*c.scene.mesh, hit.triangle, ray.origin, ray.direction);
+  const SurfaceInteraction surface = surface_at(*c.scene.mesh, hit.triangle, ray.origin, ray.direction);
   const glm::vec3 size = glm::abs(surface.p_world);
   const double largest = static_cast<double>(std::max({size.x, size.y, size.z}));
   const glm::dvec3 point = glm::dvec3(ray.origin) + static_cast<double>(hit.t) * glm::dvec3(ray.direction) +

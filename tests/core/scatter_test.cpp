@@ -8,8 +8,8 @@ namespace pinocchio {
 namespace {
 
 // A surface in the plane y = 0, seen from above at `angle` from its normal.
-Surface surface_seen_at(float angle, const Material& material, bool leaving = false) {
-  Surface s{};
+SurfaceInteraction surface_seen_at(float angle, const Material& material, bool leaving = false) {
+  SurfaceInteraction s{};
   s.n_geometric = s.n_shading = {0, 1, 0};
   s.to_viewer = {std::sin(angle), std::cos(angle), 0};
   s.leaving = leaving;
@@ -18,7 +18,7 @@ Surface surface_seen_at(float angle, const Material& material, bool leaving = fa
   return s;
 }
 
-std::vector<PathRay> scattered(const Surface& surface) {
+std::vector<PathRay> scattered(const SurfaceInteraction& surface) {
   std::vector<PathRay> rays;
   scatter(surface, glm::vec3(1.0f), 0, kLeastContribution, rays);
   return rays;

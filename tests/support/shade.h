@@ -23,7 +23,7 @@ inline std::vector<ShadedLight> shaded_lights(const Scene& scene) {
 }
 
 // Light of the lights that reach the surface; `bits` is its mask.
-inline glm::vec3 sum_of_lights(const std::vector<ShadedLight>& lights, const Surface& s, unsigned bits) {
+inline glm::vec3 sum_of_lights(const std::vector<ShadedLight>& lights, const SurfaceInteraction& s, unsigned bits) {
   glm::vec3 sum(0.0f);
   for (const ShadedLight& light : lights) {
     if (light.slot >= 0 && !(bits >> light.slot & 1u)) continue;
@@ -57,7 +57,7 @@ inline void shade(const TraceJob& job, const Image<std::uint32_t>& ids, const Ma
   if (color.size() != ids.size()) color = Image<glm::vec4>(ids.size());
   std::fill(color.pixels().begin(), color.pixels().end(), glm::vec4(0.0f));
   const std::vector<ShadedLight> lights = shaded_lights(job.scene);
-  for_each_surface(job, ids, mask, [&](std::size_t pixel, const Surface& surface, unsigned bits) {
+  for_each_surface(job, ids, mask, [&](std::size_t pixel, const SurfaceInteraction& surface, unsigned bits) {
     glm::vec3 sum =
         shared::phong_ambient(surface.phong, job.scene.ambient_light) + sum_of_lights(lights, surface, bits);
     if (!reflection.empty()) sum += reflection[pixel];
@@ -70,7 +70,7 @@ inline void add_traced_light(const TraceJob& job, const Image<std::uint32_t>& id
                       const Image<glm::vec3>& reflection, Image<glm::vec3>& light) {
   std::vector<ShadedLight> casting = shaded_lights(job.scene);
   std::erase_if(casting, [](const ShadedLight& l) { return l.slot < 0; });
-  for_each_surface(job, ids, mask, [&](std::size_t pixel, const Surface& surface, unsigned bits) {
+  for_each_surface(job, ids, mask, [&](std::size_t pixel, const SurfaceInteraction& surface, unsigned bits) {
     light[pixel] += sum_of_lights(casting, surface, bits);
     if (!reflection.empty()) light[pixel] += reflection[pixel];
   });
