@@ -42,7 +42,7 @@ std::vector<Ray> mirrored(const Mesh& mesh, const std::vector<Seen>& seen) {
   for (const Seen& s : seen) {
     spawned.clear();
     scatter(surface_at(mesh, s.triangle, s.ray.origin, s.ray.direction), glm::vec3(1.0f), 0,
-            kLeastContribution, spawned);
+            kThroughputCutoff, spawned);
     for (const PathRay& path : spawned)
       if (!path.refracted) rays.push_back(path.ray);
   }

@@ -51,7 +51,7 @@ struct Bounce {
   bool adds_ambient;  // and emission
   bool adds_light;    // lights that cast none add theirs to `radiance`, shadow rays carry it
   // Light below which no shadow ray is fired, of visible points and of others; and no path followed.
-  float least_light, least_contribution;
+  float light_cutoff, throughput_cutoff;
 
   // Where it goes. Queues have room for all rays of the step; null: not wanted.
   RayQueue* shadow;  // one a slot

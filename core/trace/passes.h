@@ -25,14 +25,14 @@ struct TraceJob {
   // Light that a ray brings its pixel, linear, below which it is not fired: mirrored and refracted rays and
   // the shadow rays of what they see; and shadow rays of visible points (0: all are fired, so that every bit
   // of the mask is true).
-  float least_contribution = kLeastContribution, least_light = 0.0f;
+  float throughput_cutoff = kThroughputCutoff, light_cutoff = 0.0f;
 };
 
 // The triangle that each pixel's centre sees (kNoTriangle: none), by rays. ids: any size.
 RayCounts trace_visibility(const TraceJob& job, Image<std::uint32_t>& ids);
 
 // Bit i of a pixel: the casting light in mask slot i reaches the visible point. 0 where nothing is seen
-// or the surface faces away, or the light brings less than job.least_light. mask is resized to ids' size and
+// or the surface faces away, or the light brings less than job.light_cutoff. mask is resized to ids' size and
 // `bits` a pixel (1, 2, 4 or 8, no fewer than lights that cast).
 RayCounts trace_shadow_mask(const TraceJob& job, const Image<std::uint32_t>& ids, int bits, MaskImage& mask);
 

@@ -6,10 +6,10 @@
 namespace pinocchio {
 namespace {
 
-void push(const SurfaceInteraction& surface, const glm::vec3& direction, const glm::vec3& weight, std::uint32_t pixel,
+void push(const SurfaceInteraction& surface, const glm::vec3& direction, const glm::vec3& throughput, std::uint32_t pixel,
           bool refracted, float least, std::vector<PathRay>& out) {
-  if (std::max({weight.x, weight.y, weight.z}) < least) return;
-  out.push_back({{offset_origin(surface, direction), kInfinity, direction}, weight, pixel, refracted});
+  if (std::max({throughput.x, throughput.y, throughput.z}) < least) return;
+  out.push_back({{offset_origin(surface, direction), kInfinity, direction}, throughput, pixel, refracted});
 }
 
 // About the shading normal, unless that sends the ray into the surface; then about the geometric one.
@@ -39,7 +39,7 @@ float fresnel_dielectric(float cos_in, float eta) {
   return 0.5f * (parallel * parallel + perpendicular * perpendicular);
 }
 
-void scatter(const SurfaceInteraction& surface, const glm::vec3& weight, std::uint32_t pixel, float least,
+void scatter(const SurfaceInteraction& surface, const glm::vec3& throughput, std::uint32_t pixel, float least,
              std::vector<PathRay>& out) {
   const Material& m = *surface.material;
   const float cos_in = std::clamp(glm::dot(surface.n_shading, surface.to_viewer), 0.0f, 1.0f);
@@ -48,11 +48,11 @@ void scatter(const SurfaceInteraction& surface, const glm::vec3& weight, std::ui
     const glm::vec3 through = refracted(surface, eta);
     // Where the two normals disagree there may be no way through although Fresnel has a share for it.
     const float share = through == glm::vec3(0.0f) ? 1.0f : fresnel_dielectric(cos_in, eta);
-    push(surface, mirrored(surface), weight * share, pixel, false, least, out);
-    push(surface, through, weight * (1.0f - share) * m.transmittance, pixel, true, least, out);
+    push(surface, mirrored(surface), throughput * share, pixel, false, least, out);
+    push(surface, through, throughput * (1.0f - share) * m.transmittance, pixel, true, least, out);
   } else if (m.reflects()) {
     const float grazing = m.fresnel ? std::pow(1.0f - cos_in, 5.0f) : 0.0f;
-    push(surface, mirrored(surface), weight * (m.reflectance + (1.0f - m.reflectance) * grazing), pixel,
+    push(surface, mirrored(surface), throughput * (m.reflectance + (1.0f - m.reflectance) * grazing), pixel,
          false, least, out);
   }
 }

@@ -12,20 +12,16 @@ namespace pinocchio {
 // A ray of some generation and what it is worth to its pixel.
 struct PathRay {
   Ray ray;
-  glm::vec3 weight;     // product of the reflectances and transmittances on its way
+  glm::vec3 throughput;     // product of the reflectances and transmittances on its way
   std::uint32_t pixel;  // index in the picture
   bool refracted;       // else mirrored
 };
 
-// Contributions below this are not followed: less than half a step of an 8-bit sRGB picture, even on
-// black (slope 12.92).
-inline constexpr float kLeastContribution = 0x1p-13f;
-
-// Appends the mirrored and the refracted ray that leave the surface, each with its share of `weight`, unless
+// Appends the mirrored and the refracted ray that leave the surface, each with its share of `throughput`, unless
 // that is below `least` in every colour.
 // Dielectrics share by Fresnel's equations (all is mirrored beyond the critical angle); opaque mirrors
 // have a constant reflectance or Schlick's.
-void scatter(const SurfaceInteraction& surface, const glm::vec3& weight, std::uint32_t pixel, float least,
+void scatter(const SurfaceInteraction& surface, const glm::vec3& throughput, std::uint32_t pixel, float least,
              std::vector<PathRay>& out);
 
 // Share of unpolarised light that a smooth dielectric mirrors (Fresnel). eta: index of the side the

@@ -86,7 +86,7 @@ TilePlan::TilePlan(const TraceJob& j, const TileOutputs& o)
              true,
              true,
              0.0f,
-             job.least_contribution,
+             job.throughput_cutoff,
              nullptr,
              nullptr,
              nullptr,
@@ -95,7 +95,7 @@ TilePlan::TilePlan(const TraceJob& j, const TileOutputs& o)
   visible.visible = true;
   visible.adds_ambient = out.color != nullptr;
   visible.adds_light = out.color || out.added;
-  visible.least_light = job.least_light;
+  visible.light_cutoff = job.light_cutoff;
   for (const BounceLight& light : all_lights)
     if (light.slot >= 0 ? out.mask_bits > 0 : visible.adds_ambient) visible_lights.push_back(light);
   visible.lights = visible_lights.data();

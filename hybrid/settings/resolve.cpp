@@ -3,14 +3,11 @@
 #include <algorithm>
 #include <string>
 
-#include "core/trace/scatter.h"
 #include "pinocchio/light.h"
 #include "pinocchio/mask_image.h"
 
 namespace pinocchio {
 namespace {
-
-static_assert(kThroughputCutoff == kLeastContribution);
 
 constexpr std::size_t kMost16BitIds = 0xffff, kMost24BitIds = 0xffffff;  // one value less, as "none" is one
 

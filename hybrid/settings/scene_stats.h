@@ -19,7 +19,7 @@ struct SceneStats {
   double mirror_share = 0.0;        // of the scene's surface that reflects or transmits
   double transmitting_share = 0.0;  // of it that transmits
   bool textures = false;            // some triangle's material has one
-  // Bounces beyond which no ray brings its pixel kLeastContribution, or none finds another mirror.
+  // Bounces beyond which no ray brings its pixel kThroughputCutoff, or none finds another mirror.
   int useful_depth = kMostBounces;
 
   [[nodiscard]] bool transmits() const { return transmitting_share > 0.0; }

@@ -154,7 +154,7 @@ void compare_reflections(const Comparison& c) {
       const Ray ray = pixel_ray(c.view, x, y);
       rays.clear();
       scatter(surface_at(*c.scene.mesh, c.ours.at(x, y).triangle, ray.origin, ray.direction), glm::vec3(1.0f),
-              0, kLeastContribution, rays);
+              0, kThroughputCutoff, rays);
       if (rays.empty()) continue;
       c.tracer.closest_hits({&rays.front().ray, 1}, {&ours.at(x, y), 1});
       theirs.at(x, y) = c.embree.closest_hit(rays.front().ray);

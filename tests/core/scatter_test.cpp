@@ -20,7 +20,7 @@ SurfaceInteraction surface_seen_at(float angle, const Material& material, bool l
 
 std::vector<PathRay> scattered(const SurfaceInteraction& surface) {
   std::vector<PathRay> rays;
-  scatter(surface, glm::vec3(1.0f), 0, kLeastContribution, rays);
+  scatter(surface, glm::vec3(1.0f), 0, kThroughputCutoff, rays);
   return rays;
 }
 
@@ -31,7 +31,7 @@ TEST(Scatter, MirrorReflectsAtTheSameAngle) {
   ASSERT_EQ(rays.size(), 1u);
   EXPECT_NEAR(rays[0].ray.direction.x, -std::sin(0.5f), 1e-6f);
   EXPECT_NEAR(rays[0].ray.direction.y, std::cos(0.5f), 1e-6f);
-  EXPECT_EQ(rays[0].weight, glm::vec3(0.8f));
+  EXPECT_EQ(rays[0].throughput, glm::vec3(0.8f));
   EXPECT_FALSE(rays[0].refracted);
 }
 
@@ -45,7 +45,7 @@ TEST(Scatter, GlassFollowsSnellAndFresnel) {
   const float out = std::asin(std::sin(in) / 1.5f);
   EXPECT_NEAR(rays[1].ray.direction.x, -std::sin(out), 1e-6f);
   EXPECT_NEAR(rays[1].ray.direction.y, -std::cos(out), 1e-6f);
-  EXPECT_NEAR(rays[0].weight.x + rays[1].weight.x, 1.0f, 1e-6f);
+  EXPECT_NEAR(rays[0].throughput.x + rays[1].weight.x, 1.0f, 1e-6f);
   EXPECT_LT(rays[1].ray.origin.y, 0.0f);  // starts on the other side
   EXPECT_GT(rays[0].ray.origin.y, 0.0f);
 }
@@ -56,7 +56,7 @@ TEST(Scatter, BeyondTheCriticalAngleAllIsMirrored) {
   glass.ior = 1.5f;
   const std::vector<PathRay> rays = scattered(surface_seen_at(std::asin(1.0f / 1.5f) + 0.01f, glass, true));
   ASSERT_EQ(rays.size(), 1u);
-  EXPECT_EQ(rays[0].weight, glm::vec3(1.0f));
+  EXPECT_EQ(rays[0].throughput, glm::vec3(1.0f));
 }
 
 TEST(Fresnel, KnownValues) {
@@ -70,7 +70,7 @@ TEST(Fresnel, KnownValues) {
 
 TEST(Scatter, WhatIsNotSeenIsNotFollowed) {
   Material mirror;
-  mirror.reflectance = glm::vec3(0.5f * kLeastContribution);
+  mirror.reflectance = glm::vec3(0.5f * kThroughputCutoff);
   EXPECT_TRUE(scattered(surface_seen_at(0.2f, mirror)).empty());
 }
 

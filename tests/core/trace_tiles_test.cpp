@@ -159,8 +159,8 @@ TEST(TraceTiles, LeastLightAsThePassesHaveIt) {
   const Tracer tracer(scene.mesh);
   Workers workers(2);
   TraceJob job{scene, tracer, workers, view_params(camera_of(scene), kSize)};
-  job.least_light = 0.3f;
-  job.least_contribution = 0.05f;
+  job.light_cutoff = 0.3f;
+  job.throughput_cutoff = 0.05f;
   expect_close(by_tiles(job), by_passes(job));
 }
 

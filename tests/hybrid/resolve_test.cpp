@@ -165,7 +165,7 @@ TEST(SceneStats, DepthThatIsWorthFollowing) {
   Scene scene = plate_over_floor();
   EXPECT_EQ(analyze(scene).useful_depth, 0);
   for (MeshEdit mesh(scene); Material& m : mesh->materials) m.reflectance = glm::vec3(0.5f);
-  EXPECT_EQ(analyze(scene).useful_depth, 13);  // 0.5^13 = kLeastContribution
+  EXPECT_EQ(analyze(scene).useful_depth, 13);  // 0.5^13 = kThroughputCutoff
   for (MeshEdit mesh(scene); Material& m : mesh->materials) m.reflectance = glm::vec3(1.0f);
   EXPECT_EQ(analyze(scene).useful_depth, kMostBounces);
   MeshData flat;

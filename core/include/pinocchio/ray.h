@@ -7,6 +7,9 @@
 namespace pinocchio {
 
 inline constexpr std::uint32_t kNoTriangle = 0xffffffffu;
+// Light that a ray brings its pixel, linear, below which it is not followed, by default: less than half a step
+// of an 8-bit sRGB picture, even on black (slope 12.92).
+inline constexpr float kThroughputCutoff = 0x1p-13f;
 inline constexpr float kInfinity = std::numeric_limits<float>::infinity();
 
 // Points origin + t * direction with 0 < t < t_max. The direction need not be a unit vector: t counts

@@ -85,10 +85,10 @@ inline void scatter(const LaneSurface& s, const LaneMaterial& m, const Vec& thro
     const Float share = select(is_dark(through), one, fresnel_dielectric(cos_in, eta));
     mirror_share = select(Mask::from_bits(glass), Vec(share), mirror_share);
     follow(s, through, throughput * (one - share) * m.transmittance, pixel, Mask::from_bits(glass),
-           bounce.least_contribution, *bounce.refracted);
+           bounce.throughput_cutoff, *bounce.refracted);
   }
   follow(s, mirrored(s), throughput * mirror_share, pixel, Mask::from_bits(glass | opaque),
-         bounce.least_contribution, *bounce.mirrored);
+         bounce.throughput_cutoff, *bounce.mirrored);
 }
 
 }  // namespace

@@ -75,8 +75,8 @@ inline Vec light_points(const Bounce& bounce, const LaneSurface& s, const LaneMa
     const BounceLight& light = bounce.lights[i];
     const LaneIncident incident = incident_light(light.params, s.p_world);
     Mask lit = lanes & faces_light(s, incident.to_light) & ~is_dark(incident.radiance);
-    if (bounce.visible && light.slot >= 0 && bounce.least_light > 0.0f)
-      lit = lit & ~(most_light(m, incident, s) < Float(bounce.least_light));
+    if (bounce.visible && light.slot >= 0 && bounce.light_cutoff > 0.0f)
+      lit = lit & ~(most_light(m, incident, s) < Float(bounce.light_cutoff));
     if (lit.bits() == 0) continue;
     Vec term(Float(0.0f));
     if (bounce.adds_light) term = phong_light(m, incident, s, lit);
@@ -85,7 +85,7 @@ inline Vec light_points(const Bounce& bounce, const LaneSurface& s, const LaneMa
       continue;
     }
     const Vec carried = throughput * term;
-    if (!bounce.visible) lit = lit & ~(largest(carried) < Float(bounce.least_contribution));
+    if (!bounce.visible) lit = lit & ~(largest(carried) < Float(bounce.throughput_cutoff));
     ask(light, s, incident, carried, pixel, lit, bounce.shadow[light.slot]);
   }
   return sum;
@@ -107,8 +107,8 @@ inline void prefetch_corners(const SceneArrays& scene, const RayQueue& rays, std
 
 void bounce_rays(const Bounce& bounce, const RayQueue& rays) {
   const bool reads_material =
-      bounce.adds_light || bounce.adds_ambient || bounce.mirrored || bounce.least_light > 0.0f;
-  const bool reads_texture = bounce.adds_light || bounce.adds_ambient || bounce.least_light > 0.0f;
+      bounce.adds_light || bounce.adds_ambient || bounce.mirrored || bounce.light_cutoff > 0.0f;
+  const bool reads_texture = bounce.adds_light || bounce.adds_ambient || bounce.light_cutoff > 0.0f;
   for (std::size_t i = 0; i < rays.size; i += kWidth) {
     prefetch_corners(bounce.scene, rays, i);
     const Mask lanes = lanes_from(i, rays.size);

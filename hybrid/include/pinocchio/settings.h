@@ -38,8 +38,6 @@ inline constexpr std::array<std::string_view, 5> kReflectionFormatNames{"none", 
 [[nodiscard]] int bytes_per_pixel(ReflectionFormat format);
 
 inline constexpr int kMostBounces = 64, kMostThreads = 1024;
-// Less than half a step of an 8-bit sRGB picture, even on black (slope 12.92).
-inline constexpr float kThroughputCutoff = 0x1p-13f;
 
 // A value, and whether the user set it: assigning to it says so. What nobody set, resolve() fills in.
 template <class T>
