@@ -24,7 +24,7 @@ Camera turned(Camera camera, int frame) {
   return camera;
 }
 
-// What trace_shadow_mask does without anything learned, with Embree's rays.
+// What a shadow pass did one pixel at a time, with Embree's rays.
 void embree_pass(const TraceJob& job, const EmbreeSide& embree, const Image<std::uint32_t>& ids, int bits,
                  MaskImage& mask) {
   const std::vector<shared::LightParams> lights = casting_light_params(job.scene);
@@ -67,23 +67,20 @@ ShadowPass measure(const Scene& scene, const Tracer& tracer, const EmbreeSide& e
                    Workers& workers) {
   const Camera camera = scene.cameras.empty() ? camera_for_whole_scene(scene) : scene.cameras.front();
   const int bits = MaskImage::bits_for(static_cast<int>(casting_lights(scene).size()));
-  LitCells cells(tracer);
   ShadowPass result;
   result.threads = workers.count();
   std::vector<double> ours, theirs;
   for (int frame = 0; frame < kFrames; ++frame) {
-    TraceJob job{scene, tracer, workers, view_params(turned(camera, frame), size)};
+    const TraceJob job{scene, tracer, workers, view_params(turned(camera, frame), size)};
     Image<std::uint32_t> ids(size);
     trace_visibility(job, ids);
     MaskImage mask, embrees;
     theirs.push_back(seconds_of([&] { embree_pass(job, embree, ids, bits, embrees); }));
-    if (frame > 0 && LitCells::suits(tracer)) job.cells = &cells;  // as the frame loop has it
     RayCounts counts;
     ours.push_back(seconds_of([&] { counts = trace_shadow_mask(job, ids, bits, mask); }));
     if (frame + 1 < kFrames) continue;
     result.fired = counts.shadow;
-    job.cells = nullptr;
-    result.rays = trace_shadow_mask(job, ids, bits, mask).shadow;
+    result.rays = counts.shadow;
     result.differ = differing_bits(mask, embrees);
   }
   const auto last_ms = [](const std::vector<double>& times) {

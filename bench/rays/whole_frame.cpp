@@ -7,7 +7,7 @@
 #include "bench/rays/measure.h"
 #include "core/math/median.h"
 #include "core/trace/trace_tiles.h"
-#include "pinocchio/view.h"
+#include "core/trace/view_params.h"
 
 namespace pinocchio::bench {
 namespace {

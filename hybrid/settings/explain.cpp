@@ -84,9 +84,8 @@ std::string why_threads(const Settings& s) {
 }
 
 std::string why_rays(const Settings& s) {
-  const std::string still = s.reuse ? "a frame that is the last one again costs no ray, and what a light "
-                                         "is known to reach costs no shadow ray"
-                                       : "nothing of earlier frames is reused";
+  const std::string still =
+      s.reuse ? "a frame that is the last one again costs no ray" : "nothing of earlier frames is reused";
   return s.light_cutoff > 0.0f
              ? "no shadow ray where a light brings less than half a step of an 8-bit picture; " + still
              : "a shadow ray wherever a light may reach: the mask itself is kept; " + still;

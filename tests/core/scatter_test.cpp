@@ -45,7 +45,7 @@ TEST(Scatter, GlassFollowsSnellAndFresnel) {
   const float out = std::asin(std::sin(in) / 1.5f);
   EXPECT_NEAR(rays[1].ray.direction.x, -std::sin(out), 1e-6f);
   EXPECT_NEAR(rays[1].ray.direction.y, -std::cos(out), 1e-6f);
-  EXPECT_NEAR(rays[0].throughput.x + rays[1].weight.x, 1.0f, 1e-6f);
+  EXPECT_NEAR(rays[0].throughput.x + rays[1].throughput.x, 1.0f, 1e-6f);
   EXPECT_LT(rays[1].ray.origin.y, 0.0f);  // starts on the other side
   EXPECT_GT(rays[0].ray.origin.y, 0.0f);
 }
