@@ -264,37 +264,6 @@ TEST(Economy, AStillCameraCostsNoRays) {
     }
 }
 
-TEST(Economy, FramesTeachTheNextWhereLightReaches) {
-  const Scene scene = load_or_die(source_path("scenes/two-lights"));
-  std::vector<Camera> cameras;
-  for (int i = 0; i < 10; ++i) {
-    cameras.push_back(first_camera(scene));
-    cameras.back().eye.x += 0.02f * static_cast<float>(i);
-  }
-  const auto draw = [&](Settings settings, bool reuse, std::vector<FrameRecord>& records) {
-    settings.reuse = reuse;
-    return draw_all(scene, {.size = kSize, .resolved = settings}, cameras, &records);
-  };
-  struct Way {
-    const char *mode, *design;
-    Exchange exchange;
-  };
-  for (const Way& way : {Way{"hybrid", "1", Exchange::sync}, Way{"hybrid", "1", Exchange::pipelined},
-                         Way{"hybrid", "2", Exchange::sync}, Way{"raytrace", "1", Exchange::sync}}) {
-    SCOPED_TRACE(std::string(way.mode) + " " + way.design + " " +
-                 std::string(name_of(kExchangeNames, way.exchange)));
-    Settings settings = least(scene, by({{"design", way.design}, {"mode", way.mode}}), true);
-    settings.exchange = way.exchange;
-    std::vector<FrameRecord> taught, anew;
-    const std::vector<FrameResult> pictures = draw(settings, true, taught);
-    const std::vector<FrameResult> wanted = draw(settings, false, anew);
-    for (std::size_t i = 0; i < pictures.size(); ++i)
-      EXPECT_TRUE(std::ranges::equal(pictures[i].color.pixels(), wanted[i].color.pixels())) << i;
-    EXPECT_EQ(taught.front().rays.shadow, anew.front().rays.shadow);
-    EXPECT_LT(taught.back().rays.shadow, anew.back().rays.shadow * 2 / 3);
-  }
-}
-
 TEST(ReflectionTiles, OnlyThoseWithLight) {
   Workers workers(2);
   Image<glm::vec3> image(glm::ivec2(26, 10));  // 4 x 2 tiles, the last ones cut
