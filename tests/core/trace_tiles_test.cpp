@@ -1,4 +1,6 @@
-// The tile pass against the passes that it replaces, and against itself at every width and number of threads.
+// The tile pass against itself: one output at a time, at every width and number of threads; and its composite
+// against one that is summed pixel by pixel. That its masks and mirrored light are right is held against others:
+// Embree (embree_test) and the reference (reference_agreement_test).
 #include "core/trace/lane_steps.h"
 #include "core/trace/trace_tiles.h"
 
@@ -46,7 +48,7 @@ int mask_bits_of(const Scene& scene) {
   return MaskImage::bits_for(static_cast<int>(casting_lights(scene).size()));
 }
 
-Drawn by_passes(const TraceJob& job) {
+Drawn one_by_one(const TraceJob& job) {
   Drawn drawn;
   drawn.rays += trace_visibility(job, drawn.ids);
   drawn.rays += trace_shadow_mask(job, drawn.ids, mask_bits_of(job.scene), drawn.mask);
@@ -139,13 +141,13 @@ void expect_close(const Drawn& tiles, const Drawn& passes) {
   EXPECT_LE(worst_color, 1.0f);
 }
 
-TEST(TraceTiles, DrawWhatThePassesDraw) {
+TEST(TraceTiles, TogetherAreWhatTheyAreOneByOneAndSummedPixelByPixel) {
   for (const Scene& scene : scenes()) {
     SCOPED_TRACE(scene.source);
     const Tracer tracer(scene.mesh);
     Workers workers(2);
     const TraceJob job{scene, tracer, workers, view_params(camera_of(scene), kSize)};
-    const Drawn passes = by_passes(job);
+    const Drawn passes = one_by_one(job);
     expect_close(by_tiles(job), passes);
     Drawn seen = by_tiles(job, &passes.ids);
     EXPECT_EQ(seen.rays.primary, 0u);
@@ -154,14 +156,14 @@ TEST(TraceTiles, DrawWhatThePassesDraw) {
   }
 }
 
-TEST(TraceTiles, LeastLightAsThePassesHaveIt) {
+TEST(TraceTiles, LightCutoffTogetherAndOneByOne) {
   const Scene scene = all_sorts();
   const Tracer tracer(scene.mesh);
   Workers workers(2);
   TraceJob job{scene, tracer, workers, view_params(camera_of(scene), kSize)};
   job.light_cutoff = 0.3f;
   job.throughput_cutoff = 0.05f;
-  expect_close(by_tiles(job), by_passes(job));
+  expect_close(by_tiles(job), one_by_one(job));
 }
 
 TEST(TraceTiles, SameBitsForAnyWidthAndThreads) {
@@ -207,12 +209,12 @@ TEST(TraceTiles, EachOutputAloneIsWhatItIsAmongAll) {
   EXPECT_TRUE(same_bits(reflection, all.reflection));
 }
 
-TEST(TraceTiles, AddedLightIsWhatThePassAdds) {
+TEST(TraceTiles, AddedLightIsWhatIsAddedPixelByPixel) {
   const Scene scene = all_sorts();
   const Tracer tracer(scene.mesh);
   Workers workers(2);
   const TraceJob job{scene, tracer, workers, view_params(camera_of(scene), kSize)};
-  const Drawn passes = by_passes(job);
+  const Drawn passes = one_by_one(job);
   Image<glm::vec3> expected(kSize, glm::vec3(0.25f)), added = expected;
   add_traced_light(job, passes.ids, passes.mask, passes.reflection, expected);
   TileOutputs out;
