@@ -6,10 +6,10 @@
 #include <glm/glm.hpp>
 
 #include "core/parallel/workers.h"
-#include "core/trace/scatter.h"
 #include "core/trace/shared.h"
 #include "pinocchio/image.h"
 #include "pinocchio/mask_image.h"
+#include "pinocchio/ray.h"
 #include "pinocchio/progress.h"
 #include "pinocchio/ray_counts.h"
 #include "pinocchio/scene.h"

@@ -32,6 +32,12 @@ int wrap(int i, int n) {
   return r < 0 ? r + n : r;
 }
 
+glm::vec3 weights_at(const Mesh& mesh, std::uint32_t id, const glm::vec3& origin, const glm::vec3& direction) {
+  const glm::uvec3& corners = mesh.triangles[id];
+  return shared::barycentric_of(origin, direction, mesh.positions[corners.x], mesh.positions[corners.y],
+                                mesh.positions[corners.z]);
+}
+
 SurfaceInteraction geometry_at(const Mesh& mesh, std::uint32_t id, const glm::vec3& direction, const glm::vec3& weights,
                     const RayOffset& offset) {
   const glm::uvec3 corners = mesh.triangles[id];
@@ -73,18 +79,6 @@ SurfaceInteraction surface_at(const Mesh& mesh, std::uint32_t id, const glm::vec
   SurfaceInteraction s = geometry_at(mesh, id, direction, weights, offset);
   s.phong = phong_params(mesh, *s.material, mesh.triangles[id], weights);
   return s;
-}
-
-SurfaceInteraction bare_surface_at(const Mesh& mesh, std::uint32_t id, const glm::vec3& origin,
-                        const glm::vec3& direction, const RayOffset& offset) {
-  return geometry_at(mesh, id, direction, weights_at(mesh, id, origin, direction), offset);
-}
-
-glm::vec3 weights_at(const Mesh& mesh, std::uint32_t id, const glm::vec3& origin,
-                     const glm::vec3& direction) {
-  const glm::uvec3& corners = mesh.triangles[id];
-  return shared::barycentric_of(origin, direction, mesh.positions[corners.x], mesh.positions[corners.y],
-                                mesh.positions[corners.z]);
 }
 
 glm::vec3 offset_origin(const SurfaceInteraction& surface, const glm::vec3& direction) {

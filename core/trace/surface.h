@@ -30,14 +30,6 @@ struct SurfaceInteraction {
 [[nodiscard]] SurfaceInteraction surface_at(const Mesh& mesh, std::uint32_t id, const glm::vec3& origin,
                                  const glm::vec3& direction, const RayOffset& offset = {});
 
-// Barycentric weights of that point.
-[[nodiscard]] glm::vec3 weights_at(const Mesh& mesh, std::uint32_t id, const glm::vec3& origin,
-                                   const glm::vec3& direction);
-
-// The surface alone, its phong left as it was made.
-[[nodiscard]] SurfaceInteraction bare_surface_at(const Mesh& mesh, std::uint32_t id, const glm::vec3& origin,
-                                      const glm::vec3& direction, const RayOffset& offset = {});
-
 // By an error bound: how far off triangle (a, a + ab, a + ac) with normal n a ray from its point p starts,
 // and what that is never below.
 [[nodiscard]] float error_bound_offset(const glm::dvec3& p, const glm::vec3& n, const glm::vec3& ab,
