@@ -96,17 +96,12 @@ inline void prefetch_corners(const SceneArrays& scene, const RayQueue& rays, std
   const auto end = [&rays](std::size_t first) {
     return first + kWidth < rays.size ? first + kWidth : rays.size;
   };
-  for (std::size_t k = i + 2 * kWidth; k < end(i + 2 * kWidth); ++k) {
+  for (std::size_t k = i + 2 * kWidth; k < end(i + 2 * kWidth); ++k)
     __builtin_prefetch(scene.triangles + rays.triangle[k]);
-    __builtin_prefetch(scene.triangle_materials + rays.triangle[k]);
-  }
   for (std::size_t k = i + kWidth; k < end(i + kWidth); ++k) {
-    if (rays.triangle[k] == rays.triangle[k - 1]) continue;
-    const glm::uvec3& corners = scene.triangles[rays.triangle[k]];
-    for (const std::uint32_t corner : {corners.x, corners.y, corners.z}) {
-      __builtin_prefetch(scene.positions + corner);
-      __builtin_prefetch(scene.normals + corner);
-    }
+    const std::uint32_t corner = scene.triangles[rays.triangle[k]].x;
+    __builtin_prefetch(scene.positions + corner);
+    __builtin_prefetch(scene.normals + corner);
   }
 }
 
