@@ -1,7 +1,9 @@
 #include <cstring>
 #include <fstream>
+#include <nlohmann/json.hpp>
 #include <string_view>
 
+#include "core/scene/gltf_features.h"
 #include "core/scene/gltf_file.h"
 
 namespace pinocchio {
@@ -54,7 +56,7 @@ std::string first_line(const std::string& text) {
 
 }  // namespace
 
-Expected<GltfFile> read_gltf_file(const std::filesystem::path& path, std::vector<std::string>& warnings) {
+Expected<GltfFile> read_gltf_file(const std::filesystem::path& path, Warnings& warnings) {
   GltfFile file{path, {}, {}};
   std::ifstream in(path, std::ios::binary);
   const std::string bytes(std::istreambuf_iterator<char>(in), {});
@@ -62,6 +64,13 @@ Expected<GltfFile> read_gltf_file(const std::filesystem::path& path, std::vector
   constexpr std::size_t kMostBytes = 0xffffffffu;  // also what a .glb can say of itself
   if (bytes.size() > kMostBytes) return file.error("is larger than 4 GiB", "split it");
   if (nested_too_deep(json_of(bytes))) return file.error("is nested too deeply");
+
+  const nlohmann::json gltf = nlohmann::json::parse(json_of(bytes), nullptr, false);
+  if (gltf.is_discarded() || !gltf.is_object())
+    return file.error("is not glTF: its JSON cannot be parsed", "is the export complete?");
+  if (const Expected<void> readable = check_gltf_requirements(path, gltf); !readable)
+    return Unexpected(readable.error());
+  add_lost_gltf_features(path, gltf, warnings);
 
   tinygltf::TinyGLTF reader;
   reader.SetImageLoader(keep_encoded, nullptr);
@@ -82,7 +91,7 @@ Expected<GltfFile> read_gltf_file(const std::filesystem::path& path, std::vector
   }
   if (!read)
     return file.error("is not glTF 2.0 that can be read: " + first_line(error), "is the export complete?");
-  if (!warning.empty()) warnings.push_back(path.string() + ": " + first_line(warning));
+  if (!warning.empty()) warnings.add({path.string(), "", first_line(warning), ""});
   return file;
 }
 
