@@ -15,6 +15,7 @@
 #pragma GCC diagnostic pop
 
 #include "pinocchio/load.h"
+#include "pinocchio/progress.h"
 
 namespace pinocchio {
 
@@ -22,6 +23,7 @@ struct GltfFile {
   std::filesystem::path path;
   tinygltf::Model model;
   std::vector<std::string> named_files;  // looked for beside it, found or not
+  Progress* progress = nullptr;
 
   [[nodiscard]] Unexpected error(const std::string& what,
                                  const std::string& remedy = "export the file again") const {
@@ -41,7 +43,7 @@ struct GltfFile {
 // Reads and parses the file; images stay encoded, their bytes in Image::image where they are not in a
 // buffer view. Refuses what would overrun tinygltf: JSON nested deeper than any scene's.
 [[nodiscard]] Expected<GltfFile> read_gltf_file(const std::filesystem::path& path,
-                                                Warnings& warnings);
+                                                Warnings& warnings, Progress* progress);
 
 // Members of an object that a file may or may not have, of the type that is wanted.
 [[nodiscard]] const tinygltf::Value* member(const tinygltf::Value& object, const std::string& key);

@@ -33,15 +33,17 @@ constexpr std::array<const char*, kKinds> kKindNames{"vertex", "texture coordina
 constexpr std::string_view kQuiet[] = {"o",    "g",    "s",     "usemtl", "mtllib", "mg",  "vp",   "cstype",
                                        "deg",  "bmat", "step",  "parm",   "trim",   "hole", "scrv", "sp",
                                        "end",  "con",  "bevel", "lod",    "c_interp", "d_interp", "ctech", "stech"};
+constexpr int kLinesBetweenLooks = 4096;
 
 class Checker {
  public:
   Checker(std::string& text, const std::filesystem::path& file, Warnings& warnings)
       : text_(text), file_(file), warnings_(warnings) {}
 
-  Expected<void> check() {
+  Expected<void> check(const Progress* progress) {
     for (TextLines lines(text_); lines.next();) {
       line_ = lines.number();
+      if (line_ % kLinesBetweenLooks == 0) throw_if_cancelled(progress);
       if (const Expected<void> checked = check_line(lines.line()); !checked) return checked;
     }
     // Forward references are allowed, so only the end tells.
@@ -140,8 +142,9 @@ class Checker {
 
 }  // namespace
 
-Expected<void> check_obj_text(std::string& text, const std::filesystem::path& file, Warnings& warnings) {
-  return Checker(text, file, warnings).check();
+Expected<void> check_obj_text(std::string& text, const std::filesystem::path& file, Warnings& warnings,
+                              const Progress* progress) {
+  return Checker(text, file, warnings).check(progress);
 }
 
 }  // namespace pinocchio

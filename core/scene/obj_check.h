@@ -4,6 +4,7 @@
 #include <string>
 
 #include "pinocchio/load.h"
+#include "pinocchio/progress.h"
 
 namespace pinocchio {
 
@@ -12,6 +13,6 @@ namespace pinocchio {
 // (1/2/) become spaces: the parser would read the next corner's number into them. Statements that nothing reads
 // are warnings.
 [[nodiscard]] Expected<void> check_obj_text(std::string& text, const std::filesystem::path& file,
-                                            Warnings& warnings);
+                                            Warnings& warnings, const Progress* progress = nullptr);
 
 }  // namespace pinocchio
