@@ -96,7 +96,8 @@ FrameResult Frame::read() const {
   return result;
 }
 
-void write_exr(const std::filesystem::path& file, const FrameResult& frame, const ExrOptions& options) {
+void write_exr(const std::filesystem::path& file, const FrameResult& frame, const ExrOptions& options,
+               Progress* progress) {
   const Expected<AovSet> aovs = parse_aovs(options.layers);
   if (!aovs) throw std::invalid_argument(aovs.error().message());
   View view = frame.view;
@@ -111,7 +112,7 @@ void write_exr(const std::filesystem::path& file, const FrameResult& frame, cons
                            to_json(frame.settings, false).dump(), options.render_s};
   ExrFile header = frame_exr(output, *aovs, 0, 0);
   header.compression = options.compression;
-  write_exr(file, header, workers, [&](int y0, int y1) { return frame_channels(output, *aovs, y0, y1); });
+  write_exr(file, header, workers, [&](int y0, int y1) { return frame_channels(output, *aovs, y0, y1); }, progress);
 }
 
 }  // namespace pinocchio

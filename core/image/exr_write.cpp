@@ -183,13 +183,15 @@ void put_chunk(Context& to, const ExrFile& file, int lines_of_chunk, int i, std:
   }
 }
 
-void write_file(const std::filesystem::path& file, const ExrFile& header, Workers& workers, const ExrBand& band) {
+void write_file(const std::filesystem::path& file, const ExrFile& header, Workers& workers, const ExrBand& band,
+                Progress* progress) {
   Context to(file);
   write_header(to.exr, header);
   int lines_of_chunk = 0;
   check(exr_get_scanlines_per_chunk(to.exr, kPart, &lines_of_chunk));
   const glm::ivec2 size = header.data_window.size();
   const int chunks = (size.y + lines_of_chunk - 1) / lines_of_chunk;
+  begin_phase(progress, "write", chunks);
   workers.for_each(static_cast<std::size_t>(chunks), [&](std::size_t n) {
     const int i = static_cast<int>(n), y0 = i * lines_of_chunk, y1 = std::min(y0 + lines_of_chunk, size.y);
     std::vector<std::byte> bytes = lines_of(band(y0, y1), size.x, y1 - y0);
@@ -206,6 +208,7 @@ void write_file(const std::filesystem::path& file, const ExrFile& header, Worker
         break;
     }
     put_chunk(to, header, lines_of_chunk, i, std::move(bytes));
+    advance(progress);
   });
   check(exr_finish(&to.exr));
 }
@@ -225,20 +228,23 @@ std::vector<ExrChannel> lines_from(const ExrFile& exr, int y0, int y1) {
 
 }  // namespace
 
-void write_exr(const std::filesystem::path& file, const ExrFile& header, Workers& workers, const ExrBand& band) {
+void write_exr(const std::filesystem::path& file, const ExrFile& header, Workers& workers, const ExrBand& band,
+               Progress* progress) {
   check_writable(file);
   write_atomically(file, [&](const std::filesystem::path& temporary) {
     try {
-      write_file(temporary, header, workers, band);
+      write_file(temporary, header, workers, band, progress);
+    } catch (const Cancelled&) {
+      throw;
     } catch (const std::exception& error) {
       throw EnvironmentError(file.string() + ": cannot be written: " + error.what());
     }
   });
 }
 
-void write_exr(const std::filesystem::path& file, const ExrFile& exr) {
+void write_exr(const std::filesystem::path& file, const ExrFile& exr, Progress* progress) {
   Workers workers(1);
-  write_exr(file, exr, workers, [&](int y0, int y1) { return lines_from(exr, y0, y1); });
+  write_exr(file, exr, workers, [&](int y0, int y1) { return lines_from(exr, y0, y1); }, progress);
 }
 
 }  // namespace pinocchio

@@ -12,6 +12,7 @@
 #include "pinocchio/exr.h"
 #include "pinocchio/image.h"
 #include "pinocchio/mask_image.h"
+#include "pinocchio/progress.h"
 #include "pinocchio/ray_counts.h"
 #include "pinocchio/scene.h"
 #include "pinocchio/settings.h"
@@ -89,7 +90,8 @@ struct ExrOptions {
 };
 
 // The picture with its layers and attributes, one part, scene-linear. Whole or not at all; throws
-// EnvironmentError where it cannot be written. Source: OpenEXR's standard attributes.
-void write_exr(const std::filesystem::path& file, const FrameResult& frame, const ExrOptions& options = {});
+// EnvironmentError where it cannot be written. Source: OpenEXR's standard attributes. Phase "write".
+void write_exr(const std::filesystem::path& file, const FrameResult& frame, const ExrOptions& options = {},
+               Progress* progress = nullptr);
 
 }  // namespace pinocchio
