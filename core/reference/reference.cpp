@@ -16,7 +16,7 @@ ReferencePicture reference_render(const Scene& scene, const View& view, int dept
   const shared::ViewParams rays = view_params(view);
 
   const ReferenceTree tree(*scene.mesh);
-  const ReferenceTracer tracer(scene, tree);
+  const ReferenceTracer tracer(scene, tree, view.jitter != glm::vec2(0.0f));
   const auto draw_pixel = [&](int x, int y) {
     const ReferenceTracer::Pixel pixel = tracer.pixel(rays, x, y, depth);
     picture.ids.at(x, y) = pixel.triangle;

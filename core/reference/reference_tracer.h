@@ -17,7 +17,9 @@ namespace pinocchio {
 class ReferenceTracer {
  public:
   // `tree` may be of another scene with the same triangles. Both stay as long as this lives.
-  ReferenceTracer(const Scene& scene, const ReferenceTree& tree) : scene_(scene), tree_(tree) {}
+  // one_of_many: pixels are the mean of many such pictures, so that shadows of surfaces that blend may be grey.
+  ReferenceTracer(const Scene& scene, const ReferenceTree& tree, bool one_of_many = false)
+      : scene_(scene), tree_(tree), one_of_many_(one_of_many) {}
 
   struct Pixel {
     std::uint32_t triangle = kNoTriangle;  // seen at the sample point
@@ -33,8 +35,12 @@ class ReferenceTracer {
   [[nodiscard]] glm::dvec3 bounced(const ReferenceSurface& surface, int depth) const;
   [[nodiscard]] glm::dvec3 seen(const ReferenceRay& ray, int depth) const;
 
+  [[nodiscard]] ReferenceHit closest_hit(const ReferenceRay& ray) const;
+  [[nodiscard]] double unblocked(const ReferenceRay& ray) const;
+
   const Scene& scene_;
   const ReferenceTree& tree_;
+  bool one_of_many_;
 };
 
 // The ray of the pixel (x, y); its t is z_eye.

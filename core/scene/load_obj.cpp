@@ -192,7 +192,7 @@ void load_textures(const ObjFile& obj, const std::filesystem::path& file, MeshDa
     std::replace(name.begin(), name.end(), '\\', '/');  // from Windows
     if (name.empty() || mesh.texcoords.empty()) continue;
     if (const auto known = loaded.find(name); known != loaded.end()) {
-      mesh.materials[i + 1].diffuse_texture = known->second;
+      make_maps(mesh, mesh.materials[i + 1]).base_color.texture = known->second;
       continue;
     }
     const std::filesystem::path texture_file = file.parent_path() / name;
@@ -203,7 +203,8 @@ void load_textures(const ObjFile& obj, const std::filesystem::path& file, MeshDa
                          " cannot be read; the plain colour is used");
       continue;
     }
-    loaded[name] = mesh.materials[i + 1].diffuse_texture = static_cast<int>(mesh.textures.size());
+    loaded[name] = static_cast<int>(mesh.textures.size());
+    make_maps(mesh, mesh.materials[i + 1]).base_color.texture = loaded[name];
     mesh.textures.push_back(std::move(*texture));
   }
 }

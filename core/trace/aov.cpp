@@ -18,11 +18,11 @@ SurfaceImages surface_images(const Mesh& mesh, const shared::ViewParams& view, W
       const std::size_t pixel = ids.index(x, y);
       if (ids[pixel] == kNoTriangle) return;
       const Ray ray = pixel_ray(view, x, y);
-      const SurfaceInteraction s = surface_at(mesh, ids[pixel], ray.origin, ray.direction);
+      const SurfaceInteraction s = surface_at(mesh, ids[pixel], ray.origin, ray.direction, {}, {view.step_x, view.step_y});
       images.z_eye[pixel] = glm::dot(s.p_world - view.eye, forward);
       images.p_world[pixel] = s.p_world;
       images.n_shading[pixel] = s.n_shading;
-      images.albedo[pixel] = s.phong.diffuse;
+      images.albedo[pixel] = s.material.phong.diffuse;
     });
   });
   return images;

@@ -26,6 +26,7 @@ struct TraceJob {
   // the shadow rays of what they see; and shadow rays of visible points (0: all are fired, so that every bit
   // of the mask is true).
   float throughput_cutoff = kThroughputCutoff, light_cutoff = 0.0f;
+  glm::vec2 jitter{0.0f};  // View's: tells the samples of a pixel apart where they decide at random
 };
 
 // The triangle that each pixel's centre sees (kNoTriangle: none), by rays. ids: any size.

@@ -86,7 +86,8 @@ int ShadingPasses::bind(const gl::Program& program, const Inputs& inputs, const 
 
 ShadingPasses::Definitions ShadingPasses::definitions_of(const Inputs& inputs) {
   Definitions definitions{"ID_BITS " + std::to_string(inputs.id_bits)};
-  if (inputs.mesh.textured()) definitions.emplace_back("HAS_TEXTURES");
+  const Definitions& of_maps = inputs.mesh.maps().definitions();
+  definitions.insert(definitions.end(), of_maps.begin(), of_maps.end());
   return definitions;
 }
 

@@ -14,7 +14,8 @@ SurfaceInteraction surface_seen_at(float angle, const Material& material, bool l
   s.to_viewer = {std::sin(angle), std::cos(angle), 0};
   s.leaving = leaving;
   s.offset = 1e-6f;
-  s.material = &material;
+  s.material = plain_material(material);
+  s.alpha = 1.0f;
   return s;
 }
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "core/trace/lanes/light.h"
+#include "core/trace/lanes/maps.h"
 #include "core/trace/lanes/scatter.h"
 
 namespace pinocchio::PINOCCHIO_LANES {
@@ -106,22 +107,21 @@ inline void prefetch_corners(const SceneArrays& scene, const RayQueue& rays, std
 }
 
 void bounce_rays(const Bounce& bounce, const RayQueue& rays) {
-  const bool reads_material =
-      bounce.adds_light || bounce.adds_ambient || bounce.mirrored || bounce.light_cutoff > 0.0f;
-  const bool reads_texture = bounce.adds_light || bounce.adds_ambient || bounce.light_cutoff > 0.0f;
+  const bool reads_material = bounce.adds_light || bounce.adds_ambient || bounce.mirrored ||
+                              bounce.light_cutoff > 0.0f || bounce.scene.mesh != nullptr;
   for (std::size_t i = 0; i < rays.size; i += kWidth) {
     prefetch_corners(bounce.scene, rays, i);
     const Mask lanes = lanes_from(i, rays.size);
     const Int triangle = Int::load(rays.triangle + i), pixel = Int::load(rays.pixel + i);
     const Corners corners(bounce.scene, triangle, lanes);
-    const LaneSurface s =
-        surface_of(corners, Vec::load(rays.origin, i), Vec::load(rays.direction, i), bounce.offset);
+    const Vec origin = Vec::load(rays.origin, i), direction = Vec::load(rays.direction, i);
+    LaneSurface s = surface_of(corners, origin, direction, bounce.offset);
     LaneMaterial m(bounce.scene, corners.material, reads_material ? lanes : Mask::from_bits(0));
-    if (reads_texture && m.textured != 0)
-      m.apply_textures(bounce.scene, triangle, corners.material, s.weights);
+    if (m.mapped != 0) apply_maps(bounce, triangle, origin, direction, s, m);
     const Vec throughput = bounce.visible ? Vec(Float(1.0f)) : Vec::load(rays.light, i);
-    const Vec certain = light_points(bounce, s, m, throughput, pixel, lanes);
-    if (bounce.adds_light) add_light(throughput * certain, rays.pixel + i, lanes, bounce.radiance);
+    const Vec own = m.blends != 0 ? throughput * m.alpha : throughput;
+    const Vec certain = light_points(bounce, s, m, own, pixel, lanes);
+    if (bounce.adds_light) add_light(own * certain, rays.pixel + i, lanes, bounce.radiance);
     if (bounce.mirrored) scatter(s, m, throughput, pixel, lanes, bounce);
   }
 }
