@@ -10,6 +10,7 @@
 #include "core/trace/shared.h"
 #include "pinocchio/image.h"
 #include "pinocchio/mask_image.h"
+#include "pinocchio/progress.h"
 #include "pinocchio/ray_counts.h"
 #include "pinocchio/scene.h"
 #include "pinocchio/tracer.h"
@@ -27,6 +28,9 @@ struct TraceJob {
   // of the mask is true).
   float throughput_cutoff = kThroughputCutoff, light_cutoff = 0.0f;
   glm::vec2 jitter{0.0f};  // View's: tells the samples of a pixel apart where they decide at random
+  // Told of every tile: all of them together are that many steps.
+  Progress* progress = nullptr;
+  double progress_steps = 1.0;
 };
 
 // The triangle that each pixel's centre sees (kNoTriangle: none), by rays. ids: any size.
