@@ -38,7 +38,7 @@ void bound_reflectance(const MeshData& mesh, Material& material, const MaterialM
 
 }  // namespace
 
-void add_gltf_textures(const GltfFile& file, MeshData& mesh, std::vector<std::string>& warnings) {
+void add_gltf_textures(const GltfFile& file, MeshData& mesh, Warnings& warnings) {
   std::map<int, int> texture_of_image;
   const auto make_ours = [&](TextureUse& use) {
     if (!use.used()) return;
@@ -48,8 +48,8 @@ void add_gltf_textures(const GltfFile& file, MeshData& mesh, std::vector<std::st
         at->second = static_cast<int>(mesh.textures.size());
         mesh.textures.push_back(std::move(*texture));
       } else {
-        warnings.push_back(file.path.string() + ": its image " + std::to_string(at->first) +
-                           " cannot be read; the plain colour is used");
+        warnings.add({file.path.string(), "image " + std::to_string(at->first), "cannot be read",
+                      "the plain colour is used"});
       }
     }
     use.texture = at->second;
