@@ -102,7 +102,8 @@ void write_exr(const std::filesystem::path& file, const FrameResult& frame, cons
   View view = frame.view;
   view.jitter = glm::vec2(0.0f);
   Workers workers(frame.settings.threads);
-  const SurfaceImages surfaces = surface_images(*frame.scene.mesh, view_params(view), workers, frame.ids);
+  const SurfaceImages surfaces = surface_images(*frame.scene.mesh, view_params(view), workers, frame.ids,
+                                                frame.settings.filter_textures);
   const FrameOutput output{view.size,       view.box(), frame.scene,      view.camera, frame.color, frame.ids,
                            frame.mask,      frame.reflection, surfaces,
                            to_json(frame.settings, false).dump(), options.render_s};

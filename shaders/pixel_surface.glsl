@@ -7,6 +7,7 @@ uniform vec3 corner;
 uniform vec3 step_x;
 uniform vec3 step_y;
 uniform vec2 first;
+uniform float texture_spread;  // 0: textures are not filtered
 
 #if ID_BITS == 16
 const uint kNoTriangle = 0xffffu;
@@ -59,7 +60,7 @@ PixelSurface surface_of(uint id, ivec2 pixel) {
   s.material = fetch_material(int(texelFetch(triangle_materials, int(id)).r), maps);
 #ifdef HAS_MAPS
   if (maps >= 0) {
-    float t = dot(s.p_world - eye, direction) / dot(direction, direction);
+    float t = texture_spread * dot(s.p_world - eye, direction) / dot(direction, direction);
     MapPoint point = MapPoint(corners, weights, b - a, c - a, direction, t * step_x, t * step_y);
     float side = s.n.leaving ? -1.0 : 1.0;
     s.n.shading = side * mapped_normal_at(maps, point, side * s.n.shading);

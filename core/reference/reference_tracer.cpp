@@ -6,16 +6,37 @@
 #include "core/reference/reference_shading.h"
 
 namespace pinocchio {
+namespace {
+
+// Two sides of a square of that width across the ray.
+ReferenceSpread spread_of(const ReferenceRay& ray, double width) {
+  if (ray.angle == 0.0) return {};
+  int least = 0;
+  for (int axis = 1; axis < 3; ++axis)
+    if (std::abs(ray.direction[axis]) < std::abs(ray.direction[least])) least = axis;
+  glm::dvec3 axis(0.0);
+  axis[least] = 1.0;
+  const glm::dvec3 across = glm::normalize(glm::cross(ray.direction, axis));
+  return {ray.direction, width * across, width * glm::normalize(glm::cross(ray.direction, across))};
+}
+
+}  // namespace
+
+ReferenceTracer::Cone ReferenceTracer::cone_after(const ReferenceRay& ray, const ReferenceHit& hit) {
+  return {ray.width + ray.angle * hit.t * glm::length(ray.direction), ray.angle};
+}
 
 ReferenceTracer::Pixel ReferenceTracer::pixel(const shared::ViewParams& view, int x, int y, int depth) const {
-  const ReferenceRay ray = reference_pixel_ray(view, x, y);
+  ReferenceRay ray = reference_pixel_ray(view, x, y);
+  if (filter_textures_) ray.angle = glm::length(glm::dvec3(view.step_y));
   const ReferenceHit hit = closest_hit(ray);
   Pixel pixel;
   pixel.triangle = hit.triangle;
   if (!hit.valid()) return pixel;
-  const ReferenceSpread spread{ray.direction, hit.t * glm::dvec3(view.step_x), hit.t * glm::dvec3(view.step_y)};
+  ReferenceSpread spread{ray.direction, hit.t * glm::dvec3(view.step_x), hit.t * glm::dvec3(view.step_y)};
+  if (!filter_textures_) spread = {};
   const ReferenceSurface surface = reference_surface(*scene_.mesh, ray, hit, spread);
-  const glm::dvec3 own = direct(surface, pixel.mask), mirrored = bounced(surface, depth);
+  const glm::dvec3 own = direct(surface, pixel.mask), mirrored = bounced(surface, depth, cone_after(ray, hit));
   pixel.reflection = glm::vec3(mirrored);
   pixel.color = glm::vec4(glm::vec3(own + mirrored), 1.0f);
   return pixel;
@@ -41,20 +62,26 @@ glm::dvec3 ReferenceTracer::direct(const ReferenceSurface& surface, unsigned& bi
 }
 
 // Ir(R) + It(T), following `depth` bounces at most.
-glm::dvec3 ReferenceTracer::bounced(const ReferenceSurface& surface, int depth) const {
+glm::dvec3 ReferenceTracer::bounced(const ReferenceSurface& surface, int depth, const Cone& cone) const {
   glm::dvec3 sum(0.0);
   if (depth <= 0) return sum;
   for (const ReferenceBounce& bounce : reference_bounces(surface))
-    if (bounce.weight != glm::dvec3(0.0)) sum += bounce.weight * seen(bounce.ray, depth - 1);
+    if (bounce.weight != glm::dvec3(0.0)) {
+      ReferenceRay ray = bounce.ray;
+      ray.width = cone.width;
+      ray.angle = cone.angle;
+      sum += bounce.weight * seen(ray, depth - 1);
+    }
   return sum;
 }
 
 glm::dvec3 ReferenceTracer::seen(const ReferenceRay& ray, int depth) const {
   const ReferenceHit hit = closest_hit(ray);
   if (!hit.valid()) return glm::dvec3(0.0);
-  const ReferenceSurface surface = reference_surface(*scene_.mesh, ray, hit);
+  const Cone cone = cone_after(ray, hit);
+  const ReferenceSurface surface = reference_surface(*scene_.mesh, ray, hit, spread_of(ray, cone.width));
   unsigned bits = 0;
-  return direct(surface, bits) + bounced(surface, depth);
+  return direct(surface, bits) + bounced(surface, depth, cone);
 }
 
 namespace {

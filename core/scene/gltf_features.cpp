@@ -98,10 +98,6 @@ const Json& array_of(const Json& json, const std::string& key) {
   return value && value->is_array() ? *value : kNone;
 }
 
-const Json* item(const Json& array, double index) {
-  return index >= 0 && index < static_cast<double>(array.size()) ? &array[static_cast<std::size_t>(index)] : nullptr;
-}
-
 // "material 'paint'", "material 3"
 std::string place(const std::string& kind, const Json& of, std::size_t index) {
   const std::string name = text_of(of, "name");

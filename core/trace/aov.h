@@ -18,6 +18,6 @@ struct SurfaceImages {
 };
 
 [[nodiscard]] SurfaceImages surface_images(const Mesh& mesh, const shared::ViewParams& view, Workers& workers,
-                                           const Image<std::uint32_t>& ids);
+                                           const Image<std::uint32_t>& ids, bool filter_textures = true);
 
 }  // namespace pinocchio

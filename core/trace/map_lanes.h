@@ -17,6 +17,7 @@ struct MapLanes {
   alignas(64) std::uint32_t triangle[kMostLanes];
   alignas(64) Column weights[3], origin[3], direction[3], p_world[3];
   alignas(64) Column n_shading[3];  // and answered
+  alignas(64) Column width;         // of the ray's cone at its origin
   unsigned leaving;                 // lanes
   // Answered.
   alignas(64) Column ambient[3], diffuse[3], specular[3], emission[3], reflectance[3], transmittance[3];

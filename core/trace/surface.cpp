@@ -58,7 +58,7 @@ SurfaceInteraction surface_at(const Mesh& mesh, std::uint32_t id, const glm::vec
     return s;
   }
   const MappedMaterial mapped =
-      mapped_material(mesh, {id, weights, s.n_shading, s.leaving, footprint.of_ray(origin, direction, s.p_world)});
+      mapped_material(mesh, {id, weights, s.n_shading, s.leaving, footprint.at(origin, direction, s.p_world, 0.0f)});
   s.material = mapped.surface;
   s.n_shading = mapped.n_shading;
   s.alpha = mapped.alpha;

@@ -63,6 +63,17 @@ class InImage {
   std::ptrdiff_t first_, step_, row_;
 };
 
+// Whether anything is to be averaged.
+bool filters(const TraceJob& job) {
+  const std::vector<Texture>& textures = job.scene.mesh->textures;
+  return job.filter_textures &&
+         std::any_of(textures.begin(), textures.end(), [](const Texture& t) { return t.levels() > 1; });
+}
+
+bool any_maps(const Mesh& mesh, bool (MaterialMaps::*is)() const) {
+  return std::any_of(mesh.maps.begin(), mesh.maps.end(), [is](const MaterialMaps& m) { return (m.*is)(); });
+}
+
 }  // namespace
 
 SceneArrays SceneArrays::of(const Mesh& mesh) {
@@ -74,15 +85,12 @@ SceneArrays SceneArrays::of(const Mesh& mesh) {
           mesh.maps.empty() ? nullptr : &mesh};
 }
 
-bool any_maps(const Mesh& mesh, bool (MaterialMaps::*is)() const) {
-  return std::any_of(mesh.maps.begin(), mesh.maps.end(), [is](const MaterialMaps& m) { return (m.*is)(); });
-}
-
 TilePlan::TilePlan(const TraceJob& j, const TileOutputs& o)
     : job(j),
       out(o),
       view(scaled_view(j.view, o.scale)),
-      seen_footprint{j.view.step_x, j.view.step_y},
+      seen_footprint(filters(j) ? Footprint::of_camera(view) : Footprint{}),
+      further_footprint(seen_footprint.of_cones()),
       has_holes(any_maps(*j.scene.mesh, &MaterialMaps::has_holes)),
       blends(any_maps(*j.scene.mesh, &MaterialMaps::blends)),
       all_lights(lights_of(j.scene)) {
@@ -188,7 +196,7 @@ void TileTracer::look() {
 
 void TileTracer::make_room(std::size_t rays, Generation& next) {
   for (std::size_t i = 0; i < next.size(); ++i)
-    if (i < 2 || plan_->blends) next[i].make_room(rays);
+    if (i < 2 || plan_->blends) next[i].make_room(rays, plan_->further.footprint->angle > 0.0f);
   for (RayQueue& queue : shadow_) queue.make_room(rays);
 }
 

@@ -1,3 +1,4 @@
+#include "core/trace/mapped_material.h"
 #include "core/trace/scatter.h"
 
 #include <gtest/gtest.h>

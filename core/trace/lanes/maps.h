@@ -19,7 +19,7 @@ inline Vec load(const MapLanes::Column (&columns)[3]) {
 
 // Rare, and large: out of the way of the lanes that have none.
 [[gnu::noinline]] void apply_maps(const Bounce& bounce, Int triangle, const Vec& origin, const Vec& direction,
-                                  LaneSurface& s, LaneMaterial& m) {
+                                  Float width, LaneSurface& s, LaneMaterial& m) {
   MapLanes packet;
   triangle.store(packet.triangle);
   store(s.weights, packet.weights);
@@ -27,6 +27,7 @@ inline Vec load(const MapLanes::Column (&columns)[3]) {
   store(direction, packet.direction);
   store(s.p_world, packet.p_world);
   store(s.n_shading, packet.n_shading);
+  width.store(packet.width);
   packet.leaving = s.leaving.bits();
   map_lanes(*bounce.scene.mesh, *bounce.footprint, m.mapped, packet);
 

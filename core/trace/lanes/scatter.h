@@ -61,7 +61,9 @@ inline void append(const Vec& origin, const Vec& direction, const Vec& light, In
 inline void follow(const LaneSurface& s, const Vec& direction, const Vec& throughput, Int pixel, Mask lanes,
                    float least, RayQueue& queue) {
   const Mask worth = lanes & ~(largest(throughput) < Float(least));
-  if (worth.bits() != 0) append(offset_origin(s, direction), direction, throughput, pixel, worth, queue);
+  if (worth.bits() == 0) return;
+  if (queue.width) store_packed(queue.width + queue.size, s.width, worth);
+  append(offset_origin(s, direction), direction, throughput, pixel, worth, queue);
 }
 
 // What a surface that blends leaves of what is behind it.

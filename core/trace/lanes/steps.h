@@ -37,6 +37,7 @@ void keep_hits(RayQueue& rays) {
         for (int axis = 0; axis < 3; ++axis)
           store_packed(columns[axis] + kept, Float::load(columns[axis] + i), hits);
       store_packed(rays.pixel + kept, Int::load(rays.pixel + i), hits);
+      if (rays.width) store_packed(rays.width + kept, Float::load(rays.width + i), hits);
       store_packed(rays.triangle + kept, triangle, hits);
     }
     kept += static_cast<std::size_t>(__builtin_popcount(bits));
@@ -117,7 +118,15 @@ void bounce_rays(const Bounce& bounce, const RayQueue& rays) {
     const Vec origin = Vec::load(rays.origin, i), direction = Vec::load(rays.direction, i);
     LaneSurface s = surface_of(corners, origin, direction, bounce.offset);
     LaneMaterial m(bounce.scene, corners.material, reads_material ? lanes : Mask::from_bits(0));
-    if (m.mapped != 0) apply_maps(bounce, triangle, origin, direction, s, m);
+    s.width = Float(0.0f);
+    if (bounce.footprint->angle > 0.0f) {
+      const Float before = bounce.visible ? Float(0.0f) : Float::load(rays.width + i);
+      const Vec way = s.p_world - origin;
+      s.width = before + Float(bounce.footprint->angle) * sqrt(dot(way, way));
+      if (m.mapped != 0) apply_maps(bounce, triangle, origin, direction, before, s, m);
+    } else if (m.mapped != 0) {
+      apply_maps(bounce, triangle, origin, direction, s.width, s, m);
+    }
     const Vec throughput = bounce.visible ? Vec(Float(1.0f)) : Vec::load(rays.light, i);
     const Vec own = m.blends != 0 ? throughput * m.alpha : throughput;
     const Vec certain = light_points(bounce, s, m, own, pixel, lanes);
