@@ -4,6 +4,7 @@
 #include <stdexcept>
 
 #include "hybrid/engine_parts.h"
+#include "core/image/exr_bands.h"
 #include "core/output/frame_exr.h"
 #include "core/parallel/workers.h"
 #include "core/trace/aov.h"
@@ -102,14 +103,17 @@ void write_exr(const std::filesystem::path& file, const FrameResult& frame, cons
   View view = frame.view;
   view.jitter = glm::vec2(0.0f);
   Workers workers(frame.settings.threads);
-  const SurfaceImages surfaces = surface_images(*frame.scene.mesh, view_params(view), workers, frame.ids,
-                                                frame.settings.filter_textures);
+  const shared::ViewParams params = view_params(view);
+  const auto surfaces = [&](int y0, int y1) {
+    return surface_images(*frame.scene.mesh, params, frame.ids, y0, y1,
+                          frame.settings.filter_textures);
+  };
   const FrameOutput output{view.size,       view.box(), frame.scene,      view.camera, frame.color, frame.ids,
                            frame.mask,      frame.reflection, surfaces,
                            to_json(frame.settings, false).dump(), options.render_s};
-  ExrFile exr = frame_exr(output, *aovs);
-  exr.compression = options.compression;
-  write_exr(file, exr, progress);
+  ExrFile header = frame_exr(output, *aovs, 0, 0);
+  header.compression = options.compression;
+  write_exr(file, header, workers, [&](int y0, int y1) { return frame_channels(output, *aovs, y0, y1); }, progress);
 }
 
 }  // namespace pinocchio
