@@ -38,8 +38,9 @@ Scene plate_with(const MaterialMaps& maps, const Texture& texture, const Materia
   for (const glm::vec3& p : mesh->positions) {
     mesh->texcoords.emplace_back(0.37f * p.x, -0.53f * p.z);
     mesh->texcoords1.emplace_back(0.2f * p.z - 0.1f * p.x, 1.1f * p.x);
-    mesh->colors.emplace_back(random.between(0, 1), random.between(0, 1), random.between(0, 1),
-                              random.between(0, 1));
+    if (maps.vertex_colors)
+      mesh->colors.emplace_back(random.between(0, 1), random.between(0, 1), random.between(0, 1),
+                                random.between(0, 1));
   }
   scene.lights = {point_light({1, 6, 5})};
   return scene;

@@ -44,7 +44,8 @@ void for_each_surface(const TraceJob& job, const Image<std::uint32_t>& ids, cons
       const std::size_t pixel = ids.index(x, y);
       if (ids[pixel] == kNoTriangle) return;
       const Ray ray = pixel_ray(job.view, x, y);
-      shade_pixel(pixel, surface_at(job.tracer.mesh(), ids[pixel], ray.origin, ray.direction),
+      shade_pixel(pixel, surface_at(job.tracer.mesh(), ids[pixel], ray.origin, ray.direction, {},
+                             job.filter_textures ? Footprint::of_camera(job.view) : Footprint{}),
                   mask.get(x, y));
     });
   });
