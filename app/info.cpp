@@ -64,6 +64,9 @@ nlohmann::json scene_json(const Scene& scene, const Warnings& warnings) {
             {"transmitting_share", stats.transmitting_share},
             {"useful_depth", stats.useful_depth},
             {"textures", stats.textures},
+            {"vertex_colors", stats.vertex_colors},
+            {"holes", stats.holes},
+            {"blends", stats.blends},
             {"gpu_normals", false}}}};  // no file we read has normals that the CPU does not know
 }
 

@@ -43,7 +43,8 @@ FrameResult precise(const FrameRequest& request, Workers& workers) {
   for (int k = 0; k < spp && !interrupted(); ++k) {
     View view = request.view;
     view.jitter = jitter_of(k);
-    ReferencePicture sample = reference_render(request.scene, view, request.settings.depth, workers);
+    ReferencePicture sample = reference_render(request.scene, view, request.settings.depth, workers, nullptr,
+                                               request.settings.filter_textures);
     if (k == 0) {
       mean.color = std::move(sample.color);
       mean.ids = std::move(sample.ids);

@@ -105,7 +105,8 @@ void write_exr(const std::filesystem::path& file, const FrameResult& frame, cons
   Workers workers(frame.settings.threads);
   const shared::ViewParams params = view_params(view);
   const auto surfaces = [&](int y0, int y1) {
-    return surface_images(*frame.scene.mesh, params, frame.ids, y0, y1);
+    return surface_images(*frame.scene.mesh, params, frame.ids, y0, y1,
+                          frame.settings.filter_textures);
   };
   const FrameOutput output{view.size,       view.box(), frame.scene,      view.camera, frame.color, frame.ids,
                            frame.mask,      frame.reflection, surfaces,

@@ -10,6 +10,7 @@
 #include "shared/surface.glsl"
 #include "shared/phong.glsl"
 #include "scene_fetch.glsl"
+#include "map_fetch.glsl"
 #include "pixel_surface.glsl"
 #include "traced_light.glsl"
 

@@ -9,7 +9,7 @@ namespace {
 
 // Accessors of a primitive's attributes; -1: it has none.
 struct Attributes {
-  int position = -1, normal = -1, texcoord = -1;
+  int position = -1, normal = -1, texcoord = -1, texcoord1 = -1, color = -1, tangent = -1;
   auto operator<=>(const Attributes&) const = default;
 };
 
@@ -46,7 +46,8 @@ class MeshPlacer {
   Expected<void> add(const tinygltf::Primitive& primitive, std::uint32_t default_material) {
     const Expected<std::uint32_t> first =
         vertices({attribute(primitive, "POSITION"), attribute(primitive, "NORMAL"),
-                  attribute(primitive, "TEXCOORD_0")});
+                  attribute(primitive, "TEXCOORD_0"), attribute(primitive, "TEXCOORD_1"),
+                  attribute(primitive, "COLOR_0"), attribute(primitive, "TANGENT")});
     if (!first) return Unexpected(first.error());
     const std::size_t vertex_count = counts_[*first];
     std::vector<std::uint32_t> indices(vertex_count);
@@ -91,7 +92,17 @@ class MeshPlacer {
     if (!normals) return Unexpected(normals.error());
     const Expected<std::vector<float>> texcoords = optional(attributes.texcoord, 2, count);
     if (!texcoords) return Unexpected(texcoords.error());
+    const Expected<std::vector<float>> texcoords1 = optional(attributes.texcoord1, 2, count);
+    if (!texcoords1) return Unexpected(texcoords1.error());
+    const Expected<std::vector<glm::vec4>> vertex_colors = colors(attributes.color, count);
+    if (!vertex_colors) return Unexpected(vertex_colors.error());
+    const Expected<std::vector<float>> tangents = optional(attributes.tangent, 4, count);
+    if (!tangents) return Unexpected(tangents.error());
+    mesh_.colors.insert(mesh_.colors.end(), vertex_colors->begin(), vertex_colors->end());
     for (std::size_t i = 0; i < count; ++i) {
+      const float *t1 = &(*texcoords1)[2 * i], *u = &(*tangents)[4 * i];
+      mesh_.texcoords1.emplace_back(t1[0], t1[1]);
+      mesh_.tangents.push_back(placed_tangent({u[0], u[1], u[2], u[3]}));
       const float *p = &(*positions)[3 * i], *n = &(*normals)[3 * i], *t = &(*texcoords)[2 * i];
       mesh_.positions.push_back(placed({p[0], p[1], p[2]}));
       mesh_.normals.push_back(placed_normal({n[0], n[1], n[2]}));
@@ -99,6 +110,21 @@ class MeshPlacer {
     }
     counts_[at->second] = count;
     return at->second;
+  }
+
+  // RGB or RGBA; white where the primitive has none.
+  Expected<std::vector<glm::vec4>> colors(int accessor, std::size_t count) const {
+    std::vector<glm::vec4> result(count, glm::vec4(1.0f));
+    if (accessor < 0) return result;
+    const bool known = static_cast<std::size_t>(accessor) < file_.model.accessors.size();
+    const std::size_t width =
+        known && file_.model.accessors[static_cast<std::size_t>(accessor)].type == TINYGLTF_TYPE_VEC3 ? 3 : 4;
+    const Expected<std::vector<float>> values = optional(accessor, static_cast<int>(width), count);
+    if (!values) return Unexpected(values.error());
+    for (std::size_t i = 0; i < count; ++i)
+      for (std::size_t c = 0; c < width; ++c)
+        result[i][static_cast<int>(c)] = (*values)[width * i + c];
+    return result;
   }
 
   // Zeros where the primitive has no such attribute.
@@ -120,6 +146,12 @@ class MeshPlacer {
     const glm::vec3 world = normals_to_world_ * n;
     const float length = glm::length(world);
     return length > 0.0f && std::isfinite(length) ? world / length : glm::vec3(0.0f);
+  }
+
+  // A mirrored mesh has its bitangents on the other side.
+  [[nodiscard]] glm::vec4 placed_tangent(const glm::vec4& t) const {
+    if (t.w == 0.0f) return glm::vec4(0.0f);
+    return {glm::mat3(world_from_mesh_) * glm::vec3(t), mirrored_ ? -t.w : t.w};
   }
 
   const GltfFile& file_;

@@ -80,11 +80,28 @@ bool can_shine(const Light& light) {
   return is_finite(light.position) && is_finite(light.direction) && is_finite(light.intensity * light.color);
 }
 
+// Texture coordinates and tangents that no map asks for.
+void drop_unused_attributes(MeshData& mesh) {
+  bool set0 = false, set1 = false, normals = false;
+  for (const MaterialMaps& m : mesh.maps) {
+    for (const TextureUse* use :
+         {&m.base_color, &m.metallic_roughness, &m.normal, &m.occlusion, &m.emissive, &m.alpha})
+      if (use->used()) (use->uv_set == 1 ? set1 : set0) = true;
+    normals = normals || m.normal.used();
+  }
+  const auto given = [](const glm::vec4& t) { return t.w != 0.0f; };
+  if (!set0) mesh.texcoords.clear();
+  if (!set1) mesh.texcoords1.clear();
+  if (!normals || std::none_of(mesh.tangents.begin(), mesh.tangents.end(), given)) mesh.tangents.clear();
+  const auto colored = [](const glm::vec4& c) { return c != glm::vec4(1.0f); };
+  if (std::none_of(mesh.colors.begin(), mesh.colors.end(), colored)) mesh.colors.clear();
+}
+
 class SceneReader {
  public:
   SceneReader(const GltfFile& file, Warnings& warnings)
       : file_(file), model_(file.model), warnings_(warnings) {
-    mesh_.materials = gltf_materials(file);
+    add_gltf_materials(file, mesh_);
     mesh_.materials.emplace_back().name = "default";
   }
 
@@ -182,9 +199,7 @@ class SceneReader {
   void finish() {
     scene_.source_files = file_.named_files;
     add_gltf_textures(file_, mesh_, warnings_);
-    const bool textured = std::any_of(mesh_.materials.begin(), mesh_.materials.end(),
-                                      [](const Material& m) { return m.diffuse_texture >= 0; });
-    if (!textured) mesh_.texcoords.clear();
+    drop_unused_attributes(mesh_);
     if (!model_.scenes.empty()) {
       const int shown = model_.defaultScene >= 0 ? model_.defaultScene : 0;
       const auto i = std::min(static_cast<std::size_t>(shown), model_.scenes.size() - 1);

@@ -6,7 +6,6 @@
 #include <sstream>
 #include <streambuf>
 #include <tuple>
-#include <unordered_map>
 
 #pragma GCC diagnostic push
 #pragma GCC diagnostic ignored "-Wshadow"
@@ -14,9 +13,9 @@
 #pragma GCC diagnostic pop
 
 #include "core/scene/mtl_features.h"
+#include "core/scene/mtl_materials.h"
 #include "core/scene/obj_check.h"
 #include "core/scene/read_bytes.h"
-#include "core/scene/texture_file.h"
 #include "pinocchio/load.h"
 
 namespace pinocchio {
@@ -24,32 +23,6 @@ namespace {
 
 glm::vec3 vec3_of(const float* v) {
   return {v[0], v[1], v[2]};
-}
-
-// MTL's illumination models: 2 highlight, 3 mirror, 4 glass, 5 Fresnel mirror, 6 refraction, 7 refraction
-// with Fresnel. Exporters write 4, 6 and 7 for plain materials too: only what has an index of refraction
-// and lets light through (Tf above 0, or d below 1) refracts.
-Material material_of(const tinyobj::material_t& m) {
-  Material material;
-  material.name = m.name;
-  material.diffuse = vec3_of(m.diffuse);
-  material.ambient = vec3_of(m.ambient);
-  if (material.ambient == glm::vec3(0.0f)) material.ambient = material.diffuse;  // Ka is seldom written
-  material.specular = m.illum >= 2 ? vec3_of(m.specular) : glm::vec3(0.0f);
-  material.shininess = std::max(m.shininess, 1.0f);
-  material.emission = vec3_of(m.emission);
-
-  const glm::vec3 filter = vec3_of(m.transmittance);
-  const bool refracting_model = m.illum == 4 || m.illum == 6 || m.illum == 7;
-  const bool lets_light_through = filter != glm::vec3(0.0f) || m.dissolve < 1.0f;
-  if (refracting_model && m.ior > 1.0f && lets_light_through) {
-    material.ior = m.ior;
-    material.transmittance = filter != glm::vec3(0.0f) ? filter : glm::vec3(1.0f - m.dissolve);
-  } else if (m.illum == 3 || m.illum == 5) {
-    material.reflectance = vec3_of(m.specular);
-    material.fresnel = m.illum == 5;
-  }
-  return material;
 }
 
 Material default_material() {
@@ -76,7 +49,7 @@ class MtlReader final : public tinyobj::MaterialReader {
       : file_(file), full_names_(std::move(full_names)), warnings_(warnings) {}
 
   bool operator()(const std::string& name, std::vector<tinyobj::material_t>* materials,
-                  std::map<std::string, int>* by_name, std::string* warning, std::string* error) override {
+                  std::map<std::string, int>* by_name, std::string*, std::string*) override {
     std::filesystem::path mtl = file_.parent_path() / name;
     std::ifstream in(mtl);
     for (const std::string& full_name : full_names_)
@@ -92,17 +65,25 @@ class MtlReader final : public tinyobj::MaterialReader {
     }
     const std::string text(std::istreambuf_iterator<char>(in), {});
     add_lost_mtl_features(mtl, text, warnings_);
-    std::istringstream lines(text);
-    tinyobj::LoadMtl(by_name, materials, &lines, warning, error);
+    for (MtlMaterial& m : read_mtl(text)) {
+      const int index = static_cast<int>(materials->size());
+      tinyobj::material_t& known = materials->emplace_back();
+      known.name = m.name;
+      (*by_name)[m.name] = index;
+      by_name->try_emplace(m.name.substr(0, m.name.find_first_of(" \t")), index);  // as the parser asks for it
+      materials_.push_back(std::move(m));
+    }
     return true;
   }
 
   // Asked for so far, found or not.
   [[nodiscard]] const std::vector<std::string>& files() const { return files_; }
+  [[nodiscard]] const std::vector<MtlMaterial>& materials() const { return materials_; }
 
  private:
   const std::filesystem::path& file_;
   std::vector<std::string> files_;
+  std::vector<MtlMaterial> materials_;
   std::vector<std::string> full_names_;
   Warnings& warnings_;
 };
@@ -150,7 +131,6 @@ class ObjMesh {
  public:
   ObjMesh(const ObjFile& obj, Progress* progress) : obj_(obj), progress_(progress) {
     mesh_.materials.push_back(default_material());
-    for (const tinyobj::material_t& m : obj.materials) mesh_.materials.push_back(material_of(m));
   }
 
   MeshData build() {
@@ -216,44 +196,6 @@ class ObjMesh {
   bool any_texcoord_ = false;
 };
 
-// What no statement alone tells: a dissolve that nothing refracts, a texture without coordinates.
-void add_lost_materials(const ObjFile& obj, const MeshData& mesh, const std::filesystem::path& file,
-                        Warnings& warnings) {
-  for (std::size_t i = 0; i < obj.materials.size(); ++i) {
-    const tinyobj::material_t& m = obj.materials[i];
-    const std::string where = "material '" + m.name + "'";
-    if (m.dissolve < 1.0f && !mesh.materials[i + 1].transmits())
-      warnings.add({file.string(), where, "its d or Tr is left out", "it is opaque"});
-    if (!m.diffuse_texname.empty() && mesh.texcoords.empty())
-      warnings.add({file.string(), where, "has a texture, and no face has texture coordinates",
-                    "the plain colour is used"});
-  }
-}
-
-void load_textures(const ObjFile& obj, const std::filesystem::path& file, MeshData& mesh,
-                   std::vector<std::string>& source_files, Warnings& warnings) {
-  std::unordered_map<std::string, int> loaded;
-  for (std::size_t i = 0; i < obj.materials.size(); ++i) {
-    std::string name = obj.materials[i].diffuse_texname;
-    std::replace(name.begin(), name.end(), '\\', '/');  // from Windows
-    if (name.empty() || mesh.texcoords.empty()) continue;
-    if (const auto known = loaded.find(name); known != loaded.end()) {
-      mesh.materials[i + 1].diffuse_texture = known->second;
-      continue;
-    }
-    const std::filesystem::path texture_file = file.parent_path() / name;
-    source_files.push_back(texture_file.string());
-    std::optional<Texture> texture = load_texture(texture_file);
-    if (!texture) {
-      warnings.add({file.string(), "material '" + mesh.materials[i + 1].name + "'",
-                    "its texture " + name + " cannot be read", "the plain colour is used"});
-      continue;
-    }
-    loaded[name] = mesh.materials[i + 1].diffuse_texture = static_cast<int>(mesh.textures.size());
-    mesh.textures.push_back(std::move(*texture));
-  }
-}
-
 }  // namespace
 
 Expected<Scene> load_obj(const std::filesystem::path& path, Warnings& warnings, Progress* progress) {
@@ -274,9 +216,11 @@ Expected<Scene> load_obj(const std::filesystem::path& path, Warnings& warnings, 
         InputError{path.string(), 0, error.substr(0, error.find('\n')), "export the file again"});
   add_unknown_materials(warning, path, warnings);
   MeshData mesh = ObjMesh(obj, progress).build();
-  add_lost_materials(obj, mesh, path, warnings);
+  MtlMaterials materials(path, mesh, warnings);
+  for (const MtlMaterial& m : mtl.materials()) mesh.materials.push_back(materials.make(m));
+  if (mesh.textures.empty()) mesh.texcoords.clear();
   std::vector<std::string> source_files = mtl.files();
-  load_textures(obj, path, mesh, source_files, warnings);
+  source_files.insert(source_files.end(), materials.files().begin(), materials.files().end());
   Scene scene(std::move(mesh));
   scene.source_files = std::move(source_files);
   return scene;

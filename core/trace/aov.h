@@ -18,6 +18,7 @@ struct SurfaceImages {
 
 // Of the lines [y0, y1).
 [[nodiscard]] SurfaceImages surface_images(const Mesh& mesh, const shared::ViewParams& view,
-                                           const Image<std::uint32_t>& ids, int y0, int y1);
+                                           const Image<std::uint32_t>& ids, int y0, int y1,
+                                           bool filter_textures = true);
 
 }  // namespace pinocchio

@@ -35,6 +35,7 @@ class ShadingPasses {
     shared::ViewParams view;
     const gl::Texture& ids;
     int id_bits;
+    bool filter_textures;
   };
   // The CPU's answer; what is null is not in it.
   struct Traced {

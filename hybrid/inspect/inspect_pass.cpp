@@ -111,7 +111,8 @@ ShadingPasses::Inputs InspectPass::inputs_of(const FrameSlot& frame) {
   constexpr int kIdBits = 32;  // as the CPU has them
   send(std::as_bytes(frame.ids.pixels()), frame.ids.size(), id_format(kIdBits).pixel, ids_);
   lights_.update(frame.request.scene);
-  return {*engine_.parts().gpu_mesh(frame.request.scene.mesh), lights_, frame.view, ids_.texture, kIdBits};
+  return {*engine_.parts().gpu_mesh(frame.request.scene.mesh), lights_, frame.view, ids_.texture, kIdBits,
+          frame.request.settings.filter_textures};
 }
 
 ShadingPasses::Traced InspectPass::send_from_cpu(const MaskImage& mask, const Image<glm::vec3>& reflection,

@@ -91,6 +91,19 @@ std::string why_rays(const Settings& s) {
              : "a shadow ray wherever a light may reach: the mask itself is kept; " + still;
 }
 
+// What of materials changes from point to point.
+std::string why_maps(const SceneStats& stats) {
+  if (!stats.textures && !stats.vertex_colors && !stats.holes && !stats.blends)
+    return "no texture code in the shaders: nothing is textured";
+  std::string line = stats.textures        ? "textures are looked up: some triangle has one"
+                     : stats.vertex_colors ? "vertex colours are looked up: some triangle has them"
+                                           : "alpha is looked up: some triangle has it";
+  if (stats.holes) line += "; rays that meet a hole go on behind it";
+  if (stats.blends) line += "; what blends sends a ray straight on";
+  if (!stats.holes && !stats.blends) line += "; nothing has holes or blends: rays stop where they meet something";
+  return line;
+}
+
 }  // namespace
 
 std::vector<std::string> explain(const SceneStats& stats, const Settings& s) {
@@ -101,8 +114,7 @@ std::vector<std::string> explain(const SceneStats& stats, const Settings& s) {
   if (s.reflects()) lines.push_back(why_depth(stats, s));
   if (s.mask_bits > 0) lines.push_back(why_rays(s));
   if (s.traces()) lines.push_back(why_threads(s));
-  lines.emplace_back(stats.textures ? "textures are looked up: some triangle has one"
-                                    : "no texture code in the shaders: nothing is textured");
+  lines.push_back(why_maps(stats));
   return lines;
 }
 

@@ -134,6 +134,8 @@ constexpr std::array kTable{
                             "light that a shadow ray brings a visible point, linear, below which none is "
                             "fired; 0: all are",
                             false, "least_light"),
+    field<&S::filter_textures>("filter_textures", yes_or_no(), "true",
+                               "average textures over what a pixel, and its mirror images, see of them"),
     field<&S::reuse>("reuse", yes_or_no(), "true",
                      "draw nothing again for a frame that asks for what the last one did"),
     field<&S::persistent>("persistent", yes_or_no(), "false", "keep transfer buffers mapped", kOfMachine),

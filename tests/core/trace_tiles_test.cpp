@@ -91,7 +91,7 @@ Scene all_sorts() {
     mesh->materials[3].specular = glm::vec3(0.7f);
     mesh->materials[3].shininess = 37.5f;
     mesh->materials[3].reflectance = glm::vec3(0.2f);
-    mesh->materials[4].diffuse_texture = 0;
+    make_maps(*mesh, mesh->materials[4]).base_color.texture = 0;
     mesh->materials[4].emission = {0.0f, 0.1f, 0.0f};
     Texture texture{"noise", Image<glm::u8vec4>({7, 5})};
     for (glm::u8vec4& texel : texture.texels.pixels())

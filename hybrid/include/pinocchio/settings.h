@@ -75,6 +75,7 @@ struct Settings {
   Setting<bool> normals, wide;
   Setting<float> throughput_cutoff = Setting<float>::by_default(kThroughputCutoff);
   Setting<float> light_cutoff;
+  Setting<bool> filter_textures = Setting<bool>::by_default(true);
   Setting<bool> reuse = Setting<bool>::by_default(true);
   Setting<bool> persistent;
   Setting<int> threads;
