@@ -40,6 +40,11 @@ SurfaceInteraction geometry_at(const Mesh& mesh, std::uint32_t id, const glm::ve
 
 }  // namespace
 
+SurfaceInteraction bare_surface_at(const Mesh& mesh, std::uint32_t id, const glm::vec3& origin,
+                                   const glm::vec3& direction, const RayOffset& offset) {
+  return geometry_at(mesh, id, direction, weights_at(mesh, id, origin, direction), offset);
+}
+
 glm::vec3 weights_at(const Mesh& mesh, std::uint32_t id, const glm::vec3& origin, const glm::vec3& direction) {
   const glm::uvec3& corners = mesh.triangles[id];
   return shared::barycentric_of(origin, direction, mesh.positions[corners.x], mesh.positions[corners.y],

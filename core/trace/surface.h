@@ -36,6 +36,10 @@ struct SurfaceInteraction {
 [[nodiscard]] glm::vec3 weights_at(const Mesh& mesh, std::uint32_t id, const glm::vec3& origin,
                                    const glm::vec3& direction);
 
+// The surface alone, without its material: the normal is the vertices'.
+[[nodiscard]] SurfaceInteraction bare_surface_at(const Mesh& mesh, std::uint32_t id, const glm::vec3& origin,
+                                                 const glm::vec3& direction, const RayOffset& offset = {});
+
 // By an error bound: how far off triangle (a, a + ab, a + ac) with normal n a ray from its point p starts,
 // and what that is never below.
 [[nodiscard]] float error_bound_offset(const glm::dvec3& p, const glm::vec3& n, const glm::vec3& ab,
