@@ -33,6 +33,7 @@ class Drawing {
   const DrawOptions& options_;
   PixelBox part_;
   bool keeps_mask_;
+  bool software_gl_ = false;
   Engine engine_;
   Scene scene_;
   SceneStats stats_;
