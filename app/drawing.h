@@ -30,6 +30,9 @@ class Drawing {
   [[nodiscard]] FrameRequest request(const Camera& camera) const { return request(settings_, camera); }
 
  private:
+  // Says where --mode auto would be faster than these settings.
+  void advise(Settings automatic) const;
+
   const DrawOptions& options_;
   PixelBox part_;
   bool keeps_mask_;
