@@ -169,7 +169,7 @@ void add_scene_options(CLI::App& verb, DrawOptions& o) {
 
 void add_settings_options(CLI::App& verb, DrawOptions& o) {
   const auto said = std::make_shared<Said>();
-  add_preset(verb, "mode", "who draws: both, CPU alone, GPU alone (hybrid)", said->mode);
+  add_preset(verb, "mode", "who draws: both, CPU alone, GPU alone, whichever is faster here (hybrid)", said->mode);
   add_preset(verb, "design", "where the parts meet: 1, on the GPU; 2, on the CPU (1)", said->design);
   add_preset(verb, "plan",
              "auto: model and send only what the scene needs; slides: the fixed bytes of 2005; FILE.json: "

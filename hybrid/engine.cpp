@@ -74,8 +74,7 @@ Engine::~Engine() = default;
 
 Expected<Settings> Engine::resolve(const Scene& scene, glm::ivec2 size, const Settings& settings,
                                    bool keeps_mask) const {
-  if (settings.uses_gpu()) open_gl();
-  return pinocchio::resolve(settings, analyze(scene), {size, gl_info() && gl_info()->software, keeps_mask});
+  return pinocchio::resolve(settings, analyze(scene), {size, gl_is_software(settings), keeps_mask});
 }
 
 std::shared_ptr<const Tracer> Engine::prepare(const Scene& scene, const Settings& settings, Progress* progress) {
@@ -109,6 +108,20 @@ Workers& Engine::workers(int threads) const {
 
 void Engine::open_gl() const {
   (void)parts_->gpu();
+}
+
+bool Engine::gl_is_software(const Settings& settings) const {
+  const EngineOptions& o = parts_->options;
+  if (settings.by_machine && !parts_->context) {
+    if (!o.get_proc_address && !gl::may_be_hardware({o.backend, o.device, o.gl_debug})) return true;
+    try {
+      open_gl();
+    } catch (const NoOpenGlError&) {
+      return true;
+    }
+  }
+  if (settings.uses_gpu()) open_gl();
+  return gl_info() && gl_info()->software;
 }
 
 const gl::ContextInfo* Engine::gl_info() const {

@@ -2,6 +2,8 @@
 
 #include <cmath>
 
+#include "hybrid/settings/resolve.h"
+
 namespace pinocchio {
 namespace {
 
@@ -19,6 +21,9 @@ std::string per_sample(int scale) {
 }
 
 std::string who_draws(const Settings& s) {
+  if (!s.uses_gpu() && s.by_machine)
+    return std::string("the CPU draws alone, ") + kGainOverSoftwareGl +
+           ", for OpenGL is software here; it is not opened (--mode auto)";
   if (!s.uses_gpu()) return "the CPU draws alone; no OpenGL is opened";
   if (!s.traces()) return "the GPU draws alone";
   return s.composite == Processor::gpu ? "the GPU puts the picture together (design 1)"

@@ -54,7 +54,7 @@ TEST_F(ErrorsTest, Usage) {
   expect_error(render + "--size 0 -o x.exr", 2, "--size");
   expect_error(render + "--size 100000x100000 -o x.exr", 2, "16384");
   expect_error(render + "--size -5x7 -o x.exr", 2, "--size");
-  expect_error(render + "--mode sideways -o x.exr", 2, "hybrid, raytrace or raster");
+  expect_error(render + "--mode sideways -o x.exr", 2, "hybrid, raytrace, raster or auto");
   expect_error(render + "--eye 1,2 -o x.exr", 2, "--eye");
   expect_error(render + "--eye 1,2,nan -o x.exr", 2, "--eye");
   expect_error(render + "--fov 180 -o x.exr", 2, "--fov");

@@ -63,6 +63,7 @@ struct Setting {
 struct Settings {
   Setting<Processor> visibility = Setting<Processor>::by_default(Processor::gpu);
   Setting<Processor> composite = Setting<Processor>::by_default(Processor::gpu);
+  Setting<bool> by_machine;
   Setting<Exchange> exchange;
   Setting<int> spp = Setting<int>::by_default(1);
   Setting<int> depth = Setting<int>::by_default(8);
