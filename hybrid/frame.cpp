@@ -95,14 +95,26 @@ FrameResult Frame::read() const {
   return result;
 }
 
+SurfaceImages surfaces_of(const FrameResult& frame) {
+  View view = frame.view;
+  view.jitter = glm::vec2(0.0f);
+  Workers workers(frame.settings.threads);
+  return surface_images(*frame.scene.mesh, view_params(view), workers, frame.ids);
+}
+
+void unpack_mask(const FrameResult& frame, std::uint8_t* to) {
+  const glm::ivec2 size = frame.ids.size();
+  for (int y = 0; y < size.y; ++y)
+    for (int x = 0; x < size.x; ++x)
+      *to++ = static_cast<std::uint8_t>(frame.mask.bits() > 0 ? frame.mask.get(x, y) : 0u);
+}
+
 void write_exr(const std::filesystem::path& file, const FrameResult& frame, const std::string& layers,
                std::optional<double> render_s) {
   const Expected<AovSet> aovs = parse_aovs(layers);
   if (!aovs) throw std::invalid_argument(aovs.error().message());
-  View view = frame.view;
-  view.jitter = glm::vec2(0.0f);
-  Workers workers(frame.settings.threads);
-  const SurfaceImages surfaces = surface_images(*frame.scene.mesh, view_params(view), workers, frame.ids);
+  const View& view = frame.view;
+  const SurfaceImages surfaces = surfaces_of(frame);
   const FrameOutput output{view.size,       view.box(), frame.scene,      view.camera, frame.color, frame.ids,
                            frame.mask,      frame.reflection, surfaces,
                            to_json(frame.settings, false).dump(), render_s};

@@ -16,6 +16,7 @@
 
 #include "pinocchio/error.h"
 #include "pinocchio/mesh.h"
+#include "pinocchio/nodes.h"
 
 namespace pinocchio {
 
@@ -62,10 +63,10 @@ struct GltfFile {
 // be read is a warning and leaves the plain colour.
 void add_gltf_textures(const GltfFile& file, MeshData& mesh, std::vector<std::string>& warnings);
 
-// Appends the triangles of a mesh, placed by `world_from_mesh`. Materials are the file's indices; -1
-// becomes `default_material`.
+// Appends the triangles of a mesh, placed by `world_from_mesh`, and to `rest` its vertices as they were.
+// Materials are the file's indices; -1 becomes `default_material`.
 [[nodiscard]] Expected<void> add_gltf_mesh(const GltfFile& file, int mesh, const glm::mat4& world_from_mesh,
-                                           std::uint32_t default_material, MeshData& to,
+                                           std::uint32_t default_material, MeshData& to, RestPose& rest,
                                            std::vector<std::string>& warnings);
 
 }  // namespace pinocchio

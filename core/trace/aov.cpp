@@ -11,7 +11,7 @@ SurfaceImages surface_images(const Mesh& mesh, const shared::ViewParams& view, W
   const glm::ivec2 size = ids.size();
   SurfaceImages images{Image<float>(size, kInfinity), Image<glm::vec3>(size, glm::vec3(0.0f)),
                        Image<glm::vec3>(size, glm::vec3(0.0f)), Image<glm::vec3>(size, glm::vec3(0.0f))};
-  const glm::vec3 forward = -glm::normalize(glm::cross(view.step_x, -view.step_y));
+  const glm::vec3 forward = view_axis(view);
   const TileGrid grid(size);
   workers.for_each(grid.count(), [&](std::size_t i) {
     TileGrid::for_each_pixel(grid.tile(i), [&](int x, int y) {
