@@ -16,7 +16,7 @@ bool fits_tile_queue(const Settings& s) {
 
 RayCounts draw_tiles(Engine::Parts& engine, const Scene& scene, const std::shared_ptr<const Tracer>& tracer,
                      std::span<const Camera> cameras, glm::ivec2 size, const Settings& s, const FrameArrays& to,
-                     const std::function<void()>& between) {
+                     Progress* progress) {
   Scene lit = scene;
   settle_lights(lit, s);
   FramesJob job{lit, *tracer, engine.workers(s.threads), cameras, size};
@@ -25,7 +25,7 @@ RayCounts draw_tiles(Engine::Parts& engine, const Scene& scene, const std::share
   job.mask_bits = s.mask_bits;
   job.throughput_cutoff = s.throughput_cutoff;
   job.light_cutoff = s.light_cutoff;
-  job.between = between;
+  job.progress = progress;
   return trace_frames(job, to);
 }
 
@@ -63,14 +63,14 @@ class Copier {
 };
 
 RayCounts draw_frames(Engine& engine, FrameRequest request, std::span<const Camera> cameras, const FrameArrays& to,
-                      const std::function<void()>& between) {
+                      Progress* progress) {
   RayCounts rays;
   Copier copier(to);
   SampleMean mean(request.settings.spp, [&](FrameResult&& frame) { copier.take(frame); });
   Renderer renderer(engine, {[&](Frame& frame) { mean.add(frame); },
-                             [&](const FrameRecord& record) { rays += record.rays; }});
+                             [&](const FrameRecord& record) { rays += record.rays; }},
+                    progress);
   for (const Camera& camera : cameras) {
-    if (between) between();
     request.view.camera = camera;
     submit_samples(renderer, request);
   }
@@ -82,16 +82,17 @@ RayCounts draw_frames(Engine& engine, FrameRequest request, std::span<const Came
 
 Expected<RayCounts> render_many(Engine& engine, const Scene& scene, std::span<const Camera> cameras, glm::ivec2 size,
                                 const Settings& settings, const FrameArrays& to,
-                                const std::function<void()>& between) {
+                                Progress* progress) {
   if (cameras.empty()) return RayCounts{};
   Settings wanted = settings;
   wanted.exchange.fill(settings.uses_gpu() && cameras.size() > 1 ? Exchange::pipelined : Exchange::sync);
   const Expected<Settings> resolved = engine.resolve(scene, size, wanted);
   if (!resolved) return Unexpected(resolved.error());
-  const std::shared_ptr<const Tracer> tracer = engine.parts().tracer_of(scene, *resolved);
+  const std::shared_ptr<const Tracer> tracer = engine.parts().tracer_of(scene, *resolved, progress);
+  begin_phase(progress, "render", static_cast<double>(cameras.size()) * resolved->spp);
   if (fits_tile_queue(*resolved))
-    return draw_tiles(engine.parts(), scene, tracer, cameras, size, *resolved, to, between);
-  return draw_frames(engine, {scene, tracer, *resolved, {.camera = cameras.front(), .size = size}}, cameras, to, between);
+    return draw_tiles(engine.parts(), scene, tracer, cameras, size, *resolved, to, progress);
+  return draw_frames(engine, {scene, tracer, *resolved, {.camera = cameras.front(), .size = size}}, cameras, to, progress);
 }
 
 }  // namespace pinocchio

@@ -60,7 +60,8 @@ struct Engine::Parts {
   [[nodiscard]] std::shared_ptr<const GpuMesh> gpu_mesh(const std::shared_ptr<const Mesh>& mesh);
 
   // The last scene's are kept, while its mesh is the same.
-  [[nodiscard]] std::shared_ptr<const Tracer> tracer_of(const Scene& scene, const Settings& resolved);
+  [[nodiscard]] std::shared_ptr<const Tracer> tracer_of(const Scene& scene, const Settings& resolved,
+                                                        Progress* progress = nullptr);
   [[nodiscard]] const SceneStats& stats_of(const Scene& scene);
 
   EngineOptions options;

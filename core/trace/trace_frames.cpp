@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <atomic>
 #include <mutex>
-#include <thread>
 
 #include "core/trace/jitter.h"
 #include "core/trace/surface.h"
@@ -136,7 +135,6 @@ class Share {
 RayCounts trace_frames(const FramesJob& job, const FrameArrays& to) {
   const TileGrid grid(job.size);
   const std::size_t all = grid.count() * job.cameras.size();
-  const std::thread::id caller = std::this_thread::get_id();
   std::atomic<std::size_t> next{0};
   std::mutex mutex;
   RayCounts rays;
@@ -147,8 +145,8 @@ RayCounts trace_frames(const FramesJob& job, const FrameArrays& to) {
     RayCounts own;
     try {
       for (std::size_t i; (i = next.fetch_add(1, std::memory_order_relaxed)) < all;) {
-        if (job.between && std::this_thread::get_id() == caller) job.between();
         own += share.draw(i / grid.count(), grid.tile(i % grid.count()));
+        advance(job.progress, job.spp / static_cast<double>(grid.count()));
       }
     } catch (...) {
       next = all;

@@ -2,7 +2,6 @@
 // busy, and written where the caller wants them.
 #pragma once
 
-#include <functional>
 #include <glm/glm.hpp>
 #include <span>
 
@@ -10,6 +9,7 @@
 #include "core/trace/trace_tiles.h"
 #include "pinocchio/camera.h"
 #include "pinocchio/frame_arrays.h"
+#include "pinocchio/progress.h"
 #include "pinocchio/scene.h"
 #include "pinocchio/tracer.h"
 
@@ -23,7 +23,7 @@ struct FramesJob {
   glm::ivec2 size;
   int spp = 1, depth = 0, mask_bits = 0;
   float throughput_cutoff = kThroughputCutoff, light_cutoff = 0.0f;
-  std::function<void()> between{};  // on the caller's thread, now and then; ends the work by throwing
+  Progress* progress = nullptr;  // told of every tile: a picture is `spp` steps
 };
 
 // The bits that trace_tiles, surface_images and the mean of the samples give for each picture alone. Allocates

@@ -65,7 +65,7 @@ Image<glm::vec3> picture_of(const nb::object& from) {
 nb::dict compare(const nb::object& a, const nb::object& b, float pixels_per_degree) {
   const Image<glm::vec3> picture = picture_of(a), reference = picture_of(b);
   auto* const found = new PictureDifference(value_or_throw(
-      without_gil([&] { return compare_pictures(picture, reference, pixels_per_degree); })));
+      without_gil([&](Progress*) { return compare_pictures(picture, reference, pixels_per_degree); })));
   const nb::capsule owner(found, [](void* p) noexcept { delete static_cast<PictureDifference*>(p); });
   nb::dict result;
   result["rmse"] = found->rmse;
@@ -80,7 +80,7 @@ nb::dict compare(const nb::object& a, const nb::object& b, float pixels_per_degr
 }
 
 nb::dict channels_of(const std::filesystem::path& path) {
-  auto* const exr = new ExrFile(value_or_throw(without_gil([&] { return read_exr(path); })));
+  auto* const exr = new ExrFile(value_or_throw(without_gil([&](Progress*) { return read_exr(path); })));
   const nb::capsule owner(exr, [](void* p) noexcept { delete static_cast<ExrFile*>(p); });
   const auto size = exr->data_window.size();
   const std::initializer_list<std::size_t> shape{static_cast<std::size_t>(size.y), static_cast<std::size_t>(size.x)};

@@ -130,10 +130,10 @@ class PyEngine {
     const Settings settings = settings_of(arguments, threads_);
     const Camera camera = camera_of(scene, choice);
     const Scene drawn = lit(scene, camera);
-    return without_gil([&] {
+    return without_gil([&](Progress* progress) {
       const std::lock_guard lock(mutex_);
       const auto begin = std::chrono::steady_clock::now();
-      Result result{value_or_throw(engine_->render(drawn, {.camera = camera, .size = size}, settings))};
+      Result result{value_or_throw(engine_->render(drawn, {.camera = camera, .size = size}, settings, progress))};
       result.ms = std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - begin).count();
       if (scene.lights.empty()) result.frame.scene.lights = drawn.lights;
       return result;
@@ -158,9 +158,9 @@ class PyEngine {
     }
     if (cameras.empty()) return result;
     const Scene drawn = lit(scene, cameras.front());
-    without_gil([&] {
+    without_gil([&](Progress* progress) {
       const std::lock_guard lock(mutex_);
-      return value_or_throw(pinocchio::render_many(*engine_, drawn, cameras, size, settings, to, &Interrupt::stop_if_noted));
+      return value_or_throw(pinocchio::render_many(*engine_, drawn, cameras, size, settings, to, progress));
     });
     return result;
   }

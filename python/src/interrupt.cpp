@@ -1,13 +1,13 @@
 #include "interrupt.h"
 
-#include "convert.h"
-
 namespace pinocchio::python {
 namespace {
 
-volatile std::sig_atomic_t noted = 0;
+std::atomic<Progress*> watched{nullptr};
 
-void note(int) { noted = 1; }
+void cancel(int) {
+  if (Progress* const progress = watched.load()) progress->cancel();
+}
 
 bool is_main_thread() {
   const nb::object threading = nb::module_::import_("threading");
@@ -16,29 +16,25 @@ bool is_main_thread() {
 
 }  // namespace
 
-Interrupt::Interrupt() : watching_(is_main_thread()) {
+Interrupt::Interrupt(Progress& progress) : progress_(progress), watching_(is_main_thread()) {
   if (!watching_) return;
-  noted = 0;
+  watched = &progress;
   struct sigaction action {};
-  action.sa_handler = note;
+  action.sa_handler = cancel;
   sigaction(SIGINT, &action, &before_);
 }
 
 Interrupt::~Interrupt() {
-  if (watching_) sigaction(SIGINT, &before_, nullptr);
+  if (!watching_) return;
+  sigaction(SIGINT, &before_, nullptr);
+  watched = nullptr;
 }
 
 void Interrupt::check() {
-  if (!watching_ || !noted) return;
-  noted = 0;
+  if (!watching_ || !progress_.cancelled()) return;
   sigaction(SIGINT, &before_, nullptr);
-  watching_ = false;
   PyErr_SetInterrupt();
   if (PyErr_CheckSignals() != 0) throw nb::python_error();
-}
-
-void Interrupt::stop_if_noted() {
-  if (noted) throw Stopped();
 }
 
 }  // namespace pinocchio::python

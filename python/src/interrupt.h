@@ -1,6 +1,8 @@
 // Ctrl-C while Python waits for us.
 #pragma once
 
+#include <pinocchio/progress.h>
+
 #include <csignal>
 #include <optional>
 
@@ -8,35 +10,34 @@
 
 namespace pinocchio::python {
 
-// While it lives, SIGINT is noted instead of handled; then Python handles it. On threads other than Python's main
-// one it does nothing, as signals are that one's. Made and ended with the GIL held.
+// While it lives, SIGINT cancels `progress`; then Python handles it. On threads other than Python's main one it does
+// nothing, as signals are that one's. Made and ended with the GIL held.
 class Interrupt {
  public:
-  Interrupt();
+  explicit Interrupt(Progress& progress);
   ~Interrupt();
   Interrupt(const Interrupt&) = delete;
   Interrupt& operator=(const Interrupt&) = delete;
 
-  // With the GIL: lets Python handle what was noted, and throws what that raised (KeyboardInterrupt).
+  // Lets Python handle the signal that came meanwhile, and throws what that raised (KeyboardInterrupt).
   void check();
-  // Without it: throws Stopped once something was noted; for work that takes long.
-  static void stop_if_noted();
-  struct Stopped {};
 
  private:
+  Progress& progress_;
   bool watching_ = false;
   struct sigaction before_ {};
 };
 
-// Runs `work` without the GIL; Ctrl-C ends it where it asks (stop_if_noted), and is raised.
+// Runs work(progress) without the GIL; Ctrl-C cancels it and is raised.
 template <class Work>
 auto without_gil(Work work) {
-  Interrupt interrupt;
-  std::optional<decltype(work())> result;
+  Progress progress;
+  Interrupt interrupt(progress);
+  std::optional<decltype(work(&progress))> result;
   try {
     const nb::gil_scoped_release released;
-    result = work();
-  } catch (const Interrupt::Stopped&) {
+    result = work(&progress);
+  } catch (const Cancelled&) {
     interrupt.check();
     throw Error("interrupted");  // Python's handler raised nothing
   }

@@ -22,7 +22,7 @@ auto picture(Image<glm::vec<N, float, glm::defaultp>>& image, nb::handle owner) 
 }
 
 SurfaceImages& surfaces(Result& result) {
-  if (!result.surfaces) result.surfaces = without_gil([&] { return surfaces_of(result.frame); });
+  if (!result.surfaces) result.surfaces = without_gil([&](Progress*) { return surfaces_of(result.frame); });
   return *result.surfaces;
 }
 
@@ -30,7 +30,7 @@ nb::dict record(const Result& result) {
   const FrameRecord& r = result.frame.record;
   nb::dict stages, buffers, bytes, rays, all;
   for (std::size_t i = 0; i < kStageNames.size(); ++i)
-    if (r.stages[i].ms() > 0.0) stages[nb::str(kStageNames[i].data(), kStageNames[i].size())] = r.stages[i].ms();
+    if (r.stages[i].begin_s > 0.0 && r.stages[i].ms() > 0.0) stages[nb::str(kStageNames[i].data(), kStageNames[i].size())] = r.stages[i].ms();
   for (std::size_t i = 0; i < kChannelNames.size(); ++i)
     if (r.bytes[i] > 0) buffers[nb::str(kChannelNames[i].data(), kChannelNames[i].size())] = r.bytes[i];
   bytes["gpu_to_cpu"] = r.bytes_to_cpu();
@@ -104,7 +104,7 @@ void bind_result(nb::module_& module) {
       .def_prop_ro("camera", [](const Result& r) { return r.frame.view.camera; })
       .def("write_exr",
            [](const Result& r, const std::filesystem::path& path, const std::string& aov) {
-             without_gil([&] { return write_exr(path, r.frame, aov, 1e-3 * r.ms), true; });
+             without_gil([&](Progress* progress) { return write_exr(path, r.frame, aov, 1e-3 * r.ms, progress), true; });
            },
            "path"_a, "aov"_a = "all",
            "The picture with its layers, as the program writes it. aov: 'all', 'none' or some of Z, P, N, Albedo, id,\n"

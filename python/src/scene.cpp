@@ -125,7 +125,7 @@ Scene scene_of(const Floats3& vertices, const Words3& triangles, const std::opti
 
 Scene load(const std::filesystem::path& path) {
   Warnings warnings;
-  Scene scene = value_or_throw(without_gil([&] { return load_scene(path, &warnings); }));
+  Scene scene = value_or_throw(without_gil([&](Progress* progress) { return load_scene(path, &warnings, progress); }));
   for (const std::string& warning : warnings)
     if (PyErr_WarnEx(PyExc_UserWarning, warning.c_str(), 1) != 0) throw nb::python_error();
   return scene;
@@ -144,7 +144,7 @@ Scene with_transforms(const Scene& scene, const nb::dict& transforms) {
   for (const auto& [name, matrix] : transforms)
     moves.push_back({node_of(scene, nb::cast<std::variant<int, std::string>>(name)),
                      matrix_of(nb::cast<Matrix>(matrix))});
-  return value_or_throw(without_gil([&] { return posed(scene, moves); }));
+  return value_or_throw(without_gil([&](Progress*) { return posed(scene, moves); }));
 }
 
 Scene assemble(const nb::dict& parts) {
@@ -157,7 +157,7 @@ Scene assemble(const nb::dict& parts) {
     all.push_back({nb::cast<std::string>(name), scenes.back(),
                    placed ? matrix_of(nb::cast<Matrix>(nb::object(part[1]))) : glm::mat4(1.0f)});
   }
-  return value_or_throw(without_gil([&] { return assembled(all); }));
+  return value_or_throw(without_gil([&](Progress*) { return assembled(all); }));
 }
 
 void bind_material(nb::module_& module) {

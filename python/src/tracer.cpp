@@ -48,11 +48,12 @@ Rays rays_of(const Floats3& origins, const Floats3& directions, const std::optio
 }
 
 // Calls body(first, last) for chunks of [0, n), on as many threads as are worth it.
-void for_chunks(std::size_t n, int threads, const std::function<void(std::size_t, std::size_t)>& body) {
+void for_chunks(std::size_t n, int threads, const Progress* progress,
+                const std::function<void(std::size_t, std::size_t)>& body) {
   std::atomic<std::size_t> next{0};
   const auto work = [&] {
     for (std::size_t first; (first = next.fetch_add(kChunk)) < n;) {
-      Interrupt::stop_if_noted();
+      throw_if_cancelled(progress);
       body(first, std::min(first + kChunk, n));
     }
   };
@@ -64,20 +65,20 @@ void for_chunks(std::size_t n, int threads, const std::function<void(std::size_t
       helpers.emplace_back([&] {
         try {
           work();
-        } catch (const Interrupt::Stopped&) {
+        } catch (const Cancelled&) {
           stopped = true;
         }
       });
     work();
   }
-  if (stopped) throw Interrupt::Stopped();
+  if (stopped) throw Cancelled();
 }
 
 class ArrayTracer {
  public:
-  ArrayTracer(std::shared_ptr<const Mesh> mesh, int threads)
+  ArrayTracer(std::shared_ptr<const Mesh> mesh, int threads, Progress* progress)
       : threads_(threads > 0 ? threads : static_cast<int>(std::max(1u, std::thread::hardware_concurrency()))),
-        tracer_(std::move(mesh), BuildOptions{.threads = threads_}) {}
+        tracer_(std::move(mesh), BuildOptions{.threads = threads_, .progress = progress}) {}
 
   nb::tuple closest_hits(const Floats3& origins, const Floats3& directions, const std::optional<Lengths>& t_max) const {
     const Rays rays = rays_of(origins, directions, t_max);
@@ -85,8 +86,8 @@ class ArrayTracer {
     const nb::capsule owns_t(t, [](void* p) noexcept { delete[] static_cast<float*>(p); });
     auto* const ids = new std::uint32_t[rays.count];
     const nb::capsule owns_ids(ids, [](void* p) noexcept { delete[] static_cast<std::uint32_t*>(p); });
-    without_gil([&] {
-      for_chunks(rays.count, threads_, [&](std::size_t first, std::size_t last) {
+    without_gil([&](Progress* progress) {
+      for_chunks(rays.count, threads_, progress, [&](std::size_t first, std::size_t last) {
         static thread_local std::vector<Ray> some(kChunk);
         static thread_local std::vector<Hit> hits(kChunk);
         for (std::size_t i = first; i < last; ++i) some[i - first] = rays.ray(i);
@@ -102,8 +103,8 @@ class ArrayTracer {
     const Rays rays = rays_of(origins, directions, t_max);
     auto* const blocked = new std::uint8_t[rays.count];
     const nb::capsule owns(blocked, [](void* p) noexcept { delete[] static_cast<std::uint8_t*>(p); });
-    without_gil([&] {
-      for_chunks(rays.count, threads_, [&](std::size_t first, std::size_t last) {
+    without_gil([&](Progress* progress) {
+      for_chunks(rays.count, threads_, progress, [&](std::size_t first, std::size_t last) {
         static thread_local std::vector<Ray> some(kChunk);
         for (std::size_t i = first; i < last; ++i) some[i - first] = rays.ray(i);
         tracer_.occluded(std::span(some).first(last - first), {blocked + first, last - first});
@@ -126,7 +127,7 @@ void bind_tracer(nb::module_& module) {
           "__init__",
           [](ArrayTracer* self, const Floats3& vertices, const Words3& triangles, int threads) {
             const auto mesh = mesh_of(vertices, triangles);
-            without_gil([&] { return new (self) ArrayTracer(mesh, threads); });
+            without_gil([&](Progress* progress) { return new (self) ArrayTracer(mesh, threads, progress); });
           },
           "vertices"_a, "triangles"_a, "threads"_a = 0,
           "vertices: (n, 3); triangles: (m, 3) indices. threads: 0 is one a core.")
