@@ -29,11 +29,21 @@ T value_or_throw(Expected<T>&& expected) {
   if constexpr (!std::is_void_v<T>) return std::move(*expected);
 }
 
-using Floats3 = nb::ndarray<const float, nb::shape<-1, 3>, nb::c_contig, nb::device::cpu>;
-using Floats2 = nb::ndarray<const float, nb::shape<-1, 2>, nb::c_contig, nb::device::cpu>;
-using Words3 = nb::ndarray<const std::uint32_t, nb::shape<-1, 3>, nb::c_contig, nb::device::cpu>;
-using Words = nb::ndarray<const std::uint32_t, nb::shape<-1>, nb::c_contig, nb::device::cpu>;
-using Matrix = nb::ndarray<const double, nb::shape<4, 4>, nb::c_contig, nb::device::cpu>;
+// Whatever NumPy can make such an array of: without a copy, where it is one already.
+template <class T, class Shape>
+struct Like {
+  nb::ndarray<const T, Shape, nb::c_contig, nb::device::cpu> array;
+
+  [[nodiscard]] const T* data() const { return array.data(); }
+  [[nodiscard]] std::size_t shape(std::size_t i) const { return array.shape(i); }
+};
+using Floats3 = Like<float, nb::shape<-1, 3>>;
+using Floats2 = Like<float, nb::shape<-1, 2>>;
+using Floats = Like<float, nb::shape<-1>>;
+using Words3 = Like<std::uint32_t, nb::shape<-1, 3>>;
+using Words = Like<std::uint32_t, nb::shape<-1>>;
+using Matrix = Like<double, nb::shape<4, 4>>;
+using Texels = Like<std::uint8_t, nb::ndim<3>>;
 
 template <class To, class Array>
 std::vector<To> copied(const Array& array) {
@@ -46,7 +56,7 @@ inline glm::mat4 matrix_of(const Matrix& m) {
   glm::mat4 result;
   for (int row = 0; row < 4; ++row)
     for (int column = 0; column < 4; ++column)
-      result[column][row] = static_cast<float>(m(static_cast<std::size_t>(row), static_cast<std::size_t>(column)));
+      result[column][row] = static_cast<float>(m.data()[4 * row + column]);
   return result;
 }
 
@@ -59,6 +69,25 @@ nb::ndarray<nb::numpy, T> view_of(T* data, std::initializer_list<std::size_t> sh
 }  // namespace pinocchio::python
 
 namespace nanobind::detail {
+
+template <class T, class Shape>
+struct type_caster<pinocchio::python::Like<T, Shape>> {
+  using Wanted = pinocchio::python::Like<T, Shape>;
+  NB_TYPE_CASTER(Wanted, const_name("numpy.typing.ArrayLike"))
+
+  bool from_python(handle source, uint8_t, cleanup_list*) noexcept {
+    constexpr const char* kType = std::is_same_v<T, float>           ? "float32"
+                                  : std::is_same_v<T, double>        ? "float64"
+                                  : std::is_same_v<T, std::uint32_t> ? "uint32"
+                                                                     : "uint8";
+    try {
+      const object array = module_::import_("numpy").attr("ascontiguousarray")(source, kType);
+      return try_cast(array, value.array, false);
+    } catch (const std::exception&) {
+      return false;
+    }
+  }
+};
 
 // A vector is any sequence of that many numbers, and a tuple on its way back.
 template <int N>

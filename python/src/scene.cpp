@@ -13,8 +13,6 @@
 namespace pinocchio::python {
 namespace {
 
-using Texels = nb::ndarray<const std::uint8_t, nb::ndim<3>, nb::c_contig, nb::device::cpu>;
-
 // A material, and the texture that it brings along.
 struct TexturedMaterial {
   Material material;

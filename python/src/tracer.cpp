@@ -13,7 +13,6 @@
 namespace pinocchio::python {
 namespace {
 
-using Lengths = nb::ndarray<const float, nb::shape<-1>, nb::c_contig, nb::device::cpu>;
 constexpr std::size_t kChunk = 4096;  // rays that a thread takes at once
 
 std::shared_ptr<const Mesh> mesh_of(const Floats3& vertices, const Words3& triangles) {
@@ -38,7 +37,7 @@ struct Rays {
   }
 };
 
-Rays rays_of(const Floats3& origins, const Floats3& directions, const std::optional<Lengths>& t_max) {
+Rays rays_of(const Floats3& origins, const Floats3& directions, const std::optional<Floats>& t_max) {
   const std::size_t n = directions.shape(0);
   if (origins.shape(0) != n && origins.shape(0) != 1)
     throw Error("there are " + std::to_string(origins.shape(0)) + " origins and " + std::to_string(n) +
@@ -80,7 +79,7 @@ class ArrayTracer {
       : threads_(threads > 0 ? threads : static_cast<int>(std::max(1u, std::thread::hardware_concurrency()))),
         tracer_(std::move(mesh), BuildOptions{.threads = threads_, .progress = progress}) {}
 
-  nb::tuple closest_hits(const Floats3& origins, const Floats3& directions, const std::optional<Lengths>& t_max) const {
+  nb::tuple closest_hits(const Floats3& origins, const Floats3& directions, const std::optional<Floats>& t_max) const {
     const Rays rays = rays_of(origins, directions, t_max);
     auto* const t = new float[rays.count];
     const nb::capsule owns_t(t, [](void* p) noexcept { delete[] static_cast<float*>(p); });
@@ -99,7 +98,7 @@ class ArrayTracer {
     return nb::make_tuple(view_of(t, {rays.count}, owns_t), view_of(ids, {rays.count}, owns_ids));
   }
 
-  auto occluded(const Floats3& origins, const Floats3& directions, const std::optional<Lengths>& t_max) const {
+  auto occluded(const Floats3& origins, const Floats3& directions, const std::optional<Floats>& t_max) const {
     const Rays rays = rays_of(origins, directions, t_max);
     auto* const blocked = new std::uint8_t[rays.count];
     const nb::capsule owns(blocked, [](void* p) noexcept { delete[] static_cast<std::uint8_t*>(p); });
