@@ -109,16 +109,18 @@ void unpack_mask(const FrameResult& frame, std::uint8_t* to) {
       *to++ = static_cast<std::uint8_t>(frame.mask.bits() > 0 ? frame.mask.get(x, y) : 0u);
 }
 
-void write_exr(const std::filesystem::path& file, const FrameResult& frame, const std::string& layers,
-               std::optional<double> render_s, Progress* progress) {
-  const Expected<AovSet> aovs = parse_aovs(layers);
+void write_exr(const std::filesystem::path& file, const FrameResult& frame, const ExrOptions& options,
+               Progress* progress) {
+  const Expected<AovSet> aovs = parse_aovs(options.layers);
   if (!aovs) throw std::invalid_argument(aovs.error().message());
   const View& view = frame.view;
   const SurfaceImages surfaces = surfaces_of(frame);
   const FrameOutput output{view.size,       view.box(), frame.scene,      view.camera, frame.color, frame.ids,
                            frame.mask,      frame.reflection, surfaces,
-                           to_json(frame.settings, false).dump(), render_s};
-  write_exr(file, frame_exr(output, *aovs), progress);
+                           to_json(frame.settings, false).dump(), options.render_s};
+  ExrFile exr = frame_exr(output, *aovs);
+  exr.compression = options.compression;
+  write_exr(file, exr, progress);
 }
 
 }  // namespace pinocchio

@@ -38,6 +38,22 @@ Imf::PixelType imf_type(ExrChannel::Type type) {
   return Imf::HALF;
 }
 
+Imf::Compression imf_compression(ExrCompression compression) {
+  switch (compression) {
+    case ExrCompression::zip:
+      return Imf::ZIP_COMPRESSION;
+    case ExrCompression::zips:
+      return Imf::ZIPS_COMPRESSION;
+    case ExrCompression::piz:
+      return Imf::PIZ_COMPRESSION;
+    case ExrCompression::rle:
+      return Imf::RLE_COMPRESSION;
+    case ExrCompression::none:
+      return Imf::NO_COMPRESSION;
+  }
+  return Imf::ZIP_COMPRESSION;
+}
+
 half to_half(float value) {
   return half(std::isfinite(value) ? std::clamp(value, -kLargestHalf, kLargestHalf) : value);
 }
@@ -70,7 +86,7 @@ Imf::Header header_of(const ExrFile& exr) {
   const Imath::Box2i data(Imath::V2i(exr.data_window.lo.x, exr.data_window.lo.y),
                           Imath::V2i(exr.data_window.hi.x - 1, exr.data_window.hi.y - 1));
   Imf::Header header(display, data);
-  header.compression() = Imf::ZIP_COMPRESSION;
+  header.compression() = imf_compression(exr.compression);
   Imf::addChromaticities(header, Imf::Chromaticities());  // the default is Rec. 709
   for (const auto& [name, value] : exr.attributes) std::visit(InsertAttribute{header, name}, value);
   for (const ExrChannel& channel : exr.channels)

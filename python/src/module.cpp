@@ -12,6 +12,8 @@ NB_MODULE(_core, module) {
           std::rethrow_exception(thrown);
         } catch (const EnvironmentError& failed) {
           PyErr_SetString(static_cast<PyObject*>(type), failed.what());
+        } catch (const std::invalid_argument& wrong) {  // no such layer of an EXR
+          PyErr_SetString(static_cast<PyObject*>(type), wrong.what());
         }
       },
       error.ptr());

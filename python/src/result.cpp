@@ -103,12 +103,14 @@ void bind_result(nb::module_& module) {
       .def_prop_ro("record", &record, "What it cost: 'ms', 'stages' (ms), 'bytes', 'rays'.")
       .def_prop_ro("camera", [](const Result& r) { return r.frame.view.camera; })
       .def("write_exr",
-           [](const Result& r, const std::filesystem::path& path, const std::string& aov) {
-             without_gil([&](Progress* progress) { return write_exr(path, r.frame, aov, 1e-3 * r.ms, progress), true; });
+           [](const Result& r, const std::filesystem::path& path, const std::string& aov, bool deterministic) {
+             ExrOptions options{.layers = aov};
+             if (!deterministic) options.render_s = 1e-3 * r.ms;
+             without_gil([&](Progress* progress) { return write_exr(path, r.frame, options, progress), true; });
            },
-           "path"_a, "aov"_a = "all",
+           "path"_a, "aov"_a = "all", "deterministic"_a = false,
            "The picture with its layers, as the program writes it. aov: 'all', 'none' or some of Z, P, N, Albedo, id,\n"
-           "shadow, reflection, with commas between.");
+           "shadow, reflection, with commas between. deterministic: leaves out how long it took.");
 }
 
 }  // namespace pinocchio::python
