@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "parts.h"
+#include "python/src/parts.h"
 
 namespace pinocchio::python {
 namespace {

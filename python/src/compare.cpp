@@ -5,9 +5,9 @@
 #include <cmath>
 #include <nanobind/stl/filesystem.h>
 
-#include "interrupt.h"
-#include "parts.h"
-#include "result.h"
+#include "python/src/interrupt.h"
+#include "python/src/parts.h"
+#include "python/src/result.h"
 
 namespace pinocchio::python {
 namespace {

@@ -9,10 +9,10 @@
 #include <nanobind/stl/variant.h>
 #include <thread>
 
-#include "interrupt.h"
-#include "parts.h"
-#include "render_settings.h"
-#include "result.h"
+#include "python/src/interrupt.h"
+#include "python/src/parts.h"
+#include "python/src/render_settings.h"
+#include "python/src/result.h"
 
 namespace pinocchio::python {
 namespace {

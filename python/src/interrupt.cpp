@@ -1,4 +1,4 @@
-#include "interrupt.h"
+#include "python/src/interrupt.h"
 
 namespace pinocchio::python {
 namespace {

@@ -6,7 +6,7 @@
 #include <csignal>
 #include <optional>
 
-#include "convert.h"
+#include "python/src/convert.h"
 
 namespace pinocchio::python {
 

@@ -1,4 +1,4 @@
-#include "parts.h"
+#include "python/src/parts.h"
 
 NB_MODULE(_core, module) {
   using namespace pinocchio;

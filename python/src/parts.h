@@ -1,7 +1,7 @@
 // The parts of the module, a file each.
 #pragma once
 
-#include "convert.h"
+#include "python/src/convert.h"
 
 namespace pinocchio::python {
 

@@ -1,4 +1,4 @@
-#include "render_settings.h"
+#include "python/src/render_settings.h"
 
 #include <algorithm>
 

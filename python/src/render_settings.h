@@ -3,7 +3,7 @@
 
 #include <pinocchio/settings.h>
 
-#include "convert.h"
+#include "python/src/convert.h"
 
 namespace pinocchio::python {
 

@@ -1,9 +1,9 @@
-#include "result.h"
+#include "python/src/result.h"
 
 #include <nanobind/stl/filesystem.h>
 
-#include "interrupt.h"
-#include "parts.h"
+#include "python/src/interrupt.h"
+#include "python/src/parts.h"
 
 namespace pinocchio::python {
 namespace {

@@ -7,8 +7,8 @@
 #include <functional>
 #include <thread>
 
-#include "interrupt.h"
-#include "parts.h"
+#include "python/src/interrupt.h"
+#include "python/src/parts.h"
 
 namespace pinocchio::python {
 namespace {

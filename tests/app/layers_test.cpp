@@ -1,6 +1,6 @@
 // Includes run one way: app -> hybrid -> {core, gl}; core and gl never see each other, and within core a
 // room sees only rooms below it. The laboratory (bench, scenes/generator) sees the libraries, which do not
-// see it, nor does the program but for the verbs that run it.
+// see it, nor does the program but for the verbs that run it. The Python module sees public headers alone.
 #include <gtest/gtest.h>
 
 #include <filesystem>
@@ -23,6 +23,7 @@ const Rooms kMaySee{{"core", {"shaders"}},
                     {"gl", {}},
                     {"hybrid", {"core", "gl"}},
                     {"app", {"core", "gl", "hybrid", "bench", "scenes"}},
+                    {"python", {}},
                     {"scenes", {"core"}},
                     {"bench", {"core", "gl", "hybrid", "scenes"}}};
 // Who of the program may see the laboratory.
