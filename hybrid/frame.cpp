@@ -4,6 +4,7 @@
 #include <stdexcept>
 
 #include "hybrid/engine_parts.h"
+#include "core/image/exr_bands.h"
 #include "core/output/frame_exr.h"
 #include "core/parallel/workers.h"
 #include "core/trace/aov.h"
@@ -98,8 +99,21 @@ FrameResult Frame::read() const {
 SurfaceImages surfaces_of(const FrameResult& frame) {
   View view = frame.view;
   view.jitter = glm::vec2(0.0f);
+  const shared::ViewParams params = view_params(view);
+  const glm::ivec2 size = frame.ids.size();
+  SurfaceImages all{Image<float>(size), Image<glm::vec3>(size), Image<glm::vec3>(size), Image<glm::vec3>(size)};
+  constexpr int kLines = 16;  // that a thread takes at once
   Workers workers(frame.settings.threads);
-  return surface_images(*frame.scene.mesh, view_params(view), workers, frame.ids);
+  workers.for_each(static_cast<std::size_t>((size.y + kLines - 1) / kLines), [&](std::size_t i) {
+    const int y0 = static_cast<int>(i) * kLines, y1 = std::min(y0 + kLines, size.y);
+    const SurfaceImages lines = surface_images(*frame.scene.mesh, params, frame.ids, y0, y1);
+    const auto put = [&](const auto& from, auto& to) { std::ranges::copy(from.pixels(), &to.at(0, y0)); };
+    put(lines.z_eye, all.z_eye);
+    put(lines.p_world, all.p_world);
+    put(lines.n_shading, all.n_shading);
+    put(lines.albedo, all.albedo);
+  });
+  return all;
 }
 
 void unpack_mask(const FrameResult& frame, std::uint8_t* to) {
@@ -113,14 +127,19 @@ void write_exr(const std::filesystem::path& file, const FrameResult& frame, cons
                Progress* progress) {
   const Expected<AovSet> aovs = parse_aovs(options.layers);
   if (!aovs) throw std::invalid_argument(aovs.error().message());
-  const View& view = frame.view;
-  const SurfaceImages surfaces = surfaces_of(frame);
+  View view = frame.view;
+  view.jitter = glm::vec2(0.0f);
+  Workers workers(frame.settings.threads);
+  const shared::ViewParams params = view_params(view);
+  const auto surfaces = [&](int y0, int y1) {
+    return surface_images(*frame.scene.mesh, params, frame.ids, y0, y1);
+  };
   const FrameOutput output{view.size,       view.box(), frame.scene,      view.camera, frame.color, frame.ids,
                            frame.mask,      frame.reflection, surfaces,
                            to_json(frame.settings, false).dump(), options.render_s};
-  ExrFile exr = frame_exr(output, *aovs);
-  exr.compression = options.compression;
-  write_exr(file, exr, progress);
+  ExrFile header = frame_exr(output, *aovs, 0, 0);
+  header.compression = options.compression;
+  write_exr(file, header, workers, [&](int y0, int y1) { return frame_channels(output, *aovs, y0, y1); }, progress);
 }
 
 }  // namespace pinocchio

@@ -148,14 +148,14 @@ class Open3d:
         os.environ["LP_NUM_THREADS"] = str(threads)
         import open3d
 
-        self.of, self.renderer, self.size = open3d, None, None
+        self.of, self.renderers = open3d, {}  # none is ever closed: it ends the process
         self.mesh = open3d.geometry.TriangleMesh(open3d.utility.Vector3dVector(mesh[0]), open3d.utility.Vector3iVector(mesh[1].astype(numpy.int32)))
         self.mesh.vertex_normals = open3d.utility.Vector3dVector(mesh[2])
 
     def frames(self, size, first, count):
         rendering = self.of.visualization.rendering
-        if self.size != size:
-            self.renderer, self.size = rendering.OffscreenRenderer(*size), size
+        if size not in self.renderers:
+            self.renderer = self.renderers[size] = rendering.OffscreenRenderer(*size)
             material = rendering.MaterialRecord()
             material.shader = "defaultLit"
             self.renderer.scene.add_geometry("ball", self.mesh, material)
@@ -277,8 +277,8 @@ def main():
     parser.add_argument("--child", action="store_true", help=argparse.SUPPRESS)
     o = parser.parse_args()
     if o.child:
-        print(json.dumps(measure(o.only[0], o.triangles[0], o.seconds, o.threads)))
-        return
+        print(json.dumps(measure(o.only[0], o.triangles[0], o.seconds, o.threads)), flush=True)
+        os._exit(0)
     results = json.load(open(o.results)) if os.path.exists(o.results) else {}
     for name in [] if o.table else o.only:
         for triangles in o.triangles:

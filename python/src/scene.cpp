@@ -124,8 +124,8 @@ Scene scene_of(const Floats3& vertices, const Words3& triangles, const std::opti
 Scene load(const std::filesystem::path& path) {
   Warnings warnings;
   Scene scene = value_or_throw(without_gil([&](Progress* progress) { return load_scene(path, &warnings, progress); }));
-  for (const std::string& warning : warnings)
-    if (PyErr_WarnEx(PyExc_UserWarning, warning.c_str(), 1) != 0) throw nb::python_error();
+  for (const Warning& warning : warnings)
+    if (PyErr_WarnEx(PyExc_UserWarning, warning.message().c_str(), 1) != 0) throw nb::python_error();
   return scene;
 }
 

@@ -97,7 +97,7 @@ struct ExrOptions {
 };
 
 // The picture with its layers and attributes, one part, scene-linear. Whole or not at all; throws
-// EnvironmentError where it cannot be written. Source: OpenEXR's standard attributes.
+// EnvironmentError where it cannot be written. Source: OpenEXR's standard attributes. Phase "write".
 void write_exr(const std::filesystem::path& file, const FrameResult& frame, const ExrOptions& options = {},
                Progress* progress = nullptr);
 
