@@ -1,6 +1,8 @@
 // Scenes whose nodes move.
 #include "pinocchio/nodes.h"
 
+#include <array>
+#include <cmath>
 #include <glm/gtc/matrix_transform.hpp>
 
 #include "tests/support/scenes.h"
@@ -22,7 +24,7 @@ Scene one_triangle(const std::string& light = {}) {
 
 class Nodes : public testing::TestWithParam<std::string> {};
 INSTANTIATE_TEST_SUITE_P(Scenes, Nodes, testing::Values("scenes/cornell.gltf", "scenes/two-lights.gltf", "scenes/speedboat.glb"),
-                         [](const auto& info) { return std::to_string(info.index); });
+                         [](const auto& scene) { return "scene" + std::to_string(scene.index); });
 
 // Away and back: the file's scene, to the last bit.
 TEST_P(Nodes, ComeBackToWhereTheyWere) {

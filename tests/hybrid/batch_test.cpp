@@ -1,6 +1,7 @@
 // Many pictures into arrays are, bit for bit, the pictures one by one; measured cameras on both processors.
 #include "pinocchio/batch.h"
 
+#include <atomic>
 #include <cstdlib>
 #include <new>
 
@@ -85,7 +86,7 @@ void expect_as_one_by_one(const Scene& scene, Settings settings) {
 
 class Batch : public testing::TestWithParam<std::string> {};
 INSTANTIATE_TEST_SUITE_P(Scenes, Batch, testing::ValuesIn(own_scenes()),
-                         [](const auto& info) { return std::to_string(info.index); });
+                         [](const auto& scene) { return "scene" + std::to_string(scene.index); });
 
 TEST_P(Batch, IsThePicturesOneByOne) {
   const Scene scene = load_or_die(source_path(GetParam()));
