@@ -96,6 +96,33 @@ FrameResult Frame::read() const {
   return result;
 }
 
+SurfaceImages surfaces_of(const FrameResult& frame) {
+  View view = frame.view;
+  view.jitter = glm::vec2(0.0f);
+  const shared::ViewParams params = view_params(view);
+  const glm::ivec2 size = frame.ids.size();
+  SurfaceImages all{Image<float>(size), Image<glm::vec3>(size), Image<glm::vec3>(size), Image<glm::vec3>(size)};
+  constexpr int kLines = 16;  // that a thread takes at once
+  Workers workers(frame.settings.threads);
+  workers.for_each(static_cast<std::size_t>((size.y + kLines - 1) / kLines), [&](std::size_t i) {
+    const int y0 = static_cast<int>(i) * kLines, y1 = std::min(y0 + kLines, size.y);
+    const SurfaceImages lines = surface_images(*frame.scene.mesh, params, frame.ids, y0, y1);
+    const auto put = [&](const auto& from, auto& to) { std::ranges::copy(from.pixels(), &to.at(0, y0)); };
+    put(lines.z_eye, all.z_eye);
+    put(lines.p_world, all.p_world);
+    put(lines.n_shading, all.n_shading);
+    put(lines.albedo, all.albedo);
+  });
+  return all;
+}
+
+void unpack_mask(const FrameResult& frame, std::uint8_t* to) {
+  const glm::ivec2 size = frame.ids.size();
+  for (int y = 0; y < size.y; ++y)
+    for (int x = 0; x < size.x; ++x)
+      *to++ = static_cast<std::uint8_t>(frame.mask.bits() > 0 ? frame.mask.get(x, y) : 0u);
+}
+
 void write_exr(const std::filesystem::path& file, const FrameResult& frame, const ExrOptions& options,
                Progress* progress) {
   const Expected<AovSet> aovs = parse_aovs(options.layers);

@@ -35,13 +35,6 @@ bool reprojects_to(const FrameSlot& older, const FrameSlot& newer) {
          a.mask_bits == b.mask_bits && a.reflection == b.reflection && a.id_bits == b.id_bits;
 }
 
-// Lights that cast nothing in this frame: those that reach nothing, and all where it has no shadows.
-void settle_lights(FrameRequest& request) {
-  drop_idle_casters(request.scene);
-  if (request.settings.mask_bits > 0) return;
-  for (Light& light : request.scene.lights) light.casts_shadow = false;
-}
-
 bool is_done(const std::future<void>& tracing) {
   return tracing.wait_for(std::chrono::seconds(0)) == std::future_status::ready;
 }
@@ -89,7 +82,7 @@ class Renderer::Loop {
 
 void Renderer::Loop::submit(FrameRequest request) {
   throw_if_cancelled(progress_);
-  settle_lights(request);
+  settle_lights(request.scene, request.settings);
   if (const FrameSlot* const last = frames_back(0);
       last && last->request.settings.exchange != request.settings.exchange)
     drain();
@@ -117,7 +110,7 @@ bool Renderer::Loop::try_submit(FrameRequest request) {
     submit(std::move(request));
     return true;
   }
-  settle_lights(request);
+  settle_lights(request.scene, request.settings);
   if (repeat(request)) return true;
   drain();
   start_trace(begin(std::move(request)));

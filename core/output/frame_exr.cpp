@@ -117,10 +117,12 @@ glm::mat4 world_to_camera(const Camera& camera) {
 glm::mat4 world_to_ndc(const Camera& camera, glm::ivec2 size) {
   const CameraAxes axes = camera_axes(camera);
   const double height = 2.0 * std::tan(glm::radians(static_cast<double>(camera.fov_deg)) * 0.5);
-  const double width = height * size.x / size.y;
+  const double aspect = static_cast<double>(size.x) / size.y;
+  const double width = height * aspect * static_cast<double>(camera.pixel_aspect);
+  const glm::dvec2 axis = 0.5 + glm::dvec2(camera.axis_shift) / glm::dvec2(aspect, 1.0);
   const glm::dvec4 z = along(axes.forward, camera.eye);
-  return from_rows(along(axes.right, camera.eye) / width + 0.5 * z,
-                   0.5 * z - along(axes.up, camera.eye) / height, {0, 0, 0, 1}, z);
+  return from_rows(along(axes.right, camera.eye) / width + axis.x * z,
+                   axis.y * z - along(axes.up, camera.eye) / height, {0, 0, 0, 1}, z);
 }
 
 std::string lights_json(const Scene& scene) {

@@ -35,13 +35,8 @@ constexpr std::size_t kTrianglesBetweenLooks = 1 << 16;
 
 class MeshPlacer {
  public:
-  MeshPlacer(const GltfFile& file, const glm::mat4& world_from_mesh, MeshData& mesh)
-      : file_(file),
-        world_from_mesh_(world_from_mesh),
-        normals_to_world_(glm::transpose(glm::inverse(glm::mat3(world_from_mesh)))),
-        mirrored_(glm::determinant(glm::mat3(world_from_mesh)) < 0.0f),
-        identity_(world_from_mesh == glm::mat4(1.0f)),
-        mesh_(mesh) {}
+  MeshPlacer(const GltfFile& file, const glm::mat4& world_from_mesh, MeshData& mesh, RestPose& rest)
+      : file_(file), placement_(world_from_mesh), mesh_(mesh), rest_(rest) {}
 
   Expected<void> add(const tinygltf::Primitive& primitive, std::uint32_t default_material) {
     const Expected<std::uint32_t> first =
@@ -71,7 +66,7 @@ class MeshPlacer {
       if (i % kTrianglesBetweenLooks == 0) throw_if_cancelled(file_.progress);
       const std::array<std::size_t, 3> at = corners_of(primitive.mode, i);
       glm::uvec3 triangle(indices[at[0]], indices[at[1]], indices[at[2]]);
-      if (mirrored_) std::swap(triangle.y, triangle.z);
+      if (placement_.mirrors()) std::swap(triangle.y, triangle.z);
       mesh_.triangles.push_back(triangle + *first);
       mesh_.triangle_materials.push_back(
           primitive.material >= 0 ? static_cast<std::uint32_t>(primitive.material) : default_material);
@@ -102,10 +97,13 @@ class MeshPlacer {
     for (std::size_t i = 0; i < count; ++i) {
       const float *t1 = &(*texcoords1)[2 * i], *u = &(*tangents)[4 * i];
       mesh_.texcoords1.emplace_back(t1[0], t1[1]);
-      mesh_.tangents.push_back(placed_tangent({u[0], u[1], u[2], u[3]}));
+      rest_.tangents.emplace_back(u[0], u[1], u[2], u[3]);
+      mesh_.tangents.push_back(placement_.tangent(rest_.tangents.back()));
       const float *p = &(*positions)[3 * i], *n = &(*normals)[3 * i], *t = &(*texcoords)[2 * i];
-      mesh_.positions.push_back(placed({p[0], p[1], p[2]}));
-      mesh_.normals.push_back(placed_normal({n[0], n[1], n[2]}));
+      rest_.positions.emplace_back(p[0], p[1], p[2]);
+      rest_.normals.emplace_back(n[0], n[1], n[2]);
+      mesh_.positions.push_back(placement_.position(rest_.positions.back()));
+      mesh_.normals.push_back(placement_.normal(rest_.normals.back()));
       mesh_.texcoords.emplace_back(t[0], t[1]);
     }
     counts_[at->second] = count;
@@ -137,28 +135,10 @@ class MeshPlacer {
     return values;
   }
 
-  // The identity keeps every bit, -0 and all.
-  [[nodiscard]] glm::vec3 placed(const glm::vec3& p) const {
-    return identity_ ? p : glm::vec3(world_from_mesh_ * glm::vec4(p, 1.0f));
-  }
-  [[nodiscard]] glm::vec3 placed_normal(const glm::vec3& n) const {
-    if (identity_ || n == glm::vec3(0.0f)) return n;
-    const glm::vec3 world = normals_to_world_ * n;
-    const float length = glm::length(world);
-    return length > 0.0f && std::isfinite(length) ? world / length : glm::vec3(0.0f);
-  }
-
-  // A mirrored mesh has its bitangents on the other side.
-  [[nodiscard]] glm::vec4 placed_tangent(const glm::vec4& t) const {
-    if (t.w == 0.0f) return glm::vec4(0.0f);
-    return {glm::mat3(world_from_mesh_) * glm::vec3(t), mirrored_ ? -t.w : t.w};
-  }
-
   const GltfFile& file_;
-  glm::mat4 world_from_mesh_;
-  glm::mat3 normals_to_world_;
-  bool mirrored_, identity_;
+  Placement placement_;
   MeshData& mesh_;
+  RestPose& rest_;
   std::map<Attributes, std::uint32_t> placed_;
   std::map<std::uint32_t, std::size_t> counts_;  // of vertices, by the first of them
 };
@@ -166,12 +146,12 @@ class MeshPlacer {
 }  // namespace
 
 Expected<void> add_gltf_mesh(const GltfFile& file, int mesh, const glm::mat4& world_from_mesh,
-                             std::uint32_t default_material, MeshData& to,
+                             std::uint32_t default_material, MeshData& to, RestPose& rest,
                              Warnings& warnings) {
   if (mesh < 0 || static_cast<std::size_t>(mesh) >= file.model.meshes.size())
     return file.error("a node names mesh " + std::to_string(mesh) + ", there are " +
                       std::to_string(file.model.meshes.size()));
-  MeshPlacer placer(file, world_from_mesh, to);
+  MeshPlacer placer(file, world_from_mesh, to, rest);
   for (const tinygltf::Primitive& primitive : file.model.meshes[static_cast<std::size_t>(mesh)].primitives) {
     if (primitive.mode >= TINYGLTF_MODE_POINTS && primitive.mode <= TINYGLTF_MODE_LINE_STRIP) {
       const bool points = primitive.mode == TINYGLTF_MODE_POINTS;

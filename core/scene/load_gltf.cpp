@@ -71,6 +71,20 @@ Camera camera_of(const tinygltf::Camera& c, const tinygltf::Node& node, const gl
   return camera;
 }
 
+// As the node sees it.
+Light at_rest(const glm::mat4& /*world*/, Light light) {
+  light.position = glm::vec3(0.0f);
+  light.direction = {0, 0, -1};
+  return light;
+}
+Camera at_rest(const glm::mat4& world, Camera camera) {
+  const Placement to_node(glm::inverse(world));
+  camera.eye = glm::vec3(0.0f);
+  camera.target = to_node.position(camera.target);
+  camera.up = to_node.direction(camera.up);
+  return camera;
+}
+
 bool can_look(const Camera& camera) {
   return camera.fov_deg > 0.0f && camera.fov_deg < 180.0f && is_finite(camera.eye) &&
          is_finite(camera.target) && is_finite(camera.up);
@@ -107,7 +121,7 @@ class SceneReader {
 
   Expected<Scene> read() {
     std::vector<Placed> open;
-    for (const int root : roots()) open.push_back({root, glm::mat4(1.0f)});
+    for (const int root : roots()) open.push_back({root, -1, glm::mat4(1.0f)});
     std::reverse(open.begin(), open.end());  // the file's order, from the back
     std::vector<bool> seen(model_.nodes.size(), false);
     begin_phase(file_.progress, "mesh", static_cast<double>(model_.nodes.size()));
@@ -123,21 +137,44 @@ class SceneReader {
         return file_.error("reaches node " + std::to_string(at.node) + " twice: nodes are no tree");
       seen[index] = true;
       const tinygltf::Node& node = model_.nodes[index];
-      const glm::mat4 world = at.parent * matrix_of(node);
+      const glm::mat4 local = matrix_of(node), world = at.world_from_parent * local;
+      begin(node, at.parent, local);
       if (const Expected<void> added = add(node, world); !added) return Unexpected(added.error());
+      end(world);
+      const int place = static_cast<int>(tree_.nodes.size()) - 1;
       for (auto child = node.children.rbegin(); child != node.children.rend(); ++child)
-        open.push_back({*child, world});
+        open.push_back({*child, place, world});
     }
     finish();
     scene_.mesh = std::make_shared<const Mesh>(std::move(mesh_));
+    tree_.rest = std::make_shared<const RestPose>(std::move(rest_));
+    scene_.nodes = std::make_shared<const NodeTree>(std::move(tree_));
     return std::move(scene_);
   }
 
  private:
   struct Placed {
-    int node;
-    glm::mat4 parent;
+    int node, parent;  // in the file; in tree_
+    glm::mat4 world_from_parent;
   };
+
+  // What is added between the two moves with this node.
+  void begin(const tinygltf::Node& node, int parent, const glm::mat4& local) {
+    tree_.nodes.push_back({node.name, parent, local, static_cast<std::uint32_t>(mesh_.positions.size()), 0,
+                           static_cast<std::uint32_t>(mesh_.triangles.size()), 0});
+    lights_before_ = scene_.lights.size();
+    cameras_before_ = scene_.cameras.size();
+  }
+  void end(const glm::mat4& world) {
+    Node& node = tree_.nodes.back();
+    node.vertices = static_cast<std::uint32_t>(mesh_.positions.size()) - node.first_vertex;
+    node.triangles = static_cast<std::uint32_t>(mesh_.triangles.size()) - node.first_triangle;
+    const int index = static_cast<int>(tree_.nodes.size()) - 1;
+    for (std::size_t i = lights_before_; i < scene_.lights.size(); ++i)
+      rest_.lights.push_back({index, i, at_rest(world, scene_.lights[i])});
+    for (std::size_t i = cameras_before_; i < scene_.cameras.size(); ++i)
+      rest_.cameras.push_back({index, i, at_rest(world, scene_.cameras[i])});
+  }
 
   // The default scene's, else the first scene's, else every node that is nobody's child.
   [[nodiscard]] std::vector<int> roots() const {
@@ -161,7 +198,7 @@ class SceneReader {
   Expected<void> add(const tinygltf::Node& node, const glm::mat4& world) {
     if (node.mesh >= 0) {
       const auto default_material = static_cast<std::uint32_t>(mesh_.materials.size() - 1);
-      const Expected<void> added = add_gltf_mesh(file_, node.mesh, world, default_material, mesh_, warnings_);
+      const Expected<void> added = add_gltf_mesh(file_, node.mesh, world, default_material, mesh_, rest_, warnings_);
       if (!added) return added;
     }
     if (node.camera >= 0 && static_cast<std::size_t>(node.camera) < model_.cameras.size()) {
@@ -218,6 +255,9 @@ class SceneReader {
   Warnings& warnings_;
   Scene scene_;
   MeshData mesh_;
+  NodeTree tree_;
+  RestPose rest_;
+  std::size_t lights_before_ = 0, cameras_before_ = 0;
 };
 
 }  // namespace

@@ -10,7 +10,7 @@ SurfaceImages surface_images(const Mesh& mesh, const shared::ViewParams& view, c
   const glm::ivec2 size{ids.width(), y1 - y0};
   SurfaceImages images{Image<float>(size, kInfinity), Image<glm::vec3>(size, glm::vec3(0.0f)),
                        Image<glm::vec3>(size, glm::vec3(0.0f)), Image<glm::vec3>(size, glm::vec3(0.0f))};
-  const glm::vec3 forward = -glm::normalize(glm::cross(view.step_x, -view.step_y));
+  const glm::vec3 forward = view_axis(view);
   const Footprint footprint = filter_textures ? Footprint::of_camera(view) : Footprint{};
   for (int y = y0; y < y1; ++y)
     for (int x = 0; x < size.x; ++x) {

@@ -16,6 +16,7 @@
 #include "pinocchio/ray_counts.h"
 #include "pinocchio/scene.h"
 #include "pinocchio/settings.h"
+#include "pinocchio/surface_images.h"
 #include "pinocchio/view.h"
 
 namespace pinocchio {
@@ -82,6 +83,12 @@ struct FrameResult {
   FrameRecord record;           // without what is known later only: the GPU's times
   std::size_t holes = 0;        // reprojected: pixels that no older frame had an answer for
 };
+
+// What the frame's visible points are like, from its ids.
+[[nodiscard]] SurfaceImages surfaces_of(const FrameResult& frame);
+
+// Its shadow mask, a byte a pixel whatever its bits; `to` has room for all.
+void unpack_mask(const FrameResult& frame, std::uint8_t* to);
 
 struct ExrOptions {
   std::string layers = "all";  // or "none", or some of Z, P, N, Albedo, id, shadow, reflection with commas between
