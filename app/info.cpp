@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 
+#include "app/console.h"
 #include "app/errors.h"
 #include "app/options.h"
 #include "app/stats.h"
@@ -149,7 +150,7 @@ nlohmann::json field_json(const Field& field) {
 
 Scene load_as_it_is(const std::string& file) {
   std::vector<std::string> warnings;
-  Scene scene = value_or_exit(load_scene(file, &warnings), kBadScene);
+  Scene scene = value_or_exit(load_scene(file, &warnings, &run_progress()), kBadScene);
   for (const std::string& warning : warnings)
     std::fprintf(stderr, "pinocchio: warning: %s\n", warning.c_str());
   return scene;

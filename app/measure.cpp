@@ -55,7 +55,8 @@ void draw(Drawing& drawing, const MeasureOptions& options, const std::vector<Cam
   Renderer renderer(drawing.engine(), {{}, [&](const FrameRecord& record) {
                                          run.records.push_back(record);
                                          progress.step();
-                                       }});
+                                       }},
+                    &run_progress());
   for (const CameraFrame& frame : frames) {
     if (interrupted()) break;
     if (run.budget) run.settings = run.budget->settings();

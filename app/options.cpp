@@ -3,6 +3,7 @@
 #include <cstdio>
 #include <memory>
 
+#include "app/console.h"
 #include "app/errors.h"
 #include "app/parse.h"
 #include "hybrid/settings/json.h"
@@ -198,7 +199,7 @@ void add_draw_options(CLI::App& verb, DrawOptions& o) {
 
 Scene load_scene_for(const DrawOptions& options) {
   std::vector<std::string> warnings;
-  Scene scene = value_or_exit(load_scene(options.scene, &warnings), kBadScene);
+  Scene scene = value_or_exit(load_scene(options.scene, &warnings, &run_progress()), kBadScene);
   if (!options.quiet)
     for (const std::string& warning : warnings)
       std::fprintf(stderr, "pinocchio: warning: %s\n", warning.c_str());
