@@ -66,6 +66,8 @@ class ChartRun {
     Scene scene = load_scene_for(draw);
     const std::vector<View> views = motion(camera_for(draw, scene));
     make_folder(folder_ / "pictures");
+    check_apart(input_files(draw, options_.animation, scene),
+                {{"-o", folder_ / "results.json"}, {"-o", folder_ / "results.csv"}, {"-o", folder_ / "index.html"}});
     check_writable(folder_ / "results.json");
     Drawing drawing(draw, std::move(scene), Exchange::sync, false, true);
     const auto resolve = [&](const Settings& settings) { return drawing.resolve(settings); };

@@ -204,6 +204,8 @@ int measure(MeasureOptions& options) {
   if (options.animation.turntable == 0 && options.animation.path.empty())
     options.animation.turntable = kDefaultFrames;
   const std::vector<CameraFrame> frames = animate(options.animation, camera);
+  check_apart(input_files(options.draw, options.animation, scene),
+              {{"--stats-json", options.stats_json}, {"--trace", options.trace}});
   for (const std::string& file : {options.stats_json, options.trace})
     if (!file.empty()) check_writable(file);
 

@@ -23,16 +23,6 @@ namespace {
   throw EnvironmentError(file.string() + ": cannot be written: " + why + "; " + remedy);
 }
 
-// Where what is written under this name ends up: a link stays a link, also to a file that is not there yet.
-std::filesystem::path target_of(const std::filesystem::path& file) {
-  constexpr int kMostLinks = 40;  // as the system has it
-  std::filesystem::path target = file;
-  std::error_code error;
-  for (int i = 0; i < kMostLinks && std::filesystem::is_symlink(target, error); ++i)
-    target = target.parent_path() / std::filesystem::read_symlink(target, error);
-  return target;
-}
-
 // Nobody may write to it: whoever took away the permission meant to keep it. (The rename asks the folder alone,
 // and an administrator may do everything.)
 bool is_read_only(const std::filesystem::path& file) {
@@ -50,9 +40,18 @@ void sweep_once(const std::filesystem::path& folder) {
 
 }  // namespace
 
+std::filesystem::path written_file(const std::filesystem::path& file) {
+  constexpr int kMostLinks = 40;  // as the system has it
+  std::filesystem::path target = file;
+  std::error_code error;
+  for (int i = 0; i < kMostLinks && std::filesystem::is_symlink(target, error); ++i)
+    target = target.parent_path() / std::filesystem::read_symlink(target, error);
+  return target;
+}
+
 void write_atomically(const std::filesystem::path& file,
                       const std::function<void(const std::filesystem::path& temporary)>& write) {
-  const std::filesystem::path target = target_of(file);
+  const std::filesystem::path target = written_file(file);
   if (is_read_only(target)) fail(file, "it is read-only", "choose another name, or allow writing to it");
   std::error_code error;
   PartFile part(target, error);
@@ -82,7 +81,7 @@ void write_text(const std::filesystem::path& file, const std::string& text, Prog
 void check_writable(const std::filesystem::path& file) {
   std::error_code error;
   if (file.filename().empty()) fail(file, "it names no file", "give a file name");
-  const std::filesystem::path target = target_of(file);
+  const std::filesystem::path target = written_file(file);
   const std::filesystem::path folder = target.has_parent_path() ? target.parent_path() : ".";
   if (!std::filesystem::is_directory(folder, error))
     fail(file, "there is no folder " + folder.string(), "create it or choose another name");

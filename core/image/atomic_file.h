@@ -20,6 +20,9 @@ void write_atomically(const std::filesystem::path& file,
 void write_text(const std::filesystem::path& file, const std::string& text, Progress* progress = nullptr,
                 const std::function<void()>& before_naming = {});
 
+// Where what is written under this name ends up: a link stays a link, also to a file that is not there yet.
+[[nodiscard]] std::filesystem::path written_file(const std::filesystem::path& file);
+
 // Throws EnvironmentError, one line, where write_atomically(file, ...) would fail from the start: before
 // work is done that could not be kept. Sweeps the folder of what dead processes left half written.
 void check_writable(const std::filesystem::path& file);
