@@ -66,7 +66,8 @@ void catch_interrupts() {
   for (const int signal : kInterrupts) {
     struct sigaction inherited {};
     sigaction(signal, nullptr, &inherited);
-    if (inherited.sa_handler != SIG_IGN) sigaction(signal, &action, nullptr);  // nohup means it
+    if (signal == SIGHUP && inherited.sa_handler == SIG_IGN) continue;  // nohup
+    sigaction(signal, &action, nullptr);
   }
 }
 pinocchio::Progress& run_progress() {
