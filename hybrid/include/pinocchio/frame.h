@@ -93,7 +93,7 @@ struct ExrOptions {
 };
 
 // The picture with its layers and attributes, one part, scene-linear. Whole or not at all; throws
-// EnvironmentError where it cannot be written. Source: OpenEXR's standard attributes.
+// EnvironmentError where it cannot be written. Source: OpenEXR's standard attributes. Phase "write".
 void write_exr(const std::filesystem::path& file, const FrameResult& frame, const ExrOptions& options = {},
                Progress* progress = nullptr);
 // The header that it would get, and its channels without values: for those who look whether a file is this frame's.
