@@ -119,15 +119,18 @@ void print_pair(const PairResult& result, float pixels_per_degree) {
 }
 
 void print_table(const std::vector<PairResult>& results) {
+  std::size_t longest = std::string_view("picture").size();
+  for (const PairResult& result : results) longest = std::max(longest, result.pair.name.size());
+  const int width = static_cast<int>(longest);
   const auto row = [](const std::string& name, const auto& value_of) {
-    std::printf("%-32s", name.c_str());
+    std::printf("%-*s", width, name.c_str());
     for (const std::string_view metric : kMetrics) {
       const std::optional<double> value = value_of(metric);
       std::printf(" %12s", value ? number_text(*value).c_str() : "-");
     }
     std::printf("\n");
   };
-  std::printf("%-32s", "picture");
+  std::printf("%-*s", width, "picture");
   for (const std::string_view metric : kMetrics) std::printf(" %12s", metric.data());
   std::printf("\n");
   for (const PairResult& result : results) {
