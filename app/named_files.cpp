@@ -16,7 +16,7 @@ std::string identity(const std::filesystem::path& file) {
   struct stat found {};
   if (stat(file.c_str(), &found) == 0) return std::to_string(found.st_dev) + ":" + std::to_string(found.st_ino);
   std::error_code error;
-  const std::filesystem::path place = std::filesystem::weakly_canonical(written_file(file), error);
+  const std::filesystem::path place = std::filesystem::weakly_canonical(std::filesystem::absolute(written_file(file)), error);
   return error ? file.lexically_normal().string() : place.string();
 }
 
