@@ -122,7 +122,7 @@ void print_table(const std::vector<PairResult>& results) {
   std::size_t longest = std::string_view("picture").size();
   for (const PairResult& result : results) longest = std::max(longest, result.pair.name.size());
   const int width = static_cast<int>(longest);
-  const auto row = [](const std::string& name, const auto& value_of) {
+  const auto row = [width](const std::string& name, const auto& value_of) {
     std::printf("%-*s", width, name.c_str());
     for (const std::string_view metric : kMetrics) {
       const std::optional<double> value = value_of(metric);

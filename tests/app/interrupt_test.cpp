@@ -118,7 +118,7 @@ TEST_F(InterruptTest, AChartAndItsChild) {
 }
 
 TEST_F(InterruptTest, ASecondSignalEndsAtOnce) {
-  const pid_t child = start({"render", speedboat(), "--spp", "65536", "--size", "2048x2048", "-o", "x.exr"});
+  const pid_t child = start({"render", speedboat(), "--spp", "65536", "--size", "1024x1024", "-o", "x.exr"});
   std::this_thread::sleep_for(std::chrono::milliseconds(700));
   kill(child, SIGINT);
   std::this_thread::sleep_for(std::chrono::milliseconds(80));
