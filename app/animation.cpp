@@ -1,6 +1,7 @@
 #include "app/animation.h"
 
 #include <algorithm>
+#include <filesystem>
 #include <fstream>
 #include <glm/gtc/matrix_transform.hpp>
 #include <nlohmann/json.hpp>
@@ -19,7 +20,9 @@ glm::vec3 vec3_of(const nlohmann::json& json) {
 
 Path read_path(const std::string& file, const Camera& camera) {
   std::ifstream in(file);
-  if (!in) throw Exit(kUsage, file + ": cannot be read; --path takes a JSON file of key frames");
+  std::error_code unknown;
+  if (!in || std::filesystem::is_directory(file, unknown))
+    throw Exit(kUsage, file + ": cannot be read; --path takes a JSON file of key frames");
   Path path;
   try {
     const nlohmann::json json = nlohmann::json::parse(in);
@@ -29,6 +32,7 @@ Path read_path(const std::string& file, const Camera& camera) {
       frame.camera.target = vec3_of(key.at("target"));
       if (key.contains("up")) frame.camera.up = vec3_of(key.at("up"));
       frame.camera.fov_deg = key.value("fov", camera.fov_deg);
+      check_camera(frame.camera, file + ": key frame " + std::to_string(frame.number));
       path.push_back(frame);
     }
   } catch (const nlohmann::json::exception& error) {
@@ -75,6 +79,12 @@ void add_animation_options(CLI::App& verb, AnimationOptions& options) {
   verb.add_option("--turntable", options.turntable, "turn the camera once around its target in N frames")
       ->check(CLI::Range(1, 1'000'000));
   verb.add_option("--path", options.path, "camera path: JSON of key frames")->excludes("--turntable");
+}
+
+std::vector<NamedFile> input_files(const DrawOptions& draw, const AnimationOptions& animation, const Scene& scene) {
+  std::vector<NamedFile> files{{"the scene", draw.scene}, {"--path", animation.path}, {"--plan", draw.plan_file}};
+  for (const std::string& file : scene.source_files) files.push_back({"the scene's", file});
+  return files;
 }
 
 std::vector<CameraFrame> animate(const AnimationOptions& options, const Camera& camera) {

@@ -3,6 +3,7 @@
 #include <cstdio>
 #include <cstdlib>
 
+#include "app/console.h"
 #include "app/errors.h"
 #include "gl/context.h"
 
@@ -45,7 +46,7 @@ Drawing::Drawing(const DrawOptions& options, Scene scene, Exchange usual, bool k
       if (!options.plan_file.empty())
         std::fprintf(stderr, "pinocchio: warning: %s: %s\n", options.plan_file.c_str(), line.c_str());
   if (!options.quiet && !any_settings) advise(with_usual(options.settings, usual));
-  if (any_settings || (settings_.traces() && !options.precise)) tracer_ = Engine::prepare(scene_, settings_);
+  if (any_settings || (settings_.traces() && !options.precise)) tracer_ = Engine::prepare(scene_, settings_, &run_progress());
 }
 
 void Drawing::advise(Settings automatic) const {

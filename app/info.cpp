@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 
+#include "app/console.h"
 #include "app/errors.h"
 #include "app/options.h"
 #include "app/stats.h"

@@ -32,6 +32,8 @@ Expected<std::filesystem::path> find_scene_file(const std::filesystem::path& pat
         return file;
   if (std::filesystem::is_directory(path, ignored))
     return error(path, "is a folder without a scene of that name", "name a .gltf, .glb or .obj file in it");
+  if (std::filesystem::exists(path, ignored))
+    return error(path, "is a pipe or a device, which cannot be read twice", "write it to a file first");
   return error(path, "there is no such file", "check its name");
 }
 

@@ -78,7 +78,7 @@ void add_materials(const std::vector<TexturedMaterial>& materials, MeshData& mes
   for (const TexturedMaterial& m : materials) {
     mesh.materials.push_back(m.material);
     if (!m.texture) continue;
-    mesh.materials.back().diffuse_texture = static_cast<int>(mesh.textures.size());
+    make_maps(mesh, mesh.materials.back()).base_color.texture = static_cast<int>(mesh.textures.size());
     mesh.textures.push_back(*m.texture);
   }
   if (mesh.materials.empty()) mesh.materials.emplace_back();
