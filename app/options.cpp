@@ -196,19 +196,17 @@ void add_draw_options(CLI::App& verb, DrawOptions& o) {
   add_still_options(verb, o);
 }
 
-Scene load_scene_for(const DrawOptions& options) {
-  std::vector<std::string> warnings;
-  Scene scene = value_or_exit(load_scene(options.scene, &warnings), kBadScene);
-  if (!options.quiet)
-    for (const std::string& warning : warnings)
-      std::fprintf(stderr, "pinocchio: warning: %s\n", warning.c_str());
+Scene load_scene_for(const DrawOptions& options, std::vector<std::string>* warnings) {
+  std::vector<std::string> said;
+  Scene scene = value_or_exit(load_scene(options.scene, &said), kBadScene);
   scene.lights.insert(scene.lights.end(), options.lights.begin(), options.lights.end());
   if (scene.lights.empty()) {
     scene.lights.push_back(default_light(scene, camera_for(options, scene)));
-    if (!options.quiet)
-      std::fprintf(stderr, "pinocchio: %s has no light; a default one is used (add one with --light x,y,z)\n",
-                   scene.source.c_str());
+    said.push_back(scene.source + " has no light; a default one is used (add one with --light x,y,z)");
   }
+  if (warnings) *warnings = std::move(said);
+  if (!warnings && !options.quiet)
+    for (const std::string& warning : said) std::fprintf(stderr, "pinocchio: warning: %s\n", warning.c_str());
   return scene;
 }
 

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "app/errors.h"
+#include "app/window/framing.h"
 #include "core/base/clock.h"
 
 namespace pinocchio::app {
@@ -12,8 +13,9 @@ namespace pinocchio::app {
 void SceneLoader::load(const DrawOptions& options) {
   start("reading " + options.scene, options.scene, [options] {
     News news;
-    news.scene = load_scene_for(options);
+    news.scene = load_scene_for(options, &news.warnings);
     news.stats = analyze(*news.scene);
+    news.interest = bounds_of_interest(*news.scene->mesh);
     news.camera = camera_for(options, *news.scene);
     return news;
   });
@@ -36,6 +38,10 @@ void SceneLoader::start(const std::string& phase, const std::string& source, std
   std::packaged_task<News()> task(std::move(work));
   news_ = task.get_future();
   std::thread([task = std::move(task), alive = threads_]() mutable { task(); }).detach();
+}
+
+void SceneLoader::cancel() {
+  news_ = {};
 }
 
 SceneLoader::News SceneLoader::poll() {

@@ -5,6 +5,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "app/exit_codes.h"
 #include "app/options.h"
@@ -19,11 +20,14 @@ class SceneLoader {
   struct Progress {
     std::string phase;
     double seconds = 0.0;  // since it began
+    double share = 0.0;    // of the work that is done, 0 to 1
   };
   // What a call of poll() found; mostly nothing.
   struct News {
     std::optional<Scene> scene;  // was read
     SceneStats stats;            // its own
+    Bounds interest;             // what matters of it (framing.h)
+    std::vector<std::string> warnings;     // what of its file the picture lacks
     Camera camera;               // that the options ask for in it
     std::shared_ptr<const Tracer> tracer;  // its tree is built
     std::string error;                     // one line: it could not be loaded
@@ -33,6 +37,8 @@ class SceneLoader {
   // Each begins; what was being loaded before is forgotten.
   void load(const DrawOptions& options);
   void build_tree(const Scene& scene, const Settings& settings);
+  // Nothing is loaded any more.
+  void cancel();
   [[nodiscard]] News poll();
   [[nodiscard]] Progress progress() const;
   // Whether a thread, also a forgotten one, is at work.

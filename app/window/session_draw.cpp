@@ -1,8 +1,9 @@
 #include <algorithm>
+#include <utility>
 
 #include "app/console.h"
-#include "app/window/overlay.h"
 #include "app/window/session.h"
+#include "core/base/clock.h"
 #include "core/trace/jitter.h"
 #include "gl/error.h"
 #include "hybrid/frame_slot.h"
@@ -54,39 +55,69 @@ void Session::draw() {
   if (model_.has_scene()) {
     try {
       draw_scene();
-      model_.errors.erase("drawing");
     } catch (const gl::ContextLostError&) {
       throw;
     } catch (const EnvironmentError&) {
       throw;
     } catch (const std::exception& error) {
-      model_.errors["drawing"] = one_line(error.what());
+      model_.messages.error("drawing", one_line(error.what()));
+      asked_ = next_request();  // not tried again until something changes
       idle_ = true;
     }
   }
-  if (!shown_) show(last_);
+  if (!shown_ && wants_redraw()) show(last_);
+}
+
+// Of what does not wait for a frame: panels, exposure, how far a scene is loaded.
+bool Session::wants_redraw() const {
+  constexpr double kProgress_s = 0.03, kCursor_s = 0.25;
+  const double since_s = now_s() - redrawn_s_;
+  return redraws_ > 0 || !png_file_.empty() || (!model_.loading.phase.empty() && since_s > kProgress_s) ||
+         (gui_.wants_text() && since_s > kCursor_s);
 }
 
 void Session::draw_scene() {
   const FrameRequest request = next_request();
   model_.picture_size = request.view.size;
-  idle_ = asked_ == request;
-  follow_reference(request);
-  if (idle_ && gathers() && !renderer_.is_drawing_alone()) {
-    renderer_.drain();  // the last samples
-  } else if (renderer_.try_submit(request)) {
-    asked_ = request;
-    ++sample_;
+  if (follow_reference(request)) redraws_ = std::max(redraws_, 1);
+  if (comparison_ && idle_ && comparison_->wants_picture()) again_ = true;
+  const bool new_frame = asked_ != request;
+  if (!new_frame && !again_) {
+    const bool was_idle = idle_;
+    idle_ = renderer_.advance();
+    if (!idle_ || was_idle) return;
+    // Reprojected, it has an older frame's mask until it is asked for again.
+    again_ = !std::exchange(settled_, true) && model_.drawn.exchange == Exchange::reproject;
+    idle_ = !again_;
+    if (!idle_) return;
+    renderer_.drain();  // nothing is waited for: the last frames' figures
+    model_.history.pause();
+    redraws_ = std::max(redraws_, 1);
+    return;
   }
+  idle_ = false;
+  if (!renderer_.try_submit(request)) return;
+  again_ = false;
+  if (!new_frame) return;
+  model_.messages.mended("drawing");
+  settled_ = false;
+  asked_ = request;
+  ++sample_;
 }
 
-// With the screen split.
-void Session::follow_reference(const FrameRequest& request) {
-  model_.comparison.clear();
-  if (applied_.split == Split::off) return comparison_.reset();
+// With the screen split; whether there is something new to show.
+bool Session::follow_reference(const FrameRequest& request) {
+  const std::string before = std::exchange(model_.comparison, {});
+  if (applied_.split == Split::off) {
+    comparison_.reset();
+    return !before.empty();
+  }
   if (!comparison_) comparison_ = std::make_unique<Comparison>();
-  comparison_->follow({request.scene, request.view, applied_.settings.depth});
-  model_.comparison = comparison_->text();
+  const bool newer = comparison_->follow({request.scene, request.view, applied_.settings.depth});
+  model_.comparison = std::string("left: as drawn   right: ") +
+                      (applied_.split == Split::heat_map ? "visible difference" : "reference") + "   " +
+                      comparison_->text();
+  return newer || model_.comparison != before;
 }
 
 void Session::take_frame(const Frame& frame) {
@@ -130,9 +161,10 @@ void Session::show(const gl::Texture* picture) {
   } else {
     present_.clear(pixels);
   }
-  gui_.begin_frame();
-  draw_overlay(model_, gui_.scale());
-  gui_.end_frame();
+  model_.asleep = idle_ && model_.loading.phase.empty();
+  gui_.draw();
+  redraws_ = std::max(redraws_ - 1, 0);
+  redrawn_s_ = now_s();
   if (!png_file_.empty()) write_window_png();
   window_.present();
 }

@@ -24,7 +24,8 @@ struct ViewSettings {
   float split_at = 0.5f;   // of the window's width
   bool accumulate = true;  // a still camera gathers samples
   bool overlay = true;
-  bool help = false;
+
+  friend bool operator==(const ViewSettings&, const ViewSettings&) = default;
 };
 
 // Limits of what the controls set.
