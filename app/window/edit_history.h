@@ -1,13 +1,12 @@
 #pragma once
 
-#include <memory>
 #include <optional>
 #include <vector>
 
 #include "app/window/settings.h"
 #include "pinocchio/camera.h"
 #include "pinocchio/light.h"
-#include "pinocchio/mesh.h"
+#include "pinocchio/material.h"
 
 namespace pinocchio::app {
 
@@ -16,7 +15,7 @@ struct EditState {
   ViewSettings settings;
   Camera camera;
   std::vector<Light> lights;
-  std::shared_ptr<const Mesh> mesh;  // with materials as edited
+  std::vector<Material> materials;
 
   friend bool operator==(const EditState&, const EditState&) = default;
 };

@@ -39,7 +39,7 @@ void set_colors(ImGuiStyle& style) {
   const auto set = [&style](int which, float r, float g, float b, float a) {
     style.Colors[which] = ImVec4(r, g, b, a);
   };
-  set(ImGuiCol_WindowBg, 0.06f, 0.07f, 0.09f, 0.94f);
+  set(ImGuiCol_WindowBg, 0.06f, 0.07f, 0.09f, 0.97f);
   set(ImGuiCol_PopupBg, 0.08f, 0.09f, 0.11f, 0.98f);
   set(ImGuiCol_Border, 1.0f, 1.0f, 1.0f, 0.08f);
   set(ImGuiCol_FrameBg, 1.0f, 1.0f, 1.0f, 0.07f);

@@ -22,6 +22,8 @@ class Gui {
   // Describes and draws over what the window shows.
   void draw();
 
+  // Whether the pointer is over a panel, or holds something of one.
+  [[nodiscard]] bool over_panel();
   // Whether the keys are a text field's now.
   [[nodiscard]] bool wants_text() const;
   // Closes the innermost popup or text field; false: there is none.
@@ -38,7 +40,6 @@ class Gui {
   void set_scale(float scale);
   void begin_frame();
   void update();
-  [[nodiscard]] bool over_panel();
 
   const gl::Window& window_;
   std::function<void()> describe_;

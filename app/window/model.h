@@ -1,6 +1,8 @@
 #pragma once
 
+#include <filesystem>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -9,6 +11,8 @@
 #include "app/window/history.h"
 #include "app/window/messages.h"
 #include "app/window/panels.h"
+#include "app/window/pixel_report.h"
+#include "app/window/scene_files.h"
 #include "app/window/scene_loader.h"
 #include "app/window/settings.h"
 
@@ -22,6 +26,17 @@ struct TimelineView {
   std::vector<FrameRecord> records;  // those there were when it was paused
 };
 
+// The folder that the panel Files shows.
+struct FileList {
+  std::filesystem::path folder;  // empty: the scene's
+  std::vector<FolderEntry> entries;
+
+  void go_to(const std::filesystem::path& to) {
+    folder = to;
+    entries = scenes_in(to);
+  }
+};
+
 // What the window shows and what can be changed in it: the session fills it, the overlay shows and edits it.
 struct Model {
   ViewSettings settings;
@@ -31,6 +46,11 @@ struct Model {
   SceneStats stats;                      // of it
   std::shared_ptr<const Tracer> tracer;  // null: nothing is traced, or the tree is not built yet
   bool lights_changed = false;           // by the overlay: the session takes them over
+  int material = 0;                      // that the panel Materials shows
+  std::optional<Material> edited_material;  // what it is to be: the session takes it over
+  std::optional<PixelReport> pixel;      // under the pointer; nothing: the panel is closed
+  std::optional<double> pixel_error;     // there, against the reference; nothing: it is not complete
+  FileList files;
   Settings drawn;                        // resolved: by which frames are drawn now
   History history;
   TimelineView timeline;
@@ -40,6 +60,7 @@ struct Model {
   SceneLoader::Progress loading;
   Messages messages;
   std::string legend;          // what the buffer's colours mean; empty: the picture is shown
+  ChannelRange shown_range;    // of the channel that is shown
   std::string comparison;      // with the reference, in words; empty: there is none
   std::vector<Action> asked;   // by the overlay's buttons
   std::string file_to_open;    // by the overlay; empty: none

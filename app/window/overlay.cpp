@@ -22,10 +22,10 @@ constexpr std::array<Place, kPanels.size()> kPlaces{{
     {350.0f, 1.0f, 0.0f, draw_all_settings},
     {300.0f, 0.0f, 1.0f, draw_light_controls},
     {300.0f, 0.0f, 0.5f, draw_camera},
-    {320.0f, 1.0f, 0.5f, nullptr},
-    {330.0f, 0.0f, 1.0f, nullptr},
+    {320.0f, 1.0f, 0.5f, draw_materials},
+    {340.0f, 0.0f, 1.0f, draw_pixel},
     {760.0f, 0.5f, 1.0f, draw_timeline},
-    {460.0f, 0.5f, 0.2f, nullptr},
+    {460.0f, 0.5f, 0.2f, draw_files},
 }};
 
 // The window without margins and status line.
@@ -109,7 +109,7 @@ void draw_overlay(Model& model, float scale) {
     draw_caption(model, scale);
     draw_status_line(model, scale);
     for (std::size_t i = 0; i < kPanels.size(); ++i)
-      if (const auto panel = static_cast<Panel>(i); kPlaces[i].draw && model.panels[panel])
+      if (const auto panel = static_cast<Panel>(i); model.panels[panel])
         draw_panel(panel, model, scale);
   }
   draw_loading(model, scale);

@@ -50,6 +50,26 @@ void draw_quality_controls(ViewSettings& s) {
   checkbox("vsync", s.vsync, "wait for the display between pictures");
 }
 
+// What is black and what is white of a channel that has values beyond 0 to 1.
+void draw_range(Model& model) {
+  ViewSettings& s = model.settings;
+  if (s.buffer != BufferView::depth && s.buffer != BufferView::position) return;
+  bool automatic = !s.range;
+  if (checkbox("automatic range", automatic, "from the scene's size")) {
+    s.range.reset();
+    if (!automatic) s.range = model.shown_range;
+  }
+  if (!s.range) return;
+  const float speed = std::max(1e-3f * model.stats.bounds.diagonal(), 1e-6f);
+  const int axes = s.buffer == BufferView::depth ? 1 : 3;
+  label("black at", "values in scene units");
+  ImGui::DragScalarN("##lo", ImGuiDataType_Float, &s.range->lo.x, axes, speed, nullptr, nullptr, "%.3f");
+  tooltip("drag, or Ctrl + click to type a number");
+  label("white at", "values in scene units");
+  ImGui::DragScalarN("##hi", ImGuiDataType_Float, &s.range->hi.x, axes, speed, nullptr, nullptr, "%.3f");
+  tooltip("drag, or Ctrl + click to type a number");
+}
+
 void draw_looking(Model& model) {
   ViewSettings& s = model.settings;
   label("show", "the picture, or a channel that it is made of");
@@ -71,6 +91,7 @@ void draw_looking(Model& model) {
     ImGui::EndCombo();
   }
   tooltip("the picture, or a channel that it is made of");
+  draw_range(model);
   const std::vector<Choice> sides{{"off", "the picture alone"},
                                   {"reference", "the reference, in double precision, in the right half"},
                                   {"difference", "how visible the difference from the reference is (FLIP)"}};

@@ -76,6 +76,7 @@ bool drag_mark(Light& light, int id, const Camera& camera, glm::vec2 display, fl
 
 void draw_light_controls(Model& model, float) {
   if (!model.has_scene()) return paragraph("no scene");
+  paragraph("Drag the marks in the picture, or the numbers.");
   for (std::size_t i = 0; i < model.scene.lights.size(); ++i) {
     ImGui::PushID(static_cast<int>(i));
     model.lights_changed = edit_light(model.scene.lights[i], model) || model.lights_changed;

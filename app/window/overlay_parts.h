@@ -21,6 +21,9 @@ void draw_all_settings(Model& model, float scale);
 void draw_light_controls(Model& model, float scale);
 void draw_camera(Model& model, float scale);
 void draw_timeline(Model& model, float scale);
+void draw_pixel(Model& model, float scale);
+void draw_materials(Model& model, float scale);
+void draw_files(Model& model, float scale);
 
 // One line at the window's lower edge.
 void draw_status_line(Model& model, float scale);

@@ -101,6 +101,7 @@ void Session::take_events() {
     if (const auto* drop = std::get_if<gl::DropEvent>(&event); drop && !drop->files.empty())
       open(drop->files.front().string());
   }
+  over_picture_ = !gui_.over_panel();
   if (model_.messages.expire(now_s())) redraws_ = kSettling;
   take_asked();
 }
@@ -120,7 +121,14 @@ void Session::take_button(const gl::ButtonEvent& event) {
     pressed_at_ = pointer_;
     if (second) return set_pivot();
   }
-  navigation_.take(event);
+  if (!take_click(event)) navigation_.take(event);
+}
+
+bool Session::take_click(const gl::ButtonEvent& event) {
+  if (event.button != 0 || !event.down || !(event.with.control || event.with.alt)) return false;
+  if (event.with.control) pick_material();
+  else expose_for_point();
+  return true;
 }
 
 void Session::take_key(const gl::KeyEvent& event) {

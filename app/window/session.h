@@ -43,6 +43,7 @@ class Session {
   void fly_on();
   void take_key(const gl::KeyEvent& event);
   void take_button(const gl::ButtonEvent& event);
+  [[nodiscard]] bool take_click(const gl::ButtonEvent& event);
   void take_asked();
   [[nodiscard]] double patience_s() const;
   void note_edits();
@@ -73,6 +74,8 @@ class Session {
   void take_frame(const Frame& frame);
   [[nodiscard]] const gl::Texture& chosen_buffer(const Frame& frame);
   void compare(const Frame& frame);
+  [[nodiscard]] ChannelRange channel_range() const;
+  void inspect_pixel();
   void show(const gl::Texture* picture);
   void present(const gl::Texture& picture);
 
@@ -82,6 +85,10 @@ class Session {
   void frame_all();
   void show_camera(std::size_t number);
   void set_pivot();
+  void pick_material();
+  void expose_for_point();
+  [[nodiscard]] glm::ivec2 pixel_under_pointer() const;
+  [[nodiscard]] std::optional<PixelReport> report(glm::ivec2 pixel);
   void step_file(int by);
   void restore(const std::optional<EditState>& state, const char* nothing);
   void catch_up();
@@ -109,6 +116,8 @@ class Session {
   std::unique_ptr<Comparison> comparison_;  // null: none is asked for
   Renderer renderer_;
   EditHistory edits_;
+  std::unique_ptr<PixelInspector> inspector_;  // null: no pixel was looked at yet
+  std::optional<FrameRequest> inspected_;      // by what the pixel's report was made
   std::optional<FileWatch> shader_watch_, scene_watch_;  // with --watch
   std::optional<DrawOptions> pending_;                   // of the scene that is being read
 
@@ -120,12 +129,14 @@ class Session {
   bool again_ = false;                 // the newest frame is to be delivered once more
   bool settled_ = false;               // it was, since it was drawn
   bool idle_ = false;                  // nothing is left to draw
+  bool over_picture_ = false;          // the pointer is, and not over a panel
   int redraws_ = 3;                    // of the overlay that are due: it settles in as many
   double redrawn_s_ = 0.0;
   std::optional<Settings> tree_of_;    // by which the scene's tree was built, or is being built
   Camera first_camera_;
   ViewSettings applied_;
   std::vector<Light> applied_lights_;
+  bool wants_tree_ = false;    // also where frames trace nothing: pixels are looked at
   bool scene_edited_ = false;  // it is not the file's
   std::string png_file_;       // to write the window to, when it is drawn next
   double last_turn_s_ = 0.0;

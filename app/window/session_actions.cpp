@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
 #include <utility>
 
@@ -98,12 +99,44 @@ void Session::show_camera(std::size_t number) {
   }
 }
 
+glm::ivec2 Session::pixel_under_pointer() const {
+  const glm::vec2 share = pointer_ / glm::max(glm::vec2(window_.pixels()), 1.0f);
+  return glm::clamp(glm::ivec2(share * glm::vec2(picture_size())), glm::ivec2(0), picture_size() - 1);
+}
+
+// Nothing, and a tree is asked for, where there is none yet.
+std::optional<PixelReport> Session::report(glm::ivec2 pixel) {
+  wants_tree_ = true;
+  if (!model_.tracer) return std::nullopt;
+  if (!inspector_) inspector_ = std::make_unique<PixelInspector>();
+  const FrameRequest now = request();
+  return inspector_->look(now.scene, now.tracer, now.view, pixel, model_.settings.settings.depth);
+}
+
 // To the surface under the pointer.
 void Session::set_pivot() {
-  if (!model_.tracer) return model_.messages.hint("the tree is not built yet, or nothing is traced");
+  wants_tree_ = true;
+  if (!model_.tracer) return model_.messages.hint("the tree is being built; try again when it is");
   if (const std::optional<glm::vec3> p = surface_under(pointer_, glm::vec2(window_.pixels()),
                                                        model_.camera.camera(), *model_.tracer))
     model_.camera.look_at(*p);
+}
+
+void Session::pick_material() {
+  const std::optional<PixelReport> pixel = report(pixel_under_pointer());
+  if (!pixel) return model_.messages.hint("the tree is being built; try again when it is");
+  if (pixel->triangle == kNoTriangle) return;
+  model_.material = static_cast<int>(pixel->material);
+  model_.panels[Panel::materials] = true;
+}
+
+// So that the point is shown as bright as an 18 % grey card in full light.
+void Session::expose_for_point() {
+  constexpr float kMiddleGrey = 0.18f;
+  const std::optional<PixelReport> pixel = report(pixel_under_pointer());
+  if (!pixel) return model_.messages.hint("the tree is being built; try again when it is");
+  const float luminance = glm::dot(pixel->color, glm::vec3(0.2126f, 0.7152f, 0.0722f));  // Rec. 709
+  if (luminance > 0.0f) model_.settings.exposure_ev = std::log2(kMiddleGrey / luminance);
 }
 
 void Session::step_file(int by) {
@@ -113,7 +146,7 @@ void Session::step_file(int by) {
 }
 
 EditState Session::edit_state() const {
-  return {model_.settings, model_.camera.camera(), model_.scene.lights, model_.scene.mesh};
+  return {model_.settings, model_.camera.camera(), model_.scene.lights, model_.scene.mesh->materials};
 }
 
 void Session::restore(const std::optional<EditState>& state, const char* nothing) {

@@ -65,6 +65,7 @@ void Session::draw() {
       idle_ = true;
     }
   }
+  if (model_.has_scene()) inspect_pixel();
   if (!shown_ && wants_redraw()) show(last_);
 }
 
@@ -134,14 +135,41 @@ const gl::Texture& Session::chosen_buffer(const Frame& frame) {
   model_.legend.clear();
   last_is_light_ = buffer == BufferView::picture || buffer == BufferView::reflection;
   if (buffer != BufferView::picture) {
-    model_.legend = legend(buffer, applied_.mask_slot, frame);
-    return inspect_.draw(frame, buffer, applied_.mask_slot);
+    model_.shown_range = applied_.range.value_or(channel_range());
+    model_.legend = legend(buffer, applied_.mask_slot, frame, model_.shown_range);
+    return inspect_.draw(frame, buffer, applied_.mask_slot, model_.shown_range);
   }
   if (!gathers() || frame.request().view.camera != model_.camera.camera()) return frame.texture();
   accumulator_.add(frame);
   if (accumulator_.samples() == 0) return frame.texture();
   model_.samples = accumulator_.samples();
   return accumulator_.average().color();
+}
+
+// From the scene's nearest to its farthest, or from one side of its box to the other.
+ChannelRange Session::channel_range() const {
+  const Bounds& box = model_.stats.bounds;
+  if (applied_.buffer == BufferView::position) return {box.lo, glm::max(box.hi, box.lo + 1e-6f)};
+  const CameraAxes axes = camera_axes(model_.camera.camera());
+  const glm::vec3 to = box.center() - model_.camera.camera().eye, half = 0.5f * box.extent();
+  const float middle = glm::dot(to, axes.forward), reach = glm::dot(half, glm::abs(axes.forward));
+  const float near_z = std::max(middle - reach, 0.0f), far_z = std::max(middle + reach, near_z + 1e-6f);
+  return {glm::vec3(near_z), glm::vec3(far_z)};
+}
+
+// While the panel Pixel is open.
+void Session::inspect_pixel() {
+  if (!model_.panels[Panel::pixel]) return model_.pixel.reset();
+  FrameRequest now = request();
+  now.view.part = {pixel_under_pointer(), pixel_under_pointer() + 1};
+  if (!over_picture_ || inspected_ == now) return;
+  inspected_ = now;
+  model_.pixel = report(now.view.part.lo);
+  model_.pixel_error.reset();
+  redraws_ = std::max(redraws_, 1);
+  if (!comparison_ || !comparison_->done() || !model_.pixel) return;
+  const glm::vec3 off = glm::abs(model_.pixel->color - comparison_->reference_at(model_.pixel->pixel));
+  model_.pixel_error = std::max({off.x, off.y, off.z});
 }
 
 void Session::compare(const Frame& frame) {

@@ -125,7 +125,9 @@ bool Session::try_settings(const ViewSettings& settings) {
 }
 
 // Frames trace in the old tree, where there is one, until the new one is built.
-void Session::want_tree(const Settings& settings) {
+void Session::want_tree(const Settings& given) {
+  Settings settings = given;
+  if (wants_tree_ && !settings.traces()) apply_preset("mode", "raytrace", settings);
   if (!settings.traces() || !loader_.progress().phase.empty()) return;
   if (tree_of_ && same_tracer(*tree_of_, settings)) return;
   tree_of_ = settings;
@@ -137,7 +139,7 @@ void Session::apply_changes() {
   wanted = possible(wanted);
   if (wanted.vsync != applied_.vsync) window_.set_vsync(wanted.vsync);
   if (wanted.buffer != applied_.buffer || wanted.mask_slot != applied_.mask_slot || wanted.split != applied_.split ||
-      wanted.accumulate != applied_.accumulate)
+      wanted.accumulate != applied_.accumulate || wanted.range != applied_.range)
     again_ = true;
   if (!(wanted == applied_)) redraws_ = 3;
   if (!model_.has_scene()) {
