@@ -96,7 +96,7 @@ FrameResult Frame::read() const {
 }
 
 void write_exr(const std::filesystem::path& file, const FrameResult& frame, const std::string& layers,
-               std::optional<double> render_s) {
+               std::optional<double> render_s, Progress* progress) {
   const Expected<AovSet> aovs = parse_aovs(layers);
   if (!aovs) throw std::invalid_argument(aovs.error().message());
   View view = frame.view;
@@ -106,7 +106,7 @@ void write_exr(const std::filesystem::path& file, const FrameResult& frame, cons
   const FrameOutput output{view.size,       view.box(), frame.scene,      view.camera, frame.color, frame.ids,
                            frame.mask,      frame.reflection, surfaces,
                            to_json(frame.settings, false).dump(), render_s};
-  write_exr(file, frame_exr(output, *aovs));
+  write_exr(file, frame_exr(output, *aovs), progress);
 }
 
 }  // namespace pinocchio

@@ -24,6 +24,7 @@ namespace pinocchio {
 namespace {
 
 constexpr float kLargestHalf = 65504.0f;
+constexpr int kRowsAtOnce = 256;  // many blocks of ZIP's 16 rows, for all threads
 
 Imf::PixelType imf_type(ExrChannel::Type type) {
   switch (type) {
@@ -87,7 +88,7 @@ Imf::Slice slice(Imf::PixelType type, const T* pixels, const PixelBox& window) {
   return {type, reinterpret_cast<char*>(base), sizeof(T), sizeof(T) * static_cast<std::size_t>(width)};
 }
 
-void write_file(const std::filesystem::path& file, const ExrFile& exr) {
+void write_file(const std::filesystem::path& file, const ExrFile& exr, Progress* progress) {
   std::vector<std::vector<half>> halves;
   halves.reserve(exr.channels.size());
   Imf::FrameBuffer pixels;
@@ -113,7 +114,13 @@ void write_file(const std::filesystem::path& file, const ExrFile& exr) {
     Imf::StdOFStream to(stream, file.c_str());
     Imf::OutputFile out(to, header_of(exr));
     out.setFrameBuffer(pixels);
-    out.writePixels(exr.data_window.size().y);
+    const int rows = exr.data_window.size().y;
+    begin_phase(progress, "write", rows);
+    for (int y = 0; y < rows; y += kRowsAtOnce) {
+      const int count = std::min(kRowsAtOnce, rows - y);
+      out.writePixels(count);
+      advance(progress, count);
+    }
   }
   if (!stream.flush()) throw std::runtime_error("is the disk full?");
 }
@@ -187,11 +194,13 @@ const ExrChannel* ExrFile::find(const std::string& name) const {
   return found == channels.end() ? nullptr : &*found;
 }
 
-void write_exr(const std::filesystem::path& file, const ExrFile& exr) {
+void write_exr(const std::filesystem::path& file, const ExrFile& exr, Progress* progress) {
   check_writable(file);
   write_atomically(file, [&](const std::filesystem::path& temporary) {
     try {
-      write_file(temporary, exr);
+      write_file(temporary, exr, progress);
+    } catch (const Cancelled&) {
+      throw;
     } catch (const std::exception& error) {
       throw EnvironmentError(file.string() + ": cannot be written: " + error.what());
     }

@@ -9,6 +9,7 @@
 
 #include "pinocchio/error.h"
 #include "pinocchio/pixel_box.h"
+#include "pinocchio/progress.h"
 
 namespace pinocchio {
 
@@ -36,8 +37,8 @@ struct ExrFile {
 };
 
 // One part, scan lines, ZIP, Rec. 709 chromaticities; whole or not at all. Throws EnvironmentError where it
-// cannot be written. Both may be called from many threads, for files of their own.
-void write_exr(const std::filesystem::path& file, const ExrFile& exr);
+// cannot be written. Both may be called from many threads, for files of their own. Phase "write".
+void write_exr(const std::filesystem::path& file, const ExrFile& exr, Progress* progress = nullptr);
 
 // Reads any single-part EXR with unsubsampled channels. Errors name the file and what is wrong with it.
 [[nodiscard]] Expected<ExrFile> read_exr(const std::filesystem::path& file);

@@ -11,6 +11,7 @@
 
 #include "pinocchio/image.h"
 #include "pinocchio/mask_image.h"
+#include "pinocchio/progress.h"
 #include "pinocchio/ray_counts.h"
 #include "pinocchio/scene.h"
 #include "pinocchio/settings.h"
@@ -85,6 +86,6 @@ struct FrameResult {
 // Albedo, id, shadow, reflection with commas between. render_s: what it took, for its header. Whole or not at
 // all; throws EnvironmentError where it cannot be written. Source: OpenEXR's standard attributes.
 void write_exr(const std::filesystem::path& file, const FrameResult& frame, const std::string& layers = "all",
-               std::optional<double> render_s = {});
+               std::optional<double> render_s = {}, Progress* progress = nullptr);
 
 }  // namespace pinocchio
