@@ -196,9 +196,10 @@ void add_draw_options(CLI::App& verb, DrawOptions& o) {
   add_still_options(verb, o);
 }
 
-Scene load_scene_for(const DrawOptions& options, std::vector<std::string>* warnings) {
+Scene load_scene_for(const DrawOptions& options, std::vector<std::string>* warnings,
+                     pinocchio::Progress* progress) {
   std::vector<std::string> said;
-  Scene scene = value_or_exit(load_scene(options.scene, &said), kBadScene);
+  Scene scene = value_or_exit(load_scene(options.scene, &said, progress), kBadScene);
   scene.lights.insert(scene.lights.end(), options.lights.begin(), options.lights.end());
   if (scene.lights.empty()) {
     scene.lights.push_back(default_light(scene, camera_for(options, scene)));

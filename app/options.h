@@ -49,7 +49,8 @@ void add_draw_options(CLI::App& verb, DrawOptions& options);
 
 // Loads the scene, adds the options' lights, and a default light where there is none. What is to be said of it
 // goes to `warnings`, or to stderr. Ends the verb with kBadScene where the file cannot be read.
-[[nodiscard]] Scene load_scene_for(const DrawOptions& options, std::vector<std::string>* warnings = nullptr);
+[[nodiscard]] Scene load_scene_for(const DrawOptions& options, std::vector<std::string>* warnings = nullptr,
+                                   pinocchio::Progress* progress = nullptr);
 
 // The camera that the options ask for. Ends the verb with kUsage where the scene has no such camera.
 [[nodiscard]] Camera camera_for(const DrawOptions& options, const Scene& scene);

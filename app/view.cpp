@@ -49,6 +49,7 @@ Run add_view(CLI::App& program) {
   add_scene_options(verb, options->draw);
   add_size_option(verb, options->draw, "pixels of the window's inside (800x600)");
   add_settings_options(verb, options->draw);
+  add_budget_options(verb, options->budget);
   verb.add_option("--exposure", options->exposure_ev, "stops brighter (0)")
       ->check(CLI::Range(-kMostExposure, kMostExposure));
   verb.add_flag("--watch", options->watch, "load the scene anew when its files change, and the shaders in PINOCCHIO_SHADERS");

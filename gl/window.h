@@ -31,6 +31,8 @@ enum Key : int {
   kKeyF10,
   kKeyF11 = 300,
   kKeyF12 = 301,
+  kKeyLeftControl = 341,
+  kKeyRightControl = 345,
   kKeyPlus = 334,   // of the number pad
   kKeyMinus = 333,  // of the number pad
 };

@@ -199,7 +199,7 @@ bool Renderer::Loop::repeat(const FrameRequest& request) {
   give(*last);
   last->record.frame.end_s = now_s();
   if (sinks_.record) sinks_.record(last->record);
-  advance(progress_);
+  pinocchio::advance(progress_);
   return true;
 }
 
@@ -283,7 +283,7 @@ void Renderer::Loop::deliver(FrameSlot& frame, const FrameSlot* older) {
   frame.record.latency_frames = static_cast<int>(next_number_ - 1 - frame.record.number);
   if (older) frame.record.age_frames = static_cast<int>(frame.record.number - older->record.number);
   give(frame);
-  if (!frame.request.settings.traces()) advance(progress_);
+  if (!frame.request.settings.traces()) pinocchio::advance(progress_);
 }
 
 void Renderer::Loop::give(FrameSlot& slot) {

@@ -15,6 +15,7 @@
 #include "app/window/scene_files.h"
 #include "app/window/scene_loader.h"
 #include "app/window/settings.h"
+#include "hybrid/gpu/present_pass.h"
 
 namespace pinocchio::app {
 
@@ -68,6 +69,8 @@ struct Model {
   std::vector<std::string> recent;  // scene files, newest first
 
   glm::ivec2 window_pixels{0, 0}, picture_size{0, 0};
+  PictureZoom zoom;
+  std::string recording;  // name of the sequence that is written; empty: none
   std::string renderer;  // OpenGL's, in words
   int threads = 0;       // that trace
 

@@ -4,6 +4,7 @@
 #include <array>
 
 #include "app/window/overlay_parts.h"
+#include "core/compare/magma.h"
 
 namespace pinocchio::app {
 namespace {
@@ -23,8 +24,8 @@ constexpr std::array<Place, kPanels.size()> kPlaces{{
     {300.0f, 0.0f, 1.0f, draw_light_controls},
     {300.0f, 0.0f, 0.5f, draw_camera},
     {320.0f, 1.0f, 0.5f, draw_materials},
-    {340.0f, 0.0f, 1.0f, draw_pixel},
-    {760.0f, 0.5f, 1.0f, draw_timeline},
+    {340.0f, 1.0f, 1.0f, draw_pixel},
+    {760.0f, 0.0f, 1.0f, draw_timeline},
     {460.0f, 0.5f, 0.2f, draw_files},
 }};
 
@@ -83,8 +84,32 @@ void draw_divider(Model& model, float scale) {
                                           IM_COL32(255, 255, 255, held ? 255 : 150), 1.5f * scale);
 }
 
-// What the picture's colours mean, at the upper edge. The picture below takes the mouse.
-void draw_caption(const Model& model, float scale) {
+// The colours of the difference, from none to as large as can be seen.
+void draw_color_scale(float scale) {
+  constexpr int kSteps = 64;
+  static const Image<glm::u8vec3> kColors = [] {
+    Image<float> errors({kSteps, 1});
+    for (int i = 0; i < kSteps; ++i) errors.at(i, 0) = static_cast<float>(i) / (kSteps - 1);
+    return magma(errors);
+  }();
+  ImGui::TextUnformatted("0 same");
+  ImGui::SameLine();
+  const ImVec2 at = ImGui::GetCursorScreenPos();
+  const float width = 3.0f * scale, height = ImGui::GetTextLineHeight();
+  for (int i = 0; i < kSteps; ++i) {
+    const glm::u8vec3 c = kColors.at(i, 0);
+    const float x = at.x + width * static_cast<float>(i);
+    ImGui::GetWindowDrawList()->AddRectFilled({x, at.y}, {x + width, at.y + height}, IM_COL32(c.r, c.g, c.b, 255));
+  }
+  ImGui::Dummy(ImVec2(width * kSteps, height));
+  ImGui::SameLine();
+  ImGui::TextUnformatted("1 black against white");
+}
+
+}  // namespace
+
+// The picture below takes the mouse.
+void draw_caption(Model& model, float scale) {
   if (model.legend.empty() && model.comparison.empty()) return;
   const ImVec2 display = ImGui::GetIO().DisplaySize;
   const float margin = kMargin * scale;
@@ -97,14 +122,13 @@ void draw_caption(const Model& model, float scale) {
   if (!model.legend.empty()) ImGui::TextUnformatted(model.legend.c_str());
   if (!model.comparison.empty()) ImGui::TextUnformatted(model.comparison.c_str());
   ImGui::PopTextWrapPos();
+  if (model.settings.split == Split::heat_map) draw_color_scale(scale);
   ImGui::End();
 }
 
-}  // namespace
-
 void draw_overlay(Model& model, float scale) {
   if (model.settings.overlay) {
-    if (model.has_scene() && model.panels[Panel::lights]) draw_light_handles(model, scale);
+    if (model.has_scene() && model.panels[Panel::lights] && model.zoom.factor <= 1.0f) draw_light_handles(model, scale);
     draw_divider(model, scale);
     draw_caption(model, scale);
     draw_status_line(model, scale);

@@ -31,6 +31,8 @@ void draw_status_line(Model& model, float scale);
 // What there is to say, above the status line.
 void draw_messages(Model& model, float scale);
 void draw_loading(Model& model, float scale);
+// What the picture's colours mean, at the window's upper edge.
+void draw_caption(Model& model, float scale);
 // Over the picture, into no window: a handle at each light, to drag.
 void draw_light_handles(Model& model, float scale);
 

@@ -16,6 +16,8 @@ constexpr float kPadding = 4.0f;
 std::string picture_text(const Model& model) {
   if (!model.has_scene()) return "no scene";
   std::string text = mode_name(model.drawn);
+  if (!model.recording.empty()) text = "recording   " + text;
+  if (model.zoom.factor > 1.0f) text += format("   enlarged %.1f times", static_cast<double>(model.zoom.factor));
   text += format("   %d sample%s a pixel", model.samples, model.samples == 1 ? "" : "s");
   return text;
 }

@@ -10,12 +10,14 @@
 #include "app/exit_codes.h"
 #include "app/options.h"
 #include "hybrid/settings/scene_stats.h"
+#include "pinocchio/progress.h"
 
 namespace pinocchio::app {
 
 // Loads scenes and builds their trees on a thread of its own, while the window lives on: one thing at a time.
 class SceneLoader {
  public:
+  ~SceneLoader() { cancel(); }
   // How far it is, in words; empty: nothing is being loaded.
   struct Progress {
     std::string phase;
@@ -37,7 +39,7 @@ class SceneLoader {
   // Each begins; what was being loaded before is forgotten.
   void load(const DrawOptions& options);
   void build_tree(const Scene& scene, const Settings& settings);
-  // Nothing is loaded any more.
+  // Nothing is loaded any more; the work ends soon.
   void cancel();
   [[nodiscard]] News poll();
   [[nodiscard]] Progress progress() const;
@@ -45,10 +47,12 @@ class SceneLoader {
   [[nodiscard]] bool busy() const { return threads_.use_count() > 1; }
 
  private:
-  void start(const std::string& phase, const std::string& source, std::function<News()> work);
+  using Work = std::function<News(pinocchio::Progress&)>;
+  void start(const std::string& phase, const std::string& source, Work work);
 
   std::string phase_, source_;
   double begin_s_ = 0.0;
+  std::shared_ptr<pinocchio::Progress> progress_;  // the work's, too
   std::future<News> news_;
   std::shared_ptr<int> threads_ = std::make_shared<int>(0);  // each thread holds a reference
 };

@@ -1,6 +1,7 @@
 #include "app/window/session.h"
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 #include "app/console.h"
@@ -40,7 +41,7 @@ Session::Session(gl::Window& window, const ViewOptions& options)
       inspect_(engine_),
       accumulator_(programs_),
       renderer_(engine_, {[this](const Frame& frame) { take_frame(frame); },
-                          [this](const FrameRecord& record) { model_.history.add(record); }}),
+                          [this](const FrameRecord& record) { take_record(record); }}),
       applied_(settings_of(options)) {
   model_.settings = applied_;
   model_.panels = preferences_.panels;
@@ -82,6 +83,7 @@ double Session::patience_s() const {
   constexpr double kAsleep_s = 0.25, kMinimised_s = 0.1, kLoading_s = 0.03, kTracing_s = 0.002;
   if (window_.minimised()) return kMinimised_s;
   if (redraws_ > 0 || navigation_.flying()) return 0.0;
+  if (trial_) return 0.0;
   if (!model_.loading.phase.empty()) return kLoading_s;
   if (!model_.has_scene()) return kAsleep_s;
   if (!idle_) return renderer_.is_tracing() ? kTracing_s : 0.0;
@@ -97,7 +99,7 @@ void Session::take_events() {
     if (const auto* button = std::get_if<gl::ButtonEvent>(&event)) take_button(*button);
     if (const auto* pointer = std::get_if<gl::PointerEvent>(&event))
       navigation_.take(*pointer, static_cast<float>(window_.pixels().y));
-    if (const auto* scroll = std::get_if<gl::ScrollEvent>(&event)) navigation_.take(*scroll);
+    if (const auto* scroll = std::get_if<gl::ScrollEvent>(&event)) take_scroll(*scroll);
     if (const auto* drop = std::get_if<gl::DropEvent>(&event); drop && !drop->files.empty())
       open(drop->files.front().string());
   }
@@ -122,6 +124,16 @@ void Session::take_button(const gl::ButtonEvent& event) {
     if (second) return set_pivot();
   }
   if (!take_click(event)) navigation_.take(event);
+}
+
+// Ctrl enlarges the picture's pixels; what is under the pointer stays there.
+void Session::take_scroll(const gl::ScrollEvent& event) {
+  if (!window_.is_down(gl::kKeyLeftControl) && !window_.is_down(gl::kKeyRightControl)) return navigation_.take(event);
+  constexpr float kStep = 1.25f, kMost = 64.0f;
+  PictureZoom& zoom = model_.zoom;
+  const glm::vec2 share = pointer_ / glm::max(glm::vec2(window_.pixels()), 1.0f), stays = zoom.at(share);
+  zoom.factor = std::clamp(zoom.factor * std::pow(kStep, event.steps), 1.0f, kMost);
+  zoom.corner = glm::clamp(stays - share / zoom.factor, glm::vec2(0.0f), glm::vec2(1.0f - 1.0f / zoom.factor));
 }
 
 bool Session::take_click(const gl::ButtonEvent& event) {

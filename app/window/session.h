@@ -3,6 +3,7 @@
 #include <memory>
 #include <optional>
 
+#include "app/budget.h"
 #include "app/window/comparison.h"
 #include "app/window/edit_history.h"
 #include "app/window/file_watch.h"
@@ -19,6 +20,7 @@ namespace pinocchio::app {
 // What `view` takes from the command line.
 struct ViewOptions {
   DrawOptions draw;
+  BudgetOptions budget;
   float exposure_ev = 0.0f;
   bool watch = false;  // load scene and shaders anew when they change
   bool vsync = true;
@@ -43,6 +45,7 @@ class Session {
   void fly_on();
   void take_key(const gl::KeyEvent& event);
   void take_button(const gl::ButtonEvent& event);
+  void take_scroll(const gl::ScrollEvent& event);
   [[nodiscard]] bool take_click(const gl::ButtonEvent& event);
   void take_asked();
   [[nodiscard]] double patience_s() const;
@@ -55,11 +58,14 @@ class Session {
   void take_scene(SceneLoader::News& news);
   void take_file_changes();
   void apply_changes();
+  void take_material();
+  void set_materials(std::vector<Material> materials);
   [[nodiscard]] bool can_draw(const SceneStats& stats);
   [[nodiscard]] Expected<Settings> resolved(const Settings& wanted, const SceneStats& stats,
                                             bool keeps_mask) const;
   [[nodiscard]] bool try_settings(const ViewSettings& settings);
   void want_tree(const Settings& settings);
+  void keep_budget(const Settings& exact);
 
   // session_draw.cpp
   void draw();
@@ -72,6 +78,7 @@ class Session {
   [[nodiscard]] FrameRequest request() const;
   [[nodiscard]] FrameRequest next_request();
   void take_frame(const Frame& frame);
+  void take_record(const FrameRecord& record);
   [[nodiscard]] const gl::Texture& chosen_buffer(const Frame& frame);
   void compare(const Frame& frame);
   [[nodiscard]] ChannelRange channel_range() const;
@@ -82,6 +89,7 @@ class Session {
   // session_actions.cpp
   void perform(Action action);
   void close_something();
+  void cancel_loading();
   void frame_all();
   void show_camera(std::size_t number);
   void set_pivot();
@@ -95,6 +103,8 @@ class Session {
   void take_screenshot();
   void write_frame_exr(const std::string& file);
   void write_window_png();
+  void toggle_recording();
+  void record_window();
   void save_camera();
   void save_gltf();
   void print_command();
@@ -116,6 +126,9 @@ class Session {
   std::unique_ptr<Comparison> comparison_;  // null: none is asked for
   Renderer renderer_;
   EditHistory edits_;
+  std::unique_ptr<BudgetTrial> trial_;           // null: no plans are being measured
+  std::unique_ptr<QualityController> controller_;  // null: there is no budget, or it is not measured yet
+  Settings exact_;                                 // that trial_ and controller_ thin out
   std::unique_ptr<PixelInspector> inspector_;  // null: no pixel was looked at yet
   std::optional<FrameRequest> inspected_;      // by what the pixel's report was made
   std::optional<FileWatch> shader_watch_, scene_watch_;  // with --watch
@@ -138,6 +151,7 @@ class Session {
   std::vector<Light> applied_lights_;
   bool wants_tree_ = false;    // also where frames trace nothing: pixels are looked at
   bool scene_edited_ = false;  // it is not the file's
+  int recorded_ = 0;           // frames of the sequence
   std::string png_file_;       // to write the window to, when it is drawn next
   double last_turn_s_ = 0.0;
   double pressed_s_ = 0.0;     // when a click on the picture began, and where

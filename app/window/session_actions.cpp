@@ -7,6 +7,7 @@
 #include "app/window/framing.h"
 #include "app/window/scene_files.h"
 #include "app/window/session.h"
+#include "app/window/widgets.h"
 #include "core/base/clock.h"
 #include "core/image/atomic_file.h"
 #include "core/image/png.h"
@@ -46,7 +47,7 @@ void Session::perform(Action action) {
       case Action::screenshot:
         return take_screenshot();
       case Action::record:
-        return;
+        return toggle_recording();
       case Action::save_camera:
         return save_camera();
       case Action::save_scene:
@@ -58,9 +59,7 @@ void Session::perform(Action action) {
       case Action::previous_file:
         return step_file(-1);
       case Action::cancel_loading:
-        loader_.cancel();
-        pending_.reset();
-        return;
+        return cancel_loading();
       case Action::full_screen:
         return window_.set_full_screen(!window_.full_screen());
       case Action::close:
@@ -69,6 +68,15 @@ void Session::perform(Action action) {
   } catch (const std::exception& error) {  // a file that cannot be written
     model_.messages.error("file", error.what());
   }
+}
+
+// What is shown stays: no scene, the scene before, or this one without what is traced.
+void Session::cancel_loading() {
+  loader_.cancel();
+  pending_.reset();
+  model_.messages.hint(!model_.has_scene() ? "nothing is open: drop a file on the window, or press F10"
+                       : model_.tracer     ? "cancelled; the scene before stays"
+                                           : "cancelled; without shadows and mirrors, until the scene is opened again");
 }
 
 // The innermost first.
@@ -100,7 +108,7 @@ void Session::show_camera(std::size_t number) {
 }
 
 glm::ivec2 Session::pixel_under_pointer() const {
-  const glm::vec2 share = pointer_ / glm::max(glm::vec2(window_.pixels()), 1.0f);
+  const glm::vec2 share = model_.zoom.at(pointer_ / glm::max(glm::vec2(window_.pixels()), 1.0f));
   return glm::clamp(glm::ivec2(share * glm::vec2(picture_size())), glm::ivec2(0), picture_size() - 1);
 }
 
@@ -117,7 +125,7 @@ std::optional<PixelReport> Session::report(glm::ivec2 pixel) {
 void Session::set_pivot() {
   wants_tree_ = true;
   if (!model_.tracer) return model_.messages.hint("the tree is being built; try again when it is");
-  if (const std::optional<glm::vec3> p = surface_under(pointer_, glm::vec2(window_.pixels()),
+  if (const std::optional<glm::vec3> p = surface_under(glm::vec2(pixel_under_pointer()), glm::vec2(picture_size()),
                                                        model_.camera.camera(), *model_.tracer))
     model_.camera.look_at(*p);
 }
@@ -155,6 +163,7 @@ void Session::restore(const std::optional<EditState>& state, const char* nothing
   model_.settings = state->settings;
   model_.settings.overlay = overlay;
   model_.camera.set_camera(state->camera);
+  if (model_.scene.mesh->materials != state->materials) set_materials(state->materials);
   if (model_.scene.lights == state->lights) return;
   model_.scene.lights = state->lights;
   model_.lights_changed = true;
@@ -214,6 +223,25 @@ void Session::write_window_png() {
   }
 }
 
+void Session::toggle_recording() {
+  if (model_.recording.empty()) {
+    model_.recording = file_name({"-0001.png"});
+    recorded_ = 0;
+    return model_.messages.hint("recording to " + model_.recording + "-0001.png ...; K ends it");
+  }
+  model_.messages.news(std::to_string(recorded_) + " pictures written: " + model_.recording + "-####.png");
+  model_.recording.clear();
+}
+
+// Each picture that is drawn, without what is over it.
+void Session::record_window() {
+  Image<glm::u8vec3> image(model_.window_pixels);
+  if (!last_) return;
+  present(*last_);
+  std::ranges::copy(gl::read_window(model_.window_pixels), image.pixels().begin());
+  write_png(model_.recording + format("-%04d.png", ++recorded_), image);
+}
+
 void Session::save_camera() {
   catch_up();
   const std::string file = file_name({"-camera.json"}) + "-camera.json";
@@ -242,8 +270,13 @@ void Session::print_command() {
     file = name + ".gltf";
     save_scene(model_.scene, file);
   }
+  Settings settings = wanted_settings(applied_);
+  if (controller_)  // what the budget gave up is said in so many words
+    for (const Field& field : settings_table())
+      if (!field.same(controller_->now().settings, exact_))
+        (void)field.take(field.text(controller_->now().settings), settings);
   const std::string command = render_command(
-      {file, wanted_settings(applied_), model_.camera.camera(),
+      {file, settings, model_.camera.camera(),
        scene_edited_ ? std::vector<Light>() : extra_lights(model_.scene.lights, options_.draw),
        picture_size(), gathers() ? std::max(model_.samples, 1) : 1, applied_.exposure_ev},
       name);

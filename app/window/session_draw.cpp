@@ -126,6 +126,13 @@ void Session::take_frame(const Frame& frame) {
   const StageTimer timer(frame.record(), Stage::present);
   last_ = &chosen_buffer(frame);
   show(last_);
+  if (!model_.recording.empty()) record_window();
+}
+
+void Session::take_record(const FrameRecord& record) {
+  model_.history.add(record);
+  const std::vector<float> frames = model_.history.frame_ms();
+  if (controller_ && !frames.empty()) (void)controller_->note(static_cast<double>(frames.back()));
 }
 
 // What of the frame is looked at.
@@ -204,10 +211,11 @@ void Session::present(const gl::Texture& picture) {
                                    : applied_.split == Split::reference ? comparison_->reference()
                                                                         : comparison_->heat();
   const PixelBox left{{0, 0}, {comparison_ ? split : pixels.x, pixels.y}}, right{{split, 0}, pixels};
-  present_.draw(picture, pixels, left, last_is_light_ ? applied_.exposure_ev : 0.0f);
+  present_.draw(picture, pixels, left, last_is_light_ ? applied_.exposure_ev : 0.0f, model_.zoom);
   if (!comparison_) return;
   if (other) {
-    present_.draw(*other, pixels, right, applied_.split == Split::reference ? applied_.exposure_ev : 0.0f);
+    present_.draw(*other, pixels, right, applied_.split == Split::reference ? applied_.exposure_ev : 0.0f,
+                  model_.zoom);
   } else {
     present_.clear(pixels, right);
   }

@@ -71,6 +71,7 @@ void Session::take_scene(SceneLoader::News& news) {
   model_.messages.mended("scene");
   for (const std::string& warning : news.warnings) model_.messages.warning(warning);
   model_.history.clear();
+  model_.zoom = {};
   window_.set_title(scene.source + " - Pinocchio");
   preferences_.add_recent(scene.source);
   model_.recent = preferences_.recent;
@@ -118,10 +119,39 @@ bool Session::try_settings(const ViewSettings& settings) {
     apply_preset("mode", "raster", raster);
     wanted = resolved(raster, model_.stats, false);
   }
+  if (options_.budget.any() && model_.tracer) {
+    keep_budget(*wanted);
+    if (controller_) wanted = controller_->now().settings;
+  }
   if (wanted->persistent != model_.drawn.persistent) last_ = nullptr;  // its buffers are made anew
   if (!(*wanted == model_.drawn)) model_.history.clear();              // other figures
   model_.drawn = *wanted;
   return true;
+}
+
+// Ways to draw it for less are measured, one a turn; then frames keep to the budget.
+void Session::keep_budget(const Settings& exact) {
+  if (!(exact == exact_)) {
+    controller_.reset();
+    trial_.reset();
+    exact_ = exact;
+    if (exact.composite == Processor::cpu || !exact.traces())
+      return model_.messages.hint("--budget and --max-error are for mode hybrid, design 1");
+    renderer_.drain();
+    trial_ = std::make_unique<BudgetTrial>(engine_, exact, options_.budget, [this](const Settings& settings, int) {
+      FrameRequest one = request();
+      one.settings = settings;
+      return one;
+    });
+  }
+  if (!trial_) return;
+  trial_->step();
+  redraws_ = 1;
+  model_.messages.hint("measuring plans: " + std::to_string(trial_->done()) + " of " +
+                       std::to_string(trial_->count()), 1.0);
+  if (trial_->done() < trial_->count()) return;
+  controller_ = std::make_unique<QualityController>(trial_->front(), limits(options_.budget));
+  trial_.reset();
 }
 
 // Frames trace in the old tree, where there is one, until the new one is built.
@@ -132,6 +162,22 @@ void Session::want_tree(const Settings& given) {
   if (tree_of_ && same_tracer(*tree_of_, settings)) return;
   tree_of_ = settings;
   loader_.build_tree(model_.scene, settings);
+}
+
+// The tree stays: the triangles are the same.
+void Session::set_materials(std::vector<Material> materials) {
+  MeshData data = *model_.scene.mesh;
+  data.materials = std::move(materials);
+  model_.scene.mesh = std::make_shared<const Mesh>(std::move(data));
+  model_.stats = analyze(model_.scene);
+  scene_edited_ = true;
+}
+
+void Session::take_material() {
+  if (!model_.edited_material) return;
+  std::vector<Material> materials = model_.scene.mesh->materials;
+  materials.at(static_cast<std::size_t>(model_.material)) = *std::exchange(model_.edited_material, std::nullopt);
+  set_materials(std::move(materials));
 }
 
 void Session::apply_changes() {
@@ -146,6 +192,7 @@ void Session::apply_changes() {
     applied_ = wanted;
     return;
   }
+  take_material();
   if (std::exchange(model_.lights_changed, false)) {
     scene_edited_ = true;
     recount_lights(model_.scene, model_.stats);

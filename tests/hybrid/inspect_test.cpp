@@ -65,6 +65,30 @@ TEST_P(InspectTest, IdsHaveAColourEach) {
   }
 }
 
+TEST_P(InspectTest, DepthPositionAndAlbedoAreTheTracersWithinTheirRange) {
+  const Scene scene = load_or_die(source_path("scenes/two-lights"));
+  const Bounds box = scene.mesh->bounds();
+  const ChannelRange near_far{glm::vec3(0.0f), glm::vec3(box.diagonal())}, sides{box.lo, box.hi};
+  Workers workers(2);
+  look_at(scene, settings_for(scene), [&](Frame& frame) {
+    const FrameSlot& slot = frame.slot();
+    const SurfaceImages surface = surface_images(*scene.mesh, slot.view, workers, slot.ids);
+    const Image<glm::vec4> depth = read(pass_->draw(frame, BufferView::depth, 0, near_far));
+    const Image<glm::vec4> position = read(pass_->draw(frame, BufferView::position, 0, sides));
+    const Image<glm::vec4> albedo = view(frame, BufferView::albedo);
+    for (std::size_t i = 0; i < depth.pixels().size(); ++i) {
+      if (slot.ids[i] == kNoTriangle) continue;
+      ASSERT_NEAR(linear_to_srgb(depth[i].x), surface.z_eye[i] / box.diagonal(), 0.002f);
+      const glm::vec3 share = (surface.p_world[i] - box.lo) / box.extent();
+      for (int c = 0; c < 3; ++c) {
+        ASSERT_NEAR(linear_to_srgb(position[i][c]), share[c], 0.002f);
+        ASSERT_NEAR(albedo[i][c], surface.albedo[i][c], 0.002f);
+      }
+    }
+    EXPECT_NE(legend(BufferView::depth, 0, frame, near_far).find("black 0"), std::string::npos);
+  });
+}
+
 TEST_P(InspectTest, NormalsAreTheTracers) {
   const Scene scene = load_or_die(source_path("scenes/two-lights"));
   Workers workers(2);
