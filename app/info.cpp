@@ -31,7 +31,14 @@ nlohmann::json vec3_json(const glm::vec3& v) {
   return {v.x, v.y, v.z};
 }
 
-nlohmann::json scene_json(const Scene& scene) {
+nlohmann::json warnings_json(const Warnings& warnings) {
+  nlohmann::json json = nlohmann::json::array();
+  for (const Warning& w : warnings)
+    json.push_back({{"file", w.file}, {"where", w.where}, {"what", w.what}, {"lost", w.lost}, {"places", w.places}});
+  return json;
+}
+
+nlohmann::json scene_json(const Scene& scene, const Warnings& warnings) {
   const SceneStats stats = analyze(scene);
   const Bounds bounds = scene.mesh->bounds();
   nlohmann::json lights = nlohmann::json::array(), cameras = nlohmann::json::array();
@@ -39,6 +46,7 @@ nlohmann::json scene_json(const Scene& scene) {
     lights.push_back({{"name", light.name}, {"casts", light.casts_shadow}});
   for (const Camera& camera : scene.cameras) cameras.push_back(camera.name);
   return {{"file", scene.source},
+          {"warnings", warnings_json(warnings)},
           {"triangles", scene.mesh->triangles.size()},
           {"vertices", scene.mesh->positions.size()},
           {"materials", scene.mesh->materials.size()},
@@ -59,7 +67,7 @@ nlohmann::json scene_json(const Scene& scene) {
             {"gpu_normals", false}}}};  // no file we read has normals that the CPU does not know
 }
 
-void print_scene(const Scene& scene) {
+void print_scene(const Scene& scene, const Warnings& warnings) {
   const SceneStats stats = analyze(scene);
   const Bounds b = scene.mesh->bounds();
   std::printf("%s\n", scene.source.c_str());
@@ -72,6 +80,8 @@ void print_scene(const Scene& scene) {
     std::printf("  light '%s'%s\n", light.name.c_str(), light.casts_shadow ? ", casts shadows" : "");
   for (const Camera& camera : scene.cameras)
     std::printf("  camera '%s', %g degrees\n", camera.name.c_str(), static_cast<double>(camera.fov_deg));
+  if (!warnings.empty()) std::printf("left out\n");
+  for (const Warning& warning : warnings) std::printf("  %s\n", warning.message().c_str());
   std::printf("needs\n");
   std::printf("  %d of %d lights cast shadows (at most %d may); %d reach nothing\n", stats.casting_lights,
               stats.lights, kMaxCastingLights, stats.idle_lights);
@@ -147,14 +157,6 @@ nlohmann::json field_json(const Field& field) {
   return json;
 }
 
-Scene load_as_it_is(const std::string& file) {
-  std::vector<std::string> warnings;
-  Scene scene = value_or_exit(load_scene(file, &warnings), kBadScene);
-  for (const std::string& warning : warnings)
-    std::fprintf(stderr, "pinocchio: warning: %s\n", warning.c_str());
-  return scene;
-}
-
 // The page docs/settings.md, or the same as JSON.
 int show_settings(const InfoOptions& options) {
   if (options.json) {
@@ -194,19 +196,20 @@ Expected<Settings> plan_here(const SceneStats& stats) {
 
 int show_scene(const InfoOptions& options) {
   DrawOptions draw = options.draw;
-  draw.quiet = !options.plan;
-  // As the verbs draw it: with a light where it has none.
-  const Scene scene = options.plan ? load_scene_for(draw) : load_as_it_is(draw.scene);
+  draw.quiet = true;  // what is left out is listed
+  Warnings warnings;
+  Scene scene = load_whole(draw, warnings);
+  if (options.plan) light_if_dark(scene, options.draw);  // as the verbs draw it
   const SceneStats stats = analyze(scene);
   std::optional<Settings> plan;
   if (options.plan) plan = value_or_exit(plan_here(stats), kBadScene);
   if (options.json) {
-    nlohmann::json json = scene_json(scene);
+    nlohmann::json json = scene_json(scene, warnings);
     if (plan) json["plan"] = plan_json(*plan);
     if (plan) json["why"] = explain(stats, *plan);
     std::printf("%s\n", json.dump(2).c_str());
   } else {
-    print_scene(scene);
+    print_scene(scene, warnings);
     if (plan) print_plan(stats, *plan);
   }
   return kDone;
@@ -226,6 +229,7 @@ Run add_info(CLI::App& program) {
       ->excludes(scene);
   verb.add_flag("--plan", options->plan, "how a hybrid frame of it is drawn, and why");
   verb.add_flag("--json", options->json, "as JSON");
+  verb.add_flag("--strict", options->draw.strict, "what of the scene's files would be left out is an error");
   return [options] {
     if (options->settings) return show_settings(*options);
     return options->draw.scene.empty() ? show_system(*options) : show_scene(*options);

@@ -161,6 +161,7 @@ void add_size_option(CLI::App& verb, DrawOptions& o, const std::string& help) {
 void add_scene_options(CLI::App& verb, DrawOptions& o) {
   verb.add_option("SCENE", o.scene, "glTF (.gltf, .glb) or OBJ file")->required();
   add_camera_options(verb, o);
+  verb.add_flag("--strict", o.strict, "what of the scene's files would be left out is an error");
   verb.add_flag("--quiet", o.quiet, "print errors only");
   verb.add_option("--progress", o.progress, "progress bar: auto (on a terminal), on, off (auto)")
       ->check(CLI::IsMember({"auto", "on", "off"}));
@@ -196,18 +197,32 @@ void add_draw_options(CLI::App& verb, DrawOptions& o) {
   add_still_options(verb, o);
 }
 
-Scene load_scene_for(const DrawOptions& options, std::vector<std::string>* warnings,
-                     pinocchio::Progress* progress) {
-  std::vector<std::string> said;
-  Scene scene = value_or_exit(load_scene(options.scene, &said, progress), kBadScene);
-  scene.lights.insert(scene.lights.end(), options.lights.begin(), options.lights.end());
-  if (scene.lights.empty()) {
-    scene.lights.push_back(default_light(scene, camera_for(options, scene)));
-    said.push_back(scene.source + " has no light; a default one is used (add one with --light x,y,z)");
+Scene load_whole(const DrawOptions& options, Warnings& warnings, pinocchio::Progress* progress) {
+  Expected<Scene> scene = load_scene(options.scene, &warnings, progress);
+  if (!scene || (!options.quiet && !options.strict))  // they may say why it cannot be read
+    for (const Warning& warning : warnings)
+      std::fprintf(stderr, "pinocchio: warning: %s\n", warning.message().c_str());
+  if (scene && options.strict && !warnings.empty()) {
+    const std::size_t more = warnings.size() - 1;
+    throw Exit(kBadScene, warnings[0].message() + (more > 0 ? "; and " + std::to_string(more) + " more" : "") +
+                              " ('pinocchio info' lists them; without --strict the rest is drawn)");
   }
-  if (warnings) *warnings = std::move(said);
-  if (!warnings && !options.quiet)
-    for (const std::string& warning : said) std::fprintf(stderr, "pinocchio: warning: %s\n", warning.c_str());
+  return value_or_exit(std::move(scene), kBadScene);
+}
+
+void light_if_dark(Scene& scene, const DrawOptions& options) {
+  if (!scene.lights.empty()) return;
+  scene.lights.push_back(default_light(scene, camera_for(options, scene)));
+  if (!options.quiet)
+    std::fprintf(stderr, "pinocchio: %s has no light; a default one is used (add one with --light x,y,z)\n",
+                 scene.source.c_str());
+}
+
+Scene load_scene_for(const DrawOptions& options) {
+  Warnings warnings;
+  Scene scene = load_whole(options, warnings);
+  scene.lights.insert(scene.lights.end(), options.lights.begin(), options.lights.end());
+  light_if_dark(scene, options);
   return scene;
 }
 

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "pinocchio/engine.h"
+#include "pinocchio/load.h"
 #include "pinocchio/scene.h"
 #include "pinocchio/view.h"
 
@@ -30,6 +31,7 @@ struct DrawOptions {
   bool precise = false;  // drawn by the reference
   std::string progress = "auto";
   bool quiet = false;
+  bool strict = false;  // what of the scene would be left out is an error
 };
 
 // Each adds options to a verb; they are in `options` once the command line is parsed. A value that cannot be is
@@ -47,10 +49,16 @@ void add_still_options(CLI::App& verb, DrawOptions& options);
 // All of these.
 void add_draw_options(CLI::App& verb, DrawOptions& options);
 
-// Loads the scene, adds the options' lights, and a default light where there is none. What is to be said of it
-// goes to `warnings`, or to stderr. Ends the verb with kBadScene where the file cannot be read.
-[[nodiscard]] Scene load_scene_for(const DrawOptions& options, std::vector<std::string>* warnings = nullptr,
-                                   pinocchio::Progress* progress = nullptr);
+// Loads the scene and prints what of it is left out. Ends the verb with kBadScene where the file cannot be read,
+// or is not read whole and options.strict.
+[[nodiscard]] Scene load_whole(const DrawOptions& options, Warnings& warnings,
+                               pinocchio::Progress* progress = nullptr);
+
+// A default light for a scene that has none; said on stderr.
+void light_if_dark(Scene& scene, const DrawOptions& options);
+
+// load_whole, adds the options' lights, and a default light where there is none (said on stderr).
+[[nodiscard]] Scene load_scene_for(const DrawOptions& options);
 
 // The camera that the options ask for. Ends the verb with kUsage where the scene has no such camera.
 [[nodiscard]] Camera camera_for(const DrawOptions& options, const Scene& scene);

@@ -52,7 +52,7 @@ PixelReport PixelInspector::look(const Scene& scene, const std::shared_ptr<const
 
   const Mesh& mesh = *scene.mesh;
   report.material = mesh.triangle_materials[report.triangle];
-  const SurfaceImages surface = surface_images(mesh, view_params(request.view), engine_.workers(1), whole.ids);
+  const SurfaceImages surface = surface_images(mesh, view_params(request.view), whole.ids, 0, 1);
   report.depth = surface.z_eye[0];
   report.position = surface.p_world[0];
   report.normal = surface.n_shading[0];

@@ -24,15 +24,30 @@ void give_way() {
 
 }  // namespace
 
+// What is to be said of it is the window's to say.
+SceneLoader::News SceneLoader::read(const DrawOptions& options, pinocchio::Progress& progress) {
+  News news;
+  DrawOptions silent = options;
+  silent.quiet = true;
+  Warnings warnings;
+  Scene scene = load_whole(silent, warnings, &progress);
+  scene.lights.insert(scene.lights.end(), options.lights.begin(), options.lights.end());
+  if (!options.quiet) {
+    for (const Warning& warning : warnings) news.warnings.push_back(warning.message());
+    if (scene.lights.empty())
+      news.warnings.push_back(scene.source + " has no light; a default one is used (add one with --light x,y,z)");
+  }
+  light_if_dark(scene, silent);
+  news.stats = analyze(scene);
+  news.interest = bounds_of_interest(*scene.mesh);
+  news.camera = camera_for(options, scene);
+  news.scene = std::move(scene);
+  return news;
+}
+
 void SceneLoader::load(const DrawOptions& options) {
-  start("reading " + options.scene, options.scene, [options](pinocchio::Progress& progress) {
-    News news;
-    news.scene = load_scene_for(options, &news.warnings, &progress);
-    news.stats = analyze(*news.scene);
-    news.interest = bounds_of_interest(*news.scene->mesh);
-    news.camera = camera_for(options, *news.scene);
-    return news;
-  });
+  start("reading " + options.scene, options.scene,
+        [options](pinocchio::Progress& progress) { return read(options, progress); });
 }
 
 void SceneLoader::build_tree(const Scene& scene, const Settings& settings) {

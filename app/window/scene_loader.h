@@ -47,6 +47,7 @@ class SceneLoader {
   [[nodiscard]] bool busy() const { return threads_.use_count() > 1; }
 
  private:
+  [[nodiscard]] static News read(const DrawOptions& options, pinocchio::Progress& progress);
   using Work = std::function<News(pinocchio::Progress&)>;
   void start(const std::string& phase, const std::string& source, Work work);
 

@@ -14,8 +14,7 @@
 #include <tiny_gltf.h>
 #pragma GCC diagnostic pop
 
-#include "pinocchio/error.h"
-#include "pinocchio/mesh.h"
+#include "pinocchio/load.h"
 #include "pinocchio/progress.h"
 
 namespace pinocchio {
@@ -44,7 +43,7 @@ struct GltfFile {
 // Reads and parses the file; images stay encoded, their bytes in Image::image where they are not in a
 // buffer view. Refuses what would overrun tinygltf: JSON nested deeper than any scene's.
 [[nodiscard]] Expected<GltfFile> read_gltf_file(const std::filesystem::path& path,
-                                                std::vector<std::string>& warnings, Progress* progress);
+                                                Warnings& warnings, Progress* progress);
 
 // Members of an object that a file may or may not have, of the type that is wanted.
 [[nodiscard]] const tinygltf::Value* member(const tinygltf::Value& object, const std::string& key);
@@ -62,12 +61,12 @@ struct GltfFile {
 
 // Decodes the images that materials use and makes their diffuse_texture the scene's; an image that cannot
 // be read is a warning and leaves the plain colour.
-void add_gltf_textures(const GltfFile& file, MeshData& mesh, std::vector<std::string>& warnings);
+void add_gltf_textures(const GltfFile& file, MeshData& mesh, Warnings& warnings);
 
 // Appends the triangles of a mesh, placed by `world_from_mesh`. Materials are the file's indices; -1
 // becomes `default_material`.
 [[nodiscard]] Expected<void> add_gltf_mesh(const GltfFile& file, int mesh, const glm::mat4& world_from_mesh,
                                            std::uint32_t default_material, MeshData& to,
-                                           std::vector<std::string>& warnings);
+                                           Warnings& warnings);
 
 }  // namespace pinocchio

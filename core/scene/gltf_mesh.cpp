@@ -135,14 +135,16 @@ class MeshPlacer {
 
 Expected<void> add_gltf_mesh(const GltfFile& file, int mesh, const glm::mat4& world_from_mesh,
                              std::uint32_t default_material, MeshData& to,
-                             std::vector<std::string>& warnings) {
+                             Warnings& warnings) {
   if (mesh < 0 || static_cast<std::size_t>(mesh) >= file.model.meshes.size())
     return file.error("a node names mesh " + std::to_string(mesh) + ", there are " +
                       std::to_string(file.model.meshes.size()));
   MeshPlacer placer(file, world_from_mesh, to);
   for (const tinygltf::Primitive& primitive : file.model.meshes[static_cast<std::size_t>(mesh)].primitives) {
     if (primitive.mode >= TINYGLTF_MODE_POINTS && primitive.mode <= TINYGLTF_MODE_LINE_STRIP) {
-      warnings.push_back(file.path.string() + ": points and lines are left out");
+      const bool points = primitive.mode == TINYGLTF_MODE_POINTS;
+      warnings.add({file.path.string(), "mesh " + std::to_string(mesh),
+                    points ? "points are left out" : "lines are left out", "they are not drawn"});
       continue;
     }
     if (primitive.mode != TINYGLTF_MODE_TRIANGLES && primitive.mode != TINYGLTF_MODE_TRIANGLE_STRIP &&
@@ -150,7 +152,8 @@ Expected<void> add_gltf_mesh(const GltfFile& file, int mesh, const glm::mat4& wo
       return file.error("a primitive has the mode " + std::to_string(primitive.mode) +
                         ", which glTF does not know");
     if (attribute(primitive, "POSITION") < 0) {
-      warnings.push_back(file.path.string() + ": a primitive without positions is left out");
+      warnings.add({file.path.string(), "mesh " + std::to_string(mesh),
+                    "primitives without positions are left out", "they are not drawn"});
       continue;
     }
     if (const Expected<void> added = placer.add(primitive, default_material); !added) return added;

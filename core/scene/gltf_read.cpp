@@ -1,6 +1,8 @@
 #include <cstring>
+#include <nlohmann/json.hpp>
 #include <string_view>
 
+#include "core/scene/gltf_features.h"
 #include "core/scene/gltf_file.h"
 #include "core/scene/read_bytes.h"
 
@@ -59,8 +61,7 @@ std::string first_line(const std::string& text) {
 
 }  // namespace
 
-Expected<GltfFile> read_gltf_file(const std::filesystem::path& path, std::vector<std::string>& warnings,
-                                  Progress* progress) {
+Expected<GltfFile> read_gltf_file(const std::filesystem::path& path, Warnings& warnings, Progress* progress) {
   GltfFile file{path, {}, {}, progress};
   const std::optional<std::string> read_file = read_bytes(path, progress);
   if (!read_file || read_file->empty()) return file.error("cannot be read", "is it yours to read?");
@@ -68,6 +69,13 @@ Expected<GltfFile> read_gltf_file(const std::filesystem::path& path, std::vector
   constexpr std::size_t kMostBytes = 0xffffffffu;  // also what a .glb can say of itself
   if (bytes.size() > kMostBytes) return file.error("is larger than 4 GiB", "split it");
   if (nested_too_deep(json_of(bytes))) return file.error("is nested too deeply");
+
+  const nlohmann::json gltf = nlohmann::json::parse(json_of(bytes), nullptr, false);
+  if (gltf.is_discarded() || !gltf.is_object())
+    return file.error("is not glTF: its JSON cannot be parsed", "is the export complete?");
+  if (const Expected<void> readable = check_gltf_requirements(path, gltf); !readable)
+    return Unexpected(readable.error());
+  add_lost_gltf_features(path, gltf, warnings);
 
   tinygltf::TinyGLTF reader;
   reader.SetImageLoader(keep_encoded, nullptr);
@@ -90,7 +98,7 @@ Expected<GltfFile> read_gltf_file(const std::filesystem::path& path, std::vector
   }
   if (!read)
     return file.error("is not glTF 2.0 that can be read: " + first_line(error), "is the export complete?");
-  if (!warning.empty()) warnings.push_back(path.string() + ": " + first_line(warning));
+  if (!warning.empty()) warnings.add({path.string(), "", first_line(warning), ""});
   return file;
 }
 

@@ -16,7 +16,7 @@ std::optional<Texture> texture_of(const GltfFile& file, int index) {
 
 }  // namespace
 
-void add_gltf_textures(const GltfFile& file, MeshData& mesh, std::vector<std::string>& warnings) {
+void add_gltf_textures(const GltfFile& file, MeshData& mesh, Warnings& warnings) {
   std::map<int, int> texture_of_image;
   for (Material& material : mesh.materials) {
     if (material.diffuse_texture < 0) continue;
@@ -26,8 +26,8 @@ void add_gltf_textures(const GltfFile& file, MeshData& mesh, std::vector<std::st
         at->second = static_cast<int>(mesh.textures.size());
         mesh.textures.push_back(std::move(*texture));
       } else {
-        warnings.push_back(file.path.string() + ": its image " + std::to_string(at->first) +
-                           " cannot be read; the plain colour is used");
+        warnings.add({file.path.string(), "image " + std::to_string(at->first), "cannot be read",
+                      "the plain colour is used"});
       }
     }
     material.diffuse_texture = at->second;

@@ -1,5 +1,4 @@
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <glm/gtc/quaternion.hpp>
 #include <glm/gtc/type_ptr.hpp>
@@ -10,15 +9,6 @@
 
 namespace pinocchio {
 namespace {
-
-constexpr std::array<const char*, 8> kKnownExtensions{"KHR_lights_punctual",
-                                                      "KHR_materials_ior",
-                                                      "KHR_materials_transmission",
-                                                      "KHR_materials_volume",
-                                                      "KHR_materials_specular",
-                                                      "KHR_materials_unlit",
-                                                      "KHR_materials_emissive_strength",
-                                                      "KHR_mesh_quantization"};
 
 glm::mat4 matrix_of(const tinygltf::Node& node) {
   if (node.matrix.size() == 16) return glm::mat4(glm::make_mat4(node.matrix.data()));
@@ -161,9 +151,10 @@ class SceneReader {
       const tinygltf::Camera& camera = model_.cameras[static_cast<std::size_t>(node.camera)];
       const Camera ours = camera_of(camera, node, world);
       if (camera.type != "perspective") {
-        warn("camera '" + ours.name + "' is not perspective and left out");
+        warn("camera '" + ours.name + "'", "is not perspective and left out", "it cannot be looked through");
       } else if (!can_look(ours)) {
-        warn("camera '" + ours.name + "' has no field of view within 0 and 180 degrees and is left out");
+        warn("camera '" + ours.name + "'", "has no field of view within 0 and 180 degrees and is left out",
+             "it cannot be looked through");
       } else {
         scene_.cameras.push_back(ours);
       }
@@ -178,13 +169,15 @@ class SceneReader {
       if (can_shine(ours)) {
         scene_.lights.push_back(ours);
       } else {
-        warn("light '" + ours.name + "' is not of finite numbers and left out");
+        warn("light '" + ours.name + "'", "is not of finite numbers and left out", "its light is missing");
       }
     }
     return {};
   }
 
-  void warn(const std::string& what) { warnings_.push_back(file_.path.string() + ": " + what); }
+  void warn(const std::string& where, const std::string& what, const std::string& lost) {
+    warnings_.add({file_.path.string(), where, what, lost});
+  }
 
   void finish() {
     scene_.source_files = file_.named_files;
@@ -217,9 +210,6 @@ class SceneReader {
 Expected<Scene> load_gltf(const std::filesystem::path& path, Warnings& warnings, Progress* progress) {
   const Expected<GltfFile> file = read_gltf_file(path, warnings, progress);
   if (!file) return Unexpected(file.error());
-  for (const std::string& name : file->model.extensionsRequired)
-    if (std::find(kKnownExtensions.begin(), kKnownExtensions.end(), name) == kKnownExtensions.end())
-      return file->error("requires the extension " + name + ", which is not supported", "export it without");
   return SceneReader(*file, warnings).read();
 }
 

@@ -13,6 +13,7 @@
 #include <tiny_obj_loader.h>
 #pragma GCC diagnostic pop
 
+#include "core/scene/mtl_features.h"
 #include "core/scene/obj_check.h"
 #include "core/scene/read_bytes.h"
 #include "core/scene/texture_file.h"
@@ -86,11 +87,13 @@ class MtlReader final : public tinyobj::MaterialReader {
       }
     files_.push_back(mtl.string());
     if (!in) {
-      warnings_.push_back(file_.string() + ": its materials " + mtl.string() +
-                          " cannot be read; grey is used");
+      warnings_.add({file_.string(), "", "its materials " + mtl.string() + " cannot be read", "grey is used"});
       return false;
     }
-    tinyobj::LoadMtl(by_name, materials, &in, warning, error);
+    const std::string text(std::istreambuf_iterator<char>(in), {});
+    add_lost_mtl_features(mtl, text, warnings_);
+    std::istringstream lines(text);
+    tinyobj::LoadMtl(by_name, materials, &lines, warning, error);
     return true;
   }
 
@@ -131,10 +134,7 @@ void add_unknown_materials(const std::string& parser_warnings, const std::filesy
                            Warnings& warnings) {
   std::istringstream lines(parser_warnings);
   for (std::string line; std::getline(lines, line);) {
-    const std::string warning = file.string() + ": " + line + "; grey is used";
-    if (line.starts_with("material [") &&
-        std::find(warnings.begin(), warnings.end(), warning) == warnings.end())
-      warnings.push_back(warning);
+    if (line.starts_with("material [")) warnings.add({file.string(), "", line, "grey is used"});
   }
 }
 
@@ -216,6 +216,20 @@ class ObjMesh {
   bool any_texcoord_ = false;
 };
 
+// What no statement alone tells: a dissolve that nothing refracts, a texture without coordinates.
+void add_lost_materials(const ObjFile& obj, const MeshData& mesh, const std::filesystem::path& file,
+                        Warnings& warnings) {
+  for (std::size_t i = 0; i < obj.materials.size(); ++i) {
+    const tinyobj::material_t& m = obj.materials[i];
+    const std::string where = "material '" + m.name + "'";
+    if (m.dissolve < 1.0f && !mesh.materials[i + 1].transmits())
+      warnings.add({file.string(), where, "its d or Tr is left out", "it is opaque"});
+    if (!m.diffuse_texname.empty() && mesh.texcoords.empty())
+      warnings.add({file.string(), where, "has a texture, and no face has texture coordinates",
+                    "the plain colour is used"});
+  }
+}
+
 void load_textures(const ObjFile& obj, const std::filesystem::path& file, MeshData& mesh,
                    std::vector<std::string>& source_files, Warnings& warnings) {
   std::unordered_map<std::string, int> loaded;
@@ -231,8 +245,8 @@ void load_textures(const ObjFile& obj, const std::filesystem::path& file, MeshDa
     source_files.push_back(texture_file.string());
     std::optional<Texture> texture = load_texture(texture_file);
     if (!texture) {
-      warnings.push_back(file.string() + ": its texture " + name +
-                         " cannot be read; the plain colour is used");
+      warnings.add({file.string(), "material '" + mesh.materials[i + 1].name + "'",
+                    "its texture " + name + " cannot be read", "the plain colour is used"});
       continue;
     }
     loaded[name] = mesh.materials[i + 1].diffuse_texture = static_cast<int>(mesh.textures.size());
@@ -245,7 +259,7 @@ void load_textures(const ObjFile& obj, const std::filesystem::path& file, MeshDa
 Expected<Scene> load_obj(const std::filesystem::path& path, Warnings& warnings, Progress* progress) {
   std::optional<std::string> text = read_bytes(path, progress);
   if (!text) return Unexpected(InputError{path.string(), 0, "cannot be read", "is it yours to read?"});
-  if (const Expected<void> checked = check_obj_text(*text, path, progress); !checked)
+  if (const Expected<void> checked = check_obj_text(*text, path, warnings, progress); !checked)
     return Unexpected(checked.error());
 
   ObjFile obj;
@@ -260,6 +274,7 @@ Expected<Scene> load_obj(const std::filesystem::path& path, Warnings& warnings, 
         InputError{path.string(), 0, error.substr(0, error.find('\n')), "export the file again"});
   add_unknown_materials(warning, path, warnings);
   MeshData mesh = ObjMesh(obj, progress).build();
+  add_lost_materials(obj, mesh, path, warnings);
   std::vector<std::string> source_files = mtl.files();
   load_textures(obj, path, mesh, source_files, warnings);
   Scene scene(std::move(mesh));

@@ -1,5 +1,6 @@
 #include "core/scene/obj_check.h"
 
+#include <algorithm>
 #include <array>
 #include <charconv>
 #include <cmath>
@@ -8,18 +9,10 @@
 #include <string_view>
 #include <vector>
 
+#include "core/scene/text_lines.h"
+
 namespace pinocchio {
 namespace {
-
-// Cuts the next word off the line; empty at its end.
-std::string_view next_word(std::string_view& line) {
-  const std::size_t first = line.find_first_not_of(" \t\r");
-  if (first == std::string_view::npos) return {};
-  const std::size_t end = std::min(line.find_first_of(" \t\r", first), line.size());
-  const std::string_view word = line.substr(first, end - first);
-  line.remove_prefix(end);
-  return word;
-}
 
 template <class T>
 std::optional<T> number(std::string_view word) {
@@ -36,22 +29,22 @@ std::optional<T> number(std::string_view word) {
 enum Kind { kVertex, kTexcoord, kNormal, kKinds };
 constexpr std::array<const char*, kKinds> kKindNames{"vertex", "texture coordinate", "normal"};
 
+// Statements that are read, that only name things, or that belong to others which are warned of.
+constexpr std::string_view kQuiet[] = {"o",    "g",    "s",     "usemtl", "mtllib", "mg",  "vp",   "cstype",
+                                       "deg",  "bmat", "step",  "parm",   "trim",   "hole", "scrv", "sp",
+                                       "end",  "con",  "bevel", "lod",    "c_interp", "d_interp", "ctech", "stech"};
 constexpr int kLinesBetweenLooks = 4096;
 
 class Checker {
  public:
-  Checker(std::string& text, const std::filesystem::path& file) : text_(text), file_(file) {}
+  Checker(std::string& text, const std::filesystem::path& file, Warnings& warnings)
+      : text_(text), file_(file), warnings_(warnings) {}
 
   Expected<void> check(const Progress* progress) {
-    std::string_view text = text_;
-    while (!text.empty()) {
-      if (++line_ % kLinesBetweenLooks == 0) throw_if_cancelled(progress);
-      // As the parser has it: CR LF, LF or CR alone.
-      const std::size_t end = std::min(text.find_first_of("\r\n"), text.size());
-      const Expected<void> checked = check_line(text.substr(0, end));
-      if (!checked) return checked;
-      text.remove_prefix(end);
-      text.remove_prefix(text.starts_with("\r\n") ? 2 : std::min<std::size_t>(1, text.size()));
+    for (TextLines lines(text_); lines.next();) {
+      line_ = lines.number();
+      if (line_ % kLinesBetweenLooks == 0) throw_if_cancelled(progress);
+      if (const Expected<void> checked = check_line(lines.line()); !checked) return checked;
     }
     // Forward references are allowed, so only the end tells.
     for (int kind = 0; kind < kKinds; ++kind)
@@ -78,7 +71,21 @@ class Checker {
     if (word == "vn") return check_numbers(line, 3, 3, kNormal);
     if (word == "vt") return check_numbers(line, 1, 2, kTexcoord);
     if (word == "f") return check_face(line);
+    if (!word.empty() && word.front() != '#') check_statement(word);
     return {};
+  }
+
+  void check_statement(std::string_view keyword) {
+    const auto lost = [&](std::string_view what, std::string_view loss) {
+      const std::string where = "line " + std::to_string(line_) + " (" + std::string(keyword.substr(0, 20)) + ")";
+      warnings_.add({file_.string(), where, std::string(what), std::string(loss)});
+    };
+    if (keyword == "p") return lost("points are left out", "they are not drawn");
+    if (keyword == "l") return lost("lines are left out", "they are not drawn");
+    if (keyword == "curv" || keyword == "curv2" || keyword == "surf")
+      return lost("curves and free-form surfaces are left out", "they are not drawn");
+    if (std::find(std::begin(kQuiet), std::end(kQuiet), keyword) == std::end(kQuiet))
+      lost("statements that are not known are left out", "what they stand for is missing");
   }
 
   Expected<void> check_numbers(std::string_view line, int least, int most, Kind kind) {
@@ -127,6 +134,7 @@ class Checker {
 
   std::string& text_;
   const std::filesystem::path& file_;
+  Warnings& warnings_;
   int line_ = 0;
   std::array<long long, kKinds> counts_{};
   std::array<Reference, kKinds> highest_{};
@@ -134,8 +142,9 @@ class Checker {
 
 }  // namespace
 
-Expected<void> check_obj_text(std::string& text, const std::filesystem::path& file, const Progress* progress) {
-  return Checker(text, file).check(progress);
+Expected<void> check_obj_text(std::string& text, const std::filesystem::path& file, Warnings& warnings,
+                              const Progress* progress) {
+  return Checker(text, file, warnings).check(progress);
 }
 
 }  // namespace pinocchio

@@ -3,15 +3,16 @@
 #include <filesystem>
 #include <string>
 
-#include "pinocchio/error.h"
+#include "pinocchio/load.h"
 #include "pinocchio/progress.h"
 
 namespace pinocchio {
 
 // Reads an OBJ's lines for what would mislead the parser behind it: coordinates that are not finite
 // numbers, faces of vertices that there are not. Errors carry the line. Slashes that end a face's corner
-// (1/2/) become spaces: the parser would read the next corner's number into them.
+// (1/2/) become spaces: the parser would read the next corner's number into them. Statements that nothing reads
+// are warnings.
 [[nodiscard]] Expected<void> check_obj_text(std::string& text, const std::filesystem::path& file,
-                                            const Progress* progress = nullptr);
+                                            Warnings& warnings, const Progress* progress = nullptr);
 
 }  // namespace pinocchio

@@ -83,11 +83,11 @@ TEST(LoadObj, MissingMaterialsAndTexturesAreWarnings) {
       load_scene(write_file("w.obj", "mtllib nowhere.mtl\n" + kTriangle + "usemtl m\nf 1 2 3\n"), &warnings);
   ASSERT_TRUE(scene);
   ASSERT_FALSE(warnings.empty());
-  EXPECT_NE(warnings[0].find("nowhere.mtl"), std::string::npos);
-  warnings.clear();
+  EXPECT_NE(warnings[0].message().find("nowhere.mtl"), std::string::npos);
+  warnings = {};
   (void)load_text(kTriangle + "vt 0 0\nusemtl m\nf 1/1 2/1 3/1\n", "newmtl m\nmap_Kd none.png\n", &warnings);
   ASSERT_FALSE(warnings.empty());
-  EXPECT_NE(warnings[0].find("none.png"), std::string::npos);
+  EXPECT_NE(warnings[0].message().find("none.png"), std::string::npos);
 }
 
 TEST(LoadObj, TextureCoordinatesGrowDownwards) {
@@ -122,7 +122,7 @@ TEST(LoadObj, MaterialFilesMayHaveSpacesInTheirNames) {
   const Expected<Scene> scene = load_scene(write_file("my red.obj", text), &warnings);
   ASSERT_TRUE(scene);
   EXPECT_EQ(scene->mesh->material_of(0).diffuse, glm::vec3(1, 0, 0));
-  EXPECT_TRUE(warnings.empty()) << warnings[0];
+  EXPECT_TRUE(warnings.empty()) << warnings[0].message();
 }
 
 TEST(LoadObj, MaterialsThatNoFileExplainsAreWarnings) {
@@ -131,7 +131,7 @@ TEST(LoadObj, MaterialsThatNoFileExplainsAreWarnings) {
       load_text(kTriangle + "usemtl blue\nf 1 2 3\nusemtl blue\nf 1 2 3\n", "newmtl red\n", &warnings);
   EXPECT_EQ(scene.mesh->material_of(0).name, "default");
   ASSERT_EQ(warnings.size(), 1u);
-  EXPECT_NE(warnings[0].find("blue"), std::string::npos);
+  EXPECT_NE(warnings[0].message().find("blue"), std::string::npos);
 }
 
 TEST(LoadObj, BadInputNamesTheLine) {

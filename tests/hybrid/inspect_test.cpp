@@ -69,10 +69,9 @@ TEST_P(InspectTest, DepthPositionAndAlbedoAreTheTracersWithinTheirRange) {
   const Scene scene = load_or_die(source_path("scenes/two-lights"));
   const Bounds box = scene.mesh->bounds();
   const ChannelRange near_far{glm::vec3(0.0f), glm::vec3(box.diagonal())}, sides{box.lo, box.hi};
-  Workers workers(2);
   look_at(scene, settings_for(scene), [&](Frame& frame) {
     const FrameSlot& slot = frame.slot();
-    const SurfaceImages surface = surface_images(*scene.mesh, slot.view, workers, slot.ids);
+    const SurfaceImages surface = surface_images(*scene.mesh, slot.view, slot.ids, 0, slot.ids.height());
     const Image<glm::vec4> depth = read(pass_->draw(frame, BufferView::depth, 0, near_far));
     const Image<glm::vec4> position = read(pass_->draw(frame, BufferView::position, 0, sides));
     const Image<glm::vec4> albedo = view(frame, BufferView::albedo);
@@ -95,7 +94,7 @@ TEST_P(InspectTest, NormalsAreTheTracers) {
   look_at(scene, settings_for(scene), [&](Frame& frame) {
     const FrameSlot& slot = frame.slot();
     const Image<glm::vec4> picture = view(frame, BufferView::normals);
-    const Image<glm::vec3> n = surface_images(*scene.mesh, slot.view, workers, slot.ids).n_shading;
+    const Image<glm::vec3> n = surface_images(*scene.mesh, slot.view, slot.ids, 0, slot.ids.height()).n_shading;
     for (std::size_t i = 0; i < picture.pixels().size(); ++i) {
       if (slot.ids[i] == kNoTriangle) continue;
       for (int c = 0; c < 3; ++c) ASSERT_NEAR(linear_to_srgb(picture[i][c]), 0.5f * n[i][c] + 0.5f, 0.002f);

@@ -1,7 +1,9 @@
 #pragma once
 
 #include <filesystem>
+#include <map>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "pinocchio/error.h"
@@ -10,12 +12,39 @@
 
 namespace pinocchio {
 
-using Warnings = std::vector<std::string>;
+// What of a file does not reach the picture: one for each feature and file, however many places have it.
+struct Warning {
+  std::string file;        // that holds it
+  std::string where;       // the first place: "material 'paint'", "line 12"; empty: all of it
+  std::string what;        // "its normal texture is left out"
+  std::string lost;        // what the picture loses by it
+  std::size_t places = 1;  // that have it
+
+  // One clear line.
+  [[nodiscard]] std::string message() const;
+};
+
+class Warnings {
+ public:
+  // Where the file's feature is known already, one place more of it.
+  void add(Warning warning);
+
+  [[nodiscard]] bool empty() const { return all_.empty(); }
+  [[nodiscard]] std::size_t size() const { return all_.size(); }
+  [[nodiscard]] const Warning& operator[](std::size_t i) const { return all_[i]; }
+  [[nodiscard]] auto begin() const { return all_.begin(); }
+  [[nodiscard]] auto end() const { return all_.end(); }
+
+ private:
+  std::vector<Warning> all_;
+  std::map<std::pair<std::string, std::string>, std::size_t> known_;  // by file and what
+};
 
 // Reads glTF 2.0 (.gltf, .glb) or Wavefront OBJ+MTL (.obj), chosen by the file's extension. A path
 // without extension, or a folder, stands for the one scene file of that name (scenes/cornell ->
 // scenes/cornell.gltf). The result has passed check_scene. Errors name the file and, for text formats,
-// the line; what a picture can do without is added to `warnings` instead. Phases "read" and "mesh". Any thread.
+// the line; what a picture can do without is added to `warnings` instead, which are whole where the result
+// is an error, too. Phases "read" and "mesh". Any thread.
 [[nodiscard]] Expected<Scene> load_scene(const std::filesystem::path& path, Warnings* warnings = nullptr,
                                          Progress* progress = nullptr);
 

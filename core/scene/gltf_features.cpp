@@ -1,0 +1,251 @@
+#include "core/scene/gltf_features.h"
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+#include <set>
+#include <string_view>
+
+namespace pinocchio {
+namespace {
+
+using Json = nlohmann::json;
+
+// An extension by its name; what the picture loses without it, nothing where it is read or has nothing to
+// do with pictures; what to do where a file requires it.
+struct Extension {
+  std::string_view name, lost, remedy;
+};
+
+constexpr Extension kExtensions[] = {
+    {"KHR_lights_punctual", "", ""},
+    {"KHR_materials_emissive_strength", "", ""},
+    {"KHR_materials_ior", "", ""},
+    {"KHR_materials_specular", "", ""},
+    {"KHR_materials_transmission", "", ""},
+    {"KHR_materials_unlit", "", ""},
+    {"KHR_materials_volume", "", ""},
+    {"KHR_mesh_quantization", "", ""},
+    {"FB_ngon_encoding", "", ""},
+    {"KHR_xmp", "", ""},
+    {"KHR_xmp_json_ld", "", ""},
+    {"KHR_draco_mesh_compression", "meshes are missing", "export it without compression"},
+    {"EXT_meshopt_compression", "meshes are missing", "export it without compression"},
+    {"KHR_meshopt_compression", "meshes are missing", "export it without compression"},
+    {"EXT_mesh_gpu_instancing", "of many copies of a mesh one is drawn", "export it without instances"},
+    {"EXT_texture_webp", "another image or the plain colour is used", "convert its images to PNG or JPEG"},
+    {"KHR_texture_basisu", "another image or the plain colour is used", "convert its KTX2 images to PNG, JPEG or WebP"},
+    {"MSFT_texture_dds", "another image or the plain colour is used", "convert its DDS images to PNG, JPEG or WebP"},
+    {"EXT_texture_avif", "another image or the plain colour is used", "convert its AVIF images to PNG, JPEG or WebP"},
+    {"KHR_texture_transform", "textures are not moved, turned or scaled", ""},
+    {"KHR_materials_pbrSpecularGlossiness", "another material or plain white is used",
+     "convert its materials to metallic-roughness"},
+    {"KHR_materials_clearcoat", "highlights of the clear coat are missing", ""},
+    {"KHR_materials_sheen", "the sheen of cloth is missing", ""},
+    {"KHR_materials_iridescence", "colours of thin films are missing", ""},
+    {"KHR_materials_anisotropy", "highlights are round", ""},
+    {"KHR_materials_dispersion", "glass does not split colours", ""},
+    {"KHR_materials_diffuse_transmission", "no light shines through", ""},
+    {"KHR_materials_variants", "the first variant is drawn", ""},
+    {"KHR_animation_pointer", "what it moves stands still", ""},
+    {"KHR_node_visibility", "what is hidden is drawn", ""},
+    {"EXT_lights_image_based", "the light of its environment is missing", ""},
+};
+
+const Extension* find_extension(std::string_view name) {
+  const auto* found =
+      std::find_if(std::begin(kExtensions), std::end(kExtensions), [name](const Extension& e) { return e.name == name; });
+  return found == std::end(kExtensions) ? nullptr : found;
+}
+
+// A member of a material that nothing reads.
+struct Member {
+  const char* at;  // JSON pointer
+  std::string_view what, lost;
+};
+
+constexpr Member kMaterialMembers[] = {
+    {"/normalTexture", "its normal texture is left out", "the surface looks smooth"},
+    {"/occlusionTexture", "its occlusion texture is left out", "corners are as bright as the rest"},
+    {"/emissiveTexture", "its emissive texture is left out", "all of it glows alike"},
+    {"/pbrMetallicRoughness/metallicRoughnessTexture", "its metallic-roughness texture is left out",
+     "all of it is as metallic and as rough as its factors say"},
+    {"/extensions/KHR_materials_specular/specularTexture", "its specular texture is left out",
+     "all of it shines alike"},
+    {"/extensions/KHR_materials_specular/specularColorTexture", "its specular colour texture is left out",
+     "highlights have one colour"},
+    {"/extensions/KHR_materials_transmission/transmissionTexture", "its transmission texture is left out",
+     "all of it lets the same light through"},
+    {"/extensions/KHR_materials_volume/thicknessTexture", "its thickness texture is left out",
+     "its thickness is what its triangles enclose"},
+    {"/extensions/KHR_materials_volume/attenuationDistance", "the absorption of its volume is left out",
+     "thick glass is as clear as thin glass"},
+};
+
+// A member of that type, else nothing.
+const Json* object_of(const Json& json, const std::string& key) {
+  const auto found = json.is_object() ? json.find(key) : json.end();
+  return json.is_object() && found != json.end() ? &*found : nullptr;
+}
+
+std::string text_of(const Json& json, const std::string& key) {
+  const Json* value = object_of(json, key);
+  return value && value->is_string() ? value->get<std::string>() : std::string();
+}
+
+double number_of(const Json& json, const std::string& key, double otherwise) {
+  const Json* value = object_of(json, key);
+  return value && value->is_number() ? value->get<double>() : otherwise;
+}
+
+const Json& array_of(const Json& json, const std::string& key) {
+  static const Json kNone = Json::array();
+  const Json* value = object_of(json, key);
+  return value && value->is_array() ? *value : kNone;
+}
+
+const Json* item(const Json& array, double index) {
+  return index >= 0 && index < static_cast<double>(array.size()) ? &array[static_cast<std::size_t>(index)] : nullptr;
+}
+
+// "material 'paint'", "material 3"
+std::string place(const std::string& kind, const Json& of, std::size_t index) {
+  const std::string name = text_of(of, "name");
+  return kind + (name.empty() ? " " + std::to_string(index) : " '" + name + "'");
+}
+
+class Audit {
+ public:
+  Audit(const std::filesystem::path& file, const Json& gltf, Warnings& warnings)
+      : file_(file.string()), gltf_(gltf), warnings_(warnings) {}
+
+  void run() {
+    look_at_meshes();
+    for (const auto& [collection, items] : gltf_.items()) {
+      if (!items.is_array() || collection.empty()) continue;
+      const std::string kind = collection == "meshes" ? "mesh" : collection.substr(0, collection.size() - 1);
+      for (std::size_t i = 0; i < items.size(); ++i)
+        if (collection != "materials" || used_materials_.contains(static_cast<double>(i)))
+          look_for_extensions(items[i], place(kind, items[i], i));
+    }
+    if (const Json* extensions = object_of(gltf_, "extensions")) look_at_extensions(*extensions, "");
+    const Json& materials = array_of(gltf_, "materials");
+    for (std::size_t i = 0; i < materials.size(); ++i)
+      if (used_materials_.contains(static_cast<double>(i))) look_at_material(materials[i], place("material", materials[i], i));
+    look_at_scenes();
+  }
+
+ private:
+  void lost(const std::string& where, std::string_view what, std::string_view loss) {
+    warnings_.add({file_, where, std::string(what), std::string(loss)});
+  }
+
+  void look_for_extensions(const Json& json, const std::string& where) {
+    if (json.is_array())
+      for (const Json& element : json) look_for_extensions(element, where);
+    if (!json.is_object()) return;
+    for (const auto& [key, value] : json.items()) {
+      if (key == "extensions") look_at_extensions(value, where);
+      if (key != "extras") look_for_extensions(value, where);
+    }
+  }
+
+  void look_at_extensions(const Json& extensions, const std::string& where) {
+    if (!extensions.is_object()) return;
+    for (const auto& [name, value] : extensions.items()) {
+      const Extension* known = find_extension(name);
+      if (!known) lost(where, name + " is left out", "what this extension adds is missing");
+      if (known && !known->lost.empty()) lost(where, name + " is left out", known->lost);
+    }
+  }
+
+  void look_at_meshes() {
+    const Json& meshes = array_of(gltf_, "meshes");
+    for (std::size_t i = 0; i < meshes.size(); ++i) {
+      const std::string where = place("mesh", meshes[i], i);
+      bool has_targets = false;
+      for (const Json& primitive : array_of(meshes[i], "primitives")) {
+        used_materials_.insert(number_of(primitive, "material", -1));
+        has_targets = has_targets || !array_of(primitive, "targets").empty();
+        const Json* attributes = object_of(primitive, "attributes");
+        if (attributes && attributes->contains("COLOR_0"))
+          lost(where, "its vertex colours are left out", "all of it has its material's colour");
+      }
+      const Json& weights = array_of(meshes[i], "weights");
+      if (has_targets && std::any_of(weights.begin(), weights.end(), [](const Json& w) { return w != 0; }))
+        lost(where, "its morph targets are left out", "it has the shape without them");
+    }
+  }
+
+  void look_at_material(const Json& material, const std::string& where) {
+    for (const Member& member : kMaterialMembers)
+      if (material.contains(Json::json_pointer(member.at))) lost(where, member.what, member.lost);
+    const std::string alpha = text_of(material, "alphaMode");
+    if (alpha == "MASK") lost(where, "alphaMode MASK is left out", "its holes are filled");
+    if (alpha == "BLEND") lost(where, "alphaMode BLEND is left out", "it is opaque");
+    const Json* pbr = object_of(material, "pbrMetallicRoughness");
+    if (const Json* texture = pbr ? object_of(*pbr, "baseColorTexture") : nullptr) look_at_texture(*texture, material, where);
+  }
+
+  void look_at_texture(const Json& info, const Json& material, const std::string& where) {
+    if (const Json* extensions = object_of(material, "extensions"); extensions && extensions->contains("KHR_materials_unlit"))
+      lost(where, "the texture of an unlit material is left out", "all of it has one colour");
+    if (number_of(info, "texCoord", 0) != 0)
+      lost(where, "the other sets of texture coordinates are left out", "its texture lies as the first set says");
+    const Json* texture = item(array_of(gltf_, "textures"), number_of(info, "index", -1));
+    const Json* sampler = texture ? item(array_of(gltf_, "samplers"), number_of(*texture, "sampler", -1)) : nullptr;
+    if (!sampler) return;
+    constexpr double kRepeat = 10497, kNearest = 9728;
+    for (const char* wrap : {"wrapS", "wrapT"})
+      if (number_of(*sampler, wrap, kRepeat) != kRepeat)
+        lost(where, "its texture's way of wrapping is left out", "the texture repeats");
+    if (number_of(*sampler, "magFilter", 0) == kNearest)
+      lost(where, "its texture's nearest filter is left out", "texels run into each other");
+  }
+
+  void look_at_scenes() {
+    const Json& nodes = array_of(gltf_, "nodes");
+    for (std::size_t i = 0; i < nodes.size(); ++i)
+      if (nodes[i].is_object() && nodes[i].contains("skin") && nodes[i].contains("mesh"))
+        lost(place("node", nodes[i], i), "its skin is left out", "it is not posed by its skeleton");
+    const Json& animations = array_of(gltf_, "animations");
+    for (std::size_t i = 0; i < animations.size(); ++i)
+      lost(place("animation", animations[i], i), "animations are left out", "everything stands still");
+    const Json& scenes = array_of(gltf_, "scenes");
+    const auto shown = static_cast<std::size_t>(std::max(number_of(gltf_, "scene", 0), 0.0));
+    for (std::size_t i = 0; i < scenes.size(); ++i)
+      if (i != shown) lost(place("scene", scenes[i], i), "scenes other than the default one are left out", "what they hold is not drawn");
+  }
+
+  std::string file_;
+  const Json& gltf_;
+  Warnings& warnings_;
+  std::set<double> used_materials_;
+};
+
+}  // namespace
+
+Expected<void> check_gltf_requirements(const std::filesystem::path& file, const Json& gltf) {
+  const auto fail = [&file](const std::string& what, const std::string& remedy) {
+    return Unexpected(InputError{file.string(), 0, what, remedy});
+  };
+  const Json* asset = object_of(gltf, "asset");
+  const std::string version = asset ? text_of(*asset, "version") : "";
+  if (version.empty()) return fail("is not glTF: it does not say its version (asset.version)", "is the export complete?");
+  if (!version.starts_with("2.")) return fail("is glTF " + version + ", only 2.0 can be read", "convert it to glTF 2.0");
+  const std::string least = text_of(*asset, "minVersion");
+  if (!least.empty() && least != "2.0") return fail("needs a reader of glTF " + least + ", this one reads 2.0", "export it as glTF 2.0");
+  for (const Json& required : array_of(gltf, "extensionsRequired")) {
+    const std::string name = required.is_string() ? required.get<std::string>() : required.dump();
+    const Extension* known = find_extension(name);
+    if (known && known->lost.empty()) continue;
+    return fail("requires the extension " + name + ", which is not supported",
+                known && !known->remedy.empty() ? std::string(known->remedy) : "export it without");
+  }
+  return {};
+}
+
+void add_lost_gltf_features(const std::filesystem::path& file, const Json& gltf, Warnings& warnings) {
+  Audit(file, gltf, warnings).run();
+}
+
+}  // namespace pinocchio

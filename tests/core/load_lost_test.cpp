@@ -1,0 +1,109 @@
+// Nothing of a file is lost in silence: one warning for each feature and file.
+#include "tests/support/gltf.h"
+
+namespace pinocchio {
+namespace {
+
+std::string line_about(const Warnings& warnings, const std::string& text) {
+  for (const Warning& w : warnings)
+    if (w.message().find(text) != std::string::npos) return w.message();
+  return "";
+}
+
+Warnings warnings_of(const Json& json) {
+  Warnings warnings;
+  (void)load(json, &warnings);
+  return warnings;
+}
+
+Json with_material(const Json& material) {
+  Json json = triangle_json();
+  json["materials"] = {material};
+  json["meshes"][0]["primitives"][0]["material"] = 0;
+  return json;
+}
+
+TEST(LoadLost, OneWarningForEachFeatureAndFile) {
+  Warnings warnings;
+  for (const char* where : {"line 1", "line 2", "line 5"}) warnings.add({"a.obj", where, "lines are left out", "x"});
+  warnings.add({"a.obj", "line 3", "points are left out", "y"});
+  warnings.add({"b.obj", "line 4", "lines are left out", "x"});
+  ASSERT_EQ(warnings.size(), 3u);
+  EXPECT_EQ(warnings[0].message(), "a.obj: line 1: lines are left out (and in 2 more places); x");
+}
+
+TEST(LoadLost, WhatIsReadIsNotWarnedOf) {
+  EXPECT_TRUE(warnings_of(triangle_json()).empty());
+  EXPECT_TRUE(warnings_of(with_material({{"doubleSided", true}, {"extensions", {{"KHR_materials_ior", {{"ior", 1.4}}}}}})).empty());
+}
+
+TEST(LoadLost, ExtensionsByName) {
+  const Json json = with_material({{"name", "paint"}, {"extensions", {{"KHR_materials_clearcoat", Json::object()}, {"ACME_new", 1}}}});
+  const Warnings warnings = warnings_of(json);
+  EXPECT_NE(line_about(warnings, "KHR_materials_clearcoat").find("material 'paint'"), std::string::npos);
+  EXPECT_NE(line_about(warnings, "KHR_materials_clearcoat").find("clear coat are missing"), std::string::npos);
+  EXPECT_NE(line_about(warnings, "ACME_new"), "");
+  EXPECT_EQ(warnings.size(), 2u);
+}
+
+TEST(LoadLost, MaterialsThatNothingUsesAreNotMissed) {
+  Json json = triangle_json();
+  json["materials"] = {{{"extensions", {{"KHR_materials_clearcoat", Json::object()}}}}};
+  EXPECT_TRUE(warnings_of(json).empty());
+}
+
+TEST(LoadLost, SkinsAnimationsScenes) {
+  Json json = triangle_json();
+  json["skins"] = {{{"joints", {0}}}};
+  json["nodes"][0]["skin"] = 0;
+  json["animations"] = {{{"channels", Json::array()}, {"samplers", Json::array()}}};
+  json["scenes"].push_back({{"name", "other"}});
+  const Warnings warnings = warnings_of(json);
+  EXPECT_NE(line_about(warnings, "skin"), "");
+  EXPECT_NE(line_about(warnings, "animations"), "");
+  EXPECT_NE(line_about(warnings, "scene 'other'"), "");
+}
+
+TEST(LoadLost, PointsAndLinesEvenWhereTheyAreAllThereIs) {
+  Json json = triangle_json();
+  json["meshes"][0]["primitives"][0]["mode"] = 1;
+  Warnings warnings;
+  const Expected<Scene> scene = load(json, &warnings);
+  EXPECT_FALSE(scene);
+  EXPECT_NE(line_about(warnings, "lines are left out"), "");
+  const auto obj = own_file("lines.obj");
+  std::ofstream(obj) << "v 0 0 0\nv 1 0 0\nl 1 2\np 1\n";
+  Warnings of_obj;
+  EXPECT_FALSE(load_scene(obj, &of_obj));
+  EXPECT_NE(line_about(of_obj, "line 3"), "");
+  EXPECT_NE(line_about(of_obj, "points are left out"), "");
+}
+
+TEST(LoadLost, VersionAndRequiredExtensionsBeforeAnythingElse) {
+  Json json = triangle_json();
+  json["asset"]["version"] = "1.0";
+  json["buffers"] = {{"binary_glTF", {{"byteLength", 0}}}};  // as 1.0 has it
+  EXPECT_NE(error_of(json).find("is glTF 1.0"), std::string::npos);
+  for (const char* name : {"KHR_texture_basisu", "KHR_materials_pbrSpecularGlossiness", "KHR_materials_clearcoat"}) {
+    json = triangle_json();
+    json["extensionsRequired"] = {name};
+    json["buffers"][0]["uri"] = "nowhere.bin";
+    EXPECT_NE(error_of(json).find(std::string("requires the extension ") + name), std::string::npos);
+  }
+}
+
+TEST(LoadLost, StatementsOfMtlAndObj) {
+  std::ofstream(own_file("lost.mtl")) << "newmtl m\nKd 1 0 0\nPc 1\nfoo 3\nbar 4\nd 0.5\nmap_Kd -zz 1 on a.png\n";
+  const auto obj = own_file("lost.obj");
+  std::ofstream(obj) << "mtllib lost.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nusemtl m\ncurv 0 1 1 2\nmagic\nf 1 2 3\n";
+  Warnings warnings;
+  ASSERT_TRUE(load_scene(obj, &warnings));
+  EXPECT_NE(line_about(warnings, "lost.mtl: line 3: Pc"), "");
+  EXPECT_NE(line_about(warnings, "(foo)").find("1 more"), std::string::npos);
+  EXPECT_NE(line_about(warnings, "option -zz"), "");
+  EXPECT_NE(line_about(warnings, "free-form"), "");
+  EXPECT_NE(line_about(warnings, "(magic)"), "");
+}
+
+}  // namespace
+}  // namespace pinocchio
