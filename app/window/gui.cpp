@@ -95,11 +95,13 @@ Gui::~Gui() {
 }
 
 void Gui::set_scale(float scale) {
+  const bool first = scale_ == 0.0f;
   scale_ = scale;
   set_style(scale);
   load_font(std::round(kFontPixels * scale));
-  ImGui_ImplOpenGL3_DestroyFontsTexture();  // made anew with the next frame
-  ImGui_ImplOpenGL3_DestroyDeviceObjects();
+  if (first) return;  // it is made with the backend's other objects
+  ImGui_ImplOpenGL3_DestroyFontsTexture();
+  ImGui_ImplOpenGL3_CreateFontsTexture();
 }
 
 void Gui::begin_frame() {

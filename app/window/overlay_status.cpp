@@ -85,7 +85,11 @@ void draw_status_line(Model& model, float scale) {
 
 void draw_messages(Model& model, float scale) {
   const std::vector<Messages::Message>& all = model.messages.all();
-  if (all.empty()) return;
+  // Who hides what is over the picture still hears of what failed.
+  const auto is_shown = [&](const Messages::Message& m) {
+    return model.settings.overlay || m.kind != Messages::Kind::news;
+  };
+  if (std::ranges::none_of(all, is_shown)) return;
   const ImVec2 display = ImGui::GetIO().DisplaySize;
   const float margin = 2.0f * kPadding * scale, width = std::min(0.7f * display.x, 560.0f * scale);
   const float bottom = display.y - margin - (model.settings.overlay ? status_height(scale) : 0.0f);
@@ -96,6 +100,7 @@ void draw_messages(Model& model, float scale) {
                    ImGuiWindowFlags_NoFocusOnAppearing);
   std::size_t dismissed = all.size();
   for (std::size_t i = 0; i < all.size(); ++i) {
+    if (!is_shown(all[i])) continue;
     ImGui::PushID(static_cast<int>(i));
     if (ImGui::SmallButton("x")) dismissed = i;
     tooltip("dismiss");

@@ -97,7 +97,10 @@ std::set<std::string> shown(Model& model) {
     if (first != std::string::npos && text.find_first_not_of(" #.,%x-") != std::string::npos)
       texts.insert(text.substr(first, last - first + 1));
   }
-  for (const PanelInfo& panel : kPanels) texts.insert({panel.title, panel.what});
+  for (const PanelInfo& panel : kPanels) {
+    texts.insert(panel.title);
+    texts.insert(panel.what);
+  }
   return texts;
 }
 
