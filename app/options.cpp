@@ -200,8 +200,8 @@ void add_draw_options(CLI::App& verb, DrawOptions& o) {
   add_still_options(verb, o);
 }
 
-Scene load_whole(const DrawOptions& options, Warnings& warnings) {
-  Expected<Scene> scene = load_scene(options.scene, &warnings, &run_progress());
+Scene load_whole(const DrawOptions& options, Warnings& warnings, pinocchio::Progress* progress) {
+  Expected<Scene> scene = load_scene(options.scene, &warnings, progress ? progress : &run_progress());
   if (!scene || (!options.quiet && !options.strict))  // they may say why it cannot be read
     for (const Warning& warning : warnings)
       std::fprintf(stderr, "pinocchio: warning: %s\n", warning.message().c_str());

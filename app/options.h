@@ -51,7 +51,8 @@ void add_draw_options(CLI::App& verb, DrawOptions& options);
 
 // Loads the scene and prints what of it is left out. Ends the verb with kBadScene where the file cannot be read,
 // or is not read whole and options.strict.
-[[nodiscard]] Scene load_whole(const DrawOptions& options, Warnings& warnings);
+[[nodiscard]] Scene load_whole(const DrawOptions& options, Warnings& warnings,
+                               pinocchio::Progress* progress = nullptr);
 
 // A default light for a scene that has none; said on stderr.
 void light_if_dark(Scene& scene, const DrawOptions& options);

@@ -51,6 +51,7 @@ Run add_view(CLI::App& program) {
   add_scene_options(verb, options->draw);
   add_size_option(verb, options->draw, "pixels of the window's inside (800x600)");
   add_settings_options(verb, options->draw);
+  add_budget_options(verb, options->budget);
   verb.add_option("--exposure", options->exposure_ev, "stops brighter (0)")
       ->check([](const std::string& text) {
         const std::optional<float> value = parse_float(text);  // CLI::Range lets NaN through

@@ -68,6 +68,11 @@ bool is_number(std::string_view word) {
   return word.find_first_not_of("+-.0123456789eE") == std::string_view::npos;
 }
 
+// A number, or an option such as -halo before one.
+bool is_value(std::string_view word) {
+  return !word.empty() && (is_number(word) || (word.size() > 1 && word.front() == '-'));
+}
+
 }  // namespace
 
 void add_lost_mtl_features(const std::filesystem::path& file, std::string_view text, Warnings& warnings) {
@@ -94,6 +99,9 @@ void add_lost_mtl_features(const std::filesystem::path& file, std::string_view t
       }
     } else if (const std::string_view value = next_word(line); value == "spectral" || value == "xyz") {
       warnings.add({file.string(), where, "a colour as '" + std::string(value) + "' is left out", "it is black"});
+    } else if (keyword != "newmtl" && !is_value(value)) {
+      warnings.add({file.string(), where, std::string(keyword) + " '" + std::string(value.substr(0, 20)) + "' is no number",
+                    keyword.starts_with('K') ? "it is black" : "it is 0"});
     }
   }
 }

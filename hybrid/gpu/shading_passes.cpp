@@ -27,6 +27,8 @@ void ShadingPasses::inspect(const Inputs& inputs, const Traced& traced, const In
   bind(p, inputs, traced);
   p.set("slot", what.slot);
   p.set("age_frames", what.age_frames);
+  p.set("range_lo", what.range_lo);
+  p.set("range_hi", what.range_hi);
   triangle_.draw();
 }
 

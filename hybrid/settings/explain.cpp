@@ -54,7 +54,7 @@ std::string why_mask(const SceneStats& stats, const Settings& s) {
 std::string format_of(const Settings& s) {
   switch (s.reflection) {
     case ReflectionFormat::rgb8:
-      return "24-bit sRGB, as the slides have it";
+      return "24-bit sRGB, clipped at white";
     case ReflectionFormat::rgb9e5:
       return "9 bits a colour with a shared exponent, a third less than half RGB";
     case ReflectionFormat::full:
