@@ -1,5 +1,6 @@
 #include "app/animation.h"
 
+#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <fstream>
 #include <glm/gtc/matrix_transform.hpp>

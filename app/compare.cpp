@@ -1,4 +1,5 @@
 // compare: how far one EXR is from another, in figures, a picture and an exit code.
+#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <array>
 #include <charconv>

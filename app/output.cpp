@@ -1,5 +1,6 @@
 #include "app/output.h"
 
+#include <CLI/CLI.hpp>
 #include <nlohmann/json.hpp>
 #include <system_error>
 

@@ -1,4 +1,5 @@
 // view: the window.
+#include <CLI/CLI.hpp>
 #include <cstdio>
 #include <cstdlib>
 #include <memory>

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "core/image/tonemap.h"
+#include "core/math/components.h"
 
 namespace pinocchio {
 namespace {
@@ -11,10 +12,6 @@ namespace {
 // The tracer allows itself 32 roundings of float; a few hundred of double cost nothing here, and are a
 // million times less.
 constexpr double kPointError = 512.0 * 0x1p-53;
-
-double largest_component(const glm::dvec3& v) {
-  return std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)});
-}
 
 int wrap(int i, int n) {
   const int r = i % n;

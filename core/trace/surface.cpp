@@ -4,14 +4,11 @@
 #include <cmath>
 
 #include "core/image/tonemap.h"
+#include "core/math/components.h"
 #include "core/trace/lane_steps.h"
 
 namespace pinocchio {
 namespace {
-
-float largest_component(const glm::vec3& v) {
-  return std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)});
-}
 
 shared::PhongParams phong_params(const Mesh& mesh, const Material& m, const glm::uvec3& corners,
                                  const glm::vec3& weights) {
