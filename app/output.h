@@ -2,7 +2,6 @@
 
 #include <filesystem>
 #include <nlohmann/json_fwd.hpp>
-#include <optional>
 #include <string>
 
 #include "core/parallel/workers.h"
@@ -15,13 +14,21 @@ class App;
 
 namespace pinocchio::app {
 
-// -o, --preview, --aov, --exposure, --deterministic
+// -o, --preview, --aov, --compression, --exposure, --deterministic
 struct OutputOptions {
   std::string exr;      // "####" is the frame's number
   std::string preview;  // PNG
   std::string aovs = "all";
+  ExrCompression compression = ExrCompression::zip;
   float exposure_ev = 0.0f;
   bool deterministic = false;
+};
+
+// A frame on its way to its files.
+struct DrawnFrame {
+  int number = 0;
+  FrameResult picture;
+  double render_s = 0.0;
 };
 
 void add_output_options(CLI::App& verb, OutputOptions& options);
@@ -41,8 +48,7 @@ void check_outputs(const OutputOptions& options, const std::vector<int>& frame_n
 // Whether an EXR with the shadow mask in it is asked for.
 [[nodiscard]] bool keeps_mask(const OutputOptions& options);
 
-// Writes the picture of one frame to the files that the options name, each whole or not at all.
-void write_outputs(const OutputOptions& options, int frame_number, const FrameResult& picture,
-                   std::optional<double> render_s);
+// Writes one frame to the files that the options name, each whole or not at all.
+void write_outputs(const OutputOptions& options, const DrawnFrame& frame);
 
 }  // namespace pinocchio::app

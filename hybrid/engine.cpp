@@ -77,24 +77,27 @@ Expected<Settings> Engine::resolve(const Scene& scene, glm::ivec2 size, const Se
   return pinocchio::resolve(settings, analyze(scene), {size, gl_info() && gl_info()->software, keeps_mask});
 }
 
-std::shared_ptr<const Tracer> Engine::prepare(const Scene& scene, const Settings& settings) {
+std::shared_ptr<const Tracer> Engine::prepare(const Scene& scene, const Settings& settings, Progress* progress) {
   if (!settings.traces()) return nullptr;
   BuildOptions options = build_options(settings);
+  options.progress = progress;
   for (const Light& light : scene.lights)
     if (light.casts_shadow && light.kind != Light::Kind::directional) options.lights.push_back(light.position);
   return std::make_shared<const Tracer>(scene.mesh, options, Isa{settings.isa}, settings.offset);
 }
 
-Expected<FrameResult> Engine::render(const Scene& scene, const View& view, const Settings& settings) {
+Expected<FrameResult> Engine::render(const Scene& scene, const View& view, const Settings& settings,
+                                     Progress* progress) {
   const Expected<Settings> resolved = resolve(scene, view.box().size(), settings);
   if (!resolved) return Unexpected(resolved.error());
   std::shared_ptr<const Tracer>& tracer = parts_->last_tracer;
   if (!tracer || &tracer->mesh() != scene.mesh.get() || !same_tracer(*resolved, parts_->last_settings))
-    tracer = prepare(scene, *resolved);
+    tracer = prepare(scene, *resolved, progress);
   parts_->last_settings = *resolved;
+  begin_phase(progress, "render", resolved->spp);
   FrameResult result;
   SampleMean mean(resolved->spp, [&](FrameResult&& picture) { result = std::move(picture); });
-  Renderer renderer(*this, {[&](Frame& frame) { mean.add(frame); }, {}});
+  Renderer renderer(*this, {[&](Frame& frame) { mean.add(frame); }, {}}, progress);
   submit_samples(renderer, {scene, tracer, *resolved, view});
   renderer.drain();
   return result;

@@ -95,9 +95,9 @@ FrameResult Frame::read() const {
   return result;
 }
 
-void write_exr(const std::filesystem::path& file, const FrameResult& frame, const std::string& layers,
-               std::optional<double> render_s) {
-  const Expected<AovSet> aovs = parse_aovs(layers);
+void write_exr(const std::filesystem::path& file, const FrameResult& frame, const ExrOptions& options,
+               Progress* progress) {
+  const Expected<AovSet> aovs = parse_aovs(options.layers);
   if (!aovs) throw std::invalid_argument(aovs.error().message());
   View view = frame.view;
   view.jitter = glm::vec2(0.0f);
@@ -105,8 +105,10 @@ void write_exr(const std::filesystem::path& file, const FrameResult& frame, cons
   const SurfaceImages surfaces = surface_images(*frame.scene.mesh, view_params(view), workers, frame.ids);
   const FrameOutput output{view.size,       view.box(), frame.scene,      view.camera, frame.color, frame.ids,
                            frame.mask,      frame.reflection, surfaces,
-                           to_json(frame.settings, false).dump(), render_s};
-  write_exr(file, frame_exr(output, *aovs));
+                           to_json(frame.settings, false).dump(), options.render_s};
+  ExrFile exr = frame_exr(output, *aovs);
+  exr.compression = options.compression;
+  write_exr(file, exr, progress);
 }
 
 }  // namespace pinocchio

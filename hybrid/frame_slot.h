@@ -52,6 +52,7 @@ struct FrameSlot {
   FrameRequest request;
   shared::ViewParams view;
   FrameRecord record;
+  Progress* progress = nullptr;
   std::vector<ChannelLayout> layout;  // what travels for it
 
   std::vector<ChannelBuffer> buffers;  // by channel

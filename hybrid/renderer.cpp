@@ -50,7 +50,8 @@ bool is_done(const std::future<void>& tracing) {
 
 class Renderer::Loop {
  public:
-  Loop(Engine& engine, FrameSinks sinks) : engine_(engine.parts()), sinks_(std::move(sinks)) {
+  Loop(Engine& engine, FrameSinks sinks, Progress* progress)
+      : engine_(engine.parts()), sinks_(std::move(sinks)), progress_(progress) {
     slots_.resize(kFramesInFlight);
   }
 
@@ -77,6 +78,7 @@ class Renderer::Loop {
 
   Engine::Parts& engine_;
   FrameSinks sinks_;
+  Progress* progress_;
   gl::GpuClock clock_;
   std::uint64_t next_number_ = 0;
   int generation_ = 0;                             // of the programs that drew the newest frame
@@ -86,6 +88,7 @@ class Renderer::Loop {
 };
 
 void Renderer::Loop::submit(FrameRequest request) {
+  throw_if_cancelled(progress_);
   settle_lights(request);
   if (const FrameSlot* const last = frames_back(0);
       last && last->request.settings.exchange != request.settings.exchange)
@@ -166,6 +169,7 @@ bool Renderer::Loop::repeat(const FrameRequest& request) {
   give(*last);
   last->record.frame.end_s = now_s();
   if (sinks_.record) sinks_.record(last->record);
+  advance(progress_);
   return true;
 }
 
@@ -192,6 +196,7 @@ FrameSlot& Renderer::Loop::begin(FrameRequest&& request) {
   frame.record.number = next_number_++;
   frame.record.frame.begin_s = now_s();
   frame.view = view_params(frame.request.view);
+  frame.progress = progress_;
   frame.layout = channels_of(frame.request.settings, frame.size());
   if (gpu) draw(frame);
   frame.state = FrameSlot::State::drawn;  // last: what cannot be drawn is lost
@@ -248,6 +253,7 @@ void Renderer::Loop::deliver(FrameSlot& frame, const FrameSlot* older) {
   frame.record.latency_frames = static_cast<int>(next_number_ - 1 - frame.record.number);
   if (older) frame.record.age_frames = static_cast<int>(frame.record.number - older->record.number);
   give(frame);
+  if (!frame.request.settings.traces()) advance(progress_);
 }
 
 void Renderer::Loop::give(FrameSlot& slot) {
@@ -275,8 +281,8 @@ void Renderer::Loop::retire(FrameSlot& frame) {
   if (sinks_.record) sinks_.record(record);
 }
 
-Renderer::Renderer(Engine& engine, FrameSinks sinks)
-    : loop_(std::make_unique<Loop>(engine, std::move(sinks))) {}
+Renderer::Renderer(Engine& engine, FrameSinks sinks, Progress* progress)
+    : loop_(std::make_unique<Loop>(engine, std::move(sinks), progress)) {}
 Renderer::~Renderer() = default;
 
 void Renderer::submit(const FrameRequest& request) {

@@ -8,6 +8,7 @@
 #include "core/bsp/part_queue.h"
 #include "core/bsp/top.h"
 #include "core/parallel/workers.h"
+#include "pinocchio/progress.h"
 
 namespace pinocchio {
 namespace {
@@ -194,6 +195,7 @@ void widen(Bounds& bounds) {
 }  // namespace
 
 BspTree build_tree(const Mesh& mesh, const BuildOptions& options) {
+  begin_phase(options.progress, "build", 1.0);
   BspTree tree;
   Workers workers(options.threads);
   tree.test = options.triangle_test;

@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "core/bsp/part_queue.h"
+#include "pinocchio/progress.h"
 
 namespace pinocchio {
 namespace {
@@ -11,6 +12,9 @@ namespace {
 // The median rules do not ask what a split gains: after this many above a node that sent most references to
 // both sides, it is a leaf. Else thousands of triangles through one point double at every level.
 constexpr int kMostWasted = 3;
+
+// A node of no more references tells of its share before it is built: often enough.
+constexpr std::size_t kToldWhole = 1024;
 
 // A node of more references hands its upper child over to another thread, if that has no fewer than the
 // second.
@@ -39,21 +43,22 @@ Subtree SubtreeBuilder::build(std::span<const BuildReference> references, const 
   return made_;  // a copy has the size it needs
 }
 
-void SubtreeBuilder::build_node(std::uint32_t index, std::size_t begin, std::size_t end,
-                                const OpenNode& node) {
+void SubtreeBuilder::build_node(std::uint32_t index, std::size_t begin, std::size_t end, OpenNode node) {
   made_.depth = std::max(made_.depth, node.depth);
   const std::size_t count = end - begin;
+  if (count <= kToldWhole && node.share > 0.0) advance(options_.progress, std::exchange(node.share, 0.0));
   const std::span references(stack_.data() + begin, count);
   const std::optional<SplitPlane> plane = choose(references, node);
-  if (!plane) return make_leaf(index, begin, end);
+  if (!plane) return make_leaf(index, begin, end, node.share);
   OpenPair children(node, *plane);
   if (options_.rule != SplitRule::sah &&
       !pays(count_halves(references, *plane), count, options_.rule, children))
-    return make_leaf(index, begin, end);
+    return make_leaf(index, begin, end, node.share);
 
   // The upper child's stay where the parent's were, the lower child's go on top of them.
   if (low_.size() < count + 1) low_.resize(count + 1);
   const Halves n = partition(mesh_, references, node.box, *plane, low_.data(), stack_.data() + begin);
+  children.divide_share(n);
   const std::size_t high_end = begin + n.high;
   if (stack_.size() < high_end + n.low + 1) stack_.resize(2 * (high_end + n.low));
   std::copy_n(low_.begin(), n.low, stack_.begin() + static_cast<std::ptrdiff_t>(high_end));
@@ -86,7 +91,8 @@ std::optional<SplitPlane> SubtreeBuilder::choose(std::span<const BuildReference>
   return find_sah_split(references, node.box, model_, scratch_);
 }
 
-void SubtreeBuilder::make_leaf(std::uint32_t index, std::size_t begin, std::size_t end) {
+void SubtreeBuilder::make_leaf(std::uint32_t index, std::size_t begin, std::size_t end, double share) {
+  if (share > 0.0) advance(options_.progress, share);
   made_.nodes[index] = BspNode::leaf(static_cast<std::uint32_t>(made_.references.size()),
                                      static_cast<std::uint32_t>(end - begin));
   for (std::size_t i = begin; i < end; ++i) made_.references.push_back(stack_[i].triangle);

@@ -16,6 +16,7 @@ struct OpenNode {
   Bounds box;
   int depth = 0;
   int wasted = 0;  // nodes above that a median rule split in vain
+  double share = 1.0;  // of the tree's work, by references; 0: told already
 };
 
 // Children of a node, by a plane.
@@ -25,6 +26,11 @@ struct OpenPair {
     low.box.hi[plane.axis] = high.box.lo[plane.axis] = plane.position;
     ++low.depth;
     ++high.depth;
+  }
+  void divide_share(const Halves& halves) {
+    const double of_low = static_cast<double>(halves.low) / static_cast<double>(halves.low + halves.high);
+    high.share = low.share * (1.0 - of_low);
+    low.share *= of_low;
   }
 };
 
@@ -66,8 +72,8 @@ class SubtreeBuilder {
   [[nodiscard]] Subtree build(std::span<const BuildReference> references, const OpenNode& root);
 
  private:
-  void build_node(std::uint32_t index, std::size_t begin, std::size_t end, const OpenNode& node);
-  void make_leaf(std::uint32_t index, std::size_t begin, std::size_t end);
+  void build_node(std::uint32_t index, std::size_t begin, std::size_t end, OpenNode node);
+  void make_leaf(std::uint32_t index, std::size_t begin, std::size_t end, double share);
   [[nodiscard]] std::optional<SplitPlane> choose(std::span<const BuildReference> references,
                                                  const OpenNode& node);
 

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "core/bsp/slabs.h"
+#include "pinocchio/progress.h"
 
 namespace pinocchio {
 namespace {
@@ -39,9 +40,10 @@ std::vector<Chunk> chunks_of(const std::vector<TreePart>& nodes) {
   return chunks;
 }
 
-void choose_by_sah(Level& level, const CostModel& model, Workers& workers) {
+void choose_by_sah(Level& level, const CostModel& model, Workers& workers, const Progress* progress) {
   std::vector<std::optional<Slabs>> slabs(level.chunks.size());
   workers.for_each(level.chunks.size(), [&](std::size_t i) {
+    throw_if_cancelled(progress);
     const Chunk& c = level.chunks[i];
     slabs[i].emplace(level.nodes[c.node].node.box, Slabs::kMost).add(level.references(c));
   });
@@ -89,7 +91,7 @@ class TopBuilder {
     level.chunks = chunks_of(level.nodes);
     level.planes.resize(level.nodes.size());
     if (options_.rule == SplitRule::sah)
-      choose_by_sah(level, model_, workers_);
+      choose_by_sah(level, model_, workers_, options_.progress);
     else
       choose_by_median(level, options_.rule, workers_);
     const std::vector<Halves> sizes = cut(level);
@@ -113,6 +115,7 @@ class TopBuilder {
   // Cuts every chunk in two; returns what that makes of each node.
   std::vector<Halves> cut(Level& level) {
     workers_.for_each(level.chunks.size(), [&](std::size_t i) {
+      throw_if_cancelled(options_.progress);
       Chunk& c = level.chunks[i];
       if (!level.planes[c.node]) return;
       c.low = References(c.count + 1);
@@ -140,6 +143,7 @@ class TopBuilder {
       plane.reset();
       return;
     }
+    children.divide_share(size);
     const auto first = static_cast<std::uint32_t>(top_.nodes.size());
     top_.nodes.resize(top_.nodes.size() + 2, BspNode::leaf(0, 0));
     top_.nodes[parent.index] = BspNode::inner(plane->axis, plane->position, first);

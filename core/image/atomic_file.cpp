@@ -2,12 +2,14 @@
 
 #include <unistd.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <cstring>
 #include <fstream>
 #include <system_error>
 
 #include "pinocchio/error.h"
+#include "pinocchio/progress.h"
 
 namespace pinocchio {
 namespace {
@@ -47,11 +49,17 @@ void write_atomically(const std::filesystem::path& file,
   if (error) fail(file, error.message(), "choose another name");
 }
 
-void write_text(const std::filesystem::path& file, const std::string& text) {
+void write_text(const std::filesystem::path& file, const std::string& text, Progress* progress) {
+  constexpr std::size_t kAtOnce = std::size_t{1} << 22;
+  begin_phase(progress, "write", static_cast<double>(text.size()));
   check_writable(file);
   write_atomically(file, [&](const std::filesystem::path& temporary) {
     std::ofstream out(temporary, std::ios::binary);
-    out << text;
+    for (std::size_t at = 0; at < text.size() && out; at += kAtOnce) {
+      const std::size_t count = std::min(kAtOnce, text.size() - at);
+      out.write(text.data() + at, static_cast<std::streamsize>(count));
+      advance(progress, static_cast<double>(count));
+    }
     if (!out.flush()) fail(file, std::strerror(errno), "is the disk full?");
   });
 }

@@ -24,6 +24,7 @@ namespace pinocchio {
 namespace {
 
 constexpr float kLargestHalf = 65504.0f;
+constexpr int kRowsAtOnce = 256;  // many blocks of ZIP's 16 rows, for all threads
 
 Imf::PixelType imf_type(ExrChannel::Type type) {
   switch (type) {
@@ -35,6 +36,22 @@ Imf::PixelType imf_type(ExrChannel::Type type) {
       return Imf::UINT;
   }
   return Imf::HALF;
+}
+
+Imf::Compression imf_compression(ExrCompression compression) {
+  switch (compression) {
+    case ExrCompression::zip:
+      return Imf::ZIP_COMPRESSION;
+    case ExrCompression::zips:
+      return Imf::ZIPS_COMPRESSION;
+    case ExrCompression::piz:
+      return Imf::PIZ_COMPRESSION;
+    case ExrCompression::rle:
+      return Imf::RLE_COMPRESSION;
+    case ExrCompression::none:
+      return Imf::NO_COMPRESSION;
+  }
+  return Imf::ZIP_COMPRESSION;
 }
 
 half to_half(float value) {
@@ -69,7 +86,7 @@ Imf::Header header_of(const ExrFile& exr) {
   const Imath::Box2i data(Imath::V2i(exr.data_window.lo.x, exr.data_window.lo.y),
                           Imath::V2i(exr.data_window.hi.x - 1, exr.data_window.hi.y - 1));
   Imf::Header header(display, data);
-  header.compression() = Imf::ZIP_COMPRESSION;
+  header.compression() = imf_compression(exr.compression);
   Imf::addChromaticities(header, Imf::Chromaticities());  // the default is Rec. 709
   for (const auto& [name, value] : exr.attributes) std::visit(InsertAttribute{header, name}, value);
   for (const ExrChannel& channel : exr.channels)
@@ -87,7 +104,7 @@ Imf::Slice slice(Imf::PixelType type, const T* pixels, const PixelBox& window) {
   return {type, reinterpret_cast<char*>(base), sizeof(T), sizeof(T) * static_cast<std::size_t>(width)};
 }
 
-void write_file(const std::filesystem::path& file, const ExrFile& exr) {
+void write_file(const std::filesystem::path& file, const ExrFile& exr, Progress* progress) {
   std::vector<std::vector<half>> halves;
   halves.reserve(exr.channels.size());
   Imf::FrameBuffer pixels;
@@ -113,7 +130,13 @@ void write_file(const std::filesystem::path& file, const ExrFile& exr) {
     Imf::StdOFStream to(stream, file.c_str());
     Imf::OutputFile out(to, header_of(exr));
     out.setFrameBuffer(pixels);
-    out.writePixels(exr.data_window.size().y);
+    const int rows = exr.data_window.size().y;
+    begin_phase(progress, "write", rows);
+    for (int y = 0; y < rows; y += kRowsAtOnce) {
+      const int count = std::min(kRowsAtOnce, rows - y);
+      out.writePixels(count);
+      advance(progress, count);
+    }
   }
   if (!stream.flush()) throw std::runtime_error("is the disk full?");
 }
@@ -187,11 +210,13 @@ const ExrChannel* ExrFile::find(const std::string& name) const {
   return found == channels.end() ? nullptr : &*found;
 }
 
-void write_exr(const std::filesystem::path& file, const ExrFile& exr) {
+void write_exr(const std::filesystem::path& file, const ExrFile& exr, Progress* progress) {
   check_writable(file);
   write_atomically(file, [&](const std::filesystem::path& temporary) {
     try {
-      write_file(temporary, exr);
+      write_file(temporary, exr, progress);
+    } catch (const Cancelled&) {
+      throw;
     } catch (const std::exception& error) {
       throw EnvironmentError(file.string() + ": cannot be written: " + error.what());
     }

@@ -7,7 +7,8 @@
 
 namespace pinocchio {
 
-ReferencePicture reference_render(const Scene& scene, const View& view, int depth, Workers& workers) {
+ReferencePicture reference_render(const Scene& scene, const View& view, int depth, Workers& workers,
+                                  Progress* progress) {
   const auto casting = static_cast<int>(casting_lights(scene).size());
   assert(casting <= kMaxCastingLights);
   const glm::ivec2 size = view.box().size();
@@ -15,7 +16,7 @@ ReferencePicture reference_render(const Scene& scene, const View& view, int dept
                            depth > 0 ? Image<glm::vec3>(size) : Image<glm::vec3>(), Image<glm::vec4>(size)};
   const shared::ViewParams rays = view_params(view);
 
-  const ReferenceTree tree(*scene.mesh);
+  const ReferenceTree tree(*scene.mesh, progress);
   const ReferenceTracer tracer(scene, tree);
   const auto draw_pixel = [&](int x, int y) {
     const ReferenceTracer::Pixel pixel = tracer.pixel(rays, x, y, depth);
@@ -26,7 +27,14 @@ ReferencePicture reference_render(const Scene& scene, const View& view, int dept
     picture.color.at(x, y) = pixel.color;
   };
   const TileGrid grid(size);  // a tile's row is whole bytes of the mask
-  workers.for_each(grid.count(), [&](std::size_t i) { TileGrid::for_each_pixel(grid.tile(i), draw_pixel); });
+  const auto pixels = static_cast<double>(size.x) * size.y;
+  workers.for_each(grid.count(), [&](std::size_t i) {
+    const PixelBox tile = grid.tile(i);
+    for (int y = tile.lo.y; y < tile.hi.y; ++y) {
+      for (int x = tile.lo.x; x < tile.hi.x; ++x) draw_pixel(x, y);
+      advance(progress, tile.size().x / pixels);
+    }
+  });
   return picture;
 }
 

@@ -11,6 +11,7 @@
 #include "core/trace/view_params.h"
 #include "pinocchio/image.h"
 #include "pinocchio/mask_image.h"
+#include "pinocchio/progress.h"
 #include "pinocchio/scene.h"
 
 namespace pinocchio {
@@ -23,7 +24,8 @@ struct ReferencePicture {
 };
 
 // Draws view.box(), `depth` bounces at most. The scene has no more casting lights than kMaxCastingLights.
+// Advances `progress` by one step.
 [[nodiscard]] ReferencePicture reference_render(const Scene& scene, const View& view, int depth,
-                                                Workers& workers);
+                                                Workers& workers, Progress* progress = nullptr);
 
 }  // namespace pinocchio

@@ -41,21 +41,17 @@ double entry(const ReferenceRay& ray, const Bounds& box, double margin, double t
 
 }  // namespace
 
-ReferenceTree::ReferenceTree(const Mesh& mesh, const std::stop_token& stop)
+ReferenceTree::ReferenceTree(const Mesh& mesh, const Progress* progress)
     : mesh_(mesh), order_(mesh.triangles.size()) {
   std::iota(order_.begin(), order_.end(), 0u);
-  if (!order_.empty()) build(stop);
+  if (!order_.empty()) build(progress);
 }
 
-void ReferenceTree::build(const std::stop_token& stop) {
+void ReferenceTree::build(const Progress* progress) {
   nodes_.reserve(2 * order_.size());
   nodes_.push_back({{}, 0, static_cast<std::uint32_t>(order_.size()), 0});
   for (std::size_t i = 0; i < nodes_.size(); ++i) {
-    if (stop.stop_requested()) {
-      stopped_ = true;
-      nodes_.clear();
-      return;
-    }
+    throw_if_cancelled(progress);
     nodes_[i].box = bounds_of(nodes_[i]);
     if (nodes_[i].count <= kLeafSize) continue;
     const Node node = nodes_[i];

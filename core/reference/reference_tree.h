@@ -1,12 +1,12 @@
 #pragma once
 
 #include <cstdint>
-#include <stop_token>
 #include <vector>
 
 #include "core/reference/reference_hit.h"
 #include "pinocchio/bounds.h"
 #include "pinocchio/mesh.h"
+#include "pinocchio/progress.h"
 
 namespace pinocchio {
 
@@ -14,11 +14,8 @@ namespace pinocchio {
 // axis, down to four triangles. Nothing in common with the tracer's tree, so that each checks the other.
 class ReferenceTree {
  public:
-  // `mesh` stays where it is as long as this lives. Where `stop` asks for it while the tree is built, it is
-  // left without triangles, and stopped().
-  explicit ReferenceTree(const Mesh& mesh, const std::stop_token& stop = {});
-
-  [[nodiscard]] bool stopped() const { return stopped_; }
+  // `mesh` stays where it is as long as this lives. `progress` is only looked at.
+  explicit ReferenceTree(const Mesh& mesh, const Progress* progress = nullptr);
 
   // The closest triangle within the ray; of several at the same t the lowest id. A ray that is not finite
   // or has no direction hits nothing. Safe to call from many threads.
@@ -32,12 +29,11 @@ class ReferenceTree {
     std::uint32_t children = 0;          // the two stand side by side; 0: a leaf
   };
 
-  void build(const std::stop_token& stop);
+  void build(const Progress* progress);
   [[nodiscard]] Bounds bounds_of(const Node& node) const;
   void halve(const Node& node);
 
   const Mesh& mesh_;
-  bool stopped_ = false;
   double reach_ = 0.0;                // largest coordinate of the scene
   std::vector<std::uint32_t> order_;  // triangle ids, leaf by leaf
   std::vector<Node> nodes_;           // root first

@@ -108,7 +108,9 @@ Expected<std::vector<double>> raw_numbers(const GltfFile& file, int index, int c
   const auto component_bytes = static_cast<std::size_t>(
       tinygltf::GetComponentSizeInBytes(static_cast<std::uint32_t>(accessor.componentType)));
   std::vector<double> numbers;
+  constexpr std::size_t kElementsBetweenLooks = 1 << 16;
   const auto put = [&](const Elements& from, std::size_t element, std::size_t to) {
+    if (element % kElementsBetweenLooks == 0) throw_if_cancelled(file.progress);
     for (std::size_t c = 0; c < width; ++c)
       numbers[width * to + c] =
           component(from.first + element * from.stride + c * component_bytes, accessor.componentType);

@@ -16,6 +16,7 @@
 
 #include "pinocchio/error.h"
 #include "pinocchio/mesh.h"
+#include "pinocchio/progress.h"
 
 namespace pinocchio {
 
@@ -23,6 +24,7 @@ struct GltfFile {
   std::filesystem::path path;
   tinygltf::Model model;
   std::vector<std::string> named_files;  // looked for beside it, found or not
+  Progress* progress = nullptr;
 
   [[nodiscard]] Unexpected error(const std::string& what,
                                  const std::string& remedy = "export the file again") const {
@@ -42,7 +44,7 @@ struct GltfFile {
 // Reads and parses the file; images stay encoded, their bytes in Image::image where they are not in a
 // buffer view. Refuses what would overrun tinygltf: JSON nested deeper than any scene's.
 [[nodiscard]] Expected<GltfFile> read_gltf_file(const std::filesystem::path& path,
-                                                std::vector<std::string>& warnings);
+                                                std::vector<std::string>& warnings, Progress* progress);
 
 // Members of an object that a file may or may not have, of the type that is wanted.
 [[nodiscard]] const tinygltf::Value* member(const tinygltf::Value& object, const std::string& key);

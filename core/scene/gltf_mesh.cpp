@@ -31,6 +31,8 @@ std::size_t triangle_count(int mode, std::size_t indices) {
   return indices < 3 ? 0 : indices - 2;
 }
 
+constexpr std::size_t kTrianglesBetweenLooks = 1 << 16;
+
 class MeshPlacer {
  public:
   MeshPlacer(const GltfFile& file, const glm::mat4& world_from_mesh, MeshData& mesh)
@@ -65,6 +67,7 @@ class MeshPlacer {
 
     const std::size_t count = triangle_count(primitive.mode, indices.size());
     for (std::size_t i = 0; i < count; ++i) {
+      if (i % kTrianglesBetweenLooks == 0) throw_if_cancelled(file_.progress);
       const std::array<std::size_t, 3> at = corners_of(primitive.mode, i);
       glm::uvec3 triangle(indices[at[0]], indices[at[1]], indices[at[2]]);
       if (mirrored_) std::swap(triangle.y, triangle.z);

@@ -1,8 +1,8 @@
 #include <cstring>
-#include <fstream>
 #include <string_view>
 
 #include "core/scene/gltf_file.h"
+#include "core/scene/read_bytes.h"
 
 namespace pinocchio {
 namespace {
@@ -43,9 +43,14 @@ bool keep_encoded(tinygltf::Image* image, const int, std::string*, std::string*,
   return true;
 }
 
-bool find_named_file(const std::string& file, void* named_files) {
-  static_cast<std::vector<std::string>*>(named_files)->push_back(file);
+bool find_named_file(const std::string& file, void* gltf) {
+  static_cast<GltfFile*>(gltf)->named_files.push_back(file);
   return tinygltf::FileExists(file, nullptr);
+}
+
+bool read_named_file(std::vector<unsigned char>* to, std::string* error, const std::string& file, void* gltf) {
+  throw_if_cancelled(static_cast<GltfFile*>(gltf)->progress);
+  return tinygltf::ReadWholeFile(to, error, file, nullptr);
 }
 
 std::string first_line(const std::string& text) {
@@ -54,19 +59,20 @@ std::string first_line(const std::string& text) {
 
 }  // namespace
 
-Expected<GltfFile> read_gltf_file(const std::filesystem::path& path, std::vector<std::string>& warnings) {
-  GltfFile file{path, {}, {}};
-  std::ifstream in(path, std::ios::binary);
-  const std::string bytes(std::istreambuf_iterator<char>(in), {});
-  if (!in || bytes.empty()) return file.error("cannot be read", "is it yours to read?");
+Expected<GltfFile> read_gltf_file(const std::filesystem::path& path, std::vector<std::string>& warnings,
+                                  Progress* progress) {
+  GltfFile file{path, {}, {}, progress};
+  const std::optional<std::string> read_file = read_bytes(path, progress);
+  if (!read_file || read_file->empty()) return file.error("cannot be read", "is it yours to read?");
+  const std::string& bytes = *read_file;
   constexpr std::size_t kMostBytes = 0xffffffffu;  // also what a .glb can say of itself
   if (bytes.size() > kMostBytes) return file.error("is larger than 4 GiB", "split it");
   if (nested_too_deep(json_of(bytes))) return file.error("is nested too deeply");
 
   tinygltf::TinyGLTF reader;
   reader.SetImageLoader(keep_encoded, nullptr);
-  reader.SetFsCallbacks({find_named_file, tinygltf::ExpandFilePath, tinygltf::ReadWholeFile,
-                         tinygltf::WriteWholeFile, &file.named_files});
+  reader.SetFsCallbacks({find_named_file, tinygltf::ExpandFilePath, read_named_file,
+                         tinygltf::WriteWholeFile, &file});
   const auto size = static_cast<unsigned>(bytes.size());
   const std::string folder = path.has_parent_path() ? path.parent_path().string() : ".";
   std::string error, warning;
@@ -77,6 +83,8 @@ Expected<GltfFile> read_gltf_file(const std::filesystem::path& path, std::vector
             ? reader.LoadBinaryFromMemory(&file.model, &error, &warning,
                                           reinterpret_cast<const unsigned char*>(bytes.data()), size, folder)
             : reader.LoadASCIIFromString(&file.model, &error, &warning, bytes.data(), size, folder);
+  } catch (const Cancelled&) {
+    throw;
   } catch (const std::exception& e) {  // of the JSON library below, on values of the wrong type
     error = e.what();
   }

@@ -34,23 +34,23 @@ Expected<std::filesystem::path> find_scene_file(const std::filesystem::path& pat
   return error(path, "there is no such file", "check its name");
 }
 
-Expected<Scene> load_by_extension(const std::filesystem::path& file, Warnings& warnings) {
+Expected<Scene> load_by_extension(const std::filesystem::path& file, Warnings& warnings, Progress* progress) {
   const std::string extension = lower(file.extension().string());
-  if (extension == ".obj") return load_obj(file, warnings);
-  if (extension == ".gltf" || extension == ".glb") return load_gltf(file, warnings);
+  if (extension == ".obj") return load_obj(file, warnings, progress);
+  if (extension == ".gltf" || extension == ".glb") return load_gltf(file, warnings, progress);
   return error(file, "is not of a format that can be read", "convert it to .gltf, .glb or .obj");
 }
 
 }  // namespace
 
-Expected<Scene> load_scene(const std::filesystem::path& path, Warnings* warnings) {
+Expected<Scene> load_scene(const std::filesystem::path& path, Warnings* warnings, Progress* progress) {
   const Expected<std::filesystem::path> file = find_scene_file(path);
   if (!file) return Unexpected(file.error());
   std::error_code ignored;
   if (std::filesystem::file_size(*file, ignored) == 0)
     return error(*file, "is empty", "is the export complete?");
   Warnings unheard;
-  Expected<Scene> scene = load_by_extension(*file, warnings ? *warnings : unheard);
+  Expected<Scene> scene = load_by_extension(*file, warnings ? *warnings : unheard, progress);
   if (!scene) return scene;
   scene->source = file->string();
   scene->source_files.insert(scene->source_files.begin(), scene->source);

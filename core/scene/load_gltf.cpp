@@ -103,7 +103,9 @@ class SceneReader {
     for (const int root : roots()) open.push_back({root, glm::mat4(1.0f)});
     std::reverse(open.begin(), open.end());  // the file's order, from the back
     std::vector<bool> seen(model_.nodes.size(), false);
+    begin_phase(file_.progress, "mesh", static_cast<double>(model_.nodes.size()));
     while (!open.empty()) {
+      advance(file_.progress);
       const Placed at = open.back();
       open.pop_back();
       if (at.node < 0 || static_cast<std::size_t>(at.node) >= model_.nodes.size())
@@ -212,8 +214,8 @@ class SceneReader {
 
 }  // namespace
 
-Expected<Scene> load_gltf(const std::filesystem::path& path, Warnings& warnings) {
-  const Expected<GltfFile> file = read_gltf_file(path, warnings);
+Expected<Scene> load_gltf(const std::filesystem::path& path, Warnings& warnings, Progress* progress) {
+  const Expected<GltfFile> file = read_gltf_file(path, warnings, progress);
   if (!file) return Unexpected(file.error());
   for (const std::string& name : file->model.extensionsRequired)
     if (std::find(kKnownExtensions.begin(), kKnownExtensions.end(), name) == kKnownExtensions.end())

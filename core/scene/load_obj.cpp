@@ -1,7 +1,10 @@
 #include <algorithm>
 #include <fstream>
 #include <map>
+#include <optional>
+#include <span>
 #include <sstream>
+#include <streambuf>
 #include <tuple>
 #include <unordered_map>
 
@@ -11,6 +14,7 @@
 #pragma GCC diagnostic pop
 
 #include "core/scene/obj_check.h"
+#include "core/scene/read_bytes.h"
 #include "core/scene/texture_file.h"
 #include "pinocchio/load.h"
 
@@ -100,6 +104,28 @@ class MtlReader final : public tinyobj::MaterialReader {
   Warnings& warnings_;
 };
 
+// Text that a parser reads, piece by piece: between two it may be told to end.
+class WatchedText final : public std::streambuf {
+ public:
+  WatchedText(std::string& text, Progress* progress) : left_(text), progress_(progress) {
+    begin_phase(progress, "read", static_cast<double>(text.size()));
+    setg(text.data(), text.data(), text.data());
+  }
+
+ private:
+  int_type underflow() override {
+    constexpr std::size_t kAtOnce = 1 << 20;
+    const std::span<char> piece = left_.first(std::min(kAtOnce, left_.size()));
+    advance(progress_, static_cast<double>(piece.size()));
+    left_ = left_.subspan(piece.size());
+    setg(piece.data(), piece.data(), piece.data() + piece.size());
+    return piece.empty() ? traits_type::eof() : traits_type::to_int_type(piece.front());
+  }
+
+  std::span<char> left_;
+  Progress* progress_;
+};
+
 // What of the parser's warnings matters: materials that no MTL file explains.
 void add_unknown_materials(const std::string& parser_warnings, const std::filesystem::path& file,
                            Warnings& warnings) {
@@ -122,17 +148,21 @@ struct ObjFile {
 // normals are made from a smoothing group, that group.
 class ObjMesh {
  public:
-  explicit ObjMesh(const ObjFile& obj) : obj_(obj) {
+  ObjMesh(const ObjFile& obj, Progress* progress) : obj_(obj), progress_(progress) {
     mesh_.materials.push_back(default_material());
     for (const tinyobj::material_t& m : obj.materials) mesh_.materials.push_back(material_of(m));
   }
 
   MeshData build() {
+    std::size_t faces = 0;
+    for (const tinyobj::shape_t& shape : obj_.shapes) faces += shape.mesh.num_face_vertices.size();
+    begin_phase(progress_, "mesh", static_cast<double>(faces));
     for (const tinyobj::shape_t& shape : obj_.shapes) {
       const tinyobj::mesh_t& mesh = shape.mesh;
       for (std::size_t face = 0; face < mesh.num_face_vertices.size(); ++face) {
         const unsigned group = face < mesh.smoothing_group_ids.size() ? mesh.smoothing_group_ids[face] : 0;
         add_triangle(&mesh.indices[3 * face], group, mesh.material_ids[face]);
+        if (face % kFacesBetweenLooks == kFacesBetweenLooks - 1) advance(progress_, kFacesBetweenLooks);
       }
     }
     for (const std::uint32_t vertex : smooth_vertices_)
@@ -143,6 +173,7 @@ class ObjMesh {
 
  private:
   using Key = std::tuple<int, int, int, unsigned>;
+  static constexpr int kFacesBetweenLooks = 4096;
 
   void add_triangle(const tinyobj::index_t* corners, unsigned group, int material) {
     glm::uvec3 triangle;
@@ -178,6 +209,7 @@ class ObjMesh {
   }
 
   const ObjFile& obj_;
+  Progress* progress_;
   MeshData mesh_;
   std::map<Key, std::uint32_t> vertices_;
   std::vector<std::uint32_t> smooth_vertices_;
@@ -210,15 +242,16 @@ void load_textures(const ObjFile& obj, const std::filesystem::path& file, MeshDa
 
 }  // namespace
 
-Expected<Scene> load_obj(const std::filesystem::path& path, Warnings& warnings) {
-  std::ifstream in(path, std::ios::binary);
-  std::string text(std::istreambuf_iterator<char>(in), {});
-  if (!in) return Unexpected(InputError{path.string(), 0, "cannot be read", "is it yours to read?"});
-  if (const Expected<void> checked = check_obj_text(text, path); !checked) return Unexpected(checked.error());
+Expected<Scene> load_obj(const std::filesystem::path& path, Warnings& warnings, Progress* progress) {
+  std::optional<std::string> text = read_bytes(path, progress);
+  if (!text) return Unexpected(InputError{path.string(), 0, "cannot be read", "is it yours to read?"});
+  if (const Expected<void> checked = check_obj_text(*text, path, progress); !checked)
+    return Unexpected(checked.error());
 
   ObjFile obj;
-  MtlReader mtl(path, mtllib_names(text), warnings);
-  std::istringstream stream(std::move(text));
+  MtlReader mtl(path, mtllib_names(*text), warnings);
+  WatchedText watched(*text, progress);
+  std::istream stream(&watched);
   std::string warning, error;
   constexpr bool kTriangulate = true, kVertexColors = false;
   if (!tinyobj::LoadObj(&obj.attributes, &obj.shapes, &obj.materials, &warning, &error, &stream, &mtl,
@@ -226,7 +259,7 @@ Expected<Scene> load_obj(const std::filesystem::path& path, Warnings& warnings) 
     return Unexpected(
         InputError{path.string(), 0, error.substr(0, error.find('\n')), "export the file again"});
   add_unknown_materials(warning, path, warnings);
-  MeshData mesh = ObjMesh(obj).build();
+  MeshData mesh = ObjMesh(obj, progress).build();
   std::vector<std::string> source_files = mtl.files();
   load_textures(obj, path, mesh, source_files, warnings);
   Scene scene(std::move(mesh));

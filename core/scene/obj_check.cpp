@@ -36,14 +36,16 @@ std::optional<T> number(std::string_view word) {
 enum Kind { kVertex, kTexcoord, kNormal, kKinds };
 constexpr std::array<const char*, kKinds> kKindNames{"vertex", "texture coordinate", "normal"};
 
+constexpr int kLinesBetweenLooks = 4096;
+
 class Checker {
  public:
   Checker(std::string& text, const std::filesystem::path& file) : text_(text), file_(file) {}
 
-  Expected<void> check() {
+  Expected<void> check(const Progress* progress) {
     std::string_view text = text_;
     while (!text.empty()) {
-      ++line_;
+      if (++line_ % kLinesBetweenLooks == 0) throw_if_cancelled(progress);
       // As the parser has it: CR LF, LF or CR alone.
       const std::size_t end = std::min(text.find_first_of("\r\n"), text.size());
       const Expected<void> checked = check_line(text.substr(0, end));
@@ -132,8 +134,8 @@ class Checker {
 
 }  // namespace
 
-Expected<void> check_obj_text(std::string& text, const std::filesystem::path& file) {
-  return Checker(text, file).check();
+Expected<void> check_obj_text(std::string& text, const std::filesystem::path& file, const Progress* progress) {
+  return Checker(text, file).check(progress);
 }
 
 }  // namespace pinocchio

@@ -222,15 +222,16 @@ std::string glb_of(GltfWriter& writer) {
 
 }  // namespace
 
-void save_gltf(const Scene& scene, const std::filesystem::path& file) {
+void save_gltf(const Scene& scene, const std::filesystem::path& file, Progress* progress) {
+  throw_if_cancelled(progress);
   GltfWriter writer(scene);
   if (file.extension() == ".glb") {
-    write_text(file, glb_of(writer));
+    write_text(file, glb_of(writer), progress);
     return;
   }
   std::filesystem::path binary = file;
   binary.replace_extension(".bin");
-  write_text(binary, writer.binary());
+  write_text(binary, writer.binary(), progress);
   write_text(file, text_of(writer.finish(binary.filename().string()), 1) + "\n");
 }
 

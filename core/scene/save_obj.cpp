@@ -8,6 +8,8 @@
 namespace pinocchio {
 namespace {
 
+constexpr std::size_t kTrianglesBetweenLooks = 1 << 16;
+
 // Nine digits bring every float back to the last bit.
 void add_vec3(std::string& text, const char* keyword, const glm::vec3& v) {
   std::array<char, 96> line{};
@@ -52,12 +54,14 @@ std::string mtl_text(const Mesh& mesh) {
   return text;
 }
 
-std::string obj_text(const Mesh& mesh, const std::string& mtl_name) {
+std::string obj_text(const Mesh& mesh, const std::string& mtl_name, const Progress* progress) {
   std::string text = "# Pinocchio\nmtllib " + mtl_name + "\n";
+  throw_if_cancelled(progress);
   for (const glm::vec3& p : mesh.positions) add_vec3(text, "v", p);
   for (const glm::vec3& n : mesh.normals) add_vec3(text, "vn", n);
   std::uint32_t material = 0xffffffffu;
   for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
+    if (i % kTrianglesBetweenLooks == 0) throw_if_cancelled(progress);
     if (mesh.triangle_materials[i] != material) {
       material = mesh.triangle_materials[i];
       text += "usemtl " + material_name(material, mesh.materials[material]) + "\n";
@@ -74,11 +78,11 @@ std::string obj_text(const Mesh& mesh, const std::string& mtl_name) {
 
 }  // namespace
 
-void save_obj(const Scene& scene, const std::filesystem::path& file) {
+void save_obj(const Scene& scene, const std::filesystem::path& file, Progress* progress) {
   std::filesystem::path mtl = file;
   mtl.replace_extension(".mtl");
   write_text(mtl, mtl_text(*scene.mesh));
-  write_text(file, obj_text(*scene.mesh, mtl.filename().string()));
+  write_text(file, obj_text(*scene.mesh, mtl.filename().string(), progress), progress);
 }
 
 }  // namespace pinocchio

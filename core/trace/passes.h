@@ -10,6 +10,7 @@
 #include "core/trace/shared.h"
 #include "pinocchio/image.h"
 #include "pinocchio/mask_image.h"
+#include "pinocchio/progress.h"
 #include "pinocchio/ray_counts.h"
 #include "pinocchio/scene.h"
 #include "pinocchio/tracer.h"
@@ -26,6 +27,9 @@ struct TraceJob {
   // the shadow rays of what they see; and shadow rays of visible points (0: all are fired, so that every bit
   // of the mask is true).
   float throughput_cutoff = kThroughputCutoff, light_cutoff = 0.0f;
+  // Told of every tile: all of them together are that many steps.
+  Progress* progress = nullptr;
+  double progress_steps = 1.0;
 };
 
 // The triangle that each pixel's centre sees (kNoTriangle: none), by rays. ids: any size.

@@ -26,6 +26,7 @@ TileResult trace_tiles(const TraceJob& job, const TileOutputs& outputs) {
     const std::lock_guard lock(mutex);
     result.rays += of_tile.rays;
     result.times += of_tile.times;
+    advance(job.progress, job.progress_steps / static_cast<double>(grid.count()));
   });
   return result;
 }

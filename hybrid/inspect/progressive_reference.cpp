@@ -26,29 +26,28 @@ void give_way() {
   setpriority(PRIO_PROCESS, 0, getpriority(PRIO_PROCESS, 0) + kNicer);
 }
 
-struct Sample {
-  glm::ivec2 at;
-  glm::vec4 color;
-};
-
 }  // namespace
 
 // One view's picture, as far as it is.
 struct ProgressiveReference::Job {
-  Job(const ReferenceView& of, const std::stop_source& mesh_source)
+  Job(const ReferenceView& of, std::shared_ptr<pinocchio::Progress> mesh_progress)
       : scene(of.scene),
         view(view_params(of.view)),
         size(of.view.box().size()),
         depth(of.depth),
-        of_mesh(mesh_source) {}
+        of_mesh(std::move(mesh_progress)) {}
 
   Scene scene;
   shared::ViewParams view;
   glm::ivec2 size;
   int depth;
-  std::stop_source of_view;  // another is wanted
-  std::stop_source of_mesh;  // ... of another mesh
+  pinocchio::Progress of_view;                   // cancelled: another is wanted
+  std::shared_ptr<pinocchio::Progress> of_mesh;  // ... of another mesh
 
+  struct Sample {
+    glm::ivec2 at;
+    glm::vec4 color;
+  };
   struct Patch {
     int step;  // each sample covers step x step pixels
     std::vector<Sample> samples;
@@ -69,8 +68,7 @@ class ProgressiveReference::Artist {
     if (!tree_ || tree_mesh_ != job.scene.mesh) {
       tree_.reset();
       tree_mesh_ = job.scene.mesh;
-      tree_.emplace(*tree_mesh_, job.of_mesh.get_token());
-      if (tree_->stopped()) return tree_.reset();
+      tree_.emplace(*tree_mesh_, job.of_mesh.get());
     }
     const ReferenceTracer tracer(job.scene, *tree_);
     const TileGrid grid(job.size);
@@ -84,7 +82,7 @@ class ProgressiveReference::Artist {
     Job::Patch patch{step, {}};
     for (int y = tile.lo.y; y < tile.hi.y; y += step)
       for (int x = tile.lo.x; x < tile.hi.x; x += step) {
-        if (job.of_view.stop_requested()) return;
+        if (job.of_view.cancelled()) return;
         if (last_step > 0 && x % last_step == 0 && y % last_step == 0) continue;  // there already
         patch.samples.push_back({{x, y}, tracer.pixel(job.view, x, y, job.depth).color});
       }
@@ -109,9 +107,9 @@ ProgressiveReference::~ProgressiveReference() {
 void ProgressiveReference::show(const ReferenceView& view) {
   if (view_ && *view_ == view) return;
   const bool same_mesh = view_ && view_->scene.mesh == view.scene.mesh;
-  const std::stop_source mesh_source = same_mesh ? wanted_->of_mesh : std::stop_source();
+  const auto of_mesh = same_mesh ? wanted_->of_mesh : std::make_shared<pinocchio::Progress>();
   if (same_mesh) {
-    wanted_->of_view.request_stop();
+    wanted_->of_view.cancel();
   } else {
     stop();
   }
@@ -124,15 +122,15 @@ void ProgressiveReference::show(const ReferenceView& view) {
   shown_is_clear_ = true;
   {
     const std::lock_guard lock(mutex_);
-    wanted_ = std::make_shared<Job>(view, mesh_source);
+    wanted_ = std::make_shared<Job>(view, of_mesh);
   }
   wake_.notify_one();
 }
 
 void ProgressiveReference::stop() {
   if (!view_) return;
-  wanted_->of_view.request_stop();
-  wanted_->of_mesh.request_stop();
+  wanted_->of_view.cancel();
+  wanted_->of_mesh->cancel();
   const std::lock_guard lock(mutex_);
   wanted_.reset();
   view_.reset();
@@ -173,6 +171,7 @@ void ProgressiveReference::work(const std::stop_token& stop) {
     }
     try {
       artist.draw(*job);
+    } catch (const Cancelled&) {  // another mesh is wanted
     } catch (...) {
       const std::lock_guard lock(job->mutex);
       job->error = std::current_exception();

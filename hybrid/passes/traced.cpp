@@ -24,10 +24,12 @@ void note(const TileTimes& times, double begin_s, int threads, FrameRecord& reco
   place(Stage::composite, times.composite);
 }
 
-void run(Workers& workers, FrameSlot& frame, const TileOutputs& outputs) {
+// `share`: of the frame.
+void run(Workers& workers, FrameSlot& frame, const TileOutputs& outputs, double share) {
   const FrameRequest& r = frame.request;
   if (!r.tracer) throw std::logic_error("settings that trace were given no tree (Engine::prepare)");
-  const TraceJob job{r.scene, *r.tracer, workers, frame.view, r.settings.throughput_cutoff, r.settings.light_cutoff};
+  const TraceJob job{r.scene,         *r.tracer, workers, frame.view, r.settings.throughput_cutoff,
+                     r.settings.light_cutoff, frame.progress, share};
   const double begin_s = now_s();
   const TileResult result = trace_tiles(job, outputs);
   frame.record.rays += result.rays;
@@ -62,16 +64,19 @@ void trace(Workers& workers, FrameSlot& frame) {
     out.reflection = &frame.reflection;
   };
   if (s.reflects() && s.depth == 0) frame.reflection = Image<glm::vec3>(scaled_size(size, s.reflection_scale));
-  if (!has_ids && (s.mask_scale > 1 || s.reflection_scale > 1)) {
-    run(workers, frame, outputs(1));  // every id travels, whatever is sampled
+  const bool needs_ids = !has_ids && (s.mask_scale > 1 || s.reflection_scale > 1);
+  const bool apart = s.mask_scale != s.reflection_scale && s.mask_bits > 0 && s.reflects();
+  const double share = 1.0 / (1.0 + needs_ids + apart);
+  if (needs_ids) {
+    run(workers, frame, outputs(1), share);  // every id travels, whatever is sampled
     has_ids = true;
   }
-  if (s.mask_scale != s.reflection_scale && s.mask_bits > 0 && s.reflects()) {
+  if (apart) {
     TileOutputs mask = outputs(s.mask_scale), reflection = outputs(s.reflection_scale);
     add_mask(mask);
     add_reflection(reflection);
-    run(workers, frame, mask);
-    return run(workers, frame, reflection);
+    run(workers, frame, mask, share);
+    return run(workers, frame, reflection, share);
   }
   TileOutputs all = outputs(s.mask_bits > 0 ? s.mask_scale : s.reflection_scale);
   add_mask(all);
@@ -83,7 +88,7 @@ void trace(Workers& workers, FrameSlot& frame) {
     unpack_srgb(frame.phong_srgb.pixels(), workers, light);
     all.added = &light;
   }
-  run(workers, frame, all);
+  run(workers, frame, all, share);
   if (all.added) pack_srgb(light, workers, frame[Channel::picture].bytes);
 }
 

@@ -59,9 +59,9 @@ void add_haze(MeshBuilder& mesh, float half) {
 
 }  // namespace
 
-Scene make_forest(int triangles) {
+Scene make_forest(int triangles, Progress* progress) {
   MeshData data;
-  MeshBuilder mesh(data);
+  MeshBuilder mesh(data, progress);
   const int trees = std::max(1, (triangles - kTrianglesAround) / kTrianglesOfTree);
   const float half = 1.1f * std::sqrt(static_cast<float>(trees));
   mesh.use(matt("ground", {0.16f, 0.12f, 0.07f}));

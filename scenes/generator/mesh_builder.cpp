@@ -7,6 +7,7 @@
 namespace pinocchio {
 namespace {
 
+constexpr int kTrianglesAtOnce = 4096;  // that progress is told of
 constexpr float kTau = glm::two_pi<float>();
 
 float fraction(int i, int n) {
@@ -38,6 +39,7 @@ void MeshBuilder::face(std::uint32_t a, std::uint32_t b, std::uint32_t c) {
   const std::vector<glm::vec3>& p = mesh_.positions;
   if (p[a] == p[b] || p[b] == p[c] || p[c] == p[a]) return;
   mesh_.triangles.emplace_back(a, b, c);
+  if (mesh_.triangles.size() % kTrianglesAtOnce == 0) advance(progress_, kTrianglesAtOnce);
   mesh_.triangle_materials.push_back(static_cast<std::uint32_t>(mesh_.materials.size() - 1));
 }
 

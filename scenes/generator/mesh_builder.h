@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "pinocchio/mesh.h"
+#include "pinocchio/progress.h"
 
 namespace pinocchio {
 
@@ -16,7 +17,8 @@ namespace pinocchio {
 // the current transform (which must not mirror).
 class MeshBuilder {
  public:
-  explicit MeshBuilder(MeshData& mesh) : mesh_(mesh) {}
+  // `progress` advances by a step a triangle.
+  explicit MeshBuilder(MeshData& mesh, Progress* progress = nullptr) : mesh_(mesh), progress_(progress) {}
 
   // Shapes from here on are of this material.
   void use(const Material& material);
@@ -46,6 +48,7 @@ class MeshBuilder {
   void face(std::uint32_t a, std::uint32_t b, std::uint32_t c);
 
   MeshData& mesh_;
+  Progress* progress_;
   glm::mat4 place_{1.0f};
 };
 

@@ -8,13 +8,13 @@ namespace {
 struct Entry {
   const char* name;
   int triangles;  // by itself
-  Scene (*make)(int triangles);
+  Scene (*make)(int triangles, Progress* progress);
 };
 
 constexpr std::array<Entry, 5> kScenes{{
-    {"two-lights", 0, [](int) { return make_two_lights(); }},
+    {"two-lights", 0, [](int, Progress*) { return make_two_lights(); }},
     {"speedboat", 16'000, make_speedboat},
-    {"cornell", 0, [](int) { return make_cornell(); }},
+    {"cornell", 0, [](int, Progress*) { return make_cornell(); }},
     {"forest", 1'000'000, make_forest},
     {"spd:balls", 400'000, make_spd_balls},
 }};
@@ -30,7 +30,9 @@ std::vector<std::string> procedural_names() {
 Expected<Scene> make_procedural(const std::string& name, const ProceduralOptions& options) {
   for (const Entry& entry : kScenes)
     if (name == entry.name) {
-      Scene scene = entry.make(options.triangles > 0 ? options.triangles : entry.triangles);
+      const int triangles = options.triangles > 0 ? options.triangles : entry.triangles;
+      begin_phase(options.progress, "generate", triangles);
+      Scene scene = entry.make(triangles, options.progress);
       scene.source = name;
       return scene;
     }

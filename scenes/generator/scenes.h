@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "pinocchio/error.h"
+#include "pinocchio/progress.h"
 #include "pinocchio/scene.h"
 
 namespace pinocchio {
@@ -11,6 +12,7 @@ namespace pinocchio {
 struct ProceduralOptions {
   int triangles =
       0;  // about how many; 0: as many as the scene has by itself. Scenes of fixed shape ignore it.
+  Progress* progress = nullptr;  // phase "generate"
 };
 
 // Scenes made by our own code, the same on every machine.
@@ -19,9 +21,9 @@ struct ProceduralOptions {
 
 // The scenes behind make_procedural; `triangles` is about how many.
 [[nodiscard]] Scene make_two_lights();
-[[nodiscard]] Scene make_speedboat(int triangles);
+[[nodiscard]] Scene make_speedboat(int triangles, Progress* progress = nullptr);
 [[nodiscard]] Scene make_cornell();
-[[nodiscard]] Scene make_forest(int triangles);
-[[nodiscard]] Scene make_spd_balls(int triangles);
+[[nodiscard]] Scene make_forest(int triangles, Progress* progress = nullptr);
+[[nodiscard]] Scene make_spd_balls(int triangles, Progress* progress = nullptr);
 
 }  // namespace pinocchio

@@ -98,9 +98,9 @@ void add_surroundings(MeshBuilder& mesh) {
 
 }  // namespace
 
-Scene make_spd_balls(int triangles) {
+Scene make_spd_balls(int triangles, Progress* progress) {
   MeshData data;
-  MeshBuilder mesh(data);
+  MeshBuilder mesh(data, progress);
   add_surroundings(mesh);
   Material gold = mirror("gold", {0.60f, 0.48f, 0.28f});
   gold.ambient = gold.diffuse = {0.42f, 0.25f, 0.07f};

@@ -240,9 +240,10 @@ void add_fittings(MeshBuilder& mesh, const Paints& paint, float scale) {
 }
 
 // `scale` multiplies the cells along each side of the tessellated surfaces.
-MeshData meshes_of(float scale) {
+MeshData meshes_of(float scale, int about, Progress* progress) {
+  begin_phase(progress, "generate", about);
   MeshData data;
-  MeshBuilder mesh(data);
+  MeshBuilder mesh(data, progress);
   const Paints paint;
   add_hull(mesh, paint, scale);
   add_decks(mesh, paint, scale);
@@ -255,23 +256,23 @@ MeshData meshes_of(float scale) {
 }
 
 // Pipes and posts grow less than in proportion to the cells, so the scale is corrected by what came out.
-MeshData meshes_of_about(int triangles) {
+MeshData meshes_of_about(int triangles, Progress* progress) {
   const auto wanted = static_cast<float>(triangles);
   float scale = std::sqrt(wanted / 16000.0f);
-  MeshData data = meshes_of(scale);
+  MeshData data = meshes_of(scale, triangles, progress);
   for (int round = 0; round < 3; ++round) {
     const float ratio = wanted / static_cast<float>(data.triangles.size());
     if (ratio > 0.95f && ratio < 1.05f) break;
     scale *= std::sqrt(ratio);
-    data = meshes_of(scale);
+    data = meshes_of(scale, triangles, progress);
   }
   return data;
 }
 
 }  // namespace
 
-Scene make_speedboat(int triangles) {
-  Scene scene(meshes_of_about(triangles));
+Scene make_speedboat(int triangles, Progress* progress) {
+  Scene scene(meshes_of_about(triangles, progress));
   scene.ambient_light = {0.26f, 0.29f, 0.34f};
   Light sun;
   sun.name = "sun";

@@ -10,6 +10,8 @@
 
 namespace pinocchio {
 
+class Progress;
+
 // Where a node is split: the surface area heuristic, or one of the two simpler rules.
 enum class SplitRule {
   sah,  // least expected cost (MacDonald and Booth 1990), with perfect splits (Wald and Havran 2006)
@@ -39,6 +41,7 @@ struct BuildOptions {
   std::optional<glm::vec3> eye{};
   float cost_intersection_eye = 0.6f, margin = 0.01f;
   TriangleTest triangle_test = TriangleTest::filtered;  // that triangles are stored for
+  Progress* progress = nullptr;                         // phase "build"
 };
 
 }  // namespace pinocchio

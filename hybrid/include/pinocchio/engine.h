@@ -53,11 +53,13 @@ class Engine {
                                            bool keeps_mask = true) const;
 
   // The tree that frames of these settings trace in; null where they trace nothing. Any thread.
-  [[nodiscard]] static std::shared_ptr<const Tracer> prepare(const Scene& scene, const Settings& settings);
+  [[nodiscard]] static std::shared_ptr<const Tracer> prepare(const Scene& scene, const Settings& settings,
+                                                             Progress* progress = nullptr);
 
   // One picture, waited for: resolves, prepares (the last scene's tree is kept) and averages the samples.
+  // Phases "build" and "render".
   [[nodiscard]] Expected<FrameResult> render(const Scene& scene, const View& view,
-                                             const Settings& settings = {});
+                                             const Settings& settings = {}, Progress* progress = nullptr);
 
   // Worker threads of its own, `threads` of them (0: one a core), for work between frames. Any thread.
   [[nodiscard]] Workers& workers(int threads = 0) const;

@@ -5,6 +5,7 @@
 #include <memory>
 
 #include "pinocchio/frame.h"
+#include "pinocchio/progress.h"
 #include "pinocchio/scene.h"
 #include "pinocchio/settings.h"
 #include "pinocchio/tracer.h"
@@ -63,7 +64,9 @@ struct FrameSinks {
 // synchronous one, bit for bit.
 class Renderer {
  public:
-  Renderer(Engine& engine, FrameSinks sinks);
+  // `progress` advances by a step a frame, while it is traced, and outlives the Renderer. Once it is cancelled,
+  // submit and drain throw Cancelled; frames that were delivered are whole.
+  Renderer(Engine& engine, FrameSinks sinks, Progress* progress = nullptr);
   ~Renderer();
   Renderer(const Renderer&) = delete;
   Renderer& operator=(const Renderer&) = delete;
