@@ -1,5 +1,6 @@
 #include "app/animation.h"
 
+#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <filesystem>
 #include <fstream>

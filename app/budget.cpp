@@ -1,5 +1,6 @@
 #include "app/budget.h"
 
+#include <CLI/CLI.hpp>
 #include <array>
 #include <cstdio>
 #include <nlohmann/json.hpp>
@@ -16,7 +17,7 @@
 namespace pinocchio::app {
 namespace {
 
-constexpr std::array<std::string_view, 4> kMetrics{"rmse", "relmse", "max", "flip"};
+constexpr std::array<std::string_view, 4> kBudgetMetrics{"rmse", "relmse", "max", "flip"};
 
 double error_of(const Image<glm::vec3>& picture, const Image<glm::vec3>& exact, const std::string& metric,
                 Workers& workers) {
@@ -99,7 +100,7 @@ void add_budget_options(CLI::App& verb, BudgetOptions& options) {
       ->type_name("TIME");
   verb.add_option_function<std::string>(
           "--max-error",
-          [&options](const std::string& text) { options.error = parse_error_limit(text, kMetrics); },
+          [&options](const std::string& text) { options.error = parse_error_limit(text, kBudgetMetrics); },
           "METRIC=VALUE: the fastest plan whose picture is no further from the exact plan's; rmse, relmse, "
           "max or flip")
       ->type_name("METRIC=VALUE");

@@ -1,4 +1,5 @@
 // chart: sweeps what can be swapped; error against time, on one page.
+#include <CLI/CLI.hpp>
 #include <cstdio>
 #include <memory>
 #include <nlohmann/json.hpp>

@@ -1,4 +1,5 @@
 // compare: how far pictures are from others, in figures, pictures and an exit code.
+#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cstdio>
 #include <memory>

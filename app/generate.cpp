@@ -1,4 +1,5 @@
 // generate: writes a procedural scene to glTF or OBJ.
+#include <CLI/CLI.hpp>
 #include <cstdio>
 #include <memory>
 

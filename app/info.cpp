@@ -1,4 +1,5 @@
 // info: what a scene holds and needs; with --system, what this machine can do.
+#include <CLI/CLI.hpp>
 #include <cstdio>
 #include <memory>
 #include <nlohmann/json.hpp>

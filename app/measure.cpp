@@ -1,4 +1,5 @@
 // measure: frames along a camera path; what each moved, took and waited for.
+#include <CLI/CLI.hpp>
 #include <cstdio>
 #include <memory>
 #include <nlohmann/json.hpp>

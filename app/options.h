@@ -1,6 +1,5 @@
 #pragma once
 
-#include <CLI/CLI.hpp>
 #include <glm/glm.hpp>
 #include <optional>
 #include <string>
@@ -10,6 +9,10 @@
 #include "pinocchio/load.h"
 #include "pinocchio/scene.h"
 #include "pinocchio/view.h"
+
+namespace CLI {
+class App;
+}
 
 namespace pinocchio::app {
 

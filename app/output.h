@@ -1,6 +1,5 @@
 #pragma once
 
-#include <CLI/CLI.hpp>
 #include <filesystem>
 #include <nlohmann/json_fwd.hpp>
 #include <string>
@@ -10,6 +9,10 @@
 #include "core/parallel/workers.h"
 #include "pinocchio/renderer.h"
 #include "pinocchio/scene.h"
+
+namespace CLI {
+class App;
+}
 
 namespace pinocchio::app {
 

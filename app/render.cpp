@@ -1,4 +1,5 @@
 // render: headless, one frame or a range, to EXR and PNG.
+#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cstdio>
 #include <memory>

@@ -1,4 +1,5 @@
 // view: the window.
+#include <CLI/CLI.hpp>
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>

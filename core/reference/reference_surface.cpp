@@ -3,16 +3,14 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/math/components.h"
+
 namespace pinocchio {
 namespace {
 
 // The tracer allows itself 32 roundings of float; a few hundred of double cost nothing here, and are a
 // million times less.
 constexpr double kPointError = 512.0 * 0x1p-53;
-
-double largest_component(const glm::dvec3& v) {
-  return std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)});
-}
 
 // A triangle's own normal has no length where it has no area, vertex normals none where they cancel.
 glm::dvec3 unit_or(const glm::dvec3& n, double least_square, const glm::dvec3& otherwise) {

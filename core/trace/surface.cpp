@@ -3,14 +3,11 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/math/components.h"
 #include "core/trace/mapped_material.h"
 
 namespace pinocchio {
 namespace {
-
-float largest_component(const glm::vec3& v) {
-  return std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)});
-}
 
 SurfaceInteraction geometry_at(const Mesh& mesh, std::uint32_t id, const glm::vec3& direction, const glm::vec3& weights,
                     const RayOffset& offset) {
