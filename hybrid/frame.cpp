@@ -106,7 +106,8 @@ SurfaceImages surfaces_of(const FrameResult& frame) {
   Workers workers(frame.settings.threads);
   workers.for_each(static_cast<std::size_t>((size.y + kLines - 1) / kLines), [&](std::size_t i) {
     const int y0 = static_cast<int>(i) * kLines, y1 = std::min(y0 + kLines, size.y);
-    const SurfaceImages lines = surface_images(*frame.scene.mesh, params, frame.ids, y0, y1);
+    const SurfaceImages lines = surface_images(*frame.scene.mesh, params, frame.ids, y0, y1,
+                                                frame.settings.filter_textures);
     const auto put = [&](const auto& from, auto& to) { std::ranges::copy(from.pixels(), &to.at(0, y0)); };
     put(lines.z_eye, all.z_eye);
     put(lines.p_world, all.p_world);

@@ -9,7 +9,7 @@
 namespace pinocchio {
 namespace {
 
-constexpr std::array<const char*, 3> kExtensions{".gltf", ".glb", ".obj"};
+constexpr std::array<const char*, 3> kSceneExtensions{".gltf", ".glb", ".obj"};
 
 Unexpected error(const std::filesystem::path& path, const std::string& what, const std::string& remedy) {
   return Unexpected(InputError{path.string(), 0, what, remedy});
@@ -26,7 +26,7 @@ Expected<std::filesystem::path> find_scene_file(const std::filesystem::path& pat
   if (std::filesystem::is_regular_file(path, ignored)) return path;
   const std::filesystem::path trimmed = path.has_filename() ? path : path.parent_path();
   for (const std::filesystem::path& stem : {trimmed, trimmed / trimmed.filename()})
-    for (const char* extension : kExtensions)
+    for (const char* extension : kSceneExtensions)
       if (std::filesystem::path file = stem.string() + extension;
           std::filesystem::is_regular_file(file, ignored))
         return file;
@@ -96,7 +96,7 @@ Expected<void> check_scene(const Scene& scene) {
                   "scale the scene down");
   for (const std::vector<glm::vec2>* texcoords : {&mesh.texcoords, &mesh.texcoords1})
     for (std::size_t i = 0; i < texcoords->size(); ++i)
-      if (!is_finite({(*texcoords)[i], 0.0f}))
+      if (!is_finite(glm::vec3((*texcoords)[i], 0.0f)))
         return fail("the texture coordinate of vertex " + std::to_string(i) + " is not a finite number",
                     "export it again");
   for (std::size_t i = 0; i < mesh.colors.size(); ++i)

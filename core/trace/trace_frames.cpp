@@ -29,7 +29,7 @@ class Share {
  public:
   Share(const FramesJob& job, const FrameArrays& to, TileImages& images)
       : job_(job), to_(to), images_(images), trace_job_{job.scene,          job.tracer, job.workers, {},
-                                                        job.throughput_cutoff, job.light_cutoff},
+                                                        job.throughput_cutoff, job.light_cutoff, job.filter_textures},
         outputs_(outputs(job, to, images)), plan_(trace_job_, outputs_) {}
 
   RayCounts draw(std::size_t frame, const PixelBox& tile) {
@@ -102,6 +102,7 @@ class Share {
 
   void add_surfaces(const shared::ViewParams& view, std::size_t frame, const PixelBox& tile) {
     const glm::vec3 forward = view_axis(view);
+    const Footprint footprint = job_.filter_textures ? Footprint::of_camera(view) : Footprint{};
     const Mesh& mesh = *job_.scene.mesh;
     const glm::ivec2 size = tile.size();
     for (int y = 0; y < size.y; ++y)
@@ -111,14 +112,15 @@ class Share {
         SurfaceInteraction s{};
         if (triangle != kNoTriangle) {
           const Ray ray = pixel_ray(view, x, y);
-          s = to_.albedo ? surface_at(mesh, triangle, ray.origin, ray.direction)
-                         : bare_surface_at(mesh, triangle, ray.origin, ray.direction);
+          s = to_.albedo || mesh.maps_of(triangle)
+                  ? surface_at(mesh, triangle, ray.origin, ray.direction, {}, footprint)
+                  : bare_surface_at(mesh, triangle, ray.origin, ray.direction);
         }
         const bool hit = triangle != kNoTriangle;
         if (to_.depth) to_.depth[pixel] = hit ? glm::dot(s.p_world - view.eye, forward) : kInfinity;
         if (to_.position) to_.position[pixel] = hit ? s.p_world : glm::vec3(0.0f);
         if (to_.normal) to_.normal[pixel] = hit ? s.n_shading : glm::vec3(0.0f);
-        if (to_.albedo) to_.albedo[pixel] = hit ? s.phong.diffuse : glm::vec3(0.0f);
+        if (to_.albedo) to_.albedo[pixel] = hit ? s.material.phong.diffuse : glm::vec3(0.0f);
       }
   }
 

@@ -23,6 +23,7 @@ struct FramesJob {
   glm::ivec2 size;
   int spp = 1, depth = 0, mask_bits = 0;
   float throughput_cutoff = kThroughputCutoff, light_cutoff = 0.0f;
+  bool filter_textures = true;
   Progress* progress = nullptr;  // told of every tile: a picture is `spp` steps
 };
 
