@@ -36,6 +36,7 @@ class History {
   double cut_s_ = 0.0;  // of all pauses
 };
 
+inline constexpr std::size_t kMedianOf = 20;  // frames that a shown figure is the median of
 // Of the newest `count` values; 0 where there are none.
 [[nodiscard]] float median_of_newest(const std::vector<float>& values, std::size_t count);
 

@@ -10,7 +10,6 @@
 namespace pinocchio::app {
 namespace {
 
-constexpr std::size_t kMedianOf = 20;  // frames
 
 std::string megabytes(std::size_t bytes) {
   return format("%.2f MB", static_cast<double>(bytes) * 1e-6);

@@ -10,7 +10,6 @@
 namespace pinocchio::app {
 namespace {
 
-constexpr std::size_t kMedianOf = 20;  // frames
 constexpr float kPadding = 4.0f;
 
 std::string picture_text(const Model& model) {

@@ -5,8 +5,7 @@
 
 namespace pinocchio {
 
-template <class T>
-[[nodiscard]] bool is_finite(const glm::vec<3, T>& v) {
+[[nodiscard]] inline bool is_finite(const glm::vec3& v) {
   return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
 }
 

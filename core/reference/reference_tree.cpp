@@ -6,7 +6,6 @@
 #include <numeric>
 
 #include "core/math/components.h"
-#include "core/math/finite.h"
 
 namespace pinocchio {
 namespace {
@@ -17,6 +16,10 @@ constexpr std::size_t kStackSize = 64;  // halving 2^32 triangles is 32 levels, 
 // Boxes are widened by this share of the coordinates a ray meets: many times what subtracting the origin
 // and shearing a corner can err by in double, so that no box is missed whose triangle would be hit.
 constexpr double kBoxError = 32.0 * 0x1p-53;
+
+bool all_finite(const glm::dvec3& v) {
+  return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
+}
 
 // Where the ray enters the box, its sides moved out by `margin`; infinity where it does not before t_max.
 double entry(const ReferenceRay& ray, const Bounds& box, double margin, double t_max) {
@@ -91,7 +94,7 @@ void ReferenceTree::halve(const Node& node) {
 
 ReferenceHit ReferenceTree::closest_hit(const ReferenceRay& ray) const {
   ReferenceHit hit;
-  if (nodes_.empty() || !is_finite(ray.origin) || !is_finite(ray.direction) ||
+  if (nodes_.empty() || !all_finite(ray.origin) || !all_finite(ray.direction) ||
       ray.direction == glm::dvec3(0.0))
     return hit;
   const ReferenceTest test(ray);

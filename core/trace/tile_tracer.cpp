@@ -69,15 +69,19 @@ SceneArrays SceneArrays::of(const Mesh& mesh) {
           mesh.maps.empty() ? nullptr : &mesh};
 }
 
+void TilePlan::look(const shared::ViewParams& from) {
+  view = from;
+  if (filters(job)) seen_footprint = Footprint::of_camera(from);
+  further_footprint = seen_footprint.of_cones();
+}
+
 TilePlan::TilePlan(const TraceJob& j, const TileOutputs& o)
     : job(j),
       out(o),
-      view(scaled_view(j.view, o.scale)),
-      seen_footprint(filters(j) ? Footprint::of_camera(view) : Footprint{}),
-      further_footprint(seen_footprint.of_cones()),
       has_holes(any_maps(*j.scene.mesh, &MaterialMaps::has_holes)),
       blends(any_maps(*j.scene.mesh, &MaterialMaps::blends)),
       all_lights(lights_of(j.scene)) {
+  look(scaled_view(j.view, o.scale));
   further = {SceneArrays::of(*job.scene.mesh),
              job.tracer.offset(),
              &further_footprint,

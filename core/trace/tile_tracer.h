@@ -15,6 +15,8 @@ namespace pinocchio {
 // What all tiles of a picture read.
 struct TilePlan {
   TilePlan(const TraceJob& job, const TileOutputs& outputs);
+  // From here on samples are of this view.
+  void look(const shared::ViewParams& from);
 
   const TraceJob& job;
   const TileOutputs& out;

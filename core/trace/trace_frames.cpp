@@ -38,7 +38,8 @@ class Share {
     const int samples = to_.color ? job_.spp : 1;
     RayCounts rays;
     for (int k = 0; k < samples; ++k) {
-      plan_.view = view_params(camera, job_.size, jitter_of(k), tile.lo);
+      plan_.look(view_params(camera, job_.size, jitter_of(k), tile.lo));
+      trace_job_.jitter = jitter_of(k);
       outputs_.ids = k == 0 ? &images_.ids : nullptr;
       outputs_.reflection = k == 0 && to_.reflection ? &images_.reflection : nullptr;
       outputs_.mask = k == 0 && to_.mask && job_.mask_bits > 0 ? &images_.mask : nullptr;
