@@ -34,7 +34,7 @@ add_custom_target(help_files ALL DEPENDS ${help_files})
 install(FILES ${PROJECT_BINARY_DIR}/help/pinocchio.1 DESTINATION share/man/man1 COMPONENT program)
 install(FILES ${PROJECT_BINARY_DIR}/help/pinocchio.bash DESTINATION share/bash-completion/completions RENAME pinocchio COMPONENT program)
 install(FILES ${PROJECT_BINARY_DIR}/help/_pinocchio DESTINATION share/zsh/site-functions COMPONENT program)
-install(DIRECTORY farm DESTINATION share/pinocchio USE_SOURCE_PERMISSIONS COMPONENT program)
+install(DIRECTORY farm DESTINATION share/doc/pinocchio USE_SOURCE_PERMISSIONS COMPONENT program)
 
 install(RUNTIME_DEPENDENCY_SET pinocchio_libraries
         PRE_EXCLUDE_REGEXES "^ld-linux" "^lib(c|m|dl|rt|pthread)\\.so" "^lib(GL|EGL|OpenGL|GLX|OSMesa)"

@@ -47,6 +47,7 @@ const std::map<std::string, std::string> kRoomOfPublic{
     {"error.h", "base"},       {"progress.h", "base"},    {"names.h", "base"},      {"bounds.h", "math"},      {"pixel_box.h", "math"},
     {"ray.h", "math"},         {"image.h", "image"},     {"mask_image.h", "image"}, {"exr.h", "image"},
     {"camera.h", "scene"},     {"light.h", "scene"},     {"load.h", "scene"},       {"material.h", "scene"},
+    {"material_maps.h", "scene"}, {"texture.h", "scene"},
     {"mesh.h", "scene"},       {"nodes.h", "scene"},      {"save.h", "scene"},      {"scene.h", "scene"},      {"build_options.h", "bsp"},
     {"triangle_test.h", "bsp"}, {"ray_counts.h", "trace"}, {"ray_offset.h", "trace"}, {"tracer.h", "trace"},
     {"view.h", "trace"},        {"compare_pictures.h", "compare"}, {"frame_arrays.h", "trace"}, {"surface_images.h", "trace"}};
