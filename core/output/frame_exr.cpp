@@ -122,7 +122,7 @@ std::string lights_json(const Scene& scene) {
     if (light.kind != Light::Kind::point) json["direction"] = vec3_json(light.direction);
     lights.push_back(std::move(json));
   }
-  return lights.dump();
+  return lights.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
 }
 
 }  // namespace pinocchio

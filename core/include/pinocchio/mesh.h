@@ -24,6 +24,7 @@ struct MeshData {
   std::vector<glm::vec3> positions;
   std::vector<glm::vec3> normals;  // one a position; a zero vector asks for the triangle's own (flat) normal
   std::vector<glm::vec2> texcoords;  // one a position, or empty where nothing is textured; v grows downwards
+  std::vector<glm::vec4> colors;  // linear, one a position, or empty
   std::vector<glm::uvec3> triangles;
   std::vector<std::uint32_t> triangle_materials;  // one a triangle
 
