@@ -1,5 +1,6 @@
 #include "app/output.h"
 
+#include <algorithm>
 #include <nlohmann/json.hpp>
 #include <system_error>
 
@@ -34,6 +35,18 @@ void add_output_options(CLI::App& verb, OutputOptions& options) {
         const Expected<AovSet> aovs = parse_aovs(text);
         return aovs ? std::string() : aovs.error().message();
       });
+  std::string type;
+  for (const std::string_view name : kExrCompressionNames) type += (type.empty() ? "" : "|") + std::string(name);
+  verb.add_option_function<std::string>(
+          "--compression",
+          [&options](const std::string& text) {
+            const auto found = std::ranges::find(kExrCompressionNames, text);
+            if (found == kExrCompressionNames.end())
+              throw CLI::ValidationError("--compression", "'" + text + "' is not zip, zips, piz, rle or none");
+            options.compression = static_cast<ExrCompression>(found - kExrCompressionNames.begin());
+          },
+          "how the EXR is packed, without loss all of them (zip)")
+      ->type_name(type);
   verb.add_option("--exposure", options.exposure_ev, "of the preview, in stops (0)")
       ->check(CLI::Range(-64.0, 64.0));
   verb.add_flag("--deterministic", options.deterministic, "leave the render time out of the EXR");
@@ -74,12 +87,13 @@ bool keeps_mask(const OutputOptions& options) {
   return !options.exr.empty() && parse_aovs(options.aovs)->contains("shadow");
 }
 
-void write_outputs(const OutputOptions& options, int frame_number, const FrameResult& picture,
-                   std::optional<double> render_s) {
+void write_outputs(const OutputOptions& options, const DrawnFrame& frame) {
   if (!options.exr.empty())
-    write_exr(numbered(options.exr, frame_number), picture, options.aovs, render_s);
+    write_exr(numbered(options.exr, frame.number), frame.picture,
+              {options.aovs, options.compression,
+               options.deterministic ? std::nullopt : std::optional(frame.render_s)});
   if (!options.preview.empty())
-    write_png(numbered(options.preview, frame_number), preview(picture.color, options.exposure_ev));
+    write_png(numbered(options.preview, frame.number), preview(frame.picture.color, options.exposure_ev));
 }
 
 }  // namespace pinocchio::app

@@ -3,7 +3,6 @@
 #include <CLI/CLI.hpp>
 #include <filesystem>
 #include <nlohmann/json_fwd.hpp>
-#include <optional>
 #include <string>
 
 #include "core/parallel/workers.h"
@@ -12,13 +11,21 @@
 
 namespace pinocchio::app {
 
-// -o, --preview, --aov, --exposure, --deterministic
+// -o, --preview, --aov, --compression, --exposure, --deterministic
 struct OutputOptions {
   std::string exr;      // "####" is the frame's number
   std::string preview;  // PNG
   std::string aovs = "all";
+  ExrCompression compression = ExrCompression::zip;
   float exposure_ev = 0.0f;
   bool deterministic = false;
+};
+
+// A frame on its way to its files.
+struct DrawnFrame {
+  int number = 0;
+  FrameResult picture;
+  double render_s = 0.0;
 };
 
 void add_output_options(CLI::App& verb, OutputOptions& options);
@@ -38,8 +45,7 @@ void check_outputs(const OutputOptions& options, const std::vector<int>& frame_n
 // Whether an EXR with the shadow mask in it is asked for.
 [[nodiscard]] bool keeps_mask(const OutputOptions& options);
 
-// Writes the picture of one frame to the files that the options name, each whole or not at all.
-void write_outputs(const OutputOptions& options, int frame_number, const FrameResult& picture,
-                   std::optional<double> render_s);
+// Writes one frame to the files that the options name, each whole or not at all.
+void write_outputs(const OutputOptions& options, const DrawnFrame& frame);
 
 }  // namespace pinocchio::app

@@ -9,6 +9,7 @@
 #include "app/console.h"
 #include "app/drawing.h"
 #include "app/errors.h"
+#include "app/frame_writer.h"
 #include "app/options.h"
 #include "app/output.h"
 #include "app/stats.h"
@@ -100,11 +101,20 @@ class RenderRun {
   void draw(Drawing& drawing) {
     Progress progress(options_.draw.quiet ? "off" : options_.draw.progress, "render", frames_.size());
     if (options_.budget.any()) budget_.emplace(drawing, options_.draw, options_.budget, frames_);
+    FrameWriter writer(options_.output, interrupted);
     const auto take = [&](FrameResult&& picture) {
-      deliver(drawing, picture);
+      deliver(drawing, writer, std::move(picture));
       progress.step();
     };
-    if (options_.draw.precise) return draw_precise(drawing, take);
+    if (options_.draw.precise)
+      draw_precise(drawing, take);
+    else
+      draw_frames(drawing, take);
+    written_ = writer.finish();
+  }
+
+  template <class Take>
+  void draw_frames(Drawing& drawing, Take take) {
     SampleMean mean(drawing.settings().spp, take);
     Renderer renderer(drawing.engine(), {[&](Frame& frame) { mean.add(frame); },
                                          [&](const FrameRecord& record) { records_.push_back(record); }});
@@ -136,12 +146,11 @@ class RenderRun {
     }
   }
 
-  void deliver(Drawing& drawing, const FrameResult& picture) {
+  void deliver(Drawing& drawing, FrameWriter& writer, FrameResult&& picture) {
     const double begin_s = now_s(), render_s = begin_s - begun_s_[delivered_];
     const int number = frames_[delivered_++].number;
     holes_ += picture.holes;
-    write_outputs(options_.output, number, picture,
-                  options_.output.deterministic ? std::nullopt : std::optional(render_s));
+    writer.write({number, std::move(picture), render_s});
     drawing.engine().throw_gl_complaints();
     delivering_s_ += now_s() - begin_s;
   }
@@ -162,9 +171,9 @@ class RenderRun {
       std::printf("  %zu pixels a frame are holes of the reprojection\n",
                   holes_ / std::max<std::size_t>(delivered_, 1));
     if (budget_) budget_->report();
-    for (std::size_t i = 0; i < delivered_; ++i)
+    for (const int number : written_)
       for (const std::string& pattern : {options_.output.exr, options_.output.preview})
-        if (!pattern.empty()) std::printf("%s\n", numbered(pattern, frames_[i].number).c_str());
+        if (!pattern.empty()) std::printf("%s\n", numbered(pattern, number).c_str());
   }
 
   const RenderOptions& options_;
@@ -173,6 +182,7 @@ class RenderRun {
   double delivering_s_ = 0.0;  // of the frame that is submitted: writing files is not drawing
   std::optional<BudgetRun> budget_;
   std::vector<FrameRecord> records_;
+  std::vector<int> written_;  // numbers of the frames whose files are whole
   std::size_t delivered_ = 0;
   std::size_t holes_ = 0;  // reprojected: pixels that no older frame had an answer for
 };

@@ -3,6 +3,7 @@
 #include <cstdlib>
 #include <utility>
 
+#include "core/trace/surface.h"
 #include "gl/error.h"
 #include "gl/foreign.h"
 #include "hybrid/engine_parts.h"
@@ -81,8 +82,7 @@ std::shared_ptr<const Tracer> Engine::prepare(const Scene& scene, const Settings
   if (!settings.traces()) return nullptr;
   BuildOptions options = build_options(settings);
   options.progress = progress;
-  for (const Light& light : scene.lights)
-    if (light.casts_shadow && light.kind != Light::Kind::directional) options.lights.push_back(light.position);
+  options.lights = casting_light_positions(scene);
   return std::make_shared<const Tracer>(scene.mesh, options, Isa{settings.isa}, settings.offset);
 }
 

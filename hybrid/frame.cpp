@@ -4,6 +4,7 @@
 #include <stdexcept>
 
 #include "hybrid/engine_parts.h"
+#include "core/image/exr_bands.h"
 #include "core/output/frame_exr.h"
 #include "core/parallel/workers.h"
 #include "core/trace/aov.h"
@@ -95,18 +96,23 @@ FrameResult Frame::read() const {
   return result;
 }
 
-void write_exr(const std::filesystem::path& file, const FrameResult& frame, const std::string& layers,
-               std::optional<double> render_s, Progress* progress) {
-  const Expected<AovSet> aovs = parse_aovs(layers);
+void write_exr(const std::filesystem::path& file, const FrameResult& frame, const ExrOptions& options,
+               Progress* progress) {
+  const Expected<AovSet> aovs = parse_aovs(options.layers);
   if (!aovs) throw std::invalid_argument(aovs.error().message());
   View view = frame.view;
   view.jitter = glm::vec2(0.0f);
   Workers workers(frame.settings.threads);
-  const SurfaceImages surfaces = surface_images(*frame.scene.mesh, view_params(view), workers, frame.ids);
+  const shared::ViewParams params = view_params(view);
+  const auto surfaces = [&](int y0, int y1) {
+    return surface_images(*frame.scene.mesh, params, frame.ids, y0, y1);
+  };
   const FrameOutput output{view.size,       view.box(), frame.scene,      view.camera, frame.color, frame.ids,
                            frame.mask,      frame.reflection, surfaces,
-                           to_json(frame.settings, false).dump(), render_s};
-  write_exr(file, frame_exr(output, *aovs), progress);
+                           to_json(frame.settings, false).dump(), options.render_s};
+  ExrFile header = frame_exr(output, *aovs, 0, 0);
+  header.compression = options.compression;
+  write_exr(file, header, workers, [&](int y0, int y1) { return frame_channels(output, *aovs, y0, y1); }, progress);
 }
 
 }  // namespace pinocchio

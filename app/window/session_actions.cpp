@@ -94,7 +94,7 @@ void Session::write_frame_exr(const std::string& file) {
     accumulator_.read_average(picture.color);
     picture.settings.spp = accumulator_.samples();
   }
-  write_exr(file, picture, "all", now_s() - begin_s);
+  write_exr(file, picture, {.render_s = now_s() - begin_s});
 }
 
 // What the window shows, to the pixel.

@@ -13,8 +13,22 @@
 namespace pinocchio::bench {
 namespace {
 
-constexpr std::size_t kPacket = 16;
-static_assert(kChunk % kPacket == 0);
+// Embree's types and calls for packets of 8 and of 16.
+struct Of8 {
+  static constexpr std::size_t kSize = 8;
+  using Rays = RTCRay8;
+  using Hits = RTCRayHit8;
+  static constexpr auto kIntersect = rtcIntersect8;
+  static constexpr auto kOccluded = rtcOccluded8;
+};
+struct Of16 {
+  static constexpr std::size_t kSize = 16;
+  using Rays = RTCRay16;
+  using Hits = RTCRayHit16;
+  static constexpr auto kIntersect = rtcIntersect16;
+  static constexpr auto kOccluded = rtcOccluded16;
+};
+static_assert(kChunk % Of16::kSize == 0);
 
 bool count_bytes(void* total, ssize_t bytes, bool) {
   *static_cast<std::atomic<ssize_t>*>(total) += bytes;
@@ -75,25 +89,27 @@ class Single final : public RayBackend {
   std::vector<RTCRay> any_;
 };
 
-void put(const Ray& ray, RTCRay16& to, std::size_t lane) {
+template <class Rays>
+void put(const Ray& ray, Rays& to, std::size_t lane) {
   to.org_x[lane] = ray.origin.x, to.org_y[lane] = ray.origin.y, to.org_z[lane] = ray.origin.z;
   to.dir_x[lane] = ray.direction.x, to.dir_y[lane] = ray.direction.y, to.dir_z[lane] = ray.direction.z;
   to.tfar[lane] = ray.t_max;
   to.mask[lane] = 0xffffffffu;
 }
 
+template <class Of>
 class Packets final : public RayBackend {
  public:
   explicit Packets(RTCScene scene) : scene_(scene) {}
 
-  [[nodiscard]] std::string name() const override { return "embree 16"; }
+  [[nodiscard]] std::string name() const override { return "embree " + std::to_string(kPacket); }
 
   void load(const RaySet& set) override {
     query_ = set.query;
     count_ = set.rays.size();
     const std::size_t packets = (count_ + kPacket - 1) / kPacket;
-    closest_.assign(query_ == Query::closest ? packets : 0, RTCRayHit16{});
-    any_.assign(query_ == Query::any ? packets : 0, RTCRay16{});
+    closest_.assign(query_ == Query::closest ? packets : 0, typename Of::Hits{});
+    any_.assign(query_ == Query::any ? packets : 0, typename Of::Rays{});
     for (std::size_t i = 0; i < count_; ++i) {
       const std::size_t packet = i / kPacket, lane = i % kPacket;
       put(set.rays[i], query_ == Query::closest ? closest_[packet].ray : any_[packet], lane);
@@ -109,9 +125,9 @@ class Packets final : public RayBackend {
     for (std::size_t i = first; i < first + count; i += kPacket) {
       for (std::size_t lane = 0; lane < kPacket; ++lane) valid[lane] = i + lane < first + count ? -1 : 0;
       if (query_ == Query::closest)
-        rtcIntersect16(valid, scene_, &context, &closest_[i / kPacket]);
+        Of::kIntersect(valid, scene_, &context, &closest_[i / kPacket]);
       else
-        rtcOccluded16(valid, scene_, &context, &any_[i / kPacket]);
+        Of::kOccluded(valid, scene_, &context, &any_[i / kPacket]);
     }
   }
 
@@ -122,7 +138,7 @@ class Packets final : public RayBackend {
       if (query_ == Query::any) {
         found.push_back(blocked_hit(any_[packet].tfar[lane]));
       } else {
-        const RTCRayHit16& r = closest_[packet];
+        const auto& r = closest_[packet];
         found.push_back(closest_hit(r.hit.geomID[lane], r.hit.primID[lane], r.ray.tfar[lane]));
       }
     }
@@ -130,12 +146,32 @@ class Packets final : public RayBackend {
   }
 
  private:
+  static constexpr std::size_t kPacket = Of::kSize;
   RTCScene scene_;
   Query query_ = Query::closest;
   std::size_t count_ = 0;
-  std::vector<RTCRayHit16> closest_;
-  std::vector<RTCRay16> any_;
+  std::vector<typename Of::Hits> closest_;
+  std::vector<typename Of::Rays> any_;
 };
+
+template <class Of>
+void occluded_in(RTCScene scene, std::span<const Ray> rays, std::span<std::uint8_t> blocked) {
+  RTCIntersectContext context;
+  rtcInitIntersectContext(&context);
+  context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
+  alignas(64) int valid[Of::kSize];
+  typename Of::Rays packet{};
+  for (std::size_t i = 0; i < rays.size(); i += Of::kSize) {
+    const std::size_t count = std::min(Of::kSize, rays.size() - i);
+    for (std::size_t lane = 0; lane < Of::kSize; ++lane) {
+      valid[lane] = lane < count ? -1 : 0;
+      packet.tnear[lane] = 0.0f;
+      if (lane < count) put(rays[i + lane], packet, lane);
+    }
+    Of::kOccluded(valid, scene, &context, &packet);
+    for (std::size_t lane = 0; lane < count; ++lane) blocked[i + lane] = packet.tfar[lane] < 0.0f ? 1 : 0;
+  }
+}
 
 }  // namespace
 
@@ -168,11 +204,12 @@ struct EmbreeSide::Held {
   }
 };
 
-EmbreeSide::EmbreeSide(const Mesh& mesh, bool robust, int threads, int repeat)
-    : held_(std::make_unique<Held>()) {
+EmbreeSide::EmbreeSide(const Mesh& mesh, bool robust, int threads, int repeat, Isa widest)
+    : held_(std::make_unique<Held>()), has_avx512_(widest == Isa::avx512) {
+  const std::string max_isa(widest == Isa::scalar || widest == Isa::sse4 ? "sse4.2" : isa_name(widest));
   held_->positions = mesh.positions;
   held_->positions.emplace_back(0.0f);
-  held_->device = rtcNewDevice(("threads=" + std::to_string(threads)).c_str());
+  held_->device = rtcNewDevice(("threads=" + std::to_string(threads) + ",max_isa=" + max_isa).c_str());
   if (!held_->device) throw EnvironmentError("Embree cannot be started on this machine");
   rtcSetDeviceMemoryMonitorFunction(held_->device, count_bytes, &held_->bytes);
   cost_.name = "embree";
@@ -189,25 +226,12 @@ std::unique_ptr<RayBackend> EmbreeSide::single() const {
   return std::make_unique<Single>(held_->scene);
 }
 std::unique_ptr<RayBackend> EmbreeSide::packets() const {
-  return std::make_unique<Packets>(held_->scene);
+  if (has_avx512_) return std::make_unique<Packets<Of16>>(held_->scene);
+  return std::make_unique<Packets<Of8>>(held_->scene);
 }
 
 void EmbreeSide::occluded(std::span<const Ray> rays, std::span<std::uint8_t> blocked) const {
-  RTCIntersectContext context;
-  rtcInitIntersectContext(&context);
-  context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
-  alignas(64) int valid[kPacket];
-  RTCRay16 packet{};
-  for (std::size_t i = 0; i < rays.size(); i += kPacket) {
-    const std::size_t count = std::min(kPacket, rays.size() - i);
-    for (std::size_t lane = 0; lane < kPacket; ++lane) {
-      valid[lane] = lane < count ? -1 : 0;
-      packet.tnear[lane] = 0.0f;
-      if (lane < count) put(rays[i + lane], packet, lane);
-    }
-    rtcOccluded16(valid, held_->scene, &context, &packet);
-    for (std::size_t lane = 0; lane < count; ++lane) blocked[i + lane] = packet.tfar[lane] < 0.0f ? 1 : 0;
-  }
+  has_avx512_ ? occluded_in<Of16>(held_->scene, rays, blocked) : occluded_in<Of8>(held_->scene, rays, blocked);
 }
 
 const char* embree_version() {

@@ -5,6 +5,7 @@
 
 #include "bench/rays/ray_backend.h"
 #include "pinocchio/mesh.h"
+#include "pinocchio/tracer.h"
 
 namespace pinocchio::bench {
 
@@ -12,16 +13,16 @@ namespace pinocchio::bench {
 class EmbreeSide {
  public:
   // `robust`: Embree's watertight triangle test, slower; by default its fast one. Builds `repeat` times
-  // and keeps the last. Throws EnvironmentError where Embree fails.
-  EmbreeSide(const Mesh& mesh, bool robust, int threads, int repeat);
+  // and keeps the last. `widest`: Embree uses no wider lanes. Throws EnvironmentError where Embree fails.
+  EmbreeSide(const Mesh& mesh, bool robust, int threads, int repeat, Isa widest);
   ~EmbreeSide();
   EmbreeSide(const EmbreeSide&) = delete;
   EmbreeSide& operator=(const EmbreeSide&) = delete;
 
   [[nodiscard]] const BuildCost& cost() const { return cost_; }
 
-  // Backends over this scene, which must outlive them: rays one by one, and packets of 16 with the
-  // coherent flag.
+  // Backends over this scene, which must outlive them: rays one by one, and packets with the
+  // coherent flag: of 16, of 8 where it has no AVX-512.
   [[nodiscard]] std::unique_ptr<RayBackend> single() const;
   [[nodiscard]] std::unique_ptr<RayBackend> packets() const;
 
@@ -32,6 +33,7 @@ class EmbreeSide {
   struct Held;
   std::unique_ptr<Held> held_;
   BuildCost cost_;
+  bool has_avx512_;
 };
 
 // The version of Embree that this was compiled for.

@@ -9,6 +9,7 @@
 #include "bench/rays/our_side.h"
 #include "bench/rays/report.h"
 #include "core/image/atomic_file.h"
+#include "core/trace/surface.h"
 #include "pinocchio/load.h"
 #include "scenes/generator/scenes.h"
 
@@ -23,7 +24,8 @@ struct Options {
   std::vector<std::string> isas;
   std::string tree = "sah", test{triangle_test_name(BuildOptions{}.triangle_test)};
   int triangles = 0, repeat = 7, build_repeat = 3, threads = 0;
-  bool mirror_all = false, robust = false, no_pass = false, no_speeds = false, frame = false;
+  bool mirror_all = false, robust = false, no_pass = false, no_speeds = false, frame = false,
+       known_eye = false;
 };
 
 void add_options(CLI::App& program, Options& o) {
@@ -34,7 +36,7 @@ void add_options(CLI::App& program, Options& o) {
   program.add_option("--triangles", o.triangles, "about how many triangles to generate")
       ->check(CLI::Range(1, static_cast<int>(kMaxTriangles)));
   program
-      .add_option("--isa", o.isas, "SIMD level of ours, repeatable; all: every one of this processor (best)")
+      .add_option("--isa", o.isas, "SIMD level of ours, repeatable; all: every one of this processor (best). Embree has the widest")
       ->check(CLI::IsMember({"scalar", "sse4", "avx2", "avx512", "all"}));
   program.add_option("--tree", o.tree, "how our BSP tree is split (sah)")
       ->check(CLI::IsMember({"sah", "spatial-median", "object-median"}));
@@ -47,6 +49,7 @@ void add_options(CLI::App& program, Options& o) {
   program.add_option("--threads", o.threads, "threads beside the runs on one (all cores)")
       ->check(CLI::Range(1, 1024));
   program.add_flag("--mirror-all", o.mirror_all, "every material mirrors (where the scene has no mirror)");
+  program.add_flag("--known-eye", o.known_eye, "our tree is built for the first camera alone");
   program.add_flag("--embree-robust", o.robust, "Embree's watertight test, not its fast one");
   program.add_flag("--no-pass", o.no_pass, "leave out the whole shadow pass");
   program.add_flag("--no-speeds", o.no_speeds, "leave out the speeds by kind of ray");
@@ -83,6 +86,23 @@ bool make_mirrors(Scene& scene, bool wanted) {
   return true;
 }
 
+// Embree has no more lanes than ours at its widest; it has none narrower than SSE4.
+Isa widest(const Options& o) {
+  const std::vector<Isa> isas = chosen_isas(o.isas);
+  return *std::max_element(isas.begin(), isas.end());
+}
+
+// As Engine::prepare has it.
+BuildOptions build_options(const Options& o, const Scene& scene) {
+  BuildOptions tree{.rule = parse_name<SplitRule>(kSplitRuleNames, o.tree).value(),
+                    .threads = o.threads,
+                    .triangle_test = parse_name<TriangleTest>(kTriangleTestNames, o.test).value()};
+  tree.lights = casting_light_positions(scene);
+  if (o.known_eye)
+    tree.eye = scene.cameras.empty() ? camera_for_whole_scene(scene).eye : scene.cameras.front().eye;
+  return tree;
+}
+
 void run(const Options& o) {
   if (!o.json.empty()) check_writable(o.json);
   Scene scene = scene_of(o);
@@ -95,9 +115,7 @@ void run(const Options& o) {
   if (o.mirror_all) report.all_mirrors = make_mirrors(scene, true);
 
   Workers all(o.threads), one(1);
-  const BuildOptions tree{.rule = parse_name<SplitRule>(kSplitRuleNames, o.tree).value(),
-                          .threads = o.threads,
-                          .triangle_test = parse_name<TriangleTest>(kTriangleTestNames, o.test).value()};
+  const BuildOptions tree = build_options(o, scene);
   std::vector<std::unique_ptr<Tracer>> tracers;
   RayBackends backends;
   for (const Isa isa : chosen_isas(o.isas)) {
@@ -106,7 +124,7 @@ void run(const Options& o) {
     if (tracers.size() == 1) report.ours = cost;
     backends.push_back(our_backend(*tracers.back()));
   }
-  const EmbreeSide embree(*scene.mesh, o.robust, all.count(), o.build_repeat);
+  const EmbreeSide embree(*scene.mesh, o.robust, all.count(), o.build_repeat, widest(o));
   report.embree = embree.cost();
   backends.push_back(embree.packets());
   backends.push_back(embree.single());

@@ -1,14 +1,15 @@
 #include "bench/rays/our_side.h"
 
-#include <algorithm>
-#include <span>
+#include <array>
 
 #include "bench/rays/measure.h"
 #include "core/bsp/tree.h"
+#include "core/trace/ray_queue.h"
 
 namespace pinocchio::bench {
 namespace {
 
+// Rays in columns, as the tile pass has them.
 class Ours final : public RayBackend {
  public:
   explicit Ours(const Tracer& tracer) : tracer_(tracer) {}
@@ -17,32 +18,47 @@ class Ours final : public RayBackend {
 
   void load(const RaySet& set) override {
     query_ = set.query;
-    rays_ = set.rays;
-    hits_.assign(query_ == Query::closest ? rays_.size() : 0, Hit{});
-    blocked_.assign(query_ == Query::any ? rays_.size() : 0, 0);
+    count_ = set.rays.size();
+    const std::size_t room = (count_ / kChunk + 1) * kChunk + kQueuePad;
+    for (AlignedVector<float>& column : columns_) column.resize(room);
+    triangle_.assign(room, kNoTriangle);
+    t_.assign(room, 0.0f);
+    blocked_.assign(room, 0);
+    for (std::size_t i = 0; i < count_; ++i) {
+      const Ray& ray = set.rays[i];
+      for (int axis = 0; axis < 3; ++axis) {
+        columns_[static_cast<std::size_t>(axis)][i] = ray.origin[axis];
+        columns_[static_cast<std::size_t>(3 + axis)][i] = ray.direction[axis];
+      }
+      columns_[6][i] = ray.t_max;
+    }
   }
 
   void trace(std::size_t first, std::size_t count) override {
-    const std::span<const Ray> rays = std::span(rays_).subspan(first, count);
+    const auto column = [&](std::size_t i) { return columns_[i].data() + first; };
+    const RayColumns rays{{column(0), column(1), column(2)}, {column(3), column(4), column(5)}, column(6)};
     if (query_ == Query::closest)
-      tracer_.closest_hits(rays, std::span(hits_).subspan(first, count));
+      tracer_.closest_hits(rays, count, triangle_.data() + first, t_.data() + first);
     else
-      tracer_.occluded(rays, std::span(blocked_).subspan(first, count));
+      tracer_.occluded(rays, count, blocked_.data() + first);
   }
 
   [[nodiscard]] std::vector<Hit> hits() const override {
-    if (query_ == Query::closest) return hits_;
-    std::vector<Hit> found(blocked_.size());
-    for (std::size_t i = 0; i < blocked_.size(); ++i)
-      if (blocked_[i]) found[i] = {0.0f, 0};
+    std::vector<Hit> found(count_);
+    for (std::size_t i = 0; i < count_; ++i) {
+      if (query_ == Query::closest && triangle_[i] != kNoTriangle) found[i] = {t_[i], triangle_[i]};
+      if (query_ == Query::any && blocked_[i]) found[i] = {0.0f, 0};
+    }
     return found;
   }
 
  private:
   const Tracer& tracer_;
   Query query_ = Query::closest;
-  std::vector<Ray> rays_;
-  std::vector<Hit> hits_;
+  std::size_t count_ = 0;
+  std::array<AlignedVector<float>, 7> columns_;
+  AlignedVector<std::uint32_t> triangle_;
+  AlignedVector<float> t_;
   std::vector<std::uint8_t> blocked_;
 };
 

@@ -1,53 +1,35 @@
+// Reading EXR.
 #include "pinocchio/exr.h"
 
 #include <ImfChannelList.h>
-#include <ImfChromaticitiesAttribute.h>
 #include <ImfFloatAttribute.h>
 #include <ImfFrameBuffer.h>
 #include <ImfHeader.h>
 #include <ImfInputFile.h>
 #include <ImfMatrixAttribute.h>
-#include <ImfOutputFile.h>
-#include <ImfStandardAttributes.h>
-#include <ImfStdIO.h>
 #include <ImfStringAttribute.h>
-#include <half.h>
 
 #include <algorithm>
-#include <cmath>
-#include <fstream>
 #include <stdexcept>
 
-#include "core/image/atomic_file.h"
 
 namespace pinocchio {
 namespace {
 
-constexpr float kLargestHalf = 65504.0f;
-constexpr int kRowsAtOnce = 256;  // many blocks of ZIP's 16 rows, for all threads
-
-Imf::PixelType imf_type(ExrChannel::Type type) {
-  switch (type) {
-    case ExrChannel::Type::half:
-      return Imf::HALF;
-    case ExrChannel::Type::real:
-      return Imf::FLOAT;
-    case ExrChannel::Type::uint:
-      return Imf::UINT;
+// The nearest of those that we write.
+ExrCompression compression_of(Imf::Compression compression) {
+  switch (compression) {
+    case Imf::NO_COMPRESSION:
+      return ExrCompression::none;
+    case Imf::RLE_COMPRESSION:
+      return ExrCompression::rle;
+    case Imf::ZIPS_COMPRESSION:
+      return ExrCompression::zips;
+    case Imf::PIZ_COMPRESSION:
+      return ExrCompression::piz;
+    default:
+      return ExrCompression::zip;
   }
-  return Imf::HALF;
-}
-
-half to_half(float value) {
-  return half(std::isfinite(value) ? std::clamp(value, -kLargestHalf, kLargestHalf) : value);
-}
-
-Imath::M44f imath_matrix(const glm::mat4& m) {
-  Imath::M44f result;
-  for (int row = 0; row < 4; ++row)
-    for (int column = 0; column < 4; ++column)
-      result[row][column] = m[row][column];  // GLM's columns are its rows
-  return result;
 }
 
 glm::mat4 glm_matrix(const Imath::M44f& m) {
@@ -55,27 +37,6 @@ glm::mat4 glm_matrix(const Imath::M44f& m) {
   for (int row = 0; row < 4; ++row)
     for (int column = 0; column < 4; ++column) result[row][column] = m[row][column];
   return result;
-}
-
-struct InsertAttribute {
-  Imf::Header& header;
-  const std::string& name;
-  void operator()(const std::string& text) const { header.insert(name, Imf::StringAttribute(text)); }
-  void operator()(float value) const { header.insert(name, Imf::FloatAttribute(value)); }
-  void operator()(const glm::mat4& m) const { header.insert(name, Imf::M44fAttribute(imath_matrix(m))); }
-};
-
-Imf::Header header_of(const ExrFile& exr) {
-  const Imath::Box2i display(Imath::V2i(0, 0), Imath::V2i(exr.display_size.x - 1, exr.display_size.y - 1));
-  const Imath::Box2i data(Imath::V2i(exr.data_window.lo.x, exr.data_window.lo.y),
-                          Imath::V2i(exr.data_window.hi.x - 1, exr.data_window.hi.y - 1));
-  Imf::Header header(display, data);
-  header.compression() = Imf::ZIP_COMPRESSION;
-  Imf::addChromaticities(header, Imf::Chromaticities());  // the default is Rec. 709
-  for (const auto& [name, value] : exr.attributes) std::visit(InsertAttribute{header, name}, value);
-  for (const ExrChannel& channel : exr.channels)
-    header.channels().insert(channel.name, Imf::Channel(imf_type(channel.type)));
-  return header;
 }
 
 // Where OpenEXR finds a channel's pixels: its base is that of pixel (0, 0), inside the data window or not.
@@ -86,43 +47,6 @@ Imf::Slice slice(Imf::PixelType type, const T* pixels, const PixelBox& window) {
   const auto base =
       reinterpret_cast<std::uintptr_t>(pixels) - static_cast<std::uintptr_t>(to_first) * sizeof(T);
   return {type, reinterpret_cast<char*>(base), sizeof(T), sizeof(T) * static_cast<std::size_t>(width)};
-}
-
-void write_file(const std::filesystem::path& file, const ExrFile& exr, Progress* progress) {
-  std::vector<std::vector<half>> halves;
-  halves.reserve(exr.channels.size());
-  Imf::FrameBuffer pixels;
-  for (const ExrChannel& channel : exr.channels) {
-    switch (channel.type) {
-      case ExrChannel::Type::half: {
-        std::vector<half>& converted = halves.emplace_back(channel.values.size());
-        std::transform(channel.values.begin(), channel.values.end(), converted.begin(), to_half);
-        pixels.insert(channel.name, slice(Imf::HALF, converted.data(), exr.data_window));
-        break;
-      }
-      case ExrChannel::Type::real:
-        pixels.insert(channel.name, slice(Imf::FLOAT, channel.values.data(), exr.data_window));
-        break;
-      case ExrChannel::Type::uint:
-        pixels.insert(channel.name, slice(Imf::UINT, channel.uints.data(), exr.data_window));
-        break;
-    }
-  }
-  // OutputFile's destructor swallows a failure to write the last bytes: the stream is ours, to ask it.
-  std::ofstream stream(file, std::ios::binary);
-  {
-    Imf::StdOFStream to(stream, file.c_str());
-    Imf::OutputFile out(to, header_of(exr));
-    out.setFrameBuffer(pixels);
-    const int rows = exr.data_window.size().y;
-    begin_phase(progress, "write", rows);
-    for (int y = 0; y < rows; y += kRowsAtOnce) {
-      const int count = std::min(kRowsAtOnce, rows - y);
-      out.writePixels(count);
-      advance(progress, count);
-    }
-  }
-  if (!stream.flush()) throw std::runtime_error("is the disk full?");
 }
 
 void read_attributes(const Imf::Header& header, ExrFile& exr) {
@@ -158,6 +82,7 @@ ExrFile read_file(const std::filesystem::path& file) {
   exr.display_size = {display.max.x - display.min.x + 1, display.max.y - display.min.y + 1};
   exr.data_window = {{data.min.x, data.min.y}, {data.max.x + 1, data.max.y + 1}};
   read_attributes(in.header(), exr);
+  exr.compression = compression_of(in.header().compression());
 
   const Imf::ChannelList& list = in.header().channels();
   for (auto it = list.begin(); it != list.end(); ++it) {
@@ -192,19 +117,6 @@ const ExrChannel* ExrFile::find(const std::string& name) const {
   const auto found = std::find_if(channels.begin(), channels.end(),
                                   [&](const ExrChannel& channel) { return channel.name == name; });
   return found == channels.end() ? nullptr : &*found;
-}
-
-void write_exr(const std::filesystem::path& file, const ExrFile& exr, Progress* progress) {
-  check_writable(file);
-  write_atomically(file, [&](const std::filesystem::path& temporary) {
-    try {
-      write_file(temporary, exr, progress);
-    } catch (const Cancelled&) {
-      throw;
-    } catch (const std::exception& error) {
-      throw EnvironmentError(file.string() + ": cannot be written: " + error.what());
-    }
-  });
 }
 
 Expected<ExrFile> read_exr(const std::filesystem::path& file) {

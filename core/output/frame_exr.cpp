@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <nlohmann/json.hpp>
+#include <span>
 
 #include "core/base/system_info.h"
 #include "core/trace/view_params.h"
@@ -13,22 +14,20 @@ using Type = ExrChannel::Type;
 
 // One channel a component: names[c] gets component c of every pixel.
 template <class Pixel>
-void add_vector(ExrFile& exr, const Image<Pixel>& image, Type type, const std::vector<std::string>& names) {
+void add_vector(std::vector<ExrChannel>& channels, std::span<const Pixel> pixels, Type type,
+                const std::vector<std::string>& names) {
   for (std::size_t c = 0; c < names.size(); ++c) {
-    ExrChannel channel{names[c], type, {}, {}};
-    channel.values.reserve(image.pixels().size());
-    for (const Pixel& pixel : image.pixels()) channel.values.push_back(pixel[static_cast<int>(c)]);
-    exr.channels.push_back(std::move(channel));
+    std::vector<float>& values = channels.emplace_back(names[c], type).values;
+    values.reserve(pixels.size());
+    for (const Pixel& pixel : pixels) values.push_back(pixel[static_cast<int>(c)]);
   }
 }
 
-ExrChannel mask_channel(const MaskImage& mask, glm::ivec2 size) {
+ExrChannel mask_channel(const MaskImage& mask, int width, int y0, int y1) {
   ExrChannel channel{"shadow.mask", Type::uint, {}, {}};
-  channel.uints.assign(static_cast<std::size_t>(size.x) * static_cast<std::size_t>(size.y), 0u);
-  if (mask.bits() == 0) return channel;
-  auto to = channel.uints.begin();
-  for (int y = 0; y < size.y; ++y)
-    for (int x = 0; x < size.x; ++x) *to++ = mask.get(x, y);
+  channel.uints.reserve(static_cast<std::size_t>(width) * static_cast<std::size_t>(y1 - y0));
+  for (int y = y0; y < y1; ++y)
+    for (int x = 0; x < width; ++x) channel.uints.push_back(mask.get(x, y));
   return channel;
 }
 
@@ -69,32 +68,43 @@ void add_attributes(ExrFile& exr, const FrameOutput& frame) {
 
 }  // namespace
 
-ExrFile frame_exr(const FrameOutput& frame, const AovSet& aovs) {
+std::vector<ExrChannel> frame_channels(const FrameOutput& frame, const AovSet& aovs, int y0, int y1) {
+  const int width = frame.part.size().x;
+  const std::size_t first = static_cast<std::size_t>(y0) * static_cast<std::size_t>(width);
+  const std::size_t count = static_cast<std::size_t>(y1 - y0) * static_cast<std::size_t>(width);
+  const auto wanted = [&aovs](const char* layer) { return aovs.count(layer) > 0; };
+  std::vector<ExrChannel> channels;
+  add_vector(channels, frame.color.pixels().subspan(first, count), Type::half, {"R", "G", "B", "A"});
+  if (wanted("Z") || wanted("P") || wanted("N") || wanted("Albedo")) {
+    const SurfaceImages s = frame.surfaces(y0, y1);
+    if (wanted("Z")) channels.push_back({"Z", Type::real, {s.z_eye.pixels().begin(), s.z_eye.pixels().end()}, {}});
+    if (wanted("P")) add_vector(channels, s.p_world.pixels(), Type::real, {"P.X", "P.Y", "P.Z"});
+    if (wanted("N")) add_vector(channels, s.n_shading.pixels(), Type::half, {"N.X", "N.Y", "N.Z"});
+    if (wanted("Albedo"))
+      add_vector(channels, s.albedo.pixels(), Type::half, {"Albedo.R", "Albedo.G", "Albedo.B"});
+  }
+  if (wanted("id")) {
+    const auto ids = frame.ids.pixels().subspan(first, count);
+    channels.push_back({"id.triangle", Type::uint, {}, {ids.begin(), ids.end()}});
+  }
+  if (wanted("shadow")) channels.push_back(mask_channel(frame.mask, width, y0, y1));
+  if (wanted("reflection")) {
+    const std::vector<std::string> names{"reflection.R", "reflection.G", "reflection.B"};
+    const std::vector<glm::vec3> none(frame.reflection.empty() ? count : 0, glm::vec3(0.0f));
+    add_vector(channels,
+               frame.reflection.empty() ? std::span<const glm::vec3>(none)
+                                        : frame.reflection.pixels().subspan(first, count),
+               Type::half, names);
+  }
+  return channels;
+}
+
+ExrFile frame_exr(const FrameOutput& frame, const AovSet& aovs, int y0, int y1) {
   ExrFile exr;
   exr.display_size = frame.size;
   exr.data_window = frame.part;
   add_attributes(exr, frame);
-  add_vector(exr, frame.color, Type::half, {"R", "G", "B", "A"});
-  const auto wanted = [&aovs](const char* layer) { return aovs.count(layer) > 0; };
-  if (wanted("Z")) {
-    const auto z_eye = frame.surfaces.z_eye.pixels();
-    exr.channels.push_back({"Z", Type::real, {z_eye.begin(), z_eye.end()}, {}});
-  }
-  if (wanted("P")) add_vector(exr, frame.surfaces.p_world, Type::real, {"P.X", "P.Y", "P.Z"});
-  if (wanted("N")) add_vector(exr, frame.surfaces.n_shading, Type::half, {"N.X", "N.Y", "N.Z"});
-  if (wanted("Albedo"))
-    add_vector(exr, frame.surfaces.albedo, Type::half, {"Albedo.R", "Albedo.G", "Albedo.B"});
-  if (wanted("id")) {
-    const auto ids = frame.ids.pixels();
-    exr.channels.push_back({"id.triangle", Type::uint, {}, {ids.begin(), ids.end()}});
-  }
-  if (wanted("shadow")) exr.channels.push_back(mask_channel(frame.mask, frame.part.size()));
-  if (wanted("reflection")) {
-    const Image<glm::vec3> none(frame.reflection.empty() ? frame.part.size() : glm::ivec2(0),
-                                glm::vec3(0.0f));
-    add_vector(exr, frame.reflection.empty() ? none : frame.reflection, Type::half,
-               {"reflection.R", "reflection.G", "reflection.B"});
-  }
+  exr.channels = frame_channels(frame, aovs, y0, y1);
   return exr;
 }
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <glm/glm.hpp>
 #include <optional>
 #include <string>
@@ -24,13 +25,15 @@ struct FrameOutput {
   const Image<std::uint32_t>& ids;
   const MaskImage& mask;               // 0 bits: no light casts
   const Image<glm::vec3>& reflection;  // empty: none
-  const SurfaceImages& surfaces;
+  std::function<SurfaceImages(int y0, int y1)> surfaces;  // of these lines; any thread
   std::string plan_json;
   std::optional<double> render_s;
 };
 
-// Channels and attributes of the frame, as many layers as asked for.
-[[nodiscard]] ExrFile frame_exr(const FrameOutput& frame, const AovSet& aovs);
+// As many layers as asked for, with the values of lines [y0, y1).
+[[nodiscard]] std::vector<ExrChannel> frame_channels(const FrameOutput& frame, const AovSet& aovs, int y0, int y1);
+// The frame's attributes and these channels.
+[[nodiscard]] ExrFile frame_exr(const FrameOutput& frame, const AovSet& aovs, int y0, int y1);
 
 // World to OpenEXR's camera space: left-handed, x right, y up, looking along +z. Column vectors.
 [[nodiscard]] glm::mat4 world_to_camera(const Camera& camera);

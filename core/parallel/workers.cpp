@@ -31,18 +31,22 @@ Workers::~Workers() {
 void Workers::for_each(std::size_t n, const std::function<void(std::size_t)>& body) {
   const std::lock_guard turn(turn_);
   Job job{body, n, {}, {}, {}};
-  {
+  const std::size_t helpers = n > 1 ? std::min(n - 1, threads_.size()) : 0;
+  if (helpers > 0) {
     const std::lock_guard lock(mutex_);
     job_ = &job;
     ++generation_;
-    busy_ = static_cast<int>(threads_.size());
   }
-  wake_.notify_all();
+  if (helpers == threads_.size()) {
+    wake_.notify_all();
+  } else {
+    for (std::size_t i = 0; i < helpers; ++i) wake_.notify_one();
+  }
   work(job);
-  {
+  if (helpers > 0) {
     std::unique_lock lock(mutex_);
-    done_.wait(lock, [this] { return busy_ == 0; });
     job_ = nullptr;
+    done_.wait(lock, [this] { return busy_ == 0; });
   }
   if (job.error) std::rethrow_exception(job.error);
 }
@@ -63,10 +67,11 @@ void Workers::run_thread() {
   std::uint64_t seen = 0;
   std::unique_lock lock(mutex_);
   while (true) {
-    wake_.wait(lock, [&] { return stop_ || generation_ != seen; });
+    wake_.wait(lock, [&] { return stop_ || (job_ && generation_ != seen); });
     if (stop_) return;
     seen = generation_;
     Job& job = *job_;
+    ++busy_;
     lock.unlock();
     work(job);
     lock.lock();

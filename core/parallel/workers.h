@@ -23,7 +23,8 @@ class Workers {
 
   // Calls body(i) once for every i in [0, n), on all threads, and returns when all are done. What a body
   // throws reaches the caller (the first of them; the rest of the job is dropped). One job at a time:
-  // callers on several threads take turns; a body must not start another.
+  // callers on several threads take turns; a body must not start another. Threads that wake up when all is
+  // taken are not waited for: a small job costs no more than the caller's own work.
   void for_each(std::size_t n, const std::function<void(std::size_t)>& body);
 
  private:
@@ -37,7 +38,7 @@ class Workers {
   std::condition_variable done_;
   Job* job_ = nullptr;
   std::uint64_t generation_ = 0;  // counts jobs, so that a thread takes each once
-  int busy_ = 0;
+  int busy_ = 0;                  // threads at the job
   bool stop_ = false;
   std::vector<std::thread> threads_;
 };

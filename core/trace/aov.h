@@ -2,7 +2,6 @@
 
 #include <cstdint>
 
-#include "core/parallel/workers.h"
 #include "core/trace/shared.h"
 #include "pinocchio/image.h"
 #include "pinocchio/mesh.h"
@@ -17,7 +16,8 @@ struct SurfaceImages {
   Image<glm::vec3> albedo;     // diffuse colour, linear
 };
 
-[[nodiscard]] SurfaceImages surface_images(const Mesh& mesh, const shared::ViewParams& view, Workers& workers,
-                                           const Image<std::uint32_t>& ids);
+// Of the lines [y0, y1).
+[[nodiscard]] SurfaceImages surface_images(const Mesh& mesh, const shared::ViewParams& view,
+                                           const Image<std::uint32_t>& ids, int y0, int y1);
 
 }  // namespace pinocchio

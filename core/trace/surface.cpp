@@ -113,6 +113,13 @@ std::vector<shared::LightParams> casting_light_params(const Scene& scene) {
   return params;
 }
 
+std::vector<glm::vec3> casting_light_positions(const Scene& scene) {
+  std::vector<glm::vec3> positions;
+  for (const Light& light : scene.lights)
+    if (light.casts_shadow && light.kind != Light::Kind::directional) positions.push_back(light.position);
+  return positions;
+}
+
 std::optional<Ray> shadow_ray(const shared::LightParams& light, const SurfaceInteraction& surface) {
   const shared::Incident incident = shared::incident_light(light, surface.p_world);
   if (incident.radiance == glm::vec3(0.0f)) return std::nullopt;

@@ -52,6 +52,8 @@ struct SurfaceInteraction {
 [[nodiscard]] shared::LightParams light_params(const Light& light);
 // Of the casting lights, in the order of mask slots.
 [[nodiscard]] std::vector<shared::LightParams> casting_light_params(const Scene& scene);
+// Where shadow rays end: what BuildOptions::lights wants.
+[[nodiscard]] std::vector<glm::vec3> casting_light_positions(const Scene& scene);
 
 // The ray that asks whether the light reaches the surface; nothing where it cannot anyway: the surface
 // faces away, or the light does not reach this far or this way.

@@ -47,22 +47,6 @@ const std::vector<std::uint32_t>& z_curve() {
   return kCurve;
 }
 
-// Where a tile's pixels stand in an image of `scale` times as many across and down.
-class InImage {
- public:
-  InImage(const PixelBox& tile, int width, int scale = 1)
-      : first_(at(tile.lo, width) * scale), step_(scale), row_(width * scale) {}
-  [[nodiscard]] std::size_t operator[](std::uint32_t pixel) const {
-    const int p = static_cast<int>(pixel);
-    return static_cast<std::size_t>(first_ + (p & (TileGrid::kTileSize - 1)) * step_ +
-                                    (p >> kTileBits) * row_);
-  }
-
- private:
-  static std::ptrdiff_t at(const glm::ivec2& p, int width) { return std::ptrdiff_t{p.y} * width + p.x; }
-  std::ptrdiff_t first_, step_, row_;
-};
-
 }  // namespace
 
 SceneArrays SceneArrays::of(const Mesh& mesh) {
@@ -111,10 +95,12 @@ TileResult TileTracer::trace(const TilePlan& plan, const PixelBox& tile) {
   start();
   look();
   times.primary = lap.take();
-  if (seen_.size > 0) light_visible();
-  times.shadow = lap.take();
-  if (seen_.size > 0) follow();
-  times.reflection = lap.take();
+  if (seen_.size > 0) {
+    light_visible();
+    times.shadow = lap.take();
+    follow();
+    times.reflection = lap.take();
+  }
   write();
   times.composite = lap.take();
   return {counts_, times};
@@ -122,38 +108,46 @@ TileResult TileTracer::trace(const TilePlan& plan, const PixelBox& tile) {
 
 // The rays of the tile's pixels, or of those alone that are known to see something.
 void TileTracer::start() {
-  const Image<std::uint32_t>* const seen = plan_->out.seen;
   seen_.make_room(kPixels);
-  if (seen && !sees_anything(*seen)) return;
+  const bool given = plan_->out.seen != nullptr;
+  if (given && !fetch_ids()) return;
   const glm::ivec2 size = tile_.size();
-  const bool whole = size == glm::ivec2(TileGrid::kTileSize);
-  const InImage given(tile_, seen ? seen->width() : 0, plan_->out.scale);
-  if (whole && !seen) {
+  if (size == glm::ivec2(TileGrid::kTileSize) && !given) {
     std::copy(z_curve().begin(), z_curve().end(), seen_.pixel);
     seen_.size = kPixels;
   } else {
+    std::size_t count = 0;
     for (const std::uint32_t pixel : z_curve()) {
       const int x = static_cast<int>(pixel) & (TileGrid::kTileSize - 1),
                 y = static_cast<int>(pixel) >> kTileBits;
-      if (!whole && (x >= size.x || y >= size.y)) continue;
-      const std::uint32_t triangle = seen ? seen->pixels()[given[pixel]] : 0;
-      seen_.pixel[seen_.size] = pixel;
-      seen_.triangle[seen_.size] = triangle;
-      seen_.size += triangle != kNoTriangle ? 1 : 0;
+      const bool inside = x < size.x && y < size.y;
+      const std::uint32_t triangle = given ? ids_[pixel] : 0;
+      seen_.pixel[count] = pixel;
+      seen_.triangle[count] = triangle;
+      count += inside && triangle != kNoTriangle ? 1 : 0;
     }
+    seen_.size = count;
   }
   plan_->job.tracer.steps().camera_rays(plan_->view, tile_.lo, seen_);
 }
 
-bool TileTracer::sees_anything(const Image<std::uint32_t>& seen) const {
+// Whether any pixel sees anything.
+bool TileTracer::fetch_ids() {
+  const Image<std::uint32_t>& seen = *plan_->out.seen;
   const int scale = plan_->out.scale;
+  const auto width = static_cast<std::size_t>(tile_.size().x);
+  std::uint32_t all = kNoTriangle;
   for (int y = tile_.lo.y; y < tile_.hi.y; ++y) {
-    const std::uint32_t* const row = &seen.at(0, y * scale);
-    std::uint32_t all = kNoTriangle;
-    for (int x = tile_.lo.x; x < tile_.hi.x; ++x) all &= row[x * scale];
-    if (all != kNoTriangle) return true;
+    const std::uint32_t* const from = &seen.at(tile_.lo.x * scale, y * scale);
+    std::uint32_t* const to = &ids_[static_cast<std::size_t>(y - tile_.lo.y) << kTileBits];
+    if (scale == 1) {
+      std::memcpy(to, from, width * sizeof(*to));
+    } else {
+      for (std::size_t i = 0; i < width; ++i) to[i] = from[i * static_cast<std::size_t>(scale)];
+    }
+    for (std::size_t i = 0; i < width; ++i) all &= to[i];
   }
-  return false;
+  return all != kNoTriangle;
 }
 
 void TileTracer::find_hits(RayQueue& rays, int generation) {
@@ -167,8 +161,10 @@ void TileTracer::look() {
   find_hits(seen_, 0);
   counts_.primary += seen_.size;
   if (out.ids) {
-    const InImage told(tile_, out.ids->width());
-    for (std::size_t i = 0; i < seen_.size; ++i) out.ids->pixels()[told[seen_.pixel[i]]] = seen_.triangle[i];
+    for (std::size_t i = 0; i < seen_.size; ++i) ids_[seen_.pixel[i]] = seen_.triangle[i];
+    for (int y = tile_.lo.y; y < tile_.hi.y; ++y)
+      std::memcpy(&out.ids->at(tile_.lo.x, y), &ids_[static_cast<std::size_t>(y - tile_.lo.y) << kTileBits],
+                  static_cast<std::size_t>(tile_.size().x) * sizeof(std::uint32_t));
   }
   plan_->job.tracer.steps().keep_hits(seen_);
 }
@@ -199,7 +195,7 @@ void TileTracer::light_visible() {
 
 // Generation by generation: every ray of one is traced before the next one starts.
 void TileTracer::follow() {
-  reflected_.fill(glm::vec4(0.0f));
+  if (rays_[0].size + rays_[1].size > 0) reflected_.fill(glm::vec4(0.0f));
   for (int generation = 1; generation <= plan_->out.depth; ++generation) {
     const std::size_t rays = rays_[0].size + rays_[1].size;
     if (rays == 0) return;
@@ -245,7 +241,8 @@ void TileTracer::write() const {
   for (int y = tile_.lo.y; y < tile_.hi.y; ++y) {
     const std::size_t row = static_cast<std::size_t>(y - tile_.lo.y) << kTileBits;
     const auto of = [&](auto* image) { return &image->at(tile_.lo.x, y); };
-    const glm::vec4 *direct = &direct_[row], *reflected = &reflected_[row];
+    const glm::vec4 *const direct = &direct_[row], *const reflected = &reflected_[row];
+    const auto light = [&](std::size_t i) { return mirrors ? direct[i] + reflected[i] : direct[i]; };
     if (out.reflection && !mirrors)
       std::memset(of(out.reflection), 0, width * sizeof(glm::vec3));
     else if (out.reflection)
@@ -254,10 +251,12 @@ void TileTracer::write() const {
       if (out.color) std::memset(of(out.color), 0, width * sizeof(glm::vec4));
       continue;
     }
-    if (out.color)
-      for (std::size_t i = 0; i < width; ++i) of(out.color)[i] = direct[i] + reflected[i];
+    if (out.color && !mirrors)
+      std::memcpy(of(out.color), direct, width * sizeof(glm::vec4));
+    else if (out.color)
+      for (std::size_t i = 0; i < width; ++i) of(out.color)[i] = light(i);
     if (out.added)
-      for (std::size_t i = 0; i < width; ++i) of(out.added)[i] += glm::vec3(direct[i] + reflected[i]);
+      for (std::size_t i = 0; i < width; ++i) of(out.added)[i] += glm::vec3(light(i));
     if (out.mask) out.mask->set_row(tile_.lo.x, y, std::span(mask_).subspan(row, width));
   }
 }

@@ -35,7 +35,7 @@ class TileTracer {
   using Radiance = std::array<glm::vec4, kPixels>;
 
   void start();
-  [[nodiscard]] bool sees_anything(const Image<std::uint32_t>& seen) const;
+  [[nodiscard]] bool fetch_ids();
   void find_hits(RayQueue& rays, int generation);
   void look();
   void light_visible();
@@ -54,6 +54,7 @@ class TileTracer {
   std::vector<std::uint8_t> blocked_;
   Radiance direct_, reflected_;
   std::array<std::uint8_t, kPixels> mask_;
+  std::array<std::uint32_t, kPixels> ids_;  // of the tile's pixels, row by row: what is given, or found
 };
 
 }  // namespace pinocchio

@@ -129,6 +129,42 @@ TEST_F(RenderTest, GeneratesScenesThatItCanDraw) {
     }
 }
 
+TEST_F(RenderTest, CompressionIsOfTheFileAlone) {
+  expect_done("render" + scene("cornell") + kSmall + "--mode raytrace -o zip.exr");
+  const auto bytes = [&](const std::string& name) { return std::filesystem::file_size(folder_ / name); };
+  for (const std::string name : {"none", "zips", "piz", "rle"}) {
+    expect_done("render" + scene("cornell") + kSmall + "--mode raytrace --compression " + name + " -o " + name +
+                ".exr");
+    EXPECT_TRUE(same_pixels(exr("zip.exr"), exr(name + ".exr"))) << name;
+    EXPECT_GT(bytes("none.exr") + (name == "none" ? 1 : 0), bytes(name + ".exr")) << name;
+  }
+  EXPECT_LT(bytes("zip.exr"), bytes("rle.exr"));
+  EXPECT_EQ(run("render" + scene("cornell") + kSmall + "--compression dwaa -o x.exr").exit_code, 2);
+}
+
+// Frames are written while later ones are drawn: the failure is of the run all the same.
+TEST_F(RenderTest, AFrameThatCannotBeWrittenEndsTheRun) {
+  std::filesystem::create_directory(folder_ / "f0003.exr");
+  const CommandResult result =
+      run("render" + scene("cornell") + kSmall + "--mode raytrace --turntable 40 -o f####.exr");
+  EXPECT_EQ(result.exit_code, 1);
+  EXPECT_NE(result.err.find("f0003.exr: cannot be written"), std::string::npos) << result.err;
+  EXPECT_EQ(std::ranges::count(result.err, '\n'), 1) << result.err;
+  EXPECT_TRUE(exists("f0000.exr") && exists("f0001.exr") && exists("f0002.exr"));
+  EXPECT_FALSE(exists("f0004.exr"));
+}
+
+TEST_F(RenderTest, FilesOfARangeAreThoseOfSingleFrames) {
+  const std::string draw = "render" + scene("two-lights") + kSmall + "--mode raytrace --deterministic --exchange sync --turntable 5 ";
+  expect_done(draw + "-o f#.exr --preview f#.png");
+  expect_done(draw + "--frames 3 -o g#.exr --preview g#.png --threads 1");
+  for (const std::string ending : {".exr", ".png"})
+    EXPECT_EQ(run_command("cd '" + folder_.string() + "' && cmp f3" + ending + " g3" + ending, folder_ / "scratch")
+                  .exit_code,
+              0)
+        << ending;
+}
+
 TEST_F(RenderTest, InterruptEndsWith130AndKeepsWhatWasFinished) {
   const CommandResult result = run_command(
       "cd '" + folder_.string() + "' && ( '" PINOCCHIO_PROGRAM "' render" + scene("cornell") +

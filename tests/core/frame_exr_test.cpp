@@ -52,9 +52,9 @@ struct HandMade {
     mask.set_bit(2, 1, 1);
   }
   [[nodiscard]] ExrFile exr(std::optional<double> render_s) const {
-    return frame_exr(
-        {kSize, {{0, 0}, kSize}, scene, camera, color, ids, mask, reflection, surfaces, "{}", render_s},
-        *parse_aovs("all"));
+    const auto all = [this](int, int) { return surfaces; };
+    return frame_exr({kSize, {{0, 0}, kSize}, scene, camera, color, ids, mask, reflection, all, "{}", render_s},
+                     *parse_aovs("all"), 0, kSize.y);
   }
 };
 

@@ -1,9 +1,12 @@
 #pragma once
 
+#include <array>
+#include <cstdint>
 #include <filesystem>
 #include <glm/glm.hpp>
 #include <map>
 #include <string>
+#include <string_view>
 #include <variant>
 #include <vector>
 
@@ -24,6 +27,16 @@ struct ExrChannel {
   std::vector<std::uint32_t> uints;  // uint
 };
 
+// How pixels are packed; without loss all of them.
+enum class ExrCompression {
+  zip,   // deflate, 16 lines at a time: the default of OpenEXR and of the programs that read it
+  zips,  // deflate, line by line: for programs that read few lines at a time
+  piz,   // wavelets: smaller where pictures are grainy
+  rle,   // run lengths: fast
+  none,
+};
+inline constexpr std::array<std::string_view, 5> kExrCompressionNames{"zip", "zips", "piz", "rle", "none"};
+
 using ExrAttribute = std::variant<std::string, float, glm::mat4>;
 
 struct ExrFile {
@@ -32,11 +45,12 @@ struct ExrFile {
   std::vector<ExrChannel> channels;
   // Matrices are column vectors' (GLM's); the file holds OpenEXR's row vectors', the transpose.
   std::map<std::string, ExrAttribute> attributes;
+  ExrCompression compression = ExrCompression::zip;
 
   [[nodiscard]] const ExrChannel* find(const std::string& name) const;
 };
 
-// One part, scan lines, ZIP, Rec. 709 chromaticities; whole or not at all. Throws EnvironmentError where it
+// One part, scan lines, Rec. 709 chromaticities; whole or not at all. Throws EnvironmentError where it
 // cannot be written. Both may be called from many threads, for files of their own. Phase "write".
 void write_exr(const std::filesystem::path& file, const ExrFile& exr, Progress* progress = nullptr);
 

@@ -46,29 +46,28 @@ class MaskImage {
   // All bits of the pixels from (x, y) on; x * bits is a multiple of 8, and they were 0.
   void set_row(int x, int y, std::span<const std::uint8_t> pixels) {
     if (bits_ == 0) return;
-    std::uint8_t* row = bytes_.data() + byte_of(x, y);
-    const auto a_byte = static_cast<std::size_t>(8 / bits_);
-    for (std::size_t first = 0; first < pixels.size(); first += a_byte) {
-      unsigned byte = 0;
-      for (std::size_t i = std::min(first + a_byte, pixels.size()); i-- > first;)
-        byte = byte << bits_ | pixels[i];
-      *row++ |= static_cast<std::uint8_t>(byte);
+    std::uint8_t* const row = bytes_.data() + byte_of(x, y);
+    for (std::size_t first = 0, at = 0; first < pixels.size(); first += 8) {
+      std::uint64_t packed = 0;
+      for (std::size_t i = std::min(first + 8, pixels.size()); i-- > first;) packed = packed << 8 | pixels[i];
+      // 8 pixels of 8 bits become 4 of 16, 2 of 32, one of 64, of which so many bits are used.
+      for (int width = 8, used = bits_; width < 64; width *= 2, used *= 2)
+        packed = (packed | packed >> (width - used)) & lowest_bits(used * 2, width * 2);
+      const std::size_t count = std::min<std::size_t>(pixels.size() - first, 8);
+      for (std::size_t bytes = (count * static_cast<std::size_t>(bits_) + 7) / 8; bytes-- > 0; packed >>= 8)
+        row[at++] = static_cast<std::uint8_t>(packed);
     }
-  }
-
-  // The same in 8 x 8 pixels; x is a multiple of 8.
-  void set_block(int x, int y, int slot) {
-    // Pixels of 1, 2, 4 and 8 bits repeat within a byte.
-    const unsigned every = bits_ == 1 ? 0xffu : bits_ == 2 ? 0x55u : bits_ == 4 ? 0x11u : 0x01u;
-    for (int row = y; row < y + 8; ++row)
-      for (int i = 0; i < bits_; ++i)
-        bytes_[byte_of(x, row) + static_cast<std::size_t>(i)] |= static_cast<std::uint8_t>(every << slot);
   }
 
  private:
   [[nodiscard]] std::size_t byte_of(int x, int y) const {
     return static_cast<std::size_t>(y) * static_cast<std::size_t>(row_bytes_) +
            static_cast<std::size_t>(x * bits_ / 8);
+  }
+  // A word whose fields of `width` bits have their lowest `used` set.
+  [[nodiscard]] static std::uint64_t lowest_bits(int used, int width) {
+    const std::uint64_t field = used == 64 ? ~std::uint64_t{0} : (std::uint64_t{1} << used) - 1;
+    return width == 64 ? field : width == 32 ? field * 0x100000001u : field * 0x1000100010001u;
   }
   [[nodiscard]] int shift_of(int x) const { return x * bits_ % 8; }
 

@@ -9,6 +9,7 @@
 #include <string>
 #include <string_view>
 
+#include "pinocchio/exr.h"
 #include "pinocchio/image.h"
 #include "pinocchio/mask_image.h"
 #include "pinocchio/progress.h"
@@ -82,10 +83,15 @@ struct FrameResult {
   std::size_t holes = 0;        // reprojected: pixels that no older frame had an answer for
 };
 
-// The picture with its layers and attributes, one part, scene-linear. layers: "all", "none" or some of Z, P, N,
-// Albedo, id, shadow, reflection with commas between. render_s: what it took, for its header. Whole or not at
-// all; throws EnvironmentError where it cannot be written. Source: OpenEXR's standard attributes.
-void write_exr(const std::filesystem::path& file, const FrameResult& frame, const std::string& layers = "all",
-               std::optional<double> render_s = {}, Progress* progress = nullptr);
+struct ExrOptions {
+  std::string layers = "all";  // or "none", or some of Z, P, N, Albedo, id, shadow, reflection with commas between
+  ExrCompression compression = ExrCompression::zip;
+  std::optional<double> render_s{};  // what it took, for its header
+};
+
+// The picture with its layers and attributes, one part, scene-linear. Whole or not at all; throws
+// EnvironmentError where it cannot be written. Source: OpenEXR's standard attributes. Phase "write".
+void write_exr(const std::filesystem::path& file, const FrameResult& frame, const ExrOptions& options = {},
+               Progress* progress = nullptr);
 
 }  // namespace pinocchio

@@ -1,0 +1,66 @@
+#include "app/frame_writer.h"
+
+#include <utility>
+
+namespace pinocchio::app {
+
+FrameWriter::FrameWriter(const OutputOptions& options, std::function<bool()> cancelled)
+    : options_(options), cancelled_(std::move(cancelled)), thread_([this] { run(); }) {}
+
+FrameWriter::~FrameWriter() {
+  {
+    const std::lock_guard lock(mutex_);
+    waiting_.clear();
+  }
+  end();
+}
+
+void FrameWriter::write(DrawnFrame frame) {
+  std::unique_lock lock(mutex_);
+  changed_.wait(lock, [this] { return waiting_.size() < kMostWaiting || error_; });
+  if (error_) std::rethrow_exception(error_);
+  waiting_.push_back(std::move(frame));
+  changed_.notify_all();
+}
+
+std::vector<int> FrameWriter::finish() {
+  end();
+  if (error_) std::rethrow_exception(error_);
+  return written_;
+}
+
+void FrameWriter::end() {
+  {
+    const std::lock_guard lock(mutex_);
+    ending_ = true;
+  }
+  changed_.notify_all();
+  if (thread_.joinable()) thread_.join();
+}
+
+void FrameWriter::run() {
+  std::unique_lock lock(mutex_);
+  while (true) {
+    changed_.wait(lock, [this] { return ending_ || !waiting_.empty(); });
+    if (waiting_.empty()) return;
+    const DrawnFrame frame = std::move(waiting_.front());
+    waiting_.pop_front();
+    changed_.notify_all();
+    if (error_ || cancelled_()) continue;
+    lock.unlock();
+    std::exception_ptr error;
+    try {
+      write_outputs(options_, frame);
+    } catch (...) {
+      error = std::current_exception();
+    }
+    lock.lock();
+    if (error)
+      error_ = error;
+    else
+      written_.push_back(frame.number);
+    changed_.notify_all();
+  }
+}
+
+}  // namespace pinocchio::app
