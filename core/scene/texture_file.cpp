@@ -71,7 +71,6 @@ class Decoder {
   Expected<DecodedImage> png() {
     const std::unique_ptr<spng_ctx, void (*)(spng_ctx*)> context(spng_ctx_new(0), spng_ctx_free);
     if (!context) return error("cannot be decoded");
-    spng_set_crc_action(context.get(), SPNG_CRC_USE, SPNG_CRC_USE);
     spng_set_chunk_limits(context.get(), std::size_t{1} << 26, std::size_t{1} << 26);
     int failure = spng_set_png_buffer(context.get(), bytes_.data(), bytes_.size());
     spng_ihdr header{};
