@@ -1,5 +1,6 @@
 #include "app/animation.h"
 
+#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
@@ -79,12 +80,10 @@ class PathReader {
     camera.target = vec3_of(key, "target", where);
     if (key.contains("up")) camera.up = vec3_of(key, "up", where);
     if (const auto fov = key.find("fov"); fov != key.end()) {
-      if (!fov->is_number() || !(fov->get<double>() > 0.0 && fov->get<double>() < 180.0))
-        fail(where + "fov is between 0 and 180 degrees");
+      if (!fov->is_number()) fail(where + "fov is no number");
       camera.fov_deg = fov->get<float>();
     }
-    if (camera.eye == camera.target) fail(where + "eye and target are the same point");
-    if (camera.up == glm::vec3(0.0f)) fail(where + "up has no direction");
+    check_camera(camera, file_ + ": " + where.substr(0, where.find(':')));
     return result;
   }
 
@@ -139,6 +138,12 @@ void add_animation_options(CLI::App& verb, AnimationOptions& options) {
   verb.add_option("--turntable", options.turntable, "turn the camera once around its target in N frames")
       ->check(CLI::Range(1, kMostFrames));
   verb.add_option("--path", options.path, "camera path: JSON of key frames")->excludes("--turntable");
+}
+
+std::vector<NamedFile> input_files(const DrawOptions& draw, const AnimationOptions& animation, const Scene& scene) {
+  std::vector<NamedFile> files{{"the scene", draw.scene}, {"--path", animation.path}, {"--plan", draw.plan_file}};
+  for (const std::string& file : scene.source_files) files.push_back({"the scene's", file});
+  return files;
 }
 
 std::vector<CameraFrame> animate(const AnimationOptions& options, const Camera& camera) {

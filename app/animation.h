@@ -3,6 +3,7 @@
 #include <string>
 #include <vector>
 
+#include "app/named_files.h"
 #include "app/options.h"
 #include "pinocchio/camera.h"
 
@@ -31,5 +32,9 @@ void add_animation_options(CLI::App& verb, AnimationOptions& options);
 //   ...]}
 // up and fov may be left out.
 [[nodiscard]] std::vector<CameraFrame> animate(const AnimationOptions& options, const Camera& camera);
+
+// Everything that drawing the scene by these options reads.
+[[nodiscard]] std::vector<NamedFile> input_files(const DrawOptions& draw, const AnimationOptions& animation,
+                                                 const Scene& scene);
 
 }  // namespace pinocchio::app

@@ -1,5 +1,6 @@
 #include "app/budget.h"
 
+#include <CLI/CLI.hpp>
 #include <array>
 #include <cstdio>
 #include <nlohmann/json.hpp>
@@ -16,8 +17,7 @@
 namespace pinocchio::app {
 namespace {
 
-constexpr std::array<std::string_view, 4> kMetrics{"rmse", "relmse", "max", "flip"};
-constexpr int kTimedFrames = 3;
+constexpr std::array<std::string_view, 4> kBudgetMetrics{"rmse", "relmse", "max", "flip"};
 
 double error_of(const Image<glm::vec3>& picture, const Image<glm::vec3>& exact, const std::string& metric,
                 Workers& workers) {
@@ -27,70 +27,62 @@ double error_of(const Image<glm::vec3>& picture, const Image<glm::vec3>& exact, 
   return metric == "max" ? figures.max_difference : figures.relative_mse;
 }
 
-// Measures settings on frames of the run.
-class Trial {
- public:
-  Trial(Drawing& drawing, const DrawOptions& draw, const std::vector<CameraFrame>& frames)
-      : drawing_(drawing), draw_(draw), frames_(frames) {}
-
-  // Against the picture of the first of them; that one at the least, also where the user asked for an end.
-  std::vector<MeasuredSettings> measure(const std::vector<Settings>& ladder, const std::string& metric) {
-    std::vector<MeasuredSettings> measured;
-    Image<glm::vec3> exact;
-    Image<glm::vec4> color;
-    Renderer pictures(drawing_.engine(), {[&](Frame& frame) { frame.read_color(color); }, {}});
-    Renderer times(drawing_.engine(), {});
-    Progress progress(draw_.quiet ? "off" : draw_.progress, "measuring plans", ladder.size());
-    for (const Settings& settings : ladder) {
-      if (interrupted() && !measured.empty()) break;
-      Settings at_once = settings;
-      at_once.exchange = Exchange::sync;
-      pictures.submit(request(at_once, 0));
-      pictures.drain();
-      Image<glm::vec3> rgb = finite_rgb_of(color);
-      if (measured.empty()) exact = rgb;
-      const double error = error_of(rgb, exact, metric, drawing_.workers());
-      measured.push_back({settings, time_ms(times, settings), error});
-      progress.step();
-    }
-    return measured;
-  }
-
- private:
-  // Of a frame, once its shaders are compiled and its buffers are there.
-  double time_ms(Renderer& renderer, Settings settings) {
-    settings.reuse = false;  // the frames of a still camera would cost nothing
-    renderer.submit(request(settings, 0));
-    renderer.drain();
-    const double begin_s = now_s();
-    for (int i = 0; i < kTimedFrames; ++i) renderer.submit(request(settings, i + 1));
-    renderer.drain();
-    return 1e3 * (now_s() - begin_s) / kTimedFrames;
-  }
-
-  // Spread over the run.
-  [[nodiscard]] FrameRequest request(const Settings& settings, int i) const {
-    const std::size_t at = static_cast<std::size_t>(i) * frames_.size() / (kTimedFrames + 1);
-    return drawing_.request(settings, frames_[at].camera);
-  }
-
-  Drawing& drawing_;
-  const DrawOptions& draw_;
-  const std::vector<CameraFrame>& frames_;
-};
-
-std::vector<MeasuredSettings> front_of(Drawing& drawing, const DrawOptions& draw,
-                                       const BudgetOptions& options, const std::vector<CameraFrame>& frames) {
-  const Settings& exact = drawing.settings();
-  const bool raster = exact.mask_bits.given && exact.reflection.given && !exact.traces();
-  if (exact.composite == Processor::cpu || raster)
-    throw Exit(kUsage, "--budget and --max-error choose among plans of --mode hybrid --design 1; use those");
-  const std::string metric = options.error ? options.error->metric : "flip";
-  return pareto_front(Trial(drawing, draw, frames).measure(quality_ladder(exact), metric));
-}
+}  // namespace
 
 Budget limits(const BudgetOptions& options) {
   return {options.frame_ms, options.error ? std::optional(options.error->value) : std::nullopt};
+}
+
+BudgetTrial::BudgetTrial(Engine& engine, const Settings& exact, const BudgetOptions& options, Ask ask)
+    : engine_(engine),
+      metric_(options.error ? options.error->metric : "flip"),
+      ask_(std::move(ask)),
+      pictures_(engine, {[this](Frame& frame) { frame.read_color(color_); }, {}}),
+      times_(engine, {}) {
+  const bool raster = exact.mask_bits.given && exact.reflection.given && !exact.traces();
+  if (exact.composite == Processor::cpu || raster)
+    throw Exit(kUsage, "--budget and --max-error choose among plans of --mode hybrid --design 1; use those");
+  ladder_ = quality_ladder(exact);
+}
+
+void BudgetTrial::step() {
+  const Settings& settings = ladder_[measured_.size()];
+  Settings at_once = settings;
+  at_once.exchange = Exchange::sync;
+  pictures_.submit(ask_(at_once, 0));
+  pictures_.drain();
+  const Image<glm::vec3> rgb = finite_rgb_of(color_);
+  if (measured_.empty()) exact_ = rgb;
+  const double error = error_of(rgb, exact_, metric_, engine_.workers(settings.threads));
+  measured_.push_back({settings, time_ms(settings), error});
+}
+
+// Of a frame, once its shaders are compiled and its buffers are there.
+double BudgetTrial::time_ms(Settings settings) {
+  settings.reuse = false;  // the frames of a still camera would cost nothing
+  times_.submit(ask_(settings, 0));
+  times_.drain();
+  const double begin_s = now_s();
+  for (int i = 0; i < kTimedFrames; ++i) times_.submit(ask_(settings, i + 1));
+  times_.drain();
+  return 1e3 * (now_s() - begin_s) / kTimedFrames;
+}
+
+namespace {
+
+// The first at the least, also where the user asked for an end.
+std::vector<MeasuredSettings> front_of(Drawing& drawing, const DrawOptions& draw,
+                                       const BudgetOptions& options, const std::vector<CameraFrame>& frames) {
+  BudgetTrial trial(drawing.engine(), drawing.settings(), options, [&](const Settings& settings, int i) {
+    const std::size_t at = static_cast<std::size_t>(i) * frames.size() / (BudgetTrial::kTimedFrames + 1);
+    return drawing.request(settings, frames[at].camera);
+  });
+  Progress progress(draw.quiet ? "off" : draw.progress, "measuring plans", trial.count());
+  while (trial.done() < trial.count() && !(interrupted() && trial.done() > 0)) {
+    trial.step();
+    progress.step();
+  }
+  return trial.front();
 }
 
 }  // namespace
@@ -108,7 +100,7 @@ void add_budget_options(CLI::App& verb, BudgetOptions& options) {
       ->type_name("TIME");
   verb.add_option_function<std::string>(
           "--max-error",
-          [&options](const std::string& text) { options.error = parse_error_limit(text, kMetrics); },
+          [&options](const std::string& text) { options.error = parse_error_limit(text, kBudgetMetrics); },
           "METRIC=VALUE: the fastest plan whose picture is no further from the exact plan's; rmse, relmse, "
           "max or flip")
       ->type_name("METRIC=VALUE");

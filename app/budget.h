@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <nlohmann/json_fwd.hpp>
 #include <optional>
 #include <string>
@@ -21,6 +22,38 @@ struct BudgetOptions {
 };
 
 void add_budget_options(CLI::App& verb, BudgetOptions& options);
+
+[[nodiscard]] Budget limits(const BudgetOptions& options);
+
+// Measures ways to draw a scene for less, one after another: what a frame takes, and its error against the first.
+class BudgetTrial {
+ public:
+  static constexpr int kTimedFrames = 3;
+  // The frame to draw by these settings; the i-th of 0 to kTimedFrames, spread over the run.
+  using Ask = std::function<FrameRequest(const Settings&, int i)>;
+
+  // Ends the verb with kUsage where not both processors draw and the GPU composites: the one schedule whose
+  // parts can be thinned out.
+  BudgetTrial(Engine& engine, const Settings& exact, const BudgetOptions& options, Ask ask);
+
+  [[nodiscard]] std::size_t count() const { return ladder_.size(); }
+  [[nodiscard]] std::size_t done() const { return measured_.size(); }
+  // Measures the next.
+  void step();
+  [[nodiscard]] std::vector<MeasuredSettings> front() const { return pareto_front(measured_); }
+
+ private:
+  [[nodiscard]] double time_ms(Settings settings);
+
+  Engine& engine_;
+  std::string metric_;
+  Ask ask_;
+  std::vector<Settings> ladder_;
+  std::vector<MeasuredSettings> measured_;
+  Image<glm::vec3> exact_;  // the first's picture
+  Image<glm::vec4> color_;
+  Renderer pictures_, times_;
+};
 
 // A run that keeps a budget: measures what ways to draw the scene take and cost here, begins with the one that
 // fits, and follows the load.

@@ -1,4 +1,5 @@
 // chart: sweeps what can be swapped; error against time, on one page.
+#include <CLI/CLI.hpp>
 #include <cstdio>
 #include <memory>
 #include <nlohmann/json.hpp>
@@ -26,8 +27,8 @@ using namespace chart;
 constexpr int kDefaultTurntable = 360;  // frames once around: a degree a frame
 constexpr glm::ivec2 kDefaultSize{400, 300}, kQuickSize{160, 120};
 constexpr std::size_t kFrames = 10, kQuickFrames = 8;  // of the motion; the first warm up
-constexpr BenchSettings kBench{5, 3, 6, Clock::frame, interrupted};
-constexpr BenchSettings kQuickBench{3, 2, 3, Clock::frame, interrupted};
+constexpr BenchSettings kBench{5, 3, 6, Clock::frame, nullptr};
+constexpr BenchSettings kQuickBench{3, 2, 3, Clock::frame, nullptr};
 
 struct ChartOptions {
   DrawOptions draw;
@@ -66,6 +67,8 @@ class ChartRun {
     Scene scene = load_scene_for(draw);
     const std::vector<View> views = motion(camera_for(draw, scene));
     make_folder(folder_ / "pictures");
+    check_apart(input_files(draw, options_.animation, scene),
+                {{"-o", folder_ / "results.json"}, {"-o", folder_ / "results.csv"}, {"-o", folder_ / "index.html"}});
     check_writable(folder_ / "results.json");
     Drawing drawing(draw, std::move(scene), Exchange::sync, false, true);
     const auto resolve = [&](const Settings& settings) { return drawing.resolve(settings); };
@@ -75,7 +78,7 @@ class ChartRun {
     Results results =
         value_or_exit(Results::open(folder_, run_json(drawing, views), options_.restart), kUsage);
     Bench bench(drawing.engine(), drawing.request({}), bench_settings(), views, folder_);
-    if (!measure(drawing.engine(), bench, sweep, results)) return kInterrupted;
+    measure(drawing.engine(), bench, sweep, results);
     return finish(results);
   }
 
@@ -84,6 +87,7 @@ class ChartRun {
     BenchSettings settings = options_.quick ? kQuickBench : kBench;
     if (options_.repeat > 0) settings.rounds = options_.repeat;
     if (options_.clock == "cpu") settings.clock = Clock::cpu;
+    settings.progress = &run_progress();
     return settings;
   }
 
@@ -135,8 +139,8 @@ class ChartRun {
             {"gl", drawing.gl_info()->renderer}};
   }
 
-  // False where the user asked for an end; what was measured by then is kept.
-  bool measure(const Engine& engine, Bench& bench, const std::vector<Configuration>& sweep,
+  // Each is kept as soon as it is measured.
+  void measure(const Engine& engine, Bench& bench, const std::vector<Configuration>& sweep,
                Results& results) const {
     Progress progress(options_.draw.quiet ? "off" : options_.draw.progress, "chart", sweep.size());
     for (const Configuration& configuration : sweep) {
@@ -145,20 +149,18 @@ class ChartRun {
         if (known) {
           results.add(configuration, nlohmann::json(*known), known->at("picture").get<std::string>());
         } else {
-          const std::optional<PointFigures> figures = bench.measure(configuration);
-          if (!figures) return false;
+          const PointFigures figures = bench.measure(configuration);
           engine.throw_gl_complaints();
-          results.add(configuration, to_json(*figures), configuration.name());
+          results.add(configuration, to_json(figures), configuration.name());
         }
       }
       progress.step();
     }
-    return true;
   }
 
   int finish(Results& results) const {
     results.write();
-    const bool drawn = draw_page(folder_);
+    const bool drawn = draw_page(folder_, run_progress());
     if (!drawn)
       std::fprintf(stderr,
                    "pinocchio: no page was drawn, as matplotlib is missing; install python3-matplotlib and "

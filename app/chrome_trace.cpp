@@ -1,13 +1,19 @@
 #include "app/chrome_trace.h"
 
+#include <algorithm>
 #include <array>
+#include <cmath>
+#include <cstdint>
+#include <map>
 #include <nlohmann/json.hpp>
 #include <string>
 
 namespace pinocchio::app {
 namespace {
 
-enum Row { kExchange = 1, kTracer, kGpu };
+enum Row { kExchange, kTracer, kGpu };
+constexpr std::array<const char*, 3> kRowNames{"exchange (OpenGL thread)", "CPU tracer", "GPU"};
+constexpr int kMostTracks = 100;  // of a row
 
 Row row_of(Stage stage) {
   switch (stage) {
@@ -22,62 +28,99 @@ Row row_of(Stage stage) {
   }
 }
 
-nlohmann::json row_name(Row row, const char* name) {
-  return {{"ph", "M"},
-          {"pid", 1},
-          {"tid", static_cast<int>(row)},
-          {"name", "thread_name"},
-          {"args", {{"name", name}}}};
+// A stage of a frame on its track. Viewers count in whole nanoseconds: so do we, or slices that follow each other
+// would overlap by what is rounded.
+struct Slice {
+  std::uint64_t frame;
+  Stage stage;
+  std::int64_t begin_ns, end_ns;
+  int track = 0;  // within its row
+
+  [[nodiscard]] int thread() const { return row_of(stage) * kMostTracks + track + 1; }
+};
+
+std::vector<Slice> slices_of(const std::vector<FrameRecord>& records) {
+  std::vector<Slice> slices;
+  const double begin_s = records.empty() ? 0.0 : records.front().frame.begin_s;
+  const auto ns = [begin_s](double s) { return static_cast<std::int64_t>(std::llround(1e9 * (s - begin_s))); };
+  for (const FrameRecord& record : records)
+    for (std::size_t i = 0; i < kStageNames.size(); ++i)
+      if (const Span& span = record.stages[i]; ns(span.end_s) > ns(span.begin_s))
+        slices.push_back({record.number, static_cast<Stage>(i), ns(span.begin_s), ns(span.end_s)});
+  return slices;
 }
 
-void add_stages(const FrameRecord& record, double begin_s, nlohmann::json& events) {
-  for (std::size_t i = 0; i < kStageNames.size(); ++i) {
-    const Span& span = record.stages[i];
-    if (span.end_s <= span.begin_s) continue;
-    events.push_back({{"ph", "X"},
-                      {"pid", 1},
-                      {"tid", static_cast<int>(row_of(static_cast<Stage>(i)))},
-                      {"name", std::string(kStageNames[i])},
-                      {"ts", 1e6 * (span.begin_s - begin_s)},
-                      {"dur", 1e6 * (span.end_s - span.begin_s)},
-                      {"args", {{"frame", record.number}}}});
+// Slices of a thread may not overlap: a viewer drops those that do. What overlaps gets a track of its own.
+void place(std::vector<Slice>& slices) {
+  std::ranges::stable_sort(slices, {}, &Slice::begin_ns);
+  std::array<std::vector<std::int64_t>, kRowNames.size()> ends;  // of each track's last slice
+  for (Slice& slice : slices) {
+    std::vector<std::int64_t>& tracks = ends[row_of(slice.stage)];
+    const auto free =
+        std::ranges::find_if(tracks, [&](std::int64_t end_ns) { return end_ns <= slice.begin_ns; });
+    slice.track = static_cast<int>(free - tracks.begin());
+    if (free == tracks.end())
+      tracks.push_back(slice.end_ns);
+    else
+      *free = slice.end_ns;
   }
 }
 
-// Arrows bind to the slice that is open at their time.
-void add_arrows(const FrameRecord& record, double begin_s, nlohmann::json& events) {
-  std::vector<Stage> way;
-  for (const Stage stage :
-       {Stage::readback, Stage::trace_shadow, Stage::trace_reflection, Stage::upload, Stage::composite})
-    if (record[stage].end_s > record[stage].begin_s) way.push_back(stage);
-  for (std::size_t i = 0; i < way.size() && way.size() > 1; ++i) {
-    const Span& span = record[way[i]];
-    nlohmann::json event{{"ph", i == 0               ? "s"
-                                : i + 1 < way.size() ? "t"
-                                                     : "f"},
-                         {"pid", 1},
-                         {"tid", static_cast<int>(row_of(way[i]))},
-                         {"name", "frame"},
-                         {"cat", "frame"},
-                         {"id", record.number},
-                         {"ts", 1e6 * (0.5 * (span.begin_s + span.end_s) - begin_s)}};
-    if (i + 1 == way.size()) event["bp"] = "e";
-    events.push_back(std::move(event));
+nlohmann::json event(const char* kind, int thread, const std::string& name) {
+  return {{"ph", kind}, {"pid", 1}, {"tid", thread}, {"name", name}};
+}
+
+double us(std::int64_t ns) {
+  return 1e-3 * static_cast<double>(ns);
+}
+
+void name_threads(const std::vector<Slice>& slices, nlohmann::json& events) {
+  std::map<int, const Slice*> threads;
+  for (const Slice& slice : slices) threads.emplace(slice.thread(), &slice);
+  for (const auto& [thread, slice] : threads) {
+    std::string name = kRowNames[row_of(slice->stage)];
+    if (slice->track > 0) name += " " + std::to_string(slice->track + 1);
+    nlohmann::json named = event("M", thread, "thread_name"), sorted = event("M", thread, "thread_sort_index");
+    named["args"]["name"] = name;
+    sorted["args"]["sort_index"] = thread;
+    events.push_back(std::move(named));
+    events.push_back(std::move(sorted));
+  }
+}
+
+// From a frame's readback to its trace, upload and composite. Arrows bind to the slice that is open at their time.
+void add_arrows(const std::vector<Slice>& slices, nlohmann::json& events) {
+  std::map<std::uint64_t, std::vector<const Slice*>> ways;
+  for (const Slice& slice : slices)
+    if (slice.stage != Stage::raster && slice.stage != Stage::present) ways[slice.frame].push_back(&slice);
+  for (auto& [frame, way] : ways) {
+    std::ranges::stable_sort(way, {}, [](const Slice* slice) { return slice->stage; });
+    for (std::size_t i = 0; i < way.size() && way.size() > 1; ++i) {
+      nlohmann::json arrow = event(i == 0 ? "s" : i + 1 < way.size() ? "t" : "f", way[i]->thread(), "frame");
+      arrow["cat"] = "frame";
+      arrow["id"] = frame;
+      arrow["ts"] = us((way[i]->begin_ns + way[i]->end_ns) / 2);
+      if (i + 1 == way.size()) arrow["bp"] = "e";
+      events.push_back(std::move(arrow));
+    }
   }
 }
 
 }  // namespace
 
 nlohmann::json chrome_trace(const std::vector<FrameRecord>& records) {
+  std::vector<Slice> slices = slices_of(records);
+  place(slices);
   nlohmann::json events = nlohmann::json::array();
-  events.push_back(row_name(kExchange, "exchange (OpenGL thread)"));
-  events.push_back(row_name(kTracer, "CPU tracer"));
-  events.push_back(row_name(kGpu, "GPU"));
-  const double begin_s = records.empty() ? 0.0 : records.front().frame.begin_s;
-  for (const FrameRecord& record : records) {
-    add_stages(record, begin_s, events);
-    add_arrows(record, begin_s, events);
+  name_threads(slices, events);
+  for (const Slice& slice : slices) {
+    nlohmann::json complete = event("X", slice.thread(), std::string(kStageNames[static_cast<std::size_t>(slice.stage)]));
+    complete["ts"] = us(slice.begin_ns);
+    complete["dur"] = us(slice.end_ns - slice.begin_ns);
+    complete["args"]["frame"] = slice.frame;
+    events.push_back(std::move(complete));
   }
+  add_arrows(slices, events);
   return {{"traceEvents", events}, {"displayTimeUnit", "ms"}};
 }
 

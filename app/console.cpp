@@ -3,18 +3,47 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <array>
 #include <csignal>
 #include <cstdio>
+#include <ctime>
+
+#include "app/exit_codes.h"
+#include "core/image/part_file.h"
 
 namespace pinocchio::app {
 namespace {
 
-volatile std::sig_atomic_t interrupt_count = 0;
+constexpr std::array kInterrupts{SIGINT, SIGTERM, SIGHUP};
+constexpr long kGrace_ns = 700'000'000;
+// Some programs send a signal to the process and to its group: that is one.
+constexpr long kOneSignal_ns = 50'000'000;
+
+pinocchio::Progress progress;
+timer_t deadline;
+volatile std::sig_atomic_t signalled = 0;
+timespec first_signal;
+
+// Handlers call what POSIX allows them alone.
+void end_at_once(int) {
+  remove_part_files();
+  _exit(kInterrupted);
+}
 
 void on_interrupt(int) {
-  interrupt_count = interrupt_count + 1;
-  std::signal(SIGINT, SIG_DFL);
-  std::signal(SIGTERM, SIG_DFL);
+  timespec now{};
+  clock_gettime(CLOCK_MONOTONIC, &now);
+  if (signalled == 0) {
+    signalled = 1;
+    first_signal = now;
+    progress.cancel();
+    const itimerspec grace{{0, 0}, {0, kGrace_ns}};
+    timer_settime(deadline, 0, &grace, nullptr);
+    return;
+  }
+  const long since_ns =
+      (now.tv_sec - first_signal.tv_sec) * 1'000'000'000L + (now.tv_nsec - first_signal.tv_nsec);
+  if (since_ns > kOneSignal_ns) end_at_once(0);
 }
 
 }  // namespace
@@ -26,11 +55,26 @@ std::string one_line(std::string text) {
 }
 
 void catch_interrupts() {
-  std::signal(SIGINT, on_interrupt);
-  std::signal(SIGTERM, on_interrupt);
+  (void)timer_create(CLOCK_MONOTONIC, nullptr, &deadline);  // sends SIGALRM
+  struct sigaction action {};
+  sigemptyset(&action.sa_mask);
+  for (const int signal : kInterrupts) sigaddset(&action.sa_mask, signal);
+  action.sa_flags = SA_RESTART;
+  action.sa_handler = end_at_once;
+  sigaction(SIGALRM, &action, nullptr);
+  action.sa_handler = on_interrupt;
+  for (const int signal : kInterrupts) {
+    struct sigaction inherited {};
+    sigaction(signal, nullptr, &inherited);
+    if (signal == SIGHUP && inherited.sa_handler == SIG_IGN) continue;  // nohup
+    sigaction(signal, &action, nullptr);
+  }
+}
+pinocchio::Progress& run_progress() {
+  return progress;
 }
 bool interrupted() {
-  return interrupt_count > 0;
+  return progress.cancelled();
 }
 
 Progress::Progress(const std::string& mode, std::string what, std::size_t total)

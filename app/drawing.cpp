@@ -3,6 +3,7 @@
 #include <cstdio>
 #include <cstdlib>
 
+#include "app/console.h"
 #include "app/errors.h"
 #include "gl/context.h"
 
@@ -30,7 +31,8 @@ Drawing::Drawing(const DrawOptions& options, Scene scene, Exchange usual, bool k
       scene_(std::move(scene)) {
   drop_idle_casters(scene_);
   stats_ = analyze(scene_);
-  if (any_settings || options.settings.uses_gpu()) engine_.open_gl();
+  if (any_settings) engine_.open_gl();
+  software_gl_ = engine_.gl_is_software(options.settings);
   Expected<Settings> resolved = resolve(with_usual(options.settings, usual));
   if (!resolved) {
     InputError error = resolved.error();
@@ -43,12 +45,21 @@ Drawing::Drawing(const DrawOptions& options, Scene scene, Exchange usual, bool k
     for (const std::string& line : losses(settings_, stats_))
       if (!options.plan_file.empty())
         std::fprintf(stderr, "pinocchio: warning: %s: %s\n", options.plan_file.c_str(), line.c_str());
-  if (any_settings || (settings_.traces() && !options.precise)) tracer_ = Engine::prepare(scene_, settings_);
+  if (!options.quiet && !any_settings) advise(with_usual(options.settings, usual));
+  if (any_settings || (settings_.traces() && !options.precise)) tracer_ = Engine::prepare(scene_, settings_, &run_progress());
+}
+
+void Drawing::advise(Settings automatic) const {
+  if (!software_gl_ || !settings_.uses_gpu() || !settings_.traces()) return;
+  automatic.by_machine = true;
+  const Expected<Settings> other = resolve(automatic);
+  if (!other || other->uses_gpu()) return;
+  std::fprintf(stderr, "pinocchio: OpenGL is software here (%s); --mode auto would draw with the CPU alone, %s\n",
+               engine_.gl_info()->renderer.c_str(), kGainOverSoftwareGl);
 }
 
 Expected<Settings> Drawing::resolve(const Settings& wanted) const {
-  const gl::ContextInfo* const gl = engine_.gl_info();
-  return pinocchio::resolve(wanted, stats_, {part_.size(), gl && gl->software, keeps_mask_});
+  return pinocchio::resolve(wanted, stats_, {part_.size(), software_gl_, keeps_mask_});
 }
 
 FrameRequest Drawing::request(const Settings& settings, const Camera& camera) const {

@@ -30,9 +30,13 @@ class Drawing {
   [[nodiscard]] FrameRequest request(const Camera& camera) const { return request(settings_, camera); }
 
  private:
+  // Says where --mode auto would be faster than these settings.
+  void advise(Settings automatic) const;
+
   const DrawOptions& options_;
   PixelBox part_;
   bool keeps_mask_;
+  bool software_gl_ = false;
   Engine engine_;
   Scene scene_;
   SceneStats stats_;

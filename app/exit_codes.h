@@ -9,7 +9,7 @@ enum ExitCode {
   kNoContext = 3,      // no OpenGL context
   kBadScene = 4,       // scene cannot be read
   kAboveLimit = 5,     // compare
-  kInterrupted = 130,  // SIGINT; what was finished is kept
+  kInterrupted = 130,  // SIGINT, SIGTERM, SIGHUP; what was finished is kept
 };
 
 }  // namespace pinocchio::app

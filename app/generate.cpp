@@ -1,7 +1,9 @@
 // generate: writes a procedural scene to glTF or OBJ.
+#include <CLI/CLI.hpp>
 #include <cstdio>
 #include <memory>
 
+#include "app/console.h"
 #include "app/errors.h"
 #include "app/verbs.h"
 #include "pinocchio/save.h"
@@ -17,9 +19,11 @@ struct GenerateOptions {
 };
 
 int generate(const GenerateOptions& options) {
-  const Scene scene = value_or_exit(make_procedural(options.name, options.procedural), kUsage);
+  ProceduralOptions procedural = options.procedural;
+  procedural.progress = &run_progress();
+  const Scene scene = value_or_exit(make_procedural(options.name, procedural), kUsage);
   const std::string file = options.file.empty() ? options.name + ".gltf" : options.file;
-  save_scene(scene, file);
+  save_scene(scene, file, &run_progress());
   std::printf("%s: %zu triangles\n", file.c_str(), scene.mesh->triangles.size());
   return kDone;
 }

@@ -1,9 +1,11 @@
 // info: what a scene holds and needs; with --system, what this machine can do.
+#include <CLI/CLI.hpp>
 #include <cstdio>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <optional>
 
+#include "app/console.h"
 #include "app/errors.h"
 #include "app/options.h"
 #include "app/stats.h"
@@ -64,6 +66,9 @@ nlohmann::json scene_json(const Scene& scene, const Warnings& warnings) {
             {"transmitting_share", stats.transmitting_share},
             {"useful_depth", stats.useful_depth},
             {"textures", stats.textures},
+            {"vertex_colors", stats.vertex_colors},
+            {"holes", stats.holes},
+            {"blends", stats.blends},
             {"gpu_normals", false}}}};  // no file we read has normals that the CPU does not know
 }
 
@@ -98,12 +103,6 @@ nlohmann::json plan_json(const Settings& plan) {
   json.erase("exchange");
   json.erase("spp");
   return json;
-}
-
-void print_plan(const SceneStats& stats, const Settings& settings) {
-  std::printf("plan\n");
-  for (const std::string& line : explain(stats, settings)) std::printf("  %s\n", line.c_str());
-  std::printf("  %s\n", plan_json(settings).dump().c_str());
 }
 
 nlohmann::json attempts_json(const std::vector<gl::Attempt>& attempts) {
@@ -183,15 +182,37 @@ int show_settings(const InfoOptions& options) {
   return kDone;
 }
 
-// How a hybrid frame of it is drawn on this machine; without any OpenGL, by a GPU.
-Expected<Settings> plan_here(const SceneStats& stats) {
+struct PlanHere {
+  Settings settings;
+  std::vector<std::string> why;
+};
+
+// How a hybrid frame of it is drawn on this machine, and who would draw with --mode auto; without any OpenGL, by
+// a GPU.
+Expected<PlanHere> plan_here(const SceneStats& stats) {
   Circumstances circumstances;
+  bool any_gl = true;
   try {
     circumstances.software_gl = gl::open_context({})->info().software;
   } catch (const gl::NoContextError&) {
+    any_gl = false;
     std::fprintf(stderr, "pinocchio: no OpenGL here ('pinocchio info --system'); the plan is for a GPU\n");
   }
-  return resolve({}, stats, circumstances);
+  const Expected<Settings> settings = resolve({}, stats, circumstances);
+  if (!settings) return Unexpected(settings.error());
+  std::vector<std::string> why = explain(stats, *settings);
+  Settings by_machine;
+  by_machine.by_machine = true;
+  const Expected<Settings> automatic =
+      resolve(by_machine, stats, {circumstances.size, circumstances.software_gl || !any_gl});
+  if (automatic) why.push_back("with --mode auto, " + explain(stats, *automatic).front());
+  return PlanHere{*settings, std::move(why)};
+}
+
+void print_plan(const PlanHere& plan) {
+  std::printf("plan\n");
+  for (const std::string& line : plan.why) std::printf("  %s\n", line.c_str());
+  std::printf("  %s\n", plan_json(plan.settings).dump().c_str());
 }
 
 int show_scene(const InfoOptions& options) {
@@ -201,16 +222,16 @@ int show_scene(const InfoOptions& options) {
   Scene scene = load_whole(draw, warnings);
   if (options.plan) light_if_dark(scene, options.draw);  // as the verbs draw it
   const SceneStats stats = analyze(scene);
-  std::optional<Settings> plan;
+  std::optional<PlanHere> plan;
   if (options.plan) plan = value_or_exit(plan_here(stats), kBadScene);
   if (options.json) {
     nlohmann::json json = scene_json(scene, warnings);
-    if (plan) json["plan"] = plan_json(*plan);
-    if (plan) json["why"] = explain(stats, *plan);
+    if (plan) json["plan"] = plan_json(plan->settings);
+    if (plan) json["why"] = plan->why;
     std::printf("%s\n", json.dump(2, ' ', false, nlohmann::json::error_handler_t::replace).c_str());
   } else {
     print_scene(scene, warnings);
-    if (plan) print_plan(stats, *plan);
+    if (plan) print_plan(*plan);
   }
   return kDone;
 }

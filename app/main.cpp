@@ -1,6 +1,9 @@
 // pinocchio VERB SCENE [options]
 #include <CLI/CLI.hpp>
+#include <cerrno>
 #include <cstdio>
+#include <cstring>
+#include <iostream>
 #include <new>
 #include <string>
 #include <utility>
@@ -12,6 +15,7 @@
 #include "core/base/system_info.h"
 #include "gl/error.h"
 #include "pinocchio/engine.h"
+#include "pinocchio/progress.h"
 
 namespace pinocchio::app {
 namespace {
@@ -21,12 +25,23 @@ int say(const std::string& line, ExitCode code) {
   return code;
 }
 
+// What was printed must have arrived: a full disk shows when it is flushed at the latest.
+int flushed(int code) {
+  std::cout.flush();
+  errno = 0;
+  if (std::fflush(stdout) == 0 && std::ferror(stdout) == 0 && std::cout) return code;
+  const std::string why = errno != 0 ? std::strerror(errno) : "it is full or closed";
+  return say("standard output cannot be written: " + why, code == kDone ? kFailed : ExitCode(code));
+}
+
 // The verbs' errors end here, each as one line and its exit code.
 int run_verb(const Run& run) {
   try {
     return run();
   } catch (const Exit& end) {
     return say(end.what(), end.code());
+  } catch (const Cancelled&) {
+    return say("interrupted; what was finished is kept", kInterrupted);
   } catch (const gl::NoContextError& error) {
     return say(error.what(), kNoContext);
   } catch (const NoOpenGlError& error) {
@@ -53,7 +68,7 @@ int parse_and_run(int argc, char** argv) {
   try {
     program.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
-    if (error.get_exit_code() == 0) return program.exit(error);  // --help, --version
+    if (error.get_exit_code() == 0) return flushed(program.exit(error));  // --help, --version
     const std::vector<CLI::App*> chosen = program.get_subcommands();
     const std::string verb = chosen.empty() ? "" : " " + chosen.front()->get_name();
     if (chosen.empty() && argc > 1 && argv[1][0] != '-')
@@ -62,7 +77,7 @@ int parse_and_run(int argc, char** argv) {
   }
   catch_interrupts();
   for (const auto& [name, run] : verbs)
-    if (program.got_subcommand(name)) return run_verb(run);
+    if (program.got_subcommand(name)) return flushed(run_verb(run));
   return kUsage;
 }
 

@@ -1,4 +1,5 @@
 // measure: frames along a camera path; what each moved, took and waited for.
+#include <CLI/CLI.hpp>
 #include <cstdio>
 #include <memory>
 #include <nlohmann/json.hpp>
@@ -55,7 +56,8 @@ void draw(Drawing& drawing, const MeasureOptions& options, const std::vector<Cam
   Renderer renderer(drawing.engine(), {{}, [&](const FrameRecord& record) {
                                          run.records.push_back(record);
                                          progress.step();
-                                       }});
+                                       }},
+                    &run_progress());
   for (const CameraFrame& frame : frames) {
     if (interrupted()) break;
     if (run.budget) run.settings = run.budget->settings();
@@ -203,6 +205,8 @@ int measure(MeasureOptions& options) {
   if (options.animation.turntable == 0 && options.animation.path.empty())
     options.animation.turntable = kDefaultFrames;
   const std::vector<CameraFrame> frames = animate(options.animation, camera);
+  check_apart(input_files(options.draw, options.animation, scene),
+              {{"--stats-json", options.stats_json}, {"--trace", options.trace}});
   for (const std::string& file : {options.stats_json, options.trace})
     if (!file.empty()) check_writable(file);
 

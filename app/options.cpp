@@ -1,8 +1,12 @@
 #include "app/options.h"
 
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <cmath>
 #include <cstdio>
 #include <memory>
 
+#include "app/console.h"
 #include "app/errors.h"
 #include "app/parse.h"
 #include "hybrid/settings/json.h"
@@ -179,7 +183,7 @@ void add_scene_options(CLI::App& verb, DrawOptions& o) {
 
 void add_settings_options(CLI::App& verb, DrawOptions& o) {
   const auto said = std::make_shared<Said>();
-  add_preset(verb, "mode", "who draws: both, CPU alone, GPU alone (hybrid)", said->mode);
+  add_preset(verb, "mode", "who draws: both, CPU alone, GPU alone, whichever is faster here (hybrid)", said->mode);
   add_preset(verb, "design", "where the parts meet: 1, on the GPU; 2, on the CPU (1)", said->design);
   add_preset(verb, "plan",
              "auto: model and send only what the scene needs; slides: the fixed bytes of 2005; FILE.json: "
@@ -207,8 +211,9 @@ void add_draw_options(CLI::App& verb, DrawOptions& o) {
   add_still_options(verb, o);
 }
 
-Scene load_whole(const DrawOptions& options, Warnings& warnings) {
-  Expected<Scene> scene = load_scene(options.scene, &warnings, nullptr, options.load_limit);
+Scene load_whole(const DrawOptions& options, Warnings& warnings, pinocchio::Progress* progress) {
+  Expected<Scene> scene =
+      load_scene(options.scene, &warnings, progress ? progress : &run_progress(), options.load_limit);
   if (!scene || (!options.quiet && !options.strict))  // they may say why it cannot be read
     for (const Warning& warning : warnings)
       std::fprintf(stderr, "pinocchio: warning: %s\n", warning.message().c_str());
@@ -256,9 +261,21 @@ Camera camera_for(const DrawOptions& options, const Scene& scene) {
   if (options.eye && options.target) camera.up = Camera{}.up;
   if (options.up) camera.up = *options.up;
   if (options.fov_deg) camera.fov_deg = *options.fov_deg;
-  if (camera.eye == camera.target)
-    throw Exit(kUsage, "--eye and --target are the same point; move one of them");
+  check_camera(camera, "the camera");
   return camera;
+}
+
+void check_camera(const Camera& camera, const std::string& whose) {
+  const auto fail = [&](const std::string& what) { throw Exit(kUsage, whose + ": " + what); };
+  const auto is_far = [](const glm::vec3& p) {
+    return !(std::max({std::abs(p.x), std::abs(p.y), std::abs(p.z)}) <= kFarthest);
+  };
+  if (is_far(camera.eye)) fail("its eye is more than 1e9 from the origin; move it nearer");
+  if (is_far(camera.target)) fail("its target is more than 1e9 from the origin; move it nearer");
+  if (camera.eye == camera.target) fail("its eye and its target are the same point; move one of them");
+  if (!(glm::length(glm::dvec3(camera.up)) > 0.0) || is_far(camera.up))
+    fail("its up is no direction; give one such as 0,1,0");
+  if (!(camera.fov_deg > 0.0f && camera.fov_deg < 180.0f)) fail("its field of view is not within 0 and 180 degrees");
 }
 
 PixelBox part_of(const DrawOptions& options) {

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <CLI/CLI.hpp>
 #include <glm/glm.hpp>
 #include <optional>
 #include <string>
@@ -10,6 +9,10 @@
 #include "pinocchio/load.h"
 #include "pinocchio/scene.h"
 #include "pinocchio/view.h"
+
+namespace CLI {
+class App;
+}
 
 namespace pinocchio::app {
 
@@ -54,7 +57,8 @@ void add_draw_options(CLI::App& verb, DrawOptions& options);
 
 // Loads the scene and prints what of it is left out. Ends the verb with kBadScene where the file cannot be read,
 // or is not read whole and options.strict.
-[[nodiscard]] Scene load_whole(const DrawOptions& options, Warnings& warnings);
+[[nodiscard]] Scene load_whole(const DrawOptions& options, Warnings& warnings,
+                               pinocchio::Progress* progress = nullptr);
 
 // A default light for a scene that has none; said on stderr.
 void light_if_dark(Scene& scene, const DrawOptions& options);
@@ -64,6 +68,9 @@ void light_if_dark(Scene& scene, const DrawOptions& options);
 
 // The camera that the options ask for. Ends the verb with kUsage where the scene has no such camera.
 [[nodiscard]] Camera camera_for(const DrawOptions& options, const Scene& scene);
+
+// Ends the verb with kUsage where nothing can be seen from there: `whose` begins the line.
+void check_camera(const Camera& camera, const std::string& whose);
 
 // The pixels to draw: --crop within --size, or all. Ends the verb with kUsage where they are none.
 [[nodiscard]] PixelBox part_of(const DrawOptions& options);

@@ -1,10 +1,13 @@
 #include "app/output.h"
 
+#include <CLI/CLI.hpp>
 #include <algorithm>
+#include <cmath>
 #include <nlohmann/json.hpp>
 #include <system_error>
 
 #include "app/errors.h"
+#include "app/parse.h"
 #include "core/output/aovs.h"
 #include "core/image/atomic_file.h"
 #include "core/image/png.h"
@@ -16,6 +19,15 @@ namespace {
 std::string check_extension(const std::string& file, const std::string& extension) {
   if (std::filesystem::path(file).extension() == extension) return {};
   return "'" + file + "' does not end in " + extension;
+}
+
+constexpr float kMostStops = 64.0f;
+
+// CLI::Range lets NaN through.
+std::string is_stops(const std::string& text) {
+  const std::optional<float> value = parse_float(text);
+  if (value && std::abs(*value) <= kMostStops) return {};
+  return "'" + text + "' is no number of stops from -64 to 64";
 }
 
 }  // namespace
@@ -48,8 +60,12 @@ void add_output_options(CLI::App& verb, OutputOptions& options) {
           "how the EXR is packed, without loss all of them (zip)")
       ->type_name(type);
   verb.add_option("--exposure", options.exposure_ev, "of the preview, in stops (0)")
-      ->check(CLI::Range(-64.0, 64.0));
-  verb.add_flag("--deterministic", options.deterministic, "leave the render time out of the EXR");
+      ->check(CLI::Validator(is_stops, "-64 to 64"));
+  verb.add_flag("--deterministic", options.deterministic,
+                "leave the render time out of the EXR: the same file, whatever machine draws it");
+  verb.add_flag("--skip-existing", options.skip_existing,
+                "leave out frames whose EXR is whole, of the same settings (its header says) and not older than the "
+                "scene");
 }
 
 void write_json(const std::filesystem::path& file, const nlohmann::json& json) {
@@ -83,15 +99,28 @@ void check_outputs(const OutputOptions& options, const std::vector<int>& frame_n
   }
 }
 
+std::vector<NamedFile> output_files(const OutputOptions& options, const std::vector<int>& frame_numbers) {
+  std::vector<NamedFile> files;
+  for (const auto& [role, pattern] : {std::pair("-o", options.exr), std::pair("--preview", options.preview)})
+    for (std::size_t i = 0; i < frame_numbers.size() && !pattern.empty(); ++i)
+      files.push_back({role, numbered(pattern, frame_numbers[i])});
+  return files;
+}
+
+ExrOptions exr_options(const OutputOptions& options, int frame_number) {
+  return {.layers = options.aovs, .compression = options.compression, .frame = frame_number};
+}
+
 bool keeps_mask(const OutputOptions& options) {
   return !options.exr.empty() && parse_aovs(options.aovs)->contains("shadow");
 }
 
 void write_outputs(const OutputOptions& options, const DrawnFrame& frame) {
-  if (!options.exr.empty())
-    write_exr(numbered(options.exr, frame.number), frame.picture,
-              {options.aovs, options.compression,
-               options.deterministic ? std::nullopt : std::optional(frame.render_s)});
+  if (!options.exr.empty()) {
+    ExrOptions exr = exr_options(options, frame.number);
+    if (!options.deterministic) exr.render_s = frame.render_s;
+    write_exr(numbered(options.exr, frame.number), frame.picture, exr);
+  }
   if (!options.preview.empty())
     write_png(numbered(options.preview, frame.number), preview(frame.picture.color, options.exposure_ev));
 }

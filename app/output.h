@@ -1,17 +1,22 @@
 #pragma once
 
-#include <CLI/CLI.hpp>
 #include <filesystem>
 #include <nlohmann/json_fwd.hpp>
 #include <string>
+#include <vector>
 
+#include "app/named_files.h"
 #include "core/parallel/workers.h"
 #include "pinocchio/renderer.h"
 #include "pinocchio/scene.h"
 
+namespace CLI {
+class App;
+}
+
 namespace pinocchio::app {
 
-// -o, --preview, --aov, --compression, --exposure, --deterministic
+// -o, --preview, --aov, --compression, --exposure, --deterministic, --skip-existing
 struct OutputOptions {
   std::string exr;      // "####" is the frame's number
   std::string preview;  // PNG
@@ -19,7 +24,11 @@ struct OutputOptions {
   ExrCompression compression = ExrCompression::zip;
   float exposure_ev = 0.0f;
   bool deterministic = false;
+  bool skip_existing = false;
 };
+
+// What the frame's EXR is written by, but for the time that it took.
+[[nodiscard]] ExrOptions exr_options(const OutputOptions& options, int frame_number);
 
 // A frame on its way to its files.
 struct DrawnFrame {
@@ -41,6 +50,10 @@ void make_folder(const std::filesystem::path& folder);
 // Ends the verb before anything is drawn: with kUsage where several frames would go to one file, with
 // kFailed where a file cannot be written.
 void check_outputs(const OutputOptions& options, const std::vector<int>& frame_numbers);
+
+// The files that these frames go to, each with the option that names it.
+[[nodiscard]] std::vector<NamedFile> output_files(const OutputOptions& options,
+                                                  const std::vector<int>& frame_numbers);
 
 // Whether an EXR with the shadow mask in it is asked for.
 [[nodiscard]] bool keeps_mask(const OutputOptions& options);

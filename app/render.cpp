@@ -1,4 +1,5 @@
 // render: headless, one frame or a range, to EXR and PNG.
+#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cstdio>
 #include <memory>
@@ -12,6 +13,7 @@
 #include "app/frame_writer.h"
 #include "app/options.h"
 #include "app/output.h"
+#include "app/skip_existing.h"
 #include "app/stats.h"
 #include "app/verbs.h"
 #include "core/base/clock.h"
@@ -40,10 +42,11 @@ FrameResult precise(const FrameRequest& request, Workers& workers) {
   mean.view = request.view;
   mean.settings = request.settings;
   const int spp = request.settings.spp;
-  for (int k = 0; k < spp && !interrupted(); ++k) {
+  for (int k = 0; k < spp; ++k) {
     View view = request.view;
     view.jitter = jitter_of(k);
-    ReferencePicture sample = reference_render(request.scene, view, request.settings.depth, workers);
+    ReferencePicture sample = reference_render(request.scene, view, request.settings.depth, workers, &run_progress(),
+                                               request.settings.filter_textures);
     if (k == 0) {
       mean.color = std::move(sample.color);
       mean.ids = std::move(sample.ids);
@@ -68,14 +71,16 @@ class RenderRun {
     Scene scene = load_scene_for(options_.draw);
     const Camera camera = camera_for(options_.draw, scene);
     frames_ = animate(options_.animation, camera);
-    check();
+    check(scene);
     Drawing drawing(options_.draw, std::move(scene),
                     frames_.size() > 1 ? Exchange::pipelined : Exchange::sync, keeps_mask(options_.output));
     const double ready_s = now_s();
-    draw(drawing);
+    leave_out_existing(drawing);
+    if (!frames_.empty()) draw(drawing);
     if (!options_.stats_json.empty()) write_json(options_.stats_json, stats(drawing));
     if (!options_.draw.quiet) report(drawing, ready_s - begin_s);
-    return interrupted() ? kInterrupted : kDone;
+    throw_if_cancelled(&run_progress());
+    return kDone;
   }
 
  private:
@@ -88,16 +93,34 @@ class RenderRun {
     return json;
   }
 
-  void check() const {
+  void check(const Scene& scene) const {
     if (options_.output.exr.empty() && options_.output.preview.empty() && options_.stats_json.empty())
       throw Exit(kUsage,
                  "nothing to write; name a file with -o FILE.exr, --preview FILE.png or --stats-json");
     std::vector<int> numbers;
     for (const CameraFrame& frame : frames_) numbers.push_back(frame.number);
+    std::vector<NamedFile> outputs = output_files(options_.output, numbers);
+    outputs.push_back({"--stats-json", options_.stats_json});
+    check_apart(input_files(options_.draw, options_.animation, scene), outputs);
     check_outputs(options_.output, numbers);
+    if (options_.output.skip_existing && (options_.output.exr.empty() || options_.budget.any()))
+      throw Exit(kUsage, "--skip-existing: the EXR's header says what it is; give -o FILE.exr, and no --budget");
+    if (options_.output.skip_existing && options_.draw.settings.exchange == Exchange::reproject)
+      throw Exit(kUsage, "--skip-existing: a reprojected frame depends on those before it; use --exchange pipelined");
     if (!options_.stats_json.empty()) check_writable(options_.stats_json);
   }
 
+  void leave_out_existing(const Drawing& drawing) {
+    if (!options_.output.skip_existing) return;
+    std::erase_if(frames_, [&](const CameraFrame& frame) {
+      throw_if_cancelled(&run_progress());
+      const bool drawn = is_drawn_already(options_.output, drawing.request(frame.camera), frame.number);
+      skipped_ += drawn;
+      return drawn;
+    });
+  }
+
+  // What was delivered before a signal is kept.
   void draw(Drawing& drawing) {
     Progress progress(options_.draw.quiet ? "off" : options_.draw.progress, "render", frames_.size());
     if (options_.budget.any()) budget_.emplace(drawing, options_.draw, options_.budget, frames_);
@@ -106,10 +129,13 @@ class RenderRun {
       deliver(drawing, writer, std::move(picture));
       progress.step();
     };
-    if (options_.draw.precise)
-      draw_precise(drawing, take);
-    else
-      draw_frames(drawing, take);
+    try {
+      if (options_.draw.precise)
+        draw_precise(drawing, take);
+      else
+        draw_frames(drawing, take);
+    } catch (const Cancelled&) {
+    }
     written_ = writer.finish();
   }
 
@@ -117,9 +143,9 @@ class RenderRun {
   void draw_frames(Drawing& drawing, Take take) {
     SampleMean mean(drawing.settings().spp, take);
     Renderer renderer(drawing.engine(), {[&](Frame& frame) { mean.add(frame); },
-                                         [&](const FrameRecord& record) { records_.push_back(record); }});
+                                         [&](const FrameRecord& record) { records_.push_back(record); }},
+                      &run_progress());
     for (const CameraFrame& frame : frames_) {
-      if (interrupted()) break;
       begun_s_.push_back(now_s());
       delivering_s_ = 0.0;
       submit_samples(renderer,
@@ -133,13 +159,11 @@ class RenderRun {
   template <class Take>
   void draw_precise(Drawing& drawing, Take take) {
     for (const CameraFrame& frame : frames_) {
-      if (interrupted()) break;
       FrameRecord record;
       record.number = records_.size();
       begun_s_.push_back(now_s());
       record[Stage::composite].begin_s = record.frame.begin_s = begun_s_.back();
       FrameResult mean = precise(drawing.request(frame.camera), drawing.workers());
-      if (interrupted()) break;
       record[Stage::composite].end_s = record.frame.end_s = now_s();
       take(std::move(mean));
       records_.push_back(record);
@@ -171,6 +195,7 @@ class RenderRun {
       std::printf("  %zu pixels a frame are holes of the reprojection\n",
                   holes_ / std::max<std::size_t>(delivered_, 1));
     if (budget_) budget_->report();
+    if (skipped_ > 0) std::printf("  %zu frames were there already\n", skipped_);
     for (const int number : written_)
       for (const std::string& pattern : {options_.output.exr, options_.output.preview})
         if (!pattern.empty()) std::printf("%s\n", numbered(pattern, number).c_str());
@@ -184,6 +209,7 @@ class RenderRun {
   std::vector<FrameRecord> records_;
   std::vector<int> written_;  // numbers of the frames whose files are whole
   std::size_t delivered_ = 0;
+  std::size_t skipped_ = 0;  // their files were there
   std::size_t holes_ = 0;  // reprojected: pixels that no older frame had an answer for
 };
 

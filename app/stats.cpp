@@ -95,6 +95,7 @@ nlohmann::json figures(const std::vector<FrameRecord>& records, const Settings& 
           {"stages", stages},
           {"rays", rays_json(records)},
           {"fps", frames_per_second(records)},
+          {"memory", {{"peak_bytes", peak_memory_bytes()}}},
           {"plan", to_json(settings)},
           {"scene",
            {{"file", scene.source},

@@ -2,8 +2,11 @@
 // exit code or throws Exit.
 #pragma once
 
-#include <CLI/CLI.hpp>
 #include <functional>
+
+namespace CLI {
+class App;
+}
 
 namespace pinocchio::app {
 

@@ -1,10 +1,13 @@
 // view: the window.
+#include <CLI/CLI.hpp>
+#include <cmath>
 #include <cstdio>
 #include <cstdlib>
 #include <memory>
 
 #include "app/console.h"
 #include "app/errors.h"
+#include "app/parse.h"
 #include "app/verbs.h"
 #include "app/window/session.h"
 #include "gl/error.h"
@@ -49,8 +52,12 @@ Run add_view(CLI::App& program) {
   add_scene_options(verb, options->draw);
   add_size_option(verb, options->draw, "pixels of the window's inside (800x600)");
   add_settings_options(verb, options->draw);
+  add_budget_options(verb, options->budget);
   verb.add_option("--exposure", options->exposure_ev, "stops brighter (0)")
-      ->check(CLI::Range(-kMostExposure, kMostExposure));
+      ->check([](const std::string& text) {
+        const std::optional<float> value = parse_float(text);  // CLI::Range lets NaN through
+        return value && std::abs(*value) <= kMostExposure ? std::string() : "'" + text + "' is no number of stops that is shown";
+      });
   verb.add_flag("--watch", options->watch, "load the scene anew when its files change, and the shaders in PINOCCHIO_SHADERS");
   verb.add_flag("!--no-vsync", options->vsync, "do not wait for the display between frames");
   return [options] { return view(*options); };

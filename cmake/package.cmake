@@ -24,6 +24,18 @@ install(FILES bench/chart/charts.py bench/chart/plot.py DESTINATION share/pinocc
 install(FILES README.md LICENSE CHANGELOG.md CONTRIBUTING.md DESTINATION share/doc/pinocchio COMPONENT program)
 install(DIRECTORY docs DESTINATION share/doc/pinocchio COMPONENT program)
 
+# The man page and the shells' completions are made from the program's --help.
+find_package(Python3 REQUIRED COMPONENTS Interpreter)
+set(help_files ${PROJECT_BINARY_DIR}/help/pinocchio.1 ${PROJECT_BINARY_DIR}/help/pinocchio.bash ${PROJECT_BINARY_DIR}/help/_pinocchio)
+add_custom_command(OUTPUT ${help_files}
+  COMMAND Python3::Interpreter ${PROJECT_SOURCE_DIR}/cmake/from_help.py $<TARGET_FILE:pinocchio> ${PROJECT_BINARY_DIR}/help
+  DEPENDS pinocchio ${PROJECT_SOURCE_DIR}/cmake/from_help.py VERBATIM)
+add_custom_target(help_files ALL DEPENDS ${help_files})
+install(FILES ${PROJECT_BINARY_DIR}/help/pinocchio.1 DESTINATION share/man/man1 COMPONENT program)
+install(FILES ${PROJECT_BINARY_DIR}/help/pinocchio.bash DESTINATION share/bash-completion/completions RENAME pinocchio COMPONENT program)
+install(FILES ${PROJECT_BINARY_DIR}/help/_pinocchio DESTINATION share/zsh/site-functions COMPONENT program)
+install(DIRECTORY farm DESTINATION share/pinocchio USE_SOURCE_PERMISSIONS COMPONENT program)
+
 install(RUNTIME_DEPENDENCY_SET pinocchio_libraries
         PRE_EXCLUDE_REGEXES "^ld-linux" "^lib(c|m|dl|rt|pthread)\\.so" "^lib(GL|EGL|OpenGL|GLX|OSMesa)"
         LIBRARY DESTINATION lib COMPONENT bundled EXCLUDE_FROM_ALL)
@@ -32,7 +44,7 @@ set_target_properties(pinocchio PROPERTIES INSTALL_RPATH "$ORIGIN/../lib")
 # RPATH, not RUNPATH: it also holds for libraries of libraries.
 target_link_options(pinocchio PRIVATE -Wl,--disable-new-dtags)
 
-set(CPACK_GENERATOR TGZ)
+set(CPACK_GENERATOR TGZ DEB)
 set(CPACK_PACKAGE_FILE_NAME pinocchio-${PROJECT_VERSION}-linux-x86_64)
 set(CPACK_ARCHIVE_COMPONENT_INSTALL ON)
 set(CPACK_COMPONENTS_ALL program bundled)
@@ -40,4 +52,13 @@ set(CPACK_COMPONENTS_GROUPING ALL_COMPONENTS_IN_ONE)
 set(CPACK_COMPONENT_INCLUDE_TOPLEVEL_DIRECTORY ON)
 set(CPACK_VERBATIM_VARIABLES ON)
 set(CPACK_STRIP_FILES ON)
+# The .deb takes its libraries from Debian; OpenGL is opened at run time, so that no linker names it.
+set(CPACK_PROJECT_CONFIG_FILE ${PROJECT_SOURCE_DIR}/cmake/package_deb.cmake)
+set(CPACK_PACKAGE_CONTACT "The Pinocchio authors <pinocchio@example.org>")
+set(CPACK_PACKAGE_DESCRIPTION_SUMMARY "Hybrid renderer: a CPU ray tracer and OpenGL share every frame")
+set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
+set(CPACK_DEBIAN_PACKAGE_SECTION graphics)
+set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON)
+set(CPACK_DEBIAN_PACKAGE_DEPENDS "libegl1, libgl1-mesa-dri")
+set(CPACK_DEBIAN_PACKAGE_RECOMMENDS "libosmesa6, python3-matplotlib")
 include(CPack)

@@ -1,5 +1,7 @@
 #include "gl/open.h"
 
+#include <algorithm>
+
 #include "gl/egl.h"
 #include "gl/error.h"
 #include "gl/glfw.h"
@@ -41,6 +43,16 @@ std::unique_ptr<Context> open_context(const ContextRequest& request) {
   throw NoContextError("no OpenGL context" + (asked.empty() ? asked : " for" + asked) + ": " +
                        (failures.empty() ? "no such device" : failures) +
                        "; 'pinocchio info --system' lists what was tried, --mode raytrace needs none");
+}
+
+bool may_be_hardware(const ContextRequest& request) {
+  std::vector<Candidate> ways = all_candidates();
+  std::erase_if(ways, [&](const Candidate& way) { return !wanted(way, request); });
+  const bool any_listed = std::ranges::any_of(ways, [](const Candidate& way) { return way.device.has_value(); });
+  // Where devices are listed, those ways that name none lead to one of them.
+  return std::ranges::any_of(ways, [&](const Candidate& way) {
+    return !way.software && (way.device || !any_listed || way.backend == "glfw");
+  });
 }
 
 std::vector<Attempt> try_all_contexts() {

@@ -12,7 +12,9 @@ namespace pinocchio::gl {
 namespace {
 
 static_assert(kKeySpace == GLFW_KEY_SPACE && kKeyEscape == GLFW_KEY_ESCAPE && kKeyEnter == GLFW_KEY_ENTER &&
-              kKeyTab == GLFW_KEY_TAB && kKeyHome == GLFW_KEY_HOME && kKeyF1 == GLFW_KEY_F1 &&
+              kKeyTab == GLFW_KEY_TAB && kKeyHome == GLFW_KEY_HOME && kKeyF1 == GLFW_KEY_F1 && kKeyRight == GLFW_KEY_RIGHT &&
+              kKeyLeft == GLFW_KEY_LEFT &&
+              kKeyLeftControl == GLFW_KEY_LEFT_CONTROL && kKeyRightControl == GLFW_KEY_RIGHT_CONTROL && kKeyF10 == GLFW_KEY_F10 &&
               kKeyF11 == GLFW_KEY_F11 && kKeyF12 == GLFW_KEY_F12 && kKeyPlus == GLFW_KEY_KP_ADD &&
               kKeyMinus == GLFW_KEY_KP_SUBTRACT);
 
@@ -58,6 +60,22 @@ void on_drop(GLFWwindow* window, int count, const char** paths) {
   events_of(window).push_back(DropEvent{{paths, paths + count}});
 }
 
+void on_text(GLFWwindow* window, unsigned character) {
+  events_of(window).push_back(TextEvent{character});
+}
+
+void on_expose(GLFWwindow* window) {
+  events_of(window).push_back(ExposeEvent{});
+}
+
+void on_resize(GLFWwindow* window, int, int) {
+  events_of(window).push_back(ExposeEvent{});
+}
+
+void on_focus(GLFWwindow* window, int) {
+  events_of(window).push_back(ExposeEvent{});
+}
+
 GlfwContext::Request request_of(const std::string& title, glm::ivec2 size, bool debug) {
   GlfwContext::Request request;
   request.title = title;
@@ -99,6 +117,10 @@ void Window::listen() {
   glfwSetCursorPosCallback(handle(), on_pointer);
   glfwSetScrollCallback(handle(), on_scroll);
   glfwSetDropCallback(handle(), on_drop);
+  glfwSetCharCallback(handle(), on_text);
+  glfwSetWindowRefreshCallback(handle(), on_expose);
+  glfwSetFramebufferSizeCallback(handle(), on_resize);
+  glfwSetWindowFocusCallback(handle(), on_focus);
 }
 
 std::vector<WindowEvent> Window::take_events(double timeout_s) {

@@ -16,10 +16,23 @@ enum Key : int {
   kKeyEscape = 256,
   kKeyEnter = 257,
   kKeyTab = 258,
+  kKeyRight = 262,
+  kKeyLeft = 263,
   kKeyHome = 268,
   kKeyF1 = 290,
+  kKeyF2,
+  kKeyF3,
+  kKeyF4,
+  kKeyF5,
+  kKeyF6,
+  kKeyF7,
+  kKeyF8,
+  kKeyF9,
+  kKeyF10,
   kKeyF11 = 300,
   kKeyF12 = 301,
+  kKeyLeftControl = 341,
+  kKeyRightControl = 345,
   kKeyPlus = 334,   // of the number pad
   kKeyMinus = 333,  // of the number pad
 };
@@ -50,7 +63,13 @@ struct ScrollEvent {
 struct DropEvent {
   std::vector<std::filesystem::path> files;
 };
-using WindowEvent = std::variant<KeyEvent, ButtonEvent, PointerEvent, ScrollEvent, DropEvent>;
+struct TextEvent {
+  unsigned character = 0;  // Unicode, as typed
+};
+// What the window showed is lost, or its size or focus changed: it is to be drawn again.
+struct ExposeEvent {};
+using WindowEvent =
+    std::variant<KeyEvent, ButtonEvent, PointerEvent, ScrollEvent, DropEvent, TextEvent, ExposeEvent>;
 
 // A window on the display with its OpenGL context, current on the thread that opened it: the main one.
 class Window {

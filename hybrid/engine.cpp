@@ -64,6 +64,30 @@ std::shared_ptr<const GpuMesh> Engine::Parts::gpu_mesh(const std::shared_ptr<con
   return found;
 }
 
+std::shared_ptr<const Tracer> Engine::Parts::tracer_of(const Scene& scene, const Settings& resolved,
+                                                        Progress* progress) {
+  if (!last_tracer || &last_tracer->mesh() != scene.mesh.get() || !same_tracer(resolved, last_settings))
+    last_tracer = prepare(scene, resolved, progress);
+  last_settings = resolved;
+  return last_tracer;
+}
+
+const SceneStats& Engine::Parts::stats_of(const Scene& scene) {
+  if (last_mesh == scene.mesh) {
+    recount_lights(scene, last_stats);
+  } else {
+    last_stats = analyze(scene);
+    last_mesh = scene.mesh;
+  }
+  return last_stats;
+}
+
+void settle_lights(Scene& scene, const Settings& settings) {
+  drop_idle_casters(scene);
+  if (settings.mask_bits > 0) return;
+  for (Light& light : scene.lights) light.casts_shadow = false;
+}
+
 Engine::Engine(const EngineOptions& options) : parts_(std::make_unique<Parts>(options)) {}
 
 Engine::Engine(gl::Context& context) : Engine() {
@@ -74,8 +98,7 @@ Engine::~Engine() = default;
 
 Expected<Settings> Engine::resolve(const Scene& scene, glm::ivec2 size, const Settings& settings,
                                    bool keeps_mask) const {
-  if (settings.uses_gpu()) open_gl();
-  return pinocchio::resolve(settings, analyze(scene), {size, gl_info() && gl_info()->software, keeps_mask});
+  return pinocchio::resolve(settings, parts_->stats_of(scene), {size, gl_is_software(settings), keeps_mask});
 }
 
 std::shared_ptr<const Tracer> Engine::prepare(const Scene& scene, const Settings& settings, Progress* progress) {
@@ -90,10 +113,7 @@ Expected<FrameResult> Engine::render(const Scene& scene, const View& view, const
                                      Progress* progress) {
   const Expected<Settings> resolved = resolve(scene, view.box().size(), settings);
   if (!resolved) return Unexpected(resolved.error());
-  std::shared_ptr<const Tracer>& tracer = parts_->last_tracer;
-  if (!tracer || &tracer->mesh() != scene.mesh.get() || !same_tracer(*resolved, parts_->last_settings))
-    tracer = prepare(scene, *resolved, progress);
-  parts_->last_settings = *resolved;
+  const std::shared_ptr<const Tracer> tracer = parts_->tracer_of(scene, *resolved, progress);
   begin_phase(progress, "render", resolved->spp);
   FrameResult result;
   SampleMean mean(resolved->spp, [&](FrameResult&& picture) { result = std::move(picture); });
@@ -109,6 +129,20 @@ Workers& Engine::workers(int threads) const {
 
 void Engine::open_gl() const {
   (void)parts_->gpu();
+}
+
+bool Engine::gl_is_software(const Settings& settings) const {
+  const EngineOptions& o = parts_->options;
+  if (settings.by_machine && !parts_->context) {
+    if (!o.get_proc_address && !gl::may_be_hardware({o.backend, o.device, o.gl_debug})) return true;
+    try {
+      open_gl();
+    } catch (const NoOpenGlError&) {
+      return true;
+    }
+  }
+  if (settings.uses_gpu()) open_gl();
+  return gl_info() && gl_info()->software;
 }
 
 const gl::ContextInfo* Engine::gl_info() const {

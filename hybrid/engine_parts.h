@@ -15,6 +15,7 @@
 #include "hybrid/gpu/programs.h"
 #include "hybrid/gpu/shading_passes.h"
 #include "hybrid/gpu/visibility_pass.h"
+#include "hybrid/settings/scene_stats.h"
 #include "pinocchio/engine.h"
 
 namespace pinocchio {
@@ -36,6 +37,9 @@ class TracingThread {
   std::jthread thread_;
 };
 
+// Lights that cast nothing in a frame of these settings: those that reach nothing, and all where it has no shadows.
+void settle_lights(Scene& scene, const Settings& settings);
+
 // The passes of the GPU, compiled once.
 struct GpuPasses {
   explicit GpuPasses(std::shared_ptr<Programs> of)
@@ -55,6 +59,11 @@ struct Engine::Parts {
   // The mesh's buffers on the GPU; made when first asked for, let go when nobody else has the mesh.
   [[nodiscard]] std::shared_ptr<const GpuMesh> gpu_mesh(const std::shared_ptr<const Mesh>& mesh);
 
+  // The last scene's are kept, while its mesh is the same.
+  [[nodiscard]] std::shared_ptr<const Tracer> tracer_of(const Scene& scene, const Settings& resolved,
+                                                        Progress* progress = nullptr);
+  [[nodiscard]] const SceneStats& stats_of(const Scene& scene);
+
   EngineOptions options;
   std::unique_ptr<gl::Context> own;  // outlives what was made in it
   gl::Context* context = nullptr;    // own or the caller's; null: none is open
@@ -62,8 +71,10 @@ struct Engine::Parts {
   std::mutex pools_mutex;
   std::map<int, Workers> pools;  // by number of threads; idle ones cost nothing
   std::map<std::shared_ptr<const Mesh>, std::shared_ptr<const GpuMesh>> meshes;
-  std::shared_ptr<const Tracer> last_tracer;  // of render()
-  Settings last_settings;                     // that it was built by
+  std::shared_ptr<const Tracer> last_tracer;
+  Settings last_settings;  // that it was built by
+  std::shared_ptr<const Mesh> last_mesh;
+  SceneStats last_stats;  // of it
 
   TracingThread tracing;  // last: ends first
 };

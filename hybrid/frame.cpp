@@ -96,23 +96,80 @@ FrameResult Frame::read() const {
   return result;
 }
 
-void write_exr(const std::filesystem::path& file, const FrameResult& frame, const ExrOptions& options,
-               Progress* progress) {
-  const Expected<AovSet> aovs = parse_aovs(options.layers);
-  if (!aovs) throw std::invalid_argument(aovs.error().message());
+SurfaceImages surfaces_of(const FrameResult& frame) {
   View view = frame.view;
   view.jitter = glm::vec2(0.0f);
-  Workers workers(frame.settings.threads);
   const shared::ViewParams params = view_params(view);
-  const auto surfaces = [&](int y0, int y1) {
-    return surface_images(*frame.scene.mesh, params, frame.ids, y0, y1);
-  };
-  const FrameOutput output{view.size,       view.box(), frame.scene,      view.camera, frame.color, frame.ids,
-                           frame.mask,      frame.reflection, surfaces,
-                           to_json(frame.settings, false).dump(), options.render_s};
-  ExrFile header = frame_exr(output, *aovs, 0, 0);
+  const glm::ivec2 size = frame.ids.size();
+  SurfaceImages all{Image<float>(size), Image<glm::vec3>(size), Image<glm::vec3>(size), Image<glm::vec3>(size)};
+  constexpr int kLines = 16;  // that a thread takes at once
+  Workers workers(frame.settings.threads);
+  workers.for_each(static_cast<std::size_t>((size.y + kLines - 1) / kLines), [&](std::size_t i) {
+    const int y0 = static_cast<int>(i) * kLines, y1 = std::min(y0 + kLines, size.y);
+    const SurfaceImages lines = surface_images(*frame.scene.mesh, params, frame.ids, y0, y1,
+                                                frame.settings.filter_textures);
+    const auto put = [&](const auto& from, auto& to) { std::ranges::copy(from.pixels(), &to.at(0, y0)); };
+    put(lines.z_eye, all.z_eye);
+    put(lines.p_world, all.p_world);
+    put(lines.n_shading, all.n_shading);
+    put(lines.albedo, all.albedo);
+  });
+  return all;
+}
+
+void unpack_mask(const FrameResult& frame, std::uint8_t* to) {
+  const glm::ivec2 size = frame.ids.size();
+  for (int y = 0; y < size.y; ++y)
+    for (int x = 0; x < size.x; ++x)
+      *to++ = static_cast<std::uint8_t>(frame.mask.bits() > 0 ? frame.mask.get(x, y) : 0u);
+}
+
+namespace {
+
+AovSet layers_of(const FrameResult& frame, const ExrOptions& options) {
+  const Expected<AovSet> wanted = parse_aovs(options.layers);
+  if (!wanted) throw std::invalid_argument(wanted.error().message());
+  AovSet layers = *wanted;
+  // A reprojected picture shows an older frame's, warped; its own are not traced yet.
+  if (frame.record.age_frames > 0) {
+    layers.erase("shadow");
+    layers.erase("reflection");
+  }
+  return layers;
+}
+
+FrameOutput output_of(const FrameResult& frame, const ExrOptions& options,
+                      std::function<SurfaceImages(int y0, int y1)> surfaces) {
+  return {frame.view.size, frame.view.box(), frame.scene,      frame.view.camera,   frame.color, frame.ids,
+          frame.mask,      frame.reflection, std::move(surfaces), to_json(frame.settings, false).dump(),
+          options.render_s, frame.settings.spp, options.frame, options.frames_per_second, frame.record.age_frames};
+}
+
+ExrFile header_of(const FrameOutput& output, const AovSet& layers, const ExrOptions& options) {
+  ExrFile header = frame_exr(output, layers, 0, 0);
   header.compression = options.compression;
-  write_exr(file, header, workers, [&](int y0, int y1) { return frame_channels(output, *aovs, y0, y1); }, progress);
+  return header;
+}
+
+}  // namespace
+
+void write_exr(const std::filesystem::path& file, const FrameResult& frame, const ExrOptions& options,
+               Progress* progress) {
+  View view = frame.view;
+  view.jitter = glm::vec2(0.0f);
+  const shared::ViewParams params = view_params(view);
+  const AovSet layers = layers_of(frame, options);
+  const FrameOutput output = output_of(
+      frame, options, [&](int y0, int y1) { return surface_images(*frame.scene.mesh, params, frame.ids, y0, y1,
+                                                                       frame.settings.filter_textures); });
+  const auto band = [&](int y0, int y1) { return frame_channels(output, layers, y0, y1); };
+  Workers workers(frame.settings.threads);
+  write_exr(file, header_of(output, layers, options), workers, band, progress);
+}
+
+ExrFile exr_header(const FrameResult& frame, const ExrOptions& options) {
+  const FrameOutput output = output_of(frame, options, [](int, int) { return SurfaceImages{}; });
+  return header_of(output, layers_of(frame, options), options);
 }
 
 }  // namespace pinocchio

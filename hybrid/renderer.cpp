@@ -35,15 +35,9 @@ bool reprojects_to(const FrameSlot& older, const FrameSlot& newer) {
          a.mask_bits == b.mask_bits && a.reflection == b.reflection && a.id_bits == b.id_bits;
 }
 
-// Lights that cast nothing in this frame: those that reach nothing, and all where it has no shadows.
-void settle_lights(FrameRequest& request) {
-  drop_idle_casters(request.scene);
-  if (request.settings.mask_bits > 0) return;
-  for (Light& light : request.scene.lights) light.casts_shadow = false;
-}
-
-bool is_done(const std::future<void>& tracing) {
-  return tracing.wait_for(std::chrono::seconds(0)) == std::future_status::ready;
+// Whether the CPU has it and is not done.
+bool is_at_work(const FrameSlot& frame) {
+  return frame.tracing.valid() && frame.tracing.wait_for(std::chrono::seconds(0)) != std::future_status::ready;
 }
 
 }  // namespace
@@ -57,11 +51,13 @@ class Renderer::Loop {
 
   void submit(FrameRequest request);
   bool try_submit(FrameRequest request);
-  [[nodiscard]] bool is_drawing_alone() const;
+  bool advance();
+  [[nodiscard]] bool is_tracing() const;
   void drain();
 
  private:
   [[nodiscard]] FrameSlot* frames_back(int n);  // begun n frames before the newest; null: there is none
+  [[nodiscard]] int frames_drawn() const;  // and not delivered
   bool repeat(const FrameRequest& request);
   FrameSlot& begin(FrameRequest&& request);
   void draw(FrameSlot& frame);
@@ -89,7 +85,7 @@ class Renderer::Loop {
 
 void Renderer::Loop::submit(FrameRequest request) {
   throw_if_cancelled(progress_);
-  settle_lights(request);
+  settle_lights(request.scene, request.settings);
   if (const FrameSlot* const last = frames_back(0);
       last && last->request.settings.exchange != request.settings.exchange)
     drain();
@@ -108,27 +104,54 @@ void Renderer::Loop::submit(FrameRequest request) {
 }
 
 bool Renderer::Loop::try_submit(FrameRequest request) {
-  if (FrameSlot* const last = frames_back(0);
-      last && last->state == FrameSlot::State::drawn && !schedule_of(last->request.settings).gpu) {
-    if (last->tracing.valid() && !is_done(last->tracing)) return false;
-    finish(*last);
-  }
-  if (schedule_of(request.settings).gpu) {
+  settle_lights(request.scene, request.settings);
+  const Schedule schedule = schedule_of(request.settings);
+  const FrameSlot* const last = frames_back(0);
+  const bool same_way = last && last->request.settings.exchange == request.settings.exchange &&
+                        schedule_of(last->request.settings).latency == schedule.latency;
+  const bool all_delivered = advance();
+  if (!all_delivered && (!same_way || last->request == request || frames_drawn() > std::min(schedule.latency, 1)))
+    return false;
+  if (schedule.reprojects) {
+    // Who asks for the last frame again wants it with its own mask and reflection.
+    FrameSlot* const newest = frames_back(0);
+    const bool again = newest && newest->request == request;
+    if (again && newest->state == FrameSlot::State::delivered && !newest->complete) start_trace(*newest);
+    const FrameSlot* const awaited = again ? newest : frames_back(kMostLatency - 1);
+    if (awaited && is_at_work(*awaited)) return false;
     submit(std::move(request));
     return true;
   }
-  settle_lights(request);
-  if (repeat(request)) return true;
-  drain();
-  start_trace(begin(std::move(request)));
+  if (all_delivered && repeat(request)) return true;
+  begin(std::move(request));
+  (void)advance();
   return true;
 }
 
-bool Renderer::Loop::is_drawing_alone() const {
-  return std::ranges::any_of(slots_, [](const std::unique_ptr<FrameSlot>& slot) {
-    return slot && slot->state == FrameSlot::State::drawn && slot->tracing.valid() &&
-           !schedule_of(slot->request.settings).gpu;
-  });
+bool Renderer::Loop::advance() {
+  for (int n = kMostLatency; n >= 0; --n) {
+    FrameSlot* const frame = frames_back(n);
+    if (!frame || frame->state != FrameSlot::State::drawn) continue;
+    start_trace(*frame);
+    if (is_at_work(*frame)) return false;
+    // The CPU has the next frame while the GPU finishes this one.
+    if (FrameSlot* const next = n > 0 ? frames_back(n - 1) : nullptr;
+        next && next->state == FrameSlot::State::drawn)
+      start_trace(*next);
+    finish(*frame);
+  }
+  return true;
+}
+
+int Renderer::Loop::frames_drawn() const {
+  return static_cast<int>(std::ranges::count_if(slots_, [](const std::unique_ptr<FrameSlot>& slot) {
+    return slot && slot->state == FrameSlot::State::drawn;
+  }));
+}
+
+bool Renderer::Loop::is_tracing() const {
+  return std::ranges::any_of(slots_,
+                             [](const std::unique_ptr<FrameSlot>& slot) { return slot && is_at_work(*slot); });
 }
 
 void Renderer::Loop::drain() {
@@ -169,7 +192,7 @@ bool Renderer::Loop::repeat(const FrameRequest& request) {
   give(*last);
   last->record.frame.end_s = now_s();
   if (sinks_.record) sinks_.record(last->record);
-  advance(progress_);
+  pinocchio::advance(progress_);
   return true;
 }
 
@@ -253,7 +276,7 @@ void Renderer::Loop::deliver(FrameSlot& frame, const FrameSlot* older) {
   frame.record.latency_frames = static_cast<int>(next_number_ - 1 - frame.record.number);
   if (older) frame.record.age_frames = static_cast<int>(frame.record.number - older->record.number);
   give(frame);
-  if (!frame.request.settings.traces()) advance(progress_);
+  if (!frame.request.settings.traces()) pinocchio::advance(progress_);
 }
 
 void Renderer::Loop::give(FrameSlot& slot) {
@@ -291,8 +314,11 @@ void Renderer::submit(const FrameRequest& request) {
 bool Renderer::try_submit(const FrameRequest& request) {
   return loop_->try_submit(request);
 }
-bool Renderer::is_drawing_alone() const {
-  return loop_->is_drawing_alone();
+bool Renderer::advance() {
+  return loop_->advance();
+}
+bool Renderer::is_tracing() const {
+  return loop_->is_tracing();
 }
 void Renderer::drain() {
   loop_->drain();

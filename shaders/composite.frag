@@ -5,7 +5,7 @@
 //   HAS_MASK          the CPU's shadow mask; without it every light reaches everything
 //   FREE_LIGHTS_ONLY  lights that cast are left out: the CPU adds them (design 2)
 //   HAS_REFLECTION    the CPU's mirrored and refracted light; traced_light.glsl has its formats
-//   HAS_TEXTURES      some material has a texture
+//   HAS_MAPS          some material has maps
 //   REPROJECT         mask and reflection are of an older frame, whose view and ids are given: each pixel
 //                     looks up where its point was seen then. Where that frame saw another triangle there,
 //                     nor one of the neighbours does, the pixel is a hole: every light reaches it, and it
@@ -16,6 +16,7 @@
 #include "shared/surface.glsl"
 #include "shared/phong.glsl"
 #include "scene_fetch.glsl"
+#include "map_fetch.glsl"
 #include "pixel_surface.glsl"
 #include "traced_light.glsl"
 
@@ -40,17 +41,19 @@ void main() {
   if (id == kNoTriangle) return;
 
   PixelSurface s = surface_of(id, pixel);
-  PhongParams material = fetch_material(id, s.corners, s.weights);
   Source source = source_of(pixel, id, s.p_world);
   Reach reach = reach_from(source, id);
-  vec3 sum = phong_ambient(material, ambient_light);
+  vec3 sum = phong_ambient(s.material, ambient_light);
   for (int i = 0; i < light_count; ++i) {
     float share = share_of_light(reach, fetch_mask_slot(i));
     if (share == 0.0) continue;
     Incident incident = incident_light(fetch_light(i), s.p_world);
     if (!faces_light(s.n.shading, s.n.geometric, incident.to_light)) continue;
-    sum += share * phong_light(material, incident, s.n.shading, s.to_viewer);
+    sum += share * phong_light(s.material, incident, s.n.shading, s.to_viewer);
   }
+#ifdef HAS_MAPS
+  sum *= s.alpha;
+#endif
 #ifdef HAS_REFLECTION
   sum += reflected_light(source.pixel, id);
 #endif

@@ -11,6 +11,7 @@
 #include "shared/surface.glsl"
 #include "shared/phong.glsl"
 #include "scene_fetch.glsl"
+#include "map_fetch.glsl"
 #include "pixel_surface.glsl"
 
 #ifdef NORMALS_ONLY
@@ -37,7 +38,7 @@ void main() {
   uint packed_normal = (fraction16(n.x) & 0xfffeu) | (n.z < 0.0 ? 1u : 0u) | fraction16(n.y) << 16u;
   vec3 forward = normalize(cross(step_y, step_x));
   float z_eye = dot(s.p_world - eye, forward);
-  vec3 diffuse = clamp(fetch_material(id, s.corners, s.weights).diffuse, 0.0, 1.0);
+  vec3 diffuse = clamp(s.material.diffuse, 0.0, 1.0);
   uvec3 rgb = uvec3(round(diffuse * 255.0));
   surface = uvec4(id, packed_normal, floatBitsToUint(z_eye), rgb.r | rgb.g << 8u | rgb.b << 16u | 0xff000000u);
 }

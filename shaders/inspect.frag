@@ -2,7 +2,8 @@
 // One of a frame's buffers as a picture for people (hybrid/inspect_pass.h), in linear light; a screen's sRGB
 // curve is still to come. Mask and reflection are looked up by what the composite looks them up with.
 //   ID_BITS          16, 24 or 32
-//   one of SHOW_IDS, SHOW_NORMALS, SHOW_MASK, SHOW_REFLECTION, SHOW_AGE; with none, all is grey
+//   one of SHOW_IDS, SHOW_NORMALS, SHOW_MASK, SHOW_REFLECTION, SHOW_AGE, SHOW_DEPTH,
+//   SHOW_POSITION, SHOW_ALBEDO; with none, all is grey
 //   HAS_MASK, HAS_REFLECTION, REPROJECT and what goes with them: traced_light.glsl
 
 #define SHARED
@@ -10,12 +11,15 @@
 #include "shared/surface.glsl"
 #include "shared/phong.glsl"
 #include "scene_fetch.glsl"
+#include "map_fetch.glsl"
 #include "pixel_surface.glsl"
 #include "traced_light.glsl"
 
 uniform int light_count;
 uniform int slot;        // SHOW_MASK: of the mask
 uniform int age_frames;  // SHOW_AGE: of the answer that is shown
+uniform vec3 range_lo;   // SHOW_DEPTH, SHOW_POSITION: what is black ...
+uniform vec3 range_hi;   // ... and what is white
 
 out vec4 color;
 
@@ -49,6 +53,10 @@ vec3 color_of_mask(uint id, ivec2 pixel) {
 }
 #endif
 
+vec3 in_range(vec3 value) {
+  return linear_from_srgb(clamp((value - range_lo) / (range_hi - range_lo), 0.0, 1.0));
+}
+
 vec3 color_of_pixel(uint id, ivec2 pixel) {
 #if defined(SHOW_IDS)
   return color_of(id);
@@ -61,6 +69,15 @@ vec3 color_of_pixel(uint id, ivec2 pixel) {
 #elif defined(SHOW_AGE)
   bool hole = source_of(pixel, id, surface_of(id, pixel).p_world).hole;
   return hole ? kHole : kAges[clamp(age_frames, 0, 3)];
+#elif defined(SHOW_DEPTH)
+  vec3 direction = pixel_direction(ViewParams(eye, corner, step_x, step_y, first), vec2(pixel));
+  float z_eye = dot(surface_of(id, pixel).p_world - eye, direction) / dot(direction, direction);
+  return in_range(vec3(z_eye));
+#elif defined(SHOW_POSITION)
+  return in_range(surface_of(id, pixel).p_world);
+#elif defined(SHOW_ALBEDO)
+  PixelSurface s = surface_of(id, pixel);
+  return fetch_material(id, s.corners, s.weights).diffuse;
 #else
   return kNothingAsked;
 #endif

@@ -7,6 +7,7 @@ uniform vec3 corner;
 uniform vec3 step_x;
 uniform vec3 step_y;
 uniform vec2 first;
+uniform float texture_spread;  // 0: textures are not filtered
 
 #if ID_BITS == 16
 const uint kNoTriangle = 0xffffu;
@@ -32,27 +33,40 @@ vec3 fetch_rgb(sampler2D from, ivec2 pixel) {
 }
 
 struct PixelSurface {
-  uvec3 corners;
-  vec3 weights;
   vec3 p_world;
   vec3 to_viewer;
-  FacingNormals n;
+  FacingNormals n;       // normal map applied
+  PhongParams material;  // maps applied
+  float alpha;           // the surface's share; the rest is what a ray sees that goes straight on
 };
 
 PixelSurface surface_of(uint id, ivec2 pixel) {
   ViewParams view = ViewParams(eye, corner, step_x, step_y, first);
   vec3 direction = pixel_direction(view, vec2(pixel));
+  uvec3 corners = fetch_corners(id);
+  vec3 a = fetch_vec3(positions, corners.x);
+  vec3 b = fetch_vec3(positions, corners.y);
+  vec3 c = fetch_vec3(positions, corners.z);
+  vec3 weights = barycentric_of(eye, direction, a, b, c);
   PixelSurface s;
-  s.corners = fetch_corners(id);
-  vec3 a = fetch_vec3(positions, s.corners.x);
-  vec3 b = fetch_vec3(positions, s.corners.y);
-  vec3 c = fetch_vec3(positions, s.corners.z);
-  s.weights = barycentric_of(eye, direction, a, b, c);
-  s.p_world = point_on_triangle(s.weights, a, b, c);
+  s.p_world = point_on_triangle(weights, a, b, c);
   s.to_viewer = -normalize(direction);
   vec3 n_geometric = geometric_normal(a, b, c, s.to_viewer);
-  vec3 n_shading = shading_normal(s.weights, fetch_vec3(normals, s.corners.x), fetch_vec3(normals, s.corners.y),
-                                  fetch_vec3(normals, s.corners.z), n_geometric);
+  vec3 n_shading = shading_normal(weights, fetch_vec3(normals, corners.x), fetch_vec3(normals, corners.y),
+                                  fetch_vec3(normals, corners.z), n_geometric);
   s.n = face_viewer(n_geometric, n_shading, s.to_viewer);
+  s.alpha = 1.0;
+  int maps;
+  s.material = fetch_material(int(texelFetch(triangle_materials, int(id)).r), maps);
+#ifdef HAS_MAPS
+  if (maps >= 0) {
+    float t = texture_spread * dot(s.p_world - eye, direction) / dot(direction, direction);
+    MapPoint point = MapPoint(corners, weights, b - a, c - a, direction, t * step_x, t * step_y);
+    float side = s.n.leaving ? -1.0 : 1.0;
+    s.n.shading = side * mapped_normal_at(maps, point, side * s.n.shading);
+    s.material = mapped_material_at(maps, point, s.material);
+    s.alpha = coverage_at(maps, point);
+  }
+#endif
   return s;
 }

@@ -4,6 +4,8 @@
 uniform sampler2D picture;
 uniform vec2 window_pixels;
 uniform float gain;  // 0: black
+uniform float zoom;  // 1: the whole picture
+uniform vec2 zoom_corner;
 
 out vec4 shown;
 
@@ -25,8 +27,9 @@ void main() {
   if (gain == 0.0) return;
   ivec2 size = textureSize(picture, 0);
   // The picture's row 0 is its top row, the window's its bottom row.
-  vec2 at = vec2(gl_FragCoord.x, window_pixels.y - gl_FragCoord.y) / window_pixels * vec2(size);
-  vec3 light = vec2(size) == window_pixels ? fetch(ivec2(at), size) : interpolate(at, size);
+  vec2 in_window = vec2(gl_FragCoord.x, window_pixels.y - gl_FragCoord.y) / window_pixels;
+  vec2 at = (zoom > 1.0 ? zoom_corner + in_window / zoom : in_window) * vec2(size);
+  vec3 light = vec2(size) == window_pixels || zoom > 1.0 ? fetch(ivec2(at), size) : interpolate(at, size);
   vec3 c = clamp(light * gain, 0.0, 1.0);
   shown.rgb = mix(12.92 * c, 1.055 * pow(c, vec3(1.0 / 2.4)) - 0.055, vec3(greaterThan(c, vec3(0.0031308))));
 }

@@ -7,7 +7,7 @@ uniform samplerBuffer normals;              // 3 texels a vertex
 uniform samplerBuffer materials;            // kMaterialTexels a material
 uniform samplerBuffer lights;               // kLightTexels a light
 
-const int kMaterialTexels = 5;
+const int kMaterialTexels = 4;
 const int kLightTexels = 4;
 
 vec3 fetch_vec3(samplerBuffer buffer, uint i) {
@@ -25,49 +25,18 @@ vec3 linear_from_srgb(vec3 c) {
   return mix(c / 12.92, pow((c + 0.055) / 1.055, vec3(2.4)), greaterThan(c, vec3(0.04045)));
 }
 
-#ifdef HAS_TEXTURES
-uniform samplerBuffer texcoords;  // 2 texels a vertex
-uniform samplerBuffer texels;     // RGBA of all textures, one after the other, as stored (sRGB)
-
-vec2 fetch_texcoord(uint i) {
-  return vec2(texelFetch(texcoords, 2 * int(i)).r, texelFetch(texcoords, 2 * int(i) + 1).r);
-}
-
-vec3 linear_texel(ivec2 at, int first, ivec2 size) {
-  at = ivec2(at.x - size.x * int(floor(float(at.x) / float(size.x))),
-             at.y - size.y * int(floor(float(at.y) / float(size.y))));
-  return linear_from_srgb(texelFetch(texels, first + at.y * size.x + at.x).rgb);
-}
-
-// Bilinear by hand, as core/trace/surface.cpp does it: hardware filters with 8 bits of weight.
-vec3 sample_texture(vec2 texcoord, int first, ivec2 size) {
-  vec2 at = fract(texcoord) * vec2(size) - 0.5;
-  vec2 base = floor(at), f = at - base;
-  ivec2 b = ivec2(base);
-  return mix(mix(linear_texel(b, first, size), linear_texel(b + ivec2(1, 0), first, size), f.x),
-             mix(linear_texel(b + ivec2(0, 1), first, size), linear_texel(b + ivec2(1, 1), first, size), f.x), f.y);
-}
-#endif
-
-PhongParams fetch_material(uint triangle, uvec3 corners, vec3 weights) {
-  int first = kMaterialTexels * int(texelFetch(triangle_materials, int(triangle)).r);
+// A material as it stands, and where its maps are (map_fetch.glsl); -1: it has none.
+PhongParams fetch_material(int material, out int maps) {
+  int first = kMaterialTexels * material;
   vec4 ambient_shininess = texelFetch(materials, first);
+  vec4 diffuse_maps = texelFetch(materials, first + 1);
+  maps = int(diffuse_maps.w) - 1;
   PhongParams m;
   m.ambient = ambient_shininess.rgb;
   m.shininess = ambient_shininess.a;
-  m.diffuse = texelFetch(materials, first + 1).rgb;
+  m.diffuse = diffuse_maps.rgb;
   m.specular = texelFetch(materials, first + 2).rgb;
   m.emission = texelFetch(materials, first + 3).rgb;
-#ifdef HAS_TEXTURES
-  vec4 place = texelFetch(materials, first + 4);  // first texel (high, low 12 bits), width, height; width 0: none
-  if (place.z > 0.0) {
-    vec2 texcoord = weights.x * fetch_texcoord(corners.x) + weights.y * fetch_texcoord(corners.y) +
-                    weights.z * fetch_texcoord(corners.z);
-    vec3 color = sample_texture(texcoord, int(place.x) * 4096 + int(place.y), ivec2(place.zw));
-    m.ambient *= color;
-    m.diffuse *= color;
-  }
-#endif
   return m;
 }
 

@@ -7,6 +7,7 @@
 #include "shared/surface.glsl"
 #include "shared/phong.glsl"
 #include "scene_fetch.glsl"
+#include "map_fetch.glsl"
 #include "pixel_surface.glsl"
 
 uniform sampler2D finished;

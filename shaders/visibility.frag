@@ -1,16 +1,55 @@
 #version 330 core
 // Visibility buffer (Burns and Hunt 2013): the triangle's index is all that a pixel keeps.
 //   ID_BITS  16 or 32: one number; 24: three bytes
+//   HAS_HOLES  what some materials' maps let through is not drawn
+
+#ifdef HAS_HOLES
+#define SHARED
+#include "shared/view.glsl"
+#include "shared/surface.glsl"
+#include "shared/phong.glsl"
+#include "scene_fetch.glsl"
+#include "map_fetch.glsl"
+
+uniform vec3 eye;
+uniform vec3 corner;
+uniform vec3 step_x;
+uniform vec3 step_y;
+uniform vec2 first_pixel;  // the part's, of the picture
+
+// At the point where the pixel's ray meets the triangle, as the ray tracer asks it.
+void discard_hole() {
+  int id = gl_PrimitiveID;
+  int maps;
+  fetch_material(int(texelFetch(triangle_materials, id).r), maps);
+  if (maps < 0) return;
+  ViewParams view = ViewParams(eye, corner, step_x, step_y, vec2(0.0));
+  vec3 direction = pixel_direction(view, floor(gl_FragCoord.xy) + first_pixel);
+  uvec3 corners = fetch_corners(uint(id));
+  vec3 a = fetch_vec3(positions, corners.x);
+  vec3 b = fetch_vec3(positions, corners.y);
+  vec3 c = fetch_vec3(positions, corners.z);
+  vec3 weights = barycentric_of(eye, direction, a, b, c);
+  MapPoint point = MapPoint(corners, weights, b - a, c - a, direction, vec3(0.0), vec3(0.0));
+  if (hole_at(maps, point)) discard;
+}
+#else
+void discard_hole() {}
+#endif
 
 #if ID_BITS == 24
 out uvec4 triangle_id;
 
 void main() {
+  discard_hole();
   uint id = uint(gl_PrimitiveID);
   triangle_id = uvec4(id & 0xffu, id >> 8u & 0xffu, id >> 16u, 0u);
 }
 #else
 out uint triangle_id;
 
-void main() { triangle_id = uint(gl_PrimitiveID); }
+void main() {
+  discard_hole();
+  triangle_id = uint(gl_PrimitiveID);
+}
 #endif

@@ -41,14 +41,14 @@ const std::vector<KeyBinding>& key_bindings() {
   constexpr Change kDarker = [](S& s) { return brighten(s, -kExposureStep); };
   const auto change = [](Change c) { return c; };
   static const std::vector<KeyBinding> kBindings{
-      {'F', "F", Action::frame_all, "whole scene in view"},
-      {gl::kKeyHome, "Home", Action::frame_all, "whole scene in view"},
+      {'F', "F", Action::frame_all, "what matters of the scene in view"},
+      {gl::kKeyHome, "Home", Action::frame_all, "what matters of the scene in view"},
       {'R', "R", Action::reset_camera, "camera as at the start"},
       {gl::kKeyEnter, "Enter", Action::reset_camera, "camera as at the start"},
       {'M', "M", change([](S& s) { return next_preset("mode", s); }), "mode: hybrid, raytrace, raster"},
       {'G', "G", change([](S& s) { return next_preset("design", s); }), "design 1 or 2"},
       {'X', "X", change(next_exchange), "exchange: sync, pipelined, reproject"},
-      {'L', "L", change([](S& s) { return next_preset("plan", s); }), "plan: auto or slides"},
+      {'L', "L", change([](S& s) { return next_preset("plan", s); }), "plan: what is sent as needed, or fixed"},
       {'O', "O", change([](S& s) { return toggle(s.shadows); }), "shadows"},
       {'I', "I", change([](S& s) { return toggle(s.reflections); }), "reflections"},
       {'.', ".", change([](S& s) { return add_bounces(s, 1); }), "one bounce more"},
@@ -60,18 +60,34 @@ const std::vector<KeyBinding>& key_bindings() {
       {gl::kKeyMinus, "-", kDarker, "half a stop darker"},
       {']', "]", change([](S& s) { return rescale(s, kScaleStep); }), "more pixels"},
       {'[', "[", change([](S& s) { return rescale(s, 1.0f / kScaleStep); }), "fewer pixels"},
-      {'V', "V", Action::next_buffer, "look at ids, normals, mask, reflection, age"},
+      {'V', "V", Action::next_buffer, "show the next channel: ids, normals, depth ..."},
       {'B', "B", change([](S& s) { return put(s.split, next(s.split, 3)); }),
-       "beside the reference; its heat map; off"},
+       "compare with the reference; difference; off"},
       {'N', "N", change([](S& s) { return toggle(s.accumulate); }), "a still camera gathers samples"},
       {'Y', "Y", change([](S& s) { return toggle(s.vsync); }), "wait for the display (vsync)"},
       {gl::kKeyF12, "F12", Action::screenshot, "screenshot: PNG of the window, EXR of the picture"},
       {'C', "C", Action::save_camera, "save the camera for --path"},
       {'P', "P", Action::print_command, "print the command that renders this"},
-      {'H', "H", change([](S& s) { return toggle(s.overlay); }), "hide or show the overlay"},
-      {gl::kKeyF1, "F1", change([](S& s) { return toggle(s.help); }), "keys"},
+      {'H', "H", change([](S& s) { return toggle(s.overlay); }), "hide or show all that is over the picture"},
+      {gl::kKeyF1, "F1", Panel::help, "this list"},
+      {gl::kKeyF2, "F2", Panel::figures, "panel: frame times"},
+      {gl::kKeyF3, "F3", Panel::drawing, "panel: how it is drawn"},
+      {gl::kKeyF4, "F4", Panel::settings, "panel: all settings"},
+      {gl::kKeyF5, "F5", Panel::lights, "panel: lights"},
+      {gl::kKeyF6, "F6", Panel::camera, "panel: camera"},
+      {gl::kKeyF7, "F7", Panel::materials, "panel: materials"},
+      {gl::kKeyF8, "F8", Panel::pixel, "panel: the pixel under the pointer"},
+      {gl::kKeyF9, "F9", Panel::timeline, "panel: timeline"},
+      {gl::kKeyF10, "F10", Panel::files, "panel: files"},
       {gl::kKeyF11, "F11", Action::full_screen, "full screen"},
-      {gl::kKeyEscape, "Esc", Action::close, "close"},
+      {gl::kKeyLeft, "Left", Action::previous_file, "previous scene of the folder"},
+      {gl::kKeyRight, "Right", Action::next_file, "next scene of the folder"},
+      {'K', "K", Action::record, "record what is shown as PNG files, or stop"},
+      {'O', "Ctrl + O", Panel::files, "open a scene", true},
+      {'S', "Ctrl + S", Action::save_scene, "save the scene as glTF", true},
+      {'Z', "Ctrl + Z", Action::undo, "undo", true},
+      {'Y', "Ctrl + Y", Action::redo, "redo", true},
+      {gl::kKeyEscape, "Esc", Action::close, "close what is open, leave full screen, quit"},
   };
   return kBindings;
 }
@@ -79,9 +95,28 @@ const std::vector<KeyBinding>& key_bindings() {
 const KeyBinding* binding_of(const gl::KeyEvent& event) {
   const std::vector<KeyBinding>& all = key_bindings();
   const auto found = std::find_if(all.begin(), all.end(), [&event](const KeyBinding& binding) {
-    return binding.key == event.character || binding.key == event.key;
+    return binding.with_control == event.with.control &&
+           (binding.key == event.character || binding.key == event.key);
   });
   return found == all.end() ? nullptr : &*found;
+}
+
+const std::vector<std::pair<const char*, const char*>>& mouse_bindings() {
+  static const std::vector<std::pair<const char*, const char*>> kBindings{
+      {"left drag", "orbit; look around while flying"},
+      {"middle drag", "pan"},
+      {"Shift + left drag", "pan"},
+      {"wheel, right drag", "zoom"},
+      {"double-click", "turn around this point from now on"},
+      {"Ctrl + wheel", "enlarge pixels"},
+      {"Ctrl + click", "pick the material"},
+      {"Alt + click", "expose for this point"},
+      {"W A S D", "fly, Shift faster"},
+      {"E Q", "fly up, down"},
+      {"1 to 9", "the file's cameras"},
+      {"drop a file", "open it"},
+  };
+  return kBindings;
 }
 
 }  // namespace pinocchio::app

@@ -75,14 +75,26 @@ void CameraControl::fly(const glm::vec3& along, float seconds, bool fast) {
 }
 
 void CameraControl::frame_all(float aspect) {
-  if (bounds_.empty()) return;
+  if (interest_.empty()) return;
   const glm::vec3 forward = camera_axes(camera_).forward;
-  const float least = std::max(1e-4f * glm::length(bounds_.center()), 1e-6f);
-  const float radius = std::max(0.5f * bounds_.diagonal(), least);
+  const float least = std::max(1e-4f * glm::length(interest_.center()), 1e-6f);
+  const float radius = std::max(0.5f * interest_.diagonal(), least);
   const float half_height = std::tan(glm::radians(0.5f * camera_.fov_deg));
   const float half_angle = std::atan(half_height * std::min(aspect, 1.0f));
-  camera_.target = bounds_.center();
+  camera_.target = interest_.center();
   camera_.eye = camera_.target - forward * (1.05f * radius / std::sin(half_angle));
+}
+
+void CameraControl::view_from(const glm::vec3& from) {
+  const float away = distance();
+  // Straight down or up, left and right have no meaning: a little beside it, as far as a person can tell.
+  const glm::vec3 aside = std::abs(glm::dot(from, glm::normalize(camera_.up))) > 0.999f ? glm::vec3(0, 0, kNearestToUp)
+                                                                                         : glm::vec3(0.0f);
+  camera_.eye = camera_.target + away * glm::normalize(from + aside);
+}
+
+void CameraControl::look_at(const glm::vec3& p) {
+  if (glm::length(camera_.eye - p) > 0.0f) camera_.target = p;
 }
 
 }  // namespace pinocchio::app

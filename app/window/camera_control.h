@@ -11,8 +11,11 @@ namespace pinocchio::app {
 // window; distances on the screen are in pixels, y downwards.
 class CameraControl {
  public:
-  // What the scene is like: frame_all() shows it, flight is as fast as it is large.
-  void set_scene(const Bounds& bounds) { bounds_ = bounds; }
+  // What the scene is like: frame_all() shows what matters of it, flight is as fast as it is large.
+  void set_scene(const Bounds& bounds, const Bounds& interest) {
+    bounds_ = bounds;
+    interest_ = interest;
+  }
   void set_camera(const Camera& camera) { camera_ = camera; }
   [[nodiscard]] const Camera& camera() const { return camera_; }
 
@@ -26,15 +29,20 @@ class CameraControl {
   void zoom(float steps);
   // Flies along its own right, up and forward axes (each -1 to 1); the target keeps its distance.
   void fly(const glm::vec3& along, float seconds, bool fast);
-  // The whole scene in view, seen from the same side. aspect: width / height.
+  // What matters of the scene in view, seen from the same side. aspect: width / height.
   void frame_all(float aspect);
+  // The same distance, seen along an axis: from where `from` points, `up` upwards.
+  void view_from(const glm::vec3& from);
+  // From now on it turns around that point, which comes to the middle.
+  void look_at(const glm::vec3& p);
+  [[nodiscard]] const Bounds& interest() const { return interest_; }
 
  private:
   [[nodiscard]] float distance() const;
   void turn(glm::vec3& arm, glm::vec2 pixels, float window_height) const;
 
   Camera camera_;
-  Bounds bounds_;
+  Bounds bounds_, interest_;
 };
 
 }  // namespace pinocchio::app

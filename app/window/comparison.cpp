@@ -23,13 +23,14 @@ void send(gl::Upload& upload, const Image<glm::vec4>& image, std::unique_ptr<gl:
 
 }  // namespace
 
-void Comparison::follow(const ReferenceView& view) {
+bool Comparison::follow(const ReferenceView& view) {
   if (view_ != view) {
     view_ = view;
     figures_.reset();
     heat_.reset();
     share_ = compared_share_ = 0.0;
   }
+  bool shown = false;
   background_.show(view);
   const ProgressiveReference::Progress progress = background_.poll();
   if (progress.changed) {
@@ -41,8 +42,9 @@ void Comparison::follow(const ReferenceView& view) {
     send(upload_, color_, reference_);
     uploaded_s_ = now_s();
     newer_ = false;
+    shown = true;
   }
-  take_error();
+  return take_error() || shown;
 }
 
 bool Comparison::wants_picture() const {
@@ -60,10 +62,10 @@ void Comparison::compare(Image<glm::vec4> picture) {
   });
 }
 
-void Comparison::take_error() {
-  if (!error_.valid() || error_.wait_for(std::chrono::seconds(0)) != std::future_status::ready) return;
+bool Comparison::take_error() {
+  if (!error_.valid() || error_.wait_for(std::chrono::seconds(0)) != std::future_status::ready) return false;
   ReferenceError found = error_.get();
-  if (error_of_ != view_) return;  // of what is no longer looked at
+  if (error_of_ != view_) return false;  // of what is no longer looked at
   Image<glm::vec4> heat(found.heat.size());
   for (std::size_t i = 0; i < heat.pixels().size(); ++i) {
     const glm::u8vec3 c = found.heat[i];
@@ -72,15 +74,19 @@ void Comparison::take_error() {
   send(heat_upload_, heat, heat_);
   found.heat = {};
   figures_ = std::move(found);
+  return true;
 }
 
 std::string Comparison::text() const {
   std::array<char, 96> text{};
-  std::snprintf(text.data(), text.size(), "reference %.0f %%", 100.0 * share_);
-  std::string result = text.data();
-  if (!figures_) return result;
-  std::snprintf(text.data(), text.size(), "   RMSE %.5f   FLIP %.4f", figures_->rmse, figures_->mean_flip);
-  return result + text.data();
+  if (share_ < 1.0) {
+    std::snprintf(text.data(), text.size(), "the reference is drawn to %.0f %%", 100.0 * share_);
+  } else if (!done()) {
+    return "the reference is complete, the error is being measured";
+  } else {
+    std::snprintf(text.data(), text.size(), "RMSE %.5f   mean FLIP %.4f", figures_->rmse, figures_->mean_flip);
+  }
+  return text.data();
 }
 
 }  // namespace pinocchio::app

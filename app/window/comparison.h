@@ -15,8 +15,8 @@ namespace pinocchio::app {
 // differ, and how much. Nothing here waits; lives on the thread of the GL context.
 class Comparison {
  public:
-  // Follows the view, and takes what threads have finished.
-  void follow(const ReferenceView& view);
+  // Follows the view, and takes what threads have finished; whether there is something new to show.
+  bool follow(const ReferenceView& view);
   // Whether a picture to compare would be used now.
   [[nodiscard]] bool wants_picture() const;
   // The window's picture of the view that is followed.
@@ -25,11 +25,15 @@ class Comparison {
   // Null: there is none yet.
   [[nodiscard]] const gl::Texture* reference() const { return reference_.get(); }
   [[nodiscard]] const gl::Texture* heat() const { return heat_.get(); }
-  // How far the reference is, and the error, in words.
+  // Its colour, linear; done().
+  [[nodiscard]] glm::vec3 reference_at(glm::ivec2 pixel) const { return glm::vec3(color_.at(pixel.x, pixel.y)); }
+  // Whether all that can be known of the view is known.
+  [[nodiscard]] bool done() const { return share_ >= 1.0 && figures_ && compared_share_ >= 1.0 && !newer_; }
+  // How far the reference is or, once it is complete, the error, in words.
   [[nodiscard]] std::string text() const;
 
  private:
-  void take_error();
+  bool take_error();
 
   ProgressiveReference background_;
   Workers workers_{1};

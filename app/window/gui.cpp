@@ -1,12 +1,17 @@
 #include "app/window/gui.h"
 
+#define GLFW_INCLUDE_NONE
+#include <GLFW/glfw3.h>
 #include <imgui.h>
 #include <imgui_impl_glfw.h>
 #include <imgui_impl_opengl3.h>
+#include <imgui_internal.h>  // ClosePopupToLevel, ClearActiveID
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <filesystem>
+#include <utility>
 
 namespace pinocchio::app {
 namespace {
@@ -34,21 +39,21 @@ void set_colors(ImGuiStyle& style) {
   const auto set = [&style](int which, float r, float g, float b, float a) {
     style.Colors[which] = ImVec4(r, g, b, a);
   };
-  set(ImGuiCol_WindowBg, 0.06f, 0.07f, 0.09f, 0.86f);
-  set(ImGuiCol_PopupBg, 0.08f, 0.09f, 0.11f, 0.96f);
+  set(ImGuiCol_WindowBg, 0.06f, 0.07f, 0.09f, 0.97f);
+  set(ImGuiCol_PopupBg, 0.08f, 0.09f, 0.11f, 0.98f);
   set(ImGuiCol_Border, 1.0f, 1.0f, 1.0f, 0.08f);
   set(ImGuiCol_FrameBg, 1.0f, 1.0f, 1.0f, 0.07f);
   set(ImGuiCol_FrameBgHovered, 1.0f, 1.0f, 1.0f, 0.13f);
   set(ImGuiCol_FrameBgActive, 1.0f, 1.0f, 1.0f, 0.18f);
   set(ImGuiCol_TitleBg, 0.06f, 0.07f, 0.09f, 0.95f);
   set(ImGuiCol_TitleBgActive, 0.06f, 0.07f, 0.09f, 0.95f);
-  set(ImGuiCol_TitleBgCollapsed, 0.06f, 0.07f, 0.09f, 0.75f);
-  set(ImGuiCol_Header, 0.95f, 0.62f, 0.25f, 0.20f);
-  set(ImGuiCol_HeaderHovered, 0.95f, 0.62f, 0.25f, 0.32f);
-  set(ImGuiCol_HeaderActive, 0.95f, 0.62f, 0.25f, 0.42f);
+  set(ImGuiCol_TitleBgCollapsed, 0.06f, 0.07f, 0.09f, 0.94f);
+  set(ImGuiCol_Header, 1.0f, 1.0f, 1.0f, 0.10f);
+  set(ImGuiCol_HeaderHovered, 1.0f, 1.0f, 1.0f, 0.22f);
+  set(ImGuiCol_HeaderActive, 1.0f, 1.0f, 1.0f, 0.30f);
   set(ImGuiCol_Button, 1.0f, 1.0f, 1.0f, 0.10f);
-  set(ImGuiCol_ButtonHovered, 0.95f, 0.62f, 0.25f, 0.45f);
-  set(ImGuiCol_ButtonActive, 0.95f, 0.62f, 0.25f, 0.65f);
+  set(ImGuiCol_ButtonHovered, 1.0f, 1.0f, 1.0f, 0.26f);
+  set(ImGuiCol_ButtonActive, 1.0f, 1.0f, 1.0f, 0.40f);
   set(ImGuiCol_CheckMark, 0.98f, 0.68f, 0.30f, 1.0f);
   set(ImGuiCol_SliderGrab, 0.95f, 0.62f, 0.25f, 0.75f);
   set(ImGuiCol_SliderGrabActive, 0.98f, 0.68f, 0.30f, 1.0f);
@@ -73,11 +78,13 @@ void set_style(float scale) {
 
 }  // namespace
 
-Gui::Gui(const gl::Window& window) : window_(window) {
+Gui::Gui(const gl::Window& window, std::function<void()> describe)
+    : window_(window), describe_(std::move(describe)) {
   IMGUI_CHECKVERSION();
   ImGui::CreateContext();
-  ImGui::GetIO().IniFilename = nullptr;  // leaves no file behind
-  ImGui_ImplGlfw_InitForOpenGL(window.handle(), true);
+  ImGui::GetIO().IniFilename = nullptr;  // the session keeps the layout
+  ImGui::GetIO().ConfigWindowsMoveFromTitleBarOnly = true;
+  ImGui_ImplGlfw_InitForOpenGL(window.handle(), false);
   ImGui_ImplOpenGL3_Init("#version 330 core");
 }
 
@@ -88,31 +95,111 @@ Gui::~Gui() {
 }
 
 void Gui::set_scale(float scale) {
+  const bool first = scale_ == 0.0f;
   scale_ = scale;
   set_style(scale);
   load_font(std::round(kFontPixels * scale));
-  ImGui_ImplOpenGL3_DestroyFontsTexture();  // made anew with the next frame
-  ImGui_ImplOpenGL3_DestroyDeviceObjects();
+  if (first) return;  // it is made with the backend's other objects
+  ImGui_ImplOpenGL3_DestroyFontsTexture();
+  ImGui_ImplOpenGL3_CreateFontsTexture();
 }
 
 void Gui::begin_frame() {
   // Another monitor may have another scale.
   if (const float scale = window_.content_scale(); scale != scale_) set_scale(scale);
+  ImGuiIO& io = ImGui::GetIO();
+  std::array<bool, 5> down{};
+  std::copy_n(io.MouseDown, down.size(), down.begin());
   ImGui_ImplOpenGL3_NewFrame();
   ImGui_ImplGlfw_NewFrame();
+  // The backend asks where the pointer is by now; events say where it was when they happened.
+  std::copy_n(down.begin(), down.size(), io.MouseDown);
+  const ImVec2 pixels = io.DisplayFramebufferScale;
+  io.MousePos = ImVec2(pointer_.x / std::max(pixels.x, 1e-3f), pointer_.y / std::max(pixels.y, 1e-3f));
+  io.DeltaTime = std::max(io.DeltaTime, 1e-6f);
   ImGui::NewFrame();
+  stale_ = false;
 }
 
-void Gui::end_frame() {
+// The layout as it is with all that was taken so far.
+void Gui::update() {
+  begin_frame();
+  describe_();
+  ImGui::EndFrame();
+}
+
+void Gui::draw() {
+  begin_frame();
+  describe_();
   ImGui::Render();
   ImGui_ImplOpenGL3_RenderDrawData(ImGui::GetDrawData());
 }
 
-bool Gui::wants_pointer() const {
+bool Gui::over_panel() {
+  if (stale_) update();
   return ImGui::GetIO().WantCaptureMouse;
 }
+
+bool Gui::take(const gl::WindowEvent& event) {
+  ImGuiIO& io = ImGui::GetIO();
+  if (const auto* pointer = std::get_if<gl::PointerEvent>(&event)) {
+    pointer_ = pointer->position;
+    stale_ = true;
+    return false;  // a drag of the picture goes on over panels
+  }
+  if (const auto* button = std::get_if<gl::ButtonEvent>(&event)) {
+    const bool ours = over_panel();
+    if (button->button < 0 || button->button >= 5) return ours;
+    io.MouseDown[button->button] = button->down;
+    update();  // a release that follows at once is seen as one
+    return ours && button->down;
+  }
+  if (const auto* scroll = std::get_if<gl::ScrollEvent>(&event)) {
+    if (!over_panel()) return false;
+    io.MouseWheel += scroll->steps;
+    update();
+    return true;
+  }
+  if (const auto* key = std::get_if<gl::KeyEvent>(&event)) {
+    const bool ours = wants_text() && key->key != gl::kKeyEscape;
+    if (key->key >= 0)
+      ImGui_ImplGlfw_KeyCallback(window_.handle(), key->key, 0, key->down ? GLFW_PRESS : GLFW_RELEASE, 0);
+    if (ours) update();
+    stale_ = true;
+    return ours && key->down;
+  }
+  if (const auto* text = std::get_if<gl::TextEvent>(&event)) {
+    if (wants_text()) io.AddInputCharacter(text->character);
+    return true;
+  }
+  stale_ = true;
+  return false;
+}
+
 bool Gui::wants_text() const {
   return ImGui::GetIO().WantTextInput;
+}
+
+bool Gui::is_active() const {
+  return ImGui::IsAnyItemActive();
+}
+
+bool Gui::close_popup() {
+  if (wants_text()) {
+    ImGui::ClearActiveID();
+    return true;
+  }
+  if (!ImGui::IsPopupOpen(nullptr, ImGuiPopupFlags_AnyPopup)) return false;
+  ImGui::ClosePopupToLevel(ImGui::GetCurrentContext()->OpenPopupStack.Size - 1, true);
+  return true;
+}
+
+std::string Gui::layout() const {
+  return ImGui::SaveIniSettingsToMemory();
+}
+
+void Gui::set_layout(const std::string& text) {
+  ImGui::LoadIniSettingsFromMemory(text.data(), text.size());
 }
 
 }  // namespace pinocchio::app

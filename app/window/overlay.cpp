@@ -1,95 +1,70 @@
 #include "app/window/overlay.h"
 
 #include <algorithm>
-#include <cmath>
+#include <array>
 
 #include "app/window/overlay_parts.h"
+#include "core/compare/magma.h"
 
 namespace pinocchio::app {
 namespace {
 
-constexpr ImGuiWindowFlags kPanel = ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoResize |
-                                    ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_NoNav;
-constexpr ImGuiWindowFlags kBare = kPanel | ImGuiWindowFlags_NoDecoration;
-constexpr float kMargin = 10.0f, kPanelWidth = 318.0f, kTimelineHeight = 142.0f;
+constexpr float kMargin = 8.0f;
 
-// A panel at the window's left or right edge, as high as its content, at most to the timeline.
-void place_panel(bool at_right, float scale) {
+// A panel's size and where it is when it is opened for the first time: 0 to 1 of the room it has.
+struct Place {
+  float width, x, y;
+  void (*draw)(Model&, float scale);
+};
+constexpr std::array<Place, kPanels.size()> kPlaces{{
+    {620.0f, 0.5f, 0.5f, draw_help},
+    {300.0f, 0.0f, 0.0f, draw_figures},
+    {350.0f, 1.0f, 0.0f, draw_controls},
+    {350.0f, 1.0f, 0.0f, draw_all_settings},
+    {300.0f, 0.0f, 1.0f, draw_light_controls},
+    {300.0f, 0.0f, 0.5f, draw_camera},
+    {320.0f, 1.0f, 0.5f, draw_materials},
+    {340.0f, 1.0f, 1.0f, draw_pixel},
+    {760.0f, 0.0f, 1.0f, draw_timeline},
+    {460.0f, 0.5f, 0.2f, draw_files},
+}};
+
+// The window without margins and status line.
+struct Room {
+  ImVec2 lo, size;
+};
+Room room_of(float scale) {
   const ImVec2 display = ImGui::GetIO().DisplaySize;
-  const float width = std::min(kPanelWidth * scale, 0.42f * display.x), margin = kMargin * scale;
-  const float highest = std::max(display.y - (kTimelineHeight + 3.0f * kMargin) * scale, 60.0f * scale);
-  ImGui::SetNextWindowPos(ImVec2(at_right ? display.x - width - margin : margin, margin));
-  ImGui::SetNextWindowSizeConstraints(ImVec2(width, 0.0f), ImVec2(width, highest));
-}
-
-void draw_panels(Model& model, float scale) {
-  const ImVec2 display = ImGui::GetIO().DisplaySize;
-  place_panel(false, scale);
-  ImGui::Begin("What a frame costs", nullptr, kPanel | ImGuiWindowFlags_AlwaysAutoResize);
-  draw_figures(model, scale);
-  ImGui::End();
-
-  place_panel(true, scale);
-  ImGui::Begin("How it is drawn", nullptr, kPanel | ImGuiWindowFlags_AlwaysAutoResize);
-  draw_controls(model, scale);
-  ImGui::End();
-
   const float margin = kMargin * scale;
-  ImGui::SetNextWindowPos(ImVec2(margin, display.y - kTimelineHeight * scale - margin));
-  ImGui::SetNextWindowSize(ImVec2(display.x - 2.0f * margin, kTimelineHeight * scale));
-  ImGui::Begin("Timeline", nullptr, kBare);
-  draw_timeline(model, scale);
+  return {{margin, margin},
+          {std::max(display.x - 2.0f * margin, 1.0f),
+           std::max(display.y - 2.0f * margin - status_height(scale), 1.0f)}};
+}
+
+// A window that became smaller takes its panels along.
+void stay_inside(const Room& room) {
+  const ImVec2 at = ImGui::GetWindowPos(), size = ImGui::GetWindowSize();
+  const float x = std::max(std::min(at.x, room.lo.x + room.size.x - size.x), room.lo.x);
+  const float y = std::max(std::min(at.y, room.lo.y + room.size.y - size.y), room.lo.y);
+  if (x != at.x || y != at.y) ImGui::SetWindowPos(ImVec2(x, y));
+}
+
+void draw_panel(Panel panel, Model& model, float scale) {
+  const auto i = static_cast<std::size_t>(panel);
+  const Place& place = kPlaces[i];
+  const Room room = room_of(scale);
+  const float width = std::min(place.width * scale, room.size.x);
+  ImGui::SetNextWindowPos(ImVec2(room.lo.x + place.x * room.size.x, room.lo.y + place.y * room.size.y),
+                          ImGuiCond_FirstUseEver, ImVec2(place.x, place.y));
+  ImGui::SetNextWindowSizeConstraints(ImVec2(width, 0.0f), ImVec2(width, room.size.y));
+  const bool shown = ImGui::Begin(kPanels[i].title, &model.panels[panel],
+                                  ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoNav);
+  if (shown) place.draw(model, scale);
+  stay_inside(room);
   ImGui::End();
 }
 
-// A box of text in the middle, at `height` of the window (0 top, 1 bottom).
-bool begin_message(const char* name, float height) {
-  const ImVec2 display = ImGui::GetIO().DisplaySize;
-  ImGui::SetNextWindowPos(ImVec2(0.5f * display.x, height * display.y), ImGuiCond_Always, ImVec2(0.5f, 0.5f));
-  ImGui::SetNextWindowSizeConstraints(ImVec2(0.0f, 0.0f), ImVec2(0.7f * display.x, display.y));
-  // The picture below takes the mouse.
-  return ImGui::Begin(name, nullptr, kBare | ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoInputs);
-}
-
-void draw_loading(const SceneLoader::Progress& loading, float scale) {
-  if (loading.phase.empty()) return;
-  begin_message("loading", 0.5f);
-  ImGui::Text("%s, %.1f s", loading.phase.c_str(), loading.seconds);
-  // Nobody knows how long it will take: the bar shows that it goes on.
-  const auto phase = static_cast<float>(std::fmod(loading.seconds, 2.0) / 2.0);
-  const ImVec2 at = ImGui::GetCursorScreenPos();
-  const float width = std::max(ImGui::GetContentRegionAvail().x, 220.0f * scale), height = 4.0f * scale;
-  const float begin = std::max(phase * 1.3f - 0.3f, 0.0f) * width, end = std::min(phase * 1.3f, 1.0f) * width;
-  ImDrawList& list = *ImGui::GetWindowDrawList();
-  list.AddRectFilled(at, ImVec2(at.x + width, at.y + height), IM_COL32(255, 255, 255, 30), height);
-  list.AddRectFilled(ImVec2(at.x + begin, at.y), ImVec2(at.x + end, at.y + height),
-                     IM_COL32(245, 170, 80, 255), height);
-  ImGui::Dummy(ImVec2(width, height));
-  ImGui::End();
-}
-
-void draw_errors(const Model& model) {
-  if (!model.errors.empty()) {
-    begin_message("error", 0.12f);
-    ImGui::PushTextWrapPos(0.62f * ImGui::GetIO().DisplaySize.x);
-    for (const auto& [what, error] : model.errors)
-      ImGui::TextColored(ImVec4(1.0f, 0.45f, 0.38f, 1.0f), "%s", error.c_str());
-    ImGui::PopTextWrapPos();
-    ImGui::End();
-  }
-}
-
-void draw_notices(Model& model) {
-  while (!model.notices.empty() && model.notices.front().until_s < now_s()) model.notices.pop_front();
-  if (model.notices.empty()) return;
-  begin_message("notices", 0.74f);
-  ImGui::PushTextWrapPos(0.62f * ImGui::GetIO().DisplaySize.x);
-  for (const Notice& notice : model.notices) ImGui::TextUnformatted(notice.text.c_str());
-  ImGui::PopTextWrapPos();
-  ImGui::End();
-}
-
-// The line between the two halves, to drag, and what is on its right.
+// The line between the two halves, to drag.
 void draw_divider(Model& model, float scale) {
   if (model.settings.split == Split::off) return;
   const ImVec2 display = ImGui::GetIO().DisplaySize;
@@ -109,34 +84,60 @@ void draw_divider(Model& model, float scale) {
                                           IM_COL32(255, 255, 255, held ? 255 : 150), 1.5f * scale);
 }
 
-void draw_captions(const Model& model) {
-  if (model.legend.empty() && model.comparison.empty()) return;
-  begin_message("caption", 0.04f);
-  if (!model.legend.empty()) ImGui::TextUnformatted(model.legend.c_str());
-  if (!model.comparison.empty())
-    ImGui::Text("left: as drawn   right: %s   %s",
-                model.settings.split == Split::heat_map ? "difference (FLIP)" : "precise",
-                model.comparison.c_str());
-  ImGui::End();
+// The colours of the difference, from none to as large as can be seen.
+void draw_color_scale(float scale) {
+  constexpr int kSteps = 64;
+  static const Image<glm::u8vec3> kColors = [] {
+    Image<float> errors({kSteps, 1});
+    for (int i = 0; i < kSteps; ++i) errors.at(i, 0) = static_cast<float>(i) / (kSteps - 1);
+    return magma(errors);
+  }();
+  ImGui::TextUnformatted("0 same");
+  ImGui::SameLine();
+  const ImVec2 at = ImGui::GetCursorScreenPos();
+  const float width = 3.0f * scale, height = ImGui::GetTextLineHeight();
+  for (int i = 0; i < kSteps; ++i) {
+    const glm::u8vec3 c = kColors.at(i, 0);
+    const float x = at.x + width * static_cast<float>(i);
+    ImGui::GetWindowDrawList()->AddRectFilled({x, at.y}, {x + width, at.y + height}, IM_COL32(c.r, c.g, c.b, 255));
+  }
+  ImGui::Dummy(ImVec2(width * kSteps, height));
+  ImGui::SameLine();
+  ImGui::TextUnformatted("1 black against white");
 }
 
 }  // namespace
 
+// The picture below takes the mouse.
+void draw_caption(Model& model, float scale) {
+  if (model.legend.empty() && model.comparison.empty()) return;
+  const ImVec2 display = ImGui::GetIO().DisplaySize;
+  const float margin = kMargin * scale;
+  ImGui::SetNextWindowPos(ImVec2(0.5f * display.x, margin), ImGuiCond_Always, ImVec2(0.5f, 0.0f));
+  ImGui::SetNextWindowSizeConstraints(ImVec2(0.0f, 0.0f), ImVec2(display.x - 2.0f * margin, display.y));
+  ImGui::Begin("caption", nullptr,
+               kBare | ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoInputs |
+                   ImGuiWindowFlags_NoFocusOnAppearing);
+  ImGui::PushTextWrapPos(display.x - 4.0f * margin);
+  if (!model.legend.empty()) ImGui::TextUnformatted(model.legend.c_str());
+  if (!model.comparison.empty()) ImGui::TextUnformatted(model.comparison.c_str());
+  ImGui::PopTextWrapPos();
+  if (model.settings.split == Split::heat_map) draw_color_scale(scale);
+  ImGui::End();
+}
+
 void draw_overlay(Model& model, float scale) {
   if (model.settings.overlay) {
-    if (model.has_scene()) draw_light_handles(model, scale);
+    if (model.has_scene() && model.panels[Panel::lights] && model.zoom.factor <= 1.0f) draw_light_handles(model, scale);
     draw_divider(model, scale);
-    draw_captions(model);
-    draw_panels(model, scale);
-    draw_notices(model);
+    draw_caption(model, scale);
+    draw_status_line(model, scale);
+    for (std::size_t i = 0; i < kPanels.size(); ++i)
+      if (const auto panel = static_cast<Panel>(i); model.panels[panel])
+        draw_panel(panel, model, scale);
   }
-  draw_loading(model.loading, scale);
-  draw_errors(model);
-  if (model.settings.help) {
-    begin_message("keys", 0.5f);
-    draw_help();
-    ImGui::End();
-  }
+  draw_loading(model, scale);
+  draw_messages(model, scale);
 }
 
 }  // namespace pinocchio::app

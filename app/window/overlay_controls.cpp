@@ -2,189 +2,168 @@
 #include <algorithm>
 #include <array>
 #include <string>
+#include <utility>
 
 #include "app/window/overlay_parts.h"
 
 namespace pinocchio::app {
 namespace {
 
-// A row of buttons of which one is chosen; the one that is clicked, or -1.
-int choose(const char* name, const std::vector<Choice>& choices, std::size_t chosen) {
-  ImGui::AlignTextToFramePadding();
-  ImGui::TextUnformatted(name);
-  const float indent = ImGui::CalcTextSize("resolution  ").x;
-  const float gap = 2.0f;
-  const float room = ImGui::GetContentRegionAvail().x - indent;
-  const float width = (room + gap) / static_cast<float>(choices.size()) - gap;
-  int clicked = -1;
-  ImGui::PushID(name);
-  for (std::size_t i = 0; i < choices.size(); ++i) {
-    ImGui::SameLine(i == 0 ? indent + ImGui::GetStyle().WindowPadding.x : 0.0f, i == 0 ? -1.0f : gap);
-    if (i == chosen) ImGui::PushStyleColor(ImGuiCol_Button, ImGui::GetStyle().Colors[ImGuiCol_ButtonActive]);
-    ImGui::BeginDisabled(choices[i].broken);
-    if (ImGui::Button(std::string(choices[i].text).c_str(), ImVec2(width, 0.0f))) clicked = static_cast<int>(i);
-    ImGui::EndDisabled();
-    tooltip(choices[i]);
-    if (i == chosen) ImGui::PopStyleColor();
-  }
-  ImGui::PopID();
-  return clicked;
+// What is said of a preset's values; the command line's word where that is plain.
+std::string_view shown_name(std::string_view value) {
+  return value == "slides" ? "fixed" : value == "auto" ? "as needed" : value;
 }
 
-// A name at the left, in one column with choose(); the control that follows takes the rest.
-void label(const char* name) {
-  ImGui::AlignTextToFramePadding();
-  ImGui::TextUnformatted(name);
-  ImGui::SameLine(ImGui::CalcTextSize("resolution  ").x + ImGui::GetStyle().WindowPadding.x);
-  ImGui::SetNextItemWidth(-1.0f);
+std::string help_of(const char* field) {
+  return std::string(find_field(field)->help);
 }
 
-void draw_preset(const char* option, ViewSettings& s) {
-  const std::vector<Choice> choices = preset_choices(option, s);
+void draw_preset(const char* option, const std::string& help, ViewSettings& s) {
+  std::vector<Choice> choices = preset_choices(option, s);
   const auto chosen = std::ranges::find(choices, preset_of(option, s), &Choice::text) - choices.begin();
-  if (const int clicked = choose(option, choices, static_cast<std::size_t>(chosen)); clicked >= 0)
-    choose_preset(option, choices[static_cast<std::size_t>(clicked)].text, s);
+  const std::vector<Choice> values = choices;
+  for (Choice& choice : choices) choice.text = shown_name(choice.text);
+  if (const int clicked = choose(option, help, choices, static_cast<std::size_t>(chosen)); clicked >= 0)
+    choose_preset(option, values[static_cast<std::size_t>(clicked)].text, s);
 }
 
 void draw_exchange(ViewSettings& s) {
   const Field& field = *find_field("exchange");
   const Exchange now = wanted_settings(s).exchange;
-  if (const int clicked = choose("exchange", field_choices(field, s), static_cast<std::size_t>(now)); clicked >= 0)
+  if (const int clicked = choose("exchange", std::string(field.help), field_choices(field, s), static_cast<std::size_t>(now)); clicked >= 0)
     s.settings.exchange = static_cast<Exchange>(clicked);
 }
 
 void draw_quality_controls(ViewSettings& s) {
-  ImGui::Checkbox("shadows", &s.shadows);
+  checkbox("shadows", s.shadows, help_of("mask_bits"));
   ImGui::SameLine();
-  ImGui::Checkbox("reflections", &s.reflections);
-  label("depth");
+  checkbox("reflections", s.reflections, help_of("reflection"));
   int depth = s.settings.depth;
-  if (ImGui::SliderInt("##depth", &depth, 0, 16, depth == 1 ? "%d bounce" : "%d bounces"))
+  if (slider("depth", depth, 0, 16, format(depth == 1 ? "%d bounce" : "%d bounces", depth), help_of("depth")))
     s.settings.depth = depth;
-  label("exposure");
-  ImGui::SliderFloat("##exposure", &s.exposure_ev, -8.0f, 8.0f, "%+.1f stops");
-  label("resolution");
-  ImGui::SliderFloat("##scale", &s.scale, kLeastScale, kMostScale, "%.2f of the window's");
-  ImGui::Checkbox("gather samples", &s.accumulate);
+  slider("exposure", s.exposure_ev, -8.0f, 8.0f, format("%+.1f stops", static_cast<double>(s.exposure_ev)),
+         "how bright the picture is shown; a stop is twice the light");
+  slider("resolution", s.scale, kLeastScale, kMostScale, format("%.0f %%", 100.0 * static_cast<double>(s.scale)),
+         "pixels that are drawn for the window's, along a side");
+  checkbox("gather samples", s.accumulate, "while the camera stands still, more samples a pixel smooth the picture");
   ImGui::SameLine();
-  ImGui::Checkbox("vsync", &s.vsync);
+  checkbox("vsync", s.vsync, "wait for the display between pictures");
+}
+
+// What is black and what is white of a channel that has values beyond 0 to 1.
+void draw_range(Model& model) {
+  ViewSettings& s = model.settings;
+  if (s.buffer != BufferView::depth && s.buffer != BufferView::position) return;
+  bool automatic = !s.range;
+  if (checkbox("automatic range", automatic, "from the scene's size")) {
+    s.range.reset();
+    if (!automatic) s.range = model.shown_range;
+  }
+  if (!s.range) return;
+  const float speed = std::max(1e-3f * model.stats.bounds.diagonal(), 1e-6f);
+  const int axes = s.buffer == BufferView::depth ? 1 : 3;
+  label("black at", "values in scene units");
+  ImGui::DragScalarN("##lo", ImGuiDataType_Float, &s.range->lo.x, axes, speed, nullptr, nullptr, "%.3f");
+  tooltip("drag, or Ctrl + click to type a number");
+  label("white at", "values in scene units");
+  ImGui::DragScalarN("##hi", ImGuiDataType_Float, &s.range->hi.x, axes, speed, nullptr, nullptr, "%.3f");
+  tooltip("drag, or Ctrl + click to type a number");
 }
 
 void draw_looking(Model& model) {
   ViewSettings& s = model.settings;
-  label("look at");
-  const std::string chosen(kBufferViewNames[static_cast<std::size_t>(s.buffer)]);
-  const int slots = model.stats.casting_lights;
-  const bool is_mask = s.buffer == BufferView::mask;
-  if (ImGui::BeginCombo("##buffer",
-                        is_mask ? (chosen + " " + std::to_string(s.mask_slot)).c_str() : chosen.c_str())) {
+  label("show", "the picture, or a channel that it is made of");
+  const auto name_of = [](BufferView view, int slot) {
+    std::string name(kBufferViewNames[static_cast<std::size_t>(view)]);
+    if (view == BufferView::mask) name += " " + std::to_string(slot);
+    return name;
+  };
+  if (ImGui::BeginCombo("##buffer", name_of(s.buffer, s.mask_slot).c_str())) {
     for (std::size_t i = 0; i < kBufferViewNames.size(); ++i) {
       const auto view = static_cast<BufferView>(i);
-      for (int slot = 0; slot < (view == BufferView::mask ? std::max(slots, 1) : 1); ++slot) {
-        std::string name(kBufferViewNames[i]);
-        if (view == BufferView::mask) name += " " + std::to_string(slot);
-        if (ImGui::Selectable(name.c_str(), s.buffer == view && (!is_mask || s.mask_slot == slot))) {
+      for (int slot = 0; slot < (view == BufferView::mask ? std::max(model.stats.casting_lights, 1) : 1); ++slot)
+        if (ImGui::Selectable(name_of(view, slot).c_str(),
+                              s.buffer == view && (view != BufferView::mask || s.mask_slot == slot))) {
           s.buffer = view;
           s.mask_slot = slot;
         }
-      }
     }
     ImGui::EndCombo();
   }
-  const std::vector<Choice> sides{{"off"}, {"precise"}, {"heat map"}};
-  if (const int clicked = choose("beside", sides, static_cast<std::size_t>(s.split)); clicked >= 0)
+  tooltip("the picture, or a channel that it is made of");
+  draw_range(model);
+  const std::vector<Choice> sides{{"off", "the picture alone"},
+                                  {"reference", "the reference, in double precision, in the right half"},
+                                  {"difference", "how visible the difference from the reference is (FLIP)"}};
+  if (const int clicked = choose("compare", "the picture with a reference, drawn in the background", sides,
+                                 static_cast<std::size_t>(s.split));
+      clicked >= 0)
     s.split = static_cast<Split>(clicked);
-}
-
-void draw_camera(Model& model) {
-  const Camera& camera = model.camera.camera();
-  ImGui::Text("eye %.2f, %.2f, %.2f", static_cast<double>(camera.eye.x), static_cast<double>(camera.eye.y),
-              static_cast<double>(camera.eye.z));
-  if (ImGui::Button("whole scene")) model.asked.push_back(Action::frame_all);
-  ImGui::SameLine();
-  if (ImGui::Button("reset")) model.asked.push_back(Action::reset_camera);
-  ImGui::SameLine();
-  if (ImGui::Button("save")) model.asked.push_back(Action::save_camera);
-  if (ImGui::Button("screenshot")) model.asked.push_back(Action::screenshot);
-  ImGui::SameLine();
-  if (ImGui::Button("print command")) model.asked.push_back(Action::print_command);
-  ImGui::SameLine();
-  if (ImGui::Button("keys")) model.settings.help = !model.settings.help;
 }
 
 void draw_about(const Model& model) {
   ImGui::PushStyleColor(ImGuiCol_Text, ImGui::GetStyle().Colors[ImGuiCol_TextDisabled]);
-  ImGui::PushTextWrapPos(0.0f);
-  ImGui::Text("%dx%d pixels%s, %d threads", model.picture_size.x, model.picture_size.y,
-              model.samples > 1 ? (", " + std::to_string(model.samples) + " samples").c_str() : "",
-              model.threads);
-  ImGui::TextUnformatted(model.renderer.c_str());
-  ImGui::PopTextWrapPos();
+  paragraph(format("%d x %d pixels, %d thread%s", model.picture_size.x, model.picture_size.y, model.threads,
+                   model.threads == 1 ? "" : "s"));
+  paragraph(model.renderer);
   ImGui::PopStyleColor();
 }
 
 }  // namespace
 
-void tooltip(const std::string& text) {
-  if (text.empty() || !ImGui::IsItemHovered(ImGuiHoveredFlags_AllowWhenDisabled)) return;
-  ImGui::BeginTooltip();
-  ImGui::PushTextWrapPos(26.0f * ImGui::GetFontSize());
-  ImGui::TextUnformatted(text.c_str());
-  ImGui::PopTextWrapPos();
-  ImGui::EndTooltip();
-}
-
-void tooltip(const Choice& choice) {
-  tooltip(choice.broken ? std::string(choice.broken->what) + "; " + std::string(choice.broken->remedy)
-                        : std::string(choice.help));
-}
-
 void draw_controls(Model& model, float) {
-  for (const char* const option : {"plan", "mode", "design"}) draw_preset(option, model.settings);
-  draw_exchange(model.settings);
+  ViewSettings& s = model.settings;
+  draw_preset("mode", "who draws", s);
+  draw_preset("design", "where the picture is put together", s);
+  draw_preset("plan", "what is sent between the processors", s);
+  draw_exchange(s);
   ImGui::Separator();
-  draw_quality_controls(model.settings);
-  if (ImGui::CollapsingHeader("All settings")) draw_all_settings(model);
+  draw_quality_controls(s);
   ImGui::Separator();
   draw_looking(model);
-  if (model.has_scene() && ImGui::CollapsingHeader("Lights", ImGuiTreeNodeFlags_DefaultOpen))
-    draw_light_controls(model);
-  if (ImGui::CollapsingHeader("Camera", ImGuiTreeNodeFlags_DefaultOpen)) draw_camera(model);
   ImGui::Separator();
   draw_about(model);
 }
 
-void draw_help() {
-  if (!ImGui::BeginTable("keys", 4, ImGuiTableFlags_SizingFixedFit)) return;
-  const auto cell = [](const char* text, bool is_key) {
-    ImGui::TableNextColumn();
-    if (is_key) {
-      ImGui::TextColored(ImVec4(0.98f, 0.72f, 0.38f, 1.0f), "  %s", text);
-    } else {
-      ImGui::TextUnformatted(text);
+void draw_camera(Model& model, float) {
+  const Camera& camera = model.camera.camera();
+  const auto row_of = [](const char* name, const glm::vec3& v, const char* help) {
+    row(name, format("%.2f, %.2f, %.2f", static_cast<double>(v.x), static_cast<double>(v.y), static_cast<double>(v.z)),
+        help);
+  };
+  row_of("eye", camera.eye, "where the camera is: x, y, z in the scene's units");
+  row_of("target", camera.target, "what it looks at and turns around; double-click a surface to set it");
+  row("field of view", format("%.1f degrees", static_cast<double>(camera.fov_deg)), "from lower to upper edge");
+  struct Ask {
+    const char* name;
+    Action action;
+    const char* help;
+  };
+  const auto draw = [&model](std::initializer_list<Ask> asks) {
+    bool first = true;
+    for (const Ask& ask : asks) {
+      if (!std::exchange(first, false)) ImGui::SameLine();
+      if (button(ask.name, ask.help)) model.asked.push_back(ask.action);
     }
   };
-  constexpr std::array<std::array<const char*, 2>, 8> kOthers{
-      {{"left drag", "orbit; look around while flying"},
-       {"middle drag, Shift+left", "pan"},
-       {"wheel, right drag", "zoom"},
-       {"W A S D", "fly, Shift faster"},
-       {"E Q", "fly up, down"},
-       {"1 to 9", "the scene's cameras"},
-       {"drop a file", "open it"},
-       {"drag a light's mark", "move the light"}}};
-  for (const auto& other : kOthers) {
-    cell(other[0], true);
-    cell(other[1], false);
+  draw({{"Fit", Action::frame_all, "what matters of the scene in view (F)"},
+        {"Reset", Action::reset_camera, "as at the start (R)"},
+        {"Save", Action::save_camera, "to a file for render --path (C)"}});
+  draw({{"Front", Action::view_front, "along -z"},
+        {"Right", Action::view_right, "along -x"},
+        {"Top", Action::view_top, "along -y"}});
+  draw({{"Screenshot", Action::screenshot, "PNG of the window, EXR of the picture (F12)"},
+        {"Print command", Action::print_command, "that renders this without a window (P)"}});
+  if (model.scene.cameras.empty()) return;
+  ImGui::Separator();
+  for (std::size_t i = 0; i < model.scene.cameras.size(); ++i) {
+    const std::string& name = model.scene.cameras[i].name;
+    ImGui::PushID(static_cast<int>(i));
+    if (ImGui::Selectable((std::to_string(i + 1) + "  " + (name.empty() ? "camera" : name)).c_str()))
+      model.camera_to_show = static_cast<int>(i);
+    ImGui::PopID();
+    tooltip("look through this camera of the file");
   }
-  const char* last = "";
-  for (const KeyBinding& binding : key_bindings()) {
-    if (std::string(last) == binding.what) continue;  // another key for the same
-    last = binding.what;
-    cell(binding.shown, true);
-    cell(binding.what, false);
-  }
-  ImGui::EndTable();
 }
 
 }  // namespace pinocchio::app

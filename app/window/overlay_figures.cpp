@@ -13,19 +13,12 @@ namespace {
 constexpr std::size_t kMedianOf = 20;  // frames
 
 std::string megabytes(std::size_t bytes) {
-  std::array<char, 32> text{};
-  std::snprintf(text.data(), text.size(), "%.2f MB", static_cast<double>(bytes) * 1e-6);
-  return text.data();
+  return format("%.2f MB", static_cast<double>(bytes) * 1e-6);
 }
 
 std::string count_text(std::uint64_t count) {
-  std::array<char, 32> text{};
-  if (count < 10'000) {
-    std::snprintf(text.data(), text.size(), "%llu", static_cast<unsigned long long>(count));
-  } else {
-    std::snprintf(text.data(), text.size(), "%.2f M", static_cast<double>(count) * 1e-6);
-  }
-  return text.data();
+  if (count < 10'000) return std::to_string(count);
+  return format("%.2f M", static_cast<double>(count) * 1e-6);
 }
 
 // High enough for nearly all: one slow frame (shaders being compiled) does not flatten the rest.
@@ -43,105 +36,91 @@ void graph(const char* id, const std::vector<float>& values, float height, ImVec
   ImGui::PopStyleColor();
 }
 
-// Two columns: a name, and a value at the right edge.
-void row(const char* name, const std::string& value) {
-  ImGui::TextUnformatted(name);
-  const float width = ImGui::CalcTextSize(value.c_str()).x;
-  ImGui::SameLine(ImGui::GetWindowContentRegionMax().x - width);
-  ImGui::TextUnformatted(value.c_str());
-}
-
 void draw_times(const Model& model, float scale) {
   const std::vector<float> frames = model.history.frame_ms();
   const float frame_ms = median_of_newest(frames, kMedianOf);
   const float latency_ms = median_of_newest(model.history.latency_ms(), kMedianOf);
-  const int late = model.history.empty() ? 0 : model.history.records().back().latency_frames;
-  const int age = model.history.empty() ? 0 : model.history.records().back().age_frames;
-  ImGui::Text("frame %.1f ms", static_cast<double>(frame_ms));
-  std::array<char, 32> fps{};
-  std::snprintf(fps.data(), fps.size(), "%.1f fps",
-                frame_ms > 0.0f ? 1e3 / static_cast<double>(frame_ms) : 0.0);
-  ImGui::SameLine(ImGui::GetWindowContentRegionMax().x - ImGui::CalcTextSize(fps.data()).x);
-  ImGui::TextUnformatted(fps.data());
-  graph("##frame", frames, 46.0f * scale, ImVec4(0.98f, 0.72f, 0.38f, 1.0f));
-  ImGui::Text("latency %.1f ms, %d frame%s%s", static_cast<double>(latency_ms), late, late == 1 ? "" : "s",
-              model.settings.vsync ? ", with vsync" : ", no vsync");
-  if (age > 0) ImGui::Text("shadows and reflections %d frame%s older", age, age == 1 ? "" : "s");
+  const FrameRecord newest = model.history.empty() ? FrameRecord{} : model.history.records().back();
+  row("from picture to picture", format("%.1f ms", static_cast<double>(frame_ms)), "median of the last 20 frames");
+  row("measured rate", format("%.1f frames/s", model.history.rate()), "frames of the last second that was drawn in");
+  graph("##frame", frames, 40.0f * scale, kAccent);
+  tooltip("time from one picture to the next, oldest at the left");
+  row("latency", format("%.1f ms, %d frame%s", static_cast<double>(latency_ms), newest.latency_frames,
+                        newest.latency_frames == 1 ? "" : "s"),
+      "from the moment the camera is asked to the moment its picture is given to the display; in frames: "
+      "pictures begun between");
+  if (newest.age_frames > 0)
+    row("shadows and mirrors", format("%d frame%s late", newest.age_frames, newest.age_frames == 1 ? "" : "s"),
+        "exchange reproject: those of an earlier frame are warped to this one");
 }
 
 void draw_stages(const Model& model) {
   const float height = ImGui::GetTextLineHeight();
   if (!ImGui::BeginTable("stages", 3, ImGuiTableFlags_None)) return;
-  const float name_width = ImGui::CalcTextSize("trace_reflection ").x,
-              value_width = ImGui::CalcTextSize("0000.00").x;
-  ImGui::TableSetupColumn("name", ImGuiTableColumnFlags_WidthFixed, name_width);
+  ImGui::TableSetupColumn("name", ImGuiTableColumnFlags_WidthFixed, ImGui::CalcTextSize("trace reflections ").x);
   ImGui::TableSetupColumn("graph", ImGuiTableColumnFlags_WidthStretch);
-  ImGui::TableSetupColumn("ms", ImGuiTableColumnFlags_WidthFixed, value_width);
+  ImGui::TableSetupColumn("ms", ImGuiTableColumnFlags_WidthFixed, ImGui::CalcTextSize("0000.00 ms").x);
   for (std::size_t i = 0; i < kStageNames.size(); ++i) {
     const auto stage = static_cast<Stage>(i);
     const std::vector<float> values = model.history.stage_ms(stage);
-    const float ms = median_of_newest(values, kMedianOf);
+    if (std::ranges::all_of(values, [](float ms) { return ms <= 0.0f; })) continue;  // is not run
     const ImVec4 color = lane_color(lane_of(stage, model.drawn));
     ImGui::TableNextRow();
     ImGui::TableNextColumn();
-    ImGui::TextColored(ms > 0.0f ? color : ImGui::GetStyle().Colors[ImGuiCol_TextDisabled], "%s",
-                       std::string(kStageNames[i]).c_str());
+    ImGui::TextColored(color, "%s", stage_label(stage));
+    tooltip("median of the last 20 frames; one colour for each processor, as in the timeline");
     ImGui::TableNextColumn();
     ImGui::PushID(static_cast<int>(i));
     graph("##stage", values, height, color);
     ImGui::PopID();
     ImGui::TableNextColumn();
-    std::array<char, 16> text{};
-    std::snprintf(text.data(), text.size(), "%.2f", static_cast<double>(ms));
-    ImGui::SetCursorPosX(ImGui::GetCursorPosX() + ImGui::GetColumnWidth() -
-                         ImGui::CalcTextSize(text.data()).x);
-    ImGui::TextUnformatted(ms > 0.0f ? text.data() : "");
+    const std::string text = format("%.2f ms", static_cast<double>(median_of_newest(values, kMedianOf)));
+    ImGui::SetCursorPosX(ImGui::GetCursorPosX() + ImGui::GetColumnWidth() - ImGui::CalcTextSize(text.c_str()).x);
+    ImGui::TextUnformatted(text.c_str());
   }
   ImGui::EndTable();
 }
 
 void draw_traffic(const FrameRecord& record) {
-  row("GPU to CPU", megabytes(record.bytes_to_cpu()));
-  row("CPU to GPU", megabytes(record.bytes_to_gpu()));
+  row("GPU to CPU, a frame", megabytes(record.bytes_to_cpu()), "all buffers that the last frame sent this way");
+  row("CPU to GPU, a frame", megabytes(record.bytes_to_gpu()), "all buffers that the last frame sent this way");
   for (std::size_t i = 0; i < kChannelNames.size(); ++i) {
     if (record.bytes[i] == 0) continue;
     const std::string name = "   " + std::string(kChannelNames[i]);
     ImGui::PushStyleColor(ImGuiCol_Text, ImGui::GetStyle().Colors[ImGuiCol_TextDisabled]);
-    row(name.c_str(), megabytes(record.bytes[i]));
+    row(name.c_str(), megabytes(record.bytes[i]),
+        goes_to_cpu(static_cast<Channel>(i)) ? "to the CPU" : "to the GPU");
     ImGui::PopStyleColor();
   }
 }
 
 void draw_rays(const FrameRecord& record) {
   const RayCounts& rays = record.rays;
-  if (rays.primary > 0) row("primary rays", count_text(rays.primary));
-  row("shadow rays", count_text(rays.shadow));
-  row("reflected, refracted", count_text(rays.reflection) + ", " + count_text(rays.refraction));
+  if (rays.primary > 0)
+    row("primary rays", count_text(rays.primary), "from the camera; none where the GPU finds what is seen");
+  if (rays.shadow > 0) row("shadow rays", count_text(rays.shadow), "from what is seen to the lights");
+  if (rays.reflection > 0) row("reflected rays", count_text(rays.reflection), "from mirrors");
+  if (rays.refraction > 0) row("refracted rays", count_text(rays.refraction), "through glass");
   const double ms = record[Stage::trace_shadow].ms() + record[Stage::trace_reflection].ms();
   const auto traced = static_cast<double>(rays.shadow + rays.reflection + rays.refraction);
-  if (ms <= 0.0) return;
-  std::array<char, 32> text{};
-  std::snprintf(text.data(), text.size(), "%.1f M", traced / ms * 1e-3);
-  row("rays a second", text.data());
+  if (ms > 0.0)
+    row("traced", format("%.1f M rays/s", traced / ms * 1e-3), "shadow, reflected and refracted, while they are traced");
 }
 
 }  // namespace
 
-void draw_figures(const Model& model, float scale) {
+void draw_figures(Model& model, float scale) {
+  if (model.history.empty()) return paragraph("nothing was drawn by these settings yet");
   draw_times(model, scale);
   draw_stages(model);
-  if (!model.history.empty()) {
-    ImGui::Separator();
-    draw_traffic(model.history.records().back());
-    ImGui::Separator();
-    draw_rays(model.history.records().back());
-  }
-  if (model.has_scene() && ImGui::CollapsingHeader("Why so", ImGuiTreeNodeFlags_DefaultOpen)) {
-    ImGui::PushTextWrapPos(0.0f);
-    for (const std::string& line : explain(model.stats, model.drawn))
-      ImGui::TextUnformatted(line.c_str());
-    ImGui::PopTextWrapPos();
-  }
+  ImGui::Separator();
+  draw_traffic(model.history.records().back());
+  ImGui::Separator();
+  draw_rays(model.history.records().back());
+  const bool open = ImGui::CollapsingHeader("Why it is drawn this way");
+  tooltip("what the settings were filled in with, and the reason for each");
+  if (open)
+    for (const std::string& line : explain(model.stats, model.drawn)) paragraph(line);
 }
 
 }  // namespace pinocchio::app

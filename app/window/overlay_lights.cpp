@@ -17,26 +17,26 @@ float drag_speed(const Model& model) {
 }
 
 bool edit_light(Light& light, const Model& model) {
-  bool changed = ImGui::Checkbox("##casts", &light.casts_shadow);
-  if (ImGui::IsItemHovered()) ImGui::SetTooltip("casts shadows");
-  ImGui::SameLine();
-  ImGui::TextUnformatted(light.name.empty() ? "light" : light.name.c_str());
-  ImGui::SetNextItemWidth(-1.0f);
+  bool changed = checkbox(light.name.empty() ? "light" : light.name.c_str(), light.casts_shadow, "casts shadows");
+  const float speed = std::max(0.01f * light.intensity, 0.005f);
   if (light.kind == Light::Kind::directional) {
+    label("direction", "that its light goes, x y z");
     if (ImGui::DragFloat3("##direction", &light.direction.x, 0.01f, 0.0f, 0.0f, "%.2f")) {
       const float length = glm::length(light.direction);
       light.direction = length > 1e-6f ? light.direction / length : glm::vec3(0.0f, -1.0f, 0.0f);
       changed = true;
     }
-  } else if (ImGui::DragFloat3("##position", &light.position.x, drag_speed(model), 0.0f, 0.0f, "%.2f")) {
-    changed = true;
+  } else {
+    label("position", "x y z in the scene's units: drag a number, or the light's mark in the picture");
+    changed = ImGui::DragFloat3("##position", &light.position.x, drag_speed(model), 0.0f, 0.0f, "%.2f") || changed;
   }
-  ImGui::SetNextItemWidth(-1.0f);
-  const float speed = std::max(0.01f * light.intensity, 0.005f);
-  if (ImGui::DragFloat("##intensity", &light.intensity, speed, 0.0f, 1e6f, "intensity %.2f")) {
+  tooltip("drag, or Ctrl + click to type a number");
+  label("intensity", "multiplies the light's colour; 1: as bright as the file has white");
+  if (ImGui::DragFloat("##intensity", &light.intensity, speed, 0.0f, 1e6f, "%.2f")) {
     light.intensity = std::max(light.intensity, 0.0f);
     changed = true;
   }
+  tooltip("drag, or Ctrl + click to type a number");
   return changed;
 }
 
@@ -74,7 +74,9 @@ bool drag_mark(Light& light, int id, const Camera& camera, glm::vec2 display, fl
 
 }  // namespace
 
-void draw_light_controls(Model& model) {
+void draw_light_controls(Model& model, float) {
+  if (!model.has_scene()) return paragraph("no scene");
+  paragraph("Drag the marks in the picture, or the numbers.");
   for (std::size_t i = 0; i < model.scene.lights.size(); ++i) {
     ImGui::PushID(static_cast<int>(i));
     model.lights_changed = edit_light(model.scene.lights[i], model) || model.lights_changed;

@@ -1,8 +1,7 @@
 #pragma once
 
-#include <imgui.h>
-
 #include "app/window/model.h"
+#include "app/window/widgets.h"
 
 namespace pinocchio::app {
 
@@ -11,21 +10,30 @@ enum class Lane { gpu, exchange, cpu, window };
 [[nodiscard]] Lane lane_of(Stage stage, const Settings& settings);
 [[nodiscard]] const char* lane_name(Lane lane);
 [[nodiscard]] ImVec4 lane_color(Lane lane);
+// A stage, in words.
+[[nodiscard]] const char* stage_label(Stage stage);
 
-// While the pointer is on the last item.
-void tooltip(const std::string& text);
-// The rule that the choice would break, else its help.
-void tooltip(const Choice& choice);
-
-// The overlay's parts, each into the ImGui window that is open. scale: pixels for one of a usual display.
-void draw_figures(const Model& model, float scale);
-void draw_timeline(const Model& model, float scale);
+// The panels' contents, each into the ImGui window that is open. scale: pixels for one of a usual display.
+void draw_help(Model& model, float scale);
+void draw_figures(Model& model, float scale);
 void draw_controls(Model& model, float scale);
-void draw_light_controls(Model& model);
-// Every setting of the table, a row each.
-void draw_all_settings(Model& model);
+void draw_all_settings(Model& model, float scale);
+void draw_light_controls(Model& model, float scale);
+void draw_camera(Model& model, float scale);
+void draw_timeline(Model& model, float scale);
+void draw_pixel(Model& model, float scale);
+void draw_materials(Model& model, float scale);
+void draw_files(Model& model, float scale);
+
+// One line at the window's lower edge.
+void draw_status_line(Model& model, float scale);
+[[nodiscard]] float status_height(float scale);
+// What there is to say, above the status line.
+void draw_messages(Model& model, float scale);
+void draw_loading(Model& model, float scale);
+// What the picture's colours mean, at the window's upper edge.
+void draw_caption(Model& model, float scale);
 // Over the picture, into no window: a handle at each light, to drag.
 void draw_light_handles(Model& model, float scale);
-void draw_help();
 
 }  // namespace pinocchio::app

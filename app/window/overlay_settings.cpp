@@ -17,7 +17,7 @@ struct Row {
 
   void take(std::string_view value) const {
     if (!field.take(value, model.settings.settings))
-      model.notify(std::string(field.name) + " is " + field.domain());
+      model.messages.hint(std::string(field.name) + " is " + field.domain());
   }
 };
 
@@ -62,8 +62,8 @@ void draw_row(const Row& row, const Settings& wanted) {
   const ImGuiStyle& style = ImGui::GetStyle();
   ImGui::TextColored(style.Colors[given ? ImGuiCol_Text : ImGuiCol_TextDisabled], "%s",
                      std::string(field.name).c_str());
-  tooltip(std::string(field.help) + "\nwhere nobody sets it: " + std::string(field.unset) +
-          (by_others ? "\nnow set by plan, mode, shadows or reflections" : ""));
+  tooltip(std::string(field.help) + "\ndefault: " + std::string(field.unset) +
+          (by_others ? "\nset by the plan, the mode, shadows or reflections in the panel Drawing" : ""));
   ImGui::TableNextColumn();
   ImGui::BeginDisabled(by_others);
   ImGui::SetNextItemWidth(-1.6f * ImGui::GetFrameHeight());
@@ -83,7 +83,7 @@ void draw_row(const Row& row, const Settings& wanted) {
 
 }  // namespace
 
-void draw_all_settings(Model& model) {
+void draw_all_settings(Model& model, float) {
   if (!ImGui::BeginTable("settings", 2)) return;
   ImGui::TableSetupColumn("name", ImGuiTableColumnFlags_WidthFixed);
   ImGui::TableSetupColumn("value", ImGuiTableColumnFlags_WidthStretch);

@@ -1,4 +1,4 @@
-// The last frames' stages, a row for each who works: what overlaps, and who waits for whom.
+// The last frames' stages, a row for each processor: what overlaps, and where one waits for another.
 #include <algorithm>
 #include <array>
 #include <string>
@@ -8,7 +8,7 @@
 namespace pinocchio::app {
 namespace {
 
-constexpr std::size_t kFramesShown = 6;
+constexpr int kMostFramesShown = 60;
 constexpr std::array<Lane, 4> kLanes{Lane::gpu, Lane::exchange, Lane::cpu, Lane::window};
 
 // Where times and rows are on the screen.
@@ -43,7 +43,7 @@ void draw_span(const Chart& chart, const FrameRecord& record, Stage stage, Lane 
   const ImVec2 hi(std::max(chart.x(span.end_s), lo.x + 1.0f), lo.y + height);
   ImDrawList& list = *ImGui::GetWindowDrawList();
   list.AddRectFilled(lo, hi, color_of(lane, record.number, travels ? 0.4f : 1.0f), 2.0f);
-  const std::string name(kStageNames[static_cast<std::size_t>(stage)]);
+  const std::string name(stage_label(stage));
   const std::string label = name + " " + std::to_string(record.number);
   for (const std::string& text : {label, name}) {
     const ImVec2 extent = ImGui::CalcTextSize(text.c_str());
@@ -106,8 +106,14 @@ Lane lane_of(Stage stage, const Settings& settings) {
 }
 
 const char* lane_name(Lane lane) {
-  constexpr std::array<const char*, 4> kNames{"GPU", "exchange", "CPU", "window"};
+  constexpr std::array<const char*, 4> kNames{"GPU", "transfer", "CPU", "display"};
   return kNames[static_cast<std::size_t>(lane)];
+}
+
+const char* stage_label(Stage stage) {
+  constexpr std::array<const char*, kStageNames.size()> kLabels{
+      "rasterize", "read back", "trace shadows", "trace reflections", "upload", "composite", "present"};
+  return kLabels[static_cast<std::size_t>(stage)];
 }
 
 ImVec4 lane_color(Lane lane) {
@@ -117,32 +123,80 @@ ImVec4 lane_color(Lane lane) {
   return {c[0], c[1], c[2], 1.0f};
 }
 
-void draw_timeline(const Model& model, float) {
-  const auto& records = model.history.records();
-  const std::size_t shown = std::min(records.size(), kFramesShown);
-  const std::size_t first = records.size() - shown;
-  const double begin_s = shown == 0 ? 0.0 : records[first].frame.begin_s;
-  const double end_s = shown == 0 ? 1.0 : std::max(records.back().frame.end_s, begin_s + 1e-4);
-  ImGui::Text("the last %zu frames, %.1f ms", shown, 1e3 * (end_s - begin_s));
-  const float label_width = ImGui::CalcTextSize("exchange  ").x;
-  const ImVec2 at = ImGui::GetCursorScreenPos();
-  const ImVec2 room = ImGui::GetContentRegionAvail();
-  const Chart chart{{at.x + label_width, at.y},
-                    {room.x - label_width, room.y},
-                    begin_s,
-                    end_s,
-                    room.y / static_cast<float>(kLanes.size())};
+namespace {
+
+// Pausing keeps what there is; zooming shows fewer frames or more, dragging goes back and forth.
+void draw_timeline_controls(Model& model) {
+  TimelineView& view = model.timeline;
+  if (button(view.paused ? "Go on" : "Pause", view.paused ? "follow the newest frames again" : "keep these frames")) {
+    view.paused = !view.paused;
+    view.back = 0;
+    view.records.assign(model.history.records().begin(), model.history.records().end());
+  }
+  ImGui::SameLine();
+  if (button(" - ", "show more frames (wheel)")) ++view.frames;
+  ImGui::SameLine();
+  if (button(" + ", "show fewer frames (wheel)")) --view.frames;
+  ImGui::SameLine();
+}
+
+void take_pointer(TimelineView& view, const Chart& chart) {
+  ImGui::SetCursorScreenPos(chart.lo);
+  ImGui::InvisibleButton("chart", ImVec2(std::max(chart.size.x, 1.0f), std::max(chart.size.y, 1.0f)));
+  if (ImGui::IsItemHovered() && ImGui::GetIO().MouseWheel != 0.0f)
+    view.frames -= ImGui::GetIO().MouseWheel > 0.0f ? 1 : -1;
+  const float frame_width = chart.size.x / static_cast<float>(view.frames);
+  if (ImGui::IsItemActive() && view.paused) {
+    const float dragged = ImGui::GetMouseDragDelta(0, 0.0f).x / std::max(frame_width, 1.0f);
+    if (const int frames = static_cast<int>(dragged); frames != 0) {
+      view.back += frames;
+      ImGui::ResetMouseDragDelta(0);
+    }
+  }
+}
+
+void draw_lanes(const Chart& chart, float x) {
   ImDrawList& list = *ImGui::GetWindowDrawList();
   for (const Lane lane : kLanes) {
     const float y = chart.y(lane);
     list.AddRectFilled({chart.lo.x, y + 1.0f}, {chart.lo.x + chart.size.x, y + chart.row_height - 1.0f},
                        IM_COL32(255, 255, 255, 12), 2.0f);
-    list.AddText({at.x, y + 0.5f * (chart.row_height - ImGui::GetTextLineHeight())},
+    list.AddText({x, y + 0.5f * (chart.row_height - ImGui::GetTextLineHeight())},
                  ImGui::ColorConvertFloat4ToU32(lane_color(lane)), lane_name(lane));
+    ImGui::LogText("%s ", lane_name(lane));
   }
-  if (shown == 0) return;
-  for (std::size_t i = first; i < records.size(); ++i) draw_frame(chart, records[i], model.drawn);
-  for (std::size_t i = first; i < records.size(); ++i) draw_waits(chart, records[i], model.drawn);
+}
+
+}  // namespace
+
+void draw_timeline(Model& model, float scale) {
+  TimelineView& view = model.timeline;
+  draw_timeline_controls(model);
+  const std::vector<FrameRecord> now(model.history.records().begin(), model.history.records().end());
+  const std::vector<FrameRecord>& records = view.paused ? view.records : now;
+  const int count = static_cast<int>(records.size());
+  view.frames = std::clamp(view.frames, 1, kMostFramesShown);
+  view.back = std::clamp(view.back, 0, std::max(count - view.frames, 0));
+  const int last = count - (view.paused ? view.back : 0), first = std::max(last - view.frames, 0);
+  const auto at = [&](int i) -> const FrameRecord& { return records[static_cast<std::size_t>(i)]; };
+  const double begin_s = count == 0 ? 0.0 : at(first).frame.begin_s;
+  const double end_s = count == 0 ? 1.0 : std::max(at(last - 1).frame.end_s, begin_s + 1e-4);
+  ImGui::Text("%d frame%s, %.1f ms%s", last - first, last - first == 1 ? "" : "s", 1e3 * (end_s - begin_s),
+              view.paused ? ", paused" : "");
+  tooltip("frames are told apart by brightness; a line runs from work that is waited for to the work that "
+          "waits; a gap is a processor without work. Times in which nothing was drawn are left out");
+  const ImVec2 corner = ImGui::GetCursorScreenPos();
+  const float names = ImGui::CalcTextSize("transfer  ").x, width = ImGui::GetContentRegionAvail().x;
+  const float height = 100.0f * scale;
+  const Chart chart{{corner.x + names, corner.y},
+                    {std::max(width - names, 1.0f), height},
+                    begin_s,
+                    end_s,
+                    height / static_cast<float>(kLanes.size())};
+  draw_lanes(chart, corner.x);
+  take_pointer(view, chart);
+  for (int i = first; i < last; ++i) draw_frame(chart, at(i), model.drawn);
+  for (int i = first; i < last; ++i) draw_waits(chart, at(i), model.drawn);
 }
 
 }  // namespace pinocchio::app

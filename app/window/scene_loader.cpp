@@ -1,41 +1,83 @@
 #include "app/window/scene_loader.h"
 
+#include <sys/resource.h>
+
 #include <chrono>
+#include <string_view>
 #include <thread>
 #include <utility>
 
 #include "app/errors.h"
+#include "app/window/framing.h"
 #include "core/base/clock.h"
 
 namespace pinocchio::app {
 
+namespace {
+
+// The window's redraws come first. On Linux a thread has a priority of its own, and hands it on to the threads
+// that it starts.
+void give_way() {
+  constexpr int kNicer = 5;
+  setpriority(PRIO_PROCESS, 0, getpriority(PRIO_PROCESS, 0) + kNicer);
+}
+
+}  // namespace
+
+// What is to be said of it is the window's to say.
+SceneLoader::News SceneLoader::read(const DrawOptions& options, pinocchio::Progress& progress) {
+  News news;
+  DrawOptions silent = options;
+  silent.quiet = true;
+  Warnings warnings;
+  Scene scene = load_whole(silent, warnings, &progress);
+  scene.lights.insert(scene.lights.end(), options.lights.begin(), options.lights.end());
+  if (!options.quiet) {
+    for (const Warning& warning : warnings) news.warnings.push_back(warning.message());
+    if (scene.lights.empty())
+      news.warnings.push_back(scene.source + " has no light; a default one is used (add one with --light x,y,z)");
+  }
+  light_if_dark(scene, silent);
+  news.stats = analyze(scene);
+  news.interest = bounds_of_interest(*scene.mesh);
+  news.camera = camera_for(options, scene);
+  news.scene = std::move(scene);
+  return news;
+}
+
 void SceneLoader::load(const DrawOptions& options) {
-  start("reading " + options.scene, options.scene, [options] {
-    News news;
-    news.scene = load_scene_for(options);
-    news.stats = analyze(*news.scene);
-    news.camera = camera_for(options, *news.scene);
-    return news;
-  });
+  start("reading " + options.scene, options.scene,
+        [options](pinocchio::Progress& progress) { return read(options, progress); });
 }
 
 void SceneLoader::build_tree(const Scene& scene, const Settings& settings) {
   const std::string triangles = std::to_string(scene.mesh->triangles.size());
-  start("building the tree of " + triangles + " triangles", scene.source, [scene, settings] {
-    News news;
-    news.tracer = Engine::prepare(scene, settings);
-    return news;
-  });
+  start("building the tree of " + triangles + " triangles", scene.source,
+        [scene, settings](pinocchio::Progress& progress) {
+          News news;
+          news.tracer = Engine::prepare(scene, settings, &progress);
+          return news;
+        });
 }
 
 // Detached: nobody waits for a scene that is no longer wanted.
-void SceneLoader::start(const std::string& phase, const std::string& source, std::function<News()> work) {
+void SceneLoader::start(const std::string& phase, const std::string& source, Work work) {
+  cancel();
   phase_ = phase;
   source_ = source;
   begin_s_ = now_s();
-  std::packaged_task<News()> task(std::move(work));
+  progress_ = std::make_shared<pinocchio::Progress>();
+  std::packaged_task<News()> task([work = std::move(work), progress = progress_] { return work(*progress); });
   news_ = task.get_future();
-  std::thread([task = std::move(task), alive = threads_]() mutable { task(); }).detach();
+  std::thread([task = std::move(task), alive = threads_]() mutable {
+    give_way();
+    task();
+  }).detach();
+}
+
+void SceneLoader::cancel() {
+  if (progress_) progress_->cancel();
+  news_ = {};
 }
 
 SceneLoader::News SceneLoader::poll() {
@@ -58,7 +100,8 @@ SceneLoader::News SceneLoader::poll() {
 
 SceneLoader::Progress SceneLoader::progress() const {
   if (!news_.valid()) return {};
-  return {phase_, now_s() - begin_s_};
+  const bool of_mesh = std::string_view(progress_->phase()) == "mesh";
+  return {phase_ + (of_mesh ? ": its triangles" : ""), now_s() - begin_s_, progress_->fraction()};
 }
 
 }  // namespace pinocchio::app

@@ -1,19 +1,23 @@
 #include "app/window/session.h"
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 #include "app/console.h"
 #include "app/errors.h"
-#include "core/parallel/workers.h"
+#include "app/window/overlay.h"
+#include "core/base/clock.h"
 #include "gl/context.h"
 #include "hybrid/engine_parts.h"
-#include "hybrid/settings/resolve.h"
 
 namespace pinocchio::app {
 namespace {
 
 constexpr double kLongestStep_s = 0.1;  // of flight, however long a frame took
+constexpr double kDoubleClick_s = 0.35;
+constexpr float kSameSpot = 4.0f;  // pixels
+constexpr int kSettling = 3;       // redraws until panels that size themselves stand still
 
 ViewSettings settings_of(const ViewOptions& options) {
   ViewSettings settings;
@@ -29,20 +33,30 @@ Session::Session(gl::Window& window, const ViewOptions& options)
     : window_(window),
       options_(options),
       navigation_(model_.camera),
-      gui_(window),
+      gui_(window, [this] { draw_overlay(model_, gui_.scale()); }),
+      preferences_(load_preferences(preferences_file())),
       engine_(window.context()),
       programs_(engine_.parts().gpu().programs),
       present_(programs_),
       inspect_(engine_),
       accumulator_(programs_),
       renderer_(engine_, {[this](const Frame& frame) { take_frame(frame); },
-                          [this](const FrameRecord& record) { model_.history.add(record); }}),
+                          [this](const FrameRecord& record) { take_record(record); }}),
       applied_(settings_of(options)) {
   model_.settings = applied_;
+  model_.panels = preferences_.panels;
+  model_.recent = preferences_.recent;
+  gui_.set_layout(preferences_.layout);
   model_.renderer = engine_.gl_info()->renderer;
   window_.set_vsync(applied_.vsync);
   if (options_.watch && !programs_->folder().empty()) shader_watch_.emplace(programs_->folder());
-  load();
+  load(options_.draw);
+}
+
+Session::~Session() {
+  preferences_.panels = model_.panels;
+  preferences_.layout = gui_.layout();
+  save_preferences(preferences_, preferences_file());
 }
 
 void Session::run() {
@@ -53,6 +67,7 @@ void Session::run() {
     take_news();
     if (options_.watch) take_file_changes();
     apply_changes();
+    note_edits();
     if (!window_.minimised()) draw();
   }
 }
@@ -63,173 +78,91 @@ void Session::fly_on() {
   last_turn_s_ = turn_s;
 }
 
-// How long to wait for a person before the next turn: what draws or loads needs the processor.
+// How long to wait for a person before the next turn; where nothing is left to do, nothing is done.
 double Session::patience_s() const {
-  if (window_.minimised()) return 0.1;
-  if (!model_.has_scene() || idle_ || renderer_.is_drawing_alone()) return 0.02;
-  return 0.0;
+  constexpr double kAsleep_s = 0.25, kMinimised_s = 0.1, kLoading_s = 0.03, kTracing_s = 0.002;
+  if (window_.minimised()) return kMinimised_s;
+  if (redraws_ > 0 || navigation_.flying()) return 0.0;
+  if (trial_) return 0.0;
+  if (!model_.loading.phase.empty()) return kLoading_s;
+  if (!model_.has_scene()) return kAsleep_s;
+  if (!idle_) return renderer_.is_tracing() ? kTracing_s : 0.0;
+  return comparison_ && !comparison_->done() ? kLoading_s : kAsleep_s;
 }
 
 void Session::take_events() {
-  const std::vector<gl::WindowEvent> events = window_.take_events(patience_s());
-  // As the last frame had it: a panel that was hidden since takes nothing.
-  const bool over_panel = model_.settings.overlay && gui_.wants_pointer();
-  for (const gl::WindowEvent& event : events) {
+  for (const gl::WindowEvent& event : window_.take_events(patience_s())) {
+    redraws_ = kSettling;
+    if (const auto* pointer = std::get_if<gl::PointerEvent>(&event)) pointer_ = pointer->position;
+    if (gui_.take(event)) continue;
     if (const auto* key = std::get_if<gl::KeyEvent>(&event)) take_key(*key);
-    if (const auto* button = std::get_if<gl::ButtonEvent>(&event))
-      if (!button->down || !over_panel) navigation_.take(*button);
+    if (const auto* button = std::get_if<gl::ButtonEvent>(&event)) take_button(*button);
     if (const auto* pointer = std::get_if<gl::PointerEvent>(&event))
       navigation_.take(*pointer, static_cast<float>(window_.pixels().y));
-    if (const auto* scroll = std::get_if<gl::ScrollEvent>(&event))
-      if (!over_panel) navigation_.take(*scroll);
-    if (const auto* drop = std::get_if<gl::DropEvent>(&event)) take_drop(*drop);
+    if (const auto* scroll = std::get_if<gl::ScrollEvent>(&event)) take_scroll(*scroll);
+    if (const auto* drop = std::get_if<gl::DropEvent>(&event); drop && !drop->files.empty())
+      open(drop->files.front().string());
   }
+  over_picture_ = !gui_.over_panel();
+  if (model_.messages.expire(now_s())) redraws_ = kSettling;
+  take_asked();
+}
+
+// What the overlay was asked for.
+void Session::take_asked() {
   for (const Action action : std::exchange(model_.asked, {})) perform(action);
+  if (const std::string file = std::exchange(model_.file_to_open, {}); !file.empty()) open(file);
+  if (const int camera = std::exchange(model_.camera_to_show, -1); camera >= 0)
+    show_camera(static_cast<std::size_t>(camera));
 }
 
-void Session::take_key(const gl::KeyEvent& event) {
-  if (event.down && gui_.wants_text()) return;
-  if (navigation_.take(event) || !event.down || event.with.control || event.with.alt) return;
-  if (const int number = event.key - '1'; number >= 0 && number < 9) {
-    show_camera(static_cast<std::size_t>(number));
-  } else if (const KeyBinding* const binding = binding_of(event)) {
-    if (const auto* const action = std::get_if<Action>(&binding->does)) return perform(*action);
-    if (const Rule* const rule = std::get<Change>(binding->does)(model_.settings))
-      model_.notify(InputError{{}, 0, std::string(rule->what), std::string(rule->remedy)}.message(), 8.0);
+void Session::take_button(const gl::ButtonEvent& event) {
+  if (event.button == 0 && event.down) {
+    const bool second = now_s() - pressed_s_ < kDoubleClick_s && glm::length(pointer_ - pressed_at_) < kSameSpot;
+    pressed_s_ = second ? 0.0 : now_s();
+    pressed_at_ = pointer_;
+    if (second) return set_pivot();
   }
+  if (!take_click(event)) navigation_.take(event);
 }
 
-void Session::take_drop(const gl::DropEvent& event) {
-  if (event.files.empty()) return;
-  DrawOptions& draw = options_.draw;
-  draw.scene = event.files.front().string();
-  // What the command line said of camera and lights was about another scene.
-  draw.camera.clear();
-  draw.eye = draw.target = draw.up = std::nullopt;
-  draw.fov_deg = std::nullopt;
-  draw.lights.clear();
-  load();
+// Ctrl enlarges the picture's pixels; what is under the pointer stays there.
+void Session::take_scroll(const gl::ScrollEvent& event) {
+  if (!window_.is_down(gl::kKeyLeftControl) && !window_.is_down(gl::kKeyRightControl)) return navigation_.take(event);
+  constexpr float kStep = 1.25f, kMost = 64.0f;
+  PictureZoom& zoom = model_.zoom;
+  const glm::vec2 share = pointer_ / glm::max(glm::vec2(window_.pixels()), 1.0f), stays = zoom.at(share);
+  zoom.factor = std::clamp(zoom.factor * std::pow(kStep, event.steps), 1.0f, kMost);
+  zoom.corner = glm::clamp(stays - share / zoom.factor, glm::vec2(0.0f), glm::vec2(1.0f - 1.0f / zoom.factor));
 }
 
-// A tree that is being built is forgotten.
-void Session::load() {
-  tree_of_.reset();
-  loader_.load(options_.draw);
-}
-
-void Session::take_news() {
-  SceneLoader::News news = loader_.poll();
-  model_.loading = loader_.progress();
-  if (!news.error.empty()) {
-    if (!model_.has_scene()) throw Exit(news.code, news.error);
-    model_.errors["scene"] = news.error;
-  }
-  if (news.scene && can_draw(news.stats)) take_scene(news);
-  if (news.tracer) model_.tracer = std::move(news.tracer);
-}
-
-// Where the settings cannot draw it, the verb ends, or the scene before stays.
-bool Session::can_draw(const SceneStats& stats) {
-  const Expected<Settings> can = resolved(wanted_settings(model_.settings), stats, false);
-  if (can) return true;
-  InputError error = can.error();
-  error.file = options_.draw.plan_file;
-  if (!model_.has_scene()) throw Exit(error.file.empty() ? kBadScene : kUsage, error.message());
-  model_.errors["scene"] = error.message();
-  return false;
-}
-
-void Session::take_scene(SceneLoader::News& news) {
-  const Scene& scene = *news.scene;
-  const bool again = model_.scene.source == scene.source;
-  renderer_.drain();
-  model_.stats = news.stats;
-  model_.tracer.reset();
-  model_.camera.set_scene(news.stats.bounds);
-  if (!again) model_.camera.set_camera(news.camera);
-  first_camera_ = news.camera;
-  applied_lights_ = scene.lights;
-  model_.lights_changed = lights_edited_ = false;
-  model_.errors.erase("scene");
-  model_.history.clear();
-  window_.set_title(scene.source + " - Pinocchio");
-  if (options_.watch && again) {
-    model_.notify(scene.source + " was loaded anew");
-    scene_watch_->follow(scene.source_files);
-  } else if (options_.watch) {
-    scene_watch_.emplace(scene.source_files);
-  }
-  model_.scene = std::move(*news.scene);
-}
-
-void Session::take_file_changes() {
-  if (scene_watch_ && scene_watch_->changed(now_s())) load();
-  if (!shader_watch_ || !shader_watch_->changed(now_s())) return;
-  if (const Expected<void> reloaded = programs_->reload()) {
-    model_.errors.erase("shaders");
-    model_.notify("the shaders were loaded anew");
-  } else {
-    model_.errors["shaders"] = reloaded.error().message();
-  }
-  asked_.reset();  // the same picture is another one now
-  sample_ = 0;
-  accumulator_.reset();
-}
-
-Expected<Settings> Session::resolved(const Settings& wanted, const SceneStats& stats, bool keeps_mask) const {
-  return resolve(wanted, stats, {picture_size(), engine_.gl_info()->software, keeps_mask});
-}
-
-// Draws by the settings from now on; until there is a tree, by the GPU alone. Where they cannot be, says why.
-bool Session::try_settings(const ViewSettings& settings) {
-  const bool keeps_mask = settings.buffer == BufferView::mask;
-  Expected<Settings> wanted = resolved(wanted_settings(settings), model_.stats, keeps_mask);
-  if (!wanted) {
-    model_.notify(wanted.error().message(), 8.0);
-    return false;
-  }
-  want_tree(*wanted);
-  model_.threads = engine_.workers(wanted->threads).count();
-  if (wanted->traces() && !model_.tracer) {
-    Settings raster;
-    apply_preset("mode", "raster", raster);
-    wanted = resolved(raster, model_.stats, false);
-  }
-  if (wanted->persistent != model_.drawn.persistent) last_ = nullptr;  // its buffers are made anew
-  model_.drawn = *wanted;
+bool Session::take_click(const gl::ButtonEvent& event) {
+  if (event.button != 0 || !event.down || !(event.with.control || event.with.alt)) return false;
+  if (event.with.control) pick_material();
+  else expose_for_point();
   return true;
 }
 
-// Frames trace in the old tree, where there is one, until the new one is built.
-void Session::want_tree(const Settings& settings) {
-  if (!settings.traces() || !loader_.progress().phase.empty()) return;
-  if (tree_of_ && same_tracer(*tree_of_, settings)) return;
-  tree_of_ = settings;
-  loader_.build_tree(model_.scene, settings);
+void Session::take_key(const gl::KeyEvent& event) {
+  if (navigation_.take(event) || !event.down || event.with.alt) return;
+  const int number = event.key - '1';
+  if (number >= 0 && number < 9 && !event.with.control) return show_camera(static_cast<std::size_t>(number));
+  const KeyBinding* const binding = binding_of(event);
+  if (!binding) return;
+  if (const auto* const panel = std::get_if<Panel>(&binding->does)) {
+    model_.settings.overlay = true;
+    return model_.panels.toggle(*panel);
+  }
+  if (const auto* const action = std::get_if<Action>(&binding->does))
+    return perform(*action == Action::undo && event.with.shift ? Action::redo : *action);
+  if (const Rule* const rule = std::get<Change>(binding->does)(model_.settings))
+    model_.messages.hint(InputError{{}, 0, std::string(rule->what), std::string(rule->remedy)}.message());
 }
 
-void Session::apply_changes() {
-  ViewSettings& wanted = model_.settings;
-  wanted = possible(wanted);
-  if (wanted.vsync != applied_.vsync) window_.set_vsync(wanted.vsync);
-  if (!model_.has_scene()) {
-    applied_ = wanted;
-    return;
-  }
-  if (std::exchange(model_.lights_changed, false)) {
-    lights_edited_ = true;
-    recount_lights(model_.scene, model_.stats);
-  }
-  if (try_settings(wanted)) {
-    applied_ = wanted;
-    applied_lights_ = model_.scene.lights;
-    return;
-  }
-  // Back to what could be drawn.
-  wanted = applied_;
-  model_.scene.lights = applied_lights_;
-  recount_lights(model_.scene, model_.stats);
-  (void)try_settings(wanted);
+// While something is held, it is not done yet.
+void Session::note_edits() {
+  if (!model_.has_scene() || navigation_.dragging() || navigation_.flying() || gui_.is_active()) return;
+  edits_.note(edit_state(), now_s());
 }
 
 }  // namespace pinocchio::app

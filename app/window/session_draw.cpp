@@ -1,8 +1,9 @@
 #include <algorithm>
+#include <utility>
 
 #include "app/console.h"
-#include "app/window/overlay.h"
 #include "app/window/session.h"
+#include "core/base/clock.h"
 #include "core/trace/jitter.h"
 #include "gl/error.h"
 #include "hybrid/frame_slot.h"
@@ -54,39 +55,70 @@ void Session::draw() {
   if (model_.has_scene()) {
     try {
       draw_scene();
-      model_.errors.erase("drawing");
     } catch (const gl::ContextLostError&) {
       throw;
     } catch (const EnvironmentError&) {
       throw;
     } catch (const std::exception& error) {
-      model_.errors["drawing"] = one_line(error.what());
+      model_.messages.error("drawing", one_line(error.what()));
+      asked_ = next_request();  // not tried again until something changes
       idle_ = true;
     }
   }
-  if (!shown_) show(last_);
+  if (model_.has_scene()) inspect_pixel();
+  if (!shown_ && wants_redraw()) show(last_);
+}
+
+// Of what does not wait for a frame: panels, exposure, how far a scene is loaded.
+bool Session::wants_redraw() const {
+  constexpr double kProgress_s = 0.03, kCursor_s = 0.25;
+  const double since_s = now_s() - redrawn_s_;
+  return redraws_ > 0 || !png_file_.empty() || (!model_.loading.phase.empty() && since_s > kProgress_s) ||
+         (gui_.wants_text() && since_s > kCursor_s);
 }
 
 void Session::draw_scene() {
   const FrameRequest request = next_request();
   model_.picture_size = request.view.size;
-  idle_ = asked_ == request;
-  follow_reference(request);
-  if (idle_ && gathers() && !renderer_.is_drawing_alone()) {
-    renderer_.drain();  // the last samples
-  } else if (renderer_.try_submit(request)) {
-    asked_ = request;
-    ++sample_;
+  if (follow_reference(request)) redraws_ = std::max(redraws_, 1);
+  if (comparison_ && idle_ && comparison_->wants_picture()) again_ = true;
+  const bool new_frame = asked_ != request;
+  if (!new_frame && !again_) {
+    const bool was_idle = idle_;
+    idle_ = renderer_.advance();
+    if (!idle_ || was_idle) return;
+    // Reprojected, it has an older frame's mask until it is asked for again.
+    again_ = !std::exchange(settled_, true) && model_.drawn.exchange == Exchange::reproject;
+    idle_ = !again_;
+    if (!idle_) return;
+    renderer_.drain();  // nothing is waited for: the last frames' figures
+    model_.history.pause();
+    redraws_ = std::max(redraws_, 1);
+    return;
   }
+  idle_ = false;
+  if (!renderer_.try_submit(request)) return;
+  again_ = false;
+  if (!new_frame) return;
+  model_.messages.mended("drawing");
+  settled_ = false;
+  asked_ = request;
+  ++sample_;
 }
 
-// With the screen split.
-void Session::follow_reference(const FrameRequest& request) {
-  model_.comparison.clear();
-  if (applied_.split == Split::off) return comparison_.reset();
+// With the screen split; whether there is something new to show.
+bool Session::follow_reference(const FrameRequest& request) {
+  const std::string before = std::exchange(model_.comparison, {});
+  if (applied_.split == Split::off) {
+    comparison_.reset();
+    return !before.empty();
+  }
   if (!comparison_) comparison_ = std::make_unique<Comparison>();
-  comparison_->follow({request.scene, request.view, applied_.settings.depth});
-  model_.comparison = comparison_->text();
+  const bool newer = comparison_->follow({request.scene, request.view, applied_.settings.depth});
+  model_.comparison = std::string("left: as drawn   right: ") +
+                      (applied_.split == Split::heat_map ? "visible difference" : "reference") + "   " +
+                      comparison_->text();
+  return newer || model_.comparison != before;
 }
 
 void Session::take_frame(const Frame& frame) {
@@ -94,6 +126,13 @@ void Session::take_frame(const Frame& frame) {
   const StageTimer timer(frame.record(), Stage::present);
   last_ = &chosen_buffer(frame);
   show(last_);
+  if (!model_.recording.empty()) record_window();
+}
+
+void Session::take_record(const FrameRecord& record) {
+  model_.history.add(record);
+  const std::vector<float> frames = model_.history.frame_ms();
+  if (controller_ && !frames.empty()) (void)controller_->note(static_cast<double>(frames.back()));
 }
 
 // What of the frame is looked at.
@@ -103,14 +142,41 @@ const gl::Texture& Session::chosen_buffer(const Frame& frame) {
   model_.legend.clear();
   last_is_light_ = buffer == BufferView::picture || buffer == BufferView::reflection;
   if (buffer != BufferView::picture) {
-    model_.legend = legend(buffer, applied_.mask_slot, frame);
-    return inspect_.draw(frame, buffer, applied_.mask_slot);
+    model_.shown_range = applied_.range.value_or(channel_range());
+    model_.legend = legend(buffer, applied_.mask_slot, frame, model_.shown_range);
+    return inspect_.draw(frame, buffer, applied_.mask_slot, model_.shown_range);
   }
   if (!gathers() || frame.request().view.camera != model_.camera.camera()) return frame.texture();
   accumulator_.add(frame);
   if (accumulator_.samples() == 0) return frame.texture();
   model_.samples = accumulator_.samples();
   return accumulator_.average().color();
+}
+
+// From the scene's nearest to its farthest, or from one side of its box to the other.
+ChannelRange Session::channel_range() const {
+  const Bounds& box = model_.stats.bounds;
+  if (applied_.buffer == BufferView::position) return {box.lo, glm::max(box.hi, box.lo + 1e-6f)};
+  const CameraAxes axes = camera_axes(model_.camera.camera());
+  const glm::vec3 to = box.center() - model_.camera.camera().eye, half = 0.5f * box.extent();
+  const float middle = glm::dot(to, axes.forward), reach = glm::dot(half, glm::abs(axes.forward));
+  const float near_z = std::max(middle - reach, 0.0f), far_z = std::max(middle + reach, near_z + 1e-6f);
+  return {glm::vec3(near_z), glm::vec3(far_z)};
+}
+
+// While the panel Pixel is open.
+void Session::inspect_pixel() {
+  if (!model_.panels[Panel::pixel]) return model_.pixel.reset();
+  FrameRequest now = request();
+  now.view.part = {pixel_under_pointer(), pixel_under_pointer() + 1};
+  if (!over_picture_ || inspected_ == now) return;
+  inspected_ = now;
+  model_.pixel = report(now.view.part.lo);
+  model_.pixel_error.reset();
+  redraws_ = std::max(redraws_, 1);
+  if (!comparison_ || !comparison_->done() || !model_.pixel) return;
+  const glm::vec3 off = glm::abs(model_.pixel->color - comparison_->reference_at(model_.pixel->pixel));
+  model_.pixel_error = std::max({off.x, off.y, off.z});
 }
 
 void Session::compare(const Frame& frame) {
@@ -130,9 +196,10 @@ void Session::show(const gl::Texture* picture) {
   } else {
     present_.clear(pixels);
   }
-  gui_.begin_frame();
-  draw_overlay(model_, gui_.scale());
-  gui_.end_frame();
+  model_.asleep = idle_ && model_.loading.phase.empty();
+  gui_.draw();
+  redraws_ = std::max(redraws_ - 1, 0);
+  redrawn_s_ = now_s();
   if (!png_file_.empty()) write_window_png();
   window_.present();
 }
@@ -144,10 +211,11 @@ void Session::present(const gl::Texture& picture) {
                                    : applied_.split == Split::reference ? comparison_->reference()
                                                                         : comparison_->heat();
   const PixelBox left{{0, 0}, {comparison_ ? split : pixels.x, pixels.y}}, right{{split, 0}, pixels};
-  present_.draw(picture, pixels, left, last_is_light_ ? applied_.exposure_ev : 0.0f);
+  present_.draw(picture, pixels, left, last_is_light_ ? applied_.exposure_ev : 0.0f, model_.zoom);
   if (!comparison_) return;
   if (other) {
-    present_.draw(*other, pixels, right, applied_.split == Split::reference ? applied_.exposure_ev : 0.0f);
+    present_.draw(*other, pixels, right, applied_.split == Split::reference ? applied_.exposure_ev : 0.0f,
+                  model_.zoom);
   } else {
     present_.clear(pixels, right);
   }

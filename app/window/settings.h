@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <string_view>
 #include <vector>
 
@@ -20,11 +21,13 @@ struct ViewSettings {
   bool vsync = true;
   BufferView buffer = BufferView::picture;
   int mask_slot = 0;  // of the buffer view
+  std::optional<ChannelRange> range;  // of depth and position; nothing: as the scene has it
   Split split = Split::off;
   float split_at = 0.5f;   // of the window's width
   bool accumulate = true;  // a still camera gathers samples
   bool overlay = true;
-  bool help = false;
+
+  friend bool operator==(const ViewSettings&, const ViewSettings&) = default;
 };
 
 // Limits of what the controls set.

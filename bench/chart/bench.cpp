@@ -19,10 +19,10 @@ FrameRequest raster_only(FrameRequest request) {
 // What a person sees: after each frame of the motion is asked for, the picture that is there by then.
 class Screen {
  public:
-  Screen(Engine& engine, FrameRequest request)
+  Screen(Engine& engine, FrameRequest request, Progress* progress)
       : request_(std::move(request)),
         mean_(request_.settings.spp, [this](FrameResult&& picture) { color_ = std::move(picture.color); }),
-        renderer_(engine, {[this](Frame& frame) { mean_.add(frame); }, {}}) {}
+        renderer_(engine, {[this](Frame& frame) { mean_.add(frame); }, {}}, progress) {}
 
   const Image<glm::vec4>& show(const View& view) {
     request_.view = view;
@@ -47,39 +47,38 @@ Bench::Bench(Engine& engine, FrameRequest base, const BenchSettings& settings, s
       views_(std::move(views)),
       folder_(std::move(folder)),
       ground_truth_(last_.scene, last_.settings.depth, settings_.area_side, views_, engine.workers(),
-                    settings_.interrupted),
-      raster_(engine, raster_only(last_)) {}
+                    settings_.progress),
+      raster_(engine, raster_only(last_), settings_.progress) {}
 
-std::optional<PointFigures> Bench::measure(const Configuration& configuration) {
+PointFigures Bench::measure(const Configuration& configuration) {
   const FrameRequest request = request_for(configuration.settings);
   PointFigures figures;
-  if (!measure_time(request, figures)) return std::nullopt;
-  if (!measure_error(configuration, request, figures)) return std::nullopt;
+  measure_time(request, figures);
+  measure_error(configuration, request, figures);
   return figures;
 }
 
 // With the tree that the settings ask for; the last one is kept.
 FrameRequest Bench::request_for(const Settings& settings) {
   if (!last_.tracer || !same_tracer(settings, last_.settings))
-    last_.tracer = Engine::prepare(last_.scene, settings);
+    last_.tracer = Engine::prepare(last_.scene, settings, settings_.progress);
   last_.settings = settings;
   return last_;
 }
 
-bool Bench::measure_time(const FrameRequest& request, PointFigures& figures) {
-  TimedRenderer renderer(engine_, request);
+void Bench::measure_time(const FrameRequest& request, PointFigures& figures) {
+  TimedRenderer renderer(engine_, request, settings_.progress);
   if (!warm_) {  // the process's first frames pay for what later ones find: memory, threads, shaders
-    (void)raster_.draw(views_, settings_.interrupted);
-    (void)renderer.draw(views_, settings_.interrupted);
+    (void)raster_.draw(views_);
+    (void)renderer.draw(views_);
     warm_ = true;
   }
   std::vector<double> ratios, frame_ms, raster_ms, cpu_ms, raster_cpu_ms, latency_ms;
   const bool by_cpu = settings_.clock == Clock::cpu;
   TimedRenderer::Round round;
   for (int i = 0; i < settings_.rounds; ++i) {
-    const TimedRenderer::Round raster = raster_.draw(views_, settings_.interrupted);
-    round = renderer.draw(views_, settings_.interrupted);
-    if (settings_.interrupted()) return false;
+    const TimedRenderer::Round raster = raster_.draw(views_);
+    round = renderer.draw(views_);
     ratios.push_back(by_cpu ? round.cpu_ms / raster.cpu_ms : round.frame_ms / raster.frame_ms);
     frame_ms.push_back(round.least_ms);
     raster_ms.push_back(raster.least_ms);
@@ -100,7 +99,6 @@ bool Bench::measure_time(const FrameRequest& request, PointFigures& figures) {
   figures.age_frames = round.age_frames;
   figures.bytes_gpu_to_cpu = round.bytes_to_cpu;
   figures.bytes_cpu_to_gpu = round.bytes_to_gpu;
-  return true;
 }
 
 // The area reference is dear: one frame, the last, is compared with it.
@@ -113,29 +111,26 @@ std::vector<std::size_t> Bench::compared_frames(bool area) const {
   return frames;
 }
 
-bool Bench::measure_error(const Configuration& configuration, const FrameRequest& request,
+void Bench::measure_error(const Configuration& configuration, const FrameRequest& request,
                           PointFigures& figures) {
   const bool area = configuration.reference == "area";
   figures.reference = configuration.reference;
   const std::vector<std::size_t> compared = compared_frames(area);
-  Screen screen(engine_, request);
+  Screen screen(engine_, request, settings_.progress);
   for (std::size_t frame = 0; frame < views_.size(); ++frame) {
     const Image<glm::vec4>& color = screen.show(views_[frame]);
-    if (settings_.interrupted()) return false;
     if (std::find(compared.begin(), compared.end(), frame) == compared.end()) continue;
-    const std::optional<MeasuredError> error = ground_truth_.measure(color, frame, area);
-    if (!error) return false;
-    if (error->not_finite > 0) {
-      figures.failure = "NaN or infinity in " + std::to_string(error->not_finite) + " pixels";
-      return true;
+    const MeasuredError error = ground_truth_.measure(color, frame, area);
+    if (error.not_finite > 0) {
+      figures.failure = "NaN or infinity in " + std::to_string(error.not_finite) + " pixels";
+      return;
     }
-    figures.rmse += error->rgb.rmse / static_cast<double>(compared.size());
-    figures.relative_mse += error->rgb.relative_mse / static_cast<double>(compared.size());
-    figures.flip += error->mean_flip / static_cast<double>(compared.size());
+    figures.rmse += error.rgb.rmse / static_cast<double>(compared.size());
+    figures.relative_mse += error.rgb.relative_mse / static_cast<double>(compared.size());
+    figures.flip += error.mean_flip / static_cast<double>(compared.size());
     if (frame == compared.back())
-      write_pictures(configuration.name(), color, *error, *ground_truth_.reference(frame, area), area);
+      write_pictures(configuration.name(), color, error, ground_truth_.reference(frame, area), area);
   }
-  return true;
 }
 
 void Bench::write_pictures(const std::string& name, const Image<glm::vec4>& color, const PictureError& error,

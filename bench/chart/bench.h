@@ -2,7 +2,6 @@
 #pragma once
 
 #include <filesystem>
-#include <optional>
 #include <vector>
 
 #include "bench/chart/ground_truth.h"
@@ -24,7 +23,7 @@ struct BenchSettings {
   int error_frames = 3;  // whose pictures are compared, spread over the frames that count
   int area_side = 6;     // the area reference has the square of it samples a pixel
   Clock clock = Clock::frame;
-  Interrupted interrupted = [] { return false; };
+  Progress* progress = nullptr;  // looked at
 };
 
 class Bench {
@@ -35,14 +34,13 @@ class Bench {
         std::filesystem::path folder);
 
   // The figures, and in the folder pictures/NAME.png with its FLIP heat map pictures/NAME-flip.png of the
-  // last frame compared. Nothing where the user asked for an end.
-  [[nodiscard]] std::optional<PointFigures> measure(const Configuration& configuration);
+  // last frame compared.
+  [[nodiscard]] PointFigures measure(const Configuration& configuration);
 
  private:
   [[nodiscard]] FrameRequest request_for(const Settings& settings);
-  [[nodiscard]] bool measure_time(const FrameRequest& request, PointFigures& figures);
-  [[nodiscard]] bool measure_error(const Configuration& configuration, const FrameRequest& request,
-                                   PointFigures& figures);
+  void measure_time(const FrameRequest& request, PointFigures& figures);
+  void measure_error(const Configuration& configuration, const FrameRequest& request, PointFigures& figures);
   [[nodiscard]] std::vector<std::size_t> compared_frames(bool area) const;
   void write_pictures(const std::string& name, const Image<glm::vec4>& color, const PictureError& error,
                       const Image<glm::vec3>& truth, bool area) const;

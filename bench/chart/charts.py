@@ -1,6 +1,8 @@
 """The charts of a page, as SVG files. Exit code 3 where matplotlib is missing."""
+import fcntl
 import json
 import math
+import random
 import sys
 import textwrap
 
@@ -95,8 +97,23 @@ class LogScale:
                       rotation=0 if which == "y" else 90)
 
 
+def write_whole(path, write):
+    """Calls write(part) with a new file beside `path`, which gets its name once it is whole. What is left of it
+    when the program is killed is locked by nobody: the next run sweeps it (core/image/part_file.h)."""
+    letters = "".join(random.choices("abcdefghijklmnopqrstuvwxyz0123456789", k=6))
+    part = path.with_name(f".{path.stem}-{letters}.part{path.suffix}")
+    with open(part, "x", encoding="utf-8") as lock:
+        fcntl.flock(lock, fcntl.LOCK_EX)
+        try:
+            write(part)
+            part.replace(path)
+        except BaseException:
+            part.unlink(missing_ok=True)
+            raise
+
+
 def save(figure, path):
-    figure.savefig(path, metadata={"Date": None})
+    write_whole(path, lambda part: figure.savefig(part, metadata={"Date": None}))
     plt.close(figure)
 
 

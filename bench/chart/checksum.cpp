@@ -30,7 +30,29 @@ void add_material(Checksum& checksum, const Material& m) {
   checksum.add(m.shininess);
   checksum.add(m.ior);
   checksum.add(m.fresnel);
-  checksum.add(m.diffuse_texture);
+  checksum.add(m.maps);
+}
+
+void add_use(Checksum& checksum, const TextureUse& use) {
+  for (const int value : {use.texture, use.uv_set, static_cast<int>(use.wrap_u), static_cast<int>(use.wrap_v)})
+    checksum.add(value);
+  checksum.add(use.uv_from_texcoord);
+  checksum.add(use.nearest);
+}
+
+void add_maps(Checksum& checksum, const MaterialMaps& m) {
+  for (const TextureUse* use :
+       {&m.base_color, &m.metallic_roughness, &m.normal, &m.occlusion, &m.emissive, &m.alpha})
+    add_use(checksum, *use);
+  for (const bool flag : {m.vertex_colors, m.from_gltf, m.surface.volume, m.surface.unlit}) checksum.add(flag);
+  for (const glm::vec3& color : {m.surface.base_color, m.surface.emissive, m.surface.specular_color})
+    checksum.add(color);
+  for (const float value :
+       {m.normal_scale, m.occlusion_strength, m.alpha_factor, m.alpha_cutoff, m.surface.metallic,
+        m.surface.roughness, m.surface.ior, m.surface.specular, m.surface.transmission})
+    checksum.add(value);
+  checksum.add(m.alpha_channel);
+  checksum.add(m.alpha_mode);
 }
 
 void add_light(Checksum& checksum, const Light& l) {
@@ -48,9 +70,13 @@ std::uint32_t checksum_of(const Scene& scene) {
   checksum.add_all(scene.mesh->positions);
   checksum.add_all(scene.mesh->normals);
   checksum.add_all(scene.mesh->texcoords);
+  checksum.add_all(scene.mesh->texcoords1);
+  checksum.add_all(scene.mesh->colors);
+  checksum.add_all(scene.mesh->tangents);
   checksum.add_all(scene.mesh->triangles);
   checksum.add_all(scene.mesh->triangle_materials);
   for (const Material& material : scene.mesh->materials) add_material(checksum, material);
+  for (const MaterialMaps& maps : scene.mesh->maps) add_maps(checksum, maps);
   for (const Texture& texture : scene.mesh->textures) {
     checksum.add(texture.texels.size());
     checksum.add_all(texture.texels.pixels());

@@ -2,7 +2,6 @@
 #pragma once
 
 #include <map>
-#include <optional>
 #include <utility>
 #include <vector>
 
@@ -22,27 +21,26 @@ class GroundTruth {
   // depth: most bounces. area_side: the area reference is the mean of so many times so many samples, evenly
   // spread over the pixel.
   GroundTruth(const Scene& scene, int depth, int area_side, const std::vector<View>& views, Workers& workers,
-              Interrupted interrupted)
+              Progress* progress)
       : scene_(scene),
         depth_(depth),
         area_side_(area_side),
         views_(views),
         workers_(workers),
-        interrupted_(interrupted) {}
+        progress_(progress) {}
 
-  // Linear RGB of the frame: at the pixels' centres, or their means. Null where the user asked for an end.
-  [[nodiscard]] const Image<glm::vec3>* reference(std::size_t frame, bool area);
+  // Linear RGB of the frame: at the pixels' centres, or their means.
+  [[nodiscard]] const Image<glm::vec3>& reference(std::size_t frame, bool area);
 
-  // RGB of a picture against the reference of the frame. Nothing where the user asked for an end.
-  [[nodiscard]] std::optional<MeasuredError> measure(const Image<glm::vec4>& color, std::size_t frame,
-                                                     bool area);
+  // RGB of a picture against the reference of the frame.
+  [[nodiscard]] MeasuredError measure(const Image<glm::vec4>& color, std::size_t frame, bool area);
 
  private:
   const Scene& scene_;
   int depth_, area_side_;
   const std::vector<View>& views_;
   Workers& workers_;
-  Interrupted interrupted_;
+  Progress* progress_;
   std::map<std::pair<std::size_t, bool>, Image<glm::vec3>> references_;
 };
 

@@ -1,12 +1,15 @@
 #include "bench/chart/page.h"
 
-#include <spawn.h>
+#include <sys/prctl.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
 #include <array>
+#include <chrono>
+#include <csignal>
 #include <string>
 #include <system_error>
+#include <thread>
 
 #include "pinocchio/error.h"
 
@@ -14,6 +17,7 @@ namespace pinocchio::chart {
 namespace {
 
 constexpr int kNoMatplotlib = 3;  // plot.py's exit code
+constexpr int kNoProgram = 127;   // the shell's
 // The first may be one without the system's packages.
 constexpr std::array kPythons{"python3", "/usr/bin/python3"};
 
@@ -28,25 +32,36 @@ std::filesystem::path plot_script() {
 }
 
 // The exit code; 127 where there is no such program, 128 where a signal ended it.
-int run(const char* program, std::string script, std::string folder) {
+int run(const char* program, std::string script, std::string folder, const Progress& progress) {
   std::string name = program;
   const std::array<char*, 4> arguments{name.data(), script.data(), folder.data(), nullptr};
-  pid_t child = 0;
-  if (posix_spawnp(&child, program, nullptr, nullptr, arguments.data(), environ) != 0) return 127;
+  const pid_t child = fork();
+  if (child < 0) return kNoProgram;
+  if (child == 0) {  // from here on only what may be called between fork and exec
+    prctl(PR_SET_PDEATHSIG, SIGKILL);
+    execvp(program, arguments.data());
+    _exit(kNoProgram);
+  }
   int status = 0;
-  while (waitpid(child, &status, 0) < 0 && errno == EINTR) {
+  while (waitpid(child, &status, WNOHANG) == 0) {
+    if (progress.cancelled()) {
+      kill(child, SIGKILL);
+      waitpid(child, &status, 0);
+      throw Cancelled();
+    }
+    std::this_thread::sleep_for(std::chrono::milliseconds(10));
   }
   return WIFEXITED(status) ? WEXITSTATUS(status) : 128;
 }
 
 }  // namespace
 
-bool draw_page(const std::filesystem::path& folder) {
+bool draw_page(const std::filesystem::path& folder, const Progress& progress) {
   const std::filesystem::path script = plot_script();
   for (const char* python : kPythons) {
-    const int code = run(python, script.string(), folder.string());
+    const int code = run(python, script.string(), folder.string(), progress);
     if (code == 0) return true;
-    if (code != kNoMatplotlib && code != 127)
+    if (code != kNoMatplotlib && code != kNoProgram)
       throw EnvironmentError(script.string() + ": failed (exit code " + std::to_string(code) +
                              "), so no page was drawn; results.json and results.csv in " + folder.string() +
                              " are whole");

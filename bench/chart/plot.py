@@ -9,7 +9,7 @@ import pathlib
 import sys
 
 sys.dont_write_bytecode = True  # charts.py's folder may be the system's
-from charts import CLOCKS, draw_charts, named
+from charts import CLOCKS, draw_charts, named, write_whole
 
 STYLE = """body{font:15px/1.5 system-ui,sans-serif;color:#222;max-width:1180px;margin:2em auto;padding:0 1em}
 h1{font-size:1.6em}h2{font-size:1.2em;margin-top:2em}code{font:13px ui-monospace,monospace}
@@ -90,7 +90,7 @@ def page(folder, results):
     parts += ["</div><h2>Figures</h2>", table(points), "<h2>Pictures, and where FLIP sees a difference</h2>",
               "<p class=note>The last frame compared; heat maps run from black (none) to pale yellow (1).</p>",
               thumbnails(points), "</html>"]
-    (folder / "index.html").write_text("\n".join(parts), encoding="utf-8")
+    write_whole(folder / "index.html", lambda part: part.write_text("\n".join(parts), encoding="utf-8"))
 
 
 def main():

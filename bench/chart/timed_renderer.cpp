@@ -20,24 +20,22 @@ double processor_ms() {
 }  // namespace
 
 // A point of the chart says nothing of the frames that another has drawn.
-TimedRenderer::TimedRenderer(Engine& engine, FrameRequest request)
+TimedRenderer::TimedRenderer(Engine& engine, FrameRequest request, Progress* progress)
     : request_(std::move(request)),
-      renderer_(engine, {{}, [this](const FrameRecord& record) { records_.push_back(record); }}) {
+      renderer_(engine, {{}, [this](const FrameRecord& record) { records_.push_back(record); }}, progress) {
   request_.settings.reuse = false;
 }
 
-TimedRenderer::Round TimedRenderer::draw(const std::vector<View>& views, Interrupted interrupted) {
+TimedRenderer::Round TimedRenderer::draw(const std::vector<View>& views) {
   assert(views.size() > kWarmUpFrames + 1);
   records_.clear();
   const double begin_cpu_ms = processor_ms();
   for (const View& view : views) {
-    if (interrupted()) break;
     request_.view = view;
     submit_samples(renderer_, request_);
   }
   renderer_.drain();
   Round round;
-  if (interrupted()) return round;
   round.cpu_ms = (processor_ms() - begin_cpu_ms) / static_cast<double>(views.size());
 
   const auto samples = static_cast<std::size_t>(request_.settings.spp);

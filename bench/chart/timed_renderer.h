@@ -11,9 +11,6 @@ namespace pinocchio::chart {
 // on their way.
 inline constexpr std::size_t kWarmUpFrames = kFramesInFlight;
 
-// Whether the user asked for an end.
-using Interrupted = bool (*)();
-
 // Draws rounds of frames along a camera's motion, whose pictures stay where they are drawn, and
 // takes their times.
 class TimedRenderer {
@@ -27,11 +24,11 @@ class TimedRenderer {
     double bytes_to_cpu = 0.0, bytes_to_gpu = 0.0;  // of a usual frame
   };
 
-  // request: all but the view.
-  TimedRenderer(Engine& engine, FrameRequest request);
+  // request: all but the view. `progress` is looked at.
+  TimedRenderer(Engine& engine, FrameRequest request, Progress* progress);
 
-  // views: more than kWarmUpFrames + 1. The round is not whole where the user asked for an end.
-  Round draw(const std::vector<View>& views, Interrupted interrupted);
+  // views: more than kWarmUpFrames + 1.
+  Round draw(const std::vector<View>& views);
 
  private:
   FrameRequest request_;

@@ -38,7 +38,7 @@ void embree_pass(const TraceJob& job, const EmbreeSide& embree, const Image<std:
       if (id == kNoTriangle) return;
       const Ray seen = pixel_ray(job.view, x, y);
       const SurfaceInteraction surface =
-          bare_surface_at(job.tracer.mesh(), id, seen.origin, seen.direction, job.tracer.offset());
+          surface_at(job.tracer.mesh(), id, seen.origin, seen.direction, job.tracer.offset());
       for (std::size_t slot = 0; slot < lights.size(); ++slot) {
         if (const std::optional<Ray> ray = shadow_ray(lights[slot], surface)) {
           rays[slot].push_back(*ray);
@@ -79,7 +79,6 @@ ShadowPass measure(const Scene& scene, const Tracer& tracer, const EmbreeSide& e
     RayCounts counts;
     ours.push_back(seconds_of([&] { counts = trace_shadow_mask(job, ids, bits, mask); }));
     if (frame + 1 < kFrames) continue;
-    result.fired = counts.shadow;
     result.rays = counts.shadow;
     result.differ = differing_bits(mask, embrees);
   }

@@ -9,14 +9,14 @@
 namespace pinocchio::bench {
 
 // A frame's whole shadow pass, from the visible triangles to the mask, while the camera goes round: ours,
-// which learns from frame to frame, and the same with Embree's packets for every pixel that faces a light.
+// and the same with Embree's packets for every pixel that faces a light.
 struct ShadowPass {
   int threads = 1;
-  std::size_t rays = 0, fired = 0;  // that the last frame asks for; that we traced
-  double first_ms = 0.0;            // ours, of the first frame
-  double ours_ms = 0.0;             // of the last frames, median
-  double embree_ms = 0.0;           // likewise
-  std::size_t differ = 0;           // mask bits of the last frame that are not Embree's
+  std::size_t rays = 0;    // of the last frame
+  double first_ms = 0.0;   // ours, of the first frame
+  double ours_ms = 0.0;    // of the last frames, median
+  double embree_ms = 0.0;  // likewise
+  std::size_t differ = 0;  // mask bits of the last frame that are not Embree's
 };
 
 // Nothing where no light casts.

@@ -132,7 +132,7 @@ FailureCount mirror_to_mirror(const Method& method, int rays) {
   return count;
 }
 
-constexpr std::array kCases{
+constexpr std::array kBounceCases{
     StressCase{"glass inside glass", "pixels unlike the reference's", glass_in_glass},
     StressCase{"total internal reflection", "pixels unlike the reference's", total_reflection},
     StressCase{"mirror against mirror", "pixels whose ray got out", mirror_to_mirror},
@@ -141,7 +141,7 @@ constexpr std::array kCases{
 }  // namespace
 
 std::span<const StressCase> bounce_cases() {
-  return kCases;
+  return kBounceCases;
 }
 
 }  // namespace pinocchio::stability

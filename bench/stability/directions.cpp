@@ -109,7 +109,7 @@ FailureCount no_rays(const Method& method, int rays) {
   return count;
 }
 
-constexpr std::array kCases{
+constexpr std::array kDirectionCases{
     StressCase{"+0, -0, denormal directions", "leaks", zeros_and_denormals},
     StressCase{"axis-parallel in split planes", "leaks", in_split_planes},
     StressCase{"origins on vertices and edges", "leaks", origins_on_surface},
@@ -119,7 +119,7 @@ constexpr std::array kCases{
 }  // namespace
 
 std::span<const StressCase> direction_cases() {
-  return kCases;
+  return kDirectionCases;
 }
 
 }  // namespace pinocchio::stability

@@ -62,7 +62,7 @@ FailureCount t_junctions(const Method& method, int rays) {
   return count;
 }
 
-constexpr std::array kCases{
+constexpr std::array kLeakCases{
     StressCase{"usual rays", "leaks", usual_rays},
     StressCase{"edges and vertices", "leaks", jagged_ball},
     StressCase{"edges far from the origin", "leaks", far_from_origin},
@@ -73,7 +73,7 @@ constexpr std::array kCases{
 }  // namespace
 
 std::span<const StressCase> leak_cases() {
-  return kCases;
+  return kLeakCases;
 }
 
 }  // namespace pinocchio::stability

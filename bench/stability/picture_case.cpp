@@ -76,7 +76,7 @@ PictureFailureCount run_shot(Engine& engine, const DrawMethod& method, int side)
   return run(engine, make(), method, side);
 }
 
-constexpr std::array kCases{
+constexpr std::array kPictureCases{
     PictureStressCase{"grazing triangles", run_shot<grazing_triangles>},
     PictureStressCase{"sub-pixel triangles", run_shot<sub_pixel_triangles>},
     PictureStressCase{"near-plane clipping", run_shot<near_plane>},
@@ -96,7 +96,7 @@ std::vector<DrawMethod> all_draw_methods() {
 }
 
 std::span<const PictureStressCase> picture_cases() {
-  return kCases;
+  return kPictureCases;
 }
 
 }  // namespace pinocchio::stability

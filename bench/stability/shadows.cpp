@@ -170,7 +170,7 @@ FailureCount dark_facets(const Method& method, int rays) {
   return count;
 }
 
-constexpr std::array kCases{
+constexpr std::array kShadowCases{
     StressCase{"scaled by 1e-6 to 1e6: acne", "lit points in shadow", scaled<lit_body, false>},
     StressCase{"moved by 1e6 sizes: acne", "lit points in shadow", moved<lit_body, false>},
     StressCase{"scaled, closed room", "light leaks", scaled<dark_room, true>},
@@ -183,7 +183,7 @@ constexpr std::array kCases{
 }  // namespace
 
 std::span<const StressCase> shadow_cases() {
-  return kCases;
+  return kShadowCases;
 }
 
 }  // namespace pinocchio::stability

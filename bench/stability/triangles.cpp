@@ -138,7 +138,7 @@ FailureCount one_far_larger(const Method& method, int rays) {
   return count_misses(method.tracer(mesh), some);
 }
 
-constexpr std::array kCases{
+constexpr std::array kTriangleCases{
     StressCase{"degenerate triangles", "answers they change", degenerate},
     StressCase{"duplicate triangles", "others than the first", duplicates},
     StressCase{"coplanar triangles", "misses", coplanar},
@@ -150,7 +150,7 @@ constexpr std::array kCases{
 }  // namespace
 
 std::span<const StressCase> triangle_cases() {
-  return kCases;
+  return kTriangleCases;
 }
 
 }  // namespace pinocchio::stability

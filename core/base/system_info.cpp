@@ -1,5 +1,7 @@
 #include "core/base/system_info.h"
 
+#include <sys/resource.h>
+
 #include <fstream>
 #include <thread>
 
@@ -15,6 +17,12 @@ SystemInfo system_info() {
     break;
   }
   return info;
+}
+
+std::size_t peak_memory_bytes() {
+  rusage usage{};
+  getrusage(RUSAGE_SELF, &usage);
+  return static_cast<std::size_t>(usage.ru_maxrss) * 1024;  // Linux counts KiB
 }
 
 const char* version() { return PINOCCHIO_VERSION; }

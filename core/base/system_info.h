@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <string>
 
 namespace pinocchio {
@@ -10,6 +11,9 @@ struct SystemInfo {
 };
 
 [[nodiscard]] SystemInfo system_info();
+
+// The most memory that this process has had at a time, bytes; pages of its program and libraries included.
+[[nodiscard]] std::size_t peak_memory_bytes();
 
 // The project's version, as in the EXR and --version.
 [[nodiscard]] const char* version();

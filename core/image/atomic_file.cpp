@@ -1,55 +1,68 @@
 #include "core/image/atomic_file.h"
 
+#include <sys/file.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <algorithm>
 #include <cerrno>
 #include <cstring>
 #include <fstream>
+#include <mutex>
+#include <set>
 #include <system_error>
 
+#include "core/image/part_file.h"
 #include "pinocchio/error.h"
 #include "pinocchio/progress.h"
 
 namespace pinocchio {
 namespace {
 
-// Same folder, or the rename would be a copy; same extension, as some writers go by it.
-std::filesystem::path temporary_name(const std::filesystem::path& file) {
-  std::filesystem::path name(".");
-  name += file.stem();
-  name += "-";
-  name += std::to_string(getpid());
-  name += ".part";
-  name += file.extension();
-  return file.parent_path() / name;
-}
-
 [[noreturn]] void fail(const std::filesystem::path& file, const std::string& why, const std::string& remedy) {
   throw EnvironmentError(file.string() + ": cannot be written: " + why + "; " + remedy);
 }
 
-// Removes the temporary file unless it got its name.
-struct Cleanup {
-  std::filesystem::path temporary;
-  ~Cleanup() {
-    std::error_code ignored;
-    std::filesystem::remove(temporary, ignored);
-  }
-};
+// Nobody may write to it: whoever took away the permission meant to keep it. (The rename asks the folder alone,
+// and an administrator may do everything.)
+bool is_read_only(const std::filesystem::path& file) {
+  struct stat found {};
+  constexpr mode_t kAnyWrite = S_IWUSR | S_IWGRP | S_IWOTH;
+  return stat(file.c_str(), &found) == 0 && ((found.st_mode & kAnyWrite) == 0 || access(file.c_str(), W_OK) != 0);
+}
+
+void sweep_once(const std::filesystem::path& folder) {
+  static std::mutex mutex;
+  static std::set<std::filesystem::path> swept;
+  const std::lock_guard lock(mutex);
+  if (swept.insert(folder).second) sweep_part_files(folder);
+}
 
 }  // namespace
 
+std::filesystem::path written_file(const std::filesystem::path& file) {
+  constexpr int kMostLinks = 40;  // as the system has it
+  std::filesystem::path target = file;
+  std::error_code error;
+  for (int i = 0; i < kMostLinks && std::filesystem::is_symlink(target, error); ++i)
+    target = target.parent_path() / std::filesystem::read_symlink(target, error);
+  return target;
+}
+
 void write_atomically(const std::filesystem::path& file,
                       const std::function<void(const std::filesystem::path& temporary)>& write) {
-  const Cleanup cleanup{temporary_name(file)};
-  write(cleanup.temporary);
+  const std::filesystem::path target = written_file(file);
+  if (is_read_only(target)) fail(file, "it is read-only", "choose another name, or allow writing to it");
   std::error_code error;
-  std::filesystem::rename(cleanup.temporary, file, error);
+  PartFile part(target, error);
+  if (error) fail(file, error.message(), "choose another folder");
+  write(part.path());
+  part.give_name(error);
   if (error) fail(file, error.message(), "choose another name");
 }
 
-void write_text(const std::filesystem::path& file, const std::string& text, Progress* progress) {
+void write_text(const std::filesystem::path& file, const std::string& text, Progress* progress,
+                const std::function<void()>& before_naming) {
   constexpr std::size_t kAtOnce = std::size_t{1} << 22;
   begin_phase(progress, "write", static_cast<double>(text.size()));
   check_writable(file);
@@ -61,22 +74,24 @@ void write_text(const std::filesystem::path& file, const std::string& text, Prog
       advance(progress, static_cast<double>(count));
     }
     if (!out.flush()) fail(file, std::strerror(errno), "is the disk full?");
+    if (before_naming) before_naming();
   });
 }
 
 void check_writable(const std::filesystem::path& file) {
   std::error_code error;
-  const std::filesystem::path folder = file.has_parent_path() ? file.parent_path() : ".";
   if (file.filename().empty()) fail(file, "it names no file", "give a file name");
+  const std::filesystem::path target = written_file(file);
+  const std::filesystem::path folder = target.has_parent_path() ? target.parent_path() : ".";
   if (!std::filesystem::is_directory(folder, error))
     fail(file, "there is no folder " + folder.string(), "create it or choose another name");
-  const std::filesystem::file_status status = std::filesystem::status(file, error);
+  const std::filesystem::file_status status = std::filesystem::status(target, error);
   if (std::filesystem::exists(status) && !std::filesystem::is_regular_file(status))
     fail(file, "it is not a regular file", "choose another name");
-  const Cleanup probe{temporary_name(file)};
-  errno = 0;
-  if (!std::ofstream(probe.temporary, std::ios::binary))
-    fail(file, std::strerror(errno), "choose another folder");
+  if (is_read_only(target)) fail(file, "it is read-only", "choose another name, or allow writing to it");
+  sweep_once(folder);
+  const PartFile probe(target, error);
+  if (error) fail(file, error.message(), "choose another folder");
 }
 
 }  // namespace pinocchio

@@ -6,7 +6,9 @@
 #include <ImfFrameBuffer.h>
 #include <ImfHeader.h>
 #include <ImfInputFile.h>
+#include <ImfIntAttribute.h>
 #include <ImfMatrixAttribute.h>
+#include <ImfRationalAttribute.h>
 #include <ImfStringAttribute.h>
 
 #include <algorithm>
@@ -56,6 +58,10 @@ void read_attributes(const Imf::Header& header, ExrFile& exr) {
       exr.attributes[it.name()] = text->value();
     if (const auto* number = dynamic_cast<const Imf::FloatAttribute*>(&attribute))
       exr.attributes[it.name()] = number->value();
+    if (const auto* whole = dynamic_cast<const Imf::IntAttribute*>(&attribute))
+      exr.attributes[it.name()] = whole->value();
+    if (const auto* ratio = dynamic_cast<const Imf::RationalAttribute*>(&attribute))
+      exr.attributes[it.name()] = ExrRational{ratio->value().n, static_cast<int>(ratio->value().d)};
     if (const auto* matrix = dynamic_cast<const Imf::M44fAttribute*>(&attribute))
       exr.attributes[it.name()] = glm_matrix(matrix->value());
   }

@@ -84,6 +84,11 @@ struct SetAttribute {
   const char* name;
   void operator()(const std::string& text) const { check(exr_attr_set_string(exr, kPart, name, text.c_str())); }
   void operator()(float value) const { check(exr_attr_set_float(exr, kPart, name, value)); }
+  void operator()(int value) const { check(exr_attr_set_int(exr, kPart, name, value)); }
+  void operator()(const ExrRational& value) const {
+    const exr_attr_rational_t rational{value.numerator, static_cast<std::uint32_t>(value.denominator)};
+    check(exr_attr_set_rational(exr, kPart, name, &rational));
+  }
   void operator()(const glm::mat4& m) const {
     exr_attr_m44f_t rows{};  // GLM's columns are its rows
     std::memcpy(rows.m, &m[0][0], sizeof rows.m);

@@ -1,20 +1,72 @@
 #include "core/image/tonemap.h"
 
+#include <algorithm>
 #include <array>
+#include <bit>
 #include <cmath>
 
 namespace pinocchio {
 
-float srgb8_to_linear(std::uint8_t value) {
-  static const std::array<float, 256> kLinear = [] {
-    std::array<float, 256> table{};
-    for (std::size_t i = 0; i < table.size(); ++i) {
-      const double c = static_cast<double>(i) / 255.0;
-      table[i] = static_cast<float>(c <= 0.04045 ? c / 12.92 : std::pow((c + 0.055) / 1.055, 2.4));
+namespace {
+
+// The curve's upper part by basic operations alone: libraries differ in the last bits of x^y. c^2.4 is c^2
+// times the fifth root of c^2, which Newton finds from above; c in (0, 1].
+double power_2_4(double c) {
+  const double square = c * c;
+  double root = 1.0;
+  for (int i = 0; i < 40; ++i) {
+    const double fourth = root * root * root * root;
+    root -= (fourth * root - square) / (5.0 * fourth);
+  }
+  return square * root;
+}
+
+double srgb_to_linear(double c) {
+  return c <= 0.04045 ? c / 12.92 : power_2_4((c + 0.055) / 1.055);
+}
+
+// A linear value's byte grows where the curve passes the middle between two bytes: at `first[i]`, the least
+// value of byte i.
+struct Bytes {
+  std::array<float, 256> linear{}, first{};
+  Bytes() {
+    for (std::size_t i = 0; i < 256; ++i) {
+      linear[i] = static_cast<float>(srgb_to_linear(static_cast<double>(i) / 255.0));
+      if (i == 0) continue;
+      const double middle = srgb_to_linear((static_cast<double>(i) - 0.5) / 255.0);
+      first[i] = static_cast<float>(middle);
+      if (first[i] < middle) first[i] = std::nextafter(first[i], 2.0f);
     }
-    return table;
-  }();
-  return kLinear[value];
+    // Of values that share exponent and three digits, the least one's byte: few bytes are passed from there.
+    for (std::size_t i = 0; i < start.size(); ++i) {
+      const float least = std::bit_cast<float>(kLeast + (static_cast<std::uint32_t>(i) << kDropped));
+      start[i] = static_cast<std::uint8_t>(std::upper_bound(first.begin(), first.end(), least) - first.begin() - 1);
+    }
+  }
+
+  [[nodiscard]] std::uint8_t of(float value) const {  // in (0, 1)
+    const std::uint32_t bits = std::bit_cast<std::uint32_t>(value);
+    if (bits < kLeast) return 0;
+    std::size_t byte = start[(bits - kLeast) >> kDropped];
+    while (byte < 255 && value >= first[byte + 1]) ++byte;
+    return static_cast<std::uint8_t>(byte);
+  }
+
+ private:
+  static constexpr std::uint32_t kLeast = 0x39000000u;  // 2^-13, whose byte is 0
+  static constexpr int kDropped = 20;                   // digits
+  std::array<std::uint8_t, ((0x3f800000u - kLeast) >> kDropped)> start{};
+};
+
+const Bytes& bytes() {
+  static const Bytes kBytes;
+  return kBytes;
+}
+
+}  // namespace
+
+float srgb8_to_linear(std::uint8_t value) {
+  return bytes().linear[value];
 }
 
 glm::vec3 srgb_to_linear(const glm::vec3& srgb) {
@@ -29,7 +81,7 @@ float linear_to_srgb(float linear) {
 std::uint8_t linear_to_srgb8(float linear) {
   if (!(linear > 0.0f)) return 0;  // NaN as well
   if (linear >= 1.0f) return 255;
-  return static_cast<std::uint8_t>(linear_to_srgb(linear) * 255.0f + 0.5f);
+  return bytes().of(linear);
 }
 
 }  // namespace pinocchio

@@ -10,7 +10,8 @@ namespace pinocchio {
 [[nodiscard]] float linear_to_srgb(float linear);
 [[nodiscard]] glm::vec3 srgb_to_linear(const glm::vec3& srgb);
 
-// 0..255, rounded to nearest; out of range is clamped, NaN is 0.
+// 0..255, rounded to nearest as if by exact arithmetic; out of range is clamped, NaN is 0. This and
+// srgb8_to_linear, which is within half a unit in the last place, give the same bits on every machine.
 [[nodiscard]] std::uint8_t linear_to_srgb8(float linear);
 
 }  // namespace pinocchio

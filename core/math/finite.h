@@ -5,7 +5,8 @@
 
 namespace pinocchio {
 
-[[nodiscard]] inline bool is_finite(const glm::vec3& v) {
+template <class T>
+[[nodiscard]] bool is_finite(const glm::vec<3, T>& v) {
   return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
 }
 

@@ -1,6 +1,7 @@
 #include "core/output/frame_exr.h"
 
 #include <cmath>
+#include <filesystem>
 #include <nlohmann/json.hpp>
 #include <span>
 
@@ -62,7 +63,18 @@ void add_attributes(ExrFile& exr, const FrameOutput& frame) {
   exr.attributes["worldToNDC"] = world_to_ndc(frame.camera, frame.size);
   exr.attributes["pinocchio.version"] = std::string(version());
   exr.attributes["pinocchio.plan"] = frame.plan_json;
+  exr.attributes["pinocchio.scene"] = std::filesystem::path(frame.scene.source).filename().string();
+  exr.attributes["pinocchio.frame"] = frame.frame;
+  exr.attributes["pinocchio.time"] = static_cast<float>(frame.frame) / static_cast<float>(frame.frames_per_second);
+  exr.attributes["pinocchio.camera"] = frame.camera.name;
   exr.attributes["pinocchio.lights"] = lights_json(frame.scene);
+  exr.attributes["pinocchio.unshadowedLights"] = unshadowed_lights_json(frame.scene);
+  exr.attributes["samplesPerPixel"] = frame.samples_per_pixel;
+  exr.attributes["framesPerSecond"] = ExrRational{frame.frames_per_second, 1};
+  if (frame.age_frames > 0)
+    exr.attributes["pinocchio.reprojected"] =
+        "shows shadows and reflections of " + std::to_string(frame.age_frames) +
+        " frame(s) before, warped; shadow.mask and reflection are left out, as this frame's own were not traced yet";
   if (frame.render_s) exr.attributes["renderTimeSeconds"] = static_cast<float>(*frame.render_s);
 }
 
@@ -117,22 +129,45 @@ glm::mat4 world_to_camera(const Camera& camera) {
 glm::mat4 world_to_ndc(const Camera& camera, glm::ivec2 size) {
   const CameraAxes axes = camera_axes(camera);
   const double height = 2.0 * std::tan(glm::radians(static_cast<double>(camera.fov_deg)) * 0.5);
-  const double width = height * size.x / size.y;
+  const double aspect = static_cast<double>(size.x) / size.y;
+  const double width = height * aspect * static_cast<double>(camera.pixel_aspect);
+  const glm::dvec2 axis = 0.5 + glm::dvec2(camera.axis_shift) / glm::dvec2(aspect, 1.0);
   const glm::dvec4 z = along(axes.forward, camera.eye);
-  return from_rows(along(axes.right, camera.eye) / width + 0.5 * z,
-                   0.5 * z - along(axes.up, camera.eye) / height, {0, 0, 0, 1}, z);
+  return from_rows(along(axes.right, camera.eye) / width + axis.x * z,
+                   axis.y * z - along(axes.up, camera.eye) / height, {0, 0, 0, 1}, z);
 }
 
-std::string lights_json(const Scene& scene) {
+namespace {
+
+nlohmann::json light_json(const Light& light) {
+  nlohmann::json json{{"name", light.name},
+                      {"kind", kind_name(light.kind)},
+                      {"color", vec3_json(light.color)},
+                      {"intensity", light.intensity}};
+  if (light.kind != Light::Kind::directional) json["position"] = vec3_json(light.position);
+  if (light.kind != Light::Kind::point) json["direction"] = vec3_json(light.direction);
+  if (light.kind == Light::Kind::spot) json["cone"] = {{"cosInner", light.cos_inner}, {"cosOuter", light.cos_outer}};
+  if (light.falloff == Light::Falloff::inverse_square) json["falloff"] = "inverse square";
+  if (std::isfinite(light.range)) json["range"] = light.range;
+  return json;
+}
+
+std::string all_lights_json(const Scene& scene, bool casting) {
   nlohmann::json lights = nlohmann::json::array();
-  for (const int i : casting_lights(scene)) {
-    const Light& light = scene.lights[static_cast<std::size_t>(i)];
-    nlohmann::json json{{"name", light.name}, {"kind", kind_name(light.kind)}};
-    if (light.kind != Light::Kind::directional) json["position"] = vec3_json(light.position);
-    if (light.kind != Light::Kind::point) json["direction"] = vec3_json(light.direction);
-    lights.push_back(std::move(json));
-  }
+  for (const Light& light : scene.lights)
+    if (light.casts_shadow == casting) lights.push_back(light_json(light));
+  // Names of files may be no UTF-8.
   return lights.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
+}
+
+}  // namespace
+
+std::string lights_json(const Scene& scene) {
+  return all_lights_json(scene, true);
+}
+
+std::string unshadowed_lights_json(const Scene& scene) {
+  return all_lights_json(scene, false);
 }
 
 }  // namespace pinocchio

@@ -28,6 +28,10 @@ struct FrameOutput {
   std::function<SurfaceImages(int y0, int y1)> surfaces;  // of these lines; any thread
   std::string plan_json;
   std::optional<double> render_s;
+  int samples_per_pixel = 1;
+  int frame = 0;  // of the animation
+  int frames_per_second = 24;
+  int age_frames = 0;  // reprojected: how much older the mask and reflection are that the picture shows
 };
 
 // As many layers as asked for, with the values of lines [y0, y1).
@@ -40,7 +44,9 @@ struct FrameOutput {
 // World to x and y in [0, 1] across the picture, y down, after division by w = z_eye; z is z_near / z_eye
 // of an infinite view, 1 at z_eye = 1, 0 at infinity.
 [[nodiscard]] glm::mat4 world_to_ndc(const Camera& camera, glm::ivec2 size);
-// For each mask slot: the light's name, kind, world position or direction.
+// For each mask slot: the light's name, kind, world position or direction, colour and intensity; likewise of
+// the lights that cast no shadow.
 [[nodiscard]] std::string lights_json(const Scene& scene);
+[[nodiscard]] std::string unshadowed_lights_json(const Scene& scene);
 
 }  // namespace pinocchio

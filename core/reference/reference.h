@@ -26,6 +26,7 @@ struct ReferencePicture {
 // Draws view.box(), `depth` bounces at most. The scene has no more casting lights than kMaxCastingLights.
 // Advances `progress` by one step.
 [[nodiscard]] ReferencePicture reference_render(const Scene& scene, const View& view, int depth,
-                                                Workers& workers, Progress* progress = nullptr);
+                                                Workers& workers, Progress* progress = nullptr,
+                                                bool filter_textures = true);
 
 }  // namespace pinocchio

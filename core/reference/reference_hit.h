@@ -13,6 +13,8 @@ struct ReferenceRay {
   glm::dvec3 origin;
   glm::dvec3 direction;
   double t_max = std::numeric_limits<double>::infinity();
+  double width = 0.0;  // of a cone at its origin, which textures are averaged over; it widens by
+  double angle = 0.0;  // radians
 };
 
 struct ReferenceHit {

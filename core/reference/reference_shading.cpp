@@ -80,26 +80,28 @@ std::optional<ReferenceLight> reference_light(const Light& light, const Referenc
 glm::dvec3 reference_phong(const ReferenceSurface& s, const ReferenceLight& light) {
   const double n_dot_l = glm::dot(s.n_shading, light.to_light);
   const double r_dot_v = glm::dot(2.0 * n_dot_l * s.n_shading - light.to_light, s.to_viewer);
-  const double highlight = r_dot_v > 0.0 ? std::pow(r_dot_v, s.material->shininess) : 0.0;
-  return light.radiance * (s.diffuse * n_dot_l + glm::dvec3(s.material->specular) * highlight);
+  const double highlight = r_dot_v > 0.0 ? std::pow(r_dot_v, s.material.shininess) : 0.0;
+  return light.radiance * (s.material.diffuse * n_dot_l + s.material.specular * highlight);
 }
 
-std::array<ReferenceBounce, 2> reference_bounces(const ReferenceSurface& s) {
-  const Material& m = *s.material;
-  const double cos_in = std::clamp(glm::dot(s.n_shading, s.to_viewer), 0.0, 1.0);
+std::array<ReferenceBounce, 3> reference_bounces(const ReferenceSurface& s) {
+  const ReferenceMaterial& m = s.material;
+  const double cos_in = std::clamp(glm::dot(s.n_shading, s.to_viewer), 0.0, 1.0), own = m.alpha;
+  const ReferenceBounce straight =
+      own < 1.0 ? bounce(s, -s.to_viewer, glm::dvec3(1.0 - own)) : ReferenceBounce{};
   if (m.transmits()) {
     const double ior = m.ior, eta = s.leaving ? 1.0 / ior : ior;
     const glm::dvec3 through = refracted(s, eta);
     // Where the two normals disagree there may be no way through although Fresnel has a share for it.
     const double share = through == glm::dvec3(0.0) ? 1.0 : fresnel(cos_in, eta);
-    return {bounce(s, mirrored(s), glm::dvec3(share)),
-            bounce(s, through, (1.0 - share) * glm::dvec3(m.transmittance))};
+    return {bounce(s, mirrored(s), glm::dvec3(own * share)),
+            bounce(s, through, own * (1.0 - share) * m.transmittance), straight};
   }
-  if (!m.reflects()) return {};
+  if (!m.reflects()) return {ReferenceBounce{}, ReferenceBounce{}, straight};
   // Schlick, "An Inexpensive BRDF Model for Physically-based Rendering", 1994.
   const double grazing = m.fresnel ? std::pow(1.0 - cos_in, 5.0) : 0.0;
-  const glm::dvec3 normal(m.reflectance);
-  return {bounce(s, mirrored(s), normal + (1.0 - normal) * grazing), ReferenceBounce{}};
+  const glm::dvec3 share = m.reflectance + (1.0 - m.reflectance) * grazing;
+  return {bounce(s, mirrored(s), own * share), ReferenceBounce{}, straight};
 }
 
 }  // namespace pinocchio

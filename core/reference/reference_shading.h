@@ -30,8 +30,8 @@ struct ReferenceBounce {
   ReferenceRay ray{};
 };
 
-// Mirrored, refracted. Dielectrics share by Fresnel's equations; opaque mirrors have a constant
+// Mirrored, refracted, and straight on behind a surface that blends. Dielectrics share by Fresnel's equations; opaque mirrors have a constant
 // reflectance or Schlick's.
-[[nodiscard]] std::array<ReferenceBounce, 2> reference_bounces(const ReferenceSurface& surface);
+[[nodiscard]] std::array<ReferenceBounce, 3> reference_bounces(const ReferenceSurface& surface);
 
 }  // namespace pinocchio

@@ -3,6 +3,7 @@
 #include <glm/glm.hpp>
 
 #include "core/reference/reference_hit.h"
+#include "core/reference/reference_maps.h"
 #include "pinocchio/mesh.h"
 
 namespace pinocchio {
@@ -11,17 +12,17 @@ namespace pinocchio {
 struct ReferenceSurface {
   glm::dvec3 p_world;
   glm::dvec3 n_geometric;  // unit, towards the viewer
-  glm::dvec3 n_shading;    // unit, interpolated, turned with n_geometric
+  glm::dvec3 n_shading;    // unit, interpolated, normal map applied, turned with n_geometric
   glm::dvec3 to_viewer;    // unit
   bool leaving;            // the ray was inside: it meets the surface from behind
   double error;            // how far off the triangle p_world can be, scene units
-  const Material* material;
-  glm::dvec3 ambient, diffuse;  // the material's, texture applied
+  ReferenceMaterial material;  // maps applied
 };
 
 // hit.valid(), and `hit` is the ray's.
 [[nodiscard]] ReferenceSurface reference_surface(const Mesh& mesh, const ReferenceRay& ray,
-                                                 const ReferenceHit& hit);
+                                                 const ReferenceHit& hit,
+                                                 const ReferenceSpread& spread = {});
 
 // Where a ray towards `direction` starts: off the surface by its error, on that side.
 [[nodiscard]] glm::dvec3 leave(const ReferenceSurface& surface, const glm::dvec3& direction);

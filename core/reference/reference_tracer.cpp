@@ -1,17 +1,42 @@
 #include "core/reference/reference_tracer.h"
 
+#include <algorithm>
+#include <cmath>
+
 #include "core/reference/reference_shading.h"
 
 namespace pinocchio {
+namespace {
+
+// Two sides of a square of that width across the ray.
+ReferenceSpread spread_of(const ReferenceRay& ray, double width) {
+  if (ray.angle == 0.0) return {};
+  int least = 0;
+  for (int axis = 1; axis < 3; ++axis)
+    if (std::abs(ray.direction[axis]) < std::abs(ray.direction[least])) least = axis;
+  glm::dvec3 axis(0.0);
+  axis[least] = 1.0;
+  const glm::dvec3 across = glm::normalize(glm::cross(ray.direction, axis));
+  return {ray.direction, width * across, width * glm::normalize(glm::cross(ray.direction, across))};
+}
+
+}  // namespace
+
+ReferenceTracer::Cone ReferenceTracer::cone_after(const ReferenceRay& ray, const ReferenceHit& hit) {
+  return {ray.width + ray.angle * hit.t * glm::length(ray.direction), ray.angle};
+}
 
 ReferenceTracer::Pixel ReferenceTracer::pixel(const shared::ViewParams& view, int x, int y, int depth) const {
-  const ReferenceRay ray = reference_pixel_ray(view, x, y);
-  const ReferenceHit hit = tree_.closest_hit(ray);
+  ReferenceRay ray = reference_pixel_ray(view, x, y);
+  if (filter_textures_) ray.angle = glm::length(glm::dvec3(view.step_y));
+  const ReferenceHit hit = closest_hit(ray);
   Pixel pixel;
   pixel.triangle = hit.triangle;
   if (!hit.valid()) return pixel;
-  const ReferenceSurface surface = reference_surface(*scene_.mesh, ray, hit);
-  const glm::dvec3 own = direct(surface, pixel.mask), mirrored = bounced(surface, depth);
+  ReferenceSpread spread{ray.direction, hit.t * glm::dvec3(view.step_x), hit.t * glm::dvec3(view.step_y)};
+  if (!filter_textures_) spread = {};
+  const ReferenceSurface surface = reference_surface(*scene_.mesh, ray, hit, spread);
+  const glm::dvec3 own = direct(surface, pixel.mask), mirrored = bounced(surface, depth, cone_after(ray, hit));
   pixel.reflection = glm::vec3(mirrored);
   pixel.color = glm::vec4(glm::vec3(own + mirrored), 1.0f);
   return pixel;
@@ -19,37 +44,90 @@ ReferenceTracer::Pixel ReferenceTracer::pixel(const shared::ViewParams& view, in
 
 // The surface's light without mirrors and glass. Sets bit i of `bits` where casting light i reaches it.
 glm::dvec3 ReferenceTracer::direct(const ReferenceSurface& surface, unsigned& bits) const {
-  glm::dvec3 sum =
-      surface.ambient * glm::dvec3(scene_.ambient_light) + glm::dvec3(surface.material->emission);
+  glm::dvec3 sum = surface.material.ambient * glm::dvec3(scene_.ambient_light) + surface.material.emission;
   int slot = -1;
   for (const Light& light : scene_.lights) {
     if (light.casts_shadow) ++slot;
     const std::optional<ReferenceLight> incident = reference_light(light, surface);
     if (!incident) continue;
     if (light.casts_shadow) {
-      if (tree_.occluded(incident->shadow)) continue;
-      bits |= 1u << slot;
+      const double share = unblocked(incident->shadow);
+      if (share >= 0.5) bits |= 1u << slot;
+      sum += share * reference_phong(surface, *incident);
+    } else {
+      sum += reference_phong(surface, *incident);
     }
-    sum += reference_phong(surface, *incident);
   }
-  return sum;
+  return surface.material.alpha * sum;
 }
 
 // Ir(R) + It(T), following `depth` bounces at most.
-glm::dvec3 ReferenceTracer::bounced(const ReferenceSurface& surface, int depth) const {
+glm::dvec3 ReferenceTracer::bounced(const ReferenceSurface& surface, int depth, const Cone& cone) const {
   glm::dvec3 sum(0.0);
   if (depth <= 0) return sum;
   for (const ReferenceBounce& bounce : reference_bounces(surface))
-    if (bounce.weight != glm::dvec3(0.0)) sum += bounce.weight * seen(bounce.ray, depth - 1);
+    if (bounce.weight != glm::dvec3(0.0)) {
+      ReferenceRay ray = bounce.ray;
+      ray.width = cone.width;
+      ray.angle = cone.angle;
+      sum += bounce.weight * seen(ray, depth - 1);
+    }
   return sum;
 }
 
 glm::dvec3 ReferenceTracer::seen(const ReferenceRay& ray, int depth) const {
-  const ReferenceHit hit = tree_.closest_hit(ray);
+  const ReferenceHit hit = closest_hit(ray);
   if (!hit.valid()) return glm::dvec3(0.0);
-  const ReferenceSurface surface = reference_surface(*scene_.mesh, ray, hit);
+  const Cone cone = cone_after(ray, hit);
+  const ReferenceSurface surface = reference_surface(*scene_.mesh, ray, hit, spread_of(ray, cone.width));
   unsigned bits = 0;
-  return direct(surface, bits) + bounced(surface, depth);
+  return direct(surface, bits) + bounced(surface, depth, cone);
+}
+
+namespace {
+
+// Behind what it hit, as far as that may be off; a ray that ends somewhere still ends there.
+ReferenceRay continued(const Mesh& mesh, const ReferenceRay& ray, const ReferenceHit& hit) {
+  const ReferenceSurface surface = reference_surface(mesh, ray, hit);
+  const glm::dvec3 behind = leave(surface, ray.direction);
+  if (std::isinf(ray.t_max)) return {behind, ray.direction};
+  return {behind, ray.origin + ray.t_max * ray.direction - behind, 1.0};
+}
+
+}  // namespace
+
+// The first hit that is no hole.
+ReferenceHit ReferenceTracer::closest_hit(const ReferenceRay& ray) const {
+  ReferenceRay rest = ray;
+  for (double passed = 0.0;;) {
+    ReferenceHit hit = tree_.closest_hit(rest);
+    if (!hit.valid()) return hit;
+    if (!reference_hole(*scene_.mesh, hit)) {
+      hit.t += passed;
+      return hit;
+    }
+    passed += hit.t;
+    rest = continued(*scene_.mesh, rest, hit);
+  }
+}
+
+// How much of a light comes along the ray. One sample decides by alpha of one half; in the mean over a pixel
+// surfaces that blend let what they do not cover through.
+double ReferenceTracer::unblocked(const ReferenceRay& ray) const {
+  double share = 1.0;
+  for (ReferenceRay rest = ray;;) {
+    const ReferenceHit hit = tree_.closest_hit(rest);
+    if (!hit.valid()) return share;
+    const MaterialMaps* const maps = scene_.mesh->maps_of(hit.triangle);
+    if (!maps || maps->alpha_mode == AlphaMode::opaque) return 0.0;
+    const double alpha = std::clamp(reference_alpha(*scene_.mesh, hit), 0.0, 1.0);
+    if (maps->alpha_mode == AlphaMode::mask ? !reference_hole(*scene_.mesh, hit)
+                                            : !one_of_many_ && alpha >= 0.5)
+      return 0.0;
+    if (maps->alpha_mode == AlphaMode::blend && one_of_many_) share *= 1.0 - alpha;
+    if (share == 0.0) return 0.0;
+    rest = continued(*scene_.mesh, rest, hit);
+  }
 }
 
 ReferenceRay reference_pixel_ray(const shared::ViewParams& view, int x, int y) {

@@ -17,7 +17,11 @@ namespace pinocchio {
 class ReferenceTracer {
  public:
   // `tree` may be of another scene with the same triangles. Both stay as long as this lives.
-  ReferenceTracer(const Scene& scene, const ReferenceTree& tree) : scene_(scene), tree_(tree) {}
+  // filter_textures: they are averaged over what a pixel sees of them.
+  // one_of_many: pixels are the mean of many such pictures, so that shadows of surfaces that blend may be grey.
+  ReferenceTracer(const Scene& scene, const ReferenceTree& tree, bool filter_textures = true,
+                  bool one_of_many = false)
+      : scene_(scene), tree_(tree), filter_textures_(filter_textures), one_of_many_(one_of_many) {}
 
   struct Pixel {
     std::uint32_t triangle = kNoTriangle;  // seen at the sample point
@@ -30,11 +34,20 @@ class ReferenceTracer {
 
  private:
   glm::dvec3 direct(const ReferenceSurface& surface, unsigned& bits) const;
-  [[nodiscard]] glm::dvec3 bounced(const ReferenceSurface& surface, int depth) const;
+  // What textures are averaged over behind a hit.
+  struct Cone {
+    double width, angle;
+  };
+  [[nodiscard]] static Cone cone_after(const ReferenceRay& ray, const ReferenceHit& hit);
+  [[nodiscard]] glm::dvec3 bounced(const ReferenceSurface& surface, int depth, const Cone& cone) const;
   [[nodiscard]] glm::dvec3 seen(const ReferenceRay& ray, int depth) const;
+
+  [[nodiscard]] ReferenceHit closest_hit(const ReferenceRay& ray) const;
+  [[nodiscard]] double unblocked(const ReferenceRay& ray) const;
 
   const Scene& scene_;
   const ReferenceTree& tree_;
+  bool filter_textures_, one_of_many_;
 };
 
 // The ray of the pixel (x, y); its t is z_eye.

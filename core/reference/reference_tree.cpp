@@ -5,6 +5,9 @@
 #include <cmath>
 #include <numeric>
 
+#include "core/math/components.h"
+#include "core/math/finite.h"
+
 namespace pinocchio {
 namespace {
 
@@ -14,14 +17,6 @@ constexpr std::size_t kStackSize = 64;  // halving 2^32 triangles is 32 levels, 
 // Boxes are widened by this share of the coordinates a ray meets: many times what subtracting the origin
 // and shearing a corner can err by in double, so that no box is missed whose triangle would be hit.
 constexpr double kBoxError = 32.0 * 0x1p-53;
-
-double largest_component(const glm::dvec3& v) {
-  return std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)});
-}
-
-bool is_finite(const glm::dvec3& v) {
-  return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
-}
 
 // Where the ray enters the box, its sides moved out by `margin`; infinity where it does not before t_max.
 double entry(const ReferenceRay& ray, const Bounds& box, double margin, double t_max) {

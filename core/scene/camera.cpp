@@ -13,4 +13,19 @@ CameraAxes camera_axes(const Camera& camera) {
   return {glm::vec3(right), glm::vec3(glm::cross(right, forward)), glm::vec3(forward)};
 }
 
+Camera with_intrinsics(Camera camera, const Intrinsics& k, glm::ivec2 size) {
+  const glm::dvec2 full(size);
+  camera.fov_deg = static_cast<float>(glm::degrees(2.0 * std::atan(0.5 * full.y / k.fy)));
+  camera.pixel_aspect = static_cast<float>(k.fy / k.fx);
+  camera.axis_shift = glm::vec2((glm::dvec2(k.cx, k.cy) + 0.5 - 0.5 * full) / full.y);
+  return camera;
+}
+
+Intrinsics intrinsics_of(const Camera& camera, glm::ivec2 size) {
+  const glm::dvec2 full(size);
+  const double fy = 0.5 * full.y / std::tan(glm::radians(0.5 * static_cast<double>(camera.fov_deg)));
+  const glm::dvec2 center = 0.5 * full - 0.5 + glm::dvec2(camera.axis_shift) * full.y;
+  return {fy / static_cast<double>(camera.pixel_aspect), fy, center.x, center.y};
+}
+
 }  // namespace pinocchio

@@ -36,7 +36,7 @@ constexpr Extension kExtensions[] = {
     {"KHR_texture_basisu", "another image or the plain colour is used", "convert its KTX2 images to PNG, JPEG or WebP"},
     {"MSFT_texture_dds", "another image or the plain colour is used", "convert its DDS images to PNG, JPEG or WebP"},
     {"EXT_texture_avif", "another image or the plain colour is used", "convert its AVIF images to PNG, JPEG or WebP"},
-    {"KHR_texture_transform", "textures are not moved, turned or scaled", ""},
+    {"KHR_texture_transform", "", ""},
     {"KHR_materials_pbrSpecularGlossiness", "another material or plain white is used",
      "convert its materials to metallic-roughness"},
     {"KHR_materials_clearcoat", "highlights of the clear coat are missing", ""},
@@ -64,11 +64,6 @@ struct Member {
 };
 
 constexpr Member kMaterialMembers[] = {
-    {"/normalTexture", "its normal texture is left out", "the surface looks smooth"},
-    {"/occlusionTexture", "its occlusion texture is left out", "corners are as bright as the rest"},
-    {"/emissiveTexture", "its emissive texture is left out", "all of it glows alike"},
-    {"/pbrMetallicRoughness/metallicRoughnessTexture", "its metallic-roughness texture is left out",
-     "all of it is as metallic and as rough as its factors say"},
     {"/extensions/KHR_materials_specular/specularTexture", "its specular texture is left out",
      "all of it shines alike"},
     {"/extensions/KHR_materials_specular/specularColorTexture", "its specular colour texture is left out",
@@ -101,10 +96,6 @@ const Json& array_of(const Json& json, const std::string& key) {
   static const Json kNone = Json::array();
   const Json* value = object_of(json, key);
   return value && value->is_array() ? *value : kNone;
-}
-
-const Json* item(const Json& array, double index) {
-  return index >= 0 && index < static_cast<double>(array.size()) ? &array[static_cast<std::size_t>(index)] : nullptr;
 }
 
 // "material 'paint'", "material 3"
@@ -166,9 +157,6 @@ class Audit {
       for (const Json& primitive : array_of(meshes[i], "primitives")) {
         used_materials_.insert(number_of(primitive, "material", -1));
         has_targets = has_targets || !array_of(primitive, "targets").empty();
-        const Json* attributes = object_of(primitive, "attributes");
-        if (attributes && attributes->contains("COLOR_0"))
-          lost(where, "its vertex colours are left out", "all of it has its material's colour");
       }
       const Json& weights = array_of(meshes[i], "weights");
       if (has_targets && std::any_of(weights.begin(), weights.end(), [](const Json& w) { return w != 0; }))
@@ -179,27 +167,14 @@ class Audit {
   void look_at_material(const Json& material, const std::string& where) {
     for (const Member& member : kMaterialMembers)
       if (material.contains(Json::json_pointer(member.at))) lost(where, member.what, member.lost);
-    const std::string alpha = text_of(material, "alphaMode");
-    if (alpha == "MASK") lost(where, "alphaMode MASK is left out", "its holes are filled");
-    if (alpha == "BLEND") lost(where, "alphaMode BLEND is left out", "it is opaque");
-    const Json* pbr = object_of(material, "pbrMetallicRoughness");
-    if (const Json* texture = pbr ? object_of(*pbr, "baseColorTexture") : nullptr) look_at_texture(*texture, material, where);
+    for (const char* at : {"/pbrMetallicRoughness/baseColorTexture", "/pbrMetallicRoughness/metallicRoughnessTexture",
+                           "/normalTexture", "/occlusionTexture", "/emissiveTexture"})
+      if (const Json::json_pointer pointer(at); material.contains(pointer)) look_at_texture(material[pointer], where);
   }
 
-  void look_at_texture(const Json& info, const Json& material, const std::string& where) {
-    if (const Json* extensions = object_of(material, "extensions"); extensions && extensions->contains("KHR_materials_unlit"))
-      lost(where, "the texture of an unlit material is left out", "all of it has one colour");
-    if (number_of(info, "texCoord", 0) != 0)
-      lost(where, "the other sets of texture coordinates are left out", "its texture lies as the first set says");
-    const Json* texture = item(array_of(gltf_, "textures"), number_of(info, "index", -1));
-    const Json* sampler = texture ? item(array_of(gltf_, "samplers"), number_of(*texture, "sampler", -1)) : nullptr;
-    if (!sampler) return;
-    constexpr double kRepeat = 10497, kNearest = 9728;
-    for (const char* wrap : {"wrapS", "wrapT"})
-      if (number_of(*sampler, wrap, kRepeat) != kRepeat)
-        lost(where, "its texture's way of wrapping is left out", "the texture repeats");
-    if (number_of(*sampler, "magFilter", 0) == kNearest)
-      lost(where, "its texture's nearest filter is left out", "texels run into each other");
+  void look_at_texture(const Json& info, const std::string& where) {
+    if (number_of(info, "texCoord", 0) > 1)
+      lost(where, "texture coordinates beyond the second set are left out", "its texture lies as the first set says");
   }
 
   void look_at_scenes() {

@@ -207,6 +207,13 @@ std::optional<bool> bool_member(const tinygltf::Value* object, const std::string
   return value->Get<bool>();
 }
 
+std::optional<glm::vec2> vec2_member(const tinygltf::Value* object, const std::string& key) {
+  const tinygltf::Value* value = object ? member(*object, key) : nullptr;
+  if (!value || !value->IsArray() || value->ArrayLen() != 2) return std::nullopt;
+  if (!value->Get(0).IsNumber() || !value->Get(1).IsNumber()) return std::nullopt;
+  return glm::vec2(value->Get(0).GetNumberAsDouble(), value->Get(1).GetNumberAsDouble());
+}
+
 std::optional<glm::vec3> vec3_member(const tinygltf::Value* object, const std::string& key) {
   if (const std::optional<float> all = number_member(object, key)) return glm::vec3(*all);
   const tinygltf::Value* value = object ? member(*object, key) : nullptr;

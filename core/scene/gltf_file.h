@@ -61,20 +61,22 @@ struct GltfFile {
 [[nodiscard]] const tinygltf::Value* our_extras(const tinygltf::Value& extras);
 [[nodiscard]] std::optional<float> number_member(const tinygltf::Value* object, const std::string& key);
 [[nodiscard]] std::optional<bool> bool_member(const tinygltf::Value* object, const std::string& key);
+[[nodiscard]] std::optional<glm::vec2> vec2_member(const tinygltf::Value* object, const std::string& key);
 // [x, y, z], or one number for all three
 [[nodiscard]] std::optional<glm::vec3> vec3_member(const tinygltf::Value* object, const std::string& key);
 
-// The file's materials as Phong's, in the file's order. diffuse_texture is the file's image yet.
-[[nodiscard]] std::vector<Material> gltf_materials(const GltfFile& file);
+// The file's materials as Phong's, in the file's order, with their maps, whose textures are the file's images
+// yet.
+void add_gltf_materials(const GltfFile& file, MeshData& mesh);
 
-// Decodes the images that materials use and makes their diffuse_texture the scene's; an image that cannot
-// be read is a warning and leaves the plain colour.
+// Decodes the images that maps use and makes their textures the scene's; an image that cannot be read is a
+// warning and leaves what the material has without it.
 void add_gltf_textures(const GltfFile& file, MeshData& mesh, Loading& loading);
 
-// Appends the triangles of a mesh, placed by `world_from_mesh`. Materials are the file's indices; -1
-// becomes `default_material`.
+// Appends the triangles of a mesh, placed by `world_from_mesh`, and to `rest` its vertices as they were.
+// Materials are the file's indices; -1 becomes `default_material`.
 [[nodiscard]] Expected<void> add_gltf_mesh(const GltfFile& file, int mesh, const glm::mat4& world_from_mesh,
-                                           std::uint32_t default_material, MeshData& to,
+                                           std::uint32_t default_material, MeshData& to, RestPose& rest,
                                            Warnings& warnings);
 
 }  // namespace pinocchio

@@ -1,3 +1,5 @@
+#include <cmath>
+
 #include "core/scene/gltf_file.h"
 #include "core/scene/phong_from_gltf.h"
 
@@ -45,31 +47,114 @@ Material phong_of(const tinygltf::Value& phong, const glm::vec3& base_color) {
   return m;
 }
 
-Material material_of(const GltfFile& file, const tinygltf::Material& m) {
-  const GltfSurface surface = surface_of(m);
-  Material material = phong_from_gltf(surface);
+int index_of(const tinygltf::Value* info, const char* key, int fallback) {
+  return static_cast<int>(number_member(info, key).value_or(static_cast<float>(fallback)));
+}
+
+Wrap wrap_of(int gl_mode) {
+  return gl_mode == TINYGLTF_TEXTURE_WRAP_CLAMP_TO_EDGE     ? Wrap::clamp
+         : gl_mode == TINYGLTF_TEXTURE_WRAP_MIRRORED_REPEAT ? Wrap::mirror
+                                                            : Wrap::repeat;
+}
+
+// KHR_texture_transform: translation times rotation times scale.
+void transform(const tinygltf::Value& t, TextureUse& use) {
+  const glm::vec2 offset = vec2_member(&t, "offset").value_or(glm::vec2(0.0f));
+  const glm::vec2 scale = vec2_member(&t, "scale").value_or(glm::vec2(1.0f));
+  const float angle = number_member(&t, "rotation").value_or(0.0f);
+  const float c = std::cos(angle), s = std::sin(angle);
+  use.uv_from_texcoord = {scale.x * c, -scale.x * s, scale.y * s, scale.y * c, offset.x, offset.y};
+  use.uv_set = index_of(&t, "texCoord", use.uv_set);
+}
+
+// The file's image for a texture of ours yet (add_gltf_textures); none where the file names none.
+TextureUse use_of(const GltfFile& file, int texture, int uv_set, const tinygltf::ExtensionMap& extensions) {
+  TextureUse use;
+  if (texture < 0 || static_cast<std::size_t>(texture) >= file.model.textures.size()) return use;
+  const tinygltf::Texture& t = file.model.textures[static_cast<std::size_t>(texture)];
+  const tinygltf::Value* webp = extension(t.extensions, "EXT_texture_webp");
+  const int image = webp ? index_of(webp, "source", t.source) : t.source;
+  if (image < 0 || static_cast<std::size_t>(image) >= file.model.images.size()) return use;
+  use.texture = image;
+  use.uv_set = uv_set;
+  if (t.sampler >= 0 && static_cast<std::size_t>(t.sampler) < file.model.samplers.size()) {
+    const tinygltf::Sampler& sampler = file.model.samplers[static_cast<std::size_t>(t.sampler)];
+    use.wrap_u = wrap_of(sampler.wrapS);
+    use.wrap_v = wrap_of(sampler.wrapT);
+    use.nearest = sampler.magFilter == TINYGLTF_TEXTURE_FILTER_NEAREST;
+  }
+  if (const tinygltf::Value* t_transform = extension(extensions, "KHR_texture_transform"))
+    transform(*t_transform, use);
+  return use;
+}
+
+template <class Info>  // tinygltf's three kinds of it
+TextureUse use_of(const GltfFile& file, const Info& info) {
+  return use_of(file, info.index, info.texCoord, info.extensions);
+}
+
+MaterialMaps maps_of(const GltfFile& file, const tinygltf::Material& m) {
+  MaterialMaps maps;
+  maps.base_color = use_of(file, m.pbrMetallicRoughness.baseColorTexture);
+  maps.metallic_roughness = use_of(file, m.pbrMetallicRoughness.metallicRoughnessTexture);
+  maps.normal = use_of(file, m.normalTexture);
+  maps.normal_scale = static_cast<float>(m.normalTexture.scale);
+  maps.occlusion = use_of(file, m.occlusionTexture);
+  maps.occlusion_strength = static_cast<float>(m.occlusionTexture.strength);
+  maps.emissive = use_of(file, m.emissiveTexture);
+  if (m.alphaMode == "MASK") maps.alpha_mode = AlphaMode::mask;
+  if (m.alphaMode == "BLEND") maps.alpha_mode = AlphaMode::blend;
+  if (maps.alpha_mode == AlphaMode::opaque) return maps;
+  maps.alpha = maps.base_color;
+  maps.alpha_cutoff = static_cast<float>(m.alphaCutoff);
+  const std::vector<double>& factor = m.pbrMetallicRoughness.baseColorFactor;
+  if (factor.size() == 4) maps.alpha_factor = static_cast<float>(factor[3]);
+  // What blends and is whole everywhere is opaque.
+  if (maps.blends() && maps.alpha_factor >= 1.0f && !maps.alpha.used()) maps.alpha_mode = AlphaMode::opaque;
+  return maps;
+}
+
+bool changes(const MaterialMaps& m) {
+  return m.alpha_mode != AlphaMode::opaque || m.base_color.used() || m.metallic_roughness.used() ||
+         m.normal.used() || m.occlusion.used() || m.emissive.used();
+}
+
+// Our own extras.pinocchio.phong, else metallic-roughness.
+Material material_of(const tinygltf::Material& m, const GltfSurface& surface, MaterialMaps& maps) {
   const tinygltf::Value* extras = our_extras(m.extras);
-  if (const tinygltf::Value* phong = extras ? member(*extras, "phong") : nullptr) {
-    material = phong_of(*phong, surface.base_color);
-    material.emission = surface.emissive;
-  }
+  const tinygltf::Value* phong = extras ? member(*extras, "phong") : nullptr;
+  maps.from_gltf = phong == nullptr;
+  maps.surface = surface;
+  Material material = phong ? phong_of(*phong, surface.base_color) : phong_from_gltf(surface);
+  if (phong) material.emission = surface.emissive;
   material.name = m.name;
-  // glTF's texture names an image; ours is the image.
-  const int texture = m.pbrMetallicRoughness.baseColorTexture.index;
-  if (texture >= 0 && static_cast<std::size_t>(texture) < file.model.textures.size()) {
-    const int image = file.model.textures[static_cast<std::size_t>(texture)].source;
-    if (image >= 0 && static_cast<std::size_t>(image) < file.model.images.size())
-      material.diffuse_texture = image;
-  }
   return material;
+}
+
+// Whether some primitive of it has coloured vertices, by material.
+std::vector<bool> colored_materials(const tinygltf::Model& model) {
+  std::vector<bool> colored(model.materials.size(), false);
+  for (const tinygltf::Mesh& mesh : model.meshes)
+    for (const tinygltf::Primitive& p : mesh.primitives)
+      if (p.attributes.contains("COLOR_0") && p.material >= 0 &&
+          static_cast<std::size_t>(p.material) < colored.size())
+        colored[static_cast<std::size_t>(p.material)] = true;
+  return colored;
 }
 
 }  // namespace
 
-std::vector<Material> gltf_materials(const GltfFile& file) {
-  std::vector<Material> materials;
-  for (const tinygltf::Material& m : file.model.materials) materials.push_back(material_of(file, m));
-  return materials;
+void add_gltf_materials(const GltfFile& file, MeshData& mesh) {
+  const std::vector<bool> colored = colored_materials(file.model);
+  for (std::size_t i = 0; i < file.model.materials.size(); ++i) {
+    const tinygltf::Material& m = file.model.materials[i];
+    MaterialMaps maps = maps_of(file, m);
+    maps.vertex_colors = colored[i];
+    Material material = material_of(m, surface_of(m), maps);
+    if (colored[i] && m.alphaMode == "BLEND") maps.alpha_mode = AlphaMode::blend;
+    if (changes(maps) || maps.vertex_colors) make_maps(mesh, material) = maps;
+    mesh.materials.push_back(std::move(material));
+  }
 }
 
 }  // namespace pinocchio

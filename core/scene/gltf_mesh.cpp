@@ -9,7 +9,7 @@ namespace {
 
 // Accessors of a primitive's attributes; -1: it has none.
 struct Attributes {
-  int position = -1, normal = -1, texcoord = -1;
+  int position = -1, normal = -1, texcoord = -1, texcoord1 = -1, color = -1, tangent = -1;
   auto operator<=>(const Attributes&) const = default;
 };
 
@@ -44,18 +44,14 @@ std::size_t elements_of(const GltfFile& file, const tinygltf::Primitive& primiti
 
 class MeshPlacer {
  public:
-  MeshPlacer(const GltfFile& file, const glm::mat4& world_from_mesh, MeshData& mesh)
-      : file_(file),
-        world_from_mesh_(world_from_mesh),
-        normals_to_world_(glm::transpose(glm::inverse(glm::mat3(world_from_mesh)))),
-        mirrored_(glm::determinant(glm::mat3(world_from_mesh)) < 0.0f),
-        identity_(world_from_mesh == glm::mat4(1.0f)),
-        mesh_(mesh) {}
+  MeshPlacer(const GltfFile& file, const glm::mat4& world_from_mesh, MeshData& mesh, RestPose& rest)
+      : file_(file), placement_(world_from_mesh), mesh_(mesh), rest_(rest) {}
 
   Expected<void> add(const tinygltf::Primitive& primitive, std::uint32_t default_material) {
     const Expected<std::uint32_t> first =
         vertices({attribute(primitive, "POSITION"), attribute(primitive, "NORMAL"),
-                  attribute(primitive, "TEXCOORD_0")});
+                  attribute(primitive, "TEXCOORD_0"), attribute(primitive, "TEXCOORD_1"),
+                  attribute(primitive, "COLOR_0"), attribute(primitive, "TANGENT")});
     if (!first) return Unexpected(first.error());
     const std::size_t vertex_count = counts_[*first];
     std::vector<std::uint32_t> indices(vertex_count);
@@ -79,7 +75,7 @@ class MeshPlacer {
       if (i % kTrianglesBetweenLooks == 0) throw_if_cancelled(file_.progress);
       const std::array<std::size_t, 3> at = corners_of(primitive.mode, i);
       glm::uvec3 triangle(indices[at[0]], indices[at[1]], indices[at[2]]);
-      if (mirrored_) std::swap(triangle.y, triangle.z);
+      if (placement_.mirrors()) std::swap(triangle.y, triangle.z);
       mesh_.triangles.push_back(triangle + *first);
       mesh_.triangle_materials.push_back(
           primitive.material >= 0 ? static_cast<std::uint32_t>(primitive.material) : default_material);
@@ -100,14 +96,42 @@ class MeshPlacer {
     if (!normals) return Unexpected(normals.error());
     const Expected<std::vector<float>> texcoords = optional(attributes.texcoord, 2, count);
     if (!texcoords) return Unexpected(texcoords.error());
+    const Expected<std::vector<float>> texcoords1 = optional(attributes.texcoord1, 2, count);
+    if (!texcoords1) return Unexpected(texcoords1.error());
+    const Expected<std::vector<glm::vec4>> vertex_colors = colors(attributes.color, count);
+    if (!vertex_colors) return Unexpected(vertex_colors.error());
+    const Expected<std::vector<float>> tangents = optional(attributes.tangent, 4, count);
+    if (!tangents) return Unexpected(tangents.error());
+    mesh_.colors.insert(mesh_.colors.end(), vertex_colors->begin(), vertex_colors->end());
     for (std::size_t i = 0; i < count; ++i) {
+      const float *t1 = &(*texcoords1)[2 * i], *u = &(*tangents)[4 * i];
+      mesh_.texcoords1.emplace_back(t1[0], t1[1]);
+      rest_.tangents.emplace_back(u[0], u[1], u[2], u[3]);
+      mesh_.tangents.push_back(placement_.tangent(rest_.tangents.back()));
       const float *p = &(*positions)[3 * i], *n = &(*normals)[3 * i], *t = &(*texcoords)[2 * i];
-      mesh_.positions.push_back(placed({p[0], p[1], p[2]}));
-      mesh_.normals.push_back(placed_normal({n[0], n[1], n[2]}));
+      rest_.positions.emplace_back(p[0], p[1], p[2]);
+      rest_.normals.emplace_back(n[0], n[1], n[2]);
+      mesh_.positions.push_back(placement_.position(rest_.positions.back()));
+      mesh_.normals.push_back(placement_.normal(rest_.normals.back()));
       mesh_.texcoords.emplace_back(t[0], t[1]);
     }
     counts_[at->second] = count;
     return at->second;
+  }
+
+  // RGB or RGBA; white where the primitive has none.
+  Expected<std::vector<glm::vec4>> colors(int accessor, std::size_t count) const {
+    std::vector<glm::vec4> result(count, glm::vec4(1.0f));
+    if (accessor < 0) return result;
+    const bool known = static_cast<std::size_t>(accessor) < file_.model.accessors.size();
+    const std::size_t width =
+        known && file_.model.accessors[static_cast<std::size_t>(accessor)].type == TINYGLTF_TYPE_VEC3 ? 3 : 4;
+    const Expected<std::vector<float>> values = optional(accessor, static_cast<int>(width), count);
+    if (!values) return Unexpected(values.error());
+    for (std::size_t i = 0; i < count; ++i)
+      for (std::size_t c = 0; c < width; ++c)
+        result[i][static_cast<int>(c)] = (*values)[width * i + c];
+    return result;
   }
 
   // Zeros where the primitive has no such attribute.
@@ -120,22 +144,10 @@ class MeshPlacer {
     return values;
   }
 
-  // The identity keeps every bit, -0 and all.
-  [[nodiscard]] glm::vec3 placed(const glm::vec3& p) const {
-    return identity_ ? p : glm::vec3(world_from_mesh_ * glm::vec4(p, 1.0f));
-  }
-  [[nodiscard]] glm::vec3 placed_normal(const glm::vec3& n) const {
-    if (identity_ || n == glm::vec3(0.0f)) return n;
-    const glm::vec3 world = normals_to_world_ * n;
-    const float length = glm::length(world);
-    return length > 0.0f && std::isfinite(length) ? world / length : glm::vec3(0.0f);
-  }
-
   const GltfFile& file_;
-  glm::mat4 world_from_mesh_;
-  glm::mat3 normals_to_world_;
-  bool mirrored_, identity_;
+  Placement placement_;
   MeshData& mesh_;
+  RestPose& rest_;
   std::map<Attributes, std::uint32_t> placed_;
   std::map<std::uint32_t, std::size_t> counts_;  // of vertices, by the first of them
 };
@@ -143,12 +155,12 @@ class MeshPlacer {
 }  // namespace
 
 Expected<void> add_gltf_mesh(const GltfFile& file, int mesh, const glm::mat4& world_from_mesh,
-                             std::uint32_t default_material, MeshData& to,
+                             std::uint32_t default_material, MeshData& to, RestPose& rest,
                              Warnings& warnings) {
   if (mesh < 0 || static_cast<std::size_t>(mesh) >= file.model.meshes.size())
     return file.error("a node names mesh " + std::to_string(mesh) + ", there are " +
                       std::to_string(file.model.meshes.size()));
-  MeshPlacer placer(file, world_from_mesh, to);
+  MeshPlacer placer(file, world_from_mesh, to, rest);
   for (const tinygltf::Primitive& primitive : file.model.meshes[static_cast<std::size_t>(mesh)].primitives) {
     if (primitive.mode >= TINYGLTF_MODE_POINTS && primitive.mode <= TINYGLTF_MODE_LINE_STRIP) {
       const bool points = primitive.mode == TINYGLTF_MODE_POINTS;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 
 #include "core/math/finite.h"
 #include "core/scene/loaders.h"
@@ -9,7 +10,7 @@
 namespace pinocchio {
 namespace {
 
-constexpr std::array<const char*, 4> kExtensions{".gltf", ".glb", ".obj", ".ply"};
+constexpr std::array<const char*, 4> kSceneExtensions{".gltf", ".glb", ".obj", ".ply"};
 
 Unexpected error(const std::filesystem::path& path, const std::string& what, const std::string& remedy) {
   return Unexpected(InputError{path.string(), 0, what, remedy});
@@ -27,7 +28,7 @@ Expected<std::filesystem::path> find_scene_file(const std::filesystem::path& pat
   if (std::filesystem::exists(status) && !std::filesystem::is_directory(status)) return path;
   const std::filesystem::path trimmed = path.has_filename() ? path : path.parent_path();
   for (const std::filesystem::path& stem : {trimmed, trimmed / trimmed.filename()})
-    for (const char* extension : kExtensions)
+    for (const char* extension : kSceneExtensions)
       if (std::filesystem::path file = stem.string() + extension;
           std::filesystem::is_regular_file(file, ignored))
         return file;
@@ -42,6 +43,17 @@ Expected<Scene> load_by_extension(const std::filesystem::path& file, Loading& lo
   if (extension == ".ply") return load_ply(file, loading);
   if (extension == ".gltf" || extension == ".glb") return load_gltf(file, loading);
   return error(file, "is not of a format that can be read", "convert it to .gltf, .glb, .obj or .ply");
+}
+
+template <class T>
+bool one_each_or_none(const std::vector<T>& of_vertices, const Mesh& mesh) {
+  return of_vertices.empty() || of_vertices.size() == mesh.positions.size();
+}
+
+bool names_known_textures(const MaterialMaps& m, const Mesh& mesh) {
+  const auto known = [&](const TextureUse& use) { return use.texture < static_cast<int>(mesh.textures.size()); };
+  return known(m.base_color) && known(m.metallic_roughness) && known(m.normal) && known(m.occlusion) &&
+         known(m.emissive) && known(m.alpha);
 }
 
 }  // namespace
@@ -77,7 +89,8 @@ Expected<void> check_scene(const Scene& scene) {
                 "split it");
   if (mesh.normals.size() != mesh.positions.size() ||
       mesh.triangle_materials.size() != mesh.triangles.size() ||
-      (!mesh.texcoords.empty() && mesh.texcoords.size() != mesh.positions.size()))
+      !one_each_or_none(mesh.texcoords, mesh) || !one_each_or_none(mesh.texcoords1, mesh) ||
+      !one_each_or_none(mesh.colors, mesh) || !one_each_or_none(mesh.tangents, mesh))
     return fail("does not hold one of everything for each vertex and triangle", "export it again");
   for (std::size_t i = 0; i < mesh.positions.size(); ++i)
     if (!is_finite(mesh.positions[i]) || !is_finite(mesh.normals[i]))
@@ -86,10 +99,22 @@ Expected<void> check_scene(const Scene& scene) {
     if (const glm::vec3 p = glm::abs(mesh.positions[i]); std::max({p.x, p.y, p.z}) > kFarthest)
       return fail("vertex " + std::to_string(i) + " is more than 1e9 from the origin",
                   "scale the scene down");
-  for (std::size_t i = 0; i < mesh.texcoords.size(); ++i)
-    if (!is_finite({mesh.texcoords[i], 0.0f}))
-      return fail("the texture coordinate of vertex " + std::to_string(i) + " is not a finite number",
-                  "export it again");
+  for (const std::vector<glm::vec2>* texcoords : {&mesh.texcoords, &mesh.texcoords1})
+    for (std::size_t i = 0; i < texcoords->size(); ++i)
+      if (!is_finite(glm::vec3((*texcoords)[i], 0.0f)))
+        return fail("the texture coordinate of vertex " + std::to_string(i) + " is not a finite number",
+                    "export it again");
+  for (std::size_t i = 0; i < mesh.colors.size(); ++i)
+    if (!is_finite(glm::vec3(mesh.colors[i])) || !std::isfinite(mesh.colors[i].a))
+      return fail("the colour of vertex " + std::to_string(i) + " is not a finite number", "export it again");
+  for (std::size_t i = 0; i < mesh.tangents.size(); ++i)
+    if (!is_finite(glm::vec3(mesh.tangents[i])) || !std::isfinite(mesh.tangents[i].w))
+      return fail("the tangent of vertex " + std::to_string(i) + " is not a finite number", "export it again");
+  for (const Material& m : mesh.materials)
+    if (m.maps >= static_cast<int>(mesh.maps.size()))
+      return fail("material '" + m.name + "' names maps that there are not", "export it again");
+  if (!std::all_of(mesh.maps.begin(), mesh.maps.end(), [&](const auto& m) { return names_known_textures(m, mesh); }))
+    return fail("a material names a texture that there is not", "export it again");
   for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
     const glm::uvec3& t = mesh.triangles[i];
     if (std::max({t.x, t.y, t.z}) >= mesh.positions.size() ||

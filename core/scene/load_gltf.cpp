@@ -71,6 +71,20 @@ Camera camera_of(const tinygltf::Camera& c, const tinygltf::Node& node, const gl
   return camera;
 }
 
+// As the node sees it.
+Light at_rest(const glm::mat4& /*world*/, Light light) {
+  light.position = glm::vec3(0.0f);
+  light.direction = {0, 0, -1};
+  return light;
+}
+Camera at_rest(const glm::mat4& world, Camera camera) {
+  const Placement to_node(glm::inverse(world));
+  camera.eye = glm::vec3(0.0f);
+  camera.target = to_node.position(camera.target);
+  camera.up = to_node.direction(camera.up);
+  return camera;
+}
+
 bool can_look(const Camera& camera) {
   return camera.fov_deg > 0.0f && camera.fov_deg < 180.0f && is_finite(camera.eye) &&
          is_finite(camera.target) && is_finite(camera.up);
@@ -80,17 +94,34 @@ bool can_shine(const Light& light) {
   return is_finite(light.position) && is_finite(light.direction) && is_finite(light.intensity * light.color);
 }
 
+// Texture coordinates and tangents that no map asks for.
+void drop_unused_attributes(MeshData& mesh) {
+  bool set0 = false, set1 = false, normals = false;
+  for (const MaterialMaps& m : mesh.maps) {
+    for (const TextureUse* use :
+         {&m.base_color, &m.metallic_roughness, &m.normal, &m.occlusion, &m.emissive, &m.alpha})
+      if (use->used()) (use->uv_set == 1 ? set1 : set0) = true;
+    normals = normals || m.normal.used();
+  }
+  const auto given = [](const glm::vec4& t) { return t.w != 0.0f; };
+  if (!set0) mesh.texcoords.clear();
+  if (!set1) mesh.texcoords1.clear();
+  if (!normals || std::none_of(mesh.tangents.begin(), mesh.tangents.end(), given)) mesh.tangents.clear();
+  const auto colored = [](const glm::vec4& c) { return c != glm::vec4(1.0f); };
+  if (std::none_of(mesh.colors.begin(), mesh.colors.end(), colored)) mesh.colors.clear();
+}
+
 class SceneReader {
  public:
   SceneReader(const GltfFile& file, Loading& loading)
       : file_(file), model_(file.model), loading_(loading) {
-    mesh_.materials = gltf_materials(file);
+    add_gltf_materials(file, mesh_);
     mesh_.materials.emplace_back().name = "default";
   }
 
   Expected<Scene> read() {
     std::vector<Placed> open;
-    for (const int root : roots()) open.push_back({root, glm::mat4(1.0f)});
+    for (const int root : roots()) open.push_back({root, -1, glm::mat4(1.0f)});
     std::reverse(open.begin(), open.end());  // the file's order, from the back
     std::vector<bool> seen(model_.nodes.size(), false);
     begin_phase(file_.progress, "mesh", static_cast<double>(model_.nodes.size()));
@@ -106,21 +137,44 @@ class SceneReader {
         return file_.error("reaches node " + std::to_string(at.node) + " twice: nodes are no tree");
       seen[index] = true;
       const tinygltf::Node& node = model_.nodes[index];
-      const glm::mat4 world = at.parent * matrix_of(node);
+      const glm::mat4 local = matrix_of(node), world = at.world_from_parent * local;
+      begin(node, at.parent, local);
       if (const Expected<void> added = add(node, world); !added) return Unexpected(added.error());
+      end(world);
+      const int place = static_cast<int>(tree_.nodes.size()) - 1;
       for (auto child = node.children.rbegin(); child != node.children.rend(); ++child)
-        open.push_back({*child, world});
+        open.push_back({*child, place, world});
     }
     finish();
     scene_.mesh = std::make_shared<const Mesh>(std::move(mesh_));
+    tree_.rest = std::make_shared<const RestPose>(std::move(rest_));
+    scene_.nodes = std::make_shared<const NodeTree>(std::move(tree_));
     return std::move(scene_);
   }
 
  private:
   struct Placed {
-    int node;
-    glm::mat4 parent;
+    int node, parent;  // in the file; in tree_
+    glm::mat4 world_from_parent;
   };
+
+  // What is added between the two moves with this node.
+  void begin(const tinygltf::Node& node, int parent, const glm::mat4& local) {
+    tree_.nodes.push_back({node.name, parent, local, static_cast<std::uint32_t>(mesh_.positions.size()), 0,
+                           static_cast<std::uint32_t>(mesh_.triangles.size()), 0});
+    lights_before_ = scene_.lights.size();
+    cameras_before_ = scene_.cameras.size();
+  }
+  void end(const glm::mat4& world) {
+    Node& node = tree_.nodes.back();
+    node.vertices = static_cast<std::uint32_t>(mesh_.positions.size()) - node.first_vertex;
+    node.triangles = static_cast<std::uint32_t>(mesh_.triangles.size()) - node.first_triangle;
+    const int index = static_cast<int>(tree_.nodes.size()) - 1;
+    for (std::size_t i = lights_before_; i < scene_.lights.size(); ++i)
+      rest_.lights.push_back({index, i, at_rest(world, scene_.lights[i])});
+    for (std::size_t i = cameras_before_; i < scene_.cameras.size(); ++i)
+      rest_.cameras.push_back({index, i, at_rest(world, scene_.cameras[i])});
+  }
 
   // The default scene's, else the first scene's, else every node that is nobody's child.
   [[nodiscard]] std::vector<int> roots() const {
@@ -147,9 +201,11 @@ class SceneReader {
       Expected<std::vector<glm::mat4>> instances = instances_of(node);
       if (!instances) return Unexpected(instances.error());
       for (const glm::mat4& instance : *instances) {
+        const std::size_t first = mesh_.positions.size();
         const Expected<void> added =
-            add_gltf_mesh(file_, node.mesh, world * instance, default_material, mesh_, loading_.warnings);
+            add_gltf_mesh(file_, node.mesh, world * instance, default_material, mesh_, rest_, loading_.warnings);
         if (!added) return added;
+        place_rest(Placement(instance), first);
       }
     }
     if (node.camera >= 0 && static_cast<std::size_t>(node.camera) < model_.cameras.size()) {
@@ -178,6 +234,15 @@ class SceneReader {
       }
     }
     return {};
+  }
+
+  // An instance rests where its node has it, not where its mesh is.
+  void place_rest(const Placement& instance, std::size_t first) {
+    for (std::size_t i = first; i < rest_.positions.size(); ++i) {
+      rest_.positions[i] = instance.position(rest_.positions[i]);
+      rest_.normals[i] = instance.normal(rest_.normals[i]);
+      rest_.tangents[i] = instance.tangent(rest_.tangents[i]);
+    }
   }
 
   // Where EXT_mesh_gpu_instancing places copies of the node's mesh; without it, one in place.
@@ -220,9 +285,7 @@ class SceneReader {
   void finish() {
     scene_.source_files = file_.named_files;
     add_gltf_textures(file_, mesh_, loading_);
-    const bool textured = std::any_of(mesh_.materials.begin(), mesh_.materials.end(),
-                                      [](const Material& m) { return m.diffuse_texture >= 0; });
-    if (!textured) mesh_.texcoords.clear();
+    drop_unused_attributes(mesh_);
     if (!model_.scenes.empty()) {
       const int shown = model_.defaultScene >= 0 ? model_.defaultScene : 0;
       const auto i = std::min(static_cast<std::size_t>(shown), model_.scenes.size() - 1);
@@ -241,6 +304,9 @@ class SceneReader {
   Loading& loading_;
   Scene scene_;
   MeshData mesh_;
+  NodeTree tree_;
+  RestPose rest_;
+  std::size_t lights_before_ = 0, cameras_before_ = 0;
 };
 
 }  // namespace

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <string>
 
+#include "core/scene/mtl.h"
 #include "core/scene/text_lines.h"
 
 namespace pinocchio {
@@ -35,20 +36,20 @@ constexpr Statement kStatements[] = {
     {"map_aat", ""},
     {"map_Ks", "highlights have one colour"},
     {"map_Ns", "highlights are equally sharp everywhere"},
-    {"map_d", "its holes are filled"},
+    {"map_d", ""},
     {"map_Tr", "its holes are filled"},
-    {"map_Ke", "all of it glows alike"},
-    {"map_Bump", kSmooth},
-    {"map_bump", kSmooth},
-    {"bump", kSmooth},
-    {"norm", kSmooth},
+    {"map_Ke", ""},
+    {"map_Bump", ""},
+    {"map_bump", ""},
+    {"bump", ""},
+    {"norm", ""},
     {"disp", kSmooth},
     {"map_disp", kSmooth},
     {"map_Disp", kSmooth},
     {"decal", "it is not painted on"},
     {"refl", "its picture is not mirrored"},
-    {"Pr", kGlossy},
-    {"Pm", kGlossy},
+    {"Pr", ""},
+    {"Pm", ""},
     {"map_Pr", kGlossy},
     {"map_Pm", kGlossy},
     {"Ps", "the sheen of cloth is missing"},
@@ -65,6 +66,11 @@ bool is_texture(std::string_view keyword) {
 
 bool is_number(std::string_view word) {
   return word.find_first_not_of("+-.0123456789eE") == std::string_view::npos;
+}
+
+// A number, or an option such as -halo before one.
+bool is_value(std::string_view word) {
+  return !word.empty() && (is_number(word) || (word.size() > 1 && word.front() == '-'));
 }
 
 }  // namespace
@@ -84,14 +90,18 @@ void add_lost_mtl_features(const std::filesystem::path& file, std::string_view t
       warnings.add({file.string(), where, std::string(keyword) + " is left out", std::string(known->lost)});
     } else if (is_texture(keyword)) {
       for (std::string_view word; (word = next_word(line)).starts_with('-') && !is_number(word);) {
-        warnings.add({file.string(), where, "a texture's option " + std::string(word) + " is left out",
+        if (!reads_mtl_option(word))
+          warnings.add({file.string(), where, "a texture's option " + std::string(word) + " is left out",
                       "the texture lies or looks as without it"});
         std::string_view rest = line;  // its values: numbers, or on and off
         while (is_number(word = next_word(rest)) && !word.empty()) line = rest;
-        if (word == "on" || word == "off") line = rest;
+        if (word == "on" || word == "off" || word.size() == 1) line = rest;
       }
     } else if (const std::string_view value = next_word(line); value == "spectral" || value == "xyz") {
       warnings.add({file.string(), where, "a colour as '" + std::string(value) + "' is left out", "it is black"});
+    } else if (keyword != "newmtl" && !is_value(value)) {
+      warnings.add({file.string(), where, std::string(keyword) + " '" + std::string(value.substr(0, 20)) + "' is no number",
+                    keyword.starts_with('K') ? "it is black" : "it is 0"});
     }
   }
 }

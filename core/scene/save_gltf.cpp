@@ -231,8 +231,10 @@ void save_gltf(const Scene& scene, const std::filesystem::path& file, Progress* 
   }
   std::filesystem::path binary = file;
   binary.replace_extension(".bin");
-  write_text(binary, writer.binary(), progress);
-  write_text(file, text_of(writer.finish(binary.filename().string()), 1) + "\n");
+  check_writable(binary);
+  const std::string json = text_of(writer.finish(binary.filename().string()), 1) + "\n";
+  // Both are whole before either gets its name.
+  write_text(file, json, nullptr, [&] { write_text(binary, writer.binary(), progress); });
 }
 
 }  // namespace pinocchio

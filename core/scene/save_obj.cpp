@@ -81,8 +81,10 @@ std::string obj_text(const Mesh& mesh, const std::string& mtl_name, const Progre
 void save_obj(const Scene& scene, const std::filesystem::path& file, Progress* progress) {
   std::filesystem::path mtl = file;
   mtl.replace_extension(".mtl");
-  write_text(mtl, mtl_text(*scene.mesh));
-  write_text(file, obj_text(*scene.mesh, mtl.filename().string(), progress), progress);
+  check_writable(mtl);
+  const std::string text = obj_text(*scene.mesh, mtl.filename().string(), progress);
+  // Both are whole before either gets its name.
+  write_text(file, text, progress, [&] { write_text(mtl, mtl_text(*scene.mesh)); });
 }
 
 }  // namespace pinocchio

@@ -5,19 +5,13 @@
 #include "core/trace/shared.h"
 #include "pinocchio/image.h"
 #include "pinocchio/mesh.h"
+#include "pinocchio/surface_images.h"
 
 namespace pinocchio {
 
-// What the visible point of each pixel is like, beside its colour; all from the triangle's id.
-struct SurfaceImages {
-  Image<float> z_eye;          // along the view axis; +inf where nothing is hit
-  Image<glm::vec3> p_world;    // 0 where nothing is hit, as the next two
-  Image<glm::vec3> n_shading;  // unit
-  Image<glm::vec3> albedo;     // diffuse colour, linear
-};
-
 // Of the lines [y0, y1).
 [[nodiscard]] SurfaceImages surface_images(const Mesh& mesh, const shared::ViewParams& view,
-                                           const Image<std::uint32_t>& ids, int y0, int y1);
+                                           const Image<std::uint32_t>& ids, int y0, int y1,
+                                           bool filter_textures = true);
 
 }  // namespace pinocchio

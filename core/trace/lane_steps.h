@@ -9,6 +9,7 @@
 #include "core/parallel/tiles.h"
 #include "pinocchio/scene.h"
 #include "pinocchio/ray_offset.h"
+#include "core/trace/map_lanes.h"
 #include "core/trace/ray_queue.h"
 #include "core/trace/shared.h"
 
@@ -21,19 +22,13 @@ static_assert(1 << kTileBits == TileGrid::kTileSize);
 // The scene's arrays as the lanes read them.
 struct SceneArrays {
   const glm::vec3 *positions, *normals;
-  const glm::vec2* texcoords;  // null: nothing is textured
   const glm::uvec3* triangles;
   const std::uint32_t* triangle_materials;
   const Material* materials;
-  const Texture* textures;
+  const Mesh* mesh;  // of materials with maps (trace/map_lanes.h); null: there are none
 
   [[nodiscard]] static SceneArrays of(const Mesh& mesh);
 };
-
-// Colour of a texture where a triangle has these barycentric weights. For the few lanes that want one:
-// compiled for every processor, called from each.
-[[nodiscard]] glm::vec3 texture_color(const SceneArrays& scene, std::uint32_t triangle, int texture,
-                                      const glm::vec3& weights);
 
 struct BounceLight {
   shared::LightParams params;
@@ -44,6 +39,7 @@ struct BounceLight {
 struct Bounce {
   SceneArrays scene;
   RayOffset offset;
+  const Footprint* footprint;  // of the rays, for textures
   const BounceLight* lights;
   std::size_t light_count;
   glm::vec3 ambient_light;
@@ -55,7 +51,7 @@ struct Bounce {
 
   // Where it goes. Queues have room for all rays of the step; null: not wanted.
   RayQueue* shadow;  // one a slot
-  RayQueue *mirrored, *refracted;
+  RayQueue *mirrored, *refracted, *straight;
   float* radiance;  // RGBA of a tile's pixels
 };
 

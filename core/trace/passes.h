@@ -6,10 +6,10 @@
 #include <glm/glm.hpp>
 
 #include "core/parallel/workers.h"
-#include "core/trace/scatter.h"
 #include "core/trace/shared.h"
 #include "pinocchio/image.h"
 #include "pinocchio/mask_image.h"
+#include "pinocchio/ray.h"
 #include "pinocchio/progress.h"
 #include "pinocchio/ray_counts.h"
 #include "pinocchio/scene.h"
@@ -27,6 +27,8 @@ struct TraceJob {
   // the shadow rays of what they see; and shadow rays of visible points (0: all are fired, so that every bit
   // of the mask is true).
   float throughput_cutoff = kThroughputCutoff, light_cutoff = 0.0f;
+  bool filter_textures = true;
+  glm::vec2 jitter{0.0f};  // View's: tells the samples of a pixel apart where they decide at random
   // Told of every tile: all of them together are that many steps.
   Progress* progress = nullptr;
   double progress_steps = 1.0;

@@ -9,9 +9,11 @@ constexpr std::size_t kFloatColumns = 9, kWordColumns = 2;
 
 }  // namespace
 
-void RayQueue::make_room(std::size_t rays) {
+void RayQueue::make_room(std::size_t rays, bool cones) {
   size = 0;
   const std::size_t needed = rays + kQueuePad;
+  if (cones && widths_.size() < needed) widths_ = AlignedVector<float>(2 * needed);
+  width = cones ? widths_.data() : nullptr;
   if (needed <= room_) return;
   // Not a power of two apart: columns of one ray would compete for one set of the cache.
   constexpr std::size_t kLine = kCacheLine / sizeof(float);

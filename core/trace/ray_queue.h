@@ -26,11 +26,12 @@ struct RayQueue {
   float *origin[3] = {}, *direction[3] = {};
   float* light[3] = {};               // a path's throughput; a shadow ray's light, if nothing is in the way
   std::uint32_t* pixel = nullptr;     // in the tile
+  float* width = nullptr;             // of a cone at its origin; null: textures are not filtered
   std::uint32_t* triangle = nullptr;  // that was hit
   std::size_t size = 0;
 
-  // Empties it; afterwards it has room for `rays` and a packet.
-  void make_room(std::size_t rays);
+  // Empties it; afterwards it has room for `rays` and a packet. cones: it has the column `width`.
+  void make_room(std::size_t rays, bool cones = false);
 
   [[nodiscard]] RayColumns columns(float reach = kInfinity) const {
     return {{origin[0], origin[1], origin[2]}, {direction[0], direction[1], direction[2]}, nullptr, reach};
@@ -39,6 +40,7 @@ struct RayQueue {
  private:
   AlignedVector<float> floats_;
   AlignedVector<std::uint32_t> words_;
+  AlignedVector<float> widths_;
   std::size_t room_ = 0;
 };
 

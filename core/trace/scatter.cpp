@@ -41,20 +41,23 @@ float fresnel_dielectric(float cos_in, float eta) {
 
 void scatter(const SurfaceInteraction& surface, const glm::vec3& throughput, std::uint32_t pixel, float least,
              std::vector<PathRay>& out) {
-  const Material& m = *surface.material;
+  const shared::PhongSurface& m = surface.material;
   const float cos_in = std::clamp(glm::dot(surface.n_shading, surface.to_viewer), 0.0f, 1.0f);
-  if (m.transmits()) {
+  const glm::vec3 own = surface.alpha < 1.0f ? throughput * surface.alpha : throughput;
+  if (m.transmittance.x + m.transmittance.y + m.transmittance.z > 0.0f) {
     const float eta = surface.leaving ? 1.0f / m.ior : m.ior;
     const glm::vec3 through = refracted(surface, eta);
     // Where the two normals disagree there may be no way through although Fresnel has a share for it.
     const float share = through == glm::vec3(0.0f) ? 1.0f : fresnel_dielectric(cos_in, eta);
-    push(surface, mirrored(surface), throughput * share, pixel, false, least, out);
-    push(surface, through, throughput * (1.0f - share) * m.transmittance, pixel, true, least, out);
-  } else if (m.reflects()) {
+    push(surface, mirrored(surface), own * share, pixel, false, least, out);
+    push(surface, through, own * (1.0f - share) * m.transmittance, pixel, true, least, out);
+  } else if (m.reflectance.x + m.reflectance.y + m.reflectance.z > 0.0f) {
     const float grazing = m.fresnel ? std::pow(1.0f - cos_in, 5.0f) : 0.0f;
-    push(surface, mirrored(surface), throughput * (m.reflectance + (1.0f - m.reflectance) * grazing), pixel,
-         false, least, out);
+    push(surface, mirrored(surface), own * (m.reflectance + (1.0f - m.reflectance) * grazing), pixel, false,
+         least, out);
   }
+  if (surface.alpha < 1.0f)
+    push(surface, -surface.to_viewer, throughput * (1.0f - surface.alpha), pixel, true, least, out);
 }
 
 }  // namespace pinocchio

@@ -14,13 +14,13 @@ struct PathRay {
   Ray ray;
   glm::vec3 throughput;     // product of the reflectances and transmittances on its way
   std::uint32_t pixel;  // index in the picture
-  bool refracted;       // else mirrored
+  bool refracted;       // or straight on; else mirrored
 };
 
 // Appends the mirrored and the refracted ray that leave the surface, each with its share of `throughput`, unless
 // that is below `least` in every colour.
 // Dielectrics share by Fresnel's equations (all is mirrored beyond the critical angle); opaque mirrors
-// have a constant reflectance or Schlick's.
+// have a constant reflectance or Schlick's. What is behind a surface that blends is a ray that goes straight on.
 void scatter(const SurfaceInteraction& surface, const glm::vec3& throughput, std::uint32_t pixel, float least,
              std::vector<PathRay>& out);
 

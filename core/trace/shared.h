@@ -3,14 +3,13 @@
 
 #include <glm/glm.hpp>
 
-namespace pinocchio::shared {
+#include "core/math/shared_material.h"
 
-using namespace glm;  // GLSL's names: vec3, dot, cross, clamp, ...
+namespace pinocchio::shared {
 
 #define SHARED [[nodiscard]] inline
 #include "shaders/shared/view.glsl"
 #include "shaders/shared/surface.glsl"
-#include "shaders/shared/phong.glsl"
 #undef SHARED
 
 }  // namespace pinocchio::shared

@@ -5,6 +5,7 @@
 #include <optional>
 #include <vector>
 
+#include "core/trace/footprint.h"
 #include "core/trace/shared.h"
 #include "pinocchio/ray.h"
 #include "pinocchio/ray_offset.h"
@@ -21,22 +22,23 @@ struct SurfaceInteraction {
   glm::vec3 to_viewer;    // unit
   bool leaving;           // the ray was inside: it meets the surface from behind
   float offset;           // how far off the surface a new ray starts, scene units
-  const Material* material;
-  shared::PhongParams phong;  // the material here, texture applied
+  shared::PhongSurface material;  // here: maps applied
+  float alpha;  // the surface's share; the rest is what a ray sees that goes straight on
 };
 
 // The point of triangle `id` that the ray meets, on the triangle to float precision; `offset` is how new rays
 // keep off it.
 [[nodiscard]] SurfaceInteraction surface_at(const Mesh& mesh, std::uint32_t id, const glm::vec3& origin,
-                                 const glm::vec3& direction, const RayOffset& offset = {});
+                                            const glm::vec3& direction, const RayOffset& offset = {},
+                                            const Footprint& footprint = {});
 
 // Barycentric weights of that point.
 [[nodiscard]] glm::vec3 weights_at(const Mesh& mesh, std::uint32_t id, const glm::vec3& origin,
                                    const glm::vec3& direction);
 
-// The surface alone, its phong left as it was made.
+// The surface alone, without its material: the normal is the vertices'.
 [[nodiscard]] SurfaceInteraction bare_surface_at(const Mesh& mesh, std::uint32_t id, const glm::vec3& origin,
-                                      const glm::vec3& direction, const RayOffset& offset = {});
+                                                 const glm::vec3& direction, const RayOffset& offset = {});
 
 // By an error bound: how far off triangle (a, a + ab, a + ac) with normal n a ray from its point p starts,
 // and what that is never below.
@@ -58,8 +60,5 @@ struct SurfaceInteraction {
 // The ray that asks whether the light reaches the surface; nothing where it cannot anyway: the surface
 // faces away, or the light does not reach this far or this way.
 [[nodiscard]] std::optional<Ray> shadow_ray(const shared::LightParams& light, const SurfaceInteraction& surface);
-
-// Colour of a texture, bilinear, repeating, linear light.
-[[nodiscard]] glm::vec3 sample_texture(const Texture& texture, glm::vec2 texcoord);
 
 }  // namespace pinocchio

@@ -47,22 +47,40 @@ const std::vector<std::uint32_t>& z_curve() {
   return kCurve;
 }
 
+// Whether anything is to be averaged.
+bool filters(const TraceJob& job) {
+  const std::vector<Texture>& textures = job.scene.mesh->textures;
+  return job.filter_textures &&
+         std::any_of(textures.begin(), textures.end(), [](const Texture& t) { return t.levels() > 1; });
+}
+
+bool any_maps(const Mesh& mesh, bool (MaterialMaps::*is)() const) {
+  return std::any_of(mesh.maps.begin(), mesh.maps.end(), [is](const MaterialMaps& m) { return (m.*is)(); });
+}
+
 }  // namespace
 
 SceneArrays SceneArrays::of(const Mesh& mesh) {
   return {mesh.positions.data(),
           mesh.normals.data(),
-          mesh.texcoords.empty() ? nullptr : mesh.texcoords.data(),
           mesh.triangles.data(),
           mesh.triangle_materials.data(),
           mesh.materials.data(),
-          mesh.textures.data()};
+          mesh.maps.empty() ? nullptr : &mesh};
 }
 
 TilePlan::TilePlan(const TraceJob& j, const TileOutputs& o)
-    : job(j), out(o), view(scaled_view(j.view, o.scale)), all_lights(lights_of(j.scene)) {
+    : job(j),
+      out(o),
+      view(scaled_view(j.view, o.scale)),
+      seen_footprint(filters(j) ? Footprint::of_camera(view) : Footprint{}),
+      further_footprint(seen_footprint.of_cones()),
+      has_holes(any_maps(*j.scene.mesh, &MaterialMaps::has_holes)),
+      blends(any_maps(*j.scene.mesh, &MaterialMaps::blends)),
+      all_lights(lights_of(j.scene)) {
   further = {SceneArrays::of(*job.scene.mesh),
              job.tracer.offset(),
+             &further_footprint,
              all_lights.data(),
              all_lights.size(),
              job.scene.ambient_light,
@@ -74,8 +92,10 @@ TilePlan::TilePlan(const TraceJob& j, const TileOutputs& o)
              nullptr,
              nullptr,
              nullptr,
+             nullptr,
              nullptr};
   visible = further;
+  visible.footprint = &seen_footprint;
   visible.visible = true;
   visible.adds_ambient = out.color != nullptr;
   visible.adds_light = out.color || out.added;
@@ -153,6 +173,7 @@ bool TileTracer::fetch_ids() {
 void TileTracer::find_hits(RayQueue& rays, int generation) {
   if (plan_->out.on_rays) plan_->out.on_rays({rays.columns(), rays.size, generation, false});
   plan_->job.tracer.closest_hits(rays.columns(), rays.size, rays.triangle);
+  if (plan_->has_holes) holes_.pass(plan_->job.tracer, rays);
 }
 
 void TileTracer::look() {
@@ -170,14 +191,15 @@ void TileTracer::look() {
 }
 
 void TileTracer::make_room(std::size_t rays, Generation& next) {
-  for (RayQueue& queue : next) queue.make_room(rays);
+  for (std::size_t i = 0; i < next.size(); ++i)
+    next[i].make_room(i < 2 || plan_->blends ? rays : 0, plan_->further.footprint->angle > 0.0f);
   for (RayQueue& queue : shadow_) queue.make_room(rays);
 }
 
 void TileTracer::bounce(Bounce step, const RayQueue& rays, Generation& next, Radiance& radiance) {
   step.shadow = shadow_.data();
   step.radiance = &radiance[0].x;
-  if (step.mirrored) step.mirrored = &next[0], step.refracted = &next[1];
+  if (step.mirrored) step.mirrored = &next[0], step.refracted = &next[1], step.straight = &next[2];
   plan_->job.tracer.steps().bounce(step, rays);
 }
 
@@ -195,12 +217,13 @@ void TileTracer::light_visible() {
 
 // Generation by generation: every ray of one is traced before the next one starts.
 void TileTracer::follow() {
-  if (rays_[0].size + rays_[1].size > 0) reflected_.fill(glm::vec4(0.0f));
+  if (rays_[0].size + rays_[1].size + rays_[2].size > 0) reflected_.fill(glm::vec4(0.0f));
   for (int generation = 1; generation <= plan_->out.depth; ++generation) {
-    const std::size_t rays = rays_[0].size + rays_[1].size;
+    const std::size_t mirrored = rays_[0].size, through = rays_[1].size + rays_[2].size;
+    const std::size_t rays = mirrored + through;
     if (rays == 0) return;
-    counts_.reflection += rays_[0].size;
-    counts_.refraction += rays_[1].size;
+    counts_.reflection += mirrored;
+    counts_.refraction += through;
     make_room(rays, next_);
     Bounce step = plan_->further;
     step.mirrored = generation < plan_->out.depth ? next_.data() : nullptr;
@@ -223,7 +246,12 @@ void TileTracer::fire_shadows(int generation, Radiance& radiance) {
     if (blocked_.size() < queue.size + kQueuePad) blocked_.resize(2 * queue.size + kQueuePad);
     const float reach = light.params.kind == shared::kLightDirectional ? kInfinity : 1.0f;
     if (plan_->out.on_rays) plan_->out.on_rays({queue.columns(reach), queue.size, generation, true});
-    plan_->job.tracer.occluded(queue.columns(reach), queue.size, blocked_.data());
+    if (plan_->has_holes || plan_->blends) {
+      holes_.shadows(plan_->job.tracer, queue, reach, {tile_.lo + glm::ivec2(plan_->view.first), plan_->job.jitter},
+                     blocked_.data());
+    } else {
+      plan_->job.tracer.occluded(queue.columns(reach), queue.size, blocked_.data());
+    }
     counts_.shadow += queue.size;
     for (std::size_t i = 0; i < queue.size; ++i) {
       if (blocked_[i]) continue;

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "core/parallel/tiles.h"
+#include "core/trace/holes.h"
 #include "core/trace/lane_steps.h"
 #include "core/trace/ray_queue.h"
 #include "core/trace/trace_tiles.h"
@@ -18,6 +19,8 @@ struct TilePlan {
   const TraceJob& job;
   const TileOutputs& out;
   shared::ViewParams view;  // of the samples
+  Footprint seen_footprint, further_footprint;
+  bool has_holes, blends;   // some material's maps do
   std::vector<BounceLight> all_lights, visible_lights;
   Bounce visible, further;  // the step of the camera's rays, and of those that they spawn
 };
@@ -29,8 +32,8 @@ class TileTracer {
 
  private:
   static constexpr std::size_t kPixels = std::size_t{TileGrid::kTileSize} * TileGrid::kTileSize;
-  // Mirrored rays, then refracted ones.
-  using Generation = std::array<RayQueue, 2>;
+  // Mirrored rays, refracted ones, and those that go straight on behind surfaces that blend.
+  using Generation = std::array<RayQueue, 3>;
   // Linear RGB, and 1 where something is hit.
   using Radiance = std::array<glm::vec4, kPixels>;
 
@@ -52,6 +55,7 @@ class TileTracer {
   Generation rays_, next_;
   std::array<RayQueue, kMaxCastingLights> shadow_;
   std::vector<std::uint8_t> blocked_;
+  Holes holes_;
   Radiance direct_, reflected_;
   std::array<std::uint8_t, kPixels> mask_;
   std::array<std::uint32_t, kPixels> ids_;  // of the tile's pixels, row by row: what is given, or found

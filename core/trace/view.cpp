@@ -12,9 +12,10 @@ shared::ViewParams view_params(const Camera& camera, glm::ivec2 size, glm::vec2 
   const float pixel = 2.0f * half_height / static_cast<float>(size.y);
   shared::ViewParams view;
   view.eye = camera.eye;
-  view.step_x = axes.right * pixel;
+  view.step_x = axes.right * (pixel * camera.pixel_aspect);
   view.step_y = axes.up * -pixel;
-  const glm::vec2 to_first_center = glm::vec2(0.5f) + jitter - 0.5f * glm::vec2(size);
+  const glm::vec2 axis = camera.axis_shift * static_cast<float>(size.y);
+  const glm::vec2 to_first_center = glm::vec2(0.5f) + jitter - 0.5f * glm::vec2(size) - axis;
   view.corner = axes.forward + to_first_center.x * view.step_x + to_first_center.y * view.step_y;
   view.first = glm::vec2(first);
   return view;

@@ -16,6 +16,11 @@ namespace pinocchio {
   return view_params(view.camera, view.size, view.jitter, view.box().lo);
 }
 
+// Unit, towards what is seen.
+[[nodiscard]] inline glm::vec3 view_axis(const shared::ViewParams& view) {
+  return -glm::normalize(glm::cross(view.step_x, -view.step_y));
+}
+
 // Every scale-th pixel of the picture, across and down; scale is a power of two, so that the rays are the
 // same to the last bit.
 [[nodiscard]] inline shared::ViewParams scaled_view(shared::ViewParams view, int scale) {

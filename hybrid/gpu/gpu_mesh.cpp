@@ -12,40 +12,17 @@ namespace {
 
 // Layouts of shaders/scene_fetch.glsl.
 struct MaterialTexels {
-  glm::vec4 ambient_shininess, diffuse, specular, emission, texture_place;
+  glm::vec4 ambient_shininess, diffuse_maps, specular, emission;
 };
 struct LightTexels {
   glm::vec4 position_kind, direction_falloff, radiance_range, cone_slot;
 };
 
-// A texture's first texel is split over two floats, exact up to 2^24 each.
-constexpr std::size_t kPlaceDigit = 4096;
-
-std::vector<std::size_t> first_texels(const Mesh& mesh) {
-  std::vector<std::size_t> first;
-  std::size_t next = 0;
-  for (const Texture& texture : mesh.textures) {
-    first.push_back(next);
-    next += texture.texels.pixels().size();
-  }
-  return first;
-}
-
 std::vector<MaterialTexels> material_texels(const Mesh& mesh) {
-  const std::vector<std::size_t> first = first_texels(mesh);
   std::vector<MaterialTexels> texels;
-  for (const Material& m : mesh.materials) {
-    MaterialTexels t{glm::vec4(m.ambient, m.shininess), glm::vec4(m.diffuse, 0.0f),
-                     glm::vec4(m.specular, 0.0f), glm::vec4(m.emission, 0.0f), glm::vec4(0.0f)};
-    if (m.diffuse_texture >= 0) {
-      const auto i = static_cast<std::size_t>(m.diffuse_texture);
-      const glm::ivec2 size = mesh.textures[i].texels.size();
-      t.texture_place = {static_cast<float>(first[i] / kPlaceDigit),
-                         static_cast<float>(first[i] % kPlaceDigit), static_cast<float>(size.x),
-                         static_cast<float>(size.y)};
-    }
-    texels.push_back(t);
-  }
+  for (const Material& m : mesh.materials)
+    texels.push_back({glm::vec4(m.ambient, m.shininess), glm::vec4(m.diffuse, static_cast<float>(m.maps + 1)),
+                      glm::vec4(m.specular, 0.0f), glm::vec4(m.emission, 0.0f)});
   return texels;
 }
 
@@ -60,13 +37,6 @@ std::vector<LightTexels> light_texels(const Scene& scene) {
                       glm::vec4(p.cos_inner, p.cos_outer, slot, 0.0f)});
   }
   if (texels.empty()) texels.resize(1);  // a texture buffer of no size is none
-  return texels;
-}
-
-std::vector<glm::u8vec4> all_texels(const Mesh& mesh) {
-  std::vector<glm::u8vec4> texels;
-  for (const Texture& texture : mesh.textures)
-    texels.insert(texels.end(), texture.texels.pixels().begin(), texture.texels.pixels().end());
   return texels;
 }
 
@@ -85,11 +55,6 @@ gl::TextureBuffer unsigneds(const std::vector<T>& data) {
   return {std::span<const T>(data), GL_R32UI, sizeof(std::uint32_t)};
 }
 
-bool has_textures(const Mesh& mesh) {
-  const auto textured = [](const Material& m) { return m.diffuse_texture >= 0; };
-  return !mesh.texcoords.empty() && std::any_of(mesh.materials.begin(), mesh.materials.end(), textured);
-}
-
 }  // namespace
 
 GpuMesh::GpuMesh(const Mesh& mesh)
@@ -99,13 +64,9 @@ GpuMesh::GpuMesh(const Mesh& mesh)
       positions_(floats(mesh.positions)),
       normals_(floats(mesh.normals)),
       materials_(quads(material_texels(mesh))),
-      textured_(has_textures(mesh)),
+      maps_(mesh),
       // Reversed float depth is as fine far away as near by, so the near plane may be next to nothing.
-      z_near_(std::max(mesh.bounds().diagonal() * 1e-6f, std::numeric_limits<float>::min())) {
-  if (!textured_) return;
-  texcoords_ = floats(mesh.texcoords);
-  texels_ = {std::span<const glm::u8vec4>(all_texels(mesh)), GL_RGBA8, sizeof(glm::u8vec4)};
-}
+      z_near_(std::max(mesh.bounds().diagonal() * 1e-6f, std::numeric_limits<float>::min())) {}
 
 int GpuMesh::bind(const gl::Program& program, int first_unit) const {
   int unit = first_unit;
@@ -114,10 +75,7 @@ int GpuMesh::bind(const gl::Program& program, int first_unit) const {
   program.set("positions", unit++, positions_);
   program.set("normals", unit++, normals_);
   program.set("materials", unit++, materials_);
-  if (!textured_) return unit;
-  program.set("texcoords", unit++, texcoords_);
-  program.set("texels", unit++, texels_);
-  return unit;
+  return maps_.bind(program, unit);
 }
 
 void GpuLights::update(const Scene& scene) {

@@ -5,6 +5,7 @@
 #include "gl/draw.h"
 #include "gl/program.h"
 #include "gl/texture.h"
+#include "hybrid/gpu/gpu_maps.h"
 #include "pinocchio/scene.h"
 
 namespace pinocchio {
@@ -19,14 +20,13 @@ class GpuMesh {
   // Gives the program in use the buffers, on texture units from `first_unit` on; returns the next free one.
   int bind(const gl::Program& program, int first_unit) const;
 
-  [[nodiscard]] bool textured() const { return textured_; }
+  [[nodiscard]] const GpuMaps& maps() const { return maps_; }
   [[nodiscard]] float z_near() const { return z_near_; }  // scene units
 
  private:
   gl::Mesh triangles_;
   gl::TextureBuffer corners_, triangle_materials_, positions_, normals_, materials_;
-  gl::TextureBuffer texcoords_, texels_;  // empty where nothing is textured
-  bool textured_;
+  GpuMaps maps_;
   float z_near_;
 };
 

@@ -27,6 +27,8 @@ void ShadingPasses::inspect(const Inputs& inputs, const Traced& traced, const In
   bind(p, inputs, traced);
   p.set("slot", what.slot);
   p.set("age_frames", what.age_frames);
+  p.set("range_lo", what.range_lo);
+  p.set("range_hi", what.range_hi);
   triangle_.draw();
 }
 
@@ -66,6 +68,7 @@ int ShadingPasses::bind(const gl::Program& program, const Inputs& inputs) const 
   program.set("step_x", inputs.view.step_x);
   program.set("step_y", inputs.view.step_y);
   program.set("first", inputs.view.first);
+  program.set("texture_spread", inputs.filter_textures ? 1.0f : 0.0f);
   program.set("ids", 0, inputs.ids);
   return inputs.lights.bind(program, inputs.mesh.bind(program, 1));
 }
@@ -86,7 +89,8 @@ int ShadingPasses::bind(const gl::Program& program, const Inputs& inputs, const 
 
 ShadingPasses::Definitions ShadingPasses::definitions_of(const Inputs& inputs) {
   Definitions definitions{"ID_BITS " + std::to_string(inputs.id_bits)};
-  if (inputs.mesh.textured()) definitions.emplace_back("HAS_TEXTURES");
+  const Definitions& of_maps = inputs.mesh.maps().definitions();
+  definitions.insert(definitions.end(), of_maps.begin(), of_maps.end());
   return definitions;
 }
 

@@ -35,6 +35,7 @@ class ShadingPasses {
     shared::ViewParams view;
     const gl::Texture& ids;
     int id_bits;
+    bool filter_textures;
   };
   // The CPU's answer; what is null is not in it.
   struct Traced {
@@ -61,6 +62,7 @@ class ShadingPasses {
     std::string definition;
     int slot = 0;  // of the mask
     int age_frames = 0;
+    glm::vec3 range_lo{0.0f}, range_hi{1.0f};  // of depth and position
   };
   void inspect(const Inputs& inputs, const Traced& traced, const Inspected& what,
                const gl::Framebuffer& target);

@@ -25,13 +25,26 @@ glm::mat3 picture_from_eye(const shared::ViewParams& view, glm::ivec2 picture_si
 
 void VisibilityPass::draw(const GpuMesh& mesh, const shared::ViewParams& view, glm::ivec2 picture_size,
                           int id_bits, const gl::Framebuffer& target) const {
-  const gl::Program& program = programs_->get("visibility.vert", "visibility.frag",
-                                              {"ID_BITS " + std::to_string(id_bits == 24 ? 24 : 32)});
+  Programs::Definitions definitions{"ID_BITS " + std::to_string(id_bits == 24 ? 24 : 32)};
+  const bool holes = mesh.maps().has_holes();
+  if (holes) {
+    definitions.emplace_back("HAS_HOLES");
+    const Programs::Definitions& of_maps = mesh.maps().definitions();
+    definitions.insert(definitions.end(), of_maps.begin(), of_maps.end());
+  }
+  const gl::Program& program = programs_->get("visibility.vert", "visibility.frag", definitions);
   gl::begin_depth_pass(target, id_format(id_bits).none, picture_size, glm::ivec2(view.first));
   program.use();
   program.set("eye", view.eye);
   program.set("picture_from_eye", picture_from_eye(view, picture_size));
   program.set("z_near", mesh.z_near());
+  if (holes) {
+    mesh.bind(program, 0);
+    program.set("corner", view.corner);
+    program.set("step_x", view.step_x);
+    program.set("step_y", view.step_y);
+    program.set("first_pixel", view.first);
+  }
   mesh.draw();
 }
 

@@ -1,6 +1,8 @@
 #include "hybrid/inspect/inspect_pass.h"
 
 #include <algorithm>
+#include <array>
+#include <cstdio>
 #include <optional>
 
 #include "hybrid/engine_parts.h"
@@ -10,10 +12,11 @@ namespace pinocchio {
 namespace {
 
 constexpr std::array<const char*, kBufferViewNames.size()> kDefinitions{
-    "", "SHOW_IDS", "SHOW_NORMALS", "SHOW_MASK", "SHOW_REFLECTION", "SHOW_AGE"};
+    "", "SHOW_IDS", "SHOW_NORMALS", "SHOW_MASK", "SHOW_REFLECTION", "SHOW_AGE", "SHOW_DEPTH", "SHOW_POSITION",
+    "SHOW_ALBEDO"};
 
 bool is_traced(BufferView view) {
-  return view == BufferView::mask || view == BufferView::reflection || view == BufferView::age;
+  return view == BufferView::mask || view == BufferView::reflection || view == BufferView::delay;
 }
 
 void send(std::span<const std::byte> bytes, glm::ivec2 texels, const gl::PixelFormat& format, ChannelBuffer& to) {
@@ -21,6 +24,12 @@ void send(std::span<const std::byte> bytes, glm::ivec2 texels, const gl::PixelFo
   const std::span<std::byte> open = to.up.open(bytes.size());
   std::copy(bytes.begin(), bytes.end(), open.begin());
   to.up.send(to.texture);
+}
+
+std::string text_of(float value) {
+  std::array<char, 32> text{};
+  std::snprintf(text.data(), text.size(), "%.4g", static_cast<double>(value));
+  return text.data();
 }
 
 std::string name_of_slot(int slot, const Scene& scene) {
@@ -33,7 +42,7 @@ std::string name_of_slot(int slot, const Scene& scene) {
          (name.empty() ? "" : " '" + name + "'");
 }
 
-std::string legend_of_age(const FrameRecord& record) {
+std::string legend_of_delay(const FrameRecord& record) {
   if (record.age_frames > 0)
     return "shadows and reflections of " + std::to_string(record.age_frames) +
            " frame(s) before, warped: yellow 1, orange 2, red more; pink: a hole, nothing older fits";
@@ -45,8 +54,8 @@ std::string legend_of_age(const FrameRecord& record) {
 }  // namespace
 
 std::string missing(BufferView view, int slot, const Settings& s) {
-  if (view == BufferView::age && !s.uses_gpu())
-    return "mode raytrace: the CPU draws alone, nothing is older than the rest";
+  if (view == BufferView::delay && !s.uses_gpu())
+    return "mode raytrace: the CPU draws alone, nothing comes later than the rest";
   if (is_traced(view) && s.mask_bits == 0 && !s.reflects())
     return s.mask_bits.given ? "mode raster traces nothing: every light reaches everything"
                              : "this scene needs nothing traced: no light casts, nothing mirrors";
@@ -58,7 +67,7 @@ std::string missing(BufferView view, int slot, const Settings& s) {
   return {};
 }
 
-std::string legend(BufferView view, int slot, const Frame& frame) {
+std::string legend(BufferView view, int slot, const Frame& frame, const ChannelRange& range) {
   const Settings& s = frame.request().settings;
   if (std::string why = missing(view, slot, s); !why.empty()) return why;
   const std::string where = s.uses_gpu() && s.composite == Processor::cpu
@@ -77,8 +86,17 @@ std::string legend(BufferView view, int slot, const Frame& frame) {
              (s.light_cutoff > 0.0f ? "; black too where it is too faint for a ray" : "") + where;
     case BufferView::reflection:
       return "mirrored and refracted light" + where;
-    case BufferView::age:
-      return legend_of_age(frame.record());
+    case BufferView::delay:
+      return legend_of_delay(frame.record());
+    case BufferView::depth:
+      return "depth along the view axis, scene units: black " + text_of(range.lo.x) + ", white " +
+             text_of(range.hi.x);
+    case BufferView::position:
+      return "world position, scene units: red X from " + text_of(range.lo.x) + " to " + text_of(range.hi.x) +
+             ", green Y from " + text_of(range.lo.y) + " to " + text_of(range.hi.y) + ", blue Z from " +
+             text_of(range.lo.z) + " to " + text_of(range.hi.z);
+    case BufferView::albedo:
+      return "diffuse colour, as textures and materials have it";
   }
   return {};
 }
@@ -86,14 +104,14 @@ std::string legend(BufferView view, int slot, const Frame& frame) {
 InspectPass::InspectPass(Engine& engine)
     : engine_(engine), shading_(engine.parts().gpu().programs) {}
 
-const gl::Texture& InspectPass::draw(const Frame& frame, BufferView view, int slot) {
+const gl::Texture& InspectPass::draw(const Frame& frame, BufferView view, int slot, const ChannelRange& range) {
   if (view == BufferView::picture) return frame.texture();
   const FrameSlot& shown = frame.slot();
   const Settings& s = shown.request.settings;
   const FrameSlot* const of = shown.answer_of;
   const bool has_it = missing(view, slot, s).empty() && (!is_traced(view) || of);
   ShadingPasses::Inspected what;
-  if (has_it) what = {kDefinitions[static_cast<std::size_t>(view)], slot, shown.record.age_frames};
+  if (has_it) what = {kDefinitions[static_cast<std::size_t>(view)], slot, shown.record.age_frames, range.lo, range.hi};
   ShadingPasses::Traced traced;
   std::optional<OlderFrame> older;
   if (has_it && is_traced(view)) {
@@ -111,7 +129,8 @@ ShadingPasses::Inputs InspectPass::inputs_of(const FrameSlot& frame) {
   constexpr int kIdBits = 32;  // as the CPU has them
   send(std::as_bytes(frame.ids.pixels()), frame.ids.size(), id_format(kIdBits).pixel, ids_);
   lights_.update(frame.request.scene);
-  return {*engine_.parts().gpu_mesh(frame.request.scene.mesh), lights_, frame.view, ids_.texture, kIdBits};
+  return {*engine_.parts().gpu_mesh(frame.request.scene.mesh), lights_, frame.view, ids_.texture, kIdBits,
+          frame.request.settings.filter_textures};
 }
 
 ShadingPasses::Traced InspectPass::send_from_cpu(const MaskImage& mask, const Image<glm::vec3>& reflection,

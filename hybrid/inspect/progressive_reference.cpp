@@ -26,11 +26,6 @@ void give_way() {
   setpriority(PRIO_PROCESS, 0, getpriority(PRIO_PROCESS, 0) + kNicer);
 }
 
-struct Sample {
-  glm::ivec2 at;
-  glm::vec4 color;
-};
-
 }  // namespace
 
 // One view's picture, as far as it is.
@@ -49,6 +44,10 @@ struct ProgressiveReference::Job {
   pinocchio::Progress of_view;                   // cancelled: another is wanted
   std::shared_ptr<pinocchio::Progress> of_mesh;  // ... of another mesh
 
+  struct Sample {
+    glm::ivec2 at;
+    glm::vec4 color;
+  };
   struct Patch {
     int step;  // each sample covers step x step pixels
     std::vector<Sample> samples;

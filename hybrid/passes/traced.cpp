@@ -28,8 +28,8 @@ void note(const TileTimes& times, double begin_s, int threads, FrameRecord& reco
 void run(Workers& workers, FrameSlot& frame, const TileOutputs& outputs, double share) {
   const FrameRequest& r = frame.request;
   if (!r.tracer) throw std::logic_error("settings that trace were given no tree (Engine::prepare)");
-  const TraceJob job{r.scene,         *r.tracer, workers, frame.view, r.settings.throughput_cutoff,
-                     r.settings.light_cutoff, frame.progress, share};
+  const TraceJob job{r.scene,        *r.tracer,      workers, frame.view, r.settings.throughput_cutoff,
+                     r.settings.light_cutoff, r.settings.filter_textures, r.view.jitter, frame.progress, share};
   const double begin_s = now_s();
   const TileResult result = trace_tiles(job, outputs);
   frame.record.rays += result.rays;

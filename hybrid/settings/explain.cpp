@@ -2,6 +2,8 @@
 
 #include <cmath>
 
+#include "hybrid/settings/resolve.h"
+
 namespace pinocchio {
 namespace {
 
@@ -19,6 +21,9 @@ std::string per_sample(int scale) {
 }
 
 std::string who_draws(const Settings& s) {
+  if (!s.uses_gpu() && s.by_machine)
+    return std::string("the CPU draws alone, ") + kGainOverSoftwareGl +
+           ", for OpenGL is software here; it is not opened (--mode auto)";
   if (!s.uses_gpu()) return "the CPU draws alone; no OpenGL is opened";
   if (!s.traces()) return "the GPU draws alone";
   return s.composite == Processor::gpu ? "the GPU puts the picture together (design 1)"
@@ -49,7 +54,7 @@ std::string why_mask(const SceneStats& stats, const Settings& s) {
 std::string format_of(const Settings& s) {
   switch (s.reflection) {
     case ReflectionFormat::rgb8:
-      return "24-bit sRGB, as the slides have it";
+      return "24-bit sRGB, clipped at white";
     case ReflectionFormat::rgb9e5:
       return "9 bits a colour with a shared exponent, a third less than half RGB";
     case ReflectionFormat::full:
@@ -91,6 +96,19 @@ std::string why_rays(const Settings& s) {
              : "a shadow ray wherever a light may reach: the mask itself is kept; " + still;
 }
 
+// What of materials changes from point to point.
+std::string why_maps(const SceneStats& stats) {
+  if (!stats.textures && !stats.vertex_colors && !stats.holes && !stats.blends)
+    return "no texture code in the shaders: nothing is textured";
+  std::string line = stats.textures        ? "textures are looked up: some triangle has one"
+                     : stats.vertex_colors ? "vertex colours are looked up: some triangle has them"
+                                           : "alpha is looked up: some triangle has it";
+  if (stats.holes) line += "; rays that meet a hole go on behind it";
+  if (stats.blends) line += "; what blends sends a ray straight on";
+  if (!stats.holes && !stats.blends) line += "; nothing has holes or blends: rays stop where they meet something";
+  return line;
+}
+
 }  // namespace
 
 std::vector<std::string> explain(const SceneStats& stats, const Settings& s) {
@@ -101,8 +119,7 @@ std::vector<std::string> explain(const SceneStats& stats, const Settings& s) {
   if (s.reflects()) lines.push_back(why_depth(stats, s));
   if (s.mask_bits > 0) lines.push_back(why_rays(s));
   if (s.traces()) lines.push_back(why_threads(s));
-  lines.emplace_back(stats.textures ? "textures are looked up: some triangle has one"
-                                    : "no texture code in the shaders: nothing is textured");
+  lines.push_back(why_maps(stats));
   return lines;
 }
 

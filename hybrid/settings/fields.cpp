@@ -103,6 +103,10 @@ constexpr std::array kTable{
                           "gpu; cpu where a software rasteriser would take longer than the rays",
                           "who finds the triangle that each pixel sees"),
     field<&S::composite>("composite", one_of(kProcessorNames), "gpu", "who puts the picture together"),
+    field<&S::by_machine>("by_machine", yes_or_no(), "false",
+                          "visibility and composite, where they are not given, by the machine: the GPU's where "
+                          "OpenGL is hardware, else the CPU's, and no OpenGL is opened",
+                          kOfMachine),
     field<&S::exchange>("exchange", one_of(kExchangeNames), "pipelined over several frames, sync for one",
                         "sync: wait for the CPU; pipelined: its part comes frames later, GPU and CPU work on "
                         "different frames; reproject: newest raster, the last mask and reflection warped to it"),
@@ -134,6 +138,8 @@ constexpr std::array kTable{
                             "light that a shadow ray brings a visible point, linear, below which none is "
                             "fired; 0: all are",
                             false, "least_light"),
+    field<&S::filter_textures>("filter_textures", yes_or_no(), "true",
+                               "average textures over what a pixel, and its mirror images, see of them"),
     field<&S::reuse>("reuse", yes_or_no(), "true",
                      "draw nothing again for a frame that asks for what the last one did"),
     field<&S::persistent>("persistent", yes_or_no(), "false", "keep transfer buffers mapped", kOfMachine),

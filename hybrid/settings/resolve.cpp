@@ -44,6 +44,15 @@ void fill_depth(const SceneStats& stats, Settings& s) {
   if (s.reflection == ReflectionFormat::none) s.depth.value = 0;
 }
 
+// --mode auto. Where other settings need the GPU, it draws all the same.
+void choose_processors(const Circumstances& c, Settings& s) {
+  if (!s.by_machine || !c.software_gl) return;
+  Settings alone = s;
+  alone.visibility.fill(Processor::cpu);
+  alone.composite.fill(Processor::cpu);
+  if (!broken_rule(alone)) s = alone;
+}
+
 }  // namespace
 
 Expected<Settings> resolve(const Settings& settings, const SceneStats& stats, const Circumstances& c) {
@@ -55,6 +64,7 @@ Expected<Settings> resolve(const Settings& settings, const SceneStats& stats, co
   s.id_bits.fill(stats.triangles < kMost16BitIds ? 16 : 32);
   s.mask_bits.fill(MaskImage::bits_for(stats.casting_lights));
   fill_depth(stats, s);
+  choose_processors(c, s);
   // All lights together stay below half a step.
   const bool needs_bits = c.keeps_mask || s.mask_bits == 0;
   s.light_cutoff.fill(

@@ -38,6 +38,8 @@ constexpr std::array kPresets{
     Preset{"mode", "raytrace", "the CPU alone; no OpenGL is opened",
            [](Settings& s) { draw_all_on(Processor::cpu, Processor::cpu, s); }},
     Preset{"mode", "raster", "the GPU alone: no shadows, no mirrors", apply_raster},
+    Preset{"mode", "auto", "as hybrid where OpenGL is hardware, else as raytrace",
+           [](Settings& s) { s.by_machine = true; }},
     Preset{"design", "1", "the picture is put together on the GPU",
            [](Settings& s) { s.composite = Processor::gpu; }},
     Preset{"design", "2", "the picture is put together on the CPU",

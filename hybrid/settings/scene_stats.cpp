@@ -18,11 +18,11 @@ class MirrorWalk {
   MirrorWalk(const Mesh& mesh, const Bounds& bounds)
       : mesh_(mesh), slack_(1e-7 * static_cast<double>(bounds.diagonal())) {}
 
-  void add(const glm::uvec3& t, const Material& m) {
-    const bool unlimited = m.transmits() || m.fresnel;
+  void add(const glm::uvec3& t, const Material& m, bool see_through) {
+    const bool unlimited = see_through || m.fresnel;
     const float most = std::max({m.reflectance.x, m.reflectance.y, m.reflectance.z});
     most_ = std::max(most_, unlimited ? 1.0 : static_cast<double>(most));
-    if (flat_) flat_ = !m.transmits() && in_plane(t);
+    if (flat_) flat_ = !see_through && in_plane(t);
   }
 
   [[nodiscard]] int useful_depth() const {
@@ -54,6 +54,15 @@ class MirrorWalk {
   double d_ = 0.0;
 };
 
+void note(const MaterialMaps& maps, SceneStats& stats) {
+  stats.textures = stats.textures || maps.base_color.used() || maps.emissive.used() ||
+                   maps.metallic_roughness.used() || maps.normal.used() || maps.occlusion.used() ||
+                   maps.alpha.used();
+  stats.vertex_colors = stats.vertex_colors || maps.vertex_colors;
+  stats.holes = stats.holes || maps.has_holes();
+  stats.blends = stats.blends || maps.blends();
+}
+
 }  // namespace
 
 SceneStats analyze(const Scene& scene) {
@@ -69,12 +78,14 @@ SceneStats analyze(const Scene& scene) {
     const Material& material = mesh.materials[mesh.triangle_materials[i]];
     const double area = area_of(mesh, mesh.triangles[i]);
     all += area;
-    stats.textures = stats.textures || material.diffuse_texture >= 0;
-    if (!material.spawns_rays()) continue;
+    const MaterialMaps* const maps = mesh.maps_of(static_cast<std::uint32_t>(i));
+    if (maps) note(*maps, stats);
+    const bool see_through = material.transmits() || (maps && maps->blends());
+    if (!see_through && !material.reflects()) continue;
     stats.mirrors = true;
     mirroring += area;
-    if (material.transmits()) transmitting += area;
-    walk.add(mesh.triangles[i], material);
+    if (see_through) transmitting += area;
+    walk.add(mesh.triangles[i], material, see_through);
   }
   if (all > 0.0) stats.mirror_share = mirroring / all;
   if (all > 0.0) stats.transmitting_share = transmitting / all;

@@ -15,10 +15,13 @@ struct SceneStats {
   int lights = 0;
   int casting_lights = 0;           // of those that reach something
   int idle_lights = 0;              // that reach nothing
-  bool mirrors = false;             // some triangle's material reflects or transmits
+  bool mirrors = false;             // some triangle's material reflects, transmits or blends
   double mirror_share = 0.0;        // of the scene's surface that reflects or transmits
   double transmitting_share = 0.0;  // of it that transmits
   bool textures = false;            // some triangle's material has one
+  bool vertex_colors = false;       // ... or vertex colours
+  bool holes = false;               // some let rays pass where their alpha says so
+  bool blends = false;              // some show what is behind them by their alpha
   // Bounces beyond which no ray brings its pixel kThroughputCutoff, or none finds another mirror.
   int useful_depth = kMostBounces;
 

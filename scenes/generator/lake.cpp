@@ -13,10 +13,6 @@ namespace {
 
 constexpr float kSkyRadius = 300.0f;
 
-int cells(float count, float scale) {
-  return std::max(2, static_cast<int>(std::lround(count * scale)));
-}
-
 // Gentle swell and a fan of finer ripples; small, so that the boat stays recognisable in its mirror.
 float wave_height(float x, float z) {
   const float r = std::sqrt(x * x + z * z);

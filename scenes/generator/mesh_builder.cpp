@@ -1,5 +1,6 @@
 #include "scenes/generator/mesh_builder.h"
 
+#include <algorithm>
 #include <cmath>
 #include <glm/gtc/constants.hpp>
 
@@ -19,6 +20,10 @@ glm::vec3 unit_or_zero(const glm::vec3& v) {
 }
 
 }  // namespace
+
+int cells(float count, float scale) {
+  return std::max(2, static_cast<int>(std::lround(count * scale)));
+}
 
 void MeshBuilder::use(const Material& material) {
   mesh_.materials.push_back(material);

@@ -10,6 +10,9 @@
 
 namespace pinocchio {
 
+// `count` cells of a surface at `scale`: 2 or more.
+[[nodiscard]] int cells(float count, float scale);
+
 // Appends shapes to a mesh. Corners run counter-clockwise seen from outside; what is placed goes through
 // the current transform (which must not mirror).
 class MeshBuilder {

@@ -75,10 +75,6 @@ struct Paints {
   Material black = glossy("black", glm::vec3(0.02f), 0.5f, 60.0f);
 };
 
-int cells(float count, float scale) {
-  return std::max(2, static_cast<int>(std::lround(count * scale)));
-}
-
 void add_hull(MeshBuilder& mesh, const Paints& paint, float scale) {
   const int along = cells(44, scale);
   struct Strake {

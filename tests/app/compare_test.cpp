@@ -105,6 +105,59 @@ TEST_F(CompareVerbTest, FilesThatCannotBeCompared) {
   expect_error("a.exr b.exr --channel Z", 1, "a.exr: has no channel 'Z'");
 }
 
+TEST_F(CompareVerbTest, FoldersPairByNameAndTellOfEach) {
+  for (const char* folder : {"new", "golden"}) std::filesystem::create_directories(folder_ / folder / "sub");
+  for (const char* file : {"one.exr", "sub/two.exr"}) {
+    write_flat(std::string("golden/") + file, 0.5f);
+    write_flat(std::string("new/") + file, file == std::string("one.exr") ? 0.5f : 0.55f);
+  }
+  const nlohmann::json json = figures("new golden");
+  EXPECT_EQ(json["pairs"].size(), 2u);
+  EXPECT_EQ(json["pairs"][1]["name"], "sub/two.exr");
+  EXPECT_NEAR(json["overall"]["rmse"]["worst"].get<double>(), 0.05, 1e-3);
+  EXPECT_NEAR(json["overall"]["rmse"]["mean"].get<double>(), 0.025, 1e-3);
+  EXPECT_EQ(json["failures"], 0);
+  const CommandResult table = run("compare new golden --heatmap maps --junit report.xml --max-error rmse=0.01");
+  EXPECT_EQ(table.exit_code, 5);
+  EXPECT_NE(table.out.find("worst"), std::string::npos);
+  EXPECT_NE(table.err.find("new/sub/two.exr: rmse 0.0"), std::string::npos) << table.err;
+  EXPECT_TRUE(exists("maps/one.exr.png") && exists("maps/sub/two.exr.png"));
+  std::ifstream in(folder_ / "report.xml");
+  const std::string xml(std::istreambuf_iterator<char>(in), {});
+  EXPECT_NE(xml.find("tests=\"2\" failures=\"1\" errors=\"0\""), std::string::npos) << xml;
+  EXPECT_NE(xml.find("<testcase classname=\"compare\" name=\"sub/two.exr\">\n      <failure message="),
+            std::string::npos)
+      << xml;
+  // A picture that is missing fails the comparison.
+  std::filesystem::remove(folder_ / "new" / "one.exr");
+  expect_error("new golden --quiet", 2, "--quiet");
+  const CommandResult missing = run("compare new golden");
+  EXPECT_EQ(missing.exit_code, 5);
+  EXPECT_NE(missing.err.find("has no counterpart in new"), std::string::npos) << missing.err;
+}
+
+TEST_F(CompareVerbTest, SequencesPairByNumber) {
+  for (int i = 8; i < 11; ++i) {
+    const std::string number = (i < 10 ? "000" : "00") + std::to_string(i);
+    write_flat("a." + number + ".exr", 0.5f);
+    write_flat("b_" + number + ".exr", 0.5f);
+  }
+  EXPECT_EQ(figures("a.####.exr b_####.exr --max-error max=0")["pairs"].size(), 3u);
+  expect_error("a.####.exr b.exr", 2, "one is a sequence");
+  expect_error("c.####.exr b_####.exr", 4, "there is no EXR or PNG");
+}
+
+TEST_F(CompareVerbTest, PngAgainstPngAndExr) {
+  const std::string render = "render" + scene("cornell.gltf") + "--size 64x48 ";
+  ASSERT_EQ(run(render + "-o x.exr --preview x.png").exit_code, 0);
+  ASSERT_EQ(run(render + "--spp 4 --preview y.png").exit_code, 0);
+  EXPECT_EQ(figures("x.png x.png")["max"], 0.0);
+  EXPECT_GT(figures("x.png y.png")["rmse"].get<double>(), 0.0);
+  EXPECT_LT(figures("x.png x.exr")["flip"].get<double>(), 0.01);
+  write("text.png", "hello");
+  expect_error("text.png x.png", 4, "cannot be read as PNG");
+}
+
 TEST_F(CompareVerbTest, Usage) {
   expect_error("a.exr", 2, "B is required");
   for (const char* limit : {"rmse", "speed=1", "rmse=", "rmse=x", "rmse=nan", "rmse=-1", "=1"})

@@ -49,9 +49,9 @@ TEST_F(ErrorsTest, CameraPaths) {
   with(R"("frame": 1, "eye": [0, 3.5e38, 2], "target": [0, 1, 0])", "key frame 1: eye is [x, y, z]");
   with(R"("frame": 1, "eye": [0, 1e999, 2], "target": [0, 1, 0])", "too large");
   with(R"("frame": 1, "eye": [0, 1, 0], "target": [0, 1, 0])", "same point");
-  with(R"("frame": 1, "eye": [0, 1, 2], "target": [0, 1, 0], "fov": -20)", "between 0 and 180");
+  with(R"("frame": 1, "eye": [0, 1, 2], "target": [0, 1, 0], "fov": -20)", "0 and 180");
   with(R"("frame": 1, "eye": [0, 1, 2], "traget": [0, 1, 0])", "there is no 'traget'");
-  with(R"("frame": 2, "eye": [0, 1, -3], "target": [0, 1, 0], "up": [0, 0, 0])", "up has no direction");
+  with(R"("frame": 2, "eye": [0, 1, -3], "target": [0, 1, 0], "up": [0, 0, 0])", "its up is no direction");
   with(R"("frame": 2, "eye": [0, 1, -3], "target": [0, 1, 0])", "in frame 1 eye and target meet");
   write("plan.json", R"({"depth": 1e999})");
   expect_error("render" + scene("cornell") + "--plan plan.json -o x.exr", 2, "too large");
@@ -73,7 +73,7 @@ TEST_F(ErrorsTest, Usage) {
   expect_error(render + "--size 0 -o x.exr", 2, "--size");
   expect_error(render + "--size 100000x100000 -o x.exr", 2, "16384");
   expect_error(render + "--size -5x7 -o x.exr", 2, "--size");
-  expect_error(render + "--mode sideways -o x.exr", 2, "hybrid, raytrace or raster");
+  expect_error(render + "--mode sideways -o x.exr", 2, "hybrid, raytrace, raster or auto");
   expect_error(render + "--eye 1,2 -o x.exr", 2, "--eye");
   expect_error(render + "--eye 1,2,nan -o x.exr", 2, "--eye");
   expect_error(render + "--fov 180 -o x.exr", 2, "--fov");

@@ -142,6 +142,33 @@ TEST_F(RenderTest, CompressionIsOfTheFileAlone) {
   EXPECT_EQ(run("render" + scene("cornell") + kSmall + "--compression dwaa -o x.exr").exit_code, 2);
 }
 
+// Where OpenGL is software; on hardware the two modes are one.
+TEST_F(RenderTest, AutoNeedsNoSoftwareOpenGl) {
+  const std::string draw = "render" + scene("two-lights") + "--size 80x60 --device software ";
+  const std::string advice = "--mode auto would draw with the CPU alone";
+  const CommandResult hybrid = run(draw + "-o h.exr");
+  EXPECT_EQ(hybrid.exit_code, 0);
+  EXPECT_NE(hybrid.err.find(advice), std::string::npos) << hybrid.err;
+  EXPECT_EQ(std::ranges::count(hybrid.err, '\n'), 1) << hybrid.err;
+  const CommandResult automatic = run(draw + "--mode auto -o a.exr --stats-json a.json");
+  EXPECT_EQ(automatic.exit_code, 0);
+  EXPECT_EQ(automatic.err, "");
+  EXPECT_FALSE(json("a.json")["system"].contains("gl"));
+  expect_done("render" + scene("two-lights") + kSmall + "--mode raytrace -o r.exr");
+  EXPECT_TRUE(same_pixels(exr("a.exr"), exr("r.exr")));
+  for (const std::string mode : {"raytrace", "raster"})
+    EXPECT_EQ(run(draw + "--mode " + mode + " -o x.exr").err, "") << mode;
+}
+
+TEST_F(RenderTest, StatsHoldThePeakOfMemory) {
+  expect_done("render" + scene("cornell") + kSmall + "--mode raytrace --stats-json small.json");
+  expect_done("render" + scene("cornell") + "--size 1600x1200 --quiet --mode raytrace --stats-json large.json");
+  const double small = json("small.json")["memory"]["peak_bytes"], large = json("large.json")["memory"]["peak_bytes"];
+  EXPECT_GT(small, 1e6);
+  EXPECT_GT(large - small, 1600.0 * 1200.0 * 20.0);  // the picture alone: 16 bytes a pixel and ids
+  EXPECT_LT(large - small, 1600.0 * 1200.0 * 120.0);
+}
+
 // Frames are written while later ones are drawn: the failure is of the run all the same.
 TEST_F(RenderTest, AFrameThatCannotBeWrittenEndsTheRun) {
   std::filesystem::create_directory(folder_ / "f0003.exr");

@@ -32,6 +32,16 @@ void expect_near(const glm::vec2& a, const glm::vec2& b) {
   EXPECT_NEAR(a.y, b.y, 1e-5f);
 }
 
+// Where the ray of a pixel's centre says: also of a camera whose axis is off the centre, its pixels not square.
+TEST(FrameExr, NdcOfAMeasuredCameraIsItsPixels) {
+  const Camera camera = with_intrinsics(slanted_camera(), {3.0, 3.5, 1.25, 0.5}, kSize);
+  const shared::ViewParams view = view_params(camera, kSize);
+  for (const glm::ivec2 pixel : {glm::ivec2(0, 0), glm::ivec2(3, 2), glm::ivec2(1, 2)}) {
+    const glm::vec3 point = view.eye + 2.5f * pixel_ray(view, pixel.x, pixel.y).direction;
+    expect_near(ndc_of(camera, point), (glm::vec2(pixel) + 0.5f) / glm::vec2(kSize));
+  }
+}
+
 // What a frame of 4 x 3 is made of, by hand: triangle i in pixel i, nothing in the last.
 struct HandMade {
   Scene scene;

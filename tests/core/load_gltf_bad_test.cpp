@@ -78,7 +78,7 @@ TEST(LoadGltfBad, ImagesThatCannotBeReadAreWarnings) {
     Warnings warnings;
     const Expected<Scene> scene = load(json, &warnings);
     ASSERT_TRUE(scene) << scene.error().message();
-    EXPECT_EQ(scene->mesh->materials[0].diffuse_texture, -1);
+    EXPECT_EQ(scene->mesh->maps[0].base_color.texture, -1);
     EXPECT_FALSE(warnings.empty());
   }
 }

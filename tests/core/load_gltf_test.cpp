@@ -162,7 +162,7 @@ TEST(LoadGltf, ImagesBesideTheFileAreTextures) {
   std::ofstream(own_file("texel.ppm"), std::ios::binary) << "P6 1 1 255\n\x0a\x14\x1e";
   const Scene scene = load_good(textured_json({{"uri", "texel.ppm"}}));
   ASSERT_EQ(scene.mesh->textures.size(), 1u);
-  EXPECT_EQ(scene.mesh->materials[0].diffuse_texture, 0);
+  EXPECT_EQ(scene.mesh->maps_of(0)->base_color.texture, 0);
   EXPECT_EQ(scene.mesh->textures[0].texels.at(0, 0), glm::u8vec4(10, 20, 30, 255));
   ASSERT_EQ(scene.source_files.size(), 3u);  // and a buffer
   EXPECT_EQ(scene.source_files.front(), scene.source);

@@ -105,5 +105,17 @@ TEST(LoadLost, StatementsOfMtlAndObj) {
   EXPECT_NE(line_about(warnings, "(magic)"), "");
 }
 
+// Else the surface turns black in silence.
+TEST(LoadLost, ValuesOfMtlThatAreNoNumbers) {
+  std::ofstream(own_file("words.mtl")) << "newmtl m\nKd oops\nKs\nNs 10\nd -halo 1\n";
+  const auto obj = own_file("words.obj");
+  std::ofstream(obj) << "mtllib words.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nusemtl m\nf 1 2 3\n";
+  Warnings warnings;
+  ASSERT_TRUE(load_scene(obj, &warnings));
+  EXPECT_NE(line_about(warnings, "words.mtl: line 2: Kd 'oops' is no number"), "");
+  EXPECT_NE(line_about(warnings, "words.mtl: line 3: Ks '' is no number"), "");
+  EXPECT_EQ(warnings.size(), 2u);
+}
+
 }  // namespace
 }  // namespace pinocchio

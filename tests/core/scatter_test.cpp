@@ -1,3 +1,4 @@
+#include "core/trace/mapped_material.h"
 #include "core/trace/scatter.h"
 
 #include <gtest/gtest.h>
@@ -14,7 +15,8 @@ SurfaceInteraction surface_seen_at(float angle, const Material& material, bool l
   s.to_viewer = {std::sin(angle), std::cos(angle), 0};
   s.leaving = leaving;
   s.offset = 1e-6f;
-  s.material = &material;
+  s.material = plain_material(material);
+  s.alpha = 1.0f;
   return s;
 }
 

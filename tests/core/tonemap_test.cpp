@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <bit>
 #include <cmath>
 #include <limits>
 
@@ -27,6 +29,37 @@ TEST(Tonemap, RoundsToTheNearestByte) {
     EXPECT_EQ(linear_to_srgb8(static_cast<float>(linear * 0.9999)), i);
     EXPECT_EQ(linear_to_srgb8(static_cast<float>(linear * 1.0001)), i + 1);
   }
+}
+
+double by_libm(double c) {
+  return c <= 0.04045 ? c / 12.92 : std::pow((c + 0.055) / 1.055, 2.4);
+}
+
+TEST(Tonemap, LinearValuesAreWithinHalfAUnitOfLibm) {
+  for (int i = 1; i < 256; ++i) {
+    const double exact = by_libm(i / 255.0);
+    const double unit = std::ldexp(1.0, std::ilogb(exact) - 23);
+    EXPECT_LE(std::abs(static_cast<double>(srgb8_to_linear(static_cast<std::uint8_t>(i))) - exact), 0.5001 * unit) << i;
+  }
+}
+
+// Every float from 0 to 1 has the byte of libm's nearest: at each change of byte all neighbours, a sample between.
+TEST(Tonemap, BytesChangeWhereLibmsDo) {
+  int byte = 0;
+  std::uint32_t wrong = 0;
+  const auto expect = [&](float value) {
+    while (byte < 255 && static_cast<double>(value) >= by_libm((byte + 0.5) / 255.0)) ++byte;
+    wrong += linear_to_srgb8(value) == byte ? 0 : 1;
+  };
+  for (int next = 1; next <= 256; ++next) {
+    const float change = next < 256 ? static_cast<float>(by_libm((next - 0.5) / 255.0)) : 1.0f;
+    const std::uint32_t bits = std::bit_cast<std::uint32_t>(change);
+    const std::uint32_t before = next > 1 ? std::bit_cast<std::uint32_t>(static_cast<float>(by_libm((next - 1.5) / 255.0))) + 64 : 1u;
+    const std::uint32_t step = std::max((bits - before) / 2000, 1u);
+    for (std::uint32_t b = before; b < bits - 64; b += step) expect(std::bit_cast<float>(b));
+    for (std::uint32_t b = bits - 64; b < bits + 64 && b < 0x3f800000u; ++b) expect(std::bit_cast<float>(b));
+  }
+  EXPECT_EQ(wrong, 0u);
 }
 
 TEST(Tonemap, ClampsWhatNoScreenShows) {

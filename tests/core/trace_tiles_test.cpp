@@ -91,7 +91,7 @@ Scene all_sorts() {
     mesh->materials[3].specular = glm::vec3(0.7f);
     mesh->materials[3].shininess = 37.5f;
     mesh->materials[3].reflectance = glm::vec3(0.2f);
-    mesh->materials[4].diffuse_texture = 0;
+    make_maps(*mesh, mesh->materials[4]).base_color.texture = 0;
     mesh->materials[4].emission = {0.0f, 0.1f, 0.0f};
     Texture texture{"noise", Image<glm::u8vec4>({7, 5})};
     for (glm::u8vec4& texel : texture.texels.pixels())
@@ -250,6 +250,84 @@ TEST(TraceTiles, EverySecondPixelOfAPart) {
   out.mask = &mask;
   trace_tiles(job, out);
   EXPECT_TRUE(std::ranges::equal(mask.bytes(), expected.bytes()));
+}
+
+// Mask, mirrored light and composite of a view's samples, wherever the ids come from.
+struct Sampled {
+  MaskImage mask;
+  Image<glm::vec3> reflection;
+  Image<glm::vec4> color;
+};
+
+Sampled sampled(const TraceJob& job, const Image<std::uint32_t>& ids, int scale) {
+  Sampled drawn;
+  TileOutputs out;
+  out.size = (ids.size() + scale - 1) / scale;
+  out.seen = &ids;
+  out.scale = scale;
+  out.mask_bits = mask_bits_of(job.scene);
+  out.mask = &drawn.mask;
+  out.depth = kDepth;
+  out.reflection = &drawn.reflection;
+  out.color = &drawn.color;
+  trace_tiles(job, out);
+  return drawn;
+}
+
+TEST(TraceTiles, SameBitsAtAnyWidthOfEverySecondAndFourthPixel) {
+  const Scene scene = all_sorts();
+  Workers workers(2);
+  const shared::ViewParams view = view_params(camera_of(scene), kSize);
+  Image<std::uint32_t> ids(kSize);
+  trace_visibility({scene, Tracer(scene.mesh), workers, view}, ids);
+  for (const int scale : {1, 2, 4}) {
+    std::optional<Sampled> expected;
+    for (const Isa isa : supported_isas()) {
+      const Tracer tracer(scene.mesh, {}, isa);
+      const Sampled drawn = sampled({scene, tracer, workers, view}, ids, scale);
+      if (!expected) expected = drawn;
+      EXPECT_TRUE(std::ranges::equal(drawn.mask.bytes(), expected->mask.bytes()) &&
+                  same_bits(drawn.reflection, expected->reflection) && same_bits(drawn.color, expected->color))
+          << isa_name(isa) << " " << scale;
+    }
+  }
+}
+
+// What the mask pass says, asked ray by ray: surfaces and shadow rays of core/trace/surface.cpp, no lanes.
+MaskImage mask_by_pixel(const TraceJob& job, const Image<std::uint32_t>& ids, int scale) {
+  const std::vector<shared::LightParams> lights = casting_light_params(job.scene);
+  const shared::ViewParams view = scaled_view(job.view, scale);
+  MaskImage mask((ids.size() + scale - 1) / scale, mask_bits_of(job.scene));
+  for (int y = 0; y < mask.size().y; ++y)
+    for (int x = 0; x < mask.size().x; ++x) {
+      const std::uint32_t id = ids.at(x * scale, y * scale);
+      if (id == kNoTriangle) continue;
+      const Ray seen = pixel_ray(view, x, y);
+      const SurfaceInteraction surface = surface_at(job.tracer.mesh(), id, seen.origin, seen.direction);
+      for (std::size_t slot = 0; slot < lights.size(); ++slot)
+        if (const std::optional<Ray> ray = shadow_ray(lights[slot], surface)) {
+          std::uint8_t blocked = 0;
+          job.tracer.occluded({&*ray, 1}, {&blocked, 1});
+          if (!blocked) mask.set_bit(x, y, static_cast<int>(slot));
+        }
+    }
+  return mask;
+}
+
+TEST(TraceTiles, MasksAreThoseAskedRayByRay) {
+  for (const Scene& scene : scenes()) {
+    SCOPED_TRACE(scene.source);
+    Workers workers(2);
+    const Tracer scalar(scene.mesh, {}, Isa::scalar), widest(scene.mesh);
+    const shared::ViewParams view = view_params(camera_of(scene), kSize);
+    Image<std::uint32_t> ids(kSize);
+    trace_visibility({scene, widest, workers, view}, ids);
+    for (const int scale : {1, 4}) {
+      const MaskImage expected = mask_by_pixel({scene, scalar, workers, view}, ids, scale);
+      EXPECT_TRUE(std::ranges::equal(sampled({scene, widest, workers, view}, ids, scale).mask.bytes(), expected.bytes()))
+          << scale;
+    }
+  }
 }
 
 // Distance in units in the last place of the float nearest to the true value.

@@ -5,6 +5,8 @@
 #include <limits>
 
 #include "core/bsp/projected_triangle.h"
+#include "core/bsp/tree.h"
+#include "core/trace/ray_sorter.h"
 #include "core/trace/view_params.h"
 #include "scenes/generator/mesh_builder.h"
 #include "tests/support/scenes.h"
@@ -139,6 +141,38 @@ TEST(Tracer, NothingLeaksThroughEdgesAndVertices) {
           << center.x;
       const std::vector<std::uint8_t> stopped = blocked(tracer, rays);
       EXPECT_EQ(std::count(stopped.begin(), stopped.end(), 0), 0);
+    }
+  }
+}
+
+TEST(Tracer, SortedRaysKeepTheirPlaces) {
+  const Scene scene = random_soup(3000, 0.1f, 31);
+  std::vector<Ray> rays = random_rays(2500, 32);
+  rays[7].origin.x = std::numeric_limits<float>::quiet_NaN();
+  rays[8].direction = glm::vec3(0.0f);
+  const std::size_t room = rays.size() + kQueuePad;
+  std::vector<AlignedVector<float>> column(7, AlignedVector<float>(room));
+  for (std::size_t i = 0; i < rays.size(); ++i) {
+    for (int axis = 0; axis < 3; ++axis) {
+      column[static_cast<std::size_t>(axis)][i] = rays[i].origin[axis];
+      column[static_cast<std::size_t>(3 + axis)][i] = rays[i].direction[axis];
+    }
+    column[6][i] = rays[i].t_max;
+  }
+  const RayColumns columns{{column[0].data(), column[1].data(), column[2].data()},
+                           {column[3].data(), column[4].data(), column[5].data()},
+                           column[6].data()};
+  EXPECT_TRUE(rays_part(columns, rays.size()));
+  const std::vector<Hit> expected = trace(Tracer(scene.mesh, {}, Isa::scalar), rays);  // which never sorts
+  AlignedVector<std::uint32_t> triangle(room);
+  AlignedVector<float> t(room);
+  for (const Isa isa : supported_isas()) {
+    Tracer(scene.mesh, {}, isa).closest_hits(columns, rays.size(), triangle.data(), t.data());
+    for (std::size_t i = 0; i < rays.size(); ++i) {
+      ASSERT_EQ(triangle[i], expected[i].triangle) << isa_name(isa) << " ray " << i;
+      if (expected[i].valid()) {
+        ASSERT_EQ(t[i], expected[i].t) << isa_name(isa) << " ray " << i;
+      }
     }
   }
 }

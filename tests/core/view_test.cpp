@@ -29,6 +29,23 @@ TEST(View, PartsHaveTheWholePicturesRays) {
       EXPECT_EQ(pixel_ray(part, x, y).direction, pixel_ray(whole, 100 + x, 37 + y).direction);
 }
 
+// fx, fy, cx, cy of a picture that is off its axis, and what they say of a point before the camera.
+TEST(View, MeasuredCamerasSeeWhereOpenCvSays) {
+  const glm::ivec2 size(320, 200);
+  const Intrinsics k{310.0, 290.0, 140.5, 120.25};
+  const Camera camera = with_intrinsics({"c", {1, 2, 3}, {1, 2, 13}, {0, -1, 0}}, k, size);  // x right, y down, z forward
+  const shared::ViewParams view = view_params(camera, size);
+  for (const glm::ivec2 pixel : {glm::ivec2(0, 0), glm::ivec2(319, 0), glm::ivec2(17, 199), glm::ivec2(160, 100)}) {
+    const glm::vec3 along = pixel_ray(view, pixel.x, pixel.y).direction;
+    EXPECT_NEAR(along.x, (pixel.x - k.cx) / k.fx, 1e-6);
+    EXPECT_NEAR(along.y, (pixel.y - k.cy) / k.fy, 1e-6);
+    EXPECT_NEAR(along.z, 1.0f, 1e-6);
+  }
+  const Intrinsics again = intrinsics_of(camera, size);
+  for (const auto& [a, b] : {std::pair(again.fx, k.fx), {again.fy, k.fy}, {again.cx, k.cx}, {again.cy, k.cy}})
+    EXPECT_NEAR(a, b, 1e-4);
+}
+
 TEST(View, LooksAlongUpWithoutTrouble) {
   const CameraAxes axes = camera_axes({"c", {0, 5, 0}, {0, 0, 0}, {0, 1, 0}, 45.0f});
   EXPECT_NEAR(glm::length(axes.right), 1.0f, 1e-6f);

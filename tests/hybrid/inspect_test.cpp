@@ -65,6 +65,29 @@ TEST_P(InspectTest, IdsHaveAColourEach) {
   }
 }
 
+TEST_P(InspectTest, DepthPositionAndAlbedoAreTheTracersWithinTheirRange) {
+  const Scene scene = load_or_die(source_path("scenes/two-lights"));
+  const Bounds box = scene.mesh->bounds();
+  const ChannelRange near_far{glm::vec3(0.0f), glm::vec3(box.diagonal())}, sides{box.lo, box.hi};
+  look_at(scene, settings_for(scene), [&](Frame& frame) {
+    const FrameSlot& slot = frame.slot();
+    const SurfaceImages surface = surface_images(*scene.mesh, slot.view, slot.ids, 0, slot.ids.height());
+    const Image<glm::vec4> depth = read(pass_->draw(frame, BufferView::depth, 0, near_far));
+    const Image<glm::vec4> position = read(pass_->draw(frame, BufferView::position, 0, sides));
+    const Image<glm::vec4> albedo = view(frame, BufferView::albedo);
+    for (std::size_t i = 0; i < depth.pixels().size(); ++i) {
+      if (slot.ids[i] == kNoTriangle) continue;
+      ASSERT_NEAR(linear_to_srgb(depth[i].x), surface.z_eye[i] / box.diagonal(), 0.002f);
+      const glm::vec3 share = (surface.p_world[i] - box.lo) / box.extent();
+      for (int c = 0; c < 3; ++c) {
+        ASSERT_NEAR(linear_to_srgb(position[i][c]), share[c], 0.002f);
+        ASSERT_NEAR(albedo[i][c], surface.albedo[i][c], 0.002f);
+      }
+    }
+    EXPECT_NE(legend(BufferView::depth, 0, frame, near_far).find("black 0"), std::string::npos);
+  });
+}
+
 TEST_P(InspectTest, NormalsAreTheTracers) {
   const Scene scene = load_or_die(source_path("scenes/two-lights"));
   Workers workers(2);
@@ -155,7 +178,7 @@ TEST_P(InspectTest, AgeIsFlatUnlessReprojectedAndThenTellsHoles) {
   for (const Exchange exchange : {Exchange::sync, Exchange::pipelined, Exchange::reproject}) {
     std::size_t aged = 0, holes = 0;
     draw(moving, exchange, [&](Frame& frame) {
-      const Image<glm::vec4> age = view(frame, BufferView::age), picture = read(frame.texture());
+      const Image<glm::vec4> age = view(frame, BufferView::delay), picture = read(frame.texture());
       aged += frame.record().age_frames > 0;
       for (std::size_t i = 0; i < age.pixels().size(); ++i) {
         const bool hole = picture[i].a > 0.0f && picture[i].a < 1.0f;
@@ -171,7 +194,7 @@ TEST_P(InspectTest, AgeIsFlatUnlessReprojectedAndThenTellsHoles) {
         }
         holes += hole;
       }
-      EXPECT_FALSE(legend(BufferView::age, 0, frame).empty());
+      EXPECT_FALSE(legend(BufferView::delay, 0, frame).empty());
     });
     EXPECT_EQ(aged > 0, exchange == Exchange::reproject);
     EXPECT_EQ(holes > 0, exchange == Exchange::reproject);
@@ -196,7 +219,7 @@ TEST_P(InspectTest, OfAPictureByTheCpuAloneToo) {
       EXPECT_LT(other, hybrid.pixels().size() / 200) << kBufferViewNames[static_cast<std::size_t>(what)];
     }
   });
-  EXPECT_NE(missing(BufferView::age, 0, alone), "");
+  EXPECT_NE(missing(BufferView::delay, 0, alone), "");
 }
 
 // A reprojected frame's mask is the older one's where its points were then: what the picture shows.
@@ -220,7 +243,7 @@ TEST_P(InspectTest, WhatAFrameHasNotIsSaidAndGrey) {
   const Scene scene = load_or_die(source_path("scenes/two-lights"));
   look_at(scene, settings_for(scene, by({{"mode", "raster"}})), [&](Frame& frame) {
     const Image<std::uint32_t>& ids = frame.slot().ids;
-    for (const BufferView what : {BufferView::mask, BufferView::reflection, BufferView::age}) {
+    for (const BufferView what : {BufferView::mask, BufferView::reflection, BufferView::delay}) {
       EXPECT_NE(missing(what, 0, frame.request().settings), "");
       const Image<glm::vec4> picture = view(frame, what);
       for (std::size_t i = 0; i < picture.pixels().size(); ++i)

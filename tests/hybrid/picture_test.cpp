@@ -224,7 +224,7 @@ TEST(Textures, LookTheSameOnBothSides) {
     t = glm::u8vec4(random.next() % 256, random.next() % 256, random.next() % 256, 255);
   MeshData mesh = *scene.mesh;
   mesh.textures = {texture, texture};
-  mesh.materials[0].diffuse_texture = 1;
+  make_maps(mesh, mesh.materials[0]).base_color.texture = 1;
   for (const glm::vec3& p : mesh.positions) mesh.texcoords.emplace_back(0.37f * p.x, -0.53f * p.z);
   scene.mesh = std::make_shared<const Mesh>(std::move(mesh));
   compare_modes(scene, "textured plate");

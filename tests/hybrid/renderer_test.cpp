@@ -290,21 +290,20 @@ TEST_P(RendererTest, SinksMayBeLeftOut) {
 }
 
 // A window's: nothing is begun while the CPU draws by itself, nothing is lost, and the order stays.
-TEST_P(RendererTest, TryingNeverWaitsForTheCpuAlone) {
+TEST_P(RendererTest, TryingNeverWaitsForTheCpu) {
   const Scene scene = load_or_die(source_path("scenes/cornell"));
   const FrameRequest alone = request(scene, settings_for(scene, by({{"mode", "raytrace"}})), {160, 120}),
                      hybrid = request(scene, settings_for(scene), {160, 120});
-  EXPECT_FALSE(renderer_->is_drawing_alone());
+  EXPECT_FALSE(renderer_->is_tracing());
   const FrameRequest first = next(alone);
   ASSERT_TRUE(renderer_->try_submit(first));
-  EXPECT_TRUE(renderer_->is_drawing_alone());
+  EXPECT_TRUE(renderer_->is_tracing());
   EXPECT_TRUE(deliveries_.empty());
   const FrameRequest second = next(alone);
   EXPECT_GT(until_taken(second), 0);
   EXPECT_EQ(deliveries_.size(), 1u);
   until_taken(next(hybrid));
   EXPECT_EQ(deliveries_.size(), 2u);
-  EXPECT_FALSE(renderer_->is_drawing_alone());
   until_taken(next(alone));
   EXPECT_EQ(deliveries_.size(), 3u);  // what was in flight
   renderer_->submit(next(hybrid));    // who waits

@@ -39,6 +39,23 @@ TEST(Resolve, ModelsWhatTheSceneNeeds) {
   EXPECT_FALSE(settings_for(scene_with(4, 0, true), by_mode("raster")).traces());
 }
 
+// --mode auto: no OpenGL where it would run on the tracer's cores, unless other settings need it.
+TEST(Resolve, AutoDrawsWhereItIsFaster) {
+  const SceneStats stats = analyze(scene_with(1, 0, true));
+  const Settings automatic = by_mode("auto");
+  EXPECT_FALSE(resolve(automatic, stats, {.software_gl = true})->uses_gpu());
+  const Settings on_gpu = resolve(automatic, stats, {.software_gl = false}).value();
+  EXPECT_EQ(on_gpu.visibility, Processor::gpu);
+  EXPECT_EQ(on_gpu.composite, Processor::gpu);
+  EXPECT_TRUE(resolve(by_mode("hybrid"), stats, {.software_gl = true})->uses_gpu());
+  Settings given = automatic;
+  given.composite = Processor::gpu;
+  EXPECT_EQ(resolve(given, stats, {.software_gl = true})->composite, Processor::gpu);
+  Settings coarse = automatic;
+  coarse.mask_scale = 2;  // for what travels to the GPU
+  EXPECT_TRUE(resolve(coarse, stats, {.software_gl = true})->uses_gpu());
+}
+
 TEST(Resolve, AMaterialThatNoTriangleHasIsNotNeeded) {
   Scene scene = scene_with(1, 0, false);
   MeshEdit(scene)->materials.emplace_back().reflectance = glm::vec3(1.0f);

@@ -29,7 +29,7 @@ inline glm::vec3 sum_of_lights(const std::vector<ShadedLight>& lights, const Sur
     if (light.slot >= 0 && !(bits >> light.slot & 1u)) continue;
     const shared::Incident incident = shared::incident_light(light.params, s.p_world);
     if (!shared::faces_light(s.n_shading, s.n_geometric, incident.to_light)) continue;
-    sum += shared::phong_light(s.phong, incident, s.n_shading, s.to_viewer);
+    sum += shared::phong_light(s.material.phong, incident, s.n_shading, s.to_viewer);
   }
   return sum;
 }
@@ -44,7 +44,8 @@ void for_each_surface(const TraceJob& job, const Image<std::uint32_t>& ids, cons
       const std::size_t pixel = ids.index(x, y);
       if (ids[pixel] == kNoTriangle) return;
       const Ray ray = pixel_ray(job.view, x, y);
-      shade_pixel(pixel, surface_at(job.tracer.mesh(), ids[pixel], ray.origin, ray.direction),
+      shade_pixel(pixel, surface_at(job.tracer.mesh(), ids[pixel], ray.origin, ray.direction, {},
+                             job.filter_textures ? Footprint::of_camera(job.view) : Footprint{}),
                   mask.get(x, y));
     });
   });
@@ -59,7 +60,7 @@ inline void shade(const TraceJob& job, const Image<std::uint32_t>& ids, const Ma
   const std::vector<ShadedLight> lights = shaded_lights(job.scene);
   for_each_surface(job, ids, mask, [&](std::size_t pixel, const SurfaceInteraction& surface, unsigned bits) {
     glm::vec3 sum =
-        shared::phong_ambient(surface.phong, job.scene.ambient_light) + sum_of_lights(lights, surface, bits);
+        shared::phong_ambient(surface.material.phong, job.scene.ambient_light) + sum_of_lights(lights, surface, bits);
     if (!reflection.empty()) sum += reflection[pixel];
     color[pixel] = glm::vec4(sum, 1.0f);
   });

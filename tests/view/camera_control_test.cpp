@@ -15,7 +15,7 @@ CameraControl control_at(const glm::vec3& eye, const glm::vec3& target) {
   Bounds bounds;
   bounds.add(glm::vec3(-1.0f));
   bounds.add(glm::vec3(1.0f));
-  control.set_scene(bounds);
+  control.set_scene(bounds, bounds);
   control.set_camera({"", eye, target, {0, 1, 0}, 45.0f});
   return control;
 }

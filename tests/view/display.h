@@ -13,6 +13,7 @@
 #include <cmath>
 #include <fstream>
 #include <optional>
+#include <sstream>
 #include <string>
 #include <thread>
 #include <vector>
@@ -90,6 +91,16 @@ class Process {
     if (!becomes([this] { return !running(); }, seconds)) return -2;
     return WIFEXITED(*status_) ? WEXITSTATUS(*status_) : -1;
   }
+  // Of all processors, since it began.
+  [[nodiscard]] double cpu_s() const {
+    const std::string stat = text_of("/proc/" + std::to_string(id_) + "/stat");
+    std::istringstream rest(stat.substr(stat.rfind(')') + 2));
+    std::string skipped;
+    for (int field = 3; field < 14; ++field) rest >> skipped;  // proc(5): utime is the 14th
+    double user = 0.0, system = 0.0;
+    rest >> user >> system;
+    return (user + system) / static_cast<double>(sysconf(_SC_CLK_TCK));
+  }
   // Resident memory, MB.
   [[nodiscard]] double memory_mb() const {
     std::ifstream in("/proc/" + std::to_string(id_) + "/statm");
@@ -126,22 +137,39 @@ class WindowTest : public testing::Test {
     std::filesystem::remove_all(folder_);
   }
 
-  // The program in a window of 320x240 with the scene on it and the overlay hidden.
-  void open(const std::string& scene, const std::string& options = "",
-            const std::vector<std::string>& environment = {}) {
-    std::vector<std::string> command{PINOCCHIO_PROGRAM, "view", scene, "--size", "320x240"};
-    for (std::size_t at = 0, end = 0; at < options.size(); at = end + 1) {
-      end = std::min(options.find(' ', at), options.size());
-      command.push_back(options.substr(at, end - at));
-    }
-    std::vector<std::string> all{"DISPLAY=" + display_, "PINOCCHIO_GL_DEBUG=1", "LP_NUM_THREADS=2"};
+  // A program with a window; what windows remember is the test's own.
+  void start(const std::vector<std::string>& command, const std::vector<std::string>& environment = {}) {
+    std::vector<std::string> all{"DISPLAY=" + display_, "PINOCCHIO_GL_DEBUG=1", "LP_NUM_THREADS=2",
+                                 "XDG_CONFIG_HOME=" + (folder_ / "config").string()};
     all.insert(all.end(), environment.begin(), environment.end());
     program_.emplace(command, folder_, all, folder_ / "out.txt", folder_ / "err.txt");
     ASSERT_TRUE(becomes([this] { return !xdo("search --onlyvisible --name Pinocchio").empty(); }))
         << errors();
     window_ = xdo("search --onlyvisible --name Pinocchio");
     window_ = window_.substr(0, window_.find('\n'));
-    // The window manager may give the focus to it, and take it away, until it is settled.
+  }
+
+  // The same with the scene on it as a person meets it: nothing hidden.
+  void open_as_is(const std::string& scene, const std::string& size = "800x600", const std::string& options = "",
+                  const std::vector<std::string>& environment = {}) {
+    std::vector<std::string> command{PINOCCHIO_PROGRAM, "view", scene, "--size", size};
+    for (const std::string& word : words_of(options)) command.push_back(word);
+    start(command, environment);
+    wait_for_keys();
+  }
+
+  // The program in a window of 320x240 with the scene on it and the overlay hidden.
+  void open(const std::string& scene, const std::string& options = "",
+            const std::vector<std::string>& environment = {}) {
+    std::vector<std::string> command{PINOCCHIO_PROGRAM, "view", scene, "--size", "320x240"};
+    for (const std::string& word : words_of(options)) command.push_back(word);
+    start(command, environment);
+    wait_for_keys();
+    key("h");
+  }
+
+  // The window manager may give the focus to it, and take it away, until it is settled.
+  void wait_for_keys() {
     ASSERT_TRUE(becomes([this] {
       xdo("windowfocus --sync " + window_);
       key("p");
@@ -149,7 +177,15 @@ class WindowTest : public testing::Test {
       return text_of(folder_ / "out.txt").find("pinocchio render") != std::string::npos;
     })) << errors();
     pause_ms(400);  // what a second P prints is not taken for a later one's
-    key("h");
+  }
+
+  static std::vector<std::string> words_of(const std::string& text) {
+    std::vector<std::string> words;
+    for (std::size_t at = 0, end = 0; at < text.size(); at = end + 1) {
+      end = std::min(text.find(' ', at), text.size());
+      words.push_back(text.substr(at, end - at));
+    }
+    return words;
   }
 
   std::string xdo(const std::string& arguments) const {

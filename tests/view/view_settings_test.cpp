@@ -116,7 +116,7 @@ TEST(ViewSettings, FewerAndMorePixelsMeetWholeSize) {
 TEST(ViewSettings, EveryBufferComesAndEachMaskSlot) {
   ViewSettings settings;
   std::set<std::pair<BufferView, int>> seen;
-  for (int i = 0; i < 8; ++i) {
+  for (std::size_t i = 0; i < kBufferViewNames.size() + 2; ++i) {
     seen.insert({settings.buffer, settings.mask_slot});
     next_buffer(settings, 3);
   }

@@ -122,7 +122,7 @@ TEST_F(WindowTest, GatheringStopsAtTheSamplesThatWereAskedFor) {
 TEST_F(WindowTest, ADraggedLightIsInAFileThatTheCommandDraws) {
   open(scene("cornell"), "--eye 0,1,3.4 --target 0,1,0 --light 0,1,0,0.5 --mode raster");
   EXPECT_NE(command_line().find("--light 0,1,0,0.5,cast"), std::string::npos);
-  key("h");
+  key("h F5");
   xdo("windowsize --sync " + window_ + " 400 400");
   pause_ms(500);
   const std::string to = "mousemove --window " + window_ + " ";
@@ -147,7 +147,10 @@ TEST_F(WindowTest, EveryKey) {
   key("v v v v v v v x x x b b b");
   EXPECT_TRUE(program_->running()) << errors();
   EXPECT_FALSE(command_line().empty()) << errors();
-  key("Escape");
+  EXPECT_TRUE(becomes([this] {  // what is open is closed first
+    key("Escape");
+    return program_->wait(0.5) != -2;
+  }));
   EXPECT_EQ(program_->wait(), 0) << errors();
   EXPECT_EQ(errors(), "");
 }

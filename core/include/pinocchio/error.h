@@ -17,7 +17,7 @@ struct InputError {
 
   [[nodiscard]] std::string message() const {
     std::string text = file;
-    if (line > 0) text += ":" + std::to_string(line);
+    if (line > 0) text.append(":").append(std::to_string(line));
     if (!text.empty()) text += ": ";
     text += what;
     if (!remedy.empty()) text += "; " + remedy;

@@ -37,7 +37,14 @@ enum class ExrCompression {
 };
 inline constexpr std::array<std::string_view, 5> kExrCompressionNames{"zip", "zips", "piz", "rle", "none"};
 
-using ExrAttribute = std::variant<std::string, float, glm::mat4>;
+struct ExrRational {
+  int numerator = 0;
+  int denominator = 1;
+
+  friend bool operator==(const ExrRational&, const ExrRational&) = default;
+};
+
+using ExrAttribute = std::variant<std::string, float, glm::mat4, int, ExrRational>;
 
 struct ExrFile {
   glm::ivec2 display_size{0, 0};  // displayWindow: (0, 0) to this

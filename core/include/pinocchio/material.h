@@ -17,7 +17,9 @@ struct Material {
   float ior = 1.0f;               // of the inside against the outside
   bool fresnel = false;           // opaque: reflectance rises to 1 at grazing angles (Schlick 1994)
   glm::vec3 emission{0.0f};
-  int diffuse_texture = -1;  // index in MeshData::textures, its colour multiplies ambient and diffuse
+  // Index in MeshData::maps: what textures, vertex colours and alpha change of it; -1: nothing. What stands
+  // here is then the most that they make of reflectance and transmittance.
+  int maps = -1;
 
   [[nodiscard]] bool reflects() const { return reflectance.x + reflectance.y + reflectance.z > 0.0f; }
   [[nodiscard]] bool transmits() const { return transmittance.x + transmittance.y + transmittance.z > 0.0f; }

@@ -10,6 +10,7 @@
 #include "pinocchio/camera.h"
 #include "pinocchio/light.h"
 #include "pinocchio/mesh.h"
+#include "pinocchio/nodes.h"
 
 namespace pinocchio {
 
@@ -23,6 +24,7 @@ struct Scene {
   std::vector<Light> lights;
   std::vector<Camera> cameras;
   glm::vec3 ambient_light{0.1f};  // Ia; no file format we read carries it
+  std::shared_ptr<const NodeTree> nodes;  // of what can be moved; null: nothing can
 
   std::string source;                     // path it was loaded from
   std::vector<std::string> source_files;  // that path and all files it names, also those that are missing

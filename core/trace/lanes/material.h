@@ -16,7 +16,8 @@ struct LaneMaterial {
   Float shininess{0.0f};
   Vec reflectance{Float(0.0f)}, transmittance{Float(0.0f)};
   Float ior{1.0f};
-  unsigned fresnel = 0, reflects = 0, transmits = 0, textured = 0;  // lanes
+  Float alpha{1.0f};
+  unsigned fresnel = 0, reflects = 0, transmits = 0, mapped = 0, blends = 0;  // lanes
 
   LaneMaterial(const SceneArrays& scene, Int materials, Mask lanes) {
     for_each_distinct(materials, lanes, [&](std::uint32_t index, Mask same) {
@@ -33,33 +34,8 @@ struct LaneMaterial {
       if (m.fresnel) fresnel |= bits;
       if (any_component(m.reflectance)) reflects |= bits;
       if (any_component(m.transmittance)) transmits |= bits;
-      if (m.diffuse_texture >= 0 && scene.texcoords) textured |= bits;
+      if (m.maps >= 0) mapped |= bits;
     });
-  }
-
-  // Multiplies in the textures of the lanes that have one, lane by lane.
-  [[gnu::noinline]] void apply_textures(const SceneArrays& scene, Int triangles, Int materials,
-                                        const Vec& weights) {
-    alignas(64) std::uint32_t triangle[kWidth], material[kWidth];
-    alignas(64) float w[3][kWidth], color[3][kWidth];
-    triangles.store(triangle);
-    materials.store(material);
-    weights.x.store(w[0]);
-    weights.y.store(w[1]);
-    weights.z.store(w[2]);
-    for (unsigned lane = 0; lane < kWidth; ++lane) {
-      glm::vec3 texel;
-      texel.x = texel.y = texel.z = 1.0f;
-      if (textured >> lane & 1u)
-        texel = texture_color(scene, triangle[lane], scene.materials[material[lane]].diffuse_texture,
-                              {w[0][lane], w[1][lane], w[2][lane]});
-      color[0][lane] = texel.x;
-      color[1][lane] = texel.y;
-      color[2][lane] = texel.z;
-    }
-    const Vec factor(Float::load(color[0]), Float::load(color[1]), Float::load(color[2]));
-    ambient = ambient * factor;
-    diffuse = diffuse * factor;
   }
 };
 

@@ -42,7 +42,7 @@ inline Float exp2_of(const Double& x) {
   return to_float(sum * low_bits_to_exponent(shifted));
 }
 
-// x^y for x > 0 and any y, within 0.51 units in the last place (tests/core/lane_steps_test.cpp holds it
+// x^y for x > 0 and any y, within 0.51 units in the last place (tests/core/trace_tiles_test.cpp holds it
 // against libm): the same bits at every width and on every machine.
 inline Float power(Float x, Float y) {
   return exp2_of(Double(y) * log2_of(x));

@@ -61,17 +61,28 @@ inline void append(const Vec& origin, const Vec& direction, const Vec& light, In
 inline void follow(const LaneSurface& s, const Vec& direction, const Vec& throughput, Int pixel, Mask lanes,
                    float least, RayQueue& queue) {
   const Mask worth = lanes & ~(largest(throughput) < Float(least));
-  if (worth.bits() != 0) append(offset_origin(s, direction), direction, throughput, pixel, worth, queue);
+  if (worth.bits() == 0) return;
+  if (queue.width) store_packed(queue.width + queue.size, s.width, worth);
+  append(offset_origin(s, direction), direction, throughput, pixel, worth, queue);
+}
+
+// What a surface that blends leaves of what is behind it.
+inline void go_straight_on(const LaneSurface& s, const LaneMaterial& m, const Vec& throughput, Int pixel,
+                           Mask lanes, const Bounce& bounce) {
+  follow(s, -s.to_viewer, throughput * (Float(1.0f) - m.alpha), pixel, lanes & Mask::from_bits(m.blends),
+         bounce.throughput_cutoff, *bounce.straight);
 }
 
 inline void scatter(const LaneSurface& s, const LaneMaterial& m, const Vec& throughput, Int pixel, Mask lanes,
                     const Bounce& bounce) {
   const unsigned alive = lanes.bits(), glass = m.transmits & alive,
                  opaque = m.reflects & ~m.transmits & alive;
+  if ((m.blends & alive) != 0) go_straight_on(s, m, throughput, pixel, lanes, bounce);
   if ((glass | opaque) == 0) return;
   const Float zero(0.0f), one(1.0f);
   const Float cos_in = clamp(dot(s.n_shading, s.to_viewer), 0.0f, 1.0f);
-  Vec mirror_share(zero);
+  Vec mirror_share(zero), own = throughput;
+  if (m.blends != 0) own = own * m.alpha;
   if (opaque != 0) {
     // Schlick 1994: (1 - cos)^5.
     const Float c = one - cos_in, c2 = c * c;
@@ -84,10 +95,10 @@ inline void scatter(const LaneSurface& s, const LaneMaterial& m, const Vec& thro
     // Where the two normals disagree there may be no way through although Fresnel has a share for it.
     const Float share = select(is_dark(through), one, fresnel_dielectric(cos_in, eta));
     mirror_share = select(Mask::from_bits(glass), Vec(share), mirror_share);
-    follow(s, through, throughput * (one - share) * m.transmittance, pixel, Mask::from_bits(glass),
+    follow(s, through, own * (one - share) * m.transmittance, pixel, Mask::from_bits(glass),
            bounce.throughput_cutoff, *bounce.refracted);
   }
-  follow(s, mirrored(s), throughput * mirror_share, pixel, Mask::from_bits(glass | opaque),
+  follow(s, mirrored(s), own * mirror_share, pixel, Mask::from_bits(glass | opaque),
          bounce.throughput_cutoff, *bounce.mirrored);
 }
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "core/trace/lanes/light.h"
+#include "core/trace/lanes/maps.h"
 #include "core/trace/lanes/scatter.h"
 
 namespace pinocchio::PINOCCHIO_LANES {
@@ -36,6 +37,7 @@ void keep_hits(RayQueue& rays) {
         for (int axis = 0; axis < 3; ++axis)
           store_packed(columns[axis] + kept, Float::load(columns[axis] + i), hits);
       store_packed(rays.pixel + kept, Int::load(rays.pixel + i), hits);
+      if (rays.width) store_packed(rays.width + kept, Float::load(rays.width + i), hits);
       store_packed(rays.triangle + kept, triangle, hits);
     }
     kept += static_cast<std::size_t>(__builtin_popcount(bits));
@@ -106,22 +108,29 @@ inline void prefetch_corners(const SceneArrays& scene, const RayQueue& rays, std
 }
 
 void bounce_rays(const Bounce& bounce, const RayQueue& rays) {
-  const bool reads_material =
-      bounce.adds_light || bounce.adds_ambient || bounce.mirrored || bounce.light_cutoff > 0.0f;
-  const bool reads_texture = bounce.adds_light || bounce.adds_ambient || bounce.light_cutoff > 0.0f;
+  const bool reads_material = bounce.adds_light || bounce.adds_ambient || bounce.mirrored ||
+                              bounce.light_cutoff > 0.0f || bounce.scene.mesh != nullptr;
   for (std::size_t i = 0; i < rays.size; i += kWidth) {
     prefetch_corners(bounce.scene, rays, i);
     const Mask lanes = lanes_from(i, rays.size);
     const Int triangle = Int::load(rays.triangle + i), pixel = Int::load(rays.pixel + i);
     const Corners corners(bounce.scene, triangle, lanes);
-    const LaneSurface s =
-        surface_of(corners, Vec::load(rays.origin, i), Vec::load(rays.direction, i), bounce.offset);
+    const Vec origin = Vec::load(rays.origin, i), direction = Vec::load(rays.direction, i);
+    LaneSurface s = surface_of(corners, origin, direction, bounce.offset);
     LaneMaterial m(bounce.scene, corners.material, reads_material ? lanes : Mask::from_bits(0));
-    if (reads_texture && m.textured != 0)
-      m.apply_textures(bounce.scene, triangle, corners.material, s.weights);
+    s.width = Float(0.0f);
+    if (bounce.footprint->angle > 0.0f) {
+      const Float before = bounce.visible ? Float(0.0f) : Float::load(rays.width + i);
+      const Vec way = s.p_world - origin;
+      s.width = before + Float(bounce.footprint->angle) * sqrt(dot(way, way));
+      if (m.mapped != 0) apply_maps(bounce, triangle, origin, direction, before, s, m);
+    } else if (m.mapped != 0) {
+      apply_maps(bounce, triangle, origin, direction, s.width, s, m);
+    }
     const Vec throughput = bounce.visible ? Vec(Float(1.0f)) : Vec::load(rays.light, i);
-    const Vec certain = light_points(bounce, s, m, throughput, pixel, lanes);
-    if (bounce.adds_light) add_light(throughput * certain, rays.pixel + i, lanes, bounce.radiance);
+    const Vec own = m.blends != 0 ? throughput * m.alpha : throughput;
+    const Vec certain = light_points(bounce, s, m, own, pixel, lanes);
+    if (bounce.adds_light) add_light(own * certain, rays.pixel + i, lanes, bounce.radiance);
     if (bounce.mirrored) scatter(s, m, throughput, pixel, lanes, bounce);
   }
 }

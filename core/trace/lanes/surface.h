@@ -35,6 +35,7 @@ struct LaneSurface {
   Vec to_viewer;    // unit
   Mask leaving;     // the ray met the surface from behind
   Float offset;     // how far off the surface a new ray starts
+  Float width;      // of the ray's cone there, where textures are filtered
 };
 
 inline Vec barycentric_of(const Vec& origin, const Vec& direction, const Vec& a, const Vec& ab,

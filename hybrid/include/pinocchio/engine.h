@@ -65,6 +65,10 @@ class Engine {
   [[nodiscard]] Workers& workers(int threads = 0) const;
   // Opens the OpenGL context now, where settings would need it later. Throws NoOpenGlError.
   void open_gl() const;
+  // What resolve() asks of the machine: whether OpenGL runs on the tracer's own cores, where settings use it.
+  // Opens the context to know, but for settings by_machine where EGL lists no hardware: then it is not needed.
+  // Throws NoOpenGlError; with by_machine, no OpenGL is a software one.
+  [[nodiscard]] bool gl_is_software(const Settings& settings) const;
   // Of the context; null while none is open.
   [[nodiscard]] const gl::ContextInfo* gl_info() const;
   // With gl_debug: throws what the driver complained about.

@@ -16,6 +16,7 @@
 #include "pinocchio/ray_counts.h"
 #include "pinocchio/scene.h"
 #include "pinocchio/settings.h"
+#include "pinocchio/surface_images.h"
 #include "pinocchio/view.h"
 
 namespace pinocchio {
@@ -83,15 +84,26 @@ struct FrameResult {
   std::size_t holes = 0;        // reprojected: pixels that no older frame had an answer for
 };
 
+// What the frame's visible points are like, from its ids.
+[[nodiscard]] SurfaceImages surfaces_of(const FrameResult& frame);
+
+// Its shadow mask, a byte a pixel whatever its bits; `to` has room for all.
+void unpack_mask(const FrameResult& frame, std::uint8_t* to);
+
 struct ExrOptions {
   std::string layers = "all";  // or "none", or some of Z, P, N, Albedo, id, shadow, reflection with commas between
   ExrCompression compression = ExrCompression::zip;
   std::optional<double> render_s{};  // what it took, for its header
+  // For its header, too: which frame of an animation it is, and how many there are a second.
+  int frame = 0;
+  int frames_per_second = 24;
 };
 
 // The picture with its layers and attributes, one part, scene-linear. Whole or not at all; throws
 // EnvironmentError where it cannot be written. Source: OpenEXR's standard attributes. Phase "write".
 void write_exr(const std::filesystem::path& file, const FrameResult& frame, const ExrOptions& options = {},
                Progress* progress = nullptr);
+// The header that it would get, and its channels without values: for those who look whether a file is this frame's.
+[[nodiscard]] ExrFile exr_header(const FrameResult& frame, const ExrOptions& options = {});
 
 }  // namespace pinocchio

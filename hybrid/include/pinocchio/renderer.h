@@ -76,11 +76,14 @@ class Renderer {
   // What went wrong on the tracing thread is thrown when that frame would have been delivered; the frame is
   // lost, the others are not. Throws EnvironmentError where there is no OpenGL (NoOpenGlError), or its context is lost.
   void submit(const FrameRequest& request);
-  // The same for a window, which never waits for the CPU alone: false, and nothing begun, while the CPU is
-  // still drawing the frame before by itself.
+  // The same for a window, which never waits for the CPU: delivers what is done, and begins the frame where
+  // the CPU is not behind. False: it is not begun; try again with what is wanted then.
   bool try_submit(const FrameRequest& request);
-  // Whether the CPU is drawing a frame by itself that try_submit began.
-  [[nodiscard]] bool is_drawing_alone() const;
+  // Delivers what is done of the frames in flight, and gives the CPU the next of them, without waiting for it.
+  // True: none is left.
+  bool advance();
+  // Whether the CPU is at work on a frame.
+  [[nodiscard]] bool is_tracing() const;
   // Delivers every frame that is still in flight.
   void drain();
 

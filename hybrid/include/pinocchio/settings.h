@@ -63,6 +63,7 @@ struct Setting {
 struct Settings {
   Setting<Processor> visibility = Setting<Processor>::by_default(Processor::gpu);
   Setting<Processor> composite = Setting<Processor>::by_default(Processor::gpu);
+  Setting<bool> by_machine;
   Setting<Exchange> exchange;
   Setting<int> spp = Setting<int>::by_default(1);
   Setting<int> depth = Setting<int>::by_default(8);
@@ -75,6 +76,7 @@ struct Settings {
   Setting<bool> normals, wide;
   Setting<float> throughput_cutoff = Setting<float>::by_default(kThroughputCutoff);
   Setting<float> light_cutoff;
+  Setting<bool> filter_textures = Setting<bool>::by_default(true);
   Setting<bool> reuse = Setting<bool>::by_default(true);
   Setting<bool> persistent;
   Setting<int> threads;

@@ -1,0 +1,153 @@
+// A frame as Embree's tutorials draw it: tiles of 8 x 8 pixels shared out among threads; for each pixel one ray at a
+// time, its shading, a shadow ray to each light. scripts/peers runs it.
+// pinocchio-embree-frame JOB.json: prints {"frame_ms": [...]}
+#include <embree3/rtcore.h>
+#include <pmmintrin.h>
+#include <xmmintrin.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <fstream>
+#include <nlohmann/json.hpp>
+
+#include "core/base/clock.h"
+#include "core/parallel/workers.h"
+#include "core/trace/view_params.h"
+#include "pinocchio/image.h"
+#include "pinocchio/load.h"
+
+namespace pinocchio {
+namespace {
+
+constexpr int kTile = 8;  // pixels a side
+constexpr float kOffset = 1e-3f;
+constexpr float kDiffuse = 0.8f, kSpecular = 0.2f, kShininess = 32.0f;
+
+struct Job {
+  Scene scene;
+  Camera camera;
+  std::vector<glm::vec3> lights;
+  glm::ivec2 size{};
+  int threads = 0, frames = 0;
+};
+
+glm::vec3 vec3_of(const nlohmann::json& json) {
+  return {json.at(0).get<float>(), json.at(1).get<float>(), json.at(2).get<float>()};
+}
+
+Job read_job(const char* file) {
+  std::ifstream in(file);
+  const nlohmann::json json = nlohmann::json::parse(in);
+  Job job;
+  job.scene = load_scene(json.at("mesh").get<std::string>()).value();
+  job.camera.eye = vec3_of(json.at("eye"));
+  job.camera.target = vec3_of(json.at("target"));
+  job.camera.fov_deg = json.at("fov").get<float>();
+  for (const nlohmann::json& light : json.at("lights")) job.lights.push_back(vec3_of(light));
+  job.size = {json.at("size").at(0).get<int>(), json.at("size").at(1).get<int>()};
+  job.threads = json.at("threads").get<int>();
+  job.frames = json.at("frames").get<int>();
+  return job;
+}
+
+RTCScene build(RTCDevice device, const Mesh& mesh) {
+  RTCGeometry geometry = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_TRIANGLE);
+  auto* const positions = static_cast<glm::vec3*>(rtcSetNewGeometryBuffer(
+      geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, sizeof(glm::vec3), mesh.positions.size()));
+  std::copy(mesh.positions.begin(), mesh.positions.end(), positions);
+  auto* const triangles = static_cast<glm::uvec3*>(rtcSetNewGeometryBuffer(
+      geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, sizeof(glm::uvec3), mesh.triangles.size()));
+  std::copy(mesh.triangles.begin(), mesh.triangles.end(), triangles);
+  rtcCommitGeometry(geometry);
+  RTCScene scene = rtcNewScene(device);
+  rtcAttachGeometry(scene, geometry);
+  rtcReleaseGeometry(geometry);
+  rtcCommitScene(scene);
+  return scene;
+}
+
+RTCRay ray_from(const glm::vec3& p, const glm::vec3& d, float t_far) {
+  RTCRay ray{};
+  ray.org_x = p.x, ray.org_y = p.y, ray.org_z = p.z;
+  ray.dir_x = d.x, ray.dir_y = d.y, ray.dir_z = d.z;
+  ray.tfar = t_far;
+  ray.mask = ~0u;
+  return ray;
+}
+
+glm::vec4 shade_pixel(RTCScene scene, const Job& job, const shared::ViewParams& view, int x, int y) {
+  RTCIntersectContext context;
+  rtcInitIntersectContext(&context);
+  const Ray eye_ray = pixel_ray(view, x, y);
+  RTCRayHit seen{ray_from(eye_ray.origin, eye_ray.direction, kInfinity), {}};
+  seen.hit.geomID = RTC_INVALID_GEOMETRY_ID;
+  rtcIntersect1(scene, &context, &seen);
+  if (seen.hit.geomID == RTC_INVALID_GEOMETRY_ID) return glm::vec4(0.0f);
+  const glm::vec3 to_eye = -glm::normalize(eye_ray.direction);
+  const glm::vec3 p = eye_ray.origin + seen.ray.tfar * eye_ray.direction;
+  glm::vec3 n = glm::normalize(glm::vec3(seen.hit.Ng_x, seen.hit.Ng_y, seen.hit.Ng_z));
+  if (glm::dot(n, to_eye) < 0.0f) n = -n;
+  float light_sum = 0.0f;
+  for (const glm::vec3& light : job.lights) {
+    const glm::vec3 to_light = light - p, l = glm::normalize(to_light);
+    if (glm::dot(n, l) <= 0.0f) continue;
+    RTCRay shadow = ray_from(p, to_light, 1.0f);
+    shadow.tnear = kOffset;
+    rtcOccluded1(scene, &context, &shadow);
+    if (shadow.tfar < 0.0f) continue;
+    const float highlight = std::max(glm::dot(glm::reflect(-l, n), to_eye), 0.0f);
+    light_sum += kDiffuse * glm::dot(n, l) + kSpecular * std::pow(highlight, kShininess);
+  }
+  return {light_sum, light_sum, light_sum, 1.0f};
+}
+
+void draw(RTCScene scene, const Job& job, Workers& workers, Image<glm::vec4>& picture) {
+  const shared::ViewParams view = view_params(job.camera, job.size);
+  const glm::ivec2 tiles = (job.size + kTile - 1) / kTile;
+  workers.for_each(static_cast<std::size_t>(tiles.x) * static_cast<std::size_t>(tiles.y), [&](std::size_t i) {
+    const int tile = static_cast<int>(i), x0 = tile % tiles.x * kTile, y0 = tile / tiles.x * kTile;
+    for (int y = y0; y < std::min(y0 + kTile, job.size.y); ++y)
+      for (int x = x0; x < std::min(x0 + kTile, job.size.x); ++x)
+        picture.at(x, y) = shade_pixel(scene, job, view, x, y);
+  });
+}
+
+int run(const char* job_file) {
+  _MM_SET_FLUSH_ZERO_MODE(_MM_FLUSH_ZERO_ON);
+  _MM_SET_DENORMALS_ZERO_MODE(_MM_DENORMALS_ZERO_ON);
+  const Job job = read_job(job_file);
+  RTCDevice device = rtcNewDevice(("threads=" + std::to_string(job.threads)).c_str());
+  RTCScene scene = build(device, *job.scene.mesh);
+  Workers workers(job.threads);
+  Image<glm::vec4> picture(job.size);
+  nlohmann::json frame_ms = nlohmann::json::array();
+  for (int i = 0; i < job.frames; ++i) {
+    const double begin_s = now_s();
+    draw(scene, job, workers, picture);
+    frame_ms.push_back(1e3 * (now_s() - begin_s));
+  }
+  double mean = 0.0;
+  for (const glm::vec4& pixel : picture.pixels()) mean += static_cast<double>(pixel.r);
+  mean /= static_cast<double>(picture.pixels().size());
+  std::printf("%s\n", nlohmann::json{{"frame_ms", frame_ms}, {"mean", mean}}.dump().c_str());
+  rtcReleaseScene(scene);
+  rtcReleaseDevice(device);
+  return 0;
+}
+
+}  // namespace
+}  // namespace pinocchio
+
+int main(int argc, char** argv) {
+  if (argc != 2) {
+    std::fprintf(stderr, "usage: pinocchio-embree-frame JOB.json\n");
+    return 2;
+  }
+  try {
+    return pinocchio::run(argv[1]);
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "pinocchio-embree-frame: %s\n", error.what());
+    return 1;
+  }
+}

@@ -1,0 +1,24 @@
+#pragma once
+
+#include <glm/glm.hpp>
+
+#include "pinocchio/error.h"
+#include "pinocchio/image.h"
+
+namespace pinocchio {
+
+// How far a picture is from its reference, in figures and as it seems to a person.
+struct PictureDifference {
+  double rmse = 0.0, relative_mse = 0.0;  // relative: mean of (a - b)^2 / (b^2 + 0.01)
+  double psnr_db = 0.0;                   // peak 1, of the values clamped to [0, 1]; +inf where those are equal
+  double max = 0.0;                       // largest |a - b|
+  double flip = 0.0;                      // mean LDR-FLIP
+  Image<float> flip_errors;               // each pixel's, in [0, 1]
+};
+
+// Linear RGB of the same size, finite; pixels_per_degree: of visual angle, 1 to 1000. Any thread.
+[[nodiscard]] Expected<PictureDifference> compare_pictures(const Image<glm::vec3>& picture,
+                                                           const Image<glm::vec3>& reference,
+                                                           float pixels_per_degree = 67.0f, int threads = 0);
+
+}  // namespace pinocchio

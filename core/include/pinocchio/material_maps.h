@@ -1,0 +1,61 @@
+#pragma once
+
+#include <cstdint>
+#include <glm/glm.hpp>
+
+#include "pinocchio/texture.h"
+
+namespace pinocchio {
+
+// What glTF 2.0 says of a surface; names and defaults as in the specification and its extensions.
+struct GltfSurface {
+  glm::vec3 base_color{1.0f};
+  float metallic = 1.0f;
+  float roughness = 1.0f;
+  glm::vec3 emissive{0.0f};  // emissiveFactor times KHR_materials_emissive_strength
+  float ior = 1.5f;          // KHR_materials_ior
+  float specular = 1.0f;     // KHR_materials_specular
+  glm::vec3 specular_color{1.0f};
+  float transmission = 0.0f;  // KHR_materials_transmission
+  bool volume = false;        // KHR_materials_volume with a thickness: it refracts
+  bool unlit = false;         // KHR_materials_unlit
+
+  friend bool operator==(const GltfSurface&, const GltfSurface&) = default;
+};
+
+// What alpha does: nothing; a hole where it is below alpha_cutoff; or the surface counts by its alpha, and
+// what a ray sees that goes straight on by the rest.
+enum class AlphaMode : std::uint8_t { opaque, mask, blend };
+
+// What of a material textures, vertex colours and alpha change from point to point.
+struct MaterialMaps {
+  TextureUse base_color;          // sRGB; multiplies `surface.base_color`, or the material's ambient and diffuse
+  TextureUse metallic_roughness;  // G: roughness, B: metallic; from_gltf only
+  TextureUse normal;              // tangent space, 2 c - 1; X along u, Y against v
+  TextureUse occlusion;           // R; multiplies ambient light
+  TextureUse emissive;            // sRGB; multiplies emission
+  TextureUse alpha;               // multiplies `alpha_factor`
+  int alpha_channel = 3;          // of that texture: 0 R to 3 A
+  float normal_scale = 1.0f;
+  float occlusion_strength = 1.0f;
+  bool vertex_colors = false;  // MeshData::colors multiply base colour and alpha
+
+  // Phong is made from `surface` at every point; else the material is Phong as it stands.
+  bool from_gltf = false;
+  GltfSurface surface;
+
+  AlphaMode alpha_mode = AlphaMode::opaque;
+  float alpha_factor = 1.0f;
+  float alpha_cutoff = 0.5f;
+
+  // Whether rays pass through some of its points as if nothing were there.
+  [[nodiscard]] bool has_holes() const {
+    return alpha_mode == AlphaMode::mask ||
+           (alpha_mode == AlphaMode::blend && (alpha.used() || vertex_colors || alpha_factor <= 0.0f));
+  }
+  [[nodiscard]] bool blends() const { return alpha_mode == AlphaMode::blend; }
+
+  friend bool operator==(const MaterialMaps&, const MaterialMaps&) = default;
+};
+
+}  // namespace pinocchio

@@ -1,0 +1,44 @@
+#pragma once
+
+#include <algorithm>
+#include <bit>
+#include <cstdint>
+#include <glm/glm.hpp>
+#include <string>
+#include <vector>
+
+#include "pinocchio/image.h"
+
+namespace pinocchio {
+
+// RGBA, 8 bits a channel; colour is sRGB as the file stores it, alpha and all that is no colour linear. Row 0
+// is the top row.
+struct Texture {
+  std::string name;
+  Image<glm::u8vec4> texels;
+  // Half as wide and high, again and again down to one texel, each the mean of the one before; a finished mesh
+  // has them of the textures that are interpolated.
+  std::vector<glm::u8vec4> smaller_levels{};
+
+  [[nodiscard]] int levels() const {
+    if (smaller_levels.empty()) return 1;
+    return static_cast<int>(std::bit_width(static_cast<unsigned>(std::max(texels.width(), texels.height()))));
+  }
+};
+
+// What is seen beyond a texture's edges.
+enum class Wrap : std::uint8_t { repeat, mirror, clamp };
+
+// One texture on a surface.
+struct TextureUse {
+  int texture = -1;  // index in MeshData::textures; -1: none, as white
+  int uv_set = 0;    // 0: MeshData::texcoords, 1: MeshData::texcoords1
+  glm::mat3x2 uv_from_texcoord{1.0f, 0.0f, 0.0f, 1.0f, 0.0f, 0.0f};  // KHR_texture_transform, MTL's -s and -o
+  Wrap wrap_u = Wrap::repeat, wrap_v = Wrap::repeat;
+  bool nearest = false;  // else interpolated
+
+  [[nodiscard]] bool used() const { return texture >= 0; }
+  friend bool operator==(const TextureUse&, const TextureUse&) = default;
+};
+
+}  // namespace pinocchio

@@ -1,0 +1,137 @@
+#include "core/reference/reference_maps.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "core/reference/reference_texture.h"
+
+namespace pinocchio {
+namespace {
+
+glm::dvec3 scaled(const glm::vec3& a, const glm::dvec3& b) {
+  return glm::dvec3(a) * b;
+}
+
+ReferenceMaterial as_it_stands(const Material& m) {
+  return {glm::dvec3(m.ambient),     glm::dvec3(m.diffuse),       glm::dvec3(m.specular), glm::dvec3(m.emission),
+          glm::dvec3(m.reflectance), glm::dvec3(m.transmittance), m.shininess,            m.ior,
+          m.fresnel};
+}
+
+// docs/conventions.md, "Metallic-roughness as Phong".
+ReferenceMaterial phong_of(const GltfSurface& s, const glm::dvec3& base, double metallic, double roughness,
+                           const glm::dvec3& emissive) {
+  ReferenceMaterial m{};
+  m.shininess = m.ior = 1.0;
+  m.emission = s.unlit ? base : emissive;
+  if (s.unlit) return m;
+  const double transmission = s.transmission, n = s.ior;
+  const glm::dvec3 dielectric = glm::min(
+      std::pow((n - 1.0) / (n + 1.0), 2.0) * static_cast<double>(s.specular) * glm::dvec3(s.specular_color),
+      glm::dvec3(1.0));
+  const glm::dvec3 f0 = (1.0 - metallic) * dielectric + metallic * base;
+  const double most = std::max({dielectric.x, dielectric.y, dielectric.z});
+  m.ambient = (1.0 - transmission) * base;
+  m.diffuse = (1.0 - most) * (1.0 - metallic) * (1.0 - transmission) / std::numbers::pi * base;
+  m.shininess = std::clamp((2.0 / std::max(std::pow(roughness, 4.0), 1e-8) - 2.0) / 4.0, 1.0, 10000.0);
+  m.specular = (m.shininess + 2.0) / (2.0 * std::numbers::pi) * f0;
+  if (transmission > 0.0 && metallic < 1.0) {
+    m.transmittance = (1.0 - metallic) * transmission * base;
+    if (s.volume) m.ior = n;
+    return m;
+  }
+  const glm::dvec3 mirror = std::pow(std::max(0.0, 1.0 - roughness / 0.25), 2.0) * f0;
+  if (std::max({mirror.x, mirror.y, mirror.z}) <= 1.0 / 255.0) return m;
+  m.reflectance = mirror;
+  m.fresnel = true;
+  return m;
+}
+
+glm::dvec4 vertex_color(const Mesh& mesh, const ReferenceHit& hit) {
+  if (mesh.colors.empty()) return glm::dvec4(1.0);
+  const glm::uvec3& t = mesh.triangles[hit.triangle];
+  return hit.weights.x * glm::dvec4(mesh.colors[t.x]) + hit.weights.y * glm::dvec4(mesh.colors[t.y]) +
+         hit.weights.z * glm::dvec4(mesh.colors[t.z]);
+}
+
+glm::dvec3 normal_of(const Mesh& mesh, const ReferenceHit& hit, const MaterialMaps& maps,
+                     const ReferenceSpread& spread, const glm::dvec3& n) {
+  const ReferenceTexture map(mesh, hit, maps.normal);
+  if (!map.there()) return n;
+  glm::dvec3 along_u(0.0), against_v(0.0);
+  const glm::uvec3& t = mesh.triangles[hit.triangle];
+  const glm::dvec4 given = mesh.tangents.empty() ? glm::dvec4(0.0)
+                                                 : hit.weights.x * glm::dvec4(mesh.tangents[t.x]) +
+                                                       hit.weights.y * glm::dvec4(mesh.tangents[t.y]) +
+                                                       hit.weights.z * glm::dvec4(mesh.tangents[t.z]);
+  if (given.w != 0.0) {
+    along_u = glm::dvec3(given);
+    against_v = (given.w < 0.0 ? -1.0 : 1.0) * glm::cross(n, along_u);
+  } else {
+    const glm::dmat2x3 p_by_uv = map.point_by_texcoord();
+    along_u = p_by_uv[0];
+    against_v = -p_by_uv[1];
+  }
+  along_u -= n * glm::dot(n, along_u);
+  if (glm::dot(along_u, along_u) == 0.0) return n;
+  along_u = glm::normalize(along_u);
+  glm::dvec3 bitangent = glm::cross(n, along_u);
+  if (glm::dot(bitangent, against_v) < 0.0) bitangent = -bitangent;
+  const glm::dvec3 texel = 2.0 * glm::dvec3(map.mean(spread, false)) - 1.0;
+  const double scale = maps.normal_scale;
+  const glm::dvec3 turned = scale * texel.x * along_u + scale * texel.y * bitangent + texel.z * n;
+  return glm::dot(turned, turned) > 1e-12 ? glm::normalize(turned) : n;
+}
+
+}  // namespace
+
+double reference_alpha(const Mesh& mesh, const ReferenceHit& hit) {
+  const MaterialMaps* const maps = mesh.maps_of(hit.triangle);
+  if (!maps || maps->alpha_mode == AlphaMode::opaque) return 1.0;
+  double alpha = maps->alpha_factor;
+  alpha *= ReferenceTexture(mesh, hit, maps->alpha).at_point(false)[maps->alpha_channel];
+  if (maps->vertex_colors) alpha *= vertex_color(mesh, hit).a;
+  return alpha;
+}
+
+bool reference_hole(const Mesh& mesh, const ReferenceHit& hit) {
+  const MaterialMaps* const maps = mesh.maps_of(hit.triangle);
+  if (!maps || maps->alpha_mode == AlphaMode::opaque) return false;
+  const double alpha = reference_alpha(mesh, hit);
+  return maps->alpha_mode == AlphaMode::mask ? alpha < static_cast<double>(maps->alpha_cutoff) : alpha <= 0.0;
+}
+
+ReferenceMaterial reference_material(const Mesh& mesh, const ReferenceHit& hit, const ReferenceSpread& spread,
+                                     glm::dvec3& n_shading) {
+  const Material& plain = mesh.material_of(hit.triangle);
+  const MaterialMaps* const maps = mesh.maps_of(hit.triangle);
+  if (!maps) return as_it_stands(plain);
+  const auto texel = [&](const TextureUse& use, bool is_color) {
+    return ReferenceTexture(mesh, hit, use).mean(spread, is_color);
+  };
+  glm::dvec3 base(texel(maps->base_color, true));
+  if (maps->vertex_colors) base *= glm::dvec3(vertex_color(mesh, hit));
+  const glm::dvec3 emissive(texel(maps->emissive, true));
+  const double strength = maps->occlusion_strength;
+  const double occlusion = (1.0 - strength) + strength * texel(maps->occlusion, false).r;
+
+  ReferenceMaterial m;
+  if (maps->from_gltf) {
+    const glm::dvec4 rough_metal = texel(maps->metallic_roughness, false);
+    const GltfSurface& s = maps->surface;
+    m = phong_of(s, scaled(s.base_color, base), static_cast<double>(s.metallic) * rough_metal.b,
+                 static_cast<double>(s.roughness) * rough_metal.g, scaled(s.emissive, emissive));
+  } else {
+    m = as_it_stands(plain);
+    m.ambient *= base;
+    m.diffuse *= base;
+    m.emission *= emissive;
+  }
+  m.ambient *= occlusion;
+  n_shading = normal_of(mesh, hit, *maps, spread, n_shading);
+  if (maps->alpha_mode == AlphaMode::blend) m.alpha = std::clamp(reference_alpha(mesh, hit), 0.0, 1.0);
+  return m;
+}
+
+}  // namespace pinocchio

@@ -1,0 +1,52 @@
+// Part of trace/kernel.h's files: materials with maps, for the lanes that have one.
+#pragma once
+
+#include "core/trace/lanes/material.h"
+#include "core/trace/lanes/surface.h"
+
+namespace pinocchio::PINOCCHIO_LANES {
+namespace {
+
+inline void store(const Vec& v, MapLanes::Column (&columns)[3]) {
+  v.x.store(columns[0]);
+  v.y.store(columns[1]);
+  v.z.store(columns[2]);
+}
+
+inline Vec load(const MapLanes::Column (&columns)[3]) {
+  return {Float::load(columns[0]), Float::load(columns[1]), Float::load(columns[2])};
+}
+
+// Rare, and large: out of the way of the lanes that have none.
+[[gnu::noinline]] void apply_maps(const Bounce& bounce, Int triangle, const Vec& origin, const Vec& direction,
+                                  Float width, LaneSurface& s, LaneMaterial& m) {
+  MapLanes packet;
+  triangle.store(packet.triangle);
+  store(s.weights, packet.weights);
+  store(origin, packet.origin);
+  store(direction, packet.direction);
+  store(s.p_world, packet.p_world);
+  store(s.n_shading, packet.n_shading);
+  width.store(packet.width);
+  packet.leaving = s.leaving.bits();
+  map_lanes(*bounce.scene.mesh, *bounce.footprint, m.mapped, packet);
+
+  const Mask mapped = Mask::from_bits(m.mapped);
+  s.n_shading = load(packet.n_shading);
+  m.ambient = select(mapped, load(packet.ambient), m.ambient);
+  m.diffuse = select(mapped, load(packet.diffuse), m.diffuse);
+  m.specular = select(mapped, load(packet.specular), m.specular);
+  m.emission = select(mapped, load(packet.emission), m.emission);
+  m.reflectance = select(mapped, load(packet.reflectance), m.reflectance);
+  m.transmittance = select(mapped, load(packet.transmittance), m.transmittance);
+  m.shininess = select(mapped, Float::load(packet.shininess), m.shininess);
+  m.ior = select(mapped, Float::load(packet.ior), m.ior);
+  m.fresnel = (m.fresnel & ~m.mapped) | packet.fresnel;
+  m.reflects = (m.reflects & ~m.mapped) | packet.reflects;
+  m.transmits = (m.transmits & ~m.mapped) | packet.transmits;
+  m.blends = packet.blends;
+  m.alpha = select(Mask::from_bits(m.blends), Float::load(packet.alpha), m.alpha);
+}
+
+}  // namespace
+}  // namespace pinocchio::PINOCCHIO_LANES

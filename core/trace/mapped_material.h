@@ -1,0 +1,41 @@
+// Materials that textures, vertex colours and alpha change from point to point (pinocchio/material_maps.h). One
+// ray at a time, compiled for every processor: the lanes call it for those of them that need it.
+#pragma once
+
+#include <cstdint>
+#include <glm/glm.hpp>
+
+#include "core/trace/footprint.h"
+#include "core/trace/shared.h"
+#include "pinocchio/mesh.h"
+
+namespace pinocchio {
+
+// Where a ray meets a triangle.
+struct MapPoint {
+  std::uint32_t triangle;
+  glm::vec3 weights;    // barycentric
+  glm::vec3 n_shading;  // facing the viewer, as
+  bool leaving;         // says: the surface is seen from behind
+  RaySpread spread{};   // what textures are averaged over
+};
+
+struct MappedMaterial {
+  shared::PhongSurface surface;
+  glm::vec3 n_shading;  // as the normal map has it
+  float alpha;          // the surface's share; the rest is what a ray sees that goes straight on
+};
+
+// The triangle's material has maps.
+[[nodiscard]] MappedMaterial mapped_material(const Mesh& mesh, const MapPoint& point);
+
+// Whether a ray passes the triangle there as if nothing were there: by alpha alone, at the point itself.
+[[nodiscard]] bool is_hole(const Mesh& mesh, std::uint32_t triangle, const glm::vec3& weights);
+// ... and a shadow ray, of which a surface that blends lets all through or nothing: `threshold` decides.
+[[nodiscard]] bool lets_shadow_ray_pass(const Mesh& mesh, std::uint32_t triangle, const glm::vec3& weights,
+                                        float threshold);
+
+// The material as it stands, without maps.
+[[nodiscard]] shared::PhongSurface plain_material(const Material& material);
+
+}  // namespace pinocchio

@@ -1,0 +1,163 @@
+#include "core/trace/trace_frames.h"
+
+#include <algorithm>
+#include <atomic>
+#include <mutex>
+
+#include "core/trace/jitter.h"
+#include "core/trace/surface.h"
+#include "core/trace/tile_tracer.h"
+#include "core/trace/view_params.h"
+
+namespace pinocchio {
+namespace {
+
+constexpr int kSide = TileGrid::kTileSize;
+
+// A thread's memory for a tile, made once.
+struct TileImages {
+  TileTracer tracer;
+  Image<glm::vec4> color{glm::ivec2(kSide)}, sum{glm::ivec2(kSide)};
+  Image<std::uint32_t> ids{glm::ivec2(kSide)};
+  Image<glm::vec3> reflection{glm::ivec2(kSide)};
+  MaskImage mask;
+};
+
+// One thread's share of a job. A tile is traced as a picture of its own, whose first pixel is the tile's: its
+// rays are the whole picture's to the last bit.
+class Share {
+ public:
+  Share(const FramesJob& job, const FrameArrays& to, TileImages& images)
+      : job_(job), to_(to), images_(images), trace_job_{job.scene,          job.tracer, job.workers, {},
+                                                        job.throughput_cutoff, job.light_cutoff, job.filter_textures},
+        outputs_(outputs(job, to, images)), plan_(trace_job_, outputs_) {}
+
+  RayCounts draw(std::size_t frame, const PixelBox& tile) {
+    const Camera& camera = job_.cameras[frame];
+    const PixelBox box{{0, 0}, tile.size()};
+    const int samples = to_.color ? job_.spp : 1;
+    RayCounts rays;
+    for (int k = 0; k < samples; ++k) {
+      plan_.view = view_params(camera, job_.size, jitter_of(k), tile.lo);
+      outputs_.ids = k == 0 ? &images_.ids : nullptr;
+      outputs_.reflection = k == 0 && to_.reflection ? &images_.reflection : nullptr;
+      outputs_.mask = k == 0 && to_.mask && job_.mask_bits > 0 ? &images_.mask : nullptr;
+      if (outputs_.mask) images_.mask.resize(glm::ivec2(kSide), job_.mask_bits);
+      rays += images_.tracer.trace(plan_, box).rays;
+      add_sample(k, box);
+    }
+    copy(frame, tile, samples);
+    if (to_.wants_surfaces())
+      add_surfaces(view_params(camera, job_.size, glm::vec2(0.0f), tile.lo), frame, tile);
+    return rays;
+  }
+
+ private:
+  static TileOutputs outputs(const FramesJob& job, const FrameArrays& to, TileImages& images) {
+    TileOutputs out;
+    out.size = glm::ivec2(kSide);
+    out.ids = &images.ids;
+    out.mask_bits = to.color || to.mask ? job.mask_bits : 0;
+    out.depth = to.color || to.reflection ? job.depth : 0;
+    out.color = to.color ? &images.color : nullptr;
+    return out;
+  }
+
+  void add_sample(int k, const PixelBox& box) {
+    if (!to_.color || job_.spp == 1) return;
+    for (int y = 0; y < box.hi.y; ++y)
+      for (int x = 0; x < box.hi.x; ++x)
+        images_.sum.at(x, y) = k == 0 ? images_.color.at(x, y) : images_.sum.at(x, y) + images_.color.at(x, y);
+  }
+
+  // Of the picture's first pixel in row y of the tile.
+  [[nodiscard]] std::size_t row_of(std::size_t frame, const PixelBox& tile, int y) const {
+    const auto width = static_cast<std::size_t>(job_.size.x), height = static_cast<std::size_t>(job_.size.y);
+    return (frame * height + static_cast<std::size_t>(tile.lo.y + y)) * width +
+           static_cast<std::size_t>(tile.lo.x);
+  }
+
+  void copy(std::size_t frame, const PixelBox& tile, int samples) {
+    const glm::ivec2 size = tile.size();
+    const Image<glm::vec4>& color = samples > 1 ? images_.sum : images_.color;
+    const auto share = static_cast<float>(samples);
+    for (int y = 0; y < size.y; ++y) {
+      const std::size_t row = row_of(frame, tile, y);
+      const auto put = [&](const auto& image, auto* to) {
+        if (to) std::copy_n(&image.at(0, y), size.x, to + row);
+      };
+      put(images_.ids, to_.ids);
+      put(images_.reflection, to_.reflection);
+      put(color, to_.color);
+      if (samples > 1)
+        for (int x = 0; x < size.x; ++x) to_.color[row + static_cast<std::size_t>(x)] /= share;
+      for (int x = 0; x < size.x; ++x) {
+        const std::size_t pixel = row + static_cast<std::size_t>(x);
+        if (to_.mask)
+          to_.mask[pixel] = static_cast<std::uint8_t>(job_.mask_bits > 0 ? images_.mask.get(x, y) : 0u);
+        if (to_.objects) to_.objects[pixel] = object_of(job_.scene, images_.ids.at(x, y));
+      }
+    }
+  }
+
+  void add_surfaces(const shared::ViewParams& view, std::size_t frame, const PixelBox& tile) {
+    const glm::vec3 forward = view_axis(view);
+    const Footprint footprint = job_.filter_textures ? Footprint::of_camera(view) : Footprint{};
+    const Mesh& mesh = *job_.scene.mesh;
+    const glm::ivec2 size = tile.size();
+    for (int y = 0; y < size.y; ++y)
+      for (int x = 0; x < size.x; ++x) {
+        const std::size_t pixel = row_of(frame, tile, y) + static_cast<std::size_t>(x);
+        const std::uint32_t triangle = images_.ids.at(x, y);
+        SurfaceInteraction s{};
+        if (triangle != kNoTriangle) {
+          const Ray ray = pixel_ray(view, x, y);
+          s = to_.albedo || mesh.maps_of(triangle)
+                  ? surface_at(mesh, triangle, ray.origin, ray.direction, {}, footprint)
+                  : bare_surface_at(mesh, triangle, ray.origin, ray.direction);
+        }
+        const bool hit = triangle != kNoTriangle;
+        if (to_.depth) to_.depth[pixel] = hit ? glm::dot(s.p_world - view.eye, forward) : kInfinity;
+        if (to_.position) to_.position[pixel] = hit ? s.p_world : glm::vec3(0.0f);
+        if (to_.normal) to_.normal[pixel] = hit ? s.n_shading : glm::vec3(0.0f);
+        if (to_.albedo) to_.albedo[pixel] = hit ? s.material.phong.diffuse : glm::vec3(0.0f);
+      }
+  }
+
+  const FramesJob& job_;
+  const FrameArrays& to_;
+  TileImages& images_;
+  TraceJob trace_job_;
+  TileOutputs outputs_;
+  TilePlan plan_;
+};
+
+}  // namespace
+
+RayCounts trace_frames(const FramesJob& job, const FrameArrays& to) {
+  const TileGrid grid(job.size);
+  const std::size_t all = grid.count() * job.cameras.size();
+  std::atomic<std::size_t> next{0};
+  std::mutex mutex;
+  RayCounts rays;
+  // A body a thread, each until no tile is left.
+  job.workers.for_each(static_cast<std::size_t>(job.workers.count()), [&](std::size_t) {
+    static thread_local TileImages images;
+    Share share(job, to, images);
+    RayCounts own;
+    try {
+      for (std::size_t i; (i = next.fetch_add(1, std::memory_order_relaxed)) < all;) {
+        own += share.draw(i / grid.count(), grid.tile(i % grid.count()));
+        advance(job.progress, job.spp / static_cast<double>(grid.count()));
+      }
+    } catch (...) {
+      next = all;
+      throw;
+    }
+    const std::lock_guard lock(mutex);
+    rays += own;
+  });
+  return rays;
+}
+
+}  // namespace pinocchio

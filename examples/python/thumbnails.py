@@ -1,0 +1,34 @@
+"""A thumbnail of every model of a folder, without a GPU or a display: thumbnails.py FOLDER OUT [SIZE]"""
+import pathlib
+import sys
+
+import numpy
+import pinocchio
+from PIL import Image
+
+
+def on_screen(color, background=0.18):
+    """Linear RGBA over grey, as sRGB of 8 bits."""
+    linear = numpy.clip(color[..., :3] + background * (1 - color[..., 3:]), 0, 1)
+    srgb = numpy.where(linear <= 0.0031308, 12.92 * linear, 1.055 * linear ** (1 / 2.4) - 0.055)
+    return (255 * srgb + 0.5).astype(numpy.uint8)
+
+
+def main(folder, out, size=256):
+    engine, out = pinocchio.Engine(), pathlib.Path(out)
+    out.mkdir(parents=True, exist_ok=True)
+    for path in sorted(pathlib.Path(folder).iterdir()):
+        if path.suffix.lower() not in (".gltf", ".glb", ".obj"):
+            continue
+        try:
+            scene = pinocchio.load_scene(path)
+        except pinocchio.Error as error:  # one line: the file, what is wrong, what to do
+            print(error, file=sys.stderr)
+            continue
+        picture = engine.render(scene, scene.camera(), size=(size, size), spp=4)
+        Image.fromarray(on_screen(picture.color)).save(out / (path.stem + ".png"))
+        print(out / (path.stem + ".png"), f"{picture.record['ms']:.0f} ms")
+
+
+if __name__ == "__main__":
+    main(*sys.argv[1:3], *map(int, sys.argv[3:]))

@@ -1,0 +1,31 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "gl/program.h"
+#include "gl/texture.h"
+#include "pinocchio/mesh.h"
+
+namespace pinocchio {
+
+// What shaders/map_fetch.glsl reads of a mesh whose materials have maps; for others nothing is sent, and
+// programs are compiled without it.
+class GpuMaps {
+ public:
+  explicit GpuMaps(const Mesh& mesh);
+
+  // The next free texture unit.
+  int bind(const gl::Program& program, int first_unit) const;
+  // What programs that read it are compiled with.
+  [[nodiscard]] const std::vector<std::string>& definitions() const { return definitions_; }
+  [[nodiscard]] bool has_holes() const { return has_holes_; }
+
+ private:
+  gl::TextureBuffer maps_, texcoords_, texels_, vertex_quads_;
+  int vertex_count_ = 0;
+  std::vector<std::string> definitions_;
+  bool has_holes_ = false;
+};
+
+}  // namespace pinocchio

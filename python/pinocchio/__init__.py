@@ -1,0 +1,42 @@
+"""Pictures of 3D scenes as NumPy arrays: exact shadows and mirrors, with no GPU and no display.
+
+    import pinocchio
+    scene = pinocchio.load_scene("scenes/cornell.gltf")
+    picture = pinocchio.Engine().render(scene, size=(320, 240))
+    picture.color      # (240, 320, 4) float32, linear
+    picture.write_exr("cornell.exr")
+"""
+
+from ._core import (
+    Camera,
+    Engine,
+    Error,
+    Light,
+    Material,
+    Result,
+    Scene,
+    Tracer,
+    __version__,
+    assemble,
+    compare,
+    load_scene,
+    read_exr,
+)
+from ._trimesh import from_trimesh
+
+__all__ = [
+    "Camera",
+    "Engine",
+    "Error",
+    "Light",
+    "Material",
+    "Result",
+    "Scene",
+    "Tracer",
+    "__version__",
+    "assemble",
+    "compare",
+    "from_trimesh",
+    "load_scene",
+    "read_exr",
+]

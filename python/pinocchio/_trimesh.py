@@ -1,0 +1,65 @@
+"""Scenes from trimesh's meshes; trimesh itself is the caller's."""
+
+from ._core import Error, Material, Scene, assemble
+
+
+def _linear(srgb):
+    """sRGB 0..255 to linear 0..1 (IEC 61966-2-1)."""
+    import numpy
+
+    c = numpy.asarray(srgb, numpy.float32)[..., :3] / 255
+    return numpy.where(c <= 0.04045, c / 12.92, ((c + 0.055) / 1.055) ** 2.4).astype(numpy.float32)
+
+
+def _image(material):
+    image = getattr(material, "baseColorTexture", None)
+    return image if image is not None else getattr(material, "image", None)
+
+
+def _surface(mesh, material):
+    """Keyword arguments for Scene: the material given, else what the mesh's visual says."""
+    import numpy
+
+    visual = mesh.visual
+    if material is not None:
+        return {"materials": material}
+    if visual.kind == "texture" and visual.uv is not None and _image(visual.material) is not None:
+        texture = numpy.ascontiguousarray(numpy.asarray(_image(visual.material).convert("RGBA")))
+        uvs = numpy.asarray(visual.uv, numpy.float32) * [1, -1] + [0, 1]  # trimesh counts v upwards
+        return {"uvs": uvs.astype(numpy.float32), "materials": Material(diffuse=(1, 1, 1), texture=texture)}
+    if visual.kind == "texture":
+        return {"materials": Material(diffuse=_linear(visual.material.main_color))}
+    if visual.kind in ("face", "vertex"):
+        return {"colors": _linear(visual.face_colors)}
+    return {}
+
+
+def from_trimesh(mesh, *, smooth=True, material=None, lights=(), ambient=(0.1, 0.1, 0.1)):
+    """A Scene of a trimesh.Trimesh, or of a trimesh.Scene, whose geometry becomes nodes that can be moved.
+
+    smooth: shade with the mesh's vertex normals; else triangles are flat. material: a Material in place of the
+    mesh's own colours or texture.
+    """
+    import numpy
+
+    if hasattr(mesh, "geometry") and hasattr(mesh, "graph"):
+        parts = {}
+        for node in mesh.graph.nodes_geometry:
+            pose, name = mesh.graph[node]
+            if hasattr(mesh.geometry[name], "faces"):
+                part = from_trimesh(mesh.geometry[name], smooth=smooth, material=material)
+                parts[node] = (part, numpy.ascontiguousarray(pose, numpy.float64))
+        if not parts:
+            raise Error("the trimesh scene has no triangles; there is nothing to draw")
+        scene = assemble(parts)
+        scene.lights = list(lights)
+        scene.ambient = ambient
+        return scene
+    return Scene(
+        numpy.ascontiguousarray(mesh.vertices, numpy.float32),
+        numpy.ascontiguousarray(mesh.faces, numpy.uint32),
+        normals=numpy.ascontiguousarray(mesh.vertex_normals, numpy.float32) if smooth else None,
+        lights=list(lights),
+        ambient=ambient,
+        **_surface(mesh, material),
+    )

@@ -1,0 +1,108 @@
+#include <pinocchio/compare_pictures.h>
+#include <pinocchio/exr.h>
+
+#include <array>
+#include <cmath>
+#include <nanobind/stl/filesystem.h>
+
+#include "python/src/interrupt.h"
+#include "python/src/parts.h"
+#include "python/src/result.h"
+
+namespace pinocchio::python {
+namespace {
+
+using Picture = nb::ndarray<nb::ndim<3>, nb::c_contig, nb::device::cpu>;
+
+// IEC 61966-2-1
+float linear_of(std::uint8_t srgb) {
+  const float c = static_cast<float>(srgb) / 255.0f;
+  return c <= 0.04045f ? c / 12.92f : std::pow((c + 0.055f) / 1.055f, 2.4f);
+}
+
+template <class T, class Convert>
+Image<glm::vec3> image_of(const Picture& array, Convert convert) {
+  const std::size_t channels = array.shape(2);
+  Image<glm::vec3> image({array.shape(1), array.shape(0)});
+  const T* from = static_cast<const T*>(array.data());
+  for (glm::vec3& pixel : image.pixels()) {
+    pixel = {convert(from[0]), convert(from[1]), convert(from[2])};
+    from += channels;
+  }
+  return image;
+}
+
+Image<glm::vec3> image_of(const Picture& array) {
+  if (array.shape(2) < 3 || array.shape(2) > 4) throw Error("a picture is an array (height, width, 3 or 4)");
+  if (array.dtype() == nb::dtype<std::uint8_t>()) return image_of<std::uint8_t>(array, linear_of);
+  if (array.dtype() == nb::dtype<float>()) return image_of<float>(array, [](float v) { return v; });
+  if (array.dtype() == nb::dtype<double>()) return image_of<double>(array, [](double v) { return static_cast<float>(v); });
+  throw Error("a picture is of float32 or float64 (linear) or uint8 (sRGB)");
+}
+
+Image<glm::vec3> image_of_exr(const std::filesystem::path& path) {
+  const ExrFile exr = value_or_throw(read_exr(path));
+  Image<glm::vec3> image(exr.data_window.size());
+  for (int c = 0; c < 3; ++c) {
+    const ExrChannel* const channel = exr.find(std::array{"R", "G", "B"}[static_cast<std::size_t>(c)]);
+    if (!channel || channel->type == ExrChannel::Type::uint) throw Error(path.string() + ": has no colours R, G and B");
+    for (std::size_t i = 0; i < channel->values.size(); ++i) image[i][c] = channel->values[i];
+  }
+  return image;
+}
+
+Image<glm::vec3> picture_of(const nb::object& from) {
+  if (nb::isinstance<Result>(from)) {
+    const FrameResult& frame = nb::cast<const Result&>(from).frame;
+    Image<glm::vec3> image(frame.color.size());
+    for (std::size_t i = 0; i < image.pixels().size(); ++i) image[i] = glm::vec3(frame.color[i]);
+    return image;
+  }
+  if (nb::ndarray_check(from)) return image_of(nb::cast<Picture>(from));
+  return image_of_exr(nb::cast<std::filesystem::path>(from));
+}
+
+nb::dict compare(const nb::object& a, const nb::object& b, float pixels_per_degree) {
+  const Image<glm::vec3> picture = picture_of(a), reference = picture_of(b);
+  auto* const found = new PictureDifference(value_or_throw(
+      without_gil([&](Progress*) { return compare_pictures(picture, reference, pixels_per_degree); })));
+  const nb::capsule owner(found, [](void* p) noexcept { delete static_cast<PictureDifference*>(p); });
+  nb::dict result;
+  result["rmse"] = found->rmse;
+  result["relmse"] = found->relative_mse;
+  result["psnr"] = found->psnr_db;
+  result["max"] = found->max;
+  result["flip"] = found->flip;
+  result["flip_errors"] = view_of(found->flip_errors.pixels().data(),
+                                  {static_cast<std::size_t>(picture.height()), static_cast<std::size_t>(picture.width())},
+                                  owner);
+  return result;
+}
+
+nb::dict channels_of(const std::filesystem::path& path) {
+  auto* const exr = new ExrFile(value_or_throw(without_gil([&](Progress*) { return read_exr(path); })));
+  const nb::capsule owner(exr, [](void* p) noexcept { delete static_cast<ExrFile*>(p); });
+  const auto size = exr->data_window.size();
+  const std::initializer_list<std::size_t> shape{static_cast<std::size_t>(size.y), static_cast<std::size_t>(size.x)};
+  nb::dict channels;
+  for (ExrChannel& c : exr->channels) {
+    if (c.type == ExrChannel::Type::uint)
+      channels[c.name.c_str()] = view_of(c.uints.data(), shape, owner);
+    else
+      channels[c.name.c_str()] = view_of(c.values.data(), shape, owner);
+  }
+  return channels;
+}
+
+}  // namespace
+
+void bind_compare(nb::module_& module) {
+  module.def("compare", &compare, "a"_a, "b"_a, "pixels_per_degree"_a = 67.0f,
+             "How far picture `a` is from its reference `b`: 'rmse', 'relmse', 'psnr' (dB), 'max', 'flip' (mean\n"
+             "LDR-FLIP) and 'flip_errors' (h, w). Each is a Result, an EXR file, or an array (h, w, 3 or 4): float is\n"
+             "linear, uint8 sRGB.");
+  module.def("read_exr", &channels_of, "path"_a,
+             "Channels of an EXR by name, each (h, w): float32, or uint32 of integers.");
+}
+
+}  // namespace pinocchio::python

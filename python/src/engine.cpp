@@ -1,0 +1,207 @@
+#include <pinocchio/batch.h>
+#include <pinocchio/engine.h>
+#include <unistd.h>
+
+#include <chrono>
+#include <cstdlib>
+#include <cstring>
+#include <mutex>
+#include <nanobind/stl/variant.h>
+#include <thread>
+
+#include "python/src/interrupt.h"
+#include "python/src/parts.h"
+#include "python/src/render_settings.h"
+#include "python/src/result.h"
+
+namespace pinocchio::python {
+namespace {
+
+using CameraChoice = std::variant<std::monostate, Camera, int, std::string>;
+
+Camera camera_of(const Scene& scene, const CameraChoice& choice) {
+  if (const auto* camera = std::get_if<Camera>(&choice)) return *camera;
+  if (const auto* name = std::get_if<std::string>(&choice)) {
+    if (const Camera* found = find_camera(scene, *name)) return *found;
+    throw Error("the scene has no camera '" + *name + "'; Scene.cameras lists them");
+  }
+  if (const int* index = std::get_if<int>(&choice)) {
+    if (*index >= 0 && static_cast<std::size_t>(*index) < scene.cameras.size())
+      return scene.cameras[static_cast<std::size_t>(*index)];
+    throw Error("the scene has no camera " + std::to_string(*index) + ", there are " + std::to_string(scene.cameras.size()));
+  }
+  return scene.cameras.empty() ? camera_for_whole_scene(scene) : scene.cameras.front();
+}
+
+// As the program: a scene without lights gets one.
+Scene lit(const Scene& scene, const Camera& camera) {
+  Scene copy = scene;
+  if (copy.lights.empty()) copy.lights.push_back(default_light(copy, camera));
+  return copy;
+}
+
+void check_size(const glm::ivec2& size) {
+  if (size.x < 1 || size.y < 1 || size.x > 65536 || size.y > 65536)
+    throw Error("size is " + std::to_string(size.x) + "x" + std::to_string(size.y) + "; it is (width, height) in pixels");
+}
+
+int threads_wanted(int given) {
+  if (given < 0 || given > kMostThreads) throw Error("threads is from 0 (one a core) to " + std::to_string(kMostThreads));
+  const char* const said = std::getenv("PINOCCHIO_THREADS");
+  return given > 0 || !said ? given : std::max(0, std::min(std::atoi(said), kMostThreads));
+}
+
+using Array = nb::ndarray<nb::c_contig, nb::device::cpu>;
+
+// A kind of array that render_many fills.
+struct Output {
+  const char* name;
+  nb::dlpack::dtype type;
+  std::size_t bytes, channels;  // of a number; numbers a pixel
+  void (*point)(FrameArrays& to, void* data);
+};
+
+const Output kOutputs[] = {
+    {"color", nb::dtype<float>(), 4, 4, [](FrameArrays& to, void* p) { to.color = static_cast<glm::vec4*>(p); }},
+    {"depth", nb::dtype<float>(), 4, 1, [](FrameArrays& to, void* p) { to.depth = static_cast<float*>(p); }},
+    {"position", nb::dtype<float>(), 4, 3, [](FrameArrays& to, void* p) { to.position = static_cast<glm::vec3*>(p); }},
+    {"normal", nb::dtype<float>(), 4, 3, [](FrameArrays& to, void* p) { to.normal = static_cast<glm::vec3*>(p); }},
+    {"albedo", nb::dtype<float>(), 4, 3, [](FrameArrays& to, void* p) { to.albedo = static_cast<glm::vec3*>(p); }},
+    {"ids", nb::dtype<std::uint32_t>(), 4, 1, [](FrameArrays& to, void* p) { to.ids = static_cast<std::uint32_t*>(p); }},
+    {"objects", nb::dtype<std::uint32_t>(), 4, 1,
+     [](FrameArrays& to, void* p) { to.objects = static_cast<std::uint32_t*>(p); }},
+    {"mask", nb::dtype<std::uint8_t>(), 1, 1, [](FrameArrays& to, void* p) { to.mask = static_cast<std::uint8_t*>(p); }},
+    {"reflection", nb::dtype<float>(), 4, 3,
+     [](FrameArrays& to, void* p) { to.reflection = static_cast<glm::vec3*>(p); }},
+};
+
+const Output& output_named(const std::string& name) {
+  std::string names;
+  for (const Output& output : kOutputs) {
+    if (name == output.name) return output;
+    names += std::string(names.empty() ? "" : ", ") + output.name;
+  }
+  throw Error("there is no output '" + name + "'; choose from " + names);
+}
+
+std::vector<std::size_t> shape_of(const Output& output, std::size_t frames, const glm::ivec2& size) {
+  std::vector<std::size_t> shape{frames, static_cast<std::size_t>(size.y), static_cast<std::size_t>(size.x)};
+  if (output.channels > 1) shape.push_back(output.channels);
+  return shape;
+}
+
+nb::object new_array(const Output& output, const std::vector<std::size_t>& shape, FrameArrays& to) {
+  std::size_t bytes = output.bytes;
+  for (const std::size_t n : shape) bytes *= n;
+  void* const data = ::operator new(std::max<std::size_t>(bytes, 1));
+  const nb::capsule owner(data, [](void* p) noexcept { ::operator delete(p); });
+  output.point(to, data);
+  return nb::cast(nb::ndarray<nb::numpy>(data, shape.size(), shape.data(), owner, nullptr, output.type));
+}
+
+nb::object given_array(const Output& output, const std::vector<std::size_t>& shape, nb::handle given, FrameArrays& to) {
+  const auto array = nb::cast<nb::ndarray<>>(given, false);
+  bool fits = array.dtype() == output.type && array.ndim() == shape.size() && array.is_valid();
+  std::int64_t stride = 1;
+  for (std::size_t i = shape.size(); fits && i-- > 0; stride *= static_cast<std::int64_t>(shape[i]))
+    fits = array.shape(i) == shape[i] && (shape[i] == 1 || array.stride(i) == stride);
+  if (!fits) throw Error(std::string("out['") + output.name + "'] is not of the shape and type of this output; leave it out");
+  output.point(to, array.data());
+  return nb::borrow(given);
+}
+
+// An Engine that knows which process it lives in. Calls from several threads take turns.
+class PyEngine {
+ public:
+  PyEngine(int threads, const std::string& backend, const std::string& device)
+      : threads_(threads_wanted(threads)),
+        engine_(std::make_unique<Engine>(EngineOptions{.backend = backend, .device = device})) {}
+  ~PyEngine() {
+    if (pid_ != getpid()) (void)engine_.release();  // its threads stayed in the parent
+  }
+
+  [[nodiscard]] int threads() const {
+    return threads_ > 0 ? threads_ : static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
+  }
+
+  Result render(const Scene& scene, const CameraChoice& choice, const glm::ivec2& size, const nb::kwargs& arguments) {
+    check_process();
+    check_size(size);
+    const Settings settings = settings_of(arguments, threads_);
+    const Camera camera = camera_of(scene, choice);
+    const Scene drawn = lit(scene, camera);
+    return without_gil([&](Progress* progress) {
+      const std::lock_guard lock(mutex_);
+      const auto begin = std::chrono::steady_clock::now();
+      Result result{value_or_throw(engine_->render(drawn, {.camera = camera, .size = size}, settings, progress))};
+      result.ms = std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - begin).count();
+      if (scene.lights.empty()) result.frame.scene.lights = drawn.lights;
+      return result;
+    });
+  }
+
+  nb::dict render_many(const Scene& scene, const std::vector<CameraChoice>& choices, const glm::ivec2& size,
+                       const std::vector<std::string>& outputs, const std::optional<nb::dict>& out,
+                       const nb::kwargs& arguments) {
+    check_process();
+    check_size(size);
+    const Settings settings = settings_of(arguments, threads_);
+    std::vector<Camera> cameras;
+    for (const CameraChoice& choice : choices) cameras.push_back(camera_of(scene, choice));
+    nb::dict result;
+    FrameArrays to;
+    for (const std::string& name : outputs) {
+      const Output& output = output_named(name);
+      const std::vector<std::size_t> shape = shape_of(output, cameras.size(), size);
+      result[name.c_str()] = out && out->contains(name.c_str()) ? given_array(output, shape, (*out)[name.c_str()], to)
+                                                                : new_array(output, shape, to);
+    }
+    if (cameras.empty()) return result;
+    const Scene drawn = lit(scene, cameras.front());
+    without_gil([&](Progress* progress) {
+      const std::lock_guard lock(mutex_);
+      return value_or_throw(pinocchio::render_many(*engine_, drawn, cameras, size, settings, to, progress));
+    });
+    return result;
+  }
+
+ private:
+  void check_process() const {
+    if (pid_ != getpid())
+      throw Error("this Engine was made before the process was forked; make one in each process");
+  }
+
+  int threads_;
+  pid_t pid_ = getpid();
+  std::mutex mutex_;
+  std::unique_ptr<Engine> engine_;
+};
+
+}  // namespace
+
+void bind_engine(nb::module_& module) {
+  static const std::string kRender =
+      "One picture, a Result. camera: a Camera, the name or number of one of the scene's, or None: its first, else one\n"
+      "that has the whole scene in view. size: (width, height). A scene without lights gets one above the camera.\n"
+      "By default the CPU draws alone (mode='raytrace'): no OpenGL is needed. Settings:\n\n" +
+      settings_help();
+  nb::class_<PyEngine>(module, "Engine",
+                       "What pictures are drawn with: worker threads, the last scene's tree and, where settings ask for it,\n"
+                       "an OpenGL context. It may be used from several threads, which take turns, but with OpenGL from the\n"
+                       "first alone. Make one a process, after a fork.")
+      .def(nb::init<int, const std::string&, const std::string&>(), "threads"_a = 0, "backend"_a = "auto",
+           "device"_a = "",
+           "threads: worker threads; 0: PINOCCHIO_THREADS of the environment, else one for each core that the process\n"
+           "may use. Of several processes on one machine, give each its share. backend, device: of OpenGL, as the\n"
+           "program's options.")
+      .def_prop_ro("threads", &PyEngine::threads, "How many threads draw.")
+      .def("render", &PyEngine::render, "scene"_a, "camera"_a = nb::none(), "size"_a = glm::ivec2(800, 600),
+           "settings"_a, kRender.c_str())
+      .def("render_many", &PyEngine::render_many, "scene"_a, "cameras"_a, "size"_a = glm::ivec2(800, 600),
+           "outputs"_a = std::vector<std::string>{"color"}, "out"_a = nb::none(), "settings"_a,
+           "A picture from each camera: {name: array (n, height, width, ...)} of the `outputs`: color, depth, position,\n"
+           "normal, albedo, ids, objects, mask, reflection, each as in Result. What is not asked for is not computed.\n"
+           "out: arrays of an earlier call, filled again. Small pictures keep all threads busy. Settings as for render.");
+}
+
+}  // namespace pinocchio::python

@@ -1,0 +1,40 @@
+#include "python/src/interrupt.h"
+
+namespace pinocchio::python {
+namespace {
+
+std::atomic<Progress*> watched{nullptr};
+
+void cancel(int) {
+  if (Progress* const progress = watched.load()) progress->cancel();
+}
+
+bool is_main_thread() {
+  const nb::object threading = nb::module_::import_("threading");
+  return threading.attr("current_thread")().is(threading.attr("main_thread")());
+}
+
+}  // namespace
+
+Interrupt::Interrupt(Progress& progress) : progress_(progress), watching_(is_main_thread()) {
+  if (!watching_) return;
+  watched = &progress;
+  struct sigaction action {};
+  action.sa_handler = cancel;
+  sigaction(SIGINT, &action, &before_);
+}
+
+Interrupt::~Interrupt() {
+  if (!watching_) return;
+  sigaction(SIGINT, &before_, nullptr);
+  watched = nullptr;
+}
+
+void Interrupt::check() {
+  if (!watching_ || !progress_.cancelled()) return;
+  sigaction(SIGINT, &before_, nullptr);
+  PyErr_SetInterrupt();
+  if (PyErr_CheckSignals() != 0) throw nb::python_error();
+}
+
+}  // namespace pinocchio::python

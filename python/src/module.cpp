@@ -1,0 +1,26 @@
+#include "python/src/parts.h"
+
+NB_MODULE(_core, module) {
+  using namespace pinocchio;
+  using namespace pinocchio::python;
+  module.doc() = "Pictures of 3D scenes as NumPy arrays: exact shadows and mirrors, with no GPU and no display.";
+  module.attr("__version__") = PINOCCHIO_VERSION;
+  const nb::exception<Error> error(module, "Error", PyExc_RuntimeError);
+  nb::register_exception_translator(
+      [](const std::exception_ptr& thrown, void* type) {
+        try {
+          std::rethrow_exception(thrown);
+        } catch (const EnvironmentError& failed) {
+          PyErr_SetString(static_cast<PyObject*>(type), failed.what());
+        } catch (const std::invalid_argument& wrong) {  // no such layer of an EXR
+          PyErr_SetString(static_cast<PyObject*>(type), wrong.what());
+        }
+      },
+      error.ptr());
+  bind_camera(module);
+  bind_scene(module);
+  bind_result(module);
+  bind_engine(module);
+  bind_tracer(module);
+  bind_compare(module);
+}

@@ -1,0 +1,288 @@
+#include <pinocchio/load.h>
+#include <pinocchio/scene.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <nanobind/stl/filesystem.h>
+#include <nanobind/stl/variant.h>
+
+#include "python/src/interrupt.h"
+#include "python/src/parts.h"
+
+namespace pinocchio::python {
+namespace {
+
+// A material, and the texture that it brings along.
+struct TexturedMaterial {
+  Material material;
+  std::shared_ptr<const Texture> texture;
+};
+
+Texture texture_of(const Texels& texels) {
+  const std::size_t channels = texels.shape(2);
+  if (channels < 3 || channels > 4 || texels.shape(0) == 0 || texels.shape(1) == 0)
+    throw Error("a texture is an array (height, width, 3 or 4) of uint8, sRGB");
+  Texture texture{"", Image<glm::u8vec4>({texels.shape(1), texels.shape(0)})};
+  const std::uint8_t* from = texels.data();
+  for (glm::u8vec4& texel : texture.texels.pixels()) {
+    texel = {from[0], from[1], from[2], channels == 4 ? from[3] : 255};
+    from += channels;
+  }
+  return texture;
+}
+
+Light light_of(std::optional<glm::vec3> position, std::optional<glm::vec3> direction, const glm::vec3& color,
+               float intensity, const std::string& falloff, float range, float inner_cone, float outer_cone,
+               bool casts_shadow, const std::string& name) {
+  if (!position && !direction) throw Error("a light has a position (a point), a direction (a sun) or both (a spot)");
+  if (falloff != "none" && falloff != "inverse_square")
+    throw Error("falloff is '" + falloff + "'; it is 'none' or 'inverse_square'");
+  if (direction && glm::length(*direction) == 0.0f) throw Error("a light's direction is not zero");
+  Light light;
+  light.name = name;
+  light.kind = !direction ? Light::Kind::point : position ? Light::Kind::spot : Light::Kind::directional;
+  if (position) light.position = *position;
+  if (direction) light.direction = glm::normalize(*direction);
+  light.color = color;
+  light.intensity = intensity;
+  light.falloff = falloff == "none" ? Light::Falloff::none : Light::Falloff::inverse_square;
+  light.range = range;
+  if (light.kind == Light::Kind::spot) {
+    light.cos_inner = std::cos(glm::radians(inner_cone));
+    light.cos_outer = std::cos(glm::radians(outer_cone));
+  }
+  light.casts_shadow = casts_shadow;
+  return light;
+}
+
+const char* kind_of(const Light& light) {
+  return light.kind == Light::Kind::point ? "point" : light.kind == Light::Kind::spot ? "spot" : "directional";
+}
+
+// A material for each colour there is: of every triangle.
+void color_triangles(const std::vector<glm::vec3>& colors, MeshData& mesh) {
+  std::map<std::array<float, 3>, std::uint32_t> known;
+  const std::vector<Material> given = mesh.materials;
+  for (std::size_t t = 0; t < colors.size(); ++t) {
+    const glm::vec3& c = colors[t];
+    const auto [at, is_new] = known.try_emplace({c.x, c.y, c.z}, static_cast<std::uint32_t>(known.size()));
+    mesh.triangle_materials[t] = at->second;
+  }
+  mesh.materials.assign(known.size(), given.front());
+  for (const auto& [color, index] : known)
+    mesh.materials[index].ambient = mesh.materials[index].diffuse = {color[0], color[1], color[2]};
+}
+
+void add_materials(const std::vector<TexturedMaterial>& materials, MeshData& mesh) {
+  for (const TexturedMaterial& m : materials) {
+    mesh.materials.push_back(m.material);
+    if (!m.texture) continue;
+    make_maps(mesh, mesh.materials.back()).base_color.texture = static_cast<int>(mesh.textures.size());
+    mesh.textures.push_back(*m.texture);
+  }
+  if (mesh.materials.empty()) mesh.materials.emplace_back();
+}
+
+void check_rows(std::size_t rows, std::size_t wanted, const char* what, const char* of) {
+  if (rows != wanted)
+    throw Error(std::string(what) + " has " + std::to_string(rows) + " rows; it is one a " + of + ", there are " +
+                std::to_string(wanted));
+}
+
+Scene scene_of(const Floats3& vertices, const Words3& triangles, const std::optional<Floats3>& normals,
+               const std::optional<Floats2>& uvs, const std::optional<Floats3>& colors,
+               const std::vector<TexturedMaterial>& materials, const std::optional<Words>& triangle_materials,
+               std::vector<Light> lights, const glm::vec3& ambient) {
+  MeshData mesh;
+  mesh.positions = copied<glm::vec3>(vertices);
+  mesh.triangles = copied<glm::uvec3>(triangles);
+  if (normals) check_rows(normals->shape(0), mesh.positions.size(), "normals", "vertex");
+  mesh.normals = normals ? copied<glm::vec3>(*normals) : std::vector(mesh.positions.size(), glm::vec3(0.0f));
+  if (uvs) {
+    check_rows(uvs->shape(0), mesh.positions.size(), "uvs", "vertex");
+    mesh.texcoords = copied<glm::vec2>(*uvs);
+  }
+  if (triangle_materials)
+    check_rows(triangle_materials->shape(0), mesh.triangles.size(), "triangle_materials", "triangle");
+  mesh.triangle_materials = triangle_materials ? copied<std::uint32_t>(*triangle_materials)
+                                               : std::vector<std::uint32_t>(mesh.triangles.size(), 0u);
+  add_materials(materials, mesh);
+  if (!mesh.textures.empty() && mesh.texcoords.empty())
+    throw Error("a material has a texture, the scene no uvs; give uvs, one (u, v) a vertex");
+  if (colors) {
+    check_rows(colors->shape(0), mesh.triangles.size(), "colors", "triangle");
+    color_triangles(copied<glm::vec3>(*colors), mesh);
+  }
+  Scene scene(std::move(mesh));
+  scene.lights = std::move(lights);
+  scene.ambient_light = ambient;
+  (void)value_or_throw(check_scene(scene).map([] { return true; }));
+  return scene;
+}
+
+Scene load(const std::filesystem::path& path) {
+  Warnings warnings;
+  Scene scene = value_or_throw(without_gil([&](Progress* progress) { return load_scene(path, &warnings, progress); }));
+  for (const Warning& warning : warnings)
+    if (PyErr_WarnEx(PyExc_UserWarning, warning.message().c_str(), 1) != 0) throw nb::python_error();
+  return scene;
+}
+
+int node_of(const Scene& scene, const std::variant<int, std::string>& name) {
+  if (!scene.nodes) throw Error("the scene has no nodes to move; load a glTF file, or put scenes together (assemble)");
+  if (std::holds_alternative<int>(name)) return std::get<int>(name);
+  const int found = scene.nodes->find(std::get<std::string>(name));
+  if (found >= 0) return found;
+  throw Error("there is no node '" + std::get<std::string>(name) + "'; Scene.nodes lists them");
+}
+
+Scene with_transforms(const Scene& scene, const nb::dict& transforms) {
+  std::vector<NodeTransform> moves;
+  for (const auto& [name, matrix] : transforms)
+    moves.push_back({node_of(scene, nb::cast<std::variant<int, std::string>>(name)),
+                     matrix_of(nb::cast<Matrix>(matrix))});
+  return value_or_throw(without_gil([&](Progress*) { return posed(scene, moves); }));
+}
+
+Scene assemble(const nb::dict& parts) {
+  std::vector<Scene> scenes;  // a cheap copy each, that no other Python thread changes meanwhile
+  scenes.reserve(nb::len(parts));
+  std::vector<Part> all;
+  for (const auto& [name, part] : parts) {
+    const bool placed = nb::isinstance<nb::tuple>(part);
+    scenes.push_back(nb::cast<Scene>(placed ? nb::object(part[0]) : nb::borrow(part)));
+    all.push_back({nb::cast<std::string>(name), scenes.back(),
+                   placed ? matrix_of(nb::cast<Matrix>(nb::object(part[1]))) : glm::mat4(1.0f)});
+  }
+  return value_or_throw(without_gil([&](Progress*) { return assembled(all); }));
+}
+
+void bind_material(nb::module_& module) {
+  nb::class_<TexturedMaterial>(module, "Material", "Phong with mirrors and glass; colours are linear.")
+      .def(
+          "__init__",
+          [](TexturedMaterial* self, const glm::vec3& diffuse, const glm::vec3& specular, float shininess,
+             const glm::vec3& reflectance, const glm::vec3& transmittance, float ior, bool fresnel,
+             const glm::vec3& emission, const std::optional<glm::vec3>& ambient,
+             const std::optional<Texels>& texture, const std::string& name) {
+            Material m;
+            m.name = name;
+            m.ambient = ambient.value_or(diffuse);
+            m.diffuse = diffuse;
+            m.specular = specular;
+            m.shininess = shininess;
+            m.reflectance = reflectance;
+            m.transmittance = transmittance;
+            m.ior = ior;
+            m.fresnel = fresnel;
+            m.emission = emission;
+            new (self) TexturedMaterial{
+                m, texture ? std::make_shared<const Texture>(texture_of(*texture)) : nullptr};
+          },
+          "diffuse"_a = glm::vec3(0.8f), "specular"_a = glm::vec3(0.0f), "shininess"_a = 1.0f,
+          "reflectance"_a = glm::vec3(0.0f), "transmittance"_a = glm::vec3(0.0f), "ior"_a = 1.0f,
+          "fresnel"_a = false, "emission"_a = glm::vec3(0.0f), "ambient"_a = nb::none(), "texture"_a = nb::none(),
+          "name"_a = "",
+          "reflectance: the weight of the mirrored ray; with `fresnel`, its value at normal incidence.\n"
+          "transmittance: of the refracted ray, bent by `ior`. texture: (height, width, 3 or 4) uint8, sRGB; its\n"
+          "colour multiplies diffuse and ambient. ambient: as diffuse, where it is left out.");
+}
+
+void bind_light(nb::module_& module) {
+  nb::class_<Light>(module, "Light", "A point light, a sun or a spot.")
+      .def(
+          "__init__",
+          [](Light* self, std::optional<glm::vec3> position, std::optional<glm::vec3> direction,
+             const glm::vec3& color, float intensity, const std::string& falloff, float range, float inner_cone,
+             float outer_cone, bool casts_shadow, const std::string& name) {
+            new (self) Light(light_of(position, direction, color, intensity, falloff, range, inner_cone, outer_cone,
+                                      casts_shadow, name));
+          },
+          "position"_a = nb::none(), "direction"_a = nb::none(), "color"_a = glm::vec3(1.0f), "intensity"_a = 1.0f,
+          "falloff"_a = "none", "range"_a = std::numeric_limits<float>::infinity(), "inner_cone"_a = 0.0f,
+          "outer_cone"_a = 45.0f, "casts_shadow"_a = true, "name"_a = "",
+          "With a position: a point light. With a direction, along which the light travels: a sun. With both: a\n"
+          "spot, whose cones are degrees off its direction. falloff: 'none' (the same strength at any distance) or\n"
+          "'inverse_square'. At most eight lights of a scene cast shadows.")
+      .def_prop_ro("kind", &kind_of)
+      .def_rw("name", &Light::name)
+      .def_rw("position", &Light::position)
+      .def_prop_rw("direction", [](const Light& l) { return l.direction; },
+                   [](Light& l, const glm::vec3& d) { l.direction = glm::normalize(d); })
+      .def_rw("color", &Light::color)
+      .def_rw("intensity", &Light::intensity)
+      .def_rw("casts_shadow", &Light::casts_shadow);
+}
+
+}  // namespace
+
+void bind_scene(nb::module_& module) {
+  bind_material(module);
+  bind_light(module);
+  nb::class_<Scene>(module, "Scene", "What is drawn: a mesh, which copies share, with lights and cameras.")
+      .def(
+          "__init__",
+          [](Scene* self, const Floats3& vertices, const Words3& triangles, const std::optional<Floats3>& normals,
+             const std::optional<Floats2>& uvs, const std::optional<Floats3>& colors, const nb::object& materials,
+             const std::optional<Words>& triangle_materials, const std::vector<Light>& lights,
+             const glm::vec3& ambient) {
+            std::vector<TexturedMaterial> all;
+            if (nb::isinstance<TexturedMaterial>(materials))
+              all.push_back(nb::cast<TexturedMaterial>(materials));
+            else if (!materials.is_none())
+              for (const nb::handle m : materials) all.push_back(nb::cast<TexturedMaterial>(m));
+            new (self) Scene(scene_of(vertices, triangles, normals, uvs, colors, all, triangle_materials, lights, ambient));
+          },
+          "vertices"_a, "triangles"_a, "normals"_a = nb::none(), "uvs"_a = nb::none(), "colors"_a = nb::none(),
+          "materials"_a = nb::none(), "triangle_materials"_a = nb::none(), "lights"_a = std::vector<Light>(),
+          "ambient"_a = glm::vec3(0.1f),
+          "vertices: (n, 3), any unit; triangles: (m, 3) indices. normals: (n, 3), without them triangles are flat.\n"
+          "uvs: (n, 2), (0, 0) is the texture's first texel. colors: (m, 3) of the triangles, linear. materials: a\n"
+          "Material, or several, of which triangle_materials (m) says which triangle has which. A scene without\n"
+          "lights is drawn with one above the camera.")
+      .def_rw("lights", &Scene::lights, "A copy: set it anew after changing one.")
+      .def_rw("cameras", &Scene::cameras, "A copy, likewise.")
+      .def_rw("ambient", &Scene::ambient_light)
+      .def_ro("source", &Scene::source, "The file that it was loaded from.")
+      .def_prop_ro("bounds",
+                   [](const Scene& s) { return nb::make_tuple(s.mesh->bounds().lo, s.mesh->bounds().hi); })
+      .def_prop_ro("vertices",
+                   [](nb::handle self) {
+                     const Mesh& mesh = *nb::cast<const Scene&>(self).mesh;
+                     return view_of<const float>(&mesh.positions.data()->x, {mesh.positions.size(), 3}, self);
+                   },
+                   "(n, 3) float32, in world space; no copy.")
+      .def_prop_ro("normals",
+                   [](nb::handle self) {
+                     const Mesh& mesh = *nb::cast<const Scene&>(self).mesh;
+                     return view_of<const float>(&mesh.normals.data()->x, {mesh.normals.size(), 3}, self);
+                   },
+                   "(n, 3) float32; 0 where the triangle's own counts. No copy.")
+      .def_prop_ro("triangles",
+                   [](nb::handle self) {
+                     const Mesh& mesh = *nb::cast<const Scene&>(self).mesh;
+                     return view_of<const std::uint32_t>(&mesh.triangles.data()->x, {mesh.triangles.size(), 3}, self);
+                   },
+                   "(m, 3) uint32; a row's number is the triangle's id. No copy.")
+      .def_prop_ro("nodes",
+                   [](const Scene& s) {
+                     std::vector<std::string> names;
+                     if (s.nodes)
+                       for (const Node& node : s.nodes->nodes) names.push_back(node.name);
+                     return names;
+                   },
+                   "Names of what can be moved; the place in the list is the number in `objects`.")
+      .def("camera", &camera_for_whole_scene, "A camera that has the whole scene in view.")
+      .def("posed", &with_transforms, "transforms"_a,
+           "The scene with nodes moved, and all below them: {name or number: 4x4 matrix, to its parent}. Materials,\n"
+           "triangles and their ids stay; light and camera follow the node that they hang on.")
+      .def("__copy__", [](const Scene& scene) { return scene; });
+  module.def("load_scene", &load, "path"_a,
+             "Reads a scene by its extension, as the program does. What is left out of the file is a warning.");
+  module.def("assemble", &assemble, "parts"_a,
+             "One scene of several: {name: scene} or {name: (scene, 4x4 matrix)}. Each becomes a node that can be moved\n"
+             "(Scene.posed), with its own nodes below it.");
+}
+
+}  // namespace pinocchio::python

@@ -1,0 +1,141 @@
+#include <pinocchio/load.h>
+#include <pinocchio/scene.h>
+#include <pinocchio/tracer.h>
+
+#include <algorithm>
+#include <atomic>
+#include <functional>
+#include <thread>
+
+#include "python/src/interrupt.h"
+#include "python/src/parts.h"
+
+namespace pinocchio::python {
+namespace {
+
+constexpr std::size_t kChunk = 4096;  // rays that a thread takes at once
+
+std::shared_ptr<const Mesh> mesh_of(const Floats3& vertices, const Words3& triangles) {
+  MeshData mesh;
+  mesh.positions = copied<glm::vec3>(vertices);
+  mesh.normals.resize(mesh.positions.size(), glm::vec3(0.0f));
+  mesh.triangles = copied<glm::uvec3>(triangles);
+  mesh.triangle_materials.resize(mesh.triangles.size(), 0u);
+  mesh.materials.emplace_back();
+  const Scene scene(std::move(mesh));
+  (void)value_or_throw(check_scene(scene).map([] { return true; }));
+  return scene.mesh;
+}
+
+struct Rays {
+  const float *origins, *directions, *lengths;
+  std::size_t count, origin_step;  // 0: one origin for all
+
+  [[nodiscard]] Ray ray(std::size_t i) const {
+    const float *o = origins + i * origin_step, *d = directions + 3 * i;
+    return {{o[0], o[1], o[2]}, lengths ? lengths[i] : kInfinity, {d[0], d[1], d[2]}};
+  }
+};
+
+Rays rays_of(const Floats3& origins, const Floats3& directions, const std::optional<Floats>& t_max) {
+  const std::size_t n = directions.shape(0);
+  if (origins.shape(0) != n && origins.shape(0) != 1)
+    throw Error("there are " + std::to_string(origins.shape(0)) + " origins and " + std::to_string(n) +
+                " directions; give as many, or one origin");
+  if (t_max && t_max->shape(0) != n) throw Error("t_max is one number a ray");
+  return {origins.data(), directions.data(), t_max ? t_max->data() : nullptr, n, origins.shape(0) == n ? 3u : 0u};
+}
+
+// Calls body(first, last) for chunks of [0, n), on as many threads as are worth it.
+void for_chunks(std::size_t n, int threads, const Progress* progress,
+                const std::function<void(std::size_t, std::size_t)>& body) {
+  std::atomic<std::size_t> next{0};
+  const auto work = [&] {
+    for (std::size_t first; (first = next.fetch_add(kChunk)) < n;) {
+      throw_if_cancelled(progress);
+      body(first, std::min(first + kChunk, n));
+    }
+  };
+  const auto chunks = static_cast<int>(std::min<std::size_t>((n + kChunk - 1) / kChunk, 1024));
+  std::atomic<bool> stopped{false};
+  {
+    std::vector<std::jthread> helpers;
+    for (int i = 1; i < std::min(threads, chunks); ++i)
+      helpers.emplace_back([&] {
+        try {
+          work();
+        } catch (const Cancelled&) {
+          stopped = true;
+        }
+      });
+    work();
+  }
+  if (stopped) throw Cancelled();
+}
+
+class ArrayTracer {
+ public:
+  ArrayTracer(std::shared_ptr<const Mesh> mesh, int threads, Progress* progress)
+      : threads_(threads > 0 ? threads : static_cast<int>(std::max(1u, std::thread::hardware_concurrency()))),
+        tracer_(std::move(mesh), BuildOptions{.threads = threads_, .progress = progress}) {}
+
+  nb::tuple closest_hits(const Floats3& origins, const Floats3& directions, const std::optional<Floats>& t_max) const {
+    const Rays rays = rays_of(origins, directions, t_max);
+    auto* const t = new float[rays.count];
+    const nb::capsule owns_t(t, [](void* p) noexcept { delete[] static_cast<float*>(p); });
+    auto* const ids = new std::uint32_t[rays.count];
+    const nb::capsule owns_ids(ids, [](void* p) noexcept { delete[] static_cast<std::uint32_t*>(p); });
+    without_gil([&](Progress* progress) {
+      for_chunks(rays.count, threads_, progress, [&](std::size_t first, std::size_t last) {
+        static thread_local std::vector<Ray> some(kChunk);
+        static thread_local std::vector<Hit> hits(kChunk);
+        for (std::size_t i = first; i < last; ++i) some[i - first] = rays.ray(i);
+        tracer_.closest_hits(std::span(some).first(last - first), std::span(hits).first(last - first));
+        for (std::size_t i = first; i < last; ++i) t[i] = hits[i - first].t, ids[i] = hits[i - first].triangle;
+      });
+      return true;
+    });
+    return nb::make_tuple(view_of(t, {rays.count}, owns_t), view_of(ids, {rays.count}, owns_ids));
+  }
+
+  auto occluded(const Floats3& origins, const Floats3& directions, const std::optional<Floats>& t_max) const {
+    const Rays rays = rays_of(origins, directions, t_max);
+    auto* const blocked = new std::uint8_t[rays.count];
+    const nb::capsule owns(blocked, [](void* p) noexcept { delete[] static_cast<std::uint8_t*>(p); });
+    without_gil([&](Progress* progress) {
+      for_chunks(rays.count, threads_, progress, [&](std::size_t first, std::size_t last) {
+        static thread_local std::vector<Ray> some(kChunk);
+        for (std::size_t i = first; i < last; ++i) some[i - first] = rays.ray(i);
+        tracer_.occluded(std::span(some).first(last - first), {blocked + first, last - first});
+      });
+      return true;
+    });
+    return view_of(reinterpret_cast<bool*>(blocked), {rays.count}, owns);
+  }
+
+ private:
+  int threads_;
+  Tracer tracer_;
+};
+
+}  // namespace
+
+void bind_tracer(nb::module_& module) {
+  nb::class_<ArrayTracer>(module, "Tracer", "The ray tracer alone: rays in, hits out.")
+      .def(
+          "__init__",
+          [](ArrayTracer* self, const Floats3& vertices, const Words3& triangles, int threads) {
+            const auto mesh = mesh_of(vertices, triangles);
+            without_gil([&](Progress* progress) { return new (self) ArrayTracer(mesh, threads, progress); });
+          },
+          "vertices"_a, "triangles"_a, "threads"_a = 0,
+          "vertices: (n, 3); triangles: (m, 3) indices. threads: 0 is one a core.")
+      .def("closest_hits", &ArrayTracer::closest_hits, "origins"_a, "directions"_a, "t_max"_a = nb::none(),
+           "(t, triangle) of each ray: t float32, in lengths of the ray's direction, inf where nothing is hit; triangle\n"
+           "uint32, 0xffffffff likewise. origins: (n, 3), or (1, 3) for all rays; directions: (n, 3), of any length;\n"
+           "t_max: (n).")
+      .def("occluded", &ArrayTracer::occluded, "origins"_a, "directions"_a, "t_max"_a = nb::none(),
+           "(n) bool: whether anything lies within each ray; arguments as for closest_hits.");
+}
+
+}  // namespace pinocchio::python

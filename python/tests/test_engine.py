@@ -1,0 +1,141 @@
+"""Errors, threads, interrupts, many pictures at once."""
+import os
+import signal
+import subprocess
+import sys
+import threading
+import time
+
+import numpy
+import pinocchio
+import pytest
+
+ALL = ["color", "depth", "position", "normal", "albedo", "ids", "objects", "mask", "reflection"]
+
+
+def test_many_pictures_are_the_pictures_one_by_one(scenes):
+    scene = pinocchio.load_scene(scenes / "two-lights.gltf")
+    cameras = [scene.cameras[0] for _ in range(3)]
+    for i, camera in enumerate(cameras):
+        camera.eye = tuple(numpy.add(camera.eye, (0.1 * i, 0, 0)))
+    engine = pinocchio.Engine(threads=3)
+    arrays = engine.render_many(scene, cameras, (70, 40), outputs=ALL)
+    for i, camera in enumerate(cameras):
+        one = engine.render(scene, camera, size=(70, 40))
+        for name in ALL:
+            numpy.testing.assert_array_equal(arrays[name][i], getattr(one, name), err_msg=name)
+    again = engine.render_many(scene, cameras[::-1], (70, 40), outputs=ALL, out=arrays)
+    for name in ALL:
+        assert numpy.shares_memory(again[name], arrays[name])
+    numpy.testing.assert_array_equal(again["ids"][2], engine.render(scene, cameras[0], size=(70, 40)).ids)
+
+
+@pytest.mark.parametrize(
+    "arguments, says",
+    [
+        ({"colour": 1}, "there is no setting 'colour'"),
+        ({"depth": 99}, "depth is 99; it is a whole number from 0 to 64"),
+        ({"mode": "best"}, "mode is best; it is one of"),
+        ({"camera": "nowhere"}, "no camera 'nowhere'"),
+        ({"size": (0, 5)}, "size is 0x5"),
+        ({"mode": "raytrace", "visibility": "gpu", "composite": "cpu", "exchange": "reproject"}, "reproject"),
+    ],
+)
+def test_errors_are_the_programs_line(scenes, arguments, says):
+    scene = pinocchio.load_scene(scenes / "cornell.gltf")
+    with pytest.raises(pinocchio.Error, match=says):
+        pinocchio.Engine().render(scene, **arguments)
+
+
+def test_files_that_cannot_be_read(tmp_path):
+    with pytest.raises(pinocchio.Error, match="there is no such file; check its name"):
+        pinocchio.load_scene(tmp_path / "none.gltf")
+    with pytest.raises(pinocchio.Error):
+        pinocchio.compare(tmp_path / "a.exr", tmp_path / "b.exr")
+
+
+def test_compare(scenes, tmp_path):
+    result = pinocchio.Engine().render(pinocchio.load_scene(scenes / "cornell.gltf"), size=(64, 48))
+    same = pinocchio.compare(result, result)
+    assert same["rmse"] == 0 and same["flip"] == 0 and same["psnr"] == float("inf")
+    result.write_exr(tmp_path / "x.exr")
+    assert pinocchio.compare(result, tmp_path / "x.exr")["max"] < 1e-2  # halves
+    other = pinocchio.compare(result.color * 0.5, result.color)
+    assert other["flip"] > 0.01 and other["flip_errors"].shape == (48, 64)
+    with pytest.raises(pinocchio.Error, match="same size"):
+        pinocchio.compare(result.color[:10], result.color)
+
+
+def test_the_lock_is_released(scenes):
+    scene, ticks, done = pinocchio.load_scene(scenes / "cornell.gltf"), 0, threading.Event()
+
+    def draw():
+        pinocchio.Engine(threads=1).render(scene, size=(400, 300), spp=8)
+        done.set()
+
+    thread = threading.Thread(target=draw)
+    thread.start()
+    while not done.is_set():
+        ticks += 1
+        time.sleep(0.001)
+    thread.join()
+    assert ticks > 10
+
+
+@pytest.mark.parametrize("call", ["render(scene, size=(800, 600), spp=60000)",
+                                  "render_many(scene, [None] * 20000, (64, 64), outputs=['depth', 'color'])"])
+def test_ctrl_c(scenes, call):
+    code = (
+        "import pinocchio, sys\n"
+        f"scene = pinocchio.load_scene({str(scenes / 'cornell.gltf')!r})\n"
+        "print('go', flush=True)\n"
+        f"try: pinocchio.Engine().{call}\n"
+        "except KeyboardInterrupt: sys.exit(42)\n"
+    )
+    child = subprocess.Popen([sys.executable, "-c", code], stdout=subprocess.PIPE)
+    child.stdout.readline()
+    time.sleep(0.5)
+    begin = time.monotonic()
+    child.send_signal(signal.SIGINT)
+    assert child.wait(20) == 42
+    assert time.monotonic() - begin < 2.0
+
+
+def test_threads_are_said():
+    assert pinocchio.Engine(threads=3).threads == 3
+    script = "import pinocchio; print(pinocchio.Engine().threads)"
+    said = subprocess.run([sys.executable, "-c", script], env={**os.environ, "PINOCCHIO_THREADS": "5"},
+                          capture_output=True, text=True, check=True)
+    assert said.stdout.strip() == "5"
+
+
+@pytest.mark.skipif(not hasattr(os, "fork"), reason="no fork")
+def test_after_a_fork_an_engine_says_so(scenes):
+    code = (
+        "import os, pinocchio\n"
+        f"scene = pinocchio.load_scene({str(scenes / 'cornell.gltf')!r})\n"
+        "engine = pinocchio.Engine(threads=2)\n"
+        "engine.render(scene, size=(8, 8))\n"
+        "child = os.fork()\n"
+        "if child == 0:\n"
+        "    try: engine.render(scene, size=(8, 8))\n"
+        "    except pinocchio.Error as error:\n"
+        "        pinocchio.Engine(threads=2).render(scene, size=(8, 8))\n"
+        "        os._exit(7 if 'forked' in str(error) else 1)\n"
+        "raise SystemExit(os.waitstatus_to_exitcode(os.waitpid(child, 0)[1]))\n"
+    )
+    assert subprocess.run([sys.executable, "-c", code], timeout=60).returncode == 7
+
+
+def test_import_is_quick():
+    code = "import time; t = time.perf_counter(); import pinocchio; print(time.perf_counter() - t)"
+    took = [float(subprocess.run([sys.executable, "-c", code], capture_output=True, check=True).stdout) for _ in range(3)]
+    assert min(took) < 0.1
+
+
+def test_settings_are_in_the_docstring_and_the_stubs():
+    assert "throughput_cutoff" in pinocchio.Engine.render.__doc__
+    folder = os.path.dirname(pinocchio.__file__)
+    assert os.path.exists(os.path.join(folder, "py.typed"))
+    with open(os.path.join(folder, "_core.pyi")) as stub:
+        assert "def render_many" in stub.read()

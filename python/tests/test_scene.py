@@ -1,0 +1,109 @@
+"""Scenes from arrays, trimesh and glTF; what moves; cameras by their matrix."""
+import numpy
+import pinocchio
+import pytest
+
+from test_tracer import quad
+
+
+def floor(**more):
+    return pinocchio.Scene(*quad(), **more)
+
+
+ABOVE = dict(eye=(0, 0, 4), target=(0, 0, 0), up=(0, 1, 0))
+
+
+def test_arrays_are_seen_without_a_copy():
+    scene = floor()
+    assert scene.vertices.shape == (4, 3) and scene.triangles.dtype == numpy.uint32
+    with pytest.raises(ValueError):
+        scene.vertices[0, 0] = 1
+    result = pinocchio.Engine().render(scene, size=(8, 6))
+    assert numpy.shares_memory(result.color, result.color) and result.color.base is not None
+    depth = result.depth
+    del result
+    assert depth.shape == (6, 8)  # the arrays keep what they look at
+
+
+def test_colors_materials_and_textures():
+    engine, camera = pinocchio.Engine(), pinocchio.Camera(**ABOVE, fov=20)
+    sun = [pinocchio.Light(direction=(0, 0, -1))]
+    colored = floor(colors=numpy.array([[1, 0, 0], [0, 0, 1]], numpy.float32), lights=sun)
+    albedo = engine.render(colored, camera, size=(16, 16)).albedo
+    assert {tuple(a) for a in albedo.reshape(-1, 3)} == {(1, 0, 0), (0, 0, 1)}
+
+    texels = numpy.zeros((2, 2, 3), numpy.uint8)
+    texels[0] = 255  # its upper half is white
+    uvs = numpy.array([[0, 1], [1, 1], [1, 0], [0, 0]], numpy.float32)
+    textured = floor(uvs=uvs, materials=pinocchio.Material(diffuse=(1, 1, 1), texture=texels), lights=sun)
+    albedo = engine.render(textured, pinocchio.Camera(**ABOVE, fov=28), size=(16, 16)).albedo[..., 0]
+    assert albedo[4, 8] > 0.9 and albedo[11, 8] < 0.1
+
+    metal = pinocchio.Material(diffuse=(0, 0, 0), reflectance=(0.5, 0.5, 0.5))
+    mirror = floor(materials=[pinocchio.Material(), metal], triangle_materials=numpy.array([0, 1]), lights=sun)
+    assert engine.render(mirror, camera, size=(8, 8)).record["rays"]["reflection"] > 0
+
+
+def test_lights_and_cameras_change_between_calls():
+    engine, scene = pinocchio.Engine(), floor(lights=[pinocchio.Light(position=(0, 0, 3))])
+    lit = engine.render(scene, pinocchio.Camera(**ABOVE), size=(8, 8)).mask
+    scene.lights = [pinocchio.Light(position=(0, 0, -3))]
+    behind = engine.render(scene, pinocchio.Camera(**ABOVE), size=(8, 8)).mask
+    assert lit[4, 4] == 1 and behind[4, 4] == 0
+
+
+def test_nodes_move(scenes):
+    part = floor()
+    pose = numpy.eye(4)
+    pose[2, 3] = 1.0
+    scene = pinocchio.assemble({"floor": part, "plate": (part, pose)})
+    assert scene.nodes == ["floor", "plate"]
+    engine, camera = pinocchio.Engine(), pinocchio.Camera(**ABOVE, fov=20)
+    assert engine.render(scene, camera, size=(8, 8)).depth[4, 4] == pytest.approx(3.0)
+    assert set(engine.render(scene, camera, size=(8, 8)).objects.flat) == {1}
+    pose[2, 3] = -0.5
+    moved = scene.posed({"plate": pose})
+    assert engine.render(moved, camera, size=(8, 8)).depth[4, 4] == pytest.approx(4.0)
+    assert scene.vertices[4, 2] == 1.0  # the scene is as it was
+    with pytest.raises(pinocchio.Error, match="no node 'roof'"):
+        scene.posed({"roof": pose})
+
+    cornell = pinocchio.load_scene(scenes / "cornell.gltf")
+    lamp = numpy.eye(4)
+    lamp[:3, 3] = (0.5, 1, 1)
+    assert cornell.posed({"lamp": lamp}).lights[0].position == pytest.approx((0.5, 1, 1))
+
+
+def test_trimesh():
+    trimesh = pytest.importorskip("trimesh")
+    box = trimesh.creation.box()
+    box.visual.face_colors = [255, 0, 0, 255]
+    scene = pinocchio.from_trimesh(box, smooth=False)
+    result = pinocchio.Engine().render(scene, size=(32, 32))
+    assert tuple(result.albedo[16, 16]) == (1, 0, 0)
+    world = trimesh.Scene()
+    world.add_geometry(box, node_name="near")
+    world.add_geometry(box, node_name="far", transform=trimesh.transformations.translation_matrix([5, 0, 0]))
+    both = pinocchio.from_trimesh(world)
+    assert sorted(both.nodes) == ["far", "near"] and both.bounds[1][0] == pytest.approx(5.5)
+
+
+def test_camera_matrix_turns_depth_into_points():
+    fx, fy, cx, cy = 95.0, 90.0, 40.0, 22.0
+    pose = numpy.eye(4)
+    angle = 0.3
+    pose[:3, :3] = [[numpy.cos(angle), 0, numpy.sin(angle)], [0, 1, 0], [-numpy.sin(angle), 0, numpy.cos(angle)]]
+    pose[:3, 3] = (-0.4, 0.1, -3)
+    camera = pinocchio.Camera.from_intrinsics((64, 48), fx, fy, cx, cy, pose)
+    assert camera.intrinsics((64, 48)) == pytest.approx((fx, fy, cx, cy), rel=1e-5)
+    result = pinocchio.Engine().render(floor(), camera, size=(64, 48))
+    seen = numpy.isfinite(result.depth)
+    assert 100 < seen.sum() < seen.size
+    v, u = numpy.nonzero(seen)
+    z = result.depth[seen]
+    in_camera = numpy.stack([(u - cx) / fx * z, (v - cy) / fy * z, z, numpy.ones_like(z)])
+    numpy.testing.assert_allclose((pose @ in_camera)[:3].T, result.position[seen], atol=2e-5)
+
+    flip = numpy.diag([1.0, -1, -1, 1])
+    same = pinocchio.Camera.from_intrinsics((64, 48), fx, fy, cx, cy, pose @ flip, convention="opengl")
+    numpy.testing.assert_array_equal(pinocchio.Engine().render(floor(), same, size=(64, 48)).ids, result.ids)

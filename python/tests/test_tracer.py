@@ -1,0 +1,73 @@
+"""Random rays of meshes: the tracer beside Embree (trimesh with embreex)."""
+import numpy
+import pinocchio
+import pytest
+
+trimesh = pytest.importorskip("trimesh")
+pytest.importorskip("embreex")
+from trimesh.ray.ray_pyembree import RayMeshIntersector  # noqa: E402
+
+MESHES = {
+    "sphere": lambda: trimesh.creation.icosphere(subdivisions=4),
+    "torus": lambda: trimesh.creation.torus(1.0, 0.3),
+    "boxes": lambda: trimesh.util.concatenate(
+        [trimesh.creation.box((0.2, 0.3, 0.4), trimesh.transformations.random_rotation_matrix()) for _ in range(5)]
+    ),
+}
+RAYS = 20000
+
+
+@pytest.fixture(params=MESHES)
+def mesh(request):
+    numpy.random.seed(7)
+    return MESHES[request.param]()
+
+
+def rays(seed):
+    random = numpy.random.default_rng(seed)
+    directions = random.normal(size=(RAYS, 3))
+    origins = -2 * directions / numpy.linalg.norm(directions, axis=1)[:, None] + random.uniform(-1, 1, (RAYS, 3))
+    return origins.astype(numpy.float32), directions.astype(numpy.float32)
+
+
+def test_hits_are_embrees(mesh):
+    origins, directions = rays(1)
+    t, triangle = pinocchio.Tracer(mesh.vertices, mesh.faces).closest_hits(origins, directions)
+    theirs = RayMeshIntersector(mesh).intersects_first(origins, directions)
+    ours = triangle.astype(numpy.int64)
+    ours[triangle == 0xFFFFFFFF] = -1
+    assert numpy.isinf(t[ours < 0]).all() and numpy.isfinite(t[ours >= 0]).all()
+    # Along an edge either neighbour will do; nowhere else do they differ.
+    other = numpy.flatnonzero(ours != theirs)
+    assert len(other) <= RAYS // 500
+    for i in other:
+        assert ours[i] < 0 or theirs[i] < 0 or len(set(mesh.faces[ours[i]]) & set(mesh.faces[theirs[i]])) >= 1
+    # The point lies in the plane of the triangle.
+    hit = ours >= 0
+    points = origins[hit] + t[hit, None] * directions[hit]
+    corner = mesh.triangles[ours[hit], 0]
+    off = numpy.einsum("ij,ij->i", points - corner, mesh.face_normals[ours[hit]])
+    assert numpy.abs(off).max() < 1e-5
+
+
+def test_occlusion_is_a_hit_within_reach(mesh):
+    origins, directions = rays(2)
+    tracer = pinocchio.Tracer(mesh.vertices, mesh.faces, threads=2)
+    t, _ = tracer.closest_hits(origins, directions)
+    numpy.testing.assert_array_equal(tracer.occluded(origins, directions), numpy.isfinite(t))
+    reach = numpy.full(RAYS, 1.0, numpy.float32)
+    away = numpy.abs(t - 1.0) > 1e-6
+    numpy.testing.assert_array_equal(tracer.occluded(origins, directions, reach)[away], (t < 1.0)[away])
+
+
+def test_one_origin_for_all():
+    tracer = pinocchio.Tracer(*quad())
+    directions = numpy.array([[0, 0, -1], [0, 0, 1], [0.1, 0.1, -1]], numpy.float32)
+    t, triangle = tracer.closest_hits(numpy.array([[0.1, 0.2, 2]], numpy.float32), directions)
+    assert t.tolist() == [2.0, numpy.inf, 2.0]
+    assert triangle[1] == 0xFFFFFFFF
+
+
+def quad():
+    vertices = numpy.array([[-1, -1, 0], [1, -1, 0], [1, 1, 0], [-1, 1, 0]], numpy.float32)
+    return vertices, numpy.array([[0, 1, 2], [0, 2, 3]])

@@ -1,0 +1,146 @@
+// A signal ends every verb within a second, wherever it is; a second one ends it at once. Nothing half stays.
+#include <csignal>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <chrono>
+#include <thread>
+#include <vector>
+
+#include "core/base/clock.h"
+#include "tests/app/program_test.h"
+
+namespace pinocchio {
+namespace {
+
+constexpr double kSoon_s = 1.0;
+
+class InterruptTest : public ProgramTest {
+ protected:
+  // Begins the program; its output is dropped.
+  [[nodiscard]] pid_t start(const std::vector<std::string>& arguments) const {
+    std::vector<std::string> words{PINOCCHIO_PROGRAM};
+    words.insert(words.end(), arguments.begin(), arguments.end());
+    std::vector<char*> pointers;
+    for (std::string& word : words) pointers.push_back(word.data());
+    pointers.push_back(nullptr);
+    const pid_t child = fork();
+    if (child == 0) {
+      if (chdir(folder_.c_str()) != 0 || !freopen("scratch/err", "w", stderr) || !freopen("/dev/null", "w", stdout))
+        _exit(126);
+      execv(words.front().c_str(), pointers.data());
+      _exit(127);
+    }
+    return child;
+  }
+
+  struct End {
+    int code = -1;  // -1: by a signal, or not within ten seconds
+    double after_s = 0.0;
+  };
+  [[nodiscard]] static End wait(pid_t child, double since_s) {
+    int status = 0;
+    while (waitpid(child, &status, WNOHANG) == 0) {
+      if (now_s() - since_s > 10.0) {
+        kill(child, SIGKILL);
+        waitpid(child, &status, 0);
+        return {-1, 10.0};
+      }
+      std::this_thread::sleep_for(std::chrono::milliseconds(5));
+    }
+    return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, now_s() - since_s};
+  }
+
+  void expect_ends_soon(const std::vector<std::string>& arguments, double after_s, int signal = SIGINT) const {
+    const pid_t child = start(arguments);
+    std::this_thread::sleep_for(std::chrono::duration<double>(after_s));
+    const double begin_s = now_s();
+    kill(child, signal);
+    const End end = wait(child, begin_s);
+    EXPECT_EQ(end.code, 130) << arguments.front() << ": " << read("scratch/err");
+    EXPECT_LT(end.after_s, kSoon_s) << arguments.front();
+    EXPECT_EQ(part_files(), 0u) << arguments.front();
+  }
+
+  [[nodiscard]] std::string read(const std::string& name) const {
+    std::ifstream in(folder_ / name);
+    return {std::istreambuf_iterator<char>(in), {}};
+  }
+  [[nodiscard]] std::size_t part_files() const {
+    std::size_t count = 0;
+    for (const auto& entry : std::filesystem::recursive_directory_iterator(folder_))
+      count += entry.path().filename().string().find(".part") != std::string::npos;
+    return count;
+  }
+  [[nodiscard]] static std::string speedboat() { return PINOCCHIO_SOURCE_DIR "/scenes/speedboat.glb"; }
+};
+
+TEST_F(InterruptTest, InsideASample) {
+  for (const int signal : {SIGINT, SIGTERM, SIGHUP})
+    expect_ends_soon({"render", speedboat(), "--mode", "raytrace", "--size", "4096x4096", "-o", "x.exr"}, 0.6, signal);
+  EXPECT_FALSE(exists("x.exr"));
+}
+
+TEST_F(InterruptTest, BetweenSamples) {
+  expect_ends_soon({"render", speedboat(), "--spp", "65536", "-o", "x.exr"}, 0.8);
+  EXPECT_FALSE(exists("x.exr"));
+}
+
+TEST_F(InterruptTest, ThePrecisePicture) {
+  expect_ends_soon({"render", speedboat(), "--mode", "raytrace", "--precise", "--spp", "64", "-o", "x.exr"}, 0.6);
+}
+
+TEST_F(InterruptTest, WhatWasFinishedIsKept) {
+  const pid_t child =
+      start({"render", speedboat(), "--turntable", "100000", "--size", "64x48", "-o", "f####.exr"});
+  for (int i = 0; i < 1000 && !exists("f0003.exr"); ++i) std::this_thread::sleep_for(std::chrono::milliseconds(10));
+  const double begin_s = now_s();
+  kill(child, SIGTERM);
+  const End end = wait(child, begin_s);
+  EXPECT_EQ(end.code, 130);
+  EXPECT_LT(end.after_s, kSoon_s);
+  EXPECT_TRUE(exists("f0000.exr") && exists("f0003.exr"));
+  EXPECT_EQ(part_files(), 0u);
+}
+
+TEST_F(InterruptTest, GenerateReadAndBuild) {
+  expect_ends_soon({"generate", "forest", "--triangles", "20000000", "-o", "x.gltf"}, 0.3);   // making it
+  expect_ends_soon({"generate", "forest", "--triangles", "3000000", "-o", "x.gltf"}, 1.6);    // writing it
+  EXPECT_FALSE(exists("x.gltf"));
+  ASSERT_EQ(run("generate forest --triangles 1500000 -o forest.glb").exit_code, 0);
+  for (const double after_s : {0.1, 0.4, 0.9, 1.4})
+    expect_ends_soon({"measure", "forest.glb", "--mode", "raytrace", "--turntable", "1000"}, after_s);
+}
+
+TEST_F(InterruptTest, AChartAndItsChild) {
+  expect_ends_soon({"chart", speedboat(), "--quick", "-o", "out"}, 1.5);
+  expect_ends_soon({"chart", "--stability", "-o", "out"}, 1.0);
+}
+
+TEST_F(InterruptTest, ASecondSignalEndsAtOnce) {
+  const pid_t child = start({"render", speedboat(), "--spp", "65536", "--size", "1024x1024", "-o", "x.exr"});
+  std::this_thread::sleep_for(std::chrono::milliseconds(700));
+  kill(child, SIGINT);
+  std::this_thread::sleep_for(std::chrono::milliseconds(80));
+  const double begin_s = now_s();
+  kill(child, SIGINT);
+  const End end = wait(child, begin_s);
+  EXPECT_EQ(end.code, 130);
+  EXPECT_LT(end.after_s, 0.5);
+  EXPECT_EQ(part_files(), 0u);
+}
+
+TEST_F(InterruptTest, WhatDeadProcessesLeftIsSwept) {
+  write(".x-abc123.part.exr", "half");
+  write(".x-abc123.part", "half");
+  write(".mine-notes.part.txt.bak", "a person's");
+  write(".x-1.part.exr", "a person's");
+  ASSERT_EQ(run("render" + scene("cornell.gltf") + "--size 16x12 -o x.exr").exit_code, 0);
+  EXPECT_FALSE(exists(".x-abc123.part.exr"));
+  EXPECT_FALSE(exists(".x-abc123.part"));
+  EXPECT_TRUE(exists(".mine-notes.part.txt.bak"));
+  EXPECT_TRUE(exists(".x-1.part.exr"));
+}
+
+}  // namespace
+}  // namespace pinocchio

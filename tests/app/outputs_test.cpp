@@ -1,0 +1,153 @@
+// What is written never costs what is read, and the exit code says what happened.
+#include <sys/stat.h>
+
+#include <algorithm>
+#include <chrono>
+#include <map>
+
+#include "tests/app/program_test.h"
+
+namespace pinocchio {
+namespace {
+
+using OutputsTest = ProgramTest;
+
+std::string read_file(const std::filesystem::path& file) {
+  std::ifstream in(file, std::ios::binary);
+  return {std::istreambuf_iterator<char>(in), {}};
+}
+
+// Wrong usage, one line that names the file, and every file as it was.
+class ApartTest : public ProgramTest {
+ protected:
+  void SetUp() override {
+    ProgramTest::SetUp();
+    ASSERT_EQ(run("generate cornell -o x.gltf").exit_code, 0);
+    write("path.json", R"({"keyframes": [{"frame": 0, "eye": [0, 1, 5], "target": [0, 1, 0]}]})");
+    ASSERT_EQ(run("render x.gltf --size 16x12 -o a.exr").exit_code, 0);
+    ASSERT_EQ(run("render x.gltf --size 16x12 -o b.exr").exit_code, 0);
+    std::filesystem::create_symlink("x.gltf", folder_ / "link.json");
+    std::filesystem::create_hard_link(folder_ / "x.gltf", folder_ / "hard.json");
+    std::filesystem::create_directory(folder_ / "sub");
+    std::filesystem::create_symlink("..", folder_ / "sub" / "up");
+    for (const char* name : {"x.gltf", "x.bin", "path.json", "a.exr", "b.exr"}) before_[name] = read_file(folder_ / name);
+  }
+  void expect_refused(const std::string& arguments) const {
+    const CommandResult result = run(arguments);
+    EXPECT_EQ(result.exit_code, 2) << arguments << "\n" << result.err;
+    EXPECT_NE(result.err.find("the same file as"), std::string::npos) << result.err;
+    for (const auto& [name, bytes] : before_) EXPECT_EQ(read_file(folder_ / name), bytes) << arguments;
+  }
+  std::map<std::string, std::string> before_;
+};
+
+TEST_F(ApartTest, NoOutputIsAnInput) {
+  expect_refused("render x.gltf --stats-json x.gltf");
+  expect_refused("render x.gltf --stats-json x.bin");
+  expect_refused("render x.gltf --stats-json ./sub/up/x.gltf");
+  expect_refused("render x.gltf --stats-json link.json");
+  expect_refused("render x.gltf --stats-json hard.json");
+  expect_refused("render x.gltf --path path.json --stats-json path.json");
+  expect_refused("measure x.gltf --trace x.bin");
+  expect_refused("compare a.exr b.exr --heatmap a.exr");
+}
+
+TEST_F(ApartTest, NoOutputIsAnother) {
+  expect_refused("render x.gltf --size 16x12 --preview y.png --stats-json sub/../y.png");
+  expect_refused("measure x.gltf --stats-json y.json --trace ./y.json");
+}
+
+TEST_F(OutputsTest, StandardOutputIsChecked) {
+  for (const std::string arguments : {"info --settings", "--help", "render --help", "info --system --json"}) {
+    const CommandResult result = run(arguments + " > /dev/full");
+    EXPECT_EQ(result.exit_code, 1) << arguments;
+    EXPECT_NE(result.err.find("standard output cannot be written"), std::string::npos) << result.err;
+  }
+}
+
+TEST_F(OutputsTest, BadInputIsOneLineAndTheRightCode) {
+  const auto expect = [&](int code, const std::string& arguments, const std::string& said) {
+    const CommandResult result = run(arguments);
+    EXPECT_EQ(result.exit_code, code) << arguments << "\n" << result.err;
+    EXPECT_NE(result.err.find(said), std::string::npos) << arguments << "\n" << result.err;
+    EXPECT_EQ(std::count(result.err.begin(), result.err.end(), '\n'), 1) << result.err;
+  };
+  const std::string cornell = scene("cornell.gltf");
+  expect(2, "render" + cornell + "--preview x.png --exposure nan", "no number of stops");
+  expect(2, "render" + cornell + "--preview x.png --path .", "cannot be read");
+  expect(2, "render" + cornell + "--preview x.png --up 0,0,0", "no direction");
+  expect(2, "render" + cornell + "--preview x.png --eye 1e30,0,0", "more than 1e9");
+  expect(2, "render" + cornell + "--preview x.png --target 0,1e30,0", "more than 1e9");
+  ASSERT_EQ(mkfifo((folder_ / "pipe.gltf").c_str(), 0600), 0);
+  expect(4, "info pipe.gltf", "pipe");
+  EXPECT_EQ(files(), 1u);  // the pipe
+}
+
+TEST_F(OutputsTest, TooLittleMemoryIsAnError) {
+  const std::string cornell = scene("cornell.gltf");
+  const CommandResult result = run_command("ulimit -v 600000; cd '" + folder_.string() + "' && '" PINOCCHIO_PROGRAM
+                                           "' render" + cornell + "--mode raytrace --size 8000x8000 -o x.exr",
+                                           folder_ / "scratch");
+  EXPECT_EQ(result.exit_code, 1) << result.err;
+  EXPECT_NE(result.err.find("memory"), std::string::npos) << result.err;
+  EXPECT_FALSE(exists("x.exr"));
+}
+
+TEST_F(OutputsTest, LinksAreKeptAndReadOnlyFilesRefused) {
+  const std::string render = "render" + scene("cornell.gltf") + "--size 16x12 -o ";
+  std::filesystem::create_directory(folder_ / "store");
+  std::filesystem::create_symlink("store/x.exr", folder_ / "x.exr");  // its target is not there yet
+  for (int i = 0; i < 2; ++i) {
+    ASSERT_EQ(run(render + "x.exr").exit_code, 0);
+    EXPECT_TRUE(std::filesystem::is_symlink(folder_ / "x.exr"));
+    EXPECT_TRUE(std::filesystem::is_regular_file(folder_ / "store" / "x.exr"));
+  }
+  write("kept.exr", "kept");
+  std::filesystem::permissions(folder_ / "kept.exr", std::filesystem::perms::owner_read);
+  const CommandResult result = run(render + "kept.exr");
+  EXPECT_EQ(result.exit_code, 1);
+  EXPECT_NE(result.err.find("read-only"), std::string::npos) << result.err;
+  EXPECT_EQ(read_file(folder_ / "kept.exr"), "kept");
+}
+
+TEST_F(OutputsTest, SkipExistingTakesWholeFilesOfTheSameSettingsAlone) {
+  ASSERT_EQ(run("generate cornell -o x.gltf").exit_code, 0);
+  const std::string render = "render x.gltf --size 32x24 --turntable 4 -o f##.exr --skip-existing ";
+  const auto drawn = [&](const std::string& more) {
+    const CommandResult result = run(render + more);
+    EXPECT_EQ(result.exit_code, 0) << result.err;
+    int count = 0;
+    for (std::size_t at = 0; (at = result.out.find(".exr\n", at)) != std::string::npos; ++at) ++count;
+    return count;
+  };
+  EXPECT_EQ(drawn(""), 4);
+  const std::string first = read_file(folder_ / "f01.exr");
+  EXPECT_EQ(drawn(""), 0);
+  EXPECT_EQ(drawn("--threads 1"), 0);  // no pixel changes with it
+  std::filesystem::resize_file(folder_ / "f01.exr", first.size() - 100);
+  std::filesystem::remove(folder_ / "f02.exr");
+  write("f03.exr", "");
+  EXPECT_EQ(drawn(""), 3);
+  EXPECT_EQ(drawn("--spp 2"), 4);
+  EXPECT_EQ(drawn("--spp 2 --crop 0,0,8,8"), 4);
+  EXPECT_EQ(drawn("--spp 2 --crop 0,0,8,8 --light 0,1,0,0.5"), 4);
+  EXPECT_EQ(drawn("--spp 2 --crop 0,0,8,8 --light 0,1,0,0.6"), 4);
+  EXPECT_EQ(drawn("--spp 2 --crop 0,0,8,8 --light 0,1,0,0.6 --compression piz"), 4);
+  EXPECT_EQ(drawn("--spp 2 --crop 0,0,8,8 --light 0,1,0,0.6 --compression piz"), 0);
+  std::filesystem::last_write_time(folder_ / "x.bin",
+                                   std::filesystem::file_time_type::clock::now() + std::chrono::seconds(5));
+  EXPECT_EQ(drawn("--spp 2 --crop 0,0,8,8 --light 0,1,0,0.6 --compression piz"), 4);
+}
+
+TEST_F(OutputsTest, DeterministicFilesAreTheSameToTheByte) {
+  const std::string render = "render" + scene("two-lights.gltf") + "--size 96x72 --mode raytrace --deterministic -o ";
+  ASSERT_EQ(run(render + "a.exr").exit_code, 0);
+  const std::string expected = read_file(folder_ / "a.exr");
+  for (const std::string more : {"--threads 1", "--threads 3", "--isa scalar", "--isa sse4"}) {
+    ASSERT_EQ(run(render + "b.exr " + more).exit_code, 0);
+    EXPECT_EQ(read_file(folder_ / "b.exr"), expected) << more;
+  }
+}
+
+}  // namespace
+}  // namespace pinocchio

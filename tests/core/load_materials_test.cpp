@@ -1,0 +1,103 @@
+// What files say of textures and alpha arrives in materials' maps.
+#include "core/scene/mtl.h"
+#include "tests/support/gltf.h"
+
+namespace pinocchio {
+namespace {
+
+TEST(LoadMaterials, GltfTexturesSamplersAndTransforms) {
+  std::ofstream(own_file("texel.ppm"), std::ios::binary) << "P6 1 1 255\n\x0a\x14\x1e";
+  Json json = textured_json({{"uri", "texel.ppm"}});
+  json["samplers"] = {{{"wrapS", 33071}, {"wrapT", 33648}, {"magFilter", 9728}}};
+  json["textures"][0]["sampler"] = 0;
+  Json& material = json["materials"][0];
+  material["emissiveTexture"] = {{"index", 0}, {"texCoord", 1}};
+  material["normalTexture"] = {{"index", 0}, {"scale", 0.5}};
+  material["occlusionTexture"] = {{"index", 0}, {"strength", 0.25}};
+  material["pbrMetallicRoughness"]["metallicRoughnessTexture"] = {
+      {"index", 0}, {"extensions", {{"KHR_texture_transform", {{"offset", {0.5, 0.25}}, {"scale", {2, 3}}}}}}};
+  material["alphaMode"] = "MASK";
+  material["alphaCutoff"] = 0.75;
+  json["meshes"][0]["primitives"][0]["attributes"]["TEXCOORD_0"] = 0;
+  json["accessors"].push_back({{"bufferView", 0}, {"componentType", 5126}, {"count", 4}, {"type", "VEC2"}});
+  json["meshes"][0]["primitives"][0]["attributes"]["TEXCOORD_0"] = 2;
+  json["meshes"][0]["primitives"][0]["attributes"]["TEXCOORD_1"] = 2;
+  Warnings warnings;
+  const Expected<Scene> scene = load(json, &warnings);
+  ASSERT_TRUE(scene) << scene.error().message();
+  EXPECT_TRUE(warnings.empty());
+  const MaterialMaps* maps = scene->mesh->maps_of(0);
+  ASSERT_NE(maps, nullptr);
+  EXPECT_EQ(maps->base_color.wrap_u, Wrap::clamp);
+  EXPECT_EQ(maps->base_color.wrap_v, Wrap::mirror);
+  EXPECT_TRUE(maps->base_color.nearest);
+  EXPECT_EQ(maps->emissive.uv_set, 1);
+  EXPECT_EQ(maps->normal_scale, 0.5f);
+  EXPECT_EQ(maps->occlusion_strength, 0.25f);
+  EXPECT_EQ(maps->metallic_roughness.uv_from_texcoord, glm::mat3x2(2, 0, 0, 3, 0.5f, 0.25f));
+  EXPECT_EQ(maps->alpha_mode, AlphaMode::mask);
+  EXPECT_EQ(maps->alpha_cutoff, 0.75f);
+  EXPECT_EQ(maps->alpha, maps->base_color);
+  EXPECT_EQ(scene->mesh->texcoords1.size(), scene->mesh->positions.size());
+}
+
+TEST(LoadMaterials, GltfVertexColorsOfThreeOrFourNumbers) {
+  Json json = triangle_json();
+  json["accessors"].push_back(
+      {{"bufferView", 0}, {"componentType", 5121}, {"normalized", true}, {"count", 4}, {"type", "VEC4"}});
+  json["meshes"][0]["primitives"][0]["attributes"]["COLOR_0"] = 2;
+  const Scene scene = load_good(json);
+  ASSERT_EQ(scene.mesh->colors.size(), 4u);
+  ASSERT_NE(scene.mesh->maps_of(0), nullptr);
+  EXPECT_TRUE(scene.mesh->maps_of(0)->vertex_colors);
+}
+
+TEST(LoadMaterials, WhatBlendsAndIsWholeIsOpaque) {
+  Json json = triangle_json();
+  json["materials"] = {{{"alphaMode", "BLEND"}}};
+  json["meshes"][0]["primitives"][0]["material"] = 0;
+  EXPECT_EQ(load_good(json).mesh->maps_of(0), nullptr);
+  json["materials"][0]["pbrMetallicRoughness"]["baseColorFactor"] = {1, 1, 1, 0.5};
+  EXPECT_TRUE(load_good(json).mesh->maps_of(0)->blends());
+}
+
+TEST(LoadMaterials, MtlStatements) {
+  const std::vector<MtlMaterial> all = read_mtl(
+      "newmtl red car paint \r\nKd 0.5\nTr 0.25\nmap_Kd -s 2 3 -o 0.5 -clamp on my picture.png\n"
+      "map_Bump -bm 0.5 sub\\bump.png\nmap_d -imfchan g holes.png\nPm 0.75\n"
+      "newmtl two\nd -halo 0.5\nTr 0.9\nmap_Kd 1.png\n");
+  ASSERT_EQ(all.size(), 2u);
+  EXPECT_EQ(all[0].name, "red car paint");
+  EXPECT_EQ(all[0].kd, glm::vec3(0.5f));
+  EXPECT_EQ(all[0].dissolve, 0.75f);
+  EXPECT_EQ(all[0].map_kd.file, "my picture.png");
+  EXPECT_EQ(all[0].map_kd.scale, glm::vec2(2, 3));
+  EXPECT_EQ(all[0].map_kd.offset, glm::vec2(0.5f, 0));
+  EXPECT_TRUE(all[0].map_kd.clamp);
+  EXPECT_EQ(all[0].map_bump.bump, 0.5f);
+  EXPECT_EQ(all[0].map_bump.file, "sub/bump.png");
+  EXPECT_EQ(all[0].map_d.channel, 'g');
+  EXPECT_EQ(all[0].metallic, 0.75f);
+  EXPECT_EQ(all[1].dissolve, 0.5f);  // d counts, not its opposite
+  EXPECT_EQ(all[1].map_kd.file, "1.png");
+}
+
+TEST(LoadMaterials, MtlDissolveBlendsUnlessItRefracts) {
+  const auto maps_of = [](const std::string& mtl) {
+    std::ofstream(own_file("d.mtl")) << "newmtl m\nKd 1 1 1\n" << mtl;
+    std::ofstream(own_file("d.obj")) << "mtllib d.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nusemtl m\nf 1 2 3\n";
+    const Expected<Scene> scene = load_scene(own_file("d.obj"));
+    EXPECT_TRUE(scene);
+    const MaterialMaps* maps = scene->mesh->maps_of(0);
+    return maps ? std::optional(*maps) : std::nullopt;
+  };
+  EXPECT_FALSE(maps_of("d 1\n"));
+  const auto half = maps_of("d 0.5\n");
+  ASSERT_TRUE(half);
+  EXPECT_TRUE(half->blends());
+  EXPECT_EQ(half->alpha_factor, 0.5f);
+  EXPECT_FALSE(maps_of("d 0.5\nillum 7\nNi 1.5\n"));
+}
+
+}  // namespace
+}  // namespace pinocchio

@@ -1,0 +1,154 @@
+// Many pictures into arrays are, bit for bit, the pictures one by one; measured cameras on both processors.
+#include "pinocchio/batch.h"
+
+#include <atomic>
+#include <cstdlib>
+#include <new>
+
+#include "tests/support/draw.h"
+
+namespace {
+// Allocations of all threads, counted while somebody asks.
+std::atomic<std::size_t> allocations{0};
+}  // namespace
+
+void* operator new(std::size_t size) {
+  ++allocations;
+  if (void* const p = std::malloc(size > 0 ? size : 1)) return p;
+  throw std::bad_alloc();
+}
+void operator delete(void* p) noexcept { std::free(p); }
+void operator delete(void* p, std::size_t) noexcept { std::free(p); }
+
+namespace pinocchio {
+namespace {
+
+constexpr glm::ivec2 kSize{75, 50};  // no whole number of tiles
+constexpr std::size_t kPixels = 75 * 50;
+
+std::vector<Camera> cameras_of(const Scene& scene, int count) {
+  std::vector<Camera> cameras;
+  for (int i = 0; i < count; ++i) {
+    Camera camera = first_camera(scene);
+    camera.eye.x += 0.05f * static_cast<float>(i);
+    cameras.push_back(with_intrinsics(camera, {70.0, 64.0, 30.0 + i, 27.5}, kSize));
+  }
+  return cameras;
+}
+
+struct Arrays {
+  explicit Arrays(std::size_t frames) {
+    color.resize(frames * kPixels), depth.resize(frames * kPixels), position.resize(frames * kPixels);
+    normal = albedo = reflection = position;
+    ids.resize(frames * kPixels), objects = ids;
+    mask.resize(frames * kPixels);
+  }
+  FrameArrays all() {
+    return {color.data(), depth.data(), position.data(),  normal.data(),    albedo.data(),
+            ids.data(),   objects.data(), mask.data(), reflection.data()};
+  }
+  std::vector<glm::vec4> color;
+  std::vector<float> depth;
+  std::vector<glm::vec3> position, normal, albedo, reflection;
+  std::vector<std::uint32_t> ids, objects;
+  std::vector<std::uint8_t> mask;
+};
+
+template <class T>
+bool same(const Image<T>& image, const std::vector<T>& all, std::size_t frame) {
+  return std::equal(image.pixels().begin(), image.pixels().end(),
+                    all.begin() + static_cast<std::ptrdiff_t>(frame * kPixels));
+}
+
+void expect_as_one_by_one(const Scene& scene, Settings settings) {
+  settings.threads = 2;
+  Engine engine;
+  const std::vector<Camera> cameras = cameras_of(scene, 3);
+  Arrays arrays(cameras.size());
+  ASSERT_TRUE(render_many(engine, scene, cameras, kSize, settings, arrays.all()));
+  for (std::size_t i = 0; i < cameras.size(); ++i) {
+    const FrameResult frame = engine.render(scene, {.camera = cameras[i], .size = kSize}, settings).value();
+    const SurfaceImages surfaces = surfaces_of(frame);
+    EXPECT_TRUE(same(frame.color, arrays.color, i));
+    EXPECT_TRUE(same(frame.ids, arrays.ids, i));
+    if (!frame.reflection.empty()) EXPECT_TRUE(same(frame.reflection, arrays.reflection, i));
+    EXPECT_TRUE(same(surfaces.z_eye, arrays.depth, i));
+    EXPECT_TRUE(same(surfaces.p_world, arrays.position, i));
+    EXPECT_TRUE(same(surfaces.n_shading, arrays.normal, i));
+    EXPECT_TRUE(same(surfaces.albedo, arrays.albedo, i));
+    Image<std::uint8_t> mask(kSize);
+    unpack_mask(frame, mask.pixels().data());
+    EXPECT_TRUE(same(mask, arrays.mask, i));
+    for (std::size_t p = 0; p < kPixels; ++p)
+      ASSERT_EQ(arrays.objects[i * kPixels + p], object_of(scene, frame.ids[p]));
+  }
+}
+
+class Batch : public testing::TestWithParam<std::string> {};
+INSTANTIATE_TEST_SUITE_P(Scenes, Batch, testing::ValuesIn(own_scenes()),
+                         [](const auto& scene) { return "scene" + std::to_string(scene.index); });
+
+TEST_P(Batch, IsThePicturesOneByOne) {
+  const Scene scene = load_or_die(source_path(GetParam()));
+  expect_as_one_by_one(scene, by({{"mode", "raytrace"}}));
+  Settings samples = by({{"mode", "raytrace"}});
+  samples.spp = 3;
+  expect_as_one_by_one(scene, samples);
+  Settings coarse = by({{"mode", "raytrace"}});  // not by the queue of tiles
+  coarse.mask_scale = 2;
+  expect_as_one_by_one(scene, coarse);
+  expect_as_one_by_one(scene, {});  // the GPU's part, too
+}
+
+TEST(BatchOutputs, WhatIsNotWantedIsNotTraced) {
+  const Scene scene = load_or_die(source_path("scenes/cornell"));
+  Engine engine;
+  const std::vector<Camera> cameras = cameras_of(scene, 2);
+  Arrays arrays(2);
+  const RayCounts rays =
+      render_many(engine, scene, cameras, kSize, by({{"mode", "raytrace"}}), {.ids = arrays.ids.data()}).value();
+  EXPECT_EQ(rays.primary, 2 * kPixels);
+  EXPECT_EQ(rays.shadow + rays.reflection + rays.refraction, 0u);
+}
+
+TEST(BatchOutputs, NothingIsAllocatedForAFrame) {
+  const Scene scene = load_or_die(source_path("scenes/cornell"));
+  Settings settings = by({{"mode", "raytrace"}});
+  settings.threads = 1;  // which thread takes how much is the same every time
+  Engine engine;
+  Arrays arrays(64);
+  const auto cost = [&](int frames) {
+    const std::vector<Camera> cameras = cameras_of(scene, frames);
+    const std::size_t before = allocations;
+    EXPECT_TRUE(render_many(engine, scene, cameras, kSize, settings, arrays.all()));
+    return allocations - before;
+  };
+  (void)cost(64);
+  EXPECT_EQ(cost(64), cost(8));
+}
+
+TEST(BatchOutputs, EndWhenTheyAreCancelled) {
+  const Scene scene = load_or_die(source_path("scenes/cornell"));
+  Engine engine;
+  Arrays arrays(2);
+  Progress progress;
+  progress.cancel();
+  EXPECT_THROW((void)render_many(engine, scene, cameras_of(scene, 2), kSize, by({{"mode", "raytrace"}}), arrays.all(),
+                                 &progress),
+               Cancelled);
+}
+
+// A rasteriser and rays agree on what a camera off its axis sees but at a few edges.
+TEST(MeasuredCamera, SeesTheSameOnBothProcessors) {
+  const Scene scene = load_or_die(source_path("scenes/cornell"));
+  Engine engine;
+  const View view{.camera = cameras_of(scene, 2).back(), .size = kSize};
+  const FrameResult rays = engine.render(scene, view, by({{"mode", "raytrace"}})).value();
+  const FrameResult raster = engine.render(scene, view).value();
+  std::size_t differing = 0;
+  for (std::size_t i = 0; i < kPixels; ++i) differing += rays.ids[i] != raster.ids[i] ? 1 : 0;
+  EXPECT_LE(differing, kPixels / 500);
+}
+
+}  // namespace
+}  // namespace pinocchio

@@ -1,0 +1,235 @@
+// The window as a person meets it: what covers the picture, where input goes, what it costs to stand still.
+#include <nlohmann/json.hpp>
+
+#include "tests/view/display.h"
+
+namespace pinocchio {
+namespace {
+
+constexpr const char* kStill = "n";  // key: samples are not gathered, so that pictures stand still
+
+class OverlayTest : public WindowTest {
+ protected:
+  [[nodiscard]] std::string at(int x, int y) const {
+    return "mousemove --window " + window_ + " " + std::to_string(x) + " " + std::to_string(y) + " ";
+  }
+  [[nodiscard]] std::string eye() { return option(command_line(), "--eye"); }
+  // Share of the window's pixels that differ between two pictures of it.
+  [[nodiscard]] double share_different(const std::string& a, const std::string& b, double pixels) const {
+    return static_cast<double>(different(a, b)) / pixels;
+  }
+  // Seconds of processors that it uses in a second, over `seconds`.
+  [[nodiscard]] double load(double seconds) const {
+    const double before_s = program_->cpu_s();
+    pause_ms(static_cast<int>(1e3 * seconds));
+    return (program_->cpu_s() - before_s) / seconds;
+  }
+  // A part of the window.
+  void grab_box(const std::string& file, int x, int y, int width, int height) const {
+    grab("whole.png");
+    (void)run_command("cd '" + folder_.string() + "' && convert whole.png -crop " + std::to_string(width) + "x" +
+                          std::to_string(height) + "+" + std::to_string(x) + "+" + std::to_string(y) +
+                          " +repage " + file,
+                      folder_);
+  }
+};
+
+TEST_F(OverlayTest, AtTheStartThePictureIsUncovered) {
+  open_as_is(scene("cornell"));
+  key(kStill);
+  pause_ms(7000);  // what P said is gone by itself
+  settle();
+  grab("open.png");
+  key("h");
+  settle();
+  grab("bare.png");
+  const double covered = share_different("open.png", "bare.png", 800.0 * 600.0);
+  EXPECT_GT(covered, 0.0);
+  EXPECT_LT(covered, 0.15);
+  expect_clean_close();
+}
+
+// Eight times from the picture onto a panel and pressed at once, as fast as the display takes it.
+TEST_F(OverlayTest, WhatIsPressedOnAPanelDoesNotMoveTheCamera) {
+  open_as_is(scene("cornell"));
+  key(std::string(kStill) + " F3");  // at the right
+  settle();
+  const std::string before = eye();
+  std::string all;
+  for (int i = 0; i < 8; ++i)
+    all += at(150, 300) + at(640, 18) + "mousedown 1 " + at(640, 24) + at(640, 18) + "mouseup 1 " + at(150, 300) +
+           at(640, 18) + "click 4 " + at(150, 300);
+  xdo(all);
+  pause_ms(500);
+  EXPECT_EQ(eye(), before);
+  // And the other way round: on the picture it does.
+  xdo(at(640, 18) + at(150, 300) + "mousedown 1 " + at(190, 300) + "mouseup 1");
+  pause_ms(500);
+  EXPECT_NE(eye(), before);
+  expect_clean_close();
+}
+
+TEST_F(OverlayTest, EscapeClosesHelpThenFullScreenThenTheWindow) {
+  open_as_is(scene("cornell"), "480x360");
+  key("F11");
+  pause_ms(700);
+  key("F1");
+  pause_ms(500);
+  key("Escape");
+  pause_ms(500);
+  EXPECT_TRUE(program_->running());
+  EXPECT_EQ(option(command_line(), "--size"), "1280x800");  // still full screen
+  key("Escape");
+  EXPECT_TRUE(becomes([this] { return option(command_line(), "--size") == "480x360"; }, 20.0));
+  key("Escape");
+  EXPECT_EQ(program_->wait(), 0) << errors();
+}
+
+TEST_F(OverlayTest, AStillPictureCostsNothing) {
+  open_as_is(scene("cornell"), "320x240", "--spp 4");
+  ASSERT_TRUE(becomes([this] { return option(command_line(), "--spp") == "4"; }));
+  pause_ms(8000);  // messages are gone, too
+  EXPECT_LT(load(5.0), 0.01);
+  // And it wakes at once.
+  const std::string before = eye();
+  drag(1, 40, 0);
+  EXPECT_NE(eye(), before);
+  expect_clean_close();
+}
+
+TEST_F(OverlayTest, PanelsAreRememberedFromRunToRun) {
+  open_as_is(scene("cornell"));
+  key("F3 F2");
+  pause_ms(500);
+  expect_clean_close();
+  const nlohmann::json json = nlohmann::json::parse(text_of(folder_ / "config/pinocchio/window.json"));
+  EXPECT_EQ(json["open"], (nlohmann::json{"Frame times", "Drawing"}));
+  ASSERT_EQ(json["recent"].size(), 1u);
+  EXPECT_NE(json["recent"][0].get<std::string>().find("cornell.gltf"), std::string::npos);
+  // The next run shows them.
+  program_.reset();
+  std::filesystem::remove(folder_ / "out.txt");
+  open_as_is(scene("cornell"));
+  key(kStill);
+  settle();
+  grab("open.png");
+  key("F3 F2");
+  settle();
+  grab("closed.png");
+  EXPECT_GT(different("open.png", "closed.png"), 30000);
+  expect_clean_close();
+}
+
+TEST_F(OverlayTest, PanelsFitASmallWindowAndALargeScale) {
+  // Twice as large, as the display asks for it.
+  (void)run_command("DISPLAY=" + display_ +
+                        " xprop -root -f RESOURCE_MANAGER 8s -set RESOURCE_MANAGER 'Xft.dpi:\t192'",
+                    folder_);
+  open_as_is(scene("cornell"), "240x180");
+  key(kStill);
+  for (const char* panel : {"F1", "F2", "F3", "F4", "F5", "F6", "F7", "F8", "F9", "F10"}) {
+    settle();
+    grab("without.png");
+    key(panel);
+    settle();
+    grab("with.png");
+    // Its title bar's left and right corner are in the window: the strip of pixels at the window's edges stays.
+    (void)run_command("cd '" + folder_.string() + "' && for f in with without; do convert $f.png -gravity West -crop 2x300+0-30 +repage edge-$f.png; done",
+                      folder_);
+    EXPECT_EQ(different("edge-with.png", "edge-without.png"), 0) << panel;
+    EXPECT_GT(different("with.png", "without.png"), 5000) << panel;
+    key(panel);
+  }
+  EXPECT_TRUE(program_->running()) << errors();
+  expect_clean_close();
+}
+
+TEST_F(OverlayTest, UndoAndRedo) {
+  open(scene("cornell"));
+  key(kStill);
+  pause_ms(600);
+  const std::string before = eye();
+  drag(1, 60, 30);
+  pause_ms(600);
+  const std::string after = eye();
+  ASSERT_NE(before, after);
+  key("m");
+  pause_ms(600);
+  ASSERT_EQ(option(command_line(), "--mode"), "raytrace");
+  key("ctrl+z");
+  EXPECT_EQ(option(command_line(), "--mode"), "");
+  key("ctrl+z");
+  EXPECT_EQ(eye(), before);
+  key("ctrl+y");
+  EXPECT_EQ(eye(), after);
+  key("ctrl+y");
+  EXPECT_EQ(option(command_line(), "--mode"), "raytrace");
+  expect_clean_close();
+}
+
+TEST_F(OverlayTest, TheCommandSaysHowTheTreeIsBuilt) {
+  open(scene("cornell"), "--tree spatial-median --offset scaled --triangle-test watertight --tree-leaf 5");
+  const std::string command = command_line();
+  EXPECT_EQ(option(command, "--tree"), "spatial-median");
+  EXPECT_EQ(option(command, "--offset"), "scaled");
+  EXPECT_EQ(option(command, "--triangle-test"), "watertight");
+  EXPECT_EQ(option(command, "--tree-leaf"), "5");
+  expect_clean_close();
+}
+
+// A file that cannot be read is said, on the display and on the terminal, and changes nothing.
+TEST_F(OverlayTest, AnUnreadableFileLeavesTheSceneInCharge) {
+  for (const char* file : {"cornell.gltf", "cornell.bin"}) std::filesystem::copy(scene(file), folder_ / file);
+  std::ofstream(folder_ / "damaged.obj") << "v 0 0 0\nf 1 2 7\n";
+  open("cornell.gltf");
+  key(kStill);
+  const std::string before = command_line();
+  key("Right");  // the folder's next
+  ASSERT_TRUE(becomes([this] { return errors().find("damaged.obj:2") != std::string::npos; })) << errors();
+  EXPECT_EQ(command_line(), before);
+  key("Escape");
+  EXPECT_EQ(program_->wait(), 0);
+}
+
+TEST_F(OverlayTest, ArrowsStepThroughTheFolder) {
+  for (const char* file : {"cornell.gltf", "cornell.bin", "speedboat.glb"})
+    std::filesystem::copy(scene(file), folder_ / file);
+  open("cornell.gltf");
+  key("Right");
+  EXPECT_TRUE(becomes([this] { return command_line().find("speedboat.glb") != std::string::npos; }));
+  EXPECT_NE(command_line().find("-o speedboat-001.exr"), std::string::npos);
+  key("Left");
+  EXPECT_TRUE(becomes([this] { return command_line().find("cornell.gltf") != std::string::npos; }));
+  expect_clean_close();
+}
+
+// The window answers while a large scene is read and its tree is built, and the work can be given up.
+TEST_F(OverlayTest, LoadingDoesNotFreezeTheWindow) {
+  ASSERT_EQ(run_command("cd '" + folder_.string() + "' && '" PINOCCHIO_PROGRAM "' generate spd:balls --triangles 1000000 -o balls.glb",
+                        folder_)
+                .exit_code,
+            0);
+  start({PINOCCHIO_PROGRAM, "view", "balls.glb", "--size", "320x240"});
+  xdo("windowfocus --sync " + window_);
+  // The bar moves: of pictures taken while it loads, none is the one before.
+  int changes = 0;
+  grab("progress-0.png");
+  for (int i = 1; i <= 5; ++i) {
+    pause_ms(200);
+    grab("progress-1.png");
+    if (different("progress-0.png", "progress-1.png") > 0) ++changes;
+    std::filesystem::rename(folder_ / "progress-1.png", folder_ / "progress-0.png");
+  }
+  EXPECT_GE(changes, 4);
+  expect_clean_close();
+}
+
+TEST_F(OverlayTest, ChangedMaterialsAreSavedAsGltf) {
+  open(scene("cornell"));
+  key("ctrl+s");
+  EXPECT_TRUE(becomes([this] { return std::filesystem::exists(folder_ / "cornell-001.gltf"); }));
+  expect_clean_close();
+}
+
+}  // namespace
+}  // namespace pinocchio
