@@ -145,7 +145,7 @@ int show_system(const InfoOptions& options) {
   }
   nlohmann::json json = system_json(nullptr);
   json["contexts"] = attempts_json(attempts);
-  std::printf("%s\n", json.dump(2).c_str());
+  std::printf("%s\n", json.dump(2, ' ', false, nlohmann::json::error_handler_t::replace).c_str());
   return kDone;
 }
 
@@ -165,7 +165,7 @@ int show_settings(const InfoOptions& options) {
       json["presets"].push_back({{"option", p.option}, {"value", p.value}, {"help", p.help}});
     for (const Rule& rule : settings_rules())
       json["rules"].push_back({{"rule", rule.what}, {"remedy", rule.remedy}});
-    std::printf("%s\n", json.dump(2).c_str());
+    std::printf("%s\n", json.dump(2, ' ', false, nlohmann::json::error_handler_t::replace).c_str());
     return kDone;
   }
   const auto text = [](std::string_view s) { return std::string(s); };
@@ -228,7 +228,7 @@ int show_scene(const InfoOptions& options) {
     nlohmann::json json = scene_json(scene, warnings);
     if (plan) json["plan"] = plan_json(plan->settings);
     if (plan) json["why"] = plan->why;
-    std::printf("%s\n", json.dump(2).c_str());
+    std::printf("%s\n", json.dump(2, ' ', false, nlohmann::json::error_handler_t::replace).c_str());
   } else {
     print_scene(scene, warnings);
     if (plan) print_plan(*plan);
@@ -242,7 +242,7 @@ Run add_info(CLI::App& program) {
   auto options = std::make_shared<InfoOptions>();
   CLI::App& verb =
       *program.add_subcommand("info", "what a scene holds and needs; --system: what this machine has");
-  CLI::Option* scene = verb.add_option("SCENE", options->draw.scene, "glTF (.gltf, .glb) or OBJ file");
+  CLI::Option* scene = verb.add_option("SCENE", options->draw.scene, "glTF (.gltf, .glb), OBJ or PLY file");
   verb.add_flag("--system", options->system,
                 "processor, SIMD levels, OpenGL contexts: what was tried, what failed")
       ->excludes(scene);
@@ -250,6 +250,7 @@ Run add_info(CLI::App& program) {
       ->excludes(scene);
   verb.add_flag("--plan", options->plan, "how a hybrid frame of it is drawn, and why");
   verb.add_flag("--json", options->json, "as JSON");
+  add_load_limit_option(verb, options->draw);
   verb.add_flag("--strict", options->draw.strict, "what of the scene's files would be left out is an error");
   return [options] {
     if (options->settings) return show_settings(*options);

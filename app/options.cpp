@@ -162,9 +162,19 @@ void add_size_option(CLI::App& verb, DrawOptions& o, const std::string& help) {
       ->type_name("WxH");
 }
 
+void add_load_limit_option(CLI::App& verb, DrawOptions& o) {
+  verb.add_option_function<std::uint64_t>(
+          "--load-limit", [&o](std::uint64_t mib) { o.load_limit = mib << 20; },
+          "most memory that the scene's files may claim beyond their own bytes, for pictures, packed meshes and copies "
+          "(4096)")
+      ->type_name("MIB")
+      ->check(CLI::Range(std::uint64_t{1}, std::uint64_t{1} << 30));
+}
+
 void add_scene_options(CLI::App& verb, DrawOptions& o) {
-  verb.add_option("SCENE", o.scene, "glTF (.gltf, .glb) or OBJ file")->required();
+  verb.add_option("SCENE", o.scene, "glTF (.gltf, .glb), OBJ or PLY file")->required();
   add_camera_options(verb, o);
+  add_load_limit_option(verb, o);
   verb.add_flag("--strict", o.strict, "what of the scene's files would be left out is an error");
   verb.add_flag("--quiet", o.quiet, "print errors only");
   verb.add_option("--progress", o.progress, "progress bar: auto (on a terminal), on, off (auto)")
@@ -202,7 +212,8 @@ void add_draw_options(CLI::App& verb, DrawOptions& o) {
 }
 
 Scene load_whole(const DrawOptions& options, Warnings& warnings, pinocchio::Progress* progress) {
-  Expected<Scene> scene = load_scene(options.scene, &warnings, progress ? progress : &run_progress());
+  Expected<Scene> scene =
+      load_scene(options.scene, &warnings, progress ? progress : &run_progress(), options.load_limit);
   if (!scene || (!options.quiet && !options.strict))  // they may say why it cannot be read
     for (const Warning& warning : warnings)
       std::fprintf(stderr, "pinocchio: warning: %s\n", warning.message().c_str());

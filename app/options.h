@@ -34,6 +34,7 @@ struct DrawOptions {
   bool precise = false;  // drawn by the reference
   std::string progress = "auto";
   bool quiet = false;
+  std::uint64_t load_limit = kUsualLoadLimit;  // bytes
   bool strict = false;  // what of the scene would be left out is an error
 };
 
@@ -41,6 +42,8 @@ struct DrawOptions {
 // a CLI::ValidationError, so exit code 2 and a line that says what is wanted.
 // Scene, camera, lights, messages:
 void add_scene_options(CLI::App& verb, DrawOptions& options);
+// --load-limit:
+void add_load_limit_option(CLI::App& verb, DrawOptions& options);
 // --size, whose help names the verb's own default:
 void add_size_option(CLI::App& verb, DrawOptions& options, const std::string& help);
 // Every setting of the table, and the presets:

@@ -69,7 +69,7 @@ void add_output_options(CLI::App& verb, OutputOptions& options) {
 }
 
 void write_json(const std::filesystem::path& file, const nlohmann::json& json) {
-  write_text(file, json.dump(2) + "\n");
+  write_text(file, json.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + "\n");
 }
 
 void make_folder(const std::filesystem::path& folder) {

@@ -147,7 +147,7 @@ void Results::add(const Configuration& c, const nlohmann::json& figures, const s
 void Results::write() {
   set_ratios();
   mark_fronts();
-  write_text(folder_ / "results.json", json_.dump(2) + "\n");
+  write_text(folder_ / "results.json", json_.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + "\n");
   write_text(folder_ / "results.csv", csv());
 }
 

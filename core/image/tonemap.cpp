@@ -69,6 +69,11 @@ float srgb8_to_linear(std::uint8_t value) {
   return bytes().linear[value];
 }
 
+glm::vec3 srgb_to_linear(const glm::vec3& srgb) {
+  const auto channel = [](float c) { return c <= 0.04045f ? c / 12.92f : std::pow((c + 0.055f) / 1.055f, 2.4f); };
+  return {channel(srgb.x), channel(srgb.y), channel(srgb.z)};
+}
+
 float linear_to_srgb(float linear) {
   return linear <= 0.0031308f ? 12.92f * linear : 1.055f * std::pow(linear, 1.0f / 2.4f) - 0.055f;
 }

@@ -8,6 +8,7 @@ namespace pinocchio {
 // The sRGB transfer curve (IEC 61966-2-1) and its inverse.
 [[nodiscard]] float srgb8_to_linear(std::uint8_t value);
 [[nodiscard]] float linear_to_srgb(float linear);
+[[nodiscard]] glm::vec3 srgb_to_linear(const glm::vec3& srgb);
 
 // 0..255, rounded to nearest as if by exact arithmetic; out of range is clamped, NaN is 0. This and
 // srgb8_to_linear, which is within half a unit in the last place, give the same bits on every machine.

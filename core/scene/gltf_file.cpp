@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstring>
+#include <type_traits>
 
 namespace pinocchio {
 namespace {
@@ -14,29 +15,37 @@ struct Elements {
   int component_type = 0;
 };
 
-template <class T>
-T read(const unsigned char* at) {
-  T value;
-  std::memcpy(&value, at, sizeof value);
-  return value;
+template <class T, class Out>
+void convert(const unsigned char* from, std::size_t width, double scale, Out* to) {
+  for (std::size_t c = 0; c < width; ++c) {
+    T value;
+    std::memcpy(&value, from + c * sizeof value, sizeof value);
+    if constexpr (std::is_same_v<Out, float>)
+      to[c] = static_cast<float>(static_cast<double>(value) * scale);
+    else
+      to[c] = static_cast<Out>(value);
+  }
 }
 
-double component(const unsigned char* at, int type) {
+// One element's numbers; integers times `scale`.
+template <class Out>
+void convert(int type, const unsigned char* from, std::size_t width, double scale, Out* to) {
   switch (type) {
     case TINYGLTF_COMPONENT_TYPE_BYTE:
-      return read<std::int8_t>(at);
+      return convert<std::int8_t>(from, width, scale, to);
     case TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE:
-      return read<std::uint8_t>(at);
+      return convert<std::uint8_t>(from, width, scale, to);
     case TINYGLTF_COMPONENT_TYPE_SHORT:
-      return read<std::int16_t>(at);
+      return convert<std::int16_t>(from, width, scale, to);
     case TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT:
-      return read<std::uint16_t>(at);
+      return convert<std::uint16_t>(from, width, scale, to);
     case TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT:
-      return read<std::uint32_t>(at);
+      return convert<std::uint32_t>(from, width, scale, to);
     case TINYGLTF_COMPONENT_TYPE_FLOAT:
-      return static_cast<double>(read<float>(at));
+      if constexpr (std::is_same_v<Out, float>) std::memcpy(to, from, width * sizeof(float));
+      return;
     default:
-      return 0.0;
+      return;
   }
 }
 
@@ -81,8 +90,8 @@ Expected<Elements> elements(const GltfFile& file, const std::string& whose, int 
   if (!in_range(view_index, model.bufferViews))
     return file.error(whose + " names a buffer view that there is not");
   const tinygltf::BufferView& view = model.bufferViews[static_cast<std::size_t>(view_index)];
-  if (!in_range(view.buffer, model.buffers)) return file.error(whose + " names a buffer that there is not");
-  const std::vector<unsigned char>& data = model.buffers[static_cast<std::size_t>(view.buffer)].data;
+  if (!in_range(view.buffer, file.buffers)) return file.error(whose + " names a buffer that there is not");
+  const std::span<const unsigned char> data = file.buffers[static_cast<std::size_t>(view.buffer)];
 
   const auto element_bytes = static_cast<std::size_t>(component_bytes) * static_cast<std::size_t>(components);
   const std::size_t stride = view.byteStride > 0 ? view.byteStride : element_bytes;
@@ -93,27 +102,23 @@ Expected<Elements> elements(const GltfFile& file, const std::string& whose, int 
   return Elements{data.data() + view.byteOffset + offset, stride, count, component_type};
 }
 
-// Numbers as stored, not yet normalised.
-Expected<std::vector<double>> raw_numbers(const GltfFile& file, int index, int components) {
+template <class Out>
+Expected<std::vector<Out>> numbers_of(const GltfFile& file, int index, int components) {
   const std::string whose = "accessor " + std::to_string(index);
   if (!in_range(index, file.model.accessors)) return file.error(whose + " is used and missing");
   const tinygltf::Accessor& accessor = file.model.accessors[static_cast<std::size_t>(index)];
   if (tinygltf::GetNumComponentsInType(static_cast<std::uint32_t>(accessor.type)) != components)
     return file.error(whose + " does not hold " + std::to_string(components) + " numbers an element");
   constexpr std::size_t kMostElements = 0xffffffffu;
-  constexpr std::size_t kMostImplied = std::size_t{1} << 24;  // zeros that no bytes of the file stand for
   if (accessor.count > kMostElements) return file.error(whose + " holds too many elements");
 
   const auto width = static_cast<std::size_t>(components);
-  const auto component_bytes = static_cast<std::size_t>(
-      tinygltf::GetComponentSizeInBytes(static_cast<std::uint32_t>(accessor.componentType)));
-  std::vector<double> numbers;
+  const double scale = accessor.normalized ? 1.0 / largest_value(accessor.componentType) : 1.0;
+  std::vector<Out> numbers;
   constexpr std::size_t kElementsBetweenLooks = 1 << 16;
   const auto put = [&](const Elements& from, std::size_t element, std::size_t to) {
     if (element % kElementsBetweenLooks == 0) throw_if_cancelled(file.progress);
-    for (std::size_t c = 0; c < width; ++c)
-      numbers[width * to + c] =
-          component(from.first + element * from.stride + c * component_bytes, accessor.componentType);
+    convert(accessor.componentType, from.first + element * from.stride, width, scale, &numbers[width * to]);
   };
   if (accessor.bufferView >= 0) {
     const Expected<Elements> from = elements(file, whose, accessor.bufferView, accessor.byteOffset,
@@ -123,9 +128,12 @@ Expected<std::vector<double>> raw_numbers(const GltfFile& file, int index, int c
     for (std::size_t i = 0; i < accessor.count; ++i) put(*from, i, i);
   } else {
     if (!accessor.sparse.isSparse) return file.error(whose + " has no data");
-    if (!is_component_type(accessor.componentType) || accessor.count > kMostImplied)
-      return file.error(whose + " has too many elements that are not in the file, or of no known type");
-    numbers.resize(width * accessor.count, 0.0);
+    if (!is_component_type(accessor.componentType))
+      return file.error(whose + " has the component type " + std::to_string(accessor.componentType) +
+                        ", which glTF does not know");
+    if (!file.limit->take(file.path.string(), whose, accessor.count, width * sizeof(Out)))
+      return Unexpected(*file.limit->error());
+    numbers.resize(width * accessor.count, Out{});
   }
   if (!accessor.sparse.isSparse) return numbers;
 
@@ -143,8 +151,8 @@ Expected<std::vector<double>> raw_numbers(const GltfFile& file, int index, int c
                count, accessor.componentType, components);
   if (!values) return Unexpected(values.error());
   for (std::size_t i = 0; i < count; ++i) {
-    const auto to =
-        static_cast<std::size_t>(component(places->first + i * places->stride, where.componentType));
+    std::uint32_t to = 0;
+    convert(where.componentType, places->first + i * places->stride, 1, 1.0, &to);
     if (to >= accessor.count) return file.error(whose + "'s sparse part reaches beyond it");
     put(*values, i, to);
   }
@@ -164,26 +172,14 @@ Expected<std::span<const unsigned char>> GltfFile::bytes(int buffer_view, const 
 }
 
 Expected<std::vector<float>> GltfFile::floats(int accessor, int components) const {
-  const Expected<std::vector<double>> numbers = raw_numbers(*this, accessor, components);
-  if (!numbers) return Unexpected(numbers.error());
-  const tinygltf::Accessor& a = model.accessors[static_cast<std::size_t>(accessor)];
-  const double scale = a.normalized ? 1.0 / largest_value(a.componentType) : 1.0;
-  std::vector<float> result;
-  result.reserve(numbers->size());
-  for (const double n : *numbers) result.push_back(static_cast<float>(n * scale));
-  return result;
+  return numbers_of<float>(*this, accessor, components);
 }
 
 Expected<std::vector<std::uint32_t>> GltfFile::indices(int accessor) const {
-  const Expected<std::vector<double>> numbers = raw_numbers(*this, accessor, 1);
-  if (!numbers) return Unexpected(numbers.error());
-  const int type = model.accessors[static_cast<std::size_t>(accessor)].componentType;
-  if (!is_index_type(type))
+  if (in_range(accessor, model.accessors) &&
+      !is_index_type(model.accessors[static_cast<std::size_t>(accessor)].componentType))
     return error("accessor " + std::to_string(accessor) + " holds indices that are not unsigned integers");
-  std::vector<std::uint32_t> result;
-  result.reserve(numbers->size());
-  for (const double n : *numbers) result.push_back(static_cast<std::uint32_t>(n));
-  return result;
+  return numbers_of<std::uint32_t>(*this, accessor, 1);
 }
 
 const tinygltf::Value* member(const tinygltf::Value& object, const std::string& key) {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <deque>
 #include <filesystem>
 #include <optional>
 #include <span>
@@ -14,16 +15,23 @@
 #include <tiny_gltf.h>
 #pragma GCC diagnostic pop
 
-#include "pinocchio/load.h"
-#include "pinocchio/progress.h"
+#include "core/scene/loaders.h"
 
 namespace pinocchio {
 
 struct GltfFile {
   std::filesystem::path path;
-  tinygltf::Model model;
+  tinygltf::Model model;  // without its buffers' bytes
+  std::vector<std::span<const unsigned char>> buffers;
+  std::deque<std::string> storage;  // what they lie in
   std::vector<std::string> named_files;  // looked for beside it, found or not
   Progress* progress = nullptr;
+  MemoryLimit* limit = nullptr;
+
+  void add_buffer(std::string bytes) {
+    const std::string& kept = storage.emplace_back(std::move(bytes));
+    buffers.emplace_back(reinterpret_cast<const unsigned char*>(kept.data()), kept.size());
+  }
 
   [[nodiscard]] Unexpected error(const std::string& what,
                                  const std::string& remedy = "export the file again") const {
@@ -40,10 +48,10 @@ struct GltfFile {
                                                                const std::string& whose) const;
 };
 
-// Reads and parses the file; images stay encoded, their bytes in Image::image where they are not in a
-// buffer view. Refuses what would overrun tinygltf: JSON nested deeper than any scene's.
+// Reads and parses the file; images stay encoded: in a buffer view, in Image::image, or in the file that their uri
+// names. Refuses what would overrun tinygltf: JSON nested deeper than any scene's.
 [[nodiscard]] Expected<GltfFile> read_gltf_file(const std::filesystem::path& path,
-                                                Warnings& warnings, Progress* progress);
+                                                Loading& loading);
 
 // Members of an object that a file may or may not have, of the type that is wanted.
 [[nodiscard]] const tinygltf::Value* member(const tinygltf::Value& object, const std::string& key);
@@ -63,7 +71,7 @@ void add_gltf_materials(const GltfFile& file, MeshData& mesh);
 
 // Decodes the images that maps use and makes their textures the scene's; an image that cannot be read is a
 // warning and leaves what the material has without it.
-void add_gltf_textures(const GltfFile& file, MeshData& mesh, Warnings& warnings);
+void add_gltf_textures(const GltfFile& file, MeshData& mesh, Loading& loading);
 
 // Appends the triangles of a mesh, placed by `world_from_mesh`, and to `rest` its vertices as they were.
 // Materials are the file's indices; -1 becomes `default_material`.

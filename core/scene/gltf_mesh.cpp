@@ -33,6 +33,15 @@ std::size_t triangle_count(int mode, std::size_t indices) {
 
 constexpr std::size_t kTrianglesBetweenLooks = 1 << 16;
 
+// Vertices or triangles' corners, whichever are more.
+std::size_t elements_of(const GltfFile& file, const tinygltf::Primitive& primitive) {
+  std::size_t most = 0;
+  for (const int accessor : {attribute(primitive, "POSITION"), primitive.indices})
+    if (accessor >= 0 && static_cast<std::size_t>(accessor) < file.model.accessors.size())
+      most = std::max(most, file.model.accessors[static_cast<std::size_t>(accessor)].count);
+  return most;
+}
+
 class MeshPlacer {
  public:
   MeshPlacer(const GltfFile& file, const glm::mat4& world_from_mesh, MeshData& mesh, RestPose& rest)
@@ -168,6 +177,9 @@ Expected<void> add_gltf_mesh(const GltfFile& file, int mesh, const glm::mat4& wo
                     "primitives without positions are left out", "they are not drawn"});
       continue;
     }
+    // Copies are not in the file; the first placing is counted with them.
+    if (!file.limit->take(file.path.string(), "placing mesh " + std::to_string(mesh), elements_of(file, primitive), 40))
+      return Unexpected(*file.limit->error());
     if (const Expected<void> added = placer.add(primitive, default_material); !added) return added;
   }
   return {};

@@ -1,10 +1,11 @@
+#include <algorithm>
 #include <cstring>
 #include <nlohmann/json.hpp>
 #include <string_view>
 
+#include "core/scene/gltf_buffers.h"
 #include "core/scene/gltf_features.h"
-#include "core/scene/gltf_file.h"
-#include "core/scene/read_bytes.h"
+#include "core/scene/input_file.h"
 
 namespace pinocchio {
 namespace {
@@ -13,6 +14,7 @@ constexpr std::string_view kBinaryMagic = "glTF";
 
 // tinygltf recurses into extras and extensions; this many levels fit any stack.
 constexpr int kDeepest = 256;
+constexpr int kNoSuch = 0x7fffffff;  // an index that nothing has
 
 bool nested_too_deep(std::string_view json) {
   int depth = 0;
@@ -28,77 +30,116 @@ bool nested_too_deep(std::string_view json) {
   return false;
 }
 
-// A .glb's first chunk, else everything.
-std::string_view json_of(std::string_view bytes) {
-  constexpr std::size_t kLengthAt = 12, kJsonAt = 20;
-  if (!bytes.starts_with(kBinaryMagic) || bytes.size() < kJsonAt) return bytes;
-  std::uint32_t length = 0;
-  std::memcpy(&length, bytes.data() + kLengthAt, sizeof length);
-  return bytes.substr(kJsonAt, length);
+// A file's parts: its JSON, and a .glb's binary chunk.
+struct Parts {
+  std::string json;
+  std::span<const unsigned char> binary;
+};
+
+std::uint32_t number_at(std::string_view bytes, std::size_t at) {
+  std::uint32_t value = 0;
+  std::memcpy(&value, bytes.data() + at, sizeof value);
+  return value;
 }
 
-// Decoding waits until it is known which images are shown: one that is broken or of a kind that stb does
-// not read would fail the whole file here, and so would 16 bits a channel mislead.
-bool keep_encoded(tinygltf::Image* image, const int, std::string*, std::string*, int, int,
-                  const unsigned char* bytes, int size, void*) {
-  if (image->bufferView < 0) image->image.assign(bytes, bytes + size);  // else tinygltf checked no range
-  return true;
+Expected<Parts> split(GltfFile& file, std::string&& bytes) {
+  if (!bytes.starts_with(kBinaryMagic)) return Parts{as_utf8(std::move(bytes)), {}};
+  constexpr std::size_t kHeader = 12, kChunkHeader = 8;
+  constexpr std::uint32_t kJson = 0x4e4f534a, kBinary = 0x004e4942;
+  if (bytes.size() < kHeader) return file.error("ends within its header", "is the export complete?");
+  if (const std::uint32_t version = number_at(bytes, 4); version != 2)
+    return file.error("is binary glTF " + std::to_string(version) + ", only 2 can be read", "convert it to glTF 2.0");
+  Parts parts;
+  const std::string& kept = file.storage.emplace_back(std::move(bytes));
+  for (std::size_t at = kHeader; at + kChunkHeader <= kept.size();) {
+    const std::uint32_t length = number_at(kept, at), type = number_at(kept, at + 4);
+    at += kChunkHeader;
+    if (length > kept.size() - at)
+      return file.error("ends within a chunk of " + std::to_string(length) + " bytes", "is the export complete?");
+    if (type == kJson && parts.json.empty()) parts.json = kept.substr(at, length);
+    if (type == kBinary && parts.binary.empty())
+      parts.binary = {reinterpret_cast<const unsigned char*>(kept.data()) + at, length};
+    at += (std::size_t{length} + 3) / 4 * 4;
+  }
+  return parts;
 }
 
-bool find_named_file(const std::string& file, void* gltf) {
-  static_cast<GltfFile*>(gltf)->named_files.push_back(file);
-  return tinygltf::FileExists(file, nullptr);
+// Takes out what tinygltf need not see: what is read by ourselves, and indices, of which it refuses those
+// without a buffer view. The indices, primitive by primitive:
+std::vector<int> reduce(nlohmann::json& gltf) {
+  for (const char* key : {"buffers", "bufferViews", "images"}) gltf.erase(key);
+  std::vector<int> indices;
+  const auto meshes = gltf.find("meshes");
+  if (meshes == gltf.end() || !meshes->is_array()) return indices;
+  for (nlohmann::json& mesh : *meshes) {
+    if (!mesh.is_object() || !mesh.contains("primitives") || !mesh["primitives"].is_array()) continue;
+    for (nlohmann::json& primitive : mesh["primitives"]) {
+      const bool has = primitive.is_object() && primitive.contains("indices");
+      indices.push_back(has ? static_cast<int>(std::min<std::size_t>(size_member(primitive, "indices").value_or(kNoSuch), kNoSuch)) : -1);
+      if (has) primitive.erase("indices");
+    }
+  }
+  return indices;
 }
 
-bool read_named_file(std::vector<unsigned char>* to, std::string* error, const std::string& file, void* gltf) {
-  throw_if_cancelled(static_cast<GltfFile*>(gltf)->progress);
-  return tinygltf::ReadWholeFile(to, error, file, nullptr);
-}
-
-std::string first_line(const std::string& text) {
-  return text.substr(0, text.find('\n'));
+Expected<void> parse(GltfFile& file, nlohmann::json& gltf) {
+  const std::vector<int> indices = reduce(gltf);
+  const std::string text = gltf.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
+  tinygltf::TinyGLTF reader;
+  tinygltf::Model model;
+  std::string error, warning;
+  bool read = false;
+  try {
+    read = reader.LoadASCIIFromString(&model, &error, &warning, text.data(), static_cast<unsigned>(text.size()), "");
+  } catch (const std::exception& e) {  // of the JSON library below, on values of the wrong type
+    error = e.what();
+  }
+  if (!read) return file.error("is not glTF 2.0 that can be read: " + error.substr(0, error.find('\n')), "is the export complete?");
+  model.bufferViews = std::move(file.model.bufferViews);
+  model.images = std::move(file.model.images);
+  file.model = std::move(model);
+  std::size_t next = 0;
+  for (tinygltf::Mesh& mesh : file.model.meshes)
+    for (tinygltf::Primitive& primitive : mesh.primitives)
+      if (next < indices.size()) primitive.indices = indices[next++];
+  for (tinygltf::Texture& texture : file.model.textures)
+    if (const std::optional<float> webp = number_member(extension(texture.extensions, "EXT_texture_webp"), "source"))
+      texture.source = *webp >= 0.0f && *webp < static_cast<float>(file.model.images.size()) ? static_cast<int>(*webp) : -1;
+  return {};
 }
 
 }  // namespace
 
-Expected<GltfFile> read_gltf_file(const std::filesystem::path& path, Warnings& warnings, Progress* progress) {
-  GltfFile file{path, {}, {}, progress};
-  const std::optional<std::string> read_file = read_bytes(path, progress);
-  if (!read_file || read_file->empty()) return file.error("cannot be read", "is it yours to read?");
-  const std::string& bytes = *read_file;
-  constexpr std::size_t kMostBytes = 0xffffffffu;  // also what a .glb can say of itself
-  if (bytes.size() > kMostBytes) return file.error("is larger than 4 GiB", "split it");
-  if (nested_too_deep(json_of(bytes))) return file.error("is nested too deeply");
-
-  const nlohmann::json gltf = nlohmann::json::parse(json_of(bytes), nullptr, false);
-  if (gltf.is_discarded() || !gltf.is_object())
-    return file.error("is not glTF: its JSON cannot be parsed", "is the export complete?");
+Expected<GltfFile> read_gltf_file(const std::filesystem::path& path, Loading& loading) {
+  GltfFile file;
+  file.path = path;
+  file.progress = loading.progress;
+  file.limit = &loading.limit;
+  Expected<std::string> bytes = read_input_file(path, loading.progress);
+  if (!bytes) return Unexpected(bytes.error());
+  Expected<Parts> parts = split(file, std::move(*bytes));
+  if (!parts) return Unexpected(parts.error());
+  if (nested_too_deep(parts->json)) return file.error("is nested too deeply");
+  nlohmann::json gltf;
+  try {
+    gltf = nlohmann::json::parse(parts->json);
+  } catch (const nlohmann::json::parse_error& e) {
+    const auto end = parts->json.begin() + static_cast<std::ptrdiff_t>(std::min(e.byte, parts->json.size()));
+    const bool encoding = std::string_view(e.what()).find("UTF-8") != std::string_view::npos;
+    return Unexpected(InputError{path.string(), 1 + static_cast<int>(std::count(parts->json.begin(), end, '\n')),
+                                 encoding ? "is not glTF: its text is not UTF-8" : "is not glTF: its JSON cannot be parsed",
+                                 "is the export complete?"});
+  } catch (const nlohmann::json::exception&) {
+    return file.error("is not glTF: it has a number that is too large");
+  }
+  if (!gltf.is_object()) return file.error("is not glTF: its JSON is no object", "is the export complete?");
+  parts->json = {};
   if (const Expected<void> readable = check_gltf_requirements(path, gltf); !readable)
     return Unexpected(readable.error());
-  add_lost_gltf_features(path, gltf, warnings);
-
-  tinygltf::TinyGLTF reader;
-  reader.SetImageLoader(keep_encoded, nullptr);
-  reader.SetFsCallbacks({find_named_file, tinygltf::ExpandFilePath, read_named_file,
-                         tinygltf::WriteWholeFile, &file});
-  const auto size = static_cast<unsigned>(bytes.size());
-  const std::string folder = path.has_parent_path() ? path.parent_path().string() : ".";
-  std::string error, warning;
-  bool read = false;
-  try {
-    read =
-        bytes.starts_with(kBinaryMagic)
-            ? reader.LoadBinaryFromMemory(&file.model, &error, &warning,
-                                          reinterpret_cast<const unsigned char*>(bytes.data()), size, folder)
-            : reader.LoadASCIIFromString(&file.model, &error, &warning, bytes.data(), size, folder);
-  } catch (const Cancelled&) {
-    throw;
-  } catch (const std::exception& e) {  // of the JSON library below, on values of the wrong type
-    error = e.what();
-  }
-  if (!read)
-    return file.error("is not glTF 2.0 that can be read: " + first_line(error), "is the export complete?");
-  if (!warning.empty()) warnings.add({path.string(), "", first_line(warning), ""});
+  add_lost_gltf_features(path, gltf, loading.warnings);
+  if (const Expected<void> read = read_gltf_buffers(file, gltf, parts->binary); !read) return Unexpected(read.error());
+  if (const Expected<void> parsed = parse(file, gltf); !parsed) return Unexpected(parsed.error());
+  if (const Expected<void> unpacked = unpack_draco(file); !unpacked) return Unexpected(unpacked.error());
   return file;
 }
 

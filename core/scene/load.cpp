@@ -5,11 +5,12 @@
 #include <cmath>
 
 #include "core/math/finite.h"
+#include "core/scene/loaders.h"
 
 namespace pinocchio {
 namespace {
 
-constexpr std::array<const char*, 3> kSceneExtensions{".gltf", ".glb", ".obj"};
+constexpr std::array<const char*, 4> kSceneExtensions{".gltf", ".glb", ".obj", ".ply"};
 
 Unexpected error(const std::filesystem::path& path, const std::string& what, const std::string& remedy) {
   return Unexpected(InputError{path.string(), 0, what, remedy});
@@ -23,7 +24,8 @@ std::string lower(std::string text) {
 // scenes/cornell -> scenes/cornell.gltf, scenes/cornell/ -> scenes/cornell/cornell.gltf
 Expected<std::filesystem::path> find_scene_file(const std::filesystem::path& path) {
   std::error_code ignored;
-  if (std::filesystem::is_regular_file(path, ignored)) return path;
+  const std::filesystem::file_status status = std::filesystem::status(path, ignored);
+  if (std::filesystem::exists(status) && !std::filesystem::is_directory(status)) return path;
   const std::filesystem::path trimmed = path.has_filename() ? path : path.parent_path();
   for (const std::filesystem::path& stem : {trimmed, trimmed / trimmed.filename()})
     for (const char* extension : kSceneExtensions)
@@ -31,17 +33,16 @@ Expected<std::filesystem::path> find_scene_file(const std::filesystem::path& pat
           std::filesystem::is_regular_file(file, ignored))
         return file;
   if (std::filesystem::is_directory(path, ignored))
-    return error(path, "is a folder without a scene of that name", "name a .gltf, .glb or .obj file in it");
-  if (std::filesystem::exists(path, ignored))
-    return error(path, "is a pipe or a device, which cannot be read twice", "write it to a file first");
+    return error(path, "is a folder without a scene of that name", "name a .gltf, .glb, .obj or .ply file in it");
   return error(path, "there is no such file", "check its name");
 }
 
-Expected<Scene> load_by_extension(const std::filesystem::path& file, Warnings& warnings, Progress* progress) {
+Expected<Scene> load_by_extension(const std::filesystem::path& file, Loading& loading) {
   const std::string extension = lower(file.extension().string());
-  if (extension == ".obj") return load_obj(file, warnings, progress);
-  if (extension == ".gltf" || extension == ".glb") return load_gltf(file, warnings, progress);
-  return error(file, "is not of a format that can be read", "convert it to .gltf, .glb or .obj");
+  if (extension == ".obj") return load_obj(file, loading);
+  if (extension == ".ply") return load_ply(file, loading);
+  if (extension == ".gltf" || extension == ".glb") return load_gltf(file, loading);
+  return error(file, "is not of a format that can be read", "convert it to .gltf, .glb, .obj or .ply");
 }
 
 template <class T>
@@ -57,14 +58,18 @@ bool names_known_textures(const MaterialMaps& m, const Mesh& mesh) {
 
 }  // namespace
 
-Expected<Scene> load_scene(const std::filesystem::path& path, Warnings* warnings, Progress* progress) {
+Expected<Scene> load_scene(const std::filesystem::path& path, Warnings* warnings, Progress* progress,
+                           std::uint64_t limit_bytes) {
   const Expected<std::filesystem::path> file = find_scene_file(path);
   if (!file) return Unexpected(file.error());
   std::error_code ignored;
-  if (std::filesystem::file_size(*file, ignored) == 0)
+  if (std::filesystem::is_regular_file(*file, ignored) && std::filesystem::file_size(*file, ignored) == 0)
     return error(*file, "is empty", "is the export complete?");
   Warnings unheard;
-  Expected<Scene> scene = load_by_extension(*file, warnings ? *warnings : unheard, progress);
+  MemoryLimit limit(limit_bytes);
+  Loading loading{warnings ? *warnings : unheard, progress, limit};
+  Expected<Scene> scene = load_by_extension(*file, loading);
+  if (limit.error()) return Unexpected(*limit.error());
   if (!scene) return scene;
   scene->source = file->string();
   scene->source_files.insert(scene->source_files.begin(), scene->source);

@@ -5,7 +5,7 @@
 
 #include "core/math/finite.h"
 #include "core/scene/gltf_file.h"
-#include "pinocchio/load.h"
+#include "core/scene/loaders.h"
 
 namespace pinocchio {
 namespace {
@@ -113,8 +113,8 @@ void drop_unused_attributes(MeshData& mesh) {
 
 class SceneReader {
  public:
-  SceneReader(const GltfFile& file, Warnings& warnings)
-      : file_(file), model_(file.model), warnings_(warnings) {
+  SceneReader(const GltfFile& file, Loading& loading)
+      : file_(file), model_(file.model), loading_(loading) {
     add_gltf_materials(file, mesh_);
     mesh_.materials.emplace_back().name = "default";
   }
@@ -198,8 +198,15 @@ class SceneReader {
   Expected<void> add(const tinygltf::Node& node, const glm::mat4& world) {
     if (node.mesh >= 0) {
       const auto default_material = static_cast<std::uint32_t>(mesh_.materials.size() - 1);
-      const Expected<void> added = add_gltf_mesh(file_, node.mesh, world, default_material, mesh_, rest_, warnings_);
-      if (!added) return added;
+      Expected<std::vector<glm::mat4>> instances = instances_of(node);
+      if (!instances) return Unexpected(instances.error());
+      for (const glm::mat4& instance : *instances) {
+        const std::size_t first = mesh_.positions.size();
+        const Expected<void> added =
+            add_gltf_mesh(file_, node.mesh, world * instance, default_material, mesh_, rest_, loading_.warnings);
+        if (!added) return added;
+        place_rest(Placement(instance), first);
+      }
     }
     if (node.camera >= 0 && static_cast<std::size_t>(node.camera) < model_.cameras.size()) {
       const tinygltf::Camera& camera = model_.cameras[static_cast<std::size_t>(node.camera)];
@@ -229,13 +236,55 @@ class SceneReader {
     return {};
   }
 
+  // An instance rests where its node has it, not where its mesh is.
+  void place_rest(const Placement& instance, std::size_t first) {
+    for (std::size_t i = first; i < rest_.positions.size(); ++i) {
+      rest_.positions[i] = instance.position(rest_.positions[i]);
+      rest_.normals[i] = instance.normal(rest_.normals[i]);
+      rest_.tangents[i] = instance.tangent(rest_.tangents[i]);
+    }
+  }
+
+  // Where EXT_mesh_gpu_instancing places copies of the node's mesh; without it, one in place.
+  [[nodiscard]] Expected<std::vector<glm::mat4>> instances_of(const tinygltf::Node& node) const {
+    const tinygltf::Value* instancing = extension(node.extensions, "EXT_mesh_gpu_instancing");
+    const tinygltf::Value* attributes = instancing ? member(*instancing, "attributes") : nullptr;
+    if (!attributes) return std::vector{glm::mat4(1.0f)};
+    std::vector<float> values[3];
+    std::size_t count = 0;
+    constexpr struct {
+      const char* name;
+      int components;
+    } kAttributes[] = {{"TRANSLATION", 3}, {"ROTATION", 4}, {"SCALE", 3}};
+    for (int i = 0; i < 3; ++i) {
+      const std::optional<float> accessor = number_member(attributes, kAttributes[i].name);
+      if (!accessor) continue;
+      Expected<std::vector<float>> read =
+          file_.floats(*accessor >= 0.0f && *accessor < 1e9f ? static_cast<int>(*accessor) : -1, kAttributes[i].components);
+      if (!read) return Unexpected(read.error());
+      const std::size_t elements = read->size() / static_cast<std::size_t>(kAttributes[i].components);
+      if (count != 0 && elements != count) return file_.error("a node's instances have attributes of different lengths");
+      count = elements;
+      values[i] = std::move(*read);
+    }
+    std::vector<glm::mat4> instances;
+    for (std::size_t i = 0; i < count; ++i) {
+      tinygltf::Node local;
+      for (std::size_t c = 0; c < 3 && !values[0].empty(); ++c) local.translation.push_back(values[0][3 * i + c]);
+      for (std::size_t c = 0; c < 4 && !values[1].empty(); ++c) local.rotation.push_back(values[1][4 * i + c]);
+      for (std::size_t c = 0; c < 3 && !values[2].empty(); ++c) local.scale.push_back(values[2][3 * i + c]);
+      instances.push_back(matrix_of(local));
+    }
+    return instances;
+  }
+
   void warn(const std::string& where, const std::string& what, const std::string& lost) {
-    warnings_.add({file_.path.string(), where, what, lost});
+    loading_.warnings.add({file_.path.string(), where, what, lost});
   }
 
   void finish() {
     scene_.source_files = file_.named_files;
-    add_gltf_textures(file_, mesh_, warnings_);
+    add_gltf_textures(file_, mesh_, loading_);
     drop_unused_attributes(mesh_);
     if (!model_.scenes.empty()) {
       const int shown = model_.defaultScene >= 0 ? model_.defaultScene : 0;
@@ -252,7 +301,7 @@ class SceneReader {
 
   const GltfFile& file_;
   const tinygltf::Model& model_;
-  Warnings& warnings_;
+  Loading& loading_;
   Scene scene_;
   MeshData mesh_;
   NodeTree tree_;
@@ -262,10 +311,10 @@ class SceneReader {
 
 }  // namespace
 
-Expected<Scene> load_gltf(const std::filesystem::path& path, Warnings& warnings, Progress* progress) {
-  const Expected<GltfFile> file = read_gltf_file(path, warnings, progress);
+Expected<Scene> load_gltf(const std::filesystem::path& path, Loading& loading) {
+  const Expected<GltfFile> file = read_gltf_file(path, loading);
   if (!file) return Unexpected(file.error());
-  return SceneReader(*file, warnings).read();
+  return SceneReader(*file, loading).read();
 }
 
 }  // namespace pinocchio

@@ -1,228 +1,91 @@
 #include <algorithm>
-#include <fstream>
 #include <map>
-#include <optional>
-#include <span>
-#include <sstream>
-#include <streambuf>
-#include <tuple>
 
-#pragma GCC diagnostic push
-#pragma GCC diagnostic ignored "-Wshadow"
-#include <tiny_obj_loader.h>
-#pragma GCC diagnostic pop
-
+#include "core/scene/input_file.h"
+#include "core/scene/loaders.h"
 #include "core/scene/mtl_features.h"
 #include "core/scene/mtl_materials.h"
-#include "core/scene/obj_check.h"
-#include "core/scene/read_bytes.h"
-#include "pinocchio/load.h"
+#include "core/scene/obj_mesh.h"
+#include "core/scene/text_lines.h"
 
 namespace pinocchio {
 namespace {
 
-glm::vec3 vec3_of(const float* v) {
-  return {v[0], v[1], v[2]};
-}
-
-Material default_material() {
+Material default_material(bool colored) {
   Material material;
+  if (colored) material.diffuse = material.ambient = glm::vec3(1.0f);  // its vertices say the colour
   material.name = "default";
   return material;
 }
 
-// The whole rest of every mtllib line: the parser cuts names at their spaces.
-std::vector<std::string> mtllib_names(const std::string& text) {
-  constexpr std::string_view kKeyword = "mtllib ";
-  std::vector<std::string> names;
-  for (std::size_t at = text.find(kKeyword); at != std::string::npos; at = text.find(kKeyword, at)) {
-    at += kKeyword.size();
-    names.push_back(text.substr(at, std::min(text.find_first_of("\r\n", at), text.size()) - at));
-  }
-  return names;
-}
-
 // Reads the MTL files that the OBJ names; one that is missing leaves its materials grey.
-class MtlReader final : public tinyobj::MaterialReader {
+class MtlReader {
  public:
-  MtlReader(const std::filesystem::path& file, std::vector<std::string> full_names, Warnings& warnings)
-      : file_(file), full_names_(std::move(full_names)), warnings_(warnings) {}
+  MtlReader(const std::filesystem::path& file, Loading& loading) : file_(file), loading_(loading) {}
 
-  bool operator()(const std::string& name, std::vector<tinyobj::material_t>* materials,
-                  std::map<std::string, int>* by_name, std::string*, std::string*) override {
-    std::filesystem::path mtl = file_.parent_path() / name;
-    std::ifstream in(mtl);
-    for (const std::string& full_name : full_names_)
-      if (!in.is_open() && full_name.starts_with(name)) {
-        mtl = file_.parent_path() / full_name;
-        in.clear();
-        in.open(mtl);
-      }
-    files_.push_back(mtl.string());
-    if (!in) {
-      warnings_.add({file_.string(), "", "its materials " + mtl.string() + " cannot be read", "grey is used"});
-      return false;
+  // What follows mtllib: one name, spaces and all, where there is such a file, else several.
+  void read(const std::string& names) {
+    const std::filesystem::path whole = named_file(file_, names);
+    std::error_code ignored;
+    if (std::filesystem::exists(whole, ignored) || names.find(' ') == std::string::npos) return read_file(whole);
+    std::string_view rest = names;
+    for (std::string_view name; !(name = next_word(rest)).empty();) read_file(named_file(file_, std::string(name)));
+  }
+
+  // An index in `materials`; -1 and a warning where no file explains the name.
+  int find(const std::string& name) {
+    if (const auto found = by_name_.find(name); found != by_name_.end()) return found->second;
+    loading_.warnings.add({file_.string(), "material '" + name + "'", "materials are in no MTL file", "grey is used"});
+    return -1;
+  }
+
+  std::vector<MtlMaterial> materials;
+  std::vector<std::string> files;  // asked for so far, found or not
+
+ private:
+  void read_file(const std::filesystem::path& mtl) {
+    files.push_back(mtl.string());
+    Expected<std::string> bytes = read_input_file(mtl, loading_.progress);
+    if (!bytes) {
+      loading_.warnings.add({file_.string(), "", "its materials cannot be read: " + bytes.error().message(), "grey is used"});
+      return;
     }
-    const std::string text(std::istreambuf_iterator<char>(in), {});
-    add_lost_mtl_features(mtl, text, warnings_);
+    std::string text = as_utf8(std::move(*bytes));
+    join_lines(text);
+    add_lost_mtl_features(mtl, text, loading_.warnings);
     for (MtlMaterial& m : read_mtl(text)) {
-      const int index = static_cast<int>(materials->size());
-      tinyobj::material_t& known = materials->emplace_back();
-      known.name = m.name;
-      (*by_name)[m.name] = index;
-      by_name->try_emplace(m.name.substr(0, m.name.find_first_of(" \t")), index);  // as the parser asks for it
-      materials_.push_back(std::move(m));
+      by_name_.try_emplace(m.name, static_cast<int>(materials.size()));
+      materials.push_back(std::move(m));
     }
-    return true;
   }
 
-  // Asked for so far, found or not.
-  [[nodiscard]] const std::vector<std::string>& files() const { return files_; }
-  [[nodiscard]] const std::vector<MtlMaterial>& materials() const { return materials_; }
-
- private:
   const std::filesystem::path& file_;
-  std::vector<std::string> files_;
-  std::vector<MtlMaterial> materials_;
-  std::vector<std::string> full_names_;
-  Warnings& warnings_;
-};
-
-// Text that a parser reads, piece by piece: between two it may be told to end.
-class WatchedText final : public std::streambuf {
- public:
-  WatchedText(std::string& text, Progress* progress) : left_(text), progress_(progress) {
-    begin_phase(progress, "read", static_cast<double>(text.size()));
-    setg(text.data(), text.data(), text.data());
-  }
-
- private:
-  int_type underflow() override {
-    constexpr std::size_t kAtOnce = 1 << 20;
-    const std::span<char> piece = left_.first(std::min(kAtOnce, left_.size()));
-    advance(progress_, static_cast<double>(piece.size()));
-    left_ = left_.subspan(piece.size());
-    setg(piece.data(), piece.data(), piece.data() + piece.size());
-    return piece.empty() ? traits_type::eof() : traits_type::to_int_type(piece.front());
-  }
-
-  std::span<char> left_;
-  Progress* progress_;
-};
-
-// What of the parser's warnings matters: materials that no MTL file explains.
-void add_unknown_materials(const std::string& parser_warnings, const std::filesystem::path& file,
-                           Warnings& warnings) {
-  std::istringstream lines(parser_warnings);
-  for (std::string line; std::getline(lines, line);) {
-    if (line.starts_with("material [")) warnings.add({file.string(), "", line, "grey is used"});
-  }
-}
-
-struct ObjFile {
-  tinyobj::attrib_t attributes;
-  std::vector<tinyobj::shape_t> shapes;
-  std::vector<tinyobj::material_t> materials;
-};
-
-// One vertex of ours stands for one combination of position, normal, texture coordinate and, where
-// normals are made from a smoothing group, that group.
-class ObjMesh {
- public:
-  ObjMesh(const ObjFile& obj, Progress* progress) : obj_(obj), progress_(progress) {
-    mesh_.materials.push_back(default_material());
-  }
-
-  MeshData build() {
-    std::size_t faces = 0;
-    for (const tinyobj::shape_t& shape : obj_.shapes) faces += shape.mesh.num_face_vertices.size();
-    begin_phase(progress_, "mesh", static_cast<double>(faces));
-    for (const tinyobj::shape_t& shape : obj_.shapes) {
-      const tinyobj::mesh_t& mesh = shape.mesh;
-      for (std::size_t face = 0; face < mesh.num_face_vertices.size(); ++face) {
-        const unsigned group = face < mesh.smoothing_group_ids.size() ? mesh.smoothing_group_ids[face] : 0;
-        add_triangle(&mesh.indices[3 * face], group, mesh.material_ids[face]);
-        if (face % kFacesBetweenLooks == kFacesBetweenLooks - 1) advance(progress_, kFacesBetweenLooks);
-      }
-    }
-    for (const std::uint32_t vertex : smooth_vertices_)
-      if (glm::vec3& n = mesh_.normals[vertex]; n != glm::vec3(0.0f)) n = glm::normalize(n);
-    if (!any_texcoord_) mesh_.texcoords.clear();
-    return std::move(mesh_);
-  }
-
- private:
-  using Key = std::tuple<int, int, int, unsigned>;
-  static constexpr int kFacesBetweenLooks = 4096;
-
-  void add_triangle(const tinyobj::index_t* corners, unsigned group, int material) {
-    glm::uvec3 triangle;
-    for (int i = 0; i < 3; ++i) triangle[i] = vertex_of(corners[i], group);
-    mesh_.triangles.push_back(triangle);
-    mesh_.triangle_materials.push_back(static_cast<std::uint32_t>(material + 1));
-    if (group == 0) return;
-    const glm::vec3 a = mesh_.positions[triangle.x];
-    const glm::vec3 n = glm::cross(mesh_.positions[triangle.y] - a, mesh_.positions[triangle.z] - a);
-    for (int i = 0; i < 3; ++i)
-      if (corners[i].normal_index < 0) mesh_.normals[triangle[i]] += n;  // weighed by area
-  }
-
-  std::uint32_t vertex_of(const tinyobj::index_t& corner, unsigned group) {
-    const bool smooth = corner.normal_index < 0 && group > 0;
-    const Key key{corner.vertex_index, corner.normal_index, corner.texcoord_index, smooth ? group : 0};
-    const auto [at, is_new] = vertices_.try_emplace(key, static_cast<std::uint32_t>(mesh_.positions.size()));
-    if (!is_new) return at->second;
-    const tinyobj::attrib_t& a = obj_.attributes;
-    mesh_.positions.push_back(vec3_of(&a.vertices[3 * static_cast<std::size_t>(corner.vertex_index)]));
-    mesh_.normals.push_back(corner.normal_index < 0
-                                ? glm::vec3(0.0f)
-                                : vec3_of(&a.normals[3 * static_cast<std::size_t>(corner.normal_index)]));
-    if (smooth) smooth_vertices_.push_back(at->second);
-    glm::vec2 texcoord(0.0f);
-    if (corner.texcoord_index >= 0) {
-      const float* t = &a.texcoords[2 * static_cast<std::size_t>(corner.texcoord_index)];
-      texcoord = {t[0], 1.0f - t[1]};  // OBJ's v grows upwards
-      any_texcoord_ = true;
-    }
-    mesh_.texcoords.push_back(texcoord);
-    return at->second;
-  }
-
-  const ObjFile& obj_;
-  Progress* progress_;
-  MeshData mesh_;
-  std::map<Key, std::uint32_t> vertices_;
-  std::vector<std::uint32_t> smooth_vertices_;
-  bool any_texcoord_ = false;
+  Loading& loading_;
+  std::map<std::string, int> by_name_;
 };
 
 }  // namespace
 
-Expected<Scene> load_obj(const std::filesystem::path& path, Warnings& warnings, Progress* progress) {
-  std::optional<std::string> text = read_bytes(path, progress);
-  if (!text) return Unexpected(InputError{path.string(), 0, "cannot be read", "is it yours to read?"});
-  if (const Expected<void> checked = check_obj_text(*text, path, warnings, progress); !checked)
-    return Unexpected(checked.error());
+Expected<Scene> load_obj(const std::filesystem::path& path, Loading& loading) {
+  Expected<std::string> bytes = read_input_file(path, loading.progress);
+  if (!bytes) return Unexpected(bytes.error());
+  std::string text = as_utf8(std::move(*bytes));
+  const Expected<ObjText> obj = read_obj_text(text, path, loading.warnings, loading.progress);
+  if (!obj) return Unexpected(obj.error());
+  MtlReader mtl(path, loading);
+  for (const std::string& names : obj->libraries) mtl.read(names);
 
-  ObjFile obj;
-  MtlReader mtl(path, mtllib_names(*text), warnings);
-  WatchedText watched(*text, progress);
-  std::istream stream(&watched);
-  std::string warning, error;
-  constexpr bool kTriangulate = true, kVertexColors = false;
-  if (!tinyobj::LoadObj(&obj.attributes, &obj.shapes, &obj.materials, &warning, &error, &stream, &mtl,
-                        kTriangulate, kVertexColors))
-    return Unexpected(
-        InputError{path.string(), 0, error.substr(0, error.find('\n')), "export the file again"});
-  add_unknown_materials(warning, path, warnings);
-  MeshData mesh = ObjMesh(obj, progress).build();
-  MtlMaterials materials(path, mesh, warnings);
-  for (const MtlMaterial& m : mtl.materials()) mesh.materials.push_back(materials.make(m));
+  MeshData mesh;
+  mesh.materials.push_back(default_material(!obj->colors.empty()));
+  std::vector<std::uint32_t> material_of_name;
+  for (const std::string& name : obj->materials) material_of_name.push_back(static_cast<std::uint32_t>(mtl.find(name) + 1));
+  add_obj_faces(*obj, material_of_name, path, loading, mesh);
+  MtlMaterials materials(path, mesh, loading);
+  for (const MtlMaterial& m : mtl.materials) mesh.materials.push_back(materials.make(m));
   if (mesh.textures.empty()) mesh.texcoords.clear();
-  std::vector<std::string> source_files = mtl.files();
-  source_files.insert(source_files.end(), materials.files().begin(), materials.files().end());
+  mtl.files.insert(mtl.files.end(), materials.files().begin(), materials.files().end());
   Scene scene(std::move(mesh));
-  scene.source_files = std::move(source_files);
+  scene.source_files = std::move(mtl.files);
   return scene;
 }
 

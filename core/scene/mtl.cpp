@@ -32,12 +32,6 @@ int cut_numbers(std::string_view& line, std::array<float, 3>& to) {
   return 3;
 }
 
-std::string_view trimmed(std::string_view text) {
-  const std::size_t first = text.find_first_not_of(" \t\r");
-  return first == std::string_view::npos ? std::string_view()
-                                         : text.substr(first, text.find_last_not_of(" \t\r") - first + 1);
-}
-
 // One number stands for all three.
 glm::vec3 color(std::string_view line) {
   std::array<float, 3> rgb{};

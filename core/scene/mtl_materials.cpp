@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "core/scene/input_file.h"
 #include "core/scene/phong_from_gltf.h"
 #include "core/scene/texture_file.h"
 
@@ -89,17 +90,22 @@ MtlMaterials::Loaded MtlMaterials::load(const MtlMaterial& m, const MtlTexture& 
   for (const Loaded& known : loaded_)
     if (known.key == key) return known;
   Loaded result{std::move(key), -1, 3};
-  const std::filesystem::path path = file_.parent_path() / texture.file;
+  const std::filesystem::path path = named_file(file_, texture.file);
   files_.push_back(path.string());
-  std::optional<Texture> image = load_texture(path);
+  const std::string where = "material '" + m.name + "'";
+  Expected<DecodedImage> image = load_texture(path, loading_);
   if (!image) {
-    warnings_.add({file_.string(), "material '" + m.name + "'", "its texture " + texture.file + " cannot be read",
-                   "the plain colour is used"});
+    loading_.warnings.add({file_.string(), where, "its texture cannot be read: " + image.error().message(),
+                           "the plain colour is used"});
   } else {
-    if (kind == Kind::alpha) result.channel = alpha_channel(*image, texture.channel);
-    if (kind == Kind::bump && is_grey(*image)) make_normals(*image, texture.bump);  // else it is one already
+    if (!image->damage.empty())
+      loading_.warnings.add({file_.string(), where, "its texture " + texture.file + " is damaged: " + image->damage,
+                             "part of it is missing"});
+    Texture& texels = image->texture;
+    if (kind == Kind::alpha) result.channel = alpha_channel(texels, texture.channel);
+    if (kind == Kind::bump && is_grey(texels)) make_normals(texels, texture.bump);  // else it is one already
     result.texture = static_cast<int>(mesh_.textures.size());
-    mesh_.textures.push_back(std::move(*image));
+    mesh_.textures.push_back(std::move(texels));
   }
   loaded_.push_back(result);
   return result;
@@ -109,7 +115,7 @@ TextureUse MtlMaterials::use(const MtlMaterial& m, const MtlTexture& texture, Ki
   TextureUse result;
   if (texture.file.empty()) return result;
   if (mesh_.texcoords.empty()) {
-    warnings_.add({file_.string(), "material '" + m.name + "'",
+    loading_.warnings.add({file_.string(), "material '" + m.name + "'",
                    "has a texture, and no face has texture coordinates", "the plain colour is used"});
     return result;
   }

@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
+#include "core/scene/loaders.h"
 #include "core/scene/mtl.h"
-#include "pinocchio/load.h"
 
 namespace pinocchio {
 
@@ -13,8 +13,8 @@ namespace pinocchio {
 class MtlMaterials {
  public:
   // Textures are looked for beside `file`.
-  MtlMaterials(const std::filesystem::path& file, MeshData& mesh, Warnings& warnings)
-      : file_(file), mesh_(mesh), warnings_(warnings) {}
+  MtlMaterials(const std::filesystem::path& file, MeshData& mesh, Loading& loading)
+      : file_(file), mesh_(mesh), loading_(loading) {}
 
   [[nodiscard]] Material make(const MtlMaterial& m);
   // Textures that were asked for, found or not.
@@ -32,7 +32,7 @@ class MtlMaterials {
 
   const std::filesystem::path& file_;
   MeshData& mesh_;
-  Warnings& warnings_;
+  Loading& loading_;
   std::vector<std::string> files_;
   std::vector<Loaded> loaded_;
 };

@@ -2,9 +2,22 @@
 #pragma once
 
 #include <algorithm>
+#include <string>
 #include <string_view>
 
 namespace pinocchio {
+
+inline constexpr char kJoint = '\v';  // where a backslash joined two lines
+
+// Makes one line of those that a backslash at the end joins. It keeps the text's length.
+inline void join_lines(std::string& text) {
+  for (std::size_t at = text.find('\\'); at != std::string::npos; at = text.find('\\', at + 1)) {
+    const std::size_t end = at + 1 + (text.compare(at + 1, 2, "\r\n") == 0 ? 1 : 0);
+    if (end >= text.size() || (text[end] != '\n' && text[end] != '\r')) continue;
+    text[at] = text[at + 1] = ' ';
+    text[end] = kJoint;
+  }
+}
 
 // Line by line: they end with CR LF, LF or CR alone.
 class TextLines {
@@ -13,33 +26,41 @@ class TextLines {
 
   bool next() {
     if (rest_.empty()) return false;
+    number_ += 1 + static_cast<int>(std::count(line_.begin(), line_.end(), kJoint));
     const std::size_t end = std::min(rest_.find_first_of("\r\n"), rest_.size());
     line_ = rest_.substr(0, end);
     rest_.remove_prefix(end);
     rest_.remove_prefix(rest_.starts_with("\r\n") ? 2 : std::min<std::size_t>(1, rest_.size()));
-    ++number_;
     return true;
   }
 
   [[nodiscard]] std::string_view line() const { return line_; }
-  [[nodiscard]] int number() const { return number_; }  // from 1
+  [[nodiscard]] int number() const { return number_; }  // from 1, of its first line where some are joined
 
  private:
   std::string_view rest_, line_;
   int number_ = 0;
 };
 
+inline constexpr std::string_view kBlanks = " \t\r\v\f";
+
 // Cuts the next word off the line; empty at its end.
 inline std::string_view next_word(std::string_view& line) {
-  const std::size_t first = line.find_first_not_of(" \t\r");
+  const std::size_t first = line.find_first_not_of(kBlanks);
   if (first == std::string_view::npos) {
     line = {};
     return {};
   }
-  const std::size_t end = std::min(line.find_first_of(" \t\r", first), line.size());
+  const std::size_t end = std::min(line.find_first_of(kBlanks, first), line.size());
   const std::string_view word = line.substr(first, end - first);
   line.remove_prefix(end);
   return word;
+}
+
+// The rest of a line without blanks around it: a name may have some within.
+inline std::string_view trimmed(std::string_view line) {
+  const std::size_t first = line.find_first_not_of(kBlanks);
+  return first == std::string_view::npos ? std::string_view() : line.substr(first, line.find_last_not_of(kBlanks) + 1 - first);
 }
 
 }  // namespace pinocchio

@@ -1,18 +1,22 @@
 #pragma once
 
 #include <filesystem>
-#include <optional>
 #include <span>
 #include <string>
 
-#include "pinocchio/mesh.h"
+#include "core/scene/loaders.h"
 
 namespace pinocchio {
 
-// Any image that stb_image reads (PNG, JPEG, TGA, BMP, ...), as RGBA; nothing where it cannot be read.
-[[nodiscard]] std::optional<Texture> load_texture(const std::filesystem::path& file);
-// The same of a file's bytes.
-[[nodiscard]] std::optional<Texture> decode_texture(const std::string& name,
-                                                    std::span<const unsigned char> bytes);
+struct DecodedImage {
+  Texture texture;
+  std::string damage;  // what of it could not be read; empty: nothing
+};
+
+// A picture file, as RGBA of 8 bits: PNG, JPEG, WebP, BMP, TGA, GIF or PNM, told by its bytes.
+[[nodiscard]] Expected<DecodedImage> load_texture(const std::filesystem::path& file, Loading& loading);
+// The same of a file's bytes; errors name `file`, which may be a scene's. Any thread.
+[[nodiscard]] Expected<DecodedImage> decode_texture(const std::string& file, const std::string& name,
+                                                    std::span<const unsigned char> bytes, MemoryLimit& limit);
 
 }  // namespace pinocchio

@@ -1,3 +1,5 @@
+#include <algorithm>
+
 #include "pinocchio/load.h"
 
 namespace pinocchio {
@@ -8,6 +10,7 @@ std::string Warning::message() const {
   text += what;
   if (places > 1) text += " (and in " + std::to_string(places - 1) + (places > 2 ? " more places)" : " more place)");
   if (!lost.empty()) text += "; " + lost;
+  std::replace_if(text.begin(), text.end(), [](unsigned char c) { return c < ' ' || c == 0x7f; }, '?');  // one line
   return text;
 }
 

@@ -83,9 +83,10 @@ nlohmann::json to_json(const Settings& settings, bool with_machine) {
 }
 
 Expected<Settings> load_settings(const std::filesystem::path& file) {
-  std::ifstream in(file);
-  std::error_code ignored;
-  if (!in || !std::filesystem::is_regular_file(file, ignored))
+  std::error_code ignored;  // looked at before it is opened: that of a pipe may never end
+  std::ifstream in;
+  if (std::filesystem::is_regular_file(file, ignored)) in.open(file);
+  if (!in.is_open())
     return Unexpected(
         InputError{file.string(), 0, "cannot be read", "--plan takes auto, slides or a plan's file"});
   const std::string text{std::istreambuf_iterator<char>(in), {}};

@@ -38,6 +38,25 @@ TEST_F(ErrorsTest, Scenes) {
   expect_error("info missing.glb", 4, "missing.glb");
 }
 
+TEST_F(ErrorsTest, CameraPaths) {
+  const std::string render = "render" + scene("cornell") + "--size 8x8 --mode raytrace -o x#.exr --path p.json";
+  const auto with = [&](const std::string& key, const std::string& words) {
+    write("p.json", "{\"keyframes\": [{\"frame\": 0, \"eye\": [0, 1, 3], \"target\": [0, 1, 0]}, {" + key + "}]}");
+    expect_error(render, 2, words);
+  };
+  with(R"("frame": 2000000000, "eye": [0, 1, 2], "target": [0, 1, 0])", "--frames A-B");
+  with(R"("frame": 3000000000, "eye": [0, 1, 2], "target": [0, 1, 0])", "key frame 1: frame is a whole number");
+  with(R"("frame": 1, "eye": [0, 3.5e38, 2], "target": [0, 1, 0])", "key frame 1: eye is [x, y, z]");
+  with(R"("frame": 1, "eye": [0, 1e999, 2], "target": [0, 1, 0])", "too large");
+  with(R"("frame": 1, "eye": [0, 1, 0], "target": [0, 1, 0])", "same point");
+  with(R"("frame": 1, "eye": [0, 1, 2], "target": [0, 1, 0], "fov": -20)", "0 and 180");
+  with(R"("frame": 1, "eye": [0, 1, 2], "traget": [0, 1, 0])", "there is no 'traget'");
+  with(R"("frame": 2, "eye": [0, 1, -3], "target": [0, 1, 0], "up": [0, 0, 0])", "its up is no direction");
+  with(R"("frame": 2, "eye": [0, 1, -3], "target": [0, 1, 0])", "in frame 1 eye and target meet");
+  write("plan.json", R"({"depth": 1e999})");
+  expect_error("render" + scene("cornell") + "--plan plan.json -o x.exr", 2, "too large");
+}
+
 TEST_F(ErrorsTest, NineCastingLights) {
   std::string lights;
   for (int i = 0; i < 8; ++i) lights += " --light 0,1,0";

@@ -108,6 +108,31 @@ TEST(LoadObj, LinesMayEndInACarriageReturnAlone) {
   EXPECT_EQ(error_of("v 0 0 0\r\nv 1 0 0\r\nv 0 1 0\r\nf 1 2 9\r\n").line, 4);
 }
 
+TEST(LoadObj, BackslashesJoinLines) {
+  const Scene scene = load_text("v 0 0 \\\n0\nv 1 0 0\r\nv 0 1 0\nusemtl m\nf 1 \\\r\n2 3\n", "newmtl m\nKd 1 \\\n0 0\n");
+  ASSERT_EQ(scene.mesh->triangles.size(), 1u);
+  EXPECT_EQ(scene.mesh->material_of(0).diffuse, glm::vec3(1, 0, 0));
+  EXPECT_EQ(error_of("v 0 0 \\\n0\nv 1 0 0\nv 0 1 0\nf 1 \\\n2 9\n").line, 5);
+}
+
+TEST(LoadObj, VertexColors) {
+  const Scene scene = load_text("v 0 0 0 1 0 0\nv 1 0 0 0 1 0\nv 0 1 0\nf 1 2 3\n");
+  ASSERT_EQ(scene.mesh->colors.size(), 3u);
+  EXPECT_EQ(scene.mesh->colors[0], glm::vec4(1, 0, 0, 1));
+  EXPECT_EQ(scene.mesh->colors[2], glm::vec4(1.0f));
+  EXPECT_EQ(scene.mesh->material_of(0).diffuse, glm::vec3(1.0f));
+  EXPECT_TRUE(load_text("v 0 0 0 1\nv 1 0 0 1\nv 0 1 0 1\nf 1 2 3\n").mesh->colors.empty());  // w
+}
+
+TEST(LoadObj, NamesWithSpacesAndPathsOfWindows) {
+  std::filesystem::create_directories(own_file("maps"));
+  std::ofstream(own_file("maps") / "my texel.ppm", std::ios::binary) << "P6 1 1 255\n\x0a\x14\x1e";
+  const Scene scene = load_text(kTriangle + "vt 0 0\nusemtl red paint\nf 1/1 2/1 3/1\n",
+                                "newmtl red paint \nKd 1 0 0\nmap_Kd maps\\my texel.ppm\n");
+  EXPECT_EQ(scene.mesh->material_of(0).name, "red paint");
+  EXPECT_EQ(scene.mesh->textures.size(), 1u);
+}
+
 TEST(LoadObj, SlashesMayEndACorner) {
   // The parser would take the next corner's vertex for a normal that there is not.
   EXPECT_EQ(load_text(kTriangle + "f 1// 2// 3//\n").mesh->triangles[0], glm::uvec3(0, 1, 2));

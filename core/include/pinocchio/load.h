@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <map>
 #include <string>
@@ -40,19 +41,18 @@ class Warnings {
   std::map<std::pair<std::string, std::string>, std::size_t> known_;  // by file and what
 };
 
-// Reads glTF 2.0 (.gltf, .glb) or Wavefront OBJ+MTL (.obj), chosen by the file's extension. A path
+// Most bytes of memory that a scene's files may claim beyond their own: pictures unpacked, compressed meshes,
+// copies of a mesh.
+inline constexpr std::uint64_t kUsualLoadLimit = std::uint64_t{4} << 30;
+
+// Reads glTF 2.0 (.gltf, .glb), Wavefront OBJ+MTL (.obj) or PLY (.ply), chosen by the file's extension. A path
 // without extension, or a folder, stands for the one scene file of that name (scenes/cornell ->
 // scenes/cornell.gltf). The result has passed check_scene. Errors name the file and, for text formats,
 // the line; what a picture can do without is added to `warnings` instead, which are whole where the result
 // is an error, too. Phases "read" and "mesh". Any thread.
 [[nodiscard]] Expected<Scene> load_scene(const std::filesystem::path& path, Warnings* warnings = nullptr,
-                                         Progress* progress = nullptr);
-
-// The readers behind load_scene, one a format.
-[[nodiscard]] Expected<Scene> load_obj(const std::filesystem::path& path, Warnings& warnings,
-                                       Progress* progress = nullptr);
-[[nodiscard]] Expected<Scene> load_gltf(const std::filesystem::path& path, Warnings& warnings,
-                                        Progress* progress = nullptr);
+                                         Progress* progress = nullptr,
+                                         std::uint64_t limit_bytes = kUsualLoadLimit);
 
 // What the rest of the program relies on: at least one triangle, at most kMaxTriangles, indices and
 // materials in range, finite positions within kFarthest, a finite normal (and texture coordinate) a position.

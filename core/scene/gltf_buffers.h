@@ -1,0 +1,26 @@
+// What of a glTF file is read from its JSON by ourselves: buffers, buffer views, images. Of tinygltf's model only
+// the rest is tinygltf's.
+#pragma once
+
+#include <nlohmann/json_fwd.hpp>
+
+#include "core/scene/gltf_file.h"
+
+namespace pinocchio {
+
+// Fills file.buffers and the model's bufferViews (unpacking EXT_meshopt_compression) and images (whose files are
+// read when they are decoded).
+[[nodiscard]] Expected<void> read_gltf_buffers(GltfFile& file, const nlohmann::json& gltf,
+                                               std::span<const unsigned char> binary_chunk);
+
+// Unpacks a buffer view of EXT_meshopt_compression.
+[[nodiscard]] Expected<std::string> unpack_meshopt(const GltfFile& file, const nlohmann::json& extension,
+                                                   const std::string& whose);
+
+// Unpacks every primitive of KHR_draco_mesh_compression into accessors of its own.
+[[nodiscard]] Expected<void> unpack_draco(GltfFile& file);
+
+// A member that is a whole number of 0 or more; nothing where it is something else.
+[[nodiscard]] std::optional<std::size_t> size_member(const nlohmann::json& object, const char* key);
+
+}  // namespace pinocchio

@@ -1,0 +1,154 @@
+#pragma GCC diagnostic push
+#pragma GCC diagnostic ignored "-Wshadow"
+#pragma GCC diagnostic ignored "-Wpedantic"
+#pragma GCC diagnostic ignored "-Wextra"
+#include <draco/compression/decode.h>
+#pragma GCC diagnostic pop
+#include <meshoptimizer.h>
+
+#include <nlohmann/json.hpp>
+
+#include "core/scene/gltf_buffers.h"
+
+namespace pinocchio {
+namespace {
+
+// A tight accessor on bytes of its own.
+int add_accessor(GltfFile& file, std::string bytes, int component_type, int type, std::size_t count) {
+  tinygltf::BufferView view;
+  view.buffer = static_cast<int>(file.buffers.size());
+  view.byteLength = bytes.size();
+  file.add_buffer(std::move(bytes));
+  file.model.bufferViews.push_back(view);
+  tinygltf::Accessor accessor;
+  accessor.bufferView = static_cast<int>(file.model.bufferViews.size() - 1);
+  accessor.componentType = component_type;
+  accessor.type = type;
+  accessor.count = count;
+  file.model.accessors.push_back(accessor);
+  return static_cast<int>(file.model.accessors.size() - 1);
+}
+
+template <int kComponents>
+std::string values_of(const draco::PointAttribute& attribute, std::size_t points) {
+  std::string bytes(points * kComponents * sizeof(float), '\0');
+  for (std::size_t i = 0; i < points; ++i) {
+    float values[kComponents] = {};
+    attribute.ConvertValue<float, kComponents>(attribute.mapped_index(draco::PointIndex(static_cast<std::uint32_t>(i))), values);
+    std::memcpy(bytes.data() + i * sizeof values, values, sizeof values);
+  }
+  return bytes;
+}
+
+class DracoPrimitive {
+ public:
+  DracoPrimitive(GltfFile& file, tinygltf::Primitive& primitive, const tinygltf::Value& extension)
+      : file_(file), primitive_(primitive), extension_(extension) {}
+
+  Expected<void> unpack() {
+    const float view = number_member(&extension_, "bufferView").value_or(-1.0f);
+    const auto bytes = file_.bytes(view >= 0.0f && view < 1e9f ? static_cast<int>(view) : -1, kWhose);
+    if (!bytes) return Unexpected(bytes.error());
+    if (const Expected<void> fits = within_limit(); !fits) return fits;
+    draco::DecoderBuffer buffer;
+    buffer.Init(reinterpret_cast<const char*>(bytes->data()), bytes->size());
+    draco::Decoder decoder;
+    draco::StatusOr<std::unique_ptr<draco::Mesh>> decoded = decoder.DecodeMeshFromBuffer(&buffer);
+    if (!decoded.ok()) return file_.error(std::string(kWhose) + " cannot be unpacked: " + decoded.status().error_msg_string());
+    return take(*decoded.value());
+  }
+
+ private:
+  static constexpr const char* kWhose = "a primitive of KHR_draco_mesh_compression";
+
+  // As the accessors say that it will be.
+  Expected<void> within_limit() {
+    std::uint64_t bytes = 0;
+    const auto add = [&](int accessor, std::uint64_t each) {
+      if (accessor >= 0 && static_cast<std::size_t>(accessor) < file_.model.accessors.size())
+        bytes += std::min<std::uint64_t>(file_.model.accessors[static_cast<std::size_t>(accessor)].count, 1u << 31) * each;
+    };
+    add(primitive_.indices, sizeof(std::uint32_t));
+    for (const auto& [name, accessor] : primitive_.attributes) add(accessor, sizeof(glm::vec4));
+    if (!file_.limit->take(file_.path.string(), kWhose, bytes, 1)) return Unexpected(*file_.limit->error());
+    return {};
+  }
+
+  Expected<void> take(const draco::Mesh& mesh) {
+    const tinygltf::Value* ids = member(extension_, "attributes");
+    for (auto& [name, accessor] : primitive_.attributes) {
+      const std::optional<float> id = number_member(ids, name);
+      if (!id) continue;  // stays uncompressed
+      const draco::PointAttribute* attribute =
+          *id >= 0.0f && *id < 1e9f ? mesh.GetAttributeByUniqueId(static_cast<std::uint32_t>(*id)) : nullptr;
+      const bool known = accessor >= 0 && static_cast<std::size_t>(accessor) < file_.model.accessors.size();
+      if (!attribute || !known) return file_.error(std::string(kWhose) + " lacks its attribute " + name);
+      const int type = file_.model.accessors[static_cast<std::size_t>(accessor)].type;
+      const std::size_t points = mesh.num_points();
+      std::string values = type == TINYGLTF_TYPE_VEC2   ? values_of<2>(*attribute, points)
+                           : type == TINYGLTF_TYPE_VEC3 ? values_of<3>(*attribute, points)
+                           : type == TINYGLTF_TYPE_VEC4 ? values_of<4>(*attribute, points)
+                                                        : std::string();
+      if (!values.empty()) accessor = add_accessor(file_, std::move(values), TINYGLTF_COMPONENT_TYPE_FLOAT, type, points);
+    }
+    std::string indices(std::size_t{mesh.num_faces()} * sizeof(glm::uvec3), '\0');
+    for (draco::FaceIndex f(0); f < mesh.num_faces(); ++f) {
+      const draco::Mesh::Face& face = mesh.face(f);
+      const glm::uvec3 corners(face[0].value(), face[1].value(), face[2].value());
+      std::memcpy(indices.data() + f.value() * sizeof corners, &corners, sizeof corners);
+    }
+    primitive_.mode = TINYGLTF_MODE_TRIANGLES;
+    primitive_.indices = add_accessor(file_, std::move(indices), TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT,
+                                      TINYGLTF_TYPE_SCALAR, std::size_t{3} * mesh.num_faces());
+    return {};
+  }
+
+  GltfFile& file_;
+  tinygltf::Primitive& primitive_;
+  const tinygltf::Value& extension_;
+};
+
+std::string text_member(const nlohmann::json& object, const char* key) {
+  const auto found = object.find(key);
+  return found != object.end() && found->is_string() ? found->get<std::string>() : std::string();
+}
+
+}  // namespace
+
+Expected<void> unpack_draco(GltfFile& file) {
+  for (tinygltf::Mesh& mesh : file.model.meshes)
+    for (tinygltf::Primitive& primitive : mesh.primitives) {
+      throw_if_cancelled(file.progress);
+      if (const tinygltf::Value* draco = extension(primitive.extensions, "KHR_draco_mesh_compression"))
+        if (const Expected<void> unpacked = DracoPrimitive(file, primitive, *draco).unpack(); !unpacked) return unpacked;
+    }
+  return {};
+}
+
+Expected<std::string> unpack_meshopt(const GltfFile& file, const nlohmann::json& packed, const std::string& whose) {
+  const std::size_t buffer = size_member(packed, "buffer").value_or(file.buffers.size());
+  const std::size_t offset = size_member(packed, "byteOffset").value_or(0), length = size_member(packed, "byteLength").value_or(0);
+  const std::size_t count = size_member(packed, "count").value_or(0), stride = size_member(packed, "byteStride").value_or(0);
+  if (buffer >= file.buffers.size() || offset > file.buffers[buffer].size() || length > file.buffers[buffer].size() - offset)
+    return file.error(whose + " reaches beyond its buffer");
+  const std::string mode = text_member(packed, "mode"), filter = text_member(packed, "filter");
+  const bool vertices = mode == "ATTRIBUTES";
+  if (vertices ? stride == 0 || stride > 256 || stride % 4 != 0 : (stride != 2 && stride != 4) || (mode == "TRIANGLES" && count % 3 != 0))
+    return file.error(whose + " has a stride or count that its mode does not know");
+  if ((filter == "OCTAHEDRAL" && stride != 4 && stride != 8) || (filter == "QUATERNION" && stride != 8))
+    return file.error(whose + " has a stride that its filter does not know");
+  if (!file.limit->take(file.path.string(), whose, count, stride)) return Unexpected(*file.limit->error());
+  std::string bytes(count * stride, '\0');
+  const unsigned char* from = file.buffers[buffer].data() + offset;
+  const int failure = vertices              ? meshopt_decodeVertexBuffer(bytes.data(), count, stride, from, length)
+                      : mode == "TRIANGLES" ? meshopt_decodeIndexBuffer(bytes.data(), count, stride, from, length)
+                      : mode == "INDICES"   ? meshopt_decodeIndexSequence(bytes.data(), count, stride, from, length)
+                                            : -1;
+  if (failure != 0) return file.error(whose + " cannot be unpacked (EXT_meshopt_compression, mode '" + mode + "')");
+  if (filter == "OCTAHEDRAL") meshopt_decodeFilterOct(bytes.data(), count, stride);
+  if (filter == "QUATERNION") meshopt_decodeFilterQuat(bytes.data(), count, stride);
+  if (filter == "EXPONENTIAL") meshopt_decodeFilterExp(bytes.data(), count, stride);
+  return bytes;
+}
+
+}  // namespace pinocchio

@@ -1,0 +1,22 @@
+// The readers behind load_scene, one a format.
+#pragma once
+
+#include <filesystem>
+
+#include "core/scene/memory_limit.h"
+#include "pinocchio/load.h"
+#include "pinocchio/progress.h"
+
+namespace pinocchio {
+
+struct Loading {
+  Warnings& warnings;
+  Progress* progress;  // may be null
+  MemoryLimit& limit;
+};
+
+[[nodiscard]] Expected<Scene> load_obj(const std::filesystem::path& path, Loading& loading);
+[[nodiscard]] Expected<Scene> load_ply(const std::filesystem::path& path, Loading& loading);
+[[nodiscard]] Expected<Scene> load_gltf(const std::filesystem::path& path, Loading& loading);
+
+}  // namespace pinocchio

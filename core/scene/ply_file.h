@@ -1,0 +1,67 @@
+// PLY (Turk 1994), ascii and binary, as rows of numbers. No library for it is in Debian 12.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "pinocchio/error.h"
+
+namespace pinocchio {
+
+enum class PlyType : std::uint8_t { int8, uint8, int16, uint16, int32, uint32, float32, float64 };
+
+struct PlyProperty {
+  std::string name;
+  PlyType type = PlyType::float32, count_type = PlyType::uint8;
+  bool is_list = false;
+
+  // What makes a colour of this type 1 where it is full.
+  [[nodiscard]] float color_scale() const {
+    return type == PlyType::uint8 ? 1.0f / 255.0f : type == PlyType::uint16 ? 1.0f / 65535.0f : 1.0f;
+  }
+};
+
+struct PlyElement {
+  std::string name;
+  std::size_t count = 0;
+  std::vector<PlyProperty> properties;
+};
+
+// One property's value, a number or a list, for each property.
+struct PlyRow {
+  std::vector<double> numbers;
+  std::vector<std::vector<double>> lists;
+};
+
+class PlyFile {
+ public:
+  // Reads the header. A header that promises more rows than the file can hold is an error.
+  [[nodiscard]] static Expected<PlyFile> open(const std::filesystem::path& path, std::string bytes);
+
+  [[nodiscard]] const std::vector<PlyElement>& elements() const { return elements_; }
+  // The next row, in the file's order: all rows of an element, then the next element's.
+  [[nodiscard]] Expected<void> read_row(const PlyElement& element, PlyRow& row);
+  [[nodiscard]] Unexpected error(const std::string& what) const;
+
+ private:
+  enum class Format : std::uint8_t { ascii, little, big };
+
+  Expected<void> read_header();
+  Expected<void> read_header_line(std::string_view line, bool& ended);
+  [[nodiscard]] std::string_view rest() const { return std::string_view(bytes_).substr(at_); }
+  // False at the end of the file, or where an ascii word is no number.
+  bool read_number(PlyType type, double& value);
+
+  std::filesystem::path path_;
+  std::string bytes_;
+  std::size_t at_ = 0;
+  int line_ = 1;
+  Format format_ = Format::ascii;
+  bool format_known_ = false;
+  std::vector<PlyElement> elements_;
+};
+
+}  // namespace pinocchio

@@ -1,0 +1,146 @@
+#include "core/scene/polygon.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <optional>
+
+#include "core/scene/monotone.h"
+
+namespace pinocchio {
+namespace {
+
+constexpr std::size_t kMostToClip = 4096;  // corners: ear clipping takes their square
+
+// Newell's normal: twice the area, along the axis where the polygon is seen largest.
+int flattest_axis(std::span<const glm::vec3> corners, double& area) {
+  glm::dvec3 normal(0.0);
+  for (std::size_t i = 0; i < corners.size(); ++i)
+    normal += glm::cross(glm::dvec3(corners[i]) - glm::dvec3(corners[0]),
+                         glm::dvec3(corners[(i + 1) % corners.size()]) - glm::dvec3(corners[0]));
+  const glm::dvec3 a = glm::abs(normal);
+  const int axis = a.x >= a.y && a.x >= a.z ? 0 : a.y >= a.z ? 1 : 2;
+  area = normal[axis];
+  return axis;
+}
+
+// Seen so that it turns counterclockwise. Coordinates are kept as they are, so that orientations are exact.
+std::vector<glm::dvec2> flattened(std::span<const glm::vec3> corners, double& area) {
+  const int axis = flattest_axis(corners, area);
+  const int u = (axis + 1) % 3, v = (axis + 2) % 3;
+  std::vector<glm::dvec2> flat;
+  flat.reserve(corners.size());
+  for (const glm::vec3& c : corners)
+    flat.push_back(area >= 0.0 ? glm::dvec2(c[u], c[v]) : glm::dvec2(c[v], c[u]));
+  area = std::abs(area);
+  return flat;
+}
+
+std::vector<glm::uvec3> fan(std::size_t corners) {
+  std::vector<glm::uvec3> triangles;
+  for (std::uint32_t i = 1; i + 1 < corners; ++i) triangles.emplace_back(0, i, i + 1);
+  return triangles;
+}
+
+// The shorter diagonal, or the one from the corner that points inwards.
+std::vector<glm::uvec3> quad(std::span<const glm::vec3> c, std::span<const glm::dvec2> flat) {
+  int inwards = 0, last = 0;
+  for (int i = 0; i < 4; ++i)
+    if (turn(flat[static_cast<std::size_t>((i + 3) % 4)], flat[static_cast<std::size_t>(i)],
+             flat[static_cast<std::size_t>((i + 1) % 4)]) < 0.0) {
+      ++inwards;
+      last = i;
+    }
+  const glm::vec3 e02 = c[2] - c[0], e13 = c[3] - c[1];
+  const bool from_first = inwards == 1 ? last % 2 == 0 : glm::dot(e02, e02) < glm::dot(e13, e13);
+  if (from_first) return {{0, 1, 2}, {0, 2, 3}};
+  return {{0, 1, 3}, {1, 2, 3}};
+}
+
+bool strictly_convex(std::span<const glm::dvec2> p) {
+  int changes = 0;
+  for (std::size_t i = 0, n = p.size(); i < n; ++i) {
+    const glm::dvec2 &a = p[i], &b = p[(i + 1) % n], &c = p[(i + 2) % n];
+    if (turn(a, b, c) <= 0.0) return false;
+    if ((b.y > a.y || (b.y == a.y && b.x < a.x)) != (c.y > b.y || (c.y == b.y && c.x < b.x))) ++changes;
+  }
+  return changes == 2;  // once up and once down: it goes round once
+}
+
+// Whether the triangles cover the polygon: each turns as it does, and their areas are its area.
+bool covers(std::span<const glm::dvec2> p, const std::vector<glm::uvec3>& triangles, double area) {
+  if (triangles.size() != p.size() - 2) return false;
+  double sum = 0.0;
+  for (const glm::uvec3& t : triangles) {
+    const double a = turn(p[t.x], p[t.y], p[t.z]);
+    if (a < 0.0) return false;
+    sum += a;
+  }
+  return std::abs(sum - area) <= 1e-6 * area;
+}
+
+// Ear clipping for polygons that touch themselves, as those with a hole and a bridge to it do. Nothing where
+// no ear is left: it crosses itself.
+class EarClipper {
+ public:
+  explicit EarClipper(std::span<const glm::dvec2> p) : p_(p), next_(p.size()), previous_(p.size()) {
+    for (std::size_t i = 0; i < p.size(); ++i) {
+      next_[i] = (i + 1) % p.size();
+      previous_[i] = (i + p.size() - 1) % p.size();
+    }
+  }
+
+  std::optional<std::vector<glm::uvec3>> clip() {
+    std::vector<glm::uvec3> triangles;
+    std::size_t at = 0, tried = 0;
+    for (std::size_t left = p_.size(); left > 3;) {
+      if (!is_ear(at)) {
+        at = next_[at];
+        if (++tried > left) return std::nullopt;
+        continue;
+      }
+      triangles.emplace_back(previous_[at], at, next_[at]);
+      next_[previous_[at]] = next_[at];
+      previous_[next_[at]] = previous_[at];
+      at = next_[next_[at]];  // not the neighbour: ears from all around are less thin
+      --left;
+      tried = 0;
+    }
+    triangles.emplace_back(previous_[at], at, next_[at]);
+    return triangles;
+  }
+
+ private:
+  [[nodiscard]] bool is_ear(std::size_t i) const {
+    const glm::dvec2 &a = p_[previous_[i]], &b = p_[i], &c = p_[next_[i]];
+    const double area = turn(a, b, c);
+    if (area < 0.0) return false;
+    if (area == 0.0) return glm::dot(a - b, c - b) <= 0.0 || a == b || b == c;  // on an edge, not a spike
+    for (std::size_t k = next_[next_[i]]; k != previous_[i]; k = next_[k]) {
+      const glm::dvec2& q = p_[k];
+      if (q == a || q == b || q == c) continue;
+      if (turn(a, b, q) >= 0.0 && turn(b, c, q) >= 0.0 && turn(c, a, q) >= 0.0) return false;
+    }
+    return true;
+  }
+
+  std::span<const glm::dvec2> p_;
+  std::vector<std::size_t> next_, previous_;
+};
+
+}  // namespace
+
+PolygonTriangles triangulate(std::span<const glm::vec3> corners) {
+  if (corners.size() == 3) return {{{0, 1, 2}}};
+  double area = 0.0;
+  const std::vector<glm::dvec2> flat = flattened(corners, area);
+  if (corners.size() == 4) return {quad(corners, flat)};
+  if (area == 0.0 || strictly_convex(flat)) return {fan(corners.size())};
+  if (std::vector<glm::uvec3> swept = triangulate_by_sweep(flat); covers(flat, swept, area)) return {std::move(swept)};
+  if (corners.size() <= kMostToClip)
+    if (std::optional<std::vector<glm::uvec3>> clipped = EarClipper(flat).clip(); clipped && covers(flat, *clipped, area))
+      return {std::move(*clipped)};
+  return {fan(corners.size()), false};
+}
+
+}  // namespace pinocchio

@@ -1,0 +1,104 @@
+#include <cstring>
+#include <fstream>
+
+#include "tests/support/own_file.h"
+#include "tests/support/scenes.h"
+
+namespace pinocchio {
+namespace {
+
+Expected<Scene> load_text(const std::string& text, Warnings* warnings = nullptr) {
+  const std::filesystem::path path = own_file("test.ply");
+  std::ofstream(path, std::ios::binary) << text;
+  return load_scene(path, warnings);
+}
+
+std::string error_of(const std::string& text) {
+  const Expected<Scene> scene = load_text(text);
+  EXPECT_FALSE(scene);
+  return scene ? "" : scene.error().message();
+}
+
+const std::string kHeader =
+    "ply\nformat ascii 1.0\ncomment made by hand\nelement vertex 4\nproperty float x\nproperty float y\n"
+    "property float z\nproperty uchar red\nproperty uchar green\nproperty uchar blue\nelement face 1\n"
+    "property list uchar int vertex_indices\nend_header\n";
+const std::string kRows = "0 0 0 255 0 0\n1 0 0 0 255 0\n1 1 0 0 0 255\n0 1 0 255 255 255\n";
+
+TEST(LoadPly, AsciiWithColorsAndAQuad) {
+  const Expected<Scene> scene = load_text(kHeader + kRows + "4 0 1 2 3\n");
+  ASSERT_TRUE(scene) << scene.error().message();
+  EXPECT_EQ(scene->mesh->triangles.size(), 2u);
+  EXPECT_EQ(scene->mesh->positions[2], glm::vec3(1, 1, 0));
+  ASSERT_EQ(scene->mesh->colors.size(), 4u);
+  EXPECT_EQ(scene->mesh->colors[1], glm::vec4(0, 1, 0, 1));
+  EXPECT_EQ(scene->mesh->normals[0], glm::vec3(0.0f));
+}
+
+// The same rows in bytes.
+std::string binary(bool big, const std::string& format) {
+  std::string bytes = "ply\nformat " + format + " 1.0\nelement vertex 3\nproperty float x\nproperty double y\nproperty short z\n"
+                      "property float nx\nproperty float ny\nproperty float nz\nelement face 1\n"
+                      "property list uint8 uint32 vertex_index\nend_header\n";
+  const auto put = [&](auto value) {
+    char raw[sizeof value];
+    std::memcpy(raw, &value, sizeof value);
+    if (big) std::reverse(std::begin(raw), std::end(raw));
+    bytes.append(raw, sizeof value);
+  };
+  for (int i = 0; i < 3; ++i) {
+    put(static_cast<float>(i == 1));
+    put(static_cast<double>(i == 2));
+    put(static_cast<std::int16_t>(-7));
+    put(0.0f);
+    put(0.0f);
+    put(1.0f);
+  }
+  put(std::uint8_t{3});
+  for (std::uint32_t i = 0; i < 3; ++i) put(i);
+  return bytes;
+}
+
+TEST(LoadPly, BothBinaries) {
+  for (const bool big : {false, true}) {
+    const Expected<Scene> scene = load_text(binary(big, big ? "binary_big_endian" : "binary_little_endian"));
+    ASSERT_TRUE(scene) << scene.error().message();
+    EXPECT_EQ(scene->mesh->positions[1], glm::vec3(1, 0, -7));
+    EXPECT_EQ(scene->mesh->positions[2], glm::vec3(0, 1, -7));
+    EXPECT_EQ(scene->mesh->normals[0], glm::vec3(0, 0, 1));
+    EXPECT_TRUE(scene->mesh->colors.empty());
+    EXPECT_EQ(scene->mesh->triangles, (std::vector<glm::uvec3>{{0, 1, 2}}));
+  }
+}
+
+TEST(LoadPly, StripsEndAtMinusOne) {
+  const std::string header = "ply\nformat ascii 1.0\nelement vertex 4\nproperty float x\nproperty float y\nproperty float z\n"
+                             "element tristrips 1\nproperty list int int vertex_indices\nend_header\n0 0 0 1 0 0 0 1 0 1 1 0\n";
+  const Expected<Scene> scene = load_text(header + "8 0 1 2 3 -1 3 2 1\n");
+  ASSERT_TRUE(scene) << scene.error().message();
+  EXPECT_EQ(scene->mesh->triangles, (std::vector<glm::uvec3>{{0, 1, 2}, {2, 1, 3}, {3, 2, 1}}));
+}
+
+TEST(LoadPly, WhatIsLeftOutIsSaid) {
+  Warnings warnings;
+  std::string points = kHeader.substr(0, kHeader.find("element face")) + "element edge 1\nproperty int vertex1\nend_header\n";
+  EXPECT_FALSE(load_text(points + kRows + "0\n", &warnings));
+  ASSERT_EQ(warnings.size(), 2u);
+  EXPECT_NE(warnings[0].message().find("element edge"), std::string::npos);
+  EXPECT_NE(warnings[1].message().find("points are left out"), std::string::npos);
+}
+
+TEST(LoadPly, BadFilesAreErrorsThatSayWhat) {
+  EXPECT_NE(error_of("hello").find("is not PLY"), std::string::npos);
+  EXPECT_NE(error_of("ply\nformat ascii 1.0\n").find("end_header"), std::string::npos);
+  EXPECT_NE(error_of("ply\nformat pdf 1.0\nend_header\n").find(":2: its format 'pdf'"), std::string::npos);
+  EXPECT_NE(error_of(kHeader + kRows + "4 0 1 2 9\n").find("names vertex 9"), std::string::npos);
+  EXPECT_NE(error_of(kHeader + kRows + "4 0 1 two 3\n").find(":18: cannot read vertex_indices"), std::string::npos);
+  EXPECT_NE(error_of(kHeader + kRows + "4 0 1 2\n").find("ends too early"), std::string::npos);
+  std::string claim = kHeader;
+  claim.replace(claim.find("vertex 4"), 8, "vertex 4000000000");
+  EXPECT_NE(error_of(claim + kRows).find("too short"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace pinocchio
