@@ -97,17 +97,23 @@ Expected<NamedExr> read_picture(const fs::path& file) {
   }
   std::error_code error;
   if (!fs::is_regular_file(file, error)) return Unexpected(InputError{name, 0, "there is no such file", "check its name"});
-  const std::optional<Texture> png = load_texture(file);
-  if (!png) return Unexpected(InputError{name, 0, "cannot be read as PNG", "is it damaged, or another format?"});
+  Warnings warnings;
+  MemoryLimit limit(kUsualLoadLimit);
+  Loading loading{warnings, nullptr, limit};
+  const Expected<DecodedImage> decoded = load_texture(file, loading);
+  if (!decoded) return Unexpected(decoded.error());
+  if (!decoded->damage.empty())
+    return Unexpected(InputError{name, 0, "is damaged: " + decoded->damage, "write it again"});
+  const Image<glm::u8vec4>& png = decoded->texture.texels;
   NamedExr picture{name, {}};
-  picture.exr.display_size = png->texels.size();
-  picture.exr.data_window = {{0, 0}, png->texels.size()};
+  picture.exr.display_size = png.size();
+  picture.exr.data_window = {{0, 0}, png.size()};
   constexpr std::array kChannels{"R", "G", "B"};
   for (int c = 0; c < 3; ++c) {
     ExrChannel& channel = picture.exr.channels.emplace_back();
     channel.name = kChannels[static_cast<std::size_t>(c)];
     channel.type = ExrChannel::Type::real;
-    for (const glm::u8vec4& texel : png->texels.pixels()) channel.values.push_back(srgb8_to_linear(texel[c]));
+    for (const glm::u8vec4& texel : png.pixels()) channel.values.push_back(srgb8_to_linear(texel[c]));
   }
   return picture;
 }

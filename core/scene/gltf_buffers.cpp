@@ -48,11 +48,6 @@ std::string decode_percent(std::string_view uri) {
   return text;
 }
 
-std::string text_member(const Json& object, const char* key) {
-  const auto found = object.find(key);
-  return found != object.end() && found->is_string() ? found->get<std::string>() : std::string();
-}
-
 // The part after "data:...;base64,"; nothing where the URI is a file's.
 std::optional<std::string_view> data_of(std::string_view uri) {
   if (!uri.starts_with("data:")) return std::nullopt;
@@ -113,6 +108,11 @@ const Json& array_member(const Json& gltf, const char* key) {
 }
 
 }  // namespace
+
+std::string text_member(const Json& object, const char* key) {
+  const auto found = object.find(key);
+  return found != object.end() && found->is_string() ? found->get<std::string>() : std::string();
+}
 
 std::optional<std::size_t> size_member(const Json& object, const char* key) {
   if (!object.is_object()) return std::nullopt;

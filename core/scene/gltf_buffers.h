@@ -20,6 +20,9 @@ namespace pinocchio {
 // Unpacks every primitive of KHR_draco_mesh_compression into accessors of its own.
 [[nodiscard]] Expected<void> unpack_draco(GltfFile& file);
 
+// A member that is text; empty where it is something else.
+[[nodiscard]] std::string text_member(const nlohmann::json& object, const char* key);
+
 // A member that is a whole number of 0 or more; nothing where it is something else.
 [[nodiscard]] std::optional<std::size_t> size_member(const nlohmann::json& object, const char* key);
 

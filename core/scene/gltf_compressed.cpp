@@ -108,11 +108,6 @@ class DracoPrimitive {
   const tinygltf::Value& extension_;
 };
 
-std::string text_member(const nlohmann::json& object, const char* key) {
-  const auto found = object.find(key);
-  return found != object.end() && found->is_string() ? found->get<std::string>() : std::string();
-}
-
 }  // namespace
 
 Expected<void> unpack_draco(GltfFile& file) {

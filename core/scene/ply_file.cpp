@@ -17,7 +17,7 @@ struct TypeName {
   PlyType type;
 };
 
-constexpr TypeName kTypes[] = {{"char", PlyType::int8},     {"int8", PlyType::int8},     {"uchar", PlyType::uint8},
+constexpr TypeName kPlyTypes[] = {{"char", PlyType::int8},     {"int8", PlyType::int8},     {"uchar", PlyType::uint8},
                                {"uint8", PlyType::uint8},   {"short", PlyType::int16},   {"int16", PlyType::int16},
                                {"ushort", PlyType::uint16}, {"uint16", PlyType::uint16}, {"int", PlyType::int32},
                                {"int32", PlyType::int32},   {"uint", PlyType::uint32},   {"uint32", PlyType::uint32},
@@ -25,7 +25,7 @@ constexpr TypeName kTypes[] = {{"char", PlyType::int8},     {"int8", PlyType::in
                                {"float64", PlyType::float64}};
 
 std::optional<PlyType> type_of(std::string_view name) {
-  for (const TypeName& t : kTypes)
+  for (const TypeName& t : kPlyTypes)
     if (t.name == name) return t.type;
   return std::nullopt;
 }
