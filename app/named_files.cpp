@@ -29,7 +29,8 @@ void check_apart(const std::vector<NamedFile>& inputs, const std::vector<NamedFi
   for (const NamedFile& output : outputs) {
     if (output.file.empty()) continue;
     const auto [other, is_free] = taken.emplace(identity(output.file), &output);
-    if (!is_free)
+    const bool is_same_name = !is_free && other->second->role == output.role && other->second->file == output.file;
+    if (!is_free && !is_same_name)  // frames under one name: whoever numbers them says so
       throw Exit(kUsage, output.role + " " + output.file.string() + ": the same file as " + other->second->role +
                              " " + other->second->file.string() + "; choose another name");
   }

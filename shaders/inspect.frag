@@ -76,8 +76,7 @@ vec3 color_of_pixel(uint id, ivec2 pixel) {
 #elif defined(SHOW_POSITION)
   return in_range(surface_of(id, pixel).p_world);
 #elif defined(SHOW_ALBEDO)
-  PixelSurface s = surface_of(id, pixel);
-  return fetch_material(id, s.corners, s.weights).diffuse;
+  return surface_of(id, pixel).material.diffuse;
 #else
   return kNothingAsked;
 #endif

@@ -17,6 +17,9 @@ namespace pinocchio {
 [[nodiscard]] Expected<std::string> unpack_meshopt(const GltfFile& file, const nlohmann::json& extension,
                                                    const std::string& whose);
 
+// What KHR_draco_mesh_compression is called where tinygltf does not see it: it would unpack it, without buffers.
+inline constexpr const char* kDracoAside = "pinocchio_draco";
+
 // Unpacks every primitive of KHR_draco_mesh_compression into accessors of its own.
 [[nodiscard]] Expected<void> unpack_draco(GltfFile& file);
 

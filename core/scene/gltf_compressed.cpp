@@ -114,7 +114,7 @@ Expected<void> unpack_draco(GltfFile& file) {
   for (tinygltf::Mesh& mesh : file.model.meshes)
     for (tinygltf::Primitive& primitive : mesh.primitives) {
       throw_if_cancelled(file.progress);
-      if (const tinygltf::Value* draco = extension(primitive.extensions, "KHR_draco_mesh_compression"))
+      if (const tinygltf::Value* draco = extension(primitive.extensions, kDracoAside))
         if (const Expected<void> unpacked = DracoPrimitive(file, primitive, *draco).unpack(); !unpacked) return unpacked;
     }
   return {};

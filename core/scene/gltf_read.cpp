@@ -64,6 +64,14 @@ Expected<Parts> split(GltfFile& file, std::string&& bytes) {
   return parts;
 }
 
+void put_draco_aside(nlohmann::json& extensions) {
+  const auto draco = extensions.is_object() ? extensions.find("KHR_draco_mesh_compression") : extensions.end();
+  if (draco == extensions.end()) return;
+  nlohmann::json packed = std::move(*draco);
+  extensions.erase(draco);
+  extensions[kDracoAside] = std::move(packed);
+}
+
 // Takes out what tinygltf need not see: what is read by ourselves, and indices, of which it refuses those
 // without a buffer view. The indices, primitive by primitive:
 std::vector<int> reduce(nlohmann::json& gltf) {
@@ -77,6 +85,7 @@ std::vector<int> reduce(nlohmann::json& gltf) {
       const bool has = primitive.is_object() && primitive.contains("indices");
       indices.push_back(has ? static_cast<int>(std::min<std::size_t>(size_member(primitive, "indices").value_or(kNoSuch), kNoSuch)) : -1);
       if (has) primitive.erase("indices");
+      if (primitive.is_object() && primitive.contains("extensions")) put_draco_aside(primitive["extensions"]);
     }
   }
   return indices;

@@ -29,8 +29,14 @@ def _surface(mesh, material):
         return {"uvs": uvs.astype(numpy.float32), "materials": Material(diffuse=(1, 1, 1), texture=texture)}
     if visual.kind == "texture":
         return {"materials": Material(diffuse=_linear(visual.material.main_color))}
-    if visual.kind in ("face", "vertex"):
-        return {"colors": _linear(visual.face_colors)}
+    if visual.kind == "vertex":
+        return {"colors": _linear(visual.vertex_colors)}
+    if visual.kind == "face":  # as materials: a mesh may have as many triangles as vertices
+        colors, of_triangle = numpy.unique(_linear(visual.face_colors), axis=0, return_inverse=True)
+        return {
+            "materials": [Material(diffuse=tuple(map(float, c))) for c in colors],
+            "triangle_materials": numpy.ascontiguousarray(of_triangle.reshape(-1), numpy.uint32),
+        }
     return {}
 
 

@@ -111,8 +111,13 @@ Scene scene_of(const Floats3& vertices, const Words3& triangles, const std::opti
   if (!mesh.textures.empty() && mesh.texcoords.empty())
     throw Error("a material has a texture, the scene no uvs; give uvs, one (u, v) a vertex");
   if (colors) {
-    check_rows(colors->shape(0), mesh.triangles.size(), "colors", "triangle");
-    color_triangles(copied<glm::vec3>(*colors), mesh);
+    const std::vector<glm::vec3> given = copied<glm::vec3>(*colors);
+    if (given.size() == mesh.positions.size()) {
+      for (const glm::vec3& color : given) mesh.colors.emplace_back(color, 1.0f);
+    } else {
+      check_rows(given.size(), mesh.triangles.size(), "colors", "vertex or triangle");
+      color_triangles(given, mesh);
+    }
   }
   Scene scene(std::move(mesh));
   scene.lights = std::move(lights);
@@ -238,7 +243,8 @@ void bind_scene(nb::module_& module) {
           "materials"_a = nb::none(), "triangle_materials"_a = nb::none(), "lights"_a = std::vector<Light>(),
           "ambient"_a = glm::vec3(0.1f),
           "vertices: (n, 3), any unit; triangles: (m, 3) indices. normals: (n, 3), without them triangles are flat.\n"
-          "uvs: (n, 2), (0, 0) is the texture's first texel. colors: (m, 3) of the triangles, linear. materials: a\n"
+          "uvs: (n, 2), (0, 0) is the texture's first texel. colors: (n, 3) of the vertices, or\n"
+          "(m, 3) of the triangles, linear; as many as both are the vertices'. materials: a\n"
           "Material, or several, of which triangle_materials (m) says which triangle has which. A scene without\n"
           "lights is drawn with one above the camera.")
       .def_rw("lights", &Scene::lights, "A copy: set it anew after changing one.")

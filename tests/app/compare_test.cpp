@@ -155,7 +155,7 @@ TEST_F(CompareVerbTest, PngAgainstPngAndExr) {
   EXPECT_GT(figures("x.png y.png")["rmse"].get<double>(), 0.0);
   EXPECT_LT(figures("x.png x.exr")["flip"].get<double>(), 0.01);
   write("text.png", "hello");
-  expect_error("text.png x.png", 4, "cannot be read as PNG");
+  expect_error("text.png x.png", 4, "is not of a format that is read");
 }
 
 TEST_F(CompareVerbTest, Usage) {

@@ -9,6 +9,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <fstream>
@@ -252,11 +253,13 @@ class WindowTest : public testing::Test {
   [[nodiscard]] static std::string scene(const std::string& name) {
     return std::string(PINOCCHIO_SOURCE_DIR "/scenes/") + name;
   }
-  // Closed by the window manager, as a person would; it says nothing and leaves well.
-  void expect_clean_close() {
+  // Closed by the window manager, as a person would; it has said one line with `said` in it, or nothing, and
+  // leaves well.
+  void expect_clean_close(const std::string& said = "") {
     xdo("windowfocus --sync " + window_ + " key alt+F4");
     EXPECT_EQ(program_->wait(), 0) << errors();
-    EXPECT_EQ(errors(), "");
+    EXPECT_NE(errors().find(said), std::string::npos) << errors();
+    EXPECT_EQ(std::ranges::count(errors(), '\n'), said.empty() ? 0 : 1) << errors();
   }
 
   std::filesystem::path folder_;

@@ -215,7 +215,7 @@ TEST_F(OverlayTest, LoadingDoesNotFreezeTheWindow) {
   int changes = 0;
   grab("progress-0.png");
   for (int i = 1; i <= 5; ++i) {
-    pause_ms(200);
+    pause_ms(60);
     grab("progress-1.png");
     if (different("progress-0.png", "progress-1.png") > 0) ++changes;
     std::filesystem::rename(folder_ / "progress-1.png", folder_ / "progress-0.png");

@@ -51,7 +51,7 @@ TEST(ViewSettings, PresetsCanBeLeft) {
   settings.settings.depth = 3;
   choose_preset("design", "2", settings);
   const Settings before = wanted_settings(settings);
-  for (const char* mode : {"raytrace", "raster", "hybrid"}) {
+  for (const char* mode : {"raytrace", "raster", "auto", "hybrid"}) {
     (void)press('M', settings);
     EXPECT_EQ(preset_of("mode", settings), mode);
   }

@@ -73,6 +73,8 @@ TEST_F(WindowTest, KeysChangeWhatIsDrawn) {
   key("m");
   EXPECT_EQ(option(command_line(), "--mode"), "raster");
   key("m");
+  EXPECT_EQ(option(command_line(), "--mode"), "auto");
+  key("m");
   EXPECT_EQ(option(command_line(), "--mode"), "");
   key("g");
   EXPECT_EQ(option(command_line(), "--design"), "2");
@@ -219,7 +221,7 @@ TEST_F(WindowTest, WatchedShadersAndScene) {
   gltf.replace(at, gltf.find_first_of(",}\n", at) - at, "\"intensity\": 0.001");
   std::ofstream(folder_ / "cornell.gltf") << gltf;
   EXPECT_TRUE(becomes([&] { return differs("sound.png"); }));
-  expect_clean_close();
+  expect_clean_close("the last good shaders stay in use");
 }
 
 TEST_F(WindowTest, ASignalEndsIt) {
