@@ -79,7 +79,7 @@ void add_materials(const std::vector<TexturedMaterial>& materials, MeshData& mes
     mesh.materials.push_back(m.material);
     if (!m.texture) continue;
     make_maps(mesh, mesh.materials.back()).base_color.texture = static_cast<int>(mesh.textures.size());
-    mesh.textures.push_back(*m.texture);
+    mesh.textures.edit().push_back(*m.texture);
   }
   if (mesh.materials.empty()) mesh.materials.emplace_back();
 }
