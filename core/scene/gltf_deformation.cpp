@@ -36,17 +36,22 @@ DeformationReader::DeformationReader(const GltfFile& file, const tinygltf::Node&
                                      Warnings& warnings)
     : file_(file), node_(node), first_vertex_(first_vertex), warnings_(warnings) {
   if (node.mesh < 0 || static_cast<std::size_t>(node.mesh) >= file.model.meshes.size()) return;
-  std::size_t sets = 1;
+  std::size_t sets = 0;
   for (const tinygltf::Primitive& primitive : file.model.meshes[static_cast<std::size_t>(node.mesh)].primitives) {
     targets_ = std::max(targets_, primitive.targets.size());
-    if (has_set(primitive, 1)) sets = 2;
+    for (const std::size_t set : {0u, 1u})
+      if (has_set(primitive, set)) sets = std::max(sets, set + 1);
     if (has_set(primitive, 2) && node.skin >= 0)
       warn("joints beyond eight a vertex are left out", "its skin follows the first eight");
   }
   deformation_.targets.resize(targets_);
   if (node.skin < 0 || static_cast<std::size_t>(node.skin) >= file.model.skins.size()) return;
+  if (sets == 0) {
+    warn("its skin is left out, as no vertex names a joint", "it stays as its node has it");
+    return;
+  }
   joints_ = file.model.skins[static_cast<std::size_t>(node.skin)].joints.size();
-  deformation_.influences_per_vertex = joints_ > 0 ? sets * kInfluencesASet : 0;
+  deformation_.influences_per_vertex = sets * kInfluencesASet;
 }
 
 Expected<void> DeformationReader::add(const tinygltf::Primitive& primitive, std::uint32_t first, std::size_t count) {
