@@ -1,5 +1,5 @@
-# needs: numpy open3d
-"""Open3D's Filament on software OpenGL: two lights with its shadow maps."""
+# needs: numpy open3d==0.19.0
+"""Open3D with Filament on software OpenGL (0.20 takes software Vulkan, and hangs): two lights, its shadow maps."""
 import os
 
 VARIANTS = {"Open3D": {}}

@@ -1,6 +1,6 @@
-# needs: numpy
+# needs: THIS_TREE
 """The Python module, on the CPU alone: two exact shadows."""
-VARIANTS = {"Pinocchio, Python": {"many": False}, "Pinocchio, render_many": {"many": True}}
+VARIANTS = {"Pinocchio Python": {"many": False}, "Pinocchio render_many": {"many": True}}
 
 
 def frames(job, many):

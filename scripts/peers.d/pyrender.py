@@ -2,7 +2,7 @@
 """pyrender on software OpenGL; shadow maps only of spot lights."""
 import os
 
-VARIANTS = {"pyrender, no shadows": {"shadows": False}, "pyrender": {"shadows": True}}
+VARIANTS = {"pyrender without shadows": {"shadows": False}, "pyrender": {"shadows": True}}
 
 
 def frames(job, shadows):
