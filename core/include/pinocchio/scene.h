@@ -48,6 +48,9 @@ struct Scene {
 // Lights that reach nothing cast nothing: no mask slot is spent on them.
 void drop_idle_casters(Scene& scene);
 
+// Whether one picture of it is one sample of many: of lights with a size.
+[[nodiscard]] bool takes_samples(const Scene& scene);
+
 // First camera named `name`, else nullptr.
 [[nodiscard]] const Camera* find_camera(const Scene& scene, const std::string& name);
 
