@@ -92,7 +92,7 @@ void add_gltf_textures(const GltfFile& file, MeshData& mesh, Loading& loading) {
   for (std::size_t i = 0; i < images.size(); ++i) {
     if (!textures[i]) continue;
     ours[i] = static_cast<int>(mesh.textures.size());
-    mesh.textures.push_back(std::move(*textures[i]));
+    mesh.textures.edit().push_back(std::move(*textures[i]));
   }
   for (TextureUse* use : uses) use->texture = ours[place.at(use->texture)];
   make_smaller_levels(mesh, loading.progress);

@@ -116,12 +116,14 @@ void make_smaller_levels(MeshData& mesh, Progress* progress) {
   const std::vector<Needed> needed = needed_of(mesh);
   std::vector<std::size_t> missing;
   for (std::size_t i = 0; i < needed.size(); ++i)
-    if (needed[i].levels && mesh.textures[i].smaller_levels.empty()) missing.push_back(i);
+    if (needed[i].levels && mesh.textures[i].smaller_levels.empty() && mesh.textures[i].texels.pixels().size() > 1)
+      missing.push_back(i);
   if (missing.empty()) return;
   begin_phase(progress, "textures", static_cast<double>(missing.size()));
+  std::vector<Texture>& textures = mesh.textures.edit();
   Workers workers(missing.size() > 1 ? 0 : 1);
   workers.for_each(missing.size(), [&](std::size_t i) {
-    make_smaller_levels(mesh.textures[missing[i]], needed[missing[i]].is_color);
+    make_smaller_levels(textures[missing[i]], needed[missing[i]].is_color);
     advance(progress);
   });
 }

@@ -127,7 +127,7 @@ TEST(LoadImages, SmallerLevelsAreMeans) {
   mesh.triangles = {{0, 1, 2}};
   mesh.triangle_materials = {0};
   make_maps(mesh, mesh.materials.emplace_back()).normal.texture = 0;  // no colour: bytes are numbers
-  Texture& texture = mesh.textures.emplace_back();
+  Texture& texture = mesh.textures.edit().emplace_back();
   texture.texels = Image<glm::u8vec4>({4, 2}, glm::u8vec4(0));
   texture.texels.at(0, 0) = glm::u8vec4(40, 0, 0, 255);
   texture.texels.at(3, 1) = glm::u8vec4(0, 80, 0, 255);
@@ -136,7 +136,7 @@ TEST(LoadImages, SmallerLevelsAreMeans) {
   EXPECT_EQ(finished.textures[0].smaller_levels[0], glm::u8vec4(10, 0, 0, 64));
   EXPECT_EQ(finished.textures[0].smaller_levels[1], glm::u8vec4(0, 20, 0, 64));
   EXPECT_EQ(finished.textures[0].smaller_levels[2], glm::u8vec4(5, 10, 0, 64));
-  mesh.textures[0].texels = Image<glm::u8vec4>({3, 1}, glm::u8vec4(30, 60, 90, 255));
+  mesh.textures.edit()[0].texels = Image<glm::u8vec4>({3, 1}, glm::u8vec4(30, 60, 90, 255));
   EXPECT_EQ(Mesh(mesh).textures[0].smaller_levels.at(0), glm::u8vec4(30, 60, 90, 255));
 }
 

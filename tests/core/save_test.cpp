@@ -139,11 +139,11 @@ Scene dissolved() {
   mesh.triangles = {{0, 1, 2}, {0, 2, 3}};
   mesh.triangle_materials = {0, 0};
   for (const char* name : {"colour", "alpha"}) {
-    Texture& texture = mesh.textures.emplace_back();
+    Texture& texture = mesh.textures.edit().emplace_back();
     texture.name = name;
     texture.texels = Image<glm::u8vec4>({2, 2}, glm::u8vec4(200, 100, 50, 255));
   }
-  mesh.textures[1].texels.at(1, 0) = glm::u8vec4(0, 0, 0, 255);
+  mesh.textures.edit()[1].texels.at(1, 0) = glm::u8vec4(0, 0, 0, 255);
   MaterialMaps& maps = make_maps(mesh, mesh.materials.emplace_back());
   maps.base_color.texture = 0;
   maps.alpha = maps.base_color;
@@ -158,7 +158,7 @@ TEST(Save, GltfTakesAlphaFromWhereMtlHasIt) {
   save_scene(dissolved(), temporary("dissolved.glb"));
   const Scene loaded = load_or_die(temporary("dissolved.glb"));
   const MaterialMaps& maps = loaded.mesh->maps.at(0);
-  const Texture& both = loaded.mesh->textures.at(static_cast<std::size_t>(maps.base_color.texture));
+  const Texture& both = loaded.mesh->textures[static_cast<std::size_t>(maps.base_color.texture)];
   EXPECT_EQ(both.texels.at(0, 0), glm::u8vec4(200, 100, 50, 200));
   EXPECT_EQ(both.texels.at(1, 0), glm::u8vec4(200, 100, 50, 0));
   EXPECT_TRUE(maps.blends());
