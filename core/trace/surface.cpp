@@ -79,17 +79,22 @@ glm::vec3 offset_origin(const SurfaceInteraction& surface, const glm::vec3& dire
 }
 
 shared::LightParams light_params(const Light& light) {
-  const int kind = light.kind == Light::Kind::directional ? shared::kLightDirectional
-                   : light.kind == Light::Kind::spot      ? shared::kLightSpot
-                                                          : shared::kLightPoint;
-  return {kind,
+  static_assert(static_cast<int>(Light::Kind::spot) == shared::kLightSpot &&
+                static_cast<int>(Light::Kind::rectangle) == shared::kLightRectangle);
+  const bool directional = light.kind == Light::Kind::directional, rectangle = light.kind == Light::Kind::rectangle;
+  // 1 - cos a is 2 sin^2 (a / 2): not lost to rounding for a disc like the sun's.
+  const float quarter = std::sin(glm::radians(0.25f * light.angle_deg));
+  return {static_cast<int>(light.kind),
           light.falloff == Light::Falloff::inverse_square,
           light.position,
           light.direction,
           light.color * light.intensity,
           light.range,
           light.cos_inner,
-          light.cos_outer};
+          light.cos_outer,
+          directional ? 2.0f * quarter * quarter : rectangle ? 0.0f : light.radius,
+          light.edge_u,
+          light.edge_v};
 }
 
 std::vector<shared::LightParams> casting_light_params(const Scene& scene) {
