@@ -111,13 +111,14 @@ std::vector<glm::vec3> casting_light_positions(const Scene& scene) {
   return positions;
 }
 
-std::optional<Ray> shadow_ray(const shared::LightParams& light, const SurfaceInteraction& surface) {
-  const shared::Incident incident = shared::incident_light(light, surface.p_world);
+std::optional<Ray> shadow_ray(const shared::LightParams& light, const SurfaceInteraction& surface,
+                              const glm::vec2& square) {
+  const shared::Incident incident = shared::sampled_light(light, surface.p_world, square);
   if (incident.radiance == glm::vec3(0.0f)) return std::nullopt;
   if (!shared::faces_light(surface.n_shading, surface.n_geometric, incident.to_light)) return std::nullopt;
   const glm::vec3 origin = offset_origin(surface, incident.to_light);
   if (light.kind == shared::kLightDirectional) return Ray{origin, kInfinity, incident.to_light};
-  return Ray{origin, 1.0f, light.position - origin};  // the light sits at t = 1
+  return Ray{origin, 1.0f, incident.target - origin};  // the light sits at t = 1
 }
 
 }  // namespace pinocchio

@@ -1,6 +1,8 @@
 // Part of trace/kernel.h's files: the steps of trace/lane_steps.h, included last.
 #pragma once
 
+#include <optional>
+
 #include "core/trace/lanes/light.h"
 #include "core/trace/lanes/maps.h"
 #include "core/trace/lanes/scatter.h"
