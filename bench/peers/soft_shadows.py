@@ -62,7 +62,7 @@ def ours(arguments, name, light, plate):
     stem.with_suffix(".gltf").write_text(json.dumps(scene_gltf(light, plate)))
     view = ["--size", "%dx%d" % SIZE, "--eye", "%g,%g,%g" % EYE, "--target", "%g,%g,%g" % TARGET, "--fov", str(FOV)]
     subprocess.run([arguments.pinocchio, "render", str(stem.with_suffix(".gltf")), *view, "--mode", arguments.mode,
-                    "--spp", str(arguments.spp), *arguments.option, "--quiet", "-o", str(stem.with_suffix(".exr"))],
+                    "--spp", str(arguments.spp), *arguments.option, "--quiet", "--aov", "none", "-o", str(stem.with_suffix(".exr"))],
                    check=True)
     bitmap = mitsuba.Bitmap(str(stem.with_suffix(".exr")))
     return numpy.array(bitmap.convert(mitsuba.Bitmap.PixelFormat.RGB, mitsuba.Struct.Type.Float32, False))[..., 0]

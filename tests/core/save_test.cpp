@@ -86,7 +86,9 @@ TEST(Save, SizesOfLightsLensesAndLobesComeBack) {
   for (std::size_t i = 0; i < 3; ++i) {
     EXPECT_LT(glm::distance(loaded.lights[i].edge_u, scene.lights[i].edge_u), 1e-5f);
     EXPECT_LT(glm::distance(loaded.lights[i].edge_v, scene.lights[i].edge_v), 1e-5f);
-    if (i > 0) EXPECT_LT(glm::distance(loaded.lights[i].direction, scene.lights[i].direction), 1e-5f);
+    if (i > 0) {
+      EXPECT_LT(glm::distance(loaded.lights[i].direction, scene.lights[i].direction), 1e-5f);
+    }
   }
   EXPECT_EQ(loaded.cameras.front().lens_radius, 0.125f);
   EXPECT_EQ(loaded.cameras.front().focus_distance, 3.0f);
