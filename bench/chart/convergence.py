@@ -16,17 +16,16 @@ import subprocess
 import sys
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent.parent
-# Radius of the lights (scene units), or the diameter of a sun's disc (degrees).
-SCENES = {"two-lights": ("two-lights.gltf", 0.25), "cornell": ("cornell.gltf", 0.12),
-          "speedboat": ("speedboat.glb", 0.6), "terrace": ("terrace.glb", 0.15)}
-SUN_DEG = 3.0
+SCENES = {"two-lights": "two-lights.gltf", "cornell": "cornell.gltf", "speedboat": "speedboat.glb", "terrace": "terrace.glb"}
+# As wide as that share of the distance from the origin, so that penumbras and not edges of things make the error.
+SIZE_OF_LIGHTS = 0.15
 SEQUENCES = ["random", "sobol", "blue-noise"]
 TRUTH_SEED = 1000
 
 
 def with_sizes(name, folder):
     """A copy of the scene whose lights have a size."""
-    file, radius = SCENES[name]
+    file = SCENES[name]
     source = ROOT / "scenes" / file
     data = source.read_bytes()
     binary = b""
@@ -37,9 +36,16 @@ def with_sizes(name, folder):
         scene = json.loads(data)
         for buffer in scene["buffers"]:
             (folder / buffer["uri"]).write_bytes((source.parent / buffer["uri"]).read_bytes())
-    for light in scene["extensions"]["KHR_lights_punctual"]["lights"]:
+    lights = scene["extensions"]["KHR_lights_punctual"]["lights"]
+    for node in scene["nodes"]:
+        if "KHR_lights_punctual" not in node.get("extensions", {}):
+            continue
+        light = lights[node["extensions"]["KHR_lights_punctual"]["light"]]
         ours = light.setdefault("extras", {}).setdefault("pinocchio", {})
-        ours["angle" if light["type"] == "directional" else "radius"] = SUN_DEG if light["type"] == "directional" else radius
+        if light["type"] == "directional":
+            ours["angle"] = math.degrees(2 * math.atan(SIZE_OF_LIGHTS))
+        else:
+            ours["radius"] = SIZE_OF_LIGHTS * math.dist(node["translation"], (0, 0, 0))
     copy = folder / file
     if binary:
         text = json.dumps(scene).encode()
@@ -65,7 +71,7 @@ def render(arguments, scene, output, spp, sequence, seed, *options):
 def error(arguments, a, b):
     text = subprocess.run([arguments.pinocchio, "compare", str(a), str(b), "--json"], check=True, capture_output=True,
                           text=True).stdout
-    return json.loads(text)["rmse_linear"]
+    return json.loads(text)["rmse"]
 
 
 def slope(points, key):
