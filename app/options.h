@@ -28,7 +28,7 @@ struct DrawOptions {
   EngineOptions engine;
   std::string camera;  // name or index; empty: the first, else the whole scene in view
   std::optional<glm::vec3> eye, target, up;
-  std::optional<float> fov_deg;
+  std::optional<float> fov_deg, lens_radius, focus;
   std::vector<Light> lights;  // added to the scene's
   std::optional<PixelBox> crop;
   bool precise = false;  // drawn by the reference

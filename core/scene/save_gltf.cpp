@@ -142,11 +142,14 @@ class GltfWriter {
 
   void add_camera(const Camera& camera) {
     const CameraAxes axes = camera_axes(camera);
+    Json ours{{"target", vec3_json(camera.target)}, {"up", vec3_json(camera.up)}};
+    if (camera.lens_radius > 0.0f) ours["lensRadius"] = camera.lens_radius;
+    if (camera.focus_distance > 0.0f) ours["focusDistance"] = camera.focus_distance;
     add_node(
         {{"name", camera.name},
          {"camera", json_["cameras"].size()},
          {"matrix", aimed_matrix(camera.eye, axes.right, axes.up, axes.forward)},
-         {"extras", {{"pinocchio", {{"target", vec3_json(camera.target)}, {"up", vec3_json(camera.up)}}}}}});
+         {"extras", {{"pinocchio", ours}}}});
     const double yfov = glm::radians(static_cast<double>(camera.fov_deg));
     json_["cameras"].push_back({{"type", "perspective"}, {"perspective", {{"yfov", yfov}, {"znear", 0.01}}}});
   }
@@ -154,7 +157,7 @@ class GltfWriter {
   void add_light(const Light& light) {
     Json& lights = json_["extensions"]["KHR_lights_punctual"]["lights"];
     if (lights.empty()) extensions_.emplace_back("KHR_lights_punctual");
-    constexpr const char* kTypes[] = {"point", "directional", "spot"};
+    constexpr const char* kTypes[] = {"point", "directional", "spot", "point"};  // a rectangle: where none is known
     Json json{{"name", light.name},
               {"type", kTypes[static_cast<int>(light.kind)]},
               {"color", vec3_json(light.color)},
@@ -167,9 +170,16 @@ class GltfWriter {
     if (!light.casts_shadow) ours["castsShadow"] = false;
     if (light.kind != Light::Kind::directional && light.falloff == Light::Falloff::none)
       ours["falloff"] = "none";
+    if (light.radius > 0.0f) ours["radius"] = light.radius;
+    if (light.angle_deg > 0.0f) ours["angle"] = light.angle_deg;
+    CameraAxes axes = camera_axes({{}, light.position, light.position + light.direction, {0, 1, 0}, 0});
+    if (light.kind == Light::Kind::rectangle) {
+      const float u = glm::length(light.edge_u), v = glm::length(light.edge_v);
+      ours["rectangle"] = {u, v};
+      if (u > 0.0f && v > 0.0f) axes = {light.edge_u / u, light.edge_v / v, light.direction};
+    }
     if (!ours.empty()) json["extras"]["pinocchio"] = ours;
 
-    const CameraAxes axes = camera_axes({{}, light.position, light.position + light.direction, {0, 1, 0}, 0});
     Json node{{"name", light.name}, {"extensions", {{"KHR_lights_punctual", {{"light", lights.size()}}}}}};
     if (light.kind == Light::Kind::point) {
       node["translation"] = vec3_json(light.position);

@@ -18,6 +18,7 @@ Json phong_json(const Material& m) {
   if (m.specular != none) json["ks"] = color_json(m.specular);
   if (m.shininess != plain.shininess) json["shininess"] = m.shininess;
   if (m.reflectance != none) json["reflect"] = color_json(m.reflectance);
+  if (m.gloss > 0.0f) json["gloss"] = m.gloss;
   if (m.transmittance != none) json["transmit"] = color_json(m.transmittance);
   if (m.ior != plain.ior) json["ior"] = m.ior;
   if (m.fresnel) json["fresnel"] = true;

@@ -59,6 +59,42 @@ TEST(Save, GltfBringsEverythingBack) {
     }
 }
 
+TEST(Save, SizesOfLightsLensesAndLobesComeBack) {
+  Scene scene = plate_over_floor();
+  {
+    MeshEdit mesh(scene);
+    mesh->materials.front().reflectance = glm::vec3(0.5f);
+    mesh->materials.front().gloss = 40.0f;
+  }
+  Light ball = point_light({1, 2, 3}), sun, panel = point_light({3, 2, 1});
+  ball.radius = 0.25f;
+  sun.kind = Light::Kind::directional;
+  sun.angle_deg = 0.53f;
+  panel.kind = Light::Kind::rectangle;
+  panel.direction = {0, -1, 0};
+  panel.edge_u = {2, 0, 0};
+  panel.edge_v = {0, 0, -0.5f};
+  scene.lights = {ball, sun, panel};
+  scene.cameras.front().lens_radius = 0.125f;
+  scene.cameras.front().focus_distance = 3.0f;
+  save_scene(scene, temporary("sizes.gltf"));
+  const Scene loaded = load_or_die(temporary("sizes.gltf"));
+  ASSERT_EQ(loaded.lights.size(), 3u);
+  EXPECT_EQ(loaded.lights[0].radius, 0.25f);
+  EXPECT_EQ(loaded.lights[1].angle_deg, 0.53f);
+  EXPECT_EQ(loaded.lights[2].kind, Light::Kind::rectangle);
+  for (std::size_t i = 0; i < 3; ++i) {
+    EXPECT_LT(glm::distance(loaded.lights[i].edge_u, scene.lights[i].edge_u), 1e-5f);
+    EXPECT_LT(glm::distance(loaded.lights[i].edge_v, scene.lights[i].edge_v), 1e-5f);
+    if (i > 0) {
+      EXPECT_LT(glm::distance(loaded.lights[i].direction, scene.lights[i].direction), 1e-5f);
+    }
+  }
+  EXPECT_EQ(loaded.cameras.front().lens_radius, 0.125f);
+  EXPECT_EQ(loaded.cameras.front().focus_distance, 3.0f);
+  EXPECT_EQ(loaded.mesh->materials.front().gloss, 40.0f);
+}
+
 TEST(Save, DirectionalAndSpotLightsKeepTheirDirection) {
   Scene scene = plate_over_floor();
   Light sun;
