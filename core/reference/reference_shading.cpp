@@ -59,25 +59,28 @@ ReferenceBounce bounce(const ReferenceSurface& s, const glm::dvec3& direction, c
 
 namespace {
 
-// A ray to the point of the light (null: far away); `radiance` is what arrives. Nothing where that is nothing, or the
-// surface faces away.
+// A ray to the point of the light (null: far away); `radiance` is what arrives. Nothing where that is
+// nothing, or the surface faces away.
 void add_point(const ReferenceSurface& surface, const glm::dvec3& to_light, const glm::dvec3& radiance,
                const glm::dvec3* point, std::vector<ReferenceLight>& out) {
   if (radiance == glm::dvec3(0.0)) return;
   if (glm::dot(surface.n_shading, to_light) <= 0.0 || glm::dot(surface.n_geometric, to_light) <= 0.0) return;
   const glm::dvec3 origin = leave(surface, to_light);
-  out.push_back({to_light, radiance, point ? ReferenceRay{origin, *point - origin, 1.0} : ReferenceRay{origin, to_light}});
+  out.push_back({to_light, radiance,
+                 point ? ReferenceRay{origin, *point - origin, 1.0} : ReferenceRay{origin, to_light}});
 }
 
-// Points of the square, one in each of side * side cells. Where in it depends on `place`, so that cells leave no
-// pattern in a picture.
+// Points of the square, one in each of side * side cells. Where in it depends on `place`, so that cells leave
+// no pattern in a picture.
 template <class Use>
 void for_each_cell(int side, const glm::dvec3& place, Use use) {
-  std::seed_seq seed{std::hash<double>()(place.x), std::hash<double>()(place.y), std::hash<double>()(place.z)};
+  std::seed_seq seed{std::hash<double>()(place.x), std::hash<double>()(place.y),
+                     std::hash<double>()(place.z)};
   std::minstd_rand random(seed);
   std::uniform_real_distribution<double> within(0.0, 1.0);
   for (int y = 0; y < side; ++y)
-    for (int x = 0; x < side; ++x) use(glm::dvec2(x + within(random), y + within(random)) / static_cast<double>(side));
+    for (int x = 0; x < side; ++x)
+      use(glm::dvec2(x + within(random), y + within(random)) / static_cast<double>(side));
 }
 
 // A unit vector at that angle off the axis, `turn` of a circle around it.
@@ -89,12 +92,14 @@ glm::dvec3 beside(const glm::dvec3& axis, double cosine, double turn) {
 }
 
 // By the solid angle of a ball of even radiance I / (pi r^2), or of a disc at infinity.
-std::vector<ReferenceLight> round_light(const Light& light, const ReferenceSurface& surface, const glm::dvec3& strength) {
+std::vector<ReferenceLight> round_light(const Light& light, const ReferenceSurface& surface,
+                                        const glm::dvec3& strength) {
   constexpr double kShare = 1.0 / (kReferencePoints * kReferencePoints);
   std::vector<ReferenceLight> points;
   const bool directional = light.kind == Light::Kind::directional;
   const double r = light.radius;
-  const glm::dvec3 offset = directional ? -glm::dvec3(light.direction) : glm::dvec3(light.position) - surface.p_world;
+  const glm::dvec3 offset =
+      directional ? -glm::dvec3(light.direction) : glm::dvec3(light.position) - surface.p_world;
   const double distance = glm::length(offset);
   if (!directional && distance > static_cast<double>(light.range)) return points;
   const bool inside = !directional && distance <= r;
@@ -156,9 +161,11 @@ std::vector<ReferenceLight> reference_lights(const Light& light, const Reference
   return point;
 }
 
-std::vector<ReferenceBounce> reference_lobe(const ReferenceSurface& s, const ReferenceBounce& mirrored, int side) {
+std::vector<ReferenceBounce> reference_lobe(const ReferenceSurface& s, const ReferenceBounce& mirrored,
+                                            int side) {
   std::vector<ReferenceBounce> rays;
-  const glm::dvec3 axis = glm::normalize(mirrored.ray.direction), weight = mirrored.weight / static_cast<double>(side * side);
+  const glm::dvec3 axis = glm::normalize(mirrored.ray.direction),
+                   weight = mirrored.weight / static_cast<double>(side * side);
   for_each_cell(side, s.p_world, [&](const glm::dvec2& cell) {
     // Of (n + 1) / (2 pi) cos^n, the share within an angle is 1 - cos^(n + 1).
     const glm::dvec3 direction = beside(axis, std::pow(1.0 - cell.x, 1.0 / (s.material.gloss + 1.0)), cell.y);
