@@ -46,7 +46,7 @@ FrameResult precise(const FrameRequest& request, Workers& workers) {
     View view = request.view;
     view.jitter = jitter_of(k);
     ReferencePicture sample = reference_render(request.scene, view, request.settings.depth, workers, &run_progress(),
-                                               request.settings.filter_textures);
+                                               request.settings.filter_textures, request.settings.terminator);
     if (k == 0) {
       mean.color = std::move(sample.color);
       mean.ids = std::move(sample.ids);

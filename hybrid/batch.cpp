@@ -26,6 +26,7 @@ RayCounts draw_tiles(Engine::Parts& engine, const Scene& scene, const std::share
   job.throughput_cutoff = s.throughput_cutoff;
   job.light_cutoff = s.light_cutoff;
   job.filter_textures = s.filter_textures;
+  job.terminator = s.terminator;
   job.progress = progress;
   return trace_frames(job, to);
 }

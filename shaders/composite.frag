@@ -6,6 +6,7 @@
 //   FREE_LIGHTS_ONLY  lights that cast are left out: the CPU adds them (design 2)
 //   HAS_REFLECTION    the CPU's mirrored and refracted light; traced_light.glsl has its formats
 //   HAS_MAPS          some material has maps
+//   TERMINATOR_LIFTS, TERMINATOR_SMOOTHS  remedies of the shadow terminator; neither: none
 //   REPROJECT         mask and reflection are of an older frame, whose view and ids are given: each pixel
 //                     looks up where its point was seen then. Where that frame saw another triangle there,
 //                     nor one of the neighbours does, the pixel is a hole: every light reaches it, and it
@@ -14,6 +15,7 @@
 #define SHARED
 #include "shared/view.glsl"
 #include "shared/surface.glsl"
+#include "shared/terminator.glsl"
 #include "shared/phong.glsl"
 #include "scene_fetch.glsl"
 #include "map_fetch.glsl"
@@ -48,7 +50,10 @@ void main() {
     float share = share_of_light(reach, fetch_mask_slot(i));
     if (share == 0.0) continue;
     Incident incident = incident_light(fetch_light(i), s.p_world);
-    if (!faces_light(s.n.shading, s.n.geometric, incident.to_light)) continue;
+    if (!faces_light(s, incident.to_light)) continue;
+#ifdef TERMINATOR_SMOOTHS
+    share *= terminator_factor(s.n.shading, s.n.geometric, incident.to_light);
+#endif
     sum += share * phong_light(s.material, incident, s.n.shading, s.to_viewer);
   }
 #ifdef HAS_MAPS

@@ -28,6 +28,13 @@ double fresnel(double cos_in, double eta) {
   return 0.5 * (square(parallel) + square(perpendicular));
 }
 
+// Chiang, Li and Burley 2019: less light the nearer the facet is to turning away.
+double smoothing_at(const ReferenceSurface& s, const glm::dvec3& to_light) {
+  const double g = std::min(1.0, glm::dot(s.n_geometric, to_light) /
+                                     (glm::dot(s.n_shading, to_light) * glm::dot(s.n_shading, s.n_geometric)));
+  return -g * g * g + g * g + g;
+}
+
 // About the shading normal, unless that sends the ray into the surface; then about the geometric one.
 glm::dvec3 mirrored(const ReferenceSurface& s) {
   const auto about = [&s](const glm::dvec3& n) { return 2.0 * glm::dot(n, s.to_viewer) * n - s.to_viewer; };
@@ -54,7 +61,8 @@ ReferenceBounce bounce(const ReferenceSurface& s, const glm::dvec3& direction, c
 
 }  // namespace
 
-std::optional<ReferenceLight> reference_light(const Light& light, const ReferenceSurface& surface) {
+std::optional<ReferenceLight> reference_light(const Light& light, const ReferenceSurface& surface,
+                                              Terminator terminator) {
   ReferenceLight result;
   result.radiance = glm::dvec3(light.color) * static_cast<double>(light.intensity);
   const bool directional = light.kind == Light::Kind::directional;
@@ -70,8 +78,16 @@ std::optional<ReferenceLight> reference_light(const Light& light, const Referenc
   }
   if (result.radiance == glm::dvec3(0.0)) return std::nullopt;
   if (glm::dot(surface.n_shading, result.to_light) <= 0.0) return std::nullopt;
-  if (glm::dot(surface.n_geometric, result.to_light) <= 0.0) return std::nullopt;
-  const glm::dvec3 origin = leave(surface, result.to_light);
+  const bool turned_away = glm::dot(surface.n_geometric, result.to_light) <= 0.0;
+  const bool can_lift = lifts(terminator) && surface.lift != glm::dvec3(0.0);
+  if (turned_away && !(can_lift && glm::dot(surface.n_vertices, result.to_light) > 0.0)) return std::nullopt;
+  const bool lifted = can_lift && (turned_away || terminator == Terminator::displaced);
+  const glm::dvec3 origin = lifted ? leave_lifted(surface) : leave(surface, result.to_light);
+  if (lifted && terminator == Terminator::turned_away) {
+    const glm::dvec3 from = leave(surface, surface.n_geometric);
+    result.way_up = ReferenceRay{from, origin - from, 1.0};
+  }
+  if (terminator == Terminator::smoothed) result.radiance *= smoothing_at(surface, result.to_light);
   result.shadow = directional ? ReferenceRay{origin, result.to_light}
                               : ReferenceRay{origin, glm::dvec3(light.position) - origin, 1.0};
   return result;

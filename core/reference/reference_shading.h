@@ -6,6 +6,7 @@
 
 #include "core/reference/reference_surface.h"
 #include "pinocchio/light.h"
+#include "pinocchio/terminator.h"
 
 namespace pinocchio {
 
@@ -14,11 +15,12 @@ struct ReferenceLight {
   glm::dvec3 to_light;  // unit
   glm::dvec3 radiance;  // linear
   ReferenceRay shadow;  // what hits it blocks the light
+  std::optional<ReferenceRay> way_up;  // likewise: to where `shadow` starts off the surface
 };
 
 // Nothing where the light does not reach: too far, outside the cone, or behind the surface.
-[[nodiscard]] std::optional<ReferenceLight> reference_light(const Light& light,
-                                                            const ReferenceSurface& surface);
+[[nodiscard]] std::optional<ReferenceLight> reference_light(const Light& light, const ReferenceSurface& surface,
+                                                            Terminator terminator);
 
 // Id + Is of that light (Phong, "Illumination for Computer Generated Pictures", CACM 18(6), 1975):
 //   I (kd (N.L) + ks (R.V)^n),  R = 2 (N.L) N - L

@@ -48,10 +48,10 @@ glm::dvec3 ReferenceTracer::direct(const ReferenceSurface& surface, unsigned& bi
   int slot = -1;
   for (const Light& light : scene_.lights) {
     if (light.casts_shadow) ++slot;
-    const std::optional<ReferenceLight> incident = reference_light(light, surface);
+    const std::optional<ReferenceLight> incident = reference_light(light, surface, terminator_);
     if (!incident) continue;
     if (light.casts_shadow) {
-      const double share = unblocked(incident->shadow);
+      const double share = incident->way_up && tree_.occluded(*incident->way_up) ? 0.0 : unblocked(incident->shadow);
       if (share >= 0.5) bits |= 1u << slot;
       sum += share * reference_phong(surface, *incident);
     } else {

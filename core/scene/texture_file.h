@@ -19,4 +19,8 @@ struct DecodedImage {
 [[nodiscard]] Expected<DecodedImage> decode_texture(const std::string& file, const std::string& name,
                                                     std::span<const unsigned char> bytes, MemoryLimit& limit);
 
+// A Radiance picture (RGBE), linear.
+[[nodiscard]] Expected<Image<glm::vec3>> decode_radiance(const std::string& file, std::span<const unsigned char> bytes,
+                                                         MemoryLimit& limit);
+
 }  // namespace pinocchio

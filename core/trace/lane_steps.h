@@ -9,6 +9,7 @@
 #include "core/parallel/tiles.h"
 #include "pinocchio/scene.h"
 #include "pinocchio/ray_offset.h"
+#include "pinocchio/terminator.h"
 #include "core/trace/map_lanes.h"
 #include "core/trace/ray_queue.h"
 #include "core/trace/shared.h"
@@ -39,6 +40,7 @@ struct BounceLight {
 struct Bounce {
   SceneArrays scene;
   RayOffset offset;
+  Terminator terminator;
   const Footprint* footprint;  // of the rays, for textures
   const BounceLight* lights;
   std::size_t light_count;
@@ -51,6 +53,7 @@ struct Bounce {
 
   // Where it goes. Queues have room for all rays of the step; null: not wanted.
   RayQueue* shadow;  // one a slot
+  RayQueue* ways_up;  // likewise: to where lifted shadow rays start; their `pixel` is that ray's place in its queue
   RayQueue *mirrored, *refracted, *straight;
   float* radiance;  // RGBA of a tile's pixels
 };

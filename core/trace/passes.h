@@ -13,6 +13,7 @@
 #include "pinocchio/progress.h"
 #include "pinocchio/ray_counts.h"
 #include "pinocchio/scene.h"
+#include "pinocchio/terminator.h"
 #include "pinocchio/tracer.h"
 
 namespace pinocchio {
@@ -28,6 +29,7 @@ struct TraceJob {
   // of the mask is true).
   float throughput_cutoff = kThroughputCutoff, light_cutoff = 0.0f;
   bool filter_textures = true;
+  Terminator terminator = kUsualTerminator;
   glm::vec2 jitter{0.0f};  // View's: tells the samples of a pixel apart where they decide at random
   // Told of every tile: all of them together are that many steps.
   Progress* progress = nullptr;

@@ -84,6 +84,7 @@ TilePlan::TilePlan(const TraceJob& j, const TileOutputs& o)
   look(scaled_view(j.view, o.scale));
   further = {SceneArrays::of(*job.scene.mesh),
              job.tracer.offset(),
+             job.terminator,
              &further_footprint,
              all_lights.data(),
              all_lights.size(),
@@ -93,6 +94,7 @@ TilePlan::TilePlan(const TraceJob& j, const TileOutputs& o)
              true,
              0.0f,
              job.throughput_cutoff,
+             nullptr,
              nullptr,
              nullptr,
              nullptr,
@@ -198,10 +200,13 @@ void TileTracer::make_room(std::size_t rays, Generation& next) {
   for (std::size_t i = 0; i < next.size(); ++i)
     next[i].make_room(i < 2 || plan_->blends ? rays : 0, plan_->further.footprint->angle > 0.0f);
   for (RayQueue& queue : shadow_) queue.make_room(rays);
+  if (plan_->job.terminator != Terminator::turned_away) return;
+  for (RayQueue& queue : ways_up_) queue.make_room(rays);
 }
 
 void TileTracer::bounce(Bounce step, const RayQueue& rays, Generation& next, Radiance& radiance) {
   step.shadow = shadow_.data();
+  step.ways_up = ways_up_.data();
   step.radiance = &radiance[0].x;
   if (step.mirrored) step.mirrored = &next[0], step.refracted = &next[1], step.straight = &next[2];
   plan_->job.tracer.steps().bounce(step, rays);
@@ -257,6 +262,7 @@ void TileTracer::fire_shadows(int generation, Radiance& radiance) {
       plan_->job.tracer.occluded(queue.columns(reach), queue.size, blocked_.data());
     }
     counts_.shadow += queue.size;
+    block_where_the_way_up_is(light.slot);
     for (std::size_t i = 0; i < queue.size; ++i) {
       if (blocked_[i]) continue;
       const std::uint32_t pixel = queue.pixel[i];
@@ -264,6 +270,16 @@ void TileTracer::fire_shadows(int generation, Radiance& radiance) {
       if (adds) radiance[pixel] += glm::vec4(queue.light[0][i], queue.light[1][i], queue.light[2][i], 0.0f);
     }
   }
+}
+
+// A lifted ray that would start behind something counts as blocked. Holes are not asked for: the way is short.
+void TileTracer::block_where_the_way_up_is(int slot) {
+  const RayQueue& up = ways_up_[static_cast<std::size_t>(slot)];
+  if (up.size == 0) return;
+  if (up_blocked_.size() < up.size + kQueuePad) up_blocked_.resize(2 * up.size + kQueuePad);
+  plan_->job.tracer.occluded(up.columns(1.0f), up.size, up_blocked_.data());
+  counts_.shadow += up.size;
+  for (std::size_t i = 0; i < up.size; ++i) blocked_[up.pixel[i]] |= up_blocked_[i];
 }
 
 void TileTracer::write() const {

@@ -48,6 +48,7 @@ class TileTracer {
   void bounce(Bounce step, const RayQueue& rays, Generation& next, Radiance& radiance);
   void make_room(std::size_t rays, Generation& next);
   void fire_shadows(int generation, Radiance& radiance);
+  void block_where_the_way_up_is(int slot);
   void write() const;
 
   const TilePlan* plan_ = nullptr;
@@ -55,8 +56,8 @@ class TileTracer {
   RayCounts counts_;
   RayQueue seen_;
   Generation rays_, next_;
-  std::array<RayQueue, kMaxCastingLights> shadow_;
-  std::vector<std::uint8_t> blocked_;
+  std::array<RayQueue, kMaxCastingLights> shadow_, ways_up_;
+  std::vector<std::uint8_t> blocked_, up_blocked_;
   Holes holes_;
   Radiance direct_, reflected_;
   std::array<std::uint8_t, kPixels> mask_;

@@ -29,7 +29,8 @@ class Share {
  public:
   Share(const FramesJob& job, const FrameArrays& to, TileImages& images)
       : job_(job), to_(to), images_(images), trace_job_{job.scene,          job.tracer, job.workers, {},
-                                                        job.throughput_cutoff, job.light_cutoff, job.filter_textures},
+                                                        job.throughput_cutoff, job.light_cutoff, job.filter_textures,
+                                                        job.terminator},
         outputs_(outputs(job, to, images)), plan_(trace_job_, outputs_) {}
 
   RayCounts draw(std::size_t frame, const PixelBox& tile) {

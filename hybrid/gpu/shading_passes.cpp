@@ -89,6 +89,8 @@ int ShadingPasses::bind(const gl::Program& program, const Inputs& inputs, const 
 
 ShadingPasses::Definitions ShadingPasses::definitions_of(const Inputs& inputs) {
   Definitions definitions{"ID_BITS " + std::to_string(inputs.id_bits)};
+  if (lifts(inputs.terminator)) definitions.emplace_back("TERMINATOR_LIFTS");
+  if (inputs.terminator == Terminator::smoothed) definitions.emplace_back("TERMINATOR_SMOOTHS");
   const Definitions& of_maps = inputs.mesh.maps().definitions();
   definitions.insert(definitions.end(), of_maps.begin(), of_maps.end());
   return definitions;

@@ -36,6 +36,7 @@ class ShadingPasses {
     const gl::Texture& ids;
     int id_bits;
     bool filter_textures;
+    Terminator terminator;
   };
   // The CPU's answer; what is null is not in it.
   struct Traced {

@@ -4,6 +4,7 @@
 #include "core/trace/lanes/light.h"
 #include "core/trace/lanes/maps.h"
 #include "core/trace/lanes/scatter.h"
+#include "core/trace/lanes/terminator.h"
 
 namespace pinocchio::PINOCCHIO_LANES {
 namespace {
@@ -58,37 +59,40 @@ inline void add_light(const Vec& light, const std::uint32_t* pixel, Mask lanes, 
 }
 
 // Towards a light that casts: shadow rays for `lanes`, which carry `light`.
-inline void ask(const BounceLight& from, const LaneSurface& s, const LaneIncident& incident, const Vec& light,
-                Int pixel, Mask lanes, RayQueue& queue) {
+inline void ask(const BounceLight& from, const ShadowStarts& starts, const LaneIncident& incident, const Vec& light,
+                Int pixel, Mask lanes, const Bounce& bounce) {
   if (lanes.bits() == 0) return;
-  const Vec origin = offset_origin(s, incident.to_light);
+  const Vec origin = starts.origins(incident.to_light);
   const bool far = from.params.kind == shared::kLightDirectional;
   const Vec direction =
       far ? incident.to_light : Vec(from.params.position) - origin;  // the light sits at t = 1
-  append(origin, direction, light, pixel, lanes, queue);
+  append(origin, direction, light, pixel, lanes, bounce.shadow[from.slot]);
+  starts.ask_ways_up(lanes, bounce.shadow[from.slot], bounce.ways_up[from.slot]);
 }
 
 // What the lights do at the points of a packet; returns what reaches them for certain.
-inline Vec light_points(const Bounce& bounce, const LaneSurface& s, const LaneMaterial& m,
+inline Vec light_points(const Bounce& bounce, const Corners& corners, const LaneSurface& s, const LaneMaterial& m,
                         const Vec& throughput, Int pixel, Mask lanes) {
+  ShadowStarts starts(bounce.terminator, corners, s);
   Vec sum(Float(0.0f));
   if (bounce.adds_ambient) sum = m.ambient * Vec(bounce.ambient_light) + m.emission;
   for (std::size_t i = 0; i < bounce.light_count; ++i) {
     const BounceLight& light = bounce.lights[i];
     const LaneIncident incident = incident_light(light.params, s.p_world);
-    Mask lit = lanes & faces_light(s, incident.to_light) & ~is_dark(incident.radiance);
+    Mask lit = lanes & starts.faces_light(incident.to_light) & ~is_dark(incident.radiance);
     if (bounce.visible && light.slot >= 0 && bounce.light_cutoff > 0.0f)
       lit = lit & ~(most_light(m, incident, s) < Float(bounce.light_cutoff));
     if (lit.bits() == 0) continue;
     Vec term(Float(0.0f));
     if (bounce.adds_light) term = phong_light(m, incident, s, lit);
+    if (bounce.terminator == Terminator::smoothed) term = term * terminator_factor(s, incident.to_light);
     if (light.slot < 0) {
       sum = select(lit, sum + term, sum);
       continue;
     }
     const Vec carried = throughput * term;
     if (!bounce.visible) lit = lit & ~(largest(carried) < Float(bounce.throughput_cutoff));
-    ask(light, s, incident, carried, pixel, lit, bounce.shadow[light.slot]);
+    ask(light, starts, incident, carried, pixel, lit, bounce);
   }
   return sum;
 }
@@ -129,7 +133,7 @@ void bounce_rays(const Bounce& bounce, const RayQueue& rays) {
     }
     const Vec throughput = bounce.visible ? Vec(Float(1.0f)) : Vec::load(rays.light, i);
     const Vec own = m.blends != 0 ? throughput * m.alpha : throughput;
-    const Vec certain = light_points(bounce, s, m, own, pixel, lanes);
+    const Vec certain = light_points(bounce, corners, s, m, own, pixel, lanes);
     if (bounce.adds_light) add_light(own * certain, rays.pixel + i, lanes, bounce.radiance);
     if (bounce.mirrored) scatter(s, m, throughput, pixel, lanes, bounce);
   }

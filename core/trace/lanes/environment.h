@@ -1,0 +1,68 @@
+// Part of trace/kernel.h's files: what a point samples of all directions around it: one of the environment, where
+// its light comes from, and one in which light from other surfaces is looked for.
+#pragma once
+
+#include "core/trace/environment_light.h"
+#include "core/trace/lanes/maps.h"
+#include "core/trace/lanes/sampling.h"
+#include "core/trace/lanes/scatter.h"
+#include "core/trace/lanes/terminator.h"
+
+namespace pinocchio::PINOCCHIO_LANES {
+namespace {
+
+// The packet's two numbers of that dimension.
+inline void draw_numbers(const Bounce& bounce, Int pixel, std::uint32_t dimension, SampleLanes& packet) {
+  const LanePoint p = sample_2d(sampling_of(bounce, pixel), bounce.dimension + dimension);
+  p.x.store(packet.number[0]);
+  p.y.store(packet.number[1]);
+}
+
+inline Vec load(const SampleLanes::Column (&columns)[3]) {
+  return {Float::load(columns[0]), Float::load(columns[1]), Float::load(columns[2])};
+}
+
+// What of light from all around is reflected where Phong's coefficients are not a BRDF's: their 1 / pi is counted to
+// the lights.
+inline Float brdf_share(const LaneMaterial& m) {
+  return select(Mask::from_bits(m.brdf), Float(1.0f), Float(0.31830988618f));
+}
+
+// A shadow ray towards one direction of the environment, with the light that it brings.
+[[gnu::noinline]] void ask_environment(const Bounce& bounce, ShadowStarts& starts, const LaneSurface& s,
+                                       const LaneMaterial& m, const Vec& throughput, Int pixel, Mask lanes) {
+  SampleLanes packet{};
+  draw_numbers(bounce, pixel, shared::kEnvironmentDimension, packet);
+  bounce.environment->sample(lanes.bits(), packet);
+  const LaneIncident incident{load(packet.direction), load(packet.light)};
+  Mask lit = lanes & starts.faces_light(incident.to_light) & ~is_dark(incident.radiance);
+  if (lit.bits() == 0) return;
+  Vec carried = throughput * phong_light(m, incident, s, lit) * brdf_share(m);
+  if (bounce.terminator == Terminator::smoothed) carried = carried * terminator_factor(s, incident.to_light);
+  lit = lit & ~(largest(carried) < Float(bounce.throughput_cutoff));
+  if (lit.bits() == 0) return;
+  append(starts.origins(incident.to_light), incident.to_light, carried, pixel, lit, *bounce.sky);
+  starts.ask_ways_up(lit, *bounce.sky, *bounce.sky_ways_up);
+}
+
+// A ray that looks for light from other surfaces, by the cosine about the shading normal; none where that sends it
+// into the surface.
+[[gnu::noinline]] void scatter_diffuse(const Bounce& bounce, const LaneSurface& s, const LaneMaterial& m,
+                                       const Vec& throughput, Int pixel, Mask lanes) {
+  const Vec albedo = m.diffuse * (brdf_share(m) * Float(3.14159265359f)), light = throughput * albedo;
+  lanes = lanes & ~is_dark(light);
+  if (lanes.bits() == 0) return;
+  SampleLanes packet{};
+  draw_numbers(bounce, pixel, shared::kDiffuseDimension, packet);
+  sample_cosine(lanes.bits(), packet);
+  const Vec local = load(packet.direction), &n = s.n_shading;
+  // A frame about n (Duff et al., "Building an Orthonormal Basis, Revisited", JCGT 6(1), 2017).
+  const Float zero(0.0f), one(1.0f), sign = select(n.z < zero, -one, one);
+  const Float a = -one / (sign + n.z), b = n.x * n.y * a;
+  const Vec x(one + sign * n.x * n.x * a, sign * b, -sign * n.x), y(b, sign + n.y * n.y * a, -n.y);
+  const Vec direction = x * local.x + y * local.y + n * local.z;
+  follow(s, direction, light, pixel, lanes & (zero < dot(direction, s.n_geometric)), bounce.throughput_cutoff, *bounce.diffuse);
+}
+
+}  // namespace
+}  // namespace pinocchio::PINOCCHIO_LANES
