@@ -191,7 +191,7 @@ int run_stability(const ChartOptions& options) {
       return !interrupted();
     });
   }
-  if (!tables) return kInterrupted;
+  if (!tables) throw Cancelled();
   tables->write(folder);
   const std::uint64_t failures = tables->default_failures();
   if (!draw.quiet)

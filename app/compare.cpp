@@ -94,6 +94,15 @@ std::string heatmap_of(const Options& options, const PicturePair& pair, bool sev
   return (std::filesystem::path(options.heatmap) / (pair.name + ".png")).string();
 }
 
+// Through links and relative names; also where it is not there yet.
+bool is_within(const std::filesystem::path& path, const std::filesystem::path& folder) {
+  std::error_code error;
+  const std::filesystem::path inner = std::filesystem::weakly_canonical(path, error),
+                              outer = std::filesystem::canonical(folder, error);
+  if (error || !std::filesystem::is_directory(outer, error)) return false;
+  return std::ranges::mismatch(outer, inner).in1 == outer.end();
+}
+
 void check_files(const Options& options, const std::vector<PicturePair>& pairs) {
   std::vector<NamedFile> inputs, outputs{{"--junit", options.junit}};
   for (const PicturePair& pair : pairs) {
@@ -102,6 +111,10 @@ void check_files(const Options& options, const std::vector<PicturePair>& pairs) 
     outputs.push_back({"--heatmap", heatmap_of(options, pair, pairs.size() > 1)});
   }
   check_apart(inputs, outputs);
+  // There they would be pictures to the next comparison.
+  for (const std::string& compared : {options.a, options.b})
+    if (pairs.size() > 1 && is_within(options.heatmap, compared))
+      throw Exit(kUsage, "--heatmap " + options.heatmap + ": within " + compared + ", whose pictures are compared; choose another folder");
   if (pairs.size() > 1 && !options.heatmap.empty()) make_folder(options.heatmap);
   if (pairs.size() == 1 && !options.heatmap.empty()) check_writable(options.heatmap);
   if (!options.junit.empty()) check_writable(options.junit);

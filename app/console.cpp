@@ -7,6 +7,7 @@
 #include <csignal>
 #include <cstdio>
 #include <ctime>
+#include <string_view>
 
 #include "app/exit_codes.h"
 #include "core/image/part_file.h"
@@ -15,7 +16,9 @@ namespace pinocchio::app {
 namespace {
 
 constexpr std::array kInterrupts{SIGINT, SIGTERM, SIGHUP};
-constexpr long kGrace_ns = 700'000'000;
+// The rest of the second is for the system, which takes back gigabytes.
+constexpr long kGrace_ns = 500'000'000;
+constexpr std::string_view kFarewell = "pinocchio: interrupted; what was finished is kept\n";
 // Some programs send a signal to the process and to its group: that is one.
 constexpr long kOneSignal_ns = 50'000'000;
 
@@ -27,6 +30,7 @@ timespec first_signal;
 // Handlers call what POSIX allows them alone.
 void end_at_once(int) {
   remove_part_files();
+  (void)!write(STDERR_FILENO, kFarewell.data(), kFarewell.size());
   _exit(kInterrupted);
 }
 

@@ -47,7 +47,7 @@ int run_verb(const Run& run) {
   } catch (const NoOpenGlError& error) {
     return say(error.what(), kNoContext);
   } catch (const std::bad_alloc&) {
-    return say("out of memory; draw a smaller --size, or --crop parts of it", kFailed);
+    return say("out of memory; a smaller --size, a --crop or fewer triangles need less", kFailed);
   } catch (const std::exception& error) {
     return say(error.what(), kFailed);
   }

@@ -216,7 +216,7 @@ int measure(MeasureOptions& options) {
   nlohmann::json json = nlohmann::json::array();
   for (Measured& run : runs) {
     draw(drawing, options, frames, run);
-    if (interrupted()) return kInterrupted;
+    if (interrupted()) throw Cancelled();
     json.push_back(run_json(run, drawing, options));
   }
   if (!options.stats_json.empty())

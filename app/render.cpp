@@ -43,8 +43,7 @@ FrameResult precise(const FrameRequest& request, Workers& workers) {
   mean.settings = request.settings;
   const int spp = request.settings.spp;
   for (int k = 0; k < spp; ++k) {
-    View view = request.view;
-    view.jitter = jitter_of(k);
+    const View view = at_sample(request.view, k);
     ReferencePicture sample = reference_render(request.scene, view, request.settings.depth, workers, &run_progress(),
                                                request.settings.filter_textures, request.settings.terminator);
     if (k == 0) {

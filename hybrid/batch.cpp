@@ -27,6 +27,7 @@ RayCounts draw_tiles(Engine::Parts& engine, const Scene& scene, const std::share
   job.light_cutoff = s.light_cutoff;
   job.filter_textures = s.filter_textures;
   job.terminator = s.terminator;
+  job.sampling = sampling_of(s, {});
   job.progress = progress;
   return trace_frames(job, to);
 }

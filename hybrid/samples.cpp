@@ -4,9 +4,14 @@
 
 namespace pinocchio {
 
+shared::Sampling sampling_of(const Settings& settings, const View& view) {
+  return {static_cast<int>(settings.sequence.value), static_cast<std::uint32_t>(view.sample),
+          static_cast<std::uint32_t>(settings.seed)};
+}
+
 void submit_samples(Renderer& renderer, FrameRequest request) {
   for (int k = 0; k < request.settings.spp; ++k) {
-    request.view.jitter = jitter_of(k);
+    request.view = at_sample(request.view, k);
     renderer.submit(request);
   }
 }

@@ -2,9 +2,13 @@
 
 #include <functional>
 
+#include "core/trace/shared.h"
 #include "pinocchio/renderer.h"
 
 namespace pinocchio {
+
+// Which samples a frame takes of what is sampled.
+[[nodiscard]] shared::Sampling sampling_of(const Settings& settings, const View& view);
 
 // Submits as many frames as the settings have samples a pixel: the first at the pixels' centres, the others
 // spread over them.

@@ -17,6 +17,7 @@ constexpr int kUsualSamples = 256;  // of a still camera: beyond, no display sho
 bool same_view(const FrameRequest& a, const FrameRequest& b) {
   FrameRequest moved = a;
   moved.view.jitter = b.view.jitter;
+  moved.view.sample = b.view.sample;
   return moved == b;
 }
 
@@ -46,7 +47,7 @@ FrameRequest Session::request() const {
 FrameRequest Session::next_request() {
   FrameRequest next = request();
   if (!asked_ || !same_view(*asked_, next)) sample_ = 0;
-  if (gathers()) next.view.jitter = jitter_of(std::min(sample_, most_samples() - 1));
+  if (gathers()) next.view = at_sample(next.view, std::min(sample_, most_samples() - 1));
   return next;
 }
 

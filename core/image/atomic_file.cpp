@@ -52,8 +52,9 @@ std::filesystem::path written_file(const std::filesystem::path& file) {
 void write_atomically(const std::filesystem::path& file,
                       const std::function<void(const std::filesystem::path& temporary)>& write) {
   const std::filesystem::path target = written_file(file);
-  if (is_read_only(target)) fail(file, "it is read-only", "choose another name, or allow writing to it");
   std::error_code error;
+  if (std::filesystem::is_symlink(target, error)) fail(file, "its links lead in a circle", "choose another name");
+  if (is_read_only(target)) fail(file, "it is read-only", "choose another name, or allow writing to it");
   PartFile part(target, error);
   if (error) fail(file, error.message(), "choose another folder");
   write(part.path());
@@ -82,6 +83,7 @@ void check_writable(const std::filesystem::path& file) {
   std::error_code error;
   if (file.filename().empty()) fail(file, "it names no file", "give a file name");
   const std::filesystem::path target = written_file(file);
+  if (std::filesystem::is_symlink(target, error)) fail(file, "its links lead in a circle", "choose another name");
   const std::filesystem::path folder = target.has_parent_path() ? target.parent_path() : ".";
   if (!std::filesystem::is_directory(folder, error))
     fail(file, "there is no folder " + folder.string(), "create it or choose another name");

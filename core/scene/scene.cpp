@@ -38,6 +38,10 @@ void drop_idle_casters(Scene& scene) {
   for (Light& light : scene.lights) light.casts_shadow = light.casts_shadow && reaches(light, box);
 }
 
+bool takes_samples(const Scene& scene) {
+  return std::ranges::any_of(scene.lights, [](const Light& light) { return light.has_size(); });
+}
+
 const Camera* find_camera(const Scene& scene, const std::string& name) {
   const auto found = std::find_if(scene.cameras.begin(), scene.cameras.end(),
                                   [&name](const Camera& camera) { return camera.name == name; });

@@ -97,6 +97,18 @@ inline Int operator+(Int a, Int b) {
 inline Int operator-(Int a, Int b) {
   return _mm256_sub_epi32(a.v, b.v);
 }
+inline Int operator*(Int a, Int b) {  // the lower half
+  return _mm256_mullo_epi32(a.v, b.v);
+}
+inline Int operator&(Int a, Int b) {
+  return _mm256_and_si256(a.v, b.v);
+}
+inline Int operator|(Int a, Int b) {
+  return _mm256_or_si256(a.v, b.v);
+}
+inline Int operator^(Int a, Int b) {
+  return _mm256_xor_si256(a.v, b.v);
+}
 template <int kBits>
 Int shift_left(Int a) {
   return _mm256_slli_epi32(a.v, kBits);
@@ -104,6 +116,10 @@ Int shift_left(Int a) {
 template <int kBits>
 Int shift_right(Int a) {
   return _mm256_srai_epi32(a.v, kBits);
+}
+template <int kBits>
+Int shift_in_zeros(Int a) {
+  return _mm256_srli_epi32(a.v, kBits);
 }
 inline Int select(Mask m, Int yes, Int no) {
   return _mm256_castps_si256(_mm256_blendv_ps(_mm256_castsi256_ps(no.v), _mm256_castsi256_ps(yes.v), m.m));

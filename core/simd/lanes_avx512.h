@@ -92,6 +92,18 @@ inline Int operator+(Int a, Int b) {
 inline Int operator-(Int a, Int b) {
   return _mm512_sub_epi32(a.v, b.v);
 }
+inline Int operator*(Int a, Int b) {  // the lower half
+  return _mm512_mullo_epi32(a.v, b.v);
+}
+inline Int operator&(Int a, Int b) {
+  return _mm512_and_si512(a.v, b.v);
+}
+inline Int operator|(Int a, Int b) {
+  return _mm512_or_si512(a.v, b.v);
+}
+inline Int operator^(Int a, Int b) {
+  return _mm512_xor_si512(a.v, b.v);
+}
 template <int kBits>
 Int shift_left(Int a) {
   return _mm512_slli_epi32(a.v, kBits);
@@ -99,6 +111,10 @@ Int shift_left(Int a) {
 template <int kBits>
 Int shift_right(Int a) {
   return _mm512_srai_epi32(a.v, kBits);
+}
+template <int kBits>
+Int shift_in_zeros(Int a) {
+  return _mm512_srli_epi32(a.v, kBits);
 }
 inline Int select(Mask m, Int yes, Int no) {
   return _mm512_mask_blend_epi32(m.m, no.v, yes.v);

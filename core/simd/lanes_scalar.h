@@ -72,7 +72,7 @@ inline Float select(Mask m, Float yes, Float no) {
   return m.m ? yes : no;
 }
 
-// Triangle ids, below 2^30; kNoTriangle compares as -1.
+// Triangle ids, below 2^30 (kNoTriangle compares as -1), or bits.
 struct Int {
   std::int32_t v;
   Int() = default;
@@ -92,6 +92,18 @@ inline Int operator+(Int a, Int b) {
 inline Int operator-(Int a, Int b) {
   return Int(static_cast<std::uint32_t>(a.v) - static_cast<std::uint32_t>(b.v));
 }
+inline Int operator*(Int a, Int b) {  // the lower half
+  return Int(static_cast<std::uint32_t>(a.v) * static_cast<std::uint32_t>(b.v));
+}
+inline Int operator&(Int a, Int b) {
+  return Int(static_cast<std::uint32_t>(a.v & b.v));
+}
+inline Int operator|(Int a, Int b) {
+  return Int(static_cast<std::uint32_t>(a.v | b.v));
+}
+inline Int operator^(Int a, Int b) {
+  return Int(static_cast<std::uint32_t>(a.v ^ b.v));
+}
 template <int kBits>
 Int shift_left(Int a) {
   return Int(static_cast<std::uint32_t>(a.v) << kBits);
@@ -100,6 +112,10 @@ template <int kBits>
 Int shift_right(Int a) {
   return Int(static_cast<std::uint32_t>(a.v >> kBits));
 }  // copies of the sign move in
+template <int kBits>
+Int shift_in_zeros(Int a) {
+  return Int(static_cast<std::uint32_t>(a.v) >> kBits);
+}
 inline Int select(Mask m, Int yes, Int no) {
   return m.m ? yes : no;
 }

@@ -97,6 +97,18 @@ inline Int operator+(Int a, Int b) {
 inline Int operator-(Int a, Int b) {
   return _mm_sub_epi32(a.v, b.v);
 }
+inline Int operator*(Int a, Int b) {  // the lower half
+  return _mm_mullo_epi32(a.v, b.v);
+}
+inline Int operator&(Int a, Int b) {
+  return _mm_and_si128(a.v, b.v);
+}
+inline Int operator|(Int a, Int b) {
+  return _mm_or_si128(a.v, b.v);
+}
+inline Int operator^(Int a, Int b) {
+  return _mm_xor_si128(a.v, b.v);
+}
 template <int kBits>
 Int shift_left(Int a) {
   return _mm_slli_epi32(a.v, kBits);
@@ -104,6 +116,10 @@ Int shift_left(Int a) {
 template <int kBits>
 Int shift_right(Int a) {
   return _mm_srai_epi32(a.v, kBits);
+}
+template <int kBits>
+Int shift_in_zeros(Int a) {
+  return _mm_srli_epi32(a.v, kBits);
 }
 inline Int select(Mask m, Int yes, Int no) {
   return _mm_castps_si128(_mm_blendv_ps(_mm_castsi128_ps(no.v), _mm_castsi128_ps(yes.v), m.m));

@@ -8,4 +8,10 @@ glm::vec2 jitter_of(int k) {
   return glm::vec2(glm::fract(0.5 + static_cast<double>(k) * step) - 0.5);
 }
 
+View at_sample(View view, int k) {
+  view.jitter = jitter_of(k);
+  view.sample = k;
+  return view;
+}
+
 }  // namespace pinocchio

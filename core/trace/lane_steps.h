@@ -48,6 +48,11 @@ struct Bounce {
   bool visible;       // the rays are the camera's
   bool adds_ambient;  // and emission
   bool adds_light;    // lights that cast none add theirs to `radiance`, shadow rays carry it
+  // Of what is sampled; null: nothing is. The pixel that is (0, 0) in the queues, in the whole picture, how many
+  // pixels a sample of the picture is apart from the next, and the first dimension of the rays' generation.
+  const shared::Sampling* sampling;
+  glm::uvec2 corner;
+  std::uint32_t scale, dimension;
   // Light below which no shadow ray is fired, of visible points and of others; and no path followed.
   float light_cutoff, throughput_cutoff;
 
@@ -65,6 +70,9 @@ struct LaneSteps {
   void (*keep_hits)(RayQueue& rays);
   // Appends to the bounce's queues. All rays have hit.
   void (*bounce)(const Bounce& bounce, const RayQueue& rays);
+  // Points 0 to count - 1 of `dimension`, of the pixels (x, y); for tests. count: a multiple of 16.
+  void (*samples)(const shared::Sampling& of, const std::uint32_t* x, const std::uint32_t* y, std::uint32_t dimension,
+                  float* u, float* v, std::size_t count);
   // x^y for x > 0, of `count` pairs, a multiple of 16; for tests.
   void (*power)(const float* x, const float* y, float* result, std::size_t count);
 };

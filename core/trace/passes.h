@@ -31,6 +31,7 @@ struct TraceJob {
   bool filter_textures = true;
   Terminator terminator = kUsualTerminator;
   glm::vec2 jitter{0.0f};  // View's: tells the samples of a pixel apart where they decide at random
+  shared::Sampling sampling{};  // which sample is taken of what is sampled
   // Told of every tile: all of them together are that many steps.
   Progress* progress = nullptr;
   double progress_steps = 1.0;

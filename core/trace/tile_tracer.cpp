@@ -70,8 +70,9 @@ SceneArrays SceneArrays::of(const Mesh& mesh) {
 }
 
 void TilePlan::look(const shared::ViewParams& from) {
-  view = from;
-  if (filters(job)) seen_footprint = Footprint::of_camera(from);
+  view = scaled_view(from, out.scale);
+  first = glm::ivec2(from.first);
+  if (filters(job)) seen_footprint = Footprint::of_camera(view);
   further_footprint = seen_footprint.of_cones();
 }
 
@@ -81,7 +82,7 @@ TilePlan::TilePlan(const TraceJob& j, const TileOutputs& o)
       has_holes(any_maps(*j.scene.mesh, &MaterialMaps::has_holes)),
       blends(any_maps(*j.scene.mesh, &MaterialMaps::blends)),
       all_lights(lights_of(j.scene)) {
-  look(scaled_view(j.view, o.scale));
+  look(j.view);
   further = {SceneArrays::of(*job.scene.mesh),
              job.tracer.offset(),
              job.terminator,
@@ -92,6 +93,10 @@ TilePlan::TilePlan(const TraceJob& j, const TileOutputs& o)
              false,
              true,
              true,
+             takes_samples(job.scene) ? &job.sampling : nullptr,
+             {},
+             static_cast<std::uint32_t>(o.scale),
+             0,
              0.0f,
              job.throughput_cutoff,
              nullptr,
@@ -204,7 +209,9 @@ void TileTracer::make_room(std::size_t rays, Generation& next) {
   for (RayQueue& queue : ways_up_) queue.make_room(rays);
 }
 
-void TileTracer::bounce(Bounce step, const RayQueue& rays, Generation& next, Radiance& radiance) {
+void TileTracer::bounce(Bounce step, int generation, const RayQueue& rays, Generation& next, Radiance& radiance) {
+  step.corner = glm::uvec2(plan_->first + tile_.lo * plan_->out.scale);
+  step.dimension = static_cast<std::uint32_t>(generation) * shared::kDimensionsOfBounce;
   step.shadow = shadow_.data();
   step.ways_up = ways_up_.data();
   step.radiance = &radiance[0].x;
@@ -220,7 +227,7 @@ void TileTracer::light_visible() {
   Bounce step = plan_->visible;
   step.mirrored = plan_->out.depth > 0 ? rays_.data() : nullptr;
   if (!step.mirrored && step.light_count == 0 && !step.adds_ambient) return;
-  bounce(step, seen_, rays_, direct_);
+  bounce(step, 0, seen_, rays_, direct_);
   fire_shadows(0, direct_);
 }
 
@@ -239,7 +246,7 @@ void TileTracer::follow() {
     for (RayQueue& queue : rays_) {
       find_hits(queue, generation);
       plan_->job.tracer.steps().keep_hits(queue);
-      bounce(step, queue, next_, reflected_);
+      bounce(step, generation, queue, next_, reflected_);
     }
     fire_shadows(generation, reflected_);
     std::swap(rays_, next_);

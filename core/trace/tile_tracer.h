@@ -21,6 +21,7 @@ struct TilePlan {
   const TraceJob& job;
   const TileOutputs& out;
   shared::ViewParams view;  // of the samples
+  glm::ivec2 first{0};      // the whole picture's pixel that the first one is
   Footprint seen_footprint, further_footprint;
   bool has_holes, blends;   // some material's maps do
   std::vector<BounceLight> all_lights, visible_lights;
@@ -45,7 +46,7 @@ class TileTracer {
   void look();
   void light_visible();
   void follow();
-  void bounce(Bounce step, const RayQueue& rays, Generation& next, Radiance& radiance);
+  void bounce(Bounce step, int generation, const RayQueue& rays, Generation& next, Radiance& radiance);
   void make_room(std::size_t rays, Generation& next);
   void fire_shadows(int generation, Radiance& radiance);
   void block_where_the_way_up_is(int slot);

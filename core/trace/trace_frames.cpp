@@ -41,6 +41,8 @@ class Share {
     for (int k = 0; k < samples; ++k) {
       plan_.look(view_params(camera, job_.size, jitter_of(k), tile.lo));
       trace_job_.jitter = jitter_of(k);
+      trace_job_.sampling = job_.sampling;
+      trace_job_.sampling.index += static_cast<std::uint32_t>(k);
       outputs_.ids = k == 0 ? &images_.ids : nullptr;
       outputs_.reflection = k == 0 && to_.reflection ? &images_.reflection : nullptr;
       outputs_.mask = k == 0 && to_.mask && job_.mask_bits > 0 ? &images_.mask : nullptr;

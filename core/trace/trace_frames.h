@@ -25,6 +25,7 @@ struct FramesJob {
   float throughput_cutoff = kThroughputCutoff, light_cutoff = 0.0f;
   bool filter_textures = true;
   Terminator terminator = kUsualTerminator;
+  shared::Sampling sampling{};  // of the first sample
   Progress* progress = nullptr;  // told of every tile: a picture is `spp` steps
 };
 

@@ -10,6 +10,7 @@ namespace {
 
 bool same_view(FrameRequest a, const FrameRequest& b) {
   a.view.jitter = b.view.jitter;
+  a.view.sample = b.view.sample;
   return a == b;
 }
 

@@ -12,7 +12,7 @@
 namespace pinocchio {
 
 // A still camera's picture: the mean of the pictures of frames that differ in nothing but where they sample
-// their pixels. Frame k is to be asked for with jitter_of(k) (core/trace/jitter.h).
+// their pixels. Frame k is to be asked for with at_sample(view, k) (core/trace/jitter.h).
 class Accumulator {
  public:
   explicit Accumulator(std::shared_ptr<Programs> programs) : programs_(std::move(programs)) {}

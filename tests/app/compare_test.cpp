@@ -122,6 +122,8 @@ TEST_F(CompareVerbTest, FoldersPairByNameAndTellOfEach) {
   EXPECT_NE(table.out.find("worst"), std::string::npos);
   EXPECT_NE(table.err.find("new/sub/two.exr: rmse 0.0"), std::string::npos) << table.err;
   EXPECT_TRUE(exists("maps/one.exr.png") && exists("maps/sub/two.exr.png"));
+  expect_error("new golden --heatmap ./new", 2, "--heatmap ./new: within new, whose pictures are compared");
+  expect_error("new golden --heatmap golden/maps", 2, "within golden");
   std::ifstream in(folder_ / "report.xml");
   const std::string xml(std::istreambuf_iterator<char>(in), {});
   EXPECT_NE(xml.find("tests=\"2\" failures=\"1\" errors=\"0\""), std::string::npos) << xml;

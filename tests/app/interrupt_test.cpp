@@ -59,6 +59,7 @@ class InterruptTest : public ProgramTest {
     const End end = wait(child, begin_s);
     EXPECT_EQ(end.code, 130) << arguments.front() << ": " << read("scratch/err");
     EXPECT_LT(end.after_s, kSoon_s) << arguments.front();
+    EXPECT_NE(read("scratch/err").find("interrupted; what was finished is kept"), std::string::npos);
     EXPECT_EQ(part_files(), 0u) << arguments.front();
   }
 
@@ -78,6 +79,15 @@ class InterruptTest : public ProgramTest {
 TEST_F(InterruptTest, InsideASample) {
   for (const int signal : {SIGINT, SIGTERM, SIGHUP})
     expect_ends_soon({"render", speedboat(), "--mode", "raytrace", "--size", "4096x4096", "-o", "x.exr"}, 0.6, signal);
+  EXPECT_FALSE(exists("x.exr"));
+}
+
+// A software driver rasterises it for seconds and looks at nothing of ours meanwhile.
+TEST_F(InterruptTest, InsideADriver) {
+  for (const double after_s : {0.8, 1.6, 2.4})
+    expect_ends_soon({"render", speedboat(), "--visibility", "gpu", "--composite", "gpu", "--size", "4096x4096",
+                      "-o", "x.exr"},
+                     after_s);
   EXPECT_FALSE(exists("x.exr"));
 }
 

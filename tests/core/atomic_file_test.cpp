@@ -53,5 +53,12 @@ TEST_F(AtomicFile, SaysBeforehandWhatCannotBeWritten) {
   EXPECT_THROW(check_writable("/proc/x.txt"), EnvironmentError);  // root or not
 }
 
+TEST_F(AtomicFile, ALinkToItselfIsRefusedAndKept) {
+  std::filesystem::create_symlink("a.txt", folder_ / "a.txt");
+  EXPECT_THROW(check_writable(folder_ / "a.txt"), EnvironmentError);
+  EXPECT_THROW(write_text(folder_ / "a.txt", "text"), EnvironmentError);
+  EXPECT_TRUE(std::filesystem::is_symlink(folder_ / "a.txt"));
+}
+
 }  // namespace
 }  // namespace pinocchio

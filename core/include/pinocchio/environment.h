@@ -9,9 +9,13 @@
 
 #include "pinocchio/error.h"
 #include "pinocchio/image.h"
-#include "pinocchio/load.h"
+#include "pinocchio/progress.h"
 
 namespace pinocchio {
+
+// Most bytes of memory that a scene's files may claim beyond their own: pictures unpacked, compressed meshes,
+// copies of a mesh.
+inline constexpr std::uint64_t kUsualLoadLimit = std::uint64_t{4} << 30;
 
 // What is seen, and shines, where no triangle is: a picture of all directions in latitude and longitude, linear
 // light, as OpenEXR has it: the top row is up (+Y), the middle +Z, a quarter of the width left of it +X. Immutable.

@@ -21,6 +21,10 @@ struct Light {
   float cos_inner = 1.0f;                                // spot: full strength inside this cone ...
   float cos_outer = -1.0f;                               // ... none outside this one
   bool casts_shadow = true;
+  float radius = 0.0f;  // point, spot: of the ball that shines; scene units
+
+  // Whether its shadows are soft: a picture takes samples of it.
+  [[nodiscard]] bool has_size() const { return radius > 0.0f; }
 
   friend bool operator==(const Light&, const Light&) = default;
 };

@@ -15,6 +15,7 @@ struct View {
   glm::ivec2 size{0, 0};   // of the whole picture, pixels
   PixelBox part{};         // of it that is drawn; empty: all
   glm::vec2 jitter{0.0f};  // where pixels are sampled off their centre, pixels, [-0.5, 0.5)
+  int sample = 0;          // which of its samples a pixel takes, of lights with a size and the like
 
   [[nodiscard]] PixelBox box() const { return part.empty() ? PixelBox{{0, 0}, size} : part; }
   friend bool operator==(const View&, const View&) = default;

@@ -3,6 +3,7 @@
 
 #include "core/trace/lanes/light.h"
 #include "core/trace/lanes/maps.h"
+#include "core/trace/lanes/sampling.h"
 #include "core/trace/lanes/scatter.h"
 #include "core/trace/lanes/terminator.h"
 
@@ -144,8 +145,17 @@ void powers(const float* x, const float* y, float* result, std::size_t count) {
     power(Float::load(x + i), Float::load(y + i)).store(result + i);
 }
 
+void samples(const shared::Sampling& of, const std::uint32_t* x, const std::uint32_t* y, std::uint32_t dimension,
+             float* u, float* v, std::size_t count) {
+  for (std::size_t i = 0; i < count; i += kWidth) {
+    const LanePoint p = sample_2d(LaneSampling(of, {Int::load(x + i), Int::load(y + i)}), dimension);
+    p.x.store(u + i);
+    p.y.store(v + i);
+  }
+}
+
 }  // namespace
 
-const LaneSteps kSteps{camera_rays, keep_hits, bounce_rays, powers};
+const LaneSteps kSteps{camera_rays, keep_hits, bounce_rays, samples, powers};
 
 }  // namespace pinocchio::PINOCCHIO_LANES

@@ -38,6 +38,14 @@ inline constexpr std::array<std::string_view, 5> kReflectionFormatNames{"none", 
                                                                         "float"};
 [[nodiscard]] int bytes_per_pixel(ReflectionFormat format);
 
+// Where the samples of a pixel are of what is sampled: lights with a size, glossy mirrors, lenses.
+enum class Sequence {
+  sobol,       // scrambled Sobol points, each pixel its own: the error falls faster than by chance
+  blue_noise,  // one sequence for all, turned from pixel to pixel: what error is left is fine-grained
+  random,
+};
+inline constexpr std::array<std::string_view, 3> kSequenceNames{"sobol", "blue-noise", "random"};
+
 inline constexpr int kMostBounces = 64, kMostThreads = 1024;
 
 // A value, and whether the user set it: assigning to it says so. What nobody set, resolve() fills in.
@@ -67,6 +75,8 @@ struct Settings {
   Setting<bool> by_machine;
   Setting<Exchange> exchange;
   Setting<int> spp = Setting<int>::by_default(1);
+  Setting<Sequence> sequence;
+  Setting<int> seed;
   Setting<int> depth = Setting<int>::by_default(8);
   Setting<int> mask_bits = Setting<int>::by_default(8);
   Setting<int> mask_scale = Setting<int>::by_default(1);
