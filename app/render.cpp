@@ -93,6 +93,8 @@ class RenderRun {
   }
 
   void check(const Scene& scene) const {
+    if (options_.draw.precise && (scene.environment || options_.draw.settings.indirect > 0))
+      throw Exit(kUsage, "--precise knows no --environment and no --indirect light; leave --precise out, and take --spp");
     if (options_.output.exr.empty() && options_.output.preview.empty() && options_.stats_json.empty())
       throw Exit(kUsage,
                  "nothing to write; name a file with -o FILE.exr, --preview FILE.png or --stats-json");

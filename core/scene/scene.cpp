@@ -39,7 +39,8 @@ void drop_idle_casters(Scene& scene) {
 }
 
 bool takes_samples(const Scene& scene) {
-  return std::ranges::any_of(scene.lights, [](const Light& light) { return light.has_size(); });
+  return scene.environment != nullptr ||
+         std::ranges::any_of(scene.lights, [](const Light& light) { return light.has_size(); });
 }
 
 const Camera* find_camera(const Scene& scene, const std::string& name) {

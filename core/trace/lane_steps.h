@@ -20,6 +20,8 @@ namespace pinocchio {
 inline constexpr int kTileBits = 5;
 static_assert(1 << kTileBits == TileGrid::kTileSize);
 
+class EnvironmentLight;
+
 // The scene's arrays as the lanes read them.
 struct SceneArrays {
   const glm::vec3 *positions, *normals;
@@ -53,13 +55,16 @@ struct Bounce {
   const shared::Sampling* sampling;
   glm::uvec2 corner;
   std::uint32_t scale, dimension;
+  const EnvironmentLight* environment;  // that lights the points; null: none does
   // Light below which no shadow ray is fired, of visible points and of others; and no path followed.
   float light_cutoff, throughput_cutoff;
 
   // Where it goes. Queues have room for all rays of the step; null: not wanted.
   RayQueue* shadow;  // one a slot
   RayQueue* ways_up;  // likewise: to where lifted shadow rays start; their `pixel` is that ray's place in its queue
+  RayQueue *sky, *sky_ways_up;  // of the environment, likewise
   RayQueue *mirrored, *refracted, *straight;
+  RayQueue* diffuse;  // that look for light from other surfaces
   float* radiance;  // RGBA of a tile's pixels
 };
 

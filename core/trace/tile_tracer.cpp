@@ -93,10 +93,11 @@ TilePlan::TilePlan(const TraceJob& j, const TileOutputs& o)
              false,
              true,
              true,
-             takes_samples(job.scene) ? &job.sampling : nullptr,
+             takes_samples(job.scene) || o.indirect > 0 ? &job.sampling : nullptr,
              {},
              static_cast<std::uint32_t>(o.scale),
              0,
+             nullptr,
              0.0f,
              job.throughput_cutoff,
              nullptr,
@@ -104,7 +105,12 @@ TilePlan::TilePlan(const TraceJob& j, const TileOutputs& o)
              nullptr,
              nullptr,
              nullptr,
+             nullptr,
+             nullptr,
+             nullptr,
              nullptr};
+  if (job.scene.environment) environment.emplace(job.scene);
+  if (environment && environment->shines() && o.environment_light) further.environment = &*environment;
   visible = further;
   visible.footprint = &seen_footprint;
   visible.visible = true;
@@ -121,6 +127,7 @@ TileResult TileTracer::trace(const TilePlan& plan, const PixelBox& tile) {
   plan_ = &plan;
   tile_ = tile;
   counts_ = {};
+  reflects_ = false;
   TileTimes times;
   Lap lap;
   start();
@@ -205,8 +212,11 @@ void TileTracer::make_room(std::size_t rays, Generation& next) {
   for (std::size_t i = 0; i < next.size(); ++i)
     next[i].make_room(i < 2 || plan_->blends ? rays : 0, plan_->further.footprint->angle > 0.0f);
   for (RayQueue& queue : shadow_) queue.make_room(rays);
+  if (plan_->further.environment) sky_.make_room(rays);
+  if (plan_->out.indirect > 0) next_diffuse_.make_more_room(rays, plan_->further.footprint->angle > 0.0f);
   if (plan_->job.terminator != Terminator::turned_away) return;
   for (RayQueue& queue : ways_up_) queue.make_room(rays);
+  if (plan_->further.environment) sky_ways_up_.make_room(rays);
 }
 
 void TileTracer::bounce(Bounce step, int generation, const RayQueue& rays, Generation& next, Radiance& radiance) {
@@ -214,6 +224,8 @@ void TileTracer::bounce(Bounce step, int generation, const RayQueue& rays, Gener
   step.dimension = static_cast<std::uint32_t>(generation) * shared::kDimensionsOfBounce;
   step.shadow = shadow_.data();
   step.ways_up = ways_up_.data();
+  step.sky = &sky_;
+  step.sky_ways_up = &sky_ways_up_;
   step.radiance = &radiance[0].x;
   if (step.mirrored) step.mirrored = &next[0], step.refracted = &next[1], step.straight = &next[2];
   plan_->job.tracer.steps().bounce(step, rays);
@@ -223,18 +235,51 @@ void TileTracer::light_visible() {
   direct_.fill(glm::vec4(0.0f));
   mask_.fill(0);
   for (std::size_t i = 0; i < seen_.size; ++i) direct_[seen_.pixel[i]].a = 1.0f;
+  next_diffuse_.make_room(0, plan_->further.footprint->angle > 0.0f);
   make_room(seen_.size, rays_);
   Bounce step = plan_->visible;
   step.mirrored = plan_->out.depth > 0 ? rays_.data() : nullptr;
-  if (!step.mirrored && step.light_count == 0 && !step.adds_ambient) return;
+  step.diffuse = plan_->out.indirect > 0 ? &next_diffuse_ : nullptr;
+  if (!step.mirrored && !step.diffuse && step.light_count == 0 && !step.adds_ambient && !step.environment) return;
+  reflects_ = step.environment != nullptr;
+  if (reflects_) reflected_.fill(glm::vec4(0.0f));
   bounce(step, 0, seen_, rays_, direct_);
   fire_shadows(0, direct_);
+  fire_at_environment(0);
+}
+
+// What the camera's rays spawned, then what matt surfaces send on, bounce by bounce.
+void TileTracer::follow() {
+  if (!reflects_ && rays_[0].size + rays_[1].size + rays_[2].size + next_diffuse_.size > 0)
+    reflected_.fill(glm::vec4(0.0f)), reflects_ = true;
+  follow_mirrors(0);
+  for (int bounce = 1; bounce <= plan_->out.indirect && next_diffuse_.size > 0; ++bounce) {
+    look_around(bounce);
+    follow_mirrors(bounce);
+  }
+}
+
+// Of a bounce's rays between matt surfaces. The environment's light along them was asked for where they start.
+void TileTracer::look_around(int bounce_count) {
+  std::swap(diffuse_, next_diffuse_);
+  counts_.indirect += diffuse_.size;
+  const int generation = bounce_count * (plan_->out.depth + 1);
+  next_diffuse_.make_room(0, plan_->further.footprint->angle > 0.0f);
+  make_room(diffuse_.size, rays_);
+  Bounce step = plan_->further;
+  step.mirrored = plan_->out.depth > 0 ? rays_.data() : nullptr;
+  step.diffuse = bounce_count < plan_->out.indirect ? &next_diffuse_ : nullptr;
+  find_hits(diffuse_, generation);
+  plan_->job.tracer.steps().keep_hits(diffuse_);
+  bounce(step, generation, diffuse_, rays_, reflected_);
+  fire_shadows(generation, reflected_);
+  fire_at_environment(generation);
 }
 
 // Generation by generation: every ray of one is traced before the next one starts.
-void TileTracer::follow() {
-  if (rays_[0].size + rays_[1].size + rays_[2].size > 0) reflected_.fill(glm::vec4(0.0f));
-  for (int generation = 1; generation <= plan_->out.depth; ++generation) {
+void TileTracer::follow_mirrors(int bounce_count) {
+  for (int step_count = 1; step_count <= plan_->out.depth; ++step_count) {
+    const int generation = bounce_count * (plan_->out.depth + 1) + step_count;
     const std::size_t mirrored = rays_[0].size, through = rays_[1].size + rays_[2].size;
     const std::size_t rays = mirrored + through;
     if (rays == 0) return;
@@ -242,14 +287,51 @@ void TileTracer::follow() {
     counts_.refraction += through;
     make_room(rays, next_);
     Bounce step = plan_->further;
-    step.mirrored = generation < plan_->out.depth ? next_.data() : nullptr;
+    step.mirrored = step_count < plan_->out.depth ? next_.data() : nullptr;
+    step.diffuse = bounce_count < plan_->out.indirect ? &next_diffuse_ : nullptr;
     for (RayQueue& queue : rays_) {
       find_hits(queue, generation);
+      if (plan_->environment && (bounce_count == 0 || &queue != &rays_[2])) add_environment(queue);
       plan_->job.tracer.steps().keep_hits(queue);
       bounce(step, generation, queue, next_, reflected_);
     }
     fire_shadows(generation, reflected_);
+    fire_at_environment(generation);
     std::swap(rays_, next_);
+  }
+}
+
+// What rays see that hit nothing.
+void TileTracer::add_environment(const RayQueue& rays) {
+  for (std::size_t i = 0; i < rays.size; ++i) {
+    if (rays.triangle[i] != kNoTriangle) continue;
+    const glm::vec3 light = plan_->environment->radiance({rays.direction[0][i], rays.direction[1][i], rays.direction[2][i]});
+    const glm::vec3 share(rays.light[0][i], rays.light[1][i], rays.light[2][i]);
+    reflected_[rays.pixel[i]] += glm::vec4(share * light, 0.0f);
+  }
+}
+
+// Towards the samples of the environment; its light goes where mirrored light goes, for visible points too.
+void TileTracer::fire_at_environment(int generation) {
+  if (!plan_->further.environment || sky_.size == 0) return;
+  if (blocked_.size() < sky_.size + kQueuePad) blocked_.resize(2 * sky_.size + kQueuePad);
+  if (plan_->out.on_rays) plan_->out.on_rays({sky_.columns(), sky_.size, generation, true});
+  ask_occluded(sky_, kInfinity);
+  block_where_the_way_up_is(sky_ways_up_);
+  for (std::size_t i = 0; i < sky_.size; ++i)
+    if (!blocked_[i])
+      reflected_[sky_.pixel[i]] += glm::vec4(sky_.light[0][i], sky_.light[1][i], sky_.light[2][i], 0.0f);
+}
+
+// Whether something is in each shadow ray's way: blocked_.
+void TileTracer::ask_occluded(const RayQueue& queue, float reach) {
+  const TilePlan& plan = *plan_;
+  counts_.shadow += queue.size;
+  if (plan.has_holes || plan.blends) {
+    holes_.shadows(plan.job.tracer, queue, reach, {tile_.lo + glm::ivec2(plan.view.first), plan.job.jitter},
+                   blocked_.data());
+  } else {
+    plan.job.tracer.occluded(queue.columns(reach), queue.size, blocked_.data());
   }
 }
 
@@ -262,14 +344,8 @@ void TileTracer::fire_shadows(int generation, Radiance& radiance) {
     if (blocked_.size() < queue.size + kQueuePad) blocked_.resize(2 * queue.size + kQueuePad);
     const float reach = light.params.kind == shared::kLightDirectional ? kInfinity : 1.0f;
     if (plan_->out.on_rays) plan_->out.on_rays({queue.columns(reach), queue.size, generation, true});
-    if (plan_->has_holes || plan_->blends) {
-      holes_.shadows(plan_->job.tracer, queue, reach, {tile_.lo + glm::ivec2(plan_->view.first), plan_->job.jitter},
-                     blocked_.data());
-    } else {
-      plan_->job.tracer.occluded(queue.columns(reach), queue.size, blocked_.data());
-    }
-    counts_.shadow += queue.size;
-    block_where_the_way_up_is(light.slot);
+    ask_occluded(queue, reach);
+    block_where_the_way_up_is(ways_up_[static_cast<std::size_t>(light.slot)]);
     for (std::size_t i = 0; i < queue.size; ++i) {
       if (blocked_[i]) continue;
       const std::uint32_t pixel = queue.pixel[i];
@@ -280,8 +356,7 @@ void TileTracer::fire_shadows(int generation, Radiance& radiance) {
 }
 
 // A lifted ray that would start behind something counts as blocked. Holes are not asked for: the way is short.
-void TileTracer::block_where_the_way_up_is(int slot) {
-  const RayQueue& up = ways_up_[static_cast<std::size_t>(slot)];
+void TileTracer::block_where_the_way_up_is(const RayQueue& up) {
   if (up.size == 0) return;
   if (up_blocked_.size() < up.size + kQueuePad) up_blocked_.resize(2 * up.size + kQueuePad);
   plan_->job.tracer.occluded(up.columns(1.0f), up.size, up_blocked_.data());
@@ -292,7 +367,7 @@ void TileTracer::block_where_the_way_up_is(int slot) {
 void TileTracer::write() const {
   const TileOutputs& out = plan_->out;
   const auto width = static_cast<std::size_t>(tile_.size().x);
-  const bool empty = seen_.size == 0, mirrors = counts_.reflection + counts_.refraction > 0;
+  const bool empty = seen_.size == 0, mirrors = reflects_;
   for (int y = tile_.lo.y; y < tile_.hi.y; ++y) {
     const std::size_t row = static_cast<std::size_t>(y - tile_.lo.y) << kTileBits;
     const auto of = [&](auto* image) { return &image->at(tile_.lo.x, y); };
@@ -314,6 +389,16 @@ void TileTracer::write() const {
       for (std::size_t i = 0; i < width; ++i) of(out.added)[i] += glm::vec3(light(i));
     if (out.mask) out.mask->set_row(tile_.lo.x, y, std::span(mask_).subspan(row, width));
   }
+  if (out.color && plan_->environment) paint_background();
+}
+
+// Behind what is covered; alpha stays 0.
+void TileTracer::paint_background() const {
+  for (int y = tile_.lo.y; y < tile_.hi.y; ++y)
+    for (int x = tile_.lo.x; x < tile_.hi.x; ++x) {
+      glm::vec4& color = plan_->out.color->at(x, y);
+      if (color.a == 0.0f) color = glm::vec4(plan_->environment->radiance(pixel_ray(plan_->view, x, y).direction), 0.0f);
+    }
 }
 
 }  // namespace pinocchio

@@ -62,7 +62,10 @@ class Share {
     out.size = glm::ivec2(kSide);
     out.ids = &images.ids;
     out.mask_bits = to.color || to.mask ? job.mask_bits : 0;
-    out.depth = to.color || to.reflection ? job.depth : 0;
+    const bool follows = to.color || to.reflection;
+    out.depth = follows ? job.depth : 0;
+    out.indirect = follows ? job.indirect : 0;
+    out.environment_light = follows && job.environment_light;
     out.color = to.color ? &images.color : nullptr;
     return out;
   }

@@ -21,7 +21,8 @@ struct FramesJob {
   Workers& workers;
   std::span<const Camera> cameras;
   glm::ivec2 size;
-  int spp = 1, depth = 0, mask_bits = 0;
+  int spp = 1, depth = 0, indirect = 0, mask_bits = 0;
+  bool environment_light = false;
   float throughput_cutoff = kThroughputCutoff, light_cutoff = 0.0f;
   bool filter_textures = true;
   Terminator terminator = kUsualTerminator;

@@ -12,14 +12,10 @@ namespace pinocchio::PINOCCHIO_LANES {
 namespace {
 
 // The packet's two numbers of that dimension.
-inline void draw_numbers(const Bounce& bounce, Int pixel, std::uint32_t dimension, SampleLanes& packet) {
-  const LanePoint p = sample_2d(sampling_of(bounce, pixel), bounce.dimension + dimension);
+inline void draw_numbers(const LaneSampling& sampling, std::uint32_t dimension, SampleLanes& packet) {
+  const LanePoint p = sample_2d(sampling, dimension);
   p.x.store(packet.number[0]);
   p.y.store(packet.number[1]);
-}
-
-inline Vec load(const SampleLanes::Column (&columns)[3]) {
-  return {Float::load(columns[0]), Float::load(columns[1]), Float::load(columns[2])};
 }
 
 // What of light from all around is reflected where Phong's coefficients are not a BRDF's: their 1 / pi is counted to
@@ -30,9 +26,10 @@ inline Float brdf_share(const LaneMaterial& m) {
 
 // A shadow ray towards one direction of the environment, with the light that it brings.
 [[gnu::noinline]] void ask_environment(const Bounce& bounce, ShadowStarts& starts, const LaneSurface& s,
-                                       const LaneMaterial& m, const Vec& throughput, Int pixel, Mask lanes) {
+                                       const LaneMaterial& m, const Vec& throughput, const LaneSampling& sampling,
+                                       Int pixel, Mask lanes) {
   SampleLanes packet{};
-  draw_numbers(bounce, pixel, shared::kEnvironmentDimension, packet);
+  draw_numbers(sampling, bounce.dimension + shared::kEnvironmentDimension, packet);
   bounce.environment->sample(lanes.bits(), packet);
   const LaneIncident incident{load(packet.direction), load(packet.light)};
   Mask lit = lanes & starts.faces_light(incident.to_light) & ~is_dark(incident.radiance);
@@ -48,12 +45,12 @@ inline Float brdf_share(const LaneMaterial& m) {
 // A ray that looks for light from other surfaces, by the cosine about the shading normal; none where that sends it
 // into the surface.
 [[gnu::noinline]] void scatter_diffuse(const Bounce& bounce, const LaneSurface& s, const LaneMaterial& m,
-                                       const Vec& throughput, Int pixel, Mask lanes) {
+                                       const Vec& throughput, const LaneSampling& sampling, Int pixel, Mask lanes) {
   const Vec albedo = m.diffuse * (brdf_share(m) * Float(3.14159265359f)), light = throughput * albedo;
   lanes = lanes & ~is_dark(light);
   if (lanes.bits() == 0) return;
   SampleLanes packet{};
-  draw_numbers(bounce, pixel, shared::kDiffuseDimension, packet);
+  draw_numbers(sampling, bounce.dimension + shared::kDiffuseDimension, packet);
   sample_cosine(lanes.bits(), packet);
   const Vec local = load(packet.direction), &n = s.n_shading;
   // A frame about n (Duff et al., "Building an Orthonormal Basis, Revisited", JCGT 6(1), 2017).

@@ -1,6 +1,9 @@
 // Part of trace/kernel.h's files: the steps of trace/lane_steps.h, included last.
 #pragma once
 
+#include <optional>
+
+#include "core/trace/lanes/environment.h"
 #include "core/trace/lanes/light.h"
 #include "core/trace/lanes/maps.h"
 #include "core/trace/lanes/sampling.h"
@@ -71,9 +74,15 @@ inline void ask(const BounceLight& from, const ShadowStarts& starts, const LaneI
   starts.ask_ways_up(lanes, bounce.shadow[from.slot], bounce.ways_up[from.slot]);
 }
 
+// The pixels that the tile's samples are of.
+inline IntPair whole_picture_pixel(const Bounce& bounce, Int pixel) {
+  const Int row = shift_right<kTileBits>(pixel), scale(bounce.scale);
+  return {(pixel - shift_left<kTileBits>(row)) * scale + Int(bounce.corner.x), row * scale + Int(bounce.corner.y)};
+}
+
 // What the lights do at the points of a packet; returns what reaches them for certain.
 inline Vec light_points(const Bounce& bounce, const Corners& corners, const LaneSurface& s, const LaneMaterial& m,
-                        const Vec& throughput, Int pixel, Mask lanes) {
+                        const Vec& throughput, const LaneSampling* sampling, Int pixel, Mask lanes) {
   ShadowStarts starts(bounce.terminator, corners, s);
   Vec sum(Float(0.0f));
   if (bounce.adds_ambient) sum = m.ambient * Vec(bounce.ambient_light) + m.emission;
@@ -95,6 +104,7 @@ inline Vec light_points(const Bounce& bounce, const Corners& corners, const Lane
     if (!bounce.visible) lit = lit & ~(largest(carried) < Float(bounce.throughput_cutoff));
     ask(light, starts, incident, carried, pixel, lit, bounce);
   }
+  if (bounce.environment) ask_environment(bounce, starts, s, m, throughput, *sampling, pixel, lanes);
   return sum;
 }
 
@@ -114,7 +124,8 @@ inline void prefetch_corners(const SceneArrays& scene, const RayQueue& rays, std
 
 void bounce_rays(const Bounce& bounce, const RayQueue& rays) {
   const bool reads_material = bounce.adds_light || bounce.adds_ambient || bounce.mirrored ||
-                              bounce.light_cutoff > 0.0f || bounce.scene.mesh != nullptr;
+                              bounce.light_cutoff > 0.0f || bounce.scene.mesh != nullptr || bounce.environment ||
+                              bounce.diffuse;
   for (std::size_t i = 0; i < rays.size; i += kWidth) {
     prefetch_corners(bounce.scene, rays, i);
     const Mask lanes = lanes_from(i, rays.size);
@@ -134,9 +145,13 @@ void bounce_rays(const Bounce& bounce, const RayQueue& rays) {
     }
     const Vec throughput = bounce.visible ? Vec(Float(1.0f)) : Vec::load(rays.light, i);
     const Vec own = m.blends != 0 ? throughput * m.alpha : throughput;
-    const Vec certain = light_points(bounce, corners, s, m, own, pixel, lanes);
+    std::optional<LaneSampling> sampling;
+    if (bounce.sampling) sampling.emplace(*bounce.sampling, whole_picture_pixel(bounce, pixel));
+    const LaneSampling* const samples = sampling ? &*sampling : nullptr;
+    const Vec certain = light_points(bounce, corners, s, m, own, samples, pixel, lanes);
     if (bounce.adds_light) add_light(own * certain, rays.pixel + i, lanes, bounce.radiance);
     if (bounce.mirrored) scatter(s, m, throughput, pixel, lanes, bounce);
+    if (bounce.diffuse) scatter_diffuse(bounce, s, m, own, *samples, pixel, lanes);
   }
 }
 
