@@ -11,6 +11,7 @@
 
 #include "app/errors.h"
 #include "app/parse.h"
+#include "pinocchio/animation.h"
 #include "pinocchio/load.h"
 
 namespace pinocchio::app {
@@ -19,6 +20,7 @@ namespace {
 using Path = std::vector<CameraFrame>;  // key frames, by number
 
 constexpr int kMostFrames = 1'000'000;  // of one run: their cameras are kept, 60 MB
+constexpr int kMostFps = 100'000;
 
 // Reads a path's key frames; what is wrong with one ends the verb with one line that names it.
 class PathReader {
@@ -119,6 +121,14 @@ Camera camera_on_path(const Path& path, int number) {
   return camera;
 }
 
+// One of the scene's may hang on a node that moves; one that has the scene in view has it as it was loaded.
+Camera camera_at(const DrawOptions& draw, const Scene& scene, double time_s) {
+  if (scene.cameras.empty()) return camera_for(draw, scene);
+  Scene now = scene;
+  now.cameras = cameras_at(scene, time_s);
+  return camera_for(draw, now);
+}
+
 Camera turned(const Camera& camera, int number, int frames_around) {
   const float angle = glm::radians(360.0f * static_cast<float>(number) / static_cast<float>(frames_around));
   const glm::mat4 turn = glm::rotate(glm::mat4(1.0f), angle, glm::normalize(camera.up));
@@ -138,6 +148,21 @@ void add_animation_options(CLI::App& verb, AnimationOptions& options) {
   verb.add_option("--turntable", options.turntable, "turn the camera once around its target in N frames")
       ->check(CLI::Range(1, kMostFrames));
   verb.add_option("--path", options.path, "camera path: JSON of key frames")->excludes("--turntable");
+  verb.add_option_function<std::string>(
+          "--time",
+          [&options](const std::string& text) {
+            options.time_s = parse_double(text);
+            if (!options.time_s || *options.time_s < 0.0)
+              throw CLI::ValidationError("--time", "'" + text + "' is not a time in seconds from 0 on");
+          },
+          "time of the scene's animation, for all frames, seconds (frame number / --fps, so 0 for one frame)")
+      ->type_name("S");
+  verb.add_option("--fps", options.fps, "frames of --frames a second of the scene's animation (24)")
+      ->check([](const std::string& text) {
+        const std::optional<int> fps = parse_int(text);
+        return fps && *fps >= 1 && *fps <= kMostFps ? std::string() : "'" + text + "' is no whole number from 1 to " + std::to_string(kMostFps);
+      })
+      ->type_name("N");
 }
 
 std::vector<NamedFile> input_files(const DrawOptions& draw, const AnimationOptions& animation, const Scene& scene) {
@@ -147,7 +172,8 @@ std::vector<NamedFile> input_files(const DrawOptions& draw, const AnimationOptio
   return files;
 }
 
-std::vector<CameraFrame> animate(const AnimationOptions& options, const Camera& camera) {
+std::vector<CameraFrame> animate(const AnimationOptions& options, const DrawOptions& draw, const Scene& scene) {
+  const Camera camera = camera_for(draw, scene);
   const Path path = options.path.empty() ? Path{{0, camera}} : PathReader(options.path, camera).read();
   FrameRange range{path.front().number, path.back().number, 1};
   if (options.turntable > 0) range = {0, options.turntable - 1, 1};
@@ -159,8 +185,10 @@ std::vector<CameraFrame> animate(const AnimationOptions& options, const Camera& 
   std::vector<CameraFrame> frames;
   for (long long number = range.first; number <= range.last; number += range.step) {
     const int n = static_cast<int>(number);
-    frames.push_back(
-        {n, options.turntable > 0 ? turned(camera, n, options.turntable) : camera_on_path(path, n)});
+    const double time_s = options.time_of(n);
+    Camera now = scene.animation && options.path.empty() ? camera_at(draw, scene, time_s) : camera_on_path(path, n);
+    if (options.turntable > 0) now = turned(now, n, options.turntable);
+    frames.push_back({n, std::move(now), time_s});
     if (const Camera& c = frames.back().camera; c.eye == c.target)
       throw Exit(kUsage, options.path + ": in frame " + std::to_string(n) + " eye and target meet; add a key frame");
   }

@@ -1,5 +1,6 @@
 #include "pinocchio/engine.h"
 
+#include <algorithm>
 #include <cstdlib>
 #include <utility>
 
@@ -58,9 +59,14 @@ Workers& Engine::Parts::workers(int threads) {
 }
 
 std::shared_ptr<const GpuMesh> Engine::Parts::gpu_mesh(const std::shared_ptr<const Mesh>& mesh) {
+  const auto same_textures = [&](const auto& entry) {
+    return !mesh->textures.empty() && entry.first->textures.shares_with(mesh->textures);
+  };
+  const auto alike = std::ranges::find_if(meshes, same_textures);  // another pose of one scene
+  const std::shared_ptr<const GpuMesh> kept = alike == meshes.end() ? nullptr : alike->second;
   std::erase_if(meshes, [&](const auto& entry) { return entry.first != mesh && entry.first.use_count() == 1; });
   std::shared_ptr<const GpuMesh>& found = meshes[mesh];
-  if (!found) found = std::make_shared<const GpuMesh>(*mesh);
+  if (!found) found = std::make_shared<const GpuMesh>(*mesh, kept.get());
   return found;
 }
 

@@ -60,6 +60,7 @@ std::string render_command(const ExportedView& view, const std::string& name) {
   for (const Light& light : view.extra_lights)
     text += " --light " + exact(light.position) + "," + exact(light.intensity) +
             (light.casts_shadow ? ",cast" : ",nocast");
+  if (view.time_s) text += " --time " + nlohmann::json(*view.time_s).dump();
   if (view.samples > 1) text += " --spp " + std::to_string(view.samples);
   if (view.exposure_ev != 0.0f) text += " --exposure " + exact(view.exposure_ev);
   return text + " -o " + quoted(name + ".exr") + " --preview " + quoted(name + ".png");

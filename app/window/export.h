@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -18,6 +19,7 @@ struct ExportedView {
   glm::ivec2 size{0, 0};            // pixels
   int samples = 1;
   float exposure_ev = 0.0f;
+  std::optional<double> time_s{};  // of the scene's animation
 };
 
 // The command line that draws it: name.exr and name.png. Numbers are exact.

@@ -62,6 +62,14 @@ void Session::perform(Action action) {
         return cancel_loading();
       case Action::full_screen:
         return window_.set_full_screen(!window_.full_screen());
+      case Action::play:
+        if (!model_.scene.animation) return model_.messages.hint("the scene has no animation");
+        model_.playback.playing = !model_.playback.playing;
+        return;
+      case Action::frame_back:
+        return step_time(-1);
+      case Action::frame_on:
+        return step_time(1);
       case Action::close:
         return close_something();
     }
@@ -205,7 +213,7 @@ void Session::write_frame_exr(const std::string& file) {
     accumulator_.read_average(picture.color);
     picture.settings.spp = accumulator_.samples();
   }
-  write_exr(file, picture, {.render_s = now_s() - begin_s});
+  write_exr(file, picture, {.render_s = now_s() - begin_s, .time_s = posed_s_});
 }
 
 // What the window shows, to the pixel.
@@ -278,7 +286,8 @@ void Session::print_command() {
   const std::string command = render_command(
       {file, settings, model_.camera.camera(),
        scene_edited_ ? std::vector<Light>() : extra_lights(model_.scene.lights, options_.draw),
-       picture_size(), gathers() ? std::max(model_.samples, 1) : 1, applied_.exposure_ev},
+       picture_size(), gathers() ? std::max(model_.samples, 1) : 1, applied_.exposure_ev,
+       model_.scene.animation && !scene_edited_ ? posed_s_ : std::nullopt},
       name);
   std::printf("%s\n", command.c_str());
   std::fflush(stdout);

@@ -67,7 +67,8 @@ void add_attributes(ExrFile& exr, const FrameOutput& frame) {
   if (frame.scene.environment)
     exr.attributes["pinocchio.environment"] = std::filesystem::path(frame.scene.environment->source()).filename().string();
   exr.attributes["pinocchio.frame"] = frame.frame;
-  exr.attributes["pinocchio.time"] = static_cast<float>(frame.frame) / static_cast<float>(frame.frames_per_second);
+  exr.attributes["pinocchio.time"] = static_cast<float>(
+      frame.time_s.value_or(static_cast<double>(frame.frame) / static_cast<double>(frame.frames_per_second)));
   exr.attributes["pinocchio.camera"] = frame.camera.name;
   exr.attributes["pinocchio.lights"] = lights_json(frame.scene);
   exr.attributes["pinocchio.unshadowedLights"] = unshadowed_lights_json(frame.scene);

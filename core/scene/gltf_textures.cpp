@@ -61,7 +61,7 @@ void add_gltf_textures(const GltfFile& file, MeshData& mesh, Loading& loading) {
     if (is_new) {
       if (std::optional<Texture> texture = texture_of(file, at->first, loading)) {
         at->second = static_cast<int>(mesh.textures.size());
-        mesh.textures.push_back(std::move(*texture));
+        mesh.textures.edit().push_back(std::move(*texture));
       }
     }
     use.texture = at->second;

@@ -32,7 +32,8 @@ void filter_textures(MeshData& mesh) {
         n.is_color = n.is_color || use == &m.base_color || use == &m.emissive;
       }
   for (std::size_t i = 0; i < needed.size(); ++i)
-    if (needed[i].levels) make_smaller_levels(mesh.textures[i], needed[i].is_color);
+    if (needed[i].levels && mesh.textures[i].smaller_levels.empty() && mesh.textures[i].texels.pixels().size() > 1)
+      make_smaller_levels(mesh.textures.edit()[i], needed[i].is_color);
 }
 
 }  // namespace

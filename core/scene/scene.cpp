@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/scene/light_reach.h"
+
 namespace pinocchio {
 
 std::vector<int> casting_lights(const Scene& scene) {
@@ -34,8 +36,7 @@ bool reaches(const Light& light, const Bounds& box) {
 }
 
 void drop_idle_casters(Scene& scene) {
-  const Bounds& box = scene.mesh->bounds();
-  for (Light& light : scene.lights) light.casts_shadow = light.casts_shadow && reaches(light, box);
+  for (Light& light : scene.lights) light.casts_shadow = light.casts_shadow && may_reach(light, scene);
 }
 
 bool takes_samples(const Scene& scene) {

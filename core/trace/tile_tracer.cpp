@@ -49,7 +49,7 @@ const std::vector<std::uint32_t>& z_curve() {
 
 // Whether anything is to be averaged.
 bool filters(const TraceJob& job) {
-  const std::vector<Texture>& textures = job.scene.mesh->textures;
+  const Textures& textures = job.scene.mesh->textures;
   return job.filter_textures &&
          std::any_of(textures.begin(), textures.end(), [](const Texture& t) { return t.levels() > 1; });
 }

@@ -57,14 +57,14 @@ gl::TextureBuffer unsigneds(const std::vector<T>& data) {
 
 }  // namespace
 
-GpuMesh::GpuMesh(const Mesh& mesh)
+GpuMesh::GpuMesh(const Mesh& mesh, const GpuMesh* shares_textures)
     : triangles_(mesh.positions, mesh.triangles),
       corners_(unsigneds(mesh.triangles)),
       triangle_materials_(unsigneds(mesh.triangle_materials)),
       positions_(floats(mesh.positions)),
       normals_(floats(mesh.normals)),
       materials_(quads(material_texels(mesh))),
-      maps_(mesh),
+      maps_(mesh, shares_textures ? &shares_textures->maps_ : nullptr),
       // Reversed float depth is as fine far away as near by, so the near plane may be next to nothing.
       z_near_(std::max(mesh.bounds().diagonal() * 1e-6f, std::numeric_limits<float>::min())) {}
 

@@ -14,7 +14,8 @@ namespace pinocchio {
 // shaders/scene_fetch.glsl. Throws gl::Error where the GPU has no room.
 class GpuMesh {
  public:
-  explicit GpuMesh(const Mesh& mesh);
+  // `shares_textures`: of another mesh that has the same textures; null: none is known.
+  explicit GpuMesh(const Mesh& mesh, const GpuMesh* shares_textures = nullptr);
 
   void draw() const { triangles_.draw(); }
   // Gives the program in use the buffers, on texture units from `first_unit` on; returns the next free one.

@@ -1,3 +1,4 @@
+#include <pinocchio/animation.h>
 #include <pinocchio/load.h>
 #include <pinocchio/scene.h>
 
@@ -79,7 +80,7 @@ void add_materials(const std::vector<TexturedMaterial>& materials, MeshData& mes
     mesh.materials.push_back(m.material);
     if (!m.texture) continue;
     make_maps(mesh, mesh.materials.back()).base_color.texture = static_cast<int>(mesh.textures.size());
-    mesh.textures.push_back(*m.texture);
+    mesh.textures.edit().push_back(*m.texture);
   }
   if (mesh.materials.empty()) mesh.materials.emplace_back();
 }
@@ -283,6 +284,15 @@ void bind_scene(nb::module_& module) {
       .def("posed", &with_transforms, "transforms"_a,
            "The scene with nodes moved, and all below them: {name or number: 4x4 matrix, to its parent}. Materials,\n"
            "triangles and their ids stay; light and camera follow the node that they hang on.")
+      .def_prop_ro("duration", [](const Scene& s) { return duration_s(s); },
+                   "Seconds that its animation takes; 0 where it has none.")
+      .def("at_time",
+           [](const Scene& scene, double seconds) {
+             return value_or_throw(without_gil([&](Progress*) { return at_time(scene, seconds); }));
+           },
+           "seconds"_a,
+           "The scene as its animation has it then: nodes, skins and morph targets, with lights and cameras that hang\n"
+           "on them. Before its first key and behind its last one it stands still. Triangles and their ids stay.")
       .def("__copy__", [](const Scene& scene) { return scene; });
   module.def("load_scene", &load, "path"_a,
              "Reads a scene by its extension, as the program does. What is left out of the file is a warning.");

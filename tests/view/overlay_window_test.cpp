@@ -49,19 +49,26 @@ TEST_F(OverlayTest, AtTheStartThePictureIsUncovered) {
   expect_clean_close();
 }
 
-// Eight times from the picture onto a panel and pressed at once, as fast as the display takes it.
-// Pressed, not dragged: a panel dragged by its title at this speed may end some pixels off, which is still open.
-TEST_F(OverlayTest, WhatIsPressedOnAPanelDoesNotMoveTheCamera) {
+// Eight times from the picture onto a panel, which is dragged and put back, and its wheel, as fast as the display
+// takes it. Around the button it takes a moment: window managers hold the pointer while they see to the focus,
+// and what comes meanwhile is delivered out of order. The last pause parts it from a double click, which folds.
+TEST_F(OverlayTest, WhatIsDraggedOnAPanelDoesNotMoveTheCamera) {
   open_as_is(scene("cornell"));
   key(std::string(kStill) + " F3");  // at the right
   settle();
   const std::string before = eye();
+  pause_ms(7000);  // what P said is gone by itself
+  xdo(at(150, 300));
+  settle();
+  grab("before.png");
   std::string all;
   for (int i = 0; i < 8; ++i)
-    all += at(150, 300) + at(640, 18) + "mousedown 1 mouseup 1 " + at(150, 300) +
-           at(640, 18) + "click 4 " + at(150, 300);
+    all += at(150, 300) + at(640, 18) + "mousedown 1 sleep 0.05 " + at(640, 24) + at(500, 200) + at(640, 18) +
+           "sleep 0.05 mouseup 1 sleep 0.05 " + at(150, 300) + at(640, 18) + "click 4 " + at(150, 300) + "sleep 0.3 ";
   xdo(all);
-  pause_ms(500);
+  settle();
+  grab("after.png");
+  EXPECT_EQ(different("before.png", "after.png"), 0);  // the panel is where it was
   EXPECT_EQ(eye(), before);
   // And the other way round: on the picture it does.
   xdo(at(640, 18) + at(150, 300) + "mousedown 1 " + at(190, 300) + "mouseup 1");

@@ -15,6 +15,8 @@
 
 namespace pinocchio {
 
+struct Animation;
+
 // A cheap value: copies share the mesh, so that moving a light copies no geometry. Lengths are in the file's
 // units ("scene units"), colours linear.
 struct Scene {
@@ -28,7 +30,8 @@ struct Scene {
   std::shared_ptr<const Environment> environment;  // seen where no triangle is, and shines; null: black
   float environment_rotation_deg = 0.0f;           // how far it is turned about +Y
   float environment_strength = 1.0f;               // multiplies its light
-  std::shared_ptr<const NodeTree> nodes;  // of what can be moved; null: nothing can
+  std::shared_ptr<const NodeTree> nodes;       // of what can be moved; null: nothing can
+  std::shared_ptr<const Animation> animation;  // of the nodes (pinocchio/animation.h); null: none
 
   std::string source;                     // path it was loaded from
   std::vector<std::string> source_files;  // that path and all files it names, also those that are missing
