@@ -43,7 +43,7 @@ FrameResult precise(const FrameRequest& request, Workers& workers) {
   mean.settings = request.settings;
   const int spp = request.settings.spp;
   for (int k = 0; k < spp; ++k) {
-    const View view = at_sample(request.view, k);
+    const View view = at_sample(request.view, k, request.settings.pixel_filter);
     ReferencePicture sample = reference_render(request.scene, view, request.settings.depth, workers, &run_progress(),
                                                request.settings.filter_textures, request.settings.terminator);
     if (k == 0) {
@@ -145,7 +145,7 @@ class RenderRun {
 
   template <class Take>
   void draw_frames(Drawing& drawing, Take take) {
-    SampleMean mean(drawing.settings().spp, take);
+    SampleMean mean(drawing.settings(), take);
     Renderer renderer(drawing.engine(), {[&](Frame& frame) { mean.add(frame); },
                                          [&](const FrameRecord& record) { records_.push_back(record); }},
                       &run_progress());
@@ -153,7 +153,7 @@ class RenderRun {
       begun_s_.push_back(now_s());
       delivering_s_ = 0.0;
       const CameraFrame* const next = &frame == &frames_.back() ? nullptr : &frame + 1;
-      submit_samples(renderer, drawing.request(budget_ ? budget_->settings() : drawing.settings(), frame, next));
+      submit_samples(renderer, drawing.request(budget_ ? budget_->settings() : drawing.settings(), frame, next), &mean);
       if (budget_) budget_->note(1e3 * (now_s() - begun_s_.back() - delivering_s_));
     }
     renderer.drain();

@@ -127,9 +127,9 @@ Expected<FrameResult> Engine::render(const Scene& scene, const View& view, const
   const std::shared_ptr<const Tracer> tracer = parts_->tracer_of(scene, *resolved, progress);
   begin_phase(progress, "render", resolved->spp);
   FrameResult result;
-  SampleMean mean(resolved->spp, [&](FrameResult&& picture) { result = std::move(picture); });
+  SampleMean mean(*resolved, [&](FrameResult&& picture) { result = std::move(picture); });
   Renderer renderer(*this, {[&](Frame& frame) { mean.add(frame); }, {}}, progress);
-  submit_samples(renderer, {scene, tracer, *resolved, view});
+  submit_samples(renderer, {scene, tracer, *resolved, view}, &mean);
   renderer.drain();
   return result;
 }

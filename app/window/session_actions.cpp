@@ -265,7 +265,9 @@ void Session::save_gltf() {
   Camera camera = model_.camera.camera();
   camera.name = "window";
   scene.cameras.insert(scene.cameras.begin(), camera);  // the one that is opened first
-  save_scene(scene, file);
+  Warnings warnings;
+  save_scene(scene, file, nullptr, &warnings);
+  for (const Warning& warning : warnings) model_.messages.warning(warning.message());
   model_.messages.news(file + " written");
 }
 

@@ -38,11 +38,11 @@ std::uint64_t lit(const Tracer& tracer, const std::vector<SurfaceInteraction>& p
   std::vector<Ray> shadow, way_up;
   std::vector<std::size_t> lifted;
   for (const SurfaceInteraction& s : points) {
-    const std::optional<Ray> ray = shadow_ray(params, s, terminator);
+    const std::optional<Ray> ray = shadow_ray(params, s, glm::vec2(0.5f), terminator);
     const bool dark = terminator == Terminator::smoothed && ray &&
                       shared::terminator_factor(s.n_shading, s.n_geometric, glm::normalize(light.position - s.p_world)) <= 0.0f;
     if (!ray || dark) continue;
-    if (const std::optional<Ray> up = lift_ray(params, s, terminator)) {
+    if (const std::optional<Ray> up = lift_ray(params, s, glm::vec2(0.5f), terminator)) {
       way_up.push_back(*up);
       lifted.push_back(shadow.size());
     }

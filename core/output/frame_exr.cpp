@@ -44,6 +44,8 @@ const char* kind_name(Light::Kind kind) {
       return "directional";
     case Light::Kind::spot:
       return "spot";
+    case Light::Kind::rectangle:
+      return "rectangle";
   }
   return "";
 }
@@ -152,6 +154,9 @@ nlohmann::json light_json(const Light& light) {
   if (light.kind == Light::Kind::spot) json["cone"] = {{"cosInner", light.cos_inner}, {"cosOuter", light.cos_outer}};
   if (light.falloff == Light::Falloff::inverse_square) json["falloff"] = "inverse square";
   if (std::isfinite(light.range)) json["range"] = light.range;
+  if (light.radius > 0.0f) json["radius"] = light.radius;
+  if (light.angle_deg > 0.0f) json["angleDegrees"] = light.angle_deg;
+  if (light.kind == Light::Kind::rectangle) json["edges"] = {vec3_json(light.edge_u), vec3_json(light.edge_v)};
   return json;
 }
 

@@ -44,14 +44,4 @@ void EnvironmentLight::sample(unsigned lanes, SampleLanes& packet) const {
   });
 }
 
-void sample_cosine(unsigned lanes, SampleLanes& packet) {
-  for_each_lane(lanes, [&](int i) {
-    const Angle around = angle_of(packet.number[0][i]);
-    const float sine = std::sqrt(packet.number[1][i]);
-    packet.direction[0][i] = sine * around.cosine;
-    packet.direction[1][i] = sine * around.sine;
-    packet.direction[2][i] = std::sqrt(1.0f - packet.number[1][i]);
-  });
-}
-
 }  // namespace pinocchio

@@ -55,7 +55,4 @@ class EnvironmentLight {
   bool shines_;
 };
 
-// About +Z, likelihood by the cosine: direction only.
-void sample_cosine(unsigned lanes, SampleLanes& packet);
-
 }  // namespace pinocchio

@@ -12,6 +12,7 @@ namespace pinocchio::shared {
 #include "shaders/shared/surface.glsl"
 #include "shaders/shared/terminator.glsl"
 #include "shaders/shared/sampling.glsl"
+#include "shaders/shared/sized_light.glsl"
 #undef SHARED
 
 }  // namespace pinocchio::shared

@@ -31,7 +31,10 @@ class Lap {
 std::vector<BounceLight> lights_of(const Scene& scene) {
   std::vector<BounceLight> lights;
   const std::vector<int> slots = mask_slots(scene);
-  for (std::size_t i = 0; i < slots.size(); ++i) lights.push_back({light_params(scene.lights[i]), slots[i]});
+  for (std::size_t i = 0; i < slots.size(); ++i) {
+    const shared::LightParams params = light_params(scene.lights[i]);
+    lights.push_back({params, slots[i], shared::has_size(params), static_cast<std::uint32_t>(i)});
+  }
   return lights;
 }
 

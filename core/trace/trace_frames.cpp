@@ -39,8 +39,8 @@ class Share {
     const int samples = to_.color ? job_.spp : 1;
     RayCounts rays;
     for (int k = 0; k < samples; ++k) {
-      plan_.look(view_params(camera, job_.size, jitter_of(k), tile.lo));
-      trace_job_.jitter = jitter_of(k);
+      trace_job_.jitter = jitter_of(k, job_.filter);
+      plan_.look(view_params(camera, job_.size, trace_job_.jitter, tile.lo, lens_point_of(k)));
       trace_job_.sampling = job_.sampling;
       trace_job_.sampling.index += static_cast<std::uint32_t>(k);
       outputs_.ids = k == 0 ? &images_.ids : nullptr;

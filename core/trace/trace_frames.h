@@ -12,6 +12,7 @@
 #include "pinocchio/progress.h"
 #include "pinocchio/scene.h"
 #include "pinocchio/tracer.h"
+#include "pinocchio/view.h"
 
 namespace pinocchio {
 
@@ -26,6 +27,7 @@ struct FramesJob {
   float throughput_cutoff = kThroughputCutoff, light_cutoff = 0.0f;
   bool filter_textures = true;
   Terminator terminator = kUsualTerminator;
+  PixelFilter filter = PixelFilter::box;
   shared::Sampling sampling{};  // of the first sample
   Progress* progress = nullptr;  // told of every tile: a picture is `spp` steps
 };

@@ -11,6 +11,7 @@ namespace pinocchio {
 void ShadingPasses::composite(const Inputs& inputs, LightSet lights, const Traced& traced,
                               const gl::Framebuffer& target) {
   Definitions definitions = definitions_of(inputs, traced);
+  if (inputs.lights.any_size()) definitions.emplace_back("HAS_SIZED_LIGHTS");
   if (lights == LightSet::free) definitions.emplace_back("FREE_LIGHTS_ONLY");
   if (inputs.scene.environment) {
     definitions.emplace_back("HAS_ENVIRONMENT");
@@ -21,6 +22,12 @@ void ShadingPasses::composite(const Inputs& inputs, LightSet lights, const Trace
   p.use();
   const int unit = bind(p, inputs, traced);
   if (inputs.scene.environment) bind_environment(p, inputs.scene, unit);
+  if (inputs.lights.any_size()) {
+    const shared::Sampling& sampling = traced.of ? traced.of->sampling : inputs.sampling;
+    p.set("sequence", sampling.sequence);
+    p.set("sample_index", sampling.index);
+    p.set("sample_seed", sampling.seed);
+  }
   triangle_.draw();
 }
 

@@ -24,6 +24,7 @@ enum class LightSet {
 struct OlderFrame {
   const gl::Texture& ids;
   shared::ViewParams view;
+  shared::Sampling sampling;
 };
 
 // The passes that shade pixels from their ids (shaders/composite.frag, gbuffer.frag, show.frag,
@@ -37,6 +38,7 @@ class ShadingPasses {
     const gl::Texture& ids;
     int id_bits;
     bool filter_textures;
+    shared::Sampling sampling;
     Terminator terminator;
     const Scene& scene;  // whose environment is seen
   };

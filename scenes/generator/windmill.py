@@ -18,7 +18,7 @@ class MovingFile(File):
     def __init__(self):
         super().__init__()
         self.json["asset"]["generator"] = "Pinocchio scenes/generator/windmill.py"
-        self.json["extensionsUsed"] = ["KHR_lights_punctual"]
+        self.json["extensionsUsed"] = ["KHR_lights_punctual", "KHR_materials_unlit"]
         self.json["skins"] = []
         self.json["animations"] = [{"name": "wind", "channels": [], "samplers": []}]
 
@@ -125,6 +125,11 @@ def stripes(x, y):
     return tuple(c * tone for c in color) + (1.0,)
 
 
+def evening(x, y):
+    t = y / 63
+    return (0.45 + 0.5 * t, 0.66 + 0.24 * t, 0.95 - 0.1 * t, 1.0)
+
+
 def dots(x, y):
     inside = (x % 16 - 8) ** 2 + (y % 16 - 8) ** 2 < 24
     return (0.95, 0.8, 0.2, 1.0) if inside else (0.75, 0.12, 0.3, 1.0)
@@ -165,7 +170,7 @@ def flag(f, cloth, pole):
     mesh_node["skin"] = 0
     keys = 16
     for k, joint in enumerate(joints):
-        angles = [(0.1 + 0.42 * (k > 0)) * math.sin(2 * math.pi * (2 * t / keys) - 1.25 * k) for t in range(keys + 1)]
+        angles = [(0.35 + 0.3 * (k > 0)) * math.sin(2 * math.pi * (2 * t / keys) - 1.25 * k) for t in range(keys + 1)]
         f.animate(joint, "rotation", [DURATION_S * t / keys for t in range(keys + 1)],
                   [turn((0, 1, 0), a) for a in angles])
     round_wall(f, "pole", pole, x0 - 0.03, z0, [(0.0, 2.45), (0.035, 2.42), (0.035, 0.0)], (1, 4), 16, 16)
@@ -216,13 +221,17 @@ def scene():
     meadow = material("grass", f.texture(png(128, 128, grass)))
     wall = material("bricks", f.texture(png(128, 128, bricks.color)),
                     normalTexture={"index": f.texture(normal_map(128, 128, bricks.height, 1.5))})
-    laths = material("sail cloth", f.texture(png(64, 64, lattice), CLAMP), alphaMode="MASK", alphaCutoff=0.5, doubleSided=True)
+    laths = material("sail cloth", f.texture(png(64, 64, lattice)), alphaMode="MASK", alphaCutoff=0.5, doubleSided=True)
     flag_cloth = material("flag", f.texture(png(64, 66, stripes), CLAMP), doubleSided=True)
     painted = material("dots", f.texture(png(64, 64, dots)))
     wood = f.add("materials", {"name": "wood", "pbrMetallicRoughness": {
         "baseColorFactor": [0.3, 0.19, 0.1, 1], "metallicFactor": 0, "roughnessFactor": 0.9}})
 
+    sky = f.add("materials", {"name": "sky", "extensions": {"KHR_materials_unlit": {}}, "pbrMetallicRoughness": {
+        "baseColorTexture": {"index": f.texture(png(2, 64, evening), CLAMP)}, "metallicFactor": 0}})
+
     ground(f, meadow)
+    rectangle(f, "sky", sky, (-24, -4, -10), (48, 0, 0), (0, 18, 0))
     round_wall(f, "tower", wall, -1.1, -0.7, [(0.5, 2.9), (0.85, -0.1)], (6, 5))
     round_wall(f, "cap", wood, -1.1, -0.7, [(0.0, 3.55), (0.58, 2.88), (0.0, 2.88)], (1, 1), 48, 16)
     sails(f, laths)
@@ -233,8 +242,8 @@ def scene():
         {"name": "sun", "type": "directional", "color": [1, 0.95, 0.85], "intensity": 2.6}]
     f.node({"name": "sun", "rotation": [-0.387, 0.305, 0.138, 0.859], "extensions": {"KHR_lights_punctual": {"light": 0}}})
     f.add("cameras", {"type": "perspective", "perspective": {"yfov": 0.72, "znear": 0.01}})
-    f.node({"name": "main", "camera": 0, "translation": [0.4, 2.0, 6.6],
-            "extras": {"pinocchio": {"target": [0.1, 1.7, 0.0]}}})
+    f.node({"name": "main", "camera": 0, "translation": [1.3, 2.0, 7.2],
+            "extras": {"pinocchio": {"target": [0.0, 2.05, 0.0]}}})
     return f.glb()
 
 

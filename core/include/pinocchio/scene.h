@@ -57,8 +57,7 @@ struct Scene {
 // Lights that reach nothing cast nothing: no mask slot is spent on them.
 void drop_idle_casters(Scene& scene);
 
-// Whether one picture of it is one sample of many: of lights with a size, of an
-// environment.
+// Whether one picture of it is one sample of many: of lights with a size, of glossy mirrors, of an environment.
 [[nodiscard]] bool takes_samples(const Scene& scene);
 
 // First camera named `name`, else nullptr.

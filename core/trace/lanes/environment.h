@@ -6,17 +6,11 @@
 #include "core/trace/lanes/maps.h"
 #include "core/trace/lanes/sampling.h"
 #include "core/trace/lanes/scatter.h"
+#include "core/trace/lanes/sized_light.h"
 #include "core/trace/lanes/terminator.h"
 
 namespace pinocchio::PINOCCHIO_LANES {
 namespace {
-
-// The packet's two numbers of that dimension.
-inline void draw_numbers(const LaneSampling& sampling, std::uint32_t dimension, SampleLanes& packet) {
-  const LanePoint p = sample_2d(sampling, dimension);
-  p.x.store(packet.number[0]);
-  p.y.store(packet.number[1]);
-}
 
 // What of light from all around is reflected where Phong's coefficients are not a BRDF's: their 1 / pi is counted to
 // the lights.
@@ -29,9 +23,12 @@ inline Float brdf_share(const LaneMaterial& m) {
                                        const LaneMaterial& m, const Vec& throughput, const LaneSampling& sampling,
                                        Int pixel, Mask lanes) {
   SampleLanes packet{};
-  draw_numbers(sampling, bounce.dimension + shared::kEnvironmentDimension, packet);
+  const LanePoint numbers = sample_2d(sampling, bounce.dimension + shared::kEnvironmentDimension);
+  numbers.x.store(packet.number[0]);
+  numbers.y.store(packet.number[1]);
   bounce.environment->sample(lanes.bits(), packet);
-  const LaneIncident incident{load(packet.direction), load(packet.light)};
+  const Vec direction = load(packet.direction);
+  const LaneIncident incident{direction, load(packet.light), direction};
   Mask lit = lanes & starts.faces_light(incident.to_light) & ~is_dark(incident.radiance);
   if (lit.bits() == 0) return;
   Vec carried = throughput * phong_light(m, incident, s, lit) * brdf_share(m);
@@ -49,16 +46,11 @@ inline Float brdf_share(const LaneMaterial& m) {
   const Vec albedo = m.diffuse * (brdf_share(m) * Float(3.14159265359f)), light = throughput * albedo;
   lanes = lanes & ~is_dark(light);
   if (lanes.bits() == 0) return;
-  SampleLanes packet{};
-  draw_numbers(sampling, bounce.dimension + shared::kDiffuseDimension, packet);
-  sample_cosine(lanes.bits(), packet);
-  const Vec local = load(packet.direction), &n = s.n_shading;
-  // A frame about n (Duff et al., "Building an Orthonormal Basis, Revisited", JCGT 6(1), 2017).
-  const Float zero(0.0f), one(1.0f), sign = select(n.z < zero, -one, one);
-  const Float a = -one / (sign + n.z), b = n.x * n.y * a;
-  const Vec x(one + sign * n.x * n.x * a, sign * b, -sign * n.x), y(b, sign + n.y * n.y * a, -n.y);
-  const Vec direction = x * local.x + y * local.y + n * local.z;
-  follow(s, direction, light, pixel, lanes & (zero < dot(direction, s.n_geometric)), bounce.throughput_cutoff, *bounce.diffuse);
+  const LanePoint disc = disc_of_square(sample_2d(sampling, bounce.dimension + shared::kDiffuseDimension));
+  const Float up = sqrt(max(Float(1.0f) - (disc.x * disc.x + disc.y * disc.y), Float(0.0f)));
+  const Vec direction = around(s.n_shading, {disc.x, disc.y, up});
+  follow(s, direction, light, pixel, lanes & (Float(0.0f) < dot(direction, s.n_geometric)),
+         bounce.throughput_cutoff, *bounce.diffuse);
 }
 
 }  // namespace

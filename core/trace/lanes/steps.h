@@ -6,7 +6,6 @@
 #include "core/trace/lanes/environment.h"
 #include "core/trace/lanes/light.h"
 #include "core/trace/lanes/maps.h"
-#include "core/trace/lanes/sampling.h"
 #include "core/trace/lanes/scatter.h"
 #include "core/trace/lanes/terminator.h"
 
@@ -69,7 +68,7 @@ inline void ask(const BounceLight& from, const ShadowStarts& starts, const LaneI
   const Vec origin = starts.origins(incident.to_light);
   const bool far = from.params.kind == shared::kLightDirectional;
   const Vec direction =
-      far ? incident.to_light : Vec(from.params.position) - origin;  // the light sits at t = 1
+      far ? incident.to_light : incident.target - origin;  // the light sits at t = 1
   append(origin, direction, light, pixel, lanes, bounce.shadow[from.slot]);
   starts.ask_ways_up(lanes, bounce.shadow[from.slot], bounce.ways_up[from.slot]);
 }
@@ -88,7 +87,10 @@ inline Vec light_points(const Bounce& bounce, const Corners& corners, const Lane
   if (bounce.adds_ambient) sum = m.ambient * Vec(bounce.ambient_light) + m.emission;
   for (std::size_t i = 0; i < bounce.light_count; ++i) {
     const BounceLight& light = bounce.lights[i];
-    const LaneIncident incident = incident_light(light.params, s.p_world);
+    const LaneIncident incident =
+        light.has_size ? sampled_light(light.params, s.p_world,
+                                       sample_2d(*sampling, bounce.dimension + shared::kLightDimension + light.index))
+                       : incident_light(light.params, Vec(light.params.position), s.p_world);
     Mask lit = lanes & starts.faces_light(incident.to_light) & ~is_dark(incident.radiance);
     if (bounce.visible && light.slot >= 0 && bounce.light_cutoff > 0.0f)
       lit = lit & ~(most_light(m, incident, s) < Float(bounce.light_cutoff));
@@ -150,7 +152,7 @@ void bounce_rays(const Bounce& bounce, const RayQueue& rays) {
     const LaneSampling* const samples = sampling ? &*sampling : nullptr;
     const Vec certain = light_points(bounce, corners, s, m, own, samples, pixel, lanes);
     if (bounce.adds_light) add_light(own * certain, rays.pixel + i, lanes, bounce.radiance);
-    if (bounce.mirrored) scatter(s, m, throughput, pixel, lanes, bounce);
+    if (bounce.mirrored) scatter(s, m, throughput, samples, pixel, lanes, bounce);
     if (bounce.diffuse) scatter_diffuse(bounce, s, m, own, *samples, pixel, lanes);
   }
 }
