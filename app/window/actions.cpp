@@ -82,7 +82,7 @@ const std::vector<KeyBinding>& key_bindings() {
       {gl::kKeyF11, "F11", Action::full_screen, "full screen"},
       {gl::kKeyLeft, "Left", Action::previous_file, "previous scene of the folder"},
       {gl::kKeyRight, "Right", Action::next_file, "next scene of the folder"},
-      {'K', "K", Action::record, "record what is shown as PNG files, or stop"},
+      {'K', "K", Action::record, "record what is shown as PNG files, with Shift as EXR, too; or stop"},
       {'O', "Ctrl + O", Panel::files, "open a scene", true},
       {'S', "Ctrl + S", Action::save_scene, "save the scene as glTF", true},
       {'Z', "Ctrl + Z", Action::undo, "undo", true},

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "core/image/tonemap.h"
 #include "pinocchio/scene.h"
 #include "pinocchio/settings.h"
 
@@ -18,6 +19,7 @@ struct ExportedView {
   glm::ivec2 size{0, 0};            // pixels
   int samples = 1;
   float exposure_ev = 0.0f;
+  ToneMap tone_map = ToneMap::clip;
 };
 
 // The command line that draws it: name.exr and name.png. Numbers are exact.
