@@ -75,7 +75,7 @@ std::vector<MeasuredSettings> front_of(Drawing& drawing, const DrawOptions& draw
                                        const BudgetOptions& options, const std::vector<CameraFrame>& frames) {
   BudgetTrial trial(drawing.engine(), drawing.settings(), options, [&](const Settings& settings, int i) {
     const std::size_t at = static_cast<std::size_t>(i) * frames.size() / (BudgetTrial::kTimedFrames + 1);
-    return drawing.request(settings, frames[at].camera);
+    return drawing.request(settings, frames[at]);
   });
   Progress progress(draw.quiet ? "off" : draw.progress, "measuring plans", trial.count());
   while (trial.done() < trial.count() && !(interrupted() && trial.done() > 0)) {

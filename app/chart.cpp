@@ -65,7 +65,12 @@ class ChartRun {
     DrawOptions& draw = options_.draw;
     if (!options_.size_given) draw.size = options_.quick ? kQuickSize : kDefaultSize;
     Scene scene = load_scene_for(draw);
-    const std::vector<View> views = motion(camera_for(draw, scene));
+    const std::vector<CameraFrame> frames = motion(scene);
+    std::vector<View> views;
+    for (const CameraFrame& frame : frames) views.push_back({frame.camera, draw.size});
+    // Charted as it stands at one time.
+    scene = value_or_exit(at_time(scene, frames.front().time_s), kBadScene);
+    scene.animation = nullptr;
     make_folder(folder_ / "pictures");
     check_apart(input_files(draw, options_.animation, scene),
                 {{"-o", folder_ / "results.json"}, {"-o", folder_ / "results.csv"}, {"-o", folder_ / "index.html"}});
@@ -77,7 +82,7 @@ class ChartRun {
                     options_.only});
     Results results =
         value_or_exit(Results::open(folder_, run_json(drawing, views), options_.restart), kUsage);
-    Bench bench(drawing.engine(), drawing.request({}), bench_settings(), views, folder_);
+    Bench bench(drawing.engine(), drawing.request({}, {}), bench_settings(), views, folder_);
     measure(drawing.engine(), bench, sweep, results);
     return finish(results);
   }
@@ -91,20 +96,18 @@ class ChartRun {
     return settings;
   }
 
-  [[nodiscard]] std::vector<View> motion(const Camera& camera) {
+  [[nodiscard]] std::vector<CameraFrame> motion(const Scene& scene) {
     if (options_.animation.turntable == 0 && options_.animation.path.empty())
       options_.animation.turntable = kDefaultTurntable;
-    std::vector<CameraFrame> frames = animate(options_.animation, camera);
+    options_.animation.time_s = options_.animation.time_s.value_or(0.0);
+    std::vector<CameraFrame> frames = animate(options_.animation, options_.draw, scene);
     const std::size_t wanted = options_.quick ? kQuickFrames : kFrames;
     if (frames.size() < wanted)
       throw Exit(kUsage, "the camera's motion has " + std::to_string(frames.size()) +
                              " frames, the chart draws " + std::to_string(wanted) +
                              "; give it a longer --turntable, --path or --frames");
     frames.resize(wanted);
-    std::vector<View> views;
-    for (const CameraFrame& frame : frames)
-      views.push_back({frame.camera, options_.draw.size});
-    return views;
+    return frames;
   }
 
   // What a chart's figures depend on beside the configuration.

@@ -46,7 +46,9 @@ Drawing::Drawing(const DrawOptions& options, Scene scene, Exchange usual, bool k
       if (!options.plan_file.empty())
         std::fprintf(stderr, "pinocchio: warning: %s: %s\n", options.plan_file.c_str(), line.c_str());
   if (!options.quiet && !any_settings) advise(with_usual(options.settings, usual));
-  if (any_settings || (settings_.traces() && !options.precise)) tracer_ = Engine::prepare(scene_, settings_, &run_progress());
+  if (scene_.animation)
+    poses_.emplace(scene_, &run_progress());
+  else if (any_settings || (settings_.traces() && !options.precise)) tracer_ = Engine::prepare(scene_, settings_, &run_progress());
 }
 
 void Drawing::advise(Settings automatic) const {
@@ -62,8 +64,16 @@ Expected<Settings> Drawing::resolve(const Settings& wanted) const {
   return pinocchio::resolve(wanted, stats_, {part_.size(), software_gl_, keeps_mask_});
 }
 
-FrameRequest Drawing::request(const Settings& settings, const Camera& camera) const {
-  return {scene_, tracer_, settings, {camera, options_.size, part_}};
+FrameRequest Drawing::request(const Settings& settings, const CameraFrame& frame, const CameraFrame* next) {
+  const View view{frame.camera, options_.size, part_};
+  if (!poses_) return {scene_, tracer_, settings, view};
+  const std::optional<double> next_s = next ? std::optional(next->time_s) : std::nullopt;
+  PoseAhead::Pose pose = value_or_exit(poses_->at(frame.time_s, settings, next_s), kBadScene);
+  return {std::move(pose.scene), std::move(pose.tracer), settings, view};
+}
+
+FrameRequest Drawing::untraced_request(const CameraFrame& frame) const {
+  return {value_or_exit(at_time(scene_, frame.time_s), kBadScene), nullptr, settings_, {frame.camera, options_.size, part_}};
 }
 
 }  // namespace pinocchio::app

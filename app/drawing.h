@@ -1,9 +1,12 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 
+#include "app/animation.h"
 #include "app/options.h"
 #include "hybrid/settings/resolve.h"
+#include "pinocchio/pose_ahead.h"
 
 namespace pinocchio::app {
 
@@ -17,6 +20,7 @@ class Drawing {
   Drawing(const DrawOptions& options, Scene scene, Exchange usual, bool keeps_mask, bool any_settings = false);
 
   [[nodiscard]] Engine& engine() { return engine_; }
+  // As it was loaded.
   [[nodiscard]] const Scene& scene() const { return scene_; }
   [[nodiscard]] const SceneStats& stats() const { return stats_; }
   [[nodiscard]] const Settings& settings() const { return settings_; }
@@ -26,8 +30,11 @@ class Drawing {
 
   // Other settings for the same scene.
   [[nodiscard]] Expected<Settings> resolve(const Settings& wanted) const;
-  [[nodiscard]] FrameRequest request(const Settings& settings, const Camera& camera) const;
-  [[nodiscard]] FrameRequest request(const Camera& camera) const { return request(settings_, camera); }
+  // A frame, its scene as it is then; `next`: the one that follows, whose scene is made meanwhile. Ends the verb with
+  // kBadScene where the scene cannot be posed.
+  [[nodiscard]] FrameRequest request(const Settings& settings, const CameraFrame& frame, const CameraFrame* next = nullptr);
+  // The same by the run's own settings, without what rays are traced in.
+  [[nodiscard]] FrameRequest untraced_request(const CameraFrame& frame) const;
 
  private:
   // Says where --mode auto would be faster than these settings.
@@ -41,7 +48,8 @@ class Drawing {
   Scene scene_;
   SceneStats stats_;
   Settings settings_;
-  std::shared_ptr<const Tracer> tracer_;
+  std::shared_ptr<const Tracer> tracer_;  // of a scene that stands still
+  std::optional<PoseAhead> poses_;        // of one that is animated
 };
 
 }  // namespace pinocchio::app

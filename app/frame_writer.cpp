@@ -58,7 +58,7 @@ void FrameWriter::run() {
     if (error)
       error_ = error;
     else
-      written_.push_back(frame.number);
+      written_.push_back(frame.header.number);
     changed_.notify_all();
   }
 }

@@ -1,10 +1,12 @@
 // info: what a scene holds and needs; with --system, what this machine can do.
 #include <CLI/CLI.hpp>
+#include <cmath>
 #include <cstdio>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <optional>
 
+#include "app/animation.h"
 #include "app/console.h"
 #include "app/errors.h"
 #include "app/options.h"
@@ -16,6 +18,7 @@
 #include "hybrid/settings/explain.h"
 #include "hybrid/settings/json.h"
 #include "hybrid/settings/resolve.h"
+#include "pinocchio/animation.h"
 #include "pinocchio/load.h"
 #include "pinocchio/tracer.h"
 
@@ -40,6 +43,14 @@ nlohmann::json warnings_json(const Warnings& warnings) {
   return json;
 }
 
+nlohmann::json animations_json(const Scene& scene) {
+  nlohmann::json json = nlohmann::json::array();
+  if (scene.animation)
+    for (const Animation::Clip& clip : scene.animation->clips)
+      json.push_back({{"name", clip.name}, {"duration_s", clip.duration_s}});
+  return json;
+}
+
 nlohmann::json scene_json(const Scene& scene, const Warnings& warnings) {
   const SceneStats stats = analyze(scene);
   const Bounds bounds = scene.mesh->bounds();
@@ -55,6 +66,8 @@ nlohmann::json scene_json(const Scene& scene, const Warnings& warnings) {
           {"textures", scene.mesh->textures.size()},
           {"lights", lights},
           {"cameras", cameras},
+          {"animations", animations_json(scene)},
+          {"duration_s", duration_s(scene)},
           {"bounds", {{"lo", vec3_json(bounds.lo)}, {"hi", vec3_json(bounds.hi)}}},
           {"needs",
            {{"lights", stats.lights},
@@ -72,6 +85,11 @@ nlohmann::json scene_json(const Scene& scene, const Warnings& warnings) {
             {"gpu_normals", false}}}};  // no file we read has normals that the CPU does not know
 }
 
+// From time 0 to the end.
+std::size_t frames_of(double duration_s) {
+  return 1 + static_cast<std::size_t>(std::ceil(std::min(duration_s, 1e9) * kUsualFps));
+}
+
 void print_scene(const Scene& scene, const Warnings& warnings) {
   const SceneStats stats = analyze(scene);
   const Bounds b = scene.mesh->bounds();
@@ -85,6 +103,12 @@ void print_scene(const Scene& scene, const Warnings& warnings) {
     std::printf("  light '%s'%s\n", light.name.c_str(), light.casts_shadow ? ", casts shadows" : "");
   for (const Camera& camera : scene.cameras)
     std::printf("  camera '%s', %g degrees\n", camera.name.c_str(), static_cast<double>(camera.fov_deg));
+  if (scene.animation) {
+    for (const Animation::Clip& clip : scene.animation->clips)
+      std::printf("  animation '%s', %g s\n", clip.name.c_str(), clip.duration_s);
+    std::printf("  moves for %g s, %zu frames at %d a second (render --time, --frames)\n", duration_s(scene),
+                frames_of(duration_s(scene)), kUsualFps);
+  }
   if (!warnings.empty()) std::printf("left out\n");
   for (const Warning& warning : warnings) std::printf("  %s\n", warning.message().c_str());
   std::printf("needs\n");

@@ -62,7 +62,7 @@ void draw(Drawing& drawing, const MeasureOptions& options, const std::vector<Cam
     if (interrupted()) break;
     if (run.budget) run.settings = run.budget->settings();
     const double begin_s = now_s();
-    renderer.submit(drawing.request(run.settings, frame.camera));
+    renderer.submit(drawing.request(run.settings, frame, &frame == &frames.back() ? nullptr : &frame + 1));
     if (run.budget) run.budget->note(1e3 * (now_s() - begin_s));
   }
   renderer.drain();
@@ -201,10 +201,9 @@ int measure(MeasureOptions& options) {
   if (options.compare && !options.draw.plan_file.empty())
     throw Exit(kUsage, "--compare: draws by plans of its own; leave out --plan " + options.draw.plan_file);
   Scene scene = load_scene_for(options.draw);
-  const Camera camera = camera_for(options.draw, scene);
   if (options.animation.turntable == 0 && options.animation.path.empty())
     options.animation.turntable = kDefaultFrames;
-  const std::vector<CameraFrame> frames = animate(options.animation, camera);
+  const std::vector<CameraFrame> frames = animate(options.animation, options.draw, scene);
   check_apart(input_files(options.draw, options.animation, scene),
               {{"--stats-json", options.stats_json}, {"--trace", options.trace}});
   for (const std::string& file : {options.stats_json, options.trace})

@@ -121,8 +121,12 @@ std::vector<NamedFile> output_files(const OutputOptions& options, const std::vec
   return files;
 }
 
-ExrOptions exr_options(const OutputOptions& options, int frame_number) {
-  return {.layers = options.aovs, .compression = options.compression, .frame = frame_number};
+ExrOptions exr_options(const OutputOptions& options, const FrameHeader& frame) {
+  return {.layers = options.aovs,
+          .compression = options.compression,
+          .frame = frame.number,
+          .frames_per_second = frame.fps,
+          .time_s = frame.time_s};
 }
 
 bool keeps_mask(const OutputOptions& options) {
@@ -131,12 +135,13 @@ bool keeps_mask(const OutputOptions& options) {
 
 void write_outputs(const OutputOptions& options, const DrawnFrame& frame) {
   if (!options.exr.empty()) {
-    ExrOptions exr = exr_options(options, frame.number);
+    ExrOptions exr = exr_options(options, frame.header);
     if (!options.deterministic) exr.render_s = frame.render_s;
-    write_exr(numbered(options.exr, frame.number), frame.picture, exr);
+    write_exr(numbered(options.exr, frame.header.number), frame.picture, exr);
   }
   if (!options.preview.empty())
-    write_png(numbered(options.preview, frame.number), preview(frame.picture.color, options.exposure_ev, options.tone_map));
+    write_png(numbered(options.preview, frame.header.number),
+              preview(frame.picture.color, options.exposure_ev, options.tone_map));
 }
 
 }  // namespace pinocchio::app

@@ -29,12 +29,19 @@ struct OutputOptions {
   bool skip_existing = false;
 };
 
+// Which frame of an animation it is, and when.
+struct FrameHeader {
+  int number = 0;
+  int fps = 24;
+  double time_s = 0.0;
+};
+
 // What the frame's EXR is written by, but for the time that it took.
-[[nodiscard]] ExrOptions exr_options(const OutputOptions& options, int frame_number);
+[[nodiscard]] ExrOptions exr_options(const OutputOptions& options, const FrameHeader& frame);
 
 // A frame on its way to its files.
 struct DrawnFrame {
-  int number = 0;
+  FrameHeader header;
   FrameResult picture;
   double render_s = 0.0;
 };

@@ -43,7 +43,7 @@ FrameResult precise(const FrameRequest& request, Workers& workers) {
   mean.settings = request.settings;
   const int spp = request.settings.spp;
   for (int k = 0; k < spp; ++k) {
-    const View view = at_sample(request.view, k);
+    const View view = at_sample(request.view, k, request.settings.pixel_filter);
     ReferencePicture sample = reference_render(request.scene, view, request.settings.depth, workers, &run_progress(),
                                                request.settings.filter_textures);
     if (k == 0) {
@@ -68,8 +68,7 @@ class RenderRun {
   int run() {
     const double begin_s = now_s();
     Scene scene = load_scene_for(options_.draw);
-    const Camera camera = camera_for(options_.draw, scene);
-    frames_ = animate(options_.animation, camera);
+    frames_ = animate(options_.animation, options_.draw, scene);
     check(scene);
     Drawing drawing(options_.draw, std::move(scene),
                     frames_.size() > 1 ? Exchange::pipelined : Exchange::sync, keeps_mask(options_.output));
@@ -109,11 +108,15 @@ class RenderRun {
     if (!options_.stats_json.empty()) check_writable(options_.stats_json);
   }
 
+  [[nodiscard]] FrameHeader header_of(const CameraFrame& frame) const {
+    return {frame.number, options_.animation.fps, frame.time_s};
+  }
+
   void leave_out_existing(const Drawing& drawing) {
     if (!options_.output.skip_existing) return;
     std::erase_if(frames_, [&](const CameraFrame& frame) {
       throw_if_cancelled(&run_progress());
-      const bool drawn = is_drawn_already(options_.output, drawing.request(frame.camera), frame.number);
+      const bool drawn = is_drawn_already(options_.output, drawing.untraced_request(frame), header_of(frame));
       skipped_ += drawn;
       return drawn;
     });
@@ -140,15 +143,15 @@ class RenderRun {
 
   template <class Take>
   void draw_frames(Drawing& drawing, Take take) {
-    SampleMean mean(drawing.settings().spp, take);
+    SampleMean mean(drawing.settings(), take);
     Renderer renderer(drawing.engine(), {[&](Frame& frame) { mean.add(frame); },
                                          [&](const FrameRecord& record) { records_.push_back(record); }},
                       &run_progress());
     for (const CameraFrame& frame : frames_) {
       begun_s_.push_back(now_s());
       delivering_s_ = 0.0;
-      submit_samples(renderer,
-                     drawing.request(budget_ ? budget_->settings() : drawing.settings(), frame.camera));
+      const CameraFrame* const next = &frame == &frames_.back() ? nullptr : &frame + 1;
+      submit_samples(renderer, drawing.request(budget_ ? budget_->settings() : drawing.settings(), frame, next), &mean);
       if (budget_) budget_->note(1e3 * (now_s() - begun_s_.back() - delivering_s_));
     }
     renderer.drain();
@@ -162,7 +165,7 @@ class RenderRun {
       record.number = records_.size();
       begun_s_.push_back(now_s());
       record[Stage::composite].begin_s = record.frame.begin_s = begun_s_.back();
-      FrameResult mean = precise(drawing.request(frame.camera), drawing.workers());
+      FrameResult mean = precise(drawing.untraced_request(frame), drawing.workers());
       record[Stage::composite].end_s = record.frame.end_s = now_s();
       take(std::move(mean));
       records_.push_back(record);
@@ -171,9 +174,9 @@ class RenderRun {
 
   void deliver(Drawing& drawing, FrameWriter& writer, FrameResult&& picture) {
     const double begin_s = now_s(), render_s = begin_s - begun_s_[delivered_];
-    const int number = frames_[delivered_++].number;
+    const FrameHeader header = header_of(frames_[delivered_++]);
     holes_ += picture.holes;
-    writer.write({number, std::move(picture), render_s});
+    writer.write({header, std::move(picture), render_s});
     drawing.engine().throw_gl_complaints();
     delivering_s_ += now_s() - begin_s;
   }

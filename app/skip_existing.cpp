@@ -47,8 +47,8 @@ bool same_header(const ExrFile& file, const ExrFile& wanted) {
 
 }  // namespace
 
-bool is_drawn_already(const OutputOptions& options, const FrameRequest& request, int frame) {
-  const fs::path exr = numbered(options.exr, frame), png = numbered(options.preview, frame);
+bool is_drawn_already(const OutputOptions& options, const FrameRequest& request, const FrameHeader& frame) {
+  const fs::path exr = numbered(options.exr, frame.number), png = numbered(options.preview, frame.number);
   if (!options.preview.empty() && !is_newer(png, request.scene)) return false;
   if (!is_newer(exr, request.scene)) return false;
   const Expected<ExrFile> file = read_exr(exr);

@@ -1,5 +1,6 @@
 #include "pinocchio/engine.h"
 
+#include <algorithm>
 #include <cstdlib>
 #include <utility>
 
@@ -58,9 +59,14 @@ Workers& Engine::Parts::workers(int threads) {
 }
 
 std::shared_ptr<const GpuMesh> Engine::Parts::gpu_mesh(const std::shared_ptr<const Mesh>& mesh) {
+  const auto same_textures = [&](const auto& entry) {
+    return !mesh->textures.empty() && entry.first->textures.shares_with(mesh->textures);
+  };
+  const auto alike = std::ranges::find_if(meshes, same_textures);  // another pose of one scene
+  const std::shared_ptr<const GpuMesh> kept = alike == meshes.end() ? nullptr : alike->second;
   std::erase_if(meshes, [&](const auto& entry) { return entry.first != mesh && entry.first.use_count() == 1; });
   std::shared_ptr<const GpuMesh>& found = meshes[mesh];
-  if (!found) found = std::make_shared<const GpuMesh>(*mesh);
+  if (!found) found = std::make_shared<const GpuMesh>(*mesh, kept.get());
   return found;
 }
 
@@ -116,9 +122,9 @@ Expected<FrameResult> Engine::render(const Scene& scene, const View& view, const
   const std::shared_ptr<const Tracer> tracer = parts_->tracer_of(scene, *resolved, progress);
   begin_phase(progress, "render", resolved->spp);
   FrameResult result;
-  SampleMean mean(resolved->spp, [&](FrameResult&& picture) { result = std::move(picture); });
+  SampleMean mean(*resolved, [&](FrameResult&& picture) { result = std::move(picture); });
   Renderer renderer(*this, {[&](Frame& frame) { mean.add(frame); }, {}}, progress);
-  submit_samples(renderer, {scene, tracer, *resolved, view});
+  submit_samples(renderer, {scene, tracer, *resolved, view}, &mean);
   renderer.drain();
   return result;
 }

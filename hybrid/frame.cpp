@@ -142,7 +142,8 @@ FrameOutput output_of(const FrameResult& frame, const ExrOptions& options,
                       std::function<SurfaceImages(int y0, int y1)> surfaces) {
   return {frame.view.size, frame.view.box(), frame.scene,      frame.view.camera,   frame.color, frame.ids,
           frame.mask,      frame.reflection, std::move(surfaces), to_json(frame.settings, false).dump(),
-          options.render_s, frame.settings.spp, options.frame, options.frames_per_second, frame.record.age_frames};
+          options.render_s, frame.settings.spp, options.frame, options.frames_per_second,
+          options.time_s, frame.record.age_frames};
 }
 
 ExrFile header_of(const FrameOutput& output, const AovSet& layers, const ExrOptions& options) {

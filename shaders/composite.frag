@@ -6,6 +6,8 @@
 //   FREE_LIGHTS_ONLY  lights that cast are left out: the CPU adds them (design 2)
 //   HAS_REFLECTION    the CPU's mirrored and refracted light; traced_light.glsl has its formats
 //   HAS_MAPS          some material has maps
+//   HAS_SIZED_LIGHTS  some light has a size: the picture is lit by the points of them that the CPU's shadow rays
+//                     of the same sample went to
 //   REPROJECT         mask and reflection are of an older frame, whose view and ids are given: each pixel
 //                     looks up where its point was seen then. Where that frame saw another triangle there,
 //                     nor one of the neighbours does, the pixel is a hole: every light reaches it, and it
@@ -15,6 +17,10 @@
 #include "shared/view.glsl"
 #include "shared/surface.glsl"
 #include "shared/phong.glsl"
+#ifdef HAS_SIZED_LIGHTS
+#include "shared/sampling.glsl"
+#include "shared/sized_light.glsl"
+#endif
 #include "scene_fetch.glsl"
 #include "map_fetch.glsl"
 #include "pixel_surface.glsl"
@@ -26,6 +32,20 @@ uniform int light_count;
 out vec4 color;
 
 const float kLargestHalf = 65504.0;
+
+#ifdef HAS_SIZED_LIGHTS
+uniform int sequence;
+uniform uint sample_index;  // of the frame that the mask is of
+uniform uint sample_seed;
+
+Incident light_at(int i, vec3 p_world, ivec2 pixel) {
+  LightParams light = fetch_light(i);
+  Sampling sampling = Sampling(sequence, sample_index, sample_seed);
+  return sampled_light(light, p_world, sample_2d(sampling, uvec2(ivec2(first) + pixel), kLightDimension + uint(i)));
+}
+#else
+Incident light_at(int i, vec3 p_world, ivec2 pixel) { return incident_light(fetch_light(i), p_world); }
+#endif
 
 float share_of_light(Reach reach, int slot) {
 #ifdef FREE_LIGHTS_ONLY
@@ -47,7 +67,7 @@ void main() {
   for (int i = 0; i < light_count; ++i) {
     float share = share_of_light(reach, fetch_mask_slot(i));
     if (share == 0.0) continue;
-    Incident incident = incident_light(fetch_light(i), s.p_world);
+    Incident incident = light_at(i, s.p_world, source.pixel);
     if (!faces_light(s.n.shading, s.n.geometric, incident.to_light)) continue;
     sum += share * phong_light(s.material, incident, s.n.shading, s.to_viewer);
   }

@@ -31,6 +31,9 @@ enum class Action {
   previous_file,
   cancel_loading,
   full_screen,
+  play,  // or pause
+  frame_back,
+  frame_on,
   close,  // or leave what is open: a popup, help, full screen
 };
 

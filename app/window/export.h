@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -20,6 +21,7 @@ struct ExportedView {
   int samples = 1;
   float exposure_ev = 0.0f;
   ToneMap tone_map = ToneMap::clip;
+  std::optional<double> time_s{};  // of the scene's animation
 };
 
 // The command line that draws it: name.exr and name.png. Numbers are exact.

@@ -27,6 +27,12 @@ struct TimelineView {
   std::vector<FrameRecord> records;  // those there were when it was paused
 };
 
+// Where an animated scene's time is.
+struct Playback {
+  bool playing = false;
+  double time_s = 0.0;
+};
+
 // The folder that the panel Files shows.
 struct FileList {
   std::filesystem::path folder;  // empty: the scene's
@@ -55,6 +61,7 @@ struct Model {
   Settings drawn;                        // resolved: by which frames are drawn now
   History history;
   TimelineView timeline;
+  Playback playback;
   int samples = 0;      // gathered by the still camera
   bool asleep = false;  // the picture is done: nothing is drawn until something changes
 

@@ -132,6 +132,7 @@ void draw_overlay(Model& model, float scale) {
     draw_divider(model, scale);
     draw_caption(model, scale);
     draw_status_line(model, scale);
+    draw_playback(model, scale);
     for (std::size_t i = 0; i < kPanels.size(); ++i)
       if (const auto panel = static_cast<Panel>(i); model.panels[panel])
         draw_panel(panel, model, scale);

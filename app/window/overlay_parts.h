@@ -30,6 +30,8 @@ void draw_status_line(Model& model, float scale);
 [[nodiscard]] float status_height(float scale);
 // What there is to say, above the status line.
 void draw_messages(Model& model, float scale);
+// Of an animated scene: play, pause, where its time is; above the status line.
+void draw_playback(Model& model, float scale);
 void draw_loading(Model& model, float scale);
 // What the picture's colours mean, at the window's upper edge.
 void draw_caption(Model& model, float scale);

@@ -79,8 +79,9 @@ void Session::run() {
 }
 
 void Session::fly_on() {
-  const double turn_s = now_s();
-  navigation_.advance(static_cast<float>(std::min(turn_s - last_turn_s_, kLongestStep_s)));
+  const double turn_s = now_s(), step_s = std::min(turn_s - last_turn_s_, kLongestStep_s);
+  navigation_.advance(static_cast<float>(step_s));
+  play_on(step_s);
   last_turn_s_ = turn_s;
 }
 
@@ -93,6 +94,7 @@ double Session::patience_s() const {
   if (!model_.loading.phase.empty()) return kLoading_s;
   if (!model_.has_scene()) return kAsleep_s;
   if (!idle_) return renderer_.is_tracing() ? kTracing_s : 0.0;
+  if (posing()) return kTracing_s;
   return comparison_ && !comparison_->done() ? kLoading_s : kAsleep_s;
 }
 
@@ -170,7 +172,7 @@ void Session::take_key(const gl::KeyEvent& event) {
 
 // While something is held, it is not done yet.
 void Session::note_edits() {
-  if (!model_.has_scene() || navigation_.dragging() || navigation_.flying() || gui_.is_active()) return;
+  if (!model_.has_scene() || model_.playback.playing || navigation_.dragging() || navigation_.flying() || gui_.is_active()) return;
   edits_.note(edit_state(), now_s());
 }
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <future>
 #include <memory>
 #include <optional>
 
@@ -14,6 +15,7 @@
 #include "app/window/preferences.h"
 #include "hybrid/gpu/present_pass.h"
 #include "hybrid/inspect/accumulator.h"
+#include "pinocchio/pose_ahead.h"
 #include "pinocchio/renderer.h"
 
 namespace pinocchio::app {
@@ -30,7 +32,7 @@ struct ViewOptions {
 };
 
 // A scene in a window, from opening to closing: session.cpp takes events, session_scene.cpp scenes and changes
-// of settings, session_draw.cpp draws, session_actions.cpp does what keys and buttons ask.
+// of settings, session_playback.cpp moves animated ones, session_draw.cpp draws, session_actions.cpp does what keys and buttons ask.
 class Session {
  public:
   Session(gl::Window& window, const ViewOptions& options);
@@ -71,6 +73,13 @@ class Session {
   [[nodiscard]] bool try_settings(const ViewSettings& settings);
   void want_tree(const Settings& settings);
   void keep_budget(const Settings& exact);
+
+  // session_playback.cpp
+  void play_on(double turn_s);
+  void take_pose();
+  void want_pose();
+  void step_time(int frames);
+  [[nodiscard]] bool posing() const { return pose_.valid(); }
 
   // session_draw.cpp
   void draw();
@@ -152,6 +161,10 @@ class Session {
   int redraws_ = 3;                    // of the overlay that are due: it settles in as many
   double redrawn_s_ = 0.0;
   std::optional<Settings> tree_of_;    // by which the scene's tree was built, or is being built
+  std::future<Expected<PoseAhead::Pose>> pose_;  // that is being made
+  Scene posed_from_;                   // of what
+  double pose_s_ = 0.0;                // its time
+  std::optional<double> posed_s_;      // of the scene that is shown; nothing: it is to be posed
   Camera first_camera_;
   ViewSettings applied_;
   std::vector<Light> applied_lights_;

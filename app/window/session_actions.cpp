@@ -64,6 +64,14 @@ void Session::perform(Action action) {
         return cancel_loading();
       case Action::full_screen:
         return window_.set_full_screen(!window_.full_screen());
+      case Action::play:
+        if (!model_.scene.animation) return model_.messages.hint("the scene has no animation");
+        model_.playback.playing = !model_.playback.playing;
+        return;
+      case Action::frame_back:
+        return step_time(-1);
+      case Action::frame_on:
+        return step_time(1);
       case Action::close:
         return close_something();
     }
@@ -202,7 +210,7 @@ void Session::write_frame_exr(const std::string& file) {
   renderer.submit(one);
   renderer.drain();
   take_gathered(picture);
-  write_exr(file, picture, {.render_s = now_s() - begin_s});
+  write_exr(file, picture, {.render_s = now_s() - begin_s, .time_s = posed_s_});
 }
 
 // The layers are of one sample, the picture of all that were gathered.
@@ -252,7 +260,7 @@ void Session::record(const Frame& frame) {
   if (!records_exr_) return;
   FrameResult picture = frame.read();
   take_gathered(picture);
-  write_exr(name + ".exr", picture, {.frame = recorded_});
+  write_exr(name + ".exr", picture, {.frame = recorded_, .time_s = posed_s_});
 }
 
 void Session::save_camera() {
@@ -270,7 +278,9 @@ void Session::save_gltf() {
   Camera camera = model_.camera.camera();
   camera.name = "window";
   scene.cameras.insert(scene.cameras.begin(), camera);  // the one that is opened first
-  save_scene(scene, file);
+  Warnings warnings;
+  save_scene(scene, file, nullptr, &warnings);
+  for (const Warning& warning : warnings) model_.messages.warning(warning.message());
   model_.messages.news(file + " written");
 }
 
@@ -291,7 +301,8 @@ void Session::print_command() {
   const std::string command = render_command(
       {file, settings, model_.camera.camera(),
        scene_edited_ ? std::vector<Light>() : extra_lights(model_.scene.lights, options_.draw),
-       picture_size(), gathers() ? std::max(model_.samples, 1) : 1, applied_.exposure_ev, applied_.tone_map},
+       picture_size(), gathers() ? std::max(model_.samples, 1) : 1, applied_.exposure_ev, applied_.tone_map,
+       model_.scene.animation && !scene_edited_ ? posed_s_ : std::nullopt},
       name);
   std::printf("%s\n", command.c_str());
   std::fflush(stdout);

@@ -47,7 +47,7 @@ FrameRequest Session::request() const {
 FrameRequest Session::next_request() {
   FrameRequest next = request();
   if (!asked_ || !same_view(*asked_, next)) sample_ = 0;
-  if (gathers()) next.view = at_sample(next.view, std::min(sample_, most_samples() - 1));
+  if (gathers()) next.view = at_sample(next.view, std::min(sample_, most_samples() - 1), next.settings.pixel_filter);
   return next;
 }
 

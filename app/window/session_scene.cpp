@@ -17,7 +17,7 @@ void Session::open(const std::string& file) {
   // What the command line said of camera and lights was about another scene.
   draw.camera.clear();
   draw.eye = draw.target = draw.up = std::nullopt;
-  draw.fov_deg = std::nullopt;
+  draw.fov_deg = draw.lens_radius = draw.focus = std::nullopt;
   draw.lights.clear();
   load(draw);
 }
@@ -82,6 +82,8 @@ void Session::take_scene(SceneLoader::News& news) {
     scene_watch_.emplace(scene.source_files);
   }
   model_.scene = std::move(*news.scene);
+  if (!again) model_.playback = {};
+  posed_s_.reset();
   edits_.begin(edit_state());
 }
 
@@ -161,6 +163,7 @@ void Session::want_tree(const Settings& given) {
   if (!settings.traces() || !loader_.progress().phase.empty()) return;
   if (tree_of_ && same_tracer(*tree_of_, settings)) return;
   tree_of_ = settings;
+  if (model_.scene.animation) return posed_s_.reset();  // each pose has its own
   loader_.build_tree(model_.scene, settings);
 }
 

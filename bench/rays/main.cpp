@@ -5,6 +5,7 @@
 #include <exception>
 #include <utility>
 
+#include "bench/rays/animated_frames.h"
 #include "bench/rays/embree_side.h"
 #include "bench/rays/our_side.h"
 #include "bench/rays/report.h"
@@ -25,7 +26,7 @@ struct Options {
   std::string tree = "sah", test{triangle_test_name(BuildOptions{}.triangle_test)};
   int triangles = 0, repeat = 7, build_repeat = 3, threads = 0;
   bool mirror_all = false, robust = false, no_pass = false, no_speeds = false, frame = false,
-       known_eye = false;
+       known_eye = false, animation = false;
 };
 
 void add_options(CLI::App& program, Options& o) {
@@ -54,6 +55,8 @@ void add_options(CLI::App& program, Options& o) {
   program.add_flag("--no-pass", o.no_pass, "leave out the whole shadow pass");
   program.add_flag("--no-speeds", o.no_speeds, "leave out the speeds by kind of ray");
   program.add_flag("--frame", o.frame, "add whole frames, with the materials as they are (or --mirror-all)");
+  program.add_flag("--animation", o.animation,
+                   "instead: frames of an animated scene, their trees built anew, with each rule (a still scene is turned)");
   program.add_option("--json", o.json, "write everything to this file");
 }
 
@@ -106,6 +109,10 @@ BuildOptions build_options(const Options& o, const Scene& scene) {
 void run(const Options& o) {
   if (!o.json.empty()) check_writable(o.json);
   Scene scene = scene_of(o);
+  if (o.animation) {
+    const int frames = std::max(4 * o.repeat, 8);
+    return print(measure_animated_frames(scene, build_options(o, scene), kSize, Workers(o.threads).count(), frames));
+  }
   Report report;
   report.scene = o.generate.empty() ? o.scene : o.generate;
   report.triangles = scene.mesh->triangles.size();

@@ -31,6 +31,7 @@ struct FrameOutput {
   int samples_per_pixel = 1;
   int frame = 0;  // of the animation
   int frames_per_second = 24;
+  std::optional<double> time_s{};  // of the animation; else frame / frames_per_second
   int age_frames = 0;  // reprojected: how much older the mask and reflection are that the picture shows
 };
 

@@ -39,8 +39,10 @@ class ReferenceTracer {
     double width, angle;
   };
   [[nodiscard]] static Cone cone_after(const ReferenceRay& ray, const ReferenceHit& hit);
-  [[nodiscard]] glm::dvec3 bounced(const ReferenceSurface& surface, int depth, const Cone& cone) const;
-  [[nodiscard]] glm::dvec3 seen(const ReferenceRay& ray, int depth) const;
+  // A glossy surface's mirrored rays are lobe_side squared; fewer for those that they meet.
+  static constexpr int kLobeSide = 16;
+  [[nodiscard]] glm::dvec3 bounced(const ReferenceSurface& surface, int depth, const Cone& cone, int lobe_side) const;
+  [[nodiscard]] glm::dvec3 seen(const ReferenceRay& ray, int depth, int lobe_side) const;
 
   [[nodiscard]] ReferenceHit closest_hit(const ReferenceRay& ray) const;
   [[nodiscard]] double unblocked(const ReferenceRay& ray) const;

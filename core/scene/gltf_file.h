@@ -73,10 +73,12 @@ void add_gltf_materials(const GltfFile& file, MeshData& mesh);
 // warning and leaves what the material has without it.
 void add_gltf_textures(const GltfFile& file, MeshData& mesh, Loading& loading);
 
+class DeformationReader;
+
 // Appends the triangles of a mesh, placed by `world_from_mesh`, and to `rest` its vertices as they were.
-// Materials are the file's indices; -1 becomes `default_material`.
+// Materials are the file's indices; -1 becomes `default_material`. `deformation`: null where nothing deforms it.
 [[nodiscard]] Expected<void> add_gltf_mesh(const GltfFile& file, int mesh, const glm::mat4& world_from_mesh,
                                            std::uint32_t default_material, MeshData& to, RestPose& rest,
-                                           Warnings& warnings);
+                                           DeformationReader* deformation, Warnings& warnings);
 
 }  // namespace pinocchio

@@ -2,7 +2,7 @@
 #include <map>
 #include <numeric>
 
-#include "core/scene/gltf_file.h"
+#include "core/scene/gltf_deformation.h"
 
 namespace pinocchio {
 namespace {
@@ -10,6 +10,7 @@ namespace {
 // Accessors of a primitive's attributes; -1: it has none.
 struct Attributes {
   int position = -1, normal = -1, texcoord = -1, texcoord1 = -1, color = -1, tangent = -1;
+  std::vector<int> deforming{};
   auto operator<=>(const Attributes&) const = default;
 };
 
@@ -44,14 +45,16 @@ std::size_t elements_of(const GltfFile& file, const tinygltf::Primitive& primiti
 
 class MeshPlacer {
  public:
-  MeshPlacer(const GltfFile& file, const glm::mat4& world_from_mesh, MeshData& mesh, RestPose& rest)
-      : file_(file), placement_(world_from_mesh), mesh_(mesh), rest_(rest) {}
+  MeshPlacer(const GltfFile& file, const glm::mat4& world_from_mesh, MeshData& mesh, RestPose& rest,
+             DeformationReader* deformation)
+      : file_(file), placement_(world_from_mesh), mesh_(mesh), rest_(rest), deformation_(deformation) {}
 
   Expected<void> add(const tinygltf::Primitive& primitive, std::uint32_t default_material) {
     const Expected<std::uint32_t> first =
         vertices({attribute(primitive, "POSITION"), attribute(primitive, "NORMAL"),
                   attribute(primitive, "TEXCOORD_0"), attribute(primitive, "TEXCOORD_1"),
-                  attribute(primitive, "COLOR_0"), attribute(primitive, "TANGENT")});
+                  attribute(primitive, "COLOR_0"), attribute(primitive, "TANGENT"),
+                  deformation_ ? deforming_accessors(primitive) : std::vector<int>()}, primitive);
     if (!first) return Unexpected(first.error());
     const std::size_t vertex_count = counts_[*first];
     std::vector<std::uint32_t> indices(vertex_count);
@@ -85,7 +88,7 @@ class MeshPlacer {
 
  private:
   // First of the scene's vertices made of these accessors; primitives that share them share the vertices.
-  Expected<std::uint32_t> vertices(const Attributes& attributes) {
+  Expected<std::uint32_t> vertices(const Attributes& attributes, const tinygltf::Primitive& primitive) {
     const auto [at, is_new] =
         placed_.try_emplace(attributes, static_cast<std::uint32_t>(mesh_.positions.size()));
     if (!is_new) return at->second;
@@ -115,6 +118,9 @@ class MeshPlacer {
       mesh_.normals.push_back(placement_.normal(rest_.normals.back()));
       mesh_.texcoords.emplace_back(t[0], t[1]);
     }
+    if (deformation_)
+      if (const Expected<void> added = deformation_->add(primitive, at->second, count); !added)
+        return Unexpected(added.error());
     counts_[at->second] = count;
     return at->second;
   }
@@ -148,6 +154,7 @@ class MeshPlacer {
   Placement placement_;
   MeshData& mesh_;
   RestPose& rest_;
+  DeformationReader* deformation_;  // null: nothing deforms it
   std::map<Attributes, std::uint32_t> placed_;
   std::map<std::uint32_t, std::size_t> counts_;  // of vertices, by the first of them
 };
@@ -156,11 +163,11 @@ class MeshPlacer {
 
 Expected<void> add_gltf_mesh(const GltfFile& file, int mesh, const glm::mat4& world_from_mesh,
                              std::uint32_t default_material, MeshData& to, RestPose& rest,
-                             Warnings& warnings) {
+                             DeformationReader* deformation, Warnings& warnings) {
   if (mesh < 0 || static_cast<std::size_t>(mesh) >= file.model.meshes.size())
     return file.error("a node names mesh " + std::to_string(mesh) + ", there are " +
                       std::to_string(file.model.meshes.size()));
-  MeshPlacer placer(file, world_from_mesh, to, rest);
+  MeshPlacer placer(file, world_from_mesh, to, rest, deformation);
   for (const tinygltf::Primitive& primitive : file.model.meshes[static_cast<std::size_t>(mesh)].primitives) {
     if (primitive.mode >= TINYGLTF_MODE_POINTS && primitive.mode <= TINYGLTF_MODE_LINE_STRIP) {
       const bool points = primitive.mode == TINYGLTF_MODE_POINTS;

@@ -1,33 +1,37 @@
 #include <algorithm>
 #include <cmath>
-#include <glm/gtc/quaternion.hpp>
+#include <map>
 #include <glm/gtc/type_ptr.hpp>
 
 #include "core/math/finite.h"
-#include "core/scene/gltf_file.h"
+#include "core/scene/gltf_deformation.h"
 #include "core/scene/loaders.h"
+#include "core/scene/pose.h"
 
 namespace pinocchio {
 namespace {
 
 glm::mat4 matrix_of(const tinygltf::Node& node) {
   if (node.matrix.size() == 16) return glm::mat4(glm::make_mat4(node.matrix.data()));
-  glm::mat4 m(1.0f);
-  if (node.translation.size() == 3)
-    m[3] = glm::vec4(glm::vec3(glm::make_vec3(node.translation.data())), 1.0f);
-  if (node.rotation.size() == 4) {
-    const std::vector<double>& r = node.rotation;
-    m *= glm::mat4(glm::mat4_cast(glm::normalize(glm::dquat(r[3], r[0], r[1], r[2]))));
-  }
-  if (node.scale.size() == 3)
-    for (int i = 0; i < 3; ++i) m[i] *= static_cast<float>(node.scale[static_cast<std::size_t>(i)]);
-  return m;
+  return gltf_motion(node).matrix();
 }
 
 glm::vec3 direction_of(const glm::mat4& world, const glm::vec3& local) {
   const glm::vec3 d(world * glm::vec4(local, 0.0f));
   const float length = glm::length(d);
   return length > 0.0f ? d / length : local;
+}
+
+std::optional<float> size_member(const tinygltf::Value* extras, const char* key) {
+  const std::optional<float> size = number_member(extras, key);
+  return size && *size >= 0.0f && std::isfinite(*size) ? size : std::nullopt;
+}
+
+// Its sides lie along the node's x and y, it faces -z.
+void make_rectangle(const glm::vec2& sides, const glm::mat4& world, Light& light) {
+  light.kind = Light::Kind::rectangle;
+  light.edge_u = glm::vec3(world * glm::vec4(sides.x, 0.0f, 0.0f, 0.0f));
+  light.edge_v = glm::vec3(world * glm::vec4(0.0f, sides.y, 0.0f, 0.0f));
 }
 
 Light light_of(const tinygltf::Light& l, const tinygltf::Node& node, const glm::mat4& world) {
@@ -49,6 +53,9 @@ Light light_of(const tinygltf::Light& l, const tinygltf::Node& node, const glm::
   }
   for (const tinygltf::Value* extras : {our_extras(l.extras), our_extras(node.extras)}) {
     light.casts_shadow = bool_member(extras, "castsShadow").value_or(light.casts_shadow);
+    light.radius = size_member(extras, "radius").value_or(light.radius);
+    light.angle_deg = std::min(size_member(extras, "angle").value_or(light.angle_deg), 180.0f);
+    if (const std::optional<glm::vec2> sides = vec2_member(extras, "rectangle")) make_rectangle(*sides, world, light);
     const tinygltf::Value* falloff = extras ? member(*extras, "falloff") : nullptr;
     if (falloff && falloff->IsString() && falloff->Get<std::string>() == "none")
       light.falloff = Light::Falloff::none;
@@ -68,11 +75,17 @@ Camera camera_of(const tinygltf::Camera& c, const tinygltf::Node& node, const gl
   const std::optional<glm::vec3> up = vec3_member(our_extras(node.extras), "up");
   if (up && *up != glm::vec3(0.0f)) camera.up = *up;
   camera.fov_deg = static_cast<float>(glm::degrees(c.perspective.yfov));
+  camera.lens_radius = size_member(our_extras(node.extras), "lensRadius").value_or(0.0f);
+  camera.focus_distance = size_member(our_extras(node.extras), "focusDistance").value_or(0.0f);
   return camera;
 }
 
 // As the node sees it.
-Light at_rest(const glm::mat4& /*world*/, Light light) {
+Light at_rest(const glm::mat4& world, Light light) {
+  const Placement to_node(glm::inverse(world));
+  const glm::vec3 origin = to_node.position(glm::vec3(0.0f));
+  light.edge_u = to_node.position(light.edge_u) - origin;
+  light.edge_v = to_node.position(light.edge_v) - origin;
   light.position = glm::vec3(0.0f);
   light.direction = {0, 0, -1};
   return light;
@@ -91,7 +104,7 @@ bool can_look(const Camera& camera) {
 }
 
 bool can_shine(const Light& light) {
-  return is_finite(light.position) && is_finite(light.direction) && is_finite(light.intensity * light.color);
+  return is_finite(light.position) && is_finite(light.direction) && is_finite(light.edge_u) && is_finite(light.edge_v) && is_finite(light.intensity * light.color);
 }
 
 // Texture coordinates and tangents that no map asks for.
@@ -138,6 +151,7 @@ class SceneReader {
       seen[index] = true;
       const tinygltf::Node& node = model_.nodes[index];
       const glm::mat4 local = matrix_of(node), world = at.world_from_parent * local;
+      place_of_node_[index] = static_cast<int>(tree_.nodes.size());
       begin(node, at.parent, local);
       if (const Expected<void> added = add(node, world); !added) return Unexpected(added.error());
       end(world);
@@ -146,8 +160,11 @@ class SceneReader {
         open.push_back({*child, place, world});
     }
     finish();
+    if (const Expected<void> skinned = add_skins(); !skinned) return Unexpected(skinned.error());
     scene_.mesh = std::make_shared<const Mesh>(std::move(mesh_));
-    tree_.rest = std::make_shared<const RestPose>(std::move(rest_));
+    Expected<std::shared_ptr<const Animation>> animation = gltf_animation(file_, tree_, place_of_node_, loading_.warnings);
+    if (!animation) return Unexpected(animation.error());
+    scene_.animation = std::move(*animation);
     scene_.nodes = std::make_shared<const NodeTree>(std::move(tree_));
     return std::move(scene_);
   }
@@ -200,13 +217,19 @@ class SceneReader {
       const auto default_material = static_cast<std::uint32_t>(mesh_.materials.size() - 1);
       Expected<std::vector<glm::mat4>> instances = instances_of(node);
       if (!instances) return Unexpected(instances.error());
+      if (node.skin >= static_cast<int>(model_.skins.size()))
+        return file_.error("a node names skin " + std::to_string(node.skin) + ", there are " +
+                           std::to_string(model_.skins.size()));
+      DeformationReader deformation(file_, node, tree_.nodes.back().first_vertex, loading_.warnings);
       for (const glm::mat4& instance : *instances) {
         const std::size_t first = mesh_.positions.size();
-        const Expected<void> added =
-            add_gltf_mesh(file_, node.mesh, world * instance, default_material, mesh_, rest_, loading_.warnings);
+        const Expected<void> added = add_gltf_mesh(file_, node.mesh, world * instance, default_material, mesh_, rest_,
+                                                   deformation.needed() ? &deformation : nullptr, loading_.warnings);
         if (!added) return added;
+        deformation.place(instance, static_cast<std::uint32_t>(first), std::span(rest_.normals).subspan(first));
         place_rest(Placement(instance), first);
       }
+      if (deformation.needed()) add_deformation(node, deformation);
     }
     if (node.camera >= 0 && static_cast<std::size_t>(node.camera) < model_.cameras.size()) {
       const tinygltf::Camera& camera = model_.cameras[static_cast<std::size_t>(node.camera)];
@@ -232,6 +255,48 @@ class SceneReader {
       } else {
         warn("light '" + ours.name + "'", "is not of finite numbers and left out", "its light is missing");
       }
+    }
+    return {};
+  }
+
+  // Its weights are the file's; what they and its skin make of the mesh is done when all nodes are known.
+  void add_deformation(const tinygltf::Node& node, DeformationReader& reader) {
+    rest_.deformations.push_back(reader.take());
+    rest_.deformations.back().node = static_cast<int>(tree_.nodes.size()) - 1;
+    rest_.deformations.back().skin = reader.skinned() ? node.skin : -1;  // the file's yet
+    tree_.weights.push_back(reader.weights());
+  }
+
+  // Gives deformations the skins that they use, and places what they make.
+  Expected<void> add_skins() {
+    std::map<int, int> skins;  // by the file's
+    for (Deformation& deformation : rest_.deformations) {
+      if (deformation.skin < 0) continue;
+      const auto [at, is_new] = skins.try_emplace(deformation.skin, -1);
+      if (is_new) {
+        Expected<std::optional<Skin>> skin = gltf_skin(file_, at->first, place_of_node_);
+        if (!skin) return Unexpected(skin.error());
+        if (*skin) {
+          at->second = static_cast<int>(rest_.skins.size());
+          rest_.skins.push_back(std::move(**skin));
+        } else {
+          warn("skin " + std::to_string(at->first), "skins of joints that are not in the scene are left out",
+               "what they cover stays as its node has it");
+        }
+      }
+      deformation.skin = at->second;
+    }
+    tree_.rest = std::make_shared<const RestPose>(std::move(rest_));
+    const std::vector<glm::mat4> world = world_matrices(tree_.nodes);
+    for (std::size_t d = 0; d < tree_.weights.size(); ++d) {
+      const Deformation& deformation = tree_.rest->deformations[d];
+      const bool weighs = std::ranges::any_of(tree_.weights[d], [](float w) { return w != 0.0f; });
+      if (deformation.skin < 0 && !weighs) continue;  // as it stands
+      const Node& node = tree_.nodes[static_cast<std::size_t>(deformation.node)];
+      const Deformer deformer(tree_, d, world);
+      deformer.place(mesh_);
+      if (deformer.mirrors() != Placement(world[static_cast<std::size_t>(deformation.node)]).mirrors())
+        turn_around(node, mesh_);
     }
     return {};
   }
@@ -306,6 +371,7 @@ class SceneReader {
   MeshData mesh_;
   NodeTree tree_;
   RestPose rest_;
+  std::vector<int> place_of_node_ = std::vector<int>(model_.nodes.size(), -1);  // of the file's, in tree_
   std::size_t lights_before_ = 0, cameras_before_ = 0;
 };
 

@@ -105,7 +105,7 @@ MtlMaterials::Loaded MtlMaterials::load(const MtlMaterial& m, const MtlTexture& 
     if (kind == Kind::alpha) result.channel = alpha_channel(texels, texture.channel);
     if (kind == Kind::bump && is_grey(texels)) make_normals(texels, texture.bump);  // else it is one already
     result.texture = static_cast<int>(mesh_.textures.size());
-    mesh_.textures.push_back(std::move(texels));
+    mesh_.textures.edit().push_back(std::move(texels));
   }
   loaded_.push_back(result);
   return result;

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/scene/light_reach.h"
+
 namespace pinocchio {
 
 std::vector<int> casting_lights(const Scene& scene) {
@@ -22,8 +24,10 @@ std::vector<int> mask_slots(const Scene& scene) {
 bool reaches(const Light& light, const Bounds& box) {
   if (box.empty() || light.color * light.intensity == glm::vec3(0.0f)) return false;
   if (light.kind == Light::Kind::directional) return true;
-  if (glm::distance(light.position, glm::clamp(light.position, box.lo, box.hi)) > light.range) return false;
-  if (light.kind == Light::Kind::point) return true;
+  const float sides = 0.5f * (glm::length(light.edge_u) + glm::length(light.edge_v));
+  if (glm::distance(light.position, glm::clamp(light.position, box.lo, box.hi)) > light.range + sides) return false;
+  // A ball with a cone shines to the side of itself as well.
+  if (light.kind != Light::Kind::spot || light.radius > 0.0f) return true;
   // The cone against the ball around the box.
   const glm::vec3 to_center = box.center() - light.position;
   const float distance = glm::length(to_center), radius = 0.5f * box.diagonal();
@@ -34,12 +38,12 @@ bool reaches(const Light& light, const Bounds& box) {
 }
 
 void drop_idle_casters(Scene& scene) {
-  const Bounds& box = scene.mesh->bounds();
-  for (Light& light : scene.lights) light.casts_shadow = light.casts_shadow && reaches(light, box);
+  for (Light& light : scene.lights) light.casts_shadow = light.casts_shadow && may_reach(light, scene);
 }
 
 bool takes_samples(const Scene& scene) {
-  return std::ranges::any_of(scene.lights, [](const Light& light) { return light.has_size(); });
+  return std::ranges::any_of(scene.lights, &Light::has_size) ||
+         std::ranges::any_of(scene.mesh->materials, &Material::is_glossy);
 }
 
 const Camera* find_camera(const Scene& scene, const std::string& name) {

@@ -1,6 +1,7 @@
 #include "core/scene/texture_file.h"
 
 #include <algorithm>
+#include <cstdlib>
 #include <limits>
 #include <memory>
 #include <string_view>
@@ -20,6 +21,7 @@
 #include <stb/stb_image.h>
 #pragma GCC diagnostic pop
 
+#include "core/parallel/workers.h"
 #include "core/scene/input_file.h"
 
 namespace pinocchio {
@@ -141,11 +143,47 @@ Expected<DecodedImage> decode_texture(const std::string& file, const std::string
   return Decoder(file, name, bytes, limit).decode();
 }
 
-Expected<DecodedImage> load_texture(const std::filesystem::path& file, Loading& loading) {
-  const Expected<std::string> bytes = read_input_file(file, loading.progress);
+namespace {
+
+Expected<DecodedImage> decode(const EncodedImage& image, Progress* progress, MemoryLimit& limit) {
+  if (image.bytes) return decode_texture(image.file, image.name, *image.bytes, limit);
+  const Expected<std::string> bytes = read_input_file(image.file, progress);
   if (!bytes) return Unexpected(bytes.error());
-  return decode_texture(file.string(), file.filename().string(),
-                        {reinterpret_cast<const unsigned char*>(bytes->data()), bytes->size()}, loading.limit);
+  return decode_texture(image.file, image.name, {reinterpret_cast<const unsigned char*>(bytes->data()), bytes->size()}, limit);
+}
+
+}  // namespace
+
+Expected<DecodedImage> load_texture(const std::filesystem::path& file, Loading& loading) {
+  return decode({file.string(), file.filename().string(), std::nullopt}, loading.progress, loading.limit);
+}
+
+std::vector<Expected<DecodedImage>> decode_textures(const std::vector<EncodedImage>& images, Loading& loading) {
+  std::vector<Expected<DecodedImage>> decoded(images.size(), DecodedImage{});
+  if (images.empty()) return decoded;
+  begin_phase(loading.progress, "images", static_cast<double>(images.size()));
+  Workers workers(images.size() > 1 ? 0 : 1);
+  workers.for_each(images.size(), [&](std::size_t i) {
+    decoded[i] = decode(images[i], nullptr, loading.limit);
+    advance(loading.progress);
+  });
+  return decoded;
+}
+
+std::string png_of(const Texture& texture) {
+  const std::unique_ptr<spng_ctx, void (*)(spng_ctx*)> context(spng_ctx_new(SPNG_CTX_ENCODER), spng_ctx_free);
+  const glm::ivec2 size = texture.texels.size();
+  spng_ihdr header{static_cast<std::uint32_t>(size.x), static_cast<std::uint32_t>(size.y), 8, SPNG_COLOR_TYPE_TRUECOLOR_ALPHA, 0, 0, 0};
+  std::size_t bytes = 0;
+  int failure = context ? spng_set_option(context.get(), SPNG_ENCODE_TO_BUFFER, 1) : SPNG_EMEM;
+  if (failure == 0) failure = spng_set_ihdr(context.get(), &header);
+  if (failure == 0)
+    failure = spng_encode_image(context.get(), texture.texels.pixels().data(), texture.texels.pixels().size_bytes(),
+                                SPNG_FMT_PNG, SPNG_ENCODE_FINALIZE);
+  void* const png = failure == 0 ? spng_get_png_buffer(context.get(), &bytes, &failure) : nullptr;
+  const std::unique_ptr<void, void (*)(void*)> owner(png, std::free);
+  if (!png) throw EnvironmentError("image '" + texture.name + "' cannot be encoded: " + spng_strerror(failure));
+  return {static_cast<const char*>(png), bytes};
 }
 
 }  // namespace pinocchio

@@ -33,6 +33,8 @@ struct SceneArrays {
 struct BounceLight {
   shared::LightParams params;
   int slot;  // of the mask, and of its shadow queue; -1: casts no shadow
+  bool has_size;
+  std::uint32_t index;  // in the scene
 };
 
 // What happens where rays meet triangles.

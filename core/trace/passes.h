@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <glm/glm.hpp>
+#include <vector>
 
 #include "core/parallel/workers.h"
 #include "core/trace/shared.h"
@@ -30,6 +31,8 @@ struct TraceJob {
   bool filter_textures = true;
   glm::vec2 jitter{0.0f};  // View's: tells the samples of a pixel apart where they decide at random
   shared::Sampling sampling{};  // which sample is taken of what is sampled
+  // Tiles (TileGrid's) that are not traced where it is not 0; null: all are.
+  const std::vector<std::uint8_t>* left_out = nullptr;
   // Told of every tile: all of them together are that many steps.
   Progress* progress = nullptr;
   double progress_steps = 1.0;

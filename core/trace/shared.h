@@ -11,6 +11,7 @@ namespace pinocchio::shared {
 #include "shaders/shared/view.glsl"
 #include "shaders/shared/surface.glsl"
 #include "shaders/shared/sampling.glsl"
+#include "shaders/shared/sized_light.glsl"
 #undef SHARED
 
 }  // namespace pinocchio::shared

@@ -79,17 +79,22 @@ glm::vec3 offset_origin(const SurfaceInteraction& surface, const glm::vec3& dire
 }
 
 shared::LightParams light_params(const Light& light) {
-  const int kind = light.kind == Light::Kind::directional ? shared::kLightDirectional
-                   : light.kind == Light::Kind::spot      ? shared::kLightSpot
-                                                          : shared::kLightPoint;
-  return {kind,
+  static_assert(static_cast<int>(Light::Kind::spot) == shared::kLightSpot &&
+                static_cast<int>(Light::Kind::rectangle) == shared::kLightRectangle);
+  const bool directional = light.kind == Light::Kind::directional, rectangle = light.kind == Light::Kind::rectangle;
+  // 1 - cos a is 2 sin^2 (a / 2): not lost to rounding for a disc like the sun's.
+  const float quarter = std::sin(glm::radians(0.25f * light.angle_deg));
+  return {static_cast<int>(light.kind),
           light.falloff == Light::Falloff::inverse_square,
           light.position,
           light.direction,
           light.color * light.intensity,
           light.range,
           light.cos_inner,
-          light.cos_outer};
+          light.cos_outer,
+          directional ? 2.0f * quarter * quarter : rectangle ? 0.0f : light.radius,
+          light.edge_u,
+          light.edge_v};
 }
 
 std::vector<shared::LightParams> casting_light_params(const Scene& scene) {
@@ -106,13 +111,14 @@ std::vector<glm::vec3> casting_light_positions(const Scene& scene) {
   return positions;
 }
 
-std::optional<Ray> shadow_ray(const shared::LightParams& light, const SurfaceInteraction& surface) {
-  const shared::Incident incident = shared::incident_light(light, surface.p_world);
+std::optional<Ray> shadow_ray(const shared::LightParams& light, const SurfaceInteraction& surface,
+                              const glm::vec2& square) {
+  const shared::Incident incident = shared::sampled_light(light, surface.p_world, square);
   if (incident.radiance == glm::vec3(0.0f)) return std::nullopt;
   if (!shared::faces_light(surface.n_shading, surface.n_geometric, incident.to_light)) return std::nullopt;
   const glm::vec3 origin = offset_origin(surface, incident.to_light);
   if (light.kind == shared::kLightDirectional) return Ray{origin, kInfinity, incident.to_light};
-  return Ray{origin, 1.0f, light.position - origin};  // the light sits at t = 1
+  return Ray{origin, 1.0f, incident.target - origin};  // the light sits at t = 1
 }
 
 }  // namespace pinocchio

@@ -59,6 +59,8 @@ struct SurfaceInteraction {
 
 // The ray that asks whether the light reaches the surface; nothing where it cannot anyway: the surface
 // faces away, or the light does not reach this far or this way.
-[[nodiscard]] std::optional<Ray> shadow_ray(const shared::LightParams& light, const SurfaceInteraction& surface);
+// `square`: which point of a light with a size, in [0, 1)^2.
+[[nodiscard]] std::optional<Ray> shadow_ray(const shared::LightParams& light, const SurfaceInteraction& surface,
+                                            const glm::vec2& square = glm::vec2(0.5f));
 
 }  // namespace pinocchio

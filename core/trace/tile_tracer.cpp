@@ -31,7 +31,10 @@ class Lap {
 std::vector<BounceLight> lights_of(const Scene& scene) {
   std::vector<BounceLight> lights;
   const std::vector<int> slots = mask_slots(scene);
-  for (std::size_t i = 0; i < slots.size(); ++i) lights.push_back({light_params(scene.lights[i]), slots[i]});
+  for (std::size_t i = 0; i < slots.size(); ++i) {
+    const shared::LightParams params = light_params(scene.lights[i]);
+    lights.push_back({params, slots[i], shared::has_size(params), static_cast<std::uint32_t>(i)});
+  }
   return lights;
 }
 
@@ -49,7 +52,7 @@ const std::vector<std::uint32_t>& z_curve() {
 
 // Whether anything is to be averaged.
 bool filters(const TraceJob& job) {
-  const std::vector<Texture>& textures = job.scene.mesh->textures;
+  const Textures& textures = job.scene.mesh->textures;
   return job.filter_textures &&
          std::any_of(textures.begin(), textures.end(), [](const Texture& t) { return t.levels() > 1; });
 }

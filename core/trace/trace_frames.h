@@ -12,6 +12,7 @@
 #include "pinocchio/progress.h"
 #include "pinocchio/scene.h"
 #include "pinocchio/tracer.h"
+#include "pinocchio/view.h"
 
 namespace pinocchio {
 
@@ -24,6 +25,7 @@ struct FramesJob {
   int spp = 1, depth = 0, mask_bits = 0;
   float throughput_cutoff = kThroughputCutoff, light_cutoff = 0.0f;
   bool filter_textures = true;
+  PixelFilter filter = PixelFilter::box;
   shared::Sampling sampling{};  // of the first sample
   Progress* progress = nullptr;  // told of every tile: a picture is `spp` steps
 };

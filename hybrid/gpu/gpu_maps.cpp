@@ -88,12 +88,14 @@ gl::TextureBuffer buffer_of(const std::vector<T>& data, GLenum format, std::size
 
 }  // namespace
 
-GpuMaps::GpuMaps(const Mesh& mesh) {
+GpuMaps::GpuMaps(const Mesh& mesh, const GpuMaps* shares_textures) {
   if (mesh.maps.empty()) return;
   definitions_.emplace_back("HAS_MAPS");
   has_holes_ = std::any_of(mesh.maps.begin(), mesh.maps.end(), [](const auto& m) { return m.has_holes(); });
   maps_ = buffer_of(map_texels(mesh), GL_RGBA32F, sizeof(glm::vec4));
-  texels_ = buffer_of(all_texels(mesh), GL_RGBA8, sizeof(glm::u8vec4));
+  texels_ = shares_textures ? shares_textures->texels_ : nullptr;
+  if (!texels_)
+    texels_ = std::make_shared<const gl::TextureBuffer>(buffer_of(all_texels(mesh), GL_RGBA8, sizeof(glm::u8vec4)));
   vertex_count_ = static_cast<int>(mesh.positions.size());
   texcoords_ = buffer_of(both_sets(mesh), GL_R32F, sizeof(float));
   if (!mesh.colors.empty()) definitions_.emplace_back("HAS_COLORS");
@@ -108,7 +110,7 @@ int GpuMaps::bind(const gl::Program& program, int first_unit) const {
   int unit = first_unit;
   program.set("maps_buffer", unit++, maps_);
   program.set("texcoords", unit++, texcoords_);
-  program.set("texels", unit++, texels_);
+  program.set("texels", unit++, *texels_);
   if (vertex_quads_.name() != 0) program.set("vertex_quads", unit++, vertex_quads_);
   program.set("vertex_count", vertex_count_);
   return unit;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -13,7 +14,8 @@ namespace pinocchio {
 // programs are compiled without it.
 class GpuMaps {
  public:
-  explicit GpuMaps(const Mesh& mesh);
+  // `shares_textures`: of a mesh that has the same ones; null: none is known.
+  explicit GpuMaps(const Mesh& mesh, const GpuMaps* shares_textures = nullptr);
 
   // The next free texture unit.
   int bind(const gl::Program& program, int first_unit) const;
@@ -22,7 +24,8 @@ class GpuMaps {
   [[nodiscard]] bool has_holes() const { return has_holes_; }
 
  private:
-  gl::TextureBuffer maps_, texcoords_, texels_, vertex_quads_;
+  gl::TextureBuffer maps_, texcoords_, vertex_quads_;
+  std::shared_ptr<const gl::TextureBuffer> texels_;
   int vertex_count_ = 0;
   std::vector<std::string> definitions_;
   bool has_holes_ = false;

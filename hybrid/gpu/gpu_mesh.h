@@ -14,7 +14,8 @@ namespace pinocchio {
 // shaders/scene_fetch.glsl. Throws gl::Error where the GPU has no room.
 class GpuMesh {
  public:
-  explicit GpuMesh(const Mesh& mesh);
+  // `shares_textures`: of another mesh that has the same textures; null: none is known.
+  explicit GpuMesh(const Mesh& mesh, const GpuMesh* shares_textures = nullptr);
 
   void draw() const { triangles_.draw(); }
   // Gives the program in use the buffers, on texture units from `first_unit` on; returns the next free one.
@@ -36,9 +37,11 @@ class GpuLights {
   // Sends the scene's lights, unless they are the ones that are there.
   void update(const Scene& scene);
   int bind(const gl::Program& program, int first_unit) const;
+  [[nodiscard]] bool any_size() const { return any_size_; }
 
  private:
   std::vector<Light> sent_;
+  bool any_size_ = false;
   gl::TextureBuffer lights_;
   glm::vec3 ambient_light_{0.0f};
   bool empty_ = true;  // nothing was sent yet

@@ -9,11 +9,18 @@ namespace pinocchio {
 void ShadingPasses::composite(const Inputs& inputs, LightSet lights, const Traced& traced,
                               const gl::Framebuffer& target) {
   Definitions definitions = definitions_of(inputs, traced);
+  if (inputs.lights.any_size()) definitions.emplace_back("HAS_SIZED_LIGHTS");
   if (lights == LightSet::free) definitions.emplace_back("FREE_LIGHTS_ONLY");
   gl::begin_fullscreen_pass(target);
   const gl::Program& p = program("composite.frag", definitions);
   p.use();
   bind(p, inputs, traced);
+  if (inputs.lights.any_size()) {
+    const shared::Sampling& sampling = traced.of ? traced.of->sampling : inputs.sampling;
+    p.set("sequence", sampling.sequence);
+    p.set("sample_index", sampling.index);
+    p.set("sample_seed", sampling.seed);
+  }
   triangle_.draw();
 }
 

@@ -23,6 +23,7 @@ enum class LightSet {
 struct OlderFrame {
   const gl::Texture& ids;
   shared::ViewParams view;
+  shared::Sampling sampling;
 };
 
 // The passes that shade pixels from their ids (shaders/composite.frag, gbuffer.frag, show.frag,
@@ -36,6 +37,7 @@ class ShadingPasses {
     const gl::Texture& ids;
     int id_bits;
     bool filter_textures;
+    shared::Sampling sampling;
   };
   // The CPU's answer; what is null is not in it.
   struct Traced {

@@ -111,6 +111,12 @@ constexpr std::array kTable{
                         "sync: wait for the CPU; pipelined: its part comes frames later, GPU and CPU work on "
                         "different frames; reproject: newest raster, the last mask and reflection warped to it"),
     field<&S::spp>("spp", from_to(1, 65536), "1", "jittered samples a pixel, averaged in linear light"),
+    field<&S::max_noise>("max_noise", from_to(0, 1), "0",
+                         "of several samples: a tile of 32x32 pixels takes no more once the standard error of their "
+                         "means, linear, is below it; 0: every pixel takes all"),
+    field<&S::pixel_filter>("pixel_filter", one_of(kPixelFilterNames), "box",
+                            "how a pixel's samples are spread: evenly over it, or over 3 pixels by a window that "
+                            "leaves no stairs"),
     field<&S::sequence>("sequence", one_of(kSequenceNames), "sobol",
                         "where samples are, of what is sampled: scrambled Sobol points; one such sequence turned "
                         "from pixel to pixel, so that noise is fine-grained; or by chance"),

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <limits>
 
+#include "core/scene/light_reach.h"
+
 namespace pinocchio {
 namespace {
 
@@ -15,8 +17,9 @@ double area_of(const Mesh& mesh, const glm::uvec3& t) {
 // Looks at mirror after mirror, to tell how often light can be mirrored.
 class MirrorWalk {
  public:
-  MirrorWalk(const Mesh& mesh, const Bounds& bounds)
-      : mesh_(mesh), slack_(1e-7 * static_cast<double>(bounds.diagonal())) {}
+  // moves: what lies in one plane now need not do so later
+  MirrorWalk(const Mesh& mesh, const Bounds& bounds, bool moves)
+      : mesh_(mesh), slack_(1e-7 * static_cast<double>(bounds.diagonal())), flat_(!moves) {}
 
   void add(const glm::uvec3& t, const Material& m, bool see_through) {
     const bool unlimited = see_through || m.fresnel;
@@ -49,7 +52,7 @@ class MirrorWalk {
   const Mesh& mesh_;
   double slack_;
   double most_ = 0.0;
-  bool flat_ = true;
+  bool flat_;
   glm::dvec3 n_{0.0};
   double d_ = 0.0;
 };
@@ -72,11 +75,13 @@ SceneStats analyze(const Scene& scene) {
   stats.bounds = mesh.bounds();
   recount_lights(scene, stats);
   double all = 0.0, mirroring = 0.0, transmitting = 0.0;
-  MirrorWalk walk(mesh, stats.bounds);
+  MirrorWalk walk(mesh, stats.bounds, scene.animation != nullptr);
+  // What has no area now may have some at another time.
+  const double least_area = scene.animation ? std::numeric_limits<double>::min() : 0.0;
   // Materials that no triangle has are not needed.
   for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
     const Material& material = mesh.materials[mesh.triangle_materials[i]];
-    const double area = area_of(mesh, mesh.triangles[i]);
+    const double area = std::max(area_of(mesh, mesh.triangles[i]), least_area);
     all += area;
     const MaterialMaps* const maps = mesh.maps_of(static_cast<std::uint32_t>(i));
     if (maps) note(*maps, stats);
@@ -97,7 +102,7 @@ void recount_lights(const Scene& scene, SceneStats& stats) {
   stats.lights = static_cast<int>(scene.lights.size());
   stats.casting_lights = stats.idle_lights = 0;
   for (const Light& light : scene.lights) {
-    if (!reaches(light, stats.bounds)) {
+    if (!may_reach(light, scene)) {
       ++stats.idle_lights;
     } else if (light.casts_shadow) {
       ++stats.casting_lights;

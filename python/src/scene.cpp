@@ -1,3 +1,4 @@
+#include <pinocchio/animation.h>
 #include <pinocchio/load.h>
 #include <pinocchio/scene.h>
 
@@ -34,7 +35,7 @@ Texture texture_of(const Texels& texels) {
 
 Light light_of(std::optional<glm::vec3> position, std::optional<glm::vec3> direction, const glm::vec3& color,
                float intensity, const std::string& falloff, float range, float inner_cone, float outer_cone,
-               bool casts_shadow, const std::string& name) {
+               bool casts_shadow, const std::string& name, float radius, float angle) {
   if (!position && !direction) throw Error("a light has a position (a point), a direction (a sun) or both (a spot)");
   if (falloff != "none" && falloff != "inverse_square")
     throw Error("falloff is '" + falloff + "'; it is 'none' or 'inverse_square'");
@@ -53,11 +54,14 @@ Light light_of(std::optional<glm::vec3> position, std::optional<glm::vec3> direc
     light.cos_outer = std::cos(glm::radians(outer_cone));
   }
   light.casts_shadow = casts_shadow;
+  light.radius = radius;
+  light.angle_deg = angle;
   return light;
 }
 
 const char* kind_of(const Light& light) {
-  return light.kind == Light::Kind::point ? "point" : light.kind == Light::Kind::spot ? "spot" : "directional";
+  constexpr const char* kKinds[] = {"point", "directional", "spot", "rectangle"};
+  return kKinds[static_cast<int>(light.kind)];
 }
 
 // A material for each colour there is: of every triangle.
@@ -79,7 +83,7 @@ void add_materials(const std::vector<TexturedMaterial>& materials, MeshData& mes
     mesh.materials.push_back(m.material);
     if (!m.texture) continue;
     make_maps(mesh, mesh.materials.back()).base_color.texture = static_cast<int>(mesh.textures.size());
-    mesh.textures.push_back(*m.texture);
+    mesh.textures.edit().push_back(*m.texture);
   }
   if (mesh.materials.empty()) mesh.materials.emplace_back();
 }
@@ -170,7 +174,7 @@ void bind_material(nb::module_& module) {
           [](TexturedMaterial* self, const glm::vec3& diffuse, const glm::vec3& specular, float shininess,
              const glm::vec3& reflectance, const glm::vec3& transmittance, float ior, bool fresnel,
              const glm::vec3& emission, const std::optional<glm::vec3>& ambient,
-             const std::optional<Texels>& texture, const std::string& name) {
+             const std::optional<Texels>& texture, const std::string& name, float gloss) {
             Material m;
             m.name = name;
             m.ambient = ambient.value_or(diffuse);
@@ -182,16 +186,18 @@ void bind_material(nb::module_& module) {
             m.ior = ior;
             m.fresnel = fresnel;
             m.emission = emission;
+            m.gloss = gloss;
             new (self) TexturedMaterial{
                 m, texture ? std::make_shared<const Texture>(texture_of(*texture)) : nullptr};
           },
           "diffuse"_a = glm::vec3(0.8f), "specular"_a = glm::vec3(0.0f), "shininess"_a = 1.0f,
           "reflectance"_a = glm::vec3(0.0f), "transmittance"_a = glm::vec3(0.0f), "ior"_a = 1.0f,
           "fresnel"_a = false, "emission"_a = glm::vec3(0.0f), "ambient"_a = nb::none(), "texture"_a = nb::none(),
-          "name"_a = "",
+          "name"_a = "", "gloss"_a = 0.0f,
           "reflectance: the weight of the mirrored ray; with `fresnel`, its value at normal incidence.\n"
           "transmittance: of the refracted ray, bent by `ior`. texture: (height, width, 3 or 4) uint8, sRGB; its\n"
-          "colour multiplies diffuse and ambient. ambient: as diffuse, where it is left out.");
+          "colour multiplies diffuse and ambient. ambient: as diffuse, where it is left out. gloss: exponent\n"
+          "of the lobe that mirrored rays are spread over by samples (spp); 0: sharp.");
 }
 
 void bind_light(nb::module_& module) {
@@ -200,16 +206,17 @@ void bind_light(nb::module_& module) {
           "__init__",
           [](Light* self, std::optional<glm::vec3> position, std::optional<glm::vec3> direction,
              const glm::vec3& color, float intensity, const std::string& falloff, float range, float inner_cone,
-             float outer_cone, bool casts_shadow, const std::string& name) {
+             float outer_cone, bool casts_shadow, const std::string& name, float radius, float angle) {
             new (self) Light(light_of(position, direction, color, intensity, falloff, range, inner_cone, outer_cone,
-                                      casts_shadow, name));
+                                      casts_shadow, name, radius, angle));
           },
           "position"_a = nb::none(), "direction"_a = nb::none(), "color"_a = glm::vec3(1.0f), "intensity"_a = 1.0f,
           "falloff"_a = "none", "range"_a = std::numeric_limits<float>::infinity(), "inner_cone"_a = 0.0f,
-          "outer_cone"_a = 45.0f, "casts_shadow"_a = true, "name"_a = "",
+          "outer_cone"_a = 45.0f, "casts_shadow"_a = true, "name"_a = "", "radius"_a = 0.0f, "angle"_a = 0.0f,
           "With a position: a point light. With a direction, along which the light travels: a sun. With both: a\n"
           "spot, whose cones are degrees off its direction. falloff: 'none' (the same strength at any distance) or\n"
-          "'inverse_square'. At most eight lights of a scene cast shadows.")
+          "'inverse_square'. At most eight lights of a scene cast shadows. radius: of the ball that shines; angle: diameter\n"
+          "of a sun's disc, degrees; with either, shadows are soft by samples (spp).")
       .def_prop_ro("kind", &kind_of)
       .def_rw("name", &Light::name)
       .def_rw("position", &Light::position)
@@ -217,7 +224,9 @@ void bind_light(nb::module_& module) {
                    [](Light& l, const glm::vec3& d) { l.direction = glm::normalize(d); })
       .def_rw("color", &Light::color)
       .def_rw("intensity", &Light::intensity)
-      .def_rw("casts_shadow", &Light::casts_shadow);
+      .def_rw("casts_shadow", &Light::casts_shadow)
+      .def_rw("radius", &Light::radius)
+      .def_rw("angle", &Light::angle_deg);
 }
 
 }  // namespace
@@ -283,6 +292,15 @@ void bind_scene(nb::module_& module) {
       .def("posed", &with_transforms, "transforms"_a,
            "The scene with nodes moved, and all below them: {name or number: 4x4 matrix, to its parent}. Materials,\n"
            "triangles and their ids stay; light and camera follow the node that they hang on.")
+      .def_prop_ro("duration", [](const Scene& s) { return duration_s(s); },
+                   "Seconds that its animation takes; 0 where it has none.")
+      .def("at_time",
+           [](const Scene& scene, double seconds) {
+             return value_or_throw(without_gil([&](Progress*) { return at_time(scene, seconds); }));
+           },
+           "seconds"_a,
+           "The scene as its animation has it then: nodes, skins and morph targets, with lights and cameras that hang\n"
+           "on them. Before its first key and behind its last one it stands still. Triangles and their ids stay.")
       .def("__copy__", [](const Scene& scene) { return scene; });
   module.def("load_scene", &load, "path"_a,
              "Reads a scene by its extension, as the program does. What is left out of the file is a warning.");

@@ -107,3 +107,16 @@ def test_camera_matrix_turns_depth_into_points():
     flip = numpy.diag([1.0, -1, -1, 1])
     same = pinocchio.Camera.from_intrinsics((64, 48), fx, fy, cx, cy, pose @ flip, convention="opengl")
     numpy.testing.assert_array_equal(pinocchio.Engine().render(floor(), same, size=(64, 48)).ids, result.ids)
+
+
+def test_an_animated_scene_moves(scenes):
+    still = pinocchio.load_scene(scenes / "cornell.gltf")
+    assert still.duration == 0
+    mill = pinocchio.load_scene(scenes / "windmill.glb")
+    assert mill.duration == 4
+    later = mill.at_time(0.5)
+    assert (later.triangles == mill.triangles).all()
+    assert (later.vertices != mill.vertices).any()
+    assert (later.at_time(0).vertices == mill.at_time(0).vertices).all()
+    with pytest.raises(pinocchio.Error):
+        mill.at_time(float("nan"))

@@ -96,7 +96,7 @@ Scene all_sorts() {
     Texture texture{"noise", Image<glm::u8vec4>({7, 5})};
     for (glm::u8vec4& texel : texture.texels.pixels())
       texel = glm::u8vec4(random.between(0, 255), random.between(0, 255), random.between(0, 255), 255);
-    mesh->textures.push_back(texture);
+    mesh->textures.edit().push_back(texture);
     for (std::size_t i = 0; i < mesh->triangles.size(); ++i)
       mesh->triangle_materials[i] = static_cast<std::uint32_t>(i % mesh->materials.size());
     for (std::size_t i = 0; i < mesh->positions.size(); ++i) {

@@ -24,6 +24,7 @@ constexpr const char* kList = PINOCCHIO_SOURCE_DIR "/tests/view/shown_texts.txt"
 Model full_model() {
   Model model;
   model.scene = load_scene(PINOCCHIO_SOURCE_DIR "/scenes/cornell").value();
+  model.scene.animation = load_scene(PINOCCHIO_SOURCE_DIR "/scenes/windmill").value().animation;
   model.stats = analyze(model.scene);
   model.settings.overlay = true;
   model.settings.split = Split::heat_map;
@@ -66,7 +67,7 @@ std::set<std::string> shown(Model& model) {
   using Draw = void (*)(Model&, float);
   constexpr std::array<Draw, 10> kInPanels{draw_help,   draw_figures, draw_controls,  draw_all_settings, draw_light_controls,
                                            draw_camera, draw_materials, draw_pixel, draw_timeline,     draw_files};
-  constexpr std::array<Draw, 4> kOfTheirOwn{draw_status_line, draw_messages, draw_loading, draw_caption};
+  constexpr std::array<Draw, 5> kOfTheirOwn{draw_status_line, draw_playback, draw_messages, draw_loading, draw_caption};
   for (int frame = 0; frame < 4; ++frame) {
     io.DeltaTime = 0.02f;
     ImGui::NewFrame();

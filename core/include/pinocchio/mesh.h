@@ -27,7 +27,7 @@ struct MeshData {
 
   std::vector<Material> materials;
   std::vector<MaterialMaps> maps;  // of the materials that have some
-  std::vector<Texture> textures;
+  Textures textures;
 };
 
 // The material's maps; made, as empty ones, where it has none yet.

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "pinocchio/camera.h"
+#include "pinocchio/deformation.h"
 #include "pinocchio/error.h"
 #include "pinocchio/light.h"
 
@@ -40,11 +41,14 @@ struct RestPose {
   std::vector<glm::vec4> tangents;  // empty where the mesh has none
   std::vector<Attached<Light>> lights;
   std::vector<Attached<Camera>> cameras;
+  std::vector<Skin> skins;
+  std::vector<Deformation> deformations;  // one a node at most; nodes rise
 };
 
 // A scene's nodes where they are now. No two have a triangle in common, and the ranges rise with the index.
 struct NodeTree {
   std::vector<Node> nodes;
+  std::vector<std::vector<float>> weights;  // of each deformation's morph targets
   std::shared_ptr<const RestPose> rest = std::make_shared<const RestPose>();  // never null
 
   [[nodiscard]] glm::mat4 world_from(int node) const;
@@ -61,11 +65,18 @@ struct NodeTransform {
   glm::mat4 local;  // replaces the node's
 };
 
+// Of a node's morph targets, one each.
+struct NodeWeights {
+  int node;
+  std::vector<float> weights;
+};
+
 // The scene with these nodes moved, and all that hangs on them: a new mesh of the same triangles, materials
 // and textures, so triangle ids stay. What does not move keeps every bit; poses do not add up their rounding.
-// Costs a copy of the mesh; a tracer of it is built anew. Errors: no such node, or a transform that leaves
-// the mesh no finite numbers.
-[[nodiscard]] Expected<Scene> posed(const Scene& scene, std::span<const NodeTransform> transforms);
+// Costs a copy of the mesh, but for its textures; a tracer of it is built anew. Errors: no such node, other than
+// one weight a target, or a transform that leaves the mesh no finite numbers.
+[[nodiscard]] Expected<Scene> posed(const Scene& scene, std::span<const NodeTransform> transforms,
+                                    std::span<const NodeWeights> weights = {});
 
 // Scenes put together, each a node of that name with its own nodes below it. Lights and cameras come along;
 // ambient light is the first one's.

@@ -14,6 +14,8 @@
 
 namespace pinocchio {
 
+struct Animation;
+
 // A cheap value: copies share the mesh, so that moving a light copies no geometry. Lengths are in the file's
 // units ("scene units"), colours linear.
 struct Scene {
@@ -24,7 +26,8 @@ struct Scene {
   std::vector<Light> lights;
   std::vector<Camera> cameras;
   glm::vec3 ambient_light{0.1f};  // Ia; no file format we read carries it
-  std::shared_ptr<const NodeTree> nodes;  // of what can be moved; null: nothing can
+  std::shared_ptr<const NodeTree> nodes;       // of what can be moved; null: nothing can
+  std::shared_ptr<const Animation> animation;  // of the nodes (pinocchio/animation.h); null: none
 
   std::string source;                     // path it was loaded from
   std::vector<std::string> source_files;  // that path and all files it names, also those that are missing
@@ -48,7 +51,7 @@ struct Scene {
 // Lights that reach nothing cast nothing: no mask slot is spent on them.
 void drop_idle_casters(Scene& scene);
 
-// Whether one picture of it is one sample of many: of lights with a size.
+// Whether one picture of it is one sample of many: of lights with a size, of glossy mirrors.
 [[nodiscard]] bool takes_samples(const Scene& scene);
 
 // First camera named `name`, else nullptr.

@@ -4,6 +4,8 @@
 #include <bit>
 #include <cstdint>
 #include <glm/glm.hpp>
+#include <initializer_list>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -24,6 +26,31 @@ struct Texture {
     if (smaller_levels.empty()) return 1;
     return static_cast<int>(std::bit_width(static_cast<unsigned>(std::max(texels.width(), texels.height()))));
   }
+};
+
+// A mesh's textures. Copies share them until one is edited, so that meshes of which only vertices differ hold
+// them once.
+class Textures {
+ public:
+  Textures() = default;
+  Textures(std::initializer_list<Texture> textures) : all_(std::make_shared<std::vector<Texture>>(textures)) {}
+
+  [[nodiscard]] std::size_t size() const { return all_ ? all_->size() : 0; }
+  [[nodiscard]] bool empty() const { return size() == 0; }
+  [[nodiscard]] const Texture& operator[](std::size_t i) const { return (*all_)[i]; }
+  [[nodiscard]] const Texture* begin() const { return all_ ? all_->data() : nullptr; }
+  [[nodiscard]] const Texture* end() const { return begin() + size(); }
+
+  // To be changed; what copies see of them stays.
+  [[nodiscard]] std::vector<Texture>& edit() {
+    if (!all_ || all_.use_count() > 1) all_ = std::make_shared<std::vector<Texture>>(begin(), end());
+    return *all_;
+  }
+  // Whether they are the very same, not only alike.
+  [[nodiscard]] bool shares_with(const Textures& other) const { return all_ == other.all_; }
+
+ private:
+  std::shared_ptr<std::vector<Texture>> all_;  // null: none
 };
 
 // What is seen beyond a texture's edges.

@@ -1,9 +1,10 @@
 // Part of trace/kernel.h's files: the steps of trace/lane_steps.h, included last.
 #pragma once
 
+#include <optional>
+
 #include "core/trace/lanes/light.h"
 #include "core/trace/lanes/maps.h"
-#include "core/trace/lanes/sampling.h"
 #include "core/trace/lanes/scatter.h"
 
 namespace pinocchio::PINOCCHIO_LANES {
@@ -65,18 +66,27 @@ inline void ask(const BounceLight& from, const LaneSurface& s, const LaneInciden
   const Vec origin = offset_origin(s, incident.to_light);
   const bool far = from.params.kind == shared::kLightDirectional;
   const Vec direction =
-      far ? incident.to_light : Vec(from.params.position) - origin;  // the light sits at t = 1
+      far ? incident.to_light : incident.target - origin;  // the light sits at t = 1
   append(origin, direction, light, pixel, lanes, queue);
+}
+
+// The pixels that the tile's samples are of.
+inline IntPair whole_picture_pixel(const Bounce& bounce, Int pixel) {
+  const Int row = shift_right<kTileBits>(pixel), scale(bounce.scale);
+  return {(pixel - shift_left<kTileBits>(row)) * scale + Int(bounce.corner.x), row * scale + Int(bounce.corner.y)};
 }
 
 // What the lights do at the points of a packet; returns what reaches them for certain.
 inline Vec light_points(const Bounce& bounce, const LaneSurface& s, const LaneMaterial& m,
-                        const Vec& throughput, Int pixel, Mask lanes) {
+                        const Vec& throughput, const LaneSampling* sampling, Int pixel, Mask lanes) {
   Vec sum(Float(0.0f));
   if (bounce.adds_ambient) sum = m.ambient * Vec(bounce.ambient_light) + m.emission;
   for (std::size_t i = 0; i < bounce.light_count; ++i) {
     const BounceLight& light = bounce.lights[i];
-    const LaneIncident incident = incident_light(light.params, s.p_world);
+    const LaneIncident incident =
+        light.has_size ? sampled_light(light.params, s.p_world,
+                                       sample_2d(*sampling, bounce.dimension + shared::kLightDimension + light.index))
+                       : incident_light(light.params, Vec(light.params.position), s.p_world);
     Mask lit = lanes & faces_light(s, incident.to_light) & ~is_dark(incident.radiance);
     if (bounce.visible && light.slot >= 0 && bounce.light_cutoff > 0.0f)
       lit = lit & ~(most_light(m, incident, s) < Float(bounce.light_cutoff));
@@ -130,9 +140,12 @@ void bounce_rays(const Bounce& bounce, const RayQueue& rays) {
     }
     const Vec throughput = bounce.visible ? Vec(Float(1.0f)) : Vec::load(rays.light, i);
     const Vec own = m.blends != 0 ? throughput * m.alpha : throughput;
-    const Vec certain = light_points(bounce, s, m, own, pixel, lanes);
+    std::optional<LaneSampling> sampling;
+    if (bounce.sampling) sampling.emplace(*bounce.sampling, whole_picture_pixel(bounce, pixel));
+    const LaneSampling* const samples = sampling ? &*sampling : nullptr;
+    const Vec certain = light_points(bounce, s, m, own, samples, pixel, lanes);
     if (bounce.adds_light) add_light(own * certain, rays.pixel + i, lanes, bounce.radiance);
-    if (bounce.mirrored) scatter(s, m, throughput, pixel, lanes, bounce);
+    if (bounce.mirrored) scatter(s, m, throughput, samples, pixel, lanes, bounce);
   }
 }
 

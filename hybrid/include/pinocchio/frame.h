@@ -97,6 +97,7 @@ struct ExrOptions {
   // For its header, too: which frame of an animation it is, and how many there are a second.
   int frame = 0;
   int frames_per_second = 24;
+  std::optional<double> time_s{};  // of the animation; else frame / frames_per_second
 };
 
 // The picture with its layers and attributes, one part, scene-linear. Whole or not at all; throws

@@ -10,6 +10,7 @@
 
 #include "pinocchio/error.h"
 #include "pinocchio/tracer.h"
+#include "pinocchio/view.h"
 
 namespace pinocchio {
 
@@ -45,6 +46,8 @@ enum class Sequence {
 };
 inline constexpr std::array<std::string_view, 3> kSequenceNames{"sobol", "blue-noise", "random"};
 
+inline constexpr std::array<std::string_view, 2> kPixelFilterNames{"box", "blackman-harris"};
+
 inline constexpr int kMostBounces = 64, kMostThreads = 1024;
 
 // A value, and whether the user set it: assigning to it says so. What nobody set, resolve() fills in.
@@ -74,6 +77,8 @@ struct Settings {
   Setting<bool> by_machine;
   Setting<Exchange> exchange;
   Setting<int> spp = Setting<int>::by_default(1);
+  Setting<float> max_noise;
+  Setting<PixelFilter> pixel_filter;
   Setting<Sequence> sequence;
   Setting<int> seed;
   Setting<int> depth = Setting<int>::by_default(8);

@@ -1,0 +1,174 @@
+#include <algorithm>
+
+#include "core/scene/pose.h"
+#include "pinocchio/animation.h"
+#include "pinocchio/load.h"
+
+namespace pinocchio {
+namespace {
+
+template <class T>
+void append(const std::vector<T>& from, std::vector<T>& to) {
+  to.insert(to.end(), from.begin(), from.end());
+}
+
+// Grows a scene by parts; what places them is done at the end, node by node.
+class Assembly {
+ public:
+  void add(const Part& part) {
+    const Scene& scene = part.scene;
+    const int root = static_cast<int>(tree_.nodes.size());
+    Node node{part.name, -1, part.world_from_part, count(mesh_.positions), 0, count(mesh_.triangles), 0};
+    if (!scene.nodes) {
+      node.vertices = count(scene.mesh->positions);
+      node.triangles = count(scene.mesh->triangles);
+    }
+    tree_.nodes.push_back(node);
+    if (scene.nodes) add_nodes(*scene.nodes, root);
+    add_attached(scene.lights, scene.nodes ? &scene.nodes->rest->lights : nullptr, root, result_.lights, rest_.lights);
+    add_attached(scene.cameras, scene.nodes ? &scene.nodes->rest->cameras : nullptr, root, result_.cameras,
+                 rest_.cameras);
+    add_mesh(*scene.mesh, scene.nodes ? scene.nodes->rest.get() : nullptr);
+    if (scene.animation) add_animation(*scene.animation, root);
+    if (root == 0) result_.ambient_light = scene.ambient_light;
+  }
+
+  Expected<Scene> finish() {
+    // What was turned around where it was placed in its part was so by that part's matrices.
+    const std::vector<glm::mat4> world = world_matrices(tree_.nodes);
+    std::vector<bool> deforms(world.size(), false);
+    for (const Deformation& d : rest_.deformations) deforms[static_cast<std::size_t>(d.node)] = true;
+    for (std::size_t n = 0; n < world.size(); ++n) {
+      const Placement placement(world[n]);
+      place_attached(rest_, static_cast<int>(n), placement, result_);
+      if (deforms[n]) continue;
+      place_vertices(tree_.nodes[n], placement, rest_, mesh_);
+      if (placement.mirrors() != mirrored_[n]) turn_around(tree_.nodes[n], mesh_);
+    }
+    tree_.rest = std::make_shared<const RestPose>(std::move(rest_));
+    for (std::size_t d = 0; d < tree_.rest->deformations.size(); ++d) {
+      const auto n = static_cast<std::size_t>(tree_.rest->deformations[d].node);
+      const Deformer deformer(tree_, d, world);
+      deformer.place(mesh_);
+      if (deformer.mirrors() != mirrored_[n]) turn_around(tree_.nodes[n], mesh_);
+    }
+    if (!animation_.nodes.empty()) result_.animation = std::make_shared<const Animation>(std::move(animation_));
+    result_.nodes = std::make_shared<const NodeTree>(std::move(tree_));
+    result_.mesh = std::make_shared<const Mesh>(std::move(mesh_));
+    if (const Expected<void> checked = check_scene(result_); !checked) return Unexpected(checked.error());
+    return std::move(result_);
+  }
+
+ private:
+  template <class T>
+  static std::uint32_t count(const std::vector<T>& of) {
+    return static_cast<std::uint32_t>(of.size());
+  }
+
+  void add_nodes(const NodeTree& tree, int root) {
+    mirrored_.push_back(false);  // the root has no triangles
+    const std::vector<glm::mat4> world = world_matrices(tree.nodes);
+    for (std::size_t n = 0; n < tree.nodes.size(); ++n) {
+      Node node = tree.nodes[n];
+      node.parent = node.parent < 0 ? root : node.parent + root + 1;
+      node.first_vertex += count(mesh_.positions);
+      node.first_triangle += count(mesh_.triangles);
+      tree_.nodes.push_back(node);
+      mirrored_.push_back(Placement(world[n]).mirrors());
+    }
+    const int skins = static_cast<int>(rest_.skins.size());
+    for (Skin skin : tree.rest->skins) {
+      for (int& joint : skin.joints) joint += root + 1;
+      rest_.skins.push_back(std::move(skin));
+    }
+    for (std::size_t d = 0; d < tree.rest->deformations.size(); ++d) {
+      Deformation deformation = tree.rest->deformations[d];
+      deformation.node += root + 1;
+      if (deformation.skin >= 0) deformation.skin += skins;
+      mirrored_[static_cast<std::size_t>(deformation.node)] = Deformer(tree, d, world).mirrors();
+      rest_.deformations.push_back(std::move(deformation));
+      tree_.weights.push_back(tree.weights[d]);
+    }
+  }
+
+  void add_animation(const Animation& animation, int root) {
+    append(animation.clips, animation_.clips);
+    animation_.duration_s = std::max(animation_.duration_s, animation.duration_s);
+    for (AnimatedNode node : animation.nodes) {
+      node.node += root + 1;
+      animation_.nodes.push_back(std::move(node));
+    }
+  }
+
+  // What its part attached to nothing hangs on the part's own node.
+  template <class T>
+  void add_attached(const std::vector<T>& of_part, const std::vector<Attached<T>>* attached, int root,
+                    std::vector<T>& all, std::vector<Attached<T>>& rest) {
+    std::vector<bool> done(of_part.size(), false);
+    if (attached)
+      for (const Attached<T>& a : *attached) {
+        if (a.index >= of_part.size() || of_part[a.index].name != a.at_rest.name) continue;
+        done[a.index] = true;
+        rest.push_back({a.node + root + 1, a.index + all.size(), a.at_rest});
+      }
+    for (std::size_t i = 0; i < of_part.size(); ++i)
+      if (!done[i]) rest.push_back({root, i + all.size(), of_part[i]});
+    append(of_part, all);
+  }
+
+  void add_mesh(const Mesh& mesh, const RestPose* rest) {
+    if (!rest) mirrored_.push_back(false);
+    const auto vertices = count(mesh_.positions), materials = count(mesh_.materials);
+    const auto textures = static_cast<int>(mesh_.textures.size());
+    const auto maps = static_cast<int>(mesh_.maps.size());
+    append(mesh.positions, mesh_.positions);
+    append(mesh.normals, mesh_.normals);
+    append(rest ? rest->positions : mesh.positions, rest_.positions);
+    append(rest ? rest->normals : mesh.normals, rest_.normals);
+    append_optional(mesh.texcoords, glm::vec2(0.0f), vertices, mesh_.texcoords);
+    append_optional(mesh.texcoords1, glm::vec2(0.0f), vertices, mesh_.texcoords1);
+    append_optional(mesh.colors, glm::vec4(1.0f), vertices, mesh_.colors);
+    append_optional(mesh.tangents, glm::vec4(0.0f), vertices, mesh_.tangents);
+    append_optional(rest ? rest->tangents : mesh.tangents, glm::vec4(0.0f), vertices, rest_.tangents);
+    for (const glm::uvec3& t : mesh.triangles) mesh_.triangles.push_back(t + vertices);
+    for (const std::uint32_t m : mesh.triangle_materials) mesh_.triangle_materials.push_back(m + materials);
+    for (Material material : mesh.materials) {
+      if (material.maps >= 0) material.maps += maps;
+      mesh_.materials.push_back(std::move(material));
+    }
+    for (MaterialMaps of_material : mesh.maps) {
+      for (TextureUse* use : {&of_material.base_color, &of_material.metallic_roughness, &of_material.normal,
+                              &of_material.occlusion, &of_material.emissive, &of_material.alpha})
+        if (use->used()) use->texture += textures;
+      mesh_.maps.push_back(of_material);
+    }
+    std::vector<Texture>& all = mesh_.textures.edit();
+    all.insert(all.end(), mesh.textures.begin(), mesh.textures.end());
+  }
+
+  // Of a vertex: there where any part has it, `none` where this one has not. `before`: vertices of those before.
+  template <class T>
+  void append_optional(const std::vector<T>& from, const T& none, std::size_t before, std::vector<T>& to) const {
+    if (from.empty() && to.empty()) return;
+    to.resize(before, none);
+    append(from, to);
+    to.resize(mesh_.positions.size(), none);
+  }
+
+  Scene result_;
+  MeshData mesh_;
+  NodeTree tree_;
+  RestPose rest_;
+  Animation animation_;
+  std::vector<bool> mirrored_;  // a node: as its triangles stand
+};
+
+}  // namespace
+
+Expected<Scene> assembled(std::span<const Part> parts) {
+  Assembly assembly;
+  for (const Part& part : parts) assembly.add(part);
+  return assembly.finish();
+}
+
+}  // namespace pinocchio

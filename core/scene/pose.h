@@ -1,0 +1,46 @@
+// Meshes made anew where their nodes have moved.
+#pragma once
+
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "pinocchio/scene.h"
+
+namespace pinocchio {
+
+// World from each node.
+[[nodiscard]] std::vector<glm::mat4> world_matrices(const std::vector<Node>& nodes);
+
+// Nodes to be placed anew, one flag each: also those whose matrix is what it was.
+using NodeFlags = std::vector<bool>;
+
+// The scene with `tree` for its nodes, and what has moved since, or is flagged, placed anew.
+[[nodiscard]] Expected<Scene> placed_anew(const Scene& scene, std::shared_ptr<const NodeTree> tree, const NodeFlags& flagged);
+
+// Places the node's own vertices, lights or cameras not among them.
+void place_vertices(const Node& node, const Placement& now, const RestPose& rest, MeshData& mesh);
+// Of lights and cameras that hang on the node only the place follows it: what was set since stays.
+void place_attached(const RestPose& rest, int node, const Placement& now, Scene& scene);
+// What a mirror asks for: triangles keep their outside.
+void turn_around(const Node& node, MeshData& mesh);
+
+// A tree's deformation where its joints, or its node, and weights are now.
+class Deformer {
+ public:
+  Deformer(const NodeTree& tree, std::size_t deformation, std::span<const glm::mat4> world);
+
+  [[nodiscard]] bool mirrors() const;  // by its first joint
+  void place(MeshData& mesh) const;
+
+ private:
+  void morph(std::vector<glm::vec3>& positions, std::vector<glm::vec3>& normals, std::vector<glm::vec4>& tangents) const;
+
+  const NodeTree& tree_;
+  const Deformation& deformation_;
+  const std::vector<float>& weights_;
+  glm::mat4 world_from_node_;
+  std::vector<glm::mat4> world_from_mesh_;  // one a joint
+};
+
+}  // namespace pinocchio

@@ -1,0 +1,40 @@
+#include "pinocchio/pose_ahead.h"
+
+#include <utility>
+
+#include "pinocchio/engine.h"
+
+namespace pinocchio {
+
+bool PoseAhead::Wanted::same_as(const Wanted& other) const {
+  return seconds == other.seconds && settings.traces() == other.settings.traces() &&
+         same_tracer(settings, other.settings);
+}
+
+Expected<PoseAhead::Pose> PoseAhead::make(const Scene& scene, const Wanted& wanted, Progress* progress) {
+  throw_if_cancelled(progress);
+  Expected<Scene> posed = at_time(scene, wanted.seconds);
+  if (!posed) return Unexpected(posed.error());
+  std::shared_ptr<const Tracer> tracer = Engine::prepare(*posed, wanted.settings);
+  return Pose{std::move(*posed), std::move(tracer)};
+}
+
+Expected<PoseAhead::Pose> PoseAhead::at(double seconds, const Settings& settings, std::optional<double> next_s) {
+  const Wanted wanted{seconds, settings};
+  if (!last_wanted_ || !last_wanted_->same_as(wanted)) {
+    const bool is_begun = next_.valid() && next_wanted_->same_as(wanted);
+    Expected<Pose> pose = is_begun ? next_.get() : make(scene_, wanted, progress_);
+    if (!pose) return pose;
+    last_ = std::move(*pose);
+    last_wanted_ = wanted;
+  }
+  if (next_s && *next_s != seconds) {
+    next_wanted_ = Wanted{*next_s, settings};
+    next_ = std::async(std::launch::async, [scene = scene_, next = *next_wanted_, progress = progress_] {
+      return make(scene, next, progress);
+    });
+  }
+  return *last_;
+}
+
+}  // namespace pinocchio

@@ -1,0 +1,339 @@
+// Scenes that move by themselves, against closed forms.
+#include "pinocchio/animation.h"
+
+#include <cmath>
+#include <glm/gtc/constants.hpp>
+#include <glm/gtc/matrix_transform.hpp>
+
+#include "tests/support/gltf.h"
+
+namespace pinocchio {
+namespace {
+
+// triangle_json() with numbers behind its own; each array of them gets an accessor.
+class Moving {
+ public:
+  Json json = triangle_json();
+
+  int floats(const std::vector<float>& numbers, const char* type) {
+    const int width = type == std::string("SCALAR") ? 1 : type == std::string("VEC3") ? 3 : type == std::string("VEC4") ? 4 : 16;
+    return add(numbers, type, 5126, numbers.size() / static_cast<std::size_t>(width));
+  }
+  int bytes(const std::vector<std::uint8_t>& numbers, bool normalized) {
+    const int accessor = add(numbers, "VEC4", 5121, numbers.size() / 4);
+    json["accessors"][static_cast<std::size_t>(accessor)]["normalized"] = normalized;
+    return accessor;
+  }
+  template <class T>
+  int add(const std::vector<T>& numbers, const char* type, int component_type, std::size_t count) {
+    const std::size_t size = numbers.size() * sizeof(T), offset = json["buffers"][0]["byteLength"];
+    {
+      std::ofstream out(own_file("test.bin"), std::ios::binary | std::ios::app);
+      out.write(reinterpret_cast<const char*>(numbers.data()), static_cast<std::streamsize>(size));
+      out.write("\0\0\0", static_cast<std::streamsize>((4 - size % 4) % 4));
+    }
+    json["buffers"][0]["byteLength"] = offset + (size + 3) / 4 * 4;
+    json["bufferViews"].push_back({{"buffer", 0}, {"byteOffset", offset}, {"byteLength", size}});
+    json["accessors"].push_back({{"bufferView", json["bufferViews"].size() - 1},
+                                 {"componentType", component_type}, {"count", count}, {"type", type}});
+    return static_cast<int>(json["accessors"].size()) - 1;
+  }
+
+  void animate(int node, const char* path, const std::vector<float>& times, int output, const char* interpolation = "LINEAR",
+               std::size_t animation = 0) {
+    Json& to = json["animations"][animation];
+    to["samplers"].push_back({{"input", floats(times, "SCALAR")}, {"output", output}, {"interpolation", interpolation}});
+    to["channels"].push_back({{"sampler", to["samplers"].size() - 1}, {"target", {{"node", node}, {"path", path}}}});
+  }
+
+  Json& primitive() { return json["meshes"][0]["primitives"][0]; }
+};
+
+Scene at(const Scene& scene, double seconds) {
+  Expected<Scene> moved = at_time(scene, seconds);
+  EXPECT_TRUE(moved) << moved.error().message();
+  return moved ? std::move(*moved) : Scene{};
+}
+
+void expect_near(const glm::vec3& a, const glm::vec3& b, float tolerance = 2e-6f) {
+  EXPECT_LT(glm::distance(a, b), tolerance) << a.x << " " << a.y << " " << a.z << " is not " << b.x << " " << b.y << " " << b.z;
+}
+
+TEST(Animation, InterpolatesAsGltfSays) {
+  Moving m;
+  m.animate(0, "translation", {1, 3}, m.floats({0, 0, 0, 4, 2, 0}, "VEC3"));
+  const Scene scene = load_good(m.json);
+  EXPECT_DOUBLE_EQ(duration_s(scene), 3.0);
+  expect_near(scene.mesh->positions[0], {0, 0, 0});      // as its nodes have it
+  expect_near(at(scene, 0).mesh->positions[0], {0, 0, 0});  // before the first key: that key
+  expect_near(at(scene, 1.5).mesh->positions[0], {1, 0.5, 0});
+  expect_near(at(scene, 99).mesh->positions[0], {4, 2, 0});  // behind the last
+  EXPECT_EQ(at(scene, 1.5).mesh->triangles, scene.mesh->triangles);
+
+  Moving step;
+  step.animate(0, "translation", {0, 2}, step.floats({1, 0, 0, 5, 0, 0}, "VEC3"), "STEP");
+  const Scene stepped = load_good(step.json);
+  expect_near(at(stepped, 1.999).mesh->positions[0], {1, 0, 0});
+  expect_near(at(stepped, 2).mesh->positions[0], {5, 0, 0});
+
+  // Hermite from 0 with slope 3 to 1 with slope -1 over two seconds, at t = 1/4.
+  Moving cubic;
+  cubic.animate(0, "scale", {0, 2}, cubic.floats({9, 9, 9, 0, 0, 0, 3, 3, 3, -1, -1, -1, 1, 1, 1, 9, 9, 9}, "VEC3"), "CUBICSPLINE");
+  const double t = 0.25, h10 = t * t * t - 2 * t * t + t, h01 = 3 * t * t - 2 * t * t * t, h11 = t * t * t - t * t;
+  const auto s = static_cast<float>(2 * h10 * 3 + h01 + 2 * h11 * -1);
+  expect_near(at(load_good(cubic.json), 0.5).mesh->positions[1], {s, 0, 0});
+}
+
+// From 30 to 150 degrees around z; the quaternion of the second key is the negative one: the short way counts.
+TEST(Animation, TurnsAtConstantSpeedTheShortWay) {
+  const auto turn = [](float degrees) { return std::pair(std::sin(glm::radians(degrees) / 2), std::cos(glm::radians(degrees) / 2)); };
+  const auto [s0, c0] = turn(30);
+  const auto [s1, c1] = turn(150);
+  Moving m;
+  m.animate(0, "rotation", {0, 1}, m.floats({0, 0, s0, c0, 0, 0, -s1, -c1}, "VEC4"));
+  const Scene scene = load_good(m.json);
+  for (const double t : {0.0, 0.1, 0.25, 0.5, 0.9, 1.0}) {
+    const float angle = glm::radians(30.0f + 120.0f * static_cast<float>(t));
+    expect_near(at(scene, t).mesh->positions[1], {std::cos(angle), std::sin(angle), 0});
+  }
+}
+
+TEST(Animation, KeepsWhatOfANodeNothingMoves) {
+  Moving m;
+  m.json["nodes"][0]["translation"] = {5, 0, 0};
+  m.json["nodes"][0]["scale"] = {2, 2, 2};
+  m.animate(0, "rotation", {0, 1}, m.floats({0, 0, 0, 1, 0, 0, std::sin(glm::quarter_pi<float>()), std::cos(glm::quarter_pi<float>())}, "VEC4"));
+  expect_near(at(load_good(m.json), 1).mesh->positions[1], {5, 2, 0});
+}
+
+// Light and camera hang on a child of what moves.
+TEST(Animation, MovesLightsAndCameras) {
+  Moving m;
+  m.json["extensions"]["KHR_lights_punctual"]["lights"] = {{{"type", "point"}}};
+  m.json["cameras"] = {{{"type", "perspective"}, {"perspective", {{"yfov", 1.0}, {"znear", 0.1}}}}};
+  m.json["nodes"][0]["children"] = {1};
+  m.json["nodes"].push_back({{"camera", 0}, {"translation", {0, 0, 3}}, {"extensions", {{"KHR_lights_punctual", {{"light", 0}}}}}});
+  m.animate(0, "translation", {0, 1}, m.floats({0, 0, 0, 2, 0, 0}, "VEC3"));
+  const Scene moved = at(load_good(m.json), 0.5);
+  expect_near(moved.lights.at(0).position, {1, 0, 3});
+  expect_near(moved.cameras.at(0).eye, {1, 0, 3});
+  expect_near(moved.cameras.at(0).target, {1, 0, 2});
+  expect_near(cameras_at(load_good(m.json), 0.5).at(0).eye, {1, 0, 3});
+}
+
+// Two joints: vertex 1 follows the second alone, vertex 2 both by halves. The skinned node's own place does not count.
+Moving skinned() {
+  Moving m;
+  m.json["nodes"] = {{{"mesh", 0}, {"skin", 0}, {"translation", {100, 0, 0}}},
+                     {{"translation", {1, 0, 0}}, {"children", {2}}},
+                     {{"translation", {0, 1, 0}}}};
+  m.json["scenes"][0]["nodes"] = {0, 1};
+  const glm::mat4 inverse0 = glm::translate(glm::mat4(1.0f), {-1, 0, 0}), inverse1 = glm::translate(glm::mat4(1.0f), {-1, -1, 0});
+  std::vector<float> matrices(&inverse0[0][0], &inverse0[0][0] + 16);
+  matrices.insert(matrices.end(), &inverse1[0][0], &inverse1[0][0] + 16);
+  m.json["skins"] = {{{"joints", {1, 2}}, {"inverseBindMatrices", m.floats(matrices, "MAT4")}}};
+  m.primitive()["attributes"]["JOINTS_0"] = m.bytes({0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 0, 0}, false);
+  m.primitive()["attributes"]["WEIGHTS_0"] = m.floats({1, 0, 0, 0, 1, 0, 0, 0, 0.5, 0.5, 0, 0, 1, 0, 0, 0}, "VEC4");
+  return m;
+}
+
+TEST(Skin, FollowsItsJoints) {
+  Moving m = skinned();
+  // The second joint turns by 90 degrees around z, about its own place (1, 1, 0).
+  m.animate(2, "rotation", {0, 1}, m.floats({0, 0, 0, 1, 0, 0, std::sin(glm::quarter_pi<float>()), std::cos(glm::quarter_pi<float>())}, "VEC4"));
+  Warnings warnings;
+  const Scene scene = load(m.json, &warnings).value();
+  EXPECT_TRUE(warnings.empty());
+  for (int v = 0; v < 3; ++v) expect_near(scene.mesh->positions[static_cast<std::size_t>(v)], glm::vec3(v == 1, v == 2, 0));  // bound
+  const Scene bent = at(scene, 1);
+  expect_near(bent.mesh->positions[0], {0, 0, 0});
+  expect_near(bent.mesh->positions[1], {2, 1, 0});           // (1,0) about (1,1): offset (0,-1) becomes (1,0)
+  expect_near(bent.mesh->positions[2], {0.5, 0.5, 0});       // halfway between (0,1) and (1,0)
+  const std::array<NodeTransform, 1> moved{NodeTransform{2, glm::translate(glm::mat4(1.0f), {0, 3, 0})}};
+  expect_near(posed(scene, moved).value().mesh->positions[1], {1, 2, 0});
+}
+
+TEST(Skin, ReadsNormalisedWeightsAndASecondSet) {
+  Moving m = skinned();
+  m.primitive()["attributes"]["WEIGHTS_0"] = m.bytes({255, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 255, 0, 0, 0}, true);
+  m.primitive()["attributes"]["JOINTS_1"] = m.bytes({0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 0, 0}, false);
+  m.primitive()["attributes"]["WEIGHTS_1"] = m.bytes({0, 0, 0, 0, 255, 0, 0, 0, 51, 204, 0, 0, 0, 0, 0, 0}, true);
+  const std::array<NodeTransform, 1> moved{NodeTransform{2, glm::translate(glm::mat4(1.0f), {0, 3, 0})}};
+  const Scene scene = posed(load_good(m.json), moved).value();
+  expect_near(scene.mesh->positions[1], {1, 2, 0});
+  expect_near(scene.mesh->positions[2], {0, 1 + 0.8 * 2, 0});
+}
+
+Moving morphed() {
+  Moving m;
+  m.json["meshes"][0]["primitives"][0]["targets"] = {{{"POSITION", m.floats({0, 0, 1, 0, 0, 0, 0, 0, 0, 0, 0, 0}, "VEC3")}},
+                                                      {{"POSITION", m.floats({0, 2, 0, 4, 0, 0, 0, 0, 0, 0, 0, 0}, "VEC3")}}};
+  m.json["meshes"][0]["weights"] = {0.5, 0.25};
+  return m;
+}
+
+TEST(Morph, AddsTargetsByTheirWeights) {
+  Moving m = morphed();
+  expect_near(load_good(m.json).mesh->positions[0], {0, 0.5, 0.5});  // the mesh's own weights
+  m.json["nodes"][0]["weights"] = {1.0, 0.0};
+  expect_near(load_good(m.json).mesh->positions[0], {0, 0, 1});  // the node's go first
+  m.animate(0, "weights", {0, 2}, m.floats({0, 0, 1, 0.5}, "SCALAR"));
+  const Scene scene = load_good(m.json), half = at(scene, 1);
+  expect_near(half.mesh->positions[0], {0, 0.5, 0.5});
+  expect_near(half.mesh->positions[1], {2, 0, 0});
+  const std::array<NodeWeights, 1> weights{NodeWeights{0, {0.0f, 2.0f}}};
+  expect_near(posed(scene, {}, weights).value().mesh->positions[0], {0, 4, 0});
+}
+
+TEST(Morph, ComesBeforeTheSkin) {
+  Moving m = skinned();
+  m.primitive()["targets"] = {{{"POSITION", m.floats({0, 0, 0, 1, 0, 0, 0, 0, 0, 0, 0, 0}, "VEC3")}}};
+  m.json["meshes"][0]["weights"] = {1};
+  m.json["nodes"][2]["rotation"] = {0, 0, std::sin(glm::quarter_pi<float>()), std::cos(glm::quarter_pi<float>())};
+  expect_near(load_good(m.json).mesh->positions[1], {2, 2, 0});  // (2,0) about (1,1)
+}
+
+// Of a sparse target only what it names is moved; normals follow their targets.
+TEST(Morph, ReadsSparseTargetsAndNormals) {
+  Moving m;
+  m.primitive()["attributes"]["NORMAL"] = m.floats({0, 0, 1, 0, 0, 1, 0, 0, 1, 0, 0, 1}, "VEC3");
+  const int index = m.add(std::vector<std::uint16_t>{2}, "SCALAR", 5123, 1), value = m.floats({0, 0, 7}, "VEC3");
+  const auto view = [&](int accessor) { return m.json["accessors"][static_cast<std::size_t>(accessor)]["bufferView"]; };
+  m.json["accessors"].push_back({{"componentType", 5126}, {"count", 4}, {"type", "VEC3"},
+                                 {"sparse", {{"count", 1}, {"indices", {{"bufferView", view(index)}, {"componentType", 5123}}},
+                                             {"values", {{"bufferView", view(value)}}}}}});
+  const int sparse = static_cast<int>(m.json["accessors"].size()) - 1;
+  m.primitive()["targets"] = {{{"POSITION", sparse}, {"NORMAL", m.floats({1, 0, -1, 0, 0, 0, 0, 0, 0, 0, 0, 0}, "VEC3")}}};
+  m.json["meshes"][0]["weights"] = {1};
+  const Scene scene = load_good(m.json);
+  expect_near(scene.mesh->positions[0], {0, 0, 0});
+  expect_near(scene.mesh->positions[2], {0, 1, 7});
+  expect_near(scene.mesh->normals[0], {1, 0, 0});
+  expect_near(scene.mesh->normals[1], {0, 0, 1});
+}
+
+// A time's mesh has the same bits, wherever one comes from; also of instances, which are placed twice.
+TEST(Animation, IsMadeOfTheRestPoseAlone) {
+  Moving m = morphed();
+  m.json["extensionsUsed"] = {"EXT_mesh_gpu_instancing"};
+  m.json["nodes"][0]["rotation"] = {0.1, 0.2, 0.3, 0.927};
+  m.json["nodes"][0]["extensions"]["EXT_mesh_gpu_instancing"]["attributes"] = {{"TRANSLATION", m.floats({.1f, .2f, .3f, -3, 0, 0}, "VEC3")},
+                                                                               {"SCALE", m.floats({1, 1, 1, -1.5, 1, 1}, "VEC3")}};
+  m.animate(0, "scale", {0, 1, 2}, m.floats({1, 1, 1, .7f, .7f, .7f, -1, 1, 1}, "VEC3"));
+  m.animate(0, "weights", {0, 2}, m.floats({0, 0, 1, 0.5}, "SCALAR"));
+  const Scene scene = load_good(m.json);
+  Scene walked = scene;
+  for (const double t : {0.3, 1.9, 2.0, 0.0, 1.1, 0.7}) {
+    walked = at(walked, t);
+    const Scene alone = at(scene, t);
+    EXPECT_EQ(walked.mesh->positions, alone.mesh->positions) << t;
+    EXPECT_EQ(walked.mesh->normals, alone.mesh->normals) << t;
+    EXPECT_EQ(walked.mesh->triangles, alone.mesh->triangles) << t;
+  }
+  // The second instance is a mirror's; at 2 s its node mirrors it back, and the first one is turned.
+  const std::vector<glm::uvec3> before = scene.mesh->triangles, after = at(scene, 2).mesh->triangles;
+  for (std::size_t i : {0u, 1u}) EXPECT_EQ(after[i], glm::uvec3(before[i].x, before[i].z, before[i].y));
+  EXPECT_EQ(before[1] - before[0], glm::uvec3(4, 5, 3));
+}
+
+TEST(Animation, OfTwoThatMoveTheSameTheFirstPlays) {
+  Moving m;
+  m.json["nodes"].push_back({{"name", "other"}});
+  m.json["scenes"][0]["nodes"] = {0, 1};
+  m.animate(0, "translation", {0, 1}, m.floats({0, 0, 0, 1, 0, 0}, "VEC3"));
+  m.animate(0, "translation", {0, 9}, m.floats({0, 0, 0, 0, 1, 0}, "VEC3"), "LINEAR", 1);
+  m.animate(1, "translation", {0, 2}, m.floats({0, 0, 0, 0, 1, 0}, "VEC3"), "LINEAR", 2);
+  Warnings warnings;
+  const Scene scene = load(m.json, &warnings).value();
+  ASSERT_EQ(warnings.size(), 1u);
+  EXPECT_EQ(warnings[0].where, "animation 1");
+  EXPECT_EQ(scene.animation->clips.size(), 2u);
+  EXPECT_DOUBLE_EQ(duration_s(scene), 2.0);
+  expect_near(at(scene, 1).mesh->positions[0], {1, 0, 0});
+}
+
+TEST(Animation, StillScenesPayNothing) {
+  const Scene scene = load_good(triangle_json());
+  EXPECT_FALSE(scene.animation);
+  EXPECT_TRUE(scene.nodes->rest->deformations.empty());
+  EXPECT_EQ(duration_s(scene), 0.0);
+  EXPECT_EQ(at(scene, 1).mesh, scene.mesh);
+}
+
+TEST(Animation, TextureIsSharedByAllPoses) {
+  MeshData mesh;
+  mesh.textures = {Texture{"t", Image<glm::u8vec4>({2, 2})}};
+  const MeshData copy = mesh;
+  EXPECT_TRUE(copy.textures.shares_with(mesh.textures));
+  mesh.textures.edit()[0].name = "other";
+  EXPECT_EQ(copy.textures[0].name, "t");
+}
+
+// What is wrong in the file is said, and never shown.
+TEST(Animation, SaysWhatIsWrong) {
+  const auto says = [](const Json& json, const std::string& text) { EXPECT_NE(error_of(json).find(text), std::string::npos) << error_of(json); };
+  const auto warns = [](const Json& json, const std::string& text) {
+    Warnings warnings;
+    const Expected<Scene> scene = load(json, &warnings);
+    ASSERT_TRUE(scene) << scene.error().message();
+    ASSERT_FALSE(warnings.empty()) << text;
+    EXPECT_NE(warnings[0].message().find(text), std::string::npos) << warnings[0].message();
+    EXPECT_TRUE(at_time(*scene, 0.5));
+  };
+  const auto moving = [](const std::vector<float>& times, const std::vector<float>& values) {
+    Moving m;
+    m.animate(0, "translation", times, m.floats(values, "VEC3"));
+    return m.json;
+  };
+  warns(moving({1, 0}, {0, 0, 0, 1, 0, 0}), "times do not rise");
+  warns(moving({0, 1}, {0, 0, 0, std::nanf(""), 0, 0}), "not finite");
+  warns(moving({0, 1}, {0, 0, 0}), "a value for each time");
+  Json json = moving({0, 1}, {0, 0, 0, 1, 0, 0});
+  json["animations"][0]["channels"][0]["target"]["node"] = 7;
+  says(json, "moves node 7, there are 1");
+  json = moving({0, 1}, {0, 0, 0, 1, 0, 0});
+  json["animations"][0]["channels"][0]["sampler"] = 3;
+  says(json, "names sampler 3");
+  json = moving({0, 1}, {0, 0, 0, 1, 0, 0});
+  json["animations"][0]["channels"][0]["target"]["path"] = "weights";
+  warns(json, "without morph targets");
+  json = moving({0, 1}, {0, 0, 0, 1, 0, 0});
+  json["nodes"][0]["matrix"] = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1};
+  warns(json, "a matrix");
+  EXPECT_FALSE(at_time(load_good(moving({0, 1}, {0, 0, 0, 1, 0, 0})), std::nan("")));
+  EXPECT_FALSE(at_time(load_good(moving({0, 1}, {0, 0, 0, 1e30f, 0, 0})), 1));  // beyond what is drawn
+
+  Moving m = skinned();
+  m.primitive()["attributes"]["WEIGHTS_0"] = m.floats({1, 0, 0, 0, 1, 0, 0, 0, 0.5, 0.1, 0, 0, 1, 0, 0, 0}, "VEC4");
+  warns(m.json, "do not add up to 1");
+  m = skinned();
+  m.primitive()["attributes"]["JOINTS_0"] = m.bytes({0, 0, 0, 0, 9, 0, 0, 0, 0, 1, 0, 0, 0, 0, 0, 0}, false);
+  says(m.json, "names joint 9 of skin 0, it has 2");
+  m = skinned();
+  m.json["skins"][0]["joints"] = {1, 7};
+  says(m.json, "names node 7");
+  m = skinned();
+  m.json["nodes"][0]["skin"] = 4;
+  says(m.json, "names skin 4");
+  m = skinned();
+  m.json["nodes"][1].erase("children");
+  warns(m.json, "not in the scene");
+  m = skinned();
+  m.json["accessors"][static_cast<std::size_t>(m.json["skins"][0]["inverseBindMatrices"])]["count"] = 1;
+  says(m.json, "1 inverse bind matrices");
+  m = morphed();
+  m.primitive()["targets"][0]["POSITION"] = m.floats({0, 0, 0}, "VEC3");
+  says(m.json, "one element a vertex");
+}
+
+// An accessor without data may claim any count; so may a thousand channels of one.
+TEST(Animation, StaysWithinTheMemoryLimit) {
+  Moving m = morphed();
+  m.json["accessors"].push_back({{"componentType", 5126}, {"count", 2'000'000'000}, {"type", "SCALAR"},
+                                 {"sparse", {{"count", 0}, {"indices", {{"bufferView", 1}, {"componentType", 5123}}}, {"values", {{"bufferView", 0}}}}}});
+  m.animate(0, "weights", {0, 1}, static_cast<int>(m.json["accessors"].size()) - 1);
+  EXPECT_NE(error_of(m.json).find("MiB of memory"), std::string::npos) << error_of(m.json);
+}
+
+}  // namespace
+}  // namespace pinocchio
