@@ -37,11 +37,6 @@ void add_animation_options(CLI::App& verb, AnimationOptions& options);
 // The frames that the options ask for, in order; one, number 0, where they ask for none. The scene's own camera
 // moves with its node, where no path says where it is. Ends the verb with kUsage where the options contradict
 // each other or the path cannot be read.
-//
-// A path file holds key frames, between which the camera moves in a straight line:
-//   {"keyframes": [{"frame": 0, "eye": [x, y, z], "target": [x, y, z], "up": [x, y, z], "fov": degrees},
-//   ...]}
-// up and fov may be left out.
 [[nodiscard]] std::vector<CameraFrame> animate(const AnimationOptions& options, const DrawOptions& draw, const Scene& scene);
 
 // Everything that drawing the scene by these options reads.

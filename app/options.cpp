@@ -6,6 +6,7 @@
 #include <cstdio>
 #include <memory>
 
+#include "app/check_camera.h"
 #include "app/console.h"
 #include "app/errors.h"
 #include "app/parse.h"
@@ -119,17 +120,30 @@ void add_camera_options(CLI::App& verb, DrawOptions& o) {
       },
       [&o](float v) { o.fov_deg = v; })
       ->type_name("DEG");
+  const auto add_length = [&verb](const char* name, const char* help, std::optional<float>& to) {
+    add_parsed<float>(
+        verb, name, help, "a length that is not negative",
+        [](const std::string& s) {
+          const std::optional<float> v = parse_float(s);
+          return v && *v >= 0.0f ? v : std::nullopt;
+        },
+        [&to](float v) { to = v; })
+        ->type_name("LENGTH");
+  };
+  add_length("--lens-radius", "depth of field by samples: the lens's radius, scene units; 0: a pinhole", o.lens_radius);
+  add_length("--focus", "how far along the view axis all is sharp, scene units (the target's distance)", o.focus);
   const auto take_lights = [&o](const std::vector<std::string>& texts) {
     for (const std::string& text : texts) {
       const std::optional<Light> light = parse_light(text);
       if (!light)
-        throw CLI::ValidationError("--light", "'" + text + "' is not x,y,z[,intensity[,cast|nocast]]");
+        throw CLI::ValidationError("--light", "'" + text + "' is not x,y,z[,intensity[,cast|nocast[,radius]]]");
       o.lights.push_back(*light);
     }
   };
   verb.add_option_function<std::vector<std::string>>(
-          "--light", take_lights, "add a point light, same strength at any distance (repeatable)")
-      ->type_name("x,y,z[,intensity[,cast|nocast]]")
+          "--light", take_lights, "add a point light, same strength at any distance; with a radius, scene units, a ball "
+                   "whose shadows are soft by samples (repeatable)")
+      ->type_name("x,y,z[,intensity[,cast|nocast[,radius]]]")
       ->expected(1)
       ->take_all();
 }
@@ -174,6 +188,9 @@ void add_load_limit_option(CLI::App& verb, DrawOptions& o) {
 void add_scene_options(CLI::App& verb, DrawOptions& o) {
   verb.add_option("SCENE", o.scene, "glTF (.gltf, .glb), OBJ or PLY file")->required();
   add_camera_options(verb, o);
+  verb.add_option("--environment", o.environment,
+                  "what is seen behind the scene and lights it: EXR or Radiance (.hdr), latitude and longitude")
+      ->type_name("FILE");
   add_load_limit_option(verb, o);
   verb.add_flag("--strict", o.strict, "what of the scene's files would be left out is an error");
   verb.add_flag("--quiet", o.quiet, "print errors only");
@@ -222,11 +239,15 @@ Scene load_whole(const DrawOptions& options, Warnings& warnings, pinocchio::Prog
     throw Exit(kBadScene, warnings[0].message() + (more > 0 ? "; and " + std::to_string(more) + " more" : "") +
                               " ('pinocchio info' lists them; without --strict the rest is drawn)");
   }
-  return value_or_exit(std::move(scene), kBadScene);
+  Scene whole = value_or_exit(std::move(scene), kBadScene);
+  if (!options.environment.empty())
+    whole.environment = value_or_exit(
+        load_environment(options.environment, progress ? progress : &run_progress(), options.load_limit), kBadScene);
+  return whole;
 }
 
 void light_if_dark(Scene& scene, const DrawOptions& options) {
-  if (!scene.lights.empty()) return;
+  if (!scene.lights.empty() || scene.environment) return;
   scene.lights.push_back(default_light(scene, camera_for(options, scene)));
   if (!options.quiet)
     std::fprintf(stderr, "pinocchio: %s has no light; a default one is used (add one with --light x,y,z)\n",
@@ -261,21 +282,10 @@ Camera camera_for(const DrawOptions& options, const Scene& scene) {
   if (options.eye && options.target) camera.up = Camera{}.up;
   if (options.up) camera.up = *options.up;
   if (options.fov_deg) camera.fov_deg = *options.fov_deg;
+  if (options.lens_radius) camera.lens_radius = *options.lens_radius;
+  if (options.focus) camera.focus_distance = *options.focus;
   check_camera(camera, "the camera");
   return camera;
-}
-
-void check_camera(const Camera& camera, const std::string& whose) {
-  const auto fail = [&](const std::string& what) { throw Exit(kUsage, whose + ": " + what); };
-  const auto is_far = [](const glm::vec3& p) {
-    return !(std::max({std::abs(p.x), std::abs(p.y), std::abs(p.z)}) <= kFarthest);
-  };
-  if (is_far(camera.eye)) fail("its eye is more than 1e9 from the origin; move it nearer");
-  if (is_far(camera.target)) fail("its target is more than 1e9 from the origin; move it nearer");
-  if (camera.eye == camera.target) fail("its eye and its target are the same point; move one of them");
-  if (!(glm::length(glm::dvec3(camera.up)) > 0.0) || is_far(camera.up))
-    fail("its up is no direction; give one such as 0,1,0");
-  if (!(camera.fov_deg > 0.0f && camera.fov_deg < 180.0f)) fail("its field of view is not within 0 and 180 degrees");
 }
 
 PixelBox part_of(const DrawOptions& options) {

@@ -28,8 +28,9 @@ struct DrawOptions {
   EngineOptions engine;
   std::string camera;  // name or index; empty: the first, else the whole scene in view
   std::optional<glm::vec3> eye, target, up;
-  std::optional<float> fov_deg;
+  std::optional<float> fov_deg, lens_radius, focus;
   std::vector<Light> lights;  // added to the scene's
+  std::string environment;    // file; empty: none
   std::optional<PixelBox> crop;
   bool precise = false;  // drawn by the reference
   std::string progress = "auto";
@@ -68,9 +69,6 @@ void light_if_dark(Scene& scene, const DrawOptions& options);
 
 // The camera that the options ask for. Ends the verb with kUsage where the scene has no such camera.
 [[nodiscard]] Camera camera_for(const DrawOptions& options, const Scene& scene);
-
-// Ends the verb with kUsage where nothing can be seen from there: `whose` begins the line.
-void check_camera(const Camera& camera, const std::string& whose);
 
 // The pixels to draw: --crop within --size, or all. Ends the verb with kUsage where they are none.
 [[nodiscard]] PixelBox part_of(const DrawOptions& options);

@@ -83,7 +83,7 @@ std::optional<PixelBox> parse_box(const std::string& text) {
 
 std::optional<Light> parse_light(const std::string& text) {
   const std::vector<std::string> parts = split(text, ',');
-  if (parts.size() < 3 || parts.size() > 5) return std::nullopt;
+  if (parts.size() < 3 || parts.size() > 6) return std::nullopt;
   const std::optional<glm::vec3> position = parse_vec3(parts[0] + "," + parts[1] + "," + parts[2]);
   if (!position) return std::nullopt;
   Light light;
@@ -97,6 +97,11 @@ std::optional<Light> parse_light(const std::string& text) {
   if (parts.size() > 4) {
     if (parts[4] != "cast" && parts[4] != "nocast") return std::nullopt;
     light.casts_shadow = parts[4] == "cast";
+  }
+  if (parts.size() > 5) {
+    const std::optional<float> radius = parse_float(parts[5]);
+    if (!radius || *radius < 0.0f) return std::nullopt;
+    light.radius = *radius;
   }
   return light;
 }

@@ -43,9 +43,9 @@ FrameResult precise(const FrameRequest& request, Workers& workers) {
   mean.settings = request.settings;
   const int spp = request.settings.spp;
   for (int k = 0; k < spp; ++k) {
-    const View view = at_sample(request.view, k);
+    const View view = at_sample(request.view, k, request.settings.pixel_filter);
     ReferencePicture sample = reference_render(request.scene, view, request.settings.depth, workers, &run_progress(),
-                                               request.settings.filter_textures);
+                                               request.settings.filter_textures, request.settings.terminator);
     if (k == 0) {
       mean.color = std::move(sample.color);
       mean.ids = std::move(sample.ids);
@@ -92,6 +92,8 @@ class RenderRun {
   }
 
   void check(const Scene& scene) const {
+    if (options_.draw.precise && (scene.environment || options_.draw.settings.indirect > 0))
+      throw Exit(kUsage, "--precise knows no --environment and no --indirect light; leave --precise out, and take --spp");
     if (options_.output.exr.empty() && options_.output.preview.empty() && options_.stats_json.empty())
       throw Exit(kUsage,
                  "nothing to write; name a file with -o FILE.exr, --preview FILE.png or --stats-json");
@@ -143,7 +145,7 @@ class RenderRun {
 
   template <class Take>
   void draw_frames(Drawing& drawing, Take take) {
-    SampleMean mean(drawing.settings().spp, take);
+    SampleMean mean(drawing.settings(), take);
     Renderer renderer(drawing.engine(), {[&](Frame& frame) { mean.add(frame); },
                                          [&](const FrameRecord& record) { records_.push_back(record); }},
                       &run_progress());
@@ -151,7 +153,7 @@ class RenderRun {
       begun_s_.push_back(now_s());
       delivering_s_ = 0.0;
       const CameraFrame* const next = &frame == &frames_.back() ? nullptr : &frame + 1;
-      submit_samples(renderer, drawing.request(budget_ ? budget_->settings() : drawing.settings(), frame, next));
+      submit_samples(renderer, drawing.request(budget_ ? budget_->settings() : drawing.settings(), frame, next), &mean);
       if (budget_) budget_->note(1e3 * (now_s() - begun_s_.back() - delivering_s_));
     }
     renderer.drain();

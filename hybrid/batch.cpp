@@ -11,7 +11,7 @@ namespace {
 
 // What the tile queue draws: the CPU alone, every pixel with a sample of its own.
 bool fits_tile_queue(const Settings& s) {
-  return !s.uses_gpu() && s.mask_scale == 1 && s.reflection_scale == 1;
+  return !s.uses_gpu() && s.mask_scale == 1 && s.reflection_scale == 1 && s.max_noise == 0.0f;
 }
 
 RayCounts draw_tiles(Engine::Parts& engine, const Scene& scene, const std::shared_ptr<const Tracer>& tracer,
@@ -22,10 +22,14 @@ RayCounts draw_tiles(Engine::Parts& engine, const Scene& scene, const std::share
   FramesJob job{lit, *tracer, engine.workers(s.threads), cameras, size};
   job.spp = s.spp;
   job.depth = s.reflects() ? s.depth.value : 0;
+  job.indirect = s.reflects() ? s.indirect.value : 0;
+  job.environment_light = s.reflects();
   job.mask_bits = s.mask_bits;
   job.throughput_cutoff = s.throughput_cutoff;
   job.light_cutoff = s.light_cutoff;
   job.filter_textures = s.filter_textures;
+  job.terminator = s.terminator;
+  job.filter = s.pixel_filter;
   job.sampling = sampling_of(s, {});
   job.progress = progress;
   return trace_frames(job, to);
@@ -68,13 +72,13 @@ RayCounts draw_frames(Engine& engine, FrameRequest request, std::span<const Came
                       Progress* progress) {
   RayCounts rays;
   Copier copier(to);
-  SampleMean mean(request.settings.spp, [&](FrameResult&& frame) { copier.take(frame); });
+  SampleMean mean(request.settings, [&](FrameResult&& frame) { copier.take(frame); });
   Renderer renderer(engine, {[&](Frame& frame) { mean.add(frame); },
                              [&](const FrameRecord& record) { rays += record.rays; }},
                     progress);
   for (const Camera& camera : cameras) {
     request.view.camera = camera;
-    submit_samples(renderer, request);
+    submit_samples(renderer, request, &mean);
   }
   renderer.drain();
   return rays;

@@ -8,7 +8,7 @@ uniform samplerBuffer materials;            // kMaterialTexels a material
 uniform samplerBuffer lights;               // kLightTexels a light
 
 const int kMaterialTexels = 4;
-const int kLightTexels = 4;
+const int kLightTexels = 6;
 
 vec3 fetch_vec3(samplerBuffer buffer, uint i) {
   int first = 3 * int(i);
@@ -52,6 +52,12 @@ LightParams fetch_light(int i) {
   light.range = c.a;
   light.cos_inner = d.x;
   light.cos_outer = d.y;
+#ifdef HAS_SIZED_LIGHTS
+  vec4 e = texelFetch(lights, kLightTexels * i + 4);
+  light.size = e.w;
+  light.edge_u = e.xyz;
+  light.edge_v = texelFetch(lights, kLightTexels * i + 5).xyz;
+#endif
   return light;
 }
 

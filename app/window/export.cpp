@@ -57,12 +57,16 @@ std::string render_command(const ExportedView& view, const std::string& name) {
   text += " --eye " + exact(camera.eye) + " --target " + exact(camera.target);
   if (camera.up != glm::vec3(0, 1, 0)) text += " --up " + exact(camera.up);
   text += " --fov " + exact(camera.fov_deg);
+  if (camera.lens_radius > 0.0f) text += " --lens-radius " + exact(camera.lens_radius);
+  if (camera.focus_distance > 0.0f) text += " --focus " + exact(camera.focus_distance);
   for (const Light& light : view.extra_lights)
     text += " --light " + exact(light.position) + "," + exact(light.intensity) +
-            (light.casts_shadow ? ",cast" : ",nocast");
+            (light.casts_shadow ? ",cast" : ",nocast") + (light.radius > 0.0f ? "," + exact(light.radius) : "");
   if (view.time_s) text += " --time " + nlohmann::json(*view.time_s).dump();
   if (view.samples > 1) text += " --spp " + std::to_string(view.samples);
   if (view.exposure_ev != 0.0f) text += " --exposure " + exact(view.exposure_ev);
+  if (view.tone_map != ToneMap::clip)
+    text += " --tone-map " + std::string(kToneMapNames[static_cast<std::size_t>(view.tone_map)]);
   return text + " -o " + quoted(name + ".exr") + " --preview " + quoted(name + ".png");
 }
 

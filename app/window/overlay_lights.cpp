@@ -16,6 +16,24 @@ float drag_speed(const Model& model) {
   return std::max(1e-3f * model.stats.bounds.diagonal(), 1e-6f);
 }
 
+// How large what shines is: its shadows are soft once samples are gathered.
+bool edit_size(Light& light, const Model& model) {
+  bool changed = false;
+  if (light.kind == Light::Kind::directional) {
+    label("angle", "diameter of its disc in degrees: the sun's is 0.53; above 0 shadows are soft once samples are gathered");
+    changed = ImGui::DragFloat("##angle", &light.angle_deg, 0.02f, 0.0f, 180.0f, "%.2f");
+    light.angle_deg = glm::clamp(light.angle_deg, 0.0f, 180.0f);
+  } else if (light.kind != Light::Kind::rectangle) {
+    label("radius", "of the ball that shines, in the scene's units; above 0 shadows are soft once samples are gathered");
+    changed = ImGui::DragFloat("##radius", &light.radius, 0.25f * drag_speed(model), 0.0f, 1e6f, "%.3f");
+    light.radius = std::max(light.radius, 0.0f);
+  } else {
+    return false;
+  }
+  tooltip("drag, or Ctrl + click to type a number");
+  return changed;
+}
+
 bool edit_light(Light& light, const Model& model) {
   bool changed = checkbox(light.name.empty() ? "light" : light.name.c_str(), light.casts_shadow, "casts shadows");
   const float speed = std::max(0.01f * light.intensity, 0.005f);
@@ -37,7 +55,7 @@ bool edit_light(Light& light, const Model& model) {
     changed = true;
   }
   tooltip("drag, or Ctrl + click to type a number");
-  return changed;
+  return edit_size(light, model) || changed;
 }
 
 // An invisible button under the mark takes the drag before the picture does.

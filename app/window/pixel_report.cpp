@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "core/trace/aov.h"
+#include "core/trace/jitter.h"
 #include "core/trace/view_params.h"
 #include "pinocchio/renderer.h"
 
@@ -41,7 +42,7 @@ PixelReport PixelInspector::look(const Scene& scene, const std::shared_ptr<const
                                  glm::ivec2 pixel, int depth) {
   FrameRequest request{scene, tracer, settings_for(true, depth), view};
   request.view.part = {pixel, pixel + 1};
-  request.view.jitter = {};
+  request.view = at_sample(request.view, 0);
   const FrameResult whole = draw(request);
   PixelReport report;
   report.pixel = pixel;

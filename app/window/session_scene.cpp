@@ -17,7 +17,7 @@ void Session::open(const std::string& file) {
   // What the command line said of camera and lights was about another scene.
   draw.camera.clear();
   draw.eye = draw.target = draw.up = std::nullopt;
-  draw.fov_deg = std::nullopt;
+  draw.fov_deg = draw.lens_radius = draw.focus = std::nullopt;
   draw.lights.clear();
   load(draw);
 }

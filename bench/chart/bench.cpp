@@ -21,7 +21,7 @@ class Screen {
  public:
   Screen(Engine& engine, FrameRequest request, Progress* progress)
       : request_(std::move(request)),
-        mean_(request_.settings.spp, [this](FrameResult&& picture) { color_ = std::move(picture.color); }),
+        mean_(request_.settings, [this](FrameResult&& picture) { color_ = std::move(picture.color); }),
         renderer_(engine, {[this](Frame& frame) { mean_.add(frame); }, {}}, progress) {}
 
   const Image<glm::vec4>& show(const View& view) {

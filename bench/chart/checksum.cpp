@@ -31,6 +31,7 @@ void add_material(Checksum& checksum, const Material& m) {
   checksum.add(m.ior);
   checksum.add(m.fresnel);
   checksum.add(m.maps);
+  if (m.gloss > 0.0f) checksum.add(m.gloss);
 }
 
 void add_use(Checksum& checksum, const TextureUse& use) {
@@ -61,6 +62,9 @@ void add_light(Checksum& checksum, const Light& l) {
   checksum.add(l.falloff);
   for (const float value : {l.intensity, l.range, l.cos_inner, l.cos_outer}) checksum.add(value);
   checksum.add(l.casts_shadow);
+  if (!l.has_size()) return;
+  for (const float value : {l.radius, l.angle_deg}) checksum.add(value);
+  for (const glm::vec3& v : {l.edge_u, l.edge_v}) checksum.add(v);
 }
 
 }  // namespace

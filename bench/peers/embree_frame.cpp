@@ -27,6 +27,7 @@ constexpr float kDiffuse = 0.8f, kSpecular = 0.2f, kShininess = 32.0f;
 struct Job {
   Scene scene;
   Camera camera;
+  std::vector<glm::vec3> eyes;  // frame by frame, round and round
   std::vector<glm::vec3> lights;
   glm::ivec2 size{};
   int threads = 0, frames = 0;
@@ -41,7 +42,7 @@ Job read_job(const char* file) {
   const nlohmann::json json = nlohmann::json::parse(in);
   Job job;
   job.scene = load_scene(json.at("mesh").get<std::string>()).value();
-  job.camera.eye = vec3_of(json.at("eye"));
+  for (const nlohmann::json& eye : json.at("eyes")) job.eyes.push_back(vec3_of(eye));
   job.camera.target = vec3_of(json.at("target"));
   job.camera.fov_deg = json.at("fov").get<float>();
   for (const nlohmann::json& light : json.at("lights")) job.lights.push_back(vec3_of(light));
@@ -116,13 +117,14 @@ void draw(RTCScene scene, const Job& job, Workers& workers, Image<glm::vec4>& pi
 int run(const char* job_file) {
   _MM_SET_FLUSH_ZERO_MODE(_MM_FLUSH_ZERO_ON);
   _MM_SET_DENORMALS_ZERO_MODE(_MM_DENORMALS_ZERO_ON);
-  const Job job = read_job(job_file);
+  Job job = read_job(job_file);
   RTCDevice device = rtcNewDevice(("threads=" + std::to_string(job.threads)).c_str());
   RTCScene scene = build(device, *job.scene.mesh);
   Workers workers(job.threads);
   Image<glm::vec4> picture(job.size);
   nlohmann::json frame_ms = nlohmann::json::array();
   for (int i = 0; i < job.frames; ++i) {
+    job.camera.eye = job.eyes.at(static_cast<std::size_t>(i) % job.eyes.size());
     const double begin_s = now_s();
     draw(scene, job, workers, picture);
     frame_ms.push_back(1e3 * (now_s() - begin_s));

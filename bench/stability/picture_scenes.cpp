@@ -61,6 +61,53 @@ Scene room_with_bars() {
 
 }  // namespace
 
+namespace {
+
+Shot with_ball(const glm::vec3& center, float radius) {
+  Shot shot = still(room(), looking({0.0f, 0.0f, 3.4f}, {0.0f, -0.5f, -3.0f}));
+  shot.scene.lights.front().position = center;
+  shot.scene.lights.front().radius = radius;
+  shot.scene.lights.front().falloff = Light::Falloff::inverse_square;
+  return shot;
+}
+
+}  // namespace
+
+Shot ball_touches_wall() { return with_ball({3.5f, 0.0f, -2.0f}, 1.0f); }
+Shot ball_around_room() { return with_ball({0.0f, 1.0f, 0.0f}, 50.0f); }
+Shot ball_inside_mesh() {
+  Shot shot = with_ball({0.0f, 0.0f, -2.0f}, 0.5f);
+  MeshData data = *shot.scene.mesh;
+  MeshBuilder mesh(data);
+  mesh.box({-0.6f, -0.6f, -2.6f}, {0.6f, 0.6f, -1.4f});
+  shot.scene.mesh = std::make_shared<const Mesh>(std::move(data));
+  return shot;
+}
+
+Shot rough_mirrors() {
+  MeshData data = room();
+  MeshBuilder mesh(data);
+  float x = -2.25f;
+  for (const float gloss : {0.0f, 1e-3f, 1.0f, 1e6f}) {
+    Material mirror = matt("", glm::vec3(0.3f));
+    mirror.reflectance = glm::vec3(0.7f);
+    mirror.gloss = gloss;
+    mesh.use(mirror);
+    mesh.sphere({x, -1.0f, -0.5f}, 0.7f, 24);
+    x += 1.5f;
+  }
+  Shot shot = still(std::move(data), looking({0.0f, 0.0f, 3.4f}, {0.0f, -0.5f, -3.0f}));
+  Light panel;
+  panel.kind = Light::Kind::rectangle;
+  panel.position = {4.0f, 0.0f, 0.0f};  // in the wall's own plane
+  panel.edge_u = {0.0f, 2.0f, 0.0f};
+  panel.edge_v = {0.0f, 0.0f, 2.0f};
+  panel.direction = {-1.0f, 0.0f, 0.0f};
+  panel.falloff = Light::Falloff::inverse_square;
+  shot.scene.lights.push_back(panel);
+  return shot;
+}
+
 Shot grazing_triangles() {
   MeshData data = room();
   MeshBuilder mesh(data);

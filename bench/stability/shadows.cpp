@@ -33,7 +33,7 @@ bool is_clear(const Set& set, const SurfaceInteraction& surface) {
 }
 
 // Shadow rays from what random rays out of the eye see, towards the light.
-std::vector<Ray> shadow_rays(const Set& set, const Tracer& tracer, int rays) {
+std::vector<Ray> shadow_rays(const Set& set, const Tracer& tracer, Terminator terminator, int rays) {
   Random random(71);
   std::vector<Ray> primary;
   for (int i = 0; i < rays; ++i) {
@@ -52,14 +52,15 @@ std::vector<Ray> shadow_rays(const Set& set, const Tracer& tracer, int rays) {
     const SurfaceInteraction surface =
         surface_at(tracer.mesh(), hits[i].triangle, primary[i].origin, primary[i].direction, tracer.offset());
     if (!is_clear(set, surface)) continue;
-    if (const std::optional<Ray> ray = shadow_ray(light, surface)) shadow.push_back(*ray);
+    const glm::vec2 square(random.between(0.0f, 1.0f), random.between(0.0f, 1.0f));
+    if (const std::optional<Ray> ray = shadow_ray(light, surface, square, terminator)) shadow.push_back(*ray);
   }
   return shadow;
 }
 
 FailureCount count_shadows(const Set& set, const Method& method, int rays, bool expected) {
   const Tracer tracer = method.tracer(set.mesh);
-  const std::vector<Ray> shadow = shadow_rays(set, tracer, rays);
+  const std::vector<Ray> shadow = shadow_rays(set, tracer, method.terminator, rays);
   std::vector<std::uint8_t> blocked(shadow.size());
   FailureCount count;
   count.trials = shadow.size();
@@ -82,6 +83,7 @@ FailureCount near_and_far(Set set, const Method& method, int rays, bool expected
   FailureCount count = count_shadows(set, method, rays / 2, expected);
   set.light.kind = Light::Kind::directional;
   set.light.direction = -glm::normalize(set.light.position - set.center);
+  if (set.light.radius > 0.0f) set.light.angle_deg = 60.0f;
   return count += count_shadows(set, method, rays / 2, expected);
 }
 
@@ -100,6 +102,29 @@ Set dark_room(float size, const glm::vec3& center) {
           center,
           size,
           2.0f * spacing};
+}
+
+// Of a convex body every point sees all of a light that is above its horizon, wherever the light is.
+Set with_ball(Set set, const glm::vec3& center, float radius) {
+  set.light.position = center;
+  set.light.radius = radius;
+  return set;
+}
+Set lit_by_ball(float size, const glm::vec3& center) {
+  return with_ball(lit_body(size, center), center + size * glm::vec3(4, 5, 2), 2.0f * size);
+}
+Set touched_by_ball(float size, const glm::vec3& center) {
+  return with_ball(lit_body(size, center), center + size * glm::vec3(0, 2, 0), size);
+}
+Set within_ball(float size, const glm::vec3& center) {
+  return with_ball(lit_body(size, center), center + size * glm::vec3(1, 0, 0), 8.0f * size);
+}
+// The light's ball is around the closed room, and shines into it from all sides.
+Set room_within_ball(float size, const glm::vec3& center) {
+  return with_ball(dark_room(size, center), center + size * glm::vec3(0.5f, 0.25f, 0.0f), 8.0f * size);
+}
+Set room_beside_ball(float size, const glm::vec3& center) {
+  return with_ball(dark_room(size, center), center + size * glm::vec3(0.5f, 0.25f, 4.0f), 2.0f * size);
 }
 
 using MakeSet = Set (*)(float size, const glm::vec3& center);
@@ -137,6 +162,42 @@ FailureCount beside_one_far_larger(const Method& method, int rays) {
   return count_shadows({mesh, {0.5f, 2.0f, 0.5f}, light_at({3.0f, 2.0f, 1.0f})}, method, rays, false);
 }
 
+// A panel that lies in the plane of a floor, and one that stands on it, on its edge.
+FailureCount grazing_panel(const Method& method, int rays) {
+  FailureCount count;
+  const MeshData body = octahedron(glm::vec3(0.0f), 1.0f, 4);
+  for (const glm::vec3& up : {glm::vec3(0, 1, 0), glm::normalize(glm::vec3(1, 1, 1))}) {
+    Light panel = light_at(up * 1.0f / std::max({up.x, up.y, up.z}));
+    panel.kind = Light::Kind::rectangle;
+    panel.edge_u = glm::normalize(glm::cross(up, glm::vec3(0.3f, 0.2f, 0.9f)));
+    panel.edge_v = glm::cross(up, panel.edge_u);
+    panel.direction = -up;
+    count += count_shadows({body, {2, 1, 3}, panel}, method, rays / 2, false);
+  }
+  return count;
+}
+
+// A ball of radius 0, and a disc of none, are the point and the direction: the same light, the same ray.
+FailureCount no_radius(const Method& /*method*/, int rays) {
+  FailureCount count;
+  Random random(73);
+  for (int i = 0; i < rays; ++i) {
+    Light light = light_at(random_point(random, 5.0f));
+    if (i % 2 == 1) light.kind = Light::Kind::directional, light.direction = glm::normalize(light.position);
+    const shared::LightParams params = light_params(light);
+    const glm::vec3 p = random_point(random, 5.0f);
+    const shared::Incident hard = shared::incident_light(params, p);
+    const glm::vec2 square(random.between(0.0f, 1.0f), random.between(0.0f, 1.0f));
+    const shared::Incident sampled = shared::sampled_light(params, p, square);
+    ++count.trials;
+    count.failures += hard.to_light == sampled.to_light && hard.radiance == sampled.radiance &&
+                              hard.target == sampled.target
+                          ? 0
+                          : 1;
+  }
+  return count;
+}
+
 MeshData coarse_ball() {
   return ball(glm::vec3(0.0f), 1.0f, 12);
 }
@@ -150,34 +211,20 @@ FailureCount grazing_light(const Method& method, int rays) {
   return count;
 }
 
-// Facets that turn away from the light although the smooth ball does not: dark, with an edge to be seen.
-FailureCount dark_facets(const Method& method, int rays) {
-  const Tracer tracer = method.tracer(coarse_ball());
-  const glm::vec3 eye(0, 0, 6), light(10.0f, 0.5f, 0.5f);
-  FailureCount count;
-  Random random(72);
-  std::vector<Ray> primary;
-  for (int i = 0; i < rays; ++i) primary.push_back({eye, kInfinity, random_point(random, 0.9f) - eye});
-  const std::vector<Hit> hits = trace(tracer, primary, count);
-  for (std::size_t i = 0; i < hits.size(); ++i) {
-    if (!hits[i].valid()) continue;
-    const SurfaceInteraction s = surface_at(tracer.mesh(), hits[i].triangle, eye, primary[i].direction);
-    const glm::vec3 to_light = light - s.p_world;
-    if (glm::dot(s.n_shading, to_light) <= 0.0f) continue;
-    ++count.trials;
-    count.failures += glm::dot(s.n_geometric, to_light) <= 0.0f ? 1 : 0;
-  }
-  return count;
-}
-
 constexpr std::array kShadowCases{
     StressCase{"scaled by 1e-6 to 1e6: acne", "lit points in shadow", scaled<lit_body, false>},
     StressCase{"moved by 1e6 sizes: acne", "lit points in shadow", moved<lit_body, false>},
     StressCase{"scaled, closed room", "light leaks", scaled<dark_room, true>},
     StressCase{"moved, closed room", "light leaks", moved<dark_room, true>},
     StressCase{"beside one 1e6 times larger", "lit points in shadow", beside_one_far_larger},
+    StressCase{"ball of light: acne", "lit points in shadow", scaled<lit_by_ball, false>},
+    StressCase{"ball of light that touches: acne", "lit points in shadow", scaled<touched_by_ball, false>},
+    StressCase{"ball of light around the scene: acne", "lit points in shadow", scaled<within_ball, false>},
+    StressCase{"ball of light around a closed room", "light leaks", scaled<room_within_ball, true>},
+    StressCase{"ball of light beside a closed room", "light leaks", scaled<room_beside_ball, true>},
+    StressCase{"panel in a facet's plane", "lit points in shadow", grazing_panel},
+    StressCase{"ball of light of radius 0", "other rays than its centre's", no_radius},
     StressCase{"low-poly ball, grazing light", "lit points in shadow", grazing_light},
-    StressCase{"shadow terminator", "points of facets turned away", dark_facets, true},
 };
 
 }  // namespace

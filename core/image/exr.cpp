@@ -83,6 +83,7 @@ void check_plausible(const Imf::Header& header, std::uintmax_t file_bytes) {
 ExrFile read_file(const std::filesystem::path& file) {
   Imf::InputFile in(file.c_str());
   check_plausible(in.header(), std::filesystem::file_size(file));
+  if (!in.isComplete()) throw std::runtime_error("it ends before its last line");  // before memory is taken for them
   const Imath::Box2i &display = in.header().displayWindow(), &data = in.header().dataWindow();
   ExrFile exr;
   exr.display_size = {display.max.x - display.min.x + 1, display.max.y - display.min.y + 1};

@@ -6,6 +6,15 @@
 #include <cmath>
 
 namespace pinocchio {
+namespace shared {
+
+using namespace glm;  // GLSL's names
+
+#define SHARED [[nodiscard]] inline
+#include "shaders/shared/tone_map.glsl"
+#undef SHARED
+
+}  // namespace shared
 
 namespace {
 
@@ -37,7 +46,7 @@ struct Bytes {
       first[i] = static_cast<float>(middle);
       if (first[i] < middle) first[i] = std::nextafter(first[i], 2.0f);
     }
-    // Of values that share exponent and three digits, the least one's byte: few bytes are passed from there.
+    // Of values that share exponent and nine digits, the least one's byte: it or the next is theirs.
     for (std::size_t i = 0; i < start.size(); ++i) {
       const float least = std::bit_cast<float>(kLeast + (static_cast<std::uint32_t>(i) << kDropped));
       start[i] = static_cast<std::uint8_t>(std::upper_bound(first.begin(), first.end(), least) - first.begin() - 1);
@@ -54,7 +63,7 @@ struct Bytes {
 
  private:
   static constexpr std::uint32_t kLeast = 0x39000000u;  // 2^-13, whose byte is 0
-  static constexpr int kDropped = 20;                   // digits
+  static constexpr int kDropped = 14;                   // digits
   std::array<std::uint8_t, ((0x3f800000u - kLeast) >> kDropped)> start{};
 };
 
@@ -82,6 +91,10 @@ std::uint8_t linear_to_srgb8(float linear) {
   if (!(linear > 0.0f)) return 0;  // NaN as well
   if (linear >= 1.0f) return 255;
   return bytes().of(linear);
+}
+
+glm::vec3 tone_mapped(const glm::vec3& light, ToneMap curve) {
+  return shared::tone_mapped(light, static_cast<int>(curve));
 }
 
 }  // namespace pinocchio

@@ -44,6 +44,8 @@ const char* kind_name(Light::Kind kind) {
       return "directional";
     case Light::Kind::spot:
       return "spot";
+    case Light::Kind::rectangle:
+      return "rectangle";
   }
   return "";
 }
@@ -64,6 +66,8 @@ void add_attributes(ExrFile& exr, const FrameOutput& frame) {
   exr.attributes["pinocchio.version"] = std::string(version());
   exr.attributes["pinocchio.plan"] = frame.plan_json;
   exr.attributes["pinocchio.scene"] = std::filesystem::path(frame.scene.source).filename().string();
+  if (frame.scene.environment)
+    exr.attributes["pinocchio.environment"] = std::filesystem::path(frame.scene.environment->source()).filename().string();
   exr.attributes["pinocchio.frame"] = frame.frame;
   exr.attributes["pinocchio.time"] = static_cast<float>(
       frame.time_s.value_or(static_cast<double>(frame.frame) / static_cast<double>(frame.frames_per_second)));
@@ -150,6 +154,9 @@ nlohmann::json light_json(const Light& light) {
   if (light.kind == Light::Kind::spot) json["cone"] = {{"cosInner", light.cos_inner}, {"cosOuter", light.cos_outer}};
   if (light.falloff == Light::Falloff::inverse_square) json["falloff"] = "inverse square";
   if (std::isfinite(light.range)) json["range"] = light.range;
+  if (light.radius > 0.0f) json["radius"] = light.radius;
+  if (light.angle_deg > 0.0f) json["angleDegrees"] = light.angle_deg;
+  if (light.kind == Light::Kind::rectangle) json["edges"] = {vec3_json(light.edge_u), vec3_json(light.edge_v)};
   return json;
 }
 

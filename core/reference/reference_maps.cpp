@@ -16,7 +16,7 @@ glm::dvec3 scaled(const glm::vec3& a, const glm::dvec3& b) {
 ReferenceMaterial as_it_stands(const Material& m) {
   return {glm::dvec3(m.ambient),     glm::dvec3(m.diffuse),       glm::dvec3(m.specular), glm::dvec3(m.emission),
           glm::dvec3(m.reflectance), glm::dvec3(m.transmittance), m.shininess,            m.ior,
-          m.fresnel};
+          m.fresnel,                 m.gloss};
 }
 
 // docs/conventions.md, "Metallic-roughness as Phong".

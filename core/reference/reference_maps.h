@@ -12,6 +12,7 @@ struct ReferenceMaterial {
   glm::dvec3 ambient, diffuse, specular, emission, reflectance, transmittance;
   double shininess, ior;
   bool fresnel;
+  double gloss = 0.0;  // exponent of the mirrored rays' lobe; 0: sharp
   double alpha = 1.0;  // the surface's share of what is seen there
 
   [[nodiscard]] bool reflects() const { return reflectance != glm::dvec3(0.0); }

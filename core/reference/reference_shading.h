@@ -2,10 +2,11 @@
 
 #include <array>
 #include <glm/glm.hpp>
-#include <optional>
+#include <vector>
 
 #include "core/reference/reference_surface.h"
 #include "pinocchio/light.h"
+#include "pinocchio/terminator.h"
 
 namespace pinocchio {
 
@@ -14,11 +15,14 @@ struct ReferenceLight {
   glm::dvec3 to_light;  // unit
   glm::dvec3 radiance;  // linear
   ReferenceRay shadow;  // what hits it blocks the light
+  std::optional<ReferenceRay> way_up;  // likewise: to where `shadow` starts off the surface
 };
 
-// Nothing where the light does not reach: too far, outside the cone, or behind the surface.
-[[nodiscard]] std::optional<ReferenceLight> reference_light(const Light& light,
-                                                            const ReferenceSurface& surface);
+// Nothing where the light does not reach: too far, outside the cone, or behind the surface. A light with a size is
+// many such points, kReferencePoints squared, that share its radiance.
+inline constexpr int kReferencePoints = 16;
+[[nodiscard]] std::vector<ReferenceLight> reference_lights(const Light& light, const ReferenceSurface& surface,
+                                                           Terminator terminator);
 
 // Id + Is of that light (Phong, "Illumination for Computer Generated Pictures", CACM 18(6), 1975):
 //   I (kd (N.L) + ks (R.V)^n),  R = 2 (N.L) N - L
@@ -29,6 +33,10 @@ struct ReferenceBounce {
   glm::dvec3 weight{0.0};  // zero: no such ray
   ReferenceRay ray{};
 };
+
+// The mirrored ray of a glossy surface spread over its lobe, side * side of them.
+[[nodiscard]] std::vector<ReferenceBounce> reference_lobe(const ReferenceSurface& surface, const ReferenceBounce& mirrored,
+                                                          int side);
 
 // Mirrored, refracted, and straight on behind a surface that blends. Dielectrics share by Fresnel's equations; opaque mirrors have a constant
 // reflectance or Schlick's.

@@ -1,6 +1,7 @@
 #include "core/reference/reference_tracer.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "core/reference/reference_shading.h"
@@ -36,7 +37,7 @@ ReferenceTracer::Pixel ReferenceTracer::pixel(const shared::ViewParams& view, in
   ReferenceSpread spread{ray.direction, hit.t * glm::dvec3(view.step_x), hit.t * glm::dvec3(view.step_y)};
   if (!filter_textures_) spread = {};
   const ReferenceSurface surface = reference_surface(*scene_.mesh, ray, hit, spread);
-  const glm::dvec3 own = direct(surface, pixel.mask), mirrored = bounced(surface, depth, cone_after(ray, hit));
+  const glm::dvec3 own = direct(surface, pixel.mask), mirrored = bounced(surface, depth, cone_after(ray, hit), kLobeSide);
   pixel.reflection = glm::vec3(mirrored);
   pixel.color = glm::vec4(glm::vec3(own + mirrored), 1.0f);
   return pixel;
@@ -48,40 +49,50 @@ glm::dvec3 ReferenceTracer::direct(const ReferenceSurface& surface, unsigned& bi
   int slot = -1;
   for (const Light& light : scene_.lights) {
     if (light.casts_shadow) ++slot;
-    const std::optional<ReferenceLight> incident = reference_light(light, surface);
-    if (!incident) continue;
-    if (light.casts_shadow) {
-      const double share = unblocked(incident->shadow);
-      if (share >= 0.5) bits |= 1u << slot;
-      sum += share * reference_phong(surface, *incident);
-    } else {
-      sum += reference_phong(surface, *incident);
+    double seen = 0.0, all = 0.0;  // of a light with a size
+    for (const ReferenceLight& point : reference_lights(light, surface, terminator_)) {
+      const bool hidden = light.casts_shadow && point.way_up && tree_.occluded(*point.way_up);
+      const double share = hidden ? 0.0 : light.casts_shadow ? unblocked(point.shadow) : 1.0;
+      seen += share;
+      all += 1.0;
+      sum += share * reference_phong(surface, point);
     }
+    if (light.casts_shadow && all > 0.0 && seen >= 0.5 * all) bits |= 1u << slot;
   }
   return surface.material.alpha * sum;
 }
 
 // Ir(R) + It(T), following `depth` bounces at most.
-glm::dvec3 ReferenceTracer::bounced(const ReferenceSurface& surface, int depth, const Cone& cone) const {
+glm::dvec3 ReferenceTracer::bounced(const ReferenceSurface& surface, int depth, const Cone& cone,
+                                    int lobe_side) const {
   glm::dvec3 sum(0.0);
   if (depth <= 0) return sum;
-  for (const ReferenceBounce& bounce : reference_bounces(surface))
-    if (bounce.weight != glm::dvec3(0.0)) {
-      ReferenceRay ray = bounce.ray;
-      ray.width = cone.width;
-      ray.angle = cone.angle;
-      sum += bounce.weight * seen(ray, depth - 1);
+  const auto follow = [&](const ReferenceBounce& bounce, int side) {
+    ReferenceRay ray = bounce.ray;
+    ray.width = cone.width;
+    ray.angle = cone.angle;
+    sum += bounce.weight * seen(ray, depth - 1, side);
+  };
+  const std::array<ReferenceBounce, 3> bounces = reference_bounces(surface);
+  for (std::size_t i = 0; i < bounces.size(); ++i) {
+    if (bounces[i].weight == glm::dvec3(0.0)) continue;
+    if (i > 0 || surface.material.gloss == 0.0) {
+      follow(bounces[i], lobe_side);
+    } else {
+      for (const ReferenceBounce& ray : reference_lobe(surface, bounces[i], lobe_side))
+        follow(ray, std::max(lobe_side / 4, 1));
     }
+  }
   return sum;
 }
 
-glm::dvec3 ReferenceTracer::seen(const ReferenceRay& ray, int depth) const {
+glm::dvec3 ReferenceTracer::seen(const ReferenceRay& ray, int depth, int lobe_side) const {
   const ReferenceHit hit = closest_hit(ray);
   if (!hit.valid()) return glm::dvec3(0.0);
   const Cone cone = cone_after(ray, hit);
   const ReferenceSurface surface = reference_surface(*scene_.mesh, ray, hit, spread_of(ray, cone.width));
   unsigned bits = 0;
-  return direct(surface, bits) + bounced(surface, depth, cone);
+  return direct(surface, bits) + bounced(surface, depth, cone, lobe_side);
 }
 
 namespace {

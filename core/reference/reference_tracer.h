@@ -7,6 +7,7 @@
 #include "core/reference/reference_tree.h"
 #include "core/trace/shared.h"
 #include "pinocchio/scene.h"
+#include "pinocchio/terminator.h"
 
 namespace pinocchio {
 
@@ -20,8 +21,12 @@ class ReferenceTracer {
   // filter_textures: they are averaged over what a pixel sees of them.
   // one_of_many: pixels are the mean of many such pictures, so that shadows of surfaces that blend may be grey.
   ReferenceTracer(const Scene& scene, const ReferenceTree& tree, bool filter_textures = true,
-                  bool one_of_many = false)
-      : scene_(scene), tree_(tree), filter_textures_(filter_textures), one_of_many_(one_of_many) {}
+                  bool one_of_many = false, Terminator terminator = kUsualTerminator)
+      : scene_(scene),
+        tree_(tree),
+        filter_textures_(filter_textures),
+        one_of_many_(one_of_many),
+        terminator_(terminator) {}
 
   struct Pixel {
     std::uint32_t triangle = kNoTriangle;  // seen at the sample point
@@ -39,8 +44,10 @@ class ReferenceTracer {
     double width, angle;
   };
   [[nodiscard]] static Cone cone_after(const ReferenceRay& ray, const ReferenceHit& hit);
-  [[nodiscard]] glm::dvec3 bounced(const ReferenceSurface& surface, int depth, const Cone& cone) const;
-  [[nodiscard]] glm::dvec3 seen(const ReferenceRay& ray, int depth) const;
+  // A glossy surface's mirrored rays are lobe_side squared; fewer for those that they meet.
+  static constexpr int kLobeSide = 16;
+  [[nodiscard]] glm::dvec3 bounced(const ReferenceSurface& surface, int depth, const Cone& cone, int lobe_side) const;
+  [[nodiscard]] glm::dvec3 seen(const ReferenceRay& ray, int depth, int lobe_side) const;
 
   [[nodiscard]] ReferenceHit closest_hit(const ReferenceRay& ray) const;
   [[nodiscard]] double unblocked(const ReferenceRay& ray) const;
@@ -48,6 +55,7 @@ class ReferenceTracer {
   const Scene& scene_;
   const ReferenceTree& tree_;
   bool filter_textures_, one_of_many_;
+  Terminator terminator_;
 };
 
 // The ray of the pixel (x, y); its t is z_eye.

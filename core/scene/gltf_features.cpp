@@ -76,6 +76,40 @@ constexpr Member kMaterialMembers[] = {
      "thick glass is as clear as thin glass"},
 };
 
+bool is_object(const Json& json) { return json.is_object(); }
+bool is_number(const Json& json) { return json.is_number(); }
+template <std::size_t kCount>
+bool are_numbers(const Json& json) {
+  return json.is_array() && json.size() == kCount && std::all_of(json.begin(), json.end(), is_number);
+}
+bool is_alpha_mode(const Json& json) { return json == "OPAQUE" || json == "MASK" || json == "BLEND"; }
+
+// A member of a material and what it has to be; else its default is used.
+struct TypedMember {
+  const char* at;  // JSON pointer
+  bool (*fits)(const Json&);
+};
+
+constexpr TypedMember kTypedMembers[] = {
+    {"/pbrMetallicRoughness", is_object},
+    {"/pbrMetallicRoughness/baseColorFactor", are_numbers<4>},
+    {"/pbrMetallicRoughness/metallicFactor", is_number},
+    {"/pbrMetallicRoughness/roughnessFactor", is_number},
+    {"/normalTexture/scale", is_number},
+    {"/occlusionTexture/strength", is_number},
+    {"/emissiveFactor", are_numbers<3>},
+    {"/alphaMode", is_alpha_mode},
+    {"/alphaCutoff", is_number},
+    {"/extensions", is_object},
+};
+
+// Its textures.
+constexpr const char* kTextureMembers[] = {
+    "/pbrMetallicRoughness/baseColorTexture", "/pbrMetallicRoughness/metallicRoughnessTexture", "/normalTexture",
+    "/occlusionTexture", "/emissiveTexture"};
+
+std::string last_name(std::string_view pointer) { return std::string(pointer.substr(pointer.rfind('/') + 1)); }
+
 // A member of that type, else nothing.
 const Json* object_of(const Json& json, const std::string& key) {
   const auto found = json.is_object() ? json.find(key) : json.end();
@@ -159,14 +193,37 @@ class Audit {
   void look_at_material(const Json& material, const std::string& where) {
     for (const Member& member : kMaterialMembers)
       if (material.contains(Json::json_pointer(member.at))) lost(where, member.what, member.lost);
-    for (const char* at : {"/pbrMetallicRoughness/baseColorTexture", "/pbrMetallicRoughness/metallicRoughnessTexture",
-                           "/normalTexture", "/occlusionTexture", "/emissiveTexture"})
-      if (const Json::json_pointer pointer(at); material.contains(pointer)) look_at_texture(material[pointer], where);
+    for (const TypedMember& member : kTypedMembers)
+      if (const Json::json_pointer pointer(member.at); material.contains(pointer) && !member.fits(material[pointer]))
+        lost(where, "its " + last_name(member.at) + " is not of the type that glTF has there", "the default is used");
+    for (const char* at : kTextureMembers)
+      if (const Json::json_pointer pointer(at); material.contains(pointer))
+        look_at_texture(material[pointer], "its " + last_name(at), where);
   }
 
-  void look_at_texture(const Json& info, const std::string& where) {
+  void look_at_texture(const Json& info, const std::string& which, const std::string& where) {
+    const Json* texture = element_of("textures", number_of(info, "index", -1));
+    if (!texture || !has_image(*texture))
+      lost(where, which + " names no image that there is", "what it would have covered has one colour");
     if (number_of(info, "texCoord", 0) > 1)
       lost(where, "texture coordinates beyond the second set are left out", "its texture lies as the first set says");
+    const Json* extensions = object_of(info, "extensions");
+    const Json* transform = extensions ? object_of(*extensions, "KHR_texture_transform") : nullptr;
+    if (transform && !transform->is_object())
+      lost(where, which + "'s KHR_texture_transform is not an object", "it lies untransformed");
+  }
+
+  // Of an extension that is not read is warned where it is.
+  [[nodiscard]] bool has_image(const Json& texture) const {
+    if (element_of("images", number_of(texture, "source", -1))) return true;
+    const Json* extensions = object_of(texture, "extensions");
+    const Json* webp = extensions ? object_of(*extensions, "EXT_texture_webp") : nullptr;
+    return webp ? element_of("images", number_of(*webp, "source", -1)) != nullptr : extensions != nullptr;
+  }
+
+  [[nodiscard]] const Json* element_of(const std::string& collection, double index) const {
+    const Json& items = array_of(gltf_, collection);
+    return index >= 0 && index < static_cast<double>(items.size()) ? &items[static_cast<std::size_t>(index)] : nullptr;
   }
 
   void look_at_scenes() {

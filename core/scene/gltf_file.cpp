@@ -126,8 +126,7 @@ Expected<std::vector<Out>> numbers_of(const GltfFile& file, int index, int compo
     if (!from) return Unexpected(from.error());
     numbers.resize(width * accessor.count);
     for (std::size_t i = 0; i < accessor.count; ++i) put(*from, i, i);
-  } else {
-    if (!accessor.sparse.isSparse) return file.error(whose + " has no data");
+  } else {  // zeros, says glTF
     if (!is_component_type(accessor.componentType))
       return file.error(whose + " has the component type " + std::to_string(accessor.componentType) +
                         ", which glTF does not know");

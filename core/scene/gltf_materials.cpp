@@ -40,10 +40,12 @@ Material phong_of(const tinygltf::Value& phong, const glm::vec3& base_color) {
   m.ambient = vec3_member(&phong, "ka").value_or(m.diffuse);
   m.specular = vec3_member(&phong, "ks").value_or(m.specular);
   m.shininess = number_member(&phong, "shininess").value_or(m.shininess);
+  m.gloss = std::max(number_member(&phong, "gloss").value_or(m.gloss), 0.0f);
   m.reflectance = vec3_member(&phong, "reflect").value_or(m.reflectance);
   m.transmittance = vec3_member(&phong, "transmit").value_or(m.transmittance);
   m.ior = number_member(&phong, "ior").value_or(m.ior);
   m.fresnel = bool_member(&phong, "fresnel").value_or(m.fresnel);
+  m.brdf = bool_member(&phong, "brdf").value_or(m.brdf);
   return m;
 }
 

@@ -1,33 +1,56 @@
 #include <map>
 
 #include "core/scene/gltf_file.h"
+#include "core/scene/mip_levels.h"
 #include "core/scene/phong_from_gltf.h"
 #include "core/scene/texture_file.h"
 
 namespace pinocchio {
 namespace {
 
-Expected<DecodedImage> decode(const GltfFile& file, int index, Loading& loading) {
+// An image of the file, where its bytes are known.
+Expected<EncodedImage> encoded_image(const GltfFile& file, int index) {
   const tinygltf::Image& image = file.model.images[static_cast<std::size_t>(index)];
-  if (image.bufferView < 0 && !image.uri.empty()) return load_texture(image.uri, loading);
-  const std::string name = image.name.empty() ? std::to_string(index) : image.name;
-  if (image.bufferView < 0) return decode_texture(file.path.string(), name, image.image, loading.limit);
+  if (image.bufferView < 0 && !image.uri.empty())
+    return EncodedImage{image.uri, std::filesystem::path(image.uri).filename().string(), std::nullopt};
+  EncodedImage result{file.path.string(), image.name.empty() ? std::to_string(index) : image.name, image.image};
+  if (image.bufferView < 0) return result;
   const auto bytes = file.bytes(image.bufferView, "image " + std::to_string(index));
   if (!bytes) return Unexpected(bytes.error());
-  return decode_texture(file.path.string(), name, *bytes, loading.limit);
+  result.bytes = *bytes;
+  return result;
 }
 
-std::optional<Texture> texture_of(const GltfFile& file, int index, Loading& loading) {
-  Expected<DecodedImage> image = decode(file, index, loading);
-  const std::string where = "image " + std::to_string(index);
-  if (!image) {
-    loading.warnings.add({file.path.string(), where, "an image cannot be read: " + image.error().message(),
-                          "what it would have covered has one colour"});
-    return std::nullopt;
+// The images of these indices, decoded; what is wrong with one is a warning and leaves it out.
+std::vector<std::optional<Texture>> textures_of(const GltfFile& file, const std::vector<int>& images, Loading& loading) {
+  std::vector<std::optional<Texture>> textures(images.size());
+  std::vector<EncodedImage> encoded;
+  std::vector<std::size_t> whose;
+  const auto warn = [&](std::size_t i, const std::string& what, const std::string& lost) {
+    loading.warnings.add({file.path.string(), "image " + std::to_string(images[i]), what, lost});
+  };
+  const auto cannot_be_read = [&](std::size_t i, const InputError& error) {
+    warn(i, "an image cannot be read: " + error.message(), "what it would have covered has one colour");
+  };
+  for (std::size_t i = 0; i < images.size(); ++i) {
+    Expected<EncodedImage> image = encoded_image(file, images[i]);
+    if (!image) {
+      cannot_be_read(i, image.error());
+      continue;
+    }
+    encoded.push_back(std::move(*image));
+    whose.push_back(i);
   }
-  if (!image->damage.empty())
-    loading.warnings.add({file.path.string(), where, "an image is damaged: " + image->damage, "part of it is missing"});
-  return std::move(image->texture);
+  std::vector<Expected<DecodedImage>> decoded = decode_textures(encoded, loading);
+  for (std::size_t k = 0; k < decoded.size(); ++k) {
+    if (!decoded[k]) {
+      cannot_be_read(whose[k], decoded[k].error());
+      continue;
+    }
+    if (!decoded[k]->damage.empty()) warn(whose[k], "an image is damaged: " + decoded[k]->damage, "part of it is missing");
+    textures[whose[k]] = std::move(decoded[k]->texture);
+  }
+  return textures;
 }
 
 // What a surface that is mapped by roughness may mirror at most decides whether rays are kept for it.
@@ -54,22 +77,25 @@ void bound_reflectance(const MeshData& mesh, Material& material, const MaterialM
 }  // namespace
 
 void add_gltf_textures(const GltfFile& file, MeshData& mesh, Loading& loading) {
-  std::map<int, int> texture_of_image;
-  const auto make_ours = [&](TextureUse& use) {
-    if (!use.used()) return;
-    const auto [at, is_new] = texture_of_image.try_emplace(use.texture, -1);
-    if (is_new) {
-      if (std::optional<Texture> texture = texture_of(file, at->first, loading)) {
-        at->second = static_cast<int>(mesh.textures.size());
-        mesh.textures.edit().push_back(std::move(*texture));
-      }
-    }
-    use.texture = at->second;
-  };
+  std::vector<TextureUse*> uses;
   for (MaterialMaps& m : mesh.maps)
     for (TextureUse* use :
          {&m.base_color, &m.metallic_roughness, &m.normal, &m.occlusion, &m.emissive, &m.alpha})
-      make_ours(*use);
+      if (use->used()) uses.push_back(use);
+  std::vector<int> images;  // in the order of their first use
+  std::map<int, std::size_t> place;
+  for (const TextureUse* use : uses)
+    if (place.try_emplace(use->texture, images.size()).second) images.push_back(use->texture);
+
+  std::vector<std::optional<Texture>> textures = textures_of(file, images, loading);
+  std::vector<int> ours(images.size(), -1);
+  for (std::size_t i = 0; i < images.size(); ++i) {
+    if (!textures[i]) continue;
+    ours[i] = static_cast<int>(mesh.textures.size());
+    mesh.textures.edit().push_back(std::move(*textures[i]));
+  }
+  for (TextureUse* use : uses) use->texture = ours[place.at(use->texture)];
+  make_smaller_levels(mesh, loading.progress);
   for (Material& material : mesh.materials)
     if (material.maps >= 0)
       bound_reflectance(mesh, material, mesh.maps[static_cast<std::size_t>(material.maps)]);

@@ -22,6 +22,18 @@ glm::vec3 direction_of(const glm::mat4& world, const glm::vec3& local) {
   return length > 0.0f ? d / length : local;
 }
 
+std::optional<float> length_member(const tinygltf::Value* extras, const char* key) {
+  const std::optional<float> size = number_member(extras, key);
+  return size && *size >= 0.0f && std::isfinite(*size) ? size : std::nullopt;
+}
+
+// Its sides lie along the node's x and y, it faces -z.
+void make_rectangle(const glm::vec2& sides, const glm::mat4& world, Light& light) {
+  light.kind = Light::Kind::rectangle;
+  light.edge_u = glm::vec3(world * glm::vec4(sides.x, 0.0f, 0.0f, 0.0f));
+  light.edge_v = glm::vec3(world * glm::vec4(0.0f, sides.y, 0.0f, 0.0f));
+}
+
 Light light_of(const tinygltf::Light& l, const tinygltf::Node& node, const glm::mat4& world) {
   Light light;
   light.name = !l.name.empty() ? l.name : node.name;
@@ -41,6 +53,9 @@ Light light_of(const tinygltf::Light& l, const tinygltf::Node& node, const glm::
   }
   for (const tinygltf::Value* extras : {our_extras(l.extras), our_extras(node.extras)}) {
     light.casts_shadow = bool_member(extras, "castsShadow").value_or(light.casts_shadow);
+    light.radius = length_member(extras, "radius").value_or(light.radius);
+    light.angle_deg = std::min(length_member(extras, "angle").value_or(light.angle_deg), 180.0f);
+    if (const std::optional<glm::vec2> sides = vec2_member(extras, "rectangle")) make_rectangle(*sides, world, light);
     const tinygltf::Value* falloff = extras ? member(*extras, "falloff") : nullptr;
     if (falloff && falloff->IsString() && falloff->Get<std::string>() == "none")
       light.falloff = Light::Falloff::none;
@@ -60,11 +75,17 @@ Camera camera_of(const tinygltf::Camera& c, const tinygltf::Node& node, const gl
   const std::optional<glm::vec3> up = vec3_member(our_extras(node.extras), "up");
   if (up && *up != glm::vec3(0.0f)) camera.up = *up;
   camera.fov_deg = static_cast<float>(glm::degrees(c.perspective.yfov));
+  camera.lens_radius = length_member(our_extras(node.extras), "lensRadius").value_or(0.0f);
+  camera.focus_distance = length_member(our_extras(node.extras), "focusDistance").value_or(0.0f);
   return camera;
 }
 
 // As the node sees it.
-Light at_rest(const glm::mat4& /*world*/, Light light) {
+Light at_rest(const glm::mat4& world, Light light) {
+  const Placement to_node(glm::inverse(world));
+  const glm::vec3 origin = to_node.position(glm::vec3(0.0f));
+  light.edge_u = to_node.position(light.edge_u) - origin;
+  light.edge_v = to_node.position(light.edge_v) - origin;
   light.position = glm::vec3(0.0f);
   light.direction = {0, 0, -1};
   return light;
@@ -83,7 +104,7 @@ bool can_look(const Camera& camera) {
 }
 
 bool can_shine(const Light& light) {
-  return is_finite(light.position) && is_finite(light.direction) && is_finite(light.intensity * light.color);
+  return is_finite(light.position) && is_finite(light.direction) && is_finite(light.edge_u) && is_finite(light.edge_v) && is_finite(light.intensity * light.color);
 }
 
 // Texture coordinates and tangents that no map asks for.

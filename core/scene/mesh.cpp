@@ -19,23 +19,6 @@ void let_vertex_colors_count(MeshData& mesh) {
     if (colored[i]) make_maps(mesh, mesh.materials[i]).vertex_colors = true;
 }
 
-void filter_textures(MeshData& mesh) {
-  struct Needed {
-    bool levels = false, is_color = false;
-  };
-  std::vector<Needed> needed(mesh.textures.size());
-  for (const MaterialMaps& m : mesh.maps)
-    for (const TextureUse* use : {&m.base_color, &m.emissive, &m.metallic_roughness, &m.normal, &m.occlusion})
-      if (use->used() && static_cast<std::size_t>(use->texture) < needed.size()) {
-        Needed& n = needed[static_cast<std::size_t>(use->texture)];
-        n.levels = true;
-        n.is_color = n.is_color || use == &m.base_color || use == &m.emissive;
-      }
-  for (std::size_t i = 0; i < needed.size(); ++i)
-    if (needed[i].levels && mesh.textures[i].smaller_levels.empty() && mesh.textures[i].texels.pixels().size() > 1)
-      make_smaller_levels(mesh.textures.edit()[i], needed[i].is_color);
-}
-
 }  // namespace
 
 MaterialMaps& make_maps(MeshData& mesh, Material& material) {
@@ -52,7 +35,7 @@ Mesh::Mesh(MeshData data) : MeshData(std::move(data)) {
     for (int i = 0; i < 3; ++i)
       if (t[i] < positions.size()) bounds_.add(positions[t[i]]);
   let_vertex_colors_count(*this);
-  filter_textures(*this);
+  make_smaller_levels(*this, nullptr);
 }
 
 }  // namespace pinocchio

@@ -1,10 +1,15 @@
 #pragma once
 
-#include "pinocchio/texture.h"
+#include "pinocchio/mesh.h"
+#include "pinocchio/progress.h"
 
 namespace pinocchio {
 
 // Fills in texture.smaller_levels; colour is averaged in linear light.
 void make_smaller_levels(Texture& texture, bool is_color);
+
+// Those of all textures that maps interpolate and that have none yet, on all of the machine's threads. Phase
+// "textures".
+void make_smaller_levels(MeshData& mesh, Progress* progress);
 
 }  // namespace pinocchio

@@ -19,6 +19,9 @@ Unexpected refused(const std::string& what, const std::string& remedy) {
 void place(const Placement& now, const Light& rest, Light& to) {
   to.position = now.position(rest.position);
   to.direction = now.direction(rest.direction);
+  const glm::vec3 origin = now.position(glm::vec3(0.0f));
+  to.edge_u = now.position(rest.edge_u) - origin;
+  to.edge_v = now.position(rest.edge_v) - origin;
 }
 void place(const Placement& now, const Camera& rest, Camera& to) {
   to.eye = now.position(rest.eye);

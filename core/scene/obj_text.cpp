@@ -49,11 +49,15 @@ class Reader {
       if (const Expected<void> read = read_line(lines.line()); !read) return Unexpected(read.error());
     }
     // Forward references are allowed, so only the end tells.
-    for (int kind = 0; kind < kKinds; ++kind)
-      if (highest_[kind].index > count(kind))
-        return fail(highest_[kind].line, std::string("a face names ") + kKindNames[kind] + " " +
-                                             std::to_string(highest_[kind].index) + ", there are " +
-                                             std::to_string(count(kind)));
+    for (const Kind kind : {kVertex, kTexcoord, kNormal})
+      if (highest_[kind].index > count(kind)) {
+        const std::string what = std::string("a face names ") + kKindNames[kind] + " " +
+                                 std::to_string(highest_[kind].index) + ", there are " + std::to_string(count(kind));
+        if (kind == kVertex) return fail(highest_[kind].line, what);
+        warnings_.add({file_, "line " + std::to_string(highest_[kind].line), what,
+                       kind == kNormal ? "faces are flat or smooth as without it" : "its texture has one colour there"});
+        leave_out_unknown(kind);
+      }
     if (!obj_.colors.empty()) obj_.colors.resize(obj_.positions.size(), glm::vec3(1.0f));
     return std::move(obj_);
   }
@@ -86,6 +90,12 @@ class Reader {
     else if (word == "mtllib") obj_.libraries.emplace_back(trimmed(line));
     else warn_of(word);
     return {};
+  }
+
+  // What a picture can do without.
+  void leave_out_unknown(Kind kind) {
+    for (ObjText::Corner& corner : obj_.corners)
+      if (int& index = kind == kNormal ? corner.normal : corner.texcoord; index >= count(kind)) index = -1;
   }
 
   int material_of(std::string_view name) {

@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cstring>
 #include <glm/gtc/type_ptr.hpp>
 #include <nlohmann/json.hpp>
@@ -5,6 +6,7 @@
 #include <vector>
 
 #include "core/image/atomic_file.h"
+#include "core/scene/save_gltf_materials.h"
 #include "pinocchio/save.h"
 
 namespace pinocchio {
@@ -13,51 +15,6 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 constexpr int kUnsignedInt = 5125, kFloat = 5126;  // glTF's component types
-
-Json vec3_json(const glm::vec3& v) {
-  return {v.x, v.y, v.z};
-}
-
-// One number where all three are the same.
-Json color_json(const glm::vec3& v) {
-  return v.x == v.y && v.y == v.z ? Json(v.x) : vec3_json(v);
-}
-
-Json phong_json(const Material& m) {
-  const Material plain;
-  const glm::vec3 none(0.0f);
-  Json json{{"kd", color_json(m.diffuse)}};
-  if (m.ambient != m.diffuse) json["ka"] = color_json(m.ambient);
-  if (m.specular != none) json["ks"] = color_json(m.specular);
-  if (m.shininess != plain.shininess) json["shininess"] = m.shininess;
-  if (m.reflectance != none) json["reflect"] = color_json(m.reflectance);
-  if (m.transmittance != none) json["transmit"] = color_json(m.transmittance);
-  if (m.ior != plain.ior) json["ior"] = m.ior;
-  if (m.fresnel) json["fresnel"] = true;
-  return json;
-}
-
-// Phong for us, and what other viewers understand.
-Json material_json(const Material& m, bool& strong_emission) {
-  const glm::vec3 base =
-      glm::min(m.reflects() ? glm::max(m.diffuse, m.reflectance) : m.diffuse, glm::vec3(1.0f));
-  const float roughness = m.spawns_rays() ? 0.0f : std::sqrt(std::sqrt(2.0f / (4.0f * m.shininess + 2.0f)));
-  Json json{{"name", m.name},
-            {"pbrMetallicRoughness",
-             {{"baseColorFactor", {base.r, base.g, base.b, 1.0f}},
-              {"metallicFactor", m.reflects() && !m.fresnel ? 1.0f : 0.0f},
-              {"roughnessFactor", roughness}}},
-            {"extras", {{"pinocchio", {{"phong", phong_json(m)}}}}}};
-  const float strength = std::max({m.emission.r, m.emission.g, m.emission.b});
-  if (strength > 1.0f) {
-    strong_emission = true;
-    json["emissiveFactor"] = vec3_json(m.emission / strength);
-    json["extensions"]["KHR_materials_emissive_strength"] = {{"emissiveStrength", strength}};
-  } else if (strength > 0.0f) {
-    json["emissiveFactor"] = vec3_json(m.emission);
-  }
-  return json;
-}
 
 // A rotation whose -Z is `forward`.
 Json aimed_matrix(const glm::vec3& position, const glm::vec3& right, const glm::vec3& up,
@@ -68,13 +25,13 @@ Json aimed_matrix(const glm::vec3& position, const glm::vec3& right, const glm::
 
 class GltfWriter {
  public:
-  explicit GltfWriter(const Scene& scene) : mesh_(*scene.mesh) {
+  GltfWriter(const Scene& scene, const std::filesystem::path& file, Warnings& warnings) : mesh_(*scene.mesh) {
     json_["asset"] = {{"version", "2.0"}, {"generator", "Pinocchio"}};
     json_["scene"] = 0;
     json_["scenes"] =
         Json::array({{{"nodes", Json::array()},
                       {"extras", {{"pinocchio", {{"ambient", color_json(scene.ambient_light)}}}}}}});
-    add_materials();
+    add_materials(file, warnings);
     add_mesh();
     for (const Camera& camera : scene.cameras) add_camera(camera);
     for (const Light& light : scene.lights) add_light(light);
@@ -96,12 +53,16 @@ class GltfWriter {
     json_["nodes"].push_back(std::move(node));
   }
 
+  int add_view(std::string_view bytes) {
+    binary_.append((4 - binary_.size() % 4) % 4, '\0');  // numbers lie where they may
+    json_["bufferViews"].push_back({{"buffer", 0}, {"byteOffset", binary_.size()}, {"byteLength", bytes.size()}});
+    binary_.append(bytes);
+    return static_cast<int>(json_["bufferViews"].size()) - 1;
+  }
+
   template <class T>
   int add_accessor(const std::vector<T>& elements, int component_type, const char* type) {
-    const std::size_t bytes = elements.size() * sizeof(T);
-    const auto view = static_cast<int>(json_["bufferViews"].size());
-    json_["bufferViews"].push_back({{"buffer", 0}, {"byteOffset", binary_.size()}, {"byteLength", bytes}});
-    binary_.append(reinterpret_cast<const char*>(elements.data()), bytes);
+    const int view = add_view({reinterpret_cast<const char*>(elements.data()), elements.size() * sizeof(T)});
     json_["accessors"].push_back({{"bufferView", view},
                                   {"componentType", component_type},
                                   {"count", elements.size()},
@@ -109,10 +70,13 @@ class GltfWriter {
     return static_cast<int>(json_["accessors"].size()) - 1;
   }
 
-  void add_materials() {
-    bool strong_emission = false;
-    for (const Material& m : mesh_.materials) json_["materials"].push_back(material_json(m, strong_emission));
-    if (strong_emission) extensions_.emplace_back("KHR_materials_emissive_strength");
+  void add_materials(const std::filesystem::path& file, Warnings& warnings) {
+    GltfMaterialWriter writer(mesh_, [this](const std::string& bytes) { return add_view(bytes); }, file, warnings);
+    Json materials = Json::array();
+    for (const Material& m : mesh_.materials) materials.push_back(writer.material(m));
+    json_["materials"] = std::move(materials);
+    writer.finish(json_);
+    extensions_.insert(extensions_.end(), writer.extensions().begin(), writer.extensions().end());
   }
 
   // Runs of triangles of one material are primitives over the same vertices: the order of triangles stays.
@@ -125,6 +89,7 @@ class GltfWriter {
     if (std::any_of(mesh_.normals.begin(), mesh_.normals.end(), given))
       attributes["NORMAL"] = add_accessor(mesh_.normals, kFloat, "VEC3");
     Json primitives = Json::array();
+    const Optional optional = optional_attributes();
     for (std::size_t first = 0; first < mesh_.triangles.size();) {
       const std::uint32_t material = mesh_.triangle_materials[first];
       std::size_t end = first;
@@ -132,13 +97,41 @@ class GltfWriter {
       std::vector<std::uint32_t> indices;
       for (std::size_t i = first; i < end; ++i)
         for (int c = 0; c < 3; ++c) indices.push_back(mesh_.triangles[i][c]);
-      primitives.push_back({{"attributes", attributes},
+      Json own = attributes;
+      add_optional(optional, mesh_.maps_of(static_cast<std::uint32_t>(first)), indices, own);
+      primitives.push_back({{"attributes", own},
                             {"indices", add_accessor(indices, kUnsignedInt, "SCALAR")},
                             {"material", material}});
       first = end;
     }
     json_["meshes"] = Json::array({{{"primitives", primitives}}});
     add_node({{"mesh", 0}});
+  }
+
+  // Accessors of what only some materials look up; -1: the mesh has none.
+  struct Optional {
+    int texcoord = -1, texcoord1 = -1, color = -1, tangent = -1;
+  };
+  Optional optional_attributes() {
+    Optional result;
+    if (!mesh_.texcoords.empty()) result.texcoord = add_accessor(mesh_.texcoords, kFloat, "VEC2");
+    if (!mesh_.texcoords1.empty()) result.texcoord1 = add_accessor(mesh_.texcoords1, kFloat, "VEC2");
+    if (!mesh_.colors.empty()) result.color = add_accessor(mesh_.colors, kFloat, "VEC4");
+    if (!mesh_.tangents.empty()) result.tangent = add_accessor(mesh_.tangents, kFloat, "VEC4");
+    return result;
+  }
+
+  void add_optional(const Optional& optional, const MaterialMaps* maps, const std::vector<std::uint32_t>& indices, Json& to) const {
+    if (!maps) return;
+    if (optional.texcoord >= 0) to["TEXCOORD_0"] = optional.texcoord;
+    if (optional.texcoord1 >= 0) {
+      to["TEXCOORD_1"] = optional.texcoord1;
+      if (optional.texcoord < 0) to["TEXCOORD_0"] = optional.texcoord1;  // glTF counts them from 0
+    }
+    if (optional.color >= 0 && maps->vertex_colors) to["COLOR_0"] = optional.color;
+    const auto given = [this](std::uint32_t vertex) { return mesh_.tangents[vertex].w != 0.0f; };
+    if (optional.tangent >= 0 && maps->normal.used() && std::all_of(indices.begin(), indices.end(), given))
+      to["TANGENT"] = optional.tangent;
   }
 
   [[nodiscard]] Bounds all_positions() const {
@@ -149,11 +142,14 @@ class GltfWriter {
 
   void add_camera(const Camera& camera) {
     const CameraAxes axes = camera_axes(camera);
+    Json ours{{"target", vec3_json(camera.target)}, {"up", vec3_json(camera.up)}};
+    if (camera.lens_radius > 0.0f) ours["lensRadius"] = camera.lens_radius;
+    if (camera.focus_distance > 0.0f) ours["focusDistance"] = camera.focus_distance;
     add_node(
         {{"name", camera.name},
          {"camera", json_["cameras"].size()},
          {"matrix", aimed_matrix(camera.eye, axes.right, axes.up, axes.forward)},
-         {"extras", {{"pinocchio", {{"target", vec3_json(camera.target)}, {"up", vec3_json(camera.up)}}}}}});
+         {"extras", {{"pinocchio", ours}}}});
     const double yfov = glm::radians(static_cast<double>(camera.fov_deg));
     json_["cameras"].push_back({{"type", "perspective"}, {"perspective", {{"yfov", yfov}, {"znear", 0.01}}}});
   }
@@ -161,7 +157,7 @@ class GltfWriter {
   void add_light(const Light& light) {
     Json& lights = json_["extensions"]["KHR_lights_punctual"]["lights"];
     if (lights.empty()) extensions_.emplace_back("KHR_lights_punctual");
-    constexpr const char* kTypes[] = {"point", "directional", "spot"};
+    constexpr const char* kTypes[] = {"point", "directional", "spot", "point"};  // a rectangle: where none is known
     Json json{{"name", light.name},
               {"type", kTypes[static_cast<int>(light.kind)]},
               {"color", vec3_json(light.color)},
@@ -174,9 +170,16 @@ class GltfWriter {
     if (!light.casts_shadow) ours["castsShadow"] = false;
     if (light.kind != Light::Kind::directional && light.falloff == Light::Falloff::none)
       ours["falloff"] = "none";
+    if (light.radius > 0.0f) ours["radius"] = light.radius;
+    if (light.angle_deg > 0.0f) ours["angle"] = light.angle_deg;
+    CameraAxes axes = camera_axes({{}, light.position, light.position + light.direction, {0, 1, 0}, 0});
+    if (light.kind == Light::Kind::rectangle) {
+      const float u = glm::length(light.edge_u), v = glm::length(light.edge_v);
+      ours["rectangle"] = {u, v};
+      if (u > 0.0f && v > 0.0f) axes = {light.edge_u / u, light.edge_v / v, light.direction};
+    }
     if (!ours.empty()) json["extras"]["pinocchio"] = ours;
 
-    const CameraAxes axes = camera_axes({{}, light.position, light.position + light.direction, {0, 1, 0}, 0});
     Json node{{"name", light.name}, {"extensions", {{"KHR_lights_punctual", {{"light", lights.size()}}}}}};
     if (light.kind == Light::Kind::point) {
       node["translation"] = vec3_json(light.position);
@@ -222,9 +225,10 @@ std::string glb_of(GltfWriter& writer) {
 
 }  // namespace
 
-void save_gltf(const Scene& scene, const std::filesystem::path& file, Progress* progress) {
+void save_gltf(const Scene& scene, const std::filesystem::path& file, Progress* progress, Warnings* warnings) {
   throw_if_cancelled(progress);
-  GltfWriter writer(scene);
+  Warnings unheard;
+  GltfWriter writer(scene, file, warnings ? *warnings : unheard);
   if (file.extension() == ".glb") {
     write_text(file, glb_of(writer), progress);
     return;

@@ -24,8 +24,10 @@ std::vector<int> mask_slots(const Scene& scene) {
 bool reaches(const Light& light, const Bounds& box) {
   if (box.empty() || light.color * light.intensity == glm::vec3(0.0f)) return false;
   if (light.kind == Light::Kind::directional) return true;
-  if (glm::distance(light.position, glm::clamp(light.position, box.lo, box.hi)) > light.range) return false;
-  if (light.kind == Light::Kind::point) return true;
+  const float sides = 0.5f * (glm::length(light.edge_u) + glm::length(light.edge_v));
+  if (glm::distance(light.position, glm::clamp(light.position, box.lo, box.hi)) > light.range + sides) return false;
+  // A ball with a cone shines to the side of itself as well.
+  if (light.kind != Light::Kind::spot || light.radius > 0.0f) return true;
   // The cone against the ball around the box.
   const glm::vec3 to_center = box.center() - light.position;
   const float distance = glm::length(to_center), radius = 0.5f * box.diagonal();
@@ -40,7 +42,8 @@ void drop_idle_casters(Scene& scene) {
 }
 
 bool takes_samples(const Scene& scene) {
-  return std::ranges::any_of(scene.lights, [](const Light& light) { return light.has_size(); });
+  return scene.environment != nullptr || std::ranges::any_of(scene.lights, &Light::has_size) ||
+         std::ranges::any_of(scene.mesh->materials, &Material::is_glossy);
 }
 
 const Camera* find_camera(const Scene& scene, const std::string& name) {

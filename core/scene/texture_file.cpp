@@ -1,6 +1,7 @@
 #include "core/scene/texture_file.h"
 
 #include <algorithm>
+#include <cstdlib>
 #include <limits>
 #include <memory>
 #include <string_view>
@@ -12,6 +13,7 @@
 #define STB_IMAGE_IMPLEMENTATION
 #define STBI_ONLY_BMP
 #define STBI_ONLY_GIF
+#define STBI_ONLY_HDR
 #define STBI_ONLY_PNM
 #define STBI_ONLY_TGA
 #pragma GCC diagnostic push
@@ -20,6 +22,7 @@
 #include <stb/stb_image.h>
 #pragma GCC diagnostic pop
 
+#include "core/parallel/workers.h"
 #include "core/scene/input_file.h"
 
 namespace pinocchio {
@@ -39,6 +42,7 @@ class Decoder {
     if (starts_with("\xff\xd8\xff")) return jpeg();
     if (starts_with("RIFF") && starts_with("WEBP", 8)) return webp();
     if (starts_with("\xabKTX 20")) return error("is KTX2, which is not read; convert it to PNG, JPEG or WebP");
+    if (starts_with("#?")) return error("is Radiance HDR, which is for environments; convert it to PNG, JPEG or WebP");
     if (starts_with("DDS ")) return error("is DDS, which is not read; convert it to PNG, JPEG or WebP");
     return other();
   }
@@ -141,11 +145,69 @@ Expected<DecodedImage> decode_texture(const std::string& file, const std::string
   return Decoder(file, name, bytes, limit).decode();
 }
 
-Expected<DecodedImage> load_texture(const std::filesystem::path& file, Loading& loading) {
-  const Expected<std::string> bytes = read_input_file(file, loading.progress);
+Expected<Image<glm::vec3>> decode_radiance(const std::string& file, std::span<const unsigned char> bytes,
+                                           MemoryLimit& limit) {
+  const auto fail = [&file](const std::string& what) {
+    return Unexpected(InputError{file, 0, "is not Radiance that can be read: " + what, "is it damaged?"});
+  };
+  if (bytes.size() > std::numeric_limits<int>::max()) return fail("it is larger than 2 GiB");
+  const int size = static_cast<int>(bytes.size());
+  int width = 0, height = 0, channels = 0;
+  if (stbi_info_from_memory(bytes.data(), size, &width, &height, &channels) == 0) return fail(stbi_failure_reason());
+  // As it is decoded, the copy, and an environment's sums.
+  if (!limit.take(file, "the environment", static_cast<std::uint64_t>(width) * static_cast<std::uint64_t>(height),
+                  2 * sizeof(glm::vec3) + sizeof(float)))
+    return Unexpected(*limit.error());
+  const std::unique_ptr<float, void (*)(void*)> pixels(
+      stbi_loadf_from_memory(bytes.data(), size, &width, &height, &channels, 3), stbi_image_free);
+  if (!pixels) return fail(stbi_failure_reason());
+  Image<glm::vec3> image(glm::ivec2(width, height));
+  for (std::size_t i = 0; i < image.pixels().size(); ++i)
+    image[i] = {pixels.get()[3 * i], pixels.get()[3 * i + 1], pixels.get()[3 * i + 2]};
+  return image;
+}
+
+namespace {
+
+Expected<DecodedImage> decode(const EncodedImage& image, Progress* progress, MemoryLimit& limit) {
+  if (image.bytes) return decode_texture(image.file, image.name, *image.bytes, limit);
+  const Expected<std::string> bytes = read_input_file(image.file, progress);
   if (!bytes) return Unexpected(bytes.error());
-  return decode_texture(file.string(), file.filename().string(),
-                        {reinterpret_cast<const unsigned char*>(bytes->data()), bytes->size()}, loading.limit);
+  return decode_texture(image.file, image.name, {reinterpret_cast<const unsigned char*>(bytes->data()), bytes->size()}, limit);
+}
+
+}  // namespace
+
+Expected<DecodedImage> load_texture(const std::filesystem::path& file, Loading& loading) {
+  return decode({file.string(), file.filename().string(), std::nullopt}, loading.progress, loading.limit);
+}
+
+std::vector<Expected<DecodedImage>> decode_textures(const std::vector<EncodedImage>& images, Loading& loading) {
+  std::vector<Expected<DecodedImage>> decoded(images.size(), DecodedImage{});
+  if (images.empty()) return decoded;
+  begin_phase(loading.progress, "images", static_cast<double>(images.size()));
+  Workers workers(images.size() > 1 ? 0 : 1);
+  workers.for_each(images.size(), [&](std::size_t i) {
+    decoded[i] = decode(images[i], nullptr, loading.limit);
+    advance(loading.progress);
+  });
+  return decoded;
+}
+
+std::string png_of(const Texture& texture) {
+  const std::unique_ptr<spng_ctx, void (*)(spng_ctx*)> context(spng_ctx_new(SPNG_CTX_ENCODER), spng_ctx_free);
+  const glm::ivec2 size = texture.texels.size();
+  spng_ihdr header{static_cast<std::uint32_t>(size.x), static_cast<std::uint32_t>(size.y), 8, SPNG_COLOR_TYPE_TRUECOLOR_ALPHA, 0, 0, 0};
+  std::size_t bytes = 0;
+  int failure = context ? spng_set_option(context.get(), SPNG_ENCODE_TO_BUFFER, 1) : SPNG_EMEM;
+  if (failure == 0) failure = spng_set_ihdr(context.get(), &header);
+  if (failure == 0)
+    failure = spng_encode_image(context.get(), texture.texels.pixels().data(), texture.texels.pixels().size_bytes(),
+                                SPNG_FMT_PNG, SPNG_ENCODE_FINALIZE);
+  void* const png = failure == 0 ? spng_get_png_buffer(context.get(), &bytes, &failure) : nullptr;
+  const std::unique_ptr<void, void (*)(void*)> owner(png, std::free);
+  if (!png) throw EnvironmentError("image '" + texture.name + "' cannot be encoded: " + spng_strerror(failure));
+  return {static_cast<const char*>(png), bytes};
 }
 
 }  // namespace pinocchio

@@ -4,8 +4,8 @@
 #include <atomic>
 #include <mutex>
 
+#include "core/trace/aov.h"
 #include "core/trace/jitter.h"
-#include "core/trace/surface.h"
 #include "core/trace/tile_tracer.h"
 #include "core/trace/view_params.h"
 
@@ -29,7 +29,8 @@ class Share {
  public:
   Share(const FramesJob& job, const FrameArrays& to, TileImages& images)
       : job_(job), to_(to), images_(images), trace_job_{job.scene,          job.tracer, job.workers, {},
-                                                        job.throughput_cutoff, job.light_cutoff, job.filter_textures},
+                                                        job.throughput_cutoff, job.light_cutoff, job.filter_textures,
+                                                        job.terminator},
         outputs_(outputs(job, to, images)), plan_(trace_job_, outputs_) {}
 
   RayCounts draw(std::size_t frame, const PixelBox& tile) {
@@ -38,8 +39,8 @@ class Share {
     const int samples = to_.color ? job_.spp : 1;
     RayCounts rays;
     for (int k = 0; k < samples; ++k) {
-      plan_.look(view_params(camera, job_.size, jitter_of(k), tile.lo));
-      trace_job_.jitter = jitter_of(k);
+      trace_job_.jitter = jitter_of(k, job_.filter);
+      plan_.look(view_params(camera, job_.size, trace_job_.jitter, tile.lo, lens_point_of(k)));
       trace_job_.sampling = job_.sampling;
       trace_job_.sampling.index += static_cast<std::uint32_t>(k);
       outputs_.ids = k == 0 ? &images_.ids : nullptr;
@@ -61,7 +62,10 @@ class Share {
     out.size = glm::ivec2(kSide);
     out.ids = &images.ids;
     out.mask_bits = to.color || to.mask ? job.mask_bits : 0;
-    out.depth = to.color || to.reflection ? job.depth : 0;
+    const bool follows = to.color || to.reflection;
+    out.depth = follows ? job.depth : 0;
+    out.indirect = follows ? job.indirect : 0;
+    out.environment_light = follows && job.environment_light;
     out.color = to.color ? &images.color : nullptr;
     return out;
   }
@@ -104,26 +108,16 @@ class Share {
   }
 
   void add_surfaces(const shared::ViewParams& view, std::size_t frame, const PixelBox& tile) {
-    const glm::vec3 forward = view_axis(view);
-    const Footprint footprint = job_.filter_textures ? Footprint::of_camera(view) : Footprint{};
-    const Mesh& mesh = *job_.scene.mesh;
+    const VisiblePoints points(*job_.scene.mesh, view, job_.filter_textures);
     const glm::ivec2 size = tile.size();
     for (int y = 0; y < size.y; ++y)
       for (int x = 0; x < size.x; ++x) {
         const std::size_t pixel = row_of(frame, tile, y) + static_cast<std::size_t>(x);
-        const std::uint32_t triangle = images_.ids.at(x, y);
-        SurfaceInteraction s{};
-        if (triangle != kNoTriangle) {
-          const Ray ray = pixel_ray(view, x, y);
-          s = to_.albedo || mesh.maps_of(triangle)
-                  ? surface_at(mesh, triangle, ray.origin, ray.direction, {}, footprint)
-                  : bare_surface_at(mesh, triangle, ray.origin, ray.direction);
-        }
-        const bool hit = triangle != kNoTriangle;
-        if (to_.depth) to_.depth[pixel] = hit ? glm::dot(s.p_world - view.eye, forward) : kInfinity;
-        if (to_.position) to_.position[pixel] = hit ? s.p_world : glm::vec3(0.0f);
-        if (to_.normal) to_.normal[pixel] = hit ? s.n_shading : glm::vec3(0.0f);
-        if (to_.albedo) to_.albedo[pixel] = hit ? s.material.phong.diffuse : glm::vec3(0.0f);
+        const VisiblePoint point = points.at(images_.ids.at(x, y), x, y, to_.albedo != nullptr);
+        if (to_.depth) to_.depth[pixel] = point.z_eye;
+        if (to_.position) to_.position[pixel] = point.p_world;
+        if (to_.normal) to_.normal[pixel] = point.n_shading;
+        if (to_.albedo) to_.albedo[pixel] = point.albedo;
       }
   }
 

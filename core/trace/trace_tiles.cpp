@@ -22,7 +22,8 @@ TileResult trace_tiles(const TraceJob& job, const TileOutputs& outputs) {
   std::mutex mutex;
   job.workers.for_each(grid.count(), [&](std::size_t i) {
     static thread_local TileTracer tracer;  // its memory is made once a thread
-    const TileResult of_tile = tracer.trace(plan, grid.tile(i));
+    const bool left_out = job.left_out && outputs.scale == 1 && (*job.left_out)[i] != 0;
+    const TileResult of_tile = left_out ? TileResult{} : tracer.trace(plan, grid.tile(i));
     const std::lock_guard lock(mutex);
     result.rays += of_tile.rays;
     result.times += of_tile.times;

@@ -2,11 +2,13 @@
 
 #include <cmath>
 
+#include "core/trace/jitter.h"
 #include "core/trace/view_params.h"
 
 namespace pinocchio {
 
-shared::ViewParams view_params(const Camera& camera, glm::ivec2 size, glm::vec2 jitter, glm::ivec2 first) {
+shared::ViewParams view_params(const Camera& camera, glm::ivec2 size, glm::vec2 jitter, glm::ivec2 first,
+                               glm::vec2 lens) {
   const CameraAxes axes = camera_axes(camera);
   const float half_height = std::tan(glm::radians(camera.fov_deg) * 0.5f);
   const float pixel = 2.0f * half_height / static_cast<float>(size.y);
@@ -18,7 +20,19 @@ shared::ViewParams view_params(const Camera& camera, glm::ivec2 size, glm::vec2 
   const glm::vec2 to_first_center = glm::vec2(0.5f) + jitter - 0.5f * glm::vec2(size) - axis;
   view.corner = axes.forward + to_first_center.x * view.step_x + to_first_center.y * view.step_y;
   view.first = glm::vec2(first);
+  if (camera.lens_radius > 0.0f && lens != glm::vec2(0.0f)) {
+    // Rays of a pixel meet where the pinhole's would be at the focus distance: at eye + focus (corner + ...).
+    const float target = glm::dot(camera.target - camera.eye, axes.forward);
+    const float focus = camera.focus_distance > 0.0f ? camera.focus_distance : target;
+    const glm::vec3 aside = camera.lens_radius * (lens.x * axes.right + lens.y * axes.up);
+    view.eye += aside;
+    view.corner -= aside / focus;
+  }
   return view;
+}
+
+shared::ViewParams view_params(const View& view) {
+  return view_params(view.camera, view.size, view.jitter, view.box().lo, lens_point_of(view.sample));
 }
 
 Image<Ray> camera_rays(const View& view) {

@@ -18,7 +18,7 @@ def main(folder, out, size=256):
     engine, out = pinocchio.Engine(), pathlib.Path(out)
     out.mkdir(parents=True, exist_ok=True)
     for path in sorted(pathlib.Path(folder).iterdir()):
-        if path.suffix.lower() not in (".gltf", ".glb", ".obj"):
+        if path.suffix.lower() not in (".gltf", ".glb", ".obj", ".ply"):
             continue
         try:
             scene = pinocchio.load_scene(path)

@@ -15,7 +15,7 @@ struct MaterialTexels {
   glm::vec4 ambient_shininess, diffuse_maps, specular, emission;
 };
 struct LightTexels {
-  glm::vec4 position_kind, direction_falloff, radiance_range, cone_slot;
+  glm::vec4 position_kind, direction_falloff, radiance_range, cone_slot, edge_u_size, edge_v;
 };
 
 std::vector<MaterialTexels> material_texels(const Mesh& mesh) {
@@ -34,7 +34,8 @@ std::vector<LightTexels> light_texels(const Scene& scene) {
     const auto slot = static_cast<float>(slots[i]);
     texels.push_back({glm::vec4(p.position, static_cast<float>(p.kind)),
                       glm::vec4(p.direction, p.inverse_square ? 1.0f : 0.0f), glm::vec4(p.radiance, p.range),
-                      glm::vec4(p.cos_inner, p.cos_outer, slot, 0.0f)});
+                      glm::vec4(p.cos_inner, p.cos_outer, slot, 0.0f), glm::vec4(p.edge_u, p.size),
+                      glm::vec4(p.edge_v, 0.0f)});
   }
   if (texels.empty()) texels.resize(1);  // a texture buffer of no size is none
   return texels;
@@ -83,6 +84,7 @@ void GpuLights::update(const Scene& scene) {
   if (!empty_ && sent_ == scene.lights) return;
   lights_ = quads(light_texels(scene));
   sent_ = scene.lights;
+  any_size_ = std::ranges::any_of(sent_, &Light::has_size);
   empty_ = false;
 }
 

@@ -37,9 +37,11 @@ class GpuLights {
   // Sends the scene's lights, unless they are the ones that are there.
   void update(const Scene& scene);
   int bind(const gl::Program& program, int first_unit) const;
+  [[nodiscard]] bool any_size() const { return any_size_; }
 
  private:
   std::vector<Light> sent_;
+  bool any_size_ = false;
   gl::TextureBuffer lights_;
   glm::vec3 ambient_light_{0.0f};
   bool empty_ = true;  // nothing was sent yet

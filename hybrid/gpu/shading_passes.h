@@ -7,6 +7,7 @@
 #include "core/trace/shared.h"
 #include "gl/draw.h"
 #include "gl/program.h"
+#include "gl/transfer.h"
 #include "hybrid/gpu/gpu_mesh.h"
 #include "hybrid/gpu/programs.h"
 #include "pinocchio/settings.h"
@@ -23,6 +24,7 @@ enum class LightSet {
 struct OlderFrame {
   const gl::Texture& ids;
   shared::ViewParams view;
+  shared::Sampling sampling;
 };
 
 // The passes that shade pixels from their ids (shaders/composite.frag, gbuffer.frag, show.frag,
@@ -36,6 +38,9 @@ class ShadingPasses {
     const gl::Texture& ids;
     int id_bits;
     bool filter_textures;
+    shared::Sampling sampling;
+    Terminator terminator;
+    const Scene& scene;  // whose environment is seen
   };
   // The CPU's answer; what is null is not in it.
   struct Traced {
@@ -79,11 +84,16 @@ class ShadingPasses {
   // Sets what every pass over ids reads; returns the next free texture unit.
   int bind(const gl::Program& program, const Inputs& inputs) const;
   int bind(const gl::Program& program, const Inputs& inputs, const Traced& traced) const;
+  // What is seen behind everything: to the GPU, and for the program in use.
+  void send(const std::shared_ptr<const Environment>& environment);
+  void bind_environment(const gl::Program& program, const Scene& scene, int unit) const;
   [[nodiscard]] static Definitions definitions_of(const Inputs& inputs);
   [[nodiscard]] static Definitions definitions_of(const Inputs& inputs, const Traced& traced);
 
   std::shared_ptr<Programs> programs_;
   gl::FullscreenTriangle triangle_;
+  std::shared_ptr<const Environment> sent_;  // that environment_ is of
+  gl::Texture environment_;
 };
 
 }  // namespace pinocchio

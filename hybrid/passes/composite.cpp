@@ -21,7 +21,8 @@ void composite_on_gpu(GpuPasses& gpu, FrameSlot& frame, const FrameSlot* older) 
     gpu.shading.show(frame[Channel::picture].texture, frame.inputs(), frame.picture);
   } else {
     const FrameSlot& traced = older ? *older : frame;
-    const OlderFrame of{traced.ids_texture(), traced.view};
+    const OlderFrame of{traced.ids_texture(), traced.view,
+                        sampling_of(traced.request.settings, traced.request.view)};
     ShadingPasses::Traced answer = traced.answer_on_gpu();
     if (older) answer.of = &of;
     gpu.shading.composite(frame.inputs(), LightSet::all, answer, frame.picture);

@@ -111,6 +111,12 @@ constexpr std::array kTable{
                         "sync: wait for the CPU; pipelined: its part comes frames later, GPU and CPU work on "
                         "different frames; reproject: newest raster, the last mask and reflection warped to it"),
     field<&S::spp>("spp", from_to(1, 65536), "1", "jittered samples a pixel, averaged in linear light"),
+    field<&S::max_noise>("max_noise", from_to(0, 1), "0",
+                         "of several samples: a tile of 32x32 pixels takes no more once the standard error of their "
+                         "means, linear, is below it; 0: every pixel takes all"),
+    field<&S::pixel_filter>("pixel_filter", one_of(kPixelFilterNames), "box",
+                            "how a pixel's samples are spread: evenly over it, or over 3 pixels by a window that "
+                            "leaves no stairs"),
     field<&S::sequence>("sequence", one_of(kSequenceNames), "sobol",
                         "where samples are, of what is sampled: scrambled Sobol points; one such sequence turned "
                         "from pixel to pixel, so that noise is fine-grained; or by chance"),
@@ -144,6 +150,17 @@ constexpr std::array kTable{
                             false, "least_light"),
     field<&S::filter_textures>("filter_textures", yes_or_no(), "true",
                                "average textures over what a pixel, and its mirror images, see of them"),
+    field<&S::indirect>("indirect", from_to(0, kMostBounces), "0",
+                        "most bounces of light from one matt surface to the next, by samples; above 0 there is no "
+                        "ambient light (docs/environment.md)"),
+    field<&S::environment_rotation>("environment_rotation", from_to(-360, 360), "0",
+                                    "how far the environment is turned about the upward axis, degrees"),
+    field<&S::environment_strength>("environment_strength", from_to(0, 1e6), "1",
+                                    "what the environment's light is multiplied with; 0: there is none"),
+    field<&S::terminator>("terminator", one_of(kTerminatorNames), terminator_name(kUsualTerminator),
+                          "where a coarse mesh's shading normals face a light and its facets do not: off: dark; smoothed: "
+                          "light falls to zero there; displaced: shadow rays start on the curved surface; turned-away: so "
+                          "they do on facets that turn away (docs/terminator.md)"),
     field<&S::reuse>("reuse", yes_or_no(), "true",
                      "draw nothing again for a frame that asks for what the last one did"),
     field<&S::persistent>("persistent", yes_or_no(), "false", "keep transfer buffers mapped", kOfMachine),

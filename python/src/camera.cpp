@@ -72,6 +72,8 @@ void bind_camera(nb::module_& module) {
       .def_rw("target", &Camera::target)
       .def_rw("up", &Camera::up)
       .def_rw("fov", &Camera::fov_deg, "Vertical field of view, degrees.")
+      .def_rw("lens_radius", &Camera::lens_radius, "Depth of field by samples (spp); 0: a pinhole.")
+      .def_rw("focus_distance", &Camera::focus_distance, "Where all is sharp, along the view axis; 0: the target's.")
       .def("__copy__", [](const Camera& camera) { return camera; })
       .def("__deepcopy__", [](const Camera& camera, nb::handle) { return camera; }, "memo"_a);
 }

@@ -35,7 +35,7 @@ Texture texture_of(const Texels& texels) {
 
 Light light_of(std::optional<glm::vec3> position, std::optional<glm::vec3> direction, const glm::vec3& color,
                float intensity, const std::string& falloff, float range, float inner_cone, float outer_cone,
-               bool casts_shadow, const std::string& name) {
+               bool casts_shadow, const std::string& name, float radius, float angle) {
   if (!position && !direction) throw Error("a light has a position (a point), a direction (a sun) or both (a spot)");
   if (falloff != "none" && falloff != "inverse_square")
     throw Error("falloff is '" + falloff + "'; it is 'none' or 'inverse_square'");
@@ -54,11 +54,14 @@ Light light_of(std::optional<glm::vec3> position, std::optional<glm::vec3> direc
     light.cos_outer = std::cos(glm::radians(outer_cone));
   }
   light.casts_shadow = casts_shadow;
+  light.radius = radius;
+  light.angle_deg = angle;
   return light;
 }
 
 const char* kind_of(const Light& light) {
-  return light.kind == Light::Kind::point ? "point" : light.kind == Light::Kind::spot ? "spot" : "directional";
+  constexpr const char* kKinds[] = {"point", "directional", "spot", "rectangle"};
+  return kKinds[static_cast<int>(light.kind)];
 }
 
 // A material for each colour there is: of every triangle.
@@ -171,7 +174,7 @@ void bind_material(nb::module_& module) {
           [](TexturedMaterial* self, const glm::vec3& diffuse, const glm::vec3& specular, float shininess,
              const glm::vec3& reflectance, const glm::vec3& transmittance, float ior, bool fresnel,
              const glm::vec3& emission, const std::optional<glm::vec3>& ambient,
-             const std::optional<Texels>& texture, const std::string& name) {
+             const std::optional<Texels>& texture, const std::string& name, float gloss) {
             Material m;
             m.name = name;
             m.ambient = ambient.value_or(diffuse);
@@ -183,16 +186,18 @@ void bind_material(nb::module_& module) {
             m.ior = ior;
             m.fresnel = fresnel;
             m.emission = emission;
+            m.gloss = gloss;
             new (self) TexturedMaterial{
                 m, texture ? std::make_shared<const Texture>(texture_of(*texture)) : nullptr};
           },
           "diffuse"_a = glm::vec3(0.8f), "specular"_a = glm::vec3(0.0f), "shininess"_a = 1.0f,
           "reflectance"_a = glm::vec3(0.0f), "transmittance"_a = glm::vec3(0.0f), "ior"_a = 1.0f,
           "fresnel"_a = false, "emission"_a = glm::vec3(0.0f), "ambient"_a = nb::none(), "texture"_a = nb::none(),
-          "name"_a = "",
+          "name"_a = "", "gloss"_a = 0.0f,
           "reflectance: the weight of the mirrored ray; with `fresnel`, its value at normal incidence.\n"
           "transmittance: of the refracted ray, bent by `ior`. texture: (height, width, 3 or 4) uint8, sRGB; its\n"
-          "colour multiplies diffuse and ambient. ambient: as diffuse, where it is left out.");
+          "colour multiplies diffuse and ambient. ambient: as diffuse, where it is left out. gloss: exponent\n"
+          "of the lobe that mirrored rays are spread over by samples (spp); 0: sharp.");
 }
 
 void bind_light(nb::module_& module) {
@@ -201,16 +206,17 @@ void bind_light(nb::module_& module) {
           "__init__",
           [](Light* self, std::optional<glm::vec3> position, std::optional<glm::vec3> direction,
              const glm::vec3& color, float intensity, const std::string& falloff, float range, float inner_cone,
-             float outer_cone, bool casts_shadow, const std::string& name) {
+             float outer_cone, bool casts_shadow, const std::string& name, float radius, float angle) {
             new (self) Light(light_of(position, direction, color, intensity, falloff, range, inner_cone, outer_cone,
-                                      casts_shadow, name));
+                                      casts_shadow, name, radius, angle));
           },
           "position"_a = nb::none(), "direction"_a = nb::none(), "color"_a = glm::vec3(1.0f), "intensity"_a = 1.0f,
           "falloff"_a = "none", "range"_a = std::numeric_limits<float>::infinity(), "inner_cone"_a = 0.0f,
-          "outer_cone"_a = 45.0f, "casts_shadow"_a = true, "name"_a = "",
+          "outer_cone"_a = 45.0f, "casts_shadow"_a = true, "name"_a = "", "radius"_a = 0.0f, "angle"_a = 0.0f,
           "With a position: a point light. With a direction, along which the light travels: a sun. With both: a\n"
           "spot, whose cones are degrees off its direction. falloff: 'none' (the same strength at any distance) or\n"
-          "'inverse_square'. At most eight lights of a scene cast shadows.")
+          "'inverse_square'. At most eight lights of a scene cast shadows. radius: of the ball that shines; angle: diameter\n"
+          "of a sun's disc, degrees; with either, shadows are soft by samples (spp).")
       .def_prop_ro("kind", &kind_of)
       .def_rw("name", &Light::name)
       .def_rw("position", &Light::position)
@@ -218,7 +224,9 @@ void bind_light(nb::module_& module) {
                    [](Light& l, const glm::vec3& d) { l.direction = glm::normalize(d); })
       .def_rw("color", &Light::color)
       .def_rw("intensity", &Light::intensity)
-      .def_rw("casts_shadow", &Light::casts_shadow);
+      .def_rw("casts_shadow", &Light::casts_shadow)
+      .def_rw("radius", &Light::radius)
+      .def_rw("angle", &Light::angle_deg);
 }
 
 }  // namespace

@@ -3,6 +3,8 @@
 import glob
 import os
 
+VARIANTS = {"Mitsuba": {}}
+
 
 def find_llvm():
     """The newest LLVM of the system (Debian 12: libllvm19): 16 and older fail on AVX-512."""
@@ -14,31 +16,28 @@ def find_llvm():
 
 
 def frames(job):
-    """Yields after each frame."""
     find_llvm()
-    import drjit as dr
-    import mitsuba as mi
-    mi.set_variant("llvm_ad_rgb")
-    dr.set_thread_count(job["threads"])
-    T = mi.ScalarTransform4f
+    import drjit
+    import mitsuba
+    import numpy
+
+    mitsuba.set_variant("llvm_ad_rgb")
+    drjit.set_thread_count(job.threads)
     scene = {
         "type": "scene",
-        "integrator": {"type": "direct", "emitter_samples": len(job["lights"]), "bsdf_samples": 0},
-        "sensor": {
-            "type": "perspective", "fov_axis": "y", "fov": job["fov"],
-            "to_world": T().look_at(origin=job["eye"], target=job["target"], up=[0, 1, 0]),
-            "film": {"type": "hdrfilm", "width": job["size"][0], "height": job["size"][1],
-                     "rfilter": {"type": "box"}},
-            "sampler": {"type": "independent", "sample_count": 1}},
-        "mesh": {"type": os.path.splitext(job["mesh"])[1][1:], "filename": job["mesh"],
-                 "bsdf": {"type": "twosided", "nested": {"type": "diffuse"}}}}
-    for i, light in enumerate(job["lights"]):
+        "integrator": {"type": "direct", "emitter_samples": len(job.lights), "bsdf_samples": 0},
+        "mesh": {"type": "obj", "filename": job.mesh, "bsdf": {"type": "twosided", "nested": {"type": "diffuse"}}}}
+    for i, light in enumerate(job.lights):
         scene[f"light{i}"] = {"type": "point", "position": light, "intensity": {"type": "rgb", "value": 10.0}}
-    scene = mi.load_dict(scene)
-    seed = 0
-    while True:
-        picture = mi.render(scene, spp=1, seed=seed)
-        dr.eval(picture)
-        dr.sync_thread()
-        seed += 1
+    scene = mitsuba.load_dict(scene)
+    sensor = mitsuba.load_dict({
+        "type": "perspective", "fov_axis": "y", "fov": job.fov,
+        "film": {"type": "hdrfilm", "width": job.size[0], "height": job.size[1], "rfilter": {"type": "box"}},
+        "sampler": {"type": "independent", "sample_count": 1}})
+    parameters = mitsuba.traverse(sensor)
+    for k in range(10 ** 9):
+        turned = job.pose(k) @ numpy.diag([-1.0, 1, -1, 1])  # it looks along +z, x to the left
+        parameters["to_world"] = mitsuba.Transform4f(turned)
+        parameters.update()
+        numpy.array(mitsuba.render(scene, sensor=sensor, spp=1, seed=k))
         yield

@@ -55,7 +55,13 @@ SHARED float shininess_of(float roughness) {
 }
 
 SHARED PhongSurface phong_from_metallic_roughness(MetallicRoughness s) {
-  PhongSurface m = phong_surface(PhongParams(vec3(0.0f), vec3(0.0f), vec3(0.0f), 1.0f, s.emissive));
+  PhongParams black;
+  black.ambient = vec3(0.0f);
+  black.diffuse = vec3(0.0f);
+  black.specular = vec3(0.0f);
+  black.shininess = 1.0f;
+  black.emission = s.emissive;
+  PhongSurface m = phong_surface(black);
   if (s.unlit) {
     m.phong.emission = s.base_color;
     return m;

@@ -5,16 +5,20 @@
 const int kLightPoint = 0;
 const int kLightDirectional = 1;
 const int kLightSpot = 2;
+const int kLightRectangle = 3;
 
 struct LightParams {
   int kind;
   bool inverse_square;  // else the same strength at any distance
-  vec3 position;        // p_world; point, spot
-  vec3 direction;       // unit, the way the light travels; directional, spot
+  vec3 position;        // p_world; point, spot, rectangle (its centre)
+  vec3 direction;       // unit, the way the light travels; directional, spot, rectangle (that it faces)
   vec3 radiance;        // colour times intensity
   float range;
   float cos_inner;
   float cos_outer;
+  float size;   // point, spot: the ball's radius; directional: 1 - cos of its disc's; 0: hard shadows
+  vec3 edge_u;  // rectangle: its sides
+  vec3 edge_v;
 };
 
 struct PhongParams {
@@ -28,11 +32,20 @@ struct PhongParams {
 struct Incident {
   vec3 to_light;  // unit
   vec3 radiance;  // zero: the light does not reach this far or this way
+  vec3 target;    // p_world of the light, where a shadow ray ends; not of a directional one
 };
 
+SHARED float cone_share(LightParams light, vec3 to_light) {
+  float cos_angle = dot(-to_light, light.direction);
+  float cone = clamp((cos_angle - light.cos_outer) / max(light.cos_inner - light.cos_outer, 1e-6f), 0.0f, 1.0f);
+  return cone * cone;
+}
+
+// Of a light as if it had no size.
 SHARED Incident incident_light(LightParams light, vec3 p_world) {
   Incident result;
   result.radiance = light.radiance;
+  result.target = light.position;
   if (light.kind == kLightDirectional) {
     result.to_light = -light.direction;
     return result;
@@ -42,11 +55,8 @@ SHARED Incident incident_light(LightParams light, vec3 p_world) {
   result.to_light = distance > 0.0f ? offset / distance : vec3(0.0f, 1.0f, 0.0f);
   if (distance > light.range) result.radiance = vec3(0.0f);
   if (light.inverse_square) result.radiance /= max(distance * distance, 1e-12f);
-  if (light.kind == kLightSpot) {
-    float cos_angle = dot(-result.to_light, light.direction);
-    float cone = clamp((cos_angle - light.cos_outer) / max(light.cos_inner - light.cos_outer, 1e-6f), 0.0f, 1.0f);
-    result.radiance *= cone * cone;
-  }
+  if (light.kind == kLightSpot) result.radiance *= cone_share(light, result.to_light);
+  if (light.kind == kLightRectangle) result.radiance *= max(dot(-result.to_light, light.direction), 0.0f);
   return result;
 }
 

@@ -158,6 +158,42 @@ TEST(LoadGltf, SparseAccessorsAreFilledIn) {
   EXPECT_EQ(load_good(json).mesh->positions[1], glm::vec3(1, 1, 0));  // the fourth's place in the second
 }
 
+TEST(LoadGltf, AnAccessorWithoutDataIsZeros) {
+  Json json = triangle_json();
+  json["accessors"].push_back({{"componentType", 5126}, {"count", 4}, {"type", "VEC4"}});
+  json["materials"] = {{{"name", "painted"}}};
+  json["meshes"][0]["primitives"][0]["material"] = 0;
+  json["meshes"][0]["primitives"][0]["attributes"]["COLOR_0"] = 2;
+  EXPECT_EQ(load_good(json).mesh->colors.at(0), glm::vec4(0.0f));
+}
+
+// KHR_mesh_quantization: whole numbers as positions, bytes as normals and texture coordinates.
+TEST(LoadGltf, QuantizedAttributes) {
+  const std::int16_t positions[12] = {0, 0, 0, 0, 1000, 0, 0, 0, 0, 1000, 0, 0};  // of 8 bytes each
+  const std::int8_t normals[12] = {0, 0, 127, 0, 0, 127, 0, 0, 0, 0, -128, 0};
+  const std::uint8_t texcoords[12] = {0, 0, 0, 0, 255, 0, 0, 0, 0, 51, 0, 0};
+  Json json = textured_json({{"uri", "data:;base64,UDYgMSAxIDI1NQoKFB4="}});
+  std::ofstream out(own_file("quantized.bin"), std::ios::binary);
+  out.write(reinterpret_cast<const char*>(positions), 24).write(reinterpret_cast<const char*>(normals), 12);
+  out.write(reinterpret_cast<const char*>(texcoords), 12);
+  out.close();
+  json["buffers"] = {{{"uri", "quantized.bin"}, {"byteLength", 48}}};
+  json["bufferViews"] = {{{"buffer", 0}, {"byteLength", 24}, {"byteStride", 8}},
+                         {{"buffer", 0}, {"byteOffset", 24}, {"byteLength", 12}, {"byteStride", 4}},
+                         {{"buffer", 0}, {"byteOffset", 36}, {"byteLength", 12}, {"byteStride", 4}}};
+  json["accessors"] = {{{"bufferView", 0}, {"componentType", 5122}, {"count", 3}, {"type", "VEC3"}},
+                       {{"bufferView", 1}, {"componentType", 5120}, {"count", 3}, {"type", "VEC3"}, {"normalized", true}},
+                       {{"bufferView", 2}, {"componentType", 5121}, {"count", 3}, {"type", "VEC2"}, {"normalized", true}}};
+  json["meshes"][0]["primitives"][0] = {{"attributes", {{"POSITION", 0}, {"NORMAL", 1}, {"TEXCOORD_0", 2}}}, {"material", 0}};
+  json["nodes"][0]["scale"] = {0.001, 0.001, 0.001};
+  json["extensionsRequired"] = {"KHR_mesh_quantization"};
+  const Scene scene = load_good(json);
+  EXPECT_LT(glm::length(scene.mesh->positions.at(1) - glm::vec3(1, 0, 0)), 1e-6f);
+  EXPECT_LT(glm::length(scene.mesh->normals.at(1) - glm::vec3(0, 1, 0)), 1e-6f);
+  EXPECT_LT(glm::length(scene.mesh->normals.at(2) - glm::vec3(0, 0, -1)), 1e-6f);  // -128 is -1 as well
+  EXPECT_EQ(scene.mesh->texcoords.at(2), glm::vec2(0.0f, 0.2f));
+}
+
 TEST(LoadGltf, ImagesBesideTheFileAreTextures) {
   std::ofstream(own_file("texel.ppm"), std::ios::binary) << "P6 1 1 255\n\x0a\x14\x1e";
   const Scene scene = load_good(textured_json({{"uri", "texel.ppm"}}));

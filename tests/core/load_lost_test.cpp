@@ -52,6 +52,25 @@ TEST(LoadLost, MaterialsThatNothingUsesAreNotMissed) {
   EXPECT_TRUE(warnings_of(json).empty());
 }
 
+// Values that glTF does not allow; the default that is drawn instead is not meant.
+TEST(LoadLost, MembersOfTheWrongType) {
+  Json json = textured_json({{"uri", "data:;base64,UDYgMSAxIDI1NQoKFB4="}});
+  EXPECT_TRUE(warnings_of(json).empty());
+  Json& texture = json["materials"][0]["pbrMetallicRoughness"]["baseColorTexture"];
+  for (const Json& index : {Json(-1), Json(1), Json("0"), Json()}) {
+    texture["index"] = index;
+    EXPECT_NE(line_about(warnings_of(json), "its baseColorTexture names no image"), "") << index;
+  }
+  texture["index"] = 0;
+  texture["extensions"]["KHR_texture_transform"] = "turned";
+  EXPECT_NE(line_about(warnings_of(json), "baseColorTexture's KHR_texture_transform is not an object"), "");
+  for (const Json& material :
+       {Json{{"pbrMetallicRoughness", Json::array()}}, Json{{"pbrMetallicRoughness", {{"metallicFactor", "0"}}}},
+        Json{{"pbrMetallicRoughness", {{"baseColorFactor", {1, 1, 1}}}}}, Json{{"alphaMode", "mask"}},
+        Json{{"emissiveFactor", {1, 1, "1"}}}})
+    EXPECT_NE(line_about(warnings_of(with_material(material)), "is not of the type"), "") << material;
+}
+
 TEST(LoadLost, SkinsWithoutJointsAndOtherScenes) {
   Json json = triangle_json();
   json["skins"] = {{{"joints", {0}}}};

@@ -163,7 +163,6 @@ TEST(LoadObj, BadInputNamesTheLine) {
   EXPECT_EQ(error_of(kTriangle + "f 1 2 9\n").line, 4);
   EXPECT_EQ(error_of(kTriangle + "f 1 2 0\n").line, 4);
   EXPECT_EQ(error_of(kTriangle + "f -1 -2 -4\n").line, 4);
-  EXPECT_EQ(error_of(kTriangle + "f 1/5 2/5 3/5\n").line, 4);
   EXPECT_EQ(error_of(kTriangle + "\n# comment\nf 1 2\n").line, 6);
   EXPECT_EQ(error_of("v 0 0 0\nv nan 0 0\n").line, 2);
   EXPECT_EQ(error_of("v 0 0 0\nv 0 inf 0\n").line, 2);
@@ -174,6 +173,19 @@ TEST(LoadObj, BadInputNamesTheLine) {
   EXPECT_EQ(error_of("v a b c\n").line, 1);
   EXPECT_NE(error_of(kTriangle).what.find("no triangles"), std::string::npos);
   EXPECT_NE(error_of("").what.find("empty"), std::string::npos);
+}
+
+TEST(LoadObj, NormalsAndTextureCoordinatesThatThereAreNotAreWarnings) {
+  const std::filesystem::path path = own_file("dangling.obj");
+  std::ofstream(path) << kTriangle << "vn 0 0 1\nf 1/5/1 2/5/1 3/5/7\n";
+  Warnings warnings;
+  const Expected<Scene> scene = load_scene(path, &warnings);
+  ASSERT_TRUE(scene) << scene.error().message();
+  ASSERT_EQ(warnings.size(), 2u);
+  EXPECT_NE(warnings[0].message().find("line 5: a face names texture coordinate 5, there are 0"), std::string::npos);
+  EXPECT_NE(warnings[1].message().find("line 5: a face names normal 7, there are 1"), std::string::npos);
+  EXPECT_EQ(scene->mesh->normals[scene->mesh->triangles[0].x], glm::vec3(0, 0, 1));
+  EXPECT_EQ(scene->mesh->normals[scene->mesh->triangles[0].z], glm::vec3(0.0f));
 }
 
 TEST(LoadObj, RandomBytesNeverCrash) {

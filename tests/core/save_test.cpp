@@ -59,6 +59,42 @@ TEST(Save, GltfBringsEverythingBack) {
     }
 }
 
+TEST(Save, SizesOfLightsLensesAndLobesComeBack) {
+  Scene scene = plate_over_floor();
+  {
+    MeshEdit mesh(scene);
+    mesh->materials.front().reflectance = glm::vec3(0.5f);
+    mesh->materials.front().gloss = 40.0f;
+  }
+  Light ball = point_light({1, 2, 3}), sun, panel = point_light({3, 2, 1});
+  ball.radius = 0.25f;
+  sun.kind = Light::Kind::directional;
+  sun.angle_deg = 0.53f;
+  panel.kind = Light::Kind::rectangle;
+  panel.direction = {0, -1, 0};
+  panel.edge_u = {2, 0, 0};
+  panel.edge_v = {0, 0, -0.5f};
+  scene.lights = {ball, sun, panel};
+  scene.cameras.front().lens_radius = 0.125f;
+  scene.cameras.front().focus_distance = 3.0f;
+  save_scene(scene, temporary("sizes.gltf"));
+  const Scene loaded = load_or_die(temporary("sizes.gltf"));
+  ASSERT_EQ(loaded.lights.size(), 3u);
+  EXPECT_EQ(loaded.lights[0].radius, 0.25f);
+  EXPECT_EQ(loaded.lights[1].angle_deg, 0.53f);
+  EXPECT_EQ(loaded.lights[2].kind, Light::Kind::rectangle);
+  for (std::size_t i = 0; i < 3; ++i) {
+    EXPECT_LT(glm::distance(loaded.lights[i].edge_u, scene.lights[i].edge_u), 1e-5f);
+    EXPECT_LT(glm::distance(loaded.lights[i].edge_v, scene.lights[i].edge_v), 1e-5f);
+    if (i > 0) {
+      EXPECT_LT(glm::distance(loaded.lights[i].direction, scene.lights[i].direction), 1e-5f);
+    }
+  }
+  EXPECT_EQ(loaded.cameras.front().lens_radius, 0.125f);
+  EXPECT_EQ(loaded.cameras.front().focus_distance, 3.0f);
+  EXPECT_EQ(loaded.mesh->materials.front().gloss, 40.0f);
+}
+
 TEST(Save, DirectionalAndSpotLightsKeepTheirDirection) {
   Scene scene = plate_over_floor();
   Light sun;
@@ -75,6 +111,111 @@ TEST(Save, DirectionalAndSpotLightsKeepTheirDirection) {
   for (std::size_t i = 0; i < 2; ++i)
     EXPECT_LT(glm::length(loaded.lights[i].direction - scene.lights[i].direction), 1e-6f);
   EXPECT_NEAR(loaded.lights[1].cos_outer, 0.7f, 1e-5f);
+}
+
+// Of two uses: the same texels, seen the same way.
+void expect_same_use(const Mesh& a, const TextureUse& of_a, const Mesh& b, TextureUse of_b) {
+  ASSERT_EQ(of_a.used(), of_b.used());
+  if (!of_a.used()) return;
+  const Texture &ta = a.textures[static_cast<std::size_t>(of_a.texture)], &tb = b.textures[static_cast<std::size_t>(of_b.texture)];
+  ASSERT_EQ(ta.texels.size(), tb.texels.size());
+  EXPECT_TRUE(std::equal(ta.texels.pixels().begin(), ta.texels.pixels().end(), tb.texels.pixels().begin()));
+  EXPECT_EQ(ta.smaller_levels, tb.smaller_levels);
+  of_b.texture = of_a.texture;
+  EXPECT_EQ(of_a, of_b);
+}
+
+void expect_same_maps(const Mesh& a, const MaterialMaps& of_a, const Mesh& b, MaterialMaps of_b) {
+  for (TextureUse MaterialMaps::*use : {&MaterialMaps::base_color, &MaterialMaps::metallic_roughness, &MaterialMaps::normal,
+                                        &MaterialMaps::occlusion, &MaterialMaps::emissive, &MaterialMaps::alpha}) {
+    expect_same_use(a, of_a.*use, b, of_b.*use);
+    of_b.*use = of_a.*use;
+  }
+  EXPECT_EQ(of_a, of_b);
+}
+
+TEST(Save, GltfBringsTexturesBack) {
+  const Scene saved = load_or_die(source_path("scenes/terrace.glb"));
+  const Mesh& a = *saved.mesh;
+  ASSERT_FALSE(a.textures.empty());
+  for (const char* extension : {".gltf", ".glb"}) {
+    const std::filesystem::path file = temporary(std::string("textured") + extension);
+    Warnings warnings;
+    save_scene(saved, file, nullptr, &warnings);
+    EXPECT_TRUE(warnings.empty());
+    const Scene loaded = load_or_die(file);
+    const Mesh& b = *loaded.mesh;
+    expect_same_triangles(a, b);
+    ASSERT_EQ(a.materials.size(), b.materials.size());
+    for (std::uint32_t i = 0; i < a.triangles.size(); ++i) {
+      ASSERT_EQ(a.maps_of(i) == nullptr, b.maps_of(i) == nullptr) << i;
+      const glm::uvec3 &ta = a.triangles[i], &tb = b.triangles[i];
+      for (int c = 0; c < 3; ++c) {
+        ASSERT_LT(glm::length(a.normals[ta[c]] - b.normals[tb[c]]), 1e-6f);
+        const MaterialMaps* maps = a.maps_of(i);
+        EXPECT_TRUE(!maps || a.texcoords.empty() || a.texcoords[ta[c]] == b.texcoords[tb[c]]);
+        EXPECT_TRUE(!maps || !maps->vertex_colors || a.colors[ta[c]] == b.colors[tb[c]]);
+      }
+    }
+    for (std::size_t i = 0; i < a.materials.size(); ++i) {
+      expect_same_material(a.materials[i], b.materials[i]);
+      if (a.materials[i].maps >= 0)
+        expect_same_maps(a, a.maps[static_cast<std::size_t>(a.materials[i].maps)], b,
+                         b.maps[static_cast<std::size_t>(b.materials[i].maps)]);
+    }
+  }
+}
+
+// A quad with an image of its own for colour and one for alpha, as MTL has it.
+Scene dissolved() {
+  MeshData mesh;
+  mesh.positions = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}};
+  mesh.normals.resize(4, glm::vec3(0.0f));
+  mesh.texcoords = {{0, 1}, {1, 1}, {1, 0}, {0, 0}};
+  mesh.triangles = {{0, 1, 2}, {0, 2, 3}};
+  mesh.triangle_materials = {0, 0};
+  for (const char* name : {"colour", "alpha"}) {
+    Texture& texture = mesh.textures.edit().emplace_back();
+    texture.name = name;
+    texture.texels = Image<glm::u8vec4>({2, 2}, glm::u8vec4(200, 100, 50, 255));
+  }
+  mesh.textures.edit()[1].texels.at(1, 0) = glm::u8vec4(0, 0, 0, 255);
+  MaterialMaps& maps = make_maps(mesh, mesh.materials.emplace_back());
+  maps.base_color.texture = 0;
+  maps.alpha = maps.base_color;
+  maps.alpha.texture = 1;
+  maps.alpha_channel = 0;
+  maps.alpha_mode = AlphaMode::blend;
+  maps.base_color.uv_from_texcoord = maps.alpha.uv_from_texcoord = {2.0f, 0.0f, 0.0f, 3.0f, 0.25f, -0.5f};
+  return Scene(std::move(mesh));
+}
+
+TEST(Save, GltfTakesAlphaFromWhereMtlHasIt) {
+  save_scene(dissolved(), temporary("dissolved.glb"));
+  const Scene loaded = load_or_die(temporary("dissolved.glb"));
+  const MaterialMaps& maps = loaded.mesh->maps.at(0);
+  const Texture& both = loaded.mesh->textures[static_cast<std::size_t>(maps.base_color.texture)];
+  EXPECT_EQ(both.texels.at(0, 0), glm::u8vec4(200, 100, 50, 200));
+  EXPECT_EQ(both.texels.at(1, 0), glm::u8vec4(200, 100, 50, 0));
+  EXPECT_TRUE(maps.blends());
+  EXPECT_EQ(maps.base_color.uv_from_texcoord, glm::mat3x2(2.0f, 0.0f, 0.0f, 3.0f, 0.25f, -0.5f));
+}
+
+TEST(Save, ObjBringsTexturesBackAndSaysWhatItCannot) {
+  Scene scene = dissolved();
+  Warnings warnings;
+  save_scene(scene, temporary("dissolved.obj"), nullptr, &warnings);
+  EXPECT_TRUE(warnings.empty());
+  const Scene loaded = load_or_die(temporary("dissolved.obj"));
+  expect_same_triangles(*scene.mesh, *loaded.mesh);
+  EXPECT_EQ(loaded.mesh->normals.at(0), glm::vec3(0.0f));  // flat, as it was
+  const MaterialMaps& maps = loaded.mesh->maps.at(0);
+  expect_same_use(*scene.mesh, scene.mesh->maps[0].base_color, *loaded.mesh, maps.base_color);
+  expect_same_use(*scene.mesh, scene.mesh->maps[0].alpha, *loaded.mesh, maps.alpha);
+  EXPECT_EQ(maps.alpha_channel, 0);
+  scene.mesh = load_or_die(source_path("scenes/terrace.glb")).mesh;
+  save_scene(scene, temporary("terrace.obj"), nullptr, &warnings);
+  EXPECT_FALSE(warnings.empty());
 }
 
 TEST(Save, ObjBringsTrianglesAndMaterialsBack) {

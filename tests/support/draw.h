@@ -47,7 +47,7 @@ inline std::vector<FrameResult> draw_all(const Scene& scene, const DrawRequest& 
                        : engine.resolve(scene, frame.view.box().size(), frame.settings).value();
   frame.tracer = Engine::prepare(scene, frame.settings);
   std::vector<FrameResult> pictures;
-  SampleMean mean(frame.settings.spp, [&](FrameResult&& picture) { pictures.push_back(std::move(picture)); });
+  SampleMean mean(frame.settings, [&](FrameResult&& picture) { pictures.push_back(std::move(picture)); });
   {
     Renderer renderer(engine, {[&](Frame& delivered) { mean.add(delivered); },
                                [&](const FrameRecord& record) {
@@ -55,7 +55,7 @@ inline std::vector<FrameResult> draw_all(const Scene& scene, const DrawRequest& 
                                }});
     for (const Camera& camera : cameras) {
       frame.view.camera = camera;
-      submit_samples(renderer, frame);
+      submit_samples(renderer, frame, &mean);
     }
     renderer.drain();
   }

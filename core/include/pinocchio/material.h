@@ -13,15 +13,21 @@ struct Material {
   glm::vec3 specular{0.0f};
   float shininess = 1.0f;         // exponent of (R.V), not of the half vector
   glm::vec3 reflectance{0.0f};    // weight of the mirrored ray; with `fresnel` its value at normal incidence
+  // Exponent of the lobe that its mirrored rays are spread over, by samples: the lower, the rougher. 0: sharp.
+  float gloss = 0.0f;
   glm::vec3 transmittance{0.0f};  // weight of the refracted ray; any component > 0 makes a dielectric
   float ior = 1.0f;               // of the inside against the outside
   bool fresnel = false;           // opaque: reflectance rises to 1 at grazing angles (Schlick 1994)
   glm::vec3 emission{0.0f};
+  // Diffuse and specular are a BRDF's values, as glTF's metallic-roughness gives them; else they are Phong's
+  // coefficients, of lights whose strength counts the 1 / pi. Light from all around needs to know.
+  bool brdf = false;
   // Index in MeshData::maps: what textures, vertex colours and alpha change of it; -1: nothing. What stands
   // here is then the most that they make of reflectance and transmittance.
   int maps = -1;
 
   [[nodiscard]] bool reflects() const { return reflectance.x + reflectance.y + reflectance.z > 0.0f; }
+  [[nodiscard]] bool is_glossy() const { return gloss > 0.0f && (reflects() || transmits()); }
   [[nodiscard]] bool transmits() const { return transmittance.x + transmittance.y + transmittance.z > 0.0f; }
   // Whether any ray leaves a hit on this material.
   [[nodiscard]] bool spawns_rays() const { return reflects() || transmits(); }

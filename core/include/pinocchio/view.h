@@ -9,13 +9,19 @@
 
 namespace pinocchio {
 
+// How the samples of a picture are spread around their pixels.
+enum class PixelFilter {
+  box,              // evenly over the pixel
+  blackman_harris,  // over 3 pixels, by the window of that name: no stairs, no ringing
+};
+
 // What a picture shows.
 struct View {
   Camera camera;
   glm::ivec2 size{0, 0};   // of the whole picture, pixels
   PixelBox part{};         // of it that is drawn; empty: all
-  glm::vec2 jitter{0.0f};  // where pixels are sampled off their centre, pixels, [-0.5, 0.5)
-  int sample = 0;          // which of its samples a pixel takes, of lights with a size and the like
+  glm::vec2 jitter{0.0f};  // where pixels are sampled off their centre, pixels
+  int sample = 0;          // which of its samples a pixel takes, of the lens, lights with a size and the like
 
   [[nodiscard]] PixelBox box() const { return part.empty() ? PixelBox{{0, 0}, size} : part; }
   friend bool operator==(const View&, const View&) = default;

@@ -11,28 +11,34 @@ namespace {
 struct LaneIncident {
   Vec to_light;  // unit
   Vec radiance;  // zero: the light does not reach this far or this way
+  Vec target;    // of shadow rays
 };
 
-inline LaneIncident incident_light(const shared::LightParams& light, const Vec& p_world) {
+inline Float cone_share(const shared::LightParams& light, const Vec& to_light) {
+  const Float cos_angle = dot(-to_light, Vec(light.direction));
+  const float width = light.cos_inner - light.cos_outer;
+  const Float cone =
+      clamp((cos_angle - Float(light.cos_outer)) / Float(width < 1e-6f ? 1e-6f : width), 0.0f, 1.0f);
+  return cone * cone;
+}
+
+inline LaneIncident incident_light(const shared::LightParams& light, const Vec& position, const Vec& p_world) {
   LaneIncident result;
   result.radiance = Vec(light.radiance);
+  result.target = position;
   if (light.kind == shared::kLightDirectional) {
     result.to_light = -Vec(light.direction);
     return result;
   }
   const Float zero(0.0f);
-  const Vec offset = Vec(light.position) - p_world;
+  const Vec offset = position - p_world;
   const Float distance = sqrt(dot(offset, offset));
   result.to_light = select(zero < distance, offset / distance, Vec(zero, Float(1.0f), zero));
   result.radiance = select(Float(light.range) < distance, Vec(zero), result.radiance);
   if (light.inverse_square) result.radiance = result.radiance / max(Float(1e-12f), distance * distance);
-  if (light.kind == shared::kLightSpot) {
-    const Float cos_angle = dot(-result.to_light, Vec(light.direction));
-    const float width = light.cos_inner - light.cos_outer;
-    const Float cone =
-        clamp((cos_angle - Float(light.cos_outer)) / Float(width < 1e-6f ? 1e-6f : width), 0.0f, 1.0f);
-    result.radiance = result.radiance * (cone * cone);
-  }
+  if (light.kind == shared::kLightSpot) result.radiance = result.radiance * cone_share(light, result.to_light);
+  if (light.kind == shared::kLightRectangle)
+    result.radiance = result.radiance * max(dot(-result.to_light, Vec(light.direction)), zero);
   return result;
 }
 

@@ -17,7 +17,8 @@ struct LaneMaterial {
   Vec reflectance{Float(0.0f)}, transmittance{Float(0.0f)};
   Float ior{1.0f};
   Float alpha{1.0f};
-  unsigned fresnel = 0, reflects = 0, transmits = 0, mapped = 0, blends = 0;  // lanes
+  Float gloss{0.0f};
+  unsigned glossy = 0, fresnel = 0, reflects = 0, transmits = 0, mapped = 0, blends = 0, brdf = 0;  // lanes
 
   LaneMaterial(const SceneArrays& scene, Int materials, Mask lanes) {
     for_each_distinct(materials, lanes, [&](std::uint32_t index, Mask same) {
@@ -32,6 +33,11 @@ struct LaneMaterial {
       ior = select(same, Float(m.ior), ior);
       const unsigned bits = same.bits();
       if (m.fresnel) fresnel |= bits;
+      if (m.brdf) brdf |= bits;
+      if (m.gloss > 0.0f) {
+        gloss = select(same, Float(m.gloss), gloss);
+        glossy |= bits;
+      }
       if (any_component(m.reflectance)) reflects |= bits;
       if (any_component(m.transmittance)) transmits |= bits;
       if (m.maps >= 0) mapped |= bits;

@@ -1,7 +1,9 @@
 // Part of trace/kernel.h's files: core/trace/scatter.cpp in lanes.
 #pragma once
 
+#include "core/trace/lanes/light.h"
 #include "core/trace/lanes/material.h"
+#include "core/trace/lanes/sized_light.h"
 #include "core/trace/lanes/surface.h"
 
 namespace pinocchio::PINOCCHIO_LANES {
@@ -12,6 +14,21 @@ inline Vec mirrored(const LaneSurface& s) {
   const Vec direction = reflect(-s.to_viewer, s.n_shading);
   const Mask good = Float(0.0f) < dot(direction, s.n_geometric);
   return select(good, direction, reflect(-s.to_viewer, s.n_geometric));
+}
+
+// About the mirrored direction by its lobe, (n + 1) / (2 pi) cos^n; n 0: the mirrored direction itself. What would
+// go into the surface is lost: `lanes` keep the others.
+inline Vec spread(const LaneSurface& s, const Vec& direction, Float gloss, const LanePoint& square, Mask& lanes) {
+  const Float zero(0.0f), one(1.0f);
+  const Mask sharp = gloss == zero;
+  const LanePoint disc = disc_of_square(square);
+  const Float rho2 = min(disc.x * disc.x + disc.y * disc.y, Float(0x1.fffffep-1f));
+  const Float cosine = power(one - rho2, one / (gloss + one));
+  const Float sine = sqrt(max(one - cosine * cosine, zero));
+  const Float across = select(Float(1e-12f) < rho2, sine / sqrt(rho2), zero);
+  const Vec spread_out = around(direction, {disc.x * across, disc.y * across, cosine});
+  lanes = lanes & (sharp | (zero < dot(spread_out, s.n_geometric)));
+  return select(sharp, direction, spread_out);
 }
 
 // As glm::refract: `inverse` is 1 / eta; zero beyond the critical angle.
@@ -73,8 +90,8 @@ inline void go_straight_on(const LaneSurface& s, const LaneMaterial& m, const Ve
          bounce.throughput_cutoff, *bounce.straight);
 }
 
-inline void scatter(const LaneSurface& s, const LaneMaterial& m, const Vec& throughput, Int pixel, Mask lanes,
-                    const Bounce& bounce) {
+inline void scatter(const LaneSurface& s, const LaneMaterial& m, const Vec& throughput, const LaneSampling* sampling,
+                    Int pixel, Mask lanes, const Bounce& bounce) {
   const unsigned alive = lanes.bits(), glass = m.transmits & alive,
                  opaque = m.reflects & ~m.transmits & alive;
   if ((m.blends & alive) != 0) go_straight_on(s, m, throughput, pixel, lanes, bounce);
@@ -98,8 +115,11 @@ inline void scatter(const LaneSurface& s, const LaneMaterial& m, const Vec& thro
     follow(s, through, own * (one - share) * m.transmittance, pixel, Mask::from_bits(glass),
            bounce.throughput_cutoff, *bounce.refracted);
   }
-  follow(s, mirrored(s), own * mirror_share, pixel, Mask::from_bits(glass | opaque),
-         bounce.throughput_cutoff, *bounce.mirrored);
+  Mask mirrors = Mask::from_bits(glass | opaque);
+  Vec direction = mirrored(s);
+  if (sampling && (m.glossy & (glass | opaque)) != 0)
+    direction = spread(s, direction, m.gloss, sample_2d(*sampling, bounce.dimension + shared::kMirrorDimension), mirrors);
+  follow(s, direction, own * mirror_share, pixel, mirrors, bounce.throughput_cutoff, *bounce.mirrored);
 }
 
 }  // namespace

@@ -2,7 +2,9 @@
 #pragma once
 
 #include <functional>
+#include <cstdint>
 #include <memory>
+#include <vector>
 
 #include "pinocchio/frame.h"
 #include "pinocchio/progress.h"
@@ -25,6 +27,9 @@ struct FrameRequest {
   std::shared_ptr<const Tracer> tracer;  // of the scene's mesh; null where the settings trace nothing
   Settings settings;                     // resolved
   View view;
+  // Tiles of 32 x 32 pixels, row by row, of which nothing is traced where it is not 0: what the frame shows there does
+  // not count. Null: there are none.
+  std::shared_ptr<const std::vector<std::uint8_t>> left_out{};
 
   friend bool operator==(const FrameRequest&, const FrameRequest&) = default;
 };

@@ -9,7 +9,9 @@
 #include <string_view>
 
 #include "pinocchio/error.h"
+#include "pinocchio/terminator.h"
 #include "pinocchio/tracer.h"
+#include "pinocchio/view.h"
 
 namespace pinocchio {
 
@@ -45,6 +47,8 @@ enum class Sequence {
 };
 inline constexpr std::array<std::string_view, 3> kSequenceNames{"sobol", "blue-noise", "random"};
 
+inline constexpr std::array<std::string_view, 2> kPixelFilterNames{"box", "blackman-harris"};
+
 inline constexpr int kMostBounces = 64, kMostThreads = 1024;
 
 // A value, and whether the user set it: assigning to it says so. What nobody set, resolve() fills in.
@@ -74,6 +78,8 @@ struct Settings {
   Setting<bool> by_machine;
   Setting<Exchange> exchange;
   Setting<int> spp = Setting<int>::by_default(1);
+  Setting<float> max_noise;
+  Setting<PixelFilter> pixel_filter;
   Setting<Sequence> sequence;
   Setting<int> seed;
   Setting<int> depth = Setting<int>::by_default(8);
@@ -86,6 +92,9 @@ struct Settings {
   Setting<bool> normals, wide;
   Setting<float> throughput_cutoff = Setting<float>::by_default(kThroughputCutoff);
   Setting<float> light_cutoff;
+  Setting<int> indirect;
+  Setting<float> environment_rotation, environment_strength = Setting<float>::by_default(1.0f);
+  Setting<Terminator> terminator = Setting<Terminator>::by_default(kUsualTerminator);
   Setting<bool> filter_textures = Setting<bool>::by_default(true);
   Setting<bool> reuse = Setting<bool>::by_default(true);
   Setting<bool> persistent;

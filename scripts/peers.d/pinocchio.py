@@ -1,0 +1,20 @@
+# needs: THIS_TREE
+"""The Python module, on the CPU alone: two exact shadows."""
+VARIANTS = {"Pinocchio Python": {"many": False}, "Pinocchio render_many": {"many": True}}
+
+
+def frames(job, many):
+    import pinocchio
+
+    lights = [pinocchio.Light(position=p) for p in job.lights]
+    scene = pinocchio.Scene(job.vertices, job.faces, normals=job.normals, lights=lights)
+    engine = pinocchio.Engine(threads=job.threads)
+    cameras = [pinocchio.Camera.from_pose(job.pose(k), "opengl", job.fov) for k in range(len(job.eyes))]
+    out = None
+    while many:
+        out = engine.render_many(scene, cameras, tuple(job.size), ["color"], out=out)
+        yield len(cameras)
+    while True:
+        for camera in cameras:
+            engine.render(scene, camera, size=tuple(job.size)).color
+            yield
