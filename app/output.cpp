@@ -32,6 +32,19 @@ std::string is_stops(const std::string& text) {
 
 }  // namespace
 
+void add_tone_map_option(CLI::App& verb, ToneMap& curve) {
+  verb.add_option_function<std::string>(
+          "--tone-map",
+          [&curve](const std::string& text) {
+            const auto found = std::ranges::find(kToneMapNames, text);
+            if (found == kToneMapNames.end())
+              throw CLI::ValidationError("--tone-map", "'" + text + "' is not clip, reinhard or aces");
+            curve = static_cast<ToneMap>(found - kToneMapNames.begin());
+          },
+          "how light brighter than white is shown (clip)")
+      ->type_name("clip|reinhard|aces");
+}
+
 void add_output_options(CLI::App& verb, OutputOptions& options) {
   verb.add_option("-o,--output", options.exr,
                   "the picture and its layers, scene-linear; #### is the frame's number")
@@ -61,6 +74,7 @@ void add_output_options(CLI::App& verb, OutputOptions& options) {
       ->type_name(type);
   verb.add_option("--exposure", options.exposure_ev, "of the preview, in stops (0)")
       ->check(CLI::Validator(is_stops, "-64 to 64"));
+  add_tone_map_option(verb, options.tone_map);
   verb.add_flag("--deterministic", options.deterministic,
                 "leave the render time out of the EXR: the same file, whatever machine draws it");
   verb.add_flag("--skip-existing", options.skip_existing,
@@ -126,7 +140,8 @@ void write_outputs(const OutputOptions& options, const DrawnFrame& frame) {
     write_exr(numbered(options.exr, frame.header.number), frame.picture, exr);
   }
   if (!options.preview.empty())
-    write_png(numbered(options.preview, frame.header.number), preview(frame.picture.color, options.exposure_ev));
+    write_png(numbered(options.preview, frame.header.number),
+              preview(frame.picture.color, options.exposure_ev, options.tone_map));
 }
 
 }  // namespace pinocchio::app

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "app/named_files.h"
+#include "core/image/tonemap.h"
 #include "core/parallel/workers.h"
 #include "pinocchio/renderer.h"
 #include "pinocchio/scene.h"
@@ -16,13 +17,14 @@ class App;
 
 namespace pinocchio::app {
 
-// -o, --preview, --aov, --compression, --exposure, --deterministic, --skip-existing
+// -o, --preview, --aov, --compression, --exposure, --tone-map, --deterministic, --skip-existing
 struct OutputOptions {
   std::string exr;      // "####" is the frame's number
   std::string preview;  // PNG
   std::string aovs = "all";
   ExrCompression compression = ExrCompression::zip;
   float exposure_ev = 0.0f;
+  ToneMap tone_map = ToneMap::clip;
   bool deterministic = false;
   bool skip_existing = false;
 };
@@ -44,6 +46,8 @@ struct DrawnFrame {
   double render_s = 0.0;
 };
 
+// Of what is shown or previewed.
+void add_tone_map_option(CLI::App& verb, ToneMap& curve);
 void add_output_options(CLI::App& verb, OutputOptions& options);
 
 void write_json(const std::filesystem::path& file, const nlohmann::json& json);

@@ -1,15 +1,20 @@
 // view: the window.
+#include <malloc.h>
+
 #include <CLI/CLI.hpp>
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
 #include <memory>
+#include <nlohmann/json.hpp>
 
 #include "app/console.h"
 #include "app/errors.h"
+#include "app/output.h"
 #include "app/parse.h"
 #include "app/verbs.h"
 #include "app/window/session.h"
+#include "core/image/atomic_file.h"
 #include "gl/error.h"
 
 namespace pinocchio::app {
@@ -25,16 +30,30 @@ std::unique_ptr<gl::Window> open_window(const ViewOptions& options) {
   }
 }
 
+// Pictures of all sizes come and go for hours. Each gets pages of its own, which go back to the system with it;
+// glibc would soon keep them between those that stay.
+void keep_memory_whole() {
+  constexpr int kOwnPages_bytes = 256 * 1024;
+  mallopt(M_MMAP_THRESHOLD, kOwnPages_bytes);
+}
+
 int view(const ViewOptions& options) {
+  keep_memory_whole();
   if (const Rule* const rule = broken_rule(options.draw.settings))
     throw Exit(kUsage, InputError{options.draw.plan_file, 0, std::string(rule->what), std::string(rule->remedy)}
                            .message());
+  check_apart({{"the scene", options.draw.scene}}, {{"--stats-json", options.stats_json}});
+  if (!options.stats_json.empty()) check_writable(options.stats_json);
   const std::unique_ptr<gl::Window> window = open_window(options);
   bool loading = false;
   {
     Session session(*window, options);
     session.run();
     loading = session.loading();
+    std::vector<NamedFile> inputs;
+    for (const std::string& file : session.scene().source_files) inputs.push_back({"the scene's", file});
+    check_apart(inputs, {{"--stats-json", options.stats_json}});
+    if (!options.stats_json.empty()) write_json(options.stats_json, session.pace().json());
   }
   window->context().throw_complaints();
   const int code = interrupted() ? kInterrupted : kDone;
@@ -58,6 +77,8 @@ Run add_view(CLI::App& program) {
         const std::optional<float> value = parse_float(text);  // CLI::Range lets NaN through
         return value && std::abs(*value) <= kMostExposure ? std::string() : "'" + text + "' is no number of stops that is shown";
       });
+  add_tone_map_option(verb, options->tone_map);
+  verb.add_option("--stats-json", options->stats_json, "write how quickly the window answered as JSON, when it is closed");
   verb.add_flag("--watch", options->watch, "load the scene anew when its files change, and the shaders in PINOCCHIO_SHADERS");
   verb.add_flag("!--no-vsync", options->vsync, "do not wait for the display between frames");
   return [options] { return view(*options); };

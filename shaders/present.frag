@@ -1,9 +1,13 @@
 #version 330 core
-// A linear picture as a display shows it: exposure, the sRGB curve, stretched over the window.
+// A linear picture as a display shows it: exposure, a tone curve, the sRGB curve, stretched over the window.
+
+#define SHARED
+#include "shared/tone_map.glsl"
 
 uniform sampler2D picture;
 uniform vec2 window_pixels;
 uniform float gain;  // 0: black
+uniform int tone_curve;
 uniform float zoom;  // 1: the whole picture
 uniform vec2 zoom_corner;
 
@@ -30,6 +34,6 @@ void main() {
   vec2 in_window = vec2(gl_FragCoord.x, window_pixels.y - gl_FragCoord.y) / window_pixels;
   vec2 at = (zoom > 1.0 ? zoom_corner + in_window / zoom : in_window) * vec2(size);
   vec3 light = vec2(size) == window_pixels || zoom > 1.0 ? fetch(ivec2(at), size) : interpolate(at, size);
-  vec3 c = clamp(light * gain, 0.0, 1.0);
+  vec3 c = tone_mapped(light * gain, tone_curve);
   shown.rgb = mix(12.92 * c, 1.055 * pow(c, vec3(1.0 / 2.4)) - 0.055, vec3(greaterThan(c, vec3(0.0031308))));
 }

@@ -85,7 +85,7 @@ const std::vector<KeyBinding>& key_bindings() {
       {gl::kKeySpace, "Space", Action::play, "play or pause the scene's animation"},
       {gl::kKeyLeft, "Ctrl + Left", Action::frame_back, "the animation's frame before", true},
       {gl::kKeyRight, "Ctrl + Right", Action::frame_on, "the animation's next frame", true},
-      {'K', "K", Action::record, "record what is shown as PNG files, or stop"},
+      {'K', "K", Action::record, "record what is shown as PNG files, with Shift as EXR, too; or stop"},
       {'O', "Ctrl + O", Panel::files, "open a scene", true},
       {'S', "Ctrl + S", Action::save_scene, "save the scene as glTF", true},
       {'Z', "Ctrl + Z", Action::undo, "undo", true},

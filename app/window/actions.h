@@ -23,6 +23,7 @@ enum class Action {
   redo,
   screenshot,
   record,
+  record_exr,
   save_camera,
   save_scene,
   print_command,

@@ -65,6 +65,8 @@ std::string render_command(const ExportedView& view, const std::string& name) {
   if (view.time_s) text += " --time " + nlohmann::json(*view.time_s).dump();
   if (view.samples > 1) text += " --spp " + std::to_string(view.samples);
   if (view.exposure_ev != 0.0f) text += " --exposure " + exact(view.exposure_ev);
+  if (view.tone_map != ToneMap::clip)
+    text += " --tone-map " + std::string(kToneMapNames[static_cast<std::size_t>(view.tone_map)]);
   return text + " -o " + quoted(name + ".exr") + " --preview " + quoted(name + ".png");
 }
 

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "core/image/tonemap.h"
 #include "pinocchio/scene.h"
 #include "pinocchio/settings.h"
 
@@ -19,6 +20,7 @@ struct ExportedView {
   glm::ivec2 size{0, 0};            // pixels
   int samples = 1;
   float exposure_ev = 0.0f;
+  ToneMap tone_map = ToneMap::clip;
   std::optional<double> time_s{};  // of the scene's animation
 };
 

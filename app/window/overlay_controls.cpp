@@ -43,6 +43,13 @@ void draw_quality_controls(ViewSettings& s) {
     s.settings.depth = depth;
   slider("exposure", s.exposure_ev, -8.0f, 8.0f, format("%+.1f stops", static_cast<double>(s.exposure_ev)),
          "how bright the picture is shown; a stop is twice the light");
+  const std::vector<Choice> curves{{kToneMapNames[0], "what is brighter than white is white"},
+                                   {kToneMapNames[1], "all light is shown darker, the brightest most"},
+                                   {kToneMapNames[2], "as film: more contrast, highlights fade to white"}};
+  if (const int clicked = choose("tone curve", "how light brighter than white is shown", curves,
+                                 static_cast<std::size_t>(s.tone_map));
+      clicked >= 0)
+    s.tone_map = static_cast<ToneMap>(clicked);
   slider("resolution", s.scale, kLeastScale, kMostScale, format("%.0f %%", 100.0 * static_cast<double>(s.scale)),
          "pixels that are drawn for the window's, along a side");
   checkbox("gather samples", s.accumulate, "while the camera stands still, more samples a pixel smooth the picture");

@@ -19,10 +19,16 @@ constexpr double kDoubleClick_s = 0.35;
 constexpr float kSameSpot = 4.0f;  // pixels
 constexpr int kSettling = 3;       // redraws until panels that size themselves stand still
 
+Action with_shift(Action action, bool shift) {
+  if (!shift) return action;
+  return action == Action::undo ? Action::redo : action == Action::record ? Action::record_exr : action;
+}
+
 ViewSettings settings_of(const ViewOptions& options) {
   ViewSettings settings;
   settings.settings = options.draw.settings;
   settings.exposure_ev = options.exposure_ev;
+  settings.tone_map = options.tone_map;
   settings.vsync = options.vsync;
   return possible(settings);
 }
@@ -93,7 +99,10 @@ double Session::patience_s() const {
 }
 
 void Session::take_events() {
-  for (const gl::WindowEvent& event : window_.take_events(patience_s())) {
+  const double asked_s = now_s();
+  const std::vector<gl::WindowEvent> events = window_.take_events(patience_s());
+  pace_.looked(asked_s, now_s(), !events.empty());
+  for (const gl::WindowEvent& event : events) {
     redraws_ = kSettling;
     if (const auto* pointer = std::get_if<gl::PointerEvent>(&event)) pointer_ = pointer->position;
     if (gui_.take(event)) continue;
@@ -156,7 +165,7 @@ void Session::take_key(const gl::KeyEvent& event) {
     return model_.panels.toggle(*panel);
   }
   if (const auto* const action = std::get_if<Action>(&binding->does))
-    return perform(*action == Action::undo && event.with.shift ? Action::redo : *action);
+    return perform(with_shift(*action, event.with.shift));
   if (const Rule* const rule = std::get<Change>(binding->does)(model_.settings))
     model_.messages.hint(InputError{{}, 0, std::string(rule->what), std::string(rule->remedy)}.message());
 }

@@ -11,6 +11,7 @@
 #include "app/window/gui.h"
 #include "app/window/model.h"
 #include "app/window/navigation.h"
+#include "app/window/pace.h"
 #include "app/window/preferences.h"
 #include "hybrid/gpu/present_pass.h"
 #include "hybrid/inspect/accumulator.h"
@@ -24,6 +25,8 @@ struct ViewOptions {
   DrawOptions draw;
   BudgetOptions budget;
   float exposure_ev = 0.0f;
+  ToneMap tone_map = ToneMap::clip;
+  std::string stats_json;  // file for how quickly the window answered; empty: none
   bool watch = false;  // load scene and shaders anew when they change
   bool vsync = true;
 };
@@ -40,6 +43,8 @@ class Session {
   void run();
   // Whether a thread still reads a scene.
   [[nodiscard]] bool loading() const { return loader_.busy(); }
+  [[nodiscard]] const Pace& pace() const { return pace_; }
+  [[nodiscard]] const Scene& scene() const { return model_.scene; }
 
  private:
   // session.cpp
@@ -112,8 +117,9 @@ class Session {
   void take_screenshot();
   void write_frame_exr(const std::string& file);
   void write_window_png();
-  void toggle_recording();
-  void record_window();
+  void toggle_recording(bool with_exr);
+  void record(const Frame& frame);
+  void take_gathered(FrameResult& picture);
   void save_camera();
   void save_gltf();
   void print_command();
@@ -165,6 +171,8 @@ class Session {
   bool wants_tree_ = false;    // also where frames trace nothing: pixels are looked at
   bool scene_edited_ = false;  // it is not the file's
   int recorded_ = 0;           // frames of the sequence
+  bool records_exr_ = false;   // beside its PNG
+  Pace pace_;
   std::string png_file_;       // to write the window to, when it is drawn next
   double last_turn_s_ = 0.0;
   double pressed_s_ = 0.0;     // when a click on the picture began, and where

@@ -47,7 +47,9 @@ void Session::perform(Action action) {
       case Action::screenshot:
         return take_screenshot();
       case Action::record:
-        return toggle_recording();
+        return toggle_recording(false);
+      case Action::record_exr:
+        return toggle_recording(true);
       case Action::save_camera:
         return save_camera();
       case Action::save_scene:
@@ -207,13 +209,16 @@ void Session::write_frame_exr(const std::string& file) {
   Renderer renderer(engine_, {[&](const Frame& frame) { picture = frame.read(); }, {}});
   renderer.submit(one);
   renderer.drain();
-  // The layers are of one sample, the picture of all that were gathered.
-  picture.settings.spp = 1;
-  if (gathers() && accumulator_.samples() > 1 && accumulator_.average().size() == one.view.size) {
-    accumulator_.read_average(picture.color);
-    picture.settings.spp = accumulator_.samples();
-  }
+  take_gathered(picture);
   write_exr(file, picture, {.render_s = now_s() - begin_s, .time_s = posed_s_});
+}
+
+// The layers are of one sample, the picture of all that were gathered.
+void Session::take_gathered(FrameResult& picture) {
+  picture.settings.spp = 1;
+  if (!gathers() || accumulator_.samples() <= 1 || accumulator_.average().size() != picture.color.size()) return;
+  accumulator_.read_average(picture.color);
+  picture.settings.spp = accumulator_.samples();
 }
 
 // What the window shows, to the pixel.
@@ -231,23 +236,31 @@ void Session::write_window_png() {
   }
 }
 
-void Session::toggle_recording() {
+void Session::toggle_recording(bool with_exr) {
   if (model_.recording.empty()) {
-    model_.recording = file_name({"-0001.png"});
+    model_.recording = file_name({"-0001.png", "-0001.exr"});
     recorded_ = 0;
-    return model_.messages.hint("recording to " + model_.recording + "-0001.png ...; K ends it");
+    records_exr_ = with_exr;
+    return model_.messages.hint("recording to " + model_.recording + "-0001.png" + (with_exr ? " and .exr" : "") +
+                                " ...; K ends it");
   }
-  model_.messages.news(std::to_string(recorded_) + " pictures written: " + model_.recording + "-####.png");
+  model_.messages.news(std::to_string(recorded_) + " pictures written: " + model_.recording + "-####.png" +
+                       (records_exr_ ? " and .exr" : ""));
   model_.recording.clear();
 }
 
 // Each picture that is drawn, without what is over it.
-void Session::record_window() {
-  Image<glm::u8vec3> image(model_.window_pixels);
+void Session::record(const Frame& frame) {
   if (!last_) return;
+  const std::string name = model_.recording + format("-%04d", ++recorded_);
   present(*last_);
+  Image<glm::u8vec3> image(model_.window_pixels);
   std::ranges::copy(gl::read_window(model_.window_pixels), image.pixels().begin());
-  write_png(model_.recording + format("-%04d.png", ++recorded_), image);
+  write_png(name + ".png", image);
+  if (!records_exr_) return;
+  FrameResult picture = frame.read();
+  take_gathered(picture);
+  write_exr(name + ".exr", picture, {.frame = recorded_, .time_s = posed_s_});
 }
 
 void Session::save_camera() {
@@ -288,7 +301,7 @@ void Session::print_command() {
   const std::string command = render_command(
       {file, settings, model_.camera.camera(),
        scene_edited_ ? std::vector<Light>() : extra_lights(model_.scene.lights, options_.draw),
-       picture_size(), gathers() ? std::max(model_.samples, 1) : 1, applied_.exposure_ev,
+       picture_size(), gathers() ? std::max(model_.samples, 1) : 1, applied_.exposure_ev, applied_.tone_map,
        model_.scene.animation && !scene_edited_ ? posed_s_ : std::nullopt},
       name);
   std::printf("%s\n", command.c_str());

@@ -114,6 +114,11 @@ bool Session::follow_reference(const FrameRequest& request) {
     comparison_.reset();
     return !before.empty();
   }
+  if (request.scene.environment || applied_.settings.indirect > 0) {
+    comparison_.reset();
+    model_.comparison = "the reference knows no environment and no indirect light";
+    return model_.comparison != before;
+  }
   if (!comparison_) comparison_ = std::make_unique<Comparison>();
   const bool newer = comparison_->follow({request.scene, request.view, applied_.settings.depth});
   model_.comparison = std::string("left: as drawn   right: ") +
@@ -127,7 +132,7 @@ void Session::take_frame(const Frame& frame) {
   const StageTimer timer(frame.record(), Stage::present);
   last_ = &chosen_buffer(frame);
   show(last_);
-  if (!model_.recording.empty()) record_window();
+  if (!model_.recording.empty()) record(frame);
 }
 
 void Session::take_record(const FrameRecord& record) {
@@ -203,6 +208,7 @@ void Session::show(const gl::Texture* picture) {
   redrawn_s_ = now_s();
   if (!png_file_.empty()) write_window_png();
   window_.present();
+  pace_.redrawn(now_s(), !model_.loading.phase.empty());
 }
 
 void Session::present(const gl::Texture& picture) {
@@ -212,11 +218,14 @@ void Session::present(const gl::Texture& picture) {
                                    : applied_.split == Split::reference ? comparison_->reference()
                                                                         : comparison_->heat();
   const PixelBox left{{0, 0}, {comparison_ ? split : pixels.x, pixels.y}}, right{{split, 0}, pixels};
-  present_.draw(picture, pixels, left, last_is_light_ ? applied_.exposure_ev : 0.0f, model_.zoom);
+  const auto draw = [&](const gl::Texture& what, const PixelBox& box, bool is_light) {
+    present_.draw(what, pixels, box, is_light ? applied_.exposure_ev : 0.0f,
+                  is_light ? applied_.tone_map : ToneMap::clip, model_.zoom);
+  };
+  draw(picture, left, last_is_light_);
   if (!comparison_) return;
   if (other) {
-    present_.draw(*other, pixels, right, applied_.split == Split::reference ? applied_.exposure_ev : 0.0f,
-                  model_.zoom);
+    draw(*other, right, applied_.split == Split::reference);
   } else {
     present_.clear(pixels, right);
   }

@@ -4,6 +4,7 @@
 #include <string_view>
 #include <vector>
 
+#include "core/image/tonemap.h"
 #include "hybrid/inspect/inspect_pass.h"
 
 namespace pinocchio::app {
@@ -17,6 +18,7 @@ struct ViewSettings {
   std::string_view mode = "hybrid", plan = "auto";  // presets in force
   bool shadows = true, reflections = true;
   float exposure_ev = 0.0f;  // stops
+  ToneMap tone_map = ToneMap::clip;
   float scale = 1.0f;        // pixels drawn for one of the window's, along a side
   bool vsync = true;
   BufferView buffer = BufferView::picture;

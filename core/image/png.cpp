@@ -4,7 +4,6 @@
 #include <fstream>
 
 #include "core/image/atomic_file.h"
-#include "core/image/tonemap.h"
 #include "pinocchio/error.h"
 
 #define STB_IMAGE_WRITE_STATIC
@@ -17,11 +16,13 @@
 
 namespace pinocchio {
 
-Image<glm::u8vec3> preview(const Image<glm::vec4>& color, float exposure_ev) {
+Image<glm::u8vec3> preview(const Image<glm::vec4>& color, float exposure_ev, ToneMap curve) {
   const float gain = std::exp2(exposure_ev);
   Image<glm::u8vec3> pixels(color.size());
-  for (std::size_t i = 0; i < color.pixels().size(); ++i)
-    for (int c = 0; c < 3; ++c) pixels[i][c] = linear_to_srgb8(gain * color[i][c]);
+  for (std::size_t i = 0; i < color.pixels().size(); ++i) {
+    const glm::vec3 shown = tone_mapped(gain * glm::vec3(color[i]), curve);
+    for (int c = 0; c < 3; ++c) pixels[i][c] = linear_to_srgb8(shown[c]);
+  }
   return pixels;
 }
 

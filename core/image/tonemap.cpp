@@ -6,6 +6,15 @@
 #include <cmath>
 
 namespace pinocchio {
+namespace shared {
+
+using namespace glm;  // GLSL's names
+
+#define SHARED [[nodiscard]] inline
+#include "shaders/shared/tone_map.glsl"
+#undef SHARED
+
+}  // namespace shared
 
 namespace {
 
@@ -82,6 +91,10 @@ std::uint8_t linear_to_srgb8(float linear) {
   if (!(linear > 0.0f)) return 0;  // NaN as well
   if (linear >= 1.0f) return 255;
   return bytes().of(linear);
+}
+
+glm::vec3 tone_mapped(const glm::vec3& light, ToneMap curve) {
+  return shared::tone_mapped(light, static_cast<int>(curve));
 }
 
 }  // namespace pinocchio

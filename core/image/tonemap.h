@@ -1,7 +1,9 @@
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <glm/glm.hpp>
+#include <string_view>
 
 namespace pinocchio {
 
@@ -13,5 +15,10 @@ namespace pinocchio {
 // 0..255, rounded to nearest as if by exact arithmetic; out of range is clamped, NaN is 0. This and
 // srgb8_to_linear, which is within half a unit in the last place, give the same bits on every machine.
 [[nodiscard]] std::uint8_t linear_to_srgb8(float linear);
+
+// How light of any strength is brought into what a screen can show.
+enum class ToneMap { clip, reinhard, aces };
+inline constexpr std::array<std::string_view, 3> kToneMapNames{"clip", "reinhard", "aces"};
+[[nodiscard]] glm::vec3 tone_mapped(const glm::vec3& light, ToneMap curve);
 
 }  // namespace pinocchio

@@ -2,6 +2,7 @@
 
 #include <memory>
 
+#include "core/image/tonemap.h"
 #include "core/parallel/tiles.h"
 #include "gl/draw.h"
 #include "hybrid/gpu/programs.h"
@@ -23,9 +24,9 @@ class PresentPass {
   explicit PresentPass(std::shared_ptr<Programs> programs) : programs_(std::move(programs)) {}
 
   // picture: linear light, row 0 on top; it is stretched over the whole window, of which `box` (pixels, from
-  // the top left) is drawn. exposure_ev: stops brighter.
+  // the top left) is drawn. exposure_ev: stops brighter; curve: of what is light.
   void draw(const gl::Texture& picture, glm::ivec2 window_pixels, const PixelBox& box,
-            float exposure_ev, const PictureZoom& zoom = {}) const;
+            float exposure_ev, ToneMap curve, const PictureZoom& zoom = {}) const;
   // Nothing to see yet.
   void clear(glm::ivec2 window_pixels) const { clear(window_pixels, {{0, 0}, window_pixels}); }
   void clear(glm::ivec2 window_pixels, const PixelBox& box) const;

@@ -150,6 +150,17 @@ constexpr std::array kTable{
                             false, "least_light"),
     field<&S::filter_textures>("filter_textures", yes_or_no(), "true",
                                "average textures over what a pixel, and its mirror images, see of them"),
+    field<&S::indirect>("indirect", from_to(0, kMostBounces), "0",
+                        "most bounces of light from one matt surface to the next, by samples; above 0 there is no "
+                        "ambient light (docs/environment.md)"),
+    field<&S::environment_rotation>("environment_rotation", from_to(-360, 360), "0",
+                                    "how far the environment is turned about the upward axis, degrees"),
+    field<&S::environment_strength>("environment_strength", from_to(0, 1e6), "1",
+                                    "what the environment's light is multiplied with; 0: there is none"),
+    field<&S::terminator>("terminator", one_of(kTerminatorNames), terminator_name(kUsualTerminator),
+                          "where a coarse mesh's shading normals face a light and its facets do not: off: dark; smoothed: "
+                          "light falls to zero there; displaced: shadow rays start on the curved surface; turned-away: so "
+                          "they do on facets that turn away (docs/terminator.md)"),
     field<&S::reuse>("reuse", yes_or_no(), "true",
                      "draw nothing again for a frame that asks for what the last one did"),
     field<&S::persistent>("persistent", yes_or_no(), "false", "keep transfer buffers mapped", kOfMachine),

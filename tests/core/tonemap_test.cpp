@@ -77,5 +77,21 @@ TEST(Tonemap, ExposureIsInStops) {
   EXPECT_EQ(preview(quarter, -2.0f)[0].x, linear_to_srgb8(0.0625f));
 }
 
+TEST(Tonemap, CurvesBringAllLightIntoWhatAScreenShows) {
+  for (const ToneMap curve : {ToneMap::clip, ToneMap::reinhard, ToneMap::aces}) {
+    float before = -1.0f;
+    for (float light = 0.0f; light < 1e5f; light = 1.3f * light + 0.001f) {
+      const float shown = tone_mapped(glm::vec3(light), curve).x;
+      EXPECT_TRUE(shown >= before && shown <= 1.0f) << light;
+      before = shown;
+    }
+    EXPECT_EQ(tone_mapped(glm::vec3(-1.0f), curve), glm::vec3(0.0f));
+    EXPECT_FALSE(std::isnan(tone_mapped(glm::vec3(std::numeric_limits<float>::infinity()), curve).x));
+  }
+  EXPECT_EQ(tone_mapped(glm::vec3(0.3f, 1.0f, 7.0f), ToneMap::clip), glm::vec3(0.3f, 1.0f, 1.0f));
+  EXPECT_FLOAT_EQ(tone_mapped(glm::vec3(3.0f), ToneMap::reinhard).x, 0.75f);
+  EXPECT_NEAR(tone_mapped(glm::vec3(1.0f), ToneMap::aces).x, 0.8038f, 1e-4f);
+}
+
 }  // namespace
 }  // namespace pinocchio

@@ -19,7 +19,7 @@ struct Exported {
 
   [[nodiscard]] std::string command(const std::string& scene = "boat.glb", int samples = 1) const {
     return render_command({scene, wanted_settings(settings), camera, lights, {640, 480}, samples,
-                           settings.exposure_ev},
+                           settings.exposure_ev, settings.tone_map},
                           "boat-001");
   }
 };
@@ -40,6 +40,12 @@ TEST(Export, DefaultsAreLeftOutAndNumbersAreExact) {
   EXPECT_EQ(std::stof(command.substr(at)), view.camera.eye.x);
 }
 
+TEST(Export, TheTimeOfAnAnimationIsSaid) {
+  ExportedView view;
+  view.time_s = 0.1;
+  EXPECT_TRUE(holds(render_command(view, "mill"), " --time 0.1 "));
+}
+
 void expect_said(const std::string& command, std::initializer_list<const char*> parts) {
   for (const char* part : parts) EXPECT_TRUE(holds(command, part)) << part << " in " << command;
 }
@@ -49,12 +55,13 @@ TEST(Export, WhatWasChangedIsSaid) {
   view.settings.mode = "raytrace";
   view.settings.reflections = false;
   view.settings.exposure_ev = -1.5f;
+  view.settings.tone_map = ToneMap::aces;
   view.camera.up = {0, 0, 1};
   Light light;
   light.position = {1, 2, 3};
   light.casts_shadow = false;
   view.lights = {light};
-  expect_said(view.command("boat.glb", 16), {"--mode raytrace", "--reflection none", "--exposure -1.5",
+  expect_said(view.command("boat.glb", 16), {"--mode raytrace", "--reflection none", "--exposure -1.5 --tone-map aces",
                                              "--up 0,0,1", "--light 1,2,3,1,nocast", "--spp 16"});
 }
 

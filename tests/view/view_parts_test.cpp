@@ -2,11 +2,13 @@
 #include <gtest/gtest.h>
 
 #include <fstream>
+#include <nlohmann/json.hpp>
 
 #include "app/window/edit_history.h"
 #include "app/window/framing.h"
 #include "app/window/history.h"
 #include "app/window/messages.h"
+#include "app/window/pace.h"
 #include "app/window/preferences.h"
 #include "app/window/scene_files.h"
 #include "core/base/clock.h"
@@ -132,6 +134,23 @@ TEST(SceneFiles, AFolderIsSteppedThroughAndAround) {
   EXPECT_EQ(neighbour_of(folder / "a.obj", -1), (folder / "c.ply").string());
   EXPECT_EQ(neighbour_of(folder / "c.ply", 1), (folder / "a.obj").string());
   EXPECT_TRUE(scenes_in(folder / "missing").empty());
+}
+
+TEST(Pace, CountsFromWhenTheWindowLastLooked) {
+  Pace pace;
+  pace.looked(0.0, 1.0, false);
+  pace.looked(1.5, 1.5, true);    // came while it was busy, since 1.0 at worst
+  pace.redrawn(1.6, true);
+  pace.looked(1.6, 2.0, true);    // came while it waited
+  pace.looked(2.0, 2.1, true);    // and another before the answer
+  pace.redrawn(2.1, true);
+  pace.redrawn(2.2, false);
+  const nlohmann::json json = pace.json();
+  EXPECT_EQ(json["input_to_display"]["count"], 2);
+  EXPECT_NEAR(json["input_to_display"]["worst_ms"].get<double>(), 600.0, 1e-6);
+  EXPECT_NEAR(json["input_to_display"]["median_ms"].get<double>(), 600.0, 1e-6);
+  EXPECT_EQ(json["between_redraws_while_loading"]["count"], 1);
+  EXPECT_NEAR(json["between_redraws_while_loading"]["redraws_per_s"].get<double>(), 2.0, 1e-6);
 }
 
 }  // namespace
