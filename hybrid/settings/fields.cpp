@@ -120,7 +120,7 @@ constexpr std::array kTable{
     field<&S::sequence>("sequence", one_of(kSequenceNames), "sobol",
                         "where samples are, of what is sampled: scrambled Sobol points; one such sequence turned "
                         "from pixel to pixel, so that noise is fine-grained; or by chance"),
-    field<&S::seed>("seed", from_to(0, 1 << 30), "0", "another number: other samples"),
+    field<&S::seed>("seed", from_to(0, 65535), "0", "another number: other samples"),
     field<&S::depth>("depth", from_to(0, kMostBounces), "8, or as many as the scene's mirrors make use of",
                      "most bounces"),
     field<&S::mask_bits>("mask_bits", one_of(kMaskBits), "the fewest that hold the casting lights",
