@@ -32,7 +32,7 @@ std::vector<SurfaceInteraction> seen_points(const Tracer& tracer, const glm::vec
 }
 
 // How many of the points the light reaches.
-std::uint64_t lit(const Tracer& tracer, const std::vector<SurfaceInteraction>& points, const Light& light,
+std::uint64_t count_lit(const Tracer& tracer, const std::vector<SurfaceInteraction>& points, const Light& light,
                   Terminator terminator, FailureCount& count) {
   const shared::LightParams params = light_params(light);
   std::vector<Ray> shadow, way_up;
@@ -69,7 +69,7 @@ FailureCount dark_facets(const Method& method, int rays) {
       std::vector<SurfaceInteraction> points = seen_points(tracer, {0, 0, 6}, kNoTriangle, rays / 9, count);
       std::erase_if(points, [&](const SurfaceInteraction& s) { return glm::dot(s.n_shading, position - s.p_world) <= 0.0f; });
       count.trials += points.size();
-      count.failures += points.size() - lit(tracer, points, light, method.terminator, count);
+      count.failures += points.size() - count_lit(tracer, points, light, method.terminator, count);
     }
   }
   return count;
@@ -89,7 +89,7 @@ FailureCount behind_walls(const MeshData& inner, const MeshData& walls, const gl
     const std::vector<SurfaceInteraction> points =
         seen_points(tracer, eye, static_cast<std::uint32_t>(tracer.mesh().triangles.size()), rays / 3, count);
     count.trials += points.size();
-    count.failures += lit(tracer, points, point_light(position), method.terminator, count);
+    count.failures += count_lit(tracer, points, point_light(position), method.terminator, count);
   }
   return count;
 }

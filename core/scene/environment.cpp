@@ -9,7 +9,7 @@
 namespace pinocchio {
 namespace {
 
-float luminance(const glm::vec3& c) {
+float brightness_of(const glm::vec3& c) {
   return glm::dot(c, glm::vec3(0.2126f, 0.7152f, 0.0722f));
 }
 
@@ -21,7 +21,7 @@ double mean_light(const Image<glm::vec3>& image, int x, int y) {
     for (int i = -1; i <= 1; ++i) {
       const double share = (i == 0 ? 0.75 : 0.125) * (j == 0 ? 0.75 : 0.125);
       sum += share * static_cast<double>(
-                         luminance(image.at((x + i + size.x) % size.x, std::clamp(y + j, 0, size.y - 1))));
+                         brightness_of(image.at((x + i + size.x) % size.x, std::clamp(y + j, 0, size.y - 1))));
     }
   return sum;
 }
@@ -31,14 +31,14 @@ struct Found {
   std::size_t index;
   float within;
 };
-Found find(const float* ends, std::size_t count, float number) {
+Found found_at(const float* ends, std::size_t count, float number) {
   const auto index = std::min(static_cast<std::size_t>(std::upper_bound(ends, ends + count, number) - ends), count - 1);
   const float begin = index == 0 ? 0.0f : ends[index - 1];
   return {index, std::clamp((number - begin) / (ends[index] - begin), 0.0f, 0x1.fffffep-1f)};
 }
 
 // Sums so far, made to end with 1 (or all zero).
-void normalize(const std::vector<double>& sums, float* ends) {
+void make_to_one(const std::vector<double>& sums, float* ends) {
   const double whole = sums.back();
   for (std::size_t i = 0; i < sums.size(); ++i) ends[i] = whole > 0.0 ? static_cast<float>(sums[i] / whole) : 0.0f;
 }
@@ -57,19 +57,19 @@ Environment::Environment(Image<glm::vec3> radiance, std::string source)
     double sum = 0.0;
     for (std::size_t x = 0; x < width; ++x)
       of_row[x] = sum += mean_light(radiance_, static_cast<int>(x), static_cast<int>(y));
-    normalize(of_row, &columns_[y * width]);
+    make_to_one(of_row, &columns_[y * width]);
     const auto latitude = [&](std::size_t row) {
       return std::cos(glm::pi<double>() * static_cast<double>(row) / static_cast<double>(height));
     };
     of_rows[y] = all += sum * (latitude(y) - latitude(y + 1));
   }
-  normalize(of_rows, rows_.data());
+  make_to_one(of_rows, rows_.data());
 }
 
 Environment::Place Environment::sample(const glm::vec2& numbers) const {
   const auto width = static_cast<std::size_t>(radiance_.width()), height = static_cast<std::size_t>(radiance_.height());
-  const Found row = find(rows_.data(), height, numbers.y);
-  const Found column = find(&columns_[row.index * width], width, numbers.x);
+  const Found row = found_at(rows_.data(), height, numbers.y);
+  const Found column = found_at(&columns_[row.index * width], width, numbers.x);
   const glm::vec2 uv((static_cast<float>(column.index) + column.within) / static_cast<float>(width),
                      (static_cast<float>(row.index) + row.within) / static_cast<float>(height));
   return {uv, density(uv)};
