@@ -61,7 +61,8 @@ void add_animation_options(CLI::App& verb, AnimationOptions& options) {
 }
 
 std::vector<NamedFile> input_files(const DrawOptions& draw, const AnimationOptions& animation, const Scene& scene) {
-  std::vector<NamedFile> files{{"the scene", draw.scene}, {"--path", animation.path}, {"--plan", draw.plan_file}};
+  std::vector<NamedFile> files{{"the scene", draw.scene}, {"--path", animation.path}, {"--plan", draw.plan_file},
+                               {"--environment", draw.environment}};
   for (const std::string& file : scene.source_files) files.push_back({"the scene's", file});
   return files;
 }

@@ -64,6 +64,8 @@ class ChartRun {
   int run() {
     DrawOptions& draw = options_.draw;
     if (!options_.size_given) draw.size = options_.quick ? kQuickSize : kDefaultSize;
+    if (!draw.environment.empty())
+      throw Exit(kUsage, "--environment: the reference, which charts measure against, knows none");
     Scene scene = load_scene_for(draw);
     const std::vector<CameraFrame> frames = motion(scene);
     std::vector<View> views;

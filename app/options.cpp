@@ -188,6 +188,9 @@ void add_load_limit_option(CLI::App& verb, DrawOptions& o) {
 void add_scene_options(CLI::App& verb, DrawOptions& o) {
   verb.add_option("SCENE", o.scene, "glTF (.gltf, .glb), OBJ or PLY file")->required();
   add_camera_options(verb, o);
+  verb.add_option("--environment", o.environment,
+                  "what is seen behind the scene and lights it: EXR or Radiance (.hdr), latitude and longitude")
+      ->type_name("FILE");
   add_load_limit_option(verb, o);
   verb.add_flag("--strict", o.strict, "what of the scene's files would be left out is an error");
   verb.add_flag("--quiet", o.quiet, "print errors only");
@@ -236,11 +239,15 @@ Scene load_whole(const DrawOptions& options, Warnings& warnings, pinocchio::Prog
     throw Exit(kBadScene, warnings[0].message() + (more > 0 ? "; and " + std::to_string(more) + " more" : "") +
                               " ('pinocchio info' lists them; without --strict the rest is drawn)");
   }
-  return value_or_exit(std::move(scene), kBadScene);
+  Scene whole = value_or_exit(std::move(scene), kBadScene);
+  if (!options.environment.empty())
+    whole.environment = value_or_exit(
+        load_environment(options.environment, progress ? progress : &run_progress(), options.load_limit), kBadScene);
+  return whole;
 }
 
 void light_if_dark(Scene& scene, const DrawOptions& options) {
-  if (!scene.lights.empty()) return;
+  if (!scene.lights.empty() || scene.environment) return;
   scene.lights.push_back(default_light(scene, camera_for(options, scene)));
   if (!options.quiet)
     std::fprintf(stderr, "pinocchio: %s has no light; a default one is used (add one with --light x,y,z)\n",

@@ -30,6 +30,7 @@ struct DrawOptions {
   std::optional<glm::vec3> eye, target, up;
   std::optional<float> fov_deg, lens_radius, focus;
   std::vector<Light> lights;  // added to the scene's
+  std::string environment;    // file; empty: none
   std::optional<PixelBox> crop;
   bool precise = false;  // drawn by the reference
   std::string progress = "auto";

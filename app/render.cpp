@@ -45,7 +45,7 @@ FrameResult precise(const FrameRequest& request, Workers& workers) {
   for (int k = 0; k < spp; ++k) {
     const View view = at_sample(request.view, k, request.settings.pixel_filter);
     ReferencePicture sample = reference_render(request.scene, view, request.settings.depth, workers, &run_progress(),
-                                               request.settings.filter_textures);
+                                               request.settings.filter_textures, request.settings.terminator);
     if (k == 0) {
       mean.color = std::move(sample.color);
       mean.ids = std::move(sample.ids);
@@ -92,6 +92,8 @@ class RenderRun {
   }
 
   void check(const Scene& scene) const {
+    if (options_.draw.precise && (scene.environment || options_.draw.settings.indirect > 0))
+      throw Exit(kUsage, "--precise knows no --environment and no --indirect light; leave --precise out, and take --spp");
     if (options_.output.exr.empty() && options_.output.preview.empty() && options_.stats_json.empty())
       throw Exit(kUsage,
                  "nothing to write; name a file with -o FILE.exr, --preview FILE.png or --stats-json");

@@ -41,7 +41,8 @@ nlohmann::json rays_json(const std::vector<FrameRecord>& records) {
   return {{"primary", per_frame(records, [](const FrameRecord& r) { return r.rays.primary; })},
           {"shadow", per_frame(records, [](const FrameRecord& r) { return r.rays.shadow; })},
           {"reflection", per_frame(records, [](const FrameRecord& r) { return r.rays.reflection; })},
-          {"refraction", per_frame(records, [](const FrameRecord& r) { return r.rays.refraction; })}};
+          {"refraction", per_frame(records, [](const FrameRecord& r) { return r.rays.refraction; })},
+          {"indirect", per_frame(records, [](const FrameRecord& r) { return r.rays.indirect; })}};
 }
 
 double frames_per_second(const std::vector<FrameRecord>& records) {

@@ -22,10 +22,13 @@ RayCounts draw_tiles(Engine::Parts& engine, const Scene& scene, const std::share
   FramesJob job{lit, *tracer, engine.workers(s.threads), cameras, size};
   job.spp = s.spp;
   job.depth = s.reflects() ? s.depth.value : 0;
+  job.indirect = s.reflects() ? s.indirect.value : 0;
+  job.environment_light = s.reflects();
   job.mask_bits = s.mask_bits;
   job.throughput_cutoff = s.throughput_cutoff;
   job.light_cutoff = s.light_cutoff;
   job.filter_textures = s.filter_textures;
+  job.terminator = s.terminator;
   job.filter = s.pixel_filter;
   job.sampling = sampling_of(s, {});
   job.progress = progress;

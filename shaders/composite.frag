@@ -6,6 +6,8 @@
 //   FREE_LIGHTS_ONLY  lights that cast are left out: the CPU adds them (design 2)
 //   HAS_REFLECTION    the CPU's mirrored and refracted light; traced_light.glsl has its formats
 //   HAS_MAPS          some material has maps
+//   HAS_ENVIRONMENT   something is seen where no triangle is
+//   TERMINATOR_LIFTS, TERMINATOR_SMOOTHS  remedies of the shadow terminator; neither: none
 //   HAS_SIZED_LIGHTS  some light has a size: the picture is lit by the points of them that the CPU's shadow rays
 //                     of the same sample went to
 //   REPROJECT         mask and reflection are of an older frame, whose view and ids are given: each pixel
@@ -16,6 +18,7 @@
 #define SHARED
 #include "shared/view.glsl"
 #include "shared/surface.glsl"
+#include "shared/terminator.glsl"
 #include "shared/phong.glsl"
 #ifdef HAS_SIZED_LIGHTS
 #include "shared/sampling.glsl"
@@ -25,6 +28,27 @@
 #include "map_fetch.glsl"
 #include "pixel_surface.glsl"
 #include "traced_light.glsl"
+
+#ifdef HAS_ENVIRONMENT
+uniform sampler2D environment;
+uniform vec2 environment_size;
+uniform float environment_turn;
+uniform float environment_strength;
+
+struct EnvironmentTexels {
+  int lod;
+};
+vec3 environment_texel(EnvironmentTexels texels, ivec2 at) { return texelFetch(environment, at, texels.lod).rgb; }
+
+#include "shared/environment.glsl"
+
+vec3 background(ivec2 pixel) {
+  EnvironmentParams env = EnvironmentParams(EnvironmentTexels(0), ivec2(environment_size), environment_turn, environment_strength);
+  return environment_light(env, pixel_direction(ViewParams(eye, corner, step_x, step_y, first), vec2(pixel)));
+}
+#else
+vec3 background(ivec2 pixel) { return vec3(0.0); }
+#endif
 
 uniform vec3 ambient_light;
 uniform int light_count;
@@ -57,8 +81,10 @@ float share_of_light(Reach reach, int slot) {
 void main() {
   ivec2 pixel = ivec2(gl_FragCoord.xy);
   uint id = fetch_id(ids, pixel);
-  color = vec4(0.0);
-  if (id == kNoTriangle) return;
+  if (id == kNoTriangle) {
+    color = vec4(min(background(pixel), kLargestHalf), 0.0);
+    return;
+  }
 
   PixelSurface s = surface_of(id, pixel);
   Source source = source_of(pixel, id, s.p_world);
@@ -68,7 +94,10 @@ void main() {
     float share = share_of_light(reach, fetch_mask_slot(i));
     if (share == 0.0) continue;
     Incident incident = light_at(i, s.p_world, source.pixel);
-    if (!faces_light(s.n.shading, s.n.geometric, incident.to_light)) continue;
+    if (!faces_light(s, incident.to_light)) continue;
+#ifdef TERMINATOR_SMOOTHS
+    share *= terminator_factor(s.n.shading, s.n.geometric, incident.to_light);
+#endif
     sum += share * phong_light(s.material, incident, s.n.shading, s.to_viewer);
   }
 #ifdef HAS_MAPS

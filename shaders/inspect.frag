@@ -9,6 +9,7 @@
 #define SHARED
 #include "shared/view.glsl"
 #include "shared/surface.glsl"
+#include "shared/terminator.glsl"
 #include "shared/phong.glsl"
 #include "scene_fetch.glsl"
 #include "map_fetch.glsl"
@@ -42,7 +43,7 @@ vec3 color_of(uint id) {
 bool asked(PixelSurface s) {
   for (int i = 0; i < light_count; ++i)
     if (fetch_mask_slot(i) == slot)
-      return faces_light(s.n.shading, s.n.geometric, incident_light(fetch_light(i), s.p_world).to_light);
+      return faces_light(s, incident_light(fetch_light(i), s.p_world).to_light);
   return false;
 }
 

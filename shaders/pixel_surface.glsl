@@ -38,7 +38,19 @@ struct PixelSurface {
   FacingNormals n;       // normal map applied
   PhongParams material;  // maps applied
   float alpha;           // the surface's share; the rest is what a ray sees that goes straight on
+#ifdef TERMINATOR_LIFTS
+  vec3 n_vertices;  // without normal map
+  bool lifts;       // the point is lifted off its facet
+#endif
 };
+
+bool faces_light(PixelSurface s, vec3 to_light) {
+  bool faces = faces_light(s.n.shading, s.n.geometric, to_light);
+#ifdef TERMINATOR_LIFTS
+  faces = faces || (s.lifts && faces_light_lifted(s.n.shading, s.n_vertices, to_light));
+#endif
+  return faces;
+}
 
 PixelSurface surface_of(uint id, ivec2 pixel) {
   ViewParams view = ViewParams(eye, corner, step_x, step_y, first);
@@ -55,6 +67,13 @@ PixelSurface surface_of(uint id, ivec2 pixel) {
   vec3 n_shading = shading_normal(weights, fetch_vec3(normals, corners.x), fetch_vec3(normals, corners.y),
                                   fetch_vec3(normals, corners.z), n_geometric);
   s.n = face_viewer(n_geometric, n_shading, s.to_viewer);
+#ifdef TERMINATOR_LIFTS
+  float facing = s.n.leaving ? -1.0 : 1.0;
+  s.n_vertices = s.n.shading;
+  s.lifts = terminator_lift(weights, b - a, c - a, facing * fetch_vec3(normals, corners.x),
+                            facing * fetch_vec3(normals, corners.y), facing * fetch_vec3(normals, corners.z),
+                            s.n.geometric) != vec3(0.0);
+#endif
   s.alpha = 1.0;
   int maps;
   s.material = fetch_material(int(texelFetch(triangle_materials, int(id)).r), maps);

@@ -52,6 +52,8 @@ LightParams fetch_light(int i) {
   light.range = c.a;
   light.cos_inner = d.x;
   light.cos_outer = d.y;
+  light.size = 0.0;
+  light.edge_u = light.edge_v = vec3(0.0);
 #ifdef HAS_SIZED_LIGHTS
   vec4 e = texelFetch(lights, kLightTexels * i + 4);
   light.size = e.w;

@@ -5,6 +5,7 @@
 #define SHARED
 #include "shared/view.glsl"
 #include "shared/surface.glsl"
+#include "shared/terminator.glsl"
 #include "shared/phong.glsl"
 #include "scene_fetch.glsl"
 #include "map_fetch.glsl"

@@ -34,7 +34,8 @@ def main():
         shutil.copytree(source / "scenes", "scenes", ignore=shutil.ignore_patterns("generator"))
         for made in ("generate cornell -o model.obj", "generate cornell -o boat.glb",
                      "render scenes/cornell.gltf --size 40x30 -o a.exr --quiet",
-                     "render scenes/cornell.gltf --size 40x30 -o reference.exr --quiet"):
+                     "render scenes/cornell.gltf --size 40x30 -o reference.exr --quiet",
+                     "render scenes/cornell.gltf --size 40x20 -o sky.exr --aov none --quiet"):
             subprocess.run([program, *made.split()], check=True, stdout=subprocess.DEVNULL)
         pages = [source / "README.md", source / "CONTRIBUTING.md", *sorted((source / "docs").glob("*.md"))]
         for page in pages:

@@ -100,8 +100,9 @@ void draw_rays(const FrameRecord& record) {
   if (rays.shadow > 0) row("shadow rays", count_text(rays.shadow), "from what is seen to the lights");
   if (rays.reflection > 0) row("reflected rays", count_text(rays.reflection), "from mirrors");
   if (rays.refraction > 0) row("refracted rays", count_text(rays.refraction), "through glass");
+  if (rays.indirect > 0) row("indirect rays", count_text(rays.indirect), "from matt surface to matt surface");
   const double ms = record[Stage::trace_shadow].ms() + record[Stage::trace_reflection].ms();
-  const auto traced = static_cast<double>(rays.shadow + rays.reflection + rays.refraction);
+  const auto traced = static_cast<double>(rays.shadow + rays.reflection + rays.refraction + rays.indirect);
   if (ms > 0.0)
     row("traced", format("%.1f M rays/s", traced / ms * 1e-3), "shadow, reflected and refracted, while they are traced");
 }

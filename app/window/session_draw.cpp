@@ -120,6 +120,11 @@ bool Session::follow_reference(const FrameRequest& request) {
     comparison_.reset();
     return !before.empty();
   }
+  if (request.scene.environment || applied_.settings.indirect > 0) {
+    comparison_.reset();
+    model_.comparison = "the reference knows no environment and no indirect light";
+    return model_.comparison != before;
+  }
   if (!comparison_) comparison_ = std::make_unique<Comparison>();
   const bool newer = comparison_->follow({request.scene, request.view, applied_.settings.depth});
   model_.comparison = std::string("left: as drawn   right: ") +

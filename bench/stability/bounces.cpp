@@ -5,7 +5,7 @@
 #include "bench/stability/count.h"
 #include "bench/stability/shapes.h"
 #include "core/reference/reference.h"
-#include "core/trace/passes.h"
+#include "core/trace/trace_tiles.h"
 #include "core/trace/view_params.h"
 #include "scenes/generator/paint.h"
 
@@ -132,10 +132,74 @@ FailureCount mirror_to_mirror(const Method& method, int rays) {
   return count;
 }
 
+// Light by samples, of the environment and of `indirect` bounces between matt surfaces.
+Drawn draw_samples(const Scene& scene, const Camera& camera, const Method& method, int rays, int indirect) {
+  const int side = std::clamp(static_cast<int>(std::sqrt(static_cast<float>(rays) / 16.0f)), 16, 64);
+  Drawn drawn{Image<std::uint32_t>(glm::ivec2(side)), {}, {}};
+  const Tracer tracer = method.tracer(*scene.mesh);
+  Workers one(1);
+  TraceJob job{scene, tracer, one, view_params(camera, drawn.ids.size())};
+  job.terminator = method.terminator;
+  TileOutputs out;
+  out.size = drawn.ids.size();
+  out.ids = &drawn.ids;
+  out.environment_light = true;
+  out.indirect = indirect;
+  out.reflection = &drawn.radiance;
+  const Timed timed(drawn.count);
+  trace_tiles(job, out);
+  return drawn;
+}
+
+constexpr int kMattBounces = 8;
+
+// In a closed room with a bright sky around it nothing is lit. In the room stands a coarse ball that nearly touches it.
+FailureCount sky_outside(const Method& method, int rays) {
+  FailureCount count;
+  for (const float size : kSizes) {
+    MeshData mesh;
+    append(mesh, box(glm::vec3(-size), glm::vec3(size), 8), Material{});
+    append(mesh, ball(glm::vec3(0.0f), size * (1.0f - 0x1p-7f), 12), Material{});
+    Scene scene(std::move(mesh));
+    scene.ambient_light = glm::vec3(0.0f);
+    scene.environment = std::make_shared<const Environment>(Image<glm::vec3>({8, 4}, glm::vec3(1e4f)));
+    const Camera camera{"", size * glm::vec3(0.95f), glm::vec3(0.0f), {0, 1, 0}, 90.0f};
+    Drawn drawn = draw_samples(scene, camera, method, rays / 2, kMattBounces);
+    for (const glm::vec3& radiance : drawn.radiance.pixels()) {
+      ++drawn.count.trials;
+      drawn.count.failures += radiance == glm::vec3(0.0f) ? 0 : 1;
+    }
+    count += drawn.count;
+  }
+  return count;
+}
+
+// In a closed matt room that glows and keeps all light, every bounce adds the same.
+FailureCount white_room(const Method& method, int rays) {
+  constexpr float kGlow = 0x1p-6f;
+  Material white = glowing("", glm::vec3(kGlow));
+  white.diffuse = glm::vec3(1.0f);
+  FailureCount count;
+  for (const float size : kSizes) {
+    MeshData mesh;
+    append(mesh, box(-size * glm::vec3(1, 0.5f, 0.5f), size * glm::vec3(1, 0.5f, 0.5f), 8), white);
+    const Camera camera{"", glm::vec3(0.0f), size * glm::vec3(1.0f, 0.1f, 0.2f), {0, 1, 0}, 90.0f};
+    Drawn drawn = draw_samples(Scene(std::move(mesh)), camera, method, rays / 2, kMattBounces);
+    for (const glm::vec3& radiance : drawn.radiance.pixels()) {
+      ++drawn.count.trials;
+      drawn.count.failures += std::abs(radiance.x / (kGlow * kMattBounces) - 1.0f) < 1e-4f ? 0 : 1;
+    }
+    count += drawn.count;
+  }
+  return count;
+}
+
 constexpr std::array kBounceCases{
     StressCase{"glass inside glass", "pixels unlike the reference's", glass_in_glass},
     StressCase{"total internal reflection", "pixels unlike the reference's", total_reflection},
     StressCase{"mirror against mirror", "pixels whose ray got out", mirror_to_mirror},
+    StressCase{"sky around a closed room", "pixels that are lit", sky_outside},
+    StressCase{"white room", "pixels whose ray got out", white_room},
 };
 
 }  // namespace

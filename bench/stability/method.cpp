@@ -10,6 +10,10 @@ Method with(OffsetMethod offset) {
   return {.name = "offset " + std::string(offset_method_name(offset)), .offset = offset};
 }
 
+Method with(Terminator terminator) {
+  return {.name = "terminator " + std::string(terminator_name(terminator)), .terminator = terminator};
+}
+
 std::vector<Method> all_methods() {
   const Method by_default;
   std::vector<Method> methods{by_default};
@@ -17,6 +21,8 @@ std::vector<Method> all_methods() {
     if (test != by_default.tree.triangle_test) methods.push_back(with(test));
   for (const OffsetMethod offset : kOffsetMethods)
     if (offset != by_default.offset) methods.push_back(with(offset));
+  for (const Terminator terminator : kTerminators)
+    if (terminator != by_default.terminator) methods.push_back(with(terminator));
   methods.push_back({.name = "spatial median", .tree = {.rule = SplitRule::spatial_median}});
   methods.push_back({.name = "object median", .tree = {.rule = SplitRule::object_median}});
   for (const Isa isa : supported_isas())

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "pinocchio/terminator.h"
 #include "pinocchio/tracer.h"
 
 namespace pinocchio::stability {
@@ -14,6 +15,7 @@ struct Method {
   BuildOptions tree{};
   OffsetMethod offset = OffsetMethod::error_bound;
   std::optional<Isa> isa{};
+  Terminator terminator = kUsualTerminator;
 
   [[nodiscard]] Tracer tracer(MeshData mesh) const {
     return Tracer(std::make_shared<const Mesh>(std::move(mesh)), tree, isa, offset);
@@ -21,11 +23,12 @@ struct Method {
 };
 
 // The default first; then each method that could stand in its place, one at a time: triangle tests, ray
-// offsets, tree builders, and every packet width that this processor has.
+// offsets, remedies of the shadow terminator, tree builders, and every packet width that this processor has.
 [[nodiscard]] std::vector<Method> all_methods();
 
-// The default but for its triangle test, or its offset.
+// The default but for its triangle test, its offset, or its terminator.
 [[nodiscard]] Method with(TriangleTest test);
 [[nodiscard]] Method with(OffsetMethod offset);
+[[nodiscard]] Method with(Terminator terminator);
 
 }  // namespace pinocchio::stability

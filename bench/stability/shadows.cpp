@@ -33,7 +33,7 @@ bool is_clear(const Set& set, const SurfaceInteraction& surface) {
 }
 
 // Shadow rays from what random rays out of the eye see, towards the light.
-std::vector<Ray> shadow_rays(const Set& set, const Tracer& tracer, int rays) {
+std::vector<Ray> shadow_rays(const Set& set, const Tracer& tracer, Terminator terminator, int rays) {
   Random random(71);
   std::vector<Ray> primary;
   for (int i = 0; i < rays; ++i) {
@@ -53,14 +53,14 @@ std::vector<Ray> shadow_rays(const Set& set, const Tracer& tracer, int rays) {
         surface_at(tracer.mesh(), hits[i].triangle, primary[i].origin, primary[i].direction, tracer.offset());
     if (!is_clear(set, surface)) continue;
     const glm::vec2 square(random.between(0.0f, 1.0f), random.between(0.0f, 1.0f));
-    if (const std::optional<Ray> ray = shadow_ray(light, surface, square)) shadow.push_back(*ray);
+    if (const std::optional<Ray> ray = shadow_ray(light, surface, square, terminator)) shadow.push_back(*ray);
   }
   return shadow;
 }
 
 FailureCount count_shadows(const Set& set, const Method& method, int rays, bool expected) {
   const Tracer tracer = method.tracer(set.mesh);
-  const std::vector<Ray> shadow = shadow_rays(set, tracer, rays);
+  const std::vector<Ray> shadow = shadow_rays(set, tracer, method.terminator, rays);
   std::vector<std::uint8_t> blocked(shadow.size());
   FailureCount count;
   count.trials = shadow.size();
@@ -211,26 +211,6 @@ FailureCount grazing_light(const Method& method, int rays) {
   return count;
 }
 
-// Facets that turn away from the light although the smooth ball does not: dark, with an edge to be seen.
-FailureCount dark_facets(const Method& method, int rays) {
-  const Tracer tracer = method.tracer(coarse_ball());
-  const glm::vec3 eye(0, 0, 6), light(10.0f, 0.5f, 0.5f);
-  FailureCount count;
-  Random random(72);
-  std::vector<Ray> primary;
-  for (int i = 0; i < rays; ++i) primary.push_back({eye, kInfinity, random_point(random, 0.9f) - eye});
-  const std::vector<Hit> hits = trace(tracer, primary, count);
-  for (std::size_t i = 0; i < hits.size(); ++i) {
-    if (!hits[i].valid()) continue;
-    const SurfaceInteraction s = surface_at(tracer.mesh(), hits[i].triangle, eye, primary[i].direction);
-    const glm::vec3 to_light = light - s.p_world;
-    if (glm::dot(s.n_shading, to_light) <= 0.0f) continue;
-    ++count.trials;
-    count.failures += glm::dot(s.n_geometric, to_light) <= 0.0f ? 1 : 0;
-  }
-  return count;
-}
-
 constexpr std::array kShadowCases{
     StressCase{"scaled by 1e-6 to 1e6: acne", "lit points in shadow", scaled<lit_body, false>},
     StressCase{"moved by 1e6 sizes: acne", "lit points in shadow", moved<lit_body, false>},
@@ -245,7 +225,6 @@ constexpr std::array kShadowCases{
     StressCase{"panel in a facet's plane", "lit points in shadow", grazing_panel},
     StressCase{"ball of light of radius 0", "other rays than its centre's", no_radius},
     StressCase{"low-poly ball, grazing light", "lit points in shadow", grazing_light},
-    StressCase{"shadow terminator", "points of facets turned away", dark_facets, true},
 };
 
 }  // namespace

@@ -36,11 +36,13 @@ struct StressCase {
 };
 
 // Rays against closed meshes, odd directions, odd triangles: leaks.cpp, directions.cpp, triangles.cpp.
-// Shadows and offsets at every scale: shadows.cpp. Mirrors and glass: bounces.cpp.
+// Shadows and offsets at every scale: shadows.cpp. Shading normals
+// against facets: terminator.cpp. Mirrors and glass: bounces.cpp.
 [[nodiscard]] std::span<const StressCase> leak_cases();
 [[nodiscard]] std::span<const StressCase> direction_cases();
 [[nodiscard]] std::span<const StressCase> triangle_cases();
 [[nodiscard]] std::span<const StressCase> shadow_cases();
+[[nodiscard]] std::span<const StressCase> terminator_cases();
 [[nodiscard]] std::span<const StressCase> bounce_cases();
 
 // All of the above, in that order.

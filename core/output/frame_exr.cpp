@@ -66,6 +66,8 @@ void add_attributes(ExrFile& exr, const FrameOutput& frame) {
   exr.attributes["pinocchio.version"] = std::string(version());
   exr.attributes["pinocchio.plan"] = frame.plan_json;
   exr.attributes["pinocchio.scene"] = std::filesystem::path(frame.scene.source).filename().string();
+  if (frame.scene.environment)
+    exr.attributes["pinocchio.environment"] = std::filesystem::path(frame.scene.environment->source()).filename().string();
   exr.attributes["pinocchio.frame"] = frame.frame;
   exr.attributes["pinocchio.time"] = static_cast<float>(
       frame.time_s.value_or(static_cast<double>(frame.frame) / static_cast<double>(frame.frames_per_second)));

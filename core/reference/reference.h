@@ -13,6 +13,7 @@
 #include "pinocchio/mask_image.h"
 #include "pinocchio/progress.h"
 #include "pinocchio/scene.h"
+#include "pinocchio/terminator.h"
 
 namespace pinocchio {
 
@@ -27,6 +28,7 @@ struct ReferencePicture {
 // Advances `progress` by one step.
 [[nodiscard]] ReferencePicture reference_render(const Scene& scene, const View& view, int depth,
                                                 Workers& workers, Progress* progress = nullptr,
-                                                bool filter_textures = true);
+                                                bool filter_textures = true,
+                                                Terminator terminator = kUsualTerminator);
 
 }  // namespace pinocchio

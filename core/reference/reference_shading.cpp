@@ -31,6 +31,13 @@ double fresnel(double cos_in, double eta) {
   return 0.5 * (square(parallel) + square(perpendicular));
 }
 
+// Chiang, Li and Burley 2019: less light the nearer the facet is to turning away.
+double smoothing_at(const ReferenceSurface& s, const glm::dvec3& to_light) {
+  const double g = std::min(1.0, glm::dot(s.n_geometric, to_light) /
+                                     (glm::dot(s.n_shading, to_light) * glm::dot(s.n_shading, s.n_geometric)));
+  return -g * g * g + g * g + g;
+}
+
 // About the shading normal, unless that sends the ray into the surface; then about the geometric one.
 glm::dvec3 mirrored(const ReferenceSurface& s) {
   const auto about = [&s](const glm::dvec3& n) { return 2.0 * glm::dot(n, s.to_viewer) * n - s.to_viewer; };
@@ -59,25 +66,35 @@ ReferenceBounce bounce(const ReferenceSurface& s, const glm::dvec3& direction, c
 
 namespace {
 
-// A ray to the point of the light (null: far away); `radiance` is what arrives. Nothing where that is nothing, or the
-// surface faces away.
+// A ray to the point of the light (null: far away); `radiance` is what arrives. Nothing where that is
+// nothing, or the surface faces away.
 void add_point(const ReferenceSurface& surface, const glm::dvec3& to_light, const glm::dvec3& radiance,
-               const glm::dvec3* point, std::vector<ReferenceLight>& out) {
-  if (radiance == glm::dvec3(0.0)) return;
-  if (glm::dot(surface.n_shading, to_light) <= 0.0 || glm::dot(surface.n_geometric, to_light) <= 0.0) return;
-  const glm::dvec3 origin = leave(surface, to_light);
-  out.push_back({to_light, radiance, point ? ReferenceRay{origin, *point - origin, 1.0} : ReferenceRay{origin, to_light}});
+               const glm::dvec3* point, Terminator terminator, std::vector<ReferenceLight>& out) {
+  if (radiance == glm::dvec3(0.0) || glm::dot(surface.n_shading, to_light) <= 0.0) return;
+  const bool turned_away = glm::dot(surface.n_geometric, to_light) <= 0.0;
+  const bool can_lift = lifts(terminator) && surface.lift != glm::dvec3(0.0);
+  if (turned_away && !(can_lift && glm::dot(surface.n_vertices, to_light) > 0.0)) return;
+  const bool lifted = can_lift && (turned_away || terminator == Terminator::displaced);
+  const glm::dvec3 origin = lifted ? leave_lifted(surface) : leave(surface, to_light);
+  const double share = terminator == Terminator::smoothed ? smoothing_at(surface, to_light) : 1.0;
+  out.push_back({to_light, share * radiance,
+                 point ? ReferenceRay{origin, *point - origin, 1.0} : ReferenceRay{origin, to_light}, std::nullopt});
+  if (!lifted || terminator != Terminator::turned_away) return;
+  const glm::dvec3 from = leave(surface, surface.n_geometric);
+  out.back().way_up = ReferenceRay{from, origin - from, 1.0};
 }
 
-// Points of the square, one in each of side * side cells. Where in it depends on `place`, so that cells leave no
-// pattern in a picture.
+// Points of the square, one in each of side * side cells. Where in it depends on `place`, so that cells leave
+// no pattern in a picture.
 template <class Use>
 void for_each_cell(int side, const glm::dvec3& place, Use use) {
-  std::seed_seq seed{std::hash<double>()(place.x), std::hash<double>()(place.y), std::hash<double>()(place.z)};
+  std::seed_seq seed{std::hash<double>()(place.x), std::hash<double>()(place.y),
+                     std::hash<double>()(place.z)};
   std::minstd_rand random(seed);
   std::uniform_real_distribution<double> within(0.0, 1.0);
   for (int y = 0; y < side; ++y)
-    for (int x = 0; x < side; ++x) use(glm::dvec2(x + within(random), y + within(random)) / static_cast<double>(side));
+    for (int x = 0; x < side; ++x)
+      use(glm::dvec2(x + within(random), y + within(random)) / static_cast<double>(side));
 }
 
 // A unit vector at that angle off the axis, `turn` of a circle around it.
@@ -89,12 +106,14 @@ glm::dvec3 beside(const glm::dvec3& axis, double cosine, double turn) {
 }
 
 // By the solid angle of a ball of even radiance I / (pi r^2), or of a disc at infinity.
-std::vector<ReferenceLight> round_light(const Light& light, const ReferenceSurface& surface, const glm::dvec3& strength) {
+std::vector<ReferenceLight> round_light(const Light& light, const ReferenceSurface& surface, const glm::dvec3& strength,
+                                        Terminator terminator) {
   constexpr double kShare = 1.0 / (kReferencePoints * kReferencePoints);
   std::vector<ReferenceLight> points;
   const bool directional = light.kind == Light::Kind::directional;
   const double r = light.radius;
-  const glm::dvec3 offset = directional ? -glm::dvec3(light.direction) : glm::dvec3(light.position) - surface.p_world;
+  const glm::dvec3 offset =
+      directional ? -glm::dvec3(light.direction) : glm::dvec3(light.position) - surface.p_world;
   const double distance = glm::length(offset);
   if (!directional && distance > static_cast<double>(light.range)) return points;
   const bool inside = !directional && distance <= r;
@@ -112,13 +131,13 @@ std::vector<ReferenceLight> round_light(const Light& light, const ReferenceSurfa
     const double chord = std::sqrt(std::max(square(along) - square(distance) + square(r), 0.0));
     const double cone = light.kind == Light::Kind::spot ? cone_share(light, to_light) : 1.0;
     const glm::dvec3 point = surface.p_world + (inside ? along + chord : along - chord) * to_light;
-    add_point(surface, to_light, kShare * solid * cone * strength, directional ? nullptr : &point, points);
+    add_point(surface, to_light, kShare * solid * cone * strength, directional ? nullptr : &point, terminator, points);
   });
   return points;
 }
 
 std::vector<ReferenceLight> rectangle_light(const Light& light, const ReferenceSurface& surface,
-                                            const glm::dvec3& strength) {
+                                            const glm::dvec3& strength, Terminator terminator) {
   constexpr double kShare = 1.0 / (kReferencePoints * kReferencePoints);
   std::vector<ReferenceLight> points;
   for_each_cell(kReferencePoints, surface.p_world, [&](const glm::dvec2& cell) {
@@ -130,20 +149,21 @@ std::vector<ReferenceLight> rectangle_light(const Light& light, const ReferenceS
     const glm::dvec3 to_light = offset / distance;
     double share = kShare * std::max(-glm::dot(to_light, glm::dvec3(light.direction)), 0.0);
     if (light.falloff == Light::Falloff::inverse_square) share /= std::max(square(distance), 1e-12);
-    add_point(surface, to_light, share * strength, &point, points);
+    add_point(surface, to_light, share * strength, &point, terminator, points);
   });
   return points;
 }
 
 }  // namespace
 
-std::vector<ReferenceLight> reference_lights(const Light& light, const ReferenceSurface& surface) {
+std::vector<ReferenceLight> reference_lights(const Light& light, const ReferenceSurface& surface,
+                                             Terminator terminator) {
   glm::dvec3 radiance = glm::dvec3(light.color) * static_cast<double>(light.intensity);
-  if (light.kind == Light::Kind::rectangle) return rectangle_light(light, surface, radiance);
-  if (light.has_size()) return round_light(light, surface, radiance);
+  if (light.kind == Light::Kind::rectangle) return rectangle_light(light, surface, radiance, terminator);
+  if (light.has_size()) return round_light(light, surface, radiance, terminator);
   std::vector<ReferenceLight> point;
   if (light.kind == Light::Kind::directional) {
-    add_point(surface, -glm::dvec3(light.direction), radiance, nullptr, point);
+    add_point(surface, -glm::dvec3(light.direction), radiance, nullptr, terminator, point);
     return point;
   }
   const glm::dvec3 position(light.position), offset = position - surface.p_world;
@@ -152,13 +172,15 @@ std::vector<ReferenceLight> reference_lights(const Light& light, const Reference
   const glm::dvec3 to_light = offset / distance;
   if (light.falloff == Light::Falloff::inverse_square) radiance /= std::max(square(distance), 1e-12);
   if (light.kind == Light::Kind::spot) radiance *= cone_share(light, to_light);
-  add_point(surface, to_light, radiance, &position, point);
+  add_point(surface, to_light, radiance, &position, terminator, point);
   return point;
 }
 
-std::vector<ReferenceBounce> reference_lobe(const ReferenceSurface& s, const ReferenceBounce& mirrored, int side) {
+std::vector<ReferenceBounce> reference_lobe(const ReferenceSurface& s, const ReferenceBounce& mirrored,
+                                            int side) {
   std::vector<ReferenceBounce> rays;
-  const glm::dvec3 axis = glm::normalize(mirrored.ray.direction), weight = mirrored.weight / static_cast<double>(side * side);
+  const glm::dvec3 axis = glm::normalize(mirrored.ray.direction),
+                   weight = mirrored.weight / static_cast<double>(side * side);
   for_each_cell(side, s.p_world, [&](const glm::dvec2& cell) {
     // Of (n + 1) / (2 pi) cos^n, the share within an angle is 1 - cos^(n + 1).
     const glm::dvec3 direction = beside(axis, std::pow(1.0 - cell.x, 1.0 / (s.material.gloss + 1.0)), cell.y);

@@ -6,6 +6,7 @@
 
 #include "core/reference/reference_surface.h"
 #include "pinocchio/light.h"
+#include "pinocchio/terminator.h"
 
 namespace pinocchio {
 
@@ -14,12 +15,14 @@ struct ReferenceLight {
   glm::dvec3 to_light;  // unit
   glm::dvec3 radiance;  // linear
   ReferenceRay shadow;  // what hits it blocks the light
+  std::optional<ReferenceRay> way_up;  // likewise: to where `shadow` starts off the surface
 };
 
 // Nothing where the light does not reach: too far, outside the cone, or behind the surface. A light with a size is
 // many such points, kReferencePoints squared, that share its radiance.
 inline constexpr int kReferencePoints = 16;
-[[nodiscard]] std::vector<ReferenceLight> reference_lights(const Light& light, const ReferenceSurface& surface);
+[[nodiscard]] std::vector<ReferenceLight> reference_lights(const Light& light, const ReferenceSurface& surface,
+                                                           Terminator terminator);
 
 // Id + Is of that light (Phong, "Illumination for Computer Generated Pictures", CACM 18(6), 1975):
 //   I (kd (N.L) + ks (R.V)^n),  R = 2 (N.L) N - L

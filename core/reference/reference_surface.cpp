@@ -18,6 +18,26 @@ glm::dvec3 unit_or(const glm::dvec3& n, double least_square, const glm::dvec3& o
   return square > least_square ? n / std::sqrt(square) : otherwise;
 }
 
+// The point `p` on the tangent plane of the vertex, if it lies below.
+glm::dvec3 at_least_on_plane(const glm::dvec3& p, const glm::dvec3& vertex, const glm::dvec3& normal) {
+  const double below = -glm::dot(p - vertex, normal);
+  return below > 0.0 && normal != glm::dvec3(0.0) ? p + below / glm::dot(normal, normal) * normal : p;
+}
+
+// From s.p_world to the curved surface (Hanika 2021); its normals are turned to the viewer.
+glm::dvec3 lift_of(const Mesh& mesh, const ReferenceHit& hit, const ReferenceSurface& s) {
+  constexpr double kLeast = 1e-5;  // of the triangle's size: shaders/shared/terminator.glsl's
+  const glm::uvec3 corners = mesh.triangles[hit.triangle];
+  const auto normal = [&](int i) { return (s.leaving ? -1.0 : 1.0) * glm::dvec3(mesh.normals[corners[i]]); };
+  const auto vertex = [&](int i) { return glm::dvec3(mesh.positions[corners[i]]); };
+  if (normal(0) == normal(1) && normal(0) == normal(2)) return glm::dvec3(0.0);
+  glm::dvec3 lifted(0.0);
+  for (int i = 0; i < 3; ++i) lifted += hit.weights[i] * at_least_on_plane(s.p_world, vertex(i), normal(i));
+  const glm::dvec3 lift = lifted - s.p_world;
+  const double size = std::max(largest_component(vertex(1) - vertex(0)), largest_component(vertex(2) - vertex(0)));
+  return glm::dot(lift, s.n_geometric) > kLeast * size ? lift : glm::dvec3(0.0);
+}
+
 }  // namespace
 
 ReferenceSurface reference_surface(const Mesh& mesh, const ReferenceRay& ray, const ReferenceHit& hit,
@@ -40,17 +60,24 @@ ReferenceSurface reference_surface(const Mesh& mesh, const ReferenceRay& ray, co
   // Where winding and vertex normals disagree about the outside, the normals are right.
   if (glm::dot(s.n_geometric, s.n_shading) < 0.0) s.n_geometric = -s.n_geometric;
   s.leaving = glm::dot(s.n_geometric, s.to_viewer) < 0.0;
+  s.n_vertices = s.n_shading;
   s.material = reference_material(mesh, hit, spread, s.n_shading);
   if (s.leaving) {
     s.n_geometric = -s.n_geometric;
     s.n_shading = -s.n_shading;
+    s.n_vertices = -s.n_vertices;
   }
+  s.lift = lift_of(mesh, hit, s);
   return s;
 }
 
 glm::dvec3 leave(const ReferenceSurface& surface, const glm::dvec3& direction) {
   const double side = glm::dot(surface.n_geometric, direction) < 0.0 ? -surface.error : surface.error;
   return surface.p_world + side * surface.n_geometric;
+}
+
+glm::dvec3 leave_lifted(const ReferenceSurface& surface) {
+  return surface.p_world + surface.lift + surface.error * surface.n_geometric;
 }
 
 }  // namespace pinocchio

@@ -50,8 +50,9 @@ glm::dvec3 ReferenceTracer::direct(const ReferenceSurface& surface, unsigned& bi
   for (const Light& light : scene_.lights) {
     if (light.casts_shadow) ++slot;
     double seen = 0.0, all = 0.0;  // of a light with a size
-    for (const ReferenceLight& point : reference_lights(light, surface)) {
-      const double share = light.casts_shadow ? unblocked(point.shadow) : 1.0;
+    for (const ReferenceLight& point : reference_lights(light, surface, terminator_)) {
+      const bool hidden = light.casts_shadow && point.way_up && tree_.occluded(*point.way_up);
+      const double share = hidden ? 0.0 : light.casts_shadow ? unblocked(point.shadow) : 1.0;
       seen += share;
       all += 1.0;
       sum += share * reference_phong(surface, point);

@@ -7,6 +7,7 @@
 #include "core/reference/reference_tree.h"
 #include "core/trace/shared.h"
 #include "pinocchio/scene.h"
+#include "pinocchio/terminator.h"
 
 namespace pinocchio {
 
@@ -20,8 +21,12 @@ class ReferenceTracer {
   // filter_textures: they are averaged over what a pixel sees of them.
   // one_of_many: pixels are the mean of many such pictures, so that shadows of surfaces that blend may be grey.
   ReferenceTracer(const Scene& scene, const ReferenceTree& tree, bool filter_textures = true,
-                  bool one_of_many = false)
-      : scene_(scene), tree_(tree), filter_textures_(filter_textures), one_of_many_(one_of_many) {}
+                  bool one_of_many = false, Terminator terminator = kUsualTerminator)
+      : scene_(scene),
+        tree_(tree),
+        filter_textures_(filter_textures),
+        one_of_many_(one_of_many),
+        terminator_(terminator) {}
 
   struct Pixel {
     std::uint32_t triangle = kNoTriangle;  // seen at the sample point
@@ -50,6 +55,7 @@ class ReferenceTracer {
   const Scene& scene_;
   const ReferenceTree& tree_;
   bool filter_textures_, one_of_many_;
+  Terminator terminator_;
 };
 
 // The ray of the pixel (x, y); its t is z_eye.

@@ -30,7 +30,10 @@ class Assembly {
                  rest_.cameras);
     add_mesh(*scene.mesh, scene.nodes ? scene.nodes->rest.get() : nullptr);
     if (scene.animation) add_animation(*scene.animation, root);
-    if (root == 0) result_.ambient_light = scene.ambient_light;
+    if (root == 0) {
+      result_.ambient_light = scene.ambient_light;
+      result_.environment = scene.environment;
+    }
   }
 
   Expected<Scene> finish() {

@@ -45,6 +45,7 @@ Material phong_of(const tinygltf::Value& phong, const glm::vec3& base_color) {
   m.transmittance = vec3_member(&phong, "transmit").value_or(m.transmittance);
   m.ior = number_member(&phong, "ior").value_or(m.ior);
   m.fresnel = bool_member(&phong, "fresnel").value_or(m.fresnel);
+  m.brdf = bool_member(&phong, "brdf").value_or(m.brdf);
   return m;
 }
 

@@ -22,7 +22,7 @@ glm::vec3 direction_of(const glm::mat4& world, const glm::vec3& local) {
   return length > 0.0f ? d / length : local;
 }
 
-std::optional<float> size_member(const tinygltf::Value* extras, const char* key) {
+std::optional<float> length_member(const tinygltf::Value* extras, const char* key) {
   const std::optional<float> size = number_member(extras, key);
   return size && *size >= 0.0f && std::isfinite(*size) ? size : std::nullopt;
 }
@@ -53,8 +53,8 @@ Light light_of(const tinygltf::Light& l, const tinygltf::Node& node, const glm::
   }
   for (const tinygltf::Value* extras : {our_extras(l.extras), our_extras(node.extras)}) {
     light.casts_shadow = bool_member(extras, "castsShadow").value_or(light.casts_shadow);
-    light.radius = size_member(extras, "radius").value_or(light.radius);
-    light.angle_deg = std::min(size_member(extras, "angle").value_or(light.angle_deg), 180.0f);
+    light.radius = length_member(extras, "radius").value_or(light.radius);
+    light.angle_deg = std::min(length_member(extras, "angle").value_or(light.angle_deg), 180.0f);
     if (const std::optional<glm::vec2> sides = vec2_member(extras, "rectangle")) make_rectangle(*sides, world, light);
     const tinygltf::Value* falloff = extras ? member(*extras, "falloff") : nullptr;
     if (falloff && falloff->IsString() && falloff->Get<std::string>() == "none")
@@ -75,8 +75,8 @@ Camera camera_of(const tinygltf::Camera& c, const tinygltf::Node& node, const gl
   const std::optional<glm::vec3> up = vec3_member(our_extras(node.extras), "up");
   if (up && *up != glm::vec3(0.0f)) camera.up = *up;
   camera.fov_deg = static_cast<float>(glm::degrees(c.perspective.yfov));
-  camera.lens_radius = size_member(our_extras(node.extras), "lensRadius").value_or(0.0f);
-  camera.focus_distance = size_member(our_extras(node.extras), "focusDistance").value_or(0.0f);
+  camera.lens_radius = length_member(our_extras(node.extras), "lensRadius").value_or(0.0f);
+  camera.focus_distance = length_member(our_extras(node.extras), "focusDistance").value_or(0.0f);
   return camera;
 }
 

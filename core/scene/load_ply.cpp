@@ -29,9 +29,9 @@ struct VertexColumns {
   [[nodiscard]] bool colors() const { return c[0] >= 0 && c[1] >= 0 && c[2] >= 0; }
 };
 
-class Builder {
+class PlyBuilder {
  public:
-  Builder(const std::filesystem::path& path, PlyFile& ply, Loading& loading)
+  PlyBuilder(const std::filesystem::path& path, PlyFile& ply, Loading& loading)
       : path_(path), ply_(ply), loading_(loading) {}
 
   Expected<MeshData> build() {
@@ -167,7 +167,7 @@ Expected<Scene> load_ply(const std::filesystem::path& path, Loading& loading) {
   if (!bytes) return Unexpected(bytes.error());
   Expected<PlyFile> ply = PlyFile::open(path, std::move(*bytes));
   if (!ply) return Unexpected(ply.error());
-  Expected<MeshData> mesh = Builder(path, *ply, loading).build();
+  Expected<MeshData> mesh = PlyBuilder(path, *ply, loading).build();
   if (!mesh) return Unexpected(mesh.error());
   return Scene(std::move(*mesh));
 }

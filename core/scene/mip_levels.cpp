@@ -12,8 +12,8 @@ namespace {
 using Level = Image<glm::vec4>;
 
 // What a texel's bytes stand for.
-struct Decoder {
-  explicit Decoder(bool is_color) {
+struct TexelDecoder {
+  explicit TexelDecoder(bool is_color) {
     for (std::size_t i = 0; i < 256; ++i) {
       alpha[i] = static_cast<float>(i) / 255.0f;
       color[i] = is_color ? srgb8_to_linear(static_cast<std::uint8_t>(i)) : alpha[i];
@@ -74,7 +74,7 @@ Level halved(const Level& from) {
   return turned(half_as_wide(turned(half_as_wide(from))));
 }
 
-Level first_level(const Image<glm::u8vec4>& texels, const Decoder& decode) {
+Level first_level(const Image<glm::u8vec4>& texels, const TexelDecoder& decode) {
   if (is_even(texels.size())) return halved(texels, decode);
   Level whole(texels.size());
   for (std::size_t i = 0; i < whole.pixels().size(); ++i) whole[i] = decode(texels[i]);
@@ -104,7 +104,7 @@ void make_smaller_levels(Texture& texture, bool is_color) {
   texture.smaller_levels.clear();
   texture.smaller_levels.reserve(texture.texels.pixels().size() / 3 + 1);
   if (texture.texels.width() <= 1 && texture.texels.height() <= 1) return;
-  Level level = first_level(texture.texels, Decoder(is_color));
+  Level level = first_level(texture.texels, TexelDecoder(is_color));
   while (true) {
     for (const glm::vec4& t : level.pixels()) texture.smaller_levels.push_back(encoded(t, is_color));
     if (level.width() <= 1 && level.height() <= 1) return;

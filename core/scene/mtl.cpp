@@ -82,7 +82,7 @@ float number_or(std::string_view line, float otherwise) {
   return cut_numbers(line, values) > 0 ? values[0] : otherwise;
 }
 
-class Reader {
+class MtlReader {
  public:
   void read(std::string_view keyword, std::string_view line) {
     if (keyword == "newmtl") {
@@ -132,7 +132,7 @@ class Reader {
 }  // namespace
 
 std::vector<MtlMaterial> read_mtl(std::string_view text) {
-  Reader reader;
+  MtlReader reader;
   for (TextLines lines(text); lines.next();) {
     std::string_view line = lines.line();
     const std::string_view keyword = next_word(line);

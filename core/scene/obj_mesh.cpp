@@ -11,9 +11,9 @@ namespace {
 
 // One vertex of ours stands for one combination of position, normal, texture coordinate and, where
 // normals are made from a smoothing group, that group.
-class Builder {
+class ObjMeshBuilder {
  public:
-  Builder(const ObjText& obj, MeshData& mesh) : obj_(obj), mesh_(mesh) { vertices_.reserve(obj.positions.size()); }
+  ObjMeshBuilder(const ObjText& obj, MeshData& mesh) : obj_(obj), mesh_(mesh) { vertices_.reserve(obj.positions.size()); }
 
   void add(const ObjText::Face& face, std::uint32_t material, const PolygonTriangles& polygon) {
     for (const glm::uvec3& corners : polygon.triangles) {
@@ -89,7 +89,7 @@ void add_obj_faces(const ObjText& obj, const std::vector<std::uint32_t>& materia
                    Loading& loading, MeshData& mesh) {
   constexpr std::size_t kFacesBetweenLooks = 4096;
   begin_phase(loading.progress, "mesh", static_cast<double>(obj.faces.size()));
-  Builder builder(obj, mesh);
+  ObjMeshBuilder builder(obj, mesh);
   std::vector<glm::vec3> corners;
   for (std::size_t i = 0; i < obj.faces.size(); ++i) {
     const ObjText::Face& face = obj.faces[i];

@@ -37,9 +37,9 @@ constexpr std::string_view kQuiet[] = {"o",    "g",   "mg",   "vp",    "cstype",
 
 constexpr int kLinesBetweenLooks = 4096;
 
-class Reader {
+class ObjReader {
  public:
-  Reader(const std::filesystem::path& file, Warnings& warnings) : file_(file.string()), warnings_(warnings) {}
+  ObjReader(const std::filesystem::path& file, Warnings& warnings) : file_(file.string()), warnings_(warnings) {}
 
   Expected<ObjText> read(std::string& text, const Progress* progress) {
     join_lines(text);
@@ -191,7 +191,7 @@ class Reader {
 
 Expected<ObjText> read_obj_text(std::string& text, const std::filesystem::path& file, Warnings& warnings,
                                 const Progress* progress) {
-  return Reader(file, warnings).read(text, progress);
+  return ObjReader(file, warnings).read(text, progress);
 }
 
 }  // namespace pinocchio

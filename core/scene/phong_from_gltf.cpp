@@ -18,6 +18,7 @@ Material phong_from_gltf(const GltfSurface& s) {
   m.transmittance = p.transmittance;
   m.ior = p.ior;
   m.fresnel = p.fresnel;
+  m.brdf = true;
   return m;
 }
 

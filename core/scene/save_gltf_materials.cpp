@@ -22,6 +22,7 @@ Json phong_json(const Material& m) {
   if (m.transmittance != none) json["transmit"] = color_json(m.transmittance);
   if (m.ior != plain.ior) json["ior"] = m.ior;
   if (m.fresnel) json["fresnel"] = true;
+  if (m.brdf) json["brdf"] = true;
   return json;
 }
 

@@ -42,7 +42,7 @@ void drop_idle_casters(Scene& scene) {
 }
 
 bool takes_samples(const Scene& scene) {
-  return std::ranges::any_of(scene.lights, &Light::has_size) ||
+  return scene.environment != nullptr || std::ranges::any_of(scene.lights, &Light::has_size) ||
          std::ranges::any_of(scene.mesh->materials, &Material::is_glossy);
 }
 

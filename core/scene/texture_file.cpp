@@ -13,6 +13,7 @@
 #define STB_IMAGE_IMPLEMENTATION
 #define STBI_ONLY_BMP
 #define STBI_ONLY_GIF
+#define STBI_ONLY_HDR
 #define STBI_ONLY_PNM
 #define STBI_ONLY_TGA
 #pragma GCC diagnostic push
@@ -41,6 +42,7 @@ class Decoder {
     if (starts_with("\xff\xd8\xff")) return jpeg();
     if (starts_with("RIFF") && starts_with("WEBP", 8)) return webp();
     if (starts_with("\xabKTX 20")) return error("is KTX2, which is not read; convert it to PNG, JPEG or WebP");
+    if (starts_with("#?")) return error("is Radiance HDR, which is for environments; convert it to PNG, JPEG or WebP");
     if (starts_with("DDS ")) return error("is DDS, which is not read; convert it to PNG, JPEG or WebP");
     return other();
   }
@@ -141,6 +143,28 @@ class Decoder {
 Expected<DecodedImage> decode_texture(const std::string& file, const std::string& name,
                                       std::span<const unsigned char> bytes, MemoryLimit& limit) {
   return Decoder(file, name, bytes, limit).decode();
+}
+
+Expected<Image<glm::vec3>> decode_radiance(const std::string& file, std::span<const unsigned char> bytes,
+                                           MemoryLimit& limit) {
+  const auto fail = [&file](const std::string& what) {
+    return Unexpected(InputError{file, 0, "is not Radiance that can be read: " + what, "is it damaged?"});
+  };
+  if (bytes.size() > std::numeric_limits<int>::max()) return fail("it is larger than 2 GiB");
+  const int size = static_cast<int>(bytes.size());
+  int width = 0, height = 0, channels = 0;
+  if (stbi_info_from_memory(bytes.data(), size, &width, &height, &channels) == 0) return fail(stbi_failure_reason());
+  // As it is decoded, the copy, and an environment's sums.
+  if (!limit.take(file, "the environment", static_cast<std::uint64_t>(width) * static_cast<std::uint64_t>(height),
+                  2 * sizeof(glm::vec3) + sizeof(float)))
+    return Unexpected(*limit.error());
+  const std::unique_ptr<float, void (*)(void*)> pixels(
+      stbi_loadf_from_memory(bytes.data(), size, &width, &height, &channels, 3), stbi_image_free);
+  if (!pixels) return fail(stbi_failure_reason());
+  Image<glm::vec3> image(glm::ivec2(width, height));
+  for (std::size_t i = 0; i < image.pixels().size(); ++i)
+    image[i] = {pixels.get()[3 * i], pixels.get()[3 * i + 1], pixels.get()[3 * i + 2]};
+  return image;
 }
 
 namespace {

@@ -12,7 +12,8 @@ namespace {
 double share_left_of(double x) {
   constexpr double kA0 = 0.35875, kA1 = 0.48829, kA2 = 0.14128, kA3 = 0.01168;
   const double t = x / 3.0 + 0.5, turn = 2.0 * std::numbers::pi;
-  return t - (kA1 * std::sin(turn * t) - kA2 / 2.0 * std::sin(2.0 * turn * t) + kA3 / 3.0 * std::sin(3.0 * turn * t)) /
+  return t - (kA1 * std::sin(turn * t) - kA2 / 2.0 * std::sin(2.0 * turn * t) +
+              kA3 / 3.0 * std::sin(3.0 * turn * t)) /
                  (turn * kA0);
 }
 

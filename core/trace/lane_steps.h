@@ -9,6 +9,7 @@
 #include "core/parallel/tiles.h"
 #include "pinocchio/scene.h"
 #include "pinocchio/ray_offset.h"
+#include "pinocchio/terminator.h"
 #include "core/trace/map_lanes.h"
 #include "core/trace/ray_queue.h"
 #include "core/trace/shared.h"
@@ -18,6 +19,8 @@ namespace pinocchio {
 // A pixel's number within its tile: row by row.
 inline constexpr int kTileBits = 5;
 static_assert(1 << kTileBits == TileGrid::kTileSize);
+
+class EnvironmentLight;
 
 // The scene's arrays as the lanes read them.
 struct SceneArrays {
@@ -41,6 +44,7 @@ struct BounceLight {
 struct Bounce {
   SceneArrays scene;
   RayOffset offset;
+  Terminator terminator;
   const Footprint* footprint;  // of the rays, for textures
   const BounceLight* lights;
   std::size_t light_count;
@@ -53,12 +57,16 @@ struct Bounce {
   const shared::Sampling* sampling;
   glm::uvec2 corner;
   std::uint32_t scale, dimension;
+  const EnvironmentLight* environment;  // that lights the points; null: none does
   // Light below which no shadow ray is fired, of visible points and of others; and no path followed.
   float light_cutoff, throughput_cutoff;
 
   // Where it goes. Queues have room for all rays of the step; null: not wanted.
   RayQueue* shadow;  // one a slot
+  RayQueue* ways_up;  // likewise: to where lifted shadow rays start; their `pixel` is that ray's place in its queue
+  RayQueue *sky, *sky_ways_up;  // of the environment, likewise
   RayQueue *mirrored, *refracted, *straight;
+  RayQueue* diffuse;  // that look for light from other surfaces
   float* radiance;  // RGBA of a tile's pixels
 };
 

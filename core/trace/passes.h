@@ -14,6 +14,7 @@
 #include "pinocchio/progress.h"
 #include "pinocchio/ray_counts.h"
 #include "pinocchio/scene.h"
+#include "pinocchio/terminator.h"
 #include "pinocchio/tracer.h"
 
 namespace pinocchio {
@@ -29,6 +30,7 @@ struct TraceJob {
   // of the mask is true).
   float throughput_cutoff = kThroughputCutoff, light_cutoff = 0.0f;
   bool filter_textures = true;
+  Terminator terminator = kUsualTerminator;
   glm::vec2 jitter{0.0f};  // View's: tells the samples of a pixel apart where they decide at random
   shared::Sampling sampling{};  // which sample is taken of what is sampled
   // Tiles (TileGrid's) that are not traced where it is not 0; null: all are.

@@ -30,4 +30,18 @@ void RayQueue::make_room(std::size_t rays, bool cones) {
   triangle = pixel + room_;
 }
 
+void RayQueue::make_more_room(std::size_t rays, bool cones) {
+  const std::size_t needed = size + rays + kQueuePad;
+  if (needed <= room_ && (!cones || (width && widths_.size() >= needed))) return;
+  RayQueue larger;
+  larger.make_room(2 * size + rays, cones);
+  larger.size = size;
+  for (auto columns : {&RayQueue::origin, &RayQueue::direction, &RayQueue::light})
+    for (int axis = 0; axis < 3; ++axis)
+      std::copy_n((this->*columns)[axis], size, (larger.*columns)[axis]);
+  std::copy_n(pixel, size, larger.pixel);
+  if (cones && width) std::copy_n(width, size, larger.width);
+  *this = std::move(larger);
+}
+
 }  // namespace pinocchio

@@ -33,6 +33,9 @@ struct RayQueue {
   // Empties it; afterwards it has room for `rays` and a packet. cones: it has the column `width`.
   void make_room(std::size_t rays, bool cones = false);
 
+  // The same, but that what is in it stays and `rays` more have room.
+  void make_more_room(std::size_t rays, bool cones = false);
+
   [[nodiscard]] RayColumns columns(float reach = kInfinity) const {
     return {{origin[0], origin[1], origin[2]}, {direction[0], direction[1], direction[2]}, nullptr, reach};
   }

@@ -10,6 +10,7 @@ namespace pinocchio::shared {
 #define SHARED [[nodiscard]] inline
 #include "shaders/shared/view.glsl"
 #include "shaders/shared/surface.glsl"
+#include "shaders/shared/terminator.glsl"
 #include "shaders/shared/sampling.glsl"
 #include "shaders/shared/sized_light.glsl"
 #undef SHARED

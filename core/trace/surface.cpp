@@ -27,6 +27,10 @@ SurfaceInteraction geometry_at(const Mesh& mesh, std::uint32_t id, const glm::ve
   s.n_geometric = facing.geometric;
   s.n_shading = facing.shading;
   s.leaving = facing.leaving;
+  s.n_vertices = s.n_shading;
+  const float side = s.leaving ? -1.0f : 1.0f;
+  s.lift = shared::terminator_lift(weights, b - a, c - a, side * mesh.normals[corners.x], side * mesh.normals[corners.y],
+                                   side * mesh.normals[corners.z], s.n_geometric);
   s.offset = offset.method == OffsetMethod::error_bound
                  ? error_bound_offset(s.p_exact, s.n_geometric, b - a, c - a)
                  : offset.length;
@@ -111,14 +115,45 @@ std::vector<glm::vec3> casting_light_positions(const Scene& scene) {
   return positions;
 }
 
+namespace {
+
+// Whether light from there is asked for, and from the lifted point.
+struct Facing {
+  bool asked, lifted;
+};
+
+Facing facing(const SurfaceInteraction& s, const glm::vec3& to_light, Terminator terminator) {
+  const bool usual = shared::faces_light(s.n_shading, s.n_geometric, to_light);
+  if (!lifts(terminator) || s.lift == glm::vec3(0.0f)) return {usual, false};
+  const bool turned = glm::dot(s.n_geometric, to_light) <= 0.0f;
+  const bool kept = turned && shared::faces_light_lifted(s.n_shading, s.n_vertices, to_light);
+  return {usual || kept, kept || (usual && terminator == Terminator::displaced)};
+}
+
+glm::vec3 lifted_origin(const SurfaceInteraction& s) {
+  return glm::vec3(s.p_exact + glm::dvec3(s.lift) + glm::dvec3(s.offset * s.n_geometric));
+}
+
+}  // namespace
+
 std::optional<Ray> shadow_ray(const shared::LightParams& light, const SurfaceInteraction& surface,
-                              const glm::vec2& square) {
+                              const glm::vec2& square, Terminator terminator) {
   const shared::Incident incident = shared::sampled_light(light, surface.p_world, square);
   if (incident.radiance == glm::vec3(0.0f)) return std::nullopt;
-  if (!shared::faces_light(surface.n_shading, surface.n_geometric, incident.to_light)) return std::nullopt;
-  const glm::vec3 origin = offset_origin(surface, incident.to_light);
+  const Facing from = facing(surface, incident.to_light, terminator);
+  if (!from.asked) return std::nullopt;
+  const glm::vec3 origin = from.lifted ? lifted_origin(surface) : offset_origin(surface, incident.to_light);
   if (light.kind == shared::kLightDirectional) return Ray{origin, kInfinity, incident.to_light};
   return Ray{origin, 1.0f, incident.target - origin};  // the light sits at t = 1
+}
+
+std::optional<Ray> lift_ray(const shared::LightParams& light, const SurfaceInteraction& surface,
+                            const glm::vec2& square, Terminator terminator) {
+  if (terminator != Terminator::turned_away) return std::nullopt;
+  const shared::Incident incident = shared::sampled_light(light, surface.p_world, square);
+  if (!facing(surface, incident.to_light, terminator).lifted) return std::nullopt;
+  const glm::vec3 origin = offset_origin(surface, surface.n_geometric);
+  return Ray{origin, 1.0f, lifted_origin(surface) - origin};
 }
 
 }  // namespace pinocchio

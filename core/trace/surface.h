@@ -10,6 +10,7 @@
 #include "pinocchio/ray.h"
 #include "pinocchio/ray_offset.h"
 #include "pinocchio/scene.h"
+#include "pinocchio/terminator.h"
 
 namespace pinocchio {
 
@@ -22,6 +23,8 @@ struct SurfaceInteraction {
   glm::vec3 to_viewer;    // unit
   bool leaving;           // the ray was inside: it meets the surface from behind
   float offset;           // how far off the surface a new ray starts, scene units
+  glm::vec3 n_vertices;   // unit, interpolated: n_shading without normal map
+  glm::vec3 lift;         // up to the curved surface that the vertex normals mean; zero: none
   shared::PhongSurface material;  // here: maps applied
   float alpha;  // the surface's share; the rest is what a ray sees that goes straight on
 };
@@ -61,6 +64,13 @@ struct SurfaceInteraction {
 // faces away, or the light does not reach this far or this way.
 // `square`: which point of a light with a size, in [0, 1)^2.
 [[nodiscard]] std::optional<Ray> shadow_ray(const shared::LightParams& light, const SurfaceInteraction& surface,
-                                            const glm::vec2& square = glm::vec2(0.5f));
+                                            const glm::vec2& square = glm::vec2(0.5f),
+                                            Terminator terminator = kUsualTerminator);
+
+// With Terminator::turned_away: the way up to where that ray starts, t from 0 to 1, which has to be free, too.
+// Nothing where it starts on the surface.
+[[nodiscard]] std::optional<Ray> lift_ray(const shared::LightParams& light, const SurfaceInteraction& surface,
+                                          const glm::vec2& square = glm::vec2(0.5f),
+                                          Terminator terminator = kUsualTerminator);
 
 }  // namespace pinocchio

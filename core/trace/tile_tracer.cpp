@@ -88,6 +88,7 @@ TilePlan::TilePlan(const TraceJob& j, const TileOutputs& o)
   look(j.view);
   further = {SceneArrays::of(*job.scene.mesh),
              job.tracer.offset(),
+             job.terminator,
              &further_footprint,
              all_lights.data(),
              all_lights.size(),
@@ -95,17 +96,24 @@ TilePlan::TilePlan(const TraceJob& j, const TileOutputs& o)
              false,
              true,
              true,
-             takes_samples(job.scene) ? &job.sampling : nullptr,
+             takes_samples(job.scene) || o.indirect > 0 ? &job.sampling : nullptr,
              {},
              static_cast<std::uint32_t>(o.scale),
              0,
+             nullptr,
              0.0f,
              job.throughput_cutoff,
              nullptr,
              nullptr,
              nullptr,
              nullptr,
+             nullptr,
+             nullptr,
+             nullptr,
+             nullptr,
              nullptr};
+  if (job.scene.environment) environment.emplace(job.scene);
+  if (environment && environment->shines() && o.environment_light) further.environment = &*environment;
   visible = further;
   visible.footprint = &seen_footprint;
   visible.visible = true;
@@ -122,6 +130,7 @@ TileResult TileTracer::trace(const TilePlan& plan, const PixelBox& tile) {
   plan_ = &plan;
   tile_ = tile;
   counts_ = {};
+  reflects_ = false;
   TileTimes times;
   Lap lap;
   start();
@@ -206,12 +215,20 @@ void TileTracer::make_room(std::size_t rays, Generation& next) {
   for (std::size_t i = 0; i < next.size(); ++i)
     next[i].make_room(i < 2 || plan_->blends ? rays : 0, plan_->further.footprint->angle > 0.0f);
   for (RayQueue& queue : shadow_) queue.make_room(rays);
+  if (plan_->further.environment) sky_.make_room(rays);
+  if (plan_->out.indirect > 0) next_diffuse_.make_more_room(rays, plan_->further.footprint->angle > 0.0f);
+  if (plan_->job.terminator != Terminator::turned_away) return;
+  for (RayQueue& queue : ways_up_) queue.make_room(rays);
+  if (plan_->further.environment) sky_ways_up_.make_room(rays);
 }
 
 void TileTracer::bounce(Bounce step, int generation, const RayQueue& rays, Generation& next, Radiance& radiance) {
   step.corner = glm::uvec2(plan_->first + tile_.lo * plan_->out.scale);
   step.dimension = static_cast<std::uint32_t>(generation) * shared::kDimensionsOfBounce;
   step.shadow = shadow_.data();
+  step.ways_up = ways_up_.data();
+  step.sky = &sky_;
+  step.sky_ways_up = &sky_ways_up_;
   step.radiance = &radiance[0].x;
   if (step.mirrored) step.mirrored = &next[0], step.refracted = &next[1], step.straight = &next[2];
   plan_->job.tracer.steps().bounce(step, rays);
@@ -221,34 +238,17 @@ void TileTracer::light_visible() {
   direct_.fill(glm::vec4(0.0f));
   mask_.fill(0);
   for (std::size_t i = 0; i < seen_.size; ++i) direct_[seen_.pixel[i]].a = 1.0f;
+  next_diffuse_.make_room(0, plan_->further.footprint->angle > 0.0f);
   make_room(seen_.size, rays_);
   Bounce step = plan_->visible;
   step.mirrored = plan_->out.depth > 0 ? rays_.data() : nullptr;
-  if (!step.mirrored && step.light_count == 0 && !step.adds_ambient) return;
+  step.diffuse = plan_->out.indirect > 0 ? &next_diffuse_ : nullptr;
+  if (!step.mirrored && !step.diffuse && step.light_count == 0 && !step.adds_ambient && !step.environment) return;
+  reflects_ = step.environment != nullptr;
+  if (reflects_) reflected_.fill(glm::vec4(0.0f));
   bounce(step, 0, seen_, rays_, direct_);
   fire_shadows(0, direct_);
-}
-
-// Generation by generation: every ray of one is traced before the next one starts.
-void TileTracer::follow() {
-  if (rays_[0].size + rays_[1].size + rays_[2].size > 0) reflected_.fill(glm::vec4(0.0f));
-  for (int generation = 1; generation <= plan_->out.depth; ++generation) {
-    const std::size_t mirrored = rays_[0].size, through = rays_[1].size + rays_[2].size;
-    const std::size_t rays = mirrored + through;
-    if (rays == 0) return;
-    counts_.reflection += mirrored;
-    counts_.refraction += through;
-    make_room(rays, next_);
-    Bounce step = plan_->further;
-    step.mirrored = generation < plan_->out.depth ? next_.data() : nullptr;
-    for (RayQueue& queue : rays_) {
-      find_hits(queue, generation);
-      plan_->job.tracer.steps().keep_hits(queue);
-      bounce(step, generation, queue, next_, reflected_);
-    }
-    fire_shadows(generation, reflected_);
-    std::swap(rays_, next_);
-  }
+  fire_at_environment(0);
 }
 
 void TileTracer::fire_shadows(int generation, Radiance& radiance) {
@@ -260,13 +260,8 @@ void TileTracer::fire_shadows(int generation, Radiance& radiance) {
     if (blocked_.size() < queue.size + kQueuePad) blocked_.resize(2 * queue.size + kQueuePad);
     const float reach = light.params.kind == shared::kLightDirectional ? kInfinity : 1.0f;
     if (plan_->out.on_rays) plan_->out.on_rays({queue.columns(reach), queue.size, generation, true});
-    if (plan_->has_holes || plan_->blends) {
-      holes_.shadows(plan_->job.tracer, queue, reach, {tile_.lo + glm::ivec2(plan_->view.first), plan_->job.jitter},
-                     blocked_.data());
-    } else {
-      plan_->job.tracer.occluded(queue.columns(reach), queue.size, blocked_.data());
-    }
-    counts_.shadow += queue.size;
+    ask_occluded(queue, reach);
+    block_where_the_way_up_is(ways_up_[static_cast<std::size_t>(light.slot)]);
     for (std::size_t i = 0; i < queue.size; ++i) {
       if (blocked_[i]) continue;
       const std::uint32_t pixel = queue.pixel[i];
@@ -279,7 +274,7 @@ void TileTracer::fire_shadows(int generation, Radiance& radiance) {
 void TileTracer::write() const {
   const TileOutputs& out = plan_->out;
   const auto width = static_cast<std::size_t>(tile_.size().x);
-  const bool empty = seen_.size == 0, mirrors = counts_.reflection + counts_.refraction > 0;
+  const bool empty = seen_.size == 0, mirrors = reflects_;
   for (int y = tile_.lo.y; y < tile_.hi.y; ++y) {
     const std::size_t row = static_cast<std::size_t>(y - tile_.lo.y) << kTileBits;
     const auto of = [&](auto* image) { return &image->at(tile_.lo.x, y); };
@@ -301,6 +296,7 @@ void TileTracer::write() const {
       for (std::size_t i = 0; i < width; ++i) of(out.added)[i] += glm::vec3(light(i));
     if (out.mask) out.mask->set_row(tile_.lo.x, y, std::span(mask_).subspan(row, width));
   }
+  if (out.color && plan_->environment) paint_background();
 }
 
 }  // namespace pinocchio

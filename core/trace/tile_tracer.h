@@ -2,9 +2,11 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "core/parallel/tiles.h"
+#include "core/trace/environment_light.h"
 #include "core/trace/holes.h"
 #include "core/trace/lane_steps.h"
 #include "core/trace/ray_queue.h"
@@ -25,6 +27,7 @@ struct TilePlan {
   Footprint seen_footprint, further_footprint;
   bool has_holes, blends;   // some material's maps do
   std::vector<BounceLight> all_lights, visible_lights;
+  std::optional<EnvironmentLight> environment;
   Bounce visible, further;  // the step of the camera's rays, and of those that they spawn
 };
 
@@ -46,9 +49,16 @@ class TileTracer {
   void look();
   void light_visible();
   void follow();
+  void follow_mirrors(int bounce);
+  void look_around(int bounce);
+  void add_environment(const RayQueue& missed);
+  void paint_background() const;
   void bounce(Bounce step, int generation, const RayQueue& rays, Generation& next, Radiance& radiance);
   void make_room(std::size_t rays, Generation& next);
   void fire_shadows(int generation, Radiance& radiance);
+  void fire_at_environment(int generation);
+  void ask_occluded(const RayQueue& queue, float reach);
+  void block_where_the_way_up_is(const RayQueue& up);
   void write() const;
 
   const TilePlan* plan_ = nullptr;
@@ -56,10 +66,13 @@ class TileTracer {
   RayCounts counts_;
   RayQueue seen_;
   Generation rays_, next_;
-  std::array<RayQueue, kMaxCastingLights> shadow_;
-  std::vector<std::uint8_t> blocked_;
+  RayQueue diffuse_, next_diffuse_;
+  std::array<RayQueue, kMaxCastingLights> shadow_, ways_up_;
+  RayQueue sky_, sky_ways_up_;
+  std::vector<std::uint8_t> blocked_, up_blocked_;
   Holes holes_;
   Radiance direct_, reflected_;
+  bool reflects_ = false;  // there may be light in reflected_
   std::array<std::uint8_t, kPixels> mask_;
   std::array<std::uint32_t, kPixels> ids_;  // of the tile's pixels, row by row: what is given, or found
 };

@@ -29,7 +29,8 @@ class Share {
  public:
   Share(const FramesJob& job, const FrameArrays& to, TileImages& images)
       : job_(job), to_(to), images_(images), trace_job_{job.scene,          job.tracer, job.workers, {},
-                                                        job.throughput_cutoff, job.light_cutoff, job.filter_textures},
+                                                        job.throughput_cutoff, job.light_cutoff, job.filter_textures,
+                                                        job.terminator},
         outputs_(outputs(job, to, images)), plan_(trace_job_, outputs_) {}
 
   RayCounts draw(std::size_t frame, const PixelBox& tile) {
@@ -61,7 +62,10 @@ class Share {
     out.size = glm::ivec2(kSide);
     out.ids = &images.ids;
     out.mask_bits = to.color || to.mask ? job.mask_bits : 0;
-    out.depth = to.color || to.reflection ? job.depth : 0;
+    const bool follows = to.color || to.reflection;
+    out.depth = follows ? job.depth : 0;
+    out.indirect = follows ? job.indirect : 0;
+    out.environment_light = follows && job.environment_light;
     out.color = to.color ? &images.color : nullptr;
     return out;
   }

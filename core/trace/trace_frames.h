@@ -22,9 +22,11 @@ struct FramesJob {
   Workers& workers;
   std::span<const Camera> cameras;
   glm::ivec2 size;
-  int spp = 1, depth = 0, mask_bits = 0;
+  int spp = 1, depth = 0, indirect = 0, mask_bits = 0;
+  bool environment_light = false;
   float throughput_cutoff = kThroughputCutoff, light_cutoff = 0.0f;
   bool filter_textures = true;
+  Terminator terminator = kUsualTerminator;
   PixelFilter filter = PixelFilter::box;
   shared::Sampling sampling{};  // of the first sample
   Progress* progress = nullptr;  // told of every tile: a picture is `spp` steps

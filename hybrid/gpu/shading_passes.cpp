@@ -1,5 +1,7 @@
 #include "hybrid/gpu/shading_passes.h"
 
+#include <algorithm>
+
 #include "hybrid/exchange/encode.h"
 #include "hybrid/exchange/reflection_tiles.h"
 #include "hybrid/gpu/visibility_pass.h"
@@ -11,10 +13,15 @@ void ShadingPasses::composite(const Inputs& inputs, LightSet lights, const Trace
   Definitions definitions = definitions_of(inputs, traced);
   if (inputs.lights.any_size()) definitions.emplace_back("HAS_SIZED_LIGHTS");
   if (lights == LightSet::free) definitions.emplace_back("FREE_LIGHTS_ONLY");
+  if (inputs.scene.environment) {
+    definitions.emplace_back("HAS_ENVIRONMENT");
+    send(inputs.scene.environment);  // first: it binds textures of its own
+  }
   gl::begin_fullscreen_pass(target);
   const gl::Program& p = program("composite.frag", definitions);
   p.use();
-  bind(p, inputs, traced);
+  const int unit = bind(p, inputs, traced);
+  if (inputs.scene.environment) bind_environment(p, inputs.scene, unit);
   if (inputs.lights.any_size()) {
     const shared::Sampling& sampling = traced.of ? traced.of->sampling : inputs.sampling;
     p.set("sequence", sampling.sequence);
@@ -22,6 +29,23 @@ void ShadingPasses::composite(const Inputs& inputs, LightSet lights, const Trace
     p.set("sample_seed", sampling.seed);
   }
   triangle_.draw();
+}
+
+void ShadingPasses::send(const std::shared_ptr<const Environment>& environment) {
+  if (sent_ == environment) return;
+  const Image<glm::vec3>& picture = environment->radiance();
+  environment_ = gl::Texture(picture.size(), gl::kRgb32F);
+  gl::Upload upload;
+  std::ranges::copy(std::as_bytes(picture.pixels()), upload.open(picture.pixels().size_bytes()).begin());
+  upload.send(environment_);
+  sent_ = environment;
+}
+
+void ShadingPasses::bind_environment(const gl::Program& program, const Scene& scene, int unit) const {
+  program.set("environment", unit, environment_);
+  program.set("environment_size", glm::vec2(environment_.size()));
+  program.set("environment_turn", scene.environment_rotation_deg / 360.0f);
+  program.set("environment_strength", scene.environment_strength);
 }
 
 void ShadingPasses::inspect(const Inputs& inputs, const Traced& traced, const Inspected& what,
@@ -96,6 +120,8 @@ int ShadingPasses::bind(const gl::Program& program, const Inputs& inputs, const 
 
 ShadingPasses::Definitions ShadingPasses::definitions_of(const Inputs& inputs) {
   Definitions definitions{"ID_BITS " + std::to_string(inputs.id_bits)};
+  if (lifts(inputs.terminator)) definitions.emplace_back("TERMINATOR_LIFTS");
+  if (inputs.terminator == Terminator::smoothed) definitions.emplace_back("TERMINATOR_SMOOTHS");
   const Definitions& of_maps = inputs.mesh.maps().definitions();
   definitions.insert(definitions.end(), of_maps.begin(), of_maps.end());
   return definitions;

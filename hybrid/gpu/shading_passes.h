@@ -7,6 +7,7 @@
 #include "core/trace/shared.h"
 #include "gl/draw.h"
 #include "gl/program.h"
+#include "gl/transfer.h"
 #include "hybrid/gpu/gpu_mesh.h"
 #include "hybrid/gpu/programs.h"
 #include "pinocchio/settings.h"
@@ -38,6 +39,8 @@ class ShadingPasses {
     int id_bits;
     bool filter_textures;
     shared::Sampling sampling;
+    Terminator terminator;
+    const Scene& scene;  // whose environment is seen
   };
   // The CPU's answer; what is null is not in it.
   struct Traced {
@@ -81,11 +84,16 @@ class ShadingPasses {
   // Sets what every pass over ids reads; returns the next free texture unit.
   int bind(const gl::Program& program, const Inputs& inputs) const;
   int bind(const gl::Program& program, const Inputs& inputs, const Traced& traced) const;
+  // What is seen behind everything: to the GPU, and for the program in use.
+  void send(const std::shared_ptr<const Environment>& environment);
+  void bind_environment(const gl::Program& program, const Scene& scene, int unit) const;
   [[nodiscard]] static Definitions definitions_of(const Inputs& inputs);
   [[nodiscard]] static Definitions definitions_of(const Inputs& inputs, const Traced& traced);
 
   std::shared_ptr<Programs> programs_;
   gl::FullscreenTriangle triangle_;
+  std::shared_ptr<const Environment> sent_;  // that environment_ is of
+  gl::Texture environment_;
 };
 
 }  // namespace pinocchio

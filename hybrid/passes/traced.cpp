@@ -30,7 +30,8 @@ void run(Workers& workers, FrameSlot& frame, const TileOutputs& outputs, double 
   const FrameRequest& r = frame.request;
   if (!r.tracer) throw std::logic_error("settings that trace were given no tree (Engine::prepare)");
   const TraceJob job{r.scene,        *r.tracer,      workers, frame.view, r.settings.throughput_cutoff,
-                     r.settings.light_cutoff, r.settings.filter_textures, r.view.jitter, sampling_of(r.settings, r.view), r.left_out.get(), frame.progress, share};
+                     r.settings.light_cutoff, r.settings.filter_textures, r.settings.terminator, r.view.jitter,
+                     sampling_of(r.settings, r.view), r.left_out.get(), frame.progress, share};
   const double begin_s = now_s();
   const TileResult result = trace_tiles(job, outputs);
   frame.record.rays += result.rays;
@@ -42,6 +43,7 @@ void run(Workers& workers, FrameSlot& frame, const TileOutputs& outputs, double 
 void trace(Workers& workers, FrameSlot& frame) {
   const Settings& s = frame.request.settings;
   const glm::ivec2 size = frame.size();
+  const bool traces_further = s.reflects() && (s.depth > 0 || s.indirect > 0 || frame.request.scene.environment);
   bool has_ids = s.visibility == Processor::gpu;
   const auto outputs = [&](int scale) {
     TileOutputs out;
@@ -60,11 +62,13 @@ void trace(Workers& workers, FrameSlot& frame) {
     out.mask = &frame.mask;
   };
   const auto add_reflection = [&](TileOutputs& out) {
-    if (!s.reflects() || s.depth == 0) return;
+    if (!traces_further) return;
     out.depth = s.depth;
+    out.indirect = s.indirect;
+    out.environment_light = true;
     out.reflection = &frame.reflection;
   };
-  if (s.reflects() && s.depth == 0) frame.reflection = Image<glm::vec3>(scaled_size(size, s.reflection_scale));
+  if (s.reflects() && !traces_further) frame.reflection = Image<glm::vec3>(scaled_size(size, s.reflection_scale));
   const bool needs_ids = !has_ids && (s.mask_scale > 1 || s.reflection_scale > 1);
   const bool apart = s.mask_scale != s.reflection_scale && s.mask_bits > 0 && s.reflects();
   const double share = 1.0 / (1.0 + needs_ids + apart);

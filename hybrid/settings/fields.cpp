@@ -120,7 +120,7 @@ constexpr std::array kTable{
     field<&S::sequence>("sequence", one_of(kSequenceNames), "sobol",
                         "where samples are, of what is sampled: scrambled Sobol points; one such sequence turned "
                         "from pixel to pixel, so that noise is fine-grained; or by chance"),
-    field<&S::seed>("seed", from_to(0, 1 << 30), "0", "another number: other samples"),
+    field<&S::seed>("seed", from_to(0, 65535), "0", "another number: other samples"),
     field<&S::depth>("depth", from_to(0, kMostBounces), "8, or as many as the scene's mirrors make use of",
                      "most bounces"),
     field<&S::mask_bits>("mask_bits", one_of(kMaskBits), "the fewest that hold the casting lights",
@@ -150,6 +150,17 @@ constexpr std::array kTable{
                             false, "least_light"),
     field<&S::filter_textures>("filter_textures", yes_or_no(), "true",
                                "average textures over what a pixel, and its mirror images, see of them"),
+    field<&S::indirect>("indirect", from_to(0, kMostBounces), "0",
+                        "most bounces of light from one matt surface to the next, by samples; above 0 there is no "
+                        "ambient light (docs/environment.md)"),
+    field<&S::environment_rotation>("environment_rotation", from_to(-360, 360), "0",
+                                    "how far the environment is turned about the upward axis, degrees"),
+    field<&S::environment_strength>("environment_strength", from_to(0, 1e6), "1",
+                                    "what the environment's light is multiplied with; 0: there is none"),
+    field<&S::terminator>("terminator", one_of(kTerminatorNames), terminator_name(kUsualTerminator),
+                          "where a coarse mesh's shading normals face a light and its facets do not: off: dark; smoothed: "
+                          "light falls to zero there; displaced: shadow rays start on the curved surface; turned-away: so "
+                          "they do on facets that turn away (docs/terminator.md)"),
     field<&S::reuse>("reuse", yes_or_no(), "true",
                      "draw nothing again for a frame that asks for what the last one did"),
     field<&S::persistent>("persistent", yes_or_no(), "false", "keep transfer buffers mapped", kOfMachine),

@@ -40,7 +40,9 @@ Expected<void> check(const Settings& s, const SceneStats& stats) {
 void fill_depth(const SceneStats& stats, Settings& s) {
   if (!stats.mirrors) s.depth.value = 0;
   if (s.throughput_cutoff >= kThroughputCutoff) s.depth.value = std::min<int>(s.depth, stats.useful_depth);
-  s.reflection.fill(s.depth > 0 ? ReflectionFormat::half : ReflectionFormat::none);
+  // Samples of an environment, and of light from other surfaces, travel with mirrored light.
+  const bool samples = s.indirect > 0 || (stats.environment && s.environment_strength > 0.0f);
+  s.reflection.fill(s.depth > 0 || samples ? ReflectionFormat::half : ReflectionFormat::none);
   if (s.reflection == ReflectionFormat::none) s.depth.value = 0;
 }
 
@@ -86,6 +88,10 @@ std::vector<std::string> losses(const Settings& s, const SceneStats& stats) {
                     " light(s) are left out");
   if (s.reflection.given && !s.reflects() && stats.mirrors)
     lines.emplace_back("reflection none: mirrors and glass are left out");
+  if (s.reflection.given && !s.reflects() && stats.environment)
+    lines.emplace_back("reflection none: the environment is seen, and lights nothing");
+  if (s.reflection.given && !s.reflects() && s.indirect > 0)
+    lines.emplace_back("reflection none: light from other surfaces is left out");
   return lines;
 }
 

@@ -101,6 +101,7 @@ SceneStats analyze(const Scene& scene) {
 void recount_lights(const Scene& scene, SceneStats& stats) {
   stats.lights = static_cast<int>(scene.lights.size());
   stats.casting_lights = stats.idle_lights = 0;
+  stats.environment = scene.environment != nullptr;
   for (const Light& light : scene.lights) {
     if (!may_reach(light, scene)) {
       ++stats.idle_lights;

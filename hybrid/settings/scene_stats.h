@@ -15,6 +15,7 @@ struct SceneStats {
   int lights = 0;
   int casting_lights = 0;           // of those that reach something
   int idle_lights = 0;              // that reach nothing
+  bool environment = false;
   bool mirrors = false;             // some triangle's material reflects, transmits or blends
   double mirror_share = 0.0;        // of the scene's surface that reflects or transmits
   double transmitting_share = 0.0;  // of it that transmits

@@ -40,6 +40,7 @@ nb::dict record(const Result& result) {
   rays["shadow"] = r.rays.shadow;
   rays["reflection"] = r.rays.reflection;
   rays["refraction"] = r.rays.refraction;
+  rays["indirect"] = r.rays.indirect;
   all["ms"] = result.ms;
   all["stages"] = stages;
   all["bytes"] = bytes;

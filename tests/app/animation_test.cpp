@@ -33,15 +33,15 @@ class AnimatedTest : public ProgramTest {
 // However it is drawn: alone or among others, by one thread or three, in flight or waited for.
 TEST_F(AnimatedTest, AFrameAloneIsTheSameFrameOfARange) {
   for (const std::string mode : {"--mode raytrace ", "--mode hybrid "}) {
-    render(mode + "--quiet --deterministic --frames 0-24x6 -o r####.exr");
+    render(mode + "--quiet --deterministic --frames 0-24x6 --exchange pipelined -o r####.exr");
     render(mode + "--quiet --deterministic --frames 18 --threads 3 --exchange sync -o alone.exr");
-    render(mode + "--quiet --deterministic --frames 6 -o six.exr");
+    render(mode + "--quiet --deterministic --frames 6 --exchange pipelined -o six.exr");
     render(mode + "--quiet --deterministic --time 0.75 -o time.exr");
     expect_same_pixels("r0018.exr", "alone.exr");
     expect_same_pixels("r0018.exr", "time.exr");
     expect_same_pixels("r0006.exr", "r0018.exr", false);
     expect_same_pixels("r0000.exr", "r0006.exr", false);
-    EXPECT_EQ(bytes("six.exr"), bytes("r0006.exr"));
+    EXPECT_TRUE(bytes("six.exr") == bytes("r0006.exr"));  // the whole file
   }
 }
 

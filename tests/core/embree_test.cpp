@@ -54,7 +54,8 @@ struct Comparison {
         embree(*scene.mesh),
         workers(2),
         view(view_params(camera(), kSize)) {
-    const TraceJob job{scene, tracer, workers, view};
+    TraceJob job{scene, tracer, workers, view};
+    job.terminator = Terminator::off;  // Embree's rays start on the facets
     trace_visibility(job, ids);
     trace_shadow_mask(job, ids, MaskImage::bits_for(static_cast<int>(casting_lights(scene).size())), mask);
     for (int y = 0; y < kSize.y; ++y)
@@ -113,7 +114,7 @@ unsigned embree_mask(const Comparison& c, const Hit& hit, const Ray& ray) {
   const std::vector<int> casting = casting_lights(c.scene);
   for (std::size_t slot = 0; slot < casting.size(); ++slot) {
     const Light& light = c.scene.lights[static_cast<std::size_t>(casting[slot])];
-    if (!shadow_ray(light_params(light), surface)) continue;
+    if (!shadow_ray(light_params(light), surface, glm::vec2(0.5f), Terminator::off)) continue;
     const glm::vec3 origin(point);
     if (!c.embree.occluded({origin, 1.0f, light.position - origin})) bits |= 1u << slot;
   }

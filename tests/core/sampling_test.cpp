@@ -1,5 +1,5 @@
-// The sequences of samples: Sobol's points are Sobol's however they are scrambled, every width of lanes has the same
-// bits, and the error of a mean falls as fast as it should.
+// The sequences of samples: Sobol's points are Sobol's however they are scrambled, every width of lanes has
+// the same bits, and the error of a mean falls as fast as it should.
 #include <algorithm>
 #include <cmath>
 #include <cstring>
@@ -19,13 +19,16 @@ TEST(Sampling, LanesHaveTheSameBitsAtEveryWidth) {
   constexpr std::size_t kCount = 1024;
   AlignedVector<std::uint32_t> x(kCount), y(kCount);
   AlignedVector<float> u(kCount), v(kCount);
-  for (std::size_t i = 0; i < kCount; ++i) x[i] = static_cast<std::uint32_t>(i % 67), y[i] = static_cast<std::uint32_t>(i * i);
+  for (std::size_t i = 0; i < kCount; ++i)
+    x[i] = static_cast<std::uint32_t>(i % 67), y[i] = static_cast<std::uint32_t>(i * i);
   const Scene scene = plate_over_floor();
   for (const Isa isa : supported_isas())
     for (const int sequence : kAllSequences)
       for (const std::uint32_t dimension : {0u, 1u, shared::kMirrorDimension + shared::kDimensionsOfBounce}) {
         const shared::Sampling sampling{sequence, 37, 5};
-        Tracer(scene.mesh, {}, isa).steps().samples(sampling, x.data(), y.data(), dimension, u.data(), v.data(), kCount);
+        Tracer(scene.mesh, {}, isa)
+            .steps()
+            .samples(sampling, x.data(), y.data(), dimension, u.data(), v.data(), kCount);
         for (std::size_t i = 0; i < kCount; ++i) {
           const glm::vec2 expected = shared::sample_2d(sampling, {x[i], y[i]}, dimension);
           ASSERT_EQ(u[i], expected.x) << isa_name(isa) << " sequence " << sequence;
@@ -51,7 +54,8 @@ TEST(Sampling, SobolPointsAreEvenlySpreadInEveryBox) {
         }
 }
 
-// Standard error of the share of the square that is left of a slanted line, over many pixels; the truth is 1/2.
+// Standard error of the share of the square that is left of a slanted line, over many pixels; the truth is
+// 1/2.
 double error_of_mean(int sequence, std::uint32_t samples) {
   double sum = 0.0;
   constexpr std::uint32_t kSide = 32;
@@ -79,8 +83,8 @@ TEST(Sampling, ErrorOfAnEdgeFallsFasterThanByChance) {
   EXPECT_LT(slope_of(shared::kSequenceBlueNoise), -0.65);
 }
 
-// What is left of one sample's noise in the means of 4 x 4 pixels, against the noise of a pixel: a quarter, were
-// neighbours independent.
+// What is left of one sample's noise in the means of 4 x 4 pixels, against the noise of a pixel: a quarter,
+// were neighbours independent.
 double coarse_noise(int sequence) {
   constexpr std::uint32_t kSide = 64;
   double fine = 0.0, coarse = 0.0;
@@ -113,7 +117,8 @@ TEST(Sampling, PixelsDimensionsAndSeedsAreIndependent) {
   };
   const auto at = [](std::uint32_t seed, std::uint32_t x, std::uint32_t dimension) {
     return [=](std::uint32_t i) {
-      return static_cast<double>(shared::sample_2d({shared::kSequenceSobol, i % 64, seed}, {x + i / 64, 7}, dimension).x);
+      return static_cast<double>(
+          shared::sample_2d({shared::kSequenceSobol, i % 64, seed}, {x + i / 64, 7}, dimension).x);
     };
   };
   EXPECT_NEAR(correlation(at(0, 0, 0), at(0, 1, 0)), 0.0, 0.06);

@@ -308,7 +308,9 @@ MaskImage mask_by_pixel(const TraceJob& job, const Image<std::uint32_t>& ids, in
         if (const std::optional<Ray> ray = shadow_ray(lights[slot], surface)) {
           std::uint8_t blocked = 0;
           job.tracer.occluded({&*ray, 1}, {&blocked, 1});
-          if (!blocked) mask.set_bit(x, y, static_cast<int>(slot));
+          std::uint8_t up_blocked = 0;
+          if (const std::optional<Ray> up = lift_ray(lights[slot], surface)) job.tracer.occluded({&*up, 1}, {&up_blocked, 1});
+          if (!blocked && !up_blocked) mask.set_bit(x, y, static_cast<int>(slot));
         }
     }
   return mask;

@@ -7,6 +7,7 @@
 #include <fstream>
 #include <string>
 
+#include "pinocchio/animation.h"
 #include "pinocchio/load.h"
 
 namespace {
@@ -39,5 +40,6 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   for (const pinocchio::Warning& warning : warnings)
     if (warning.message().find('\n') != std::string::npos) std::abort();
   if (!loaded && loaded.error().what.empty()) std::abort();
+  if (loaded && loaded->animation) (void)pinocchio::at_time(*loaded, 0.5);
   return 0;
 }

@@ -1,5 +1,5 @@
-// Lights with a size: their soft shadows beside Mitsuba's (bench/peers/soft_shadows.py has the scene and prints the
-// profiles) and the reference's, the same on both processors, and better with each sample.
+// Lights with a size: their soft shadows beside Mitsuba's (bench/peers/soft_shadows.py has the scene and
+// prints the profiles) and the reference's, the same on both processors, and better with each sample.
 #include <array>
 #include <cmath>
 #include <numbers>
@@ -74,22 +74,18 @@ struct Profile {
 
 const std::vector<Profile>& profiles() {
   static const std::vector<Profile> kProfiles{
-      {lamp(0.5f), {
-        0.0f, 0.0f, 0.0f, 0.0f, 0.0f, 0.0f, 0.0f, 0.0f,
-        0.0f, 0.0f, 0.0f, 0.0f, 0.0061f, 0.0876f, 0.2323f, 0.4038f,
-        0.5780f, 0.7380f, 0.8693f, 0.9630f, 0.9994f, 1.0000f, 1.0000f, 1.0000f,
-        1.0000f, 1.0000f, 1.0000f, 1.0000f, 1.0000f, 1.0000f, 1.0000f, 1.0000f}},
-      {lamp(1.2f), {
-        0.0f, 0.0f, 0.0f, 0.0f, 0.0f, 0.0002f, 0.0051f, 0.0174f,
-        0.0380f, 0.0681f, 0.1087f, 0.1606f, 0.2217f, 0.2909f, 0.3649f, 0.4416f,
-        0.5153f, 0.5853f, 0.6493f, 0.7063f, 0.7559f, 0.7992f, 0.8354f, 0.8661f,
-        0.8915f, 0.9129f, 0.9304f, 0.9452f, 0.9572f, 0.9672f, 0.9754f, 0.9818f}},
-      {panel(), {
-        0.0f, 0.0f, 0.0f, 0.0f, 0.0f, 0.0f, 0.0f, 0.0f,
-        0.0f, 0.0f, 0.0f, 0.0f, 0.0f, 0.0270f, 0.1927f, 0.3795f,
-        0.5613f, 0.7335f, 0.8915f, 0.9956f, 1.0000f, 1.0000f, 1.0000f, 1.0000f,
-        1.0000f, 1.0000f, 1.0000f, 1.0000f, 1.0000f, 1.0000f, 1.0000f, 1.0000f}}
-  };
+      {lamp(0.5f),
+       {0.0f,    0.0f,    0.0f,    0.0f,    0.0f,    0.0f,    0.0f,    0.0f,    0.0f,    0.0f,    0.0f,
+        0.0f,    0.0061f, 0.0876f, 0.2323f, 0.4038f, 0.5780f, 0.7380f, 0.8693f, 0.9630f, 0.9994f, 1.0000f,
+        1.0000f, 1.0000f, 1.0000f, 1.0000f, 1.0000f, 1.0000f, 1.0000f, 1.0000f, 1.0000f, 1.0000f}},
+      {lamp(1.2f),
+       {0.0f,    0.0f,    0.0f,    0.0f,    0.0f,    0.0002f, 0.0051f, 0.0174f, 0.0380f, 0.0681f, 0.1087f,
+        0.1606f, 0.2217f, 0.2909f, 0.3649f, 0.4416f, 0.5153f, 0.5853f, 0.6493f, 0.7063f, 0.7559f, 0.7992f,
+        0.8354f, 0.8661f, 0.8915f, 0.9129f, 0.9304f, 0.9452f, 0.9572f, 0.9672f, 0.9754f, 0.9818f}},
+      {panel(),
+       {0.0f,    0.0f,    0.0f,    0.0f,    0.0f,    0.0f,    0.0f,    0.0f,    0.0f,    0.0f,    0.0f,
+        0.0f,    0.0f,    0.0270f, 0.1927f, 0.3795f, 0.5613f, 0.7335f, 0.8915f, 0.9956f, 1.0000f, 1.0000f,
+        1.0000f, 1.0000f, 1.0000f, 1.0000f, 1.0000f, 1.0000f, 1.0000f, 1.0000f, 1.0000f, 1.0000f}}};
   return kProfiles;
 }
 
@@ -137,10 +133,13 @@ double slope_of(Sequence sequence, const Image<glm::vec4>& truth, const Scene& s
   Settings settings = by({{"mode", "raytrace"}});
   settings.sequence = sequence;
   settings.seed = 9;  // not the truth's
-  return std::log2(error_of(drawn(scene, 256, settings), truth) / error_of(drawn(scene, 16, settings), truth)) / 4.0;
+  return std::log2(error_of(drawn(scene, 256, settings), truth) /
+                   error_of(drawn(scene, 16, settings), truth)) /
+         4.0;
 }
 
-// Of a penumbra that is wide beside a pixel: of a narrow one the error is that of the pixel's own samples, too.
+// Of a penumbra that is wide beside a pixel: of a narrow one the error is that of the pixel's own samples,
+// too.
 TEST(SoftShadows, ErrorFallsFasterThanByChance) {
   const Scene scene = half_covered(lamp(1.2f));
   const Image<glm::vec4> truth = drawn(scene, 8192);
@@ -179,7 +178,8 @@ TEST(SoftShadows, AgreesWithTheReference) {
 TEST(SoftShadows, BothProcessorsDrawTheSame) {
   for (const Light& light : {lamp(0.5f), panel()}) {
     const Scene scene = half_covered(light);
-    const Image<glm::vec4> cpu = drawn(scene, 4), gpu = drawn(scene, 4, by({{"mode", "hybrid"}, {"design", "1"}}));
+    const Image<glm::vec4> cpu = drawn(scene, 4),
+                           gpu = drawn(scene, 4, by({{"mode", "hybrid"}, {"design", "1"}}));
     double sum = 0.0;
     for (std::size_t i = 0; i < cpu.pixels().size(); ++i)
       sum += std::abs(static_cast<double>(cpu[i].x) - static_cast<double>(gpu[i].x));
@@ -219,7 +219,8 @@ TEST(AdaptiveSamples, StopWhereTheErrorIsMetAndAreNotBiased) {
     error += error_of(picture, truth) / kSeeds;
   }
   const auto all = static_cast<double>(kSeeds) * kMost * kSize.x * kSize.y;
-  std::printf("  %.1f %% of the samples, error %.4f, bias %.5f\n", 100.0 * static_cast<double>(rays) / all, error, bias);
+  std::printf("  %.1f %% of the samples, error %.4f, bias %.5f\n", 100.0 * static_cast<double>(rays) / all,
+              error, bias);
   EXPECT_LT(static_cast<double>(rays), 0.5 * all);
   EXPECT_LT(error, static_cast<double>(kMaxError));
   EXPECT_NEAR(bias, 0.0, 1e-3);

@@ -28,7 +28,7 @@ inline const StressCase& stress_case(std::span<const StressCase> among, std::str
 inline void expect_default_holds(const StressCase& stress_case) {
   for (const Method& method : all_methods()) {
     if (method.tree.triangle_test != BuildOptions{}.triangle_test ||
-        method.offset != OffsetMethod::error_bound)
+        method.offset != OffsetMethod::error_bound || method.terminator != kUsualTerminator)
       continue;
     const FailureCount count = stress_case.run(method, kRays);
     EXPECT_EQ(count.failures, 0u) << stress_case.name << ", " << method.name << ", of " << count.trials;

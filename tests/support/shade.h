@@ -28,7 +28,9 @@ inline glm::vec3 sum_of_lights(const std::vector<ShadedLight>& lights, const Sur
   for (const ShadedLight& light : lights) {
     if (light.slot >= 0 && !(bits >> light.slot & 1u)) continue;
     const shared::Incident incident = shared::incident_light(light.params, s.p_world);
-    if (!shared::faces_light(s.n_shading, s.n_geometric, incident.to_light)) continue;
+    const bool lifted = s.lift != glm::vec3(0.0f) && lifts(kUsualTerminator) &&
+                        shared::faces_light_lifted(s.n_shading, s.n_vertices, incident.to_light);
+    if (!lifted && !shared::faces_light(s.n_shading, s.n_geometric, incident.to_light)) continue;
     sum += shared::phong_light(s.material.phong, incident, s.n_shading, s.to_viewer);
   }
   return sum;

@@ -40,6 +40,12 @@ TEST(Export, DefaultsAreLeftOutAndNumbersAreExact) {
   EXPECT_EQ(std::stof(command.substr(at)), view.camera.eye.x);
 }
 
+TEST(Export, TheTimeOfAnAnimationIsSaid) {
+  ExportedView view;
+  view.time_s = 0.1;
+  EXPECT_TRUE(holds(render_command(view, "mill"), " --time 0.1 "));
+}
+
 void expect_said(const std::string& command, std::initializer_list<const char*> parts) {
   for (const char* part : parts) EXPECT_TRUE(holds(command, part)) << part << " in " << command;
 }

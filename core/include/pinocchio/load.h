@@ -41,10 +41,6 @@ class Warnings {
   std::map<std::pair<std::string, std::string>, std::size_t> known_;  // by file and what
 };
 
-// Most bytes of memory that a scene's files may claim beyond their own: pictures unpacked, compressed meshes,
-// copies of a mesh.
-inline constexpr std::uint64_t kUsualLoadLimit = std::uint64_t{4} << 30;
-
 // Reads glTF 2.0 (.gltf, .glb), Wavefront OBJ+MTL (.obj) or PLY (.ply), chosen by the file's extension. A path
 // without extension, or a folder, stands for the one scene file of that name (scenes/cornell ->
 // scenes/cornell.gltf). The result has passed check_scene. Errors name the file and, for text formats,

@@ -19,6 +19,9 @@ struct Material {
   float ior = 1.0f;               // of the inside against the outside
   bool fresnel = false;           // opaque: reflectance rises to 1 at grazing angles (Schlick 1994)
   glm::vec3 emission{0.0f};
+  // Diffuse and specular are a BRDF's values, as glTF's metallic-roughness gives them; else they are Phong's
+  // coefficients, of lights whose strength counts the 1 / pi. Light from all around needs to know.
+  bool brdf = false;
   // Index in MeshData::maps: what textures, vertex colours and alpha change of it; -1: nothing. What stands
   // here is then the most that they make of reflectance and transmittance.
   int maps = -1;

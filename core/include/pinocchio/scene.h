@@ -8,6 +8,7 @@
 
 #include "pinocchio/bounds.h"
 #include "pinocchio/camera.h"
+#include "pinocchio/environment.h"
 #include "pinocchio/light.h"
 #include "pinocchio/mesh.h"
 #include "pinocchio/nodes.h"
@@ -26,6 +27,9 @@ struct Scene {
   std::vector<Light> lights;
   std::vector<Camera> cameras;
   glm::vec3 ambient_light{0.1f};  // Ia; no file format we read carries it
+  std::shared_ptr<const Environment> environment;  // seen where no triangle is, and shines; null: black
+  float environment_rotation_deg = 0.0f;           // how far it is turned about +Y
+  float environment_strength = 1.0f;               // multiplies its light
   std::shared_ptr<const NodeTree> nodes;       // of what can be moved; null: nothing can
   std::shared_ptr<const Animation> animation;  // of the nodes (pinocchio/animation.h); null: none
 
@@ -34,7 +38,9 @@ struct Scene {
 
   // Whether they look the same, from anywhere.
   friend bool operator==(const Scene& a, const Scene& b) {
-    return a.mesh == b.mesh && a.lights == b.lights && a.ambient_light == b.ambient_light;
+    return a.mesh == b.mesh && a.lights == b.lights && a.ambient_light == b.ambient_light &&
+           a.environment == b.environment && a.environment_rotation_deg == b.environment_rotation_deg &&
+           a.environment_strength == b.environment_strength;
   }
 };
 
@@ -51,7 +57,7 @@ struct Scene {
 // Lights that reach nothing cast nothing: no mask slot is spent on them.
 void drop_idle_casters(Scene& scene);
 
-// Whether one picture of it is one sample of many: of lights with a size, of glossy mirrors.
+// Whether one picture of it is one sample of many: of lights with a size, of glossy mirrors, of an environment.
 [[nodiscard]] bool takes_samples(const Scene& scene);
 
 // First camera named `name`, else nullptr.

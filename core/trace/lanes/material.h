@@ -18,7 +18,7 @@ struct LaneMaterial {
   Float ior{1.0f};
   Float alpha{1.0f};
   Float gloss{0.0f};
-  unsigned glossy = 0, fresnel = 0, reflects = 0, transmits = 0, mapped = 0, blends = 0;  // lanes
+  unsigned glossy = 0, fresnel = 0, reflects = 0, transmits = 0, mapped = 0, blends = 0, brdf = 0;  // lanes
 
   LaneMaterial(const SceneArrays& scene, Int materials, Mask lanes) {
     for_each_distinct(materials, lanes, [&](std::uint32_t index, Mask same) {
@@ -33,6 +33,7 @@ struct LaneMaterial {
       ior = select(same, Float(m.ior), ior);
       const unsigned bits = same.bits();
       if (m.fresnel) fresnel |= bits;
+      if (m.brdf) brdf |= bits;
       if (m.gloss > 0.0f) {
         gloss = select(same, Float(m.gloss), gloss);
         glossy |= bits;

@@ -1,6 +1,7 @@
 // Part of trace/kernel.h's files: core/trace/scatter.cpp in lanes.
 #pragma once
 
+#include "core/trace/lanes/light.h"
 #include "core/trace/lanes/material.h"
 #include "core/trace/lanes/sized_light.h"
 #include "core/trace/lanes/surface.h"

@@ -3,9 +3,11 @@
 
 #include <optional>
 
+#include "core/trace/lanes/environment.h"
 #include "core/trace/lanes/light.h"
 #include "core/trace/lanes/maps.h"
 #include "core/trace/lanes/scatter.h"
+#include "core/trace/lanes/terminator.h"
 
 namespace pinocchio::PINOCCHIO_LANES {
 namespace {
@@ -60,14 +62,15 @@ inline void add_light(const Vec& light, const std::uint32_t* pixel, Mask lanes, 
 }
 
 // Towards a light that casts: shadow rays for `lanes`, which carry `light`.
-inline void ask(const BounceLight& from, const LaneSurface& s, const LaneIncident& incident, const Vec& light,
-                Int pixel, Mask lanes, RayQueue& queue) {
+inline void ask(const BounceLight& from, const ShadowStarts& starts, const LaneIncident& incident, const Vec& light,
+                Int pixel, Mask lanes, const Bounce& bounce) {
   if (lanes.bits() == 0) return;
-  const Vec origin = offset_origin(s, incident.to_light);
+  const Vec origin = starts.origins(incident.to_light);
   const bool far = from.params.kind == shared::kLightDirectional;
   const Vec direction =
       far ? incident.to_light : incident.target - origin;  // the light sits at t = 1
-  append(origin, direction, light, pixel, lanes, queue);
+  append(origin, direction, light, pixel, lanes, bounce.shadow[from.slot]);
+  starts.ask_ways_up(lanes, bounce.shadow[from.slot], bounce.ways_up[from.slot]);
 }
 
 // The pixels that the tile's samples are of.
@@ -77,8 +80,9 @@ inline IntPair whole_picture_pixel(const Bounce& bounce, Int pixel) {
 }
 
 // What the lights do at the points of a packet; returns what reaches them for certain.
-inline Vec light_points(const Bounce& bounce, const LaneSurface& s, const LaneMaterial& m,
+inline Vec light_points(const Bounce& bounce, const Corners& corners, const LaneSurface& s, const LaneMaterial& m,
                         const Vec& throughput, const LaneSampling* sampling, Int pixel, Mask lanes) {
+  ShadowStarts starts(bounce.terminator, corners, s);
   Vec sum(Float(0.0f));
   if (bounce.adds_ambient) sum = m.ambient * Vec(bounce.ambient_light) + m.emission;
   for (std::size_t i = 0; i < bounce.light_count; ++i) {
@@ -87,20 +91,22 @@ inline Vec light_points(const Bounce& bounce, const LaneSurface& s, const LaneMa
         light.has_size ? sampled_light(light.params, s.p_world,
                                        sample_2d(*sampling, bounce.dimension + shared::kLightDimension + light.index))
                        : incident_light(light.params, Vec(light.params.position), s.p_world);
-    Mask lit = lanes & faces_light(s, incident.to_light) & ~is_dark(incident.radiance);
+    Mask lit = lanes & starts.faces_light(incident.to_light) & ~is_dark(incident.radiance);
     if (bounce.visible && light.slot >= 0 && bounce.light_cutoff > 0.0f)
       lit = lit & ~(most_light(m, incident, s) < Float(bounce.light_cutoff));
     if (lit.bits() == 0) continue;
     Vec term(Float(0.0f));
     if (bounce.adds_light) term = phong_light(m, incident, s, lit);
+    if (bounce.terminator == Terminator::smoothed) term = term * terminator_factor(s, incident.to_light);
     if (light.slot < 0) {
       sum = select(lit, sum + term, sum);
       continue;
     }
     const Vec carried = throughput * term;
     if (!bounce.visible) lit = lit & ~(largest(carried) < Float(bounce.throughput_cutoff));
-    ask(light, s, incident, carried, pixel, lit, bounce.shadow[light.slot]);
+    ask(light, starts, incident, carried, pixel, lit, bounce);
   }
+  if (bounce.environment) ask_environment(bounce, starts, s, m, throughput, *sampling, pixel, lanes);
   return sum;
 }
 
@@ -120,7 +126,8 @@ inline void prefetch_corners(const SceneArrays& scene, const RayQueue& rays, std
 
 void bounce_rays(const Bounce& bounce, const RayQueue& rays) {
   const bool reads_material = bounce.adds_light || bounce.adds_ambient || bounce.mirrored ||
-                              bounce.light_cutoff > 0.0f || bounce.scene.mesh != nullptr;
+                              bounce.light_cutoff > 0.0f || bounce.scene.mesh != nullptr || bounce.environment ||
+                              bounce.diffuse;
   for (std::size_t i = 0; i < rays.size; i += kWidth) {
     prefetch_corners(bounce.scene, rays, i);
     const Mask lanes = lanes_from(i, rays.size);
@@ -143,9 +150,10 @@ void bounce_rays(const Bounce& bounce, const RayQueue& rays) {
     std::optional<LaneSampling> sampling;
     if (bounce.sampling) sampling.emplace(*bounce.sampling, whole_picture_pixel(bounce, pixel));
     const LaneSampling* const samples = sampling ? &*sampling : nullptr;
-    const Vec certain = light_points(bounce, s, m, own, samples, pixel, lanes);
+    const Vec certain = light_points(bounce, corners, s, m, own, samples, pixel, lanes);
     if (bounce.adds_light) add_light(own * certain, rays.pixel + i, lanes, bounce.radiance);
     if (bounce.mirrored) scatter(s, m, throughput, samples, pixel, lanes, bounce);
+    if (bounce.diffuse) scatter_diffuse(bounce, s, m, own, *samples, pixel, lanes);
   }
 }
 

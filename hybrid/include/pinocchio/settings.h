@@ -9,6 +9,7 @@
 #include <string_view>
 
 #include "pinocchio/error.h"
+#include "pinocchio/terminator.h"
 #include "pinocchio/tracer.h"
 #include "pinocchio/view.h"
 
@@ -91,6 +92,9 @@ struct Settings {
   Setting<bool> normals, wide;
   Setting<float> throughput_cutoff = Setting<float>::by_default(kThroughputCutoff);
   Setting<float> light_cutoff;
+  Setting<int> indirect;
+  Setting<float> environment_rotation, environment_strength = Setting<float>::by_default(1.0f);
+  Setting<Terminator> terminator = Setting<Terminator>::by_default(kUsualTerminator);
   Setting<bool> filter_textures = Setting<bool>::by_default(true);
   Setting<bool> reuse = Setting<bool>::by_default(true);
   Setting<bool> persistent;

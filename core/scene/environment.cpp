@@ -1,0 +1,89 @@
+#include "pinocchio/environment.h"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/gtc/constants.hpp>
+
+#include "core/math/finite.h"
+
+namespace pinocchio {
+namespace {
+
+float brightness_of(const glm::vec3& c) {
+  return glm::dot(c, glm::vec3(0.2126f, 0.7152f, 0.0722f));
+}
+
+// The mean of what bilinear interpolation makes of a texel's area: of it and its neighbours, 1 6 1 each way.
+double mean_light(const Image<glm::vec3>& image, int x, int y) {
+  const glm::ivec2 size = image.size();
+  double sum = 0.0;
+  for (int j = -1; j <= 1; ++j)
+    for (int i = -1; i <= 1; ++i) {
+      const double share = (i == 0 ? 0.75 : 0.125) * (j == 0 ? 0.75 : 0.125);
+      sum += share * static_cast<double>(
+                         brightness_of(image.at((x + i + size.x) % size.x, std::clamp(y + j, 0, size.y - 1))));
+    }
+  return sum;
+}
+
+// Where `number` falls among ends that grow to 1: index and place within, 0 to 1.
+struct Found {
+  std::size_t index;
+  float within;
+};
+Found found_at(const float* ends, std::size_t count, float number) {
+  const auto index = std::min(static_cast<std::size_t>(std::upper_bound(ends, ends + count, number) - ends), count - 1);
+  const float begin = index == 0 ? 0.0f : ends[index - 1];
+  return {index, std::clamp((number - begin) / (ends[index] - begin), 0.0f, 0x1.fffffep-1f)};
+}
+
+// Sums so far, made to end with 1 (or all zero).
+void make_to_one(const std::vector<double>& sums, float* ends) {
+  const double whole = sums.back();
+  for (std::size_t i = 0; i < sums.size(); ++i) ends[i] = whole > 0.0 ? static_cast<float>(sums[i] / whole) : 0.0f;
+}
+
+}  // namespace
+
+Environment::Environment(Image<glm::vec3> radiance, std::string source)
+    : radiance_(std::move(radiance)), source_(std::move(source)) {
+  for (glm::vec3& c : radiance_.pixels()) c = is_finite(c) ? glm::max(c, 0.0f) : glm::vec3(0.0f);
+  const auto width = static_cast<std::size_t>(radiance_.width()), height = static_cast<std::size_t>(radiance_.height());
+  rows_.resize(height);
+  columns_.resize(width * height);
+  std::vector<double> of_row(width), of_rows(height);
+  double all = 0.0;
+  for (std::size_t y = 0; y < height; ++y) {
+    double sum = 0.0;
+    for (std::size_t x = 0; x < width; ++x)
+      of_row[x] = sum += mean_light(radiance_, static_cast<int>(x), static_cast<int>(y));
+    make_to_one(of_row, &columns_[y * width]);
+    const auto latitude = [&](std::size_t row) {
+      return std::cos(glm::pi<double>() * static_cast<double>(row) / static_cast<double>(height));
+    };
+    of_rows[y] = all += sum * (latitude(y) - latitude(y + 1));
+  }
+  make_to_one(of_rows, rows_.data());
+}
+
+Environment::Place Environment::sample(const glm::vec2& numbers) const {
+  const auto width = static_cast<std::size_t>(radiance_.width()), height = static_cast<std::size_t>(radiance_.height());
+  const Found row = found_at(rows_.data(), height, numbers.y);
+  const Found column = found_at(&columns_[row.index * width], width, numbers.x);
+  const glm::vec2 uv((static_cast<float>(column.index) + column.within) / static_cast<float>(width),
+                     (static_cast<float>(row.index) + row.within) / static_cast<float>(height));
+  return {uv, density(uv)};
+}
+
+float Environment::density(const glm::vec2& uv) const {
+  const auto width = static_cast<std::size_t>(radiance_.width()), height = static_cast<std::size_t>(radiance_.height());
+  const auto texel = [](float t, std::size_t n) {
+    return std::min(static_cast<std::size_t>(t * static_cast<float>(n)), n - 1);
+  };
+  const std::size_t x = texel(uv.x, width), y = texel(uv.y, height);
+  const auto share = [](const float* ends, std::size_t i) { return ends[i] - (i == 0 ? 0.0f : ends[i - 1]); };
+  return share(rows_.data(), y) * static_cast<float>(height) * share(&columns_[y * width], x) *
+         static_cast<float>(width);
+}
+
+}  // namespace pinocchio

@@ -1,0 +1,89 @@
+// Environments and light from other surfaces: one picture, whoever draws it.
+#include "hybrid/settings/resolve.h"
+#include "tests/support/draw.h"
+
+namespace pinocchio {
+namespace {
+
+constexpr glm::ivec2 kSize{160, 120};
+
+// A plate over a floor that mirrors a little, under a sky that is darker on one side.
+Scene scene_under_sky() {
+  Scene scene = plate_over_floor();
+  MeshEdit(scene)->materials[0].reflectance = glm::vec3(0.2f);
+  scene.lights = {point_light({1, 6, 5})};
+  Image<glm::vec3> sky({16, 8});
+  for (int y = 0; y < 8; ++y)
+    for (int x = 0; x < 16; ++x) sky.at(x, y) = glm::vec3(0.02f * static_cast<float>(x), 0.3f, 0.05f * static_cast<float>(8 - y));
+  scene.environment = std::make_shared<const Environment>(std::move(sky));
+  return scene;
+}
+
+Settings sampled(Settings settings, int indirect) {
+  settings.spp = 3;
+  settings.indirect = indirect;
+  settings.environment_rotation = 40.0f;
+  settings.exchange = Exchange::sync;
+  return settings;
+}
+
+double mean_difference(const FrameResult& a, const FrameResult& b) {
+  double sum = 0.0;
+  for (std::size_t i = 0; i < a.color.pixels().size(); ++i) {
+    const glm::vec3 apart = glm::abs(glm::vec3(a.color[i]) - glm::vec3(b.color[i]));
+    sum += static_cast<double>(apart.x + apart.y + apart.z) / 3.0;
+  }
+  return sum / static_cast<double>(a.color.pixels().size());
+}
+
+TEST(EnvironmentPicture, EveryScheduleDrawsTheSame) {
+  const Scene scene = scene_under_sky();
+  for (const int indirect : {0, 2}) {
+    const FrameResult alone = draw_one(scene, {sampled(by({{"mode", "raytrace"}}), indirect), kSize});
+    Settings camera_rays = by({{"mode", "hybrid"}});
+    camera_rays.visibility = Processor::cpu;
+    for (const auto& [settings, most] : {std::pair(by({{"mode", "hybrid"}}), 0.002), std::pair(camera_rays, 0.002),
+                                         std::pair(by({{"design", "2"}}), 0.004)}) {
+      const FrameResult drawn = draw_one(scene, {sampled(settings, indirect), kSize});
+      EXPECT_LT(mean_difference(drawn, alone), most) << indirect;
+      EXPECT_TRUE(same(drawn.ids, alone.ids) || settings.visibility == Processor::gpu);
+    }
+    double behind = 0.0;
+    for (const glm::vec4& c : alone.color.pixels())
+      if (c.a == 0.0f) behind = std::max(behind, static_cast<double>(c.g));
+    EXPECT_NEAR(behind, 0.3, 1e-4);
+  }
+}
+
+// The first frame as the others: what is sent to the GPU for it takes nobody's place.
+TEST(EnvironmentPicture, TheFirstFrameHasAllItsLight) {
+  const Scene scene = scene_under_sky();
+  Settings one = by({{"mode", "hybrid"}}), alone = by({{"mode", "raytrace"}});
+  one.exchange = alone.exchange = Exchange::sync;
+  for (const bool tiles : {true, false}) {
+    one.tiles = tiles;
+    EXPECT_LT(mean_difference(draw_one(scene, {one, kSize}), draw_one(scene, {alone, kSize})), 0.002) << tiles;
+  }
+}
+
+TEST(EnvironmentPicture, RasterShowsItBehind) {
+  const FrameResult drawn = draw_one(scene_under_sky(), {by({{"mode", "raster"}}), kSize});
+  for (const glm::vec4& c : drawn.color.pixels()) ASSERT_TRUE(c.a > 0.0f || std::abs(c.g - 0.3f) < 1e-3f) << c.g;
+}
+
+TEST(EnvironmentPicture, TakesTheReflectionChannelAndNoMore) {
+  Scene scene = scene_under_sky();
+  MeshEdit(scene)->materials[0].reflectance = glm::vec3(0.0f);
+  EXPECT_TRUE(resolve({}, analyze(scene))->reflects());
+  Settings dark;
+  dark.environment_strength = 0.0f;
+  EXPECT_FALSE(resolve(dark, analyze(scene))->reflects());
+  scene.environment.reset();
+  EXPECT_FALSE(resolve({}, analyze(scene))->reflects());
+  Settings indirect;
+  indirect.indirect = 2;
+  EXPECT_TRUE(resolve(indirect, analyze(scene))->reflects());
+}
+
+}  // namespace
+}  // namespace pinocchio
