@@ -86,6 +86,7 @@ class Session {
   void draw_scene();
   bool follow_reference(const FrameRequest& request);
   [[nodiscard]] bool wants_redraw() const;
+  [[nodiscard]] bool answers_first() const;
   [[nodiscard]] bool gathers() const;
   [[nodiscard]] int most_samples() const;
   [[nodiscard]] glm::ivec2 picture_size() const;

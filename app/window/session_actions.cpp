@@ -259,7 +259,8 @@ void Session::record(const Frame& frame) {
   write_png(name + ".png", image);
   if (!records_exr_) return;
   FrameResult picture = frame.read();
-  take_gathered(picture);
+  picture.settings.spp = 1;
+  if (model_.samples > 1) take_gathered(picture);  // else the frame itself is shown: the camera moved
   write_exr(name + ".exr", picture, {.frame = recorded_, .time_s = posed_s_});
 }
 

@@ -53,7 +53,7 @@ FrameRequest Session::next_request() {
 
 void Session::draw() {
   shown_ = false;
-  if (model_.has_scene()) {
+  if (model_.has_scene() && !answers_first()) {
     try {
       draw_scene();
     } catch (const gl::ContextLostError&) {
@@ -68,6 +68,12 @@ void Session::draw() {
   }
   if (model_.has_scene()) inspect_pixel();
   if (!shown_ && wants_redraw()) show(last_);
+}
+
+// Whether a person's input changes only what is over the picture, such as panels and exposure: that is shown
+// before another sample is begun.
+bool Session::answers_first() const {
+  return redraws_ > 0 && last_ && !again_ && !idle_ && asked_ && same_view(*asked_, request());
 }
 
 // Of what does not wait for a frame: panels, exposure, how far a scene is loaded.
