@@ -36,7 +36,7 @@ const Rooms kMaySeeInCore{
     {"parallel", {"base", "math"}},
     {"image", {"base", "math", "parallel"}},
     {"compare", {"base", "math", "image", "parallel"}},
-    {"scene", {"base", "math", "image"}},
+    {"scene", {"base", "math", "image", "parallel"}},
     {"bsp", {"base", "math", "parallel", "scene"}},
     {"trace", {"base", "math", "image", "scene", "bsp", "simd", "parallel"}},
     {"reference", {"base", "math", "image", "scene", "parallel", "trace"}},
@@ -47,7 +47,8 @@ const std::map<std::string, std::string> kRoomOfPublic{
     {"error.h", "base"},       {"progress.h", "base"},    {"names.h", "base"},      {"bounds.h", "math"},      {"pixel_box.h", "math"},
     {"ray.h", "math"},         {"image.h", "image"},     {"mask_image.h", "image"}, {"exr.h", "image"},
     {"camera.h", "scene"},     {"light.h", "scene"},     {"load.h", "scene"},       {"material.h", "scene"},
-    {"material_maps.h", "scene"}, {"texture.h", "scene"},
+    {"material_maps.h", "scene"}, {"texture.h", "scene"},  {"animation.h", "scene"}, {"deformation.h", "scene"},
+    {"environment.h", "scene"}, {"terminator.h", "trace"},
     {"mesh.h", "scene"},       {"nodes.h", "scene"},      {"save.h", "scene"},      {"scene.h", "scene"},      {"build_options.h", "bsp"},
     {"triangle_test.h", "bsp"}, {"ray_counts.h", "trace"}, {"ray_offset.h", "trace"}, {"tracer.h", "trace"},
     {"view.h", "trace"},        {"compare_pictures.h", "compare"}, {"frame_arrays.h", "trace"}, {"surface_images.h", "trace"}};
