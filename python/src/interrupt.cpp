@@ -17,11 +17,13 @@ bool is_main_thread() {
 }  // namespace
 
 Interrupt::Interrupt(Progress& progress) : progress_(progress), watching_(is_main_thread()) {
+  sigaction(SIGINT, nullptr, &before_);
+  if (before_.sa_handler == SIG_IGN) watching_ = false;  // as a shell starts jobs in the background
   if (!watching_) return;
   watched = &progress;
   struct sigaction action {};
   action.sa_handler = cancel;
-  sigaction(SIGINT, &action, &before_);
+  sigaction(SIGINT, &action, nullptr);
 }
 
 Interrupt::~Interrupt() {

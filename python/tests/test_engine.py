@@ -86,7 +86,8 @@ def test_the_lock_is_released(scenes):
                                   "render_many(scene, [None] * 20000, (64, 64), outputs=['depth', 'color'])"])
 def test_ctrl_c(scenes, call):
     code = (
-        "import pinocchio, sys\n"
+        "import pinocchio, signal, sys\n"
+        "signal.signal(signal.SIGINT, signal.default_int_handler)\n"  # a job in the background ignores it
         f"scene = pinocchio.load_scene({str(scenes / 'cornell.gltf')!r})\n"
         "print('go', flush=True)\n"
         f"try: pinocchio.Engine().{call}\n"
