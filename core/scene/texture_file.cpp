@@ -10,6 +10,10 @@
 #include <turbojpeg.h>
 #include <webp/decode.h>
 #define STB_IMAGE_STATIC
+// What a file that is cut off does not hold is black, the same every time.
+#define STBI_MALLOC(size) std::calloc(1, size)
+#define STBI_REALLOC(old, size) std::realloc(old, size)
+#define STBI_FREE(memory) std::free(memory)
 #define STB_IMAGE_IMPLEMENTATION
 #define STBI_ONLY_BMP
 #define STBI_ONLY_GIF
@@ -129,6 +133,8 @@ class Decoder {
     if (!pixels || glm::ivec2(width, height) != image_.texture.texels.size())
       return error(std::string("cannot be decoded: ") + (pixels ? "its size changes" : stbi_failure_reason()));
     std::copy_n(pixels.get(), texel_bytes(), texels());
+    const bool netpbm = starts_with("P5") || starts_with("P6");  // whose reader does not look where the file ends
+    if (netpbm && bytes_.size() < texel_bytes() / 4 * static_cast<std::size_t>(channels)) image_.damage = "it is cut off";
     return std::move(image_);
   }
 
