@@ -13,6 +13,7 @@ FAMILIES = {"hybrid": ("#3b6fb6", "o"), "raytrace": ("#2a9d8f", "s"), "raster": 
             "Embree": ("#d1495b", "^"), "Mitsuba": ("#7d5ba6", "v")}
 LARGE = {"--mode raster": "raster", "--mode raytrace": "raytrace", "": "hybrid", "--exchange pipelined": "pipelined",
          "--exchange reproject": "reproject"}
+BELOW = ("reproject", "raytrace")  # the mark that they name
 
 
 def family(point):
@@ -68,8 +69,8 @@ def panel(axes, scene):
                      marker="*" if e["options"] == "" else marker, facecolors="none" if hollow else colour,
                      edgecolors=colour, linewidths=1.3 if hollow else 0, alpha=1 if large else 0.45, zorder=4)
         if large:
-            axes.annotate(label or e["name"], (x, e["flip"]), xytext=(0, 8), textcoords="offset points", ha="center",
-                          fontsize=8, color=colour, zorder=5)
+            axes.annotate(label or e["name"], (x, e["flip"]), xytext=(0, -15 if label in BELOW else 8), textcoords="offset points",
+                          ha="center", fontsize=8, color=colour, zorder=5)
     axes.set(xscale="log", yscale="log")
     axes.set_title(scene["run"]["scene"]["name"] + f", {scene['run']['scene']['triangles']:,} triangles", fontsize=10.5)
     grid(axes)

@@ -3,7 +3,7 @@
     mitsuba_frames.py JOB.json     prints {"SAMPLES": {"ms": [...], "picture": "FILE.exr"}, ..., "truth": "FILE.exr"}
 
 The job: "obj" (as pinocchio-embree-frame exports a scene, with its .mtl), "lights", "cameras", "size", "threads", "depth",
-"samples" (a list), "truth" (samples of its converged picture), "frames" (timed), "folder". Path tracing, which also brings light from
+"samples" (a list), "truth" (samples of its converged picture), "frames" (timed, at most), "folder". Path tracing, which also brings light from
 wall to wall, as deep as our mirrors; with depth 0 direct light alone. Its materials are the nearest that it has: Phong's highlights are left out, colour maps are read, and lights that are as
 strong everywhere fall off by the square, as bright as ours in the scene's middle. So it is held against its own picture, not ours.
 """
@@ -16,6 +16,7 @@ import sys
 import time
 
 WARM_UP = 3  # frames
+PATIENCE_MS = 5000  # with as many samples; three frames at least
 
 
 def find_llvm():
@@ -138,13 +139,14 @@ def main():
 
     for samples in job["samples"]:
         times = []
-        for k in range(WARM_UP + job["frames"]):
+        warm_up = 1 if results else WARM_UP
+        while len(times) < warm_up + 3 or (len(times) < warm_up + job["frames"] and sum(times) < PATIENCE_MS):
             begin = time.perf_counter()
-            numpy.array(render(k % len(sensors), samples, k))
+            numpy.array(render(len(times) % len(sensors), samples, len(times)))
             times.append(1e3 * (time.perf_counter() - begin))
         picture = folder / f"mitsuba-{samples}.exr"
         mitsuba.Bitmap(render(last, samples, 1)).write(str(picture))
-        results[str(samples)] = {"ms": times[WARM_UP:], "picture": str(picture)}
+        results[str(samples)] = {"ms": times[warm_up:], "picture": str(picture)}
     step, parts = 32, max(1, job["truth"] // 32)
     mean = sum(numpy.array(render(last, step, 1000 + i)) for i in range(parts)) / parts
     results["truth"] = str(folder / "mitsuba-truth.exr")

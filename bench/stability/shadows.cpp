@@ -146,12 +146,12 @@ FailureCount moved(const Method& method, int rays) {
   return count;
 }
 
-// Seen through a node that mirrors, flattens or all but vanishes: convex bodies stay convex, closed rooms closed.
+// Seen through a node that mirrors, flattens, shrinks or blows up: convex bodies stay convex, closed rooms closed.
 glm::mat4 scaling(float x, float y, float z) {
   return glm::mat4(glm::mat3(x, 0, 0, 0, y, 0, 0, 0, z));
 }
 const std::array kNodes{scaling(-1, 1, 1), scaling(-0x1p-20f, -0x1p-20f, -0x1p-20f), scaling(0x1p-20f, -0x1p-20f, 0x1p-20f),
-                        scaling(1, -0x1p-5f, 1), scaling(-0x1p-10f, 0x1p10f, 0x1p5f)};
+                        scaling(1, -0x1p-5f, 1), scaling(-0x1p20f, 0x1p20f, 0x1p20f)};
 
 Set through_node(Set set, const glm::mat4& world_from_node) {
   Scene scene(std::move(set.mesh));
@@ -249,8 +249,8 @@ constexpr std::array kShadowCases{
     StressCase{"moved by 1e6 sizes: acne", "lit points in shadow", moved<lit_body, false>},
     StressCase{"scaled, closed room", "light leaks", scaled<dark_room, true>},
     StressCase{"moved, closed room", "light leaks", moved<dark_room, true>},
-    StressCase{"mirrored, flat and tiny nodes: acne", "lit points in shadow", by_nodes<lit_body, false>},
-    StressCase{"mirrored, flat and tiny nodes, room", "light leaks", by_nodes<dark_room, true>},
+    StressCase{"nodes that mirror and scale: acne", "lit points in shadow", by_nodes<lit_body, false>},
+    StressCase{"nodes that mirror and scale: room", "light leaks", by_nodes<dark_room, true>},
     StressCase{"beside one 1e6 times larger", "lit points in shadow", beside_one_far_larger},
     StressCase{"ball of light: acne", "lit points in shadow", scaled<lit_by_ball, false>},
     StressCase{"ball of light that touches: acne", "lit points in shadow", scaled<touched_by_ball, false>},
