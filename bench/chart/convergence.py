@@ -5,13 +5,14 @@
 
 Each scene's lights get a size (SIZE_OF_LIGHTS), and each sequence 1, 4, 16, ... samples; --max-noise stops them where a tile is good
 enough. The error is the root mean square of linear light against a picture of many more samples with another seed; the bias is
-that of the whole picture's mean, with its standard error over the seeds. Written to FOLDER: results.json,
+that of the whole picture's mean, with its standard error over the seeds; time is the processor's, of all threads. Written to FOLDER: results.json,
 which holds what is measured already, table.md, and convergence.svg (needs matplotlib and numpy). --draw draws from results.json alone.
 """
 import argparse
 import json
 import math
 import pathlib
+import resource
 import struct
 import subprocess
 import sys
@@ -61,15 +62,17 @@ def with_sizes(name, folder):
 
 
 def render(arguments, scene, output, spp, sequence, seed, *options):
-    """Seconds that the samples took, without loading and writing, and how many there were a pixel."""
+    """The processor's seconds, loading and writing included, and how many samples there were a pixel."""
     stats = output.with_suffix(".json")
     command = [arguments.pinocchio, "render", str(scene), "--size", arguments.size, "--mode", "raytrace", "--spp", str(spp),
                "--sequence", sequence, "--seed", str(seed), *options, "--aov", "none", "--compression", "none", "--quiet", "-o", str(output),
                "--stats-json", str(stats)]
+    before = resource.getrusage(resource.RUSAGE_CHILDREN)
     subprocess.run(command, check=True)
+    after = resource.getrusage(resource.RUSAGE_CHILDREN)
     figures = json.loads(stats.read_text())
     width, height = (int(n) for n in arguments.size.split("x"))
-    return figures["frames"] / figures["fps"], figures["rays"]["primary"] * figures["frames"] / (width * height)
+    return after.ru_utime + after.ru_stime - before.ru_utime - before.ru_stime, figures["rays"]["primary"] * figures["frames"] / (width * height)
 
 
 def pixels(arguments, file):
@@ -97,7 +100,7 @@ def measured(arguments, scene, truth, spp, sequence, *options):
         samples.append(taken)
     spread = float(numpy.std(means, ddof=1) / math.sqrt(len(means))) if len(means) > 1 else None
     return {"error": math.sqrt(sum(errors) / len(errors)), "bias": sum(means) / len(means), "bias_error": spread,
-            "seconds": sorted(seconds)[len(seconds) // 2], "spp": sum(samples) / len(samples)}
+            "cpu_seconds": sorted(seconds)[len(seconds) // 2], "spp": sum(samples) / len(samples)}
 
 
 def slope(points, key):
@@ -132,7 +135,14 @@ def measure(arguments):
 
 
 def series_of(results, name, series):
-    return sorted((p for p in results["points"].values() if p["scene"] == name and p["series"] == series), key=lambda p: p["spp"])
+    """From few samples to many; "seconds" without what no sample costs, by a line through all times of the scene."""
+    points = [p for p in results["points"].values() if p["scene"] == name]
+    even = [(p["spp"], p["cpu_seconds"]) for p in points if p["series"] != ADAPTIVE]
+    mx, my = (sum(column) / len(even) for column in zip(*even))
+    a_sample = sum((x - mx) * (y - my) for x, y in even) / sum((x - mx) ** 2 for x, _ in even)
+    start = my - a_sample * mx
+    mine = sorted((p for p in points if p["series"] == series), key=lambda p: p["spp"])
+    return [{**p, "seconds": max(p["cpu_seconds"] - start, 0.5 * a_sample)} for p in mine]
 
 
 def table(results):
@@ -172,7 +182,7 @@ def draw(results, folder):
     names = [n for n in SCENES if any(p["scene"] == n for p in results["points"].values())]
     figure, axes = plt.subplots(2, len(names), figsize=(3.5 * len(names), 6.6), squeeze=False, sharey="col")
     for column, name in enumerate(names):
-        for row, (key, label) in enumerate((("spp", "samples a pixel"), ("seconds", "seconds"))):
+        for row, (key, label) in enumerate((("spp", "samples a pixel"), ("seconds", "seconds of the processor"))):
             at = axes[row][column]
             for i, series in enumerate((*SEQUENCES, ADAPTIVE)):
                 points = series_of(results, name, series)

@@ -18,7 +18,8 @@ constexpr float kAtTheLight = 1.0f - 0x1p-20f;  // shadow rays end before it
 
 EmbreePicture::EmbreePicture(const Scene& scene, int threads, int depth)
     : scene_(scene),
-      has_holes_(std::ranges::any_of(scene.mesh->maps, [](const MaterialMaps& m) { return m.has_holes() || m.blends(); })),
+      has_holes_(std::ranges::any_of(scene.mesh->maps,
+                                     [](const MaterialMaps& m) { return m.has_holes() || m.blends(); })),
       depth_(depth),
       device_(rtcNewDevice(("threads=" + std::to_string(threads)).c_str())),
       embree_(embree_scene_of(device_, *scene.mesh)) {
@@ -75,7 +76,9 @@ SurfaceInteraction EmbreePicture::surface_of(const Hit& hit, const Ray& ray, con
   s.p_exact = s.p_world;
   const glm::vec3 n = shared::geometric_normal(a, b, c, s.to_viewer);
   const shared::FacingNormals facing = shared::face_viewer(
-      n, shared::shading_normal(hit.weights, mesh.normals[corners.x], mesh.normals[corners.y], mesh.normals[corners.z], n),
+      n,
+      shared::shading_normal(hit.weights, mesh.normals[corners.x], mesh.normals[corners.y],
+                             mesh.normals[corners.z], n),
       s.to_viewer);
   s.n_geometric = facing.geometric;
   s.n_shading = s.n_vertices = facing.shading;
@@ -87,7 +90,8 @@ SurfaceInteraction EmbreePicture::surface_of(const Hit& hit, const Ray& ray, con
     return s;
   }
   const MappedMaterial mapped = mapped_material(
-      mesh, {hit.triangle, hit.weights, s.n_shading, s.leaving, footprint.at(ray.origin, ray.direction, s.p_world, 0.0f)});
+      mesh, {hit.triangle, hit.weights, s.n_shading, s.leaving,
+             footprint.at(ray.origin, ray.direction, s.p_world, 0.0f)});
   s.material = mapped.surface;
   s.n_shading = mapped.n_shading;
   s.alpha = mapped.alpha;
@@ -99,11 +103,14 @@ glm::vec3 EmbreePicture::direct(const SurfaceInteraction& s) const {
   glm::vec3 sum = shared::phong_ambient(phong, scene_.ambient_light);
   for (std::size_t i = 0; i < lights_.size(); ++i) {
     const shared::Incident incident = shared::incident_light(lights_[i], s.p_world);
-    if (incident.radiance == glm::vec3(0.0f) || !shared::faces_light(s.n_shading, s.n_geometric, incident.to_light)) continue;
+    if (incident.radiance == glm::vec3(0.0f) ||
+        !shared::faces_light(s.n_shading, s.n_geometric, incident.to_light))
+      continue;
     if (scene_.lights[i].casts_shadow) {
       const glm::vec3 origin = offset_origin(s, incident.to_light);
       const bool far = lights_[i].kind == shared::kLightDirectional;
-      if (occluded(far ? Ray{origin, kInfinity, incident.to_light} : Ray{origin, kAtTheLight, incident.target - origin}))
+      if (occluded(far ? Ray{origin, kInfinity, incident.to_light}
+                       : Ray{origin, kAtTheLight, incident.target - origin}))
         continue;
     }
     sum += shared::phong_light(phong, incident, s.n_shading, s.to_viewer);
@@ -111,7 +118,8 @@ glm::vec3 EmbreePicture::direct(const SurfaceInteraction& s) const {
   return s.alpha * sum;
 }
 
-glm::vec4 EmbreePicture::seen(const Ray& ray, const glm::vec3& throughput, const Footprint& footprint, int depth) const {
+glm::vec4 EmbreePicture::seen(const Ray& ray, const glm::vec3& throughput, const Footprint& footprint,
+                              int depth) const {
   const Hit hit = closest_hit(ray);
   if (hit.triangle == kNoTriangle) return glm::vec4(0.0f);
   const SurfaceInteraction surface = surface_of(hit, ray, footprint);

@@ -35,7 +35,8 @@ class EmbreePicture {
   [[nodiscard]] SurfaceInteraction surface_of(const Hit& hit, const Ray& ray, const Footprint& footprint) const;
   [[nodiscard]] glm::vec3 direct(const SurfaceInteraction& surface) const;
   // What comes along the ray, times `throughput`.
-  [[nodiscard]] glm::vec4 seen(const Ray& ray, const glm::vec3& throughput, const Footprint& footprint, int depth) const;
+  [[nodiscard]] glm::vec4 seen(const Ray& ray, const glm::vec3& throughput, const Footprint& footprint,
+                               int depth) const;
 
   const Scene& scene_;
   std::vector<shared::LightParams> lights_;

@@ -110,8 +110,8 @@ FailureCount total_reflection(const Method& method, int rays) {
   return count;
 }
 
-// A closed room whose walls glow a little and keep all light: every bounce adds the same, so that every pixel is that times
-// `bounces`, if no ray gets out. `draw` draws its reflection at one of the sizes; `error`: how far off by rounding.
+// A closed room whose walls glow a little and keep all light: every bounce adds the same, so that every pixel is
+// that times `bounces`, if no ray gets out. `draw` draws its reflection; `error`: how far off by rounding.
 template <class Draw>
 FailureCount even_room(Material wall, int bounces, float error, const Draw& draw) {
   constexpr float kGlow = 0x1p-6f;

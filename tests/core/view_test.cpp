@@ -66,7 +66,8 @@ constexpr int kFilterSamples = 4096;
 double window(double x) {
   if (std::abs(x) >= 1.5) return 0.0;
   const double t = 2.0 * std::numbers::pi * (x / 3.0 + 0.5);
-  return (0.35875 - 0.48829 * std::cos(t) + 0.14128 * std::cos(2.0 * t) - 0.01168 * std::cos(3.0 * t)) / (0.35875 * 3.0);
+  const double four = 0.35875 - 0.48829 * std::cos(t) + 0.14128 * std::cos(2.0 * t) - 0.01168 * std::cos(3.0 * t);
+  return four / (0.35875 * 3.0);
 }
 
 double area(double from, double to) {
@@ -116,7 +117,8 @@ TEST(PixelFilter, AnEdgeHasItsProfile) {
       out.size = {kWidth, kWidth};
       out.color = &color;
       trace_tiles({scene, tracer, one, view_params(view)}, out);
-      for (int x = 0; x < kWidth; ++x) row[static_cast<std::size_t>(x)] += static_cast<double>(color.at(x, 3).r) / kSamples;
+      for (int x = 0; x < kWidth; ++x)
+        row[static_cast<std::size_t>(x)] += static_cast<double>(color.at(x, 3).r) / kSamples;
     }
     for (int x = 0; x < kWidth; ++x) {
       const double from_edge = kWidth / 2 - (x + 0.5);  // to the right of the pixel's centre
