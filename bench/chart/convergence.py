@@ -138,6 +138,8 @@ def series_of(results, name, series):
     """From few samples to many; "seconds" without what no sample costs, by a line through all times of the scene."""
     points = [p for p in results["points"].values() if p["scene"] == name]
     even = [(p["spp"], p["cpu_seconds"]) for p in points if p["series"] != ADAPTIVE]
+    if len(even) < 2:
+        return []
     mx, my = (sum(column) / len(even) for column in zip(*even))
     a_sample = sum((x - mx) * (y - my) for x, y in even) / sum((x - mx) ** 2 for x, _ in even)
     start = my - a_sample * mx
