@@ -46,6 +46,7 @@ const Rooms kMaySeeInCore{
 const std::map<std::string, std::string> kRoomOfPublic{
     {"error.h", "base"},       {"progress.h", "base"},    {"names.h", "base"},      {"bounds.h", "math"},      {"pixel_box.h", "math"},
     {"ray.h", "math"},         {"image.h", "image"},     {"mask_image.h", "image"}, {"exr.h", "image"},
+    {"pixel_memory.h", "image"},
     {"camera.h", "scene"},     {"light.h", "scene"},     {"load.h", "scene"},       {"material.h", "scene"},
     {"material_maps.h", "scene"}, {"texture.h", "scene"},  {"animation.h", "scene"}, {"deformation.h", "scene"},
     {"environment.h", "scene"}, {"terminator.h", "trace"},
