@@ -160,6 +160,7 @@ Expected<Image<glm::vec3>> decode_radiance(const std::string& file, std::span<co
   const int size = static_cast<int>(bytes.size());
   int width = 0, height = 0, channels = 0;
   if (stbi_info_from_memory(bytes.data(), size, &width, &height, &channels) == 0) return fail(stbi_failure_reason());
+  if (width < 1 || height < 1) return fail("it has no size that can be");
   // As it is decoded, the copy, and an environment's sums.
   if (!limit.take(file, "the environment", static_cast<std::uint64_t>(width) * static_cast<std::uint64_t>(height),
                   2 * sizeof(glm::vec3) + sizeof(float)))
