@@ -9,7 +9,7 @@
 #include "core/image/exr_open.h"
 #include "core/scene/input_file.h"
 #include "core/scene/memory_limit.h"
-#include "core/scene/texture_file.h"
+#include "core/scene/radiance.h"
 #include "pinocchio/environment.h"
 
 namespace pinocchio {
