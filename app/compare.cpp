@@ -88,9 +88,12 @@ PairResult compare_pair(const PicturePair& pair, const Options& options, const s
   return result;
 }
 
-// Of one pair the file itself; of several NAME.png in that folder.
-std::string heatmap_of(const Options& options, const PicturePair& pair, bool several) {
-  if (options.heatmap.empty() || !several) return options.heatmap;
+// Folders and sequences, however many pictures they hold.
+bool holds_several(const Options& options, const PicturePair& pair) { return pair.a != options.a && pair.b != options.b; }
+
+// Of two pictures the file itself; of folders and sequences NAME.png in that folder.
+std::string heatmap_of(const Options& options, const PicturePair& pair) {
+  if (options.heatmap.empty() || !holds_several(options, pair)) return options.heatmap;
   return (std::filesystem::path(options.heatmap) / (pair.name + ".png")).string();
 }
 
@@ -108,22 +111,23 @@ void check_files(const Options& options, const std::vector<PicturePair>& pairs) 
   for (const PicturePair& pair : pairs) {
     inputs.push_back({"A", pair.a});
     inputs.push_back({"B", pair.b});
-    outputs.push_back({"--heatmap", heatmap_of(options, pair, pairs.size() > 1)});
+    outputs.push_back({"--heatmap", heatmap_of(options, pair)});
   }
   check_apart(inputs, outputs);
+  const bool several = holds_several(options, pairs.front());
   // There they would be pictures to the next comparison.
   for (const std::string& compared : {options.a, options.b})
-    if (pairs.size() > 1 && is_within(options.heatmap, compared))
+    if (several && is_within(options.heatmap, compared))
       throw Exit(kUsage, "--heatmap " + options.heatmap + ": within " + compared + ", whose pictures are compared; choose another folder");
-  if (pairs.size() > 1 && !options.heatmap.empty()) make_folder(options.heatmap);
-  if (pairs.size() == 1 && !options.heatmap.empty()) check_writable(options.heatmap);
+  if (several && !options.heatmap.empty()) make_folder(options.heatmap);
+  if (!several && !options.heatmap.empty()) check_writable(options.heatmap);
   if (!options.junit.empty()) check_writable(options.junit);
 }
 
 void report(const std::vector<PairResult>& results, const Options& options) {
   const float ppd = options.compare.pixels_per_degree;
   if (!options.junit.empty()) write_text(options.junit, junit_xml(results));
-  const bool several = results.size() > 1;
+  const bool several = holds_several(options, results.front().pair);
   if (options.json) {
     const nlohmann::json json = several ? all_json(results, ppd) : pair_json(results.front(), ppd);
     // Names of files may be no UTF-8.
@@ -143,7 +147,7 @@ int run(const Options& options) {
   std::vector<PairResult> results;
   for (const PicturePair& pair : pairs) {
     throw_if_cancelled(&run_progress());
-    results.push_back(compare_pair(pair, options, heatmap_of(options, pair, pairs.size() > 1), workers));
+    results.push_back(compare_pair(pair, options, heatmap_of(options, pair), workers));
   }
   report(results, options);
   const auto bad = [](const PairResult& result) { return result.code != kDone; };
@@ -175,7 +179,7 @@ Run add_compare(CLI::App& program) {
       ->allow_extra_args(false);
   verb.add_flag("--channels", options->compare.all_channels, "compare every channel that both files have");
   verb.add_option("--heatmap", options->heatmap,
-                  "write FLIP's errors as a PNG, black to yellow; of several pairs: a folder for them");
+                  "write FLIP's errors as a PNG, black to yellow; of folders and sequences: a folder for them");
   verb.add_option_function<std::vector<std::string>>(
           "--max-error",
           [options](const std::vector<std::string>& texts) {
