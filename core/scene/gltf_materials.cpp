@@ -144,7 +144,7 @@ std::vector<bool> colored_materials(const tinygltf::Model& model) {
 }
 
 // What primitives without a material have: as if the file had an empty one (glTF 2.0, "Default Material").
-tinygltf::Material default_material() {
+tinygltf::Material empty_material() {
   tinygltf::Material material;
   material.name = "default";
   return material;
@@ -155,7 +155,7 @@ tinygltf::Material default_material() {
 void add_gltf_materials(const GltfFile& file, MeshData& mesh) {
   const std::vector<bool> colored = colored_materials(file.model);
   for (std::size_t i = 0; i <= file.model.materials.size(); ++i) {
-    const tinygltf::Material m = i < file.model.materials.size() ? file.model.materials[i] : default_material();
+    const tinygltf::Material m = i < file.model.materials.size() ? file.model.materials[i] : empty_material();
     MaterialMaps maps = maps_of(file, m);
     maps.vertex_colors = colored[i];
     Material material = material_of(m, surface_of(m), maps);

@@ -183,7 +183,6 @@ TEST(Maps, EachOfManySamplesAveragesTexturesOverItsShareOfThePixel) {
     return error_figures(rgb_of(picture).pixels(), rgb_of(truth).pixels()).rmse;
   };
   EXPECT_LT(error(traced), error(draw("raytrace", false)));  // they alias
-  EXPECT_LT(error(traced), error(precise_mean(scene, kSamples, 1.0f, workers)));  // they blur
 }
 
 TEST(Maps, WidthOfLanesAndThreadsChangeNothing) {
