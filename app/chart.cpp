@@ -65,7 +65,7 @@ class ChartRun {
     DrawOptions& draw = options_.draw;
     if (!options_.size_given) draw.size = options_.quick ? kQuickSize : kDefaultSize;
     if (!draw.environment.empty())
-      throw Exit(kUsage, "--environment: the reference, which charts measure against, knows none");
+      throw Exit(kUsage, "--environment: charts measure against the reference, which draws none; leave it out");
     Scene scene = load_scene_for(draw);
     const std::vector<View> views = motion(scene);
     // Charted as it stands at one time.
@@ -82,6 +82,7 @@ class ChartRun {
                     options_.only});
     Results results =
         value_or_exit(Results::open(folder_, run_json(drawing, views), options_.restart), kUsage);
+    if (results.json()["points"].empty()) forget_references(folder_ / "pictures");
     Bench bench(drawing.engine(), drawing.request({}, {}), bench_settings(), views, folder_);
     measure(drawing.engine(), bench, sweep, results);
     return finish(results);

@@ -20,7 +20,7 @@ install(DIRECTORY examples DESTINATION share/doc/pinocchio COMPONENT library)
 
 install(TARGETS pinocchio RUNTIME_DEPENDENCY_SET pinocchio_libraries DESTINATION bin COMPONENT program)
 install(DIRECTORY scenes DESTINATION share/pinocchio COMPONENT program PATTERN generator EXCLUDE)
-install(FILES bench/chart/charts.py bench/chart/plot.py DESTINATION share/pinocchio/chart COMPONENT program)
+install(FILES bench/chart/charts.py bench/chart/explore.html bench/chart/overview.py bench/chart/plot.py DESTINATION share/pinocchio/chart COMPONENT program)
 install(FILES README.md LICENSE CHANGELOG.md CONTRIBUTING.md DESTINATION share/doc/pinocchio COMPONENT program)
 install(DIRECTORY docs DESTINATION share/doc/pinocchio COMPONENT program)
 

@@ -46,7 +46,7 @@ Bench::Bench(Engine& engine, FrameRequest base, const BenchSettings& settings, s
       settings_(settings),
       views_(std::move(views)),
       folder_(std::move(folder)),
-      ground_truth_(last_.scene, last_.settings.depth, settings_.area_side, views_, engine.workers(),
+      ground_truth_(last_.scene, last_.settings.depth, settings_.area_side, views_, folder_ / "pictures", engine.workers(),
                     settings_.progress),
       raster_(engine, raster_only(last_), settings_.progress) {}
 
@@ -73,7 +73,7 @@ void Bench::measure_time(const FrameRequest& request, PointFigures& figures) {
     (void)renderer.draw(views_);
     warm_ = true;
   }
-  std::vector<double> ratios, frame_ms, raster_ms, cpu_ms, raster_cpu_ms, latency_ms;
+  std::vector<double> ratios, frame_ms, round_ms, raster_ms, cpu_ms, raster_cpu_ms, latency_ms;
   const bool by_cpu = settings_.clock == Clock::cpu;
   TimedRenderer::Round round;
   for (int i = 0; i < settings_.rounds; ++i) {
@@ -81,6 +81,7 @@ void Bench::measure_time(const FrameRequest& request, PointFigures& figures) {
     round = renderer.draw(views_);
     ratios.push_back(by_cpu ? round.cpu_ms / raster.cpu_ms : round.frame_ms / raster.frame_ms);
     frame_ms.push_back(round.least_ms);
+    round_ms.push_back(round.frame_ms);
     raster_ms.push_back(raster.least_ms);
     cpu_ms.push_back(round.cpu_ms);
     raster_cpu_ms.push_back(raster.cpu_ms);
@@ -90,6 +91,9 @@ void Bench::measure_time(const FrameRequest& request, PointFigures& figures) {
     return *std::min_element(values.begin(), values.end());
   };
   figures.frame_ms = least(frame_ms);
+  figures.round_low_ms = least(round_ms);
+  figures.round_high_ms = *std::ranges::max_element(round_ms);
+  figures.round_ms = median(std::move(round_ms));
   figures.raster_ms = least(raster_ms);
   figures.cpu_ms = least(cpu_ms);
   figures.raster_cpu_ms = least(raster_cpu_ms);
@@ -128,6 +132,7 @@ void Bench::measure_error(const Configuration& configuration, const FrameRequest
     figures.rmse += error.rgb.rmse / static_cast<double>(compared.size());
     figures.relative_mse += error.rgb.relative_mse / static_cast<double>(compared.size());
     figures.flip += error.mean_flip / static_cast<double>(compared.size());
+    figures.worst = std::max(figures.worst, error.rgb.max_difference);
     if (frame == compared.back())
       write_pictures(configuration.name(), color, error, ground_truth_.reference(frame, area), area);
   }

@@ -26,8 +26,8 @@ CLOCKS = {"frame": "frame time", "cpu": "processor time a frame"}
 METRICS = {"flip": "mean FLIP", "rmse": "RMSE", "relmse": "relative MSE"}
 AXES = {}  # names and titles, in their order: results.json has them
 COLOURS = ["#3b6fb6", "#d1495b", "#2a9d8f", "#e09f3e", "#7d5ba6", "#5c946e", "#b56576", "#4d908e",
-           "#c9713a", "#6c757d", "#8d99ae", "#a26769", "#577590", "#9a8c98", "#386641", "#111111"]
-MARKERS = "osD^vPX<>phd8H*P"
+           "#c9713a", "#6c757d", "#8d99ae", "#a26769", "#577590", "#9a8c98", "#386641", "#111111", "#1098ad"]
+MARKERS = "osD^vPX<>phd8H*PX"
 FRONT_COLOUR = "#222222"
 
 

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""plot.py DIR: draws index.html and its charts (SVG) out of DIR/results.json, as 'pinocchio chart' writes it.
+"""plot.py DIR: draws index.html with its charts (SVG), and explore.html, out of DIR/results.json, as 'pinocchio chart' writes it.
 
 Exit codes: 0 done, 1 failed, 3 matplotlib is missing.
 """
@@ -10,6 +10,7 @@ import sys
 
 sys.dont_write_bytecode = True  # charts.py's folder may be the system's
 from charts import CLOCKS, draw_charts, named, write_whole
+from overview import explore_page
 
 STYLE = """body{font:15px/1.5 system-ui,sans-serif;color:#222;max-width:1180px;margin:2em auto;padding:0 1em}
 h1{font-size:1.6em}h2{font-size:1.2em;margin-top:2em}code{font:13px ui-monospace,monospace}
@@ -82,8 +83,10 @@ def page(folder, results):
     title = f"{html.escape(run['scene']['name'])}: error against time"
     reference = ("<img src='pictures/reference-centre.png' alt='reference'>"
                  if (folder / "pictures/reference-centre.png").exists() else "")
+    explore_page(folder / "explore.html", [{**results, "picture": folder / "pictures/reference-centre.png"}])
     parts = [f"<!doctype html><html lang=en><meta charset=utf-8><title>{title}</title><style>{STYLE}</style>",
-             f"<h1>{title}</h1>", intro(run), reference]
+             f"<h1>{title}</h1>", intro(run), reference,
+             "<p><a href='explore.html'>The same with the pointer</a>: each mark says what to type.</p>"]
     parts += [f"<img class=chart src='{name}' alt='{alt}'>" for name, alt in charts]
     parts += ["<h2>Axis by axis</h2><div class=panels>"]
     parts += [f"<img src='{name}' alt='{alt}'>" for name, alt in panels]

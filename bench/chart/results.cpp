@@ -16,8 +16,9 @@ namespace {
 
 constexpr std::array kFigures{
     "ratio",      "ratio_median",   "frame_ms",   "raster_ms",        "cpu_ms",           "raster_cpu_ms",
+    "round_ms",   "round_low_ms",   "round_high_ms",
     "latency_ms", "latency_frames", "age_frames", "bytes_gpu_to_cpu", "bytes_cpu_to_gpu", "reference",
-    "rmse",       "relmse",         "flip"};
+    "rmse",       "relmse",         "flip",       "worst"};
 
 // A chart: its name, and what its axes are.
 struct Front {
@@ -86,6 +87,9 @@ std::vector<std::size_t> on_charts(const nlohmann::json& points) {
 nlohmann::json to_json(const PointFigures& f) {
   nlohmann::json json{{"ratio_median", f.ratio_median},
                       {"frame_ms", f.frame_ms},
+                      {"round_ms", f.round_ms},
+                      {"round_low_ms", f.round_low_ms},
+                      {"round_high_ms", f.round_high_ms},
                       {"raster_ms", f.raster_ms},
                       {"cpu_ms", f.cpu_ms},
                       {"raster_cpu_ms", f.raster_cpu_ms},
@@ -97,9 +101,10 @@ nlohmann::json to_json(const PointFigures& f) {
                       {"reference", f.reference},
                       {"rmse", f.rmse},
                       {"relmse", f.relative_mse},
-                      {"flip", f.flip}};
+                      {"flip", f.flip},
+                      {"worst", f.worst}};
   if (f.failure.empty()) return json;
-  for (const char* error : {"rmse", "relmse", "flip"}) json[error] = nullptr;
+  for (const char* error : {"rmse", "relmse", "flip", "worst"}) json[error] = nullptr;
   json["failure"] = f.failure;
   return json;
 }

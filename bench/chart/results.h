@@ -15,6 +15,7 @@ namespace pinocchio::chart {
 struct PointFigures {
   double ratio_median = 0.0;                 // to raster-only's of the same round, by the run's clock
   double frame_ms = 0.0, raster_ms = 0.0;    // of the fastest frames in a row
+  double round_ms = 0.0, round_low_ms = 0.0, round_high_ms = 0.0;  // of whole rounds: median, least, most
   double cpu_ms = 0.0, raster_cpu_ms = 0.0;  // of all threads, a frame; least of the rounds
   double latency_ms = 0.0;  // camera sampled to picture delivered, least of the rounds' medians
   int latency_frames = 0, age_frames = 0;
@@ -22,6 +23,7 @@ struct PointFigures {
   // Of what is on the screen against what should be there then; means over frames.
   std::string reference;  // Configuration::reference
   double rmse = 0.0, relative_mse = 0.0, flip = 0.0;
+  double worst = 0.0;   // largest difference of any pixel's colour, linear
   std::string failure;  // why there are no errors: NaN or infinity in the picture
 };
 [[nodiscard]] nlohmann::json to_json(const PointFigures& figures);

@@ -50,6 +50,19 @@ Values choices_of(std::string_view field) {
   return values;
 }
 
+// Everything that is rounded on its way, each way of it.
+Values precisions(const SweepRequest&) {
+  return {{"no exchange", {{"mode", "raytrace"}}},
+          {"reflection float", {{"reflection", "float"}}},
+          {"reflection half", {{"reflection", "half"}}},
+          {"reflection shared exponent", {{"reflection", "rgb9e5"}}},
+          {"reflection sRGB bytes", {{"reflection", "rgb8"}}},
+          {"ids of 32 bits", {{"id_bits", "32"}}, kFull},
+          {"packed normals beside", {{"normals", "true"}}, kFull},
+          {"pictures of sRGB bytes", {{"design", "2"}}},
+          {"128-bit surfaces beside", {{"design", "2"}, {"wide", "true"}}, kFull}};
+}
+
 Values scales(std::string_view field) {
   return {{"1", {{field, "1"}}}, {"1/2", {{field, "2"}}}, {"1/4", {{field, "4"}}}};
 }
@@ -133,6 +146,7 @@ constexpr std::array kAxes{
     Axis{{"primary", "who finds what is seen"}, visibilities},
     Axis{{"reflection-format", "reflection, format"},
          [](const SweepRequest&) { return choices_of("reflection"); }},
+    Axis{{"precision", "precision of what travels"}, precisions},
     Axis{{"reflection-scale", "reflection, resolution"},
          [](const SweepRequest&) { return scales("reflection_scale"); }},
     Axis{{"mask-scale", "shadow mask, resolution"}, [](const SweepRequest&) { return scales("mask_scale"); }},

@@ -1,6 +1,9 @@
 // A frame as Embree's tutorials draw it: tiles of 8 x 8 pixels shared out among threads; for each pixel one ray at a
 // time, its shading, a shadow ray to each light. scripts/peers runs it.
 // pinocchio-embree-frame JOB.json: prints {"frame_ms": [...]}
+// Where the job names a "scene", not a "mesh": its whole picture, with mirrors and glass, for each of "cameras"
+// (embree_picture.h); scripts/accuracy charts it. "save": {"FRAME": "FILE.exr"} keeps pictures; "export": "FILE.obj"
+// is written for other programs, and "lights" are printed.
 #include <embree3/rtcore.h>
 #include <pmmintrin.h>
 #include <xmmintrin.h>
@@ -11,11 +14,15 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 
+#include "bench/peers/embree_picture.h"
+#include "bench/peers/embree_rays.h"
 #include "core/base/clock.h"
 #include "core/parallel/workers.h"
 #include "core/trace/view_params.h"
+#include "pinocchio/exr.h"
 #include "pinocchio/image.h"
 #include "pinocchio/load.h"
+#include "pinocchio/save.h"
 
 namespace pinocchio {
 namespace {
@@ -37,9 +44,7 @@ glm::vec3 vec3_of(const nlohmann::json& json) {
   return {json.at(0).get<float>(), json.at(1).get<float>(), json.at(2).get<float>()};
 }
 
-Job read_job(const char* file) {
-  std::ifstream in(file);
-  const nlohmann::json json = nlohmann::json::parse(in);
+Job read_job(const nlohmann::json& json) {
   Job job;
   job.scene = load_scene(json.at("mesh").get<std::string>()).value();
   for (const nlohmann::json& eye : json.at("eyes")) job.eyes.push_back(vec3_of(eye));
@@ -52,37 +57,11 @@ Job read_job(const char* file) {
   return job;
 }
 
-RTCScene build(RTCDevice device, const Mesh& mesh) {
-  RTCGeometry geometry = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_TRIANGLE);
-  auto* const positions = static_cast<glm::vec3*>(rtcSetNewGeometryBuffer(
-      geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, sizeof(glm::vec3), mesh.positions.size()));
-  std::copy(mesh.positions.begin(), mesh.positions.end(), positions);
-  auto* const triangles = static_cast<glm::uvec3*>(rtcSetNewGeometryBuffer(
-      geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, sizeof(glm::uvec3), mesh.triangles.size()));
-  std::copy(mesh.triangles.begin(), mesh.triangles.end(), triangles);
-  rtcCommitGeometry(geometry);
-  RTCScene scene = rtcNewScene(device);
-  rtcAttachGeometry(scene, geometry);
-  rtcReleaseGeometry(geometry);
-  rtcCommitScene(scene);
-  return scene;
-}
-
-RTCRay ray_from(const glm::vec3& p, const glm::vec3& d, float t_far) {
-  RTCRay ray{};
-  ray.org_x = p.x, ray.org_y = p.y, ray.org_z = p.z;
-  ray.dir_x = d.x, ray.dir_y = d.y, ray.dir_z = d.z;
-  ray.tfar = t_far;
-  ray.mask = ~0u;
-  return ray;
-}
-
 glm::vec4 shade_pixel(RTCScene scene, const Job& job, const shared::ViewParams& view, int x, int y) {
   RTCIntersectContext context;
   rtcInitIntersectContext(&context);
   const Ray eye_ray = pixel_ray(view, x, y);
-  RTCRayHit seen{ray_from(eye_ray.origin, eye_ray.direction, kInfinity), {}};
-  seen.hit.geomID = RTC_INVALID_GEOMETRY_ID;
+  RTCRayHit seen = embree_ray(eye_ray.origin, eye_ray.direction, kInfinity);
   rtcIntersect1(scene, &context, &seen);
   if (seen.hit.geomID == RTC_INVALID_GEOMETRY_ID) return glm::vec4(0.0f);
   const glm::vec3 to_eye = -glm::normalize(eye_ray.direction);
@@ -93,7 +72,7 @@ glm::vec4 shade_pixel(RTCScene scene, const Job& job, const shared::ViewParams& 
   for (const glm::vec3& light : job.lights) {
     const glm::vec3 to_light = light - p, l = glm::normalize(to_light);
     if (glm::dot(n, l) <= 0.0f) continue;
-    RTCRay shadow = ray_from(p, to_light, 1.0f);
+    RTCRay shadow = embree_ray(p, to_light, 1.0f).ray;
     shadow.tnear = kOffset;
     rtcOccluded1(scene, &context, &shadow);
     if (shadow.tfar < 0.0f) continue;
@@ -114,12 +93,9 @@ void draw(RTCScene scene, const Job& job, Workers& workers, Image<glm::vec4>& pi
   });
 }
 
-int run(const char* job_file) {
-  _MM_SET_FLUSH_ZERO_MODE(_MM_FLUSH_ZERO_ON);
-  _MM_SET_DENORMALS_ZERO_MODE(_MM_DENORMALS_ZERO_ON);
-  Job job = read_job(job_file);
+int run(Job job) {
   RTCDevice device = rtcNewDevice(("threads=" + std::to_string(job.threads)).c_str());
-  RTCScene scene = build(device, *job.scene.mesh);
+  RTCScene scene = embree_scene_of(device, *job.scene.mesh);
   Workers workers(job.threads);
   Image<glm::vec4> picture(job.size);
   nlohmann::json frame_ms = nlohmann::json::array();
@@ -138,6 +114,71 @@ int run(const char* job_file) {
   return 0;
 }
 
+Camera camera_of(const nlohmann::json& json) {
+  Camera camera;
+  camera.eye = vec3_of(json.at("eye"));
+  camera.target = vec3_of(json.at("target"));
+  camera.up = vec3_of(json.at("up"));
+  camera.fov_deg = json.at("fov").get<float>();
+  return camera;
+}
+
+void save(const Image<glm::vec4>& picture, const std::string& file) {
+  ExrFile exr;
+  exr.display_size = picture.size();
+  exr.data_window = {{0, 0}, picture.size()};
+  for (int i = 0; i < 4; ++i) {
+    ExrChannel& channel = exr.channels.emplace_back();
+    channel.name = std::string("RGBA").substr(static_cast<std::size_t>(i), 1);
+    channel.type = ExrChannel::Type::real;
+    for (const glm::vec4& pixel : picture.pixels()) channel.values.push_back(pixel[i]);
+  }
+  write_exr(file, exr);
+}
+
+nlohmann::json described(const std::vector<Light>& lights) {
+  const auto list = [](const glm::vec3& v) { return nlohmann::json{v.x, v.y, v.z}; };
+  nlohmann::json described = nlohmann::json::array();
+  for (const Light& light : lights)
+    described.push_back({{"directional", light.kind == Light::Kind::directional},
+                         {"position", list(light.position)},
+                         {"direction", list(light.direction)},
+                         {"radiance", list(light.color * light.intensity)},
+                         {"inverse_square", light.falloff == Light::Falloff::inverse_square}});
+  return described;
+}
+
+int run_scene(const nlohmann::json& json) {
+  Scene scene = load_scene(json.at("scene").get<std::string>()).value();
+  if (scene.lights.empty()) scene.lights.push_back(default_light(scene, camera_of(json.at("cameras").front())));
+  if (json.contains("export")) save_scene(scene, json.at("export").get<std::string>());
+  const EmbreePicture embree(scene, json.at("threads").get<int>(), json.at("depth").get<int>());
+  Workers workers(json.at("threads").get<int>());
+  Image<glm::vec4> picture({json.at("size").at(0).get<int>(), json.at("size").at(1).get<int>()});
+  nlohmann::json frame_ms = nlohmann::json::array();
+  for (int round = 0; round < json.at("rounds").get<int>(); ++round)
+    for (std::size_t i = 0; i < json.at("cameras").size(); ++i) {
+      const double begin_s = now_s();
+      embree.draw(camera_of(json.at("cameras").at(i)), workers, picture);
+      frame_ms.push_back(1e3 * (now_s() - begin_s));
+      if (round == 0 && json.at("save").contains(std::to_string(i)))
+        save(picture, json.at("save").at(std::to_string(i)).get<std::string>());
+    }
+  const bool brdf = std::ranges::any_of(scene.mesh->materials, &Material::brdf) ||
+                    std::ranges::any_of(scene.mesh->maps, &MaterialMaps::from_gltf);
+  const nlohmann::json lights{{"all", described(scene.lights)}, {"count_pi", !brdf}};
+  std::printf("%s\n", nlohmann::json{{"frame_ms", frame_ms}, {"lights", lights}}.dump().c_str());
+  return 0;
+}
+
+int run_job(const char* job_file) {
+  _MM_SET_FLUSH_ZERO_MODE(_MM_FLUSH_ZERO_ON);
+  _MM_SET_DENORMALS_ZERO_MODE(_MM_DENORMALS_ZERO_ON);
+  std::ifstream in(job_file);
+  const nlohmann::json json = nlohmann::json::parse(in);
+  return json.contains("scene") ? run_scene(json) : run(read_job(json));
+}
+
 }  // namespace
 }  // namespace pinocchio
 
@@ -147,7 +188,7 @@ int main(int argc, char** argv) {
     return 2;
   }
   try {
-    return pinocchio::run(argv[1]);
+    return pinocchio::run_job(argv[1]);
   } catch (const std::exception& error) {
     std::fprintf(stderr, "pinocchio-embree-frame: %s\n", error.what());
     return 1;

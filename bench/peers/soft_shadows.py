@@ -57,12 +57,12 @@ def scene_gltf(light, plate):
                      "uri": "data:application/octet-stream;base64," + base64.b64encode(data).decode()}]}
 
 
-def ours(arguments, name, light, plate):
+def ours(arguments, name, light, plate, seed=0):
     stem = arguments.folder / f"{name.replace(' ', '-')}{'' if plate else '-open'}"
     stem.with_suffix(".gltf").write_text(json.dumps(scene_gltf(light, plate)))
     view = ["--size", "%dx%d" % SIZE, "--eye", "%g,%g,%g" % EYE, "--target", "%g,%g,%g" % TARGET, "--fov", str(FOV)]
     subprocess.run([arguments.pinocchio, "render", str(stem.with_suffix(".gltf")), *view, "--mode", arguments.mode,
-                    "--spp", str(arguments.spp), *arguments.option, "--quiet", "--aov", "none", "-o", str(stem.with_suffix(".exr"))],
+                    "--spp", str(arguments.spp), "--seed", str(seed), *arguments.option, "--quiet", "--aov", "none", "-o", str(stem.with_suffix(".exr"))],
                    check=True)
     bitmap = mitsuba.Bitmap(str(stem.with_suffix(".exr")))
     return numpy.array(bitmap.convert(mitsuba.Bitmap.PixelFormat.RGB, mitsuba.Struct.Type.Float32, False))[..., 0]
@@ -78,7 +78,7 @@ def square(corners):
             "bsdf": {"type": "twosided", "bsdf": {"type": "diffuse", "reflectance": {"type": "spectrum", "value": ALBEDO}}}}
 
 
-def theirs(arguments, light, plate):
+def theirs(arguments, light, plate, seed=0):
     if "sides" in light:
         u, v = light["sides"]
         radiance = INTENSITY / (u * v)
@@ -97,7 +97,7 @@ def theirs(arguments, light, plate):
                         "sampler": {"type": "multijitter", "sample_count": arguments.truth}}}
     if plate:
         scene["plate"] = square(PLATE)
-    return numpy.array(mitsuba.render(mitsuba.load_dict(scene)))[..., 0]
+    return numpy.array(mitsuba.render(mitsuba.load_dict(scene), seed=seed))[..., 0]
 
 
 def compared(arguments, name, light):
@@ -106,9 +106,19 @@ def compared(arguments, name, light):
     mine, mine_open, truth, truth_open = pictures
     mine_rows, truth_rows = ((a.sum(1) / b.sum(1)) for a, b in ((mine, mine_open), (truth, truth_open)))
     penumbra = (truth / truth_open > 0.02) & (truth / truth_open < 0.98)
-    return {"unshadowed": float(mine_open.sum() / truth_open.sum() - 1),
+    level = truth[penumbra].mean()
+
+    def rms(difference):
+        return float(numpy.sqrt((difference[penumbra] ** 2).mean()) / level)
+
+    # Two pictures of independent samples differ by both their errors.
+    mine_noise = rms(mine - ours(arguments, name, light, True, seed=1)) / math.sqrt(2)
+    truth_noise = rms(truth - theirs(arguments, light, True, seed=1)) / math.sqrt(2)
+    return {"our noise": mine_noise, "their noise": truth_noise,
+            "what neither explains": math.sqrt(max(0.0, rms(mine - truth) ** 2 - mine_noise ** 2 - truth_noise ** 2)),
+            "unshadowed": float(mine_open.sum() / truth_open.sum() - 1),
             "mean of the penumbra": float(mine[penumbra].sum() / truth[penumbra].sum() - 1),
-            "pixels of the penumbra, rms": float(numpy.sqrt(((mine - truth)[penumbra] ** 2).mean()) / truth[penumbra].mean()),
+            "pixels of the penumbra, rms": rms(mine - truth),
             "visibility by row, largest": float(abs(mine_rows - truth_rows).max()),
             "rows": truth_rows.tolist()}
 
@@ -125,13 +135,14 @@ def main():
     arguments = parser.parse_args()
     arguments.folder.mkdir(parents=True, exist_ok=True)
     mitsuba.set_variant("scalar_rgb")
-    print("| light | unshadowed | mean of the penumbra | its pixels, rms | visibility by row, largest |")
-    print("|---|---|---|---|---|")
+    print("| light | unshadowed | mean of the penumbra | visibility by row, largest | its pixels, rms | our noise | Mitsuba's | the rest |")
+    print("|---|---|---|---|---|---|---|---|")
     for name, light in LIGHTS.items():
         found = compared(arguments, name, light)
-        print("| %s | %.2f %% | %.2f %% | %.2f %% | %.4f |" % (
-            name, *(100 * found[k] for k in ("unshadowed", "mean of the penumbra", "pixels of the penumbra, rms")),
-            found["visibility by row, largest"]), flush=True)
+        shown = [100 * found[k] for k in ("unshadowed", "mean of the penumbra", "pixels of the penumbra, rms", "our noise",
+                                          "their noise", "what neither explains")]
+        print("| %s | %.2f %% | %.2f %% | %.4f | %.2f %% | %.2f %% | %.2f %% | %.2f %% |" % (
+            name, *shown[:2], found["visibility by row, largest"], *shown[2:]), flush=True)
         if arguments.table:
             print("{" + ", ".join("%.4ff" % v for v in found["rows"]) + "}")
 

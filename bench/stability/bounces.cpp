@@ -110,26 +110,34 @@ FailureCount total_reflection(const Method& method, int rays) {
   return count;
 }
 
-// A closed room of perfect mirrors that glow a little: every bounce adds the same, so that every pixel is
-// depth times that, if no ray gets out.
-FailureCount mirror_to_mirror(const Method& method, int rays) {
-  constexpr int kDepth = 32;
+// A closed room whose walls glow a little and keep all light: every bounce adds the same, so that every pixel is
+// that times `bounces`, if no ray gets out. `draw` draws its reflection; `error`: how far off by rounding.
+template <class Draw>
+FailureCount even_room(Material wall, int bounces, float error, const Draw& draw) {
   constexpr float kGlow = 0x1p-6f;
-  Material mirror = glowing("", glm::vec3(kGlow));
-  mirror.reflectance = glm::vec3(1.0f);
+  wall.emission = glm::vec3(kGlow);
   FailureCount count;
   for (const float size : kSizes) {
     MeshData mesh;
-    append(mesh, box(-size * glm::vec3(1, 0.5f, 0.5f), size * glm::vec3(1, 0.5f, 0.5f), 8), mirror);
+    append(mesh, box(-size * glm::vec3(1, 0.5f, 0.5f), size * glm::vec3(1, 0.5f, 0.5f), 8), wall);
     const Camera camera{"", glm::vec3(0.0f), size * glm::vec3(1.0f, 0.1f, 0.2f), {0, 1, 0}, 90.0f};
-    Drawn drawn = draw(Scene(std::move(mesh)), camera, method, rays / 2, kDepth);
+    Drawn drawn = draw(Scene(std::move(mesh)), camera);
     for (const glm::vec3& radiance : drawn.radiance.pixels()) {
       ++drawn.count.trials;
-      drawn.count.failures += radiance.x == kGlow * static_cast<float>(kDepth) ? 0 : 1;
+      drawn.count.failures += std::abs(radiance.x / (kGlow * static_cast<float>(bounces)) - 1.0f) <= error ? 0 : 1;
     }
     count += drawn.count;
   }
   return count;
+}
+
+FailureCount mirror_to_mirror(const Method& method, int rays) {
+  constexpr int kDepth = 32;
+  Material mirror = glowing("", glm::vec3(0.0f));
+  mirror.reflectance = glm::vec3(1.0f);
+  return even_room(mirror, kDepth, 0.0f, [&](const Scene& scene, const Camera& camera) {
+    return draw(scene, camera, method, rays / 2, kDepth);
+  });
 }
 
 // Light by samples, of the environment and of `indirect` bounces between matt surfaces.
@@ -174,24 +182,12 @@ FailureCount sky_outside(const Method& method, int rays) {
   return count;
 }
 
-// In a closed matt room that glows and keeps all light, every bounce adds the same.
 FailureCount white_room(const Method& method, int rays) {
-  constexpr float kGlow = 0x1p-6f;
-  Material white = glowing("", glm::vec3(kGlow));
+  Material white = glowing("", glm::vec3(0.0f));
   white.diffuse = glm::vec3(1.0f);
-  FailureCount count;
-  for (const float size : kSizes) {
-    MeshData mesh;
-    append(mesh, box(-size * glm::vec3(1, 0.5f, 0.5f), size * glm::vec3(1, 0.5f, 0.5f), 8), white);
-    const Camera camera{"", glm::vec3(0.0f), size * glm::vec3(1.0f, 0.1f, 0.2f), {0, 1, 0}, 90.0f};
-    Drawn drawn = draw_samples(Scene(std::move(mesh)), camera, method, rays / 2, kMattBounces);
-    for (const glm::vec3& radiance : drawn.radiance.pixels()) {
-      ++drawn.count.trials;
-      drawn.count.failures += std::abs(radiance.x / (kGlow * kMattBounces) - 1.0f) < 1e-4f ? 0 : 1;
-    }
-    count += drawn.count;
-  }
-  return count;
+  return even_room(white, kMattBounces, 1e-4f, [&](const Scene& scene, const Camera& camera) {
+    return draw_samples(scene, camera, method, rays / 2, kMattBounces);
+  });
 }
 
 constexpr std::array kBounceCases{

@@ -80,6 +80,7 @@ constexpr std::array kPictureCases{
     PictureStressCase{"grazing triangles", run_shot<grazing_triangles>},
     PictureStressCase{"sub-pixel triangles", run_shot<sub_pixel_triangles>},
     PictureStressCase{"near-plane clipping", run_shot<near_plane>},
+    PictureStressCase{"leaves with holes", run_shot<foliage>},
     PictureStressCase{"z-fighting planes", run_shot<z_fighting>},
     PictureStressCase{"ball of light through a wall", run_shot<ball_touches_wall>},
     PictureStressCase{"ball of light around all", run_shot<ball_around_room>},

@@ -36,10 +36,9 @@ struct PictureStressCase {
   // side: pixels of a square picture.
   PictureFailureCount (*run)(Engine& engine, const DrawMethod& method, int side);
   std::string_view failure = "black or NaN pixels";
-  bool limit = false;
 };
 
-// Grazing and sub-pixel triangles, near-plane clipping, z-fighting planes; a fast turn, a cut, object edges.
+// Grazing and sub-pixel triangles, near-plane clipping, leaves with holes, z-fighting planes; a fast turn, a cut, object edges.
 [[nodiscard]] std::span<const PictureStressCase> picture_cases();
 
 }  // namespace pinocchio::stability

@@ -149,6 +149,13 @@ Shot near_plane() {
   return still(std::move(data), looking(eye, {3.0f, -0.6f, -3.0f}));
 }
 
+Shot foliage() {
+  MeshData data = room();
+  for (const glm::vec3& at : {glm::vec3(-1.5f, -0.5f, -1.0f), glm::vec3(1.2f, 0.3f, 0.2f), glm::vec3(0.0f, 1.5f, -2.5f)})
+    add_leaves(data, at, 1.4f, 12);
+  return still(std::move(data), looking({0.3f, 0.4f, 3.5f}, {0.0f, 0.0f, -1.0f}));
+}
+
 Shot z_fighting() {
   MeshData data = room();
   MeshBuilder mesh(data);

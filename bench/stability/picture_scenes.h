@@ -16,6 +16,7 @@ struct Shot {
 [[nodiscard]] Shot grazing_triangles();    // fins that are seen edge on
 [[nodiscard]] Shot sub_pixel_triangles();  // ten thousand, most smaller than a pixel
 [[nodiscard]] Shot near_plane();  // walls that the eye all but touches, and bars through the near plane
+[[nodiscard]] Shot foliage();     // leaves with holes, one close behind the other
 [[nodiscard]] Shot z_fighting();  // two floors of other triangles in one plane
 
 [[nodiscard]] Shot ball_touches_wall();    // a light with a radius that reaches through a wall

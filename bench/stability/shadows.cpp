@@ -5,6 +5,7 @@
 #include "bench/stability/count.h"
 #include "bench/stability/shapes.h"
 #include "core/trace/surface.h"
+#include "pinocchio/nodes.h"
 
 namespace pinocchio::stability {
 namespace {
@@ -145,6 +146,38 @@ FailureCount moved(const Method& method, int rays) {
   return count;
 }
 
+// Seen through a node that mirrors, flattens, shrinks or blows up: convex bodies stay convex, closed rooms closed.
+glm::mat4 scaling(float x, float y, float z) {
+  return glm::mat4(glm::mat3(x, 0, 0, 0, y, 0, 0, 0, z));
+}
+const std::array kNodes{scaling(-1, 1, 1), scaling(-0x1p-20f, -0x1p-20f, -0x1p-20f),
+                        scaling(0x1p-20f, -0x1p-20f, 0x1p-20f), scaling(1, -0x1p-5f, 1), scaling(-0x1p20f, 0x1p20f, 0x1p20f)};
+
+Set through_node(Set set, const glm::mat4& world_from_node) {
+  Scene scene(std::move(set.mesh));
+  const Mesh& mesh = *scene.mesh;
+  NodeTree tree;
+  tree.nodes.push_back({"", -1, glm::mat4(1.0f), 0, static_cast<std::uint32_t>(mesh.positions.size()), 0,
+                        static_cast<std::uint32_t>(mesh.triangles.size())});
+  RestPose rest;
+  rest.positions = mesh.positions;
+  rest.normals = mesh.normals;
+  tree.rest = std::make_shared<const RestPose>(std::move(rest));
+  scene.nodes = std::make_shared<const NodeTree>(std::move(tree));
+  set.mesh = *posed(scene, std::array{NodeTransform{0, world_from_node}}).value().mesh;
+  for (glm::vec3* const point : {&set.eye, &set.light.position, &set.center})
+    *point = glm::vec3(world_from_node * glm::vec4(*point, 1.0f));
+  return set;
+}
+
+template <MakeSet make, bool expected>
+FailureCount by_nodes(const Method& method, int rays) {
+  FailureCount count;
+  for (const glm::mat4& node : kNodes)
+    count += near_and_far(through_node(make(1.0f, glm::vec3(0.0f)), node), method, rays / 5, expected);
+  return count;
+}
+
 // A tile in the hole of a floor a million times its size, all in one plane.
 FailureCount beside_one_far_larger(const Method& method, int rays) {
   constexpr float kFar = 1e6f;
@@ -216,6 +249,8 @@ constexpr std::array kShadowCases{
     StressCase{"moved by 1e6 sizes: acne", "lit points in shadow", moved<lit_body, false>},
     StressCase{"scaled, closed room", "light leaks", scaled<dark_room, true>},
     StressCase{"moved, closed room", "light leaks", moved<dark_room, true>},
+    StressCase{"nodes that mirror and scale: acne", "lit points in shadow", by_nodes<lit_body, false>},
+    StressCase{"nodes that mirror and scale: room", "light leaks", by_nodes<dark_room, true>},
     StressCase{"beside one 1e6 times larger", "lit points in shadow", beside_one_far_larger},
     StressCase{"ball of light: acne", "lit points in shadow", scaled<lit_by_ball, false>},
     StressCase{"ball of light that touches: acne", "lit points in shadow", scaled<touched_by_ball, false>},

@@ -4,6 +4,7 @@
 #include <glm/gtc/constants.hpp>
 
 #include "scenes/generator/mesh_builder.h"
+#include "scenes/generator/paint.h"
 
 namespace pinocchio::stability {
 namespace {
@@ -128,6 +129,32 @@ MeshData ball_with_t_junctions(int around) {
     add(mesh, middle, b, c);
   }
   return mesh;
+}
+
+void add_leaves(MeshData& mesh, const glm::vec3& center, float size, int layers) {
+  constexpr int kTexels = 16;
+  Random random(47);
+  Image<glm::u8vec4> texels(glm::ivec2(kTexels), glm::u8vec4(255));
+  for (glm::u8vec4& texel : texels.pixels()) texel.a = random.between(0.0f, 1.0f) < 0.3f ? 255 : 0;
+  mesh.textures.edit().push_back({"leaf", std::move(texels)});
+  Material leaf = matt("leaf", {0.3f, 0.6f, 0.25f});
+  MaterialMaps& maps = make_maps(mesh, leaf);
+  maps.alpha_mode = AlphaMode::mask;
+  maps.alpha.texture = static_cast<int>(mesh.textures.size()) - 1;
+  mesh.materials.push_back(leaf);
+  mesh.texcoords.resize(mesh.positions.size());
+  for (int i = 0; i < layers; ++i) {
+    const auto first = static_cast<std::uint32_t>(mesh.positions.size());
+    const glm::vec2 shift(random.between(0.0f, 1.0f), random.between(0.0f, 1.0f));
+    const float z = size * (static_cast<float>(i) - 0.5f * static_cast<float>(layers)) * 0x1p-6f;
+    for (const glm::vec2& at : {glm::vec2(-1, -1), glm::vec2(1, -1), glm::vec2(1, 1), glm::vec2(-1, 1)}) {
+      mesh.positions.push_back(center + glm::vec3(size * at, z));
+      mesh.normals.emplace_back(0.0f);
+      mesh.texcoords.push_back(0.5f * at + shift);
+    }
+    for (const glm::uvec3& t : {glm::uvec3(0, 1, 2), glm::uvec3(0, 2, 3)}) mesh.triangles.push_back(t + first);
+    mesh.triangle_materials.resize(mesh.triangles.size(), static_cast<std::uint32_t>(mesh.materials.size()) - 1);
+  }
 }
 
 glm::vec3 random_point(Random& random, float reach) {

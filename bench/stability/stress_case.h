@@ -32,18 +32,18 @@ struct StressCase {
   // rays: how many trials to make, about; at edges five times as many, where each is dear fewer. They are the
   // same ones for every method.
   FailureCount (*run)(const Method& method, int rays);
-  bool limit = false;  // no method is without it: counted, not held to zero
 };
 
 // Rays against closed meshes, odd directions, odd triangles: leaks.cpp, directions.cpp, triangles.cpp.
 // Shadows and offsets at every scale: shadows.cpp. Shading normals
-// against facets: terminator.cpp. Mirrors and glass: bounces.cpp.
+// against facets: terminator.cpp. Mirrors and glass: bounces.cpp. Leaves: holes.cpp.
 [[nodiscard]] std::span<const StressCase> leak_cases();
 [[nodiscard]] std::span<const StressCase> direction_cases();
 [[nodiscard]] std::span<const StressCase> triangle_cases();
 [[nodiscard]] std::span<const StressCase> shadow_cases();
 [[nodiscard]] std::span<const StressCase> terminator_cases();
 [[nodiscard]] std::span<const StressCase> bounce_cases();
+[[nodiscard]] std::span<const StressCase> hole_cases();
 
 // All of the above, in that order.
 [[nodiscard]] std::vector<StressCase> all_cases();

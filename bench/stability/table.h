@@ -16,7 +16,6 @@ namespace pinocchio::stability {
 
 struct Cell {
   std::string stress_case, failure, method;
-  bool limit = false;  // no method is without it
   FailureCount count;
   double ratio = 0.0;  // of the seconds to the default's, in the same run
   nlohmann::json more;
@@ -31,7 +30,7 @@ struct Tables {
   Table rays, pictures;
 
   [[nodiscard]] std::string text() const;                // Markdown
-  [[nodiscard]] std::uint64_t default_failures() const;  // but for what no method is without
+  [[nodiscard]] std::uint64_t default_failures() const;
   // stability.md, .csv and .json. Throws EnvironmentError.
   void write(const std::filesystem::path& folder) const;
 };

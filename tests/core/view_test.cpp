@@ -2,7 +2,14 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <array>
 #include <cmath>
+#include <numbers>
+
+#include "core/trace/jitter.h"
+#include "core/trace/trace_tiles.h"
+#include "scenes/generator/paint.h"
 
 namespace pinocchio {
 namespace {
@@ -51,6 +58,75 @@ TEST(View, LooksAlongUpWithoutTrouble) {
   EXPECT_NEAR(glm::length(axes.right), 1.0f, 1e-6f);
   EXPECT_NEAR(glm::dot(axes.right, axes.forward), 0.0f, 1e-6f);
   EXPECT_EQ(axes.forward, glm::vec3(0, -1, 0));
+}
+
+constexpr int kFilterSamples = 4096;
+
+// Blackman and Harris 1978, four terms, 3 pixels wide; of area 1.
+double window(double x) {
+  if (std::abs(x) >= 1.5) return 0.0;
+  const double t = 2.0 * std::numbers::pi * (x / 3.0 + 0.5);
+  const double four = 0.35875 - 0.48829 * std::cos(t) + 0.14128 * std::cos(2.0 * t) - 0.01168 * std::cos(3.0 * t);
+  return four / (0.35875 * 3.0);
+}
+
+double area(double from, double to) {
+  constexpr int kSteps = 1000;
+  double sum = 0.0;
+  for (int i = 0; i < kSteps; ++i) sum += window(from + (to - from) * (i + 0.5) / kSteps);
+  return sum * (to - from) / kSteps;
+}
+
+TEST(PixelFilter, TheBoxIsEvenAndTheWindowIsBlackmansAndHarris) {
+  for (const PixelFilter filter : {PixelFilter::box, PixelFilter::blackman_harris}) {
+    EXPECT_EQ(jitter_of(0, filter), glm::vec2(0.0f));  // one sample a pixel: its centre
+    std::array<std::array<int, 30>, 2> bins{};
+    for (int k = 0; k < kFilterSamples; ++k)
+      for (int axis = 0; axis < 2; ++axis) {
+        const float at = jitter_of(k, filter)[axis];
+        ASSERT_LE(std::abs(at), filter == PixelFilter::box ? 0.5f : 1.5f);
+        ++bins[static_cast<std::size_t>(axis)][static_cast<std::size_t>(std::min((at + 1.5f) * 10.0f, 29.0f))];
+      }
+    for (const auto& axis : bins)
+      for (int i = 0; i < 30; ++i) {
+        const double from = 0.1 * i - 1.5, to = from + 0.1;
+        const double share = filter == PixelFilter::box ? (i >= 10 && i < 20 ? 0.1 : 0.0) : area(from, to);
+        EXPECT_NEAR(static_cast<double>(axis[static_cast<std::size_t>(i)]) / kFilterSamples, share, 0.002) << from;
+      }
+  }
+}
+
+// An edge between two pixels: sharp by the box, the window's area on either side of it by the other.
+TEST(PixelFilter, AnEdgeHasItsProfile) {
+  constexpr int kWidth = 8, kSamples = 512;
+  MeshData mesh;
+  mesh.positions = {{-100, -100, -1}, {0, -100, -1}, {0, 100, -1}, {-100, 100, -1}};
+  mesh.normals.assign(4, glm::vec3(0.0f));
+  mesh.triangles = {{0, 1, 2}, {0, 2, 3}};
+  mesh.triangle_materials = {0, 0};
+  mesh.materials = {glowing("", glm::vec3(1.0f))};
+  const Scene scene(std::move(mesh));
+  const Tracer tracer(scene.mesh, {});
+  Workers one(1);
+  for (const PixelFilter filter : {PixelFilter::box, PixelFilter::blackman_harris}) {
+    std::array<double, kWidth> row{};
+    for (int k = 0; k < kSamples; ++k) {
+      const View view = at_sample({{"", glm::vec3(0.0f), {0, 0, -1}}, {kWidth, kWidth}}, k, filter);
+      Image<glm::vec4> color;
+      TileOutputs out;
+      out.size = {kWidth, kWidth};
+      out.color = &color;
+      trace_tiles({scene, tracer, one, view_params(view)}, out);
+      for (int x = 0; x < kWidth; ++x)
+        row[static_cast<std::size_t>(x)] += static_cast<double>(color.at(x, 3).r) / kSamples;
+    }
+    for (int x = 0; x < kWidth; ++x) {
+      const double from_edge = kWidth / 2 - (x + 0.5);  // to the right of the pixel's centre
+      const double expected = filter == PixelFilter::box ? (from_edge > 0.0 ? 1.0 : 0.0)
+                                                         : area(-1.5, std::clamp(from_edge, -1.5, 1.5));
+      EXPECT_NEAR(row[static_cast<std::size_t>(x)], expected, 0.004) << x;
+    }
+  }
 }
 
 }  // namespace
