@@ -189,6 +189,8 @@ TEST_F(ChartTest, WrongUseIsOneLine) {
                 {"--quick", 2, "--output"},
                 {kSmall + "--turntable 4", 2, "the camera's motion has 4 frames"},
                 {kSmall + "--repeat 0", 2, "--repeat"},
+                {kSmall + "--environment sky.exr", 2, "--environment: charts measure against the reference, which draws none"},
+                {kSmall + "--indirect 2", 2, "--indirect"},
                 {kSmall + "--stability", 2, "give a SCENE or --stability"},
                 {"-o file/d --quick", 1, "cannot be made a folder"}};
   write("file", "");
