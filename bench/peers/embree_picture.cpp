@@ -3,14 +3,14 @@
 #include <string>
 
 #include "bench/peers/embree_rays.h"
+#include "bench/peers/embree_scatter.h"
 #include "core/trace/mapped_material.h"
-#include "core/trace/scatter.h"
 #include "core/trace/view_params.h"
 
 namespace pinocchio {
 namespace {
 
-constexpr int kTile = 8;                       // pixels a side
+constexpr int kPictureTile = 8;                       // pixels a side
 constexpr float kLeast = 1.0f / 8192.0f;       // throughput that is followed, as by default
 constexpr float kAtTheLight = 1.0f - 0x1p-20f;  // shadow rays end before it
 
@@ -126,7 +126,7 @@ glm::vec4 EmbreePicture::seen(const Ray& ray, const glm::vec3& throughput, const
   glm::vec3 sum = throughput * direct(surface);
   if (depth > 0 && (surface.alpha < 1.0f || scene_.mesh->material_of(hit.triangle).spawns_rays())) {
     std::vector<PathRay> bounces;
-    scatter(surface, throughput, 0, kLeast, bounces);
+    scatter(surface, throughput, kLeast, bounces);
     for (const PathRay& bounce : bounces)
       sum += glm::vec3(seen(bounce.ray, bounce.throughput, footprint.of_cones(), depth - 1));
   }
@@ -134,13 +134,13 @@ glm::vec4 EmbreePicture::seen(const Ray& ray, const glm::vec3& throughput, const
 }
 
 void EmbreePicture::draw(const Camera& camera, Workers& workers, Image<glm::vec4>& picture) const {
-  const glm::ivec2 size = picture.size(), tiles = (size + kTile - 1) / kTile;
+  const glm::ivec2 size = picture.size(), tiles = (size + kPictureTile - 1) / kPictureTile;
   const shared::ViewParams view = view_params(camera, size);
   const Footprint footprint = Footprint::of_camera(view);
   workers.for_each(static_cast<std::size_t>(tiles.x) * static_cast<std::size_t>(tiles.y), [&](std::size_t i) {
-    const int tile = static_cast<int>(i), x0 = tile % tiles.x * kTile, y0 = tile / tiles.x * kTile;
-    for (int y = y0; y < std::min(y0 + kTile, size.y); ++y)
-      for (int x = x0; x < std::min(x0 + kTile, size.x); ++x)
+    const int tile = static_cast<int>(i), x0 = tile % tiles.x * kPictureTile, y0 = tile / tiles.x * kPictureTile;
+    for (int y = y0; y < std::min(y0 + kPictureTile, size.y); ++y)
+      for (int x = x0; x < std::min(x0 + kPictureTile, size.x); ++x)
         picture.at(x, y) = seen(pixel_ray(view, x, y), glm::vec3(1.0f), footprint, depth_);
   });
 }

@@ -61,7 +61,9 @@ class Frames {
       Scene posed;
       Pose now;
       pose_s.push_back(seconds_of([&] { posed = at_time(scene_, time_of(i)).value(); }));
-      build_s.push_back(seconds_of([&] { now = {posed, std::make_shared<const Tracer>(posed.mesh, options_)}; }));
+      build_s.push_back(seconds_of([&] {
+        now = {posed, std::make_shared<const Tracer>(posed.mesh, options_)};
+      }));
       still_s.push_back(seconds_of([&] { draw(now); }));
       waited_s.push_back(pose_s.back() + build_s.back() + still_s.back());
     }
@@ -114,8 +116,8 @@ class Frames {
 
 }  // namespace
 
-std::vector<AnimatedFrames> measure_animated_frames(Scene scene, const BuildOptions& options, glm::ivec2 size, int threads,
-                                                    int frames) {
+std::vector<AnimatedFrames> measure_animated_frames(Scene scene, const BuildOptions& options, glm::ivec2 size,
+                                                    int threads, int frames) {
   if (!scene.animation) scene = turning(scene);
   std::vector<AnimatedFrames> rows;
   for (const SplitRule rule : {SplitRule::sah, SplitRule::spatial_median, SplitRule::object_median}) {
@@ -128,10 +130,12 @@ std::vector<AnimatedFrames> measure_animated_frames(Scene scene, const BuildOpti
 
 void print(const std::vector<AnimatedFrames>& rows) {
   std::printf("an animated scene, milliseconds a frame (lost: of the still scene's frame rate):\n");
-  std::printf("%-16s %8s %8s %8s %10s %6s %12s %6s\n", "tree", "pose", "build", "still", "waited", "lost", "overlapped", "lost");
+  std::printf("%-16s %8s %8s %8s %10s %6s %12s %6s\n", "tree", "pose", "build", "still", "waited", "lost",
+              "overlapped", "lost");
   for (const AnimatedFrames& r : rows)
-    std::printf("%-16s %8.2f %8.2f %8.2f %10.2f %5.0f%% %12.2f %5.0f%%\n", r.tree.c_str(), r.pose_ms, r.build_ms, r.still_ms,
-                r.waited_ms, 100.0 * r.lost(r.waited_ms), r.overlapped_ms, 100.0 * r.lost(r.overlapped_ms));
+    std::printf("%-16s %8.2f %8.2f %8.2f %10.2f %5.0f%% %12.2f %5.0f%%\n", r.tree.c_str(), r.pose_ms,
+                r.build_ms, r.still_ms, r.waited_ms, 100.0 * r.lost(r.waited_ms), r.overlapped_ms,
+                100.0 * r.lost(r.overlapped_ms));
 }
 
 }  // namespace pinocchio::bench

@@ -21,10 +21,10 @@ struct AnimatedFrames {
   [[nodiscard]] double lost(double frame_ms) const { return 1.0 - still_ms / frame_ms; }
 };
 
-// Frames of the scene's first camera over its animation, drawn by the CPU alone, for each rule of splitting nodes.
-// A scene that stands still is turned as a whole.
-[[nodiscard]] std::vector<AnimatedFrames> measure_animated_frames(Scene scene, const BuildOptions& options, glm::ivec2 size,
-                                                                  int threads, int frames);
+// Frames of the scene's first camera over its animation, drawn by the CPU alone, for each rule of splitting
+// nodes. A scene that stands still is turned as a whole.
+[[nodiscard]] std::vector<AnimatedFrames> measure_animated_frames(Scene scene, const BuildOptions& options,
+                                                                  glm::ivec2 size, int threads, int frames);
 
 void print(const std::vector<AnimatedFrames>& rows);
 

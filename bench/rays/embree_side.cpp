@@ -231,7 +231,8 @@ std::unique_ptr<RayBackend> EmbreeSide::packets() const {
 }
 
 void EmbreeSide::occluded(std::span<const Ray> rays, std::span<std::uint8_t> blocked) const {
-  has_avx512_ ? occluded_in<Of16>(held_->scene, rays, blocked) : occluded_in<Of8>(held_->scene, rays, blocked);
+  has_avx512_ ? occluded_in<Of16>(held_->scene, rays, blocked)
+              : occluded_in<Of8>(held_->scene, rays, blocked);
 }
 
 const char* embree_version() {

@@ -1,8 +1,10 @@
 // pinocchio-bench SCENE | --generate NAME: our tracer beside Embree on the rays of one frame.
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <array>
 #include <cstdio>
 #include <exception>
+#include <string_view>
 #include <utility>
 
 #include "bench/rays/animated_frames.h"
@@ -18,6 +20,7 @@ namespace pinocchio::bench {
 namespace {
 
 constexpr glm::ivec2 kSize{800, 600};
+constexpr std::array<std::string_view, 4> kRaced{"primary", "shadow", "reflection", "second bounce"};
 constexpr float kMirror = 0.5f;  // reflectance where --mirror-all makes every material a mirror
 
 struct Options {
@@ -37,7 +40,9 @@ void add_options(CLI::App& program, Options& o) {
   program.add_option("--triangles", o.triangles, "about how many triangles to generate")
       ->check(CLI::Range(1, static_cast<int>(kMaxTriangles)));
   program
-      .add_option("--isa", o.isas, "SIMD level of ours, repeatable; all: every one of this processor (best). Embree has the widest")
+      .add_option(
+          "--isa", o.isas,
+          "SIMD level of ours, repeatable; all: every one of this processor (best). Embree has the widest")
       ->check(CLI::IsMember({"scalar", "sse4", "avx2", "avx512", "all"}));
   program.add_option("--tree", o.tree, "how our BSP tree is split (sah)")
       ->check(CLI::IsMember({"sah", "spatial-median", "object-median"}));
@@ -56,7 +61,8 @@ void add_options(CLI::App& program, Options& o) {
   program.add_flag("--no-speeds", o.no_speeds, "leave out the speeds by kind of ray");
   program.add_flag("--frame", o.frame, "add whole frames, with the materials as they are (or --mirror-all)");
   program.add_flag("--animation", o.animation,
-                   "instead: frames of an animated scene, their trees built anew, with each rule (a still scene is turned)");
+                   "instead: frames of an animated scene, their trees built anew, with each rule (a still "
+                   "scene is turned)");
   program.add_option("--json", o.json, "write everything to this file");
 }
 
@@ -111,7 +117,8 @@ void run(const Options& o) {
   Scene scene = scene_of(o);
   if (o.animation) {
     const int frames = std::max(4 * o.repeat, 8);
-    return print(measure_animated_frames(scene, build_options(o, scene), kSize, Workers(o.threads).count(), frames));
+    return print(
+        measure_animated_frames(scene, build_options(o, scene), kSize, Workers(o.threads).count(), frames));
   }
   Report report;
   report.scene = o.generate.empty() ? o.scene : o.generate;
@@ -145,7 +152,8 @@ void run(const Options& o) {
     }
   report.all_mirrors |= make_mirrors(scene, false);
   for (const RaySet& set : frame_ray_sets(scene, *tracers.front(), kSize)) {
-    if (set.rays.empty() || o.no_speeds) continue;
+    const bool raced = std::find(kRaced.begin(), kRaced.end(), set.name) != kRaced.end();
+    if (!raced || o.no_speeds) continue;
     for (Workers* workers : {&one, &all}) {
       if (workers == &all && all.count() == 1) continue;
       const std::vector<Speed> speeds = race(set, backends, *workers, o.repeat);

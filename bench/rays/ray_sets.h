@@ -20,9 +20,9 @@ struct RaySet {
   std::vector<Ray> rays;
 };
 
-// The rays of the scene's first camera (or one that has the whole scene in view) at `size` pixels:
-// "primary"; "shadow", from every visible point to each casting light; "reflection", mirrored once;
-// "second bounce", mirrored twice. Refracted rays are left out. A set may be empty.
+// The rays of one raytraced frame, of the scene's first camera (or one that has the whole scene in view), by
+// generation: "primary"; "shadow", of visible points; "reflection" and "shadow of reflection", mirrored or
+// refracted once; "second bounce" and its shadow; and so on. A kind that the frame has none of is left out.
 [[nodiscard]] std::vector<RaySet> frame_ray_sets(const Scene& scene, const Tracer& tracer, glm::ivec2 size);
 
 }  // namespace pinocchio::bench

@@ -18,7 +18,8 @@ bool is_ours(const Speed& speed) {
 // Embree's speed at the same: one by one, or in packets.
 const Speed& embrees(const Report& report, const Speed& ours, bool packets) {
   return *std::find_if(report.speeds.begin(), report.speeds.end(), [&](const Speed& s) {
-    return s.set == ours.set && s.threads == ours.threads && !is_ours(s) && packets == (s.backend != "embree 1");
+    return s.set == ours.set && s.threads == ours.threads && !is_ours(s) &&
+           packets == (s.backend != "embree 1");
   });
 }
 

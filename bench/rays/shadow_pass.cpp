@@ -40,7 +40,8 @@ void embree_pass(const TraceJob& job, const EmbreeSide& embree, const Image<std:
       const SurfaceInteraction surface =
           surface_at(job.tracer.mesh(), id, seen.origin, seen.direction, job.tracer.offset());
       for (std::size_t slot = 0; slot < lights.size(); ++slot) {
-        if (const std::optional<Ray> ray = shadow_ray(lights[slot], surface, glm::vec2(0.5f), job.terminator)) {
+        if (const std::optional<Ray> ray =
+                shadow_ray(lights[slot], surface, glm::vec2(0.5f), job.terminator)) {
           rays[slot].push_back(*ray);
           pixels[slot].emplace_back(x, y);
         }

@@ -19,9 +19,9 @@ Material default_material(bool colored) {
 }
 
 // Reads the MTL files that the OBJ names; one that is missing leaves its materials grey.
-class MtlReader {
+class MtlLibraries {
  public:
-  MtlReader(const std::filesystem::path& file, Loading& loading) : file_(file), loading_(loading) {}
+  MtlLibraries(const std::filesystem::path& file, Loading& loading) : file_(file), loading_(loading) {}
 
   // What follows mtllib: one name, spaces and all, where there is such a file, else several.
   void read(const std::string& names) {
@@ -72,7 +72,7 @@ Expected<Scene> load_obj(const std::filesystem::path& path, Loading& loading) {
   std::string text = as_utf8(std::move(*bytes));
   const Expected<ObjText> obj = read_obj_text(text, path, loading.warnings, loading.progress);
   if (!obj) return Unexpected(obj.error());
-  MtlReader mtl(path, loading);
+  MtlLibraries mtl(path, loading);
   for (const std::string& names : obj->libraries) mtl.read(names);
 
   MeshData mesh;

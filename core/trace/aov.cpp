@@ -18,10 +18,11 @@ VisiblePoint VisiblePoints::at(std::uint32_t triangle, int x, int y, bool with_a
   return {glm::dot(s.p_world - view_.eye, forward_), s.p_world, s.n_shading, s.material.phong.diffuse};
 }
 
-SurfaceImages surface_images(const Mesh& mesh, const shared::ViewParams& view, const Image<std::uint32_t>& ids,
-                             int y0, int y1, bool filter_textures) {
+SurfaceImages surface_images(const Mesh& mesh, const shared::ViewParams& view,
+                             const Image<std::uint32_t>& ids, int y0, int y1, bool filter_textures) {
   const glm::ivec2 size{ids.width(), y1 - y0};
-  SurfaceImages images{Image<float>(size), Image<glm::vec3>(size), Image<glm::vec3>(size), Image<glm::vec3>(size)};
+  SurfaceImages images{Image<float>(size), Image<glm::vec3>(size), Image<glm::vec3>(size),
+                       Image<glm::vec3>(size)};
   const VisiblePoints points(mesh, view, filter_textures);
   for (int y = y0; y < y1; ++y)
     for (int x = 0; x < size.x; ++x) {

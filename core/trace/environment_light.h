@@ -27,8 +27,8 @@ struct EnvironmentTexels {
 
 }  // namespace shared
 
-// Of a packet of lanes, a column each: what they sample. Code of its own, compiled once for all instruction sets,
-// so that they have the same bits.
+// Of a packet of lanes, a column each: what they sample. Code of its own, compiled once for all instruction
+// sets, so that they have the same bits.
 struct SampleLanes {
   using Column = alignas(64) float[kQueuePad];
   Column number[2];     // in [0, 1)

@@ -14,8 +14,8 @@ struct RaySpread {
   glm::vec3 direction{0.0f}, x{0.0f}, y{0.0f};
 };
 
-// What textures are averaged over: camera rays have their neighbours (Igehy 1999), mirrored and refracted ones
-// are cones that widen by a pixel's angle, whatever they meet (Amanatides 1984).
+// What textures are averaged over: camera rays have their neighbours (Igehy 1999), mirrored and refracted
+// ones are cones that widen by a pixel's angle, whatever they meet (Amanatides 1984).
 struct Footprint {
   glm::vec3 step_x{0.0f}, step_y{0.0f};  // ViewParams', of camera rays; zero: cones
   float angle = 0.0f;                    // radians; 0: nothing is averaged

@@ -15,8 +15,8 @@ struct SamplePlace {
   glm::vec2 jitter;   // zero: the only sample, or the first
 };
 
-// Rays through surfaces that let some of them pass (material_maps.h): a ray that meets a hole goes on behind it.
-// The tree knows nothing of it, so that scenes without holes are traced as ever.
+// Rays through surfaces that let some of them pass (material_maps.h): a ray that meets a hole goes on behind
+// it. The tree knows nothing of it, so that scenes without holes are traced as ever.
 class Holes {
  public:
   // rays.triangle holds what each ray meets first; afterwards, what it meets first that is no hole.

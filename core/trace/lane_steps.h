@@ -42,32 +42,34 @@ struct BounceLight {
 
 // What happens where rays meet triangles.
 struct Bounce {
-  SceneArrays scene;
-  RayOffset offset;
-  Terminator terminator;
-  const Footprint* footprint;  // of the rays, for textures
-  const BounceLight* lights;
-  std::size_t light_count;
-  glm::vec3 ambient_light;
-  bool visible;       // the rays are the camera's
-  bool adds_ambient;  // and emission
-  bool adds_light;    // lights that cast none add theirs to `radiance`, shadow rays carry it
-  // Of what is sampled; null: nothing is. The pixel that is (0, 0) in the queues, in the whole picture, how many
-  // pixels a sample of the picture is apart from the next, and the first dimension of the rays' generation.
-  const shared::Sampling* sampling;
-  glm::uvec2 corner;
-  std::uint32_t scale, dimension;
-  const EnvironmentLight* environment;  // that lights the points; null: none does
+  SceneArrays scene{};
+  RayOffset offset{};
+  Terminator terminator = kUsualTerminator;
+  const Footprint* footprint = nullptr;  // of the rays, for textures
+  const BounceLight* lights = nullptr;
+  std::size_t light_count = 0;
+  glm::vec3 ambient_light{0.0f};
+  bool visible = false;       // the rays are the camera's
+  bool adds_ambient = false;  // and emission
+  bool adds_light = false;    // lights that cast none add theirs to `radiance`, shadow rays carry it
+  // Of what is sampled; null: nothing is. The pixel that is (0, 0) in the queues, in the whole picture, how
+  // many pixels a sample of the picture is apart from the next, and the first dimension of the rays'
+  // generation.
+  const shared::Sampling* sampling = nullptr;
+  glm::uvec2 corner{0};
+  std::uint32_t scale = 1, dimension = 0;
+  const EnvironmentLight* environment = nullptr;  // that lights the points; null: none does
   // Light below which no shadow ray is fired, of visible points and of others; and no path followed.
-  float light_cutoff, throughput_cutoff;
+  float light_cutoff = 0.0f, throughput_cutoff = 0.0f;
 
   // Where it goes. Queues have room for all rays of the step; null: not wanted.
-  RayQueue* shadow;  // one a slot
-  RayQueue* ways_up;  // likewise: to where lifted shadow rays start; their `pixel` is that ray's place in its queue
-  RayQueue *sky, *sky_ways_up;  // of the environment, likewise
-  RayQueue *mirrored, *refracted, *straight;
-  RayQueue* diffuse;  // that look for light from other surfaces
-  float* radiance;  // RGBA of a tile's pixels
+  RayQueue* shadow = nullptr;  // one a slot
+  // Likewise: to where lifted shadow rays start; their `pixel` is that ray's place in its queue.
+  RayQueue* ways_up = nullptr;
+  RayQueue *sky = nullptr, *sky_ways_up = nullptr;  // of the environment, likewise
+  RayQueue *mirrored = nullptr, *refracted = nullptr, *straight = nullptr;
+  RayQueue* diffuse = nullptr;  // that look for light from other surfaces
+  float* radiance = nullptr;    // RGBA of a tile's pixels
 };
 
 struct LaneSteps {
@@ -78,8 +80,8 @@ struct LaneSteps {
   // Appends to the bounce's queues. All rays have hit.
   void (*bounce)(const Bounce& bounce, const RayQueue& rays);
   // Points 0 to count - 1 of `dimension`, of the pixels (x, y); for tests. count: a multiple of 16.
-  void (*samples)(const shared::Sampling& of, const std::uint32_t* x, const std::uint32_t* y, std::uint32_t dimension,
-                  float* u, float* v, std::size_t count);
+  void (*samples)(const shared::Sampling& of, const std::uint32_t* x, const std::uint32_t* y,
+                  std::uint32_t dimension, float* u, float* v, std::size_t count);
   // x^y for x > 0, of `count` pairs, a multiple of 16; for tests.
   void (*power)(const float* x, const float* y, float* result, std::size_t count);
 };

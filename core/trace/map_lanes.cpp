@@ -27,8 +27,9 @@ void map_lanes(const Mesh& mesh, const Footprint& footprint, unsigned lanes, Map
     const auto lane = static_cast<unsigned>(std::countr_zero(waiting));
     const unsigned bit = 1u << lane;
     const MappedMaterial m = mapped_material(
-        mesh, {p.triangle[lane], load(p.weights, lane), load(p.n_shading, lane), (p.leaving & bit) != 0,
-               footprint.at(load(p.origin, lane), load(p.direction, lane), load(p.p_world, lane), p.width[lane])});
+        mesh,
+        {p.triangle[lane], load(p.weights, lane), load(p.n_shading, lane), (p.leaving & bit) != 0,
+         footprint.at(load(p.origin, lane), load(p.direction, lane), load(p.p_world, lane), p.width[lane])});
     store(m.n_shading, lane, p.n_shading);
     store(m.surface.phong.ambient, lane, p.ambient);
     store(m.surface.phong.diffuse, lane, p.diffuse);

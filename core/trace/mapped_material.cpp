@@ -51,8 +51,10 @@ class Lookup {
         glm::vec2(0.0f)};
     if (params.levels > 1 && point.spread.direction != glm::vec3(0.0f)) {
       const Edges e = edges(use);
-      where.change_x = shared::uv_change(point.spread.x, point.spread.direction, e.ab, e.ac, e.uv_ab, e.uv_ac);
-      where.change_y = shared::uv_change(point.spread.y, point.spread.direction, e.ab, e.ac, e.uv_ab, e.uv_ac);
+      where.change_x =
+          shared::uv_change(point.spread.x, point.spread.direction, e.ab, e.ac, e.uv_ab, e.uv_ac);
+      where.change_y =
+          shared::uv_change(point.spread.y, point.spread.direction, e.ab, e.ac, e.uv_ab, e.uv_ac);
     }
     return shared::sample_texture(params, where, is_color);
   }
@@ -83,7 +85,9 @@ class Lookup {
   [[nodiscard]] bool readable(const TextureUse& use) const { return use.used() && !texcoords(use).empty(); }
 
   [[nodiscard]] Edges edges(const TextureUse& use) const {
-    const auto uv = [&](std::uint32_t i) { return use.uv_from_texcoord * glm::vec3(texcoords(use)[i], 1.0f); };
+    const auto uv = [&](std::uint32_t i) {
+      return use.uv_from_texcoord * glm::vec3(texcoords(use)[i], 1.0f);
+    };
     const glm::vec3& a = mesh_.positions[corners_.x];
     const glm::vec2 uv_a = uv(corners_.x);
     return {mesh_.positions[corners_.y] - a, mesh_.positions[corners_.z] - a, uv(corners_.y) - uv_a,

@@ -1,5 +1,5 @@
-// Materials that textures, vertex colours and alpha change from point to point (pinocchio/material_maps.h). One
-// ray at a time, compiled for every processor: the lanes call it for those of them that need it.
+// Materials that textures, vertex colours and alpha change from point to point (pinocchio/material_maps.h).
+// One ray at a time, compiled for every processor: the lanes call it for those of them that need it.
 #pragma once
 
 #include <cstdint>

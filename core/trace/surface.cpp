@@ -9,8 +9,8 @@
 namespace pinocchio {
 namespace {
 
-SurfaceInteraction geometry_at(const Mesh& mesh, std::uint32_t id, const glm::vec3& direction, const glm::vec3& weights,
-                    const RayOffset& offset) {
+SurfaceInteraction geometry_at(const Mesh& mesh, std::uint32_t id, const glm::vec3& direction,
+                               const glm::vec3& weights, const RayOffset& offset) {
   const glm::uvec3 corners = mesh.triangles[id];
   const glm::vec3 &a = mesh.positions[corners.x], &b = mesh.positions[corners.y],
                   &c = mesh.positions[corners.z];
@@ -29,8 +29,9 @@ SurfaceInteraction geometry_at(const Mesh& mesh, std::uint32_t id, const glm::ve
   s.leaving = facing.leaving;
   s.n_vertices = s.n_shading;
   const float side = s.leaving ? -1.0f : 1.0f;
-  s.lift = shared::terminator_lift(weights, b - a, c - a, side * mesh.normals[corners.x], side * mesh.normals[corners.y],
-                                   side * mesh.normals[corners.z], s.n_geometric);
+  s.lift =
+      shared::terminator_lift(weights, b - a, c - a, side * mesh.normals[corners.x],
+                              side * mesh.normals[corners.y], side * mesh.normals[corners.z], s.n_geometric);
   s.offset = offset.method == OffsetMethod::error_bound
                  ? error_bound_offset(s.p_exact, s.n_geometric, b - a, c - a)
                  : offset.length;
@@ -46,7 +47,8 @@ SurfaceInteraction bare_surface_at(const Mesh& mesh, std::uint32_t id, const glm
   return geometry_at(mesh, id, direction, weights_at(mesh, id, origin, direction), offset);
 }
 
-glm::vec3 weights_at(const Mesh& mesh, std::uint32_t id, const glm::vec3& origin, const glm::vec3& direction) {
+glm::vec3 weights_at(const Mesh& mesh, std::uint32_t id, const glm::vec3& origin,
+                     const glm::vec3& direction) {
   const glm::uvec3& corners = mesh.triangles[id];
   return shared::barycentric_of(origin, direction, mesh.positions[corners.x], mesh.positions[corners.y],
                                 mesh.positions[corners.z]);
@@ -69,8 +71,8 @@ SurfaceInteraction surface_at(const Mesh& mesh, std::uint32_t id, const glm::vec
     s.material = plain_material(mesh.material_of(id));
     return s;
   }
-  const MappedMaterial mapped =
-      mapped_material(mesh, {id, weights, s.n_shading, s.leaving, footprint.at(origin, direction, s.p_world, 0.0f)});
+  const MappedMaterial mapped = mapped_material(
+      mesh, {id, weights, s.n_shading, s.leaving, footprint.at(origin, direction, s.p_world, 0.0f)});
   s.material = mapped.surface;
   s.n_shading = mapped.n_shading;
   s.alpha = mapped.alpha;
@@ -85,7 +87,8 @@ glm::vec3 offset_origin(const SurfaceInteraction& surface, const glm::vec3& dire
 shared::LightParams light_params(const Light& light) {
   static_assert(static_cast<int>(Light::Kind::spot) == shared::kLightSpot &&
                 static_cast<int>(Light::Kind::rectangle) == shared::kLightRectangle);
-  const bool directional = light.kind == Light::Kind::directional, rectangle = light.kind == Light::Kind::rectangle;
+  const bool directional = light.kind == Light::Kind::directional,
+             rectangle = light.kind == Light::Kind::rectangle;
   // 1 - cos a is 2 sin^2 (a / 2): not lost to rounding for a disc like the sun's.
   const float quarter = std::sin(glm::radians(0.25f * light.angle_deg));
   return {static_cast<int>(light.kind),

@@ -63,12 +63,13 @@ struct SurfaceInteraction {
 // The ray that asks whether the light reaches the surface; nothing where it cannot anyway: the surface
 // faces away, or the light does not reach this far or this way.
 // `square`: which point of a light with a size, in [0, 1)^2.
-[[nodiscard]] std::optional<Ray> shadow_ray(const shared::LightParams& light, const SurfaceInteraction& surface,
+[[nodiscard]] std::optional<Ray> shadow_ray(const shared::LightParams& light,
+                                            const SurfaceInteraction& surface,
                                             const glm::vec2& square = glm::vec2(0.5f),
                                             Terminator terminator = kUsualTerminator);
 
-// With Terminator::turned_away: the way up to where that ray starts, t from 0 to 1, which has to be free, too.
-// Nothing where it starts on the surface.
+// With Terminator::turned_away: the way up to where that ray starts, t from 0 to 1, which has to be free,
+// too. Nothing where it starts on the surface.
 [[nodiscard]] std::optional<Ray> lift_ray(const shared::LightParams& light, const SurfaceInteraction& surface,
                                           const glm::vec2& square = glm::vec2(0.5f),
                                           Terminator terminator = kUsualTerminator);

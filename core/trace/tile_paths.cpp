@@ -1,5 +1,5 @@
-// What a tile follows beyond the visible points: mirrored and refracted rays, the environment, light from other
-// surfaces.
+// What a tile follows beyond the visible points: mirrored and refracted rays, the environment, light from
+// other surfaces.
 #include <algorithm>
 
 #include "core/trace/tile_tracer.h"
@@ -18,7 +18,8 @@ void TileTracer::follow() {
   }
 }
 
-// Of a bounce's rays between matt surfaces. The environment's light along them was asked for where they start.
+// Of a bounce's rays between matt surfaces. The environment's light along them was asked for where they
+// start.
 void TileTracer::look_around(int bounce_count) {
   std::swap(diffuse_, next_diffuse_);
   counts_.indirect += diffuse_.size;
@@ -64,7 +65,8 @@ void TileTracer::follow_mirrors(int bounce_count) {
 void TileTracer::add_environment(const RayQueue& rays) {
   for (std::size_t i = 0; i < rays.size; ++i) {
     if (rays.triangle[i] != kNoTriangle) continue;
-    const glm::vec3 light = plan_->environment->radiance({rays.direction[0][i], rays.direction[1][i], rays.direction[2][i]});
+    const glm::vec3 light =
+        plan_->environment->radiance({rays.direction[0][i], rays.direction[1][i], rays.direction[2][i]});
     const glm::vec3 share(rays.light[0][i], rays.light[1][i], rays.light[2][i]);
     reflected_[rays.pixel[i]] += glm::vec4(share * light, 0.0f);
   }
@@ -76,7 +78,7 @@ void TileTracer::fire_at_environment(int generation) {
   if (blocked_.size() < sky_.size + kQueuePad) blocked_.resize(2 * sky_.size + kQueuePad);
   if (plan_->out.on_rays) plan_->out.on_rays({sky_.columns(), sky_.size, generation, true});
   ask_occluded(sky_, kInfinity);
-  block_where_the_way_up_is(sky_ways_up_);
+  block_where_the_way_up_is(sky_ways_up_, generation);
   for (std::size_t i = 0; i < sky_.size; ++i)
     if (!blocked_[i])
       reflected_[sky_.pixel[i]] += glm::vec4(sky_.light[0][i], sky_.light[1][i], sky_.light[2][i], 0.0f);
@@ -94,10 +96,12 @@ void TileTracer::ask_occluded(const RayQueue& queue, float reach) {
   }
 }
 
-// A lifted ray that would start behind something counts as blocked. Holes are not asked for: the way is short.
-void TileTracer::block_where_the_way_up_is(const RayQueue& up) {
+// A lifted ray that would start behind something counts as blocked. Holes are not asked for: the way is
+// short.
+void TileTracer::block_where_the_way_up_is(const RayQueue& up, int generation) {
   if (up.size == 0) return;
   if (up_blocked_.size() < up.size + kQueuePad) up_blocked_.resize(2 * up.size + kQueuePad);
+  if (plan_->out.on_rays) plan_->out.on_rays({up.columns(1.0f), up.size, generation, true});
   plan_->job.tracer.occluded(up.columns(1.0f), up.size, up_blocked_.data());
   counts_.shadow += up.size;
   for (std::size_t i = 0; i < up.size; ++i) blocked_[up.pixel[i]] |= up_blocked_[i];
@@ -108,7 +112,8 @@ void TileTracer::paint_background() const {
   for (int y = tile_.lo.y; y < tile_.hi.y; ++y)
     for (int x = tile_.lo.x; x < tile_.hi.x; ++x) {
       glm::vec4& color = plan_->out.color->at(x, y);
-      if (color.a == 0.0f) color = glm::vec4(plan_->environment->radiance(pixel_ray(plan_->view, x, y).direction), 0.0f);
+      if (color.a == 0.0f)
+        color = glm::vec4(plan_->environment->radiance(pixel_ray(plan_->view, x, y).direction), 0.0f);
     }
 }
 

@@ -28,16 +28,6 @@ class Lap {
   double last_ = seconds();
 };
 
-std::vector<BounceLight> lights_of(const Scene& scene) {
-  std::vector<BounceLight> lights;
-  const std::vector<int> slots = mask_slots(scene);
-  for (std::size_t i = 0; i < slots.size(); ++i) {
-    const shared::LightParams params = light_params(scene.lights[i]);
-    lights.push_back({params, slots[i], shared::has_size(params), static_cast<std::uint32_t>(i)});
-  }
-  return lights;
-}
-
 // The pixels of a tile along a Z curve: packets of any width are neighbours in the picture.
 const std::vector<std::uint32_t>& z_curve() {
   static const std::vector<std::uint32_t> kCurve = [] {
@@ -50,81 +40,7 @@ const std::vector<std::uint32_t>& z_curve() {
   return kCurve;
 }
 
-// Whether anything is to be averaged.
-bool filters(const TraceJob& job) {
-  const Textures& textures = job.scene.mesh->textures;
-  return job.filter_textures &&
-         std::any_of(textures.begin(), textures.end(), [](const Texture& t) { return t.levels() > 1; });
-}
-
-bool any_maps(const Mesh& mesh, bool (MaterialMaps::*is)() const) {
-  return std::any_of(mesh.maps.begin(), mesh.maps.end(), [is](const MaterialMaps& m) { return (m.*is)(); });
-}
-
 }  // namespace
-
-SceneArrays SceneArrays::of(const Mesh& mesh) {
-  return {mesh.positions.data(),
-          mesh.normals.data(),
-          mesh.triangles.data(),
-          mesh.triangle_materials.data(),
-          mesh.materials.data(),
-          mesh.maps.empty() ? nullptr : &mesh};
-}
-
-void TilePlan::look(const shared::ViewParams& from) {
-  view = scaled_view(from, out.scale);
-  first = glm::ivec2(from.first);
-  if (filters(job)) seen_footprint = Footprint::of_camera(view);
-  further_footprint = seen_footprint.of_cones();
-}
-
-TilePlan::TilePlan(const TraceJob& j, const TileOutputs& o)
-    : job(j),
-      out(o),
-      has_holes(any_maps(*j.scene.mesh, &MaterialMaps::has_holes)),
-      blends(any_maps(*j.scene.mesh, &MaterialMaps::blends)),
-      all_lights(lights_of(j.scene)) {
-  look(j.view);
-  further = {SceneArrays::of(*job.scene.mesh),
-             job.tracer.offset(),
-             job.terminator,
-             &further_footprint,
-             all_lights.data(),
-             all_lights.size(),
-             job.scene.ambient_light,
-             false,
-             true,
-             true,
-             takes_samples(job.scene) || o.indirect > 0 ? &job.sampling : nullptr,
-             {},
-             static_cast<std::uint32_t>(o.scale),
-             0,
-             nullptr,
-             0.0f,
-             job.throughput_cutoff,
-             nullptr,
-             nullptr,
-             nullptr,
-             nullptr,
-             nullptr,
-             nullptr,
-             nullptr,
-             nullptr,
-             nullptr};
-  if (job.scene.environment) environment.emplace(job.scene);
-  if (environment && environment->shines() && o.environment_light) further.environment = &*environment;
-  visible = further;
-  visible.footprint = &seen_footprint;
-  visible.visible = true;
-  visible.adds_ambient = out.color != nullptr;
-  visible.adds_light = out.color || out.added;
-  visible.light_cutoff = job.light_cutoff;
-  for (const BounceLight& light : all_lights)
-    if (light.slot >= 0 ? out.mask_bits > 0 : visible.adds_ambient) visible_lights.push_back(light);
-  visible.lights = visible_lights.data();
-  visible.light_count = visible_lights.size();
-}
 
 TileResult TileTracer::trace(const TilePlan& plan, const PixelBox& tile) {
   plan_ = &plan;
@@ -147,25 +63,25 @@ TileResult TileTracer::trace(const TilePlan& plan, const PixelBox& tile) {
   return {counts_, times};
 }
 
-// The rays of the tile's pixels, or of those alone that are known to see something.
+// The rays of the tile's pixels, or of those alone that are known to see something. ids_ says which.
 void TileTracer::start() {
   seen_.make_room(kPixels);
-  const bool given = plan_->out.seen != nullptr;
+  const bool given = plan_->out.seen != nullptr, whole = tile_.size() == glm::ivec2(TileGrid::kTileSize);
+  if (!whole) ids_.fill(kNoTriangle);
   if (given && !fetch_ids()) return;
-  const glm::ivec2 size = tile_.size();
-  if (size == glm::ivec2(TileGrid::kTileSize) && !given) {
+  if (whole && !given) {
     std::copy(z_curve().begin(), z_curve().end(), seen_.pixel);
     seen_.size = kPixels;
   } else {
+    if (!given)
+      for (int y = 0; y < tile_.size().y; ++y)
+        std::fill_n(&ids_[static_cast<std::size_t>(y) << kTileBits], tile_.size().x, 0u);
     std::size_t count = 0;
     for (const std::uint32_t pixel : z_curve()) {
-      const int x = static_cast<int>(pixel) & (TileGrid::kTileSize - 1),
-                y = static_cast<int>(pixel) >> kTileBits;
-      const bool inside = x < size.x && y < size.y;
-      const std::uint32_t triangle = given ? ids_[pixel] : 0;
+      const std::uint32_t triangle = ids_[pixel];
       seen_.pixel[count] = pixel;
       seen_.triangle[count] = triangle;
-      count += inside && triangle != kNoTriangle ? 1 : 0;
+      count += triangle != kNoTriangle ? 1 : 0;
     }
     seen_.size = count;
   }
@@ -214,15 +130,16 @@ void TileTracer::look() {
 void TileTracer::make_room(std::size_t rays, Generation& next) {
   for (std::size_t i = 0; i < next.size(); ++i)
     next[i].make_room(i < 2 || plan_->blends ? rays : 0, plan_->further.footprint->angle > 0.0f);
-  for (RayQueue& queue : shadow_) queue.make_room(rays);
+  for (std::size_t i = 0; i < plan_->casting; ++i) shadow_[i].make_room(rays);
   if (plan_->further.environment) sky_.make_room(rays);
   if (plan_->out.indirect > 0) next_diffuse_.make_more_room(rays, plan_->further.footprint->angle > 0.0f);
   if (plan_->job.terminator != Terminator::turned_away) return;
-  for (RayQueue& queue : ways_up_) queue.make_room(rays);
+  for (std::size_t i = 0; i < plan_->casting; ++i) ways_up_[i].make_room(rays);
   if (plan_->further.environment) sky_ways_up_.make_room(rays);
 }
 
-void TileTracer::bounce(Bounce step, int generation, const RayQueue& rays, Generation& next, Radiance& radiance) {
+void TileTracer::bounce(Bounce step, int generation, const RayQueue& rays, Generation& next,
+                        Radiance& radiance) {
   step.corner = glm::uvec2(plan_->first + tile_.lo * plan_->out.scale);
   step.dimension = static_cast<std::uint32_t>(generation) * shared::kDimensionsOfBounce;
   step.shadow = shadow_.data();
@@ -235,15 +152,18 @@ void TileTracer::bounce(Bounce step, int generation, const RayQueue& rays, Gener
 }
 
 void TileTracer::light_visible() {
-  direct_.fill(glm::vec4(0.0f));
   mask_.fill(0);
-  for (std::size_t i = 0; i < seen_.size; ++i) direct_[seen_.pixel[i]].a = 1.0f;
+  if (plan_->visible.adds_light) {
+    direct_.fill(glm::vec4(0.0f));
+    for (std::size_t i = 0; i < seen_.size; ++i) direct_[seen_.pixel[i]].a = 1.0f;
+  }
   next_diffuse_.make_room(0, plan_->further.footprint->angle > 0.0f);
   make_room(seen_.size, rays_);
   Bounce step = plan_->visible;
   step.mirrored = plan_->out.depth > 0 ? rays_.data() : nullptr;
   step.diffuse = plan_->out.indirect > 0 ? &next_diffuse_ : nullptr;
-  if (!step.mirrored && !step.diffuse && step.light_count == 0 && !step.adds_ambient && !step.environment) return;
+  if (!step.mirrored && !step.diffuse && step.light_count == 0 && !step.adds_ambient && !step.environment)
+    return;
   reflects_ = step.environment != nullptr;
   if (reflects_) reflected_.fill(glm::vec4(0.0f));
   bounce(step, 0, seen_, rays_, direct_);
@@ -261,13 +181,14 @@ void TileTracer::fire_shadows(int generation, Radiance& radiance) {
     const float reach = light.params.kind == shared::kLightDirectional ? kInfinity : 1.0f;
     if (plan_->out.on_rays) plan_->out.on_rays({queue.columns(reach), queue.size, generation, true});
     ask_occluded(queue, reach);
-    block_where_the_way_up_is(ways_up_[static_cast<std::size_t>(light.slot)]);
-    for (std::size_t i = 0; i < queue.size; ++i) {
-      if (blocked_[i]) continue;
-      const std::uint32_t pixel = queue.pixel[i];
-      if (visible) mask_[pixel] |= static_cast<std::uint8_t>(1u << light.slot);
-      if (adds) radiance[pixel] += glm::vec4(queue.light[0][i], queue.light[1][i], queue.light[2][i], 0.0f);
-    }
+    block_where_the_way_up_is(ways_up_[static_cast<std::size_t>(light.slot)], generation);
+    if (visible)  // without a branch: at the edges of shadows it would be foretold badly
+      for (std::size_t i = 0; i < queue.size; ++i)
+        mask_[queue.pixel[i]] |= static_cast<std::uint8_t>((blocked_[i] ^ 1u) << light.slot);
+    if (!adds) continue;
+    for (std::size_t i = 0; i < queue.size; ++i)
+      if (!blocked_[i])
+        radiance[queue.pixel[i]] += glm::vec4(queue.light[0][i], queue.light[1][i], queue.light[2][i], 0.0f);
   }
 }
 

@@ -2,34 +2,15 @@
 
 #include <array>
 #include <cstdint>
-#include <optional>
 #include <vector>
 
 #include "core/parallel/tiles.h"
-#include "core/trace/environment_light.h"
 #include "core/trace/holes.h"
 #include "core/trace/lane_steps.h"
 #include "core/trace/ray_queue.h"
-#include "core/trace/trace_tiles.h"
+#include "core/trace/tile_plan.h"
 
 namespace pinocchio {
-
-// What all tiles of a picture read.
-struct TilePlan {
-  TilePlan(const TraceJob& job, const TileOutputs& outputs);
-  // From here on samples are of this view.
-  void look(const shared::ViewParams& from);
-
-  const TraceJob& job;
-  const TileOutputs& out;
-  shared::ViewParams view;  // of the samples
-  glm::ivec2 first{0};      // the whole picture's pixel that the first one is
-  Footprint seen_footprint, further_footprint;
-  bool has_holes, blends;   // some material's maps do
-  std::vector<BounceLight> all_lights, visible_lights;
-  std::optional<EnvironmentLight> environment;
-  Bounce visible, further;  // the step of the camera's rays, and of those that they spawn
-};
 
 // One thread's memory for tiles, and the tile's way through the steps.
 class TileTracer {
@@ -58,7 +39,7 @@ class TileTracer {
   void fire_shadows(int generation, Radiance& radiance);
   void fire_at_environment(int generation);
   void ask_occluded(const RayQueue& queue, float reach);
-  void block_where_the_way_up_is(const RayQueue& up);
+  void block_where_the_way_up_is(const RayQueue& up, int generation);
   void write() const;
 
   const TilePlan* plan_ = nullptr;

@@ -28,10 +28,13 @@ struct TileImages {
 class Share {
  public:
   Share(const FramesJob& job, const FrameArrays& to, TileImages& images)
-      : job_(job), to_(to), images_(images), trace_job_{job.scene,          job.tracer, job.workers, {},
-                                                        job.throughput_cutoff, job.light_cutoff, job.filter_textures,
-                                                        job.terminator},
-        outputs_(outputs(job, to, images)), plan_(trace_job_, outputs_) {}
+      : job_(job),
+        to_(to),
+        images_(images),
+        trace_job_{job.scene,        job.tracer,          job.workers,   {}, job.throughput_cutoff,
+                   job.light_cutoff, job.filter_textures, job.terminator},
+        outputs_(outputs(job, to, images)),
+        plan_(trace_job_, outputs_) {}
 
   RayCounts draw(std::size_t frame, const PixelBox& tile) {
     const Camera& camera = job_.cameras[frame];
@@ -74,7 +77,8 @@ class Share {
     if (!to_.color || job_.spp == 1) return;
     for (int y = 0; y < box.hi.y; ++y)
       for (int x = 0; x < box.hi.x; ++x)
-        images_.sum.at(x, y) = k == 0 ? images_.color.at(x, y) : images_.sum.at(x, y) + images_.color.at(x, y);
+        images_.sum.at(x, y) =
+            k == 0 ? images_.color.at(x, y) : images_.sum.at(x, y) + images_.color.at(x, y);
   }
 
   // Of the picture's first pixel in row y of the tile.

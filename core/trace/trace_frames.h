@@ -32,8 +32,8 @@ struct FramesJob {
   Progress* progress = nullptr;  // told of every tile: a picture is `spp` steps
 };
 
-// The bits that trace_tiles, surface_images and the mean of the samples give for each picture alone. Allocates
-// a little for each thread and nothing for a picture, once the threads are warm.
+// The bits that trace_tiles, surface_images and the mean of the samples give for each picture alone.
+// Allocates a little for each thread and nothing for a picture, once the threads are warm.
 RayCounts trace_frames(const FramesJob& job, const FrameArrays& to);
 
 }  // namespace pinocchio

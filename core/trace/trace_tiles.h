@@ -43,8 +43,8 @@ struct TileOutputs {
   // `depth` generations at most.
   int depth = 0;
   Image<glm::vec3>* reflection = nullptr;
-  // The same holds what the scene's environment lights, and light from other matt surfaces, `indirect` bounces of
-  // it at most: one sample of each.
+  // The same holds what the scene's environment lights, and light from other matt surfaces, `indirect`
+  // bounces of it at most: one sample of each.
   bool environment_light = false;
   int indirect = 0;
 

@@ -129,7 +129,8 @@ void Tracer::occluded(std::span<const Ray> rays, std::span<std::uint8_t> blocked
 
 void Tracer::closest_hits(const RayColumns& rays, std::size_t n, std::uint32_t* triangle, float* t) const {
   const auto trace = kernel_of(isa_, tree_->test).closest_hits;
-  if (n < kLeastSorted || isa_ == Isa::scalar || !rays_part(rays, n)) return trace(*tree_, rays, n, triangle, t);
+  if (n < kLeastSorted || isa_ == Isa::scalar || !rays_part(rays, n))
+    return trace(*tree_, rays, n, triangle, t);
   static thread_local RaySorter sorter;  // its memory is made once a thread
   const RayColumns sorted = sorter.sort(rays, n);
   trace(*tree_, sorted, n, sorter.triangles(), t ? sorter.distances() : nullptr);

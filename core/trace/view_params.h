@@ -8,11 +8,12 @@
 namespace pinocchio {
 
 // The rays of a width x height picture. Pixel (x, y), row 0 on top, is sampled at its centre moved by
-// `jitter` (pixels). Where only a part of the picture is drawn, its pixel (0, 0) is `first`. `lens`: the point of the
-// camera's lens that is looked through, on a disc of radius 1.
+// `jitter` (pixels). Where only a part of the picture is drawn, its pixel (0, 0) is `first`. `lens`: the
+// point of the camera's lens that is looked through, on a disc of radius 1.
 [[nodiscard]] shared::ViewParams view_params(const Camera& camera, glm::ivec2 size,
                                              glm::vec2 jitter = glm::vec2(0.0f),
-                                             glm::ivec2 first = glm::ivec2(0), glm::vec2 lens = glm::vec2(0.0f));
+                                             glm::ivec2 first = glm::ivec2(0),
+                                             glm::vec2 lens = glm::vec2(0.0f));
 [[nodiscard]] shared::ViewParams view_params(const View& view);
 
 // Unit, towards what is seen.

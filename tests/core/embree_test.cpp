@@ -1,9 +1,9 @@
 // Embree 3 as an oracle: primary hits, shadow mask bits and first reflection hits of whole pictures.
 #include <cmath>
 #include <memory>
+#include <optional>
 
 #include "core/trace/passes.h"
-#include "core/trace/scatter.h"
 #include "core/trace/surface.h"
 #include "core/trace/view_params.h"
 #include "tests/support/embree.h"
@@ -145,20 +145,27 @@ void compare_masks(const Comparison& c) {
   tally.finish();
 }
 
+// Of a surface that mirrors.
+std::optional<Ray> mirrored_ray(const SurfaceInteraction& s) {
+  const glm::vec3 shares = s.material.reflectance + s.material.transmittance;
+  if (shares == glm::vec3(0.0f)) return std::nullopt;
+  glm::vec3 direction = glm::reflect(-s.to_viewer, s.n_shading);
+  if (glm::dot(direction, s.n_geometric) <= 0.0f) direction = glm::reflect(-s.to_viewer, s.n_geometric);
+  return Ray{offset_origin(s, direction), kInfinity, direction};
+}
+
 void compare_reflections(const Comparison& c) {
   // The first generation's rays, ours; what they hit, both. A pixel without such a ray has a hit at 0.
   Image<Hit> ours(kSize, Hit{0.0f, kNoTriangle}), theirs = ours;
-  std::vector<PathRay> rays;
   for (int y = 0; y < kSize.y; ++y)
     for (int x = 0; x < kSize.x; ++x) {
       if (!c.ours.at(x, y).valid()) continue;
-      const Ray ray = pixel_ray(c.view, x, y);
-      rays.clear();
-      scatter(surface_at(*c.scene.mesh, c.ours.at(x, y).triangle, ray.origin, ray.direction), glm::vec3(1.0f),
-              0, kThroughputCutoff, rays);
-      if (rays.empty()) continue;
-      c.tracer.closest_hits({&rays.front().ray, 1}, {&ours.at(x, y), 1});
-      theirs.at(x, y) = c.embree.closest_hit(rays.front().ray);
+      const Ray seen = pixel_ray(c.view, x, y);
+      const std::optional<Ray> ray =
+          mirrored_ray(surface_at(*c.scene.mesh, c.ours.at(x, y).triangle, seen.origin, seen.direction));
+      if (!ray) continue;
+      c.tracer.closest_hits({&*ray, 1}, {&ours.at(x, y), 1});
+      theirs.at(x, y) = c.embree.closest_hit(*ray);
     }
   Tally tally("first reflection hits");
   for (int y = 0; y < kSize.y; ++y)

@@ -1,79 +1,112 @@
-#include "core/trace/mapped_material.h"
-#include "core/trace/scatter.h"
-
+// Mirrors and glass by the frame's own step, against closed forms.
 #include <gtest/gtest.h>
 
 #include <cmath>
 
+#include "core/trace/trace_tiles.h"
+#include "core/trace/view_params.h"
+#include "scenes/generator/mesh_builder.h"
+
 namespace pinocchio {
 namespace {
 
-// A surface in the plane y = 0, seen from above at `angle` from its normal.
-SurfaceInteraction surface_seen_at(float angle, const Material& material, bool leaving = false) {
-  SurfaceInteraction s{};
-  s.n_geometric = s.n_shading = {0, 1, 0};
-  s.to_viewer = {std::sin(angle), std::cos(angle), 0};
-  s.leaving = leaving;
-  s.offset = 1e-6f;
-  s.material = plain_material(material);
-  s.alpha = 1.0f;
-  return s;
+// What a ray that meets the plane y = 0 sends on.
+struct Scattered {
+  std::vector<Ray> rays;  // mirrored, then refracted
+  float mirrored;         // share of it
+};
+
+// Seen from above at `angle` from the normal. leaving: the surface's front is below. A ceiling shines with 1,
+// so what is reflected is the share of light that is mirrored.
+Scattered scattered(float angle, const Material& material, bool leaving = false) {
+  MeshData mesh;
+  MeshBuilder builder(mesh);
+  builder.use(material);
+  const auto plane = [&](float y, float side, bool up) {
+    const glm::vec3 a(-side, y, side), b(side, y, side), c(side, y, -side), d(-side, y, -side);
+    up ? builder.quad(a, b, c, d) : builder.quad(d, c, b, a);
+  };
+  plane(0.0f, 1e3f, !leaving);
+  Material shining;
+  shining.emission = glm::vec3(1.0f);
+  builder.use(shining);
+  plane(10.0f, 1e5f, false);
+  Scene scene(std::move(mesh));
+  scene.ambient_light = glm::vec3(0.0f);
+  const Tracer tracer(scene.mesh);
+  Workers workers(1);
+  Camera camera;
+  camera.eye = {std::sin(angle), std::cos(angle), 0.0f};
+  camera.up = {0.0f, 0.0f, 1.0f};
+  constexpr glm::ivec2 kOnePixel{1, 1};
+
+  Scattered result{};
+  Image<std::uint32_t> ids;
+  Image<glm::vec3> reflection;
+  TileOutputs out;
+  out.size = kOnePixel;
+  out.ids = &ids;
+  out.depth = 1;
+  out.reflection = &reflection;
+  out.on_rays = [&](const RayBatch& batch) {
+    const RayColumns& c = batch.rays;
+    for (std::size_t i = 0; batch.generation == 1 && i < batch.count; ++i)
+      result.rays.push_back({{c.origin[0][i], c.origin[1][i], c.origin[2][i]},
+                             kInfinity,
+                             {c.direction[0][i], c.direction[1][i], c.direction[2][i]}});
+  };
+  trace_tiles({scene, tracer, workers, view_params(camera, kOnePixel)}, out);
+  result.mirrored = reflection.at(0, 0).x;
+  return result;
 }
 
-std::vector<PathRay> scattered(const SurfaceInteraction& surface) {
-  std::vector<PathRay> rays;
-  scatter(surface, glm::vec3(1.0f), 0, kThroughputCutoff, rays);
-  return rays;
+Material mirror_of(float reflectance) {
+  Material mirror;
+  mirror.reflectance = glm::vec3(reflectance);
+  return mirror;
+}
+
+Material glass_of(float ior) {
+  Material glass;
+  glass.transmittance = glm::vec3(1.0f);
+  glass.ior = ior;
+  return glass;
 }
 
 TEST(Scatter, MirrorReflectsAtTheSameAngle) {
-  Material mirror;
-  mirror.reflectance = glm::vec3(0.8f);
-  const std::vector<PathRay> rays = scattered(surface_seen_at(0.5f, mirror));
-  ASSERT_EQ(rays.size(), 1u);
-  EXPECT_NEAR(rays[0].ray.direction.x, -std::sin(0.5f), 1e-6f);
-  EXPECT_NEAR(rays[0].ray.direction.y, std::cos(0.5f), 1e-6f);
-  EXPECT_EQ(rays[0].throughput, glm::vec3(0.8f));
-  EXPECT_FALSE(rays[0].refracted);
+  const Scattered s = scattered(0.5f, mirror_of(0.8f));
+  ASSERT_EQ(s.rays.size(), 1u);
+  EXPECT_NEAR(s.rays[0].direction.x, -std::sin(0.5f), 1e-6f);
+  EXPECT_NEAR(s.rays[0].direction.y, std::cos(0.5f), 1e-6f);
+  EXPECT_EQ(s.mirrored, 0.8f);
 }
 
-TEST(Scatter, GlassFollowsSnellAndFresnel) {
-  Material glass;
-  glass.transmittance = glm::vec3(1.0f);
-  glass.ior = 1.5f;
-  const float in = 0.7f;
-  const std::vector<PathRay> rays = scattered(surface_seen_at(in, glass));
-  ASSERT_EQ(rays.size(), 2u);
-  const float out = std::asin(std::sin(in) / 1.5f);
-  EXPECT_NEAR(rays[1].ray.direction.x, -std::sin(out), 1e-6f);
-  EXPECT_NEAR(rays[1].ray.direction.y, -std::cos(out), 1e-6f);
-  EXPECT_NEAR(rays[0].throughput.x + rays[1].throughput.x, 1.0f, 1e-6f);
-  EXPECT_LT(rays[1].ray.origin.y, 0.0f);  // starts on the other side
-  EXPECT_GT(rays[0].ray.origin.y, 0.0f);
+TEST(Scatter, GlassFollowsSnell) {
+  const float in = 0.7f, out = std::asin(std::sin(in) / 1.5f);
+  const Scattered s = scattered(in, glass_of(1.5f));
+  ASSERT_EQ(s.rays.size(), 2u);
+  EXPECT_NEAR(s.rays[1].direction.x, -std::sin(out), 1e-6f);
+  EXPECT_NEAR(s.rays[1].direction.y, -std::cos(out), 1e-6f);
+  EXPECT_LT(s.rays[1].origin.y, 0.0f);  // starts on the other side
+  EXPECT_GT(s.rays[0].origin.y, 0.0f);
 }
 
 TEST(Scatter, BeyondTheCriticalAngleAllIsMirrored) {
-  Material glass;
-  glass.transmittance = glm::vec3(1.0f);
-  glass.ior = 1.5f;
-  const std::vector<PathRay> rays = scattered(surface_seen_at(std::asin(1.0f / 1.5f) + 0.01f, glass, true));
-  ASSERT_EQ(rays.size(), 1u);
-  EXPECT_EQ(rays[0].throughput, glm::vec3(1.0f));
+  const Scattered s = scattered(std::asin(1.0f / 1.5f) + 0.01f, glass_of(1.5f), true);
+  EXPECT_EQ(s.rays.size(), 1u);
+  EXPECT_EQ(s.mirrored, 1.0f);
 }
 
-TEST(Fresnel, KnownValues) {
-  EXPECT_NEAR(fresnel_dielectric(1.0f, 1.5f), 0.04f, 1e-6f);  // ((n - 1) / (n + 1))^2
-  EXPECT_NEAR(fresnel_dielectric(0.0f, 1.5f), 1.0f, 1e-6f);   // grazing
-  EXPECT_NEAR(fresnel_dielectric(0.5f, 1.0f), 0.0f, 1e-6f);   // no boundary
-  const float brewster = std::cos(std::atan(1.5f));           // only the perpendicular half is mirrored
-  EXPECT_NEAR(fresnel_dielectric(brewster, 1.5f),
-              0.5f * std::pow((1.5f * 1.5f - 1) / (1.5f * 1.5f + 1), 2.0f), 1e-6f);
+TEST(Scatter, GlassSharesByFresnel) {
+  EXPECT_NEAR(scattered(0.0f, glass_of(1.5f)).mirrored, 0.04f, 1e-6f);  // ((n - 1) / (n + 1))^2
+  const float only_perpendicular = (1.5f * 1.5f - 1) / (1.5f * 1.5f + 1);  // at Brewster's angle
+  EXPECT_NEAR(scattered(std::atan(1.5f), glass_of(1.5f)).mirrored,
+              0.5f * only_perpendicular * only_perpendicular, 1e-6f);
+  EXPECT_EQ(scattered(0.5f, glass_of(1.0f)).rays.size(), 1u);  // no boundary: all goes through
 }
 
 TEST(Scatter, WhatIsNotSeenIsNotFollowed) {
-  Material mirror;
-  mirror.reflectance = glm::vec3(0.5f * kThroughputCutoff);
-  EXPECT_TRUE(scattered(surface_seen_at(0.2f, mirror)).empty());
+  EXPECT_TRUE(scattered(0.2f, mirror_of(0.5f * kThroughputCutoff)).rays.empty());
 }
 
 }  // namespace

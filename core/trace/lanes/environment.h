@@ -1,5 +1,5 @@
-// Part of trace/kernel.h's files: what a point samples of all directions around it: one of the environment, where
-// its light comes from, and one in which light from other surfaces is looked for.
+// Part of trace/kernel.h's files: what a point samples of all directions around it: one of the environment,
+// where its light comes from, and one in which light from other surfaces is looked for.
 #pragma once
 
 #include "core/trace/environment_light.h"
@@ -12,16 +12,16 @@
 namespace pinocchio::PINOCCHIO_LANES {
 namespace {
 
-// What of light from all around is reflected where Phong's coefficients are not a BRDF's: their 1 / pi is counted to
-// the lights.
+// What of light from all around is reflected where Phong's coefficients are not a BRDF's: their 1 / pi is
+// counted to the lights.
 inline Float brdf_share(const LaneMaterial& m) {
   return select(Mask::from_bits(m.brdf), Float(1.0f), Float(0.31830988618f));
 }
 
 // A shadow ray towards one direction of the environment, with the light that it brings.
 [[gnu::noinline]] void ask_environment(const Bounce& bounce, ShadowStarts& starts, const LaneSurface& s,
-                                       const LaneMaterial& m, const Vec& throughput, const LaneSampling& sampling,
-                                       Int pixel, Mask lanes) {
+                                       const LaneMaterial& m, const Vec& throughput,
+                                       const LaneSampling& sampling, Int pixel, Mask lanes) {
   SampleLanes packet{};
   const LanePoint numbers = sample_2d(sampling, bounce.dimension + shared::kEnvironmentDimension);
   numbers.x.store(packet.number[0]);
@@ -39,10 +39,11 @@ inline Float brdf_share(const LaneMaterial& m) {
   starts.ask_ways_up(lit, *bounce.sky, *bounce.sky_ways_up);
 }
 
-// A ray that looks for light from other surfaces, by the cosine about the shading normal; none where that sends it
-// into the surface.
+// A ray that looks for light from other surfaces, by the cosine about the shading normal; none where that
+// sends it into the surface.
 [[gnu::noinline]] void scatter_diffuse(const Bounce& bounce, const LaneSurface& s, const LaneMaterial& m,
-                                       const Vec& throughput, const LaneSampling& sampling, Int pixel, Mask lanes) {
+                                       const Vec& throughput, const LaneSampling& sampling, Int pixel,
+                                       Mask lanes) {
   const Vec albedo = m.diffuse * (brdf_share(m) * Float(3.14159265359f)), light = throughput * albedo;
   lanes = lanes & ~is_dark(light);
   if (lanes.bits() == 0) return;

@@ -22,7 +22,8 @@ inline Float cone_share(const shared::LightParams& light, const Vec& to_light) {
   return cone * cone;
 }
 
-inline LaneIncident incident_light(const shared::LightParams& light, const Vec& position, const Vec& p_world) {
+[[gnu::always_inline]] inline LaneIncident incident_light(const shared::LightParams& light,
+                                                          const Vec& position, const Vec& p_world) {
   LaneIncident result;
   result.radiance = Vec(light.radiance);
   result.target = position;
@@ -36,7 +37,8 @@ inline LaneIncident incident_light(const shared::LightParams& light, const Vec& 
   result.to_light = select(zero < distance, offset / distance, Vec(zero, Float(1.0f), zero));
   result.radiance = select(Float(light.range) < distance, Vec(zero), result.radiance);
   if (light.inverse_square) result.radiance = result.radiance / max(Float(1e-12f), distance * distance);
-  if (light.kind == shared::kLightSpot) result.radiance = result.radiance * cone_share(light, result.to_light);
+  if (light.kind == shared::kLightSpot)
+    result.radiance = result.radiance * cone_share(light, result.to_light);
   if (light.kind == shared::kLightRectangle)
     result.radiance = result.radiance * max(dot(-result.to_light, Vec(light.direction)), zero);
   return result;
@@ -54,8 +56,8 @@ inline Mask is_dark(const Vec& radiance) {
 }
 
 // Id + Is for `lanes`, which face the light.
-inline Vec phong_light(const LaneMaterial& material, const LaneIncident& incident, const LaneSurface& s,
-                       Mask lanes) {
+[[gnu::always_inline]] inline Vec phong_light(const LaneMaterial& material, const LaneIncident& incident,
+                                              const LaneSurface& s, Mask lanes) {
   const Float zero(0.0f);
   const Float n_dot_l = dot(s.n_shading, incident.to_light);
   Vec sum = material.diffuse * n_dot_l;

@@ -6,7 +6,7 @@ namespace {
 
 // log2 of a positive number: its exponent, and the series of artanh for what is left, in [sqrt(1/2),
 // sqrt(2)).
-inline Double log2_of(Float x) {
+[[gnu::always_inline]] inline Double log2_of(Float x) {
   // A denormal number has no exponent of its own.
   const Mask tiny = x < Float(0x1p-126f);
   const Int bits = bits_of(select(tiny, x * Float(0x1p24f), x));
@@ -22,7 +22,7 @@ inline Double log2_of(Float x) {
 }
 
 // 2^x; beyond what a float holds, zero or infinity.
-inline Float exp2_of(const Double& x) {
+[[gnu::always_inline]] inline Float exp2_of(const Double& x) {
   const Double t = clamp(x, -200.0, 200.0);
   // Added to 1.5 * 2^52 a number loses its fraction, and the rest stands in its lowest bits: here with 1023
   // added, an exponent of double.
@@ -44,7 +44,7 @@ inline Float exp2_of(const Double& x) {
 
 // x^y for x > 0 and any y, within 0.51 units in the last place (tests/core/trace_tiles_test.cpp holds it
 // against libm): the same bits at every width and on every machine.
-inline Float power(Float x, Float y) {
+[[gnu::noinline]] Float power(Float x, Float y) {
   return exp2_of(Double(y) * log2_of(x));
 }
 

@@ -1,4 +1,5 @@
-// Part of trace/kernel.h's files: core/trace/scatter.cpp in lanes.
+// Part of trace/kernel.h's files: mirrored and refracted rays. Dielectrics share by Fresnel's equations
+// (beyond the critical angle all is mirrored); opaque mirrors have a constant reflectance or Schlick's.
 #pragma once
 
 #include "core/trace/lanes/light.h"
@@ -16,9 +17,10 @@ inline Vec mirrored(const LaneSurface& s) {
   return select(good, direction, reflect(-s.to_viewer, s.n_geometric));
 }
 
-// About the mirrored direction by its lobe, (n + 1) / (2 pi) cos^n; n 0: the mirrored direction itself. What would
-// go into the surface is lost: `lanes` keep the others.
-inline Vec spread(const LaneSurface& s, const Vec& direction, Float gloss, const LanePoint& square, Mask& lanes) {
+// About the mirrored direction by its lobe, (n + 1) / (2 pi) cos^n; n 0: the mirrored direction itself. What
+// would go into the surface is lost: `lanes` keep the others.
+inline Vec spread(const LaneSurface& s, const Vec& direction, Float gloss, const LanePoint& square,
+                  Mask& lanes) {
   const Float zero(0.0f), one(1.0f);
   const Mask sharp = gloss == zero;
   const LanePoint disc = disc_of_square(square);
@@ -90,8 +92,9 @@ inline void go_straight_on(const LaneSurface& s, const LaneMaterial& m, const Ve
          bounce.throughput_cutoff, *bounce.straight);
 }
 
-inline void scatter(const LaneSurface& s, const LaneMaterial& m, const Vec& throughput, const LaneSampling* sampling,
-                    Int pixel, Mask lanes, const Bounce& bounce) {
+template <bool kSampled>
+inline void scatter(const LaneSurface& s, const LaneMaterial& m, const Vec& throughput,
+                    const LaneSampling* sampling, Int pixel, Mask lanes, const Bounce& bounce) {
   const unsigned alive = lanes.bits(), glass = m.transmits & alive,
                  opaque = m.reflects & ~m.transmits & alive;
   if ((m.blends & alive) != 0) go_straight_on(s, m, throughput, pixel, lanes, bounce);
@@ -117,8 +120,10 @@ inline void scatter(const LaneSurface& s, const LaneMaterial& m, const Vec& thro
   }
   Mask mirrors = Mask::from_bits(glass | opaque);
   Vec direction = mirrored(s);
-  if (sampling && (m.glossy & (glass | opaque)) != 0)
-    direction = spread(s, direction, m.gloss, sample_2d(*sampling, bounce.dimension + shared::kMirrorDimension), mirrors);
+  if constexpr (kSampled)
+    if ((m.glossy & (glass | opaque)) != 0)
+      direction = spread(s, direction, m.gloss,
+                         sample_2d(*sampling, bounce.dimension + shared::kMirrorDimension), mirrors);
   follow(s, direction, own * mirror_share, pixel, mirrors, bounce.throughput_cutoff, *bounce.mirrored);
 }
 

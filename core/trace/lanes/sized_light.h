@@ -16,8 +16,9 @@ inline LanePoint disc_of_square(const LanePoint& square) {
   const Float a2 = a * a;
   const Float sine =
       a * (one + a2 * (Float(-1.0f / 6.0f) + a2 * (Float(1.0f / 120.0f) + a2 * Float(-1.0f / 5040.0f))));
-  const Float cosine = one + a2 * (Float(-0.5f) + a2 * (Float(1.0f / 24.0f) +
-                                                      a2 * (Float(-1.0f / 720.0f) + a2 * Float(1.0f / 40320.0f))));
+  const Float cosine =
+      one + a2 * (Float(-0.5f) +
+                  a2 * (Float(1.0f / 24.0f) + a2 * (Float(-1.0f / 720.0f) + a2 * Float(1.0f / 40320.0f))));
   return {radius * select(wide, cosine, sine), radius * select(wide, sine, cosine)};
 }
 
@@ -54,11 +55,13 @@ inline LaneIncident ball_light(const shared::LightParams& light, const Vec& p_wo
   result.radiance = Vec(light.radiance) * select(inside, Float(4.0f), two / (one + cosine));
   result.radiance = select(Float(light.range) < distance, Vec(zero), result.radiance);
   if (light.inverse_square) result.radiance = result.radiance / max(max(square, r2), Float(1e-12f));
-  if (light.kind == shared::kLightSpot) result.radiance = result.radiance * cone_share(light, result.to_light);
+  if (light.kind == shared::kLightSpot)
+    result.radiance = result.radiance * cone_share(light, result.to_light);
   return result;
 }
 
-inline LaneIncident sampled_light(const shared::LightParams& light, const Vec& p_world, const LanePoint& square) {
+inline LaneIncident sampled_light(const shared::LightParams& light, const Vec& p_world,
+                                  const LanePoint& square) {
   if (light.kind == shared::kLightRectangle)
     return incident_light(light,
                           Vec(light.position) + Vec(light.edge_u) * (square.x - Float(0.5f)) +

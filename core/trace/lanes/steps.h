@@ -62,8 +62,8 @@ inline void add_light(const Vec& light, const std::uint32_t* pixel, Mask lanes, 
 }
 
 // Towards a light that casts: shadow rays for `lanes`, which carry `light`.
-inline void ask(const BounceLight& from, const ShadowStarts& starts, const LaneIncident& incident, const Vec& light,
-                Int pixel, Mask lanes, const Bounce& bounce) {
+inline void ask(const BounceLight& from, const ShadowStarts& starts, const LaneIncident& incident,
+                const Vec& light, Int pixel, Mask lanes, const Bounce& bounce) {
   if (lanes.bits() == 0) return;
   const Vec origin = starts.origins(incident.to_light);
   const bool far = from.params.kind == shared::kLightDirectional;
@@ -76,21 +76,32 @@ inline void ask(const BounceLight& from, const ShadowStarts& starts, const LaneI
 // The pixels that the tile's samples are of.
 inline IntPair whole_picture_pixel(const Bounce& bounce, Int pixel) {
   const Int row = shift_right<kTileBits>(pixel), scale(bounce.scale);
-  return {(pixel - shift_left<kTileBits>(row)) * scale + Int(bounce.corner.x), row * scale + Int(bounce.corner.y)};
+  return {(pixel - shift_left<kTileBits>(row)) * scale + Int(bounce.corner.x),
+          row * scale + Int(bounce.corner.y)};
+}
+
+// Where a light's light comes from at the points of a packet.
+template <bool kSampled>
+[[gnu::always_inline]] inline LaneIncident light_from(const BounceLight& light, const LaneSurface& s,
+                                                      const LaneSampling* sampling, std::uint32_t dimension) {
+  if constexpr (kSampled)
+    if (light.has_size)
+      return sampled_light(light.params, s.p_world,
+                           sample_2d(*sampling, dimension + shared::kLightDimension + light.index));
+  return incident_light(light.params, Vec(light.params.position), s.p_world);
 }
 
 // What the lights do at the points of a packet; returns what reaches them for certain.
-inline Vec light_points(const Bounce& bounce, const Corners& corners, const LaneSurface& s, const LaneMaterial& m,
-                        const Vec& throughput, const LaneSampling* sampling, Int pixel, Mask lanes) {
+template <bool kSampled>
+inline Vec light_points(const Bounce& bounce, const Corners& corners, const LaneSurface& s,
+                        const LaneMaterial& m, const Vec& throughput, const LaneSampling* sampling, Int pixel,
+                        Mask lanes) {
   ShadowStarts starts(bounce.terminator, corners, s);
   Vec sum(Float(0.0f));
   if (bounce.adds_ambient) sum = m.ambient * Vec(bounce.ambient_light) + m.emission;
   for (std::size_t i = 0; i < bounce.light_count; ++i) {
     const BounceLight& light = bounce.lights[i];
-    const LaneIncident incident =
-        light.has_size ? sampled_light(light.params, s.p_world,
-                                       sample_2d(*sampling, bounce.dimension + shared::kLightDimension + light.index))
-                       : incident_light(light.params, Vec(light.params.position), s.p_world);
+    const LaneIncident incident = light_from<kSampled>(light, s, sampling, bounce.dimension);
     Mask lit = lanes & starts.faces_light(incident.to_light) & ~is_dark(incident.radiance);
     if (bounce.visible && light.slot >= 0 && bounce.light_cutoff > 0.0f)
       lit = lit & ~(most_light(m, incident, s) < Float(bounce.light_cutoff));
@@ -106,30 +117,53 @@ inline Vec light_points(const Bounce& bounce, const Corners& corners, const Lane
     if (!bounce.visible) lit = lit & ~(largest(carried) < Float(bounce.throughput_cutoff));
     ask(light, starts, incident, carried, pixel, lit, bounce);
   }
-  if (bounce.environment) ask_environment(bounce, starts, s, m, throughput, *sampling, pixel, lanes);
+  if constexpr (kSampled)
+    if (bounce.environment) ask_environment(bounce, starts, s, m, throughput, *sampling, pixel, lanes);
   return sum;
 }
 
-// What the next packets read: triangles of the one after the next, corners of the next.
-inline void prefetch_corners(const SceneArrays& scene, const RayQueue& rays, std::size_t i) {
-  const auto end = [&rays](std::size_t first) {
-    return first + kWidth < rays.size ? first + kWidth : rays.size;
-  };
-  for (std::size_t k = i + 2 * kWidth; k < end(i + 2 * kWidth); ++k)
-    __builtin_prefetch(scene.triangles + rays.triangle[k]);
-  for (std::size_t k = i + kWidth; k < end(i + kWidth); ++k) {
-    const std::uint32_t corner = scene.triangles[rays.triangle[k]].x;
-    __builtin_prefetch(scene.positions + corner);
-    __builtin_prefetch(scene.normals + corner);
-  }
+// How many rays ahead of a packet what it reads is fetched: its triangles, then, by these, their corners. On
+// meshes of small triangles the step would wait for memory most of its time.
+constexpr std::size_t kTrianglesAhead = 96, kCornersAhead = 32;
+
+// Calls fetch(triangle) for rays `first` and on, a packet of them; for neighbours that meet the same one,
+// once.
+template <class Fetch>
+inline void for_each_ahead(const RayQueue& rays, std::size_t first, Fetch fetch) {
+  const std::size_t end = first + kWidth < rays.size ? first + kWidth : rays.size;
+  for (std::size_t k = first; k < end; ++k)
+    if (k == first || rays.triangle[k] != rays.triangle[k - 1]) fetch(rays.triangle[k]);
 }
 
-void bounce_rays(const Bounce& bounce, const RayQueue& rays) {
+inline void fetch_triangles(const SceneArrays& scene, const RayQueue& rays, std::size_t first) {
+  for_each_ahead(rays, first, [&](std::uint32_t triangle) {
+    __builtin_prefetch(scene.triangles + triangle);
+    __builtin_prefetch(scene.triangle_materials + triangle);
+  });
+}
+
+inline void fetch_corners(const SceneArrays& scene, const RayQueue& rays, std::size_t first) {
+  for_each_ahead(rays, first, [&](std::uint32_t triangle) {
+    const glm::uvec3& corners = scene.triangles[triangle];
+    for (const std::uint32_t corner : {corners.x, corners.y, corners.z}) {
+      __builtin_prefetch(scene.positions + corner);
+      __builtin_prefetch(scene.normals + corner);
+    }
+  });
+}
+
+// kSampled: some light has a size, some mirror is rough, or there is light from all around. Scenes without
+// pay nothing for what those need.
+template <bool kSampled>
+void bounce_packets(const Bounce& bounce, const RayQueue& rays) {
   const bool reads_material = bounce.adds_light || bounce.adds_ambient || bounce.mirrored ||
-                              bounce.light_cutoff > 0.0f || bounce.scene.mesh != nullptr || bounce.environment ||
-                              bounce.diffuse;
+                              bounce.light_cutoff > 0.0f || bounce.scene.mesh != nullptr ||
+                              bounce.environment || bounce.diffuse;
+  for (std::size_t i = 0; i < kTrianglesAhead; i += kWidth) fetch_triangles(bounce.scene, rays, i);
+  for (std::size_t i = 0; i < kCornersAhead; i += kWidth) fetch_corners(bounce.scene, rays, i);
   for (std::size_t i = 0; i < rays.size; i += kWidth) {
-    prefetch_corners(bounce.scene, rays, i);
+    fetch_triangles(bounce.scene, rays, i + kTrianglesAhead);
+    fetch_corners(bounce.scene, rays, i + kCornersAhead);
     const Mask lanes = lanes_from(i, rays.size);
     const Int triangle = Int::load(rays.triangle + i), pixel = Int::load(rays.pixel + i);
     const Corners corners(bounce.scene, triangle, lanes);
@@ -148,13 +182,18 @@ void bounce_rays(const Bounce& bounce, const RayQueue& rays) {
     const Vec throughput = bounce.visible ? Vec(Float(1.0f)) : Vec::load(rays.light, i);
     const Vec own = m.blends != 0 ? throughput * m.alpha : throughput;
     std::optional<LaneSampling> sampling;
-    if (bounce.sampling) sampling.emplace(*bounce.sampling, whole_picture_pixel(bounce, pixel));
-    const LaneSampling* const samples = sampling ? &*sampling : nullptr;
-    const Vec certain = light_points(bounce, corners, s, m, own, samples, pixel, lanes);
+    if constexpr (kSampled) sampling.emplace(*bounce.sampling, whole_picture_pixel(bounce, pixel));
+    const LaneSampling* const samples = kSampled ? &*sampling : nullptr;
+    const Vec certain = light_points<kSampled>(bounce, corners, s, m, own, samples, pixel, lanes);
     if (bounce.adds_light) add_light(own * certain, rays.pixel + i, lanes, bounce.radiance);
-    if (bounce.mirrored) scatter(s, m, throughput, samples, pixel, lanes, bounce);
-    if (bounce.diffuse) scatter_diffuse(bounce, s, m, own, *samples, pixel, lanes);
+    if (bounce.mirrored) scatter<kSampled>(s, m, throughput, samples, pixel, lanes, bounce);
+    if constexpr (kSampled)
+      if (bounce.diffuse) scatter_diffuse(bounce, s, m, own, *samples, pixel, lanes);
   }
+}
+
+void bounce_rays(const Bounce& bounce, const RayQueue& rays) {
+  bounce.sampling ? bounce_packets<true>(bounce, rays) : bounce_packets<false>(bounce, rays);
 }
 
 void powers(const float* x, const float* y, float* result, std::size_t count) {
@@ -162,8 +201,8 @@ void powers(const float* x, const float* y, float* result, std::size_t count) {
     power(Float::load(x + i), Float::load(y + i)).store(result + i);
 }
 
-void samples(const shared::Sampling& of, const std::uint32_t* x, const std::uint32_t* y, std::uint32_t dimension,
-             float* u, float* v, std::size_t count) {
+void samples(const shared::Sampling& of, const std::uint32_t* x, const std::uint32_t* y,
+             std::uint32_t dimension, float* u, float* v, std::size_t count) {
   for (std::size_t i = 0; i < count; i += kWidth) {
     const LanePoint p = sample_2d(LaneSampling(of, {Int::load(x + i), Int::load(y + i)}), dimension);
     p.x.store(u + i);

@@ -68,7 +68,7 @@ inline Vec shading_normal(const Vec& weights, const Vec (&normal)[3], const Vec&
   return select(Float(1e-12f) < square, n / sqrt(square), n_geometric);
 }
 
-inline Double point_of(Float weight_b, Float weight_c, Float a, Float b, Float c) {
+[[gnu::always_inline]] inline Double point_of(Float weight_b, Float weight_c, Float a, Float b, Float c) {
   const Double from(a);
   return from + Double(weight_b) * (Double(b) - from) + Double(weight_c) * (Double(c) - from);
 }
@@ -103,7 +103,7 @@ inline LaneSurface surface_of(const Corners& corners, const Vec& origin, const V
 }
 
 // Where a ray leaving the surface towards `direction` starts.
-inline Vec offset_origin(const LaneSurface& s, const Vec& direction) {
+[[gnu::always_inline]] inline Vec offset_origin(const LaneSurface& s, const Vec& direction) {
   const Float side = select(dot(s.n_geometric, direction) < Float(0.0f), -s.offset, s.offset);
   return {to_float(s.p_exact.x + Double(side * s.n_geometric.x)),
           to_float(s.p_exact.y + Double(side * s.n_geometric.y)),

@@ -18,7 +18,8 @@ inline Vec to_tangent_plane(const Vec& from_vertex, const Vec& n) {
 
 inline Float terminator_factor(const LaneSurface& s, const Vec& to_light) {
   const Float one(1.0f);
-  const Float g = dot(s.n_geometric, to_light) / (dot(s.n_shading, to_light) * dot(s.n_shading, s.n_geometric));
+  const Float g =
+      dot(s.n_geometric, to_light) / (dot(s.n_shading, to_light) * dot(s.n_shading, s.n_geometric));
   return select(g < one, (one + g - g * g) * g, one);
 }
 
@@ -31,7 +32,7 @@ class ShadowStarts {
   }
 
   // Whether light from there is asked for; those that the next origins() are for.
-  [[nodiscard]] Mask faces_light(const Vec& to_light) {
+  [[nodiscard, gnu::always_inline]] Mask faces_light(const Vec& to_light) {
     lifted_ = 0;
     const Mask usual = PINOCCHIO_LANES::faces_light(s_, to_light);
     if (!lifts(method_)) return usual;
@@ -46,37 +47,47 @@ class ShadowStarts {
     return usual | kept;
   }
 
-  [[nodiscard]] Vec origins(const Vec& to_light) const {
-    const Vec usual = offset_origin(s_, to_light);
-    return lifted_ == 0 ? usual : select(Mask::from_bits(lifted_), lifted_origin(), usual);
+  [[nodiscard, gnu::always_inline]] Vec origins(const Vec& to_light) const {
+    Vec from = offset_origin(s_, to_light);
+    if (lifted_ != 0) [[unlikely]]
+      from = select(Mask::from_bits(lifted_), lifted_origin(), from);
+    return from;
   }
 
-  // The ways up to the lifted origins among those of `lanes`, which were just appended to `shadow` and have to
-  // be free, too; `pixel` is the shadow ray's place in its queue.
+  // The ways up to the lifted origins among those of `lanes`, which were just appended to `shadow` and have
+  // to be free, too; `pixel` is the shadow ray's place in its queue.
   void ask_ways_up(Mask lanes, const RayQueue& shadow, RayQueue& up) const {
-    if (method_ != Terminator::turned_away || (lanes.bits() & lifted_) == 0) return;
-    const Vec from = offset_origin(s_, s_.n_geometric);
-    alignas(64) std::uint32_t place[kWidth] = {};
-    auto next = static_cast<std::uint32_t>(shadow.size) - static_cast<std::uint32_t>(__builtin_popcount(lanes.bits()));
-    for (unsigned rest = lanes.bits(); rest != 0; rest &= rest - 1) place[__builtin_ctz(rest)] = next++;
-    append(from, lifted_origin() - from, Vec(Float(0.0f)), Int::load(place), lanes & Mask::from_bits(lifted_), up);
+    if (method_ == Terminator::turned_away && (lanes.bits() & lifted_) != 0) [[unlikely]]
+      append_ways_up(lanes, shadow, up);
   }
 
  private:
-  void find_lift() {
+  // Few packets hold a facet that turns away: what is done for those is kept out of the way of the others.
+  [[gnu::noinline]] void append_ways_up(Mask lanes, const RayQueue& shadow, RayQueue& up) const {
+    const Vec from = offset_origin(s_, s_.n_geometric);
+    alignas(64) std::uint32_t place[kWidth] = {};
+    auto next = static_cast<std::uint32_t>(shadow.size) -
+                static_cast<std::uint32_t>(__builtin_popcount(lanes.bits()));
+    for (unsigned rest = lanes.bits(); rest != 0; rest &= rest - 1) place[__builtin_ctz(rest)] = next++;
+    append(from, lifted_origin() - from, Vec(Float(0.0f)), Int::load(place), lanes & Mask::from_bits(lifted_),
+           up);
+  }
+
+  [[gnu::noinline]] void find_lift() {
     found_ = true;
     const Vec &a = corners_.position[0], ab = corners_.position[1] - a, ac = corners_.position[2] - a;
     Vec n[3];
     for (int i = 0; i < 3; ++i) n[i] = select(s_.leaving, -corners_.normal[i], corners_.normal[i]);
     const Vec from_a = ab * s_.weights.y + ac * s_.weights.z;
-    lift_ = to_tangent_plane(from_a, n[0]) * s_.weights.x + to_tangent_plane(from_a - ab, n[1]) * s_.weights.y +
+    lift_ = to_tangent_plane(from_a, n[0]) * s_.weights.x +
+            to_tangent_plane(from_a - ab, n[1]) * s_.weights.y +
             to_tangent_plane(from_a - ac, n[2]) * s_.weights.z;
     const Float least = Float(shared::kLeastLift) * max(largest(abs(ab)), largest(abs(ac)));
     has_lift_ = (least < dot(lift_, s_.n_geometric)) & ~(same(n[0], n[1]) & same(n[0], n[2]));
     n_vertices_ = shading_normal(s_.weights, n, s_.n_geometric);
   }
 
-  [[nodiscard]] Vec lifted_origin() const {
+  [[nodiscard, gnu::noinline]] Vec lifted_origin() const {
     const auto up = [](Double p, Float lift, Float off) { return to_float(p + Double(lift) + Double(off)); };
     return {up(s_.p_exact.x, lift_.x, s_.offset * s_.n_geometric.x),
             up(s_.p_exact.y, lift_.y, s_.offset * s_.n_geometric.y),

@@ -1,4 +1,4 @@
-#include "core/trace/scatter.h"
+#include "bench/peers/embree_scatter.h"
 
 #include <algorithm>
 #include <cmath>
@@ -6,10 +6,10 @@
 namespace pinocchio {
 namespace {
 
-void push(const SurfaceInteraction& surface, const glm::vec3& direction, const glm::vec3& throughput, std::uint32_t pixel,
-          bool refracted, float least, std::vector<PathRay>& out) {
+void push(const SurfaceInteraction& surface, const glm::vec3& direction, const glm::vec3& throughput, float least,
+          std::vector<PathRay>& out) {
   if (std::max({throughput.x, throughput.y, throughput.z}) < least) return;
-  out.push_back({{offset_origin(surface, direction), kInfinity, direction}, throughput, pixel, refracted});
+  out.push_back({{offset_origin(surface, direction), kInfinity, direction}, throughput});
 }
 
 // About the shading normal, unless that sends the ray into the surface; then about the geometric one.
@@ -28,8 +28,8 @@ glm::vec3 refracted(const SurfaceInteraction& surface, float eta) {
              : glm::refract(-surface.to_viewer, surface.n_geometric, 1.0f / eta);
 }
 
-}  // namespace
-
+// Share of unpolarised light that a smooth dielectric mirrors (Fresnel). eta: index of the side the
+// light goes to over the side it comes from; cos_in in [0, 1].
 float fresnel_dielectric(float cos_in, float eta) {
   const float sin2_out = (1.0f - cos_in * cos_in) / (eta * eta);
   if (sin2_out >= 1.0f) return 1.0f;
@@ -39,7 +39,9 @@ float fresnel_dielectric(float cos_in, float eta) {
   return 0.5f * (parallel * parallel + perpendicular * perpendicular);
 }
 
-void scatter(const SurfaceInteraction& surface, const glm::vec3& throughput, std::uint32_t pixel, float least,
+}  // namespace
+
+void scatter(const SurfaceInteraction& surface, const glm::vec3& throughput, float least,
              std::vector<PathRay>& out) {
   const shared::PhongSurface& m = surface.material;
   const float cos_in = std::clamp(glm::dot(surface.n_shading, surface.to_viewer), 0.0f, 1.0f);
@@ -49,15 +51,15 @@ void scatter(const SurfaceInteraction& surface, const glm::vec3& throughput, std
     const glm::vec3 through = refracted(surface, eta);
     // Where the two normals disagree there may be no way through although Fresnel has a share for it.
     const float share = through == glm::vec3(0.0f) ? 1.0f : fresnel_dielectric(cos_in, eta);
-    push(surface, mirrored(surface), own * share, pixel, false, least, out);
-    push(surface, through, own * (1.0f - share) * m.transmittance, pixel, true, least, out);
+    push(surface, mirrored(surface), own * share, least, out);
+    push(surface, through, own * (1.0f - share) * m.transmittance, least, out);
   } else if (m.reflectance.x + m.reflectance.y + m.reflectance.z > 0.0f) {
     const float grazing = m.fresnel ? std::pow(1.0f - cos_in, 5.0f) : 0.0f;
-    push(surface, mirrored(surface), own * (m.reflectance + (1.0f - m.reflectance) * grazing), pixel, false,
+    push(surface, mirrored(surface), own * (m.reflectance + (1.0f - m.reflectance) * grazing),
          least, out);
   }
   if (surface.alpha < 1.0f)
-    push(surface, -surface.to_viewer, throughput * (1.0f - surface.alpha), pixel, true, least, out);
+    push(surface, -surface.to_viewer, throughput * (1.0f - surface.alpha), least, out);
 }
 
 }  // namespace pinocchio
