@@ -47,6 +47,13 @@ TEST_F(ChartTest, WritesFiguresPicturesAndAPageOfCharts) {
             "axis,value,options,ratio,ratio_median,frame_ms,raster_ms,cpu_ms,raster_cpu_ms,"
             "round_ms,round_low_ms,round_high_ms,latency_ms,latency_frames,"
             "age_frames,bytes_gpu_to_cpu,bytes_cpu_to_gpu,reference,rmse,relmse,flip,worst,pareto");
+  // In one file: data, pictures and programs are in it, and nothing is fetched.
+  std::ifstream page(folder_ / "d/explore.html");
+  std::ostringstream text;
+  text << page.rdbuf();
+  EXPECT_NE(text.str().find("--mode raytrace"), std::string::npos);
+  for (const char* outside : {"/*DATA*/", "src=\"http", "href=", "@import", "fetch("})
+    EXPECT_EQ(text.str().find(outside), std::string::npos) << outside;
   const CommandResult xml =
       run_command("cd '" + folder_.string() +
                       "/d' && python3 -c 'import glob, xml.dom.minidom as m; [m.parse(f) for f in "
