@@ -9,10 +9,10 @@
 namespace pinocchio {
 namespace {
 
-constexpr std::size_t kInfinity = 0x7c00, kHalves = kInfinity + 1;
+constexpr std::size_t kInfiniteHalf = 0x7c00, kHalves = kInfiniteHalf + 1;
 
 std::size_t bin_of_half(std::uint16_t half) {
-  return half <= kInfinity ? half : 0;
+  return half <= kInfiniteHalf ? half : 0;
 }
 
 float value_of_half(std::size_t half) {
