@@ -13,7 +13,7 @@ class AccumulatorTest : public FramesTest {
  protected:
   void SetUp() override {
     FramesTest::SetUp();
-    accumulator_.emplace(programs());
+    accumulator_.emplace(*engine_);
   }
   void TearDown() override {
     accumulator_.reset();
