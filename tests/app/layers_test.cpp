@@ -150,6 +150,19 @@ TEST(Layers, TheLaboratoryIsApart) {
   }
 }
 
+// How the engine is made inside is not the program's.
+TEST(Layers, TheProgramDoesNotSeeTheEnginesParts) {
+  for (const auto& entry : std::filesystem::recursive_directory_iterator(PINOCCHIO_SOURCE_DIR "/app")) {
+    if (!is_source(entry.path())) continue;
+    for (const std::string& include : includes_of(entry.path())) {
+      EXPECT_NE(include, "hybrid/engine_parts.h") << entry.path();
+      EXPECT_NE(include, "hybrid/frame_slot.h") << entry.path();
+      EXPECT_NE(include.substr(0, include.rfind('/') + 1), "hybrid/gpu/") << entry.path() << " includes " << include;
+      EXPECT_NE(include.substr(0, include.rfind('/') + 1), "hybrid/passes/") << entry.path() << " includes " << include;
+    }
+  }
+}
+
 TEST(Layers, GlCallsLiveInGlAlone) {
   const std::filesystem::path root(PINOCCHIO_SOURCE_DIR);
   const std::regex kCall(R"(\bgl[A-Z]\w*\()");
