@@ -75,8 +75,8 @@ def panel(axes, scene):
     axes.set_title(scene["run"]["scene"]["name"] + f", {scene['run']['scene']['triangles']:,} triangles", fontsize=10.5)
     grid(axes)
     low, high = (f(fps(e["ms"]) for e in shown) for f in (min, max))
-    axes.set_xlim(low / 1.5, high * 1.5)
-    ticks = [m * 10.0 ** k for k in range(-2, 5) for m in (1, 2, 5) if low / 1.5 <= m * 10.0 ** k <= high * 1.5]
+    axes.set_xlim(low / 1.9, high * 1.5)
+    ticks = [m * 10.0 ** k for k in range(-2, 5) for m in (1, 2, 5) if low / 1.9 <= m * 10.0 ** k <= high * 1.5]
     axes.set_xticks(ticks, [f"{t:g}" for t in ticks])
     axes.xaxis.set_minor_locator(plt.NullLocator())
 

@@ -47,6 +47,13 @@ TEST_F(ChartTest, WritesFiguresPicturesAndAPageOfCharts) {
             "axis,value,options,ratio,ratio_median,frame_ms,raster_ms,cpu_ms,raster_cpu_ms,"
             "round_ms,round_low_ms,round_high_ms,latency_ms,latency_frames,"
             "age_frames,bytes_gpu_to_cpu,bytes_cpu_to_gpu,reference,rmse,relmse,flip,worst,pareto");
+  // In one file: data, pictures and programs are in it, and nothing is fetched.
+  std::ifstream page(folder_ / "d/explore.html");
+  std::ostringstream text;
+  text << page.rdbuf();
+  EXPECT_NE(text.str().find("--mode raytrace"), std::string::npos);
+  for (const char* outside : {"/*DATA*/", "src=\"http", "href=", "@import", "fetch("})
+    EXPECT_EQ(text.str().find(outside), std::string::npos) << outside;
   const CommandResult xml =
       run_command("cd '" + folder_.string() +
                       "/d' && python3 -c 'import glob, xml.dom.minidom as m; [m.parse(f) for f in "
@@ -189,6 +196,8 @@ TEST_F(ChartTest, WrongUseIsOneLine) {
                 {"--quick", 2, "--output"},
                 {kSmall + "--turntable 4", 2, "the camera's motion has 4 frames"},
                 {kSmall + "--repeat 0", 2, "--repeat"},
+                {kSmall + "--environment sky.exr", 2, "--environment: charts measure against the reference, which draws none"},
+                {kSmall + "--indirect 2", 2, "--indirect"},
                 {kSmall + "--stability", 2, "give a SCENE or --stability"},
                 {"-o file/d --quick", 1, "cannot be made a folder"}};
   write("file", "");
