@@ -1,4 +1,4 @@
-// An animated scene on a display: play, pause, one frame on or back, and the slider of its time.
+// An animated scene on a display: play, pause, one frame on or back.
 #include "tests/view/display.h"
 
 namespace pinocchio {
@@ -14,10 +14,6 @@ class PlaybackWindowTest : public WindowTest {
   [[nodiscard]] double time_s() {
     const std::string time = option(command_line(), "--time");
     return time.empty() ? -1.0 : std::stod(time);
-  }
-  void click(int x, int y) const {
-    xdo("mousemove --window " + window_ + " " + std::to_string(x) + " " + std::to_string(y) +
-        " sleep 0.2 mousedown 1 sleep 0.2 mouseup 1 sleep 0.2");
   }
 };
 
@@ -47,34 +43,6 @@ TEST_F(PlaybackWindowTest, PlaysPausesAndGoesOnByFrames) {
   key("ctrl+Left");
   pause_ms(500);
   EXPECT_NEAR(time_s(), next_s - kFrame_s, 1e-6);
-  expect_clean_close();
-}
-
-TEST_F(PlaybackWindowTest, TheSliderMovesTheTimeAndTheCommandDrawsIt) {
-  open_as_is(scene("windmill.glb"));
-  key(kStill);
-  key("space");
-  ASSERT_TRUE(becomes([&] { return time_s() > 0.0; }));
-  // It lies above the status line, in the middle; how high that is depends on the font.
-  int y = 585;
-  while (y > 500 && (click(440, y), pause_ms(300), std::abs(time_s() - time_s()) > 0.0)) y -= 6;
-  ASSERT_GT(y, 500) << "no slider stopped the animation";
-  const double late_s = time_s();
-  EXPECT_GT(late_s, 0.5 * kLength_s);
-  click(300, y);
-  pause_ms(500);
-  const double early_s = time_s();
-  EXPECT_LT(early_s, 0.5 * kLength_s);
-  EXPECT_GT(early_s, 0.0);
-
-  // Without the overlay it is the picture that the command draws.
-  key("h");
-  settle();
-  const std::string command = command_line();
-  grab("display.png");
-  std::string headless = "'" PINOCCHIO_PROGRAM "'" + command.substr(std::string("pinocchio").size());
-  EXPECT_EQ(run_command("cd '" + folder_.string() + "' && " + headless, folder_).exit_code, 0) << headless;
-  EXPECT_EQ(different("display.png", option(command, "--preview")), 0) << command;
   expect_clean_close();
 }
 
