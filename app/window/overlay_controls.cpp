@@ -9,7 +9,7 @@
 namespace pinocchio::app {
 namespace {
 
-// What is said of a preset's values; the command line's word where that is plain.
+// What is said of a plan's values.
 std::string_view shown_name(std::string_view value) {
   return value == "slides" ? "fixed" : value == "auto" ? "as needed" : value;
 }
@@ -22,7 +22,8 @@ void draw_preset(const char* option, const std::string& help, ViewSettings& s) {
   std::vector<Choice> choices = preset_choices(option, s);
   const auto chosen = std::ranges::find(choices, preset_of(option, s), &Choice::text) - choices.begin();
   const std::vector<Choice> values = choices;
-  for (Choice& choice : choices) choice.text = shown_name(choice.text);
+  if (std::string_view(option) == "plan")
+    for (Choice& choice : choices) choice.text = shown_name(choice.text);
   if (const int clicked = choose(option, help, choices, static_cast<std::size_t>(chosen)); clicked >= 0)
     choose_preset(option, values[static_cast<std::size_t>(clicked)].text, s);
 }
