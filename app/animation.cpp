@@ -1,19 +1,16 @@
 #include "app/animation.h"
 
 #include <CLI/CLI.hpp>
-#include <algorithm>
 #include <glm/gtc/matrix_transform.hpp>
+#include <limits>
 
-#include "app/camera_path.h"
 #include "app/errors.h"
-#include "app/parse.h"
 #include "pinocchio/animation.h"
 #include "pinocchio/load.h"
 
 namespace pinocchio::app {
 namespace {
 
-constexpr int kMostFrames = 1'000'000;  // of one run: their cameras are kept, 60 MB
 constexpr int kMostFps = 100'000;
 
 // One of the scene's may hang on a node that moves; one that has the scene in view has it as it was loaded.
@@ -41,7 +38,7 @@ void add_animation_options(CLI::App& verb, AnimationOptions& options) {
         return parse_frames(text) ? std::string() : "'" + text + "' is not A-B or A-BxSTEP with 0 <= A <= B";
       });
   verb.add_option("--turntable", options.turntable, "turn the camera once around its target in N frames")
-      ->check(CLI::Range(1, kMostFrames));
+      ->check(CLI::Range(1, std::numeric_limits<int>::max()));
   verb.add_option("--path", options.path, "camera path: JSON of key frames")->excludes("--turntable");
   verb.add_option_function<std::string>(
           "--time",
@@ -67,27 +64,31 @@ std::vector<NamedFile> input_files(const DrawOptions& draw, const AnimationOptio
   return files;
 }
 
-std::vector<CameraFrame> animate(const AnimationOptions& options, const DrawOptions& draw, const Scene& scene) {
-  const Camera camera = camera_for(draw, scene);
-  const CameraPath path = options.path.empty() ? CameraPath{{0, camera}} : read_camera_path(options.path, camera);
-  FrameRange range{path.front().number, path.back().number, 1};
-  if (options.turntable > 0) range = {0, options.turntable - 1, 1};
-  if (!options.frames.empty()) range = *parse_frames(options.frames);
+CameraFrames::CameraFrames(AnimationOptions options, const DrawOptions& draw, Scene scene)
+    : options_(std::move(options)), draw_(draw), scene_(std::move(scene)) {
+  const Camera camera = camera_for(draw_, scene_);
+  path_ = options_.path.empty() ? CameraPath{{0, camera}} : read_camera_path(options_.path, camera);
+  range_ = {path_.front().number, path_.back().number, 1};
+  if (options_.turntable > 0) range_ = {0, options_.turntable - 1, 1};
+  if (!options_.frames.empty()) range_ = *parse_frames(options_.frames);
+  if (const std::optional<int> meeting = frame_of_meeting(path_, range_)) refuse_meeting(*meeting);
+}
 
-  if (const long long count = (static_cast<long long>(range.last) - range.first) / range.step + 1; count > kMostFrames)
-    throw Exit(kUsage, std::to_string(count) + " frames are more than the " + std::to_string(kMostFrames) +
-                           " of one run; draw a part of them with --frames A-B");
-  std::vector<CameraFrame> frames;
-  for (long long number = range.first; number <= range.last; number += range.step) {
-    const int n = static_cast<int>(number);
-    const double time_s = options.time_of(n);
-    Camera now = scene.animation && options.path.empty() ? camera_at(draw, scene, time_s) : camera_on_path(path, n);
-    if (options.turntable > 0) now = turned(now, n, options.turntable);
-    frames.push_back({n, std::move(now), time_s});
-    if (const Camera& c = frames.back().camera; c.eye == c.target)
-      throw Exit(kUsage, options.path + ": in frame " + std::to_string(n) + " eye and target meet; add a key frame");
-  }
-  return frames;
+void CameraFrames::refuse_meeting(int number) const {
+  throw Exit(kUsage, options_.path + ": in frame " + std::to_string(number) + " eye and target meet; add a key frame");
+}
+
+Camera CameraFrames::camera_of(int number, double time_s) const {
+  if (scene_.animation && options_.path.empty()) return camera_at(draw_, scene_, time_s);
+  return camera_on_path(path_, number);
+}
+
+CameraFrame CameraFrames::operator[](std::size_t i) const {
+  const int number = range_.number(i);
+  const double time_s = options_.time_of(number);
+  const Camera camera = camera_of(number, time_s);
+  if (camera.eye == camera.target) refuse_meeting(number);  // by rounding, beside the one that was looked for
+  return {number, options_.turntable > 0 ? turned(camera, number, options_.turntable) : camera, time_s};
 }
 
 }  // namespace pinocchio::app

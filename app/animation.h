@@ -4,8 +4,10 @@
 #include <string>
 #include <vector>
 
+#include "app/camera_path.h"
 #include "app/named_files.h"
 #include "app/options.h"
+#include "app/parse.h"
 #include "pinocchio/camera.h"
 
 namespace pinocchio::app {
@@ -34,10 +36,29 @@ struct AnimationOptions {
 
 void add_animation_options(CLI::App& verb, AnimationOptions& options);
 
-// The frames that the options ask for, in order; one, number 0, where they ask for none. The scene's own camera
-// moves with its node, where no path says where it is. Ends the verb with kUsage where the options contradict
-// each other or the path cannot be read.
-[[nodiscard]] std::vector<CameraFrame> animate(const AnimationOptions& options, const DrawOptions& draw, const Scene& scene);
+// The frames that the options ask for, in order; one, number 0, where they ask for none. Each is made when it is
+// asked for: of a range of any length, only the key frames are kept. The scene's own camera moves with its node,
+// where no path says where it is.
+class CameraFrames {
+ public:
+  // Keeps `draw`. Ends the verb with kUsage where the options contradict each other, the path cannot be read, or eye
+  // and target meet on it.
+  CameraFrames(AnimationOptions options, const DrawOptions& draw, Scene scene);
+
+  [[nodiscard]] std::size_t size() const { return range_.count(); }
+  [[nodiscard]] const FrameRange& range() const { return range_; }
+  [[nodiscard]] CameraFrame operator[](std::size_t i) const;
+
+ private:
+  [[nodiscard]] Camera camera_of(int number, double time_s) const;
+  [[noreturn]] void refuse_meeting(int number) const;
+
+  AnimationOptions options_;
+  const DrawOptions& draw_;
+  Scene scene_;
+  CameraPath path_;
+  FrameRange range_;
+};
 
 // Everything that drawing the scene by these options reads.
 [[nodiscard]] std::vector<NamedFile> input_files(const DrawOptions& draw, const AnimationOptions& animation,

@@ -72,7 +72,7 @@ namespace {
 
 // The first at the least, also where the user asked for an end.
 std::vector<MeasuredSettings> front_of(Drawing& drawing, const DrawOptions& draw,
-                                       const BudgetOptions& options, const std::vector<CameraFrame>& frames) {
+                                       const BudgetOptions& options, const CameraFrames& frames) {
   BudgetTrial trial(drawing.engine(), drawing.settings(), options, [&](const Settings& settings, int i) {
     const std::size_t at = static_cast<std::size_t>(i) * frames.size() / (BudgetTrial::kTimedFrames + 1);
     return drawing.request(settings, frames[at]);
@@ -107,7 +107,7 @@ void add_budget_options(CLI::App& verb, BudgetOptions& options) {
 }
 
 BudgetRun::BudgetRun(Drawing& drawing, const DrawOptions& draw, const BudgetOptions& options,
-                     const std::vector<CameraFrame>& frames)
+                     const CameraFrames& frames)
     : options_(options),
       exact_(drawing.settings()),
       front_(front_of(drawing, draw, options, frames)),

@@ -62,7 +62,7 @@ class BudgetRun {
   // Draws a few small runs of frames to know. Ends the verb with kUsage where not both processors draw
   // and the GPU composites: the one schedule whose parts can be thinned out.
   BudgetRun(Drawing& drawing, const DrawOptions& draw, const BudgetOptions& options,
-            const std::vector<CameraFrame>& frames);
+            const CameraFrames& frames);
 
   [[nodiscard]] const Settings& settings() const { return controller_.now().settings; }
   // What drawing the next frame by settings() took.

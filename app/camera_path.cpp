@@ -105,8 +105,7 @@ CameraPath read_camera_path(const std::string& file, const Camera& camera) {
 }
 
 Camera camera_on_path(const CameraPath& path, int number) {
-  const auto after = std::find_if(path.begin(), path.end(),
-                                  [number](const KeyFrame& key) { return key.number >= number; });
+  const auto after = std::ranges::lower_bound(path, number, {}, &KeyFrame::number);
   if (after == path.end()) return path.back().camera;
   if (after == path.begin() || after->number == number) return after->camera;
   const KeyFrame &a = *(after - 1), &b = *after;
@@ -117,6 +116,26 @@ Camera camera_on_path(const CameraPath& path, int number) {
   camera.up = glm::mix(a.camera.up, b.camera.up, t);
   camera.fov_deg = glm::mix(a.camera.fov_deg, b.camera.fov_deg, t);
   return camera;
+}
+
+std::optional<int> frame_of_meeting(const CameraPath& path, const FrameRange& range) {
+  for (std::size_t i = 1; i < path.size(); ++i) {
+    const KeyFrame &a = path[i - 1], &b = path[i];
+    // From target to eye is a straight line, too: the frames beside its point nearest to zero are looked at.
+    const glm::dvec3 begin = glm::dvec3(a.camera.eye) - glm::dvec3(a.camera.target);
+    const glm::dvec3 way = glm::dvec3(b.camera.eye) - glm::dvec3(b.camera.target) - begin;
+    if (way == glm::dvec3(0.0)) continue;
+    const double t = -glm::dot(begin, way) / glm::dot(way, way);
+    if (!(t > 0.0 && t < 1.0)) continue;
+    const double nearest = a.number + t * (static_cast<double>(b.number) - a.number);
+    for (double n = std::floor(nearest) - 1.0; n <= nearest + 2.0; n += 1.0) {
+      if (n <= a.number || n >= b.number) continue;
+      const int number = static_cast<int>(n);
+      const Camera camera = camera_on_path(path, number);
+      if (range.contains(number) && camera.eye == camera.target) return number;
+    }
+  }
+  return std::nullopt;
 }
 
 }  // namespace pinocchio::app

@@ -1,8 +1,10 @@
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
+#include "app/parse.h"
 #include "pinocchio/camera.h"
 
 namespace pinocchio::app {
@@ -22,5 +24,8 @@ using CameraPath = std::vector<KeyFrame>;  // by number
 [[nodiscard]] CameraPath read_camera_path(const std::string& file, const Camera& camera);
 
 [[nodiscard]] Camera camera_on_path(const CameraPath& path, int number);
+
+// A frame of the range in which eye and target are the same point on their ways; none: there is no such frame.
+[[nodiscard]] std::optional<int> frame_of_meeting(const CameraPath& path, const FrameRange& range);
 
 }  // namespace pinocchio::app

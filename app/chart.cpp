@@ -67,11 +67,9 @@ class ChartRun {
     if (!draw.environment.empty())
       throw Exit(kUsage, "--environment: charts measure against the reference, which draws none; leave it out");
     Scene scene = load_scene_for(draw);
-    const std::vector<CameraFrame> frames = motion(scene);
-    std::vector<View> views;
-    for (const CameraFrame& frame : frames) views.push_back({frame.camera, draw.size});
+    const std::vector<View> views = motion(scene);
     // Charted as it stands at one time.
-    scene = value_or_exit(at_time(scene, frames.front().time_s), kBadScene);
+    scene = value_or_exit(at_time(scene, *options_.animation.time_s), kBadScene);
     scene.animation = nullptr;
     make_folder(folder_ / "pictures");
     check_apart(input_files(draw, options_.animation, scene),
@@ -99,18 +97,20 @@ class ChartRun {
     return settings;
   }
 
-  [[nodiscard]] std::vector<CameraFrame> motion(const Scene& scene) {
+  // What the frames are drawn from.
+  [[nodiscard]] std::vector<View> motion(const Scene& scene) {
     if (options_.animation.turntable == 0 && options_.animation.path.empty())
       options_.animation.turntable = kDefaultTurntable;
     options_.animation.time_s = options_.animation.time_s.value_or(0.0);
-    std::vector<CameraFrame> frames = animate(options_.animation, options_.draw, scene);
+    const CameraFrames frames(options_.animation, options_.draw, scene);
     const std::size_t wanted = options_.quick ? kQuickFrames : kFrames;
     if (frames.size() < wanted)
       throw Exit(kUsage, "the camera's motion has " + std::to_string(frames.size()) +
                              " frames, the chart draws " + std::to_string(wanted) +
                              "; give it a longer --turntable, --path or --frames");
-    frames.resize(wanted);
-    return frames;
+    std::vector<View> views;
+    for (std::size_t i = 0; i < wanted; ++i) views.push_back({frames[i].camera, options_.draw.size});
+    return views;
   }
 
   // What a chart's figures depend on beside the configuration.

@@ -50,7 +50,7 @@ void drop_warm_up(std::vector<FrameRecord>& records) {
   records.erase(records.begin(), records.begin() + static_cast<std::ptrdiff_t>(warm_up));
 }
 
-void draw(Drawing& drawing, const MeasureOptions& options, const std::vector<CameraFrame>& frames,
+void draw(Drawing& drawing, const MeasureOptions& options, const CameraFrames& frames,
           Measured& run) {
   Progress progress(options.draw.quiet ? "off" : options.draw.progress, run.name, frames.size());
   Renderer renderer(drawing.engine(), {{}, [&](const FrameRecord& record) {
@@ -58,11 +58,11 @@ void draw(Drawing& drawing, const MeasureOptions& options, const std::vector<Cam
                                          progress.step();
                                        }},
                     &run_progress());
-  for (const CameraFrame& frame : frames) {
-    if (interrupted()) break;
+  for (std::size_t i = 0; i < frames.size() && !interrupted(); ++i) {
     if (run.budget) run.settings = run.budget->settings();
+    const std::optional<CameraFrame> next = i + 1 < frames.size() ? std::optional(frames[i + 1]) : std::nullopt;
     const double begin_s = now_s();
-    renderer.submit(drawing.request(run.settings, frame, &frame == &frames.back() ? nullptr : &frame + 1));
+    renderer.submit(drawing.request(run.settings, frames[i], next ? &*next : nullptr));
     if (run.budget) run.budget->note(1e3 * (now_s() - begin_s));
   }
   renderer.drain();
@@ -203,7 +203,7 @@ int measure(MeasureOptions& options) {
   Scene scene = load_scene_for(options.draw);
   if (options.animation.turntable == 0 && options.animation.path.empty())
     options.animation.turntable = kDefaultFrames;
-  const std::vector<CameraFrame> frames = animate(options.animation, options.draw, scene);
+  const CameraFrames frames(options.animation, options.draw, scene);
   check_apart(input_files(options.draw, options.animation, scene),
               {{"--stats-json", options.stats_json}, {"--trace", options.trace}});
   for (const std::string& file : {options.stats_json, options.trace})

@@ -94,30 +94,22 @@ void make_folder(const std::filesystem::path& folder) {
                             "); name one that can be written with -o DIR");
 }
 
-std::filesystem::path numbered(const std::string& pattern, int number) {
-  const std::size_t first = pattern.find('#');
-  if (first == std::string::npos) return pattern;
-  const std::size_t end = std::min(pattern.find_first_not_of('#', first), pattern.size());
-  std::string digits = std::to_string(number);
-  if (digits.size() < end - first) digits.insert(0, end - first - digits.size(), '0');
-  return pattern.substr(0, first) + digits + pattern.substr(end);
-}
-
-void check_outputs(const OutputOptions& options, const std::vector<int>& frame_numbers) {
+void check_outputs(const OutputOptions& options, const FrameRange& range) {
   for (const std::string& pattern : {options.exr, options.preview}) {
     if (pattern.empty()) continue;
-    if (frame_numbers.size() > 1 && pattern.find('#') == std::string::npos)
-      throw Exit(kUsage, pattern + ": would hold " + std::to_string(frame_numbers.size()) +
+    if (range.count() > 1 && pattern.find('#') == std::string::npos)
+      throw Exit(kUsage, pattern + ": would hold " + std::to_string(range.count()) +
                              " frames; put #### where the frame's number goes");
-    check_writable(numbered(pattern, frame_numbers.front()));
+    check_writable(numbered(pattern, range.first));
   }
 }
 
-std::vector<NamedFile> output_files(const OutputOptions& options, const std::vector<int>& frame_numbers) {
-  std::vector<NamedFile> files;
-  for (const auto& [role, pattern] : {std::pair("-o", options.exr), std::pair("--preview", options.preview)})
-    for (std::size_t i = 0; i < frame_numbers.size() && !pattern.empty(); ++i)
-      files.push_back({role, numbered(pattern, frame_numbers[i])});
+std::vector<NamedFile> output_files(const OutputOptions& options, const FrameRange& range, const NamedFile& other) {
+  std::vector<NamedFile> files{other};
+  for (const auto& [role, pattern] : {std::pair("-o", options.exr), std::pair("--preview", options.preview)}) {
+    if (pattern.empty()) continue;
+    for (const int number : numbers_in_use(pattern, range, other.file)) files.push_back({role, numbered(pattern, number)});
+  }
   return files;
 }
 

@@ -6,6 +6,8 @@
 #include <vector>
 
 #include "app/named_files.h"
+#include "app/numbered.h"
+#include "app/parse.h"
 #include "core/image/tonemap.h"
 #include "core/parallel/workers.h"
 #include "pinocchio/renderer.h"
@@ -55,16 +57,14 @@ void write_json(const std::filesystem::path& file, const nlohmann::json& json);
 // Makes the folder and those above it that are missing. Ends the verb with kFailed where it cannot.
 void make_folder(const std::filesystem::path& folder);
 
-// `pattern` with its run of # replaced by the number, filled up with zeros.
-[[nodiscard]] std::filesystem::path numbered(const std::string& pattern, int number);
-
 // Ends the verb before anything is drawn: with kUsage where several frames would go to one file, with
 // kFailed where a file cannot be written.
-void check_outputs(const OutputOptions& options, const std::vector<int>& frame_numbers);
+void check_outputs(const OutputOptions& options, const FrameRange& range);
 
-// The files that these frames go to, each with the option that names it.
-[[nodiscard]] std::vector<NamedFile> output_files(const OutputOptions& options,
-                                                  const std::vector<int>& frame_numbers);
+// `other`, which is written beside these frames, and those of their files that can be the same as another, each with
+// the option that names it.
+[[nodiscard]] std::vector<NamedFile> output_files(const OutputOptions& options, const FrameRange& range,
+                                                  const NamedFile& other);
 
 // Whether an EXR with the shadow mask in it is asked for.
 [[nodiscard]] bool keeps_mask(const OutputOptions& options);

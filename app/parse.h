@@ -24,6 +24,16 @@ namespace pinocchio::app {
 // A-B[xSTEP], or A alone.
 struct FrameRange {
   int first = 0, last = 0, step = 1;
+
+  [[nodiscard]] std::size_t count() const {
+    return static_cast<std::size_t>((static_cast<long long>(last) - first) / step + 1);
+  }
+  [[nodiscard]] int number(std::size_t i) const {
+    return static_cast<int>(first + static_cast<long long>(i) * step);
+  }
+  [[nodiscard]] bool contains(int number) const {
+    return number >= first && number <= last && (static_cast<long long>(number) - first) % step == 0;
+  }
 };
 [[nodiscard]] std::optional<FrameRange> parse_frames(const std::string& text);
 

@@ -1,9 +1,13 @@
 // render: headless, one frame or a range, to EXR and PNG.
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <array>
 #include <cstdio>
+#include <deque>
 #include <memory>
 #include <nlohmann/json.hpp>
+#include <optional>
+#include <utility>
 
 #include "app/animation.h"
 #include "app/budget.h"
@@ -45,7 +49,7 @@ FrameResult precise(const FrameRequest& request, Workers& workers) {
   for (int k = 0; k < spp; ++k) {
     const View view = at_sample(request.view, k, request.settings.pixel_filter);
     ReferencePicture sample = reference_render(request.scene, view, request.settings.depth, workers, &run_progress(),
-                                               request.settings.filter_textures, request.settings.terminator);
+                                               texture_footprint(request.settings, view), request.settings.terminator);
     if (k == 0) {
       mean.color = std::move(sample.color);
       mean.ids = std::move(sample.ids);
@@ -68,13 +72,14 @@ class RenderRun {
   int run() {
     const double begin_s = now_s();
     Scene scene = load_scene_for(options_.draw);
-    frames_ = animate(options_.animation, options_.draw, scene);
+    frames_.emplace(options_.animation, options_.draw, scene);
     check(scene);
     Drawing drawing(options_.draw, std::move(scene),
-                    frames_.size() > 1 ? Exchange::pipelined : Exchange::sync, keeps_mask(options_.output));
+                    frames_->size() > 1 ? Exchange::pipelined : Exchange::sync, keeps_mask(options_.output));
     const double ready_s = now_s();
-    leave_out_existing(drawing);
-    if (!frames_.empty()) draw(drawing);
+    progress_.emplace(options_.draw.quiet ? "off" : options_.draw.progress, "render", frames_->size());
+    if (next_frame(drawing)) draw(drawing);
+    progress_.reset();
     if (!options_.stats_json.empty()) write_json(options_.stats_json, stats(drawing));
     if (!options_.draw.quiet) report(drawing, ready_s - begin_s);
     throw_if_cancelled(&run_progress());
@@ -97,12 +102,9 @@ class RenderRun {
     if (options_.output.exr.empty() && options_.output.preview.empty() && options_.stats_json.empty())
       throw Exit(kUsage,
                  "nothing to write; name a file with -o FILE.exr, --preview FILE.png or --stats-json");
-    std::vector<int> numbers;
-    for (const CameraFrame& frame : frames_) numbers.push_back(frame.number);
-    std::vector<NamedFile> outputs = output_files(options_.output, numbers);
-    outputs.push_back({"--stats-json", options_.stats_json});
-    check_apart(input_files(options_.draw, options_.animation, scene), outputs);
-    check_outputs(options_.output, numbers);
+    check_apart(input_files(options_.draw, options_.animation, scene),
+                output_files(options_.output, frames_->range(), {"--stats-json", options_.stats_json}));
+    check_outputs(options_.output, frames_->range());
     if (options_.output.skip_existing && (options_.output.exr.empty() || options_.budget.any()))
       throw Exit(kUsage, "--skip-existing: the EXR's header says what it is; give -o FILE.exr, and no --budget");
     if (options_.output.skip_existing && options_.draw.settings.exchange == Exchange::reproject)
@@ -114,24 +116,36 @@ class RenderRun {
     return {frame.number, options_.animation.fps, frame.time_s};
   }
 
-  void leave_out_existing(const Drawing& drawing) {
-    if (!options_.output.skip_existing) return;
-    std::erase_if(frames_, [&](const CameraFrame& frame) {
+  // The frame that is drawn next, without those whose files are there; null: no frame is left.
+  [[nodiscard]] const CameraFrame* next_frame(const Drawing& drawing) {
+    for (; !next_ && asked_ < frames_->size(); ++asked_) {
       throw_if_cancelled(&run_progress());
-      const bool drawn = is_drawn_already(options_.output, drawing.untraced_request(frame), header_of(frame));
-      skipped_ += drawn;
-      return drawn;
-    });
+      const CameraFrame frame = (*frames_)[asked_];
+      if (options_.output.skip_existing &&
+          is_drawn_already(options_.output, drawing.untraced_request(frame), header_of(frame))) {
+        ++skipped_;
+        progress_->step();
+      } else {
+        next_ = frame;
+      }
+    }
+    return next_ ? &*next_ : nullptr;
+  }
+
+  // That frame, whose drawing begins now.
+  [[nodiscard]] std::optional<CameraFrame> begin_frame(const Drawing& drawing) {
+    if (!next_frame(drawing)) return std::nullopt;
+    begun_.push_back({header_of(*next_), now_s()});
+    return std::exchange(next_, std::nullopt);
   }
 
   // What was delivered before a signal is kept.
   void draw(Drawing& drawing) {
-    Progress progress(options_.draw.quiet ? "off" : options_.draw.progress, "render", frames_.size());
-    if (options_.budget.any()) budget_.emplace(drawing, options_.draw, options_.budget, frames_);
+    if (options_.budget.any()) budget_.emplace(drawing, options_.draw, options_.budget, *frames_);
     FrameWriter writer(options_.output, interrupted);
     const auto take = [&](FrameResult&& picture) {
       deliver(drawing, writer, std::move(picture));
-      progress.step();
+      progress_->step();
     };
     try {
       if (options_.draw.precise)
@@ -147,14 +161,14 @@ class RenderRun {
   void draw_frames(Drawing& drawing, Take take) {
     SampleMean mean(drawing.settings(), take);
     Renderer renderer(drawing.engine(), {[&](Frame& frame) { mean.add(frame); },
-                                         [&](const FrameRecord& record) { records_.push_back(record); }},
+                                         [&](const FrameRecord& record) { keep(record); }},
                       &run_progress());
-    for (const CameraFrame& frame : frames_) {
-      begun_s_.push_back(now_s());
+    while (const std::optional<CameraFrame> frame = begin_frame(drawing)) {
+      const double begin_s = now_s();
       delivering_s_ = 0.0;
-      const CameraFrame* const next = &frame == &frames_.back() ? nullptr : &frame + 1;
-      submit_samples(renderer, drawing.request(budget_ ? budget_->settings() : drawing.settings(), frame, next), &mean);
-      if (budget_) budget_->note(1e3 * (now_s() - begun_s_.back() - delivering_s_));
+      const Settings& settings = budget_ ? budget_->settings() : drawing.settings();
+      submit_samples(renderer, drawing.request(settings, *frame, next_frame(drawing)), &mean);
+      if (budget_) budget_->note(1e3 * (now_s() - begin_s - delivering_s_));
     }
     renderer.drain();
   }
@@ -162,25 +176,33 @@ class RenderRun {
   // By the reference: all of a frame counts as composite, and its rays are not counted.
   template <class Take>
   void draw_precise(Drawing& drawing, Take take) {
-    for (const CameraFrame& frame : frames_) {
+    while (const std::optional<CameraFrame> frame = begin_frame(drawing)) {
       FrameRecord record;
-      record.number = records_.size();
-      begun_s_.push_back(now_s());
-      record[Stage::composite].begin_s = record.frame.begin_s = begun_s_.back();
-      FrameResult mean = precise(drawing.untraced_request(frame), drawing.workers());
+      record.number = recorded_;
+      record[Stage::composite].begin_s = record.frame.begin_s = now_s();
+      FrameResult mean = precise(drawing.untraced_request(*frame), drawing.workers());
       record[Stage::composite].end_s = record.frame.end_s = now_s();
       take(std::move(mean));
-      records_.push_back(record);
+      keep(record);
     }
   }
 
   void deliver(Drawing& drawing, FrameWriter& writer, FrameResult&& picture) {
-    const double begin_s = now_s(), render_s = begin_s - begun_s_[delivered_];
-    const FrameHeader header = header_of(frames_[delivered_++]);
+    const double begin_s = now_s();
+    const Begun begun = begun_.front();
+    begun_.pop_front();
+    ++delivered_;
     holes_ += picture.holes;
-    writer.write({header, std::move(picture), render_s});
+    writer.write({begun.header, std::move(picture), begin_s - begun.at_s});
     drawing.engine().throw_gl_complaints();
     delivering_s_ += now_s() - begin_s;
+  }
+
+  // All of them only where their spread is asked for: ranges may be long.
+  void keep(const FrameRecord& record) {
+    ++recorded_;
+    for (std::size_t i = 0; i < kStageNames.size(); ++i) stage_ms_[i] += record.stages[i].ms();
+    if (!options_.stats_json.empty()) records_.push_back(record);
   }
 
   void report(const Drawing& drawing, double load_s) const {
@@ -189,12 +211,8 @@ class RenderRun {
                 drawing.scene().mesh->triangles.size(), mode_name(drawing.settings()), options_.draw.size.x,
                 options_.draw.size.y, drawing.gl_info() ? (", " + drawing.gl_info()->renderer).c_str() : "");
     line("load and build", 1e3 * load_s);
-    for (std::size_t i = 0; i < kStageNames.size(); ++i) {
-      double sum_ms = 0.0;
-      for (const FrameRecord& record : records_) sum_ms += record.stages[i].ms();
-      if (sum_ms > 0.0)
-        line(std::string(kStageNames[i]).c_str(), sum_ms / static_cast<double>(records_.size()));
-    }
+    for (std::size_t i = 0; i < kStageNames.size(); ++i)
+      if (stage_ms_[i] > 0.0) line(std::string(kStageNames[i]).c_str(), stage_ms_[i] / static_cast<double>(recorded_));
     if (drawing.settings().exchange == Exchange::reproject)
       std::printf("  %zu pixels a frame are holes of the reprojection\n",
                   holes_ / std::max<std::size_t>(delivered_, 1));
@@ -206,10 +224,19 @@ class RenderRun {
   }
 
   const RenderOptions& options_;
-  std::vector<CameraFrame> frames_;
-  std::vector<double> begun_s_;
+  std::optional<CameraFrames> frames_;
+  std::size_t asked_ = 0;  // of frames_
+  std::optional<CameraFrame> next_;
+  struct Begun {
+    FrameHeader header;
+    double at_s;
+  };
+  std::deque<Begun> begun_;  // and not delivered
+  std::optional<Progress> progress_;
   double delivering_s_ = 0.0;  // of the frame that is submitted: writing files is not drawing
   std::optional<BudgetRun> budget_;
+  std::size_t recorded_ = 0;
+  std::array<double, kStageNames.size()> stage_ms_{};  // of all of them
   std::vector<FrameRecord> records_;
   std::vector<int> written_;  // numbers of the frames whose files are whole
   std::size_t delivered_ = 0;

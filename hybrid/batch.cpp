@@ -27,7 +27,7 @@ RayCounts draw_tiles(Engine::Parts& engine, const Scene& scene, const std::share
   job.mask_bits = s.mask_bits;
   job.throughput_cutoff = s.throughput_cutoff;
   job.light_cutoff = s.light_cutoff;
-  job.filter_textures = s.filter_textures;
+  job.texture_footprint = texture_footprint(s, {});
   job.terminator = s.terminator;
   job.filter = s.pixel_filter;
   job.sampling = sampling_of(s, {});

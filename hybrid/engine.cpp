@@ -55,7 +55,7 @@ GpuPasses& Engine::Parts::gpu() {
 
 Workers& Engine::Parts::workers(int threads) {
   const std::lock_guard lock(pools_mutex);
-  return pools.try_emplace(threads, threads).first->second;
+  return pools.try_emplace(threads, threads, options.gives_way ? kForFrames : 0).first->second;
 }
 
 std::shared_ptr<const GpuMesh> Engine::Parts::gpu_mesh(const std::shared_ptr<const Mesh>& mesh) {
@@ -101,7 +101,7 @@ void settle_lights(Scene& scene, const Settings& settings) {
 
 Engine::Engine(const EngineOptions& options) : parts_(std::make_unique<Parts>(options)) {}
 
-Engine::Engine(gl::Context& context) : Engine() {
+Engine::Engine(gl::Context& context, const EngineOptions& options) : Engine(options) {
   parts_->context = &context;
 }
 
@@ -158,6 +158,14 @@ bool Engine::gl_is_software(const Settings& settings) const {
 
 const gl::ContextInfo* Engine::gl_info() const {
   return parts_->context ? &parts_->context->info() : nullptr;
+}
+
+const std::filesystem::path& Engine::shader_folder() const {
+  return parts_->gpu().programs->folder();
+}
+
+Expected<void> Engine::reload_shaders() {
+  return parts_->gpu().programs->reload();
 }
 
 void Engine::throw_gl_complaints() const {

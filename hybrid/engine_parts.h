@@ -9,6 +9,7 @@
 #include <mutex>
 #include <thread>
 
+#include "core/parallel/priority.h"
 #include "core/parallel/workers.h"
 #include "gl/open.h"
 #include "hybrid/gpu/gpu_mesh.h"
@@ -23,7 +24,11 @@ namespace pinocchio {
 // One thread that does what it is given, in order: a frame's tracing, while its owner goes on.
 class TracingThread {
  public:
-  TracingThread() : thread_([this](const std::stop_token& stop) { run(stop); }) {}
+  explicit TracingThread(bool gives_way)
+      : thread_([this, gives_way](const std::stop_token& stop) {
+          if (gives_way) give_way(kForFrames);
+          run(stop);
+        }) {}
 
   // What `job` throws is in the future.
   [[nodiscard]] std::future<void> post(std::function<void()> job);
@@ -52,7 +57,7 @@ struct GpuPasses {
 };
 
 struct Engine::Parts {
-  explicit Parts(const EngineOptions& of) : options(of) {}
+  explicit Parts(const EngineOptions& of) : options(of), tracing(of.gives_way) {}
 
   // Opens the context where there is none yet. Throws NoOpenGlError.
   [[nodiscard]] GpuPasses& gpu();

@@ -96,7 +96,7 @@ struct FrameSlot {
   // What the GPU's passes over this frame's ids read.
   [[nodiscard]] ShadingPasses::Inputs inputs() const {
     return {*mesh, lights, view, ids_texture(), request.settings.id_bits,
-            request.settings.filter_textures, sampling_of(request.settings, request.view), request.settings.terminator,
+            texture_footprint(request.settings, request.view), sampling_of(request.settings, request.view), request.settings.terminator,
             request.scene};
   }
   // The CPU's answer where the GPU has it.

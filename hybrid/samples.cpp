@@ -13,6 +13,12 @@ shared::Sampling sampling_of(const Settings& settings, const View& view) {
           static_cast<std::uint32_t>(settings.seed)};
 }
 
+float texture_footprint(const Settings& settings, const View& view) {
+  if (!settings.filter_textures) return 0.0f;
+  const int samples = std::max(settings.spp.value, view.sample + 1);  // gathered ones do not know how many follow
+  return samples == 1 ? 1.0f : 1.0f / std::sqrt(static_cast<float>(samples));
+}
+
 void submit_samples(Renderer& renderer, FrameRequest request, SampleMean* mean) {
   for (int k = 0; k < request.settings.spp; ++k) {
     request.view = at_sample(request.view, k, request.settings.pixel_filter);

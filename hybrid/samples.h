@@ -13,6 +13,10 @@ namespace pinocchio {
 // Which samples a frame takes of what is sampled.
 [[nodiscard]] shared::Sampling sampling_of(const Settings& settings, const View& view);
 
+// The side of what a frame averages textures over, pixels: of a sample that is one of many its share of the pixel, for the
+// samples themselves average, too. 0: they are not filtered.
+[[nodiscard]] float texture_footprint(const Settings& settings, const View& view);
+
 class SampleMean;
 
 // Submits as many frames as the settings have samples a pixel: the first at the pixels' centres, the others

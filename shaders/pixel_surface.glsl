@@ -7,7 +7,7 @@ uniform vec3 corner;
 uniform vec3 step_x;
 uniform vec3 step_y;
 uniform vec2 first;
-uniform float texture_spread;  // 0: textures are not filtered
+uniform float texture_spread;  // side of what they are averaged over, pixels; 0: textures are not filtered
 
 #if ID_BITS == 16
 const uint kNoTriangle = 0xffffu;

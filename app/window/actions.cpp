@@ -113,7 +113,7 @@ const std::vector<std::pair<const char*, const char*>>& mouse_bindings() {
       {"double-click", "turn around this point from now on"},
       {"Ctrl + wheel", "enlarge pixels"},
       {"Ctrl + click", "pick the material"},
-      {"Alt + click", "expose for this point"},
+      {"Ctrl + Shift + click", "expose for this point"},
       {"W A S D", "fly, Shift faster"},
       {"E Q", "fly up, down"},
       {"1 to 9", "the file's cameras"},

@@ -17,11 +17,13 @@ struct ExportedView {
   Settings settings;  // given
   Camera camera;
   std::vector<Light> extra_lights;  // that the file lacks
+  std::string environment{};        // file; empty: none
   glm::ivec2 size{0, 0};            // pixels
   int samples = 1;
   float exposure_ev = 0.0f;
   ToneMap tone_map = ToneMap::clip;
   std::optional<double> time_s{};  // of the scene's animation
+  std::uint64_t load_limit = kUsualLoadLimit;  // bytes
 };
 
 // The command line that draws it: name.exr and name.png. Numbers are exact.

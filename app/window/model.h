@@ -15,7 +15,8 @@
 #include "app/window/scene_files.h"
 #include "app/window/scene_loader.h"
 #include "app/window/settings.h"
-#include "hybrid/gpu/present_pass.h"
+#include "core/image/light_histogram.h"
+#include "hybrid/inspect/present_pass.h"
 
 namespace pinocchio::app {
 
@@ -57,6 +58,7 @@ struct Model {
   std::optional<Material> edited_material;  // what it is to be: the session takes it over
   std::optional<PixelReport> pixel;      // under the pointer; nothing: the panel is closed
   std::optional<double> pixel_error;     // there, against the reference; nothing: it is not complete
+  std::optional<LightHistogram> histogram;  // of the picture; nothing: the panel Drawing is closed, or no light is shown
   FileList files;
   Settings drawn;                        // resolved: by which frames are drawn now
   History history;

@@ -118,7 +118,7 @@ void draw_about(const Model& model) {
 
 }  // namespace
 
-void draw_controls(Model& model, float) {
+void draw_controls(Model& model, float scale) {
   ViewSettings& s = model.settings;
   draw_preset("mode", "who draws", s);
   draw_preset("design", "where the picture is put together", s);
@@ -126,6 +126,7 @@ void draw_controls(Model& model, float) {
   draw_exchange(s);
   ImGui::Separator();
   draw_quality_controls(s);
+  draw_histogram(model, scale);
   ImGui::Separator();
   draw_looking(model);
   ImGui::Separator();

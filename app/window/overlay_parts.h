@@ -20,6 +20,8 @@ void draw_controls(Model& model, float scale);
 void draw_all_settings(Model& model, float scale);
 void draw_light_controls(Model& model, float scale);
 void draw_camera(Model& model, float scale);
+// While the picture's light is counted; of the panel Drawing.
+void draw_histogram(const Model& model, float scale);
 void draw_timeline(Model& model, float scale);
 void draw_pixel(Model& model, float scale);
 void draw_materials(Model& model, float scale);

@@ -1,7 +1,5 @@
 #include "app/window/scene_loader.h"
 
-#include <sys/resource.h>
-
 #include <chrono>
 #include <string_view>
 #include <thread>
@@ -10,19 +8,9 @@
 #include "app/errors.h"
 #include "app/window/framing.h"
 #include "core/base/clock.h"
+#include "core/parallel/priority.h"
 
 namespace pinocchio::app {
-
-namespace {
-
-// The window's redraws come first. On Linux a thread has a priority of its own, and hands it on to the threads
-// that it starts.
-void give_way() {
-  constexpr int kNicer = 5;
-  setpriority(PRIO_PROCESS, 0, getpriority(PRIO_PROCESS, 0) + kNicer);
-}
-
-}  // namespace
 
 // What is to be said of it is the window's to say.
 SceneLoader::News SceneLoader::read(const DrawOptions& options, pinocchio::Progress& progress) {
@@ -70,7 +58,7 @@ void SceneLoader::start(const std::string& phase, const std::string& source, Wor
   std::packaged_task<News()> task([work = std::move(work), progress = progress_] { return work(*progress); });
   news_ = task.get_future();
   std::thread([task = std::move(task), alive = threads_]() mutable {
-    give_way();
+    give_way(kForFrames);  // the window's redraws come first
     task();
   }).detach();
 }

@@ -9,7 +9,6 @@
 #include "app/window/overlay.h"
 #include "core/base/clock.h"
 #include "gl/context.h"
-#include "hybrid/engine_parts.h"
 
 namespace pinocchio::app {
 namespace {
@@ -41,11 +40,11 @@ Session::Session(gl::Window& window, const ViewOptions& options)
       navigation_(model_.camera),
       gui_(window, [this] { draw_overlay(model_, gui_.scale()); }),
       preferences_(load_preferences(preferences_file())),
-      engine_(window.context()),
-      programs_(engine_.parts().gpu().programs),
-      present_(programs_),
+      engine_(window.context(), {.gives_way = true}),
+      present_(engine_),
       inspect_(engine_),
-      accumulator_(programs_),
+      histogram_(engine_),
+      accumulator_(engine_),
       renderer_(engine_, {[this](const Frame& frame) { take_frame(frame); },
                           [this](const FrameRecord& record) { take_record(record); }}),
       applied_(settings_of(options)) {
@@ -55,7 +54,7 @@ Session::Session(gl::Window& window, const ViewOptions& options)
   gui_.set_layout(preferences_.layout);
   model_.renderer = engine_.gl_info()->renderer;
   window_.set_vsync(applied_.vsync);
-  if (options_.watch && !programs_->folder().empty()) shader_watch_.emplace(programs_->folder());
+  if (options_.watch && !engine_.shader_folder().empty()) shader_watch_.emplace(engine_.shader_folder());
   load(options_.draw);
 }
 
@@ -87,15 +86,15 @@ void Session::fly_on() {
 
 // How long to wait for a person before the next turn; where nothing is left to do, nothing is done.
 double Session::patience_s() const {
-  constexpr double kAsleep_s = 0.25, kMinimised_s = 0.1, kLoading_s = 0.03, kTracing_s = 0.002;
+  constexpr double kAsleep_s = 0.25, kMinimised_s = 0.1, kTracing_s = 0.002;
   if (window_.minimised()) return kMinimised_s;
   if (redraws_ > 0 || navigation_.flying()) return 0.0;
   if (trial_) return 0.0;
-  if (!model_.loading.phase.empty()) return kLoading_s;
+  if (!model_.loading.phase.empty()) return std::clamp(redrawn_s_ + kBetweenRedraws_s - now_s(), 0.0, kBetweenRedraws_s);
   if (!model_.has_scene()) return kAsleep_s;
   if (!idle_) return renderer_.is_tracing() ? kTracing_s : 0.0;
   if (posing()) return kTracing_s;
-  return comparison_ && !comparison_->done() ? kLoading_s : kAsleep_s;
+  return comparison_ && !comparison_->done() ? kBetweenRedraws_s : kAsleep_s;
 }
 
 void Session::take_events() {
@@ -148,9 +147,9 @@ void Session::take_scroll(const gl::ScrollEvent& event) {
 }
 
 bool Session::take_click(const gl::ButtonEvent& event) {
-  if (event.button != 0 || !event.down || !(event.with.control || event.with.alt)) return false;
-  if (event.with.control) pick_material();
-  else expose_for_point();
+  if (event.button != 0 || !event.down || !event.with.control) return false;
+  if (event.with.shift) expose_for_point();  // not Alt: window managers move windows by it
+  else pick_material();
   return true;
 }
 

@@ -13,8 +13,9 @@
 #include "app/window/navigation.h"
 #include "app/window/pace.h"
 #include "app/window/preferences.h"
-#include "hybrid/gpu/present_pass.h"
+#include "hybrid/inspect/present_pass.h"
 #include "hybrid/inspect/accumulator.h"
+#include "hybrid/inspect/histogram_pass.h"
 #include "pinocchio/pose_ahead.h"
 #include "pinocchio/renderer.h"
 
@@ -85,6 +86,7 @@ class Session {
   void draw();
   void draw_scene();
   bool follow_reference(const FrameRequest& request);
+  static constexpr double kBetweenRedraws_s = 0.025;  // while a scene is loaded
   [[nodiscard]] bool wants_redraw() const;
   [[nodiscard]] bool answers_first() const;
   [[nodiscard]] bool gathers() const;
@@ -98,6 +100,7 @@ class Session {
   void compare(const Frame& frame);
   [[nodiscard]] ChannelRange channel_range() const;
   void inspect_pixel();
+  void count_light();
   void show(const gl::Texture* picture);
   void present(const gl::Texture& picture);
 
@@ -135,9 +138,9 @@ class Session {
   Gui gui_;
   Preferences preferences_;
   Engine engine_;
-  std::shared_ptr<Programs> programs_;
   PresentPass present_;
   InspectPass inspect_;
+  HistogramPass histogram_;
   Accumulator accumulator_;
   std::unique_ptr<Comparison> comparison_;  // null: none is asked for
   Renderer renderer_;
@@ -155,6 +158,8 @@ class Session {
   std::optional<FrameRequest> asked_;  // of the newest frame
   int sample_ = 0;                     // of the still camera, the next to ask for
   bool shown_ = false;                 // something, this turn
+  bool counted_ = false;               // the light of the picture shown last
+  double counted_s_ = 0.0;             // when, of that or one before
   bool again_ = false;                 // the newest frame is to be delivered once more
   bool settled_ = false;               // it was, since it was drawn
   bool idle_ = false;                  // nothing is left to draw

@@ -299,12 +299,19 @@ void Session::print_command() {
     for (const Field& field : settings_table())
       if (!field.same(controller_->now().settings, exact_))
         (void)field.take(field.text(controller_->now().settings), settings);
-  const std::string command = render_command(
-      {file, settings, model_.camera.camera(),
-       scene_edited_ ? std::vector<Light>() : extra_lights(model_.scene.lights, options_.draw),
-       picture_size(), gathers() ? std::max(model_.samples, 1) : 1, applied_.exposure_ev, applied_.tone_map,
-       model_.scene.animation && !scene_edited_ ? posed_s_ : std::nullopt},
-      name);
+  ExportedView view;
+  view.scene = file;
+  view.settings = settings;
+  view.camera = model_.camera.camera();
+  if (!scene_edited_) view.extra_lights = extra_lights(model_.scene.lights, options_.draw);
+  if (model_.scene.environment) view.environment = options_.draw.environment;
+  view.size = picture_size();
+  view.samples = gathers() ? std::max(model_.samples, 1) : 1;
+  view.exposure_ev = applied_.exposure_ev;
+  view.tone_map = applied_.tone_map;
+  if (model_.scene.animation && !scene_edited_) view.time_s = posed_s_;
+  view.load_limit = options_.draw.load_limit;
+  const std::string command = render_command(view, name);
   std::printf("%s\n", command.c_str());
   std::fflush(stdout);
   window_.set_clipboard(command);

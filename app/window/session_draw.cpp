@@ -6,7 +6,6 @@
 #include "core/base/clock.h"
 #include "core/trace/jitter.h"
 #include "gl/error.h"
-#include "hybrid/frame_slot.h"
 
 namespace pinocchio::app {
 namespace {
@@ -33,7 +32,9 @@ bool Session::gathers() const {
   return applied_.accumulate && applied_.buffer == BufferView::picture && applied_.split == Split::off;
 }
 
+// While a scene is read or a tree built, none are begun: that is sooner done, and the window answers.
 int Session::most_samples() const {
+  if (!model_.loading.phase.empty()) return std::max(sample_, 1);
   return applied_.settings.spp.given ? applied_.settings.spp.value : kUsualSamples;
 }
 
@@ -67,6 +68,7 @@ void Session::draw() {
     }
   }
   if (model_.has_scene()) inspect_pixel();
+  count_light();
   if (!shown_ && wants_redraw()) show(last_);
 }
 
@@ -78,9 +80,9 @@ bool Session::answers_first() const {
 
 // Of what does not wait for a frame: panels, exposure, how far a scene is loaded.
 bool Session::wants_redraw() const {
-  constexpr double kProgress_s = 0.03, kCursor_s = 0.25;
+  constexpr double kCursor_s = 0.25;
   const double since_s = now_s() - redrawn_s_;
-  return redraws_ > 0 || !png_file_.empty() || (!model_.loading.phase.empty() && since_s > kProgress_s) ||
+  return redraws_ > 0 || !png_file_.empty() || (!model_.loading.phase.empty() && since_s >= kBetweenRedraws_s) ||
          (gui_.wants_text() && since_s > kCursor_s);
 }
 
@@ -104,7 +106,9 @@ void Session::draw_scene() {
     return;
   }
   idle_ = false;
-  if (!renderer_.try_submit(request)) return;
+  // A person is looked at between a frame that is shown and one that is begun.
+  (void)renderer_.advance();
+  if (shown_ || !renderer_.try_submit(request)) return;
   again_ = false;
   if (!new_frame) return;
   model_.messages.mended("drawing");
@@ -135,9 +139,12 @@ bool Session::follow_reference(const FrameRequest& request) {
 
 void Session::take_frame(const Frame& frame) {
   if (comparison_) compare(frame);
-  const StageTimer timer(frame.record(), Stage::present);
+  Span& present = frame.record()[Stage::present];
+  present.begin_s = now_s();
   last_ = &chosen_buffer(frame);
+  counted_ = false;
   show(last_);
+  present.end_s = now_s();
   if (!model_.recording.empty()) record(frame);
 }
 
@@ -189,6 +196,25 @@ void Session::inspect_pixel() {
   if (!comparison_ || !comparison_->done() || !model_.pixel) return;
   const glm::vec3 off = glm::abs(model_.pixel->color - comparison_->reference_at(model_.pixel->pixel));
   model_.pixel_error = std::max({off.x, off.y, off.z});
+}
+
+// While the panel Drawing is open: twice a second, and of the finished picture.
+void Session::count_light() {
+  constexpr double kBetween_s = 0.5;
+  if (!model_.panels[Panel::drawing] || !last_ || !last_is_light_) {
+    model_.histogram.reset();
+    counted_ = false;
+    return;
+  }
+  if (histogram_.started()) {
+    model_.histogram.emplace(histogram_.take());
+    redraws_ = std::max(redraws_, 1);
+  }
+  if (counted_ || (model_.histogram && !idle_ && now_s() - counted_s_ < kBetween_s)) return;
+  histogram_.start(*last_);
+  counted_ = true;
+  counted_s_ = now_s();
+  redraws_ = std::max(redraws_, 1);  // it is taken then
 }
 
 void Session::compare(const Frame& frame) {

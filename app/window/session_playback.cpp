@@ -6,6 +6,7 @@
 #include "app/animation.h"
 #include "app/console.h"
 #include "app/window/session.h"
+#include "core/parallel/priority.h"
 #include "pinocchio/animation.h"
 
 namespace pinocchio::app {
@@ -25,6 +26,7 @@ void Session::want_pose() {
   pose_s_ = model_.playback.time_s;
   posed_s_ = pose_s_;
   pose_ = std::async(std::launch::async, [scene = posed_from_, seconds = pose_s_, settings = tree_of_.value_or(Settings{model_.drawn})] {
+    give_way(kForFrames);
     return PoseAhead(scene).at(seconds, settings);
   });
 }

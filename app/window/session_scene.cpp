@@ -90,7 +90,7 @@ void Session::take_scene(SceneLoader::News& news) {
 void Session::take_file_changes() {
   if (scene_watch_ && scene_watch_->changed(now_s())) load(options_.draw);
   if (!shader_watch_ || !shader_watch_->changed(now_s())) return;
-  if (const Expected<void> reloaded = programs_->reload()) {
+  if (const Expected<void> reloaded = engine_.reload_shaders()) {
     model_.messages.mended("shaders");
     model_.messages.news("the shaders were loaded anew");
   } else {

@@ -14,6 +14,7 @@
 #include <algorithm>
 #include <stdexcept>
 
+#include "core/image/exr_open.h"
 
 namespace pinocchio {
 namespace {
@@ -67,22 +68,9 @@ void read_attributes(const Imf::Header& header, ExrFile& exr) {
   }
 }
 
-// A damaged header may speak of more pixels than there is memory for; no file of this size holds them.
-void check_plausible(const Imf::Header& header, std::uintmax_t file_bytes) {
-  constexpr double kAlwaysRead = 1024.0 * 1024.0 * 1024.0;  // bytes
-  constexpr double kMostPacked = 2048.0;                    // deflate stays below 1032
-  const Imath::Box2i& data = header.dataWindow();
-  const double pixels = (static_cast<double>(data.max.x) - data.min.x + 1.0) *
-                        (static_cast<double>(data.max.y) - data.min.y + 1.0);
-  double bytes = 0.0;
-  for (auto it = header.channels().begin(); it != header.channels().end(); ++it) bytes += 4.0 * pixels;
-  if (bytes > kAlwaysRead && bytes > kMostPacked * static_cast<double>(file_bytes))
-    throw std::runtime_error("its header speaks of more pixels than the file can hold");
-}
-
-ExrFile read_file(const std::filesystem::path& file) {
-  Imf::InputFile in(file.c_str());
-  check_plausible(in.header(), std::filesystem::file_size(file));
+ExrFile read_file(const std::filesystem::path& file, std::uint64_t claim_bytes) {
+  const std::unique_ptr<Imf::InputFile> opened = open_exr(file, claim_bytes);
+  Imf::InputFile& in = *opened;
   if (!in.isComplete()) throw std::runtime_error("it ends before its last line");  // before memory is taken for them
   const Imath::Box2i &display = in.header().displayWindow(), &data = in.header().dataWindow();
   ExrFile exr;
@@ -127,11 +115,15 @@ const ExrChannel* ExrFile::find(const std::string& name) const {
 }
 
 Expected<ExrFile> read_exr(const std::filesystem::path& file) {
+  return read_exr(file, kUsualExrClaim);
+}
+
+Expected<ExrFile> read_exr(const std::filesystem::path& file, std::uint64_t claim_bytes) {
   std::error_code ignored;
   if (!std::filesystem::is_regular_file(file, ignored))
     return Unexpected(InputError{file.string(), 0, "there is no such file", "check its name"});
   try {
-    return read_file(file);
+    return read_file(file, claim_bytes);
   } catch (const std::exception& error) {
     return Unexpected(InputError{file.string(), 0, std::string("cannot be read as EXR: ") + error.what(),
                                  "is it damaged, or another format?"});

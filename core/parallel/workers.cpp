@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <atomic>
 
+#include "core/parallel/priority.h"
+
 namespace pinocchio {
 
 struct Workers::Job {
@@ -13,10 +15,14 @@ struct Workers::Job {
   std::exception_ptr error;
 };
 
-Workers::Workers(int threads) {
+Workers::Workers(int threads, int niceness) {
   if (threads <= 0) threads = static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
   threads_.reserve(static_cast<std::size_t>(threads) - 1);
-  for (int i = 1; i < threads; ++i) threads_.emplace_back([this] { run_thread(); });
+  for (int i = 1; i < threads; ++i)
+    threads_.emplace_back([this, niceness] {
+      if (niceness > 0) give_way(niceness);
+      run_thread();
+    });
 }
 
 Workers::~Workers() {

@@ -13,8 +13,9 @@ namespace pinocchio {
 // Worker threads that live as long as this object and take tiles of one job at a time.
 class Workers {
  public:
-  // `threads` in all, the caller's own among them; 0: one a core.
-  explicit Workers(int threads = 0);
+  // `threads` in all, the caller's own among them; 0: one a core. niceness: steps by which those
+  // that are its own give way (priority.h).
+  explicit Workers(int threads = 0, int niceness = 0);
   ~Workers();
   Workers(const Workers&) = delete;
   Workers& operator=(const Workers&) = delete;

@@ -8,7 +8,7 @@
 namespace pinocchio {
 
 ReferencePicture reference_render(const Scene& scene, const View& view, int depth, Workers& workers,
-                                  Progress* progress, bool filter_textures, Terminator terminator) {
+                                  Progress* progress, float texture_footprint, Terminator terminator) {
   const auto casting = static_cast<int>(casting_lights(scene).size());
   assert(casting <= kMaxCastingLights);
   const glm::ivec2 size = view.box().size();
@@ -17,7 +17,7 @@ ReferencePicture reference_render(const Scene& scene, const View& view, int dept
   const shared::ViewParams rays = view_params(view);
 
   const ReferenceTree tree(*scene.mesh, progress);
-  const ReferenceTracer tracer(scene, tree, filter_textures, view.jitter != glm::vec2(0.0f), terminator);
+  const ReferenceTracer tracer(scene, tree, texture_footprint, view.jitter != glm::vec2(0.0f), terminator);
   const auto draw_pixel = [&](int x, int y) {
     const ReferenceTracer::Pixel pixel = tracer.pixel(rays, x, y, depth);
     picture.ids.at(x, y) = pixel.triangle;

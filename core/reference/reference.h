@@ -25,10 +25,10 @@ struct ReferencePicture {
 };
 
 // Draws view.box(), `depth` bounces at most. The scene has no more casting lights than kMaxCastingLights.
-// Advances `progress` by one step.
+// Advances `progress` by one step. texture_footprint: side of what textures are averaged over, pixels; 0: they are not.
 [[nodiscard]] ReferencePicture reference_render(const Scene& scene, const View& view, int depth,
                                                 Workers& workers, Progress* progress = nullptr,
-                                                bool filter_textures = true,
+                                                float texture_footprint = 1.0f,
                                                 Terminator terminator = kUsualTerminator);
 
 }  // namespace pinocchio

@@ -29,13 +29,14 @@ ReferenceTracer::Cone ReferenceTracer::cone_after(const ReferenceRay& ray, const
 
 ReferenceTracer::Pixel ReferenceTracer::pixel(const shared::ViewParams& view, int x, int y, int depth) const {
   ReferenceRay ray = reference_pixel_ray(view, x, y);
-  if (filter_textures_) ray.angle = glm::length(glm::dvec3(view.step_y));
+  ray.angle = texture_footprint_ * glm::length(glm::dvec3(view.step_y));
   const ReferenceHit hit = closest_hit(ray);
   Pixel pixel;
   pixel.triangle = hit.triangle;
   if (!hit.valid()) return pixel;
-  ReferenceSpread spread{ray.direction, hit.t * glm::dvec3(view.step_x), hit.t * glm::dvec3(view.step_y)};
-  if (!filter_textures_) spread = {};
+  const double side = texture_footprint_ * hit.t;
+  ReferenceSpread spread{ray.direction, side * glm::dvec3(view.step_x), side * glm::dvec3(view.step_y)};
+  if (texture_footprint_ == 0.0) spread = {};
   const ReferenceSurface surface = reference_surface(*scene_.mesh, ray, hit, spread);
   const glm::dvec3 own = direct(surface, pixel.mask), mirrored = bounced(surface, depth, cone_after(ray, hit), kLobeSide);
   pixel.reflection = glm::vec3(mirrored);

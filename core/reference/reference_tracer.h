@@ -18,13 +18,13 @@ namespace pinocchio {
 class ReferenceTracer {
  public:
   // `tree` may be of another scene with the same triangles. Both stay as long as this lives.
-  // filter_textures: they are averaged over what a pixel sees of them.
+  // texture_footprint: side of the part of a pixel whose view of textures is averaged; 0: nothing is.
   // one_of_many: pixels are the mean of many such pictures, so that shadows of surfaces that blend may be grey.
-  ReferenceTracer(const Scene& scene, const ReferenceTree& tree, bool filter_textures = true,
+  ReferenceTracer(const Scene& scene, const ReferenceTree& tree, float texture_footprint = 1.0f,
                   bool one_of_many = false, Terminator terminator = kUsualTerminator)
       : scene_(scene),
         tree_(tree),
-        filter_textures_(filter_textures),
+        texture_footprint_(texture_footprint),
         one_of_many_(one_of_many),
         terminator_(terminator) {}
 
@@ -54,7 +54,8 @@ class ReferenceTracer {
 
   const Scene& scene_;
   const ReferenceTree& tree_;
-  bool filter_textures_, one_of_many_;
+  double texture_footprint_;
+  bool one_of_many_;
   Terminator terminator_;
 };
 

@@ -1,14 +1,15 @@
 #include <ImfChannelList.h>
 #include <ImfFrameBuffer.h>
 #include <ImfHeader.h>
-#include <ImfInputFile.h>
 
+#include <algorithm>
 #include <array>
 #include <system_error>
 
+#include "core/image/exr_open.h"
 #include "core/scene/input_file.h"
 #include "core/scene/memory_limit.h"
-#include "core/scene/texture_file.h"
+#include "core/scene/radiance.h"
 #include "pinocchio/environment.h"
 
 namespace pinocchio {
@@ -30,7 +31,8 @@ std::array<std::string, 3> color_channels(const Imf::ChannelList& list) {
 }
 
 Expected<Image<glm::vec3>> read_exr_environment(const std::filesystem::path& file, MemoryLimit& limit) try {
-  Imf::InputFile in(file.c_str());
+  const std::unique_ptr<Imf::InputFile> opened = open_exr(file, std::min(kUsualExrClaim, limit.bytes()));
+  Imf::InputFile& in = *opened;
   const std::array<std::string, 3> channels = color_channels(in.header().channels());
   if (channels[0].empty()) return refuse(file, "has no channels R, G and B, nor Y", "write it as an RGB picture");
   const Imath::Box2i& data = in.header().dataWindow();

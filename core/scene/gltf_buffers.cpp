@@ -1,6 +1,7 @@
 #include "core/scene/gltf_buffers.h"
 
 #include <array>
+#include <charconv>
 #include <nlohmann/json.hpp>
 #include <string_view>
 
@@ -20,16 +21,28 @@ std::string decode_base64(std::string_view text) {
       values[static_cast<unsigned char>(kLetters[i])] = static_cast<std::int8_t>(i);
     return values;
   }();
-  std::string bytes;
-  bytes.reserve(text.size() / 4 * 3);
+  const auto value_at = [&](std::size_t i) { return std::int32_t{kValues[static_cast<unsigned char>(text[i])]}; };
+  std::string bytes(text.size() / 4 * 3 + 3, '\0');
+  std::size_t size = 0;
   std::uint32_t bits = 0;
-  int count = 0;
-  for (const char c : text) {
-    const std::int8_t value = kValues[static_cast<unsigned char>(c)];
+  int count = 0;  // of letters that are not whole bytes yet
+  for (std::size_t i = 0; i < text.size();) {
+    if (count == 0 && i + 4 <= text.size()) {  // nearly all of it
+      const std::int32_t a = value_at(i), b = value_at(i + 1), c = value_at(i + 2), d = value_at(i + 3);
+      if ((a | b | c | d) >= 0) {
+        const std::int32_t four = a << 18 | b << 12 | c << 6 | d;
+        for (const int shift : {16, 8, 0}) bytes[size++] = static_cast<char>(four >> shift);
+        i += 4;
+        continue;
+      }
+    }
+    const std::int32_t value = value_at(i++);
     if (value < 0) continue;  // padding, line ends
     bits = bits << 6 | static_cast<std::uint32_t>(value);
-    if (++count % 4 != 1) bytes.push_back(static_cast<char>(bits >> (6 - 2 * ((count - 1) % 4))));
+    count = (count + 1) % 4;
+    if (count != 1) bytes[size++] = static_cast<char>(bits >> (6 - 2 * ((count + 3) % 4)));
   }
+  bytes.resize(size);
   return bytes;
 }
 
@@ -49,8 +62,13 @@ std::string decode_percent(std::string_view uri) {
 }
 
 // The part after "data:...;base64,"; nothing where the URI is a file's.
-std::optional<std::string_view> data_of(std::string_view uri) {
+std::optional<std::string_view> data_of(const GltfFile& file, std::string_view uri) {
   if (!uri.starts_with("data:")) return std::nullopt;
+  std::size_t aside = 0;
+  if (uri.starts_with(kDataAside) &&
+      std::from_chars(uri.data() + kDataAside.size(), uri.data() + uri.size(), aside).ec == std::errc() &&
+      aside < file.data_uris.size())
+    uri = file.data_uris[aside];
   const std::size_t comma = uri.find(',');
   return comma == std::string_view::npos ? std::string_view() : uri.substr(comma + 1);
 }
@@ -62,7 +80,7 @@ Expected<void> read_buffer(GltfFile& file, const Json& buffer, std::size_t index
     file.buffers.push_back(index == 0 ? chunk : std::span<const unsigned char>());
   } else {
     const std::string& uri = uri_at->get_ref<const std::string&>();
-    if (const std::optional<std::string_view> data = data_of(uri)) {
+    if (const std::optional<std::string_view> data = data_of(file, uri)) {
       file.add_buffer(decode_base64(*data));
     } else {
       const std::filesystem::path path = named_file(file.path, decode_percent(uri));
@@ -144,7 +162,7 @@ Expected<void> read_gltf_buffers(GltfFile& file, const Json& gltf, std::span<con
     image.bufferView = static_cast<int>(std::min<std::size_t>(size_member(json, "bufferView").value_or(views.size()), views.size()));
     if (!json.contains("bufferView")) image.bufferView = -1;
     const std::string uri = text_member(json, "uri");
-    if (const std::optional<std::string_view> data = data_of(uri)) {
+    if (const std::optional<std::string_view> data = data_of(file, uri)) {
       const std::string bytes = decode_base64(*data);
       image.image.assign(bytes.begin(), bytes.end());
     } else if (!uri.empty()) {

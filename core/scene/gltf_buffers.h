@@ -17,6 +17,9 @@ namespace pinocchio {
 [[nodiscard]] Expected<std::string> unpack_meshopt(const GltfFile& file, const nlohmann::json& extension,
                                                    const std::string& whose);
 
+// Stands before the number of one of GltfFile::data_uris in its place.
+inline constexpr std::string_view kDataAside = "data:aside,";
+
 // What KHR_draco_mesh_compression is called where tinygltf does not see it: it would unpack it, without buffers.
 inline constexpr const char* kDracoAside = "pinocchio_draco";
 

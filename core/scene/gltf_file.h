@@ -7,6 +7,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #pragma GCC diagnostic push
@@ -24,6 +25,7 @@ struct GltfFile {
   tinygltf::Model model;  // without its buffers' bytes
   std::vector<std::span<const unsigned char>> buffers;
   std::deque<std::string> storage;  // what they lie in
+  std::vector<std::string_view> data_uris;  // while it is read: those that its JSON was parsed without
   std::vector<std::string> named_files;  // looked for beside it, found or not
   Progress* progress = nullptr;
   MemoryLimit* limit = nullptr;

@@ -133,23 +133,29 @@ Material material_of(const tinygltf::Material& m, const GltfSurface& surface, Ma
   return material;
 }
 
-// Whether some primitive of it has coloured vertices, by material.
+// Whether some primitive of it has coloured vertices, by material; the last: of those without one.
 std::vector<bool> colored_materials(const tinygltf::Model& model) {
-  std::vector<bool> colored(model.materials.size(), false);
+  std::vector<bool> colored(model.materials.size() + 1, false);
   for (const tinygltf::Mesh& mesh : model.meshes)
     for (const tinygltf::Primitive& p : mesh.primitives)
-      if (p.attributes.contains("COLOR_0") && p.material >= 0 &&
-          static_cast<std::size_t>(p.material) < colored.size())
-        colored[static_cast<std::size_t>(p.material)] = true;
+      if (p.attributes.contains("COLOR_0") && p.material < static_cast<int>(model.materials.size()))
+        colored[p.material >= 0 ? static_cast<std::size_t>(p.material) : model.materials.size()] = true;
   return colored;
+}
+
+// What primitives without a material have: as if the file had an empty one (glTF 2.0, "Default Material").
+tinygltf::Material empty_material() {
+  tinygltf::Material material;
+  material.name = "default";
+  return material;
 }
 
 }  // namespace
 
 void add_gltf_materials(const GltfFile& file, MeshData& mesh) {
   const std::vector<bool> colored = colored_materials(file.model);
-  for (std::size_t i = 0; i < file.model.materials.size(); ++i) {
-    const tinygltf::Material& m = file.model.materials[i];
+  for (std::size_t i = 0; i <= file.model.materials.size(); ++i) {
+    const tinygltf::Material m = i < file.model.materials.size() ? file.model.materials[i] : empty_material();
     MaterialMaps maps = maps_of(file, m);
     maps.vertex_colors = colored[i];
     Material material = material_of(m, surface_of(m), maps);

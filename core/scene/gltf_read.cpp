@@ -16,18 +16,38 @@ constexpr std::string_view kBinaryMagic = "glTF";
 constexpr int kDeepest = 256;
 constexpr int kNoSuch = 0x7fffffff;  // an index that nothing has
 
-bool nested_too_deep(std::string_view json) {
+// JSON without its long data URIs: base64 of buffers and images, through which JSON libraries go byte by byte and
+// copy them. kDataAside and their number in `data_uris` stands where they stood.
+struct Outline {
+  std::string json;
+  std::vector<std::string_view> data_uris;
+  bool too_deep = false;
+};
+
+Outline outline_of(std::string_view text) {
+  constexpr std::size_t kLong = 1024;
+  Outline outline;
+  std::size_t taken = 0;  // of `text`, into outline.json
   int depth = 0;
   bool in_string = false;
-  for (std::size_t i = 0; i < json.size(); ++i) {
-    const char c = json[i];
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    const char c = text[i];
     if (in_string && c == '\\') ++i;
     if (c == '"') in_string = !in_string;
+    if (in_string && c == '"' && text.substr(i + 1).starts_with("data:")) {
+      const std::string_view uri = text.substr(i + 1, text.find('"', i + 1) - (i + 1));
+      if (uri.size() < kLong || uri.find('\\') != uri.npos) continue;
+      outline.json.append(text.substr(taken, i + 1 - taken)).append(kDataAside).append(std::to_string(outline.data_uris.size()));
+      outline.data_uris.push_back(uri);
+      i += uri.size();
+      taken = i + 1;
+    }
     if (in_string) continue;
-    if ((c == '[' || c == '{') && ++depth > kDeepest) return true;
+    if ((c == '[' || c == '{') && ++depth > kDeepest) outline.too_deep = true;
     if (c == ']' || c == '}') --depth;
   }
-  return false;
+  outline.json.append(text.substr(taken));
+  return outline;
 }
 
 // A file's parts: its JSON, and a .glb's binary chunk.
@@ -128,25 +148,28 @@ Expected<GltfFile> read_gltf_file(const std::filesystem::path& path, Loading& lo
   if (!bytes) return Unexpected(bytes.error());
   Expected<Parts> parts = split(file, std::move(*bytes));
   if (!parts) return Unexpected(parts.error());
-  if (nested_too_deep(parts->json)) return file.error("is nested too deeply");
+  Outline outline = outline_of(parts->json);
+  if (outline.too_deep) return file.error("is nested too deeply");
+  file.data_uris = std::move(outline.data_uris);
   nlohmann::json gltf;
   try {
-    gltf = nlohmann::json::parse(parts->json);
+    gltf = nlohmann::json::parse(outline.json);
   } catch (const nlohmann::json::parse_error& e) {
-    const auto end = parts->json.begin() + static_cast<std::ptrdiff_t>(std::min(e.byte, parts->json.size()));
+    const auto end = outline.json.begin() + static_cast<std::ptrdiff_t>(std::min(e.byte, outline.json.size()));
     const bool encoding = std::string_view(e.what()).find("UTF-8") != std::string_view::npos;
-    return Unexpected(InputError{path.string(), 1 + static_cast<int>(std::count(parts->json.begin(), end, '\n')),
+    return Unexpected(InputError{path.string(), 1 + static_cast<int>(std::count(outline.json.begin(), end, '\n')),
                                  encoding ? "is not glTF: its text is not UTF-8" : "is not glTF: its JSON cannot be parsed",
                                  "is the export complete?"});
   } catch (const nlohmann::json::exception&) {
     return file.error("is not glTF: it has a number that is too large");
   }
   if (!gltf.is_object()) return file.error("is not glTF: its JSON is no object", "is the export complete?");
-  parts->json = {};
+  outline.json = {};
   if (const Expected<void> readable = check_gltf_requirements(path, gltf); !readable)
     return Unexpected(readable.error());
   add_lost_gltf_features(path, gltf, loading.warnings);
   if (const Expected<void> read = read_gltf_buffers(file, gltf, parts->binary); !read) return Unexpected(read.error());
+  file.data_uris.clear();  // they lie in `parts`
   if (const Expected<void> parsed = parse(file, gltf); !parsed) return Unexpected(parsed.error());
   if (const Expected<void> unpacked = unpack_draco(file); !unpacked) return Unexpected(unpacked.error());
   return file;

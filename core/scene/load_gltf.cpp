@@ -129,7 +129,6 @@ class SceneReader {
   SceneReader(const GltfFile& file, Loading& loading)
       : file_(file), model_(file.model), loading_(loading) {
     add_gltf_materials(file, mesh_);
-    mesh_.materials.emplace_back().name = "default";
   }
 
   Expected<Scene> read() {

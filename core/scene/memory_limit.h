@@ -33,6 +33,7 @@ class MemoryLimit {
     return false;
   }
 
+  [[nodiscard]] std::uint64_t bytes() const { return bytes_; }  // in all
   [[nodiscard]] const std::optional<InputError>& error() const { return error_; }
 
  private:

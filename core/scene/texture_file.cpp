@@ -1,6 +1,7 @@
 #include "core/scene/texture_file.h"
 
 #include <algorithm>
+#include <charconv>
 #include <cstdlib>
 #include <limits>
 #include <memory>
@@ -17,8 +18,6 @@
 #define STB_IMAGE_IMPLEMENTATION
 #define STBI_ONLY_BMP
 #define STBI_ONLY_GIF
-#define STBI_ONLY_HDR
-#define STBI_ONLY_PNM
 #define STBI_ONLY_TGA
 #pragma GCC diagnostic push
 #pragma GCC diagnostic ignored "-Wunused-function"
@@ -47,6 +46,7 @@ class Decoder {
     if (starts_with("RIFF") && starts_with("WEBP", 8)) return webp();
     if (starts_with("\xabKTX 20")) return error("is KTX2, which is not read; convert it to PNG, JPEG or WebP");
     if (starts_with("#?")) return error("is Radiance HDR, which is for environments; convert it to PNG, JPEG or WebP");
+    if (starts_with("P5") || starts_with("P6")) return pnm();
     if (starts_with("DDS ")) return error("is DDS, which is not read; convert it to PNG, JPEG or WebP");
     return other();
   }
@@ -121,6 +121,41 @@ class Decoder {
     return std::move(image_);
   }
 
+  // Netpbm's P5, grey, and P6, RGB: by ourselves, for stb_image overruns those of 16 bits and takes any white for 255.
+  Expected<DecodedImage> pnm() {
+    std::size_t at = 2;
+    const std::uint32_t width = pnm_number(at), height = pnm_number(at), white = pnm_number(at);
+    ++at;  // one white-space character
+    if (white < 1 || white > 65535) return error("is not PNM that can be read");
+    if (const Expected<void> made = make(width, height); !made) return Unexpected(made.error());
+    const std::size_t bytes = white > 255 ? 2 : 1, channels = starts_with("P6") ? 3 : 1;
+    const auto sample = [&](std::size_t i) -> std::uint8_t {
+      const std::size_t begin = at + i * bytes;
+      if (begin + bytes > bytes_.size()) return 0;
+      const std::uint32_t value = bytes == 1 ? bytes_[begin] : bytes_[begin] * 256u + bytes_[begin + 1];
+      return static_cast<std::uint8_t>((std::min(value, white) * 255 + white / 2) / white);
+    };
+    const std::span<glm::u8vec4> pixels = image_.texture.texels.pixels();
+    for (std::size_t i = 0; i < pixels.size(); ++i)
+      pixels[i] = channels == 3 ? glm::u8vec4(sample(3 * i), sample(3 * i + 1), sample(3 * i + 2), 255)
+                                : glm::u8vec4(glm::u8vec3(sample(i)), 255);
+    if (bytes_.size() < at + pixels.size() * channels * bytes) image_.damage = "it is cut off";
+    return std::move(image_);
+  }
+
+  // The next number of a PNM's header, after white space and comments; 0: there is none.
+  [[nodiscard]] std::uint32_t pnm_number(std::size_t& at) const {
+    const std::string_view text(reinterpret_cast<const char*>(bytes_.data()), bytes_.size());
+    for (at = text.find_first_not_of(" \t\n\v\f\r", at); at != text.npos && text[at] == '#';
+         at = text.find_first_not_of(" \t\n\v\f\r", at))
+      at = std::min(text.find('\n', at), text.size());
+    at = std::min(at, text.size());
+    std::uint32_t number = 0;
+    const auto [end, failure] = std::from_chars(text.data() + at, text.data() + text.size(), number);
+    at = static_cast<std::size_t>(end - text.data());
+    return failure == std::errc() ? number : 0;
+  }
+
   Expected<DecodedImage> other() {
     const int size = static_cast<int>(bytes_.size());
     int width = 0, height = 0, channels = 0;
@@ -133,8 +168,6 @@ class Decoder {
     if (!pixels || glm::ivec2(width, height) != image_.texture.texels.size())
       return error(std::string("cannot be decoded: ") + (pixels ? "its size changes" : stbi_failure_reason()));
     std::copy_n(pixels.get(), texel_bytes(), texels());
-    const bool netpbm = starts_with("P5") || starts_with("P6");  // whose reader does not look where the file ends
-    if (netpbm && bytes_.size() < texel_bytes() / 4 * static_cast<std::size_t>(channels)) image_.damage = "it is cut off";
     return std::move(image_);
   }
 
@@ -149,28 +182,6 @@ class Decoder {
 Expected<DecodedImage> decode_texture(const std::string& file, const std::string& name,
                                       std::span<const unsigned char> bytes, MemoryLimit& limit) {
   return Decoder(file, name, bytes, limit).decode();
-}
-
-Expected<Image<glm::vec3>> decode_radiance(const std::string& file, std::span<const unsigned char> bytes,
-                                           MemoryLimit& limit) {
-  const auto fail = [&file](const std::string& what) {
-    return Unexpected(InputError{file, 0, "is not Radiance that can be read: " + what, "is it damaged?"});
-  };
-  if (bytes.size() > std::numeric_limits<int>::max()) return fail("it is larger than 2 GiB");
-  const int size = static_cast<int>(bytes.size());
-  int width = 0, height = 0, channels = 0;
-  if (stbi_info_from_memory(bytes.data(), size, &width, &height, &channels) == 0) return fail(stbi_failure_reason());
-  // As it is decoded, the copy, and an environment's sums.
-  if (!limit.take(file, "the environment", static_cast<std::uint64_t>(width) * static_cast<std::uint64_t>(height),
-                  2 * sizeof(glm::vec3) + sizeof(float)))
-    return Unexpected(*limit.error());
-  const std::unique_ptr<float, void (*)(void*)> pixels(
-      stbi_loadf_from_memory(bytes.data(), size, &width, &height, &channels, 3), stbi_image_free);
-  if (!pixels) return fail(stbi_failure_reason());
-  Image<glm::vec3> image(glm::ivec2(width, height));
-  for (std::size_t i = 0; i < image.pixels().size(); ++i)
-    image[i] = {pixels.get()[3 * i], pixels.get()[3 * i + 1], pixels.get()[3 * i + 2]};
-  return image;
 }
 
 namespace {

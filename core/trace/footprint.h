@@ -20,8 +20,9 @@ struct Footprint {
   glm::vec3 step_x{0.0f}, step_y{0.0f};  // ViewParams', of camera rays; zero: cones
   float angle = 0.0f;                    // radians; 0: nothing is averaged
 
-  [[nodiscard]] static Footprint of_camera(const shared::ViewParams& view) {
-    return {view.step_x, view.step_y, glm::length(view.step_y)};
+  // `side`: of a sample's share of its pixel.
+  [[nodiscard]] static Footprint of_camera(const shared::ViewParams& view, float side = 1.0f) {
+    return {side * view.step_x, side * view.step_y, side * glm::length(view.step_y)};
   }
   [[nodiscard]] Footprint of_cones() const { return {glm::vec3(0.0f), glm::vec3(0.0f), angle}; }
 

@@ -29,7 +29,7 @@ struct TraceJob {
   // the shadow rays of what they see; and shadow rays of visible points (0: all are fired, so that every bit
   // of the mask is true).
   float throughput_cutoff = kThroughputCutoff, light_cutoff = 0.0f;
-  bool filter_textures = true;
+  float texture_footprint = 1.0f;  // side of what textures are averaged over, pixels; 0: nothing is averaged
   Terminator terminator = kUsualTerminator;
   glm::vec2 jitter{0.0f};  // View's: tells the samples of a pixel apart where they decide at random
   shared::Sampling sampling{};  // which sample is taken of what is sampled

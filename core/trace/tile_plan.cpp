@@ -21,7 +21,7 @@ std::vector<BounceLight> lights_of(const Scene& scene) {
 // Whether anything is to be averaged.
 bool filters(const TraceJob& job) {
   const Textures& textures = job.scene.mesh->textures;
-  return job.filter_textures &&
+  return job.texture_footprint > 0.0f &&
          std::any_of(textures.begin(), textures.end(), [](const Texture& t) { return t.levels() > 1; });
 }
 
@@ -43,7 +43,7 @@ SceneArrays SceneArrays::of(const Mesh& mesh) {
 void TilePlan::look(const shared::ViewParams& from) {
   view = scaled_view(from, out.scale);
   first = glm::ivec2(from.first);
-  if (filters(job)) seen_footprint = Footprint::of_camera(view);
+  if (filters(job)) seen_footprint = Footprint::of_camera(view, job.texture_footprint);
   further_footprint = seen_footprint.of_cones();
 }
 

@@ -32,7 +32,7 @@ class Share {
         to_(to),
         images_(images),
         trace_job_{job.scene,        job.tracer,          job.workers,   {}, job.throughput_cutoff,
-                   job.light_cutoff, job.filter_textures, job.terminator},
+                   job.light_cutoff, job.texture_footprint, job.terminator},
         outputs_(outputs(job, to, images)),
         plan_(trace_job_, outputs_) {}
 
@@ -112,7 +112,7 @@ class Share {
   }
 
   void add_surfaces(const shared::ViewParams& view, std::size_t frame, const PixelBox& tile) {
-    const VisiblePoints points(*job_.scene.mesh, view, job_.filter_textures);
+    const VisiblePoints points(*job_.scene.mesh, view, job_.texture_footprint > 0.0f);
     const glm::ivec2 size = tile.size();
     for (int y = 0; y < size.y; ++y)
       for (int x = 0; x < size.x; ++x) {

@@ -25,7 +25,7 @@ struct FramesJob {
   int spp = 1, depth = 0, indirect = 0, mask_bits = 0;
   bool environment_light = false;
   float throughput_cutoff = kThroughputCutoff, light_cutoff = 0.0f;
-  bool filter_textures = true;
+  float texture_footprint = 1.0f;  // of a sample, pixels; 0: textures are not averaged
   Terminator terminator = kUsualTerminator;
   PixelFilter filter = PixelFilter::box;
   shared::Sampling sampling{};  // of the first sample

@@ -99,7 +99,7 @@ int ShadingPasses::bind(const gl::Program& program, const Inputs& inputs) const 
   program.set("step_x", inputs.view.step_x);
   program.set("step_y", inputs.view.step_y);
   program.set("first", inputs.view.first);
-  program.set("texture_spread", inputs.filter_textures ? 1.0f : 0.0f);
+  program.set("texture_spread", inputs.texture_footprint);
   program.set("ids", 0, inputs.ids);
   return inputs.lights.bind(program, inputs.mesh.bind(program, 1));
 }

@@ -37,7 +37,7 @@ class ShadingPasses {
     shared::ViewParams view;
     const gl::Texture& ids;
     int id_bits;
-    bool filter_textures;
+    float texture_footprint;  // pixels; 0: textures are not filtered
     shared::Sampling sampling;
     Terminator terminator;
     const Scene& scene;  // whose environment is seen

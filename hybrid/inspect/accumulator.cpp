@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "gl/transfer.h"
+#include "hybrid/engine_parts.h"
 #include "hybrid/frame_slot.h"
 
 namespace pinocchio {
@@ -15,6 +16,8 @@ bool same_view(FrameRequest a, const FrameRequest& b) {
 }
 
 }  // namespace
+
+Accumulator::Accumulator(Engine& engine) : programs_(engine.parts().gpu().programs) {}
 
 void Accumulator::add(const Frame& frame) {
   const FrameSlot* const of = frame.slot().answer_of;

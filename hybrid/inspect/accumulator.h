@@ -6,16 +6,17 @@
 
 #include "gl/draw.h"
 #include "gl/framebuffer.h"
-#include "hybrid/gpu/programs.h"
 #include "pinocchio/renderer.h"
 
 namespace pinocchio {
+
+class Programs;
 
 // A still camera's picture: the mean of the pictures of frames that differ in nothing but where they sample
 // their pixels. Frame k is to be asked for with at_sample(view, k) (core/trace/jitter.h).
 class Accumulator {
  public:
-  explicit Accumulator(std::shared_ptr<Programs> programs) : programs_(std::move(programs)) {}
+  explicit Accumulator(Engine& engine);
 
   // Adds a delivered frame's picture. Begins anew by itself where scene, plan, camera, size or part are not
   // those of the frames before; a sample that was the last one added is not added twice. A reprojected frame

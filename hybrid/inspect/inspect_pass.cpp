@@ -130,7 +130,7 @@ ShadingPasses::Inputs InspectPass::inputs_of(const FrameSlot& frame) {
   send(std::as_bytes(frame.ids.pixels()), frame.ids.size(), id_format(kIdBits).pixel, ids_);
   lights_.update(frame.request.scene);
   return {*engine_.parts().gpu_mesh(frame.request.scene.mesh), lights_, frame.view, ids_.texture, kIdBits,
-          frame.request.settings.filter_textures, {}, frame.request.settings.terminator, frame.request.scene};
+          texture_footprint(frame.request.settings, frame.request.view), {}, frame.request.settings.terminator, frame.request.scene};
 }
 
 ShadingPasses::Traced InspectPass::send_from_cpu(const MaskImage& mask, const Image<glm::vec3>& reflection,

@@ -1,12 +1,11 @@
 #include "hybrid/inspect/progressive_reference.h"
 
-#include <sys/resource.h>
-
 #include <algorithm>
 #include <array>
 #include <atomic>
 #include <optional>
 
+#include "core/parallel/priority.h"
 #include "core/parallel/workers.h"
 #include "core/reference/reference_tracer.h"
 #include "core/trace/view_params.h"
@@ -17,14 +16,6 @@ namespace {
 // Pixels from one sample to the next, pass by pass.
 constexpr std::array<int, 4> kSteps{8, 4, 2, 1};
 static_assert(TileGrid::kTileSize % kSteps.front() == 0);  // samples of a tile are the tile's own
-
-// Frames come first; but where they keep every core busy, a tenth of one is left to the reference (at the
-// very lowest priority a sixtieth would be, and no one would wait for it). On Linux a thread has a priority
-// of its own, and hands it on to the threads that it starts.
-void give_way() {
-  constexpr int kNicer = 10;
-  setpriority(PRIO_PROCESS, 0, getpriority(PRIO_PROCESS, 0) + kNicer);
-}
 
 }  // namespace
 
@@ -159,7 +150,7 @@ ProgressiveReference::Progress ProgressiveReference::poll() {
 }
 
 void ProgressiveReference::work(const std::stop_token& stop) {
-  give_way();
+  give_way(kForBackground);
   Artist artist(threads_);
   std::shared_ptr<Job> job;
   for (;;) {

@@ -30,7 +30,7 @@ void run(Workers& workers, FrameSlot& frame, const TileOutputs& outputs, double 
   const FrameRequest& r = frame.request;
   if (!r.tracer) throw std::logic_error("settings that trace were given no tree (Engine::prepare)");
   const TraceJob job{r.scene,        *r.tracer,      workers, frame.view, r.settings.throughput_cutoff,
-                     r.settings.light_cutoff, r.settings.filter_textures, r.settings.terminator, r.view.jitter,
+                     r.settings.light_cutoff, texture_footprint(r.settings, r.view), r.settings.terminator, r.view.jitter,
                      sampling_of(r.settings, r.view), r.left_out.get(), frame.progress, share};
   const double begin_s = now_s();
   const TileResult result = trace_tiles(job, outputs);

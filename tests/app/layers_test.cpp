@@ -46,6 +46,7 @@ const Rooms kMaySeeInCore{
 const std::map<std::string, std::string> kRoomOfPublic{
     {"error.h", "base"},       {"progress.h", "base"},    {"names.h", "base"},      {"bounds.h", "math"},      {"pixel_box.h", "math"},
     {"ray.h", "math"},         {"image.h", "image"},     {"mask_image.h", "image"}, {"exr.h", "image"},
+    {"pixel_memory.h", "image"},
     {"camera.h", "scene"},     {"light.h", "scene"},     {"load.h", "scene"},       {"material.h", "scene"},
     {"material_maps.h", "scene"}, {"texture.h", "scene"},  {"animation.h", "scene"}, {"deformation.h", "scene"},
     {"environment.h", "scene"}, {"terminator.h", "trace"},
@@ -146,6 +147,19 @@ TEST(Layers, TheLaboratoryIsApart) {
     for (const std::string& include : includes_of(entry.path()))
       EXPECT_FALSE(kLaboratory.count(include.substr(0, include.find('/'))))
           << entry.path() << " includes " << include;
+  }
+}
+
+// How the engine is made inside is not the program's.
+TEST(Layers, TheProgramDoesNotSeeTheEnginesParts) {
+  for (const auto& entry : std::filesystem::recursive_directory_iterator(PINOCCHIO_SOURCE_DIR "/app")) {
+    if (!is_source(entry.path())) continue;
+    for (const std::string& include : includes_of(entry.path())) {
+      EXPECT_NE(include, "hybrid/engine_parts.h") << entry.path();
+      EXPECT_NE(include, "hybrid/frame_slot.h") << entry.path();
+      EXPECT_NE(include.substr(0, include.rfind('/') + 1), "hybrid/gpu/") << entry.path() << " includes " << include;
+      EXPECT_NE(include.substr(0, include.rfind('/') + 1), "hybrid/passes/") << entry.path() << " includes " << include;
+    }
   }
 }
 

@@ -57,6 +57,19 @@ TEST_F(ApartTest, NoOutputIsAnother) {
   expect_refused("measure x.gltf --stats-json y.json --trace ./y.json");
 }
 
+// Of a range any frame's file may be one that is there by another name.
+TEST_F(ApartTest, NoFrameOfARangeIsAnInputOrAnother) {
+  std::filesystem::create_symlink("x.gltf", folder_ / "f07.exr");
+  expect_refused("render x.gltf --size 16x12 --turntable 9 -o f##.exr");
+  EXPECT_EQ(run("render x.gltf --size 16x12 --turntable 9 --frames 0-6 -o f##.exr").exit_code, 0);
+  std::filesystem::create_directory(folder_ / "at3");
+  std::filesystem::create_symlink("../path.json", folder_ / "at3" / "y.png");
+  expect_refused("render x.gltf --size 16x12 --path path.json --frames 1-3 --preview at#/y.png");
+  std::filesystem::create_symlink("g1.exr", folder_ / "g2.exr");
+  expect_refused("render x.gltf --size 16x12 --turntable 3 -o g#.exr");
+  expect_refused("render x.gltf --size 16x12 --turntable 3 -o h#.exr --stats-json sub/../h2.exr");
+}
+
 TEST_F(OutputsTest, StandardOutputIsChecked) {
   for (const std::string arguments : {"info --settings", "--help", "render --help", "info --system --json"}) {
     const CommandResult result = run(arguments + " > /dev/full");

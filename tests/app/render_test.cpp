@@ -109,6 +109,21 @@ TEST_F(RenderTest, CameraPath) {
   EXPECT_TRUE(same_pixels(exr("p0.exr"), exr("first.exr")));
 }
 
+// Frames are made as they are drawn: a path of two thousand million is begun at once, and takes no more memory.
+TEST_F(RenderTest, APathMayBeOfAnyLength) {
+  write("path.json", R"({"keyframes": [{"frame": 0, "eye": [0, 1, 3], "target": [0, 1, 0]},
+                                       {"frame": 2000000000, "eye": [0.4, 1, 3], "target": [0, 1, 0]}]})");
+  const std::string render = "render" + scene("cornell") + "--size 8x6 --mode raytrace --path path.json -o p#.exr ";
+  expect_done(render + "--frames 1000000000-2000000000x500000000");
+  EXPECT_TRUE(exists("p1000000000.exr") && exists("p1500000000.exr") && exists("p2000000000.exr"));
+  expect_done("render" + scene("cornell") + "--size 8x6 --mode raytrace --eye 0.2,1,3 --target 0,1,0 -o middle.exr");
+  EXPECT_TRUE(same_pixels(exr("p1000000000.exr"), exr("middle.exr")));
+  const CommandResult all = run_command("cd '" + folder_.string() + "' && timeout -s INT 3 '" PINOCCHIO_PROGRAM "' " + render,
+                                        folder_ / "scratch");
+  EXPECT_EQ(all.exit_code, 124) << all.err;  // its time was over
+  EXPECT_TRUE(exists("p0.exr") && exists("p1.exr")) << all.err;
+}
+
 TEST_F(RenderTest, LightsAreAddedAndADefaultOneIsSaid) {
   write("t.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
   const CommandResult result = run("render t.obj --size 80x60 --mode raytrace -o x.exr");

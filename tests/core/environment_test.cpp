@@ -60,6 +60,28 @@ TEST(Environment, IsReadFromExrAndRadiance) {
   EXPECT_EQ((*hdr)->radiance().at(3, 1), glm::vec3(2.0f, 1.0f, 0.5f));
 }
 
+// Each line packed by channels or not; there, a pixel repeated the old way.
+TEST(Environment, RadianceLinesArePackedOrPlain) {
+  const std::string head = "#?RGBE\n# by hand\nFORMAT=32-bit_rle_rgbe\nEXPOSURE=1\n\n-Y 2 +X 8\n";
+  const auto channel = [](char value) { return std::string{static_cast<char>(133), value, 3, value, value, value}; };
+  const std::string packed = std::string("\2\2\0\10", 4) + channel('\x80') + channel('\x40') + channel('\x20') + channel('\x82');
+  const std::string plain = std::string("\x80\x40\x20\x82\x20\x40\x80\x81\1\1\1\6", 12);
+  std::ofstream(own_file("both.hdr"), std::ios::binary) << head + packed + plain;
+  const auto sky = load_environment(own_file("both.hdr"));
+  ASSERT_TRUE(sky) << sky.error().message();
+  for (int x = 0; x < 8; ++x) {
+    EXPECT_EQ((*sky)->radiance().at(x, 0), glm::vec3(2.0f, 1.0f, 0.5f)) << x;
+    EXPECT_EQ((*sky)->radiance().at(x, 1), x == 0 ? glm::vec3(2.0f, 1.0f, 0.5f) : glm::vec3(0.25f, 0.5f, 1.0f)) << x;
+  }
+  for (const std::string& bad : {packed + plain.substr(0, 11), packed.substr(0, 9), std::string("\2\2\0\10\0\0\0\0\0\0\0\0", 12),
+                                 std::string("\2\2\0\10\xff\1", 6), std::string("\1\1\1\6", 4)}) {
+    std::ofstream(own_file("bad.hdr"), std::ios::binary) << head + bad;
+    EXPECT_FALSE(load_environment(own_file("bad.hdr")));
+  }
+  std::ofstream(own_file("none.hdr"), std::ios::binary) << "#?RGBE\nFORMAT=32-bit_rle_rgbe\n\n-Y 0 +X 8\n";
+  EXPECT_FALSE(load_environment(own_file("none.hdr")));
+}
+
 TEST(Environment, BadFilesAreErrorsThatNameThem) {
   const auto error_of = [](const std::filesystem::path& file, std::uint64_t limit = kUsualLoadLimit) {
     const auto loaded = load_environment(file, nullptr, limit);

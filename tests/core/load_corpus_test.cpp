@@ -2,6 +2,7 @@
 #include <fstream>
 
 #include "core/scene/texture_file.h"
+#include "pinocchio/environment.h"
 #include "pinocchio/exr.h"
 #include "tests/support/own_file.h"
 #include "tests/support/scenes.h"
@@ -12,6 +13,7 @@ namespace {
 void read(const std::filesystem::path& file, const std::string& format) {
   constexpr std::uint64_t kLimit = std::uint64_t{64} << 20;
   if (format == "exr") return (void)read_exr(file);
+  if (format == "environment") return (void)load_environment(file, nullptr, kLimit);
   if (format == "image") {
     Warnings warnings;
     MemoryLimit limit(kLimit);
@@ -33,7 +35,7 @@ void read(const std::filesystem::path& file, const std::string& format) {
 TEST(LoadCorpus, IsReadOrRefused) {
   int files = 0;
   for (const char* folder : {"tests/fuzz/corpus", "tests/fuzz/found"})
-    for (const char* format : {"gltf", "glb", "obj", "mtl", "ply", "image", "exr"}) {
+    for (const char* format : {"gltf", "glb", "obj", "mtl", "ply", "image", "exr", "environment"}) {
       std::error_code none;  // nothing may have been found of a format
       for (const auto& entry : std::filesystem::directory_iterator(source_path(folder) / format, none)) {
         read(entry.path(), format);

@@ -11,6 +11,25 @@ TEST(LoadGltf, ReadsATriangle) {
   EXPECT_EQ(scene.mesh->material_of(0).name, "default");
 }
 
+// glTF 2.0, "Default Material": white, metallic 1, roughness 1.
+TEST(LoadGltf, APrimitiveWithoutMaterialHasTheEmptyOne) {
+  Json bare = triangle_json();
+  for (const bool colored : {false, true}) {
+    if (colored) {
+      bare["accessors"].push_back(
+          {{"bufferView", 0}, {"componentType", 5121}, {"normalized", true}, {"count", 4}, {"type", "VEC4"}});
+      bare["meshes"][0]["primitives"][0]["attributes"]["COLOR_0"] = 2;
+    }
+    Json empty = bare;
+    empty["materials"] = {{{"name", "default"}}};
+    empty["meshes"][0]["primitives"][0]["material"] = 0;
+    const Scene a = load_good(bare), b = load_good(empty);
+    EXPECT_EQ(a.mesh->material_of(0), b.mesh->material_of(0));
+    EXPECT_EQ(a.mesh->materials.size(), 1u);
+    EXPECT_EQ(a.mesh->maps, b.mesh->maps);
+  }
+}
+
 TEST(LoadGltf, StripsAndFans) {
   Json json = triangle_json();
   json["accessors"][1]["count"] = 4;

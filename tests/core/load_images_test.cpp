@@ -84,6 +84,23 @@ TEST(LoadImages, DamagedOnesAreErrorsOrSaySo) {
   }
 }
 
+// Of any white, 8 bits or 16, high byte first.
+TEST(LoadImages, NetpbmGreyAndRgb) {
+  const auto texels = [](const std::string& bytes) {
+    const Expected<DecodedImage> image = decode(bytes);
+    EXPECT_TRUE(image) << image.error().message();
+    const auto pixels = image->texture.texels.pixels();
+    return std::vector<glm::u8vec4>(pixels.begin(), pixels.end());
+  };
+  EXPECT_EQ(texels("P6\n# by hand\n2 1 # wide\n100\n" + std::string("\x64\x32\x00\x00\x64\x7f", 6)),
+            (std::vector<glm::u8vec4>{{255, 128, 0, 255}, {0, 255, 255, 255}}));
+  EXPECT_EQ(texels("P6 1 1 65535\n" + std::string("\xff\xff\x80\x00\x00\xff", 6)), (std::vector<glm::u8vec4>{{255, 128, 1, 255}}));
+  EXPECT_EQ(texels("P5 2 1 255\n" + std::string("\x07\xc8")), (std::vector<glm::u8vec4>{{7, 7, 7, 255}, {200, 200, 200, 255}}));
+  EXPECT_EQ(decode("P6 9 1 260\n1234")->damage, "it is cut off");
+  for (const char* bad : {"P6", "P6 1", "P6 1 1", "P6 1 1 0 ", "P6 1 1 65536 123", "P6 99999999999 1 255 ", "P6 0 1 255 ", "P6 -1 1 255 "})
+    EXPECT_FALSE(decode(bad)) << bad;
+}
+
 TEST(LoadImages, NoneTakesMoreThanTheLimit) {
   for (const std::string& bytes : {png_of(gradient()), webp_of(gradient()), jpeg_of(gradient(), TJSAMP_444)}) {
     const Expected<DecodedImage> image = decode(bytes, 100);

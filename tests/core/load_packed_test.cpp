@@ -48,6 +48,37 @@ TEST(LoadPacked, BuffersInTheFile) {
   EXPECT_NE(error_of(json).find("holds 56 bytes"), std::string::npos);
 }
 
+// They are kept from the JSON library, but for those with escapes.
+TEST(LoadPacked, LongBuffersInTheFile) {
+  std::string bytes(20001, '\0');
+  for (std::size_t i = 56; i < bytes.size(); ++i) bytes[i] = static_cast<char>(7 * i);
+  const float positions[12] = {0, 0, 0, 1, 0, 0, 0, 1, 0, 1, 1, 0};
+  const std::uint16_t indices[4] = {0, 1, 2, 3};
+  std::memcpy(bytes.data(), positions, 48);
+  std::memcpy(bytes.data() + 48, indices, 8);
+  Json json = with_buffer(bytes);
+  json["bufferViews"] = triangle_json()["bufferViews"];
+  json["images"] = {{{"uri", "data:image/x-portable-pixmap;base64," + base64("P6 20 20 255\n" + std::string(1200, 'm'))}}};
+  json["textures"] = {{{"source", 0}}};
+  json["materials"] = {{{"pbrMetallicRoughness", {{"baseColorTexture", {{"index", 0}}}}}}};
+  json["meshes"][0]["primitives"][0]["material"] = 0;
+  std::string text = json.dump();
+  for (const bool escaped : {false, true}) {
+    if (escaped) text.replace(text.find("application/octet"), 17, "application\\/octet");
+    std::ofstream(own_file("long.gltf")) << text;
+    const Expected<Scene> scene = load_scene(own_file("long.gltf"));
+    ASSERT_TRUE(scene) << scene.error().message();
+    EXPECT_EQ(scene->mesh->positions[1], glm::vec3(1, 0, 0));
+    ASSERT_EQ(scene->mesh->textures.size(), 1u);
+    EXPECT_EQ(scene->mesh->textures[0].texels.at(19, 19), glm::u8vec4('m', 'm', 'm', 255));
+  }
+  json["buffers"][0]["byteLength"] = 20002;
+  EXPECT_NE(error_of(json).find("holds 20001 bytes"), std::string::npos);
+  json["buffers"][0]["byteLength"] = 56;
+  json["buffers"][0]["uri"] = "data:aside,7";  // no such
+  EXPECT_NE(error_of(json).find("holds 0 bytes"), std::string::npos);
+}
+
 TEST(LoadPacked, Draco) {
   draco::TriangleSoupMeshBuilder builder;
   builder.Start(1);

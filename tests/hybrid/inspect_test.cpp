@@ -4,6 +4,7 @@
 
 #include "core/image/tonemap.h"
 #include "core/trace/aov.h"
+#include "hybrid/inspect/histogram_pass.h"
 #include "hybrid/inspect/inspect_pass.h"
 #include "tests/support/frames.h"
 
@@ -85,6 +86,27 @@ TEST_P(InspectTest, DepthPositionAndAlbedoAreTheTracersWithinTheirRange) {
       }
     }
     EXPECT_NE(legend(BufferView::depth, 0, frame, near_far).find("black 0"), std::string::npos);
+  });
+}
+
+TEST_P(InspectTest, ItsLightIsCountedAsThePictureHasIt) {
+  const Scene scene = load_or_die(source_path("scenes/cornell"));
+  HistogramPass histogram(*engine_);
+  look_at(scene, settings_for(scene), [&](Frame& frame) {
+    const Image<glm::vec4> picture = read(frame.texture());
+    histogram.start(frame.texture());
+    const LightHistogram light = histogram.take();
+    EXPECT_FALSE(histogram.started());
+    EXPECT_EQ(light.pixels(), picture.pixels().size());
+    std::size_t white = 0, black = 0;
+    for (const glm::vec4& c : picture.pixels()) {
+      const auto byte = linear_to_srgb8(4.0f * std::max({c.r, c.g, c.b}));
+      white += byte == 255;
+      black += byte == 0;
+    }
+    EXPECT_GT(white, 0u);
+    EXPECT_EQ(light.shown_white(2.0f, ToneMap::clip), white);
+    EXPECT_EQ(light.shown_black(2.0f, ToneMap::clip), black);
   });
 }
 

@@ -2,8 +2,11 @@
 // hand.
 #include <cmath>
 
+#include "core/compare/figures.h"
+#include "core/image/rgb.h"
 #include "core/image/tonemap.h"
 #include "core/reference/reference.h"
+#include "core/trace/jitter.h"
 #include "tests/support/draw.h"
 
 namespace pinocchio {
@@ -144,6 +147,42 @@ TEST(Maps, LookTheSameToGpuCpuAndReference) {
     EXPECT_LT(gpu, 0.002) << f.name;
     EXPECT_LT(cpu, 0.001) << f.name;
   }
+}
+
+// The mean of the reference's samples, each of which averages textures over a square of that side.
+Image<glm::vec4> precise_mean(const Scene& scene, int samples, float texture_footprint, Workers& workers) {
+  Image<glm::vec4> sum(kSize);
+  for (int k = 0; k < samples; ++k) {
+    const View view = at_sample({first_camera(scene), kSize}, k);
+    const ReferencePicture sample = reference_render(scene, view, 8, workers, nullptr, texture_footprint);
+    for (std::size_t i = 0; i < sum.pixels().size(); ++i)
+      sum[i] += sample.color[i] / static_cast<float>(samples);
+  }
+  return sum;
+}
+
+// A pixel's samples share it.
+TEST(Maps, EachOfManySamplesAveragesTexturesOverItsShareOfThePixel) {
+  Workers workers(2);
+  MaterialMaps maps;
+  maps.base_color = use();
+  const Scene scene = plate_with(maps, noise({512, 512}, 9));
+  constexpr int kSamples = 4;
+  const auto draw = [&](const char* mode, bool filters) {
+    DrawRequest request{.settings = by({{"mode", mode}}), .size = kSize};
+    request.settings.spp = kSamples;
+    request.settings.filter_textures = filters;
+    return draw_one(scene, request).color;
+  };
+  const Image<glm::vec4> traced = draw("raytrace", true);
+  EXPECT_LT(share_apart(draw("hybrid", true), traced), 0.002);
+  EXPECT_LT(share_apart(traced, precise_mean(scene, kSamples, 0.5f, workers)), 0.001);
+
+  const Image<glm::vec4> truth = precise_mean(scene, 64, 0.0f, workers);
+  const auto error = [&](const Image<glm::vec4>& picture) {
+    return error_figures(rgb_of(picture).pixels(), rgb_of(truth).pixels()).rmse;
+  };
+  EXPECT_LT(error(traced), error(draw("raytrace", false)));  // they alias
 }
 
 TEST(Maps, WidthOfLanesAndThreadsChangeNothing) {

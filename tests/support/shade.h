@@ -47,7 +47,7 @@ void for_each_surface(const TraceJob& job, const Image<std::uint32_t>& ids, cons
       if (ids[pixel] == kNoTriangle) return;
       const Ray ray = pixel_ray(job.view, x, y);
       shade_pixel(pixel, surface_at(job.tracer.mesh(), ids[pixel], ray.origin, ray.direction, {},
-                             job.filter_textures ? Footprint::of_camera(job.view) : Footprint{}),
+                             Footprint::of_camera(job.view, job.texture_footprint)),
                   mask.get(x, y));
     });
   });

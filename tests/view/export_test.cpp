@@ -18,9 +18,16 @@ struct Exported {
   std::vector<Light> lights;
 
   [[nodiscard]] std::string command(const std::string& scene = "boat.glb", int samples = 1) const {
-    return render_command({scene, wanted_settings(settings), camera, lights, {640, 480}, samples,
-                           settings.exposure_ev, settings.tone_map},
-                          "boat-001");
+    ExportedView view;
+    view.scene = scene;
+    view.settings = wanted_settings(settings);
+    view.camera = camera;
+    view.extra_lights = lights;
+    view.size = {640, 480};
+    view.samples = samples;
+    view.exposure_ev = settings.exposure_ev;
+    view.tone_map = settings.tone_map;
+    return render_command(view, "boat-001");
   }
 };
 
@@ -44,6 +51,17 @@ TEST(Export, TheTimeOfAnAnimationIsSaid) {
   ExportedView view;
   view.time_s = 0.1;
   EXPECT_TRUE(holds(render_command(view, "mill"), " --time 0.1 "));
+}
+
+TEST(Export, WhatIsReadBesideTheSceneIsSaid) {
+  ExportedView view;
+  view.environment = "a sky.hdr";
+  view.load_limit = std::uint64_t{8} << 30;
+  view.camera.lens_radius = 0.25f;
+  view.camera.focus_distance = 3.0f;
+  const std::string command = render_command(view, "boat");
+  for (const char* part : {" --environment 'a sky.hdr' ", " --load-limit 8192 ", " --lens-radius 0.25 ", " --focus 3 "})
+    EXPECT_TRUE(holds(command, part)) << part << " in " << command;
 }
 
 void expect_said(const std::string& command, std::initializer_list<const char*> parts) {
@@ -89,6 +107,37 @@ TEST(Export, EveryGivenSettingIsSaid) {
   const std::string command = view.command();
   expect_said(command, {"--depth 3", "--tree-leaf 4", "--no-tiles", "--persistent", "--exchange sync"});
   for (const char* part : {"--spp", "--mode", "--plan", "--design"}) EXPECT_FALSE(holds(command, part)) << part;
+}
+
+// A value of the field that it does not have by itself.
+std::string another_value(const Field& field) {
+  const Settings usual;
+  for (const std::string_view choice : field.choices)
+    if (choice != field.text(usual)) return std::string(choice);
+  for (const double value : {field.hi, field.lo}) {
+    std::string text = std::to_string(value);
+    text.resize(text.find('.'));
+    if (text != field.text(usual)) return text;
+  }
+  return {};
+}
+
+// The one table of settings: whichever is another than by itself is in the command, by its option or by a preset's
+// that says it.
+TEST(Export, EverySettingOfTheTableIsSaid) {
+  for (const Field& field : settings_table()) {
+    Exported view;
+    ASSERT_TRUE(field.take(another_value(field), view.settings.settings)) << field.name;
+    const std::string value = field.text(view.settings.settings);
+    const std::string usual = Exported().command(), command = view.command();
+    if (field.name == "spp") continue;  // the samples that were gathered are said instead
+    EXPECT_NE(command, usual) << field.name;
+    const std::string said = field.kind == Field::Kind::flag && value == "false"
+                                 ? " --no-" + field.option().substr(2) + " "
+                                 : " " + field.option() + (field.kind == Field::Kind::flag ? " " : " " + value + " ");
+    const bool by_preset = holds(command, "--mode") || holds(command, "--design") || holds(command, "--plan");
+    EXPECT_TRUE(holds(command, said) || by_preset) << said << "in " << command;
+  }
 }
 
 TEST(Export, NamesAreQuotedForAShell) {

@@ -215,13 +215,13 @@ TEST_F(OverlayTest, ArrowsStepThroughTheFolder) {
   expect_clean_close();
 }
 
-// The window answers while a large scene is read and its tree is built, and the work can be given up.
+// The window is drawn while a large scene is read and its tree is built, to the end.
 TEST_F(OverlayTest, LoadingDoesNotFreezeTheWindow) {
-  ASSERT_EQ(run_command("cd '" + folder_.string() + "' && '" PINOCCHIO_PROGRAM "' generate spd:balls --triangles 2000000 -o balls.glb",
+  ASSERT_EQ(run_command("cd '" + folder_.string() + "' && '" PINOCCHIO_PROGRAM "' generate spd:balls --triangles 1000000 -o balls.glb",
                         folder_)
                 .exit_code,
             0);
-  start({PINOCCHIO_PROGRAM, "view", "balls.glb", "--size", "320x240", "--stats-json", "pace.json"});
+  start({PINOCCHIO_PROGRAM, "view", "balls.glb", "--size", "320x240", "--spp", "1", "--stats-json", "pace.json"});
   xdo("windowfocus --sync " + window_);
   // The bar moves while it loads: at least four times in ten looks.
   int changes = 0;
@@ -233,10 +233,11 @@ TEST_F(OverlayTest, LoadingDoesNotFreezeTheWindow) {
     std::filesystem::rename(folder_ / "progress-1.png", folder_ / "progress-0.png");
   }
   EXPECT_GE(changes, 4);
+  EXPECT_TRUE(becomes([this] { return load(0.5) < 0.05; }));  // the tree is built, the picture is done
   expect_clean_close();
-  // By its own count it is drawn often enough to be felt as alive, on two cores that both read and build.
   const nlohmann::json loading = pace("pace.json")["between_redraws_while_loading"];
-  EXPECT_GE(loading["redraws_per_s"].get<double>(), 10.0) << loading;
+  std::printf("redraws while loading: %s\n", loading.dump().c_str());
+  EXPECT_GE(loading["redraws_per_s"].get<double>(), 20.0) << loading;
 }
 
 // While a still camera's samples are gathered.
@@ -251,7 +252,8 @@ TEST_F(OverlayTest, AnswersWhileSamplesAreGathered) {
   expect_clean_close();
   const nlohmann::json answers = pace("pace.json")["input_to_display"];
   EXPECT_GE(answers["count"].get<int>(), 20) << answers;
-  EXPECT_LE(answers["median_ms"].get<double>(), 250.0) << answers;  // two cores, OpenGL in software on both
+  std::printf("input to display: %s\n", answers.dump().c_str());
+  EXPECT_LE(answers["median_ms"].get<double>(), 100.0) << answers;
 }
 
 TEST_F(OverlayTest, ASequenceIsRecordedWithItsExr) {

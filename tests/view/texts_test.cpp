@@ -48,6 +48,7 @@ Model full_model() {
   pixel.triangle = 1;
   pixel.lights = {{"lamp", true, {}}, {"lamp", false, {}}};
   model.pixel_error = 0.0;
+  model.histogram.emplace(std::vector<LightHistogram::Sample>{{0x3c00, 0x3c00}, {0, 0}});
   model.renderer = "renderer";
   return model;
 }

@@ -9,6 +9,7 @@
 #include "app/window/history.h"
 #include "app/window/messages.h"
 #include "app/window/pace.h"
+#include "app/window/pixel_report.h"
 #include "app/window/preferences.h"
 #include "app/window/scene_files.h"
 #include "core/base/clock.h"
@@ -120,6 +121,35 @@ TEST(Framing, WhatMattersOfARoomIsInIt) {
   data.triangle_materials = {0};
   data.materials.resize(1);
   EXPECT_EQ(bounds_of_interest(Mesh(data)).diagonal(), Mesh(data).bounds().diagonal());
+}
+
+// Of lit and shadowed pixels, and of those in the mirror: what lights, ambience and mirrors bring is its colour.
+TEST(PixelInspector, WhatLightsAndMirrorsBringIsTheColour) {
+  const Scene scene = load_scene(PINOCCHIO_SOURCE_DIR "/scenes/two-lights").value();
+  const auto tracer = std::make_shared<const Tracer>(scene.mesh);
+  const View view{scene.cameras.front(), {160, 120}};
+  PixelInspector inspector;
+  bool mirrors = false, shadow = false;
+  for (int i = 0; i < 48; ++i) {
+    const glm::ivec2 pixel(10 + 20 * (i % 8), 10 + 20 * (i / 8));
+    const PixelReport report = inspector.look(scene, tracer, view, pixel, 8);
+    if (report.triangle == kNoTriangle) continue;
+    EXPECT_LT(report.material, scene.mesh->materials.size());
+    EXPECT_GT(report.depth, 0.0f);
+    EXPECT_NEAR(glm::length(report.normal), 1.0f, 1e-5f);
+    ASSERT_EQ(report.lights.size(), scene.lights.size());
+    glm::vec3 sum = report.ambient + report.mirrored;
+    for (const PixelReport::LightShare& light : report.lights) {
+      sum += light.light;
+      EXPECT_EQ(light.reaches, light.light != glm::vec3(0.0f));
+      shadow = shadow || !light.reaches;
+    }
+    for (int c = 0; c < 3; ++c) EXPECT_NEAR(sum[c], report.color[c], 1e-5f) << pixel.x << " " << pixel.y;
+    EXPECT_EQ(report.bounces > 0, report.rays.reflection + report.rays.refraction > 0);
+    mirrors = mirrors || report.bounces > 0;
+  }
+  EXPECT_TRUE(mirrors);
+  EXPECT_TRUE(shadow);
 }
 
 TEST(SceneFiles, AFolderIsSteppedThroughAndAround) {

@@ -6,6 +6,8 @@
 #include <span>
 #include <vector>
 
+#include "pinocchio/pixel_memory.h"
+
 namespace pinocchio {
 
 // width x height pixels, row by row, first row at the top of the picture.
@@ -37,7 +39,7 @@ class Image {
 
  private:
   glm::ivec2 size_{0, 0};
-  std::vector<T> pixels_;
+  std::vector<T, PixelAllocator<T>> pixels_;
 };
 
 }  // namespace pinocchio

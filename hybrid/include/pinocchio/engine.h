@@ -1,6 +1,7 @@
 // What frames are drawn with.
 #pragma once
 
+#include <filesystem>
 #include <glm/glm.hpp>
 #include <memory>
 #include <string>
@@ -27,6 +28,7 @@ struct EngineOptions {
   std::string device{};          // EGL's device number, "software", or empty: the first that works
   int gl_threads = 0;            // of a software rasteriser; 0: its own choice
   bool gl_debug = false;         // what the driver complains about is an error
+  bool gives_way = false;        // threads that trace leave the processor to the caller's: for windows
   // Where a function of OpenGL is: of a context of the caller's that is current on this thread, to be used
   // instead of one of our own (glfwGetProcAddress, eglGetProcAddress). It must outlive the Engine, and is left
   // with other state: bindings, viewport, blending.
@@ -41,7 +43,7 @@ class Engine {
  public:
   explicit Engine(const EngineOptions& options = {});
   // Draws in a context of the caller's, current on this thread, that outlives the Engine.
-  explicit Engine(gl::Context& context);
+  explicit Engine(gl::Context& context, const EngineOptions& options = {});
   ~Engine();
   Engine(const Engine&) = delete;
   Engine& operator=(const Engine&) = delete;
@@ -73,6 +75,12 @@ class Engine {
   [[nodiscard]] const gl::ContextInfo* gl_info() const;
   // With gl_debug: throws what the driver complained about.
   void throw_gl_complaints() const;
+
+  // That shaders are read from (PINOCCHIO_SHADERS); empty where they are built in.
+  [[nodiscard]] const std::filesystem::path& shader_folder() const;
+  // Compiles all shaders that were used so far anew, as they are in the folder now; frames that are begun from now
+  // on are drawn by them. Where one is wrong, all stay as they were and the error says what. Opens the context.
+  [[nodiscard]] Expected<void> reload_shaders();
 
   struct Parts;
   // For the rooms within (hybrid/engine_parts.h).

@@ -1,8 +1,12 @@
-#include "hybrid/gpu/present_pass.h"
+#include "hybrid/inspect/present_pass.h"
 
 #include <cmath>
 
+#include "hybrid/engine_parts.h"
+
 namespace pinocchio {
+
+PresentPass::PresentPass(Engine& engine) : programs_(engine.parts().gpu().programs) {}
 
 void PresentPass::draw(const gl::Texture& picture, glm::ivec2 window_pixels, const PixelBox& box,
                        float exposure_ev, ToneMap curve, const PictureZoom& zoom) const {

@@ -5,9 +5,11 @@
 #include "core/image/tonemap.h"
 #include "core/parallel/tiles.h"
 #include "gl/draw.h"
-#include "hybrid/gpu/programs.h"
 
 namespace pinocchio {
+
+class Engine;
+class Programs;
 
 // A part of the picture that is shown larger, its pixels as squares.
 struct PictureZoom {
@@ -21,7 +23,7 @@ struct PictureZoom {
 // reads: a picture. writes: the window, as a display shows it.
 class PresentPass {
  public:
-  explicit PresentPass(std::shared_ptr<Programs> programs) : programs_(std::move(programs)) {}
+  explicit PresentPass(Engine& engine);
 
   // picture: linear light, row 0 on top; it is stretched over the whole window, of which `box` (pixels, from
   // the top left) is drawn. exposure_ev: stops brighter; curve: of what is light.

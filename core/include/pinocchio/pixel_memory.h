@@ -1,0 +1,30 @@
+// Memory for pictures, which are large and often drawn once.
+#pragma once
+
+#include <cstddef>
+#include <new>
+
+namespace pinocchio {
+
+// Asks for pages of 2 MiB where that wastes little: pages of 4 KiB, which the system gives one by one as they are
+// first written, take longer than drawing a small mesh. Throws std::bad_alloc.
+[[nodiscard]] void* allocate_pixels(std::size_t bytes);
+void free_pixels(void* memory) noexcept;
+
+template <class T>
+struct PixelAllocator {
+  using value_type = T;
+
+  PixelAllocator() = default;
+  template <class Other>
+  PixelAllocator(const PixelAllocator<Other>&) {}  // NOLINT: as the standard asks
+
+  [[nodiscard]] T* allocate(std::size_t n) {
+    if (n > static_cast<std::size_t>(-1) / (2 * sizeof(T))) throw std::bad_array_new_length();
+    return static_cast<T*>(allocate_pixels(n * sizeof(T)));
+  }
+  void deallocate(T* memory, std::size_t) noexcept { free_pixels(memory); }
+  friend bool operator==(const PixelAllocator&, const PixelAllocator&) { return true; }
+};
+
+}  // namespace pinocchio

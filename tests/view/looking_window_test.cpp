@@ -1,0 +1,202 @@
+// The window, looked at closely and edited: what panels, clicks with keys held, and the wheel do.
+#include "tests/view/display.h"
+
+namespace pinocchio {
+namespace {
+
+constexpr const char* kStill = "n";  // key: samples are not gathered, so that pictures stand still
+
+class LookingTest : public WindowTest {
+ protected:
+  [[nodiscard]] std::string at(int x, int y) const {
+    return "mousemove --window " + window_ + " " + std::to_string(x) + " " + std::to_string(y) + " ";
+  }
+  // modifiers: "ctrl", "ctrl keydown shift".
+  void click_with(const std::string& modifiers, int x, int y) const {
+    xdo(at(x, y) + "keydown " + modifiers + " sleep 0.05 click 1 sleep 0.05 keyup ctrl keyup shift");
+  }
+  // Pixels of the box that differ between two pictures of the window.
+  [[nodiscard]] long long different_in(const std::string& box, const std::string& a, const std::string& b) const {
+    (void)run_command("cd '" + folder_.string() + "' && for f in " + a + " " + b + "; do convert $f -crop " + box +
+                          " +repage box-$f; done", folder_);
+    return different("box-" + a, "box-" + b);
+  }
+};
+
+TEST_F(LookingTest, ControlShiftAndAClickSetTheExposure) {
+  open(scene("cornell"));
+  key(kStill);
+  EXPECT_EQ(option(command_line(), "--exposure"), "");
+  EXPECT_TRUE(becomes([this] {
+    click_with("ctrl keydown shift", 160, 120);
+    return !option(command_line(), "--exposure").empty();
+  }, 20.0));
+  expect_clean_close();
+}
+
+TEST_F(LookingTest, ADoubleClickSetsThePivot) {
+  open(scene("cornell"));
+  key(kStill);
+  const std::string target = option(command_line(), "--target"), eye = option(command_line(), "--eye");
+  EXPECT_TRUE(becomes([&] {
+    xdo(at(100, 160) + "sleep 0.5 click 1 sleep 0.05 click 1");
+    return option(command_line(), "--target") != target;
+  }, 20.0));
+  EXPECT_EQ(option(command_line(), "--eye"), eye);
+  expect_clean_close();
+}
+
+// Squares of one colour: a pixel is as its right neighbour, mostly.
+TEST_F(LookingTest, TheWheelWithControlEnlargesPixels) {
+  open(scene("cornell"));
+  key(kStill);
+  xdo(at(160, 120));
+  settle();
+  grab("whole.png");
+  xdo("keydown ctrl sleep 0.05 click --repeat 10 --delay 30 4 sleep 0.05 keyup ctrl");
+  settle();
+  grab("large.png");
+  EXPECT_GT(different("whole.png", "large.png"), 1000);
+  const auto steps = [this](const std::string& file) {  // from a pixel to its right neighbour
+    (void)run_command("cd '" + folder_.string() + "' && convert " + file + " -crop 319x240+0+0 +repage left.png && convert " +
+                          file + " -crop 319x240+1+0 +repage right.png", folder_);
+    return different("left.png", "right.png");
+  };
+  EXPECT_LT(2 * steps("large.png"), steps("whole.png"));
+  EXPECT_EQ(option(command_line(), "--size"), "320x240");  // what is drawn is the same
+  xdo(at(160, 120) + "keydown ctrl sleep 0.05 click --repeat 12 --delay 30 5 sleep 0.05 keyup ctrl");
+  settle();
+  grab("back.png");
+  EXPECT_EQ(different("whole.png", "back.png"), 0);
+  expect_clean_close();
+}
+
+TEST_F(LookingTest, ThePanelPixelFollowsThePointer) {
+  open_as_is(scene("cornell"));
+  key(std::string(kStill) + " F8");
+  ASSERT_TRUE(becomes([&] {
+    xdo(at(200, 150));
+    settle();
+    grab("one.png");
+    xdo(at(300, 400));
+    settle();
+    grab("other.png");
+    return different_in("340x300+452+270", "one.png", "other.png") > 200;
+  }, 30.0));
+  EXPECT_EQ(different_in("400x500+0+0", "one.png", "other.png"), 0);  // the picture stands still
+  expect_clean_close();
+}
+
+// The panel Drawing has it: brighter, more is shown as white, and the bars move.
+TEST_F(LookingTest, TheHistogramFollowsTheExposure) {
+  open_as_is(scene("cornell"));
+  key(std::string(kStill) + " F3");
+  pause_ms(7000);  // what P said is gone by itself
+  settle();
+  grab("before.png");
+  key("plus plus");
+  settle();
+  grab("after.png");
+  EXPECT_GT(different_in("350x420+442+0", "before.png", "after.png"), 1000);
+  key("minus minus");
+  settle();
+  grab("again.png");
+  EXPECT_EQ(different("before.png", "again.png"), 0);
+  expect_clean_close();
+}
+
+// Ctrl and a click pick it; a drag along one of its sliders, wherever the font has put it, changes it: P's command
+// draws a file that has it so. Undone, the picture is as before.
+TEST_F(LookingTest, AMaterialIsPickedAndChanged) {
+  open_as_is(scene("cornell"), "800x600");
+  key(kStill);
+  pause_ms(7000);  // what P said is gone by itself
+  settle();
+  grab("before.png");
+  ASSERT_TRUE(becomes([this] {
+    click_with("ctrl", 150, 300);
+    settle();
+    grab("panel.png");
+    return different_in("320x500+470+50", "before.png", "panel.png") > 20000;
+  }, 30.0));
+  EXPECT_NE(command_line().find("cornell.gltf"), std::string::npos);
+  for (int y = 404; y > 290 && !std::filesystem::exists(folder_ / "cornell-001.gltf"); y -= 12) {
+    xdo(at(620, y) + "mousedown 1 sleep 0.1 " + at(650, y) + "sleep 0.1 mouseup 1 sleep 0.1");
+    (void)command_line();
+  }
+  EXPECT_TRUE(std::filesystem::exists(folder_ / "cornell-001.gltf"));
+  pause_ms(600);  // what is done at once is one step
+  key("ctrl+z ctrl+z ctrl+z F7");
+  pause_ms(7000);
+  settle();
+  grab("undone.png");
+  EXPECT_EQ(different("before.png", "undone.png"), 0);
+  expect_clean_close();
+}
+
+// What it gives up is in the command.
+TEST_F(LookingTest, ABudgetIsKeptAndSaid) {
+  open(scene("two-lights"), "--budget 1ms");
+  EXPECT_TRUE(becomes([&] {
+    const std::string command = command_line();
+    return command.find("--mask-scale") != std::string::npos || command.find("--reflection") != std::string::npos ||
+           command.find("--depth") != std::string::npos;
+  }, 120.0)) << command_line();
+  expect_clean_close();
+}
+
+// Everything that changes the picture, on the command line: the command says it, and draws what the window shows.
+TEST_F(LookingTest, TheCommandSaysWhatTheCommandLineDid) {
+  // A sky of two pixels: Radiance, without run lengths.
+  std::ofstream(folder_ / "sky.hdr", std::ios::binary) << "#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y 1 +X 2\n"
+                                                       << std::string("\x80\x90\xa0\x80\x40\x30\x20\x80", 8);
+  const std::vector<std::pair<std::string, std::string>> options{
+      {"--environment", "sky.hdr"}, {"--environment-rotation", "30"}, {"--environment-strength", "0.5"},
+      {"--indirect", "2"},          {"--sequence", "random"},         {"--seed", "7"},
+      {"--pixel-filter", "blackman-harris"}, {"--lens-radius", "0.01"}, {"--focus", "3"},
+      {"--max-noise", "0.25"},      {"--terminator", "off"},          {"--tone-map", "aces"},
+      {"--exposure", "0.5"},        {"--load-limit", "2048"}};
+  std::string all;
+  for (const auto& [name, value] : options) all += (all.empty() ? "" : " ") + name + " " + value;
+  open(scene("cornell"), all);
+  key(kStill);
+  const std::string command = command_line();
+  for (const auto& [name, value] : options) EXPECT_EQ(option(command, name), value) << name;
+  settle();
+  key("F12");
+  ASSERT_TRUE(becomes([this] { return std::filesystem::exists(folder_ / "cornell-001.png"); }));
+  expect_clean_close();
+  const std::string there = "cd '" + folder_.string() + "' && ", program = "'" PINOCCHIO_PROGRAM "'";
+  std::string headless = command;
+  headless.replace(0, std::string("pinocchio").size(), program);
+  headless.replace(headless.find("-o cornell-001.exr"), 18, "-o headless.exr");
+  headless.replace(headless.find("--preview cornell-001.png"), 25, "--preview headless.png");
+  EXPECT_EQ(run_command(there + headless, folder_).exit_code, 0) << headless;
+  const CommandResult compared =
+      run_command(there + program + " compare headless.exr cornell-001.exr --max-error max=0", folder_);
+  EXPECT_EQ(compared.exit_code, 0) << compared.out << compared.err;
+}
+
+TEST_F(LookingTest, TheCommandSaysTheTimeOfAnAnimation) {
+  open(scene("windmill"));
+  key("ctrl+Right ctrl+Right");
+  EXPECT_TRUE(becomes([this] { return !option(command_line(), "--time").empty(); }, 10.0)) << command_line();
+  expect_clean_close();
+}
+
+// A folder's scene is clicked at, wherever the font has put it, and is in the list of recent files of the next run.
+TEST_F(LookingTest, AFileIsOpenedFromThePanel) {
+  for (const char* file : {"cornell.gltf", "cornell.bin", "speedboat.glb"})
+    std::filesystem::copy(scene(file), folder_ / file);
+  open_as_is("cornell.gltf", "800x600");
+  key("F10");
+  pause_ms(500);
+  for (int y = 440; y > 100 && command_line().find("speedboat.glb") == std::string::npos; y -= 9)  // ".." comes last
+    xdo(at(300, y) + "sleep 0.1 click 1 sleep 0.8");
+  EXPECT_NE(command_line().find("speedboat.glb"), std::string::npos);
+  expect_clean_close();
+  EXPECT_NE(text_of(folder_ / "config/pinocchio/window.json").find("speedboat.glb"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace pinocchio
