@@ -21,8 +21,11 @@ struct TexelSource {
   return {srgb8_to_linear(t.r), srgb8_to_linear(t.g), srgb8_to_linear(t.b), raw.a / 255.0f};
 }
 
-#define SHARED [[nodiscard]] inline
+// By force: a tap is a few instructions, and GLSL hands structs over by value.
+#define SHARED [[nodiscard, gnu::always_inline]] inline
 #include "shaders/shared/texture.glsl"
+#undef SHARED
+#define SHARED [[nodiscard]] inline
 #include "shaders/shared/maps.glsl"
 #undef SHARED
 
