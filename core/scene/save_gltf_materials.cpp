@@ -134,6 +134,14 @@ void GltfMaterialWriter::add_maps(const Material& m, const MaterialMaps& maps, J
   if (Json* occlusion = add(maps.occlusion, json, "occlusionTexture"))
     (*occlusion)["strength"] = maps.occlusion_strength;
   add(maps.emissive, json, "emissiveTexture");
+  const auto add_of_extension = [&](const TextureUse& use, const char* name, const char* key) {
+    if (!use.used()) return;
+    add(use, json["extensions"][name], key);
+    extensions_.insert(name);
+  };
+  add_of_extension(maps.specular, "KHR_materials_specular", "specularTexture");
+  add_of_extension(maps.specular_color, "KHR_materials_specular", "specularColorTexture");
+  add_of_extension(maps.transmission, "KHR_materials_transmission", "transmissionTexture");
 }
 
 Json GltfMaterialWriter::texture(const TextureUse& use, int image) {
