@@ -1,5 +1,8 @@
 #include "pinocchio/save.h"
 
+#include <algorithm>
+
+#include "pinocchio/animation.h"
 #include "pinocchio/error.h"
 #include "scenes/generator/scenes.h"
 #include "tests/support/own_file.h"
@@ -126,16 +129,20 @@ void expect_same_use(const Mesh& a, const TextureUse& of_a, const Mesh& b, Textu
 }
 
 void expect_same_maps(const Mesh& a, const MaterialMaps& of_a, const Mesh& b, MaterialMaps of_b) {
-  for (TextureUse MaterialMaps::*use : {&MaterialMaps::base_color, &MaterialMaps::metallic_roughness, &MaterialMaps::normal,
-                                        &MaterialMaps::occlusion, &MaterialMaps::emissive, &MaterialMaps::alpha}) {
-    expect_same_use(a, of_a.*use, b, of_b.*use);
-    of_b.*use = of_a.*use;
+  for (std::size_t i = 0; i < of_a.uses().size(); ++i) {
+    expect_same_use(a, *of_a.uses()[i], b, *of_b.uses()[i]);
+    *of_b.uses()[i] = *of_a.uses()[i];
   }
   EXPECT_EQ(of_a, of_b);
 }
 
 TEST(Save, GltfBringsTexturesBack) {
-  const Scene saved = load_or_die(source_path("scenes/terrace.glb"));
+  Scene saved = load_or_die(source_path("scenes/terrace.glb"));
+  {
+    MeshEdit edit(saved);
+    auto& maps = *std::ranges::find_if(edit->maps, [](const MaterialMaps& m) { return m.base_color.used(); });
+    maps.specular = maps.specular_color = maps.transmission = maps.base_color;
+  }
   const Mesh& a = *saved.mesh;
   ASSERT_FALSE(a.textures.empty());
   for (const char* extension : {".gltf", ".glb"}) {
@@ -164,6 +171,22 @@ TEST(Save, GltfBringsTexturesBack) {
                          b.maps[static_cast<std::size_t>(b.materials[i].maps)]);
     }
   }
+}
+
+TEST(Save, GltfKeepsTheMotion) {
+  const Scene saved = load_or_die(source_path("scenes/windmill.glb"));
+  ASSERT_GT(duration_s(saved), 0.0);
+  save_scene(saved, temporary("moving.gltf"));
+  const Scene loaded = load_or_die(temporary("moving.gltf"));
+  for (const double seconds : {0.0, 0.4, 1.9}) {
+    const Scene a = at_time(saved, seconds).value(), b = at_time(loaded, seconds).value();
+    expect_same_triangles(*a.mesh, *b.mesh);
+    EXPECT_EQ(a.mesh->triangle_materials, b.mesh->triangle_materials);
+    EXPECT_EQ(a.lights.size(), b.lights.size());
+  }
+  Warnings warnings;
+  save_scene(saved, temporary("still.obj"), nullptr, &warnings);
+  EXPECT_FALSE(warnings.empty());
 }
 
 // A quad with an image of its own for colour and one for alpha, as MTL has it.
