@@ -5,6 +5,7 @@
 #include "pinocchio/animation.h"
 #include "pinocchio/error.h"
 #include "scenes/generator/scenes.h"
+#include "tests/support/gltf.h"
 #include "tests/support/own_file.h"
 #include "tests/support/scenes.h"
 
@@ -171,6 +172,20 @@ TEST(Save, GltfBringsTexturesBack) {
                          b.maps[static_cast<std::size_t>(b.materials[i].maps)]);
     }
   }
+}
+
+// Other viewers do not read our extras.
+TEST(Save, GltfOfPlainMaterialsSaysToOthersWhatTheyWere) {
+  Json json = triangle_json();
+  const Json was{{"baseColorFactor", {0.8, 0.4, 0.1, 1.0}}, {"metallicFactor", 0.25}, {"roughnessFactor", 0.6}};
+  json["materials"] = {{{"pbrMetallicRoughness", was}}};
+  json["meshes"][0]["primitives"][0]["material"] = 0;
+  save_scene(load_good(json), temporary("plain.gltf"));
+  std::ifstream in(temporary("plain.gltf"));
+  const Json saved = Json::parse(in)["materials"][0]["pbrMetallicRoughness"];
+  for (std::size_t c = 0; c < 4; ++c) EXPECT_NEAR(saved["baseColorFactor"][c], was["baseColorFactor"][c], 1e-6);
+  EXPECT_NEAR(saved["metallicFactor"], 0.25, 1e-5);
+  EXPECT_NEAR(saved["roughnessFactor"], 0.6, 1e-5);
 }
 
 TEST(Save, GltfKeepsTheMotion) {
