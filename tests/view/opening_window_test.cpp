@@ -4,8 +4,6 @@
 namespace pinocchio {
 namespace {
 
-constexpr const char* kStill = "n";  // key: samples are not gathered, so that pictures stand still
-
 class OpeningTest : public WindowTest {
  protected:
   void copy_scenes(const std::vector<std::string>& files) const {
@@ -27,8 +25,7 @@ TEST_F(OpeningTest, ADroppedFileIsOpenedAndABadOneChangesNothing) {
   copy_scenes({"cornell.gltf", "cornell.bin", "speedboat.glb"});
   std::filesystem::rename(folder_ / "speedboat.glb", folder_ / "speed boat.glb");
   std::ofstream(folder_ / "damaged.obj") << "v 0 0 0\nf 1 2 7\n";
-  open("cornell.gltf");
-  key(kStill);
+  open("cornell.gltf", "--spp 1");
   const std::string before = command_line();
   settle();
   grab("before.png");
@@ -54,13 +51,13 @@ TEST_F(OpeningTest, CancelKeepsTheSceneThatIsShown) {
   copy_scenes({"cornell.gltf", "cornell.bin"});
   ASSERT_EQ(run_command("cd '" + folder_.string() + "' && '" PINOCCHIO_PROGRAM
                         "' generate spd:balls --triangles 1000000 -o large.glb", folder_).exit_code, 0);
-  open("cornell.gltf");
-  key(kStill);
+  open("cornell.gltf", "--spp 1");
   std::string clicks;  // the button is at the right of the bar's window, which is as wide as its words
-  for (int x = 220; x <= 290; x += 12) clicks += at(x, 26) + "sleep 0.03 click 1 ";
+  for (int round = 0; round < 4; ++round)
+    for (int x = 220; x <= 290; x += 12) clicks += at(x, 26) + "sleep 0.02 click 1 ";
   const auto rests = [this] { return becomes([this] { return load(1.0) < 0.05; }); };
   const std::string eye = option(command_line(), "--eye");
-  xdo("key Right sleep 0.2 " + clicks);
+  xdo("key Right sleep 0.1 " + clicks);
   EXPECT_TRUE(rests());
   EXPECT_NE(command_line().find("cornell.gltf"), std::string::npos);
   EXPECT_TRUE(rests());  // nothing comes later

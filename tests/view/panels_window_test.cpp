@@ -5,15 +5,12 @@
 namespace pinocchio {
 namespace {
 
-constexpr const char* kStill = "n";  // key: samples are not gathered, so that pictures stand still
-
 class PanelsTest : public WindowTest {
  protected:
-  // With one panel at (8, y).
+  // With one panel at (8, y); one sample a pixel, so that pictures stand still.
   void open_with(const std::string& panel, int y, const std::string& scene, const std::string& options = "") {
     remember(panel, 8, y);
-    open_as_is(scene, "800x600", options);
-    key(kStill);
+    open_as_is(scene, "800x600", "--spp 1" + options);
   }
   void drag_from(int x, int y, int by) const {
     xdo(at(x, y) + "sleep 0.1 mousedown 1 sleep 0.05 " + at(x + by / 2, y) + "sleep 0.05 " + at(x + by, y) +
@@ -150,7 +147,7 @@ TEST_F(PanelsTest, TheTimelineIsPausedAndZoomed) {
 
 // A light is moved by its number, and put back.
 TEST_F(PanelsTest, ALightIsMovedAndPutBack) {
-  open_with("Lights", 8, scene("cornell"), "--mode raster");
+  open_with("Lights", 8, scene("cornell"), " --mode raster");
   settle();
   grab("before.png");
   const std::vector<int> rows = widgets_at(8 + 112, 8 + 22, 300);
