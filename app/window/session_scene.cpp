@@ -75,6 +75,7 @@ void Session::take_scene(SceneLoader::News& news) {
   window_.set_title(scene.source + " - Pinocchio");
   preferences_.add_recent(scene.source);
   model_.recent = preferences_.recent;
+  if (!again) model_.files = {};  // its folder, from now on
   if (options_.watch && again && scene_watch_) {
     model_.messages.news(scene.source + " was loaded anew");
     scene_watch_->follow(scene.source_files);
