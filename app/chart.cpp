@@ -64,8 +64,6 @@ class ChartRun {
   int run() {
     DrawOptions& draw = options_.draw;
     if (!options_.size_given) draw.size = options_.quick ? kQuickSize : kDefaultSize;
-    if (!draw.environment.empty())
-      throw Exit(kUsage, "--environment: charts measure against the reference, which draws none; leave it out");
     Scene scene = load_scene_for(draw);
     const std::vector<View> views = motion(scene);
     // Charted as it stands at one time.
