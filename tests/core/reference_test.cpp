@@ -269,8 +269,10 @@ TEST(Reference, AnEvenSkyIsSeenAndLights) {
       glm::dvec3 sum(0.0);
       double count = 0.0;
       for (const glm::vec4& c : drawn.color.pixels()) {
-        if (c.a == 0.0f) ASSERT_LT(glm::length(glm::vec3(c) - sky), 1e-5f);
-        if (c.a == 0.0f) continue;
+        if (c.a == 0.0f) {
+          ASSERT_LT(glm::length(glm::vec3(c) - sky), 1e-5f);
+          continue;
+        }
         sum += glm::dvec3(c);
         count += 1.0;
       }
