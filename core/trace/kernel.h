@@ -54,6 +54,7 @@ template <int kPackets, class Leaf>
 inline void walk(const BspTree& tree, const Group<kPackets>& group, const bool (&negative)[3],
                  const Mask (&lanes)[kPackets], const Float (&t_best)[kPackets], Leaf leaf) {
   const BspNode* const nodes = tree.nodes.data();
+  const std::uint32_t* const references = tree.references.data();
   Float t_near[kPackets], t_far[kPackets];
   unsigned living[kPackets], any = 0;
 #pragma GCC unroll 4
@@ -92,6 +93,9 @@ inline void walk(const BspTree& tree, const Group<kPackets>& group, const bool (
         } else {
           StackEntry<kPackets>& entry = stack[top++];
           entry.node = second;
+          const BspNode& later = nodes[second];  // on its sibling's cache line: what it leads to is known
+          __builtin_prefetch(later.is_leaf() ? static_cast<const void*>(references + later.first_reference())
+                                             : static_cast<const void*>(nodes + later.first_child()));
           index = first;
           any = 0;
 #pragma GCC unroll 4
@@ -153,6 +157,16 @@ inline void for_each_octant(Group<kPackets>& group, Body body) {
   }
 }
 
+// A leaf's triangles lie anywhere: their memory is asked for at once, not one after the other.
+template <class Stored>
+inline void fetch_ahead(const Stored* triangles, const std::uint32_t* of_leaf, std::uint32_t count) {
+  for (std::uint32_t r = 0; r < count; ++r) {
+    const char* const at = reinterpret_cast<const char*>(triangles + of_leaf[r]);
+    __builtin_prefetch(at);
+    __builtin_prefetch(at + sizeof(Stored) - 1);
+  }
+}
+
 // Triangle tests of a group's packets.
 template <class Test, int kPackets, std::size_t... kIndex>
 inline void closest_of_group(const BspTree& tree, const RayColumns& rays, std::size_t i, std::size_t n,
@@ -166,6 +180,7 @@ inline void closest_of_group(const BspTree& tree, const RayColumns& rays, std::s
   for_each_octant(group, [&](const bool(&negative)[3], const Mask(&lanes)[kPackets]) {
     walk(tree, group, negative, lanes, t_best, [&](const BspNode& leaf, const unsigned(&living)[kPackets]) {
       const std::uint32_t* const of_leaf = tree.references.data() + leaf.first_reference();
+      fetch_ahead(triangles, of_leaf, leaf.reference_count());
       for (std::uint32_t r = 0; r < leaf.reference_count(); ++r) {
         const auto& tri = triangles[of_leaf[r]];
         const Int id(tri.id);
@@ -198,6 +213,7 @@ inline void occluded_of_group(const BspTree& tree, const RayColumns& rays, std::
   for_each_octant(group, [&](const bool(&negative)[3], const Mask(&lanes)[kPackets]) {
     walk(tree, group, negative, lanes, t_best, [&](const BspNode& leaf, const unsigned(&living)[kPackets]) {
       const std::uint32_t* const of_leaf = tree.references.data() + leaf.first_reference();
+      fetch_ahead(triangles, of_leaf, leaf.reference_count());
       for (int k = 0; k < kPackets; ++k) {
         unsigned open = living[k];
         for (std::uint32_t r = 0; r < leaf.reference_count() && open != 0; ++r) {
