@@ -72,11 +72,12 @@ TEST(EnvironmentPicture, TheReferenceIsTheMeanOfManySamples) {
   settle_environment(scene, *resolve(many, analyze(scene)));
   Workers workers(2);
   Image<glm::dvec3> exact(kSmall);  // over the pixel
-  for (int k = 0; k < 9; ++k) {
+  constexpr int kPlaces = 16;
+  for (int k = 0; k < kPlaces; ++k) {
     View view{first_camera(scene), kSmall};
-    view.jitter = (glm::vec2(k % 3, k / 3) - 1.0f) / 3.0f;
+    view.jitter = (glm::vec2(k, 7 * k % kPlaces) + 0.5f) / static_cast<float>(kPlaces) - 0.5f;
     const ReferencePicture sample = reference_render(scene, view, 8, workers);
-    for (std::size_t i = 0; i < exact.pixels().size(); ++i) exact[i] += glm::dvec3(sample.color[i]) / 9.0;
+    for (std::size_t i = 0; i < exact.pixels().size(); ++i) exact[i] += glm::dvec3(sample.color[i]) / static_cast<double>(kPlaces);
   }
   constexpr int kBlock = 20;
   for (int y = 0; y < kSmall.y; y += kBlock)
