@@ -27,6 +27,7 @@ namespace pinocchio::app {
 namespace {
 
 constexpr int kDefaultFrames = 120;
+constexpr std::size_t kMostFrames = 100'000;  // each one's figures are kept, some 260 bytes
 
 struct MeasureOptions {
   DrawOptions draw;
@@ -204,6 +205,9 @@ int measure(MeasureOptions& options) {
   if (options.animation.turntable == 0 && options.animation.path.empty())
     options.animation.turntable = kDefaultFrames;
   const CameraFrames frames(options.animation, options.draw, scene);
+  if (frames.size() > kMostFrames)
+    throw Exit(kUsage, "measure keeps the figures of each frame, of " + std::to_string(kMostFrames) + " at most, not of " +
+                           std::to_string(frames.size()) + "; ask for fewer --frames");
   check_apart(input_files(options.draw, options.animation, scene),
               {{"--stats-json", options.stats_json}, {"--trace", options.trace}});
   for (const std::string& file : {options.stats_json, options.trace})

@@ -31,7 +31,14 @@ const int kOcclusion = 9;
 const int kEmissive = 12;
 const int kAlpha = 15;
 const int kParameters = 18;
+#ifdef HAS_DIELECTRIC_MAPS
+const int kSpecular = 24;
+const int kSpecularColor = 27;
+const int kTransmission = 30;
+const int kMapTexels = 33;
+#else
 const int kMapTexels = 24;
+#endif
 
 struct MapPoint {
   uvec3 corners;
@@ -135,10 +142,18 @@ PhongParams mapped_material_at(int maps, MapPoint p, PhongParams plain) {
   v.occlusion = 1.0 + strengths.y * (look_up(fetch_use(maps, kOcclusion), p, false).r - 1.0);
   v.roughness = 1.0;
   v.metallic = 1.0;
+  v.specular = 1.0;
+  v.specular_color = vec3(1.0);
+  v.transmission = 1.0;
   if (strengths.z == 0.0) return mapped_phong(phong_surface(plain), v).phong;
   vec4 texel = look_up(fetch_use(maps, kMetallicRoughness), p, false);
   v.roughness = texel.g;
   v.metallic = texel.b;
+#ifdef HAS_DIELECTRIC_MAPS
+  v.specular = look_up(fetch_use(maps, kSpecular), p, false).a;
+  v.specular_color = look_up(fetch_use(maps, kSpecularColor), p, true).rgb;
+  v.transmission = look_up(fetch_use(maps, kTransmission), p, false).r;
+#endif
   MetallicRoughness s =
       MetallicRoughness(base_metallic.rgb, base_metallic.a, emissive_roughness.a, emissive_roughness.rgb, more.x,
                         specular.a, specular.rgb, more.y, more.z > 0.0, more.w > 0.0);

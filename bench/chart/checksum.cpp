@@ -42,9 +42,7 @@ void add_use(Checksum& checksum, const TextureUse& use) {
 }
 
 void add_maps(Checksum& checksum, const MaterialMaps& m) {
-  for (const TextureUse* use :
-       {&m.base_color, &m.metallic_roughness, &m.normal, &m.occlusion, &m.emissive, &m.alpha})
-    add_use(checksum, *use);
+  for (const TextureUse* use : m.uses()) add_use(checksum, *use);
   for (const bool flag : {m.vertex_colors, m.from_gltf, m.surface.volume, m.surface.unlit}) checksum.add(flag);
   for (const glm::vec3& color : {m.surface.base_color, m.surface.emissive, m.surface.specular_color})
     checksum.add(color);

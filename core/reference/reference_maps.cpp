@@ -19,17 +19,21 @@ ReferenceMaterial as_it_stands(const Material& m) {
           m.fresnel,                 m.gloss};
 }
 
+// What textures make of a surface at a point.
+struct PointSurface {
+  glm::dvec3 base, emissive, specular;  // the last: factor times colour
+  double metallic, roughness, transmission;
+};
+
 // docs/conventions.md, "Metallic-roughness as Phong".
-ReferenceMaterial phong_of(const GltfSurface& s, const glm::dvec3& base, double metallic, double roughness,
-                           const glm::dvec3& emissive) {
+ReferenceMaterial phong_of(const GltfSurface& s, const PointSurface& at) {
+  const auto& [base, emissive, specular, metallic, roughness, transmission] = at;
   ReferenceMaterial m{};
   m.shininess = m.ior = 1.0;
   m.emission = s.unlit ? base : emissive;
   if (s.unlit) return m;
-  const double transmission = s.transmission, n = s.ior;
-  const glm::dvec3 dielectric = glm::min(
-      std::pow((n - 1.0) / (n + 1.0), 2.0) * static_cast<double>(s.specular) * glm::dvec3(s.specular_color),
-      glm::dvec3(1.0));
+  const double n = s.ior;
+  const glm::dvec3 dielectric = glm::min(std::pow((n - 1.0) / (n + 1.0), 2.0) * specular, glm::dvec3(1.0));
   const glm::dvec3 f0 = (1.0 - metallic) * dielectric + metallic * base;
   const double most = std::max({dielectric.x, dielectric.y, dielectric.z});
   m.ambient = (1.0 - transmission) * base;
@@ -120,8 +124,11 @@ ReferenceMaterial reference_material(const Mesh& mesh, const ReferenceHit& hit, 
   if (maps->from_gltf) {
     const glm::dvec4 rough_metal = texel(maps->metallic_roughness, false);
     const GltfSurface& s = maps->surface;
-    m = phong_of(s, scaled(s.base_color, base), static_cast<double>(s.metallic) * rough_metal.b,
-                 static_cast<double>(s.roughness) * rough_metal.g, scaled(s.emissive, emissive));
+    const double specular = static_cast<double>(s.specular) * texel(maps->specular, false).a;
+    m = phong_of(s, {scaled(s.base_color, base), scaled(s.emissive, emissive),
+                     specular * scaled(s.specular_color, glm::dvec3(texel(maps->specular_color, true))),
+                     static_cast<double>(s.metallic) * rough_metal.b, static_cast<double>(s.roughness) * rough_metal.g,
+                     static_cast<double>(s.transmission) * texel(maps->transmission, false).r});
   } else {
     m = as_it_stands(plain);
     m.ambient *= base;

@@ -140,8 +140,7 @@ class Assembly {
       mesh_.materials.push_back(std::move(material));
     }
     for (MaterialMaps of_material : mesh.maps) {
-      for (TextureUse* use : {&of_material.base_color, &of_material.metallic_roughness, &of_material.normal,
-                              &of_material.occlusion, &of_material.emissive, &of_material.alpha})
+      for (TextureUse* use : of_material.uses())
         if (use->used()) use->texture += textures;
       mesh_.maps.push_back(of_material);
     }

@@ -13,36 +13,43 @@ namespace {
 using Json = nlohmann::json;
 
 std::string decode_base64(std::string_view text) {
-  static const std::array<std::int8_t, 256> kValues = [] {
-    std::array<std::int8_t, 256> values{};
-    values.fill(-1);
+  static constexpr std::uint32_t kNone = 0x80000000u;
+  // A letter's value, at each of its four places in 24 bits.
+  static const std::array<std::array<std::uint32_t, 256>, 4> kValues = [] {
+    std::array<std::array<std::uint32_t, 256>, 4> values{};
     constexpr std::string_view kLetters = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-    for (std::size_t i = 0; i < kLetters.size(); ++i)
-      values[static_cast<unsigned char>(kLetters[i])] = static_cast<std::int8_t>(i);
+    for (std::size_t place = 0; place < 4; ++place) {
+      values[place].fill(kNone);
+      for (std::size_t i = 0; i < kLetters.size(); ++i)
+        values[place][static_cast<unsigned char>(kLetters[i])] = static_cast<std::uint32_t>(i) << (18 - 6 * place);
+    }
     return values;
   }();
-  const auto value_at = [&](std::size_t i) { return std::int32_t{kValues[static_cast<unsigned char>(text[i])]}; };
   std::string bytes(text.size() / 4 * 3 + 3, '\0');
-  std::size_t size = 0;
+  const auto* from = reinterpret_cast<const unsigned char*>(text.data());
+  const auto* const end = from + text.size();
+  char* to = bytes.data();
   std::uint32_t bits = 0;
   int count = 0;  // of letters that are not whole bytes yet
-  for (std::size_t i = 0; i < text.size();) {
-    if (count == 0 && i + 4 <= text.size()) {  // nearly all of it
-      const std::int32_t a = value_at(i), b = value_at(i + 1), c = value_at(i + 2), d = value_at(i + 3);
-      if ((a | b | c | d) >= 0) {
-        const std::int32_t four = a << 18 | b << 12 | c << 6 | d;
-        for (const int shift : {16, 8, 0}) bytes[size++] = static_cast<char>(four >> shift);
-        i += 4;
+  while (from != end) {
+    if (count == 0 && end - from >= 4) {  // nearly all of it
+      const std::uint32_t four = kValues[0][from[0]] | kValues[1][from[1]] | kValues[2][from[2]] | kValues[3][from[3]];
+      if (four < kNone) {
+        to[0] = static_cast<char>(four >> 16);
+        to[1] = static_cast<char>(four >> 8);
+        to[2] = static_cast<char>(four);
+        from += 4;
+        to += 3;
         continue;
       }
     }
-    const std::int32_t value = value_at(i++);
-    if (value < 0) continue;  // padding, line ends
-    bits = bits << 6 | static_cast<std::uint32_t>(value);
+    const std::uint32_t value = kValues[3][*from++];
+    if (value == kNone) continue;  // padding, line ends
+    bits = bits << 6 | value;
     count = (count + 1) % 4;
-    if (count != 1) bytes[size++] = static_cast<char>(bits >> (6 - 2 * ((count + 3) % 4)));
+    if (count != 1) *to++ = static_cast<char>(bits >> (6 - 2 * ((count + 3) % 4)));
   }
-  bytes.resize(size);
+  bytes.resize(static_cast<std::size_t>(to - bytes.data()));
   return bytes;
 }
 

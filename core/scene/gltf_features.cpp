@@ -64,12 +64,6 @@ struct Member {
 };
 
 constexpr Member kMaterialMembers[] = {
-    {"/extensions/KHR_materials_specular/specularTexture", "its specular texture is left out",
-     "all of it shines alike"},
-    {"/extensions/KHR_materials_specular/specularColorTexture", "its specular colour texture is left out",
-     "highlights have one colour"},
-    {"/extensions/KHR_materials_transmission/transmissionTexture", "its transmission texture is left out",
-     "all of it lets the same light through"},
     {"/extensions/KHR_materials_volume/thicknessTexture", "its thickness texture is left out",
      "its thickness is what its triangles enclose"},
     {"/extensions/KHR_materials_volume/attenuationDistance", "the absorption of its volume is left out",
@@ -106,7 +100,9 @@ constexpr TypedMember kTypedMembers[] = {
 // Its textures.
 constexpr const char* kTextureMembers[] = {
     "/pbrMetallicRoughness/baseColorTexture", "/pbrMetallicRoughness/metallicRoughnessTexture", "/normalTexture",
-    "/occlusionTexture", "/emissiveTexture"};
+    "/occlusionTexture", "/emissiveTexture", "/extensions/KHR_materials_specular/specularTexture",
+    "/extensions/KHR_materials_specular/specularColorTexture",
+    "/extensions/KHR_materials_transmission/transmissionTexture"};
 
 std::string last_name(std::string_view pointer) { return std::string(pointer.substr(pointer.rfind('/') + 1)); }
 

@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cmath>
 
 #include "core/scene/gltf_file.h"
@@ -70,7 +71,7 @@ void transform(const tinygltf::Value& t, TextureUse& use) {
 }
 
 // The file's image for a texture of ours yet (add_gltf_textures); none where the file names none.
-TextureUse use_of(const GltfFile& file, int texture, int uv_set, const tinygltf::ExtensionMap& extensions) {
+TextureUse use_of(const GltfFile& file, int texture, int uv_set, const tinygltf::Value* placed) {
   TextureUse use;
   if (texture < 0 || static_cast<std::size_t>(texture) >= file.model.textures.size()) return use;
   const tinygltf::Texture& t = file.model.textures[static_cast<std::size_t>(texture)];
@@ -85,14 +86,22 @@ TextureUse use_of(const GltfFile& file, int texture, int uv_set, const tinygltf:
     use.wrap_v = wrap_of(sampler.wrapT);
     use.nearest = sampler.magFilter == TINYGLTF_TEXTURE_FILTER_NEAREST;
   }
-  if (const tinygltf::Value* t_transform = extension(extensions, "KHR_texture_transform"))
-    transform(*t_transform, use);
+  if (placed) transform(*placed, use);
   return use;
 }
 
 template <class Info>  // tinygltf's three kinds of it
 TextureUse use_of(const GltfFile& file, const Info& info) {
-  return use_of(file, info.index, info.texCoord, info.extensions);
+  return use_of(file, info.index, info.texCoord, extension(info.extensions, "KHR_texture_transform"));
+}
+
+// A texture that an extension of the material names.
+TextureUse use_of(const GltfFile& file, const tinygltf::Material& m, const char* name, const char* key) {
+  const tinygltf::Value* const of_material = extension(m.extensions, name);
+  const tinygltf::Value* const info = of_material ? member(*of_material, key) : nullptr;
+  const tinygltf::Value* const extensions = info ? member(*info, "extensions") : nullptr;
+  return use_of(file, index_of(info, "index", -1), index_of(info, "texCoord", 0),
+                extensions ? member(*extensions, "KHR_texture_transform") : nullptr);
 }
 
 MaterialMaps maps_of(const GltfFile& file, const tinygltf::Material& m) {
@@ -104,6 +113,9 @@ MaterialMaps maps_of(const GltfFile& file, const tinygltf::Material& m) {
   maps.occlusion = use_of(file, m.occlusionTexture);
   maps.occlusion_strength = static_cast<float>(m.occlusionTexture.strength);
   maps.emissive = use_of(file, m.emissiveTexture);
+  maps.specular = use_of(file, m, "KHR_materials_specular", "specularTexture");
+  maps.specular_color = use_of(file, m, "KHR_materials_specular", "specularColorTexture");
+  maps.transmission = use_of(file, m, "KHR_materials_transmission", "transmissionTexture");
   if (m.alphaMode == "MASK") maps.alpha_mode = AlphaMode::mask;
   if (m.alphaMode == "BLEND") maps.alpha_mode = AlphaMode::blend;
   if (maps.alpha_mode == AlphaMode::opaque) return maps;
@@ -117,8 +129,7 @@ MaterialMaps maps_of(const GltfFile& file, const tinygltf::Material& m) {
 }
 
 bool changes(const MaterialMaps& m) {
-  return m.alpha_mode != AlphaMode::opaque || m.base_color.used() || m.metallic_roughness.used() ||
-         m.normal.used() || m.occlusion.used() || m.emissive.used();
+  return m.alpha_mode != AlphaMode::opaque || std::ranges::any_of(m.uses(), &TextureUse::used);
 }
 
 // Our own extras.pinocchio.phong, else metallic-roughness.

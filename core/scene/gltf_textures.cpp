@@ -53,25 +53,37 @@ std::vector<std::optional<Texture>> textures_of(const GltfFile& file, const std:
   return textures;
 }
 
-// What a surface that is mapped by roughness may mirror at most decides whether rays are kept for it.
-void bound_reflectance(const MeshData& mesh, Material& material, const MaterialMaps& maps) {
-  if (!maps.from_gltf || !maps.metallic_roughness.used()) return;
-  GltfSurface sharpest = maps.surface;
-  std::uint8_t least = 255, most_metal = 0;
-  for (const glm::u8vec4& t :
-       mesh.textures[static_cast<std::size_t>(maps.metallic_roughness.texture)].texels.pixels()) {
-    least = std::min(least, t.g);
-    most_metal = std::max(most_metal, t.b);
+// The least and the most of a texture's channels, 0 to 1; both 1 where there is none.
+struct TexelRange {
+  glm::vec4 least{1.0f}, most{1.0f};
+};
+
+TexelRange range_of(const MeshData& mesh, const TextureUse& use) {
+  if (!use.used()) return {};
+  glm::u8vec4 least(255), most(0);
+  for (const glm::u8vec4& t : mesh.textures[static_cast<std::size_t>(use.texture)].texels.pixels()) {
+    least = glm::min(least, t);
+    most = glm::max(most, t);
   }
-  sharpest.roughness *= static_cast<float>(least) / 255.0f;
-  sharpest.metallic *= static_cast<float>(most_metal) / 255.0f;
-  const Material bound = phong_from_gltf(sharpest);
-  material.reflectance = bound.reflectance;
-  material.fresnel = bound.fresnel;
-  // Where the map makes a surface less of a metal, more passes through it.
-  if (maps.surface.transmission <= 0.0f) return;
-  sharpest.metallic = 0.0f;
-  material.transmittance = phong_from_gltf(sharpest).transmittance;
+  return {glm::vec4(least) / 255.0f, glm::vec4(most) / 255.0f};
+}
+
+// What a surface may mirror and let through at most where textures change it decides whether rays are kept for it.
+void bound_rays(const MeshData& mesh, Material& material, const MaterialMaps& maps) {
+  if (!maps.from_gltf || !(maps.metallic_roughness.used() || maps.transmission.used())) return;
+  const TexelRange rough_metal = range_of(mesh, maps.metallic_roughness), passes = range_of(mesh, maps.transmission);
+  GltfSurface sharpest = maps.surface;
+  sharpest.roughness *= rough_metal.least.g;
+  sharpest.metallic *= rough_metal.most.b;
+  sharpest.transmission *= passes.least.r;  // what lets light through mirrors none
+  const Material mirror = phong_from_gltf(sharpest);
+  material.reflectance = mirror.reflectance;
+  material.fresnel = mirror.fresnel;
+  // Where a map makes a surface less of a metal, more passes through it.
+  GltfSurface clearest = maps.surface;
+  clearest.metallic *= rough_metal.least.b;
+  clearest.transmission *= passes.most.r;
+  material.transmittance = phong_from_gltf(clearest).transmittance;
 }
 
 }  // namespace
@@ -79,8 +91,7 @@ void bound_reflectance(const MeshData& mesh, Material& material, const MaterialM
 void add_gltf_textures(const GltfFile& file, MeshData& mesh, Loading& loading) {
   std::vector<TextureUse*> uses;
   for (MaterialMaps& m : mesh.maps)
-    for (TextureUse* use :
-         {&m.base_color, &m.metallic_roughness, &m.normal, &m.occlusion, &m.emissive, &m.alpha})
+    for (TextureUse* use : m.uses())
       if (use->used()) uses.push_back(use);
   std::vector<int> images;  // in the order of their first use
   std::map<int, std::size_t> place;
@@ -98,7 +109,7 @@ void add_gltf_textures(const GltfFile& file, MeshData& mesh, Loading& loading) {
   make_smaller_levels(mesh, loading.progress);
   for (Material& material : mesh.materials)
     if (material.maps >= 0)
-      bound_reflectance(mesh, material, mesh.maps[static_cast<std::size_t>(material.maps)]);
+      bound_rays(mesh, material, mesh.maps[static_cast<std::size_t>(material.maps)]);
 }
 
 }  // namespace pinocchio

@@ -51,9 +51,8 @@ bool one_each_or_none(const std::vector<T>& of_vertices, const Mesh& mesh) {
 }
 
 bool names_known_textures(const MaterialMaps& m, const Mesh& mesh) {
-  const auto known = [&](const TextureUse& use) { return use.texture < static_cast<int>(mesh.textures.size()); };
-  return known(m.base_color) && known(m.metallic_roughness) && known(m.normal) && known(m.occlusion) &&
-         known(m.emissive) && known(m.alpha);
+  const auto known = [&](const TextureUse* use) { return use->texture < static_cast<int>(mesh.textures.size()); };
+  return std::ranges::all_of(m.uses(), known);
 }
 
 }  // namespace

@@ -111,8 +111,7 @@ bool can_shine(const Light& light) {
 void drop_unused_attributes(MeshData& mesh) {
   bool set0 = false, set1 = false, normals = false;
   for (const MaterialMaps& m : mesh.maps) {
-    for (const TextureUse* use :
-         {&m.base_color, &m.metallic_roughness, &m.normal, &m.occlusion, &m.emissive, &m.alpha})
+    for (const TextureUse* use : m.uses())
       if (use->used()) (use->uv_set == 1 ? set1 : set0) = true;
     normals = normals || m.normal.used();
   }

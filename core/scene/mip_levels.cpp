@@ -89,11 +89,11 @@ struct Needed {
 std::vector<Needed> needed_of(const MeshData& mesh) {
   std::vector<Needed> needed(mesh.textures.size());
   for (const MaterialMaps& m : mesh.maps)
-    for (const TextureUse* use : {&m.base_color, &m.emissive, &m.metallic_roughness, &m.normal, &m.occlusion})
-      if (use->used() && static_cast<std::size_t>(use->texture) < needed.size()) {
+    for (const TextureUse* use : m.uses())
+      if (use != &m.alpha && use->used() && static_cast<std::size_t>(use->texture) < needed.size()) {
         Needed& n = needed[static_cast<std::size_t>(use->texture)];
         n.levels = true;
-        n.is_color = n.is_color || use == &m.base_color || use == &m.emissive;
+        n.is_color = n.is_color || use == &m.base_color || use == &m.emissive || use == &m.specular_color;
       }
   return needed;
 }

@@ -6,8 +6,6 @@ namespace pinocchio {
 
 void save_scene(const Scene& scene, const std::filesystem::path& file, Progress* progress,
                 Warnings* warnings) {
-  if (scene.animation && warnings)
-    warnings->add({file.string(), "", "animations are left out", "everything stands still"});
   const std::string extension = file.extension().string();
   if (extension == ".gltf" || extension == ".glb") return save_gltf(scene, file, progress, warnings);
   if (extension == ".obj") return save_obj(scene, file, progress, warnings);

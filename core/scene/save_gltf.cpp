@@ -6,15 +6,17 @@
 #include <vector>
 
 #include "core/image/atomic_file.h"
+#include "core/scene/pose.h"
 #include "core/scene/save_gltf_materials.h"
+#include "core/scene/save_gltf_mesh.h"
+#include "core/scene/save_gltf_motion.h"
+#include "pinocchio/animation.h"
 #include "pinocchio/save.h"
 
 namespace pinocchio {
 namespace {
 
 using Json = nlohmann::ordered_json;
-
-constexpr int kUnsignedInt = 5125, kFloat = 5126;  // glTF's component types
 
 // A rotation whose -Z is `forward`.
 Json aimed_matrix(const glm::vec3& position, const glm::vec3& right, const glm::vec3& up,
@@ -25,136 +27,110 @@ Json aimed_matrix(const glm::vec3& position, const glm::vec3& right, const glm::
 
 class GltfWriter {
  public:
-  GltfWriter(const Scene& scene, const std::filesystem::path& file, Warnings& warnings) : mesh_(*scene.mesh) {
+  GltfWriter(const Scene& scene, const std::filesystem::path& file, Warnings& warnings) : scene_(scene) {
     json_["asset"] = {{"version", "2.0"}, {"generator", "Pinocchio"}};
     json_["scene"] = 0;
     json_["scenes"] =
         Json::array({{{"nodes", Json::array()},
                       {"extras", {{"pinocchio", {{"ambient", color_json(scene.ambient_light)}}}}}}});
     add_materials(file, warnings);
-    add_mesh();
-    for (const Camera& camera : scene.cameras) add_camera(camera);
-    for (const Light& light : scene.lights) add_light(light);
+    if (can_save_motion(scene)) {
+      add_moving();
+    } else {
+      if (scene.animation) warnings.add({file.string(), "", "animations are left out", "everything stands still"});
+      add_mesh();
+      for (const Camera& camera : scene.cameras) data_.add_node(camera_node(camera, camera));
+      for (const Light& light : scene.lights) data_.add_node(light_node(light));
+    }
     for (const std::string& name : extensions_) json_["extensionsUsed"].push_back(name);
   }
 
   // The JSON with its buffer's place filled in.
   Json finish(const std::string& buffer_uri) {
-    Json buffer{{"byteLength", binary_.size()}};
+    Json buffer{{"byteLength", data_.binary.size()}};
     if (!buffer_uri.empty()) buffer["uri"] = buffer_uri;
     json_["buffers"] = Json::array({buffer});
     return json_;
   }
-  [[nodiscard]] const std::string& binary() const { return binary_; }
+  [[nodiscard]] const std::string& binary() const { return data_.binary; }
 
  private:
-  void add_node(Json node) {
-    json_["scenes"][0]["nodes"].push_back(json_["nodes"].size());
-    json_["nodes"].push_back(std::move(node));
-  }
-
-  int add_view(std::string_view bytes) {
-    binary_.append((4 - binary_.size() % 4) % 4, '\0');  // numbers lie where they may
-    json_["bufferViews"].push_back({{"buffer", 0}, {"byteOffset", binary_.size()}, {"byteLength", bytes.size()}});
-    binary_.append(bytes);
-    return static_cast<int>(json_["bufferViews"].size()) - 1;
-  }
-
-  template <class T>
-  int add_accessor(const std::vector<T>& elements, int component_type, const char* type) {
-    const int view = add_view({reinterpret_cast<const char*>(elements.data()), elements.size() * sizeof(T)});
-    json_["accessors"].push_back({{"bufferView", view},
-                                  {"componentType", component_type},
-                                  {"count", elements.size()},
-                                  {"type", type}});
-    return static_cast<int>(json_["accessors"].size()) - 1;
-  }
-
   void add_materials(const std::filesystem::path& file, Warnings& warnings) {
-    GltfMaterialWriter writer(mesh_, [this](const std::string& bytes) { return add_view(bytes); }, file, warnings);
+    const Mesh& mesh = *scene_.mesh;
+    GltfMaterialWriter writer(mesh, [this](const std::string& bytes) { return data_.add_view(bytes); }, file, warnings);
     Json materials = Json::array();
-    for (const Material& m : mesh_.materials) materials.push_back(writer.material(m));
+    for (const Material& m : mesh.materials) materials.push_back(writer.material(m));
     json_["materials"] = std::move(materials);
     writer.finish(json_);
     extensions_.insert(extensions_.end(), writer.extensions().begin(), writer.extensions().end());
   }
 
-  // Runs of triangles of one material are primitives over the same vertices: the order of triangles stays.
+  // All of it in the world, on one node.
   void add_mesh() {
-    Json attributes{{"POSITION", add_accessor(mesh_.positions, kFloat, "VEC3")}};
-    const Bounds b = all_positions();
-    json_["accessors"].back()["min"] = vec3_json(b.lo);  // the specification wants them of positions
-    json_["accessors"].back()["max"] = vec3_json(b.hi);
-    const auto given = [](const glm::vec3& n) { return n != glm::vec3(0.0f); };
-    if (std::any_of(mesh_.normals.begin(), mesh_.normals.end(), given))
-      attributes["NORMAL"] = add_accessor(mesh_.normals, kFloat, "VEC3");
-    Json primitives = Json::array();
-    const Optional optional = optional_attributes();
-    for (std::size_t first = 0; first < mesh_.triangles.size();) {
-      const std::uint32_t material = mesh_.triangle_materials[first];
-      std::size_t end = first;
-      while (end < mesh_.triangles.size() && mesh_.triangle_materials[end] == material) ++end;
-      std::vector<std::uint32_t> indices;
-      for (std::size_t i = first; i < end; ++i)
-        for (int c = 0; c < 3; ++c) indices.push_back(mesh_.triangles[i][c]);
-      Json own = attributes;
-      add_optional(optional, mesh_.maps_of(static_cast<std::uint32_t>(first)), indices, own);
-      primitives.push_back({{"attributes", own},
-                            {"indices", add_accessor(indices, kUnsignedInt, "SCALAR")},
-                            {"material", material}});
-      first = end;
+    const Mesh& mesh = *scene_.mesh;
+    const SavedPart all{0, 0, static_cast<std::uint32_t>(mesh.triangles.size()), mesh.positions, mesh.normals, mesh.tangents};
+    json_["meshes"] = Json::array({{{"primitives", gltf_primitives(mesh, all, Json::object(), data_)}}});
+    data_.add_node({{"mesh", 0}});
+  }
+
+  // Nodes as they rest; lights and cameras that move with one are its first children, in their order.
+  void add_moving() {
+    const std::vector<int> place = add_moving_nodes(scene_, data_);
+    const RestPose& rest = *scene_.nodes->rest;
+    const auto hang = [&](int node, Json json) {
+      const int index = data_.add_node(std::move(json), false);
+      Json& children = json_["nodes"][static_cast<std::size_t>(place[static_cast<std::size_t>(node)])]["children"];
+      if (children.is_null()) children = Json::array();
+      children.insert(children.begin(), index);
+    };
+    std::vector<bool> hangs(scene_.cameras.size(), false);
+    const std::vector<glm::mat4> world = world_at_rest(scene_), now = world_matrices(scene_.nodes->nodes);
+    for (auto at = rest.cameras.rbegin(); at != rest.cameras.rend(); ++at) {
+      Camera camera = scene_.cameras[at->index], in_world = camera;
+      camera.eye = at->at_rest.eye;
+      camera.target = at->at_rest.target;
+      camera.up = at->at_rest.up;
+      const auto n = static_cast<std::size_t>(at->node);
+      if (const Placement placement(world[n]); world[n] != now[n]) {
+        in_world.target = placement.position(camera.target);
+        in_world.up = placement.direction(camera.up);
+      }
+      hang(at->node, camera_node(camera, in_world));
+      hangs[at->index] = true;
     }
-    json_["meshes"] = Json::array({{{"primitives", primitives}}});
-    add_node({{"mesh", 0}});
-  }
-
-  // Accessors of what only some materials look up; -1: the mesh has none.
-  struct Optional {
-    int texcoord = -1, texcoord1 = -1, color = -1, tangent = -1;
-  };
-  Optional optional_attributes() {
-    Optional result;
-    if (!mesh_.texcoords.empty()) result.texcoord = add_accessor(mesh_.texcoords, kFloat, "VEC2");
-    if (!mesh_.texcoords1.empty()) result.texcoord1 = add_accessor(mesh_.texcoords1, kFloat, "VEC2");
-    if (!mesh_.colors.empty()) result.color = add_accessor(mesh_.colors, kFloat, "VEC4");
-    if (!mesh_.tangents.empty()) result.tangent = add_accessor(mesh_.tangents, kFloat, "VEC4");
-    return result;
-  }
-
-  void add_optional(const Optional& optional, const MaterialMaps* maps, const std::vector<std::uint32_t>& indices, Json& to) const {
-    if (!maps) return;
-    if (optional.texcoord >= 0) to["TEXCOORD_0"] = optional.texcoord;
-    if (optional.texcoord1 >= 0) {
-      to["TEXCOORD_1"] = optional.texcoord1;
-      if (optional.texcoord < 0) to["TEXCOORD_0"] = optional.texcoord1;  // glTF counts them from 0
+    for (std::size_t i = 0; i < hangs.size(); ++i)
+      if (!hangs[i]) data_.add_node(camera_node(scene_.cameras[i], scene_.cameras[i]));
+    hangs.assign(scene_.lights.size(), false);
+    for (auto at = rest.lights.rbegin(); at != rest.lights.rend(); ++at) {
+      Light light = scene_.lights[at->index];
+      light.position = at->at_rest.position;
+      light.direction = at->at_rest.direction;
+      light.edge_u = at->at_rest.edge_u;
+      light.edge_v = at->at_rest.edge_v;
+      hang(at->node, light_node(light));
+      hangs[at->index] = true;
     }
-    if (optional.color >= 0 && maps->vertex_colors) to["COLOR_0"] = optional.color;
-    const auto given = [this](std::uint32_t vertex) { return mesh_.tangents[vertex].w != 0.0f; };
-    if (optional.tangent >= 0 && maps->normal.used() && std::all_of(indices.begin(), indices.end(), given))
-      to["TANGENT"] = optional.tangent;
+    for (std::size_t i = 0; i < hangs.size(); ++i)
+      if (!hangs[i]) data_.add_node(light_node(scene_.lights[i]));
+    add_skins_and_animation(scene_, place, data_);
   }
 
-  [[nodiscard]] Bounds all_positions() const {
-    Bounds b;
-    for (const glm::vec3& p : mesh_.positions) b.add(p);
-    return b;
-  }
-
-  void add_camera(const Camera& camera) {
+  // As its node's parent sees it, with its target and up, which our extras have as the world sees them.
+  Json camera_node(const Camera& camera, const Camera& in_world) {
     const CameraAxes axes = camera_axes(camera);
-    Json ours{{"target", vec3_json(camera.target)}, {"up", vec3_json(camera.up)}};
+    Json ours{{"target", vec3_json(in_world.target)}, {"up", vec3_json(in_world.up)}};
     if (camera.lens_radius > 0.0f) ours["lensRadius"] = camera.lens_radius;
     if (camera.focus_distance > 0.0f) ours["focusDistance"] = camera.focus_distance;
-    add_node(
-        {{"name", camera.name},
-         {"camera", json_["cameras"].size()},
-         {"matrix", aimed_matrix(camera.eye, axes.right, axes.up, axes.forward)},
-         {"extras", {{"pinocchio", ours}}}});
+    const std::size_t index = json_["cameras"].size();
     const double yfov = glm::radians(static_cast<double>(camera.fov_deg));
     json_["cameras"].push_back({{"type", "perspective"}, {"perspective", {{"yfov", yfov}, {"znear", 0.01}}}});
+    return {{"name", camera.name},
+            {"camera", index},
+            {"matrix", aimed_matrix(camera.eye, axes.right, axes.up, axes.forward)},
+            {"extras", {{"pinocchio", ours}}}};
   }
 
-  void add_light(const Light& light) {
+  Json light_node(const Light& light) {
     Json& lights = json_["extensions"]["KHR_lights_punctual"]["lights"];
     if (lights.empty()) extensions_.emplace_back("KHR_lights_punctual");
     constexpr const char* kTypes[] = {"point", "directional", "spot", "point"};  // a rectangle: where none is known
@@ -187,12 +163,12 @@ class GltfWriter {
       node["matrix"] = aimed_matrix(light.position, axes.right, axes.up, axes.forward);
     }
     lights.push_back(json);
-    add_node(node);
+    return node;
   }
 
-  const Mesh& mesh_;
-  Json json_;
-  std::string binary_;
+  const Scene& scene_;
+  GltfData data_;
+  Json& json_ = data_.json;
   std::vector<std::string> extensions_;
 };
 

@@ -26,6 +26,29 @@ Json phong_json(const Material& m) {
   return json;
 }
 
+float roughness_of(const Material& m) {
+  return std::sqrt(std::sqrt(2.0f / (4.0f * m.shininess + 2.0f)));
+}
+
+Json pbr_json(const glm::vec3& base, float metallic, float roughness) {
+  return {{"baseColorFactor", {base.r, base.g, base.b, 1.0f}}, {"metallicFactor", metallic}, {"roughnessFactor", roughness}};
+}
+
+// For other viewers, of Phong.
+Json nearest_pbr(const Material& m) {
+  const glm::vec3 base = glm::min(m.reflects() ? glm::max(m.diffuse, m.reflectance) : m.diffuse, glm::vec3(1.0f));
+  return pbr_json(base, m.reflects() && !m.fresnel ? 1.0f : 0.0f, m.spawns_rays() ? 0.0f : roughness_of(m));
+}
+
+// ... of Phong that was made from metallic-roughness (phong_from_gltf): ambient light has its base colour, and of
+// the diffuse one what metal leaves, over pi.
+Json as_it_was(const Material& m) {
+  constexpr float kUsualDiffuse = 0.96f * 0.318309886f;
+  const glm::vec3 base = glm::min(m.ambient, glm::vec3(1.0f));
+  const float whole = kUsualDiffuse * (base.r + base.g + base.b), left = m.diffuse.r + m.diffuse.g + m.diffuse.b;
+  return pbr_json(base, whole > 0.0f ? std::clamp(1.0f - left / whole, 0.0f, 1.0f) : 0.0f, roughness_of(m));
+}
+
 int wrap_json(Wrap wrap) {
   return wrap == Wrap::clamp ? 33071 : wrap == Wrap::mirror ? 33648 : 10497;
 }
@@ -71,12 +94,7 @@ Json GltfMaterialWriter::material(const Material& m) {
   if (maps && maps->from_gltf) {
     add_surface(maps->surface, json);
   } else {
-    const glm::vec3 base =
-        glm::min(m.reflects() ? glm::max(m.diffuse, m.reflectance) : m.diffuse, glm::vec3(1.0f));
-    const float roughness = m.spawns_rays() ? 0.0f : std::sqrt(std::sqrt(2.0f / (4.0f * m.shininess + 2.0f)));
-    json["pbrMetallicRoughness"] = {{"baseColorFactor", {base.r, base.g, base.b, 1.0f}},
-                                    {"metallicFactor", m.reflects() && !m.fresnel ? 1.0f : 0.0f},
-                                    {"roughnessFactor", roughness}};
+    json["pbrMetallicRoughness"] = m.brdf ? as_it_was(m) : nearest_pbr(m);
     json["extras"]["pinocchio"]["phong"] = phong_json(m);
     add_emission(m.emission, json);
   }
@@ -134,6 +152,14 @@ void GltfMaterialWriter::add_maps(const Material& m, const MaterialMaps& maps, J
   if (Json* occlusion = add(maps.occlusion, json, "occlusionTexture"))
     (*occlusion)["strength"] = maps.occlusion_strength;
   add(maps.emissive, json, "emissiveTexture");
+  const auto add_of_extension = [&](const TextureUse& use, const char* name, const char* key) {
+    if (!use.used()) return;
+    add(use, json["extensions"][name], key);
+    extensions_.insert(name);
+  };
+  add_of_extension(maps.specular, "KHR_materials_specular", "specularTexture");
+  add_of_extension(maps.specular_color, "KHR_materials_specular", "specularColorTexture");
+  add_of_extension(maps.transmission, "KHR_materials_transmission", "transmissionTexture");
 }
 
 Json GltfMaterialWriter::texture(const TextureUse& use, int image) {

@@ -120,6 +120,7 @@ class ObjWriter {
       if (!maps.blends()) lost("the cutoff of its alpha is left out", "what is a hole shines through by its alpha");
     }
     if (maps.metallic_roughness.used()) lost("its metallic-roughness texture is left out", "all of it shines alike");
+    if (maps.maps_dielectric()) lost("its specular and transmission textures are left out", "all of it shines and lets light through alike");
     if (maps.occlusion.used()) lost("its occlusion texture is left out", "its hollows are as bright as the rest");
   }
 
@@ -191,7 +192,9 @@ void save_obj(const Scene& scene, const std::filesystem::path& file, Progress* p
   mtl.replace_extension(".mtl");
   check_writable(mtl);
   Warnings unheard;
-  ObjWriter writer(*scene.mesh, file, warnings ? *warnings : unheard);
+  Warnings& heard = warnings ? *warnings : unheard;
+  if (scene.animation) heard.add({file.string(), "", "animations are left out", "everything stands still"});
+  ObjWriter writer(*scene.mesh, file, heard);
   const std::string text = writer.obj(mtl.filename().string(), progress), materials = writer.mtl();
   // All are whole before any gets the scene's name.
   write_text(file, text, progress, [&] {

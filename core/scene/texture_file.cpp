@@ -161,8 +161,9 @@ class Decoder {
     int width = 0, height = 0, channels = 0;
     if (stbi_info_from_memory(bytes_.data(), size, &width, &height, &channels) == 0)
       return error("is not of a format that is read; convert it to PNG, JPEG or WebP");
-    if (const Expected<void> made = make(static_cast<std::uint64_t>(width), static_cast<std::uint64_t>(height)); !made)
-      return Unexpected(made.error());
+    // A BMP whose first row is its top one says so by a height below zero.
+    const auto rows = static_cast<std::uint64_t>(std::abs(std::int64_t{height}));
+    if (const Expected<void> made = make(static_cast<std::uint64_t>(width), rows); !made) return Unexpected(made.error());
     const std::unique_ptr<stbi_uc, void (*)(void*)> pixels(
         stbi_load_from_memory(bytes_.data(), size, &width, &height, &channels, 4), stbi_image_free);
     if (!pixels || glm::ivec2(width, height) != image_.texture.texels.size())

@@ -124,7 +124,7 @@ MappedMaterial mapped_material(const Mesh& mesh, const MapPoint& point) {
   const MaterialMaps& maps = *mesh.maps_of(point.triangle);
   const Lookup look(mesh, point.triangle, point.weights);
   shared::MapValues v{glm::vec3(look.filtered(maps.base_color, true, point)), 1.0f, 1.0f, 1.0f,
-                      glm::vec3(look.filtered(maps.emissive, true, point))};
+                      glm::vec3(look.filtered(maps.emissive, true, point)), 1.0f, glm::vec3(1.0f), 1.0f};
   if (maps.vertex_colors) v.base_color *= glm::vec3(look.color());
   v.occlusion = 1.0f + maps.occlusion_strength * (look.filtered(maps.occlusion, false, point).r - 1.0f);
 
@@ -133,6 +133,11 @@ MappedMaterial mapped_material(const Mesh& mesh, const MapPoint& point) {
     const glm::vec4 texel = look.filtered(maps.metallic_roughness, false, point);
     v.roughness = texel.g;
     v.metallic = texel.b;
+    if (maps.maps_dielectric()) {
+      v.specular = look.filtered(maps.specular, false, point).a;
+      v.specular_color = glm::vec3(look.filtered(maps.specular_color, true, point));
+      v.transmission = look.filtered(maps.transmission, false, point).r;
+    }
     mapped.surface = shared::mapped_metallic_roughness(metallic_roughness(maps.surface), v);
   } else {
     mapped.surface = shared::mapped_phong(plain_material(mesh.material_of(point.triangle)), v);

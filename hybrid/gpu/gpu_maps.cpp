@@ -18,6 +18,10 @@ struct MapTexels {
   glm::vec4 base_metallic, emissive_roughness, specular, more, strengths, alpha_rule;
 };
 static_assert(sizeof(MapTexels) == 24 * sizeof(glm::vec4));
+struct DielectricTexels {  // where some material has one of them
+  UseTexels specular, specular_color, transmission;
+};
+static_assert(sizeof(DielectricTexels) == 9 * sizeof(glm::vec4));
 
 std::vector<std::size_t> first_texels(const Mesh& mesh) {
   std::vector<std::size_t> first;
@@ -54,21 +58,30 @@ UseTexels use_texels(const Mesh& mesh, const std::vector<std::size_t>& first, co
   return t;
 }
 
-std::vector<MapTexels> map_texels(const Mesh& mesh) {
+template <class T>
+void append_texels(const T& texels, std::vector<glm::vec4>& to) {
+  const auto* const first = reinterpret_cast<const glm::vec4*>(&texels);
+  to.insert(to.end(), first, first + sizeof(T) / sizeof(glm::vec4));
+}
+
+std::vector<glm::vec4> map_texels(const Mesh& mesh, bool dielectric) {
   const std::vector<std::size_t> first = first_texels(mesh);
   const auto flag = [](bool b) { return b ? 1.0f : 0.0f; };
-  std::vector<MapTexels> all;
+  std::vector<glm::vec4> all;
   for (const MaterialMaps& m : mesh.maps) {
     const GltfSurface& s = m.surface;
     const auto use = [&](const TextureUse& u) { return use_texels(mesh, first, u); };
-    all.push_back({use(m.base_color), use(m.metallic_roughness), use(m.normal), use(m.occlusion),
-                   use(m.emissive), use(m.alpha), glm::vec4(s.base_color, s.metallic),
-                   glm::vec4(s.emissive, s.roughness), glm::vec4(s.specular_color, s.specular),
-                   glm::vec4(s.ior, s.transmission, flag(s.volume), flag(s.unlit)),
-                   glm::vec4(m.normal_scale, m.occlusion_strength, flag(m.from_gltf),
-                             static_cast<float>(m.alpha_channel)),
-                   glm::vec4(static_cast<float>(m.alpha_mode), m.alpha_factor, m.alpha_cutoff,
-                             flag(m.vertex_colors))});
+    append_texels(
+        MapTexels{use(m.base_color), use(m.metallic_roughness), use(m.normal), use(m.occlusion),
+                  use(m.emissive), use(m.alpha), glm::vec4(s.base_color, s.metallic),
+                  glm::vec4(s.emissive, s.roughness), glm::vec4(s.specular_color, s.specular),
+                  glm::vec4(s.ior, s.transmission, flag(s.volume), flag(s.unlit)),
+                  glm::vec4(m.normal_scale, m.occlusion_strength, flag(m.from_gltf),
+                            static_cast<float>(m.alpha_channel)),
+                  glm::vec4(static_cast<float>(m.alpha_mode), m.alpha_factor, m.alpha_cutoff, flag(m.vertex_colors))},
+        all);
+    if (dielectric)
+      append_texels(DielectricTexels{use(m.specular), use(m.specular_color), use(m.transmission)}, all);
   }
   return all;
 }
@@ -92,7 +105,9 @@ GpuMaps::GpuMaps(const Mesh& mesh, const GpuMaps* shares_textures) {
   if (mesh.maps.empty()) return;
   definitions_.emplace_back("HAS_MAPS");
   has_holes_ = std::any_of(mesh.maps.begin(), mesh.maps.end(), [](const auto& m) { return m.has_holes(); });
-  maps_ = buffer_of(map_texels(mesh), GL_RGBA32F, sizeof(glm::vec4));
+  const bool dielectric = std::ranges::any_of(mesh.maps, [](const auto& m) { return m.maps_dielectric(); });
+  if (dielectric) definitions_.emplace_back("HAS_DIELECTRIC_MAPS");
+  maps_ = buffer_of(map_texels(mesh, dielectric), GL_RGBA32F, sizeof(glm::vec4));
   texels_ = shares_textures ? shares_textures->texels_ : nullptr;
   if (!texels_)
     texels_ = std::make_shared<const gl::TextureBuffer>(buffer_of(all_texels(mesh), GL_RGBA8, sizeof(glm::u8vec4)));

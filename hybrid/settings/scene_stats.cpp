@@ -58,9 +58,7 @@ class MirrorWalk {
 };
 
 void note(const MaterialMaps& maps, SceneStats& stats) {
-  stats.textures = stats.textures || maps.base_color.used() || maps.emissive.used() ||
-                   maps.metallic_roughness.used() || maps.normal.used() || maps.occlusion.used() ||
-                   maps.alpha.used();
+  stats.textures = stats.textures || std::ranges::any_of(maps.uses(), &TextureUse::used);
   stats.vertex_colors = stats.vertex_colors || maps.vertex_colors;
   stats.holes = stats.holes || maps.has_holes();
   stats.blends = stats.blends || maps.blends();

@@ -8,6 +8,9 @@ struct MapValues {
   float roughness;
   float occlusion;  // strength applied
   vec3 emissive;
+  float specular;
+  vec3 specular_color;
+  float transmission;
 };
 
 SHARED PhongSurface mapped_phong(PhongSurface plain, MapValues v) {
@@ -23,6 +26,9 @@ SHARED PhongSurface mapped_metallic_roughness(MetallicRoughness s, MapValues v) 
   s.metallic *= v.metallic;
   s.roughness *= v.roughness;
   s.emissive *= v.emissive;
+  s.specular *= v.specular;
+  s.specular_color *= v.specular_color;
+  s.transmission *= v.transmission;
   PhongSurface m = phong_from_metallic_roughness(s);
   m.phong.ambient *= v.occlusion;
   return m;

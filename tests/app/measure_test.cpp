@@ -35,6 +35,12 @@ TEST_F(MeasureTest, PrintsATableAndWritesTheFigures) {
   EXPECT_EQ(figures["bytes"]["gpu_to_cpu"], 240 * 180 * 2);
 }
 
+TEST_F(MeasureTest, RefusesMoreFramesThanItKeepsFiguresOf) {
+  const CommandResult result = run("measure" + scene("cornell") + "--size 8x6 --mode raytrace --frames 0-2000000000");
+  EXPECT_EQ(result.exit_code, 2) << result.err;
+  EXPECT_NE(result.err.find("of 100000 at most, not of 2000000001"), std::string::npos) << result.err;
+}
+
 TEST_F(MeasureTest, ComparesDesignsAndExchangesInOneRun) {
   const CommandResult result = run("measure" + scene("cornell") + kSmall + "--compare --stats-json m.json");
   EXPECT_EQ(result.exit_code, 0) << result.err;

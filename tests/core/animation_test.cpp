@@ -5,6 +5,7 @@
 #include <glm/gtc/constants.hpp>
 #include <glm/gtc/matrix_transform.hpp>
 
+#include "pinocchio/save.h"
 #include "tests/support/gltf.h"
 
 namespace pinocchio {
@@ -107,13 +108,18 @@ TEST(Animation, KeepsWhatOfANodeNothingMoves) {
 }
 
 // Light and camera hang on a child of what moves.
-TEST(Animation, MovesLightsAndCameras) {
+Moving lit_and_filmed() {
   Moving m;
   m.json["extensions"]["KHR_lights_punctual"]["lights"] = {{{"type", "point"}}};
   m.json["cameras"] = {{{"type", "perspective"}, {"perspective", {{"yfov", 1.0}, {"znear", 0.1}}}}};
   m.json["nodes"][0]["children"] = {1};
   m.json["nodes"].push_back({{"camera", 0}, {"translation", {0, 0, 3}}, {"extensions", {{"KHR_lights_punctual", {{"light", 0}}}}}});
   m.animate(0, "translation", {0, 1}, m.floats({0, 0, 0, 2, 0, 0}, "VEC3"));
+  return m;
+}
+
+TEST(Animation, MovesLightsAndCameras) {
+  const Moving m = lit_and_filmed();
   const Scene moved = at(load_good(m.json), 0.5);
   expect_near(moved.lights.at(0).position, {1, 0, 3});
   expect_near(moved.cameras.at(0).eye, {1, 0, 3});
@@ -212,8 +218,8 @@ TEST(Morph, ReadsSparseTargetsAndNormals) {
   expect_near(scene.mesh->normals[1], {0, 0, 1});
 }
 
-// A time's mesh has the same bits, wherever one comes from; also of instances, which are placed twice.
-TEST(Animation, IsMadeOfTheRestPoseAlone) {
+// Two instances of morph targets, of which the second is a mirror's; at 2 s the node is one, too.
+Moving mirrored_and_morphed() {
   Moving m = morphed();
   m.json["extensionsUsed"] = {"EXT_mesh_gpu_instancing"};
   m.json["nodes"][0]["rotation"] = {0.1, 0.2, 0.3, 0.927};
@@ -221,7 +227,12 @@ TEST(Animation, IsMadeOfTheRestPoseAlone) {
                                                                                {"SCALE", m.floats({1, 1, 1, -1.5, 1, 1}, "VEC3")}};
   m.animate(0, "scale", {0, 1, 2}, m.floats({1, 1, 1, .7f, .7f, .7f, -1, 1, 1}, "VEC3"));
   m.animate(0, "weights", {0, 2}, m.floats({0, 0, 1, 0.5}, "SCALAR"));
-  const Scene scene = load_good(m.json);
+  return m;
+}
+
+// A time's mesh has the same bits, wherever one comes from; also of instances, which are placed twice.
+TEST(Animation, IsMadeOfTheRestPoseAlone) {
+  const Scene scene = load_good(mirrored_and_morphed().json);
   Scene walked = scene;
   for (const double t : {0.3, 1.9, 2.0, 0.0, 1.1, 0.7}) {
     walked = at(walked, t);
@@ -234,6 +245,46 @@ TEST(Animation, IsMadeOfTheRestPoseAlone) {
   const std::vector<glm::uvec3> before = scene.mesh->triangles, after = at(scene, 2).mesh->triangles;
   for (std::size_t i : {0u, 1u}) EXPECT_EQ(after[i], glm::uvec3(before[i].x, before[i].z, before[i].y));
   EXPECT_EQ(before[1] - before[0], glm::uvec3(4, 5, 3));
+}
+
+// What is saved, from whichever pose, and loaded moves as before: corners of each triangle within `tolerance`.
+void expect_moves_alike(const Scene& scene, float tolerance) {
+  for (const double saved_at : {0.0, 1.7}) {
+    Warnings warnings;
+    save_scene(at(scene, saved_at), own_file("moving.glb"), nullptr, &warnings);
+    EXPECT_TRUE(warnings.empty());
+    const Scene loaded = load_scene(own_file("moving.glb")).value();
+    EXPECT_EQ(duration_s(loaded), duration_s(scene));
+    for (const double seconds : {0.0, 0.3, 1.1, 2.0}) {
+      const Scene a = at(scene, seconds), b = at(loaded, seconds);
+      ASSERT_EQ(a.mesh->triangles.size(), b.mesh->triangles.size());
+      for (std::size_t t = 0; t < a.mesh->triangles.size(); ++t)
+        for (int c = 0; c < 3; ++c) {
+          const std::uint32_t v = a.mesh->triangles[t][c], w = b.mesh->triangles[t][c];
+          EXPECT_LE(glm::distance(a.mesh->positions[v], b.mesh->positions[w]), tolerance) << seconds << " s";
+          EXPECT_LE(glm::distance(a.mesh->normals[v], b.mesh->normals[w]), tolerance) << seconds << " s";
+        }
+      ASSERT_EQ(a.lights.size(), b.lights.size());
+      for (std::size_t i = 0; i < a.lights.size(); ++i) EXPECT_EQ(a.lights[i].position, b.lights[i].position);
+      ASSERT_EQ(a.cameras.size(), b.cameras.size());
+      for (std::size_t i = 0; i < a.cameras.size(); ++i) {
+        EXPECT_EQ(a.cameras[i].eye, b.cameras[i].eye);
+        expect_near(a.cameras[i].target, b.cameras[i].target);
+      }
+    }
+  }
+}
+
+// Weights of skins are made to add up to 1 anew, which may round them once more; all else keeps its bits.
+TEST(Animation, IsSavedWithSkinsAndMorphTargets) {
+  expect_moves_alike(load_good(mirrored_and_morphed().json), 0.0f);
+  expect_moves_alike(load_good(lit_and_filmed().json), 0.0f);
+  Moving m = skinned();
+  m.primitive()["targets"] = {{{"POSITION", m.floats({0, 0, 0, 1, 0, 0, 0, 0, 0, 0, 0, 0}, "VEC3")}}};
+  const float half = std::sin(glm::quarter_pi<float>());
+  m.animate(2, "rotation", {0, 2}, m.floats({0, 0, 0, 1, 0, 0, half, half}, "VEC4"));
+  m.animate(0, "weights", {0, 1}, m.floats({0, 0, 1, 0, 0, 0}, "SCALAR"), "CUBICSPLINE");
+  expect_moves_alike(load_good(m.json), 1e-6f);
 }
 
 TEST(Animation, OfTwoThatMoveTheSameTheFirstPlays) {

@@ -69,6 +69,22 @@ TEST(LoadImages, EachFormatGivesItsTexels) {
 }
 
 // Cut off, or with bits turned: an error, or what is there of it. Never a crash, never more than the limit.
+// A height below zero says that the first row is the top one.
+TEST(LoadImages, ABmpMayBeginWithItsTopRow) {
+  const auto bmp = [](std::int32_t height) {
+    std::string bytes("BM\x46\0\0\0\0\0\0\0\x36\0\0\0\x28\0\0\0\x02\0\0\0", 22);  // 2 pixels wide
+    bytes.append(reinterpret_cast<const char*>(&height), 4);
+    bytes += std::string("\x01\0\x18\0\0\0\0\0\x10\0\0\0", 12) + std::string(16, '\0');  // 24 bits, 16 bytes
+    return bytes + std::string("\x01\x02\x03\x04\x05\x06\0\0\x07\x08\x09\x0a\x0b\x0c\0\0", 16);
+  };
+  const Expected<DecodedImage> up = decode(bmp(2)), down = decode(bmp(-2));
+  ASSERT_TRUE(up && down);
+  EXPECT_EQ(up->texture.texels.at(0, 1), glm::u8vec4(3, 2, 1, 255));
+  EXPECT_EQ(down->texture.texels.at(0, 0), glm::u8vec4(3, 2, 1, 255));
+  EXPECT_EQ(down->texture.texels.at(1, 1), up->texture.texels.at(1, 0));
+  EXPECT_FALSE(decode(bmp(std::numeric_limits<std::int32_t>::min())));
+}
+
 TEST(LoadImages, DamagedOnesAreErrorsOrSaySo) {
   Random random(7);
   for (const std::string& whole : {png_of(gradient()), webp_of(gradient()), jpeg_of(gradient(), TJSAMP_420)}) {

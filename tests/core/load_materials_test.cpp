@@ -41,6 +41,34 @@ TEST(LoadMaterials, GltfTexturesSamplersAndTransforms) {
   EXPECT_EQ(scene->mesh->texcoords1.size(), scene->mesh->positions.size());
 }
 
+TEST(LoadMaterials, GltfTexturesOfSpecularAndTransmission) {
+  // Opaque here, clear there: what mirrors and what lets light through are both kept rays for.
+  std::ofstream(own_file("texels.ppm"), std::ios::binary) << "P6 2 1 255\n" << std::string("\0\0\0\xff\xff\xff", 6);
+  Json json = textured_json({{"uri", "texels.ppm"}});
+  Json& material = json["materials"][0];
+  material["pbrMetallicRoughness"] = {{"metallicFactor", 0}, {"roughnessFactor", 0}};
+  material["extensions"]["KHR_materials_specular"] = {
+      {"specularTexture", {{"index", 0}}},
+      {"specularColorTexture", {{"index", 0}, {"texCoord", 1}}}};
+  material["extensions"]["KHR_materials_transmission"] = {
+      {"transmissionFactor", 1},
+      {"transmissionTexture", {{"index", 0}, {"extensions", {{"KHR_texture_transform", {{"scale", {2, 3}}}}}}}}};
+  json["accessors"].push_back({{"bufferView", 0}, {"componentType", 5126}, {"count", 4}, {"type", "VEC2"}});
+  Json& attributes = json["meshes"][0]["primitives"][0]["attributes"];
+  attributes["TEXCOORD_0"] = attributes["TEXCOORD_1"] = 2;
+  Warnings warnings;
+  const Expected<Scene> scene = load(json, &warnings);
+  ASSERT_TRUE(scene) << scene.error().message();
+  EXPECT_TRUE(warnings.empty());
+  const MaterialMaps* maps = scene->mesh->maps_of(0);
+  ASSERT_NE(maps, nullptr);
+  EXPECT_EQ(maps->specular.texture, 0);
+  EXPECT_EQ(maps->specular_color.uv_set, 1);
+  EXPECT_EQ(maps->transmission.uv_from_texcoord, glm::mat3x2(2, 0, 0, 3, 0, 0));
+  EXPECT_TRUE(scene->mesh->material_of(0).reflects());
+  EXPECT_TRUE(scene->mesh->material_of(0).transmits());
+}
+
 TEST(LoadMaterials, GltfVertexColorsOfThreeOrFourNumbers) {
   Json json = triangle_json();
   json["accessors"].push_back(

@@ -1,7 +1,11 @@
 #include "pinocchio/save.h"
 
+#include <algorithm>
+
+#include "pinocchio/animation.h"
 #include "pinocchio/error.h"
 #include "scenes/generator/scenes.h"
+#include "tests/support/gltf.h"
 #include "tests/support/own_file.h"
 #include "tests/support/scenes.h"
 
@@ -126,16 +130,20 @@ void expect_same_use(const Mesh& a, const TextureUse& of_a, const Mesh& b, Textu
 }
 
 void expect_same_maps(const Mesh& a, const MaterialMaps& of_a, const Mesh& b, MaterialMaps of_b) {
-  for (TextureUse MaterialMaps::*use : {&MaterialMaps::base_color, &MaterialMaps::metallic_roughness, &MaterialMaps::normal,
-                                        &MaterialMaps::occlusion, &MaterialMaps::emissive, &MaterialMaps::alpha}) {
-    expect_same_use(a, of_a.*use, b, of_b.*use);
-    of_b.*use = of_a.*use;
+  for (std::size_t i = 0; i < of_a.uses().size(); ++i) {
+    expect_same_use(a, *of_a.uses()[i], b, *of_b.uses()[i]);
+    *of_b.uses()[i] = *of_a.uses()[i];
   }
   EXPECT_EQ(of_a, of_b);
 }
 
 TEST(Save, GltfBringsTexturesBack) {
-  const Scene saved = load_or_die(source_path("scenes/terrace.glb"));
+  Scene saved = load_or_die(source_path("scenes/terrace.glb"));
+  {
+    MeshEdit edit(saved);
+    auto& maps = *std::ranges::find_if(edit->maps, [](const MaterialMaps& m) { return m.base_color.used(); });
+    maps.specular = maps.specular_color = maps.transmission = maps.base_color;
+  }
   const Mesh& a = *saved.mesh;
   ASSERT_FALSE(a.textures.empty());
   for (const char* extension : {".gltf", ".glb"}) {
@@ -164,6 +172,36 @@ TEST(Save, GltfBringsTexturesBack) {
                          b.maps[static_cast<std::size_t>(b.materials[i].maps)]);
     }
   }
+}
+
+// Other viewers do not read our extras.
+TEST(Save, GltfOfPlainMaterialsSaysToOthersWhatTheyWere) {
+  Json json = triangle_json();
+  const Json was{{"baseColorFactor", {0.8, 0.4, 0.1, 1.0}}, {"metallicFactor", 0.25}, {"roughnessFactor", 0.6}};
+  json["materials"] = {{{"pbrMetallicRoughness", was}}};
+  json["meshes"][0]["primitives"][0]["material"] = 0;
+  save_scene(load_good(json), temporary("plain.gltf"));
+  std::ifstream in(temporary("plain.gltf"));
+  const Json saved = Json::parse(in)["materials"][0]["pbrMetallicRoughness"];
+  for (std::size_t c = 0; c < 4; ++c) EXPECT_NEAR(saved["baseColorFactor"][c], was["baseColorFactor"][c], 1e-6);
+  EXPECT_NEAR(saved["metallicFactor"], 0.25, 1e-5);
+  EXPECT_NEAR(saved["roughnessFactor"], 0.6, 1e-5);
+}
+
+TEST(Save, GltfKeepsTheMotion) {
+  const Scene saved = load_or_die(source_path("scenes/windmill.glb"));
+  ASSERT_GT(duration_s(saved), 0.0);
+  save_scene(saved, temporary("moving.gltf"));
+  const Scene loaded = load_or_die(temporary("moving.gltf"));
+  for (const double seconds : {0.0, 0.4, 1.9}) {
+    const Scene a = at_time(saved, seconds).value(), b = at_time(loaded, seconds).value();
+    expect_same_triangles(*a.mesh, *b.mesh);
+    EXPECT_EQ(a.mesh->triangle_materials, b.mesh->triangle_materials);
+    EXPECT_EQ(a.lights.size(), b.lights.size());
+  }
+  Warnings warnings;
+  save_scene(saved, temporary("still.obj"), nullptr, &warnings);
+  EXPECT_FALSE(warnings.empty());
 }
 
 // A quad with an image of its own for colour and one for alpha, as MTL has it.

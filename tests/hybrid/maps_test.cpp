@@ -98,6 +98,15 @@ std::vector<Feature> features() {
     m.occlusion = m.emissive = use();
     m.occlusion_strength = 0.7f;
   });
+  add("specular, its colour, transmission", [](MaterialMaps& m) {
+    m.from_gltf = true;
+    m.surface.metallic = 0.0f;
+    m.surface.roughness = 0.2f;
+    m.surface.ior = 2.4f;
+    m.surface.transmission = 0.8f;
+    m.specular = m.transmission = use();
+    m.specular_color = use(Wrap::mirror, Wrap::clamp);
+  });
   add("unlit, vertex colours", [](MaterialMaps& m) {
     m.from_gltf = m.surface.unlit = m.vertex_colors = true;
     m.base_color = use();
@@ -136,6 +145,7 @@ TEST(Maps, LookTheSameToGpuCpuAndReference) {
     Material material;
     material.specular = glm::vec3(0.3f);
     material.shininess = 20.0f;
+    if (f.maps.transmission.used()) material.transmittance = glm::vec3(1.0f);
     if (f.maps.metallic_roughness.used()) material.reflectance = glm::vec3(1.0f), material.fresnel = true;
     const Scene scene = plate_with(f.maps, noise(f.texture, 9), material);
     const FrameResult hybrid = draw_one(scene, {.settings = by({{"mode", "hybrid"}}), .size = kSize});

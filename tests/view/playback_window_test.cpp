@@ -1,4 +1,4 @@
-// An animated scene on a display: play, pause, one frame on or back.
+// An animated scene on a display: play, pause, one frame on or back, and the slider of its time.
 #include "tests/view/display.h"
 
 namespace pinocchio {
@@ -14,6 +14,15 @@ class PlaybackWindowTest : public WindowTest {
   [[nodiscard]] double time_s() {
     const std::string time = option(command_line(), "--time");
     return time.empty() ? -1.0 : std::stod(time);
+  }
+  void click(int x, int y) const {
+    xdo("mousemove --window " + window_ + " " + std::to_string(x) + " " + std::to_string(y) +
+        " sleep 0.1 mousedown 1 sleep 0.1 mouseup 1");
+  }
+  // A pose is made after it was asked for.
+  template <class Condition>
+  [[nodiscard]] bool shows(Condition holds, double seconds = 60.0) {
+    return becomes([&] { return holds(time_s()); }, seconds);
   }
 };
 
@@ -43,6 +52,34 @@ TEST_F(PlaybackWindowTest, PlaysPausesAndGoesOnByFrames) {
   key("ctrl+Left");
   pause_ms(500);
   EXPECT_NEAR(time_s(), next_s - kFrame_s, 1e-6);
+  expect_clean_close();
+}
+
+TEST_F(PlaybackWindowTest, TheSliderStopsAndMovesTheTime) {
+  open_as_is(scene("windmill.glb"));
+  key(kStill);
+  EXPECT_EQ(time_s(), 0.0);
+  // It lies above the status line, in the middle; how high that is depends on the font.
+  constexpr int kLeft = 300, kMiddle = 400, kRight = 480;
+  int y = 553;
+  const auto found = [&] {
+    click(kMiddle, y);
+    return shows([](double s) { return s > 0.0; }, 0.5);
+  };
+  for (int step = 1; !found() && step < 12; ++step) y = 553 + (step % 2 == 1 ? 5 : -5) * ((step + 1) / 2);
+  const double middle_s = time_s();
+  ASSERT_GT(middle_s, 0.0) << "no click met the slider";
+  click(kRight, y);
+  EXPECT_TRUE(shows([&](double s) { return s > middle_s && s <= kLength_s; }));
+  click(kLeft, y);
+  EXPECT_TRUE(shows([&](double s) { return s > 0.0 && s < middle_s; }));
+  key("space");
+  const double begin_s = time_s();
+  EXPECT_TRUE(shows([&](double s) { return s != begin_s; }));
+  click(kMiddle, y);
+  EXPECT_TRUE(shows([&](double s) { return s == middle_s; }));
+  pause_ms(500);
+  EXPECT_EQ(time_s(), middle_s);
   expect_clean_close();
 }
 

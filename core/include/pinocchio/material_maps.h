@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <glm/glm.hpp>
 
@@ -35,6 +36,10 @@ struct MaterialMaps {
   TextureUse occlusion;           // R; multiplies ambient light
   TextureUse emissive;            // sRGB; multiplies emission
   TextureUse alpha;               // multiplies `alpha_factor`
+  // KHR_materials_specular and _transmission; from_gltf only
+  TextureUse specular;        // A; multiplies `surface.specular`
+  TextureUse specular_color;  // sRGB; multiplies `surface.specular_color`
+  TextureUse transmission;    // R; multiplies `surface.transmission`
   int alpha_channel = 3;          // of that texture: 0 R to 3 A
   float normal_scale = 1.0f;
   float occlusion_strength = 1.0f;
@@ -54,6 +59,20 @@ struct MaterialMaps {
            (alpha_mode == AlphaMode::blend && (alpha.used() || vertex_colors || alpha_factor <= 0.0f));
   }
   [[nodiscard]] bool blends() const { return alpha_mode == AlphaMode::blend; }
+  // Whether textures change what a dielectric mirrors and lets through.
+  [[nodiscard]] bool maps_dielectric() const {
+    return specular.used() || specular_color.used() || transmission.used();
+  }
+
+  // Every texture that may be used.
+  [[nodiscard]] std::array<TextureUse*, 9> uses() {
+    return {&base_color, &metallic_roughness, &normal,         &occlusion,   &emissive,
+            &alpha,      &specular,           &specular_color, &transmission};
+  }
+  [[nodiscard]] std::array<const TextureUse*, 9> uses() const {
+    return {&base_color, &metallic_roughness, &normal,         &occlusion,   &emissive,
+            &alpha,      &specular,           &specular_color, &transmission};
+  }
 
   friend bool operator==(const MaterialMaps&, const MaterialMaps&) = default;
 };
