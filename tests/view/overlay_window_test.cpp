@@ -71,6 +71,7 @@ TEST_F(OverlayTest, EscapeClosesPopupThenHelpThenFullScreenThenTheWindow) {
   ASSERT_TRUE(becomes([this] { return option(command_line(), "--size") == "1280x800"; }, 20.0));
   const std::string popup = "200x200+1060+570", help = "600x300+340+200";
   xdo(at(1167, 790));  // on "Panels", which has its tooltip from now on
+  ASSERT_TRUE(becomes([this] { return load(0.5) < 0.05; }));  // the large picture is done
   settle("bare.png");
   key("F1");
   settle("help.png");
