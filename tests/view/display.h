@@ -145,7 +145,7 @@ class WindowTest : public testing::Test {
   // The window's inside, as the display has it.
   void grab(const std::string& file) const {
     (void)run_command(
-        "cd '" + folder_.string() + "' && DISPLAY=" + display_ + " import -window " + window_ + " " + file,
+        "cd '" + folder_.string() + "' && DISPLAY=" + display_ + " import -define png:compression-level=1 -window " + window_ + " " + file,
         folder_);
   }
   // Pixels that differ; -1 where the pictures cannot be compared.
@@ -212,14 +212,14 @@ class WindowTest : public testing::Test {
     const auto end = std::ranges::find_if(margin, [](int value) { return value > kPanel; });
     return runs(brightness(x, from_y, 200, static_cast<int>(end - margin.begin())), from_y, kText, 6, 20);
   }
-  // Until the picture stands still.
-  void settle() const {
-    grab("settle-a.png");
-    (void)becomes([this] {
+  // Until the picture stands still; it is in the file then.
+  void settle(const std::string& file = "still.png") const {
+    grab(file);
+    (void)becomes([&] {
       pause_ms(200);
-      grab("settle-b.png");
-      const bool still = different("settle-a.png", "settle-b.png") == 0;
-      std::filesystem::rename(folder_ / "settle-b.png", folder_ / "settle-a.png");
+      grab("now-" + file);
+      const bool still = different(file, "now-" + file) == 0;
+      std::filesystem::rename(folder_ / ("now-" + file), folder_ / file);
       return still;
     });
   }

@@ -36,11 +36,9 @@ TEST_F(LookingTest, TheWheelWithControlEnlargesPixels) {
   open(scene("cornell"));
   key(kStill);
   xdo(at(160, 120));
-  settle();
-  grab("whole.png");
+  settle("whole.png");
   xdo("keydown ctrl sleep 0.05 click --repeat 10 --delay 30 4 sleep 0.05 keyup ctrl");
-  settle();
-  grab("large.png");
+  settle("large.png");
   EXPECT_GT(different("whole.png", "large.png"), 1000);
   const auto steps = [this](const std::string& file) {  // from a pixel to its right neighbour
     (void)run_command("cd '" + folder_.string() + "' && convert " + file + " -crop 319x240+0+0 +repage left.png && convert " +
@@ -50,8 +48,7 @@ TEST_F(LookingTest, TheWheelWithControlEnlargesPixels) {
   EXPECT_LT(2 * steps("large.png"), steps("whole.png"));
   EXPECT_EQ(option(command_line(), "--size"), "320x240");  // what is drawn is the same
   xdo(at(160, 120) + "keydown ctrl sleep 0.05 click --repeat 12 --delay 30 5 sleep 0.05 keyup ctrl");
-  settle();
-  grab("back.png");
+  settle("back.png");
   EXPECT_EQ(different("whole.png", "back.png"), 0);
   expect_clean_close();
 }
@@ -61,11 +58,9 @@ TEST_F(LookingTest, ThePanelPixelFollowsThePointer) {
   key(std::string(kStill) + " F8");
   ASSERT_TRUE(becomes([&] {
     xdo(at(200, 150));
-    settle();
-    grab("one.png");
+    settle("one.png");
     xdo(at(300, 400));
-    settle();
-    grab("other.png");
+    settle("other.png");
     return different_in("340x300+452+270", "one.png", "other.png") > 200;
   }, 30.0));
   EXPECT_EQ(different_in("400x500+0+0", "one.png", "other.png"), 0);  // the picture stands still
@@ -76,17 +71,13 @@ TEST_F(LookingTest, ThePanelPixelFollowsThePointer) {
 TEST_F(LookingTest, TheHistogramFollowsTheExposure) {
   open_as_is(scene("cornell"));
   key(std::string(kStill) + " F3");
-  pause_ms(7000);  // what P said is gone by itself
-  settle();
-  grab("before.png");
+  settle("before.png");
   key("plus plus");
-  settle();
-  grab("after.png");
+  settle("after.png");
   EXPECT_GT(different_in("350x420+442+0", "before.png", "after.png"), 1000);
   key("minus minus");
-  settle();
-  grab("again.png");
-  EXPECT_EQ(different("before.png", "again.png"), 0);
+  settle("again.png");
+  EXPECT_EQ(different_in("350x420+442+0", "before.png", "again.png"), 0);
   expect_clean_close();
 }
 
@@ -95,13 +86,10 @@ TEST_F(LookingTest, AMaterialIsPickedByAClick) {
   open_as_is(scene("cornell"), "800x600");
   key(kStill);
   const std::string eye = option(command_line(), "--eye");
-  pause_ms(7000);  // what P said is gone by itself
-  settle();
-  grab("before.png");
+  settle("before.png");
   ASSERT_TRUE(becomes([this] {
     click_with("ctrl", 150, 300);
-    settle();
-    grab("panel.png");
+    settle("panel.png");
     return different_in("320x500+470+50", "before.png", "panel.png") > 20000;
   }, 30.0));
   EXPECT_EQ(command_line().find("cornell-001.gltf"), std::string::npos);  // nothing was changed yet

@@ -27,8 +27,7 @@ TEST_F(OpeningTest, ADroppedFileIsOpenedAndABadOneChangesNothing) {
   std::ofstream(folder_ / "damaged.obj") << "v 0 0 0\nf 1 2 7\n";
   open("cornell.gltf", "--spp 1");
   const std::string before = command_line();
-  settle();
-  grab("before.png");
+  settle("before.png");
   for (const char* bad : {"damaged.obj", "missing.obj"}) {
     ASSERT_TRUE(drop(bad)) << bad;
     EXPECT_TRUE(becomes([&] { return errors().find(bad) != std::string::npos; })) << errors();
@@ -37,8 +36,7 @@ TEST_F(OpeningTest, ADroppedFileIsOpenedAndABadOneChangesNothing) {
   EXPECT_EQ(command_line(), before);
   drag(1, 40, 10);  // the old scene is drawn as before
   key("r");
-  settle();
-  grab("after.png");
+  settle("after.png");
   EXPECT_EQ(different_in("320x60+0+0", "before.png", "after.png"), 0);  // above the messages
   ASSERT_TRUE(drop("speed%20boat.glb"));
   EXPECT_TRUE(shows("speed boat.glb"));

@@ -111,8 +111,7 @@ TEST_F(PanelsTest, TheTimelineIsPausedAndZoomed) {
   const std::string chart = "740x110+18+440";
   const auto grabbed = [&](const std::string& file) {
     xdo(at(700, 20));
-    settle();
-    grab(file);
+    settle(file);
   };
   const auto turn = [this] { drag(1, 40, 0); };
   turn();
@@ -148,8 +147,7 @@ TEST_F(PanelsTest, TheTimelineIsPausedAndZoomed) {
 // A light is moved by its number, and put back.
 TEST_F(PanelsTest, ALightIsMovedAndPutBack) {
   open_with("Lights", 8, scene("cornell"), " --mode raster");
-  settle();
-  grab("before.png");
+  settle("before.png");
   const std::vector<int> rows = widgets_at(8 + 112, 8 + 22, 300);
   ASSERT_GE(rows.size(), 2u);  // position, intensity
   drag_from(8 + 140, rows[1], -60);  // darker

@@ -11,8 +11,7 @@ TEST_F(WindowTest, ScreenshotIsTheDisplaysAndThePrintedCommandDrawsIt) {
   key(kStill);
   drag(1, 40, 20);
   const std::string command = command_line();
-  settle();
-  grab("display.png");
+  settle("display.png");
   key("F12");
   ASSERT_TRUE(becomes([this] { return std::filesystem::exists(folder_ / "cornell-001.png"); }));
   EXPECT_EQ(different("display.png", "cornell-001.png"), 0);
@@ -200,8 +199,7 @@ TEST_F(WindowTest, WatchedShadersAndScene) {
   for (const char* file : {"cornell.gltf", "cornell.bin"}) std::filesystem::copy(scene(file), folder_ / file);
   open("cornell.gltf", "--watch", {"PINOCCHIO_SHADERS=" + (folder_ / "shaders").string()});
   key(kStill);
-  settle();
-  grab("sound.png");
+  settle("sound.png");
   const std::string sound = text_of(folder_ / "shaders/composite.frag");
   std::ofstream(folder_ / "shaders/composite.frag") << sound << "no shader\n";
   const auto differs = [this](const std::string& from) {
