@@ -45,10 +45,11 @@ FrameResult precise(const FrameRequest& request, Workers& workers) {
   mean.scene = request.scene;
   mean.view = request.view;
   mean.settings = request.settings;
+  settle_environment(mean.scene, mean.settings);
   const int spp = request.settings.spp;
   for (int k = 0; k < spp; ++k) {
     const View view = at_sample(request.view, k, request.settings.pixel_filter);
-    ReferencePicture sample = reference_render(request.scene, view, request.settings.depth, workers, &run_progress(),
+    ReferencePicture sample = reference_render(mean.scene, view, request.settings.depth, workers, &run_progress(),
                                                texture_footprint(request.settings, view), request.settings.terminator);
     if (k == 0) {
       mean.color = std::move(sample.color);
@@ -97,8 +98,8 @@ class RenderRun {
   }
 
   void check(const Scene& scene) const {
-    if (options_.draw.precise && (scene.environment || options_.draw.settings.indirect > 0))
-      throw Exit(kUsage, "--precise knows no --environment and no --indirect light; leave --precise out, and take --spp");
+    if (options_.draw.precise && options_.draw.settings.indirect > 0)
+      throw Exit(kUsage, "--precise knows no --indirect light; leave --precise out, and take --spp");
     if (options_.output.exr.empty() && options_.output.preview.empty() && options_.stats_json.empty())
       throw Exit(kUsage,
                  "nothing to write; name a file with -o FILE.exr, --preview FILE.png or --stats-json");

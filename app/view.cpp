@@ -58,8 +58,9 @@ int view(const ViewOptions& options) {
   window->context().throw_complaints();
   const int code = interrupted() ? kInterrupted : kDone;
   if (!loading) return code;
-  // A scene is still being read that nobody wants any more; nothing is left to be written.
-  std::fflush(nullptr);
+  // A scene is still being read that nobody wants any more; nothing is left to be written but what was
+  // printed: other files may be locked by who reads them.
+  std::fflush(stdout);
   std::_Exit(code);
 }
 

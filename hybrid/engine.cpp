@@ -90,11 +90,7 @@ const SceneStats& Engine::Parts::stats_of(const Scene& scene) {
 
 void settle_lights(Scene& scene, const Settings& settings) {
   drop_idle_casters(scene);
-  scene.environment_rotation_deg = settings.environment_rotation;
-  scene.environment_strength = settings.environment_strength;
-  if (settings.environment_strength <= 0.0f) scene.environment.reset();
-  // Ambient light stands for light from other surfaces and the sky.
-  if (settings.reflects() && (settings.indirect > 0 || scene.environment)) scene.ambient_light = glm::vec3(0.0f);
+  settle_environment(scene, settings);
   if (settings.mask_bits > 0) return;
   for (Light& light : scene.lights) light.casts_shadow = false;
 }

@@ -65,8 +65,17 @@ unsigned Frame::texture_name() const {
 }
 
 void Frame::read_color(Image<glm::vec4>& color) const {
-  if (!slot_.request.settings.uses_gpu()) {
+  const Settings& s = slot_.request.settings;
+  if (!s.uses_gpu()) {
     color = slot_.color;
+    return;
+  }
+  // A sample of many is taken from the CPU, which has it unrounded: the mean of samples that were cut off at white
+  // would be too dark.
+  if (s.composite == Processor::cpu && s.spp > 1) {
+    fit(color, slot_.unpacked.size());
+    for (std::size_t i = 0; i < color.pixels().size(); ++i)
+      color[i] = glm::vec4(slot_.unpacked[i], slot_.ids[i] == kNoTriangle ? 0.0f : 1.0f);
     return;
   }
   const StageTimer timer(slot_.record, Stage::present);

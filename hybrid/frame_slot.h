@@ -69,6 +69,7 @@ struct FrameSlot {
   // CPU: what is seen, and the answer.
   Image<std::uint32_t> ids;
   Image<glm::u8vec3> phong_srgb;  // visibility gpu, composite cpu: light that needs no shadow ray
+  Image<glm::vec3> unpacked;      // ... and spp above 1: the picture that it sends, before it is rounded and cut off
   bool answered = false;          // the CPU's part is where it belongs
   MaskImage mask;                 // one sample for mask_scale pixels a side
   Image<glm::vec3> reflection;    // likewise

@@ -19,6 +19,14 @@ float texture_footprint(const Settings& settings, const View& view) {
   return samples == 1 ? 1.0f : 1.0f / std::sqrt(static_cast<float>(samples));
 }
 
+void settle_environment(Scene& scene, const Settings& settings) {
+  scene.environment_rotation_deg = settings.environment_rotation;
+  scene.environment_strength = settings.environment_strength;
+  if (settings.environment_strength <= 0.0f) scene.environment.reset();
+  // Ambient light stands for light from other surfaces and the sky.
+  if (settings.reflects() && (settings.indirect > 0 || scene.environment)) scene.ambient_light = glm::vec3(0.0f);
+}
+
 void submit_samples(Renderer& renderer, FrameRequest request, SampleMean* mean) {
   for (int k = 0; k < request.settings.spp; ++k) {
     request.view = at_sample(request.view, k, request.settings.pixel_filter);

@@ -17,6 +17,10 @@ namespace pinocchio {
 // samples themselves average, too. 0: they are not filtered.
 [[nodiscard]] float texture_footprint(const Settings& settings, const View& view);
 
+// A scene's environment as the settings turn it, and no ambient light where that, or light from other surfaces, is
+// sampled.
+void settle_environment(Scene& scene, const Settings& settings);
+
 class SampleMean;
 
 // Submits as many frames as the settings have samples a pixel: the first at the pixels' centres, the others

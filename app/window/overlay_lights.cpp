@@ -35,7 +35,8 @@ bool edit_size(Light& light, const Model& model) {
 }
 
 bool edit_light(Light& light, const Model& model) {
-  bool changed = checkbox(light.name.empty() ? "light" : light.name.c_str(), light.casts_shadow, "casts shadows");
+  const std::string shadows = (light.name.empty() ? "light" : light.name) + ": casts shadows";
+  bool changed = checkbox(shadows.c_str(), light.casts_shadow, "off: its light goes through everything");
   const float speed = std::max(0.01f * light.intensity, 0.005f);
   if (light.kind == Light::Kind::directional) {
     label("direction", "that its light goes, x y z");

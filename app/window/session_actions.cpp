@@ -41,9 +41,10 @@ void Session::perform(Action action) {
       case Action::next_buffer:
         return next_buffer(model_.settings, model_.stats.casting_lights);
       case Action::undo:
-        return restore(edits_.undo(), "nothing to undo");
       case Action::redo:
-        return restore(edits_.redo(), "nothing to redo");
+        if (model_.has_scene()) edits_.note(edit_state(), now_s());  // with the keys that were pressed just before
+        return action == Action::undo ? restore(edits_.undo(), "nothing to undo")
+                                      : restore(edits_.redo(), "nothing to redo");
       case Action::screenshot:
         return take_screenshot();
       case Action::record:
@@ -163,8 +164,11 @@ void Session::step_file(int by) {
   open(file);
 }
 
+// Whether the panels are hidden is none of it.
 EditState Session::edit_state() const {
-  return {model_.settings, model_.camera.camera(), model_.scene.lights, model_.scene.mesh->materials};
+  EditState state{model_.settings, model_.camera.camera(), model_.scene.lights, model_.scene.mesh->materials};
+  state.settings.overlay = true;
+  return state;
 }
 
 void Session::restore(const std::optional<EditState>& state, const char* nothing) {

@@ -6,6 +6,7 @@
 #include "core/base/clock.h"
 #include "core/trace/jitter.h"
 #include "gl/error.h"
+#include "hybrid/samples.h"
 
 namespace pinocchio::app {
 namespace {
@@ -124,13 +125,15 @@ bool Session::follow_reference(const FrameRequest& request) {
     comparison_.reset();
     return !before.empty();
   }
-  if (request.scene.environment || applied_.settings.indirect > 0) {
+  if (applied_.settings.indirect > 0) {
     comparison_.reset();
-    model_.comparison = "the reference knows no environment and no indirect light";
+    model_.comparison = "the reference knows no indirect light";
     return model_.comparison != before;
   }
   if (!comparison_) comparison_ = std::make_unique<Comparison>();
-  const bool newer = comparison_->follow({request.scene, request.view, applied_.settings.depth});
+  Scene scene = request.scene;
+  settle_environment(scene, request.settings);
+  const bool newer = comparison_->follow({std::move(scene), request.view, applied_.settings.depth});
   model_.comparison = std::string("left: as drawn   right: ") +
                       (applied_.split == Split::heat_map ? "visible difference" : "reference") + "   " +
                       comparison_->text();

@@ -75,6 +75,7 @@ void Session::take_scene(SceneLoader::News& news) {
   window_.set_title(scene.source + " - Pinocchio");
   preferences_.add_recent(scene.source);
   model_.recent = preferences_.recent;
+  if (!again) model_.files = {};  // its folder, from now on
   if (options_.watch && again && scene_watch_) {
     model_.messages.news(scene.source + " was loaded anew");
     scene_watch_->follow(scene.source_files);
@@ -169,9 +170,9 @@ void Session::want_tree(const Settings& given) {
 
 // The tree stays: the triangles are the same.
 void Session::set_materials(std::vector<Material> materials) {
-  MeshData data = *model_.scene.mesh;
-  data.materials = std::move(materials);
-  model_.scene.mesh = std::make_shared<const Mesh>(std::move(data));
+  auto mesh = std::make_shared<Mesh>(*model_.scene.mesh);
+  mesh->materials = std::move(materials);
+  model_.scene.mesh = std::move(mesh);
   model_.stats = analyze(model_.scene);
   scene_edited_ = true;
 }

@@ -16,6 +16,11 @@ FrameRequest raster_only(FrameRequest request) {
   return request;
 }
 
+Scene settled(Scene scene, const Settings& settings) {
+  settle_environment(scene, settings);
+  return scene;
+}
+
 // What a person sees: after each frame of the motion is asked for, the picture that is there by then.
 class Screen {
  public:
@@ -46,7 +51,7 @@ Bench::Bench(Engine& engine, FrameRequest base, const BenchSettings& settings, s
       settings_(settings),
       views_(std::move(views)),
       folder_(std::move(folder)),
-      ground_truth_(last_.scene, last_.settings.depth, settings_.area_side, views_, folder_ / "pictures", engine.workers(),
+      ground_truth_(settled(last_.scene, last_.settings), last_.settings.depth, settings_.area_side, views_, folder_ / "pictures", engine.workers(),
                     settings_.progress),
       raster_(engine, raster_only(last_), settings_.progress) {}
 

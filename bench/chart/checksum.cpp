@@ -85,6 +85,7 @@ std::uint32_t checksum_of(const Scene& scene) {
   }
   for (const Light& light : scene.lights) add_light(checksum, light);
   checksum.add(scene.ambient_light);
+  if (scene.environment) checksum.add_all(scene.environment->radiance().pixels());
   return checksum.sum();
 }
 

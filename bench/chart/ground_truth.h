@@ -22,9 +22,9 @@ class GroundTruth {
  public:
   // depth: most bounces. area_side: the area reference is the mean of so many times so many samples, evenly
   // spread over the pixel. folder: where they are kept; it holds none of another run.
-  GroundTruth(const Scene& scene, int depth, int area_side, const std::vector<View>& views,
+  GroundTruth(Scene scene, int depth, int area_side, const std::vector<View>& views,
               std::filesystem::path folder, Workers& workers, Progress* progress)
-      : scene_(scene),
+      : scene_(std::move(scene)),
         depth_(depth),
         area_side_(area_side),
         views_(views),
@@ -41,7 +41,7 @@ class GroundTruth {
  private:
   [[nodiscard]] Image<glm::vec3> draw(std::size_t frame, bool area) const;
 
-  const Scene& scene_;
+  Scene scene_;
   int depth_, area_side_;
   const std::vector<View>& views_;
   std::filesystem::path folder_;

@@ -2,20 +2,77 @@
 
 #include <sys/mman.h>
 
+#include <algorithm>
+#include <array>
 #include <cstdlib>
+#include <mutex>
 
 namespace pinocchio {
 namespace {
 
 constexpr std::size_t kLargePage = std::size_t{1} << 21, kCacheLineBytes = 64;
 
+// The last page is a large one, too, where an eighth at most is added by it.
+std::size_t whole_pages(std::size_t bytes) {
+  const std::size_t whole = (bytes + kLargePage - 1) / kLargePage * kLargePage;
+  return whole - bytes <= bytes / 8 ? whole : bytes;
+}
+
+// Blocks of large pages that were freed lately, the oldest first. Whoever finds another thread here does
+// without (in a process that was forked meanwhile, that may be for ever).
+class Spare {
+ public:
+  void* take(std::size_t size) {
+    const std::unique_lock lock(mutex_, std::try_to_lock);
+    for (std::size_t i = 0; lock && i < count_; ++i)
+      if (blocks_[i].size == size) return remove(i);
+    return nullptr;
+  }
+
+  bool keep(void* memory, std::size_t size) {
+    const std::unique_lock lock(mutex_, std::try_to_lock);
+    if (!lock || size > kMost) return false;
+    while (bytes_ + size > kMost || count_ == blocks_.size()) std::free(remove(0));
+    blocks_[count_++] = {memory, size};
+    bytes_ += size;
+    return true;
+  }
+
+ private:
+  struct Block {
+    void* memory;
+    std::size_t size;
+  };
+
+  void* remove(std::size_t i) {
+    const Block block = blocks_[i];
+    std::copy(blocks_.begin() + i + 1, blocks_.begin() + count_, blocks_.begin() + i);
+    --count_;
+    bytes_ -= block.size;
+    return block.memory;
+  }
+
+  // The pictures of four frames of 800 x 600.
+  static constexpr std::size_t kMost = std::size_t{64} << 20;
+
+  std::mutex mutex_;
+  std::array<Block, 16> blocks_{};
+  std::size_t count_ = 0, bytes_ = 0;
+};
+
+// Never destroyed: pictures of static storage may be freed after it would have been.
+Spare& spare() {
+  static Spare& all = *new Spare;
+  return all;
+}
+
 }  // namespace
 
 void* allocate_pixels(std::size_t bytes) {
-  // The last page is a large one, too, where an eighth at most is added by it.
-  const std::size_t whole = (bytes + kLargePage - 1) / kLargePage * kLargePage;
-  const std::size_t size = whole - bytes <= bytes / 8 ? whole : bytes;
+  const std::size_t size = whole_pages(bytes);
   const bool large = size >= kLargePage;
+  if (large)
+    if (void* const memory = spare().take(size)) return memory;
   void* memory = nullptr;
   if (posix_memalign(&memory, large ? kLargePage : kCacheLineBytes, size) != 0) throw std::bad_alloc();
 #ifdef MADV_HUGEPAGE
@@ -24,6 +81,9 @@ void* allocate_pixels(std::size_t bytes) {
   return memory;
 }
 
-void free_pixels(void* memory) noexcept { std::free(memory); }
+void free_pixels(void* memory, std::size_t bytes) noexcept {
+  const std::size_t size = whole_pages(bytes);
+  if (size < kLargePage || !spare().keep(memory, size)) std::free(memory);
+}
 
 }  // namespace pinocchio

@@ -12,8 +12,9 @@ ReferencePicture reference_render(const Scene& scene, const View& view, int dept
   const auto casting = static_cast<int>(casting_lights(scene).size());
   assert(casting <= kMaxCastingLights);
   const glm::ivec2 size = view.box().size();
+  const bool mirrors = depth > 0 || scene.environment;
   ReferencePicture picture{Image<std::uint32_t>(size), MaskImage(size, MaskImage::bits_for(casting)),
-                           depth > 0 ? Image<glm::vec3>(size) : Image<glm::vec3>(), Image<glm::vec4>(size)};
+                           mirrors ? Image<glm::vec3>(size) : Image<glm::vec3>(), Image<glm::vec4>(size)};
   const shared::ViewParams rays = view_params(view);
 
   const ReferenceTree tree(*scene.mesh, progress);
@@ -23,7 +24,7 @@ ReferencePicture reference_render(const Scene& scene, const View& view, int dept
     picture.ids.at(x, y) = pixel.triangle;
     for (int slot = 0; slot < casting; ++slot)
       if (pixel.mask >> slot & 1u) picture.mask.set_bit(x, y, slot);
-    if (depth > 0) picture.reflection.at(x, y) = pixel.reflection;
+    if (mirrors) picture.reflection.at(x, y) = pixel.reflection;
     picture.color.at(x, y) = pixel.color;
   };
   const TileGrid grid(size);  // a tile's row is whole bytes of the mask

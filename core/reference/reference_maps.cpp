@@ -16,7 +16,7 @@ glm::dvec3 scaled(const glm::vec3& a, const glm::dvec3& b) {
 ReferenceMaterial as_it_stands(const Material& m) {
   return {glm::dvec3(m.ambient),     glm::dvec3(m.diffuse),       glm::dvec3(m.specular), glm::dvec3(m.emission),
           glm::dvec3(m.reflectance), glm::dvec3(m.transmittance), m.shininess,            m.ior,
-          m.fresnel,                 m.gloss};
+          m.fresnel,                 m.brdf,                      m.gloss};
 }
 
 // What textures make of a surface at a point.
@@ -29,6 +29,7 @@ struct PointSurface {
 ReferenceMaterial phong_of(const GltfSurface& s, const PointSurface& at) {
   const auto& [base, emissive, specular, metallic, roughness, transmission] = at;
   ReferenceMaterial m{};
+  m.brdf = true;
   m.shininess = m.ior = 1.0;
   m.emission = s.unlit ? base : emissive;
   if (s.unlit) return m;

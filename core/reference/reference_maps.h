@@ -12,6 +12,7 @@ struct ReferenceMaterial {
   glm::dvec3 ambient, diffuse, specular, emission, reflectance, transmittance;
   double shininess, ior;
   bool fresnel;
+  bool brdf;           // its coefficients hold a BRDF's 1 / pi; else that is counted to the light
   double gloss = 0.0;  // exponent of the mirrored rays' lobe; 0: sharp
   double alpha = 1.0;  // the surface's share of what is seen there
 

@@ -176,6 +176,17 @@ std::vector<ReferenceLight> reference_lights(const Light& light, const Reference
   return point;
 }
 
+std::vector<ReferenceLight> reference_sky(const ReferenceEnvironment& environment, const ReferenceSurface& surface,
+                                          Terminator terminator) {
+  const double share = (surface.material.brdf ? 1.0 : std::numbers::inv_pi) / (kReferencePoints * kReferencePoints);
+  std::vector<ReferenceLight> points;
+  for_each_cell(kReferencePoints, surface.p_world, [&](const glm::dvec2& cell) {
+    const ReferenceEnvironment::Sample from = environment.sample(cell);
+    add_point(surface, from.direction, share * from.light, nullptr, terminator, points);
+  });
+  return points;
+}
+
 std::vector<ReferenceBounce> reference_lobe(const ReferenceSurface& s, const ReferenceBounce& mirrored,
                                             int side) {
   std::vector<ReferenceBounce> rays;

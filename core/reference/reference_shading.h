@@ -4,6 +4,7 @@
 #include <glm/glm.hpp>
 #include <vector>
 
+#include "core/reference/reference_environment.h"
 #include "core/reference/reference_surface.h"
 #include "pinocchio/light.h"
 #include "pinocchio/terminator.h"
@@ -23,6 +24,10 @@ struct ReferenceLight {
 inline constexpr int kReferencePoints = 16;
 [[nodiscard]] std::vector<ReferenceLight> reference_lights(const Light& light, const ReferenceSurface& surface,
                                                            Terminator terminator);
+
+// Light from all around: as many samples of the environment.
+[[nodiscard]] std::vector<ReferenceLight> reference_sky(const ReferenceEnvironment& environment,
+                                                        const ReferenceSurface& surface, Terminator terminator);
 
 // Id + Is of that light (Phong, "Illumination for Computer Generated Pictures", CACM 18(6), 1975):
 //   I (kd (N.L) + ks (R.V)^n),  R = 2 (N.L) N - L

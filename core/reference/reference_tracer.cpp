@@ -33,12 +33,16 @@ ReferenceTracer::Pixel ReferenceTracer::pixel(const shared::ViewParams& view, in
   const ReferenceHit hit = closest_hit(ray);
   Pixel pixel;
   pixel.triangle = hit.triangle;
-  if (!hit.valid()) return pixel;
+  if (!hit.valid()) {
+    if (environment_) pixel.color = glm::vec4(glm::vec3(environment_->radiance(ray.direction)), 0.0f);
+    return pixel;
+  }
   const double side = texture_footprint_ * hit.t;
   ReferenceSpread spread{ray.direction, side * glm::dvec3(view.step_x), side * glm::dvec3(view.step_y)};
   if (texture_footprint_ == 0.0) spread = {};
   const ReferenceSurface surface = reference_surface(*scene_.mesh, ray, hit, spread);
-  const glm::dvec3 own = direct(surface, pixel.mask), mirrored = bounced(surface, depth, cone_after(ray, hit), kLobeSide);
+  const glm::dvec3 own = direct(surface, pixel.mask);
+  const glm::dvec3 mirrored = from_sky(surface) + bounced(surface, depth, cone_after(ray, hit), kLobeSide);
   pixel.reflection = glm::vec3(mirrored);
   pixel.color = glm::vec4(glm::vec3(own + mirrored), 1.0f);
   return pixel;
@@ -59,6 +63,17 @@ glm::dvec3 ReferenceTracer::direct(const ReferenceSurface& surface, unsigned& bi
       sum += share * reference_phong(surface, point);
     }
     if (light.casts_shadow && all > 0.0 && seen >= 0.5 * all) bits |= 1u << slot;
+  }
+  return surface.material.alpha * sum;
+}
+
+// The environment's light that the surface sends on.
+glm::dvec3 ReferenceTracer::from_sky(const ReferenceSurface& surface) const {
+  glm::dvec3 sum(0.0);
+  if (!environment_) return sum;
+  for (const ReferenceLight& point : reference_sky(*environment_, surface, terminator_)) {
+    if (point.way_up && tree_.occluded(*point.way_up)) continue;
+    sum += unblocked(point.shadow) * reference_phong(surface, point);
   }
   return surface.material.alpha * sum;
 }
@@ -89,11 +104,11 @@ glm::dvec3 ReferenceTracer::bounced(const ReferenceSurface& surface, int depth, 
 
 glm::dvec3 ReferenceTracer::seen(const ReferenceRay& ray, int depth, int lobe_side) const {
   const ReferenceHit hit = closest_hit(ray);
-  if (!hit.valid()) return glm::dvec3(0.0);
+  if (!hit.valid()) return environment_ ? environment_->radiance(ray.direction) : glm::dvec3(0.0);
   const Cone cone = cone_after(ray, hit);
   const ReferenceSurface surface = reference_surface(*scene_.mesh, ray, hit, spread_of(ray, cone.width));
   unsigned bits = 0;
-  return direct(surface, bits) + bounced(surface, depth, cone, lobe_side);
+  return direct(surface, bits) + from_sky(surface) + bounced(surface, depth, cone, lobe_side);
 }
 
 namespace {

@@ -2,7 +2,9 @@
 
 #include <cstdint>
 #include <glm/glm.hpp>
+#include <optional>
 
+#include "core/reference/reference_environment.h"
 #include "core/reference/reference_surface.h"
 #include "core/reference/reference_tree.h"
 #include "core/trace/shared.h"
@@ -26,19 +28,22 @@ class ReferenceTracer {
         tree_(tree),
         texture_footprint_(texture_footprint),
         one_of_many_(one_of_many),
-        terminator_(terminator) {}
+        terminator_(terminator) {
+    if (scene.environment) environment_.emplace(scene);
+  }
 
   struct Pixel {
     std::uint32_t triangle = kNoTriangle;  // seen at the sample point
     unsigned mask = 0;                     // bit i: casting light i reaches it
-    glm::vec3 reflection{0.0f};            // mirrored plus refracted light, linear
-    glm::vec4 color{0.0f};                 // linear; A is 1 where something is hit
+    glm::vec3 reflection{0.0f};            // mirrored plus refracted light, and the environment's, linear
+    glm::vec4 color{0.0f};                 // linear; A is 1 where something is hit, else the environment is seen
   };
   // The pixel (x, y), counted from view.first; `depth` bounces at most.
   [[nodiscard]] Pixel pixel(const shared::ViewParams& view, int x, int y, int depth) const;
 
  private:
   glm::dvec3 direct(const ReferenceSurface& surface, unsigned& bits) const;
+  [[nodiscard]] glm::dvec3 from_sky(const ReferenceSurface& surface) const;
   // What textures are averaged over behind a hit.
   struct Cone {
     double width, angle;
@@ -57,6 +62,7 @@ class ReferenceTracer {
   double texture_footprint_;
   bool one_of_many_;
   Terminator terminator_;
+  std::optional<ReferenceEnvironment> environment_;
 };
 
 // The ray of the pixel (x, y); its t is z_eye.

@@ -48,7 +48,7 @@ constexpr Extension kExtensions[] = {
     {"KHR_materials_variants", "the first variant is drawn", ""},
     {"KHR_animation_pointer", "what it moves stands still", ""},
     {"KHR_node_visibility", "what is hidden is drawn", ""},
-    {"EXT_lights_image_based", "the light of its environment is missing", "give it as --environment FILE.exr or FILE.hdr"},
+    {"EXT_lights_image_based", "", ""},
 };
 
 const Extension* find_extension(std::string_view name) {

@@ -71,6 +71,13 @@ struct GltfFile {
 // yet.
 void add_gltf_materials(const GltfFile& file, MeshData& mesh);
 
+struct EncodedImage;
+// An image of the file, where its bytes are known. The index is one of model.images.
+[[nodiscard]] Expected<EncodedImage> gltf_image(const GltfFile& file, int index);
+
+// The scene's EXT_lights_image_based; null where it has none, or none that can be read, of which is warned.
+[[nodiscard]] std::shared_ptr<const Environment> gltf_environment(const GltfFile& file, const tinygltf::Scene& scene, Loading& loading);
+
 // Decodes the images that maps use and makes their textures the scene's; an image that cannot be read is a
 // warning and leaves what the material has without it.
 void add_gltf_textures(const GltfFile& file, MeshData& mesh, Loading& loading);

@@ -8,19 +8,6 @@
 namespace pinocchio {
 namespace {
 
-// An image of the file, where its bytes are known.
-Expected<EncodedImage> encoded_image(const GltfFile& file, int index) {
-  const tinygltf::Image& image = file.model.images[static_cast<std::size_t>(index)];
-  if (image.bufferView < 0 && !image.uri.empty())
-    return EncodedImage{image.uri, std::filesystem::path(image.uri).filename().string(), std::nullopt};
-  EncodedImage result{file.path.string(), image.name.empty() ? std::to_string(index) : image.name, image.image};
-  if (image.bufferView < 0) return result;
-  const auto bytes = file.bytes(image.bufferView, "image " + std::to_string(index));
-  if (!bytes) return Unexpected(bytes.error());
-  result.bytes = *bytes;
-  return result;
-}
-
 // The images of these indices, decoded; what is wrong with one is a warning and leaves it out.
 std::vector<std::optional<Texture>> textures_of(const GltfFile& file, const std::vector<int>& images, Loading& loading) {
   std::vector<std::optional<Texture>> textures(images.size());
@@ -33,7 +20,7 @@ std::vector<std::optional<Texture>> textures_of(const GltfFile& file, const std:
     warn(i, "an image cannot be read: " + error.message(), "what it would have covered has one colour");
   };
   for (std::size_t i = 0; i < images.size(); ++i) {
-    Expected<EncodedImage> image = encoded_image(file, images[i]);
+    Expected<EncodedImage> image = gltf_image(file, images[i]);
     if (!image) {
       cannot_be_read(i, image.error());
       continue;
@@ -87,6 +74,18 @@ void bound_rays(const MeshData& mesh, Material& material, const MaterialMaps& ma
 }
 
 }  // namespace
+
+Expected<EncodedImage> gltf_image(const GltfFile& file, int index) {
+  const tinygltf::Image& image = file.model.images[static_cast<std::size_t>(index)];
+  if (image.bufferView < 0 && !image.uri.empty())
+    return EncodedImage{image.uri, std::filesystem::path(image.uri).filename().string(), std::nullopt};
+  EncodedImage result{file.path.string(), image.name.empty() ? std::to_string(index) : image.name, image.image};
+  if (image.bufferView < 0) return result;
+  const auto bytes = file.bytes(image.bufferView, "image " + std::to_string(index));
+  if (!bytes) return Unexpected(bytes.error());
+  result.bytes = *bytes;
+  return result;
+}
 
 void add_gltf_textures(const GltfFile& file, MeshData& mesh, Loading& loading) {
   std::vector<TextureUse*> uses;

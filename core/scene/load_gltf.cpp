@@ -354,6 +354,7 @@ class SceneReader {
       const auto i = std::min(static_cast<std::size_t>(shown), model_.scenes.size() - 1);
       scene_.ambient_light =
           vec3_member(our_extras(model_.scenes[i].extras), "ambient").value_or(scene_.ambient_light);
+      scene_.environment = gltf_environment(file_, model_.scenes[i], loading_);
     }
     const auto last = static_cast<std::uint32_t>(mesh_.materials.size() - 1);
     if (std::find(mesh_.triangle_materials.begin(), mesh_.triangle_materials.end(), last) ==

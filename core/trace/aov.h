@@ -1,35 +1,31 @@
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
+#include <glm/glm.hpp>
 
-#include "core/trace/footprint.h"
+#include "core/trace/lane_steps.h"
 #include "core/trace/shared.h"
+#include "pinocchio/frame_arrays.h"
 #include "pinocchio/image.h"
 #include "pinocchio/mesh.h"
-#include "pinocchio/ray.h"
 #include "pinocchio/surface_images.h"
 
 namespace pinocchio {
 
-// What a pixel sees; as it stands where nothing is hit.
-struct VisiblePoint {
-  float z_eye = kInfinity;  // along the view axis, scene units
-  glm::vec3 p_world{0.0f}, n_shading{0.0f}, albedo{0.0f};
+// Whose visible points are asked for.
+struct VisibleScene {
+  const Mesh& mesh;
+  const LaneSteps& steps;
+  const shared::ViewParams& view;
+  bool filter_textures = true;
 };
 
-class VisiblePoints {
- public:
-  VisiblePoints(const Mesh& mesh, const shared::ViewParams& view, bool filter_textures);
-
-  // Without the albedo, which is undefined then, it takes less time.
-  [[nodiscard]] VisiblePoint at(std::uint32_t triangle, int x, int y, bool with_albedo = true) const;
-
- private:
-  const Mesh& mesh_;
-  const shared::ViewParams& view_;
-  glm::vec3 forward_;
-  Footprint footprint_;
-};
+// What each pixel of a tile sees, from the triangles at `ids`, whose lines are `ids_width` apart, to those of
+// the surfaces' arrays that are wanted: from place `first` on, lines `width` apart. `tile`: the view's pixels,
+// no more than a TileGrid's.
+void write_visible_points(const VisibleScene& of, const PixelBox& tile, const std::uint32_t* ids,
+                          std::size_t ids_width, const FrameArrays& to, std::size_t first, std::size_t width);
 
 // Of the lines [y0, y1).
 [[nodiscard]] SurfaceImages surface_images(const Mesh& mesh, const shared::ViewParams& view,

@@ -72,6 +72,13 @@ struct Bounce {
   float* radiance = nullptr;    // RGBA of a tile's pixels
 };
 
+// What rays see, a column each, with room behind the last ray for a packet; null: not wanted.
+struct SeenColumns {
+  float* depth = nullptr;  // along an axis
+  float *position[3] = {}, *normal[3] = {};
+  float* albedo[3] = {};
+};
+
 struct LaneSteps {
   // Directions and origins of the rays of the tile at `corner`; their pixels are set.
   void (*camera_rays)(const shared::ViewParams& view, glm::ivec2 corner, RayQueue& rays);
@@ -79,12 +86,18 @@ struct LaneSteps {
   void (*keep_hits)(RayQueue& rays);
   // Appends to the bounce's queues. All rays have hit.
   void (*bounce)(const Bounce& bounce, const RayQueue& rays);
+  // What the camera's rays see. All have hit. Of the bounce: the scene and the rays' footprint.
+  void (*see)(const Bounce& bounce, const glm::vec3& axis, const RayQueue& rays, const SeenColumns& to);
   // Points 0 to count - 1 of `dimension`, of the pixels (x, y); for tests. count: a multiple of 16.
   void (*samples)(const shared::Sampling& of, const std::uint32_t* x, const std::uint32_t* y,
                   std::uint32_t dimension, float* u, float* v, std::size_t count);
   // x^y for x > 0, of `count` pairs, a multiple of 16; for tests.
   void (*power)(const float* x, const float* y, float* result, std::size_t count);
 };
+
+enum class Isa;  // pinocchio/tracer.h
+// The processor has them.
+[[nodiscard]] const LaneSteps& lane_steps(Isa isa);
 
 namespace scalar {
 extern const LaneSteps kSteps;

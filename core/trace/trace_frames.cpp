@@ -112,17 +112,9 @@ class Share {
   }
 
   void add_surfaces(const shared::ViewParams& view, std::size_t frame, const PixelBox& tile) {
-    const VisiblePoints points(*job_.scene.mesh, view, job_.texture_footprint > 0.0f);
-    const glm::ivec2 size = tile.size();
-    for (int y = 0; y < size.y; ++y)
-      for (int x = 0; x < size.x; ++x) {
-        const std::size_t pixel = row_of(frame, tile, y) + static_cast<std::size_t>(x);
-        const VisiblePoint point = points.at(images_.ids.at(x, y), x, y, to_.albedo != nullptr);
-        if (to_.depth) to_.depth[pixel] = point.z_eye;
-        if (to_.position) to_.position[pixel] = point.p_world;
-        if (to_.normal) to_.normal[pixel] = point.n_shading;
-        if (to_.albedo) to_.albedo[pixel] = point.albedo;
-      }
+    const VisibleScene of{*job_.scene.mesh, job_.tracer.steps(), view, job_.texture_footprint > 0.0f};
+    write_visible_points(of, {{0, 0}, tile.size()}, &images_.ids.at(0, 0), kSide, to_,
+                         row_of(frame, tile, 0), static_cast<std::size_t>(job_.size.x));
   }
 
   const FramesJob& job_;

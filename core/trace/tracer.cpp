@@ -71,6 +71,10 @@ class Block {
 
 }  // namespace
 
+const LaneSteps& lane_steps(Isa isa) {
+  return entry_of(isa).steps;
+}
+
 bool isa_supported(Isa isa) {
   switch (isa) {
     case Isa::scalar:
@@ -142,7 +146,7 @@ void Tracer::occluded(const RayColumns& rays, std::size_t n, std::uint8_t* block
 }
 
 const LaneSteps& Tracer::steps() const {
-  return entry_of(isa_).steps;
+  return lane_steps(isa_);
 }
 
 }  // namespace pinocchio

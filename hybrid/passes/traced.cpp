@@ -94,7 +94,9 @@ void trace(Workers& workers, FrameSlot& frame) {
     all.added = &light;
   }
   run(workers, frame, all, share);
-  if (all.added) pack_srgb(light, workers, frame[Channel::picture].bytes);
+  if (!all.added) return;
+  pack_srgb(light, workers, frame[Channel::picture].bytes);
+  if (s.spp > 1) frame.unpacked = std::move(light);
 }
 
 MaskImage enlarged(const MaskImage& mask, int scale, glm::ivec2 size) {

@@ -1,4 +1,5 @@
 #include <nlohmann/json.hpp>
+#include <map>
 #include <set>
 #include <sstream>
 
@@ -89,6 +90,7 @@ TEST_F(ChartTest, TheFrontIsBeatenByNoPoint) {
     const nlohmann::json& fronts = point["pareto"];
     return std::find(fronts.begin(), fronts.end(), "flip") != fronts.end();
   };
+  // Raytrace may be the fastest and the most exact, and alone on it.
   std::size_t members = 0;
   for (const nlohmann::json& point : points) {
     bool beaten = false;
@@ -98,7 +100,7 @@ TEST_F(ChartTest, TheFrontIsBeatenByNoPoint) {
     if (on_front(point)) ++members;
     EXPECT_FALSE(on_front(point) && beaten) << point.dump(2);
   }
-  EXPECT_GE(members, 2u);
+  EXPECT_GE(members, 1u);
 }
 
 TEST_F(ChartTest, WhatIsMeasuredIsNotMeasuredAgain) {
@@ -187,6 +189,26 @@ TEST_F(ChartTest, TimeIsTheFramesOrTheProcessors) {
   }
 }
 
+// Eight texels of the Radiance format, each light times (1, 1/2, 1/4).
+std::string even_sky(char exponent) {
+  std::string text = "#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y 2 +X 4\n";
+  for (int i = 0; i < 8; ++i) text += std::string("\x80\x40\x20", 3) + exponent;
+  return text;
+}
+
+TEST_F(ChartTest, AnEnvironmentIsChartedAgainstTheReferenceThatSeesIt) {
+  write("sky.hdr", even_sky('\x81'));
+  write("dim.hdr", even_sky('\x80'));
+  const std::string samples = kSmall + "--only spp ";
+  ASSERT_EQ(run("chart" + scene("cornell") + samples + "--environment sky.hdr --eye 0,1,9").exit_code, 0);
+  const nlohmann::json json = results();
+  std::map<std::string, double> rmse;
+  for (const nlohmann::json& point : json["points"]) rmse[point["value"].get<std::string>()] = point["rmse"];
+  EXPECT_LT(rmse.at("4"), 0.7 * rmse.at("1"));  // samples converge towards the reference
+  const CommandResult other = run("chart" + scene("cornell") + samples + "--environment dim.hdr --eye 0,1,9");
+  EXPECT_EQ(other.exit_code, 2) << "the folder holds the figures of another sky";
+}
+
 TEST_F(ChartTest, WrongUseIsOneLine) {
   const struct {
     std::string arguments;
@@ -196,7 +218,6 @@ TEST_F(ChartTest, WrongUseIsOneLine) {
                 {"--quick", 2, "--output"},
                 {kSmall + "--turntable 4", 2, "the camera's motion has 4 frames"},
                 {kSmall + "--repeat 0", 2, "--repeat"},
-                {kSmall + "--environment sky.exr", 2, "--environment: charts measure against the reference, which draws none"},
                 {kSmall + "--indirect 2", 2, "--indirect"},
                 {kSmall + "--stability", 2, "give a SCENE or --stability"},
                 {"-o file/d --quick", 1, "cannot be made a folder"}};

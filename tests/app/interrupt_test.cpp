@@ -13,7 +13,11 @@
 namespace pinocchio {
 namespace {
 
-constexpr double kSoon_s = 1.0;
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+constexpr double kSoon_s = 5.0, kStart_s = 1.0;  // of a sanitized program
+#else
+constexpr double kSoon_s = 1.0, kStart_s = 0.0;
+#endif
 
 class InterruptTest : public ProgramTest {
  protected:
@@ -53,7 +57,7 @@ class InterruptTest : public ProgramTest {
 
   void expect_ends_soon(const std::vector<std::string>& arguments, double after_s, int signal = SIGINT) const {
     const pid_t child = start(arguments);
-    std::this_thread::sleep_for(std::chrono::duration<double>(after_s));
+    std::this_thread::sleep_for(std::chrono::duration<double>(kStart_s + after_s));
     expect_ends_soon(child, arguments, signal);
   }
 

@@ -97,6 +97,9 @@ TEST_F(OutputsTest, BadInputIsOneLineAndTheRightCode) {
 }
 
 TEST_F(OutputsTest, TooLittleMemoryIsAnError) {
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+  GTEST_SKIP() << "sanitizers want more address space than a limit leaves";
+#endif
   const std::string cornell = scene("cornell.gltf");
   const CommandResult result = run_command("ulimit -v 600000; cd '" + folder_.string() + "' && '" PINOCCHIO_PROGRAM
                                            "' render" + cornell + "--mode raytrace --size 8000x8000 -o x.exr",

@@ -33,6 +33,24 @@ bool same_pixels(const ExrFile& a, const ExrFile& b) {
   return true;
 }
 
+// A triangle in a box of six colours, seen from behind: the box alone.
+TEST_F(RenderTest, AFilesEnvironmentIsSeenUnlessAnotherIsGiven) {
+  std::string sky = "#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y 2 +X 4\n";
+  for (int i = 0; i < 8; ++i) sky += "\x80\x40\x20\x81";  // 1, 1/2, 1/4
+  write("sky.hdr", sky);
+  const std::string away = "render '" PINOCCHIO_SOURCE_DIR "/tests/fuzz/corpus/gltf/environment.gltf' --size 8x6 --quiet --mode raytrace --eye 9,0,0 --target 20,0,0 ";
+  expect_done(away + "-o own.exr");
+  expect_done(away + "-o precise.exr --precise");
+  expect_done(away + "-o other.exr --environment sky.hdr");
+  for (const auto& [channel, given] : {std::pair("R", 1.0f), std::pair("G", 0.5f), std::pair("B", 0.25f), std::pair("A", 0.0f)}) {
+    const std::vector<float> own = exr("own.exr").find(channel)->values, other = exr("other.exr").find(channel)->values;
+    for (std::size_t i = 0; i < own.size(); ++i) EXPECT_EQ(other[i], given);
+    EXPECT_TRUE(given == 0.0f || (own[0] > 0.0f && own[0] != given)) << own[0];
+    const std::vector<float> precise = exr("precise.exr").find(channel)->values;
+    for (std::size_t i = 0; i < own.size(); ++i) EXPECT_NEAR(own[i], precise[i], 0.002f * precise[i]);
+  }
+}
+
 TEST_F(RenderTest, WritesEveryChannelAndTheFigures) {
   expect_done("render" + scene("two-lights") + kSmall + "-o x.exr --preview x.png --stats-json x.json");
   const ExrFile file = exr("x.exr");

@@ -299,6 +299,43 @@ TEST(Indirect, CornellIsAsBrightAsMitsubasEverywhere) {
   }
 }
 
+// A floor half under a plate, its sky a gradient with a sun of two degrees: likewise (scripts/environment --only plate).
+constexpr std::array<glm::vec3, 12> kMitsubaPlate{{
+    {0.08279f, 0.09918f, 0.11972f}, {0.08147f, 0.09732f, 0.11715f}, {0.0814f, 0.09729f, 0.11722f}, {0.08298f, 0.09925f, 0.11964f},
+    {0.30231f, 0.32551f, 0.3507f}, {0.30174f, 0.32493f, 0.3501f}, {0.3011f, 0.32419f, 0.34925f}, {0.30259f, 0.32586f, 0.35111f},
+    {0.37301f, 0.42408f, 0.48975f}, {0.37303f, 0.42415f, 0.48992f}, {0.37307f, 0.42425f, 0.49007f}, {0.37389f, 0.42513f, 0.49105f},
+}};
+
+TEST(Environment, LightsAFloorUnderAPlateAsMitsubasDoes) {
+  MeshData mesh;
+  MeshBuilder builder(mesh);
+  Material matte;
+  matte.diffuse = glm::vec3(0.5f);
+  builder.use(matte);
+  builder.quad({-6, 0, -6}, {-6, 0, 6}, {6, 0, 6}, {6, 0, -6});
+  builder.quad({-4, 1, -4}, {-4, 1, 4}, {0, 1, 4}, {0, 1, -4});
+  constexpr glm::ivec2 kSky{512, 256};
+  Image<glm::vec3> image(kSky);
+  for (int y = 0; y < kSky.y; ++y) {
+    const float up = std::cos(glm::pi<float>() * (static_cast<float>(y) + 0.5f) / static_cast<float>(kSky.y));
+    const glm::vec3 above(0.3f + 0.2f * up, 0.4f + 0.3f * up, 0.5f + 0.5f * up);
+    for (int x = 0; x < kSky.x; ++x) image.at(x, y) = up < 0.0f ? glm::vec3(0.2f, 0.16f, 0.12f) : above;
+  }
+  for (int i = 0; i < 9; ++i) image.at(150 + i % 3, 70 + i / 3) = {2000.0f, 1900.0f, 1700.0f};
+  Scene scene = under(std::move(image), mesh);
+  scene.cameras = {looking({1.5f, 0.9f, 0.0f}, {-0.2f, 0.0f, 0.0f})};
+  scene.cameras[0].fov_deg = 40.0f;
+  const Drawn drawn = draw(scene, 64, 0, {}, 2, 0, {128, 96}, true);
+  for (int block = 0; block < 12; ++block) {
+    glm::vec3 mean(0.0f);
+    for (int y = 0; y < 32; ++y)
+      for (int x = 0; x < 32; ++x)
+        mean += glm::vec3(drawn.color.at(32 * (block % 4) + x, 32 * (block / 4) + y)) / (32.0f * 32.0f);
+    const glm::vec3& expected = kMitsubaPlate[static_cast<std::size_t>(block)];
+    for (int c = 0; c < 3; ++c) EXPECT_NEAR(mean[c] / expected[c], 1.0f, 0.015f) << block << " " << c;
+  }
+}
+
 TEST(EnvironmentAndIndirect, HaveTheSameBitsAtAnyWidth) {
   Scene scene = load_or_die(source_path("scenes/cornell.gltf"));
   scene.environment = std::make_shared<const Environment>(sky({32, 16}));

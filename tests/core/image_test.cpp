@@ -18,6 +18,18 @@ TEST(Image, LargeOnesBeginOnALargePage) {
   EXPECT_EQ(place_of(Image<std::uint32_t>({800, 600})) % kLargePage, 0u);  // 1.83 MiB: nearly one
 }
 
+// Fresh pages have to be cleared by the system, which takes longer than drawing a small mesh.
+TEST(Image, MemoryOfAFrameIsTheNextFramesToo) {
+  std::uintptr_t before = 0;
+  {
+    const Image<glm::vec4> image({800, 600}, glm::vec4(1.0f));
+    before = place_of(image);
+  }
+  const Image<glm::vec4> image({800, 600});
+  EXPECT_EQ(place_of(image), before);
+  for (const glm::vec4& pixel : image.pixels()) ASSERT_EQ(pixel, glm::vec4(0.0f));
+}
+
 TEST(Image, SmallOnesBeginOnACacheLine) {
   for (int width = 1; width < 70; ++width) EXPECT_EQ(place_of(Image<std::uint8_t>({width, 3})) % 64, 0u);
 }

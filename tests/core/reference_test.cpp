@@ -246,5 +246,40 @@ TEST(Reference, OddRaysAndNoTrianglesHitNothing) {
   EXPECT_TRUE(tree.closest_hit({{0, 5, 0}, {0, -1, 0}}).valid());
 }
 
+// A white ball under an even sky is as bright as the sky; what is behind it and in a mirror is the sky itself.
+TEST(Reference, AnEvenSkyIsSeenAndLights) {
+  const glm::vec3 sky(0.5f, 1.0f, 8.0f);
+  for (const bool brdf : {false, true})
+    for (const float mirrored : {0.0f, 0.5f}) {
+      MeshData mesh;
+      MeshBuilder builder(mesh);
+      Material white;
+      white.brdf = brdf;
+      white.diffuse = glm::vec3((1.0f - mirrored) * (brdf ? std::numbers::inv_pi_v<float> : 1.0f));
+      white.reflectance = glm::vec3(mirrored);
+      builder.use(white);
+      builder.sphere(glm::vec3(0.0f), 1.0f, 96);
+      Scene scene(std::move(mesh));
+      scene.ambient_light = glm::vec3(0.0f);
+      scene.environment = std::make_shared<const Environment>(Image<glm::vec3>({16, 8}, sky));
+      scene.cameras.resize(1);
+      scene.cameras[0].eye = {0, 0, 3};
+      scene.cameras[0].target = glm::vec3(0.0f);
+      const Drawn drawn(scene, 1);
+      glm::dvec3 sum(0.0);
+      double count = 0.0;
+      for (const glm::vec4& c : drawn.color.pixels()) {
+        if (c.a == 0.0f) {
+          ASSERT_LT(glm::length(glm::vec3(c) - sky), 1e-5f);
+          continue;
+        }
+        sum += glm::dvec3(c);
+        count += 1.0;
+      }
+      ASSERT_GT(count, 1000.0);
+      for (int i = 0; i < 3; ++i) EXPECT_NEAR(sum[i] / count / static_cast<double>(sky[i]), 1.0, 0.005);
+    }
+}
+
 }  // namespace
 }  // namespace pinocchio

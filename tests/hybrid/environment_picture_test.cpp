@@ -1,4 +1,6 @@
 // Environments and light from other surfaces: one picture, whoever draws it.
+#include "core/reference/reference.h"
+#include "hybrid/samples.h"
 #include "hybrid/settings/resolve.h"
 #include "tests/support/draw.h"
 
@@ -56,6 +58,52 @@ TEST(EnvironmentPicture, EveryScheduleDrawsTheSame) {
       if (c.a == 0.0f) behind = std::max(behind, static_cast<double>(c.g));
     EXPECT_NEAR(behind, 0.4 * 0.3, 1e-4);
   }
+}
+
+// The reference, whose samples of the sky are of its own, is the mean of many frames: block by block, 1 %.
+TEST(EnvironmentPicture, TheReferenceIsTheMeanOfManySamples) {
+  Scene scene = scene_under_sky();
+  MeshEdit(scene)->materials[0].brdf = true;
+  scene.lights.clear();
+  Settings many = sampled(by({{"mode", "raytrace"}}), 0);
+  many.spp = 256;
+  constexpr glm::ivec2 kSmall{80, 60};
+  const FrameResult mean = draw_one(scene, {many, kSmall});
+  settle_environment(scene, *resolve(many, analyze(scene)));
+  Workers workers(2);
+  Image<glm::dvec3> exact(kSmall);  // over the pixel
+  constexpr int kPlaces = 16;
+  for (int k = 0; k < kPlaces; ++k) {
+    View view{first_camera(scene), kSmall};
+    view.jitter = (glm::vec2(k, 7 * k % kPlaces) + 0.5f) / static_cast<float>(kPlaces) - 0.5f;
+    const ReferencePicture sample = reference_render(scene, view, 8, workers);
+    for (std::size_t i = 0; i < exact.pixels().size(); ++i) exact[i] += glm::dvec3(sample.color[i]) / static_cast<double>(kPlaces);
+  }
+  constexpr int kBlock = 20;
+  for (int y = 0; y < kSmall.y; y += kBlock)
+    for (int x = 0; x < kSmall.x; x += kBlock) {
+      glm::dvec3 ours(0.0), theirs(0.0);
+      for (int k = 0; k < kBlock * kBlock; ++k) {
+        ours += glm::dvec3(mean.color.at(x + k % kBlock, y + k / kBlock));
+        theirs += exact.at(x + k % kBlock, y + k / kBlock);
+      }
+      for (int c = 0; c < 3; ++c) EXPECT_NEAR(ours[c] / theirs[c], 1.0, 0.01) << x << ", " << y;
+    }
+}
+
+// Samples brighter than white, of which the 8 bits that design 2 sends know nothing.
+TEST(EnvironmentPicture, TheMeanOfDesignTwosSamplesIsNotCutOff) {
+  Scene scene = scene_under_sky();
+  Image<glm::vec3> sun({64, 32}, glm::vec3(0.05f));
+  sun.at(20, 8) = glm::vec3(800.0f);
+  scene.environment = std::make_shared<const Environment>(std::move(sun));
+  Settings alone = sampled(by({{"mode", "raytrace"}}), 1), two = sampled(by({{"design", "2"}}), 1);
+  alone.spp = two.spp = 16;
+  const FrameResult exact = draw_one(scene, {alone, kSize});
+  EXPECT_LT(mean_difference(draw_one(scene, {two, kSize}), exact), 0.004);
+  double brightest = 0.0;
+  for (const glm::vec4& c : exact.color.pixels()) brightest = std::max(brightest, static_cast<double>(c.g));
+  EXPECT_GT(brightest, 1.0);
 }
 
 // The first frame as the others: what is sent to the GPU for it takes nobody's place.

@@ -2,123 +2,21 @@
 // key and mouse events.
 #pragma once
 
-#include <fcntl.h>
 #include <gtest/gtest.h>
-#include <signal.h>
-#include <sys/prctl.h>
-#include <sys/wait.h>
-#include <unistd.h>
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <fstream>
+#include <nlohmann/json.hpp>
 #include <optional>
-#include <sstream>
 #include <string>
-#include <thread>
 #include <vector>
 
 #include "tests/support/command.h"
 #include "tests/support/own_file.h"
+#include "tests/view/process.h"
 
 namespace pinocchio {
-
-inline void pause_ms(int ms) {
-  std::this_thread::sleep_for(std::chrono::milliseconds(ms));
-}
-
-// Looks again and again until it holds; false after `seconds`.
-template <class Condition>
-bool becomes(Condition holds, double seconds = 60.0) {
-  for (int i = 0; i < static_cast<int>(20.0 * seconds); ++i) {
-    if (holds()) return true;
-    pause_ms(50);
-  }
-  return holds();
-}
-
-inline std::string text_of(const std::filesystem::path& file) {
-  std::ifstream in(file);
-  return {std::istreambuf_iterator<char>(in), {}};
-}
-
-// A program that runs beside the test; killed at the end.
-class Process {
- public:
-  // environment: "NAME=VALUE"; an empty value takes the name out.
-  Process(const std::vector<std::string>& command, const std::filesystem::path& folder,
-          const std::vector<std::string>& environment, const std::filesystem::path& out,
-          const std::filesystem::path& err) {
-    id_ = fork();
-    if (id_ != 0) return;
-    prctl(PR_SET_PDEATHSIG, SIGKILL);  // nothing outlives the test
-    for (const std::string& setting : environment) {
-      const std::size_t at = setting.find('=');
-      if (at + 1 == setting.size()) {
-        unsetenv(setting.substr(0, at).c_str());
-      } else {
-        setenv(setting.substr(0, at).c_str(), setting.substr(at + 1).c_str(), 1);
-      }
-    }
-    redirect(out, STDOUT_FILENO);
-    redirect(err, STDERR_FILENO);
-    if (chdir(folder.c_str()) != 0) _exit(126);
-    std::vector<char*> arguments;
-    for (const std::string& word : command) arguments.push_back(const_cast<char*>(word.c_str()));
-    arguments.push_back(nullptr);
-    execvp(arguments.front(), arguments.data());
-    _exit(127);
-  }
-  ~Process() {
-    if (!running()) return;
-    kill(id_, SIGTERM);  // an X server tidies up
-    if (wait(10.0) != -2) return;
-    kill(id_, SIGKILL);
-    (void)wait(30.0);
-  }
-  Process(const Process&) = delete;
-  Process& operator=(const Process&) = delete;
-
-  [[nodiscard]] pid_t id() const { return id_; }
-  void signal(int number) const { kill(id_, number); }
-  [[nodiscard]] bool running() {
-    int status = 0;
-    if (!status_ && waitpid(id_, &status, WNOHANG) == id_) status_ = status;
-    return !status_;
-  }
-  // Its exit code; -1: it was ended by a signal; -2: it still runs.
-  [[nodiscard]] int wait(double seconds = 60.0) {
-    if (!becomes([this] { return !running(); }, seconds)) return -2;
-    return WIFEXITED(*status_) ? WEXITSTATUS(*status_) : -1;
-  }
-  // Of all processors, since it began.
-  [[nodiscard]] double cpu_s() const {
-    const std::string stat = text_of("/proc/" + std::to_string(id_) + "/stat");
-    std::istringstream rest(stat.substr(stat.rfind(')') + 2));
-    std::string skipped;
-    for (int field = 3; field < 14; ++field) rest >> skipped;  // proc(5): utime is the 14th
-    double user = 0.0, system = 0.0;
-    rest >> user >> system;
-    return (user + system) / static_cast<double>(sysconf(_SC_CLK_TCK));
-  }
-  // Resident memory, MB.
-  [[nodiscard]] double memory_mb() const {
-    std::ifstream in("/proc/" + std::to_string(id_) + "/statm");
-    long long pages = 0, resident = 0;
-    in >> pages >> resident;
-    return static_cast<double>(resident) * static_cast<double>(sysconf(_SC_PAGESIZE)) * 1e-6;
-  }
-
- private:
-  static void redirect(const std::filesystem::path& file, int to) {
-    const int opened = open(file.c_str(), O_WRONLY | O_CREAT | O_APPEND, 0644);
-    dup2(opened, to);
-  }
-
-  pid_t id_ = 0;
-  std::optional<int> status_;
-};
 
 class WindowTest : public testing::Test {
  protected:
@@ -169,6 +67,14 @@ class WindowTest : public testing::Test {
     key("h");
   }
 
+  // As if an earlier run had left this panel open, with its corner there.
+  void remember(const std::string& panel, int x, int y) const {
+    const std::string layout = "[Window][" + panel + "]\nPos=" + std::to_string(x) + "," + std::to_string(y) +
+                               "\nSize=100,100\nCollapsed=0\n";
+    std::filesystem::create_directories(folder_ / "config/pinocchio");
+    std::ofstream(folder_ / "config/pinocchio/window.json") << nlohmann::json{{"open", {panel}}, {"layout", layout}};
+  }
+
   // The window manager may give the focus to it, and take it away, until it is settled.
   void wait_for_keys() {
     ASSERT_TRUE(becomes([this] {
@@ -193,6 +99,18 @@ class WindowTest : public testing::Test {
     return run_command("DISPLAY=" + display_ + " xdotool " + arguments, folder_).out;
   }
   void key(const std::string& names) const { xdo("key --delay 40 " + names); }
+  // The start of what the pointer does there, in pixels of the window.
+  [[nodiscard]] std::string at(int x, int y) const {
+    return "mousemove --window " + window_ + " " + std::to_string(x) + " " + std::to_string(y) + " ";
+  }
+  // Not at once: window managers hold the pointer while they see to the focus.
+  void click(int x, int y, int button = 1) const {
+    xdo(at(x, y) + "sleep 0.1 mousedown " + std::to_string(button) + " sleep 0.05 mouseup " + std::to_string(button));
+  }
+  // modifiers: "ctrl", "ctrl keydown shift".
+  void click_with(const std::string& modifiers, int x, int y) const {
+    xdo(at(x, y) + "keydown " + modifiers + " sleep 0.05 click 1 sleep 0.05 keyup ctrl keyup shift");
+  }
   void drag(int button, int x, int y, const std::string& modifier = "") const {
     const std::string at = "mousemove --window " + window_ + " ";
     const std::string down = modifier.empty() ? "" : "keydown " + modifier + " ";
@@ -236,6 +154,63 @@ class WindowTest : public testing::Test {
         run_command("cd '" + folder_.string() + "' && compare -metric AE " + a + " " + b + " null:", folder_);
     if (result.exit_code > 1) return -1;
     return std::llround(std::stod(result.err));
+  }
+  // The same of a box "WIDTHxHEIGHT+X+Y"; colours closer than `percent` count as one.
+  [[nodiscard]] long long different_in(const std::string& box, const std::string& a, const std::string& b,
+                                       int percent = 0) const {
+    const std::string crop = " -crop " + box + " +repage ";
+    const CommandResult result =
+        run_command("cd '" + folder_.string() + "' && convert " + a + crop + "box-a.png && convert " + b + crop +
+                        "box-b.png && compare -fuzz " + std::to_string(percent) + "% -metric AE box-a.png box-b.png null:",
+                    folder_);
+    return result.exit_code > 1 ? -1 : std::llround(std::stod(result.err));
+  }
+  // Seconds of processors that the program uses in a second, over `seconds`.
+  [[nodiscard]] double load(double seconds) const {
+    const double before_s = program_->cpu_s();
+    pause_ms(static_cast<int>(1e3 * seconds));
+    return (program_->cpu_s() - before_s) / seconds;
+  }
+  // How bright the window is, 0 to 255: the greatest of each of a box's rows.
+  [[nodiscard]] std::vector<int> brightness(int x, int y, int width, int height) const {
+    grab("brightness.png");
+    const std::string values = run_command(
+        "cd '" + folder_.string() + "' && convert brightness.png -crop " + std::to_string(width) + "x" +
+            std::to_string(height) + "+" + std::to_string(x) + "+" + std::to_string(y) + " +repage -depth 8 gray:-",
+        folder_).out;
+    std::vector<int> rows(values.size() / static_cast<std::size_t>(width));
+    for (std::size_t i = 0; i < values.size(); ++i) {
+      int& row = rows[i / static_cast<std::size_t>(width)];
+      row = std::max<int>(row, static_cast<unsigned char>(values[i]));
+    }
+    return rows;
+  }
+  // Middles of the runs of rows that are brighter, of those that are so high.
+  [[nodiscard]] static std::vector<int> runs(const std::vector<int>& rows, int first_y, int brighter, int thinnest,
+                                             int thickest) {
+    std::vector<int> middles;
+    int length = 0;
+    for (std::size_t i = 0; i <= rows.size(); ++i) {
+      if (i < rows.size() && rows[i] > brighter) {
+        ++length;
+        continue;
+      }
+      if (length >= thinnest && length <= thickest) middles.push_back(first_y + static_cast<int>(i) - length / 2);
+      length = 0;
+    }
+    return middles;
+  }
+  // Heights of the fields, sliders and buttons of a panel that a line down at `x` meets.
+  [[nodiscard]] std::vector<int> widgets_at(int x, int from_y, int to_y) const {
+    constexpr int kPanel = 27;  // or darker, whatever is under it
+    return runs(brightness(x, from_y, 1, to_y - from_y), from_y, kPanel, 10, 30);
+  }
+  // Heights of a panel's lines of text, below its title; x: in its left margin.
+  [[nodiscard]] std::vector<int> lines_of_panel(int x, int from_y) const {
+    constexpr int kPanel = 27, kText = 120;
+    const std::vector<int> margin = brightness(x, from_y, 1, 600 - from_y);
+    const auto end = std::ranges::find_if(margin, [](int value) { return value > kPanel; });
+    return runs(brightness(x, from_y, 200, static_cast<int>(end - margin.begin())), from_y, kText, 6, 20);
   }
   // Until the picture stands still.
   void settle() const {

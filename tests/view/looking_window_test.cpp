@@ -6,22 +6,7 @@ namespace {
 
 constexpr const char* kStill = "n";  // key: samples are not gathered, so that pictures stand still
 
-class LookingTest : public WindowTest {
- protected:
-  [[nodiscard]] std::string at(int x, int y) const {
-    return "mousemove --window " + window_ + " " + std::to_string(x) + " " + std::to_string(y) + " ";
-  }
-  // modifiers: "ctrl", "ctrl keydown shift".
-  void click_with(const std::string& modifiers, int x, int y) const {
-    xdo(at(x, y) + "keydown " + modifiers + " sleep 0.05 click 1 sleep 0.05 keyup ctrl keyup shift");
-  }
-  // Pixels of the box that differ between two pictures of the window.
-  [[nodiscard]] long long different_in(const std::string& box, const std::string& a, const std::string& b) const {
-    (void)run_command("cd '" + folder_.string() + "' && for f in " + a + " " + b + "; do convert $f -crop " + box +
-                          " +repage box-$f; done", folder_);
-    return different("box-" + a, "box-" + b);
-  }
-};
+using LookingTest = WindowTest;
 
 TEST_F(LookingTest, ControlShiftAndAClickSetTheExposure) {
   open(scene("cornell"));
@@ -135,6 +120,30 @@ TEST_F(LookingTest, ABudgetIsKeptAndSaid) {
   expect_clean_close();
 }
 
+// As far from the exact picture as it may be, and no farther.
+TEST_F(LookingTest, AnErrorLimitIsKeptAndSaid) {
+  open(scene("two-lights"), "--max-error flip=0.1");
+  key(kStill);
+  const auto gave_up = [](const std::string& command) {
+    return command.find("--mask-scale") != std::string::npos || command.find("--reflection") != std::string::npos ||
+           command.find("--depth") != std::string::npos;
+  };
+  std::string command;
+  EXPECT_TRUE(becomes([&] {
+    command = command_line();
+    return gave_up(command);
+  }, 120.0)) << command;
+  expect_clean_close();
+  const std::string there = "cd '" + folder_.string() + "' && '" PINOCCHIO_PROGRAM "' ";
+  const std::string view = " --size 320x240 --eye " + option(command, "--eye") + " --target " + option(command, "--target") +
+                           " --fov " + option(command, "--fov");
+  EXPECT_EQ(run_command(there + command.substr(std::string("pinocchio ").size()), folder_).exit_code, 0) << command;
+  EXPECT_EQ(run_command(there + "render " + scene("two-lights") + view + " -o exact.exr", folder_).exit_code, 0);
+  const std::string compare = "compare exact.exr " + option(command, "-o") + " --max-error ";
+  EXPECT_EQ(run_command(there + compare + "flip=0.1", folder_).exit_code, 0);
+  EXPECT_EQ(run_command(there + compare + "max=0", folder_).exit_code, 5);  // it did give something up
+}
+
 // Everything that changes the picture, on the command line: the command says it, and draws what the window shows.
 TEST_F(LookingTest, TheCommandSaysWhatTheCommandLineDid) {
   // A sky of two pixels: Radiance, without run lengths.
@@ -172,20 +181,6 @@ TEST_F(LookingTest, TheCommandSaysTheTimeOfAnAnimation) {
   key("ctrl+Right ctrl+Right");
   EXPECT_TRUE(becomes([this] { return !option(command_line(), "--time").empty(); }, 10.0)) << command_line();
   expect_clean_close();
-}
-
-// A folder's scene is clicked at, wherever the font has put it, and is in the list of recent files of the next run.
-TEST_F(LookingTest, AFileIsOpenedFromThePanel) {
-  for (const char* file : {"cornell.gltf", "cornell.bin", "speedboat.glb"})
-    std::filesystem::copy(scene(file), folder_ / file);
-  open_as_is("cornell.gltf", "800x600");
-  key("F10");
-  pause_ms(500);
-  for (int y = 440; y > 100 && command_line().find("speedboat.glb") == std::string::npos; y -= 9)  // ".." comes last
-    xdo(at(300, y) + "sleep 0.1 click 1 sleep 0.8");
-  EXPECT_NE(command_line().find("speedboat.glb"), std::string::npos);
-  expect_clean_close();
-  EXPECT_NE(text_of(folder_ / "config/pinocchio/window.json").find("speedboat.glb"), std::string::npos);
 }
 
 }  // namespace

@@ -1,6 +1,4 @@
 // The window as a person meets it: what covers the picture, where input goes, what it costs to stand still.
-#include <nlohmann/json.hpp>
-
 #include "tests/view/display.h"
 
 namespace pinocchio {
@@ -10,46 +8,34 @@ constexpr const char* kStill = "n";  // key: samples are not gathered, so that p
 
 class OverlayTest : public WindowTest {
  protected:
-  [[nodiscard]] std::string at(int x, int y) const {
-    return "mousemove --window " + window_ + " " + std::to_string(x) + " " + std::to_string(y) + " ";
-  }
   [[nodiscard]] std::string eye() { return option(command_line(), "--eye"); }
   // Share of the window's pixels that differ between two pictures of it.
   [[nodiscard]] double share_different(const std::string& a, const std::string& b, double pixels) const {
     return static_cast<double>(different(a, b)) / pixels;
   }
-  // Seconds of processors that it uses in a second, over `seconds`.
-  [[nodiscard]] double load(double seconds) const {
-    const double before_s = program_->cpu_s();
-    pause_ms(static_cast<int>(1e3 * seconds));
-    return (program_->cpu_s() - before_s) / seconds;
-  }
   // What the window wrote of itself.
   [[nodiscard]] nlohmann::json pace(const std::string& file) const {
     return nlohmann::json::parse(text_of(folder_ / file));
   }
-  // A part of the window.
-  void grab_box(const std::string& file, int x, int y, int width, int height) const {
-    grab("whole.png");
-    (void)run_command("cd '" + folder_.string() + "' && convert whole.png -crop " + std::to_string(width) + "x" +
-                          std::to_string(height) + "+" + std::to_string(x) + "+" + std::to_string(y) +
-                          " +repage " + file,
-                      folder_);
-  }
 };
 
 TEST_F(OverlayTest, AtTheStartThePictureIsUncovered) {
-  open_as_is(scene("cornell"));
-  key(kStill);
-  pause_ms(7000);  // what P said is gone by itself
-  settle();
-  grab("open.png");
-  key("h");
-  settle();
-  grab("bare.png");
-  const double covered = share_different("open.png", "bare.png", 800.0 * 600.0);
-  EXPECT_GT(covered, 0.0);
-  EXPECT_LT(covered, 0.15);
+  open_as_is(scene("cornell"), "800x600", "--spp 1");
+  for (const auto& [width, height] : {std::pair{800, 600}, {480, 360}}) {
+    const std::string size = std::to_string(width) + "x" + std::to_string(height);
+    xdo("windowsize --sync " + window_ + " " + std::to_string(width) + " " + std::to_string(height));
+    ASSERT_TRUE(becomes([&] { return option(command_line(), "--size") == size; }));
+    pause_ms(7000);  // what P said is gone by itself
+    settle();
+    grab("open.png");
+    key("h");
+    settle();
+    grab("bare.png");
+    const double covered = share_different("open.png", "bare.png", 1.0 * width * height);
+    EXPECT_GT(covered, 0.0) << size;
+    EXPECT_LT(covered, 0.15) << size;
+    key("h");
+  }
   expect_clean_close();
 }
 
@@ -81,18 +67,35 @@ TEST_F(OverlayTest, WhatIsDraggedOnAPanelDoesNotMoveTheCamera) {
   expect_clean_close();
 }
 
-TEST_F(OverlayTest, EscapeClosesHelpThenFullScreenThenTheWindow) {
-  open_as_is(scene("cornell"), "480x360");
+TEST_F(OverlayTest, EscapeClosesPopupThenHelpThenFullScreenThenTheWindow) {
+  open_as_is(scene("cornell"), "480x360", "--spp 1");
   key("F11");
-  pause_ms(700);
+  ASSERT_TRUE(becomes([this] { return option(command_line(), "--size") == "1280x800"; }, 20.0));
+  const auto grabbed = [this](const std::string& file) {
+    settle();
+    grab(file);
+  };
+  const std::string popup = "200x200+1060+570", help = "600x300+340+200";
+  pause_ms(7000);  // what P said is gone by itself
+  xdo(at(1167, 790));  // on "Panels", which has its tooltip from now on
+  grabbed("bare.png");
   key("F1");
-  pause_ms(500);
+  grabbed("help.png");
+  EXPECT_GT(different_in(help, "bare.png", "help.png"), 50000);
+  click(1167, 790);
+  grabbed("popup.png");
+  EXPECT_GT(different_in(popup, "help.png", "popup.png"), 10000);
   key("Escape");
-  pause_ms(500);
-  EXPECT_TRUE(program_->running());
+  grabbed("without-popup.png");
+  EXPECT_EQ(different_in(popup, "help.png", "without-popup.png"), 0);
+  EXPECT_EQ(different_in(help, "help.png", "without-popup.png"), 0);
+  key("Escape");
+  grabbed("without-help.png");
+  EXPECT_EQ(different_in(help, "bare.png", "without-help.png"), 0);
   EXPECT_EQ(option(command_line(), "--size"), "1280x800");  // still full screen
   key("Escape");
   EXPECT_TRUE(becomes([this] { return option(command_line(), "--size") == "480x360"; }, 20.0));
+  EXPECT_TRUE(program_->running());
   key("Escape");
   EXPECT_EQ(program_->wait(), 0) << errors();
 }
@@ -132,13 +135,16 @@ TEST_F(OverlayTest, PanelsAreRememberedFromRunToRun) {
   expect_clean_close();
 }
 
-TEST_F(OverlayTest, PanelsFitASmallWindowAndALargeScale) {
-  // Twice as large, as the display asks for it.
-  (void)run_command("DISPLAY=" + display_ +
-                        " xprop -root -f RESOURCE_MANAGER 8s -set RESOURCE_MANAGER 'Xft.dpi:\t192'",
+class ScaleTest : public OverlayTest, public testing::WithParamInterface<int> {};
+
+// In 480 by 360 pixels, also where the display asks for all to be twice as large.
+TEST_P(ScaleTest, PanelsFitASmallWindow) {
+  const int scale = GetParam();
+  (void)run_command("DISPLAY=" + display_ + " xprop -root -f RESOURCE_MANAGER 8s -set RESOURCE_MANAGER 'Xft.dpi:\t" +
+                        std::to_string(96 * scale) + "'",
                     folder_);
-  open_as_is(scene("cornell"), "240x180");
-  key(kStill);
+  open_as_is(scene("cornell"), std::to_string(480 / scale) + "x" + std::to_string(360 / scale), "--spp 1");
+  EXPECT_EQ(option(command_line(), "--size"), "480x360");
   for (const char* panel : {"F1", "F2", "F3", "F4", "F5", "F6", "F7", "F8", "F9", "F10"}) {
     settle();
     grab("without.png");
@@ -155,6 +161,7 @@ TEST_F(OverlayTest, PanelsFitASmallWindowAndALargeScale) {
   EXPECT_TRUE(program_->running()) << errors();
   expect_clean_close();
 }
+INSTANTIATE_TEST_SUITE_P(OneAndTwo, ScaleTest, testing::Values(1, 2));
 
 TEST_F(OverlayTest, UndoAndRedo) {
   open(scene("cornell"));
@@ -176,6 +183,14 @@ TEST_F(OverlayTest, UndoAndRedo) {
   EXPECT_EQ(eye(), after);
   key("ctrl+y");
   EXPECT_EQ(option(command_line(), "--mode"), "raytrace");
+  // What was pressed at once before is taken back and done again, too.
+  for (int i = 0; i < 3; ++i) xdo("key --delay 0 plus ctrl+z ctrl+y");
+  EXPECT_EQ(option(command_line(), "--exposure"), "1.5");
+  // Panels that are hidden meanwhile are no step.
+  key("h");
+  pause_ms(600);
+  key("ctrl+z ctrl+z ctrl+z ctrl+z ctrl+z");
+  EXPECT_EQ(eye(), before);
   expect_clean_close();
 }
 
@@ -256,17 +271,25 @@ TEST_F(OverlayTest, AnswersWhileSamplesAreGathered) {
   EXPECT_LE(answers["median_ms"].get<double>(), 100.0) << answers;
 }
 
-TEST_F(OverlayTest, ASequenceIsRecordedWithItsExr) {
+TEST_F(OverlayTest, SequencesAreRecorded) {
   open(scene("cornell"), "--spp 4");
+  const auto exists = [this](const char* file) { return std::filesystem::exists(folder_ / file); };
   key("shift+k");
   drag(1, 40, 10);
-  EXPECT_TRUE(becomes([this] { return std::filesystem::exists(folder_ / "cornell-001-0003.exr"); }));
+  EXPECT_TRUE(becomes([&] { return exists("cornell-001-0003.exr"); }));
   key("k");
-  EXPECT_TRUE(std::filesystem::exists(folder_ / "cornell-001-0002.png"));
+  EXPECT_TRUE(exists("cornell-001-0002.png"));
   const CommandResult seen = run_command("cd '" + folder_.string() + "' && '" PINOCCHIO_PROGRAM
                                          "' compare cornell-001-0002.exr cornell-001-0002.png --json", folder_);
   ASSERT_EQ(seen.exit_code, 0) << seen.err;
   EXPECT_LT(nlohmann::json::parse(seen.out)["flip"].get<double>(), 0.01);  // the same frame, but for its bytes
+  // Pictures alone, which go on where the camera goes.
+  key("k");
+  drag(1, 40, 10);
+  EXPECT_TRUE(becomes([&] { return exists("cornell-002-0003.png"); }));
+  key("k");
+  EXPECT_FALSE(exists("cornell-002-0001.exr"));
+  EXPECT_GT(different("cornell-002-0001.png", "cornell-002-0003.png"), 100);
   expect_clean_close();
 }
 

@@ -6,10 +6,11 @@
 
 namespace pinocchio {
 
-// Asks for pages of 2 MiB where that wastes little: pages of 4 KiB, which the system gives one by one as they are
-// first written, take longer than drawing a small mesh. Throws std::bad_alloc.
+// Asks for pages of 2 MiB where that wastes little: pages of 4 KiB, which the system gives one by one as they
+// are first written, take longer than drawing a small mesh. What was freed lately is given again, as fresh
+// pages have to be cleared. Throws std::bad_alloc.
 [[nodiscard]] void* allocate_pixels(std::size_t bytes);
-void free_pixels(void* memory) noexcept;
+void free_pixels(void* memory, std::size_t bytes) noexcept;
 
 template <class T>
 struct PixelAllocator {
@@ -23,7 +24,7 @@ struct PixelAllocator {
     if (n > static_cast<std::size_t>(-1) / (2 * sizeof(T))) throw std::bad_array_new_length();
     return static_cast<T*>(allocate_pixels(n * sizeof(T)));
   }
-  void deallocate(T* memory, std::size_t) noexcept { free_pixels(memory); }
+  void deallocate(T* memory, std::size_t n) noexcept { free_pixels(memory, n * sizeof(T)); }
   friend bool operator==(const PixelAllocator&, const PixelAllocator&) { return true; }
 };
 

@@ -196,6 +196,31 @@ void bounce_rays(const Bounce& bounce, const RayQueue& rays) {
   bounce.sampling ? bounce_packets<true>(bounce, rays) : bounce_packets<false>(bounce, rays);
 }
 
+inline void put(const Vec& v, float* const (&columns)[3], std::size_t i) {
+  v.x.store(columns[0] + i);
+  v.y.store(columns[1] + i);
+  v.z.store(columns[2] + i);
+}
+
+void see(const Bounce& bounce, const glm::vec3& axis, const RayQueue& rays, const SeenColumns& to) {
+  const bool reads_material = to.albedo[0] != nullptr || bounce.scene.mesh != nullptr;
+  for (std::size_t i = 0; i < rays.size; i += kWidth) {
+    fetch_triangles(bounce.scene, rays, i + kTrianglesAhead);
+    fetch_corners(bounce.scene, rays, i + kCornersAhead);
+    const Mask lanes = lanes_from(i, rays.size);
+    const Int triangle = Int::load(rays.triangle + i);
+    const Corners corners(bounce.scene, triangle, lanes);
+    const Vec origin = Vec::load(rays.origin, i), direction = Vec::load(rays.direction, i);
+    LaneSurface s = surface_of(corners, origin, direction, bounce.offset);
+    LaneMaterial m(bounce.scene, corners.material, reads_material ? lanes : Mask::from_bits(0));
+    if (m.mapped != 0) apply_maps(bounce, triangle, origin, direction, Float(0.0f), s, m);
+    if (to.depth) dot(s.p_world - origin, Vec(axis)).store(to.depth + i);
+    if (to.position[0]) put(s.p_world, to.position, i);
+    if (to.normal[0]) put(s.n_shading, to.normal, i);
+    if (to.albedo[0]) put(m.diffuse, to.albedo, i);
+  }
+}
+
 void powers(const float* x, const float* y, float* result, std::size_t count) {
   for (std::size_t i = 0; i < count; i += kWidth)
     power(Float::load(x + i), Float::load(y + i)).store(result + i);
@@ -212,6 +237,6 @@ void samples(const shared::Sampling& of, const std::uint32_t* x, const std::uint
 
 }  // namespace
 
-const LaneSteps kSteps{camera_rays, keep_hits, bounce_rays, samples, powers};
+const LaneSteps kSteps{camera_rays, keep_hits, bounce_rays, see, samples, powers};
 
 }  // namespace pinocchio::PINOCCHIO_LANES

@@ -1,0 +1,86 @@
+#include "core/reference/reference_environment.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace pinocchio {
+namespace {
+
+// To the right round the picture, down and up as far as it goes.
+glm::ivec2 wrapped(glm::ivec2 at, glm::ivec2 size) {
+  return {((at.x % size.x) + size.x) % size.x, std::clamp(at.y, 0, size.y - 1)};
+}
+
+// Which of the growing sums the number falls under, 0 to 1 of the last, and how far between it and the one before.
+struct Choice {
+  std::size_t index;
+  double within, share;  // share: how likely it was
+};
+Choice choice_of(const double* sums, std::size_t count, double number) {
+  const double wanted = number * sums[count - 1];
+  const auto index = std::min(static_cast<std::size_t>(std::upper_bound(sums, sums + count, wanted) - sums), count - 1);
+  const double before = index == 0 ? 0.0 : sums[index - 1], own = sums[index] - before;
+  return {index, (wanted - before) / own, own / sums[count - 1]};
+}
+
+}  // namespace
+
+// A texel is as likely as the brightest of those about it, which interpolation brings into its area.
+ReferenceEnvironment::ReferenceEnvironment(const Scene& scene)
+    : picture_(scene.environment->radiance()),
+      turn_(static_cast<double>(scene.environment_rotation_deg) / 360.0),
+      strength_(scene.environment_strength) {
+  const glm::ivec2 size = picture_.size();
+  double all = 0.0;
+  for (int y = 0; y < size.y; ++y) {
+    const double area = std::cos(std::numbers::pi * y / size.y) - std::cos(std::numbers::pi * (y + 1) / size.y);
+    double row = 0.0;
+    for (int x = 0; x < size.x; ++x) {
+      double brightest = 0.0;
+      for (int k = 0; k < 9; ++k) {
+        const glm::ivec2 beside = wrapped(glm::ivec2(x + k % 3 - 1, y + k / 3 - 1), size);
+        const glm::dvec3 c(picture_.at(beside.x, beside.y));
+        brightest = std::max(brightest, c.x + c.y + c.z);
+      }
+      columns_.push_back(row += brightest);
+    }
+    rows_.push_back(all += area * row);
+  }
+}
+
+glm::dvec3 ReferenceEnvironment::at(const glm::dvec2& uv) const {
+  const glm::ivec2 size = picture_.size();
+  const glm::dvec2 place = uv * glm::dvec2(size) - 0.5, base = glm::floor(place), f = place - base;
+  glm::dvec3 sum(0.0);
+  for (int k = 0; k < 4; ++k) {
+    const glm::ivec2 offset(k % 2, k / 2), texel = wrapped(glm::ivec2(base) + offset, size);
+    const double share = (offset.x ? f.x : 1.0 - f.x) * (offset.y ? f.y : 1.0 - f.y);
+    sum += share * glm::dvec3(picture_.at(texel.x, texel.y));
+  }
+  return strength_ * sum;
+}
+
+// The middle is +Z, a quarter of the width left of it +X, the top row +Y.
+glm::dvec3 ReferenceEnvironment::radiance(const glm::dvec3& direction) const {
+  const double around = std::atan2(direction.x, direction.z) / (2.0 * std::numbers::pi);
+  const double down = std::atan2(std::hypot(direction.x, direction.z), direction.y) / std::numbers::pi;
+  const double u = 0.5 - around + turn_;
+  return at({u - std::floor(u), down});
+}
+
+ReferenceEnvironment::Sample ReferenceEnvironment::sample(const glm::dvec2& numbers) const {
+  const glm::ivec2 size = picture_.size();
+  if (rows_.back() == 0.0) return {{0.0, 1.0, 0.0}, glm::dvec3(0.0)};
+  const Choice row = choice_of(rows_.data(), rows_.size(), numbers.y);
+  const Choice column =
+      choice_of(columns_.data() + row.index * static_cast<std::size_t>(size.x), static_cast<std::size_t>(size.x), numbers.x);
+  const glm::dvec2 uv = (glm::dvec2(column.index, row.index) + glm::dvec2(column.within, row.within)) / glm::dvec2(size);
+  const double around = 2.0 * std::numbers::pi * (0.5 + turn_ - uv.x), down = std::numbers::pi * uv.y;
+  const double per_uv = row.share * column.share * size.x * size.y;
+  const double steradian = 2.0 * std::numbers::pi * std::numbers::pi * std::sin(down);  // a unit of u times v
+  return {{std::sin(down) * std::sin(around), std::cos(down), std::sin(down) * std::cos(around)},
+          steradian / per_uv * at(uv)};
+}
+
+}  // namespace pinocchio

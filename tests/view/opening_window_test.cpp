@@ -1,0 +1,94 @@
+// Scenes that are opened while another is shown: dropped, clicked at, cancelled.
+#include "tests/view/display.h"
+
+namespace pinocchio {
+namespace {
+
+class OpeningTest : public WindowTest {
+ protected:
+  void copy_scenes(const std::vector<std::string>& files) const {
+    for (const std::string& file : files) std::filesystem::copy(scene(file), folder_ / file);
+  }
+  // As a file manager does, into the middle; whether the window has taken it.
+  [[nodiscard]] bool drop(const std::string& file) const {
+    return run_command("DISPLAY=" + display_ + " '" PINOCCHIO_DROP_FILE "' " + window_ + " 300 300 'file://" +
+                           (folder_ / file).string() + "'",
+                       folder_).exit_code == 0;
+  }
+  [[nodiscard]] bool shows(const std::string& file, double seconds = 60.0) {
+    return becomes([&] { return command_line().find(file) != std::string::npos; }, seconds);
+  }
+};
+
+// Also one with a blank in its name, which is a %20 on the way.
+TEST_F(OpeningTest, ADroppedFileIsOpenedAndABadOneChangesNothing) {
+  copy_scenes({"cornell.gltf", "cornell.bin", "speedboat.glb"});
+  std::filesystem::rename(folder_ / "speedboat.glb", folder_ / "speed boat.glb");
+  std::ofstream(folder_ / "damaged.obj") << "v 0 0 0\nf 1 2 7\n";
+  open("cornell.gltf", "--spp 1");
+  const std::string before = command_line();
+  settle();
+  grab("before.png");
+  for (const char* bad : {"damaged.obj", "missing.obj"}) {
+    ASSERT_TRUE(drop(bad)) << bad;
+    EXPECT_TRUE(becomes([&] { return errors().find(bad) != std::string::npos; })) << errors();
+  }
+  EXPECT_EQ(std::ranges::count(errors(), '\n'), 2) << errors();
+  EXPECT_EQ(command_line(), before);
+  drag(1, 40, 10);  // the old scene is drawn as before
+  key("r");
+  settle();
+  grab("after.png");
+  EXPECT_EQ(different_in("320x60+0+0", "before.png", "after.png"), 0);  // above the messages
+  ASSERT_TRUE(drop("speed%20boat.glb"));
+  EXPECT_TRUE(shows("speed boat.glb"));
+  key("Escape");
+  EXPECT_EQ(program_->wait(), 0);
+}
+
+// While it is read, and while its tree is built.
+TEST_F(OpeningTest, CancelKeepsTheSceneThatIsShown) {
+  copy_scenes({"cornell.gltf", "cornell.bin"});
+  ASSERT_EQ(run_command("cd '" + folder_.string() + "' && '" PINOCCHIO_PROGRAM
+                        "' generate spd:balls --triangles 1000000 -o large.glb", folder_).exit_code, 0);
+  open("cornell.gltf", "--spp 1");
+  std::string clicks;  // the button is at the right of the bar's window, which is as wide as its words
+  for (int round = 0; round < 4; ++round)
+    for (int x = 220; x <= 290; x += 12) clicks += at(x, 26) + "sleep 0.02 click 1 ";
+  const auto rests = [this] { return becomes([this] { return load(1.0) < 0.05; }); };
+  const std::string eye = option(command_line(), "--eye");
+  xdo("key Right sleep 0.1 " + clicks);
+  EXPECT_TRUE(rests());
+  EXPECT_NE(command_line().find("cornell.gltf"), std::string::npos);
+  EXPECT_TRUE(rests());  // nothing comes later
+  EXPECT_NE(command_line().find("cornell.gltf"), std::string::npos);
+  EXPECT_EQ(option(command_line(), "--eye"), eye);
+  key("Right");  // and not cancelled it is opened
+  EXPECT_TRUE(shows("large.glb"));
+  expect_clean_close();
+}
+
+// A scene of the folder is clicked at; the next run, in another folder, has it in its list of recent files.
+TEST_F(OpeningTest, AFileIsOpenedFromThePanelAndIsAmongTheRecent) {
+  copy_scenes({"cornell.gltf", "cornell.bin", "speedboat.glb"});
+  remember("Files", 8, 8);
+  open_as_is("cornell.gltf", "800x600", "--spp 1");
+  const auto click_line_from_below = [this](std::size_t number) {
+    settle();
+    const std::vector<int> lines = lines_of_panel(12, 30);
+    ASSERT_GE(lines.size(), number);
+    click(60, lines[lines.size() - number]);
+  };
+  click_line_from_below(3);  // below are "Recent" and the scene that is shown
+  EXPECT_TRUE(shows("speedboat.glb"));
+  expect_clean_close();
+  program_.reset();
+  std::filesystem::remove(folder_ / "out.txt");
+  open_as_is(scene("two-lights"), "800x600", "--spp 1");  // the panel is still open
+  click_line_from_below(2);  // what was shown before it is the last
+  EXPECT_TRUE(shows("speedboat.glb"));
+  expect_clean_close();
+}
+
+}  // namespace
+}  // namespace pinocchio
