@@ -52,13 +52,18 @@ void add_animation_options(CLI::App& verb, AnimationOptions& options) {
   verb.add_option("--fps", options.fps, "frames of --frames a second of the scene's animation (24)")
       ->check([](const std::string& text) {
         const std::optional<int> fps = parse_int(text);
-        return fps && *fps >= 1 && *fps <= kMostFps ? std::string() : "'" + text + "' is no whole number from 1 to " + std::to_string(kMostFps);
+        return fps && *fps >= 1 && *fps <= kMostFps
+                   ? std::string()
+                   : "'" + text + "' is no whole number from 1 to " + std::to_string(kMostFps);
       })
       ->type_name("N");
 }
 
-std::vector<NamedFile> input_files(const DrawOptions& draw, const AnimationOptions& animation, const Scene& scene) {
-  std::vector<NamedFile> files{{"the scene", draw.scene}, {"--path", animation.path}, {"--plan", draw.plan_file},
+std::vector<NamedFile> input_files(const DrawOptions& draw, const AnimationOptions& animation,
+                                   const Scene& scene) {
+  std::vector<NamedFile> files{{"the scene", draw.scene},
+                               {"--path", animation.path},
+                               {"--plan", draw.plan_file},
                                {"--environment", draw.environment}};
   for (const std::string& file : scene.source_files) files.push_back({"the scene's", file});
   return files;
@@ -75,7 +80,8 @@ CameraFrames::CameraFrames(AnimationOptions options, const DrawOptions& draw, Sc
 }
 
 void CameraFrames::refuse_meeting(int number) const {
-  throw Exit(kUsage, options_.path + ": in frame " + std::to_string(number) + " eye and target meet; add a key frame");
+  throw Exit(kUsage, options_.path + ": in frame " + std::to_string(number) +
+                         " eye and target meet; add a key frame");
 }
 
 Camera CameraFrames::camera_of(int number, double time_s) const {

@@ -23,9 +23,9 @@ inline constexpr int kUsualFps = 24;
 
 // --frames, --turntable, --path, --time, --fps
 struct AnimationOptions {
-  std::string frames;  // A-B[xSTEP]
-  int turntable = 0;   // frames once around the target; 0: none
-  std::string path;    // JSON file of key frames
+  std::string frames;            // A-B[xSTEP]
+  int turntable = 0;             // frames once around the target; 0: none
+  std::string path;              // JSON file of key frames
   std::optional<double> time_s;  // of all frames; else frame n's is n / fps
   int fps = kUsualFps;
 
@@ -36,13 +36,13 @@ struct AnimationOptions {
 
 void add_animation_options(CLI::App& verb, AnimationOptions& options);
 
-// The frames that the options ask for, in order; one, number 0, where they ask for none. Each is made when it is
-// asked for: of a range of any length, only the key frames are kept. The scene's own camera moves with its node,
-// where no path says where it is.
+// The frames that the options ask for, in order; one, number 0, where they ask for none. Each is made when it
+// is asked for: of a range of any length, only the key frames are kept. The scene's own camera moves with its
+// node, where no path says where it is.
 class CameraFrames {
  public:
-  // Keeps `draw`. Ends the verb with kUsage where the options contradict each other, the path cannot be read, or eye
-  // and target meet on it.
+  // Keeps `draw`. Ends the verb with kUsage where the options contradict each other, the path cannot be read,
+  // or eye and target meet on it.
   CameraFrames(AnimationOptions options, const DrawOptions& draw, Scene scene);
 
   [[nodiscard]] std::size_t size() const { return range_.count(); }

@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "app/animation.h"
-#include "app/error_limit.h"
 #include "app/drawing.h"
+#include "app/error_limit.h"
 #include "hybrid/settings/quality_controller.h"
 
 namespace pinocchio::app {
@@ -25,7 +25,8 @@ void add_budget_options(CLI::App& verb, BudgetOptions& options);
 
 [[nodiscard]] Budget limits(const BudgetOptions& options);
 
-// Measures ways to draw a scene for less, one after another: what a frame takes, and its error against the first.
+// Measures ways to draw a scene for less, one after another: what a frame takes, and its error against the
+// first.
 class BudgetTrial {
  public:
   static constexpr int kTimedFrames = 3;
@@ -55,8 +56,8 @@ class BudgetTrial {
   Renderer pictures_, times_;
 };
 
-// A run that keeps a budget: measures what ways to draw the scene take and cost here, begins with the one that
-// fits, and follows the load.
+// A run that keeps a budget: measures what ways to draw the scene take and cost here, begins with the one
+// that fits, and follows the load.
 class BudgetRun {
  public:
   // Draws a few small runs of frames to know. Ends the verb with kUsage where not both processors draw

@@ -23,9 +23,11 @@ class PathReader {
     const nlohmann::json json = parse();
     check_keys(json, {"keyframes"}, "");
     const auto keys = json.find("keyframes");
-    if (keys == json.end() || !keys->is_array() || keys->empty()) fail("has no key frames; give at least one");
+    if (keys == json.end() || !keys->is_array() || keys->empty())
+      fail("has no key frames; give at least one");
     CameraPath path;
-    for (std::size_t i = 0; i < keys->size(); ++i) path.push_back(key_frame((*keys)[i], "key frame " + std::to_string(i) + ": "));
+    for (std::size_t i = 0; i < keys->size(); ++i)
+      path.push_back(key_frame((*keys)[i], "key frame " + std::to_string(i) + ": "));
     std::stable_sort(path.begin(), path.end(),
                      [](const KeyFrame& a, const KeyFrame& b) { return a.number < b.number; });
     return path;
@@ -53,7 +55,8 @@ class PathReader {
     return json;
   }
 
-  void check_keys(const nlohmann::json& json, const std::vector<std::string>& known, const std::string& where) const {
+  void check_keys(const nlohmann::json& json, const std::vector<std::string>& known,
+                  const std::string& where) const {
     for (const auto& [key, value] : json.items())
       if (std::find(known.begin(), known.end(), key) == known.end()) {
         std::string names;
@@ -66,7 +69,8 @@ class PathReader {
     if (!key.is_object()) fail(where + "is not an object");
     check_keys(key, {"frame", "eye", "target", "up", "fov"}, where);
     const auto frame = key.find("frame");
-    if (frame == key.end() || !frame->is_number_integer() || *frame < 0 || *frame > std::numeric_limits<int>::max())
+    if (frame == key.end() || !frame->is_number_integer() || *frame < 0 ||
+        *frame > std::numeric_limits<int>::max())
       fail(where + "frame is a whole number from 0 to " + std::to_string(std::numeric_limits<int>::max()));
     KeyFrame result{frame->get<int>(), camera_};
     Camera& camera = result.camera;
@@ -81,7 +85,8 @@ class PathReader {
     return result;
   }
 
-  [[nodiscard]] glm::vec3 vec3_of(const nlohmann::json& key, const char* name, const std::string& where) const {
+  [[nodiscard]] glm::vec3 vec3_of(const nlohmann::json& key, const char* name,
+                                  const std::string& where) const {
     const auto value = key.find(name);
     glm::vec3 result(0.0f);
     bool good = value != key.end() && value->is_array() && value->size() == 3;

@@ -70,14 +70,14 @@ class ChartRun {
     scene = value_or_exit(at_time(scene, *options_.animation.time_s), kBadScene);
     scene.animation = nullptr;
     make_folder(folder_ / "pictures");
-    check_apart(input_files(draw, options_.animation, scene),
-                {{"-o", folder_ / "results.json"}, {"-o", folder_ / "results.csv"}, {"-o", folder_ / "index.html"}});
+    check_apart(
+        input_files(draw, options_.animation, scene),
+        {{"-o", folder_ / "results.json"}, {"-o", folder_ / "results.csv"}, {"-o", folder_ / "index.html"}});
     check_writable(folder_ / "results.json");
     Drawing drawing(draw, std::move(scene), Exchange::sync, false, true);
     const auto resolve = [&](const Settings& settings) { return drawing.resolve(settings); };
-    const std::vector<Configuration> sweep =
-        make_sweep({drawing.settings(), resolve, drawing.stats(), system_info().cores, options_.quick,
-                    options_.only});
+    const std::vector<Configuration> sweep = make_sweep(
+        {drawing.settings(), resolve, drawing.stats(), system_info().cores, options_.quick, options_.only});
     Results results =
         value_or_exit(Results::open(folder_, run_json(drawing, views), options_.restart), kUsage);
     if (results.json()["points"].empty()) forget_references(folder_ / "pictures");

@@ -18,7 +18,8 @@ void check_camera(const Camera& camera, const std::string& whose) {
   if (camera.eye == camera.target) fail("its eye and its target are the same point; move one of them");
   if (!(glm::length(glm::dvec3(camera.up)) > 0.0) || is_far(camera.up))
     fail("its up is no direction; give one such as 0,1,0");
-  if (!(camera.fov_deg > 0.0f && camera.fov_deg < 180.0f)) fail("its field of view is not within 0 and 180 degrees");
+  if (!(camera.fov_deg > 0.0f && camera.fov_deg < 180.0f))
+    fail("its field of view is not within 0 and 180 degrees");
 }
 
 }  // namespace pinocchio::app

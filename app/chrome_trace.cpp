@@ -28,8 +28,8 @@ Row row_of(Stage stage) {
   }
 }
 
-// A stage of a frame on its track. Viewers count in whole nanoseconds: so do we, or slices that follow each other
-// would overlap by what is rounded.
+// A stage of a frame on its track. Viewers count in whole nanoseconds: so do we, or slices that follow each
+// other would overlap by what is rounded.
 struct Slice {
   std::uint64_t frame;
   Stage stage;
@@ -42,7 +42,9 @@ struct Slice {
 std::vector<Slice> slices_of(const std::vector<FrameRecord>& records) {
   std::vector<Slice> slices;
   const double begin_s = records.empty() ? 0.0 : records.front().frame.begin_s;
-  const auto ns = [begin_s](double s) { return static_cast<std::int64_t>(std::llround(1e9 * (s - begin_s))); };
+  const auto ns = [begin_s](double s) {
+    return static_cast<std::int64_t>(std::llround(1e9 * (s - begin_s)));
+  };
   for (const FrameRecord& record : records)
     for (std::size_t i = 0; i < kStageNames.size(); ++i)
       if (const Span& span = record.stages[i]; ns(span.end_s) > ns(span.begin_s))
@@ -80,7 +82,8 @@ void name_threads(const std::vector<Slice>& slices, nlohmann::json& events) {
   for (const auto& [thread, slice] : threads) {
     std::string name = kRowNames[row_of(slice->stage)];
     if (slice->track > 0) name += " " + std::to_string(slice->track + 1);
-    nlohmann::json named = event("M", thread, "thread_name"), sorted = event("M", thread, "thread_sort_index");
+    nlohmann::json named = event("M", thread, "thread_name"),
+                   sorted = event("M", thread, "thread_sort_index");
     named["args"]["name"] = name;
     sorted["args"]["sort_index"] = thread;
     events.push_back(std::move(named));
@@ -88,7 +91,8 @@ void name_threads(const std::vector<Slice>& slices, nlohmann::json& events) {
   }
 }
 
-// From a frame's readback to its trace, upload and composite. Arrows bind to the slice that is open at their time.
+// From a frame's readback to its trace, upload and composite. Arrows bind to the slice that is open at their
+// time.
 void add_arrows(const std::vector<Slice>& slices, nlohmann::json& events) {
   std::map<std::uint64_t, std::vector<const Slice*>> ways;
   for (const Slice& slice : slices)
@@ -114,7 +118,8 @@ nlohmann::json chrome_trace(const std::vector<FrameRecord>& records) {
   nlohmann::json events = nlohmann::json::array();
   name_threads(slices, events);
   for (const Slice& slice : slices) {
-    nlohmann::json complete = event("X", slice.thread(), std::string(kStageNames[static_cast<std::size_t>(slice.stage)]));
+    nlohmann::json complete =
+        event("X", slice.thread(), std::string(kStageNames[static_cast<std::size_t>(slice.stage)]));
     complete["ts"] = us(slice.begin_ns);
     complete["dur"] = us(slice.end_ns - slice.begin_ns);
     complete["args"]["frame"] = slice.frame;

@@ -36,7 +36,8 @@ std::string is_ppd(const std::string& text) {
   return "'" + text + "' is no number of pixels per degree from 1 to 1000";
 }
 
-// "rmse 0.2 is above 0.1, ..."; empty where all limits are kept. A metric that this pair has not got is an error.
+// "rmse 0.2 is above 0.1, ..."; empty where all limits are kept. A metric that this pair has not got is an
+// error.
 void apply_limits(const std::vector<ErrorLimit>& limits, PairResult& result) {
   std::string broken;
   for (const ErrorLimit& limit : limits) {
@@ -64,9 +65,12 @@ PairResult failed(const PicturePair& pair, const std::string& why, ExitCode code
   return result;
 }
 
-PairResult compare_pair(const PicturePair& pair, const Options& options, const std::string& heatmap, Workers& workers) {
-  if (pair.a.empty()) return failed(pair, pair.b.string() + ": has no counterpart in " + options.a, kAboveLimit);
-  if (pair.b.empty()) return failed(pair, pair.a.string() + ": has no counterpart in " + options.b, kAboveLimit);
+PairResult compare_pair(const PicturePair& pair, const Options& options, const std::string& heatmap,
+                        Workers& workers) {
+  if (pair.a.empty())
+    return failed(pair, pair.b.string() + ": has no counterpart in " + options.a, kAboveLimit);
+  if (pair.b.empty())
+    return failed(pair, pair.a.string() + ": has no counterpart in " + options.b, kAboveLimit);
   const Expected<NamedExr> a = read_picture(pair.a), b = read_picture(pair.b);
   if (!a) return failed(pair, a.error().message(), kBadScene);
   if (!b) return failed(pair, b.error().message(), kBadScene);
@@ -89,7 +93,9 @@ PairResult compare_pair(const PicturePair& pair, const Options& options, const s
 }
 
 // Folders and sequences, however many pictures they hold.
-bool holds_several(const Options& options, const PicturePair& pair) { return pair.a != options.a && pair.b != options.b; }
+bool holds_several(const Options& options, const PicturePair& pair) {
+  return pair.a != options.a && pair.b != options.b;
+}
 
 // Of two pictures the file itself; of folders and sequences NAME.png in that folder.
 std::string heatmap_of(const Options& options, const PicturePair& pair) {
@@ -118,7 +124,8 @@ void check_files(const Options& options, const std::vector<PicturePair>& pairs) 
   // There they would be pictures to the next comparison.
   for (const std::string& compared : {options.a, options.b})
     if (several && is_within(options.heatmap, compared))
-      throw Exit(kUsage, "--heatmap " + options.heatmap + ": within " + compared + ", whose pictures are compared; choose another folder");
+      throw Exit(kUsage, "--heatmap " + options.heatmap + ": within " + compared +
+                             ", whose pictures are compared; choose another folder");
   if (several && !options.heatmap.empty()) make_folder(options.heatmap);
   if (!several && !options.heatmap.empty()) check_writable(options.heatmap);
   if (!options.junit.empty()) check_writable(options.junit);
@@ -154,11 +161,11 @@ int run(const Options& options) {
   const auto count = std::ranges::count_if(results, bad);
   if (count == 0) return kDone;
   // What could not be compared at all comes before what is beyond a limit.
-  const PairResult& worst =
-      *std::ranges::find_if(results, [&](const PairResult& r) {
-        return bad(r) && (r.code != kAboveLimit ||
-                          std::ranges::all_of(results, [&](const PairResult& o) { return !bad(o) || o.code == kAboveLimit; }));
-      });
+  const PairResult& worst = *std::ranges::find_if(results, [&](const PairResult& r) {
+    return bad(r) && (r.code != kAboveLimit || std::ranges::all_of(results, [&](const PairResult& o) {
+                        return !bad(o) || o.code == kAboveLimit;
+                      }));
+  });
   std::string line = worst.failure;
   if (count > 1) line += "; and " + std::to_string(count - 1) + " more of " + std::to_string(results.size());
   throw Exit(static_cast<ExitCode>(worst.code), line);
@@ -169,7 +176,8 @@ int run(const Options& options) {
 Run add_compare(CLI::App& program) {
   auto options = std::make_shared<Options>();
   CLI::App& verb = *program.add_subcommand("compare", "how far pictures are from their references");
-  verb.add_option("A", options->a, "EXR or PNG; a folder of them; a sequence, with #### for the frame's number")
+  verb.add_option("A", options->a,
+                  "EXR or PNG; a folder of them; a sequence, with #### for the frame's number")
       ->required();
   verb.add_option("B", options->b, "the references: of the same kind, names and sizes")->required();
   verb.add_option("--ppd", options->compare.pixels_per_degree,
@@ -178,19 +186,22 @@ Run add_compare(CLI::App& program) {
   verb.add_option("--channel", options->compare.channels, "compare this channel too, e.g. Z; may be repeated")
       ->allow_extra_args(false);
   verb.add_flag("--channels", options->compare.all_channels, "compare every channel that both files have");
-  verb.add_option("--heatmap", options->heatmap,
-                  "write FLIP's errors as a PNG, black to yellow; of folders and sequences: a folder for them");
+  verb.add_option(
+      "--heatmap", options->heatmap,
+      "write FLIP's errors as a PNG, black to yellow; of folders and sequences: a folder for them");
   verb.add_option_function<std::vector<std::string>>(
           "--max-error",
           [options](const std::vector<std::string>& texts) {
             for (const std::string& text : texts)
               options->limits.push_back(parse_error_limit(text, kMetrics));
           },
-          "METRIC=VALUE: exit code 5 where a pair is above it (psnr: below); rmse, relmse, psnr, max, flip or "
+          "METRIC=VALUE: exit code 5 where a pair is above it (psnr: below); rmse, relmse, psnr, max, flip "
+          "or "
           "mask (share of bits, 0 to 1); may be repeated")
       ->allow_extra_args(false);
   verb.add_flag("--json", options->json, "the figures as JSON, a pair and overall; an infinite PSNR is null");
-  verb.add_option("--junit", options->junit, "write a test case a pair as JUnit's XML, as CI systems read it");
+  verb.add_option("--junit", options->junit,
+                  "write a test case a pair as JUnit's XML, as CI systems read it");
   return [options] { return run(*options); };
 }
 

@@ -27,8 +27,10 @@ bool is_sequence(const std::string& name) {
 Files pictures_in(const fs::path& folder) {
   Files files;
   std::error_code error;
-  for (fs::recursive_directory_iterator entry(folder, error), end; !error && entry != end; entry.increment(error))
-    if (is_picture(entry->path()) && entry->path().filename().string().front() != '.' && entry->is_regular_file(error))
+  for (fs::recursive_directory_iterator entry(folder, error), end; !error && entry != end;
+       entry.increment(error))
+    if (is_picture(entry->path()) && entry->path().filename().string().front() != '.' &&
+        entry->is_regular_file(error))
       files.emplace(entry->path().lexically_relative(folder).generic_string(), entry->path());
   return files;
 }
@@ -96,7 +98,8 @@ Expected<NamedExr> read_picture(const fs::path& file) {
     return NamedExr{name, std::move(*exr)};
   }
   std::error_code error;
-  if (!fs::is_regular_file(file, error)) return Unexpected(InputError{name, 0, "there is no such file", "check its name"});
+  if (!fs::is_regular_file(file, error))
+    return Unexpected(InputError{name, 0, "there is no such file", "check its name"});
   Warnings warnings;
   MemoryLimit limit(kUsualLoadLimit);
   Loading loading{warnings, nullptr, limit};

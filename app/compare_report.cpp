@@ -15,8 +15,8 @@ std::string remark(const Comparison& result, float pixels_per_degree, const std:
   if (metric == "relmse") return "mean of (a - b)^2 / (b^2 + 0.01)";
   if (metric == "psnr") return "dB, peak 1, of the values clamped to [0, 1]";
   if (metric == "flip")
-    return "mean LDR-FLIP, clamped to [0, 1] and sRGB, " + number_text(static_cast<double>(pixels_per_degree)) +
-           " pixels per degree";
+    return "mean LDR-FLIP, clamped to [0, 1] and sRGB, " +
+           number_text(static_cast<double>(pixels_per_degree)) + " pixels per degree";
   if (metric != "mask") return "";
   if (!result.mask) return "not compared: " + result.no_mask;
   return "share of shadow.mask bits that differ: " + std::to_string(result.mask->differing) + " of " +
@@ -107,12 +107,14 @@ void print_pair(const PairResult& result, float pixels_per_degree) {
                 ((value ? number_text(*value) : "-") + (said.empty() ? "" : "  " + said)).c_str());
   }
   for (const auto& [name, c] : result.figures->channels) {
-    std::printf("  %s: %llu of %llu pixels differ", name.c_str(), static_cast<unsigned long long>(c.differing),
-                static_cast<unsigned long long>(c.pixels));
+    std::printf("  %s: %llu of %llu pixels differ", name.c_str(),
+                static_cast<unsigned long long>(c.differing), static_cast<unsigned long long>(c.pixels));
     if (!c.integers)
-      std::printf(", rmse %.6g, relmse %.6g, max %.6g", c.errors.rmse, c.errors.relative_mse, c.errors.max_difference);
+      std::printf(", rmse %.6g, relmse %.6g, max %.6g", c.errors.rmse, c.errors.relative_mse,
+                  c.errors.max_difference);
     if (c.not_finite > 0)
-      std::printf(", %llu of them NaN or infinite and left out", static_cast<unsigned long long>(c.not_finite));
+      std::printf(", %llu of them NaN or infinite and left out",
+                  static_cast<unsigned long long>(c.not_finite));
     std::printf("\n");
   }
   if (!result.heatmap.empty()) std::printf("%s\n", result.heatmap.c_str());
@@ -181,10 +183,13 @@ nlohmann::json all_json(const std::vector<PairResult>& results, float pixels_per
 
 std::string junit_xml(const std::vector<PairResult>& results) {
   const auto count = [&](auto is) { return std::to_string(std::ranges::count_if(results, is)); };
-  const std::string failures = count([](const PairResult& r) { return r.code == kAboveLimit; }),
-                    errors = count([](const PairResult& r) { return r.code != kDone && r.code != kAboveLimit; });
-  std::string xml = "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<testsuites>\n  <testsuite name=\"pinocchio compare\" tests=\"" +
-                    std::to_string(results.size()) + "\" failures=\"" + failures + "\" errors=\"" + errors + "\">\n";
+  const std::string failures = count([](const PairResult&r) { return r.code == kAboveLimit; }),
+                    errors =
+                        count([](const PairResult&r) { return r.code != kDone && r.code != kAboveLimit; });
+  std::string xml =
+      "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<testsuites>\n  <testsuite name=\"pinocchio compare\" "
+      "tests=\"" +
+      std::to_string(results.size()) + "\" failures=\"" + failures + "\" errors=\"" + errors + "\">\n";
   for (const PairResult& result : results) {
     xml += "    <testcase classname=\"compare\" name=\"" + xml_text(result.pair.name) + "\">\n";
     if (result.code != kDone) {

@@ -20,7 +20,7 @@ struct PairResult {
   glm::ivec2 size{0, 0};
   std::optional<Comparison> figures;  // none: they could not be compared
   std::string failure;                // one line: why not, or which limits are broken; empty: neither
-  int code = 0;  // exit code that it asks for
+  int code = 0;                       // exit code that it asks for
   std::string heatmap;
 };
 

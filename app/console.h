@@ -11,8 +11,8 @@ namespace pinocchio::app {
 // Line breaks become blanks: an error is one line.
 [[nodiscard]] std::string one_line(std::string text);
 
-// From here on SIGINT (Ctrl-C), SIGTERM and SIGHUP cancel run_progress(). What does not look at it, such as an
-// OpenGL driver, gets half a second; then, or at a second signal, the program ends at once with
+// From here on SIGINT (Ctrl-C), SIGTERM and SIGHUP cancel run_progress(). What does not look at it, such as
+// an OpenGL driver, gets half a second; then, or at a second signal, the program ends at once with
 // kInterrupted and removes its part files.
 void catch_interrupts();
 // Of this run of the program, for all its long work: without phases of its own where several things go on.

@@ -37,8 +37,9 @@ Drawing::Drawing(const DrawOptions& options, Scene scene, Exchange usual, bool k
   if (!resolved) {
     InputError error = resolved.error();
     error.file = options.plan_file;
-    throw Exit(options.plan_file.empty() && !broken_rule(with_usual(options.settings, usual)) ? kBadScene : kUsage,
-               error.message());
+    throw Exit(
+        options.plan_file.empty() && !broken_rule(with_usual(options.settings, usual)) ? kBadScene : kUsage,
+        error.message());
   }
   settings_ = *resolved;
   if (!options.quiet)
@@ -48,7 +49,8 @@ Drawing::Drawing(const DrawOptions& options, Scene scene, Exchange usual, bool k
   if (!options.quiet && !any_settings) advise(with_usual(options.settings, usual));
   if (scene_.animation)
     poses_.emplace(scene_, &run_progress());
-  else if (any_settings || (settings_.traces() && !options.precise)) tracer_ = Engine::prepare(scene_, settings_, &run_progress());
+  else if (any_settings || (settings_.traces() && !options.precise))
+    tracer_ = Engine::prepare(scene_, settings_, &run_progress());
 }
 
 void Drawing::advise(Settings automatic) const {
@@ -56,7 +58,8 @@ void Drawing::advise(Settings automatic) const {
   automatic.by_machine = true;
   const Expected<Settings> other = resolve(automatic);
   if (!other || other->uses_gpu()) return;
-  std::fprintf(stderr, "pinocchio: OpenGL is software here (%s); --mode auto would draw with the CPU alone, %s\n",
+  std::fprintf(stderr,
+               "pinocchio: OpenGL is software here (%s); --mode auto would draw with the CPU alone, %s\n",
                engine_.gl_info()->renderer.c_str(), kGainOverSoftwareGl);
 }
 
@@ -73,7 +76,10 @@ FrameRequest Drawing::request(const Settings& settings, const CameraFrame& frame
 }
 
 FrameRequest Drawing::untraced_request(const CameraFrame& frame) const {
-  return {value_or_exit(at_time(scene_, frame.time_s), kBadScene), nullptr, settings_, {frame.camera, options_.size, part_}};
+  return {value_or_exit(at_time(scene_, frame.time_s), kBadScene),
+          nullptr,
+          settings_,
+          {frame.camera, options_.size, part_}};
 }
 
 }  // namespace pinocchio::app

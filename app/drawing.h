@@ -14,10 +14,11 @@ namespace pinocchio::app {
 class Drawing {
  public:
   // `usual`: the exchange where the options name none. `keeps_mask`: the mask itself is wanted, not only the
-  // picture. `any_settings`: others than the options' are going to be drawn, too. Ends the verb with kBadScene
-  // (kUsage, where a plan's file says them) where the settings cannot draw the scene; throws
+  // picture. `any_settings`: others than the options' are going to be drawn, too. Ends the verb with
+  // kBadScene (kUsage, where a plan's file says them) where the settings cannot draw the scene; throws
   // NoOpenGlError.
-  Drawing(const DrawOptions& options, Scene scene, Exchange usual, bool keeps_mask, bool any_settings = false);
+  Drawing(const DrawOptions& options, Scene scene, Exchange usual, bool keeps_mask,
+          bool any_settings = false);
 
   [[nodiscard]] Engine& engine() { return engine_; }
   // As it was loaded.
@@ -26,13 +27,16 @@ class Drawing {
   [[nodiscard]] const Settings& settings() const { return settings_; }
   [[nodiscard]] Workers& workers() const { return engine_.workers(settings_.threads); }
   // Of the context that the settings draw in; null where the CPU draws alone.
-  [[nodiscard]] const gl::ContextInfo* gl_info() const { return settings_.uses_gpu() ? engine_.gl_info() : nullptr; }
+  [[nodiscard]] const gl::ContextInfo* gl_info() const {
+    return settings_.uses_gpu() ? engine_.gl_info() : nullptr;
+  }
 
   // Other settings for the same scene.
   [[nodiscard]] Expected<Settings> resolve(const Settings& wanted) const;
-  // A frame, its scene as it is then; `next`: the one that follows, whose scene is made meanwhile. Ends the verb with
-  // kBadScene where the scene cannot be posed.
-  [[nodiscard]] FrameRequest request(const Settings& settings, const CameraFrame& frame, const CameraFrame* next = nullptr);
+  // A frame, its scene as it is then; `next`: the one that follows, whose scene is made meanwhile. Ends the
+  // verb with kBadScene where the scene cannot be posed.
+  [[nodiscard]] FrameRequest request(const Settings& settings, const CameraFrame& frame,
+                                     const CameraFrame* next = nullptr);
   // The same by the run's own settings, without what rays are traced in.
   [[nodiscard]] FrameRequest untraced_request(const CameraFrame& frame) const;
 

@@ -39,7 +39,8 @@ nlohmann::json vec3_json(const glm::vec3& v) {
 nlohmann::json warnings_json(const Warnings& warnings) {
   nlohmann::json json = nlohmann::json::array();
   for (const Warning& w : warnings)
-    json.push_back({{"file", w.file}, {"where", w.where}, {"what", w.what}, {"lost", w.lost}, {"places", w.places}});
+    json.push_back(
+        {{"file", w.file}, {"where", w.where}, {"what", w.what}, {"lost", w.lost}, {"places", w.places}});
   return json;
 }
 
@@ -174,8 +175,8 @@ int show_system(const InfoOptions& options) {
 }
 
 nlohmann::json field_json(const Field& field) {
-  nlohmann::json json{{"name", field.name},       {"option", field.option()}, {"domain", field.domain()},
-                      {"default", field.unset},   {"help", field.help},       {"of_machine", field.of_machine}};
+  nlohmann::json json{{"name", field.name},     {"option", field.option()}, {"domain", field.domain()},
+                      {"default", field.unset}, {"help", field.help},       {"of_machine", field.of_machine}};
   for (const std::string_view choice : field.choices) json["choices"].push_back(choice);
   return json;
 }
@@ -195,8 +196,8 @@ int show_settings(const InfoOptions& options) {
   const auto text = [](std::string_view s) { return std::string(s); };
   std::printf("| setting | option | values | default | what it is |\n|---|---|---|---|---|\n");
   for (const Field& f : settings_table())
-    std::printf("| `%s` | `%s` | %s | %s | %s |\n", text(f.name).c_str(), f.option().c_str(), f.domain().c_str(),
-                text(f.unset).c_str(), text(f.help).c_str());
+    std::printf("| `%s` | `%s` | %s | %s | %s |\n", text(f.name).c_str(), f.option().c_str(),
+                f.domain().c_str(), text(f.unset).c_str(), text(f.help).c_str());
   std::printf("\n| preset | what it sets |\n|---|---|\n");
   for (const Preset& p : presets())
     std::printf("| `--%s %s` | %s |\n", text(p.option).c_str(), text(p.value).c_str(), text(p.help).c_str());
@@ -211,8 +212,8 @@ struct PlanHere {
   std::vector<std::string> why;
 };
 
-// How a hybrid frame of it is drawn on this machine, and who would draw with --mode auto; without any OpenGL, by
-// a GPU.
+// How a hybrid frame of it is drawn on this machine, and who would draw with --mode auto; without any OpenGL,
+// by a GPU.
 Expected<PlanHere> plan_here(const SceneStats& stats) {
   Circumstances circumstances;
   bool any_gl = true;
@@ -270,7 +271,8 @@ Run add_info(CLI::App& program) {
   verb.add_flag("--system", options->system,
                 "processor, SIMD levels, OpenGL contexts: what was tried, what failed")
       ->excludes(scene);
-  verb.add_flag("--settings", options->settings, "every setting: values, default, help; the presets and rules")
+  verb.add_flag("--settings", options->settings,
+                "every setting: values, default, help; the presets and rules")
       ->excludes(scene);
   verb.add_flag("--plan", options->plan, "how a hybrid frame of it is drawn, and why");
   verb.add_flag("--json", options->json, "as JSON");

@@ -58,13 +58,11 @@ int parse_and_run(int argc, char** argv) {
   program.set_version_flag("--version", std::string("pinocchio ") + version());
   program.require_subcommand(1);
   program.failure_message([](const CLI::App*, const CLI::Error&) { return std::string(); });
-  const std::vector<std::pair<std::string, Run>> verbs{{"render", add_render(program)},
-                                                       {"view", add_view(program)},
-                                                       {"measure", add_measure(program)},
-                                                       {"chart", add_chart(program)},
-                                                       {"compare", add_compare(program)},
-                                                       {"info", add_info(program)},
-                                                       {"generate", add_generate(program)}};
+  const std::vector<std::pair<std::string, Run>> verbs{
+      {"render", add_render(program)},    {"view", add_view(program)},
+      {"measure", add_measure(program)},  {"chart", add_chart(program)},
+      {"compare", add_compare(program)},  {"info", add_info(program)},
+      {"generate", add_generate(program)}};
   try {
     program.parse(argc, argv);
   } catch (const CLI::ParseError& error) {

@@ -15,9 +15,9 @@
 #include "app/overlap.h"
 #include "app/stats.h"
 #include "app/verbs.h"
+#include "core/base/clock.h"
 #include "core/image/atomic_file.h"
 #include "core/parallel/workers.h"
-#include "core/base/clock.h"
 #include "gl/context.h"
 #include "hybrid/exchange/channels.h"
 #include "hybrid/exchange/cost.h"
@@ -51,17 +51,19 @@ void drop_warm_up(std::vector<FrameRecord>& records) {
   records.erase(records.begin(), records.begin() + static_cast<std::ptrdiff_t>(warm_up));
 }
 
-void draw(Drawing& drawing, const MeasureOptions& options, const CameraFrames& frames,
-          Measured& run) {
+void draw(Drawing& drawing, const MeasureOptions& options, const CameraFrames& frames, Measured& run) {
   Progress progress(options.draw.quiet ? "off" : options.draw.progress, run.name, frames.size());
-  Renderer renderer(drawing.engine(), {{}, [&](const FrameRecord& record) {
-                                         run.records.push_back(record);
-                                         progress.step();
-                                       }},
+  Renderer renderer(drawing.engine(),
+                    {{},
+                     [&](const FrameRecord& record) {
+                       run.records.push_back(record);
+                       progress.step();
+                     }},
                     &run_progress());
   for (std::size_t i = 0; i < frames.size() && !interrupted(); ++i) {
     if (run.budget) run.settings = run.budget->settings();
-    const std::optional<CameraFrame> next = i + 1 < frames.size() ? std::optional(frames[i + 1]) : std::nullopt;
+    const std::optional<CameraFrame> next =
+        i + 1 < frames.size() ? std::optional(frames[i + 1]) : std::nullopt;
     const double begin_s = now_s();
     renderer.submit(drawing.request(run.settings, frames[i], next ? &*next : nullptr));
     if (run.budget) run.budget->note(1e3 * (now_s() - begin_s));
@@ -119,7 +121,8 @@ void print_traffic(const Drawing& drawing, const MeasureOptions& options) {
   std::printf("bytes a frame, at most GPU to CPU   CPU to GPU\n");
   for (const char* const plan : {"auto", "slides"}) {
     Settings wanted;
-    if (drawing.settings().visibility == Processor::gpu) wanted.composite = Processor{drawing.settings().composite};
+    if (drawing.settings().visibility == Processor::gpu)
+      wanted.composite = Processor{drawing.settings().composite};
     apply_preset("plan", plan, wanted);
     const Expected<Settings> settings = drawing.resolve(wanted);
     if (!settings) continue;
@@ -206,8 +209,8 @@ int measure(MeasureOptions& options) {
     options.animation.turntable = kDefaultFrames;
   const CameraFrames frames(options.animation, options.draw, scene);
   if (frames.size() > kMostFrames)
-    throw Exit(kUsage, "measure keeps the figures of each frame, of " + std::to_string(kMostFrames) + " at most, not of " +
-                           std::to_string(frames.size()) + "; ask for fewer --frames");
+    throw Exit(kUsage, "measure keeps the figures of each frame, of " + std::to_string(kMostFrames) +
+                           " at most, not of " + std::to_string(frames.size()) + "; ask for fewer --frames");
   check_apart(input_files(options.draw, options.animation, scene),
               {{"--stats-json", options.stats_json}, {"--trace", options.trace}});
   for (const std::string& file : {options.stats_json, options.trace})

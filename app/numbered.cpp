@@ -11,7 +11,8 @@ namespace {
 
 // The number by which `pattern` is called `name`.
 std::optional<int> number_in(const std::string& pattern, const std::string& name) {
-  const std::size_t first = pattern.find('#'), end = std::min(pattern.find_first_not_of('#', first), pattern.size());
+  const std::size_t first = pattern.find('#'),
+                    end = std::min(pattern.find_first_not_of('#', first), pattern.size());
   const std::size_t fixed = first + (pattern.size() - end);
   if (name.size() <= fixed) return std::nullopt;
   const std::optional<int> number = parse_int(name.substr(first, name.size() - fixed));
@@ -29,7 +30,8 @@ std::filesystem::path numbered(const std::string& pattern, int number) {
   return pattern.substr(0, first) + digits + pattern.substr(end);
 }
 
-std::vector<int> numbers_in_use(const std::string& pattern, const FrameRange& range, const std::filesystem::path& other) {
+std::vector<int> numbers_in_use(const std::string& pattern, const FrameRange& range,
+                                const std::filesystem::path& other) {
   if (pattern.find('#') == std::string::npos) return {range.first};
   std::filesystem::path folder, name;  // down to what holds the number, a file or a folder
   for (const std::filesystem::path& part : std::filesystem::path(pattern)) {
@@ -44,8 +46,8 @@ std::vector<int> numbers_in_use(const std::string& pattern, const FrameRange& ra
   };
   look_at(other);
   std::error_code error;  // a folder that cannot be read is met again when it is written to
-  for (std::filesystem::directory_iterator entry(folder.empty() ? "." : folder, error), end; !error && entry != end;
-       entry.increment(error)) {
+  for (std::filesystem::directory_iterator entry(folder.empty() ? "." : folder, error), end;
+       !error && entry != end; entry.increment(error)) {
     look_at(entry->path());
     std::error_code none;
     if (entry->is_symlink(none)) look_at(written_file(entry->path()));  // which may not be there yet

@@ -52,7 +52,8 @@ void add_field(CLI::App& verb, const Field& field, Settings& said) {
   std::string type = field.kind == Field::Kind::number ? "NUMBER" : "N";
   if (!field.choices.empty()) {
     type.clear();
-    for (const std::string_view choice : field.choices) type += (type.empty() ? "" : "|") + std::string(choice);
+    for (const std::string_view choice : field.choices)
+      type += (type.empty() ? "" : "|") + std::string(choice);
   }
   verb.add_option_function<std::string>(
           field.option(),
@@ -81,13 +82,11 @@ void add_preset(CLI::App& verb, const std::string& option, const std::string& he
     type += (i == 0 ? "" : "|") + values[i];
     domain += (i == 0 ? "" : i + 1 == values.size() ? " or " : ", ") + values[i];
   }
-  verb.add_option("--" + option, said, help)
-      ->type_name(type)
-      ->check([=](const std::string& text) {
-        Settings ignored;
-        const bool known = (takes_files && text.ends_with(".json")) || apply_preset(option, text, ignored);
-        return known ? std::string() : "'" + text + "' is not " + domain;
-      });
+  verb.add_option("--" + option, said, help)->type_name(type)->check([=](const std::string& text) {
+    Settings ignored;
+    const bool known = (takes_files && text.ends_with(".json")) || apply_preset(option, text, ignored);
+    return known ? std::string() : "'" + text + "' is not " + domain;
+  });
 }
 
 // The plan's file, presets over it, and the single settings over both.
@@ -130,19 +129,23 @@ void add_camera_options(CLI::App& verb, DrawOptions& o) {
         [&to](float v) { to = v; })
         ->type_name("LENGTH");
   };
-  add_length("--lens-radius", "depth of field by samples: the lens's radius, scene units; 0: a pinhole", o.lens_radius);
-  add_length("--focus", "how far along the view axis all is sharp, scene units (the target's distance)", o.focus);
+  add_length("--lens-radius", "depth of field by samples: the lens's radius, scene units; 0: a pinhole",
+             o.lens_radius);
+  add_length("--focus", "how far along the view axis all is sharp, scene units (the target's distance)",
+             o.focus);
   const auto take_lights = [&o](const std::vector<std::string>& texts) {
     for (const std::string& text : texts) {
       const std::optional<Light> light = parse_light(text);
       if (!light)
-        throw CLI::ValidationError("--light", "'" + text + "' is not x,y,z[,intensity[,cast|nocast[,radius]]]");
+        throw CLI::ValidationError("--light",
+                                   "'" + text + "' is not x,y,z[,intensity[,cast|nocast[,radius]]]");
       o.lights.push_back(*light);
     }
   };
   verb.add_option_function<std::vector<std::string>>(
-          "--light", take_lights, "add a point light, same strength at any distance; with a radius, scene units, a ball "
-                   "whose shadows are soft by samples (repeatable)")
+          "--light", take_lights,
+          "add a point light, same strength at any distance; with a radius, scene units, a ball "
+          "whose shadows are soft by samples (repeatable)")
       ->type_name("x,y,z[,intensity[,cast|nocast[,radius]]]")
       ->expected(1)
       ->take_all();
@@ -151,7 +154,8 @@ void add_camera_options(CLI::App& verb, DrawOptions& o) {
 }  // namespace
 
 void add_context_options(CLI::App& verb, DrawOptions& o) {
-  verb.add_option("--backend", o.engine.backend, "OpenGL context: auto, egl, osmesa, glfw (a display's) (auto)")
+  verb.add_option("--backend", o.engine.backend,
+                  "OpenGL context: auto, egl, osmesa, glfw (a display's) (auto)")
       ->check(CLI::IsMember({"auto", "egl", "osmesa", "glfw"}))
       ->envname("PINOCCHIO_BACKEND");
   verb.add_option("--device", o.engine.device, "EGL device number, or software")
@@ -179,7 +183,8 @@ void add_size_option(CLI::App& verb, DrawOptions& o, const std::string& help) {
 void add_load_limit_option(CLI::App& verb, DrawOptions& o) {
   verb.add_option_function<std::uint64_t>(
           "--load-limit", [&o](std::uint64_t mib) { o.load_limit = mib << 20; },
-          "most memory that the scene's files may claim beyond their own bytes, for pictures, packed meshes and copies "
+          "most memory that the scene's files may claim beyond their own bytes, for pictures, packed meshes "
+          "and copies "
           "(4096)")
       ->type_name("MIB")
       ->check(CLI::Range(std::uint64_t{1}, std::uint64_t{1} << 30));
@@ -188,8 +193,9 @@ void add_load_limit_option(CLI::App& verb, DrawOptions& o) {
 void add_scene_options(CLI::App& verb, DrawOptions& o) {
   verb.add_option("SCENE", o.scene, "glTF (.gltf, .glb), OBJ or PLY file")->required();
   add_camera_options(verb, o);
-  verb.add_option("--environment", o.environment,
-                  "what is seen behind the scene and lights it: EXR or Radiance (.hdr), latitude and longitude")
+  verb.add_option(
+          "--environment", o.environment,
+          "what is seen behind the scene and lights it: EXR or Radiance (.hdr), latitude and longitude")
       ->type_name("FILE");
   add_load_limit_option(verb, o);
   verb.add_flag("--strict", o.strict, "what of the scene's files would be left out is an error");
@@ -200,7 +206,8 @@ void add_scene_options(CLI::App& verb, DrawOptions& o) {
 
 void add_settings_options(CLI::App& verb, DrawOptions& o) {
   const auto said = std::make_shared<Said>();
-  add_preset(verb, "mode", "who draws: both, CPU alone, GPU alone, whichever is faster here (hybrid)", said->mode);
+  add_preset(verb, "mode", "who draws: both, CPU alone, GPU alone, whichever is faster here (hybrid)",
+             said->mode);
   add_preset(verb, "design", "where the parts meet: 1, on the GPU; 2, on the CPU (1)", said->design);
   add_preset(verb, "plan",
              "auto: model and send only what the scene needs; slides: the fixed bytes of 2005; FILE.json: "
@@ -236,13 +243,15 @@ Scene load_whole(const DrawOptions& options, Warnings& warnings, pinocchio::Prog
       std::fprintf(stderr, "pinocchio: warning: %s\n", warning.message().c_str());
   if (scene && options.strict && !warnings.empty()) {
     const std::size_t more = warnings.size() - 1;
-    throw Exit(kBadScene, warnings[0].message() + (more > 0 ? "; and " + std::to_string(more) + " more" : "") +
+    throw Exit(kBadScene, warnings[0].message() +
+                              (more > 0 ? "; and " + std::to_string(more) + " more" : "") +
                               " ('pinocchio info' lists them; without --strict the rest is drawn)");
   }
   Scene whole = value_or_exit(std::move(scene), kBadScene);
   if (!options.environment.empty())
     whole.environment = value_or_exit(
-        load_environment(options.environment, progress ? progress : &run_progress(), options.load_limit), kBadScene);
+        load_environment(options.environment, progress ? progress : &run_progress(), options.load_limit),
+        kBadScene);
   return whole;
 }
 

@@ -36,12 +36,12 @@ struct DrawOptions {
   std::string progress = "auto";
   bool quiet = false;
   std::uint64_t load_limit = kUsualLoadLimit;  // bytes
-  bool strict = false;  // what of the scene would be left out is an error
+  bool strict = false;                         // what of the scene would be left out is an error
 };
 
-// Each adds options to a verb; they are in `options` once the command line is parsed. A value that cannot be is
-// a CLI::ValidationError, so exit code 2 and a line that says what is wanted.
-// Scene, camera, lights, messages:
+// Each adds options to a verb; they are in `options` once the command line is parsed. A value that cannot be
+// is a CLI::ValidationError, so exit code 2 and a line that says what is wanted. Scene, camera, lights,
+// messages:
 void add_scene_options(CLI::App& verb, DrawOptions& options);
 // --load-limit:
 void add_load_limit_option(CLI::App& verb, DrawOptions& options);
@@ -56,8 +56,8 @@ void add_still_options(CLI::App& verb, DrawOptions& options);
 // All of these.
 void add_draw_options(CLI::App& verb, DrawOptions& options);
 
-// Loads the scene and prints what of it is left out. Ends the verb with kBadScene where the file cannot be read,
-// or is not read whole and options.strict.
+// Loads the scene and prints what of it is left out. Ends the verb with kBadScene where the file cannot be
+// read, or is not read whole and options.strict.
 [[nodiscard]] Scene load_whole(const DrawOptions& options, Warnings& warnings,
                                pinocchio::Progress* progress = nullptr);
 

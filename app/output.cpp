@@ -8,10 +8,10 @@
 
 #include "app/errors.h"
 #include "app/parse.h"
-#include "core/output/aovs.h"
 #include "core/image/atomic_file.h"
 #include "core/image/png.h"
 #include "core/image/tonemap.h"
+#include "core/output/aovs.h"
 
 namespace pinocchio::app {
 namespace {
@@ -61,13 +61,15 @@ void add_output_options(CLI::App& verb, OutputOptions& options) {
         return aovs ? std::string() : aovs.error().message();
       });
   std::string type;
-  for (const std::string_view name : kExrCompressionNames) type += (type.empty() ? "" : "|") + std::string(name);
+  for (const std::string_view name : kExrCompressionNames)
+    type += (type.empty() ? "" : "|") + std::string(name);
   verb.add_option_function<std::string>(
           "--compression",
           [&options](const std::string& text) {
             const auto found = std::ranges::find(kExrCompressionNames, text);
             if (found == kExrCompressionNames.end())
-              throw CLI::ValidationError("--compression", "'" + text + "' is not zip, zips, piz, rle or none");
+              throw CLI::ValidationError("--compression",
+                                         "'" + text + "' is not zip, zips, piz, rle or none");
             options.compression = static_cast<ExrCompression>(found - kExrCompressionNames.begin());
           },
           "how the EXR is packed, without loss all of them (zip)")
@@ -77,9 +79,10 @@ void add_output_options(CLI::App& verb, OutputOptions& options) {
   add_tone_map_option(verb, options.tone_map);
   verb.add_flag("--deterministic", options.deterministic,
                 "leave the render time out of the EXR: the same file, whatever machine draws it");
-  verb.add_flag("--skip-existing", options.skip_existing,
-                "leave out frames whose EXR is whole, of the same settings (its header says) and not older than the "
-                "scene");
+  verb.add_flag(
+      "--skip-existing", options.skip_existing,
+      "leave out frames whose EXR is whole, of the same settings (its header says) and not older than the "
+      "scene");
 }
 
 void write_json(const std::filesystem::path& file, const nlohmann::json& json) {
@@ -104,11 +107,14 @@ void check_outputs(const OutputOptions& options, const FrameRange& range) {
   }
 }
 
-std::vector<NamedFile> output_files(const OutputOptions& options, const FrameRange& range, const NamedFile& other) {
+std::vector<NamedFile> output_files(const OutputOptions& options, const FrameRange& range,
+                                    const NamedFile& other) {
   std::vector<NamedFile> files{other};
-  for (const auto& [role, pattern] : {std::pair("-o", options.exr), std::pair("--preview", options.preview)}) {
+  for (const auto& [role, pattern] :
+       {std::pair("-o", options.exr), std::pair("--preview", options.preview)}) {
     if (pattern.empty()) continue;
-    for (const int number : numbers_in_use(pattern, range, other.file)) files.push_back({role, numbered(pattern, number)});
+    for (const int number : numbers_in_use(pattern, range, other.file))
+      files.push_back({role, numbered(pattern, number)});
   }
   return files;
 }

@@ -61,8 +61,8 @@ void make_folder(const std::filesystem::path& folder);
 // kFailed where a file cannot be written.
 void check_outputs(const OutputOptions& options, const FrameRange& range);
 
-// `other`, which is written beside these frames, and those of their files that can be the same as another, each with
-// the option that names it.
+// `other`, which is written beside these frames, and those of their files that can be the same as another,
+// each with the option that names it.
 [[nodiscard]] std::vector<NamedFile> output_files(const OutputOptions& options, const FrameRange& range,
                                                   const NamedFile& other);
 

@@ -49,8 +49,9 @@ FrameResult precise(const FrameRequest& request, Workers& workers) {
   const int spp = request.settings.spp;
   for (int k = 0; k < spp; ++k) {
     const View view = at_sample(request.view, k, request.settings.pixel_filter);
-    ReferencePicture sample = reference_render(mean.scene, view, request.settings.depth, workers, &run_progress(),
-                                               texture_footprint(request.settings, view), request.settings.terminator);
+    ReferencePicture sample =
+        reference_render(mean.scene, view, request.settings.depth, workers, &run_progress(),
+                         texture_footprint(request.settings, view), request.settings.terminator);
     if (k == 0) {
       mean.color = std::move(sample.color);
       mean.ids = std::move(sample.ids);
@@ -107,9 +108,11 @@ class RenderRun {
                 output_files(options_.output, frames_->range(), {"--stats-json", options_.stats_json}));
     check_outputs(options_.output, frames_->range());
     if (options_.output.skip_existing && (options_.output.exr.empty() || options_.budget.any()))
-      throw Exit(kUsage, "--skip-existing: the EXR's header says what it is; give -o FILE.exr, and no --budget");
+      throw Exit(kUsage,
+                 "--skip-existing: the EXR's header says what it is; give -o FILE.exr, and no --budget");
     if (options_.output.skip_existing && options_.draw.settings.exchange == Exchange::reproject)
-      throw Exit(kUsage, "--skip-existing: a reprojected frame depends on those before it; use --exchange pipelined");
+      throw Exit(kUsage,
+                 "--skip-existing: a reprojected frame depends on those before it; use --exchange pipelined");
     if (!options_.stats_json.empty()) check_writable(options_.stats_json);
   }
 
@@ -161,9 +164,10 @@ class RenderRun {
   template <class Take>
   void draw_frames(Drawing& drawing, Take take) {
     SampleMean mean(drawing.settings(), take);
-    Renderer renderer(drawing.engine(), {[&](Frame& frame) { mean.add(frame); },
-                                         [&](const FrameRecord& record) { keep(record); }},
-                      &run_progress());
+    Renderer renderer(
+        drawing.engine(),
+        {[&](Frame& frame) { mean.add(frame); }, [&](const FrameRecord& record) { keep(record); }},
+        &run_progress());
     while (const std::optional<CameraFrame> frame = begin_frame(drawing)) {
       const double begin_s = now_s();
       delivering_s_ = 0.0;
@@ -213,7 +217,8 @@ class RenderRun {
                 options_.draw.size.y, drawing.gl_info() ? (", " + drawing.gl_info()->renderer).c_str() : "");
     line("load and build", 1e3 * load_s);
     for (std::size_t i = 0; i < kStageNames.size(); ++i)
-      if (stage_ms_[i] > 0.0) line(std::string(kStageNames[i]).c_str(), stage_ms_[i] / static_cast<double>(recorded_));
+      if (stage_ms_[i] > 0.0)
+        line(std::string(kStageNames[i]).c_str(), stage_ms_[i] / static_cast<double>(recorded_));
     if (drawing.settings().exchange == Exchange::reproject)
       std::printf("  %zu pixels a frame are holes of the reprojection\n",
                   holes_ / std::max<std::size_t>(delivered_, 1));
@@ -242,7 +247,7 @@ class RenderRun {
   std::vector<int> written_;  // numbers of the frames whose files are whole
   std::size_t delivered_ = 0;
   std::size_t skipped_ = 0;  // their files were there
-  std::size_t holes_ = 0;  // reprojected: pixels that no older frame had an answer for
+  std::size_t holes_ = 0;    // reprojected: pixels that no older frame had an answer for
 };
 
 }  // namespace

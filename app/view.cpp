@@ -30,8 +30,8 @@ std::unique_ptr<gl::Window> open_window(const ViewOptions& options) {
   }
 }
 
-// Pictures of all sizes come and go for hours. Each gets pages of its own, which go back to the system with it;
-// glibc would soon keep them between those that stay.
+// Pictures of all sizes come and go for hours. Each gets pages of its own, which go back to the system with
+// it; glibc would soon keep them between those that stay.
 void keep_memory_whole() {
   constexpr int kOwnPages_bytes = 256 * 1024;
   mallopt(M_MMAP_THRESHOLD, kOwnPages_bytes);
@@ -40,8 +40,9 @@ void keep_memory_whole() {
 int view(const ViewOptions& options) {
   keep_memory_whole();
   if (const Rule* const rule = broken_rule(options.draw.settings))
-    throw Exit(kUsage, InputError{options.draw.plan_file, 0, std::string(rule->what), std::string(rule->remedy)}
-                           .message());
+    throw Exit(
+        kUsage,
+        InputError{options.draw.plan_file, 0, std::string(rule->what), std::string(rule->remedy)}.message());
   check_apart({{"the scene", options.draw.scene}}, {{"--stats-json", options.stats_json}});
   if (!options.stats_json.empty()) check_writable(options.stats_json);
   const std::unique_ptr<gl::Window> window = open_window(options);
@@ -76,11 +77,15 @@ Run add_view(CLI::App& program) {
   verb.add_option("--exposure", options->exposure_ev, "stops brighter (0)")
       ->check([](const std::string& text) {
         const std::optional<float> value = parse_float(text);  // CLI::Range lets NaN through
-        return value && std::abs(*value) <= kMostExposure ? std::string() : "'" + text + "' is no number of stops that is shown";
+        return value && std::abs(*value) <= kMostExposure
+                   ? std::string()
+                   : "'" + text + "' is no number of stops that is shown";
       });
   add_tone_map_option(verb, options->tone_map);
-  verb.add_option("--stats-json", options->stats_json, "write how quickly the window answered as JSON, when it is closed");
-  verb.add_flag("--watch", options->watch, "load the scene anew when its files change, and the shaders in PINOCCHIO_SHADERS");
+  verb.add_option("--stats-json", options->stats_json,
+                  "write how quickly the window answered as JSON, when it is closed");
+  verb.add_flag("--watch", options->watch,
+                "load the scene anew when its files change, and the shaders in PINOCCHIO_SHADERS");
   verb.add_flag("!--no-vsync", options->vsync, "do not wait for the display between frames");
   return [options] { return view(*options); };
 }

@@ -48,7 +48,8 @@ std::unique_ptr<Context> open_context(const ContextRequest& request) {
 bool may_be_hardware(const ContextRequest& request) {
   std::vector<Candidate> ways = all_candidates();
   std::erase_if(ways, [&](const Candidate& way) { return !wanted(way, request); });
-  const bool any_listed = std::ranges::any_of(ways, [](const Candidate& way) { return way.device.has_value(); });
+  const bool any_listed =
+      std::ranges::any_of(ways, [](const Candidate& way) { return way.device.has_value(); });
   // Where devices are listed, those ways that name none lead to one of them.
   return std::ranges::any_of(ways, [&](const Candidate& way) {
     return !way.software && (way.device || !any_listed || way.backend == "glfw");

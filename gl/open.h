@@ -18,8 +18,8 @@ struct ContextRequest {
 // ones, EGL's surfaceless platform, its default display, OSMesa. Throws NoContextError.
 [[nodiscard]] std::unique_ptr<Context> open_context(const ContextRequest& request = {});
 
-// Whether EGL's list of devices leaves hardware to be hoped for: false where all that it names is software, and
-// no context need be opened to know what one would be. Where it cannot tell, true.
+// Whether EGL's list of devices leaves hardware to be hoped for: false where all that it names is software,
+// and no context need be opened to know what one would be. Where it cannot tell, true.
 [[nodiscard]] bool may_be_hardware(const ContextRequest& request = {});
 
 // One way to a context, tried.

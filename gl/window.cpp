@@ -12,11 +12,11 @@ namespace pinocchio::gl {
 namespace {
 
 static_assert(kKeySpace == GLFW_KEY_SPACE && kKeyEscape == GLFW_KEY_ESCAPE && kKeyEnter == GLFW_KEY_ENTER &&
-              kKeyTab == GLFW_KEY_TAB && kKeyHome == GLFW_KEY_HOME && kKeyF1 == GLFW_KEY_F1 && kKeyRight == GLFW_KEY_RIGHT &&
-              kKeyLeft == GLFW_KEY_LEFT &&
-              kKeyLeftControl == GLFW_KEY_LEFT_CONTROL && kKeyRightControl == GLFW_KEY_RIGHT_CONTROL && kKeyF10 == GLFW_KEY_F10 &&
-              kKeyF11 == GLFW_KEY_F11 && kKeyF12 == GLFW_KEY_F12 && kKeyPlus == GLFW_KEY_KP_ADD &&
-              kKeyMinus == GLFW_KEY_KP_SUBTRACT);
+              kKeyTab == GLFW_KEY_TAB && kKeyHome == GLFW_KEY_HOME && kKeyF1 == GLFW_KEY_F1 &&
+              kKeyRight == GLFW_KEY_RIGHT && kKeyLeft == GLFW_KEY_LEFT &&
+              kKeyLeftControl == GLFW_KEY_LEFT_CONTROL && kKeyRightControl == GLFW_KEY_RIGHT_CONTROL &&
+              kKeyF10 == GLFW_KEY_F10 && kKeyF11 == GLFW_KEY_F11 && kKeyF12 == GLFW_KEY_F12 &&
+              kKeyPlus == GLFW_KEY_KP_ADD && kKeyMinus == GLFW_KEY_KP_SUBTRACT);
 
 using Events = std::vector<WindowEvent>;
 

@@ -15,8 +15,8 @@ bool fits_tile_queue(const Settings& s) {
 }
 
 RayCounts draw_tiles(Engine::Parts& engine, const Scene& scene, const std::shared_ptr<const Tracer>& tracer,
-                     std::span<const Camera> cameras, glm::ivec2 size, const Settings& s, const FrameArrays& to,
-                     Progress* progress) {
+                     std::span<const Camera> cameras, glm::ivec2 size, const Settings& s,
+                     const FrameArrays& to, Progress* progress) {
   Scene lit = scene;
   settle_lights(lit, s);
   FramesJob job{lit, *tracer, engine.workers(s.threads), cameras, size};
@@ -68,14 +68,15 @@ class Copier {
   std::size_t frame_ = 0;
 };
 
-RayCounts draw_frames(Engine& engine, FrameRequest request, std::span<const Camera> cameras, const FrameArrays& to,
-                      Progress* progress) {
+RayCounts draw_frames(Engine& engine, FrameRequest request, std::span<const Camera> cameras,
+                      const FrameArrays& to, Progress* progress) {
   RayCounts rays;
   Copier copier(to);
   SampleMean mean(request.settings, [&](FrameResult&& frame) { copier.take(frame); });
-  Renderer renderer(engine, {[&](Frame& frame) { mean.add(frame); },
-                             [&](const FrameRecord& record) { rays += record.rays; }},
-                    progress);
+  Renderer renderer(
+      engine,
+      {[&](Frame& frame) { mean.add(frame); }, [&](const FrameRecord& record) { rays += record.rays; }},
+      progress);
   for (const Camera& camera : cameras) {
     request.view.camera = camera;
     submit_samples(renderer, request, &mean);
@@ -86,8 +87,8 @@ RayCounts draw_frames(Engine& engine, FrameRequest request, std::span<const Came
 
 }  // namespace
 
-Expected<RayCounts> render_many(Engine& engine, const Scene& scene, std::span<const Camera> cameras, glm::ivec2 size,
-                                const Settings& settings, const FrameArrays& to,
+Expected<RayCounts> render_many(Engine& engine, const Scene& scene, std::span<const Camera> cameras,
+                                glm::ivec2 size, const Settings& settings, const FrameArrays& to,
                                 Progress* progress) {
   if (cameras.empty()) return RayCounts{};
   Settings wanted = settings;
@@ -98,7 +99,8 @@ Expected<RayCounts> render_many(Engine& engine, const Scene& scene, std::span<co
   begin_phase(progress, "render", static_cast<double>(cameras.size()) * resolved->spp);
   if (fits_tile_queue(*resolved))
     return draw_tiles(engine.parts(), scene, tracer, cameras, size, *resolved, to, progress);
-  return draw_frames(engine, {scene, tracer, *resolved, {.camera = cameras.front(), .size = size}}, cameras, to, progress);
+  return draw_frames(engine, {scene, tracer, *resolved, {.camera = cameras.front(), .size = size}}, cameras,
+                     to, progress);
 }
 
 }  // namespace pinocchio

@@ -64,14 +64,15 @@ std::shared_ptr<const GpuMesh> Engine::Parts::gpu_mesh(const std::shared_ptr<con
   };
   const auto alike = std::ranges::find_if(meshes, same_textures);  // another pose of one scene
   const std::shared_ptr<const GpuMesh> kept = alike == meshes.end() ? nullptr : alike->second;
-  std::erase_if(meshes, [&](const auto& entry) { return entry.first != mesh && entry.first.use_count() == 1; });
+  std::erase_if(meshes,
+                [&](const auto& entry) { return entry.first != mesh && entry.first.use_count() == 1; });
   std::shared_ptr<const GpuMesh>& found = meshes[mesh];
   if (!found) found = std::make_shared<const GpuMesh>(*mesh, kept.get());
   return found;
 }
 
 std::shared_ptr<const Tracer> Engine::Parts::tracer_of(const Scene& scene, const Settings& resolved,
-                                                        Progress* progress) {
+                                                       Progress* progress) {
   if (!last_tracer || &last_tracer->mesh() != scene.mesh.get() || !same_tracer(resolved, last_settings))
     last_tracer = prepare(scene, resolved, progress);
   last_settings = resolved;
@@ -108,7 +109,8 @@ Expected<Settings> Engine::resolve(const Scene& scene, glm::ivec2 size, const Se
   return pinocchio::resolve(settings, parts_->stats_of(scene), {size, gl_is_software(settings), keeps_mask});
 }
 
-std::shared_ptr<const Tracer> Engine::prepare(const Scene& scene, const Settings& settings, Progress* progress) {
+std::shared_ptr<const Tracer> Engine::prepare(const Scene& scene, const Settings& settings,
+                                              Progress* progress) {
   if (!settings.traces()) return nullptr;
   BuildOptions options = build_options(settings);
   options.progress = progress;

@@ -42,9 +42,8 @@ class TracingThread {
   std::jthread thread_;
 };
 
-// The scene's lights as a frame of these settings has them: those that cast nothing (they reach nothing, or it has
-// no shadows), the environment as it is turned, and no ambient light where that
-// is sampled.
+// The scene's lights as a frame of these settings has them: those that cast nothing (they reach nothing, or
+// it has no shadows), the environment as it is turned, and no ambient light where that is sampled.
 void settle_lights(Scene& scene, const Settings& settings);
 
 // The passes of the GPU, compiled once.

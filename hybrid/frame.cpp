@@ -3,11 +3,11 @@
 #include <nlohmann/json.hpp>
 #include <stdexcept>
 
-#include "hybrid/engine_parts.h"
 #include "core/image/exr_bands.h"
 #include "core/output/frame_exr.h"
 #include "core/parallel/workers.h"
 #include "core/trace/aov.h"
+#include "hybrid/engine_parts.h"
 #include "hybrid/exchange/encode.h"
 #include "hybrid/frame_slot.h"
 #include "hybrid/passes/passes.h"
@@ -70,8 +70,8 @@ void Frame::read_color(Image<glm::vec4>& color) const {
     color = slot_.color;
     return;
   }
-  // A sample of many is taken from the CPU, which has it unrounded: the mean of samples that were cut off at white
-  // would be too dark.
+  // A sample of many is taken from the CPU, which has it unrounded: the mean of samples that were cut off at
+  // white would be too dark.
   if (s.composite == Processor::cpu && s.spp > 1) {
     fit(color, slot_.unpacked.size());
     for (std::size_t i = 0; i < color.pixels().size(); ++i)
@@ -110,13 +110,14 @@ SurfaceImages surfaces_of(const FrameResult& frame) {
   view.jitter = glm::vec2(0.0f);
   const shared::ViewParams params = view_params(view);
   const glm::ivec2 size = frame.ids.size();
-  SurfaceImages all{Image<float>(size), Image<glm::vec3>(size), Image<glm::vec3>(size), Image<glm::vec3>(size)};
+  SurfaceImages all{Image<float>(size), Image<glm::vec3>(size), Image<glm::vec3>(size),
+                    Image<glm::vec3>(size)};
   constexpr int kLines = 16;  // that a thread takes at once
   Workers workers(frame.settings.threads);
   workers.for_each(static_cast<std::size_t>((size.y + kLines - 1) / kLines), [&](std::size_t i) {
     const int y0 = static_cast<int>(i) * kLines, y1 = std::min(y0 + kLines, size.y);
-    const SurfaceImages lines = surface_images(*frame.scene.mesh, params, frame.ids, y0, y1,
-                                                frame.settings.filter_textures);
+    const SurfaceImages lines =
+        surface_images(*frame.scene.mesh, params, frame.ids, y0, y1, frame.settings.filter_textures);
     const auto put = [&](const auto& from, auto& to) { std::ranges::copy(from.pixels(), &to.at(0, y0)); };
     put(lines.z_eye, all.z_eye);
     put(lines.p_world, all.p_world);
@@ -149,10 +150,14 @@ AovSet layers_of(const FrameResult& frame, const ExrOptions& options) {
 
 FrameOutput output_of(const FrameResult& frame, const ExrOptions& options,
                       std::function<SurfaceImages(int y0, int y1)> surfaces) {
-  return {frame.view.size, frame.view.box(), frame.scene,      frame.view.camera,   frame.color, frame.ids,
-          frame.mask,      frame.reflection, std::move(surfaces), to_json(frame.settings, false).dump(),
-          options.render_s, frame.settings.spp, options.frame, options.frames_per_second,
-          options.time_s, frame.record.age_frames};
+  return {frame.view.size,     frame.view.box(),
+          frame.scene,         frame.view.camera,
+          frame.color,         frame.ids,
+          frame.mask,          frame.reflection,
+          std::move(surfaces), to_json(frame.settings, false).dump(),
+          options.render_s,    frame.settings.spp,
+          options.frame,       options.frames_per_second,
+          options.time_s,      frame.record.age_frames};
 }
 
 ExrFile header_of(const FrameOutput& output, const AovSet& layers, const ExrOptions& options) {
@@ -169,9 +174,9 @@ void write_exr(const std::filesystem::path& file, const FrameResult& frame, cons
   view.jitter = glm::vec2(0.0f);
   const shared::ViewParams params = view_params(view);
   const AovSet layers = layers_of(frame, options);
-  const FrameOutput output = output_of(
-      frame, options, [&](int y0, int y1) { return surface_images(*frame.scene.mesh, params, frame.ids, y0, y1,
-                                                                       frame.settings.filter_textures); });
+  const FrameOutput output = output_of(frame, options, [&](int y0, int y1) {
+    return surface_images(*frame.scene.mesh, params, frame.ids, y0, y1, frame.settings.filter_textures);
+  });
   const auto band = [&](int y0, int y1) { return frame_channels(output, layers, y0, y1); };
   Workers workers(frame.settings.threads);
   write_exr(file, header_of(output, layers, options), workers, band, progress);

@@ -69,11 +69,12 @@ struct FrameSlot {
   // CPU: what is seen, and the answer.
   Image<std::uint32_t> ids;
   Image<glm::u8vec3> phong_srgb;  // visibility gpu, composite cpu: light that needs no shadow ray
-  Image<glm::vec3> unpacked;      // ... and spp above 1: the picture that it sends, before it is rounded and cut off
-  bool answered = false;          // the CPU's part is where it belongs
-  MaskImage mask;                 // one sample for mask_scale pixels a side
-  Image<glm::vec3> reflection;    // likewise
-  gl::Texture reflection_index;   // where its tiles are in the reflection's texture
+  Image<glm::vec3>
+      unpacked;           // ... and spp above 1: the picture that it sends, before it is rounded and cut off
+  bool answered = false;  // the CPU's part is where it belongs
+  MaskImage mask;         // one sample for mask_scale pixels a side
+  Image<glm::vec3> reflection;   // likewise
+  gl::Texture reflection_index;  // where its tiles are in the reflection's texture
   std::size_t reflection_tiles = 0;
   Image<glm::vec4> color;  // the CPU alone: the finished picture, linear
 
@@ -96,8 +97,14 @@ struct FrameSlot {
   }
   // What the GPU's passes over this frame's ids read.
   [[nodiscard]] ShadingPasses::Inputs inputs() const {
-    return {*mesh, lights, view, ids_texture(), request.settings.id_bits,
-            texture_footprint(request.settings, request.view), sampling_of(request.settings, request.view), request.settings.terminator,
+    return {*mesh,
+            lights,
+            view,
+            ids_texture(),
+            request.settings.id_bits,
+            texture_footprint(request.settings, request.view),
+            sampling_of(request.settings, request.view),
+            request.settings.terminator,
             request.scene};
   }
   // The CPU's answer where the GPU has it.

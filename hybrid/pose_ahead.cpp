@@ -19,7 +19,8 @@ Expected<PoseAhead::Pose> PoseAhead::make(const Scene& scene, const Wanted& want
   return Pose{std::move(*posed), std::move(tracer)};
 }
 
-Expected<PoseAhead::Pose> PoseAhead::at(double seconds, const Settings& settings, std::optional<double> next_s) {
+Expected<PoseAhead::Pose> PoseAhead::at(double seconds, const Settings& settings,
+                                        std::optional<double> next_s) {
   const Wanted wanted{seconds, settings};
   if (!last_wanted_ || !last_wanted_->same_as(wanted)) {
     const bool is_begun = next_.valid() && next_wanted_->same_as(wanted);

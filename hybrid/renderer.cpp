@@ -1,5 +1,5 @@
-// The order of a frame. Left to right is a frame's way, top to bottom what happens at one time (visibility and
-// composite on the GPU, pipelined):
+// The order of a frame. Left to right is a frame's way, top to bottom what happens at one time (visibility
+// and composite on the GPU, pipelined):
 //
 //   frame n    GPU  rasterise, send to CPU
 //   frame n-1  CPU                          take, trace
@@ -37,7 +37,8 @@ bool reprojects_to(const FrameSlot& older, const FrameSlot& newer) {
 
 // Whether the CPU has it and is not done.
 bool is_at_work(const FrameSlot& frame) {
-  return frame.tracing.valid() && frame.tracing.wait_for(std::chrono::seconds(0)) != std::future_status::ready;
+  return frame.tracing.valid() &&
+         frame.tracing.wait_for(std::chrono::seconds(0)) != std::future_status::ready;
 }
 
 }  // namespace
@@ -57,7 +58,7 @@ class Renderer::Loop {
 
  private:
   [[nodiscard]] FrameSlot* frames_back(int n);  // begun n frames before the newest; null: there is none
-  [[nodiscard]] int frames_drawn() const;  // and not delivered
+  [[nodiscard]] int frames_drawn() const;       // and not delivered
   bool repeat(const FrameRequest& request);
   FrameSlot& begin(FrameRequest&& request);
   void draw(FrameSlot& frame);
@@ -110,7 +111,8 @@ bool Renderer::Loop::try_submit(FrameRequest request) {
   const bool same_way = last && last->request.settings.exchange == request.settings.exchange &&
                         schedule_of(last->request.settings).latency == schedule.latency;
   const bool all_delivered = advance();
-  if (!all_delivered && (!same_way || last->request == request || frames_drawn() > std::min(schedule.latency, 1)))
+  if (!all_delivered &&
+      (!same_way || last->request == request || frames_drawn() > std::min(schedule.latency, 1)))
     return false;
   if (schedule.reprojects) {
     // Who asks for the last frame again wants it with its own mask and reflection.
@@ -150,8 +152,8 @@ int Renderer::Loop::frames_drawn() const {
 }
 
 bool Renderer::Loop::is_tracing() const {
-  return std::ranges::any_of(slots_,
-                             [](const std::unique_ptr<FrameSlot>& slot) { return slot && is_at_work(*slot); });
+  return std::ranges::any_of(
+      slots_, [](const std::unique_ptr<FrameSlot>& slot) { return slot && is_at_work(*slot); });
 }
 
 void Renderer::Loop::drain() {
@@ -197,8 +199,7 @@ bool Renderer::Loop::repeat(const FrameRequest& request) {
 }
 
 FrameSlot& Renderer::Loop::begin(FrameRequest&& request) {
-  const gl::Mapping mapping =
-      request.settings.persistent ? gl::Mapping::persistent : gl::Mapping::each_time;
+  const gl::Mapping mapping = request.settings.persistent ? gl::Mapping::persistent : gl::Mapping::each_time;
   std::unique_ptr<FrameSlot>& slot = slots_[drawn_ % kFramesInFlight];
   if (slot) retire(*slot);
   if (!slot || slot->mapping != mapping) slot = std::make_unique<FrameSlot>(engine_, mapping);

@@ -15,7 +15,8 @@ shared::Sampling sampling_of(const Settings& settings, const View& view) {
 
 float texture_footprint(const Settings& settings, const View& view) {
   if (!settings.filter_textures) return 0.0f;
-  const int samples = std::max(settings.spp.value, view.sample + 1);  // gathered ones do not know how many follow
+  const int samples =
+      std::max(settings.spp.value, view.sample + 1);  // gathered ones do not know how many follow
   return samples == 1 ? 1.0f : 1.0f / std::sqrt(static_cast<float>(samples));
 }
 
@@ -24,7 +25,8 @@ void settle_environment(Scene& scene, const Settings& settings) {
   scene.environment_strength = settings.environment_strength;
   if (settings.environment_strength <= 0.0f) scene.environment.reset();
   // Ambient light stands for light from other surfaces and the sky.
-  if (settings.reflects() && (settings.indirect > 0 || scene.environment)) scene.ambient_light = glm::vec3(0.0f);
+  if (settings.reflects() && (settings.indirect > 0 || scene.environment))
+    scene.ambient_light = glm::vec3(0.0f);
 }
 
 void submit_samples(Renderer& renderer, FrameRequest request, SampleMean* mean) {

@@ -13,12 +13,12 @@ namespace pinocchio {
 // Which samples a frame takes of what is sampled.
 [[nodiscard]] shared::Sampling sampling_of(const Settings& settings, const View& view);
 
-// The side of what a frame averages textures over, pixels: of a sample that is one of many its share of the pixel, for the
-// samples themselves average, too. 0: they are not filtered.
+// The side of what a frame averages textures over, pixels: of a sample that is one of many its share of the
+// pixel, for the samples themselves average, too. 0: they are not filtered.
 [[nodiscard]] float texture_footprint(const Settings& settings, const View& view);
 
-// A scene's environment as the settings turn it, and no ambient light where that, or light from other surfaces, is
-// sampled.
+// A scene's environment as the settings turn it, and no ambient light where that, or light from other
+// surfaces, is sampled.
 void settle_environment(Scene& scene, const Settings& settings);
 
 class SampleMean;
@@ -27,10 +27,11 @@ class SampleMean;
 // spread over them. Given the mean that they go to, and max_noise, no more than it wants.
 void submit_samples(Renderer& renderer, FrameRequest request, SampleMean* mean = nullptr);
 
-// Brings frames to the CPU and hands on the mean of every `spp` of them. With max_noise a tile whose mean is good
-// enough takes no more samples: the standard error of its pixels' means, estimated from their samples, is below
-// max_noise (root mean square over the tile and the colours). It is looked at every 16 samples. Which samples count is
-// thus decided by all of a tile's pixels together, so that none can be left with few samples that agree by chance.
+// Brings frames to the CPU and hands on the mean of every `spp` of them. With max_noise a tile whose mean is
+// good enough takes no more samples: the standard error of its pixels' means, estimated from their samples,
+// is below max_noise (root mean square over the tile and the colours). It is looked at every 16 samples.
+// Which samples count is thus decided by all of a tile's pixels together, so that none can be left with few
+// samples that agree by chance.
 class SampleMean {
  public:
   SampleMean(const Settings& settings, std::function<void(FrameResult&&)> done)
@@ -52,8 +53,8 @@ class SampleMean {
   Image<glm::vec4> sample_;
   int samples_ = 0;
   // Of an adaptive picture:
-  Image<glm::vec3> squares_;               // sum of the squared samples
-  std::vector<int> tile_samples_;          // that count, by tile
+  Image<glm::vec3> squares_;                                   // sum of the squared samples
+  std::vector<int> tile_samples_;                              // that count, by tile
   std::shared_ptr<const std::vector<std::uint8_t>> finished_;  // tiles; null: none
 };
 

@@ -88,8 +88,9 @@ void CameraControl::frame_all(float aspect) {
 void CameraControl::view_from(const glm::vec3& from) {
   const float away = distance();
   // Straight down or up, left and right have no meaning: a little beside it, as far as a person can tell.
-  const glm::vec3 aside = std::abs(glm::dot(from, glm::normalize(camera_.up))) > 0.999f ? glm::vec3(0, 0, kNearestToUp)
-                                                                                         : glm::vec3(0.0f);
+  const glm::vec3 aside = std::abs(glm::dot(from, glm::normalize(camera_.up))) > 0.999f
+                              ? glm::vec3(0, 0, kNearestToUp)
+                              : glm::vec3(0.0f);
   camera_.eye = camera_.target + away * glm::normalize(from + aside);
 }
 

@@ -86,7 +86,8 @@ std::string Comparison::text() const {
   } else if (!done()) {
     return "the reference is complete, the error is being measured";
   } else {
-    std::snprintf(text.data(), text.size(), "RMSE %.5f   mean FLIP %.4f", figures_->rmse, figures_->mean_flip);
+    std::snprintf(text.data(), text.size(), "RMSE %.5f   mean FLIP %.4f", figures_->rmse,
+                  figures_->mean_flip);
   }
   return text.data();
 }

@@ -26,7 +26,9 @@ class Comparison {
   [[nodiscard]] const gl::Texture* reference() const { return reference_.get(); }
   [[nodiscard]] const gl::Texture* heat() const { return heat_.get(); }
   // Its colour, linear; done().
-  [[nodiscard]] glm::vec3 reference_at(glm::ivec2 pixel) const { return glm::vec3(color_.at(pixel.x, pixel.y)); }
+  [[nodiscard]] glm::vec3 reference_at(glm::ivec2 pixel) const {
+    return glm::vec3(color_.at(pixel.x, pixel.y));
+  }
   // Whether all that can be known of the view is known.
   [[nodiscard]] bool done() const { return share_ >= 1.0 && figures_ && compared_share_ >= 1.0 && !newer_; }
   // How far the reference is or, once it is complete, the error, in words.

@@ -44,7 +44,8 @@ std::string settings_options(const Settings& settings) {
     if (say(preset, settings, said))
       text += " --" + std::string(preset.option) + " " + std::string(preset.value);
   for (const Field& field : settings_table())
-    if (field.given(settings) && !field.given(said) && field.name != "spp") text += option_of(field, settings);
+    if (field.given(settings) && !field.given(said) && field.name != "spp")
+      text += option_of(field, settings);
   return text;
 }
 
@@ -61,7 +62,8 @@ std::string render_command(const ExportedView& view, const std::string& name) {
   if (camera.focus_distance > 0.0f) text += " --focus " + exact(camera.focus_distance);
   for (const Light& light : view.extra_lights)
     text += " --light " + exact(light.position) + "," + exact(light.intensity) +
-            (light.casts_shadow ? ",cast" : ",nocast") + (light.radius > 0.0f ? "," + exact(light.radius) : "");
+            (light.casts_shadow ? ",cast" : ",nocast") +
+            (light.radius > 0.0f ? "," + exact(light.radius) : "");
   if (!view.environment.empty()) text += " --environment " + quoted(view.environment);
   if (view.load_limit != kUsualLoadLimit) text += " --load-limit " + std::to_string(view.load_limit >> 20);
   if (view.time_s) text += " --time " + nlohmann::json(*view.time_s).dump();

@@ -22,7 +22,7 @@ struct ExportedView {
   int samples = 1;
   float exposure_ev = 0.0f;
   ToneMap tone_map = ToneMap::clip;
-  std::optional<double> time_s{};  // of the scene's animation
+  std::optional<double> time_s{};              // of the scene's animation
   std::uint64_t load_limit = kUsualLoadLimit;  // bytes
 };
 

@@ -22,8 +22,7 @@ void shift(FrameRecord& record, double by_s) {
 void History::add(FrameRecord record) {
   if (record[Stage::composite].end_s <= 0.0) return;
   const bool after_pause = std::exchange(paused_, false) && !records_.empty();
-  if (after_pause)
-    cut_s_ += std::max(record.frame.begin_s - cut_s_ - records_.back().frame.end_s, 0.0);
+  if (after_pause) cut_s_ += std::max(record.frame.begin_s - cut_s_ - records_.back().frame.end_s, 0.0);
   shift(record, -cut_s_);
   records_.push_back(record);
   after_pause_.push_back(after_pause);
@@ -44,7 +43,8 @@ double History::rate() const {
   const std::vector<float> times = frame_ms();
   double sum_s = 0.0;
   int frames = 0;
-  for (auto ms = times.rbegin(); ms != times.rend() && sum_s < kLongest_s; ++ms, ++frames) sum_s += 1e-3 * *ms;
+  for (auto ms = times.rbegin(); ms != times.rend() && sum_s < kLongest_s; ++ms, ++frames)
+    sum_s += 1e-3 * *ms;
   return sum_s > 0.0 ? frames / sum_s : 0.0;
 }
 

@@ -50,17 +50,18 @@ struct Model {
   ViewSettings settings;
   OpenPanels panels;
   CameraControl camera;
-  Scene scene;                           // with the lights as edited
-  SceneStats stats;                      // of it
-  std::shared_ptr<const Tracer> tracer;  // null: nothing is traced, or the tree is not built yet
-  bool lights_changed = false;           // by the overlay: the session takes them over
-  int material = 0;                      // that the panel Materials shows
+  Scene scene;                              // with the lights as edited
+  SceneStats stats;                         // of it
+  std::shared_ptr<const Tracer> tracer;     // null: nothing is traced, or the tree is not built yet
+  bool lights_changed = false;              // by the overlay: the session takes them over
+  int material = 0;                         // that the panel Materials shows
   std::optional<Material> edited_material;  // what it is to be: the session takes it over
-  std::optional<PixelReport> pixel;      // under the pointer; nothing: the panel is closed
-  std::optional<double> pixel_error;     // there, against the reference; nothing: it is not complete
-  std::optional<LightHistogram> histogram;  // of the picture; nothing: the panel Drawing is closed, or no light is shown
+  std::optional<PixelReport> pixel;         // under the pointer; nothing: the panel is closed
+  std::optional<double> pixel_error;        // there, against the reference; nothing: it is not complete
+  std::optional<LightHistogram>
+      histogram;  // of the picture; nothing: the panel Drawing is closed, or no light is shown
   FileList files;
-  Settings drawn;                        // resolved: by which frames are drawn now
+  Settings drawn;  // resolved: by which frames are drawn now
   History history;
   TimelineView timeline;
   Playback playback;
@@ -69,19 +70,19 @@ struct Model {
 
   SceneLoader::Progress loading;
   Messages messages;
-  std::string legend;          // what the buffer's colours mean; empty: the picture is shown
-  ChannelRange shown_range;    // of the channel that is shown
-  std::string comparison;      // with the reference, in words; empty: there is none
-  std::vector<Action> asked;   // by the overlay's buttons
-  std::string file_to_open;    // by the overlay; empty: none
-  int camera_to_show = -1;     // of the scene's, by the overlay
+  std::string legend;               // what the buffer's colours mean; empty: the picture is shown
+  ChannelRange shown_range;         // of the channel that is shown
+  std::string comparison;           // with the reference, in words; empty: there is none
+  std::vector<Action> asked;        // by the overlay's buttons
+  std::string file_to_open;         // by the overlay; empty: none
+  int camera_to_show = -1;          // of the scene's, by the overlay
   std::vector<std::string> recent;  // scene files, newest first
 
   glm::ivec2 window_pixels{0, 0}, picture_size{0, 0};
   PictureZoom zoom;
   std::string recording;  // name of the sequence that is written; empty: none
-  std::string renderer;  // OpenGL's, in words
-  int threads = 0;       // that trace
+  std::string renderer;   // OpenGL's, in words
+  int threads = 0;        // that trace
 
   [[nodiscard]] bool has_scene() const { return !scene.source.empty(); }
 };

@@ -99,7 +99,8 @@ void draw_color_scale(float scale) {
   for (int i = 0; i < kSteps; ++i) {
     const glm::u8vec3 c = kColors.at(i, 0);
     const float x = at.x + width * static_cast<float>(i);
-    ImGui::GetWindowDrawList()->AddRectFilled({x, at.y}, {x + width, at.y + height}, IM_COL32(c.r, c.g, c.b, 255));
+    ImGui::GetWindowDrawList()->AddRectFilled({x, at.y}, {x + width, at.y + height},
+                                              IM_COL32(c.r, c.g, c.b, 255));
   }
   ImGui::Dummy(ImVec2(width * kSteps, height));
   ImGui::SameLine();
@@ -128,14 +129,14 @@ void draw_caption(Model& model, float scale) {
 
 void draw_overlay(Model& model, float scale) {
   if (model.settings.overlay) {
-    if (model.has_scene() && model.panels[Panel::lights] && model.zoom.factor <= 1.0f) draw_light_handles(model, scale);
+    if (model.has_scene() && model.panels[Panel::lights] && model.zoom.factor <= 1.0f)
+      draw_light_handles(model, scale);
     draw_divider(model, scale);
     draw_caption(model, scale);
     draw_status_line(model, scale);
     draw_playback(model, scale);
     for (std::size_t i = 0; i < kPanels.size(); ++i)
-      if (const auto panel = static_cast<Panel>(i); model.panels[panel])
-        draw_panel(panel, model, scale);
+      if (const auto panel = static_cast<Panel>(i); model.panels[panel]) draw_panel(panel, model, scale);
   }
   draw_loading(model, scale);
   draw_messages(model, scale);

@@ -31,7 +31,9 @@ void draw_preset(const char* option, const std::string& help, ViewSettings& s) {
 void draw_exchange(ViewSettings& s) {
   const Field& field = *find_field("exchange");
   const Exchange now = wanted_settings(s).exchange;
-  if (const int clicked = choose("exchange", std::string(field.help), field_choices(field, s), static_cast<std::size_t>(now)); clicked >= 0)
+  if (const int clicked =
+          choose("exchange", std::string(field.help), field_choices(field, s), static_cast<std::size_t>(now));
+      clicked >= 0)
     s.settings.exchange = static_cast<Exchange>(clicked);
 }
 
@@ -51,9 +53,11 @@ void draw_quality_controls(ViewSettings& s) {
                                  static_cast<std::size_t>(s.tone_map));
       clicked >= 0)
     s.tone_map = static_cast<ToneMap>(clicked);
-  slider("resolution", s.scale, kLeastScale, kMostScale, format("%.0f %%", 100.0 * static_cast<double>(s.scale)),
+  slider("resolution", s.scale, kLeastScale, kMostScale,
+         format("%.0f %%", 100.0 * static_cast<double>(s.scale)),
          "pixels that are drawn for the window's, along a side");
-  checkbox("gather samples", s.accumulate, "while the camera stands still, more samples a pixel smooth the picture");
+  checkbox("gather samples", s.accumulate,
+           "while the camera stands still, more samples a pixel smooth the picture");
   ImGui::SameLine();
   checkbox("vsync", s.vsync, "wait for the display between pictures");
 }
@@ -89,7 +93,8 @@ void draw_looking(Model& model) {
   if (ImGui::BeginCombo("##buffer", name_of(s.buffer, s.mask_slot).c_str())) {
     for (std::size_t i = 0; i < kBufferViewNames.size(); ++i) {
       const auto view = static_cast<BufferView>(i);
-      for (int slot = 0; slot < (view == BufferView::mask ? std::max(model.stats.casting_lights, 1) : 1); ++slot)
+      for (int slot = 0; slot < (view == BufferView::mask ? std::max(model.stats.casting_lights, 1) : 1);
+           ++slot)
         if (ImGui::Selectable(name_of(view, slot).c_str(),
                               s.buffer == view && (view != BufferView::mask || s.mask_slot == slot))) {
           s.buffer = view;
@@ -137,12 +142,15 @@ void draw_controls(Model& model, float scale) {
 void draw_camera(Model& model, float) {
   const Camera& camera = model.camera.camera();
   const auto row_of = [](const char* name, const glm::vec3& v, const char* help) {
-    row(name, format("%.2f, %.2f, %.2f", static_cast<double>(v.x), static_cast<double>(v.y), static_cast<double>(v.z)),
+    row(name,
+        format("%.2f, %.2f, %.2f", static_cast<double>(v.x), static_cast<double>(v.y),
+               static_cast<double>(v.z)),
         help);
   };
   row_of("eye", camera.eye, "where the camera is: x, y, z in the scene's units");
   row_of("target", camera.target, "what it looks at and turns around; double-click a surface to set it");
-  row("field of view", format("%.1f degrees", static_cast<double>(camera.fov_deg)), "from lower to upper edge");
+  row("field of view", format("%.1f degrees", static_cast<double>(camera.fov_deg)),
+      "from lower to upper edge");
   struct Ask {
     const char* name;
     Action action;

@@ -10,7 +10,6 @@
 namespace pinocchio::app {
 namespace {
 
-
 std::string megabytes(std::size_t bytes) {
   return format("%.2f MB", static_cast<double>(bytes) * 1e-6);
 }
@@ -40,23 +39,28 @@ void draw_times(const Model& model, float scale) {
   const float frame_ms = median_of_newest(frames, kMedianOf);
   const float latency_ms = median_of_newest(model.history.latency_ms(), kMedianOf);
   const FrameRecord newest = model.history.empty() ? FrameRecord{} : model.history.records().back();
-  row("from picture to picture", format("%.1f ms", static_cast<double>(frame_ms)), "median of the last 20 frames");
-  row("measured rate", format("%.1f frames/s", model.history.rate()), "frames of the last second that was drawn in");
+  row("from picture to picture", format("%.1f ms", static_cast<double>(frame_ms)),
+      "median of the last 20 frames");
+  row("measured rate", format("%.1f frames/s", model.history.rate()),
+      "frames of the last second that was drawn in");
   graph("##frame", frames, 40.0f * scale, kAccent);
   tooltip("time from one picture to the next, oldest at the left");
-  row("latency", format("%.1f ms, %d frame%s", static_cast<double>(latency_ms), newest.latency_frames,
-                        newest.latency_frames == 1 ? "" : "s"),
+  row("latency",
+      format("%.1f ms, %d frame%s", static_cast<double>(latency_ms), newest.latency_frames,
+             newest.latency_frames == 1 ? "" : "s"),
       "from the moment the camera is asked to the moment its picture is given to the display; in frames: "
       "pictures begun between");
   if (newest.age_frames > 0)
-    row("shadows and mirrors", format("%d frame%s late", newest.age_frames, newest.age_frames == 1 ? "" : "s"),
+    row("shadows and mirrors",
+        format("%d frame%s late", newest.age_frames, newest.age_frames == 1 ? "" : "s"),
         "exchange reproject: those of an earlier frame are warped to this one");
 }
 
 void draw_stages(const Model& model) {
   const float height = ImGui::GetTextLineHeight();
   if (!ImGui::BeginTable("stages", 3, ImGuiTableFlags_None)) return;
-  ImGui::TableSetupColumn("name", ImGuiTableColumnFlags_WidthFixed, ImGui::CalcTextSize("trace reflections ").x);
+  ImGui::TableSetupColumn("name", ImGuiTableColumnFlags_WidthFixed,
+                          ImGui::CalcTextSize("trace reflections ").x);
   ImGui::TableSetupColumn("graph", ImGuiTableColumnFlags_WidthStretch);
   ImGui::TableSetupColumn("ms", ImGuiTableColumnFlags_WidthFixed, ImGui::CalcTextSize("0000.00 ms").x);
   for (std::size_t i = 0; i < kStageNames.size(); ++i) {
@@ -74,15 +78,18 @@ void draw_stages(const Model& model) {
     ImGui::PopID();
     ImGui::TableNextColumn();
     const std::string text = format("%.2f ms", static_cast<double>(median_of_newest(values, kMedianOf)));
-    ImGui::SetCursorPosX(ImGui::GetCursorPosX() + ImGui::GetColumnWidth() - ImGui::CalcTextSize(text.c_str()).x);
+    ImGui::SetCursorPosX(ImGui::GetCursorPosX() + ImGui::GetColumnWidth() -
+                         ImGui::CalcTextSize(text.c_str()).x);
     ImGui::TextUnformatted(text.c_str());
   }
   ImGui::EndTable();
 }
 
 void draw_traffic(const FrameRecord& record) {
-  row("GPU to CPU, a frame", megabytes(record.bytes_to_cpu()), "all buffers that the last frame sent this way");
-  row("CPU to GPU, a frame", megabytes(record.bytes_to_gpu()), "all buffers that the last frame sent this way");
+  row("GPU to CPU, a frame", megabytes(record.bytes_to_cpu()),
+      "all buffers that the last frame sent this way");
+  row("CPU to GPU, a frame", megabytes(record.bytes_to_gpu()),
+      "all buffers that the last frame sent this way");
   for (std::size_t i = 0; i < kChannelNames.size(); ++i) {
     if (record.bytes[i] == 0) continue;
     const std::string name = "   " + std::string(kChannelNames[i]);
@@ -104,7 +111,8 @@ void draw_rays(const FrameRecord& record) {
   const double ms = record[Stage::trace_shadow].ms() + record[Stage::trace_reflection].ms();
   const auto traced = static_cast<double>(rays.shadow + rays.reflection + rays.refraction + rays.indirect);
   if (ms > 0.0)
-    row("traced", format("%.1f M rays/s", traced / ms * 1e-3), "shadow, reflected and refracted, while they are traced");
+    row("traced", format("%.1f M rays/s", traced / ms * 1e-3),
+        "shadow, reflected and refracted, while they are traced");
 }
 
 }  // namespace

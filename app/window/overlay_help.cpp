@@ -22,7 +22,8 @@ void draw_help(Model&, float scale) {
   const bool wide = ImGui::GetContentRegionAvail().x > 520.0f * scale;
   if (!ImGui::BeginTable("keys", wide ? 4 : 2)) return;
   for (int pair = 0; pair < (wide ? 2 : 1); ++pair) {
-    ImGui::TableSetupColumn("key", ImGuiTableColumnFlags_WidthFixed, ImGui::CalcTextSize("Ctrl + Shift + click ").x);
+    ImGui::TableSetupColumn("key", ImGuiTableColumnFlags_WidthFixed,
+                            ImGui::CalcTextSize("Ctrl + Shift + click ").x);
     ImGui::TableSetupColumn("what", ImGuiTableColumnFlags_WidthStretch);
   }
   for (const auto& [key, what] : mouse_bindings()) cells(key, what);

@@ -20,11 +20,15 @@ float drag_speed(const Model& model) {
 bool edit_size(Light& light, const Model& model) {
   bool changed = false;
   if (light.kind == Light::Kind::directional) {
-    label("angle", "diameter of its disc in degrees: the sun's is 0.53; above 0 shadows are soft once samples are gathered");
+    label("angle",
+          "diameter of its disc in degrees: the sun's is 0.53; above 0 shadows are soft once samples are "
+          "gathered");
     changed = ImGui::DragFloat("##angle", &light.angle_deg, 0.02f, 0.0f, 180.0f, "%.2f");
     light.angle_deg = glm::clamp(light.angle_deg, 0.0f, 180.0f);
   } else if (light.kind != Light::Kind::rectangle) {
-    label("radius", "of the ball that shines, in the scene's units; above 0 shadows are soft once samples are gathered");
+    label(
+        "radius",
+        "of the ball that shines, in the scene's units; above 0 shadows are soft once samples are gathered");
     changed = ImGui::DragFloat("##radius", &light.radius, 0.25f * drag_speed(model), 0.0f, 1e6f, "%.3f");
     light.radius = std::max(light.radius, 0.0f);
   } else {
@@ -47,7 +51,8 @@ bool edit_light(Light& light, const Model& model) {
     }
   } else {
     label("position", "x y z in the scene's units: drag a number, or the light's mark in the picture");
-    changed = ImGui::DragFloat3("##position", &light.position.x, drag_speed(model), 0.0f, 0.0f, "%.2f") || changed;
+    changed =
+        ImGui::DragFloat3("##position", &light.position.x, drag_speed(model), 0.0f, 0.0f, "%.2f") || changed;
   }
   tooltip("drag, or Ctrl + click to type a number");
   label("intensity", "multiplies the light's colour; 1: as bright as the file has white");

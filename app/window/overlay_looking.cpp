@@ -9,11 +9,13 @@ namespace pinocchio::app {
 namespace {
 
 std::string rgb_text(const glm::vec3& v) {
-  return format("%.4f, %.4f, %.4f", static_cast<double>(v.x), static_cast<double>(v.y), static_cast<double>(v.z));
+  return format("%.4f, %.4f, %.4f", static_cast<double>(v.x), static_cast<double>(v.y),
+                static_cast<double>(v.z));
 }
 
 std::string xyz_text(const glm::vec3& v) {
-  return format("%.3f, %.3f, %.3f", static_cast<double>(v.x), static_cast<double>(v.y), static_cast<double>(v.z));
+  return format("%.3f, %.3f, %.3f", static_cast<double>(v.x), static_cast<double>(v.y),
+                static_cast<double>(v.z));
 }
 
 std::string name_of(const Mesh& mesh, std::size_t material) {
@@ -23,9 +25,10 @@ std::string name_of(const Mesh& mesh, std::size_t material) {
 
 void draw_cost(const Model& model, const PixelReport& pixel) {
   row("bounces", std::to_string(pixel.bounces), "how deep mirrored and refracted rays go here");
-  row("rays", format("%llu shadow, %llu mirrored, %llu refracted", static_cast<unsigned long long>(pixel.rays.shadow),
-                     static_cast<unsigned long long>(pixel.rays.reflection),
-                     static_cast<unsigned long long>(pixel.rays.refraction)),
+  row("rays",
+      format("%llu shadow, %llu mirrored, %llu refracted", static_cast<unsigned long long>(pixel.rays.shadow),
+             static_cast<unsigned long long>(pixel.rays.reflection),
+             static_cast<unsigned long long>(pixel.rays.refraction)),
       "that the CPU fires for one sample of this pixel");
   if (model.history.empty()) return;
   const FrameRecord& record = model.history.records().back();
@@ -39,8 +42,9 @@ void draw_cost(const Model& model, const PixelReport& pixel) {
 bool edit_color(const char* name, glm::vec3& color, const std::string& help) {
   label(name, help);
   ImGui::PushID(name);
-  const bool changed = ImGui::ColorEdit3("##color", &color.x, ImGuiColorEditFlags_Float | ImGuiColorEditFlags_HDR |
-                                                                  ImGuiColorEditFlags_NoOptions);
+  const bool changed =
+      ImGui::ColorEdit3("##color", &color.x,
+                        ImGuiColorEditFlags_Float | ImGuiColorEditFlags_HDR | ImGuiColorEditFlags_NoOptions);
   ImGui::PopID();
   tooltip(help);
   color = glm::max(color, glm::vec3(0.0f));
@@ -83,7 +87,8 @@ void draw_pixel(Model& model, float) {
   ImGui::Separator();
   draw_cost(model, pixel);
   if (model.pixel_error)
-    row("error", format("%.6f", *model.pixel_error), "largest difference of a colour from the reference here");
+    row("error", format("%.6f", *model.pixel_error),
+        "largest difference of a colour from the reference here");
 }
 
 void draw_materials(Model& model, float scale) {
@@ -120,8 +125,10 @@ void draw_files(Model& model, float) {
   for (const FolderEntry& entry : files.entries) {
     const std::string name = entry.path.filename().string() + (entry.is_folder ? "/" : "");
     if (ImGui::Selectable(name.c_str())) {
-      if (entry.is_folder) go_to = entry.path;
-      else model.file_to_open = entry.path.string();
+      if (entry.is_folder)
+        go_to = entry.path;
+      else
+        model.file_to_open = entry.path.string();
     }
     tooltip(entry.is_folder ? "look into this folder" : "open this scene");
   }

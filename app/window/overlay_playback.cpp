@@ -10,9 +10,10 @@ void draw_playback(Model& model, float scale) {
   if (!model.scene.animation) return;
   const ImVec2 display = ImGui::GetIO().DisplaySize;
   const float margin = 8.0f * scale;
-  ImGui::SetNextWindowPos(ImVec2(0.5f * display.x, display.y - status_height(scale) - margin), ImGuiCond_Always,
-                          ImVec2(0.5f, 1.0f));
-  ImGui::Begin("playback", nullptr, kBare | ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoFocusOnAppearing);
+  ImGui::SetNextWindowPos(ImVec2(0.5f * display.x, display.y - status_height(scale) - margin),
+                          ImGuiCond_Always, ImVec2(0.5f, 1.0f));
+  ImGui::Begin("playback", nullptr,
+               kBare | ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoFocusOnAppearing);
   Playback& playback = model.playback;
   if (button(playback.playing ? "Pause" : "Play", "the scene's animation, again and again (Space)"))
     model.asked.push_back(Action::play);

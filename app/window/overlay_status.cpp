@@ -16,7 +16,8 @@ std::string picture_text(const Model& model) {
   if (!model.has_scene()) return "no scene";
   std::string text = mode_name(model.drawn);
   if (!model.recording.empty()) text = "recording   " + text;
-  if (model.zoom.factor > 1.0f) text += format("   enlarged %.1f times", static_cast<double>(model.zoom.factor));
+  if (model.zoom.factor > 1.0f)
+    text += format("   enlarged %.1f times", static_cast<double>(model.zoom.factor));
   text += format("   %d sample%s a pixel", model.samples, model.samples == 1 ? "" : "s");
   return text;
 }
@@ -63,8 +64,9 @@ void draw_status_line(Model& model, float scale) {
   ImGui::PopStyleVar(4);
   ImGui::AlignTextToFramePadding();
   ImGui::TextUnformatted(rate_text(model).c_str());
-  tooltip("pictures a second and time from one to the next, measured; 'done': the picture is finished and "
-          "nothing is drawn until something changes");
+  tooltip(
+      "pictures a second and time from one to the next, measured; 'done': the picture is finished and "
+      "nothing is drawn until something changes");
   const float right = display.x - ImGui::CalcTextSize("Panels  F1 help ").x - 6.0f * kPadding * scale;
   const std::string what = picture_text(model);
   ImGui::SameLine(0.0f, 5.0f * kPadding * scale);
@@ -75,7 +77,8 @@ void draw_status_line(Model& model, float scale) {
     ImGui::NewLine();
   }
   ImGui::SameLine(std::max(right, 0.0f));
-  if (button("Panels", "times, settings, lights, camera and more, over the picture")) ImGui::OpenPopup("panels");
+  if (button("Panels", "times, settings, lights, camera and more, over the picture"))
+    ImGui::OpenPopup("panels");
   draw_panel_menu(model);
   ImGui::SameLine();
   if (button("F1 help", "what mouse and keys do")) model.panels.toggle(Panel::help);
@@ -119,7 +122,8 @@ void draw_loading(Model& model, float scale) {
   const SceneLoader::Progress& loading = model.loading;
   if (loading.phase.empty()) return;
   const ImVec2 display = ImGui::GetIO().DisplaySize;
-  ImGui::SetNextWindowPos(ImVec2(0.5f * display.x, 2.0f * kPadding * scale), ImGuiCond_Always, ImVec2(0.5f, 0.0f));
+  ImGui::SetNextWindowPos(ImVec2(0.5f * display.x, 2.0f * kPadding * scale), ImGuiCond_Always,
+                          ImVec2(0.5f, 0.0f));
   ImGui::Begin("loading", nullptr,
                kBare | ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoFocusOnAppearing);
   ImGui::AlignTextToFramePadding();
@@ -128,7 +132,8 @@ void draw_loading(Model& model, float scale) {
   if (button("Cancel", "stop, and keep what is shown")) model.asked.push_back(Action::cancel_loading);
   const float width = std::max(ImGui::GetContentRegionAvail().x, std::min(220.0f * scale, 0.8f * display.x));
   const float share = static_cast<float>(std::clamp(loading.share, 0.0, 1.0));
-  ImGui::ProgressBar(share, ImVec2(width, 0.0f), format("%.0f %%", 100.0 * static_cast<double>(share)).c_str());
+  ImGui::ProgressBar(share, ImVec2(width, 0.0f),
+                     format("%.0f %%", 100.0 * static_cast<double>(share)).c_str());
   ImGui::End();
 }
 

@@ -80,7 +80,8 @@ void draw_waits(const Chart& chart, const FrameRecord& record, const Settings& s
   const Span& first = record[shadow ? Stage::trace_shadow : Stage::trace_reflection];
   const Span& last = record[reflection ? Stage::trace_reflection : Stage::trace_shadow];
   if (record[Stage::readback].end_s > 0.0)
-    draw_arrow(chart, record[Stage::raster].end_s, lane_of(Stage::raster, settings), first.begin_s, Lane::cpu);
+    draw_arrow(chart, record[Stage::raster].end_s, lane_of(Stage::raster, settings), first.begin_s,
+               Lane::cpu);
   if (record[Stage::upload].end_s <= 0.0) return;
   draw_arrow(chart, last.end_s, Lane::cpu, record[Stage::upload].begin_s, Lane::exchange);
   draw_arrow(chart, record[Stage::upload].end_s, Lane::exchange, record[Stage::composite].begin_s,
@@ -128,7 +129,8 @@ namespace {
 // Pausing keeps what there is; zooming shows fewer frames or more, dragging goes back and forth.
 void draw_timeline_controls(Model& model) {
   TimelineView& view = model.timeline;
-  if (button(view.paused ? "Go on" : "Pause", view.paused ? "follow the newest frames again" : "keep these frames")) {
+  if (button(view.paused ? "Go on" : "Pause",
+             view.paused ? "follow the newest frames again" : "keep these frames")) {
     view.paused = !view.paused;
     view.back = 0;
     view.records.assign(model.history.records().begin(), model.history.records().end());
@@ -183,8 +185,9 @@ void draw_timeline(Model& model, float scale) {
   const double end_s = count == 0 ? 1.0 : std::max(at(last - 1).frame.end_s, begin_s + 1e-4);
   ImGui::Text("%d frame%s, %.1f ms%s", last - first, last - first == 1 ? "" : "s", 1e3 * (end_s - begin_s),
               view.paused ? ", paused" : "");
-  tooltip("frames are told apart by brightness; a line runs from work that is waited for to the work that "
-          "waits; a gap is a processor without work. Times in which nothing was drawn are left out");
+  tooltip(
+      "frames are told apart by brightness; a line runs from work that is waited for to the work that "
+      "waits; a gap is a processor without work. Times in which nothing was drawn are left out");
   const ImVec2 corner = ImGui::GetCursorScreenPos();
   const float names = ImGui::CalcTextSize("transfer  ").x, width = ImGui::GetContentRegionAvail().x;
   const float height = 100.0f * scale;

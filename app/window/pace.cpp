@@ -21,7 +21,8 @@ nlohmann::json spread_ms(std::vector<double> seconds) {
 
 void Pace::looked(double asked_s, double given_s, bool any) {
   constexpr double kAtOnce_s = 1e-3;
-  if (any && !waiting_since_s_) waiting_since_s_ = given_s - asked_s > kAtOnce_s || looked_s_ == 0.0 ? given_s : looked_s_;
+  if (any && !waiting_since_s_)
+    waiting_since_s_ = given_s - asked_s > kAtOnce_s || looked_s_ == 0.0 ? given_s : looked_s_;
   looked_s_ = given_s;
 }
 

@@ -9,8 +9,8 @@ namespace pinocchio::app {
 // How quickly the window answers a person: what `view --stats-json` writes.
 class Pace {
  public:
-  // Events were asked for at `asked_s` and given at `given_s`. Those that were there at once came when the window
-  // was busy: since it last looked, at worst.
+  // Events were asked for at `asked_s` and given at `given_s`. Those that were there at once came when the
+  // window was busy: since it last looked, at worst.
   void looked(double asked_s, double given_s, bool any);
   // The window was drawn, with all events that were given before.
   void redrawn(double at_s, bool loading);

@@ -38,8 +38,8 @@ FrameResult PixelInspector::draw(const FrameRequest& request) {
   return result;
 }
 
-PixelReport PixelInspector::look(const Scene& scene, const std::shared_ptr<const Tracer>& tracer, const View& view,
-                                 glm::ivec2 pixel, int depth) {
+PixelReport PixelInspector::look(const Scene& scene, const std::shared_ptr<const Tracer>& tracer,
+                                 const View& view, glm::ivec2 pixel, int depth) {
   FrameRequest request{scene, tracer, settings_for(true, depth), view};
   request.view.part = {pixel, pixel + 1};
   request.view = at_sample(request.view, 0);

@@ -35,8 +35,8 @@ struct PixelReport {
 class PixelInspector {
  public:
   // view: of the whole picture.
-  [[nodiscard]] PixelReport look(const Scene& scene, const std::shared_ptr<const Tracer>& tracer, const View& view,
-                                 glm::ivec2 pixel, int depth);
+  [[nodiscard]] PixelReport look(const Scene& scene, const std::shared_ptr<const Tracer>& tracer,
+                                 const View& view, glm::ivec2 pixel, int depth);
 
  private:
   [[nodiscard]] FrameResult draw(const FrameRequest& request);

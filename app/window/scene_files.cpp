@@ -27,8 +27,10 @@ std::vector<FolderEntry> scenes_in(const std::filesystem::path& folder) {
     std::error_code unknown;
     const std::string name = at->path().filename().string();
     if (name.starts_with('.')) continue;
-    if (at->is_directory(unknown)) entries.push_back({at->path(), true});
-    else if (is_scene_file(at->path()) && at->is_regular_file(unknown)) entries.push_back({at->path(), false});
+    if (at->is_directory(unknown))
+      entries.push_back({at->path(), true});
+    else if (is_scene_file(at->path()) && at->is_regular_file(unknown))
+      entries.push_back({at->path(), false});
   }
   std::ranges::sort(entries, [](const FolderEntry& a, const FolderEntry& b) {
     return a.is_folder != b.is_folder ? a.is_folder : a.path < b.path;

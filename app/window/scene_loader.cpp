@@ -23,7 +23,8 @@ SceneLoader::News SceneLoader::read(const DrawOptions& options, pinocchio::Progr
   if (!options.quiet) {
     for (const Warning& warning : warnings) news.warnings.push_back(warning.message());
     if (scene.lights.empty() && !scene.environment)
-      news.warnings.push_back(scene.source + " has no light; a default one is used (add one with --light x,y,z)");
+      news.warnings.push_back(scene.source +
+                              " has no light; a default one is used (add one with --light x,y,z)");
   }
   light_if_dark(scene, silent);
   news.stats = analyze(scene);

@@ -26,11 +26,11 @@ class SceneLoader {
   };
   // What a call of poll() found; mostly nothing.
   struct News {
-    std::optional<Scene> scene;  // was read
-    SceneStats stats;            // its own
-    Bounds interest;             // what matters of it (framing.h)
+    std::optional<Scene> scene;            // was read
+    SceneStats stats;                      // its own
+    Bounds interest;                       // what matters of it (framing.h)
     std::vector<std::string> warnings;     // what of its file the picture lacks
-    Camera camera;               // that the options ask for in it
+    Camera camera;                         // that the options ask for in it
     std::shared_ptr<const Tracer> tracer;  // its tree is built
     std::string error;                     // one line: it could not be loaded
     ExitCode code = kDone;                 // what the error would end a verb with

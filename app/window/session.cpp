@@ -90,7 +90,8 @@ double Session::patience_s() const {
   if (window_.minimised()) return kMinimised_s;
   if (redraws_ > 0 || navigation_.flying()) return 0.0;
   if (trial_) return 0.0;
-  if (!model_.loading.phase.empty()) return std::clamp(redrawn_s_ + kBetweenRedraws_s - now_s(), 0.0, kBetweenRedraws_s);
+  if (!model_.loading.phase.empty())
+    return std::clamp(redrawn_s_ + kBetweenRedraws_s - now_s(), 0.0, kBetweenRedraws_s);
   if (!model_.has_scene()) return kAsleep_s;
   if (!idle_) return renderer_.is_tracing() ? kTracing_s : 0.0;
   if (posing()) return kTracing_s;
@@ -128,7 +129,8 @@ void Session::take_asked() {
 
 void Session::take_button(const gl::ButtonEvent& event) {
   if (event.button == 0 && event.down) {
-    const bool second = now_s() - pressed_s_ < kDoubleClick_s && glm::length(pointer_ - pressed_at_) < kSameSpot;
+    const bool second =
+        now_s() - pressed_s_ < kDoubleClick_s && glm::length(pointer_ - pressed_at_) < kSameSpot;
     pressed_s_ = second ? 0.0 : now_s();
     pressed_at_ = pointer_;
     if (second) return set_pivot();
@@ -138,18 +140,22 @@ void Session::take_button(const gl::ButtonEvent& event) {
 
 // Ctrl enlarges the picture's pixels; what is under the pointer stays there.
 void Session::take_scroll(const gl::ScrollEvent& event) {
-  if (!window_.is_down(gl::kKeyLeftControl) && !window_.is_down(gl::kKeyRightControl)) return navigation_.take(event);
+  if (!window_.is_down(gl::kKeyLeftControl) && !window_.is_down(gl::kKeyRightControl))
+    return navigation_.take(event);
   constexpr float kStep = 1.25f, kMost = 64.0f;
   PictureZoom& zoom = model_.zoom;
   const glm::vec2 share = pointer_ / glm::max(glm::vec2(window_.pixels()), 1.0f), stays = zoom.at(share);
   zoom.factor = std::clamp(zoom.factor * std::pow(kStep, event.steps), 1.0f, kMost);
-  zoom.corner = glm::clamp(stays - share / zoom.factor, glm::vec2(0.0f), glm::vec2(1.0f - 1.0f / zoom.factor));
+  zoom.corner =
+      glm::clamp(stays - share / zoom.factor, glm::vec2(0.0f), glm::vec2(1.0f - 1.0f / zoom.factor));
 }
 
 bool Session::take_click(const gl::ButtonEvent& event) {
   if (event.button != 0 || !event.down || !event.with.control) return false;
-  if (event.with.shift) expose_for_point();  // not Alt: window managers move windows by it
-  else pick_material();
+  if (event.with.shift)
+    expose_for_point();  // not Alt: window managers move windows by it
+  else
+    pick_material();
   return true;
 }
 
@@ -171,7 +177,9 @@ void Session::take_key(const gl::KeyEvent& event) {
 
 // While something is held, it is not done yet.
 void Session::note_edits() {
-  if (!model_.has_scene() || model_.playback.playing || navigation_.dragging() || navigation_.flying() || gui_.is_active()) return;
+  if (!model_.has_scene() || model_.playback.playing || navigation_.dragging() || navigation_.flying() ||
+      gui_.is_active())
+    return;
   edits_.note(edit_state(), now_s());
 }
 

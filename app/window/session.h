@@ -13,9 +13,9 @@
 #include "app/window/navigation.h"
 #include "app/window/pace.h"
 #include "app/window/preferences.h"
-#include "hybrid/inspect/present_pass.h"
 #include "hybrid/inspect/accumulator.h"
 #include "hybrid/inspect/histogram_pass.h"
+#include "hybrid/inspect/present_pass.h"
 #include "pinocchio/pose_ahead.h"
 #include "pinocchio/renderer.h"
 
@@ -28,12 +28,13 @@ struct ViewOptions {
   float exposure_ev = 0.0f;
   ToneMap tone_map = ToneMap::clip;
   std::string stats_json;  // file for how quickly the window answered; empty: none
-  bool watch = false;  // load scene and shaders anew when they change
+  bool watch = false;      // load scene and shaders anew when they change
   bool vsync = true;
 };
 
-// A scene in a window, from opening to closing: session.cpp takes events, session_scene.cpp scenes and changes
-// of settings, session_playback.cpp moves animated ones, session_draw.cpp draws, session_actions.cpp does what keys and buttons ask.
+// A scene in a window, from opening to closing: session.cpp takes events, session_scene.cpp scenes and
+// changes of settings, session_playback.cpp moves animated ones, session_draw.cpp draws, session_actions.cpp
+// does what keys and buttons ask.
 class Session {
  public:
   Session(gl::Window& window, const ViewOptions& options);
@@ -145,11 +146,11 @@ class Session {
   std::unique_ptr<Comparison> comparison_;  // null: none is asked for
   Renderer renderer_;
   EditHistory edits_;
-  std::unique_ptr<BudgetTrial> trial_;           // null: no plans are being measured
+  std::unique_ptr<BudgetTrial> trial_;             // null: no plans are being measured
   std::unique_ptr<QualityController> controller_;  // null: there is no budget, or it is not measured yet
   Settings exact_;                                 // that trial_ and controller_ thin out
-  std::unique_ptr<PixelInspector> inspector_;  // null: no pixel was looked at yet
-  std::optional<FrameRequest> inspected_;      // by what the pixel's report was made
+  std::unique_ptr<PixelInspector> inspector_;      // null: no pixel was looked at yet
+  std::optional<FrameRequest> inspected_;          // by what the pixel's report was made
   std::optional<FileWatch> shader_watch_, scene_watch_;  // with --watch
   std::optional<DrawOptions> pending_;                   // of the scene that is being read
 
@@ -166,11 +167,11 @@ class Session {
   bool over_picture_ = false;          // the pointer is, and not over a panel
   int redraws_ = 3;                    // of the overlay that are due: it settles in as many
   double redrawn_s_ = 0.0;
-  std::optional<Settings> tree_of_;    // by which the scene's tree was built, or is being built
+  std::optional<Settings> tree_of_;              // by which the scene's tree was built, or is being built
   std::future<Expected<PoseAhead::Pose>> pose_;  // that is being made
-  Scene posed_from_;                   // of what
-  double pose_s_ = 0.0;                // its time
-  std::optional<double> posed_s_;      // of the scene that is shown; nothing: it is to be posed
+  Scene posed_from_;                             // of what
+  double pose_s_ = 0.0;                          // its time
+  std::optional<double> posed_s_;                // of the scene that is shown; nothing: it is to be posed
   Camera first_camera_;
   ViewSettings applied_;
   std::vector<Light> applied_lights_;
@@ -179,9 +180,9 @@ class Session {
   int recorded_ = 0;           // frames of the sequence
   bool records_exr_ = false;   // beside its PNG
   Pace pace_;
-  std::string png_file_;       // to write the window to, when it is drawn next
+  std::string png_file_;  // to write the window to, when it is drawn next
   double last_turn_s_ = 0.0;
-  double pressed_s_ = 0.0;     // when a click on the picture began, and where
+  double pressed_s_ = 0.0;  // when a click on the picture began, and where
   glm::vec2 pressed_at_{-1.0f}, pointer_{-1.0f};
 };
 

@@ -42,7 +42,8 @@ void Session::perform(Action action) {
         return next_buffer(model_.settings, model_.stats.casting_lights);
       case Action::undo:
       case Action::redo:
-        if (model_.has_scene()) edits_.note(edit_state(), now_s());  // with the keys that were pressed just before
+        if (model_.has_scene())
+          edits_.note(edit_state(), now_s());  // with the keys that were pressed just before
         return action == Action::undo ? restore(edits_.undo(), "nothing to undo")
                                       : restore(edits_.redo(), "nothing to redo");
       case Action::screenshot:
@@ -86,8 +87,9 @@ void Session::cancel_loading() {
   loader_.cancel();
   pending_.reset();
   model_.messages.hint(!model_.has_scene() ? "nothing is open: drop a file on the window, or press F10"
-                       : model_.tracer     ? "cancelled; the scene before stays"
-                                           : "cancelled; without shadows and mirrors, until the scene is opened again");
+                       : model_.tracer
+                           ? "cancelled; the scene before stays"
+                           : "cancelled; without shadows and mirrors, until the scene is opened again");
 }
 
 // The innermost first.
@@ -136,8 +138,9 @@ std::optional<PixelReport> Session::report(glm::ivec2 pixel) {
 void Session::set_pivot() {
   wants_tree_ = true;
   if (!model_.tracer) return model_.messages.hint("the tree is being built; try again when it is");
-  if (const std::optional<glm::vec3> p = surface_under(glm::vec2(pixel_under_pointer()), glm::vec2(picture_size()),
-                                                       model_.camera.camera(), *model_.tracer))
+  if (const std::optional<glm::vec3> p =
+          surface_under(glm::vec2(pixel_under_pointer()), glm::vec2(picture_size()), model_.camera.camera(),
+                        *model_.tracer))
     model_.camera.look_at(*p);
 }
 
@@ -220,7 +223,8 @@ void Session::write_frame_exr(const std::string& file) {
 // The layers are of one sample, the picture of all that were gathered.
 void Session::take_gathered(FrameResult& picture) {
   picture.settings.spp = 1;
-  if (!gathers() || accumulator_.samples() <= 1 || accumulator_.average().size() != picture.color.size()) return;
+  if (!gathers() || accumulator_.samples() <= 1 || accumulator_.average().size() != picture.color.size())
+    return;
   accumulator_.read_average(picture.color);
   picture.settings.spp = accumulator_.samples();
 }
@@ -245,8 +249,8 @@ void Session::toggle_recording(bool with_exr) {
     model_.recording = file_name({"-0001.png", "-0001.exr"});
     recorded_ = 0;
     records_exr_ = with_exr;
-    return model_.messages.hint("recording to " + model_.recording + "-0001.png" + (with_exr ? " and .exr" : "") +
-                                " ...; K ends it");
+    return model_.messages.hint("recording to " + model_.recording + "-0001.png" +
+                                (with_exr ? " and .exr" : "") + " ...; K ends it");
   }
   model_.messages.news(std::to_string(recorded_) + " pictures written: " + model_.recording + "-####.png" +
                        (records_exr_ ? " and .exr" : ""));

@@ -49,7 +49,8 @@ FrameRequest Session::request() const {
 FrameRequest Session::next_request() {
   FrameRequest next = request();
   if (!asked_ || !same_view(*asked_, next)) sample_ = 0;
-  if (gathers()) next.view = at_sample(next.view, std::min(sample_, most_samples() - 1), next.settings.pixel_filter);
+  if (gathers())
+    next.view = at_sample(next.view, std::min(sample_, most_samples() - 1), next.settings.pixel_filter);
   return next;
 }
 
@@ -83,7 +84,8 @@ bool Session::answers_first() const {
 bool Session::wants_redraw() const {
   constexpr double kCursor_s = 0.25;
   const double since_s = now_s() - redrawn_s_;
-  return redraws_ > 0 || !png_file_.empty() || (!model_.loading.phase.empty() && since_s >= kBetweenRedraws_s) ||
+  return redraws_ > 0 || !png_file_.empty() ||
+         (!model_.loading.phase.empty() && since_s >= kBetweenRedraws_s) ||
          (gui_.wants_text() && since_s > kCursor_s);
 }
 

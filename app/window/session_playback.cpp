@@ -1,4 +1,5 @@
-// Animated scenes: each pose with its tree is made on a thread of its own, while frames of the one before are drawn.
+// Animated scenes: each pose with its tree is made on a thread of its own, while frames of the one before are
+// drawn.
 #include <chrono>
 #include <cmath>
 #include <utility>
@@ -25,7 +26,8 @@ void Session::want_pose() {
   posed_from_ = model_.scene;
   pose_s_ = model_.playback.time_s;
   posed_s_ = pose_s_;
-  pose_ = std::async(std::launch::async, [scene = posed_from_, seconds = pose_s_, settings = tree_of_.value_or(Settings{model_.drawn})] {
+  pose_ = std::async(std::launch::async, [scene = posed_from_, seconds = pose_s_,
+                                          settings = tree_of_.value_or(Settings{model_.drawn})] {
     give_way(kForFrames);
     return PoseAhead(scene).at(seconds, settings);
   });
@@ -39,7 +41,8 @@ void Session::take_pose() {
     model_.playback.playing = false;
     return model_.messages.error("animation", pose.error().message());
   }
-  if (!(model_.scene == posed_from_) || model_.scene.animation != posed_from_.animation) return posed_s_.reset();
+  if (!(model_.scene == posed_from_) || model_.scene.animation != posed_from_.animation)
+    return posed_s_.reset();
   model_.scene = std::move(pose->scene);
   applied_lights_ = model_.scene.lights;
   if (pose->tracer) model_.tracer = std::move(pose->tracer);

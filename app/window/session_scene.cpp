@@ -141,17 +141,18 @@ void Session::keep_budget(const Settings& exact) {
     if (exact.composite == Processor::cpu || !exact.traces())
       return model_.messages.hint("--budget and --max-error are for mode hybrid, design 1");
     renderer_.drain();
-    trial_ = std::make_unique<BudgetTrial>(engine_, exact, options_.budget, [this](const Settings& settings, int) {
-      FrameRequest one = request();
-      one.settings = settings;
-      return one;
-    });
+    trial_ =
+        std::make_unique<BudgetTrial>(engine_, exact, options_.budget, [this](const Settings& settings, int) {
+          FrameRequest one = request();
+          one.settings = settings;
+          return one;
+        });
   }
   if (!trial_) return;
   trial_->step();
   redraws_ = 1;
-  model_.messages.hint("measuring plans: " + std::to_string(trial_->done()) + " of " +
-                       std::to_string(trial_->count()), 1.0);
+  model_.messages.hint(
+      "measuring plans: " + std::to_string(trial_->done()) + " of " + std::to_string(trial_->count()), 1.0);
   if (trial_->done() < trial_->count()) return;
   controller_ = std::make_unique<QualityController>(trial_->front(), limits(options_.budget));
   trial_.reset();
@@ -180,7 +181,8 @@ void Session::set_materials(std::vector<Material> materials) {
 void Session::take_material() {
   if (!model_.edited_material) return;
   std::vector<Material> materials = model_.scene.mesh->materials;
-  materials.at(static_cast<std::size_t>(model_.material)) = *std::exchange(model_.edited_material, std::nullopt);
+  materials.at(static_cast<std::size_t>(model_.material)) =
+      *std::exchange(model_.edited_material, std::nullopt);
   set_materials(std::move(materials));
 }
 
@@ -188,8 +190,9 @@ void Session::apply_changes() {
   ViewSettings& wanted = model_.settings;
   wanted = possible(wanted);
   if (wanted.vsync != applied_.vsync) window_.set_vsync(wanted.vsync);
-  if (wanted.buffer != applied_.buffer || wanted.mask_slot != applied_.mask_slot || wanted.split != applied_.split ||
-      wanted.accumulate != applied_.accumulate || wanted.range != applied_.range)
+  if (wanted.buffer != applied_.buffer || wanted.mask_slot != applied_.mask_slot ||
+      wanted.split != applied_.split || wanted.accumulate != applied_.accumulate ||
+      wanted.range != applied_.range)
     again_ = true;
   if (!(wanted == applied_)) redraws_ = 3;
   if (!model_.has_scene()) {

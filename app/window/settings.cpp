@@ -129,7 +129,8 @@ ViewSettings possible(ViewSettings settings) {
   take_preset("mode", settings);
   take_preset("plan", settings);
   take_switch(settings.settings.mask_bits, 0, Settings{}.mask_bits, settings.shadows);
-  take_switch(settings.settings.reflection, ReflectionFormat::none, Settings{}.reflection, settings.reflections);
+  take_switch(settings.settings.reflection, ReflectionFormat::none, Settings{}.reflection,
+              settings.reflections);
   settings.scale = std::clamp(settings.scale, kLeastScale, kMostScale);
   settings.mask_slot = std::max(settings.mask_slot, 0);
   settings.split_at = std::clamp(settings.split_at, 0.05f, 0.95f);

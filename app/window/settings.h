@@ -14,15 +14,15 @@ enum class Split { off, reference, heat_map };
 
 // What a person at the window can change while it draws.
 struct ViewSettings {
-  Settings settings;  // what is given, without what the next four say
+  Settings settings;                                // what is given, without what the next four say
   std::string_view mode = "hybrid", plan = "auto";  // presets in force
   bool shadows = true, reflections = true;
   float exposure_ev = 0.0f;  // stops
   ToneMap tone_map = ToneMap::clip;
-  float scale = 1.0f;        // pixels drawn for one of the window's, along a side
+  float scale = 1.0f;  // pixels drawn for one of the window's, along a side
   bool vsync = true;
   BufferView buffer = BufferView::picture;
-  int mask_slot = 0;  // of the buffer view
+  int mask_slot = 0;                  // of the buffer view
   std::optional<ChannelRange> range;  // of depth and position; nothing: as the scene has it
   Split split = Split::off;
   float split_at = 0.5f;   // of the window's width

@@ -75,7 +75,8 @@ void paragraph(const std::string& text) {
   ImGui::PopTextWrapPos();
 }
 
-int choose(const char* name, const std::string& help, const std::vector<Choice>& choices, std::size_t chosen) {
+int choose(const char* name, const std::string& help, const std::vector<Choice>& choices,
+           std::size_t chosen) {
   label(name, help);
   const float gap = 2.0f;
   const float room = ImGui::GetContentRegionAvail().x;
@@ -86,7 +87,8 @@ int choose(const char* name, const std::string& help, const std::vector<Choice>&
     if (i > 0) ImGui::SameLine(0.0f, gap);
     if (i == chosen) push_chosen();
     ImGui::BeginDisabled(choices[i].broken);
-    if (ImGui::Button(std::string(choices[i].text).c_str(), ImVec2(width, 0.0f))) clicked = static_cast<int>(i);
+    if (ImGui::Button(std::string(choices[i].text).c_str(), ImVec2(width, 0.0f)))
+      clicked = static_cast<int>(i);
     ImGui::EndDisabled();
     if (i == chosen) pop_chosen();
     tooltip(choices[i]);
@@ -107,8 +109,7 @@ bool slider(const char* name, float& value, float lo, float hi, const std::strin
   return changed;
 }
 
-bool slider(const char* name, int& value, int lo, int hi, const std::string& shown,
-            const std::string& help) {
+bool slider(const char* name, int& value, int lo, int hi, const std::string& shown, const std::string& help) {
   label(name, help);
   leave_room_for_value();
   ImGui::PushID(name);

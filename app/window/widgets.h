@@ -34,8 +34,7 @@ void paragraph(const std::string& text);
 // shown: the value with its unit, beside the slider.
 bool slider(const char* name, float& value, float lo, float hi, const std::string& shown,
             const std::string& help);
-bool slider(const char* name, int& value, int lo, int hi, const std::string& shown,
-            const std::string& help);
+bool slider(const char* name, int& value, int lo, int hi, const std::string& shown, const std::string& help);
 bool checkbox(const char* name, bool& value, const std::string& help);
 bool button(const char* name, const std::string& help, bool chosen = false);
 

@@ -51,8 +51,8 @@ Bench::Bench(Engine& engine, FrameRequest base, const BenchSettings& settings, s
       settings_(settings),
       views_(std::move(views)),
       folder_(std::move(folder)),
-      ground_truth_(settled(last_.scene, last_.settings), last_.settings.depth, settings_.area_side, views_, folder_ / "pictures", engine.workers(),
-                    settings_.progress),
+      ground_truth_(settled(last_.scene, last_.settings), last_.settings.depth, settings_.area_side, views_,
+                    folder_ / "pictures", engine.workers(), settings_.progress),
       raster_(engine, raster_only(last_), settings_.progress) {}
 
 PointFigures Bench::measure(const Configuration& configuration) {

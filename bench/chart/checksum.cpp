@@ -35,7 +35,8 @@ void add_material(Checksum& checksum, const Material& m) {
 }
 
 void add_use(Checksum& checksum, const TextureUse& use) {
-  for (const int value : {use.texture, use.uv_set, static_cast<int>(use.wrap_u), static_cast<int>(use.wrap_v)})
+  for (const int value :
+       {use.texture, use.uv_set, static_cast<int>(use.wrap_u), static_cast<int>(use.wrap_v)})
     checksum.add(value);
   checksum.add(use.uv_from_texcoord);
   checksum.add(use.nearest);
@@ -43,7 +44,8 @@ void add_use(Checksum& checksum, const TextureUse& use) {
 
 void add_maps(Checksum& checksum, const MaterialMaps& m) {
   for (const TextureUse* use : m.uses()) add_use(checksum, *use);
-  for (const bool flag : {m.vertex_colors, m.from_gltf, m.surface.volume, m.surface.unlit}) checksum.add(flag);
+  for (const bool flag : {m.vertex_colors, m.from_gltf, m.surface.volume, m.surface.unlit})
+    checksum.add(flag);
   for (const glm::vec3& color : {m.surface.base_color, m.surface.emissive, m.surface.specular_color})
     checksum.add(color);
   for (const float value :

@@ -14,11 +14,25 @@
 namespace pinocchio::chart {
 namespace {
 
-constexpr std::array kFigures{
-    "ratio",      "ratio_median",   "frame_ms",   "raster_ms",        "cpu_ms",           "raster_cpu_ms",
-    "round_ms",   "round_low_ms",   "round_high_ms",
-    "latency_ms", "latency_frames", "age_frames", "bytes_gpu_to_cpu", "bytes_cpu_to_gpu", "reference",
-    "rmse",       "relmse",         "flip",       "worst"};
+constexpr std::array kFigures{"ratio",
+                              "ratio_median",
+                              "frame_ms",
+                              "raster_ms",
+                              "cpu_ms",
+                              "raster_cpu_ms",
+                              "round_ms",
+                              "round_low_ms",
+                              "round_high_ms",
+                              "latency_ms",
+                              "latency_frames",
+                              "age_frames",
+                              "bytes_gpu_to_cpu",
+                              "bytes_cpu_to_gpu",
+                              "reference",
+                              "rmse",
+                              "relmse",
+                              "flip",
+                              "worst"};
 
 // A chart: its name, and what its axes are.
 struct Front {
@@ -152,7 +166,8 @@ void Results::add(const Configuration& c, const nlohmann::json& figures, const s
 void Results::write() {
   set_ratios();
   mark_fronts();
-  write_text(folder_ / "results.json", json_.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + "\n");
+  write_text(folder_ / "results.json",
+             json_.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + "\n");
   write_text(folder_ / "results.csv", csv());
 }
 

@@ -13,8 +13,8 @@ namespace pinocchio::chart {
 
 // One configuration, measured along the camera's motion.
 struct PointFigures {
-  double ratio_median = 0.0;                 // to raster-only's of the same round, by the run's clock
-  double frame_ms = 0.0, raster_ms = 0.0;    // of the fastest frames in a row
+  double ratio_median = 0.0;               // to raster-only's of the same round, by the run's clock
+  double frame_ms = 0.0, raster_ms = 0.0;  // of the fastest frames in a row
   double round_ms = 0.0, round_low_ms = 0.0, round_high_ms = 0.0;  // of whole rounds: median, least, most
   double cpu_ms = 0.0, raster_cpu_ms = 0.0;  // of all threads, a frame; least of the rounds
   double latency_ms = 0.0;  // camera sampled to picture delivered, least of the rounds' medians

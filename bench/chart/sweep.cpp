@@ -221,8 +221,8 @@ std::vector<Configuration> make_sweep(const SweepRequest& request) {
       const Expected<Settings> settings = request.resolve(settings_of(value.options));
       if (!settings) continue;
       const std::string options = *settings == request.base ? "" : text_of(value.options);
-      sweep.push_back({std::string(axis.name.name), value.name, options, *settings,
-                       std::string(axis.reference)});
+      sweep.push_back(
+          {std::string(axis.name.name), value.name, options, *settings, std::string(axis.reference)});
     }
   }
   return sweep;

@@ -7,8 +7,8 @@
 #include <string_view>
 #include <vector>
 
-#include "pinocchio/error.h"
 #include "hybrid/settings/scene_stats.h"
+#include "pinocchio/error.h"
 
 namespace pinocchio::chart {
 

@@ -2,8 +2,8 @@
 
 #include <vector>
 
-#include "pinocchio/engine.h"
 #include "hybrid/schedule.h"
+#include "pinocchio/engine.h"
 
 namespace pinocchio::chart {
 

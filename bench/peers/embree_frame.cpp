@@ -1,9 +1,8 @@
-// A frame as Embree's tutorials draw it: tiles of 8 x 8 pixels shared out among threads; for each pixel one ray at a
-// time, its shading, a shadow ray to each light. scripts/peers runs it.
-// pinocchio-embree-frame JOB.json: prints {"frame_ms": [...]}
-// Where the job names a "scene", not a "mesh": its whole picture, with mirrors and glass, for each of "cameras"
-// (embree_picture.h); scripts/accuracy charts it. "save": {"FRAME": "FILE.exr"} keeps pictures; "export": "FILE.obj"
-// is written for other programs, and "lights" are printed.
+// A frame as Embree's tutorials draw it: tiles of 8 x 8 pixels shared out among threads; for each pixel one
+// ray at a time, its shading, a shadow ray to each light. scripts/peers runs it. pinocchio-embree-frame
+// JOB.json: prints {"frame_ms": [...]} Where the job names a "scene", not a "mesh": its whole picture, with
+// mirrors and glass, for each of "cameras" (embree_picture.h); scripts/accuracy charts it. "save": {"FRAME":
+// "FILE.exr"} keeps pictures; "export": "FILE.obj" is written for other programs, and "lights" are printed.
 #include <embree3/rtcore.h>
 #include <pmmintrin.h>
 #include <xmmintrin.h>
@@ -150,7 +149,8 @@ nlohmann::json described(const std::vector<Light>& lights) {
 
 int run_scene(const nlohmann::json& json) {
   Scene scene = load_scene(json.at("scene").get<std::string>()).value();
-  if (scene.lights.empty()) scene.lights.push_back(default_light(scene, camera_of(json.at("cameras").front())));
+  if (scene.lights.empty())
+    scene.lights.push_back(default_light(scene, camera_of(json.at("cameras").front())));
   if (json.contains("export")) save_scene(scene, json.at("export").get<std::string>());
   const EmbreePicture embree(scene, json.at("threads").get<int>(), json.at("depth").get<int>());
   Workers workers(json.at("threads").get<int>());

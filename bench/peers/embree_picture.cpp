@@ -10,8 +10,8 @@
 namespace pinocchio {
 namespace {
 
-constexpr int kPictureTile = 8;                       // pixels a side
-constexpr float kLeast = 1.0f / 8192.0f;       // throughput that is followed, as by default
+constexpr int kPictureTile = 8;                 // pixels a side
+constexpr float kLeast = 1.0f / 8192.0f;        // throughput that is followed, as by default
 constexpr float kAtTheLight = 1.0f - 0x1p-20f;  // shadow rays end before it
 
 }  // namespace
@@ -66,20 +66,22 @@ bool EmbreePicture::occluded(const Ray& ray) const {
   }
 }
 
-SurfaceInteraction EmbreePicture::surface_of(const Hit& hit, const Ray& ray, const Footprint& footprint) const {
+SurfaceInteraction EmbreePicture::surface_of(const Hit& hit, const Ray& ray,
+                                             const Footprint& footprint) const {
   const Mesh& mesh = *scene_.mesh;
   const glm::uvec3 corners = mesh.triangles[hit.triangle];
-  const glm::vec3 &a = mesh.positions[corners.x], &b = mesh.positions[corners.y], &c = mesh.positions[corners.z];
+  const glm::vec3 &a = mesh.positions[corners.x], &b = mesh.positions[corners.y],
+                  &c = mesh.positions[corners.z];
   SurfaceInteraction s{};
   s.to_viewer = -glm::normalize(ray.direction);
   s.p_world = shared::point_on_triangle(hit.weights, a, b, c);
   s.p_exact = s.p_world;
   const glm::vec3 n = shared::geometric_normal(a, b, c, s.to_viewer);
-  const shared::FacingNormals facing = shared::face_viewer(
-      n,
-      shared::shading_normal(hit.weights, mesh.normals[corners.x], mesh.normals[corners.y],
-                             mesh.normals[corners.z], n),
-      s.to_viewer);
+  const shared::FacingNormals facing =
+      shared::face_viewer(n,
+                          shared::shading_normal(hit.weights, mesh.normals[corners.x],
+                                                 mesh.normals[corners.y], mesh.normals[corners.z], n),
+                          s.to_viewer);
   s.n_geometric = facing.geometric;
   s.n_shading = s.n_vertices = facing.shading;
   s.leaving = facing.leaving;
@@ -89,9 +91,9 @@ SurfaceInteraction EmbreePicture::surface_of(const Hit& hit, const Ray& ray, con
     s.material = plain_material(mesh.material_of(hit.triangle));
     return s;
   }
-  const MappedMaterial mapped = mapped_material(
-      mesh, {hit.triangle, hit.weights, s.n_shading, s.leaving,
-             footprint.at(ray.origin, ray.direction, s.p_world, 0.0f)});
+  const MappedMaterial mapped =
+      mapped_material(mesh, {hit.triangle, hit.weights, s.n_shading, s.leaving,
+                             footprint.at(ray.origin, ray.direction, s.p_world, 0.0f)});
   s.material = mapped.surface;
   s.n_shading = mapped.n_shading;
   s.alpha = mapped.alpha;
@@ -138,7 +140,8 @@ void EmbreePicture::draw(const Camera& camera, Workers& workers, Image<glm::vec4
   const shared::ViewParams view = view_params(camera, size);
   const Footprint footprint = Footprint::of_camera(view);
   workers.for_each(static_cast<std::size_t>(tiles.x) * static_cast<std::size_t>(tiles.y), [&](std::size_t i) {
-    const int tile = static_cast<int>(i), x0 = tile % tiles.x * kPictureTile, y0 = tile / tiles.x * kPictureTile;
+    const int tile = static_cast<int>(i), x0 = tile % tiles.x * kPictureTile,
+              y0 = tile / tiles.x * kPictureTile;
     for (int y = y0; y < std::min(y0 + kPictureTile, size.y); ++y)
       for (int x = x0; x < std::min(x0 + kPictureTile, size.x); ++x)
         picture.at(x, y) = seen(pixel_ray(view, x, y), glm::vec3(1.0f), footprint, depth_);

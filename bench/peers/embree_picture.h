@@ -1,6 +1,6 @@
-// A whole picture of a scene over Embree's rays, one at a time and recursive, as a user of Embree writes it: Phong, a
-// shadow ray to each light, mirrors, glass, textures. Materials and mirrored rays are computed by our
-// functions, so that the picture is comparable; the shadow terminator is as it comes.
+// A whole picture of a scene over Embree's rays, one at a time and recursive, as a user of Embree writes it:
+// Phong, a shadow ray to each light, mirrors, glass, textures. Materials and mirrored rays are computed by
+// our functions, so that the picture is comparable; the shadow terminator is as it comes.
 #pragma once
 
 #include <embree3/rtcore.h>
@@ -32,7 +32,8 @@ class EmbreePicture {
   };
   [[nodiscard]] Hit closest_hit(Ray ray) const;
   [[nodiscard]] bool occluded(const Ray& ray) const;
-  [[nodiscard]] SurfaceInteraction surface_of(const Hit& hit, const Ray& ray, const Footprint& footprint) const;
+  [[nodiscard]] SurfaceInteraction surface_of(const Hit& hit, const Ray& ray,
+                                              const Footprint& footprint) const;
   [[nodiscard]] glm::vec3 direct(const SurfaceInteraction& surface) const;
   // What comes along the ray, times `throughput`.
   [[nodiscard]] glm::vec4 seen(const Ray& ray, const glm::vec3& throughput, const Footprint& footprint,

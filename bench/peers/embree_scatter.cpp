@@ -6,8 +6,8 @@
 namespace pinocchio {
 namespace {
 
-void push(const SurfaceInteraction& surface, const glm::vec3& direction, const glm::vec3& throughput, float least,
-          std::vector<PathRay>& out) {
+void push(const SurfaceInteraction& surface, const glm::vec3& direction, const glm::vec3& throughput,
+          float least, std::vector<PathRay>& out) {
   if (std::max({throughput.x, throughput.y, throughput.z}) < least) return;
   out.push_back({{offset_origin(surface, direction), kInfinity, direction}, throughput});
 }
@@ -55,8 +55,7 @@ void scatter(const SurfaceInteraction& surface, const glm::vec3& throughput, flo
     push(surface, through, own * (1.0f - share) * m.transmittance, least, out);
   } else if (m.reflectance.x + m.reflectance.y + m.reflectance.z > 0.0f) {
     const float grazing = m.fresnel ? std::pow(1.0f - cos_in, 5.0f) : 0.0f;
-    push(surface, mirrored(surface), own * (m.reflectance + (1.0f - m.reflectance) * grazing),
-         least, out);
+    push(surface, mirrored(surface), own * (m.reflectance + (1.0f - m.reflectance) * grazing), least, out);
   }
   if (surface.alpha < 1.0f)
     push(surface, -surface.to_viewer, throughput * (1.0f - surface.alpha), least, out);

@@ -42,7 +42,11 @@ Scene turning(const Scene& scene) {
 class Frames {
  public:
   Frames(const Scene& scene, const BuildOptions& options, glm::ivec2 size, int threads, int frames)
-      : scene_(scene), options_(options), size_(size), workers_(threads), frames_(frames),
+      : scene_(scene),
+        options_(options),
+        size_(size),
+        workers_(threads),
+        frames_(frames),
         camera_(scene.cameras.empty() ? camera_for_whole_scene(scene) : scene.cameras.front()) {}
 
   AnimatedFrames measure() {

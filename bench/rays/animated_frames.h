@@ -12,11 +12,11 @@ namespace pinocchio::bench {
 // What an animated scene's frames cost with trees of one kind; medians, milliseconds.
 struct AnimatedFrames {
   std::string tree;
-  double pose_ms = 0.0;         // the mesh of a time
-  double build_ms = 0.0;        // its tree, on all threads
-  double still_ms = 0.0;        // a frame whose tree is there
-  double waited_ms = 0.0;       // a frame that first poses and builds
-  double overlapped_ms = 0.0;   // one whose pose and tree are made by another thread during the frame before
+  double pose_ms = 0.0;        // the mesh of a time
+  double build_ms = 0.0;       // its tree, on all threads
+  double still_ms = 0.0;       // a frame whose tree is there
+  double waited_ms = 0.0;      // a frame that first poses and builds
+  double overlapped_ms = 0.0;  // one whose pose and tree are made by another thread during the frame before
 
   [[nodiscard]] double lost(double frame_ms) const { return 1.0 - still_ms / frame_ms; }
 };

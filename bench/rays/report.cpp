@@ -44,16 +44,16 @@ double embrees_rays_ms(const Report& report, const ShadowPass& pass) {
 
 void print_pass(const Report& report, const ShadowPass& pass) {
   const double rays_ms = embrees_rays_ms(report, pass);
-  std::printf("%7d %9zu %9.1f %9.1f %12.1f %12.1f %9.2f %9.2f %7zu\n", pass.threads, pass.rays,
-              pass.first_ms, pass.ours_ms, pass.embree_ms, rays_ms, pass.embree_ms / pass.ours_ms,
-              rays_ms / pass.ours_ms, pass.differ);
+  std::printf("%7d %9zu %9.1f %9.1f %12.1f %12.1f %9.2f %9.2f %7zu\n", pass.threads, pass.rays, pass.first_ms,
+              pass.ours_ms, pass.embree_ms, rays_ms, pass.embree_ms / pass.ours_ms, rays_ms / pass.ours_ms,
+              pass.differ);
 }
 
 void print_passes(const Report& report) {
   if (report.shadow_passes.empty()) return;
   std::printf("the whole shadow pass, camera going round, milliseconds a frame:\n");
-  std::printf("%7s %9s %9s %9s %12s %12s %9s %9s %7s\n", "threads", "rays", "first", "ours",
-              "Embree's", "its rays", "pass", "rays", "differ");
+  std::printf("%7s %9s %9s %9s %12s %12s %9s %9s %7s\n", "threads", "rays", "first", "ours", "Embree's",
+              "its rays", "pass", "rays", "differ");
   for (const ShadowPass& pass : report.shadow_passes) print_pass(report, pass);
 }
 
@@ -72,7 +72,7 @@ nlohmann::json to_json(const BuildCost& cost) {
 }
 
 nlohmann::json to_json(const ShadowPass& p) {
-  return {{"threads", p.threads}, {"rays", p.rays},           {"fired", p.rays},  {"first_ms", p.first_ms},
+  return {{"threads", p.threads}, {"rays", p.rays},           {"fired", p.rays},   {"first_ms", p.first_ms},
           {"ours_ms", p.ours_ms}, {"embree_ms", p.embree_ms}, {"differ", p.differ}};
 }
 

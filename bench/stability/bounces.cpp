@@ -110,8 +110,8 @@ FailureCount total_reflection(const Method& method, int rays) {
   return count;
 }
 
-// A closed room whose walls glow a little and keep all light: every bounce adds the same, so that every pixel is
-// that times `bounces`, if no ray gets out. `draw` draws its reflection; `error`: how far off by rounding.
+// A closed room whose walls glow a little and keep all light: every bounce adds the same, so that every pixel
+// is that times `bounces`, if no ray gets out. `draw` draws its reflection; `error`: how far off by rounding.
 template <class Draw>
 FailureCount even_room(Material wall, int bounces, float error, const Draw& draw) {
   constexpr float kGlow = 0x1p-6f;
@@ -124,7 +124,8 @@ FailureCount even_room(Material wall, int bounces, float error, const Draw& draw
     Drawn drawn = draw(Scene(std::move(mesh)), camera);
     for (const glm::vec3& radiance : drawn.radiance.pixels()) {
       ++drawn.count.trials;
-      drawn.count.failures += std::abs(radiance.x / (kGlow * static_cast<float>(bounces)) - 1.0f) <= error ? 0 : 1;
+      drawn.count.failures +=
+          std::abs(radiance.x / (kGlow * static_cast<float>(bounces)) - 1.0f) <= error ? 0 : 1;
     }
     count += drawn.count;
   }
@@ -161,7 +162,8 @@ Drawn draw_samples(const Scene& scene, const Camera& camera, const Method& metho
 
 constexpr int kMattBounces = 8;
 
-// In a closed room with a bright sky around it nothing is lit. In the room stands a coarse ball that nearly touches it.
+// In a closed room with a bright sky around it nothing is lit. In the room stands a coarse ball that nearly
+// touches it.
 FailureCount sky_outside(const Method& method, int rays) {
   FailureCount count;
   for (const float size : kSizes) {

@@ -31,8 +31,8 @@ FailureCount count_misses(const Tracer& tracer, const std::vector<Ray>& rays) {
 
 std::vector<StressCase> all_cases() {
   std::vector<StressCase> all;
-  for (const auto& some : {leak_cases(), direction_cases(), triangle_cases(), shadow_cases(), terminator_cases(),
-                           bounce_cases(), hole_cases()})
+  for (const auto& some : {leak_cases(), direction_cases(), triangle_cases(), shadow_cases(),
+                           terminator_cases(), bounce_cases(), hole_cases()})
     all.insert(all.end(), some.begin(), some.end());
   return all;
 }

@@ -1,4 +1,5 @@
-// Leaves with holes, one close behind the other: a ray that meets a hole starts anew behind it, up to 32 times.
+// Leaves with holes, one close behind the other: a ray that meets a hole starts anew behind it, up to 32
+// times.
 #include <array>
 #include <cmath>
 #include <utility>
@@ -69,7 +70,8 @@ FailureCount leaves_with_holes(const Method& method, int rays) {
   return count;
 }
 
-constexpr std::array kHoleCases{StressCase{"leaves with holes", "samples unlike the reference's", leaves_with_holes}};
+constexpr std::array kHoleCases{
+    StressCase{"leaves with holes", "samples unlike the reference's", leaves_with_holes}};
 
 }  // namespace
 

@@ -38,7 +38,8 @@ struct PictureStressCase {
   std::string_view failure = "black or NaN pixels";
 };
 
-// Grazing and sub-pixel triangles, near-plane clipping, leaves with holes, z-fighting planes; a fast turn, a cut, object edges.
+// Grazing and sub-pixel triangles, near-plane clipping, leaves with holes, z-fighting planes; a fast turn, a
+// cut, object edges.
 [[nodiscard]] std::span<const PictureStressCase> picture_cases();
 
 }  // namespace pinocchio::stability

@@ -73,8 +73,12 @@ Shot with_ball(const glm::vec3& center, float radius) {
 
 }  // namespace
 
-Shot ball_touches_wall() { return with_ball({3.5f, 0.0f, -2.0f}, 1.0f); }
-Shot ball_around_room() { return with_ball({0.0f, 1.0f, 0.0f}, 50.0f); }
+Shot ball_touches_wall() {
+  return with_ball({3.5f, 0.0f, -2.0f}, 1.0f);
+}
+Shot ball_around_room() {
+  return with_ball({0.0f, 1.0f, 0.0f}, 50.0f);
+}
 Shot ball_inside_mesh() {
   Shot shot = with_ball({0.0f, 0.0f, -2.0f}, 0.5f);
   MeshData data = *shot.scene.mesh;
@@ -151,7 +155,8 @@ Shot near_plane() {
 
 Shot foliage() {
   MeshData data = room();
-  for (const glm::vec3& at : {glm::vec3(-1.5f, -0.5f, -1.0f), glm::vec3(1.2f, 0.3f, 0.2f), glm::vec3(0.0f, 1.5f, -2.5f)})
+  for (const glm::vec3& at :
+       {glm::vec3(-1.5f, -0.5f, -1.0f), glm::vec3(1.2f, 0.3f, 0.2f), glm::vec3(0.0f, 1.5f, -2.5f)})
     add_leaves(data, at, 1.4f, 12);
   return still(std::move(data), looking({0.3f, 0.4f, 3.5f}, {0.0f, 0.0f, -1.0f}));
 }

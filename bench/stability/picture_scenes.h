@@ -19,10 +19,10 @@ struct Shot {
 [[nodiscard]] Shot foliage();     // leaves with holes, one close behind the other
 [[nodiscard]] Shot z_fighting();  // two floors of other triangles in one plane
 
-[[nodiscard]] Shot ball_touches_wall();    // a light with a radius that reaches through a wall
-[[nodiscard]] Shot ball_around_room();     // ... larger than the scene
-[[nodiscard]] Shot ball_inside_mesh();     // ... within a closed box
-[[nodiscard]] Shot rough_mirrors();        // of lobe exponents 0, 1e-3, 1 and 1e6, and a panel that grazes a wall
+[[nodiscard]] Shot ball_touches_wall();  // a light with a radius that reaches through a wall
+[[nodiscard]] Shot ball_around_room();   // ... larger than the scene
+[[nodiscard]] Shot ball_inside_mesh();   // ... within a closed box
+[[nodiscard]] Shot rough_mirrors();  // of lobe exponents 0, 1e-3, 1 and 1e6, and a panel that grazes a wall
 
 // A room with a mirror ball and thin bars; eight frames.
 [[nodiscard]] Shot fast_turn();     // 30 degrees a frame

@@ -146,12 +146,14 @@ FailureCount moved(const Method& method, int rays) {
   return count;
 }
 
-// Seen through a node that mirrors, flattens, shrinks or blows up: convex bodies stay convex, closed rooms closed.
+// Seen through a node that mirrors, flattens, shrinks or blows up: convex bodies stay convex, closed rooms
+// closed.
 glm::mat4 scaling(float x, float y, float z) {
   return glm::mat4(glm::mat3(x, 0, 0, 0, y, 0, 0, 0, z));
 }
 const std::array kNodes{scaling(-1, 1, 1), scaling(-0x1p-20f, -0x1p-20f, -0x1p-20f),
-                        scaling(0x1p-20f, -0x1p-20f, 0x1p-20f), scaling(1, -0x1p-5f, 1), scaling(-0x1p20f, 0x1p20f, 0x1p20f)};
+                        scaling(0x1p-20f, -0x1p-20f, 0x1p-20f), scaling(1, -0x1p-5f, 1),
+                        scaling(-0x1p20f, 0x1p20f, 0x1p20f)};
 
 Set through_node(Set set, const glm::mat4& world_from_node) {
   Scene scene(std::move(set.mesh));

@@ -152,8 +152,10 @@ void add_leaves(MeshData& mesh, const glm::vec3& center, float size, int layers)
       mesh.normals.emplace_back(0.0f);
       mesh.texcoords.push_back(0.5f * at + shift);
     }
-    for (const glm::uvec3& t : {glm::uvec3(0, 1, 2), glm::uvec3(0, 2, 3)}) mesh.triangles.push_back(t + first);
-    mesh.triangle_materials.resize(mesh.triangles.size(), static_cast<std::uint32_t>(mesh.materials.size()) - 1);
+    for (const glm::uvec3& t : {glm::uvec3(0, 1, 2), glm::uvec3(0, 2, 3)})
+      mesh.triangles.push_back(t + first);
+    mesh.triangle_materials.resize(mesh.triangles.size(),
+                                   static_cast<std::uint32_t>(mesh.materials.size()) - 1);
   }
 }
 

@@ -32,8 +32,8 @@ void add(MeshData& mesh, const glm::vec3& a, const glm::vec3& b, const glm::vec3
 // rounding, and leaves a gap or not.
 [[nodiscard]] MeshData ball_with_t_junctions(int around);
 
-// Square leaves of half side `size` across z, one behind the other, of whose texels three in ten are solid: an alpha
-// mask of a material of their own.
+// Square leaves of half side `size` across z, one behind the other, of whose texels three in ten are solid:
+// an alpha mask of a material of their own.
 void add_leaves(MeshData& mesh, const glm::vec3& center, float size, int layers);
 
 [[nodiscard]] glm::vec3 random_point(Random& random, float reach);

@@ -34,8 +34,7 @@ bool fill(const StressCases& cases, const Methods& methods, const Run& run,
       const auto count = run(stress_case, method);
       if (&method == &methods.front()) default_seconds = count.seconds;
       table.cells.push_back({std::string(stress_case.name), std::string(stress_case.failure), method.name,
-                             count, count.seconds / std::max(default_seconds, 1e-9),
-                             details(count)});
+                             count, count.seconds / std::max(default_seconds, 1e-9), details(count)});
       if (!after_cell()) return false;
     }
   }
@@ -69,8 +68,7 @@ std::string markdown(const Table& table) {
   text += "\n";
   for (std::size_t i = 0; i < table.cells.size(); i += table.methods.size()) {
     const Cell& first = table.cells[i];
-    text += "| " + first.stress_case + " | " +
-            std::to_string(first.count.trials) + " | " + first.failure +
+    text += "| " + first.stress_case + " | " + std::to_string(first.count.trials) + " | " + first.failure +
             (first.count.excused > 0 ? " (" + std::to_string(first.count.excused) + " excused)" : "") + " |";
     for (std::size_t k = 0; k < table.methods.size(); ++k) text += " " + text_of(table.cells[i + k]) + " |";
     text += "\n";
@@ -81,10 +79,10 @@ std::string markdown(const Table& table) {
 nlohmann::json to_json(const Table& table) {
   nlohmann::json cells = nlohmann::json::array();
   for (const Cell& c : table.cells) {
-    nlohmann::json cell{
-        {"case", c.stress_case},      {"failure", c.failure},       {"method", c.method},
-        {"trials", c.count.trials},   {"failures", c.count.failures},
-        {"excused", c.count.excused}, {"seconds", c.count.seconds}, {"ratio_to_default", c.ratio}};
+    nlohmann::json cell{{"case", c.stress_case},        {"failure", c.failure},
+                        {"method", c.method},           {"trials", c.count.trials},
+                        {"failures", c.count.failures}, {"excused", c.count.excused},
+                        {"seconds", c.count.seconds},   {"ratio_to_default", c.ratio}};
     cell.update(c.more);
     cells.push_back(cell);
   }
@@ -94,7 +92,8 @@ nlohmann::json to_json(const Table& table) {
 std::string csv_lines(const Table& table) {
   std::string text;
   for (const Cell& c : table.cells)
-    text += '"' + c.stress_case + "\",\"" + c.failure + "\",\"" + c.method + "\"," + std::to_string(c.count.trials) + "," + std::to_string(c.count.failures) + "," +
+    text += '"' + c.stress_case + "\",\"" + c.failure + "\",\"" + c.method + "\"," +
+            std::to_string(c.count.trials) + "," + std::to_string(c.count.failures) + "," +
             std::to_string(c.count.excused) + "," + number("%.6f", c.count.seconds) + "," +
             number("%.3f", c.ratio) + "\n";
   return text;
@@ -140,8 +139,8 @@ void Tables::write(const std::filesystem::path& folder) const {
   write_text(folder / "stability.md",
              "Failures, and in brackets the processor time beside the default's.\n\n" + text());
   write_text(folder / "stability.csv",
-             "case,counted,method,trials,failures,excused,seconds,ratio_to_default\n" +
-                 csv_lines(rays) + csv_lines(pictures));
+             "case,counted,method,trials,failures,excused,seconds,ratio_to_default\n" + csv_lines(rays) +
+                 csv_lines(pictures));
   const SystemInfo system = system_info();
   const nlohmann::json json{{"pinocchio", version()},
                             {"cpu", system.cpu},

@@ -29,7 +29,7 @@ struct Table {
 struct Tables {
   Table rays, pictures;
 
-  [[nodiscard]] std::string text() const;                // Markdown
+  [[nodiscard]] std::string text() const;  // Markdown
   [[nodiscard]] std::uint64_t default_failures() const;
   // stability.md, .csv and .json. Throws EnvironmentError.
   void write(const std::filesystem::path& folder) const;

@@ -1,5 +1,5 @@
-// Where shading normals face a light and facets do not: dark facets on coarse meshes, and, for the remedies, light
-// where there is none.
+// Where shading normals face a light and facets do not: dark facets on coarse meshes, and, for the remedies,
+// light where there is none.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -18,8 +18,8 @@ Light point_light(const glm::vec3& position) {
 }
 
 // What rays out of the eye towards points around the origin see, of triangles below `end`.
-std::vector<SurfaceInteraction> seen_points(const Tracer& tracer, const glm::vec3& eye, std::uint32_t end, int rays,
-                                            FailureCount& count) {
+std::vector<SurfaceInteraction> seen_points(const Tracer& tracer, const glm::vec3& eye, std::uint32_t end,
+                                            int rays, FailureCount& count) {
   Random random(72);
   std::vector<Ray> primary;
   for (int i = 0; i < rays; ++i) primary.push_back({eye, kInfinity, random_point(random, 0.9f) - eye});
@@ -27,20 +27,22 @@ std::vector<SurfaceInteraction> seen_points(const Tracer& tracer, const glm::vec
   std::vector<SurfaceInteraction> points;
   for (std::size_t i = 0; i < hits.size(); ++i)
     if (hits[i].valid() && hits[i].triangle < end)
-      points.push_back(surface_at(tracer.mesh(), hits[i].triangle, eye, primary[i].direction, tracer.offset()));
+      points.push_back(
+          surface_at(tracer.mesh(), hits[i].triangle, eye, primary[i].direction, tracer.offset()));
   return points;
 }
 
 // How many of the points the light reaches.
-std::uint64_t count_lit(const Tracer& tracer, const std::vector<SurfaceInteraction>& points, const Light& light,
-                  Terminator terminator, FailureCount& count) {
+std::uint64_t count_lit(const Tracer& tracer, const std::vector<SurfaceInteraction>& points,
+                        const Light& light, Terminator terminator, FailureCount& count) {
   const shared::LightParams params = light_params(light);
   std::vector<Ray> shadow, way_up;
   std::vector<std::size_t> lifted;
   for (const SurfaceInteraction& s : points) {
     const std::optional<Ray> ray = shadow_ray(params, s, glm::vec2(0.5f), terminator);
     const bool dark = terminator == Terminator::smoothed && ray &&
-                      shared::terminator_factor(s.n_shading, s.n_geometric, glm::normalize(light.position - s.p_world)) <= 0.0f;
+                      shared::terminator_factor(s.n_shading, s.n_geometric,
+                                                glm::normalize(light.position - s.p_world)) <= 0.0f;
     if (!ray || dark) continue;
     if (const std::optional<Ray> up = lift_ray(params, s, glm::vec2(0.5f), terminator)) {
       way_up.push_back(*up);
@@ -64,10 +66,13 @@ FailureCount dark_facets(const Method& method, int rays) {
   FailureCount count;
   for (const int around : {6, 12, 24}) {
     const Tracer tracer = method.tracer(ball(glm::vec3(0.0f), 1.0f, around));
-    for (const glm::vec3 position : {glm::vec3(10.0f, 0.5f, 0.5f), glm::vec3(-7.0f, 9.0f, -2.0f), glm::vec3(2.0f, -3.0f, 0.3f)}) {
+    for (const glm::vec3 position :
+         {glm::vec3(10.0f, 0.5f, 0.5f), glm::vec3(-7.0f, 9.0f, -2.0f), glm::vec3(2.0f, -3.0f, 0.3f)}) {
       const Light light = point_light(position);
       std::vector<SurfaceInteraction> points = seen_points(tracer, {0, 0, 6}, kNoTriangle, rays / 9, count);
-      std::erase_if(points, [&](const SurfaceInteraction& s) { return glm::dot(s.n_shading, position - s.p_world) <= 0.0f; });
+      std::erase_if(points, [&](const SurfaceInteraction& s) {
+        return glm::dot(s.n_shading, position - s.p_world) <= 0.0f;
+      });
       count.trials += points.size();
       count.failures += points.size() - count_lit(tracer, points, light, method.terminator, count);
     }
@@ -76,7 +81,8 @@ FailureCount dark_facets(const Method& method, int rays) {
 }
 
 // `inner` within closed walls, and a light outside: none of it is lit.
-FailureCount behind_walls(const MeshData& inner, const MeshData& walls, const glm::vec3& eye, const Method& method, int rays) {
+FailureCount behind_walls(const MeshData& inner, const MeshData& walls, const glm::vec3& eye,
+                          const Method& method, int rays) {
   MeshData mesh = inner;
   const auto first = static_cast<std::uint32_t>(mesh.positions.size());
   mesh.positions.insert(mesh.positions.end(), walls.positions.begin(), walls.positions.end());
@@ -85,7 +91,8 @@ FailureCount behind_walls(const MeshData& inner, const MeshData& walls, const gl
   mesh.triangle_materials.resize(mesh.triangles.size(), 0);
   const Tracer tracer = method.tracer(mesh);
   FailureCount count;
-  for (const glm::vec3 position : {glm::vec3(9.0f, 1.0f, 0.5f), glm::vec3(0.5f, -8.0f, 1.0f), glm::vec3(3.0f, 4.0f, 5.0f)}) {
+  for (const glm::vec3 position :
+       {glm::vec3(9.0f, 1.0f, 0.5f), glm::vec3(0.5f, -8.0f, 1.0f), glm::vec3(3.0f, 4.0f, 5.0f)}) {
     const std::vector<SurfaceInteraction> points =
         seen_points(tracer, eye, static_cast<std::uint32_t>(tracer.mesh().triangles.size()), rays / 3, count);
     count.trials += points.size();
@@ -94,10 +101,12 @@ FailureCount behind_walls(const MeshData& inner, const MeshData& walls, const gl
   return count;
 }
 
-// A coarse ball that nearly touches the walls: its curved surface reaches through them. The eye is between the two.
+// A coarse ball that nearly touches the walls: its curved surface reaches through them. The eye is between
+// the two.
 FailureCount tight_room(const Method& method, int rays) {
   const float side = 1.0f + 0x1p-7f;
-  return behind_walls(ball(glm::vec3(0.0f), 1.0f, 12), box(glm::vec3(-side), glm::vec3(side), 4), glm::vec3(0.95f * side), method, rays);
+  return behind_walls(ball(glm::vec3(0.0f), 1.0f, 12), box(glm::vec3(-side), glm::vec3(side), 4),
+                      glm::vec3(0.95f * side), method, rays);
 }
 
 // A cube whose eight normals are the means of its sides', as smoothing of a whole mesh makes them.
@@ -110,7 +119,8 @@ MeshData smoothed_cube(float half_side, bool inwards) {
 
 // Large triangles: under a closed shell a tenth of its size away.
 FailureCount smoothed_cube_in_shell(const Method& method, int rays) {
-  return behind_walls(smoothed_cube(1.0f, false), box(glm::vec3(-1.125f), glm::vec3(1.125f), 4), glm::vec3(1.1f, 1.05f, 1.09f), method, rays);
+  return behind_walls(smoothed_cube(1.0f, false), box(glm::vec3(-1.125f), glm::vec3(1.125f), 4),
+                      glm::vec3(1.1f, 1.05f, 1.09f), method, rays);
 }
 
 // A room whose own walls are smoothed; the eye is in it.
@@ -128,7 +138,8 @@ FailureCount inconsistent_normals(const Method& method, int rays) {
   for (MeshData* const mesh : {&room, &body})
     for (glm::vec3& n : mesh->normals) n = glm::normalize(random_point(random, 1.0f) + 1e-3f);
   FailureCount count = behind_walls(room, {}, {0.25f, 0.125f, -0.25f}, method, rays / 2);
-  return count += behind_walls(body, box(glm::vec3(-0.625f), glm::vec3(0.625f), 4), {0.6f, 0.6f, 0.6f}, method, rays / 2);
+  return count += behind_walls(body, box(glm::vec3(-0.625f), glm::vec3(0.625f), 4), {0.6f, 0.6f, 0.6f},
+                               method, rays / 2);
 }
 
 constexpr std::array kTerminatorCases{

@@ -25,6 +25,8 @@ std::size_t peak_memory_bytes() {
   return static_cast<std::size_t>(usage.ru_maxrss) * 1024;  // Linux counts KiB
 }
 
-const char* version() { return PINOCCHIO_VERSION; }
+const char* version() {
+  return PINOCCHIO_VERSION;
+}
 
 }  // namespace pinocchio

@@ -7,8 +7,9 @@
 
 namespace pinocchio {
 
-Expected<PictureDifference> compare_pictures(const Image<glm::vec3>& picture, const Image<glm::vec3>& reference,
-                                             float pixels_per_degree, int threads) {
+Expected<PictureDifference> compare_pictures(const Image<glm::vec3>& picture,
+                                             const Image<glm::vec3>& reference, float pixels_per_degree,
+                                             int threads) {
   const auto refused = [](const std::string& what, const std::string& remedy) {
     return Unexpected(InputError{{}, 0, what, remedy});
   };
@@ -20,8 +21,9 @@ Expected<PictureDifference> compare_pictures(const Image<glm::vec3>& picture, co
     return refused("pixels_per_degree is " + std::to_string(pixels_per_degree), "it is from 1 to 1000");
   for (const Image<glm::vec3>* image : {&picture, &reference})
     if (!std::ranges::all_of(image->pixels(), is_finite))
-      return refused(std::string(image == &picture ? "the picture" : "the reference") + " has NaN or infinity in it",
-                     "no error figure can be given");
+      return refused(
+          std::string(image == &picture ? "the picture" : "the reference") + " has NaN or infinity in it",
+          "no error figure can be given");
   Workers workers(threads);
   PictureError error = picture_error(picture, reference, pixels_per_degree, workers);
   return PictureDifference{error.rgb.rmse,           error.rgb.relative_mse, error.rgb.psnr_db,

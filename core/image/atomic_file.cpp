@@ -23,12 +23,13 @@ namespace {
   throw EnvironmentError(file.string() + ": cannot be written: " + why + "; " + remedy);
 }
 
-// Nobody may write to it: whoever took away the permission meant to keep it. (The rename asks the folder alone,
-// and an administrator may do everything.)
+// Nobody may write to it: whoever took away the permission meant to keep it. (The rename asks the folder
+// alone, and an administrator may do everything.)
 bool is_read_only(const std::filesystem::path& file) {
   struct stat found {};
   constexpr mode_t kAnyWrite = S_IWUSR | S_IWGRP | S_IWOTH;
-  return stat(file.c_str(), &found) == 0 && ((found.st_mode & kAnyWrite) == 0 || access(file.c_str(), W_OK) != 0);
+  return stat(file.c_str(), &found) == 0 &&
+         ((found.st_mode & kAnyWrite) == 0 || access(file.c_str(), W_OK) != 0);
 }
 
 void sweep_once(const std::filesystem::path& folder) {
@@ -53,7 +54,8 @@ void write_atomically(const std::filesystem::path& file,
                       const std::function<void(const std::filesystem::path& temporary)>& write) {
   const std::filesystem::path target = written_file(file);
   std::error_code error;
-  if (std::filesystem::is_symlink(target, error)) fail(file, "its links lead in a circle", "choose another name");
+  if (std::filesystem::is_symlink(target, error))
+    fail(file, "its links lead in a circle", "choose another name");
   if (is_read_only(target)) fail(file, "it is read-only", "choose another name, or allow writing to it");
   PartFile part(target, error);
   if (error) fail(file, error.message(), "choose another folder");
@@ -83,7 +85,8 @@ void check_writable(const std::filesystem::path& file) {
   std::error_code error;
   if (file.filename().empty()) fail(file, "it names no file", "give a file name");
   const std::filesystem::path target = written_file(file);
-  if (std::filesystem::is_symlink(target, error)) fail(file, "its links lead in a circle", "choose another name");
+  if (std::filesystem::is_symlink(target, error))
+    fail(file, "its links lead in a circle", "choose another name");
   const std::filesystem::path folder = target.has_parent_path() ? target.parent_path() : ".";
   if (!std::filesystem::is_directory(folder, error))
     fail(file, "there is no folder " + folder.string(), "create it or choose another name");

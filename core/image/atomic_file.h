@@ -9,9 +9,9 @@ namespace pinocchio {
 class Progress;
 
 // Calls write(temporary) with a new name in the file's folder, then gives what was written the file's
-// name: whoever reads it finds the old file or the whole new one. A link is written through; a read-only file is
-// refused. Throws EnvironmentError, with nothing left behind and the old file untouched, where either fails;
-// what `write` throws passes through.
+// name: whoever reads it finds the old file or the whole new one. A link is written through; a read-only file
+// is refused. Throws EnvironmentError, with nothing left behind and the old file untouched, where either
+// fails; what `write` throws passes through.
 void write_atomically(const std::filesystem::path& file,
                       const std::function<void(const std::filesystem::path& temporary)>& write);
 

@@ -71,7 +71,8 @@ void read_attributes(const Imf::Header& header, ExrFile& exr) {
 ExrFile read_file(const std::filesystem::path& file, std::uint64_t claim_bytes) {
   const std::unique_ptr<Imf::InputFile> opened = open_exr(file, claim_bytes);
   Imf::InputFile& in = *opened;
-  if (!in.isComplete()) throw std::runtime_error("it ends before its last line");  // before memory is taken for them
+  if (!in.isComplete())
+    throw std::runtime_error("it ends before its last line");  // before memory is taken for them
   const Imath::Box2i &display = in.header().displayWindow(), &data = in.header().dataWindow();
   ExrFile exr;
   exr.display_size = {display.max.x - display.min.x + 1, display.max.y - display.min.y + 1};

@@ -27,16 +27,35 @@ double claimed_bytes(const Imf::Header& header) {
 
 // Types whose values OpenEXR reads by their own length, whatever the attribute says.
 const std::map<std::string, std::int64_t>& fixed_bytes() {
-  static const std::map<std::string, std::int64_t> kBytes{
-      {"box2f", 16}, {"box2i", 16}, {"chromaticities", 32}, {"compression", 1}, {"deepImageState", 1}, {"double", 8},
-      {"envmap", 1}, {"float", 4}, {"int", 4}, {"keycode", 28}, {"lineOrder", 1}, {"m33d", 72}, {"m33f", 36},
-      {"m44d", 128}, {"m44f", 64}, {"rational", 8}, {"tiledesc", 9}, {"timecode", 8}, {"v2d", 16}, {"v2f", 8},
-      {"v2i", 8}, {"v3d", 24}, {"v3f", 12}, {"v3i", 12}};
+  static const std::map<std::string, std::int64_t> kBytes{{"box2f", 16},
+                                                          {"box2i", 16},
+                                                          {"chromaticities", 32},
+                                                          {"compression", 1},
+                                                          {"deepImageState", 1},
+                                                          {"double", 8},
+                                                          {"envmap", 1},
+                                                          {"float", 4},
+                                                          {"int", 4},
+                                                          {"keycode", 28},
+                                                          {"lineOrder", 1},
+                                                          {"m33d", 72},
+                                                          {"m33f", 36},
+                                                          {"m44d", 128},
+                                                          {"m44f", 64},
+                                                          {"rational", 8},
+                                                          {"tiledesc", 9},
+                                                          {"timecode", 8},
+                                                          {"v2d", 16},
+                                                          {"v2f", 8},
+                                                          {"v2i", 8},
+                                                          {"v3d", 24},
+                                                          {"v3f", 12},
+                                                          {"v3i", 12}};
   return kBytes;
 }
 
-// Goes along a header's attributes. OpenEXR takes the memory that one says it is long before it looks whether the file
-// goes on, and reads the next one from wherever the value ended: both have to agree.
+// Goes along a header's attributes. OpenEXR takes the memory that one says it is long before it looks whether
+// the file goes on, and reads the next one from wherever the value ended: both have to agree.
 class HeaderWalk {
  public:
   explicit HeaderWalk(const std::filesystem::path& file)
@@ -77,7 +96,8 @@ class HeaderWalk {
   }
 
   void check_value(const std::string& type, std::int64_t size, std::int64_t end) {
-    if (const auto fixed = fixed_bytes().find(type); fixed != fixed_bytes().end() && fixed->second != size) damaged();
+    if (const auto fixed = fixed_bytes().find(type); fixed != fixed_bytes().end() && fixed->second != size)
+      damaged();
     if (type == "chlist") {
       constexpr std::streamoff kChannel = 16;
       while (!text().empty()) in_.seekg(kChannel, std::ios::cur);

@@ -19,7 +19,8 @@ std::vector<std::byte> predicted(std::span<const std::byte> lines) {
   std::vector<std::byte> result(n);
   auto* const out = reinterpret_cast<unsigned char*>(result.data());
   out[0] = in[0];
-  for (std::size_t i = 1; i < evens; ++i) out[i] = static_cast<unsigned char>(in[2 * i] - in[2 * i - 2] + 128);
+  for (std::size_t i = 1; i < evens; ++i)
+    out[i] = static_cast<unsigned char>(in[2 * i] - in[2 * i - 2] + 128);
   if (n < 2) return result;
   out[evens] = static_cast<unsigned char>(in[1] - in[2 * evens - 2] + 128);
   for (std::size_t i = 1; i < n / 2; ++i)
@@ -35,8 +36,8 @@ std::vector<std::byte> pack_zip(std::span<const std::byte> lines) {
   if (!compressor) throw std::bad_alloc();
   const std::vector<std::byte> bytes = predicted(lines);
   std::vector<std::byte> packed(bytes.size());
-  const std::size_t size = libdeflate_zlib_compress(compressor.get(), bytes.data(), bytes.size(), packed.data(),
-                                                    packed.size());
+  const std::size_t size =
+      libdeflate_zlib_compress(compressor.get(), bytes.data(), bytes.size(), packed.data(), packed.size());
   if (size == 0 || size >= lines.size()) return {lines.begin(), lines.end()};
   packed.resize(size);
   return packed;

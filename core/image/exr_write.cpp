@@ -82,7 +82,9 @@ struct Context {
 struct SetAttribute {
   exr_context_t exr;
   const char* name;
-  void operator()(const std::string& text) const { check(exr_attr_set_string(exr, kPart, name, text.c_str())); }
+  void operator()(const std::string& text) const {
+    check(exr_attr_set_string(exr, kPart, name, text.c_str()));
+  }
   void operator()(float value) const { check(exr_attr_set_float(exr, kPart, name, value)); }
   void operator()(int value) const { check(exr_attr_set_int(exr, kPart, name, value)); }
   void operator()(const ExrRational& value) const {
@@ -109,8 +111,8 @@ void write_header(exr_context_t exr, const ExrFile& file) {
   check(exr_attr_set_chromaticities(exr, kPart, "chromaticities", &rec709));
   for (const auto& [name, value] : file.attributes) std::visit(SetAttribute{exr, name.c_str()}, value);
   for (const ExrChannel& channel : file.channels)
-    check(exr_add_channel(exr, kPart, channel.name.c_str(), exr_type(channel.type), EXR_PERCEPTUALLY_LOGARITHMIC,
-                          1, 1));
+    check(exr_add_channel(exr, kPart, channel.name.c_str(), exr_type(channel.type),
+                          EXR_PERCEPTUALLY_LOGARITHMIC, 1, 1));
   check(exr_write_header(exr));
 }
 
@@ -139,7 +141,8 @@ std::vector<std::byte> lines_of(std::vector<ExrChannel> channels, int width, int
       } else if (channel.type == ExrChannel::Type::real) {
         put(channel.values.data() + first, w * sizeof(float));
       } else {
-        std::transform(channel.values.data() + first, channel.values.data() + first + w, halves.begin(), half_bits);
+        std::transform(channel.values.data() + first, channel.values.data() + first + w, halves.begin(),
+                       half_bits);
         put(halves.data(), w * sizeof(std::uint16_t));
       }
     }
@@ -180,7 +183,8 @@ std::vector<std::byte> packed_by_openexr(exr_context_t exr, int y, std::vector<s
 void put_chunk(Context& to, const ExrFile& file, int lines_of_chunk, int i, std::vector<std::byte> bytes) {
   const std::lock_guard lock(to.mutex);
   to.ready.emplace(i, std::move(bytes));
-  for (auto first = to.ready.begin(); first != to.ready.end() && first->first == to.next; first = to.ready.begin()) {
+  for (auto first = to.ready.begin(); first != to.ready.end() && first->first == to.next;
+       first = to.ready.begin()) {
     check(exr_write_scanline_chunk(to.exr, kPart, file.data_window.lo.y + first->first * lines_of_chunk,
                                    first->second.data(), first->second.size()));
     to.ready.erase(first);
@@ -188,8 +192,8 @@ void put_chunk(Context& to, const ExrFile& file, int lines_of_chunk, int i, std:
   }
 }
 
-void write_file(const std::filesystem::path& file, const ExrFile& header, Workers& workers, const ExrBand& band,
-                Progress* progress) {
+void write_file(const std::filesystem::path& file, const ExrFile& header, Workers& workers,
+                const ExrBand& band, Progress* progress) {
   Context to(file);
   write_header(to.exr, header);
   int lines_of_chunk = 0;
@@ -233,8 +237,8 @@ std::vector<ExrChannel> lines_from(const ExrFile& exr, int y0, int y1) {
 
 }  // namespace
 
-void write_exr(const std::filesystem::path& file, const ExrFile& header, Workers& workers, const ExrBand& band,
-               Progress* progress) {
+void write_exr(const std::filesystem::path& file, const ExrFile& header, Workers& workers,
+               const ExrBand& band, Progress* progress) {
   check_writable(file);
   write_atomically(file, [&](const std::filesystem::path& temporary) {
     try {
@@ -249,7 +253,8 @@ void write_exr(const std::filesystem::path& file, const ExrFile& header, Workers
 
 void write_exr(const std::filesystem::path& file, const ExrFile& exr, Progress* progress) {
   Workers workers(1);
-  write_exr(file, exr, workers, [&](int y0, int y1) { return lines_from(exr, y0, y1); }, progress);
+  write_exr(
+      file, exr, workers, [&](int y0, int y1) { return lines_from(exr, y0, y1); }, progress);
 }
 
 }  // namespace pinocchio

@@ -33,7 +33,8 @@ std::vector<float> LightHistogram::by_luminance(float lo_stops, float hi_stops, 
   std::vector<float> counts(static_cast<std::size_t>(bins));
   for (std::size_t half = 0; half < kHalves; ++half) {
     if (luminance_[half] == 0) continue;
-    const float at = (std::log2(value_of_half(half)) - lo_stops) / (hi_stops - lo_stops) * static_cast<float>(bins);
+    const float at =
+        (std::log2(value_of_half(half)) - lo_stops) / (hi_stops - lo_stops) * static_cast<float>(bins);
     counts[static_cast<std::size_t>(std::clamp(at, 0.0f, static_cast<float>(bins - 1)))] +=
         static_cast<float>(luminance_[half]);
   }

@@ -9,8 +9,8 @@
 
 namespace pinocchio {
 
-// How a picture's light is spread over its pixels. Light is kept as half floats, and so is counted exactly: one bin
-// for each value that there is.
+// How a picture's light is spread over its pixels. Light is kept as half floats, and so is counted exactly:
+// one bin for each value that there is.
 class LightHistogram {
  public:
   // Of one pixel, as half floats.
@@ -20,8 +20,8 @@ class LightHistogram {
   explicit LightHistogram(std::span<const Sample> pixels);
 
   [[nodiscard]] std::size_t pixels() const { return pixels_; }
-  // Pixels by their luminance, in `bins` of equal width from lo to hi (log2 of linear light): what is darker or
-  // brighter is in the first or the last one.
+  // Pixels by their luminance, in `bins` of equal width from lo to hi (log2 of linear light): what is darker
+  // or brighter is in the first or the last one.
   [[nodiscard]] std::vector<float> by_luminance(float lo_stops, float hi_stops, int bins) const;
   // Pixels with a channel that a display shows as 255, and those whose channels are all shown as 0.
   [[nodiscard]] std::size_t shown_white(float exposure_ev, ToneMap curve) const;
@@ -30,8 +30,8 @@ class LightHistogram {
  private:
   [[nodiscard]] std::size_t first_shown_as(std::uint8_t value, float exposure_ev, ToneMap curve) const;
 
-  // By the bits of a half float, which are in the order of its values. Infinity is the last; what is negative or no
-  // number counts as 0.
+  // By the bits of a half float, which are in the order of its values. Infinity is the last; what is negative
+  // or no number counts as 0.
   std::vector<std::uint32_t> luminance_, brightest_;
   std::size_t pixels_;
 };

@@ -63,7 +63,8 @@ bool is_part_name(const std::string& name) {
   if (!rest.empty() && (rest.front() != '.' || rest.find('.', 1) != std::string_view::npos)) return false;
   const std::string_view letters = std::string_view(name).substr(mark - kRandomLength, kRandomLength);
   for (const char c : letters)
-    if (!std::isdigit(static_cast<unsigned char>(c)) && !std::islower(static_cast<unsigned char>(c))) return false;
+    if (!std::isdigit(static_cast<unsigned char>(c)) && !std::islower(static_cast<unsigned char>(c)))
+      return false;
   return name[mark - kRandomLength - 1] == '-';
 }
 

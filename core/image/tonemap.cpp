@@ -49,7 +49,8 @@ struct Bytes {
     // Of values that share exponent and nine digits, the least one's byte: it or the next is theirs.
     for (std::size_t i = 0; i < start.size(); ++i) {
       const float least = std::bit_cast<float>(kLeast + (static_cast<std::uint32_t>(i) << kDropped));
-      start[i] = static_cast<std::uint8_t>(std::upper_bound(first.begin(), first.end(), least) - first.begin() - 1);
+      start[i] =
+          static_cast<std::uint8_t>(std::upper_bound(first.begin(), first.end(), least) - first.begin() - 1);
     }
   }
 
@@ -79,7 +80,9 @@ float srgb8_to_linear(std::uint8_t value) {
 }
 
 glm::vec3 srgb_to_linear(const glm::vec3& srgb) {
-  const auto channel = [](float c) { return c <= 0.04045f ? c / 12.92f : std::pow((c + 0.055f) / 1.055f, 2.4f); };
+  const auto channel = [](float c) {
+    return c <= 0.04045f ? c / 12.92f : std::pow((c + 0.055f) / 1.055f, 2.4f);
+  };
   return {channel(srgb.x), channel(srgb.y), channel(srgb.z)};
 }
 

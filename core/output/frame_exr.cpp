@@ -67,7 +67,8 @@ void add_attributes(ExrFile& exr, const FrameOutput& frame) {
   exr.attributes["pinocchio.plan"] = frame.plan_json;
   exr.attributes["pinocchio.scene"] = std::filesystem::path(frame.scene.source).filename().string();
   if (frame.scene.environment)
-    exr.attributes["pinocchio.environment"] = std::filesystem::path(frame.scene.environment->source()).filename().string();
+    exr.attributes["pinocchio.environment"] =
+        std::filesystem::path(frame.scene.environment->source()).filename().string();
   exr.attributes["pinocchio.frame"] = frame.frame;
   exr.attributes["pinocchio.time"] = static_cast<float>(
       frame.time_s.value_or(static_cast<double>(frame.frame) / static_cast<double>(frame.frames_per_second)));
@@ -77,9 +78,10 @@ void add_attributes(ExrFile& exr, const FrameOutput& frame) {
   exr.attributes["samplesPerPixel"] = frame.samples_per_pixel;
   exr.attributes["framesPerSecond"] = ExrRational{frame.frames_per_second, 1};
   if (frame.age_frames > 0)
-    exr.attributes["pinocchio.reprojected"] =
-        "shows shadows and reflections of " + std::to_string(frame.age_frames) +
-        " frame(s) before, warped; shadow.mask and reflection are left out, as this frame's own were not traced yet";
+    exr.attributes["pinocchio.reprojected"] = "shows shadows and reflections of " +
+                                              std::to_string(frame.age_frames) +
+                                              " frame(s) before, warped; shadow.mask and reflection are left "
+                                              "out, as this frame's own were not traced yet";
   if (frame.render_s) exr.attributes["renderTimeSeconds"] = static_cast<float>(*frame.render_s);
 }
 
@@ -94,7 +96,8 @@ std::vector<ExrChannel> frame_channels(const FrameOutput& frame, const AovSet& a
   add_vector(channels, frame.color.pixels().subspan(first, count), Type::half, {"R", "G", "B", "A"});
   if (wanted("Z") || wanted("P") || wanted("N") || wanted("Albedo")) {
     const SurfaceImages s = frame.surfaces(y0, y1);
-    if (wanted("Z")) channels.push_back({"Z", Type::real, {s.z_eye.pixels().begin(), s.z_eye.pixels().end()}, {}});
+    if (wanted("Z"))
+      channels.push_back({"Z", Type::real, {s.z_eye.pixels().begin(), s.z_eye.pixels().end()}, {}});
     if (wanted("P")) add_vector(channels, s.p_world.pixels(), Type::real, {"P.X", "P.Y", "P.Z"});
     if (wanted("N")) add_vector(channels, s.n_shading.pixels(), Type::half, {"N.X", "N.Y", "N.Z"});
     if (wanted("Albedo"))
@@ -151,12 +154,14 @@ nlohmann::json light_json(const Light& light) {
                       {"intensity", light.intensity}};
   if (light.kind != Light::Kind::directional) json["position"] = vec3_json(light.position);
   if (light.kind != Light::Kind::point) json["direction"] = vec3_json(light.direction);
-  if (light.kind == Light::Kind::spot) json["cone"] = {{"cosInner", light.cos_inner}, {"cosOuter", light.cos_outer}};
+  if (light.kind == Light::Kind::spot)
+    json["cone"] = {{"cosInner", light.cos_inner}, {"cosOuter", light.cos_outer}};
   if (light.falloff == Light::Falloff::inverse_square) json["falloff"] = "inverse square";
   if (std::isfinite(light.range)) json["range"] = light.range;
   if (light.radius > 0.0f) json["radius"] = light.radius;
   if (light.angle_deg > 0.0f) json["angleDegrees"] = light.angle_deg;
-  if (light.kind == Light::Kind::rectangle) json["edges"] = {vec3_json(light.edge_u), vec3_json(light.edge_v)};
+  if (light.kind == Light::Kind::rectangle)
+    json["edges"] = {vec3_json(light.edge_u), vec3_json(light.edge_v)};
   return json;
 }
 

@@ -23,8 +23,8 @@ struct FrameOutput {
   const Camera& camera;
   const Image<glm::vec4>& color;
   const Image<std::uint32_t>& ids;
-  const MaskImage& mask;               // 0 bits: no light casts
-  const Image<glm::vec3>& reflection;  // empty: none
+  const MaskImage& mask;                                  // 0 bits: no light casts
+  const Image<glm::vec3>& reflection;                     // empty: none
   std::function<SurfaceImages(int y0, int y1)> surfaces;  // of these lines; any thread
   std::string plan_json;
   std::optional<double> render_s;
@@ -36,7 +36,8 @@ struct FrameOutput {
 };
 
 // As many layers as asked for, with the values of lines [y0, y1).
-[[nodiscard]] std::vector<ExrChannel> frame_channels(const FrameOutput& frame, const AovSet& aovs, int y0, int y1);
+[[nodiscard]] std::vector<ExrChannel> frame_channels(const FrameOutput& frame, const AovSet& aovs, int y0,
+                                                     int y1);
 // The frame's attributes and these channels.
 [[nodiscard]] ExrFile frame_exr(const FrameOutput& frame, const AovSet& aovs, int y0, int y1);
 

@@ -18,14 +18,16 @@
 namespace pinocchio {
 
 struct ReferencePicture {
-  Image<std::uint32_t> ids;     // the triangle that each pixel's centre sees, kNoTriangle: none
-  MaskImage mask;               // bit i: the casting light in slot i reaches the visible point
-  Image<glm::vec3> reflection;  // mirrored plus refracted light, and the environment's, linear; empty where there is none
-  Image<glm::vec4> color;       // RGBA, linear; A is 1 where something is hit
+  Image<std::uint32_t> ids;  // the triangle that each pixel's centre sees, kNoTriangle: none
+  MaskImage mask;            // bit i: the casting light in slot i reaches the visible point
+  Image<glm::vec3>
+      reflection;  // mirrored plus refracted light, and the environment's, linear; empty where there is none
+  Image<glm::vec4> color;  // RGBA, linear; A is 1 where something is hit
 };
 
-// An environment lights by 256 samples a point, as a light with a size does. Draws view.box(), `depth` bounces at most. The scene has no more casting lights than kMaxCastingLights.
-// Advances `progress` by one step. texture_footprint: side of what textures are averaged over, pixels; 0: they are not.
+// An environment lights by 256 samples a point, as a light with a size does. Draws view.box(), `depth`
+// bounces at most. The scene has no more casting lights than kMaxCastingLights. Advances `progress` by one
+// step. texture_footprint: side of what textures are averaged over, pixels; 0: they are not.
 [[nodiscard]] ReferencePicture reference_render(const Scene& scene, const View& view, int depth,
                                                 Workers& workers, Progress* progress = nullptr,
                                                 float texture_footprint = 1.0f,

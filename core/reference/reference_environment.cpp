@@ -12,14 +12,16 @@ glm::ivec2 wrapped(glm::ivec2 at, glm::ivec2 size) {
   return {((at.x % size.x) + size.x) % size.x, std::clamp(at.y, 0, size.y - 1)};
 }
 
-// Which of the growing sums the number falls under, 0 to 1 of the last, and how far between it and the one before.
+// Which of the growing sums the number falls under, 0 to 1 of the last, and how far between it and the one
+// before.
 struct Choice {
   std::size_t index;
   double within, share;  // share: how likely it was
 };
 Choice choice_of(const double* sums, std::size_t count, double number) {
   const double wanted = number * sums[count - 1];
-  const auto index = std::min(static_cast<std::size_t>(std::upper_bound(sums, sums + count, wanted) - sums), count - 1);
+  const auto index =
+      std::min(static_cast<std::size_t>(std::upper_bound(sums, sums + count, wanted) - sums), count - 1);
   const double before = index == 0 ? 0.0 : sums[index - 1], own = sums[index] - before;
   return {index, (wanted - before) / own, own / sums[count - 1]};
 }
@@ -34,7 +36,8 @@ ReferenceEnvironment::ReferenceEnvironment(const Scene& scene)
   const glm::ivec2 size = picture_.size();
   double all = 0.0;
   for (int y = 0; y < size.y; ++y) {
-    const double area = std::cos(std::numbers::pi * y / size.y) - std::cos(std::numbers::pi * (y + 1) / size.y);
+    const double area =
+        std::cos(std::numbers::pi * y / size.y) - std::cos(std::numbers::pi * (y + 1) / size.y);
     double row = 0.0;
     for (int x = 0; x < size.x; ++x) {
       double brightest = 0.0;
@@ -73,9 +76,10 @@ ReferenceEnvironment::Sample ReferenceEnvironment::sample(const glm::dvec2& numb
   const glm::ivec2 size = picture_.size();
   if (rows_.back() == 0.0) return {{0.0, 1.0, 0.0}, glm::dvec3(0.0)};
   const Choice row = choice_of(rows_.data(), rows_.size(), numbers.y);
-  const Choice column =
-      choice_of(columns_.data() + row.index * static_cast<std::size_t>(size.x), static_cast<std::size_t>(size.x), numbers.x);
-  const glm::dvec2 uv = (glm::dvec2(column.index, row.index) + glm::dvec2(column.within, row.within)) / glm::dvec2(size);
+  const Choice column = choice_of(columns_.data() + row.index * static_cast<std::size_t>(size.x),
+                                  static_cast<std::size_t>(size.x), numbers.x);
+  const glm::dvec2 uv =
+      (glm::dvec2(column.index, row.index) + glm::dvec2(column.within, row.within)) / glm::dvec2(size);
   const double around = 2.0 * std::numbers::pi * (0.5 + turn_ - uv.x), down = std::numbers::pi * uv.y;
   const double per_uv = row.share * column.share * size.x * size.y;
   const double steradian = 2.0 * std::numbers::pi * std::numbers::pi * std::sin(down);  // a unit of u times v

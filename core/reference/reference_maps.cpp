@@ -14,9 +14,17 @@ glm::dvec3 scaled(const glm::vec3& a, const glm::dvec3& b) {
 }
 
 ReferenceMaterial as_it_stands(const Material& m) {
-  return {glm::dvec3(m.ambient),     glm::dvec3(m.diffuse),       glm::dvec3(m.specular), glm::dvec3(m.emission),
-          glm::dvec3(m.reflectance), glm::dvec3(m.transmittance), m.shininess,            m.ior,
-          m.fresnel,                 m.brdf,                      m.gloss};
+  return {glm::dvec3(m.ambient),
+          glm::dvec3(m.diffuse),
+          glm::dvec3(m.specular),
+          glm::dvec3(m.emission),
+          glm::dvec3(m.reflectance),
+          glm::dvec3(m.transmittance),
+          m.shininess,
+          m.ior,
+          m.fresnel,
+          m.brdf,
+          m.gloss};
 }
 
 // What textures make of a surface at a point.
@@ -126,10 +134,11 @@ ReferenceMaterial reference_material(const Mesh& mesh, const ReferenceHit& hit, 
     const glm::dvec4 rough_metal = texel(maps->metallic_roughness, false);
     const GltfSurface& s = maps->surface;
     const double specular = static_cast<double>(s.specular) * texel(maps->specular, false).a;
-    m = phong_of(s, {scaled(s.base_color, base), scaled(s.emissive, emissive),
-                     specular * scaled(s.specular_color, glm::dvec3(texel(maps->specular_color, true))),
-                     static_cast<double>(s.metallic) * rough_metal.b, static_cast<double>(s.roughness) * rough_metal.g,
-                     static_cast<double>(s.transmission) * texel(maps->transmission, false).r});
+    m = phong_of(
+        s, {scaled(s.base_color, base), scaled(s.emissive, emissive),
+            specular * scaled(s.specular_color, glm::dvec3(texel(maps->specular_color, true))),
+            static_cast<double>(s.metallic) * rough_metal.b, static_cast<double>(s.roughness) * rough_metal.g,
+            static_cast<double>(s.transmission) * texel(maps->transmission, false).r});
   } else {
     m = as_it_stands(plain);
     m.ambient *= base;

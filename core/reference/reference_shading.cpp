@@ -33,8 +33,8 @@ double fresnel(double cos_in, double eta) {
 
 // Chiang, Li and Burley 2019: less light the nearer the facet is to turning away.
 double smoothing_at(const ReferenceSurface& s, const glm::dvec3& to_light) {
-  const double g = std::min(1.0, glm::dot(s.n_geometric, to_light) /
-                                     (glm::dot(s.n_shading, to_light) * glm::dot(s.n_shading, s.n_geometric)));
+  const double g = std::min(1.0, glm::dot(s.n_geometric, to_light) / (glm::dot(s.n_shading, to_light) *
+                                                                      glm::dot(s.n_shading, s.n_geometric)));
   return -g * g * g + g * g + g;
 }
 
@@ -78,7 +78,8 @@ void add_point(const ReferenceSurface& surface, const glm::dvec3& to_light, cons
   const glm::dvec3 origin = lifted ? leave_lifted(surface) : leave(surface, to_light);
   const double share = terminator == Terminator::smoothed ? smoothing_at(surface, to_light) : 1.0;
   out.push_back({to_light, share * radiance,
-                 point ? ReferenceRay{origin, *point - origin, 1.0} : ReferenceRay{origin, to_light}, std::nullopt});
+                 point ? ReferenceRay{origin, *point - origin, 1.0} : ReferenceRay{origin, to_light},
+                 std::nullopt});
   if (!lifted || terminator != Terminator::turned_away) return;
   const glm::dvec3 from = leave(surface, surface.n_geometric);
   out.back().way_up = ReferenceRay{from, origin - from, 1.0};
@@ -106,8 +107,8 @@ glm::dvec3 beside(const glm::dvec3& axis, double cosine, double turn) {
 }
 
 // By the solid angle of a ball of even radiance I / (pi r^2), or of a disc at infinity.
-std::vector<ReferenceLight> round_light(const Light& light, const ReferenceSurface& surface, const glm::dvec3& strength,
-                                        Terminator terminator) {
+std::vector<ReferenceLight> round_light(const Light& light, const ReferenceSurface& surface,
+                                        const glm::dvec3& strength, Terminator terminator) {
   constexpr double kShare = 1.0 / (kReferencePoints * kReferencePoints);
   std::vector<ReferenceLight> points;
   const bool directional = light.kind == Light::Kind::directional;
@@ -131,7 +132,8 @@ std::vector<ReferenceLight> round_light(const Light& light, const ReferenceSurfa
     const double chord = std::sqrt(std::max(square(along) - square(distance) + square(r), 0.0));
     const double cone = light.kind == Light::Kind::spot ? cone_share(light, to_light) : 1.0;
     const glm::dvec3 point = surface.p_world + (inside ? along + chord : along - chord) * to_light;
-    add_point(surface, to_light, kShare * solid * cone * strength, directional ? nullptr : &point, terminator, points);
+    add_point(surface, to_light, kShare * solid * cone * strength, directional ? nullptr : &point, terminator,
+              points);
   });
   return points;
 }
@@ -176,9 +178,10 @@ std::vector<ReferenceLight> reference_lights(const Light& light, const Reference
   return point;
 }
 
-std::vector<ReferenceLight> reference_sky(const ReferenceEnvironment& environment, const ReferenceSurface& surface,
-                                          Terminator terminator) {
-  const double share = (surface.material.brdf ? 1.0 : std::numbers::inv_pi) / (kReferencePoints * kReferencePoints);
+std::vector<ReferenceLight> reference_sky(const ReferenceEnvironment& environment,
+                                          const ReferenceSurface& surface, Terminator terminator) {
+  const double share =
+      (surface.material.brdf ? 1.0 : std::numbers::inv_pi) / (kReferencePoints * kReferencePoints);
   std::vector<ReferenceLight> points;
   for_each_cell(kReferencePoints, surface.p_world, [&](const glm::dvec2& cell) {
     const ReferenceEnvironment::Sample from = environment.sample(cell);

@@ -34,7 +34,8 @@ glm::dvec3 lift_of(const Mesh& mesh, const ReferenceHit& hit, const ReferenceSur
   glm::dvec3 lifted(0.0);
   for (int i = 0; i < 3; ++i) lifted += hit.weights[i] * at_least_on_plane(s.p_world, vertex(i), normal(i));
   const glm::dvec3 lift = lifted - s.p_world;
-  const double size = std::max(largest_component(vertex(1) - vertex(0)), largest_component(vertex(2) - vertex(0)));
+  const double size =
+      std::max(largest_component(vertex(1) - vertex(0)), largest_component(vertex(2) - vertex(0)));
   return glm::dot(lift, s.n_geometric) > kLeast * size ? lift : glm::dvec3(0.0);
 }
 

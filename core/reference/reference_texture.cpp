@@ -90,13 +90,15 @@ glm::dvec4 ReferenceTexture::interpolated(const glm::dvec2& texcoord, int level,
   const glm::ivec2 size = glm::max(texture_->texels.size() >> level, glm::ivec2(1));
   glm::dvec2 within = texcoord;
   for (int axis = 0; axis < 2; ++axis)
-    if ((axis == 0 ? use_.wrap_u : use_.wrap_v) == Wrap::clamp) within[axis] = std::clamp(within[axis], 0.0, 1.0);
+    if ((axis == 0 ? use_.wrap_u : use_.wrap_v) == Wrap::clamp)
+      within[axis] = std::clamp(within[axis], 0.0, 1.0);
   const glm::dvec2 at = within * glm::dvec2(size) - (use_.nearest ? 0.0 : 0.5);
   const glm::dvec2 base = glm::floor(at);
   const auto x = static_cast<std::int64_t>(base.x), y = static_cast<std::int64_t>(base.y);
   if (use_.nearest) return texel(level, x, y, is_color);
   const glm::dvec2 f = at - base;
-  const glm::dvec4 upper = (1.0 - f.x) * texel(level, x, y, is_color) + f.x * texel(level, x + 1, y, is_color);
+  const glm::dvec4 upper =
+      (1.0 - f.x) * texel(level, x, y, is_color) + f.x * texel(level, x + 1, y, is_color);
   const glm::dvec4 lower =
       (1.0 - f.x) * texel(level, x, y + 1, is_color) + f.x * texel(level, x + 1, y + 1, is_color);
   return (1.0 - f.y) * upper + f.y * lower;
@@ -110,8 +112,7 @@ glm::dvec4 ReferenceTexture::texel(int level, std::int64_t x, std::int64_t y, bo
     size = glm::max(size / 2, glm::ivec2(1));
     if (i < level) texels += size.x * size.y;
   }
-  const glm::u8vec4& t =
-      texels[wrapped(y, size.y, use_.wrap_v) * size.x + wrapped(x, size.x, use_.wrap_u)];
+  const glm::u8vec4& t = texels[wrapped(y, size.y, use_.wrap_v) * size.x + wrapped(x, size.x, use_.wrap_u)];
   if (!is_color) return glm::dvec4(t) / 255.0;
   return {srgb8_to_linear(t.r), srgb8_to_linear(t.g), srgb8_to_linear(t.b), t.a / 255.0};
 }

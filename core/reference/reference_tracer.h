@@ -21,7 +21,8 @@ class ReferenceTracer {
  public:
   // `tree` may be of another scene with the same triangles. Both stay as long as this lives.
   // texture_footprint: side of the part of a pixel whose view of textures is averaged; 0: nothing is.
-  // one_of_many: pixels are the mean of many such pictures, so that shadows of surfaces that blend may be grey.
+  // one_of_many: pixels are the mean of many such pictures, so that shadows of surfaces that blend may be
+  // grey.
   ReferenceTracer(const Scene& scene, const ReferenceTree& tree, float texture_footprint = 1.0f,
                   bool one_of_many = false, Terminator terminator = kUsualTerminator)
       : scene_(scene),
@@ -36,7 +37,7 @@ class ReferenceTracer {
     std::uint32_t triangle = kNoTriangle;  // seen at the sample point
     unsigned mask = 0;                     // bit i: casting light i reaches it
     glm::vec3 reflection{0.0f};            // mirrored plus refracted light, and the environment's, linear
-    glm::vec4 color{0.0f};                 // linear; A is 1 where something is hit, else the environment is seen
+    glm::vec4 color{0.0f};  // linear; A is 1 where something is hit, else the environment is seen
   };
   // The pixel (x, y), counted from view.first; `depth` bounces at most.
   [[nodiscard]] Pixel pixel(const shared::ViewParams& view, int x, int y, int depth) const;
@@ -51,7 +52,8 @@ class ReferenceTracer {
   [[nodiscard]] static Cone cone_after(const ReferenceRay& ray, const ReferenceHit& hit);
   // A glossy surface's mirrored rays are lobe_side squared; fewer for those that they meet.
   static constexpr int kLobeSide = 16;
-  [[nodiscard]] glm::dvec3 bounced(const ReferenceSurface& surface, int depth, const Cone& cone, int lobe_side) const;
+  [[nodiscard]] glm::dvec3 bounced(const ReferenceSurface& surface, int depth, const Cone& cone,
+                                   int lobe_side) const;
   [[nodiscard]] glm::dvec3 seen(const ReferenceRay& ray, int depth, int lobe_side) const;
 
   [[nodiscard]] ReferenceHit closest_hit(const ReferenceRay& ray) const;

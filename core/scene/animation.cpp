@@ -56,7 +56,8 @@ NodeFlags moving(const Animation& animation, const NodeTree& tree) {
   NodeFlags flags(tree.nodes.size(), false);
   for (const AnimatedNode& animated : animation.nodes) flags[static_cast<std::size_t>(animated.node)] = true;
   for (std::size_t n = 0; n < flags.size(); ++n)
-    if (const int parent = tree.nodes[n].parent; parent >= 0 && flags[static_cast<std::size_t>(parent)]) flags[n] = true;
+    if (const int parent = tree.nodes[n].parent; parent >= 0 && flags[static_cast<std::size_t>(parent)])
+      flags[n] = true;
   return flags;
 }
 
@@ -91,7 +92,8 @@ void Track::sample(double seconds, std::vector<float>& to) const {
     std::copy_n(value(key), width, to.begin());
     return;
   }
-  const double begin_s = static_cast<double>(times_s[key]), span_s = static_cast<double>(times_s[next]) - begin_s;
+  const double begin_s = static_cast<double>(times_s[key]),
+               span_s = static_cast<double>(times_s[next]) - begin_s;
   const double t = (seconds - begin_s) / span_s;
   if (!cubic && path == Path::rotation) {
     store(glm::slerp(unit(quaternion(value(key))), unit(quaternion(value(next))), t), to.data());
@@ -134,7 +136,8 @@ std::vector<Camera> cameras_at(const Scene& scene, double seconds) {
 
 Expected<Scene> at_time(const Scene& scene, double seconds) {
   if (!std::isfinite(seconds))
-    return Unexpected(InputError{scene.source, 0, "there is no time " + std::to_string(seconds) + " s", "give a finite number"});
+    return Unexpected(InputError{scene.source, 0, "there is no time " + std::to_string(seconds) + " s",
+                                 "give a finite number"});
   if (!scene.animation || !scene.nodes) return scene;
   std::shared_ptr<const NodeTree> tree = tree_at(scene, seconds);
   const NodeFlags flags = moving(*scene.animation, *tree);

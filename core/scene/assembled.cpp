@@ -25,7 +25,8 @@ class Assembly {
     }
     tree_.nodes.push_back(node);
     if (scene.nodes) add_nodes(*scene.nodes, root);
-    add_attached(scene.lights, scene.nodes ? &scene.nodes->rest->lights : nullptr, root, result_.lights, rest_.lights);
+    add_attached(scene.lights, scene.nodes ? &scene.nodes->rest->lights : nullptr, root, result_.lights,
+                 rest_.lights);
     add_attached(scene.cameras, scene.nodes ? &scene.nodes->rest->cameras : nullptr, root, result_.cameras,
                  rest_.cameras);
     add_mesh(*scene.mesh, scene.nodes ? scene.nodes->rest.get() : nullptr);
@@ -55,7 +56,8 @@ class Assembly {
       deformer.place(mesh_);
       if (deformer.mirrors() != mirrored_[n]) turn_around(tree_.nodes[n], mesh_);
     }
-    if (!animation_.nodes.empty()) result_.animation = std::make_shared<const Animation>(std::move(animation_));
+    if (!animation_.nodes.empty())
+      result_.animation = std::make_shared<const Animation>(std::move(animation_));
     result_.nodes = std::make_shared<const NodeTree>(std::move(tree_));
     result_.mesh = std::make_shared<const Mesh>(std::move(mesh_));
     if (const Expected<void> checked = check_scene(result_); !checked) return Unexpected(checked.error());
@@ -148,9 +150,11 @@ class Assembly {
     all.insert(all.end(), mesh.textures.begin(), mesh.textures.end());
   }
 
-  // Of a vertex: there where any part has it, `none` where this one has not. `before`: vertices of those before.
+  // Of a vertex: there where any part has it, `none` where this one has not. `before`: vertices of those
+  // before.
   template <class T>
-  void append_optional(const std::vector<T>& from, const T& none, std::size_t before, std::vector<T>& to) const {
+  void append_optional(const std::vector<T>& from, const T& none, std::size_t before,
+                       std::vector<T>& to) const {
     if (from.empty() && to.empty()) return;
     to.resize(before, none);
     append(from, to);

@@ -52,7 +52,8 @@ glm::vec3 cube_light(const CubeMap& cube, const glm::vec3& direction) {
   const glm::vec2 at = 0.5f * (place.at + 1.0f) * static_cast<float>(cube[place.face].width()) - 0.5f;
   const glm::vec2 base = glm::floor(at), f = at - base;
   const glm::ivec2 b(base);
-  const glm::vec3 top = glm::mix(texel_at(cube, place.face, b), texel_at(cube, place.face, b + glm::ivec2(1, 0)), f.x);
+  const glm::vec3 top =
+      glm::mix(texel_at(cube, place.face, b), texel_at(cube, place.face, b + glm::ivec2(1, 0)), f.x);
   const glm::vec3 bottom =
       glm::mix(texel_at(cube, place.face, b + glm::ivec2(0, 1)), texel_at(cube, place.face, b + 1), f.x);
   return glm::mix(top, bottom, f.y);
@@ -72,7 +73,8 @@ Image<glm::vec3> lat_long_of(const CubeMap& cube, const glm::quat& world_from_cu
         const glm::vec2 uv = (glm::vec2(x, y) + within) / glm::vec2(size);
         // The middle is +Z, a quarter of the width left of it +X, the top +Y.
         const float turn = glm::two_pi<float>() * (0.5f - uv.x), down = glm::pi<float>() * uv.y;
-        const glm::vec3 direction(std::sin(down) * std::sin(turn), std::cos(down), std::sin(down) * std::cos(turn));
+        const glm::vec3 direction(std::sin(down) * std::sin(turn), std::cos(down),
+                                  std::sin(down) * std::cos(turn));
         sum += cube_light(cube, cube_from_world * direction);
       }
       image.at(x, y) = sum / static_cast<float>(kPlaces * kPlaces);

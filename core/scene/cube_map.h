@@ -8,15 +8,16 @@
 
 namespace pinocchio {
 
-// Faces towards +X, -X, +Y, -Y, +Z and -Z, square and of one size: what is seen from the cube's middle, as glTF's
-// EXT_lights_image_based has it. Those around have +Y up; the lower edge of +Y and the upper one of -Y adjoin +Z.
+// Faces towards +X, -X, +Y, -Y, +Z and -Z, square and of one size: what is seen from the cube's middle, as
+// glTF's EXT_lights_image_based has it. Those around have +Y up; the lower edge of +Y and the upper one of -Y
+// adjoin +Z.
 using CubeMap = std::array<Image<glm::vec3>, 6>;
 
 // What comes from there, of any length but zero; between four texels interpolated, across edges too.
 [[nodiscard]] glm::vec3 cube_light(const CubeMap& cube, const glm::vec3& direction);
 
-// The same in latitude and longitude (pinocchio/environment.h), turned: four times as wide as a face, each texel a
-// mean of 3 x 3 places.
+// The same in latitude and longitude (pinocchio/environment.h), turned: four times as wide as a face, each
+// texel a mean of 3 x 3 places.
 [[nodiscard]] Image<glm::vec3> lat_long_of(const CubeMap& cube, const glm::quat& world_from_cube);
 
 }  // namespace pinocchio

@@ -61,7 +61,8 @@ void Deformer::morph(std::vector<glm::vec3>& positions, std::vector<glm::vec3>& 
 void Deformer::place(MeshData& mesh) const {
   const Node& node = tree_.nodes[static_cast<std::size_t>(deformation_.node)];
   const RestPose& rest = *tree_.rest;
-  std::vector<glm::vec3> positions = part_of_rest(rest.positions, node), normals = part_of_rest(rest.normals, node);
+  std::vector<glm::vec3> positions = part_of_rest(rest.positions, node),
+                         normals = part_of_rest(rest.normals, node);
   std::vector<glm::vec4> tangents;
   if (!mesh.tangents.empty()) tangents = part_of_rest(rest.tangents, node);
   morph(positions, normals, tangents);
@@ -81,12 +82,14 @@ void Deformer::place(MeshData& mesh) const {
       if (const Influence& by = deformation_.influences[i]; by.weight != 0.0f)
         world += by.weight * world_from_mesh_[by.joint];
     mesh.positions[at] = glm::vec3(world * glm::vec4(positions[v], 1.0f));
-    mesh.normals[at] = normals[v] == glm::vec3(0.0f) ? normals[v] : unit_or_none(normals_to_world(world) * normals[v]);
+    mesh.normals[at] =
+        normals[v] == glm::vec3(0.0f) ? normals[v] : unit_or_none(normals_to_world(world) * normals[v]);
     if (!tangents.empty())
-      mesh.tangents[at] = tangents[v].w == 0.0f
-                              ? glm::vec4(0.0f)
-                              : glm::vec4(glm::mat3(world) * glm::vec3(tangents[v]),
-                                          glm::determinant(glm::mat3(world)) < 0.0f ? -tangents[v].w : tangents[v].w);
+      mesh.tangents[at] =
+          tangents[v].w == 0.0f
+              ? glm::vec4(0.0f)
+              : glm::vec4(glm::mat3(world) * glm::vec3(tangents[v]),
+                          glm::determinant(glm::mat3(world)) < 0.0f ? -tangents[v].w : tangents[v].w);
   }
 }
 

@@ -20,8 +20,8 @@ double mean_light(const Image<glm::vec3>& image, int x, int y) {
   for (int j = -1; j <= 1; ++j)
     for (int i = -1; i <= 1; ++i) {
       const double share = (i == 0 ? 0.75 : 0.125) * (j == 0 ? 0.75 : 0.125);
-      sum += share * static_cast<double>(
-                         brightness_of(image.at((x + i + size.x) % size.x, std::clamp(y + j, 0, size.y - 1))));
+      sum += share * static_cast<double>(brightness_of(
+                         image.at((x + i + size.x) % size.x, std::clamp(y + j, 0, size.y - 1))));
     }
   return sum;
 }
@@ -32,7 +32,8 @@ struct Found {
   float within;
 };
 Found found_at(const float* ends, std::size_t count, float number) {
-  const auto index = std::min(static_cast<std::size_t>(std::upper_bound(ends, ends + count, number) - ends), count - 1);
+  const auto index =
+      std::min(static_cast<std::size_t>(std::upper_bound(ends, ends + count, number) - ends), count - 1);
   const float begin = index == 0 ? 0.0f : ends[index - 1];
   return {index, std::clamp((number - begin) / (ends[index] - begin), 0.0f, 0x1.fffffep-1f)};
 }
@@ -40,7 +41,8 @@ Found found_at(const float* ends, std::size_t count, float number) {
 // Sums so far, made to end with 1 (or all zero).
 void make_to_one(const std::vector<double>& sums, float* ends) {
   const double whole = sums.back();
-  for (std::size_t i = 0; i < sums.size(); ++i) ends[i] = whole > 0.0 ? static_cast<float>(sums[i] / whole) : 0.0f;
+  for (std::size_t i = 0; i < sums.size(); ++i)
+    ends[i] = whole > 0.0 ? static_cast<float>(sums[i] / whole) : 0.0f;
 }
 
 }  // namespace
@@ -48,7 +50,8 @@ void make_to_one(const std::vector<double>& sums, float* ends) {
 Environment::Environment(Image<glm::vec3> radiance, std::string source)
     : radiance_(std::move(radiance)), source_(std::move(source)) {
   for (glm::vec3& c : radiance_.pixels()) c = is_finite(c) ? glm::max(c, 0.0f) : glm::vec3(0.0f);
-  const auto width = static_cast<std::size_t>(radiance_.width()), height = static_cast<std::size_t>(radiance_.height());
+  const auto width = static_cast<std::size_t>(radiance_.width()),
+             height = static_cast<std::size_t>(radiance_.height());
   rows_.resize(height);
   columns_.resize(width * height);
   std::vector<double> of_row(width), of_rows(height);
@@ -67,7 +70,8 @@ Environment::Environment(Image<glm::vec3> radiance, std::string source)
 }
 
 Environment::Place Environment::sample(const glm::vec2& numbers) const {
-  const auto width = static_cast<std::size_t>(radiance_.width()), height = static_cast<std::size_t>(radiance_.height());
+  const auto width = static_cast<std::size_t>(radiance_.width()),
+             height = static_cast<std::size_t>(radiance_.height());
   const Found row = found_at(rows_.data(), height, numbers.y);
   const Found column = found_at(&columns_[row.index * width], width, numbers.x);
   const glm::vec2 uv((static_cast<float>(column.index) + column.within) / static_cast<float>(width),
@@ -76,7 +80,8 @@ Environment::Place Environment::sample(const glm::vec2& numbers) const {
 }
 
 float Environment::density(const glm::vec2& uv) const {
-  const auto width = static_cast<std::size_t>(radiance_.width()), height = static_cast<std::size_t>(radiance_.height());
+  const auto width = static_cast<std::size_t>(radiance_.width()),
+             height = static_cast<std::size_t>(radiance_.height());
   const auto texel = [](float t, std::size_t n) {
     return std::min(static_cast<std::size_t>(t * static_cast<float>(n)), n - 1);
   };

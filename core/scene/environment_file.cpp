@@ -34,12 +34,14 @@ Expected<Image<glm::vec3>> read_exr_environment(const std::filesystem::path& fil
   const std::unique_ptr<Imf::InputFile> opened = open_exr(file, std::min(kUsualExrClaim, limit.bytes()));
   Imf::InputFile& in = *opened;
   const std::array<std::string, 3> channels = color_channels(in.header().channels());
-  if (channels[0].empty()) return refuse(file, "has no channels R, G and B, nor Y", "write it as an RGB picture");
+  if (channels[0].empty())
+    return refuse(file, "has no channels R, G and B, nor Y", "write it as an RGB picture");
   const Imath::Box2i& data = in.header().dataWindow();
   const std::uint64_t width = static_cast<std::uint64_t>(std::int64_t{data.max.x} - data.min.x + 1),
                       height = static_cast<std::uint64_t>(std::int64_t{data.max.y} - data.min.y + 1);
   constexpr std::uint64_t kMostSide = 1 << 20;
-  if (width > kMostSide || height > kMostSide) return refuse(file, "has no size that can be", "is it damaged?");
+  if (width > kMostSide || height > kMostSide)
+    return refuse(file, "has no size that can be", "is it damaged?");
   // Picture and sums of light, of which the latter are made later.
   if (!limit.take(file.string(), "the environment", width * height, sizeof(glm::vec3) + sizeof(float)))
     return Unexpected(*limit.error());
@@ -61,19 +63,22 @@ Expected<Image<glm::vec3>> read_exr_environment(const std::filesystem::path& fil
   return refuse(file, std::string("cannot be read as EXR: ") + error.what(), "is it damaged?");
 }
 
-Expected<Image<glm::vec3>> read_environment(const std::filesystem::path& file, Progress* progress, MemoryLimit& limit) {
+Expected<Image<glm::vec3>> read_environment(const std::filesystem::path& file, Progress* progress,
+                                            MemoryLimit& limit) {
   const Expected<std::string> bytes = read_input_file(file, progress);
   if (!bytes) return Unexpected(bytes.error());
   if (bytes->starts_with("\x76\x2f\x31\x01")) return read_exr_environment(file, limit);
   if (bytes->starts_with("#?"))
-    return decode_radiance(file.string(), {reinterpret_cast<const unsigned char*>(bytes->data()), bytes->size()}, limit);
-  return refuse(file, "is neither EXR nor Radiance (.hdr)", "an environment is a picture of all directions in latitude and longitude");
+    return decode_radiance(file.string(),
+                           {reinterpret_cast<const unsigned char*>(bytes->data()), bytes->size()}, limit);
+  return refuse(file, "is neither EXR nor Radiance (.hdr)",
+                "an environment is a picture of all directions in latitude and longitude");
 }
 
 }  // namespace
 
-Expected<std::shared_ptr<const Environment>> load_environment(const std::filesystem::path& path, Progress* progress,
-                                                              std::uint64_t limit_bytes) {
+Expected<std::shared_ptr<const Environment>> load_environment(const std::filesystem::path& path,
+                                                              Progress* progress, std::uint64_t limit_bytes) {
   MemoryLimit limit(limit_bytes);
   Expected<Image<glm::vec3>> image = read_environment(path, progress, limit);
   if (!image) return Unexpected(image.error());

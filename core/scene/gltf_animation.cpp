@@ -23,7 +23,8 @@ constexpr NamedPath kPaths[] = {{"translation", Track::Path::translation, 3},
 
 class AnimationReader {
  public:
-  AnimationReader(const GltfFile& file, const NodeTree& tree, const std::vector<int>& place_of_node, Warnings& warnings)
+  AnimationReader(const GltfFile& file, const NodeTree& tree, const std::vector<int>& place_of_node,
+                  Warnings& warnings)
       : file_(file), tree_(tree), place_of_node_(place_of_node), warnings_(warnings) {}
 
   Expected<std::shared_ptr<const Animation>> read() {
@@ -34,7 +35,8 @@ class AnimationReader {
     }
     if (nodes_.empty()) return std::shared_ptr<const Animation>();
     for (auto& [index, node] : nodes_) result_.nodes.push_back(std::move(node));
-    for (const Animation::Clip& clip : result_.clips) result_.duration_s = std::max(result_.duration_s, clip.duration_s);
+    for (const Animation::Clip& clip : result_.clips)
+      result_.duration_s = std::max(result_.duration_s, clip.duration_s);
     return std::make_shared<const Animation>(std::move(result_));
   }
 
@@ -74,7 +76,8 @@ class AnimationReader {
   }
 
   // Nothing where it moves nothing that is drawn, or is left out with a warning.
-  Expected<std::optional<Track>> track_of(const tinygltf::Animation& from, const tinygltf::AnimationChannel& channel) {
+  Expected<std::optional<Track>> track_of(const tinygltf::Animation& from,
+                                          const tinygltf::AnimationChannel& channel) {
     const auto none = [] { return std::optional<Track>(); };
     const NamedPath* path = path_of(channel);
     if (!path || channel.target_node < 0) return none();  // of an extension
@@ -88,33 +91,43 @@ class AnimationReader {
     if (path->path != Track::Path::weights &&
         file_.model.nodes[static_cast<std::size_t>(channel.target_node)].matrix.size() == 16)
       return left_out("channels of nodes that have a matrix are left out");
-    const std::size_t width = path->path == Track::Path::weights ? targets_of(place_of(channel)) : path->width;
+    const std::size_t width =
+        path->path == Track::Path::weights ? targets_of(place_of(channel)) : path->width;
     if (width == 0) return left_out("weights of a node without morph targets are left out");
     return sampled(from.samplers[static_cast<std::size_t>(channel.sampler)], *path, width);
   }
 
-  Expected<std::optional<Track>> sampled(const tinygltf::AnimationSampler& sampler, const NamedPath& path, std::size_t width) {
+  Expected<std::optional<Track>> sampled(const tinygltf::AnimationSampler& sampler, const NamedPath& path,
+                                         std::size_t width) {
     Track track;
     track.path = path.path;
     track.width = width;
-    if (sampler.interpolation == "STEP") track.interpolation = Track::Interpolation::step;
-    else if (sampler.interpolation == "CUBICSPLINE") track.interpolation = Track::Interpolation::cubic_spline;
-    else if (sampler.interpolation != "LINEAR") return left_out("channels of an unknown interpolation are left out");
+    if (sampler.interpolation == "STEP")
+      track.interpolation = Track::Interpolation::step;
+    else if (sampler.interpolation == "CUBICSPLINE")
+      track.interpolation = Track::Interpolation::cubic_spline;
+    else if (sampler.interpolation != "LINEAR")
+      return left_out("channels of an unknown interpolation are left out");
     // Many channels may name one accessor.
     for (const int accessor : {sampler.input, sampler.output})
       if (accessor >= 0 && static_cast<std::size_t>(accessor) < file_.model.accessors.size() &&
-          !file_.limit->take(file_.path.string(), where_, file_.model.accessors[static_cast<std::size_t>(accessor)].count, 4 * sizeof(float)))
+          !file_.limit->take(file_.path.string(), where_,
+                             file_.model.accessors[static_cast<std::size_t>(accessor)].count,
+                             4 * sizeof(float)))
         return Unexpected(*file_.limit->error());
     Expected<std::vector<float>> times = file_.floats(sampler.input, 1);
     if (!times) return Unexpected(times.error());
-    Expected<std::vector<float>> values = file_.floats(sampler.output, path.path == Track::Path::weights ? 1 : static_cast<int>(width));
+    Expected<std::vector<float>> values =
+        file_.floats(sampler.output, path.path == Track::Path::weights ? 1 : static_cast<int>(width));
     if (!values) return Unexpected(values.error());
     const auto finite = [](float f) { return std::isfinite(f); };
     if (!std::ranges::all_of(*times, finite) || !std::ranges::all_of(*values, finite))
       return left_out("channels of numbers that are not finite are left out");
-    if (times->empty() || !std::ranges::is_sorted(*times)) return left_out("channels whose times do not rise are left out");
+    if (times->empty() || !std::ranges::is_sorted(*times))
+      return left_out("channels whose times do not rise are left out");
     const std::size_t each = track.interpolation == Track::Interpolation::cubic_spline ? 3 * width : width;
-    if (values->size() != times->size() * each) return left_out("channels without a value for each time are left out");
+    if (values->size() != times->size() * each)
+      return left_out("channels without a value for each time are left out");
     track.times_s = std::move(*times);
     track.values = std::move(*values);
     return std::optional(std::move(track));
@@ -130,7 +143,8 @@ class AnimationReader {
   }
 
   [[nodiscard]] static const NamedPath* path_of(const tinygltf::AnimationChannel& channel) {
-    const auto* found = std::ranges::find_if(kPaths, [&](const NamedPath& p) { return channel.target_path == p.name; });
+    const auto* found =
+        std::ranges::find_if(kPaths, [&](const NamedPath& p) { return channel.target_path == p.name; });
     return found == std::end(kPaths) ? nullptr : found;
   }
 
@@ -165,13 +179,15 @@ class AnimationReader {
 NodeMotion gltf_motion(const tinygltf::Node& node) {
   NodeMotion motion;
   if (node.translation.size() == 3) motion.translation = glm::vec3(glm::make_vec3(node.translation.data()));
-  if (const std::vector<double>& r = node.rotation; r.size() == 4) motion.rotation = glm::dquat(r[3], r[0], r[1], r[2]);
+  if (const std::vector<double>& r = node.rotation; r.size() == 4)
+    motion.rotation = glm::dquat(r[3], r[0], r[1], r[2]);
   if (node.scale.size() == 3) motion.scale = glm::vec3(glm::make_vec3(node.scale.data()));
   return motion;
 }
 
 Expected<std::shared_ptr<const Animation>> gltf_animation(const GltfFile& file, const NodeTree& tree,
-                                                          const std::vector<int>& place_of_node, Warnings& warnings) {
+                                                          const std::vector<int>& place_of_node,
+                                                          Warnings& warnings) {
   return AnimationReader(file, tree, place_of_node, warnings).read();
 }
 

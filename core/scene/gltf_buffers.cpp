@@ -21,7 +21,8 @@ std::string decode_base64(std::string_view text) {
     for (std::size_t place = 0; place < 4; ++place) {
       values[place].fill(kNone);
       for (std::size_t i = 0; i < kLetters.size(); ++i)
-        values[place][static_cast<unsigned char>(kLetters[i])] = static_cast<std::uint32_t>(i) << (18 - 6 * place);
+        values[place][static_cast<unsigned char>(kLetters[i])] = static_cast<std::uint32_t>(i)
+                                                                 << (18 - 6 * place);
     }
     return values;
   }();
@@ -33,7 +34,8 @@ std::string decode_base64(std::string_view text) {
   int count = 0;  // of letters that are not whole bytes yet
   while (from != end) {
     if (count == 0 && end - from >= 4) {  // nearly all of it
-      const std::uint32_t four = kValues[0][from[0]] | kValues[1][from[1]] | kValues[2][from[2]] | kValues[3][from[3]];
+      const std::uint32_t four =
+          kValues[0][from[0]] | kValues[1][from[1]] | kValues[2][from[2]] | kValues[3][from[3]];
       if (four < kNone) {
         to[0] = static_cast<char>(four >> 16);
         to[1] = static_cast<char>(four >> 8);
@@ -56,7 +58,12 @@ std::string decode_base64(std::string_view text) {
 // %20 and its like.
 std::string decode_percent(std::string_view uri) {
   std::string text;
-  const auto digit = [](char c) { return c >= '0' && c <= '9' ? c - '0' : c >= 'a' && c <= 'f' ? c - 'a' + 10 : c >= 'A' && c <= 'F' ? c - 'A' + 10 : -1; };
+  const auto digit = [](char c) {
+    return c >= '0' && c <= '9'   ? c - '0'
+           : c >= 'a' && c <= 'f' ? c - 'a' + 10
+           : c >= 'A' && c <= 'F' ? c - 'A' + 10
+                                  : -1;
+  };
   for (std::size_t i = 0; i < uri.size(); ++i) {
     if (uri[i] == '%' && i + 2 < uri.size() && digit(uri[i + 1]) >= 0 && digit(uri[i + 2]) >= 0) {
       text.push_back(static_cast<char>(16 * digit(uri[i + 1]) + digit(uri[i + 2])));
@@ -80,7 +87,8 @@ std::optional<std::string_view> data_of(const GltfFile& file, std::string_view u
   return comma == std::string_view::npos ? std::string_view() : uri.substr(comma + 1);
 }
 
-Expected<void> read_buffer(GltfFile& file, const Json& buffer, std::size_t index, std::span<const unsigned char> chunk) {
+Expected<void> read_buffer(GltfFile& file, const Json& buffer, std::size_t index,
+                           std::span<const unsigned char> chunk) {
   const std::string whose = "buffer " + std::to_string(index);
   const auto uri_at = buffer.find("uri");
   if (uri_at == buffer.end() || !uri_at->is_string()) {
@@ -98,8 +106,9 @@ Expected<void> read_buffer(GltfFile& file, const Json& buffer, std::size_t index
     }
     const std::size_t length = size_member(buffer, "byteLength").value_or(0);
     if (file.buffers.back().size() < length)
-      return file.error("its " + whose + " holds " + std::to_string(file.buffers.back().size()) + " bytes, byteLength says " +
-                        std::to_string(length), "is the export complete?");
+      return file.error("its " + whose + " holds " + std::to_string(file.buffers.back().size()) +
+                            " bytes, byteLength says " + std::to_string(length),
+                        "is the export complete?");
   }
   return {};
 }
@@ -149,7 +158,8 @@ std::optional<std::size_t> size_member(const Json& object, const char* key) {
   return static_cast<std::size_t>(value);
 }
 
-Expected<void> read_gltf_buffers(GltfFile& file, const Json& gltf, std::span<const unsigned char> binary_chunk) {
+Expected<void> read_gltf_buffers(GltfFile& file, const Json& gltf,
+                                 std::span<const unsigned char> binary_chunk) {
   for (const char* key : {"buffers", "bufferViews", "images"})
     for (const Json& item : array_member(gltf, key))
       if (!item.is_object()) return file.error(std::string("its ") + key + " are not all objects");
@@ -166,7 +176,8 @@ Expected<void> read_gltf_buffers(GltfFile& file, const Json& gltf, std::span<con
     tinygltf::Image& image = file.model.images.emplace_back();
     image.name = text_member(json, "name");
     image.mimeType = text_member(json, "mimeType");
-    image.bufferView = static_cast<int>(std::min<std::size_t>(size_member(json, "bufferView").value_or(views.size()), views.size()));
+    image.bufferView = static_cast<int>(
+        std::min<std::size_t>(size_member(json, "bufferView").value_or(views.size()), views.size()));
     if (!json.contains("bufferView")) image.bufferView = -1;
     const std::string uri = text_member(json, "uri");
     if (const std::optional<std::string_view> data = data_of(file, uri)) {

@@ -1,5 +1,5 @@
-// What of a glTF file is read from its JSON by ourselves: buffers, buffer views, images. Of tinygltf's model only
-// the rest is tinygltf's.
+// What of a glTF file is read from its JSON by ourselves: buffers, buffer views, images. Of tinygltf's model
+// only the rest is tinygltf's.
 #pragma once
 
 #include <nlohmann/json_fwd.hpp>
@@ -8,8 +8,8 @@
 
 namespace pinocchio {
 
-// Fills file.buffers and the model's bufferViews (unpacking EXT_meshopt_compression) and images (whose files are
-// read when they are decoded).
+// Fills file.buffers and the model's bufferViews (unpacking EXT_meshopt_compression) and images (whose files
+// are read when they are decoded).
 [[nodiscard]] Expected<void> read_gltf_buffers(GltfFile& file, const nlohmann::json& gltf,
                                                std::span<const unsigned char> binary_chunk);
 
@@ -20,7 +20,8 @@ namespace pinocchio {
 // Stands before the number of one of GltfFile::data_uris in its place.
 inline constexpr std::string_view kDataAside = "data:aside,";
 
-// What KHR_draco_mesh_compression is called where tinygltf does not see it: it would unpack it, without buffers.
+// What KHR_draco_mesh_compression is called where tinygltf does not see it: it would unpack it, without
+// buffers.
 inline constexpr const char* kDracoAside = "pinocchio_draco";
 
 // Unpacks every primitive of KHR_draco_mesh_compression into accessors of its own.

@@ -34,7 +34,8 @@ std::string values_of(const draco::PointAttribute& attribute, std::size_t points
   std::string bytes(points * kComponents * sizeof(float), '\0');
   for (std::size_t i = 0; i < points; ++i) {
     float values[kComponents] = {};
-    attribute.ConvertValue<float, kComponents>(attribute.mapped_index(draco::PointIndex(static_cast<std::uint32_t>(i))), values);
+    attribute.ConvertValue<float, kComponents>(
+        attribute.mapped_index(draco::PointIndex(static_cast<std::uint32_t>(i))), values);
     std::memcpy(bytes.data() + i * sizeof values, values, sizeof values);
   }
   return bytes;
@@ -54,7 +55,8 @@ class DracoPrimitive {
     buffer.Init(reinterpret_cast<const char*>(bytes->data()), bytes->size());
     draco::Decoder decoder;
     draco::StatusOr<std::unique_ptr<draco::Mesh>> decoded = decoder.DecodeMeshFromBuffer(&buffer);
-    if (!decoded.ok()) return file_.error(std::string(kWhose) + " cannot be unpacked: " + decoded.status().error_msg_string());
+    if (!decoded.ok())
+      return file_.error(std::string(kWhose) + " cannot be unpacked: " + decoded.status().error_msg_string());
     return take(*decoded.value());
   }
 
@@ -66,7 +68,9 @@ class DracoPrimitive {
     std::uint64_t bytes = 0;
     const auto add = [&](int accessor, std::uint64_t each) {
       if (accessor >= 0 && static_cast<std::size_t>(accessor) < file_.model.accessors.size())
-        bytes += std::min<std::uint64_t>(file_.model.accessors[static_cast<std::size_t>(accessor)].count, 1u << 31) * each;
+        bytes += std::min<std::uint64_t>(file_.model.accessors[static_cast<std::size_t>(accessor)].count,
+                                         1u << 31) *
+                 each;
     };
     add(primitive_.indices, sizeof(std::uint32_t));
     for (const auto& [name, accessor] : primitive_.attributes) add(accessor, sizeof(glm::vec4));
@@ -89,7 +93,8 @@ class DracoPrimitive {
                            : type == TINYGLTF_TYPE_VEC3 ? values_of<3>(*attribute, points)
                            : type == TINYGLTF_TYPE_VEC4 ? values_of<4>(*attribute, points)
                                                         : std::string();
-      if (!values.empty()) accessor = add_accessor(file_, std::move(values), TINYGLTF_COMPONENT_TYPE_FLOAT, type, points);
+      if (!values.empty())
+        accessor = add_accessor(file_, std::move(values), TINYGLTF_COMPONENT_TYPE_FLOAT, type, points);
     }
     std::string indices(std::size_t{mesh.num_faces()} * sizeof(glm::uvec3), '\0');
     for (draco::FaceIndex f(0); f < mesh.num_faces(); ++f) {
@@ -115,31 +120,39 @@ Expected<void> unpack_draco(GltfFile& file) {
     for (tinygltf::Primitive& primitive : mesh.primitives) {
       throw_if_cancelled(file.progress);
       if (const tinygltf::Value* draco = extension(primitive.extensions, kDracoAside))
-        if (const Expected<void> unpacked = DracoPrimitive(file, primitive, *draco).unpack(); !unpacked) return unpacked;
+        if (const Expected<void> unpacked = DracoPrimitive(file, primitive, *draco).unpack(); !unpacked)
+          return unpacked;
     }
   return {};
 }
 
-Expected<std::string> unpack_meshopt(const GltfFile& file, const nlohmann::json& packed, const std::string& whose) {
+Expected<std::string> unpack_meshopt(const GltfFile& file, const nlohmann::json& packed,
+                                     const std::string& whose) {
   const std::size_t buffer = size_member(packed, "buffer").value_or(file.buffers.size());
-  const std::size_t offset = size_member(packed, "byteOffset").value_or(0), length = size_member(packed, "byteLength").value_or(0);
-  const std::size_t count = size_member(packed, "count").value_or(0), stride = size_member(packed, "byteStride").value_or(0);
-  if (buffer >= file.buffers.size() || offset > file.buffers[buffer].size() || length > file.buffers[buffer].size() - offset)
+  const std::size_t offset = size_member(packed, "byteOffset").value_or(0),
+                    length = size_member(packed, "byteLength").value_or(0);
+  const std::size_t count = size_member(packed, "count").value_or(0),
+                    stride = size_member(packed, "byteStride").value_or(0);
+  if (buffer >= file.buffers.size() || offset > file.buffers[buffer].size() ||
+      length > file.buffers[buffer].size() - offset)
     return file.error(whose + " reaches beyond its buffer");
   const std::string mode = text_member(packed, "mode"), filter = text_member(packed, "filter");
   const bool vertices = mode == "ATTRIBUTES";
-  if (vertices ? stride == 0 || stride > 256 || stride % 4 != 0 : (stride != 2 && stride != 4) || (mode == "TRIANGLES" && count % 3 != 0))
+  if (vertices ? stride == 0 || stride > 256 || stride % 4 != 0
+               : (stride != 2 && stride != 4) || (mode == "TRIANGLES" && count % 3 != 0))
     return file.error(whose + " has a stride or count that its mode does not know");
   if ((filter == "OCTAHEDRAL" && stride != 4 && stride != 8) || (filter == "QUATERNION" && stride != 8))
     return file.error(whose + " has a stride that its filter does not know");
   if (!file.limit->take(file.path.string(), whose, count, stride)) return Unexpected(*file.limit->error());
   std::string bytes(count * stride, '\0');
   const unsigned char* from = file.buffers[buffer].data() + offset;
-  const int failure = vertices              ? meshopt_decodeVertexBuffer(bytes.data(), count, stride, from, length)
-                      : mode == "TRIANGLES" ? meshopt_decodeIndexBuffer(bytes.data(), count, stride, from, length)
-                      : mode == "INDICES"   ? meshopt_decodeIndexSequence(bytes.data(), count, stride, from, length)
-                                            : -1;
-  if (failure != 0) return file.error(whose + " cannot be unpacked (EXT_meshopt_compression, mode '" + mode + "')");
+  const int failure =
+      vertices              ? meshopt_decodeVertexBuffer(bytes.data(), count, stride, from, length)
+      : mode == "TRIANGLES" ? meshopt_decodeIndexBuffer(bytes.data(), count, stride, from, length)
+      : mode == "INDICES"   ? meshopt_decodeIndexSequence(bytes.data(), count, stride, from, length)
+                            : -1;
+  if (failure != 0)
+    return file.error(whose + " cannot be unpacked (EXT_meshopt_compression, mode '" + mode + "')");
   if (filter == "OCTAHEDRAL") meshopt_decodeFilterOct(bytes.data(), count, stride);
   if (filter == "QUATERNION") meshopt_decodeFilterQuat(bytes.data(), count, stride);
   if (filter == "EXPONENTIAL") meshopt_decodeFilterExp(bytes.data(), count, stride);

@@ -32,12 +32,13 @@ glm::mat3 normals_of(const glm::mat4& instance) {
 
 }  // namespace
 
-DeformationReader::DeformationReader(const GltfFile& file, const tinygltf::Node& node, std::uint32_t first_vertex,
-                                     Warnings& warnings)
+DeformationReader::DeformationReader(const GltfFile& file, const tinygltf::Node& node,
+                                     std::uint32_t first_vertex, Warnings& warnings)
     : file_(file), node_(node), first_vertex_(first_vertex), warnings_(warnings) {
   if (node.mesh < 0 || static_cast<std::size_t>(node.mesh) >= file.model.meshes.size()) return;
   std::size_t sets = 0;
-  for (const tinygltf::Primitive& primitive : file.model.meshes[static_cast<std::size_t>(node.mesh)].primitives) {
+  for (const tinygltf::Primitive& primitive :
+       file.model.meshes[static_cast<std::size_t>(node.mesh)].primitives) {
     targets_ = std::max(targets_, primitive.targets.size());
     for (const std::size_t set : {0u, 1u})
       if (has_set(primitive, set)) sets = std::max(sets, set + 1);
@@ -54,10 +55,12 @@ DeformationReader::DeformationReader(const GltfFile& file, const tinygltf::Node&
   deformation_.influences_per_vertex = sets * kInfluencesASet;
 }
 
-Expected<void> DeformationReader::add(const tinygltf::Primitive& primitive, std::uint32_t first, std::size_t count) {
+Expected<void> DeformationReader::add(const tinygltf::Primitive& primitive, std::uint32_t first,
+                                      std::size_t count) {
   for (std::size_t t = 0; t < primitive.targets.size(); ++t) {
     throw_if_cancelled(file_.progress);
-    if (const Expected<void> added = add_target(primitive.targets[t], first, count, deformation_.targets[t]); !added)
+    if (const Expected<void> added = add_target(primitive.targets[t], first, count, deformation_.targets[t]);
+        !added)
       return added;
   }
   return skinned() ? add_influences(primitive, count) : Expected<void>();
@@ -76,18 +79,23 @@ Expected<void> DeformationReader::add_target(const std::map<std::string, int>& a
     Expected<std::vector<float>> read = file_.floats(accessor, 3);
     if (!read) return Unexpected(read.error());
     if (read->size() != 3 * count)
-      return file_.error("accessor " + std::to_string(accessor) + " of a morph target does not hold one element a vertex");
+      return file_.error("accessor " + std::to_string(accessor) +
+                         " of a morph target does not hold one element a vertex");
     if (!std::ranges::all_of(*read, [](float f) { return std::isfinite(f); }))
-      return file_.error("accessor " + std::to_string(accessor) + " of a morph target holds no finite numbers");
+      return file_.error("accessor " + std::to_string(accessor) +
+                         " of a morph target holds no finite numbers");
     offsets[i] = std::move(*read);
   }
   const std::array<std::vector<glm::vec3>*, 3> kept{&to.positions, &to.normals, &to.tangents};
   for (std::size_t v = 0; v < count; ++v) {
     const auto offset = [&](std::size_t i) {
-      return offsets[i].empty() ? glm::vec3(0.0f) : glm::vec3(offsets[i][3 * v], offsets[i][3 * v + 1], offsets[i][3 * v + 2]);
+      return offsets[i].empty() ? glm::vec3(0.0f)
+                                : glm::vec3(offsets[i][3 * v], offsets[i][3 * v + 1], offsets[i][3 * v + 2]);
     };
-    if (offset(0) == glm::vec3(0.0f) && offset(1) == glm::vec3(0.0f) && offset(2) == glm::vec3(0.0f)) continue;
-    if (!file_.limit->take(file_.path.string(), "a morph target", 1, sizeof(std::uint32_t) + 3 * sizeof(glm::vec3)))
+    if (offset(0) == glm::vec3(0.0f) && offset(1) == glm::vec3(0.0f) && offset(2) == glm::vec3(0.0f))
+      continue;
+    if (!file_.limit->take(file_.path.string(), "a morph target", 1,
+                           sizeof(std::uint32_t) + 3 * sizeof(glm::vec3)))
       return Unexpected(*file_.limit->error());
     to.vertices.push_back(first - first_vertex_ + static_cast<std::uint32_t>(v));
     // Another primitive of the target may lack what this one has.
@@ -106,20 +114,24 @@ Expected<void> DeformationReader::add_influences(const tinygltf::Primitive& prim
     return Unexpected(*file_.limit->error());
   deformation_.influences.resize(begin + count * stride);
   for (std::size_t set = 0; set * kInfluencesASet < stride && has_set(primitive, set); ++set) {
-    const Expected<std::vector<float>> joints = file_.floats(accessor_of(primitive.attributes, set_name("JOINTS", set)), 4);
+    const Expected<std::vector<float>> joints =
+        file_.floats(accessor_of(primitive.attributes, set_name("JOINTS", set)), 4);
     if (!joints) return Unexpected(joints.error());
-    const Expected<std::vector<float>> weights = file_.floats(accessor_of(primitive.attributes, set_name("WEIGHTS", set)), 4);
+    const Expected<std::vector<float>> weights =
+        file_.floats(accessor_of(primitive.attributes, set_name("WEIGHTS", set)), 4);
     if (!weights) return Unexpected(weights.error());
     if (joints->size() != 4 * count || weights->size() != 4 * count)
       return file_.error("a primitive does not have joints and weights for each vertex");
     for (std::size_t i = 0; i < 4 * count; ++i) {
       const float joint = (*joints)[i], weight = (*weights)[i];
-      if (!std::isfinite(weight)) return file_.error("a vertex has a joint's weight that is no finite number");
+      if (!std::isfinite(weight))
+        return file_.error("a vertex has a joint's weight that is no finite number");
       if (weight <= 0.0f) continue;
       if (!(joint >= 0.0f && joint < static_cast<float>(joints_)))
-        return file_.error("a vertex names joint " + std::to_string(static_cast<long long>(joint)) + " of skin " +
-                           std::to_string(node_.skin) + ", it has " + std::to_string(joints_));
-      deformation_.influences[begin + i / 4 * stride + set * kInfluencesASet + i % 4] = {static_cast<std::uint32_t>(joint), weight};
+        return file_.error("a vertex names joint " + std::to_string(static_cast<long long>(joint)) +
+                           " of skin " + std::to_string(node_.skin) + ", it has " + std::to_string(joints_));
+      deformation_.influences[begin + i / 4 * stride + set * kInfluencesASet + i % 4] = {
+          static_cast<std::uint32_t>(joint), weight};
     }
   }
   for (std::size_t v = 0; v < count; ++v)
@@ -140,7 +152,8 @@ void DeformationReader::settle_weights(std::span<Influence> of_vertex) {
   for (Influence& by : of_vertex) by.weight /= sum;
 }
 
-void DeformationReader::place(const glm::mat4& instance, std::uint32_t first, std::span<const glm::vec3> normals) {
+void DeformationReader::place(const glm::mat4& instance, std::uint32_t first,
+                              std::span<const glm::vec3> normals) {
   const glm::mat3 linear(instance), of_normals = normals_of(instance);
   const std::uint32_t begin = first - first_vertex_;
   for (MorphTarget& target : deformation_.targets) {
@@ -152,7 +165,8 @@ void DeformationReader::place(const glm::mat4& instance, std::uint32_t first, st
       // As long against the placed normal, which is made a unit, as it was against the mesh's.
       if (!target.normals.empty()) {
         const float length = glm::length(of_normals * normals[v - begin]);
-        target.normals[i] = length > 0.0f && std::isfinite(length) ? of_normals * target.normals[i] / length : glm::vec3(0.0f);
+        target.normals[i] = length > 0.0f && std::isfinite(length) ? of_normals * target.normals[i] / length
+                                                                   : glm::vec3(0.0f);
       }
       if (!target.tangents.empty()) target.tangents[i] = linear * target.tangents[i];
     }
@@ -180,13 +194,15 @@ std::vector<int> deforming_accessors(const tinygltf::Primitive& primitive) {
   return accessors;
 }
 
-Expected<std::optional<Skin>> gltf_skin(const GltfFile& file, int skin, const std::vector<int>& place_of_node) {
+Expected<std::optional<Skin>> gltf_skin(const GltfFile& file, int skin,
+                                        const std::vector<int>& place_of_node) {
   const tinygltf::Skin& from = file.model.skins[static_cast<std::size_t>(skin)];
   const std::string whose = "skin " + std::to_string(skin);
   Skin result;
   for (const int joint : from.joints) {
     if (joint < 0 || static_cast<std::size_t>(joint) >= place_of_node.size())
-      return file.error(whose + " names node " + std::to_string(joint) + ", there are " + std::to_string(place_of_node.size()));
+      return file.error(whose + " names node " + std::to_string(joint) + ", there are " +
+                        std::to_string(place_of_node.size()));
     result.joints.push_back(place_of_node[static_cast<std::size_t>(joint)]);
     if (result.joints.back() < 0) return std::optional<Skin>();
   }
@@ -198,7 +214,8 @@ Expected<std::optional<Skin>> gltf_skin(const GltfFile& file, int skin, const st
     return file.error(whose + " has " + std::to_string(result.joints.size()) + " joints and " +
                       std::to_string(matrices->size() / 16) + " inverse bind matrices");
   for (std::size_t j = 0; j < result.joints.size(); ++j) {
-    std::copy_n(matrices->begin() + static_cast<std::ptrdiff_t>(16 * j), 16, &result.joint_from_mesh[j][0][0]);
+    std::copy_n(matrices->begin() + static_cast<std::ptrdiff_t>(16 * j), 16,
+                &result.joint_from_mesh[j][0][0]);
     for (int column = 0; column < 4; ++column)
       if (!is_finite(glm::vec3(result.joint_from_mesh[j][column])))
         return file.error(whose + " has inverse bind matrices that are not finite numbers");

@@ -1,5 +1,6 @@
-// EXT_lights_image_based: a cube map around a scene, here a picture in latitude and longitude. Of its mip levels,
-// each blurred for a roughness, the first is read; light is traced, so its irradianceCoefficients are not needed.
+// EXT_lights_image_based: a cube map around a scene, here a picture in latitude and longitude. Of its mip
+// levels, each blurred for a roughness, the first is read; light is traced, so its irradianceCoefficients are
+// not needed.
 #include <algorithm>
 #include <cmath>
 
@@ -16,7 +17,8 @@ constexpr const char* kExtension = "EXT_lights_image_based";
 
 // Element `index` of an array; null where there is none.
 const tinygltf::Value* element(const tinygltf::Value* array, std::optional<float> index) {
-  if (!array || !array->IsArray() || !index || !(*index >= 0.0f && *index < static_cast<float>(array->ArrayLen())))
+  if (!array || !array->IsArray() || !index ||
+      !(*index >= 0.0f && *index < static_cast<float>(array->ArrayLen())))
     return nullptr;
   return &array->Get(static_cast<int>(*index));
 }
@@ -28,7 +30,8 @@ std::vector<int> face_images(const GltfFile& file, const tinygltf::Value& light)
   std::vector<int> images;
   for (int i = 0; i < static_cast<int>(faces->ArrayLen()); ++i) {
     const tinygltf::Value& face = faces->Get(i);
-    if (!face.IsInt() || face.GetNumberAsInt() < 0 || static_cast<std::size_t>(face.GetNumberAsInt()) >= file.model.images.size())
+    if (!face.IsInt() || face.GetNumberAsInt() < 0 ||
+        static_cast<std::size_t>(face.GetNumberAsInt()) >= file.model.images.size())
       return {};
     images.push_back(face.GetNumberAsInt());
   }
@@ -38,7 +41,9 @@ std::vector<int> face_images(const GltfFile& file, const tinygltf::Value& light)
 glm::quat rotation_of(const tinygltf::Value& light) {
   const tinygltf::Value* r = member(light, "rotation");
   if (!r || !r->IsArray() || r->ArrayLen() != 4) return glm::quat(1, 0, 0, 0);
-  const auto number = [r](int i) { return r->Get(i).IsNumber() ? static_cast<float>(r->Get(i).GetNumberAsDouble()) : 0.0f; };
+  const auto number = [r](int i) {
+    return r->Get(i).IsNumber() ? static_cast<float>(r->Get(i).GetNumberAsDouble()) : 0.0f;
+  };
   const glm::quat q(number(3), number(0), number(1), number(2));
   const float length = glm::length(q);
   return std::isfinite(length) && length > 0.0f ? q / length : glm::quat(1, 0, 0, 0);
@@ -81,12 +86,14 @@ Expected<CubeMap> cube_of(const GltfFile& file, const tinygltf::Value& light, Lo
 
 }  // namespace
 
-std::shared_ptr<const Environment> gltf_environment(const GltfFile& file, const tinygltf::Scene& scene, Loading& loading) {
+std::shared_ptr<const Environment> gltf_environment(const GltfFile& file, const tinygltf::Scene& scene,
+                                                    Loading& loading) {
   const tinygltf::Value* use = extension(scene.extensions, kExtension);
   const tinygltf::Value* all = extension(file.model.extensions, kExtension);
   if (!use) return nullptr;
   const auto leave_out = [&](const std::string& why) {
-    loading.warnings.add({file.path.string(), "", std::string(kExtension) + " is left out: " + why, "the light of its environment is missing"});
+    loading.warnings.add({file.path.string(), "", std::string(kExtension) + " is left out: " + why,
+                          "the light of its environment is missing"});
     return nullptr;
   };
   const tinygltf::Value* light = element(all ? member(*all, "lights") : nullptr, number_member(use, "light"));
@@ -95,7 +102,9 @@ std::shared_ptr<const Environment> gltf_environment(const GltfFile& file, const 
   if (!cube) return leave_out(cube.error().message());
   const auto side = static_cast<std::uint64_t>((*cube)[0].width());
   // The picture and its sums of light.
-  if (!loading.limit.take(file.path.string(), "the environment", 8 * side * side, sizeof(glm::vec3) + sizeof(float))) return nullptr;
+  if (!loading.limit.take(file.path.string(), "the environment", 8 * side * side,
+                          sizeof(glm::vec3) + sizeof(float)))
+    return nullptr;
   return std::make_shared<const Environment>(lat_long_of(*cube, rotation_of(*light)), file.path.string());
 }
 

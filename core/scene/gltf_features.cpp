@@ -33,9 +33,12 @@ constexpr Extension kExtensions[] = {
     {"KHR_meshopt_compression", "", ""},
     {"EXT_mesh_gpu_instancing", "", ""},
     {"EXT_texture_webp", "", ""},
-    {"KHR_texture_basisu", "another image or the plain colour is used", "convert its KTX2 images to PNG, JPEG or WebP"},
-    {"MSFT_texture_dds", "another image or the plain colour is used", "convert its DDS images to PNG, JPEG or WebP"},
-    {"EXT_texture_avif", "another image or the plain colour is used", "convert its AVIF images to PNG, JPEG or WebP"},
+    {"KHR_texture_basisu", "another image or the plain colour is used",
+     "convert its KTX2 images to PNG, JPEG or WebP"},
+    {"MSFT_texture_dds", "another image or the plain colour is used",
+     "convert its DDS images to PNG, JPEG or WebP"},
+    {"EXT_texture_avif", "another image or the plain colour is used",
+     "convert its AVIF images to PNG, JPEG or WebP"},
     {"KHR_texture_transform", "", ""},
     {"KHR_materials_pbrSpecularGlossiness", "another material or plain white is used",
      "convert its materials to metallic-roughness"},
@@ -52,8 +55,8 @@ constexpr Extension kExtensions[] = {
 };
 
 const Extension* find_extension(std::string_view name) {
-  const auto* found =
-      std::find_if(std::begin(kExtensions), std::end(kExtensions), [name](const Extension& e) { return e.name == name; });
+  const auto* found = std::find_if(std::begin(kExtensions), std::end(kExtensions),
+                                   [name](const Extension& e) { return e.name == name; });
   return found == std::end(kExtensions) ? nullptr : found;
 }
 
@@ -70,13 +73,19 @@ constexpr Member kMaterialMembers[] = {
      "thick glass is as clear as thin glass"},
 };
 
-bool is_object(const Json& json) { return json.is_object(); }
-bool is_number(const Json& json) { return json.is_number(); }
+bool is_object(const Json& json) {
+  return json.is_object();
+}
+bool is_number(const Json& json) {
+  return json.is_number();
+}
 template <std::size_t kCount>
 bool are_numbers(const Json& json) {
   return json.is_array() && json.size() == kCount && std::all_of(json.begin(), json.end(), is_number);
 }
-bool is_alpha_mode(const Json& json) { return json == "OPAQUE" || json == "MASK" || json == "BLEND"; }
+bool is_alpha_mode(const Json& json) {
+  return json == "OPAQUE" || json == "MASK" || json == "BLEND";
+}
 
 // A member of a material and what it has to be; else its default is used.
 struct TypedMember {
@@ -98,13 +107,18 @@ constexpr TypedMember kTypedMembers[] = {
 };
 
 // Its textures.
-constexpr const char* kTextureMembers[] = {
-    "/pbrMetallicRoughness/baseColorTexture", "/pbrMetallicRoughness/metallicRoughnessTexture", "/normalTexture",
-    "/occlusionTexture", "/emissiveTexture", "/extensions/KHR_materials_specular/specularTexture",
-    "/extensions/KHR_materials_specular/specularColorTexture",
-    "/extensions/KHR_materials_transmission/transmissionTexture"};
+constexpr const char* kTextureMembers[] = {"/pbrMetallicRoughness/baseColorTexture",
+                                           "/pbrMetallicRoughness/metallicRoughnessTexture",
+                                           "/normalTexture",
+                                           "/occlusionTexture",
+                                           "/emissiveTexture",
+                                           "/extensions/KHR_materials_specular/specularTexture",
+                                           "/extensions/KHR_materials_specular/specularColorTexture",
+                                           "/extensions/KHR_materials_transmission/transmissionTexture"};
 
-std::string last_name(std::string_view pointer) { return std::string(pointer.substr(pointer.rfind('/') + 1)); }
+std::string last_name(std::string_view pointer) {
+  return std::string(pointer.substr(pointer.rfind('/') + 1));
+}
 
 // A member of that type, else nothing.
 const Json* object_of(const Json& json, const std::string& key) {
@@ -151,7 +165,8 @@ class Audit {
     if (const Json* extensions = object_of(gltf_, "extensions")) look_at_extensions(*extensions, "");
     const Json& materials = array_of(gltf_, "materials");
     for (std::size_t i = 0; i < materials.size(); ++i)
-      if (used_materials_.contains(static_cast<double>(i))) look_at_material(materials[i], place("material", materials[i], i));
+      if (used_materials_.contains(static_cast<double>(i)))
+        look_at_material(materials[i], place("material", materials[i], i));
     look_at_scenes();
   }
 
@@ -190,8 +205,10 @@ class Audit {
     for (const Member& member : kMaterialMembers)
       if (material.contains(Json::json_pointer(member.at))) lost(where, member.what, member.lost);
     for (const TypedMember& member : kTypedMembers)
-      if (const Json::json_pointer pointer(member.at); material.contains(pointer) && !member.fits(material[pointer]))
-        lost(where, "its " + last_name(member.at) + " is not of the type that glTF has there", "the default is used");
+      if (const Json::json_pointer pointer(member.at);
+          material.contains(pointer) && !member.fits(material[pointer]))
+        lost(where, "its " + last_name(member.at) + " is not of the type that glTF has there",
+             "the default is used");
     for (const char* at : kTextureMembers)
       if (const Json::json_pointer pointer(at); material.contains(pointer))
         look_at_texture(material[pointer], "its " + last_name(at), where);
@@ -202,7 +219,8 @@ class Audit {
     if (!texture || !has_image(*texture))
       lost(where, which + " names no image that there is", "what it would have covered has one colour");
     if (number_of(info, "texCoord", 0) > 1)
-      lost(where, "texture coordinates beyond the second set are left out", "its texture lies as the first set says");
+      lost(where, "texture coordinates beyond the second set are left out",
+           "its texture lies as the first set says");
     const Json* extensions = object_of(info, "extensions");
     const Json* transform = extensions ? object_of(*extensions, "KHR_texture_transform") : nullptr;
     if (transform && !transform->is_object())
@@ -219,14 +237,17 @@ class Audit {
 
   [[nodiscard]] const Json* element_of(const std::string& collection, double index) const {
     const Json& items = array_of(gltf_, collection);
-    return index >= 0 && index < static_cast<double>(items.size()) ? &items[static_cast<std::size_t>(index)] : nullptr;
+    return index >= 0 && index < static_cast<double>(items.size()) ? &items[static_cast<std::size_t>(index)]
+                                                                   : nullptr;
   }
 
   void look_at_scenes() {
     const Json& scenes = array_of(gltf_, "scenes");
     const auto shown = static_cast<std::size_t>(std::max(number_of(gltf_, "scene", 0), 0.0));
     for (std::size_t i = 0; i < scenes.size(); ++i)
-      if (i != shown) lost(place("scene", scenes[i], i), "scenes other than the default one are left out", "what they hold is not drawn");
+      if (i != shown)
+        lost(place("scene", scenes[i], i), "scenes other than the default one are left out",
+             "what they hold is not drawn");
   }
 
   std::string file_;
@@ -243,10 +264,13 @@ Expected<void> check_gltf_requirements(const std::filesystem::path& file, const 
   };
   const Json* asset = object_of(gltf, "asset");
   const std::string version = asset ? text_of(*asset, "version") : "";
-  if (version.empty()) return fail("is not glTF: it does not say its version (asset.version)", "is the export complete?");
-  if (!version.starts_with("2.")) return fail("is glTF " + version + ", only 2.0 can be read", "convert it to glTF 2.0");
+  if (version.empty())
+    return fail("is not glTF: it does not say its version (asset.version)", "is the export complete?");
+  if (!version.starts_with("2."))
+    return fail("is glTF " + version + ", only 2.0 can be read", "convert it to glTF 2.0");
   const std::string least = text_of(*asset, "minVersion");
-  if (!least.empty() && least != "2.0") return fail("needs a reader of glTF " + least + ", this one reads 2.0", "export it as glTF 2.0");
+  if (!least.empty() && least != "2.0")
+    return fail("needs a reader of glTF " + least + ", this one reads 2.0", "export it as glTF 2.0");
   for (const Json& required : array_of(gltf, "extensionsRequired")) {
     const std::string name = required.is_string() ? required.get<std::string>() : required.dump();
     const Extension* known = find_extension(name);

@@ -9,10 +9,12 @@
 namespace pinocchio {
 
 // Whether it is glTF 2.0 that requires no extension that is not read; the error names what is in the way.
-[[nodiscard]] Expected<void> check_gltf_requirements(const std::filesystem::path& file, const nlohmann::json& gltf);
+[[nodiscard]] Expected<void> check_gltf_requirements(const std::filesystem::path& file,
+                                                     const nlohmann::json& gltf);
 
 // Adds a warning for every feature of the file that nothing reads. What is known only while it is read (an
 // image that is damaged, a camera that cannot look) is warned of where it is read.
-void add_lost_gltf_features(const std::filesystem::path& file, const nlohmann::json& gltf, Warnings& warnings);
+void add_lost_gltf_features(const std::filesystem::path& file, const nlohmann::json& gltf,
+                            Warnings& warnings);
 
 }  // namespace pinocchio

@@ -124,8 +124,10 @@ Expected<std::vector<Out>> numbers_of(const GltfFile& file, int index, int compo
     const Expected<Elements> from = elements(file, whose, accessor.bufferView, accessor.byteOffset,
                                              accessor.count, accessor.componentType, components);
     if (!from) return Unexpected(from.error());
-    constexpr int kSame = std::is_same_v<Out, float> ? TINYGLTF_COMPONENT_TYPE_FLOAT : TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT;
-    const bool as_stored = accessor.componentType == kSame && from->stride == width * sizeof(Out) && accessor.count > 0;
+    constexpr int kSame =
+        std::is_same_v<Out, float> ? TINYGLTF_COMPONENT_TYPE_FLOAT : TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT;
+    const bool as_stored =
+        accessor.componentType == kSame && from->stride == width * sizeof(Out) && accessor.count > 0;
     numbers.resize(width * accessor.count);
     if (as_stored) std::memcpy(numbers.data(), from->first, numbers.size() * sizeof(Out));
     for (std::size_t i = 0; i < accessor.count && !as_stored; ++i) put(*from, i, i);

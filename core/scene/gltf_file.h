@@ -24,9 +24,9 @@ struct GltfFile {
   std::filesystem::path path;
   tinygltf::Model model;  // without its buffers' bytes
   std::vector<std::span<const unsigned char>> buffers;
-  std::deque<std::string> storage;  // what they lie in
+  std::deque<std::string> storage;          // what they lie in
   std::vector<std::string_view> data_uris;  // while it is read: those that its JSON was parsed without
-  std::vector<std::string> named_files;  // looked for beside it, found or not
+  std::vector<std::string> named_files;     // looked for beside it, found or not
   Progress* progress = nullptr;
   MemoryLimit* limit = nullptr;
 
@@ -50,10 +50,9 @@ struct GltfFile {
                                                                const std::string& whose) const;
 };
 
-// Reads and parses the file; images stay encoded: in a buffer view, in Image::image, or in the file that their uri
-// names. Refuses what would overrun tinygltf: JSON nested deeper than any scene's.
-[[nodiscard]] Expected<GltfFile> read_gltf_file(const std::filesystem::path& path,
-                                                Loading& loading);
+// Reads and parses the file; images stay encoded: in a buffer view, in Image::image, or in the file that
+// their uri names. Refuses what would overrun tinygltf: JSON nested deeper than any scene's.
+[[nodiscard]] Expected<GltfFile> read_gltf_file(const std::filesystem::path& path, Loading& loading);
 
 // Members of an object that a file may or may not have, of the type that is wanted.
 [[nodiscard]] const tinygltf::Value* member(const tinygltf::Value& object, const std::string& key);
@@ -76,7 +75,9 @@ struct EncodedImage;
 [[nodiscard]] Expected<EncodedImage> gltf_image(const GltfFile& file, int index);
 
 // The scene's EXT_lights_image_based; null where it has none, or none that can be read, of which is warned.
-[[nodiscard]] std::shared_ptr<const Environment> gltf_environment(const GltfFile& file, const tinygltf::Scene& scene, Loading& loading);
+[[nodiscard]] std::shared_ptr<const Environment> gltf_environment(const GltfFile& file,
+                                                                  const tinygltf::Scene& scene,
+                                                                  Loading& loading);
 
 // Decodes the images that maps use and makes their textures the scene's; an image that cannot be read is a
 // warning and leaves what the material has without it.
@@ -85,7 +86,8 @@ void add_gltf_textures(const GltfFile& file, MeshData& mesh, Loading& loading);
 class DeformationReader;
 
 // Appends the triangles of a mesh, placed by `world_from_mesh`, and to `rest` its vertices as they were.
-// Materials are the file's indices; -1 becomes `default_material`. `deformation`: null where nothing deforms it.
+// Materials are the file's indices; -1 becomes `default_material`. `deformation`: null where nothing deforms
+// it.
 [[nodiscard]] Expected<void> add_gltf_mesh(const GltfFile& file, int mesh, const glm::mat4& world_from_mesh,
                                            std::uint32_t default_material, MeshData& to, RestPose& rest,
                                            DeformationReader* deformation, Warnings& warnings);

@@ -50,11 +50,11 @@ class MeshPlacer {
       : file_(file), placement_(world_from_mesh), mesh_(mesh), rest_(rest), deformation_(deformation) {}
 
   Expected<void> add(const tinygltf::Primitive& primitive, std::uint32_t default_material) {
-    const Expected<std::uint32_t> first =
-        vertices({attribute(primitive, "POSITION"), attribute(primitive, "NORMAL"),
-                  attribute(primitive, "TEXCOORD_0"), attribute(primitive, "TEXCOORD_1"),
-                  attribute(primitive, "COLOR_0"), attribute(primitive, "TANGENT"),
-                  deformation_ ? deforming_accessors(primitive) : std::vector<int>()}, primitive);
+    const Expected<std::uint32_t> first = vertices(
+        {attribute(primitive, "POSITION"), attribute(primitive, "NORMAL"), attribute(primitive, "TEXCOORD_0"),
+         attribute(primitive, "TEXCOORD_1"), attribute(primitive, "COLOR_0"), attribute(primitive, "TANGENT"),
+         deformation_ ? deforming_accessors(primitive) : std::vector<int>()},
+        primitive);
     if (!first) return Unexpected(first.error());
     const std::size_t vertex_count = counts_[*first];
     std::vector<std::uint32_t> indices(vertex_count);
@@ -135,8 +135,7 @@ class MeshPlacer {
     const Expected<std::vector<float>> values = optional(accessor, static_cast<int>(width), count);
     if (!values) return Unexpected(values.error());
     for (std::size_t i = 0; i < count; ++i)
-      for (std::size_t c = 0; c < width; ++c)
-        result[i][static_cast<int>(c)] = (*values)[width * i + c];
+      for (std::size_t c = 0; c < width; ++c) result[i][static_cast<int>(c)] = (*values)[width * i + c];
     return result;
   }
 
@@ -185,7 +184,8 @@ Expected<void> add_gltf_mesh(const GltfFile& file, int mesh, const glm::mat4& wo
       continue;
     }
     // Copies are not in the file; the first placing is counted with them.
-    if (!file.limit->take(file.path.string(), "placing mesh " + std::to_string(mesh), elements_of(file, primitive), 40))
+    if (!file.limit->take(file.path.string(), "placing mesh " + std::to_string(mesh),
+                          elements_of(file, primitive), 40))
       return Unexpected(*file.limit->error());
     if (const Expected<void> added = placer.add(primitive, default_material); !added) return added;
   }

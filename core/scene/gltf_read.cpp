@@ -16,8 +16,8 @@ constexpr std::string_view kBinaryMagic = "glTF";
 constexpr int kDeepest = 256;
 constexpr int kNoSuch = 0x7fffffff;  // an index that nothing has
 
-// JSON without its long data URIs: base64 of buffers and images, through which JSON libraries go byte by byte and
-// copy them. kDataAside and their number in `data_uris` stands where they stood.
+// JSON without its long data URIs: base64 of buffers and images, through which JSON libraries go byte by byte
+// and copy them. kDataAside and their number in `data_uris` stands where they stood.
 struct Outline {
   std::string json;
   std::vector<std::string_view> data_uris;
@@ -37,7 +37,9 @@ Outline outline_of(std::string_view text) {
     if (in_string && c == '"' && text.substr(i + 1).starts_with("data:")) {
       const std::string_view uri = text.substr(i + 1, text.find('"', i + 1) - (i + 1));
       if (uri.size() < kLong || uri.find('\\') != uri.npos) continue;
-      outline.json.append(text.substr(taken, i + 1 - taken)).append(kDataAside).append(std::to_string(outline.data_uris.size()));
+      outline.json.append(text.substr(taken, i + 1 - taken))
+          .append(kDataAside)
+          .append(std::to_string(outline.data_uris.size()));
       outline.data_uris.push_back(uri);
       i += uri.size();
       taken = i + 1;
@@ -68,14 +70,16 @@ Expected<Parts> split(GltfFile& file, std::string&& bytes) {
   constexpr std::uint32_t kJson = 0x4e4f534a, kBinary = 0x004e4942;
   if (bytes.size() < kHeader) return file.error("ends within its header", "is the export complete?");
   if (const std::uint32_t version = number_at(bytes, 4); version != 2)
-    return file.error("is binary glTF " + std::to_string(version) + ", only 2 can be read", "convert it to glTF 2.0");
+    return file.error("is binary glTF " + std::to_string(version) + ", only 2 can be read",
+                      "convert it to glTF 2.0");
   Parts parts;
   const std::string& kept = file.storage.emplace_back(std::move(bytes));
   for (std::size_t at = kHeader; at + kChunkHeader <= kept.size();) {
     const std::uint32_t length = number_at(kept, at), type = number_at(kept, at + 4);
     at += kChunkHeader;
     if (length > kept.size() - at)
-      return file.error("ends within a chunk of " + std::to_string(length) + " bytes", "is the export complete?");
+      return file.error("ends within a chunk of " + std::to_string(length) + " bytes",
+                        "is the export complete?");
     if (type == kJson && parts.json.empty()) parts.json = kept.substr(at, length);
     if (type == kBinary && parts.binary.empty())
       parts.binary = {reinterpret_cast<const unsigned char*>(kept.data()) + at, length};
@@ -85,7 +89,8 @@ Expected<Parts> split(GltfFile& file, std::string&& bytes) {
 }
 
 void put_draco_aside(nlohmann::json& extensions) {
-  const auto draco = extensions.is_object() ? extensions.find("KHR_draco_mesh_compression") : extensions.end();
+  const auto draco =
+      extensions.is_object() ? extensions.find("KHR_draco_mesh_compression") : extensions.end();
   if (draco == extensions.end()) return;
   nlohmann::json packed = std::move(*draco);
   extensions.erase(draco);
@@ -103,7 +108,9 @@ std::vector<int> reduce(nlohmann::json& gltf) {
     if (!mesh.is_object() || !mesh.contains("primitives") || !mesh["primitives"].is_array()) continue;
     for (nlohmann::json& primitive : mesh["primitives"]) {
       const bool has = primitive.is_object() && primitive.contains("indices");
-      indices.push_back(has ? static_cast<int>(std::min<std::size_t>(size_member(primitive, "indices").value_or(kNoSuch), kNoSuch)) : -1);
+      indices.push_back(has ? static_cast<int>(std::min<std::size_t>(
+                                  size_member(primitive, "indices").value_or(kNoSuch), kNoSuch))
+                            : -1);
       if (has) primitive.erase("indices");
       if (primitive.is_object() && primitive.contains("extensions")) put_draco_aside(primitive["extensions"]);
     }
@@ -119,11 +126,14 @@ Expected<void> parse(GltfFile& file, nlohmann::json& gltf) {
   std::string error, warning;
   bool read = false;
   try {
-    read = reader.LoadASCIIFromString(&model, &error, &warning, text.data(), static_cast<unsigned>(text.size()), "");
+    read = reader.LoadASCIIFromString(&model, &error, &warning, text.data(),
+                                      static_cast<unsigned>(text.size()), "");
   } catch (const std::exception& e) {  // of the JSON library below, on values of the wrong type
     error = e.what();
   }
-  if (!read) return file.error("is not glTF 2.0 that can be read: " + error.substr(0, error.find('\n')), "is the export complete?");
+  if (!read)
+    return file.error("is not glTF 2.0 that can be read: " + error.substr(0, error.find('\n')),
+                      "is the export complete?");
   model.bufferViews = std::move(file.model.bufferViews);
   model.images = std::move(file.model.images);
   file.model = std::move(model);
@@ -132,8 +142,11 @@ Expected<void> parse(GltfFile& file, nlohmann::json& gltf) {
     for (tinygltf::Primitive& primitive : mesh.primitives)
       if (next < indices.size()) primitive.indices = indices[next++];
   for (tinygltf::Texture& texture : file.model.textures)
-    if (const std::optional<float> webp = number_member(extension(texture.extensions, "EXT_texture_webp"), "source"))
-      texture.source = *webp >= 0.0f && *webp < static_cast<float>(file.model.images.size()) ? static_cast<int>(*webp) : -1;
+    if (const std::optional<float> webp =
+            number_member(extension(texture.extensions, "EXT_texture_webp"), "source"))
+      texture.source = *webp >= 0.0f && *webp < static_cast<float>(file.model.images.size())
+                           ? static_cast<int>(*webp)
+                           : -1;
   return {};
 }
 
@@ -155,11 +168,13 @@ Expected<GltfFile> read_gltf_file(const std::filesystem::path& path, Loading& lo
   try {
     gltf = nlohmann::json::parse(outline.json);
   } catch (const nlohmann::json::parse_error& e) {
-    const auto end = outline.json.begin() + static_cast<std::ptrdiff_t>(std::min(e.byte, outline.json.size()));
+    const auto end =
+        outline.json.begin() + static_cast<std::ptrdiff_t>(std::min(e.byte, outline.json.size()));
     const bool encoding = std::string_view(e.what()).find("UTF-8") != std::string_view::npos;
-    return Unexpected(InputError{path.string(), 1 + static_cast<int>(std::count(outline.json.begin(), end, '\n')),
-                                 encoding ? "is not glTF: its text is not UTF-8" : "is not glTF: its JSON cannot be parsed",
-                                 "is the export complete?"});
+    return Unexpected(
+        InputError{path.string(), 1 + static_cast<int>(std::count(outline.json.begin(), end, '\n')),
+                   encoding ? "is not glTF: its text is not UTF-8" : "is not glTF: its JSON cannot be parsed",
+                   "is the export complete?"});
   } catch (const nlohmann::json::exception&) {
     return file.error("is not glTF: it has a number that is too large");
   }
@@ -168,7 +183,8 @@ Expected<GltfFile> read_gltf_file(const std::filesystem::path& path, Loading& lo
   if (const Expected<void> readable = check_gltf_requirements(path, gltf); !readable)
     return Unexpected(readable.error());
   add_lost_gltf_features(path, gltf, loading.warnings);
-  if (const Expected<void> read = read_gltf_buffers(file, gltf, parts->binary); !read) return Unexpected(read.error());
+  if (const Expected<void> read = read_gltf_buffers(file, gltf, parts->binary); !read)
+    return Unexpected(read.error());
   file.data_uris.clear();  // they lie in `parts`
   if (const Expected<void> parsed = parse(file, gltf); !parsed) return Unexpected(parsed.error());
   if (const Expected<void> unpacked = unpack_draco(file); !unpacked) return Unexpected(unpacked.error());

@@ -9,7 +9,8 @@ namespace pinocchio {
 namespace {
 
 // The images of these indices, decoded; what is wrong with one is a warning and leaves it out.
-std::vector<std::optional<Texture>> textures_of(const GltfFile& file, const std::vector<int>& images, Loading& loading) {
+std::vector<std::optional<Texture>> textures_of(const GltfFile& file, const std::vector<int>& images,
+                                                Loading& loading) {
   std::vector<std::optional<Texture>> textures(images.size());
   std::vector<EncodedImage> encoded;
   std::vector<std::size_t> whose;
@@ -34,7 +35,8 @@ std::vector<std::optional<Texture>> textures_of(const GltfFile& file, const std:
       cannot_be_read(whose[k], decoded[k].error());
       continue;
     }
-    if (!decoded[k]->damage.empty()) warn(whose[k], "an image is damaged: " + decoded[k]->damage, "part of it is missing");
+    if (!decoded[k]->damage.empty())
+      warn(whose[k], "an image is damaged: " + decoded[k]->damage, "part of it is missing");
     textures[whose[k]] = std::move(decoded[k]->texture);
   }
   return textures;
@@ -55,10 +57,12 @@ TexelRange range_of(const MeshData& mesh, const TextureUse& use) {
   return {glm::vec4(least) / 255.0f, glm::vec4(most) / 255.0f};
 }
 
-// What a surface may mirror and let through at most where textures change it decides whether rays are kept for it.
+// What a surface may mirror and let through at most where textures change it decides whether rays are kept
+// for it.
 void bound_rays(const MeshData& mesh, Material& material, const MaterialMaps& maps) {
   if (!maps.from_gltf || !(maps.metallic_roughness.used() || maps.transmission.used())) return;
-  const TexelRange rough_metal = range_of(mesh, maps.metallic_roughness), passes = range_of(mesh, maps.transmission);
+  const TexelRange rough_metal = range_of(mesh, maps.metallic_roughness),
+                   passes = range_of(mesh, maps.transmission);
   GltfSurface sharpest = maps.surface;
   sharpest.roughness *= rough_metal.least.g;
   sharpest.metallic *= rough_metal.most.b;
@@ -79,7 +83,8 @@ Expected<EncodedImage> gltf_image(const GltfFile& file, int index) {
   const tinygltf::Image& image = file.model.images[static_cast<std::size_t>(index)];
   if (image.bufferView < 0 && !image.uri.empty())
     return EncodedImage{image.uri, std::filesystem::path(image.uri).filename().string(), std::nullopt};
-  EncodedImage result{file.path.string(), image.name.empty() ? std::to_string(index) : image.name, image.image};
+  EncodedImage result{file.path.string(), image.name.empty() ? std::to_string(index) : image.name,
+                      image.image};
   if (image.bufferView < 0) return result;
   const auto bytes = file.bytes(image.bufferView, "image " + std::to_string(index));
   if (!bytes) return Unexpected(bytes.error());
@@ -107,8 +112,7 @@ void add_gltf_textures(const GltfFile& file, MeshData& mesh, Loading& loading) {
   for (TextureUse* use : uses) use->texture = ours[place.at(use->texture)];
   make_smaller_levels(mesh, loading.progress);
   for (Material& material : mesh.materials)
-    if (material.maps >= 0)
-      bound_rays(mesh, material, mesh.maps[static_cast<std::size_t>(material.maps)]);
+    if (material.maps >= 0) bound_rays(mesh, material, mesh.maps[static_cast<std::size_t>(material.maps)]);
 }
 
 }  // namespace pinocchio

@@ -14,7 +14,8 @@ Expected<std::string> read_input_file(const std::filesystem::path& file, Progres
   std::error_code failure;
   const std::filesystem::file_status status = std::filesystem::status(file, failure);
   if (!std::filesystem::exists(status)) return fail("there is no such file", "check its name");
-  if (!std::filesystem::is_regular_file(status)) return fail("is not a file but a folder, pipe or device", "name a file");
+  if (!std::filesystem::is_regular_file(status))
+    return fail("is not a file but a folder, pipe or device", "name a file");
   const std::uintmax_t size = std::filesystem::file_size(file, failure);
   std::ifstream in(file, std::ios::binary);
   if (failure || !in) return fail("cannot be read", "is it yours to read?");

@@ -33,7 +33,8 @@ Expected<std::filesystem::path> find_scene_file(const std::filesystem::path& pat
           std::filesystem::is_regular_file(file, ignored))
         return file;
   if (std::filesystem::is_directory(path, ignored))
-    return error(path, "is a folder without a scene of that name", "name a .gltf, .glb, .obj or .ply file in it");
+    return error(path, "is a folder without a scene of that name",
+                 "name a .gltf, .glb, .obj or .ply file in it");
   return error(path, "there is no such file", "check its name");
 }
 
@@ -51,7 +52,9 @@ bool one_each_or_none(const std::vector<T>& of_vertices, const Mesh& mesh) {
 }
 
 bool names_known_textures(const MaterialMaps& m, const Mesh& mesh) {
-  const auto known = [&](const TextureUse* use) { return use->texture < static_cast<int>(mesh.textures.size()); };
+  const auto known = [&](const TextureUse* use) {
+    return use->texture < static_cast<int>(mesh.textures.size());
+  };
   return std::ranges::all_of(m.uses(), known);
 }
 
@@ -87,9 +90,9 @@ Expected<void> check_scene(const Scene& scene) {
                     std::to_string(kMaxTriangles),
                 "split it");
   if (mesh.normals.size() != mesh.positions.size() ||
-      mesh.triangle_materials.size() != mesh.triangles.size() ||
-      !one_each_or_none(mesh.texcoords, mesh) || !one_each_or_none(mesh.texcoords1, mesh) ||
-      !one_each_or_none(mesh.colors, mesh) || !one_each_or_none(mesh.tangents, mesh))
+      mesh.triangle_materials.size() != mesh.triangles.size() || !one_each_or_none(mesh.texcoords, mesh) ||
+      !one_each_or_none(mesh.texcoords1, mesh) || !one_each_or_none(mesh.colors, mesh) ||
+      !one_each_or_none(mesh.tangents, mesh))
     return fail("does not hold one of everything for each vertex and triangle", "export it again");
   for (std::size_t i = 0; i < mesh.positions.size(); ++i)
     if (!is_finite(mesh.positions[i]) || !is_finite(mesh.normals[i]))
@@ -108,11 +111,13 @@ Expected<void> check_scene(const Scene& scene) {
       return fail("the colour of vertex " + std::to_string(i) + " is not a finite number", "export it again");
   for (std::size_t i = 0; i < mesh.tangents.size(); ++i)
     if (!is_finite(glm::vec3(mesh.tangents[i])) || !std::isfinite(mesh.tangents[i].w))
-      return fail("the tangent of vertex " + std::to_string(i) + " is not a finite number", "export it again");
+      return fail("the tangent of vertex " + std::to_string(i) + " is not a finite number",
+                  "export it again");
   for (const Material& m : mesh.materials)
     if (m.maps >= static_cast<int>(mesh.maps.size()))
       return fail("material '" + m.name + "' names maps that there are not", "export it again");
-  if (!std::all_of(mesh.maps.begin(), mesh.maps.end(), [&](const auto& m) { return names_known_textures(m, mesh); }))
+  if (!std::all_of(mesh.maps.begin(), mesh.maps.end(),
+                   [&](const auto& m) { return names_known_textures(m, mesh); }))
     return fail("a material names a texture that there is not", "export it again");
   for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
     const glm::uvec3& t = mesh.triangles[i];

@@ -1,7 +1,7 @@
 #include <algorithm>
 #include <cmath>
-#include <map>
 #include <glm/gtc/type_ptr.hpp>
+#include <map>
 
 #include "core/math/finite.h"
 #include "core/scene/gltf_deformation.h"
@@ -55,7 +55,8 @@ Light light_of(const tinygltf::Light& l, const tinygltf::Node& node, const glm::
     light.casts_shadow = bool_member(extras, "castsShadow").value_or(light.casts_shadow);
     light.radius = length_member(extras, "radius").value_or(light.radius);
     light.angle_deg = std::min(length_member(extras, "angle").value_or(light.angle_deg), 180.0f);
-    if (const std::optional<glm::vec2> sides = vec2_member(extras, "rectangle")) make_rectangle(*sides, world, light);
+    if (const std::optional<glm::vec2> sides = vec2_member(extras, "rectangle"))
+      make_rectangle(*sides, world, light);
     const tinygltf::Value* falloff = extras ? member(*extras, "falloff") : nullptr;
     if (falloff && falloff->IsString() && falloff->Get<std::string>() == "none")
       light.falloff = Light::Falloff::none;
@@ -104,7 +105,8 @@ bool can_look(const Camera& camera) {
 }
 
 bool can_shine(const Light& light) {
-  return is_finite(light.position) && is_finite(light.direction) && is_finite(light.edge_u) && is_finite(light.edge_v) && is_finite(light.intensity * light.color);
+  return is_finite(light.position) && is_finite(light.direction) && is_finite(light.edge_u) &&
+         is_finite(light.edge_v) && is_finite(light.intensity * light.color);
 }
 
 // Texture coordinates and tangents that no map asks for.
@@ -125,8 +127,7 @@ void drop_unused_attributes(MeshData& mesh) {
 
 class SceneReader {
  public:
-  SceneReader(const GltfFile& file, Loading& loading)
-      : file_(file), model_(file.model), loading_(loading) {
+  SceneReader(const GltfFile& file, Loading& loading) : file_(file), model_(file.model), loading_(loading) {
     add_gltf_materials(file, mesh_);
   }
 
@@ -160,7 +161,8 @@ class SceneReader {
     finish();
     if (const Expected<void> skinned = add_skins(); !skinned) return Unexpected(skinned.error());
     scene_.mesh = std::make_shared<const Mesh>(std::move(mesh_));
-    Expected<std::shared_ptr<const Animation>> animation = gltf_animation(file_, tree_, place_of_node_, loading_.warnings);
+    Expected<std::shared_ptr<const Animation>> animation =
+        gltf_animation(file_, tree_, place_of_node_, loading_.warnings);
     if (!animation) return Unexpected(animation.error());
     scene_.animation = std::move(*animation);
     scene_.nodes = std::make_shared<const NodeTree>(std::move(tree_));
@@ -221,10 +223,12 @@ class SceneReader {
       DeformationReader deformation(file_, node, tree_.nodes.back().first_vertex, loading_.warnings);
       for (const glm::mat4& instance : *instances) {
         const std::size_t first = mesh_.positions.size();
-        const Expected<void> added = add_gltf_mesh(file_, node.mesh, world * instance, default_material, mesh_, rest_,
-                                                   deformation.needed() ? &deformation : nullptr, loading_.warnings);
+        const Expected<void> added =
+            add_gltf_mesh(file_, node.mesh, world * instance, default_material, mesh_, rest_,
+                          deformation.needed() ? &deformation : nullptr, loading_.warnings);
         if (!added) return added;
-        deformation.place(instance, static_cast<std::uint32_t>(first), std::span(rest_.normals).subspan(first));
+        deformation.place(instance, static_cast<std::uint32_t>(first),
+                          std::span(rest_.normals).subspan(first));
         place_rest(Placement(instance), first);
       }
       if (deformation.needed()) add_deformation(node, deformation);
@@ -323,18 +327,22 @@ class SceneReader {
       const std::optional<float> accessor = number_member(attributes, kAttributes[i].name);
       if (!accessor) continue;
       Expected<std::vector<float>> read =
-          file_.floats(*accessor >= 0.0f && *accessor < 1e9f ? static_cast<int>(*accessor) : -1, kAttributes[i].components);
+          file_.floats(*accessor >= 0.0f && *accessor < 1e9f ? static_cast<int>(*accessor) : -1,
+                       kAttributes[i].components);
       if (!read) return Unexpected(read.error());
       const std::size_t elements = read->size() / static_cast<std::size_t>(kAttributes[i].components);
-      if (count != 0 && elements != count) return file_.error("a node's instances have attributes of different lengths");
+      if (count != 0 && elements != count)
+        return file_.error("a node's instances have attributes of different lengths");
       count = elements;
       values[i] = std::move(*read);
     }
     std::vector<glm::mat4> instances;
     for (std::size_t i = 0; i < count; ++i) {
       tinygltf::Node local;
-      for (std::size_t c = 0; c < 3 && !values[0].empty(); ++c) local.translation.push_back(values[0][3 * i + c]);
-      for (std::size_t c = 0; c < 4 && !values[1].empty(); ++c) local.rotation.push_back(values[1][4 * i + c]);
+      for (std::size_t c = 0; c < 3 && !values[0].empty(); ++c)
+        local.translation.push_back(values[0][3 * i + c]);
+      for (std::size_t c = 0; c < 4 && !values[1].empty(); ++c)
+        local.rotation.push_back(values[1][4 * i + c]);
       for (std::size_t c = 0; c < 3 && !values[2].empty(); ++c) local.scale.push_back(values[2][3 * i + c]);
       instances.push_back(matrix_of(local));
     }

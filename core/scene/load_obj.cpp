@@ -27,15 +27,18 @@ class MtlLibraries {
   void read(const std::string& names) {
     const std::filesystem::path whole = named_file(file_, names);
     std::error_code ignored;
-    if (std::filesystem::exists(whole, ignored) || names.find(' ') == std::string::npos) return read_file(whole);
+    if (std::filesystem::exists(whole, ignored) || names.find(' ') == std::string::npos)
+      return read_file(whole);
     std::string_view rest = names;
-    for (std::string_view name; !(name = next_word(rest)).empty();) read_file(named_file(file_, std::string(name)));
+    for (std::string_view name; !(name = next_word(rest)).empty();)
+      read_file(named_file(file_, std::string(name)));
   }
 
   // An index in `materials`; -1 and a warning where no file explains the name.
   int find(const std::string& name) {
     if (const auto found = by_name_.find(name); found != by_name_.end()) return found->second;
-    loading_.warnings.add({file_.string(), "material '" + name + "'", "materials are in no MTL file", "grey is used"});
+    loading_.warnings.add(
+        {file_.string(), "material '" + name + "'", "materials are in no MTL file", "grey is used"});
     return -1;
   }
 
@@ -47,7 +50,8 @@ class MtlLibraries {
     files.push_back(mtl.string());
     Expected<std::string> bytes = read_input_file(mtl, loading_.progress);
     if (!bytes) {
-      loading_.warnings.add({file_.string(), "", "its materials cannot be read: " + bytes.error().message(), "grey is used"});
+      loading_.warnings.add(
+          {file_.string(), "", "its materials cannot be read: " + bytes.error().message(), "grey is used"});
       return;
     }
     std::string text = as_utf8(std::move(*bytes));
@@ -78,7 +82,8 @@ Expected<Scene> load_obj(const std::filesystem::path& path, Loading& loading) {
   MeshData mesh;
   mesh.materials.push_back(default_material(!obj->colors.empty()));
   std::vector<std::uint32_t> material_of_name;
-  for (const std::string& name : obj->materials) material_of_name.push_back(static_cast<std::uint32_t>(mtl.find(name) + 1));
+  for (const std::string& name : obj->materials)
+    material_of_name.push_back(static_cast<std::uint32_t>(mtl.find(name) + 1));
   add_obj_faces(*obj, material_of_name, path, loading, mesh);
   MtlMaterials materials(path, mesh, loading);
   for (const MtlMaterial& m : mtl.materials) mesh.materials.push_back(materials.make(m));

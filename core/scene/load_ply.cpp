@@ -36,10 +36,10 @@ class PlyBuilder {
 
   Expected<MeshData> build() {
     for (const PlyElement& element : ply_.elements()) {
-      const Expected<void> read = element.name == "vertex"                                   ? vertices(element)
-                                  : element.name == "face"                                   ? faces(element)
-                                  : element.name == "tristrips"                              ? strips(element)
-                                                                                             : others(element);
+      const Expected<void> read = element.name == "vertex"      ? vertices(element)
+                                  : element.name == "face"      ? faces(element)
+                                  : element.name == "tristrips" ? strips(element)
+                                                                : others(element);
       if (!read) return Unexpected(read.error());
     }
     if (!faces_seen_ && !mesh_.positions.empty())
@@ -74,7 +74,9 @@ class PlyBuilder {
   Expected<void> vertices(const PlyElement& element) {
     const VertexColumns at(element);
     if (!at.positions()) return ply_.error("its vertices have no x, y and z");
-    const auto value = [](const PlyRow& row, int i) { return static_cast<float>(row.numbers[static_cast<std::size_t>(i)]); };
+    const auto value = [](const PlyRow& row, int i) {
+      return static_cast<float>(row.numbers[static_cast<std::size_t>(i)]);
+    };
     const auto color = [&](const PlyRow& row, int i) {
       return value(row, i) * element.properties[static_cast<std::size_t>(i)].color_scale();
     };
@@ -83,11 +85,13 @@ class PlyBuilder {
         lost("", "texture coordinates are left out", "PLY names no texture");
     return rows(element, [&](const PlyRow& row) -> Expected<void> {
       mesh_.positions.emplace_back(value(row, at.x[0]), value(row, at.x[1]), value(row, at.x[2]));
-      mesh_.normals.push_back(at.normals() ? glm::vec3(value(row, at.n[0]), value(row, at.n[1]), value(row, at.n[2]))
-                                           : glm::vec3(0.0f));
+      mesh_.normals.push_back(at.normals()
+                                  ? glm::vec3(value(row, at.n[0]), value(row, at.n[1]), value(row, at.n[2]))
+                                  : glm::vec3(0.0f));
       if (at.colors())
-        mesh_.colors.emplace_back(srgb_to_linear({color(row, at.c[0]), color(row, at.c[1]), color(row, at.c[2])}),
-                                  at.c[3] < 0 ? 1.0f : color(row, at.c[3]));
+        mesh_.colors.emplace_back(
+            srgb_to_linear({color(row, at.c[0]), color(row, at.c[1]), color(row, at.c[2])}),
+            at.c[3] < 0 ? 1.0f : color(row, at.c[3]));
       return {};
     });
   }
@@ -98,9 +102,11 @@ class PlyBuilder {
       return ply_.error("its faces have no list vertex_indices");
     for (const PlyProperty& p : element.properties) {
       if (p.name == "red") lost("element face", "colours of faces are left out", "all of it has one colour");
-      if (p.name == "texcoord") lost("element face", "texture coordinates are left out", "PLY names no texture");
+      if (p.name == "texcoord")
+        lost("element face", "texture coordinates are left out", "PLY names no texture");
     }
-    return rows(element, [&](const PlyRow& row) { return polygon(row.lists[static_cast<std::size_t>(indices)]); });
+    return rows(element,
+                [&](const PlyRow& row) { return polygon(row.lists[static_cast<std::size_t>(indices)]); });
   }
 
   Expected<void> polygon(const std::vector<double>& indices) {
@@ -111,12 +117,15 @@ class PlyBuilder {
     }
     corners_.clear();
     for (const double index : indices) {
-      if (!(index >= 0.0 && index < static_cast<double>(mesh_.positions.size()))) return no_such_vertex(index);
+      if (!(index >= 0.0 && index < static_cast<double>(mesh_.positions.size())))
+        return no_such_vertex(index);
       corners_.push_back(mesh_.positions[static_cast<std::size_t>(index)]);
     }
     const PolygonTriangles polygon = triangulate(corners_);
-    if (!polygon.simple) lost("element face", "a face crosses itself", "which parts of it are filled is a guess");
-    for (const glm::uvec3& t : polygon.triangles) mesh_.triangles.emplace_back(indices[t.x], indices[t.y], indices[t.z]);
+    if (!polygon.simple)
+      lost("element face", "a face crosses itself", "which parts of it are filled is a guess");
+    for (const glm::uvec3& t : polygon.triangles)
+      mesh_.triangles.emplace_back(indices[t.x], indices[t.y], indices[t.z]);
     return {};
   }
 
@@ -134,8 +143,10 @@ class PlyBuilder {
       const std::vector<double>& list = row.lists[static_cast<std::size_t>(indices)];
       std::size_t first = 0;
       for (std::size_t i = 0; i < list.size(); ++i) {
-        if (list[i] < 0.0) first = i + 1;
-        else if (!(list[i] < static_cast<double>(mesh_.positions.size()))) return no_such_vertex(list[i]);
+        if (list[i] < 0.0)
+          first = i + 1;
+        else if (!(list[i] < static_cast<double>(mesh_.positions.size())))
+          return no_such_vertex(list[i]);
         if (i < first + 2) continue;
         glm::uvec3 t(list[i - 2], list[i - 1], list[i]);
         if ((i - first) % 2 == 1) std::swap(t.x, t.y);
@@ -147,7 +158,8 @@ class PlyBuilder {
 
   Expected<void> others(const PlyElement& element) {
     if (element.count > 0 && !element.properties.empty())
-      lost("element " + element.name, "elements other than vertices and faces are left out", "they are not drawn");
+      lost("element " + element.name, "elements other than vertices and faces are left out",
+           "they are not drawn");
     if (element.properties.empty()) return {};
     return rows(element, [](const PlyRow&) -> Expected<void> { return {}; });
   }

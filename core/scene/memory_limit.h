@@ -10,15 +10,16 @@
 
 namespace pinocchio {
 
-// What a scene's files may claim to need beyond their own bytes: pictures unpacked, compressed meshes, copies of
-// a mesh. It is asked before memory is taken. Any thread.
+// What a scene's files may claim to need beyond their own bytes: pictures unpacked, compressed meshes, copies
+// of a mesh. It is asked before memory is taken. Any thread.
 class MemoryLimit {
  public:
   explicit MemoryLimit(std::uint64_t bytes) : bytes_(bytes) {}
 
   // Whether `count` things of `each` bytes more fit; where they do not, `what` in `file` wanted them, and the
   // first such error stays.
-  [[nodiscard]] bool take(const std::string& file, const std::string& what, std::uint64_t count, std::uint64_t each) {
+  [[nodiscard]] bool take(const std::string& file, const std::string& what, std::uint64_t count,
+                          std::uint64_t each) {
     const std::uint64_t most = ~std::uint64_t{0} / 2, wanted = count > most / each ? most : count * each;
     const std::lock_guard lock(mutex_);
     if (!error_ && wanted <= bytes_ - taken_) {
@@ -27,8 +28,8 @@ class MemoryLimit {
     }
     if (!error_)
       error_ = InputError{file, 0,
-                          what + " needs " + mib(wanted) + " MiB of memory, " + mib(bytes_ - taken_) + " of " +
-                              mib(bytes_) + " are left",
+                          what + " needs " + mib(wanted) + " MiB of memory, " + mib(bytes_ - taken_) +
+                              " of " + mib(bytes_) + " are left",
                           "raise it with --load-limit MIB if the file is to be trusted"};
     return false;
   }

@@ -32,7 +32,9 @@ glm::u8vec4 encoded(const glm::vec4& t, bool is_color) {
   return {linear_to_srgb8(t.r), linear_to_srgb8(t.g), linear_to_srgb8(t.b), raw.a};
 }
 
-bool is_even(const glm::ivec2& size) { return size.x % 2 == 0 && size.y % 2 == 0; }
+bool is_even(const glm::ivec2& size) {
+  return size.x % 2 == 0 && size.y % 2 == 0;
+}
 
 // Half as wide and high where both are even: the same numbers as the general way below gives, in one pass.
 template <class T, class Decode>
@@ -116,7 +118,8 @@ void make_smaller_levels(MeshData& mesh, Progress* progress) {
   const std::vector<Needed> needed = needed_of(mesh);
   std::vector<std::size_t> missing;
   for (std::size_t i = 0; i < needed.size(); ++i)
-    if (needed[i].levels && mesh.textures[i].smaller_levels.empty() && mesh.textures[i].texels.pixels().size() > 1)
+    if (needed[i].levels && mesh.textures[i].smaller_levels.empty() &&
+        mesh.textures[i].texels.pixels().size() > 1)
       missing.push_back(i);
   if (missing.empty()) return;
   begin_phase(progress, "textures", static_cast<double>(missing.size()));

@@ -30,9 +30,13 @@ struct Crossing {
   using is_transparent = void;
   Points p;
 
-  [[nodiscard]] std::uint32_t lower_end(std::uint32_t edge) const { return (edge + 1) % static_cast<std::uint32_t>(p.size()); }
+  [[nodiscard]] std::uint32_t lower_end(std::uint32_t edge) const {
+    return (edge + 1) % static_cast<std::uint32_t>(p.size());
+  }
   // Above 0 where `q` is on the left of the edge.
-  [[nodiscard]] double side(std::uint32_t edge, std::uint32_t q) const { return turn(p[lower_end(edge)], p[edge], p[q]); }
+  [[nodiscard]] double side(std::uint32_t edge, std::uint32_t q) const {
+    return turn(p[lower_end(edge)], p[edge], p[q]);
+  }
 
   bool operator()(std::uint32_t a, std::uint32_t b) const {
     if (a == b) return false;
@@ -54,7 +58,12 @@ struct Diagonal {
 // The diagonals that cut the polygon into monotone pieces.
 class Sweep {
  public:
-  explicit Sweep(Points p) : p_(p), n_(static_cast<std::uint32_t>(p.size())), status_(Crossing{p}), helper_(p.size()), in_(p.size(), status_.end()) {}
+  explicit Sweep(Points p)
+      : p_(p),
+        n_(static_cast<std::uint32_t>(p.size())),
+        status_(Crossing{p}),
+        helper_(p.size()),
+        in_(p.size(), status_.end()) {}
 
   std::vector<Diagonal> run() {
     std::vector<std::uint32_t> all(n_);
@@ -116,8 +125,10 @@ class Sweep {
 // Follows the pieces that diagonals cut a polygon into.
 class Pieces {
  public:
-  Pieces(Points p, const std::vector<Diagonal>& diagonals) : p_(p), n_(static_cast<std::uint32_t>(p.size())), first_(p.size() + 1, 0) {
-    for (std::uint32_t v = 0; v <= n_; ++v) first_[v] = v;  // the edge to the next corner, before its diagonals
+  Pieces(Points p, const std::vector<Diagonal>& diagonals)
+      : p_(p), n_(static_cast<std::uint32_t>(p.size())), first_(p.size() + 1, 0) {
+    for (std::uint32_t v = 0; v <= n_; ++v)
+      first_[v] = v;  // the edge to the next corner, before its diagonals
     std::vector<std::uint32_t> count(p.size(), 0);
     for (const Diagonal& d : diagonals) ++count[d.a], ++count[d.b];
     for (std::uint32_t v = 0, sum = 0; v < n_; ++v) first_[v + 1] += sum += count[v];
@@ -159,11 +170,12 @@ class Pieces {
       const double t = turn(o, zero, p_[q]);
       return t < 0.0 || (t == 0.0 && glm::dot(zero - o, p_[q] - o) < 0.0);
     };
-    std::sort(to_.begin() + first_[v] + 1, to_.begin() + first_[v + 1], [&](std::uint32_t a, std::uint32_t b) {
-      if (behind(a) != behind(b)) return behind(b);
-      const double t = turn(o, p_[a], p_[b]);
-      return t != 0.0 ? t > 0.0 : a < b;
-    });
+    std::sort(to_.begin() + first_[v] + 1, to_.begin() + first_[v + 1],
+              [&](std::uint32_t a, std::uint32_t b) {
+                if (behind(a) != behind(b)) return behind(b);
+                const double t = turn(o, p_[a], p_[b]);
+                return t != 0.0 ? t > 0.0 : a < b;
+              });
   }
 
   // The edge that the piece on the left of from -> at goes on with: the next one clockwise from the way back.
@@ -180,12 +192,14 @@ class Pieces {
 };
 
 // Appends the triangles of a monotone piece whose corners go round counterclockwise.
-void triangulate_piece(Points p, const std::vector<std::uint32_t>& piece, std::vector<glm::uvec3>& triangles) {
+void triangulate_piece(Points p, const std::vector<std::uint32_t>& piece,
+                       std::vector<glm::uvec3>& triangles) {
   const std::size_t m = piece.size();
   if (m < 3) return;
   std::vector<std::uint32_t> order(m);  // positions in the piece, going down
   std::iota(order.begin(), order.end(), 0u);
-  std::sort(order.begin(), order.end(), [&](std::uint32_t a, std::uint32_t b) { return above(p, piece[a], piece[b]); });
+  std::sort(order.begin(), order.end(),
+            [&](std::uint32_t a, std::uint32_t b) { return above(p, piece[a], piece[b]); });
   // The left chain goes down from the top to the bottom as the corners follow.
   std::vector<bool> on_left(m, false);
   for (std::size_t i = order[0]; i != order[m - 1]; i = (i + 1) % m) on_left[i] = true;

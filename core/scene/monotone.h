@@ -12,9 +12,9 @@ namespace pinocchio {
   return (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x);
 }
 
-// Triangles of a simple polygon that turns left, in linear-logarithmic time: a sweep cuts it into monotone pieces
-// (Garey, Johnson, Preparata, Tarjan 1978; de Berg et al., Computational Geometry, chapter 3). Of a polygon that
-// touches or crosses itself the result may be wrong or too short; it never fails otherwise.
+// Triangles of a simple polygon that turns left, in linear-logarithmic time: a sweep cuts it into monotone
+// pieces (Garey, Johnson, Preparata, Tarjan 1978; de Berg et al., Computational Geometry, chapter 3). Of a
+// polygon that touches or crosses itself the result may be wrong or too short; it never fails otherwise.
 [[nodiscard]] std::vector<glm::uvec3> triangulate_by_sweep(std::span<const glm::dvec2> polygon);
 
 }  // namespace pinocchio

@@ -72,7 +72,8 @@ MtlTexture texture(std::string_view line) {
     line = rest;
   }
   t.file = trimmed(line);
-  if (t.file.size() > 1 && t.file.front() == '"' && t.file.back() == '"') t.file = t.file.substr(1, t.file.size() - 2);
+  if (t.file.size() > 1 && t.file.front() == '"' && t.file.back() == '"')
+    t.file = t.file.substr(1, t.file.size() - 2);
   std::replace(t.file.begin(), t.file.end(), '\\', '/');  // from Windows
   return t;
 }
@@ -96,12 +97,12 @@ class MtlReader {
 
  private:
   static bool read_texture(MtlMaterial& m, std::string_view keyword, std::string_view line) {
-    MtlTexture* const to = keyword == "map_Kd"                                                         ? &m.map_kd
-                           : keyword == "map_d"                                                        ? &m.map_d
-                           : keyword == "map_Ke"                                                       ? &m.map_ke
-                           : keyword == "map_Bump" || keyword == "map_bump" || keyword == "bump"       ? &m.map_bump
-                           : keyword == "norm" || keyword == "map_Kn"                                  ? &m.norm
-                                                                                                       : nullptr;
+    MtlTexture* const to = keyword == "map_Kd"                                                   ? &m.map_kd
+                           : keyword == "map_d"                                                  ? &m.map_d
+                           : keyword == "map_Ke"                                                 ? &m.map_ke
+                           : keyword == "map_Bump" || keyword == "map_bump" || keyword == "bump" ? &m.map_bump
+                           : keyword == "norm" || keyword == "map_Kn"                            ? &m.norm
+                                                                                                 : nullptr;
     if (to) *to = texture(line);
     return to != nullptr;
   }

@@ -13,7 +13,7 @@ struct MtlTexture {
   std::string file;  // empty: there is none
   glm::vec2 scale{1.0f}, offset{0.0f};
   bool clamp = false;
-  float bump = 1.0f;   // -bm
+  float bump = 1.0f;    // -bm
   char channel = '\0';  // -imfchan
 };
 

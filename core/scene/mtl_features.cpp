@@ -92,15 +92,17 @@ void add_lost_mtl_features(const std::filesystem::path& file, std::string_view t
       for (std::string_view word; (word = next_word(line)).starts_with('-') && !is_number(word);) {
         if (!reads_mtl_option(word))
           warnings.add({file.string(), where, "a texture's option " + std::string(word) + " is left out",
-                      "the texture lies or looks as without it"});
+                        "the texture lies or looks as without it"});
         std::string_view rest = line;  // its values: numbers, or on and off
         while (is_number(word = next_word(rest)) && !word.empty()) line = rest;
         if (word == "on" || word == "off" || word.size() == 1) line = rest;
       }
     } else if (const std::string_view value = next_word(line); value == "spectral" || value == "xyz") {
-      warnings.add({file.string(), where, "a colour as '" + std::string(value) + "' is left out", "it is black"});
+      warnings.add(
+          {file.string(), where, "a colour as '" + std::string(value) + "' is left out", "it is black"});
     } else if (keyword != "newmtl" && !is_value(value)) {
-      warnings.add({file.string(), where, std::string(keyword) + " '" + std::string(value.substr(0, 20)) + "' is no number",
+      warnings.add({file.string(), where,
+                    std::string(keyword) + " '" + std::string(value.substr(0, 20)) + "' is no number",
                     keyword.starts_with('K') ? "it is black" : "it is 0"});
     }
   }

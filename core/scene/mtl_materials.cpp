@@ -99,7 +99,8 @@ MtlMaterials::Loaded MtlMaterials::load(const MtlMaterial& m, const MtlTexture& 
                            "the plain colour is used"});
   } else {
     if (!image->damage.empty())
-      loading_.warnings.add({file_.string(), where, "its texture " + texture.file + " is damaged: " + image->damage,
+      loading_.warnings.add({file_.string(), where,
+                             "its texture " + texture.file + " is damaged: " + image->damage,
                              "part of it is missing"});
     Texture& texels = image->texture;
     if (kind == Kind::alpha) result.channel = alpha_channel(texels, texture.channel);
@@ -116,7 +117,7 @@ TextureUse MtlMaterials::use(const MtlMaterial& m, const MtlTexture& texture, Ki
   if (texture.file.empty()) return result;
   if (mesh_.texcoords.empty()) {
     loading_.warnings.add({file_.string(), "material '" + m.name + "'",
-                   "has a texture, and no face has texture coordinates", "the plain colour is used"});
+                           "has a texture, and no face has texture coordinates", "the plain colour is used"});
     return result;
   }
   const Loaded loaded = load(m, texture, kind);

@@ -27,7 +27,8 @@ class MtlMaterials {
     int texture, channel;
   };
 
-  [[nodiscard]] TextureUse use(const MtlMaterial& m, const MtlTexture& texture, Kind kind, int* channel = nullptr);
+  [[nodiscard]] TextureUse use(const MtlMaterial& m, const MtlTexture& texture, Kind kind,
+                               int* channel = nullptr);
   [[nodiscard]] Loaded load(const MtlMaterial& m, const MtlTexture& texture, Kind kind);
 
   const std::filesystem::path& file_;

@@ -31,7 +31,8 @@ void place(const Placement& now, const Camera& rest, Camera& to) {
 }
 
 template <class T>
-void place_attached(const std::vector<Attached<T>>& attached, int node, const Placement& now, std::vector<T>& to) {
+void place_attached(const std::vector<Attached<T>>& attached, int node, const Placement& now,
+                    std::vector<T>& to) {
   for (const Attached<T>& a : attached)
     if (a.node == node && a.index < to.size() && to[a.index].name == a.at_rest.name)
       place(now, a.at_rest, to[a.index]);
@@ -45,9 +46,8 @@ glm::mat4 NodeTree::world_from(int node) const {
 }
 
 int NodeTree::node_of(std::uint32_t triangle) const {
-  const auto after = std::upper_bound(nodes.begin(), nodes.end(), triangle, [](std::uint32_t t, const Node& n) {
-    return t < n.first_triangle;
-  });
+  const auto after = std::upper_bound(nodes.begin(), nodes.end(), triangle,
+                                      [](std::uint32_t t, const Node& n) { return t < n.first_triangle; });
   for (auto n = after; n != nodes.begin();) {  // those without triangles may stand between
     --n;
     if (n->triangles == 0) continue;
@@ -113,7 +113,8 @@ void place_vertices(const Node& node, const Placement& now, const RestPose& rest
 
 void turn_around(const Node& node, MeshData& mesh) {
   const std::size_t last = std::size_t{node.first_triangle} + node.triangles;
-  for (std::size_t t = node.first_triangle; t < last; ++t) std::swap(mesh.triangles[t].y, mesh.triangles[t].z);
+  for (std::size_t t = node.first_triangle; t < last; ++t)
+    std::swap(mesh.triangles[t].y, mesh.triangles[t].z);
 }
 
 void place_attached(const RestPose& rest, int node, const Placement& now, Scene& scene) {
@@ -121,10 +122,12 @@ void place_attached(const RestPose& rest, int node, const Placement& now, Scene&
   place_attached(rest.cameras, node, now, scene.cameras);
 }
 
-Expected<Scene> placed_anew(const Scene& scene, std::shared_ptr<const NodeTree> tree, const NodeFlags& flagged) {
+Expected<Scene> placed_anew(const Scene& scene, std::shared_ptr<const NodeTree> tree,
+                            const NodeFlags& flagged) {
   const std::vector<glm::mat4> before = world_matrices(scene.nodes->nodes), now = world_matrices(tree->nodes);
   std::vector<bool> moved(now.size()), deforms(now.size(), false);
-  for (std::size_t n = 0; n < now.size(); ++n) moved[n] = (!flagged.empty() && flagged[n]) || now[n] != before[n];
+  for (std::size_t n = 0; n < now.size(); ++n)
+    moved[n] = (!flagged.empty() && flagged[n]) || now[n] != before[n];
   Scene result = scene;
   MeshData mesh = *scene.mesh;
   const RestPose& rest = *tree->rest;
@@ -135,8 +138,9 @@ Expected<Scene> placed_anew(const Scene& scene, std::shared_ptr<const NodeTree> 
     const std::vector<int> own{deformation.node};
     const std::vector<int>& follows =
         deformation.skin < 0 ? own : rest.skins[static_cast<std::size_t>(deformation.skin)].joints;
-    const bool stays = tree->weights[d] == scene.nodes->weights[d] && !(!flagged.empty() && flagged[n]) &&
-                       std::ranges::none_of(follows, [&](int node) { return moved[static_cast<std::size_t>(node)]; });
+    const bool stays =
+        tree->weights[d] == scene.nodes->weights[d] && !(!flagged.empty() && flagged[n]) &&
+        std::ranges::none_of(follows, [&](int node) { return moved[static_cast<std::size_t>(node)]; });
     if (stays) continue;
     const Deformer deformer(*tree, d, now);
     deformer.place(mesh);
@@ -161,9 +165,12 @@ Expected<Scene> posed(const Scene& scene, std::span<const NodeTransform> transfo
   if (!scene.nodes)
     return refused("the scene has no nodes to move", "load a glTF file, or put scenes together");
   auto tree = std::make_shared<NodeTree>(*scene.nodes);
-  const auto unknown = [&](int node) { return node < 0 || static_cast<std::size_t>(node) >= tree->nodes.size(); };
+  const auto unknown = [&](int node) {
+    return node < 0 || static_cast<std::size_t>(node) >= tree->nodes.size();
+  };
   const auto no_such = [&](int node) {
-    return refused("there is no node " + std::to_string(node), "the scene has " + std::to_string(tree->nodes.size()));
+    return refused("there is no node " + std::to_string(node),
+                   "the scene has " + std::to_string(tree->nodes.size()));
   };
   for (const NodeTransform& t : transforms) {
     if (unknown(t.node)) return no_such(t.node);

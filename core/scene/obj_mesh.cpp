@@ -13,7 +13,9 @@ namespace {
 // normals are made from a smoothing group, that group.
 class ObjMeshBuilder {
  public:
-  ObjMeshBuilder(const ObjText& obj, MeshData& mesh) : obj_(obj), mesh_(mesh) { vertices_.reserve(obj.positions.size()); }
+  ObjMeshBuilder(const ObjText& obj, MeshData& mesh) : obj_(obj), mesh_(mesh) {
+    vertices_.reserve(obj.positions.size());
+  }
 
   void add(const ObjText::Face& face, std::uint32_t material, const PolygonTriangles& polygon) {
     for (const glm::uvec3& corners : polygon.triangles) {
@@ -26,7 +28,8 @@ class ObjMeshBuilder {
       const glm::vec3 a = mesh_.positions[triangle.x];
       const glm::vec3 n = glm::cross(mesh_.positions[triangle.y] - a, mesh_.positions[triangle.z] - a);
       for (int i = 0; i < 3; ++i)
-        if (obj_.corners[face.first + corners[i]].normal < 0) mesh_.normals[triangle[i]] += n;  // weighed by area
+        if (obj_.corners[face.first + corners[i]].normal < 0)
+          mesh_.normals[triangle[i]] += n;  // weighed by area
     }
   }
 
@@ -65,7 +68,8 @@ class ObjMeshBuilder {
   void append(const ObjText::Corner& corner) {
     const auto position = static_cast<std::size_t>(corner.position);
     mesh_.positions.push_back(obj_.positions[position]);
-    mesh_.normals.push_back(corner.normal < 0 ? glm::vec3(0.0f) : obj_.normals[static_cast<std::size_t>(corner.normal)]);
+    mesh_.normals.push_back(corner.normal < 0 ? glm::vec3(0.0f)
+                                              : obj_.normals[static_cast<std::size_t>(corner.normal)]);
     if (!obj_.colors.empty()) mesh_.colors.emplace_back(srgb_to_linear(obj_.colors[position]), 1.0f);
     glm::vec2 texcoord(0.0f);
     if (corner.texcoord >= 0) {
@@ -85,8 +89,8 @@ class ObjMeshBuilder {
 
 }  // namespace
 
-void add_obj_faces(const ObjText& obj, const std::vector<std::uint32_t>& materials, const std::filesystem::path& file,
-                   Loading& loading, MeshData& mesh) {
+void add_obj_faces(const ObjText& obj, const std::vector<std::uint32_t>& materials,
+                   const std::filesystem::path& file, Loading& loading, MeshData& mesh) {
   constexpr std::size_t kFacesBetweenLooks = 4096;
   begin_phase(loading.progress, "mesh", static_cast<double>(obj.faces.size()));
   ObjMeshBuilder builder(obj, mesh);

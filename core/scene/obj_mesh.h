@@ -5,9 +5,9 @@
 
 namespace pinocchio {
 
-// Appends the faces of an OBJ as triangles. `materials`: the mesh's, one a name of obj.materials; faces before the
-// first name have the mesh's material 0. Phase "mesh".
-void add_obj_faces(const ObjText& obj, const std::vector<std::uint32_t>& materials, const std::filesystem::path& file,
-                   Loading& loading, MeshData& mesh);
+// Appends the faces of an OBJ as triangles. `materials`: the mesh's, one a name of obj.materials; faces
+// before the first name have the mesh's material 0. Phase "mesh".
+void add_obj_faces(const ObjText& obj, const std::vector<std::uint32_t>& materials,
+                   const std::filesystem::path& file, Loading& loading, MeshData& mesh);
 
 }  // namespace pinocchio

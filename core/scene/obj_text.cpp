@@ -31,15 +31,16 @@ enum Kind { kVertex, kTexcoord, kNormal, kKinds };
 constexpr std::array<const char*, kKinds> kKindNames{"vertex", "texture coordinate", "normal"};
 
 // Statements that only name things, or that belong to others which are warned of.
-constexpr std::string_view kQuiet[] = {"o",    "g",   "mg",   "vp",    "cstype", "deg",      "bmat",     "step",
-                                       "parm", "trim", "hole", "scrv",  "sp",     "end",      "con",      "bevel",
-                                       "lod",  "c_interp", "d_interp", "ctech", "stech"};
+constexpr std::string_view kQuiet[] = {"o",    "g",     "mg",   "vp",       "cstype",   "deg",   "bmat",
+                                       "step", "parm",  "trim", "hole",     "scrv",     "sp",    "end",
+                                       "con",  "bevel", "lod",  "c_interp", "d_interp", "ctech", "stech"};
 
 constexpr int kLinesBetweenLooks = 4096;
 
 class ObjReader {
  public:
-  ObjReader(const std::filesystem::path& file, Warnings& warnings) : file_(file.string()), warnings_(warnings) {}
+  ObjReader(const std::filesystem::path& file, Warnings& warnings)
+      : file_(file.string()), warnings_(warnings) {}
 
   Expected<ObjText> read(std::string& text, const Progress* progress) {
     join_lines(text);
@@ -52,10 +53,12 @@ class ObjReader {
     for (const Kind kind : {kVertex, kTexcoord, kNormal})
       if (highest_[kind].index > count(kind)) {
         const std::string what = std::string("a face names ") + kKindNames[kind] + " " +
-                                 std::to_string(highest_[kind].index) + ", there are " + std::to_string(count(kind));
+                                 std::to_string(highest_[kind].index) + ", there are " +
+                                 std::to_string(count(kind));
         if (kind == kVertex) return fail(highest_[kind].line, what);
         warnings_.add({file_, "line " + std::to_string(highest_[kind].line), what,
-                       kind == kNormal ? "faces are flat or smooth as without it" : "its texture has one colour there"});
+                       kind == kNormal ? "faces are flat or smooth as without it"
+                                       : "its texture has one colour there"});
         leave_out_unknown(kind);
       }
     if (!obj_.colors.empty()) obj_.colors.resize(obj_.positions.size(), glm::vec3(1.0f));
@@ -82,13 +85,21 @@ class ObjReader {
     const std::string_view word = next_word(line);
     if (word.empty() || word.front() == '#') return {};
     if (word == "v") return read_position(line);
-    if (word == "vn") return read_numbers(line, 3, 3, kNormal, [this](const float* n) { obj_.normals.emplace_back(n[0], n[1], n[2]); });
-    if (word == "vt") return read_numbers(line, 1, 2, kTexcoord, [this](const float* t) { obj_.texcoords.emplace_back(t[0], t[1]); });
+    if (word == "vn")
+      return read_numbers(line, 3, 3, kNormal,
+                          [this](const float* n) { obj_.normals.emplace_back(n[0], n[1], n[2]); });
+    if (word == "vt")
+      return read_numbers(line, 1, 2, kTexcoord,
+                          [this](const float* t) { obj_.texcoords.emplace_back(t[0], t[1]); });
     if (word == "f") return read_face(line);
-    if (word == "s") group_ = number<std::uint32_t>(next_word(line)).value_or(0);  // "off" is 0
-    else if (word == "usemtl") material_ = material_of(trimmed(line));
-    else if (word == "mtllib") obj_.libraries.emplace_back(trimmed(line));
-    else warn_of(word);
+    if (word == "s")
+      group_ = number<std::uint32_t>(next_word(line)).value_or(0);  // "off" is 0
+    else if (word == "usemtl")
+      material_ = material_of(trimmed(line));
+    else if (word == "mtllib")
+      obj_.libraries.emplace_back(trimmed(line));
+    else
+      warn_of(word);
     return {};
   }
 
@@ -99,14 +110,16 @@ class ObjReader {
   }
 
   int material_of(std::string_view name) {
-    const auto [at, is_new] = material_names_.try_emplace(std::string(name), static_cast<int>(obj_.materials.size()));
+    const auto [at, is_new] =
+        material_names_.try_emplace(std::string(name), static_cast<int>(obj_.materials.size()));
     if (is_new) obj_.materials.emplace_back(name);
     return at->second;
   }
 
   void warn_of(std::string_view keyword) {
     const auto lost = [&](std::string_view what, std::string_view loss) {
-      const std::string where = "line " + std::to_string(line_) + " (" + std::string(keyword.substr(0, 20)) + ")";
+      const std::string where =
+          "line " + std::to_string(line_) + " (" + std::string(keyword.substr(0, 20)) + ")";
       warnings_.add({file_, where, std::string(what), std::string(loss)});
     };
     if (keyword == "p") return lost("points are left out", "they are not drawn");
@@ -138,7 +151,8 @@ class ObjReader {
       const std::optional<double> value = number<double>(word);
       values[static_cast<std::size_t>(given_)] = static_cast<float>(value.value_or(NAN));
       if (!std::isfinite(values[static_cast<std::size_t>(given_)]))
-        return fail(line_, "'" + std::string(word.substr(0, 40)) + "' in a " + kKindNames[kind] + " is not a finite number");
+        return fail(line_, "'" + std::string(word.substr(0, 40)) + "' in a " + kKindNames[kind] +
+                               " is not a finite number");
     }
     take(values.data());
     return {};
@@ -149,7 +163,8 @@ class ObjReader {
     for (std::string_view corner; !(corner = next_word(line)).empty() && corner.front() != '#';)
       if (const Expected<void> read = read_corner(corner); !read) return read;
     const std::size_t corners = obj_.corners.size() - first;
-    if (corners < 3) return fail(line_, "a face has " + std::to_string(corners) + " corners, it needs 3 or more");
+    if (corners < 3)
+      return fail(line_, "a face has " + std::to_string(corners) + " corners, it needs 3 or more");
     obj_.faces.push_back({first, corners, group_, material_, line_});
     return {};
   }
@@ -166,9 +181,11 @@ class ObjReader {
       if (word.empty() && kind != kVertex) continue;
       const std::optional<long long> index = number<long long>(word);
       if (!index || *index == 0 || *index < -count(kind) || *index > std::numeric_limits<int>::max())
-        return fail(line_, "a face names " + std::string(kKindNames[kind]) + " '" + std::string(word.substr(0, 40)) +
-                               "', there are " + std::to_string(count(kind)) + " so far");
-      indices[static_cast<std::size_t>(kind)] = static_cast<int>(*index > 0 ? *index - 1 : count(kind) + *index);
+        return fail(line_, "a face names " + std::string(kKindNames[kind]) + " '" +
+                               std::string(word.substr(0, 40)) + "', there are " +
+                               std::to_string(count(kind)) + " so far");
+      indices[static_cast<std::size_t>(kind)] =
+          static_cast<int>(*index > 0 ? *index - 1 : count(kind) + *index);
       if (*index > highest_[kind].index) highest_[kind] = {*index, line_};
     }
     if (!corner.empty())

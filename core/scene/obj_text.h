@@ -29,8 +29,8 @@ struct ObjText {
   std::vector<std::string> materials, libraries;  // names after usemtl and mtllib
 };
 
-// Reads the text, in which a backslash joins lines (it is written over). Errors carry the line. Statements that
-// nothing reads are warnings.
+// Reads the text, in which a backslash joins lines (it is written over). Errors carry the line. Statements
+// that nothing reads are warnings.
 [[nodiscard]] Expected<ObjText> read_obj_text(std::string& text, const std::filesystem::path& file,
                                               Warnings& warnings, const Progress* progress);
 

@@ -17,12 +17,13 @@ struct TypeName {
   PlyType type;
 };
 
-constexpr TypeName kPlyTypes[] = {{"char", PlyType::int8},     {"int8", PlyType::int8},     {"uchar", PlyType::uint8},
-                               {"uint8", PlyType::uint8},   {"short", PlyType::int16},   {"int16", PlyType::int16},
-                               {"ushort", PlyType::uint16}, {"uint16", PlyType::uint16}, {"int", PlyType::int32},
-                               {"int32", PlyType::int32},   {"uint", PlyType::uint32},   {"uint32", PlyType::uint32},
-                               {"float", PlyType::float32}, {"float32", PlyType::float32}, {"double", PlyType::float64},
-                               {"float64", PlyType::float64}};
+constexpr TypeName kPlyTypes[] = {
+    {"char", PlyType::int8},      {"int8", PlyType::int8},       {"uchar", PlyType::uint8},
+    {"uint8", PlyType::uint8},    {"short", PlyType::int16},     {"int16", PlyType::int16},
+    {"ushort", PlyType::uint16},  {"uint16", PlyType::uint16},   {"int", PlyType::int32},
+    {"int32", PlyType::int32},    {"uint", PlyType::uint32},     {"uint32", PlyType::uint32},
+    {"float", PlyType::float32},  {"float32", PlyType::float32}, {"double", PlyType::float64},
+    {"float64", PlyType::float64}};
 
 std::optional<PlyType> type_of(std::string_view name) {
   for (const TypeName& t : kPlyTypes)
@@ -70,7 +71,8 @@ double read(PlyType type, const char* at, bool swapped) {
 }  // namespace
 
 Unexpected PlyFile::error(const std::string& what) const {
-  return Unexpected(InputError{path_.string(), format_ == Format::ascii ? line_ : 0, what, "export the file again"});
+  return Unexpected(
+      InputError{path_.string(), format_ == Format::ascii ? line_ : 0, what, "export the file again"});
 }
 
 Expected<PlyFile> PlyFile::open(const std::filesystem::path& path, std::string bytes) {
@@ -112,10 +114,14 @@ Expected<void> PlyFile::read_header_line(std::string_view line, bool& ended) {
   } else if (word == "format") {
     const std::string_view name = next_word(line);
     format_known_ = true;
-    if (name == "ascii") format_ = Format::ascii;
-    else if (name == "binary_little_endian") format_ = Format::little;
-    else if (name == "binary_big_endian") format_ = Format::big;
-    else return error("its format '" + std::string(name) + "' is not known");
+    if (name == "ascii")
+      format_ = Format::ascii;
+    else if (name == "binary_little_endian")
+      format_ = Format::little;
+    else if (name == "binary_big_endian")
+      format_ = Format::big;
+    else
+      return error("its format '" + std::string(name) + "' is not known");
   } else if (word == "element") {
     PlyElement element;
     element.name = next_word(line);
@@ -136,7 +142,8 @@ Expected<void> PlyFile::read_header_line(std::string_view line, bool& ended) {
     }
     const std::optional<PlyType> known = type_of(type);
     property.name = next_word(line);
-    if (!known || elements_.empty()) return error("property " + property.name + " is of no element or no known type");
+    if (!known || elements_.empty())
+      return error("property " + property.name + " is of no element or no known type");
     property.type = *known;
     elements_.back().properties.push_back(std::move(property));
   }

@@ -136,9 +136,11 @@ PolygonTriangles triangulate(std::span<const glm::vec3> corners) {
   const std::vector<glm::dvec2> flat = flattened(corners, area);
   if (corners.size() == 4) return {quad(corners, flat)};
   if (area == 0.0 || strictly_convex(flat)) return {fan(corners.size())};
-  if (std::vector<glm::uvec3> swept = triangulate_by_sweep(flat); covers(flat, swept, area)) return {std::move(swept)};
+  if (std::vector<glm::uvec3> swept = triangulate_by_sweep(flat); covers(flat, swept, area))
+    return {std::move(swept)};
   if (corners.size() <= kMostToClip)
-    if (std::optional<std::vector<glm::uvec3>> clipped = EarClipper(flat).clip(); clipped && covers(flat, *clipped, area))
+    if (std::optional<std::vector<glm::uvec3>> clipped = EarClipper(flat).clip();
+        clipped && covers(flat, *clipped, area))
       return {std::move(*clipped)};
   return {fan(corners.size()), false};
 }

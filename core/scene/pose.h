@@ -16,7 +16,8 @@ namespace pinocchio {
 using NodeFlags = std::vector<bool>;
 
 // The scene with `tree` for its nodes, and what has moved since, or is flagged, placed anew.
-[[nodiscard]] Expected<Scene> placed_anew(const Scene& scene, std::shared_ptr<const NodeTree> tree, const NodeFlags& flagged);
+[[nodiscard]] Expected<Scene> placed_anew(const Scene& scene, std::shared_ptr<const NodeTree> tree,
+                                          const NodeFlags& flagged);
 
 // Places the node's own vertices, lights or cameras not among them.
 void place_vertices(const Node& node, const Placement& now, const RestPose& rest, MeshData& mesh);
@@ -34,7 +35,8 @@ class Deformer {
   void place(MeshData& mesh) const;
 
  private:
-  void morph(std::vector<glm::vec3>& positions, std::vector<glm::vec3>& normals, std::vector<glm::vec4>& tangents) const;
+  void morph(std::vector<glm::vec3>& positions, std::vector<glm::vec3>& normals,
+             std::vector<glm::vec4>& tangents) const;
 
   const NodeTree& tree_;
   const Deformation& deformation_;

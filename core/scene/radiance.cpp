@@ -1,4 +1,5 @@
-// Radiance pictures, as Radiance's own "File Formats" has them. By ourselves: stb_image does not end on some damaged files.
+// Radiance pictures, as Radiance's own "File Formats" has them. By ourselves: stb_image does not end on some
+// damaged files.
 #include "core/scene/radiance.h"
 
 #include <algorithm>
@@ -23,22 +24,25 @@ class RadianceReader {
 
   // Reads the header up to the pixels.
   [[nodiscard]] glm::ivec2 size() {
-    if (const std::string_view first = line(); first != "#?RADIANCE" && first != "#?RGBE") throw RadianceDamage("it has no header");
+    if (const std::string_view first = line(); first != "#?RADIANCE" && first != "#?RGBE")
+      throw RadianceDamage("it has no header");
     bool rgbe = false;
-    for (std::string_view text = line(); !text.empty(); text = line()) rgbe = rgbe || text == "FORMAT=32-bit_rle_rgbe";
+    for (std::string_view text = line(); !text.empty(); text = line())
+      rgbe = rgbe || text == "FORMAT=32-bit_rle_rgbe";
     if (!rgbe) throw RadianceDamage("its pixels are not RGBE");
     constexpr int kMostSide = 1 << 20;
     glm::ivec2 size(0);
     if (std::sscanf(std::string(line()).c_str(), "-Y %7d +X %7d", &size.y, &size.x) != 2)
       throw RadianceDamage("its lines do not go from the left to the right and from the top down");
-    if (size.x < 1 || size.y < 1 || size.x > kMostSide || size.y > kMostSide) throw RadianceDamage("it has no size that can be");
+    if (size.x < 1 || size.y < 1 || size.x > kMostSide || size.y > kMostSide)
+      throw RadianceDamage("it has no size that can be");
     return size;
   }
 
   void read_line(std::span<Rgbe> pixels) {
     const auto width = pixels.size();
-    const bool packed = width >= 8 && width < 32768 && left() >= 4 && bytes_[at_] == 2 && bytes_[at_ + 1] == 2 &&
-                        bytes_[at_ + 2] * 256u + bytes_[at_ + 3] == width;
+    const bool packed = width >= 8 && width < 32768 && left() >= 4 && bytes_[at_] == 2 &&
+                        bytes_[at_ + 1] == 2 && bytes_[at_ + 2] * 256u + bytes_[at_ + 3] == width;
     if (!packed) return read_plain(pixels);
     at_ += 4;
     for (int channel = 0; channel < 4; ++channel) read_channel(pixels, channel);
@@ -69,7 +73,8 @@ class RadianceReader {
     }
   }
 
-  // Pixels as they stand; 1 1 1 n is the one before n times more, several of them digits of n from the lowest.
+  // Pixels as they stand; 1 1 1 n is the one before n times more, several of them digits of n from the
+  // lowest.
   void read_plain(std::span<Rgbe> pixels) {
     int shift = 0;
     for (std::size_t x = 0; x < pixels.size();) {
@@ -102,7 +107,8 @@ Expected<Image<glm::vec3>> decode_radiance(const std::string& file, std::span<co
   RadianceReader reader(bytes);
   const glm::ivec2 size = reader.size();
   // Picture and sums of light, of which the latter are made later.
-  if (!limit.take(file, "the environment", static_cast<std::uint64_t>(size.x) * static_cast<std::uint64_t>(size.y),
+  if (!limit.take(file, "the environment",
+                  static_cast<std::uint64_t>(size.x) * static_cast<std::uint64_t>(size.y),
                   sizeof(glm::vec3) + sizeof(float)))
     return Unexpected(*limit.error());
   Image<glm::vec3> image(size);

@@ -9,7 +9,8 @@
 namespace pinocchio {
 
 // A Radiance picture (.hdr, RGBE), linear; errors name `file`.
-[[nodiscard]] Expected<Image<glm::vec3>> decode_radiance(const std::string& file, std::span<const unsigned char> bytes,
+[[nodiscard]] Expected<Image<glm::vec3>> decode_radiance(const std::string& file,
+                                                         std::span<const unsigned char> bytes,
                                                          MemoryLimit& limit);
 
 }  // namespace pinocchio

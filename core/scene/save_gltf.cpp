@@ -37,7 +37,8 @@ class GltfWriter {
     if (can_save_motion(scene)) {
       add_moving();
     } else {
-      if (scene.animation) warnings.add({file.string(), "", "animations are left out", "everything stands still"});
+      if (scene.animation)
+        warnings.add({file.string(), "", "animations are left out", "everything stands still"});
       add_mesh();
       for (const Camera& camera : scene.cameras) data_.add_node(camera_node(camera, camera));
       for (const Light& light : scene.lights) data_.add_node(light_node(light));
@@ -57,7 +58,8 @@ class GltfWriter {
  private:
   void add_materials(const std::filesystem::path& file, Warnings& warnings) {
     const Mesh& mesh = *scene_.mesh;
-    GltfMaterialWriter writer(mesh, [this](const std::string& bytes) { return data_.add_view(bytes); }, file, warnings);
+    GltfMaterialWriter writer(
+        mesh, [this](const std::string& bytes) { return data_.add_view(bytes); }, file, warnings);
     Json materials = Json::array();
     for (const Material& m : mesh.materials) materials.push_back(writer.material(m));
     json_["materials"] = std::move(materials);
@@ -68,7 +70,8 @@ class GltfWriter {
   // All of it in the world, on one node.
   void add_mesh() {
     const Mesh& mesh = *scene_.mesh;
-    const SavedPart all{0, 0, static_cast<std::uint32_t>(mesh.triangles.size()), mesh.positions, mesh.normals, mesh.tangents};
+    const SavedPart all{
+        0, 0, static_cast<std::uint32_t>(mesh.triangles.size()), mesh.positions, mesh.normals, mesh.tangents};
     json_["meshes"] = Json::array({{{"primitives", gltf_primitives(mesh, all, Json::object(), data_)}}});
     data_.add_node({{"mesh", 0}});
   }
@@ -79,7 +82,8 @@ class GltfWriter {
     const RestPose& rest = *scene_.nodes->rest;
     const auto hang = [&](int node, Json json) {
       const int index = data_.add_node(std::move(json), false);
-      Json& children = json_["nodes"][static_cast<std::size_t>(place[static_cast<std::size_t>(node)])]["children"];
+      Json& children =
+          json_["nodes"][static_cast<std::size_t>(place[static_cast<std::size_t>(node)])]["children"];
       if (children.is_null()) children = Json::array();
       children.insert(children.begin(), index);
     };
@@ -133,7 +137,8 @@ class GltfWriter {
   Json light_node(const Light& light) {
     Json& lights = json_["extensions"]["KHR_lights_punctual"]["lights"];
     if (lights.empty()) extensions_.emplace_back("KHR_lights_punctual");
-    constexpr const char* kTypes[] = {"point", "directional", "spot", "point"};  // a rectangle: where none is known
+    constexpr const char* kTypes[] = {"point", "directional", "spot",
+                                      "point"};  // a rectangle: where none is known
     Json json{{"name", light.name},
               {"type", kTypes[static_cast<int>(light.kind)]},
               {"color", vec3_json(light.color)},
@@ -201,7 +206,8 @@ std::string glb_of(GltfWriter& writer) {
 
 }  // namespace
 
-void save_gltf(const Scene& scene, const std::filesystem::path& file, Progress* progress, Warnings* warnings) {
+void save_gltf(const Scene& scene, const std::filesystem::path& file, Progress* progress,
+               Warnings* warnings) {
   throw_if_cancelled(progress);
   Warnings unheard;
   GltfWriter writer(scene, file, warnings ? *warnings : unheard);

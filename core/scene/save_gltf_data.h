@@ -8,7 +8,8 @@
 
 namespace pinocchio {
 
-inline constexpr int kGltfUnsignedShort = 5123, kGltfUnsignedInt = 5125, kGltfFloat = 5126;  // component types
+inline constexpr int kGltfUnsignedShort = 5123, kGltfUnsignedInt = 5125,
+                     kGltfFloat = 5126;  // component types
 
 struct GltfData {
   using Json = nlohmann::ordered_json;
@@ -18,7 +19,8 @@ struct GltfData {
 
   int add_view(std::string_view bytes) {
     binary.append((4 - binary.size() % 4) % 4, '\0');  // numbers lie where they may
-    json["bufferViews"].push_back({{"buffer", 0}, {"byteOffset", binary.size()}, {"byteLength", bytes.size()}});
+    json["bufferViews"].push_back(
+        {{"buffer", 0}, {"byteOffset", binary.size()}, {"byteLength", bytes.size()}});
     binary.append(bytes);
     return static_cast<int>(json["bufferViews"].size()) - 1;
   }
@@ -26,8 +28,10 @@ struct GltfData {
   template <class T>
   int add_accessor(std::span<const T> elements, int component_type, const char* type) {
     const int view = add_view({reinterpret_cast<const char*>(elements.data()), elements.size_bytes()});
-    json["accessors"].push_back(
-        {{"bufferView", view}, {"componentType", component_type}, {"count", elements.size()}, {"type", type}});
+    json["accessors"].push_back({{"bufferView", view},
+                                 {"componentType", component_type},
+                                 {"count", elements.size()},
+                                 {"type", type}});
     return static_cast<int>(json["accessors"].size()) - 1;
   }
 

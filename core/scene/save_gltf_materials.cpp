@@ -31,21 +31,25 @@ float roughness_of(const Material& m) {
 }
 
 Json pbr_json(const glm::vec3& base, float metallic, float roughness) {
-  return {{"baseColorFactor", {base.r, base.g, base.b, 1.0f}}, {"metallicFactor", metallic}, {"roughnessFactor", roughness}};
+  return {{"baseColorFactor", {base.r, base.g, base.b, 1.0f}},
+          {"metallicFactor", metallic},
+          {"roughnessFactor", roughness}};
 }
 
 // For other viewers, of Phong.
 Json nearest_pbr(const Material& m) {
-  const glm::vec3 base = glm::min(m.reflects() ? glm::max(m.diffuse, m.reflectance) : m.diffuse, glm::vec3(1.0f));
+  const glm::vec3 base =
+      glm::min(m.reflects() ? glm::max(m.diffuse, m.reflectance) : m.diffuse, glm::vec3(1.0f));
   return pbr_json(base, m.reflects() && !m.fresnel ? 1.0f : 0.0f, m.spawns_rays() ? 0.0f : roughness_of(m));
 }
 
-// ... of Phong that was made from metallic-roughness (phong_from_gltf): ambient light has its base colour, and of
-// the diffuse one what metal leaves, over pi.
+// ... of Phong that was made from metallic-roughness (phong_from_gltf): ambient light has its base colour,
+// and of the diffuse one what metal leaves, over pi.
 Json as_it_was(const Material& m) {
   constexpr float kUsualDiffuse = 0.96f * 0.318309886f;
   const glm::vec3 base = glm::min(m.ambient, glm::vec3(1.0f));
-  const float whole = kUsualDiffuse * (base.r + base.g + base.b), left = m.diffuse.r + m.diffuse.g + m.diffuse.b;
+  const float whole = kUsualDiffuse * (base.r + base.g + base.b),
+              left = m.diffuse.r + m.diffuse.g + m.diffuse.b;
   return pbr_json(base, whole > 0.0f ? std::clamp(1.0f - left / whole, 0.0f, 1.0f) : 0.0f, roughness_of(m));
 }
 
@@ -182,15 +186,18 @@ Json GltfMaterialWriter::texture(const TextureUse& use, int image) {
 
 // glTF has a surface's alpha in its base colour's texture; MTL may have it anywhere.
 int GltfMaterialWriter::base_image(const Material& m, const MaterialMaps& maps) {
-  const bool as_it_is = maps.alpha_mode == AlphaMode::opaque || (maps.alpha == maps.base_color && maps.alpha_channel == 3);
+  const bool as_it_is =
+      maps.alpha_mode == AlphaMode::opaque || (maps.alpha == maps.base_color && maps.alpha_channel == 3);
   if (as_it_is) return maps.base_color.used() ? image_of(maps.base_color.texture) : -1;
   const auto texture_of = [this](const TextureUse& use) {
     return use.used() ? &mesh_.textures[static_cast<std::size_t>(use.texture)] : nullptr;
   };
   const Texture *color = texture_of(maps.base_color), *alpha = texture_of(maps.alpha);
   if (!color && !alpha) return -1;
-  if (color && alpha && !(lie_alike(maps.base_color, maps.alpha) && color->texels.size() == alpha->texels.size())) {
-    warnings_.add({file_, "material '" + m.name + "'", "an alpha texture that lies otherwise than the colour's is left out",
+  if (color && alpha &&
+      !(lie_alike(maps.base_color, maps.alpha) && color->texels.size() == alpha->texels.size())) {
+    warnings_.add({file_, "material '" + m.name + "'",
+                   "an alpha texture that lies otherwise than the colour's is left out",
                    "it is as opaque everywhere as its factor says"});
     alpha = nullptr;
   }
@@ -209,7 +216,8 @@ int GltfMaterialWriter::image_of(int texture) {
 }
 
 int GltfMaterialWriter::add_image(const Texture& texture) {
-  images_.push_back({{"name", texture.name}, {"bufferView", add_view_(png_of(texture))}, {"mimeType", "image/png"}});
+  images_.push_back(
+      {{"name", texture.name}, {"bufferView", add_view_(png_of(texture))}, {"mimeType", "image/png"}});
   return static_cast<int>(images_.size()) - 1;
 }
 

@@ -16,7 +16,8 @@ struct SometimesUsed {
 
 template <class T>
 std::span<const T> of_part(const std::vector<T>& all, const SavedPart& part) {
-  return all.empty() ? std::span<const T>() : std::span(all).subspan(part.first_vertex, part.positions.size());
+  return all.empty() ? std::span<const T>()
+                     : std::span(all).subspan(part.first_vertex, part.positions.size());
 }
 
 SometimesUsed add_sometimes_used(const Mesh& mesh, const SavedPart& part, GltfData& data) {
@@ -75,9 +76,10 @@ Json gltf_primitives(const Mesh& mesh, const SavedPart& part, const Json& more, 
     }
     Json own = attributes;
     add_attributes(known, mesh.maps_of(static_cast<std::uint32_t>(first)), part, indices, own);
-    primitives.push_back({{"attributes", own},
-                          {"indices", data.add_accessor(std::span<const std::uint32_t>(indices), kGltfUnsignedInt, "SCALAR")},
-                          {"material", material}});
+    primitives.push_back(
+        {{"attributes", own},
+         {"indices", data.add_accessor(std::span<const std::uint32_t>(indices), kGltfUnsignedInt, "SCALAR")},
+         {"material", material}});
     first = end;
   }
   return primitives;

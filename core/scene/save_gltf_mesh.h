@@ -22,9 +22,9 @@ struct SavedPart {
 // POSITION's accessor or a morph target's: with its bounds.
 int add_positions(std::span<const glm::vec3> positions, GltfData& data);
 
-// Runs of triangles of one material are primitives over the same vertices: the order of triangles stays. `more`
-// goes into each primitive's attributes.
-[[nodiscard]] GltfData::Json gltf_primitives(const Mesh& mesh, const SavedPart& part, const GltfData::Json& more,
-                                             GltfData& data);
+// Runs of triangles of one material are primitives over the same vertices: the order of triangles stays.
+// `more` goes into each primitive's attributes.
+[[nodiscard]] GltfData::Json gltf_primitives(const Mesh& mesh, const SavedPart& part,
+                                             const GltfData::Json& more, GltfData& data);
 
 }  // namespace pinocchio

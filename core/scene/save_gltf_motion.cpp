@@ -36,7 +36,8 @@ void add_transform(const Node& node, const AnimatedNode* animated, Json& json) {
 }
 
 // A morph target's offsets, one each vertex of its node.
-std::vector<glm::vec3> of_all_vertices(const MorphTarget& target, const std::vector<glm::vec3>& offsets, std::uint32_t vertices) {
+std::vector<glm::vec3> of_all_vertices(const MorphTarget& target, const std::vector<glm::vec3>& offsets,
+                                       std::uint32_t vertices) {
   std::vector<glm::vec3> all(vertices, glm::vec3(0.0f));
   for (std::size_t i = 0; i < offsets.size(); ++i) all[target.vertices[i]] = offsets[i];
   return all;
@@ -46,7 +47,8 @@ Json targets_json(const Deformation& deformation, std::uint32_t vertices, GltfDa
   Json targets = Json::array();
   for (const MorphTarget& target : deformation.targets) {
     const auto add = [&](const std::vector<glm::vec3>& offsets) {
-      return data.add_accessor(std::span<const glm::vec3>(of_all_vertices(target, offsets, vertices)), kGltfFloat, "VEC3");
+      return data.add_accessor(std::span<const glm::vec3>(of_all_vertices(target, offsets, vertices)),
+                               kGltfFloat, "VEC3");
     };
     Json json{{"POSITION", add_positions(of_all_vertices(target, target.positions, vertices), data)}};
     if (!target.normals.empty()) json["NORMAL"] = add(target.normals);
@@ -71,8 +73,10 @@ Json influences_json(const Deformation& deformation, std::uint32_t vertices, Glt
         weights[v][static_cast<int>(i)] = by.weight;
       }
     const std::string number = "_" + std::to_string(set);
-    attributes["JOINTS" + number] = data.add_accessor(std::span<const glm::u16vec4>(joints), kGltfUnsignedShort, "VEC4");
-    attributes["WEIGHTS" + number] = data.add_accessor(std::span<const glm::vec4>(weights), kGltfFloat, "VEC4");
+    attributes["JOINTS" + number] =
+        data.add_accessor(std::span<const glm::u16vec4>(joints), kGltfUnsignedShort, "VEC4");
+    attributes["WEIGHTS" + number] =
+        data.add_accessor(std::span<const glm::vec4>(weights), kGltfFloat, "VEC4");
   }
   return attributes;
 }
@@ -83,7 +87,8 @@ std::span<const T> part_of(const std::vector<T>& all, const Node& node) {
 }
 
 // A mesh of the node's own vertices, as it sees them.
-void add_mesh(const Scene& scene, std::size_t index, const std::vector<glm::mat4>& world, GltfData& data, Json& json) {
+void add_mesh(const Scene& scene, std::size_t index, const std::vector<glm::mat4>& world, GltfData& data,
+              Json& json) {
   const NodeTree& tree = *scene.nodes;
   const RestPose& rest = *tree.rest;
   const Node& node = tree.nodes[index];
@@ -162,7 +167,8 @@ std::vector<int> add_moving_nodes(const Scene& scene, GltfData& data) {
 std::vector<glm::mat4> world_at_rest(const Scene& scene) {
   std::vector<Node> nodes = scene.nodes->nodes;
   for (std::size_t n = 0; n < nodes.size(); ++n)
-    if (const AnimatedNode* animated = animated_by(*scene.animation, n)) nodes[n].local = animated->at_rest.matrix();
+    if (const AnimatedNode* animated = animated_by(*scene.animation, n))
+      nodes[n].local = animated->at_rest.matrix();
   return world_matrices(nodes);
 }
 
@@ -178,11 +184,15 @@ void add_skins_and_animation(const Scene& scene, const std::vector<int>& place_o
   for (const AnimatedNode& node : scene.animation->nodes)
     for (const Track& track : node.tracks) {
       channels.push_back({{"sampler", samplers.size()},
-                          {"target", {{"node", place_of_node[static_cast<std::size_t>(node.node)]}, {"path", path_name(track.path)}}}});
+                          {"target",
+                           {{"node", place_of_node[static_cast<std::size_t>(node.node)]},
+                            {"path", path_name(track.path)}}}});
       samplers.push_back(sampler_json(track, data));
     }
   data.json["animations"].push_back(
-      {{"name", scene.animation->clips.empty() ? "" : scene.animation->clips.front().name}, {"samplers", samplers}, {"channels", channels}});
+      {{"name", scene.animation->clips.empty() ? "" : scene.animation->clips.front().name},
+       {"samplers", samplers},
+       {"channels", channels}});
 }
 
 }  // namespace pinocchio

@@ -1,5 +1,5 @@
-// What save_gltf writes of a scene that moves: its nodes, each with its part of the mesh at rest, skins, morph
-// targets and animations.
+// What save_gltf writes of a scene that moves: its nodes, each with its part of the mesh at rest, skins,
+// morph targets and animations.
 #pragma once
 
 #include "core/scene/save_gltf_data.h"
@@ -10,7 +10,8 @@ namespace pinocchio {
 // Whether its nodes and animation can be written: it moves, and each triangle is some node's.
 [[nodiscard]] bool can_save_motion(const Scene& scene);
 
-// The scene's nodes, in their order; returned is each one's index in the file. Lights and cameras are not written.
+// The scene's nodes, in their order; returned is each one's index in the file. Lights and cameras are not
+// written.
 std::vector<int> add_moving_nodes(const Scene& scene, GltfData& data);
 
 // World from each node where no track moves it yet.

@@ -43,7 +43,8 @@ class ObjWriter {
     for (const Material& m : mesh.materials)
       if (const MaterialMaps* maps = maps_of(m)) {
         has_colors_ = has_colors_ || maps->vertex_colors;
-        has_texcoords_ = has_texcoords_ || maps->base_color.used() || maps->normal.used() || maps->emissive.used() || maps->alpha.used();
+        has_texcoords_ = has_texcoords_ || maps->base_color.used() || maps->normal.used() ||
+                         maps->emissive.used() || maps->alpha.used();
       }
     has_colors_ = has_colors_ && !mesh.colors.empty();
     has_texcoords_ = has_texcoords_ && !mesh.texcoords.empty();
@@ -112,27 +113,35 @@ class ObjWriter {
     add_texture("map_Kd", "", maps.base_color, lost, text);
     add_texture("map_Ke", "", maps.emissive, lost, text);
     add_texture("norm", "", maps.normal, lost, text);
-    if (maps.normal.used() && maps.normal_scale != 1.0f) lost("the scale of its normal map is left out", "its bumps have another height");
+    if (maps.normal.used() && maps.normal_scale != 1.0f)
+      lost("the scale of its normal map is left out", "its bumps have another height");
     if (maps.alpha_mode != AlphaMode::opaque) {
       constexpr const char* kChannels[] = {" -imfchan r", " -imfchan g", " -imfchan b", " -imfchan m"};
       add_texture("map_d", kChannels[maps.alpha_channel], maps.alpha, lost, text);
       add_number(text, "d", maps.alpha_factor);
-      if (!maps.blends()) lost("the cutoff of its alpha is left out", "what is a hole shines through by its alpha");
+      if (!maps.blends())
+        lost("the cutoff of its alpha is left out", "what is a hole shines through by its alpha");
     }
-    if (maps.metallic_roughness.used()) lost("its metallic-roughness texture is left out", "all of it shines alike");
-    if (maps.maps_dielectric()) lost("its specular and transmission textures are left out", "all of it shines and lets light through alike");
-    if (maps.occlusion.used()) lost("its occlusion texture is left out", "its hollows are as bright as the rest");
+    if (maps.metallic_roughness.used())
+      lost("its metallic-roughness texture is left out", "all of it shines alike");
+    if (maps.maps_dielectric())
+      lost("its specular and transmission textures are left out",
+           "all of it shines and lets light through alike");
+    if (maps.occlusion.used())
+      lost("its occlusion texture is left out", "its hollows are as bright as the rest");
   }
 
   template <class Lost>
-  void add_texture(const char* keyword, const char* option, const TextureUse& use, const Lost& lost, std::string& text) {
+  void add_texture(const char* keyword, const char* option, const TextureUse& use, const Lost& lost,
+                   std::string& text) {
     if (!use.used() || !has_texcoords_) return;
     if (use.uv_set != 0) lost("a texture on the second set of coordinates is left out", "it is missing");
     if (use.uv_set != 0) return;
     const glm::mat3x2& t = use.uv_from_texcoord;
     if (t[0].y != 0.0f || t[1].x != 0.0f) lost("the rotation of a texture is left out", "it lies unrotated");
     if (use.nearest) lost("textures without interpolation are interpolated", "their texels are blurred");
-    if (use.wrap_u != use.wrap_v || use.wrap_u == Wrap::mirror) lost("how a texture goes on beyond its edges is left out", "it is repeated there");
+    if (use.wrap_u != use.wrap_v || use.wrap_u == Wrap::mirror)
+      lost("how a texture goes on beyond its edges is left out", "it is repeated there");
     const std::string name = file_.stem().string() + "-" + std::to_string(use.texture) + ".png";
     texture_files_.try_emplace(use.texture, name);
     text += keyword + std::string(option);
@@ -156,10 +165,12 @@ class ObjWriter {
       const glm::vec4& c = mesh_.colors[i];
       text.pop_back();
       add_vec3(text, "", {linear_to_srgb(c.r), linear_to_srgb(c.g), linear_to_srgb(c.b)});
-      if (c.a != 1.0f) warnings_.add({file_.string(), "", "the alpha of vertices is left out", "they are opaque"});
+      if (c.a != 1.0f)
+        warnings_.add({file_.string(), "", "the alpha of vertices is left out", "they are opaque"});
     }
     if (has_texcoords_)
-      for (const glm::vec2& t : mesh_.texcoords) text += "vt " + number(t.x) + " " + number(1.0f - t.y) + "\n";
+      for (const glm::vec2& t : mesh_.texcoords)
+        text += "vt " + number(t.x) + " " + number(1.0f - t.y) + "\n";
     normals_.reserve(mesh_.normals.size());
     std::size_t count = 0;
     for (const glm::vec3& n : mesh_.normals) {

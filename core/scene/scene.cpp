@@ -25,7 +25,8 @@ bool reaches(const Light& light, const Bounds& box) {
   if (box.empty() || light.color * light.intensity == glm::vec3(0.0f)) return false;
   if (light.kind == Light::Kind::directional) return true;
   const float sides = 0.5f * (glm::length(light.edge_u) + glm::length(light.edge_v));
-  if (glm::distance(light.position, glm::clamp(light.position, box.lo, box.hi)) > light.range + sides) return false;
+  if (glm::distance(light.position, glm::clamp(light.position, box.lo, box.hi)) > light.range + sides)
+    return false;
   // A ball with a cone shines to the side of itself as well.
   if (light.kind != Light::Kind::spot || light.radius > 0.0f) return true;
   // The cone against the ball around the box.

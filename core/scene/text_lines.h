@@ -60,7 +60,8 @@ inline std::string_view next_word(std::string_view& line) {
 // The rest of a line without blanks around it: a name may have some within.
 inline std::string_view trimmed(std::string_view line) {
   const std::size_t first = line.find_first_not_of(kBlanks);
-  return first == std::string_view::npos ? std::string_view() : line.substr(first, line.find_last_not_of(kBlanks) + 1 - first);
+  return first == std::string_view::npos ? std::string_view()
+                                         : line.substr(first, line.find_last_not_of(kBlanks) + 1 - first);
 }
 
 }  // namespace pinocchio

@@ -44,8 +44,10 @@ class Decoder {
     if (starts_with("\x89PNG")) return png();
     if (starts_with("\xff\xd8\xff")) return jpeg();
     if (starts_with("RIFF") && starts_with("WEBP", 8)) return webp();
-    if (starts_with("\xabKTX 20")) return error("is KTX2, which is not read; convert it to PNG, JPEG or WebP");
-    if (starts_with("#?")) return error("is Radiance HDR, which is for environments; convert it to PNG, JPEG or WebP");
+    if (starts_with("\xabKTX 20"))
+      return error("is KTX2, which is not read; convert it to PNG, JPEG or WebP");
+    if (starts_with("#?"))
+      return error("is Radiance HDR, which is for environments; convert it to PNG, JPEG or WebP");
     if (starts_with("P5") || starts_with("P6")) return pnm();
     if (starts_with("DDS ")) return error("is DDS, which is not read; convert it to PNG, JPEG or WebP");
     return other();
@@ -65,15 +67,19 @@ class Decoder {
   // Memory for the pixels that a header promises, if they are within the limit.
   Expected<void> make(std::uint64_t width, std::uint64_t height) {
     constexpr std::uint64_t kMostSide = 1 << 20;
-    if (width < 1 || height < 1 || width > kMostSide || height > kMostSide) return error("has no size that can be");
-    const std::string what = "image '" + name_ + "' of " + std::to_string(width) + " x " + std::to_string(height) + " pixels";
+    if (width < 1 || height < 1 || width > kMostSide || height > kMostSide)
+      return error("has no size that can be");
+    const std::string what =
+        "image '" + name_ + "' of " + std::to_string(width) + " x " + std::to_string(height) + " pixels";
     if (!limit_.take(file_, what, width * height, sizeof(glm::u8vec4))) return Unexpected(*limit_.error());
     image_.texture.name = name_;
     image_.texture.texels = Image<glm::u8vec4>(glm::ivec2(width, height));
     return {};
   }
 
-  [[nodiscard]] unsigned char* texels() { return reinterpret_cast<unsigned char*>(image_.texture.texels.pixels().data()); }
+  [[nodiscard]] unsigned char* texels() {
+    return reinterpret_cast<unsigned char*>(image_.texture.texels.pixels().data());
+  }
   [[nodiscard]] std::size_t texel_bytes() const { return image_.texture.texels.pixels().size_bytes(); }
 
   Expected<DecodedImage> png() {
@@ -95,15 +101,19 @@ class Decoder {
     const std::unique_ptr<void, int (*)(tjhandle)> context(tjInitDecompress(), tjDestroy);
     const auto size = static_cast<unsigned long>(bytes_.size());
     int width = 0, height = 0, subsampling = 0, colors = 0;
-    if (!context || tjDecompressHeader3(context.get(), bytes_.data(), size, &width, &height, &subsampling, &colors) != 0)
+    if (!context ||
+        tjDecompressHeader3(context.get(), bytes_.data(), size, &width, &height, &subsampling, &colors) != 0)
       return error(std::string("is not JPEG that can be read: ") + tjGetErrorStr2(context.get()));
-    if (const Expected<void> made = make(static_cast<std::uint64_t>(width), static_cast<std::uint64_t>(height)); !made)
+    if (const Expected<void> made =
+            make(static_cast<std::uint64_t>(width), static_cast<std::uint64_t>(height));
+        !made)
       return Unexpected(made.error());
     const bool cmyk = colors == TJCS_CMYK || colors == TJCS_YCCK;
-    if (tjDecompress2(context.get(), bytes_.data(), size, texels(), width, 0, height, cmyk ? TJPF_CMYK : TJPF_RGBA,
-                      TJFLAG_ACCURATEDCT | TJFLAG_LIMITSCANS) != 0) {
+    if (tjDecompress2(context.get(), bytes_.data(), size, texels(), width, 0, height,
+                      cmyk ? TJPF_CMYK : TJPF_RGBA, TJFLAG_ACCURATEDCT | TJFLAG_LIMITSCANS) != 0) {
       image_.damage = tjGetErrorStr2(context.get());
-      if (tjGetErrorCode(context.get()) != TJERR_WARNING) return error("is not JPEG that can be read: " + image_.damage);
+      if (tjGetErrorCode(context.get()) != TJERR_WARNING)
+        return error("is not JPEG that can be read: " + image_.damage);
     }
     if (cmyk)  // Adobe's: the share of paper that is left
       for (glm::u8vec4& p : image_.texture.texels.pixels())
@@ -113,15 +123,19 @@ class Decoder {
 
   Expected<DecodedImage> webp() {
     int width = 0, height = 0;
-    if (WebPGetInfo(bytes_.data(), bytes_.size(), &width, &height) == 0) return error("is not WebP that can be read");
-    if (const Expected<void> made = make(static_cast<std::uint64_t>(width), static_cast<std::uint64_t>(height)); !made)
+    if (WebPGetInfo(bytes_.data(), bytes_.size(), &width, &height) == 0)
+      return error("is not WebP that can be read");
+    if (const Expected<void> made =
+            make(static_cast<std::uint64_t>(width), static_cast<std::uint64_t>(height));
+        !made)
       return Unexpected(made.error());
     if (WebPDecodeRGBAInto(bytes_.data(), bytes_.size(), texels(), texel_bytes(), 4 * width) == nullptr)
       return error("is not WebP that can be read (damaged, or an animation)");
     return std::move(image_);
   }
 
-  // Netpbm's P5, grey, and P6, RGB: by ourselves, for stb_image overruns those of 16 bits and takes any white for 255.
+  // Netpbm's P5, grey, and P6, RGB: by ourselves, for stb_image overruns those of 16 bits and takes any white
+  // for 255.
   Expected<DecodedImage> pnm() {
     std::size_t at = 2;
     const std::uint32_t width = pnm_number(at), height = pnm_number(at), white = pnm_number(at);
@@ -163,11 +177,13 @@ class Decoder {
       return error("is not of a format that is read; convert it to PNG, JPEG or WebP");
     // A BMP whose first row is its top one says so by a height below zero.
     const auto rows = static_cast<std::uint64_t>(std::abs(std::int64_t{height}));
-    if (const Expected<void> made = make(static_cast<std::uint64_t>(width), rows); !made) return Unexpected(made.error());
+    if (const Expected<void> made = make(static_cast<std::uint64_t>(width), rows); !made)
+      return Unexpected(made.error());
     const std::unique_ptr<stbi_uc, void (*)(void*)> pixels(
         stbi_load_from_memory(bytes_.data(), size, &width, &height, &channels, 4), stbi_image_free);
     if (!pixels || glm::ivec2(width, height) != image_.texture.texels.size())
-      return error(std::string("cannot be decoded: ") + (pixels ? "its size changes" : stbi_failure_reason()));
+      return error(std::string("cannot be decoded: ") +
+                   (pixels ? "its size changes" : stbi_failure_reason()));
     std::copy_n(pixels.get(), texel_bytes(), texels());
     return std::move(image_);
   }
@@ -191,7 +207,8 @@ Expected<DecodedImage> decode(const EncodedImage& image, Progress* progress, Mem
   if (image.bytes) return decode_texture(image.file, image.name, *image.bytes, limit);
   const Expected<std::string> bytes = read_input_file(image.file, progress);
   if (!bytes) return Unexpected(bytes.error());
-  return decode_texture(image.file, image.name, {reinterpret_cast<const unsigned char*>(bytes->data()), bytes->size()}, limit);
+  return decode_texture(image.file, image.name,
+                        {reinterpret_cast<const unsigned char*>(bytes->data()), bytes->size()}, limit);
 }
 
 }  // namespace
@@ -200,7 +217,8 @@ Expected<DecodedImage> load_texture(const std::filesystem::path& file, Loading& 
   return decode({file.string(), file.filename().string(), std::nullopt}, loading.progress, loading.limit);
 }
 
-std::vector<Expected<DecodedImage>> decode_textures(const std::vector<EncodedImage>& images, Loading& loading) {
+std::vector<Expected<DecodedImage>> decode_textures(const std::vector<EncodedImage>& images,
+                                                    Loading& loading) {
   std::vector<Expected<DecodedImage>> decoded(images.size(), DecodedImage{});
   if (images.empty()) return decoded;
   begin_phase(loading.progress, "images", static_cast<double>(images.size()));
@@ -215,16 +233,23 @@ std::vector<Expected<DecodedImage>> decode_textures(const std::vector<EncodedIma
 std::string png_of(const Texture& texture) {
   const std::unique_ptr<spng_ctx, void (*)(spng_ctx*)> context(spng_ctx_new(SPNG_CTX_ENCODER), spng_ctx_free);
   const glm::ivec2 size = texture.texels.size();
-  spng_ihdr header{static_cast<std::uint32_t>(size.x), static_cast<std::uint32_t>(size.y), 8, SPNG_COLOR_TYPE_TRUECOLOR_ALPHA, 0, 0, 0};
+  spng_ihdr header{static_cast<std::uint32_t>(size.x),
+                   static_cast<std::uint32_t>(size.y),
+                   8,
+                   SPNG_COLOR_TYPE_TRUECOLOR_ALPHA,
+                   0,
+                   0,
+                   0};
   std::size_t bytes = 0;
   int failure = context ? spng_set_option(context.get(), SPNG_ENCODE_TO_BUFFER, 1) : SPNG_EMEM;
   if (failure == 0) failure = spng_set_ihdr(context.get(), &header);
   if (failure == 0)
-    failure = spng_encode_image(context.get(), texture.texels.pixels().data(), texture.texels.pixels().size_bytes(),
-                                SPNG_FMT_PNG, SPNG_ENCODE_FINALIZE);
+    failure = spng_encode_image(context.get(), texture.texels.pixels().data(),
+                                texture.texels.pixels().size_bytes(), SPNG_FMT_PNG, SPNG_ENCODE_FINALIZE);
   void* const png = failure == 0 ? spng_get_png_buffer(context.get(), &bytes, &failure) : nullptr;
   const std::unique_ptr<void, void (*)(void*)> owner(png, std::free);
-  if (!png) throw EnvironmentError("image '" + texture.name + "' cannot be encoded: " + spng_strerror(failure));
+  if (!png)
+    throw EnvironmentError("image '" + texture.name + "' cannot be encoded: " + spng_strerror(failure));
   return {static_cast<const char*>(png), bytes};
 }
 

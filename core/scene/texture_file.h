@@ -24,7 +24,8 @@ struct EncodedImage {
   std::optional<std::span<const unsigned char>> bytes;  // none: the file's
 };
 // Those images, on all of the machine's threads. Phase "images".
-[[nodiscard]] std::vector<Expected<DecodedImage>> decode_textures(const std::vector<EncodedImage>& images, Loading& loading);
+[[nodiscard]] std::vector<Expected<DecodedImage>> decode_textures(const std::vector<EncodedImage>& images,
+                                                                  Loading& loading);
 // The same of a file's bytes; errors name `file`, which may be a scene's. Any thread.
 [[nodiscard]] Expected<DecodedImage> decode_texture(const std::string& file, const std::string& name,
                                                     std::span<const unsigned char> bytes, MemoryLimit& limit);

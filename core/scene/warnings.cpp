@@ -8,9 +8,11 @@ std::string Warning::message() const {
   std::string text = file + ": ";
   if (!where.empty()) text += where + ": ";
   text += what;
-  if (places > 1) text += " (and in " + std::to_string(places - 1) + (places > 2 ? " more places)" : " more place)");
+  if (places > 1)
+    text += " (and in " + std::to_string(places - 1) + (places > 2 ? " more places)" : " more place)");
   if (!lost.empty()) text += "; " + lost;
-  std::replace_if(text.begin(), text.end(), [](unsigned char c) { return c < ' ' || c == 0x7f; }, '?');  // one line
+  std::replace_if(
+      text.begin(), text.end(), [](unsigned char c) { return c < ' ' || c == 0x7f; }, '?');  // one line
   return text;
 }
 

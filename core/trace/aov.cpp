@@ -51,7 +51,8 @@ void put_rays(glm::ivec2 size, const std::uint32_t* ids, std::size_t ids_width, 
 }  // namespace
 
 void write_visible_points(const VisibleScene& of, const PixelBox& tile, const std::uint32_t* ids,
-                          std::size_t ids_width, const FrameArrays& to, std::size_t first, std::size_t width) {
+                          std::size_t ids_width, const FrameArrays& to, std::size_t first,
+                          std::size_t width) {
   const glm::ivec2 size = tile.size();
   clear(to.depth, kInfinity, size, first, width);
   for (glm::vec3* const vectors : {to.position, to.normal, to.albedo})

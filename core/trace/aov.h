@@ -22,8 +22,8 @@ struct VisibleScene {
 };
 
 // What each pixel of a tile sees, from the triangles at `ids`, whose lines are `ids_width` apart, to those of
-// the surfaces' arrays that are wanted: from place `first` on, lines `width` apart. `tile`: the view's pixels,
-// no more than a TileGrid's.
+// the surfaces' arrays that are wanted: from place `first` on, lines `width` apart. `tile`: the view's
+// pixels, no more than a TileGrid's.
 void write_visible_points(const VisibleScene& of, const PixelBox& tile, const std::uint32_t* ids,
                           std::size_t ids_width, const FrameArrays& to, std::size_t first, std::size_t width);
 

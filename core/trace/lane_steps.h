@@ -7,12 +7,12 @@
 #include <glm/glm.hpp>
 
 #include "core/parallel/tiles.h"
-#include "pinocchio/scene.h"
-#include "pinocchio/ray_offset.h"
-#include "pinocchio/terminator.h"
 #include "core/trace/map_lanes.h"
 #include "core/trace/ray_queue.h"
 #include "core/trace/shared.h"
+#include "pinocchio/ray_offset.h"
+#include "pinocchio/scene.h"
+#include "pinocchio/terminator.h"
 
 namespace pinocchio {
 

@@ -123,8 +123,14 @@ shared::PhongSurface plain_material(const Material& m) {
 MappedMaterial mapped_material(const Mesh& mesh, const MapPoint& point) {
   const MaterialMaps& maps = *mesh.maps_of(point.triangle);
   const Lookup look(mesh, point.triangle, point.weights);
-  shared::MapValues v{glm::vec3(look.filtered(maps.base_color, true, point)), 1.0f, 1.0f, 1.0f,
-                      glm::vec3(look.filtered(maps.emissive, true, point)), 1.0f, glm::vec3(1.0f), 1.0f};
+  shared::MapValues v{glm::vec3(look.filtered(maps.base_color, true, point)),
+                      1.0f,
+                      1.0f,
+                      1.0f,
+                      glm::vec3(look.filtered(maps.emissive, true, point)),
+                      1.0f,
+                      glm::vec3(1.0f),
+                      1.0f};
   if (maps.vertex_colors) v.base_color *= glm::vec3(look.color());
   v.occlusion = 1.0f + maps.occlusion_strength * (look.filtered(maps.occlusion, false, point).r - 1.0f);
 
@@ -150,8 +156,8 @@ MappedMaterial mapped_material(const Mesh& mesh, const MapPoint& point) {
 bool is_hole(const Mesh& mesh, std::uint32_t triangle, const glm::vec3& weights) {
   const MaterialMaps* const maps = mesh.maps_of(triangle);
   if (!maps || !maps->has_holes()) return false;
-  return shared::is_hole(static_cast<int>(maps->alpha_mode),
-                         alpha_at(*maps, Lookup(mesh, triangle, weights)), maps->alpha_cutoff);
+  return shared::is_hole(static_cast<int>(maps->alpha_mode), alpha_at(*maps, Lookup(mesh, triangle, weights)),
+                         maps->alpha_cutoff);
 }
 
 bool lets_shadow_ray_pass(const Mesh& mesh, std::uint32_t triangle, const glm::vec3& weights,

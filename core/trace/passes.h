@@ -10,8 +10,8 @@
 #include "core/trace/shared.h"
 #include "pinocchio/image.h"
 #include "pinocchio/mask_image.h"
-#include "pinocchio/ray.h"
 #include "pinocchio/progress.h"
+#include "pinocchio/ray.h"
 #include "pinocchio/ray_counts.h"
 #include "pinocchio/scene.h"
 #include "pinocchio/terminator.h"
@@ -31,7 +31,7 @@ struct TraceJob {
   float throughput_cutoff = kThroughputCutoff, light_cutoff = 0.0f;
   float texture_footprint = 1.0f;  // side of what textures are averaged over, pixels; 0: nothing is averaged
   Terminator terminator = kUsualTerminator;
-  glm::vec2 jitter{0.0f};  // View's: tells the samples of a pixel apart where they decide at random
+  glm::vec2 jitter{0.0f};       // View's: tells the samples of a pixel apart where they decide at random
   shared::Sampling sampling{};  // which sample is taken of what is sampled
   // Tiles (TileGrid's) that are not traced where it is not 0; null: all are.
   const std::vector<std::uint8_t>* left_out = nullptr;

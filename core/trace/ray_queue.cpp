@@ -37,8 +37,7 @@ void RayQueue::make_more_room(std::size_t rays, bool cones) {
   larger.make_room(2 * size + rays, cones);
   larger.size = size;
   for (auto columns : {&RayQueue::origin, &RayQueue::direction, &RayQueue::light})
-    for (int axis = 0; axis < 3; ++axis)
-      std::copy_n((this->*columns)[axis], size, (larger.*columns)[axis]);
+    for (int axis = 0; axis < 3; ++axis) std::copy_n((this->*columns)[axis], size, (larger.*columns)[axis]);
   std::copy_n(pixel, size, larger.pixel);
   if (cones && width) std::copy_n(width, size, larger.width);
   *this = std::move(larger);

@@ -7,7 +7,7 @@
 namespace pinocchio {
 namespace {
 
-constexpr unsigned kGrid = 8;                          // cells along an axis
+constexpr unsigned kGrid = 8;                             // cells along an axis
 constexpr std::size_t kKeys = 8 * kGrid * kGrid * kGrid;  // octants times cells
 
 unsigned octant_of(const RayColumns& rays, std::size_t i) {

@@ -8,11 +8,14 @@
 namespace pinocchio::shared {
 
 #define SHARED [[nodiscard]] inline
+// In the order in which they need each other:
+// clang-format off
 #include "shaders/shared/view.glsl"
 #include "shaders/shared/surface.glsl"
 #include "shaders/shared/terminator.glsl"
 #include "shaders/shared/sampling.glsl"
 #include "shaders/shared/sized_light.glsl"
+// clang-format on
 #undef SHARED
 
 }  // namespace pinocchio::shared

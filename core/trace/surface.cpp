@@ -99,7 +99,9 @@ shared::LightParams light_params(const Light& light) {
           light.range,
           light.cos_inner,
           light.cos_outer,
-          directional ? 2.0f * quarter * quarter : rectangle ? 0.0f : light.radius,
+          directional ? 2.0f * quarter * quarter
+          : rectangle ? 0.0f
+                      : light.radius,
           light.edge_u,
           light.edge_v};
 }

@@ -17,16 +17,16 @@ namespace pinocchio {
 // What a ray sees where it meets a triangle, turned to the side that the ray came from.
 struct SurfaceInteraction {
   glm::vec3 p_world;
-  glm::dvec3 p_exact;     // p_world before it was rounded: in the triangle's plane
-  glm::vec3 n_geometric;  // unit, towards the viewer
-  glm::vec3 n_shading;    // unit, on n_geometric's side
-  glm::vec3 to_viewer;    // unit
-  bool leaving;           // the ray was inside: it meets the surface from behind
-  float offset;           // how far off the surface a new ray starts, scene units
-  glm::vec3 n_vertices;   // unit, interpolated: n_shading without normal map
-  glm::vec3 lift;         // up to the curved surface that the vertex normals mean; zero: none
+  glm::dvec3 p_exact;             // p_world before it was rounded: in the triangle's plane
+  glm::vec3 n_geometric;          // unit, towards the viewer
+  glm::vec3 n_shading;            // unit, on n_geometric's side
+  glm::vec3 to_viewer;            // unit
+  bool leaving;                   // the ray was inside: it meets the surface from behind
+  float offset;                   // how far off the surface a new ray starts, scene units
+  glm::vec3 n_vertices;           // unit, interpolated: n_shading without normal map
+  glm::vec3 lift;                 // up to the curved surface that the vertex normals mean; zero: none
   shared::PhongSurface material;  // here: maps applied
-  float alpha;  // the surface's share; the rest is what a ray sees that goes straight on
+  float alpha;                    // the surface's share; the rest is what a ray sees that goes straight on
 };
 
 // The point of triangle `id` that the ray meets, on the triangle to float precision; `offset` is how new rays

@@ -32,12 +32,8 @@ bool any_maps(const Mesh& mesh, bool (MaterialMaps::*is)() const) {
 }  // namespace
 
 SceneArrays SceneArrays::of(const Mesh& mesh) {
-  return {mesh.positions.data(),
-          mesh.normals.data(),
-          mesh.triangles.data(),
-          mesh.triangle_materials.data(),
-          mesh.materials.data(),
-          mesh.maps.empty() ? nullptr : &mesh};
+  return {mesh.positions.data(),          mesh.normals.data(),   mesh.triangles.data(),
+          mesh.triangle_materials.data(), mesh.materials.data(), mesh.maps.empty() ? nullptr : &mesh};
 }
 
 void TilePlan::look(const shared::ViewParams& from) {

@@ -22,7 +22,7 @@ struct TilePlan {
   shared::ViewParams view;  // of the samples
   glm::ivec2 first{0};      // the whole picture's pixel that the first one is
   Footprint seen_footprint, further_footprint;
-  bool has_holes, blends;   // some material's maps do
+  bool has_holes, blends;  // some material's maps do
   std::vector<BounceLight> all_lights, visible_lights;
   std::size_t casting;  // lights
   std::optional<EnvironmentLight> environment;

@@ -31,8 +31,14 @@ class Share {
       : job_(job),
         to_(to),
         images_(images),
-        trace_job_{job.scene,        job.tracer,          job.workers,   {}, job.throughput_cutoff,
-                   job.light_cutoff, job.texture_footprint, job.terminator},
+        trace_job_{job.scene,
+                   job.tracer,
+                   job.workers,
+                   {},
+                   job.throughput_cutoff,
+                   job.light_cutoff,
+                   job.texture_footprint,
+                   job.terminator},
         outputs_(outputs(job, to, images)),
         plan_(trace_job_, outputs_) {}
 
@@ -113,8 +119,8 @@ class Share {
 
   void add_surfaces(const shared::ViewParams& view, std::size_t frame, const PixelBox& tile) {
     const VisibleScene of{*job_.scene.mesh, job_.tracer.steps(), view, job_.texture_footprint > 0.0f};
-    write_visible_points(of, {{0, 0}, tile.size()}, &images_.ids.at(0, 0), kSide, to_,
-                         row_of(frame, tile, 0), static_cast<std::size_t>(job_.size.x));
+    write_visible_points(of, {{0, 0}, tile.size()}, &images_.ids.at(0, 0), kSide, to_, row_of(frame, tile, 0),
+                         static_cast<std::size_t>(job_.size.x));
   }
 
   const FramesJob& job_;

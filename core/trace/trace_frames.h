@@ -28,7 +28,7 @@ struct FramesJob {
   float texture_footprint = 1.0f;  // of a sample, pixels; 0: textures are not averaged
   Terminator terminator = kUsualTerminator;
   PixelFilter filter = PixelFilter::box;
-  shared::Sampling sampling{};  // of the first sample
+  shared::Sampling sampling{};   // of the first sample
   Progress* progress = nullptr;  // told of every tile: a picture is `spp` steps
 };
 

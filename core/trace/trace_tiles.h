@@ -7,10 +7,10 @@
 #include <functional>
 #include <glm/glm.hpp>
 
-#include "pinocchio/image.h"
-#include "pinocchio/mask_image.h"
 #include "core/trace/passes.h"
 #include "core/trace/ray_queue.h"
+#include "pinocchio/image.h"
+#include "pinocchio/mask_image.h"
 
 namespace pinocchio {
 

@@ -1,5 +1,5 @@
-// A window of one's own that hands us its OpenGL context: GLFW opens it, Pinocchio draws frames into textures,
-// and the program shows each as it likes.
+// A window of one's own that hands us its OpenGL context: GLFW opens it, Pinocchio draws frames into
+// textures, and the program shows each as it likes.
 #include <pinocchio/engine.h>
 #include <pinocchio/load.h>
 #define GLFW_INCLUDE_GLEXT
@@ -28,7 +28,8 @@ int main(int argc, char** argv) {
   glfwMakeContextCurrent(window);
   const auto load = [](const char* name) { return glfwGetProcAddress(name); };
   const auto bind_framebuffer = reinterpret_cast<PFNGLBINDFRAMEBUFFERPROC>(load("glBindFramebuffer"));
-  const auto create_framebuffers = reinterpret_cast<PFNGLCREATEFRAMEBUFFERSPROC>(load("glCreateFramebuffers"));
+  const auto create_framebuffers =
+      reinterpret_cast<PFNGLCREATEFRAMEBUFFERSPROC>(load("glCreateFramebuffers"));
   const auto attach = reinterpret_cast<PFNGLNAMEDFRAMEBUFFERTEXTUREPROC>(load("glNamedFramebufferTexture"));
   const auto blit = reinterpret_cast<PFNGLBLITNAMEDFRAMEBUFFERPROC>(load("glBlitNamedFramebuffer"));
 
@@ -44,15 +45,17 @@ int main(int argc, char** argv) {
     GLuint source = 0;
     create_framebuffers(1, &source);
     Renderer renderer(engine, {.frame = [&](Frame& frame) {
-      attach(source, GL_COLOR_ATTACHMENT0, frame.texture_name(), 0);
-      bind_framebuffer(GL_FRAMEBUFFER, 0);
-      blit(source, 0, 0, 0, 800, 600, 0, 600, 800, 0, GL_COLOR_BUFFER_BIT, GL_NEAREST);  // row 0 is on top
-      glfwSwapBuffers(window);
-    }});
+                        attach(source, GL_COLOR_ATTACHMENT0, frame.texture_name(), 0);
+                        bind_framebuffer(GL_FRAMEBUFFER, 0);
+                        blit(source, 0, 0, 0, 800, 600, 0, 600, 800, 0, GL_COLOR_BUFFER_BIT,
+                             GL_NEAREST);  // row 0 is on top
+                        glfwSwapBuffers(window);
+                      }});
     const glm::vec3 home = scene.lights.front().position;
     const int frames = argc > 2 ? std::atoi(argv[2]) : 1 << 30;
     for (int n = 0; n < frames && !glfwWindowShouldClose(window); ++n) {
-      scene.lights.front().position.x = home.x + 2.0f * std::sin(0.05f * static_cast<float>(n));  // copies nothing
+      scene.lights.front().position.x =
+          home.x + 2.0f * std::sin(0.05f * static_cast<float>(n));  // copies nothing
       renderer.submit({scene, tracer, *settings, view});
       glfwPollEvents();
     }

@@ -21,7 +21,8 @@ int main(int argc, char** argv) {
   Image<Ray> to_light(view.size);
   for (std::size_t i = 0; i < hits.pixels().size(); ++i) {
     // A little before the surface, which is not to shade itself.
-    const glm::vec3 point = hits[i].valid() ? rays[i].origin + 0.999f * hits[i].t * rays[i].direction : light.position;
+    const glm::vec3 point =
+        hits[i].valid() ? rays[i].origin + 0.999f * hits[i].t * rays[i].direction : light.position;
     to_light[i] = {point, 1.0f, light.position - point};
   }
   Image<std::uint8_t> blocked(view.size);

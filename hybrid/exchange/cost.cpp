@@ -4,8 +4,8 @@
 #include <utility>
 #include <vector>
 
-#include "core/math/median.h"
 #include "core/base/clock.h"
+#include "core/math/median.h"
 #include "gl/fence.h"
 #include "gl/transfer.h"
 #include "hybrid/exchange/channels.h"

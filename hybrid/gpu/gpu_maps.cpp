@@ -71,15 +71,15 @@ std::vector<glm::vec4> map_texels(const Mesh& mesh, bool dielectric) {
   for (const MaterialMaps& m : mesh.maps) {
     const GltfSurface& s = m.surface;
     const auto use = [&](const TextureUse& u) { return use_texels(mesh, first, u); };
-    append_texels(
-        MapTexels{use(m.base_color), use(m.metallic_roughness), use(m.normal), use(m.occlusion),
-                  use(m.emissive), use(m.alpha), glm::vec4(s.base_color, s.metallic),
-                  glm::vec4(s.emissive, s.roughness), glm::vec4(s.specular_color, s.specular),
-                  glm::vec4(s.ior, s.transmission, flag(s.volume), flag(s.unlit)),
-                  glm::vec4(m.normal_scale, m.occlusion_strength, flag(m.from_gltf),
-                            static_cast<float>(m.alpha_channel)),
-                  glm::vec4(static_cast<float>(m.alpha_mode), m.alpha_factor, m.alpha_cutoff, flag(m.vertex_colors))},
-        all);
+    append_texels(MapTexels{use(m.base_color), use(m.metallic_roughness), use(m.normal), use(m.occlusion),
+                            use(m.emissive), use(m.alpha), glm::vec4(s.base_color, s.metallic),
+                            glm::vec4(s.emissive, s.roughness), glm::vec4(s.specular_color, s.specular),
+                            glm::vec4(s.ior, s.transmission, flag(s.volume), flag(s.unlit)),
+                            glm::vec4(m.normal_scale, m.occlusion_strength, flag(m.from_gltf),
+                                      static_cast<float>(m.alpha_channel)),
+                            glm::vec4(static_cast<float>(m.alpha_mode), m.alpha_factor, m.alpha_cutoff,
+                                      flag(m.vertex_colors))},
+                  all);
     if (dielectric)
       append_texels(DielectricTexels{use(m.specular), use(m.specular_color), use(m.transmission)}, all);
   }
@@ -110,7 +110,8 @@ GpuMaps::GpuMaps(const Mesh& mesh, const GpuMaps* shares_textures) {
   maps_ = buffer_of(map_texels(mesh, dielectric), GL_RGBA32F, sizeof(glm::vec4));
   texels_ = shares_textures ? shares_textures->texels_ : nullptr;
   if (!texels_)
-    texels_ = std::make_shared<const gl::TextureBuffer>(buffer_of(all_texels(mesh), GL_RGBA8, sizeof(glm::u8vec4)));
+    texels_ =
+        std::make_shared<const gl::TextureBuffer>(buffer_of(all_texels(mesh), GL_RGBA8, sizeof(glm::u8vec4)));
   vertex_count_ = static_cast<int>(mesh.positions.size());
   texcoords_ = buffer_of(both_sets(mesh), GL_R32F, sizeof(float));
   if (!mesh.colors.empty()) definitions_.emplace_back("HAS_COLORS");

@@ -13,8 +13,8 @@ namespace pinocchio {
 class Engine;
 class Programs;
 
-// reads: a picture, linear light. Counts its pixels by their light: of every second or third, across and down, where
-// it has more than a million.
+// reads: a picture, linear light. Counts its pixels by their light: of every second or third, across and
+// down, where it has more than a million.
 class HistogramPass {
  public:
   explicit HistogramPass(Engine& engine);

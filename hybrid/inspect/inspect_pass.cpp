@@ -12,14 +12,15 @@ namespace pinocchio {
 namespace {
 
 constexpr std::array<const char*, kBufferViewNames.size()> kDefinitions{
-    "", "SHOW_IDS", "SHOW_NORMALS", "SHOW_MASK", "SHOW_REFLECTION", "SHOW_AGE", "SHOW_DEPTH", "SHOW_POSITION",
-    "SHOW_ALBEDO"};
+    "",         "SHOW_IDS",   "SHOW_NORMALS",  "SHOW_MASK",  "SHOW_REFLECTION",
+    "SHOW_AGE", "SHOW_DEPTH", "SHOW_POSITION", "SHOW_ALBEDO"};
 
 bool is_traced(BufferView view) {
   return view == BufferView::mask || view == BufferView::reflection || view == BufferView::delay;
 }
 
-void send(std::span<const std::byte> bytes, glm::ivec2 texels, const gl::PixelFormat& format, ChannelBuffer& to) {
+void send(std::span<const std::byte> bytes, glm::ivec2 texels, const gl::PixelFormat& format,
+          ChannelBuffer& to) {
   fit(to.texture, texels, format);
   const std::span<std::byte> open = to.up.open(bytes.size());
   std::copy(bytes.begin(), bytes.end(), open.begin());
@@ -70,9 +71,8 @@ std::string missing(BufferView view, int slot, const Settings& s) {
 std::string legend(BufferView view, int slot, const Frame& frame, const ChannelRange& range) {
   const Settings& s = frame.request().settings;
   if (std::string why = missing(view, slot, s); !why.empty()) return why;
-  const std::string where = s.uses_gpu() && s.composite == Processor::cpu
-                                ? "; from the CPU, which has it alone (design 2)"
-                                : "";
+  const std::string where =
+      s.uses_gpu() && s.composite == Processor::cpu ? "; from the CPU, which has it alone (design 2)" : "";
   switch (view) {
     case BufferView::picture:
       return "the finished picture";
@@ -101,17 +101,18 @@ std::string legend(BufferView view, int slot, const Frame& frame, const ChannelR
   return {};
 }
 
-InspectPass::InspectPass(Engine& engine)
-    : engine_(engine), shading_(engine.parts().gpu().programs) {}
+InspectPass::InspectPass(Engine& engine) : engine_(engine), shading_(engine.parts().gpu().programs) {}
 
-const gl::Texture& InspectPass::draw(const Frame& frame, BufferView view, int slot, const ChannelRange& range) {
+const gl::Texture& InspectPass::draw(const Frame& frame, BufferView view, int slot,
+                                     const ChannelRange& range) {
   if (view == BufferView::picture) return frame.texture();
   const FrameSlot& shown = frame.slot();
   const Settings& s = shown.request.settings;
   const FrameSlot* const of = shown.answer_of;
   const bool has_it = missing(view, slot, s).empty() && (!is_traced(view) || of);
   ShadingPasses::Inspected what;
-  if (has_it) what = {kDefinitions[static_cast<std::size_t>(view)], slot, shown.record.age_frames, range.lo, range.hi};
+  if (has_it)
+    what = {kDefinitions[static_cast<std::size_t>(view)], slot, shown.record.age_frames, range.lo, range.hi};
   ShadingPasses::Traced traced;
   std::optional<OlderFrame> older;
   if (has_it && is_traced(view)) {
@@ -129,8 +130,15 @@ ShadingPasses::Inputs InspectPass::inputs_of(const FrameSlot& frame) {
   constexpr int kIdBits = 32;  // as the CPU has them
   send(std::as_bytes(frame.ids.pixels()), frame.ids.size(), id_format(kIdBits).pixel, ids_);
   lights_.update(frame.request.scene);
-  return {*engine_.parts().gpu_mesh(frame.request.scene.mesh), lights_, frame.view, ids_.texture, kIdBits,
-          texture_footprint(frame.request.settings, frame.request.view), {}, frame.request.settings.terminator, frame.request.scene};
+  return {*engine_.parts().gpu_mesh(frame.request.scene.mesh),
+          lights_,
+          frame.view,
+          ids_.texture,
+          kIdBits,
+          texture_footprint(frame.request.settings, frame.request.view),
+          {},
+          frame.request.settings.terminator,
+          frame.request.scene};
 }
 
 ShadingPasses::Traced InspectPass::send_from_cpu(const MaskImage& mask, const Image<glm::vec3>& reflection,

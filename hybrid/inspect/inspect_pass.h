@@ -36,7 +36,8 @@ struct ChannelRange {
 // Why a frame of these settings has nothing to show there, in words; empty: it has. `slot`: of the mask.
 [[nodiscard]] std::string missing(BufferView view, int slot, const Settings& settings);
 // What the colours mean, in words; or why there are none.
-[[nodiscard]] std::string legend(BufferView view, int slot, const Frame& frame, const ChannelRange& range = {});
+[[nodiscard]] std::string legend(BufferView view, int slot, const Frame& frame,
+                                 const ChannelRange& range = {});
 
 // reads: a delivered frame's buffers. writes: one of them as a picture for people.
 class InspectPass {
@@ -44,8 +45,9 @@ class InspectPass {
   explicit InspectPass(Engine& engine);
 
   // To be called while the frame is delivered (FrameSinks::frame). The result has the frame's size,
-  // linear light, to be shown as the picture is (exposure is for `picture` and `reflection` alone; `range` for `depth` and `position`); it is the
-  // frame's own for `picture`, else this object's until the next call. Where `missing` says so, it is grey.
+  // linear light, to be shown as the picture is (exposure is for `picture` and `reflection` alone; `range`
+  // for `depth` and `position`); it is the frame's own for `picture`, else this object's until the next call.
+  // Where `missing` says so, it is grey.
   const gl::Texture& draw(const Frame& frame, BufferView view, int slot, const ChannelRange& range = {});
 
  private:
@@ -60,7 +62,8 @@ class InspectPass {
   ShadingPasses shading_;
   gl::Framebuffer target_;
   GpuLights lights_;  // of a frame that the CPU drew alone, whose ids are sent, too
-  ChannelBuffer ids_{gl::Mapping::each_time}, mask_{gl::Mapping::each_time}, reflection_{gl::Mapping::each_time};
+  ChannelBuffer ids_{gl::Mapping::each_time}, mask_{gl::Mapping::each_time},
+      reflection_{gl::Mapping::each_time};
 };
 
 }  // namespace pinocchio

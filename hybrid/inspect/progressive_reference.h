@@ -58,8 +58,8 @@ class ProgressiveReference {
 
   std::mutex mutex_;  // of wanted_
   std::condition_variable_any wake_;
-  std::shared_ptr<Job> wanted_;                      // newest; null: none
-  std::jthread thread_;                              // last: ends first
+  std::shared_ptr<Job> wanted_;  // newest; null: none
+  std::jthread thread_;          // last: ends first
 };
 
 }  // namespace pinocchio

@@ -17,8 +17,8 @@ void send_to_gpu(FrameSlot& frame);
 // GPU: the picture. `older`: the frame whose mask and reflection are warped to this one, else its own.
 void composite_on_gpu(GpuPasses& gpu, FrameSlot& frame, const FrameSlot* older);
 
-// The CPU's part, on any thread: the tile pass (core/trace/trace_tiles.h) gives what the settings ask for of ids,
-// mask, mirrored light and the picture; what travels is written into the buffers that are open for it.
+// The CPU's part, on any thread: the tile pass (core/trace/trace_tiles.h) gives what the settings ask for of
+// ids, mask, mirrored light and the picture; what travels is written into the buffers that are open for it.
 void trace(Workers& workers, FrameSlot& frame);
 void encode_answer(Workers& workers, FrameSlot& frame);
 

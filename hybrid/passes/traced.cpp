@@ -9,8 +9,8 @@
 namespace pinocchio {
 namespace {
 
-// The phases of a tile are timed on each thread: placed one after the other from where the pass began, each as
-// long as all threads together spent on it, divided by their number.
+// The phases of a tile are timed on each thread: placed one after the other from where the pass began, each
+// as long as all threads together spent on it, divided by their number.
 void note(const TileTimes& times, double begin_s, int threads, FrameRecord& record) {
   const auto place = [&](Stage stage, double seconds) {
     if (seconds <= 0.0) return;
@@ -29,9 +29,19 @@ void note(const TileTimes& times, double begin_s, int threads, FrameRecord& reco
 void run(Workers& workers, FrameSlot& frame, const TileOutputs& outputs, double share) {
   const FrameRequest& r = frame.request;
   if (!r.tracer) throw std::logic_error("settings that trace were given no tree (Engine::prepare)");
-  const TraceJob job{r.scene,        *r.tracer,      workers, frame.view, r.settings.throughput_cutoff,
-                     r.settings.light_cutoff, texture_footprint(r.settings, r.view), r.settings.terminator, r.view.jitter,
-                     sampling_of(r.settings, r.view), r.left_out.get(), frame.progress, share};
+  const TraceJob job{r.scene,
+                     *r.tracer,
+                     workers,
+                     frame.view,
+                     r.settings.throughput_cutoff,
+                     r.settings.light_cutoff,
+                     texture_footprint(r.settings, r.view),
+                     r.settings.terminator,
+                     r.view.jitter,
+                     sampling_of(r.settings, r.view),
+                     r.left_out.get(),
+                     frame.progress,
+                     share};
   const double begin_s = now_s();
   const TileResult result = trace_tiles(job, outputs);
   frame.record.rays += result.rays;
@@ -43,7 +53,8 @@ void run(Workers& workers, FrameSlot& frame, const TileOutputs& outputs, double 
 void trace(Workers& workers, FrameSlot& frame) {
   const Settings& s = frame.request.settings;
   const glm::ivec2 size = frame.size();
-  const bool traces_further = s.reflects() && (s.depth > 0 || s.indirect > 0 || frame.request.scene.environment);
+  const bool traces_further =
+      s.reflects() && (s.depth > 0 || s.indirect > 0 || frame.request.scene.environment);
   bool has_ids = s.visibility == Processor::gpu;
   const auto outputs = [&](int scale) {
     TileOutputs out;
@@ -68,7 +79,8 @@ void trace(Workers& workers, FrameSlot& frame) {
     out.environment_light = true;
     out.reflection = &frame.reflection;
   };
-  if (s.reflects() && !traces_further) frame.reflection = Image<glm::vec3>(scaled_size(size, s.reflection_scale));
+  if (s.reflects() && !traces_further)
+    frame.reflection = Image<glm::vec3>(scaled_size(size, s.reflection_scale));
   const bool needs_ids = !has_ids && (s.mask_scale > 1 || s.reflection_scale > 1);
   const bool apart = s.mask_scale != s.reflection_scale && s.mask_bits > 0 && s.reflects();
   const double share = 1.0 / (1.0 + needs_ids + apart);

@@ -26,8 +26,9 @@ std::string who_draws(const Settings& s) {
            ", for OpenGL is software here; it is not opened (--mode auto)";
   if (!s.uses_gpu()) return "the CPU draws alone; no OpenGL is opened";
   if (!s.traces()) return "the GPU draws alone";
-  return s.composite == Processor::gpu ? "the GPU puts the picture together (design 1)"
-                          : "the GPU finds what is seen, the CPU puts the picture together (design 2)";
+  return s.composite == Processor::gpu
+             ? "the GPU puts the picture together (design 1)"
+             : "the GPU finds what is seen, the CPU puts the picture together (design 2)";
 }
 
 std::string why_primary(const SceneStats& stats, const Settings& s) {
@@ -105,7 +106,8 @@ std::string why_maps(const SceneStats& stats) {
                                            : "alpha is looked up: some triangle has it";
   if (stats.holes) line += "; rays that meet a hole go on behind it";
   if (stats.blends) line += "; what blends sends a ray straight on";
-  if (!stats.holes && !stats.blends) line += "; nothing has holes or blends: rays stop where they meet something";
+  if (!stats.holes && !stats.blends)
+    line += "; nothing has holes or blends: rays stop where they meet something";
   return line;
 }
 

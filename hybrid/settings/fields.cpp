@@ -40,9 +40,15 @@ struct Domain {
   std::span<const std::string_view> choices{};
   double lo = 0.0, hi = 0.0;
 };
-constexpr Domain one_of(std::span<const std::string_view> choices) { return {choices, 0.0, 0.0}; }
-constexpr Domain from_to(double lo, double hi) { return {{}, lo, hi}; }
-constexpr Domain yes_or_no() { return one_of(kFlag); }
+constexpr Domain one_of(std::span<const std::string_view> choices) {
+  return {choices, 0.0, 0.0};
+}
+constexpr Domain from_to(double lo, double hi) {
+  return {{}, lo, hi};
+}
+constexpr Domain yes_or_no() {
+  return one_of(kFlag);
+}
 
 // Reading and writing of one field.
 template <auto M>
@@ -103,23 +109,28 @@ constexpr std::array kTable{
                           "gpu; cpu where a software rasteriser would take longer than the rays",
                           "who finds the triangle that each pixel sees"),
     field<&S::composite>("composite", one_of(kProcessorNames), "gpu", "who puts the picture together"),
-    field<&S::by_machine>("by_machine", yes_or_no(), "false",
-                          "visibility and composite, where they are not given, by the machine: the GPU's where "
-                          "OpenGL is hardware, else the CPU's, and no OpenGL is opened",
-                          kOfMachine),
-    field<&S::exchange>("exchange", one_of(kExchangeNames), "pipelined over several frames, sync for one",
-                        "sync: wait for the CPU; pipelined: its part comes frames later, GPU and CPU work on "
-                        "different frames; reproject: newest raster, the last mask and reflection warped to it"),
+    field<&S::by_machine>(
+        "by_machine", yes_or_no(), "false",
+        "visibility and composite, where they are not given, by the machine: the GPU's where "
+        "OpenGL is hardware, else the CPU's, and no OpenGL is opened",
+        kOfMachine),
+    field<&S::exchange>(
+        "exchange", one_of(kExchangeNames), "pipelined over several frames, sync for one",
+        "sync: wait for the CPU; pipelined: its part comes frames later, GPU and CPU work on "
+        "different frames; reproject: newest raster, the last mask and reflection warped to it"),
     field<&S::spp>("spp", from_to(1, 65536), "1", "jittered samples a pixel, averaged in linear light"),
-    field<&S::max_noise>("max_noise", from_to(0, 1), "0",
-                         "of several samples: a tile of 32x32 pixels takes no more once the standard error of their "
-                         "means, linear, is below it; 0: every pixel takes all"),
-    field<&S::pixel_filter>("pixel_filter", one_of(kPixelFilterNames), "box",
-                            "how a pixel's samples are spread: evenly over it, or over 3 pixels by a window that "
-                            "leaves no stairs"),
-    field<&S::sequence>("sequence", one_of(kSequenceNames), "sobol",
-                        "where samples are, of what is sampled: scrambled Sobol points; one such sequence turned "
-                        "from pixel to pixel, so that noise is fine-grained; or by chance"),
+    field<&S::max_noise>(
+        "max_noise", from_to(0, 1), "0",
+        "of several samples: a tile of 32x32 pixels takes no more once the standard error of their "
+        "means, linear, is below it; 0: every pixel takes all"),
+    field<&S::pixel_filter>(
+        "pixel_filter", one_of(kPixelFilterNames), "box",
+        "how a pixel's samples are spread: evenly over it, or over 3 pixels by a window that "
+        "leaves no stairs"),
+    field<&S::sequence>(
+        "sequence", one_of(kSequenceNames), "sobol",
+        "where samples are, of what is sampled: scrambled Sobol points; one such sequence turned "
+        "from pixel to pixel, so that noise is fine-grained; or by chance"),
     field<&S::seed>("seed", from_to(0, 65535), "0", "another number: other samples"),
     field<&S::depth>("depth", from_to(0, kMostBounces), "8, or as many as the scene's mirrors make use of",
                      "most bounces"),
@@ -150,22 +161,23 @@ constexpr std::array kTable{
                             false, "least_light"),
     field<&S::filter_textures>("filter_textures", yes_or_no(), "true",
                                "average textures over what a pixel, and its mirror images, see of them"),
-    field<&S::indirect>("indirect", from_to(0, kMostBounces), "0",
-                        "most bounces of light from one matt surface to the next, by samples; above 0 there is no "
-                        "ambient light (docs/environment.md)"),
+    field<&S::indirect>(
+        "indirect", from_to(0, kMostBounces), "0",
+        "most bounces of light from one matt surface to the next, by samples; above 0 there is no "
+        "ambient light (docs/environment.md)"),
     field<&S::environment_rotation>("environment_rotation", from_to(-360, 360), "0",
                                     "how far the environment is turned about the upward axis, degrees"),
     field<&S::environment_strength>("environment_strength", from_to(0, 1e6), "1",
                                     "what the environment's light is multiplied with; 0: there is none"),
-    field<&S::terminator>("terminator", one_of(kTerminatorNames), terminator_name(kUsualTerminator),
-                          "where a coarse mesh's shading normals face a light and its facets do not: off: dark; smoothed: "
-                          "light falls to zero there; displaced: shadow rays start on the curved surface; turned-away: so "
-                          "they do on facets that turn away (docs/terminator.md)"),
+    field<&S::terminator>(
+        "terminator", one_of(kTerminatorNames), terminator_name(kUsualTerminator),
+        "where a coarse mesh's shading normals face a light and its facets do not: off: dark; smoothed: "
+        "light falls to zero there; displaced: shadow rays start on the curved surface; turned-away: so "
+        "they do on facets that turn away (docs/terminator.md)"),
     field<&S::reuse>("reuse", yes_or_no(), "true",
                      "draw nothing again for a frame that asks for what the last one did"),
     field<&S::persistent>("persistent", yes_or_no(), "false", "keep transfer buffers mapped", kOfMachine),
-    field<&S::threads>("threads", from_to(0, kMostThreads), "0", "worker threads; 0: one a core",
-                       kOfMachine),
+    field<&S::threads>("threads", from_to(0, kMostThreads), "0", "worker threads; 0: one a core", kOfMachine),
     field<&S::isa>("isa", one_of(kIsaNames), "the widest that the processor has", "SIMD level", kOfMachine),
     field<&S::tree>("tree", one_of(kSplitRuleNames), "sah", "how the BSP tree is split"),
     field<&S::tree_depth>("tree_depth", from_to(0, kMaxTreeDepth), "0",
@@ -219,11 +231,11 @@ const Field* find_field(std::string_view name) {
 Expected<void> set(Settings& settings, std::string_view field, std::string_view text) {
   const Field* const found = find_field(field);
   if (!found)
-    return Unexpected(InputError{{}, 0, "there is no setting '" + std::string(field) + "'",
-                                 "'pinocchio info --settings' lists them"});
+    return Unexpected(InputError{
+        {}, 0, "there is no setting '" + std::string(field) + "'", "'pinocchio info --settings' lists them"});
   if (!found->take(text, settings))
-    return Unexpected(InputError{{}, 0, std::string(found->name) + " is " + std::string(text),
-                                 "it is " + found->domain()});
+    return Unexpected(
+        InputError{{}, 0, std::string(found->name) + " is " + std::string(text), "it is " + found->domain()});
   return {};
 }
 

@@ -63,9 +63,10 @@ Expected<Settings> settings_of(const nlohmann::json& json, const std::string& fi
   }
   for (const std::string name : kFormerNames)
     if (json.contains(name) && !take_former(name, text_of(json[name]), settings))
-      return Unexpected(InputError{file, line_of_field(text, name), name + " is " + json[name].dump(),
-                                   "write visibility and composite, each \"cpu\" or \"gpu\"; --precise is said "
-                                   "on the command line"});
+      return Unexpected(
+          InputError{file, line_of_field(text, name), name + " is " + json[name].dump(),
+                     "write visibility and composite, each \"cpu\" or \"gpu\"; --precise is said "
+                     "on the command line"});
   return settings;
 }
 

@@ -82,8 +82,7 @@ std::string given_up(const Settings& exact, const Settings& s) {
       lost.push_back(std::string("reflections at ") + resolution(s.reflection_scale) + " resolution");
     if (s.depth < exact.depth) lost.push_back("bounces beyond " + std::to_string(s.depth));
     if (bytes_per_pixel(s.reflection) < bytes_per_pixel(exact.reflection))
-      lost.emplace_back("reflections of " + std::to_string(bytes_per_pixel(s.reflection)) +
-                        " bytes a pixel");
+      lost.emplace_back("reflections of " + std::to_string(bytes_per_pixel(s.reflection)) + " bytes a pixel");
   }
   std::string text;
   for (const std::string& one : lost) text += (text.empty() ? "" : ", ") + one;
@@ -104,8 +103,8 @@ std::size_t choose(const std::vector<MeasuredSettings>& front, const Budget& bud
   const auto last = std::find_if_not(front.begin(), front.end(), within_error);
   const std::size_t fastest = last == front.begin() ? 0 : static_cast<std::size_t>(last - front.begin()) - 1;
   if (!budget.frame_ms) return fastest;
-  const auto first =
-      std::find_if(front.begin(), front.end(), [&](const MeasuredSettings& one) { return keeps(one, budget); });
+  const auto first = std::find_if(front.begin(), front.end(),
+                                  [&](const MeasuredSettings& one) { return keeps(one, budget); });
   return first == front.end() ? fastest : static_cast<std::size_t>(first - front.begin());
 }
 

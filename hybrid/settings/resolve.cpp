@@ -24,7 +24,8 @@ std::size_t most_ids(int id_bits) {
 }
 
 Expected<void> check(const Settings& s, const SceneStats& stats) {
-  if (const Rule* const rule = broken_rule(s)) return refused(std::string(rule->what), std::string(rule->remedy));
+  if (const Rule* const rule = broken_rule(s))
+    return refused(std::string(rule->what), std::string(rule->remedy));
   if (s.uses_gpu() && stats.triangles >= most_ids(s.id_bits))
     return refused("id_bits " + std::to_string(s.id_bits) + " cannot name the scene's " +
                        std::to_string(stats.triangles) + " triangles",
@@ -60,7 +61,8 @@ void choose_processors(const Circumstances& c, Settings& s) {
 Expected<Settings> resolve(const Settings& settings, const SceneStats& stats, const Circumstances& c) {
   if (stats.casting_lights > kMaxCastingLights)
     return refused("the scene has " + std::to_string(stats.casting_lights) +
-                       " lights that cast shadows, the shadow mask holds " + std::to_string(kMaxCastingLights),
+                       " lights that cast shadows, the shadow mask holds " +
+                       std::to_string(kMaxCastingLights),
                    "let some not cast (extras.pinocchio.castsShadow, or --light x,y,z,intensity,nocast)");
   Settings s = settings;
   s.id_bits.fill(stats.triangles < kMost16BitIds ? 16 : 32);
@@ -69,8 +71,8 @@ Expected<Settings> resolve(const Settings& settings, const SceneStats& stats, co
   choose_processors(c, s);
   // All lights together stay below half a step.
   const bool needs_bits = c.keeps_mask || s.mask_bits == 0;
-  s.light_cutoff.fill(
-      needs_bits ? 0.0f : kThroughputCutoff / static_cast<float>(std::max(stats.casting_lights, 1)));
+  s.light_cutoff.fill(needs_bits ? 0.0f
+                                 : kThroughputCutoff / static_cast<float>(std::max(stats.casting_lights, 1)));
   s.tiles.fill(s.composite == Processor::gpu && s.reflects());
   const double pixels = static_cast<double>(c.size.x) * static_cast<double>(c.size.y);
   const bool faster_by_rays = static_cast<double>(stats.triangles) > kTrianglesPerPixelForRays * pixels;

@@ -15,8 +15,8 @@ struct Circumstances {
   bool keeps_mask = true;     // the mask itself is wanted: every bit of it is asked for, seen or not
 };
 
-// How much faster the CPU alone draws than hybrid where OpenGL is software, 800x600 (docs/measurements.md, "Who
-// draws"): the same on every scene and size measured, so that by_machine asks for nothing else.
+// How much faster the CPU alone draws than hybrid where OpenGL is software, 800x600 (docs/measurements.md,
+// "Who draws"): the same on every scene and size measured, so that by_machine asks for nothing else.
 inline constexpr const char* kGainOverSoftwareGl = "1.5 to 4 times as fast at 800x600";
 
 // Fills in what nobody set: the least that draws the scene exactly (to half a step of an 8-bit picture). An

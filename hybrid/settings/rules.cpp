@@ -80,8 +80,8 @@ std::span<const Preset> presets() {
 }
 
 bool apply_preset(std::string_view option, std::string_view value, Settings& settings) {
-  const auto* const found = std::ranges::find_if(
-      kPresets, [&](const Preset& p) { return p.option == option && p.value == value; });
+  const auto* const found =
+      std::ranges::find_if(kPresets, [&](const Preset& p) { return p.option == option && p.value == value; });
   if (found == kPresets.end()) return false;
   found->apply(settings);
   return true;

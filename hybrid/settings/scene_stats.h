@@ -13,8 +13,8 @@ struct SceneStats {
   std::size_t triangles = 0;
   Bounds bounds{};  // world space
   int lights = 0;
-  int casting_lights = 0;           // of those that reach something
-  int idle_lights = 0;              // that reach nothing
+  int casting_lights = 0;  // of those that reach something
+  int idle_lights = 0;     // that reach nothing
   bool environment = false;
   bool mirrors = false;             // some triangle's material reflects, transmits or blends
   double mirror_share = 0.0;        // of the scene's surface that reflects or transmits

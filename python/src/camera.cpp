@@ -13,16 +13,19 @@ float reach_from(const glm::vec3& eye) {
   return std::max(1.0f, std::max({std::abs(eye.x), std::abs(eye.y), std::abs(eye.z)}));
 }
 
-Camera camera_of(const glm::vec3& eye, const glm::vec3& target, const glm::vec3& up, float fov, std::string name) {
+Camera camera_of(const glm::vec3& eye, const glm::vec3& target, const glm::vec3& up, float fov,
+                 std::string name) {
   if (eye == target) throw Error("the camera's eye is its target; move one of them");
-  if (!(fov > 0.0f && fov < 180.0f)) throw Error("fov is " + std::to_string(fov) + "; it is degrees, within 0 and 180");
+  if (!(fov > 0.0f && fov < 180.0f))
+    throw Error("fov is " + std::to_string(fov) + "; it is degrees, within 0 and 180");
   return {std::move(name), eye, target, up, fov};
 }
 
 // A camera-to-world matrix. OpenCV's camera looks along +z, y down; OpenGL's along -z, y up.
 Camera camera_at(const Matrix& pose, const std::string& convention, float fov) {
   if (convention != "opencv" && convention != "opengl")
-    throw Error("convention is '" + convention + "'; it is 'opencv' (z forward, y down) or 'opengl' (y up, looks along -z)");
+    throw Error("convention is '" + convention +
+                "'; it is 'opencv' (z forward, y down) or 'opengl' (y up, looks along -z)");
   const glm::mat4 m = matrix_of(pose);
   const float sign = convention == "opencv" ? 1.0f : -1.0f;
   const glm::vec3 eye(m[3]), forward = sign * glm::normalize(glm::vec3(m[2]));
@@ -51,31 +54,37 @@ void bind_camera(nb::module_& module) {
              const std::string& name) { new (self) Camera(camera_of(eye, target, up, fov, name)); },
           "eye"_a, "target"_a, "up"_a = glm::vec3(0, 1, 0), "fov"_a = 45.0f, "name"_a = "",
           "Looks from `eye` at `target`. fov: the vertical field of view, degrees.")
-      .def_static("from_pose", &camera_at, "pose"_a, "convention"_a = "opencv", "fov"_a = 45.0f,
-                  "From a 4x4 camera-to-world matrix. convention: 'opencv' (z forward, y down) or 'opengl' (looks\n"
-                  "along -z, y up). fov: vertical, degrees.")
-      .def_static("from_intrinsics", &camera_with_matrix, "size"_a, "fx"_a, "fy"_a, "cx"_a, "cy"_a,
-                  "pose"_a = nb::none(), "convention"_a = "opencv",
-                  "From OpenCV's camera matrix, in pixels of a picture of `size` (width, height): what lies at\n"
-                  "(x, y, z) of the camera (x right, y down, z forward) is seen at (fx x/z + cx, fy y/z + cy), where\n"
-                  "(0, 0) is the centre of the top left pixel. So depth becomes a point by\n"
-                  "x = (u - cx) / fx * depth, y = (v - cy) / fy * depth, z = depth.\n"
-                  "pose: 4x4, camera to world; without it the camera is at the origin and looks along +z.")
-      .def("intrinsics",
-           [](const Camera& camera, const glm::ivec2& size) {
-             const Intrinsics k = intrinsics_of(camera, size);
-             return nb::make_tuple(k.fx, k.fy, k.cx, k.cy);
-           },
-           "size"_a, "(fx, fy, cx, cy) of a picture of that size, as from_intrinsics takes them.")
+      .def_static(
+          "from_pose", &camera_at, "pose"_a, "convention"_a = "opencv", "fov"_a = 45.0f,
+          "From a 4x4 camera-to-world matrix. convention: 'opencv' (z forward, y down) or 'opengl' (looks\n"
+          "along -z, y up). fov: vertical, degrees.")
+      .def_static(
+          "from_intrinsics", &camera_with_matrix, "size"_a, "fx"_a, "fy"_a, "cx"_a, "cy"_a,
+          "pose"_a = nb::none(), "convention"_a = "opencv",
+          "From OpenCV's camera matrix, in pixels of a picture of `size` (width, height): what lies at\n"
+          "(x, y, z) of the camera (x right, y down, z forward) is seen at (fx x/z + cx, fy y/z + cy), "
+          "where\n"
+          "(0, 0) is the centre of the top left pixel. So depth becomes a point by\n"
+          "x = (u - cx) / fx * depth, y = (v - cy) / fy * depth, z = depth.\n"
+          "pose: 4x4, camera to world; without it the camera is at the origin and looks along +z.")
+      .def(
+          "intrinsics",
+          [](const Camera& camera, const glm::ivec2& size) {
+            const Intrinsics k = intrinsics_of(camera, size);
+            return nb::make_tuple(k.fx, k.fy, k.cx, k.cy);
+          },
+          "size"_a, "(fx, fy, cx, cy) of a picture of that size, as from_intrinsics takes them.")
       .def_rw("name", &Camera::name)
       .def_rw("eye", &Camera::eye)
       .def_rw("target", &Camera::target)
       .def_rw("up", &Camera::up)
       .def_rw("fov", &Camera::fov_deg, "Vertical field of view, degrees.")
       .def_rw("lens_radius", &Camera::lens_radius, "Depth of field by samples (spp); 0: a pinhole.")
-      .def_rw("focus_distance", &Camera::focus_distance, "Where all is sharp, along the view axis; 0: the target's.")
+      .def_rw("focus_distance", &Camera::focus_distance,
+              "Where all is sharp, along the view axis; 0: the target's.")
       .def("__copy__", [](const Camera& camera) { return camera; })
-      .def("__deepcopy__", [](const Camera& camera, nb::handle) { return camera; }, "memo"_a);
+      .def(
+          "__deepcopy__", [](const Camera& camera, nb::handle) { return camera; }, "memo"_a);
 }
 
 }  // namespace pinocchio::python

@@ -1,9 +1,9 @@
 #include <pinocchio/compare_pictures.h>
 #include <pinocchio/exr.h>
 
+#include <nanobind/stl/filesystem.h>
 #include <array>
 #include <cmath>
-#include <nanobind/stl/filesystem.h>
 
 #include "python/src/interrupt.h"
 #include "python/src/parts.h"
@@ -36,7 +36,8 @@ Image<glm::vec3> image_of(const Picture& array) {
   if (array.shape(2) < 3 || array.shape(2) > 4) throw Error("a picture is an array (height, width, 3 or 4)");
   if (array.dtype() == nb::dtype<std::uint8_t>()) return image_of<std::uint8_t>(array, linear_of);
   if (array.dtype() == nb::dtype<float>()) return image_of<float>(array, [](float v) { return v; });
-  if (array.dtype() == nb::dtype<double>()) return image_of<double>(array, [](double v) { return static_cast<float>(v); });
+  if (array.dtype() == nb::dtype<double>())
+    return image_of<double>(array, [](double v) { return static_cast<float>(v); });
   throw Error("a picture is of float32 or float64 (linear) or uint8 (sRGB)");
 }
 
@@ -45,7 +46,8 @@ Image<glm::vec3> image_of_exr(const std::filesystem::path& path) {
   Image<glm::vec3> image(exr.data_window.size());
   for (int c = 0; c < 3; ++c) {
     const ExrChannel* const channel = exr.find(std::array{"R", "G", "B"}[static_cast<std::size_t>(c)]);
-    if (!channel || channel->type == ExrChannel::Type::uint) throw Error(path.string() + ": has no colours R, G and B");
+    if (!channel || channel->type == ExrChannel::Type::uint)
+      throw Error(path.string() + ": has no colours R, G and B");
     for (std::size_t i = 0; i < channel->values.size(); ++i) image[i][c] = channel->values[i];
   }
   return image;
@@ -73,9 +75,9 @@ nb::dict compare(const nb::object& a, const nb::object& b, float pixels_per_degr
   result["psnr"] = found->psnr_db;
   result["max"] = found->max;
   result["flip"] = found->flip;
-  result["flip_errors"] = view_of(found->flip_errors.pixels().data(),
-                                  {static_cast<std::size_t>(picture.height()), static_cast<std::size_t>(picture.width())},
-                                  owner);
+  result["flip_errors"] =
+      view_of(found->flip_errors.pixels().data(),
+              {static_cast<std::size_t>(picture.height()), static_cast<std::size_t>(picture.width())}, owner);
   return result;
 }
 
@@ -83,7 +85,8 @@ nb::dict channels_of(const std::filesystem::path& path) {
   auto* const exr = new ExrFile(value_or_throw(without_gil([&](Progress*) { return read_exr(path); })));
   const nb::capsule owner(exr, [](void* p) noexcept { delete static_cast<ExrFile*>(p); });
   const auto size = exr->data_window.size();
-  const std::initializer_list<std::size_t> shape{static_cast<std::size_t>(size.y), static_cast<std::size_t>(size.x)};
+  const std::initializer_list<std::size_t> shape{static_cast<std::size_t>(size.y),
+                                                 static_cast<std::size_t>(size.x)};
   nb::dict channels;
   for (ExrChannel& c : exr->channels) {
     if (c.type == ExrChannel::Type::uint)
@@ -97,10 +100,12 @@ nb::dict channels_of(const std::filesystem::path& path) {
 }  // namespace
 
 void bind_compare(nb::module_& module) {
-  module.def("compare", &compare, "a"_a, "b"_a, "pixels_per_degree"_a = 67.0f,
-             "How far picture `a` is from its reference `b`: 'rmse', 'relmse', 'psnr' (dB), 'max', 'flip' (mean\n"
-             "LDR-FLIP) and 'flip_errors' (h, w). Each is a Result, an EXR file, or an array (h, w, 3 or 4): float is\n"
-             "linear, uint8 sRGB.");
+  module.def(
+      "compare", &compare, "a"_a, "b"_a, "pixels_per_degree"_a = 67.0f,
+      "How far picture `a` is from its reference `b`: 'rmse', 'relmse', 'psnr' (dB), 'max', 'flip' (mean\n"
+      "LDR-FLIP) and 'flip_errors' (h, w). Each is a Result, an EXR file, or an array (h, w, 3 or 4): float "
+      "is\n"
+      "linear, uint8 sRGB.");
   module.def("read_exr", &channels_of, "path"_a,
              "Channels of an EXR by name, each (h, w): float32, or uint32 of integers.");
 }

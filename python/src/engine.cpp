@@ -2,11 +2,11 @@
 #include <pinocchio/engine.h>
 #include <unistd.h>
 
+#include <nanobind/stl/variant.h>
 #include <chrono>
 #include <cstdlib>
 #include <cstring>
 #include <mutex>
-#include <nanobind/stl/variant.h>
 #include <thread>
 
 #include "python/src/interrupt.h"
@@ -28,7 +28,8 @@ Camera camera_of(const Scene& scene, const CameraChoice& choice) {
   if (const int* index = std::get_if<int>(&choice)) {
     if (*index >= 0 && static_cast<std::size_t>(*index) < scene.cameras.size())
       return scene.cameras[static_cast<std::size_t>(*index)];
-    throw Error("the scene has no camera " + std::to_string(*index) + ", there are " + std::to_string(scene.cameras.size()));
+    throw Error("the scene has no camera " + std::to_string(*index) + ", there are " +
+                std::to_string(scene.cameras.size()));
   }
   return scene.cameras.empty() ? camera_for_whole_scene(scene) : scene.cameras.front();
 }
@@ -42,11 +43,13 @@ Scene lit(const Scene& scene, const Camera& camera) {
 
 void check_size(const glm::ivec2& size) {
   if (size.x < 1 || size.y < 1 || size.x > 65536 || size.y > 65536)
-    throw Error("size is " + std::to_string(size.x) + "x" + std::to_string(size.y) + "; it is (width, height) in pixels");
+    throw Error("size is " + std::to_string(size.x) + "x" + std::to_string(size.y) +
+                "; it is (width, height) in pixels");
 }
 
 int threads_wanted(int given) {
-  if (given < 0 || given > kMostThreads) throw Error("threads is from 0 (one a core) to " + std::to_string(kMostThreads));
+  if (given < 0 || given > kMostThreads)
+    throw Error("threads is from 0 (one a core) to " + std::to_string(kMostThreads));
   const char* const said = std::getenv("PINOCCHIO_THREADS");
   return given > 0 || !said ? given : std::max(0, std::min(std::atoi(said), kMostThreads));
 }
@@ -62,15 +65,21 @@ struct Output {
 };
 
 const Output kOutputs[] = {
-    {"color", nb::dtype<float>(), 4, 4, [](FrameArrays& to, void* p) { to.color = static_cast<glm::vec4*>(p); }},
+    {"color", nb::dtype<float>(), 4, 4,
+     [](FrameArrays& to, void* p) { to.color = static_cast<glm::vec4*>(p); }},
     {"depth", nb::dtype<float>(), 4, 1, [](FrameArrays& to, void* p) { to.depth = static_cast<float*>(p); }},
-    {"position", nb::dtype<float>(), 4, 3, [](FrameArrays& to, void* p) { to.position = static_cast<glm::vec3*>(p); }},
-    {"normal", nb::dtype<float>(), 4, 3, [](FrameArrays& to, void* p) { to.normal = static_cast<glm::vec3*>(p); }},
-    {"albedo", nb::dtype<float>(), 4, 3, [](FrameArrays& to, void* p) { to.albedo = static_cast<glm::vec3*>(p); }},
-    {"ids", nb::dtype<std::uint32_t>(), 4, 1, [](FrameArrays& to, void* p) { to.ids = static_cast<std::uint32_t*>(p); }},
+    {"position", nb::dtype<float>(), 4, 3,
+     [](FrameArrays& to, void* p) { to.position = static_cast<glm::vec3*>(p); }},
+    {"normal", nb::dtype<float>(), 4, 3,
+     [](FrameArrays& to, void* p) { to.normal = static_cast<glm::vec3*>(p); }},
+    {"albedo", nb::dtype<float>(), 4, 3,
+     [](FrameArrays& to, void* p) { to.albedo = static_cast<glm::vec3*>(p); }},
+    {"ids", nb::dtype<std::uint32_t>(), 4, 1,
+     [](FrameArrays& to, void* p) { to.ids = static_cast<std::uint32_t*>(p); }},
     {"objects", nb::dtype<std::uint32_t>(), 4, 1,
      [](FrameArrays& to, void* p) { to.objects = static_cast<std::uint32_t*>(p); }},
-    {"mask", nb::dtype<std::uint8_t>(), 1, 1, [](FrameArrays& to, void* p) { to.mask = static_cast<std::uint8_t*>(p); }},
+    {"mask", nb::dtype<std::uint8_t>(), 1, 1,
+     [](FrameArrays& to, void* p) { to.mask = static_cast<std::uint8_t*>(p); }},
     {"reflection", nb::dtype<float>(), 4, 3,
      [](FrameArrays& to, void* p) { to.reflection = static_cast<glm::vec3*>(p); }},
 };
@@ -99,13 +108,16 @@ nb::object new_array(const Output& output, const std::vector<std::size_t>& shape
   return nb::cast(nb::ndarray<nb::numpy>(data, shape.size(), shape.data(), owner, nullptr, output.type));
 }
 
-nb::object given_array(const Output& output, const std::vector<std::size_t>& shape, nb::handle given, FrameArrays& to) {
+nb::object given_array(const Output& output, const std::vector<std::size_t>& shape, nb::handle given,
+                       FrameArrays& to) {
   const auto array = nb::cast<nb::ndarray<>>(given, false);
   bool fits = array.dtype() == output.type && array.ndim() == shape.size() && array.is_valid();
   std::int64_t stride = 1;
   for (std::size_t i = shape.size(); fits && i-- > 0; stride *= static_cast<std::int64_t>(shape[i]))
     fits = array.shape(i) == shape[i] && (shape[i] == 1 || array.stride(i) == stride);
-  if (!fits) throw Error(std::string("out['") + output.name + "'] is not of the shape and type of this output; leave it out");
+  if (!fits)
+    throw Error(std::string("out['") + output.name +
+                "'] is not of the shape and type of this output; leave it out");
   output.point(to, array.data());
   return nb::borrow(given);
 }
@@ -124,7 +136,8 @@ class PyEngine {
     return threads_ > 0 ? threads_ : static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
   }
 
-  Result render(const Scene& scene, const CameraChoice& choice, const glm::ivec2& size, const nb::kwargs& arguments) {
+  Result render(const Scene& scene, const CameraChoice& choice, const glm::ivec2& size,
+                const nb::kwargs& arguments) {
     check_process();
     check_size(size);
     const Settings settings = settings_of(arguments, threads_);
@@ -133,7 +146,8 @@ class PyEngine {
     return without_gil([&](Progress* progress) {
       const std::lock_guard lock(mutex_);
       const auto begin = std::chrono::steady_clock::now();
-      Result result{value_or_throw(engine_->render(drawn, {.camera = camera, .size = size}, settings, progress))};
+      Result result{
+          value_or_throw(engine_->render(drawn, {.camera = camera, .size = size}, settings, progress))};
       result.ms = std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - begin).count();
       if (scene.lights.empty()) result.frame.scene.lights = drawn.lights;
       return result;
@@ -153,8 +167,9 @@ class PyEngine {
     for (const std::string& name : outputs) {
       const Output& output = output_named(name);
       const std::vector<std::size_t> shape = shape_of(output, cameras.size(), size);
-      result[name.c_str()] = out && out->contains(name.c_str()) ? given_array(output, shape, (*out)[name.c_str()], to)
-                                                                : new_array(output, shape, to);
+      result[name.c_str()] = out && out->contains(name.c_str())
+                                 ? given_array(output, shape, (*out)[name.c_str()], to)
+                                 : new_array(output, shape, to);
     }
     if (cameras.empty()) return result;
     const Scene drawn = lit(scene, cameras.front());
@@ -181,27 +196,35 @@ class PyEngine {
 
 void bind_engine(nb::module_& module) {
   static const std::string kRender =
-      "One picture, a Result. camera: a Camera, the name or number of one of the scene's, or None: its first, else one\n"
-      "that has the whole scene in view. size: (width, height). A scene without lights gets one above the camera.\n"
+      "One picture, a Result. camera: a Camera, the name or number of one of the scene's, or None: its "
+      "first, else one\n"
+      "that has the whole scene in view. size: (width, height). A scene without lights gets one above the "
+      "camera.\n"
       "By default the CPU draws alone (mode='raytrace'): no OpenGL is needed. Settings:\n\n" +
       settings_help();
-  nb::class_<PyEngine>(module, "Engine",
-                       "What pictures are drawn with: worker threads, the last scene's tree and, where settings ask for it,\n"
-                       "an OpenGL context. It may be used from several threads, which take turns, but with OpenGL from the\n"
-                       "first alone. Make one a process, after a fork.")
+  nb::class_<PyEngine>(
+      module, "Engine",
+      "What pictures are drawn with: worker threads, the last scene's tree and, where settings ask for it,\n"
+      "an OpenGL context. It may be used from several threads, which take turns, but with OpenGL from the\n"
+      "first alone. Make one a process, after a fork.")
       .def(nb::init<int, const std::string&, const std::string&>(), "threads"_a = 0, "backend"_a = "auto",
            "device"_a = "",
-           "threads: worker threads; 0: PINOCCHIO_THREADS of the environment, else one for each core that the process\n"
-           "may use. Of several processes on one machine, give each its share. backend, device: of OpenGL, as the\n"
+           "threads: worker threads; 0: PINOCCHIO_THREADS of the environment, else one for each core that "
+           "the process\n"
+           "may use. Of several processes on one machine, give each its share. backend, device: of OpenGL, "
+           "as the\n"
            "program's options.")
       .def_prop_ro("threads", &PyEngine::threads, "How many threads draw.")
       .def("render", &PyEngine::render, "scene"_a, "camera"_a = nb::none(), "size"_a = glm::ivec2(800, 600),
            "settings"_a, kRender.c_str())
       .def("render_many", &PyEngine::render_many, "scene"_a, "cameras"_a, "size"_a = glm::ivec2(800, 600),
            "outputs"_a = std::vector<std::string>{"color"}, "out"_a = nb::none(), "settings"_a,
-           "A picture from each camera: {name: array (n, height, width, ...)} of the `outputs`: color, depth, position,\n"
-           "normal, albedo, ids, objects, mask, reflection, each as in Result. What is not asked for is not computed.\n"
-           "out: arrays of an earlier call, filled again. Small pictures keep all threads busy. Settings as for render.");
+           "A picture from each camera: {name: array (n, height, width, ...)} of the `outputs`: color, "
+           "depth, position,\n"
+           "normal, albedo, ids, objects, mask, reflection, each as in Result. What is not asked for is not "
+           "computed.\n"
+           "out: arrays of an earlier call, filled again. Small pictures keep all threads busy. Settings as "
+           "for render.");
 }
 
 }  // namespace pinocchio::python

@@ -10,8 +10,8 @@
 
 namespace pinocchio::python {
 
-// While it lives, SIGINT cancels `progress`; then Python handles it. On threads other than Python's main one it does
-// nothing, as signals are that one's. Made and ended with the GIL held.
+// While it lives, SIGINT cancels `progress`; then Python handles it. On threads other than Python's main one
+// it does nothing, as signals are that one's. Made and ended with the GIL held.
 class Interrupt {
  public:
   explicit Interrupt(Progress& progress);

@@ -3,7 +3,8 @@
 NB_MODULE(_core, module) {
   using namespace pinocchio;
   using namespace pinocchio::python;
-  module.doc() = "Pictures of 3D scenes as NumPy arrays: exact shadows and mirrors, with no GPU and no display.";
+  module.doc() =
+      "Pictures of 3D scenes as NumPy arrays: exact shadows and mirrors, with no GPU and no display.";
   module.attr("__version__") = PINOCCHIO_VERSION;
   const nb::exception<Error> error(module, "Error", PyExc_RuntimeError);
   nb::register_exception_translator(

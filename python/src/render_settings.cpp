@@ -47,8 +47,8 @@ std::string settings_help() {
   for (const Preset& p : presets())
     text += std::string(p.option) + "='" + std::string(p.value) + "': " + std::string(p.help) + "\n";
   for (const Field& f : settings_table())
-    text += std::string(f.name) + ": " + std::string(f.help) + " (" + f.domain() + "; where it is left out: " +
-            std::string(f.unset) + ")\n";
+    text += std::string(f.name) + ": " + std::string(f.help) + " (" + f.domain() +
+            "; where it is left out: " + std::string(f.unset) + ")\n";
   return text;
 }
 

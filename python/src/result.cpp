@@ -11,14 +11,16 @@ namespace {
 template <class T>
 auto picture(Image<T>& image, nb::handle owner) {
   return view_of<T>(image.pixels().data(),
-                    {static_cast<std::size_t>(image.height()), static_cast<std::size_t>(image.width())}, owner);
+                    {static_cast<std::size_t>(image.height()), static_cast<std::size_t>(image.width())},
+                    owner);
 }
 
 template <int N>
 auto picture(Image<glm::vec<N, float, glm::defaultp>>& image, nb::handle owner) {
-  return view_of<float>(&image.pixels().data()->x,
-                        {static_cast<std::size_t>(image.height()), static_cast<std::size_t>(image.width()), std::size_t{N}},
-                        owner);
+  return view_of<float>(
+      &image.pixels().data()->x,
+      {static_cast<std::size_t>(image.height()), static_cast<std::size_t>(image.width()), std::size_t{N}},
+      owner);
 }
 
 SurfaceImages& surfaces(Result& result) {
@@ -30,7 +32,8 @@ nb::dict record(const Result& result) {
   const FrameRecord& r = result.frame.record;
   nb::dict stages, buffers, bytes, rays, all;
   for (std::size_t i = 0; i < kStageNames.size(); ++i)
-    if (r.stages[i].begin_s > 0.0 && r.stages[i].ms() > 0.0) stages[nb::str(kStageNames[i].data(), kStageNames[i].size())] = r.stages[i].ms();
+    if (r.stages[i].begin_s > 0.0 && r.stages[i].ms() > 0.0)
+      stages[nb::str(kStageNames[i].data(), kStageNames[i].size())] = r.stages[i].ms();
   for (std::size_t i = 0; i < kChannelNames.size(); ++i)
     if (r.bytes[i] > 0) buffers[nb::str(kChannelNames[i].data(), kChannelNames[i].size())] = r.bytes[i];
   bytes["gpu_to_cpu"] = r.bytes_to_cpu();
@@ -50,7 +53,8 @@ nb::dict record(const Result& result) {
 
 auto reflection(nb::handle self) {
   Result& result = nb::cast<Result&>(self);
-  if (result.frame.reflection.empty()) result.frame.reflection = Image<glm::vec3>(result.frame.ids.size(), glm::vec3(0.0f));
+  if (result.frame.reflection.empty())
+    result.frame.reflection = Image<glm::vec3>(result.frame.ids.size(), glm::vec3(0.0f));
   return picture(result.frame.reflection, self);
 }
 
@@ -85,33 +89,43 @@ auto of_surfaces(nb::handle self) {
 }  // namespace
 
 void bind_result(nb::module_& module) {
-  nb::class_<Result>(module, "Result",
-                     "A finished picture. Arrays are (height, width, ...), row 0 on top; they are views, made when\n"
-                     "first asked for.")
-      .def_prop_ro("color", &of_frame<&FrameResult::color>,
-                   "(h, w, 4) float32: linear RGBA, mean of the samples. A: how much of the pixel is covered.")
+  nb::class_<Result>(
+      module, "Result",
+      "A finished picture. Arrays are (height, width, ...), row 0 on top; they are views, made when\n"
+      "first asked for.")
+      .def_prop_ro(
+          "color", &of_frame<&FrameResult::color>,
+          "(h, w, 4) float32: linear RGBA, mean of the samples. A: how much of the pixel is covered.")
       .def_prop_ro("depth", &of_surfaces<&SurfaceImages::z_eye>,
                    "(h, w) float32: distance along the view axis, scene units; inf where nothing is hit.")
-      .def_prop_ro("position", &of_surfaces<&SurfaceImages::p_world>, "(h, w, 3) float32, world; 0 where nothing is hit.")
+      .def_prop_ro("position", &of_surfaces<&SurfaceImages::p_world>,
+                   "(h, w, 3) float32, world; 0 where nothing is hit.")
       .def_prop_ro("normal", &of_surfaces<&SurfaceImages::n_shading>,
                    "(h, w, 3) float32: world shading normal, unit; 0 where nothing is hit.")
-      .def_prop_ro("albedo", &of_surfaces<&SurfaceImages::albedo>, "(h, w, 3) float32: diffuse colour, linear.")
-      .def_prop_ro("ids", &of_frame<&FrameResult::ids>, "(h, w) uint32: the triangle; 0xffffffff where nothing is hit.")
+      .def_prop_ro("albedo", &of_surfaces<&SurfaceImages::albedo>,
+                   "(h, w, 3) float32: diffuse colour, linear.")
+      .def_prop_ro("ids", &of_frame<&FrameResult::ids>,
+                   "(h, w) uint32: the triangle; 0xffffffff where nothing is hit.")
       .def_prop_ro("objects", &objects,
-                   "(h, w) uint32: the node (Scene.nodes) that the triangle moves with; 0xffffffff where nothing is hit.")
-      .def_prop_ro("mask", &mask, "(h, w) uint8: bit i is set where the light in mask slot i reaches the point.")
+                   "(h, w) uint32: the node (Scene.nodes) that the triangle moves with; 0xffffffff where "
+                   "nothing is hit.")
+      .def_prop_ro("mask", &mask,
+                   "(h, w) uint8: bit i is set where the light in mask slot i reaches the point.")
       .def_prop_ro("reflection", &reflection, "(h, w, 3) float32: mirrored and refracted light, linear.")
       .def_prop_ro("record", &record, "What it cost: 'ms', 'stages' (ms), 'bytes', 'rays'.")
       .def_prop_ro("camera", [](const Result& r) { return r.frame.view.camera; })
-      .def("write_exr",
-           [](const Result& r, const std::filesystem::path& path, const std::string& aov, bool deterministic) {
-             ExrOptions options{.layers = aov};
-             if (!deterministic) options.render_s = 1e-3 * r.ms;
-             without_gil([&](Progress* progress) { return write_exr(path, r.frame, options, progress), true; });
-           },
-           "path"_a, "aov"_a = "all", "deterministic"_a = false,
-           "The picture with its layers, as the program writes it. aov: 'all', 'none' or some of Z, P, N, Albedo, id,\n"
-           "shadow, reflection, with commas between. deterministic: leaves out how long it took.");
+      .def(
+          "write_exr",
+          [](const Result& r, const std::filesystem::path& path, const std::string& aov, bool deterministic) {
+            ExrOptions options{.layers = aov};
+            if (!deterministic) options.render_s = 1e-3 * r.ms;
+            without_gil(
+                [&](Progress* progress) { return write_exr(path, r.frame, options, progress), true; });
+          },
+          "path"_a, "aov"_a = "all", "deterministic"_a = false,
+          "The picture with its layers, as the program writes it. aov: 'all', 'none' or some of Z, P, N, "
+          "Albedo, id,\n"
+          "shadow, reflection, with commas between. deterministic: leaves out how long it took.");
 }
 
 }  // namespace pinocchio::python

@@ -2,11 +2,11 @@
 #include <pinocchio/load.h>
 #include <pinocchio/scene.h>
 
+#include <nanobind/stl/filesystem.h>
+#include <nanobind/stl/variant.h>
 #include <algorithm>
 #include <cmath>
 #include <map>
-#include <nanobind/stl/filesystem.h>
-#include <nanobind/stl/variant.h>
 
 #include "python/src/interrupt.h"
 #include "python/src/parts.h"
@@ -36,7 +36,8 @@ Texture texture_of(const Texels& texels) {
 Light light_of(std::optional<glm::vec3> position, std::optional<glm::vec3> direction, const glm::vec3& color,
                float intensity, const std::string& falloff, float range, float inner_cone, float outer_cone,
                bool casts_shadow, const std::string& name, float radius, float angle) {
-  if (!position && !direction) throw Error("a light has a position (a point), a direction (a sun) or both (a spot)");
+  if (!position && !direction)
+    throw Error("a light has a position (a point), a direction (a sun) or both (a spot)");
   if (falloff != "none" && falloff != "inverse_square")
     throw Error("falloff is '" + falloff + "'; it is 'none' or 'inverse_square'");
   if (direction && glm::length(*direction) == 0.0f) throw Error("a light's direction is not zero");
@@ -90,8 +91,8 @@ void add_materials(const std::vector<TexturedMaterial>& materials, MeshData& mes
 
 void check_rows(std::size_t rows, std::size_t wanted, const char* what, const char* of) {
   if (rows != wanted)
-    throw Error(std::string(what) + " has " + std::to_string(rows) + " rows; it is one a " + of + ", there are " +
-                std::to_string(wanted));
+    throw Error(std::string(what) + " has " + std::to_string(rows) + " rows; it is one a " + of +
+                ", there are " + std::to_string(wanted));
 }
 
 Scene scene_of(const Floats3& vertices, const Words3& triangles, const std::optional<Floats3>& normals,
@@ -132,14 +133,16 @@ Scene scene_of(const Floats3& vertices, const Words3& triangles, const std::opti
 
 Scene load(const std::filesystem::path& path) {
   Warnings warnings;
-  Scene scene = value_or_throw(without_gil([&](Progress* progress) { return load_scene(path, &warnings, progress); }));
+  Scene scene =
+      value_or_throw(without_gil([&](Progress* progress) { return load_scene(path, &warnings, progress); }));
   for (const Warning& warning : warnings)
     if (PyErr_WarnEx(PyExc_UserWarning, warning.message().c_str(), 1) != 0) throw nb::python_error();
   return scene;
 }
 
 int node_of(const Scene& scene, const std::variant<int, std::string>& name) {
-  if (!scene.nodes) throw Error("the scene has no nodes to move; load a glTF file, or put scenes together (assemble)");
+  if (!scene.nodes)
+    throw Error("the scene has no nodes to move; load a glTF file, or put scenes together (assemble)");
   if (std::holds_alternative<int>(name)) return std::get<int>(name);
   const int found = scene.nodes->find(std::get<std::string>(name));
   if (found >= 0) return found;
@@ -192,11 +195,13 @@ void bind_material(nb::module_& module) {
           },
           "diffuse"_a = glm::vec3(0.8f), "specular"_a = glm::vec3(0.0f), "shininess"_a = 1.0f,
           "reflectance"_a = glm::vec3(0.0f), "transmittance"_a = glm::vec3(0.0f), "ior"_a = 1.0f,
-          "fresnel"_a = false, "emission"_a = glm::vec3(0.0f), "ambient"_a = nb::none(), "texture"_a = nb::none(),
-          "name"_a = "", "gloss"_a = 0.0f,
+          "fresnel"_a = false, "emission"_a = glm::vec3(0.0f), "ambient"_a = nb::none(),
+          "texture"_a = nb::none(), "name"_a = "", "gloss"_a = 0.0f,
           "reflectance: the weight of the mirrored ray; with `fresnel`, its value at normal incidence.\n"
-          "transmittance: of the refracted ray, bent by `ior`. texture: (height, width, 3 or 4) uint8, sRGB; its\n"
-          "colour multiplies diffuse and ambient. ambient: as diffuse, where it is left out. gloss: exponent\n"
+          "transmittance: of the refracted ray, bent by `ior`. texture: (height, width, 3 or 4) uint8, sRGB; "
+          "its\n"
+          "colour multiplies diffuse and ambient. ambient: as diffuse, where it is left out. gloss: "
+          "exponent\n"
           "of the lobe that mirrored rays are spread over by samples (spp); 0: sharp.");
 }
 
@@ -205,23 +210,29 @@ void bind_light(nb::module_& module) {
       .def(
           "__init__",
           [](Light* self, std::optional<glm::vec3> position, std::optional<glm::vec3> direction,
-             const glm::vec3& color, float intensity, const std::string& falloff, float range, float inner_cone,
-             float outer_cone, bool casts_shadow, const std::string& name, float radius, float angle) {
-            new (self) Light(light_of(position, direction, color, intensity, falloff, range, inner_cone, outer_cone,
-                                      casts_shadow, name, radius, angle));
+             const glm::vec3& color, float intensity, const std::string& falloff, float range,
+             float inner_cone, float outer_cone, bool casts_shadow, const std::string& name, float radius,
+             float angle) {
+            new (self) Light(light_of(position, direction, color, intensity, falloff, range, inner_cone,
+                                      outer_cone, casts_shadow, name, radius, angle));
           },
-          "position"_a = nb::none(), "direction"_a = nb::none(), "color"_a = glm::vec3(1.0f), "intensity"_a = 1.0f,
-          "falloff"_a = "none", "range"_a = std::numeric_limits<float>::infinity(), "inner_cone"_a = 0.0f,
-          "outer_cone"_a = 45.0f, "casts_shadow"_a = true, "name"_a = "", "radius"_a = 0.0f, "angle"_a = 0.0f,
-          "With a position: a point light. With a direction, along which the light travels: a sun. With both: a\n"
-          "spot, whose cones are degrees off its direction. falloff: 'none' (the same strength at any distance) or\n"
-          "'inverse_square'. At most eight lights of a scene cast shadows. radius: of the ball that shines; angle: diameter\n"
+          "position"_a = nb::none(), "direction"_a = nb::none(), "color"_a = glm::vec3(1.0f),
+          "intensity"_a = 1.0f, "falloff"_a = "none", "range"_a = std::numeric_limits<float>::infinity(),
+          "inner_cone"_a = 0.0f, "outer_cone"_a = 45.0f, "casts_shadow"_a = true, "name"_a = "",
+          "radius"_a = 0.0f, "angle"_a = 0.0f,
+          "With a position: a point light. With a direction, along which the light travels: a sun. With "
+          "both: a\n"
+          "spot, whose cones are degrees off its direction. falloff: 'none' (the same strength at any "
+          "distance) or\n"
+          "'inverse_square'. At most eight lights of a scene cast shadows. radius: of the ball that shines; "
+          "angle: diameter\n"
           "of a sun's disc, degrees; with either, shadows are soft by samples (spp).")
       .def_prop_ro("kind", &kind_of)
       .def_rw("name", &Light::name)
       .def_rw("position", &Light::position)
-      .def_prop_rw("direction", [](const Light& l) { return l.direction; },
-                   [](Light& l, const glm::vec3& d) { l.direction = glm::normalize(d); })
+      .def_prop_rw(
+          "direction", [](const Light& l) { return l.direction; },
+          [](Light& l, const glm::vec3& d) { l.direction = glm::normalize(d); })
       .def_rw("color", &Light::color)
       .def_rw("intensity", &Light::intensity)
       .def_rw("casts_shadow", &Light::casts_shadow)
@@ -237,8 +248,9 @@ void bind_scene(nb::module_& module) {
   nb::class_<Scene>(module, "Scene", "What is drawn: a mesh, which copies share, with lights and cameras.")
       .def(
           "__init__",
-          [](Scene* self, const Floats3& vertices, const Words3& triangles, const std::optional<Floats3>& normals,
-             const std::optional<Floats2>& uvs, const std::optional<Floats3>& colors, const nb::object& materials,
+          [](Scene* self, const Floats3& vertices, const Words3& triangles,
+             const std::optional<Floats3>& normals, const std::optional<Floats2>& uvs,
+             const std::optional<Floats3>& colors, const nb::object& materials,
              const std::optional<Words>& triangle_materials, const std::vector<Light>& lights,
              const glm::vec3& ambient) {
             std::vector<TexturedMaterial> all;
@@ -246,15 +258,18 @@ void bind_scene(nb::module_& module) {
               all.push_back(nb::cast<TexturedMaterial>(materials));
             else if (!materials.is_none())
               for (const nb::handle m : materials) all.push_back(nb::cast<TexturedMaterial>(m));
-            new (self) Scene(scene_of(vertices, triangles, normals, uvs, colors, all, triangle_materials, lights, ambient));
+            new (self) Scene(scene_of(vertices, triangles, normals, uvs, colors, all, triangle_materials,
+                                      lights, ambient));
           },
-          "vertices"_a, "triangles"_a, "normals"_a = nb::none(), "uvs"_a = nb::none(), "colors"_a = nb::none(),
-          "materials"_a = nb::none(), "triangle_materials"_a = nb::none(), "lights"_a = std::vector<Light>(),
-          "ambient"_a = glm::vec3(0.1f),
-          "vertices: (n, 3), any unit; triangles: (m, 3) indices. normals: (n, 3), without them triangles are flat.\n"
+          "vertices"_a, "triangles"_a, "normals"_a = nb::none(), "uvs"_a = nb::none(),
+          "colors"_a = nb::none(), "materials"_a = nb::none(), "triangle_materials"_a = nb::none(),
+          "lights"_a = std::vector<Light>(), "ambient"_a = glm::vec3(0.1f),
+          "vertices: (n, 3), any unit; triangles: (m, 3) indices. normals: (n, 3), without them triangles "
+          "are flat.\n"
           "uvs: (n, 2), (0, 0) is the texture's first texel. colors: (n, 3) of the vertices, or\n"
           "(m, 3) of the triangles, linear; as many as both are the vertices'. materials: a\n"
-          "Material, or several, of which triangle_materials (m) says which triangle has which. A scene without\n"
+          "Material, or several, of which triangle_materials (m) says which triangle has which. A scene "
+          "without\n"
           "lights is drawn with one above the camera.")
       .def_rw("lights", &Scene::lights, "A copy: set it anew after changing one.")
       .def_rw("cameras", &Scene::cameras, "A copy, likewise.")
@@ -262,50 +277,61 @@ void bind_scene(nb::module_& module) {
       .def_ro("source", &Scene::source, "The file that it was loaded from.")
       .def_prop_ro("bounds",
                    [](const Scene& s) { return nb::make_tuple(s.mesh->bounds().lo, s.mesh->bounds().hi); })
-      .def_prop_ro("vertices",
-                   [](nb::handle self) {
-                     const Mesh& mesh = *nb::cast<const Scene&>(self).mesh;
-                     return view_of<const float>(&mesh.positions.data()->x, {mesh.positions.size(), 3}, self);
-                   },
-                   "(n, 3) float32, in world space; no copy.")
-      .def_prop_ro("normals",
-                   [](nb::handle self) {
-                     const Mesh& mesh = *nb::cast<const Scene&>(self).mesh;
-                     return view_of<const float>(&mesh.normals.data()->x, {mesh.normals.size(), 3}, self);
-                   },
-                   "(n, 3) float32; 0 where the triangle's own counts. No copy.")
-      .def_prop_ro("triangles",
-                   [](nb::handle self) {
-                     const Mesh& mesh = *nb::cast<const Scene&>(self).mesh;
-                     return view_of<const std::uint32_t>(&mesh.triangles.data()->x, {mesh.triangles.size(), 3}, self);
-                   },
-                   "(m, 3) uint32; a row's number is the triangle's id. No copy.")
-      .def_prop_ro("nodes",
-                   [](const Scene& s) {
-                     std::vector<std::string> names;
-                     if (s.nodes)
-                       for (const Node& node : s.nodes->nodes) names.push_back(node.name);
-                     return names;
-                   },
-                   "Names of what can be moved; the place in the list is the number in `objects`.")
+      .def_prop_ro(
+          "vertices",
+          [](nb::handle self) {
+            const Mesh& mesh = *nb::cast<const Scene&>(self).mesh;
+            return view_of<const float>(&mesh.positions.data()->x, {mesh.positions.size(), 3}, self);
+          },
+          "(n, 3) float32, in world space; no copy.")
+      .def_prop_ro(
+          "normals",
+          [](nb::handle self) {
+            const Mesh& mesh = *nb::cast<const Scene&>(self).mesh;
+            return view_of<const float>(&mesh.normals.data()->x, {mesh.normals.size(), 3}, self);
+          },
+          "(n, 3) float32; 0 where the triangle's own counts. No copy.")
+      .def_prop_ro(
+          "triangles",
+          [](nb::handle self) {
+            const Mesh& mesh = *nb::cast<const Scene&>(self).mesh;
+            return view_of<const std::uint32_t>(&mesh.triangles.data()->x, {mesh.triangles.size(), 3}, self);
+          },
+          "(m, 3) uint32; a row's number is the triangle's id. No copy.")
+      .def_prop_ro(
+          "nodes",
+          [](const Scene& s) {
+            std::vector<std::string> names;
+            if (s.nodes)
+              for (const Node& node : s.nodes->nodes) names.push_back(node.name);
+            return names;
+          },
+          "Names of what can be moved; the place in the list is the number in `objects`.")
       .def("camera", &camera_for_whole_scene, "A camera that has the whole scene in view.")
       .def("posed", &with_transforms, "transforms"_a,
-           "The scene with nodes moved, and all below them: {name or number: 4x4 matrix, to its parent}. Materials,\n"
+           "The scene with nodes moved, and all below them: {name or number: 4x4 matrix, to its parent}. "
+           "Materials,\n"
            "triangles and their ids stay; light and camera follow the node that they hang on.")
-      .def_prop_ro("duration", [](const Scene& s) { return duration_s(s); },
-                   "Seconds that its animation takes; 0 where it has none.")
-      .def("at_time",
-           [](const Scene& scene, double seconds) {
-             return value_or_throw(without_gil([&](Progress*) { return at_time(scene, seconds); }));
-           },
-           "seconds"_a,
-           "The scene as its animation has it then: nodes, skins and morph targets, with lights and cameras that hang\n"
-           "on them. Before its first key and behind its last one it stands still. Triangles and their ids stay.")
+      .def_prop_ro(
+          "duration", [](const Scene& s) { return duration_s(s); },
+          "Seconds that its animation takes; 0 where it has none.")
+      .def(
+          "at_time",
+          [](const Scene& scene, double seconds) {
+            return value_or_throw(without_gil([&](Progress*) { return at_time(scene, seconds); }));
+          },
+          "seconds"_a,
+          "The scene as its animation has it then: nodes, skins and morph targets, with lights and cameras "
+          "that hang\n"
+          "on them. Before its first key and behind its last one it stands still. Triangles and their ids "
+          "stay.")
       .def("__copy__", [](const Scene& scene) { return scene; });
-  module.def("load_scene", &load, "path"_a,
-             "Reads a scene by its extension, as the program does. What is left out of the file is a warning.");
+  module.def(
+      "load_scene", &load, "path"_a,
+      "Reads a scene by its extension, as the program does. What is left out of the file is a warning.");
   module.def("assemble", &assemble, "parts"_a,
-             "One scene of several: {name: scene} or {name: (scene, 4x4 matrix)}. Each becomes a node that can be moved\n"
+             "One scene of several: {name: scene} or {name: (scene, 4x4 matrix)}. Each becomes a node that "
+             "can be moved\n"
              "(Scene.posed), with its own nodes below it.");
 }
 

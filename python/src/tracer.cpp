@@ -43,7 +43,8 @@ Rays rays_of(const Floats3& origins, const Floats3& directions, const std::optio
     throw Error("there are " + std::to_string(origins.shape(0)) + " origins and " + std::to_string(n) +
                 " directions; give as many, or one origin");
   if (t_max && t_max->shape(0) != n) throw Error("t_max is one number a ray");
-  return {origins.data(), directions.data(), t_max ? t_max->data() : nullptr, n, origins.shape(0) == n ? 3u : 0u};
+  return {origins.data(), directions.data(), t_max ? t_max->data() : nullptr, n,
+          origins.shape(0) == n ? 3u : 0u};
 }
 
 // Calls body(first, last) for chunks of [0, n), on as many threads as are worth it.
@@ -79,7 +80,8 @@ class ArrayTracer {
       : threads_(threads > 0 ? threads : static_cast<int>(std::max(1u, std::thread::hardware_concurrency()))),
         tracer_(std::move(mesh), BuildOptions{.threads = threads_, .progress = progress}) {}
 
-  nb::tuple closest_hits(const Floats3& origins, const Floats3& directions, const std::optional<Floats>& t_max) const {
+  nb::tuple closest_hits(const Floats3& origins, const Floats3& directions,
+                         const std::optional<Floats>& t_max) const {
     const Rays rays = rays_of(origins, directions, t_max);
     auto* const t = new float[rays.count];
     const nb::capsule owns_t(t, [](void* p) noexcept { delete[] static_cast<float*>(p); });
@@ -91,7 +93,8 @@ class ArrayTracer {
         static thread_local std::vector<Hit> hits(kChunk);
         for (std::size_t i = first; i < last; ++i) some[i - first] = rays.ray(i);
         tracer_.closest_hits(std::span(some).first(last - first), std::span(hits).first(last - first));
-        for (std::size_t i = first; i < last; ++i) t[i] = hits[i - first].t, ids[i] = hits[i - first].triangle;
+        for (std::size_t i = first; i < last; ++i)
+          t[i] = hits[i - first].t, ids[i] = hits[i - first].triangle;
       });
       return true;
     });
@@ -131,8 +134,10 @@ void bind_tracer(nb::module_& module) {
           "vertices"_a, "triangles"_a, "threads"_a = 0,
           "vertices: (n, 3); triangles: (m, 3) indices. threads: 0 is one a core.")
       .def("closest_hits", &ArrayTracer::closest_hits, "origins"_a, "directions"_a, "t_max"_a = nb::none(),
-           "(t, triangle) of each ray: t float32, in lengths of the ray's direction, inf where nothing is hit; triangle\n"
-           "uint32, 0xffffffff likewise. origins: (n, 3), or (1, 3) for all rays; directions: (n, 3), of any length;\n"
+           "(t, triangle) of each ray: t float32, in lengths of the ray's direction, inf where nothing is "
+           "hit; triangle\n"
+           "uint32, 0xffffffff likewise. origins: (n, 3), or (1, 3) for all rays; directions: (n, 3), of any "
+           "length;\n"
            "t_max: (n).")
       .def("occluded", &ArrayTracer::occluded, "origins"_a, "directions"_a, "t_max"_a = nb::none(),
            "(n) bool: whether anything lies within each ray; arguments as for closest_hits.");

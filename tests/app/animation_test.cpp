@@ -25,7 +25,8 @@ class AnimatedTest : public ProgramTest {
     const ExrFile left = exr(a), right = exr(b);
     bool equal = left.channels.size() == right.channels.size();
     for (std::size_t i = 0; equal && i < left.channels.size(); ++i)
-      equal = left.channels[i].values == right.channels[i].values && left.channels[i].uints == right.channels[i].uints;
+      equal = left.channels[i].values == right.channels[i].values &&
+              left.channels[i].uints == right.channels[i].uints;
     EXPECT_EQ(equal, same) << a << " " << b;
   }
 };
@@ -46,7 +47,9 @@ TEST_F(AnimatedTest, AFrameAloneIsTheSameFrameOfARange) {
 }
 
 TEST_F(AnimatedTest, TheHeaderSaysWhenItIs) {
-  const auto time_of = [&](const std::string& name) { return std::get<float>(exr(name).attributes["pinocchio.time"]); };
+  const auto time_of = [&](const std::string& name) {
+    return std::get<float>(exr(name).attributes["pinocchio.time"]);
+  };
   render("--mode raytrace --quiet --fps 8 --frames 0-12x12 -o f####.exr");
   EXPECT_FLOAT_EQ(time_of("f0012.exr"), 1.5f);
   EXPECT_EQ(std::get<ExrRational>(exr("f0012.exr").attributes["framesPerSecond"]), (ExrRational{8, 1}));
@@ -61,7 +64,9 @@ TEST_F(AnimatedTest, TheHeaderSaysWhenItIs) {
 
 TEST_F(AnimatedTest, ExistingFramesAreThoseOfTheSameTime) {
   render("--mode raytrace --quiet --frames 0-3 -o s####.exr");
-  const auto skipped = [&](const std::string& options) { return render("--mode raytrace --skip-existing --frames 0-3 -o s####.exr " + options).out; };
+  const auto skipped = [&](const std::string& options) {
+    return render("--mode raytrace --skip-existing --frames 0-3 -o s####.exr " + options).out;
+  };
   EXPECT_NE(skipped("").find("4 frames were there already"), std::string::npos);
   EXPECT_EQ(skipped("--fps 12").find("were there already"), std::string::npos);
   EXPECT_EQ(skipped("--time 0.5 --fps 12").find("4 frames"), std::string::npos);
@@ -78,12 +83,14 @@ TEST_F(AnimatedTest, InfoTellsWhatMoves) {
 }
 
 TEST_F(AnimatedTest, MeasuresWhatMoves) {
-  const CommandResult result = run("measure" + scene("windmill.glb") + "--size 80x60 --mode raytrace --frames 0-7 --quiet --stats-json m.json");
+  const CommandResult result = run("measure" + scene("windmill.glb") +
+                                   "--size 80x60 --mode raytrace --frames 0-7 --quiet --stats-json m.json");
   EXPECT_EQ(result.exit_code, 0) << result.err;
 }
 
 TEST_F(AnimatedTest, ValuesThatCannotBeAreOneLine) {
-  for (const std::string options : {"--time nan", "--time -1", "--time inf", "--time soon", "--fps 0", "--fps -3", "--fps 1.5", "--fps nan"}) {
+  for (const std::string options : {"--time nan", "--time -1", "--time inf", "--time soon", "--fps 0",
+                                    "--fps -3", "--fps 1.5", "--fps nan"}) {
     const CommandResult result = run("render" + scene("windmill.glb") + options + " -o x.exr");
     EXPECT_EQ(result.exit_code, 2) << options;
     EXPECT_EQ(std::count(result.err.begin(), result.err.end(), '\n'), 1) << result.err;

@@ -1,5 +1,5 @@
-#include <nlohmann/json.hpp>
 #include <map>
+#include <nlohmann/json.hpp>
 #include <set>
 #include <sstream>
 
@@ -36,9 +36,9 @@ TEST_F(ChartTest, WritesFiguresPicturesAndAPageOfCharts) {
       run("chart" + scene("two-lights") + kSmall + "--only design,exchange,reflection-format,mask-scale,spp");
   ASSERT_EQ(result.exit_code, 0) << result.err;
   for (const char* file :
-       {"index.html", "explore.html", "results.csv", "pictures/reference-centre-3.exr", "error-flip.svg", "error-rmse.svg", "error-relmse.svg",
-        "error-bytes.svg", "axis-design.svg", "pictures/design-raster-flip.png",
-        "pictures/reference-centre.png", "pictures/reference-area.png"})
+       {"index.html", "explore.html", "results.csv", "pictures/reference-centre-3.exr", "error-flip.svg",
+        "error-rmse.svg", "error-relmse.svg", "error-bytes.svg", "axis-design.svg",
+        "pictures/design-raster-flip.png", "pictures/reference-centre.png", "pictures/reference-area.png"})
     EXPECT_TRUE(exists(std::string("d/") + file)) << file;
   EXPECT_EQ(values_of("exchange"),
             (std::set<std::string>{"1 sync", "1 pipelined", "1 reproject", "2 sync", "2 pipelined"}));

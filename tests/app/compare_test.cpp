@@ -117,7 +117,8 @@ TEST_F(CompareVerbTest, FoldersPairByNameAndTellOfEach) {
   EXPECT_NEAR(json["overall"]["rmse"]["worst"].get<double>(), 0.05, 1e-3);
   EXPECT_NEAR(json["overall"]["rmse"]["mean"].get<double>(), 0.025, 1e-3);
   EXPECT_EQ(json["failures"], 0);
-  const CommandResult table = run("compare new golden --heatmap maps --junit report.xml --max-error rmse=0.01");
+  const CommandResult table =
+      run("compare new golden --heatmap maps --junit report.xml --max-error rmse=0.01");
   EXPECT_EQ(table.exit_code, 5);
   EXPECT_NE(table.out.find("worst"), std::string::npos);
   EXPECT_NE(table.err.find("new/sub/two.exr: rmse 0.0"), std::string::npos) << table.err;

@@ -39,12 +39,15 @@ TEST_F(ErrorsTest, Scenes) {
 }
 
 TEST_F(ErrorsTest, CameraPaths) {
-  const std::string render = "render" + scene("cornell") + "--size 8x8 --mode raytrace -o x#.exr --path p.json";
+  const std::string render =
+      "render" + scene("cornell") + "--size 8x8 --mode raytrace -o x#.exr --path p.json";
   const auto with = [&](const std::string& key, const std::string& words) {
-    write("p.json", "{\"keyframes\": [{\"frame\": 0, \"eye\": [0, 1, 3], \"target\": [0, 1, 0]}, {" + key + "}]}");
+    write("p.json",
+          "{\"keyframes\": [{\"frame\": 0, \"eye\": [0, 1, 3], \"target\": [0, 1, 0]}, {" + key + "}]}");
     expect_error(render, 2, words);
   };
-  with(R"("frame": 3000000000, "eye": [0, 1, 2], "target": [0, 1, 0])", "key frame 1: frame is a whole number");
+  with(R"("frame": 3000000000, "eye": [0, 1, 2], "target": [0, 1, 0])",
+       "key frame 1: frame is a whole number");
   with(R"("frame": 1, "eye": [0, 3.5e38, 2], "target": [0, 1, 0])", "key frame 1: eye is [x, y, z]");
   with(R"("frame": 1, "eye": [0, 1e999, 2], "target": [0, 1, 0])", "too large");
   with(R"("frame": 1, "eye": [0, 1, 0], "target": [0, 1, 0])", "same point");

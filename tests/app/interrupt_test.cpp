@@ -1,7 +1,7 @@
 // A signal ends every verb within a second, wherever it is; a second one ends it at once. Nothing half stays.
-#include <csignal>
 #include <sys/wait.h>
 #include <unistd.h>
+#include <csignal>
 
 #include <chrono>
 #include <thread>
@@ -30,7 +30,8 @@ class InterruptTest : public ProgramTest {
     pointers.push_back(nullptr);
     const pid_t child = fork();
     if (child == 0) {
-      if (chdir(folder_.c_str()) != 0 || !freopen("scratch/err", "w", stderr) || !freopen("/dev/null", "w", stdout))
+      if (chdir(folder_.c_str()) != 0 || !freopen("scratch/err", "w", stderr) ||
+          !freopen("/dev/null", "w", stdout))
         _exit(126);
       execv(words.front().c_str(), pointers.data());
       _exit(127);
@@ -55,7 +56,8 @@ class InterruptTest : public ProgramTest {
     return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, now_s() - since_s};
   }
 
-  void expect_ends_soon(const std::vector<std::string>& arguments, double after_s, int signal = SIGINT) const {
+  void expect_ends_soon(const std::vector<std::string>& arguments, double after_s,
+                        int signal = SIGINT) const {
     const pid_t child = start(arguments);
     std::this_thread::sleep_for(std::chrono::duration<double>(kStart_s + after_s));
     expect_ends_soon(child, arguments, signal);
@@ -86,15 +88,16 @@ class InterruptTest : public ProgramTest {
 
 TEST_F(InterruptTest, InsideASample) {
   for (const int signal : {SIGINT, SIGTERM, SIGHUP})
-    expect_ends_soon({"render", speedboat(), "--mode", "raytrace", "--size", "4096x4096", "-o", "x.exr"}, 0.6, signal);
+    expect_ends_soon({"render", speedboat(), "--mode", "raytrace", "--size", "4096x4096", "-o", "x.exr"}, 0.6,
+                     signal);
   EXPECT_FALSE(exists("x.exr"));
 }
 
 // A software driver rasterises it for seconds and looks at nothing of ours meanwhile.
 TEST_F(InterruptTest, InsideADriver) {
   for (const double after_s : {0.8, 1.6, 2.4})
-    expect_ends_soon({"render", speedboat(), "--visibility", "gpu", "--composite", "gpu", "--size", "4096x4096",
-                      "-o", "x.exr"},
+    expect_ends_soon({"render", speedboat(), "--visibility", "gpu", "--composite", "gpu", "--size",
+                      "4096x4096", "-o", "x.exr"},
                      after_s);
   EXPECT_FALSE(exists("x.exr"));
 }
@@ -105,13 +108,15 @@ TEST_F(InterruptTest, BetweenSamples) {
 }
 
 TEST_F(InterruptTest, ThePrecisePicture) {
-  expect_ends_soon({"render", speedboat(), "--mode", "raytrace", "--precise", "--spp", "64", "-o", "x.exr"}, 0.6);
+  expect_ends_soon({"render", speedboat(), "--mode", "raytrace", "--precise", "--spp", "64", "-o", "x.exr"},
+                   0.6);
 }
 
 TEST_F(InterruptTest, WhatWasFinishedIsKept) {
   const pid_t child =
       start({"render", speedboat(), "--turntable", "100000", "--size", "64x48", "-o", "f####.exr"});
-  for (int i = 0; i < 1000 && !exists("f0003.exr"); ++i) std::this_thread::sleep_for(std::chrono::milliseconds(10));
+  for (int i = 0; i < 1000 && !exists("f0003.exr"); ++i)
+    std::this_thread::sleep_for(std::chrono::milliseconds(10));
   const double begin_s = now_s();
   kill(child, SIGTERM);
   const End end = wait(child, begin_s);
@@ -122,10 +127,11 @@ TEST_F(InterruptTest, WhatWasFinishedIsKept) {
 }
 
 TEST_F(InterruptTest, GenerateReadAndBuild) {
-  expect_ends_soon({"generate", "forest", "--triangles", "20000000", "-o", "x.gltf"}, 0.3);   // making it
+  expect_ends_soon({"generate", "forest", "--triangles", "20000000", "-o", "x.gltf"}, 0.3);  // making it
   const std::vector<std::string> written{"generate", "forest", "--triangles", "6000000", "-o", "x.gltf"};
   const pid_t writes = start(written);
-  for (int i = 0; i < 20000 && part_files() == 0; ++i) std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  for (int i = 0; i < 20000 && part_files() == 0; ++i)
+    std::this_thread::sleep_for(std::chrono::milliseconds(1));
   expect_ends_soon(writes, written);
   EXPECT_FALSE(exists("x.gltf"));
   ASSERT_EQ(run("generate forest --triangles 1500000 -o forest.glb").exit_code, 0);

@@ -29,30 +29,52 @@ const Rooms kMaySee{{"core", {"shaders"}},
 // Who of the program may see the laboratory.
 const std::set<std::string> kLaboratory{"bench", "scenes"}, kLaboratoryVerbs{"chart.cpp", "generate.cpp"};
 const Rooms kMaySeeInBench{{"chart", {}}, {"rays", {}}, {"stability", {}}};
-const Rooms kMaySeeInCore{
-    {"base", {}},
-    {"math", {}},
-    {"simd", {}},
-    {"parallel", {"base", "math"}},
-    {"image", {"base", "math", "parallel"}},
-    {"compare", {"base", "math", "image", "parallel"}},
-    {"scene", {"base", "math", "image", "parallel"}},
-    {"bsp", {"base", "math", "parallel", "scene"}},
-    {"trace", {"base", "math", "image", "scene", "bsp", "simd", "parallel"}},
-    {"reference", {"base", "math", "image", "scene", "parallel", "trace"}},
-    {"output", {"base", "math", "image", "scene", "parallel", "trace"}}};
+const Rooms kMaySeeInCore{{"base", {}},
+                          {"math", {}},
+                          {"simd", {}},
+                          {"parallel", {"base", "math"}},
+                          {"image", {"base", "math", "parallel"}},
+                          {"compare", {"base", "math", "image", "parallel"}},
+                          {"scene", {"base", "math", "image", "parallel"}},
+                          {"bsp", {"base", "math", "parallel", "scene"}},
+                          {"trace", {"base", "math", "image", "scene", "bsp", "simd", "parallel"}},
+                          {"reference", {"base", "math", "image", "scene", "parallel", "trace"}},
+                          {"output", {"base", "math", "image", "scene", "parallel", "trace"}}};
 
 // Where core's public headers belong; those of hybrid are not named here.
-const std::map<std::string, std::string> kRoomOfPublic{
-    {"error.h", "base"},       {"progress.h", "base"},    {"names.h", "base"},      {"bounds.h", "math"},      {"pixel_box.h", "math"},
-    {"ray.h", "math"},         {"image.h", "image"},     {"mask_image.h", "image"}, {"exr.h", "image"},
-    {"pixel_memory.h", "image"},
-    {"camera.h", "scene"},     {"light.h", "scene"},     {"load.h", "scene"},       {"material.h", "scene"},
-    {"material_maps.h", "scene"}, {"texture.h", "scene"},  {"animation.h", "scene"}, {"deformation.h", "scene"},
-    {"environment.h", "scene"}, {"terminator.h", "trace"},
-    {"mesh.h", "scene"},       {"nodes.h", "scene"},      {"save.h", "scene"},      {"scene.h", "scene"},      {"build_options.h", "bsp"},
-    {"triangle_test.h", "bsp"}, {"ray_counts.h", "trace"}, {"ray_offset.h", "trace"}, {"tracer.h", "trace"},
-    {"view.h", "trace"},        {"compare_pictures.h", "compare"}, {"frame_arrays.h", "trace"}, {"surface_images.h", "trace"}};
+const std::map<std::string, std::string> kRoomOfPublic{{"error.h", "base"},
+                                                       {"progress.h", "base"},
+                                                       {"names.h", "base"},
+                                                       {"bounds.h", "math"},
+                                                       {"pixel_box.h", "math"},
+                                                       {"ray.h", "math"},
+                                                       {"image.h", "image"},
+                                                       {"mask_image.h", "image"},
+                                                       {"exr.h", "image"},
+                                                       {"pixel_memory.h", "image"},
+                                                       {"camera.h", "scene"},
+                                                       {"light.h", "scene"},
+                                                       {"load.h", "scene"},
+                                                       {"material.h", "scene"},
+                                                       {"material_maps.h", "scene"},
+                                                       {"texture.h", "scene"},
+                                                       {"animation.h", "scene"},
+                                                       {"deformation.h", "scene"},
+                                                       {"environment.h", "scene"},
+                                                       {"terminator.h", "trace"},
+                                                       {"mesh.h", "scene"},
+                                                       {"nodes.h", "scene"},
+                                                       {"save.h", "scene"},
+                                                       {"scene.h", "scene"},
+                                                       {"build_options.h", "bsp"},
+                                                       {"triangle_test.h", "bsp"},
+                                                       {"ray_counts.h", "trace"},
+                                                       {"ray_offset.h", "trace"},
+                                                       {"tracer.h", "trace"},
+                                                       {"view.h", "trace"},
+                                                       {"compare_pictures.h", "compare"},
+                                                       {"frame_arrays.h", "trace"},
+                                                       {"surface_images.h", "trace"}};
 
 // A public header as if it stood in its room: "pinocchio/tracer.h" is "core/trace/tracer.h".
 std::string in_its_room(const std::string& include) {
@@ -157,8 +179,10 @@ TEST(Layers, TheProgramDoesNotSeeTheEnginesParts) {
     for (const std::string& include : includes_of(entry.path())) {
       EXPECT_NE(include, "hybrid/engine_parts.h") << entry.path();
       EXPECT_NE(include, "hybrid/frame_slot.h") << entry.path();
-      EXPECT_NE(include.substr(0, include.rfind('/') + 1), "hybrid/gpu/") << entry.path() << " includes " << include;
-      EXPECT_NE(include.substr(0, include.rfind('/') + 1), "hybrid/passes/") << entry.path() << " includes " << include;
+      EXPECT_NE(include.substr(0, include.rfind('/') + 1), "hybrid/gpu/")
+          << entry.path() << " includes " << include;
+      EXPECT_NE(include.substr(0, include.rfind('/') + 1), "hybrid/passes/")
+          << entry.path() << " includes " << include;
     }
   }
 }

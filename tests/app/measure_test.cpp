@@ -36,7 +36,8 @@ TEST_F(MeasureTest, PrintsATableAndWritesTheFigures) {
 }
 
 TEST_F(MeasureTest, RefusesMoreFramesThanItKeepsFiguresOf) {
-  const CommandResult result = run("measure" + scene("cornell") + "--size 8x6 --mode raytrace --frames 0-2000000000");
+  const CommandResult result =
+      run("measure" + scene("cornell") + "--size 8x6 --mode raytrace --frames 0-2000000000");
   EXPECT_EQ(result.exit_code, 2) << result.err;
   EXPECT_NE(result.err.find("of 100000 at most, not of 2000000001"), std::string::npos) << result.err;
 }
@@ -69,7 +70,8 @@ TEST_F(MeasureTest, SlidesMoveTheirBytesAtTheirSize) {
 
 // Perfetto's rule: slices of a thread, which are counted in whole nanoseconds, do not overlap.
 TEST_F(MeasureTest, TraceIsChromesFormatWithoutSlicesThatOverlap) {
-  for (const std::string more : {"", "--exchange sync", "--exchange reproject", "--design 2", "--mode raytrace"}) {
+  for (const std::string more :
+       {"", "--exchange sync", "--exchange reproject", "--design 2", "--mode raytrace"}) {
     EXPECT_EQ(run("measure" + scene("cornell") + kSmall + "--quiet --trace t.json " + more).exit_code, 0);
     const nlohmann::json trace = json("t.json");
     std::set<std::string> phases;

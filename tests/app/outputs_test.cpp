@@ -30,7 +30,8 @@ class ApartTest : public ProgramTest {
     std::filesystem::create_hard_link(folder_ / "x.gltf", folder_ / "hard.json");
     std::filesystem::create_directory(folder_ / "sub");
     std::filesystem::create_symlink("..", folder_ / "sub" / "up");
-    for (const char* name : {"x.gltf", "x.bin", "path.json", "a.exr", "b.exr"}) before_[name] = read_file(folder_ / name);
+    for (const char* name : {"x.gltf", "x.bin", "path.json", "a.exr", "b.exr"})
+      before_[name] = read_file(folder_ / name);
   }
   void expect_refused(const std::string& arguments) const {
     const CommandResult result = run(arguments);
@@ -101,9 +102,10 @@ TEST_F(OutputsTest, TooLittleMemoryIsAnError) {
   GTEST_SKIP() << "sanitizers want more address space than a limit leaves";
 #endif
   const std::string cornell = scene("cornell.gltf");
-  const CommandResult result = run_command("ulimit -v 600000; cd '" + folder_.string() + "' && '" PINOCCHIO_PROGRAM
-                                           "' render" + cornell + "--mode raytrace --size 8000x8000 -o x.exr",
-                                           folder_ / "scratch");
+  const CommandResult result =
+      run_command("ulimit -v 600000; cd '" + folder_.string() + "' && '" PINOCCHIO_PROGRAM "' render" +
+                      cornell + "--mode raytrace --size 8000x8000 -o x.exr",
+                  folder_ / "scratch");
   EXPECT_EQ(result.exit_code, 1) << result.err;
   EXPECT_NE(result.err.find("memory"), std::string::npos) << result.err;
   EXPECT_FALSE(exists("x.exr"));
@@ -156,7 +158,8 @@ TEST_F(OutputsTest, SkipExistingTakesWholeFilesOfTheSameSettingsAlone) {
 }
 
 TEST_F(OutputsTest, DeterministicFilesAreTheSameToTheByte) {
-  const std::string render = "render" + scene("two-lights.gltf") + "--size 96x72 --mode raytrace --deterministic -o ";
+  const std::string render =
+      "render" + scene("two-lights.gltf") + "--size 96x72 --mode raytrace --deterministic -o ";
   ASSERT_EQ(run(render + "a.exr").exit_code, 0);
   const std::string expected = read_file(folder_ / "a.exr");
   for (const std::string more : {"--threads 1", "--threads 3", "--isa scalar", "--isa sse4"}) {

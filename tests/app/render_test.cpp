@@ -38,12 +38,16 @@ TEST_F(RenderTest, AFilesEnvironmentIsSeenUnlessAnotherIsGiven) {
   std::string sky = "#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y 2 +X 4\n";
   for (int i = 0; i < 8; ++i) sky += "\x80\x40\x20\x81";  // 1, 1/2, 1/4
   write("sky.hdr", sky);
-  const std::string away = "render '" PINOCCHIO_SOURCE_DIR "/tests/fuzz/corpus/gltf/environment.gltf' --size 8x6 --quiet --mode raytrace --eye 9,0,0 --target 20,0,0 ";
+  const std::string away = "render '" PINOCCHIO_SOURCE_DIR
+                           "/tests/fuzz/corpus/gltf/environment.gltf' --size 8x6 --quiet --mode raytrace "
+                           "--eye 9,0,0 --target 20,0,0 ";
   expect_done(away + "-o own.exr");
   expect_done(away + "-o precise.exr --precise");
   expect_done(away + "-o other.exr --environment sky.hdr");
-  for (const auto& [channel, given] : {std::pair("R", 1.0f), std::pair("G", 0.5f), std::pair("B", 0.25f), std::pair("A", 0.0f)}) {
-    const std::vector<float> own = exr("own.exr").find(channel)->values, other = exr("other.exr").find(channel)->values;
+  for (const auto& [channel, given] :
+       {std::pair("R", 1.0f), std::pair("G", 0.5f), std::pair("B", 0.25f), std::pair("A", 0.0f)}) {
+    const std::vector<float> own = exr("own.exr").find(channel)->values,
+                             other = exr("other.exr").find(channel)->values;
     for (std::size_t i = 0; i < own.size(); ++i) EXPECT_EQ(other[i], given);
     EXPECT_TRUE(given == 0.0f || (own[0] > 0.0f && own[0] != given)) << own[0];
     const std::vector<float> precise = exr("precise.exr").find(channel)->values;
@@ -66,7 +70,7 @@ TEST_F(RenderTest, WritesEveryChannelAndTheFigures) {
   const nlohmann::json figures = json("x.json");
   const nlohmann::json& buffers = figures["bytes"]["buffers"];
   EXPECT_EQ(buffers["ids"].get<int>() + buffers["traced_ids"].get<int>(), 80 * 60 * 2);  // 16 bits
-  EXPECT_EQ(buffers["mask"], 10 * 60);                                                    // one bit
+  EXPECT_EQ(buffers["mask"], 10 * 60);                                                   // one bit
   EXPECT_GT(buffers["reflection"], 0);
   EXPECT_LT(buffers["reflection"], 80 * 60 * 6);  // half RGB, where there is some
   EXPECT_EQ(figures["latency"]["frames"], 0);
@@ -127,17 +131,21 @@ TEST_F(RenderTest, CameraPath) {
   EXPECT_TRUE(same_pixels(exr("p0.exr"), exr("first.exr")));
 }
 
-// Frames are made as they are drawn: a path of two thousand million is begun at once, and takes no more memory.
+// Frames are made as they are drawn: a path of two thousand million is begun at once, and takes no more
+// memory.
 TEST_F(RenderTest, APathMayBeOfAnyLength) {
   write("path.json", R"({"keyframes": [{"frame": 0, "eye": [0, 1, 3], "target": [0, 1, 0]},
                                        {"frame": 2000000000, "eye": [0.4, 1, 3], "target": [0, 1, 0]}]})");
-  const std::string render = "render" + scene("cornell") + "--size 8x6 --mode raytrace --path path.json -o p#.exr ";
+  const std::string render =
+      "render" + scene("cornell") + "--size 8x6 --mode raytrace --path path.json -o p#.exr ";
   expect_done(render + "--frames 1000000000-2000000000x500000000");
   EXPECT_TRUE(exists("p1000000000.exr") && exists("p1500000000.exr") && exists("p2000000000.exr"));
-  expect_done("render" + scene("cornell") + "--size 8x6 --mode raytrace --eye 0.2,1,3 --target 0,1,0 -o middle.exr");
+  expect_done("render" + scene("cornell") +
+              "--size 8x6 --mode raytrace --eye 0.2,1,3 --target 0,1,0 -o middle.exr");
   EXPECT_TRUE(same_pixels(exr("p1000000000.exr"), exr("middle.exr")));
-  const CommandResult all = run_command("cd '" + folder_.string() + "' && timeout -s INT 3 '" PINOCCHIO_PROGRAM "' " + render,
-                                        folder_ / "scratch");
+  const CommandResult all =
+      run_command("cd '" + folder_.string() + "' && timeout -s INT 3 '" PINOCCHIO_PROGRAM "' " + render,
+                  folder_ / "scratch");
   EXPECT_EQ(all.exit_code, 124) << all.err;  // its time was over
   EXPECT_TRUE(exists("p0.exr") && exists("p1.exr")) << all.err;
 }
@@ -166,8 +174,8 @@ TEST_F(RenderTest, CompressionIsOfTheFileAlone) {
   expect_done("render" + scene("cornell") + kSmall + "--mode raytrace -o zip.exr");
   const auto bytes = [&](const std::string& name) { return std::filesystem::file_size(folder_ / name); };
   for (const std::string name : {"none", "zips", "piz", "rle"}) {
-    expect_done("render" + scene("cornell") + kSmall + "--mode raytrace --compression " + name + " -o " + name +
-                ".exr");
+    expect_done("render" + scene("cornell") + kSmall + "--mode raytrace --compression " + name + " -o " +
+                name + ".exr");
     EXPECT_TRUE(same_pixels(exr("zip.exr"), exr(name + ".exr"))) << name;
     EXPECT_GT(bytes("none.exr") + (name == "none" ? 1 : 0), bytes(name + ".exr")) << name;
   }
@@ -195,8 +203,10 @@ TEST_F(RenderTest, AutoNeedsNoSoftwareOpenGl) {
 
 TEST_F(RenderTest, StatsHoldThePeakOfMemory) {
   expect_done("render" + scene("cornell") + kSmall + "--mode raytrace --stats-json small.json");
-  expect_done("render" + scene("cornell") + "--size 1600x1200 --quiet --mode raytrace --stats-json large.json");
-  const double small = json("small.json")["memory"]["peak_bytes"], large = json("large.json")["memory"]["peak_bytes"];
+  expect_done("render" + scene("cornell") +
+              "--size 1600x1200 --quiet --mode raytrace --stats-json large.json");
+  const double small = json("small.json")["memory"]["peak_bytes"],
+               large = json("large.json")["memory"]["peak_bytes"];
   EXPECT_GT(small, 1e6);
   EXPECT_GT(large - small, 1600.0 * 1200.0 * 20.0);  // the picture alone: 16 bytes a pixel and ids
   EXPECT_LT(large - small, 1600.0 * 1200.0 * 120.0);
@@ -215,13 +225,15 @@ TEST_F(RenderTest, AFrameThatCannotBeWrittenEndsTheRun) {
 }
 
 TEST_F(RenderTest, FilesOfARangeAreThoseOfSingleFrames) {
-  const std::string draw = "render" + scene("two-lights") + kSmall + "--mode raytrace --deterministic --exchange sync --turntable 5 ";
+  const std::string draw = "render" + scene("two-lights") + kSmall +
+                           "--mode raytrace --deterministic --exchange sync --turntable 5 ";
   expect_done(draw + "-o f#.exr --preview f#.png");
   expect_done(draw + "--frames 3 -o g#.exr --preview g#.png --threads 1");
   for (const std::string ending : {".exr", ".png"})
-    EXPECT_EQ(run_command("cd '" + folder_.string() + "' && cmp f3" + ending + " g3" + ending, folder_ / "scratch")
-                  .exit_code,
-              0)
+    EXPECT_EQ(
+        run_command("cd '" + folder_.string() + "' && cmp f3" + ending + " g3" + ending, folder_ / "scratch")
+            .exit_code,
+        0)
         << ending;
 }
 

@@ -17,7 +17,10 @@ class Moving {
   Json json = triangle_json();
 
   int floats(const std::vector<float>& numbers, const char* type) {
-    const int width = type == std::string("SCALAR") ? 1 : type == std::string("VEC3") ? 3 : type == std::string("VEC4") ? 4 : 16;
+    const int width = type == std::string("SCALAR") ? 1
+                      : type == std::string("VEC3") ? 3
+                      : type == std::string("VEC4") ? 4
+                                                    : 16;
     return add(numbers, type, 5126, numbers.size() / static_cast<std::size_t>(width));
   }
   int bytes(const std::vector<std::uint8_t>& numbers, bool normalized) {
@@ -36,15 +39,19 @@ class Moving {
     json["buffers"][0]["byteLength"] = offset + (size + 3) / 4 * 4;
     json["bufferViews"].push_back({{"buffer", 0}, {"byteOffset", offset}, {"byteLength", size}});
     json["accessors"].push_back({{"bufferView", json["bufferViews"].size() - 1},
-                                 {"componentType", component_type}, {"count", count}, {"type", type}});
+                                 {"componentType", component_type},
+                                 {"count", count},
+                                 {"type", type}});
     return static_cast<int>(json["accessors"].size()) - 1;
   }
 
-  void animate(int node, const char* path, const std::vector<float>& times, int output, const char* interpolation = "LINEAR",
-               std::size_t animation = 0) {
+  void animate(int node, const char* path, const std::vector<float>& times, int output,
+               const char* interpolation = "LINEAR", std::size_t animation = 0) {
     Json& to = json["animations"][animation];
-    to["samplers"].push_back({{"input", floats(times, "SCALAR")}, {"output", output}, {"interpolation", interpolation}});
-    to["channels"].push_back({{"sampler", to["samplers"].size() - 1}, {"target", {{"node", node}, {"path", path}}}});
+    to["samplers"].push_back(
+        {{"input", floats(times, "SCALAR")}, {"output", output}, {"interpolation", interpolation}});
+    to["channels"].push_back(
+        {{"sampler", to["samplers"].size() - 1}, {"target", {{"node", node}, {"path", path}}}});
   }
 
   Json& primitive() { return json["meshes"][0]["primitives"][0]; }
@@ -57,7 +64,8 @@ Scene at(const Scene& scene, double seconds) {
 }
 
 void expect_near(const glm::vec3& a, const glm::vec3& b, float tolerance = 2e-6f) {
-  EXPECT_LT(glm::distance(a, b), tolerance) << a.x << " " << a.y << " " << a.z << " is not " << b.x << " " << b.y << " " << b.z;
+  EXPECT_LT(glm::distance(a, b), tolerance)
+      << a.x << " " << a.y << " " << a.z << " is not " << b.x << " " << b.y << " " << b.z;
 }
 
 TEST(Animation, InterpolatesAsGltfSays) {
@@ -65,7 +73,7 @@ TEST(Animation, InterpolatesAsGltfSays) {
   m.animate(0, "translation", {1, 3}, m.floats({0, 0, 0, 4, 2, 0}, "VEC3"));
   const Scene scene = load_good(m.json);
   EXPECT_DOUBLE_EQ(duration_s(scene), 3.0);
-  expect_near(scene.mesh->positions[0], {0, 0, 0});      // as its nodes have it
+  expect_near(scene.mesh->positions[0], {0, 0, 0});         // as its nodes have it
   expect_near(at(scene, 0).mesh->positions[0], {0, 0, 0});  // before the first key: that key
   expect_near(at(scene, 1.5).mesh->positions[0], {1, 0.5, 0});
   expect_near(at(scene, 99).mesh->positions[0], {4, 2, 0});  // behind the last
@@ -79,15 +87,21 @@ TEST(Animation, InterpolatesAsGltfSays) {
 
   // Hermite from 0 with slope 3 to 1 with slope -1 over two seconds, at t = 1/4.
   Moving cubic;
-  cubic.animate(0, "scale", {0, 2}, cubic.floats({9, 9, 9, 0, 0, 0, 3, 3, 3, -1, -1, -1, 1, 1, 1, 9, 9, 9}, "VEC3"), "CUBICSPLINE");
-  const double t = 0.25, h10 = t * t * t - 2 * t * t + t, h01 = 3 * t * t - 2 * t * t * t, h11 = t * t * t - t * t;
+  cubic.animate(0, "scale", {0, 2},
+                cubic.floats({9, 9, 9, 0, 0, 0, 3, 3, 3, -1, -1, -1, 1, 1, 1, 9, 9, 9}, "VEC3"),
+                "CUBICSPLINE");
+  const double t = 0.25, h10 = t * t * t - 2 * t * t + t, h01 = 3 * t * t - 2 * t * t * t,
+               h11 = t * t * t - t * t;
   const auto s = static_cast<float>(2 * h10 * 3 + h01 + 2 * h11 * -1);
   expect_near(at(load_good(cubic.json), 0.5).mesh->positions[1], {s, 0, 0});
 }
 
-// From 30 to 150 degrees around z; the quaternion of the second key is the negative one: the short way counts.
+// From 30 to 150 degrees around z; the quaternion of the second key is the negative one: the short way
+// counts.
 TEST(Animation, TurnsAtConstantSpeedTheShortWay) {
-  const auto turn = [](float degrees) { return std::pair(std::sin(glm::radians(degrees) / 2), std::cos(glm::radians(degrees) / 2)); };
+  const auto turn = [](float degrees) {
+    return std::pair(std::sin(glm::radians(degrees) / 2), std::cos(glm::radians(degrees) / 2));
+  };
   const auto [s0, c0] = turn(30);
   const auto [s1, c1] = turn(150);
   Moving m;
@@ -103,7 +117,10 @@ TEST(Animation, KeepsWhatOfANodeNothingMoves) {
   Moving m;
   m.json["nodes"][0]["translation"] = {5, 0, 0};
   m.json["nodes"][0]["scale"] = {2, 2, 2};
-  m.animate(0, "rotation", {0, 1}, m.floats({0, 0, 0, 1, 0, 0, std::sin(glm::quarter_pi<float>()), std::cos(glm::quarter_pi<float>())}, "VEC4"));
+  m.animate(
+      0, "rotation", {0, 1},
+      m.floats({0, 0, 0, 1, 0, 0, std::sin(glm::quarter_pi<float>()), std::cos(glm::quarter_pi<float>())},
+               "VEC4"));
   expect_near(at(load_good(m.json), 1).mesh->positions[1], {5, 2, 0});
 }
 
@@ -113,7 +130,8 @@ Moving lit_and_filmed() {
   m.json["extensions"]["KHR_lights_punctual"]["lights"] = {{{"type", "point"}}};
   m.json["cameras"] = {{{"type", "perspective"}, {"perspective", {{"yfov", 1.0}, {"znear", 0.1}}}}};
   m.json["nodes"][0]["children"] = {1};
-  m.json["nodes"].push_back({{"camera", 0}, {"translation", {0, 0, 3}}, {"extensions", {{"KHR_lights_punctual", {{"light", 0}}}}}});
+  m.json["nodes"].push_back(
+      {{"camera", 0}, {"translation", {0, 0, 3}}, {"extensions", {{"KHR_lights_punctual", {{"light", 0}}}}}});
   m.animate(0, "translation", {0, 1}, m.floats({0, 0, 0, 2, 0, 0}, "VEC3"));
   return m;
 }
@@ -127,43 +145,52 @@ TEST(Animation, MovesLightsAndCameras) {
   expect_near(cameras_at(load_good(m.json), 0.5).at(0).eye, {1, 0, 3});
 }
 
-// Two joints: vertex 1 follows the second alone, vertex 2 both by halves. The skinned node's own place does not count.
+// Two joints: vertex 1 follows the second alone, vertex 2 both by halves. The skinned node's own place does
+// not count.
 Moving skinned() {
   Moving m;
   m.json["nodes"] = {{{"mesh", 0}, {"skin", 0}, {"translation", {100, 0, 0}}},
                      {{"translation", {1, 0, 0}}, {"children", {2}}},
                      {{"translation", {0, 1, 0}}}};
   m.json["scenes"][0]["nodes"] = {0, 1};
-  const glm::mat4 inverse0 = glm::translate(glm::mat4(1.0f), {-1, 0, 0}), inverse1 = glm::translate(glm::mat4(1.0f), {-1, -1, 0});
+  const glm::mat4 inverse0 = glm::translate(glm::mat4(1.0f), {-1, 0, 0}),
+                  inverse1 = glm::translate(glm::mat4(1.0f), {-1, -1, 0});
   std::vector<float> matrices(&inverse0[0][0], &inverse0[0][0] + 16);
   matrices.insert(matrices.end(), &inverse1[0][0], &inverse1[0][0] + 16);
   m.json["skins"] = {{{"joints", {1, 2}}, {"inverseBindMatrices", m.floats(matrices, "MAT4")}}};
   m.primitive()["attributes"]["JOINTS_0"] = m.bytes({0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 0, 0}, false);
-  m.primitive()["attributes"]["WEIGHTS_0"] = m.floats({1, 0, 0, 0, 1, 0, 0, 0, 0.5, 0.5, 0, 0, 1, 0, 0, 0}, "VEC4");
+  m.primitive()["attributes"]["WEIGHTS_0"] =
+      m.floats({1, 0, 0, 0, 1, 0, 0, 0, 0.5, 0.5, 0, 0, 1, 0, 0, 0}, "VEC4");
   return m;
 }
 
 TEST(Skin, FollowsItsJoints) {
   Moving m = skinned();
   // The second joint turns by 90 degrees around z, about its own place (1, 1, 0).
-  m.animate(2, "rotation", {0, 1}, m.floats({0, 0, 0, 1, 0, 0, std::sin(glm::quarter_pi<float>()), std::cos(glm::quarter_pi<float>())}, "VEC4"));
+  m.animate(
+      2, "rotation", {0, 1},
+      m.floats({0, 0, 0, 1, 0, 0, std::sin(glm::quarter_pi<float>()), std::cos(glm::quarter_pi<float>())},
+               "VEC4"));
   Warnings warnings;
   const Scene scene = load(m.json, &warnings).value();
   EXPECT_TRUE(warnings.empty());
-  for (int v = 0; v < 3; ++v) expect_near(scene.mesh->positions[static_cast<std::size_t>(v)], glm::vec3(v == 1, v == 2, 0));  // bound
+  for (int v = 0; v < 3; ++v)
+    expect_near(scene.mesh->positions[static_cast<std::size_t>(v)], glm::vec3(v == 1, v == 2, 0));  // bound
   const Scene bent = at(scene, 1);
   expect_near(bent.mesh->positions[0], {0, 0, 0});
-  expect_near(bent.mesh->positions[1], {2, 1, 0});           // (1,0) about (1,1): offset (0,-1) becomes (1,0)
-  expect_near(bent.mesh->positions[2], {0.5, 0.5, 0});       // halfway between (0,1) and (1,0)
+  expect_near(bent.mesh->positions[1], {2, 1, 0});      // (1,0) about (1,1): offset (0,-1) becomes (1,0)
+  expect_near(bent.mesh->positions[2], {0.5, 0.5, 0});  // halfway between (0,1) and (1,0)
   const std::array<NodeTransform, 1> moved{NodeTransform{2, glm::translate(glm::mat4(1.0f), {0, 3, 0})}};
   expect_near(posed(scene, moved).value().mesh->positions[1], {1, 2, 0});
 }
 
 TEST(Skin, ReadsNormalisedWeightsAndASecondSet) {
   Moving m = skinned();
-  m.primitive()["attributes"]["WEIGHTS_0"] = m.bytes({255, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 255, 0, 0, 0}, true);
+  m.primitive()["attributes"]["WEIGHTS_0"] =
+      m.bytes({255, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 255, 0, 0, 0}, true);
   m.primitive()["attributes"]["JOINTS_1"] = m.bytes({0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 0, 0}, false);
-  m.primitive()["attributes"]["WEIGHTS_1"] = m.bytes({0, 0, 0, 0, 255, 0, 0, 0, 51, 204, 0, 0, 0, 0, 0, 0}, true);
+  m.primitive()["attributes"]["WEIGHTS_1"] =
+      m.bytes({0, 0, 0, 0, 255, 0, 0, 0, 51, 204, 0, 0, 0, 0, 0, 0}, true);
   const std::array<NodeTransform, 1> moved{NodeTransform{2, glm::translate(glm::mat4(1.0f), {0, 3, 0})}};
   const Scene scene = posed(load_good(m.json), moved).value();
   expect_near(scene.mesh->positions[1], {1, 2, 0});
@@ -172,8 +199,9 @@ TEST(Skin, ReadsNormalisedWeightsAndASecondSet) {
 
 Moving morphed() {
   Moving m;
-  m.json["meshes"][0]["primitives"][0]["targets"] = {{{"POSITION", m.floats({0, 0, 1, 0, 0, 0, 0, 0, 0, 0, 0, 0}, "VEC3")}},
-                                                      {{"POSITION", m.floats({0, 2, 0, 4, 0, 0, 0, 0, 0, 0, 0, 0}, "VEC3")}}};
+  m.json["meshes"][0]["primitives"][0]["targets"] = {
+      {{"POSITION", m.floats({0, 0, 1, 0, 0, 0, 0, 0, 0, 0, 0, 0}, "VEC3")}},
+      {{"POSITION", m.floats({0, 2, 0, 4, 0, 0, 0, 0, 0, 0, 0, 0}, "VEC3")}}};
   m.json["meshes"][0]["weights"] = {0.5, 0.25};
   return m;
 }
@@ -195,7 +223,8 @@ TEST(Morph, ComesBeforeTheSkin) {
   Moving m = skinned();
   m.primitive()["targets"] = {{{"POSITION", m.floats({0, 0, 0, 1, 0, 0, 0, 0, 0, 0, 0, 0}, "VEC3")}}};
   m.json["meshes"][0]["weights"] = {1};
-  m.json["nodes"][2]["rotation"] = {0, 0, std::sin(glm::quarter_pi<float>()), std::cos(glm::quarter_pi<float>())};
+  m.json["nodes"][2]["rotation"] = {0, 0, std::sin(glm::quarter_pi<float>()),
+                                    std::cos(glm::quarter_pi<float>())};
   expect_near(load_good(m.json).mesh->positions[1], {2, 2, 0});  // (2,0) about (1,1)
 }
 
@@ -203,13 +232,21 @@ TEST(Morph, ComesBeforeTheSkin) {
 TEST(Morph, ReadsSparseTargetsAndNormals) {
   Moving m;
   m.primitive()["attributes"]["NORMAL"] = m.floats({0, 0, 1, 0, 0, 1, 0, 0, 1, 0, 0, 1}, "VEC3");
-  const int index = m.add(std::vector<std::uint16_t>{2}, "SCALAR", 5123, 1), value = m.floats({0, 0, 7}, "VEC3");
-  const auto view = [&](int accessor) { return m.json["accessors"][static_cast<std::size_t>(accessor)]["bufferView"]; };
-  m.json["accessors"].push_back({{"componentType", 5126}, {"count", 4}, {"type", "VEC3"},
-                                 {"sparse", {{"count", 1}, {"indices", {{"bufferView", view(index)}, {"componentType", 5123}}},
-                                             {"values", {{"bufferView", view(value)}}}}}});
+  const int index = m.add(std::vector<std::uint16_t>{2}, "SCALAR", 5123, 1),
+            value = m.floats({0, 0, 7}, "VEC3");
+  const auto view = [&](int accessor) {
+    return m.json["accessors"][static_cast<std::size_t>(accessor)]["bufferView"];
+  };
+  m.json["accessors"].push_back({{"componentType", 5126},
+                                 {"count", 4},
+                                 {"type", "VEC3"},
+                                 {"sparse",
+                                  {{"count", 1},
+                                   {"indices", {{"bufferView", view(index)}, {"componentType", 5123}}},
+                                   {"values", {{"bufferView", view(value)}}}}}});
   const int sparse = static_cast<int>(m.json["accessors"].size()) - 1;
-  m.primitive()["targets"] = {{{"POSITION", sparse}, {"NORMAL", m.floats({1, 0, -1, 0, 0, 0, 0, 0, 0, 0, 0, 0}, "VEC3")}}};
+  m.primitive()["targets"] = {
+      {{"POSITION", sparse}, {"NORMAL", m.floats({1, 0, -1, 0, 0, 0, 0, 0, 0, 0, 0, 0}, "VEC3")}}};
   m.json["meshes"][0]["weights"] = {1};
   const Scene scene = load_good(m.json);
   expect_near(scene.mesh->positions[0], {0, 0, 0});
@@ -223,8 +260,9 @@ Moving mirrored_and_morphed() {
   Moving m = morphed();
   m.json["extensionsUsed"] = {"EXT_mesh_gpu_instancing"};
   m.json["nodes"][0]["rotation"] = {0.1, 0.2, 0.3, 0.927};
-  m.json["nodes"][0]["extensions"]["EXT_mesh_gpu_instancing"]["attributes"] = {{"TRANSLATION", m.floats({.1f, .2f, .3f, -3, 0, 0}, "VEC3")},
-                                                                               {"SCALE", m.floats({1, 1, 1, -1.5, 1, 1}, "VEC3")}};
+  m.json["nodes"][0]["extensions"]["EXT_mesh_gpu_instancing"]["attributes"] = {
+      {"TRANSLATION", m.floats({.1f, .2f, .3f, -3, 0, 0}, "VEC3")},
+      {"SCALE", m.floats({1, 1, 1, -1.5, 1, 1}, "VEC3")}};
   m.animate(0, "scale", {0, 1, 2}, m.floats({1, 1, 1, .7f, .7f, .7f, -1, 1, 1}, "VEC3"));
   m.animate(0, "weights", {0, 2}, m.floats({0, 0, 1, 0.5}, "SCALAR"));
   return m;
@@ -247,7 +285,8 @@ TEST(Animation, IsMadeOfTheRestPoseAlone) {
   EXPECT_EQ(before[1] - before[0], glm::uvec3(4, 5, 3));
 }
 
-// What is saved, from whichever pose, and loaded moves as before: corners of each triangle within `tolerance`.
+// What is saved, from whichever pose, and loaded moves as before: corners of each triangle within
+// `tolerance`.
 void expect_moves_alike(const Scene& scene, float tolerance) {
   for (const double saved_at : {0.0, 1.7}) {
     Warnings warnings;
@@ -322,7 +361,9 @@ TEST(Animation, TextureIsSharedByAllPoses) {
 
 // What is wrong in the file is said, and never shown.
 TEST(Animation, SaysWhatIsWrong) {
-  const auto says = [](const Json& json, const std::string& text) { EXPECT_NE(error_of(json).find(text), std::string::npos) << error_of(json); };
+  const auto says = [](const Json& json, const std::string& text) {
+    EXPECT_NE(error_of(json).find(text), std::string::npos) << error_of(json);
+  };
   const auto warns = [](const Json& json, const std::string& text) {
     Warnings warnings;
     const Expected<Scene> scene = load(json, &warnings);
@@ -355,7 +396,8 @@ TEST(Animation, SaysWhatIsWrong) {
   EXPECT_FALSE(at_time(load_good(moving({0, 1}, {0, 0, 0, 1e30f, 0, 0})), 1));  // beyond what is drawn
 
   Moving m = skinned();
-  m.primitive()["attributes"]["WEIGHTS_0"] = m.floats({1, 0, 0, 0, 1, 0, 0, 0, 0.5, 0.1, 0, 0, 1, 0, 0, 0}, "VEC4");
+  m.primitive()["attributes"]["WEIGHTS_0"] =
+      m.floats({1, 0, 0, 0, 1, 0, 0, 0, 0.5, 0.1, 0, 0, 1, 0, 0, 0}, "VEC4");
   warns(m.json, "do not add up to 1");
   m = skinned();
   m.primitive()["attributes"]["JOINTS_0"] = m.bytes({0, 0, 0, 0, 9, 0, 0, 0, 0, 1, 0, 0, 0, 0, 0, 0}, false);
@@ -380,8 +422,13 @@ TEST(Animation, SaysWhatIsWrong) {
 // An accessor without data may claim any count; so may a thousand channels of one.
 TEST(Animation, StaysWithinTheMemoryLimit) {
   Moving m = morphed();
-  m.json["accessors"].push_back({{"componentType", 5126}, {"count", 2'000'000'000}, {"type", "SCALAR"},
-                                 {"sparse", {{"count", 0}, {"indices", {{"bufferView", 1}, {"componentType", 5123}}}, {"values", {{"bufferView", 0}}}}}});
+  m.json["accessors"].push_back({{"componentType", 5126},
+                                 {"count", 2'000'000'000},
+                                 {"type", "SCALAR"},
+                                 {"sparse",
+                                  {{"count", 0},
+                                   {"indices", {{"bufferView", 1}, {"componentType", 5123}}},
+                                   {"values", {{"bufferView", 0}}}}}});
   m.animate(0, "weights", {0, 1}, static_cast<int>(m.json["accessors"].size()) - 1);
   EXPECT_NE(error_of(m.json).find("MiB of memory"), std::string::npos) << error_of(m.json);
 }

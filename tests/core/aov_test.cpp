@@ -32,8 +32,8 @@ Points one_by_one(const Scene& scene, const shared::ViewParams& view, const Imag
     for (int x = 0; x < kSize.x; ++x) {
       if (ids.at(x, y) == kNoTriangle) continue;
       const Ray ray = pixel_ray(view, x, y);
-      const SurfaceInteraction s = surface_at(*scene.mesh, ids.at(x, y), ray.origin, ray.direction, {},
-                                              Footprint::of_camera(view));
+      const SurfaceInteraction s =
+          surface_at(*scene.mesh, ids.at(x, y), ray.origin, ray.direction, {}, Footprint::of_camera(view));
       points.depth.at(x, y) = glm::dot(s.p_world - view.eye, view_axis(view));
       points.position.at(x, y) = s.p_world;
       points.normal.at(x, y) = s.n_shading;

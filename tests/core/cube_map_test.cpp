@@ -11,10 +11,13 @@
 namespace pinocchio {
 namespace {
 
-glm::vec3 at(const Scene& scene, const glm::vec3& direction) { return EnvironmentLight(scene).radiance(direction); }
+glm::vec3 at(const Scene& scene, const glm::vec3& direction) {
+  return EnvironmentLight(scene).radiance(direction);
+}
 
 void write_face(int face, const Image<glm::u8vec4>& texels) {
-  std::ofstream(own_file("face" + std::to_string(face) + ".png"), std::ios::binary) << png_of(Texture{"", texels, {}});
+  std::ofstream(own_file("face" + std::to_string(face) + ".png"), std::ios::binary)
+      << png_of(Texture{"", texels, {}});
 }
 
 // A triangle in a box of six faces of 8 x 8 texels; what is to their right, left and top is said by `paint`.
@@ -37,11 +40,15 @@ Json boxed(Paint paint) {
 }
 
 // Each face one level of grey.
-constexpr glm::u8vec4 grey_of(int face) { return glm::u8vec4(glm::u8vec3(static_cast<std::uint8_t>(40 * (face + 1))), 255); }
+constexpr glm::u8vec4 grey_of(int face) {
+  return glm::u8vec4(glm::u8vec3(static_cast<std::uint8_t>(40 * (face + 1))), 255);
+}
 Json greys() {
   return boxed([](int face, int, int) { return grey_of(face); });
 }
-float light_of_face(int face) { return srgb8_to_linear(grey_of(face).r); }
+float light_of_face(int face) {
+  return srgb8_to_linear(grey_of(face).r);
+}
 
 constexpr glm::vec3 kAxes[] = {{1, 0, 0}, {-1, 0, 0}, {0, 1, 0}, {0, -1, 0}, {0, 0, 1}, {0, 0, -1}};
 
@@ -52,15 +59,18 @@ TEST(CubeMap, FacesOfAGltfFileAreWhereTheyLook) {
   EXPECT_TRUE(warnings.empty());
   ASSERT_NE(scene->environment, nullptr);
   EXPECT_EQ(scene->environment->radiance().size(), glm::ivec2(32, 16));
-  for (int face = 0; face < 6; ++face) EXPECT_NEAR(at(*scene, kAxes[face]).g, light_of_face(face), 1e-4f) << face;
+  for (int face = 0; face < 6; ++face)
+    EXPECT_NEAR(at(*scene, kAxes[face]).g, light_of_face(face), 1e-4f) << face;
 }
 
 // Seen from the middle with +Y up, pictures are not mirrored: the left of the one ahead (-Z) is at -X.
 TEST(CubeMap, FacesAreTheRightWayAround) {
-  const Scene scene = load_good(boxed([](int, int x, int y) { return glm::u8vec4(x < 4 ? 255 : 0, y < 4 ? 255 : 0, 0, 255); }));
+  const Scene scene = load_good(
+      boxed([](int, int x, int y) { return glm::u8vec4(x < 4 ? 255 : 0, y < 4 ? 255 : 0, 0, 255); }));
   const struct {
     glm::vec3 ahead, right;
-  } around[] = {{{0, 0, -1}, {1, 0, 0}}, {{1, 0, 0}, {0, 0, 1}}, {{0, 0, 1}, {-1, 0, 0}}, {{-1, 0, 0}, {0, 0, -1}}};
+  } around[] = {
+      {{0, 0, -1}, {1, 0, 0}}, {{1, 0, 0}, {0, 0, 1}}, {{0, 0, 1}, {-1, 0, 0}}, {{-1, 0, 0}, {0, 0, -1}}};
   for (const auto& [ahead, right] : around)
     for (const float side : {-1.0f, 1.0f})
       for (const float up : {-1.0f, 1.0f}) {
@@ -116,7 +126,8 @@ TEST(CubeMap, LatitudeAndLongitudeKeepItsLight) {
   const double area = 2.0 * 3.14159265358979 * 3.14159265358979 / (size.x * size.y);
   for (int y = 0; y < size.y; ++y)
     for (int x = 0; x < size.x; ++x)
-      kept += area * std::sin(3.14159265358979 * (y + 0.5) / size.y) * glm::dvec3(scene.environment->radiance().at(x, y));
+      kept += area * std::sin(3.14159265358979 * (y + 0.5) / size.y) *
+              glm::dvec3(scene.environment->radiance().at(x, y));
   for (int c = 0; c < 3; ++c) EXPECT_NEAR(kept[c] / all[c], 1.0, 0.001);
   Random random(5);
   float worst = 0.0f;

@@ -195,7 +195,7 @@ TEST(EmbreeBunny, Agrees) {
   const std::optional<std::filesystem::path> path = extra_scene("stanford-bunny.obj");
   if (!path) GTEST_SKIP() << "PINOCCHIO_EXTRA_SCENES is not set: the bunny is not compared";
   Scene scene = load_or_die(*path);
-  for (MeshEdit mesh(scene); Material& material : mesh->materials)
+  for (MeshEdit mesh(scene); Material & material : mesh->materials)
     material.reflectance = glm::vec3(0.5f);  // or it has no reflections
   scene.lights = {default_light(scene, camera_for_whole_scene(scene)), point_light({0.3f, 0.5f, 0.2f})};
   compare(scene);

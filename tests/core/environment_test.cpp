@@ -20,7 +20,8 @@ namespace {
 Image<glm::vec3> sky(glm::ivec2 size) {
   Image<glm::vec3> image(size);
   Random random(3);
-  for (glm::vec3& c : image.pixels()) c = {random.between(0.0f, 1.0f), random.between(0.0f, 1.0f), random.between(0.0f, 1.0f)};
+  for (glm::vec3& c : image.pixels())
+    c = {random.between(0.0f, 1.0f), random.between(0.0f, 1.0f), random.between(0.0f, 1.0f)};
   image.at(size.x / 3, size.y / 4) = glm::vec3(2000.0f, 1500.0f, 1000.0f);
   return image;
 }
@@ -38,7 +39,8 @@ ExrFile exr_of(const Image<glm::vec3>& image) {
 }
 
 // RGBE without run lengths.
-void write_hdr(const std::filesystem::path& file, glm::ivec2 size, const std::string& texel, std::size_t missing = 0) {
+void write_hdr(const std::filesystem::path& file, glm::ivec2 size, const std::string& texel,
+               std::size_t missing = 0) {
   std::ofstream out(file, std::ios::binary);
   out << "#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y " << size.y << " +X " << size.x << "\n";
   std::string bytes;
@@ -53,7 +55,8 @@ TEST(Environment, IsReadFromExrAndRadiance) {
   ASSERT_TRUE(exr) << exr.error().message();
   EXPECT_TRUE(std::ranges::equal((*exr)->radiance().pixels(), image.pixels()));
 
-  write_hdr(own_file("sky.hdr"), {4, 2}, std::string("\x80\x40\x20\x82", 4));  // 2^2 times halves, quarters, eighths
+  write_hdr(own_file("sky.hdr"), {4, 2},
+            std::string("\x80\x40\x20\x82", 4));  // 2^2 times halves, quarters, eighths
   const auto hdr = load_environment(own_file("sky.hdr"));
   ASSERT_TRUE(hdr) << hdr.error().message();
   EXPECT_EQ((*hdr)->radiance().size(), glm::ivec2(4, 2));
@@ -63,18 +66,24 @@ TEST(Environment, IsReadFromExrAndRadiance) {
 // Each line packed by channels or not; there, a pixel repeated the old way.
 TEST(Environment, RadianceLinesArePackedOrPlain) {
   const std::string head = "#?RGBE\n# by hand\nFORMAT=32-bit_rle_rgbe\nEXPOSURE=1\n\n-Y 2 +X 8\n";
-  const auto channel = [](char value) { return std::string{static_cast<char>(133), value, 3, value, value, value}; };
-  const std::string packed = std::string("\2\2\0\10", 4) + channel('\x80') + channel('\x40') + channel('\x20') + channel('\x82');
+  const auto channel = [](char value) {
+    return std::string{static_cast<char>(133), value, 3, value, value, value};
+  };
+  const std::string packed =
+      std::string("\2\2\0\10", 4) + channel('\x80') + channel('\x40') + channel('\x20') + channel('\x82');
   const std::string plain = std::string("\x80\x40\x20\x82\x20\x40\x80\x81\1\1\1\6", 12);
   std::ofstream(own_file("both.hdr"), std::ios::binary) << head + packed + plain;
   const auto sky = load_environment(own_file("both.hdr"));
   ASSERT_TRUE(sky) << sky.error().message();
   for (int x = 0; x < 8; ++x) {
     EXPECT_EQ((*sky)->radiance().at(x, 0), glm::vec3(2.0f, 1.0f, 0.5f)) << x;
-    EXPECT_EQ((*sky)->radiance().at(x, 1), x == 0 ? glm::vec3(2.0f, 1.0f, 0.5f) : glm::vec3(0.25f, 0.5f, 1.0f)) << x;
+    EXPECT_EQ((*sky)->radiance().at(x, 1),
+              x == 0 ? glm::vec3(2.0f, 1.0f, 0.5f) : glm::vec3(0.25f, 0.5f, 1.0f))
+        << x;
   }
-  for (const std::string& bad : {packed + plain.substr(0, 11), packed.substr(0, 9), std::string("\2\2\0\10\0\0\0\0\0\0\0\0", 12),
-                                 std::string("\2\2\0\10\xff\1", 6), std::string("\1\1\1\6", 4)}) {
+  for (const std::string& bad :
+       {packed + plain.substr(0, 11), packed.substr(0, 9), std::string("\2\2\0\10\0\0\0\0\0\0\0\0", 12),
+        std::string("\2\2\0\10\xff\1", 6), std::string("\1\1\1\6", 4)}) {
     std::ofstream(own_file("bad.hdr"), std::ios::binary) << head + bad;
     EXPECT_FALSE(load_environment(own_file("bad.hdr")));
   }
@@ -114,7 +123,8 @@ TEST(Environment, DensityAddsUpToOne) {
   constexpr int kSteps = 64;
   for (int y = 0; y < kSteps; ++y)
     for (int x = 0; x < 2 * kSteps; ++x)
-      sum += static_cast<double>(environment.density((glm::vec2(x, y) + 0.5f) / glm::vec2(2 * kSteps, kSteps)));
+      sum +=
+          static_cast<double>(environment.density((glm::vec2(x, y) + 0.5f) / glm::vec2(2 * kSteps, kSteps)));
   EXPECT_NEAR(sum / (2.0 * kSteps * kSteps), 1.0, 1e-5);
 }
 
@@ -125,7 +135,8 @@ Scene under(Image<glm::vec3> image, MeshData mesh) {
   return scene;
 }
 
-// What a sample's direction finds is what it brought, over its likelihood; together they are the whole sky's light.
+// What a sample's direction finds is what it brought, over its likelihood; together they are the whole sky's
+// light.
 TEST(Environment, SamplesBringTheWholeSky) {
   Scene scene = under(sky({32, 16}), {});
   scene.environment_rotation_deg = 33.0f;
@@ -139,14 +150,16 @@ TEST(Environment, SamplesBringTheWholeSky) {
     packet.number[1][0] = (static_cast<float>(i / kSide) + 0.5f) / kSide;
     light.sample(1u, packet);
     const glm::vec3 direction(packet.direction[0][0], packet.direction[1][0], packet.direction[2][0]);
-    const glm::vec3 brought(packet.light[0][0], packet.light[1][0], packet.light[2][0]), seen = light.radiance(direction);
+    const glm::vec3 brought(packet.light[0][0], packet.light[1][0], packet.light[2][0]),
+        seen = light.radiance(direction);
     ASSERT_NEAR(glm::length(direction), 1.0f, 1e-5f);
     ASSERT_LT(glm::length(glm::normalize(brought) - glm::normalize(seen)), 0.02f);
     sampled += glm::dvec3(brought) / double{kSide * kSide};
   }
   constexpr int kFine = 1024;  // evenly over the sphere
   for (int i = 0; i < kFine * kFine; ++i) {
-    const float height = 2.0f * (static_cast<float>(i / kFine) + 0.5f) / kFine - 1.0f, across = std::sqrt(1.0f - height * height);
+    const float height = 2.0f * (static_cast<float>(i / kFine) + 0.5f) / kFine - 1.0f,
+                across = std::sqrt(1.0f - height * height);
     const float turn = glm::two_pi<float>() * (static_cast<float>(i % kFine) + 0.5f) / kFine;
     exact += glm::dvec3(light.radiance({across * std::cos(turn), height, across * std::sin(turn)})) *
              (4.0 * glm::pi<double>() / (double{kFine} * kFine));
@@ -174,13 +187,14 @@ struct Drawn {
   RayCounts rays;
 };
 
-Drawn draw(const Scene& scene, int samples, int indirect, std::optional<Isa> isa = {}, int threads = 2, int depth = 8,
-           glm::ivec2 size = {64, 48}, bool jittered = false) {
+Drawn draw(const Scene& scene, int samples, int indirect, std::optional<Isa> isa = {}, int threads = 2,
+           int depth = 8, glm::ivec2 size = {64, 48}, bool jittered = false) {
   const Tracer tracer(scene.mesh, {}, isa);
   Workers workers(threads);
   Drawn sum{Image<glm::vec4>(size), Image<glm::vec3>(size), {}};
   for (int k = 0; k < samples; ++k) {
-    TraceJob job{scene, tracer, workers, view_params(scene.cameras.front(), size, jittered ? jitter_of(k) : glm::vec2(0.0f))};
+    TraceJob job{scene, tracer, workers,
+                 view_params(scene.cameras.front(), size, jittered ? jitter_of(k) : glm::vec2(0.0f))};
     job.throughput_cutoff = 0.0f;
     job.sampling.index = static_cast<std::uint32_t>(k);
     Image<glm::vec4> color;
@@ -233,8 +247,8 @@ TEST(WhiteFurnace, AnEvenSkyIsAsBrightAsTheBall) {
   }
 }
 
-// In a closed room that glows and reflects a share, each bounce adds that share of the one before: every pixel is
-// the same, and is what the series says. Through a mirror it is so, too.
+// In a closed room that glows and reflects a share, each bounce adds that share of the one before: every
+// pixel is the same, and is what the series says. Through a mirror it is so, too.
 TEST(WhiteFurnace, AClosedRoomHoldsItsLight) {
   for (const bool mirror : {false, true}) {
     MeshData mesh;
@@ -260,7 +274,8 @@ TEST(WhiteFurnace, AClosedRoomHoldsItsLight) {
       for (int n = 0; n <= bounces; ++n) expected = 1.0f + wall.diffuse * expected;
       const Drawn drawn = draw(scene, 1, bounces, {}, 2, 32);
       glm::vec3 lo(1e9f), hi(0.0f);
-      for (const glm::vec4& c : drawn.color.pixels()) lo = glm::min(lo, glm::vec3(c)), hi = glm::max(hi, glm::vec3(c));
+      for (const glm::vec4& c : drawn.color.pixels())
+        lo = glm::min(lo, glm::vec3(c)), hi = glm::max(hi, glm::vec3(c));
       for (int c = 0; c < 3; ++c) {
         EXPECT_NEAR(lo[c], expected[c], 1e-4f) << bounces << " bounces, mirror " << mirror;
         EXPECT_NEAR(hi[c], expected[c], 1e-4f) << bounces << " bounces, mirror " << mirror;
@@ -269,12 +284,21 @@ TEST(WhiteFurnace, AClosedRoomHoldsItsLight) {
   }
 }
 
-// cornell with matt balls, a lamp that falls off by the square and glows not, two bounces: what Mitsuba 3's path
-// integrator makes of it, the means of blocks of 32 x 32 pixels (scripts/environment, 512 samples).
+// cornell with matt balls, a lamp that falls off by the square and glows not, two bounces: what Mitsuba 3's
+// path integrator makes of it, the means of blocks of 32 x 32 pixels (scripts/environment, 512 samples).
 constexpr std::array<glm::vec3, 12> kMitsubaCornell{{
-    {0.24947f, 0.02969f, 0.02005f}, {0.4192f, 0.3026f, 0.23961f}, {0.3378f, 0.3484f, 0.23919f}, {0.05508f, 0.16775f, 0.03271f},
-    {0.18262f, 0.01578f, 0.00988f}, {0.23162f, 0.15139f, 0.11828f}, {0.2475f, 0.27186f, 0.17611f}, {0.03572f, 0.12285f, 0.01991f},
-    {0.11742f, 0.02711f, 0.01936f}, {0.13934f, 0.11067f, 0.08488f}, {0.0887f, 0.08413f, 0.05547f}, {0.03444f, 0.07604f, 0.02053f},
+    {0.24947f, 0.02969f, 0.02005f},
+    {0.4192f, 0.3026f, 0.23961f},
+    {0.3378f, 0.3484f, 0.23919f},
+    {0.05508f, 0.16775f, 0.03271f},
+    {0.18262f, 0.01578f, 0.00988f},
+    {0.23162f, 0.15139f, 0.11828f},
+    {0.2475f, 0.27186f, 0.17611f},
+    {0.03572f, 0.12285f, 0.01991f},
+    {0.11742f, 0.02711f, 0.01936f},
+    {0.13934f, 0.11067f, 0.08488f},
+    {0.0887f, 0.08413f, 0.05547f},
+    {0.03444f, 0.07604f, 0.02053f},
 }};
 
 TEST(Indirect, CornellIsAsBrightAsMitsubasEverywhere) {
@@ -299,11 +323,21 @@ TEST(Indirect, CornellIsAsBrightAsMitsubasEverywhere) {
   }
 }
 
-// A floor half under a plate, its sky a gradient with a sun of two degrees: likewise (scripts/environment --only plate).
+// A floor half under a plate, its sky a gradient with a sun of two degrees: likewise (scripts/environment
+// --only plate).
 constexpr std::array<glm::vec3, 12> kMitsubaPlate{{
-    {0.08279f, 0.09918f, 0.11972f}, {0.08147f, 0.09732f, 0.11715f}, {0.0814f, 0.09729f, 0.11722f}, {0.08298f, 0.09925f, 0.11964f},
-    {0.30231f, 0.32551f, 0.3507f}, {0.30174f, 0.32493f, 0.3501f}, {0.3011f, 0.32419f, 0.34925f}, {0.30259f, 0.32586f, 0.35111f},
-    {0.37301f, 0.42408f, 0.48975f}, {0.37303f, 0.42415f, 0.48992f}, {0.37307f, 0.42425f, 0.49007f}, {0.37389f, 0.42513f, 0.49105f},
+    {0.08279f, 0.09918f, 0.11972f},
+    {0.08147f, 0.09732f, 0.11715f},
+    {0.0814f, 0.09729f, 0.11722f},
+    {0.08298f, 0.09925f, 0.11964f},
+    {0.30231f, 0.32551f, 0.3507f},
+    {0.30174f, 0.32493f, 0.3501f},
+    {0.3011f, 0.32419f, 0.34925f},
+    {0.30259f, 0.32586f, 0.35111f},
+    {0.37301f, 0.42408f, 0.48975f},
+    {0.37303f, 0.42415f, 0.48992f},
+    {0.37307f, 0.42425f, 0.49007f},
+    {0.37389f, 0.42513f, 0.49105f},
 }};
 
 TEST(Environment, LightsAFloorUnderAPlateAsMitsubasDoes) {

@@ -32,7 +32,8 @@ void expect_near(const glm::vec2& a, const glm::vec2& b) {
   EXPECT_NEAR(a.y, b.y, 1e-5f);
 }
 
-// Where the ray of a pixel's centre says: also of a camera whose axis is off the centre, its pixels not square.
+// Where the ray of a pixel's centre says: also of a camera whose axis is off the centre, its pixels not
+// square.
 TEST(FrameExr, NdcOfAMeasuredCameraIsItsPixels) {
   const Camera camera = with_intrinsics(slanted_camera(), {3.0, 3.5, 1.25, 0.5}, kSize);
   const shared::ViewParams view = view_params(camera, kSize);
@@ -63,8 +64,9 @@ struct HandMade {
   }
   [[nodiscard]] ExrFile exr(std::optional<double> render_s) const {
     const auto all = [this](int, int) { return surfaces; };
-    return frame_exr({kSize, {{0, 0}, kSize}, scene, camera, color, ids, mask, reflection, all, "{}", render_s},
-                     *parse_aovs("all"), 0, kSize.y);
+    return frame_exr(
+        {kSize, {{0, 0}, kSize}, scene, camera, color, ids, mask, reflection, all, "{}", render_s},
+        *parse_aovs("all"), 0, kSize.y);
   }
 };
 

@@ -18,7 +18,8 @@ LightHistogram histogram_of(const std::vector<glm::vec3>& pixels) {
 }
 
 TEST(LightHistogram, EachPixelIsInTheBinOfItsStop) {
-  const LightHistogram light = histogram_of({glm::vec3(0.0f), glm::vec3(0.25f), glm::vec3(0.3f), glm::vec3(1.5f), glm::vec3(1e6f)});
+  const LightHistogram light =
+      histogram_of({glm::vec3(0.0f), glm::vec3(0.25f), glm::vec3(0.3f), glm::vec3(1.5f), glm::vec3(1e6f)});
   // One bin a stop, from 2^-4 to 2^4.
   EXPECT_EQ(light.by_luminance(-4.0f, 4.0f, 8), (std::vector<float>{1, 0, 2, 0, 1, 0, 0, 1}));
   EXPECT_EQ(light.pixels(), 5u);
@@ -27,7 +28,8 @@ TEST(LightHistogram, EachPixelIsInTheBinOfItsStop) {
 // As bytes have it: counted here from each pixel by itself.
 TEST(LightHistogram, WhatIsClippedIsWhatTheBytesSay) {
   std::vector<glm::vec3> pixels;
-  for (int i = 0; i < 4000; ++i) pixels.emplace_back(0.0007f * static_cast<float>(i), 0.0f, 0.00001f * static_cast<float>(i % 40));
+  for (int i = 0; i < 4000; ++i)
+    pixels.emplace_back(0.0007f * static_cast<float>(i), 0.0f, 0.00001f * static_cast<float>(i % 40));
   const LightHistogram light = histogram_of(pixels);
   for (const ToneMap curve : {ToneMap::clip, ToneMap::reinhard, ToneMap::aces})
     for (const float ev : {-3.0f, 0.0f, 2.5f}) {
@@ -45,7 +47,8 @@ TEST(LightHistogram, WhatIsClippedIsWhatTheBytesSay) {
 
 TEST(LightHistogram, WhatIsNoLightIsBlack) {
   const float nan = std::numeric_limits<float>::quiet_NaN();
-  const LightHistogram light = histogram_of({glm::vec3(nan), glm::vec3(-1.0f), glm::vec3(std::numeric_limits<float>::infinity())});
+  const LightHistogram light =
+      histogram_of({glm::vec3(nan), glm::vec3(-1.0f), glm::vec3(std::numeric_limits<float>::infinity())});
   EXPECT_EQ(light.shown_black(0.0f, ToneMap::clip), 2u);
   EXPECT_EQ(light.shown_white(0.0f, ToneMap::clip), 1u);
 }

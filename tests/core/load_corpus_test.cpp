@@ -23,7 +23,8 @@ void read(const std::filesystem::path& file, const std::string& format) {
   const bool is_mtl = format == "mtl";
   const std::filesystem::path scene = own_file("corpus." + (is_mtl ? std::string("obj") : format));
   if (is_mtl) {
-    std::filesystem::copy_file(file, own_file("corpus.mtl"), std::filesystem::copy_options::overwrite_existing);
+    std::filesystem::copy_file(file, own_file("corpus.mtl"),
+                               std::filesystem::copy_options::overwrite_existing);
     std::ofstream(scene) << "mtllib corpus.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0 0\nusemtl m\nf 1/1 2/1 3/1\n";
   } else {
     std::filesystem::copy_file(file, scene, std::filesystem::copy_options::overwrite_existing);

@@ -200,10 +200,12 @@ TEST(LoadGltf, QuantizedAttributes) {
   json["bufferViews"] = {{{"buffer", 0}, {"byteLength", 24}, {"byteStride", 8}},
                          {{"buffer", 0}, {"byteOffset", 24}, {"byteLength", 12}, {"byteStride", 4}},
                          {{"buffer", 0}, {"byteOffset", 36}, {"byteLength", 12}, {"byteStride", 4}}};
-  json["accessors"] = {{{"bufferView", 0}, {"componentType", 5122}, {"count", 3}, {"type", "VEC3"}},
-                       {{"bufferView", 1}, {"componentType", 5120}, {"count", 3}, {"type", "VEC3"}, {"normalized", true}},
-                       {{"bufferView", 2}, {"componentType", 5121}, {"count", 3}, {"type", "VEC2"}, {"normalized", true}}};
-  json["meshes"][0]["primitives"][0] = {{"attributes", {{"POSITION", 0}, {"NORMAL", 1}, {"TEXCOORD_0", 2}}}, {"material", 0}};
+  json["accessors"] = {
+      {{"bufferView", 0}, {"componentType", 5122}, {"count", 3}, {"type", "VEC3"}},
+      {{"bufferView", 1}, {"componentType", 5120}, {"count", 3}, {"type", "VEC3"}, {"normalized", true}},
+      {{"bufferView", 2}, {"componentType", 5121}, {"count", 3}, {"type", "VEC2"}, {"normalized", true}}};
+  json["meshes"][0]["primitives"][0] = {{"attributes", {{"POSITION", 0}, {"NORMAL", 1}, {"TEXCOORD_0", 2}}},
+                                        {"material", 0}};
   json["nodes"][0]["scale"] = {0.001, 0.001, 0.001};
   json["extensionsRequired"] = {"KHR_mesh_quantization"};
   const Scene scene = load_good(json);

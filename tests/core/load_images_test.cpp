@@ -36,8 +36,9 @@ std::string jpeg_of(const Texture& texture, int subsampling) {
   const std::unique_ptr<void, int (*)(tjhandle)> context(tjInitCompress(), tjDestroy);
   unsigned char* bytes = nullptr;
   unsigned long size = 0;
-  EXPECT_EQ(tjCompress2(context.get(), reinterpret_cast<const unsigned char*>(texture.texels.pixels().data()), kSide, 0,
-                        kSide, TJPF_RGBA, &bytes, &size, subsampling, 95, TJFLAG_ACCURATEDCT), 0);
+  EXPECT_EQ(tjCompress2(context.get(), reinterpret_cast<const unsigned char*>(texture.texels.pixels().data()),
+                        kSide, 0, kSide, TJPF_RGBA, &bytes, &size, subsampling, 95, TJFLAG_ACCURATEDCT),
+            0);
   const std::string jpeg(reinterpret_cast<const char*>(bytes), size);
   tjFree(bytes);
   return jpeg;
@@ -45,7 +46,8 @@ std::string jpeg_of(const Texture& texture, int subsampling) {
 
 Expected<DecodedImage> decode(const std::string& bytes, std::uint64_t most_bytes = 1 << 20) {
   MemoryLimit limit(most_bytes);
-  return decode_texture("scene.glb", "picture", {reinterpret_cast<const unsigned char*>(bytes.data()), bytes.size()}, limit);
+  return decode_texture("scene.glb", "picture",
+                        {reinterpret_cast<const unsigned char*>(bytes.data()), bytes.size()}, limit);
 }
 
 int largest_difference(const Texture& a, const Texture& b) {
@@ -57,8 +59,11 @@ int largest_difference(const Texture& a, const Texture& b) {
 
 TEST(LoadImages, EachFormatGivesItsTexels) {
   const Texture texture = gradient();
-  const std::pair<std::string, int> files[] = {  // and by how much a texel may differ
-      {png_of(texture), 0}, {webp_of(texture), 0}, {jpeg_of(texture, TJSAMP_444), 4}, {jpeg_of(texture, TJSAMP_420), 12}};
+  const std::pair<std::string, int> files[] = {// and by how much a texel may differ
+                                               {png_of(texture), 0},
+                                               {webp_of(texture), 0},
+                                               {jpeg_of(texture, TJSAMP_444), 4},
+                                               {jpeg_of(texture, TJSAMP_420), 12}};
   for (const auto& [bytes, tolerance] : files) {
     const Expected<DecodedImage> image = decode(bytes);
     ASSERT_TRUE(image) << image.error().message();
@@ -87,14 +92,16 @@ TEST(LoadImages, ABmpMayBeginWithItsTopRow) {
 
 TEST(LoadImages, DamagedOnesAreErrorsOrSaySo) {
   Random random(7);
-  for (const std::string& whole : {png_of(gradient()), webp_of(gradient()), jpeg_of(gradient(), TJSAMP_420)}) {
+  for (const std::string& whole :
+       {png_of(gradient()), webp_of(gradient()), jpeg_of(gradient(), TJSAMP_420)}) {
     for (std::size_t cut = 0; cut + 16 < whole.size(); cut += 1 + whole.size() / 200) {
       const Expected<DecodedImage> image = decode(whole.substr(0, cut));
       EXPECT_TRUE(!image || !image->damage.empty()) << cut << " of " << whole.size();
     }
     for (int i = 0; i < 300; ++i) {
       std::string bytes = whole;
-      for (int k = 0; k < 4; ++k) bytes[random.next() % bytes.size()] ^= static_cast<char>(1u << random.next() % 8);
+      for (int k = 0; k < 4; ++k)
+        bytes[random.next() % bytes.size()] ^= static_cast<char>(1u << random.next() % 8);
       (void)decode(bytes);
     }
   }
@@ -110,15 +117,19 @@ TEST(LoadImages, NetpbmGreyAndRgb) {
   };
   EXPECT_EQ(texels("P6\n# by hand\n2 1 # wide\n100\n" + std::string("\x64\x32\x00\x00\x64\x7f", 6)),
             (std::vector<glm::u8vec4>{{255, 128, 0, 255}, {0, 255, 255, 255}}));
-  EXPECT_EQ(texels("P6 1 1 65535\n" + std::string("\xff\xff\x80\x00\x00\xff", 6)), (std::vector<glm::u8vec4>{{255, 128, 1, 255}}));
-  EXPECT_EQ(texels("P5 2 1 255\n" + std::string("\x07\xc8")), (std::vector<glm::u8vec4>{{7, 7, 7, 255}, {200, 200, 200, 255}}));
+  EXPECT_EQ(texels("P6 1 1 65535\n" + std::string("\xff\xff\x80\x00\x00\xff", 6)),
+            (std::vector<glm::u8vec4>{{255, 128, 1, 255}}));
+  EXPECT_EQ(texels("P5 2 1 255\n" + std::string("\x07\xc8")),
+            (std::vector<glm::u8vec4>{{7, 7, 7, 255}, {200, 200, 200, 255}}));
   EXPECT_EQ(decode("P6 9 1 260\n1234")->damage, "it is cut off");
-  for (const char* bad : {"P6", "P6 1", "P6 1 1", "P6 1 1 0 ", "P6 1 1 65536 123", "P6 99999999999 1 255 ", "P6 0 1 255 ", "P6 -1 1 255 "})
+  for (const char* bad : {"P6", "P6 1", "P6 1 1", "P6 1 1 0 ", "P6 1 1 65536 123", "P6 99999999999 1 255 ",
+                          "P6 0 1 255 ", "P6 -1 1 255 "})
     EXPECT_FALSE(decode(bad)) << bad;
 }
 
 TEST(LoadImages, NoneTakesMoreThanTheLimit) {
-  for (const std::string& bytes : {png_of(gradient()), webp_of(gradient()), jpeg_of(gradient(), TJSAMP_444)}) {
+  for (const std::string& bytes :
+       {png_of(gradient()), webp_of(gradient()), jpeg_of(gradient(), TJSAMP_444)}) {
     const Expected<DecodedImage> image = decode(bytes, 100);
     ASSERT_FALSE(image);
     EXPECT_NE(image.error().message().find("24 x 24 pixels"), std::string::npos);
@@ -128,7 +139,8 @@ TEST(LoadImages, NoneTakesMoreThanTheLimit) {
 
 // What a KTX2 or DDS picture is said by name.
 TEST(LoadImages, FormatsThatAreNotRead) {
-  EXPECT_NE(decode(std::string("\xabKTX 20\xbb\r\n\x1a\n", 12)).error().message().find("KTX2"), std::string::npos);
+  EXPECT_NE(decode(std::string("\xabKTX 20\xbb\r\n\x1a\n", 12)).error().message().find("KTX2"),
+            std::string::npos);
   EXPECT_NE(decode("DDS |").error().message().find("DDS"), std::string::npos);
   EXPECT_NE(decode("text").error().message().find("format"), std::string::npos);
 }

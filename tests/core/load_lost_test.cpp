@@ -25,7 +25,8 @@ Json with_material(const Json& material) {
 
 TEST(LoadLost, OneWarningForEachFeatureAndFile) {
   Warnings warnings;
-  for (const char* where : {"line 1", "line 2", "line 5"}) warnings.add({"a.obj", where, "lines are left out", "x"});
+  for (const char* where : {"line 1", "line 2", "line 5"})
+    warnings.add({"a.obj", where, "lines are left out", "x"});
   warnings.add({"a.obj", "line 3", "points are left out", "y"});
   warnings.add({"b.obj", "line 4", "lines are left out", "x"});
   ASSERT_EQ(warnings.size(), 3u);
@@ -34,14 +35,18 @@ TEST(LoadLost, OneWarningForEachFeatureAndFile) {
 
 TEST(LoadLost, WhatIsReadIsNotWarnedOf) {
   EXPECT_TRUE(warnings_of(triangle_json()).empty());
-  EXPECT_TRUE(warnings_of(with_material({{"doubleSided", true}, {"extensions", {{"KHR_materials_ior", {{"ior", 1.4}}}}}})).empty());
+  EXPECT_TRUE(warnings_of(with_material({{"doubleSided", true},
+                                         {"extensions", {{"KHR_materials_ior", {{"ior", 1.4}}}}}}))
+                  .empty());
 }
 
 TEST(LoadLost, ExtensionsByName) {
-  const Json json = with_material({{"name", "paint"}, {"extensions", {{"KHR_materials_clearcoat", Json::object()}, {"ACME_new", 1}}}});
+  const Json json = with_material(
+      {{"name", "paint"}, {"extensions", {{"KHR_materials_clearcoat", Json::object()}, {"ACME_new", 1}}}});
   const Warnings warnings = warnings_of(json);
   EXPECT_NE(line_about(warnings, "KHR_materials_clearcoat").find("material 'paint'"), std::string::npos);
-  EXPECT_NE(line_about(warnings, "KHR_materials_clearcoat").find("clear coat are missing"), std::string::npos);
+  EXPECT_NE(line_about(warnings, "KHR_materials_clearcoat").find("clear coat are missing"),
+            std::string::npos);
   EXPECT_NE(line_about(warnings, "ACME_new"), "");
   EXPECT_EQ(warnings.size(), 2u);
 }
@@ -64,10 +69,10 @@ TEST(LoadLost, MembersOfTheWrongType) {
   texture["index"] = 0;
   texture["extensions"]["KHR_texture_transform"] = "turned";
   EXPECT_NE(line_about(warnings_of(json), "baseColorTexture's KHR_texture_transform is not an object"), "");
-  for (const Json& material :
-       {Json{{"pbrMetallicRoughness", Json::array()}}, Json{{"pbrMetallicRoughness", {{"metallicFactor", "0"}}}},
-        Json{{"pbrMetallicRoughness", {{"baseColorFactor", {1, 1, 1}}}}}, Json{{"alphaMode", "mask"}},
-        Json{{"emissiveFactor", {1, 1, "1"}}}})
+  for (const Json& material : {Json{{"pbrMetallicRoughness", Json::array()}},
+                               Json{{"pbrMetallicRoughness", {{"metallicFactor", "0"}}}},
+                               Json{{"pbrMetallicRoughness", {{"baseColorFactor", {1, 1, 1}}}}},
+                               Json{{"alphaMode", "mask"}}, Json{{"emissiveFactor", {1, 1, "1"}}}})
     EXPECT_NE(line_about(warnings_of(with_material(material)), "is not of the type"), "") << material;
 }
 
@@ -101,7 +106,8 @@ TEST(LoadLost, VersionAndRequiredExtensionsBeforeAnythingElse) {
   json["asset"]["version"] = "1.0";
   json["buffers"] = {{"binary_glTF", {{"byteLength", 0}}}};  // as 1.0 has it
   EXPECT_NE(error_of(json).find("is glTF 1.0"), std::string::npos);
-  for (const char* name : {"KHR_texture_basisu", "KHR_materials_pbrSpecularGlossiness", "KHR_materials_clearcoat"}) {
+  for (const char* name :
+       {"KHR_texture_basisu", "KHR_materials_pbrSpecularGlossiness", "KHR_materials_clearcoat"}) {
     json = triangle_json();
     json["extensionsRequired"] = {name};
     json["buffers"][0]["uri"] = "nowhere.bin";
@@ -110,9 +116,11 @@ TEST(LoadLost, VersionAndRequiredExtensionsBeforeAnythingElse) {
 }
 
 TEST(LoadLost, StatementsOfMtlAndObj) {
-  std::ofstream(own_file("lost.mtl")) << "newmtl m\nKd 1 0 0\nPc 1\nfoo 3\nbar 4\nd 0.5\nmap_Kd -zz 1 on a.png\n";
+  std::ofstream(own_file("lost.mtl"))
+      << "newmtl m\nKd 1 0 0\nPc 1\nfoo 3\nbar 4\nd 0.5\nmap_Kd -zz 1 on a.png\n";
   const auto obj = own_file("lost.obj");
-  std::ofstream(obj) << "mtllib lost.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nusemtl m\ncurv 0 1 1 2\nmagic\nf 1 2 3\n";
+  std::ofstream(obj)
+      << "mtllib lost.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nusemtl m\ncurv 0 1 1 2\nmagic\nf 1 2 3\n";
   Warnings warnings;
   ASSERT_TRUE(load_scene(obj, &warnings));
   EXPECT_NE(line_about(warnings, "lost.mtl: line 3: Pc"), "");

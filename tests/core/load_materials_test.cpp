@@ -15,7 +15,8 @@ TEST(LoadMaterials, GltfTexturesSamplersAndTransforms) {
   material["normalTexture"] = {{"index", 0}, {"scale", 0.5}};
   material["occlusionTexture"] = {{"index", 0}, {"strength", 0.25}};
   material["pbrMetallicRoughness"]["metallicRoughnessTexture"] = {
-      {"index", 0}, {"extensions", {{"KHR_texture_transform", {{"offset", {0.5, 0.25}}, {"scale", {2, 3}}}}}}};
+      {"index", 0},
+      {"extensions", {{"KHR_texture_transform", {{"offset", {0.5, 0.25}}, {"scale", {2, 3}}}}}}};
   material["alphaMode"] = "MASK";
   material["alphaCutoff"] = 0.75;
   json["meshes"][0]["primitives"][0]["attributes"]["TEXCOORD_0"] = 0;
@@ -43,16 +44,17 @@ TEST(LoadMaterials, GltfTexturesSamplersAndTransforms) {
 
 TEST(LoadMaterials, GltfTexturesOfSpecularAndTransmission) {
   // Opaque here, clear there: what mirrors and what lets light through are both kept rays for.
-  std::ofstream(own_file("texels.ppm"), std::ios::binary) << "P6 2 1 255\n" << std::string("\0\0\0\xff\xff\xff", 6);
+  std::ofstream(own_file("texels.ppm"), std::ios::binary) << "P6 2 1 255\n"
+                                                          << std::string("\0\0\0\xff\xff\xff", 6);
   Json json = textured_json({{"uri", "texels.ppm"}});
   Json& material = json["materials"][0];
   material["pbrMetallicRoughness"] = {{"metallicFactor", 0}, {"roughnessFactor", 0}};
   material["extensions"]["KHR_materials_specular"] = {
-      {"specularTexture", {{"index", 0}}},
-      {"specularColorTexture", {{"index", 0}, {"texCoord", 1}}}};
+      {"specularTexture", {{"index", 0}}}, {"specularColorTexture", {{"index", 0}, {"texCoord", 1}}}};
   material["extensions"]["KHR_materials_transmission"] = {
       {"transmissionFactor", 1},
-      {"transmissionTexture", {{"index", 0}, {"extensions", {{"KHR_texture_transform", {{"scale", {2, 3}}}}}}}}};
+      {"transmissionTexture",
+       {{"index", 0}, {"extensions", {{"KHR_texture_transform", {{"scale", {2, 3}}}}}}}}};
   json["accessors"].push_back({{"bufferView", 0}, {"componentType", 5126}, {"count", 4}, {"type", "VEC2"}});
   Json& attributes = json["meshes"][0]["primitives"][0]["attributes"];
   attributes["TEXCOORD_0"] = attributes["TEXCOORD_1"] = 2;

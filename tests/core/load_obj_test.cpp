@@ -109,7 +109,8 @@ TEST(LoadObj, LinesMayEndInACarriageReturnAlone) {
 }
 
 TEST(LoadObj, BackslashesJoinLines) {
-  const Scene scene = load_text("v 0 0 \\\n0\nv 1 0 0\r\nv 0 1 0\nusemtl m\nf 1 \\\r\n2 3\n", "newmtl m\nKd 1 \\\n0 0\n");
+  const Scene scene =
+      load_text("v 0 0 \\\n0\nv 1 0 0\r\nv 0 1 0\nusemtl m\nf 1 \\\r\n2 3\n", "newmtl m\nKd 1 \\\n0 0\n");
   ASSERT_EQ(scene.mesh->triangles.size(), 1u);
   EXPECT_EQ(scene.mesh->material_of(0).diffuse, glm::vec3(1, 0, 0));
   EXPECT_EQ(error_of("v 0 0 \\\n0\nv 1 0 0\nv 0 1 0\nf 1 \\\n2 9\n").line, 5);
@@ -182,7 +183,8 @@ TEST(LoadObj, NormalsAndTextureCoordinatesThatThereAreNotAreWarnings) {
   const Expected<Scene> scene = load_scene(path, &warnings);
   ASSERT_TRUE(scene) << scene.error().message();
   ASSERT_EQ(warnings.size(), 2u);
-  EXPECT_NE(warnings[0].message().find("line 5: a face names texture coordinate 5, there are 0"), std::string::npos);
+  EXPECT_NE(warnings[0].message().find("line 5: a face names texture coordinate 5, there are 0"),
+            std::string::npos);
   EXPECT_NE(warnings[1].message().find("line 5: a face names normal 7, there are 1"), std::string::npos);
   EXPECT_EQ(scene->mesh->normals[scene->mesh->triangles[0].x], glm::vec3(0, 0, 1));
   EXPECT_EQ(scene->mesh->normals[scene->mesh->triangles[0].z], glm::vec3(0.0f));

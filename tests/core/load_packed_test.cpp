@@ -21,8 +21,10 @@ std::string base64(const std::string& bytes) {
   std::string text;
   for (std::size_t i = 0; i < bytes.size(); i += 3) {
     std::uint32_t bits = 0;
-    for (std::size_t k = 0; k < 3; ++k) bits = bits << 8 | (i + k < bytes.size() ? static_cast<unsigned char>(bytes[i + k]) : 0);
-    for (std::size_t k = 0; k < 4; ++k) text.push_back(i + k > bytes.size() ? '=' : kLetters[bits >> (18 - 6 * k) & 63]);
+    for (std::size_t k = 0; k < 3; ++k)
+      bits = bits << 8 | (i + k < bytes.size() ? static_cast<unsigned char>(bytes[i + k]) : 0);
+    for (std::size_t k = 0; k < 4; ++k)
+      text.push_back(i + k > bytes.size() ? '=' : kLetters[bits >> (18 - 6 * k) & 63]);
   }
   return text;
 }
@@ -30,7 +32,8 @@ std::string base64(const std::string& bytes) {
 // The triangle's JSON with this as its one buffer.
 Json with_buffer(const std::string& bytes) {
   Json json = triangle_json();
-  json["buffers"] = {{{"uri", "data:application/octet-stream;base64," + base64(bytes)}, {"byteLength", bytes.size()}}};
+  json["buffers"] = {
+      {{"uri", "data:application/octet-stream;base64," + base64(bytes)}, {"byteLength", bytes.size()}}};
   json["bufferViews"] = {{{"buffer", 0}, {"byteLength", bytes.size()}}};
   return json;
 }
@@ -58,7 +61,8 @@ TEST(LoadPacked, LongBuffersInTheFile) {
   std::memcpy(bytes.data() + 48, indices, 8);
   Json json = with_buffer(bytes);
   json["bufferViews"] = triangle_json()["bufferViews"];
-  json["images"] = {{{"uri", "data:image/x-portable-pixmap;base64," + base64("P6 20 20 255\n" + std::string(1200, 'm'))}}};
+  json["images"] = {
+      {{"uri", "data:image/x-portable-pixmap;base64," + base64("P6 20 20 255\n" + std::string(1200, 'm'))}}};
   json["textures"] = {{{"source", 0}}};
   json["materials"] = {{{"pbrMetallicRoughness", {{"baseColorTexture", {{"index", 0}}}}}}};
   json["meshes"][0]["primitives"][0]["material"] = 0;
@@ -89,14 +93,17 @@ TEST(LoadPacked, Draco) {
   draco::EncoderBuffer buffer;
   ASSERT_TRUE(draco::Encoder().EncodeMeshToBuffer(*mesh, &buffer).ok());
   Json json = with_buffer({buffer.data(), buffer.size()});
-  json["accessors"] = {{{"componentType", 5126}, {"count", 3}, {"type", "VEC3"}}, {{"componentType", 5123}, {"count", 3}, {"type", "SCALAR"}}};
+  json["accessors"] = {{{"componentType", 5126}, {"count", 3}, {"type", "VEC3"}},
+                       {{"componentType", 5123}, {"count", 3}, {"type", "SCALAR"}}};
   json["extensionsRequired"] = {"KHR_draco_mesh_compression"};
   Json& primitive = json["meshes"][0]["primitives"][0];
-  primitive["extensions"]["KHR_draco_mesh_compression"] = {{"bufferView", 0}, {"attributes", {{"POSITION", mesh->attribute(id)->unique_id()}}}};
+  primitive["extensions"]["KHR_draco_mesh_compression"] = {
+      {"bufferView", 0}, {"attributes", {{"POSITION", mesh->attribute(id)->unique_id()}}}};
   const Scene scene = load_good(json);
   ASSERT_EQ(scene.mesh->triangles.size(), 1u);
   double area = 0.0;
-  for (int i = 0; i < 3; ++i) area += static_cast<double>(glm::length(scene.mesh->positions[scene.mesh->triangles[0][i]]));
+  for (int i = 0; i < 3; ++i)
+    area += static_cast<double>(glm::length(scene.mesh->positions[scene.mesh->triangles[0][i]]));
   EXPECT_NEAR(area, 2.0, 1e-3);
   primitive["extensions"]["KHR_draco_mesh_compression"]["attributes"]["POSITION"] = 9;
   EXPECT_NE(error_of(json).find("lacks its attribute POSITION"), std::string::npos);
@@ -109,16 +116,28 @@ TEST(LoadPacked, Draco) {
 TEST(LoadPacked, Meshopt) {
   const float positions[12] = {0, 0, 0, 1, 0, 0, 0, 1, 0, 1, 1, 0};
   const unsigned indices[6] = {0, 1, 2, 2, 1, 3};
-  std::string vertices(meshopt_encodeVertexBufferBound(4, 12), '\0'), triangles(meshopt_encodeIndexBufferBound(6, 4), '\0');
-  vertices.resize(meshopt_encodeVertexBuffer(reinterpret_cast<unsigned char*>(vertices.data()), vertices.size(), positions, 4, 12));
-  triangles.resize(meshopt_encodeIndexBuffer(reinterpret_cast<unsigned char*>(triangles.data()), triangles.size(), indices, 6));
+  std::string vertices(meshopt_encodeVertexBufferBound(4, 12), '\0'),
+      triangles(meshopt_encodeIndexBufferBound(6, 4), '\0');
+  vertices.resize(meshopt_encodeVertexBuffer(reinterpret_cast<unsigned char*>(vertices.data()),
+                                             vertices.size(), positions, 4, 12));
+  triangles.resize(meshopt_encodeIndexBuffer(reinterpret_cast<unsigned char*>(triangles.data()),
+                                             triangles.size(), indices, 6));
   Json json = with_buffer(vertices + triangles);
-  json["buffers"].push_back({{"byteLength", 56}, {"extensions", {{"EXT_meshopt_compression", {{"fallback", true}}}}}});
-  json["bufferViews"] = {{{"buffer", 1}, {"byteLength", 48}}, {{"buffer", 1}, {"byteOffset", 48}, {"byteLength", 12}}};
-  json["bufferViews"][0]["extensions"]["EXT_meshopt_compression"] = {
-      {"buffer", 0}, {"byteLength", vertices.size()}, {"byteStride", 12}, {"count", 4}, {"mode", "ATTRIBUTES"}};
-  json["bufferViews"][1]["extensions"]["EXT_meshopt_compression"] = {{"buffer", 0}, {"byteOffset", vertices.size()},
-      {"byteLength", triangles.size()}, {"byteStride", 2}, {"count", 6}, {"mode", "TRIANGLES"}};
+  json["buffers"].push_back(
+      {{"byteLength", 56}, {"extensions", {{"EXT_meshopt_compression", {{"fallback", true}}}}}});
+  json["bufferViews"] = {{{"buffer", 1}, {"byteLength", 48}},
+                         {{"buffer", 1}, {"byteOffset", 48}, {"byteLength", 12}}};
+  json["bufferViews"][0]["extensions"]["EXT_meshopt_compression"] = {{"buffer", 0},
+                                                                     {"byteLength", vertices.size()},
+                                                                     {"byteStride", 12},
+                                                                     {"count", 4},
+                                                                     {"mode", "ATTRIBUTES"}};
+  json["bufferViews"][1]["extensions"]["EXT_meshopt_compression"] = {{"buffer", 0},
+                                                                     {"byteOffset", vertices.size()},
+                                                                     {"byteLength", triangles.size()},
+                                                                     {"byteStride", 2},
+                                                                     {"count", 6},
+                                                                     {"mode", "TRIANGLES"}};
   json["accessors"][1]["count"] = 6;
   json["extensionsRequired"] = {"EXT_meshopt_compression"};
   const Scene scene = load_good(json);
@@ -169,8 +188,10 @@ Json textured_with(const std::string& image) {
 }
 
 TEST(LoadPacked, ImagesClaimNoMemoryBeforeTheLimitIsAsked) {
-  EXPECT_EQ(load_good(textured_with(png_of(2, 2))).mesh->textures[0].texels.at(0, 0), glm::u8vec4(10, 20, 30, 255));
-  EXPECT_NE(error_of(textured_with(png_of(60000, 60000))).find("60000 x 60000 pixels needs 13733 MiB"), std::string::npos);
+  EXPECT_EQ(load_good(textured_with(png_of(2, 2))).mesh->textures[0].texels.at(0, 0),
+            glm::u8vec4(10, 20, 30, 255));
+  EXPECT_NE(error_of(textured_with(png_of(60000, 60000))).find("60000 x 60000 pixels needs 13733 MiB"),
+            std::string::npos);
   EXPECT_NE(error_of(textured_with(png_of(60000, 60000))).find("--load-limit"), std::string::npos);
   std::ofstream(own_file("small.gltf")) << textured_with(png_of(2, 2)).dump();
   EXPECT_FALSE(load_scene(own_file("small.gltf"), nullptr, nullptr, 100));

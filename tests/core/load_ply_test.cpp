@@ -37,7 +37,8 @@ TEST(LoadPly, AsciiWithColorsAndAQuad) {
 
 // The same rows in bytes.
 std::string binary(bool big, const std::string& format) {
-  std::string bytes = "ply\nformat " + format + " 1.0\nelement vertex 3\nproperty float x\nproperty double y\nproperty short z\n"
+  std::string bytes = "ply\nformat " + format +
+                      " 1.0\nelement vertex 3\nproperty float x\nproperty double y\nproperty short z\n"
                       "property float nx\nproperty float ny\nproperty float nz\nelement face 1\n"
                       "property list uint8 uint32 vertex_index\nend_header\n";
   const auto put = [&](auto value) {
@@ -72,8 +73,9 @@ TEST(LoadPly, BothBinaries) {
 }
 
 TEST(LoadPly, StripsEndAtMinusOne) {
-  const std::string header = "ply\nformat ascii 1.0\nelement vertex 4\nproperty float x\nproperty float y\nproperty float z\n"
-                             "element tristrips 1\nproperty list int int vertex_indices\nend_header\n0 0 0 1 0 0 0 1 0 1 1 0\n";
+  const std::string header =
+      "ply\nformat ascii 1.0\nelement vertex 4\nproperty float x\nproperty float y\nproperty float z\n"
+      "element tristrips 1\nproperty list int int vertex_indices\nend_header\n0 0 0 1 0 0 0 1 0 1 1 0\n";
   const Expected<Scene> scene = load_text(header + "8 0 1 2 3 -1 3 2 1\n");
   ASSERT_TRUE(scene) << scene.error().message();
   EXPECT_EQ(scene->mesh->triangles, (std::vector<glm::uvec3>{{0, 1, 2}, {2, 1, 3}, {3, 2, 1}}));
@@ -81,7 +83,8 @@ TEST(LoadPly, StripsEndAtMinusOne) {
 
 TEST(LoadPly, WhatIsLeftOutIsSaid) {
   Warnings warnings;
-  std::string points = kHeader.substr(0, kHeader.find("element face")) + "element edge 1\nproperty int vertex1\nend_header\n";
+  std::string points =
+      kHeader.substr(0, kHeader.find("element face")) + "element edge 1\nproperty int vertex1\nend_header\n";
   EXPECT_FALSE(load_text(points + kRows + "0\n", &warnings));
   ASSERT_EQ(warnings.size(), 2u);
   EXPECT_NE(warnings[0].message().find("element edge"), std::string::npos);
@@ -93,7 +96,8 @@ TEST(LoadPly, BadFilesAreErrorsThatSayWhat) {
   EXPECT_NE(error_of("ply\nformat ascii 1.0\n").find("end_header"), std::string::npos);
   EXPECT_NE(error_of("ply\nformat pdf 1.0\nend_header\n").find(":2: its format 'pdf'"), std::string::npos);
   EXPECT_NE(error_of(kHeader + kRows + "4 0 1 2 9\n").find("names vertex 9"), std::string::npos);
-  EXPECT_NE(error_of(kHeader + kRows + "4 0 1 two 3\n").find(":18: cannot read vertex_indices"), std::string::npos);
+  EXPECT_NE(error_of(kHeader + kRows + "4 0 1 two 3\n").find(":18: cannot read vertex_indices"),
+            std::string::npos);
   EXPECT_NE(error_of(kHeader + kRows + "4 0 1 2\n").find("ends too early"), std::string::npos);
   std::string claim = kHeader;
   claim.replace(claim.find("vertex 4"), 8, "vertex 4000000000");

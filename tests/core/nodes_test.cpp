@@ -23,7 +23,9 @@ Scene one_triangle(const std::string& light = {}) {
 }
 
 class Nodes : public testing::TestWithParam<std::string> {};
-INSTANTIATE_TEST_SUITE_P(Scenes, Nodes, testing::Values("scenes/cornell.gltf", "scenes/two-lights.gltf", "scenes/speedboat.glb"),
+INSTANTIATE_TEST_SUITE_P(Scenes, Nodes,
+                         testing::Values("scenes/cornell.gltf", "scenes/two-lights.gltf",
+                                         "scenes/speedboat.glb"),
                          [](const auto& scene) { return "scene" + std::to_string(scene.index); });
 
 // Away and back: the file's scene, to the last bit.

@@ -97,7 +97,8 @@ TEST(Polygon, RandomStarsInSpace) {
     const std::size_t corners = 5 + random.next() % 60;
     Ring ring;
     for (std::size_t i = 0; i < corners; ++i)
-      ring.push_back(on_circle(0.5 + (random.next() % 1000) / 500.0, static_cast<double>(i) / static_cast<double>(corners)));
+      ring.push_back(on_circle(0.5 + (random.next() % 1000) / 500.0,
+                               static_cast<double>(i) / static_cast<double>(corners)));
     expect_covered(ring);
   }
 }
@@ -106,7 +107,8 @@ TEST(Polygon, FortyThousandCorners) {
   const auto begin = std::chrono::steady_clock::now();
   expect_covered(star(40000));
   expect_covered(comb(20000));
-  EXPECT_LT(std::chrono::steady_clock::now() - begin, std::chrono::seconds(5));  // quadratic ones take minutes
+  EXPECT_LT(std::chrono::steady_clock::now() - begin,
+            std::chrono::seconds(5));  // quadratic ones take minutes
 }
 
 TEST(Polygon, WhatCrossesItselfIsSaid) {

@@ -116,7 +116,9 @@ TEST(Progress, TheReferenceEndsSoon) {
 
 TEST(Progress, GeneratingEndsSoon) {
   EXPECT_LT(seconds_after_cancel("generate",
-                                 [](Progress* p) { (void)make_procedural("forest", {50'000'000, p}); }),
+                                 [](Progress* p) {
+                                   (void)make_procedural("forest", {50'000'000, p});
+                                 }),
             kSoon_s);
 }
 
@@ -129,7 +131,8 @@ TEST(Progress, ReadingAndWritingScenesEndSoonAndLeaveNothing) {
       EXPECT_EQ(entry.path().string().find(".part"), std::string::npos) << entry.path();
     save_scene(forest(), file);
     for (const char* phase : {"read", "mesh"})
-      EXPECT_LT(seconds_after_cancel(phase, [&](Progress* p) { (void)load_scene(file, nullptr, p); }), kSoon_s)
+      EXPECT_LT(seconds_after_cancel(phase, [&](Progress* p) { (void)load_scene(file, nullptr, p); }),
+                kSoon_s)
           << file << " " << phase;
   }
 }

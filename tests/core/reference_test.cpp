@@ -246,7 +246,8 @@ TEST(Reference, OddRaysAndNoTrianglesHitNothing) {
   EXPECT_TRUE(tree.closest_hit({{0, 5, 0}, {0, -1, 0}}).valid());
 }
 
-// A white ball under an even sky is as bright as the sky; what is behind it and in a mirror is the sky itself.
+// A white ball under an even sky is as bright as the sky; what is behind it and in a mirror is the sky
+// itself.
 TEST(Reference, AnEvenSkyIsSeenAndLights) {
   const glm::vec3 sky(0.5f, 1.0f, 8.0f);
   for (const bool brdf : {false, true})

@@ -121,7 +121,8 @@ TEST(Save, DirectionalAndSpotLightsKeepTheirDirection) {
 void expect_same_use(const Mesh& a, const TextureUse& of_a, const Mesh& b, TextureUse of_b) {
   ASSERT_EQ(of_a.used(), of_b.used());
   if (!of_a.used()) return;
-  const Texture &ta = a.textures[static_cast<std::size_t>(of_a.texture)], &tb = b.textures[static_cast<std::size_t>(of_b.texture)];
+  const Texture &ta = a.textures[static_cast<std::size_t>(of_a.texture)],
+                &tb = b.textures[static_cast<std::size_t>(of_b.texture)];
   ASSERT_EQ(ta.texels.size(), tb.texels.size());
   EXPECT_TRUE(std::equal(ta.texels.pixels().begin(), ta.texels.pixels().end(), tb.texels.pixels().begin()));
   EXPECT_EQ(ta.smaller_levels, tb.smaller_levels);
@@ -177,13 +178,15 @@ TEST(Save, GltfBringsTexturesBack) {
 // Other viewers do not read our extras.
 TEST(Save, GltfOfPlainMaterialsSaysToOthersWhatTheyWere) {
   Json json = triangle_json();
-  const Json was{{"baseColorFactor", {0.8, 0.4, 0.1, 1.0}}, {"metallicFactor", 0.25}, {"roughnessFactor", 0.6}};
+  const Json was{
+      {"baseColorFactor", {0.8, 0.4, 0.1, 1.0}}, {"metallicFactor", 0.25}, {"roughnessFactor", 0.6}};
   json["materials"] = {{{"pbrMetallicRoughness", was}}};
   json["meshes"][0]["primitives"][0]["material"] = 0;
   save_scene(load_good(json), temporary("plain.gltf"));
   std::ifstream in(temporary("plain.gltf"));
   const Json saved = Json::parse(in)["materials"][0]["pbrMetallicRoughness"];
-  for (std::size_t c = 0; c < 4; ++c) EXPECT_NEAR(saved["baseColorFactor"][c], was["baseColorFactor"][c], 1e-6);
+  for (std::size_t c = 0; c < 4; ++c)
+    EXPECT_NEAR(saved["baseColorFactor"][c], was["baseColorFactor"][c], 1e-6);
   EXPECT_NEAR(saved["metallicFactor"], 0.25, 1e-5);
   EXPECT_NEAR(saved["roughnessFactor"], 0.6, 1e-5);
 }

@@ -98,7 +98,7 @@ TEST(Scatter, BeyondTheCriticalAngleAllIsMirrored) {
 }
 
 TEST(Scatter, GlassSharesByFresnel) {
-  EXPECT_NEAR(scattered(0.0f, glass_of(1.5f)).mirrored, 0.04f, 1e-6f);  // ((n - 1) / (n + 1))^2
+  EXPECT_NEAR(scattered(0.0f, glass_of(1.5f)).mirrored, 0.04f, 1e-6f);     // ((n - 1) / (n + 1))^2
   const float only_perpendicular = (1.5f * 1.5f - 1) / (1.5f * 1.5f + 1);  // at Brewster's angle
   EXPECT_NEAR(scattered(std::atan(1.5f), glass_of(1.5f)).mirrored,
               0.5f * only_perpendicular * only_perpendicular, 1e-6f);

@@ -39,11 +39,14 @@ TEST(Tonemap, LinearValuesAreWithinHalfAUnitOfLibm) {
   for (int i = 1; i < 256; ++i) {
     const double exact = by_libm(i / 255.0);
     const double unit = std::ldexp(1.0, std::ilogb(exact) - 23);
-    EXPECT_LE(std::abs(static_cast<double>(srgb8_to_linear(static_cast<std::uint8_t>(i))) - exact), 0.5001 * unit) << i;
+    EXPECT_LE(std::abs(static_cast<double>(srgb8_to_linear(static_cast<std::uint8_t>(i))) - exact),
+              0.5001 * unit)
+        << i;
   }
 }
 
-// Every float from 0 to 1 has the byte of libm's nearest: at each change of byte all neighbours, a sample between.
+// Every float from 0 to 1 has the byte of libm's nearest: at each change of byte all neighbours, a sample
+// between.
 TEST(Tonemap, BytesChangeWhereLibmsDo) {
   int byte = 0;
   std::uint32_t wrong = 0;
@@ -54,7 +57,8 @@ TEST(Tonemap, BytesChangeWhereLibmsDo) {
   for (int next = 1; next <= 256; ++next) {
     const float change = next < 256 ? static_cast<float>(by_libm((next - 0.5) / 255.0)) : 1.0f;
     const std::uint32_t bits = std::bit_cast<std::uint32_t>(change);
-    const std::uint32_t before = next > 1 ? std::bit_cast<std::uint32_t>(static_cast<float>(by_libm((next - 1.5) / 255.0))) + 64 : 1u;
+    const std::uint32_t before =
+        next > 1 ? std::bit_cast<std::uint32_t>(static_cast<float>(by_libm((next - 1.5) / 255.0))) + 64 : 1u;
     const std::uint32_t step = std::max((bits - before) / 2000, 1u);
     for (std::uint32_t b = before; b < bits - 64; b += step) expect(std::bit_cast<float>(b));
     for (std::uint32_t b = bits - 64; b < bits + 64 && b < 0x3f800000u; ++b) expect(std::bit_cast<float>(b));

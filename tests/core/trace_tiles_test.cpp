@@ -1,8 +1,8 @@
 // The tile pass against itself: one output at a time, at every width and number of threads; and its composite
-// against one that is summed pixel by pixel. That its masks and mirrored light are right is held against others:
-// Embree (embree_test) and the reference (reference_agreement_test).
-#include "core/trace/lane_steps.h"
+// against one that is summed pixel by pixel. That its masks and mirrored light are right is held against
+// others: Embree (embree_test) and the reference (reference_agreement_test).
 #include "core/trace/trace_tiles.h"
+#include "core/trace/lane_steps.h"
 
 #include <cmath>
 #include <cstring>
@@ -287,7 +287,8 @@ TEST(TraceTiles, SameBitsAtAnyWidthOfEverySecondAndFourthPixel) {
       const Sampled drawn = sampled({scene, tracer, workers, view}, ids, scale);
       if (!expected) expected = drawn;
       EXPECT_TRUE(std::ranges::equal(drawn.mask.bytes(), expected->mask.bytes()) &&
-                  same_bits(drawn.reflection, expected->reflection) && same_bits(drawn.color, expected->color))
+                  same_bits(drawn.reflection, expected->reflection) &&
+                  same_bits(drawn.color, expected->color))
           << isa_name(isa) << " " << scale;
     }
   }
@@ -309,7 +310,8 @@ MaskImage mask_by_pixel(const TraceJob& job, const Image<std::uint32_t>& ids, in
           std::uint8_t blocked = 0;
           job.tracer.occluded({&*ray, 1}, {&blocked, 1});
           std::uint8_t up_blocked = 0;
-          if (const std::optional<Ray> up = lift_ray(lights[slot], surface)) job.tracer.occluded({&*up, 1}, {&up_blocked, 1});
+          if (const std::optional<Ray> up = lift_ray(lights[slot], surface))
+            job.tracer.occluded({&*up, 1}, {&up_blocked, 1});
           if (!blocked && !up_blocked) mask.set_bit(x, y, static_cast<int>(slot));
         }
     }
@@ -326,7 +328,8 @@ TEST(TraceTiles, MasksAreThoseAskedRayByRay) {
     trace_visibility({scene, widest, workers, view}, ids);
     for (const int scale : {1, 4}) {
       const MaskImage expected = mask_by_pixel({scene, scalar, workers, view}, ids, scale);
-      EXPECT_TRUE(std::ranges::equal(sampled({scene, widest, workers, view}, ids, scale).mask.bytes(), expected.bytes()))
+      EXPECT_TRUE(std::ranges::equal(sampled({scene, widest, workers, view}, ids, scale).mask.bytes(),
+                                     expected.bytes()))
           << scale;
     }
   }

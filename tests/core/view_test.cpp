@@ -40,9 +40,11 @@ TEST(View, PartsHaveTheWholePicturesRays) {
 TEST(View, MeasuredCamerasSeeWhereOpenCvSays) {
   const glm::ivec2 size(320, 200);
   const Intrinsics k{310.0, 290.0, 140.5, 120.25};
-  const Camera camera = with_intrinsics({"c", {1, 2, 3}, {1, 2, 13}, {0, -1, 0}}, k, size);  // x right, y down, z forward
+  const Camera camera =
+      with_intrinsics({"c", {1, 2, 3}, {1, 2, 13}, {0, -1, 0}}, k, size);  // x right, y down, z forward
   const shared::ViewParams view = view_params(camera, size);
-  for (const glm::ivec2 pixel : {glm::ivec2(0, 0), glm::ivec2(319, 0), glm::ivec2(17, 199), glm::ivec2(160, 100)}) {
+  for (const glm::ivec2 pixel :
+       {glm::ivec2(0, 0), glm::ivec2(319, 0), glm::ivec2(17, 199), glm::ivec2(160, 100)}) {
     const glm::vec3 along = pixel_ray(view, pixel.x, pixel.y).direction;
     EXPECT_NEAR(along.x, (pixel.x - k.cx) / k.fx, 1e-6);
     EXPECT_NEAR(along.y, (pixel.y - k.cy) / k.fy, 1e-6);
@@ -66,7 +68,8 @@ constexpr int kFilterSamples = 4096;
 double window(double x) {
   if (std::abs(x) >= 1.5) return 0.0;
   const double t = 2.0 * std::numbers::pi * (x / 3.0 + 0.5);
-  const double four = 0.35875 - 0.48829 * std::cos(t) + 0.14128 * std::cos(2.0 * t) - 0.01168 * std::cos(3.0 * t);
+  const double four =
+      0.35875 - 0.48829 * std::cos(t) + 0.14128 * std::cos(2.0 * t) - 0.01168 * std::cos(3.0 * t);
   return four / (0.35875 * 3.0);
 }
 
@@ -85,13 +88,15 @@ TEST(PixelFilter, TheBoxIsEvenAndTheWindowIsBlackmansAndHarris) {
       for (int axis = 0; axis < 2; ++axis) {
         const float at = jitter_of(k, filter)[axis];
         ASSERT_LE(std::abs(at), filter == PixelFilter::box ? 0.5f : 1.5f);
-        ++bins[static_cast<std::size_t>(axis)][static_cast<std::size_t>(std::min((at + 1.5f) * 10.0f, 29.0f))];
+        ++bins[static_cast<std::size_t>(axis)]
+              [static_cast<std::size_t>(std::min((at + 1.5f) * 10.0f, 29.0f))];
       }
     for (const auto& axis : bins)
       for (int i = 0; i < 30; ++i) {
         const double from = 0.1 * i - 1.5, to = from + 0.1;
         const double share = filter == PixelFilter::box ? (i >= 10 && i < 20 ? 0.1 : 0.0) : area(from, to);
-        EXPECT_NEAR(static_cast<double>(axis[static_cast<std::size_t>(i)]) / kFilterSamples, share, 0.002) << from;
+        EXPECT_NEAR(static_cast<double>(axis[static_cast<std::size_t>(i)]) / kFilterSamples, share, 0.002)
+            << from;
       }
   }
 }

@@ -3,7 +3,8 @@
 #include "tests/fuzz/input.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
-  const auto sky = pinocchio::load_environment(pinocchio::fuzz::written("sky", data, size), nullptr, pinocchio::fuzz::kMemory_bytes);
+  const auto sky = pinocchio::load_environment(pinocchio::fuzz::written("sky", data, size), nullptr,
+                                               pinocchio::fuzz::kMemory_bytes);
   if (sky && !(*sky)->is_black()) (void)(*sky)->sample({0.5f, 0.5f});
   return 0;
 }

@@ -22,8 +22,12 @@ std::atomic<std::size_t> allocations{0};
   ++allocations;
   return std::malloc(size > 0 ? size : 1);
 }
-[[gnu::noinline]] void operator delete(void* p) noexcept { std::free(p); }
-[[gnu::noinline]] void operator delete(void* p, std::size_t) noexcept { std::free(p); }
+[[gnu::noinline]] void operator delete(void* p) noexcept {
+  std::free(p);
+}
+[[gnu::noinline]] void operator delete(void* p, std::size_t) noexcept {
+  std::free(p);
+}
 
 namespace pinocchio {
 namespace {
@@ -49,8 +53,8 @@ struct Arrays {
     mask.resize(frames * kPixels);
   }
   FrameArrays all() {
-    return {color.data(), depth.data(), position.data(),  normal.data(),    albedo.data(),
-            ids.data(),   objects.data(), mask.data(), reflection.data()};
+    return {color.data(), depth.data(),   position.data(), normal.data(),    albedo.data(),
+            ids.data(),   objects.data(), mask.data(),     reflection.data()};
   }
   std::vector<glm::vec4> color;
   std::vector<float> depth;
@@ -114,7 +118,8 @@ TEST(BatchOutputs, WhatIsNotWantedIsNotTraced) {
   const std::vector<Camera> cameras = cameras_of(scene, 2);
   Arrays arrays(2);
   const RayCounts rays =
-      render_many(engine, scene, cameras, kSize, by({{"mode", "raytrace"}}), {.ids = arrays.ids.data()}).value();
+      render_many(engine, scene, cameras, kSize, by({{"mode", "raytrace"}}), {.ids = arrays.ids.data()})
+          .value();
   EXPECT_EQ(rays.primary, 2 * kPixels);
   EXPECT_EQ(rays.shadow + rays.reflection + rays.refraction, 0u);
 }
@@ -141,8 +146,8 @@ TEST(BatchOutputs, EndWhenTheyAreCancelled) {
   Arrays arrays(2);
   Progress progress;
   progress.cancel();
-  EXPECT_THROW((void)render_many(engine, scene, cameras_of(scene, 2), kSize, by({{"mode", "raytrace"}}), arrays.all(),
-                                 &progress),
+  EXPECT_THROW((void)render_many(engine, scene, cameras_of(scene, 2), kSize, by({{"mode", "raytrace"}}),
+                                 arrays.all(), &progress),
                Cancelled);
 }
 

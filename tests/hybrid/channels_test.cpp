@@ -23,10 +23,12 @@ Scene scene_with(int casting, int plain, bool mirror) {
 TEST(Channels, TheSlidesMoveTheirBytes) {
   for (const bool mirrors : {false, true}) {  // whatever the scene needs
     const SceneStats stats = analyze(scene_with(1, 1, mirrors));
-    const TrafficBytes one = traffic_of(*resolve(by({{"design", "1"}, {"plan", "slides"}}), stats), {800, 600});
+    const TrafficBytes one =
+        traffic_of(*resolve(by({{"design", "1"}, {"plan", "slides"}}), stats), {800, 600});
     EXPECT_EQ(one.to_cpu, 2'880'000u);
     EXPECT_EQ(one.to_gpu, 1'920'000u);
-    const TrafficBytes two = traffic_of(*resolve(by({{"design", "2"}, {"plan", "slides"}}), stats), {800, 600});
+    const TrafficBytes two =
+        traffic_of(*resolve(by({{"design", "2"}, {"plan", "slides"}}), stats), {800, 600});
     EXPECT_EQ(two.to_cpu, 9'120'000u);
     EXPECT_EQ(two.to_gpu, 1'440'000u);
   }

@@ -140,7 +140,7 @@ TEST(Economy, TilesAreTheSamePixels) {
 
 TEST(Economy, NoShadowRayForWhatHalfAStepDoesNotShow) {
   Scene scene = room(2, 0.0f);
-  for (MeshEdit mesh(scene); Material& m : mesh->materials) m.diffuse = m.specular = glm::vec3(0.0f);
+  for (MeshEdit mesh(scene); Material & m : mesh->materials) m.diffuse = m.specular = glm::vec3(0.0f);
   Settings settings = least(scene);
   EXPECT_EQ(draw_by(scene, settings).record.rays.shadow, 0u);
   settings.light_cutoff = 0.0f;  // where the mask itself is wanted

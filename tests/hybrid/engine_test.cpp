@@ -75,9 +75,8 @@ TEST(Engine, DrawsWhatARendererDraws) {
     settings.threads = 2;
     settings.spp = 3;
     const FrameResult drawn = engine.render(scene, view(), settings).value();
-    EXPECT_TRUE(same_pixels(drawn, draw_all(scene, {.settings = settings, .size = view().size},
-                                            {view().camera})
-                                       .front()));
+    EXPECT_TRUE(same_pixels(
+        drawn, draw_all(scene, {.settings = settings, .size = view().size}, {view().camera}).front()));
     EXPECT_EQ(drawn.settings.spp, 3);
   }
   EXPECT_NE(engine.gl_info(), nullptr);

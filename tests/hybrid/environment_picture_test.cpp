@@ -9,8 +9,8 @@ namespace {
 
 constexpr glm::ivec2 kSize{160, 120};
 
-// A plate over a floor that mirrors a little, under a sky that is darker on one side. No sample is brighter than 1,
-// where design 2, of 8 bits, would cut it off.
+// A plate over a floor that mirrors a little, under a sky that is darker on one side. No sample is brighter
+// than 1, where design 2, of 8 bits, would cut it off.
 Scene scene_under_sky() {
   Scene scene = plate_over_floor();
   MeshEdit(scene)->materials[0].reflectance = glm::vec3(0.2f);
@@ -18,7 +18,8 @@ Scene scene_under_sky() {
   scene.lights[0].intensity = 0.3f;
   Image<glm::vec3> sky({16, 8});
   for (int y = 0; y < 8; ++y)
-    for (int x = 0; x < 16; ++x) sky.at(x, y) = glm::vec3(0.02f * static_cast<float>(x), 0.3f, 0.05f * static_cast<float>(8 - y));
+    for (int x = 0; x < 16; ++x)
+      sky.at(x, y) = glm::vec3(0.02f * static_cast<float>(x), 0.3f, 0.05f * static_cast<float>(8 - y));
   scene.environment = std::make_shared<const Environment>(std::move(sky));
   return scene;
 }
@@ -47,8 +48,9 @@ TEST(EnvironmentPicture, EveryScheduleDrawsTheSame) {
     const FrameResult alone = draw_one(scene, {sampled(by({{"mode", "raytrace"}}), indirect), kSize});
     Settings camera_rays = by({{"mode", "hybrid"}});
     camera_rays.visibility = Processor::cpu;
-    for (const auto& [settings, most] : {std::pair(by({{"mode", "hybrid"}}), 0.002), std::pair(camera_rays, 0.002),
-                                         std::pair(by({{"design", "2"}}), 0.004)}) {
+    for (const auto& [settings, most] :
+         {std::pair(by({{"mode", "hybrid"}}), 0.002), std::pair(camera_rays, 0.002),
+          std::pair(by({{"design", "2"}}), 0.004)}) {
       const FrameResult drawn = draw_one(scene, {sampled(settings, indirect), kSize});
       EXPECT_LT(mean_difference(drawn, alone), most) << indirect;
       EXPECT_TRUE(same(drawn.ids, alone.ids) || settings.visibility == Processor::gpu);
@@ -77,7 +79,8 @@ TEST(EnvironmentPicture, TheReferenceIsTheMeanOfManySamples) {
     View view{first_camera(scene), kSmall};
     view.jitter = (glm::vec2(k, 7 * k % kPlaces) + 0.5f) / static_cast<float>(kPlaces) - 0.5f;
     const ReferencePicture sample = reference_render(scene, view, 8, workers);
-    for (std::size_t i = 0; i < exact.pixels().size(); ++i) exact[i] += glm::dvec3(sample.color[i]) / static_cast<double>(kPlaces);
+    for (std::size_t i = 0; i < exact.pixels().size(); ++i)
+      exact[i] += glm::dvec3(sample.color[i]) / static_cast<double>(kPlaces);
   }
   constexpr int kBlock = 20;
   for (int y = 0; y < kSmall.y; y += kBlock)
@@ -113,13 +116,15 @@ TEST(EnvironmentPicture, TheFirstFrameHasAllItsLight) {
   one.exchange = alone.exchange = Exchange::sync;
   for (const bool tiles : {true, false}) {
     one.tiles = tiles;
-    EXPECT_LT(mean_difference(draw_one(scene, {one, kSize}), draw_one(scene, {alone, kSize})), 0.002) << tiles;
+    EXPECT_LT(mean_difference(draw_one(scene, {one, kSize}), draw_one(scene, {alone, kSize})), 0.002)
+        << tiles;
   }
 }
 
 TEST(EnvironmentPicture, RasterShowsItBehind) {
   const FrameResult drawn = draw_one(scene_under_sky(), {by({{"mode", "raster"}}), kSize});
-  for (const glm::vec4& c : drawn.color.pixels()) ASSERT_TRUE(c.a > 0.0f || std::abs(c.g - 0.3f) < 1e-3f) << c.g;
+  for (const glm::vec4& c : drawn.color.pixels())
+    ASSERT_TRUE(c.a > 0.0f || std::abs(c.g - 0.3f) < 1e-3f) << c.g;
 }
 
 TEST(EnvironmentPicture, TakesTheReflectionChannelAndNoMore) {

@@ -116,7 +116,8 @@ TEST_P(InspectTest, NormalsAreTheTracers) {
   look_at(scene, settings_for(scene), [&](Frame& frame) {
     const FrameSlot& slot = frame.slot();
     const Image<glm::vec4> picture = view(frame, BufferView::normals);
-    const Image<glm::vec3> n = surface_images(*scene.mesh, slot.view, slot.ids, 0, slot.ids.height()).n_shading;
+    const Image<glm::vec3> n =
+        surface_images(*scene.mesh, slot.view, slot.ids, 0, slot.ids.height()).n_shading;
     for (std::size_t i = 0; i < picture.pixels().size(); ++i) {
       if (slot.ids[i] == kNoTriangle) continue;
       for (int c = 0; c < 3; ++c) ASSERT_NEAR(linear_to_srgb(picture[i][c]), 0.5f * n[i][c] + 0.5f, 0.002f);

@@ -151,7 +151,8 @@ TEST(Maps, LookTheSameToGpuCpuAndReference) {
     const FrameResult hybrid = draw_one(scene, {.settings = by({{"mode", "hybrid"}}), .size = kSize});
     const FrameResult traced = draw_one(scene, {.settings = by({{"mode", "raytrace"}}), .size = kSize});
     const ReferencePicture precise = reference_render(scene, {first_camera(scene), kSize}, 8, workers);
-    const double gpu = share_apart(hybrid.color, traced.color), cpu = share_apart(traced.color, precise.color);
+    const double gpu = share_apart(hybrid.color, traced.color),
+                 cpu = share_apart(traced.color, precise.color);
     std::printf("  %s: GPU %.4f %%, CPU %.4f %% of pixels more than 1/255 off\n", f.name, 100.0 * gpu,
                 100.0 * cpu);
     EXPECT_LT(gpu, 0.002) << f.name;

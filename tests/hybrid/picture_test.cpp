@@ -144,11 +144,9 @@ TEST_P(Modes, OtherDesignsAndTheSlidesAreTheSamePictureWithinTheirFormats) {
   struct Way {
     const char *name, *design, *plan;
   };
-  for (const Way& way :
-       {Way{"design 2", "2", "auto"}, Way{"design 1, slides", "1", "slides"},
+  for (const Way& way : {Way{"design 2", "2", "auto"}, Way{"design 1, slides", "1", "slides"},
                          Way{"design 2, slides", "2", "slides"}}) {
-    const FrameResult other =
-        draw_one(scene, {.settings = by({{"design", way.design}, {"plan", way.plan}})});
+    const FrameResult other = draw_one(scene, {.settings = by({{"design", way.design}, {"plan", way.plan}})});
     const float largest = largest_on_screen(exact, other);
     std::printf("  %s, %s: at most %.2f/255 apart\n", GetParam().c_str(), way.name,
                 static_cast<double>(largest));
@@ -166,8 +164,10 @@ TEST_P(Modes, EveryScheduleDrawsTheSamePicture) {
     request.settings.composite = composite;
     return draw_one(scene, request);
   };
-  const FrameResult both_gpu = draw(Processor::gpu, Processor::gpu), to_cpu = draw(Processor::gpu, Processor::cpu),
-                    rays = draw(Processor::cpu, Processor::gpu), both_cpu = draw(Processor::cpu, Processor::cpu);
+  const FrameResult both_gpu = draw(Processor::gpu, Processor::gpu),
+                    to_cpu = draw(Processor::gpu, Processor::cpu),
+                    rays = draw(Processor::cpu, Processor::gpu),
+                    both_cpu = draw(Processor::cpu, Processor::cpu);
   // The same ids, the same rays: the same mask and light, to the bit.
   const auto same_answer = [](const FrameResult& a, const FrameResult& b) {
     return same(a.ids, b.ids) && std::ranges::equal(a.mask.bytes(), b.mask.bytes()) &&

@@ -16,11 +16,13 @@ std::vector<Ray> rays_at(const Mesh& mesh) {
   std::vector<Ray> rays(kRays);
   Random random(11);
   const auto corner = [&] {
-    const auto i = static_cast<std::size_t>(random.between(0.0f, 1.0f) * static_cast<float>(mesh.triangles.size() - 1));
+    const auto i =
+        static_cast<std::size_t>(random.between(0.0f, 1.0f) * static_cast<float>(mesh.triangles.size() - 1));
     return mesh.positions[mesh.triangles[i].x];
   };
   for (Ray& ray : rays) {
-    ray.origin = corner() + glm::vec3(random.between(-20.0f, 20.0f), random.between(0.0f, 20.0f), random.between(-20.0f, 20.0f));
+    ray.origin = corner() + glm::vec3(random.between(-20.0f, 20.0f), random.between(0.0f, 20.0f),
+                                      random.between(-20.0f, 20.0f));
     ray.direction = corner() - ray.origin;
   }
   return rays;
@@ -32,7 +34,8 @@ std::vector<Hit> hits_of(const Tracer& tracer, const std::vector<Ray>& rays) {
   return hits;
 }
 
-// Trees made ahead, whatever was asked for before, and trees built of each time's pose alone: to the last bit.
+// Trees made ahead, whatever was asked for before, and trees built of each time's pose alone: to the last
+// bit.
 TEST(PoseAhead, TreesAreThoseThatAreBuiltAnew) {
   const Scene scene = load_or_die(source_path("scenes/windmill.glb"));
   for (const SplitRule rule : {SplitRule::sah, SplitRule::object_median}) {

@@ -78,7 +78,7 @@ int changes_of(QualityController& controller, double load, double noise, int fra
   int changes = 0;
   for (int i = 0; i < frames; ++i)
     changes += controller.note(controller.now().frame_ms * load *
-                           (1.0 + noise * static_cast<double>(random.between(-1.0f, 1.0f))));
+                               (1.0 + noise * static_cast<double>(random.between(-1.0f, 1.0f))));
   return changes;
 }
 

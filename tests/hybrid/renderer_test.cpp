@@ -103,8 +103,9 @@ class RendererTest : public FramesTest {
  protected:
   void SetUp() override {
     FramesTest::SetUp();
-    renderer_.emplace(*engine_, FrameSinks{[this](Frame& frame) { take(frame); },
-                                           [this](const FrameRecord& record) { records_.push_back(record); }});
+    renderer_.emplace(*engine_,
+                      FrameSinks{[this](Frame& frame) { take(frame); },
+                                 [this](const FrameRecord& record) { records_.push_back(record); }});
   }
   void TearDown() override {
     renderer_.reset();
@@ -176,8 +177,8 @@ TEST_P(RendererTest, DeliversEachFrameOnceInOrderTwoFramesLater) {
 TEST_P(RendererTest, SizeCameraSceneAndSettingsMayChangeInFlight) {
   const Scene cornell = load_or_die(source_path("scenes/cornell")),
               boat = load_or_die(source_path("scenes/speedboat")), unlit = plate_over_floor();
-  const std::vector<const Scene*> scenes{&cornell, &boat, &unlit, &cornell, &unlit,
-                                         &boat,    &boat, &cornell, &boat,  &cornell, &cornell};
+  const std::vector<const Scene*> scenes{&cornell, &boat,    &unlit, &cornell, &unlit,  &boat,
+                                         &boat,    &cornell, &boat,  &cornell, &cornell};
   std::vector<FrameRequest> requests;
   int i = 0;
   for (const Scene* scene : scenes) {

@@ -123,7 +123,8 @@ TEST(Resolve, WhatIsGivenStaysOrIsAnErrorThatSaysWhy) {
             std::string::npos);
   SceneStats large = stats;
   large.triangles = 65535;
-  EXPECT_NE(error_of("id_bits", "16", large).find("cannot name the scene's 65535 triangles"), std::string::npos);
+  EXPECT_NE(error_of("id_bits", "16", large).find("cannot name the scene's 65535 triangles"),
+            std::string::npos);
   large.triangles = 0xffffff;
   EXPECT_NE(error_of("id_bits", "24", large).find("cannot name"), std::string::npos);
   EXPECT_EQ(error_of("id_bits", "32", large), "");
@@ -139,8 +140,8 @@ TEST(Resolve, WhatIsGivenStaysOrIsAnErrorThatSaysWhy) {
   EXPECT_EQ(settings.reflection, ReflectionFormat::rgb9e5);
   EXPECT_EQ(settings.light_cutoff, 0.25f);
   EXPECT_FALSE(settings.tiles);
-  EXPECT_EQ(losses(settings, stats), (std::vector<std::string>{
-                                         "mask_bits 0: the shadows of 2 light(s) are left out"}));
+  EXPECT_EQ(losses(settings, stats),
+            (std::vector<std::string>{"mask_bits 0: the shadows of 2 light(s) are left out"}));
   EXPECT_TRUE(losses(resolve({}, stats).value(), stats).empty());
 }
 
@@ -181,9 +182,9 @@ TEST(SceneStats, LightsThatReachNothingAreIdle) {
 TEST(SceneStats, DepthThatIsWorthFollowing) {
   Scene scene = plate_over_floor();
   EXPECT_EQ(analyze(scene).useful_depth, 0);
-  for (MeshEdit mesh(scene); Material& m : mesh->materials) m.reflectance = glm::vec3(0.5f);
+  for (MeshEdit mesh(scene); Material & m : mesh->materials) m.reflectance = glm::vec3(0.5f);
   EXPECT_EQ(analyze(scene).useful_depth, 13);  // 0.5^13 = kThroughputCutoff
-  for (MeshEdit mesh(scene); Material& m : mesh->materials) m.reflectance = glm::vec3(1.0f);
+  for (MeshEdit mesh(scene); Material & m : mesh->materials) m.reflectance = glm::vec3(1.0f);
   EXPECT_EQ(analyze(scene).useful_depth, kMostBounces);
   MeshData flat;
   flat.positions = {{0, 0, 0}, {1, 0, 0}, {0, 0, 1}, {5, 0, 5}};

@@ -93,9 +93,11 @@ TEST(SettingsTable, EveryValueGoesThereAndBackAsTextAndJson) {
 
 TEST(SettingsTable, WhatIsNoValueIsRefusedAndChangesNothing) {
   for (const Field& field : settings_table()) {
-    std::vector<std::string> wrong{"", "none of them", "1x", " 1", "nan", "inf", "1e999", "99999999999999999999"};
+    std::vector<std::string> wrong{"",    "none of them", "1x",    " 1",
+                                   "nan", "inf",          "1e999", "99999999999999999999"};
     if (field.kind == Field::Kind::whole) wrong.insert(wrong.end(), {"1.5", "3000000", "-1"});
-    if (field.kind == Field::Kind::number) wrong.insert(wrong.end(), {std::to_string(field.lo - 0.001), std::to_string(1.001 * field.hi), "-inf"});
+    if (field.kind == Field::Kind::number)
+      wrong.insert(wrong.end(), {std::to_string(field.lo - 0.001), std::to_string(1.001 * field.hi), "-inf"});
     if (field.kind == Field::Kind::flag) wrong.insert(wrong.end(), {"1", "yes", "True"});
     for (const std::string& value : wrong) {
       Settings settings;
@@ -124,7 +126,8 @@ TEST(SettingsFile, MayBePartialAndLieUnderPlan) {
   EXPECT_TRUE(given_in(*load("{}")).empty());
   const Settings some = with({{"reflection", "rgb9e5"}, {"mask_scale", "2"}, {"light_cutoff", "0.001"}});
   EXPECT_EQ(*load(R"({"reflection": "rgb9e5", "mask_scale": 2, "light_cutoff": 1e-3})"), some);
-  EXPECT_EQ(given_in(*load(R"({"reflection": "rgb9e5", "mask_scale": 2, "light_cutoff": 1e-3})")), given_in(some));
+  EXPECT_EQ(given_in(*load(R"({"reflection": "rgb9e5", "mask_scale": 2, "light_cutoff": 1e-3})")),
+            given_in(some));
   EXPECT_EQ(*load(nlohmann::json{{"plan", to_json(some)}, {"more", 1}}.dump()), some);
 }
 
@@ -163,7 +166,8 @@ TEST(SettingsFile, MistakesAreNamedWithTheirLine) {
 TEST(SettingsFile, FormerFilesStillRead) {
   const auto former = [](const std::string& mode, int design, const std::string& primary) {
     return *load(R"({"mode": ")" + mode + R"(", "design": )" + std::to_string(design) + R"(, "primary": ")" +
-                 primary + R"(", "id_bits": 16, "normals": false, "wide": false, "mask_bits": 2, "mask_scale": 1,
+                 primary +
+                 R"(", "id_bits": 16, "normals": false, "wide": false, "mask_bits": 2, "mask_scale": 1,
       "reflection": "half", "reflection_scale": 1, "tiles": false, "depth": 4, "least_contribution": 0.25,
       "least_light": 0.125, "reuse": true, "precise": false, "threads": 3})");
   };
@@ -262,8 +266,8 @@ TEST(Rules, AllowAllFourSchedules) {
   for (const char* visibility : {"cpu", "gpu"})
     for (const char* composite : {"cpu", "gpu"})
       for (const char* exchange : {"sync", "pipelined"})
-        EXPECT_TRUE(resolve(with({{"visibility", visibility}, {"composite", composite}, {"exchange", exchange}}),
-                            {}));
+        EXPECT_TRUE(resolve(
+            with({{"visibility", visibility}, {"composite", composite}, {"exchange", exchange}}), {}));
 }
 
 }  // namespace

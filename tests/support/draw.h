@@ -9,8 +9,8 @@
 #include <utility>
 #include <vector>
 
-#include "pinocchio/engine.h"
 #include "hybrid/samples.h"
+#include "pinocchio/engine.h"
 #include "tests/support/scenes.h"
 
 namespace pinocchio {
@@ -42,9 +42,8 @@ inline std::vector<FrameResult> draw_all(const Scene& scene, const DrawRequest& 
   Engine engine({.backend = request.backend, .gl_debug = true});
   FrameRequest frame{scene, nullptr, request.settings, {{}, request.size, request.part}};
   frame.settings.threads.fill(2);
-  frame.settings = request.resolved
-                       ? *request.resolved
-                       : engine.resolve(scene, frame.view.box().size(), frame.settings).value();
+  frame.settings = request.resolved ? *request.resolved
+                                    : engine.resolve(scene, frame.view.box().size(), frame.settings).value();
   frame.tracer = Engine::prepare(scene, frame.settings);
   std::vector<FrameResult> pictures;
   SampleMean mean(frame.settings, [&](FrameResult&& picture) { pictures.push_back(std::move(picture)); });

@@ -1,4 +1,5 @@
-// The composite one pixel at a time, from a mask and a reflection that are given: what the lanes are held against.
+// The composite one pixel at a time, from a mask and a reflection that are given: what the lanes are held
+// against.
 #pragma once
 
 #include <algorithm>
@@ -23,7 +24,8 @@ inline std::vector<ShadedLight> shaded_lights(const Scene& scene) {
 }
 
 // Light of the lights that reach the surface; `bits` is its mask.
-inline glm::vec3 sum_of_lights(const std::vector<ShadedLight>& lights, const SurfaceInteraction& s, unsigned bits) {
+inline glm::vec3 sum_of_lights(const std::vector<ShadedLight>& lights, const SurfaceInteraction& s,
+                               unsigned bits) {
   glm::vec3 sum(0.0f);
   for (const ShadedLight& light : lights) {
     if (light.slot >= 0 && !(bits >> light.slot & 1u)) continue;
@@ -46,23 +48,24 @@ void for_each_surface(const TraceJob& job, const Image<std::uint32_t>& ids, cons
       const std::size_t pixel = ids.index(x, y);
       if (ids[pixel] == kNoTriangle) return;
       const Ray ray = pixel_ray(job.view, x, y);
-      shade_pixel(pixel, surface_at(job.tracer.mesh(), ids[pixel], ray.origin, ray.direction, {},
+      shade_pixel(pixel,
+                  surface_at(job.tracer.mesh(), ids[pixel], ray.origin, ray.direction, {},
                              Footprint::of_camera(job.view, job.texture_footprint)),
                   mask.get(x, y));
     });
   });
 }
 
-// Phong per light times its mask bit, plus reflection (empty: none). RGBA, linear; A is 1 where something is hit.
-// mask of 0 bits: no light casts.
+// Phong per light times its mask bit, plus reflection (empty: none). RGBA, linear; A is 1 where something is
+// hit. mask of 0 bits: no light casts.
 inline void shade(const TraceJob& job, const Image<std::uint32_t>& ids, const MaskImage& mask,
-           const Image<glm::vec3>& reflection, Image<glm::vec4>& color) {
+                  const Image<glm::vec3>& reflection, Image<glm::vec4>& color) {
   if (color.size() != ids.size()) color = Image<glm::vec4>(ids.size());
   std::fill(color.pixels().begin(), color.pixels().end(), glm::vec4(0.0f));
   const std::vector<ShadedLight> lights = shaded_lights(job.scene);
   for_each_surface(job, ids, mask, [&](std::size_t pixel, const SurfaceInteraction& surface, unsigned bits) {
-    glm::vec3 sum =
-        shared::phong_ambient(surface.material.phong, job.scene.ambient_light) + sum_of_lights(lights, surface, bits);
+    glm::vec3 sum = shared::phong_ambient(surface.material.phong, job.scene.ambient_light) +
+                    sum_of_lights(lights, surface, bits);
     if (!reflection.empty()) sum += reflection[pixel];
     color[pixel] = glm::vec4(sum, 1.0f);
   });
@@ -70,7 +73,7 @@ inline void shade(const TraceJob& job, const Image<std::uint32_t>& ids, const Ma
 
 // The part of it that the mask decides, and the reflection: added to what `light` holds, linear RGB.
 inline void add_traced_light(const TraceJob& job, const Image<std::uint32_t>& ids, const MaskImage& mask,
-                      const Image<glm::vec3>& reflection, Image<glm::vec3>& light) {
+                             const Image<glm::vec3>& reflection, Image<glm::vec3>& light) {
   std::vector<ShadedLight> casting = shaded_lights(job.scene);
   std::erase_if(casting, [](const ShadedLight& l) { return l.slot < 0; });
   for_each_surface(job, ids, mask, [&](std::size_t pixel, const SurfaceInteraction& surface, unsigned bits) {

@@ -49,8 +49,8 @@ class WindowTest : public testing::Test {
   }
 
   // The same with the scene on it as a person meets it: nothing hidden.
-  void open_as_is(const std::string& scene, const std::string& size = "800x600", const std::string& options = "",
-                  const std::vector<std::string>& environment = {}) {
+  void open_as_is(const std::string& scene, const std::string& size = "800x600",
+                  const std::string& options = "", const std::vector<std::string>& environment = {}) {
     std::vector<std::string> command{PINOCCHIO_PROGRAM, "view", scene, "--size", size};
     for (const std::string& word : words_of(options)) command.push_back(word);
     start(command, environment);
@@ -72,7 +72,8 @@ class WindowTest : public testing::Test {
     const std::string layout = "[Window][" + panel + "]\nPos=" + std::to_string(x) + "," + std::to_string(y) +
                                "\nSize=100,100\nCollapsed=0\n";
     std::filesystem::create_directories(folder_ / "config/pinocchio");
-    std::ofstream(folder_ / "config/pinocchio/window.json") << nlohmann::json{{"open", {panel}}, {"layout", layout}};
+    std::ofstream(folder_ / "config/pinocchio/window.json")
+        << nlohmann::json{{"open", {panel}}, {"layout", layout}};
   }
 
   // The window manager may give the focus to it, and take it away, until it is settled.
@@ -105,7 +106,8 @@ class WindowTest : public testing::Test {
   }
   // Not at once: window managers hold the pointer while they see to the focus.
   void click(int x, int y, int button = 1) const {
-    xdo(at(x, y) + "sleep 0.1 mousedown " + std::to_string(button) + " sleep 0.05 mouseup " + std::to_string(button));
+    xdo(at(x, y) + "sleep 0.1 mousedown " + std::to_string(button) + " sleep 0.05 mouseup " +
+        std::to_string(button));
   }
   // modifiers: "ctrl", "ctrl keydown shift".
   void click_with(const std::string& modifiers, int x, int y) const {
@@ -144,9 +146,9 @@ class WindowTest : public testing::Test {
 
   // The window's inside, as the display has it.
   void grab(const std::string& file) const {
-    (void)run_command(
-        "cd '" + folder_.string() + "' && DISPLAY=" + display_ + " import -define png:compression-level=1 -window " + window_ + " " + file,
-        folder_);
+    (void)run_command("cd '" + folder_.string() + "' && DISPLAY=" + display_ +
+                          " import -define png:compression-level=1 -window " + window_ + " " + file,
+                      folder_);
   }
   // Pixels that differ; -1 where the pictures cannot be compared.
   [[nodiscard]] long long different(const std::string& a, const std::string& b) const {
@@ -160,8 +162,9 @@ class WindowTest : public testing::Test {
                                        int percent = 0) const {
     const std::string crop = " -crop " + box + " +repage ";
     const CommandResult result =
-        run_command("cd '" + folder_.string() + "' && convert " + a + crop + "box-a.png && convert " + b + crop +
-                        "box-b.png && compare -fuzz " + std::to_string(percent) + "% -metric AE box-a.png box-b.png null:",
+        run_command("cd '" + folder_.string() + "' && convert " + a + crop + "box-a.png && convert " + b +
+                        crop + "box-b.png && compare -fuzz " + std::to_string(percent) +
+                        "% -metric AE box-a.png box-b.png null:",
                     folder_);
     return result.exit_code > 1 ? -1 : std::llround(std::stod(result.err));
   }
@@ -174,10 +177,12 @@ class WindowTest : public testing::Test {
   // How bright the window is, 0 to 255: the greatest of each of a box's rows.
   [[nodiscard]] std::vector<int> brightness(int x, int y, int width, int height) const {
     grab("brightness.png");
-    const std::string values = run_command(
-        "cd '" + folder_.string() + "' && convert brightness.png -crop " + std::to_string(width) + "x" +
-            std::to_string(height) + "+" + std::to_string(x) + "+" + std::to_string(y) + " +repage -depth 8 gray:-",
-        folder_).out;
+    const std::string values =
+        run_command("cd '" + folder_.string() + "' && convert brightness.png -crop " + std::to_string(width) +
+                        "x" + std::to_string(height) + "+" + std::to_string(x) + "+" + std::to_string(y) +
+                        " +repage -depth 8 gray:-",
+                    folder_)
+            .out;
     std::vector<int> rows(values.size() / static_cast<std::size_t>(width));
     for (std::size_t i = 0; i < values.size(); ++i) {
       int& row = rows[i / static_cast<std::size_t>(width)];
@@ -186,8 +191,8 @@ class WindowTest : public testing::Test {
     return rows;
   }
   // Middles of the runs of rows that are brighter, of those that are so high.
-  [[nodiscard]] static std::vector<int> runs(const std::vector<int>& rows, int first_y, int brighter, int thinnest,
-                                             int thickest) {
+  [[nodiscard]] static std::vector<int> runs(const std::vector<int>& rows, int first_y, int brighter,
+                                             int thinnest, int thickest) {
     std::vector<int> middles;
     int length = 0;
     for (std::size_t i = 0; i <= rows.size(); ++i) {
@@ -195,7 +200,8 @@ class WindowTest : public testing::Test {
         ++length;
         continue;
       }
-      if (length >= thinnest && length <= thickest) middles.push_back(first_y + static_cast<int>(i) - length / 2);
+      if (length >= thinnest && length <= thickest)
+        middles.push_back(first_y + static_cast<int>(i) - length / 2);
       length = 0;
     }
     return middles;

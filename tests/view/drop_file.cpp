@@ -17,7 +17,9 @@ constexpr int kPatience_ms = 30'000;
 class Source {
  public:
   Source(Display* display, Window target, std::string uri)
-      : display_(display), target_(target), uri_(std::move(uri)),
+      : display_(display),
+        target_(target),
+        uri_(std::move(uri)),
         own_(XCreateSimpleWindow(display, DefaultRootWindow(display), 0, 0, 1, 1, 0, 0, 0)) {
     XSetSelectionOwner(display_, atom("XdndSelection"), own_, CurrentTime);
   }
@@ -70,8 +72,9 @@ class Source {
     XChangeProperty(display_, request.requestor, request.property, request.target, 8, PropModeReplace,
                     reinterpret_cast<const unsigned char*>(uri_.data()), static_cast<int>(uri_.size()));
     XEvent event{};
-    event.xselection = {SelectionNotify,   0,              False,          display_,       request.requestor,
-                        request.selection, request.target, request.property, request.time};
+    event.xselection = {
+        SelectionNotify,  0,           False, display_, request.requestor, request.selection, request.target,
+        request.property, request.time};
     XSendEvent(display_, request.requestor, False, NoEventMask, &event);
     XFlush(display_);
   }

@@ -60,7 +60,8 @@ TEST(Export, WhatIsReadBesideTheSceneIsSaid) {
   view.camera.lens_radius = 0.25f;
   view.camera.focus_distance = 3.0f;
   const std::string command = render_command(view, "boat");
-  for (const char* part : {" --environment 'a sky.hdr' ", " --load-limit 8192 ", " --lens-radius 0.25 ", " --focus 3 "})
+  for (const char* part :
+       {" --environment 'a sky.hdr' ", " --load-limit 8192 ", " --lens-radius 0.25 ", " --focus 3 "})
     EXPECT_TRUE(holds(command, part)) << part << " in " << command;
 }
 
@@ -79,8 +80,9 @@ TEST(Export, WhatWasChangedIsSaid) {
   light.position = {1, 2, 3};
   light.casts_shadow = false;
   view.lights = {light};
-  expect_said(view.command("boat.glb", 16), {"--mode raytrace", "--reflection none", "--exposure -1.5 --tone-map aces",
-                                             "--up 0,0,1", "--light 1,2,3,1,nocast", "--spp 16"});
+  expect_said(view.command("boat.glb", 16),
+              {"--mode raytrace", "--reflection none", "--exposure -1.5 --tone-map aces", "--up 0,0,1",
+               "--light 1,2,3,1,nocast", "--spp 16"});
 }
 
 TEST(Export, PresetsAreSaidByTheirNames) {
@@ -106,7 +108,8 @@ TEST(Export, EveryGivenSettingIsSaid) {
   s.spp = 100;
   const std::string command = view.command();
   expect_said(command, {"--depth 3", "--tree-leaf 4", "--no-tiles", "--persistent", "--exchange sync"});
-  for (const char* part : {"--spp", "--mode", "--plan", "--design"}) EXPECT_FALSE(holds(command, part)) << part;
+  for (const char* part : {"--spp", "--mode", "--plan", "--design"})
+    EXPECT_FALSE(holds(command, part)) << part;
 }
 
 // A value of the field that it does not have by itself.
@@ -122,8 +125,8 @@ std::string another_value(const Field& field) {
   return {};
 }
 
-// The one table of settings: whichever is another than by itself is in the command, by its option or by a preset's
-// that says it.
+// The one table of settings: whichever is another than by itself is in the command, by its option or by a
+// preset's that says it.
 TEST(Export, EverySettingOfTheTableIsSaid) {
   for (const Field& field : settings_table()) {
     Exported view;
@@ -132,9 +135,10 @@ TEST(Export, EverySettingOfTheTableIsSaid) {
     const std::string usual = Exported().command(), command = view.command();
     if (field.name == "spp") continue;  // the samples that were gathered are said instead
     EXPECT_NE(command, usual) << field.name;
-    const std::string said = field.kind == Field::Kind::flag && value == "false"
-                                 ? " --no-" + field.option().substr(2) + " "
-                                 : " " + field.option() + (field.kind == Field::Kind::flag ? " " : " " + value + " ");
+    const std::string said =
+        field.kind == Field::Kind::flag && value == "false"
+            ? " --no-" + field.option().substr(2) + " "
+            : " " + field.option() + (field.kind == Field::Kind::flag ? " " : " " + value + " ");
     const bool by_preset = holds(command, "--mode") || holds(command, "--design") || holds(command, "--plan");
     EXPECT_TRUE(holds(command, said) || by_preset) << said << "in " << command;
   }

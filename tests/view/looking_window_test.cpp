@@ -12,10 +12,12 @@ TEST_F(LookingTest, ControlShiftAndAClickSetTheExposure) {
   open(scene("cornell"));
   key(kStill);
   EXPECT_EQ(option(command_line(), "--exposure"), "");
-  EXPECT_TRUE(becomes([this] {
-    click_with("ctrl keydown shift", 160, 120);
-    return !option(command_line(), "--exposure").empty();
-  }, 20.0));
+  EXPECT_TRUE(becomes(
+      [this] {
+        click_with("ctrl keydown shift", 160, 120);
+        return !option(command_line(), "--exposure").empty();
+      },
+      20.0));
   expect_clean_close();
 }
 
@@ -23,10 +25,12 @@ TEST_F(LookingTest, ADoubleClickSetsThePivot) {
   open(scene("cornell"));
   key(kStill);
   const std::string target = option(command_line(), "--target"), eye = option(command_line(), "--eye");
-  EXPECT_TRUE(becomes([&] {
-    xdo(at(100, 160) + "sleep 0.5 click 1 sleep 0.05 click 1");
-    return option(command_line(), "--target") != target;
-  }, 20.0));
+  EXPECT_TRUE(becomes(
+      [&] {
+        xdo(at(100, 160) + "sleep 0.5 click 1 sleep 0.05 click 1");
+        return option(command_line(), "--target") != target;
+      },
+      20.0));
   EXPECT_EQ(option(command_line(), "--eye"), eye);
   expect_clean_close();
 }
@@ -41,8 +45,10 @@ TEST_F(LookingTest, TheWheelWithControlEnlargesPixels) {
   settle("large.png");
   EXPECT_GT(different("whole.png", "large.png"), 1000);
   const auto steps = [this](const std::string& file) {  // from a pixel to its right neighbour
-    (void)run_command("cd '" + folder_.string() + "' && convert " + file + " -crop 319x240+0+0 +repage left.png && convert " +
-                          file + " -crop 319x240+1+0 +repage right.png", folder_);
+    (void)run_command("cd '" + folder_.string() + "' && convert " + file +
+                          " -crop 319x240+0+0 +repage left.png && convert " + file +
+                          " -crop 319x240+1+0 +repage right.png",
+                      folder_);
     return different("left.png", "right.png");
   };
   EXPECT_LT(2 * steps("large.png"), steps("whole.png"));
@@ -56,13 +62,15 @@ TEST_F(LookingTest, TheWheelWithControlEnlargesPixels) {
 TEST_F(LookingTest, ThePanelPixelFollowsThePointer) {
   open_as_is(scene("cornell"));
   key(std::string(kStill) + " F8");
-  ASSERT_TRUE(becomes([&] {
-    xdo(at(200, 150));
-    settle("one.png");
-    xdo(at(300, 400));
-    settle("other.png");
-    return different_in("340x300+452+270", "one.png", "other.png") > 200;
-  }, 30.0));
+  ASSERT_TRUE(becomes(
+      [&] {
+        xdo(at(200, 150));
+        settle("one.png");
+        xdo(at(300, 400));
+        settle("other.png");
+        return different_in("340x300+452+270", "one.png", "other.png") > 200;
+      },
+      30.0));
   EXPECT_EQ(different_in("400x500+0+0", "one.png", "other.png"), 0);  // the picture stands still
   expect_clean_close();
 }
@@ -87,11 +95,13 @@ TEST_F(LookingTest, AMaterialIsPickedByAClick) {
   key(kStill);
   const std::string eye = option(command_line(), "--eye");
   settle("before.png");
-  ASSERT_TRUE(becomes([this] {
-    click_with("ctrl", 150, 300);
-    settle("panel.png");
-    return different_in("320x500+470+50", "before.png", "panel.png") > 20000;
-  }, 30.0));
+  ASSERT_TRUE(becomes(
+      [this] {
+        click_with("ctrl", 150, 300);
+        settle("panel.png");
+        return different_in("320x500+470+50", "before.png", "panel.png") > 20000;
+      },
+      30.0));
   EXPECT_EQ(command_line().find("cornell-001.gltf"), std::string::npos);  // nothing was changed yet
   EXPECT_EQ(option(command_line(), "--eye"), eye);
   expect_clean_close();
@@ -100,11 +110,15 @@ TEST_F(LookingTest, AMaterialIsPickedByAClick) {
 // What it gives up is in the command.
 TEST_F(LookingTest, ABudgetIsKeptAndSaid) {
   open(scene("two-lights"), "--budget 1ms");
-  EXPECT_TRUE(becomes([&] {
-    const std::string command = command_line();
-    return command.find("--mask-scale") != std::string::npos || command.find("--reflection") != std::string::npos ||
-           command.find("--depth") != std::string::npos;
-  }, 120.0)) << command_line();
+  EXPECT_TRUE(becomes(
+      [&] {
+        const std::string command = command_line();
+        return command.find("--mask-scale") != std::string::npos ||
+               command.find("--reflection") != std::string::npos ||
+               command.find("--depth") != std::string::npos;
+      },
+      120.0))
+      << command_line();
   expect_clean_close();
 }
 
@@ -113,36 +127,50 @@ TEST_F(LookingTest, AnErrorLimitIsKeptAndSaid) {
   open(scene("two-lights"), "--max-error flip=0.1");
   key(kStill);
   const auto gave_up = [](const std::string& command) {
-    return command.find("--mask-scale") != std::string::npos || command.find("--reflection") != std::string::npos ||
-           command.find("--depth") != std::string::npos;
+    return command.find("--mask-scale") != std::string::npos ||
+           command.find("--reflection") != std::string::npos || command.find("--depth") != std::string::npos;
   };
   std::string command;
-  EXPECT_TRUE(becomes([&] {
-    command = command_line();
-    return gave_up(command);
-  }, 120.0)) << command;
+  EXPECT_TRUE(becomes(
+      [&] {
+        command = command_line();
+        return gave_up(command);
+      },
+      120.0))
+      << command;
   expect_clean_close();
   const std::string there = "cd '" + folder_.string() + "' && '" PINOCCHIO_PROGRAM "' ";
-  const std::string view = " --size 320x240 --eye " + option(command, "--eye") + " --target " + option(command, "--target") +
-                           " --fov " + option(command, "--fov");
-  EXPECT_EQ(run_command(there + command.substr(std::string("pinocchio ").size()), folder_).exit_code, 0) << command;
-  EXPECT_EQ(run_command(there + "render " + scene("two-lights") + view + " -o exact.exr", folder_).exit_code, 0);
+  const std::string view = " --size 320x240 --eye " + option(command, "--eye") + " --target " +
+                           option(command, "--target") + " --fov " + option(command, "--fov");
+  EXPECT_EQ(run_command(there + command.substr(std::string("pinocchio ").size()), folder_).exit_code, 0)
+      << command;
+  EXPECT_EQ(run_command(there + "render " + scene("two-lights") + view + " -o exact.exr", folder_).exit_code,
+            0);
   const std::string compare = "compare exact.exr " + option(command, "-o") + " --max-error ";
   EXPECT_EQ(run_command(there + compare + "flip=0.1", folder_).exit_code, 0);
   EXPECT_EQ(run_command(there + compare + "max=0", folder_).exit_code, 5);  // it did give something up
 }
 
-// Everything that changes the picture, on the command line: the command says it, and draws what the window shows.
+// Everything that changes the picture, on the command line: the command says it, and draws what the window
+// shows.
 TEST_F(LookingTest, TheCommandSaysWhatTheCommandLineDid) {
   // A sky of two pixels: Radiance, without run lengths.
   std::ofstream(folder_ / "sky.hdr", std::ios::binary) << "#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y 1 +X 2\n"
                                                        << std::string("\x80\x90\xa0\x80\x40\x30\x20\x80", 8);
-  const std::vector<std::pair<std::string, std::string>> options{
-      {"--environment", "sky.hdr"}, {"--environment-rotation", "30"}, {"--environment-strength", "0.5"},
-      {"--indirect", "2"},          {"--sequence", "random"},         {"--seed", "7"},
-      {"--pixel-filter", "blackman-harris"}, {"--lens-radius", "0.01"}, {"--focus", "3"},
-      {"--max-noise", "0.25"},      {"--terminator", "off"},          {"--tone-map", "aces"},
-      {"--exposure", "0.5"},        {"--load-limit", "2048"}};
+  const std::vector<std::pair<std::string, std::string>> options{{"--environment", "sky.hdr"},
+                                                                 {"--environment-rotation", "30"},
+                                                                 {"--environment-strength", "0.5"},
+                                                                 {"--indirect", "2"},
+                                                                 {"--sequence", "random"},
+                                                                 {"--seed", "7"},
+                                                                 {"--pixel-filter", "blackman-harris"},
+                                                                 {"--lens-radius", "0.01"},
+                                                                 {"--focus", "3"},
+                                                                 {"--max-noise", "0.25"},
+                                                                 {"--terminator", "off"},
+                                                                 {"--tone-map", "aces"},
+                                                                 {"--exposure", "0.5"},
+                                                                 {"--load-limit", "2048"}};
   std::string all;
   for (const auto& [name, value] : options) all += (all.empty() ? "" : " ") + name + " " + value;
   open(scene("cornell"), all);

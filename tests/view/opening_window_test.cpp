@@ -13,7 +13,8 @@ class OpeningTest : public WindowTest {
   [[nodiscard]] bool drop(const std::string& file) const {
     return run_command("DISPLAY=" + display_ + " '" PINOCCHIO_DROP_FILE "' " + window_ + " 300 300 'file://" +
                            (folder_ / file).string() + "'",
-                       folder_).exit_code == 0;
+                       folder_)
+               .exit_code == 0;
   }
   [[nodiscard]] bool shows(const std::string& file, double seconds = 60.0) {
     return becomes([&] { return command_line().find(file) != std::string::npos; }, seconds);
@@ -47,8 +48,12 @@ TEST_F(OpeningTest, ADroppedFileIsOpenedAndABadOneChangesNothing) {
 // While it is read, and while its tree is built.
 TEST_F(OpeningTest, CancelKeepsTheSceneThatIsShown) {
   copy_scenes({"cornell.gltf", "cornell.bin"});
-  ASSERT_EQ(run_command("cd '" + folder_.string() + "' && '" PINOCCHIO_PROGRAM
-                        "' generate spd:balls --triangles 1000000 -o large.glb", folder_).exit_code, 0);
+  ASSERT_EQ(
+      run_command("cd '" + folder_.string() +
+                      "' && '" PINOCCHIO_PROGRAM "' generate spd:balls --triangles 1000000 -o large.glb",
+                  folder_)
+          .exit_code,
+      0);
   open("cornell.gltf", "--spp 1");
   std::string clicks;  // the button is at the right of the bar's window, which is as wide as its words
   for (int round = 0; round < 4; ++round)
@@ -83,7 +88,7 @@ TEST_F(OpeningTest, AFileIsOpenedFromThePanelAndIsAmongTheRecent) {
   program_.reset();
   std::filesystem::remove(folder_ / "out.txt");
   open_as_is(scene("two-lights"), "800x600", "--spp 1");  // the panel is still open
-  click_line_from_below(2);  // what was shown before it is the last
+  click_line_from_below(2);                               // what was shown before it is the last
   EXPECT_TRUE(shows("speedboat.glb"));
   expect_clean_close();
 }

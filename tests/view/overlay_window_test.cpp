@@ -27,7 +27,8 @@ TEST_F(OverlayTest, AtTheStartThePictureIsUncovered) {
     xdo("windowsize --sync " + window_ + " " + std::to_string(width) + " " + std::to_string(height));
     ASSERT_TRUE(becomes([&] {
       settle("open.png");
-      return run_command("cd '" + folder_.string() + "' && identify -format %wx%h open.png", folder_).out == size;
+      return run_command("cd '" + folder_.string() + "' && identify -format %wx%h open.png", folder_).out ==
+             size;
     }));
     key("h");
     settle("bare.png");
@@ -39,9 +40,10 @@ TEST_F(OverlayTest, AtTheStartThePictureIsUncovered) {
   expect_clean_close();
 }
 
-// Eight times from the picture onto a panel, which is dragged and put back, and its wheel, as fast as the display
-// takes it. Around the button it takes a moment: window managers hold the pointer while they see to the focus,
-// and what comes meanwhile is delivered out of order. The last pause parts it from a double click, which folds.
+// Eight times from the picture onto a panel, which is dragged and put back, and its wheel, as fast as the
+// display takes it. Around the button it takes a moment: window managers hold the pointer while they see to
+// the focus, and what comes meanwhile is delivered out of order. The last pause parts it from a double click,
+// which folds.
 TEST_F(OverlayTest, WhatIsDraggedOnAPanelDoesNotMoveTheCamera) {
   open_as_is(scene("cornell"));
   key(std::string(kStill) + " F3");  // at the right
@@ -53,7 +55,8 @@ TEST_F(OverlayTest, WhatIsDraggedOnAPanelDoesNotMoveTheCamera) {
   std::string all;
   for (int i = 0; i < 8; ++i)
     all += at(150, 300) + at(640, 18) + "mousedown 1 sleep 0.05 " + at(640, 24) + at(500, 200) + at(640, 18) +
-           "sleep 0.05 mouseup 1 sleep 0.05 " + at(150, 300) + at(640, 18) + "click 4 " + at(150, 300) + "sleep 0.3 ";
+           "sleep 0.05 mouseup 1 sleep 0.05 " + at(150, 300) + at(640, 18) + "click 4 " + at(150, 300) +
+           "sleep 0.3 ";
   xdo(all);
   settle("after.png");
   EXPECT_EQ(different("before.png", "after.png"), 0);  // the panel is where it was
@@ -132,7 +135,8 @@ class ScaleTest : public OverlayTest, public testing::WithParamInterface<int> {}
 // In 480 by 360 pixels, also where the display asks for all to be twice as large.
 TEST_P(ScaleTest, PanelsFitASmallWindow) {
   const int scale = GetParam();
-  (void)run_command("DISPLAY=" + display_ + " xprop -root -f RESOURCE_MANAGER 8s -set RESOURCE_MANAGER 'Xft.dpi:\t" +
+  (void)run_command("DISPLAY=" + display_ +
+                        " xprop -root -f RESOURCE_MANAGER 8s -set RESOURCE_MANAGER 'Xft.dpi:\t" +
                         std::to_string(96 * scale) + "'",
                     folder_);
   open_as_is(scene("cornell"), std::to_string(480 / scale) + "x" + std::to_string(360 / scale), "--spp 1");
@@ -141,8 +145,11 @@ TEST_P(ScaleTest, PanelsFitASmallWindow) {
   for (const char* panel : {"F1", "F2", "F3", "F4", "F5", "F6", "F7", "F8", "F9", "F10"}) {
     key(panel);
     settle("with.png");
-    // Its title bar's left and right corner are in the window: the strip of pixels at the window's edges stays.
-    (void)run_command("cd '" + folder_.string() + "' && for f in with without; do convert $f.png -gravity West -crop 2x300+0-30 +repage edge-$f.png; done",
+    // Its title bar's left and right corner are in the window: the strip of pixels at the window's edges
+    // stays.
+    (void)run_command("cd '" + folder_.string() +
+                          "' && for f in with without; do convert $f.png -gravity West -crop 2x300+0-30 "
+                          "+repage edge-$f.png; done",
                       folder_);
     EXPECT_EQ(different("edge-with.png", "edge-without.png"), 0) << panel;
     EXPECT_GT(different("with.png", "without.png"), 15000 * scale) << panel;  // more than what P said
@@ -222,11 +229,14 @@ TEST_F(OverlayTest, ArrowsStepThroughTheFolder) {
 
 // The window is drawn while a large scene is read and its tree is built, to the end.
 TEST_F(OverlayTest, LoadingDoesNotFreezeTheWindow) {
-  ASSERT_EQ(run_command("cd '" + folder_.string() + "' && '" PINOCCHIO_PROGRAM "' generate spd:balls --triangles 1000000 -o balls.glb",
-                        folder_)
-                .exit_code,
-            0);
-  start({PINOCCHIO_PROGRAM, "view", "balls.glb", "--size", "320x240", "--spp", "1", "--stats-json", "pace.json"});
+  ASSERT_EQ(
+      run_command("cd '" + folder_.string() +
+                      "' && '" PINOCCHIO_PROGRAM "' generate spd:balls --triangles 1000000 -o balls.glb",
+                  folder_)
+          .exit_code,
+      0);
+  start({PINOCCHIO_PROGRAM, "view", "balls.glb", "--size", "320x240", "--spp", "1", "--stats-json",
+         "pace.json"});
   xdo("windowfocus --sync " + window_);
   // The bar moves while it loads: at least four times in ten looks.
   int changes = 0;
@@ -269,10 +279,13 @@ TEST_F(OverlayTest, SequencesAreRecorded) {
   EXPECT_TRUE(becomes([&] { return exists("cornell-001-0003.exr"); }));
   key("k");
   EXPECT_TRUE(exists("cornell-001-0002.png"));
-  const CommandResult seen = run_command("cd '" + folder_.string() + "' && '" PINOCCHIO_PROGRAM
-                                         "' compare cornell-001-0002.exr cornell-001-0002.png --json", folder_);
+  const CommandResult seen =
+      run_command("cd '" + folder_.string() +
+                      "' && '" PINOCCHIO_PROGRAM "' compare cornell-001-0002.exr cornell-001-0002.png --json",
+                  folder_);
   ASSERT_EQ(seen.exit_code, 0) << seen.err;
-  EXPECT_LT(nlohmann::json::parse(seen.out)["flip"].get<double>(), 0.01);  // the same frame, but for its bytes
+  EXPECT_LT(nlohmann::json::parse(seen.out)["flip"].get<double>(),
+            0.01);  // the same frame, but for its bytes
   // Pictures alone, which go on where the camera goes.
   key("k");
   drag(1, 40, 10);

@@ -1,5 +1,5 @@
-// What is clicked and dragged in panels: each is put where the test looks for it, as if an earlier run had left it
-// there; its widgets are found by their looks, wherever the font has put them.
+// What is clicked and dragged in panels: each is put where the test looks for it, as if an earlier run had
+// left it there; its widgets are found by their looks, wherever the font has put them.
 #include "tests/view/display.h"
 
 namespace pinocchio {
@@ -41,10 +41,13 @@ TEST_F(PanelsTest, AMaterialIsPickedAndChanged) {
   const auto changes = [&](const char* material, int row, const char* what) {
     grab("before.png");
     drag_from(8 + 130, rows[static_cast<std::size_t>(row)], 60);
-    EXPECT_TRUE(becomes([&] {
-      grab("after.png");
-      return different_in(kPicture, "before.png", "after.png") > 100;
-    }, 20.0)) << what;
+    EXPECT_TRUE(becomes(
+        [&] {
+          grab("after.png");
+          return different_in(kPicture, "before.png", "after.png") > 100;
+        },
+        20.0))
+        << what;
     const nlohmann::json now = phong(saved(), material);
     ASSERT_TRUE(now.contains(what)) << now;
     EXPECT_TRUE(!before.contains(what) || now[what] != before[what]) << now;
@@ -65,15 +68,19 @@ TEST_F(PanelsTest, AMaterialIsPickedAndChanged) {
   pick(495, 440);  // the ball
   changes("glass", 4, "ior");
   key("ctrl+z ctrl+z ctrl+z ctrl+z ctrl+z");
-  EXPECT_TRUE(becomes([&] {
-    grab("undone.png");
-    return different_in(kPicture, "first.png", "undone.png") == 0;
-  }, 20.0));
+  EXPECT_TRUE(becomes(
+      [&] {
+        grab("undone.png");
+        return different_in(kPicture, "first.png", "undone.png") == 0;
+      },
+      20.0));
   key("ctrl+y");
-  EXPECT_TRUE(becomes([&] {
-    grab("redone.png");
-    return different_in(kPicture, "first.png", "redone.png") > 100;
-  }, 20.0));
+  EXPECT_TRUE(becomes(
+      [&] {
+        grab("redone.png");
+        return different_in(kPicture, "first.png", "redone.png") > 100;
+      },
+      20.0));
   expect_clean_close();
 }
 
@@ -87,19 +94,23 @@ TEST_F(PanelsTest, ButtonsLookAlongTheAxes) {
   };
   settle();
   const std::vector<int> rows = widgets_at(8 + 14, 8 + 30, 250);
-  ASSERT_GE(rows.size(), 3u);  // of buttons
+  ASSERT_GE(rows.size(), 3u);                               // of buttons
   const std::array<int, 3> xs{40, 93, 140}, axes{2, 0, 1};  // front, right, top
   for (std::size_t i = 0; i < xs.size(); ++i) {
     click(xs[i], rows[1]);
-    EXPECT_TRUE(becomes([&] {
-      const std::string command = command_line();
-      const auto eye = vector_of(option(command, "--eye")), target = vector_of(option(command, "--target"));
-      for (int axis = 0; axis < 3; ++axis) {
-        const double off = eye[static_cast<std::size_t>(axis)] - target[static_cast<std::size_t>(axis)];
-        if (axis == axes[i] ? off < 1.0 : std::abs(off) > 0.02) return false;
-      }
-      return true;
-    }, 20.0)) << command_line();
+    EXPECT_TRUE(becomes(
+        [&] {
+          const std::string command = command_line();
+          const auto eye = vector_of(option(command, "--eye")),
+                     target = vector_of(option(command, "--target"));
+          for (int axis = 0; axis < 3; ++axis) {
+            const double off = eye[static_cast<std::size_t>(axis)] - target[static_cast<std::size_t>(axis)];
+            if (axis == axes[i] ? off < 1.0 : std::abs(off) > 0.02) return false;
+          }
+          return true;
+        },
+        20.0))
+        << command_line();
   }
   expect_clean_close();
 }
@@ -149,18 +160,22 @@ TEST_F(PanelsTest, ALightIsMovedAndPutBack) {
   open_with("Lights", 8, scene("cornell"), " --mode raster");
   settle("before.png");
   const std::vector<int> rows = widgets_at(8 + 112, 8 + 22, 300);
-  ASSERT_GE(rows.size(), 2u);  // position, intensity
+  ASSERT_GE(rows.size(), 2u);        // position, intensity
   drag_from(8 + 140, rows[1], -60);  // darker
-  EXPECT_TRUE(becomes([&] {
-    grab("after.png");
-    return different_in(kPicture, "before.png", "after.png") > 10000;
-  }, 20.0));
+  EXPECT_TRUE(becomes(
+      [&] {
+        grab("after.png");
+        return different_in(kPicture, "before.png", "after.png") > 10000;
+      },
+      20.0));
   pause_ms(500);  // a step of its own
   key("ctrl+z");
-  EXPECT_TRUE(becomes([&] {
-    grab("undone.png");
-    return different_in(kPicture, "before.png", "undone.png") == 0;
-  }, 20.0));
+  EXPECT_TRUE(becomes(
+      [&] {
+        grab("undone.png");
+        return different_in(kPicture, "before.png", "undone.png") == 0;
+      },
+      20.0));
   expect_clean_close();
 }
 

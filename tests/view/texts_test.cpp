@@ -1,5 +1,5 @@
-// Every string that the window shows, in a list that a person can read: tests/view/shown_texts.txt. To write it
-// anew: PINOCCHIO_WRITE_TEXTS=1.
+// Every string that the window shows, in a list that a person can read: tests/view/shown_texts.txt. To write
+// it anew: PINOCCHIO_WRITE_TEXTS=1.
 #include <gtest/gtest.h>
 #include <imgui.h>
 
@@ -66,9 +66,11 @@ std::set<std::string> shown(Model& model) {
   int width = 0, height = 0;
   io.Fonts->GetTexDataAsRGBA32(&pixels, &width, &height);
   using Draw = void (*)(Model&, float);
-  constexpr std::array<Draw, 10> kInPanels{draw_help,   draw_figures, draw_controls,  draw_all_settings, draw_light_controls,
-                                           draw_camera, draw_materials, draw_pixel, draw_timeline,     draw_files};
-  constexpr std::array<Draw, 5> kOfTheirOwn{draw_status_line, draw_playback, draw_messages, draw_loading, draw_caption};
+  constexpr std::array<Draw, 10> kInPanels{
+      draw_help,   draw_figures,   draw_controls, draw_all_settings, draw_light_controls,
+      draw_camera, draw_materials, draw_pixel,    draw_timeline,     draw_files};
+  constexpr std::array<Draw, 5> kOfTheirOwn{draw_status_line, draw_playback, draw_messages, draw_loading,
+                                            draw_caption};
   for (int frame = 0; frame < 4; ++frame) {
     io.DeltaTime = 0.02f;
     ImGui::NewFrame();

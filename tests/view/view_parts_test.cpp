@@ -123,7 +123,8 @@ TEST(Framing, WhatMattersOfARoomIsInIt) {
   EXPECT_EQ(bounds_of_interest(Mesh(data)).diagonal(), Mesh(data).bounds().diagonal());
 }
 
-// Of lit and shadowed pixels, and of those in the mirror: what lights, ambience and mirrors bring is its colour.
+// Of lit and shadowed pixels, and of those in the mirror: what lights, ambience and mirrors bring is its
+// colour.
 TEST(PixelInspector, WhatLightsAndMirrorsBringIsTheColour) {
   const Scene scene = load_scene(PINOCCHIO_SOURCE_DIR "/scenes/two-lights").value();
   const auto tracer = std::make_shared<const Tracer>(scene.mesh);
@@ -156,7 +157,8 @@ TEST(SceneFiles, AFolderIsSteppedThroughAndAround) {
   const std::filesystem::path folder = own_folder() / "scenes";
   std::filesystem::remove_all(folder);
   std::filesystem::create_directories(folder / "more");
-  for (const char* name : {"b.GLB", "a.obj", "c.ply", "notes.txt", ".hidden.obj"}) std::ofstream(folder / name) << "x";
+  for (const char* name : {"b.GLB", "a.obj", "c.ply", "notes.txt", ".hidden.obj"})
+    std::ofstream(folder / name) << "x";
   const std::vector<FolderEntry> entries = scenes_in(folder);
   ASSERT_EQ(entries.size(), 4u);
   EXPECT_TRUE(entries[0].is_folder);
@@ -169,10 +171,10 @@ TEST(SceneFiles, AFolderIsSteppedThroughAndAround) {
 TEST(Pace, CountsFromWhenTheWindowLastLooked) {
   Pace pace;
   pace.looked(0.0, 1.0, false);
-  pace.looked(1.5, 1.5, true);    // came while it was busy, since 1.0 at worst
+  pace.looked(1.5, 1.5, true);  // came while it was busy, since 1.0 at worst
   pace.redrawn(1.6, true);
-  pace.looked(1.6, 2.0, true);    // came while it waited
-  pace.looked(2.0, 2.1, true);    // and another before the answer
+  pace.looked(1.6, 2.0, true);  // came while it waited
+  pace.looked(2.0, 2.1, true);  // and another before the answer
   pace.redrawn(2.1, true);
   pace.redrawn(2.2, false);
   const nlohmann::json json = pace.json();

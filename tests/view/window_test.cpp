@@ -271,7 +271,8 @@ TEST(View, WithoutADisplayItEndsWithThreeAndPointsToRender) {
 
 TEST(View, OptionsOfAPictureWithoutAWindowAreUnknown) {
   const std::string view = "'" PINOCCHIO_PROGRAM "' view '" PINOCCHIO_SOURCE_DIR "/scenes/cornell' ";
-  for (const char* option : {"--backend egl", "--device 0", "--crop 0,0,9,9", "--precise", "--gl-threads 1"}) {
+  for (const char* option :
+       {"--backend egl", "--device 0", "--crop 0,0,9,9", "--precise", "--gl-threads 1"}) {
     const CommandResult result = run_command(view + option, own_folder());
     EXPECT_EQ(result.exit_code, 2) << option << ": " << result.err;
   }
@@ -282,9 +283,10 @@ TEST(View, OptionsOfAPictureWithoutAWindowAreUnknown) {
 }
 
 TEST(View, SettingsThatContradictAreAUsageErrorBeforeAnythingIsOpened) {
-  const CommandResult result = run_command("env -u DISPLAY '" PINOCCHIO_PROGRAM "' view '" PINOCCHIO_SOURCE_DIR
-                                           "/scenes/cornell' --design 2 --exchange reproject",
-                                           own_folder());
+  const CommandResult result =
+      run_command("env -u DISPLAY '" PINOCCHIO_PROGRAM "' view '" PINOCCHIO_SOURCE_DIR
+                  "/scenes/cornell' --design 2 --exchange reproject",
+                  own_folder());
   EXPECT_EQ(result.exit_code, 2);
   EXPECT_NE(result.err.find("reproject"), std::string::npos) << result.err;
 }

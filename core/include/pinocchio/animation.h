@@ -22,8 +22,8 @@ struct Track {
   Path path = Path::translation;
   Interpolation interpolation = Interpolation::linear;  // of rotations: spherical
   std::vector<float> times_s;                           // not falling, at least one
-  // For each key `width` numbers (a rotation's are x, y, z, w); of cubic splines three times as many: tangent in,
-  // value, tangent out.
+  // For each key `width` numbers (a rotation's are x, y, z, w); of cubic splines three times as many: tangent
+  // in, value, tangent out.
   std::vector<float> values;
   std::size_t width = 3;
 
@@ -63,10 +63,10 @@ struct Animation {
 // Its cameras at that time; at_time()'s, without the rest.
 [[nodiscard]] std::vector<Camera> cameras_at(const Scene& scene, double seconds);
 
-// The scene as it is that long after its animation began, made of the rest pose alone: the same bits, whichever pose
-// `scene` is in. What nothing moves stays as it is. A new mesh of the same triangles and materials, as posed()
-// makes it; of a scene without animation, the scene itself. Errors: no finite time, or a pose that leaves
-// the mesh no finite numbers.
+// The scene as it is that long after its animation began, made of the rest pose alone: the same bits,
+// whichever pose `scene` is in. What nothing moves stays as it is. A new mesh of the same triangles and
+// materials, as posed() makes it; of a scene without animation, the scene itself. Errors: no finite time, or
+// a pose that leaves the mesh no finite numbers.
 [[nodiscard]] Expected<Scene> at_time(const Scene& scene, double seconds);
 
 }  // namespace pinocchio

@@ -32,8 +32,8 @@ struct BuildOptions {
   // SAH's cost comparison (bsp/cost_model.h): of a traversal step, against a triangle test ...
   float cost_step = 1.0f;
   float cost_intersection = 0.39f;
-  float cost_intersection_light = 3.0f;    // ... in nodes that hold a light
-  std::vector<glm::vec3> lights{};         // positions of casting lights; a moved one makes no picture wrong
+  float cost_intersection_light = 3.0f;  // ... in nodes that hold a light
+  std::vector<glm::vec3> lights{};       // positions of casting lights; a moved one makes no picture wrong
   // ... and in nodes whose sides are below this share of the scene's.
   float cost_intersection_small = 0.2f, small_side = 0.02f;
   // Where all pictures are taken from one place: a test's cost then, and how much longer the sides of a node

@@ -15,9 +15,11 @@ struct Camera {
   // Depth of field, by samples: each sees through one point of the lens. Scene units.
   float lens_radius = 0.0f;     // 0: a pinhole
   float focus_distance = 0.0f;  // along the view axis, where all is sharp; 0: the target's
-  // Of a measured camera (with_intrinsics). As they are, pixels are square and the view axis meets the centre.
-  float pixel_aspect = 1.0f;   // width of a pixel by its height
-  glm::vec2 axis_shift{0.0f};  // where the axis meets the picture, off its centre: picture heights, y downwards
+  // Of a measured camera (with_intrinsics). As they are, pixels are square and the view axis meets the
+  // centre.
+  float pixel_aspect = 1.0f;  // width of a pixel by its height
+  glm::vec2 axis_shift{
+      0.0f};  // where the axis meets the picture, off its centre: picture heights, y downwards
 
   friend bool operator==(const Camera&, const Camera&) = default;
 };
@@ -28,8 +30,8 @@ struct CameraAxes {
 };
 [[nodiscard]] CameraAxes camera_axes(const Camera& camera);
 
-// OpenCV's camera matrix, pixels: what lies at (x, y, z) of the camera (x right, y down, z forward) is seen at
-// (fx x / z + cx, fy y / z + cy), where whole numbers are the pixels' centres, (0, 0) the top left one's.
+// OpenCV's camera matrix, pixels: what lies at (x, y, z) of the camera (x right, y down, z forward) is seen
+// at (fx x / z + cx, fy y / z + cy), where whole numbers are the pixels' centres, (0, 0) the top left one's.
 struct Intrinsics {
   double fx, fy, cx, cy;
 };

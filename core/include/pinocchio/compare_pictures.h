@@ -10,10 +10,10 @@ namespace pinocchio {
 // How far a picture is from its reference, in figures and as it seems to a person.
 struct PictureDifference {
   double rmse = 0.0, relative_mse = 0.0;  // relative: mean of (a - b)^2 / (b^2 + 0.01)
-  double psnr_db = 0.0;                   // peak 1, of the values clamped to [0, 1]; +inf where those are equal
-  double max = 0.0;                       // largest |a - b|
-  double flip = 0.0;                      // mean LDR-FLIP
-  Image<float> flip_errors;               // each pixel's, in [0, 1]
+  double psnr_db = 0.0;      // peak 1, of the values clamped to [0, 1]; +inf where those are equal
+  double max = 0.0;          // largest |a - b|
+  double flip = 0.0;         // mean LDR-FLIP
+  Image<float> flip_errors;  // each pixel's, in [0, 1]
 };
 
 // Linear RGB of the same size, finite; pixels_per_degree: of visual angle, 1 to 1000. Any thread.

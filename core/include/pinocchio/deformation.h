@@ -30,7 +30,7 @@ struct Influence {
 struct Deformation {
   int node = -1;
   std::vector<MorphTarget> targets;
-  int skin = -1;  // in RestPose::skins; -1: none
+  int skin = -1;                      // in RestPose::skins; -1: none
   std::vector<Influence> influences;  // `influences_per_vertex` for each vertex, weights' sum 1
   std::size_t influences_per_vertex = 0;
 };

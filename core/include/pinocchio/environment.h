@@ -17,8 +17,9 @@ namespace pinocchio {
 // copies of a mesh.
 inline constexpr std::uint64_t kUsualLoadLimit = std::uint64_t{4} << 30;
 
-// What is seen, and shines, where no triangle is: a picture of all directions in latitude and longitude, linear
-// light, as OpenEXR has it: the top row is up (+Y), the middle +Z, a quarter of the width left of it +X. Immutable.
+// What is seen, and shines, where no triangle is: a picture of all directions in latitude and longitude,
+// linear light, as OpenEXR has it: the top row is up (+Y), the middle +Z, a quarter of the width left of it
+// +X. Immutable.
 class Environment {
  public:
   // Values below zero, or not finite, count as zero. At least one pixel.
@@ -28,8 +29,8 @@ class Environment {
   [[nodiscard]] const std::string& source() const { return source_; }  // path it was read from
   [[nodiscard]] bool is_black() const { return rows_.back() <= 0.0f; }
 
-  // A place of the picture, u to the right and v down, 0 to 1, that is the more likely the brighter it is there,
-  // from two numbers in [0, 1); and how likely: per unit of u times v. Not for black ones.
+  // A place of the picture, u to the right and v down, 0 to 1, that is the more likely the brighter it is
+  // there, from two numbers in [0, 1); and how likely: per unit of u times v. Not for black ones.
   struct Place {
     glm::vec2 uv;
     float density;
@@ -40,15 +41,15 @@ class Environment {
  private:
   Image<glm::vec3> radiance_;
   std::string source_;
-  // Of what interpolation makes of each texel's area, times its row's share of the sphere: the light up to the
-  // end of each row, and within each row up to the end of each texel; both grow from 0 to 1.
+  // Of what interpolation makes of each texel's area, times its row's share of the sphere: the light up to
+  // the end of each row, and within each row up to the end of each texel; both grow from 0 to 1.
   std::vector<float> rows_, columns_;
 };
 
-// Reads an EXR (channels R, G and B, or Y) or a Radiance picture (.hdr, RGBE), by what the file holds. Errors name
-// the file. Phase "read".
-[[nodiscard]] Expected<std::shared_ptr<const Environment>> load_environment(const std::filesystem::path& path,
-                                                                            Progress* progress = nullptr,
-                                                                            std::uint64_t limit_bytes = kUsualLoadLimit);
+// Reads an EXR (channels R, G and B, or Y) or a Radiance picture (.hdr, RGBE), by what the file holds. Errors
+// name the file. Phase "read".
+[[nodiscard]] Expected<std::shared_ptr<const Environment>> load_environment(
+    const std::filesystem::path& path, Progress* progress = nullptr,
+    std::uint64_t limit_bytes = kUsualLoadLimit);
 
 }  // namespace pinocchio

@@ -13,8 +13,8 @@ struct Light {
   std::string name;
   Kind kind = Kind::point;
   glm::vec3 position{0.0f};                // point, spot, rectangle (its centre); world space
-  glm::vec3 direction{0.0f, -1.0f, 0.0f};  // unit; directional, spot: the light travels along it; rectangle: the one
-                                           // side that shines faces it
+  glm::vec3 direction{0.0f, -1.0f, 0.0f};  // unit; directional, spot: the light travels along it; rectangle:
+                                           // the one side that shines faces it
   glm::vec3 color{1.0f};                   // linear
   float intensity = 1.0f;                  // multiplies colour
   Falloff falloff = Falloff::none;
@@ -23,11 +23,11 @@ struct Light {
   float cos_outer = -1.0f;                               // ... none outside this one
   bool casts_shadow = true;
 
-  // Its size (shaders/shared/sized_light.glsl): each sample of a picture takes one point of it, so that many have soft
-  // shadows. In all it is as bright as without. Scene units.
-  float radius = 0.0f;                     // point, spot: of the ball that shines
-  float angle_deg = 0.0f;                  // directional: diameter of its disc, as the sun's 0.53
-  glm::vec3 edge_u{0.0f}, edge_v{0.0f};    // rectangle: its sides, across `direction`
+  // Its size (shaders/shared/sized_light.glsl): each sample of a picture takes one point of it, so that many
+  // have soft shadows. In all it is as bright as without. Scene units.
+  float radius = 0.0f;                   // point, spot: of the ball that shines
+  float angle_deg = 0.0f;                // directional: diameter of its disc, as the sun's 0.53
+  glm::vec3 edge_u{0.0f}, edge_v{0.0f};  // rectangle: its sides, across `direction`
 
   [[nodiscard]] bool has_size() const {
     return kind == Kind::rectangle || (kind == Kind::directional ? angle_deg > 0.0f : radius > 0.0f);

@@ -41,8 +41,8 @@ class Warnings {
   std::map<std::pair<std::string, std::string>, std::size_t> known_;  // by file and what
 };
 
-// Reads glTF 2.0 (.gltf, .glb), Wavefront OBJ+MTL (.obj) or PLY (.ply), chosen by the file's extension. A path
-// without extension, or a folder, stands for the one scene file of that name (scenes/cornell ->
+// Reads glTF 2.0 (.gltf, .glb), Wavefront OBJ+MTL (.obj) or PLY (.ply), chosen by the file's extension. A
+// path without extension, or a folder, stands for the one scene file of that name (scenes/cornell ->
 // scenes/cornell.gltf). The result has passed check_scene. Errors name the file and, for text formats,
 // the line; what a picture can do without is added to `warnings` instead, which are whole where the result
 // is an error, too. Phases "read" and "mesh". Any thread.

@@ -11,9 +11,10 @@ struct Material {
   glm::vec3 ambient{0.8f};
   glm::vec3 diffuse{0.8f};
   glm::vec3 specular{0.0f};
-  float shininess = 1.0f;         // exponent of (R.V), not of the half vector
-  glm::vec3 reflectance{0.0f};    // weight of the mirrored ray; with `fresnel` its value at normal incidence
-  // Exponent of the lobe that its mirrored rays are spread over, by samples: the lower, the rougher. 0: sharp.
+  float shininess = 1.0f;       // exponent of (R.V), not of the half vector
+  glm::vec3 reflectance{0.0f};  // weight of the mirrored ray; with `fresnel` its value at normal incidence
+  // Exponent of the lobe that its mirrored rays are spread over, by samples: the lower, the rougher. 0:
+  // sharp.
   float gloss = 0.0f;
   glm::vec3 transmittance{0.0f};  // weight of the refracted ray; any component > 0 makes a dielectric
   float ior = 1.0f;               // of the inside against the outside

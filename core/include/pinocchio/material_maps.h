@@ -30,7 +30,7 @@ enum class AlphaMode : std::uint8_t { opaque, mask, blend };
 
 // What of a material textures, vertex colours and alpha change from point to point.
 struct MaterialMaps {
-  TextureUse base_color;          // sRGB; multiplies `surface.base_color`, or the material's ambient and diffuse
+  TextureUse base_color;  // sRGB; multiplies `surface.base_color`, or the material's ambient and diffuse
   TextureUse metallic_roughness;  // G: roughness, B: metallic; from_gltf only
   TextureUse normal;              // tangent space, 2 c - 1; X along u, Y against v
   TextureUse occlusion;           // R; multiplies ambient light
@@ -40,7 +40,7 @@ struct MaterialMaps {
   TextureUse specular;        // A; multiplies `surface.specular`
   TextureUse specular_color;  // sRGB; multiplies `surface.specular_color`
   TextureUse transmission;    // R; multiplies `surface.transmission`
-  int alpha_channel = 3;          // of that texture: 0 R to 3 A
+  int alpha_channel = 3;      // of that texture: 0 R to 3 A
   float normal_scale = 1.0f;
   float occlusion_strength = 1.0f;
   bool vertex_colors = false;  // MeshData::colors multiply base colour and alpha

@@ -20,8 +20,8 @@ struct Scene;
 
 struct Node {
   std::string name;
-  int parent = -1;         // its index, smaller than its child's; -1: none
-  glm::mat4 local{1.0f};   // parent from node; the world from a node without parent
+  int parent = -1;        // its index, smaller than its child's; -1: none
+  glm::mat4 local{1.0f};  // parent from node; the world from a node without parent
   // Of the mesh: what moves with it.
   std::uint32_t first_vertex = 0, vertices = 0;
   std::uint32_t first_triangle = 0, triangles = 0;
@@ -73,8 +73,8 @@ struct NodeWeights {
 
 // The scene with these nodes moved, and all that hangs on them: a new mesh of the same triangles, materials
 // and textures, so triangle ids stay. What does not move keeps every bit; poses do not add up their rounding.
-// Costs a copy of the mesh, but for its textures; a tracer of it is built anew. Errors: no such node, other than
-// one weight a target, or a transform that leaves the mesh no finite numbers.
+// Costs a copy of the mesh, but for its textures; a tracer of it is built anew. Errors: no such node, other
+// than one weight a target, or a transform that leaves the mesh no finite numbers.
 [[nodiscard]] Expected<Scene> posed(const Scene& scene, std::span<const NodeTransform> transforms,
                                     std::span<const NodeWeights> weights = {});
 

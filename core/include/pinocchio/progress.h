@@ -1,5 +1,5 @@
-// Long work that can be watched, and ended early. Every function that takes long has a Progress* at the end of
-// its arguments or in its options; null, the default, costs nothing:
+// Long work that can be watched, and ended early. Every function that takes long has a Progress* at the end
+// of its arguments or in its options; null, the default, costs nothing:
 //
 //   Progress progress;                              // outlives the work
 //   std::thread watcher([&] { show(progress.phase(), progress.fraction()); });
@@ -19,7 +19,8 @@ class Cancelled : public std::runtime_error {
   Cancelled() : std::runtime_error("cancelled") {}
 };
 
-// Safe to use from any thread; cancel() and cancelled() from signal handlers, too. Once cancelled it stays so.
+// Safe to use from any thread; cancel() and cancelled() from signal handlers, too. Once cancelled it stays
+// so.
 class Progress {
  public:
   void cancel() noexcept { cancelled_.store(true, std::memory_order_relaxed); }
@@ -33,7 +34,8 @@ class Progress {
     return total > 0.0 ? std::clamp(done_.load(std::memory_order_relaxed) / total, 0.0, 1.0) : 0.0;
   }
 
-  // For those who do the work. `phase` is a string literal; `steps` are of any size, and may be done in parts.
+  // For those who do the work. `phase` is a string literal; `steps` are of any size, and may be done in
+  // parts.
   void begin(const char* phase, double steps) noexcept {
     done_.store(0.0, std::memory_order_relaxed);
     total_.store(steps, std::memory_order_relaxed);

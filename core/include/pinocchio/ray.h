@@ -7,8 +7,8 @@
 namespace pinocchio {
 
 inline constexpr std::uint32_t kNoTriangle = 0xffffffffu;
-// Light that a ray brings its pixel, linear, below which it is not followed, by default: less than half a step
-// of an 8-bit sRGB picture, even on black (slope 12.92).
+// Light that a ray brings its pixel, linear, below which it is not followed, by default: less than half a
+// step of an 8-bit sRGB picture, even on black (slope 12.92).
 inline constexpr float kThroughputCutoff = 0x1p-13f;
 inline constexpr float kInfinity = std::numeric_limits<float>::infinity();
 

@@ -26,12 +26,12 @@ struct Scene {
   std::shared_ptr<const Mesh> mesh = std::make_shared<const Mesh>();  // never null
   std::vector<Light> lights;
   std::vector<Camera> cameras;
-  glm::vec3 ambient_light{0.1f};  // Ia; no file format we read carries it
+  glm::vec3 ambient_light{0.1f};                   // Ia; no file format we read carries it
   std::shared_ptr<const Environment> environment;  // seen where no triangle is, and shines; null: black
   float environment_rotation_deg = 0.0f;           // how far it is turned about +Y
   float environment_strength = 1.0f;               // multiplies its light
-  std::shared_ptr<const NodeTree> nodes;       // of what can be moved; null: nothing can
-  std::shared_ptr<const Animation> animation;  // of the nodes (pinocchio/animation.h); null: none
+  std::shared_ptr<const NodeTree> nodes;           // of what can be moved; null: nothing can
+  std::shared_ptr<const Animation> animation;      // of the nodes (pinocchio/animation.h); null: none
 
   std::string source;                     // path it was loaded from
   std::vector<std::string> source_files;  // that path and all files it names, also those that are missing
@@ -57,7 +57,8 @@ struct Scene {
 // Lights that reach nothing cast nothing: no mask slot is spent on them.
 void drop_idle_casters(Scene& scene);
 
-// Whether one picture of it is one sample of many: of lights with a size, of glossy mirrors, of an environment.
+// Whether one picture of it is one sample of many: of lights with a size, of glossy mirrors, of an
+// environment.
 [[nodiscard]] bool takes_samples(const Scene& scene);
 
 // First camera named `name`, else nullptr.

@@ -7,7 +7,8 @@
 
 namespace pinocchio {
 
-// What is done where a coarse mesh's shading normals face a light and its facets do not (the shadow terminator).
+// What is done where a coarse mesh's shading normals face a light and its facets do not (the shadow
+// terminator).
 enum class Terminator {
   off,          // such points are dark
   smoothed,     // light falls smoothly to zero where the facet turns away (Chiang, Li and Burley 2019)
@@ -17,7 +18,8 @@ enum class Terminator {
 
 inline constexpr std::array kTerminators{Terminator::off, Terminator::smoothed, Terminator::displaced,
                                          Terminator::turned_away};
-inline constexpr std::array<std::string_view, 4> kTerminatorNames{"off", "smoothed", "displaced", "turned-away"};
+inline constexpr std::array<std::string_view, 4> kTerminatorNames{"off", "smoothed", "displaced",
+                                                                  "turned-away"};
 [[nodiscard]] constexpr std::string_view terminator_name(Terminator method) {
   return name_of(kTerminatorNames, method);
 }

@@ -18,8 +18,8 @@ namespace pinocchio {
 struct Texture {
   std::string name;
   Image<glm::u8vec4> texels;
-  // Half as wide and high, again and again down to one texel, each the mean of the one before; a finished mesh
-  // has them of the textures that are interpolated.
+  // Half as wide and high, again and again down to one texel, each the mean of the one before; a finished
+  // mesh has them of the textures that are interpolated.
   std::vector<glm::u8vec4> smaller_levels{};
 
   [[nodiscard]] int levels() const {
@@ -33,7 +33,8 @@ struct Texture {
 class Textures {
  public:
   Textures() = default;
-  Textures(std::initializer_list<Texture> textures) : all_(std::make_shared<std::vector<Texture>>(textures)) {}
+  Textures(std::initializer_list<Texture> textures)
+      : all_(std::make_shared<std::vector<Texture>>(textures)) {}
 
   [[nodiscard]] std::size_t size() const { return all_ ? all_->size() : 0; }
   [[nodiscard]] bool empty() const { return size() == 0; }

@@ -23,7 +23,9 @@ struct RayColumns;
 enum class Isa { scalar, sse4, avx2, avx512 };
 
 inline constexpr std::array<std::string_view, 4> kIsaNames{"scalar", "sse4", "avx2", "avx512"};
-[[nodiscard]] constexpr std::string_view isa_name(Isa isa) { return name_of(kIsaNames, isa); }
+[[nodiscard]] constexpr std::string_view isa_name(Isa isa) {
+  return name_of(kIsaNames, isa);
+}
 [[nodiscard]] bool isa_supported(Isa isa);        // by this processor
 [[nodiscard]] std::vector<Isa> supported_isas();  // narrowest first
 

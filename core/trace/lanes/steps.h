@@ -67,8 +67,7 @@ inline void ask(const BounceLight& from, const ShadowStarts& starts, const LaneI
   if (lanes.bits() == 0) return;
   const Vec origin = starts.origins(incident.to_light);
   const bool far = from.params.kind == shared::kLightDirectional;
-  const Vec direction =
-      far ? incident.to_light : incident.target - origin;  // the light sits at t = 1
+  const Vec direction = far ? incident.to_light : incident.target - origin;  // the light sits at t = 1
   append(origin, direction, light, pixel, lanes, bounce.shadow[from.slot]);
   starts.ask_ways_up(lanes, bounce.shadow[from.slot], bounce.ways_up[from.slot]);
 }

@@ -15,12 +15,13 @@
 
 namespace pinocchio {
 
-// A picture of `size` pixels from each camera, written to the arrays: the same values, to the last bit, as those of
-// Engine::render. Of the arrays that are null nothing is computed. Where the CPU draws alone, the pictures'
-// tiles are one queue for all worker threads, and once warm no picture allocates anything. Phases "build" and
-// "render". From the Engine's thread. Throws NoOpenGlError.
-[[nodiscard]] Expected<RayCounts> render_many(Engine& engine, const Scene& scene, std::span<const Camera> cameras,
-                                              glm::ivec2 size, const Settings& settings, const FrameArrays& to,
+// A picture of `size` pixels from each camera, written to the arrays: the same values, to the last bit, as
+// those of Engine::render. Of the arrays that are null nothing is computed. Where the CPU draws alone, the
+// pictures' tiles are one queue for all worker threads, and once warm no picture allocates anything. Phases
+// "build" and "render". From the Engine's thread. Throws NoOpenGlError.
+[[nodiscard]] Expected<RayCounts> render_many(Engine& engine, const Scene& scene,
+                                              std::span<const Camera> cameras, glm::ivec2 size,
+                                              const Settings& settings, const FrameArrays& to,
                                               Progress* progress = nullptr);
 
 }  // namespace pinocchio

@@ -30,15 +30,15 @@ struct EngineOptions {
   bool gl_debug = false;         // what the driver complains about is an error
   bool gives_way = false;        // threads that trace leave the processor to the caller's: for windows
   // Where a function of OpenGL is: of a context of the caller's that is current on this thread, to be used
-  // instead of one of our own (glfwGetProcAddress, eglGetProcAddress). It must outlive the Engine, and is left
-  // with other state: bindings, viewport, blending.
+  // instead of one of our own (glfwGetProcAddress, eglGetProcAddress). It must outlive the Engine, and is
+  // left with other state: bindings, viewport, blending.
   using GetProcAddress = void (*(*)(const char*))();
   GetProcAddress get_proc_address = nullptr;
 };
 
-// Owns the OpenGL context, worker threads, the tracing thread and the compiled programs; what is not needed is
-// never opened. Used from one thread, but for prepare(). OpenGL's functions belong to a process: one Engine
-// that uses the GPU at a time; any number whose frames the CPU draws alone.
+// Owns the OpenGL context, worker threads, the tracing thread and the compiled programs; what is not needed
+// is never opened. Used from one thread, but for prepare(). OpenGL's functions belong to a process: one
+// Engine that uses the GPU at a time; any number whose frames the CPU draws alone.
 class Engine {
  public:
   explicit Engine(const EngineOptions& options = {});
@@ -48,9 +48,9 @@ class Engine {
   Engine(const Engine&) = delete;
   Engine& operator=(const Engine&) = delete;
 
-  // Fills in what the settings leave open, for a picture of `size` pixels of the scene: the least that draws it
-  // exactly. keeps_mask: every bit of the shadow mask is wanted, seen or not. An error where they cannot be.
-  // Throws NoOpenGlError where they want OpenGL and there is none.
+  // Fills in what the settings leave open, for a picture of `size` pixels of the scene: the least that draws
+  // it exactly. keeps_mask: every bit of the shadow mask is wanted, seen or not. An error where they cannot
+  // be. Throws NoOpenGlError where they want OpenGL and there is none.
   [[nodiscard]] Expected<Settings> resolve(const Scene& scene, glm::ivec2 size, const Settings& settings = {},
                                            bool keeps_mask = true) const;
 
@@ -68,8 +68,8 @@ class Engine {
   // Opens the OpenGL context now, where settings would need it later. Throws NoOpenGlError.
   void open_gl() const;
   // What resolve() asks of the machine: whether OpenGL runs on the tracer's own cores, where settings use it.
-  // Opens the context to know, but for settings by_machine where EGL lists no hardware: then it is not needed.
-  // Throws NoOpenGlError; with by_machine, no OpenGL is a software one.
+  // Opens the context to know, but for settings by_machine where EGL lists no hardware: then it is not
+  // needed. Throws NoOpenGlError; with by_machine, no OpenGL is a software one.
   [[nodiscard]] bool gl_is_software(const Settings& settings) const;
   // Of the context; null while none is open.
   [[nodiscard]] const gl::ContextInfo* gl_info() const;
@@ -78,8 +78,9 @@ class Engine {
 
   // That shaders are read from (PINOCCHIO_SHADERS); empty where they are built in.
   [[nodiscard]] const std::filesystem::path& shader_folder() const;
-  // Compiles all shaders that were used so far anew, as they are in the folder now; frames that are begun from now
-  // on are drawn by them. Where one is wrong, all stay as they were and the error says what. Opens the context.
+  // Compiles all shaders that were used so far anew, as they are in the folder now; frames that are begun
+  // from now on are drawn by them. Where one is wrong, all stay as they were and the error says what. Opens
+  // the context.
   [[nodiscard]] Expected<void> reload_shaders();
 
   struct Parts;

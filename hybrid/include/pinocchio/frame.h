@@ -91,7 +91,8 @@ struct FrameResult {
 void unpack_mask(const FrameResult& frame, std::uint8_t* to);
 
 struct ExrOptions {
-  std::string layers = "all";  // or "none", or some of Z, P, N, Albedo, id, shadow, reflection with commas between
+  std::string layers =
+      "all";  // or "none", or some of Z, P, N, Albedo, id, shadow, reflection with commas between
   ExrCompression compression = ExrCompression::zip;
   std::optional<double> render_s{};  // what it took, for its header
   // For its header, too: which frame of an animation it is, and how many there are a second.
@@ -104,7 +105,8 @@ struct ExrOptions {
 // EnvironmentError where it cannot be written. Source: OpenEXR's standard attributes. Phase "write".
 void write_exr(const std::filesystem::path& file, const FrameResult& frame, const ExrOptions& options = {},
                Progress* progress = nullptr);
-// The header that it would get, and its channels without values: for those who look whether a file is this frame's.
+// The header that it would get, and its channels without values: for those who look whether a file is this
+// frame's.
 [[nodiscard]] ExrFile exr_header(const FrameResult& frame, const ExrOptions& options = {});
 
 }  // namespace pinocchio

@@ -13,8 +13,8 @@
 
 namespace pinocchio {
 
-// Gives the scene's poses with their trees, and makes the next one on a thread of its own meanwhile. What a pose is
-// made of does not depend on those before it.
+// Gives the scene's poses with their trees, and makes the next one on a thread of its own meanwhile. What a
+// pose is made of does not depend on those before it.
 class PoseAhead {
  public:
   struct Pose {
@@ -23,11 +23,13 @@ class PoseAhead {
   };
 
   // `progress`, which may be null, ends what is begun once it is cancelled.
-  explicit PoseAhead(Scene scene, Progress* progress = nullptr) : scene_(std::move(scene)), progress_(progress) {}
+  explicit PoseAhead(Scene scene, Progress* progress = nullptr)
+      : scene_(std::move(scene)), progress_(progress) {}
 
-  // The pose at that time, for frames of these resolved settings. `next_s`: the time that will be asked for next, if
-  // it is known.
-  [[nodiscard]] Expected<Pose> at(double seconds, const Settings& settings, std::optional<double> next_s = {});
+  // The pose at that time, for frames of these resolved settings. `next_s`: the time that will be asked for
+  // next, if it is known.
+  [[nodiscard]] Expected<Pose> at(double seconds, const Settings& settings,
+                                  std::optional<double> next_s = {});
 
  private:
   struct Wanted {

@@ -1,8 +1,8 @@
 // A stream of frames: several in flight at once, each delivered once, in order.
 #pragma once
 
-#include <functional>
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <vector>
 
@@ -27,8 +27,8 @@ struct FrameRequest {
   std::shared_ptr<const Tracer> tracer;  // of the scene's mesh; null where the settings trace nothing
   Settings settings;                     // resolved
   View view;
-  // Tiles of 32 x 32 pixels, row by row, of which nothing is traced where it is not 0: what the frame shows there does
-  // not count. Null: there are none.
+  // Tiles of 32 x 32 pixels, row by row, of which nothing is traced where it is not 0: what the frame shows
+  // there does not count. Null: there are none.
   std::shared_ptr<const std::vector<std::uint8_t>> left_out{};
 
   friend bool operator==(const FrameRequest&, const FrameRequest&) = default;
@@ -60,7 +60,7 @@ class Frame {
 
 // What is done with finished frames; either may be left out.
 struct FrameSinks {
-  std::function<void(Frame&)> frame{};                // before its buffers are used again
+  std::function<void(Frame&)> frame{};               // before its buffers are used again
   std::function<void(const FrameRecord&)> record{};  // later, when the GPU's clock has told all
 };
 
@@ -69,8 +69,8 @@ struct FrameSinks {
 // synchronous one, bit for bit.
 class Renderer {
  public:
-  // `progress` advances by a step a frame, while it is traced, and outlives the Renderer. Once it is cancelled,
-  // submit and drain throw Cancelled; frames that were delivered are whole.
+  // `progress` advances by a step a frame, while it is traced, and outlives the Renderer. Once it is
+  // cancelled, submit and drain throw Cancelled; frames that were delivered are whole.
   Renderer(Engine& engine, FrameSinks sinks, Progress* progress = nullptr);
   ~Renderer();
   Renderer(const Renderer&) = delete;
@@ -79,13 +79,14 @@ class Renderer {
   // Begins a frame and delivers what that finishes. Where the settings reuse and the request is the last one
   // again, nothing is drawn, traced or sent: all in flight is delivered, then the last picture once more.
   // What went wrong on the tracing thread is thrown when that frame would have been delivered; the frame is
-  // lost, the others are not. Throws EnvironmentError where there is no OpenGL (NoOpenGlError), or its context is lost.
+  // lost, the others are not. Throws EnvironmentError where there is no OpenGL (NoOpenGlError), or its
+  // context is lost.
   void submit(const FrameRequest& request);
   // The same for a window, which never waits for the CPU: delivers what is done, and begins the frame where
   // the CPU is not behind. False: it is not begun; try again with what is wanted then.
   bool try_submit(const FrameRequest& request);
-  // Delivers what is done of the frames in flight, and gives the CPU the next of them, without waiting for it.
-  // True: none is left.
+  // Delivers what is done of the frames in flight, and gives the CPU the next of them, without waiting for
+  // it. True: none is left.
   bool advance();
   // Whether the CPU is at work on a frame.
   [[nodiscard]] bool is_tracing() const;

@@ -23,7 +23,8 @@ inline constexpr std::array<std::string_view, 2> kProcessorNames{"cpu", "gpu"};
 enum class Exchange {
   sync,       // at once: everybody waits
   pipelined,  // frames later: GPU and CPU work on different frames meanwhile
-  reproject,  // never waited for: the newest raster at once, an older frame's mask and reflection warped to it
+  reproject,  // never waited for: the newest raster at once, an older frame's mask and reflection warped to
+              // it
 };
 inline constexpr std::array<std::string_view, 3> kExchangeNames{"sync", "pipelined", "reproject"};
 
@@ -110,8 +111,7 @@ struct Settings {
   [[nodiscard]] bool uses_gpu() const { return visibility == Processor::gpu || composite == Processor::gpu; }
   // Whether anything is left for the CPU to do.
   [[nodiscard]] bool traces() const {
-    return mask_bits > 0 || reflects() || visibility == Processor::cpu ||
-           composite == Processor::cpu;
+    return mask_bits > 0 || reflects() || visibility == Processor::cpu || composite == Processor::cpu;
   }
 
   // The same values, whoever set them.
@@ -131,7 +131,7 @@ struct Field {
   bool of_machine;            // of how it is computed: no pixel changes with it
   std::string_view formerly;  // its name in older files; empty: none
 
-  std::string (*text)(const Settings&);           // the value as it is written
+  std::string (*text)(const Settings&);            // the value as it is written
   bool (*take)(std::string_view text, Settings&);  // false, and nothing changed: no such value
   bool (*given)(const Settings&);
   void (*copy)(const Settings& from, Settings& to);  // value and whether it was set
