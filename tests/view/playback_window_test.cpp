@@ -19,7 +19,10 @@ class PlaybackWindowTest : public WindowTest {
   }
   // From the slider's right end, which what P says does not cover, to x.
   void pull(int x, int y) const {
-    const auto to = [&](int column) { return "mousemove --window " + window_ + " " + std::to_string(column) + " " + std::to_string(y) + " sleep 0.1 "; };
+    const auto to = [&](int column) {
+      return "mousemove --window " + window_ + " " + std::to_string(column) + " " + std::to_string(y) +
+             " sleep 0.1 ";
+    };
     xdo(to(490) + "mousedown 1 sleep 0.1 " + to((490 + x) / 2) + to(x) + "mouseup 1");
   }
   // A pose is made after it was asked for.
