@@ -293,7 +293,8 @@ TEST_P(RendererTest, SinksMayBeLeftOut) {
 // A window's: nothing is begun while the CPU draws by itself, nothing is lost, and the order stays.
 TEST_P(RendererTest, TryingNeverWaitsForTheCpu) {
   const Scene scene = load_or_die(source_path("scenes/cornell"));
-  const FrameRequest alone = request(scene, settings_for(scene, by({{"mode", "raytrace"}})), {160, 120}),
+  // Large, or it is traced before it is asked for.
+  const FrameRequest alone = request(scene, settings_for(scene, by({{"mode", "raytrace"}})), {1600, 1200}),
                      hybrid = request(scene, settings_for(scene), {160, 120});
   EXPECT_FALSE(renderer_->is_tracing());
   const FrameRequest first = next(alone);
