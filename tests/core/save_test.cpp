@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "pinocchio/animation.h"
+#include "pinocchio/environment.h"
 #include "pinocchio/error.h"
 #include "scenes/generator/scenes.h"
 #include "tests/support/gltf.h"
@@ -229,6 +230,17 @@ Scene dissolved() {
   maps.alpha_mode = AlphaMode::blend;
   maps.base_color.uv_from_texcoord = maps.alpha.uv_from_texcoord = {2.0f, 0.0f, 0.0f, 3.0f, 0.25f, -0.5f};
   return Scene(std::move(mesh));
+}
+
+TEST(Save, WhatIsAroundTheSceneIsMissed) {
+  Scene scene = load_or_die(source_path("scenes/cornell.gltf"));
+  Image<glm::vec3> sky({4, 2}, glm::vec3(1.0f));
+  scene.environment = std::make_shared<const Environment>(std::move(sky), "sky.hdr");
+  for (const char* name : {"sky.gltf", "sky.obj"}) {
+    Warnings warnings;
+    save_scene(scene, temporary(name), nullptr, &warnings);
+    EXPECT_FALSE(warnings.empty()) << name;
+  }
 }
 
 TEST(Save, GltfTakesAlphaFromWhereMtlHasIt) {
