@@ -26,6 +26,8 @@ class Spare {
     const std::unique_lock lock(mutex_, std::try_to_lock);
     for (std::size_t i = 0; lock && i < count_; ++i)
       if (blocks_[i].size == size) return remove(i);
+    // Other sizes are asked for than were freed: what lies here is not kept for long.
+    if (lock && count_ > 0) std::free(remove(0));
     return nullptr;
   }
 
@@ -52,8 +54,8 @@ class Spare {
     return block.memory;
   }
 
-  // The pictures of four frames of 800 x 600.
-  static constexpr std::size_t kMost = std::size_t{64} << 20;
+  // The pictures of two frames of 800 x 600.
+  static constexpr std::size_t kMost = std::size_t{32} << 20;
 
   std::mutex mutex_;
   std::array<Block, 16> blocks_{};
