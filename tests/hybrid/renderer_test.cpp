@@ -1,4 +1,5 @@
 // Several frames in flight: what is delivered, when, and that nothing is lost or mixed.
+#include <future>
 #include <stdexcept>
 #include <thread>
 
@@ -117,14 +118,6 @@ class RendererTest : public FramesTest {
     request.settings.exchange = Exchange::pipelined;
     request.view.camera.eye.x += 1e-3f * static_cast<float>(++requests_);
     return request;
-  }
-
-  // Tries until it is; returns how often it was not.
-  int until_taken(const FrameRequest& request) {
-    for (int refused = 0;; ++refused) {
-      if (renderer_->try_submit(request)) return refused;
-      std::this_thread::yield();
-    }
   }
 
   struct Delivery {
@@ -290,25 +283,45 @@ TEST_P(RendererTest, SinksMayBeLeftOut) {
     }
 }
 
+// The tracing thread waits from here until it is let go, so that no frame is done before it is asked for.
+class HeldTracing {
+ public:
+  explicit HeldTracing(Engine& engine)
+      : held_(engine.parts().tracing.post([go = go_.get_future().share()] { go.wait(); })) {}
+  ~HeldTracing() {
+    go_.set_value();
+    held_.wait();
+  }
+  HeldTracing(const HeldTracing&) = delete;
+  HeldTracing& operator=(const HeldTracing&) = delete;
+
+ private:
+  std::promise<void> go_;
+  std::future<void> held_;
+};
+
 // A window's: nothing is begun while the CPU draws by itself, nothing is lost, and the order stays.
 TEST_P(RendererTest, TryingNeverWaitsForTheCpu) {
   const Scene scene = load_or_die(source_path("scenes/cornell"));
-  // Large, or it is traced before it is asked for.
-  const FrameRequest alone = request(scene, settings_for(scene, by({{"mode", "raytrace"}})), {1600, 1200}),
+  const FrameRequest alone = request(scene, settings_for(scene, by({{"mode", "raytrace"}})), {160, 120}),
                      hybrid = request(scene, settings_for(scene), {160, 120});
   EXPECT_FALSE(renderer_->is_tracing());
-  const FrameRequest first = next(alone);
+  const FrameRequest first = next(alone), second = next(alone);
+  std::optional<HeldTracing> held(std::in_place, *engine_);
   ASSERT_TRUE(renderer_->try_submit(first));
   EXPECT_TRUE(renderer_->is_tracing());
+  EXPECT_FALSE(renderer_->try_submit(second));
   EXPECT_TRUE(deliveries_.empty());
-  const FrameRequest second = next(alone);
-  EXPECT_GT(until_taken(second), 0);
-  EXPECT_EQ(deliveries_.size(), 1u);
-  until_taken(next(hybrid));
-  EXPECT_EQ(deliveries_.size(), 2u);
-  until_taken(next(alone));
-  EXPECT_EQ(deliveries_.size(), 3u);  // what was in flight
-  renderer_->submit(next(hybrid));    // who waits
+  std::size_t delivered = 0;
+  for (const FrameRequest& request : {second, next(hybrid), next(alone)}) {
+    held.reset();
+    while (renderer_->is_tracing()) std::this_thread::yield();
+    held.emplace(*engine_);
+    EXPECT_TRUE(renderer_->try_submit(request));
+    EXPECT_EQ(deliveries_.size(), ++delivered);  // what was in flight, and no more
+  }
+  held.reset();
+  renderer_->submit(next(hybrid));  // who waits
   renderer_->drain();
   ASSERT_EQ(deliveries_.size(), 5u);
   for (std::size_t i = 0; i < 5; ++i) EXPECT_EQ(deliveries_[i].number, i);
@@ -344,7 +357,7 @@ TEST_P(RendererTest, SchedulesMayFollowEachOther) {
     deliveries_.clear();
     for (std::size_t i = 0; i < requests.size(); ++i) {
       if (tries && i % 3 != 0) {
-        until_taken(requests[i]);
+        while (!renderer_->try_submit(requests[i])) std::this_thread::yield();
       } else {
         renderer_->submit(requests[i]);
       }
