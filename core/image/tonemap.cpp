@@ -4,6 +4,7 @@
 #include <array>
 #include <bit>
 #include <cmath>
+#include <limits>
 
 namespace pinocchio {
 namespace shared {
@@ -37,8 +38,10 @@ double srgb_to_linear(double c) {
 // A linear value's byte grows where the curve passes the middle between two bytes: at `first[i]`, the least
 // value of byte i.
 struct Bytes {
-  std::array<float, 256> linear{}, first{};
+  std::array<float, 256> linear{};
+  std::array<float, 257> first{};
   Bytes() {
+    first.back() = std::numeric_limits<float>::infinity();
     for (std::size_t i = 0; i < 256; ++i) {
       linear[i] = static_cast<float>(srgb_to_linear(static_cast<double>(i) / 255.0));
       if (i == 0) continue;
@@ -54,12 +57,13 @@ struct Bytes {
     }
   }
 
-  [[nodiscard]] std::uint8_t of(float value) const {  // in (0, 1)
+  [[nodiscard]] std::uint8_t of(float value) const {
+    if (!(value > 0.0f)) return 0;  // NaN as well
+    if (value >= 1.0f) return 255;
     const std::uint32_t bits = std::bit_cast<std::uint32_t>(value);
     if (bits < kLeast) return 0;
-    std::size_t byte = start[(bits - kLeast) >> kDropped];
-    while (byte < 255 && value >= first[byte + 1]) ++byte;
-    return static_cast<std::uint8_t>(byte);
+    const std::size_t byte = start[(bits - kLeast) >> kDropped];
+    return static_cast<std::uint8_t>(byte + (value >= first[byte + 1] ? 1 : 0));
   }
 
  private:
@@ -91,9 +95,12 @@ float linear_to_srgb(float linear) {
 }
 
 std::uint8_t linear_to_srgb8(float linear) {
-  if (!(linear > 0.0f)) return 0;  // NaN as well
-  if (linear >= 1.0f) return 255;
   return bytes().of(linear);
+}
+
+glm::u8vec3 linear_to_srgb8(const glm::vec3& linear) {
+  const Bytes& b = bytes();
+  return {b.of(linear.r), b.of(linear.g), b.of(linear.b)};
 }
 
 glm::vec3 tone_mapped(const glm::vec3& light, ToneMap curve) {

@@ -15,6 +15,7 @@ namespace pinocchio {
 // 0..255, rounded to nearest as if by exact arithmetic; out of range is clamped, NaN is 0. This and
 // srgb8_to_linear, which is within half a unit in the last place, give the same bits on every machine.
 [[nodiscard]] std::uint8_t linear_to_srgb8(float linear);
+[[nodiscard]] glm::u8vec3 linear_to_srgb8(const glm::vec3& linear);
 
 // How light of any strength is brought into what a screen can show.
 enum class ToneMap { clip, reinhard, aces };
