@@ -58,18 +58,19 @@ struct Bytes {
   }
 
   [[nodiscard]] std::uint8_t of(float value) const {
-    if (!(value > 0.0f)) return 0;  // NaN as well
-    if (value >= 1.0f) return 255;
-    const std::uint32_t bits = std::bit_cast<std::uint32_t>(value);
-    if (bits < kLeast) return 0;
+    return within(value > 0.0f ? std::min(value, 1.0f) : 0.0f);  // NaN is 0
+  }
+
+  [[nodiscard]] std::uint8_t within(float value) const {  // [0, 1]
+    const std::uint32_t bits = std::max(std::bit_cast<std::uint32_t>(value), kLeast);
     const std::size_t byte = start[(bits - kLeast) >> kDropped];
     return static_cast<std::uint8_t>(byte + (value >= first[byte + 1] ? 1 : 0));
   }
 
  private:
-  static constexpr std::uint32_t kLeast = 0x39000000u;  // 2^-13, whose byte is 0
-  static constexpr int kDropped = 14;                   // digits
-  std::array<std::uint8_t, ((0x3f800000u - kLeast) >> kDropped)> start{};
+  static constexpr std::uint32_t kLeast = 0x39000000u;                         // 2^-13, whose byte is 0
+  static constexpr int kDropped = 14;                                          // digits
+  std::array<std::uint8_t, ((0x3f800000u - kLeast) >> kDropped) + 1> start{};  // up to 1
 };
 
 const Bytes& bytes() {
@@ -98,9 +99,10 @@ std::uint8_t linear_to_srgb8(float linear) {
   return bytes().of(linear);
 }
 
-glm::u8vec3 linear_to_srgb8(const glm::vec3& linear) {
+void linear_to_srgb8(std::span<const glm::vec4> linear, glm::u8vec4* to) {
   const Bytes& b = bytes();
-  return {b.of(linear.r), b.of(linear.g), b.of(linear.b)};
+  for (const glm::vec4& t : linear)
+    *to++ = {b.within(t.r), b.within(t.g), b.within(t.b), static_cast<std::uint8_t>(t.a * 255.0f + 0.5f)};
 }
 
 glm::vec3 tone_mapped(const glm::vec3& light, ToneMap curve) {

@@ -27,10 +27,9 @@ struct TexelDecoder {
   std::array<float, 256> color{}, alpha{};
 };
 
-glm::u8vec4 encoded(const glm::vec4& t, bool is_color) {
-  const glm::u8vec4 raw(t * 255.0f + 0.5f);
-  if (!is_color) return raw;
-  return {linear_to_srgb8(glm::vec3(t)), raw.a};
+void encode(std::span<const glm::vec4> texels, bool is_color, glm::u8vec4* to) {
+  if (is_color) return linear_to_srgb8(texels, to);
+  for (const glm::vec4& t : texels) *to++ = glm::u8vec4(t * 255.0f + 0.5f);
 }
 
 bool is_even(const glm::ivec2& size) {
@@ -107,7 +106,9 @@ class LevelWriter {
   }
 
   void append(const Level& level) {
-    for (const glm::vec4& t : level.pixels()) texture_.smaller_levels.push_back(encoded(t, is_color_));
+    std::vector<glm::u8vec4>& all = texture_.smaller_levels;
+    all.resize(all.size() + level.pixels().size());
+    encode(level.pixels(), is_color_, &all[all.size() - level.pixels().size()]);
   }
 
   [[nodiscard]] Level whole() const {
@@ -131,12 +132,11 @@ class LevelWriter {
             &texture_.smaller_levels[first_[static_cast<std::size_t>(k)] +
                                      static_cast<std::size_t>((block.y * side + y) * width + block.x * side)];
         const glm::vec4* const from = &texels_[static_cast<std::size_t>(4 * y * side)];
-        for (int x = 0; x < side; ++x) {  // what is written has been read
-          const glm::vec4 mean =
+        glm::vec4* const means = &texels_[static_cast<std::size_t>(y * side)];
+        for (int x = 0; x < side; ++x)  // what is written has been read
+          means[x] =
               mean_of_four(from[2 * x], from[2 * x + 1], from[2 * side + 2 * x], from[2 * side + 2 * x + 1]);
-          texels_[static_cast<std::size_t>(y * side + x)] = mean;
-          to[x] = encoded(mean, is_color_);
-        }
+        encode({means, static_cast<std::size_t>(side)}, is_color_, to);
       }
     }
     return texels_[0];
