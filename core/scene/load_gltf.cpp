@@ -118,8 +118,13 @@ void drop_unused_attributes(MeshData& mesh, RestPose& rest) {
     normals = normals || m.normal.used();
   }
   const auto given = [](const glm::vec4& t) { return t.w != 0.0f; };
-  if (!set0) mesh.texcoords = {};
-  if (!set1) mesh.texcoords1 = {};
+  // Where a texture lies on primitives without coordinates, they are zeros.
+  const std::size_t vertices = mesh.positions.size();
+  const auto keep = [vertices](bool needed, std::vector<glm::vec2>& texcoords) {
+    needed ? texcoords.resize(vertices) : std::vector<glm::vec2>().swap(texcoords);
+  };
+  keep(set0, mesh.texcoords);
+  keep(set1, mesh.texcoords1);
   if (!normals || std::none_of(mesh.tangents.begin(), mesh.tangents.end(), given))
     mesh.tangents = {}, rest.tangents = {};
   const auto colored = [](const glm::vec4& c) { return c != glm::vec4(1.0f); };
