@@ -22,7 +22,7 @@ struct Material {
   // Lambert); 0: the inside is clear.
   glm::vec3 attenuation_color{1.0f};
   float attenuation_distance = 0.0f;
-  bool fresnel = false;           // opaque: reflectance rises to 1 at grazing angles (Schlick 1994)
+  bool fresnel = false;  // opaque: reflectance rises to 1 at grazing angles (Schlick 1994)
   glm::vec3 emission{0.0f};
   // Diffuse and specular are a BRDF's values, as glTF's metallic-roughness gives them; else they are Phong's
   // coefficients, of lights whose strength counts the 1 / pi. Light from all around needs to know.
