@@ -32,6 +32,9 @@ void add_material(Checksum& checksum, const Material& m) {
   checksum.add(m.fresnel);
   checksum.add(m.maps);
   if (m.gloss > 0.0f) checksum.add(m.gloss);
+  if (!m.attenuates()) return;
+  checksum.add(m.attenuation_color);
+  checksum.add(m.attenuation_distance);
 }
 
 void add_use(Checksum& checksum, const TextureUse& use) {

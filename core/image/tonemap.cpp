@@ -4,6 +4,7 @@
 #include <array>
 #include <bit>
 #include <cmath>
+#include <limits>
 
 namespace pinocchio {
 namespace shared {
@@ -37,8 +38,10 @@ double srgb_to_linear(double c) {
 // A linear value's byte grows where the curve passes the middle between two bytes: at `first[i]`, the least
 // value of byte i.
 struct Bytes {
-  std::array<float, 256> linear{}, first{};
+  std::array<float, 256> linear{};
+  std::array<float, 257> first{};
   Bytes() {
+    first.back() = std::numeric_limits<float>::infinity();
     for (std::size_t i = 0; i < 256; ++i) {
       linear[i] = static_cast<float>(srgb_to_linear(static_cast<double>(i) / 255.0));
       if (i == 0) continue;
@@ -54,18 +57,20 @@ struct Bytes {
     }
   }
 
-  [[nodiscard]] std::uint8_t of(float value) const {  // in (0, 1)
-    const std::uint32_t bits = std::bit_cast<std::uint32_t>(value);
-    if (bits < kLeast) return 0;
-    std::size_t byte = start[(bits - kLeast) >> kDropped];
-    while (byte < 255 && value >= first[byte + 1]) ++byte;
-    return static_cast<std::uint8_t>(byte);
+  [[nodiscard]] std::uint8_t of(float value) const {
+    return within(value > 0.0f ? std::min(value, 1.0f) : 0.0f);  // NaN is 0
+  }
+
+  [[nodiscard]] std::uint8_t within(float value) const {  // [0, 1]
+    const std::uint32_t bits = std::max(std::bit_cast<std::uint32_t>(value), kLeast);
+    const std::size_t byte = start[(bits - kLeast) >> kDropped];
+    return static_cast<std::uint8_t>(byte + (value >= first[byte + 1] ? 1 : 0));
   }
 
  private:
-  static constexpr std::uint32_t kLeast = 0x39000000u;  // 2^-13, whose byte is 0
-  static constexpr int kDropped = 14;                   // digits
-  std::array<std::uint8_t, ((0x3f800000u - kLeast) >> kDropped)> start{};
+  static constexpr std::uint32_t kLeast = 0x39000000u;                         // 2^-13, whose byte is 0
+  static constexpr int kDropped = 14;                                          // digits
+  std::array<std::uint8_t, ((0x3f800000u - kLeast) >> kDropped) + 1> start{};  // up to 1
 };
 
 const Bytes& bytes() {
@@ -91,9 +96,13 @@ float linear_to_srgb(float linear) {
 }
 
 std::uint8_t linear_to_srgb8(float linear) {
-  if (!(linear > 0.0f)) return 0;  // NaN as well
-  if (linear >= 1.0f) return 255;
   return bytes().of(linear);
+}
+
+void linear_to_srgb8(std::span<const glm::vec4> linear, glm::u8vec4* to) {
+  const Bytes& b = bytes();
+  for (const glm::vec4& t : linear)
+    *to++ = {b.within(t.r), b.within(t.g), b.within(t.b), static_cast<std::uint8_t>(t.a * 255.0f + 0.5f)};
 }
 
 glm::vec3 tone_mapped(const glm::vec3& light, ToneMap curve) {

@@ -3,6 +3,7 @@
 #include <array>
 #include <cstdint>
 #include <glm/glm.hpp>
+#include <span>
 #include <string_view>
 
 namespace pinocchio {
@@ -15,6 +16,8 @@ namespace pinocchio {
 // 0..255, rounded to nearest as if by exact arithmetic; out of range is clamped, NaN is 0. This and
 // srgb8_to_linear, which is within half a unit in the last place, give the same bits on every machine.
 [[nodiscard]] std::uint8_t linear_to_srgb8(float linear);
+// The same of texels in [0, 1]; alpha is linear in both.
+void linear_to_srgb8(std::span<const glm::vec4> linear, glm::u8vec4* to);
 
 // How light of any strength is brought into what a screen can show.
 enum class ToneMap { clip, reinhard, aces };

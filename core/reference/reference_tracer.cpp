@@ -21,6 +21,13 @@ ReferenceSpread spread_of(const ReferenceRay& ray, double width) {
   return {ray.direction, width * across, width * glm::normalize(glm::cross(ray.direction, across))};
 }
 
+// After that way through a medium (Beer and Lambert).
+glm::dvec3 left_of_light(const Material* medium, double way) {
+  if (!medium) return glm::dvec3(1.0);
+  return glm::pow(glm::dvec3(medium->attenuation_color),
+                  glm::dvec3(way / static_cast<double>(medium->attenuation_distance)));
+}
+
 }  // namespace
 
 ReferenceTracer::Cone ReferenceTracer::cone_after(const ReferenceRay& ray, const ReferenceHit& hit) {
@@ -42,7 +49,8 @@ ReferenceTracer::Pixel ReferenceTracer::pixel(const shared::ViewParams& view, in
   if (texture_footprint_ == 0.0) spread = {};
   const ReferenceSurface surface = reference_surface(*scene_.mesh, ray, hit, spread);
   const glm::dvec3 own = direct(surface, pixel.mask);
-  const glm::dvec3 mirrored = from_sky(surface) + bounced(surface, depth, cone_after(ray, hit), kLobeSide);
+  const glm::dvec3 mirrored = from_sky(surface) + bounced(surface, depth, cone_after(ray, hit),
+                                                          media_at(nullptr, hit, surface), kLobeSide);
   pixel.reflection = glm::vec3(mirrored);
   pixel.color = glm::vec4(glm::vec3(own + mirrored), 1.0f);
   return pixel;
@@ -80,35 +88,48 @@ glm::dvec3 ReferenceTracer::from_sky(const ReferenceSurface& surface) const {
 
 // Ir(R) + It(T), following `depth` bounces at most.
 glm::dvec3 ReferenceTracer::bounced(const ReferenceSurface& surface, int depth, const Cone& cone,
-                                    int lobe_side) const {
+                                    const Media& media, int lobe_side) const {
   glm::dvec3 sum(0.0);
   if (depth <= 0) return sum;
-  const auto follow = [&](const ReferenceBounce& bounce, int side) {
+  const auto follow = [&](const ReferenceBounce& bounce, const Material* medium, int side) {
     ReferenceRay ray = bounce.ray;
     ray.width = cone.width;
     ray.angle = cone.angle;
-    sum += bounce.weight * seen(ray, depth - 1, side);
+    sum += bounce.weight * seen(ray, medium, depth - 1, side);
   };
   const std::array<ReferenceBounce, 3> bounces = reference_bounces(surface);
   for (std::size_t i = 0; i < bounces.size(); ++i) {
     if (bounces[i].weight == glm::dvec3(0.0)) continue;
     if (i > 0 || surface.material.gloss == 0.0) {
-      follow(bounces[i], lobe_side);
+      follow(bounces[i], i == 1 ? media.beyond : media.here, lobe_side);
     } else {
       for (const ReferenceBounce& ray : reference_lobe(surface, bounces[i], lobe_side))
-        follow(ray, std::max(lobe_side / 4, 1));
+        follow(ray, media.here, std::max(lobe_side / 4, 1));
     }
   }
   return sum;
 }
 
-glm::dvec3 ReferenceTracer::seen(const ReferenceRay& ray, int depth, int lobe_side) const {
+// A surface that is met from behind bounds what the ray was in, whatever that began with. Walls without a
+// thickness bend nothing, and the medium is the same behind them.
+ReferenceTracer::Media ReferenceTracer::media_at(const Material* of_ray, const ReferenceHit& hit,
+                                                 const ReferenceSurface& surface) const {
+  const Material& own = scene_.mesh->material_of(hit.triangle);
+  if (!own.attenuates()) return {of_ray, surface.material.ior == 1.0 ? of_ray : nullptr};
+  return surface.leaving ? Media{&own, nullptr} : Media{of_ray, &own};
+}
+
+glm::dvec3 ReferenceTracer::seen(const ReferenceRay& ray, const Material* medium, int depth,
+                                 int lobe_side) const {
   const ReferenceHit hit = closest_hit(ray);
   if (!hit.valid()) return environment_ ? environment_->radiance(ray.direction) : glm::dvec3(0.0);
   const Cone cone = cone_after(ray, hit);
   const ReferenceSurface surface = reference_surface(*scene_.mesh, ray, hit, spread_of(ray, cone.width));
   unsigned bits = 0;
-  return direct(surface, bits) + from_sky(surface) + bounced(surface, depth, cone, lobe_side);
+  const Media media = media_at(medium, hit, surface);
+  const double way = hit.t * glm::length(ray.direction);
+  return left_of_light(media.here, way) *
+         (direct(surface, bits) + from_sky(surface) + bounced(surface, depth, cone, media, lobe_side));
 }
 
 namespace {

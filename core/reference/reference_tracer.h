@@ -52,9 +52,17 @@ class ReferenceTracer {
   [[nodiscard]] static Cone cone_after(const ReferenceRay& ray, const ReferenceHit& hit);
   // A glossy surface's mirrored rays are lobe_side squared; fewer for those that they meet.
   static constexpr int kLobeSide = 16;
+  // What lies on the viewer's side of a surface, and what beyond it; null: what takes no light.
+  struct Media {
+    const Material *here, *beyond;
+  };
+  [[nodiscard]] Media media_at(const Material* of_ray, const ReferenceHit& hit,
+                               const ReferenceSurface& surface) const;
   [[nodiscard]] glm::dvec3 bounced(const ReferenceSurface& surface, int depth, const Cone& cone,
-                                   int lobe_side) const;
-  [[nodiscard]] glm::dvec3 seen(const ReferenceRay& ray, int depth, int lobe_side) const;
+                                   const Media& media, int lobe_side) const;
+  // Along a ray that begins in `medium`.
+  [[nodiscard]] glm::dvec3 seen(const ReferenceRay& ray, const Material* medium, int depth,
+                                int lobe_side) const;
 
   [[nodiscard]] ReferenceHit closest_hit(const ReferenceRay& ray) const;
   [[nodiscard]] double unblocked(const ReferenceRay& ray) const;

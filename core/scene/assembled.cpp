@@ -97,10 +97,12 @@ class Assembly {
   }
 
   void add_animation(const Animation& animation, int root) {
+    const std::size_t clips = animation_.clips.size();
     append(animation.clips, animation_.clips);
     animation_.duration_s = std::max(animation_.duration_s, animation.duration_s);
     for (AnimatedNode node : animation.nodes) {
       node.node += root + 1;
+      for (Track& track : node.tracks) track.clip += clips;
       animation_.nodes.push_back(std::move(node));
     }
   }

@@ -61,6 +61,7 @@ class AnimationReader {
         warn("a second channel of the same node is left out", "the first one is shown");
         continue;
       }
+      (*track)->clip = result_.clips.size();
       node_of(node, channel.target_node).tracks.push_back(std::move(**track));
       any = true;
     }

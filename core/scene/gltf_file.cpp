@@ -4,6 +4,8 @@
 #include <cstring>
 #include <type_traits>
 
+#include "core/scene/large_memory.h"
+
 namespace pinocchio {
 namespace {
 
@@ -15,34 +17,39 @@ struct Elements {
   int component_type = 0;
 };
 
+// `count` elements' numbers, one after the other; integers times `scale`.
 template <class T, class Out>
-void convert(const unsigned char* from, std::size_t width, double scale, Out* to) {
-  for (std::size_t c = 0; c < width; ++c) {
-    T value;
-    std::memcpy(&value, from + c * sizeof value, sizeof value);
-    if constexpr (std::is_same_v<Out, float>)
-      to[c] = static_cast<float>(static_cast<double>(value) * scale);
-    else
-      to[c] = static_cast<Out>(value);
-  }
+void convert_from(const Elements& from, std::size_t first, std::size_t count, std::size_t width, double scale,
+                  Out* to) {
+  for (std::size_t i = first; i < first + count; ++i)
+    for (std::size_t c = 0; c < width; ++c) {
+      T value;
+      std::memcpy(&value, from.first + i * from.stride + c * sizeof value, sizeof value);
+      if constexpr (std::is_same_v<Out, float>)
+        *to++ = static_cast<float>(static_cast<double>(value) * scale);
+      else
+        *to++ = static_cast<Out>(value);
+    }
 }
 
-// One element's numbers; integers times `scale`.
 template <class Out>
-void convert(int type, const unsigned char* from, std::size_t width, double scale, Out* to) {
-  switch (type) {
+void convert(const Elements& from, std::size_t first, std::size_t count, std::size_t width, double scale,
+             Out* to) {
+  switch (from.component_type) {
     case TINYGLTF_COMPONENT_TYPE_BYTE:
-      return convert<std::int8_t>(from, width, scale, to);
+      return convert_from<std::int8_t>(from, first, count, width, scale, to);
     case TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE:
-      return convert<std::uint8_t>(from, width, scale, to);
+      return convert_from<std::uint8_t>(from, first, count, width, scale, to);
     case TINYGLTF_COMPONENT_TYPE_SHORT:
-      return convert<std::int16_t>(from, width, scale, to);
+      return convert_from<std::int16_t>(from, first, count, width, scale, to);
     case TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT:
-      return convert<std::uint16_t>(from, width, scale, to);
+      return convert_from<std::uint16_t>(from, first, count, width, scale, to);
     case TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT:
-      return convert<std::uint32_t>(from, width, scale, to);
+      return convert_from<std::uint32_t>(from, first, count, width, scale, to);
     case TINYGLTF_COMPONENT_TYPE_FLOAT:
-      if constexpr (std::is_same_v<Out, float>) std::memcpy(to, from, width * sizeof(float));
+      if constexpr (std::is_same_v<Out, float>)
+        for (std::size_t i = first; i < first + count; ++i, to += width)
+          std::memcpy(to, from.first + i * from.stride, width * sizeof(float));
       return;
     default:
       return;
@@ -102,45 +109,28 @@ Expected<Elements> elements(const GltfFile& file, const std::string& whose, int 
   return Elements{data.data() + view.byteOffset + offset, stride, count, component_type};
 }
 
+constexpr std::size_t kElementsBetweenLooks = 1 << 16;
+
+// All of them, to where they are to lie one after the other.
 template <class Out>
-Expected<std::vector<Out>> numbers_of(const GltfFile& file, int index, int components) {
-  const std::string whose = "accessor " + std::to_string(index);
-  if (!in_range(index, file.model.accessors)) return file.error(whose + " is used and missing");
-  const tinygltf::Accessor& accessor = file.model.accessors[static_cast<std::size_t>(index)];
-  if (tinygltf::GetNumComponentsInType(static_cast<std::uint32_t>(accessor.type)) != components)
-    return file.error(whose + " does not hold " + std::to_string(components) + " numbers an element");
-  constexpr std::size_t kMostElements = 0xffffffffu;
-  if (accessor.count > kMostElements) return file.error(whose + " holds too many elements");
-
-  const auto width = static_cast<std::size_t>(components);
-  const double scale = accessor.normalized ? 1.0 / largest_value(accessor.componentType) : 1.0;
-  std::vector<Out> numbers;
-  constexpr std::size_t kElementsBetweenLooks = 1 << 16;
-  const auto put = [&](const Elements& from, std::size_t element, std::size_t to) {
-    if (element % kElementsBetweenLooks == 0) throw_if_cancelled(file.progress);
-    convert(accessor.componentType, from.first + element * from.stride, width, scale, &numbers[width * to]);
-  };
-  if (accessor.bufferView >= 0) {
-    const Expected<Elements> from = elements(file, whose, accessor.bufferView, accessor.byteOffset,
-                                             accessor.count, accessor.componentType, components);
-    if (!from) return Unexpected(from.error());
-    constexpr int kSame =
-        std::is_same_v<Out, float> ? TINYGLTF_COMPONENT_TYPE_FLOAT : TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT;
-    const bool as_stored =
-        accessor.componentType == kSame && from->stride == width * sizeof(Out) && accessor.count > 0;
-    numbers.resize(width * accessor.count);
-    if (as_stored) std::memcpy(numbers.data(), from->first, numbers.size() * sizeof(Out));
-    for (std::size_t i = 0; i < accessor.count && !as_stored; ++i) put(*from, i, i);
-  } else {  // zeros, says glTF
-    if (!is_component_type(accessor.componentType))
-      return file.error(whose + " has the component type " + std::to_string(accessor.componentType) +
-                        ", which glTF does not know");
-    if (!file.limit->take(file.path.string(), whose, accessor.count, width * sizeof(Out)))
-      return Unexpected(*file.limit->error());
-    numbers.resize(width * accessor.count, Out{});
+void copy(const GltfFile& file, const Elements& from, std::size_t width, double scale, Out* to) {
+  constexpr int kSame =
+      std::is_same_v<Out, float> ? TINYGLTF_COMPONENT_TYPE_FLOAT : TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT;
+  const bool as_stored = from.component_type == kSame && from.stride == width * sizeof(Out);
+  for (std::size_t i = 0; i < from.count; i += kElementsBetweenLooks) {
+    throw_if_cancelled(file.progress);
+    const std::size_t count = std::min(kElementsBetweenLooks, from.count - i);
+    if (as_stored)
+      std::memcpy(to + i * width, from.first + i * from.stride, count * from.stride);
+    else
+      convert(from, i, count, width, scale, to + i * width);
   }
-  if (!accessor.sparse.isSparse) return numbers;
+}
 
+// What the sparse part has otherwise.
+template <class Out>
+Expected<void> overwrite(const GltfFile& file, const std::string& whose, const tinygltf::Accessor& accessor,
+                         int components, double scale, Out* numbers) {
   const auto count = static_cast<std::size_t>(std::max(accessor.sparse.count, 0));
   const auto& where = accessor.sparse.indices;
   if (!is_index_type(where.componentType))
@@ -154,13 +144,69 @@ Expected<std::vector<Out>> numbers_of(const GltfFile& file, int index, int compo
       elements(file, whose + "'s sparse part", what.bufferView, static_cast<std::size_t>(what.byteOffset),
                count, accessor.componentType, components);
   if (!values) return Unexpected(values.error());
+  const auto width = static_cast<std::size_t>(components);
   for (std::size_t i = 0; i < count; ++i) {
+    if (i % kElementsBetweenLooks == 0) throw_if_cancelled(file.progress);
     std::uint32_t to = 0;
-    convert(where.componentType, places->first + i * places->stride, 1, 1.0, &to);
+    convert(*places, i, 1, 1, 1.0, &to);
     if (to >= accessor.count) return file.error(whose + "'s sparse part reaches beyond it");
-    put(*values, i, to);
+    convert(*values, i, 1, width, scale, numbers + width * to);
   }
+  return {};
+}
+
+// An accessor's numbers; room(count) makes the memory for so many elements and returns it.
+template <class Out, class Room>
+Expected<void> read_numbers(const GltfFile& file, int index, int components, Room room) {
+  const std::string whose = "accessor " + std::to_string(index);
+  if (!in_range(index, file.model.accessors)) return file.error(whose + " is used and missing");
+  const tinygltf::Accessor& accessor = file.model.accessors[static_cast<std::size_t>(index)];
+  if (tinygltf::GetNumComponentsInType(static_cast<std::uint32_t>(accessor.type)) != components)
+    return file.error(whose + " does not hold " + std::to_string(components) + " numbers an element");
+  constexpr std::size_t kMostElements = 0xffffffffu;
+  if (accessor.count > kMostElements) return file.error(whose + " holds too many elements");
+
+  const auto width = static_cast<std::size_t>(components);
+  const double scale = accessor.normalized ? 1.0 / largest_value(accessor.componentType) : 1.0;
+  Out* numbers = nullptr;
+  if (accessor.bufferView >= 0) {
+    const Expected<Elements> from = elements(file, whose, accessor.bufferView, accessor.byteOffset,
+                                             accessor.count, accessor.componentType, components);
+    if (!from) return Unexpected(from.error());
+    numbers = room(accessor.count);
+    copy(file, *from, width, scale, numbers);
+  } else {  // zeros, says glTF
+    if (!is_component_type(accessor.componentType))
+      return file.error(whose + " has the component type " + std::to_string(accessor.componentType) +
+                        ", which glTF does not know");
+    if (!file.limit->take(file.path.string(), whose, accessor.count, width * sizeof(Out)))
+      return Unexpected(*file.limit->error());
+    numbers = room(accessor.count);
+    std::fill_n(numbers, width * accessor.count, Out{});
+  }
+  if (!accessor.sparse.isSparse) return {};
+  return overwrite(file, whose, accessor, components, scale, numbers);
+}
+
+template <class Out>
+Expected<std::vector<Out>> numbers_of(const GltfFile& file, int index, int components) {
+  std::vector<Out> numbers;
+  const Expected<void> read = read_numbers<Out>(file, index, components, [&](std::size_t count) {
+    resize_large(numbers, count * static_cast<std::size_t>(components));
+    return numbers.data();
+  });
+  if (!read) return Unexpected(read.error());
   return numbers;
+}
+
+template <int kComponents>
+Expected<void> append_vectors(const GltfFile& file, int accessor,
+                              std::vector<glm::vec<kComponents, float>>& to) {
+  return read_numbers<float>(file, accessor, kComponents, [&](std::size_t count) {
+    const std::size_t first = to.size();
+    resize_large(to, first + count);
+    return reinterpret_cast<float*>(to.data() + first);
+  });
 }
 
 }  // namespace
@@ -177,6 +223,16 @@ Expected<std::span<const unsigned char>> GltfFile::bytes(int buffer_view, const 
 
 Expected<std::vector<float>> GltfFile::floats(int accessor, int components) const {
   return numbers_of<float>(*this, accessor, components);
+}
+
+Expected<void> GltfFile::append(int accessor, std::vector<glm::vec2>& to) const {
+  return append_vectors(*this, accessor, to);
+}
+Expected<void> GltfFile::append(int accessor, std::vector<glm::vec3>& to) const {
+  return append_vectors(*this, accessor, to);
+}
+Expected<void> GltfFile::append(int accessor, std::vector<glm::vec4>& to) const {
+  return append_vectors(*this, accessor, to);
 }
 
 Expected<std::vector<std::uint32_t>> GltfFile::indices(int accessor) const {

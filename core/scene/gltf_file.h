@@ -43,6 +43,10 @@ struct GltfFile {
   // An accessor's elements of `components` numbers each, one after the other. Integers are normalised
   // where the accessor says so. Sparse accessors are filled in.
   [[nodiscard]] Expected<std::vector<float>> floats(int accessor, int components) const;
+  // The same, behind what `to` holds.
+  [[nodiscard]] Expected<void> append(int accessor, std::vector<glm::vec2>& to) const;
+  [[nodiscard]] Expected<void> append(int accessor, std::vector<glm::vec3>& to) const;
+  [[nodiscard]] Expected<void> append(int accessor, std::vector<glm::vec4>& to) const;
   // An accessor of scalar unsigned integers.
   [[nodiscard]] Expected<std::vector<std::uint32_t>> indices(int accessor) const;
   // A buffer view's bytes; `whose` says in an error who wants them.

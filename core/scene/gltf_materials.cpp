@@ -50,6 +50,18 @@ Material phong_of(const tinygltf::Value& phong, const glm::vec3& base_color) {
   return m;
 }
 
+// Of KHR_materials_volume; the way is what rays go between triangles, as the extension prefers, so that its
+// thickness and the texture of it say no more than that there is an inside.
+void add_attenuation(const tinygltf::Material& m, Material& material) {
+  const tinygltf::Value* const volume = extension(m.extensions, "KHR_materials_volume");
+  const float distance = number_member(volume, "attenuationDistance").value_or(0.0f);
+  const glm::vec3 color =
+      glm::clamp(vec3_member(volume, "attenuationColor").value_or(glm::vec3(1.0f)), 0.0f, 1.0f);
+  if (!(distance > 0.0f && std::isfinite(distance)) || color == glm::vec3(1.0f)) return;
+  material.attenuation_color = color;
+  material.attenuation_distance = distance;
+}
+
 int index_of(const tinygltf::Value* info, const char* key, int fallback) {
   return static_cast<int>(number_member(info, key).value_or(static_cast<float>(fallback)));
 }
@@ -141,6 +153,7 @@ Material material_of(const tinygltf::Material& m, const GltfSurface& surface, Ma
   Material material = phong ? phong_of(*phong, surface.base_color) : phong_from_gltf(surface);
   if (phong) material.emission = surface.emissive;
   material.name = m.name;
+  if (surface.volume && material.transmits()) add_attenuation(m, material);
   return material;
 }
 

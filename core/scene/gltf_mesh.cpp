@@ -1,8 +1,12 @@
+#include <algorithm>
 #include <array>
+#include <cstring>
 #include <map>
 #include <numeric>
 
+#include "core/math/finite.h"
 #include "core/scene/gltf_deformation.h"
+#include "core/scene/large_memory.h"
 
 namespace pinocchio {
 namespace {
@@ -47,7 +51,12 @@ class MeshPlacer {
  public:
   MeshPlacer(const GltfFile& file, const glm::mat4& world_from_mesh, MeshData& mesh, RestPose& rest,
              DeformationReader* deformation)
-      : file_(file), placement_(world_from_mesh), mesh_(mesh), rest_(rest), deformation_(deformation) {}
+      : file_(file),
+        placement_(world_from_mesh),
+        in_place_(world_from_mesh == glm::mat4(1.0f)),
+        mesh_(mesh),
+        rest_(rest),
+        deformation_(deformation) {}
 
   Expected<void> add(const tinygltf::Primitive& primitive, std::uint32_t default_material) {
     const Expected<std::uint32_t> first = vertices(
@@ -56,68 +65,74 @@ class MeshPlacer {
          deformation_ ? deforming_accessors(primitive) : std::vector<int>()},
         primitive);
     if (!first) return Unexpected(first.error());
-    const std::size_t vertex_count = counts_[*first];
-    std::vector<std::uint32_t> indices(vertex_count);
-    std::iota(indices.begin(), indices.end(), 0u);
-    if (primitive.indices >= 0) {
-      Expected<std::vector<std::uint32_t>> given = file_.indices(primitive.indices);
-      if (!given) return Unexpected(given.error());
-      indices = std::move(*given);
-    }
-    for (const std::uint32_t index : indices)
-      if (index >= vertex_count)
-        return file_.error("a primitive names vertex " + std::to_string(index) + ", it has " +
-                           std::to_string(vertex_count));
     if (primitive.material >= 0 &&
         static_cast<std::size_t>(primitive.material) >= file_.model.materials.size())
       return file_.error("a primitive names material " + std::to_string(primitive.material) + ", there are " +
                          std::to_string(file_.model.materials.size()));
-
-    const std::size_t count = triangle_count(primitive.mode, indices.size());
-    for (std::size_t i = 0; i < count; ++i) {
+    const std::size_t before = mesh_.triangles.size();
+    if (const Expected<void> added = add_corners(primitive, counts_[*first]); !added) return added;
+    for (std::size_t i = before; i < mesh_.triangles.size(); ++i) {
       if (i % kTrianglesBetweenLooks == 0) throw_if_cancelled(file_.progress);
-      const std::array<std::size_t, 3> at = corners_of(primitive.mode, i);
-      glm::uvec3 triangle(indices[at[0]], indices[at[1]], indices[at[2]]);
+      glm::uvec3& triangle = mesh_.triangles[i];
       if (placement_.mirrors()) std::swap(triangle.y, triangle.z);
-      mesh_.triangles.push_back(triangle + *first);
-      mesh_.triangle_materials.push_back(
-          primitive.material >= 0 ? static_cast<std::uint32_t>(primitive.material) : default_material);
+      triangle += *first;
+    }
+    resize_large(mesh_.triangle_materials, mesh_.triangles.size(),
+                 primitive.material >= 0 ? static_cast<std::uint32_t>(primitive.material) : default_material);
+    return {};
+  }
+
+  // Of those that the file gives: they have no length, so that triangles have their own.
+  [[nodiscard]] bool has_void_normals() const { return has_void_normals_; }
+
+ private:
+  // Appends the primitive's triangles, whose corners are counted from its first vertex.
+  Expected<void> add_corners(const tinygltf::Primitive& primitive, std::size_t vertex_count) {
+    std::vector<std::uint32_t> indices;
+    if (primitive.indices >= 0) {
+      Expected<std::vector<std::uint32_t>> given = file_.indices(primitive.indices);
+      if (!given) return Unexpected(given.error());
+      indices = std::move(*given);
+    } else {
+      resize_large(indices, vertex_count);
+      std::iota(indices.begin(), indices.end(), 0u);
+    }
+    std::uint32_t most = 0;
+    for (const std::uint32_t index : indices) most = std::max(most, index);
+    if (!indices.empty() && most >= vertex_count)
+      return file_.error("a primitive names vertex " + std::to_string(most) + ", it has " +
+                         std::to_string(vertex_count));
+    const std::size_t before = mesh_.triangles.size(), count = triangle_count(primitive.mode, indices.size());
+    resize_large(mesh_.triangles, before + count);
+    if (primitive.mode == TINYGLTF_MODE_TRIANGLES) {
+      static_assert(sizeof(glm::uvec3) == 3 * sizeof(std::uint32_t));
+      if (count > 0) std::memcpy(&mesh_.triangles[before], indices.data(), count * sizeof(glm::uvec3));
+      return {};
+    }
+    for (std::size_t i = 0; i < count; ++i) {
+      const std::array<std::size_t, 3> at = corners_of(primitive.mode, i);
+      mesh_.triangles[before + i] = {indices[at[0]], indices[at[1]], indices[at[2]]};
     }
     return {};
   }
 
- private:
   // First of the scene's vertices made of these accessors; primitives that share them share the vertices.
   Expected<std::uint32_t> vertices(const Attributes& attributes, const tinygltf::Primitive& primitive) {
-    const auto [at, is_new] =
-        placed_.try_emplace(attributes, static_cast<std::uint32_t>(mesh_.positions.size()));
+    const std::size_t first = mesh_.positions.size();
+    const auto [at, is_new] = placed_.try_emplace(attributes, static_cast<std::uint32_t>(first));
     if (!is_new) return at->second;
-    const Expected<std::vector<float>> positions = file_.floats(attributes.position, 3);
-    if (!positions) return Unexpected(positions.error());
-    const std::size_t count = positions->size() / 3;
-    const Expected<std::vector<float>> normals = optional(attributes.normal, 3, count);
-    if (!normals) return Unexpected(normals.error());
-    const Expected<std::vector<float>> texcoords = optional(attributes.texcoord, 2, count);
-    if (!texcoords) return Unexpected(texcoords.error());
-    const Expected<std::vector<float>> texcoords1 = optional(attributes.texcoord1, 2, count);
-    if (!texcoords1) return Unexpected(texcoords1.error());
-    const Expected<std::vector<glm::vec4>> vertex_colors = colors(attributes.color, count);
-    if (!vertex_colors) return Unexpected(vertex_colors.error());
-    const Expected<std::vector<float>> tangents = optional(attributes.tangent, 4, count);
-    if (!tangents) return Unexpected(tangents.error());
-    mesh_.colors.insert(mesh_.colors.end(), vertex_colors->begin(), vertex_colors->end());
-    for (std::size_t i = 0; i < count; ++i) {
-      const float *t1 = &(*texcoords1)[2 * i], *u = &(*tangents)[4 * i];
-      mesh_.texcoords1.emplace_back(t1[0], t1[1]);
-      rest_.tangents.emplace_back(u[0], u[1], u[2], u[3]);
-      mesh_.tangents.push_back(placement_.tangent(rest_.tangents.back()));
-      const float *p = &(*positions)[3 * i], *n = &(*normals)[3 * i], *t = &(*texcoords)[2 * i];
-      rest_.positions.emplace_back(p[0], p[1], p[2]);
-      rest_.normals.emplace_back(n[0], n[1], n[2]);
-      mesh_.positions.push_back(placement_.position(rest_.positions.back()));
-      mesh_.normals.push_back(placement_.normal(rest_.normals.back()));
-      mesh_.texcoords.emplace_back(t[0], t[1]);
-    }
+    if (const Expected<void> read = file_.append(attributes.position, rest_.positions); !read)
+      return Unexpected(read.error());
+    const std::size_t count = rest_.positions.size() - first;
+    for (const Expected<void>& read : {append(attributes.normal, count, glm::vec3(0.0f), rest_.normals),
+                                       append(attributes.texcoord, count, glm::vec2(0.0f), mesh_.texcoords),
+                                       append(attributes.texcoord1, count, glm::vec2(0.0f), mesh_.texcoords1),
+                                       append_colors(attributes.color, count),
+                                       append(attributes.tangent, count, glm::vec4(0.0f), rest_.tangents)})
+      if (!read) return Unexpected(read.error());
+    resize_large(rest_.normals, first + count);
+    if (attributes.normal >= 0) drop_void_normals(first);
+    place(first);
     if (deformation_)
       if (const Expected<void> added = deformation_->add(primitive, at->second, count); !added)
         return Unexpected(added.error());
@@ -125,37 +140,75 @@ class MeshPlacer {
     return at->second;
   }
 
-  // RGB or RGBA; white where the primitive has none.
-  Expected<std::vector<glm::vec4>> colors(int accessor, std::size_t count) const {
-    std::vector<glm::vec4> result(count, glm::vec4(1.0f));
-    if (accessor < 0) return result;
-    const bool known = static_cast<std::size_t>(accessor) < file_.model.accessors.size();
-    const std::size_t width =
-        known && file_.model.accessors[static_cast<std::size_t>(accessor)].type == TINYGLTF_TYPE_VEC3 ? 3 : 4;
-    const Expected<std::vector<float>> values = optional(accessor, static_cast<int>(width), count);
-    if (!values) return Unexpected(values.error());
-    for (std::size_t i = 0; i < count; ++i)
-      for (std::size_t c = 0; c < width; ++c) result[i][static_cast<int>(c)] = (*values)[width * i + c];
-    return result;
+  // One for each of the `count` last vertices, `none` where the primitive has no such attribute. What no
+  // primitive has yet stays empty.
+  template <class T>
+  Expected<void> append(int accessor, std::size_t count, const T& none, std::vector<T>& to) const {
+    const std::size_t first = mesh_.positions.size();
+    if (accessor < 0 && to.empty()) return {};
+    resize_large(to, first, none);
+    if (accessor < 0) {
+      resize_large(to, first + count, none);
+      return {};
+    }
+    Expected<void> read = file_.append(accessor, to);
+    if (read && to.size() != first + count)
+      return file_.error("accessor " + std::to_string(accessor) + " does not hold one element a vertex");
+    return read;
   }
 
-  // Zeros where the primitive has no such attribute.
-  Expected<std::vector<float>> optional(int accessor, int components, std::size_t count) const {
-    const std::size_t size = count * static_cast<std::size_t>(components);
-    if (accessor < 0) return std::vector<float>(size, 0.0f);
-    Expected<std::vector<float>> values = file_.floats(accessor, components);
-    if (values && values->size() != size)
+  // RGB or RGBA; white where the primitive has none.
+  Expected<void> append_colors(int accessor, std::size_t count) {
+    const auto index = static_cast<std::size_t>(accessor);
+    const bool opaque = accessor >= 0 && index < file_.model.accessors.size() &&
+                        file_.model.accessors[index].type == TINYGLTF_TYPE_VEC3;
+    if (!opaque) return append(accessor, count, glm::vec4(1.0f), mesh_.colors);
+    std::vector<glm::vec3> rgb;
+    if (const Expected<void> read = file_.append(accessor, rgb); !read) return read;
+    if (rgb.size() != count)
       return file_.error("accessor " + std::to_string(accessor) + " does not hold one element a vertex");
-    return values;
+    resize_large(mesh_.colors, mesh_.positions.size(), glm::vec4(1.0f));
+    for (const glm::vec3& c : rgb) mesh_.colors.emplace_back(c, 1.0f);
+    return {};
+  }
+
+  void drop_void_normals(std::size_t first) {
+    constexpr float kLeast = 1e-12f;  // squared: what shading takes for none
+    for (std::size_t i = first; i < rest_.normals.size(); ++i) {
+      if (glm::dot(rest_.normals[i], rest_.normals[i]) > kLeast || !is_finite(rest_.normals[i])) continue;
+      rest_.normals[i] = glm::vec3(0.0f);
+      has_void_normals_ = true;
+    }
+  }
+
+  // The vertices from `first` on, as the world sees them.
+  void place(std::size_t first) {
+    const auto placed = [first](const auto& rest, auto& to, const auto& place_one) {
+      resize_large(to, rest.size());
+      std::transform(rest.begin() + static_cast<std::ptrdiff_t>(first), rest.end(),
+                     to.begin() + static_cast<std::ptrdiff_t>(first), place_one);
+    };
+    if (in_place_) {
+      const auto as_it_is = [](const glm::vec3& v) { return v; };
+      placed(rest_.positions, mesh_.positions, as_it_is);
+      placed(rest_.normals, mesh_.normals, as_it_is);
+    } else {
+      placed(rest_.positions, mesh_.positions, [this](const glm::vec3& p) { return placement_.position(p); });
+      placed(rest_.normals, mesh_.normals, [this](const glm::vec3& n) { return placement_.normal(n); });
+    }
+    if (rest_.tangents.empty()) return;
+    placed(rest_.tangents, mesh_.tangents, [this](const glm::vec4& t) { return placement_.tangent(t); });
   }
 
   const GltfFile& file_;
   Placement placement_;
+  bool in_place_;  // nothing moves
   MeshData& mesh_;
   RestPose& rest_;
   DeformationReader* deformation_;  // null: nothing deforms it
   std::map<Attributes, std::uint32_t> placed_;
   std::map<std::uint32_t, std::size_t> counts_;  // of vertices, by the first of them
+  bool has_void_normals_ = false;
 };
 
 }  // namespace
@@ -189,6 +242,9 @@ Expected<void> add_gltf_mesh(const GltfFile& file, int mesh, const glm::mat4& wo
       return Unexpected(*file.limit->error());
     if (const Expected<void> added = placer.add(primitive, default_material); !added) return added;
   }
+  if (placer.has_void_normals())
+    warnings.add({file.path.string(), "mesh " + std::to_string(mesh), "normals of no length are left out",
+                  "triangles there are as flat as they are"});
   return {};
 }
 

@@ -5,6 +5,8 @@
 #include <cstring>
 #include <fstream>
 
+#include "core/scene/large_memory.h"
+
 namespace pinocchio {
 
 Expected<std::string> read_input_file(const std::filesystem::path& file, Progress* progress) {
@@ -19,7 +21,10 @@ Expected<std::string> read_input_file(const std::filesystem::path& file, Progres
   const std::uintmax_t size = std::filesystem::file_size(file, failure);
   std::ifstream in(file, std::ios::binary);
   if (failure || !in) return fail("cannot be read", "is it yours to read?");
-  std::string bytes(size, '\0');
+  std::string bytes;
+  bytes.reserve(size);
+  prefer_large_pages(bytes.data(), size);
+  bytes.resize(size);
   begin_phase(progress, "read", static_cast<double>(size));
   constexpr std::size_t kAtOnce = std::size_t{1} << 22;
   for (std::size_t at = 0; at < size; at += kAtOnce) {

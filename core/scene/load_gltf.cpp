@@ -110,7 +110,7 @@ bool can_shine(const Light& light) {
 }
 
 // Texture coordinates and tangents that no map asks for.
-void drop_unused_attributes(MeshData& mesh) {
+void drop_unused_attributes(MeshData& mesh, RestPose& rest) {
   bool set0 = false, set1 = false, normals = false;
   for (const MaterialMaps& m : mesh.maps) {
     for (const TextureUse* use : m.uses())
@@ -118,11 +118,17 @@ void drop_unused_attributes(MeshData& mesh) {
     normals = normals || m.normal.used();
   }
   const auto given = [](const glm::vec4& t) { return t.w != 0.0f; };
-  if (!set0) mesh.texcoords.clear();
-  if (!set1) mesh.texcoords1.clear();
-  if (!normals || std::none_of(mesh.tangents.begin(), mesh.tangents.end(), given)) mesh.tangents.clear();
+  // Where a texture lies on primitives without coordinates, they are zeros.
+  const std::size_t vertices = mesh.positions.size();
+  const auto keep = [vertices](bool needed, std::vector<glm::vec2>& texcoords) {
+    needed ? texcoords.resize(vertices) : std::vector<glm::vec2>().swap(texcoords);
+  };
+  keep(set0, mesh.texcoords);
+  keep(set1, mesh.texcoords1);
+  if (!normals || std::none_of(mesh.tangents.begin(), mesh.tangents.end(), given))
+    mesh.tangents = {}, rest.tangents = {};
   const auto colored = [](const glm::vec4& c) { return c != glm::vec4(1.0f); };
-  if (std::none_of(mesh.colors.begin(), mesh.colors.end(), colored)) mesh.colors.clear();
+  if (std::none_of(mesh.colors.begin(), mesh.colors.end(), colored)) mesh.colors = {};
 }
 
 class SceneReader {
@@ -308,7 +314,7 @@ class SceneReader {
     for (std::size_t i = first; i < rest_.positions.size(); ++i) {
       rest_.positions[i] = instance.position(rest_.positions[i]);
       rest_.normals[i] = instance.normal(rest_.normals[i]);
-      rest_.tangents[i] = instance.tangent(rest_.tangents[i]);
+      if (!rest_.tangents.empty()) rest_.tangents[i] = instance.tangent(rest_.tangents[i]);
     }
   }
 
@@ -356,7 +362,7 @@ class SceneReader {
   void finish() {
     scene_.source_files = file_.named_files;
     add_gltf_textures(file_, mesh_, loading_);
-    drop_unused_attributes(mesh_);
+    drop_unused_attributes(mesh_, rest_);
     if (!model_.scenes.empty()) {
       const int shown = model_.defaultScene >= 0 ? model_.defaultScene : 0;
       const auto i = std::min(static_cast<std::size_t>(shown), model_.scenes.size() - 1);

@@ -1,5 +1,8 @@
 #include "pinocchio/mesh.h"
 
+#include <algorithm>
+
+#include "core/parallel/workers.h"
 #include "core/scene/mip_levels.h"
 
 namespace pinocchio {
@@ -19,6 +22,26 @@ void let_vertex_colors_count(MeshData& mesh) {
     if (colored[i]) make_maps(mesh, mesh.materials[i]).vertex_colors = true;
 }
 
+// Of the vertices that triangles have; one that there is not is left to check_scene.
+Bounds bounds_of(const MeshData& mesh) {
+  constexpr std::size_t kAtOnce = std::size_t{1} << 17;  // triangles
+  const std::size_t parts = (mesh.triangles.size() + kAtOnce - 1) / kAtOnce;
+  std::vector<Bounds> bounds(parts);
+  Workers workers(parts > 1 ? 0 : 1);
+  workers.for_each(parts, [&](std::size_t part) {
+    const std::size_t first = part * kAtOnce, last = std::min(first + kAtOnce, mesh.triangles.size());
+    Bounds own;
+    for (std::size_t i = first; i < last; ++i)
+      for (int c = 0; c < 3; ++c)
+        if (const std::uint32_t vertex = mesh.triangles[i][c]; vertex < mesh.positions.size())
+          own.add(mesh.positions[vertex]);
+    bounds[part] = own;
+  });
+  Bounds all;
+  for (const Bounds& part : bounds) all.add(part);
+  return all;
+}
+
 }  // namespace
 
 MaterialMaps& make_maps(MeshData& mesh, Material& material) {
@@ -29,11 +52,7 @@ MaterialMaps& make_maps(MeshData& mesh, Material& material) {
   return mesh.maps[static_cast<std::size_t>(material.maps)];
 }
 
-// A vertex that there is not is left to check_scene.
-Mesh::Mesh(MeshData data) : MeshData(std::move(data)) {
-  for (const glm::uvec3& t : triangles)
-    for (int i = 0; i < 3; ++i)
-      if (t[i] < positions.size()) bounds_.add(positions[t[i]]);
+Mesh::Mesh(MeshData data) : MeshData(std::move(data)), bounds_(bounds_of(*this)) {
   let_vertex_colors_count(*this);
   make_smaller_levels(*this, nullptr);
 }

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 
 #include "core/image/tonemap.h"
 #include "core/parallel/workers.h"
@@ -26,26 +27,19 @@ struct TexelDecoder {
   std::array<float, 256> color{}, alpha{};
 };
 
-glm::u8vec4 encoded(const glm::vec4& t, bool is_color) {
-  const glm::u8vec4 raw(t * 255.0f + 0.5f);
-  if (!is_color) return raw;
-  return {linear_to_srgb8(t.r), linear_to_srgb8(t.g), linear_to_srgb8(t.b), raw.a};
+void encode(std::span<const glm::vec4> texels, bool is_color, glm::u8vec4* to) {
+  if (is_color) return linear_to_srgb8(texels, to);
+  for (const glm::vec4& t : texels) *to++ = glm::u8vec4(t * 255.0f + 0.5f);
 }
 
 bool is_even(const glm::ivec2& size) {
   return size.x % 2 == 0 && size.y % 2 == 0;
 }
 
-// Half as wide and high where both are even: the same numbers as the general way below gives, in one pass.
-template <class T, class Decode>
-Level halved(const Image<T>& from, const Decode& decode) {
-  Level to(from.size() / 2);
-  const auto mean = [](const glm::vec4& a, const glm::vec4& b) { return 0.5f * a + 0.5f * b; };
-  for (int y = 0; y < to.height(); ++y)
-    for (int x = 0; x < to.width(); ++x)
-      to.at(x, y) = mean(mean(decode(from.at(2 * x, 2 * y)), decode(from.at(2 * x + 1, 2 * y))),
-                         mean(decode(from.at(2 * x, 2 * y + 1)), decode(from.at(2 * x + 1, 2 * y + 1))));
-  return to;
+// The same numbers as half_as_wide() both ways gives where both sides are even.
+glm::vec4 mean_of_four(const glm::vec4& a, const glm::vec4& b, const glm::vec4& c, const glm::vec4& d) {
+  const auto mean = [](const glm::vec4& x, const glm::vec4& y) { return 0.5f * x + 0.5f * y; };
+  return mean(mean(a, b), mean(c, d));
 }
 
 // Half as wide: each pixel the mean of the stretch that it stands for, also where the width is odd.
@@ -72,16 +66,88 @@ Level turned(const Level& from) {
 }
 
 Level halved(const Level& from) {
-  if (is_even(from.size())) return halved(from, [](const glm::vec4& t) { return t; });
-  return turned(half_as_wide(turned(half_as_wide(from))));
+  if (!is_even(from.size())) return turned(half_as_wide(turned(half_as_wide(from))));
+  Level to(from.size() / 2);
+  for (int y = 0; y < to.height(); ++y)
+    for (int x = 0; x < to.width(); ++x)
+      to.at(x, y) = mean_of_four(from.at(2 * x, 2 * y), from.at(2 * x + 1, 2 * y), from.at(2 * x, 2 * y + 1),
+                                 from.at(2 * x + 1, 2 * y + 1));
+  return to;
 }
 
-Level first_level(const Image<glm::u8vec4>& texels, const TexelDecoder& decode) {
-  if (is_even(texels.size())) return halved(texels, decode);
-  Level whole(texels.size());
-  for (std::size_t i = 0; i < whole.pixels().size(); ++i) whole[i] = decode(texels[i]);
-  return halved(whole);
+// The levels down to a block's one texel are made block by block, which stays in the cache.
+constexpr int kMostHalvings = 5;
+
+// How often both sides can be halved without a rest, at most so often.
+int halvings_of(const glm::ivec2& size) {
+  const auto both = static_cast<unsigned>(size.x | size.y);
+  return std::min(std::countr_zero(both), kMostHalvings);
 }
+
+// Writes a texture's levels, largest first, where each has its place in `smaller_levels`.
+class LevelWriter {
+ public:
+  LevelWriter(Texture& texture, bool is_color) : texture_(texture), is_color_(is_color), decode_(is_color) {}
+
+  // The first `halvings` levels; what the last of them stands for.
+  Level write_blocks(int halvings) {
+    const int side = 1 << halvings;
+    std::size_t at = 0;
+    for (int k = 1; k <= halvings; ++k) {
+      const glm::ivec2 size = texture_.texels.size() / (1 << k);
+      first_[static_cast<std::size_t>(k)] = at;
+      at += static_cast<std::size_t>(size.x) * static_cast<std::size_t>(size.y);
+    }
+    texture_.smaller_levels.resize(at);
+    Level last(texture_.texels.size() / side);
+    for (int y = 0; y < last.height(); ++y)
+      for (int x = 0; x < last.width(); ++x) last.at(x, y) = write_block({x, y}, halvings);
+    return last;
+  }
+
+  void append(const Level& level) {
+    std::vector<glm::u8vec4>& all = texture_.smaller_levels;
+    all.resize(all.size() + level.pixels().size());
+    encode(level.pixels(), is_color_, &all[all.size() - level.pixels().size()]);
+  }
+
+  [[nodiscard]] Level whole() const {
+    Level level(texture_.texels.size());
+    for (std::size_t i = 0; i < level.pixels().size(); ++i) level[i] = decode_(texture_.texels[i]);
+    return level;
+  }
+
+ private:
+  glm::vec4 write_block(const glm::ivec2& block, int halvings) {
+    int side = 1 << halvings;
+    for (int y = 0; y < side; ++y) {
+      const glm::u8vec4* const row = &texture_.texels.at(block.x * side, block.y * side + y);
+      for (int x = 0; x < side; ++x) texels_[static_cast<std::size_t>(y * side + x)] = decode_(row[x]);
+    }
+    for (int k = 1; k <= halvings; ++k) {
+      side /= 2;
+      const int width = texture_.texels.width() >> k;
+      for (int y = 0; y < side; ++y) {
+        glm::u8vec4* const to =
+            &texture_.smaller_levels[first_[static_cast<std::size_t>(k)] +
+                                     static_cast<std::size_t>((block.y * side + y) * width + block.x * side)];
+        const glm::vec4* const from = &texels_[static_cast<std::size_t>(4 * y * side)];
+        glm::vec4* const means = &texels_[static_cast<std::size_t>(y * side)];
+        for (int x = 0; x < side; ++x)  // what is written has been read
+          means[x] =
+              mean_of_four(from[2 * x], from[2 * x + 1], from[2 * side + 2 * x], from[2 * side + 2 * x + 1]);
+        encode({means, static_cast<std::size_t>(side)}, is_color_, to);
+      }
+    }
+    return texels_[0];
+  }
+
+  Texture& texture_;
+  bool is_color_;
+  TexelDecoder decode_;
+  std::array<std::size_t, kMostHalvings + 1> first_{};  // texel of each level
+  std::array<glm::vec4, std::size_t{1} << (2 * kMostHalvings)> texels_{};
+};
 
 // Of each texture: whether its smaller levels are looked up, and whether it is colour.
 struct Needed {
@@ -104,13 +170,14 @@ std::vector<Needed> needed_of(const MeshData& mesh) {
 
 void make_smaller_levels(Texture& texture, bool is_color) {
   texture.smaller_levels.clear();
-  texture.smaller_levels.reserve(texture.texels.pixels().size() / 3 + 1);
   if (texture.texels.width() <= 1 && texture.texels.height() <= 1) return;
-  Level level = first_level(texture.texels, TexelDecoder(is_color));
-  while (true) {
-    for (const glm::vec4& t : level.pixels()) texture.smaller_levels.push_back(encoded(t, is_color));
-    if (level.width() <= 1 && level.height() <= 1) return;
+  texture.smaller_levels.reserve(texture.texels.pixels().size() / 3 + 1);
+  LevelWriter writer(texture, is_color);
+  const int halvings = halvings_of(texture.texels.size());
+  Level level = halvings > 0 ? writer.write_blocks(halvings) : writer.whole();
+  while (level.width() > 1 || level.height() > 1) {
     level = halved(level);
+    writer.append(level);
   }
 }
 

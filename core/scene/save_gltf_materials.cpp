@@ -102,6 +102,11 @@ Json GltfMaterialWriter::material(const Material& m) {
     json["extras"]["pinocchio"]["phong"] = phong_json(m);
     add_emission(m.emission, json);
   }
+  if (m.attenuates())
+    add_extension(json, "KHR_materials_volume",
+                  {{"thicknessFactor", 1.0f},
+                   {"attenuationColor", vec3_json(m.attenuation_color)},
+                   {"attenuationDistance", m.attenuation_distance}});
   if (maps) add_maps(m, *maps, json);
   return json;
 }

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <glm/gtc/type_ptr.hpp>
+#include <map>
 
 #include "core/scene/pose.h"
 #include "core/scene/save_gltf_materials.h"
@@ -179,20 +180,25 @@ void add_skins_and_animation(const Scene& scene, const std::vector<int>& place_o
     const int matrices = data.add_accessor(std::span(skin.joint_from_mesh), kGltfFloat, "MAT4");
     data.json["skins"].push_back({{"joints", joints}, {"inverseBindMatrices", matrices}});
   }
-  // Its clips play together: one animation.
-  Json samplers = Json::array(), channels = Json::array();
+  struct Clip {
+    Json samplers = Json::array(), channels = Json::array();
+  };
+  std::map<std::size_t, Clip> clips;
   for (const AnimatedNode& node : scene.animation->nodes)
     for (const Track& track : node.tracks) {
-      channels.push_back({{"sampler", samplers.size()},
-                          {"target",
-                           {{"node", place_of_node[static_cast<std::size_t>(node.node)]},
-                            {"path", path_name(track.path)}}}});
-      samplers.push_back(sampler_json(track, data));
+      Clip& clip = clips[track.clip];
+      clip.channels.push_back({{"sampler", clip.samplers.size()},
+                               {"target",
+                                {{"node", place_of_node[static_cast<std::size_t>(node.node)]},
+                                 {"path", path_name(track.path)}}}});
+      clip.samplers.push_back(sampler_json(track, data));
     }
-  data.json["animations"].push_back(
-      {{"name", scene.animation->clips.empty() ? "" : scene.animation->clips.front().name},
-       {"samplers", samplers},
-       {"channels", channels}});
+  for (const auto& [index, clip] : clips) {
+    const bool named = index < scene.animation->clips.size();
+    data.json["animations"].push_back({{"name", named ? scene.animation->clips[index].name : ""},
+                                       {"samplers", clip.samplers},
+                                       {"channels", clip.channels}});
+  }
 }
 
 }  // namespace pinocchio

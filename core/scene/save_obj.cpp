@@ -56,6 +56,9 @@ class ObjWriter {
       const Material& m = mesh_.materials[i];
       text += "\nnewmtl " + material_name(i, m) + "\n";
       add_phong(m, text);
+      if (m.attenuates())
+        warnings_.add({file_.string(), "material '" + m.name + "'", "the colour of its inside is left out",
+                       "thick glass is as clear as thin glass"});
       if (const MaterialMaps* maps = maps_of(m)) add_maps(m, *maps, text);
     }
     return text;

@@ -51,6 +51,7 @@ struct Bounce {
   glm::vec3 ambient_light{0.0f};
   bool visible = false;       // the rays are the camera's
   bool adds_ambient = false;  // and emission
+  bool attenuates = false;    // some material takes light that goes through it
   bool adds_light = false;    // lights that cast none add theirs to `radiance`, shadow rays carry it
   // Of what is sampled; null: nothing is. The pixel that is (0, 0) in the queues, in the whole picture, how
   // many pixels a sample of the picture is apart from the next, and the first dimension of the rays'

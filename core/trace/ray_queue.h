@@ -12,6 +12,9 @@ namespace pinocchio {
 // More than the lanes of any packet: what a kernel may read and write behind the last ray.
 inline constexpr std::size_t kQueuePad = 16;
 
+// Of a ray: that what it goes through takes no light.
+inline constexpr std::uint32_t kNoMedium = 0xffffffffu;
+
 // Rays as columns, one value a ray, each column on a cache line of its own.
 struct RayColumns {
   const float* origin[3];
@@ -28,13 +31,15 @@ struct RayQueue {
   std::uint32_t* pixel = nullptr;     // in the tile
   float* width = nullptr;             // of a cone at its origin; null: textures are not filtered
   std::uint32_t* triangle = nullptr;  // that was hit
+  std::uint32_t* medium = nullptr;    // the material that it goes through, or kNoMedium; null: none has one
   std::size_t size = 0;
 
-  // Empties it; afterwards it has room for `rays` and a packet. cones: it has the column `width`.
-  void make_room(std::size_t rays, bool cones = false);
+  // Empties it; afterwards it has room for `rays` and a packet. cones, media: it has the columns `width`,
+  // `medium`.
+  void make_room(std::size_t rays, bool cones = false, bool media = false);
 
   // The same, but that what is in it stays and `rays` more have room.
-  void make_more_room(std::size_t rays, bool cones = false);
+  void make_more_room(std::size_t rays, bool cones = false, bool media = false);
 
   [[nodiscard]] RayColumns columns(float reach = kInfinity) const {
     return {{origin[0], origin[1], origin[2]}, {direction[0], direction[1], direction[2]}, nullptr, reach};
@@ -44,6 +49,7 @@ struct RayQueue {
   AlignedVector<float> floats_;
   AlignedVector<std::uint32_t> words_;
   AlignedVector<float> widths_;
+  AlignedVector<std::uint32_t> media_;
   std::size_t room_ = 0;
 };
 

@@ -24,7 +24,7 @@ void TileTracer::look_around(int bounce_count) {
   std::swap(diffuse_, next_diffuse_);
   counts_.indirect += diffuse_.size;
   const int generation = bounce_count * (plan_->out.depth + 1);
-  next_diffuse_.make_room(0, plan_->further.footprint->angle > 0.0f);
+  next_diffuse_.make_room(0, plan_->further.footprint->angle > 0.0f, plan_->further.attenuates);
   make_room(diffuse_.size, rays_);
   Bounce step = plan_->further;
   step.mirrored = plan_->out.depth > 0 ? rays_.data() : nullptr;

@@ -60,6 +60,7 @@ TilePlan::TilePlan(const TraceJob& j, const TileOutputs& o)
   further.ambient_light = job.scene.ambient_light;
   further.adds_ambient = further.adds_light = true;
   if (takes_samples(job.scene) || out.indirect > 0) further.sampling = &job.sampling;
+  further.attenuates = std::ranges::any_of(job.scene.mesh->materials, &Material::attenuates);
   further.scale = static_cast<std::uint32_t>(out.scale);
   further.throughput_cutoff = job.throughput_cutoff;
   if (job.scene.environment) environment.emplace(job.scene);

@@ -133,11 +133,12 @@ void TileTracer::look() {
 }
 
 void TileTracer::make_room(std::size_t rays, Generation& next) {
+  const bool cones = plan_->further.footprint->angle > 0.0f, media = plan_->further.attenuates;
   for (std::size_t i = 0; i < next.size(); ++i)
-    next[i].make_room(i < 2 || plan_->blends ? rays : 0, plan_->further.footprint->angle > 0.0f);
+    next[i].make_room(i < 2 || plan_->blends ? rays : 0, cones, media);
   for (std::size_t i = 0; i < plan_->casting; ++i) shadow_[i].make_room(rays);
   if (plan_->further.environment) sky_.make_room(rays);
-  if (plan_->out.indirect > 0) next_diffuse_.make_more_room(rays, plan_->further.footprint->angle > 0.0f);
+  if (plan_->out.indirect > 0) next_diffuse_.make_more_room(rays, cones, media);
   if (plan_->job.terminator != Terminator::turned_away) return;
   for (std::size_t i = 0; i < plan_->casting; ++i) ways_up_[i].make_room(rays);
   if (plan_->further.environment) sky_ways_up_.make_room(rays);
@@ -162,7 +163,7 @@ void TileTracer::light_visible() {
     direct_.fill(glm::vec4(0.0f));
     for (std::size_t i = 0; i < seen_.size; ++i) direct_[seen_.pixel[i]].a = 1.0f;
   }
-  next_diffuse_.make_room(0, plan_->further.footprint->angle > 0.0f);
+  next_diffuse_.make_room(0, plan_->further.footprint->angle > 0.0f, plan_->further.attenuates);
   make_room(seen_.size, rays_);
   Bounce step = plan_->visible;
   step.mirrored = plan_->out.depth > 0 ? rays_.data() : nullptr;

@@ -64,6 +64,20 @@ void note(const MaterialMaps& maps, SceneStats& stats) {
   stats.blends = stats.blends || maps.blends();
 }
 
+bool sees_through(const Mesh& mesh, const Material& material) {
+  return material.transmits() ||
+         (material.maps >= 0 && mesh.maps[static_cast<std::size_t>(material.maps)].blends());
+}
+
+// Materials that no triangle has are not needed.
+std::vector<bool> used_materials(const Mesh& mesh) {
+  std::vector<bool> used(mesh.materials.size(), false);
+  std::uint32_t last = 0xffffffffu;  // neighbours mostly have the same
+  for (const std::uint32_t material : mesh.triangle_materials)
+    if (material != last) used[last = material] = true;
+  return used;
+}
+
 }  // namespace
 
 SceneStats analyze(const Scene& scene) {
@@ -72,27 +86,34 @@ SceneStats analyze(const Scene& scene) {
   stats.triangles = mesh.triangles.size();
   stats.bounds = mesh.bounds();
   recount_lights(scene, stats);
+  const std::vector<bool> used = used_materials(mesh);
+  for (std::size_t m = 0; m < used.size(); ++m) {
+    if (!used[m]) continue;
+    const Material& material = mesh.materials[m];
+    if (material.maps >= 0) note(mesh.maps[static_cast<std::size_t>(material.maps)], stats);
+    stats.mirrors = stats.mirrors || material.reflects() || sees_through(mesh, material);
+  }
+  if (!stats.mirrors) {
+    stats.useful_depth = 0;
+    return stats;
+  }
   double all = 0.0, mirroring = 0.0, transmitting = 0.0;
   MirrorWalk walk(mesh, stats.bounds, scene.animation != nullptr);
   // What has no area now may have some at another time.
   const double least_area = scene.animation ? std::numeric_limits<double>::min() : 0.0;
-  // Materials that no triangle has are not needed.
   for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
     const Material& material = mesh.materials[mesh.triangle_materials[i]];
     const double area = std::max(area_of(mesh, mesh.triangles[i]), least_area);
     all += area;
-    const MaterialMaps* const maps = mesh.maps_of(static_cast<std::uint32_t>(i));
-    if (maps) note(*maps, stats);
-    const bool see_through = material.transmits() || (maps && maps->blends());
+    const bool see_through = sees_through(mesh, material);
     if (!see_through && !material.reflects()) continue;
-    stats.mirrors = true;
     mirroring += area;
     if (see_through) transmitting += area;
     walk.add(mesh.triangles[i], material, see_through);
   }
   if (all > 0.0) stats.mirror_share = mirroring / all;
   if (all > 0.0) stats.transmitting_share = transmitting / all;
-  stats.useful_depth = stats.mirrors ? walk.useful_depth() : 0;
+  stats.useful_depth = walk.useful_depth();
   return stats;
 }
 

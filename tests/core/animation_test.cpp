@@ -326,6 +326,24 @@ TEST(Animation, IsSavedWithSkinsAndMorphTargets) {
   expect_moves_alike(load_good(m.json), 1e-6f);
 }
 
+TEST(Animation, ClipsAreSavedEachByItsName) {
+  Moving m;
+  m.json["nodes"].push_back({{"name", "other"}});
+  m.json["scenes"][0]["nodes"] = {0, 1};
+  m.animate(0, "translation", {0, 1}, m.floats({0, 0, 0, 1, 0, 0}, "VEC3"));
+  m.animate(1, "translation", {0, 2}, m.floats({0, 0, 0, 0, 1, 0}, "VEC3"), "LINEAR", 1);
+  m.json["animations"][0]["name"] = "walk";
+  m.json["animations"][1]["name"] = "wave";
+  const Scene scene = load_good(m.json);
+  save_scene(scene, own_file("clips.gltf"));
+  const Scene saved = load_scene(own_file("clips.gltf")).value();
+  ASSERT_EQ(saved.animation->clips.size(), 2u);
+  for (std::size_t i = 0; i < 2; ++i) {
+    EXPECT_EQ(saved.animation->clips[i].name, scene.animation->clips[i].name);
+    EXPECT_EQ(saved.animation->clips[i].duration_s, scene.animation->clips[i].duration_s);
+  }
+}
+
 TEST(Animation, OfTwoThatMoveTheSameTheFirstPlays) {
   Moving m;
   m.json["nodes"].push_back({{"name", "other"}});

@@ -150,6 +150,46 @@ TEST(LoadGltf, PhongExtrasAndExtensions) {
   EXPECT_EQ(scene.mesh->materials[4].diffuse, glm::vec3(0.0f));
 }
 
+// Ray tracers take the way through a volume from its triangles, says KHR_materials_volume.
+TEST(LoadGltf, VolumesTakeLight) {
+  Json volume{{"thicknessFactor", 0.1},
+              {"thicknessTexture", {{"index", 0}}},
+              {"attenuationDistance", 0.5},
+              {"attenuationColor", {0.25, 0.5, 1}}};
+  const auto read = [&](float transmission = 1.0f) {
+    Json json = triangle_json();
+    json["materials"] = {{{"pbrMetallicRoughness", {{"metallicFactor", 0}}},
+                          {"extensions",
+                           {{"KHR_materials_transmission", {{"transmissionFactor", transmission}}},
+                            {"KHR_materials_volume", volume}}}}};
+    json["meshes"][0]["primitives"][0]["material"] = 0;
+    Warnings warnings;
+    const Scene scene = load(json, &warnings).value();
+    EXPECT_TRUE(warnings.empty());
+    return scene.mesh->materials[0];
+  };
+  EXPECT_EQ(read().attenuation_color, glm::vec3(0.25f, 0.5f, 1.0f));
+  EXPECT_EQ(read().attenuation_distance, 0.5f);
+  EXPECT_FALSE(read(0.0f).attenuates());  // none gets in
+  volume["thicknessFactor"] = 0;          // a thin wall
+  EXPECT_FALSE(read().attenuates());
+  volume["thicknessFactor"] = 1;
+  volume.erase("attenuationDistance");  // infinitely far
+  EXPECT_FALSE(read().attenuates());
+}
+
+TEST(LoadGltf, NormalsOfNoLengthAreMissed) {
+  Json json = triangle_json();
+  json["accessors"].push_back({{"componentType", 5126}, {"count", 4}, {"type", "VEC3"}});  // zeros
+  json["meshes"][0]["primitives"][0]["attributes"]["NORMAL"] = 2;
+  Warnings warnings;
+  const Scene scene = load(json, &warnings).value();
+  EXPECT_EQ(scene.mesh->normals[0], glm::vec3(0.0f));  // asks for the triangle's own
+  ASSERT_EQ(warnings.size(), 1u);
+  EXPECT_EQ(warnings[0].where, "mesh 0");
+  EXPECT_NE(warnings[0].what.find("normals of no length"), std::string::npos);
+}
+
 TEST(PhongFromGltf, FollowsItsFormula) {
   GltfSurface s;
   s.base_color = {0.5f, 0.6f, 0.7f};

@@ -42,6 +42,13 @@ TEST(LoadMaterials, GltfTexturesSamplersAndTransforms) {
   EXPECT_EQ(scene->mesh->texcoords1.size(), scene->mesh->positions.size());
 }
 
+TEST(LoadMaterials, GltfTexturesLieAtZeroWithoutCoordinates) {
+  std::ofstream(own_file("texel.ppm"), std::ios::binary) << "P6 1 1 255\n\x0a\x14\x1e";
+  const Scene scene = load_good(textured_json({{"uri", "texel.ppm"}}));
+  EXPECT_EQ(scene.mesh->texcoords, std::vector<glm::vec2>(scene.mesh->positions.size(), glm::vec2(0.0f)));
+  EXPECT_TRUE(scene.mesh->texcoords1.empty());
+}
+
 TEST(LoadMaterials, GltfTexturesOfSpecularAndTransmission) {
   // Opaque here, clear there: what mirrors and what lets light through are both kept rays for.
   std::ofstream(own_file("texels.ppm"), std::ios::binary) << "P6 2 1 255\n"

@@ -192,6 +192,24 @@ TEST(Save, GltfOfPlainMaterialsSaysToOthersWhatTheyWere) {
   EXPECT_NEAR(saved["roughnessFactor"], 0.6, 1e-5);
 }
 
+TEST(Save, TheColourOfGlassComesBack) {
+  MeshData mesh;
+  add_triangle(mesh, {0, 0, 0}, {1, 0, 0}, {0, 1, 0});
+  Material& glass = mesh.materials[0];
+  glass.transmittance = glm::vec3(1.0f);
+  glass.ior = 1.5f;
+  glass.attenuation_color = {0.5f, 0.25f, 1.0f};
+  glass.attenuation_distance = 0.75f;
+  const Scene saved(std::move(mesh));
+  save_scene(saved, temporary("glass.gltf"));
+  EXPECT_EQ(load_or_die(temporary("glass.gltf")).mesh->materials[0].attenuation_color,
+            glm::vec3(0.5f, 0.25f, 1));
+  EXPECT_EQ(load_or_die(temporary("glass.gltf")).mesh->materials[0].attenuation_distance, 0.75f);
+  Warnings warnings;
+  save_scene(saved, temporary("glass.obj"), nullptr, &warnings);
+  EXPECT_EQ(warnings.size(), 1u);
+}
+
 TEST(Save, GltfKeepsTheMotion) {
   const Scene saved = load_or_die(source_path("scenes/windmill.glb"));
   ASSERT_GT(duration_s(saved), 0.0);

@@ -26,6 +26,7 @@ struct Track {
   // in, value, tangent out.
   std::vector<float> values;
   std::size_t width = 3;
+  std::size_t clip = 0;  // of the animation's: the one that it came with
 
   // Before the first key its value, behind the last one that key's. to.size() == width
   void sample(double seconds, std::vector<float>& to) const;

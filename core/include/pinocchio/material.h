@@ -18,7 +18,11 @@ struct Material {
   float gloss = 0.0f;
   glm::vec3 transmittance{0.0f};  // weight of the refracted ray; any component > 0 makes a dielectric
   float ior = 1.0f;               // of the inside against the outside
-  bool fresnel = false;           // opaque: reflectance rises to 1 at grazing angles (Schlick 1994)
+  // What is left of light that went `attenuation_distance`, scene units, through the inside (Beer and
+  // Lambert); 0: the inside is clear.
+  glm::vec3 attenuation_color{1.0f};
+  float attenuation_distance = 0.0f;
+  bool fresnel = false;  // opaque: reflectance rises to 1 at grazing angles (Schlick 1994)
   glm::vec3 emission{0.0f};
   // Diffuse and specular are a BRDF's values, as glTF's metallic-roughness gives them; else they are Phong's
   // coefficients, of lights whose strength counts the 1 / pi. Light from all around needs to know.
@@ -30,6 +34,7 @@ struct Material {
   [[nodiscard]] bool reflects() const { return reflectance.x + reflectance.y + reflectance.z > 0.0f; }
   [[nodiscard]] bool is_glossy() const { return gloss > 0.0f && (reflects() || transmits()); }
   [[nodiscard]] bool transmits() const { return transmittance.x + transmittance.y + transmittance.z > 0.0f; }
+  [[nodiscard]] bool attenuates() const { return attenuation_distance > 0.0f; }
   // Whether any ray leaves a hit on this material.
   [[nodiscard]] bool spawns_rays() const { return reflects() || transmits(); }
 

@@ -43,7 +43,7 @@ inline Float brdf_share(const LaneMaterial& m) {
 // sends it into the surface.
 [[gnu::noinline]] void scatter_diffuse(const Bounce& bounce, const LaneSurface& s, const LaneMaterial& m,
                                        const Vec& throughput, const LaneSampling& sampling, Int pixel,
-                                       Mask lanes) {
+                                       Mask lanes, const LaneMedia* media) {
   const Vec albedo = m.diffuse * (brdf_share(m) * Float(3.14159265359f)), light = throughput * albedo;
   lanes = lanes & ~is_dark(light);
   if (lanes.bits() == 0) return;
@@ -51,7 +51,7 @@ inline Float brdf_share(const LaneMaterial& m) {
   const Float up = sqrt(max(Float(1.0f) - (disc.x * disc.x + disc.y * disc.y), Float(0.0f)));
   const Vec direction = around(s.n_shading, {disc.x, disc.y, up});
   follow(s, direction, light, pixel, lanes & (Float(0.0f) < dot(direction, s.n_geometric)),
-         bounce.throughput_cutoff, *bounce.diffuse);
+         bounce.throughput_cutoff, *bounce.diffuse, media ? &media->here : nullptr);
 }
 
 }  // namespace

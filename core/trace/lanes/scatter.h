@@ -4,6 +4,7 @@
 
 #include "core/trace/lanes/light.h"
 #include "core/trace/lanes/material.h"
+#include "core/trace/lanes/medium.h"
 #include "core/trace/lanes/sized_light.h"
 #include "core/trace/lanes/surface.h"
 
@@ -77,27 +78,30 @@ inline void append(const Vec& origin, const Vec& direction, const Vec& light, In
   queue.size += static_cast<std::size_t>(__builtin_popcount(lanes.bits()));
 }
 
+// `medium`: that the rays go through; null where no material has one.
 inline void follow(const LaneSurface& s, const Vec& direction, const Vec& throughput, Int pixel, Mask lanes,
-                   float least, RayQueue& queue) {
+                   float least, RayQueue& queue, const Int* medium) {
   const Mask worth = lanes & ~(largest(throughput) < Float(least));
   if (worth.bits() == 0) return;
   if (queue.width) store_packed(queue.width + queue.size, s.width, worth);
+  if (medium) store_packed(queue.medium + queue.size, *medium, worth);
   append(offset_origin(s, direction), direction, throughput, pixel, worth, queue);
 }
 
 // What a surface that blends leaves of what is behind it.
 inline void go_straight_on(const LaneSurface& s, const LaneMaterial& m, const Vec& throughput, Int pixel,
-                           Mask lanes, const Bounce& bounce) {
+                           Mask lanes, const Bounce& bounce, const LaneMedia* media) {
   follow(s, -s.to_viewer, throughput * (Float(1.0f) - m.alpha), pixel, lanes & Mask::from_bits(m.blends),
-         bounce.throughput_cutoff, *bounce.straight);
+         bounce.throughput_cutoff, *bounce.straight, media ? &media->here : nullptr);
 }
 
 template <bool kSampled>
 inline void scatter(const LaneSurface& s, const LaneMaterial& m, const Vec& throughput,
-                    const LaneSampling* sampling, Int pixel, Mask lanes, const Bounce& bounce) {
+                    const LaneSampling* sampling, Int pixel, Mask lanes, const Bounce& bounce,
+                    const LaneMedia* media) {
   const unsigned alive = lanes.bits(), glass = m.transmits & alive,
                  opaque = m.reflects & ~m.transmits & alive;
-  if ((m.blends & alive) != 0) go_straight_on(s, m, throughput, pixel, lanes, bounce);
+  if ((m.blends & alive) != 0) go_straight_on(s, m, throughput, pixel, lanes, bounce, media);
   if ((glass | opaque) == 0) return;
   const Float zero(0.0f), one(1.0f);
   const Float cos_in = clamp(dot(s.n_shading, s.to_viewer), 0.0f, 1.0f);
@@ -116,7 +120,7 @@ inline void scatter(const LaneSurface& s, const LaneMaterial& m, const Vec& thro
     const Float share = select(is_dark(through), one, fresnel_dielectric(cos_in, eta));
     mirror_share = select(Mask::from_bits(glass), Vec(share), mirror_share);
     follow(s, through, own * (one - share) * m.transmittance, pixel, Mask::from_bits(glass),
-           bounce.throughput_cutoff, *bounce.refracted);
+           bounce.throughput_cutoff, *bounce.refracted, media ? &media->beyond : nullptr);
   }
   Mask mirrors = Mask::from_bits(glass | opaque);
   Vec direction = mirrored(s);
@@ -124,7 +128,8 @@ inline void scatter(const LaneSurface& s, const LaneMaterial& m, const Vec& thro
     if ((m.glossy & (glass | opaque)) != 0)
       direction = spread(s, direction, m.gloss,
                          sample_2d(*sampling, bounce.dimension + shared::kMirrorDimension), mirrors);
-  follow(s, direction, own * mirror_share, pixel, mirrors, bounce.throughput_cutoff, *bounce.mirrored);
+  follow(s, direction, own * mirror_share, pixel, mirrors, bounce.throughput_cutoff, *bounce.mirrored,
+         media ? &media->here : nullptr);
 }
 
 }  // namespace

@@ -42,6 +42,7 @@ void keep_hits(RayQueue& rays) {
           store_packed(columns[axis] + kept, Float::load(columns[axis] + i), hits);
       store_packed(rays.pixel + kept, Int::load(rays.pixel + i), hits);
       if (rays.width) store_packed(rays.width + kept, Float::load(rays.width + i), hits);
+      if (rays.medium) store_packed(rays.medium + kept, Int::load(rays.medium + i), hits);
       store_packed(rays.triangle + kept, triangle, hits);
     }
     kept += static_cast<std::size_t>(__builtin_popcount(bits));
@@ -178,16 +179,26 @@ void bounce_packets(const Bounce& bounce, const RayQueue& rays) {
     } else if (m.mapped != 0) {
       apply_maps(bounce, triangle, origin, direction, s.width, s, m);
     }
-    const Vec throughput = bounce.visible ? Vec(Float(1.0f)) : Vec::load(rays.light, i);
+    Vec throughput = bounce.visible ? Vec(Float(1.0f)) : Vec::load(rays.light, i);
+    std::optional<LaneMedia> surrounding;
+    if (bounce.attenuates) {
+      const Int of_ray = rays.medium ? Int::load(rays.medium + i) : Int(kNoMedium);
+      surrounding = media_at(bounce, of_ray, corners.material, s, m.ior, lanes);
+      const Vec way = s.p_world - origin;
+      // The eye is outside: the GPU does not know in what it may lie.
+      if (!bounce.visible)
+        throughput = throughput * attenuation(bounce, surrounding->here, sqrt(dot(way, way)), lanes);
+    }
+    const LaneMedia* const media = surrounding ? &*surrounding : nullptr;
     const Vec own = m.blends != 0 ? throughput * m.alpha : throughput;
     std::optional<LaneSampling> sampling;
     if constexpr (kSampled) sampling.emplace(*bounce.sampling, whole_picture_pixel(bounce, pixel));
     const LaneSampling* const samples = kSampled ? &*sampling : nullptr;
     const Vec certain = light_points<kSampled>(bounce, corners, s, m, own, samples, pixel, lanes);
     if (bounce.adds_light) add_light(own * certain, rays.pixel + i, lanes, bounce.radiance);
-    if (bounce.mirrored) scatter<kSampled>(s, m, throughput, samples, pixel, lanes, bounce);
+    if (bounce.mirrored) scatter<kSampled>(s, m, throughput, samples, pixel, lanes, bounce, media);
     if constexpr (kSampled)
-      if (bounce.diffuse) scatter_diffuse(bounce, s, m, own, *samples, pixel, lanes);
+      if (bounce.diffuse) scatter_diffuse(bounce, s, m, own, *samples, pixel, lanes, media);
   }
 }
 

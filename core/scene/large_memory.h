@@ -1,0 +1,40 @@
+// Memory for what is as large as a file.
+#pragma once
+
+#include <sys/mman.h>
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+namespace pinocchio {
+
+// Asks for pages of 2 MiB, as far as whole ones lie in it: pages of 4 KiB, which the system gives one by one
+// as they are first written, take longer than what is written there. A wish: where it is not granted, small
+// pages serve.
+inline void prefer_large_pages([[maybe_unused]] void* memory, [[maybe_unused]] std::size_t bytes) {
+#ifdef MADV_HUGEPAGE
+  constexpr std::uintptr_t kLargePage = std::uintptr_t{1} << 21;
+  const std::uintptr_t begin =
+                           (reinterpret_cast<std::uintptr_t>(memory) + kLargePage - 1) & ~(kLargePage - 1),
+                       end = (reinterpret_cast<std::uintptr_t>(memory) + bytes) & ~(kLargePage - 1);
+  if (begin < end) madvise(reinterpret_cast<void*>(begin), end - begin, MADV_HUGEPAGE);
+#endif
+}
+
+template <class T>
+void reserve_large(std::vector<T>& vector, std::size_t count) {
+  vector.reserve(count);
+  prefer_large_pages(vector.data(), vector.capacity() * sizeof(T));
+}
+
+// As resize(); where it has to move, it has room for twice as much.
+template <class T>
+void resize_large(std::vector<T>& vector, std::size_t count, const T& value = T()) {
+  if (count > vector.capacity())
+    reserve_large(vector, vector.empty() ? count : std::max(count, 2 * vector.capacity()));
+  vector.resize(count, value);
+}
+
+}  // namespace pinocchio
