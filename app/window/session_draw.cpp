@@ -172,7 +172,7 @@ const gl::Texture& Session::chosen_buffer(const Frame& frame) {
   }
   if (!gathers() || frame.request().view.camera != model_.camera.camera()) return frame.texture();
   accumulator_.add(frame);
-  if (accumulator_.samples() == 0) return frame.texture();
+  if (accumulator_.samples() <= 1) return frame.texture();
   model_.samples = accumulator_.samples();
   return accumulator_.average().color();
 }
