@@ -88,6 +88,9 @@ void TileTracer::start() {
   plan_->job.tracer.steps().camera_rays(plan_->view, tile_.lo, seen_);
 }
 
+// Tiles whose ids are on their way from memory while one is looked at: many see nothing and are done at once.
+constexpr std::size_t kTilesAhead = 4;
+
 // Whether any pixel sees anything.
 bool TileTracer::fetch_ids() {
   const Image<std::uint32_t>& seen = *plan_->out.seen;
@@ -97,12 +100,14 @@ bool TileTracer::fetch_ids() {
   for (int y = tile_.lo.y; y < tile_.hi.y; ++y) {
     const std::uint32_t* const from = &seen.at(tile_.lo.x * scale, y * scale);
     std::uint32_t* const to = &ids_[static_cast<std::size_t>(y - tile_.lo.y) << kTileBits];
+    for (std::size_t i = 0; i < width; i += kCacheLine / sizeof(*from))
+      __builtin_prefetch(from + kTilesAhead * width + i);
     if (scale == 1) {
       std::memcpy(to, from, width * sizeof(*to));
     } else {
       for (std::size_t i = 0; i < width; ++i) to[i] = from[i * static_cast<std::size_t>(scale)];
     }
-    for (std::size_t i = 0; i < width; ++i) all &= to[i];
+    for (int i = 0; i < TileGrid::kTileSize; ++i) all &= to[i];  // none beyond `width`
   }
   return all != kNoTriangle;
 }

@@ -1,8 +1,10 @@
 #pragma once
 
 #include <algorithm>
+#include <bit>
 #include <cassert>
 #include <cstdint>
+#include <cstring>
 #include <glm/glm.hpp>
 #include <span>
 #include <vector>
@@ -48,12 +50,15 @@ class MaskImage {
     if (bits_ == 0) return;
     std::uint8_t* const row = bytes_.data() + byte_of(x, y);
     for (std::size_t first = 0, at = 0; first < pixels.size(); first += 8) {
+      const std::size_t count = std::min<std::size_t>(pixels.size() - first, 8);
       std::uint64_t packed = 0;
-      for (std::size_t i = std::min(first + 8, pixels.size()); i-- > first;) packed = packed << 8 | pixels[i];
+      if (count == 8 && std::endian::native == std::endian::little)
+        std::memcpy(&packed, &pixels[first], 8);
+      else
+        for (std::size_t i = first + count; i-- > first;) packed = packed << 8 | pixels[i];
       // 8 pixels of 8 bits become 4 of 16, 2 of 32, one of 64, of which so many bits are used.
       for (int width = 8, used = bits_; width < 64; width *= 2, used *= 2)
         packed = (packed | packed >> (width - used)) & lowest_bits(used * 2, width * 2);
-      const std::size_t count = std::min<std::size_t>(pixels.size() - first, 8);
       for (std::size_t bytes = (count * static_cast<std::size_t>(bits_) + 7) / 8; bytes-- > 0; packed >>= 8)
         row[at++] = static_cast<std::uint8_t>(packed);
     }

@@ -72,8 +72,13 @@ template <class Take>
 inline void for_each_distinct(Int values, Mask lanes, Take take) {
   alignas(64) std::uint32_t value[kWidth];
   values.store(value);
-  for (unsigned waiting = lanes.bits(); waiting != 0;) {
-    const std::uint32_t one = value[__builtin_ctz(waiting)];
+  unsigned waiting = lanes.bits();
+  for (int lane = 0; waiting != 0;) {
+    // A branch on purpose: where most values differ, the processor foretells that the next lane is next and
+    // does not wait for the comparison that says so.
+    if ((waiting >> lane & 1) == 0) [[unlikely]]
+      lane = __builtin_ctz(waiting);
+    const std::uint32_t one = value[lane++];
     const Mask same = lanes & (values == Int(one));
     take(one, same);
     waiting &= ~same.bits();
