@@ -1,3 +1,5 @@
+#include <malloc.h>
+
 #include <algorithm>
 #include <utility>
 
@@ -104,6 +106,7 @@ void Session::draw_scene() {
     idle_ = !again_;
     if (!idle_) return;
     renderer_.drain();  // nothing is waited for: the last frames' figures
+    malloc_trim(0);     // what was done until now needed more than what is shown
     model_.history.pause();
     redraws_ = std::max(redraws_, 1);
     return;
