@@ -70,10 +70,10 @@ struct FrameSlot {
   Image<std::uint32_t> ids;
   Image<glm::u8vec3> phong_srgb;  // visibility gpu, composite cpu: light that needs no shadow ray
   Image<glm::vec3> unpacked;      // ... and the picture that it sends, before it is rounded and cut off
-  bool answered = false;  // the CPU's part is where it belongs
-  MaskImage mask;         // one sample for mask_scale pixels a side
-  Image<glm::vec3> reflection;   // likewise
-  gl::Texture reflection_index;  // where its tiles are in the reflection's texture
+  bool answered = false;          // the CPU's part is where it belongs
+  MaskImage mask;                 // one sample for mask_scale pixels a side
+  Image<glm::vec3> reflection;    // likewise
+  gl::Texture reflection_index;   // where its tiles are in the reflection's texture
   std::size_t reflection_tiles = 0;
   Image<glm::vec4> color;  // the CPU alone: the finished picture, linear
 

@@ -20,9 +20,10 @@ class Accumulator {
  public:
   explicit Accumulator(Engine& engine);
 
-  // Adds a delivered frame's picture, that which the CPU sent in bytes as it was before. Begins anew by itself where scene, plan, camera, size or part are not
-  // those of the frames before; a sample that was the last one added is not added twice. A reprojected frame
-  // whose answer is of another view is no sample of this one: samples() is 0 after it.
+  // Adds a delivered frame's picture, that which the CPU sent in bytes as it was before. Begins anew by
+  // itself where scene, plan, camera, size or part are not those of the frames before; a sample that was the
+  // last one added is not added twice. A reprojected frame whose answer is of another view is no sample of
+  // this one: samples() is 0 after it.
   void add(const Frame& frame);
   void reset() { samples_ = 0; }
 

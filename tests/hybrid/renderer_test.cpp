@@ -396,8 +396,11 @@ TEST_P(RendererTest, LetsGoOfWhatOtherSettingsNeeded) {
   constexpr glm::ivec2 kSize{40, 30};
   const Scene scene = load_or_die(source_path("scenes/cornell"));
   std::vector<FrameRequest> requests;
-  for (const auto& [option, value] : std::vector<std::pair<const char*, const char*>>{
-           {"mode", "raytrace"}, {"plan", "slides"}, {"design", "2"}, {"mode", "raytrace"}, {"mode", "raster"}})
+  for (const auto& [option, value] : std::vector<std::pair<const char*, const char*>>{{"mode", "raytrace"},
+                                                                                      {"plan", "slides"},
+                                                                                      {"design", "2"},
+                                                                                      {"mode", "raytrace"},
+                                                                                      {"mode", "raster"}})
     for (int i = 0; i < kFramesInFlight; ++i) {
       requests.push_back(request(scene, settings_for(scene, by({{option, value}})), kSize));
       requests.back().view.camera.eye.x += 0.01f * static_cast<float>(i);
