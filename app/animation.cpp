@@ -97,4 +97,10 @@ CameraFrame CameraFrames::operator[](std::size_t i) const {
   return {number, options_.turntable > 0 ? turned(camera, number, options_.turntable) : camera, time_s};
 }
 
+std::optional<Camera> CameraFrames::only_camera() const {
+  const bool moves = options_.turntable > 0 || !options_.path.empty() || scene_.animation;
+  if (size() > 1 && moves) return std::nullopt;
+  return (*this)[0].camera;
+}
+
 }  // namespace pinocchio::app

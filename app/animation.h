@@ -48,6 +48,8 @@ class CameraFrames {
   [[nodiscard]] std::size_t size() const { return range_.count(); }
   [[nodiscard]] const FrameRange& range() const { return range_; }
   [[nodiscard]] CameraFrame operator[](std::size_t i) const;
+  // All frames', where it stands still.
+  [[nodiscard]] std::optional<Camera> only_camera() const;
 
  private:
   [[nodiscard]] Camera camera_of(int number, double time_s) const;

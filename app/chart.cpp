@@ -185,18 +185,22 @@ int run_stability(const ChartOptions& options) {
   const DrawOptions& draw = options.draw;
   make_folder(folder);
   check_writable(folder / "stability.json");
+  stability::KeptCells kept = value_or_exit(
+      stability::KeptCells::open(folder, stability::run_json(options.quick), options.restart), kUsage);
   Engine engine(draw.engine);
   engine.open_gl();  // now, not after the rays
   std::optional<stability::Tables> tables;
   {
     Progress progress(draw.quiet ? "off" : draw.progress, "stability", stability::table_cells());
-    tables = stability::make_tables(engine, options.quick, [&] {
+    const auto after_cell = [&] {
       progress.step();
       return !interrupted();
-    });
+    };
+    tables = stability::make_tables(engine, options.quick, after_cell, kept);
   }
   if (!tables) throw Cancelled();
   tables->write(folder);
+  kept.remove();
   const std::uint64_t failures = tables->default_failures();
   if (!draw.quiet)
     std::printf("%s\n%llu failures of the defaults\n%s\n", tables->text().c_str(),

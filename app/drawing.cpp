@@ -23,7 +23,8 @@ Settings with_usual(Settings settings, Exchange usual) {
 
 }  // namespace
 
-Drawing::Drawing(const DrawOptions& options, Scene scene, Exchange usual, bool keeps_mask, bool any_settings)
+Drawing::Drawing(const DrawOptions& options, Scene scene, Exchange usual, bool keeps_mask, bool any_settings,
+                 const std::optional<Camera>& only)
     : options_(options),
       part_(part_of(options)),
       keeps_mask_(keeps_mask),
@@ -49,8 +50,10 @@ Drawing::Drawing(const DrawOptions& options, Scene scene, Exchange usual, bool k
   if (!options.quiet && !any_settings) advise(with_usual(options.settings, usual));
   if (scene_.animation)
     poses_.emplace(scene_, &run_progress());
-  else if (any_settings || (settings_.traces() && !options.precise))
-    tracer_ = Engine::prepare(scene_, settings_, &run_progress());
+  else if (any_settings || (settings_.traces() && !options.precise)) {
+    const View view{only.value_or(Camera{}), options.size, part_};
+    tracer_ = Engine::prepare(scene_, settings_, &run_progress(), only ? &view : nullptr);
+  }
 }
 
 void Drawing::advise(Settings automatic) const {

@@ -14,11 +14,11 @@ namespace pinocchio::app {
 class Drawing {
  public:
   // `usual`: the exchange where the options name none. `keeps_mask`: the mask itself is wanted, not only the
-  // picture. `any_settings`: others than the options' are going to be drawn, too. Ends the verb with
-  // kBadScene (kUsage, where a plan's file says them) where the settings cannot draw the scene; throws
-  // NoOpenGlError.
-  Drawing(const DrawOptions& options, Scene scene, Exchange usual, bool keeps_mask,
-          bool any_settings = false);
+  // picture. `any_settings`: others than the options' are going to be drawn, too. `only`: of all frames, if
+  // there is one. Ends the verb with kBadScene (kUsage, where a plan's file says them) where the settings
+  // cannot draw the scene; throws NoOpenGlError.
+  Drawing(const DrawOptions& options, Scene scene, Exchange usual, bool keeps_mask, bool any_settings = false,
+          const std::optional<Camera>& only = {});
 
   [[nodiscard]] Engine& engine() { return engine_; }
   // As it was loaded.

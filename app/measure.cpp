@@ -216,7 +216,8 @@ int measure(MeasureOptions& options) {
   for (const std::string& file : {options.stats_json, options.trace})
     if (!file.empty()) check_writable(file);
 
-  Drawing drawing(options.draw, std::move(scene), Exchange::pipelined, false, options.compare);
+  Drawing drawing(options.draw, std::move(scene), Exchange::pipelined, false, options.compare,
+                  frames.only_camera());
   std::vector<Measured> runs = runs_of(drawing, options);
   if (options.budget.any()) runs.front().budget.emplace(drawing, options.draw, options.budget, frames);
   nlohmann::json json = nlohmann::json::array();

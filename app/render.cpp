@@ -77,7 +77,8 @@ class RenderRun {
     frames_.emplace(options_.animation, options_.draw, scene);
     check(scene);
     Drawing drawing(options_.draw, std::move(scene),
-                    frames_->size() > 1 ? Exchange::pipelined : Exchange::sync, keeps_mask(options_.output));
+                    frames_->size() > 1 ? Exchange::pipelined : Exchange::sync, keeps_mask(options_.output),
+                    false, frames_->only_camera());
     const double ready_s = now_s();
     progress_.emplace(options_.draw.quiet ? "off" : options_.draw.progress, "render", frames_->size());
     if (next_frame(drawing)) draw(drawing);

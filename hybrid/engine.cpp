@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "core/trace/surface.h"
+#include "core/trace/view_params.h"
 #include "gl/error.h"
 #include "gl/foreign.h"
 #include "hybrid/engine_parts.h"
@@ -113,12 +114,20 @@ Expected<Settings> Engine::resolve(const Scene& scene, glm::ivec2 size, const Se
   return pinocchio::resolve(settings, parts_->stats_of(scene), {size, gl_is_software(settings), keeps_mask});
 }
 
+// What BuildOptions::margin is where it was charted, at 800 x 600: of a narrower view or a larger picture,
+// smaller nodes are worth a split.
+constexpr float kMarginPixels = 7.0f;
+
 std::shared_ptr<const Tracer> Engine::prepare(const Scene& scene, const Settings& settings,
-                                              Progress* progress) {
+                                              Progress* progress, const View* only) {
   if (!settings.traces()) return nullptr;
   BuildOptions options = build_options(settings);
   options.progress = progress;
   options.lights = casting_light_positions(scene);
+  if (only) {
+    options.eye = only->camera.eye;
+    options.margin = std::min(options.margin, kMarginPixels * glm::length(view_params(*only).step_y));
+  }
   return std::make_shared<const Tracer>(scene.mesh, options, Isa{settings.isa}, settings.offset);
 }
 

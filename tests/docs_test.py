@@ -2,7 +2,8 @@
 """docs_test.py PROGRAM SOURCE_DIR: runs every command line of the program that README.md and docs/*.md show.
 
 In a folder with the scenes and the files that the lines name; small pictures where a line names no size. Lines of
-'view' need a display and are tested by window_test.
+'view' need a display and are tested by window_test. Of lines that take minutes (scripts, pinocchio-bench) what they
+name is looked up: files of the tree, options. Farms' are run by tests/farm.
 """
 import os
 import pathlib
@@ -17,13 +18,38 @@ DRAWING = ("render", "measure", "chart")
 
 
 def command_lines(text):
-    """The program's arguments, of code blocks alone; continued lines joined."""
-    inside = False
+    """Of code blocks without a language, continued lines joined."""
+    block = None
     for line in re.sub(r"\\\n\s*", "", text).splitlines():
         if line.startswith("```"):
-            inside = not inside
-        elif inside and (match := PROGRAM.match(line)):
-            yield match[1].split("  #")[0].strip()
+            block = line[3:] if block is None else None
+        elif block == "" and line.strip():
+            yield line.split("  #")[0].strip()
+
+
+def looked_up(line, program, source):
+    """What of a line is not there; none: all is, None: nobody knows such a command."""
+    words = line.split()
+    missing = [w for w in words if re.match(r"(scripts|farm|tests|examples)/", w) and not (source / w).exists()]
+    options = re.findall(r"(?<=\s)--[a-z-]+", line)
+    if words[0].startswith("scripts/"):
+        known = (source / words[0]).read_text(encoding="utf-8") if not missing else ""
+        known += subprocess.run([program, "chart", "--help"], capture_output=True, text=True, check=True).stdout
+    elif words[0] == "pinocchio-bench":
+        bench = program.with_name(words[0])
+        if not bench.exists():  # built where Embree is found
+            return missing
+        known = subprocess.run([bench, "--help"], capture_output=True, text=True, check=True).stdout
+    elif words[0] in ("sbatch", "openjd", "cmake", "export", "python3"):
+        return missing
+    else:
+        return None
+    return missing + [option for option in options if option not in known]
+
+
+def failure(command):
+    run = subprocess.run(command, shell=True, capture_output=True, text=True, check=False)
+    return "" if run.returncode == 0 else f"exit code {run.returncode}: {run.stderr.strip()}"
 
 
 def main():
@@ -39,17 +65,27 @@ def main():
             subprocess.run([program, *made.split()], check=True, stdout=subprocess.DEVNULL)
         pages = [source / "README.md", source / "CONTRIBUTING.md", *sorted((source / "docs").glob("*.md"))]
         for page in pages:
+            if page.name == "architecture.md":  # its blocks are diagrams
+                continue
             for line in command_lines(page.read_text(encoding="utf-8")):
-                verb = line.split()[0]
-                if verb == "view" or "VERB" in line or "SCENE" in line or "DIR" in line:
-                    continue
-                small = " --size 32x24" if verb in DRAWING and "--size" not in line else ""
-                small += " --only exchange --repeat 1" if verb == "chart" and "--only" not in line else ""
                 count += 1
-                run = subprocess.run(f"'{program}' {line}{small}", shell=True, capture_output=True, text=True, check=False)
-                if run.returncode != 0:
+                error = ""
+                if match := PROGRAM.match(line):
+                    verb = match[1].split()[0]
+                    if verb == "view" or "VERB" in line or "SCENE" in line or "DIR" in line:
+                        continue
+                    small = " --size 32x24" if verb in DRAWING and "--size" not in line else ""
+                    small += " --only exchange --repeat 1" if verb == "chart" and "--only" not in line else ""
+                    error = failure(f"'{program}' {match[1]}{small}")
+                elif line.startswith("oiiotool "):
+                    error = failure(line) if shutil.which("oiiotool") else ""
+                elif (missing := looked_up(line, program, source)) is None:
+                    error = "no test knows this command"
+                elif missing:
+                    error = "not there: " + ", ".join(missing)
+                if error:
                     failed += 1
-                    print(f"{page.name}: pinocchio {line}\n  exit code {run.returncode}: {run.stderr.strip()}")
+                    print(f"{page.name}: {line}\n  {error}")
     print(f"{count} command lines, {failed} failed")
     sys.exit(1 if failed or count == 0 else 0)
 

@@ -23,18 +23,53 @@ nlohmann::json details(const PictureFailureCount& count) {
           {"holes", count.holes}};
 }
 
-// Runs every case by every method. False where `after_cell` says so.
+nlohmann::json to_json(const Cell& c) {
+  nlohmann::json cell{{"case", c.stress_case},        {"failure", c.failure},
+                      {"method", c.method},           {"trials", c.count.trials},
+                      {"failures", c.count.failures}, {"excused", c.count.excused},
+                      {"seconds", c.count.seconds},   {"ratio_to_default", c.ratio}};
+  cell.update(c.more);
+  return cell;
+}
+
+FailureCount count_of(const nlohmann::json& cell) {
+  return {cell["trials"], cell["failures"], cell["excused"], cell["seconds"]};
+}
+// What of a kept cell a count does not hold.
+nlohmann::json details(const nlohmann::json& cell) {
+  nlohmann::json more = cell;
+  for (const char* key :
+       {"table", "case", "failure", "method", "trials", "failures", "excused", "seconds", "ratio_to_default"})
+    more.erase(key);
+  return more;
+}
+
+// Runs every case by every method, but for what is kept. False where `after_cell` says so.
 template <class StressCases, class Methods, class Run>
 bool fill(const StressCases& cases, const Methods& methods, const Run& run,
-          const std::function<bool()>& after_cell, Table& table) {
+          const std::function<bool()>& after_cell, KeptCells& kept, Table& table) {
   for (const auto& method : methods) table.methods.push_back(method.name);
   for (const auto& stress_case : cases) {
     double default_seconds = 0.0;
     for (const auto& method : methods) {
-      const auto count = run(stress_case, method);
-      if (&method == &methods.front()) default_seconds = count.seconds;
-      table.cells.push_back({std::string(stress_case.name), std::string(stress_case.failure), method.name,
-                             count, count.seconds / std::max(default_seconds, 1e-9), details(count)});
+      Cell cell{std::string(stress_case.name), std::string(stress_case.failure), method.name, {}, 0.0, {}};
+      const nlohmann::json* const known = kept.find(table.name, cell.stress_case, cell.method);
+      if (known) {
+        cell.count = count_of(*known);
+        cell.more = details(*known);
+      } else {
+        const auto count = run(stress_case, method);
+        cell.count = count;
+        cell.more = details(count);
+      }
+      if (&method == &methods.front()) default_seconds = cell.count.seconds;
+      cell.ratio = cell.count.seconds / std::max(default_seconds, 1e-9);
+      table.cells.push_back(cell);
+      if (!known) {
+        nlohmann::json json = to_json(cell);
+        json["table"] = table.name;
+        kept.add(std::move(json));
+      }
       if (!after_cell()) return false;
     }
   }
@@ -78,14 +113,7 @@ std::string markdown(const Table& table) {
 
 nlohmann::json to_json(const Table& table) {
   nlohmann::json cells = nlohmann::json::array();
-  for (const Cell& c : table.cells) {
-    nlohmann::json cell{{"case", c.stress_case},        {"failure", c.failure},
-                        {"method", c.method},           {"trials", c.count.trials},
-                        {"failures", c.count.failures}, {"excused", c.count.excused},
-                        {"seconds", c.count.seconds},   {"ratio_to_default", c.ratio}};
-    cell.update(c.more);
-    cells.push_back(cell);
-  }
+  for (const Cell& cell : table.cells) cells.push_back(to_json(cell));
   return cells;
 }
 
@@ -113,7 +141,13 @@ std::size_t table_cells() {
   return all_methods().size() * all_cases().size() + all_draw_methods().size() * picture_cases().size();
 }
 
-std::optional<Tables> make_tables(Engine& engine, bool quick, const std::function<bool()>& after_cell) {
+nlohmann::json run_json(bool quick) {
+  const SystemInfo system = system_info();
+  return {{"pinocchio", version()}, {"cpu", system.cpu}, {"cores", system.cores}, {"quick", quick}};
+}
+
+std::optional<Tables> make_tables(Engine& engine, bool quick, const std::function<bool()>& after_cell,
+                                  KeptCells& kept) {
   const auto trace = [&](const StressCase& c, const Method& m) {
     return c.run(m, quick ? kQuickRays : kRays);
   };
@@ -121,8 +155,8 @@ std::optional<Tables> make_tables(Engine& engine, bool quick, const std::functio
     return c.run(engine, m, quick ? kQuickSide : kSide);
   };
   Tables tables;
-  if (!fill(all_cases(), all_methods(), trace, after_cell, tables.rays) ||
-      !fill(picture_cases(), all_draw_methods(), draw, after_cell, tables.pictures))
+  if (!fill(all_cases(), all_methods(), trace, after_cell, kept, tables.rays) ||
+      !fill(picture_cases(), all_draw_methods(), draw, after_cell, kept, tables.pictures))
     return std::nullopt;
   return tables;
 }

@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "bench/stability/kept_cells.h"
 #include "bench/stability/stress_case.h"
 #include "pinocchio/engine.h"
 
@@ -22,12 +23,13 @@ struct Cell {
 };
 
 struct Table {
+  std::string name;
   std::vector<std::string> methods;
   std::vector<Cell> cells;  // row by row, the default first
 };
 
 struct Tables {
-  Table rays, pictures;
+  Table rays{"rays", {}, {}}, pictures{"pictures", {}, {}};
 
   [[nodiscard]] std::string text() const;  // Markdown
   [[nodiscard]] std::uint64_t default_failures() const;
@@ -38,8 +40,12 @@ struct Tables {
 // How many cells the two have.
 [[nodiscard]] std::size_t table_cells();
 
-// quick: a hundredth of the rays, small pictures. Calls `after_cell`; nothing comes back where it says false.
+// What counts depend on, beside the case and the method.
+[[nodiscard]] nlohmann::json run_json(bool quick);
+
+// quick: a hundredth of the rays, small pictures. Takes the cells that are kept and keeps those that it
+// counts. Calls `after_cell` after each; nothing comes back where it says false.
 [[nodiscard]] std::optional<Tables> make_tables(Engine& engine, bool quick,
-                                                const std::function<bool()>& after_cell);
+                                                const std::function<bool()>& after_cell, KeptCells& kept);
 
 }  // namespace pinocchio::stability

@@ -6,6 +6,10 @@
 namespace pinocchio {
 namespace {
 
+// The longest margin, of the scene's diagonal. Seen from far away all is small, and mirrored rays would
+// find one leaf.
+constexpr float kMostMargin = 0.1f;
+
 bool holds(const Bounds& box, const glm::vec3& p) {
   return glm::clamp(p, box.lo, box.hi) == p;
 }
@@ -15,13 +19,14 @@ bool holds(const Bounds& box, const glm::vec3& p) {
 CostModel::CostModel(const BuildOptions& options, const Bounds& scene, std::vector<glm::vec3> lights)
     : options_(options),
       small_area_(options.small_side * options.small_side * (scene.empty() ? 0.0f : scene.half_area())),
+      most_margin_(scene.empty() ? 0.0f : kMostMargin * scene.diagonal()),
       lights_(std::move(lights)) {}
 
 NodeCost CostModel::in(const Bounds& node) const {
   NodeCost cost{options_.cost_step, options_.cost_intersection};
   if (options_.eye) {
     const float distance = glm::distance(*options_.eye, glm::clamp(*options_.eye, node.lo, node.hi));
-    cost.margin = options_.margin * distance;
+    cost.margin = std::min(options_.margin * distance, most_margin_);
     cost.intersection = options_.cost_intersection_eye;
   } else if (node.half_area() < small_area_) {
     cost.intersection = options_.cost_intersection_small;

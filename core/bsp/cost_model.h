@@ -16,10 +16,9 @@ struct NodeCost {
 // The surface area heuristic asks how likely a random ray is to meet a box (Wald and Havran 2006). Rays of
 // packets differ in three ways, each with its constants in BuildOptions:
 // - A lane that does not meet a small node walks through it all the same, with its packet: to split it saves
-// fewer
-//   tests than its area says. Where a node is small against the scene, a test costs less.
+//   fewer tests than its area says. Where a node is small against the scene, a test costs less.
 // - Where the eye is known, so is what is small: sides count as longer by a share of their distance, some
-// pixels.
+//   pixels.
 // - All shadow rays of a light end in the leaf that holds it: there a test costs a multiple.
 class CostModel {
  public:
@@ -29,7 +28,7 @@ class CostModel {
 
  private:
   const BuildOptions& options_;
-  float small_area_;
+  float small_area_, most_margin_;
   std::vector<glm::vec3> lights_;
 };
 

@@ -230,15 +230,35 @@ TEST_F(ChartTest, WrongUseIsOneLine) {
   }
 }
 
-TEST_F(ChartTest, StabilityNeedsNoSceneAndFindsNoFailureOfTheDefaults) {
-  EXPECT_EQ(run("chart " + kSmall).exit_code, 2);
+TEST_F(ChartTest, StabilityGoesOnWhereItWasEndedAndFindsNoFailureOfTheDefaults) {
+  EXPECT_EQ(run("chart " + kSmall).exit_code, 2);  // without a scene
+  const CommandResult ended =
+      run_command("cd '" + folder_.string() +
+                      "' && ( '" PINOCCHIO_PROGRAM
+                      "' chart --stability --quick -o d & pid=$!; while kill -0 $pid && [ ! -e "
+                      "d/stability-part.json ]; do sleep 0.01; done; kill -INT $pid; wait $pid )",
+                  folder_ / "scratch");
+  ASSERT_EQ(ended.exit_code, 130) << ended.err;
+  const auto read = [&](const char* name) {
+    std::ifstream in(folder_ / name);
+    return nlohmann::json::parse(in, nullptr, false);
+  };
+  nlohmann::json part = read("d/stability-part.json");
+  ASSERT_GE(part["cells"].size(), 1u);
+  part["cells"][0]["trials"] = 12345;  // is it counted again?
+  write("d/stability-part.json", part.dump());
+  const CommandResult other = run("chart --stability --quiet -o d");  // with all rays
+  EXPECT_EQ(other.exit_code, 2);
+  EXPECT_NE(other.err.find("--restart"), std::string::npos) << other.err;
+
   const CommandResult result = run("chart --stability --quick -o d");
   EXPECT_EQ(result.exit_code, 0) << result.err;
   EXPECT_NE(result.out.find("\n0 failures of the defaults\n"), std::string::npos) << result.out;
   for (const char* file : {"d/stability.md", "d/stability.csv"}) EXPECT_TRUE(exists(file)) << file;
-  std::ifstream in(folder_ / "d/stability.json");
-  const nlohmann::json json = nlohmann::json::parse(in, nullptr, false);
+  EXPECT_FALSE(exists("d/stability-part.json"));
+  const nlohmann::json json = read("d/stability.json");
   ASSERT_TRUE(json.contains("rays") && json.contains("pictures"));
+  EXPECT_EQ(json["rays"][0]["trials"], 12345);
   const auto fails = [](const nlohmann::json& cell) { return cell["failures"] != 0; };
   EXPECT_TRUE(std::any_of(json["rays"].begin(), json["rays"].end(), fails));  // of the cheaper methods
 }

@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # consumer_test.sh HOW TREE BUILT OPTIONS...: builds the examples in an empty folder and runs them.
-# HOW installed: against the prefix that BUILT installs; subdirectory: by add_subdirectory of TREE. OPTIONS are
-# CMake's.
+# HOW installed: against the prefix that BUILT installs; subdirectory: by add_subdirectory of TREE, with BUILT's archives
+# in the place of those that it would compile (python/CMakeLists.txt compiles them so). OPTIONS are CMake's.
 set -euo pipefail
 how=$1 tree=$2 built=$3
 shift 3
@@ -15,9 +15,17 @@ build() { # SOURCE FOLDER OPTIONS...
   quietly cmake -G Ninja -S "$1" -B "$2" "${@:3}"
   quietly cmake --build "$2"
 }
+commands_of() { # EXAMPLE: the project's own, of all that building it runs
+  ninja -C "$work/build" -t commands "$1" | grep -E -- "-o (CMakeFiles/$1\.dir/|$1 )"
+}
 
 if [ "$how" = subdirectory ]; then
-  build "$tree/tests/consumer/subdirectory" "$work/build" -DPINOCCHIO_SOURCE="$tree" "$@"
+  quietly cmake -G Ninja -S "$tree/tests/consumer/subdirectory" -B "$work/build" -DPINOCCHIO_SOURCE="$tree" "$@"
+  (cd "$built" && cp --parents {core,gl,hybrid}/*.a "$work/build/pinocchio/")
+  for example in tracer_alone headless own_window; do
+    mkdir -p "$work/build/CMakeFiles/$example.dir/$tree/examples/$example"
+    (cd "$work/build" && quietly bash -e <(commands_of "$example"))
+  done
 else
   prefix=$work/prefix
   quietly cmake --install "$built" --prefix "$prefix"

@@ -50,6 +50,17 @@ TEST(Bsp, CostComparisonEndsTheSah) {
             build_tree(*scene.mesh, cheap_steps).nodes.size());
 }
 
+// From far away as well, or as wide as the numbers go: mirrored rays are asked of the same tree.
+TEST(Bsp, ForAKnownEyeIsNoLargerAndNoLeafIsTheScene) {
+  const Scene scene = random_soup(3000, 0.05f, 1);
+  const Counted free = count(build_tree(*scene.mesh));
+  for (const float away : {3.0f, 100.0f, 1e10f, 1e30f}) {
+    const Counted known = count(build_tree(*scene.mesh, {.eye = glm::vec3(0.0f, 0.0f, away)}));
+    EXPECT_LE(known.references, free.references) << away;
+    EXPECT_LT(known.largest_leaf, 100u) << away;
+  }
+}
+
 TEST(Bsp, StorageBeginsAtCacheLines) {
   const Scene scene = random_soup(100, 0.1f, 3);
   const BspTree tree = build_tree(*scene.mesh);

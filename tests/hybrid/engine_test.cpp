@@ -5,6 +5,7 @@
 
 #include <thread>
 
+#include "core/bsp/tree.h"
 #include "tests/support/frames.h"
 #include "tests/support/own_file.h"
 
@@ -110,6 +111,22 @@ TEST(Engine, ALonePictureMayBeWantedAsATexture) {
   EXPECT_EQ(frames, 1);
   EXPECT_NE(engine.gl_info(), nullptr);
   engine.throw_gl_complaints();
+}
+
+TEST(Engine, ATreeForOneViewDrawsTheSamePicture) {
+  Engine engine;
+  const Scene scene = load_or_die(source_path("scenes/speedboat"));
+  const View view{first_camera(scene), {160, 120}};
+  Settings settings = engine.resolve(scene, view.size, alone()).value();
+  settings.reuse = false;
+  std::vector<Image<glm::vec4>> pictures;
+  Renderer renderer(engine, {[&](Frame& frame) { frame.read_color(pictures.emplace_back()); }, {}});
+  const auto any = Engine::prepare(scene, settings), only = Engine::prepare(scene, settings, nullptr, &view);
+  for (const auto& tracer : {any, only}) renderer.submit({scene, tracer, settings, view});
+  renderer.drain();
+  ASSERT_EQ(pictures.size(), 2u);
+  EXPECT_TRUE(same(pictures[0], pictures[1]));
+  EXPECT_LT(only->tree().references.size(), any->tree().references.size());
 }
 
 // By its way to OpenGL's functions alone, as a window library gives it.

@@ -54,9 +54,11 @@ class Engine {
   [[nodiscard]] Expected<Settings> resolve(const Scene& scene, glm::ivec2 size, const Settings& settings = {},
                                            bool keeps_mask = true) const;
 
-  // The tree that frames of these settings trace in; null where they trace nothing. Any thread.
+  // The tree that frames of these settings trace in; null where they trace nothing. `only`: what all of them
+  // show, for which the tree is made then; no picture depends on it. Any thread.
   [[nodiscard]] static std::shared_ptr<const Tracer> prepare(const Scene& scene, const Settings& settings,
-                                                             Progress* progress = nullptr);
+                                                             Progress* progress = nullptr,
+                                                             const View* only = nullptr);
 
   // One picture, waited for: resolves, prepares (the last scene's tree is kept) and averages the samples.
   // Phases "build" and "render".
