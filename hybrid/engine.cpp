@@ -60,15 +60,19 @@ Workers& Engine::Parts::workers(int threads) {
 }
 
 std::shared_ptr<const GpuMesh> Engine::Parts::gpu_mesh(const std::shared_ptr<const Mesh>& mesh) {
-  const auto same_textures = [&](const auto& entry) {
-    return !mesh->textures.empty() && entry.first->textures.shares_with(mesh->textures);
-  };
-  const auto alike = std::ranges::find_if(meshes, same_textures);  // another pose of one scene
-  const std::shared_ptr<const GpuMesh> kept = alike == meshes.end() ? nullptr : alike->second;
+  std::shared_ptr<const GpuMesh>& found = meshes[mesh];
+  if (!found) {
+    GpuMesh::Shared shared;
+    for (const auto& [other, sent] : meshes) {  // another pose, or as it was before a material was edited
+      if (!sent) continue;
+      if (!mesh->textures.empty() && other->textures.shares_with(mesh->textures))
+        shared.textures = sent.get();
+      if (has_same_geometry(*other, *mesh)) shared.geometry = sent.get();
+    }
+    found = std::make_shared<const GpuMesh>(*mesh, shared);
+  }
   std::erase_if(meshes,
                 [&](const auto& entry) { return entry.first != mesh && entry.first.use_count() == 1; });
-  std::shared_ptr<const GpuMesh>& found = meshes[mesh];
-  if (!found) found = std::make_shared<const GpuMesh>(*mesh, kept.get());
   return found;
 }
 

@@ -52,6 +52,7 @@ const gl::Texture& Frame::texture() const {
   if (slot_.is_shown) return slot_.shown;
   (void)slot_.engine.gpu();
   const StageTimer timer(slot_.record, Stage::upload);
+  slot_.release_unused();
   fit(slot_.shown, slot_.color.size(), gl::kRgba32F);
   const std::span<std::byte> bytes = slot_.picture_up.open(slot_.shown.bytes());
   std::ranges::copy(std::as_bytes(slot_.color.pixels()), bytes.begin());
@@ -70,14 +71,7 @@ void Frame::read_color(Image<glm::vec4>& color) const {
     color = slot_.color;
     return;
   }
-  // A sample of many is taken from the CPU, which has it unrounded: the mean of samples that were cut off at
-  // white would be too dark.
-  if (s.composite == Processor::cpu && s.spp > 1) {
-    fit(color, slot_.unpacked.size());
-    for (std::size_t i = 0; i < color.pixels().size(); ++i)
-      color[i] = glm::vec4(slot_.unpacked[i], slot_.ids[i] == kNoTriangle ? 0.0f : 1.0f);
-    return;
-  }
+  if (slot_.picture_was_packed() && s.spp > 1) return slot_.copy_unpacked(color);
   const StageTimer timer(slot_.record, Stage::present);
   fit(color, slot_.picture.size());
   slot_.picture_back.start(slot_.picture);

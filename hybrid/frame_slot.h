@@ -69,12 +69,11 @@ struct FrameSlot {
   // CPU: what is seen, and the answer.
   Image<std::uint32_t> ids;
   Image<glm::u8vec3> phong_srgb;  // visibility gpu, composite cpu: light that needs no shadow ray
-  Image<glm::vec3>
-      unpacked;           // ... and spp above 1: the picture that it sends, before it is rounded and cut off
-  bool answered = false;  // the CPU's part is where it belongs
-  MaskImage mask;         // one sample for mask_scale pixels a side
-  Image<glm::vec3> reflection;   // likewise
-  gl::Texture reflection_index;  // where its tiles are in the reflection's texture
+  Image<glm::vec3> unpacked;      // ... and the picture that it sends, before it is rounded and cut off
+  bool answered = false;          // the CPU's part is where it belongs
+  MaskImage mask;                 // one sample for mask_scale pixels a side
+  Image<glm::vec3> reflection;    // likewise
+  gl::Texture reflection_index;   // where its tiles are in the reflection's texture
   std::size_t reflection_tiles = 0;
   Image<glm::vec4> color;  // the CPU alone: the finished picture, linear
 
@@ -107,6 +106,15 @@ struct FrameSlot {
             request.settings.terminator,
             request.scene};
   }
+  // Whether the GPU was sent the finished picture in bytes, cut off at white; the CPU has it whole.
+  [[nodiscard]] bool picture_was_packed() const {
+    return answered && request.settings.uses_gpu() && request.settings.composite == Processor::cpu;
+  }
+  // That picture, as a sample of many is to be: the mean of samples that were cut off would be too dark.
+  void copy_unpacked(Image<glm::vec4>& copy) const;
+  // Lets go of what frames of other settings needed and this one does not: else a slot keeps, for good, all
+  // that was ever asked for. In the context that made it.
+  void release_unused();
   // The CPU's answer where the GPU has it.
   [[nodiscard]] ShadingPasses::Traced answer_on_gpu() const;
 

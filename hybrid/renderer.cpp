@@ -270,7 +270,10 @@ void Renderer::Loop::finish(FrameSlot& frame) {
 
 void Renderer::Loop::deliver(FrameSlot& frame, const FrameSlot* older) {
   frame.state = FrameSlot::State::idle;  // lost, should a line below throw
-  if (schedule_of(frame.request.settings).gpu) composite_on_gpu(engine_.gpu(), frame, older);
+  if (schedule_of(frame.request.settings).gpu) {
+    composite_on_gpu(engine_.gpu(), frame, older);
+    frame.release_unused();
+  }
   frame.answer_of = older ? older : frame.answered ? &frame : nullptr;
   frame.state = FrameSlot::State::delivered;
   frame.complete = !older;

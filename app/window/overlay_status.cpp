@@ -126,11 +126,13 @@ void draw_loading(Model& model, float scale) {
                           ImVec2(0.5f, 0.0f));
   ImGui::Begin("loading", nullptr,
                kBare | ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoFocusOnAppearing);
-  ImGui::AlignTextToFramePadding();
+  const float most = 0.9f * display.x;
+  ImGui::PushTextWrapPos(most);
   ImGui::Text("%s, %.1f s", loading.phase.c_str(), loading.seconds);
-  ImGui::SameLine();
+  ImGui::PopTextWrapPos();
   if (button("Cancel", "stop, and keep what is shown")) model.asked.push_back(Action::cancel_loading);
-  const float width = std::max(ImGui::GetContentRegionAvail().x, std::min(220.0f * scale, 0.8f * display.x));
+  ImGui::SameLine();
+  const float width = std::min(220.0f * scale, most - ImGui::GetCursorPosX());
   const float share = static_cast<float>(std::clamp(loading.share, 0.0, 1.0));
   ImGui::ProgressBar(share, ImVec2(width, 0.0f),
                      format("%.0f %%", 100.0 * static_cast<double>(share)).c_str());

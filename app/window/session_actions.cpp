@@ -104,8 +104,10 @@ void Session::close_something() {
 void Session::frame_all() {
   const glm::vec2 size(window_.pixels());
   model_.camera.frame_all(size.x / std::max(size.y, 1.0f));
-  if (model_.tracer)
-    model_.camera.set_camera(before_walls(model_.camera.camera(), model_.camera.interest(), *model_.tracer));
+  wants_tree_ = true;
+  if (!model_.tracer)
+    return model_.messages.hint("walls may be in the way: the tree is being built; press F again");
+  model_.camera.set_camera(before_walls(model_.camera.camera(), model_.camera.interest(), *model_.tracer));
 }
 
 void Session::show_camera(std::size_t number) {

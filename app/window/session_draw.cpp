@@ -1,3 +1,5 @@
+#include <malloc.h>
+
 #include <algorithm>
 #include <utility>
 
@@ -104,6 +106,7 @@ void Session::draw_scene() {
     idle_ = !again_;
     if (!idle_) return;
     renderer_.drain();  // nothing is waited for: the last frames' figures
+    malloc_trim(0);     // what was done until now needed more than what is shown
     model_.history.pause();
     redraws_ = std::max(redraws_, 1);
     return;
@@ -172,7 +175,7 @@ const gl::Texture& Session::chosen_buffer(const Frame& frame) {
   }
   if (!gathers() || frame.request().view.camera != model_.camera.camera()) return frame.texture();
   accumulator_.add(frame);
-  if (accumulator_.samples() == 0) return frame.texture();
+  if (accumulator_.samples() <= 1) return frame.texture();
   model_.samples = accumulator_.samples();
   return accumulator_.average().color();
 }

@@ -58,23 +58,31 @@ gl::TextureBuffer unsigneds(const std::vector<T>& data) {
 
 }  // namespace
 
-GpuMesh::GpuMesh(const Mesh& mesh, const GpuMesh* shares_textures)
-    : triangles_(mesh.positions, mesh.triangles),
-      corners_(unsigneds(mesh.triangles)),
-      triangle_materials_(unsigneds(mesh.triangle_materials)),
-      positions_(floats(mesh.positions)),
-      normals_(floats(mesh.normals)),
+GpuMesh::Geometry::Geometry(const Mesh& mesh)
+    : triangles(mesh.positions, mesh.triangles),
+      corners(unsigneds(mesh.triangles)),
+      triangle_materials(unsigneds(mesh.triangle_materials)),
+      positions(floats(mesh.positions)),
+      normals(floats(mesh.normals)) {}
+
+GpuMesh::GpuMesh(const Mesh& mesh, const Shared& shared)
+    : geometry_(shared.geometry ? shared.geometry->geometry_ : std::make_shared<const Geometry>(mesh)),
       materials_(quads(material_texels(mesh))),
-      maps_(mesh, shares_textures ? &shares_textures->maps_ : nullptr),
+      maps_(mesh, shared.textures ? &shared.textures->maps_ : nullptr),
       // Reversed float depth is as fine far away as near by, so the near plane may be next to nothing.
       z_near_(std::max(mesh.bounds().diagonal() * 1e-6f, std::numeric_limits<float>::min())) {}
 
+bool has_same_geometry(const Mesh& a, const Mesh& b) {
+  return a.positions == b.positions && a.normals == b.normals && a.triangles == b.triangles &&
+         a.triangle_materials == b.triangle_materials;
+}
+
 int GpuMesh::bind(const gl::Program& program, int first_unit) const {
   int unit = first_unit;
-  program.set("triangle_corners", unit++, corners_);
-  program.set("triangle_materials", unit++, triangle_materials_);
-  program.set("positions", unit++, positions_);
-  program.set("normals", unit++, normals_);
+  program.set("triangle_corners", unit++, geometry_->corners);
+  program.set("triangle_materials", unit++, geometry_->triangle_materials);
+  program.set("positions", unit++, geometry_->positions);
+  program.set("normals", unit++, geometry_->normals);
   program.set("materials", unit++, materials_);
   return maps_.bind(program, unit);
 }

@@ -14,22 +14,36 @@ namespace pinocchio {
 // shaders/scene_fetch.glsl. Throws gl::Error where the GPU has no room.
 class GpuMesh {
  public:
-  // `shares_textures`: of another mesh that has the same textures; null: none is known.
-  explicit GpuMesh(const Mesh& mesh, const GpuMesh* shares_textures = nullptr);
+  // What of another mesh is the same, and is not sent again; null: none is known that has it.
+  struct Shared {
+    const GpuMesh* textures = nullptr;
+    const GpuMesh* geometry = nullptr;  // has_same_geometry
+  };
+  explicit GpuMesh(const Mesh& mesh, const Shared& shared);
+  explicit GpuMesh(const Mesh& mesh) : GpuMesh(mesh, Shared{}) {}
 
-  void draw() const { triangles_.draw(); }
+  void draw() const { geometry_->triangles.draw(); }
   // Gives the program in use the buffers, on texture units from `first_unit` on; returns the next free one.
   int bind(const gl::Program& program, int first_unit) const;
 
   [[nodiscard]] const GpuMaps& maps() const { return maps_; }
+  [[nodiscard]] bool shares_geometry_with(const GpuMesh& other) const { return geometry_ == other.geometry_; }
   [[nodiscard]] float z_near() const { return z_near_; }  // scene units
 
  private:
-  gl::Mesh triangles_;
-  gl::TextureBuffer corners_, triangle_materials_, positions_, normals_, materials_;
+  struct Geometry {
+    explicit Geometry(const Mesh& mesh);
+    gl::Mesh triangles;
+    gl::TextureBuffer corners, triangle_materials, positions, normals;
+  };
+  std::shared_ptr<const Geometry> geometry_;
+  gl::TextureBuffer materials_;
   GpuMaps maps_;
   float z_near_;
 };
+
+// Whether the meshes differ in materials and maps alone, as after an edit.
+[[nodiscard]] bool has_same_geometry(const Mesh& a, const Mesh& b);
 
 // A frame's lights, likewise.
 class GpuLights {

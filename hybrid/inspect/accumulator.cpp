@@ -2,7 +2,6 @@
 
 #include <algorithm>
 
-#include "gl/transfer.h"
 #include "hybrid/engine_parts.h"
 #include "hybrid/frame_slot.h"
 
@@ -22,14 +21,12 @@ Accumulator::Accumulator(Engine& engine) : programs_(engine.parts().gpu().progra
 void Accumulator::add(const Frame& frame) {
   const FrameSlot* const of = frame.slot().answer_of;
   if (of && !same_view(of->request, frame.request())) return reset();
-  add(frame.request(), frame.texture());
-}
-
-void Accumulator::add(const FrameRequest& request, const gl::Texture& picture) {
+  const FrameRequest& request = frame.request();
   if (samples_ > 0 && *of_ == request) return;
   if (!of_ || !same_view(*of_, request)) reset();
   of_ = request;
 
+  const gl::Texture& picture = whole_picture(frame);
   const std::size_t next = 1 - newest_;
   fit(averages_[next], picture.size(), gl::kRgba32F);
   gl::begin_fullscreen_pass(averages_[next]);
@@ -41,6 +38,16 @@ void Accumulator::add(const FrameRequest& request, const gl::Texture& picture) {
   triangle_.draw();
   newest_ = next;
   ++samples_;
+}
+
+const gl::Texture& Accumulator::whole_picture(const Frame& frame) {
+  if (!frame.slot().picture_was_packed()) return frame.texture();
+  frame.slot().copy_unpacked(whole_);
+  fit(whole_texture_, whole_.size(), gl::kRgba32F);
+  const std::span<std::byte> bytes = upload_.open(whole_texture_.bytes());
+  std::ranges::copy(std::as_bytes(whole_.pixels()), bytes.begin());
+  upload_.send(whole_texture_);
+  return whole_texture_;
 }
 
 void Accumulator::read_average(Image<glm::vec4>& color) {

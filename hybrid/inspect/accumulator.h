@@ -6,6 +6,8 @@
 
 #include "gl/draw.h"
 #include "gl/framebuffer.h"
+#include "gl/texture.h"
+#include "gl/transfer.h"
 #include "pinocchio/renderer.h"
 
 namespace pinocchio {
@@ -18,9 +20,10 @@ class Accumulator {
  public:
   explicit Accumulator(Engine& engine);
 
-  // Adds a delivered frame's picture. Begins anew by itself where scene, plan, camera, size or part are not
-  // those of the frames before; a sample that was the last one added is not added twice. A reprojected frame
-  // whose answer is of another view is no sample of this one: samples() is 0 after it.
+  // Adds a delivered frame's picture, that which the CPU sent in bytes as it was before. Begins anew by
+  // itself where scene, plan, camera, size or part are not those of the frames before; a sample that was the
+  // last one added is not added twice. A reprojected frame whose answer is of another view is no sample of
+  // this one: samples() is 0 after it.
   void add(const Frame& frame);
   void reset() { samples_ = 0; }
 
@@ -31,13 +34,16 @@ class Accumulator {
   void read_average(Image<glm::vec4>& color);
 
  private:
-  void add(const FrameRequest& request, const gl::Texture& picture);
+  [[nodiscard]] const gl::Texture& whole_picture(const Frame& frame);
 
   std::shared_ptr<Programs> programs_;
   gl::FullscreenTriangle triangle_;
   // Floats: of the n-th sample an n-th is added, which in halves rounds to nothing from the 2048th on, and
   // to steps a person sees long before. One is read while the other is written.
   std::array<gl::Framebuffer, 2> averages_;
+  Image<glm::vec4> whole_;  // what the GPU lacks: the picture before it was cut off
+  gl::Texture whole_texture_;
+  gl::Upload upload_;
   std::size_t newest_ = 0;
   int samples_ = 0;
   std::optional<FrameRequest> of_;  // the newest sample

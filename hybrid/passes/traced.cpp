@@ -98,17 +98,14 @@ void trace(Workers& workers, FrameSlot& frame) {
   TileOutputs all = outputs(s.mask_bits > 0 ? s.mask_scale : s.reflection_scale);
   add_mask(all);
   add_reflection(all);
-  Image<glm::vec3> light;
   if (!s.uses_gpu()) all.color = &frame.color;
   if (s.uses_gpu() && s.composite == Processor::cpu) {
-    light = Image<glm::vec3>(size);
-    unpack_srgb(frame.phong_srgb.pixels(), workers, light);
-    all.added = &light;
+    fit(frame.unpacked, size);
+    unpack_srgb(frame.phong_srgb.pixels(), workers, frame.unpacked);
+    all.added = &frame.unpacked;
   }
   run(workers, frame, all, share);
-  if (!all.added) return;
-  pack_srgb(light, workers, frame[Channel::picture].bytes);
-  if (s.spp > 1) frame.unpacked = std::move(light);
+  if (all.added) pack_srgb(frame.unpacked, workers, frame[Channel::picture].bytes);
 }
 
 MaskImage enlarged(const MaskImage& mask, int scale, glm::ivec2 size) {

@@ -127,7 +127,10 @@ class PyEngine {
  public:
   PyEngine(int threads, const std::string& backend, const std::string& device)
       : threads_(threads_wanted(threads)),
-        engine_(std::make_unique<Engine>(EngineOptions{.backend = backend, .device = device})) {}
+        engine_(std::make_unique<Engine>(EngineOptions{.backend = backend, .device = device})) {
+    // Else the first array imports it, and an interrupt meanwhile comes out as a TypeError.
+    (void)nb::module_::import_("numpy");
+  }
   ~PyEngine() {
     if (pid_ != getpid()) (void)engine_.release();  // its threads stayed in the parent
   }

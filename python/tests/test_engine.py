@@ -89,8 +89,9 @@ def test_ctrl_c(scenes, call):
         "import pinocchio, signal, sys\n"
         "signal.signal(signal.SIGINT, signal.default_int_handler)\n"  # a job in the background ignores it
         f"scene = pinocchio.load_scene({str(scenes / 'cornell.gltf')!r})\n"
+        "engine = pinocchio.Engine()\n"
         "print('go', flush=True)\n"
-        f"try: pinocchio.Engine().{call}\n"
+        f"try: engine.{call}\n"
         "except KeyboardInterrupt: sys.exit(42)\n"
     )
     child = subprocess.Popen([sys.executable, "-c", code], stdout=subprocess.PIPE)

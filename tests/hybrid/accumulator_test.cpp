@@ -56,6 +56,29 @@ TEST_P(AccumulatorTest, IsTheRenderersMeanOfAsManySamples) {
   }
 }
 
+// Of light that is brighter than white, which design 2's bytes cut off, nothing is lost.
+TEST_P(AccumulatorTest, IsTheRenderersMeanWhereThePictureTravelsInBytes) {
+  Scene scene = load_or_die(source_path("scenes/cornell"));
+  for (Light& light : scene.lights) light.intensity *= 4.0f;
+  constexpr int kSamples = 8;
+  const Settings two = by({{"design", "2"}});
+  draw(samples_of(request(scene, settings_for(scene, two), kSize), kSamples), Exchange::pipelined,
+       [&](Frame& frame) { accumulator_->add(frame); });
+  Image<glm::vec4> mean;
+  accumulator_->read_average(mean);
+  DrawRequest whole{.settings = two, .size = kSize, .backend = GetParam()};
+  whole.settings.spp = kSamples;
+  const FrameResult rendered = draw_one(scene, whole);
+  context().make_current();  // the renderer's has been it
+  float brightest = 0.0f;
+  for (std::size_t i = 0; i < mean.pixels().size(); ++i) {
+    brightest = std::max(brightest, mean[i].r);
+    for (int c = 0; c < 4; ++c)
+      ASSERT_NEAR(mean[i][c], rendered.color[i][c], 1e-4f * std::max(rendered.color[i][c], 1.0f));
+  }
+  EXPECT_GT(brightest, 1.5f);
+}
+
 TEST_P(AccumulatorTest, BeginsAnewWhereTheViewChangesAndCountsNoSampleTwice) {
   const Scene scene = load_or_die(source_path("scenes/cornell"));
   std::vector<FrameRequest> requests = samples_of(request(scene, settings_for(scene), kSize), 4);

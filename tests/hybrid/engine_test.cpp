@@ -183,5 +183,34 @@ TEST_P(SharedEngineTest, LetsGoOfAMeshThatNobodyHas) {
   EXPECT_TRUE(first.expired());
 }
 
+// As the window edits materials: a new mesh whose geometry is the old one's. It is drawn as if sent whole.
+TEST_P(SharedEngineTest, SendsNoGeometryAgainWhereMaterialsAloneDiffer) {
+  Scene scene = cornell();
+  const FrameRequest before = request(scene, settings_for(scene), {48, 32});
+  {
+    MeshEdit mesh(scene);
+    for (Material& material : mesh->materials) material.diffuse *= 0.5f;
+  }
+  FrameRequest after = before, moved = before;
+  after.scene = scene;
+  MeshEdit(scene)->positions.front().x += 0.01f;
+  moved.scene = scene;
+  std::vector<std::shared_ptr<const GpuMesh>> meshes;
+  std::vector<Image<glm::vec4>> pictures;
+  const auto look = [&](Frame& frame) {
+    meshes.push_back(frame.slot().mesh);
+    frame.read_color(pictures.emplace_back());
+  };
+  draw({before, after, moved}, Exchange::sync, look);
+  ASSERT_EQ(meshes.size(), 3u);
+  EXPECT_NE(meshes[0], meshes[1]);
+  EXPECT_TRUE(meshes[1]->shares_geometry_with(*meshes[0]));
+  EXPECT_FALSE(meshes[2]->shares_geometry_with(*meshes[1]));
+  EXPECT_FALSE(same(pictures[1], pictures[0]));
+  engine_.emplace(context());  // that has no other mesh
+  draw({after}, Exchange::sync, look);
+  EXPECT_TRUE(same(pictures.back(), pictures[1]));
+}
+
 }  // namespace
 }  // namespace pinocchio

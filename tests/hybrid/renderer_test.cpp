@@ -391,6 +391,42 @@ TEST_P(RendererTest, ReprojectsNoAnswerThatTheCpuKept) {
   EXPECT_TRUE(same(deliveries_[1].color, deliveries_[2].color));
 }
 
+// A slot keeps no buffer that its newest frame's settings do not use.
+TEST_P(RendererTest, LetsGoOfWhatOtherSettingsNeeded) {
+  constexpr glm::ivec2 kSize{40, 30};
+  const Scene scene = load_or_die(source_path("scenes/cornell"));
+  std::vector<FrameRequest> requests;
+  for (const auto& [option, value] : std::vector<std::pair<const char*, const char*>>{{"mode", "raytrace"},
+                                                                                      {"plan", "slides"},
+                                                                                      {"design", "2"},
+                                                                                      {"mode", "raytrace"},
+                                                                                      {"mode", "raster"}})
+    for (int i = 0; i < kFramesInFlight; ++i) {
+      requests.push_back(request(scene, settings_for(scene, by({{option, value}})), kSize));
+      requests.back().view.camera.eye.x += 0.01f * static_cast<float>(i);
+    }
+  std::size_t delivered = 0;
+  draw(requests, Exchange::sync, [&](Frame& frame) {
+    (void)frame.texture();
+    const FrameSlot& slot = frame.slot();
+    const Settings& s = frame.request().settings;
+    const bool alone = !s.uses_gpu(), packs = !alone && s.composite == Processor::cpu;
+    EXPECT_EQ(slot.color.size() == kSize, alone);
+    EXPECT_EQ(slot.shown.size() == kSize, alone);
+    EXPECT_EQ(slot.picture.size() == kSize, !alone);
+    EXPECT_EQ(slot.unpacked.size() == kSize, packs);
+    EXPECT_EQ(slot[Channel::ids].target.size() == kSize, !alone);
+    EXPECT_EQ(slot[Channel::phong].target.size() == kSize, packs);
+    for (const Channel channel : {Channel::normals, Channel::gbuffer, Channel::phong}) {
+      const bool travels =
+          std::ranges::find(slot.layout, channel, &ChannelLayout::channel) != slot.layout.end();
+      EXPECT_EQ(slot[channel].target.size() == kSize, travels);
+    }
+    ++delivered;
+  });
+  EXPECT_EQ(delivered, requests.size());
+}
+
 TEST_P(RendererTest, TwoRenderersShareAnEngine) {
   const Scene cornell = load_or_die(source_path("scenes/cornell")),
               lights = load_or_die(source_path("scenes/two-lights"));

@@ -107,6 +107,22 @@ TEST_F(LookingTest, AMaterialIsPickedByAClick) {
   expect_clean_close();
 }
 
+// From outside, where its walls are one grey box, F goes in to what stands in it.
+TEST_F(LookingTest, FShowsWhatIsInARoom) {
+  open(scene("two-lights"), "--spp 1 --eye 0,5,60 --target 0,2,0");
+  settle("outside.png");
+  const auto colors = [this](const std::string& file) {
+    return std::stoi(
+        run_command("cd '" + folder_.string() + "' && convert " + file + " -format %k info:", folder_).out);
+  };
+  key("f");
+  EXPECT_TRUE(becomes([this] { return load(0.5) < 0.05; }));
+  settle("inside.png");
+  EXPECT_LT(colors("outside.png"), 100);
+  EXPECT_GT(colors("inside.png"), 2000);
+  expect_clean_close();
+}
+
 // What it gives up is in the command.
 TEST_F(LookingTest, ABudgetIsKeptAndSaid) {
   open(scene("two-lights"), "--budget 1ms");

@@ -45,8 +45,8 @@ TEST_F(OpeningTest, ADroppedFileIsOpenedAndABadOneChangesNothing) {
   EXPECT_EQ(program_->wait(), 0);
 }
 
-// While it is read: text, which takes a second at least.
-TEST_F(OpeningTest, CancelKeepsTheSceneThatIsShown) {
+// While it is read: text, which takes a second at least; then while its tree is built.
+TEST_F(OpeningTest, CancelKeepsWhatIsShown) {
   copy_scenes({"cornell.gltf", "cornell.bin"});
   ASSERT_EQ(
       run_command("cd '" + folder_.string() +
@@ -55,19 +55,33 @@ TEST_F(OpeningTest, CancelKeepsTheSceneThatIsShown) {
           .exit_code,
       0);
   open("cornell.gltf", "--spp 1");
-  std::string clicks;  // the button is at the right of the bar's window, which is as wide as its words
-  for (int round = 0; round < 4; ++round)
-    for (int x = 220; x <= 290; x += 12) clicks += at(x, 26) + "sleep 0.02 click 1 ";
+  const auto cancel = [this](int rounds) {  // the button is at the left, below one line of words or two
+    std::string clicks;
+    for (int round = 0; round < rounds; ++round)
+      for (const int y : {36, 53})
+        for (int x = 30; x <= 90; x += 15) clicks += at(x, y) + "sleep 0.02 click 1 ";
+    xdo(clicks);
+  };
   const auto rests = [this] { return becomes([this] { return load(1.0) < 0.05; }); };
   const std::string eye = option(command_line(), "--eye");
-  xdo("key Right sleep 0.1 " + clicks);
+  key("Right");
+  cancel(3);
   EXPECT_TRUE(rests());
   EXPECT_NE(command_line().find("cornell.gltf"), std::string::npos);
   EXPECT_TRUE(rests());  // nothing comes later
   EXPECT_NE(command_line().find("cornell.gltf"), std::string::npos);
   EXPECT_EQ(option(command_line(), "--eye"), eye);
   key("Right");  // and not cancelled it is opened
-  EXPECT_TRUE(shows("large.obj"));
+  ASSERT_TRUE(becomes([this] { return xdo("getwindowname " + window_).find("large") != std::string::npos; }));
+  cancel(2);  // now its tree is built
+  EXPECT_TRUE(rests());
+  // Without it the GPU draws alone, as in mode raster.
+  xdo(at(160, 200));
+  settle("cancelled.png");
+  key("m m");
+  EXPECT_EQ(option(command_line(), "--mode"), "raster");
+  settle("raster.png");
+  EXPECT_EQ(different_in("320x150+0+0", "cancelled.png", "raster.png"), 0);  // above the messages
   expect_clean_close("no light");
 }
 

@@ -84,6 +84,32 @@ TEST_F(PanelsTest, AMaterialIsPickedAndChanged) {
   expect_clean_close();
 }
 
+// Each edit draws one frame, and that has it: in a recording there is no other.
+TEST_F(PanelsTest, AMaterialIsSeenInTheNextFrame) {
+  open_with("Materials", 8, scene("cornell"), " --mode hybrid");
+  settle();
+  const std::vector<int> rows = widgets_at(8 + 112, 8 + 140, 420);
+  ASSERT_EQ(rows.size(), 5u);
+  click_with("ctrl", 480, 200);  // the back wall
+  settle();
+  drag_from(8 + 130, rows[0], 60);
+  settle();
+  pause_ms(500);  // a step of its own
+  key("k");
+  const auto file = [](int number) { return "cornell-001-000" + std::to_string(number) + ".png"; };
+  const auto exists = [&](int number) { return std::filesystem::exists(folder_ / file(number)); };
+  for (int number = 1; number <= 3; ++number) {
+    key(number == 2 ? "ctrl+y" : "ctrl+z");
+    EXPECT_TRUE(becomes([&] { return exists(number); }, 20.0)) << number;
+    settle();
+    EXPECT_FALSE(exists(number + 1));
+  }
+  key("k");
+  EXPECT_GT(different_in(kPicture, file(1), file(2)), 100);
+  EXPECT_EQ(different(file(1), file(3)), 0);
+  expect_clean_close();
+}
+
 // The camera is on the axis, before its target.
 TEST_F(PanelsTest, ButtonsLookAlongTheAxes) {
   open_with("Camera", 8, scene("cornell"));
