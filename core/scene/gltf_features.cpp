@@ -1,6 +1,7 @@
 #include "core/scene/gltf_features.h"
 
 #include <algorithm>
+#include <array>
 #include <nlohmann/json.hpp>
 #include <set>
 #include <string_view>
@@ -121,6 +122,8 @@ std::string text_of(const Json& json, const std::string& key) {
   return value && value->is_string() ? value->get<std::string>() : std::string();
 }
 
+constexpr double kTriangles = 4.0;  // a primitive's mode, and the least of those that are triangles
+
 double number_of(const Json& json, const std::string& key, double otherwise) {
   const Json* value = object_of(json, key);
   return value && value->is_number() ? value->get<double>() : otherwise;
@@ -156,7 +159,7 @@ class Audit {
     const Json& materials = array_of(gltf_, "materials");
     for (std::size_t i = 0; i < materials.size(); ++i)
       if (used_materials_.contains(static_cast<double>(i)))
-        look_at_material(materials[i], place("material", materials[i], i));
+        look_at_material(i, materials[i], place("material", materials[i], i));
     look_at_scenes();
   }
 
@@ -187,11 +190,19 @@ class Audit {
   void look_at_meshes() {
     const Json& meshes = array_of(gltf_, "meshes");
     for (const Json& mesh : meshes)
-      for (const Json& primitive : array_of(mesh, "primitives"))
-        used_materials_.insert(number_of(primitive, "material", -1));
+      for (const Json& primitive : array_of(mesh, "primitives")) {
+        const double material = number_of(primitive, "material", -1);
+        used_materials_.insert(material);
+        if (number_of(primitive, "mode", kTriangles) < kTriangles)
+          continue;  // points and lines are not drawn
+        const Json* attributes = object_of(primitive, "attributes");
+        for (std::size_t set = 0; set < uncovered_.size(); ++set)
+          if (!attributes || !attributes->contains("TEXCOORD_" + std::to_string(set)))
+            uncovered_[set].insert(material);
+      }
   }
 
-  void look_at_material(const Json& material, const std::string& where) {
+  void look_at_material(std::size_t index, const Json& material, const std::string& where) {
     for (const TypedMember& member : kTypedMembers)
       if (const Json::json_pointer pointer(member.at);
           material.contains(pointer) && !member.fits(material[pointer]))
@@ -199,10 +210,11 @@ class Audit {
              "the default is used");
     for (const char* at : kTextureMembers)
       if (const Json::json_pointer pointer(at); material.contains(pointer))
-        look_at_texture(material[pointer], "its " + last_name(at), where);
+        look_at_texture(index, material[pointer], "its " + last_name(at), where);
   }
 
-  void look_at_texture(const Json& info, const std::string& which, const std::string& where) {
+  void look_at_texture(std::size_t material, const Json& info, const std::string& which,
+                       const std::string& where) {
     const Json* texture = element_of("textures", number_of(info, "index", -1));
     if (!texture || !has_image(*texture))
       lost(where, which + " names no image that there is", "what it would have covered has one colour");
@@ -213,6 +225,10 @@ class Audit {
     const Json* transform = extensions ? object_of(*extensions, "KHR_texture_transform") : nullptr;
     if (transform && !transform->is_object())
       lost(where, which + "'s KHR_texture_transform is not an object", "it lies untransformed");
+    const double usual = number_of(info, "texCoord", 0),
+                 set = transform ? number_of(*transform, "texCoord", usual) : usual;
+    if (uncovered_[set == 1 ? 1 : 0].contains(static_cast<double>(material)))
+      lost(where, which + " lies on triangles without texture coordinates", "it has one colour there");
   }
 
   // Of an extension that is not read is warned where it is.
@@ -242,6 +258,8 @@ class Audit {
   const Json& gltf_;
   Warnings& warnings_;
   std::set<double> used_materials_;
+  // Materials of triangles that have not that set of texture coordinates.
+  std::array<std::set<double>, 2> uncovered_;
 };
 
 }  // namespace

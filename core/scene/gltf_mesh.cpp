@@ -76,16 +76,24 @@ class MeshPlacer {
       glm::uvec3& triangle = mesh_.triangles[i];
       if (placement_.mirrors()) std::swap(triangle.y, triangle.z);
       triangle += *first;
+      is_partly_smooth_ |= has_void_normals_ && is_partly_smooth(triangle);
     }
     resize_large(mesh_.triangle_materials, mesh_.triangles.size(),
                  primitive.material >= 0 ? static_cast<std::uint32_t>(primitive.material) : default_material);
     return {};
   }
 
-  // Of those that the file gives: they have no length, so that triangles have their own.
-  [[nodiscard]] bool has_void_normals() const { return has_void_normals_; }
+  // Whether some normals of a triangle have no length. All three without ask for its own, as we save it.
+  [[nodiscard]] bool is_partly_smooth() const { return is_partly_smooth_; }
 
  private:
+  [[nodiscard]] bool is_partly_smooth(const glm::uvec3& triangle) const {
+    int given = 0;
+    for (int corner = 0; corner < 3; ++corner)
+      given += rest_.normals[triangle[corner]] != glm::vec3(0.0f) ? 1 : 0;
+    return given % 3 != 0;
+  }
+
   // Appends the primitive's triangles, whose corners are counted from its first vertex.
   Expected<void> add_corners(const tinygltf::Primitive& primitive, std::size_t vertex_count) {
     std::vector<std::uint32_t> indices;
@@ -208,7 +216,7 @@ class MeshPlacer {
   DeformationReader* deformation_;  // null: nothing deforms it
   std::map<Attributes, std::uint32_t> placed_;
   std::map<std::uint32_t, std::size_t> counts_;  // of vertices, by the first of them
-  bool has_void_normals_ = false;
+  bool has_void_normals_ = false, is_partly_smooth_ = false;
 };
 
 }  // namespace
@@ -242,9 +250,9 @@ Expected<void> add_gltf_mesh(const GltfFile& file, int mesh, const glm::mat4& wo
       return Unexpected(*file.limit->error());
     if (const Expected<void> added = placer.add(primitive, default_material); !added) return added;
   }
-  if (placer.has_void_normals())
+  if (placer.is_partly_smooth())
     warnings.add({file.path.string(), "mesh " + std::to_string(mesh), "normals of no length are left out",
-                  "triangles there are as flat as they are"});
+                  "triangles there are shaded by their other corners' alone"});
   return {};
 }
 

@@ -59,19 +59,22 @@ def turn(axis, angle):
 
 def grid(columns, rows, at):
     """Points, normals by differences, texture coordinates and triangles of at(u, v), u to the right, v down."""
-    def point(i, j):
-        return at(i / columns, j / rows)
-    points, normals, uvs, triangles = [], [], [], []
     step = 1e-3
+
+    def normal(u, v):
+        a, b, c, d = at(u - step, v), at(u + step, v), at(u, v - step), at(u, v + step)
+        du, dv = [q - p for p, q in zip(a, b)], [q - p for p, q in zip(c, d)]
+        n = (dv[1] * du[2] - dv[2] * du[1], dv[2] * du[0] - dv[0] * du[2], dv[0] * du[1] - dv[1] * du[0])
+        size = math.sqrt(sum(k * k for k in n))
+        # Where a row is one point, as it is beside it.
+        return tuple(k / size for k in n) if size > 1e-12 else normal(u, v + (step if v < 0.5 else -step))
+
+    points, normals, uvs, triangles = [], [], [], []
     for j in range(rows + 1):
         for i in range(columns + 1):
             u, v = i / columns, j / rows
-            a, b, c, d = at(u - step, v), at(u + step, v), at(u, v - step), at(u, v + step)
-            du, dv = [q - p for p, q in zip(a, b)], [q - p for p, q in zip(c, d)]
-            n = (dv[1] * du[2] - dv[2] * du[1], dv[2] * du[0] - dv[0] * du[2], dv[0] * du[1] - dv[1] * du[0])
-            size = math.sqrt(sum(k * k for k in n)) or 1.0
-            normals.append(tuple(k / size for k in n))
-            points.append(point(i, j))
+            normals.append(normal(u, v))
+            points.append(at(u, v))
             uvs.append((u, v))
     for j in range(rows):
         for i in range(columns):

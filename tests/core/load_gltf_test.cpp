@@ -178,13 +178,16 @@ TEST(LoadGltf, VolumesTakeLight) {
   EXPECT_FALSE(read().attenuates());
 }
 
-TEST(LoadGltf, NormalsOfNoLengthAreMissed) {
+TEST(LoadGltf, NormalsOfNoLengthAreMissedBesideOthers) {
   Json json = triangle_json();
   json["accessors"].push_back({{"componentType", 5126}, {"count", 4}, {"type", "VEC3"}});  // zeros
-  json["meshes"][0]["primitives"][0]["attributes"]["NORMAL"] = 2;
+  Json& attributes = json["meshes"][0]["primitives"][0]["attributes"];
+  attributes["NORMAL"] = 2;
   Warnings warnings;
-  const Scene scene = load(json, &warnings).value();
-  EXPECT_EQ(scene.mesh->normals[0], glm::vec3(0.0f));  // asks for the triangle's own
+  EXPECT_EQ(load(json, &warnings).value().mesh->normals[0], glm::vec3(0.0f));  // asks for the triangle's own
+  EXPECT_TRUE(warnings.empty());
+  attributes["NORMAL"] = attributes["POSITION"];  // whose first is the origin
+  EXPECT_EQ(load(json, &warnings).value().mesh->normals[0], glm::vec3(0.0f));
   ASSERT_EQ(warnings.size(), 1u);
   EXPECT_EQ(warnings[0].where, "mesh 0");
   EXPECT_NE(warnings[0].what.find("normals of no length"), std::string::npos);

@@ -57,9 +57,26 @@ TEST(LoadLost, MaterialsThatNothingUsesAreNotMissed) {
   EXPECT_TRUE(warnings_of(json).empty());
 }
 
+// With a texture that lies as texture coordinates say.
+Json covered_json() {
+  return with_coordinates(textured_json({{"uri", "data:;base64,UDYgMSAxIDI1NQoKFB4="}}));
+}
+
+TEST(LoadLost, TexturesWithoutCoordinates) {
+  Json json = covered_json();
+  Json& texture = json["materials"][0]["pbrMetallicRoughness"]["baseColorTexture"];
+  const std::string warning = "its baseColorTexture lies on triangles without texture coordinates";
+  texture["texCoord"] = 1;
+  EXPECT_NE(line_about(warnings_of(json), warning), "");
+  texture["extensions"]["KHR_texture_transform"]["texCoord"] = 0;
+  EXPECT_EQ(line_about(warnings_of(json), warning), "");
+  json["meshes"][0]["primitives"][0]["attributes"].erase("TEXCOORD_0");
+  EXPECT_NE(line_about(warnings_of(json), warning), "");
+}
+
 // Values that glTF does not allow; the default that is drawn instead is not meant.
 TEST(LoadLost, MembersOfTheWrongType) {
-  Json json = textured_json({{"uri", "data:;base64,UDYgMSAxIDI1NQoKFB4="}});
+  Json json = covered_json();
   EXPECT_TRUE(warnings_of(json).empty());
   Json& texture = json["materials"][0]["pbrMetallicRoughness"]["baseColorTexture"];
   for (const Json& index : {Json(-1), Json(1), Json("0"), Json()}) {

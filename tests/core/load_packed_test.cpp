@@ -184,7 +184,7 @@ std::string png_of(std::uint32_t width, std::uint32_t height) {
 }
 
 Json textured_with(const std::string& image) {
-  return textured_json({{"uri", "data:image/png;base64," + base64(image)}});
+  return with_coordinates(textured_json({{"uri", "data:image/png;base64," + base64(image)}}));
 }
 
 TEST(LoadPacked, ImagesClaimNoMemoryBeforeTheLimitIsAsked) {
@@ -218,7 +218,7 @@ TEST(LoadPacked, PipesAreRefusedAtOnce) {
   json["buffers"][0]["uri"] = pipe.filename().string();
   EXPECT_NE(error_of(json).find("pipe or device"), std::string::npos);
   Warnings warnings;
-  EXPECT_TRUE(load(textured_json({{"uri", pipe.filename().string()}}), &warnings));
+  EXPECT_TRUE(load(with_coordinates(textured_json({{"uri", pipe.filename().string()}})), &warnings));
   ASSERT_EQ(warnings.size(), 1u);
   EXPECT_NE(warnings[0].message().find("pipe or device"), std::string::npos);
   for (const char* name : {"pipe.obj", "pipe.gltf", "pipe.ply"}) {

@@ -60,4 +60,12 @@ inline Json textured_json(const Json& image) {
   return json;
 }
 
+// The same, with texture coordinates: one attribute more, and its accessor.
+inline Json with_coordinates(Json json) {
+  Json& accessors = json["accessors"];
+  json["meshes"][0]["primitives"][0]["attributes"]["TEXCOORD_0"] = accessors.size();
+  accessors.push_back({{"bufferView", 0}, {"componentType", 5126}, {"count", 4}, {"type", "VEC2"}});
+  return json;
+}
+
 }  // namespace pinocchio
