@@ -1,6 +1,5 @@
-// Widgets as a person meets them: pressed, looked at, and what the picture and the captions do then.
+// Widgets as a person meets them: pressed and looked at, and what the picture does then.
 #include <array>
-#include <span>
 
 #include "core/compare/magma.h"
 #include "tests/view/display.h"
@@ -186,60 +185,6 @@ TEST_F(WidgetsTest, TheDifferenceHasItsColourScale) {
   click(xs[0], all[kCompare]);
   EXPECT_FALSE(has_scale(still("off.png")));
   EXPECT_EQ(different_in(kPicture, "opened.png", "off.png"), 0);
-  expect_clean_close();
-}
-
-// Words over the picture at its upper edge, as bits; their first is at the caption's left edge.
-class CaptionTest : public WidgetsTest {
- protected:
-  static constexpr int kFrom = 10, kRows = 26;  // of the caption's first line
-
-  [[nodiscard]] std::vector<std::vector<bool>> caption() const {  // by columns
-    grab("caption.png");
-    const std::string box = "x" + std::to_string(kRows) + "+0+" + std::to_string(kFrom);
-    const std::vector<glm::u8vec3> all = pixels("1280" + box, "caption.png");
-    const std::size_t width = all.size() / kRows;
-    std::vector<std::vector<bool>> columns;
-    for (std::size_t x = 0; x < width; ++x) {
-      if (all[x].r > 27 || all[x].g > 27) {  // beside it: brighter
-        if (columns.size() > 100) break;
-        columns.clear();
-        continue;
-      }
-      columns.emplace_back();
-      for (std::size_t y = 0; y < kRows; ++y) columns.back().push_back(all[y * width + x].g > 128);
-    }
-    return columns;
-  }
-  // Columns from the left in which two captions are alike.
-  [[nodiscard]] static std::size_t alike(const std::vector<std::vector<bool>>& a,
-                                         const std::vector<std::vector<bool>>& b) {
-    return static_cast<std::size_t>(std::ranges::mismatch(a, b).in1 - a.begin());
-  }
-};
-
-// "the reference is drawn to 6 %", 12 %, ...: alike but for the figure; then that the error is measured; then
-// the error, once: it is not shown while it would still change.
-TEST_F(CaptionTest, TheErrorIsShownOnceTheReferenceIsComplete) {
-  open_as_is(scene("cornell"), "1280x760", "--spp 1");
-  key("b");
-  std::vector<std::vector<std::vector<bool>>> seen;  // each once, in their order
-  ASSERT_TRUE(becomes([&] {
-    std::vector<std::vector<bool>> now = caption();
-    if (now.size() > 100 && (seen.empty() || now != seen.back())) seen.push_back(std::move(now));
-    return seen.size() > 2 && load(0.1) < 0.05;
-  }));
-  seen.push_back(caption());
-  if (seen.back() == seen[seen.size() - 2]) seen.pop_back();
-  ASSERT_GE(seen.size(), 4u);
-  const std::size_t words = alike(seen[0], seen[1]);   // up to the figure
-  EXPECT_GT(words, alike(seen[0], seen.back()) + 30);  // the last says something else
-  const auto is_progress = [&](const auto& caption) { return alike(seen[0], caption) + 12 >= words; };
-  const auto end = std::ranges::find_if_not(seen, is_progress);
-  EXPECT_GE(end - seen.begin(), 3);  // it goes on
-  EXPECT_TRUE(std::none_of(end, seen.end(), is_progress));
-  EXPECT_LE(seen.end() - end, 2);  // that it is being measured, and what it is
-  for (std::size_t i = 0; i + 1 < seen.size(); ++i) EXPECT_LT(alike(seen[i], seen.back()), words);
   expect_clean_close();
 }
 
