@@ -30,7 +30,10 @@ class Comparison {
     return glm::vec3(color_.at(pixel.x, pixel.y));
   }
   // Whether all that can be known of the view is known.
-  [[nodiscard]] bool done() const { return share_ >= 1.0 && figures_ && compared_share_ >= 1.0 && !newer_; }
+  [[nodiscard]] bool done() const {
+    const bool measured = figures_ && compared_share_ >= 1.0 && !error_.valid();  // not of an earlier share
+    return share_ >= 1.0 && measured && !newer_;
+  }
   // How far the reference is or, once it is complete, the error, in words.
   [[nodiscard]] std::string text() const;
 

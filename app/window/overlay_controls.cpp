@@ -95,8 +95,8 @@ void draw_looking(Model& model) {
       const auto view = static_cast<BufferView>(i);
       for (int slot = 0; slot < (view == BufferView::mask ? std::max(model.stats.casting_lights, 1) : 1);
            ++slot)
-        if (ImGui::Selectable(name_of(view, slot).c_str(),
-                              s.buffer == view && (view != BufferView::mask || s.mask_slot == slot))) {
+        if (line_of_list(name_of(view, slot).c_str(),
+                         s.buffer == view && (view != BufferView::mask || s.mask_slot == slot))) {
           s.buffer = view;
           s.mask_slot = slot;
         }
@@ -176,7 +176,7 @@ void draw_camera(Model& model, float) {
   for (std::size_t i = 0; i < model.scene.cameras.size(); ++i) {
     const std::string& name = model.scene.cameras[i].name;
     ImGui::PushID(static_cast<int>(i));
-    if (ImGui::Selectable((std::to_string(i + 1) + "  " + (name.empty() ? "camera" : name)).c_str()))
+    if (line_of_list((std::to_string(i + 1) + "  " + (name.empty() ? "camera" : name)).c_str()))
       model.camera_to_show = static_cast<int>(i);
     ImGui::PopID();
     tooltip("look through this camera of the file");

@@ -98,7 +98,7 @@ void draw_materials(Model& model, float scale) {
   ImGui::BeginChild("list", ImVec2(0.0f, 6.0f * ImGui::GetTextLineHeightWithSpacing()), true);
   for (std::size_t i = 0; i < mesh.materials.size(); ++i) {
     ImGui::PushID(static_cast<int>(i));
-    if (ImGui::Selectable(name_of(mesh, i).c_str(), model.material == static_cast<int>(i)))
+    if (line_of_list(name_of(mesh, i).c_str(), model.material == static_cast<int>(i)))
       model.material = static_cast<int>(i);
     ImGui::PopID();
     tooltip("edit this material; Ctrl + click in the picture picks one");
@@ -120,11 +120,11 @@ void draw_files(Model& model, float) {
   paragraph(files.folder.string());
   ImGui::BeginChild("files", ImVec2(0.0f, 11.0f * ImGui::GetTextLineHeightWithSpacing()), true);
   std::filesystem::path go_to;
-  if (ImGui::Selectable("..")) go_to = files.folder.parent_path();
+  if (line_of_list("..")) go_to = files.folder.parent_path();
   tooltip("the folder above");
   for (const FolderEntry& entry : files.entries) {
     const std::string name = entry.path.filename().string() + (entry.is_folder ? "/" : "");
-    if (ImGui::Selectable(name.c_str())) {
+    if (line_of_list(name.c_str())) {
       if (entry.is_folder)
         go_to = entry.path;
       else
@@ -137,7 +137,7 @@ void draw_files(Model& model, float) {
   if (model.recent.empty()) return;
   ImGui::TextUnformatted("Recent");
   for (const std::string& file : model.recent) {
-    if (ImGui::Selectable(file.c_str())) model.file_to_open = file;
+    if (line_of_list(file.c_str())) model.file_to_open = file;
     tooltip("open it again");
   }
 }

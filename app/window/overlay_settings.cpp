@@ -34,7 +34,7 @@ void edit_choice(const Row& row) {
   if (!ImGui::BeginCombo("##choice", row.text.c_str())) return tooltip(std::string(row.field.help));
   for (const Choice& choice : row.choices) {
     ImGui::BeginDisabled(choice.broken);
-    if (ImGui::Selectable(std::string(choice.text).c_str(), choice.text == row.text)) row.take(choice.text);
+    if (line_of_list(std::string(choice.text).c_str(), choice.text == row.text)) row.take(choice.text);
     ImGui::EndDisabled();
     tooltip(choice);
   }

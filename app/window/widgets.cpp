@@ -27,12 +27,13 @@ void value_text(const std::string& text) {
 
 // Dark on the accent's colour, so that it cannot be taken for one that the pointer is on.
 void push_chosen() {
-  for (const ImGuiCol which : {ImGuiCol_Button, ImGuiCol_ButtonHovered, ImGuiCol_ButtonActive})
+  for (const ImGuiCol which : {ImGuiCol_Button, ImGuiCol_ButtonHovered, ImGuiCol_ButtonActive,
+                               ImGuiCol_Header, ImGuiCol_HeaderHovered, ImGuiCol_HeaderActive})
     ImGui::PushStyleColor(which, kAccent);
   ImGui::PushStyleColor(ImGuiCol_Text, ImVec4(0.05f, 0.05f, 0.06f, 1.0f));
 }
 void pop_chosen() {
-  ImGui::PopStyleColor(4);
+  ImGui::PopStyleColor(7);
 }
 
 }  // namespace
@@ -131,6 +132,13 @@ bool button(const char* name, const std::string& help, bool chosen) {
   const bool clicked = ImGui::Button(name);
   if (chosen) pop_chosen();
   tooltip(help);
+  return clicked;
+}
+
+bool line_of_list(const char* name, bool chosen) {
+  if (chosen) push_chosen();
+  const bool clicked = ImGui::Selectable(name, chosen);
+  if (chosen) pop_chosen();
   return clicked;
 }
 

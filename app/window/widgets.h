@@ -37,6 +37,8 @@ bool slider(const char* name, float& value, float lo, float hi, const std::strin
 bool slider(const char* name, int& value, int lo, int hi, const std::string& shown, const std::string& help);
 bool checkbox(const char* name, bool& value, const std::string& help);
 bool button(const char* name, const std::string& help, bool chosen = false);
+// A line of a list; whether it is clicked.
+[[nodiscard]] bool line_of_list(const char* name, bool chosen = false);
 
 // printf into a string, for short texts.
 [[nodiscard]] std::string format(const char* pattern, ...) __attribute__((format(printf, 1, 2)));
