@@ -79,7 +79,7 @@ TEST(LoadImages, ABmpMayBeginWithItsTopRow) {
   const auto bmp = [](std::int32_t height) {
     std::string bytes("BM\x46\0\0\0\0\0\0\0\x36\0\0\0\x28\0\0\0\x02\0\0\0", 22);  // 2 pixels wide
     bytes.append(reinterpret_cast<const char*>(&height), 4);
-    bytes += std::string("\x01\0\x18\0\0\0\0\0\x10\0\0\0", 12) + std::string(16, '\0');  // 24 bits, 16 bytes
+    bytes.append("\x01\0\x18\0\0\0\0\0\x10\0\0\0", 12).append(16, '\0');  // 24 bits, 16 bytes
     return bytes + std::string("\x01\x02\x03\x04\x05\x06\0\0\x07\x08\x09\x0a\x0b\x0c\0\0", 16);
   };
   const Expected<DecodedImage> up = decode(bmp(2)), down = decode(bmp(-2));
