@@ -73,7 +73,7 @@ TEST_F(OpeningTest, CancelKeepsWhatIsShown) {
   EXPECT_EQ(option(command_line(), "--eye"), eye);
   key("Right");  // and not cancelled it is opened
   ASSERT_TRUE(becomes([this] { return xdo("getwindowname " + window_).find("large") != std::string::npos; }));
-  cancel(2);  // now its tree is built
+  cancel(6);  // now its tree is built
   EXPECT_TRUE(rests());
   // Without it the GPU draws alone, as in mode raster.
   xdo(at(160, 200));
