@@ -326,11 +326,17 @@ TEST(Animation, IsSavedWithSkinsAndMorphTargets) {
   expect_moves_alike(load_good(m.json), 1e-6f);
 }
 
-TEST(Animation, ClipsAreSavedEachByItsName) {
+// Its first clip moves the one node; the other is for more.
+Moving beside_another() {
   Moving m;
   m.json["nodes"].push_back({{"name", "other"}});
   m.json["scenes"][0]["nodes"] = {0, 1};
   m.animate(0, "translation", {0, 1}, m.floats({0, 0, 0, 1, 0, 0}, "VEC3"));
+  return m;
+}
+
+TEST(Animation, ClipsAreSavedEachByItsName) {
+  Moving m = beside_another();
   m.animate(1, "translation", {0, 2}, m.floats({0, 0, 0, 0, 1, 0}, "VEC3"), "LINEAR", 1);
   m.json["animations"][0]["name"] = "walk";
   m.json["animations"][1]["name"] = "wave";
@@ -345,10 +351,7 @@ TEST(Animation, ClipsAreSavedEachByItsName) {
 }
 
 TEST(Animation, OfTwoThatMoveTheSameTheFirstPlays) {
-  Moving m;
-  m.json["nodes"].push_back({{"name", "other"}});
-  m.json["scenes"][0]["nodes"] = {0, 1};
-  m.animate(0, "translation", {0, 1}, m.floats({0, 0, 0, 1, 0, 0}, "VEC3"));
+  Moving m = beside_another();
   m.animate(0, "translation", {0, 9}, m.floats({0, 0, 0, 0, 1, 0}, "VEC3"), "LINEAR", 1);
   m.animate(1, "translation", {0, 2}, m.floats({0, 0, 0, 0, 1, 0}, "VEC3"), "LINEAR", 2);
   Warnings warnings;
