@@ -42,8 +42,8 @@ std::vector<glm::uvec3> fan(std::size_t corners) {
   return triangles;
 }
 
-// The shorter diagonal, or the one from the corner that points inwards.
-std::vector<glm::uvec3> quad(std::span<const glm::vec3> c, std::span<const glm::dvec2> flat) {
+// From the first corner, or from the one that points inwards.
+std::vector<glm::uvec3> quad(std::span<const glm::dvec2> flat) {
   int inwards = 0, last = 0;
   for (int i = 0; i < 4; ++i)
     if (turn(flat[static_cast<std::size_t>((i + 3) % 4)], flat[static_cast<std::size_t>(i)],
@@ -51,10 +51,8 @@ std::vector<glm::uvec3> quad(std::span<const glm::vec3> c, std::span<const glm::
       ++inwards;
       last = i;
     }
-  const glm::vec3 e02 = c[2] - c[0], e13 = c[3] - c[1];
-  const bool from_first = inwards == 1 ? last % 2 == 0 : glm::dot(e02, e02) < glm::dot(e13, e13);
-  if (from_first) return {{0, 1, 2}, {0, 2, 3}};
-  return {{0, 1, 3}, {1, 2, 3}};
+  if (inwards == 1 && last % 2 == 1) return {{0, 1, 3}, {1, 2, 3}};
+  return fan(4);
 }
 
 bool strictly_convex(std::span<const glm::dvec2> p) {
@@ -134,7 +132,7 @@ PolygonTriangles triangulate(std::span<const glm::vec3> corners) {
   if (corners.size() == 3) return {{{0, 1, 2}}};
   double area = 0.0;
   const std::vector<glm::dvec2> flat = flattened(corners, area);
-  if (corners.size() == 4) return {quad(corners, flat)};
+  if (corners.size() == 4) return {quad(flat)};
   if (area == 0.0 || strictly_convex(flat)) return {fan(corners.size())};
   if (std::vector<glm::uvec3> swept = triangulate_by_sweep(flat); covers(flat, swept, area))
     return {std::move(swept)};
