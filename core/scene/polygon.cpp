@@ -55,14 +55,14 @@ std::vector<glm::uvec3> quad(std::span<const glm::dvec2> flat) {
   return fan(4);
 }
 
-bool strictly_convex(std::span<const glm::dvec2> p) {
-  int changes = 0;
-  for (std::size_t i = 0, n = p.size(); i < n; ++i) {
-    const glm::dvec2 &a = p[i], &b = p[(i + 1) % n], &c = p[(i + 2) % n];
-    if (turn(a, b, c) <= 0.0) return false;
-    if ((b.y > a.y || (b.y == a.y && b.x < a.x)) != (c.y > b.y || (c.y == b.y && c.x < b.x))) ++changes;
-  }
-  return changes == 2;  // once up and once down: it goes round once
+// Whether a fan from the first corner covers it without a fold: the others go round that one in one
+// direction and by half a turn at most.
+bool fans_out(std::span<const glm::dvec2> p) {
+  for (std::size_t i = 2; i < p.size(); ++i)
+    if (turn(p[0], p[i - 1], p[i]) < 0.0 || turn(p[0], p[1], p[i]) < 0.0 ||
+        turn(p[0], p[i - 1], p.back()) < 0.0)
+      return false;
+  return true;
 }
 
 // Whether the triangles cover the polygon: each turns as it does, and their areas are its area.
@@ -133,7 +133,7 @@ PolygonTriangles triangulate(std::span<const glm::vec3> corners) {
   double area = 0.0;
   const std::vector<glm::dvec2> flat = flattened(corners, area);
   if (corners.size() == 4) return {quad(flat)};
-  if (area == 0.0 || strictly_convex(flat)) return {fan(corners.size())};
+  if (area == 0.0 || fans_out(flat)) return {fan(corners.size())};
   if (std::vector<glm::uvec3> swept = triangulate_by_sweep(flat); covers(flat, swept, area))
     return {std::move(swept)};
   if (corners.size() <= kMostToClip)

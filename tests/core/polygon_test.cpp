@@ -72,6 +72,14 @@ TEST(Polygon, QuadsAreCutFromTheirFirstCornerAsOtherProgramsDo) {
   expect_covered(turned);
 }
 
+TEST(Polygon, AFanWhereItCoversThem) {
+  const std::vector<glm::uvec3> fan{{0, 1, 2}, {0, 2, 3}, {0, 3, 4}};
+  EXPECT_EQ(triangulate(Ring{{0, 0, 0}, {4, 0, 0}, {4, 2, 0}, {4, 4, 0}, {0, 4, 0}}).triangles, fan);
+  const Ring dented{{0, 0, 0}, {4, 0, 0}, {2, 2, 0}, {4, 4, 0}, {0, 4, 0}};
+  EXPECT_EQ(triangulate(dented).triangles, fan);
+  expect_covered(dented);
+}
+
 TEST(Polygon, ConcaveOnes) {
   expect_covered({{0, 0, 0}, {4, 0, 0}, {4, 4, 0}, {2, 1, 0}, {0, 4, 0}});
   expect_covered({{0, 0, 0}, {0, 4, 0}, {2, 1, 0}, {4, 4, 0}, {4, 0, 0}});  // the other way round
