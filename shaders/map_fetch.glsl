@@ -45,9 +45,8 @@ struct MapPoint {
   vec3 weights;
   vec3 ab;
   vec3 ac;
-  vec3 direction;  // of the pixel's ray; the neighbours' pass the point this far off:
-  vec3 spread_x;
-  vec3 spread_y;
+  vec3 moved_x;  // to the next pixel (moved_on_triangle)
+  vec3 moved_y;
 };
 
 struct MapTexcoord {
@@ -91,8 +90,8 @@ MapTexcoord texcoord_of(TextureParams t, MapPoint p) {
 vec4 look_up(TextureParams t, MapPoint p, bool is_color) {
   if (t.size.x == 0) return vec4(1.0);
   MapTexcoord at = texcoord_of(t, p);
-  TexturePoint where = TexturePoint(at.uv, uv_change(p.spread_x, p.direction, p.ab, p.ac, at.uv_ab, at.uv_ac),
-                                    uv_change(p.spread_y, p.direction, p.ab, p.ac, at.uv_ab, at.uv_ac));
+  TexturePoint where = TexturePoint(at.uv, uv_change(p.moved_x, at.uv_ab, at.uv_ac),
+                                    uv_change(p.moved_y, at.uv_ab, at.uv_ac));
   return sample_texture(t, where, is_color);
 }
 
@@ -164,7 +163,7 @@ float alpha_at(int maps, MapPoint p, vec4 alpha) {
   float result = alpha.y;
   TextureParams t = fetch_use(maps, kAlpha);
   if (t.size.x > 0)
-    result *= sample_level(t, texcoord_of(t, p).uv, 0, false)[int(map_texel(maps, kParameters + 4).w)];
+    result *= sample_point(t, texcoord_of(t, p).uv, false)[int(map_texel(maps, kParameters + 4).w)];
   if (alpha.w > 0.0) result *= vertex_color(p).a;
   return result;
 }

@@ -80,7 +80,9 @@ PixelSurface surface_of(uint id, ivec2 pixel) {
 #ifdef HAS_MAPS
   if (maps >= 0) {
     float t = texture_spread * dot(s.p_world - eye, direction) / dot(direction, direction);
-    MapPoint point = MapPoint(corners, weights, b - a, c - a, direction, t * step_x, t * step_y);
+    MapPoint point = MapPoint(corners, weights, b - a, c - a,
+                              moved_on_triangle(t * step_x, direction, b - a, c - a),
+                              moved_on_triangle(t * step_y, direction, b - a, c - a));
     float side = s.n.leaving ? -1.0 : 1.0;
     s.n.shading = side * mapped_normal_at(maps, point, side * s.n.shading);
     s.material = mapped_material_at(maps, point, s.material);

@@ -30,7 +30,7 @@ void discard_hole() {
   vec3 b = fetch_vec3(positions, corners.y);
   vec3 c = fetch_vec3(positions, corners.z);
   vec3 weights = barycentric_of(eye, direction, a, b, c);
-  MapPoint point = MapPoint(corners, weights, b - a, c - a, direction, vec3(0.0), vec3(0.0));
+  MapPoint point = MapPoint(corners, weights, b - a, c - a, vec3(0.0, 0.0, 1.0), vec3(0.0, 0.0, 1.0));
   if (hole_at(maps, point)) discard;
 }
 #else

@@ -84,6 +84,10 @@ float srgb8_to_linear(std::uint8_t value) {
   return bytes().linear[value];
 }
 
+const std::array<float, 256>& linear_from_srgb8() {
+  return bytes().linear;
+}
+
 glm::vec3 srgb_to_linear(const glm::vec3& srgb) {
   const auto channel = [](float c) {
     return c <= 0.04045f ? c / 12.92f : std::pow((c + 0.055f) / 1.055f, 2.4f);

@@ -10,6 +10,7 @@ namespace pinocchio {
 
 // The sRGB transfer curve (IEC 61966-2-1) and its inverse.
 [[nodiscard]] float srgb8_to_linear(std::uint8_t value);
+[[nodiscard]] const std::array<float, 256>& linear_from_srgb8();  // of every value
 [[nodiscard]] float linear_to_srgb(float linear);
 [[nodiscard]] glm::vec3 srgb_to_linear(const glm::vec3& srgb);
 

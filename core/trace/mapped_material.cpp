@@ -5,9 +5,9 @@
 namespace pinocchio {
 namespace {
 
-static_assert(static_cast<int>(Wrap::repeat) == shared::kWrapRepeat &&
-              static_cast<int>(Wrap::mirror) == shared::kWrapMirror &&
-              static_cast<int>(Wrap::clamp) == shared::kWrapClamp);
+static_assert(static_cast<int>(Wrap::repeat) == shared::texels::kWrapRepeat &&
+              static_cast<int>(Wrap::mirror) == shared::texels::kWrapMirror &&
+              static_cast<int>(Wrap::clamp) == shared::texels::kWrapClamp);
 static_assert(static_cast<int>(AlphaMode::opaque) == shared::kAlphaOpaque &&
               static_cast<int>(AlphaMode::mask) == shared::kAlphaMask &&
               static_cast<int>(AlphaMode::blend) == shared::kAlphaBlend);
@@ -18,10 +18,10 @@ T weighted(const std::vector<T>& of_vertices, const glm::uvec3& corners, const g
          weights.z * of_vertices[corners.z];
 }
 
-shared::TextureParams params_of(const Mesh& mesh, const TextureUse& use) {
+shared::texels::TextureParams params_of(const Mesh& mesh, const TextureUse& use) {
   const Texture& texture = mesh.textures[static_cast<std::size_t>(use.texture)];
   const int count = texture.texels.width() * texture.texels.height();
-  return {{texture.texels.pixels().data(), texture.smaller_levels.data(), count},
+  return {{texture.texels.pixels().data(), texture.smaller_levels.data(), count, linear_from_srgb8().data()},
           texture.texels.size(),
           texture.levels(),
           use.uv_set,
@@ -31,42 +31,49 @@ shared::TextureParams params_of(const Mesh& mesh, const TextureUse& use) {
           use.nearest};
 }
 
-// The triangle as look-ups see it.
+// The point as look-ups see it.
 class Lookup {
  public:
   Lookup(const Mesh& mesh, std::uint32_t triangle, const glm::vec3& weights)
-      : mesh_(mesh), corners_(mesh.triangles[triangle]), weights_(weights) {}
-
-  [[nodiscard]] glm::vec4 at(const TextureUse& use, bool is_color) const {
-    if (!readable(use)) return glm::vec4(1.0f);
-    const glm::vec2 uv = use.uv_from_texcoord * glm::vec3(weighted(texcoords(use), corners_, weights_), 1.0f);
-    return shared::sample_level(params_of(mesh_, use), uv, 0, is_color);
+      : mesh_(mesh), corners_(mesh.triangles[triangle]), weights_(weights) {
+    const glm::vec3& a = mesh_.positions[corners_.x];
+    ab_ = mesh_.positions[corners_.y] - a;
+    ac_ = mesh_.positions[corners_.z] - a;
   }
 
-  [[nodiscard]] glm::vec4 filtered(const TextureUse& use, bool is_color, const MapPoint& point) const {
+  Lookup(const Mesh& mesh, const MapPoint& point) : Lookup(mesh, point.triangle, point.weights) {
+    filters_ = point.spread.direction != glm::vec3(0.0f);
+    if (!filters_) return;
+    moved_x_ = shared::texels::moved_on_triangle(point.spread.x, point.spread.direction, ab_, ac_);
+    moved_y_ = shared::texels::moved_on_triangle(point.spread.y, point.spread.direction, ab_, ac_);
+  }
+
+  [[nodiscard]] glm::vec4 at_point(const TextureUse& use, bool is_color) const {
     if (!readable(use)) return glm::vec4(1.0f);
-    const shared::TextureParams params = params_of(mesh_, use);
-    shared::TexturePoint where{
-        use.uv_from_texcoord * glm::vec3(weighted(texcoords(use), corners_, weights_), 1.0f), glm::vec2(0.0f),
-        glm::vec2(0.0f)};
-    if (params.levels > 1 && point.spread.direction != glm::vec3(0.0f)) {
+    return glm::vec4(shared::texels::sample_point(params_of(mesh_, use), coordinate(use), is_color));
+  }
+
+  [[nodiscard]] glm::vec4 filtered(const TextureUse& use, bool is_color) const {
+    if (!readable(use)) return glm::vec4(1.0f);
+    const shared::texels::TextureParams params = params_of(mesh_, use);
+    shared::texels::TexturePoint where{coordinate(use), glm::vec2(0.0f), glm::vec2(0.0f)};
+    if (params.levels > 1 && filters_) {
       const Edges e = edges(use);
-      where.change_x =
-          shared::uv_change(point.spread.x, point.spread.direction, e.ab, e.ac, e.uv_ab, e.uv_ac);
-      where.change_y =
-          shared::uv_change(point.spread.y, point.spread.direction, e.ab, e.ac, e.uv_ab, e.uv_ac);
+      where.change_x = shared::texels::uv_change(moved_x_, e.ab, e.ac);
+      where.change_y = shared::texels::uv_change(moved_y_, e.ab, e.ac);
     }
-    return shared::sample_texture(params, where, is_color);
+    return glm::vec4(shared::texels::sample_texture(params, where, is_color));
   }
 
-  [[nodiscard]] glm::vec3 normal(const TextureUse& use, float scale, const MapPoint& point) const {
-    if (!readable(use)) return point.n_shading;
+  // n: facing the viewer, as `leaving` says.
+  [[nodiscard]] glm::vec3 normal(const TextureUse& use, float scale, const glm::vec3& n, bool leaving) const {
+    if (!readable(use)) return n;
     const Edges e = edges(use);
     const glm::vec4 tangent =
         mesh_.tangents.empty() ? glm::vec4(0.0f) : weighted(mesh_.tangents, corners_, weights_);
-    const float side = point.leaving ? -1.0f : 1.0f;
-    return side * shared::mapped_normal(side * point.n_shading, tangent, e.ab, e.ac, e.uv_ab, e.uv_ac,
-                                        glm::vec3(filtered(use, false, point)), scale);
+    const float side = leaving ? -1.0f : 1.0f;
+    return side * shared::mapped_normal(side * n, tangent, ab_, ac_, e.ab, e.ac,
+                                        glm::vec3(filtered(use, false)), scale);
   }
 
   [[nodiscard]] glm::vec4 color() const {
@@ -74,9 +81,8 @@ class Lookup {
   }
 
  private:
-  struct Edges {
-    glm::vec3 ab, ac;
-    glm::vec2 uv_ab, uv_ac;
+  struct Edges {  // of the triangle, in texture coordinates
+    glm::vec2 ab, ac;
   };
 
   [[nodiscard]] const std::vector<glm::vec2>& texcoords(const TextureUse& use) const {
@@ -84,19 +90,23 @@ class Lookup {
   }
   [[nodiscard]] bool readable(const TextureUse& use) const { return use.used() && !texcoords(use).empty(); }
 
+  [[nodiscard]] glm::vec2 coordinate(const TextureUse& use) const {
+    return use.uv_from_texcoord * glm::vec3(weighted(texcoords(use), corners_, weights_), 1.0f);
+  }
   [[nodiscard]] Edges edges(const TextureUse& use) const {
     const auto uv = [&](std::uint32_t i) {
       return use.uv_from_texcoord * glm::vec3(texcoords(use)[i], 1.0f);
     };
-    const glm::vec3& a = mesh_.positions[corners_.x];
     const glm::vec2 uv_a = uv(corners_.x);
-    return {mesh_.positions[corners_.y] - a, mesh_.positions[corners_.z] - a, uv(corners_.y) - uv_a,
-            uv(corners_.z) - uv_a};
+    return {uv(corners_.y) - uv_a, uv(corners_.z) - uv_a};
   }
 
   const Mesh& mesh_;
   const glm::uvec3& corners_;
   const glm::vec3& weights_;
+  glm::vec3 ab_, ac_;
+  bool filters_ = false;
+  glm::vec3 moved_x_{0.0f}, moved_y_{0.0f};  // moved_on_triangle, where it filters
 };
 
 shared::MetallicRoughness metallic_roughness(const GltfSurface& s) {
@@ -105,7 +115,7 @@ shared::MetallicRoughness metallic_roughness(const GltfSurface& s) {
 }
 
 float alpha_at(const MaterialMaps& maps, const Lookup& look) {
-  float alpha = maps.alpha_factor * look.at(maps.alpha, false)[maps.alpha_channel];
+  float alpha = maps.alpha_factor * look.at_point(maps.alpha, false)[maps.alpha_channel];
   if (maps.vertex_colors) alpha *= look.color().a;
   return alpha;
 }
@@ -122,33 +132,36 @@ shared::PhongSurface plain_material(const Material& m) {
 
 MappedMaterial mapped_material(const Mesh& mesh, const MapPoint& point) {
   const MaterialMaps& maps = *mesh.maps_of(point.triangle);
-  const Lookup look(mesh, point.triangle, point.weights);
-  shared::MapValues v{glm::vec3(look.filtered(maps.base_color, true, point)),
+  const Lookup look(mesh, point);
+  shared::MapValues v{glm::vec3(look.filtered(maps.base_color, true)),
                       1.0f,
                       1.0f,
                       1.0f,
-                      glm::vec3(look.filtered(maps.emissive, true, point)),
+                      glm::vec3(look.filtered(maps.emissive, true)),
                       1.0f,
                       glm::vec3(1.0f),
                       1.0f};
   if (maps.vertex_colors) v.base_color *= glm::vec3(look.color());
-  v.occlusion = 1.0f + maps.occlusion_strength * (look.filtered(maps.occlusion, false, point).r - 1.0f);
+  // Often the three are channels of one texture.
+  const glm::vec4 packed = look.filtered(maps.metallic_roughness, false);
+  const float open =
+      maps.occlusion == maps.metallic_roughness ? packed.r : look.filtered(maps.occlusion, false).r;
+  v.occlusion = 1.0f + maps.occlusion_strength * (open - 1.0f);
 
   MappedMaterial mapped;
   if (maps.from_gltf) {
-    const glm::vec4 texel = look.filtered(maps.metallic_roughness, false, point);
-    v.roughness = texel.g;
-    v.metallic = texel.b;
+    v.roughness = packed.g;
+    v.metallic = packed.b;
     if (maps.maps_dielectric()) {
-      v.specular = look.filtered(maps.specular, false, point).a;
-      v.specular_color = glm::vec3(look.filtered(maps.specular_color, true, point));
-      v.transmission = look.filtered(maps.transmission, false, point).r;
+      v.specular = look.filtered(maps.specular, false).a;
+      v.specular_color = glm::vec3(look.filtered(maps.specular_color, true));
+      v.transmission = look.filtered(maps.transmission, false).r;
     }
     mapped.surface = shared::mapped_metallic_roughness(metallic_roughness(maps.surface), v);
   } else {
     mapped.surface = shared::mapped_phong(plain_material(mesh.material_of(point.triangle)), v);
   }
-  mapped.n_shading = look.normal(maps.normal, maps.normal_scale, point);
+  mapped.n_shading = look.normal(maps.normal, maps.normal_scale, point.n_shading, point.leaving);
   mapped.alpha = maps.blends() ? glm::clamp(alpha_at(maps, look), 0.0f, 1.0f) : 1.0f;
   return mapped;
 }

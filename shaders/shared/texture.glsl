@@ -36,40 +36,50 @@ SHARED int wrapped_texel(int i, int n, int wrap) {
   return clamp(i, 0, n - 1);
 }
 
-SHARED vec4 texel_of_level(TextureParams use, int first, ivec2 size, ivec2 at, bool is_color) {
-  int x = wrapped_texel(at.x, size.x, use.wrap_u);
-  int y = wrapped_texel(at.y, size.y, use.wrap_v);
-  return texel_at(use.source, first + y * size.x + x, is_color);
+// One of a texture's levels.
+struct TextureLevel {
+  int first;  // texel
+  ivec2 size;
+};
+
+SHARED TextureLevel smaller_level(TextureLevel level) {
+  level.first += level.size.x * level.size.y;
+  level.size = max(level.size / 2, ivec2(1));
+  return level;
 }
 
-// Bilinear by hand: hardware filters with 8 bits of weight, and the two sides would differ.
-SHARED vec4 sample_level(TextureParams use, vec2 uv, int level, bool is_color) {
-  ivec2 size = use.size;
-  int first = 0;
-  for (int i = 0; i < level; ++i) {
-    first += size.x * size.y;
-    size = max(size / 2, ivec2(1));
-  }
-  vec2 within = vec2(within_period(uv.x, use.wrap_u), within_period(uv.y, use.wrap_v)) * vec2(size);
-  if (use.nearest) return texel_of_level(use, first, size, ivec2(floor(within)), is_color);
-  vec2 at = within - 0.5f;
+SHARED TextureLevel texture_level(TextureParams use, int i) {
+  TextureLevel level;
+  level.first = 0;
+  level.size = use.size;
+  for (; i > 0; --i) level = smaller_level(level);
+  return level;
+}
+
+SHARED vec2 within_periods(TextureParams use, vec2 uv) {
+  return vec2(within_period(uv.x, use.wrap_u), within_period(uv.y, use.wrap_v));
+}
+
+// uv: within its periods. Bilinear by hand: hardware filters with 8 bits of weight, and the two sides would
+// differ.
+SHARED vec4 sample_level(TextureParams use, vec2 uv, TextureLevel level, bool is_color) {
+  vec2 at = use.nearest ? uv * vec2(level.size) : uv * vec2(level.size) - 0.5f;
   vec2 base = floor(at);
-  vec2 f = at - base;
   ivec2 b = ivec2(base);
-  return mix(mix(texel_of_level(use, first, size, b, is_color),
-                 texel_of_level(use, first, size, b + ivec2(1, 0), is_color), f.x),
-             mix(texel_of_level(use, first, size, b + ivec2(0, 1), is_color),
-                 texel_of_level(use, first, size, b + ivec2(1, 1), is_color), f.x),
+  int x = wrapped_texel(b.x, level.size.x, use.wrap_u);
+  int row = level.first + wrapped_texel(b.y, level.size.y, use.wrap_v) * level.size.x;
+  if (use.nearest) return texel_at(use.source, row + x, is_color);
+  int right = wrapped_texel(b.x + 1, level.size.x, use.wrap_u);
+  int below = level.first + wrapped_texel(b.y + 1, level.size.y, use.wrap_v) * level.size.x;
+  vec2 f = at - base;
+  return mix(mix(texel_at(use.source, row + x, is_color), texel_at(use.source, row + right, is_color), f.x),
+             mix(texel_at(use.source, below + x, is_color), texel_at(use.source, below + right, is_color), f.x),
              f.y);
 }
 
-SHARED vec4 sample_trilinear(TextureParams use, vec2 uv, float lod, bool is_color) {
-  float clamped = clamp(lod, 0.0f, float(use.levels - 1));
-  int level = int(clamped);
-  float part = clamped - float(level);
-  vec4 fine = sample_level(use, uv, level, is_color);
-  if (part == 0.0f) return fine;
-  return mix(fine, sample_level(use, uv, level + 1, is_color), part);
+// Of the largest level, not filtered.
+SHARED vec4 sample_point(TextureParams use, vec2 uv, bool is_color) {
+  return sample_level(use, within_periods(use, uv), texture_level(use, 0), is_color);
 }
 
 const float kMostTaps = 8.0f;
@@ -83,24 +93,34 @@ SHARED vec4 sample_texture(TextureParams use, TexturePoint point, bool is_color)
   float yy = dot(y, y);
   float longer = sqrt(max(xx, yy));
   // Written so that NaN is not filtered either.
-  if (use.levels <= 1 || !(longer > 1.0f)) return sample_level(use, point.uv, 0, is_color);
+  if (use.levels <= 1 || !(longer > 1.0f)) return sample_point(use, point.uv, is_color);
   float shorter = max(abs(x.x * y.y - x.y * y.x) / longer, 1.0f);  // the parallelogram's height
   float taps = clamp(ceil(longer / shorter), 1.0f, kMostTaps);
-  float lod = log2(min(longer / taps, 65536.0f));
+  float lod = clamp(log2(min(longer / taps, 65536.0f)), 0.0f, float(use.levels - 1));
+  TextureLevel fine = texture_level(use, int(lod));
+  TextureLevel coarse = smaller_level(fine);
+  float part = lod - floor(lod);
   vec2 along = xx > yy ? point.change_x : point.change_y;
   vec4 sum = vec4(0.0f);
-  for (float k = 0.5f; k < taps; k += 1.0f)
-    sum += sample_trilinear(use, point.uv + along * (k / taps - 0.5f), lod, is_color);
+  for (float k = 0.5f; k < taps; k += 1.0f) {
+    vec2 uv = within_periods(use, point.uv + along * (k / taps - 0.5f));
+    vec4 texel = sample_level(use, uv, fine, is_color);
+    if (part > 0.0f) texel = mix(texel, sample_level(use, uv, coarse, is_color), part);
+    sum += texel;
+  }
   return sum / taps;
 }
 
-// How the texture coordinate of triangle (a, a + ab, a + ac) changes where the ray's point moves by `spread`
-// and then along `direction` back to the triangle's plane (ray differentials: Igehy 1999).
-SHARED vec2 uv_change(vec3 spread, vec3 direction, vec3 ab, vec3 ac, vec2 uv_ab, vec2 uv_ac) {
+// Where the ray's point moves by `spread` and then along `direction` back to the plane of triangle
+// (a, a + ab, a + ac): how far along ab and along ac, both times z (ray differentials: Igehy 1999).
+SHARED vec3 moved_on_triangle(vec3 spread, vec3 direction, vec3 ab, vec3 ac) {
   vec3 n = cross(ab, ac);
   float towards = dot(n, direction);
   float square = dot(n, n);
-  if (towards == 0.0f || square == 0.0f) return vec2(0.0f);
+  if (towards == 0.0f || square == 0.0f) return vec3(0.0f, 0.0f, 1.0f);
   vec3 p = spread - direction * (dot(n, spread) / towards);
-  return (dot(cross(p, ac), n) * uv_ab + dot(cross(ab, p), n) * uv_ac) / square;
+  return vec3(dot(cross(p, ac), n), dot(cross(ab, p), n), square);
 }
+
+// How a texture coordinate changes by that.
+SHARED vec2 uv_change(vec3 moved, vec2 uv_ab, vec2 uv_ac) { return (moved.x * uv_ab + moved.y * uv_ac) / moved.z; }
