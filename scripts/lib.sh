@@ -1,3 +1,4 @@
+# shellcheck shell=bash
 # Sourced by the scripts: steps that say what they do, what they took and where they failed.
 
 set -euo pipefail
@@ -5,7 +6,13 @@ cd "$(dirname "${BASH_SOURCE[0]}")/.."
 
 STEP="starting"
 STEP_TABLE=()
-trap 'status=$?; if [ $status -ne 0 ]; then echo "$0: failed while $STEP (see above)" >&2; fi' EXIT
+BESIDE_ID=""  # of the process group that runs beside a step; empty: none does
+at_exit() {
+  local status=$?
+  if [ -n "$BESIDE_ID" ]; then kill -- "-$BESIDE_ID" 2>/dev/null || true; fi
+  if [ $status -ne 0 ]; then echo "$0: failed while $STEP (see above)" >&2; fi
+}
+trap at_exit EXIT
 
 # step WHAT COMMAND...: runs it, says so, and remembers the seconds.
 step() {
@@ -15,6 +22,31 @@ step() {
   local begin=$SECONDS
   "$@"
   STEP_TABLE+=("$(printf '%6d s  %s' $((SECONDS - begin)) "$STEP")")
+}
+
+# beside WHAT COMMAND...: begins it in the background, where it gives way to the steps that follow; `finish` waits
+# for it and shows what it wrote. For what computes beside what waits.
+beside() {
+  BESIDE="$1"
+  shift
+  echo "==> $BESIDE: begins in the background"
+  BESIDE_LOG=$(mktemp)
+  set -m  # a process group of its own
+  nice -n 19 "$@" >"$BESIDE_LOG" 2>&1 </dev/null &
+  set +m
+  BESIDE_ID=$!
+}
+
+finish() {
+  local begin=$SECONDS status=0
+  STEP="$BESIDE"
+  echo "==> $STEP: what it wrote"
+  wait "$BESIDE_ID" || status=$?
+  BESIDE_ID=""
+  cat "$BESIDE_LOG"
+  rm -f "$BESIDE_LOG"
+  STEP_TABLE+=("$(printf '%6d s  %s (beyond the step it ran beside)' $((SECONDS - begin)) "$STEP")")
+  return $status
 }
 
 print_steps() {

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 #include <fstream>
+#include <map>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
@@ -14,14 +15,16 @@
 
 #include "tests/support/command.h"
 #include "tests/support/own_file.h"
+#include "tests/view/picture.h"
 #include "tests/view/process.h"
+#include "tests/view/screen.h"
 
 namespace pinocchio {
 
 class WindowTest : public testing::Test {
  protected:
   void SetUp() override {
-    for (const char* tool : {"Xvfb", "openbox", "xdotool", "import", "compare"})
+    for (const char* tool : {"Xvfb", "openbox", "xdotool"})
       if (std::system((std::string("command -v ") + tool + " >/dev/null").c_str()) != 0)
         GTEST_SKIP() << tool << " is not installed (scripts/packages-test.txt)";
     folder_ = own_folder() / "run";
@@ -32,6 +35,7 @@ class WindowTest : public testing::Test {
   void TearDown() override {
     program_.reset();
     manager_.reset();
+    screen_.reset();
     server_.reset();
     std::filesystem::remove_all(folder_);
   }
@@ -76,15 +80,20 @@ class WindowTest : public testing::Test {
         << nlohmann::json{{"open", {panel}}, {"layout", layout}};
   }
 
-  // The window manager may give the focus to it, and take it away, until it is settled.
+  // Keys reach it once the window manager has framed it and given it the focus; P says nothing while a scene
+  // is read, and is pressed again.
   void wait_for_keys() {
-    ASSERT_TRUE(becomes([this] {
+    const xcb_window_t window = id();
+    ASSERT_TRUE(becomes([&] { return screen_->active_window() == window; })) << errors();
+    const auto printed = [this] { return lines_of("pinocchio render"); };
+    long presses = 0;
+    ASSERT_TRUE(becomes([&] {
       xdo("windowfocus --sync " + window_);
       key("p");
-      pause_ms(400);
-      return text_of(folder_ / "out.txt").find("pinocchio render") != std::string::npos;
+      ++presses;
+      return becomes([&] { return printed() > 0; }, 0.4);
     })) << errors();
-    pause_ms(400);  // what a second P prints is not taken for a later one's
+    (void)becomes([&] { return printed() == presses; }, 0.4);  // none of them is taken for a later one's
   }
 
   static std::vector<std::string> words_of(const std::string& text) {
@@ -144,29 +153,22 @@ class WindowTest : public testing::Test {
     return line.substr(begin, line.find(' ', begin) - begin);
   }
 
-  // The window's inside, as the display has it.
-  void grab(const std::string& file) const {
-    (void)run_command("cd '" + folder_.string() + "' && DISPLAY=" + display_ +
-                          " import -define png:compression-level=1 -window " + window_ + " " + file,
-                      folder_);
+  [[nodiscard]] xcb_window_t id() const { return static_cast<xcb_window_t>(std::stoul(window_)); }
+  // The window's inside, as the display has it; kept by a name.
+  void grab(const std::string& name) { pictures_[name] = screen_->picture_of(id()); }
+  // One that was grabbed, or a PNG file that the program wrote.
+  [[nodiscard]] Picture picture(const std::string& name) const {
+    const auto grabbed = pictures_.find(name);
+    return grabbed != pictures_.end() ? grabbed->second : read_picture(folder_ / name);
   }
   // Pixels that differ; -1 where the pictures cannot be compared.
   [[nodiscard]] long long different(const std::string& a, const std::string& b) const {
-    const CommandResult result =
-        run_command("cd '" + folder_.string() + "' && compare -metric AE " + a + " " + b + " null:", folder_);
-    if (result.exit_code > 1) return -1;
-    return std::llround(std::stod(result.err));
+    return different_pixels(picture(a), picture(b));
   }
-  // The same of a box "WIDTHxHEIGHT+X+Y"; colours closer than `percent` count as one.
+  // The same of a box "WIDTHxHEIGHT+X+Y"; channels closer than `percent` count as equal.
   [[nodiscard]] long long different_in(const std::string& box, const std::string& a, const std::string& b,
                                        int percent = 0) const {
-    const std::string crop = " -crop " + box + " +repage ";
-    const CommandResult result =
-        run_command("cd '" + folder_.string() + "' && convert " + a + crop + "box-a.png && convert " + b +
-                        crop + "box-b.png && compare -fuzz " + std::to_string(percent) +
-                        "% -metric AE box-a.png box-b.png null:",
-                    folder_);
-    return result.exit_code > 1 ? -1 : std::llround(std::stod(result.err));
+    return different_pixels(crop(picture(a), box), crop(picture(b), box), percent);
   }
   // Seconds of processors that the program uses in a second, over `seconds`.
   [[nodiscard]] double load(double seconds) const {
@@ -176,19 +178,9 @@ class WindowTest : public testing::Test {
   }
   // How bright the window is, 0 to 255: the greatest of each of a box's rows.
   [[nodiscard]] std::vector<int> brightness(int x, int y, int width, int height) const {
-    grab("brightness.png");
-    const std::string values =
-        run_command("cd '" + folder_.string() + "' && convert brightness.png -crop " + std::to_string(width) +
-                        "x" + std::to_string(height) + "+" + std::to_string(x) + "+" + std::to_string(y) +
-                        " +repage -depth 8 gray:-",
-                    folder_)
-            .out;
-    std::vector<int> rows(values.size() / static_cast<std::size_t>(width));
-    for (std::size_t i = 0; i < values.size(); ++i) {
-      int& row = rows[i / static_cast<std::size_t>(width)];
-      row = std::max<int>(row, static_cast<unsigned char>(values[i]));
-    }
-    return rows;
+    return brightest_of_rows(
+        crop(screen_->picture_of(id()), std::to_string(width) + "x" + std::to_string(height) + "+" +
+                                            std::to_string(x) + "+" + std::to_string(y)));
   }
   // Middles of the runs of rows that are brighter, of those that are so high.
   [[nodiscard]] static std::vector<int> runs(const std::vector<int>& rows, int first_y, int brighter,
@@ -218,18 +210,28 @@ class WindowTest : public testing::Test {
     const auto end = std::ranges::find_if(margin, [](int value) { return value > kPanel; });
     return runs(brightness(x, from_y, 200, static_cast<int>(end - margin.begin())), from_y, kText, 6, 20);
   }
-  // Until the picture stands still; it is in the file then.
-  void settle(const std::string& file = "still.png") const {
-    grab(file);
-    (void)becomes([&] {
-      pause_ms(200);
-      grab("now-" + file);
-      const bool still = different(file, "now-" + file) == 0;
-      std::filesystem::rename(folder_ / ("now-" + file), folder_ / file);
-      return still;
-    });
+  // Until the program has drawn all it was asked for: it and the window manager neither work nor wait for a
+  // processor, and the picture stands still. That is kept by the name then.
+  void settle(const std::string& name = "still") {
+    constexpr double kStretch_s = 0.3;  // a window at rest looks every 0.25 s whether there is more to draw
+    constexpr double kTick_s = 0.01;    // what the system counts processors' time by
+    const auto works = [this] { return program_->busy() || manager_->busy(); };
+    EXPECT_TRUE(becomes([&] {
+      grab(name);
+      const double before_s = program_->cpu_s();
+      if (works()) return false;
+      pause_ms(static_cast<int>(1e3 * kStretch_s));
+      if (works() || program_->cpu_s() - before_s > 2.5 * kTick_s) return false;
+      return different_pixels(picture(name), screen_->picture_of(id())) == 0;
+    })) << "the window does not come to rest";
   }
-
+  // Of what the program printed, those with this in them.
+  [[nodiscard]] long lines_of(const std::string& words) const {
+    const std::string all = text_of(folder_ / "out.txt");
+    long count = 0;
+    for (std::size_t at = all.find(words); at != std::string::npos; at = all.find(words, at + 1)) ++count;
+    return count;
+  }
   [[nodiscard]] std::string errors() const { return text_of(folder_ / "err.txt"); }
   [[nodiscard]] static std::string scene(const std::string& name) {
     return std::string(PINOCCHIO_SOURCE_DIR "/scenes/") + name;
@@ -250,6 +252,8 @@ class WindowTest : public testing::Test {
   std::filesystem::path folder_;
   std::string display_, window_;
   std::optional<Process> server_, manager_, program_;
+  std::optional<Screen> screen_;
+  std::map<std::string, Picture> pictures_;
 
  private:
   void start_display() {
@@ -261,12 +265,13 @@ class WindowTest : public testing::Test {
         << text_of(folder_ / "xvfb.txt");
     display_ = ":" + text_of(number);
     display_.pop_back();
-    manager_.emplace(std::vector<std::string>{"openbox"}, folder_,
-                     std::vector<std::string>{"DISPLAY=" + display_}, folder_ / "openbox.txt",
-                     folder_ / "openbox.txt");
-    // Window managers say how many desktops there are.
-    ASSERT_TRUE(becomes([this] { return !xdo("get_num_desktops").empty(); }));
-    pause_ms(700);  // and then take over what is there: a window that is opened meanwhile may be overlooked
+    screen_.emplace(display_);
+    // A window that is opened before it has taken over the display may be overlooked: it says when it has.
+    manager_.emplace(
+        std::vector<std::string>{"openbox", "--startup", "touch '" + (folder_ / "managed").string() + "'"},
+        folder_, std::vector<std::string>{"DISPLAY=" + display_}, folder_ / "openbox.txt",
+        folder_ / "openbox.txt");
+    ASSERT_TRUE(becomes([this] { return std::filesystem::exists(folder_ / "managed"); }));
   }
 };
 

@@ -44,12 +44,8 @@ TEST_F(LookingTest, TheWheelWithControlEnlargesPixels) {
   xdo("keydown ctrl sleep 0.05 click --repeat 10 --delay 30 4 sleep 0.05 keyup ctrl");
   settle("large.png");
   EXPECT_GT(different("whole.png", "large.png"), 1000);
-  const auto steps = [this](const std::string& file) {  // from a pixel to its right neighbour
-    (void)run_command("cd '" + folder_.string() + "' && convert " + file +
-                          " -crop 319x240+0+0 +repage left.png && convert " + file +
-                          " -crop 319x240+1+0 +repage right.png",
-                      folder_);
-    return different("left.png", "right.png");
+  const auto steps = [this](const std::string& name) {  // from a pixel to its right neighbour
+    return different_pixels(crop(picture(name), "319x240+0+0"), crop(picture(name), "319x240+1+0"));
   };
   EXPECT_LT(2 * steps("large.png"), steps("whole.png"));
   EXPECT_EQ(option(command_line(), "--size"), "320x240");  // what is drawn is the same
@@ -111,15 +107,11 @@ TEST_F(LookingTest, AMaterialIsPickedByAClick) {
 TEST_F(LookingTest, FShowsWhatIsInARoom) {
   open(scene("two-lights"), "--spp 1 --eye 0,5,60 --target 0,2,0");
   settle("outside.png");
-  const auto colors = [this](const std::string& file) {
-    return std::stoi(
-        run_command("cd '" + folder_.string() + "' && convert " + file + " -format %k info:", folder_).out);
-  };
   key("f");
   EXPECT_TRUE(becomes([this] { return load(0.5) < 0.05; }));
   settle("inside.png");
-  EXPECT_LT(colors("outside.png"), 100);
-  EXPECT_GT(colors("inside.png"), 2000);
+  EXPECT_LT(count_colors(picture("outside.png")), 100u);
+  EXPECT_GT(count_colors(picture("inside.png")), 2000u);
   expect_clean_close();
 }
 
@@ -163,9 +155,11 @@ TEST_F(LookingTest, AnErrorLimitIsKeptAndSaid) {
       << command;
   EXPECT_EQ(run_command(there + "render " + scene("two-lights") + view + " -o exact.exr", folder_).exit_code,
             0);
-  const std::string compare = "compare exact.exr " + option(command, "-o") + " --max-error ";
-  EXPECT_EQ(run_command(there + compare + "flip=0.1", folder_).exit_code, 0);
-  EXPECT_EQ(run_command(there + compare + "max=0", folder_).exit_code, 5);  // it did give something up
+  // What was fastest is given up, by times that were measured: now and then bounces that nothing is seen of.
+  EXPECT_EQ(
+      run_command(there + "compare exact.exr " + option(command, "-o") + " --max-error flip=0.1", folder_)
+          .exit_code,
+      0);
 }
 
 // Everything that changes the picture, on the command line: the command says it, and draws what the window

@@ -30,7 +30,7 @@ bool becomes(Condition holds, double seconds = 60.0) {
   const Clock::time_point end = Clock::now() + std::chrono::milliseconds(static_cast<int>(1e3 * seconds));
   while (!holds()) {
     if (Clock::now() >= end) return false;
-    pause_ms(50);
+    pause_ms(20);
   }
   return true;
 }
@@ -98,6 +98,19 @@ class Process {
     double user = 0.0, system = 0.0;
     rest >> user >> system;
     return (user + system) / static_cast<double>(sysconf(_SC_CLK_TCK));
+  }
+  // Whether one of its threads works, or waits for a processor or a disk.
+  [[nodiscard]] bool busy() const {
+    std::error_code gone;
+    for (const auto& thread :
+         std::filesystem::directory_iterator("/proc/" + std::to_string(id_) + "/task", gone)) {
+      const std::string stat = text_of(thread.path() / "stat");  // proc(5): "id (name) state ..."
+      const std::size_t name_end = stat.rfind(')');
+      if (name_end == std::string::npos) continue;  // it has ended
+      const char state = stat[name_end + 2];
+      if (state == 'R' || state == 'D') return true;
+    }
+    return false;
   }
   // Resident memory, MB.
   [[nodiscard]] double memory_mb() const {
