@@ -1,8 +1,13 @@
+#include <optional>
+#include <type_traits>
+#include <utility>
+
 #include "core/image/tonemap.h"
 #include "core/scene/input_file.h"
 #include "core/scene/loaders.h"
 #include "core/scene/ply_file.h"
 #include "core/scene/polygon.h"
+#include "core/scene/texture_file.h"
 
 namespace pinocchio {
 namespace {
@@ -15,18 +20,39 @@ int column(const PlyElement& element, std::initializer_list<const char*> names) 
   return -1;
 }
 
+float value(const PlyRow& row, int i) {
+  return static_cast<float>(row.numbers[static_cast<std::size_t>(i)]);
+}
+
+// The colour of a vertex or a face, there or not.
+struct ColorColumns {
+  explicit ColorColumns(const PlyElement& e)
+      : element(e),
+        c{column(e, {"red", "r", "diffuse_red"}), column(e, {"green", "g", "diffuse_green"}),
+          column(e, {"blue", "b", "diffuse_blue"}), column(e, {"alpha", "a", "diffuse_alpha"})} {}
+  const PlyElement& element;
+  int c[4];
+
+  [[nodiscard]] bool there() const { return c[0] >= 0 && c[1] >= 0 && c[2] >= 0; }
+  [[nodiscard]] glm::vec4 of(const PlyRow& row) const {
+    const auto full = [&](int i) {
+      return value(row, i) * element.properties[static_cast<std::size_t>(i)].color_scale();
+    };
+    return {srgb_to_linear({full(c[0]), full(c[1]), full(c[2])}), c[3] < 0 ? 1.0f : full(c[3])};
+  }
+};
+
 // Columns of vectors, each of them there or not.
 struct VertexColumns {
   explicit VertexColumns(const PlyElement& e)
       : x{column(e, {"x"}), column(e, {"y"}), column(e, {"z"})},
         n{column(e, {"nx", "normal_x"}), column(e, {"ny", "normal_y"}), column(e, {"nz", "normal_z"})},
-        c{column(e, {"red", "r", "diffuse_red"}), column(e, {"green", "g", "diffuse_green"}),
-          column(e, {"blue", "b", "diffuse_blue"}), column(e, {"alpha", "a", "diffuse_alpha"})} {}
-  int x[3], n[3], c[4];
+        uv{column(e, {"s", "u", "texture_u"}), column(e, {"t", "v", "texture_v"})} {}
+  int x[3], n[3], uv[2];
 
   [[nodiscard]] bool positions() const { return x[0] >= 0 && x[1] >= 0 && x[2] >= 0; }
   [[nodiscard]] bool normals() const { return n[0] >= 0 && n[1] >= 0 && n[2] >= 0; }
-  [[nodiscard]] bool colors() const { return c[0] >= 0 && c[1] >= 0 && c[2] >= 0; }
+  [[nodiscard]] bool texcoords() const { return uv[0] >= 0 && uv[1] >= 0; }
 };
 
 class PlyBuilder {
@@ -35,6 +61,7 @@ class PlyBuilder {
       : path_(path), ply_(ply), loading_(loading) {}
 
   Expected<MeshData> build() {
+    read_texture();
     for (const PlyElement& element : ply_.elements()) {
       const Expected<void> read = element.name == "vertex"      ? vertices(element)
                                   : element.name == "face"      ? faces(element)
@@ -44,10 +71,14 @@ class PlyBuilder {
     }
     if (!faces_seen_ && !mesh_.positions.empty())
       lost("element vertex", "points are left out", "they are not drawn");
+    if (texture_) lost("comment TextureFile", "its texture is left out", "there are no texture coordinates");
+    if (textured() && !std::exchange(mesh_.colors, {}).empty())
+      lost("", "colours are left out", "its texture gives the colour");
     Material& material = mesh_.materials.emplace_back();
     material.name = "default";
     if (!mesh_.colors.empty()) mesh_.colors.resize(mesh_.positions.size(), glm::vec4(1.0f));
-    if (!mesh_.colors.empty()) material.ambient = material.diffuse = glm::vec3(1.0f);
+    if (!mesh_.colors.empty() || textured()) material.ambient = material.diffuse = glm::vec3(1.0f);
+    if (textured()) make_maps(mesh_, material).base_color.texture = 0;
     mesh_.triangle_materials.assign(mesh_.triangles.size(), 0);
     return std::move(mesh_);
   }
@@ -71,27 +102,42 @@ class PlyBuilder {
     return {};
   }
 
+  // PLY itself names no texture; MeshLab's comment does.
+  void read_texture() {
+    if (ply_.textures().empty()) return;
+    const std::string& name = ply_.textures().front();
+    if (ply_.textures().size() > 1)
+      lost("comment TextureFile", "textures after the first are left out", "faces show the first");
+    Expected<DecodedImage> image = load_texture(named_file(path_, name), loading_);
+    if (!image)
+      return lost("comment TextureFile", "its texture cannot be read: " + image.error().message(),
+                  "the plain colour is used");
+    if (!image->damage.empty())
+      lost("comment TextureFile", "its texture " + name + " is damaged: " + image->damage,
+           "part of it is missing");
+    texture_ = std::move(image->texture);
+  }
+
+  // Its texture is part of the mesh as soon as texture coordinates are.
+  [[nodiscard]] bool textured() const { return !mesh_.textures.empty(); }
+  bool take_texture(const std::string& where) {
+    if (texture_) mesh_.textures.edit().push_back(*std::exchange(texture_, std::nullopt));
+    if (ply_.textures().empty()) lost(where, "texture coordinates are left out", "it names no texture");
+    return textured();
+  }
+
   Expected<void> vertices(const PlyElement& element) {
     const VertexColumns at(element);
     if (!at.positions()) return ply_.error("its vertices have no x, y and z");
-    const auto value = [](const PlyRow& row, int i) {
-      return static_cast<float>(row.numbers[static_cast<std::size_t>(i)]);
-    };
-    const auto color = [&](const PlyRow& row, int i) {
-      return value(row, i) * element.properties[static_cast<std::size_t>(i)].color_scale();
-    };
-    for (const PlyProperty& p : element.properties)
-      if (p.name == "u" || p.name == "s" || p.name == "texture_u")
-        lost("", "texture coordinates are left out", "PLY names no texture");
+    const ColorColumns color(element);
+    const bool has_texcoords = at.texcoords() && take_texture("");
     return rows(element, [&](const PlyRow& row) -> Expected<void> {
       mesh_.positions.emplace_back(value(row, at.x[0]), value(row, at.x[1]), value(row, at.x[2]));
       mesh_.normals.push_back(at.normals()
                                   ? glm::vec3(value(row, at.n[0]), value(row, at.n[1]), value(row, at.n[2]))
                                   : glm::vec3(0.0f));
-      if (at.colors())
-        mesh_.colors.emplace_back(
-            srgb_to_linear({color(row, at.c[0]), color(row, at.c[1]), color(row, at.c[2])}),
-            at.c[3] < 0 ? 1.0f : color(row, at.c[3]));
+      if (color.there()) mesh_.colors.push_back(color.of(row));
+      if (has_texcoords) mesh_.texcoords.emplace_back(value(row, at.uv[0]), 1.0f - value(row, at.uv[1]));
       return {};
     });
   }
@@ -100,33 +146,74 @@ class PlyBuilder {
     const int indices = column(element, {"vertex_indices", "vertex_index"});
     if (indices < 0 || !element.properties[static_cast<std::size_t>(indices)].is_list)
       return ply_.error("its faces have no list vertex_indices");
-    for (const PlyProperty& p : element.properties) {
-      if (p.name == "red") lost("element face", "colours of faces are left out", "all of it has one colour");
-      if (p.name == "texcoord")
-        lost("element face", "texture coordinates are left out", "PLY names no texture");
-    }
-    return rows(element,
-                [&](const PlyRow& row) { return polygon(row.lists[static_cast<std::size_t>(indices)]); });
+    const ColorColumns color(element);
+    const bool colors = color.there() && mesh_.colors.empty();
+    if (color.there() && !colors)
+      lost("element face", "colours of faces are left out", "its vertices have colours, too");
+    int texcoords = column(element, {"texcoord"});
+    if (texcoords >= 0 && (!element.properties[static_cast<std::size_t>(texcoords)].is_list ||
+                           !mesh_.texcoords.empty() || !take_texture("element face")))
+      texcoords = -1;
+    const std::size_t shared = mesh_.positions.size();
+    if (colors) mesh_.colors.resize(shared, glm::vec4(1.0f));
+    if (texcoords >= 0) mesh_.texcoords.resize(shared, glm::vec2(0.0f));
+    taken_.assign(colors || texcoords >= 0 ? shared : 0, false);
+    return rows(element, [&](const PlyRow& row) -> Expected<void> {
+      corners_ = row.lists[static_cast<std::size_t>(indices)];
+      for (const double index : corners_)
+        if (!(index >= 0.0 && index < static_cast<double>(shared))) return no_such_vertex(index);
+      for (std::size_t i = 0; !taken_.empty() && i < corners_.size(); ++i) {
+        const glm::vec4 painted = colors ? color.of(row) : glm::vec4(1.0f);
+        const glm::vec2 texcoord = texcoords < 0 ? glm::vec2(0.0f) : texcoord_of(row, texcoords, i);
+        corners_[i] = vertex_of(static_cast<std::uint32_t>(corners_[i]), colors ? &painted : nullptr,
+                                texcoords < 0 ? nullptr : &texcoord);
+      }
+      polygon();
+      return {};
+    });
   }
 
-  Expected<void> polygon(const std::vector<double>& indices) {
+  // Of a face's corner; zero where its list is too short.
+  static glm::vec2 texcoord_of(const PlyRow& row, int list, std::size_t corner) {
+    const std::vector<double>& uv = row.lists[static_cast<std::size_t>(list)];
+    if (2 * corner + 1 >= uv.size()) return glm::vec2(0.0f);
+    return {uv[2 * corner], 1.0 - uv[2 * corner + 1]};
+  }
+
+  // What faces say of their corners is kept with vertices: a vertex that another face has taken with another
+  // colour or place in the texture is made once more.
+  std::uint32_t vertex_of(std::uint32_t v, const glm::vec4* color, const glm::vec2* texcoord) {
+    const bool differs =
+        (color && mesh_.colors[v] != *color) || (texcoord && mesh_.texcoords[v] != *texcoord);
+    if (taken_[v] && differs) {
+      for_each_column([v](auto& column) {
+        if (!column.empty()) column.push_back(std::decay_t<decltype(column[v])>(column[v]));
+      });
+      v = static_cast<std::uint32_t>(mesh_.positions.size() - 1);
+    } else {
+      taken_[v] = true;
+    }
+    if (color) mesh_.colors[v] = *color;
+    if (texcoord) mesh_.texcoords[v] = *texcoord;
+    return v;
+  }
+
+  template <class Use>
+  void for_each_column(Use use) {
+    use(mesh_.positions), use(mesh_.normals), use(mesh_.colors), use(mesh_.texcoords);
+  }
+
+  void polygon() {
     faces_seen_ = true;
-    if (indices.size() < 3) {
-      lost("element face", "faces of fewer than three corners are left out", "they are not drawn");
-      return {};
-    }
-    corners_.clear();
-    for (const double index : indices) {
-      if (!(index >= 0.0 && index < static_cast<double>(mesh_.positions.size())))
-        return no_such_vertex(index);
-      corners_.push_back(mesh_.positions[static_cast<std::size_t>(index)]);
-    }
-    const PolygonTriangles polygon = triangulate(corners_);
+    if (corners_.size() < 3)
+      return lost("element face", "faces of fewer than three corners are left out", "they are not drawn");
+    places_.clear();
+    for (const double corner : corners_) places_.push_back(mesh_.positions[static_cast<std::size_t>(corner)]);
+    const PolygonTriangles polygon = triangulate(places_);
     if (!polygon.simple)
       lost("element face", "a face crosses itself", "which parts of it are filled is a guess");
     for (const glm::uvec3& t : polygon.triangles)
-      mesh_.triangles.emplace_back(indices[t.x], indices[t.y], indices[t.z]);
-    return {};
+      mesh_.triangles.emplace_back(corners_[t.x], corners_[t.y], corners_[t.z]);
   }
 
   [[nodiscard]] Unexpected no_such_vertex(double index) const {
@@ -168,7 +255,10 @@ class PlyBuilder {
   PlyFile& ply_;
   Loading& loading_;
   MeshData mesh_;
-  std::vector<glm::vec3> corners_;
+  std::optional<Texture> texture_;
+  std::vector<double> corners_;  // a face's vertices
+  std::vector<glm::vec3> places_;
+  std::vector<bool> taken_;  // a vertex by a face; empty: faces say nothing of their corners
   bool faces_seen_ = false;
 };
 

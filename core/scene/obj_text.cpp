@@ -116,18 +116,19 @@ class ObjReader {
     return at->second;
   }
 
+  void lost(std::string_view keyword, std::string_view what, std::string_view loss) {
+    const std::string where =
+        "line " + std::to_string(line_) + " (" + std::string(keyword.substr(0, 20)) + ")";
+    warnings_.add({file_, where, std::string(what), std::string(loss)});
+  }
+
   void warn_of(std::string_view keyword) {
-    const auto lost = [&](std::string_view what, std::string_view loss) {
-      const std::string where =
-          "line " + std::to_string(line_) + " (" + std::string(keyword.substr(0, 20)) + ")";
-      warnings_.add({file_, where, std::string(what), std::string(loss)});
-    };
-    if (keyword == "p") return lost("points are left out", "they are not drawn");
-    if (keyword == "l") return lost("lines are left out", "they are not drawn");
+    if (keyword == "p") return lost(keyword, "points are left out", "they are not drawn");
+    if (keyword == "l") return lost(keyword, "lines are left out", "they are not drawn");
     if (keyword == "curv" || keyword == "curv2" || keyword == "surf")
-      return lost("curves and free-form surfaces are left out", "they are not drawn");
+      return lost(keyword, "curves and free-form surfaces are left out", "they are not drawn");
     if (std::find(std::begin(kQuiet), std::end(kQuiet), keyword) == std::end(kQuiet))
-      lost("statements that are not known are left out", "what they stand for is missing");
+      lost(keyword, "statements that are not known are left out", "what they stand for is missing");
   }
 
   // x y z, x y z w, or x y z r g b
@@ -163,8 +164,11 @@ class ObjReader {
     for (std::string_view corner; !(corner = next_word(line)).empty() && corner.front() != '#';)
       if (const Expected<void> read = read_corner(corner); !read) return read;
     const std::size_t corners = obj_.corners.size() - first;
-    if (corners < 3)
-      return fail(line_, "a face has " + std::to_string(corners) + " corners, it needs 3 or more");
+    if (corners < 3) {  // exporters write some; they have no area
+      obj_.corners.resize(first);
+      lost("f", "faces of fewer than three corners are left out", "they are not drawn");
+      return {};
+    }
     obj_.faces.push_back({first, corners, group_, material_, line_});
     return {};
   }

@@ -146,8 +146,10 @@ Expected<void> PlyFile::read_header_line(std::string_view line, bool& ended) {
       return error("property " + property.name + " is of no element or no known type");
     property.type = *known;
     elements_.back().properties.push_back(std::move(property));
+  } else if (word == "comment" && next_word(line) == "TextureFile") {
+    textures_.emplace_back(trimmed(line));
   }
-  return {};  // comments, obj_info
+  return {};  // other comments, obj_info
 }
 
 bool PlyFile::read_number(PlyType type, double& value) {

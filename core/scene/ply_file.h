@@ -42,6 +42,8 @@ class PlyFile {
   [[nodiscard]] static Expected<PlyFile> open(const std::filesystem::path& path, std::string bytes);
 
   [[nodiscard]] const std::vector<PlyElement>& elements() const { return elements_; }
+  // Of the comments "TextureFile name", as MeshLab writes them.
+  [[nodiscard]] const std::vector<std::string>& textures() const { return textures_; }
   // The next row, in the file's order: all rows of an element, then the next element's.
   [[nodiscard]] Expected<void> read_row(const PlyElement& element, PlyRow& row);
   [[nodiscard]] Unexpected error(const std::string& what) const;
@@ -62,6 +64,7 @@ class PlyFile {
   Format format_ = Format::ascii;
   bool format_known_ = false;
   std::vector<PlyElement> elements_;
+  std::vector<std::string> textures_;
 };
 
 }  // namespace pinocchio

@@ -42,8 +42,8 @@ std::vector<glm::uvec3> fan(std::size_t corners) {
   return triangles;
 }
 
-// The shorter diagonal, or the one from the corner that points inwards.
-std::vector<glm::uvec3> quad(std::span<const glm::vec3> c, std::span<const glm::dvec2> flat) {
+// From the first corner, or from the one that points inwards.
+std::vector<glm::uvec3> quad(std::span<const glm::dvec2> flat) {
   int inwards = 0, last = 0;
   for (int i = 0; i < 4; ++i)
     if (turn(flat[static_cast<std::size_t>((i + 3) % 4)], flat[static_cast<std::size_t>(i)],
@@ -51,20 +51,18 @@ std::vector<glm::uvec3> quad(std::span<const glm::vec3> c, std::span<const glm::
       ++inwards;
       last = i;
     }
-  const glm::vec3 e02 = c[2] - c[0], e13 = c[3] - c[1];
-  const bool from_first = inwards == 1 ? last % 2 == 0 : glm::dot(e02, e02) < glm::dot(e13, e13);
-  if (from_first) return {{0, 1, 2}, {0, 2, 3}};
-  return {{0, 1, 3}, {1, 2, 3}};
+  if (inwards == 1 && last % 2 == 1) return {{0, 1, 3}, {1, 2, 3}};
+  return fan(4);
 }
 
-bool strictly_convex(std::span<const glm::dvec2> p) {
-  int changes = 0;
-  for (std::size_t i = 0, n = p.size(); i < n; ++i) {
-    const glm::dvec2 &a = p[i], &b = p[(i + 1) % n], &c = p[(i + 2) % n];
-    if (turn(a, b, c) <= 0.0) return false;
-    if ((b.y > a.y || (b.y == a.y && b.x < a.x)) != (c.y > b.y || (c.y == b.y && c.x < b.x))) ++changes;
-  }
-  return changes == 2;  // once up and once down: it goes round once
+// Whether a fan from the first corner covers it without a fold: the others go round that one in one
+// direction and by half a turn at most.
+bool fans_out(std::span<const glm::dvec2> p) {
+  for (std::size_t i = 2; i < p.size(); ++i)
+    if (turn(p[0], p[i - 1], p[i]) < 0.0 || turn(p[0], p[1], p[i]) < 0.0 ||
+        turn(p[0], p[i - 1], p.back()) < 0.0)
+      return false;
+  return true;
 }
 
 // Whether the triangles cover the polygon: each turns as it does, and their areas are its area.
@@ -134,8 +132,8 @@ PolygonTriangles triangulate(std::span<const glm::vec3> corners) {
   if (corners.size() == 3) return {{{0, 1, 2}}};
   double area = 0.0;
   const std::vector<glm::dvec2> flat = flattened(corners, area);
-  if (corners.size() == 4) return {quad(corners, flat)};
-  if (area == 0.0 || strictly_convex(flat)) return {fan(corners.size())};
+  if (corners.size() == 4) return {quad(flat)};
+  if (area == 0.0 || fans_out(flat)) return {fan(corners.size())};
   if (std::vector<glm::uvec3> swept = triangulate_by_sweep(flat); covers(flat, swept, area))
     return {std::move(swept)};
   if (corners.size() <= kMostToClip)

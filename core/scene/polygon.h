@@ -8,8 +8,9 @@
 namespace pinocchio {
 
 // Divides a polygon of three or more corners, convex or concave, into triangles that turn as it does: three
-// numbers of corners each, two triangles fewer than corners. A quad is cut along its shorter diagonal where
-// it is convex; larger ones along a sweep, in linear-logarithmic time. `simple` is false where the polygon
+// numbers of corners each, two triangles fewer than corners. Where a fan from the first corner covers it, it
+// is one, as Blender cuts quads, Mitsuba and trimesh all: bent ones and their textures look as where they
+// were made. Others are cut along a sweep, in linear-logarithmic time. `simple` is false where the polygon
 // crosses itself: then its triangles are a guess.
 struct PolygonTriangles {
   std::vector<glm::uvec3> triangles;

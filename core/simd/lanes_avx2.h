@@ -135,6 +135,17 @@ inline Float to_float(Int a) {
   return _mm256_cvtepi32_ps(a.v);
 }
 
+inline Float floor(Float a) {
+  return _mm256_floor_ps(a.v);
+}
+inline Int to_int(Float a) {
+  return _mm256_cvttps_epi32(a.v);
+}
+inline Int gather(const void* from, Int index, Mask m) {
+  return _mm256_mask_i32gather_epi32(_mm256_setzero_si256(), static_cast<const int*>(from), index.v,
+                                     _mm256_castps_si256(m.m), 4);
+}
+
 // By mask: which lanes come first.
 inline constexpr auto kPackOrder = [] {
   std::array<std::array<std::uint8_t, 8>, 256> order{};

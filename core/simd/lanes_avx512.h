@@ -130,6 +130,16 @@ inline Float to_float(Int a) {
   return _mm512_cvtepi32_ps(a.v);
 }
 
+inline Float floor(Float a) {
+  return _mm512_floor_ps(a.v);
+}
+inline Int to_int(Float a) {
+  return _mm512_cvttps_epi32(a.v);
+}
+inline Int gather(const void* from, Int index, Mask m) {
+  return _mm512_mask_i32gather_epi32(_mm512_setzero_si512(), m.m, index.v, from, 4);
+}
+
 // Packed in a register first: a packing store is slow on some processors.
 inline void store_packed(float* p, Float a, Mask m) {
   _mm512_storeu_ps(p, _mm512_maskz_compress_ps(m.m, a.v));

@@ -3,7 +3,9 @@
 #pragma once
 
 #include <bit>
+#include <cstddef>
 #include <cstdint>
+#include <cstring>
 
 namespace pinocchio::scalar {
 
@@ -128,6 +130,19 @@ inline Float from_bits(Int a) {
 }
 inline Float to_float(Int a) {
   return Float(static_cast<float>(a.v));
+}
+
+inline Float floor(Float a) {
+  return Float(__builtin_floorf(a.v));
+}
+inline Int to_int(Float a) {  // towards zero; of what fits
+  return Int(static_cast<std::uint32_t>(static_cast<std::int32_t>(a.v)));
+}
+// 32 bits each of what lies there, by index; 0 where the lane is not of m.
+inline Int gather(const void* from, Int index, Mask m) {
+  Int a(0);
+  if (m.m) std::memcpy(&a.v, static_cast<const char*>(from) + 4 * std::ptrdiff_t{index.v}, 4);
+  return a;
 }
 
 // The lanes of m, side by side in their order; p has room for kWidth.

@@ -4,7 +4,9 @@
 #include <smmintrin.h>
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
+#include <cstring>
 
 namespace pinocchio::sse4 {
 
@@ -133,6 +135,23 @@ inline Float from_bits(Int a) {
 }
 inline Float to_float(Int a) {
   return _mm_cvtepi32_ps(a.v);
+}
+
+inline Float floor(Float a) {
+  return _mm_floor_ps(a.v);
+}
+inline Int to_int(Float a) {
+  return _mm_cvttps_epi32(a.v);
+}
+inline Int gather(const void* from, Int index, Mask m) {
+  alignas(16) std::uint32_t at[kWidth];
+  alignas(16) std::uint32_t found[kWidth]{};
+  index.store(at);
+  for (unsigned waiting = m.bits(); waiting != 0; waiting &= waiting - 1) {
+    const int lane = __builtin_ctz(waiting);
+    std::memcpy(found + lane, static_cast<const char*>(from) + 4 * static_cast<std::size_t>(at[lane]), 4);
+  }
+  return Int::load(found);
 }
 
 // By mask: which bytes come first.

@@ -7,6 +7,7 @@
 #include <glm/glm.hpp>
 
 #include "core/parallel/tiles.h"
+#include "core/trace/lane_texture.h"
 #include "core/trace/map_lanes.h"
 #include "core/trace/ray_queue.h"
 #include "core/trace/shared.h"
@@ -94,6 +95,7 @@ struct LaneSteps {
                   std::uint32_t dimension, float* u, float* v, std::size_t count);
   // x^y for x > 0, of `count` pairs, a multiple of 16; for tests.
   void (*power)(const float* x, const float* y, float* result, std::size_t count);
+  SampleTexture sample_texture;  // for tests
 };
 
 enum class Isa;  // pinocchio/tracer.h

@@ -4,11 +4,10 @@
 #include <cstdint>
 
 #include "core/trace/footprint.h"
+#include "core/trace/lane_texture.h"
 #include "pinocchio/mesh.h"
 
 namespace pinocchio {
-
-inline constexpr unsigned kMostLanes = 16;
 
 // A packet's points, a column each.
 struct MapLanes {
@@ -26,6 +25,7 @@ struct MapLanes {
 };
 
 // For `lanes`, whose triangles' materials have maps; the others' columns are left as they are.
-void map_lanes(const Mesh& mesh, const Footprint& footprint, unsigned lanes, MapLanes& packet);
+void map_lanes(const Mesh& mesh, const Footprint& footprint, SampleTexture sample, unsigned lanes,
+               MapLanes& packet);
 
 }  // namespace pinocchio

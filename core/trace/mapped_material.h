@@ -1,7 +1,9 @@
 // Materials that textures, vertex colours and alpha change from point to point (pinocchio/material_maps.h).
-// One ray at a time, compiled for every processor: the lanes call it for those of them that need it.
+// One ray at a time, compiled for every processor: the lanes call it for those of them that need it, and look
+// the textures up themselves (trace/map_lanes.h).
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <glm/glm.hpp>
 
@@ -26,8 +28,33 @@ struct MappedMaterial {
   float alpha;          // the surface's share; the rest is what a ray sees that goes straight on
 };
 
+// What a material's textures are there; white where it has none.
+struct MapTexels {
+  glm::vec4 base_color{1.0f}, emissive{1.0f}, metallic_roughness{1.0f}, occlusion{1.0f}, normal{1.0f};
+  glm::vec4 specular{1.0f}, specular_color{1.0f}, transmission{1.0f};
+};
+
+struct MapTexel {
+  TextureUse MaterialMaps::*use;
+  glm::vec4 MapTexels::*texel;
+  bool is_color;
+};
+inline constexpr std::array<MapTexel, 8> kMapTexels{
+    {{&MaterialMaps::base_color, &MapTexels::base_color, true},
+     {&MaterialMaps::emissive, &MapTexels::emissive, true},
+     {&MaterialMaps::metallic_roughness, &MapTexels::metallic_roughness, false},
+     {&MaterialMaps::occlusion, &MapTexels::occlusion, false},
+     {&MaterialMaps::normal, &MapTexels::normal, false},
+     {&MaterialMaps::specular, &MapTexels::specular, false},
+     {&MaterialMaps::specular_color, &MapTexels::specular_color, true},
+     {&MaterialMaps::transmission, &MapTexels::transmission, false}}};
+
+class Lookup;  // trace/map_lookup.h
+
 // The triangle's material has maps.
 [[nodiscard]] MappedMaterial mapped_material(const Mesh& mesh, const MapPoint& point);
+[[nodiscard]] MappedMaterial mapped_material(const Mesh& mesh, const MapPoint& point, const Lookup& look,
+                                             const MapTexels& texels);
 
 // Whether a ray passes the triangle there as if nothing were there: by alpha alone, at the point itself.
 [[nodiscard]] bool is_hole(const Mesh& mesh, std::uint32_t triangle, const glm::vec3& weights);

@@ -177,7 +177,8 @@ void bind_material(nb::module_& module) {
           [](TexturedMaterial* self, const glm::vec3& diffuse, const glm::vec3& specular, float shininess,
              const glm::vec3& reflectance, const glm::vec3& transmittance, float ior, bool fresnel,
              const glm::vec3& emission, const std::optional<glm::vec3>& ambient,
-             const std::optional<Texels>& texture, const std::string& name, float gloss) {
+             const std::optional<Texels>& texture, const std::string& name, float gloss,
+             const glm::vec3& attenuation_color, float attenuation_distance) {
             Material m;
             m.name = name;
             m.ambient = ambient.value_or(diffuse);
@@ -190,19 +191,24 @@ void bind_material(nb::module_& module) {
             m.fresnel = fresnel;
             m.emission = emission;
             m.gloss = gloss;
+            m.attenuation_color = attenuation_color;
+            m.attenuation_distance = attenuation_distance;
             new (self) TexturedMaterial{
                 m, texture ? std::make_shared<const Texture>(texture_of(*texture)) : nullptr};
           },
           "diffuse"_a = glm::vec3(0.8f), "specular"_a = glm::vec3(0.0f), "shininess"_a = 1.0f,
           "reflectance"_a = glm::vec3(0.0f), "transmittance"_a = glm::vec3(0.0f), "ior"_a = 1.0f,
           "fresnel"_a = false, "emission"_a = glm::vec3(0.0f), "ambient"_a = nb::none(),
-          "texture"_a = nb::none(), "name"_a = "", "gloss"_a = 0.0f,
+          "texture"_a = nb::none(), "name"_a = "", "gloss"_a = 0.0f, "attenuation_color"_a = glm::vec3(1.0f),
+          "attenuation_distance"_a = 0.0f,
           "reflectance: the weight of the mirrored ray; with `fresnel`, its value at normal incidence.\n"
           "transmittance: of the refracted ray, bent by `ior`. texture: (height, width, 3 or 4) uint8, sRGB; "
           "its\n"
           "colour multiplies diffuse and ambient. ambient: as diffuse, where it is left out. gloss: "
           "exponent\n"
-          "of the lobe that mirrored rays are spread over by samples (spp); 0: sharp.");
+          "of the lobe that mirrored rays are spread over by samples (spp); 0: sharp. attenuation_color: "
+          "what is\n"
+          "left of light that went `attenuation_distance`, scene units, through glass; 0: it is clear.");
 }
 
 void bind_light(nb::module_& module) {

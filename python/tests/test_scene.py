@@ -44,6 +44,21 @@ def test_colors_materials_and_textures():
     assert engine.render(mirror, camera, size=(8, 8)).record["rays"]["reflection"] > 0
 
 
+def test_glass_takes_light_by_the_way_through_it():
+    corners, triangles = quad()
+    vertices = numpy.concatenate([corners + numpy.float32([0, 0, z]) for z in (0, 1, 2)])
+    # a wall, a slab's lower and upper face
+    triangles = numpy.concatenate([triangles, triangles[:, ::-1] + 4, triangles + 8])
+    wall = pinocchio.Material(diffuse=(0, 0, 0), emission=(1, 1, 1))
+    glass = pinocchio.Material(diffuse=(0, 0, 0), transmittance=(1, 1, 1), attenuation_color=(0.25, 0.5, 1),
+                               attenuation_distance=2)
+    scene = pinocchio.Scene(vertices, triangles, materials=[wall, glass],
+                            triangle_materials=numpy.array([0, 0, 1, 1, 1, 1]))
+    camera = pinocchio.Camera(eye=(0, 0, 9), target=(0, 0, 0), up=(0, 1, 0), fov=2)
+    seen = pinocchio.Engine().render(scene, camera, size=(4, 4), mode="raytrace").color[2, 2, :3]
+    assert seen == pytest.approx([0.25**0.5, 0.5**0.5, 1], abs=2e-3)
+
+
 def test_lights_and_cameras_change_between_calls():
     engine, scene = pinocchio.Engine(), floor(lights=[pinocchio.Light(position=(0, 0, 3))])
     lit = engine.render(scene, pinocchio.Camera(**ABOVE), size=(8, 8)).mask

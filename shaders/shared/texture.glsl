@@ -93,7 +93,8 @@ SHARED vec4 sample_texture(TextureParams use, TexturePoint point, bool is_color)
   float yy = dot(y, y);
   float longer = sqrt(max(xx, yy));
   // Written so that NaN is not filtered either.
-  if (use.levels <= 1 || !(longer > 1.0f)) return sample_point(use, point.uv, is_color);
+  if (use.levels <= 1 || !(longer > 1.0f && xx + yy > 0.0f))
+    return sample_point(use, point.uv, is_color);
   float shorter = max(abs(x.x * y.y - x.y * y.x) / longer, 1.0f);  // the parallelogram's height
   float taps = clamp(ceil(longer / shorter), 1.0f, kMostTaps);
   float lod = clamp(log2(min(longer / taps, 65536.0f)), 0.0f, float(use.levels - 1));

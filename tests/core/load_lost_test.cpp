@@ -159,5 +159,18 @@ TEST(LoadLost, ValuesOfMtlThatAreNoNumbers) {
   EXPECT_EQ(warnings.size(), 2u);
 }
 
+TEST(LoadLost, ObjFacesWithoutArea) {
+  const std::filesystem::path path = own_file("thin.obj");
+  std::ofstream(path) << "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2\nf 1 2 3\nf 3\n";
+  Warnings warnings;
+  const Expected<Scene> scene = load_scene(path, &warnings);
+  ASSERT_TRUE(scene) << scene.error().message();
+  EXPECT_EQ(scene->mesh->triangles, (std::vector<glm::uvec3>{{0, 1, 2}}));
+  ASSERT_EQ(warnings.size(), 1u);
+  EXPECT_NE(warnings[0].message().find("line 4 (f): faces of fewer than three corners are left out"),
+            std::string::npos)
+      << warnings[0].message();
+}
+
 }  // namespace
 }  // namespace pinocchio

@@ -164,7 +164,7 @@ TEST(LoadObj, BadInputNamesTheLine) {
   EXPECT_EQ(error_of(kTriangle + "f 1 2 9\n").line, 4);
   EXPECT_EQ(error_of(kTriangle + "f 1 2 0\n").line, 4);
   EXPECT_EQ(error_of(kTriangle + "f -1 -2 -4\n").line, 4);
-  EXPECT_EQ(error_of(kTriangle + "\n# comment\nf 1 2\n").line, 6);
+  EXPECT_EQ(error_of(kTriangle + "\n# comment\nf 1 2 x\n").line, 6);
   EXPECT_EQ(error_of("v 0 0 0\nv nan 0 0\n").line, 2);
   EXPECT_EQ(error_of("v 0 0 0\nv 0 inf 0\n").line, 2);
   EXPECT_EQ(error_of("v 0 0 0\nv 0 1e99 0\n").line, 2);

@@ -1,6 +1,7 @@
 #include <cstring>
 #include <fstream>
 
+#include "core/scene/texture_file.h"
 #include "tests/support/own_file.h"
 #include "tests/support/scenes.h"
 
@@ -79,6 +80,60 @@ TEST(LoadPly, StripsEndAtMinusOne) {
   const Expected<Scene> scene = load_text(header + "8 0 1 2 3 -1 3 2 1\n");
   ASSERT_TRUE(scene) << scene.error().message();
   EXPECT_EQ(scene->mesh->triangles, (std::vector<glm::uvec3>{{0, 1, 2}, {2, 1, 3}, {3, 2, 1}}));
+}
+
+TEST(LoadPly, FacesMayHaveColors) {
+  std::string header = kHeader.substr(0, kHeader.find("property uchar red")) +
+                       "element face 3\nproperty list uchar int vertex_indices\nproperty uchar red\n"
+                       "property uchar green\nproperty uchar blue\nend_header\n";
+  const Expected<Scene> scene =
+      load_text(header + "0 0 0\n1 0 0\n1 1 0\n0 1 0\n3 0 1 2 255 0 0\n3 0 2 3 0 255 0\n3 2 1 0 255 0 0\n");
+  ASSERT_TRUE(scene) << scene.error().message();
+  const Mesh& mesh = *scene->mesh;
+  ASSERT_EQ(mesh.triangles.size(), 3u);
+  ASSERT_EQ(mesh.colors.size(), mesh.positions.size());
+  EXPECT_EQ(mesh.positions.size(), 6u);  // two are of two colours
+  for (int i = 0; i < 3; ++i) {
+    EXPECT_EQ(mesh.colors[mesh.triangles[0][i]], glm::vec4(1, 0, 0, 1));
+    EXPECT_EQ(mesh.colors[mesh.triangles[1][i]], glm::vec4(0, 1, 0, 1));
+  }
+  EXPECT_EQ(mesh.triangles[2], glm::uvec3(2, 1, 0));
+  EXPECT_EQ(mesh.positions[mesh.triangles[1].y], glm::vec3(1, 1, 0));
+}
+
+TEST(LoadPly, TexturesOfVerticesAndOfFaces) {
+  Texture texture;
+  texture.texels = Image<glm::u8vec4>(glm::ivec2(2, 1), glm::u8vec4(255));
+  std::ofstream(own_file("two words.png"), std::ios::binary) << png_of(texture);
+  const std::string begin =
+      "ply\nformat ascii 1.0\ncomment TextureFile two words.png\nelement vertex 3\nproperty float x\n"
+      "property float y\nproperty float z\n";
+  const std::string faces = "property list uchar int vertex_indices\n";
+  Warnings warnings;
+  const Expected<Scene> vertices =
+      load_text(begin + "property float s\nproperty float t\nelement face 1\n" + faces +
+                    "end_header\n0 0 0 0 0\n1 0 0 1 0\n0 1 0 0 1\n3 0 1 2\n",
+                &warnings);
+  ASSERT_TRUE(vertices) << vertices.error().message();
+  EXPECT_TRUE(warnings.empty());
+  ASSERT_NE(vertices->mesh->maps_of(0), nullptr);
+  EXPECT_TRUE(vertices->mesh->maps_of(0)->base_color.used());
+  EXPECT_EQ(vertices->mesh->texcoords, (std::vector<glm::vec2>{{0, 1}, {1, 1}, {0, 0}}));  // v grows upwards
+
+  const Expected<Scene> corners =
+      load_text(begin + "element face 2\n" + faces + "property list uchar float texcoord\nend_header\n" +
+                    "0 0 0\n1 0 0\n0 1 0\n3 0 1 2 6 0 0 1 0 0 1\n3 0 2 1 6 0 0 .5 1 1 0\n",
+                &warnings);
+  ASSERT_TRUE(corners) << corners.error().message();
+  EXPECT_TRUE(warnings.empty());
+  const Mesh& mesh = *corners->mesh;
+  EXPECT_EQ(mesh.triangles, (std::vector<glm::uvec3>{{0, 1, 2}, {0, 3, 1}}));  // corner 2 lies elsewhere
+  EXPECT_EQ(mesh.texcoords, (std::vector<glm::vec2>{{0, 1}, {1, 1}, {0, 0}, {0.5, 0}}));
+
+  ASSERT_TRUE(load_text(begin + "element face 1\n" + faces + "end_header\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n",
+                        &warnings));
+  ASSERT_EQ(warnings.size(), 1u);
+  EXPECT_NE(warnings[0].message().find("no texture coordinates"), std::string::npos);
 }
 
 TEST(LoadPly, WhatIsLeftOutIsSaid) {

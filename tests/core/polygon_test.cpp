@@ -61,12 +61,23 @@ Ring comb(int teeth) {
   return ring;
 }
 
-TEST(Polygon, QuadsAreCutAlongTheirShorterDiagonal) {
-  const Ring kite{{0, 0, 0}, {4, -1, 0}, {5, 0, 0}, {4, 1, 0}};
-  EXPECT_EQ(triangulate(kite).triangles, (std::vector<glm::uvec3>{{0, 1, 3}, {1, 2, 3}}));
+TEST(Polygon, QuadsAreCutFromTheirFirstCornerAsOtherProgramsDo) {
+  const Ring bent{{0, 0, 0}, {4, -1, 1}, {5, 0, 0}, {4, 1, 1}};  // the other diagonal is shorter
+  EXPECT_EQ(triangulate(bent).triangles, (std::vector<glm::uvec3>{{0, 1, 2}, {0, 2, 3}}));
   const Ring arrow{{0, 0, 0}, {4, -3, 0}, {1, 0, 0}, {4, 3, 0}};  // points inwards at corner 2
   EXPECT_EQ(triangulate(arrow).triangles, (std::vector<glm::uvec3>{{0, 1, 2}, {0, 2, 3}}));
   expect_covered(arrow);
+  const Ring turned{{4, 3, 0}, {0, 0, 0}, {4, -3, 0}, {1, 0, 0}};  // at corner 3
+  EXPECT_EQ(triangulate(turned).triangles, (std::vector<glm::uvec3>{{0, 1, 3}, {1, 2, 3}}));
+  expect_covered(turned);
+}
+
+TEST(Polygon, AFanWhereItCoversThem) {
+  const std::vector<glm::uvec3> fan{{0, 1, 2}, {0, 2, 3}, {0, 3, 4}};
+  EXPECT_EQ(triangulate(Ring{{0, 0, 0}, {4, 0, 0}, {4, 2, 0}, {4, 4, 0}, {0, 4, 0}}).triangles, fan);
+  const Ring dented{{0, 0, 0}, {4, 0, 0}, {2, 2, 0}, {4, 4, 0}, {0, 4, 0}};
+  EXPECT_EQ(triangulate(dented).triangles, fan);
+  expect_covered(dented);
 }
 
 TEST(Polygon, ConcaveOnes) {

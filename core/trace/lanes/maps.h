@@ -3,6 +3,7 @@
 
 #include "core/trace/lanes/material.h"
 #include "core/trace/lanes/surface.h"
+#include "core/trace/lanes/texture.h"
 
 namespace pinocchio::PINOCCHIO_LANES {
 namespace {
@@ -29,7 +30,7 @@ inline Vec load(const MapLanes::Column (&columns)[3]) {
   store(s.n_shading, packet.n_shading);
   width.store(packet.width);
   packet.leaving = s.leaving.bits();
-  map_lanes(*bounce.scene.mesh, *bounce.footprint, m.mapped, packet);
+  map_lanes(*bounce.scene.mesh, *bounce.footprint, sample_texture, m.mapped, packet);
 
   const Mask mapped = Mask::from_bits(m.mapped);
   s.n_shading = load(packet.n_shading);

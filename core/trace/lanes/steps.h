@@ -247,6 +247,6 @@ void samples(const shared::Sampling& of, const std::uint32_t* x, const std::uint
 
 }  // namespace
 
-const LaneSteps kSteps{camera_rays, keep_hits, bounce_rays, see, samples, powers};
+const LaneSteps kSteps{camera_rays, keep_hits, bounce_rays, see, samples, powers, sample_texture};
 
 }  // namespace pinocchio::PINOCCHIO_LANES
