@@ -41,6 +41,7 @@ finish() {
   local begin=$SECONDS status=0
   STEP="$BESIDE"
   echo "==> $STEP: what it wrote"
+  renice -n 0 -g "$BESIDE_ID" >/dev/null 2>&1 || true  # nothing to give way to any more; root alone may
   wait "$BESIDE_ID" || status=$?
   BESIDE_ID=""
   cat "$BESIDE_LOG"
