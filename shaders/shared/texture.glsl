@@ -36,41 +36,28 @@ SHARED int wrapped_texel(int i, int n, int wrap) {
   return clamp(i, 0, n - 1);
 }
 
-// One of a texture's levels.
-struct TextureLevel {
-  int first;  // texel
-  ivec2 size;
-};
-
-SHARED TextureLevel smaller_level(TextureLevel level) {
-  level.first += level.size.x * level.size.y;
-  level.size = max(level.size / 2, ivec2(1));
-  return level;
-}
-
-SHARED TextureLevel texture_level(TextureParams use, int i) {
-  TextureLevel level;
-  level.first = 0;
-  level.size = use.size;
-  for (; i > 0; --i) level = smaller_level(level);
-  return level;
-}
-
 SHARED vec2 within_periods(TextureParams use, vec2 uv) {
   return vec2(within_period(uv.x, use.wrap_u), within_period(uv.y, use.wrap_v));
 }
 
 // uv: within its periods. Bilinear by hand: hardware filters with 8 bits of weight, and the two sides would
-// differ.
-SHARED vec4 sample_level(TextureParams use, vec2 uv, TextureLevel level, bool is_color) {
-  vec2 at = use.nearest ? uv * vec2(level.size) : uv * vec2(level.size) - 0.5f;
+// differ. (The level is found anew each time: carried through the loop over taps, Mesa 22's llvmpipe compiles
+// for minutes.)
+SHARED vec4 sample_level(TextureParams use, vec2 uv, int level, bool is_color) {
+  ivec2 size = use.size;
+  int first = 0;
+  for (int i = 0; i < level; ++i) {
+    first += size.x * size.y;
+    size = max(size / 2, ivec2(1));
+  }
+  vec2 at = use.nearest ? uv * vec2(size) : uv * vec2(size) - 0.5f;
   vec2 base = floor(at);
   ivec2 b = ivec2(base);
-  int x = wrapped_texel(b.x, level.size.x, use.wrap_u);
-  int row = level.first + wrapped_texel(b.y, level.size.y, use.wrap_v) * level.size.x;
+  int x = wrapped_texel(b.x, size.x, use.wrap_u);
+  int row = first + wrapped_texel(b.y, size.y, use.wrap_v) * size.x;
   if (use.nearest) return texel_at(use.source, row + x, is_color);
-  int right = wrapped_texel(b.x + 1, level.size.x, use.wrap_u);
-  int below = level.first + wrapped_texel(b.y + 1, level.size.y, use.wrap_v) * level.size.x;
+  int right = wrapped_texel(b.x + 1, size.x, use.wrap_u);
+  int below = first + wrapped_texel(b.y + 1, size.y, use.wrap_v) * size.x;
   vec2 f = at - base;
   return mix(mix(texel_at(use.source, row + x, is_color), texel_at(use.source, row + right, is_color), f.x),
              mix(texel_at(use.source, below + x, is_color), texel_at(use.source, below + right, is_color), f.x),
@@ -79,7 +66,7 @@ SHARED vec4 sample_level(TextureParams use, vec2 uv, TextureLevel level, bool is
 
 // Of the largest level, not filtered.
 SHARED vec4 sample_point(TextureParams use, vec2 uv, bool is_color) {
-  return sample_level(use, within_periods(use, uv), texture_level(use, 0), is_color);
+  return sample_level(use, within_periods(use, uv), 0, is_color);
 }
 
 const float kMostTaps = 8.0f;
@@ -98,15 +85,14 @@ SHARED vec4 sample_texture(TextureParams use, TexturePoint point, bool is_color)
   float shorter = max(abs(x.x * y.y - x.y * y.x) / longer, 1.0f);  // the parallelogram's height
   float taps = clamp(ceil(longer / shorter), 1.0f, kMostTaps);
   float lod = clamp(log2(min(longer / taps, 65536.0f)), 0.0f, float(use.levels - 1));
-  TextureLevel fine = texture_level(use, int(lod));
-  TextureLevel coarse = smaller_level(fine);
-  float part = lod - floor(lod);
+  int level = int(lod);
+  float part = lod - float(level);
   vec2 along = xx > yy ? point.change_x : point.change_y;
   vec4 sum = vec4(0.0f);
   for (float k = 0.5f; k < taps; k += 1.0f) {
     vec2 uv = within_periods(use, point.uv + along * (k / taps - 0.5f));
-    vec4 texel = sample_level(use, uv, fine, is_color);
-    if (part > 0.0f) texel = mix(texel, sample_level(use, uv, coarse, is_color), part);
+    vec4 texel = sample_level(use, uv, level, is_color);
+    if (part > 0.0f) texel = mix(texel, sample_level(use, uv, level + 1, is_color), part);
     sum += texel;
   }
   return sum / taps;
