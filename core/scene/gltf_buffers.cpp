@@ -85,7 +85,7 @@ Expected<tinygltf::BufferView> view_of(GltfFile& file, const Json& json, const s
     return view;
   }
   const std::optional<std::size_t> buffer = size_member(json, "buffer");
-  view.buffer = buffer && *buffer < file.buffers.size() ? static_cast<int>(*buffer) : -1;
+  view.buffer = buffer ? static_cast<int>(std::min<std::size_t>(*buffer, 0x7fffffff)) : -1;
   view.byteOffset = size_member(json, "byteOffset").value_or(0);
   view.byteLength = size_member(json, "byteLength").value_or(0);
   view.byteStride = size_member(json, "byteStride").value_or(0);

@@ -247,7 +247,8 @@ class Audit {
 
   void look_at_scenes() {
     const Json& scenes = array_of(gltf_, "scenes");
-    const auto shown = static_cast<std::size_t>(std::max(number_of(gltf_, "scene", 0), 0.0));
+    const double named = number_of(gltf_, "scene", 0);
+    const std::size_t shown = element_of("scenes", named) ? static_cast<std::size_t>(named) : 0;
     for (std::size_t i = 0; i < scenes.size(); ++i)
       if (i != shown)
         lost(place("scene", scenes[i], i), "scenes other than the default one are left out",

@@ -129,7 +129,7 @@ class MeshPlacer {
                                std::uint32_t first, std::size_t vertex_count) {
     if (primitive.material >= 0 &&
         static_cast<std::size_t>(primitive.material) >= file_.model.materials.size())
-      return file_.error("a primitive names material " + std::to_string(primitive.material) + ", there are " +
+      return file_.error("names material " + std::to_string(primitive.material) + ", there are " +
                          std::to_string(file_.model.materials.size()));
     const std::size_t before = mesh_.triangles.size();
     if (const Expected<void> added = add_corners(primitive, vertex_count); !added) return added;
@@ -138,8 +138,7 @@ class MeshPlacer {
     for (const glm::uvec3& triangle : triangles) most = glm::max(most, triangle);
     if (const std::uint32_t last = std::max({most.x, most.y, most.z});
         !triangles.empty() && last >= vertex_count)
-      return file_.error("a primitive names vertex " + std::to_string(last) + ", it has " +
-                         std::to_string(vertex_count));
+      return file_.error("names vertex " + std::to_string(last) + ", it has " + std::to_string(vertex_count));
     if (first > 0)
       for (glm::uvec3& triangle : triangles) triangle += first;
     if (placement_.mirrors())
@@ -275,7 +274,9 @@ Expected<void> add_gltf_mesh(const GltfFile& file, int mesh, const glm::mat4& wo
     return file.error("a node names mesh " + std::to_string(mesh) + ", there are " +
                       std::to_string(file.model.meshes.size()));
   MeshPlacer placer(file, world_from_mesh, to, rest, deformation);
-  for (const tinygltf::Primitive& primitive : file.model.meshes[static_cast<std::size_t>(mesh)].primitives) {
+  const std::vector<tinygltf::Primitive>& primitives =
+      file.model.meshes[static_cast<std::size_t>(mesh)].primitives;
+  for (const tinygltf::Primitive& primitive : primitives) {
     if (primitive.mode >= TINYGLTF_MODE_POINTS && primitive.mode <= TINYGLTF_MODE_LINE_STRIP) {
       const bool points = primitive.mode == TINYGLTF_MODE_POINTS;
       warnings.add({file.path.string(), "mesh " + std::to_string(mesh),
@@ -295,7 +296,12 @@ Expected<void> add_gltf_mesh(const GltfFile& file, int mesh, const glm::mat4& wo
     if (!file.limit->take(file.path.string(), "placing mesh " + std::to_string(mesh),
                           elements_of(file, primitive), 40))
       return Unexpected(*file.limit->error());
-    if (const Expected<void> added = placer.add(primitive, default_material); !added) return added;
+    if (const Expected<void> added = placer.add(primitive, default_material); !added) {
+      InputError error = added.error();
+      error.what = "mesh " + std::to_string(mesh) + "'s primitive " +
+                   std::to_string(&primitive - &primitives.front()) + ": " + error.what;
+      return Unexpected(error);
+    }
   }
   if (placer.is_partly_smooth())
     warnings.add({file.path.string(), "mesh " + std::to_string(mesh), "normals of no length are left out",

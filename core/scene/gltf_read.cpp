@@ -14,7 +14,7 @@ constexpr std::string_view kBinaryMagic = "glTF";
 
 // tinygltf recurses into extras and extensions; this many levels fit any stack.
 constexpr int kDeepest = 256;
-constexpr int kNoSuch = 0x7fffffff;  // an index that nothing has
+constexpr std::size_t kGreatest = 0x7fffffff;  // index that tinygltf holds
 
 // JSON without its long data URIs: base64 of buffers and images, through which JSON libraries go byte by byte
 // and copy them. kDataAside and their number in `data_uris` stands where they stood.
@@ -113,9 +113,9 @@ std::vector<int> reduce(nlohmann::json& gltf) {
     if (!mesh.is_object() || !mesh.contains("primitives") || !mesh["primitives"].is_array()) continue;
     for (nlohmann::json& primitive : mesh["primitives"]) {
       const bool has = primitive.is_object() && primitive.contains("indices");
-      indices.push_back(has ? static_cast<int>(std::min<std::size_t>(
-                                  size_member(primitive, "indices").value_or(kNoSuch), kNoSuch))
-                            : -1);
+      const std::optional<std::size_t> accessor =
+          has ? size_member(primitive, "indices") : std::optional<std::size_t>();
+      indices.push_back(accessor ? static_cast<int>(std::min(*accessor, kGreatest)) : -1);
       if (has) primitive.erase("indices");
       if (primitive.is_object() && primitive.contains("extensions")) put_draco_aside(primitive["extensions"]);
     }
@@ -188,6 +188,7 @@ Expected<GltfFile> read_gltf_file(const std::filesystem::path& path, Loading& lo
   if (const Expected<void> readable = check_gltf_requirements(path, gltf); !readable)
     return Unexpected(readable.error());
   add_lost_gltf_features(path, gltf, loading.warnings);
+  add_lost_gltf_references(path, gltf, loading.warnings);
   if (const Expected<void> read = read_gltf_buffers(file, gltf, parts->binary); !read)
     return Unexpected(read.error());
   file.data_uris.clear();  // they lie in `parts`

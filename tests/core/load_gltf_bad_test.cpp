@@ -36,6 +36,45 @@ TEST(LoadGltfBad, BadFilesAreErrorsThatSayWhat) {
   EXPECT_NE(error_of(json).find("no triangles"), std::string::npos);
 }
 
+TEST(LoadGltfBad, ErrorsOfIndicesSayWhichWhereAndOfHowMany) {
+  const auto error_with = [](const char* pointer, const Json& value) {
+    Json json = triangle_json();
+    json[Json::json_pointer(pointer)] = value;
+    return error_of(json);
+  };
+  const auto has = [](const std::string& text, const char* part) {
+    EXPECT_NE(text.find(part), std::string::npos) << text;
+  };
+  has(error_with("/meshes/0/primitives/0/attributes/POSITION", 99),
+      "mesh 0's primitive 0: names accessor 99, there are 2");
+  has(error_with("/meshes/0/primitives/0/indices", 9), "mesh 0's primitive 0: names accessor 9, there are 2");
+  has(error_with("/meshes/0/primitives/0/material", 3),
+      "mesh 0's primitive 0: names material 3, there are 0");
+  has(error_with("/accessors/0/bufferView", 7), "accessor 0 names buffer view 7, there are 2");
+  has(error_with("/bufferViews/0/buffer", 5), "accessor 0 lies in buffer 5, there are 1");
+}
+
+TEST(LoadGltfBad, NumbersThatAreTakenForNoneAreWarnings) {
+  const auto warning_with = [](const char* pointer, const Json& value, bool drawn) {
+    Json json = triangle_json();
+    json[Json::json_pointer(pointer)] = value;
+    Warnings warnings;
+    EXPECT_EQ(load(json, &warnings).has_value(), drawn) << pointer;
+    return warnings.empty() ? std::string() : warnings.begin()->message();
+  };
+  const auto has = [](const std::string& text, const char* part) {
+    EXPECT_NE(text.find(part), std::string::npos) << text;
+  };
+  has(warning_with("/scene", 4, true), "scene: names 4 of scenes, there are 1");
+  has(warning_with("/nodes/0/mesh", -5, false), "nodes.0.mesh: names -5 of meshes, there are 1");
+  has(warning_with("/nodes/0/camera", 2, true), "nodes.0.camera: names 2 of cameras, there are 0");
+  has(warning_with("/meshes/0/primitives/0/attributes/POSITION", -1, false),
+      "meshes.0.primitives.0.attributes.POSITION: names -1 of accessors, there are 2");
+  has(warning_with("/meshes/0/primitives/0/indices", -1, true), "indices: names -1 of accessors");
+  has(warning_with("/nodes/0/mesh", 0.0, false), "nodes.0.mesh: names 0.0 of meshes, there are 1");
+  EXPECT_EQ(warning_with("/meshes/0/primitives/0/indices", 1.0, true), "");  // some exporters write so
+}
+
 TEST(LoadGltfBad, WhatTheFileDoesNotHoldIsNotBelieved) {
   Json json = triangle_json();
   json["accessors"][0] = {{"componentType", 5126},
