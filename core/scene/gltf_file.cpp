@@ -4,7 +4,7 @@
 #include <cstring>
 #include <type_traits>
 
-#include "core/scene/large_memory.h"
+#include "core/base/large_memory.h"
 
 namespace pinocchio {
 namespace {

@@ -4,9 +4,9 @@
 #include <map>
 #include <numeric>
 
+#include "core/base/large_memory.h"
 #include "core/math/finite.h"
 #include "core/scene/gltf_deformation.h"
-#include "core/scene/large_memory.h"
 
 namespace pinocchio {
 namespace {

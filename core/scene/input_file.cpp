@@ -5,7 +5,7 @@
 #include <cstring>
 #include <fstream>
 
-#include "core/scene/large_memory.h"
+#include "core/base/large_memory.h"
 
 namespace pinocchio {
 
