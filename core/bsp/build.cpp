@@ -5,6 +5,7 @@
 #include <optional>
 #include <utility>
 
+#include "core/base/large_memory.h"
 #include "core/bsp/part_queue.h"
 #include "core/bsp/top.h"
 #include "core/parallel/workers.h"
@@ -116,6 +117,8 @@ void copy(const Placed& from, BspTree& tree) {
 }
 
 void join(const TreeTop& top, const Layout& layout, Workers& workers, BspTree& tree) {
+  reserve_large(tree.nodes, layout.nodes());
+  reserve_large(tree.references, layout.references());
   tree.nodes.assign(layout.nodes(), BspNode::leaf(0, 0));
   tree.references.resize(layout.references());
   std::copy(top.nodes.begin(), top.nodes.end(), tree.nodes.begin());
@@ -143,6 +146,7 @@ void store_triangles(const Mesh& mesh, const AlignedVector<ProjectedTriangle>& p
     reference = at;
   }
   const bool corners = tree.test == TriangleTest::moeller_trumbore || tree.test == TriangleTest::watertight;
+  if (!corners) reserve_large(tree.triangles, order.size());
   tree.corner_triangles.resize(corners ? order.size() : 0);
   tree.triangles.resize(corners ? 0 : order.size());
   for_each_chunk(workers, order.size(), [&](std::size_t first, std::size_t last) {

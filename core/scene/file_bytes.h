@@ -5,7 +5,7 @@
 #include <span>
 #include <string_view>
 
-#include "core/scene/large_memory.h"
+#include "core/base/large_memory.h"
 
 namespace pinocchio {
 

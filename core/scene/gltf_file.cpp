@@ -4,8 +4,8 @@
 #include <cstring>
 #include <type_traits>
 
+#include "core/base/large_memory.h"
 #include "core/parallel/parts.h"
-#include "core/scene/large_memory.h"
 
 namespace pinocchio {
 namespace {

@@ -4,10 +4,10 @@
 #include <map>
 #include <utility>
 
+#include "core/base/large_memory.h"
 #include "core/math/finite.h"
 #include "core/parallel/parts.h"
 #include "core/scene/gltf_deformation.h"
-#include "core/scene/large_memory.h"
 
 namespace pinocchio {
 namespace {

@@ -146,6 +146,18 @@ inline Int gather(const void* from, Int index, Mask m) {
                                      _mm256_castps_si256(m.m), 4);
 }
 
+inline void load_columns(const float* const (&rows)[kWidth], Float (&columns)[4]) {
+  __m256 r[4];  // rows i and i + 4
+  for (int i = 0; i < 4; ++i)
+    r[i] = _mm256_insertf128_ps(_mm256_castps128_ps256(_mm_load_ps(rows[i])), _mm_load_ps(rows[i + 4]), 1);
+  const __m256 low01 = _mm256_unpacklo_ps(r[0], r[1]), high01 = _mm256_unpackhi_ps(r[0], r[1]);
+  const __m256 low23 = _mm256_unpacklo_ps(r[2], r[3]), high23 = _mm256_unpackhi_ps(r[2], r[3]);
+  columns[0] = _mm256_shuffle_ps(low01, low23, _MM_SHUFFLE(1, 0, 1, 0));
+  columns[1] = _mm256_shuffle_ps(low01, low23, _MM_SHUFFLE(3, 2, 3, 2));
+  columns[2] = _mm256_shuffle_ps(high01, high23, _MM_SHUFFLE(1, 0, 1, 0));
+  columns[3] = _mm256_shuffle_ps(high01, high23, _MM_SHUFFLE(3, 2, 3, 2));
+}
+
 // By mask: which lanes come first.
 inline constexpr auto kPackOrder = [] {
   std::array<std::array<std::uint8_t, 8>, 256> order{};

@@ -140,6 +140,22 @@ inline Int gather(const void* from, Int index, Mask m) {
   return _mm512_mask_i32gather_epi32(_mm512_setzero_si512(), m.m, index.v, from, 4);
 }
 
+inline void load_columns(const float* const (&rows)[kWidth], Float (&columns)[4]) {
+  __m512 r[4];  // rows i, i + 4, i + 8, i + 12
+  for (int i = 0; i < 4; ++i) {
+    r[i] = _mm512_castps128_ps512(_mm_load_ps(rows[i]));
+    r[i] = _mm512_insertf32x4(r[i], _mm_load_ps(rows[i + 4]), 1);
+    r[i] = _mm512_insertf32x4(r[i], _mm_load_ps(rows[i + 8]), 2);
+    r[i] = _mm512_insertf32x4(r[i], _mm_load_ps(rows[i + 12]), 3);
+  }
+  const __m512 low01 = _mm512_unpacklo_ps(r[0], r[1]), high01 = _mm512_unpackhi_ps(r[0], r[1]);
+  const __m512 low23 = _mm512_unpacklo_ps(r[2], r[3]), high23 = _mm512_unpackhi_ps(r[2], r[3]);
+  columns[0] = _mm512_shuffle_ps(low01, low23, _MM_SHUFFLE(1, 0, 1, 0));
+  columns[1] = _mm512_shuffle_ps(low01, low23, _MM_SHUFFLE(3, 2, 3, 2));
+  columns[2] = _mm512_shuffle_ps(high01, high23, _MM_SHUFFLE(1, 0, 1, 0));
+  columns[3] = _mm512_shuffle_ps(high01, high23, _MM_SHUFFLE(3, 2, 3, 2));
+}
+
 // Packed in a register first: a packing store is slow on some processors.
 inline void store_packed(float* p, Float a, Mask m) {
   _mm512_storeu_ps(p, _mm512_maskz_compress_ps(m.m, a.v));

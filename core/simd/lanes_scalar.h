@@ -145,6 +145,11 @@ inline Int gather(const void* from, Int index, Mask m) {
   return a;
 }
 
+// Rows of four numbers, each aligned to 16 bytes, as columns: lane i of columns[j] is rows[i][j].
+inline void load_columns(const float* const (&rows)[kWidth], Float (&columns)[4]) {
+  for (int j = 0; j < 4; ++j) columns[j] = Float(rows[0][j]);
+}
+
 // The lanes of m, side by side in their order; p has room for kWidth.
 inline void store_packed(float* p, Float a, Mask m) {
   if (m.m) *p = a.v;

@@ -154,6 +154,17 @@ inline Int gather(const void* from, Int index, Mask m) {
   return Int::load(found);
 }
 
+inline void load_columns(const float* const (&rows)[kWidth], Float (&columns)[4]) {
+  __m128 r[4];
+  for (int i = 0; i < 4; ++i) r[i] = _mm_load_ps(rows[i]);
+  const __m128 low01 = _mm_unpacklo_ps(r[0], r[1]), high01 = _mm_unpackhi_ps(r[0], r[1]);
+  const __m128 low23 = _mm_unpacklo_ps(r[2], r[3]), high23 = _mm_unpackhi_ps(r[2], r[3]);
+  columns[0] = _mm_shuffle_ps(low01, low23, _MM_SHUFFLE(1, 0, 1, 0));
+  columns[1] = _mm_shuffle_ps(low01, low23, _MM_SHUFFLE(3, 2, 3, 2));
+  columns[2] = _mm_shuffle_ps(high01, high23, _MM_SHUFFLE(1, 0, 1, 0));
+  columns[3] = _mm_shuffle_ps(high01, high23, _MM_SHUFFLE(3, 2, 3, 2));
+}
+
 // By mask: which bytes come first.
 inline constexpr auto kPackOrder = [] {
   std::array<std::array<std::uint8_t, 16>, 16> order{};

@@ -2,6 +2,9 @@
 // kernel_ISA.cpp includes lanes_ISA.h, names the namespace in PINOCCHIO_LANES and includes this. Everything
 // here lives inside that namespace: a function compiled for AVX must never be the one the linker keeps for
 // all.
+#include <algorithm>
+#include <iterator>
+#include <type_traits>
 #include <utility>
 
 #include "core/bsp/tree.h"
@@ -11,6 +14,7 @@
 #include "core/trace/lane_steps.h"
 #include "core/trace/packet.h"
 #include "core/trace/triangle_tests/filtered.h"
+#include "core/trace/triangle_tests/leaf_lanes.h"
 #include "core/trace/triangle_tests/moeller_trumbore.h"
 #include "core/trace/triangle_tests/projected.h"
 #include "core/trace/triangle_tests/watertight.h"
@@ -181,6 +185,8 @@ inline void closest_of_group(const BspTree& tree, const RayColumns& rays, std::s
     walk(tree, group, negative, lanes, t_best, [&](const BspNode& leaf, const unsigned(&living)[kPackets]) {
       const std::uint32_t* const of_leaf = tree.references.data() + leaf.first_reference();
       fetch_ahead(triangles, of_leaf, leaf.reference_count());
+      if (LeafLanes::pay<Test>(leaf.reference_count(), living))
+        return closest_by_ray(tree, rays, i, leaf, living, t_best, hit);
       for (std::uint32_t r = 0; r < leaf.reference_count(); ++r) {
         const auto& tri = triangles[of_leaf[r]];
         const Int id(tri.id);
@@ -214,6 +220,8 @@ inline void occluded_of_group(const BspTree& tree, const RayColumns& rays, std::
     walk(tree, group, negative, lanes, t_best, [&](const BspNode& leaf, const unsigned(&living)[kPackets]) {
       const std::uint32_t* const of_leaf = tree.references.data() + leaf.first_reference();
       fetch_ahead(triangles, of_leaf, leaf.reference_count());
+      if (LeafLanes::pay<Test>(leaf.reference_count(), living))
+        return occluded_by_ray(tree, rays, i, leaf, living, t_best, hit);
       for (int k = 0; k < kPackets; ++k) {
         unsigned open = living[k];
         for (std::uint32_t r = 0; r < leaf.reference_count() && open != 0; ++r) {

@@ -101,6 +101,44 @@ TEST(Tracer, EveryTriangleTestHasTheSameBitsAtEveryWidth) {
   }
 }
 
+// Triangles through one point cannot be parted there: one leaf has them all, and a ray that comes alone tests
+// them in lanes. Of each there are two, so that the lowest id counts; rays go through corners and edges, too.
+TEST(Tracer, ARayAloneInACrowdedLeafHasTheSameBits) {
+  MeshData data;
+  Random random(25);
+  for (int i = 0; i < 37; ++i) {
+    const glm::vec3 a = random_point(random, 1.0f), b = random_point(random, 1.0f);
+    for (const glm::vec3& p : {glm::vec3(0.0f), a, b}) data.positions.push_back(p);
+    const auto first = static_cast<std::uint32_t>(3 * i);
+    data.triangles.insert(data.triangles.end(), 2, glm::uvec3(first, first + 1, first + 2));
+  }
+  data.normals.assign(data.positions.size(), glm::vec3(0.0f, 0.0f, 1.0f));
+  data.triangle_materials.assign(data.triangles.size(), 0);
+  data.materials.emplace_back();
+  const auto mesh = std::make_shared<const Mesh>(std::move(data));
+  const Tracer reference(mesh, {}, Isa::scalar);
+  std::vector<Tracer> tracers;
+  for (const Isa isa : supported_isas()) tracers.emplace_back(mesh, BuildOptions{}, isa);
+  for (int i = 0; i < 3000; ++i) {
+    const glm::uvec3& t = mesh->triangles[random.next() % mesh->triangles.size()];
+    const glm::vec3 from = random_point(random, 2.0f);
+    const glm::vec3 along =
+        glm::mix(mesh->positions[t.y], mesh->positions[t.z], i % 3 == 0 ? 1.0f : random.between(0.0f, 1.0f));
+    const glm::vec3 to = along * (i % 2 == 0 ? 1.0f : random.between(0.0f, 0.01f));
+    std::vector<Ray> rays{{from, kInfinity, to - from}};
+    const std::vector<Hit> expected = trace(reference, rays);
+    if (expected.front().valid()) {
+      EXPECT_EQ(expected.front().triangle % 2, 0u);
+      rays.push_back({from, expected.front().t, to - from});  // ends where it would hit
+    }
+    const std::vector<Hit> all = trace(reference, rays);
+    for (const Tracer& tracer : tracers) {
+      EXPECT_EQ(trace(tracer, rays), all) << isa_name(tracer.isa()) << " ray " << i;
+      EXPECT_EQ(blocked(tracer, rays), blocked(reference, rays)) << isa_name(tracer.isa()) << " ray " << i;
+    }
+  }
+}
+
 TEST(Tracer, SameBitsOnTheScenes) {
   for (const std::string& name : own_scenes()) {
     const Scene scene = load_or_die(source_path(name));

@@ -1,55 +1,63 @@
 // Part of trace/kernel.h.
 #pragma once
 
+#include "core/trace/triangle_tests/projected.h"
+
 namespace pinocchio::PINOCCHIO_LANES {
 namespace {
 
 // The projected test with a bound of its own error, a floating-point filter (Shewchuk 1997): what is nearer
 // to an edge than the bound, or to the ray's start, is decided in double by a watertight test
-// (trace/exact_triangle.h). So the answer is that test's, at nearly the price of this one. Inlined by force:
-// a call costs 3 % of all rays.
-class FilteredTest {
- public:
-  FilteredTest(const BspTree& tree, const Packet& packet)
-      : tree_(tree), p_(packet), away_error_(Float(kTestError) * packet.reach) {}
+// (trace/exact_triangle.h). So the answer is that test's, at nearly the price of this one.
+struct Filter {
+  Mask inside;    // of the lanes asked
+  Mask doubtful;  // of those, to be settled
+  Float t;
 
-  static const ProjectedTriangle* stored(const BspTree& tree) { return tree.triangles.data(); }
-
-  [[gnu::always_inline]] inline Mask intersect(const ProjectedTriangle& tri, Mask lanes, Float& t) const {
-    const unsigned k = tri.k, u = k == 2 ? 0 : k + 1, v = u == 2 ? 0 : u + 1;
-    const Float n_u(tri.n_u), n_v(tri.n_v);
-    const Float away = p_.d[k] + n_u * p_.d[u] + n_v * p_.d[v];
-    const Float o_k = Float(tri.a[k]) - p_.o[k], o_u = Float(tri.a[u]) - p_.o[u],
-                o_v = Float(tri.a[v]) - p_.o[v];
-    t = (o_k + n_u * o_u + n_v * o_v) / away;
-    const Float h_u = t * p_.d[u] - o_u, h_v = t * p_.d[v] - o_v;
-    const Float beta = h_u * Float(tri.beta_u) + h_v * Float(tri.beta_v);
-    const Float gamma = h_u * Float(tri.gamma_u) + h_v * Float(tri.gamma_v);
+  // reach: |d_x| + |d_y| + |d_z|. Inlined by force: a call costs 3 % of all rays.
+  [[gnu::always_inline]] inline Filter(const DroppedRay& r, const PlaneLanes& tri, Float reach,
+                                       Float away_error, Mask lanes) {
+    const PlanePoint at(r, tri);
+    t = at.t;
 
     // t is off by the rounding of its sums over |away| (no coefficient of the normal is above 1), the point
     // (h_u, h_v) by that along the ray and by its own rounding. |away| itself may be off: where that could
     // be all of it, the bound is infinite.
     const Float zero(0.0f), one(1.0f);
-    const Float sums = Float(kTestError) * (abs(o_k) + abs(o_u) + abs(o_v) + abs(t) * p_.reach);
-    const Float t_error = sums / max(abs(away) - away_error_, zero);
-    const Float error = sums + t_error * max(abs(p_.d[u]), abs(p_.d[v]));
-    const Float bound = error * Float(tri.slope);
+    const Float sums = Float(kTestError) * (abs(r.o_k) + abs(r.o_u) + abs(r.o_v) + abs(t) * reach);
+    const Float t_error = sums / max(abs(at.away) - away_error, zero);
+    const Float error = sums + t_error * max(abs(r.d_u), abs(r.d_v));
+    const Float bound = error * tri.slope;
 
     // Written so that NaN is neither outside nor sure.
-    const Float least = min(min(beta, gamma), one - (beta + gamma));
+    const Float least = min(min(at.beta, at.gamma), one - (at.beta + at.gamma));
     const Mask outside = (least + bound < zero) | (t + t_error < zero);
-    Mask inside = lanes & ~outside;
-    const Mask doubtful = inside & ~((bound <= least) & (t_error < t));
-    if (doubtful.bits() != 0) [[unlikely]]
-      inside = settle(tri.id, doubtful, inside, t);
-    return inside;
+    inside = lanes & ~outside;
+    doubtful = inside & ~((bound <= least) & (t_error < t));
   }
 
- private:
   // Rounding of the sums and products on the way to a weight, in units of the distances that go in: eight
   // of them in a row at most.
   static constexpr float kTestError = 8.0f * 0x1p-24f;
+};
 
+// Of a packet's rays and one triangle.
+class FilteredTest {
+ public:
+  FilteredTest(const BspTree& tree, const Packet& packet)
+      : tree_(tree), p_(packet), away_error_(Float(Filter::kTestError) * packet.reach) {}
+
+  static const ProjectedTriangle* stored(const BspTree& tree) { return tree.triangles.data(); }
+
+  [[gnu::always_inline]] inline Mask intersect(const ProjectedTriangle& tri, Mask lanes, Float& t) const {
+    const Filter filter(DroppedRay(tri, p_), PlaneLanes(tri), p_.reach, away_error_, lanes);
+    t = filter.t;
+    if (filter.doubtful.bits() == 0) [[likely]]
+      return filter.inside;
+    return settle(tri.id, filter.doubtful, filter.inside, t);
+  }
+
+ private:
   [[gnu::noinline]] Mask settle(std::uint32_t id, Mask doubtful, Mask inside, Float& t) const {
     alignas(64) float o[3][kWidth], d[3][kWidth], exact_t[kWidth];
     for (int i = 0; i < 3; ++i) {

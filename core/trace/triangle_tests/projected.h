@@ -4,6 +4,53 @@
 namespace pinocchio::PINOCCHIO_LANES {
 namespace {
 
+// What of a projected triangle (bsp/projected_triangle.h) a test multiplies by: one triangle's in all lanes,
+// or one in each.
+struct PlaneLanes {
+  Float n_u, n_v, beta_u, beta_v, gamma_u, gamma_v, slope;
+
+  explicit PlaneLanes(const ProjectedTriangle& tri)
+      : n_u(tri.n_u),
+        n_v(tri.n_v),
+        beta_u(tri.beta_u),
+        beta_v(tri.beta_v),
+        gamma_u(tri.gamma_u),
+        gamma_v(tri.gamma_v),
+        slope(tri.slope) {}
+  PlaneLanes() = default;
+};
+
+// A ray as a projected triangle sees it: along its dropped axis k and the two others.
+struct DroppedRay {
+  Float d_k, d_u, d_v;  // direction
+  Float o_k, o_u, o_v;  // vertex A minus the origin
+
+  DroppedRay(const ProjectedTriangle& tri, const Packet& p) {
+    const unsigned k = tri.k, u = k == 2 ? 0 : k + 1, v = u == 2 ? 0 : u + 1;
+    d_k = p.d[k];
+    d_u = p.d[u];
+    d_v = p.d[v];
+    o_k = Float(tri.a[k]) - p.o[k];
+    o_u = Float(tri.a[u]) - p.o[u];
+    o_v = Float(tri.a[v]) - p.o[v];
+  }
+  DroppedRay() = default;
+};
+
+// Where a ray meets a triangle's plane, and the weights of the corners B and C there.
+struct PlanePoint {
+  Float away;  // what t is divided by
+  Float t, beta, gamma;
+
+  [[gnu::always_inline]] inline PlanePoint(const DroppedRay& r, const PlaneLanes& tri) {
+    away = r.d_k + tri.n_u * r.d_u + tri.n_v * r.d_v;
+    t = (r.o_k + tri.n_u * r.o_u + tri.n_v * r.o_v) / away;
+    const Float h_u = t * r.d_u - r.o_u, h_v = t * r.d_v - r.o_v;
+    beta = h_u * tri.beta_u + h_v * tri.beta_v;
+    gamma = h_u * tri.gamma_u + h_v * tri.gamma_v;
+  }
+};
+
 // Wald's projected test (PhD thesis 2004, section 7.1), coordinates relative to vertex A. Neighbours round
 // their weights apart, so rays slip through between them.
 class ProjectedTest {
@@ -13,18 +60,11 @@ class ProjectedTest {
   static const ProjectedTriangle* stored(const BspTree& tree) { return tree.triangles.data(); }
 
   [[gnu::always_inline]] inline Mask intersect(const ProjectedTriangle& tri, Mask lanes, Float& t) const {
-    const unsigned k = tri.k, u = k == 2 ? 0 : k + 1, v = u == 2 ? 0 : u + 1;
-    const Float n_u(tri.n_u), n_v(tri.n_v);
-    const Float away = p_.d[k] + n_u * p_.d[u] + n_v * p_.d[v];
-    const Float o_k = Float(tri.a[k]) - p_.o[k], o_u = Float(tri.a[u]) - p_.o[u],
-                o_v = Float(tri.a[v]) - p_.o[v];
-    t = (o_k + n_u * o_u + n_v * o_v) / away;
-    const Float h_u = t * p_.d[u] - o_u, h_v = t * p_.d[v] - o_v;
-    const Float beta = h_u * Float(tri.beta_u) + h_v * Float(tri.beta_v);
-    const Float gamma = h_u * Float(tri.gamma_u) + h_v * Float(tri.gamma_v);
+    const PlanePoint at(DroppedRay(tri, p_), PlaneLanes(tri));
+    t = at.t;
     const Float zero(0.0f);
     // Written so that NaN (no area, a ray in the plane) fails.
-    return lanes & (zero <= beta) & (zero <= gamma) & (beta + gamma <= Float(1.0f)) & (zero < t);
+    return lanes & (zero <= at.beta) & (zero <= at.gamma) & (at.beta + at.gamma <= Float(1.0f)) & (zero < t);
   }
 
  private:

@@ -24,8 +24,8 @@ inline void prefer_large_pages([[maybe_unused]] void* memory, [[maybe_unused]] s
 #endif
 }
 
-template <class T>
-void reserve_large(std::vector<T>& vector, std::size_t count) {
+template <class T, class Allocator>
+void reserve_large(std::vector<T, Allocator>& vector, std::size_t count) {
   vector.reserve(count);
   prefer_large_pages(vector.data(), vector.capacity() * sizeof(T));
 }
