@@ -81,15 +81,35 @@ class MeshPlacer {
     if (const Expected<void> done = run(jobs, elements_of(file_, primitive)); !done) return done;
     if (is_new && deformation_)
       if (const Expected<void> added = deformation_->add(primitive, first, *count); !added) return added;
+    if (has_unplaced_) leave_out_unplaced(before);
     for (std::size_t i = before; has_void_normals_ && i < mesh_.triangles.size(); ++i)
       is_partly_smooth_ |= is_partly_smooth(mesh_.triangles[i]);
     return {};
+  }
+
+  // How many triangles were left out, as a vertex of theirs is nowhere.
+  [[nodiscard]] std::size_t unplaced() const { return unplaced_; }
+  // Vertices that are nowhere, which no triangle has.
+  void forget_unplaced() {
+    for (std::size_t i = first_vertex_; has_unplaced_ && i < rest_.positions.size(); ++i)
+      if (!is_finite(rest_.positions[i])) rest_.positions[i] = mesh_.positions[i] = glm::vec3(0.0f);
   }
 
   // Whether some normals of a triangle have no length. All three without ask for its own, as we save it.
   [[nodiscard]] bool is_partly_smooth() const { return is_partly_smooth_; }
 
  private:
+  void leave_out_unplaced(std::size_t first_triangle) {
+    const auto begin = mesh_.triangles.begin() + static_cast<std::ptrdiff_t>(first_triangle);
+    const auto end = std::remove_if(begin, mesh_.triangles.end(), [this](const glm::uvec3& t) {
+      return !is_finite(rest_.positions[t.x]) || !is_finite(rest_.positions[t.y]) ||
+             !is_finite(rest_.positions[t.z]);
+    });
+    unplaced_ += static_cast<std::size_t>(mesh_.triangles.end() - end);
+    mesh_.triangles.erase(end, mesh_.triangles.end());
+    mesh_.triangle_materials.resize(mesh_.triangles.size());
+  }
+
   [[nodiscard]] bool is_partly_smooth(const glm::uvec3& triangle) const {
     int given = 0;
     for (int corner = 0; corner < 3; ++corner)
@@ -176,6 +196,8 @@ class MeshPlacer {
 
   Expected<void> add_positions(int accessor, std::size_t first) {
     Expected<void> read = file_.append(accessor, rest_.positions);
+    for (std::size_t i = first; i < rest_.positions.size(); ++i)
+      has_unplaced_ |= !is_finite(rest_.positions[i]);
     if (read && in_place_)
       append_large(mesh_.positions, std::span(std::as_const(rest_.positions)).subspan(first));
     else if (read)
@@ -262,7 +284,8 @@ class MeshPlacer {
   RestPose& rest_;
   DeformationReader* deformation_;  // null: nothing deforms it
   std::map<Attributes, std::uint32_t> placed_;
-  bool has_void_normals_ = false, is_partly_smooth_ = false;
+  bool has_void_normals_ = false, is_partly_smooth_ = false, has_unplaced_ = false;
+  std::size_t first_vertex_ = mesh_.positions.size(), unplaced_ = 0;
 };
 
 }  // namespace
@@ -303,6 +326,10 @@ Expected<void> add_gltf_mesh(const GltfFile& file, int mesh, const glm::mat4& wo
       return Unexpected(error);
     }
   }
+  placer.forget_unplaced();
+  if (placer.unplaced() > 0)
+    warnings.add(
+        {file.path.string(), "mesh " + std::to_string(mesh), kUnplaced, kNotDrawn, placer.unplaced()});
   if (placer.is_partly_smooth())
     warnings.add({file.path.string(), "mesh " + std::to_string(mesh), "normals of no length are left out",
                   "triangles there are shaded by their other corners' alone"});

@@ -3,6 +3,7 @@
 #include <utility>
 
 #include "core/image/tonemap.h"
+#include "core/math/finite.h"
 #include "core/scene/input_file.h"
 #include "core/scene/loaders.h"
 #include "core/scene/ply_file.h"
@@ -74,6 +75,8 @@ class PlyBuilder {
     if (texture_) lost("comment TextureFile", "its texture is left out", "there are no texture coordinates");
     if (textured() && !std::exchange(mesh_.colors, {}).empty())
       lost("", "colours are left out", "its texture gives the colour");
+    for (glm::vec3& position : mesh_.positions)  // no triangle has those
+      if (!is_finite(position)) position = glm::vec3(0.0f);
     Material& material = mesh_.materials.emplace_back();
     material.name = "default";
     if (!mesh_.colors.empty()) mesh_.colors.resize(mesh_.positions.size(), glm::vec4(1.0f));
@@ -209,6 +212,7 @@ class PlyBuilder {
       return lost("element face", "faces of fewer than three corners are left out", "they are not drawn");
     places_.clear();
     for (const double corner : corners_) places_.push_back(mesh_.positions[static_cast<std::size_t>(corner)]);
+    if (!std::ranges::all_of(places_, is_finite)) return lost("element face", kUnplaced, kNotDrawn);
     const PolygonTriangles polygon = triangulate(places_);
     if (!polygon.simple)
       lost("element face", "a face crosses itself", "which parts of it are filled is a guess");
@@ -237,7 +241,11 @@ class PlyBuilder {
         if (i < first + 2) continue;
         glm::uvec3 t(list[i - 2], list[i - 1], list[i]);
         if ((i - first) % 2 == 1) std::swap(t.x, t.y);
-        mesh_.triangles.push_back(t);
+        if (is_finite(mesh_.positions[t.x]) && is_finite(mesh_.positions[t.y]) &&
+            is_finite(mesh_.positions[t.z]))
+          mesh_.triangles.push_back(t);
+        else
+          lost("element tristrips", kUnplaced, kNotDrawn);
       }
       return {};
     });

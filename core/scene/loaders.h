@@ -15,6 +15,10 @@ struct Loading {
   MemoryLimit& limit;
 };
 
+// What is said of triangles, whatever the format, of which a vertex is NaN or infinite.
+inline constexpr const char* kUnplaced = "faces on vertices that are no finite numbers are left out";
+inline constexpr const char* kNotDrawn = "they are not drawn";
+
 [[nodiscard]] Expected<Scene> load_obj(const std::filesystem::path& path, Loading& loading);
 [[nodiscard]] Expected<Scene> load_ply(const std::filesystem::path& path, Loading& loading);
 [[nodiscard]] Expected<Scene> load_gltf(const std::filesystem::path& path, Loading& loading);

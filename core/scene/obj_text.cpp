@@ -10,6 +10,8 @@
 #include <string_view>
 #include <unordered_map>
 
+#include "core/math/finite.h"
+#include "core/scene/loaders.h"
 #include "core/scene/text_lines.h"
 
 namespace pinocchio {
@@ -62,6 +64,7 @@ class ObjReader {
         leave_out_unknown(kind);
       }
     if (!obj_.colors.empty()) obj_.colors.resize(obj_.positions.size(), glm::vec3(1.0f));
+    leave_out_unplaced();
     return std::move(obj_);
   }
 
@@ -109,6 +112,21 @@ class ObjReader {
       if (int& index = kind == kNormal ? corner.normal : corner.texcoord; index >= count(kind)) index = -1;
   }
 
+  // Faces with a corner that is nowhere.
+  void leave_out_unplaced() {
+    if (first_unplaced_ == 0) return;
+    std::erase_if(obj_.faces, [this](const ObjText::Face& face) {
+      const std::span corners = std::span(obj_.corners).subspan(face.first, face.count);
+      if (std::ranges::all_of(corners, [this](const ObjText::Corner& corner) {
+            return is_finite(obj_.positions[static_cast<std::size_t>(corner.position)]);
+          }))
+        return false;
+      line_ = first_unplaced_;
+      lost("v", kUnplaced, kNotDrawn);
+      return true;
+    });
+  }
+
   int material_of(std::string_view name) {
     const auto [at, is_new] =
         material_names_.try_emplace(std::string(name), static_cast<int>(obj_.materials.size()));
@@ -151,7 +169,10 @@ class ObjReader {
       if (given_ >= least && (word.empty() || word.front() == '#')) break;
       const std::optional<double> value = number<double>(word);
       values[static_cast<std::size_t>(given_)] = static_cast<float>(value.value_or(NAN));
-      if (!std::isfinite(values[static_cast<std::size_t>(given_)]))
+      if (std::isfinite(values[static_cast<std::size_t>(given_)])) continue;
+      if (kind == kVertex && given_ < 3 && value)  // nan
+        first_unplaced_ = first_unplaced_ > 0 ? first_unplaced_ : line_;
+      else
         return fail(line_, "'" + std::string(word.substr(0, 40)) + "' in a " + kKindNames[kind] +
                                " is not a finite number");
     }
@@ -166,7 +187,7 @@ class ObjReader {
     const std::size_t corners = obj_.corners.size() - first;
     if (corners < 3) {  // exporters write some; they have no area
       obj_.corners.resize(first);
-      lost("f", "faces of fewer than three corners are left out", "they are not drawn");
+      lost("f", "faces of fewer than three corners are left out", kNotDrawn);
       return {};
     }
     obj_.faces.push_back({first, corners, group_, material_, line_});
@@ -204,6 +225,7 @@ class ObjReader {
   std::unordered_map<std::string, int> material_names_;
   std::array<Reference, kKinds> highest_{};
   int line_ = 0, given_ = 0, material_ = -1;
+  int first_unplaced_ = 0;  // line of the first vertex that is nowhere; 0: none is
   long long seen_ = 0;
   std::uint32_t group_ = 0;
 };

@@ -10,7 +10,8 @@
 
 namespace pinocchio {
 
-// What an OBJ file says, index for index: all of them within range, all numbers finite.
+// What an OBJ file says, index for index: all of them within range, all numbers
+// finite but for positions that no face has.
 struct ObjText {
   struct Corner {
     int position = -1, texcoord = -1, normal = -1;  // -1: it has none

@@ -99,6 +99,27 @@ TEST(LoadGltfBad, WhatTheFileDoesNotHoldIsNotBelieved) {
   EXPECT_NE(error_of(json).find("mode 99"), std::string::npos);
 }
 
+TEST(LoadGltfBad, TrianglesOnVerticesThatAreNoFiniteNumbersAreLeftOut) {
+  Json json = triangle_json();
+  json["meshes"][0]["primitives"][0]["mode"] = 5;  // a strip of two, of which the last vertex is the second's
+  json["accessors"][1]["count"] = 4;
+  json["nodes"][0]["translation"] = {1, 2, 3};
+  const float nan = std::numeric_limits<float>::quiet_NaN();
+  std::fstream bin(own_file("test.bin"), std::ios::binary | std::ios::in | std::ios::out);
+  bin.seekp(36);
+  bin.write(reinterpret_cast<const char*>(&nan), sizeof nan);
+  bin.close();
+  Warnings warnings;
+  const Expected<Scene> scene = load(json, &warnings);
+  ASSERT_TRUE(scene) << scene.error().message();
+  EXPECT_EQ(scene->mesh->triangles, (std::vector<glm::uvec3>{{0, 1, 2}}));
+  EXPECT_EQ(scene->nodes->nodes[0].triangles, 1u);
+  EXPECT_EQ(scene->mesh->bounds().lo, glm::vec3(1, 2, 3));
+  ASSERT_EQ(warnings.size(), 1u);
+  EXPECT_NE(warnings.begin()->message().find("mesh 0: faces on vertices that are no finite numbers"),
+            std::string::npos);
+}
+
 TEST(LoadGltfBad, DeepNestingIsAnError) {
   std::string text = triangle_json().dump();
   text.pop_back();

@@ -82,6 +82,21 @@ TEST(LoadPly, StripsEndAtMinusOne) {
   EXPECT_EQ(scene->mesh->triangles, (std::vector<glm::uvec3>{{0, 1, 2}, {2, 1, 3}, {3, 2, 1}}));
 }
 
+TEST(LoadPly, FacesOnVerticesThatAreNoFiniteNumbersAreLeftOut) {
+  Warnings warnings;
+  const Expected<Scene> scene = load_text(
+      "ply\nformat ascii 1.0\nelement vertex 5\nproperty float x\nproperty float y\nproperty float z\n"
+      "element face 2\nproperty list uchar int vertex_indices\nelement tristrips 1\n"
+      "property list int int vertex_indices\nend_header\n0 0 0\n1 0 0\n0 1 0\n1 1 0\nnan 0 0\n"
+      "3 0 1 2\n4 0 1 3 4\n5 0 1 2 3 4\n",
+      &warnings);
+  ASSERT_TRUE(scene) << scene.error().message();
+  EXPECT_EQ(scene->mesh->triangles.size(), 3u);
+  ASSERT_EQ(warnings.size(), 1u);
+  EXPECT_NE(warnings.begin()->message().find("no finite numbers are left out (and in 1 more place)"),
+            std::string::npos);
+}
+
 TEST(LoadPly, FacesMayHaveColors) {
   std::string header = kHeader.substr(0, kHeader.find("property uchar red")) +
                        "element face 3\nproperty list uchar int vertex_indices\nproperty uchar red\n"
