@@ -17,8 +17,7 @@ namespace pinocchio {
 void add_lost_gltf_features(const std::filesystem::path& file, const nlohmann::json& gltf,
                             Warnings& warnings);
 
-// The same for every number that names nothing the file has and would be taken for none: a camera, a scene, a
-// buffer view. Where too great a number is an error, that says so.
+// The same for every number that names nothing the file has: an accessor, a camera, a scene.
 void add_lost_gltf_references(const std::filesystem::path& file, const nlohmann::json& gltf,
                               Warnings& warnings);
 

@@ -12,7 +12,7 @@ using Json = nlohmann::json;
 // object.
 struct Reference {
   std::string_view at, in;
-  bool refused = false;  // too great a number is an error where it is used
+  bool refused = false;  // too great a number is an error where what names it is used
   bool floats = false;   // 3.0 is read as 3
 };
 
@@ -26,6 +26,8 @@ constexpr Reference kReferences[] = {
     {"meshes/*/primitives/*/indices", "accessors", true, true},
     {"meshes/*/primitives/*/material", "materials", true},
     {"accessors/*/bufferView", "bufferViews", true},
+    {"bufferViews/*/buffer", "buffers", true},
+    {"images/*/bufferView", "bufferViews"},
     {"skins/*/inverseBindMatrices", "accessors", true},
     {"textures/*/sampler", "samplers"},
 };
@@ -62,15 +64,15 @@ class IndexAudit {
 
   void check(const Json& index, const Reference& reference) {
     const bool is_index = index.is_number_unsigned() || (reference.floats && index.is_number_float());
-    if (is_index && index.get<double>() >= 0.0 &&
-        (reference.refused || index.get<double>() < static_cast<double>(count_)))
-      return;
+    const bool too_great = is_index && index.get<double>() >= static_cast<double>(count_);
+    if (is_index && index.get<double>() >= 0.0 && !too_great) return;
     std::string where;
     for (const std::string& name : within_) where += (where.empty() ? "" : ".") + name;
     warnings_.add({file_, where,
-                   "names " + index.dump().substr(0, 40) + " of " + std::string(reference.in) +
+                   "names " + index.dump(-1, ' ', true).substr(0, 40) + " of " + std::string(reference.in) +
                        ", there are " + std::to_string(count_),
-                   "it counts as if it named none"});
+                   too_great && reference.refused ? "nothing can be made of what names it"
+                                                  : "it counts as if it named none"});
   }
 
   std::string file_;
