@@ -24,8 +24,12 @@ std::optional<T> number(std::string_view word) {
   const auto [end, failure] = std::from_chars(word.data(), word.data() + word.size(), value);
   if (failure == std::errc::result_out_of_range && std::is_floating_point_v<T>)
     return static_cast<T>(std::strtod(std::string(word).c_str(), nullptr));  // 1e-400: 0, 1e400: infinity
-  if (failure != std::errc() || end != word.data() + word.size()) return std::nullopt;
-  return value;
+  if (failure != std::errc()) return std::nullopt;
+  const std::string_view more = word.substr(static_cast<std::size_t>(end - word.data()));
+  if constexpr (std::is_floating_point_v<T>)  // 1.#IND, 1.#QNAN, 1.#INF: how Microsoft's C library wrote them
+    if (more.starts_with("#IND") || more.starts_with("#QNAN") || more.starts_with("#INF"))
+      return static_cast<T>(NAN);
+  return more.empty() ? std::optional<T>(value) : std::nullopt;
 }
 
 // What the numbers of a face's corner (v/vt/vn) count.

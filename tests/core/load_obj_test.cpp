@@ -174,7 +174,7 @@ TEST(LoadObj, BadInputNamesTheLine) {
 }
 
 TEST(LoadObj, FacesOnVerticesThatAreNoFiniteNumbersAreLeftOut) {
-  for (const char* number : {"nan", "-inf", "1e99", "1e400"}) {
+  for (const char* number : {"nan", "-inf", "1e99", "1e400", "-1.#IND", "1.#QNAN", "1.#INF00", "-nan(ind)"}) {
     Warnings warnings;
     const Scene scene = load_text(
         kTriangle + "v 0 " + number + " 0\nf 1 2 4\nf 3 2 1\nf 1 2 3 4\nv nan 0 0\n", "", &warnings);
