@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 namespace pinocchio {
@@ -29,12 +30,25 @@ void reserve_large(std::vector<T, Allocator>& vector, std::size_t count) {
   prefer_large_pages(vector.data(), vector.capacity() * sizeof(T));
 }
 
-// As resize(); where it has to move, it has room for twice as much.
+// Makes room for so many; where it has to move, for twice as many as there was room for.
 template <class T>
-void resize_large(std::vector<T>& vector, std::size_t count, const T& value = T()) {
+void grow_large(std::vector<T>& vector, std::size_t count) {
   if (count > vector.capacity())
     reserve_large(vector, vector.empty() ? count : std::max(count, 2 * vector.capacity()));
+}
+
+// As resize().
+template <class T>
+void resize_large(std::vector<T>& vector, std::size_t count, const T& value = T()) {
+  grow_large(vector, count);
   vector.resize(count, value);
+}
+
+// Sets the new elements once, where resizing and copying would twice.
+template <class T>
+void append_large(std::vector<T>& vector, std::span<const T> more) {
+  grow_large(vector, vector.size() + more.size());
+  vector.insert(vector.end(), more.begin(), more.end());
 }
 
 }  // namespace pinocchio

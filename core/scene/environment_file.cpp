@@ -65,12 +65,10 @@ Expected<Image<glm::vec3>> read_exr_environment(const std::filesystem::path& fil
 
 Expected<Image<glm::vec3>> read_environment(const std::filesystem::path& file, Progress* progress,
                                             MemoryLimit& limit) {
-  const Expected<std::string> bytes = read_input_file(file, progress);
+  const Expected<FileBytes> bytes = read_input_file(file, progress);
   if (!bytes) return Unexpected(bytes.error());
-  if (bytes->starts_with("\x76\x2f\x31\x01")) return read_exr_environment(file, limit);
-  if (bytes->starts_with("#?"))
-    return decode_radiance(file.string(),
-                           {reinterpret_cast<const unsigned char*>(bytes->data()), bytes->size()}, limit);
+  if (bytes->text().starts_with("\x76\x2f\x31\x01")) return read_exr_environment(file, limit);
+  if (bytes->text().starts_with("#?")) return decode_radiance(file.string(), bytes->unsigned_bytes(), limit);
   return refuse(file, "is neither EXR nor Radiance (.hdr)",
                 "an environment is a picture of all directions in latitude and longitude");
 }

@@ -1,59 +1,16 @@
 #include "core/scene/gltf_buffers.h"
 
-#include <array>
 #include <charconv>
 #include <nlohmann/json.hpp>
 #include <string_view>
 
+#include "core/scene/base64.h"
 #include "core/scene/input_file.h"
 
 namespace pinocchio {
 namespace {
 
 using Json = nlohmann::json;
-
-std::string decode_base64(std::string_view text) {
-  static constexpr std::uint32_t kNone = 0x80000000u;
-  // A letter's value, at each of its four places in 24 bits.
-  static const std::array<std::array<std::uint32_t, 256>, 4> kValues = [] {
-    std::array<std::array<std::uint32_t, 256>, 4> values{};
-    constexpr std::string_view kLetters = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-    for (std::size_t place = 0; place < 4; ++place) {
-      values[place].fill(kNone);
-      for (std::size_t i = 0; i < kLetters.size(); ++i)
-        values[place][static_cast<unsigned char>(kLetters[i])] = static_cast<std::uint32_t>(i)
-                                                                 << (18 - 6 * place);
-    }
-    return values;
-  }();
-  std::string bytes(text.size() / 4 * 3 + 3, '\0');
-  const auto* from = reinterpret_cast<const unsigned char*>(text.data());
-  const auto* const end = from + text.size();
-  char* to = bytes.data();
-  std::uint32_t bits = 0;
-  int count = 0;  // of letters that are not whole bytes yet
-  while (from != end) {
-    if (count == 0 && end - from >= 4) {  // nearly all of it
-      const std::uint32_t four =
-          kValues[0][from[0]] | kValues[1][from[1]] | kValues[2][from[2]] | kValues[3][from[3]];
-      if (four < kNone) {
-        to[0] = static_cast<char>(four >> 16);
-        to[1] = static_cast<char>(four >> 8);
-        to[2] = static_cast<char>(four);
-        from += 4;
-        to += 3;
-        continue;
-      }
-    }
-    const std::uint32_t value = kValues[3][*from++];
-    if (value == kNone) continue;  // padding, line ends
-    bits = bits << 6 | value;
-    count = (count + 1) % 4;
-    if (count != 1) *to++ = static_cast<char>(bits >> (6 - 2 * ((count + 3) % 4)));
-  }
-  bytes.resize(static_cast<std::size_t>(to - bytes.data()));
-  return bytes;
-}
 
 // %20 and its like.
 std::string decode_percent(std::string_view uri) {
@@ -100,7 +57,7 @@ Expected<void> read_buffer(GltfFile& file, const Json& buffer, std::size_t index
     } else {
       const std::filesystem::path path = named_file(file.path, decode_percent(uri));
       file.named_files.push_back(path.string());
-      Expected<std::string> bytes = read_input_file(path, file.progress);
+      Expected<FileBytes> bytes = read_input_file(path, file.progress);
       if (!bytes) return file.error("its " + whose + " cannot be read: " + bytes.error().message());
       file.add_buffer(std::move(*bytes));
     }
@@ -119,7 +76,7 @@ Expected<tinygltf::BufferView> view_of(GltfFile& file, const Json& json, const s
   for (const char* name : {"EXT_meshopt_compression", "KHR_meshopt_compression"}) {
     if (extensions == json.end() || !extensions->is_object() || !extensions->contains(name)) continue;
     const Json& packed = extensions->at(name);
-    Expected<std::string> bytes = unpack_meshopt(file, packed, whose);
+    Expected<FileBytes> bytes = unpack_meshopt(file, packed, whose);
     if (!bytes) return Unexpected(bytes.error());
     view.byteLength = bytes->size();
     view.byteStride = size_member(packed, "byteStride").value_or(0);
@@ -181,7 +138,7 @@ Expected<void> read_gltf_buffers(GltfFile& file, const Json& gltf,
     if (!json.contains("bufferView")) image.bufferView = -1;
     const std::string uri = text_member(json, "uri");
     if (const std::optional<std::string_view> data = data_of(file, uri)) {
-      const std::string bytes = decode_base64(*data);
+      FileBytes bytes = decode_base64(*data);
       image.image.assign(bytes.begin(), bytes.end());
     } else if (!uri.empty()) {
       image.uri = named_file(file.path, decode_percent(uri)).string();

@@ -14,8 +14,8 @@ namespace pinocchio {
                                                std::span<const unsigned char> binary_chunk);
 
 // Unpacks a buffer view of EXT_meshopt_compression.
-[[nodiscard]] Expected<std::string> unpack_meshopt(const GltfFile& file, const nlohmann::json& extension,
-                                                   const std::string& whose);
+[[nodiscard]] Expected<FileBytes> unpack_meshopt(const GltfFile& file, const nlohmann::json& extension,
+                                                 const std::string& whose);
 
 // Stands before the number of one of GltfFile::data_uris in its place.
 inline constexpr std::string_view kDataAside = "data:aside,";

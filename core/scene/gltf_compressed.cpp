@@ -14,7 +14,7 @@ namespace pinocchio {
 namespace {
 
 // A tight accessor on bytes of its own.
-int add_accessor(GltfFile& file, std::string bytes, int component_type, int type, std::size_t count) {
+int add_accessor(GltfFile& file, FileBytes bytes, int component_type, int type, std::size_t count) {
   tinygltf::BufferView view;
   view.buffer = static_cast<int>(file.buffers.size());
   view.byteLength = bytes.size();
@@ -30,8 +30,8 @@ int add_accessor(GltfFile& file, std::string bytes, int component_type, int type
 }
 
 template <int kComponents>
-std::string values_of(const draco::PointAttribute& attribute, std::size_t points) {
-  std::string bytes(points * kComponents * sizeof(float), '\0');
+FileBytes values_of(const draco::PointAttribute& attribute, std::size_t points) {
+  FileBytes bytes(points * kComponents * sizeof(float));
   for (std::size_t i = 0; i < points; ++i) {
     float values[kComponents] = {};
     attribute.ConvertValue<float, kComponents>(
@@ -89,14 +89,14 @@ class DracoPrimitive {
       if (!attribute || !known) return file_.error(std::string(kWhose) + " lacks its attribute " + name);
       const int type = file_.model.accessors[static_cast<std::size_t>(accessor)].type;
       const std::size_t points = mesh.num_points();
-      std::string values = type == TINYGLTF_TYPE_VEC2   ? values_of<2>(*attribute, points)
-                           : type == TINYGLTF_TYPE_VEC3 ? values_of<3>(*attribute, points)
-                           : type == TINYGLTF_TYPE_VEC4 ? values_of<4>(*attribute, points)
-                                                        : std::string();
-      if (!values.empty())
+      FileBytes values = type == TINYGLTF_TYPE_VEC2   ? values_of<2>(*attribute, points)
+                         : type == TINYGLTF_TYPE_VEC3 ? values_of<3>(*attribute, points)
+                         : type == TINYGLTF_TYPE_VEC4 ? values_of<4>(*attribute, points)
+                                                      : FileBytes();
+      if (values.size() > 0)
         accessor = add_accessor(file_, std::move(values), TINYGLTF_COMPONENT_TYPE_FLOAT, type, points);
     }
-    std::string indices(std::size_t{mesh.num_faces()} * sizeof(glm::uvec3), '\0');
+    FileBytes indices(std::size_t{mesh.num_faces()} * sizeof(glm::uvec3));
     for (draco::FaceIndex f(0); f < mesh.num_faces(); ++f) {
       const draco::Mesh::Face& face = mesh.face(f);
       const glm::uvec3 corners(face[0].value(), face[1].value(), face[2].value());
@@ -126,8 +126,8 @@ Expected<void> unpack_draco(GltfFile& file) {
   return {};
 }
 
-Expected<std::string> unpack_meshopt(const GltfFile& file, const nlohmann::json& packed,
-                                     const std::string& whose) {
+Expected<FileBytes> unpack_meshopt(const GltfFile& file, const nlohmann::json& packed,
+                                   const std::string& whose) {
   const std::size_t buffer = size_member(packed, "buffer").value_or(file.buffers.size());
   const std::size_t offset = size_member(packed, "byteOffset").value_or(0),
                     length = size_member(packed, "byteLength").value_or(0);
@@ -144,7 +144,7 @@ Expected<std::string> unpack_meshopt(const GltfFile& file, const nlohmann::json&
   if ((filter == "OCTAHEDRAL" && stride != 4 && stride != 8) || (filter == "QUATERNION" && stride != 8))
     return file.error(whose + " has a stride that its filter does not know");
   if (!file.limit->take(file.path.string(), whose, count, stride)) return Unexpected(*file.limit->error());
-  std::string bytes(count * stride, '\0');
+  FileBytes bytes(count * stride);
   const unsigned char* from = file.buffers[buffer].data() + offset;
   const int failure =
       vertices              ? meshopt_decodeVertexBuffer(bytes.data(), count, stride, from, length)

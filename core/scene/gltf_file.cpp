@@ -5,6 +5,7 @@
 #include <type_traits>
 
 #include "core/base/large_memory.h"
+#include "core/parallel/parts.h"
 
 namespace pinocchio {
 namespace {
@@ -111,20 +112,14 @@ Expected<Elements> elements(const GltfFile& file, const std::string& whose, int 
 
 constexpr std::size_t kElementsBetweenLooks = 1 << 16;
 
-// All of them, to where they are to lie one after the other.
+// The elements' numbers, where they lie one after the other as ours do; null where they do not.
 template <class Out>
-void copy(const GltfFile& file, const Elements& from, std::size_t width, double scale, Out* to) {
+const Out* as_stored(const Elements& from, std::size_t width) {
   constexpr int kSame =
       std::is_same_v<Out, float> ? TINYGLTF_COMPONENT_TYPE_FLOAT : TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT;
-  const bool as_stored = from.component_type == kSame && from.stride == width * sizeof(Out);
-  for (std::size_t i = 0; i < from.count; i += kElementsBetweenLooks) {
-    throw_if_cancelled(file.progress);
-    const std::size_t count = std::min(kElementsBetweenLooks, from.count - i);
-    if (as_stored)
-      std::memcpy(to + i * width, from.first + i * from.stride, count * from.stride);
-    else
-      convert(from, i, count, width, scale, to + i * width);
-  }
+  const bool aligned = reinterpret_cast<std::uintptr_t>(from.first) % alignof(Out) == 0;
+  const bool same = from.component_type == kSame && from.stride == width * sizeof(Out);
+  return aligned && same ? reinterpret_cast<const Out*>(from.first) : nullptr;
 }
 
 // What the sparse part has otherwise.
@@ -155,9 +150,9 @@ Expected<void> overwrite(const GltfFile& file, const std::string& whose, const t
   return {};
 }
 
-// An accessor's numbers; room(count) makes the memory for so many elements and returns it.
-template <class Out, class Room>
-Expected<void> read_numbers(const GltfFile& file, int index, int components, Room room) {
+// Appends an accessor's numbers to `to`, of whose elements each holds one or more.
+template <class Out, class T>
+Expected<void> append_numbers(const GltfFile& file, int index, int components, std::vector<T>& to) {
   const std::string whose = "accessor " + std::to_string(index);
   if (!in_range(index, file.model.accessors)) return file.error(whose + " is used and missing");
   const tinygltf::Accessor& accessor = file.model.accessors[static_cast<std::size_t>(index)];
@@ -168,45 +163,40 @@ Expected<void> read_numbers(const GltfFile& file, int index, int components, Roo
 
   const auto width = static_cast<std::size_t>(components);
   const double scale = accessor.normalized ? 1.0 / largest_value(accessor.componentType) : 1.0;
-  Out* numbers = nullptr;
+  const std::size_t first = to.size(), more = width * accessor.count / (sizeof(T) / sizeof(Out));
+  const auto numbers = [&] { return reinterpret_cast<Out*>(to.data() + first); };
   if (accessor.bufferView >= 0) {
     const Expected<Elements> from = elements(file, whose, accessor.bufferView, accessor.byteOffset,
                                              accessor.count, accessor.componentType, components);
     if (!from) return Unexpected(from.error());
-    numbers = room(accessor.count);
-    copy(file, *from, width, scale, numbers);
+    throw_if_cancelled(file.progress);
+    if (const Out* stored = as_stored<Out>(*from, width)) {
+      append_large(to, std::span(reinterpret_cast<const T*>(stored), more));
+    } else {
+      resize_large(to, first + more);
+      for_each_part(from->count, kElementsBetweenLooks, [&](std::size_t begin, std::size_t end) {
+        throw_if_cancelled(file.progress);
+        convert(*from, begin, end - begin, width, scale, numbers() + begin * width);
+      });
+    }
   } else {  // zeros, says glTF
     if (!is_component_type(accessor.componentType))
       return file.error(whose + " has the component type " + std::to_string(accessor.componentType) +
                         ", which glTF does not know");
     if (!file.limit->take(file.path.string(), whose, accessor.count, width * sizeof(Out)))
       return Unexpected(*file.limit->error());
-    numbers = room(accessor.count);
-    std::fill_n(numbers, width * accessor.count, Out{});
+    resize_large(to, first + more, T(0));
   }
   if (!accessor.sparse.isSparse) return {};
-  return overwrite(file, whose, accessor, components, scale, numbers);
+  return overwrite(file, whose, accessor, components, scale, numbers());
 }
 
 template <class Out>
 Expected<std::vector<Out>> numbers_of(const GltfFile& file, int index, int components) {
   std::vector<Out> numbers;
-  const Expected<void> read = read_numbers<Out>(file, index, components, [&](std::size_t count) {
-    resize_large(numbers, count * static_cast<std::size_t>(components));
-    return numbers.data();
-  });
+  const Expected<void> read = append_numbers<Out>(file, index, components, numbers);
   if (!read) return Unexpected(read.error());
   return numbers;
-}
-
-template <int kComponents>
-Expected<void> append_vectors(const GltfFile& file, int accessor,
-                              std::vector<glm::vec<kComponents, float>>& to) {
-  return read_numbers<float>(file, accessor, kComponents, [&](std::size_t count) {
-    const std::size_t first = to.size();
-    resize_large(to, first + count);
-    return reinterpret_cast<float*>(to.data() + first);
-  });
 }
 
 }  // namespace
@@ -226,20 +216,36 @@ Expected<std::vector<float>> GltfFile::floats(int accessor, int components) cons
 }
 
 Expected<void> GltfFile::append(int accessor, std::vector<glm::vec2>& to) const {
-  return append_vectors(*this, accessor, to);
+  return append_numbers<float>(*this, accessor, 2, to);
 }
 Expected<void> GltfFile::append(int accessor, std::vector<glm::vec3>& to) const {
-  return append_vectors(*this, accessor, to);
+  return append_numbers<float>(*this, accessor, 3, to);
 }
 Expected<void> GltfFile::append(int accessor, std::vector<glm::vec4>& to) const {
-  return append_vectors(*this, accessor, to);
+  return append_numbers<float>(*this, accessor, 4, to);
 }
 
-Expected<std::vector<std::uint32_t>> GltfFile::indices(int accessor) const {
+Expected<std::size_t> GltfFile::count(int accessor) const {
+  if (!in_range(accessor, model.accessors))
+    return error("accessor " + std::to_string(accessor) + " is used and missing");
+  return model.accessors[static_cast<std::size_t>(accessor)].count;
+}
+
+Expected<void> GltfFile::check_indices(int accessor) const {
   if (in_range(accessor, model.accessors) &&
       !is_index_type(model.accessors[static_cast<std::size_t>(accessor)].componentType))
     return error("accessor " + std::to_string(accessor) + " holds indices that are not unsigned integers");
+  return {};
+}
+
+Expected<std::vector<std::uint32_t>> GltfFile::indices(int accessor) const {
+  if (const Expected<void> checked = check_indices(accessor); !checked) return Unexpected(checked.error());
   return numbers_of<std::uint32_t>(*this, accessor, 1);
+}
+
+Expected<void> GltfFile::append_triangles(int accessor, std::vector<glm::uvec3>& to) const {
+  if (const Expected<void> checked = check_indices(accessor); !checked) return checked;
+  return append_numbers<std::uint32_t>(*this, accessor, 1, to);
 }
 
 const tinygltf::Value* member(const tinygltf::Value& object, const std::string& key) {

@@ -16,6 +16,7 @@
 #include <tiny_gltf.h>
 #pragma GCC diagnostic pop
 
+#include "core/scene/file_bytes.h"
 #include "core/scene/loaders.h"
 
 namespace pinocchio {
@@ -24,15 +25,14 @@ struct GltfFile {
   std::filesystem::path path;
   tinygltf::Model model;  // without its buffers' bytes
   std::vector<std::span<const unsigned char>> buffers;
-  std::deque<std::string> storage;          // what they lie in
+  std::deque<FileBytes> storage;            // what they lie in
   std::vector<std::string_view> data_uris;  // while it is read: those that its JSON was parsed without
   std::vector<std::string> named_files;     // looked for beside it, found or not
   Progress* progress = nullptr;
   MemoryLimit* limit = nullptr;
 
-  void add_buffer(std::string bytes) {
-    const std::string& kept = storage.emplace_back(std::move(bytes));
-    buffers.emplace_back(reinterpret_cast<const unsigned char*>(kept.data()), kept.size());
+  void add_buffer(FileBytes bytes) {
+    buffers.push_back(storage.emplace_back(std::move(bytes)).unsigned_bytes());
   }
 
   [[nodiscard]] Unexpected error(const std::string& what,
@@ -49,9 +49,16 @@ struct GltfFile {
   [[nodiscard]] Expected<void> append(int accessor, std::vector<glm::vec4>& to) const;
   // An accessor of scalar unsigned integers.
   [[nodiscard]] Expected<std::vector<std::uint32_t>> indices(int accessor) const;
+  // The same, three to a triangle, of which there is a whole number.
+  [[nodiscard]] Expected<void> append_triangles(int accessor, std::vector<glm::uvec3>& to) const;
+  // How many elements an accessor has.
+  [[nodiscard]] Expected<std::size_t> count(int accessor) const;
   // A buffer view's bytes; `whose` says in an error who wants them.
   [[nodiscard]] Expected<std::span<const unsigned char>> bytes(int buffer_view,
                                                                const std::string& whose) const;
+
+ private:
+  [[nodiscard]] Expected<void> check_indices(int accessor) const;
 };
 
 // Reads and parses the file; images stay encoded: in a buffer view, in Image::image, or in the file that

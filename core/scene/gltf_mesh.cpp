@@ -1,11 +1,12 @@
 #include <algorithm>
 #include <array>
-#include <cstring>
+#include <functional>
 #include <map>
-#include <numeric>
+#include <utility>
 
 #include "core/base/large_memory.h"
 #include "core/math/finite.h"
+#include "core/parallel/parts.h"
 #include "core/scene/gltf_deformation.h"
 
 namespace pinocchio {
@@ -36,7 +37,7 @@ std::size_t triangle_count(int mode, std::size_t indices) {
   return indices < 3 ? 0 : indices - 2;
 }
 
-constexpr std::size_t kTrianglesBetweenLooks = 1 << 16;
+constexpr std::size_t kPlacedAtOnce = 1 << 16;
 
 // Vertices or triangles' corners, whichever are more.
 std::size_t elements_of(const GltfFile& file, const tinygltf::Primitive& primitive) {
@@ -59,27 +60,29 @@ class MeshPlacer {
         deformation_(deformation) {}
 
   Expected<void> add(const tinygltf::Primitive& primitive, std::uint32_t default_material) {
-    const Expected<std::uint32_t> first = vertices(
-        {attribute(primitive, "POSITION"), attribute(primitive, "NORMAL"), attribute(primitive, "TEXCOORD_0"),
-         attribute(primitive, "TEXCOORD_1"), attribute(primitive, "COLOR_0"), attribute(primitive, "TANGENT"),
-         deformation_ ? deforming_accessors(primitive) : std::vector<int>()},
-        primitive);
-    if (!first) return Unexpected(first.error());
-    if (primitive.material >= 0 &&
-        static_cast<std::size_t>(primitive.material) >= file_.model.materials.size())
-      return file_.error("a primitive names material " + std::to_string(primitive.material) + ", there are " +
-                         std::to_string(file_.model.materials.size()));
+    const Attributes attributes{attribute(primitive, "POSITION"),
+                                attribute(primitive, "NORMAL"),
+                                attribute(primitive, "TEXCOORD_0"),
+                                attribute(primitive, "TEXCOORD_1"),
+                                attribute(primitive, "COLOR_0"),
+                                attribute(primitive, "TANGENT"),
+                                deformation_ ? deforming_accessors(primitive) : std::vector<int>()};
+    const Expected<std::size_t> count = file_.count(attributes.position);
+    if (!count) return Unexpected(count.error());
+    // Primitives that share their accessors share the vertices.
+    const auto [at, is_new] =
+        placed_.try_emplace(attributes, static_cast<std::uint32_t>(mesh_.positions.size()));
+    const std::uint32_t first = at->second;
     const std::size_t before = mesh_.triangles.size();
-    if (const Expected<void> added = add_corners(primitive, counts_[*first]); !added) return added;
-    for (std::size_t i = before; i < mesh_.triangles.size(); ++i) {
-      if (i % kTrianglesBetweenLooks == 0) throw_if_cancelled(file_.progress);
-      glm::uvec3& triangle = mesh_.triangles[i];
-      if (placement_.mirrors()) std::swap(triangle.y, triangle.z);
-      triangle += *first;
-      is_partly_smooth_ |= has_void_normals_ && is_partly_smooth(triangle);
-    }
-    resize_large(mesh_.triangle_materials, mesh_.triangles.size(),
-                 primitive.material >= 0 ? static_cast<std::uint32_t>(primitive.material) : default_material);
+    std::vector<Job> jobs;
+    if (is_new) jobs = vertex_jobs(attributes, first, *count);
+    jobs.emplace_back(
+        [&, count = *count] { return add_triangles(primitive, default_material, first, count); });
+    if (const Expected<void> done = run(jobs, elements_of(file_, primitive)); !done) return done;
+    if (is_new && deformation_)
+      if (const Expected<void> added = deformation_->add(primitive, first, *count); !added) return added;
+    for (std::size_t i = before; has_void_normals_ && i < mesh_.triangles.size(); ++i)
+      is_partly_smooth_ |= is_partly_smooth(mesh_.triangles[i]);
     return {};
   }
 
@@ -94,65 +97,119 @@ class MeshPlacer {
     return given % 3 != 0;
   }
 
-  // Appends the primitive's triangles, whose corners are counted from its first vertex.
+  // What fills arrays of its own, so that all of them can be done at once.
+  using Job = std::function<Expected<void>()>;
+
+  // Of several errors, the first job's.
+  static Expected<void> run(std::span<const Job> jobs, std::size_t elements) {
+    constexpr std::size_t kFew = std::size_t{1} << 15;  // are done before another thread has begun
+    std::vector<Expected<void>> done(jobs.size());
+    for_each_part(jobs.size(), elements > kFew ? 1 : jobs.size(), [&](std::size_t begin, std::size_t end) {
+      for (std::size_t i = begin; i < end; ++i) done[i] = jobs[i]();
+    });
+    const auto failed = std::ranges::find_if(done, [](const Expected<void>& job) { return !job; });
+    return failed == done.end() ? Expected<void>() : *failed;
+  }
+
+  // Vertices from `first` on, made of these accessors.
+  std::vector<Job> vertex_jobs(const Attributes& attributes, std::size_t first, std::size_t count) {
+    const auto texcoords = [=, this](int accessor, std::vector<glm::vec2>& to) {
+      return [=, this, &to] { return append(accessor, first, count, glm::vec2(0.0f), to); };
+    };
+    return {[=, this] { return add_positions(attributes.position, first); },
+            [=, this] { return add_normals(attributes.normal, first, count); },
+            texcoords(attributes.texcoord, mesh_.texcoords),
+            texcoords(attributes.texcoord1, mesh_.texcoords1),
+            [=, this] { return append_colors(attributes.color, first, count); },
+            [=, this] { return add_tangents(attributes.tangent, first, count); }};
+  }
+
+  // Appends the primitive's triangles, whose corners are counted from its vertex `first`.
+  Expected<void> add_triangles(const tinygltf::Primitive& primitive, std::uint32_t default_material,
+                               std::uint32_t first, std::size_t vertex_count) {
+    if (primitive.material >= 0 &&
+        static_cast<std::size_t>(primitive.material) >= file_.model.materials.size())
+      return file_.error("a primitive names material " + std::to_string(primitive.material) + ", there are " +
+                         std::to_string(file_.model.materials.size()));
+    const std::size_t before = mesh_.triangles.size();
+    if (const Expected<void> added = add_corners(primitive, vertex_count); !added) return added;
+    const std::span triangles = std::span(mesh_.triangles).subspan(before);
+    glm::uvec3 most(0);
+    for (const glm::uvec3& triangle : triangles) most = glm::max(most, triangle);
+    if (const std::uint32_t last = std::max({most.x, most.y, most.z});
+        !triangles.empty() && last >= vertex_count)
+      return file_.error("a primitive names vertex " + std::to_string(last) + ", it has " +
+                         std::to_string(vertex_count));
+    if (first > 0)
+      for (glm::uvec3& triangle : triangles) triangle += first;
+    if (placement_.mirrors())
+      for (glm::uvec3& triangle : triangles) std::swap(triangle.y, triangle.z);
+    resize_large(mesh_.triangle_materials, mesh_.triangles.size(),
+                 primitive.material >= 0 ? static_cast<std::uint32_t>(primitive.material) : default_material);
+    return {};
+  }
+
   Expected<void> add_corners(const tinygltf::Primitive& primitive, std::size_t vertex_count) {
+    throw_if_cancelled(file_.progress);
+    std::size_t count = vertex_count;
     std::vector<std::uint32_t> indices;
     if (primitive.indices >= 0) {
-      Expected<std::vector<std::uint32_t>> given = file_.indices(primitive.indices);
+      const Expected<std::size_t> given = file_.count(primitive.indices);
       if (!given) return Unexpected(given.error());
-      indices = std::move(*given);
-    } else {
-      resize_large(indices, vertex_count);
-      std::iota(indices.begin(), indices.end(), 0u);
+      count = *given;
+      if (primitive.mode == TINYGLTF_MODE_TRIANGLES && count % 3 == 0)
+        return file_.append_triangles(primitive.indices, mesh_.triangles);
+      Expected<std::vector<std::uint32_t>> read = file_.indices(primitive.indices);
+      if (!read) return Unexpected(read.error());
+      indices = std::move(*read);
     }
-    std::uint32_t most = 0;
-    for (const std::uint32_t index : indices) most = std::max(most, index);
-    if (!indices.empty() && most >= vertex_count)
-      return file_.error("a primitive names vertex " + std::to_string(most) + ", it has " +
-                         std::to_string(vertex_count));
-    const std::size_t before = mesh_.triangles.size(), count = triangle_count(primitive.mode, indices.size());
-    resize_large(mesh_.triangles, before + count);
-    if (primitive.mode == TINYGLTF_MODE_TRIANGLES) {
-      static_assert(sizeof(glm::uvec3) == 3 * sizeof(std::uint32_t));
-      if (count > 0) std::memcpy(&mesh_.triangles[before], indices.data(), count * sizeof(glm::uvec3));
-      return {};
-    }
-    for (std::size_t i = 0; i < count; ++i) {
+    const auto index = [&](std::size_t i) {
+      return indices.empty() ? static_cast<std::uint32_t>(i) : indices[i];
+    };
+    const std::size_t before = mesh_.triangles.size(), triangles = triangle_count(primitive.mode, count);
+    resize_large(mesh_.triangles, before + triangles);
+    for (std::size_t i = 0; i < triangles; ++i) {
       const std::array<std::size_t, 3> at = corners_of(primitive.mode, i);
-      mesh_.triangles[before + i] = {indices[at[0]], indices[at[1]], indices[at[2]]};
+      mesh_.triangles[before + i] = {index(at[0]), index(at[1]), index(at[2])};
     }
     return {};
   }
 
-  // First of the scene's vertices made of these accessors; primitives that share them share the vertices.
-  Expected<std::uint32_t> vertices(const Attributes& attributes, const tinygltf::Primitive& primitive) {
-    const std::size_t first = mesh_.positions.size();
-    const auto [at, is_new] = placed_.try_emplace(attributes, static_cast<std::uint32_t>(first));
-    if (!is_new) return at->second;
-    if (const Expected<void> read = file_.append(attributes.position, rest_.positions); !read)
-      return Unexpected(read.error());
-    const std::size_t count = rest_.positions.size() - first;
-    for (const Expected<void>& read : {append(attributes.normal, count, glm::vec3(0.0f), rest_.normals),
-                                       append(attributes.texcoord, count, glm::vec2(0.0f), mesh_.texcoords),
-                                       append(attributes.texcoord1, count, glm::vec2(0.0f), mesh_.texcoords1),
-                                       append_colors(attributes.color, count),
-                                       append(attributes.tangent, count, glm::vec4(0.0f), rest_.tangents)})
-      if (!read) return Unexpected(read.error());
-    resize_large(rest_.normals, first + count);
-    if (attributes.normal >= 0) drop_void_normals(first);
-    place(first);
-    if (deformation_)
-      if (const Expected<void> added = deformation_->add(primitive, at->second, count); !added)
-        return Unexpected(added.error());
-    counts_[at->second] = count;
-    return at->second;
+  Expected<void> add_positions(int accessor, std::size_t first) {
+    Expected<void> read = file_.append(accessor, rest_.positions);
+    if (read && in_place_)
+      append_large(mesh_.positions, std::span(std::as_const(rest_.positions)).subspan(first));
+    else if (read)
+      place(rest_.positions, first, mesh_.positions,
+            [this](const glm::vec3& p) { return placement_.position(p); });
+    return read;
   }
 
-  // One for each of the `count` last vertices, `none` where the primitive has no such attribute. What no
-  // primitive has yet stays empty.
+  Expected<void> add_normals(int accessor, std::size_t first, std::size_t count) {
+    Expected<void> read = append(accessor, first, count, glm::vec3(0.0f), rest_.normals);
+    if (!read) return read;
+    resize_large(rest_.normals, first + count);
+    if (accessor >= 0) drop_void_normals(first);
+    if (in_place_)
+      append_large(mesh_.normals, std::span(std::as_const(rest_.normals)).subspan(first));
+    else
+      place(rest_.normals, first, mesh_.normals, [this](const glm::vec3& n) { return placement_.normal(n); });
+    return {};
+  }
+
+  Expected<void> add_tangents(int accessor, std::size_t first, std::size_t count) {
+    Expected<void> read = append(accessor, first, count, glm::vec4(0.0f), rest_.tangents);
+    if (read && !rest_.tangents.empty())
+      place(rest_.tangents, first, mesh_.tangents,
+            [this](const glm::vec4& t) { return placement_.tangent(t); });
+    return read;
+  }
+
+  // One for each of the `count` vertices from `first` on, `none` where the primitive has no such attribute.
+  // What no primitive has yet stays empty.
   template <class T>
-  Expected<void> append(int accessor, std::size_t count, const T& none, std::vector<T>& to) const {
-    const std::size_t first = mesh_.positions.size();
+  Expected<void> append(int accessor, std::size_t first, std::size_t count, const T& none,
+                        std::vector<T>& to) const {
     if (accessor < 0 && to.empty()) return {};
     resize_large(to, first, none);
     if (accessor < 0) {
@@ -166,16 +223,16 @@ class MeshPlacer {
   }
 
   // RGB or RGBA; white where the primitive has none.
-  Expected<void> append_colors(int accessor, std::size_t count) {
+  Expected<void> append_colors(int accessor, std::size_t first, std::size_t count) {
     const auto index = static_cast<std::size_t>(accessor);
     const bool opaque = accessor >= 0 && index < file_.model.accessors.size() &&
                         file_.model.accessors[index].type == TINYGLTF_TYPE_VEC3;
-    if (!opaque) return append(accessor, count, glm::vec4(1.0f), mesh_.colors);
+    if (!opaque) return append(accessor, first, count, glm::vec4(1.0f), mesh_.colors);
     std::vector<glm::vec3> rgb;
     if (const Expected<void> read = file_.append(accessor, rgb); !read) return read;
     if (rgb.size() != count)
       return file_.error("accessor " + std::to_string(accessor) + " does not hold one element a vertex");
-    resize_large(mesh_.colors, mesh_.positions.size(), glm::vec4(1.0f));
+    resize_large(mesh_.colors, first, glm::vec4(1.0f));
     for (const glm::vec3& c : rgb) mesh_.colors.emplace_back(c, 1.0f);
     return {};
   }
@@ -189,23 +246,14 @@ class MeshPlacer {
     }
   }
 
-  // The vertices from `first` on, as the world sees them.
-  void place(std::size_t first) {
-    const auto placed = [first](const auto& rest, auto& to, const auto& place_one) {
-      resize_large(to, rest.size());
-      std::transform(rest.begin() + static_cast<std::ptrdiff_t>(first), rest.end(),
-                     to.begin() + static_cast<std::ptrdiff_t>(first), place_one);
-    };
-    if (in_place_) {
-      const auto as_it_is = [](const glm::vec3& v) { return v; };
-      placed(rest_.positions, mesh_.positions, as_it_is);
-      placed(rest_.normals, mesh_.normals, as_it_is);
-    } else {
-      placed(rest_.positions, mesh_.positions, [this](const glm::vec3& p) { return placement_.position(p); });
-      placed(rest_.normals, mesh_.normals, [this](const glm::vec3& n) { return placement_.normal(n); });
-    }
-    if (rest_.tangents.empty()) return;
-    placed(rest_.tangents, mesh_.tangents, [this](const glm::vec4& t) { return placement_.tangent(t); });
+  // Those from `first` on, as the world sees them.
+  template <class T, class PlaceOne>
+  void place(const std::vector<T>& rest, std::size_t first, std::vector<T>& to, const PlaceOne& place_one) {
+    resize_large(to, rest.size());
+    for_each_part(rest.size() - first, kPlacedAtOnce, [&](std::size_t begin, std::size_t end) {
+      throw_if_cancelled(file_.progress);
+      for (std::size_t i = first + begin; i < first + end; ++i) to[i] = place_one(rest[i]);
+    });
   }
 
   const GltfFile& file_;
@@ -215,7 +263,6 @@ class MeshPlacer {
   RestPose& rest_;
   DeformationReader* deformation_;  // null: nothing deforms it
   std::map<Attributes, std::uint32_t> placed_;
-  std::map<std::uint32_t, std::size_t> counts_;  // of vertices, by the first of them
   bool has_void_normals_ = false, is_partly_smooth_ = false;
 };
 

@@ -54,7 +54,8 @@ Outline outline_of(std::string_view text) {
 
 // A file's parts: its JSON, and a .glb's binary chunk.
 struct Parts {
-  std::string json;
+  FileBytes text;  // all of a .gltf; empty: they lie in GltfFile::storage
+  std::string_view json;
   std::span<const unsigned char> binary;
 };
 
@@ -64,16 +65,20 @@ std::uint32_t number_at(std::string_view bytes, std::size_t at) {
   return value;
 }
 
-Expected<Parts> split(GltfFile& file, std::string&& bytes) {
-  if (!bytes.starts_with(kBinaryMagic)) return Parts{as_utf8(std::move(bytes)), {}};
+Expected<Parts> split(GltfFile& file, FileBytes bytes) {
+  Parts parts;
+  if (!bytes.text().starts_with(kBinaryMagic)) {
+    parts.text = as_utf8(std::move(bytes));
+    parts.json = parts.text.text();
+    return parts;
+  }
+  const std::string_view kept = file.storage.emplace_back(std::move(bytes)).text();
   constexpr std::size_t kHeader = 12, kChunkHeader = 8;
   constexpr std::uint32_t kJson = 0x4e4f534a, kBinary = 0x004e4942;
-  if (bytes.size() < kHeader) return file.error("ends within its header", "is the export complete?");
-  if (const std::uint32_t version = number_at(bytes, 4); version != 2)
+  if (kept.size() < kHeader) return file.error("ends within its header", "is the export complete?");
+  if (const std::uint32_t version = number_at(kept, 4); version != 2)
     return file.error("is binary glTF " + std::to_string(version) + ", only 2 can be read",
                       "convert it to glTF 2.0");
-  Parts parts;
-  const std::string& kept = file.storage.emplace_back(std::move(bytes));
   for (std::size_t at = kHeader; at + kChunkHeader <= kept.size();) {
     const std::uint32_t length = number_at(kept, at), type = number_at(kept, at + 4);
     at += kChunkHeader;
@@ -157,7 +162,7 @@ Expected<GltfFile> read_gltf_file(const std::filesystem::path& path, Loading& lo
   file.path = path;
   file.progress = loading.progress;
   file.limit = &loading.limit;
-  Expected<std::string> bytes = read_input_file(path, loading.progress);
+  Expected<FileBytes> bytes = read_input_file(path, loading.progress);
   if (!bytes) return Unexpected(bytes.error());
   Expected<Parts> parts = split(file, std::move(*bytes));
   if (!parts) return Unexpected(parts.error());

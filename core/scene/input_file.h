@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <string>
 
+#include "core/scene/file_bytes.h"
 #include "pinocchio/error.h"
 #include "pinocchio/progress.h"
 
@@ -11,10 +12,10 @@ namespace pinocchio {
 
 // All of a file's bytes. A FIFO, a device or a folder is an error at once: reading it might never end. Phase
 // "read".
-[[nodiscard]] Expected<std::string> read_input_file(const std::filesystem::path& file, Progress* progress);
+[[nodiscard]] Expected<FileBytes> read_input_file(const std::filesystem::path& file, Progress* progress);
 
 // The text as UTF-8 without a byte order mark, which says whether it was UTF-16.
-[[nodiscard]] std::string as_utf8(std::string text);
+[[nodiscard]] FileBytes as_utf8(FileBytes text);
 
 // A file that another one names, beside it: `name` as it is, or its last part, where it is a path of the
 // machine that wrote it. Backslashes divide as slashes do. The first of them where neither is there.

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "core/math/finite.h"
+#include "core/parallel/parts.h"
 #include "core/scene/loaders.h"
 
 namespace pinocchio {
@@ -94,38 +95,43 @@ Expected<void> check_scene(const Scene& scene) {
       !one_each_or_none(mesh.texcoords1, mesh) || !one_each_or_none(mesh.colors, mesh) ||
       !one_each_or_none(mesh.tangents, mesh))
     return fail("does not hold one of everything for each vertex and triangle", "export it again");
-  for (std::size_t i = 0; i < mesh.positions.size(); ++i)
-    if (!is_finite(mesh.positions[i]) || !is_finite(mesh.normals[i]))
-      return fail("vertex " + std::to_string(i) + " is not a finite number", "export it again");
-  for (std::size_t i = 0; i < mesh.positions.size(); ++i)
-    if (const glm::vec3 p = glm::abs(mesh.positions[i]); std::max({p.x, p.y, p.z}) > kFarthest)
-      return fail("vertex " + std::to_string(i) + " is more than 1e9 from the origin",
-                  "scale the scene down");
+  const auto no_number = [&](const std::string& what, std::size_t vertex) {
+    return fail(what + std::to_string(vertex) + " is not a finite number", "export it again");
+  };
+  const std::size_t vertices = mesh.positions.size();
+  const std::size_t bad = first_where(
+      vertices, [&](std::size_t i) { return !is_finite(mesh.positions[i]) || !is_finite(mesh.normals[i]); });
+  if (bad < vertices) return no_number("vertex ", bad);
+  const std::size_t far = first_where(vertices, [&](std::size_t i) {
+    const glm::vec3 p = glm::abs(mesh.positions[i]);
+    return std::max({p.x, p.y, p.z}) > kFarthest;
+  });
+  if (far < vertices)
+    return fail("vertex " + std::to_string(far) + " is more than 1e9 from the origin",
+                "scale the scene down");
   for (const std::vector<glm::vec2>* texcoords : {&mesh.texcoords, &mesh.texcoords1})
     for (std::size_t i = 0; i < texcoords->size(); ++i)
       if (!is_finite(glm::vec3((*texcoords)[i], 0.0f)))
-        return fail("the texture coordinate of vertex " + std::to_string(i) + " is not a finite number",
-                    "export it again");
+        return no_number("the texture coordinate of vertex ", i);
   for (std::size_t i = 0; i < mesh.colors.size(); ++i)
     if (!is_finite(glm::vec3(mesh.colors[i])) || !std::isfinite(mesh.colors[i].a))
-      return fail("the colour of vertex " + std::to_string(i) + " is not a finite number", "export it again");
+      return no_number("the colour of vertex ", i);
   for (std::size_t i = 0; i < mesh.tangents.size(); ++i)
     if (!is_finite(glm::vec3(mesh.tangents[i])) || !std::isfinite(mesh.tangents[i].w))
-      return fail("the tangent of vertex " + std::to_string(i) + " is not a finite number",
-                  "export it again");
+      return no_number("the tangent of vertex ", i);
   for (const Material& m : mesh.materials)
     if (m.maps >= static_cast<int>(mesh.maps.size()))
       return fail("material '" + m.name + "' names maps that there are not", "export it again");
   if (!std::all_of(mesh.maps.begin(), mesh.maps.end(),
                    [&](const auto& m) { return names_known_textures(m, mesh); }))
     return fail("a material names a texture that there is not", "export it again");
-  for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
+  const std::size_t lost = first_where(mesh.triangles.size(), [&](std::size_t i) {
     const glm::uvec3& t = mesh.triangles[i];
-    if (std::max({t.x, t.y, t.z}) >= mesh.positions.size() ||
-        mesh.triangle_materials[i] >= mesh.materials.size())
-      return fail("triangle " + std::to_string(i) + " names a vertex or material that there is not",
-                  "export it again");
-  }
+    return std::max({t.x, t.y, t.z}) >= vertices || mesh.triangle_materials[i] >= mesh.materials.size();
+  });
+  if (lost < mesh.triangles.size())
+    return fail("triangle " + std::to_string(lost) + " names a vertex or material that there is not",
+                "export it again");
   return {};
 }
 

@@ -235,7 +235,7 @@ class SceneReader {
         if (!added) return added;
         deformation.place(instance, static_cast<std::uint32_t>(first),
                           std::span(rest_.normals).subspan(first));
-        place_rest(Placement(instance), first);
+        if (instance != glm::mat4(1.0f)) place_rest(Placement(instance), first);
       }
       if (deformation.needed()) add_deformation(node, deformation);
     }

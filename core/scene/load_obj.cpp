@@ -48,16 +48,16 @@ class MtlLibraries {
  private:
   void read_file(const std::filesystem::path& mtl) {
     files.push_back(mtl.string());
-    Expected<std::string> bytes = read_input_file(mtl, loading_.progress);
+    Expected<FileBytes> bytes = read_input_file(mtl, loading_.progress);
     if (!bytes) {
       loading_.warnings.add(
           {file_.string(), "", "its materials cannot be read: " + bytes.error().message(), "grey is used"});
       return;
     }
-    std::string text = as_utf8(std::move(*bytes));
+    FileBytes text = as_utf8(std::move(*bytes));
     join_lines(text);
-    add_lost_mtl_features(mtl, text, loading_.warnings);
-    for (MtlMaterial& m : read_mtl(text)) {
+    add_lost_mtl_features(mtl, text.text(), loading_.warnings);
+    for (MtlMaterial& m : read_mtl(text.text())) {
       by_name_.try_emplace(m.name, static_cast<int>(materials.size()));
       materials.push_back(std::move(m));
     }
@@ -71,9 +71,9 @@ class MtlLibraries {
 }  // namespace
 
 Expected<Scene> load_obj(const std::filesystem::path& path, Loading& loading) {
-  Expected<std::string> bytes = read_input_file(path, loading.progress);
+  Expected<FileBytes> bytes = read_input_file(path, loading.progress);
   if (!bytes) return Unexpected(bytes.error());
-  std::string text = as_utf8(std::move(*bytes));
+  FileBytes text = as_utf8(std::move(*bytes));
   const Expected<ObjText> obj = read_obj_text(text, path, loading.warnings, loading.progress);
   if (!obj) return Unexpected(obj.error());
   MtlLibraries mtl(path, loading);

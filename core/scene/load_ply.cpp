@@ -265,7 +265,7 @@ class PlyBuilder {
 }  // namespace
 
 Expected<Scene> load_ply(const std::filesystem::path& path, Loading& loading) {
-  Expected<std::string> bytes = read_input_file(path, loading.progress);
+  Expected<FileBytes> bytes = read_input_file(path, loading.progress);
   if (!bytes) return Unexpected(bytes.error());
   Expected<PlyFile> ply = PlyFile::open(path, std::move(*bytes));
   if (!ply) return Unexpected(ply.error());

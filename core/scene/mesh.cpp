@@ -1,8 +1,9 @@
 #include "pinocchio/mesh.h"
 
 #include <algorithm>
+#include <array>
 
-#include "core/parallel/workers.h"
+#include "core/parallel/parts.h"
 #include "core/scene/mip_levels.h"
 
 namespace pinocchio {
@@ -25,20 +26,17 @@ void let_vertex_colors_count(MeshData& mesh) {
 // Of the vertices that triangles have; one that there is not is left to check_scene.
 Bounds bounds_of(const MeshData& mesh) {
   constexpr std::size_t kAtOnce = std::size_t{1} << 17;  // triangles
-  const std::size_t parts = (mesh.triangles.size() + kAtOnce - 1) / kAtOnce;
-  std::vector<Bounds> bounds(parts);
-  Workers workers(parts > 1 ? 0 : 1);
-  workers.for_each(parts, [&](std::size_t part) {
-    const std::size_t first = part * kAtOnce, last = std::min(first + kAtOnce, mesh.triangles.size());
-    Bounds own;
+  std::vector<Bounds> parts(mesh.triangles.size() / kAtOnce + 1);
+  for_each_part(mesh.triangles.size(), kAtOnce, [&](std::size_t first, std::size_t last) {
+    std::array<Bounds, 3> own;  // a corner: none waits for another's
     for (std::size_t i = first; i < last; ++i)
       for (int c = 0; c < 3; ++c)
         if (const std::uint32_t vertex = mesh.triangles[i][c]; vertex < mesh.positions.size())
-          own.add(mesh.positions[vertex]);
-    bounds[part] = own;
+          own[static_cast<std::size_t>(c)].add(mesh.positions[vertex]);
+    for (const Bounds& corner : own) parts[first / kAtOnce].add(corner);
   });
   Bounds all;
-  for (const Bounds& part : bounds) all.add(part);
+  for (const Bounds& part : parts) all.add(part);
   return all;
 }
 

@@ -42,9 +42,9 @@ class ObjReader {
   ObjReader(const std::filesystem::path& file, Warnings& warnings)
       : file_(file.string()), warnings_(warnings) {}
 
-  Expected<ObjText> read(std::string& text, const Progress* progress) {
+  Expected<ObjText> read(std::span<char> text, const Progress* progress) {
     join_lines(text);
-    for (TextLines lines(text); lines.next();) {
+    for (TextLines lines({text.data(), text.size()}); lines.next();) {
       line_ = lines.number();
       if (++seen_ % kLinesBetweenLooks == 0) throw_if_cancelled(progress);
       if (const Expected<void> read = read_line(lines.line()); !read) return Unexpected(read.error());
@@ -210,7 +210,7 @@ class ObjReader {
 
 }  // namespace
 
-Expected<ObjText> read_obj_text(std::string& text, const std::filesystem::path& file, Warnings& warnings,
+Expected<ObjText> read_obj_text(std::span<char> text, const std::filesystem::path& file, Warnings& warnings,
                                 const Progress* progress) {
   return ObjReader(file, warnings).read(text, progress);
 }

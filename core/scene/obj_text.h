@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -31,7 +32,7 @@ struct ObjText {
 
 // Reads the text, in which a backslash joins lines (it is written over). Errors carry the line. Statements
 // that nothing reads are warnings.
-[[nodiscard]] Expected<ObjText> read_obj_text(std::string& text, const std::filesystem::path& file,
+[[nodiscard]] Expected<ObjText> read_obj_text(std::span<char> text, const std::filesystem::path& file,
                                               Warnings& warnings, const Progress* progress);
 
 }  // namespace pinocchio

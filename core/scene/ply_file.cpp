@@ -75,7 +75,7 @@ Unexpected PlyFile::error(const std::string& what) const {
       InputError{path_.string(), format_ == Format::ascii ? line_ : 0, what, "export the file again"});
 }
 
-Expected<PlyFile> PlyFile::open(const std::filesystem::path& path, std::string bytes) {
+Expected<PlyFile> PlyFile::open(const std::filesystem::path& path, FileBytes bytes) {
   PlyFile file;
   file.path_ = path;
   file.bytes_ = std::move(bytes);
@@ -84,12 +84,13 @@ Expected<PlyFile> PlyFile::open(const std::filesystem::path& path, std::string b
 }
 
 Expected<void> PlyFile::read_header() {
-  if (!bytes_.starts_with("ply")) return error("is not PLY: it does not begin with the word ply");
+  const std::string_view text = bytes_.text();
+  if (!text.starts_with("ply")) return error("is not PLY: it does not begin with the word ply");
   for (bool ended = false; !ended;) {
-    const std::size_t end = bytes_.find_first_of("\r\n", at_);
+    const std::size_t end = text.find_first_of("\r\n", at_);
     if (end == std::string::npos) return error("its header does not end (end_header)");
-    const std::string_view line = std::string_view(bytes_).substr(at_, end - at_);
-    at_ = end + (bytes_.compare(end, 2, "\r\n") == 0 ? 2 : 1);
+    const std::string_view line = text.substr(at_, end - at_);
+    at_ = end + (text.substr(end).starts_with("\r\n") ? 2 : 1);
     if (const Expected<void> read = read_header_line(line, ended); !read) return read;
     ++line_;
   }
@@ -99,7 +100,7 @@ Expected<void> PlyFile::read_header() {
     std::size_t row = 0;
     for (const PlyProperty& p : element.properties)
       row += format_ == Format::ascii ? 2 : size_of(p.is_list ? p.count_type : p.type);
-    if (row > 0 && element.count > (bytes_.size() + 1 - at_ - std::min(least, bytes_.size() - at_)) / row)
+    if (row > 0 && element.count > (text.size() + 1 - at_ - std::min(least, text.size() - at_)) / row)
       return error("its header promises " + std::to_string(element.count) + " of element " + element.name +
                    ", the file is too short for them");
     least += row * element.count;
@@ -161,10 +162,11 @@ bool PlyFile::read_number(PlyType type, double& value) {
     at_ += size;
     return true;
   }
-  while (at_ < bytes_.size() && (bytes_[at_] == ' ' || (bytes_[at_] >= '\t' && bytes_[at_] <= '\r')))
-    line_ += bytes_[at_++] == '\n' ? 1 : 0;
-  if (at_ < bytes_.size() && bytes_[at_] == '+') ++at_;
-  const auto [end, failure] = std::from_chars(bytes_.data() + at_, bytes_.data() + bytes_.size(), value);
+  const std::string_view text = bytes_.text();
+  while (at_ < text.size() && (text[at_] == ' ' || (text[at_] >= '\t' && text[at_] <= '\r')))
+    line_ += text[at_++] == '\n' ? 1 : 0;
+  if (at_ < text.size() && text[at_] == '+') ++at_;
+  const auto [end, failure] = std::from_chars(text.data() + at_, text.data() + text.size(), value);
   if (failure == std::errc::invalid_argument) return false;
   if (failure == std::errc::result_out_of_range) value = 0.0;  // 1e-400; 1e400 is not finite either way
   at_ = static_cast<std::size_t>(end - bytes_.data());

@@ -7,6 +7,7 @@
 #include <string_view>
 #include <vector>
 
+#include "core/scene/file_bytes.h"
 #include "pinocchio/error.h"
 
 namespace pinocchio {
@@ -39,7 +40,7 @@ struct PlyRow {
 class PlyFile {
  public:
   // Reads the header. A header that promises more rows than the file can hold is an error.
-  [[nodiscard]] static Expected<PlyFile> open(const std::filesystem::path& path, std::string bytes);
+  [[nodiscard]] static Expected<PlyFile> open(const std::filesystem::path& path, FileBytes bytes);
 
   [[nodiscard]] const std::vector<PlyElement>& elements() const { return elements_; }
   // Of the comments "TextureFile name", as MeshLab writes them.
@@ -53,12 +54,12 @@ class PlyFile {
 
   Expected<void> read_header();
   Expected<void> read_header_line(std::string_view line, bool& ended);
-  [[nodiscard]] std::string_view rest() const { return std::string_view(bytes_).substr(at_); }
+  [[nodiscard]] std::string_view rest() const { return bytes_.text().substr(at_); }
   // False at the end of the file, or where an ascii word is no number.
   bool read_number(PlyType type, double& value);
 
   std::filesystem::path path_;
-  std::string bytes_;
+  FileBytes bytes_;
   std::size_t at_ = 0;
   int line_ = 1;
   Format format_ = Format::ascii;

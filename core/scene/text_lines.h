@@ -2,7 +2,7 @@
 #pragma once
 
 #include <algorithm>
-#include <string>
+#include <span>
 #include <string_view>
 
 namespace pinocchio {
@@ -10,9 +10,10 @@ namespace pinocchio {
 inline constexpr char kJoint = '\v';  // where a backslash joined two lines
 
 // Makes one line of those that a backslash at the end joins. It keeps the text's length.
-inline void join_lines(std::string& text) {
-  for (std::size_t at = text.find('\\'); at != std::string::npos; at = text.find('\\', at + 1)) {
-    const std::size_t end = at + 1 + (text.compare(at + 1, 2, "\r\n") == 0 ? 1 : 0);
+inline void join_lines(std::span<char> text) {
+  const std::string_view read(text.data(), text.size());
+  for (std::size_t at = read.find('\\'); at != read.npos; at = read.find('\\', at + 1)) {
+    const std::size_t end = at + 1 + (read.substr(at + 1).starts_with("\r\n") ? 1 : 0);
     if (end >= text.size() || (text[end] != '\n' && text[end] != '\r')) continue;
     text[at] = text[at + 1] = ' ';
     text[end] = kJoint;

@@ -205,10 +205,9 @@ namespace {
 
 Expected<DecodedImage> decode(const EncodedImage& image, Progress* progress, MemoryLimit& limit) {
   if (image.bytes) return decode_texture(image.file, image.name, *image.bytes, limit);
-  const Expected<std::string> bytes = read_input_file(image.file, progress);
+  const Expected<FileBytes> bytes = read_input_file(image.file, progress);
   if (!bytes) return Unexpected(bytes.error());
-  return decode_texture(image.file, image.name,
-                        {reinterpret_cast<const unsigned char*>(bytes->data()), bytes->size()}, limit);
+  return decode_texture(image.file, image.name, bytes->unsigned_bytes(), limit);
 }
 
 }  // namespace

@@ -2,8 +2,6 @@
 // kernel_ISA.cpp includes lanes_ISA.h, names the namespace in PINOCCHIO_LANES and includes this. Everything
 // here lives inside that namespace: a function compiled for AVX must never be the one the linker keeps for
 // all.
-#include <algorithm>
-#include <iterator>
 #include <type_traits>
 #include <utility>
 

@@ -6,6 +6,7 @@
 namespace pinocchio::PINOCCHIO_LANES {
 namespace {
 
+// One lane's float or number.
 template <class Lanes>
 [[nodiscard]] inline auto lane_of(const Lanes& lanes, unsigned lane) {
   using Number = std::conditional_t<std::is_same_v<Lanes, Float>, float, std::uint32_t>;
@@ -35,7 +36,7 @@ class LeafLanes {
       : tree_(tree), lanes_(lanes_from(0, count)) {
     const float* rows[3][kWidth];
     for (std::uint32_t lane = 0; lane < kWidth; ++lane) {
-      const ProjectedTriangle& tri = tree.triangles[references[lane < count ? lane : 0]];
+      const ProjectedTriangle& tri = tree.triangles.data()[references[lane < count ? lane : 0]];
       rows[0][lane] = tri.a;  // and k
       rows[1][lane] = &tri.n_u;
       rows[2][lane] = &tri.gamma_u;
@@ -119,8 +120,8 @@ class LeafLanes {
   Int id_;
 };
 
-// The living lanes' rays, i and on: what closest_of_group and occluded_of_group (trace/kernel.h) keep of
-// them.
+// What closest_of_group and occluded_of_group (trace/kernel.h) do in a leaf, for the living lanes of the rays
+// from i on.
 template <int kPackets>
 [[gnu::noinline]] void closest_by_ray(const BspTree& tree, const RayColumns& rays, std::size_t i,
                                       const BspNode& leaf, const unsigned (&living)[kPackets],
@@ -153,7 +154,7 @@ template <int kPackets>
                                        Float (&t_best)[kPackets], unsigned (&hit)[kPackets]) {
   const std::uint32_t* const of_leaf = tree.references.data() + leaf.first_reference();
   unsigned open[kPackets];
-  std::copy(std::begin(living), std::end(living), open);
+  for (int k = 0; k < kPackets; ++k) open[k] = living[k];
   for (std::uint32_t r = 0; r < leaf.reference_count(); r += kWidth) {
     const LeafLanes triangles(tree, of_leaf + r, leaf.reference_count() - r);
     for (int k = 0; k < kPackets; ++k) {
