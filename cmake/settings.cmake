@@ -14,6 +14,9 @@ target_compile_options(pinocchio_settings INTERFACE -Wall -Wextra -Wpedantic -Ws
                        $<$<CXX_COMPILER_ID:GNU>:-Wno-restrict>
                        $<$<BOOL:${PINOCCHIO_WARNINGS_AS_ERRORS}>:-Werror>)
 target_compile_definitions(pinocchio_settings INTERFACE GLM_FORCE_EXPLICIT_CTOR)
+# Linked as well by what nobody waits for (verbs, panels, tests): optimising it takes longer than it ever saves.
+add_library(pinocchio_cold INTERFACE)
+target_compile_options(pinocchio_cold INTERFACE $<$<CONFIG:Release,RelWithDebInfo>:-O1>)
 if(PINOCCHIO_SANITIZE)
   target_compile_options(pinocchio_settings INTERFACE -fsanitize=${PINOCCHIO_SANITIZE} -fno-omit-frame-pointer)
   target_link_options(pinocchio_settings INTERFACE -fsanitize=${PINOCCHIO_SANITIZE})

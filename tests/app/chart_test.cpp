@@ -12,6 +12,11 @@ const std::string kSmall = "-o d --quick --size 48x36 --repeat 1 --quiet ";
 
 class ChartTest : public ProgramTest {
  protected:
+  // Draws no page, for those that look at the figures alone: matplotlib takes longer than measuring them.
+  [[nodiscard]] CommandResult run_without_page(const std::string& arguments) const {
+    write("scratch/matplotlib.py", "raise ImportError('none')\n");
+    return run(arguments, "PYTHONPATH=\"$PWD/scratch\"");
+  }
   [[nodiscard]] nlohmann::json results() const {
     std::ifstream in(folder_ / "d/results.json");
     return nlohmann::json::parse(in, nullptr, false);
@@ -64,7 +69,9 @@ TEST_F(ChartTest, WritesFiguresPicturesAndAPageOfCharts) {
 }
 
 TEST_F(ChartTest, ErrorsAreThoseOfWhatIsOnTheScreen) {
-  ASSERT_EQ(run("chart" + scene("cornell") + kSmall + "--only design,exchange,mask-scale").exit_code, 0);
+  ASSERT_EQ(
+      run_without_page("chart" + scene("cornell") + kSmall + "--only design,exchange,mask-scale").exit_code,
+      0);
   std::map<std::string, nlohmann::json> points;
   const nlohmann::json json = results();
   for (const nlohmann::json& point : json["points"])
@@ -83,7 +90,8 @@ TEST_F(ChartTest, ErrorsAreThoseOfWhatIsOnTheScreen) {
 }
 
 TEST_F(ChartTest, TheFrontIsBeatenByNoPoint) {
-  ASSERT_EQ(run("chart" + scene("cornell") + kSmall + "--only design,mask-scale,depth").exit_code, 0);
+  ASSERT_EQ(
+      run_without_page("chart" + scene("cornell") + kSmall + "--only design,mask-scale,depth").exit_code, 0);
   const nlohmann::json json = results();
   const nlohmann::json& points = json["points"];
   const auto on_front = [](const nlohmann::json& point) {
@@ -105,12 +113,12 @@ TEST_F(ChartTest, TheFrontIsBeatenByNoPoint) {
 
 TEST_F(ChartTest, WhatIsMeasuredIsNotMeasuredAgain) {
   const std::string chart = "chart" + scene("cornell") + kSmall;
-  ASSERT_EQ(run(chart + "--only depth").exit_code, 0);
+  ASSERT_EQ(run_without_page(chart + "--only depth").exit_code, 0);
   nlohmann::json json = results();
   const std::size_t before = json["points"].size();
   for (nlohmann::json& point : json["points"]) point["latency_ms"] = 12345.0;
   std::ofstream(folder_ / "d/results.json") << json.dump();
-  ASSERT_EQ(run(chart + "--only depth,tiles").exit_code, 0);
+  ASSERT_EQ(run_without_page(chart + "--only depth,tiles").exit_code, 0);
   json = results();
   ASSERT_GT(json["points"].size(), before);
   for (std::size_t i = 0; i < before; ++i) EXPECT_EQ(json["points"][i]["latency_ms"], 12345.0);
@@ -129,7 +137,7 @@ TEST_F(ChartTest, CtrlCKeepsWhatIsDone) {
 }
 
 TEST_F(ChartTest, AFolderHoldsOneChart) {
-  ASSERT_EQ(run("chart" + scene("cornell") + kSmall + "--only tiles").exit_code, 0);
+  ASSERT_EQ(run_without_page("chart" + scene("cornell") + kSmall + "--only tiles").exit_code, 0);
   const std::string other = "chart" + scene("two-lights") + kSmall + "--only tiles";
   const CommandResult refused = run(other);
   EXPECT_EQ(refused.exit_code, 2);
@@ -137,7 +145,7 @@ TEST_F(ChartTest, AFolderHoldsOneChart) {
             std::string::npos)
       << refused.err;
   EXPECT_NE(refused.err.find("--restart"), std::string::npos);
-  EXPECT_EQ(run(other + " --restart").exit_code, 0);
+  EXPECT_EQ(run_without_page(other + " --restart").exit_code, 0);
   EXPECT_EQ(results()["run"]["scene"]["name"], "two-lights");
   write("d/results.json", "{\"run\":");
   EXPECT_EQ(run(other).exit_code, 2);
@@ -147,7 +155,9 @@ TEST_F(ChartTest, AFolderHoldsOneChart) {
 
 // The program's own options, by which it resolves to the settings that were measured.
 TEST_F(ChartTest, TheOptionsItNamesDrawTheScene) {
-  ASSERT_EQ(run("chart" + scene("two-lights") + kSmall + "--only design,tiles,cutoff,combined").exit_code, 0);
+  ASSERT_EQ(run_without_page("chart" + scene("two-lights") + kSmall + "--only design,tiles,cutoff,combined")
+                .exit_code,
+            0);
   std::size_t drawn = 0;
   for (const nlohmann::json& json = results(); const nlohmann::json& point : json["points"]) {
     const auto options = point["options"].get<std::string>();
@@ -164,9 +174,7 @@ TEST_F(ChartTest, TheOptionsItNamesDrawTheScene) {
 }
 
 TEST_F(ChartTest, WithoutMatplotlibTheFiguresAreThereAndOneLineSaysWhatToInstall) {
-  write("scratch/matplotlib.py", "raise ImportError('none')\n");
-  const CommandResult result =
-      run("chart" + scene("cornell") + kSmall + "--only tiles", "PYTHONPATH=\"$PWD/scratch\"");
+  const CommandResult result = run_without_page("chart" + scene("cornell") + kSmall + "--only tiles");
   EXPECT_EQ(result.exit_code, 0) << result.err;
   EXPECT_NE(result.err.find("install python3-matplotlib"), std::string::npos) << result.err;
   EXPECT_EQ(std::count(result.err.begin(), result.err.end(), '\n'), 1) << result.err;
@@ -176,8 +184,10 @@ TEST_F(ChartTest, WithoutMatplotlibTheFiguresAreThereAndOneLineSaysWhatToInstall
 
 TEST_F(ChartTest, TimeIsTheFramesOrTheProcessors) {
   for (const std::string clock : {"frame", "cpu"}) {
-    ASSERT_EQ(run("chart" + scene("cornell") + kSmall + "--restart --only tiles --clock " + clock).exit_code,
-              0);
+    ASSERT_EQ(
+        run_without_page("chart" + scene("cornell") + kSmall + "--restart --only tiles --clock " + clock)
+            .exit_code,
+        0);
     const nlohmann::json json = results();
     const std::string time = clock == "cpu" ? "cpu_ms" : "frame_ms";
     const std::string raster = clock == "cpu" ? "raster_cpu_ms" : "raster_ms";
@@ -200,7 +210,9 @@ TEST_F(ChartTest, AnEnvironmentIsChartedAgainstTheReferenceThatSeesIt) {
   write("sky.hdr", even_sky('\x81'));
   write("dim.hdr", even_sky('\x80'));
   const std::string samples = kSmall + "--only spp ";
-  ASSERT_EQ(run("chart" + scene("cornell") + samples + "--environment sky.hdr --eye 0,1,9").exit_code, 0);
+  ASSERT_EQ(
+      run_without_page("chart" + scene("cornell") + samples + "--environment sky.hdr --eye 0,1,9").exit_code,
+      0);
   const nlohmann::json json = results();
   std::map<std::string, double> rmse;
   for (const nlohmann::json& point : json["points"]) rmse[point["value"].get<std::string>()] = point["rmse"];
