@@ -90,7 +90,7 @@ bool in_range(int index, const std::vector<T>& items) {
 
 // Of an index that names nothing.
 template <class T>
-std::string of(int index, const std::vector<T>& items) {
+std::string which_of(int index, const std::vector<T>& items) {
   return std::to_string(index) + ", there are " + std::to_string(items.size());
 }
 
@@ -102,10 +102,10 @@ Expected<Elements> elements(const GltfFile& file, const std::string& whose, int 
                       ", which glTF does not know");
   const int component_bytes = tinygltf::GetComponentSizeInBytes(static_cast<std::uint32_t>(component_type));
   if (!in_range(view_index, model.bufferViews))
-    return file.error(whose + " names buffer view " + of(view_index, model.bufferViews));
+    return file.error(whose + " names buffer view " + which_of(view_index, model.bufferViews));
   const tinygltf::BufferView& view = model.bufferViews[static_cast<std::size_t>(view_index)];
   if (!in_range(view.buffer, file.buffers))
-    return file.error(whose + " lies in buffer " + of(view.buffer, file.buffers));
+    return file.error(whose + " lies in buffer " + which_of(view.buffer, file.buffers));
   const std::span<const unsigned char> data = file.buffers[static_cast<std::size_t>(view.buffer)];
 
   const auto element_bytes = static_cast<std::size_t>(component_bytes) * static_cast<std::size_t>(components);
@@ -162,7 +162,7 @@ template <class Out, class T>
 Expected<void> append_numbers(const GltfFile& file, int index, int components, std::vector<T>& to) {
   const std::string whose = "accessor " + std::to_string(index);
   if (!in_range(index, file.model.accessors))
-    return file.error("names accessor " + of(index, file.model.accessors));
+    return file.error("names accessor " + which_of(index, file.model.accessors));
   const tinygltf::Accessor& accessor = file.model.accessors[static_cast<std::size_t>(index)];
   if (tinygltf::GetNumComponentsInType(static_cast<std::uint32_t>(accessor.type)) != components)
     return file.error(whose + " does not hold " + std::to_string(components) + " numbers an element");
@@ -211,7 +211,7 @@ Expected<std::vector<Out>> numbers_of(const GltfFile& file, int index, int compo
 
 Expected<std::span<const unsigned char>> GltfFile::bytes(int buffer_view, const std::string& whose) const {
   if (!in_range(buffer_view, model.bufferViews))
-    return error(whose + " names buffer view " + of(buffer_view, model.bufferViews));
+    return error(whose + " names buffer view " + which_of(buffer_view, model.bufferViews));
   const std::size_t count = model.bufferViews[static_cast<std::size_t>(buffer_view)].byteLength;
   const Expected<Elements> all = elements(*this, whose, buffer_view, 0, std::min<std::size_t>(count, 1),
                                           TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE, 1);
@@ -234,7 +234,8 @@ Expected<void> GltfFile::append(int accessor, std::vector<glm::vec4>& to) const 
 }
 
 Expected<std::size_t> GltfFile::count(int accessor) const {
-  if (!in_range(accessor, model.accessors)) return error("names accessor " + of(accessor, model.accessors));
+  if (!in_range(accessor, model.accessors))
+    return error("names accessor " + which_of(accessor, model.accessors));
   return model.accessors[static_cast<std::size_t>(accessor)].count;
 }
 
