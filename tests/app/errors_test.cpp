@@ -24,14 +24,14 @@ constexpr const char* kTriangle = "v 0 0 0\nv 1 0 0\nv 0 1 0\n";
 TEST_F(ErrorsTest, Scenes) {
   write("empty.obj", "");
   write("range.obj", std::string(kTriangle) + "f 1 2 7\n");
-  write("nan.obj", "v 0 0 0\nv nan 0 0\nv 0 1 0\nf 1 2 3\n");
+  write("word.obj", "v 0 0 0\nv one 0 0\nv 0 1 0\nf 1 2 3\n");
   write("none.obj", kTriangle);
   write("text.gltf", "hello");
   write("scene.xyz", "x");
   expect_error("render missing.obj -o x.exr", 4, "missing.obj: there is no such file");
   expect_error("render empty.obj -o x.exr", 4, "empty.obj: is empty");
   expect_error("render range.obj -o x.exr", 4, "range.obj:4: a face names vertex 7");
-  expect_error("render nan.obj -o x.exr", 4, "nan.obj:2: 'nan'");
+  expect_error("render word.obj -o x.exr", 4, "word.obj:2: 'one'");
   expect_error("render none.obj -o x.exr", 4, "none.obj: holds no triangles");
   expect_error("render text.gltf -o x.exr", 4, "text.gltf");
   expect_error("render scene.xyz -o x.exr", 4, "scene.xyz");
