@@ -32,7 +32,7 @@ beside() {
   echo "==> $BESIDE: begins in the background"
   BESIDE_LOG=$(mktemp)
   set -m  # a process group of its own
-  nice -n 19 "$@" >"$BESIDE_LOG" 2>&1 </dev/null &
+  (renice -n 19 "$BASHPID" >/dev/null && "$@") >"$BESIDE_LOG" 2>&1 </dev/null &
   set +m
   BESIDE_ID=$!
 }
