@@ -113,10 +113,12 @@ class ScaleTest : public OverlayTest, public testing::WithParamInterface<int> {
  protected:
   void SetUp() override {
     OverlayTest::SetUp();
-    (void)run_command("DISPLAY=" + display_ +
-                          " xprop -root -f RESOURCE_MANAGER 8s -set RESOURCE_MANAGER 'Xft.dpi:\t" +
-                          std::to_string(96 * GetParam()) + "'",
-                      folder_);
+    if (IsSkipped()) return;
+    const CommandResult asked = run_command(
+        "DISPLAY=" + display_ + " xprop -root -f RESOURCE_MANAGER 8s -set RESOURCE_MANAGER 'Xft.dpi:\t" +
+            std::to_string(96 * GetParam()) + "'",
+        folder_);
+    ASSERT_EQ(asked.exit_code, 0) << asked.err;
   }
 };
 
