@@ -9,7 +9,7 @@
 
 namespace pinocchio {
 
-// FileBytes of a file, or unpacked from one. Unlike a vector's, nobody sets them to zero before they are
+// Bytes of a file, or unpacked from one. Unlike a vector's, nobody sets them to zero before they are
 // written.
 class FileBytes {
  public:
