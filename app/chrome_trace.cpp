@@ -15,17 +15,9 @@ enum Row { kExchange, kTracer, kGpu };
 constexpr std::array<const char*, 3> kRowNames{"exchange (OpenGL thread)", "CPU tracer", "GPU"};
 constexpr int kMostTracks = 100;  // of a row
 
-Row row_of(Stage stage) {
-  switch (stage) {
-    case Stage::raster:
-    case Stage::composite:
-      return kGpu;
-    case Stage::trace_shadow:
-    case Stage::trace_reflection:
-      return kTracer;
-    default:
-      return kExchange;
-  }
+Row row_of(std::optional<Processor> processor) {
+  if (!processor) return kExchange;
+  return processor == Processor::gpu ? kGpu : kTracer;
 }
 
 // A stage of a frame on its track. Viewers count in whole nanoseconds: so do we, or slices that follow each
@@ -33,10 +25,11 @@ Row row_of(Stage stage) {
 struct Slice {
   std::uint64_t frame;
   Stage stage;
+  Row row;
   std::int64_t begin_ns, end_ns;
   int track = 0;  // within its row
 
-  [[nodiscard]] int thread() const { return row_of(stage) * kMostTracks + track + 1; }
+  [[nodiscard]] int thread() const { return row * kMostTracks + track + 1; }
 };
 
 std::vector<Slice> slices_of(const std::vector<FrameRecord>& records) {
@@ -48,7 +41,11 @@ std::vector<Slice> slices_of(const std::vector<FrameRecord>& records) {
   for (const FrameRecord& record : records)
     for (std::size_t i = 0; i < kStageNames.size(); ++i)
       if (const Span& span = record.stages[i]; ns(span.end_s) > ns(span.begin_s))
-        slices.push_back({record.number, static_cast<Stage>(i), ns(span.begin_s), ns(span.end_s)});
+        slices.push_back({.frame = record.number,
+                          .stage = static_cast<Stage>(i),
+                          .row = row_of(record.processors[i]),
+                          .begin_ns = ns(span.begin_s),
+                          .end_ns = ns(span.end_s)});
   return slices;
 }
 
@@ -57,7 +54,7 @@ void place(std::vector<Slice>& slices) {
   std::ranges::stable_sort(slices, {}, &Slice::begin_ns);
   std::array<std::vector<std::int64_t>, kRowNames.size()> ends;  // of each track's last slice
   for (Slice& slice : slices) {
-    std::vector<std::int64_t>& tracks = ends[row_of(slice.stage)];
+    std::vector<std::int64_t>& tracks = ends[slice.row];
     const auto free =
         std::ranges::find_if(tracks, [&](std::int64_t end_ns) { return end_ns <= slice.begin_ns; });
     slice.track = static_cast<int>(free - tracks.begin());
@@ -80,7 +77,7 @@ void name_threads(const std::vector<Slice>& slices, nlohmann::json& events) {
   std::map<int, const Slice*> threads;
   for (const Slice& slice : slices) threads.emplace(slice.thread(), &slice);
   for (const auto& [thread, slice] : threads) {
-    std::string name = kRowNames[row_of(slice->stage)];
+    std::string name = kRowNames[slice->row];
     if (slice->track > 0) name += " " + std::to_string(slice->track + 1);
     nlohmann::json named = event("M", thread, "thread_name"),
                    sorted = event("M", thread, "thread_sort_index");

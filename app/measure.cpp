@@ -27,6 +27,7 @@ namespace pinocchio::app {
 namespace {
 
 constexpr int kDefaultFrames = 120;
+constexpr std::size_t kFewestForPercentiles = 5;
 constexpr std::size_t kMostFrames = 100'000;  // each one's figures are kept, some 260 bytes
 
 struct MeasureOptions {
@@ -34,7 +35,7 @@ struct MeasureOptions {
   AnimationOptions animation;
   BudgetOptions budget;
   std::string stats_json, trace;
-  bool compare = false;
+  bool compare = false, bounds = false;
 };
 
 // One way to draw, measured.
@@ -102,6 +103,10 @@ nlohmann::json run_json(const Measured& run, const Drawing& drawing, const Measu
   nlohmann::json json = figures(run.records, run.settings, drawing.scene(),
                                 run.settings.uses_gpu() ? drawing.gl_info() : nullptr);
   json["name"] = run.name;
+  if (const std::size_t counted = run.records.size(); counted < kFewestForPercentiles)
+    json["note"] = "figures of " + std::to_string(counted) + (counted == 1 ? " frame" : " frames") +
+                   " say little; draw more --frames (the first " + std::to_string(kFramesInFlight) +
+                   ", at most half, are not counted)";
   json["exchange"] = exchange_json(run, options);
   json["overlap"] = overlap_json(run);
   if (run.budget) json["budget"] = run.budget->json();
@@ -117,7 +122,8 @@ void print_header(const Drawing& drawing, const MeasureOptions& options) {
                 gl->software ? "software: it shares these cores, and no bus is crossed" : "hardware");
 }
 
-void print_traffic(const Drawing& drawing, const MeasureOptions& options) {
+// --bounds: what a frame sends where all of its tiles have light.
+void print_bounds(const Drawing& drawing, const MeasureOptions& options) {
   std::printf("bytes a frame, at most GPU to CPU   CPU to GPU\n");
   for (const char* const plan : {"auto", "slides"}) {
     Settings wanted;
@@ -131,9 +137,29 @@ void print_traffic(const Drawing& drawing, const MeasureOptions& options) {
   }
 }
 
+// The mean of what the frames sent, a line for each buffer that was.
+void print_traffic(const nlohmann::json& bytes) {
+  if (bytes["gpu_to_cpu"] == 0 && bytes["cpu_to_gpu"] == 0) {
+    std::printf("  bytes a frame: none, one processor draws alone\n");
+    return;
+  }
+  std::printf("  bytes a frame      GPU to CPU   CPU to GPU\n");
+  const auto line = [](const char* name, double to_cpu, double to_gpu) {
+    std::printf("  %-16s %12.0f %12.0f\n", name, to_cpu, to_gpu);
+  };
+  for (std::size_t i = 0; i < kChannelNames.size(); ++i) {
+    const std::string name(kChannelNames[i]);
+    const double sent = bytes["buffers"][name];
+    const bool to_cpu = goes_to_cpu(static_cast<Channel>(i));
+    if (sent > 0.0) line(name.c_str(), to_cpu ? sent : 0.0, to_cpu ? 0.0 : sent);
+  }
+  line("all", bytes["gpu_to_cpu"], bytes["cpu_to_gpu"]);
+}
+
 void print_run(const Measured& run, const nlohmann::json& json) {
   std::printf("%s: %.1f frames/s, latency %d frames\n", run.name.c_str(), json["fps"].get<double>(),
               json["latency"]["frames"].get<int>());
+  if (json.contains("note")) std::printf("  %s\n", json["note"].get<std::string>().c_str());
   std::printf("  milliseconds            p50        p95        p99\n");
   const auto line = [](const std::string& name, const nlohmann::json& ms) {
     if (ms["p99"].get<double>() == 0.0) return;
@@ -150,7 +176,12 @@ void print_run(const Measured& run, const nlohmann::json& json) {
                 cost["ms"].get<double>(), cost["gb_per_s"].get<double>(), cost["memcpy_ms"].get<double>(),
                 cost["ratio_to_memcpy"].get<double>());
   }
+  print_traffic(json["bytes"]);
   const nlohmann::json& overlap = json["overlap"];
+  if (!run.settings.uses_gpu()) {
+    std::printf("  busy: CPU %.0f %% of the time\n", 100.0 * overlap["cpu_busy"].get<double>());
+    return;
+  }
   std::printf("  busy: GPU %.0f %%, CPU %.0f %%, both at once %.0f %% of the time\n",
               100.0 * overlap["gpu_busy"].get<double>(), 100.0 * overlap["cpu_busy"].get<double>(),
               100.0 * overlap["both_busy"].get<double>());
@@ -199,7 +230,16 @@ std::vector<Measured> runs_of(const Drawing& drawing, const MeasureOptions& opti
   return runs;
 }
 
+// `--frames 10` is ten frames here, not frame 10: a run is measured, not a picture drawn.
+void count_frames(std::string& frames) {
+  const std::optional<int> count = parse_int(frames);
+  if (!count) return;
+  if (*count < 1) throw Exit(kUsage, "--frames " + frames + ": measure draws one frame at least");
+  frames = "0-" + std::to_string(*count - 1);
+}
+
 int measure(MeasureOptions& options) {
+  count_frames(options.animation.frames);
   if (options.compare && options.budget.any())
     throw Exit(kUsage, "--compare: draws without a budget; leave out --budget and --max-error");
   if (options.compare && !options.draw.plan_file.empty())
@@ -231,7 +271,7 @@ int measure(MeasureOptions& options) {
   if (!options.trace.empty()) write_json(options.trace, chrome_trace(runs.front().records));
   if (options.draw.quiet) return kDone;
   print_header(drawing, options);
-  print_traffic(drawing, options);
+  if (options.bounds) print_bounds(drawing, options);
   if (options.compare) {
     print_comparison(runs, json);
   } else {
@@ -249,9 +289,14 @@ Run add_measure(CLI::App& program) {
       *program.add_subcommand("measure", "draw frames along a camera path; report bytes, times, latency");
   add_draw_options(verb, options->draw);
   add_animation_options(verb, options->animation);
+  verb.get_option("--frames")
+      ->description("frames to draw: so many, or from A to B")
+      ->type_name("N|A-B[xSTEP]");
   add_budget_options(verb, options->budget);
   verb.add_flag("--compare", options->compare,
                 "both designs, every exchange, raytrace and raster, in one table");
+  verb.add_flag("--bounds", options->bounds,
+                "also print the most bytes that a frame can send, with --plan auto and slides");
   verb.add_option("--stats-json", options->stats_json, "write the figures as JSON");
   verb.add_option("--trace", options->trace, "write a Chrome trace (opens in Perfetto and chrome://tracing)");
   return [options] { return measure(*options); };

@@ -18,11 +18,10 @@ Overlap overlap_of(const std::vector<FrameRecord>& records) {
   if (records.empty()) return {};
   std::vector<Edge> edges;
   for (const FrameRecord& record : records)
-    for (const Stage stage :
-         {Stage::raster, Stage::composite, Stage::trace_shadow, Stage::trace_reflection}) {
-      const Span& span = record[stage];
-      if (span.end_s <= span.begin_s) continue;
-      const bool gpu = stage == Stage::raster || stage == Stage::composite;
+    for (std::size_t i = 0; i < record.stages.size(); ++i) {
+      const Span& span = record.stages[i];
+      if (!record.processors[i] || span.end_s <= span.begin_s) continue;
+      const bool gpu = record.processors[i] == Processor::gpu;
       edges.push_back({span.begin_s, gpu, +1});
       edges.push_back({span.end_s, gpu, -1});
     }

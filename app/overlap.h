@@ -12,7 +12,7 @@ struct Overlap {
   double gpu_s = 0.0, cpu_s = 0.0, both_s = 0.0;
 };
 
-// GPU: raster and composite. CPU: shadow and reflection.
+// The stages of each processor, by the records; transfers and the display count for neither.
 [[nodiscard]] Overlap overlap_of(const std::vector<FrameRecord>& records);
 
 }  // namespace pinocchio::app

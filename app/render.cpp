@@ -185,6 +185,7 @@ class RenderRun {
     while (const std::optional<CameraFrame> frame = begin_frame(drawing)) {
       FrameRecord record;
       record.number = recorded_;
+      record.processors[static_cast<std::size_t>(Stage::composite)] = Processor::cpu;
       record[Stage::composite].begin_s = record.frame.begin_s = now_s();
       FrameResult mean = precise(drawing.untraced_request(*frame), drawing.workers());
       record[Stage::composite].end_s = record.frame.end_s = now_s();

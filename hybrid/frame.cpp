@@ -39,6 +39,23 @@ void read_ids(FrameSlot& frame) {
 
 }  // namespace
 
+std::optional<Processor> processor_of(Stage stage, const Settings& settings) {
+  switch (stage) {
+    case Stage::raster:
+      return settings.visibility;
+    case Stage::trace_shadow:
+    case Stage::trace_reflection:
+      return Processor::cpu;
+    case Stage::composite:  // the GPU puts design 2's picture into its texture
+      return settings.uses_gpu() ? Processor::gpu : Processor::cpu;
+    case Stage::readback:
+    case Stage::upload:
+    case Stage::present:
+      break;
+  }
+  return std::nullopt;
+}
+
 const FrameRequest& Frame::request() const {
   return slot_.request;
 }

@@ -218,6 +218,8 @@ FrameSlot& Renderer::Loop::begin(FrameRequest&& request) {
   frame.answer_of = nullptr;
   frame.record = FrameRecord{};
   frame.record.number = next_number_++;
+  for (std::size_t i = 0; i < kStageNames.size(); ++i)
+    frame.record.processors[i] = processor_of(static_cast<Stage>(i), frame.request.settings);
   frame.record.frame.begin_s = now_s();
   frame.view = view_params(frame.request.view);
   frame.progress = progress_;

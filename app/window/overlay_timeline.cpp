@@ -91,19 +91,9 @@ void draw_waits(const Chart& chart, const FrameRecord& record, const Settings& s
 }  // namespace
 
 Lane lane_of(Stage stage, const Settings& settings) {
-  switch (stage) {
-    case Stage::raster:
-      return settings.visibility == Processor::cpu ? Lane::cpu : Lane::gpu;
-    case Stage::composite:
-      return settings.uses_gpu() ? Lane::gpu : Lane::cpu;
-    case Stage::trace_shadow:
-    case Stage::trace_reflection:
-      return Lane::cpu;
-    case Stage::present:
-      return Lane::window;
-    default:
-      return Lane::exchange;
-  }
+  if (const std::optional<Processor> processor = processor_of(stage, settings))
+    return *processor == Processor::gpu ? Lane::gpu : Lane::cpu;
+  return stage == Stage::present ? Lane::window : Lane::exchange;
 }
 
 const char* lane_name(Lane lane) {

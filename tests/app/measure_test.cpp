@@ -3,6 +3,7 @@
 #include <map>
 #include <nlohmann/json.hpp>
 #include <set>
+#include <sstream>
 #include <vector>
 
 #include "tests/app/program_test.h"
@@ -25,14 +26,67 @@ TEST_F(MeasureTest, PrintsATableAndWritesTheFigures) {
   const CommandResult result = run("measure" + scene("cornell") + kLarger + "--stats-json m.json");
   EXPECT_EQ(result.exit_code, 0) << result.err;
   for (const char* word :
-       {"frames/s", "p50", "trace_shadow", "--plan slides", "latency 2 frames", "busy: GPU"})
+       {"frames/s", "p50", "trace_shadow", "bytes a frame", "latency 2 frames", "busy: GPU"})
     EXPECT_NE(result.out.find(word), std::string::npos) << word << "\n" << result.out;
+  EXPECT_EQ(result.out.find("at most"), std::string::npos) << result.out;
   const nlohmann::json figures = json("m.json");
   EXPECT_EQ(figures["latency"]["frames"], 2);
   EXPECT_GT(figures["exchange"]["gpu_to_cpu"]["ratio_to_memcpy"], 0.0);
   EXPECT_GT(figures["overlap"]["cpu_busy"], 0.0);
   EXPECT_LE(figures["overlap"]["both_busy"], figures["overlap"]["cpu_busy"]);
   EXPECT_EQ(figures["bytes"]["gpu_to_cpu"], 240 * 180 * 2);
+}
+
+TEST_F(MeasureTest, PrintsWhatTravelsAndTheBoundOnRequest) {
+  const CommandResult result =
+      run("measure" + scene("two-lights") + kLarger + "--bounds --stats-json m.json");
+  ASSERT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_NE(result.out.find("at most"), std::string::npos) << result.out;
+  EXPECT_NE(result.out.find("--plan slides"), std::string::npos) << result.out;
+  const nlohmann::json bytes = json("m.json")["bytes"];
+  const std::size_t all = result.out.find("\n  all ");
+  ASSERT_NE(all, std::string::npos) << result.out;
+  double to_cpu = 0.0, to_gpu = 0.0;
+  std::istringstream(result.out.substr(all + 6)) >> to_cpu >> to_gpu;
+  EXPECT_NEAR(to_cpu, bytes["gpu_to_cpu"].get<double>(), 0.5);
+  EXPECT_NEAR(to_gpu, bytes["cpu_to_gpu"].get<double>(), 0.5);
+}
+
+// What the CPU draws alone keeps no GPU busy and sends nothing.
+TEST_F(MeasureTest, ARaytracedFrameIsTheProcessorsAlone) {
+  const CommandResult result =
+      run("measure" + scene("cornell") + kSmall + "--mode raytrace --stats-json m.json --trace t.json");
+  ASSERT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_EQ(result.out.find("GPU"), std::string::npos) << result.out;
+  EXPECT_NE(result.out.find("busy: CPU"), std::string::npos) << result.out;
+  const nlohmann::json overlap = json("m.json")["overlap"];
+  EXPECT_EQ(overlap["gpu_busy"], 0.0);
+  EXPECT_EQ(overlap["both_busy"], 0.0);
+  EXPECT_GT(overlap["cpu_busy"], 0.0);
+  bool has_raster = false;
+  std::set<std::string> rows;
+  const nlohmann::json trace = json("t.json");
+  for (const nlohmann::json& event : trace["traceEvents"]) {
+    if (event["name"] == "raster") has_raster = true;
+    if (event["name"] == "thread_name") rows.insert(event["args"]["name"].get<std::string>());
+  }
+  EXPECT_TRUE(has_raster);
+  EXPECT_EQ(rows, std::set<std::string>{"CPU tracer"});
+}
+
+TEST_F(MeasureTest, ASingleNumberIsSoManyFrames) {
+  const std::string measure =
+      "measure" + scene("cornell") + "--size 40x30 --mode raytrace --stats-json m.json ";
+  CommandResult result = run(measure + "--frames 10");
+  ASSERT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_EQ(json("m.json")["frames"], 7);  // three warm up
+  EXPECT_FALSE(json("m.json").contains("note"));
+  result = run(measure + "--frames 4-6");
+  ASSERT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_EQ(json("m.json")["frames"], 2);
+  EXPECT_NE(result.out.find("figures of 2 frames say little"), std::string::npos) << result.out;
+  EXPECT_TRUE(json("m.json").contains("note"));
+  EXPECT_EQ(run(measure + "--frames 0").exit_code, 2);
 }
 
 TEST_F(MeasureTest, RefusesMoreFramesThanItKeepsFiguresOf) {

@@ -25,6 +25,8 @@ namespace pinocchio {
 enum class Stage { raster, readback, trace_shadow, trace_reflection, upload, composite, present };
 inline constexpr std::array<std::string_view, 7> kStageNames{
     "raster", "readback", "trace_shadow", "trace_reflection", "upload", "composite", "present"};
+// The processor that does a stage of frames of these settings; empty for transfers and the display.
+[[nodiscard]] std::optional<Processor> processor_of(Stage stage, const Settings& settings);
 
 // What travels: the first four from GPU to CPU, the others back.
 enum class Channel { ids, normals, gbuffer, phong, traced_ids, mask, reflection, picture };
@@ -45,9 +47,10 @@ struct Span {
 struct FrameRecord {
   std::uint64_t number = 0;                       // of the frame, in the order they were asked for
   std::array<Span, kStageNames.size()> stages{};  // empty: the schedule has no such stage
-  Span frame;                                     // camera sampled to picture delivered
-  int latency_frames = 0;                         // frames begun between the two
-  int age_frames = 0;                             // how much older the mask and reflection shown are
+  std::array<std::optional<Processor>, kStageNames.size()> processors{};  // processor_of each stage
+  Span frame;              // camera sampled to picture delivered
+  int latency_frames = 0;  // frames begun between the two
+  int age_frames = 0;      // how much older the mask and reflection shown are
   std::array<std::size_t, kChannelNames.size()> bytes{};
   RayCounts rays;
 
