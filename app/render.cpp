@@ -49,9 +49,8 @@ FrameResult precise(const FrameRequest& request, Workers& workers) {
   const int spp = request.settings.spp;
   for (int k = 0; k < spp; ++k) {
     const View view = at_sample(request.view, k, request.settings.pixel_filter);
-    ReferencePicture sample =
-        reference_render(mean.scene, view, request.settings.depth, workers, &run_progress(),
-                         texture_footprint(request.settings, view), request.settings.terminator);
+    ReferencePicture sample = reference_render(mean.scene, view, request.settings.depth, workers,
+                                               &run_progress(), trace_options(request.settings, view));
     if (k == 0) {
       mean.color = std::move(sample.color);
       mean.ids = std::move(sample.ids);

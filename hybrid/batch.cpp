@@ -25,12 +25,8 @@ RayCounts draw_tiles(Engine::Parts& engine, const Scene& scene, const std::share
   job.indirect = s.reflects() ? s.indirect.value : 0;
   job.environment_light = s.reflects();
   job.mask_bits = s.mask_bits;
-  job.throughput_cutoff = s.throughput_cutoff;
-  job.light_cutoff = s.light_cutoff;
-  job.texture_footprint = texture_footprint(s, {});
-  job.terminator = s.terminator;
+  job.options = trace_options(s, {});
   job.filter = s.pixel_filter;
-  job.sampling = sampling_of(s, {});
   job.progress = progress;
   return trace_frames(job, to);
 }

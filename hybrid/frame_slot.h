@@ -96,15 +96,13 @@ struct FrameSlot {
   }
   // What the GPU's passes over this frame's ids read.
   [[nodiscard]] ShadingPasses::Inputs inputs() const {
-    return {*mesh,
-            lights,
-            view,
-            ids_texture(),
-            request.settings.id_bits,
-            texture_footprint(request.settings, request.view),
-            sampling_of(request.settings, request.view),
-            request.settings.terminator,
-            request.scene};
+    return {.mesh = *mesh,
+            .lights = lights,
+            .view = view,
+            .ids = ids_texture(),
+            .id_bits = request.settings.id_bits,
+            .options = trace_options(request.settings, request.view),
+            .scene = request.scene};
   }
   // Whether the GPU was sent the finished picture in bytes, cut off at white; the CPU has it whole.
   [[nodiscard]] bool picture_was_packed() const {

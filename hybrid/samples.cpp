@@ -8,16 +8,25 @@
 
 namespace pinocchio {
 
-shared::Sampling sampling_of(const Settings& settings, const View& view) {
-  return {static_cast<int>(settings.sequence.value), static_cast<std::uint32_t>(view.sample),
-          static_cast<std::uint32_t>(settings.seed)};
-}
+namespace {
 
 float texture_footprint(const Settings& settings, const View& view) {
   if (!settings.filter_textures) return 0.0f;
   const int samples =
       std::max(settings.spp.value, view.sample + 1);  // gathered ones do not know how many follow
   return samples == 1 ? 1.0f : 1.0f / std::sqrt(static_cast<float>(samples));
+}
+
+}  // namespace
+
+TraceOptions trace_options(const Settings& settings, const View& view) {
+  return {.throughput_cutoff = settings.throughput_cutoff,
+          .light_cutoff = settings.light_cutoff,
+          .texture_footprint = texture_footprint(settings, view),
+          .terminator = settings.terminator,
+          .jitter = view.jitter,
+          .sampling = {static_cast<int>(settings.sequence.value), static_cast<std::uint32_t>(view.sample),
+                       static_cast<std::uint32_t>(settings.seed)}};
 }
 
 void settle_environment(Scene& scene, const Settings& settings) {

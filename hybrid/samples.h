@@ -5,17 +5,14 @@
 #include <memory>
 #include <vector>
 
-#include "core/trace/shared.h"
+#include "core/trace/trace_options.h"
 #include "pinocchio/renderer.h"
 
 namespace pinocchio {
 
-// Which samples a frame takes of what is sampled.
-[[nodiscard]] shared::Sampling sampling_of(const Settings& settings, const View& view);
-
-// The side of what a frame averages textures over, pixels: of a sample that is one of many its share of the
-// pixel, for the samples themselves average, too. 0: they are not filtered.
-[[nodiscard]] float texture_footprint(const Settings& settings, const View& view);
+// How a frame of these settings is traced and shaded. Textures are averaged over a sample's share of the
+// pixel, as the samples themselves average, too.
+[[nodiscard]] TraceOptions trace_options(const Settings& settings, const View& view);
 
 // A scene's environment as the settings turn it, and no ambient light where that, or light from other
 // surfaces, is sampled.

@@ -138,7 +138,8 @@ bool Session::follow_reference(const FrameRequest& request) {
   if (!comparison_) comparison_ = std::make_unique<Comparison>();
   Scene scene = request.scene;
   settle_environment(scene, request.settings);
-  const bool newer = comparison_->follow({std::move(scene), request.view, applied_.settings.depth});
+  const bool newer = comparison_->follow({std::move(scene), request.view, applied_.settings.depth,
+                                          trace_options(request.settings, request.view)});
   model_.comparison = std::string("left: as drawn   right: ") +
                       (applied_.split == Split::heat_map ? "visible difference" : "reference") + "   " +
                       comparison_->text();

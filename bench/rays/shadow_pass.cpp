@@ -41,7 +41,7 @@ void embree_pass(const TraceJob& job, const EmbreeSide& embree, const Image<std:
           surface_at(job.tracer.mesh(), id, seen.origin, seen.direction, job.tracer.offset());
       for (std::size_t slot = 0; slot < lights.size(); ++slot) {
         if (const std::optional<Ray> ray =
-                shadow_ray(lights[slot], surface, glm::vec2(0.5f), job.terminator)) {
+                shadow_ray(lights[slot], surface, glm::vec2(0.5f), job.options.terminator)) {
           rays[slot].push_back(*ray);
           pixels[slot].emplace_back(x, y);
         }
@@ -73,7 +73,7 @@ ShadowPass measure(const Scene& scene, const Tracer& tracer, const EmbreeSide& e
   std::vector<double> ours, theirs;
   for (int frame = 0; frame < kFrames; ++frame) {
     TraceJob job{scene, tracer, workers, view_params(turned(camera, frame), size)};
-    job.terminator = Terminator::off;  // one ray a question on both sides
+    job.options.terminator = Terminator::off;  // one ray a question on both sides
     Image<std::uint32_t> ids(size);
     trace_visibility(job, ids);
     MaskImage mask, embrees;

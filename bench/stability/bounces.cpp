@@ -148,7 +148,7 @@ Drawn draw_samples(const Scene& scene, const Camera& camera, const Method& metho
   const Tracer tracer = method.tracer(*scene.mesh);
   Workers one(1);
   TraceJob job{scene, tracer, one, view_params(camera, drawn.ids.size())};
-  job.terminator = method.terminator;
+  job.options.terminator = method.terminator;
   TileOutputs out;
   out.size = drawn.ids.size();
   out.ids = &drawn.ids;

@@ -46,7 +46,7 @@ FailureCount leaves_with_holes(const Method& method, int rays) {
       out.mask_bits = 1;
       out.mask = &mask;
       TraceJob job{scene, tracer, one, view_params(view)};
-      job.terminator = method.terminator;
+      job.options.terminator = method.terminator;
       {
         const Timed timed(count);
         trace_tiles(job, out);

@@ -8,7 +8,7 @@
 namespace pinocchio {
 
 ReferencePicture reference_render(const Scene& scene, const View& view, int depth, Workers& workers,
-                                  Progress* progress, float texture_footprint, Terminator terminator) {
+                                  Progress* progress, TraceOptions options) {
   const auto casting = static_cast<int>(casting_lights(scene).size());
   assert(casting <= kMaxCastingLights);
   const glm::ivec2 size = view.box().size();
@@ -18,7 +18,8 @@ ReferencePicture reference_render(const Scene& scene, const View& view, int dept
   const shared::ViewParams rays = view_params(view);
 
   const ReferenceTree tree(*scene.mesh, progress);
-  const ReferenceTracer tracer(scene, tree, texture_footprint, view.jitter != glm::vec2(0.0f), terminator);
+  options.jitter = view.jitter;
+  const ReferenceTracer tracer(scene, tree, options);
   const auto draw_pixel = [&](int x, int y) {
     const ReferenceTracer::Pixel pixel = tracer.pixel(rays, x, y, depth);
     picture.ids.at(x, y) = pixel.triangle;

@@ -13,7 +13,6 @@
 #include "pinocchio/mask_image.h"
 #include "pinocchio/progress.h"
 #include "pinocchio/scene.h"
-#include "pinocchio/terminator.h"
 
 namespace pinocchio {
 
@@ -27,10 +26,9 @@ struct ReferencePicture {
 
 // An environment lights by 256 samples a point, as a light with a size does. Draws view.box(), `depth`
 // bounces at most. The scene has no more casting lights than kMaxCastingLights. Advances `progress` by one
-// step. texture_footprint: side of what textures are averaged over, pixels; 0: they are not.
+// step.
 [[nodiscard]] ReferencePicture reference_render(const Scene& scene, const View& view, int depth,
                                                 Workers& workers, Progress* progress = nullptr,
-                                                float texture_footprint = 1.0f,
-                                                Terminator terminator = kUsualTerminator);
+                                                TraceOptions options = {});
 
 }  // namespace pinocchio

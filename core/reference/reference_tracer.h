@@ -7,7 +7,7 @@
 #include "core/reference/reference_environment.h"
 #include "core/reference/reference_surface.h"
 #include "core/reference/reference_tree.h"
-#include "core/trace/shared.h"
+#include "core/trace/trace_options.h"
 #include "pinocchio/scene.h"
 #include "pinocchio/terminator.h"
 
@@ -20,16 +20,15 @@ namespace pinocchio {
 class ReferenceTracer {
  public:
   // `tree` may be of another scene with the same triangles. Both stay as long as this lives.
-  // texture_footprint: side of the part of a pixel whose view of textures is averaged; 0: nothing is.
-  // one_of_many: pixels are the mean of many such pictures, so that shadows of surfaces that blend may be
-  // grey.
-  ReferenceTracer(const Scene& scene, const ReferenceTree& tree, float texture_footprint = 1.0f,
-                  bool one_of_many = false, Terminator terminator = kUsualTerminator)
+  // Of the options it follows the footprint of textures and the terminator. Jitter other than 0: the picture
+  // is one of many that are averaged, so that shadows of surfaces that blend may be grey. It follows every
+  // ray and takes many samples of its own, so cut-offs and the choice of a sample mean nothing to it.
+  ReferenceTracer(const Scene& scene, const ReferenceTree& tree, const TraceOptions& options = {})
       : scene_(scene),
         tree_(tree),
-        texture_footprint_(texture_footprint),
-        one_of_many_(one_of_many),
-        terminator_(terminator) {
+        texture_footprint_(options.texture_footprint),
+        one_of_many_(options.jitter != glm::vec2(0.0f)),
+        terminator_(options.terminator) {
     if (scene.environment) environment_.emplace(scene);
   }
 

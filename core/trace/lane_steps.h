@@ -11,9 +11,9 @@
 #include "core/trace/map_lanes.h"
 #include "core/trace/ray_queue.h"
 #include "core/trace/shared.h"
+#include "core/trace/trace_options.h"
 #include "pinocchio/ray_offset.h"
 #include "pinocchio/scene.h"
-#include "pinocchio/terminator.h"
 
 namespace pinocchio {
 
@@ -45,7 +45,7 @@ struct BounceLight {
 struct Bounce {
   SceneArrays scene{};
   RayOffset offset{};
-  Terminator terminator = kUsualTerminator;
+  const TraceOptions* options = nullptr;
   const Footprint* footprint = nullptr;  // of the rays, for textures
   const BounceLight* lights = nullptr;
   std::size_t light_count = 0;
@@ -54,15 +54,12 @@ struct Bounce {
   bool adds_ambient = false;  // and emission
   bool attenuates = false;    // some material takes light that goes through it
   bool adds_light = false;    // lights that cast none add theirs to `radiance`, shadow rays carry it
-  // Of what is sampled; null: nothing is. The pixel that is (0, 0) in the queues, in the whole picture, how
-  // many pixels a sample of the picture is apart from the next, and the first dimension of the rays'
-  // generation.
-  const shared::Sampling* sampling = nullptr;
+  // Whether anything is sampled, and where: the whole picture's pixel that is (0, 0) in the queues, the
+  // distance of the picture's samples in pixels, and the first dimension of the rays' generation.
+  bool samples = false;
   glm::uvec2 corner{0};
   std::uint32_t scale = 1, dimension = 0;
   const EnvironmentLight* environment = nullptr;  // that lights the points; null: none does
-  // Light below which no shadow ray is fired, of visible points and of others; and no path followed.
-  float light_cutoff = 0.0f, throughput_cutoff = 0.0f;
 
   // Where it goes. Queues have room for all rays of the step; null: not wanted.
   RayQueue* shadow = nullptr;  // one a slot

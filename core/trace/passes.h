@@ -8,13 +8,13 @@
 
 #include "core/parallel/workers.h"
 #include "core/trace/shared.h"
+#include "core/trace/trace_options.h"
 #include "pinocchio/image.h"
 #include "pinocchio/mask_image.h"
 #include "pinocchio/progress.h"
 #include "pinocchio/ray.h"
 #include "pinocchio/ray_counts.h"
 #include "pinocchio/scene.h"
-#include "pinocchio/terminator.h"
 #include "pinocchio/tracer.h"
 
 namespace pinocchio {
@@ -25,14 +25,7 @@ struct TraceJob {
   const Tracer& tracer;
   Workers& workers;
   shared::ViewParams view;
-  // Light that a ray brings its pixel, linear, below which it is not fired: mirrored and refracted rays and
-  // the shadow rays of what they see; and shadow rays of visible points (0: all are fired, so that every bit
-  // of the mask is true).
-  float throughput_cutoff = kThroughputCutoff, light_cutoff = 0.0f;
-  float texture_footprint = 1.0f;  // side of what textures are averaged over, pixels; 0: nothing is averaged
-  Terminator terminator = kUsualTerminator;
-  glm::vec2 jitter{0.0f};       // View's: tells the samples of a pixel apart where they decide at random
-  shared::Sampling sampling{};  // which sample is taken of what is sampled
+  TraceOptions options{};
   // Tiles (TileGrid's) that are not traced where it is not 0; null: all are.
   const std::vector<std::uint8_t>* left_out = nullptr;
   // Told of every tile: all of them together are that many steps.
@@ -44,8 +37,8 @@ struct TraceJob {
 RayCounts trace_visibility(const TraceJob& job, Image<std::uint32_t>& ids);
 
 // Bit i of a pixel: the casting light in mask slot i reaches the visible point. 0 where nothing is seen
-// or the surface faces away, or the light brings less than job.light_cutoff. mask is resized to ids' size and
-// `bits` a pixel (1, 2, 4 or 8, no fewer than lights that cast).
+// or the surface faces away, or the light brings less than job.options.light_cutoff. mask is resized to ids'
+// size and `bits` a pixel (1, 2, 4 or 8, no fewer than lights that cast).
 RayCounts trace_shadow_mask(const TraceJob& job, const Image<std::uint32_t>& ids, int bits, MaskImage& mask);
 
 // Mirrored plus refracted light of every pixel, linear, without the direct light of the visible point

@@ -89,8 +89,8 @@ void TileTracer::ask_occluded(const RayQueue& queue, float reach) {
   const TilePlan& plan = *plan_;
   counts_.shadow += queue.size;
   if (plan.has_holes || plan.blends) {
-    holes_.shadows(plan.job.tracer, queue, reach, {tile_.lo + glm::ivec2(plan.view.first), plan.job.jitter},
-                   blocked_.data());
+    holes_.shadows(plan.job.tracer, queue, reach,
+                   {tile_.lo + glm::ivec2(plan.view.first), plan.job.options.jitter}, blocked_.data());
   } else {
     plan.job.tracer.occluded(queue.columns(reach), queue.size, blocked_.data());
   }

@@ -21,7 +21,7 @@ std::vector<BounceLight> lights_of(const Scene& scene) {
 // Whether anything is to be averaged.
 bool filters(const TraceJob& job) {
   const Textures& textures = job.scene.mesh->textures;
-  return job.texture_footprint > 0.0f &&
+  return job.options.texture_footprint > 0.0f &&
          std::any_of(textures.begin(), textures.end(), [](const Texture& t) { return t.levels() > 1; });
 }
 
@@ -39,7 +39,7 @@ SceneArrays SceneArrays::of(const Mesh& mesh) {
 void TilePlan::look(const shared::ViewParams& from) {
   view = scaled_view(from, out.scale);
   first = glm::ivec2(from.first);
-  if (filters(job)) seen_footprint = Footprint::of_camera(view, job.texture_footprint);
+  if (filters(job)) seen_footprint = Footprint::of_camera(view, job.options.texture_footprint);
   further_footprint = seen_footprint.of_cones();
 }
 
@@ -53,16 +53,15 @@ TilePlan::TilePlan(const TraceJob& j, const TileOutputs& o)
   look(j.view);
   further.scene = SceneArrays::of(*job.scene.mesh);
   further.offset = job.tracer.offset();
-  further.terminator = job.terminator;
+  further.options = &job.options;
   further.footprint = &further_footprint;
   further.lights = all_lights.data();
   further.light_count = all_lights.size();
   further.ambient_light = job.scene.ambient_light;
   further.adds_ambient = further.adds_light = true;
-  if (takes_samples(job.scene) || out.indirect > 0) further.sampling = &job.sampling;
+  further.samples = takes_samples(job.scene) || out.indirect > 0;
   further.attenuates = std::ranges::any_of(job.scene.mesh->materials, &Material::attenuates);
   further.scale = static_cast<std::uint32_t>(out.scale);
-  further.throughput_cutoff = job.throughput_cutoff;
   if (job.scene.environment) environment.emplace(job.scene);
   if (environment && environment->shines() && o.environment_light) further.environment = &*environment;
   visible = further;
@@ -70,7 +69,6 @@ TilePlan::TilePlan(const TraceJob& j, const TileOutputs& o)
   visible.visible = true;
   visible.adds_ambient = out.color != nullptr;
   visible.adds_light = out.color || out.added;
-  visible.light_cutoff = job.light_cutoff;
   for (const BounceLight& light : all_lights)
     if (light.slot >= 0 ? out.mask_bits > 0 : visible.adds_ambient) visible_lights.push_back(light);
   visible.lights = visible_lights.data();

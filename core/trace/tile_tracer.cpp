@@ -139,7 +139,7 @@ void TileTracer::make_room(std::size_t rays, Generation& next) {
   for (std::size_t i = 0; i < plan_->casting; ++i) shadow_[i].make_room(rays);
   if (plan_->further.environment) sky_.make_room(rays);
   if (plan_->out.indirect > 0) next_diffuse_.make_more_room(rays, cones, media);
-  if (plan_->job.terminator != Terminator::turned_away) return;
+  if (plan_->job.options.terminator != Terminator::turned_away) return;
   for (std::size_t i = 0; i < plan_->casting; ++i) ways_up_[i].make_room(rays);
   if (plan_->further.environment) sky_ways_up_.make_room(rays);
 }

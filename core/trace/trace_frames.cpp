@@ -31,14 +31,7 @@ class Share {
       : job_(job),
         to_(to),
         images_(images),
-        trace_job_{job.scene,
-                   job.tracer,
-                   job.workers,
-                   {},
-                   job.throughput_cutoff,
-                   job.light_cutoff,
-                   job.texture_footprint,
-                   job.terminator},
+        trace_job_{job.scene, job.tracer, job.workers, {}, job.options},
         outputs_(outputs(job, to, images)),
         plan_(trace_job_, outputs_) {}
 
@@ -48,10 +41,10 @@ class Share {
     const int samples = to_.color ? job_.spp : 1;
     RayCounts rays;
     for (int k = 0; k < samples; ++k) {
-      trace_job_.jitter = jitter_of(k, job_.filter);
-      plan_.look(view_params(camera, job_.size, trace_job_.jitter, tile.lo, lens_point_of(k)));
-      trace_job_.sampling = job_.sampling;
-      trace_job_.sampling.index += static_cast<std::uint32_t>(k);
+      TraceOptions& options = trace_job_.options;
+      options.jitter = jitter_of(k, job_.filter);
+      options.sampling.index = job_.options.sampling.index + static_cast<std::uint32_t>(k);
+      plan_.look(view_params(camera, job_.size, options.jitter, tile.lo, lens_point_of(k)));
       outputs_.ids = k == 0 ? &images_.ids : nullptr;
       outputs_.reflection = k == 0 && to_.reflection ? &images_.reflection : nullptr;
       outputs_.mask = k == 0 && to_.mask && job_.mask_bits > 0 ? &images_.mask : nullptr;
@@ -118,7 +111,7 @@ class Share {
   }
 
   void add_surfaces(const shared::ViewParams& view, std::size_t frame, const PixelBox& tile) {
-    const VisibleScene of{*job_.scene.mesh, job_.tracer.steps(), view, job_.texture_footprint > 0.0f};
+    const VisibleScene of{*job_.scene.mesh, job_.tracer.steps(), view, job_.options.texture_footprint > 0.0f};
     write_visible_points(of, {{0, 0}, tile.size()}, &images_.ids.at(0, 0), kSide, to_, row_of(frame, tile, 0),
                          static_cast<std::size_t>(job_.size.x));
   }

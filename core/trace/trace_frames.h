@@ -24,11 +24,8 @@ struct FramesJob {
   glm::ivec2 size;
   int spp = 1, depth = 0, indirect = 0, mask_bits = 0;
   bool environment_light = false;
-  float throughput_cutoff = kThroughputCutoff, light_cutoff = 0.0f;
-  float texture_footprint = 1.0f;  // of a sample, pixels; 0: textures are not averaged
-  Terminator terminator = kUsualTerminator;
+  TraceOptions options{};  // of the first sample
   PixelFilter filter = PixelFilter::box;
-  shared::Sampling sampling{};   // of the first sample
   Progress* progress = nullptr;  // told of every tile: a picture is `spp` steps
 };
 

@@ -34,8 +34,9 @@ struct TileOutputs {
   Image<std::uint32_t>* ids = nullptr;  // what the camera rays tell
 
   // Bit i of a sample: the casting light in mask slot i reaches the visible point. 0 where nothing is seen or
-  // the surface faces away, or the light brings less than job.light_cutoff. mask_bits: 1, 2, 4 or 8, no fewer
-  // than lights that cast; 0: the visible points are asked nothing, and no light that casts reaches them.
+  // the surface faces away, or the light brings less than job.options.light_cutoff. mask_bits: 1, 2, 4 or 8,
+  // no fewer than lights that cast; 0: the visible points are asked nothing, and no light that casts reaches
+  // them.
   int mask_bits = 0;
   MaskImage* mask = nullptr;
 

@@ -23,7 +23,7 @@ void ShadingPasses::composite(const Inputs& inputs, LightSet lights, const Trace
   const int unit = bind(p, inputs, traced);
   if (inputs.scene.environment) bind_environment(p, inputs.scene, unit);
   if (inputs.lights.any_size()) {
-    const shared::Sampling& sampling = traced.of ? traced.of->sampling : inputs.sampling;
+    const shared::Sampling& sampling = traced.of ? traced.of->sampling : inputs.options.sampling;
     p.set("sequence", sampling.sequence);
     p.set("sample_index", sampling.index);
     p.set("sample_seed", sampling.seed);
@@ -99,7 +99,7 @@ int ShadingPasses::bind(const gl::Program& program, const Inputs& inputs) const 
   program.set("step_x", inputs.view.step_x);
   program.set("step_y", inputs.view.step_y);
   program.set("first", inputs.view.first);
-  program.set("texture_spread", inputs.texture_footprint);
+  program.set("texture_spread", inputs.options.texture_footprint);
   program.set("ids", 0, inputs.ids);
   return inputs.lights.bind(program, inputs.mesh.bind(program, 1));
 }
@@ -120,8 +120,8 @@ int ShadingPasses::bind(const gl::Program& program, const Inputs& inputs, const 
 
 ShadingPasses::Definitions ShadingPasses::definitions_of(const Inputs& inputs) {
   Definitions definitions{"ID_BITS " + std::to_string(inputs.id_bits)};
-  if (lifts(inputs.terminator)) definitions.emplace_back("TERMINATOR_LIFTS");
-  if (inputs.terminator == Terminator::smoothed) definitions.emplace_back("TERMINATOR_SMOOTHS");
+  if (lifts(inputs.options.terminator)) definitions.emplace_back("TERMINATOR_LIFTS");
+  if (inputs.options.terminator == Terminator::smoothed) definitions.emplace_back("TERMINATOR_SMOOTHS");
   const Definitions& of_maps = inputs.mesh.maps().definitions();
   definitions.insert(definitions.end(), of_maps.begin(), of_maps.end());
   return definitions;

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "core/trace/shared.h"
+#include "core/trace/trace_options.h"
 #include "gl/draw.h"
 #include "gl/program.h"
 #include "gl/transfer.h"
@@ -37,9 +38,7 @@ class ShadingPasses {
     shared::ViewParams view;
     const gl::Texture& ids;
     int id_bits;
-    float texture_footprint;  // pixels; 0: textures are not filtered
-    shared::Sampling sampling;
-    Terminator terminator;
+    TraceOptions options;
     const Scene& scene;  // whose environment is seen
   };
   // The CPU's answer; what is null is not in it.

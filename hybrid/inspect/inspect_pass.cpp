@@ -130,15 +130,13 @@ ShadingPasses::Inputs InspectPass::inputs_of(const FrameSlot& frame) {
   constexpr int kIdBits = 32;  // as the CPU has them
   send(std::as_bytes(frame.ids.pixels()), frame.ids.size(), id_format(kIdBits).pixel, ids_);
   lights_.update(frame.request.scene);
-  return {*engine_.parts().gpu_mesh(frame.request.scene.mesh),
-          lights_,
-          frame.view,
-          ids_.texture,
-          kIdBits,
-          texture_footprint(frame.request.settings, frame.request.view),
-          {},
-          frame.request.settings.terminator,
-          frame.request.scene};
+  return {.mesh = *engine_.parts().gpu_mesh(frame.request.scene.mesh),
+          .lights = lights_,
+          .view = frame.view,
+          .ids = ids_.texture,
+          .id_bits = kIdBits,
+          .options = trace_options(frame.request.settings, frame.request.view),
+          .scene = frame.request.scene};
 }
 
 ShadingPasses::Traced InspectPass::send_from_cpu(const MaskImage& mask, const Image<glm::vec3>& reflection,

@@ -26,12 +26,14 @@ struct ProgressiveReference::Job {
         view(view_params(of.view)),
         size(of.view.box().size()),
         depth(of.depth),
+        options(of.options),
         of_mesh(std::move(mesh_progress)) {}
 
   Scene scene;
   shared::ViewParams view;
   glm::ivec2 size;
   int depth;
+  TraceOptions options;
   pinocchio::Progress of_view;                   // cancelled: another is wanted
   std::shared_ptr<pinocchio::Progress> of_mesh;  // ... of another mesh
 
@@ -61,7 +63,7 @@ class ProgressiveReference::Artist {
       tree_mesh_ = job.scene.mesh;
       tree_.emplace(*tree_mesh_, job.of_mesh.get());
     }
-    const ReferenceTracer tracer(job.scene, *tree_);
+    const ReferenceTracer tracer(job.scene, *tree_, job.options);
     const TileGrid grid(job.size);
     for (std::size_t pass = 0; pass < kSteps.size(); ++pass)
       workers_.for_each(grid.count(), [&](std::size_t i) { draw_tile(tracer, grid.tile(i), pass, job); });

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "core/parallel/tiles.h"
+#include "core/trace/trace_options.h"
 #include "core/trace/view_params.h"
 #include "pinocchio/image.h"
 #include "pinocchio/scene.h"
@@ -18,6 +19,7 @@ struct ReferenceView {
   Scene scene;
   View view;
   int depth = 8;  // most bounces; shadows are always traced
+  TraceOptions options{};
 
   friend bool operator==(const ReferenceView&, const ReferenceView&) = default;
 };

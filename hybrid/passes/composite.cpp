@@ -22,7 +22,7 @@ void composite_on_gpu(GpuPasses& gpu, FrameSlot& frame, const FrameSlot* older) 
   } else {
     const FrameSlot& traced = older ? *older : frame;
     const OlderFrame of{traced.ids_texture(), traced.view,
-                        sampling_of(traced.request.settings, traced.request.view)};
+                        trace_options(traced.request.settings, traced.request.view).sampling};
     ShadingPasses::Traced answer = traced.answer_on_gpu();
     if (older) answer.of = &of;
     gpu.shading.composite(frame.inputs(), LightSet::all, answer, frame.picture);

@@ -29,19 +29,14 @@ void note(const TileTimes& times, double begin_s, int threads, FrameRecord& reco
 void run(Workers& workers, FrameSlot& frame, const TileOutputs& outputs, double share) {
   const FrameRequest& r = frame.request;
   if (!r.tracer) throw std::logic_error("settings that trace were given no tree (Engine::prepare)");
-  const TraceJob job{r.scene,
-                     *r.tracer,
-                     workers,
-                     frame.view,
-                     r.settings.throughput_cutoff,
-                     r.settings.light_cutoff,
-                     texture_footprint(r.settings, r.view),
-                     r.settings.terminator,
-                     r.view.jitter,
-                     sampling_of(r.settings, r.view),
-                     r.left_out.get(),
-                     frame.progress,
-                     share};
+  const TraceJob job{.scene = r.scene,
+                     .tracer = *r.tracer,
+                     .workers = workers,
+                     .view = frame.view,
+                     .options = trace_options(r.settings, r.view),
+                     .left_out = r.left_out.get(),
+                     .progress = frame.progress,
+                     .progress_steps = share};
   const double begin_s = now_s();
   const TileResult result = trace_tiles(job, outputs);
   frame.record.rays += result.rays;

@@ -55,7 +55,7 @@ struct Comparison {
         workers(2),
         view(view_params(camera(), kSize)) {
     TraceJob job{scene, tracer, workers, view};
-    job.terminator = Terminator::off;  // Embree's rays start on the facets
+    job.options.terminator = Terminator::off;  // Embree's rays start on the facets
     trace_visibility(job, ids);
     trace_shadow_mask(job, ids, MaskImage::bits_for(static_cast<int>(casting_lights(scene).size())), mask);
     for (int y = 0; y < kSize.y; ++y)

@@ -195,8 +195,8 @@ Drawn draw(const Scene& scene, int samples, int indirect, std::optional<Isa> isa
   for (int k = 0; k < samples; ++k) {
     TraceJob job{scene, tracer, workers,
                  view_params(scene.cameras.front(), size, jittered ? jitter_of(k) : glm::vec2(0.0f))};
-    job.throughput_cutoff = 0.0f;
-    job.sampling.index = static_cast<std::uint32_t>(k);
+    job.options.throughput_cutoff = 0.0f;
+    job.options.sampling.index = static_cast<std::uint32_t>(k);
     Image<glm::vec4> color;
     Image<glm::vec3> reflection;
     TileOutputs out;

@@ -161,8 +161,8 @@ TEST(TraceTiles, LightCutoffTogetherAndOneByOne) {
   const Tracer tracer(scene.mesh);
   Workers workers(2);
   TraceJob job{scene, tracer, workers, view_params(camera_of(scene), kSize)};
-  job.light_cutoff = 0.3f;
-  job.throughput_cutoff = 0.05f;
+  job.options.light_cutoff = 0.3f;
+  job.options.throughput_cutoff = 0.05f;
   expect_close(by_tiles(job), one_by_one(job));
 }
 

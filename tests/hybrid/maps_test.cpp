@@ -165,7 +165,8 @@ Image<glm::vec4> precise_mean(const Scene& scene, int samples, float texture_foo
   Image<glm::vec4> sum(kSize);
   for (int k = 0; k < samples; ++k) {
     const View view = at_sample({first_camera(scene), kSize}, k);
-    const ReferencePicture sample = reference_render(scene, view, 8, workers, nullptr, texture_footprint);
+    const ReferencePicture sample =
+        reference_render(scene, view, 8, workers, nullptr, {.texture_footprint = texture_footprint});
     for (std::size_t i = 0; i < sum.pixels().size(); ++i)
       sum[i] += sample.color[i] / static_cast<float>(samples);
   }

@@ -24,7 +24,7 @@ ReferenceView view_of(const Scene& scene) {
 
 Image<glm::vec4> at_once(const ReferenceView& view) {
   Workers workers(2);
-  return reference_render(view.scene, view.view, view.depth, workers).color;
+  return reference_render(view.scene, view.view, view.depth, workers, nullptr, view.options).color;
 }
 
 // Waits a moment between polls; ctest's time limit ends what never finishes.
@@ -51,6 +51,21 @@ TEST(ProgressiveReference, EndsAsThePictureMadeAtOnce) {
     reference.show(view);  // again: it is there
     EXPECT_EQ(reference.poll().share, 1.0);
   }
+}
+
+// The window's reference is --precise's: by the remedy of the terminator and the filter that are set.
+TEST(ProgressiveReference, FollowsTheOptions) {
+  const Scene scene = load_or_die(source_path("scenes/terrace.glb"));
+  ReferenceView view = view_of(scene);
+  ProgressiveReference reference;
+  reference.show(view);
+  const Image<glm::vec4> usual = finish(reference);
+  view.options.terminator = Terminator::off;
+  view.options.texture_footprint = 0.0f;
+  reference.show(view);
+  const Image<glm::vec4> other = finish(reference);
+  EXPECT_TRUE(std::ranges::equal(other.pixels(), at_once(view).pixels()));
+  EXPECT_FALSE(std::ranges::equal(other.pixels(), usual.pixels()));
 }
 
 TEST(ProgressiveReference, GrowsFromSquaresOfExactPixels) {

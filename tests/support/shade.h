@@ -50,7 +50,7 @@ void for_each_surface(const TraceJob& job, const Image<std::uint32_t>& ids, cons
       const Ray ray = pixel_ray(job.view, x, y);
       shade_pixel(pixel,
                   surface_at(job.tracer.mesh(), ids[pixel], ray.origin, ray.direction, {},
-                             Footprint::of_camera(job.view, job.texture_footprint)),
+                             Footprint::of_camera(job.view, job.options.texture_footprint)),
                   mask.get(x, y));
     });
   });

@@ -32,8 +32,9 @@ inline Float brdf_share(const LaneMaterial& m) {
   Mask lit = lanes & starts.faces_light(incident.to_light) & ~is_dark(incident.radiance);
   if (lit.bits() == 0) return;
   Vec carried = throughput * phong_light(m, incident, s, lit) * brdf_share(m);
-  if (bounce.terminator == Terminator::smoothed) carried = carried * terminator_factor(s, incident.to_light);
-  lit = lit & ~(largest(carried) < Float(bounce.throughput_cutoff));
+  if (bounce.options->terminator == Terminator::smoothed)
+    carried = carried * terminator_factor(s, incident.to_light);
+  lit = lit & ~(largest(carried) < Float(bounce.options->throughput_cutoff));
   if (lit.bits() == 0) return;
   append(starts.origins(incident.to_light), incident.to_light, carried, pixel, lit, *bounce.sky);
   starts.ask_ways_up(lit, *bounce.sky, *bounce.sky_ways_up);
@@ -51,7 +52,7 @@ inline Float brdf_share(const LaneMaterial& m) {
   const Float up = sqrt(max(Float(1.0f) - (disc.x * disc.x + disc.y * disc.y), Float(0.0f)));
   const Vec direction = around(s.n_shading, {disc.x, disc.y, up});
   follow(s, direction, light, pixel, lanes & (Float(0.0f) < dot(direction, s.n_geometric)),
-         bounce.throughput_cutoff, *bounce.diffuse, media ? &media->here : nullptr);
+         bounce.options->throughput_cutoff, *bounce.diffuse, media ? &media->here : nullptr);
 }
 
 }  // namespace

@@ -92,7 +92,7 @@ inline void follow(const LaneSurface& s, const Vec& direction, const Vec& throug
 inline void go_straight_on(const LaneSurface& s, const LaneMaterial& m, const Vec& throughput, Int pixel,
                            Mask lanes, const Bounce& bounce, const LaneMedia* media) {
   follow(s, -s.to_viewer, throughput * (Float(1.0f) - m.alpha), pixel, lanes & Mask::from_bits(m.blends),
-         bounce.throughput_cutoff, *bounce.straight, media ? &media->here : nullptr);
+         bounce.options->throughput_cutoff, *bounce.straight, media ? &media->here : nullptr);
 }
 
 template <bool kSampled>
@@ -120,7 +120,7 @@ inline void scatter(const LaneSurface& s, const LaneMaterial& m, const Vec& thro
     const Float share = select(is_dark(through), one, fresnel_dielectric(cos_in, eta));
     mirror_share = select(Mask::from_bits(glass), Vec(share), mirror_share);
     follow(s, through, own * (one - share) * m.transmittance, pixel, Mask::from_bits(glass),
-           bounce.throughput_cutoff, *bounce.refracted, media ? &media->beyond : nullptr);
+           bounce.options->throughput_cutoff, *bounce.refracted, media ? &media->beyond : nullptr);
   }
   Mask mirrors = Mask::from_bits(glass | opaque);
   Vec direction = mirrored(s);
@@ -128,8 +128,8 @@ inline void scatter(const LaneSurface& s, const LaneMaterial& m, const Vec& thro
     if ((m.glossy & (glass | opaque)) != 0)
       direction = spread(s, direction, m.gloss,
                          sample_2d(*sampling, bounce.dimension + shared::kMirrorDimension), mirrors);
-  follow(s, direction, own * mirror_share, pixel, mirrors, bounce.throughput_cutoff, *bounce.mirrored,
-         media ? &media->here : nullptr);
+  follow(s, direction, own * mirror_share, pixel, mirrors, bounce.options->throughput_cutoff,
+         *bounce.mirrored, media ? &media->here : nullptr);
 }
 
 }  // namespace

@@ -96,25 +96,26 @@ template <bool kSampled>
 inline Vec light_points(const Bounce& bounce, const Corners& corners, const LaneSurface& s,
                         const LaneMaterial& m, const Vec& throughput, const LaneSampling* sampling, Int pixel,
                         Mask lanes) {
-  ShadowStarts starts(bounce.terminator, corners, s);
+  ShadowStarts starts(bounce.options->terminator, corners, s);
   Vec sum(Float(0.0f));
   if (bounce.adds_ambient) sum = m.ambient * Vec(bounce.ambient_light) + m.emission;
   for (std::size_t i = 0; i < bounce.light_count; ++i) {
     const BounceLight& light = bounce.lights[i];
     const LaneIncident incident = light_from<kSampled>(light, s, sampling, bounce.dimension);
     Mask lit = lanes & starts.faces_light(incident.to_light) & ~is_dark(incident.radiance);
-    if (bounce.visible && light.slot >= 0 && bounce.light_cutoff > 0.0f)
-      lit = lit & ~(most_light(m, incident, s) < Float(bounce.light_cutoff));
+    if (bounce.visible && light.slot >= 0 && bounce.options->light_cutoff > 0.0f)
+      lit = lit & ~(most_light(m, incident, s) < Float(bounce.options->light_cutoff));
     if (lit.bits() == 0) continue;
     Vec term(Float(0.0f));
     if (bounce.adds_light) term = phong_light(m, incident, s, lit);
-    if (bounce.terminator == Terminator::smoothed) term = term * terminator_factor(s, incident.to_light);
+    if (bounce.options->terminator == Terminator::smoothed)
+      term = term * terminator_factor(s, incident.to_light);
     if (light.slot < 0) {
       sum = select(lit, sum + term, sum);
       continue;
     }
     const Vec carried = throughput * term;
-    if (!bounce.visible) lit = lit & ~(largest(carried) < Float(bounce.throughput_cutoff));
+    if (!bounce.visible) lit = lit & ~(largest(carried) < Float(bounce.options->throughput_cutoff));
     ask(light, starts, incident, carried, pixel, lit, bounce);
   }
   if constexpr (kSampled)
@@ -157,8 +158,8 @@ inline void fetch_corners(const SceneArrays& scene, const RayQueue& rays, std::s
 template <bool kSampled>
 void bounce_packets(const Bounce& bounce, const RayQueue& rays) {
   const bool reads_material = bounce.adds_light || bounce.adds_ambient || bounce.mirrored ||
-                              bounce.light_cutoff > 0.0f || bounce.scene.mesh != nullptr ||
-                              bounce.environment || bounce.diffuse;
+                              (bounce.visible && bounce.options->light_cutoff > 0.0f) ||
+                              bounce.scene.mesh != nullptr || bounce.environment || bounce.diffuse;
   for (std::size_t i = 0; i < kTrianglesAhead; i += kWidth) fetch_triangles(bounce.scene, rays, i);
   for (std::size_t i = 0; i < kCornersAhead; i += kWidth) fetch_corners(bounce.scene, rays, i);
   for (std::size_t i = 0; i < rays.size; i += kWidth) {
@@ -192,7 +193,7 @@ void bounce_packets(const Bounce& bounce, const RayQueue& rays) {
     const LaneMedia* const media = surrounding ? &*surrounding : nullptr;
     const Vec own = m.blends != 0 ? throughput * m.alpha : throughput;
     std::optional<LaneSampling> sampling;
-    if constexpr (kSampled) sampling.emplace(*bounce.sampling, whole_picture_pixel(bounce, pixel));
+    if constexpr (kSampled) sampling.emplace(bounce.options->sampling, whole_picture_pixel(bounce, pixel));
     const LaneSampling* const samples = kSampled ? &*sampling : nullptr;
     const Vec certain = light_points<kSampled>(bounce, corners, s, m, own, samples, pixel, lanes);
     if (bounce.adds_light) add_light(own * certain, rays.pixel + i, lanes, bounce.radiance);
@@ -203,7 +204,7 @@ void bounce_packets(const Bounce& bounce, const RayQueue& rays) {
 }
 
 void bounce_rays(const Bounce& bounce, const RayQueue& rays) {
-  bounce.sampling ? bounce_packets<true>(bounce, rays) : bounce_packets<false>(bounce, rays);
+  bounce.samples ? bounce_packets<true>(bounce, rays) : bounce_packets<false>(bounce, rays);
 }
 
 inline void put(const Vec& v, float* const (&columns)[3], std::size_t i) {
