@@ -5,10 +5,13 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 #include <system_error>
+#include <type_traits>
+#include <variant>
 
 #include "app/errors.h"
 #include "app/parse.h"
 #include "core/image/atomic_file.h"
+#include "core/image/checksum.h"
 #include "core/image/png.h"
 #include "core/image/tonemap.h"
 #include "core/output/aovs.h"
@@ -22,6 +25,11 @@ std::string check_extension(const std::string& file, const std::string& extensio
 }
 
 constexpr float kMostStops = 64.0f;
+
+// Of ASCII: PNG's text is Latin-1, names of files may be no UTF-8.
+std::string dumped(const nlohmann::json& json) {
+  return json.dump(-1, ' ', true, nlohmann::json::error_handler_t::replace);
+}
 
 // CLI::Range lets NaN through.
 std::string is_stops(const std::string& text) {
@@ -79,10 +87,10 @@ void add_output_options(CLI::App& verb, OutputOptions& options) {
   add_tone_map_option(verb, options.tone_map);
   verb.add_flag("--deterministic", options.deterministic,
                 "leave the render time out of the EXR: the same file, whatever machine draws it");
-  verb.add_flag(
-      "--skip-existing", options.skip_existing,
-      "leave out frames whose EXR is whole, of the same settings (its header says) and not older than the "
-      "scene");
+  verb.add_flag("--skip-existing", options.skip_existing,
+                "leave out frames whose files are whole and say that they were drawn by the same settings "
+                "from the same "
+                "files");
 }
 
 void write_json(const std::filesystem::path& file, const nlohmann::json& json) {
@@ -124,7 +132,43 @@ ExrOptions exr_options(const OutputOptions& options, const FrameHeader& frame) {
           .compression = options.compression,
           .frame = frame.number,
           .frames_per_second = frame.fps,
-          .time_s = frame.time_s};
+          .time_s = frame.time_s,
+          .inputs = options.inputs};
+}
+
+std::string inputs_json(const Scene& scene, bool precise) {
+  nlohmann::json inputs{{"precise", precise}, {"files", nlohmann::json::array()}};
+  const auto add = [&](const std::string& file) {
+    const std::optional<std::string> content = fingerprint(file);
+    inputs["files"].push_back({{"name", std::filesystem::path(file).filename().string()},
+                               {"content", content ? nlohmann::json(*content) : nullptr}});
+  };
+  for (const std::string& file : scene.source_files) add(file);
+  if (scene.environment) add(scene.environment->source());
+  return dumped(inputs);
+}
+
+std::string preview_text(const OutputOptions& options, const ExrFile& header) {
+  const PixelBox& part = header.data_window;
+  nlohmann::json json{
+      {"exposure", options.exposure_ev},
+      {"toneMap", kToneMapNames[static_cast<std::size_t>(options.tone_map)]},
+      {"displaySize", {header.display_size.x, header.display_size.y}},
+      {"dataWindow", {part.lo.x, part.lo.y, part.hi.x, part.hi.y}},
+  };
+  for (const auto& [name, attribute] : header.attributes)
+    std::visit(
+        [&json, &name](const auto& value) {
+          using Value = std::decay_t<decltype(value)>;
+          if constexpr (std::is_same_v<Value, glm::mat4>)
+            json[name] = std::vector<float>(&value[0][0], &value[0][0] + 16);
+          else if constexpr (std::is_same_v<Value, ExrRational>)
+            json[name] = {value.numerator, value.denominator};
+          else
+            json[name] = value;
+        },
+        attribute);
+  return dumped(json);
 }
 
 bool keeps_mask(const OutputOptions& options) {
@@ -132,14 +176,16 @@ bool keeps_mask(const OutputOptions& options) {
 }
 
 void write_outputs(const OutputOptions& options, const DrawnFrame& frame) {
+  const ExrOptions same_for_all = exr_options(options, frame.header);
   if (!options.exr.empty()) {
-    ExrOptions exr = exr_options(options, frame.header);
+    ExrOptions exr = same_for_all;
     if (!options.deterministic) exr.render_s = frame.render_s;
     write_exr(numbered(options.exr, frame.header.number), frame.picture, exr);
   }
   if (!options.preview.empty())
     write_png(numbered(options.preview, frame.header.number),
-              preview(frame.picture.color, options.exposure_ev, options.tone_map));
+              preview(frame.picture.color, options.exposure_ev, options.tone_map),
+              preview_text(options, exr_header(frame.picture, same_for_all)));
 }
 
 }  // namespace pinocchio::app

@@ -75,6 +75,7 @@ class RenderRun {
     Scene scene = load_scene_for(options_.draw);
     frames_.emplace(options_.animation, options_.draw, scene);
     check(scene);
+    options_.output.inputs = inputs_json(scene, options_.draw.precise);
     Drawing drawing(options_.draw, std::move(scene),
                     frames_->size() > 1 ? Exchange::pipelined : Exchange::sync, keeps_mask(options_.output),
                     false, frames_->only_camera());
@@ -230,7 +231,7 @@ class RenderRun {
         if (!pattern.empty()) std::printf("%s\n", numbered(pattern, number).c_str());
   }
 
-  const RenderOptions& options_;
+  RenderOptions options_;
   std::optional<CameraFrames> frames_;
   std::size_t asked_ = 0;  // of frames_
   std::optional<CameraFrame> next_;

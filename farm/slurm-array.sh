@@ -6,7 +6,7 @@
 #SBATCH --job-name=pinocchio
 #SBATCH --cpus-per-task=8
 #SBATCH --requeue
-#SBATCH --signal=TERM@10
+#SBATCH --signal=B:TERM@10
 set -eu
 : "${SCENE:?the scene file}" "${OUTPUT:?the folder of the frames}" "${LAST:?the last frame}"
 chunk=${CHUNK:-10}
@@ -15,6 +15,6 @@ end=$((start + chunk - 1))
 if [ "$end" -gt "$LAST" ]; then end=$LAST; fi
 if [ "$start" -gt "$end" ]; then exit 0; fi
 mkdir -p "$OUTPUT"
-# exec: Slurm's signals reach the program itself.
+# B: above sends the signal to this script's process, which exec makes the program: it keeps what it has drawn.
 exec "${PINOCCHIO:-pinocchio}" render "$SCENE" --frames "$start-$end" --exchange pipelined "$@" --threads "${SLURM_CPUS_PER_TASK:-0}" \
   -o "$OUTPUT/frame-####.exr" --deterministic --skip-existing --progress off

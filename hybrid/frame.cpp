@@ -168,7 +168,8 @@ FrameOutput output_of(const FrameResult& frame, const ExrOptions& options,
           std::move(surfaces), to_json(frame.settings, false).dump(),
           options.render_s,    frame.settings.spp,
           options.frame,       options.frames_per_second,
-          options.time_s,      frame.record.age_frames};
+          options.time_s,      frame.record.age_frames,
+          options.inputs};
 }
 
 ExrFile header_of(const FrameOutput& output, const AovSet& layers, const ExrOptions& options) {

@@ -72,7 +72,12 @@ void add_attributes(ExrFile& exr, const FrameOutput& frame) {
   exr.attributes["pinocchio.frame"] = frame.frame;
   exr.attributes["pinocchio.time"] = static_cast<float>(
       frame.time_s.value_or(static_cast<double>(frame.frame) / static_cast<double>(frame.frames_per_second)));
+  if (!frame.inputs.empty()) exr.attributes["pinocchio.inputs"] = frame.inputs;
   exr.attributes["pinocchio.camera"] = frame.camera.name;
+  if (frame.camera.lens_radius > 0.0f) {
+    exr.attributes["pinocchio.lensRadius"] = frame.camera.lens_radius;
+    exr.attributes["pinocchio.focusDistance"] = focus_distance(frame.camera);
+  }
   exr.attributes["pinocchio.lights"] = lights_json(frame.scene);
   exr.attributes["pinocchio.unshadowedLights"] = unshadowed_lights_json(frame.scene);
   exr.attributes["samplesPerPixel"] = frame.samples_per_pixel;

@@ -32,7 +32,8 @@ struct FrameOutput {
   int frame = 0;  // of the animation
   int frames_per_second = 24;
   std::optional<double> time_s{};  // of the animation; else frame / frames_per_second
-  int age_frames = 0;  // reprojected: how much older the mask and reflection are that the picture shows
+  int age_frames = 0;    // reprojected: how much older the mask and reflection are that the picture shows
+  std::string inputs{};  // what else it was made of, if its maker says
 };
 
 // As many layers as asked for, with the values of lines [y0, y1).

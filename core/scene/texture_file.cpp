@@ -25,6 +25,7 @@
 #include <stb/stb_image.h>
 #pragma GCC diagnostic pop
 
+#include "core/image/png.h"
 #include "core/parallel/workers.h"
 #include "core/scene/input_file.h"
 
@@ -230,26 +231,7 @@ std::vector<Expected<DecodedImage>> decode_textures(const std::vector<EncodedIma
 }
 
 std::string png_of(const Texture& texture) {
-  const std::unique_ptr<spng_ctx, void (*)(spng_ctx*)> context(spng_ctx_new(SPNG_CTX_ENCODER), spng_ctx_free);
-  const glm::ivec2 size = texture.texels.size();
-  spng_ihdr header{static_cast<std::uint32_t>(size.x),
-                   static_cast<std::uint32_t>(size.y),
-                   8,
-                   SPNG_COLOR_TYPE_TRUECOLOR_ALPHA,
-                   0,
-                   0,
-                   0};
-  std::size_t bytes = 0;
-  int failure = context ? spng_set_option(context.get(), SPNG_ENCODE_TO_BUFFER, 1) : SPNG_EMEM;
-  if (failure == 0) failure = spng_set_ihdr(context.get(), &header);
-  if (failure == 0)
-    failure = spng_encode_image(context.get(), texture.texels.pixels().data(),
-                                texture.texels.pixels().size_bytes(), SPNG_FMT_PNG, SPNG_ENCODE_FINALIZE);
-  void* const png = failure == 0 ? spng_get_png_buffer(context.get(), &bytes, &failure) : nullptr;
-  const std::unique_ptr<void, void (*)(void*)> owner(png, std::free);
-  if (!png)
-    throw EnvironmentError("image '" + texture.name + "' cannot be encoded: " + spng_strerror(failure));
-  return {static_cast<const char*>(png), bytes};
+  return encode_png(texture.texels.size(), 4, std::as_bytes(texture.texels.pixels()));
 }
 
 }  // namespace pinocchio

@@ -22,13 +22,16 @@ shared::ViewParams view_params(const Camera& camera, glm::ivec2 size, glm::vec2 
   view.first = glm::vec2(first);
   if (camera.lens_radius > 0.0f && lens != glm::vec2(0.0f)) {
     // Rays of a pixel meet where the pinhole's would be at the focus distance: at eye + focus (corner + ...).
-    const float target = glm::dot(camera.target - camera.eye, axes.forward);
-    const float focus = camera.focus_distance > 0.0f ? camera.focus_distance : target;
     const glm::vec3 aside = camera.lens_radius * (lens.x * axes.right + lens.y * axes.up);
     view.eye += aside;
-    view.corner -= aside / focus;
+    view.corner -= aside / focus_distance(camera);
   }
   return view;
+}
+
+float focus_distance(const Camera& camera) {
+  return camera.focus_distance > 0.0f ? camera.focus_distance
+                                      : glm::dot(camera.target - camera.eye, camera_axes(camera).forward);
 }
 
 shared::ViewParams view_params(const View& view) {

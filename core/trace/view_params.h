@@ -16,6 +16,9 @@ namespace pinocchio {
                                              glm::vec2 lens = glm::vec2(0.0f));
 [[nodiscard]] shared::ViewParams view_params(const View& view);
 
+// Along the view axis, where all is sharp: the camera's own, or its target's. Scene units.
+[[nodiscard]] float focus_distance(const Camera& camera);
+
 // Unit, towards what is seen.
 [[nodiscard]] inline glm::vec3 view_axis(const shared::ViewParams& view) {
   return -glm::normalize(glm::cross(view.step_x, -view.step_y));

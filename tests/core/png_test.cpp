@@ -11,6 +11,20 @@
 namespace pinocchio {
 namespace {
 
+TEST(Png, TextComesBackFromWholeFilesAlone) {
+  const Image<glm::u8vec3> pixels({64, 48});
+  const std::filesystem::path file = own_file("text.png");
+  write_png(file, pixels);
+  EXPECT_EQ(text_of_png(file), std::nullopt);
+  const std::string text(3000, 'x');
+  write_png(file, pixels, text);
+  EXPECT_EQ(text_of_png(file), text);
+  std::filesystem::resize_file(file, std::filesystem::file_size(file) - 20);
+  EXPECT_EQ(text_of_png(file), std::nullopt);
+  EXPECT_EQ(text_of_png(own_folder()), std::nullopt);
+  EXPECT_EQ(text_of_png(own_file("missing.png")), std::nullopt);
+}
+
 TEST(Png, PixelsComeBackFromTheTopLeft) {
   Image<glm::u8vec3> written({5, 3});
   for (int y = 0; y < 3; ++y)

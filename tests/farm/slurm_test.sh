@@ -15,5 +15,15 @@ for i in 0 1 2 3 4 5 6; do cmp "$folder/farm/frame-000$i.exr" "$folder/one-000$i
 rm "$folder/farm/frame-0004.exr"
 task 1 | grep -q '2 frames were there already'
 cmp "$folder/farm/frame-0004.exr" "$folder/one-0004.exr"
+# What Slurm sends before the time is over goes to the script's own process; the program ends there, and keeps whole frames alone.
+grep -q '^#SBATCH --signal=B:TERM@' "$source/farm/slurm-array.sh"
+OUTPUT=$folder/ended LAST=200 CHUNK=201 SLURM_ARRAY_TASK_ID=0 SLURM_CPUS_PER_TASK=1 \
+  "$source/farm/slurm-array.sh" --turntable 201 --size 192x144 > "$folder/ended.txt" & task=$!
+while [ ! -e "$folder/ended/frame-0001.exr" ]; do sleep 0.05; done
+kill -TERM $task
+status=0; wait $task || status=$?
+[ "$status" = 130 ] || { echo "ended by TERM: exit code $status"; exit 1; }
+[ "$(find "$folder/ended" -name 'frame-*.exr' | wc -l)" -lt 201 ]
+[ -z "$(find "$folder/ended" ! -name 'frame-*.exr' -type f)" ]
 if ! command -v shellcheck > /dev/null; then echo "skipped: shellcheck is missing"; exit 77; fi
 shellcheck "$source/farm/slurm-array.sh"

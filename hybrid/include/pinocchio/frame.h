@@ -102,6 +102,7 @@ struct ExrOptions {
   int frame = 0;
   int frames_per_second = 24;
   std::optional<double> time_s{};  // of the animation; else frame / frames_per_second
+  std::string inputs{};            // likewise: what the picture was made of (the program writes JSON)
 };
 
 // The picture with its layers and attributes, one part, scene-linear. Whole or not at all; throws
