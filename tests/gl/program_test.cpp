@@ -7,11 +7,12 @@
 #include "gl/shader_source.h"
 #include "tests/support/gl_test.h"
 #include "tests/support/own_file.h"
+#include "tests/support/source_path.h"
 
 namespace pinocchio {
 namespace {
 
-const std::filesystem::path kShaders = std::filesystem::path(PINOCCHIO_SOURCE_DIR) / "shaders";
+const std::filesystem::path kShaders = source_path("shaders");
 
 std::filesystem::path folder_with(const std::string& file, const std::string& text) {
   const std::filesystem::path folder = own_folder() / "shaders";

@@ -12,12 +12,9 @@
 
 #include "pinocchio/load.h"
 #include "scenes/generator/random.h"
+#include "tests/support/source_path.h"
 
 namespace pinocchio {
-
-inline std::filesystem::path source_path(const std::string& name) {
-  return std::filesystem::path(PINOCCHIO_SOURCE_DIR) / name;
-}
 
 inline Scene load_or_die(const std::filesystem::path& path) {
   Expected<Scene> scene = load_scene(path);
