@@ -129,8 +129,9 @@ std::vector<Camera> cameras_at(const Scene& scene, double seconds) {
   const std::shared_ptr<const NodeTree> tree = tree_at(scene, seconds);
   const NodeFlags flags = moving(*scene.animation, *tree);
   const std::vector<glm::mat4> world = world_matrices(tree->nodes);
+  const AttachedPlaces places = attached_places(*tree->rest, moved);
   for (std::size_t n = 0; n < flags.size(); ++n)
-    if (flags[n]) place_attached(*tree->rest, static_cast<int>(n), Placement(world[n]), moved);
+    if (flags[n]) place_attached(*tree->rest, places, static_cast<int>(n), Placement(world[n]), moved);
   return moved.cameras;
 }
 
