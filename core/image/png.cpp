@@ -1,6 +1,7 @@
 #include "core/image/png.h"
 
 #include <cmath>
+#include <cstdint>
 #include <fstream>
 
 #include "core/image/atomic_file.h"
@@ -26,7 +27,15 @@ Image<glm::u8vec3> preview(const Image<glm::vec4>& color, float exposure_ev, Ton
   return pixels;
 }
 
+void check_png_size(const std::filesystem::path& file, glm::ivec2 size) {
+  constexpr std::int64_t kMost = std::int64_t{1} << 30;  // the encoder doubles its int as it grows
+  if ((std::int64_t{3} * size.x + 1) * size.y > kMost)
+    throw EnvironmentError(file.string() + ": " + std::to_string(size.x) + " x " + std::to_string(size.y) +
+                           " pixels are more than a PNG is written of; write an EXR, or a smaller picture");
+}
+
 void write_png(const std::filesystem::path& file, const Image<glm::u8vec3>& pixels) {
+  check_png_size(file, pixels.size());
   check_writable(file);
   write_atomically(file, [&](const std::filesystem::path& temporary) {
     std::ofstream out(temporary, std::ios::binary);

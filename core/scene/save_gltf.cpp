@@ -2,16 +2,19 @@
 #include <cstring>
 #include <glm/gtc/type_ptr.hpp>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <ranges>
 #include <string>
 #include <vector>
 
 #include "core/image/atomic_file.h"
+#include "core/scene/glb_size.h"
 #include "core/scene/pose.h"
 #include "core/scene/save_gltf_materials.h"
 #include "core/scene/save_gltf_mesh.h"
 #include "core/scene/save_gltf_motion.h"
 #include "pinocchio/animation.h"
+#include "pinocchio/error.h"
 #include "pinocchio/save.h"
 
 namespace pinocchio {
@@ -254,21 +257,28 @@ void append_u32(std::string& to, std::size_t value) {
   to.append(reinterpret_cast<const char*>(&word), sizeof word);
 }
 
-void append_chunk(std::string& to, const char* type, std::string data, char padding) {
-  while (data.size() % 4 != 0) data += padding;
-  append_u32(to, data.size());
+void append_chunk(std::string& to, const char* type, const std::string& data, char padding) {
+  const std::size_t bytes = padded_to_words(data.size());
+  append_u32(to, bytes);
   to.append(type, 4);
   to += data;
+  to.append(bytes - data.size(), padding);
 }
 
-std::string glb_of(GltfWriter& writer) {
-  std::string chunks;
-  append_chunk(chunks, "JSON", text_of(writer.finish(""), -1), ' ');
-  append_chunk(chunks, "BIN\0", writer.binary(), '\0');
+std::string glb_of(GltfWriter& writer, const std::filesystem::path& file) {
+  const std::string json = text_of(writer.finish(""), -1);
+  const std::optional<std::uint64_t> bytes = glb_bytes(json.size(), writer.binary().size());
+  if (!bytes)
+    throw EnvironmentError(file.string() + ": would hold " +
+                           std::to_string(json.size() + writer.binary().size()) +
+                           " bytes, a .glb may have 4294967295; choose .gltf, whose .bin may be larger");
   std::string glb = "glTF";
+  glb.reserve(*bytes);
   append_u32(glb, 2);  // version
-  append_u32(glb, chunks.size() + 12);
-  return glb + chunks;
+  append_u32(glb, *bytes);
+  append_chunk(glb, "JSON", json, ' ');
+  append_chunk(glb, "BIN\0", writer.binary(), '\0');
+  return glb;
 }
 
 }  // namespace
@@ -279,7 +289,7 @@ void save_gltf(const Scene& scene, const std::filesystem::path& file, Progress* 
   Warnings unheard;
   GltfWriter writer(scene, file, warnings ? *warnings : unheard);
   if (file.extension() == ".glb") {
-    write_text(file, glb_of(writer), progress);
+    write_text(file, glb_of(writer, file), progress);
     return;
   }
   std::filesystem::path binary = file;

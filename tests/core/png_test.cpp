@@ -34,5 +34,11 @@ TEST(Png, WhereNothingCanBeWrittenThrows) {
   EXPECT_THROW(write_png(own_folder() / "nowhere" / "x.png", pixels), EnvironmentError);
 }
 
+TEST(Png, MorePixelsThanTheEncoderCountsThrow) {
+  EXPECT_NO_THROW(check_png_size("x.png", {16384, 16384}));
+  EXPECT_THROW(check_png_size("x.png", {32768, 32768}), EnvironmentError);
+  EXPECT_THROW(check_png_size("x.png", {1, 2147483647}), EnvironmentError);
+}
+
 }  // namespace
 }  // namespace pinocchio

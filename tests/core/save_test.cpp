@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 
+#include "core/scene/glb_size.h"
 #include "pinocchio/animation.h"
 #include "pinocchio/environment.h"
 #include "pinocchio/error.h"
@@ -427,6 +428,24 @@ TEST(Save, ObjKeepsEveryBitOfOddNumbers) {
   ASSERT_TRUE(loaded);
   EXPECT_TRUE(warnings.empty());
   expect_same_triangles(*saved.mesh, *loaded->mesh);
+}
+
+// Its header has 32 bits for each length.
+TEST(Save, TheSizeOfAGlbIsWhatItsHeaderHolds) {
+  constexpr std::uint64_t kGib4 = std::uint64_t{1} << 32;
+  EXPECT_EQ(glb_bytes(5, 6), 28u + 8 + 8);
+  EXPECT_EQ(glb_bytes(4, kGib4 - 36), kGib4 - 4);
+  EXPECT_FALSE(glb_bytes(5, kGib4 - 36));
+  EXPECT_FALSE(glb_bytes(4, kGib4 - 35));
+  EXPECT_FALSE(glb_bytes(0, kGib4));
+  EXPECT_FALSE(glb_bytes(kGib4, 0));
+  EXPECT_FALSE(glb_bytes(0, ~std::uint64_t{0}));
+  const std::filesystem::path file = temporary("size.glb");
+  save_scene(plate_over_floor(), file);
+  std::ifstream in(file, std::ios::binary);
+  std::uint32_t header[3];
+  in.read(reinterpret_cast<char*>(header), sizeof header);
+  EXPECT_EQ(header[2], std::filesystem::file_size(file));
 }
 
 TEST(Save, NamesThatAreNotUtf8DoNotStopIt) {
