@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/base/decimal.h"
 #include "core/scene/pose.h"
 
 namespace pinocchio {
@@ -129,15 +130,16 @@ std::vector<Camera> cameras_at(const Scene& scene, double seconds) {
   const std::shared_ptr<const NodeTree> tree = tree_at(scene, seconds);
   const NodeFlags flags = moving(*scene.animation, *tree);
   const std::vector<glm::mat4> world = world_matrices(tree->nodes);
+  const AttachedPlaces places = attached_places(*tree->rest, moved);
   for (std::size_t n = 0; n < flags.size(); ++n)
-    if (flags[n]) place_attached(*tree->rest, static_cast<int>(n), Placement(world[n]), moved);
+    if (flags[n]) place_attached(*tree->rest, places, static_cast<int>(n), Placement(world[n]), moved);
   return moved.cameras;
 }
 
 Expected<Scene> at_time(const Scene& scene, double seconds) {
   if (!std::isfinite(seconds))
-    return Unexpected(InputError{scene.source, 0, "there is no time " + std::to_string(seconds) + " s",
-                                 "give a finite number"});
+    return Unexpected(
+        InputError{scene.source, 0, "there is no time " + decimal(seconds) + " s", "give a finite number"});
   if (!scene.animation || !scene.nodes) return scene;
   std::shared_ptr<const NodeTree> tree = tree_at(scene, seconds);
   const NodeFlags flags = moving(*scene.animation, *tree);

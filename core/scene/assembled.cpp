@@ -25,10 +25,11 @@ class Assembly {
     }
     tree_.nodes.push_back(node);
     if (scene.nodes) add_nodes(*scene.nodes, root);
-    add_attached(scene.lights, scene.nodes ? &scene.nodes->rest->lights : nullptr, root, result_.lights,
-                 rest_.lights);
-    add_attached(scene.cameras, scene.nodes ? &scene.nodes->rest->cameras : nullptr, root, result_.cameras,
-                 rest_.cameras);
+    const RestPose nothing;
+    const RestPose& of_part = scene.nodes ? *scene.nodes->rest : nothing;
+    const AttachedPlaces places = attached_places(of_part, scene);
+    add_attached(scene.lights, of_part.lights, places.lights, root, result_.lights, rest_.lights);
+    add_attached(scene.cameras, of_part.cameras, places.cameras, root, result_.cameras, rest_.cameras);
     add_mesh(*scene.mesh, scene.nodes ? scene.nodes->rest.get() : nullptr);
     if (scene.animation) add_animation(*scene.animation, root);
     if (root == 0) {
@@ -42,9 +43,10 @@ class Assembly {
     const std::vector<glm::mat4> world = world_matrices(tree_.nodes);
     std::vector<bool> deforms(world.size(), false);
     for (const Deformation& d : rest_.deformations) deforms[static_cast<std::size_t>(d.node)] = true;
+    const AttachedPlaces places = attached_places(rest_, result_);
     for (std::size_t n = 0; n < world.size(); ++n) {
       const Placement placement(world[n]);
-      place_attached(rest_, static_cast<int>(n), placement, result_);
+      place_attached(rest_, places, static_cast<int>(n), placement, result_);
       if (deforms[n]) continue;
       place_vertices(tree_.nodes[n], placement, rest_, mesh_);
       if (placement.mirrors() != mirrored_[n]) turn_around(tree_.nodes[n], mesh_);
@@ -109,15 +111,15 @@ class Assembly {
 
   // What its part attached to nothing hangs on the part's own node.
   template <class T>
-  void add_attached(const std::vector<T>& of_part, const std::vector<Attached<T>>* attached, int root,
-                    std::vector<T>& all, std::vector<Attached<T>>& rest) {
+  void add_attached(const std::vector<T>& of_part, const std::vector<Attached<T>>& attached,
+                    const std::vector<std::size_t>& places, int root, std::vector<T>& all,
+                    std::vector<Attached<T>>& rest) {
     std::vector<bool> done(of_part.size(), false);
-    if (attached)
-      for (const Attached<T>& a : *attached) {
-        if (a.index >= of_part.size() || of_part[a.index].name != a.at_rest.name) continue;
-        done[a.index] = true;
-        rest.push_back({a.node + root + 1, a.index + all.size(), a.at_rest});
-      }
+    for (std::size_t i = 0; i < attached.size(); ++i) {
+      if (places[i] == kGone) continue;
+      done[places[i]] = true;
+      rest.push_back({attached[i].node + root + 1, places[i] + all.size(), attached[i].at_rest});
+    }
     for (std::size_t i = 0; i < of_part.size(); ++i)
       if (!done[i]) rest.push_back({root, i + all.size(), of_part[i]});
     append(of_part, all);

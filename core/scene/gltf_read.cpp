@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cstring>
+#include <limits>
 #include <nlohmann/json.hpp>
 #include <string_view>
 
@@ -126,6 +127,9 @@ std::vector<int> reduce(nlohmann::json& gltf) {
 Expected<void> parse(GltfFile& file, nlohmann::json& gltf) {
   const std::vector<int> indices = reduce(gltf);
   const std::string text = gltf.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
+  if (text.size() > std::numeric_limits<unsigned>::max())
+    return file.error("holds " + std::to_string(text.size()) + " bytes of JSON, at most 4294967295 are read",
+                      "keep its arrays in a .bin file");
   tinygltf::TinyGLTF reader;
   tinygltf::Model model;
   std::string error, warning;

@@ -13,6 +13,8 @@ namespace {
 
 constexpr std::array<const char*, 4> kSceneExtensions{".gltf", ".glb", ".obj", ".ply"};
 
+constexpr std::size_t kMostVertices = 0xffffffffu;  // triangles and nodes count them with 32 bits
+
 Unexpected error(const std::filesystem::path& path, const std::string& what, const std::string& remedy) {
   return Unexpected(InputError{path.string(), 0, what, remedy});
 }
@@ -89,6 +91,10 @@ Expected<void> check_scene(const Scene& scene) {
   if (mesh.triangles.size() > kMaxTriangles)
     return fail("holds " + std::to_string(mesh.triangles.size()) + " triangles, the limit is " +
                     std::to_string(kMaxTriangles),
+                "split it");
+  if (mesh.positions.size() > kMostVertices)
+    return fail("holds " + std::to_string(mesh.positions.size()) + " vertices, the limit is " +
+                    std::to_string(kMostVertices),
                 "split it");
   if (mesh.normals.size() != mesh.positions.size() ||
       mesh.triangle_materials.size() != mesh.triangles.size() || !one_each_or_none(mesh.texcoords, mesh) ||

@@ -2,10 +2,10 @@
 
 #include <algorithm>
 #include <array>
-#include <charconv>
 #include <cmath>
 #include <string>
 
+#include "core/base/decimal.h"
 #include "core/scene/text_lines.h"
 
 namespace pinocchio {
@@ -14,9 +14,8 @@ namespace {
 std::optional<float> number(std::string_view word) {
   if (word.starts_with('+')) word.remove_prefix(1);
   float value = 0.0f;
-  const auto [end, failure] = std::from_chars(word.data(), word.data() + word.size(), value);
-  if (word.empty() || end != word.data() + word.size()) return std::nullopt;
-  if (failure == std::errc::result_out_of_range) return 0.0f;
+  const auto [end, failure] = read_decimal(word, value);
+  if (failure != std::errc() || end != word.data() + word.size()) return std::nullopt;
   return std::isfinite(value) ? std::optional(value) : std::nullopt;
 }
 

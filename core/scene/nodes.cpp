@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 
 #include "core/scene/pose.h"
 #include "pinocchio/load.h"
@@ -30,12 +31,31 @@ void place(const Placement& now, const Camera& rest, Camera& to) {
   to.up = now.direction(rest.up);
 }
 
+// Where as many have a name as had it, they are the same ones in their order; else its index tells it.
 template <class T>
-void place_attached(const std::vector<Attached<T>>& attached, int node, const Placement& now,
-                    std::vector<T>& to) {
-  for (const Attached<T>& a : attached)
-    if (a.node == node && a.index < to.size() && to[a.index].name == a.at_rest.name)
-      place(now, a.at_rest, to[a.index]);
+std::vector<std::size_t> places_of(const std::vector<Attached<T>>& attached, const std::vector<T>& now) {
+  std::map<std::string_view, std::vector<std::size_t>> were, are;  // by name, indices that rise
+  for (const Attached<T>& a : attached) were[a.at_rest.name].push_back(a.index);
+  for (auto& [name, indices] : were) std::ranges::sort(indices);
+  for (std::size_t i = 0; i < now.size(); ++i) are[now[i].name].push_back(i);
+  std::vector<std::size_t> places;
+  for (const Attached<T>& a : attached) {
+    const std::vector<std::size_t>&before = were[a.at_rest.name], &after = are[a.at_rest.name];
+    if (before.size() == after.size()) {
+      places.push_back(
+          after[static_cast<std::size_t>(std::ranges::lower_bound(before, a.index) - before.begin())]);
+    } else {
+      places.push_back(std::ranges::binary_search(after, a.index) ? a.index : kGone);
+    }
+  }
+  return places;
+}
+
+template <class T>
+void place_attached(const std::vector<Attached<T>>& attached, const std::vector<std::size_t>& places,
+                    int node, const Placement& now, std::vector<T>& to) {
+  for (std::size_t i = 0; i < attached.size(); ++i)
+    if (attached[i].node == node && places[i] != kGone) place(now, attached[i].at_rest, to[places[i]]);
 }
 
 }  // namespace
@@ -117,9 +137,14 @@ void turn_around(const Node& node, MeshData& mesh) {
     std::swap(mesh.triangles[t].y, mesh.triangles[t].z);
 }
 
-void place_attached(const RestPose& rest, int node, const Placement& now, Scene& scene) {
-  place_attached(rest.lights, node, now, scene.lights);
-  place_attached(rest.cameras, node, now, scene.cameras);
+AttachedPlaces attached_places(const RestPose& rest, const Scene& scene) {
+  return {places_of(rest.lights, scene.lights), places_of(rest.cameras, scene.cameras)};
+}
+
+void place_attached(const RestPose& rest, const AttachedPlaces& places, int node, const Placement& now,
+                    Scene& scene) {
+  place_attached(rest.lights, places.lights, node, now, scene.lights);
+  place_attached(rest.cameras, places.cameras, node, now, scene.cameras);
 }
 
 Expected<Scene> placed_anew(const Scene& scene, std::shared_ptr<const NodeTree> tree,
@@ -131,6 +156,7 @@ Expected<Scene> placed_anew(const Scene& scene, std::shared_ptr<const NodeTree> 
   Scene result = scene;
   MeshData mesh = *scene.mesh;
   const RestPose& rest = *tree->rest;
+  const AttachedPlaces places = attached_places(rest, scene);
   for (std::size_t d = 0; d < rest.deformations.size(); ++d) {
     const Deformation& deformation = rest.deformations[d];
     const auto n = static_cast<std::size_t>(deformation.node);
@@ -149,7 +175,7 @@ Expected<Scene> placed_anew(const Scene& scene, std::shared_ptr<const NodeTree> 
   for (std::size_t n = 0; n < now.size(); ++n) {
     if (!moved[n]) continue;
     const Placement placement(now[n]);
-    place_attached(rest, static_cast<int>(n), placement, result);
+    place_attached(rest, places, static_cast<int>(n), placement, result);
     if (deforms[n]) continue;
     place_vertices(tree->nodes[n], placement, rest, mesh);
     if (placement.mirrors() != Placement(before[n]).mirrors()) turn_around(tree->nodes[n], mesh);

@@ -2,14 +2,13 @@
 
 #include <algorithm>
 #include <array>
-#include <charconv>
 #include <cmath>
-#include <cstdlib>
 #include <limits>
 #include <optional>
 #include <string_view>
 #include <unordered_map>
 
+#include "core/base/decimal.h"
 #include "core/math/finite.h"
 #include "core/scene/loaders.h"
 #include "core/scene/text_lines.h"
@@ -21,9 +20,7 @@ template <class T>
 std::optional<T> number(std::string_view word) {
   if (!word.empty() && word.front() == '+') word.remove_prefix(1);
   T value{};
-  const auto [end, failure] = std::from_chars(word.data(), word.data() + word.size(), value);
-  if (failure == std::errc::result_out_of_range && std::is_floating_point_v<T>)
-    return static_cast<T>(std::strtod(std::string(word).c_str(), nullptr));  // 1e-400: 0, 1e400: infinity
+  const auto [end, failure] = read_decimal(word, value);
   if (failure != std::errc()) return std::nullopt;
   const std::string_view more = word.substr(static_cast<std::size_t>(end - word.data()));
   if constexpr (std::is_floating_point_v<T>)  // 1.#IND, 1.#QNAN, 1.#INF: how Microsoft's C library wrote them

@@ -7,6 +7,7 @@
 #include <cstring>
 #include <optional>
 
+#include "core/base/decimal.h"
 #include "core/scene/text_lines.h"
 
 namespace pinocchio {
@@ -166,9 +167,8 @@ bool PlyFile::read_number(PlyType type, double& value) {
   while (at_ < text.size() && (text[at_] == ' ' || (text[at_] >= '\t' && text[at_] <= '\r')))
     line_ += text[at_++] == '\n' ? 1 : 0;
   if (at_ < text.size() && text[at_] == '+') ++at_;
-  const auto [end, failure] = std::from_chars(text.data() + at_, text.data() + text.size(), value);
-  if (failure == std::errc::invalid_argument) return false;
-  if (failure == std::errc::result_out_of_range) value = 0.0;  // 1e-400; 1e400 is not finite either way
+  const auto [end, failure] = read_decimal(text.substr(at_), value);
+  if (failure != std::errc()) return false;
   at_ = static_cast<std::size_t>(end - bytes_.data());
   return true;
 }

@@ -21,8 +21,17 @@ using NodeFlags = std::vector<bool>;
 
 // Places the node's own vertices, lights or cameras not among them.
 void place_vertices(const Node& node, const Placement& now, const RestPose& rest, MeshData& mesh);
+// Indices in the scene of the lights and cameras that the rest pose attaches to nodes, in the rest pose's
+// order; kGone: the scene has it no longer. A scene's lists may have changed since: shorter, longer,
+// reordered.
+inline constexpr std::size_t kGone = static_cast<std::size_t>(-1);
+struct AttachedPlaces {
+  std::vector<std::size_t> lights, cameras;
+};
+[[nodiscard]] AttachedPlaces attached_places(const RestPose& rest, const Scene& scene);
 // Of lights and cameras that hang on the node only the place follows it: what was set since stays.
-void place_attached(const RestPose& rest, int node, const Placement& now, Scene& scene);
+void place_attached(const RestPose& rest, const AttachedPlaces& places, int node, const Placement& now,
+                    Scene& scene);
 // What a mirror asks for: triangles keep their outside.
 void turn_around(const Node& node, MeshData& mesh);
 

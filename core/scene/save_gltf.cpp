@@ -2,15 +2,19 @@
 #include <cstring>
 #include <glm/gtc/type_ptr.hpp>
 #include <nlohmann/json.hpp>
+#include <optional>
+#include <ranges>
 #include <string>
 #include <vector>
 
 #include "core/image/atomic_file.h"
+#include "core/scene/glb_size.h"
 #include "core/scene/pose.h"
 #include "core/scene/save_gltf_materials.h"
 #include "core/scene/save_gltf_mesh.h"
 #include "core/scene/save_gltf_motion.h"
 #include "pinocchio/animation.h"
+#include "pinocchio/error.h"
 #include "pinocchio/save.h"
 
 namespace pinocchio {
@@ -24,6 +28,70 @@ Json aimed_matrix(const glm::vec3& position, const glm::vec3& right, const glm::
   const glm::mat4 m(glm::vec4(right, 0), glm::vec4(up, 0), glm::vec4(-forward, 0), glm::vec4(position, 1));
   return std::vector<float>(glm::value_ptr(m), glm::value_ptr(m) + 16);
 }
+
+bool near(const glm::vec3& a, const glm::vec3& b) {
+  return glm::length(a - b) <= 1e-4f * (glm::length(a) + glm::length(b));
+}
+
+// The light as its node sees it: where it rests, or, where it was moved by itself since, where that is from
+// the node now.
+Light as_node_sees(const Attached<Light>& attached, const Light& light, const glm::mat4& now) {
+  Light at_rest = light;
+  const auto place = [&](const Placement& placement, const Light& from) {
+    const glm::vec3 origin = placement.position(glm::vec3(0.0f));
+    at_rest.position = placement.position(from.position);
+    at_rest.direction = placement.direction(from.direction);
+    at_rest.edge_u = placement.position(from.edge_u) - origin;
+    at_rest.edge_v = placement.position(from.edge_v) - origin;
+  };
+  place(Placement(now), attached.at_rest);
+  const bool stays = near(at_rest.position, light.position) && near(at_rest.direction, light.direction) &&
+                     near(at_rest.edge_u, light.edge_u) && near(at_rest.edge_v, light.edge_v);
+  if (stays || glm::determinant(glm::mat3(now)) == 0.0f) {
+    at_rest.position = attached.at_rest.position;
+    at_rest.direction = attached.at_rest.direction;
+    at_rest.edge_u = attached.at_rest.edge_u;
+    at_rest.edge_v = attached.at_rest.edge_v;
+  } else {
+    place(Placement(glm::inverse(now)), light);
+  }
+  return at_rest;
+}
+
+Camera as_node_sees(const Attached<Camera>& attached, const Camera& camera, const glm::mat4& now) {
+  Camera at_rest = camera;
+  const auto place = [&](const Placement& placement, const Camera& from) {
+    at_rest.eye = placement.position(from.eye);
+    at_rest.target = placement.position(from.target);
+    at_rest.up = placement.direction(from.up);
+  };
+  place(Placement(now), attached.at_rest);
+  const bool stays =
+      near(at_rest.eye, camera.eye) && near(at_rest.target, camera.target) && near(at_rest.up, camera.up);
+  if (stays || glm::determinant(glm::mat3(now)) == 0.0f) {
+    at_rest.eye = attached.at_rest.eye;
+    at_rest.target = attached.at_rest.target;
+    at_rest.up = attached.at_rest.up;
+  } else {
+    place(Placement(glm::inverse(now)), camera);
+  }
+  return at_rest;
+}
+
+// Which of a scene's lights or cameras hang on a node, and the first that does.
+struct Hung {
+  std::vector<bool> hangs;
+  std::size_t first;
+
+  Hung(const std::vector<std::size_t>& places, std::size_t all) : hangs(all, false), first(all) {
+    for (const std::size_t place : places) {
+      if (place == kGone) continue;
+      hangs[place] = true;
+      first = std::min(first, place);
+    }
+    if (first == all) first = 0;  // none hangs
+  }
+};
 
 class GltfWriter {
  public:
@@ -87,35 +155,37 @@ class GltfWriter {
       if (children.is_null()) children = Json::array();
       children.insert(children.begin(), index);
     };
-    std::vector<bool> hangs(scene_.cameras.size(), false);
     const std::vector<glm::mat4> world = world_at_rest(scene_), now = world_matrices(scene_.nodes->nodes);
-    for (auto at = rest.cameras.rbegin(); at != rest.cameras.rend(); ++at) {
-      Camera camera = scene_.cameras[at->index], in_world = camera;
-      camera.eye = at->at_rest.eye;
-      camera.target = at->at_rest.target;
-      camera.up = at->at_rest.up;
-      const auto n = static_cast<std::size_t>(at->node);
+    const AttachedPlaces places = attached_places(rest, scene_);
+    Hung cameras(places.cameras, scene_.cameras.size()), lights(places.lights, scene_.lights.size());
+    std::vector<int> first;  // free ones in front of those that hang, in their order
+    const auto add_free = [&](const Hung& hung, std::size_t i, Json json) {
+      const bool in_front = i < hung.first;
+      const int index = data_.add_node(std::move(json), !in_front);
+      if (in_front) first.push_back(index);
+    };
+    for (std::size_t a = rest.cameras.size(); a-- > 0;) {
+      if (places.cameras[a] == kGone) continue;
+      const auto n = static_cast<std::size_t>(rest.cameras[a].node);
+      const Camera camera = as_node_sees(rest.cameras[a], scene_.cameras[places.cameras[a]], now[n]);
+      Camera in_world = scene_.cameras[places.cameras[a]];
       if (const Placement placement(world[n]); world[n] != now[n]) {
         in_world.target = placement.position(camera.target);
         in_world.up = placement.direction(camera.up);
       }
-      hang(at->node, camera_node(camera, in_world));
-      hangs[at->index] = true;
+      hang(rest.cameras[a].node, camera_node(camera, in_world));
     }
-    for (std::size_t i = 0; i < hangs.size(); ++i)
-      if (!hangs[i]) data_.add_node(camera_node(scene_.cameras[i], scene_.cameras[i]));
-    hangs.assign(scene_.lights.size(), false);
-    for (auto at = rest.lights.rbegin(); at != rest.lights.rend(); ++at) {
-      Light light = scene_.lights[at->index];
-      light.position = at->at_rest.position;
-      light.direction = at->at_rest.direction;
-      light.edge_u = at->at_rest.edge_u;
-      light.edge_v = at->at_rest.edge_v;
-      hang(at->node, light_node(light));
-      hangs[at->index] = true;
-    }
-    for (std::size_t i = 0; i < hangs.size(); ++i)
-      if (!hangs[i]) data_.add_node(light_node(scene_.lights[i]));
+    for (std::size_t i = 0; i < scene_.cameras.size(); ++i)
+      if (!cameras.hangs[i]) add_free(cameras, i, camera_node(scene_.cameras[i], scene_.cameras[i]));
+    for (std::size_t a = rest.lights.size(); a-- > 0;)
+      if (places.lights[a] != kGone)
+        hang(rest.lights[a].node,
+             light_node(as_node_sees(rest.lights[a], scene_.lights[places.lights[a]],
+                                     now[static_cast<std::size_t>(rest.lights[a].node)])));
+    for (std::size_t i = 0; i < scene_.lights.size(); ++i)
+      if (!lights.hangs[i]) add_free(lights, i, light_node(scene_.lights[i]));
+    Json& roots = json_["scenes"][0]["nodes"];
+    for (const int index : std::views::reverse(first)) roots.insert(roots.begin(), index);
     add_skins_and_animation(scene_, place, data_);
   }
 
@@ -187,21 +257,28 @@ void append_u32(std::string& to, std::size_t value) {
   to.append(reinterpret_cast<const char*>(&word), sizeof word);
 }
 
-void append_chunk(std::string& to, const char* type, std::string data, char padding) {
-  while (data.size() % 4 != 0) data += padding;
-  append_u32(to, data.size());
+void append_chunk(std::string& to, const char* type, const std::string& data, char padding) {
+  const std::size_t bytes = padded_to_words(data.size());
+  append_u32(to, bytes);
   to.append(type, 4);
   to += data;
+  to.append(bytes - data.size(), padding);
 }
 
-std::string glb_of(GltfWriter& writer) {
-  std::string chunks;
-  append_chunk(chunks, "JSON", text_of(writer.finish(""), -1), ' ');
-  append_chunk(chunks, "BIN\0", writer.binary(), '\0');
+std::string glb_of(GltfWriter& writer, const std::filesystem::path& file) {
+  const std::string json = text_of(writer.finish(""), -1);
+  const std::optional<std::uint64_t> bytes = glb_bytes(json.size(), writer.binary().size());
+  if (!bytes)
+    throw EnvironmentError(file.string() + ": would hold " +
+                           std::to_string(json.size() + writer.binary().size()) +
+                           " bytes, a .glb may have 4294967295; choose .gltf, whose .bin may be larger");
   std::string glb = "glTF";
+  glb.reserve(*bytes);
   append_u32(glb, 2);  // version
-  append_u32(glb, chunks.size() + 12);
-  return glb + chunks;
+  append_u32(glb, *bytes);
+  append_chunk(glb, "JSON", json, ' ');
+  append_chunk(glb, "BIN\0", writer.binary(), '\0');
+  return glb;
 }
 
 }  // namespace
@@ -212,7 +289,7 @@ void save_gltf(const Scene& scene, const std::filesystem::path& file, Progress* 
   Warnings unheard;
   GltfWriter writer(scene, file, warnings ? *warnings : unheard);
   if (file.extension() == ".glb") {
-    write_text(file, glb_of(writer), progress);
+    write_text(file, glb_of(writer, file), progress);
     return;
   }
   std::filesystem::path binary = file;

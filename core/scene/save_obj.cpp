@@ -1,9 +1,8 @@
-#include <array>
-#include <cstdio>
 #include <map>
 #include <string>
 #include <vector>
 
+#include "core/base/decimal.h"
 #include "core/image/atomic_file.h"
 #include "core/image/tonemap.h"
 #include "core/scene/texture_file.h"
@@ -15,17 +14,14 @@ namespace {
 constexpr std::size_t kTrianglesBetweenLooks = 1 << 16;
 
 // Nine digits bring every float back to the last bit.
-void add_vec3(std::string& text, const char* keyword, const glm::vec3& v) {
-  std::array<char, 96> line{};
-  std::snprintf(line.data(), line.size(), "%s %.9g %.9g %.9g\n", keyword, static_cast<double>(v.x),
-                static_cast<double>(v.y), static_cast<double>(v.z));
-  text += line.data();
+void add_number(std::string& text, const char* keyword, float value) {
+  text += std::string(keyword) + " " + decimal(static_cast<double>(value), 9) + "\n";
 }
 
-void add_number(std::string& text, const char* keyword, float value) {
-  std::array<char, 48> line{};
-  std::snprintf(line.data(), line.size(), "%s %.9g\n", keyword, static_cast<double>(value));
-  text += line.data();
+void add_vec3(std::string& text, const char* keyword, const glm::vec3& v) {
+  text += keyword;
+  for (int c = 0; c < 3; ++c) text += " " + decimal(static_cast<double>(v[c]), 9);
+  text += "\n";
 }
 
 std::string material_name(std::size_t i, const Material& m) {

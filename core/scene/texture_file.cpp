@@ -172,6 +172,8 @@ class Decoder {
   }
 
   Expected<DecodedImage> other() {
+    if (bytes_.size() > static_cast<std::size_t>(std::numeric_limits<int>::max()))
+      return error("holds more than 2 GiB; convert it to PNG, JPEG or WebP");
     const int size = static_cast<int>(bytes_.size());
     int width = 0, height = 0, channels = 0;
     if (stbi_info_from_memory(bytes_.data(), size, &width, &height, &channels) == 0)

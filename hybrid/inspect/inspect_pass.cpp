@@ -2,9 +2,9 @@
 
 #include <algorithm>
 #include <array>
-#include <cstdio>
 #include <optional>
 
+#include "core/base/decimal.h"
 #include "hybrid/engine_parts.h"
 #include "hybrid/exchange/encode.h"
 
@@ -28,9 +28,7 @@ void send(std::span<const std::byte> bytes, glm::ivec2 texels, const gl::PixelFo
 }
 
 std::string text_of(float value) {
-  std::array<char, 32> text{};
-  std::snprintf(text.data(), text.size(), "%.4g", static_cast<double>(value));
-  return text.data();
+  return decimal(static_cast<double>(value), 4);
 }
 
 std::string name_of_slot(int slot, const Scene& scene) {

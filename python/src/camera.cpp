@@ -17,7 +17,8 @@ Camera camera_of(const glm::vec3& eye, const glm::vec3& target, const glm::vec3&
                  std::string name) {
   if (eye == target) throw Error("the camera's eye is its target; move one of them");
   if (!(fov > 0.0f && fov < 180.0f))
-    throw Error("fov is " + std::to_string(fov) + "; it is degrees, within 0 and 180");
+    throw Error("fov is " + std::string(nb::str(nb::float_(fov)).c_str()) +
+                "; it is degrees, within 0 and 180");
   return {std::move(name), eye, target, up, fov};
 }
 
