@@ -342,6 +342,35 @@ TEST(LoadPacked, Utf16AndByteOrderMarks) {
   EXPECT_TRUE(load_scene(own_file("bom.gltf")));
 }
 
+TEST(LoadPacked, CopiesAreCountedBeforeTheyAreMade) {
+  Json json = triangle_json();
+  // The zeros of an accessor without a buffer view: nothing of it is in the file.
+  json["accessors"].push_back({{"componentType", 5126}, {"count", 20000000}, {"type", "VEC3"}});
+  json["nodes"][0]["extensions"]["EXT_mesh_gpu_instancing"]["attributes"]["TRANSLATION"] = 2;
+  const std::string instances = error_of(json);
+  EXPECT_NE(
+      instances.find("placing 20000000 triangles, with 19999999 copies of meshes, needs 12818 MiB of memory"),
+      std::string::npos)
+      << instances;
+  EXPECT_NE(instances.find("--load-limit MIB"), std::string::npos);
+  json["accessors"][2]["count"] = 2000000000;
+  EXPECT_NE(error_of(json).find("places 2000000000 triangles"), std::string::npos);
+  // Nodes that share a mesh.
+  Json shared = triangle_json();
+  shared["nodes"] = Json::array();
+  shared["scenes"][0]["nodes"] = Json::array();
+  for (int i = 0; i < 3000; ++i) {
+    shared["nodes"].push_back({{"mesh", 0}});
+    shared["scenes"][0]["nodes"].push_back(i);
+  }
+  EXPECT_EQ(load_good(shared).mesh->triangles.size(), 3000u);
+  const Expected<Scene> refused = load_scene(own_file("test.gltf"), nullptr, nullptr, 1 << 20);
+  ASSERT_FALSE(refused);
+  EXPECT_NE(refused.error().message().find("placing 3000 triangles, with 2999 copies of meshes, needs 2 MiB"),
+            std::string::npos)
+      << refused.error().message();
+}
+
 TEST(LoadPacked, WhatOnlyKhrMeshoptKnowsIsSaid) {
   const auto khr_error = [](const std::string& packed, const char* filter) {
     Json json = with_buffer(packed);
