@@ -236,8 +236,15 @@ void add_draw_options(CLI::App& verb, DrawOptions& o) {
 }
 
 Scene load_whole(const DrawOptions& options, Warnings& warnings, pinocchio::Progress* progress) {
-  Expected<Scene> scene =
-      load_scene(options.scene, &warnings, progress ? progress : &run_progress(), options.load_limit);
+  pinocchio::Progress* const heard = progress ? progress : &run_progress();
+  Expected<Scene> scene = load_scene(options.scene, &warnings, heard, options.load_limit);
+  if (scene && !options.environment.empty()) {
+    auto environment = load_environment(options.environment, heard, options.load_limit, &warnings);
+    if (environment)
+      scene->environment = std::move(*environment);
+    else
+      scene = pinocchio::Unexpected(environment.error());
+  }
   if (!scene || (!options.quiet && !options.strict))  // they may say why it cannot be read
     for (const Warning& warning : warnings)
       std::fprintf(stderr, "pinocchio: warning: %s\n", warning.message().c_str());
@@ -247,12 +254,7 @@ Scene load_whole(const DrawOptions& options, Warnings& warnings, pinocchio::Prog
                               (more > 0 ? "; and " + std::to_string(more) + " more" : "") +
                               " ('pinocchio info' lists them; without --strict the rest is drawn)");
   }
-  Scene whole = value_or_exit(std::move(scene), kBadScene);
-  if (!options.environment.empty())
-    whole.environment = value_or_exit(
-        load_environment(options.environment, progress ? progress : &run_progress(), options.load_limit),
-        kBadScene);
-  return whole;
+  return value_or_exit(std::move(scene), kBadScene);
 }
 
 void light_if_dark(Scene& scene, const DrawOptions& options) {

@@ -59,10 +59,9 @@ glm::vec3 cube_light(const CubeMap& cube, const glm::vec3& direction) {
   return glm::mix(top, bottom, f.y);
 }
 
-Image<glm::vec3> lat_long_of(const CubeMap& cube, const glm::quat& world_from_cube) {
-  const glm::ivec2 size = glm::ivec2(4, 2) * cube[0].width();
+Image<glm::vec3> lat_long_of(int side, const std::function<glm::vec3(const glm::vec3&)>& light) {
+  const glm::ivec2 size = glm::ivec2(4, 2) * side;
   Image<glm::vec3> image(size);
-  const glm::quat cube_from_world = glm::inverse(world_from_cube);
   Workers workers;
   workers.for_each(static_cast<std::size_t>(size.y), [&](std::size_t row) {
     const int y = static_cast<int>(row);
@@ -75,12 +74,19 @@ Image<glm::vec3> lat_long_of(const CubeMap& cube, const glm::quat& world_from_cu
         const float turn = glm::two_pi<float>() * (0.5f - uv.x), down = glm::pi<float>() * uv.y;
         const glm::vec3 direction(std::sin(down) * std::sin(turn), std::cos(down),
                                   std::sin(down) * std::cos(turn));
-        sum += cube_light(cube, cube_from_world * direction);
+        sum += light(direction);
       }
       image.at(x, y) = sum / static_cast<float>(kPlaces * kPlaces);
     }
   });
   return image;
+}
+
+Image<glm::vec3> lat_long_of(const CubeMap& cube, const glm::quat& world_from_cube) {
+  const glm::quat cube_from_world = glm::inverse(world_from_cube);
+  return lat_long_of(cube[0].width(), [&](const glm::vec3& direction) {
+    return cube_light(cube, cube_from_world * direction);
+  });
 }
 
 }  // namespace pinocchio

@@ -1,5 +1,6 @@
 #include "core/scene/gltf_buffers.h"
 
+#include <algorithm>
 #include <charconv>
 #include <nlohmann/json.hpp>
 #include <string_view>
@@ -32,8 +33,14 @@ std::string decode_percent(std::string_view uri) {
   return text;
 }
 
-// The part after "data:...;base64,"; nothing where the URI is a file's.
-std::optional<std::string_view> data_of(const GltfFile& file, std::string_view uri) {
+FileBytes bytes_of(std::string_view text) {
+  FileBytes bytes(text.size());
+  std::ranges::copy(text, bytes.begin());
+  return bytes;
+}
+
+// What a data URI holds, in base64 or as it is with %00 and its like; nothing where the URI is a file's.
+std::optional<FileBytes> data_of(const GltfFile& file, std::string_view uri) {
   if (!uri.starts_with("data:")) return std::nullopt;
   std::size_t aside = 0;
   if (uri.starts_with(kDataAside) &&
@@ -41,7 +48,9 @@ std::optional<std::string_view> data_of(const GltfFile& file, std::string_view u
       aside < file.data_uris.size())
     uri = file.data_uris[aside];
   const std::size_t comma = uri.find(',');
-  return comma == std::string_view::npos ? std::string_view() : uri.substr(comma + 1);
+  if (comma == std::string_view::npos) return FileBytes();
+  const std::string_view data = uri.substr(comma + 1);
+  return uri.substr(0, comma).ends_with(";base64") ? decode_base64(data) : bytes_of(decode_percent(data));
 }
 
 Expected<void> read_buffer(GltfFile& file, const Json& buffer, std::size_t index,
@@ -52,8 +61,8 @@ Expected<void> read_buffer(GltfFile& file, const Json& buffer, std::size_t index
     file.buffers.push_back(index == 0 ? chunk : std::span<const unsigned char>());
   } else {
     const std::string& uri = uri_at->get_ref<const std::string&>();
-    if (const std::optional<std::string_view> data = data_of(file, uri)) {
-      file.add_buffer(decode_base64(*data));
+    if (std::optional<FileBytes> data = data_of(file, uri)) {
+      file.add_buffer(std::move(*data));
     } else {
       const std::filesystem::path path = named_file(file.path, decode_percent(uri));
       file.named_files.push_back(path.string());
@@ -76,7 +85,7 @@ Expected<tinygltf::BufferView> view_of(GltfFile& file, const Json& json, const s
   for (const char* name : {"EXT_meshopt_compression", "KHR_meshopt_compression"}) {
     if (extensions == json.end() || !extensions->is_object() || !extensions->contains(name)) continue;
     const Json& packed = extensions->at(name);
-    Expected<FileBytes> bytes = unpack_meshopt(file, packed, whose);
+    Expected<FileBytes> bytes = unpack_meshopt(file, packed, name, whose);
     if (!bytes) return Unexpected(bytes.error());
     view.byteLength = bytes->size();
     view.byteStride = size_member(packed, "byteStride").value_or(0);
@@ -137,9 +146,8 @@ Expected<void> read_gltf_buffers(GltfFile& file, const Json& gltf,
         std::min<std::size_t>(size_member(json, "bufferView").value_or(views.size()), views.size()));
     if (!json.contains("bufferView")) image.bufferView = -1;
     const std::string uri = text_member(json, "uri");
-    if (const std::optional<std::string_view> data = data_of(file, uri)) {
-      FileBytes bytes = decode_base64(*data);
-      image.image.assign(bytes.begin(), bytes.end());
+    if (std::optional<FileBytes> data = data_of(file, uri)) {
+      image.image.assign(data->begin(), data->end());
     } else if (!uri.empty()) {
       image.uri = named_file(file.path, decode_percent(uri)).string();
       file.named_files.push_back(image.uri);

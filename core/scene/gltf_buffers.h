@@ -13,9 +13,10 @@ namespace pinocchio {
 [[nodiscard]] Expected<void> read_gltf_buffers(GltfFile& file, const nlohmann::json& gltf,
                                                std::span<const unsigned char> binary_chunk);
 
-// Unpacks a buffer view of EXT_meshopt_compression.
-[[nodiscard]] Expected<FileBytes> unpack_meshopt(const GltfFile& file, const nlohmann::json& extension,
-                                                 const std::string& whose);
+// Unpacks a buffer view of this extension, EXT_meshopt_compression or KHR_meshopt_compression. Of what only
+// the latter knows, nothing is read.
+[[nodiscard]] Expected<FileBytes> unpack_meshopt(const GltfFile& file, const nlohmann::json& packed,
+                                                 const std::string& extension, const std::string& whose);
 
 // Stands before the number of one of GltfFile::data_uris in its place.
 inline constexpr std::string_view kDataAside = "data:aside,";

@@ -6,6 +6,8 @@
 #pragma GCC diagnostic pop
 #include <meshoptimizer.h>
 
+#include <algorithm>
+#include <array>
 #include <nlohmann/json.hpp>
 
 #include "core/scene/gltf_buffers.h"
@@ -127,7 +129,7 @@ Expected<void> unpack_draco(GltfFile& file) {
 }
 
 Expected<FileBytes> unpack_meshopt(const GltfFile& file, const nlohmann::json& packed,
-                                   const std::string& whose) {
+                                   const std::string& extension, const std::string& whose) {
   const std::size_t buffer = size_member(packed, "buffer").value_or(file.buffers.size());
   const std::size_t offset = size_member(packed, "byteOffset").value_or(0),
                     length = size_member(packed, "byteLength").value_or(0);
@@ -141,18 +143,27 @@ Expected<FileBytes> unpack_meshopt(const GltfFile& file, const nlohmann::json& p
   if (vertices ? stride == 0 || stride > 256 || stride % 4 != 0
                : (stride != 2 && stride != 4) || (mode == "TRIANGLES" && count % 3 != 0))
     return file.error(whose + " has a stride or count that its mode does not know");
+  const auto not_read = [&](const std::string& what) {
+    return file.error(whose + " of " + extension + " is packed with " + what + ", which is not read",
+                      "pack it with EXT_meshopt_compression, or not at all");
+  };
+  constexpr unsigned char kVersion1 = 0xa1;  // which only KHR_meshopt_compression knows
+  const unsigned char* from = file.buffers[buffer].data() + offset;
+  if (vertices && length > 0 && from[0] == kVersion1) return not_read("version 1 of the vertex codec");
+  if (constexpr std::array<std::string_view, 5> kFilters{"", "NONE", "OCTAHEDRAL", "QUATERNION",
+                                                         "EXPONENTIAL"};
+      std::ranges::find(kFilters, filter) == kFilters.end())
+    return not_read("the filter '" + filter + "'");
   if ((filter == "OCTAHEDRAL" && stride != 4 && stride != 8) || (filter == "QUATERNION" && stride != 8))
     return file.error(whose + " has a stride that its filter does not know");
   if (!file.limit->take(file.path.string(), whose, count, stride)) return Unexpected(*file.limit->error());
   FileBytes bytes(count * stride);
-  const unsigned char* from = file.buffers[buffer].data() + offset;
   const int failure =
       vertices              ? meshopt_decodeVertexBuffer(bytes.data(), count, stride, from, length)
       : mode == "TRIANGLES" ? meshopt_decodeIndexBuffer(bytes.data(), count, stride, from, length)
       : mode == "INDICES"   ? meshopt_decodeIndexSequence(bytes.data(), count, stride, from, length)
                             : -1;
-  if (failure != 0)
-    return file.error(whose + " cannot be unpacked (EXT_meshopt_compression, mode '" + mode + "')");
+  if (failure != 0) return file.error(whose + " cannot be unpacked (" + extension + ", mode '" + mode + "')");
   if (filter == "OCTAHEDRAL") meshopt_decodeFilterOct(bytes.data(), count, stride);
   if (filter == "QUATERNION") meshopt_decodeFilterQuat(bytes.data(), count, stride);
   if (filter == "EXPONENTIAL") meshopt_decodeFilterExp(bytes.data(), count, stride);

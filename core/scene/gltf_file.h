@@ -94,6 +94,10 @@ struct EncodedImage;
 // warning and leaves what the material has without it.
 void add_gltf_textures(const GltfFile& file, MeshData& mesh, Loading& loading);
 
+// Asks for the memory that the meshes of these nodes and their children need, copies of them above all,
+// before any is taken.
+[[nodiscard]] Expected<void> take_gltf_memory(const GltfFile& file, const std::vector<int>& roots);
+
 class DeformationReader;
 
 // Appends the triangles of a mesh, placed by `world_from_mesh`, and to `rest` its vertices as they were.

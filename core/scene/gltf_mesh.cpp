@@ -315,10 +315,6 @@ Expected<void> add_gltf_mesh(const GltfFile& file, int mesh, const glm::mat4& wo
                     "primitives without positions are left out", "they are not drawn"});
       continue;
     }
-    // Copies are not in the file; the first placing is counted with them.
-    if (!file.limit->take(file.path.string(), "placing mesh " + std::to_string(mesh),
-                          elements_of(file, primitive), 40))
-      return Unexpected(*file.limit->error());
     if (const Expected<void> added = placer.add(primitive, default_material); !added) {
       InputError error = added.error();
       error.what = "mesh " + std::to_string(mesh) + "'s primitive " +

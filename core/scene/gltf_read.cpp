@@ -66,7 +66,16 @@ std::uint32_t number_at(std::string_view bytes, std::size_t at) {
   return value;
 }
 
-Expected<Parts> split(GltfFile& file, FileBytes bytes) {
+constexpr std::size_t kChunkHeader = 8;
+constexpr std::uint32_t kJson = 0x4e4f534a, kBinary = 0x004e4942;
+
+bool is_chunk(std::string_view bytes, std::size_t at) {
+  if (at > bytes.size() || bytes.size() - at < kChunkHeader) return false;
+  const std::uint32_t type = number_at(bytes, at + 4);
+  return type == kJson || type == kBinary;
+}
+
+Expected<Parts> split(GltfFile& file, FileBytes bytes, Warnings& warnings) {
   Parts parts;
   if (!bytes.text().starts_with(kBinaryMagic)) {
     parts.text = as_utf8(std::move(bytes));
@@ -74,23 +83,37 @@ Expected<Parts> split(GltfFile& file, FileBytes bytes) {
     return parts;
   }
   const std::string_view kept = file.storage.emplace_back(std::move(bytes)).text();
-  constexpr std::size_t kHeader = 12, kChunkHeader = 8;
-  constexpr std::uint32_t kJson = 0x4e4f534a, kBinary = 0x004e4942;
+  constexpr std::size_t kHeader = 12, kAlignment = 4;
   if (kept.size() < kHeader) return file.error("ends within its header", "is the export complete?");
   if (const std::uint32_t version = number_at(kept, 4); version != 2)
     return file.error("is binary glTF " + std::to_string(version) + ", only 2 can be read",
                       "convert it to glTF 2.0");
-  for (std::size_t at = kHeader; at + kChunkHeader <= kept.size();) {
-    const std::uint32_t length = number_at(kept, at), type = number_at(kept, at + 4);
+  const auto unaligned = [&] {
+    warnings.add({file.path.string(), "", "its chunks are not padded to multiples of 4 bytes",
+                  "nothing is lost, but other programs may not read it"});
+  };
+  // What follows the two chunks that are known is nobody's.
+  for (std::size_t at = kHeader;
+       at + kChunkHeader <= kept.size() && (parts.json.empty() || parts.binary.empty());) {
+    std::size_t length = number_at(kept, at);
+    const std::uint32_t type = number_at(kept, at + 4);
     at += kChunkHeader;
+    if (length > kept.size() - at && length - (kept.size() - at) < kAlignment && type == kBinary) {
+      length = kept.size() - at;  // the last chunk counts padding that is not there
+      unaligned();
+    }
     if (length > kept.size() - at)
       return file.error("ends within a chunk of " + std::to_string(length) + " bytes",
                         "is the export complete?");
     if (type == kJson && parts.json.empty()) parts.json = kept.substr(at, length);
     if (type == kBinary && parts.binary.empty())
       parts.binary = {reinterpret_cast<const unsigned char*>(kept.data()) + at, length};
-    at += (std::size_t{length} + 3) / 4 * 4;
+    const std::size_t end = at + length, aligned = at + (length + kAlignment - 1) / kAlignment * kAlignment;
+    const bool is_unaligned = !is_chunk(kept, aligned) && is_chunk(kept, end);
+    if (is_unaligned) unaligned();
+    at = is_unaligned ? end : aligned;
   }
+  while (parts.json.ends_with('\0')) parts.json.remove_suffix(1);  // some pad with zeros
   return parts;
 }
 
@@ -124,25 +147,45 @@ std::vector<int> reduce(nlohmann::json& gltf) {
   return indices;
 }
 
-Expected<void> parse(GltfFile& file, nlohmann::json& gltf) {
-  const std::vector<int> indices = reduce(gltf);
+// Parses what `reduce` left; false and an error, which tinygltf may leave empty.
+bool parse_model(const nlohmann::json& gltf, tinygltf::Model& model, std::string& error) {
   const std::string text = gltf.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
   if (text.size() > std::numeric_limits<unsigned>::max())
     return file.error("holds " + std::to_string(text.size()) + " bytes of JSON, at most 4294967295 are read",
                       "keep its arrays in a .bin file");
   tinygltf::TinyGLTF reader;
-  tinygltf::Model model;
-  std::string error, warning;
-  bool read = false;
+  std::string warning;
   try {
-    read = reader.LoadASCIIFromString(&model, &error, &warning, text.data(),
+    return reader.LoadASCIIFromString(&model, &error, &warning, text.data(),
                                       static_cast<unsigned>(text.size()), "");
   } catch (const std::exception& e) {  // of the JSON library below, on values of the wrong type
     error = e.what();
+    return false;
   }
-  if (!read)
-    return file.error("is not glTF 2.0 that can be read: " + error.substr(0, error.find('\n')),
+}
+
+// Which of the file's arrays tinygltf refuses without a reason: the one without which it reads the rest.
+std::string refused_array(const nlohmann::json& gltf) {
+  for (const auto& [key, value] : gltf.items()) {
+    if (!value.is_array()) continue;
+    nlohmann::json rest = gltf;
+    rest.erase(key);
+    tinygltf::Model model;
+    std::string error;
+    if (parse_model(rest, model, error)) return "one of its " + key + " lacks a member that it has to have";
+  }
+  return "an object lacks a member that it has to have";
+}
+
+Expected<void> parse(GltfFile& file, nlohmann::json& gltf) {
+  const std::vector<int> indices = reduce(gltf);
+  tinygltf::Model model;
+  std::string error;
+  if (!parse_model(gltf, model, error)) {
+    const std::string reason = error.substr(0, error.find('\n'));
+    return file.error("is not glTF 2.0 that can be read: " + (reason.empty() ? refused_array(gltf) : reason),
                       "is the export complete?");
+  }
   model.bufferViews = std::move(file.model.bufferViews);
   model.images = std::move(file.model.images);
   file.model = std::move(model);
@@ -168,7 +211,7 @@ Expected<GltfFile> read_gltf_file(const std::filesystem::path& path, Loading& lo
   file.limit = &loading.limit;
   Expected<FileBytes> bytes = read_input_file(path, loading.progress);
   if (!bytes) return Unexpected(bytes.error());
-  Expected<Parts> parts = split(file, std::move(*bytes));
+  Expected<Parts> parts = split(file, std::move(*bytes), loading.warnings);
   if (!parts) return Unexpected(parts.error());
   Outline outline = outline_of(parts->json);
   if (outline.too_deep) return file.error("is nested too deeply");

@@ -42,13 +42,22 @@ class Descriptor {
 
 }  // namespace
 
+std::pair<std::string, std::string> absence_of(const std::filesystem::path& file) {
+  if (file.string().find("://") == std::string::npos) return {"there is no such file", "check its name"};
+  return {"is an address, not a file, and nothing is fetched from the network",
+          "download it and name the copy"};
+}
+
 Expected<FileBytes> read_input_file(const std::filesystem::path& file, Progress* progress) {
   const auto fail = [&file](const std::string& what, const std::string& remedy) {
     return Unexpected(InputError{file.string(), 0, what, remedy});
   };
   std::error_code failure;
   const std::filesystem::file_status status = std::filesystem::status(file, failure);
-  if (!std::filesystem::exists(status)) return fail("there is no such file", "check its name");
+  if (!std::filesystem::exists(status)) {
+    const auto [what, remedy] = absence_of(file);
+    return fail(what, remedy);
+  }
   if (!std::filesystem::is_regular_file(status))
     return fail("is not a file but a folder, pipe or device", "name a file");
   const std::uintmax_t size = std::filesystem::file_size(file, failure);

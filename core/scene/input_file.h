@@ -3,12 +3,16 @@
 
 #include <filesystem>
 #include <string>
+#include <utility>
 
 #include "core/scene/file_bytes.h"
 #include "pinocchio/error.h"
 #include "pinocchio/progress.h"
 
 namespace pinocchio {
+
+// What is wrong, and what to do, where there is no such file: it may be on the network.
+[[nodiscard]] std::pair<std::string, std::string> absence_of(const std::filesystem::path& file);
 
 // All of a file's bytes. A FIFO, a device or a folder is an error at once: reading it might never end. Phase
 // "read".

@@ -6,6 +6,7 @@
 
 #include "core/math/finite.h"
 #include "core/parallel/parts.h"
+#include "core/scene/input_file.h"
 #include "core/scene/loaders.h"
 
 namespace pinocchio {
@@ -38,7 +39,8 @@ Expected<std::filesystem::path> find_scene_file(const std::filesystem::path& pat
   if (std::filesystem::is_directory(path, ignored))
     return error(path, "is a folder without a scene of that name",
                  "name a .gltf, .glb, .obj or .ply file in it");
-  return error(path, "there is no such file", "check its name");
+  const auto [what, remedy] = absence_of(path);
+  return error(path, what, remedy);
 }
 
 Expected<Scene> load_by_extension(const std::filesystem::path& file, Loading& loading) {

@@ -138,8 +138,10 @@ class SceneReader {
   }
 
   Expected<Scene> read() {
+    const std::vector<int> roots = this->roots();
+    if (const Expected<void> fits = take_gltf_memory(file_, roots); !fits) return Unexpected(fits.error());
     std::vector<Placed> open;
-    for (const int root : roots()) open.push_back({root, -1, glm::mat4(1.0f)});
+    for (const int root : roots) open.push_back({root, -1, glm::mat4(1.0f)});
     std::reverse(open.begin(), open.end());  // the file's order, from the back
     std::vector<bool> seen(model_.nodes.size(), false);
     begin_phase(file_.progress, "mesh", static_cast<double>(model_.nodes.size()));

@@ -23,15 +23,16 @@ class MtlLibraries {
  public:
   MtlLibraries(const std::filesystem::path& file, Loading& loading) : file_(file), loading_(loading) {}
 
-  // What follows mtllib: one name, spaces and all, where there is such a file, else several.
-  void read(const std::string& names) {
-    const std::filesystem::path whole = named_file(file_, names);
-    std::error_code ignored;
-    if (std::filesystem::exists(whole, ignored) || names.find(' ') == std::string::npos)
-      return read_file(whole);
-    std::string_view rest = names;
-    for (std::string_view name; !(name = next_word(rest)).empty();)
+  // What follows mtllib: one name, spaces and all, or several, each with spaces or not.
+  void read(std::string_view names) {
+    if (names.size() > 1 && names.starts_with('"') && names.ends_with('"'))
+      names = names.substr(1, names.size() - 2);
+    if (is_file(names)) return read_file(named_file(file_, std::string(names)));
+    for (names = trimmed(names); !names.empty(); names = trimmed(names)) {
+      const std::string_view name = first_name(names);
       read_file(named_file(file_, std::string(name)));
+      names.remove_prefix(name.size());
+    }
   }
 
   // An index in `materials`; -1 and a warning where no file explains the name.
@@ -46,6 +47,25 @@ class MtlLibraries {
   std::vector<std::string> files;  // asked for so far, found or not
 
  private:
+  [[nodiscard]] bool is_file(std::string_view name) const {
+    std::error_code ignored;
+    return std::filesystem::exists(named_file(file_, std::string(name)), ignored);
+  }
+
+  // The most words, up to a few, that name a file together. Where none do: all up to the first that ends with
+  // .mtl.
+  [[nodiscard]] std::string_view first_name(std::string_view names) const {
+    constexpr int kMostWords = 8;
+    std::string_view rest = names, found, ended;
+    for (int words = 1; !next_word(rest).empty(); ++words) {
+      if (words > kMostWords && !(found.empty() && ended.empty())) break;
+      const std::string_view name = names.substr(0, names.size() - rest.size());
+      if (words <= kMostWords && is_file(name)) found = name;
+      if (ended.empty() && (name.ends_with(".mtl") || name.ends_with(".MTL"))) ended = name;
+    }
+    return !found.empty() ? found : !ended.empty() ? ended : names;
+  }
+
   void read_file(const std::filesystem::path& mtl) {
     files.push_back(mtl.string());
     Expected<FileBytes> bytes = read_input_file(mtl, loading_.progress);
@@ -57,7 +77,11 @@ class MtlLibraries {
     FileBytes text = as_utf8(std::move(*bytes));
     join_lines(text);
     add_lost_mtl_features(mtl, text.text(), loading_.warnings);
-    for (MtlMaterial& m : read_mtl(text.text())) {
+    MtlFile read = read_mtl(text.text());
+    if (!read.opacity_reason.empty())
+      loading_.warnings.add({mtl.string(), "", "Tr is read as opacity: " + read.opacity_reason,
+                             "write d where Tr should hide its materials"});
+    for (MtlMaterial& m : read.materials) {
       by_name_.try_emplace(m.name, static_cast<int>(materials.size()));
       materials.push_back(std::move(m));
     }

@@ -1,3 +1,4 @@
+#include <cmath>
 #include <optional>
 #include <type_traits>
 #include <utility>
@@ -70,6 +71,7 @@ class PlyBuilder {
                                                                 : others(element);
       if (!read) return Unexpected(read.error());
     }
+    if (const Expected<void> whole = check_rest(); !whole) return Unexpected(whole.error());
     if (!faces_seen_ && !mesh_.positions.empty())
       lost("element vertex", "points are left out", "they are not drawn");
     if (texture_) lost("comment TextureFile", "its texture is left out", "there are no texture coordinates");
@@ -102,6 +104,20 @@ class PlyBuilder {
       if (const Expected<void> taken = take(row); !taken) return taken;
       if (i % kRowsBetweenLooks == kRowsBetweenLooks - 1) advance(loading_.progress, kRowsBetweenLooks);
     }
+    return {};
+  }
+
+  // A header that does not fit its data often gives faces of no area, and ends before the file does.
+  Expected<void> check_rest() {
+    const std::size_t left = ply_.bytes_left();
+    if (left == 0) return {};
+    constexpr std::size_t kOneIn = 4;  // faces of a damaged file or more
+    if (odd_faces_ > 0 && kOneIn * odd_faces_ >= faces_)
+      return ply_.error("its header does not fit its data: " + std::to_string(odd_faces_) + " of " +
+                        std::to_string(faces_) + " faces have fewer than three corners or no place, and " +
+                        std::to_string(left) + " bytes follow the last one");
+    lost("", "bytes follow its last element (" + std::to_string(left) + ")",
+         "does its header count all of its elements?");
     return {};
   }
 
@@ -164,7 +180,8 @@ class PlyBuilder {
     return rows(element, [&](const PlyRow& row) -> Expected<void> {
       corners_ = row.lists[static_cast<std::size_t>(indices)];
       for (const double index : corners_)
-        if (!(index >= 0.0 && index < static_cast<double>(shared))) return no_such_vertex(index);
+        if (!(index >= 0.0 && index < static_cast<double>(shared)) || index != std::floor(index))
+          return no_such_vertex(index);
       for (std::size_t i = 0; !taken_.empty() && i < corners_.size(); ++i) {
         const glm::vec4 painted = colors ? color.of(row) : glm::vec4(1.0f);
         const glm::vec2 texcoord = texcoords < 0 ? glm::vec2(0.0f) : texcoord_of(row, texcoords, i);
@@ -208,11 +225,17 @@ class PlyBuilder {
 
   void polygon() {
     faces_seen_ = true;
-    if (corners_.size() < 3)
+    ++faces_;
+    if (corners_.size() < 3) {
+      ++odd_faces_;
       return lost("element face", "faces of fewer than three corners are left out", "they are not drawn");
+    }
     places_.clear();
     for (const double corner : corners_) places_.push_back(mesh_.positions[static_cast<std::size_t>(corner)]);
-    if (!std::ranges::all_of(places_, is_finite)) return lost("element face", kUnplaced, kNotDrawn);
+    if (!std::ranges::all_of(places_, is_finite)) {
+      ++odd_faces_;
+      return lost("element face", kUnplaced, kNotDrawn);
+    }
     const PolygonTriangles polygon = triangulate(places_);
     if (!polygon.simple)
       lost("element face", "a face crosses itself", "which parts of it are filled is a guess");
@@ -221,8 +244,8 @@ class PlyBuilder {
   }
 
   [[nodiscard]] Unexpected no_such_vertex(double index) const {
-    return ply_.error("a face names vertex " + std::to_string(index) + ", there are " +
-                      std::to_string(mesh_.positions.size()) + " so far");
+    return ply_.error("a face names vertex " + number_text(index) + ", there are " +
+                      std::to_string(mesh_.positions.size()) + " so far: does its header fit its data?");
   }
 
   // Strips one after the other, divided by -1, as scanned models have them.
@@ -236,7 +259,7 @@ class PlyBuilder {
       for (std::size_t i = 0; i < list.size(); ++i) {
         if (list[i] < 0.0)
           first = i + 1;
-        else if (!(list[i] < static_cast<double>(mesh_.positions.size())))
+        else if (!(list[i] < static_cast<double>(mesh_.positions.size())) || list[i] != std::floor(list[i]))
           return no_such_vertex(list[i]);
         if (i < first + 2) continue;
         glm::uvec3 t(list[i - 2], list[i - 1], list[i]);
@@ -268,6 +291,7 @@ class PlyBuilder {
   std::vector<glm::vec3> places_;
   std::vector<bool> taken_;  // a vertex by a face; empty: faces say nothing of their corners
   bool faces_seen_ = false;
+  std::size_t faces_ = 0, odd_faces_ = 0;
 };
 
 }  // namespace

@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <string>
+#include <utility>
 
 #include "core/base/decimal.h"
 #include "core/scene/text_lines.h"
@@ -19,16 +20,16 @@ std::optional<float> number(std::string_view word) {
   return std::isfinite(value) ? std::optional(value) : std::nullopt;
 }
 
-// Cuts up to three numbers off the line; how many there were.
-int cut_numbers(std::string_view& line, std::array<float, 3>& to) {
-  for (int i = 0; i < 3; ++i) {
+// Cuts up to three numbers off the line, or fewer where `most` says so; returns how many there were.
+int cut_numbers(std::string_view& line, std::array<float, 3>& to, int most = 3) {
+  for (int i = 0; i < most; ++i) {
     std::string_view rest = line;
     const std::optional<float> value = number(next_word(rest));
     if (!value) return i;
     to[static_cast<std::size_t>(i)] = *value;
     line = rest;
   }
-  return 3;
+  return most;
 }
 
 // One number stands for all three.
@@ -43,6 +44,12 @@ glm::vec3 color(std::string_view line) {
 constexpr std::array<std::string_view, 7> kNumbers{"-s", "-o", "-bm", "-t", "-mm", "-texres", "-boost"};
 constexpr std::array<std::string_view, 6> kWords{"-clamp", "-imfchan", "-blendu", "-blendv", "-cc", "-type"};
 
+// A number after these is the file's name.
+int most_numbers(std::string_view option) {
+  if (option == "-bm" || option == "-texres" || option == "-boost") return 1;
+  return option == "-mm" ? 2 : 3;
+}
+
 template <std::size_t n>
 bool is_one_of(std::string_view word, const std::array<std::string_view, n>& of) {
   return std::find(of.begin(), of.end(), word) != of.end();
@@ -56,7 +63,7 @@ MtlTexture texture(std::string_view line) {
     const std::string_view option = next_word(rest);
     if (is_one_of(option, kNumbers)) {
       std::array<float, 3> values{};
-      const int count = cut_numbers(rest, values);
+      const int count = cut_numbers(rest, values, most_numbers(option));
       const glm::vec2 two(values[0], values[1]);
       if (option == "-s" && count > 0) t.scale = count == 1 ? glm::vec2(two.x, 1.0f) : two;
       if (option == "-o" && count > 0) t.offset = two;
@@ -82,17 +89,47 @@ float number_or(std::string_view line, float otherwise) {
   return cut_numbers(line, values) > 0 ? values[0] : otherwise;
 }
 
+// What a material says of its transparency.
+struct Dissolving {
+  std::optional<float> d, tr;
+};
+
+// Refracting models use transparency for what they let through, so a surface of theirs stays visible at 1.
+bool refracts_by_tr(const MtlMaterial& m) {
+  return (m.illum == 4 || m.illum == 6 || m.illum == 7) && m.ni > 1.0f;
+}
+
 class MtlReader {
  public:
+  // A comment names the file's writer.
+  void read_comment(std::string_view text) {
+    std::string lower(text);
+    std::ranges::transform(lower, lower.begin(), [](char c) {
+      return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
+    });
+    by_meshlab_ |= lower.find("meshlab") != lower.npos || lower.find("vcglib") != lower.npos;
+  }
+
   void read(std::string_view keyword, std::string_view line) {
     if (keyword == "newmtl") {
       all_.emplace_back().name = trimmed(line);
-      has_d_ = false;
+      dissolving_.emplace_back();
     } else if (!all_.empty() && !read_texture(all_.back(), keyword, line)) {
       read_value(all_.back(), keyword, line);
     }
   }
-  std::vector<MtlMaterial> take() { return std::move(all_); }
+  MtlFile take() {
+    MtlFile file{std::move(all_), {}};
+    file.opacity_reason = opacity_reason(file.materials);
+    for (std::size_t i = 0; i < file.materials.size(); ++i) {
+      const Dissolving& said = dissolving_[i];
+      if (said.d || said.tr)
+        file.materials[i].dissolve = said.d                        ? *said.d
+                                     : file.opacity_reason.empty() ? 1.0f - *said.tr
+                                                                   : *said.tr;
+    }
+    return file;
+  }
 
  private:
   static bool read_texture(MtlMaterial& m, std::string_view keyword, std::string_view line) {
@@ -119,22 +156,42 @@ class MtlReader {
     if (keyword == "Pr") m.roughness = std::clamp(number_or(line, 0.5f), 0.0f, 1.0f);
     if (keyword == "d") {
       std::string_view rest = line;
-      m.dissolve = std::clamp(number_or(next_word(rest) == "-halo" ? rest : line, 1.0f), 0.0f, 1.0f);
-      has_d_ = true;
+      dissolving_.back().d =
+          std::clamp(number_or(next_word(rest) == "-halo" ? rest : line, 1.0f), 0.0f, 1.0f);
     }
-    if (keyword == "Tr" && !has_d_) m.dissolve = 1.0f - std::clamp(number_or(line, 0.0f), 0.0f, 1.0f);
+    if (keyword == "Tr") dissolving_.back().tr = std::clamp(number_or(line, 0.0f), 0.0f, 1.0f);
+  }
+
+  [[nodiscard]] std::string opacity_reason(const std::vector<MtlMaterial>& materials) const {
+    const auto any_tr = [this](auto fits) {
+      return std::ranges::any_of(
+          dissolving_, [&](const Dissolving& said) { return !said.d && said.tr && fits(*said.tr); });
+    };
+    if (!any_tr([](float) { return true; })) return {};
+    // Newer versions of MeshLab write what MTL means: there, what is opaque is 0.
+    const bool ones = any_tr([](float tr) { return tr == 1.0f; }),
+               zeros = any_tr([](float tr) { return tr == 0.0f; });
+    if (by_meshlab_) return ones || !zeros ? "its header names MeshLab, which writes opacity there" : "";
+    for (std::size_t i = 0; i < materials.size(); ++i)
+      if (dissolving_[i].d || dissolving_[i].tr != 1.0f || refracts_by_tr(materials[i])) return {};
+    return "all of its materials are at 1 and would be invisible";
   }
 
   std::vector<MtlMaterial> all_;
-  bool has_d_ = false;  // which is asked before Tr, its opposite
+  std::vector<Dissolving> dissolving_;  // one a material
+  bool by_meshlab_ = false;
 };
 
 }  // namespace
 
-std::vector<MtlMaterial> read_mtl(std::string_view text) {
+MtlFile read_mtl(std::string_view text) {
   MtlReader reader;
   for (TextLines lines(text); lines.next();) {
     std::string_view line = lines.line();
+    if (trimmed(line).starts_with('#')) {
+      reader.read_comment(line);
+      continue;
+    }
     const std::string_view keyword = next_word(line);
     reader.read(keyword, line);
   }

@@ -28,7 +28,15 @@ struct MtlMaterial {
   MtlTexture map_kd, map_d, map_ke, map_bump, norm;
 };
 
-[[nodiscard]] std::vector<MtlMaterial> read_mtl(std::string_view text);
+struct MtlFile {
+  std::vector<MtlMaterial> materials;
+  // Why its Tr is read as opacity, the opposite of what MTL means by it. Empty: it is not.
+  std::string opacity_reason;
+};
+
+// A material's d counts before its Tr. Some exporters write `Tr 1` for what is opaque: MeshLab until 2022,
+// which its header names, and others, whose files hold nothing visible otherwise.
+[[nodiscard]] MtlFile read_mtl(std::string_view text);
 
 // Whether read_mtl reads this option of a texture.
 [[nodiscard]] bool reads_mtl_option(std::string_view option);

@@ -18,7 +18,6 @@ constexpr std::string_view kGlossy = "highlights and mirrors are as Ks and Ns sa
 constexpr std::string_view kSmooth = "the surface looks smooth";
 
 constexpr Statement kStatements[] = {
-    {"newmtl", ""},
     {"Ka", ""},
     {"Kd", ""},
     {"Ks", ""},
@@ -79,7 +78,7 @@ void add_lost_mtl_features(const std::filesystem::path& file, std::string_view t
   for (TextLines lines(text); lines.next();) {
     std::string_view line = lines.line();
     const std::string_view keyword = next_word(line);
-    if (keyword.empty() || keyword.front() == '#') continue;
+    if (keyword.empty() || keyword.front() == '#' || keyword == "newmtl") continue;
     const std::string where = "line " + std::to_string(lines.number());
     const auto* known = std::find_if(std::begin(kStatements), std::end(kStatements),
                                      [keyword](const Statement& s) { return s.keyword == keyword; });
@@ -100,7 +99,7 @@ void add_lost_mtl_features(const std::filesystem::path& file, std::string_view t
     } else if (const std::string_view value = next_word(line); value == "spectral" || value == "xyz") {
       warnings.add(
           {file.string(), where, "a colour as '" + std::string(value) + "' is left out", "it is black"});
-    } else if (keyword != "newmtl" && !is_value(value)) {
+    } else if (!is_value(value)) {
       warnings.add({file.string(), where,
                     std::string(keyword) + " '" + std::string(value.substr(0, 20)) + "' is no number",
                     keyword.starts_with('K') ? "it is black" : "it is 0"});

@@ -1,6 +1,7 @@
 #include "core/scene/ply_file.h"
 
 #include <algorithm>
+#include <array>
 #include <bit>
 #include <charconv>
 #include <cmath>
@@ -71,6 +72,12 @@ double read(PlyType type, const char* at, bool swapped) {
 
 }  // namespace
 
+std::string number_text(double number) {
+  std::array<char, 32> text{};
+  const auto written = std::to_chars(text.data(), text.data() + text.size(), number);
+  return {text.data(), written.ptr};
+}
+
 Unexpected PlyFile::error(const std::string& what) const {
   return Unexpected(
       InputError{path_.string(), format_ == Format::ascii ? line_ : 0, what, "export the file again"});
@@ -96,6 +103,7 @@ Expected<void> PlyFile::read_header() {
     ++line_;
   }
   if (!format_known_) return error("its header has no format");
+  if (format_ != Format::ascii && is_text()) return error("its header says binary, its data is text");
   std::size_t least = 0;  // bytes that the rows take
   for (const PlyElement& element : elements_) {
     std::size_t row = 0;
@@ -154,6 +162,19 @@ Expected<void> PlyFile::read_header_line(std::string_view line, bool& ended) {
   return {};  // other comments, obj_info
 }
 
+std::size_t PlyFile::bytes_left() const {
+  constexpr std::string_view kPadding(" \t\n\v\f\r\0\x1a", 8);
+  const std::size_t last = rest().find_last_not_of(kPadding);
+  return last == std::string_view::npos ? 0 : last + 1;
+}
+
+bool PlyFile::is_text() const {
+  constexpr std::size_t kLeast = 16, kMost = 4096;  // bytes that tell
+  constexpr std::string_view kNumbers = "0123456789+-.eE \t\r\n";
+  const std::string_view begin = rest().substr(0, kMost);
+  return begin.size() >= kLeast && begin.find_first_not_of(kNumbers) == std::string_view::npos;
+}
+
 bool PlyFile::read_number(PlyType type, double& value) {
   if (format_ != Format::ascii) {
     const std::size_t size = size_of(type);
@@ -177,8 +198,12 @@ Expected<void> PlyFile::read_row(const PlyElement& element, PlyRow& row) {
   row.numbers.resize(element.properties.size());
   row.lists.resize(element.properties.size());
   const auto cut = [&](const PlyProperty& p) {
+    const std::string_view next = rest().substr(0, 256);
+    const bool is_binary = format_ == Format::ascii && next.find('\0') != std::string_view::npos;
     return error("cannot read " + p.name + " of element " + element.name +
-                 (at_ >= bytes_.size() ? ": the file ends too early" : ": not a number"));
+                 (at_ >= bytes_.size() ? ": the file ends too early"
+                  : is_binary          ? ": its header says ascii, its data is binary"
+                                       : ": not a number"));
   };
   for (std::size_t i = 0; i < element.properties.size(); ++i) {
     const PlyProperty& p = element.properties[i];
@@ -189,7 +214,9 @@ Expected<void> PlyFile::read_row(const PlyElement& element, PlyRow& row) {
     double count = 0.0;
     if (!read_number(p.count_type, count)) return cut(p);
     const std::size_t left = (bytes_.size() - at_) / (format_ == Format::ascii ? 1 : size_of(p.type));
-    if (!(count >= 0.0 && count <= static_cast<double>(left))) return cut(p);
+    if (!(count >= 0.0 && count <= static_cast<double>(left)) || count != std::floor(count))
+      return error("cannot read " + p.name + " of element " + element.name + ": a list of " +
+                   number_text(count) + " does not fit the file");
     row.lists[i].resize(static_cast<std::size_t>(count));
     for (double& value : row.lists[i])
       if (!read_number(p.type, value)) return cut(p);

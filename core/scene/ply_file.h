@@ -37,6 +37,9 @@ struct PlyRow {
   std::vector<std::vector<double>> lists;
 };
 
+// For messages: 3, 0.5.
+[[nodiscard]] std::string number_text(double number);
+
 class PlyFile {
  public:
   // Reads the header. A header that promises more rows than the file can hold is an error.
@@ -47,6 +50,8 @@ class PlyFile {
   [[nodiscard]] const std::vector<std::string>& textures() const { return textures_; }
   // The next row, in the file's order: all rows of an element, then the next element's.
   [[nodiscard]] Expected<void> read_row(const PlyElement& element, PlyRow& row);
+  // Bytes behind the last row that has been read, but for blanks and zeros at the file's end.
+  [[nodiscard]] std::size_t bytes_left() const;
   [[nodiscard]] Unexpected error(const std::string& what) const;
 
  private:
@@ -54,6 +59,8 @@ class PlyFile {
 
   Expected<void> read_header();
   Expected<void> read_header_line(std::string_view line, bool& ended);
+  // Whether what follows the header is text, whatever that says.
+  [[nodiscard]] bool is_text() const;
   [[nodiscard]] std::string_view rest() const { return bytes_.text().substr(at_); }
   // False at the end of the file, or where an ascii word is no number.
   bool read_number(PlyType type, double& value);

@@ -98,8 +98,12 @@ TEST(LoadMaterials, WhatBlendsAndIsWholeIsOpaque) {
   EXPECT_TRUE(load_good(json).mesh->maps_of(0)->blends());
 }
 
+std::vector<MtlMaterial> read_materials(std::string_view text) {
+  return read_mtl(text).materials;
+}
+
 TEST(LoadMaterials, MtlStatements) {
-  const std::vector<MtlMaterial> all = read_mtl(
+  const std::vector<MtlMaterial> all = read_materials(
       "newmtl red car paint \r\nKd 0.5\nTr 0.25\nmap_Kd -s 2 3 -o 0.5 -clamp on my picture.png\n"
       "map_Bump -bm 0.5 sub\\bump.png\nmap_d -imfchan g holes.png\nPm 0.75\n"
       "newmtl two\nd -halo 0.5\nTr 0.9\nmap_Kd 1.png\n");
@@ -117,6 +121,48 @@ TEST(LoadMaterials, MtlStatements) {
   EXPECT_EQ(all[0].metallic, 0.75f);
   EXPECT_EQ(all[1].dissolve, 0.5f);  // d counts, not its opposite
   EXPECT_EQ(all[1].map_kd.file, "1.png");
+}
+
+TEST(LoadMaterials, MtlNamesMayHoldBlanksAndNumbers) {
+  const std::vector<MtlMaterial> all = read_materials(
+      "newmtl  spectral  2 red \nmap_Kd -clamp on two words 3.png\nmap_Bump -bm 0.5 2 bricks.png\n"
+      "map_d -mm 0 1 3 holes.png\nmap_Ke \"in quotes.png\"\n");
+  ASSERT_EQ(all.size(), 1u);
+  EXPECT_EQ(all[0].name, "spectral  2 red");
+  EXPECT_EQ(all[0].map_kd.file, "two words 3.png");
+  EXPECT_EQ(all[0].map_bump.file, "2 bricks.png");
+  EXPECT_EQ(all[0].map_bump.bump, 0.5f);
+  EXPECT_EQ(all[0].map_d.file, "3 holes.png");
+  EXPECT_EQ(all[0].map_ke.file, "in quotes.png");
+}
+
+TEST(LoadMaterials, MtlTrIsOpacityWhereItsWriterMeansThat) {
+  const std::string meshlab = "#\n# Wavefront material file\n# Converted by Meshlab Group\n#\n\n";
+  const auto dissolves = [](const std::string& text) {
+    std::vector<float> values;
+    for (const MtlMaterial& m : read_mtl(text).materials) values.push_back(m.dissolve);
+    return values;
+  };
+  const std::string two = "newmtl a\nTr 1.000000\nnewmtl b\nTr 0.250000\n";
+  EXPECT_EQ(dissolves(meshlab + two), (std::vector{1.0f, 0.25f}));
+  EXPECT_EQ(dissolves(two), (std::vector{0.0f, 0.75f}));
+  EXPECT_EQ(dissolves(meshlab + "newmtl a\nTr 0\nnewmtl b\nTr 0.25\n"), (std::vector{1.0f, 0.75f}));
+  EXPECT_EQ(dissolves("newmtl a\nTr 1\nnewmtl b\nTr 1\n"), (std::vector{1.0f, 1.0f}));
+  EXPECT_EQ(dissolves("newmtl a\nTr 1\nnewmtl b\nKd 1 1 1\n"), (std::vector{0.0f, 1.0f}));
+  EXPECT_EQ(dissolves(meshlab + "newmtl a\nTr 0.5\nd 0.125\nnewmtl b\nd 0.125\nTr 0.5\n"),
+            (std::vector{0.125f, 0.125f}));
+  EXPECT_EQ(dissolves("newmtl glass\nillum 7\nNi 1.5\nTr 1\n"), (std::vector{0.0f}));
+  EXPECT_TRUE(read_mtl(two).opacity_reason.empty());
+
+  std::ofstream(own_file("tr.mtl")) << meshlab << "newmtl m\nKd 1 1 1\nTr 1.000000\n";
+  std::ofstream(own_file("tr.obj")) << "mtllib tr.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nusemtl m\nf 1 2 3\n";
+  Warnings warnings;
+  const Expected<Scene> scene = load_scene(own_file("tr.obj"), &warnings);
+  ASSERT_TRUE(scene);
+  EXPECT_EQ(scene->mesh->maps_of(0), nullptr);
+  ASSERT_EQ(warnings.size(), 1u);
+  EXPECT_NE(warnings[0].message().find("tr.mtl: Tr is read as opacity: its header names MeshLab"),
+            std::string::npos);
 }
 
 TEST(LoadMaterials, MtlDissolveBlendsUnlessItRefracts) {

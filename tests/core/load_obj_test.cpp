@@ -151,6 +151,22 @@ TEST(LoadObj, MaterialFilesMayHaveSpacesInTheirNames) {
   EXPECT_TRUE(warnings.empty()) << warnings[0].message();
 }
 
+TEST(LoadObj, SeveralMaterialFilesMayHaveSpacesInTheirNames) {
+  write_file("my red.mtl", "newmtl red\nKd 1 0 0\n");
+  write_file("blue.mtl", "newmtl blue\nKd 0 0 1\n");
+  const std::string faces = kTriangle + "usemtl red\nf 1 2 3\nusemtl blue\nf 1 2 3\n";
+  for (const std::string names : {"blue.mtl my red.mtl", "my red.mtl blue.mtl"}) {
+    Warnings warnings;
+    ASSERT_TRUE(load_scene(write_file("two.obj", "mtllib " + names + "\n" + faces), &warnings));
+    EXPECT_TRUE(warnings.empty()) << warnings[0].message();
+  }
+  Warnings warnings;
+  ASSERT_TRUE(
+      load_scene(write_file("none.obj", "mtllib my green.mtl\n" + kTriangle + "f 1 2 3\n"), &warnings));
+  ASSERT_EQ(warnings.size(), 1u);
+  EXPECT_NE(warnings[0].message().find("my green.mtl: there is no such file"), std::string::npos);
+}
+
 TEST(LoadObj, MaterialsThatNoFileExplainsAreWarnings) {
   Warnings warnings;
   const Scene scene =

@@ -11,6 +11,9 @@
 #pragma GCC diagnostic pop
 #include <meshoptimizer.h>
 
+#include <algorithm>
+#include <array>
+
 #include "tests/support/gltf.h"
 
 namespace pinocchio {
@@ -51,6 +54,96 @@ TEST(LoadPacked, BuffersInTheFile) {
   EXPECT_NE(error_of(json).find("holds 56 bytes"), std::string::npos);
 }
 
+// The triangle's buffer: positions, then indices.
+std::string triangle_bytes() {
+  std::string bytes(56, '\0');
+  const float positions[12] = {0, 0, 0, 1, 0, 0, 0, 1, 0, 1, 1, 0};
+  const std::uint16_t indices[4] = {0, 1, 2, 3};
+  std::memcpy(bytes.data(), positions, 48);
+  std::memcpy(bytes.data() + 48, indices, 8);
+  return bytes;
+}
+
+TEST(LoadPacked, DataUrisNeedNotBeBase64) {
+  const std::string bytes = triangle_bytes();
+  std::string uri = "data:application/octet-stream,";
+  for (const char byte : bytes) {
+    constexpr const char* kDigits = "0123456789abcdef";
+    const auto value = static_cast<unsigned char>(byte);
+    if (value == '?')
+      uri += '?';  // stands for itself
+    else
+      uri += {'%', kDigits[value >> 4], kDigits[value & 15]};
+  }
+  Json json = triangle_json();
+  json["buffers"] = {{{"uri", uri}, {"byteLength", bytes.size()}}};
+  EXPECT_EQ(load_good(json).mesh->positions[1], glm::vec3(1, 0, 0));
+}
+
+TEST(LoadPacked, AddressesAreNotFetchedAndSaid) {
+  Json json = triangle_json();
+  json["buffers"][0]["uri"] = "http://example.com/models/other.bin";
+  EXPECT_NE(
+      error_of(json).find("other.bin: is an address, not a file, and nothing is fetched from the network; "
+                          "download it and name the copy"),
+      std::string::npos);
+  json["buffers"][0]["uri"] = "https://example.com/models/test.bin";  // a copy lies beside the file
+  EXPECT_TRUE(load(json));
+  Warnings warnings;
+  ASSERT_TRUE(load(textured_json({{"uri", "https://example.com/a%20b.png"}}), &warnings));
+  EXPECT_TRUE(std::ranges::any_of(warnings, [](const Warning& warning) {
+    return warning.message().find("a b.png: is an address, not a file") != std::string::npos;
+  }));
+  const Expected<Scene> scene = load_scene("https://example.com/a.glb");
+  ASSERT_FALSE(scene);
+  EXPECT_NE(scene.error().message().find("is an address, not a file"), std::string::npos);
+}
+
+// A GLB's chunk as it should be, but for its padding.
+std::string chunk(std::uint32_t type, std::string bytes, std::size_t multiple, char padding) {
+  const auto length = static_cast<std::uint32_t>(bytes.size());
+  while (bytes.size() % multiple != 0) bytes.push_back(padding);
+  std::string head(8, '\0');
+  std::memcpy(head.data(), &length, 4);
+  std::memcpy(head.data() + 4, &type, 4);
+  return head + bytes;
+}
+
+Expected<Scene> load_glb(const std::string& chunks, Warnings& warnings) {
+  const std::array<std::uint32_t, 3> header{0x46546c67, 2, static_cast<std::uint32_t>(12 + chunks.size())};
+  std::ofstream(own_file("chunks.glb"), std::ios::binary)
+      << std::string(reinterpret_cast<const char*>(header.data()), 12) << chunks;
+  return load_scene(own_file("chunks.glb"), &warnings);
+}
+
+TEST(LoadPacked, ChunksNeedNotBeAligned) {
+  constexpr std::uint32_t kJson = 0x4e4f534a, kBinary = 0x004e4942;
+  Json json = triangle_json();
+  json["buffers"][0].erase("uri");
+  std::string text = json.dump();
+  while (text.size() % 4 != 1) text.push_back(' ');
+  Warnings warnings;
+  for (const std::size_t multiple : {std::size_t{4}, std::size_t{1}}) {
+    const Expected<Scene> scene = load_glb(
+        chunk(kJson, text, multiple, ' ') + chunk(kBinary, triangle_bytes(), multiple, '\0'), warnings);
+    ASSERT_TRUE(scene) << scene.error().message();
+    EXPECT_EQ(scene->mesh->positions[1], glm::vec3(1, 0, 0));
+    EXPECT_EQ(warnings.size(), multiple == 1 ? 1u : 0u);
+  }
+  EXPECT_NE(warnings[0].message().find("not padded to multiples of 4"), std::string::npos);
+  // Zeros pad the JSON, its length counts them; bytes follow that are no chunk.
+  Warnings none;
+  ASSERT_TRUE(load_glb(chunk(kJson, text + std::string(3, '\0'), 4, ' ') +
+                           chunk(kBinary, triangle_bytes(), 4, '\0') + std::string(12, '\xff'),
+                       none));
+  EXPECT_TRUE(none.empty());
+  // The last chunk counts padding that is not there.
+  std::string cut = chunk(kBinary, triangle_bytes() + std::string(3, '\0'), 1, '\0');
+  cut.resize(cut.size() - 3);
+  ASSERT_TRUE(load_glb(chunk(kJson, text, 4, ' ') + cut, none));
+  EXPECT_EQ(none.size(), 1u);
+}
+
 // They are kept from the JSON library, but for those with escapes.
 TEST(LoadPacked, LongBuffersInTheFile) {
   std::string bytes(20001, '\0');
@@ -79,8 +172,8 @@ TEST(LoadPacked, LongBuffersInTheFile) {
   json["buffers"][0]["byteLength"] = 20002;
   EXPECT_NE(error_of(json).find("holds 20001 bytes"), std::string::npos);
   json["buffers"][0]["byteLength"] = 56;
-  json["buffers"][0]["uri"] = "data:aside,7";  // no such
-  EXPECT_NE(error_of(json).find("holds 0 bytes"), std::string::npos);
+  json["buffers"][0]["uri"] = "data:aside,7";  // no number of ours, so the text 7
+  EXPECT_NE(error_of(json).find("holds 1 bytes"), std::string::npos);
 }
 
 TEST(LoadPacked, Draco) {
@@ -247,6 +340,61 @@ TEST(LoadPacked, Utf16AndByteOrderMarks) {
   EXPECT_TRUE(load_scene(own_file("wide.gltf")));
   std::ofstream(own_file("bom.gltf"), std::ios::binary) << "\xef\xbb\xbf" << text;
   EXPECT_TRUE(load_scene(own_file("bom.gltf")));
+}
+
+TEST(LoadPacked, CopiesAreCountedBeforeTheyAreMade) {
+  Json json = triangle_json();
+  // The zeros of an accessor without a buffer view: nothing of it is in the file.
+  json["accessors"].push_back({{"componentType", 5126}, {"count", 20000000}, {"type", "VEC3"}});
+  json["nodes"][0]["extensions"]["EXT_mesh_gpu_instancing"]["attributes"]["TRANSLATION"] = 2;
+  const std::string instances = error_of(json);
+  EXPECT_NE(
+      instances.find("placing 20000000 triangles, with 19999999 copies of meshes, needs 12818 MiB of memory"),
+      std::string::npos)
+      << instances;
+  EXPECT_NE(instances.find("--load-limit MIB"), std::string::npos);
+  json["accessors"][2]["count"] = 2000000000;
+  EXPECT_NE(error_of(json).find("places 2000000000 triangles"), std::string::npos);
+  // Nodes that share a mesh.
+  Json shared = triangle_json();
+  shared["nodes"] = Json::array();
+  shared["scenes"][0]["nodes"] = Json::array();
+  for (int i = 0; i < 3000; ++i) {
+    shared["nodes"].push_back({{"mesh", 0}});
+    shared["scenes"][0]["nodes"].push_back(i);
+  }
+  EXPECT_EQ(load_good(shared).mesh->triangles.size(), 3000u);
+  const Expected<Scene> refused = load_scene(own_file("test.gltf"), nullptr, nullptr, 1 << 20);
+  ASSERT_FALSE(refused);
+  EXPECT_NE(refused.error().message().find("placing 3000 triangles, with 2999 copies of meshes, needs 2 MiB"),
+            std::string::npos)
+      << refused.error().message();
+}
+
+TEST(LoadPacked, WhatOnlyKhrMeshoptKnowsIsSaid) {
+  const auto khr_error = [](const std::string& packed, const char* filter) {
+    Json json = with_buffer(packed);
+    json["bufferViews"][0]["extensions"]["KHR_meshopt_compression"] = {
+        {"buffer", 0}, {"byteLength", packed.size()}, {"byteStride", 4},
+        {"count", 1},  {"mode", "ATTRIBUTES"},        {"filter", filter}};
+    return error_of(json);
+  };
+  const std::string version1 = khr_error("\xa1" + std::string(40, '\0'), "NONE");
+  EXPECT_NE(
+      version1.find("KHR_meshopt_compression is packed with version 1 of the vertex codec, which is not "
+                    "read; pack it with EXT_meshopt_compression"),
+      std::string::npos)
+      << version1;
+  EXPECT_NE(khr_error("\xa0" + std::string(40, '\0'), "COLOR").find("the filter 'COLOR', which is not read"),
+            std::string::npos);
+  EXPECT_NE(khr_error("\x01" + std::string(40, '\0'), "NONE").find("(KHR_meshopt_compression, mode"),
+            std::string::npos);
+}
+
+TEST(LoadPacked, ObjectsWithoutTheirMembersAreNamed) {
+  Json json = triangle_json();
+  json["skins"] = {Json::object()};
+  EXPECT_NE(error_of(json).find("one of its skins lacks a member"), std::string::npos);
 }
 
 }  // namespace

@@ -161,6 +161,54 @@ TEST(LoadPly, WhatIsLeftOutIsSaid) {
   EXPECT_NE(warnings[1].message().find("points are left out"), std::string::npos);
 }
 
+// A strip of `cells` squares, each of two triangles, in bytes of the other order; all faces but `left_out`
+// are in the header's count, which names these types.
+std::string strip(int cells, const char* count_type, int left_out = 0) {
+  std::string bytes = "ply\nformat binary_big_endian 1.0\nelement vertex " + std::to_string(2 * cells + 2) +
+                      "\nproperty float x\nproperty float y\nproperty float z\nelement face " +
+                      std::to_string(2 * cells - left_out) + "\nproperty list " + count_type +
+                      " int vertex_indices\nend_header\n";
+  const auto put = [&bytes](auto value) {
+    char raw[sizeof value];
+    std::memcpy(raw, &value, sizeof value);
+    std::reverse(std::begin(raw), std::end(raw));
+    bytes.append(raw, sizeof value);
+  };
+  for (int i = 0; i < 2 * cells + 2; ++i)
+    put(static_cast<float>(i / 2)), put(static_cast<float>(i % 2)), put(0.0f);
+  for (int i = 0; i < 2 * cells; ++i) {
+    put(3);
+    for (const int corner : {0, 1, 2}) put(i + corner);
+  }
+  return bytes;
+}
+
+TEST(LoadPly, HeadersThatDoNotFitTheirDataAreErrors) {
+  EXPECT_TRUE(load_text(strip(400, "int")));
+  const std::string rubbish = error_of(strip(400, "uchar"));  // counts of four bytes are read as four counts
+  EXPECT_NE(rubbish.find("its header does not fit its data: 600 of 800 faces"), std::string::npos) << rubbish;
+  EXPECT_NE(error_of(strip(400, "ushort")).find("does not fit its data"), std::string::npos);
+  std::string ascii = strip(400, "int");
+  ascii.replace(ascii.find("binary_big_endian"), 17, "ascii");
+  EXPECT_NE(error_of(ascii).find("its header says ascii, its data is binary"), std::string::npos);
+  std::string text = kHeader + kRows + "4 0 1 2 3\n";
+  text.replace(text.find("ascii"), 5, "binary_little_endian");
+  EXPECT_NE(error_of(text).find("its header says binary, its data is text"), std::string::npos);
+  EXPECT_NE(error_of(kHeader + kRows + "4 0 1 2 0.5\n").find("names vertex 0.5"), std::string::npos);
+  EXPECT_NE(error_of(kHeader + kRows + "3.5 0 1 2\n").find("a list of 3.5 does not fit"), std::string::npos);
+}
+
+TEST(LoadPly, BytesBehindTheLastElementAreSaid) {
+  Warnings warnings;
+  EXPECT_TRUE(load_text(strip(400, "int") + "\n", &warnings));
+  EXPECT_TRUE(warnings.empty());
+  const Expected<Scene> scene = load_text(strip(400, "int", 3), &warnings);
+  ASSERT_TRUE(scene);
+  EXPECT_EQ(scene->mesh->triangles.size(), 797u);
+  ASSERT_EQ(warnings.size(), 1u);
+  EXPECT_NE(warnings[0].message().find("bytes follow its last element (48)"), std::string::npos);
+}
+
 TEST(LoadPly, BadFilesAreErrorsThatSayWhat) {
   EXPECT_NE(error_of("hello").find("is not PLY"), std::string::npos);
   EXPECT_NE(error_of("ply\nformat ascii 1.0\n").find("end_header"), std::string::npos);

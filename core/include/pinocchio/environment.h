@@ -13,6 +13,8 @@
 
 namespace pinocchio {
 
+class Warnings;
+
 // Most bytes of memory that a scene's files may claim beyond their own: pictures unpacked, compressed meshes,
 // copies of a mesh.
 inline constexpr std::uint64_t kUsualLoadLimit = std::uint64_t{4} << 30;
@@ -46,10 +48,12 @@ class Environment {
   std::vector<float> rows_, columns_;
 };
 
-// Reads an EXR (channels R, G and B, or Y) or a Radiance picture (.hdr, RGBE), by what the file holds. Errors
-// name the file. Phase "read".
+// Reads an EXR or a Radiance picture (.hdr, RGBE), by what the file holds. An EXR has channels R, G and B, or
+// Y, with RY and BY or alone; where its attribute envmap says cube map, it becomes a picture in latitude and
+// longitude. NaN becomes 0, infinity the largest finite value, and `warnings` say so. Errors name the file.
+// Phase "read".
 [[nodiscard]] Expected<std::shared_ptr<const Environment>> load_environment(
     const std::filesystem::path& path, Progress* progress = nullptr,
-    std::uint64_t limit_bytes = kUsualLoadLimit);
+    std::uint64_t limit_bytes = kUsualLoadLimit, Warnings* warnings = nullptr);
 
 }  // namespace pinocchio
