@@ -62,7 +62,8 @@ class Upload {
  public:
   explicit Upload(Mapping mapping = Mapping::each_time) : buffer_(PixelBuffer::Use::upload, mapping) {}
 
-  // Room for one picture; waits where the GPU still reads the one before. Any thread may fill it.
+  // Room for one picture; waits where the GPU still reads the one before. Any thread may fill it. The memory
+  // is mapped for writing: what is read from it is undefined.
   [[nodiscard]] std::span<std::byte> open(std::size_t bytes);
   // Sends what was written on its way into the whole of `target`. Does not wait.
   void send(const Texture& target) { send({{&target, {0, 0}, target.size(), 0}}); }
