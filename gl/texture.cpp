@@ -3,6 +3,7 @@
 #include <string>
 
 #include "gl/error.h"
+#include "gl/error_flags.h"
 
 namespace pinocchio::gl {
 namespace {
@@ -28,13 +29,14 @@ Texture::Texture(glm::ivec2 size, const PixelFormat& format)
     throw Error("a picture of " + std::to_string(size.x) + "x" + std::to_string(size.y) +
                 " is beyond this OpenGL's limit of " + std::to_string(most) +
                 " pixels a side; draw it in --crop parts");
+  forget_errors();
   glBindTexture(GL_TEXTURE_2D, handle_.name());
   glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_NEAREST);
   glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_NEAREST);
   glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAX_LEVEL, 0);
   glTexImage2D(GL_TEXTURE_2D, 0, static_cast<GLint>(format.internal), size.x, size.y, 0, format.format,
                format.type, nullptr);
-  if (glGetError() == GL_OUT_OF_MEMORY)
+  if (ran_out_of_memory())
     throw Error("the GPU has no room for a picture of " + std::to_string(size.x) + "x" +
                 std::to_string(size.y));
 }

@@ -4,6 +4,7 @@
 #include <string>
 
 #include "gl/error.h"
+#include "gl/error_flags.h"
 
 namespace pinocchio::gl {
 
@@ -13,6 +14,8 @@ void PixelBuffer::reserve(std::size_t bytes) {
   glGenBuffers(1, &name);
   handle_ = BufferHandle(name);
   mapped_ = nullptr;
+  capacity_ = 0;  // until it has its memory
+  forget_errors();
   bind();
   const auto size = static_cast<GLsizeiptr>(bytes);
   if (mapping_ == Mapping::persistent && !glBufferStorage) mapping_ = Mapping::each_time;
@@ -25,14 +28,15 @@ void PixelBuffer::reserve(std::size_t bytes) {
     glBufferData(target(), size, nullptr, use_ == Use::readback ? GL_STREAM_READ : GL_STREAM_DRAW);
   }
   unbind();
-  if (glGetError() == GL_OUT_OF_MEMORY || (mapping_ == Mapping::persistent && !mapped_))
+  if (ran_out_of_memory() || (mapping_ == Mapping::persistent && !mapped_))
     throw Error("the GPU has no room for a transfer buffer of " + std::to_string(bytes) + " bytes");
   capacity_ = bytes;
 }
 
 std::span<std::byte> PixelBuffer::map(std::size_t bytes) {
   assert(bytes <= capacity_);
-  if (!mapped_) {
+  if (mapping_ == Mapping::each_time) {
+    (void)unmap();  // where an error kept it from being unmapped, it may be smaller
     bind();
     // The fences keep CPU and GPU apart: the driver need not.
     const GLbitfield flags =
@@ -44,12 +48,13 @@ std::span<std::byte> PixelBuffer::map(std::size_t bytes) {
   return {mapped_, bytes};
 }
 
-void PixelBuffer::unmap() {
-  if (mapping_ == Mapping::persistent || !mapped_) return;
-  bind();
-  glUnmapBuffer(target());
-  unbind();
+bool PixelBuffer::unmap() {
+  if (mapping_ == Mapping::persistent || !mapped_) return true;
   mapped_ = nullptr;
+  bind();
+  const bool kept = glUnmapBuffer(target()) == GL_TRUE;
+  unbind();
+  return kept;
 }
 
 void PixelBuffer::bind() const {
@@ -60,8 +65,10 @@ void PixelBuffer::unbind() const {
 }
 
 void Readback::start(const Framebuffer& source) {
-  bytes_ = source.color().bytes();
-  buffer_.reserve(bytes_);
+  close();  // where an error kept it from being closed, OpenGL would write nothing
+  bytes_ = 0;
+  const std::size_t bytes = source.color().bytes();
+  buffer_.reserve(bytes);
   glBindFramebuffer(GL_READ_FRAMEBUFFER, source.name());
   buffer_.bind();
   glPixelStorei(GL_PACK_ALIGNMENT, 1);
@@ -69,9 +76,11 @@ void Readback::start(const Framebuffer& source) {
   glReadPixels(0, 0, source.size().x, source.size().y, format.format, format.type, nullptr);
   buffer_.unbind();
   fence_ = Fence::insert();
+  bytes_ = bytes;
 }
 
 std::span<const std::byte> Readback::open() {
+  if (bytes_ == 0) throw Error("no picture is on its way from the GPU");
   fence_.wait();
   return buffer_.map(bytes_);
 }
@@ -83,7 +92,7 @@ std::span<std::byte> Upload::open(std::size_t bytes) {
 }
 
 void Upload::send(std::initializer_list<Piece> pieces) {
-  buffer_.unmap();
+  if (!buffer_.unmap()) throw Error("the driver lost what was written into a transfer buffer; draw it again");
   buffer_.bind();
   glPixelStorei(GL_UNPACK_ALIGNMENT, 1);
   for (const Piece& piece : pieces) {

@@ -20,10 +20,11 @@ class PixelBuffer {
   enum class Use { readback, upload };
   PixelBuffer(Use use, Mapping mapping) : use_(use), mapping_(mapping) {}
 
-  // Makes room; what was in it is lost when it grows. Throws Error where there is none.
+  // Makes room; what was in it is lost when it grows. Throws Error where there is none; it is empty then.
   void reserve(std::size_t bytes);
   [[nodiscard]] std::span<std::byte> map(std::size_t bytes);
-  void unmap();
+  // False where the driver lost what was written.
+  bool unmap();
   void bind() const;  // to this use's target
   void unbind() const;
 
@@ -46,9 +47,10 @@ class Readback {
 
   // Sends the framebuffer's colour off, row 0 first, rows tightly packed. Does not wait.
   void start(const Framebuffer& source);
-  // The bytes of the last start(); waits for them where it must. Valid until close().
+  // The bytes of the last start(); waits for them where it must. Valid until close(). Throws Error where that
+  // start() failed.
   [[nodiscard]] std::span<const std::byte> open();
-  void close() { buffer_.unmap(); }
+  void close() { (void)buffer_.unmap(); }
   [[nodiscard]] std::size_t bytes() const { return bytes_; }
 
  private:
@@ -62,7 +64,8 @@ class Upload {
  public:
   explicit Upload(Mapping mapping = Mapping::each_time) : buffer_(PixelBuffer::Use::upload, mapping) {}
 
-  // Room for one picture; waits where the GPU still reads the one before. Any thread may fill it.
+  // Room for one picture; waits where the GPU still reads the one before. Any thread may fill it. The memory
+  // is mapped for writing: what is read from it is undefined.
   [[nodiscard]] std::span<std::byte> open(std::size_t bytes);
   // Sends what was written on its way into the whole of `target`. Does not wait.
   void send(const Texture& target) { send({{&target, {0, 0}, target.size(), 0}}); }

@@ -25,7 +25,10 @@ void FrameSlot::release_unused() {
   }
   if (s.mask_bits == 0) mask = {};
   if (!s.reflects()) reflection = {};
-  if (!uses_gpu || !s.reflects() || !s.tiles) reflection_index = {};
+  if (!uses_gpu || !s.reflects() || !s.tiles) {
+    reflection_index = {};
+    tile_index = {};
+  }
   if (uses_gpu) {
     color = {};
     shown = {};

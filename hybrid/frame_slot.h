@@ -28,7 +28,7 @@ struct ChannelBuffer {
   gl::Framebuffer target;
   gl::Readback back;
   gl::Upload up;
-  std::span<std::byte> bytes;
+  std::span<std::byte> bytes;  // only written: reading them is undefined, and slow on a GPU
   gl::Texture texture;
 };
 
@@ -74,6 +74,7 @@ struct FrameSlot {
   MaskImage mask;                 // one sample for mask_scale pixels a side
   Image<glm::vec3> reflection;    // likewise
   gl::Texture reflection_index;   // where its tiles are in the reflection's texture
+  std::vector<std::uint32_t> tile_index;  // the same on the CPU
   std::size_t reflection_tiles = 0;
   Image<glm::vec4> color;  // the CPU alone: the finished picture, linear
 

@@ -32,16 +32,19 @@ std::size_t most_tile_bytes(glm::ivec2 size, ReflectionFormat format) {
 }
 
 std::size_t pack_tiles(const Image<glm::vec3>& radiance, ReflectionFormat format, Workers& workers,
-                       std::span<std::uint32_t> index, std::span<std::byte> tiles) {
+                       std::vector<std::uint32_t>& index, std::span<std::byte> to_gpu) {
   const glm::ivec2 grid = tile_columns_rows(radiance.size());
-  assert(index.size() == static_cast<std::size_t>(grid.x) * static_cast<std::size_t>(grid.y));
+  index.resize(static_cast<std::size_t>(grid.x) * static_cast<std::size_t>(grid.y));
+  assert(to_gpu.size() >= std::as_bytes(std::span(index)).size());
   workers.for_each(index.size(), [&](std::size_t i) {
     index[i] = has_light(radiance, box_of(i, grid.x, radiance.size())) ? 0 : kNoTile;
   });
   std::uint32_t count = 0;
   for (std::uint32_t& entry : index)
     if (entry != kNoTile) entry = count++;
+  std::ranges::copy(std::as_bytes(std::span(index)), to_gpu.begin());
 
+  const std::span<std::byte> tiles = to_gpu.subspan(std::as_bytes(std::span(index)).size());
   const auto columns = static_cast<std::size_t>(grid.x);
   const std::size_t last_row = count / columns, in_last_row = count % columns;
   const auto tile_row_bytes = static_cast<std::size_t>(kReflectionTile * bytes_per_pixel(format));

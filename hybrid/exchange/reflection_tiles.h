@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <glm/glm.hpp>
 #include <span>
+#include <vector>
 
 #include "core/parallel/workers.h"
 #include "pinocchio/image.h"
@@ -29,10 +30,11 @@ inline constexpr std::uint32_t kNoTile = 0xffffffff;  // in the index: all of th
 // Index and tiles where every tile has light; 0 where there is no reflection.
 [[nodiscard]] std::size_t most_tile_bytes(glm::ivec2 size, ReflectionFormat format);
 
-// Packs the image, linear light, into `index` (tile_columns_rows(), row by row) and `tiles`: row of tiles
-// by row of tiles as they lie in the texture, tile_columns_rows().x side by side, the last row as wide as it
-// has tiles. Returns how many tiles were written.
+// Packs the image, linear light: the index (tile_columns_rows(), row by row), then the tiles, row of tiles by
+// row of tiles as they lie in the texture, tile_columns_rows().x side by side, the last row as wide as it has
+// tiles. Returns how many tiles were written. `to_gpu` is only written, as it is mapped for writing; the
+// index is built in `index`, which the caller keeps from frame to frame.
 std::size_t pack_tiles(const Image<glm::vec3>& radiance, ReflectionFormat format, Workers& workers,
-                       std::span<std::uint32_t> index, std::span<std::byte> tiles);
+                       std::vector<std::uint32_t>& index, std::span<std::byte> to_gpu);
 
 }  // namespace pinocchio

@@ -28,11 +28,7 @@ void encode_reflection(Workers& workers, FrameSlot& frame) {
   const Settings& s = frame.request.settings;
   const std::span<std::byte> bytes = frame[Channel::reflection].bytes;
   if (!s.tiles) return pack_radiance(frame.reflection, s.reflection, workers, bytes);
-  const glm::ivec2 grid = tile_grid(frame);
-  const auto tiles = static_cast<std::size_t>(grid.x) * static_cast<std::size_t>(grid.y);
-  frame.reflection_tiles = pack_tiles(frame.reflection, s.reflection, workers,
-                                      {reinterpret_cast<std::uint32_t*>(bytes.data()), tiles},
-                                      bytes.subspan(tiles * sizeof(std::uint32_t)));
+  frame.reflection_tiles = pack_tiles(frame.reflection, s.reflection, workers, frame.tile_index, bytes);
 }
 
 // Full rows of tiles are one box of the texture, what is left of the last row another.

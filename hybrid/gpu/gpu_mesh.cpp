@@ -69,8 +69,9 @@ GpuMesh::GpuMesh(const Mesh& mesh, const Shared& shared)
     : geometry_(shared.geometry ? shared.geometry->geometry_ : std::make_shared<const Geometry>(mesh)),
       materials_(quads(material_texels(mesh))),
       maps_(mesh, shared.textures ? &shared.textures->maps_ : nullptr),
-      // Reversed float depth is as fine far away as near by, so the near plane may be next to nothing.
-      z_near_(std::max(mesh.bounds().diagonal() * 1e-6f, std::numeric_limits<float>::min())) {}
+      // Reversed float depth is as fine far away as near by, so the near plane may be next to nothing: depth
+      // leaves float's normal numbers only for what is 2^66 diagonals away.
+      z_near_(std::max(mesh.bounds().diagonal() * 0x1p-60f, std::numeric_limits<float>::min())) {}
 
 bool has_same_geometry(const Mesh& a, const Mesh& b) {
   return a.positions == b.positions && a.normals == b.normals && a.triangles == b.triangles &&

@@ -269,12 +269,14 @@ TEST(ReflectionTiles, OnlyThoseWithLight) {
   Image<glm::vec3> image(glm::ivec2(26, 10));  // 4 x 2 tiles, the last ones cut
   image.at(9, 3) = glm::vec3(1.0f, 2.0f, 3.0f);
   image.at(25, 9) = glm::vec3(0.5f);
-  std::vector<std::uint32_t> index(8);
-  std::vector<std::byte> bytes(8 * bytes_per_tile(ReflectionFormat::full));
+  std::vector<std::uint32_t> index;
+  std::vector<std::byte> bytes(most_tile_bytes(image.size(), ReflectionFormat::full));
   ASSERT_EQ(pack_tiles(image, ReflectionFormat::full, workers, index, bytes), 2u);
   EXPECT_EQ(index, (std::vector<std::uint32_t>{kNoTile, 0, kNoTile, kNoTile, kNoTile, kNoTile, kNoTile, 1}));
   // Two tiles side by side in the texture's first, incomplete row.
-  const auto* light = reinterpret_cast<const glm::vec3*>(bytes.data());
+  const std::span<const std::byte> sent_index = std::as_bytes(std::span(index));
+  EXPECT_TRUE(std::equal(sent_index.begin(), sent_index.end(), bytes.begin()));
+  const auto* light = reinterpret_cast<const glm::vec3*>(bytes.data() + sent_index.size());
   EXPECT_EQ(light[3 * 2 * kReflectionTile + 1], glm::vec3(1.0f, 2.0f, 3.0f));
   EXPECT_EQ(light[1 * 2 * kReflectionTile + kReflectionTile + 1], glm::vec3(0.5f));
 }

@@ -230,6 +230,37 @@ TEST(Textures, LookTheSameOnBothSides) {
   compare_modes(scene, "textured plate");
 }
 
+// A scene a million units across, whose floor passes below the eye; near the eye another, and a triangle.
+TEST(NearPlane, HidesNothingNearTheEye) {
+  constexpr float kReach = 1e6f;
+  constexpr glm::ivec2 kPicture{64, 48};
+  for (const float distance : {1.0f, 1e-2f, 1e-5f, 1e-9f}) {
+    MeshData mesh;
+    // Float ends where a triangle passes the eye at a part of its own size.
+    for (const auto& [side, low] : {std::pair(kReach, 100.0f), std::pair(10.0f * distance, 0.3f * distance)})
+      add_triangle(mesh, {-side, -low, side}, {side, -low, side}, {0.0f, -low, -side});
+    add_triangle(mesh, {-kReach, -kReach, -0.9f * kReach}, {kReach, -kReach, -0.9f * kReach},
+                 {0.0f, kReach, -0.9f * kReach});
+    const auto near_by = static_cast<std::uint32_t>(mesh.triangles.size());
+    add_triangle(mesh, distance * glm::vec3(-0.2f, -0.2f, -1.0f), distance * glm::vec3(0.25f, -0.1f, -1.0f),
+                 distance * glm::vec3(0.05f, 0.2f, -1.1f));
+    Scene scene;
+    scene.mesh = std::make_shared<const Mesh>(std::move(mesh));
+    scene.lights = {point_light({0.0f, kReach, 0.0f})};
+    Camera camera;
+    camera.eye = glm::vec3(0.0f);
+    camera.target = {0.0f, 0.0f, -1.0f};
+    scene.cameras = {camera};
+    const FrameResult gpu = draw_one(scene, by_mode("raster", kPicture));
+    const FrameResult cpu = draw_one(scene, by_mode("raytrace", kPicture));
+    std::size_t others = 0;
+    for (std::size_t i = 0; i < gpu.ids.pixels().size(); ++i) others += gpu.ids[i] != cpu.ids[i];
+    EXPECT_LT(others, 8u) << distance;  // edges
+    for (const FrameResult* frame : {&gpu, &cpu})
+      EXPECT_GT(std::ranges::count(frame->ids.pixels(), near_by), 50) << distance;
+  }
+}
+
 TEST(Lights, OfEveryKindLookTheSameOnBothSides) {
   Scene scene = plate_over_floor();
   Light sun;
