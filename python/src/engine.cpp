@@ -4,15 +4,14 @@
 
 #include <nanobind/stl/variant.h>
 #include <chrono>
-#include <cstdlib>
 #include <cstring>
 #include <mutex>
-#include <thread>
 
 #include "python/src/interrupt.h"
 #include "python/src/parts.h"
 #include "python/src/render_settings.h"
 #include "python/src/result.h"
+#include "python/src/threads.h"
 
 namespace pinocchio::python {
 namespace {
@@ -45,13 +44,6 @@ void check_size(const glm::ivec2& size) {
   if (size.x < 1 || size.y < 1 || size.x > 65536 || size.y > 65536)
     throw Error("size is " + std::to_string(size.x) + "x" + std::to_string(size.y) +
                 "; it is (width, height) in pixels");
-}
-
-int threads_wanted(int given) {
-  if (given < 0 || given > kMostThreads)
-    throw Error("threads is from 0 (one a core) to " + std::to_string(kMostThreads));
-  const char* const said = std::getenv("PINOCCHIO_THREADS");
-  return given > 0 || !said ? given : std::max(0, std::min(std::atoi(said), kMostThreads));
 }
 
 using Array = nb::ndarray<nb::c_contig, nb::device::cpu>;
@@ -135,9 +127,7 @@ class PyEngine {
     if (pid_ != getpid()) (void)engine_.release();  // its threads stayed in the parent
   }
 
-  [[nodiscard]] int threads() const {
-    return threads_ > 0 ? threads_ : static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
-  }
+  [[nodiscard]] int threads() const { return or_one_a_core(threads_); }
 
   Result render(const Scene& scene, const CameraChoice& choice, const glm::ivec2& size,
                 const nb::kwargs& arguments) {
