@@ -102,14 +102,21 @@ nb::object new_array(const Output& output, const std::vector<std::size_t>& shape
 
 nb::object given_array(const Output& output, const std::vector<std::size_t>& shape, nb::handle given,
                        FrameArrays& to) {
-  const auto array = nb::cast<nb::ndarray<>>(given, false);
+  const std::string named = std::string("out['") + output.name + "'] ";
+  nb::ndarray<> array;
+  if (!nb::try_cast(given, array, false))
+    throw nb::type_error((named + "is no array that can be written to in the CPU's memory").c_str());
+  if (const int device = array.device_type(); device != nb::device::cpu::value &&
+                                              device != nb::device::cuda_host::value &&
+                                              device != nb::device::rocm_host::value)
+    throw nb::type_error((named + "is on another device (DLPack's type " + std::to_string(device) +
+                          "); the CPU fills it: give an array of its memory, and copy that to the device")
+                             .c_str());
   bool fits = array.dtype() == output.type && array.ndim() == shape.size() && array.is_valid();
   std::int64_t stride = 1;
   for (std::size_t i = shape.size(); fits && i-- > 0; stride *= static_cast<std::int64_t>(shape[i]))
     fits = array.shape(i) == shape[i] && (shape[i] == 1 || array.stride(i) == stride);
-  if (!fits)
-    throw Error(std::string("out['") + output.name +
-                "'] is not of the shape and type of this output; leave it out");
+  if (!fits) throw Error(named + "is not of the shape and type of this output; leave it out");
   output.point(to, array.data());
   return nb::borrow(given);
 }
@@ -136,13 +143,14 @@ class PyEngine {
     const Settings settings = settings_of(arguments, threads_);
     const Camera camera = camera_of(scene, choice);
     const Scene drawn = lit(scene, camera);
+    const bool is_dark = scene.lights.empty();
     return without_gil([&](Progress* progress) {
       const std::lock_guard lock(mutex_);
       const auto begin = std::chrono::steady_clock::now();
       Result result{
           value_or_throw(engine_->render(drawn, {.camera = camera, .size = size}, settings, progress))};
       result.ms = std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - begin).count();
-      if (scene.lights.empty()) result.frame.scene.lights = drawn.lights;
+      if (is_dark) result.frame.scene.lights = drawn.lights;
       return result;
     });
   }
