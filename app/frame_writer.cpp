@@ -2,10 +2,14 @@
 
 #include <utility>
 
+#include "core/parallel/start_thread.h"
+
 namespace pinocchio::app {
 
 FrameWriter::FrameWriter(const OutputOptions& options, std::function<bool()> cancelled)
-    : options_(options), cancelled_(std::move(cancelled)), thread_([this] { run(); }) {}
+    : options_(options),
+      cancelled_(std::move(cancelled)),
+      thread_(start_thread<std::thread>([this] { run(); })) {}
 
 FrameWriter::~FrameWriter() {
   {
@@ -20,6 +24,7 @@ void FrameWriter::write(DrawnFrame frame) {
   changed_.wait(lock, [this] { return waiting_.size() < kMostWaiting || error_; });
   if (error_) std::rethrow_exception(error_);
   waiting_.push_back(std::move(frame));
+  if (!thread_.joinable()) return write_first(lock);
   changed_.notify_all();
 }
 
@@ -43,24 +48,28 @@ void FrameWriter::run() {
   while (true) {
     changed_.wait(lock, [this] { return ending_ || !waiting_.empty(); });
     if (waiting_.empty()) return;
-    const DrawnFrame frame = std::move(waiting_.front());
-    waiting_.pop_front();
-    changed_.notify_all();
-    if (error_ || cancelled_()) continue;
-    lock.unlock();
-    std::exception_ptr error;
-    try {
-      write_outputs(options_, frame);
-    } catch (...) {
-      error = std::current_exception();
-    }
-    lock.lock();
-    if (error)
-      error_ = error;
-    else
-      written_.push_back(frame.header.number);
-    changed_.notify_all();
+    write_first(lock);
   }
+}
+
+void FrameWriter::write_first(std::unique_lock<std::mutex>& lock) {
+  const DrawnFrame frame = std::move(waiting_.front());
+  waiting_.pop_front();
+  changed_.notify_all();
+  if (error_ || cancelled_()) return;
+  lock.unlock();
+  std::exception_ptr error;
+  try {
+    write_outputs(options_, frame);
+  } catch (...) {
+    error = std::current_exception();
+  }
+  lock.lock();
+  if (error)
+    error_ = error;
+  else
+    written_.push_back(frame.header.number);
+  changed_.notify_all();
 }
 
 }  // namespace pinocchio::app

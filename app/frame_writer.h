@@ -13,7 +13,8 @@
 
 namespace pinocchio::app {
 
-// Writes frames in the order they are given, on a thread of its own, while the next ones are drawn.
+// Writes frames in the order they are given, on a thread of its own, while the next ones are drawn. Where the
+// system starts no thread, write() does it.
 class FrameWriter {
  public:
   // `cancelled` is asked before each frame; from the first yes on, nothing more is begun.
@@ -31,6 +32,7 @@ class FrameWriter {
 
  private:
   void run();
+  void write_first(std::unique_lock<std::mutex>& lock);
   void end();
 
   const OutputOptions& options_;

@@ -16,6 +16,7 @@
 #include "gl/error.h"
 #include "pinocchio/engine.h"
 #include "pinocchio/progress.h"
+#include "pinocchio/threads.h"
 
 namespace pinocchio::app {
 namespace {
@@ -74,6 +75,7 @@ int parse_and_run(int argc, char** argv) {
     return say(std::string(error.what()) + "; 'pinocchio" + verb + " --help' tells what there is", kUsage);
   }
   catch_interrupts();
+  set_thread_warning([](const char* line) { std::fprintf(stderr, "pinocchio: warning: %s\n", line); });
   for (const auto& [name, run] : verbs)
     if (program.got_subcommand(name)) return flushed(run_verb(run));
   return kUsage;

@@ -17,6 +17,10 @@ namespace pinocchio {
 std::future<void> TracingThread::post(std::function<void()> job) {
   std::packaged_task<void()> task(std::move(job));
   std::future<void> done = task.get_future();
+  if (!thread_.joinable()) {
+    task();
+    return done;
+  }
   {
     const std::lock_guard lock(mutex_);
     jobs_.push_back(std::move(task));

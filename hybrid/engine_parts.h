@@ -10,6 +10,7 @@
 #include <thread>
 
 #include "core/parallel/priority.h"
+#include "core/parallel/start_thread.h"
 #include "core/parallel/workers.h"
 #include "gl/open.h"
 #include "hybrid/gpu/gpu_mesh.h"
@@ -25,12 +26,12 @@ namespace pinocchio {
 class TracingThread {
  public:
   explicit TracingThread(bool gives_way)
-      : thread_([this, gives_way](const std::stop_token& stop) {
+      : thread_(start_thread<std::jthread>([this, gives_way](const std::stop_token& stop) {
           if (gives_way) give_way(kForFrames);
           run(stop);
-        }) {}
+        })) {}
 
-  // What `job` throws is in the future.
+  // What `job` throws is in the future. Where the thread could not be started, `job` is done at once.
   [[nodiscard]] std::future<void> post(std::function<void()> job);
 
  private:

@@ -2,6 +2,7 @@
 
 #include <utility>
 
+#include "core/parallel/start_thread.h"
 #include "pinocchio/engine.h"
 
 namespace pinocchio {
@@ -31,7 +32,7 @@ Expected<PoseAhead::Pose> PoseAhead::at(double seconds, const Settings& settings
   }
   if (next_s && *next_s != seconds) {
     next_wanted_ = Wanted{*next_s, settings};
-    next_ = std::async(std::launch::async, [scene = scene_, next = *next_wanted_, progress = progress_] {
+    next_ = run_aside(0, [scene = scene_, next = *next_wanted_, progress = progress_] {
       return make(scene, next, progress);
     });
   }

@@ -7,7 +7,7 @@
 
 #include "core/base/clock.h"
 #include "core/image/tonemap.h"
-#include "core/parallel/priority.h"
+#include "core/parallel/start_thread.h"
 
 namespace pinocchio::app {
 namespace {
@@ -58,8 +58,7 @@ void Comparison::compare(Image<glm::vec4> picture) {
   compared_s_ = now_s();
   compared_share_ = share_;
   error_of_ = *view_;
-  error_ = std::async(std::launch::async, [this, picture = std::move(picture), reference = color_] {
-    give_way(kForBackground);
+  error_ = run_aside(kForBackground, [this, picture = std::move(picture), reference = color_] {
     return error_against(picture, reference, ErrorMap::flip, workers_);
   });
 }

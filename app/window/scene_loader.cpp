@@ -8,7 +8,7 @@
 #include "app/errors.h"
 #include "app/window/framing.h"
 #include "core/base/clock.h"
-#include "core/parallel/priority.h"
+#include "core/parallel/start_thread.h"
 
 namespace pinocchio::app {
 
@@ -49,19 +49,24 @@ void SceneLoader::build_tree(const Scene& scene, const Settings& settings) {
         });
 }
 
-// Detached: nobody waits for a scene that is no longer wanted.
+// Detached: nobody waits for a scene that is no longer wanted. Without a thread the window waits.
 void SceneLoader::start(const std::string& phase, const std::string& source, Work work) {
   cancel();
   phase_ = phase;
   source_ = source;
   begin_s_ = now_s();
   progress_ = std::make_shared<pinocchio::Progress>();
-  std::packaged_task<News()> task([work = std::move(work), progress = progress_] { return work(*progress); });
-  news_ = task.get_future();
-  std::thread([task = std::move(task), alive = threads_]() mutable {
+  const auto task = std::make_shared<std::packaged_task<News()>>(
+      [work = std::move(work), progress = progress_] { return work(*progress); });
+  news_ = task->get_future();
+  auto thread = start_thread<std::thread>([task, alive = threads_] {
     give_way(kForFrames);  // the window's redraws come first
-    task();
-  }).detach();
+    (*task)();
+  });
+  if (thread.joinable())
+    thread.detach();
+  else
+    (*task)();
 }
 
 void SceneLoader::cancel() {

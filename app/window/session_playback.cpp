@@ -7,7 +7,7 @@
 #include "app/animation.h"
 #include "app/console.h"
 #include "app/window/session.h"
-#include "core/parallel/priority.h"
+#include "core/parallel/start_thread.h"
 #include "pinocchio/animation.h"
 
 namespace pinocchio::app {
@@ -26,9 +26,8 @@ void Session::want_pose() {
   posed_from_ = model_.scene;
   pose_s_ = model_.playback.time_s;
   posed_s_ = pose_s_;
-  pose_ = std::async(std::launch::async, [scene = posed_from_, seconds = pose_s_,
-                                          settings = tree_of_.value_or(Settings{model_.drawn})] {
-    give_way(kForFrames);
+  pose_ = run_aside(kForFrames, [scene = posed_from_, seconds = pose_s_,
+                                 settings = tree_of_.value_or(Settings{model_.drawn})] {
     return PoseAhead(scene).at(seconds, settings);
   });
 }

@@ -6,6 +6,7 @@
 
 #include "bench/rays/measure.h"
 #include "core/math/median.h"
+#include "core/parallel/start_thread.h"
 #include "core/trace/trace_tiles.h"
 #include "core/trace/view_params.h"
 #include "pinocchio/animation.h"
@@ -86,7 +87,7 @@ class Frames {
   }
 
   std::future<Pose> begin(int frame) {
-    return std::async(std::launch::async, [this, frame] {
+    return run_aside(0, [this, frame] {
       Scene posed = at_time(scene_, time_of(frame)).value();
       auto tracer = std::make_shared<const Tracer>(posed.mesh, options_);
       return Pose{std::move(posed), std::move(tracer)};

@@ -2,8 +2,11 @@
 
 #include <algorithm>
 #include <atomic>
+#include <new>
+#include <system_error>
 
 #include "core/parallel/priority.h"
+#include "core/parallel/start_thread.h"
 
 namespace pinocchio {
 
@@ -16,22 +19,41 @@ struct Workers::Job {
 };
 
 Workers::Workers(int threads, int niceness) {
-  if (threads <= 0) threads = static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
+  const int cores = static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
+  if (threads <= 0) threads = cores;
   threads_.reserve(static_cast<std::size_t>(threads) - 1);
-  for (int i = 1; i < threads; ++i)
-    threads_.emplace_back([this, niceness] {
-      if (niceness > 0) give_way(niceness);
-      run_thread();
-    });
+  std::error_code why_not;
+  try {
+    while (count() < threads)
+      threads_.emplace_back([this, niceness, number = count()] {
+        if (niceness > 0) give_way(niceness);
+        run_thread(number);
+      });
+  } catch (const std::system_error& error) {
+    why_not = error.code();
+  } catch (const std::bad_alloc&) {
+    why_not = std::make_error_code(std::errc::not_enough_memory);
+  }
+  if (!why_not) return;
+  const int started = count();
+  keep(cores);
+  warn_of_missing_threads(started, threads, why_not);
+}
+
+// Threads beyond the cores hold memory that the work may need: each has a stack.
+void Workers::keep(int threads) {
+  if (count() <= threads) return;
+  {
+    const std::lock_guard lock(mutex_);
+    kept_ = threads;
+  }
+  wake_.notify_all();
+  for (std::size_t i = static_cast<std::size_t>(threads) - 1; i < threads_.size(); ++i) threads_[i].join();
+  threads_.resize(static_cast<std::size_t>(threads) - 1);
 }
 
 Workers::~Workers() {
-  {
-    const std::lock_guard lock(mutex_);
-    stop_ = true;
-  }
-  wake_.notify_all();
-  for (std::thread& thread : threads_) thread.join();
+  keep(1);
 }
 
 void Workers::for_each(std::size_t n, const std::function<void(std::size_t)>& body) {
@@ -69,12 +91,12 @@ void Workers::work(Job& job) {
   }
 }
 
-void Workers::run_thread() {
+void Workers::run_thread(int number) {
   std::uint64_t seen = 0;
   std::unique_lock lock(mutex_);
   while (true) {
-    wake_.wait(lock, [&] { return stop_ || (job_ && generation_ != seen); });
-    if (stop_) return;
+    wake_.wait(lock, [&] { return number >= kept_ || (job_ && generation_ != seen); });
+    if (number >= kept_) return;
     seen = generation_;
     Job& job = *job_;
     ++busy_;

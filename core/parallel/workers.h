@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <functional>
+#include <limits>
 #include <mutex>
 #include <thread>
 #include <vector>
@@ -14,7 +15,8 @@ namespace pinocchio {
 class Workers {
  public:
   // `threads` in all, the caller's own among them; 0: one a core. niceness: steps by which those
-  // that are its own give way (priority.h).
+  // that are its own give way (priority.h). Where the system does not start all of them, fewer do the work:
+  // one a core at most.
   explicit Workers(int threads = 0, int niceness = 0);
   ~Workers();
   Workers(const Workers&) = delete;
@@ -31,16 +33,17 @@ class Workers {
  private:
   struct Job;
   void work(Job& job);
-  void run_thread();
+  void run_thread(int number);
+  void keep(int threads);
 
   std::mutex turn_;  // held by the caller whose job it is
   std::mutex mutex_;
   std::condition_variable wake_;
   std::condition_variable done_;
   Job* job_ = nullptr;
-  std::uint64_t generation_ = 0;  // counts jobs, so that a thread takes each once
-  int busy_ = 0;                  // threads at the job
-  bool stop_ = false;
+  std::uint64_t generation_ = 0;                // counts jobs, so that a thread takes each once
+  int busy_ = 0;                                // threads at the job
+  int kept_ = std::numeric_limits<int>::max();  // threads with this number and above end
   std::vector<std::thread> threads_;
 };
 

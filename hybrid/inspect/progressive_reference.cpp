@@ -4,8 +4,10 @@
 #include <array>
 #include <atomic>
 #include <optional>
+#include <stdexcept>
 
 #include "core/parallel/priority.h"
+#include "core/parallel/start_thread.h"
 #include "core/parallel/workers.h"
 #include "core/reference/reference_tracer.h"
 #include "core/trace/view_params.h"
@@ -89,12 +91,13 @@ class ProgressiveReference::Artist {
 };
 
 ProgressiveReference::ProgressiveReference(int threads)
-    : threads_(threads), thread_([this](const std::stop_token& stop) { work(stop); }) {}
+    : threads_(threads),
+      thread_(start_thread<std::jthread>([this](const std::stop_token& stop) { work(stop); })) {}
 
 ProgressiveReference::~ProgressiveReference() {
   stop();
   thread_.request_stop();
-  thread_.join();
+  if (thread_.joinable()) thread_.join();
 }
 
 void ProgressiveReference::show(const ReferenceView& view) {
@@ -131,6 +134,8 @@ void ProgressiveReference::stop() {
 
 ProgressiveReference::Progress ProgressiveReference::poll() {
   if (!view_) return {shown_, 0.0, false};
+  if (!thread_.joinable())
+    throw std::runtime_error("the reference picture needs a thread, and the system starts no more of them");
   Job& job = *wanted_;
   std::vector<Job::Patch> patches;
   {

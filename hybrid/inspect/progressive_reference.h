@@ -45,7 +45,8 @@ class ProgressiveReference {
     double share = 0.0;             // of the pixels that are exact, 0 to 1
     bool changed = false;           // since the last poll
   };
-  // The newest of it. Throws what went wrong in the background (out of memory). Valid until the next call.
+  // The newest of it. Throws what went wrong in the background (out of memory, no thread). Valid until the
+  // next call.
   [[nodiscard]] Progress poll();
 
  private:

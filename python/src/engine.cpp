@@ -4,15 +4,14 @@
 
 #include <nanobind/stl/variant.h>
 #include <chrono>
-#include <cstdlib>
 #include <cstring>
 #include <mutex>
-#include <thread>
 
 #include "python/src/interrupt.h"
 #include "python/src/parts.h"
 #include "python/src/render_settings.h"
 #include "python/src/result.h"
+#include "python/src/threads.h"
 
 namespace pinocchio::python {
 namespace {
@@ -45,13 +44,6 @@ void check_size(const glm::ivec2& size) {
   if (size.x < 1 || size.y < 1 || size.x > 65536 || size.y > 65536)
     throw Error("size is " + std::to_string(size.x) + "x" + std::to_string(size.y) +
                 "; it is (width, height) in pixels");
-}
-
-int threads_wanted(int given) {
-  if (given < 0 || given > kMostThreads)
-    throw Error("threads is from 0 (one a core) to " + std::to_string(kMostThreads));
-  const char* const said = std::getenv("PINOCCHIO_THREADS");
-  return given > 0 || !said ? given : std::max(0, std::min(std::atoi(said), kMostThreads));
 }
 
 using Array = nb::ndarray<nb::c_contig, nb::device::cpu>;
@@ -110,14 +102,21 @@ nb::object new_array(const Output& output, const std::vector<std::size_t>& shape
 
 nb::object given_array(const Output& output, const std::vector<std::size_t>& shape, nb::handle given,
                        FrameArrays& to) {
-  const auto array = nb::cast<nb::ndarray<>>(given, false);
+  const std::string named = std::string("out['") + output.name + "'] ";
+  nb::ndarray<> array;
+  if (!nb::try_cast(given, array, false))
+    throw nb::type_error((named + "is no array that can be written to in the CPU's memory").c_str());
+  if (const int device = array.device_type(); device != nb::device::cpu::value &&
+                                              device != nb::device::cuda_host::value &&
+                                              device != nb::device::rocm_host::value)
+    throw nb::type_error((named + "is on another device (DLPack's type " + std::to_string(device) +
+                          "); the CPU fills it: give an array of its memory, and copy that to the device")
+                             .c_str());
   bool fits = array.dtype() == output.type && array.ndim() == shape.size() && array.is_valid();
   std::int64_t stride = 1;
   for (std::size_t i = shape.size(); fits && i-- > 0; stride *= static_cast<std::int64_t>(shape[i]))
     fits = array.shape(i) == shape[i] && (shape[i] == 1 || array.stride(i) == stride);
-  if (!fits)
-    throw Error(std::string("out['") + output.name +
-                "'] is not of the shape and type of this output; leave it out");
+  if (!fits) throw Error(named + "is not of the shape and type of this output; leave it out");
   output.point(to, array.data());
   return nb::borrow(given);
 }
@@ -135,9 +134,7 @@ class PyEngine {
     if (pid_ != getpid()) (void)engine_.release();  // its threads stayed in the parent
   }
 
-  [[nodiscard]] int threads() const {
-    return threads_ > 0 ? threads_ : static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
-  }
+  [[nodiscard]] int threads() const { return or_one_a_core(threads_); }
 
   Result render(const Scene& scene, const CameraChoice& choice, const glm::ivec2& size,
                 const nb::kwargs& arguments) {
@@ -146,13 +143,14 @@ class PyEngine {
     const Settings settings = settings_of(arguments, threads_);
     const Camera camera = camera_of(scene, choice);
     const Scene drawn = lit(scene, camera);
+    const bool is_dark = scene.lights.empty();
     return without_gil([&](Progress* progress) {
       const std::lock_guard lock(mutex_);
       const auto begin = std::chrono::steady_clock::now();
       Result result{
           value_or_throw(engine_->render(drawn, {.camera = camera, .size = size}, settings, progress))};
       result.ms = std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - begin).count();
-      if (scene.lights.empty()) result.frame.scene.lights = drawn.lights;
+      if (is_dark) result.frame.scene.lights = drawn.lights;
       return result;
     });
   }

@@ -1,4 +1,16 @@
+#include <pinocchio/threads.h>
+
 #include "python/src/parts.h"
+
+namespace {
+
+// A RuntimeWarning; where warnings are errors, one that is shown and not raised, as the work goes on.
+void warn(const char* line) {
+  const nanobind::gil_scoped_acquire held;
+  if (PyErr_WarnEx(PyExc_RuntimeWarning, line, 1) != 0) PyErr_WriteUnraisable(nullptr);
+}
+
+}  // namespace
 
 NB_MODULE(_core, module) {
   using namespace pinocchio;
@@ -18,6 +30,7 @@ NB_MODULE(_core, module) {
         }
       },
       error.ptr());
+  set_thread_warning(warn);
   bind_camera(module);
   bind_scene(module);
   bind_result(module);

@@ -23,8 +23,12 @@ auto picture(Image<glm::vec<N, float, glm::defaultp>>& image, nb::handle owner) 
       owner);
 }
 
+// Several threads may make them at the same time; the first one's are kept, as arrays view them.
 SurfaceImages& surfaces(Result& result) {
-  if (!result.surfaces) result.surfaces = without_gil([&](Progress*) { return surfaces_of(result.frame); });
+  if (!result.surfaces) {
+    SurfaceImages made = without_gil([&](Progress*) { return surfaces_of(result.frame); });
+    if (!result.surfaces) result.surfaces = std::move(made);
+  }
   return *result.surfaces;
 }
 
@@ -53,9 +57,10 @@ nb::dict record(const Result& result) {
 
 auto reflection(nb::handle self) {
   Result& result = nb::cast<Result&>(self);
-  if (result.frame.reflection.empty())
-    result.frame.reflection = Image<glm::vec3>(result.frame.ids.size(), glm::vec3(0.0f));
-  return picture(result.frame.reflection, self);
+  if (!result.frame.reflection.empty()) return picture(result.frame.reflection, self);
+  if (result.no_reflection.empty())
+    result.no_reflection = Image<glm::vec3>(result.frame.ids.size(), glm::vec3(0.0f));
+  return picture(result.no_reflection, self);
 }
 
 auto mask(nb::handle self) {

@@ -6,13 +6,14 @@
 
 namespace pinocchio::python {
 
-// A finished picture; what is made of it is made when it is first asked for.
+// A finished picture; what is made of it is made when it is first asked for, with the GIL held.
 struct Result {
-  FrameResult frame;
-  double ms = 0.0;  // from the call to the picture
+  FrameResult frame;  // never changed: calls that released the GIL read it
+  double ms = 0.0;    // from the call to the picture
   std::optional<SurfaceImages> surfaces{};
   Image<std::uint8_t> mask{};
   Image<std::uint32_t> objects{};
+  Image<glm::vec3> no_reflection{};  // zeros, where the frame traced none
 };
 
 }  // namespace pinocchio::python

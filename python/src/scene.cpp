@@ -149,16 +149,17 @@ int node_of(const Scene& scene, const std::variant<int, std::string>& name) {
   throw Error("there is no node '" + std::get<std::string>(name) + "'; Scene.nodes lists them");
 }
 
+// Of a scene that is read without the GIL there is a cheap copy, as other threads may change it meanwhile.
 Scene with_transforms(const Scene& scene, const nb::dict& transforms) {
   std::vector<NodeTransform> moves;
   for (const auto& [name, matrix] : transforms)
     moves.push_back({node_of(scene, nb::cast<std::variant<int, std::string>>(name)),
                      matrix_of(nb::cast<Matrix>(matrix))});
-  return value_or_throw(without_gil([&](Progress*) { return posed(scene, moves); }));
+  return value_or_throw(without_gil([&, copy = scene](Progress*) { return posed(copy, moves); }));
 }
 
 Scene assemble(const nb::dict& parts) {
-  std::vector<Scene> scenes;  // a cheap copy each, that no other Python thread changes meanwhile
+  std::vector<Scene> scenes;
   scenes.reserve(nb::len(parts));
   std::vector<Part> all;
   for (const auto& [name, part] : parts) {
@@ -324,7 +325,8 @@ void bind_scene(nb::module_& module) {
       .def(
           "at_time",
           [](const Scene& scene, double seconds) {
-            return value_or_throw(without_gil([&](Progress*) { return at_time(scene, seconds); }));
+            return value_or_throw(
+                without_gil([copy = scene, seconds](Progress*) { return at_time(copy, seconds); }));
           },
           "seconds"_a,
           "The scene as its animation has it then: nodes, skins and morph targets, with lights and cameras "

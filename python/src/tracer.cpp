@@ -4,11 +4,15 @@
 
 #include <algorithm>
 #include <atomic>
+#include <exception>
 #include <functional>
+#include <mutex>
+#include <system_error>
 #include <thread>
 
 #include "python/src/interrupt.h"
 #include "python/src/parts.h"
+#include "python/src/threads.h"
 
 namespace pinocchio::python {
 namespace {
@@ -47,37 +51,41 @@ Rays rays_of(const Floats3& origins, const Floats3& directions, const std::optio
           origins.shape(0) == n ? 3u : 0u};
 }
 
-// Calls body(first, last) for chunks of [0, n), on as many threads as are worth it.
+// Calls body(first, last) for chunks of [0, n), on as many threads as are worth it, or fewer where the system
+// does not start them.
 void for_chunks(std::size_t n, int threads, const Progress* progress,
                 const std::function<void(std::size_t, std::size_t)>& body) {
   std::atomic<std::size_t> next{0};
+  std::mutex mutex;
+  std::exception_ptr error;
   const auto work = [&] {
-    for (std::size_t first; (first = next.fetch_add(kChunk)) < n;) {
-      throw_if_cancelled(progress);
-      body(first, std::min(first + kChunk, n));
+    try {
+      for (std::size_t first; (first = next.fetch_add(kChunk)) < n;) {
+        throw_if_cancelled(progress);
+        body(first, std::min(first + kChunk, n));
+      }
+    } catch (...) {
+      next = n;
+      const std::lock_guard lock(mutex);
+      if (!error) error = std::current_exception();
     }
   };
   const auto chunks = static_cast<int>(std::min<std::size_t>((n + kChunk - 1) / kChunk, 1024));
-  std::atomic<bool> stopped{false};
   {
     std::vector<std::jthread> helpers;
-    for (int i = 1; i < std::min(threads, chunks); ++i)
-      helpers.emplace_back([&] {
-        try {
-          work();
-        } catch (const Cancelled&) {
-          stopped = true;
-        }
-      });
+    try {
+      for (int i = 1; i < std::min(threads, chunks); ++i) helpers.emplace_back(work);
+    } catch (const std::system_error&) {  // those that are there do it all
+    }
     work();
   }
-  if (stopped) throw Cancelled();
+  if (error) std::rethrow_exception(error);
 }
 
 class ArrayTracer {
  public:
   ArrayTracer(std::shared_ptr<const Mesh> mesh, int threads, Progress* progress)
-      : threads_(threads > 0 ? threads : static_cast<int>(std::max(1u, std::thread::hardware_concurrency()))),
+      : threads_(or_one_a_core(threads)),
         tracer_(std::move(mesh), BuildOptions{.threads = threads_, .progress = progress}) {}
 
   nb::tuple closest_hits(const Floats3& origins, const Floats3& directions,
@@ -128,11 +136,12 @@ void bind_tracer(nb::module_& module) {
       .def(
           "__init__",
           [](ArrayTracer* self, const Floats3& vertices, const Words3& triangles, int threads) {
+            const int wanted = threads_wanted(threads);
             const auto mesh = mesh_of(vertices, triangles);
-            without_gil([&](Progress* progress) { return new (self) ArrayTracer(mesh, threads, progress); });
+            without_gil([&](Progress* progress) { return new (self) ArrayTracer(mesh, wanted, progress); });
           },
           "vertices"_a, "triangles"_a, "threads"_a = 0,
-          "vertices: (n, 3); triangles: (m, 3) indices. threads: 0 is one a core.")
+          "vertices: (n, 3); triangles: (m, 3) indices. threads: as an Engine's.")
       .def("closest_hits", &ArrayTracer::closest_hits, "origins"_a, "directions"_a, "t_max"_a = nb::none(),
            "(t, triangle) of each ray: t float32, in lengths of the ray's direction, inf where nothing is "
            "hit; triangle\n"

@@ -71,3 +71,18 @@ def test_one_origin_for_all():
 def quad():
     vertices = numpy.array([[-1, -1, 0], [1, -1, 0], [1, 1, 0], [-1, 1, 0]], numpy.float32)
     return vertices, numpy.array([[0, 1, 2], [0, 2, 3]])
+
+
+def test_threads_are_the_programs(monkeypatch):
+    vertices, triangles = quad()
+    for wrong in (-1, 1025, 2**31 - 1):
+        with pytest.raises(pinocchio.Error, match="threads is from 0 .* to 1024"):
+            pinocchio.Tracer(vertices, triangles, threads=wrong)
+    with pytest.raises(TypeError):
+        pinocchio.Tracer(vertices, triangles, threads=2.5)
+    origins, directions = numpy.zeros((1, 3)), numpy.random.default_rng(3).normal(size=(20000, 3))
+    hits = [pinocchio.Tracer(vertices, triangles, threads=n).closest_hits(origins, directions) for n in (1, 7)]
+    monkeypatch.setenv("PINOCCHIO_THREADS", "3")
+    hits.append(pinocchio.Tracer(vertices, triangles).closest_hits(origins, directions))
+    for other in hits[1:]:
+        assert all(numpy.array_equal(a, b) for a, b in zip(hits[0], other))

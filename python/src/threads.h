@@ -1,0 +1,26 @@
+// Numbers of threads as callers give them.
+#pragma once
+
+#include <pinocchio/settings.h>
+
+#include <algorithm>
+#include <cstdlib>
+#include <thread>
+
+#include "python/src/convert.h"
+
+namespace pinocchio::python {
+
+// What the constructors' argument says, or PINOCCHIO_THREADS where that is 0; 0: one a core.
+inline int threads_wanted(int given) {
+  if (given < 0 || given > kMostThreads)
+    throw Error("threads is from 0 (one a core) to " + std::to_string(kMostThreads));
+  const char* const said = std::getenv("PINOCCHIO_THREADS");
+  return given > 0 || !said ? given : std::clamp(std::atoi(said), 0, kMostThreads);
+}
+
+inline int or_one_a_core(int threads) {
+  return threads > 0 ? threads : static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
+}
+
+}  // namespace pinocchio::python
