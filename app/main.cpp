@@ -13,8 +13,7 @@
 #include "app/errors.h"
 #include "app/verbs.h"
 #include "core/base/system_info.h"
-#include "gl/error.h"
-#include "pinocchio/engine.h"
+#include "pinocchio/open_gl_error.h"
 #include "pinocchio/progress.h"
 #include "pinocchio/threads.h"
 
@@ -43,8 +42,6 @@ int run_verb(const Run& run) {
     return say(end.what(), end.code());
   } catch (const Cancelled&) {
     return say("interrupted; what was finished is kept", kInterrupted);
-  } catch (const gl::NoContextError& error) {
-    return say(error.what(), kNoContext);
   } catch (const NoOpenGlError& error) {
     return say(error.what(), kNoContext);
   } catch (const std::bad_alloc&) {

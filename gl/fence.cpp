@@ -19,7 +19,7 @@ void Fence::wait() const {
     const GLenum status = glClientWaitSync(sync_, 0, kOneSecond_ns);
     if (status == GL_ALREADY_SIGNALED || status == GL_CONDITION_SATISFIED) return;
     if (status == GL_WAIT_FAILED || context_lost())
-      throw Error("waiting for the GPU failed: the context is lost");
+      throw ContextLostError("waiting for the GPU failed: its OpenGL context is lost; start again");
   }
 }
 

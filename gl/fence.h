@@ -23,8 +23,8 @@ class Fence {
   // Marks the work given to the GPU so far, and sends it off.
   static Fence insert();
 
-  // Returns when the GPU has come this far; an empty fence does at once. Throws Error when the context is
-  // lost.
+  // Returns when the GPU has come this far; an empty fence does at once. Throws
+  // ContextLostError when the context is lost.
   void wait() const;
 
  private:

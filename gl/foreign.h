@@ -1,6 +1,9 @@
 #pragma once
 
+#include <string>
+
 #include "gl/context.h"
+#include "gl/error.h"
 
 namespace pinocchio::gl {
 
@@ -9,10 +12,12 @@ class ForeignContext final : public Context {
  public:
   using GetProcAddress = void (*(*)(const char*))();
 
-  // Throws Error where the context is less than we need.
-  ForeignContext(GetProcAddress get_proc_address, bool debug) : get_proc_address_(get_proc_address) {
+  // Throws NoContextError where the context is less than we need.
+  ForeignContext(GetProcAddress get_proc_address, bool debug) try : get_proc_address_(get_proc_address) {
     make_current();
     describe("foreign", "the caller's context", debug);
+  } catch (const Error& error) {
+    throw NoContextError(std::string("the caller's OpenGL context does not serve: ") + error.what());
   }
   void release() override {}
 

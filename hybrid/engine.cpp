@@ -6,7 +6,6 @@
 
 #include "core/trace/surface.h"
 #include "core/trace/view_params.h"
-#include "gl/error.h"
 #include "gl/foreign.h"
 #include "hybrid/engine_parts.h"
 #include "hybrid/samples.h"
@@ -45,13 +44,9 @@ GpuPasses& Engine::Parts::gpu() {
   if (passes) return *passes;
   if (!context) {
     if (options.gl_threads > 0) setenv("LP_NUM_THREADS", std::to_string(options.gl_threads).c_str(), 1);
-    try {
-      own = options.get_proc_address
-                ? std::make_unique<gl::ForeignContext>(options.get_proc_address, options.gl_debug)
-                : gl::open_context({options.backend, options.device, options.gl_debug});
-    } catch (const gl::NoContextError& error) {
-      throw NoOpenGlError(error.what());
-    }
+    own = options.get_proc_address
+              ? std::make_unique<gl::ForeignContext>(options.get_proc_address, options.gl_debug)
+              : gl::open_context({options.backend, options.device, options.gl_debug});
     context = own.get();
   }
   passes = std::make_unique<GpuPasses>(std::make_shared<Programs>());

@@ -12,10 +12,10 @@
 
 #include "core/base/clock.h"
 #include "gl/context.h"
+#include "gl/error.h"
 #include "hybrid/exchange/encode.h"
 #include "hybrid/passes/passes.h"
 #include "hybrid/schedule.h"
-#include "pinocchio/error.h"
 
 namespace pinocchio {
 namespace {
@@ -209,7 +209,7 @@ FrameSlot& Renderer::Loop::begin(FrameRequest&& request) {
   if (gpu) {
     (void)engine_.gpu();
     if (gl::context_lost())
-      throw EnvironmentError("the GPU was reset and its OpenGL context is lost; start again");
+      throw gl::ContextLostError("the GPU was reset and its OpenGL context is lost; start again");
     if (frames_on_gpu_++ % kFramesBetweenCalibrations == 0) clock_.calibrate();
   }
   generation_ = generation();

@@ -23,6 +23,13 @@ bool same_view(const FrameRequest& a, const FrameRequest& b) {
   return moved == b;
 }
 
+// OpenGL without its context, and a machine that fails otherwise. What OpenGL cannot draw is a message.
+bool ends_the_window(const std::exception& error) {
+  if (dynamic_cast<const gl::ContextLostError*>(&error) || dynamic_cast<const gl::NoContextError*>(&error))
+    return true;
+  return dynamic_cast<const EnvironmentError*>(&error) && !dynamic_cast<const gl::Error*>(&error);
+}
+
 }  // namespace
 
 glm::ivec2 Session::picture_size() const {
@@ -61,11 +68,8 @@ void Session::draw() {
   if (model_.has_scene() && !answers_first()) {
     try {
       draw_scene();
-    } catch (const gl::ContextLostError&) {
-      throw;
-    } catch (const EnvironmentError&) {
-      throw;
     } catch (const std::exception& error) {
+      if (ends_the_window(error)) throw;
       model_.messages.error("drawing", one_line(error.what()));
       asked_ = next_request();  // not tried again until something changes
       idle_ = true;

@@ -47,6 +47,15 @@ def test_errors_are_the_programs_line(scenes, arguments, says):
         pinocchio.Engine().render(scene, **arguments)
 
 
+def test_errors_of_opengl_are_the_programs_line(scenes, tmp_path, monkeypatch):
+    scene = pinocchio.load_scene(scenes / "cornell.gltf")
+    monkeypatch.setenv("PINOCCHIO_SHADERS", str(tmp_path))  # where there are none
+    with pytest.raises(pinocchio.Error, match="fullscreen.vert|visibility.vert"):
+        pinocchio.Engine().render(scene, size=(16, 12), mode="hybrid")
+    with pytest.raises(pinocchio.Error, match="no OpenGL context"):
+        pinocchio.Engine(device="99").render(scene, size=(16, 12), mode="hybrid")
+
+
 def test_files_that_cannot_be_read(tmp_path):
     with pytest.raises(pinocchio.Error, match="there is no such file; check its name"):
         pinocchio.load_scene(tmp_path / "none.gltf")

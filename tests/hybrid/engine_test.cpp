@@ -3,6 +3,7 @@
 
 #include <dlfcn.h>
 
+#include <string_view>
 #include <thread>
 
 #include "core/bsp/tree.h"
@@ -147,6 +148,30 @@ TEST(Engine, DrawsInTheCallersContext) {
   }
   context->throw_complaints();
   EXPECT_TRUE(same_pixels(drawn, draw_all(scene, {.size = view().size}, {view().camera}).front()));
+}
+
+// As an OpenGL 3.3 without the extension has it.
+void (*without_clip_control(const char* name))() {
+  static const auto kFind = reinterpret_cast<EngineOptions::GetProcAddress>(
+      dlsym(dlopen("libEGL.so.1", RTLD_NOW), "eglGetProcAddress"));
+  return std::string_view(name).starts_with("glClipControl") ? nullptr : kFind(name);
+}
+
+TEST(Engine, ErrorsOfOpenGlAreOfThePublicFamily) {
+  const auto context = gl::open_context({"egl", "", true});
+  const Scene scene = cornell();
+  Engine engine({.get_proc_address = without_clip_control});
+  try {
+    (void)engine.render(scene, view());
+    FAIL() << "it was drawn without glClipControl";
+  } catch (const NoOpenGlError& error) {
+    EXPECT_NE(std::string(error.what()).find("lacks GL_ARB_clip_control"), std::string::npos) << error.what();
+  }
+  Engine too_large(*context);
+  View wide = view();
+  wide.size = {1 << 16, 1};
+  EXPECT_THROW((void)too_large.render(scene, wide), OpenGlError);
+  EXPECT_THROW((void)too_large.render(scene, wide), EnvironmentError);
 }
 
 using SharedEngineTest = FramesTest;

@@ -7,6 +7,7 @@
 #include <string>
 
 #include "pinocchio/error.h"
+#include "pinocchio/open_gl_error.h"
 #include "pinocchio/renderer.h"
 
 namespace pinocchio {
@@ -16,12 +17,6 @@ namespace gl {
 class Context;
 struct ContextInfo;
 }  // namespace gl
-
-// There is no OpenGL context to be had; what() lists what was tried and why each failed.
-class NoOpenGlError : public EnvironmentError {
- public:
-  using EnvironmentError::EnvironmentError;
-};
 
 struct EngineOptions {
   std::string backend = "auto";  // OpenGL context: auto, egl, osmesa or glfw (a display's)

@@ -43,7 +43,7 @@ class Frame {
   // Without what is known later only: the GPU's times.
   [[nodiscard]] FrameRecord& record() const;
   // The picture on the GPU, linear light, row 0 on top; where the CPU drew alone it is sent there now.
-  // Throws EnvironmentError where there is no OpenGL.
+  // Throws NoOpenGlError where there is none.
   [[nodiscard]] const gl::Texture& texture() const;
   // Its OpenGL name, for programs with a context of their own.
   [[nodiscard]] unsigned texture_name() const;
@@ -79,8 +79,8 @@ class Renderer {
   // Begins a frame and delivers what that finishes. Where the settings reuse and the request is the last one
   // again, nothing is drawn, traced or sent: all in flight is delivered, then the last picture once more.
   // What went wrong on the tracing thread is thrown when that frame would have been delivered; the frame is
-  // lost, the others are not. Throws EnvironmentError where there is no OpenGL (NoOpenGlError), or its
-  // context is lost.
+  // lost, the others are not. Throws OpenGlError: NoOpenGlError where there is none, OpenGlLostError where
+  // its context is lost.
   void submit(const FrameRequest& request);
   // The same for a window, which never waits for the CPU: delivers what is done, and begins the frame where
   // the CPU is not behind. False: it is not begun; try again with what is wanted then.
