@@ -150,9 +150,10 @@ std::vector<int> reduce(nlohmann::json& gltf) {
 // Parses what `reduce` left; false and an error, which tinygltf may leave empty.
 bool parse_model(const nlohmann::json& gltf, tinygltf::Model& model, std::string& error) {
   const std::string text = gltf.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
-  if (text.size() > std::numeric_limits<unsigned>::max())
-    return file.error("holds " + std::to_string(text.size()) + " bytes of JSON, at most 4294967295 are read",
-                      "keep its arrays in a .bin file");
+  if (text.size() > std::numeric_limits<unsigned>::max()) {
+    error = "it holds " + std::to_string(text.size()) + " bytes of JSON, at most 4294967295 are read";
+    return false;
+  }
   tinygltf::TinyGLTF reader;
   std::string warning;
   try {
