@@ -1,6 +1,7 @@
 // pinocchio VERB SCENE [options]
 #include <CLI/CLI.hpp>
 #include <cerrno>
+#include <csignal>
 #include <cstdio>
 #include <cstring>
 #include <iostream>
@@ -82,5 +83,7 @@ int parse_and_run(int argc, char** argv) {
 }  // namespace pinocchio::app
 
 int main(int argc, char** argv) {
+  std::signal(SIGXFSZ,
+              SIG_IGN);  // writing beyond a limit is then an error that names the file, as a full disk is
   return pinocchio::app::parse_and_run(argc, argv);
 }

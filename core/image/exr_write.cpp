@@ -7,6 +7,7 @@
 #include <cstring>
 #include <map>
 #include <mutex>
+#include <new>
 #include <stdexcept>
 
 #include "core/image/atomic_file.h"
@@ -245,8 +246,10 @@ void write_exr(const std::filesystem::path& file, const ExrFile& header, Workers
       write_file(temporary, header, workers, band, progress);
     } catch (const Cancelled&) {
       throw;
+    } catch (const std::bad_alloc&) {
+      throw;
     } catch (const std::exception& error) {
-      throw EnvironmentError(file.string() + ": cannot be written: " + error.what());
+      throw EnvironmentError(file.string() + ": cannot be written: " + error.what() + "; is the disk full?");
     }
   });
 }

@@ -1,5 +1,6 @@
 """Errors, threads, interrupts, many pictures at once."""
 import os
+import resource
 import signal
 import subprocess
 import sys
@@ -73,6 +74,20 @@ def test_compare(scenes, tmp_path):
     assert other["flip"] > 0.01 and other["flip_errors"].shape == (48, 64)
     with pytest.raises(pinocchio.Error, match="same size"):
         pinocchio.compare(result.color[:10], result.color)
+
+
+def test_a_disk_that_fills_is_an_error_and_loses_nothing(scenes, tmp_path):
+    result = pinocchio.Engine().render(pinocchio.load_scene(scenes / "cornell.gltf"), size=(128, 96))
+    file = tmp_path / "x.exr"
+    file.write_text("old")
+    soft, hard = resource.getrlimit(resource.RLIMIT_FSIZE)
+    resource.setrlimit(resource.RLIMIT_FSIZE, (4096, hard))  # Python ignores the signal that goes with it
+    try:
+        with pytest.raises(pinocchio.Error, match="x.exr: cannot be written: .*is the disk full"):
+            result.write_exr(file)
+    finally:
+        resource.setrlimit(resource.RLIMIT_FSIZE, (soft, hard))
+    assert file.read_text() == "old" and os.listdir(tmp_path) == ["x.exr"]
 
 
 def test_the_lock_is_released(scenes):

@@ -112,6 +112,42 @@ TEST_F(OutputsTest, TooLittleMemoryIsAnError) {
   EXPECT_FALSE(exists("x.exr"));
 }
 
+// A limit on a file's size fails a write in its middle, as a full disk does.
+TEST_F(OutputsTest, ADiskThatFillsIsOneLineAndLosesNothing) {
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+  GTEST_SKIP() << "sanitizers write files of their own";
+#endif
+  const std::string draw = "render" + scene("cornell.gltf") + "--mode raytrace --size 128x96 ";
+  ASSERT_EQ(run(draw + "-o a.exr").exit_code, 0);
+  ASSERT_EQ(run(draw + "-o b.exr --light 1,1,1").exit_code, 0);
+  std::filesystem::create_directory(folder_ / "kept");
+  const std::map<std::string, std::string> outputs{
+      {"x.exr", draw + "-o x.exr"},
+      {"raw.exr", draw + "-o raw.exr --compression none"},
+      {"piz.exr", draw + "-o piz.exr --compression piz"},
+      {"x.png", draw + "--preview x.png"},
+      {"x.glb", "generate speedboat -o x.glb"},
+      {"x.gltf", "generate speedboat -o x.gltf"},
+      {"x.obj", "generate speedboat -o x.obj"},
+      {"t.json",
+       "measure" + scene("cornell.gltf") + "--mode raytrace --size 32x24 --frames 40 --trace t.json"},
+      {"h.png", "compare a.exr b.exr --heatmap h.png"},
+  };
+  for (const auto& [file, command] : outputs) write(file, "old");
+  const std::size_t before = files();
+  for (const auto& [file, command] : outputs) {
+    const CommandResult result =
+        run_command("ulimit -f 4; cd '" + folder_.string() + "' && '" PINOCCHIO_PROGRAM "' " + command,
+                    folder_ / "scratch");
+    EXPECT_EQ(result.exit_code, 1) << command << "\n" << result.err;
+    EXPECT_NE(result.err.find(file + ": cannot be written: "), std::string::npos) << result.err;
+    EXPECT_NE(result.err.find("is the disk full?"), std::string::npos) << result.err;
+    EXPECT_EQ(std::count(result.err.begin(), result.err.end(), '\n'), 1) << result.err;
+    EXPECT_EQ(read_file(folder_ / file), "old") << command;
+    EXPECT_EQ(files(), before) << command;
+  }
+}
+
 TEST_F(OutputsTest, LinksAreKeptAndReadOnlyFilesRefused) {
   const std::string render = "render" + scene("cornell.gltf") + "--size 16x12 -o ";
   std::filesystem::create_directory(folder_ / "store");

@@ -1,10 +1,15 @@
 #include "core/image/atomic_file.h"
 
 #include <gtest/gtest.h>
+#include <sys/resource.h>
 
+#include <csignal>
 #include <fstream>
 
+#include "core/image/png.h"
 #include "pinocchio/error.h"
+#include "pinocchio/exr.h"
+#include "pinocchio/save.h"
 #include "tests/support/own_file.h"
 
 namespace pinocchio {
@@ -51,6 +56,38 @@ TEST_F(AtomicFile, SaysBeforehandWhatCannotBeWritten) {
   EXPECT_THROW(check_writable(folder_), EnvironmentError);
   EXPECT_THROW(check_writable("/dev/full"), EnvironmentError);
   EXPECT_THROW(check_writable("/proc/x.txt"), EnvironmentError);  // root or not
+}
+
+// A limit on a file's size fails a write in its middle, as a full disk does.
+TEST_F(AtomicFile, ADiskThatFillsKeepsTheOldFiles) {
+  for (const char* name : {"a.exr", "a.png", "a.glb", "a.obj"}) write_text(folder_ / name, "old");
+  Scene scene;
+  MeshData mesh;
+  mesh.positions.assign(3000, glm::vec3(0.5f));
+  mesh.normals.assign(3000, glm::vec3(0.0f, 1.0f, 0.0f));
+  for (std::uint32_t i = 0; i < 1000; ++i) mesh.triangles.emplace_back(3 * i, 3 * i + 1, 3 * i + 2);
+  mesh.materials.emplace_back();
+  mesh.triangle_materials.assign(1000, 0);
+  scene.mesh = std::make_shared<const Mesh>(std::move(mesh));
+  ExrFile exr{
+      {64, 64}, {{0, 0}, {64, 64}}, {{"Z", ExrChannel::Type::real, std::vector<float>(4096), {}}}, {}, {}};
+  for (std::size_t i = 0; i < 4096; ++i) exr.channels[0].values[i] = static_cast<float>(i * i);
+
+  const auto handler = std::signal(SIGXFSZ, SIG_IGN);
+  rlimit usual{};
+  ASSERT_EQ(getrlimit(RLIMIT_FSIZE, &usual), 0);
+  const rlimit small{2048, usual.rlim_max};
+  ASSERT_EQ(setrlimit(RLIMIT_FSIZE, &small), 0);
+  EXPECT_THROW(write_exr(folder_ / "a.exr", exr), EnvironmentError);
+  Image<glm::u8vec3> noise({64, 64});
+  for (std::size_t i = 0; i < 4096; ++i) noise[i] = glm::u8vec3(i * i, i * 7, i);
+  EXPECT_THROW(write_png(folder_ / "a.png", noise), EnvironmentError);
+  EXPECT_THROW(save_scene(scene, folder_ / "a.glb"), EnvironmentError);
+  EXPECT_THROW(save_scene(scene, folder_ / "a.obj"), EnvironmentError);
+  setrlimit(RLIMIT_FSIZE, &usual);
+  std::signal(SIGXFSZ, handler);
+  for (const char* name : {"a.exr", "a.png", "a.glb", "a.obj"}) EXPECT_EQ(read(name), "old") << name;
+  EXPECT_EQ(files(), 4u);
 }
 
 TEST_F(AtomicFile, ALinkToItselfIsRefusedAndKept) {
