@@ -25,13 +25,11 @@ class MtlLibraries {
 
   // What follows mtllib: one name, spaces and all, where there is such a file, else several.
   void read(const std::string& names) {
-    const std::filesystem::path whole = named_file(file_, names);
-    std::error_code ignored;
-    if (std::filesystem::exists(whole, ignored) || names.find(' ') == std::string::npos)
-      return read_file(whole);
+    const std::filesystem::path whole = loading_.files.named(names);
+    if (loading_.files.has(whole) || names.find(' ') == std::string::npos) return read_file(whole);
     std::string_view rest = names;
     for (std::string_view name; !(name = next_word(rest)).empty();)
-      read_file(named_file(file_, std::string(name)));
+      read_file(loading_.files.named(std::string(name)));
   }
 
   // An index in `materials`; -1 and a warning where no file explains the name.
@@ -48,7 +46,7 @@ class MtlLibraries {
  private:
   void read_file(const std::filesystem::path& mtl) {
     files.push_back(mtl.string());
-    Expected<FileBytes> bytes = read_input_file(mtl, loading_.progress);
+    Expected<FileBytes> bytes = loading_.files.read(mtl, loading_.progress);
     if (!bytes) {
       loading_.warnings.add(
           {file_.string(), "", "its materials cannot be read: " + bytes.error().message(), "grey is used"});
