@@ -102,7 +102,8 @@ Expected<NamedExr> read_picture(const fs::path& file) {
     return Unexpected(InputError{name, 0, "there is no such file", "check its name"});
   Warnings warnings;
   MemoryLimit limit(kUsualLoadLimit);
-  Loading loading{warnings, nullptr, limit};
+  InputFiles files(file, false);
+  Loading loading{warnings, nullptr, limit, files};
   const Expected<DecodedImage> decoded = load_texture(file, loading);
   if (!decoded) return Unexpected(decoded.error());
   if (!decoded->damage.empty())

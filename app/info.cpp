@@ -276,7 +276,7 @@ Run add_info(CLI::App& program) {
       ->excludes(scene);
   verb.add_flag("--plan", options->plan, "how a hybrid frame of it is drawn, and why");
   verb.add_flag("--json", options->json, "as JSON");
-  add_load_limit_option(verb, options->draw);
+  add_trust_options(verb, options->draw);
   verb.add_flag("--strict", options->draw.strict, "what of the scene's files would be left out is an error");
   return [options] {
     if (options->settings) return show_settings(*options);

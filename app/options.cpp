@@ -180,7 +180,7 @@ void add_size_option(CLI::App& verb, DrawOptions& o, const std::string& help) {
       ->type_name("WxH");
 }
 
-void add_load_limit_option(CLI::App& verb, DrawOptions& o) {
+void add_trust_options(CLI::App& verb, DrawOptions& o) {
   verb.add_option_function<std::uint64_t>(
           "--load-limit", [&o](std::uint64_t mib) { o.load_limit = mib << 20; },
           "most memory that the scene's files may claim beyond their own bytes, for pictures, packed meshes "
@@ -188,6 +188,10 @@ void add_load_limit_option(CLI::App& verb, DrawOptions& o) {
           "(4096)")
       ->type_name("MIB")
       ->check(CLI::Range(std::uint64_t{1}, std::uint64_t{1} << 30));
+  verb.add_flag(
+      "--confine", o.confine,
+      "open only files below the scene's folder, wherever the names in it and links lead; for scenes "
+      "of strangers");
 }
 
 void add_scene_options(CLI::App& verb, DrawOptions& o) {
@@ -197,7 +201,7 @@ void add_scene_options(CLI::App& verb, DrawOptions& o) {
           "--environment", o.environment,
           "what is seen behind the scene and lights it: EXR or Radiance (.hdr), latitude and longitude")
       ->type_name("FILE");
-  add_load_limit_option(verb, o);
+  add_trust_options(verb, o);
   verb.add_flag("--strict", o.strict, "what of the scene's files would be left out is an error");
   verb.add_flag("--quiet", o.quiet, "print errors only");
   verb.add_option("--progress", o.progress, "progress bar: auto (on a terminal), on, off (auto)")
@@ -237,7 +241,7 @@ void add_draw_options(CLI::App& verb, DrawOptions& o) {
 
 Scene load_whole(const DrawOptions& options, Warnings& warnings, pinocchio::Progress* progress) {
   pinocchio::Progress* const heard = progress ? progress : &run_progress();
-  Expected<Scene> scene = load_scene(options.scene, &warnings, heard, options.load_limit);
+  Expected<Scene> scene = load_scene(options.scene, LoadOptions{options.load_limit, options.confine}, &warnings, heard);
   if (scene && !options.environment.empty()) {
     auto environment = load_environment(options.environment, heard, options.load_limit, &warnings);
     if (environment)

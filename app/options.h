@@ -36,6 +36,7 @@ struct DrawOptions {
   std::string progress = "auto";
   bool quiet = false;
   std::uint64_t load_limit = kUsualLoadLimit;  // bytes
+  bool confine = false;                        // files that the scene names lie below its folder
   bool strict = false;                         // what of the scene would be left out is an error
 };
 
@@ -43,8 +44,8 @@ struct DrawOptions {
 // is a CLI::ValidationError, so exit code 2 and a line that says what is wanted. Scene, camera, lights,
 // messages:
 void add_scene_options(CLI::App& verb, DrawOptions& options);
-// --load-limit:
-void add_load_limit_option(CLI::App& verb, DrawOptions& options);
+// --load-limit and --confine:
+void add_trust_options(CLI::App& verb, DrawOptions& options);
 // --size, whose help names the verb's own default:
 void add_size_option(CLI::App& verb, DrawOptions& options, const std::string& help);
 // Every setting of the table, and the presets:

@@ -24,6 +24,7 @@ struct ExportedView {
   ToneMap tone_map = ToneMap::clip;
   std::optional<double> time_s{};              // of the scene's animation
   std::uint64_t load_limit = kUsualLoadLimit;  // bytes
+  bool confine = false;
 };
 
 // The command line that draws it: name.exr and name.png. Numbers are exact.

@@ -321,6 +321,7 @@ void Session::print_command() {
   view.tone_map = applied_.tone_map;
   if (model_.scene.animation && !scene_edited_) view.time_s = posed_s_;
   view.load_limit = options_.draw.load_limit;
+  view.confine = options_.draw.confine;
   const std::string command = render_command(view, name);
   std::printf("%s\n", command.c_str());
   std::fflush(stdout);

@@ -64,9 +64,9 @@ Expected<void> read_buffer(GltfFile& file, const Json& buffer, std::size_t index
     if (std::optional<FileBytes> data = data_of(file, uri)) {
       file.add_buffer(std::move(*data));
     } else {
-      const std::filesystem::path path = named_file(file.path, decode_percent(uri));
+      const std::filesystem::path path = file.files->named(decode_percent(uri));
       file.named_files.push_back(path.string());
-      Expected<FileBytes> bytes = read_input_file(path, file.progress);
+      Expected<FileBytes> bytes = file.files->read(path, file.progress);
       if (!bytes) return file.error("its " + whose + " cannot be read: " + bytes.error().message());
       file.add_buffer(std::move(*bytes));
     }
@@ -149,7 +149,7 @@ Expected<void> read_gltf_buffers(GltfFile& file, const Json& gltf,
     if (std::optional<FileBytes> data = data_of(file, uri)) {
       image.image.assign(data->begin(), data->end());
     } else if (!uri.empty()) {
-      image.uri = named_file(file.path, decode_percent(uri)).string();
+      image.uri = file.files->named(decode_percent(uri)).string();
       file.named_files.push_back(image.uri);
     }
   }

@@ -30,6 +30,7 @@ struct GltfFile {
   std::vector<std::string> named_files;     // looked for beside it, found or not
   Progress* progress = nullptr;
   MemoryLimit* limit = nullptr;
+  InputFiles* files = nullptr;
 
   void add_buffer(FileBytes bytes) {
     buffers.push_back(storage.emplace_back(std::move(bytes)).unsigned_bytes());

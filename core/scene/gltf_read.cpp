@@ -210,6 +210,7 @@ Expected<GltfFile> read_gltf_file(const std::filesystem::path& path, Loading& lo
   file.path = path;
   file.progress = loading.progress;
   file.limit = &loading.limit;
+  file.files = &loading.files;
   Expected<FileBytes> bytes = read_input_file(path, loading.progress);
   if (!bytes) return Unexpected(bytes.error());
   Expected<Parts> parts = split(file, std::move(*bytes), loading.warnings);

@@ -1,6 +1,7 @@
 #include "core/scene/input_file.h"
 
 #include <fcntl.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -8,6 +9,7 @@
 #include <boost/locale/encoding_utf.hpp>
 #include <cerrno>
 #include <cstring>
+#include <optional>
 
 #include "core/parallel/parts.h"
 
@@ -16,29 +18,39 @@ namespace {
 
 class Descriptor {
  public:
-  explicit Descriptor(const std::filesystem::path& file)
-      : number_(open(file.c_str(), O_RDONLY | O_CLOEXEC)) {}
+  explicit Descriptor(int number) : number_(number) {}
   ~Descriptor() {
     if (number_ >= 0) close(number_);
   }
   Descriptor(const Descriptor&) = delete;
   Descriptor& operator=(const Descriptor&) = delete;
 
-  [[nodiscard]] bool is_open() const { return number_ >= 0; }
+  // Nothing where it is not open.
+  [[nodiscard]] std::optional<struct stat> status() const {
+    struct stat found {};
+    return number_ >= 0 && fstat(number_, &found) == 0 ? std::optional(found) : std::nullopt;
+  }
+  enum class Found { all, end, failure };
   // Any thread.
-  [[nodiscard]] bool read(char* to, std::size_t count, std::size_t at) const {
+  [[nodiscard]] Found read(char* to, std::size_t count, std::size_t at) const {
     while (count > 0) {
       const ssize_t done = pread(number_, to, count, static_cast<off_t>(at));
       if (done < 0 && errno == EINTR) continue;
-      if (done <= 0) return false;
+      if (done <= 0) return done == 0 ? Found::end : Found::failure;
       to += done, at += static_cast<std::size_t>(done), count -= static_cast<std::size_t>(done);
     }
-    return true;
+    return Found::all;
   }
 
  private:
   int number_;
 };
+
+constexpr const char* kNoFile = "is not a file but a folder, pipe or device";
+
+Unexpected fail(const std::filesystem::path& file, const std::string& what, const std::string& remedy) {
+  return Unexpected(InputError{file.string(), 0, what, remedy});
+}
 
 }  // namespace
 
@@ -49,29 +61,34 @@ std::pair<std::string, std::string> absence_of(const std::filesystem::path& file
 }
 
 Expected<FileBytes> read_input_file(const std::filesystem::path& file, Progress* progress) {
-  const auto fail = [&file](const std::string& what, const std::string& remedy) {
-    return Unexpected(InputError{file.string(), 0, what, remedy});
-  };
-  std::error_code failure;
-  const std::filesystem::file_status status = std::filesystem::status(file, failure);
+  std::error_code ignored;
+  const std::filesystem::file_status status = std::filesystem::status(file, ignored);
   if (!std::filesystem::exists(status)) {
     const auto [what, remedy] = absence_of(file);
-    return fail(what, remedy);
+    return fail(file, what, remedy);
   }
-  if (!std::filesystem::is_regular_file(status))
-    return fail("is not a file but a folder, pipe or device", "name a file");
-  const std::uintmax_t size = std::filesystem::file_size(file, failure);
-  const Descriptor in(file);
-  if (failure || !in.is_open()) return fail("cannot be read", "is it yours to read?");
+  if (!std::filesystem::is_regular_file(status)) return fail(file, kNoFile, "name a file");
+  return read_open_file(open(file.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK), file, progress);
+}
+
+Expected<FileBytes> read_open_file(int descriptor, const std::filesystem::path& file, Progress* progress) {
+  const Descriptor in(descriptor);
+  const std::optional<struct stat> status = in.status();
+  if (!status) return fail(file, "cannot be read", "is it yours to read?");
+  if (!S_ISREG(status->st_mode)) return fail(file, kNoFile, "name a file");
+  const auto size = static_cast<std::size_t>(status->st_size);
   FileBytes bytes(size);
   begin_phase(progress, "read", static_cast<double>(size));
   constexpr std::size_t kAtOnce = std::size_t{1} << 22;
-  std::atomic<bool> whole = true;
+  std::atomic<bool> ended = false, failed = false;
   for_each_part(size, kAtOnce, [&](std::size_t first, std::size_t last) {
-    if (!in.read(bytes.data() + first, last - first, first)) whole = false;
+    const Descriptor::Found found = in.read(bytes.data() + first, last - first, first);
+    if (found == Descriptor::Found::end) ended = true;
+    if (found == Descriptor::Found::failure) failed = true;
     advance(progress, static_cast<double>(last - first));
   });
-  if (!whole) return fail("cannot be read to its end", "is its disk whole?");
+  if (failed) return fail(file, "cannot be read to its end", "is its disk whole?");
+  if (ended) return fail(file, "became shorter while it was read", "is another program writing it?");
   return bytes;
 }
 
@@ -87,15 +104,6 @@ FileBytes as_utf8(FileBytes text) {
   FileBytes result(utf8.size());
   std::ranges::copy(utf8, result.begin());
   return result;
-}
-
-std::filesystem::path named_file(const std::filesystem::path& by, std::string name) {
-  std::replace(name.begin(), name.end(), '\\', '/');
-  const std::filesystem::path folder = by.parent_path(), file = folder / name;
-  std::error_code ignored;
-  if (std::filesystem::exists(file, ignored)) return file;
-  const std::filesystem::path beside = folder / std::filesystem::path(name).filename();
-  return std::filesystem::exists(beside, ignored) ? beside : file;
 }
 
 }  // namespace pinocchio

@@ -18,11 +18,11 @@ namespace pinocchio {
 // "read".
 [[nodiscard]] Expected<FileBytes> read_input_file(const std::filesystem::path& file, Progress* progress);
 
+// The same of a file that is open, which is closed; -1: opening it failed. `file` is for errors.
+[[nodiscard]] Expected<FileBytes> read_open_file(int descriptor, const std::filesystem::path& file,
+                                                 Progress* progress);
+
 // The text as UTF-8 without a byte order mark, which says whether it was UTF-16.
 [[nodiscard]] FileBytes as_utf8(FileBytes text);
-
-// A file that another one names, beside it: `name` as it is, or its last part, where it is a path of the
-// machine that wrote it. Backslashes divide as slashes do. The first of them where neither is there.
-[[nodiscard]] std::filesystem::path named_file(const std::filesystem::path& by, std::string name);
 
 }  // namespace pinocchio

@@ -67,15 +67,25 @@ bool names_known_textures(const MaterialMaps& m, const Mesh& mesh) {
 
 Expected<Scene> load_scene(const std::filesystem::path& path, Warnings* warnings, Progress* progress,
                            std::uint64_t limit_bytes) {
+  return load_scene(path, LoadOptions{limit_bytes, false}, warnings, progress);
+}
+
+Expected<Scene> load_scene(const std::filesystem::path& path, const LoadOptions& options, Warnings* warnings,
+                           Progress* progress) {
   const Expected<std::filesystem::path> file = find_scene_file(path);
   if (!file) return Unexpected(file.error());
   std::error_code ignored;
   if (std::filesystem::is_regular_file(*file, ignored) && std::filesystem::file_size(*file, ignored) == 0)
     return error(*file, "is empty", "is the export complete?");
-  Warnings unheard;
-  MemoryLimit limit(limit_bytes);
-  Loading loading{warnings ? *warnings : unheard, progress, limit};
+  Warnings own;  // of a scene that is refused for a file elsewhere, that is the one line
+  Warnings& heard = options.confine || !warnings ? own : *warnings;
+  MemoryLimit limit(options.limit_bytes);
+  InputFiles files(*file, options.confine);
+  Loading loading{heard, progress, limit, files};
   Expected<Scene> scene = load_by_extension(*file, loading);
+  if (const std::optional<InputError> outside = files.error()) return Unexpected(*outside);
+  if (warnings && &heard != warnings)
+    for (const Warning& warning : own) warnings->add(warning);
   if (limit.error()) return Unexpected(*limit.error());
   if (!scene) return scene;
   scene->source = file->string();

@@ -27,10 +27,10 @@ class MtlLibraries {
   void read(std::string_view names) {
     if (names.size() > 1 && names.starts_with('"') && names.ends_with('"'))
       names = names.substr(1, names.size() - 2);
-    if (is_file(names)) return read_file(named_file(file_, std::string(names)));
+    if (is_file(names)) return read_file(loading_.files.named(std::string(names)));
     for (names = trimmed(names); !names.empty(); names = trimmed(names)) {
       const std::string_view name = first_name(names);
-      read_file(named_file(file_, std::string(name)));
+      read_file(loading_.files.named(std::string(name)));
       names.remove_prefix(name.size());
     }
   }
@@ -48,8 +48,7 @@ class MtlLibraries {
 
  private:
   [[nodiscard]] bool is_file(std::string_view name) const {
-    std::error_code ignored;
-    return std::filesystem::exists(named_file(file_, std::string(name)), ignored);
+    return loading_.files.has(loading_.files.named(std::string(name)));
   }
 
   // The most words, up to a few, that name a file together. Where none do: all up to the first that ends with
@@ -68,7 +67,7 @@ class MtlLibraries {
 
   void read_file(const std::filesystem::path& mtl) {
     files.push_back(mtl.string());
-    Expected<FileBytes> bytes = read_input_file(mtl, loading_.progress);
+    Expected<FileBytes> bytes = loading_.files.read(mtl, loading_.progress);
     if (!bytes) {
       loading_.warnings.add(
           {file_.string(), "", "its materials cannot be read: " + bytes.error().message(), "grey is used"});

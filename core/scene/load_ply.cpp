@@ -127,7 +127,7 @@ class PlyBuilder {
     const std::string& name = ply_.textures().front();
     if (ply_.textures().size() > 1)
       lost("comment TextureFile", "textures after the first are left out", "faces show the first");
-    Expected<DecodedImage> image = load_texture(named_file(path_, name), loading_);
+    Expected<DecodedImage> image = load_texture(loading_.files.named(name), loading_);
     if (!image)
       return lost("comment TextureFile", "its texture cannot be read: " + image.error().message(),
                   "the plain colour is used");

@@ -3,6 +3,7 @@
 
 #include <filesystem>
 
+#include "core/scene/input_files.h"
 #include "core/scene/memory_limit.h"
 #include "pinocchio/load.h"
 #include "pinocchio/progress.h"
@@ -13,6 +14,7 @@ struct Loading {
   Warnings& warnings;
   Progress* progress;  // may be null
   MemoryLimit& limit;
+  InputFiles& files;  // beside the scene's
 };
 
 // What is said of triangles, whatever the format, of which a vertex is NaN or infinite.

@@ -90,7 +90,7 @@ MtlMaterials::Loaded MtlMaterials::load(const MtlMaterial& m, const MtlTexture& 
   for (const Loaded& known : loaded_)
     if (known.key == key) return known;
   Loaded result{std::move(key), -1, 3};
-  const std::filesystem::path path = named_file(file_, texture.file);
+  const std::filesystem::path path = loading_.files.named(texture.file);
   files_.push_back(path.string());
   const std::string where = "material '" + m.name + "'";
   Expected<DecodedImage> image = load_texture(path, loading_);

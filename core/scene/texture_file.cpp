@@ -206,17 +206,17 @@ Expected<DecodedImage> decode_texture(const std::string& file, const std::string
 
 namespace {
 
-Expected<DecodedImage> decode(const EncodedImage& image, Progress* progress, MemoryLimit& limit) {
-  if (image.bytes) return decode_texture(image.file, image.name, *image.bytes, limit);
-  const Expected<FileBytes> bytes = read_input_file(image.file, progress);
+Expected<DecodedImage> decode(const EncodedImage& image, Progress* progress, Loading& loading) {
+  if (image.bytes) return decode_texture(image.file, image.name, *image.bytes, loading.limit);
+  const Expected<FileBytes> bytes = loading.files.read(image.file, progress);
   if (!bytes) return Unexpected(bytes.error());
-  return decode_texture(image.file, image.name, bytes->unsigned_bytes(), limit);
+  return decode_texture(image.file, image.name, bytes->unsigned_bytes(), loading.limit);
 }
 
 }  // namespace
 
 Expected<DecodedImage> load_texture(const std::filesystem::path& file, Loading& loading) {
-  return decode({file.string(), file.filename().string(), std::nullopt}, loading.progress, loading.limit);
+  return decode({file.string(), file.filename().string(), std::nullopt}, loading.progress, loading);
 }
 
 std::vector<Expected<DecodedImage>> decode_textures(const std::vector<EncodedImage>& images,
@@ -226,7 +226,7 @@ std::vector<Expected<DecodedImage>> decode_textures(const std::vector<EncodedIma
   begin_phase(loading.progress, "images", static_cast<double>(images.size()));
   Workers workers(images.size() > 1 ? 0 : 1);
   workers.for_each(images.size(), [&](std::size_t i) {
-    decoded[i] = decode(images[i], nullptr, loading.limit);
+    decoded[i] = decode(images[i], nullptr, loading);
     advance(loading.progress);
   });
   return decoded;

@@ -131,10 +131,12 @@ Scene scene_of(const Floats3& vertices, const Words3& triangles, const std::opti
   return scene;
 }
 
-Scene load(const std::filesystem::path& path) {
+Scene load(const std::filesystem::path& path, bool confine) {
   Warnings warnings;
-  Scene scene =
-      value_or_throw(without_gil([&](Progress* progress) { return load_scene(path, &warnings, progress); }));
+  LoadOptions options;
+  options.confine = confine;
+  Scene scene = value_or_throw(
+      without_gil([&](Progress* progress) { return load_scene(path, options, &warnings, progress); }));
   for (const Warning& warning : warnings)
     if (PyErr_WarnEx(PyExc_UserWarning, warning.message().c_str(), 1) != 0) throw nb::python_error();
   return scene;
@@ -335,8 +337,9 @@ void bind_scene(nb::module_& module) {
           "stay.")
       .def("__copy__", [](const Scene& scene) { return scene; });
   module.def(
-      "load_scene", &load, "path"_a,
-      "Reads a scene by its extension, as the program does. What is left out of the file is a warning.");
+      "load_scene", &load, "path"_a, "confine"_a = false,
+      "Reads a scene by its extension, as the program does. What is left out of the file is a warning. With\n"
+      "confine, files that it names are opened only below its folder, wherever names and links lead.");
   module.def("assemble", &assemble, "parts"_a,
              "One scene of several: {name: scene} or {name: (scene, 4x4 matrix)}. Each becomes a node that "
              "can be moved\n"

@@ -135,3 +135,13 @@ def test_an_animated_scene_moves(scenes):
     assert (later.at_time(0).vertices == mill.at_time(0).vertices).all()
     with pytest.raises(pinocchio.Error):
         mill.at_time(float("nan"))
+
+
+def test_confined_scenes_name_files_below_their_folder_only(tmp_path):
+    (tmp_path / "m.mtl").write_text("newmtl m\nKd 1 0 0\n")
+    (tmp_path / "scene").mkdir()
+    scene = tmp_path / "scene" / "a.obj"
+    scene.write_text("mtllib ../m.mtl\nusemtl m\nv 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n")
+    assert len(pinocchio.load_scene(scene).vertices) == 3
+    with pytest.raises(pinocchio.Error, match="lies outside the scene's folder"):
+        pinocchio.load_scene(scene, confine=True)

@@ -162,6 +162,21 @@ TEST_F(RenderTest, LightsAreAddedAndADefaultOneIsSaid) {
   EXPECT_EQ(nlohmann::json::parse(lights).size(), 1u);  // the one that casts
 }
 
+TEST_F(RenderTest, ConfinedScenesNameFilesBelowTheirFolderOnly) {
+  std::filesystem::create_directory(folder_ / "in");
+  write("m.mtl", "newmtl m\nKd 1 0 0\n");
+  write("in/t.obj", "mtllib ../m.mtl\nusemtl m\nv 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
+  expect_done("render in/t.obj " + kSmall + "--mode raytrace --light 1,2,3 -o x.exr");
+  for (const char* command : {"render in/t.obj --confine --mode raytrace -o y.exr", "info in/t.obj --confine",
+                              "measure in/t.obj --confine --mode raytrace"}) {
+    const CommandResult result = run(command);
+    EXPECT_EQ(result.exit_code, 4) << command;
+    EXPECT_NE(result.err.find("m.mtl: lies outside the scene's folder"), std::string::npos) << result.err;
+    EXPECT_EQ(std::ranges::count(result.err, '\n'), 1) << result.err;
+  }
+  EXPECT_FALSE(exists("y.exr"));
+}
+
 TEST_F(RenderTest, GeneratesScenesThatItCanDraw) {
   for (const char* name : {"spd:balls", "forest"})
     for (const char* file : {"s.gltf", "s.glb", "s.obj"}) {

@@ -1,8 +1,10 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <atomic>
 #include <fstream>
 #include <numeric>
+#include <thread>
 
 #include "core/parallel/parts.h"
 #include "core/scene/base64.h"
@@ -54,6 +56,33 @@ TEST(InputFile, IsReadInPartsAsItIs) {
   EXPECT_EQ(progress.fraction(), 1.0);
   progress.cancel();
   EXPECT_THROW((void)read_input_file(file, &progress), Cancelled);
+}
+
+// Until the other thread was quick enough to cut the file within a reading of it.
+TEST(InputFile, ThatBecomesShorterWhileItIsReadIsAnError) {
+  constexpr std::uintmax_t kBytes = std::uintmax_t{64} << 20;
+  const std::filesystem::path file = own_file("shrinking.bin");
+  for (int attempt = 0; attempt < 100; ++attempt) {
+    std::ofstream(file, std::ios::binary) << "x";
+    std::filesystem::resize_file(file, kBytes);
+    Progress progress;
+    std::atomic<bool> done = false;
+    std::thread other([&] {
+      while (progress.fraction() == 0.0 && !done) continue;
+      std::filesystem::resize_file(file, 1);
+    });
+    const Expected<FileBytes> read = read_input_file(file, &progress);
+    done = true;
+    other.join();
+    if (read) {
+      EXPECT_EQ(read->size(), kBytes);
+      continue;
+    }
+    EXPECT_EQ(read.error().message(),
+              file.string() + ": became shorter while it was read; is another program writing it?");
+    return;
+  }
+  FAIL() << "the file was always read before it became shorter";
 }
 
 FileBytes bytes_of(std::string_view text) {

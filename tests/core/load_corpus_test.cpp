@@ -17,7 +17,8 @@ void read(const std::filesystem::path& file, const std::string& format) {
   if (format == "image") {
     Warnings warnings;
     MemoryLimit limit(kLimit);
-    Loading loading{warnings, nullptr, limit};
+    InputFiles files(file, false);
+    Loading loading{warnings, nullptr, limit, files};
     return (void)load_texture(file, loading);
   }
   const bool is_mtl = format == "mtl";

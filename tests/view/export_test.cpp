@@ -57,11 +57,12 @@ TEST(Export, WhatIsReadBesideTheSceneIsSaid) {
   ExportedView view;
   view.environment = "a sky.hdr";
   view.load_limit = std::uint64_t{8} << 30;
+  view.confine = true;
   view.camera.lens_radius = 0.25f;
   view.camera.focus_distance = 3.0f;
   const std::string command = render_command(view, "boat");
-  for (const char* part :
-       {" --environment 'a sky.hdr' ", " --load-limit 8192 ", " --lens-radius 0.25 ", " --focus 3 "})
+  for (const char* part : {" --environment 'a sky.hdr' ", " --load-limit 8192 ", " --confine ",
+                           " --lens-radius 0.25 ", " --focus 3 "})
     EXPECT_TRUE(holds(command, part)) << part << " in " << command;
 }
 

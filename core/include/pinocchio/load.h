@@ -41,6 +41,14 @@ class Warnings {
   std::map<std::pair<std::string, std::string>, std::size_t> known_;  // by file and what
 };
 
+// How far a scene's files are trusted.
+struct LoadOptions {
+  std::uint64_t limit_bytes = kUsualLoadLimit;  // most memory that they claim beyond their own bytes
+  // Whether files that the scene's file names are opened only below its folder, wherever `..`, absolute names
+  // and links lead. One elsewhere is an error.
+  bool confine = false;
+};
+
 // Reads glTF 2.0 (.gltf, .glb), Wavefront OBJ+MTL (.obj) or PLY (.ply), chosen by the file's extension. A
 // path without extension, or a folder, stands for the one scene file of that name (scenes/cornell ->
 // scenes/cornell.gltf). The result has passed check_scene. Errors name the file and, for text formats,
@@ -49,6 +57,8 @@ class Warnings {
 [[nodiscard]] Expected<Scene> load_scene(const std::filesystem::path& path, Warnings* warnings = nullptr,
                                          Progress* progress = nullptr,
                                          std::uint64_t limit_bytes = kUsualLoadLimit);
+[[nodiscard]] Expected<Scene> load_scene(const std::filesystem::path& path, const LoadOptions& options,
+                                         Warnings* warnings = nullptr, Progress* progress = nullptr);
 
 // What the rest of the program relies on: at least one triangle, at most kMaxTriangles, indices and
 // materials in range, finite positions within kFarthest, a finite normal (and texture coordinate) a position.
