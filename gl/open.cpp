@@ -6,6 +6,7 @@
 #include "gl/error.h"
 #include "gl/glfw.h"
 #include "gl/osmesa.h"
+#include "gl/probe.h"
 
 namespace pinocchio::gl {
 namespace {
@@ -26,6 +27,13 @@ bool wanted(const Candidate& candidate, const ContextRequest& request) {
   return candidate.device && std::to_string(*candidate.device) == request.device;
 }
 
+// Throws Error where it cannot be opened or its driver does not do what it claims.
+std::unique_ptr<Context> open_and_probe(const Candidate& candidate, bool debug) {
+  std::unique_ptr<Context> context = candidate.open(debug);
+  probe(context->info());
+  return context;
+}
+
 }  // namespace
 
 std::unique_ptr<Context> open_context(const ContextRequest& request) {
@@ -33,7 +41,7 @@ std::unique_ptr<Context> open_context(const ContextRequest& request) {
   for (const Candidate& candidate : all_candidates()) {
     if (!wanted(candidate, request)) continue;
     try {
-      return candidate.open(request.debug);
+      return open_and_probe(candidate, request.debug);
     } catch (const Error& error) {
       failures += (failures.empty() ? "" : "; ") + candidate.what + ": " + error.what();
     }
@@ -61,7 +69,7 @@ std::vector<Attempt> try_all_contexts() {
   for (const Candidate& candidate : all_candidates()) {
     Attempt attempt{candidate.what, "", {}};
     try {
-      attempt.info = candidate.open(false)->info();
+      attempt.info = open_and_probe(candidate, false)->info();
     } catch (const Error& error) {
       attempt.failure = error.what();
     }

@@ -8,6 +8,7 @@
 #include "core/trace/view_params.h"
 #include "gl/error.h"
 #include "gl/foreign.h"
+#include "gl/probe.h"
 #include "hybrid/engine_parts.h"
 #include "hybrid/samples.h"
 #include "hybrid/settings/resolve.h"
@@ -45,8 +46,11 @@ GpuPasses& Engine::Parts::gpu() {
       own = options.get_proc_address
                 ? std::make_unique<gl::ForeignContext>(options.get_proc_address, options.gl_debug)
                 : gl::open_context({options.backend, options.device, options.gl_debug});
+      if (options.get_proc_address) gl::probe(own->info());
     } catch (const gl::NoContextError& error) {
       throw NoOpenGlError(error.what());
+    } catch (const gl::Error& error) {
+      throw NoOpenGlError(std::string("the caller's OpenGL context does not serve: ") + error.what());
     }
     context = own.get();
   }
@@ -159,12 +163,17 @@ bool Engine::gl_is_software(const Settings& settings) const {
     if (!o.get_proc_address && !gl::may_be_hardware({o.backend, o.device, o.gl_debug})) return true;
     try {
       open_gl();
-    } catch (const NoOpenGlError&) {
+    } catch (const NoOpenGlError& error) {
+      parts_->gl_failure = error.what();
       return true;
     }
   }
   if (settings.uses_gpu()) open_gl();
   return gl_info() && gl_info()->software;
+}
+
+const std::string& Engine::gl_failure() const {
+  return parts_->gl_failure;
 }
 
 const gl::ContextInfo* Engine::gl_info() const {
