@@ -34,6 +34,9 @@ Drawing::Drawing(const DrawOptions& options, Scene scene, Exchange usual, bool k
   stats_ = analyze(scene_);
   if (any_settings) engine_.open_gl();
   software_gl_ = engine_.gl_is_software(options.settings);
+  if (!options.quiet && !engine_.gl_failure().empty())
+    std::fprintf(stderr, "pinocchio: warning: %s: the CPU draws alone (--mode auto)\n",
+                 one_line(engine_.gl_failure()).c_str());
   Expected<Settings> resolved = resolve(with_usual(options.settings, usual));
   if (!resolved) {
     InputError error = resolved.error();

@@ -1,6 +1,6 @@
 #include "gl/error_flags.h"
 
-#include <glad/gl.h>
+#include "gl/handle.h"
 
 namespace pinocchio::gl {
 namespace {

@@ -14,8 +14,8 @@ struct ContextRequest {
   bool debug = false;            // listen to the driver (Context::complaints)
 };
 
-// Opens the first context that works, makes it current and returns it: hardware devices, then software
-// ones, EGL's surfaceless platform, its default display, OSMesa. Throws NoContextError.
+// Opens the first context that works (probe.h), makes it current and returns it: hardware devices, then
+// software ones, EGL's surfaceless platform, its default display, OSMesa. Throws NoContextError.
 [[nodiscard]] std::unique_ptr<Context> open_context(const ContextRequest& request = {});
 
 // Whether EGL's list of devices leaves hardware to be hoped for: false where all that it names is software,
@@ -29,7 +29,8 @@ struct Attempt {
   ContextInfo info;     // where it works
 };
 
-// Tries every way there is, each by itself; none is current afterwards.
+// Tries every way there is, each in a process of its own, so that a driver that crashes or hangs is a failure
+// like any other. To be called before OpenGL is used and threads are started.
 [[nodiscard]] std::vector<Attempt> try_all_contexts();
 
 }  // namespace pinocchio::gl

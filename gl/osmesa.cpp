@@ -3,6 +3,8 @@
 #include <dlfcn.h>
 
 #include <array>
+#include <cstdlib>
+#include <string_view>
 #include <utility>
 
 #include "gl/error.h"
@@ -43,9 +45,17 @@ const Osmesa& load_osmesa() {
   return osmesa;
 }
 
+// Mesa's OSMesa crashes where it is to draw by Vulkan.
+void refuse_zink() {
+  const char* const driver = std::getenv("GALLIUM_DRIVER");
+  if (driver && std::string_view(driver) == "zink")
+    throw Error("Mesa crashes where OSMesa draws with GALLIUM_DRIVER=zink; use --backend egl, or unset it");
+}
+
 class OsmesaContext final : public Context {
  public:
   explicit OsmesaContext(bool debug) : osmesa_(load_osmesa()) {
+    refuse_zink();
     for (const auto& [major, minor] : {std::pair(4, 5), std::pair(3, 3)}) {
       const std::array<int, 7> attributes{kProfile, kCoreProfile, kMajorVersion, major, kMinorVersion, minor,
                                           0};

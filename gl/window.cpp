@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "gl/error.h"
+#include "gl/probe.h"
 
 namespace pinocchio::gl {
 namespace {
@@ -103,6 +104,7 @@ GLFWmonitor* monitor_of(const glm::ivec4& window) {
 
 Window::Window(const std::string& title, glm::ivec2 size, bool debug) try
     : context_(request_of(title, size, debug)) {
+  probe(context_.info());
   listen();
   glfwSetWindowSizeLimits(handle(), 64, 64, GLFW_DONT_CARE, GLFW_DONT_CARE);
   set_vsync(true);

@@ -7,6 +7,7 @@
 #include "core/trace/surface.h"
 #include "core/trace/view_params.h"
 #include "gl/foreign.h"
+#include "gl/probe.h"
 #include "hybrid/engine_parts.h"
 #include "hybrid/samples.h"
 #include "hybrid/settings/resolve.h"
@@ -47,6 +48,13 @@ GpuPasses& Engine::Parts::gpu() {
     own = options.get_proc_address
               ? std::make_unique<gl::ForeignContext>(options.get_proc_address, options.gl_debug)
               : gl::open_context({options.backend, options.device, options.gl_debug});
+    if (options.get_proc_address) {
+      try {
+        gl::probe(own->info());
+      } catch (const gl::Error& error) {
+        throw NoOpenGlError(std::string("the caller's OpenGL context does not serve: ") + error.what());
+      }
+    }
     context = own.get();
   }
   passes = std::make_unique<GpuPasses>(std::make_shared<Programs>());
@@ -158,12 +166,17 @@ bool Engine::gl_is_software(const Settings& settings) const {
     if (!o.get_proc_address && !gl::may_be_hardware({o.backend, o.device, o.gl_debug})) return true;
     try {
       open_gl();
-    } catch (const NoOpenGlError&) {
+    } catch (const NoOpenGlError& error) {
+      parts_->gl_failure = error.what();
       return true;
     }
   }
   if (settings.uses_gpu()) open_gl();
   return gl_info() && gl_info()->software;
+}
+
+const std::string& Engine::gl_failure() const {
+  return parts_->gl_failure;
 }
 
 const gl::ContextInfo* Engine::gl_info() const {

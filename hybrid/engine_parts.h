@@ -74,6 +74,7 @@ struct Engine::Parts {
   EngineOptions options;
   std::unique_ptr<gl::Context> own;  // outlives what was made in it
   gl::Context* context = nullptr;    // own or the caller's; null: none is open
+  std::string gl_failure;            // why settings by_machine got none
   std::unique_ptr<GpuPasses> passes;
   std::mutex pools_mutex;
   std::map<int, Workers> pools;  // by number of threads; idle ones cost nothing

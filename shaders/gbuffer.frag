@@ -32,7 +32,8 @@ uint fraction16(float x) { return uint(int(round(clamp(x, -1.0, 1.0) * 32767.0))
 void main() {
   ivec2 pixel = ivec2(gl_FragCoord.xy);
   uint id = fetch_id(ids, pixel);
-  surface = uvec4(0xffffffffu, 0u, floatBitsToUint(1.0 / 0.0), 0u);
+  const uint kInfinity = 0x7f800000u;  // a float's bits: GLSL need not have one, nor divide by zero
+  surface = uvec4(0xffffffffu, 0u, kInfinity, 0u);
   if (id == kNoTriangle) return;
   PixelSurface s = surface_of(id, pixel);
   vec3 n = s.n.shading;

@@ -55,7 +55,9 @@ vec3 color_of_mask(uint id, ivec2 pixel) {
 #endif
 
 vec3 in_range(vec3 value) {
-  return linear_from_srgb(clamp((value - range_lo) / (range_hi - range_lo), 0.0, 1.0));
+  vec3 width = range_hi - range_lo;
+  vec3 part = (value - range_lo) / mix(width, vec3(1.0), equal(width, vec3(0.0)));
+  return linear_from_srgb(clamp(part, 0.0, 1.0));
 }
 
 vec3 color_of_pixel(uint id, ivec2 pixel) {

@@ -37,7 +37,7 @@ SHARED vec3 around(vec3 axis, vec3 local) {
 // Unit; even in solid angle over the cone as `disc` is over the disc.
 SHARED vec3 direction_in_cone(vec3 axis, float one_minus_cos, vec2 disc) {
   float down = (disc.x * disc.x + disc.y * disc.y) * one_minus_cos;
-  float across = sqrt(one_minus_cos * (2.0f - down));
+  float across = sqrt(one_minus_cos * max(2.0f - down, 0.0f));  // rounded, the disc's edge may be beyond
   return around(axis, vec3(disc.x * across, disc.y * across, 1.0f - down));
 }
 

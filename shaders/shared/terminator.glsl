@@ -31,6 +31,8 @@ SHARED bool faces_light_lifted(vec3 n_shading, vec3 n_vertices, vec3 to_light) {
 // What is left of the light, 0 where the facet turns away (Chiang, Li and Burley, "Taming the Shadow Terminator",
 // SIGGRAPH 2019 Talks). The light is before both normals.
 SHARED float terminator_factor(vec3 n_shading, vec3 n_geometric, vec3 to_light) {
-  float g = dot(n_geometric, to_light) / (dot(n_shading, to_light) * dot(n_shading, n_geometric));
+  float most = dot(n_shading, to_light) * dot(n_shading, n_geometric);
+  if (most == 0.0f) return 1.0f;
+  float g = dot(n_geometric, to_light) / most;
   return g < 1.0f ? (1.0f + g - g * g) * g : 1.0f;
 }

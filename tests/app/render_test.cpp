@@ -266,5 +266,27 @@ TEST_F(RenderTest, InterruptEndsWith130AndKeepsWhatWasFinished) {
   }
 }
 
+// Mesa's softpipe claims OpenGL 3.3 and draws nothing where a shader reads gl_PrimitiveID.
+TEST_F(RenderTest, ADriverThatDrawsNothingIsRefused) {
+  const std::string draw = "render --size 40x30 -o a.exr" + scene("two-lights");
+  for (const char* mode : {"hybrid", "raster"}) {
+    const CommandResult result = run(draw + "--mode " + mode, "GALLIUM_DRIVER=softpipe");
+    EXPECT_EQ(result.exit_code, 3) << result.err;
+    EXPECT_NE(result.err.find("draws nothing"), std::string::npos) << result.err;
+    EXPECT_NE(result.err.find("softpipe"), std::string::npos) << result.err;
+    EXPECT_FALSE(exists("a.exr"));
+  }
+  EXPECT_EQ(run(draw + "--mode auto", "GALLIUM_DRIVER=softpipe").exit_code, 0);
+  EXPECT_TRUE(exists("a.exr"));
+}
+
+TEST_F(RenderTest, AutoSaysWhyTheCpuDrawsAlone) {
+  const CommandResult result =
+      run("render --size 40x30 -o a.exr --mode auto --backend glfw" + scene("two-lights"), "DISPLAY=");
+  EXPECT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_NE(result.err.find("no OpenGL context"), std::string::npos) << result.err;
+  EXPECT_NE(result.err.find("the CPU draws alone (--mode auto)"), std::string::npos) << result.err;
+}
+
 }  // namespace
 }  // namespace pinocchio

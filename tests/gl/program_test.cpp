@@ -2,6 +2,8 @@
 
 #include <filesystem>
 #include <fstream>
+#include <iterator>
+#include <regex>
 
 #include "gl/error.h"
 #include "gl/shader_source.h"
@@ -65,6 +67,19 @@ TEST_P(ProgramTest, MistakeIsNamedWithFileAndLine) {
   folder_with("good.vert", "#version 330 core\nvoid main() { gl_Position = vec4(0.0); }\n");
   const std::string error = error_of([&] { gl::Program(folder, "good.vert", "bad.frag"); });
   EXPECT_NE(error.find("part.glsl:2"), std::string::npos) << error;
+}
+
+// GLSL leaves 1.0 / 0.0 open: a driver may refuse it, or answer anything.
+TEST(ShaderSource, NoneDividesByZero) {
+  const std::regex by_zero(R"([^/]/\s*0+(\.0*f?)?\s*[^0-9.x\s])");
+  ASSERT_TRUE(std::regex_search("x = 1.0 / 0.0;", by_zero));
+  ASSERT_FALSE(std::regex_search("x = y / 0.25;", by_zero));
+  for (const auto& entry : std::filesystem::recursive_directory_iterator(kShaders)) {
+    if (!entry.is_regular_file()) continue;
+    std::ifstream file(entry.path());
+    const std::string text{std::istreambuf_iterator<char>(file), {}};
+    EXPECT_FALSE(std::regex_search(text, by_zero)) << entry.path();
+  }
 }
 
 TEST(ShaderSource, MissingFileAndEndlessIncludeAreErrors) {

@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "core/reference/reference.h"
+#include "core/trace/shared.h"
 #include "core/trace/trace_tiles.h"
 #include "core/trace/view_params.h"
 #include "tests/support/draw.h"
@@ -271,6 +272,19 @@ TEST(Samples, ALensIsSharpWhereItIsFocused) {
       EXPECT_LT(glm::distance(at, expected), 1e-5f);
     }
     EXPECT_LE(glm::distance(through.eye, pinhole.eye), 0.2001f);
+  }
+}
+
+// From inside a ball its directions are all around: rounded, the disc's edge is beyond the sphere, and the
+// root of what is left was no number.
+TEST(SizedLight, DirectionsFromInsideAreNumbers) {
+  for (int i = 0; i < 4096; ++i) {
+    const float along = static_cast<float>(i) / 4096.0f;
+    for (const glm::vec2 square : {glm::vec2(along, 0.0f), glm::vec2(0.0f, along)}) {
+      const glm::vec3 way =
+          shared::direction_in_cone({0.0f, 0.0f, 1.0f}, 2.0f, shared::disc_of_square(square));
+      ASSERT_NEAR(glm::length(way), 1.0f, 1e-3f) << square.x << " " << square.y;
+    }
   }
 }
 

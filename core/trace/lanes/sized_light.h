@@ -32,7 +32,7 @@ inline Vec around(const Vec& axis, const Vec& local) {
 
 inline Vec direction_in_cone(const Vec& axis, Float one_minus_cos, const LanePoint& disc) {
   const Float down = (disc.x * disc.x + disc.y * disc.y) * one_minus_cos;
-  const Float across = sqrt(one_minus_cos * (Float(2.0f) - down));
+  const Float across = sqrt(one_minus_cos * max(Float(2.0f) - down, Float(0.0f)));
   return around(axis, {disc.x * across, disc.y * across, Float(1.0f) - down});
 }
 

@@ -68,6 +68,9 @@ class Engine {
   // Opens the context to know, but for settings by_machine where EGL lists no hardware: then it is not
   // needed. Throws NoOpenGlError; with by_machine, no OpenGL is a software one.
   [[nodiscard]] bool gl_is_software(const Settings& settings) const;
+  // Why settings by_machine found no OpenGL when gl_is_software() tried to open it; empty where it did not
+  // fail.
+  [[nodiscard]] const std::string& gl_failure() const;
   // Of the context; null while none is open.
   [[nodiscard]] const gl::ContextInfo* gl_info() const;
   // With gl_debug: throws what the driver complained about.
