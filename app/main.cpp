@@ -85,5 +85,9 @@ int parse_and_run(int argc, char** argv) {
 }  // namespace pinocchio::app
 
 int main(int argc, char** argv) {
-  return pinocchio::app::parse_and_run(argc, argv);
+  try {
+    return pinocchio::app::parse_and_run(argc, argv);
+  } catch (const std::bad_alloc&) {  // before a verb runs
+    return pinocchio::app::say("out of memory", pinocchio::app::kFailed);
+  }
 }

@@ -7,6 +7,8 @@
 #include <cstring>
 #include <map>
 #include <mutex>
+#include <new>
+#include <new>
 #include <stdexcept>
 
 #include "core/image/atomic_file.h"
@@ -244,6 +246,8 @@ void write_exr(const std::filesystem::path& file, const ExrFile& header, Workers
     try {
       write_file(temporary, header, workers, band, progress);
     } catch (const Cancelled&) {
+      throw;
+    } catch (const std::bad_alloc&) {
       throw;
     } catch (const std::exception& error) {
       throw EnvironmentError(file.string() + ": cannot be written: " + error.what());

@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cstring>
+#include <new>
 #include <nlohmann/json.hpp>
 #include <string_view>
 
@@ -136,6 +137,8 @@ Expected<void> parse(GltfFile& file, nlohmann::json& gltf) {
   } catch (const std::exception& e) {  // of the JSON library below, on values of the wrong type
     error = e.what();
   }
+  // Caught by tinygltf or above: the file is not at fault.
+  if (!read && error.find("std::bad_alloc") != std::string::npos) throw std::bad_alloc();
   if (!read)
     return file.error("is not glTF 2.0 that can be read: " + error.substr(0, error.find('\n')),
                       "is the export complete?");
