@@ -58,17 +58,14 @@ void FrameWriter::write_first(std::unique_lock<std::mutex>& lock) {
   changed_.notify_all();
   if (error_ || cancelled_()) return;
   lock.unlock();
-  std::exception_ptr error;
   try {
     write_outputs(options_, frame);
-  } catch (...) {
-    error = std::current_exception();
-  }
-  lock.lock();
-  if (error)
-    error_ = error;
-  else
+    lock.lock();
     written_.push_back(frame.header.number);
+  } catch (...) {
+    if (!lock.owns_lock()) lock.lock();
+    error_ = std::current_exception();
+  }
   changed_.notify_all();
 }
 

@@ -83,7 +83,11 @@ int parse_and_run(int argc, char** argv) {
 }  // namespace pinocchio::app
 
 int main(int argc, char** argv) {
-  std::signal(SIGXFSZ,
-              SIG_IGN);  // writing beyond a limit is then an error that names the file, as a full disk is
-  return pinocchio::app::parse_and_run(argc, argv);
+  // Writing beyond a limit is then an error that names the file, as a full disk is.
+  std::signal(SIGXFSZ, SIG_IGN);
+  try {
+    return pinocchio::app::parse_and_run(argc, argv);
+  } catch (const std::bad_alloc&) {  // before a verb runs
+    return pinocchio::app::say("out of memory", pinocchio::app::kFailed);
+  }
 }

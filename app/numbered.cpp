@@ -4,6 +4,7 @@
 #include <optional>
 #include <string_view>
 
+#include "core/base/folder.h"
 #include "core/image/atomic_file.h"
 
 namespace pinocchio::app {
@@ -45,12 +46,12 @@ std::vector<int> numbers_in_use(const std::string& pattern, const FrameRange& ra
     if (number && range.contains(*number)) numbers.push_back(*number);
   };
   look_at(other);
-  std::error_code error;  // a folder that cannot be read is met again when it is written to
-  for (std::filesystem::directory_iterator entry(folder.empty() ? "." : folder, error), end;
-       !error && entry != end; entry.increment(error)) {
-    look_at(entry->path());
+  // A folder that cannot be read is met again when it is written to.
+  for (const std::string& entry : names_in(folder)) {
+    const std::filesystem::path file = folder / entry;
+    look_at(file);
     std::error_code none;
-    if (entry->is_symlink(none)) look_at(written_file(entry->path()));  // which may not be there yet
+    if (std::filesystem::is_symlink(file, none)) look_at(written_file(file));  // which may not be there yet
   }
   return numbers;
 }

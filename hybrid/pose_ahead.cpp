@@ -16,7 +16,7 @@ Expected<PoseAhead::Pose> PoseAhead::make(const Scene& scene, const Wanted& want
   throw_if_cancelled(progress);
   Expected<Scene> posed = at_time(scene, wanted.seconds);
   if (!posed) return Unexpected(posed.error());
-  std::shared_ptr<const Tracer> tracer = Engine::prepare(*posed, wanted.settings);
+  std::shared_ptr<const Tracer> tracer = Engine::prepare(*posed, wanted.settings, progress);
   return Pose{std::move(*posed), std::move(tracer)};
 }
 
@@ -25,18 +25,34 @@ Expected<PoseAhead::Pose> PoseAhead::at(double seconds, const Settings& settings
   const Wanted wanted{seconds, settings};
   if (!last_wanted_ || !last_wanted_->same_as(wanted)) {
     const bool is_begun = next_.valid() && next_wanted_->same_as(wanted);
+    if (!is_begun) drop_next();
     Expected<Pose> pose = is_begun ? next_.get() : make(scene_, wanted, progress_);
     if (!pose) return pose;
+    last_wanted_.reset();  // until all of it is there
     last_ = std::move(*pose);
     last_wanted_ = wanted;
   }
-  if (next_s && *next_s != seconds) {
-    next_wanted_ = Wanted{*next_s, settings};
-    next_ = run_aside(0, [scene = scene_, next = *next_wanted_, progress = progress_] {
-      return make(scene, next, progress);
-    });
-  }
+  if (next_s && *next_s != seconds) begin({*next_s, settings});
   return *last_;
+}
+
+void PoseAhead::begin(const Wanted& wanted) {
+  if (next_.valid() && next_wanted_->same_as(wanted)) return;
+  drop_next();
+  next_wanted_ = wanted;
+  next_progress_ = std::make_shared<Progress>(progress_);
+  next_ = run_aside(
+      0, [scene = scene_, wanted, progress = next_progress_] { return make(scene, wanted, progress.get()); });
+}
+
+void PoseAhead::drop_next() {
+  if (!next_.valid()) return;
+  next_progress_->cancel();
+  next_ = {};
+}
+
+PoseAhead::~PoseAhead() {
+  drop_next();
 }
 
 }  // namespace pinocchio

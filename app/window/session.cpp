@@ -59,6 +59,7 @@ Session::Session(gl::Window& window, const ViewOptions& options)
 }
 
 Session::~Session() {
+  drop_pose();
   preferences_.panels = model_.panels;
   preferences_.layout = gui_.layout();
   save_preferences(preferences_, preferences_file());

@@ -80,6 +80,7 @@ class Session {
   void play_on(double turn_s);
   void take_pose();
   void want_pose();
+  void drop_pose();
   void step_time(int frames);
   [[nodiscard]] bool posing() const { return pose_.valid(); }
 
@@ -167,7 +168,8 @@ class Session {
   bool over_picture_ = false;          // the pointer is, and not over a panel
   int redraws_ = 3;                    // of the overlay that are due: it settles in as many
   double redrawn_s_ = 0.0;
-  std::optional<Settings> tree_of_;              // by which the scene's tree was built, or is being built
+  std::optional<Settings> tree_of_;  // by which the scene's tree was built, or is being built
+  std::shared_ptr<pinocchio::Progress> pose_progress_;
   std::future<Expected<PoseAhead::Pose>> pose_;  // that is being made
   Scene posed_from_;                             // of what
   double pose_s_ = 0.0;                          // its time

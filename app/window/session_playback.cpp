@@ -2,6 +2,7 @@
 // drawn.
 #include <chrono>
 #include <cmath>
+#include <new>
 #include <utility>
 
 #include "app/animation.h"
@@ -11,6 +12,20 @@
 #include "pinocchio/animation.h"
 
 namespace pinocchio::app {
+namespace {
+
+// Without memory or a thread for it there is no pose, and the window stays.
+Expected<PoseAhead::Pose> finished(std::future<Expected<PoseAhead::Pose>>& pose) {
+  try {
+    return pose.get();
+  } catch (const std::bad_alloc&) {
+    return Unexpected(InputError{"", 0, "out of memory for the tree of this moment", ""});
+  } catch (const std::exception& error) {
+    return Unexpected(InputError{"", 0, one_line(error.what()), ""});
+  }
+}
+
+}  // namespace
 
 void Session::play_on(double turn_s) {
   if (!model_.scene.animation) return;
@@ -26,25 +41,33 @@ void Session::want_pose() {
   posed_from_ = model_.scene;
   pose_s_ = model_.playback.time_s;
   posed_s_ = pose_s_;
-  pose_ = run_aside(kForFrames, [scene = posed_from_, seconds = pose_s_,
+  pose_progress_ = std::make_shared<pinocchio::Progress>();
+  pose_ = run_aside(kForFrames, [scene = posed_from_, seconds = pose_s_, progress = pose_progress_,
                                  settings = tree_of_.value_or(Settings{model_.drawn})] {
-    return PoseAhead(scene).at(seconds, settings);
+    return PoseAhead(scene, progress.get()).at(seconds, settings);
   });
+}
+
+void Session::drop_pose() {
+  if (!posing()) return;
+  pose_progress_->cancel();
+  pose_ = {};
+  posed_s_.reset();
 }
 
 // What was edited meanwhile is posed anew.
 void Session::take_pose() {
   if (!posing() || pose_.wait_for(std::chrono::seconds(0)) != std::future_status::ready) return;
-  Expected<PoseAhead::Pose> pose = pose_.get();
+  const Expected<PoseAhead::Pose> pose = finished(pose_);
   if (!pose) {
     model_.playback.playing = false;
     return model_.messages.error("animation", pose.error().message());
   }
   if (!(model_.scene == posed_from_) || model_.scene.animation != posed_from_.animation)
     return posed_s_.reset();
-  model_.scene = std::move(pose->scene);
+  model_.scene = pose->scene;
   applied_lights_ = model_.scene.lights;
-  if (pose->tracer) model_.tracer = std::move(pose->tracer);
+  if (pose->tracer) model_.tracer = pose->tracer;
   redraws_ = std::max(redraws_, 1);
 }
 

@@ -59,6 +59,7 @@ void Session::take_scene(SceneLoader::News& news) {
   const Scene& scene = *news.scene;
   const bool again = model_.scene.source == scene.source;
   renderer_.drain();
+  drop_pose();
   if (pending_) options_.draw = *std::exchange(pending_, std::nullopt);
   model_.stats = news.stats;
   model_.tracer.reset();

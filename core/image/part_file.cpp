@@ -14,6 +14,8 @@
 #include <string>
 #include <string_view>
 
+#include "core/base/folder.h"
+
 namespace pinocchio {
 namespace {
 
@@ -111,13 +113,12 @@ void PartFile::give_name(std::error_code& error) {
 }
 
 void sweep_part_files(const std::filesystem::path& folder) {
-  std::error_code error;
-  for (std::filesystem::directory_iterator entry(folder, error), end; !error && entry != end;
-       entry.increment(error)) {
-    if (!is_part_name(entry->path().filename().string())) continue;
-    const int descriptor = open(entry->path().c_str(), O_RDONLY | O_CLOEXEC | O_NOFOLLOW | O_NONBLOCK);
+  for (const std::string& name : names_in(folder)) {
+    if (!is_part_name(name)) continue;
+    const std::filesystem::path part = folder / name;
+    const int descriptor = open(part.c_str(), O_RDONLY | O_CLOEXEC | O_NOFOLLOW | O_NONBLOCK);
     if (descriptor < 0) continue;
-    if (flock(descriptor, LOCK_EX | LOCK_NB) == 0) unlink(entry->path().c_str());
+    if (flock(descriptor, LOCK_EX | LOCK_NB) == 0) unlink(part.c_str());
     close(descriptor);
   }
 }

@@ -1,6 +1,7 @@
 #include "core/parallel/start_thread.h"
 
 #include <atomic>
+#include <new>
 #include <string>
 
 #include "pinocchio/threads.h"
@@ -16,7 +17,7 @@ void set_thread_warning(ThreadWarning handler) {
   thread_warning = handler;
 }
 
-void warn_of_missing_threads(int started, int wanted, const std::error_code& why) {
+void warn_of_missing_threads(int started, int wanted, const std::error_code& why) noexcept try {
   const ThreadWarning handler = thread_warning.exchange(nullptr);
   if (!handler) return;
   const std::string count = wanted == 1 ? "a thread could not be started"
@@ -26,6 +27,7 @@ void warn_of_missing_threads(int started, int wanted, const std::error_code& why
            "); the work goes on with fewer; ask for fewer threads, or raise the limit of processes "
            "('ulimit -u', a container's pids limit) or of memory ('ulimit -v')")
               .c_str());
+} catch (const std::bad_alloc&) {  // for the words: the work goes on without them
 }
 
 }  // namespace pinocchio

@@ -12,7 +12,7 @@
 namespace pinocchio {
 
 // Tells the handler of set_thread_warning(), the first time.
-void warn_of_missing_threads(int started, int wanted, const std::error_code& why);
+void warn_of_missing_threads(int started, int wanted, const std::error_code& why) noexcept;
 
 // A std::thread or std::jthread that runs `body`; one that is not joinable where the system starts none.
 template <class Thread, class Body>

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cstring>
 #include <limits>
+#include <new>
 #include <nlohmann/json.hpp>
 #include <string_view>
 
@@ -156,13 +157,16 @@ bool parse_model(const nlohmann::json& gltf, tinygltf::Model& model, std::string
   }
   tinygltf::TinyGLTF reader;
   std::string warning;
+  bool read = false;
   try {
-    return reader.LoadASCIIFromString(&model, &error, &warning, text.data(),
+    read = reader.LoadASCIIFromString(&model, &error, &warning, text.data(),
                                       static_cast<unsigned>(text.size()), "");
   } catch (const std::exception& e) {  // of the JSON library below, on values of the wrong type
     error = e.what();
-    return false;
   }
+  // Caught by tinygltf or above: the file is not at fault.
+  if (!read && error.find("std::bad_alloc") != std::string::npos) throw std::bad_alloc();
+  return read;
 }
 
 // Which of the file's arrays tinygltf refuses without a reason: the one without which it reads the rest.

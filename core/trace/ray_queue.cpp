@@ -19,9 +19,11 @@ void RayQueue::make_room(std::size_t rays, bool cones, bool media) {
   if (needed <= room_) return;
   // Not a power of two apart: columns of one ray would compete for one set of the cache.
   constexpr std::size_t kLine = kCacheLine / sizeof(float);
-  room_ = (std::max(needed, 2 * room_) + kLine - 1) / kLine * kLine + kLine;
-  floats_ = AlignedVector<float>(kFloatColumns * room_);
-  words_ = AlignedVector<std::uint32_t>(kWordColumns * room_);
+  const std::size_t room = (std::max(needed, 2 * room_) + kLine - 1) / kLine * kLine + kLine;
+  room_ = 0;  // should there be no memory
+  floats_ = AlignedVector<float>(kFloatColumns * room);
+  words_ = AlignedVector<std::uint32_t>(kWordColumns * room);
+  room_ = room;
   float* column = floats_.data();
   for (auto* triple : {&origin, &direction, &light})
     for (float*& one : *triple) {

@@ -158,7 +158,7 @@ ProgressiveReference::Progress ProgressiveReference::poll() {
 
 void ProgressiveReference::work(const std::stop_token& stop) {
   give_way(kForBackground);
-  Artist artist(threads_);
+  std::optional<Artist> artist;
   std::shared_ptr<Job> job;
   for (;;) {
     {
@@ -168,7 +168,8 @@ void ProgressiveReference::work(const std::stop_token& stop) {
       job = wanted_;
     }
     try {
-      artist.draw(*job);
+      if (!artist) artist.emplace(threads_);
+      artist->draw(*job);
     } catch (const Cancelled&) {  // another mesh is wanted
     } catch (...) {
       const std::lock_guard lock(job->mutex);

@@ -1,9 +1,12 @@
 #include "pinocchio/pose_ahead.h"
 
 #include <algorithm>
+#include <string_view>
+#include <thread>
 
 #include "hybrid/settings/resolve.h"
 #include "scenes/generator/random.h"
+#include "scenes/generator/scenes.h"
 #include "tests/support/scenes.h"
 
 namespace pinocchio {
@@ -60,6 +63,56 @@ TEST(PoseAhead, TreesAreThoseThatAreBuiltAnew) {
       before = hits;
     }
   }
+}
+
+// A tree that takes long, for poses of any time.
+const Scene& forest() {
+  static const Scene scene = make_forest(500'000);
+  return scene;
+}
+
+void wait_for_build(const Progress& progress) {
+  while (std::string_view(progress.phase()) != "build" || progress.fraction() == 0.0)
+    std::this_thread::yield();
+}
+
+// By the part that was built, not by a clock.
+TEST(PoseAhead, WhatIsNotWantedAnyMoreIsNotBuiltToItsEnd) {
+  const Settings settings = *resolve(Settings{}, analyze(forest()));
+  std::shared_ptr<const Progress> dropped, unwanted, whole;
+  Progress of_all;
+  {
+    PoseAhead ahead(forest(), &of_all);
+    ASSERT_TRUE(ahead.at(0.0, settings, 1.0));
+    unwanted = ahead.next_progress();
+    wait_for_build(*unwanted);
+    ASSERT_TRUE(ahead.at(2.0, settings, 3.0));  // another than the one that was announced
+    EXPECT_LT(unwanted->fraction(), 1.0);
+    dropped = ahead.next_progress();
+    wait_for_build(*dropped);
+  }
+  EXPECT_LT(dropped->fraction(), 1.0);
+  {
+    PoseAhead ahead(forest(), &of_all);
+    ASSERT_TRUE(ahead.at(0.0, settings, 1.0));
+    whole = ahead.next_progress();
+    wait_for_build(*whole);
+    of_all.cancel();
+    EXPECT_THROW((void)ahead.at(1.0, settings), Cancelled);
+  }
+  EXPECT_LT(whole->fraction(), 1.0);
+}
+
+// The pose that is made while it is waited for, too.
+TEST(PoseAhead, APoseThatIsWaitedForIsCancelled) {
+  const Settings settings = *resolve(Settings{}, analyze(forest()));
+  Progress progress;
+  std::jthread watcher([&] {
+    wait_for_build(progress);
+    progress.cancel();
+  });
+  EXPECT_THROW((void)PoseAhead(forest(), &progress).at(0.0, settings), Cancelled);
+  EXPECT_LT(progress.fraction(), 1.0);
 }
 
 }  // namespace

@@ -23,8 +23,13 @@ class Cancelled : public std::runtime_error {
 // so.
 class Progress {
  public:
+  // whole: of the work that this one's is a part of, cancelled with it; it outlives this one. Null: of none.
+  explicit Progress(const Progress* whole = nullptr) : whole_(whole) {}
+
   void cancel() noexcept { cancelled_.store(true, std::memory_order_relaxed); }
-  [[nodiscard]] bool cancelled() const noexcept { return cancelled_.load(std::memory_order_relaxed); }
+  [[nodiscard]] bool cancelled() const noexcept {
+    return cancelled_.load(std::memory_order_relaxed) || (whole_ && whole_->cancelled());
+  }
 
   // What is being done now: "read", "build", "render", "write" ...; empty before anything has begun.
   [[nodiscard]] const char* phase() const noexcept { return phase_.load(std::memory_order_acquire); }
@@ -44,6 +49,7 @@ class Progress {
   void advance(double steps) noexcept { done_.fetch_add(steps, std::memory_order_relaxed); }
 
  private:
+  const Progress* const whole_;
   std::atomic<bool> cancelled_{false};
   std::atomic<const char*> phase_{""};
   std::atomic<double> done_{0.0}, total_{0.0};
