@@ -7,6 +7,7 @@
 #include <string>
 
 #include "pinocchio/error.h"
+#include "pinocchio/glm_layout.h"
 #include "pinocchio/renderer.h"
 
 namespace pinocchio {
