@@ -61,8 +61,12 @@ void place_attached(const std::vector<Attached<T>>& attached, const std::vector<
 }  // namespace
 
 glm::mat4 NodeTree::world_from(int node) const {
-  const Node& n = nodes[static_cast<std::size_t>(node)];
-  return n.parent < 0 ? n.local : world_from(n.parent) * n.local;
+  std::vector<int> path;
+  for (int n = node; n >= 0; n = nodes[static_cast<std::size_t>(n)].parent) path.push_back(n);
+  glm::mat4 world = nodes[static_cast<std::size_t>(path.back())].local;
+  for (path.pop_back(); !path.empty(); path.pop_back())
+    world = world * nodes[static_cast<std::size_t>(path.back())].local;
+  return world;
 }
 
 int NodeTree::node_of(std::uint32_t triangle) const {

@@ -78,10 +78,13 @@ bool covers(std::span<const glm::dvec2> p, const std::vector<glm::uvec3>& triang
 }
 
 // Ear clipping for polygons that touch themselves, as those with a hole and a bridge to it do. Nothing where
-// no ear is left: it crosses itself.
+// no ear is left: it crosses itself. A corner that is no ear stays none while its neighbours stay and the
+// corner that is in its way does; behind that one its search goes on. So each of the 3 n triangles is held
+// against n corners at most.
 class EarClipper {
  public:
-  explicit EarClipper(std::span<const glm::dvec2> p) : p_(p), next_(p.size()), previous_(p.size()) {
+  explicit EarClipper(std::span<const glm::dvec2> p)
+      : p_(p), next_(p.size()), previous_(p.size()), in_the_way_(p.size(), kNone), gone_(p.size(), false) {
     for (std::size_t i = 0; i < p.size(); ++i) {
       next_[i] = (i + 1) % p.size();
       previous_[i] = (i + p.size() - 1) % p.size();
@@ -100,6 +103,8 @@ class EarClipper {
       triangles.emplace_back(previous_[at], at, next_[at]);
       next_[previous_[at]] = next_[at];
       previous_[next_[at]] = previous_[at];
+      gone_[at] = true;
+      in_the_way_[previous_[at]] = in_the_way_[next_[at]] = kNone;
       at = next_[next_[at]];  // not the neighbour: ears from all around are less thin
       --left;
       tried = 0;
@@ -107,14 +112,21 @@ class EarClipper {
     triangles.emplace_back(previous_[at], at, next_[at]);
     return triangles;
   }
+  [[nodiscard]] std::size_t steps() const { return steps_; }
 
  private:
-  [[nodiscard]] bool is_ear(std::size_t i) const {
+  static constexpr std::size_t kNone = static_cast<std::size_t>(-1);
+
+  [[nodiscard]] bool is_ear(std::size_t i) {
     const glm::dvec2 &a = p_[previous_[i]], &b = p_[i], &c = p_[next_[i]];
     const double area = turn(a, b, c);
     if (area < 0.0) return false;
     if (area == 0.0) return glm::dot(a - b, c - b) <= 0.0 || a == b || b == c;  // on an edge, not a spike
-    for (std::size_t k = next_[next_[i]]; k != previous_[i]; k = next_[k]) {
+    std::size_t& k = in_the_way_[i];
+    if (k == kNone) k = next_[next_[i]];
+    for (; k != previous_[i]; k = next_[k]) {
+      ++steps_;
+      if (gone_[k]) continue;  // what followed it then, or is behind that now
       const glm::dvec2& q = p_[k];
       if (q == a || q == b || q == c) continue;
       if (turn(a, b, q) >= 0.0 && turn(b, c, q) >= 0.0 && turn(c, a, q) >= 0.0) return false;
@@ -123,7 +135,10 @@ class EarClipper {
   }
 
   std::span<const glm::dvec2> p_;
-  std::vector<std::size_t> next_, previous_;
+  std::vector<std::size_t> next_, previous_;  // of those that are gone, what they were
+  std::vector<std::size_t> in_the_way_;       // of each corner's triangle as it is; kNone: not yet looked for
+  std::vector<bool> gone_;
+  std::size_t steps_ = 0;
 };
 
 }  // namespace
@@ -136,10 +151,12 @@ PolygonTriangles triangulate(std::span<const glm::vec3> corners) {
   if (area == 0.0 || fans_out(flat)) return {fan(corners.size())};
   if (std::vector<glm::uvec3> swept = triangulate_by_sweep(flat); covers(flat, swept, area))
     return {std::move(swept)};
-  if (corners.size() <= kMostToClip)
-    if (std::optional<std::vector<glm::uvec3>> clipped = EarClipper(flat).clip();
+  if (corners.size() <= kMostToClip) {
+    EarClipper clipper(flat);
+    if (std::optional<std::vector<glm::uvec3>> clipped = clipper.clip();
         clipped && covers(flat, *clipped, area))
-      return {std::move(*clipped)};
+      return {std::move(*clipped), true, clipper.steps()};
+  }
   return {fan(corners.size()), false};
 }
 

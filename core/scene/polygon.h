@@ -15,6 +15,7 @@ namespace pinocchio {
 struct PolygonTriangles {
   std::vector<glm::uvec3> triangles;
   bool simple = true;
+  std::size_t ear_steps = 0;  // corners that ears were held against; their square at most
 };
 [[nodiscard]] PolygonTriangles triangulate(std::span<const glm::vec3> corners);
 

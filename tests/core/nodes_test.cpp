@@ -100,5 +100,20 @@ TEST(Posed, SaysWhatItCannotMove) {
   EXPECT_FALSE(posed(scene, lost));
 }
 
+template <class S>
+concept CanBePart = requires(S&& scene) {
+  Part{std::string(), std::forward<S>(scene)};
+};
+static_assert(CanBePart<Scene&> && CanBePart<const Scene&>);
+static_assert(!CanBePart<Scene> && !CanBePart<const Scene>, "a part of a temporary scene would dangle");
+
+TEST(Nodes, AMillionNodesDeep) {
+  constexpr int kDeep = 1'000'000;
+  NodeTree tree;
+  for (int n = 0; n < kDeep; ++n) tree.nodes.push_back({"", n - 1, moved({1, 0, 0}), 0, 0, 0, 0});
+  EXPECT_EQ(glm::vec3(tree.world_from(kDeep - 1)[3]), glm::vec3(kDeep, 0, 0));
+  EXPECT_EQ(glm::vec3(tree.world_from(0)[3]), glm::vec3(1, 0, 0));
+}
+
 }  // namespace
 }  // namespace pinocchio

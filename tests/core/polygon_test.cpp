@@ -102,6 +102,29 @@ TEST(Polygon, ARingThatABridgeMakesOne) {
   expect_covered(ring);
 }
 
+// Each outer corner's ear has an inner corner in it, which is found late: all of them fail at each cut.
+Ring blocked_ring(std::size_t corners) {
+  const double poke = 0.5 * (1.0 + std::cos(2.0 * std::numbers::pi / static_cast<double>(corners)));
+  Ring ring;
+  for (std::size_t i = 0; i <= corners; ++i)
+    ring.push_back(on_circle(1.0, static_cast<double>(i % corners) / static_cast<double>(corners)));
+  for (std::size_t i = corners + 1; i-- > 0;)
+    ring.push_back(on_circle(poke, static_cast<double>(i % corners) / static_cast<double>(corners)));
+  ring.insert(ring.begin() + static_cast<std::ptrdiff_t>(corners) + 1,
+              ring[corners + 1]);  // too much for the sweep
+  return ring;
+}
+
+TEST(Polygon, EarsTakeTheSquareOfTheCorners) {
+  for (const std::size_t corners : {50u, 100u, 200u, 400u}) {
+    const Ring ring = blocked_ring(corners);
+    expect_covered(ring);
+    const std::size_t steps = triangulate(ring).ear_steps;
+    EXPECT_GT(steps, 0u);
+    EXPECT_LE(steps, 3 * ring.size() * ring.size()) << corners;
+  }
+}
+
 TEST(Polygon, RandomStarsInSpace) {
   Random random(3);
   for (int k = 0; k < 200; ++k) {

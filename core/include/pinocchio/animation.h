@@ -9,6 +9,7 @@
 
 #include "pinocchio/camera.h"
 #include "pinocchio/error.h"
+#include "pinocchio/glm_layout.h"
 
 namespace pinocchio {
 

@@ -3,6 +3,8 @@
 #include <glm/glm.hpp>
 #include <limits>
 
+#include "pinocchio/glm_layout.h"
+
 namespace pinocchio {
 
 // Axis-aligned box; empty (lo > hi) until something is added.

@@ -6,6 +6,7 @@
 #include <string_view>
 #include <vector>
 
+#include "pinocchio/glm_layout.h"
 #include "pinocchio/triangle_test.h"
 
 namespace pinocchio {

@@ -3,6 +3,8 @@
 #include <glm/glm.hpp>
 #include <string>
 
+#include "pinocchio/glm_layout.h"
+
 namespace pinocchio {
 
 // Pinhole camera, or a thin lens's; right-handed world, Y up.

@@ -3,6 +3,7 @@
 #include <glm/glm.hpp>
 
 #include "pinocchio/error.h"
+#include "pinocchio/glm_layout.h"
 #include "pinocchio/image.h"
 
 namespace pinocchio {

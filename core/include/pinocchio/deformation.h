@@ -5,6 +5,8 @@
 #include <glm/glm.hpp>
 #include <vector>
 
+#include "pinocchio/glm_layout.h"
+
 namespace pinocchio {
 
 // What a weight of one adds to a node's vertices.

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "pinocchio/error.h"
+#include "pinocchio/glm_layout.h"
 #include "pinocchio/image.h"
 #include "pinocchio/progress.h"
 

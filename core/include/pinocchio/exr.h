@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "pinocchio/error.h"
+#include "pinocchio/glm_layout.h"
 #include "pinocchio/pixel_box.h"
 #include "pinocchio/progress.h"
 

@@ -3,6 +3,8 @@
 #include <cstdint>
 #include <glm/glm.hpp>
 
+#include "pinocchio/glm_layout.h"
+
 namespace pinocchio {
 
 // Where pictures are written: arrays of the caller's, frame after frame, row after row from the top, with a

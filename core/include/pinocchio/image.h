@@ -6,6 +6,7 @@
 #include <span>
 #include <vector>
 
+#include "pinocchio/glm_layout.h"
 #include "pinocchio/pixel_memory.h"
 
 namespace pinocchio {

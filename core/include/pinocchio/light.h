@@ -4,6 +4,8 @@
 #include <limits>
 #include <string>
 
+#include "pinocchio/glm_layout.h"
+
 namespace pinocchio {
 
 struct Light {

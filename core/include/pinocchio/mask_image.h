@@ -9,6 +9,8 @@
 #include <span>
 #include <vector>
 
+#include "pinocchio/glm_layout.h"
+
 namespace pinocchio {
 
 // Which lights reach each pixel: `bits` (1, 2, 4 or 8) a pixel, packed low bits first, each row padded to

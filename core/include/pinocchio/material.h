@@ -3,6 +3,8 @@
 #include <glm/glm.hpp>
 #include <string>
 
+#include "pinocchio/glm_layout.h"
+
 namespace pinocchio {
 
 // Phong with mirrors and glass, in linear colour: I = Ia + Id(L) + Is(L) + Ir(R) + It(T), Whitted 1980.

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <glm/glm.hpp>
 
+#include "pinocchio/glm_layout.h"
 #include "pinocchio/texture.h"
 
 namespace pinocchio {

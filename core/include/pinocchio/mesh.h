@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "pinocchio/bounds.h"
+#include "pinocchio/glm_layout.h"
 #include "pinocchio/material.h"
 #include "pinocchio/material_maps.h"
 #include "pinocchio/texture.h"

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <glm/glm.hpp>
 #include <memory>
 #include <span>
@@ -12,6 +13,7 @@
 #include "pinocchio/camera.h"
 #include "pinocchio/deformation.h"
 #include "pinocchio/error.h"
+#include "pinocchio/glm_layout.h"
 #include "pinocchio/light.h"
 
 namespace pinocchio {
@@ -82,7 +84,7 @@ struct NodeWeights {
 // ambient light is the first one's.
 struct Part {
   std::string name;
-  const Scene& scene;
+  std::reference_wrapper<const Scene> scene;  // that outlives the part: a temporary one does not compile
   glm::mat4 world_from_part{1.0f};
 };
 [[nodiscard]] Expected<Scene> assembled(std::span<const Part> parts);

@@ -2,6 +2,8 @@
 
 #include <glm/glm.hpp>
 
+#include "pinocchio/glm_layout.h"
+
 namespace pinocchio {
 
 // Half-open box of pixels.

@@ -4,6 +4,8 @@
 #include <glm/glm.hpp>
 #include <limits>
 
+#include "pinocchio/glm_layout.h"
+
 namespace pinocchio {
 
 inline constexpr std::uint32_t kNoTriangle = 0xffffffffu;

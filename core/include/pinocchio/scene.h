@@ -9,6 +9,7 @@
 #include "pinocchio/bounds.h"
 #include "pinocchio/camera.h"
 #include "pinocchio/environment.h"
+#include "pinocchio/glm_layout.h"
 #include "pinocchio/light.h"
 #include "pinocchio/mesh.h"
 #include "pinocchio/nodes.h"

@@ -2,6 +2,7 @@
 
 #include <glm/glm.hpp>
 
+#include "pinocchio/glm_layout.h"
 #include "pinocchio/image.h"
 
 namespace pinocchio {

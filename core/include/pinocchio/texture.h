@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "pinocchio/glm_layout.h"
 #include "pinocchio/image.h"
 
 namespace pinocchio {

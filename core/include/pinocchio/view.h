@@ -3,6 +3,7 @@
 #include <glm/glm.hpp>
 
 #include "pinocchio/camera.h"
+#include "pinocchio/glm_layout.h"
 #include "pinocchio/image.h"
 #include "pinocchio/pixel_box.h"
 #include "pinocchio/ray.h"

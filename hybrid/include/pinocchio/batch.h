@@ -8,6 +8,7 @@
 #include "pinocchio/engine.h"
 #include "pinocchio/error.h"
 #include "pinocchio/frame_arrays.h"
+#include "pinocchio/glm_layout.h"
 #include "pinocchio/progress.h"
 #include "pinocchio/ray_counts.h"
 #include "pinocchio/scene.h"

@@ -7,6 +7,7 @@
 #include <string>
 
 #include "pinocchio/error.h"
+#include "pinocchio/glm_layout.h"
 #include "pinocchio/open_gl_error.h"
 #include "pinocchio/renderer.h"
 
