@@ -173,6 +173,8 @@ class ObjReader {
       if (std::isfinite(values[static_cast<std::size_t>(given_)])) continue;
       if (kind == kVertex && given_ < 3 && value)  // nan
         first_unplaced_ = first_unplaced_ > 0 ? first_unplaced_ : line_;
+      else if (word.empty())
+        return fail(line_, std::string("a ") + kKindNames[kind] + " has too few numbers");
       else
         return fail(line_, "'" + std::string(word.substr(0, 40)) + "' in a " + kKindNames[kind] +
                                " is not a finite number");

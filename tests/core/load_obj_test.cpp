@@ -176,6 +176,14 @@ TEST(LoadObj, MaterialsThatNoFileExplainsAreWarnings) {
   EXPECT_NE(warnings[0].message().find("blue"), std::string::npos);
 }
 
+TEST(LoadObj, MessagesAreOneLineWithoutCommandsForTheTerminal) {
+  const InputError error = error_of(kTriangle + "f 1 2 \x1b[31m\\\n3\n");
+  EXPECT_EQ(error.line, 4);
+  EXPECT_NE(error.message().find("a face names vertex '?[31m'"), std::string::npos) << error.message();
+  EXPECT_EQ(error.message().find_first_of("\n\r\v\x1b"), std::string::npos);
+  EXPECT_EQ(error_of("v 1 2\n").what, "a vertex has too few numbers");
+}
+
 TEST(LoadObj, BadInputNamesTheLine) {
   EXPECT_EQ(error_of(kTriangle + "f 1 2 9\n").line, 4);
   EXPECT_EQ(error_of(kTriangle + "f 1 2 0\n").line, 4);

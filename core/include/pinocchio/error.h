@@ -2,6 +2,7 @@
 // exceptions; a failed environment (no context, disk full) is an EnvironmentError, caught once in main.
 #pragma once
 
+#include <algorithm>
 #include <stdexcept>
 #include <string>
 #include <tl/expected.hpp>
@@ -21,6 +22,9 @@ struct InputError {
     if (!text.empty()) text += ": ";
     text += what;
     if (!remedy.empty()) text += "; " + remedy;
+    // What a damaged file holds is quoted: it stays one line and commands no terminal.
+    std::replace_if(
+        text.begin(), text.end(), [](unsigned char c) { return c < ' ' || c == 0x7f; }, '?');
     return text;
   }
 };
