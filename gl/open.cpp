@@ -1,7 +1,9 @@
 #include "gl/open.h"
 
 #include <algorithm>
+#include <functional>
 
+#include "gl/apart.h"
 #include "gl/egl.h"
 #include "gl/error.h"
 #include "gl/glfw.h"
@@ -64,18 +66,53 @@ bool may_be_hardware(const ContextRequest& request) {
   });
 }
 
+namespace {
+
+using Say = std::function<void(const std::string&)>;
+
+// Says the candidate's name, why it fails, or "" and what it is; nothing where there is no such one.
+void try_candidate(std::size_t i, const Say& say) {
+  const std::vector<Candidate> candidates = all_candidates();
+  if (i >= candidates.size()) return;
+  say(candidates[i].what);
+  try {
+    const std::unique_ptr<Context> context = open_and_probe(candidates[i], false);
+    const ContextInfo& info = context->info();
+    for (const std::string& text :
+         {std::string(), info.backend, info.device, info.vendor, info.renderer, info.version,
+          std::to_string(info.major), std::to_string(info.minor), std::string(info.software ? "1" : "0")})
+      say(text);
+  } catch (const Error& error) {
+    say(error.what());
+  }
+}
+
+Attempt attempt_of(const Apart& apart) {
+  const std::vector<std::string>& said = apart.said;
+  Attempt attempt{said.empty() ? "OpenGL's libraries" : said[0], apart.failure, {}};
+  if (!attempt.failure.empty()) return attempt;
+  attempt.failure = said.size() > 1 ? said[1] : "it says nothing";
+  if (attempt.failure.empty())
+    attempt.info = {said.at(2),
+                    said.at(3),
+                    said.at(4),
+                    said.at(5),
+                    said.at(6),
+                    std::stoi(said.at(7)),
+                    std::stoi(said.at(8)),
+                    said.at(9) == "1"};
+  return attempt;
+}
+
+}  // namespace
+
 std::vector<Attempt> try_all_contexts() {
   std::vector<Attempt> attempts;
-  for (const Candidate& candidate : all_candidates()) {
-    Attempt attempt{candidate.what, "", {}};
-    try {
-      attempt.info = open_and_probe(candidate, false)->info();
-    } catch (const Error& error) {
-      attempt.failure = error.what();
-    }
-    attempts.push_back(std::move(attempt));
+  for (std::size_t i = 0;; ++i) {
+    const Apart apart = try_apart([i](const Say& say) { try_candidate(i, say); });
+    if (!apart.said.empty() || !apart.failure.empty()) attempts.push_back(attempt_of(apart));
+    if (apart.said.empty()) return attempts;  // there is no further one, or not even a list of them
   }
-  return attempts;
 }
 
 }  // namespace pinocchio::gl

@@ -29,7 +29,8 @@ struct Attempt {
   ContextInfo info;     // where it works
 };
 
-// Tries every way there is, each by itself; none is current afterwards.
+// Tries every way there is, each in a process of its own, so that a driver that crashes or hangs is a failure
+// like any other. To be called before OpenGL is used and threads are started.
 [[nodiscard]] std::vector<Attempt> try_all_contexts();
 
 }  // namespace pinocchio::gl

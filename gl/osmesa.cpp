@@ -49,7 +49,7 @@ const Osmesa& load_osmesa() {
 void refuse_zink() {
   const char* const driver = std::getenv("GALLIUM_DRIVER");
   if (driver && std::string_view(driver) == "zink")
-    throw Error("OSMesa cannot draw with GALLIUM_DRIVER=zink: Mesa crashes; EGL can, or unset it");
+    throw Error("Mesa crashes where OSMesa draws with GALLIUM_DRIVER=zink; use --backend egl, or unset it");
 }
 
 class OsmesaContext final : public Context {

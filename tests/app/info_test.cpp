@@ -20,6 +20,26 @@ TEST_F(InfoTest, SystemListsWhatWasTriedAndWhyItFailed) {
     EXPECT_TRUE(context["works"].get<bool>() ? context.contains("renderer") : context.contains("failure"));
 }
 
+// Whatever a driver does, the list is whole: zink crashes OSMesa, softpipe draws nothing.
+TEST_F(InfoTest, SystemOutlivesDriversThatCrash) {
+  for (const char* driver : {"GALLIUM_DRIVER=zink", "LIBGL_ALWAYS_SOFTWARE=1 GALLIUM_DRIVER=zink",
+                             "MESA_LOADER_DRIVER_OVERRIDE=zink", "GALLIUM_DRIVER=softpipe"}) {
+    const CommandResult result = run("info --system --json", driver);
+    ASSERT_EQ(result.exit_code, 0) << driver;
+    const nlohmann::json contexts = nlohmann::json::parse(result.out)["contexts"];
+    ASSERT_GE(contexts.size(), 3u) << driver;
+    const auto osmesa = std::ranges::find(contexts, "OSMesa", [](const auto& c) { return c["tried"]; });
+    ASSERT_NE(osmesa, contexts.end()) << driver;
+    const std::string failure = osmesa->value("failure", "");
+    if (std::string(driver).find("GALLIUM_DRIVER=zink") != std::string::npos) {
+      EXPECT_NE(failure.find("GALLIUM_DRIVER=zink"), std::string::npos) << failure;
+    }
+    if (std::string(driver).find("softpipe") != std::string::npos) {
+      EXPECT_NE(failure.find("draws nothing"), std::string::npos) << failure;
+    }
+  }
+}
+
 TEST_F(InfoTest, SceneIsDescribed) {
   const CommandResult result = run("info" + scene("two-lights"));
   EXPECT_EQ(result.exit_code, 0);

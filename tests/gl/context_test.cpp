@@ -1,5 +1,9 @@
+#include <unistd.h>
+
+#include <csignal>
 #include <type_traits>
 
+#include "gl/apart.h"
 #include "gl/buffer.h"
 #include "gl/error.h"
 #include "gl/framebuffer.h"
@@ -19,6 +23,27 @@ TEST_P(ContextTest, IsCoreAndSaysWhatItIs) {
   glGetIntegerv(GL_CONTEXT_PROFILE_MASK, &profile);
   EXPECT_EQ(profile, GL_CONTEXT_CORE_PROFILE_BIT);
   EXPECT_FALSE(gl::context_lost());
+}
+
+using Say = std::function<void(const std::string&)>;
+
+TEST(Apart, WhatIsSaidArrivesWhateverTheEnd) {
+  const gl::Apart done = gl::try_apart([](const Say& say) {
+    say("one");
+    say("");
+    say(std::string(100'000, 'x'));
+  });
+  EXPECT_EQ(done.failure, "");
+  EXPECT_EQ(done.said, (std::vector<std::string>{"one", "", std::string(100'000, 'x')}));
+  const gl::Apart crashed = gl::try_apart([](const Say& say) {
+    say("one");
+    std::signal(SIGSEGV, SIG_DFL);  // a sanitizer's would end it otherwise
+    std::raise(SIGSEGV);
+  });
+  EXPECT_EQ(crashed.failure, "it crashes: Segmentation fault");
+  EXPECT_EQ(crashed.said, std::vector<std::string>{"one"});
+  EXPECT_NE(gl::try_apart([](const Say&) { throw gl::Error("never caught"); }).failure, "");
+  EXPECT_EQ(gl::try_apart([](const Say&) { pause(); }, 1).failure, "it hangs: no answer in 1 s");
 }
 
 TEST(Open, TriesSoftwareDevicesAfterHardware) {
