@@ -18,6 +18,7 @@ target_compile_definitions(pinocchio_settings INTERFACE GLM_FORCE_EXPLICIT_CTOR)
 add_library(pinocchio_cold INTERFACE)
 target_compile_options(pinocchio_cold INTERFACE $<$<CONFIG:Release,RelWithDebInfo>:-O1>)
 if(PINOCCHIO_SANITIZE)
-  target_compile_options(pinocchio_settings INTERFACE -fsanitize=${PINOCCHIO_SANITIZE} -fno-omit-frame-pointer)
+  target_compile_options(pinocchio_settings INTERFACE -fsanitize=${PINOCCHIO_SANITIZE} -fno-sanitize-recover=all
+                         -fno-omit-frame-pointer)
   target_link_options(pinocchio_settings INTERFACE -fsanitize=${PINOCCHIO_SANITIZE})
 endif()

@@ -61,9 +61,10 @@ fail() {
   exit 1
 }
 
-# configure_and_build PRESET: quick where nothing changed.
+# configure_and_build PRESET [TARGET...]: quick where nothing changed.
 configure_and_build() {
-  local launcher=()
+  local launcher=() targets=()
+  if [ $# -gt 1 ]; then targets=(--target "${@:2}"); fi
   if command -v ccache >/dev/null; then
     launcher=(-DCMAKE_C_COMPILER_LAUNCHER=ccache -DCMAKE_CXX_COMPILER_LAUNCHER=ccache)
   fi
@@ -72,5 +73,5 @@ configure_and_build() {
     return 1
   }
   rm -f "/tmp/pinocchio-configure-$$.log"
-  cmake --build --preset "$1"
+  cmake --build --preset "$1" "${targets[@]}"
 }

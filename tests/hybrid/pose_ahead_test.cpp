@@ -67,7 +67,11 @@ TEST(PoseAhead, TreesAreThoseThatAreBuiltAnew) {
 
 // A tree that takes long, for poses of any time.
 const Scene& forest() {
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+  static const Scene scene = make_forest(60'000);
+#else
   static const Scene scene = make_forest(500'000);
+#endif
   return scene;
 }
 
