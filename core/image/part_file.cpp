@@ -82,7 +82,7 @@ PartFile::PartFile(std::filesystem::path file, std::error_code& error) : file_(s
       error.assign(errno, std::generic_category());
       return;
     }
-    slot_ = note(path_.string());
+    slot_ = note(path_.native());  // takes no memory: the file would stay if there were none
     struct stat found {};
     flock(descriptor_, LOCK_EX);  // where the file system has none, nothing is swept either
     if (fstat(descriptor_, &found) != 0 || found.st_nlink > 0) break;

@@ -53,7 +53,8 @@ struct LoadOptions {
 // path without extension, or a folder, stands for the one scene file of that name (scenes/cornell ->
 // scenes/cornell.gltf). The result has passed check_scene. Errors name the file and, for text formats,
 // the line; what a picture can do without is added to `warnings` instead, which are whole where the result
-// is an error, too. Phases "read" and "mesh". Any thread.
+// is an error, too. Throws
+// std::bad_alloc where there is no memory. Phases "read" and "mesh". Any thread.
 [[nodiscard]] Expected<Scene> load_scene(const std::filesystem::path& path, Warnings* warnings = nullptr,
                                          Progress* progress = nullptr,
                                          std::uint64_t limit_bytes = kUsualLoadLimit);

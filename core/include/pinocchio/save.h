@@ -13,7 +13,8 @@ namespace pinocchio {
 //   .gltf (with a .bin beside it), .glb   everything, Phong under extras.pinocchio, textures as PNG within
 //   .obj (with a .mtl beside it)          triangles and materials; OBJ has no lights and cameras
 // What the format cannot hold of materials is added to `warnings`. Each file is written whole or not at all.
-// Throws EnvironmentError where it cannot be written or where the extension is another one. Phase "write".
+// Throws EnvironmentError where it cannot be written or where the extension is another one,
+// std::bad_alloc where there is no memory; the files that stood there stay. Phase "write".
 void save_scene(const Scene& scene, const std::filesystem::path& file, Progress* progress = nullptr,
                 Warnings* warnings = nullptr);
 
