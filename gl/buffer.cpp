@@ -2,7 +2,7 @@
 
 #include <string>
 
-#include "gl/error.h"
+#include "gl/context.h"
 
 namespace pinocchio::gl {
 
@@ -19,8 +19,7 @@ Buffer::Buffer(std::span<const std::byte> data) : bytes_(data.size()) {
   // No vertex array is changed by this target, whichever is bound.
   glBindBuffer(GL_COPY_WRITE_BUFFER, name);
   glBufferData(GL_COPY_WRITE_BUFFER, static_cast<GLsizeiptr>(data.size()), data.data(), GL_STATIC_DRAW);
-  if (glGetError() == GL_OUT_OF_MEMORY)
-    throw Error("the GPU has no room for a buffer of " + std::to_string(data.size()) + " bytes");
+  throw_errors("the GPU has no room for a buffer of " + std::to_string(data.size()) + " bytes");
 }
 
 }  // namespace pinocchio::gl
