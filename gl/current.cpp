@@ -125,8 +125,9 @@ NativeContext NativeContext::now() {
     n.glx_.draw = glx->draw();
     n.glx_.read = glx->read();
   }
+  // Mesa's takes the others' contexts for its own.
   if (const OsmesaFunctions* const osmesa = once_loaded(find_osmesa);
-      osmesa && (n.osmesa_.context = osmesa->context())) {
+      osmesa && !n.egl_.context && !n.glx_.context && (n.osmesa_.context = osmesa->context())) {
     GLint format = 0;
     osmesa->color_buffer(n.osmesa_.context, &n.osmesa_.width, &n.osmesa_.height, &format, &n.osmesa_.buffer);
     osmesa->get_integer(kOsmesaType, &n.osmesa_.type);
