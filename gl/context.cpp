@@ -68,6 +68,7 @@ void Context::enter() {
     }
   }
   current = data_.get();
+  clear_errors();  // of a frame that failed
   run_deletions();
 }
 

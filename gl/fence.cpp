@@ -21,8 +21,9 @@ void Fence::wait() const {
   for (;;) {
     const GLenum status = glClientWaitSync(sync, 0, kOneSecond_ns);
     if (status == GL_ALREADY_SIGNALED || status == GL_CONDITION_SATISFIED) return;
-    if (status == GL_WAIT_FAILED || context_lost())
+    if (context_lost())
       throw ContextLostError("waiting for the GPU failed: its OpenGL context is lost; start again");
+    if (status == GL_WAIT_FAILED) throw Error("waiting for the GPU failed: glClientWaitSync");
   }
 }
 

@@ -134,14 +134,16 @@ void refuse_queries() {
   // OpenGL does not tell whether there is a condition, but refuses a second one.
   GLuint name = 0;
   glGenQueries(1, &name);
+  if (name == 0) return;
   const Handle<DeleteQueryName> query(name);
   glBeginQuery(GL_ANY_SAMPLES_PASSED, name);
   glEndQuery(GL_ANY_SAMPLES_PASSED);
   clear_errors();
   glBeginConditionalRender(name, GL_QUERY_NO_WAIT);
-  if (glGetError() == GL_INVALID_OPERATION)
+  const GLenum error = glGetError();
+  if (error == GL_INVALID_OPERATION)
     throw Error("the caller's context draws on a condition (glBeginConditionalRender); end it first");
-  glEndConditionalRender();
+  if (error == GL_NO_ERROR) glEndConditionalRender();
 }
 
 }  // namespace
