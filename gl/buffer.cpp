@@ -2,8 +2,7 @@
 
 #include <string>
 
-#include "gl/error.h"
-#include "gl/error_flags.h"
+#include "gl/context.h"
 
 namespace pinocchio::gl {
 
@@ -17,12 +16,10 @@ Buffer::Buffer(std::span<const std::byte> data) : bytes_(data.size()) {
   GLuint name = 0;
   glGenBuffers(1, &name);
   handle_ = BufferHandle(name);
-  forget_errors();
   // No vertex array is changed by this target, whichever is bound.
   glBindBuffer(GL_COPY_WRITE_BUFFER, name);
   glBufferData(GL_COPY_WRITE_BUFFER, static_cast<GLsizeiptr>(data.size()), data.data(), GL_STATIC_DRAW);
-  if (ran_out_of_memory())
-    throw Error("the GPU has no room for a buffer of " + std::to_string(data.size()) + " bytes");
+  throw_errors("the GPU has no room for a buffer of " + std::to_string(data.size()) + " bytes");
 }
 
 }  // namespace pinocchio::gl

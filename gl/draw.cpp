@@ -2,6 +2,9 @@
 
 #include <algorithm>
 
+#include "gl/context.h"
+#include "gl/state.h"
+
 namespace pinocchio::gl {
 
 Mesh::Mesh(std::span<const glm::vec3> positions, std::span<const glm::uvec3> triangles)
@@ -15,6 +18,7 @@ Mesh::Mesh(std::span<const glm::vec3> positions, std::span<const glm::uvec3> tri
   glVertexAttribPointer(0, 3, GL_FLOAT, GL_FALSE, sizeof(glm::vec3), nullptr);
   glEnableVertexAttribArray(0);
   glBindVertexArray(0);
+  throw_errors();
 }
 
 void Mesh::draw() const {
@@ -23,6 +27,7 @@ void Mesh::draw() const {
 }
 
 void FullscreenTriangle::draw() const {
+  if (!vertex_array_) vertex_array_ = make_vertex_array();
   glBindVertexArray(vertex_array_.name());
   glDrawArrays(GL_TRIANGLES, 0, 3);
 }
@@ -31,10 +36,8 @@ void begin_depth_pass(const Framebuffer& target, std::uint32_t clear, glm::ivec2
                       glm::ivec2 first) {
   target.bind();
   // The part is a window on the whole picture's viewport: same vertices, same rounding, same pixels.
-  glViewport(-first.x, -first.y, picture_size.x, picture_size.y);
-  glClipControl(GL_LOWER_LEFT, GL_ZERO_TO_ONE);
-  glEnable(GL_DEPTH_TEST);
-  glDepthFunc(GL_GREATER);
+  set_viewport(-first, picture_size);
+  set_raster_state({.depth = true});
   const GLuint color[4] = {clear, clear, clear, clear};
   const GLfloat infinitely_far = 0.0f;
   glClearBufferuiv(GL_COLOR, 0, color);
@@ -43,21 +46,20 @@ void begin_depth_pass(const Framebuffer& target, std::uint32_t clear, glm::ivec2
 
 void begin_fullscreen_pass(const Framebuffer& target) {
   target.bind();
-  glDisable(GL_DEPTH_TEST);
-  glEnable(GL_FRAMEBUFFER_SRGB);  // shaders write linear light, whatever the format
+  set_raster_state({});
 }
 
 void begin_window_pass(glm::ivec2 window_pixels, glm::ivec2 lo, glm::ivec2 size) {
   glBindFramebuffer(GL_FRAMEBUFFER, 0);
-  glViewport(0, 0, window_pixels.x, window_pixels.y);
-  glDisable(GL_DEPTH_TEST);
-  glDisable(GL_FRAMEBUFFER_SRGB);
-  glEnable(GL_SCISSOR_TEST);
-  glScissor(lo.x, window_pixels.y - lo.y - size.y, size.x, size.y);  // the window's row 0 is at the bottom
+  set_viewport({0, 0}, window_pixels);
+  // The window's row 0 is at the bottom.
+  set_raster_state({.srgb = false,
+                    .scissor = true,
+                    .scissor_box = {lo.x, window_pixels.y - lo.y - size.y, size.x, size.y}});
 }
 
 void end_window_pass() {
-  glDisable(GL_SCISSOR_TEST);
+  set_raster_state({.srgb = false});
 }
 
 std::vector<glm::u8vec3> read_window(glm::ivec2 window_pixels) {
@@ -65,7 +67,7 @@ std::vector<glm::u8vec3> read_window(glm::ivec2 window_pixels) {
   const auto height = static_cast<std::size_t>(window_pixels.y);
   std::vector<glm::u8vec3> pixels(width * height);
   glBindFramebuffer(GL_READ_FRAMEBUFFER, 0);
-  glPixelStorei(GL_PACK_ALIGNMENT, 1);
+  set_pixel_store();
   glReadPixels(0, 0, window_pixels.x, window_pixels.y, GL_RGB, GL_UNSIGNED_BYTE, pixels.data());
   for (std::size_t y = 0; y < height / 2; ++y)
     std::swap_ranges(pixels.begin() + static_cast<std::ptrdiff_t>(y * width),

@@ -30,7 +30,7 @@ class FullscreenTriangle {
   void draw() const;
 
  private:
-  VertexArray vertex_array_ = make_vertex_array();
+  mutable VertexArray vertex_array_;  // made when first drawn
 };
 
 // Draws into `target` begin here, nearest surface wins: reversed depth, 0 (infinitely far) to 1 (the near

@@ -1,10 +1,11 @@
 // EGL, loaded at run time: a machine without it still gets OSMesa.
-#include "gl/egl.h"
-
 #define EGL_NO_X11
 #define EGL_EGL_PROTOTYPES 0
 #include <EGL/egl.h>
 #include <EGL/eglext.h>
+
+#include "gl/egl.h"
+
 #include <dlfcn.h>
 
 #include <algorithm>
@@ -31,6 +32,8 @@ struct Egl {
   PFNEGLCREATECONTEXTPROC create_context = nullptr;
   PFNEGLDESTROYCONTEXTPROC destroy_context = nullptr;
   PFNEGLMAKECURRENTPROC make_current = nullptr;
+  PFNEGLGETCURRENTCONTEXTPROC get_current_context = nullptr;
+  PFNEGLQUERYAPIPROC query_api = nullptr;
   // Extensions: null where missing. Tested by pointer, as some systems have them and do not list them.
   PFNEGLGETPLATFORMDISPLAYEXTPROC get_platform_display = nullptr;
   PFNEGLQUERYDEVICESEXTPROC query_devices = nullptr;
@@ -74,6 +77,8 @@ const Egl* load_egl(std::string& why) {
     core(egl.create_context, "eglCreateContext");
     core(egl.destroy_context, "eglDestroyContext");
     core(egl.make_current, "eglMakeCurrent");
+    core(egl.get_current_context, "eglGetCurrentContext");
+    core(egl.query_api, "eglQueryAPI");
     if (!failure.empty()) return nullptr;
     resolve(egl.get_platform_display, egl, "eglGetPlatformDisplayEXT");
     resolve(egl.query_devices, egl, "eglQueryDevicesEXT");
@@ -128,19 +133,20 @@ class EglContext final : public Context {
       : egl_(egl), display_(display) {
     if (display == EGL_NO_DISPLAY) fail(egl, "eglGetDisplay");
     if (!egl.initialize(display, nullptr, nullptr)) fail(egl, "eglInitialize");
+    const EGLenum callers_api = egl.query_api();
     if (!egl.bind_api(EGL_OPENGL_API)) fail(egl, "eglBindAPI(EGL_OPENGL_API)");
     try {
       create(debug);
+      egl.bind_api(callers_api);
       make_current();
       describe("egl", what, debug);
     } catch (...) {
+      egl.bind_api(callers_api);
       destroy();
       throw;
     }
   }
   ~EglContext() override { destroy(); }
-
-  void release() override { egl_.make_current(display_, EGL_NO_SURFACE, EGL_NO_SURFACE, EGL_NO_CONTEXT); }
 
  private:
   void create(bool debug) {
@@ -172,10 +178,15 @@ class EglContext final : public Context {
     return config;
   }
 
+  [[nodiscard]] bool is_bound() const override { return egl_.get_current_context() == context_; }
   void bind() override {
-    release();  // or EGL, unaware of an OSMesa context in between, would do nothing
-    if (!egl_.make_current(display_, surface_, surface_, context_)) fail(egl_, "eglMakeCurrent");
+    const EGLenum callers_api = egl_.query_api();
+    egl_.bind_api(EGL_OPENGL_API);
+    const EGLBoolean bound = egl_.make_current(display_, surface_, surface_, context_);
+    if (!bound) egl_.bind_api(callers_api);
+    if (!bound) fail(egl_, "eglMakeCurrent");
   }
+  void unbind() override { egl_.make_current(display_, EGL_NO_SURFACE, EGL_NO_SURFACE, EGL_NO_CONTEXT); }
 
   [[nodiscard]] GLADloadfunc loader() const override {
     return reinterpret_cast<GLADloadfunc>(egl_.get_proc_address);
@@ -185,6 +196,7 @@ class EglContext final : public Context {
   void destroy() {
     if (context_ == EGL_NO_CONTEXT && surface_ == EGL_NO_SURFACE) return;
     release();
+    drop_data();
     if (context_ != EGL_NO_CONTEXT) egl_.destroy_context(display_, context_);
     if (surface_ != EGL_NO_SURFACE) egl_.destroy_surface(display_, surface_);
   }

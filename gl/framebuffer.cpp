@@ -3,7 +3,9 @@
 #include <cstdio>
 #include <string>
 
+#include "gl/context.h"
 #include "gl/error.h"
+#include "gl/state.h"
 
 namespace pinocchio::gl {
 
@@ -18,6 +20,7 @@ Framebuffer::Framebuffer(glm::ivec2 size, const PixelFormat& color, bool with_de
     glFramebufferTexture2D(GL_FRAMEBUFFER, GL_DEPTH_ATTACHMENT, GL_TEXTURE_2D, depth_.name(), 0);
   }
   const GLenum status = glCheckFramebufferStatus(GL_FRAMEBUFFER);
+  throw_errors();
   if (status != GL_FRAMEBUFFER_COMPLETE)
     throw Error("this OpenGL cannot draw into a framebuffer of format " + std::to_string(color.internal) +
                 " (status " + std::to_string(status) + ")");
@@ -25,7 +28,7 @@ Framebuffer::Framebuffer(glm::ivec2 size, const PixelFormat& color, bool with_de
 
 void Framebuffer::bind() const {
   glBindFramebuffer(GL_FRAMEBUFFER, handle_.name());
-  glViewport(0, 0, size().x, size().y);
+  set_viewport({0, 0}, size());
 }
 
 }  // namespace pinocchio::gl

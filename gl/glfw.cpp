@@ -74,12 +74,16 @@ GlfwContext::GlfwContext(const Request& request) : library_(init_library()) {
     make_current();
     describe("glfw", "GLFW window", request.debug);
   } catch (...) {
+    release();
+    drop_data();
     glfwDestroyWindow(window_);
     throw;
   }
 }
 
 GlfwContext::~GlfwContext() {
+  release();
+  drop_data();
   glfwDestroyWindow(window_);
 }
 
@@ -103,8 +107,23 @@ void GlfwContext::bind() {
   if (glfwGetCurrentContext() != window_) throw Error(glfw_error());
 }
 
-void GlfwContext::release() {
-  if (glfwGetCurrentContext() == window_) glfwMakeContextCurrent(nullptr);
+void GlfwContext::unbind() {
+  glfwMakeContextCurrent(nullptr);
+}
+
+bool GlfwContext::is_bound() const {
+  return glfwGetCurrentContext() == window_;
+}
+
+// GLFW knows of its own windows alone, and another way to make one current leaves it behind.
+void GlfwContext::enter() {
+  callers_window_ = glfwGetCurrentContext();
+  Context::enter();
+}
+
+void GlfwContext::leave() noexcept {
+  if (callers_window_ && callers_window_ != window_) glfwMakeContextCurrent(callers_window_);
+  Context::leave();
 }
 
 GLADloadfunc GlfwContext::loader() const {

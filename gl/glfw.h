@@ -25,16 +25,20 @@ class GlfwContext final : public Context {
   explicit GlfwContext(const Request& request);
   ~GlfwContext() override;
 
-  void release() override;
+  void enter() override;
+  void leave() noexcept override;
   [[nodiscard]] GLFWwindow* window() const { return window_; }
 
  private:
   void open(const Request& request);
+  [[nodiscard]] bool is_bound() const override;
   void bind() override;
+  void unbind() override;
   [[nodiscard]] GLADloadfunc loader() const override;
 
   std::shared_ptr<void> library_;  // GLFW, initialised while any context lives
   GLFWwindow* window_ = nullptr;
+  GLFWwindow* callers_window_ = nullptr;  // that GLFW holds for current, between enter() and leave()
 };
 
 // GLFW's way, in a window that is never shown. Needs a display, so it is only taken where it is asked for.

@@ -1,37 +1,41 @@
 #pragma once
 
-#include <glad/gl.h>
-
 #include <utility>
+
+#include "gl/functions.h"
 
 namespace pinocchio::gl {
 
-// Owns one GL name; move-only. Delete is called with it at the end, in the context that made it.
-template <class Delete>
+// Owns one GL name of the context that is current when it is made; move-only. Delete is called with it at the
+// end, in that context, wherever the handle itself ends.
+template <class Delete, class Name = GLuint>
 class Handle {
  public:
   Handle() = default;
-  explicit Handle(GLuint name) : name_(name) {}
+  explicit Handle(Name name) : name_(name), context_(current->weak_from_this()) {}
   ~Handle() { reset(); }
-  Handle(Handle&& other) noexcept : name_(std::exchange(other.name_, 0)) {}
+  Handle(Handle&& other) noexcept
+      : name_(std::exchange(other.name_, Name{})), context_(std::move(other.context_)) {}
   Handle& operator=(Handle&& other) noexcept {
     if (this != &other) {
       reset();
-      name_ = std::exchange(other.name_, 0);
+      name_ = std::exchange(other.name_, Name{});
+      context_ = std::move(other.context_);
     }
     return *this;
   }
 
-  [[nodiscard]] GLuint name() const { return name_; }
-  explicit operator bool() const { return name_ != 0; }
+  [[nodiscard]] Name name() const { return name_; }
+  explicit operator bool() const { return name_ != Name{}; }
 
  private:
   void reset() {
-    if (name_ != 0) Delete()(name_);
-    name_ = 0;
+    if (name_ != Name{}) delete_in(context_, [name = name_] { Delete()(name); });
+    name_ = Name{};
   }
 
-  GLuint name_ = 0;
+  Name name_{};
+  std::weak_ptr<ContextData> context_;
 };
 
 }  // namespace pinocchio::gl

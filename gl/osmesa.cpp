@@ -21,6 +21,7 @@ struct Osmesa {
   void (*destroy_context)(OsmesaContextHandle) = nullptr;
   GLboolean (*make_current)(OsmesaContextHandle, void* buffer, GLenum type, GLsizei width,
                             GLsizei height) = nullptr;
+  OsmesaContextHandle (*get_current_context)() = nullptr;
   GLADapiproc (*get_proc_address)(const char* name) = nullptr;
 };
 
@@ -39,6 +40,7 @@ const Osmesa& load_osmesa() {
     resolve(functions.create_context, "OSMesaCreateContextAttribs");
     resolve(functions.destroy_context, "OSMesaDestroyContext");
     resolve(functions.make_current, "OSMesaMakeCurrent");
+    resolve(functions.get_current_context, "OSMesaGetCurrentContext");
     resolve(functions.get_proc_address, "OSMesaGetProcAddress");
     return functions;
   }();
@@ -73,16 +75,17 @@ class OsmesaContext final : public Context {
   }
   ~OsmesaContext() override { destroy(); }
 
-  void release() override { osmesa_.make_current(nullptr, nullptr, GL_UNSIGNED_BYTE, 0, 0); }
-
  private:
+  [[nodiscard]] bool is_bound() const override { return osmesa_.get_current_context() == context_; }
   void bind() override {
     if (!osmesa_.make_current(context_, default_framebuffer_.data(), GL_UNSIGNED_BYTE, 1, 1))
       throw Error("OSMesaMakeCurrent failed");
   }
+  void unbind() override { osmesa_.make_current(nullptr, nullptr, GL_UNSIGNED_BYTE, 0, 0); }
   [[nodiscard]] GLADloadfunc loader() const override { return osmesa_.get_proc_address; }
   void destroy() {
     release();
+    drop_data();
     osmesa_.destroy_context(context_);
   }
 

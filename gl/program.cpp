@@ -1,6 +1,11 @@
 #include "gl/program.h"
 
+#include <algorithm>
+#include <cassert>
+
+#include "gl/context.h"
 #include "gl/error.h"
+#include "gl/state.h"
 
 namespace pinocchio::gl {
 namespace {
@@ -35,7 +40,15 @@ Shader compile(GLenum stage, const ShaderSource& source, const std::string& file
   glGetShaderiv(shader.name(), GL_INFO_LOG_LENGTH, &length);
   const std::string log =
       read_log(length, [&](GLsizei n, char* to) { glGetShaderInfoLog(shader.name(), n, nullptr, to); });
+  throw_errors();
   throw Error("shader does not compile: " + first_line(name_files(log, assembled.files)));
+}
+
+// Textures are read as they are, by no sampler object's rules.
+void select(int unit) {
+  assert(unit < kTextureUnits);
+  glActiveTexture(GL_TEXTURE0 + static_cast<GLenum>(unit));
+  glBindSampler(static_cast<GLuint>(unit), 0);
 }
 
 }  // namespace
@@ -51,6 +64,7 @@ Program::Program(const ShaderSource& source, const std::string& vertex_file, con
   glLinkProgram(name);
   GLint linked = 0, length = 0;
   glGetProgramiv(name, GL_LINK_STATUS, &linked);
+  throw_errors();
   if (linked) return;
   glGetProgramiv(name, GL_INFO_LOG_LENGTH, &length);
   const std::string log =
@@ -59,13 +73,13 @@ Program::Program(const ShaderSource& source, const std::string& vertex_file, con
 }
 
 void Program::set(const char* sampler, int unit, const Texture& texture) const {
-  glActiveTexture(GL_TEXTURE0 + static_cast<GLenum>(unit));
+  select(unit);
   glBindTexture(GL_TEXTURE_2D, texture.name());
   set(sampler, unit);
 }
 
 void Program::set(const char* sampler, int unit, const TextureBuffer& buffer) const {
-  glActiveTexture(GL_TEXTURE0 + static_cast<GLenum>(unit));
+  select(unit);
   glBindTexture(GL_TEXTURE_BUFFER, buffer.name());
   set(sampler, unit);
 }

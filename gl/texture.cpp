@@ -2,8 +2,8 @@
 
 #include <string>
 
+#include "gl/context.h"
 #include "gl/error.h"
-#include "gl/error_flags.h"
 
 namespace pinocchio::gl {
 namespace {
@@ -29,16 +29,15 @@ Texture::Texture(glm::ivec2 size, const PixelFormat& format)
     throw Error("a picture of " + std::to_string(size.x) + "x" + std::to_string(size.y) +
                 " is beyond this OpenGL's limit of " + std::to_string(most) +
                 " pixels a side; draw it in --crop parts");
-  forget_errors();
+  glBindBuffer(GL_PIXEL_UNPACK_BUFFER, 0);  // or its bytes would be the picture
   glBindTexture(GL_TEXTURE_2D, handle_.name());
   glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_NEAREST);
   glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_NEAREST);
   glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAX_LEVEL, 0);
   glTexImage2D(GL_TEXTURE_2D, 0, static_cast<GLint>(format.internal), size.x, size.y, 0, format.format,
                format.type, nullptr);
-  if (ran_out_of_memory())
-    throw Error("the GPU has no room for a picture of " + std::to_string(size.x) + "x" +
-                std::to_string(size.y));
+  throw_errors("the GPU has no room for a picture of " + std::to_string(size.x) + "x" +
+               std::to_string(size.y));
 }
 
 TextureBuffer::TextureBuffer(std::span<const std::byte> data, GLenum internal_format,
@@ -50,6 +49,7 @@ TextureBuffer::TextureBuffer(std::span<const std::byte> data, GLenum internal_fo
                 " texels, the limit is " + std::to_string(most) + "; --mode raytrace has no such limit");
   glBindTexture(GL_TEXTURE_BUFFER, handle_.name());
   glTexBuffer(GL_TEXTURE_BUFFER, internal_format, buffer_.name());
+  throw_errors();
 }
 
 }  // namespace pinocchio::gl

@@ -3,8 +3,8 @@
 #include <cassert>
 #include <string>
 
+#include "gl/context.h"
 #include "gl/error.h"
-#include "gl/error_flags.h"
 
 namespace pinocchio::gl {
 
@@ -15,7 +15,6 @@ void PixelBuffer::reserve(std::size_t bytes) {
   handle_ = BufferHandle(name);
   mapped_ = nullptr;
   capacity_ = 0;  // until it has its memory
-  forget_errors();
   bind();
   const auto size = static_cast<GLsizeiptr>(bytes);
   if (mapping_ == Mapping::persistent && !glBufferStorage) mapping_ = Mapping::each_time;
@@ -28,8 +27,10 @@ void PixelBuffer::reserve(std::size_t bytes) {
     glBufferData(target(), size, nullptr, use_ == Use::readback ? GL_STREAM_READ : GL_STREAM_DRAW);
   }
   unbind();
-  if (ran_out_of_memory() || (mapping_ == Mapping::persistent && !mapped_))
-    throw Error("the GPU has no room for a transfer buffer of " + std::to_string(bytes) + " bytes");
+  const std::string no_room =
+      "the GPU has no room for a transfer buffer of " + std::to_string(bytes) + " bytes";
+  throw_errors(no_room);
+  if (mapping_ == Mapping::persistent && !mapped_) throw Error(no_room);
   capacity_ = bytes;
 }
 

@@ -2,10 +2,12 @@
 
 #include <algorithm>
 #include <cstdlib>
+#include <exception>
 #include <utility>
 
 #include "core/trace/surface.h"
 #include "core/trace/view_params.h"
+#include "gl/current.h"
 #include "gl/foreign.h"
 #include "gl/probe.h"
 #include "hybrid/engine_parts.h"
@@ -41,24 +43,85 @@ void TracingThread::run(const std::stop_token& stop) {
   }
 }
 
+Engine::Parts::Inside::Inside(Parts& of) : parts(of) {
+  if (parts.depth == 0) parts.enter_context();
+  ++parts.depth;
+}
+
+Engine::Parts::Inside::~Inside() {
+  if (--parts.depth == 0) parts.leave_context();
+}
+
+void Engine::Parts::enter_context() {
+  if (!context) return;
+  context->enter();
+  is_in = true;
+}
+
+void Engine::Parts::leave_context() noexcept {
+  if (std::exchange(is_in, false)) context->leave();
+}
+
+void Engine::Parts::call_out(const std::function<void()>& callers) {
+  leave_context();
+  const int inner = std::exchange(depth, 0);
+  const auto back = [&] {
+    depth = inner;
+    if (depth > 0) enter_context();
+  };
+  try {
+    callers();
+  } catch (...) {
+    back();
+    throw;
+  }
+  back();
+}
+
+void Engine::Parts::throw_gl_errors() const {
+  if (is_in) gl::throw_errors();
+}
+
+namespace {
+
+// What we open is probed when it is opened.
+void probe_callers(gl::Context& context) {
+  context.enter();
+  std::string failure;
+  try {
+    gl::probe(context.info());
+  } catch (const gl::Error& error) {
+    failure = error.what();
+  }
+  context.leave();
+  if (!failure.empty()) throw NoOpenGlError("the caller's OpenGL context does not serve: " + failure);
+}
+
+}  // namespace
+
 GpuPasses& Engine::Parts::gpu() {
   if (passes) return *passes;
   if (!context) {
     if (options.gl_threads > 0) setenv("LP_NUM_THREADS", std::to_string(options.gl_threads).c_str(), 1);
-    own = options.get_proc_address
-              ? std::make_unique<gl::ForeignContext>(options.get_proc_address, options.gl_debug)
-              : gl::open_context({options.backend, options.device, options.gl_debug});
-    if (options.get_proc_address) {
-      try {
-        gl::probe(own->info());
-      } catch (const gl::Error& error) {
-        throw NoOpenGlError(std::string("the caller's OpenGL context does not serve: ") + error.what());
-      }
+    {
+      const gl::KeepCurrent keep;
+      own = options.get_proc_address
+                ? std::make_unique<gl::ForeignContext>(options.get_proc_address, options.gl_debug)
+                : gl::open_context({options.backend, options.device, options.gl_debug});
+      if (options.get_proc_address) probe_callers(*own);
     }
     context = own.get();
+    if (depth > 0) enter_context();
   }
-  passes = std::make_unique<GpuPasses>(std::make_shared<Programs>());
+  if (!programs) programs = std::make_shared<Programs>();
+  passes = std::make_unique<GpuPasses>(programs);
   return *passes;
+}
+
+void Engine::Parts::forget_gpu() {
+  meshes.clear();
+  passes.reset();
+  if (programs) programs->forget();
 }
 
 Workers& Engine::Parts::workers(int threads) {
@@ -114,7 +177,17 @@ Engine::Engine(gl::Context& context, const EngineOptions& options) : Engine(opti
   parts_->context = &context;
 }
 
-Engine::~Engine() = default;
+Engine::~Engine() {
+  try {
+    parts_->enter([this] {
+      parts_->meshes.clear();
+      parts_->passes.reset();
+      parts_->programs.reset();
+    });
+  } catch (const std::exception&) {
+    // Its context is not to be had any more, nor is what was in it.
+  }
+}
 
 Expected<Settings> Engine::resolve(const Scene& scene, glm::ivec2 size, const Settings& settings,
                                    bool keeps_mask) const {
@@ -157,7 +230,7 @@ Workers& Engine::workers(int threads) const {
 }
 
 void Engine::open_gl() const {
-  (void)parts_->gpu();
+  parts_->enter([this] { (void)parts_->gpu(); });
 }
 
 bool Engine::gl_is_software(const Settings& settings) const {
@@ -184,11 +257,11 @@ const gl::ContextInfo* Engine::gl_info() const {
 }
 
 const std::filesystem::path& Engine::shader_folder() const {
-  return parts_->gpu().programs->folder();
+  return *parts_->enter([this] { return &parts_->gpu().programs->folder(); });
 }
 
 Expected<void> Engine::reload_shaders() {
-  return parts_->gpu().programs->reload();
+  return parts_->enter([this] { return parts_->gpu().programs->reload(); });
 }
 
 void Engine::throw_gl_complaints() const {

@@ -8,6 +8,7 @@
 #include <memory>
 #include <mutex>
 #include <thread>
+#include <type_traits>
 
 #include "core/parallel/priority.h"
 #include "core/parallel/start_thread.h"
@@ -59,8 +60,30 @@ struct GpuPasses {
 struct Engine::Parts {
   explicit Parts(const EngineOptions& of) : options(of), tracing(of.gives_way) {}
 
+  // What may touch OpenGL runs in here: the Engine's context is current meanwhile, if it has one, and the
+  // caller's after it, in the state that it was in. Within itself it changes nothing. Throws OpenGlError
+  // where OpenGL reported an error.
+  template <class Work>
+  decltype(auto) enter(const Work& work) {
+    const Inside inside(*this);
+    if constexpr (std::is_void_v<std::invoke_result_t<Work>>) {
+      work();
+      throw_gl_errors();
+    } else {
+      decltype(auto) result = work();
+      throw_gl_errors();
+      return result;
+    }
+  }
+  // The caller's code, in the midst of ours: it finds its own context as it left it.
+  void call_out(const std::function<void()>& callers);
+  // Throws what OpenGL reported since the last look.
+  void throw_gl_errors() const;
+
   // Opens the context where there is none yet. Throws NoOpenGlError.
   [[nodiscard]] GpuPasses& gpu();
+  // Where OpenGL failed: programs and meshes are sent again, should they be needed.
+  void forget_gpu();
   [[nodiscard]] bool has_gpu() const { return passes != nullptr; }
   [[nodiscard]] Workers& workers(int threads);
   // The mesh's buffers on the GPU; made when first asked for, let go when nobody else has the mesh.
@@ -71,10 +94,24 @@ struct Engine::Parts {
                                                         Progress* progress = nullptr);
   [[nodiscard]] const SceneStats& stats_of(const Scene& scene);
 
+  // Between enter's begin and end.
+  struct Inside {
+    explicit Inside(Parts& of);
+    ~Inside();
+    Inside(const Inside&) = delete;
+    Inside& operator=(const Inside&) = delete;
+    Parts& parts;
+  };
+  void enter_context();
+  void leave_context() noexcept;
+  int depth = 0;       // of calls to enter
+  bool is_in = false;  // the context is entered
+
   EngineOptions options;
   std::unique_ptr<gl::Context> own;  // outlives what was made in it
   gl::Context* context = nullptr;    // own or the caller's; null: none is open
   std::string gl_failure;            // why settings by_machine got none
+  std::shared_ptr<Programs> programs;
   std::unique_ptr<GpuPasses> passes;
   std::mutex pools_mutex;
   std::map<int, Workers> pools;  // by number of threads; idle ones cost nothing

@@ -31,10 +31,12 @@ std::size_t close_holes(Image<glm::vec4>& color) {
 void read_ids(FrameSlot& frame) {
   if (frame.answered) return;  // they came for the CPU
   ChannelBuffer& buffer = frame[Channel::ids];
-  buffer.back.start(buffer.target);
-  fit(frame.ids, buffer.target.size());
-  unpack_ids(buffer.back.open(), frame.request.settings.id_bits, frame.ids);
-  buffer.back.close();
+  frame.engine.enter([&] {
+    buffer.back.start(buffer.target);
+    fit(frame.ids, buffer.target.size());
+    unpack_ids(buffer.back.open(), frame.request.settings.id_bits, frame.ids);
+    buffer.back.close();
+  });
 }
 
 }  // namespace
@@ -67,13 +69,15 @@ FrameRecord& Frame::record() const {
 const gl::Texture& Frame::texture() const {
   if (slot_.request.settings.uses_gpu()) return slot_.picture.color();
   if (slot_.is_shown) return slot_.shown;
-  (void)slot_.engine.gpu();
-  const StageTimer timer(slot_.record, Stage::upload);
-  slot_.release_unused();
-  fit(slot_.shown, slot_.color.size(), gl::kRgba32F);
-  const std::span<std::byte> bytes = slot_.picture_up.open(slot_.shown.bytes());
-  std::ranges::copy(std::as_bytes(slot_.color.pixels()), bytes.begin());
-  slot_.picture_up.send(slot_.shown);
+  slot_.engine.enter([this] {
+    (void)slot_.engine.gpu();
+    const StageTimer timer(slot_.record, Stage::upload);
+    slot_.release_unused();
+    fit(slot_.shown, slot_.color.size(), gl::kRgba32F);
+    const std::span<std::byte> bytes = slot_.picture_up.open(slot_.shown.bytes());
+    std::ranges::copy(std::as_bytes(slot_.color.pixels()), bytes.begin());
+    slot_.picture_up.send(slot_.shown);
+  });
   slot_.is_shown = true;
   return slot_.shown;
 }
@@ -91,9 +95,11 @@ void Frame::read_color(Image<glm::vec4>& color) const {
   if (slot_.picture_was_packed() && s.spp > 1) return slot_.copy_unpacked(color);
   const StageTimer timer(slot_.record, Stage::present);
   fit(color, slot_.picture.size());
-  slot_.picture_back.start(slot_.picture);
-  unpack_picture(slot_.picture_back.open(), color);
-  slot_.picture_back.close();
+  slot_.engine.enter([&] {
+    slot_.picture_back.start(slot_.picture);
+    unpack_picture(slot_.picture_back.open(), color);
+    slot_.picture_back.close();
+  });
 }
 
 FrameResult Frame::read() const {

@@ -50,6 +50,21 @@ class Renderer::Loop {
     slots_.resize(kFramesInFlight);
   }
 
+  ~Loop();
+  Loop(const Loop&) = delete;
+  Loop& operator=(const Loop&) = delete;
+
+  // Runs what draws in the Engine's context. Where OpenGL fails, nothing that it may have left is used again.
+  template <class Work>
+  auto enter(const Work& work) {
+    try {
+      return engine_.enter(work);
+    } catch (const gl::Error&) {
+      forget_gpu();
+      throw;
+    }
+  }
+
   void submit(FrameRequest request);
   bool try_submit(FrameRequest request);
   bool advance();
@@ -57,6 +72,7 @@ class Renderer::Loop {
   void drain();
 
  private:
+  void forget_gpu();
   [[nodiscard]] FrameSlot* frames_back(int n);  // begun n frames before the newest; null: there is none
   [[nodiscard]] int frames_drawn() const;       // and not delivered
   bool repeat(const FrameRequest& request);
@@ -68,6 +84,7 @@ class Renderer::Loop {
   void finish(FrameSlot& frame);
   void deliver(FrameSlot& frame, const FrameSlot* older);
   void give(FrameSlot& frame);
+  void tell(const FrameRecord& record);
   void retire(FrameSlot& frame);
   [[nodiscard]] int generation() const {
     return engine_.has_gpu() ? engine_.passes->programs->generation() : 0;
@@ -83,6 +100,20 @@ class Renderer::Loop {
   std::uint64_t frames_on_gpu_ = 0;                // of them
   std::vector<std::unique_ptr<FrameSlot>> slots_;  // the n-th of them is in slot n % kFramesInFlight
 };
+
+Renderer::Loop::~Loop() {
+  try {
+    engine_.enter([this] { slots_.clear(); });
+  } catch (const std::exception&) {
+    // Its context is not to be had any more, nor is what was in it.
+  }
+}
+
+// All frames in flight are lost with it.
+void Renderer::Loop::forget_gpu() {
+  for (std::unique_ptr<FrameSlot>& slot : slots_) slot.reset();
+  engine_.forget_gpu();
+}
 
 void Renderer::Loop::submit(FrameRequest request) {
   throw_if_cancelled(progress_);
@@ -193,7 +224,7 @@ bool Renderer::Loop::repeat(const FrameRequest& request) {
   last->record.frame.begin_s = now_s();
   give(*last);
   last->record.frame.end_s = now_s();
-  if (sinks_.record) sinks_.record(last->record);
+  tell(last->record);
   pinocchio::advance(progress_);
   return true;
 }
@@ -235,6 +266,7 @@ void Renderer::Loop::draw(FrameSlot& frame) {
   if (frame.request.settings.visibility == Processor::cpu) return;
   rasterise(engine_.gpu(), frame);
   send_to_cpu(frame);
+  engine_.throw_gl_errors();
 }
 
 FrameSlot* Renderer::Loop::frames_back(int n) {
@@ -275,6 +307,7 @@ void Renderer::Loop::deliver(FrameSlot& frame, const FrameSlot* older) {
   if (schedule_of(frame.request.settings).gpu) {
     composite_on_gpu(engine_.gpu(), frame, older);
     frame.release_unused();
+    engine_.throw_gl_errors();
   }
   frame.answer_of = older ? older : frame.answered ? &frame : nullptr;
   frame.state = FrameSlot::State::delivered;
@@ -287,8 +320,10 @@ void Renderer::Loop::deliver(FrameSlot& frame, const FrameSlot* older) {
 
 void Renderer::Loop::give(FrameSlot& slot) {
   if (!sinks_.frame) return;
-  Frame frame(slot);
-  sinks_.frame(frame);
+  engine_.call_out([&] {
+    Frame frame(slot);
+    sinks_.frame(frame);
+  });
 }
 
 // The GPU is done with the frame long since, unless it was the last one.
@@ -307,7 +342,11 @@ void Renderer::Loop::retire(FrameSlot& frame) {
     record[Stage::composite] = span_of(frame.composite_timer, clock_);
   record.frame.end_s = std::max(record[Stage::composite].end_s, record[Stage::present].end_s);
   frame.state = FrameSlot::State::idle;
-  if (sinks_.record) sinks_.record(record);
+  tell(record);
+}
+
+void Renderer::Loop::tell(const FrameRecord& record) {
+  if (sinks_.record) engine_.call_out([&] { sinks_.record(record); });
 }
 
 Renderer::Renderer(Engine& engine, FrameSinks sinks, Progress* progress)
@@ -315,19 +354,19 @@ Renderer::Renderer(Engine& engine, FrameSinks sinks, Progress* progress)
 Renderer::~Renderer() = default;
 
 void Renderer::submit(const FrameRequest& request) {
-  loop_->submit(request);
+  loop_->enter([&] { loop_->submit(request); });
 }
 bool Renderer::try_submit(const FrameRequest& request) {
-  return loop_->try_submit(request);
+  return loop_->enter([&] { return loop_->try_submit(request); });
 }
 bool Renderer::advance() {
-  return loop_->advance();
+  return loop_->enter([&] { return loop_->advance(); });
 }
 bool Renderer::is_tracing() const {
   return loop_->is_tracing();
 }
 void Renderer::drain() {
-  loop_->drain();
+  loop_->enter([&] { loop_->drain(); });
 }
 
 }  // namespace pinocchio

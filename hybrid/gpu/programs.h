@@ -23,6 +23,11 @@ class Programs {
   [[nodiscard]] const gl::Program& get(const std::string& vertex_file, const std::string& fragment_file,
                                        const Definitions& definitions = {});
 
+  // All of them are compiled again when they are next asked for.
+  void forget() {
+    programs_.clear();
+    ++generation_;
+  }
   // Compiles every program that was asked for so far anew, from the files as a folder has them now. Where one
   // fails, all stay as they were and the error says why: file, line, the compiler's message.
   [[nodiscard]] Expected<void> reload();

@@ -16,7 +16,8 @@ bool same_view(FrameRequest a, const FrameRequest& b) {
 
 }  // namespace
 
-Accumulator::Accumulator(Engine& engine) : programs_(engine.parts().gpu().programs) {}
+Accumulator::Accumulator(Engine& engine)
+    : engine_(engine), programs_(engine.parts().enter([&] { return engine.parts().gpu().programs; })) {}
 
 void Accumulator::add(const Frame& frame) {
   const FrameSlot* const of = frame.slot().answer_of;
@@ -26,7 +27,12 @@ void Accumulator::add(const Frame& frame) {
   if (!of_ || !same_view(*of_, request)) reset();
   of_ = request;
 
-  const gl::Texture& picture = whole_picture(frame);
+  engine_.parts().enter([&] { draw(whole_picture(frame)); });
+  newest_ = 1 - newest_;
+  ++samples_;
+}
+
+void Accumulator::draw(const gl::Texture& picture) {
   const std::size_t next = 1 - newest_;
   fit(averages_[next], picture.size(), gl::kRgba32F);
   gl::begin_fullscreen_pass(averages_[next]);
@@ -36,8 +42,6 @@ void Accumulator::add(const Frame& frame) {
   program.set("average", 1, samples_ > 0 ? averages_[newest_].color() : picture);
   program.set("samples", samples_);
   triangle_.draw();
-  newest_ = next;
-  ++samples_;
 }
 
 const gl::Texture& Accumulator::whole_picture(const Frame& frame) {
@@ -52,11 +56,13 @@ const gl::Texture& Accumulator::whole_picture(const Frame& frame) {
 
 void Accumulator::read_average(Image<glm::vec4>& color) {
   fit(color, average().size());
-  gl::Readback back;
-  back.start(average());
-  const std::span<const std::byte> bytes = back.open();
-  std::copy(bytes.begin(), bytes.end(), std::as_writable_bytes(color.pixels()).begin());
-  back.close();
+  engine_.parts().enter([&] {
+    gl::Readback back;
+    back.start(average());
+    const std::span<const std::byte> bytes = back.open();
+    std::copy(bytes.begin(), bytes.end(), std::as_writable_bytes(color.pixels()).begin());
+    back.close();
+  });
 }
 
 }  // namespace pinocchio

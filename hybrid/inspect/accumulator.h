@@ -35,7 +35,9 @@ class Accumulator {
 
  private:
   [[nodiscard]] const gl::Texture& whole_picture(const Frame& frame);
+  void draw(const gl::Texture& picture);  // into the average that is not the newest
 
+  Engine& engine_;
   std::shared_ptr<Programs> programs_;
   gl::FullscreenTriangle triangle_;
   // Floats: of the n-th sample an n-th is added, which in halves rounds to nothing from the 2048th on, and

@@ -9,28 +9,33 @@
 
 namespace pinocchio {
 
-HistogramPass::HistogramPass(Engine& engine) : programs_(engine.parts().gpu().programs) {}
+HistogramPass::HistogramPass(Engine& engine)
+    : engine_(engine), programs_(engine.parts().enter([&] { return engine.parts().gpu().programs; })) {}
 
 void HistogramPass::start(const gl::Texture& picture) {
   constexpr double kMostPixels = 1 << 20;
   const glm::ivec2 size = picture.size();
   const int step = static_cast<int>(std::ceil(std::sqrt(static_cast<double>(size.x) * size.y / kMostPixels)));
-  fit(target_, (size + step - 1) / step, gl::kRg16F);
-  gl::begin_fullscreen_pass(target_);
-  const gl::Program& program = programs_->get("fullscreen.vert", "light.frag");
-  program.use();
-  program.set("picture", 0, picture);
-  program.set("step_pixels", step);
-  triangle_.draw();
-  back_.start(target_);
+  engine_.parts().enter([&] {
+    fit(target_, (size + step - 1) / step, gl::kRg16F);
+    gl::begin_fullscreen_pass(target_);
+    const gl::Program& program = programs_->get("fullscreen.vert", "light.frag");
+    program.use();
+    program.set("picture", 0, picture);
+    program.set("step_pixels", step);
+    triangle_.draw();
+    back_.start(target_);
+  });
   started_ = true;
 }
 
 LightHistogram HistogramPass::take() {
-  const std::span<const std::byte> bytes = back_.open();
-  std::vector<LightHistogram::Sample> pixels(bytes.size() / sizeof(LightHistogram::Sample));
-  std::memcpy(pixels.data(), bytes.data(), bytes.size());
-  back_.close();
+  std::vector<LightHistogram::Sample> pixels(back_.bytes() / sizeof(LightHistogram::Sample));
+  engine_.parts().enter([&] {
+    const std::span<const std::byte> bytes = back_.open();
+    std::memcpy(pixels.data(), bytes.data(), bytes.size());
+    back_.close();
+  });
   started_ = false;
   return LightHistogram(pixels);
 }

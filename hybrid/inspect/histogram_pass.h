@@ -26,6 +26,7 @@ class HistogramPass {
   [[nodiscard]] LightHistogram take();
 
  private:
+  Engine& engine_;
   std::shared_ptr<Programs> programs_;
   gl::FullscreenTriangle triangle_;
   gl::Framebuffer target_;

@@ -99,11 +99,17 @@ std::string legend(BufferView view, int slot, const Frame& frame, const ChannelR
   return {};
 }
 
-InspectPass::InspectPass(Engine& engine) : engine_(engine), shading_(engine.parts().gpu().programs) {}
+InspectPass::InspectPass(Engine& engine)
+    : engine_(engine), shading_(engine.parts().enter([&] { return engine.parts().gpu().programs; })) {}
 
 const gl::Texture& InspectPass::draw(const Frame& frame, BufferView view, int slot,
                                      const ChannelRange& range) {
   if (view == BufferView::picture) return frame.texture();
+  engine_.parts().enter([&] { draw_buffer(frame, view, slot, range); });
+  return target_.color();
+}
+
+void InspectPass::draw_buffer(const Frame& frame, BufferView view, int slot, const ChannelRange& range) {
   const FrameSlot& shown = frame.slot();
   const Settings& s = shown.request.settings;
   const FrameSlot* const of = shown.answer_of;
@@ -120,7 +126,6 @@ const gl::Texture& InspectPass::draw(const Frame& frame, BufferView view, int sl
   }
   fit(target_, shown.size(), gl::kRgba16F);
   shading_.inspect(inputs_of(shown), traced, what, target_);
-  return target_.color();
 }
 
 ShadingPasses::Inputs InspectPass::inputs_of(const FrameSlot& frame) {

@@ -51,6 +51,7 @@ class InspectPass {
   const gl::Texture& draw(const Frame& frame, BufferView view, int slot, const ChannelRange& range = {});
 
  private:
+  void draw_buffer(const Frame& frame, BufferView view, int slot, const ChannelRange& range);
   // Where the CPU composites it keeps mask and reflection.
   [[nodiscard]] ShadingPasses::Traced send_from_cpu(const MaskImage& mask, const Image<glm::vec3>& reflection,
                                                     BufferView view);

@@ -34,6 +34,7 @@ class PresentPass {
   void clear(glm::ivec2 window_pixels, const PixelBox& box) const;
 
  private:
+  Engine& engine_;
   std::shared_ptr<Programs> programs_;
   gl::FullscreenTriangle triangle_;
 };

@@ -57,6 +57,39 @@ def test_errors_of_opengl_are_the_programs_line(scenes, tmp_path, monkeypatch):
         pinocchio.Engine(device="99").render(scene, size=(16, 12), mode="hybrid")
 
 
+@pytest.mark.parametrize("first_ends_first", [True, False])
+def test_engines_with_opengl_do_not_disturb_each_other(scenes, first_ends_first):
+    scene = pinocchio.load_scene(scenes / "cornell.gltf")
+
+    def draw(engine, design, size):
+        return engine.render(scene, size=size, mode="hybrid", design=design).color
+
+    wanted = {"1": draw(pinocchio.Engine(), "1", (64, 48)), "2": draw(pinocchio.Engine(), "2", (80, 40))}
+    engines = {"1": pinocchio.Engine(), "2": pinocchio.Engine()}
+    sizes = {"1": (64, 48), "2": (80, 40)}
+    for design in ["1", "2", "1", "2"]:
+        numpy.testing.assert_array_equal(draw(engines[design], design, sizes[design]), wanted[design])
+    del engines["1" if first_ends_first else "2"]
+    (left,) = engines
+    for design in ["1", "2"]:
+        numpy.testing.assert_array_equal(draw(engines[left], design, sizes[design]), wanted[design])
+
+
+def test_an_engine_with_opengl_serves_threads_in_turns(scenes):
+    scene, engine, pictures = pinocchio.load_scene(scenes / "cornell.gltf"), pinocchio.Engine(), []
+
+    def draw():
+        pictures.append(engine.render(scene, size=(64, 48), mode="hybrid").color)
+
+    for _ in range(3):
+        thread = threading.Thread(target=draw)
+        thread.start()
+        thread.join()
+    for picture in pictures:
+        numpy.testing.assert_array_equal(picture, pictures[0])
+    assert len(pictures) == 3
+
+
 def test_files_that_cannot_be_read(tmp_path):
     with pytest.raises(pinocchio.Error, match="there is no such file; check its name"):
         pinocchio.load_scene(tmp_path / "none.gltf")

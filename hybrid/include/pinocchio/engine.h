@@ -25,16 +25,20 @@ struct EngineOptions {
   int gl_threads = 0;            // of a software rasteriser; 0: its own choice
   bool gl_debug = false;         // what the driver complains about is an error
   bool gives_way = false;        // threads that trace leave the processor to the caller's: for windows
-  // Where a function of OpenGL is: of a context of the caller's that is current on this thread, to be used
-  // instead of one of our own (glfwGetProcAddress, eglGetProcAddress). It must outlive the Engine, and is
-  // left with other state: bindings, viewport, blending.
+  // Where a function of OpenGL is, of a context of the caller's that is used instead of one of our own
+  // (glfwGetProcAddress, eglGetProcAddress). That context must outlive the Engine, and be current on the
+  // thread of each call that draws, the Engine's end among them. It may be in any state, which every call
+  // gives back and callbacks find, but: no query that counts what is drawn and no conditional render may be
+  // active, the names that are bound must not be marked for deletion, and errors that OpenGL has not been
+  // asked for are forgotten.
   using GetProcAddress = void (*(*)(const char*))();
   GetProcAddress get_proc_address = nullptr;
 };
 
 // Owns the OpenGL context, worker threads, the tracing thread and the compiled programs; what is not needed
-// is never opened. Used from one thread, but for prepare(). OpenGL's functions belong to a process: one
-// Engine that uses the GPU at a time; any number whose frames the CPU draws alone.
+// is never opened. Used by one thread at a time, but for prepare(). Any number may live in a process. Each
+// call makes the Engine's context current while it needs it; after the call, and in callbacks, the caller's
+// is current again (EGL, GLX, OSMesa, GLFW).
 class Engine {
  public:
   explicit Engine(const EngineOptions& options = {});

@@ -79,8 +79,8 @@ class Renderer {
   // Begins a frame and delivers what that finishes. Where the settings reuse and the request is the last one
   // again, nothing is drawn, traced or sent: all in flight is delivered, then the last picture once more.
   // What went wrong on the tracing thread is thrown when that frame would have been delivered; the frame is
-  // lost, the others are not. Throws OpenGlError: NoOpenGlError where there is none, OpenGlLostError where
-  // its context is lost.
+  // lost, the others are not. Where OpenGL fails, all in flight are lost, and the next frame starts afresh.
+  // Throws OpenGlError: NoOpenGlError where there is none, OpenGlLostError where its context is lost.
   void submit(const FrameRequest& request);
   // The same for a window, which never waits for the CPU: delivers what is done, and begins the frame where
   // the CPU is not behind. False: it is not begun; try again with what is wanted then.
