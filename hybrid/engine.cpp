@@ -8,6 +8,7 @@
 #include "core/trace/surface.h"
 #include "core/trace/view_params.h"
 #include "gl/current.h"
+#include "gl/error.h"
 #include "gl/foreign.h"
 #include "gl/probe.h"
 #include "hybrid/engine_parts.h"
