@@ -7,6 +7,7 @@
 
 #include <array>
 #include <string_view>
+#include <utility>
 
 #include "gl/error.h"
 
@@ -37,12 +38,23 @@ void listen_for_lost_display() {
   dlclose(xlib);
 }
 
+// Whether somebody in this process has initialised GLFW.
+bool is_initialised() {
+  glfwGetError(nullptr);
+  (void)glfwGetTimerFrequency();
+  return glfwGetError(nullptr) != GLFW_NOT_INITIALIZED;
+}
+
+// GLFW ends with the last context; a caller's, with windows of its own, does not.
 std::shared_ptr<void> init_library() {
   static std::weak_ptr<void> running;
   if (std::shared_ptr<void> library = running.lock()) return library;
+  const bool is_callers = is_initialised();
   if (!glfwInit()) throw Error(glfw_error());
   listen_for_lost_display();
-  std::shared_ptr<void> library(nullptr, [](void*) { glfwTerminate(); });
+  std::shared_ptr<void> library(&running, [is_callers](void*) {  // not null, which would be taken for none
+    if (!is_callers) glfwTerminate();
+  });
   running = library;
   return library;
 }
@@ -68,10 +80,12 @@ void set_hints(const Version& version, const GlfwContext::Request& request) {
 
 }  // namespace
 
-GlfwContext::GlfwContext(const Request& request) : library_(init_library()) {
+GlfwContext::GlfwContext(const Request& request)
+    : library_(init_library()), callers_window_(glfwGetCurrentContext()) {
   open(request);
   try {
     make_current();
+    native_ = NativeContext::now();
     describe("glfw", "GLFW window", request.debug);
   } catch (...) {
     release();
@@ -82,12 +96,15 @@ GlfwContext::GlfwContext(const Request& request) : library_(init_library()) {
 }
 
 GlfwContext::~GlfwContext() {
+  callers_window_ = nullptr;  // it may be gone
   release();
   drop_data();
   glfwDestroyWindow(window_);
 }
 
 void GlfwContext::open(const Request& request) {
+  // GLFW makes a new window's context current at once, which X refuses beside one of EGL's.
+  NativeContext::now().release();
   constexpr std::array<Version, 4> kVersions{{{4, 5, true}, {4, 5, false}, {3, 3, true}, {3, 3, false}}};
   std::string failure;
   for (const Version& version : kVersions) {
@@ -107,23 +124,19 @@ void GlfwContext::bind() {
   if (glfwGetCurrentContext() != window_) throw Error(glfw_error());
 }
 
-void GlfwContext::unbind() {
-  glfwMakeContextCurrent(nullptr);
-}
-
+// GLFW knows of its own windows alone, and what makes another context current leaves it behind.
 bool GlfwContext::is_bound() const {
-  return glfwGetCurrentContext() == window_;
+  return glfwGetCurrentContext() == window_ && native_.is_context_of(NativeContext::now());
 }
 
-// GLFW knows of its own windows alone, and another way to make one current leaves it behind.
+void GlfwContext::unbind() {
+  glfwMakeContextCurrent(std::exchange(callers_window_, nullptr));
+}
+
 void GlfwContext::enter() {
   callers_window_ = glfwGetCurrentContext();
+  if (callers_window_ == window_) callers_window_ = nullptr;
   Context::enter();
-}
-
-void GlfwContext::leave() noexcept {
-  if (callers_window_ && callers_window_ != window_) glfwMakeContextCurrent(callers_window_);
-  Context::leave();
 }
 
 GLADloadfunc GlfwContext::loader() const {

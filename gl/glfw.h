@@ -26,7 +26,6 @@ class GlfwContext final : public Context {
   ~GlfwContext() override;
 
   void enter() override;
-  void leave() noexcept override;
   [[nodiscard]] GLFWwindow* window() const { return window_; }
 
  private:
@@ -38,7 +37,8 @@ class GlfwContext final : public Context {
 
   std::shared_ptr<void> library_;  // GLFW, initialised while any context lives
   GLFWwindow* window_ = nullptr;
-  GLFWwindow* callers_window_ = nullptr;  // that GLFW holds for current, between enter() and leave()
+  NativeContext native_;
+  GLFWwindow* callers_window_ = nullptr;  // that GLFW had for current, and has again after unbind()
 };
 
 // GLFW's way, in a window that is never shown. Needs a display, so it is only taken where it is asked for.

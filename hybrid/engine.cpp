@@ -109,6 +109,7 @@ GpuPasses& Engine::Parts::gpu() {
       own = options.get_proc_address
                 ? std::make_unique<gl::ForeignContext>(options.get_proc_address, options.gl_debug)
                 : gl::open_context({options.backend, options.device, options.gl_debug});
+      own->release();
       if (options.get_proc_address) probe_callers(*own);
     }
     context = own.get();

@@ -206,7 +206,8 @@ void bind_engine(nb::module_& module) {
   nb::class_<PyEngine>(
       module, "Engine",
       "What pictures are drawn with: worker threads, the last scene's tree and, where settings ask for it,\n"
-      "an OpenGL context. It may be used from several threads, which take turns. A process may have several.\n"
+      "an OpenGL context. It may be used from several threads, which take turns. A process may have "
+      "several.\n"
       "Make them after a fork.")
       .def(nb::init<int, const std::string&, const std::string&>(), "threads"_a = 0, "backend"_a = "auto",
            "device"_a = "",

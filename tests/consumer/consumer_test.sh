@@ -13,6 +13,10 @@ quietly() {
 }
 build() { # SOURCE FOLDER OPTIONS...
   quietly cmake -G Ninja -S "$1" -B "$2" "${@:3}"
+  if grep -iE 'warning|does not exist|possible reasons' "$work/log"; then
+    echo "$1: what find_package(Pinocchio) prints looks like a failure"
+    exit 1
+  fi
   quietly cmake --build "$2"
 }
 commands_of() { # EXAMPLE: the project's own, of all that building it runs
@@ -44,6 +48,8 @@ else
     build "$work/examples/$example" "$work/build-$example" -DCMAKE_PREFIX_PATH="$prefix" "$@"
     mkdir -p "$work/build" && mv "$work/build-$example/$example" "$work/build/"
   done
+  build "$tree/tests/consumer/own_glad" "$work/own_glad" -DCMAKE_PREFIX_PATH="$prefix" "$@"
+  for kind in STATIC SHARED; do "$work/own_glad/own_glad_$kind" "$tree/scenes/cornell.gltf"; done
 fi
 
 "$work/build/tracer_alone" "$tree/scenes/cornell.gltf" >"$work/letters"
