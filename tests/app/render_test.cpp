@@ -224,7 +224,9 @@ TEST_F(RenderTest, StatsHoldThePeakOfMemory) {
                large = json("large.json")["memory"]["peak_bytes"];
   EXPECT_GT(small, 1e6);
   EXPECT_GT(large - small, 1600.0 * 1200.0 * 20.0);  // the picture alone: 16 bytes a pixel and ids
+#if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)  // they keep notes of what is used
   EXPECT_LT(large - small, 1600.0 * 1200.0 * 120.0);
+#endif
 }
 
 // Frames are written while later ones are drawn: the failure is of the run all the same.

@@ -22,7 +22,11 @@
 namespace pinocchio {
 namespace {
 
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+constexpr double kSoon_s = 5.0;  // of a sanitized program
+#else
 constexpr double kSoon_s = 0.5;  // a busy machine's
+#endif
 
 // Cancels the work once its phase has that name, and returns how long it went on.
 double seconds_after_cancel(const std::string& phase, const std::function<void(Progress*)>& work) {
