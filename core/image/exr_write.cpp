@@ -8,7 +8,6 @@
 #include <map>
 #include <mutex>
 #include <new>
-#include <new>
 #include <stdexcept>
 
 #include "core/image/atomic_file.h"
