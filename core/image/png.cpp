@@ -16,7 +16,7 @@
 namespace pinocchio {
 namespace {
 
-using Context = std::unique_ptr<spng_ctx, void (*)(spng_ctx*)>;
+using SpngContext = std::unique_ptr<spng_ctx, void (*)(spng_ctx*)>;
 
 constexpr char kKeyword[] = "pinocchio";
 
@@ -34,7 +34,7 @@ Image<glm::u8vec3> preview(const Image<glm::vec4>& color, float exposure_ev, Ton
 
 std::string encode_png(glm::ivec2 size, int channels, std::span<const std::byte> pixels,
                        const std::string& text) {
-  const Context context(spng_ctx_new(SPNG_CTX_ENCODER), spng_ctx_free);
+  const SpngContext context(spng_ctx_new(SPNG_CTX_ENCODER), spng_ctx_free);
   spng_ihdr header{};
   header.width = static_cast<std::uint32_t>(size.x);
   header.height = static_cast<std::uint32_t>(size.y);
@@ -69,7 +69,7 @@ std::optional<std::string> text_of_png(const std::filesystem::path& file) {
   std::error_code error;
   if (!std::filesystem::is_regular_file(file, error)) return std::nullopt;
   const std::unique_ptr<std::FILE, int (*)(std::FILE*)> in(std::fopen(file.c_str(), "rb"), std::fclose);
-  const Context context(spng_ctx_new(0), spng_ctx_free);
+  const SpngContext context(spng_ctx_new(0), spng_ctx_free);
   std::size_t size = 0;
   if (!in || !context || spng_set_png_file(context.get(), in.get()) != 0 ||
       spng_decoded_image_size(context.get(), SPNG_FMT_PNG, &size) != 0)
