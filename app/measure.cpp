@@ -20,7 +20,7 @@
 #include "core/parallel/workers.h"
 #include "gl/context.h"
 #include "hybrid/exchange/channels.h"
-#include "hybrid/exchange/cost.h"
+#include "hybrid/inspect/exchange_cost.h"
 #include "hybrid/schedule.h"
 
 namespace pinocchio::app {
@@ -75,12 +75,12 @@ void draw(Drawing& drawing, const MeasureOptions& options, const CameraFrames& f
 }
 
 // The exchange alone: no frame to wait for.
-nlohmann::json exchange_json(const Measured& run, const MeasureOptions& options) {
+nlohmann::json exchange_json(Engine& engine, const Measured& run, const MeasureOptions& options) {
   nlohmann::json json{{"kind", name_of(kExchangeNames, Exchange{run.settings.exchange})}};
   const glm::ivec2 size = part_of(options.draw).size();
   const TrafficBytes traffic = traffic_of(run.settings, size);
   if (traffic.to_cpu + traffic.to_gpu == 0) return json;
-  const ExchangeCost cost = measure_exchange(run.settings, size);
+  const ExchangeCost cost = measure_exchange(engine, run.settings, size);
   const auto add = [&](const char* way, std::size_t bytes, double ms, double copy_ms) {
     if (bytes == 0) return;
     json[way] = {{"ms", ms},
@@ -99,7 +99,7 @@ nlohmann::json overlap_json(const Measured& run) {
   return {{"gpu_busy", o.gpu_s / wall_s}, {"cpu_busy", o.cpu_s / wall_s}, {"both_busy", o.both_s / wall_s}};
 }
 
-nlohmann::json run_json(const Measured& run, const Drawing& drawing, const MeasureOptions& options) {
+nlohmann::json run_json(const Measured& run, Drawing& drawing, const MeasureOptions& options) {
   nlohmann::json json = figures(run.records, run.settings, drawing.scene(),
                                 run.settings.uses_gpu() ? drawing.gl_info() : nullptr);
   json["name"] = run.name;
@@ -107,7 +107,7 @@ nlohmann::json run_json(const Measured& run, const Drawing& drawing, const Measu
     json["note"] = "figures of " + std::to_string(counted) + (counted == 1 ? " frame" : " frames") +
                    " say little; draw more --frames (the first " + std::to_string(kFramesInFlight) +
                    ", at most half, are not counted)";
-  json["exchange"] = exchange_json(run, options);
+  json["exchange"] = exchange_json(drawing.engine(), run, options);
   json["overlap"] = overlap_json(run);
   if (run.budget) json["budget"] = run.budget->json();
   return json;

@@ -241,7 +241,8 @@ void add_draw_options(CLI::App& verb, DrawOptions& o) {
 
 Scene load_whole(const DrawOptions& options, Warnings& warnings, pinocchio::Progress* progress) {
   pinocchio::Progress* const heard = progress ? progress : &run_progress();
-  Expected<Scene> scene = load_scene(options.scene, LoadOptions{options.load_limit, options.confine}, &warnings, heard);
+  Expected<Scene> scene =
+      load_scene(options.scene, LoadOptions{options.load_limit, options.confine}, &warnings, heard);
   if (scene && !options.environment.empty()) {
     auto environment = load_environment(options.environment, heard, options.load_limit, &warnings);
     if (environment)

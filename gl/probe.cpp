@@ -123,6 +123,7 @@ void probe(const ContextInfo& info) {
   } catch (const Error& error) {
     wrong = std::string("fails: ") + error.what();
   }
+  glUseProgram(0);  // a program that ends while it is in use stays until another is
   if (!wrong.empty()) throw Error("its driver, " + info.renderer + " (" + info.version + "), " + wrong);
 }
 

@@ -80,7 +80,7 @@ TEST_F(AtomicFile, ADiskThatFillsKeepsTheOldFiles) {
   ASSERT_EQ(setrlimit(RLIMIT_FSIZE, &small), 0);
   EXPECT_THROW(write_exr(folder_ / "a.exr", exr), EnvironmentError);
   Image<glm::u8vec3> noise({64, 64});
-  for (std::size_t i = 0; i < 4096; ++i) noise[i] = glm::u8vec3(i * i, i * 7, i);
+  for (std::size_t i = 0; i < 4096; ++i) noise[i] = glm::u8vec3(i * i * i >> 7u, i * i >> 3u, i * 7919 >> 5u);
   EXPECT_THROW(write_png(folder_ / "a.png", noise), EnvironmentError);
   EXPECT_THROW(save_scene(scene, folder_ / "a.glb"), EnvironmentError);
   EXPECT_THROW(save_scene(scene, folder_ / "a.obj"), EnvironmentError);

@@ -1,4 +1,4 @@
-#include "hybrid/exchange/cost.h"
+#include "hybrid/inspect/exchange_cost.h"
 
 #include <cstring>
 #include <utility>
@@ -8,6 +8,7 @@
 #include "core/math/median.h"
 #include "gl/fence.h"
 #include "gl/transfer.h"
+#include "hybrid/engine_parts.h"
 #include "hybrid/exchange/channels.h"
 
 namespace pinocchio {
@@ -57,16 +58,19 @@ void add_upload(glm::ivec2 size, const gl::PixelFormat& format, gl::Mapping mapp
 
 }  // namespace
 
-ExchangeCost measure_exchange(const Settings& settings, glm::ivec2 size) {
+ExchangeCost measure_exchange(Engine& engine, const Settings& settings, glm::ivec2 size) {
   const gl::Mapping mapping = settings.persistent ? gl::Mapping::persistent : gl::Mapping::each_time;
   ExchangeCost cost;
-  for (const ChannelLayout& c : channels_of(settings, size)) {
-    if (goes_to_cpu(c.channel)) {
-      add_readback(c.texels, c.texel, mapping, cost);
-    } else {
-      add_upload(c.texels, c.texel, mapping, cost);
+  engine.open_gl();
+  engine.parts().enter([&] {
+    for (const ChannelLayout& c : channels_of(settings, size)) {
+      if (goes_to_cpu(c.channel)) {
+        add_readback(c.texels, c.texel, mapping, cost);
+      } else {
+        add_upload(c.texels, c.texel, mapping, cost);
+      }
     }
-  }
+  });
   return cost;
 }
 

@@ -4,6 +4,7 @@
 
 #include <glm/glm.hpp>
 
+#include "pinocchio/engine.h"
 #include "pinocchio/settings.h"
 
 namespace pinocchio {
@@ -15,7 +16,7 @@ struct ExchangeCost {
   double memcpy_to_cpu_ms = 0.0, memcpy_to_gpu_ms = 0.0;  // plain copies of the same bytes
 };
 
-// Wants a current OpenGL context.
-[[nodiscard]] ExchangeCost measure_exchange(const Settings& settings, glm::ivec2 size);
+// In the engine's OpenGL context. Throws OpenGlError.
+[[nodiscard]] ExchangeCost measure_exchange(Engine& engine, const Settings& settings, glm::ivec2 size);
 
 }  // namespace pinocchio
