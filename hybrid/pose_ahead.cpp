@@ -1,5 +1,6 @@
 #include "pinocchio/pose_ahead.h"
 
+#include <new>
 #include <utility>
 
 #include "core/parallel/start_thread.h"
@@ -26,7 +27,7 @@ Expected<PoseAhead::Pose> PoseAhead::at(double seconds, const Settings& settings
   if (!last_wanted_ || !last_wanted_->same_as(wanted)) {
     const bool is_begun = next_.valid() && next_wanted_->same_as(wanted);
     if (!is_begun) drop_next();
-    Expected<Pose> pose = is_begun ? next_.get() : make(scene_, wanted, progress_);
+    Expected<Pose> pose = is_begun ? made_ahead() : make(scene_, wanted, progress_);
     if (!pose) return pose;
     last_wanted_.reset();  // until all of it is there
     last_ = std::move(*pose);
@@ -34,6 +35,15 @@ Expected<PoseAhead::Pose> PoseAhead::at(double seconds, const Settings& settings
   }
   if (next_s && *next_s != seconds) begin({*next_s, settings});
   return *last_;
+}
+
+// Memory that did not hold it beside what was drawn meanwhile may hold it now.
+Expected<PoseAhead::Pose> PoseAhead::made_ahead() {
+  try {
+    return next_.get();
+  } catch (const std::bad_alloc&) {
+    return make(scene_, *next_wanted_, progress_);
+  }
 }
 
 void PoseAhead::begin(const Wanted& wanted) {

@@ -47,6 +47,7 @@ class PoseAhead {
     [[nodiscard]] bool same_as(const Wanted& other) const;
   };
   void begin(const Wanted& wanted);
+  [[nodiscard]] Expected<Pose> made_ahead();
   void drop_next();
   [[nodiscard]] static Expected<Pose> make(const Scene& scene, const Wanted& wanted, Progress* progress);
 
