@@ -26,7 +26,7 @@ std::string check_extension(const std::string& file, const std::string& extensio
 
 constexpr float kMostStops = 64.0f;
 
-// Of ASCII: PNG's text is Latin-1, names of files may be no UTF-8.
+// ASCII alone, because PNG's text is Latin-1 and file names may not be UTF-8.
 std::string dumped(const nlohmann::json& json) {
   return json.dump(-1, ' ', true, nlohmann::json::error_handler_t::replace);
 }

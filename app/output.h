@@ -42,12 +42,11 @@ struct FrameHeader {
 // What the frame's EXR is written by, but for the time that it took.
 [[nodiscard]] ExrOptions exr_options(const OutputOptions& options, const FrameHeader& frame);
 
-// What a frame's pixels depend on beside its settings, camera and lights: the bytes of the scene's files and
-// of its environment, and whether the reference draws. Reads these files.
+// Describes what a frame's pixels depend on beside its settings, camera and lights: the bytes of the scene's
+// files and of its environment, and whether the reference draws it. Reads these files.
 [[nodiscard]] std::string inputs_json(const Scene& scene, bool precise);
 
-// What the frame's preview is written with: its EXR's header as JSON, and how bright and by which curve it is
-// shown.
+// Describes a preview: the EXR's header as JSON, the exposure and the tone curve. It goes into the PNG.
 [[nodiscard]] std::string preview_text(const OutputOptions& options, const ExrFile& header);
 
 // A frame on its way to its files.

@@ -6,8 +6,8 @@
 
 namespace pinocchio {
 
-// What a file holds, as text: the CRC-32 of its bytes (that of zlib and PNG) and how many there are. Nothing
-// where it is no regular file that can be read to its end.
+// Describes what a file holds: how many bytes, and their CRC-32 (that of zlib and PNG). Returns nothing where
+// the file is not a regular one or cannot be read to its end.
 [[nodiscard]] std::optional<std::string> fingerprint(const std::filesystem::path& file);
 
 }  // namespace pinocchio
