@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/scene/texture_file.h"
+#include "core/scene/save_texture.h"
 
 namespace pinocchio {
 namespace {

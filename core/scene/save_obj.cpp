@@ -5,7 +5,7 @@
 #include "core/base/decimal.h"
 #include "core/image/atomic_file.h"
 #include "core/image/tonemap.h"
-#include "core/scene/texture_file.h"
+#include "core/scene/save_texture.h"
 #include "pinocchio/save.h"
 
 namespace pinocchio {

@@ -25,7 +25,6 @@
 #include <stb/stb_image.h>
 #pragma GCC diagnostic pop
 
-#include "core/image/png.h"
 #include "core/parallel/workers.h"
 #include "core/scene/input_file.h"
 
@@ -230,10 +229,6 @@ std::vector<Expected<DecodedImage>> decode_textures(const std::vector<EncodedIma
     advance(loading.progress);
   });
   return decoded;
-}
-
-std::string png_of(const Texture& texture) {
-  return encode_png(texture.texels.size(), 4, std::as_bytes(texture.texels.pixels()));
 }
 
 }  // namespace pinocchio

@@ -30,7 +30,4 @@ struct EncodedImage {
 [[nodiscard]] Expected<DecodedImage> decode_texture(const std::string& file, const std::string& name,
                                                     std::span<const unsigned char> bytes, MemoryLimit& limit);
 
-// Its texels, without loss. Throws EnvironmentError where there is no memory for it.
-[[nodiscard]] std::string png_of(const Texture& texture);
-
 }  // namespace pinocchio

@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "core/image/tonemap.h"
-#include "core/scene/texture_file.h"
+#include "core/scene/save_texture.h"
 #include "core/trace/environment_light.h"
 #include "scenes/generator/random.h"
 #include "tests/support/gltf.h"

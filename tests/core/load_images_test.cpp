@@ -6,6 +6,7 @@
 #include <fstream>
 #include <memory>
 
+#include "core/scene/save_texture.h"
 #include "core/scene/texture_file.h"
 #include "tests/support/own_file.h"
 #include "tests/support/scenes.h"

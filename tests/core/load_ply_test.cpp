@@ -1,7 +1,7 @@
 #include <cstring>
 #include <fstream>
 
-#include "core/scene/texture_file.h"
+#include "core/scene/save_texture.h"
 #include "tests/support/own_file.h"
 #include "tests/support/scenes.h"
 
