@@ -1,11 +1,11 @@
 # cmake -D FOLDER=... -D "NAMES=a.frag;..." -D OUTPUT=... -P embed_shaders.cmake: writes the definition of
-# built_in_shaders() (hybrid/shaders.h) with the texts of the files NAMES of FOLDER.
+# built_in_shaders() (hybrid/gpu/shaders.h) with the texts of the files NAMES of FOLDER.
 set(table "")
 foreach(name IN LISTS NAMES)
   file(READ "${FOLDER}/${name}" text)
   string(APPEND table "    {\"${name}\", R\"glsl(${text})glsl\"},\n")
 endforeach()
-file(WRITE "${OUTPUT}" "#include \"hybrid/shaders.h\"
+file(WRITE "${OUTPUT}" "#include \"hybrid/gpu/shaders.h\"
 
 namespace pinocchio {
 

@@ -30,9 +30,14 @@ def sections(text):
     return found
 
 
-def options(verb):
-    """(names, type, what it is) of each option of a verb."""
-    for item, what in verb.get("Options", []):
+def groups(verb):
+    """The titles of a verb's groups of options."""
+    return [title for title in verb if title not in ("Positionals", "Subcommands")]
+
+
+def options(verb, titles=None):
+    """(names, type, what it is) of each option of a verb, or of some of its groups."""
+    for item, what in (item for title in titles or groups(verb) for item in verb[title]):
         names, _, kind = item.partition(" ")
         yield [re.sub(r"\{.*\}", "", name) for name in names.split(",")], kind, what
 
@@ -55,8 +60,10 @@ def man_page(version, verbs, about):
         lines += [f'.SH "{name.upper()}"', roff(what)]
         for item, text in verb.get("Positionals", []):
             lines += [".TP", f".I {roff(item.split(' ')[0])}", roff(text)]
-        for names, kind, text in options(verb):
-            lines += [".TP", f".B {roff(', '.join(names))} {roff(kind)}".rstrip(), roff(text)]
+        for title in groups(verb):
+            lines += [f'.SS "{title}"']
+            for names, kind, text in options(verb, [title]):
+                lines += [".TP", f".B {roff(', '.join(names))} {roff(kind)}".rstrip(), roff(text)]
     lines += [".SH EXIT STATUS", "0 done, 1 failed while running, 2 wrong usage, 3 no OpenGL context, 4 scene cannot be "
               "read, 5 compare above a limit, 130 interrupted.", ".SH ENVIRONMENT",
               "PINOCCHIO_BACKEND, PINOCCHIO_DEVICE: which OpenGL context, as \\-\\-backend and \\-\\-device."]

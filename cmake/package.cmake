@@ -6,11 +6,14 @@ include(GNUInstallDirs)
 include(CMakePackageConfigHelpers)
 
 set(config_folder ${CMAKE_INSTALL_LIBDIR}/cmake/Pinocchio)
-install(TARGETS pinocchio_core EXPORT PinocchioCoreTargets COMPONENT library FILE_SET HEADERS COMPONENT library)
-install(EXPORT PinocchioCoreTargets NAMESPACE Pinocchio:: DESTINATION ${config_folder} COMPONENT library)
-install(TARGETS pinocchio_glad pinocchio_gl pinocchio_hybrid EXPORT PinocchioTargets COMPONENT library
-        FILE_SET HEADERS COMPONENT library)
-install(EXPORT PinocchioTargets NAMESPACE Pinocchio:: DESTINATION ${config_folder} COMPONENT library)
+# An export file for each component of find_package(Pinocchio).
+set(core_targets pinocchio_core)
+set(compare_targets pinocchio_compare)
+set(pinocchio_targets pinocchio_glad pinocchio_gl pinocchio_reference pinocchio_hybrid)
+foreach(name core compare pinocchio)
+  install(TARGETS ${${name}_targets} EXPORT ${name}_export COMPONENT library FILE_SET HEADERS COMPONENT library)
+  install(EXPORT ${name}_export FILE ${name}.cmake NAMESPACE Pinocchio:: DESTINATION ${config_folder} COMPONENT library)
+endforeach()
 configure_package_config_file(cmake/PinocchioConfig.cmake.in ${PROJECT_BINARY_DIR}/PinocchioConfig.cmake
                               INSTALL_DESTINATION ${config_folder})
 write_basic_package_version_file(${PROJECT_BINARY_DIR}/PinocchioConfigVersion.cmake COMPATIBILITY SameMinorVersion)

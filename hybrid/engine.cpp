@@ -5,14 +5,14 @@
 #include <exception>
 #include <utility>
 
-#include "core/trace/surface.h"
-#include "core/trace/view_params.h"
-#include "gl/current.h"
-#include "gl/error.h"
-#include "gl/foreign.h"
-#include "gl/probe.h"
-#include "hybrid/engine_parts.h"
-#include "hybrid/samples.h"
+#include "core/shade/surface.h"
+#include "core/trace/view/view_params.h"
+#include "gl/context/current.h"
+#include "gl/context/error.h"
+#include "gl/open/foreign.h"
+#include "gl/open/probe.h"
+#include "hybrid/engine/engine_parts.h"
+#include "hybrid/frame/samples.h"
 #include "hybrid/settings/resolve.h"
 
 namespace pinocchio {
@@ -32,7 +32,7 @@ std::future<void> TracingThread::post(std::function<void()> job) {
   return done;
 }
 
-// What was posted is done before the thread ends.
+// Posted jobs are run before the thread ends.
 void TracingThread::run(const std::stop_token& stop) {
   std::unique_lock lock(mutex_);
   while (wake_.wait(lock, stop, [this] { return !jobs_.empty(); })) {
@@ -85,7 +85,7 @@ void Engine::Parts::throw_gl_errors() const {
 
 namespace {
 
-// What we open is probed when it is opened.
+// A context of our own is probed when it is opened.
 void probe_callers(gl::Context& context) {
   context.enter();
   std::string failure;
@@ -135,7 +135,7 @@ std::shared_ptr<const GpuMesh> Engine::Parts::gpu_mesh(const std::shared_ptr<con
   std::shared_ptr<const GpuMesh>& found = meshes[mesh];
   if (!found) {
     GpuMesh::Shared shared;
-    for (const auto& [other, sent] : meshes) {  // another pose, or as it was before a material was edited
+    for (const auto& [other, sent] : meshes) {  // another pose, or the mesh before a material was edited
       if (!sent) continue;
       if (!mesh->textures.empty() && other->textures.shares_with(mesh->textures))
         shared.textures = sent.get();
@@ -187,7 +187,7 @@ Engine::~Engine() {
       parts_->programs.reset();
     });
   } catch (const std::exception&) {
-    // Its context is not to be had any more, nor is what was in it.
+    // The context is lost, and its objects with it.
   }
 }
 
@@ -196,8 +196,8 @@ Expected<Settings> Engine::resolve(const Scene& scene, glm::ivec2 size, const Se
   return pinocchio::resolve(settings, parts_->stats_of(scene), {size, gl_is_software(settings), keeps_mask});
 }
 
-// What BuildOptions::margin is where it was charted, at 800 x 600: of a narrower view or a larger picture,
-// smaller nodes are worth a split.
+// Pixels that BuildOptions::margin was in the chart that chose it, at 800 x 600. In a narrower view or a
+// larger picture smaller nodes are worth a split.
 constexpr float kMarginPixels = 7.0f;
 
 std::shared_ptr<const Tracer> Engine::prepare(const Scene& scene, const Settings& settings,

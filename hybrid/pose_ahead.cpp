@@ -29,7 +29,7 @@ Expected<PoseAhead::Pose> PoseAhead::at(double seconds, const Settings& settings
     if (!is_begun) drop_next();
     Expected<Pose> pose = is_begun ? made_ahead() : make(scene_, wanted, progress_);
     if (!pose) return pose;
-    last_wanted_.reset();  // until all of it is there
+    last_wanted_.reset();  // until last_ is set
     last_ = std::move(*pose);
     last_wanted_ = wanted;
   }
@@ -37,7 +37,7 @@ Expected<PoseAhead::Pose> PoseAhead::at(double seconds, const Settings& settings
   return *last_;
 }
 
-// Memory that did not hold it beside what was drawn meanwhile may hold it now.
+// Out of memory beside the frame that was drawn meanwhile: there may be enough now.
 Expected<PoseAhead::Pose> PoseAhead::made_ahead() {
   try {
     return next_.get();

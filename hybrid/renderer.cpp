@@ -1,45 +1,26 @@
-// The order of a frame. Left to right is a frame's way, top to bottom what happens at one time (visibility
-// and composite on the GPU, pipelined):
+// The order of a frame's steps, from left to right; the rows happen at the same time (visibility and
+// composite on the GPU, pipelined):
 //
 //   frame n    GPU  rasterise, send to CPU
-//   frame n-1  CPU                          take, trace
+//   frame n-1  CPU                          decode, trace
 //   frame n-2  GPU                                       send to GPU, composite, deliver
 #include "pinocchio/renderer.h"
 
 #include <algorithm>
-#include <chrono>
 #include <utility>
 
 #include "core/base/clock.h"
-#include "gl/context.h"
-#include "gl/error.h"
+#include "gl/context/context.h"
+#include "gl/context/error.h"
 #include "hybrid/exchange/encode.h"
+#include "hybrid/frame/schedule.h"
 #include "hybrid/passes/passes.h"
-#include "hybrid/schedule.h"
 
 namespace pinocchio {
 namespace {
 
 // The GPU's clock and the CPU's drift apart.
 constexpr std::uint64_t kFramesBetweenCalibrations = 256;
-
-Span span_of(const gl::GpuTimer& timer, const gl::GpuClock& clock) {
-  const gl::GpuSpan measured = timer.span(clock);
-  return {measured.begin_s, measured.end_s};
-}
-
-// Whether the GPU has the older frame's mask and reflection, and they mean the same in the newer one.
-bool reprojects_to(const FrameSlot& older, const FrameSlot& newer) {
-  const Settings &a = older.request.settings, &b = newer.request.settings;
-  return older.answered && a.composite == b.composite && older.request.scene == newer.request.scene &&
-         a.mask_bits == b.mask_bits && a.reflection == b.reflection && a.id_bits == b.id_bits;
-}
-
-// Whether the CPU has it and is not done.
-bool is_at_work(const FrameSlot& frame) {
-  return frame.tracing.valid() &&
-         frame.tracing.wait_for(std::chrono::seconds(0)) != std::future_status::ready;
-}
 
 }  // namespace
 
@@ -54,7 +35,7 @@ class Renderer::Loop {
   Loop(const Loop&) = delete;
   Loop& operator=(const Loop&) = delete;
 
-  // Runs what draws in the Engine's context. Where OpenGL fails, nothing that it may have left is used again.
+  // Runs `work` in the Engine's context. Where OpenGL fails, no frame in flight is used again.
   template <class Work>
   auto enter(const Work& work) {
     try {
@@ -74,7 +55,7 @@ class Renderer::Loop {
  private:
   void forget_gpu();
   [[nodiscard]] FrameSlot* frames_back(int n);  // begun n frames before the newest; null: there is none
-  [[nodiscard]] int frames_drawn() const;       // and not delivered
+  [[nodiscard]] int frames_drawn() const;       // not counting delivered ones
   bool repeat(const FrameRequest& request);
   FrameSlot& begin(FrameRequest&& request);
   void draw(FrameSlot& frame);
@@ -83,8 +64,8 @@ class Renderer::Loop {
   void take_traced(FrameSlot& frame);
   void finish(FrameSlot& frame);
   void deliver(FrameSlot& frame, const FrameSlot* older);
-  void give(FrameSlot& frame);
-  void tell(const FrameRecord& record);
+  void show(FrameSlot& frame);
+  void report(const FrameRecord& record);
   void retire(FrameSlot& frame);
   [[nodiscard]] int generation() const {
     return engine_.has_gpu() ? engine_.passes->programs->generation() : 0;
@@ -97,7 +78,7 @@ class Renderer::Loop {
   std::uint64_t next_number_ = 0;
   int generation_ = 0;                             // of the programs that drew the newest frame
   std::uint64_t drawn_ = 0;                        // frames that were not repeats
-  std::uint64_t frames_on_gpu_ = 0;                // of them
+  std::uint64_t frames_on_gpu_ = 0;                // those of drawn_ that used the GPU
   std::vector<std::unique_ptr<FrameSlot>> slots_;  // the n-th of them is in slot n % kFramesInFlight
 };
 
@@ -105,11 +86,11 @@ Renderer::Loop::~Loop() {
   try {
     engine_.enter([this] { slots_.clear(); });
   } catch (const std::exception&) {
-    // Its context is not to be had any more, nor is what was in it.
+    // The context is lost, and its objects with it.
   }
 }
 
-// All frames in flight are lost with it.
+// All frames in flight are lost.
 void Renderer::Loop::forget_gpu() {
   for (std::unique_ptr<FrameSlot>& slot : slots_) slot.reset();
   engine_.forget_gpu();
@@ -126,7 +107,7 @@ void Renderer::Loop::submit(FrameRequest request) {
   const Schedule schedule = schedule_of(now.request.settings);
   if (schedule.reprojects) return submit_reprojected(now);
   if (schedule.latency > 0) {
-    // The CPU traces one frame at a time, and is not idle while the GPU finishes another.
+    // The CPU traces one frame at a time, and starts the next before the GPU finishes the last.
     FrameSlot* const oldest = frames_back(kMostLatency);
     if (oldest && oldest->tracing.valid()) oldest->tracing.wait();
     if (FrameSlot* const last = frames_back(1)) start_trace(*last);
@@ -146,12 +127,12 @@ bool Renderer::Loop::try_submit(FrameRequest request) {
       (!same_way || last->request == request || frames_drawn() > std::min(schedule.latency, 1)))
     return false;
   if (schedule.reprojects) {
-    // Who asks for the last frame again wants it with its own mask and reflection.
+    // The same request again: the frame gets its own mask and reflection.
     FrameSlot* const newest = frames_back(0);
     const bool again = newest && newest->request == request;
     if (again && newest->state == FrameSlot::State::delivered && !newest->complete) start_trace(*newest);
     const FrameSlot* const awaited = again ? newest : frames_back(kMostLatency - 1);
-    if (awaited && is_at_work(*awaited)) return false;
+    if (awaited && awaited->is_tracing()) return false;
     submit(std::move(request));
     return true;
   }
@@ -166,8 +147,8 @@ bool Renderer::Loop::advance() {
     FrameSlot* const frame = frames_back(n);
     if (!frame || frame->state != FrameSlot::State::drawn) continue;
     start_trace(*frame);
-    if (is_at_work(*frame)) return false;
-    // The CPU has the next frame while the GPU finishes this one.
+    if (frame->is_tracing()) return false;
+    // The CPU traces the next frame while the GPU finishes this one.
     if (FrameSlot* const next = n > 0 ? frames_back(n - 1) : nullptr;
         next && next->state == FrameSlot::State::drawn)
       start_trace(*next);
@@ -184,7 +165,7 @@ int Renderer::Loop::frames_drawn() const {
 
 bool Renderer::Loop::is_tracing() const {
   return std::ranges::any_of(
-      slots_, [](const std::unique_ptr<FrameSlot>& slot) { return slot && is_at_work(*slot); });
+      slots_, [](const std::unique_ptr<FrameSlot>& slot) { return slot && slot->is_tracing(); });
 }
 
 void Renderer::Loop::drain() {
@@ -194,15 +175,15 @@ void Renderer::Loop::drain() {
     if (FrameSlot* const frame = frames_back(n)) retire(*frame);
 }
 
-// The newest raster at once. While the CPU traces the frame before, this one is shown with the answer to
-// the one before that; the first frame, and one that no answer fits, waits for its own.
+// Delivers the newest raster at once: while the CPU traces the frame before, it is shown with the mask and
+// reflection of an earlier one. The first frame, and one that no earlier answer fits, waits for its own.
 void Renderer::Loop::submit_reprojected(FrameSlot& now) {
   FrameSlot *const last = frames_back(1), *const oldest = frames_back(kMostLatency);
   if (oldest) take_traced(*oldest);
-  if (last) finish(*last);  // that the CPU drew alone, or an error held up
+  if (last) finish(*last);  // drawn by the CPU alone, or delayed by an error
   if (last && last->state == FrameSlot::State::delivered) start_trace(*last);
   for (const FrameSlot* const source : {last, oldest})
-    if (source && reprojects_to(*source, now)) return deliver(now, source);
+    if (source && source->reprojects_to(now)) return deliver(now, source);
   if (last) take_traced(*last);
   finish(now);
 }
@@ -213,7 +194,7 @@ bool Renderer::Loop::repeat(const FrameRequest& request) {
   if (generation_ != generation()) return false;
   if (last->state == FrameSlot::State::delivered && !last->complete) start_trace(*last);
   drain();
-  if (!last->complete) {  // shown with an older frame's answer: its own, now
+  if (!last->complete) {  // it was shown with an older frame's answer
     if (!last->answered) return false;
     composite_on_gpu(engine_.gpu(), *last, nullptr);
     last->complete = true;
@@ -222,9 +203,9 @@ bool Renderer::Loop::repeat(const FrameRequest& request) {
   last->record = FrameRecord{};
   last->record.number = next_number_++;
   last->record.frame.begin_s = now_s();
-  give(*last);
+  show(*last);
   last->record.frame.end_s = now_s();
-  tell(last->record);
+  report(last->record);
   pinocchio::advance(progress_);
   return true;
 }
@@ -244,19 +225,9 @@ FrameSlot& Renderer::Loop::begin(FrameRequest&& request) {
     if (frames_on_gpu_++ % kFramesBetweenCalibrations == 0) clock_.calibrate();
   }
   generation_ = generation();
-  frame.request = std::move(request);
-  frame.answered = frame.complete = frame.is_shown = false;
-  frame.answer_of = nullptr;
-  frame.record = FrameRecord{};
-  frame.record.number = next_number_++;
-  for (std::size_t i = 0; i < kStageNames.size(); ++i)
-    frame.record.processors[i] = processor_of(static_cast<Stage>(i), frame.request.settings);
-  frame.record.frame.begin_s = now_s();
-  frame.view = view_params(frame.request.view);
-  frame.progress = progress_;
-  frame.layout = channels_of(frame.request.settings, frame.size());
+  frame.begin(std::move(request), next_number_++, progress_);
   if (gpu) draw(frame);
-  frame.state = FrameSlot::State::drawn;  // last: what cannot be drawn is lost
+  frame.state = FrameSlot::State::drawn;  // last: a frame is lost if drawing throws
   return frame;
 }
 
@@ -285,7 +256,7 @@ void Renderer::Loop::start_trace(FrameSlot& frame) {
   });
 }
 
-// Waits for the CPU's part and sends it to the GPU. Throws what tracing threw; the frame is lost then.
+// Waits for the CPU's part and sends it to the GPU. Throws exceptions of tracing; the frame is lost then.
 void Renderer::Loop::take_traced(FrameSlot& frame) {
   if (!frame.tracing.valid()) return;
   const FrameSlot::State state = std::exchange(frame.state, FrameSlot::State::idle);
@@ -303,7 +274,7 @@ void Renderer::Loop::finish(FrameSlot& frame) {
 }
 
 void Renderer::Loop::deliver(FrameSlot& frame, const FrameSlot* older) {
-  frame.state = FrameSlot::State::idle;  // lost, should a line below throw
+  frame.state = FrameSlot::State::idle;  // the frame is lost if a line below throws
   if (schedule_of(frame.request.settings).gpu) {
     composite_on_gpu(engine_.gpu(), frame, older);
     frame.release_unused();
@@ -314,11 +285,11 @@ void Renderer::Loop::deliver(FrameSlot& frame, const FrameSlot* older) {
   frame.complete = !older;
   frame.record.latency_frames = static_cast<int>(next_number_ - 1 - frame.record.number);
   if (older) frame.record.age_frames = static_cast<int>(frame.record.number - older->record.number);
-  give(frame);
+  show(frame);
   if (!frame.request.settings.traces()) pinocchio::advance(progress_);
 }
 
-void Renderer::Loop::give(FrameSlot& slot) {
+void Renderer::Loop::show(FrameSlot& slot) {
   if (!sinks_.frame) return;
   engine_.call_out([&] {
     Frame frame(slot);
@@ -326,26 +297,16 @@ void Renderer::Loop::give(FrameSlot& slot) {
   });
 }
 
-// The GPU is done with the frame long since, unless it was the last one.
+// Waits for the GPU only where the frame was the last one.
 void Renderer::Loop::retire(FrameSlot& frame) {
   take_traced(frame);
   if (frame.state != FrameSlot::State::delivered) return;
-  FrameRecord& record = frame.record;
-  Span& readback = record[Stage::readback];
-  if (frame.request.settings.visibility == Processor::cpu) {
-    readback = {};  // nothing was
-  } else {
-    record[Stage::raster] = span_of(frame.raster_timer, clock_);
-    if (readback.end_s > 0.0) readback.begin_s = record[Stage::raster].end_s;
-  }
-  if (schedule_of(frame.request.settings).gpu)
-    record[Stage::composite] = span_of(frame.composite_timer, clock_);
-  record.frame.end_s = std::max(record[Stage::composite].end_s, record[Stage::present].end_s);
+  frame.add_gpu_times(clock_);
   frame.state = FrameSlot::State::idle;
-  tell(record);
+  report(frame.record);
 }
 
-void Renderer::Loop::tell(const FrameRecord& record) {
+void Renderer::Loop::report(const FrameRecord& record) {
   if (sinks_.record) engine_.call_out([&] { sinks_.record(record); });
 }
 

@@ -1,9 +1,9 @@
 #version 330 core
-// One more sample into the mean of those before (hybrid/accumulator.h).
+// The mean of the samples before and one more (inspect/accumulator.h).
 
 uniform sampler2D picture;
 uniform sampler2D average;
-uniform int samples;  // that are in `average`; 0: it holds nothing
+uniform int samples;  // in `average`; 0: it holds nothing
 
 out vec4 color;
 

@@ -1,5 +1,5 @@
 #version 330 core
-// Phong per light times its mask bit, plus the traced reflection: the picture. Phong and composite are one
+// The picture: each light's Phong term times its mask bit, plus the traced reflection. Phong and composite are one
 // pass, as the mask weighs each light by itself and the sum of lights cannot be weighed afterwards.
 //   ID_BITS           16, 24 or 32
 //   HAS_MASK          the CPU's shadow mask; without it every light reaches everything
@@ -8,19 +8,21 @@
 //   HAS_MAPS          some material has maps
 //   HAS_ENVIRONMENT   something is seen where no triangle is
 //   TERMINATOR_LIFTS, TERMINATOR_SMOOTHS  remedies of the shadow terminator; neither: none
-//   HAS_SIZED_LIGHTS  some light has a size: the picture is lit by the points of them that the CPU's shadow rays
+//   HAS_SIZED_LIGHTS  some light has a size: the picture is lit by those points of it that the CPU's shadow rays
 //                     of the same sample went to
-//   REPROJECT         mask and reflection are of an older frame, whose view and ids are given: each pixel
-//                     looks up where its point was seen then. Where that frame saw another triangle there,
-//                     nor one of the neighbours does, the pixel is a hole: every light reaches it, and it
-//                     takes the reflection that is there; its alpha is 1/2.
+//   REPROJECT         mask and reflection are an older frame's, whose view and ids are given: each pixel reads
+//                     them where its point was seen then. Where neither that pixel nor a neighbour saw the
+//                     same triangle, the pixel is a hole: every light reaches it, and it takes the reflection
+//                     that is there; its alpha is 1/2.
 
-#define SHARED
+#include "shared/glsl.glsl"
 #include "shared/view.glsl"
 #include "shared/surface.glsl"
 #include "shared/terminator.glsl"
+#include "shared/light_params.glsl"
 #include "shared/phong.glsl"
 #ifdef HAS_SIZED_LIGHTS
+#include "shared/sampling_params.glsl"
 #include "shared/sampling.glsl"
 #include "shared/sized_light.glsl"
 #endif
@@ -59,16 +61,19 @@ const float kLargestHalf = 65504.0;
 
 #ifdef HAS_SIZED_LIGHTS
 uniform int sequence;
-uniform uint sample_index;  // of the frame that the mask is of
+uniform uint sample_index;  // the mask's frame's
 uniform uint sample_seed;
 
 Incident light_at(int i, vec3 p_world, ivec2 pixel) {
   LightParams light = fetch_light(i);
-  Sampling sampling = Sampling(sequence, sample_index, sample_seed);
-  return sampled_light(light, p_world, sample_2d(sampling, uvec2(ivec2(first) + pixel), kLightDimension + uint(i)));
+  SampledPixel sampled = sampled_pixel(Sampling(sequence, sample_index, sample_seed), uvec2(ivec2(first) + pixel));
+  return sampled_light(light, p_world, sample_2d(sampled, kLightDimension + uint(i)));
 }
 #else
-Incident light_at(int i, vec3 p_world, ivec2 pixel) { return incident_light(fetch_light(i), p_world); }
+Incident light_at(int i, vec3 p_world, ivec2 pixel) {
+  LightParams light = fetch_light(i);
+  return incident_light(light, light.position, p_world);
+}
 #endif
 
 float share_of_light(Reach reach, int slot) {
@@ -98,7 +103,7 @@ void main() {
 #ifdef TERMINATOR_SMOOTHS
     share *= terminator_factor(s.n.shading, s.n.geometric, incident.to_light);
 #endif
-    sum += share * phong_light(s.material, incident, s.n.shading, s.to_viewer);
+    sum += share * phong_light(s.material, incident, s.n.shading, s.to_viewer, true);
   }
 #ifdef HAS_MAPS
   sum *= s.alpha;

@@ -1,15 +1,16 @@
 #version 330 core
-// What the slides send beside the id, from the id.
+// The buffers that the slides send beside the id, computed from the id.
 //   ID_BITS       16, 24 or 32
 //   NORMALS_ONLY  design 1: the shading normal, 0.5 n + 0.5, in three bytes
 //   else          design 2: 128 bits a pixel: the id; the shading normal's x and y as two signed 16-bit
 //                 fractions, its z's sign in the lowest bit of x; z_eye as a float; the diffuse colour in
 //                 four bytes
 
-#define SHARED
+#include "shared/glsl.glsl"
 #include "shared/view.glsl"
 #include "shared/surface.glsl"
 #include "shared/terminator.glsl"
+#include "shared/light_params.glsl"
 #include "shared/phong.glsl"
 #include "scene_fetch.glsl"
 #include "map_fetch.glsl"

@@ -1,15 +1,16 @@
 #version 330 core
-// One of a frame's buffers as a picture for people (hybrid/inspect_pass.h), in linear light; a screen's sRGB
+// One of a frame's buffers as a picture for people (inspect/inspect_pass.h), in linear light; a screen's sRGB
 // curve is still to come. Mask and reflection are looked up by what the composite looks them up with.
 //   ID_BITS          16, 24 or 32
-//   one of SHOW_IDS, SHOW_NORMALS, SHOW_MASK, SHOW_REFLECTION, SHOW_AGE, SHOW_DEPTH,
+//   one of SHOW_IDS, SHOW_NORMALS, SHOW_MASK, SHOW_REFLECTION, SHOW_DELAY, SHOW_DEPTH,
 //   SHOW_POSITION, SHOW_ALBEDO; with none, all is grey
 //   HAS_MASK, HAS_REFLECTION, REPROJECT and what goes with them: traced_light.glsl
 
-#define SHARED
+#include "shared/glsl.glsl"
 #include "shared/view.glsl"
 #include "shared/surface.glsl"
 #include "shared/terminator.glsl"
+#include "shared/light_params.glsl"
 #include "shared/phong.glsl"
 #include "scene_fetch.glsl"
 #include "map_fetch.glsl"
@@ -18,7 +19,7 @@
 
 uniform int light_count;
 uniform int slot;        // SHOW_MASK: of the mask
-uniform int age_frames;  // SHOW_AGE: of the answer that is shown
+uniform int age_frames;  // SHOW_DELAY: of the answer that is shown
 uniform vec3 range_lo;   // SHOW_DEPTH, SHOW_POSITION: what is black ...
 uniform vec3 range_hi;   // ... and what is white
 
@@ -42,8 +43,10 @@ vec3 color_of(uint id) {
 // Whether a shadow ray is fired from there to the light of that slot.
 bool asked(PixelSurface s) {
   for (int i = 0; i < light_count; ++i)
-    if (fetch_mask_slot(i) == slot)
-      return faces_light(s, incident_light(fetch_light(i), s.p_world).to_light);
+    if (fetch_mask_slot(i) == slot) {
+      LightParams light = fetch_light(i);
+      return faces_light(s, incident_light(light, light.position, s.p_world).to_light);
+    }
   return false;
 }
 
@@ -69,7 +72,7 @@ vec3 color_of_pixel(uint id, ivec2 pixel) {
   return color_of_mask(id, pixel);
 #elif defined(SHOW_REFLECTION)
   return reflected_light(source_of(pixel, id, surface_of(id, pixel).p_world).pixel, id);
-#elif defined(SHOW_AGE)
+#elif defined(SHOW_DELAY)
   bool hole = source_of(pixel, id, surface_of(id, pixel).p_world).hole;
   return hole ? kHole : kAges[clamp(age_frames, 0, 3)];
 #elif defined(SHOW_DEPTH)

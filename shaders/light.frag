@@ -1,5 +1,5 @@
 #version 330 core
-// How bright a picture's pixels are, of every step-th across and down: luminance, and the brightest channel.
+// Luminance and brightest channel of every step-th pixel, across and down.
 
 uniform sampler2D picture;
 uniform int step_pixels;

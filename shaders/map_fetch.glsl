@@ -1,10 +1,10 @@
-// Materials' maps as texture buffers (hybrid/gpu/gpu_maps.cpp), looked up by the shared sources. Expects
-// scene_fetch.glsl before it.
+// Materials' maps as texture buffers (hybrid/gpu/gpu_maps.cpp), for the shared sources. Expects scene_fetch.glsl
+// before it.
 #ifdef HAS_MAPS
 #include "shared/metallic_roughness.glsl"
 
 uniform samplerBuffer maps_buffer;  // kMapTexels a material with maps
-uniform samplerBuffer texcoords;    // 2 texels a vertex, and once more for the second set where there is one
+uniform samplerBuffer texcoords;    // 2 texels a vertex, for each UV set
 uniform samplerBuffer texels;       // RGBA of all textures, level after level, as stored
 uniform int vertex_count;
 #if defined(HAS_COLORS) || defined(HAS_TANGENTS)

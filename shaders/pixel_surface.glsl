@@ -59,11 +59,11 @@ PixelSurface surface_of(uint id, ivec2 pixel) {
   vec3 a = fetch_vec3(positions, corners.x);
   vec3 b = fetch_vec3(positions, corners.y);
   vec3 c = fetch_vec3(positions, corners.z);
-  vec3 weights = barycentric_of(eye, direction, a, b, c);
+  vec3 weights = barycentric_of(eye, direction, a, b - a, c - a);
   PixelSurface s;
-  s.p_world = point_on_triangle(weights, a, b, c);
+  s.p_world = point_on_triangle(weights, a, b - a, c - a);
   s.to_viewer = -normalize(direction);
-  vec3 n_geometric = geometric_normal(a, b, c, s.to_viewer);
+  vec3 n_geometric = geometric_normal(b - a, c - a, s.to_viewer);
   vec3 n_shading = shading_normal(weights, fetch_vec3(normals, corners.x), fetch_vec3(normals, corners.y),
                                   fetch_vec3(normals, corners.z), n_geometric);
   s.n = face_viewer(n_geometric, n_shading, s.to_viewer);

@@ -1,7 +1,7 @@
 #version 330 core
 // A linear picture as a display shows it: exposure, a tone curve, the sRGB curve, stretched over the window.
 
-#define SHARED
+#include "shared/glsl.glsl"
 #include "shared/tone_map.glsl"
 
 uniform sampler2D picture;
@@ -17,7 +17,7 @@ vec3 fetch(ivec2 pixel, ivec2 size) {
   return texelFetch(picture, clamp(pixel, ivec2(0), size - 1), 0).rgb;
 }
 
-// Between the four pixels around `at`, in linear light.
+// Interpolated between the four pixels around `at`, in linear light.
 vec3 interpolate(vec2 at, ivec2 size) {
   ivec2 lo = ivec2(floor(at - 0.5));
   vec2 t = at - 0.5 - vec2(lo);

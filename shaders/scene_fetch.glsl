@@ -1,4 +1,4 @@
-// The scene as texture buffers: what hybrid/gpu_scene.cpp uploads, read back as the shared sources' structs.
+// The scene as texture buffers: what gpu/gpu_mesh.cpp uploads, read back as the shared sources' structs.
 
 uniform usamplerBuffer triangle_corners;    // 3 texels a triangle
 uniform usamplerBuffer triangle_materials;  // 1 texel a triangle

@@ -1,10 +1,10 @@
-// What the CPU traced for a pixel: mask and reflection, and where in them it is. Expects pixel_surface.glsl
+// The CPU's mask and reflection of a pixel, and the places in them to read. Expects pixel_surface.glsl
 // and scene_fetch.glsl before it.
 //   HAS_MASK        MASK_BITS a sample, one sample for MASK_SCALE x MASK_SCALE pixels
 //   HAS_REFLECTION  one sample for REFLECTION_SCALE x REFLECTION_SCALE pixels, of REFLECTION_TEXELS texels;
 //                   REFLECTION_IS_SRGB: in bytes; REFLECTION_TILE: only tiles of so many samples a side that
 //                   have some light in them, and an index that says where each is
-//   REPROJECT       they are of an older frame, whose view and ids are given
+//   REPROJECT       they are an older frame's, whose view and ids are given
 
 #ifdef REPROJECT
 uniform usampler2D old_ids;
@@ -100,7 +100,7 @@ vec3 reflected_light(ivec2 pixel, uint id) {
 }
 #endif
 
-// Where mask and reflection of a pixel are to be found.
+// The pixel whose mask and reflection are read.
 struct Source {
   ivec2 pixel;
   bool hole;
@@ -126,7 +126,7 @@ Source source_of(ivec2 pixel, uint id, vec3 p_world) {
 #endif
 }
 
-// How much of each light reaches the pixel: looked up once for all lights.
+// The places that the mask is read at, the same for all lights.
 struct Reach {
   Source source;
 #ifdef HAS_MASK

@@ -1,12 +1,13 @@
 #version 330 core
 // Visibility buffer (Burns and Hunt 2013): the triangle's index is all that a pixel keeps.
 //   ID_BITS  16 or 32: one number; 24: three bytes
-//   HAS_HOLES  what some materials' maps let through is not drawn
+//   HAS_HOLES  some materials' maps have holes, which are not drawn
 
 #ifdef HAS_HOLES
-#define SHARED
+#include "shared/glsl.glsl"
 #include "shared/view.glsl"
 #include "shared/surface.glsl"
+#include "shared/light_params.glsl"
 #include "shared/phong.glsl"
 #include "scene_fetch.glsl"
 #include "map_fetch.glsl"
@@ -17,7 +18,7 @@ uniform vec3 step_x;
 uniform vec3 step_y;
 uniform vec2 first_pixel;  // the part's, of the picture
 
-// At the point where the pixel's ray meets the triangle, as the ray tracer asks it.
+// Decided where the pixel's ray meets the triangle, as the ray tracer does.
 void discard_hole() {
   int id = gl_PrimitiveID;
   int maps;
@@ -29,7 +30,7 @@ void discard_hole() {
   vec3 a = fetch_vec3(positions, corners.x);
   vec3 b = fetch_vec3(positions, corners.y);
   vec3 c = fetch_vec3(positions, corners.z);
-  vec3 weights = barycentric_of(eye, direction, a, b, c);
+  vec3 weights = barycentric_of(eye, direction, a, b - a, c - a);
   MapPoint point = MapPoint(corners, weights, b - a, c - a, vec3(0.0, 0.0, 1.0), vec3(0.0, 0.0, 1.0));
   if (hole_at(maps, point)) discard;
 }

@@ -19,11 +19,11 @@ nlohmann::json spread_ms(std::vector<double> seconds) {
 
 }  // namespace
 
-void Pace::looked(double asked_s, double given_s, bool any) {
+void Pace::polled(double begin_s, double end_s, bool any) {
   constexpr double kAtOnce_s = 1e-3;
   if (any && !waiting_since_s_)
-    waiting_since_s_ = given_s - asked_s > kAtOnce_s || looked_s_ == 0.0 ? given_s : looked_s_;
-  looked_s_ = given_s;
+    waiting_since_s_ = end_s - begin_s > kAtOnce_s || polled_s_ == 0.0 ? end_s : polled_s_;
+  polled_s_ = end_s;
 }
 
 void Pace::redrawn(double at_s, bool loading) {
@@ -37,7 +37,7 @@ void Pace::redrawn(double at_s, bool loading) {
 nlohmann::json Pace::json() const {
   nlohmann::json loading = spread_ms(loading_gaps_s_);
   const double loading_s = std::accumulate(loading_gaps_s_.begin(), loading_gaps_s_.end(), 0.0);
-  loading["redraws_per_s"] = loading_s > 0.0 ? static_cast<double>(loading_gaps_s_.size()) / loading_s : 0.0;
+  loading["redraws_per_s"] = loading_s > 0.0 ? loading_gaps_s_.size() / loading_s : 0.0;
   return {{"input_to_display", spread_ms(answers_s_)}, {"between_redraws_while_loading", loading}};
 }
 

@@ -4,24 +4,17 @@
 #include <cmath>
 #include <utility>
 
-#include "app/console.h"
-#include "app/errors.h"
-#include "app/window/overlay.h"
+#include "app/cli/console.h"
+#include "app/cli/errors.h"
+#include "app/window/camera/framing.h"
 #include "core/base/clock.h"
-#include "gl/context.h"
+#include "gl/context/context.h"
 
 namespace pinocchio::app {
 namespace {
 
 constexpr double kLongestStep_s = 0.1;  // of flight, however long a frame took
-constexpr double kDoubleClick_s = 0.35;
-constexpr float kSameSpot = 4.0f;  // pixels
-constexpr int kSettling = 3;       // redraws until panels that size themselves stand still
-
-Action with_shift(Action action, bool shift) {
-  if (!shift) return action;
-  return action == Action::undo ? Action::redo : action == Action::record ? Action::record_exr : action;
-}
+constexpr const char* kNoTree = "the tree is being built; try again when it is done";
 
 ViewSettings settings_of(const ViewOptions& options) {
   ViewSettings settings;
@@ -36,152 +29,310 @@ ViewSettings settings_of(const ViewOptions& options) {
 
 Session::Session(gl::Window& window, const ViewOptions& options)
     : window_(window),
-      options_(options),
-      navigation_(model_.camera),
-      gui_(window, [this] { draw_overlay(model_, gui_.scale()); }),
       preferences_(load_preferences(preferences_file())),
       engine_(window.context(), {.gives_way = true}),
-      present_(engine_),
-      inspect_(engine_),
-      histogram_(engine_),
-      accumulator_(engine_),
-      renderer_(engine_, {[this](const Frame& frame) { take_frame(frame); },
-                          [this](const FrameRecord& record) { take_record(record); }}),
-      applied_(settings_of(options)) {
-  model_.settings = applied_;
+      split_(model_),
+      screen_(window, engine_, model_, split_),
+      input_(window, screen_, model_),
+      frames_(engine_, model_, screen_, split_,
+              {[this](const Frame& frame) { recording_.add(frame); },
+               [this](const FrameRecord& record) {
+                 model_.history.add(record);
+                 if (const std::vector<float> ms = model_.history.frame_ms(); !ms.empty())
+                   budget_.note(ms.back());
+               }}),
+      budget_(engine_, model_, screen_, frames_, options.budget),
+      source_(model_, options.draw, options.watch),
+      settings_(engine_, model_, screen_, source_, budget_),
+      edits_(model_),
+      playback_(model_),
+      recording_(model_, screen_, frames_) {
+  model_.settings = model_.applied = settings_of(options);
   model_.panels = preferences_.panels;
   model_.recent = preferences_.recent;
-  gui_.set_layout(preferences_.layout);
   model_.renderer = engine_.gl_info()->renderer;
-  window_.set_vsync(applied_.vsync);
-  if (options_.watch && !engine_.shader_folder().empty()) shader_watch_.emplace(engine_.shader_folder());
-  load(options_.draw);
+  model_.window_pixels = window_.pixels();
+  screen_.gui().set_layout(preferences_.layout);
+  window_.set_vsync(options.vsync);
+  if (options.watch && !engine_.shader_folder().empty()) shader_watch_.emplace(engine_.shader_folder());
 }
 
 Session::~Session() {
-  drop_pose();
   preferences_.panels = model_.panels;
-  preferences_.layout = gui_.layout();
+  preferences_.layout = screen_.gui().layout();
   save_preferences(preferences_, preferences_file());
 }
 
 void Session::run() {
   last_turn_s_ = now_s();
   while (!window_.close_asked() && !interrupted()) {
-    take_events();
-    fly_on();
-    take_news();
-    if (options_.watch) take_file_changes();
+    input_.handle_events(patience_s(), [this] { perform_requests(); });
+    model_.window_pixels = window_.pixels();
+    advance();
+    poll_scene();
+    poll_files();
     apply_changes();
-    note_edits();
+    if (!model_.playback.playing && !input_.is_busy()) edits_.note();
     if (!window_.minimised()) draw();
   }
 }
 
-void Session::fly_on() {
+// Moves the camera and the scene's time on to now.
+void Session::advance() {
   const double turn_s = now_s(), step_s = std::min(turn_s - last_turn_s_, kLongestStep_s);
-  navigation_.advance(static_cast<float>(step_s));
-  play_on(step_s);
   last_turn_s_ = turn_s;
+  input_.advance(step_s);
+  if (!playback_.advance(step_s, source_.tree_settings())) return;
+  settings_.set_lights(model_.scene.lights);
+  screen_.request_redraw(1);
 }
 
-// How long to wait for a person before the next turn; where nothing is left to do, nothing is done.
+// How long to wait for input before the next turn.
 double Session::patience_s() const {
   constexpr double kAsleep_s = 0.25, kMinimised_s = 0.1, kTracing_s = 0.002;
   if (window_.minimised()) return kMinimised_s;
-  if (redraws_ > 0 || navigation_.flying()) return 0.0;
-  if (trial_) return 0.0;
-  if (!model_.loading.phase.empty())
-    return std::clamp(redrawn_s_ + kBetweenRedraws_s - now_s(), 0.0, kBetweenRedraws_s);
+  if (screen_.redraws() > 0 || input_.is_flying() || budget_.is_measuring()) return 0.0;
+  if (model_.is_loading()) return screen_.until_redraw_s();
   if (!model_.has_scene()) return kAsleep_s;
-  if (!idle_) return renderer_.is_tracing() ? kTracing_s : 0.0;
-  if (posing()) return kTracing_s;
-  return comparison_ && !comparison_->done() ? kBetweenRedraws_s : kAsleep_s;
+  if (!model_.idle) return frames_.is_tracing() ? kTracing_s : 0.0;
+  if (playback_.is_posing()) return kTracing_s;
+  return split_.is_done() ? kAsleep_s : Screen::kBetweenRedraws_s;
 }
 
-void Session::take_events() {
-  const double asked_s = now_s();
-  const std::vector<gl::WindowEvent> events = window_.take_events(patience_s());
-  pace_.looked(asked_s, now_s(), !events.empty());
-  for (const gl::WindowEvent& event : events) {
-    redraws_ = kSettling;
-    if (const auto* pointer = std::get_if<gl::PointerEvent>(&event)) pointer_ = pointer->position;
-    if (gui_.take(event)) continue;
-    if (const auto* key = std::get_if<gl::KeyEvent>(&event)) take_key(*key);
-    if (const auto* button = std::get_if<gl::ButtonEvent>(&event)) take_button(*button);
-    if (const auto* pointer = std::get_if<gl::PointerEvent>(&event))
-      navigation_.take(*pointer, static_cast<float>(window_.pixels().y));
-    if (const auto* scroll = std::get_if<gl::ScrollEvent>(&event)) take_scroll(*scroll);
-    if (const auto* drop = std::get_if<gl::DropEvent>(&event); drop && !drop->files.empty())
-      open(drop->files.front().string());
+void Session::poll_scene() {
+  const bool was_loading = model_.is_loading();
+  SceneLoader::News news = source_.poll();
+  if (was_loading && !model_.is_loading()) screen_.request_redraw();
+  if (news.scene && can_draw(news.stats)) show_scene(news);
+  if (news.tracer) model_.tracer = std::move(news.tracer);
+}
+
+// Where the settings cannot draw the scene, the verb ends, or the scene before stays.
+bool Session::can_draw(const SceneStats& stats) {
+  const Expected<Settings> resolved = settings_.resolved(wanted_settings(model_.settings), stats, false);
+  if (resolved) return true;
+  InputError error = resolved.error();
+  error.file = source_.options().plan_file;
+  if (!model_.has_scene()) throw Exit(error.file.empty() ? kBadScene : kUsage, error.message());
+  model_.messages.error("scene", error.message());
+  source_.reject();
+  return false;
+}
+
+void Session::show_scene(SceneLoader::News& news) {
+  Scene& scene = *news.scene;
+  const bool again = model_.scene.source == scene.source;
+  frames_.drain();
+  playback_.cancel();
+  source_.accept(scene);
+  settings_.set_lights(scene.lights);
+  model_.stats = news.stats;
+  model_.tracer.reset();
+  model_.camera.set_scene(news.stats.bounds, news.interest);
+  first_camera_ = news.camera;
+  model_.messages.clear("scene");
+  for (const std::string& warning : news.warnings) model_.messages.warning(warning);
+  model_.history.clear();
+  model_.zoom = {};
+  window_.set_title(scene.source + " - Pinocchio");
+  preferences_.add_recent(scene.source);
+  model_.recent = preferences_.recent;
+  model_.scene = std::move(scene);
+  if (!again) {
+    model_.camera.set_camera(news.camera);
+    model_.files = {};  // the panel shows the scene's folder from now on
+    model_.playback = {};
   }
-  over_picture_ = !gui_.over_panel();
-  if (model_.messages.expire(now_s())) redraws_ = kSettling;
-  take_asked();
+  model_.playback.posed_s.reset();
+  edits_.begin();
 }
 
-// What the overlay was asked for.
-void Session::take_asked() {
-  for (const Action action : std::exchange(model_.asked, {})) perform(action);
-  if (const std::string file = std::exchange(model_.file_to_open, {}); !file.empty()) open(file);
-  if (const int camera = std::exchange(model_.camera_to_show, -1); camera >= 0)
-    show_camera(static_cast<std::size_t>(camera));
-}
-
-void Session::take_button(const gl::ButtonEvent& event) {
-  if (event.button == 0 && event.down) {
-    const bool second =
-        now_s() - pressed_s_ < kDoubleClick_s && glm::length(pointer_ - pressed_at_) < kSameSpot;
-    pressed_s_ = second ? 0.0 : now_s();
-    pressed_at_ = pointer_;
-    if (second) return set_pivot();
+void Session::poll_files() {
+  if (source_.has_changed(now_s())) source_.reload();
+  if (!shader_watch_ || !shader_watch_->changed(now_s())) return;
+  if (const Expected<void> reloaded = engine_.reload_shaders()) {
+    model_.messages.clear("shaders");
+    model_.messages.news("the shaders were loaded again");
+  } else {
+    model_.messages.error("shaders", reloaded.error().message());
   }
-  if (!take_click(event)) navigation_.take(event);
+  screen_.request_redraw();
+  frames_.restart();
 }
 
-// Ctrl enlarges the picture's pixels; what is under the pointer stays there.
-void Session::take_scroll(const gl::ScrollEvent& event) {
-  if (!window_.is_down(gl::kKeyLeftControl) && !window_.is_down(gl::kKeyRightControl))
-    return navigation_.take(event);
-  constexpr float kStep = 1.25f, kMost = 64.0f;
-  PictureZoom& zoom = model_.zoom;
-  const glm::vec2 share = pointer_ / glm::max(glm::vec2(window_.pixels()), 1.0f), stays = zoom.at(share);
-  zoom.factor = std::clamp(zoom.factor * std::pow(kStep, event.steps), 1.0f, kMost);
-  zoom.corner =
-      glm::clamp(stays - share / zoom.factor, glm::vec2(0.0f), glm::vec2(1.0f - 1.0f / zoom.factor));
-}
-
-bool Session::take_click(const gl::ButtonEvent& event) {
-  if (event.button != 0 || !event.down || !event.with.control) return false;
-  if (event.with.shift)
-    expose_for_point();  // not Alt: window managers move windows by it
-  else
-    pick_material();
-  return true;
-}
-
-void Session::take_key(const gl::KeyEvent& event) {
-  if (navigation_.take(event) || !event.down || event.with.alt) return;
-  const int number = event.key - '1';
-  if (number >= 0 && number < 9 && !event.with.control) return show_camera(static_cast<std::size_t>(number));
-  const KeyBinding* const binding = binding_of(event);
-  if (!binding) return;
-  if (const auto* const panel = std::get_if<Panel>(&binding->does)) {
-    model_.settings.overlay = true;
-    return model_.panels.toggle(*panel);
-  }
-  if (const auto* const action = std::get_if<Action>(&binding->does))
-    return perform(with_shift(*action, event.with.shift));
-  if (const Rule* const rule = std::get<Change>(binding->does)(model_.settings))
-    model_.messages.hint(InputError{{}, 0, std::string(rule->what), std::string(rule->remedy)}.message());
-}
-
-// While something is held, it is not done yet.
-void Session::note_edits() {
-  if (!model_.has_scene() || model_.playback.playing || navigation_.dragging() || navigation_.flying() ||
-      gui_.is_active())
+void Session::apply_changes() {
+  ViewSettings& wanted = model_.settings;
+  const ViewSettings& applied = model_.applied;
+  wanted = possible(wanted);
+  if (wanted.vsync != applied.vsync) window_.set_vsync(wanted.vsync);
+  if (wanted.buffer != applied.buffer || wanted.mask_slot != applied.mask_slot ||
+      wanted.split != applied.split || wanted.accumulate != applied.accumulate ||
+      wanted.range != applied.range)
+    frames_.deliver_again();
+  if (!(wanted == applied)) screen_.request_redraw();
+  if (!model_.has_scene()) {
+    model_.applied = wanted;
     return;
-  edits_.note(edit_state(), now_s());
+  }
+  edits_.apply();
+  settings_.update();
+}
+
+void Session::draw() {
+  screen_.begin_turn();
+  if (model_.has_scene()) {
+    if (!frames_.only_overlay_changed()) frames_.draw();
+    inspect_pixel();
+  }
+  screen_.count_light();
+  if (!screen_.shown() && screen_.wants_redraw()) screen_.show();
+}
+
+// While the panel Pixel is open.
+void Session::inspect_pixel() {
+  if (!model_.panels[Panel::pixel]) return model_.pixel.reset();
+  if (!input_.over_picture() || !inspector_.update(model_, input_.pixel_under_pointer())) return;
+  screen_.request_redraw(1);
+  model_.pixel_error = model_.pixel ? split_.error_of(*model_.pixel) : std::nullopt;
+}
+
+void Session::perform_requests() {
+  for (const Action action : std::exchange(model_.requested, {})) perform(action);
+  if (const std::string file = std::exchange(model_.file_to_open, {}); !file.empty()) source_.open(file);
+  if (const int camera = std::exchange(model_.camera_to_show, -1); camera >= 0) show_camera(camera);
+}
+
+void Session::perform(Action action) {
+  try {
+    switch (action) {
+      case Action::frame_all:
+        return frame_all();
+      case Action::reset_camera:
+        return model_.camera.set_camera(first_camera_);
+      case Action::view_front:
+        return model_.camera.view_from({0, 0, 1});
+      case Action::view_right:
+        return model_.camera.view_from({1, 0, 0});
+      case Action::view_top:
+        return model_.camera.view_from({0, 1, 0});
+      case Action::set_pivot:
+        return set_pivot();
+      case Action::pick_material:
+        return pick_material();
+      case Action::expose_for_point:
+        return expose_for_point();
+      case Action::next_buffer:
+        return next_buffer(model_.settings, model_.stats.casting_lights);
+      case Action::undo:
+        return edits_.undo();
+      case Action::redo:
+        return edits_.redo();
+      case Action::record:
+      case Action::record_exr:
+        return recording_.toggle_sequence(action == Action::record_exr);
+      case Action::screenshot:
+      case Action::save_camera:
+      case Action::save_scene:
+      case Action::print_command:
+        return write_file(action);
+      case Action::next_file:
+        return open_neighbour(1);
+      case Action::previous_file:
+        return open_neighbour(-1);
+      case Action::cancel_loading:
+        return source_.cancel();
+      case Action::full_screen:
+        return window_.set_full_screen(!window_.full_screen());
+      case Action::play:
+        return playback_.toggle();
+      case Action::frame_back:
+        return playback_.step(-1);
+      case Action::frame_on:
+        return playback_.step(1);
+      case Action::close:
+        return close_something();
+    }
+  } catch (const std::exception& error) {  // a file that cannot be written
+    model_.messages.error("file", error.what());
+  }
+}
+
+void Session::write_file(Action action) {
+  if (!model_.has_scene()) return;
+  advance();  // by the keys that were pressed just before
+  apply_changes();
+  Settings settings = wanted_settings(model_.applied);
+  if (action == Action::save_camera) return recording_.save_camera();
+  if (action == Action::save_scene) return recording_.save_gltf();
+  if (action == Action::screenshot) {
+    if (model_.tracer) settings = settings_.resolved(settings, model_.stats, true).value_or(model_.drawn);
+    return recording_.save_screenshot(model_.tracer ? settings : Settings{model_.drawn});
+  }
+  budget_.add_given_up(settings);
+  window_.set_clipboard(recording_.print_command(settings, source_.options()));
+  model_.messages.hint("the command that renders this is on the terminal and in the clipboard", 6.0);
+}
+
+// The innermost thing that is open.
+void Session::close_something() {
+  if (screen_.gui().close_popup()) return;
+  for (const Panel panel : {Panel::help, Panel::files})
+    if (bool& open = model_.panels[panel]; std::exchange(open, false)) return;
+  if (window_.full_screen()) return window_.set_full_screen(false);
+  window_.ask_close();
+}
+
+void Session::frame_all() {
+  const glm::vec2 size(window_.pixels());
+  model_.camera.frame_all(size.x / std::max(size.y, 1.0f));
+  model_.wants_tree = true;
+  if (!model_.tracer)
+    return model_.messages.hint("walls may be in the way: the tree is being built; press F again");
+  model_.camera.set_camera(before_walls(model_.camera.camera(), model_.camera.interest(), *model_.tracer));
+}
+
+void Session::show_camera(std::size_t number) {
+  if (!model_.has_scene()) return;
+  const std::vector<Camera>& cameras = model_.scene.cameras;
+  if (number < cameras.size()) {
+    model_.camera.set_camera(cameras[number]);
+    model_.messages.hint("camera " + cameras[number].name, 3.0);
+  } else {
+    model_.messages.hint("the scene has " + std::to_string(cameras.size()) +
+                         (cameras.size() == 1 ? " camera" : " cameras"));
+  }
+}
+
+void Session::set_pivot() {
+  model_.wants_tree = true;
+  if (!model_.tracer) return model_.messages.hint(kNoTree);
+  if (const std::optional<glm::vec3> p =
+          surface_under(glm::vec2(input_.pixel_under_pointer()), glm::vec2(model_.wanted_size()),
+                        model_.camera.camera(), *model_.tracer))
+    model_.camera.set_target(*p);
+}
+
+void Session::pick_material() {
+  const std::optional<PixelReport> pixel = inspector_.report(model_, input_.pixel_under_pointer());
+  if (!pixel) return model_.messages.hint(kNoTree);
+  if (pixel->triangle == kNoTriangle) return;
+  model_.material = pixel->material;
+  model_.panels[Panel::materials] = true;
+}
+
+// The point is shown as bright as an 18 % grey card in full light.
+void Session::expose_for_point() {
+  constexpr float kMiddleGrey = 0.18f;
+  const std::optional<PixelReport> pixel = inspector_.report(model_, input_.pixel_under_pointer());
+  if (!pixel) return model_.messages.hint(kNoTree);
+  const float luminance = glm::dot(pixel->color, glm::vec3(0.2126f, 0.7152f, 0.0722f));  // Rec. 709
+  if (luminance > 0.0f) model_.settings.exposure_ev = std::log2(kMiddleGrey / luminance);
+}
+
+void Session::open_neighbour(int by) {
+  const std::string file = neighbour_of(model_.scene.source, by);
+  if (file.empty()) return model_.messages.hint("there is no other scene in the folder");
+  source_.open(file);
 }
 
 }  // namespace pinocchio::app

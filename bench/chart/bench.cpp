@@ -3,10 +3,11 @@
 #include <algorithm>
 
 #include "core/compare/magma.h"
-#include "core/image/png.h"
+#include "core/image/codecs/png.h"
 #include "core/image/rgb.h"
+#include "core/image/tonemap.h"
 #include "core/math/median.h"
-#include "hybrid/samples.h"
+#include "hybrid/frame/samples.h"
 
 namespace pinocchio::chart {
 namespace {
@@ -21,7 +22,7 @@ Scene settled(Scene scene, const Settings& settings) {
   return scene;
 }
 
-// What a person sees: after each frame of the motion is asked for, the picture that is there by then.
+// The screen: after each frame of the motion is requested, the newest delivered picture.
 class Screen {
  public:
   Screen(Engine& engine, FrameRequest request, Progress* progress)
@@ -63,7 +64,7 @@ PointFigures Bench::measure(const Configuration& configuration) {
   return figures;
 }
 
-// With the tree that the settings ask for; the last one is kept.
+// The request with the tree for the settings. The last tree is kept.
 FrameRequest Bench::request_for(const Settings& settings) {
   if (!last_.tracer || !same_tracer(settings, last_.settings))
     last_.tracer = Engine::prepare(last_.scene, settings, settings_.progress);
@@ -73,7 +74,7 @@ FrameRequest Bench::request_for(const Settings& settings) {
 
 void Bench::measure_time(const FrameRequest& request, PointFigures& figures) {
   TimedRenderer renderer(engine_, request, settings_.progress);
-  if (!warm_) {  // the process's first frames pay for what later ones find: memory, threads, shaders
+  if (!warm_) {  // the first frames allocate memory, start threads and compile shaders for all later ones
     (void)raster_.draw(views_);
     (void)renderer.draw(views_);
     warm_ = true;
@@ -110,7 +111,7 @@ void Bench::measure_time(const FrameRequest& request, PointFigures& figures) {
   figures.bytes_cpu_to_gpu = round.bytes_to_gpu;
 }
 
-// The area reference is dear: one frame, the last, is compared with it.
+// The area reference is expensive: only the last frame is compared with it.
 std::vector<std::size_t> Bench::compared_frames(bool area) const {
   const std::size_t first = kWarmUpFrames, last = views_.size() - 1;
   const auto count = static_cast<std::size_t>(area ? 1 : settings_.error_frames);

@@ -1,4 +1,4 @@
-// Measures configurations: their time beside raster-only's, their error beside the reference.
+// Measures configurations: their time relative to raster-only's, their error against the reference.
 #pragma once
 
 #include <filesystem>
@@ -11,30 +11,30 @@
 
 namespace pinocchio::chart {
 
-// What a chart calls time.
+// The time that a chart measures.
 enum class Clock {
-  frame,  // from frame to frame, as a person waits
-  cpu,    // the processor's, of all threads: hardly changed by other programs; blind to what overlaps
+  frame,  // wall clock, from frame to frame
+  cpu,    // processor time of all threads: hardly affected by other programs, and by overlap not at all
 };
 
-// How a chart is measured.
+// The parameters of a measurement.
 struct BenchSettings {
-  int rounds = 5;        // of frames, raster-only's and the configuration's by turns
-  int error_frames = 3;  // whose pictures are compared, spread over the frames that count
-  int area_side = 6;     // the area reference has the square of it samples a pixel
+  int rounds = 5;        // of frames, raster-only's and the configuration's interleaved
+  int error_frames = 3;  // compared frames, spread over the measured ones
+  int area_side = 6;     // the area reference has its square of samples for each pixel
   Clock clock = Clock::frame;
-  Progress* progress = nullptr;  // looked at
+  Progress* progress = nullptr;  // checked for cancellation
 };
 
 class Bench {
  public:
-  // base: the default configuration's request, but for the view. views: more than kWarmUpFrames +
-  // error_frames. folder: pictures go to its "pictures".
+  // base: the default configuration's request without the view. views: more than kWarmUpFrames +
+  // error_frames. folder: pictures are written to its "pictures".
   Bench(Engine& engine, FrameRequest base, const BenchSettings& settings, std::vector<View> views,
         std::filesystem::path folder);
 
-  // The figures, and in the folder pictures/NAME.png with its FLIP heat map pictures/NAME-flip.png of the
-  // last frame compared.
+  // Returns the figures, and writes pictures/NAME.png and its FLIP heat map pictures/NAME-flip.png for the
+  // last compared frame.
   [[nodiscard]] PointFigures measure(const Configuration& configuration);
 
  private:
@@ -46,7 +46,7 @@ class Bench {
                       const Image<glm::vec3>& truth, bool area) const;
 
   Engine& engine_;
-  FrameRequest last_;  // of the configuration measured last
+  FrameRequest last_;  // of the configuration that was measured last
   BenchSettings settings_;
   std::vector<View> views_;
   std::filesystem::path folder_;

@@ -99,7 +99,7 @@ class LogScale:
 
 def write_whole(path, write):
     """Calls write(part) with a new file beside `path`, which gets its name once it is whole. What is left of it
-    when the program is killed is locked by nobody: the next run sweeps it (core/image/part_file.h)."""
+    when the program is killed is locked by nobody: the next run sweeps it (core/files/part_file.h)."""
     letters = "".join(random.choices("abcdefghijklmnopqrstuvwxyz0123456789", k=6))
     part = path.with_name(f".{path.stem}-{letters}.part{path.suffix}")
     with open(part, "x", encoding="utf-8") as lock:

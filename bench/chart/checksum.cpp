@@ -8,7 +8,7 @@ namespace {
 
 class Checksum {
  public:
-  // Values without padding.
+  // For values without padding.
   template <class T>
   requires std::is_trivially_copyable_v<T>
   void add(const T& value) { crc_.process_bytes(&value, sizeof value); }

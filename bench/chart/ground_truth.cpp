@@ -15,7 +15,7 @@ namespace {
 
 constexpr const char* kChannels[] = {"R", "G", "B"};
 
-// In single precision, as it is compared.
+// In single precision, as for the comparison.
 void write_reference(const std::filesystem::path& file, const Image<glm::vec3>& picture) {
   ExrFile exr;
   exr.display_size = picture.size();
@@ -29,7 +29,7 @@ void write_reference(const std::filesystem::path& file, const Image<glm::vec3>& 
   write_exr(file, exr);
 }
 
-// Nothing where there is no such file, or none of that size.
+// Empty: there is no such file, or its size differs.
 std::optional<Image<glm::vec3>> read_reference(const std::filesystem::path& file, const glm::ivec2& size) {
   std::error_code ignored;
   if (!std::filesystem::exists(file, ignored)) return std::nullopt;

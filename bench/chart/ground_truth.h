@@ -1,4 +1,4 @@
-// The pictures that others are measured against.
+// The reference pictures that others are compared with.
 #pragma once
 
 #include <filesystem>
@@ -13,15 +13,15 @@
 namespace pinocchio::chart {
 
 struct MeasuredError : PictureError {
-  std::size_t not_finite = 0;  // pixels with a NaN or infinity; above 0 the other figures are 0
+  std::size_t not_finite = 0;  // pixels with NaN or infinity; if there are any, the other figures are 0
 };
 
-// References (core/reference) of some frames of a motion, drawn when they are first asked for and kept as
-// reference-centre-FRAME.exr or reference-area-FRAME.exr, from which a run that goes on reads them.
+// References (core/reference) of frames of a motion. They are drawn at first use and kept as
+// reference-centre-FRAME.exr or reference-area-FRAME.exr for a run that continues.
 class GroundTruth {
  public:
-  // depth: most bounces. area_side: the area reference is the mean of so many times so many samples, evenly
-  // spread over the pixel. folder: where they are kept; it holds none of another run.
+  // depth: most bounces. area_side: the area reference is the mean of area_side x area_side samples, evenly
+  // spread over the pixel. folder: it holds no references of another run.
   GroundTruth(Scene scene, int depth, int area_side, const std::vector<View>& views,
               std::filesystem::path folder, Workers& workers, Progress* progress)
       : scene_(std::move(scene)),
@@ -32,10 +32,10 @@ class GroundTruth {
         workers_(workers),
         progress_(progress) {}
 
-  // Linear RGB of the frame: at the pixels' centres, or their means.
+  // The frame in linear RGB: at the pixels' centres, or the pixels' means.
   [[nodiscard]] const Image<glm::vec3>& reference(std::size_t frame, bool area);
 
-  // RGB of a picture against the reference of the frame.
+  // The error of a picture's RGB against the frame's reference.
   [[nodiscard]] MeasuredError measure(const Image<glm::vec4>& color, std::size_t frame, bool area);
 
  private:
@@ -50,7 +50,7 @@ class GroundTruth {
   std::map<std::pair<std::size_t, bool>, Image<glm::vec3>> references_;
 };
 
-// Removes those that another run has left in the folder.
+// Removes references of another run from the folder.
 void forget_references(const std::filesystem::path& folder);
 
 }  // namespace pinocchio::chart

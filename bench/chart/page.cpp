@@ -18,10 +18,10 @@ namespace {
 
 constexpr int kNoMatplotlib = 3;  // plot.py's exit code
 constexpr int kNoProgram = 127;   // the shell's
-// The first may be one without the system's packages.
+// The first may lack the system's packages.
 constexpr std::array kPythons{"python3", "/usr/bin/python3"};
 
-// Beside the installed program, else in the source tree.
+// The script beside the installed program, else in the source tree.
 std::filesystem::path plot_script() {
   std::error_code unknown;
   const std::filesystem::path program = std::filesystem::read_symlink("/proc/self/exe", unknown);
@@ -31,13 +31,13 @@ std::filesystem::path plot_script() {
   return PINOCCHIO_CHART_SOURCE_DIR "/plot.py";
 }
 
-// The exit code; 127 where there is no such program, 128 where a signal ended it.
+// The exit code; 127: there is no such program; 128: a signal ended it.
 int run(const char* program, std::string script, std::string folder, const Progress& progress) {
   std::string name = program;
   const std::array<char*, 4> arguments{name.data(), script.data(), folder.data(), nullptr};
   const pid_t child = fork();
   if (child < 0) return kNoProgram;
-  if (child == 0) {  // from here on only what may be called between fork and exec
+  if (child == 0) {  // only functions that may be called between fork and exec
     prctl(PR_SET_PDEATHSIG, SIGKILL);
     execvp(program, arguments.data());
     _exit(kNoProgram);

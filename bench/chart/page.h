@@ -6,9 +6,9 @@
 
 namespace pinocchio::chart {
 
-// Draws index.html with its charts out of the folder's results.json: Python and matplotlib do, by plot.py and
-// charts.py. False where one of the two is missing. Throws EnvironmentError where they are there and fail,
-// Cancelled where it is; Python is ended then, and also where this process dies.
+// Draws index.html with its charts from the folder's results.json, with Python and matplotlib (plot.py and
+// charts.py). False: one of the two is missing. Throws EnvironmentError if they fail, and Cancelled. Python
+// is ended on cancellation, and if this process dies.
 [[nodiscard]] bool draw_page(const std::filesystem::path& folder, const Progress& progress);
 
 }  // namespace pinocchio::chart

@@ -7,8 +7,8 @@
 #include <sstream>
 #include <system_error>
 
-#include "core/compare/pareto.h"
-#include "core/image/atomic_file.h"
+#include "core/files/atomic_file.h"
+#include "core/math/pareto.h"
 #include "hybrid/settings/json.h"
 
 namespace pinocchio::chart {
@@ -34,7 +34,7 @@ constexpr std::array kFigures{"ratio",
                               "flip",
                               "worst"};
 
-// A chart: its name, and what its axes are.
+// A chart: its name and its axes.
 struct Front {
   const char* name;
   double (*cost)(const nlohmann::json&);
@@ -43,7 +43,7 @@ struct Front {
 double ratio_of(const nlohmann::json& point) {
   return point["ratio"].get<double>();
 }
-// Who exchanges nothing is on no chart of the exchange.
+// A configuration without exchange is on no chart of the exchange.
 double bytes_of(const nlohmann::json& point) {
   const double bytes = point["bytes_gpu_to_cpu"].get<double>() + point["bytes_cpu_to_gpu"].get<double>();
   return bytes > 0.0 ? bytes : std::numeric_limits<double>::quiet_NaN();
@@ -67,7 +67,7 @@ bool is_results(const nlohmann::json& json) {
          json["points"].is_array() && std::all_of(json["points"].begin(), json["points"].end(), is_point);
 }
 
-// What of two runs is not the same, the scene before what follows from it; empty: nothing.
+// The property that differs between two runs, the scene before properties that depend on it; empty: none.
 std::string difference(const nlohmann::json& old_run, const nlohmann::json& run) {
   if (old_run.value("scene", nlohmann::json()) != run.at("scene")) return "scene";
   for (const auto& [key, value] : run.items())
@@ -83,7 +83,7 @@ std::string cell(const nlohmann::json& value) {
   return value.is_null() ? "" : value.is_string() ? quoted(value.get<std::string>()) : value.dump();
 }
 
-// The first point of each setting, where it has an error to show. Another ground truth is another chart.
+// The first point of each setting, if it has an error. Each ground truth has a chart of its own.
 std::vector<std::size_t> on_charts(const nlohmann::json& points) {
   std::vector<std::size_t> chosen;
   for (std::size_t i = 0; i < points.size(); ++i) {

@@ -8,15 +8,15 @@
 namespace pinocchio::chart {
 namespace {
 
-// A preset or a field of the settings, and what it is set to.
+// A preset or a field of the settings, and its value.
 using Option = std::pair<std::string_view, std::string>;
 using Options = std::vector<Option>;
 
-// One value of an axis: its name on the chart, and what gives it.
+// A value of an axis: its name on the chart, and the settings for it.
 struct Value {
   std::string name;
   Options options;
-  bool quick = true;  // drawn with --quick, too
+  bool quick = true;  // also with --quick
 };
 using Values = std::vector<Value>;
 constexpr bool kFull = false;
@@ -42,7 +42,7 @@ Values visibilities(const SweepRequest&) {
   return {{"raster", {{"visibility", "gpu"}}}, {"rays", {{"visibility", "cpu"}}}};
 }
 
-// All that a field may be.
+// All values of a field.
 Values choices_of(std::string_view field) {
   Values values;
   for (const std::string_view choice : find_field(field)->choices)
@@ -50,7 +50,7 @@ Values choices_of(std::string_view field) {
   return values;
 }
 
-// Everything that is rounded on its way, each way of it.
+// All channels that are rounded for the transfer, in each format.
 Values precisions(const SweepRequest&) {
   return {{"no exchange", {{"mode", "raytrace"}}},
           {"reflection float", {{"reflection", "float"}}},
@@ -80,7 +80,7 @@ Values depths(const SweepRequest& request) {
   return values;
 }
 
-// Mirrored light below this is not followed, nor a shadow ray fired where all lights bring less.
+// Mirrored rays with less light are not followed, and shadow rays for less light not traced.
 Options cutoff(float least, const SweepRequest& request) {
   Settings s;
   s.throughput_cutoff = least;
@@ -162,7 +162,7 @@ constexpr std::array kAxes{
     Axis{{"combined", "combinations"}, combinations},
 };
 
-// Whether the default draws anything that the option changes.
+// Whether the option changes the default's picture.
 bool matters(const Option& option, const Settings& base) {
   const std::string_view field = option.first;
   if (field.starts_with("mask") || field == "light_cutoff") return base.mask_bits > 0;
@@ -178,7 +178,7 @@ Settings settings_of(const Options& options) {
   return settings;
 }
 
-// As the command line takes them.
+// As options of the command line.
 std::string text_of(const Options& options) {
   std::string text;
   for (const auto& [name, value] : options) {

@@ -1,5 +1,5 @@
-// What a chart sweeps: every method that can be swapped, one axis at a time from the default, and some
-// combinations.
+// The configurations of a chart: every method that can be swapped, one axis at a time from the default, and
+// some combinations.
 #pragma once
 
 #include <functional>
@@ -12,16 +12,16 @@
 
 namespace pinocchio::chart {
 
-// One way to draw, as a chart measures it.
+// A way to draw that a chart measures.
 struct Configuration {
   std::string axis, value;
-  std::string options;  // of the command line, that give it; empty: the default
+  std::string options;  // the command line's options for it; empty: the default
   Settings settings;    // resolved
-  // What it is measured against: "centre", one ray a pixel as most pictures have; "area", the mean over
-  // the pixel, which is what more samples come closer to.
+  // The reference: "centre" has one ray for each pixel, as most pictures; "area" is the mean over the pixel,
+  // which more samples approach.
   std::string reference = "centre";
 
-  // Of files about it: letters, digits, '.' and '-'.
+  // For names of files: letters, digits, '.' and '-'.
   [[nodiscard]] std::string name() const;
 };
 
@@ -30,12 +30,12 @@ struct SweepRequest {
   std::function<Expected<Settings>(const Settings&)> resolve;
   SceneStats stats;
   int cores = 1;
-  bool quick = false;             // fewer points an axis
+  bool quick = false;             // fewer points on each axis
   std::vector<std::string> only;  // axes; empty: all
 };
 
-// The configurations of every axis, the default among them on each; what cannot draw the scene is left out.
-// An axis on which the scene leaves nothing to choose has none (no mirrors: no formats of reflection).
+// The configurations of all axes, each with the default. Configurations that cannot draw the scene are left
+// out. An axis without a choice has none (no mirrors: no formats of reflection).
 [[nodiscard]] std::vector<Configuration> make_sweep(const SweepRequest& request);
 
 struct AxisName {

@@ -5,12 +5,12 @@
 #include <ctime>
 
 #include "core/math/median.h"
-#include "hybrid/samples.h"
+#include "hybrid/frame/samples.h"
 
 namespace pinocchio::chart {
 namespace {
 
-// Of all threads of this process: a software rasteriser's too.
+// The time of all threads of this process, also of a software rasteriser's.
 double processor_ms() {
   timespec time{};
   clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &time);
@@ -19,7 +19,7 @@ double processor_ms() {
 
 }  // namespace
 
-// A point of the chart says nothing of the frames that another has drawn.
+// Points of a chart do not depend on frames that other points have drawn.
 TimedRenderer::TimedRenderer(Engine& engine, FrameRequest request, Progress* progress)
     : request_(std::move(request)),
       renderer_(engine, {{}, [this](const FrameRecord& record) { records_.push_back(record); }}, progress) {
@@ -56,7 +56,7 @@ TimedRenderer::Round TimedRenderer::draw(const std::vector<View>& views) {
     latencies_ms.push_back(
         1e3 * (records_[(frame + 1) * samples - 1].frame.end_s - first_sample(frame).frame.begin_s));
   round.latency_ms = median(std::move(latencies_ms));
-  // Not the last: a reprojected frame's own mask and reflection travel after it was shown.
+  // Not the last frame: a reprojected frame's mask and reflection are transferred after it was shown.
   const std::size_t usual = (first + last) / 2;
   round.latency_frames = first_sample(usual).latency_frames;
   round.age_frames = first_sample(usual).age_frames;

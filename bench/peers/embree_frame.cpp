@@ -1,8 +1,9 @@
-// A frame as Embree's tutorials draw it: tiles of 8 x 8 pixels shared out among threads; for each pixel one
-// ray at a time, its shading, a shadow ray to each light. scripts/peers runs it. pinocchio-embree-frame
-// JOB.json: prints {"frame_ms": [...]} Where the job names a "scene", not a "mesh": its whole picture, with
-// mirrors and glass, for each of "cameras" (embree_picture.h); scripts/accuracy charts it. "save": {"FRAME":
-// "FILE.exr"} keeps pictures; "export": "FILE.obj" is written for other programs, and "lights" are printed.
+// A frame as Embree's tutorials draw it: threads share tiles of 8 x 8 pixels; each pixel has one ray at a
+// time, its shading, and a shadow ray to each light. scripts/peers runs it. pinocchio-embree-frame
+// JOB.json: prints {"frame_ms": [...]} If the job names a "scene" instead of a "mesh", it draws the whole
+// picture, with mirrors and glass, for each of "cameras" (embree_picture.h); scripts/accuracy charts it.
+// "save": {"FRAME": "FILE.exr"} keeps pictures; "export": "FILE.obj" is written for other programs, and
+// "lights" are printed.
 #include <embree3/rtcore.h>
 #include <pmmintrin.h>
 #include <xmmintrin.h>
@@ -17,7 +18,7 @@
 #include "bench/peers/embree_rays.h"
 #include "core/base/clock.h"
 #include "core/parallel/workers.h"
-#include "core/trace/view_params.h"
+#include "core/trace/view/view_params.h"
 #include "pinocchio/exr.h"
 #include "pinocchio/image.h"
 #include "pinocchio/load.h"
@@ -33,7 +34,7 @@ constexpr float kDiffuse = 0.8f, kSpecular = 0.2f, kShininess = 32.0f;
 struct Job {
   Scene scene;
   Camera camera;
-  std::vector<glm::vec3> eyes;  // frame by frame, round and round
+  std::vector<glm::vec3> eyes;  // frame by frame, repeated from the first
   std::vector<glm::vec3> lights;
   glm::ivec2 size{};
   int threads = 0, frames = 0;

@@ -4,15 +4,14 @@
 
 #include "bench/peers/embree_rays.h"
 #include "bench/peers/embree_scatter.h"
-#include "core/trace/mapped_material.h"
-#include "core/trace/view_params.h"
+#include "core/trace/view/view_params.h"
 
 namespace pinocchio {
 namespace {
 
 constexpr int kPictureTile = 8;                 // pixels a side
-constexpr float kLeast = 1.0f / 8192.0f;        // throughput that is followed, as by default
-constexpr float kAtTheLight = 1.0f - 0x1p-20f;  // shadow rays end before it
+constexpr float kLeast = 1.0f / 8192.0f;        // rays with less throughput are not followed, as by default
+constexpr float kAtTheLight = 1.0f - 0x1p-20f;  // shadow rays end in front of the light
 
 }  // namespace
 
@@ -31,7 +30,7 @@ EmbreePicture::~EmbreePicture() {
   rtcReleaseDevice(device_);
 }
 
-// The first that is no hole.
+// The first hit that is not in a hole.
 EmbreePicture::Hit EmbreePicture::closest_hit(Ray ray) const {
   RTCIntersectContext context;
   rtcInitIntersectContext(&context);
@@ -74,9 +73,9 @@ SurfaceInteraction EmbreePicture::surface_of(const Hit& hit, const Ray& ray,
                   &c = mesh.positions[corners.z];
   SurfaceInteraction s{};
   s.to_viewer = -glm::normalize(ray.direction);
-  s.p_world = shared::point_on_triangle(hit.weights, a, b, c);
+  s.p_world = shared::point_on_triangle(hit.weights, a, b - a, c - a);
   s.p_exact = s.p_world;
-  const glm::vec3 n = shared::geometric_normal(a, b, c, s.to_viewer);
+  const glm::vec3 n = shared::geometric_normal(b - a, c - a, s.to_viewer);
   const shared::FacingNormals facing =
       shared::face_viewer(n,
                           shared::shading_normal(hit.weights, mesh.normals[corners.x],
@@ -104,7 +103,7 @@ glm::vec3 EmbreePicture::direct(const SurfaceInteraction& s) const {
   const shared::PhongParams phong = s.material.phong;
   glm::vec3 sum = shared::phong_ambient(phong, scene_.ambient_light);
   for (std::size_t i = 0; i < lights_.size(); ++i) {
-    const shared::Incident incident = shared::incident_light(lights_[i], s.p_world);
+    const shared::Incident incident = shared::incident_light(lights_[i], lights_[i].position, s.p_world);
     if (incident.radiance == glm::vec3(0.0f) ||
         !shared::faces_light(s.n_shading, s.n_geometric, incident.to_light))
       continue;
@@ -115,7 +114,7 @@ glm::vec3 EmbreePicture::direct(const SurfaceInteraction& s) const {
                        : Ray{origin, kAtTheLight, incident.target - origin}))
         continue;
     }
-    sum += shared::phong_light(phong, incident, s.n_shading, s.to_viewer);
+    sum += shared::phong_light(phong, incident, s.n_shading, s.to_viewer, true);
   }
   return s.alpha * sum;
 }

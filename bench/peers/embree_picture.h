@@ -1,14 +1,14 @@
-// A whole picture of a scene over Embree's rays, one at a time and recursive, as a user of Embree writes it:
-// Phong, a shadow ray to each light, mirrors, glass, textures. Materials and mirrored rays are computed by
-// our functions, so that the picture is comparable; the shadow terminator is as it comes.
+// A whole picture of a scene with Embree's rays, one at a time and recursive, as a user of Embree writes it:
+// Phong, a shadow ray to each light, mirrors, glass, textures. Our functions compute materials and mirrored
+// rays, so that pictures can be compared. The shadow terminator is not treated.
 #pragma once
 
 #include <embree3/rtcore.h>
 
+#include "bench/one_ray/surface_at.h"
 #include "core/parallel/workers.h"
-#include "core/trace/footprint.h"
-#include "core/trace/shared.h"
-#include "core/trace/surface.h"
+#include "core/shade/footprint.h"
+#include "core/shade/shared.h"
 #include "pinocchio/image.h"
 #include "pinocchio/scene.h"
 
@@ -16,13 +16,13 @@ namespace pinocchio {
 
 class EmbreePicture {
  public:
-  // The scene stays where it is as long as this lives. depth: most bounces.
+  // The scene must outlive this object. depth: most bounces.
   EmbreePicture(const Scene& scene, int threads, int depth);
   ~EmbreePicture();
   EmbreePicture(const EmbreePicture&) = delete;
   EmbreePicture& operator=(const EmbreePicture&) = delete;
 
-  // Linear; of picture's size. Tiles of 8 x 8 pixels are shared out among the threads.
+  // Linear, of the picture's size. The threads share tiles of 8 x 8 pixels.
   void draw(const Camera& camera, Workers& workers, Image<glm::vec4>& picture) const;
 
  private:
@@ -35,7 +35,7 @@ class EmbreePicture {
   [[nodiscard]] SurfaceInteraction surface_of(const Hit& hit, const Ray& ray,
                                               const Footprint& footprint) const;
   [[nodiscard]] glm::vec3 direct(const SurfaceInteraction& surface) const;
-  // What comes along the ray, times `throughput`.
+  // The light along the ray, times `throughput`.
   [[nodiscard]] glm::vec4 seen(const Ray& ray, const glm::vec3& throughput, const Footprint& footprint,
                                int depth) const;
 

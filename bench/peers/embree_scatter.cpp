@@ -12,7 +12,7 @@ void push(const SurfaceInteraction& surface, const glm::vec3& direction, const g
   out.push_back({{offset_origin(surface, direction), kInfinity, direction}, throughput});
 }
 
-// About the shading normal, unless that sends the ray into the surface; then about the geometric one.
+// Mirrors about the shading normal, or about the geometric normal if the ray would enter the surface.
 glm::vec3 mirrored(const SurfaceInteraction& surface) {
   const glm::vec3 direction = glm::reflect(-surface.to_viewer, surface.n_shading);
   return glm::dot(direction, surface.n_geometric) > 0.0f
@@ -20,7 +20,7 @@ glm::vec3 mirrored(const SurfaceInteraction& surface) {
              : glm::reflect(-surface.to_viewer, surface.n_geometric);
 }
 
-// Likewise; zero beyond the critical angle. glm::refract takes the inverse of eta.
+// Refracts in the same way; zero beyond the critical angle. glm::refract takes the inverse of eta.
 glm::vec3 refracted(const SurfaceInteraction& surface, float eta) {
   const glm::vec3 direction = glm::refract(-surface.to_viewer, surface.n_shading, 1.0f / eta);
   return glm::dot(direction, surface.n_geometric) < 0.0f
@@ -28,8 +28,8 @@ glm::vec3 refracted(const SurfaceInteraction& surface, float eta) {
              : glm::refract(-surface.to_viewer, surface.n_geometric, 1.0f / eta);
 }
 
-// Share of unpolarised light that a smooth dielectric mirrors (Fresnel). eta: index of the side the
-// light goes to over the side it comes from; cos_in in [0, 1].
+// The share of unpolarised light that a smooth dielectric mirrors (Fresnel). eta: the index on the far side
+// divided by the index on the near side; cos_in in [0, 1].
 float fresnel_dielectric(float cos_in, float eta) {
   const float sin2_out = (1.0f - cos_in * cos_in) / (eta * eta);
   if (sin2_out >= 1.0f) return 1.0f;
@@ -49,7 +49,7 @@ void scatter(const SurfaceInteraction& surface, const glm::vec3& throughput, flo
   if (m.transmittance.x + m.transmittance.y + m.transmittance.z > 0.0f) {
     const float eta = surface.leaving ? 1.0f / m.ior : m.ior;
     const glm::vec3 through = refracted(surface, eta);
-    // Where the two normals disagree there may be no way through although Fresnel has a share for it.
+    // If the two normals disagree, there may be no refracted ray although Fresnel's share is not zero.
     const float share = through == glm::vec3(0.0f) ? 1.0f : fresnel_dielectric(cos_in, eta);
     push(surface, mirrored(surface), own * share, least, out);
     push(surface, through, own * (1.0f - share) * m.transmittance, least, out);

@@ -7,8 +7,8 @@
 #include "bench/rays/measure.h"
 #include "core/math/median.h"
 #include "core/parallel/start_thread.h"
-#include "core/trace/trace_tiles.h"
-#include "core/trace/view_params.h"
+#include "core/trace/tiles/trace_tiles.h"
+#include "core/trace/view/view_params.h"
 #include "pinocchio/animation.h"
 #include "pinocchio/error.h"
 #include "pinocchio/nodes.h"
@@ -21,7 +21,7 @@ struct Pose {
   std::shared_ptr<const Tracer> tracer;
 };
 
-// All of it goes once around the world's Y in four seconds.
+// The whole scene rotates once around the world's Y in four seconds.
 Scene turning(const Scene& scene) {
   const Part part{"all", scene, glm::mat4(1.0f)};
   Scene turned = assembled({&part, 1}).value();

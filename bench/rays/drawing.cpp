@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "core/trace/view_params.h"
+#include "core/trace/view/view_params.h"
 
 namespace pinocchio::bench {
 namespace {

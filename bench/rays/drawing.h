@@ -2,21 +2,21 @@
 
 #include <functional>
 
-#include "core/trace/trace_tiles.h"
+#include "core/trace/tiles/trace_tiles.h"
 
 namespace pinocchio::bench {
 
-// Of the scene's first camera, or of one that has the whole scene in view.
+// For the scene's first camera, or for one that sees the whole scene.
 [[nodiscard]] shared::ViewParams first_view(const Scene& scene, glm::ivec2 size);
 
-// One way to draw a frame, into images of its own, as the renderer does it: with the mask, and with what is
-// mirrored where something mirrors.
+// Draws a frame into images of its own, as the renderer does: with the mask, and with mirrored light if the
+// scene has mirrors.
 class Drawing {
  public:
-  // seen: hybrid's part, for ids that are given; null: all of it on the CPU.
+  // seen: the given ids, for hybrid's part; null: the CPU draws all of it.
   Drawing(const TraceJob& job, glm::ivec2 size, const Image<std::uint32_t>* seen = nullptr);
 
-  // on_rays: told of every batch of rays, by all threads.
+  // on_rays: called with every batch of rays, on all threads.
   void draw(const std::function<void(const RayBatch&)>& on_rays = nullptr);
 
   Image<std::uint32_t> ids;

@@ -6,7 +6,7 @@
 
 namespace pinocchio {
 
-// Of no time and every mask.
+// A ray at time 0 with all mask bits.
 [[nodiscard]] inline RTCRay to_embree(const Ray& ray) {
   RTCRay r{};
   r.org_x = ray.origin.x, r.org_y = ray.origin.y, r.org_z = ray.origin.z;

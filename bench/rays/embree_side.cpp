@@ -35,7 +35,7 @@ bool count_bytes(void* total, ssize_t bytes, bool) {
   return true;
 }
 
-// Embree says "blocked" by a negative tfar.
+// Embree reports a blocked ray with a negative tfar.
 Hit blocked_hit(float t_far) {
   return t_far < 0.0f ? Hit{0.0f, 0} : Hit{};
 }
@@ -177,7 +177,7 @@ void occluded_in(RTCScene scene, std::span<const Ray> rays, std::span<std::uint8
 
 struct EmbreeSide::Held {
   std::atomic<ssize_t> bytes{0};
-  std::vector<glm::vec3> positions;  // the scene's and one more: Embree reads 16 bytes at the last
+  std::vector<glm::vec3> positions;  // the scene's and one more: Embree reads 16 bytes at the last position
   RTCDevice device = nullptr;
   RTCScene scene = nullptr;
 
@@ -186,7 +186,7 @@ struct EmbreeSide::Held {
     if (device) rtcReleaseDevice(device);
   }
 
-  // The scene with its geometry, not yet built.
+  // The scene with its geometry, before the build.
   void attach(const Mesh& from, bool robust) {
     if (scene) rtcReleaseScene(scene);
     scene = rtcNewScene(device);

@@ -9,11 +9,11 @@
 
 namespace pinocchio::bench {
 
-// A scene as Embree holds it: built at high quality on all of `threads`.
+// An Embree scene, built at high quality on `threads` threads.
 class EmbreeSide {
  public:
-  // `robust`: Embree's watertight triangle test, slower; by default its fast one. Builds `repeat` times
-  // and keeps the last. `widest`: Embree uses no wider lanes. Throws EnvironmentError where Embree fails.
+  // `robust`: uses Embree's watertight triangle test, which is slower than the default. Builds `repeat` times
+  // and keeps the last. `widest`: the widest lanes of Embree. Throws EnvironmentError if Embree fails.
   EmbreeSide(const Mesh& mesh, bool robust, int threads, int repeat, Isa widest);
   ~EmbreeSide();
   EmbreeSide(const EmbreeSide&) = delete;
@@ -21,12 +21,12 @@ class EmbreeSide {
 
   [[nodiscard]] const BuildCost& cost() const { return cost_; }
 
-  // Backends over this scene, which must outlive them: rays one by one, and packets with the
-  // coherent flag: of 16, of 8 where it has no AVX-512.
+  // Backends for this scene, which must outlive them: single rays, and packets with the coherent flag, of 16
+  // rays, or of 8 without AVX-512.
   [[nodiscard]] std::unique_ptr<RayBackend> single() const;
   [[nodiscard]] std::unique_ptr<RayBackend> packets() const;
 
-  // Coherent packets of 16; blocked[i] = 1 where anything lies within ray i, else 0. Called by many threads.
+  // Traces coherent packets of 16: blocked[i] is 1 if ray i meets a triangle, else 0. Called on many threads.
   void occluded(std::span<const Ray> rays, std::span<std::uint8_t> blocked) const;
 
  private:
@@ -36,7 +36,7 @@ class EmbreeSide {
   bool has_avx512_;
 };
 
-// The version of Embree that this was compiled for.
+// The Embree version that this program was compiled for.
 [[nodiscard]] const char* embree_version();
 
 }  // namespace pinocchio::bench

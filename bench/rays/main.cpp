@@ -1,4 +1,4 @@
-// pinocchio-bench SCENE | --generate NAME: our tracer beside Embree on the rays of one frame.
+// pinocchio-bench SCENE | --generate NAME: compares our tracer with Embree on the rays of one frame.
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <array>
@@ -11,8 +11,8 @@
 #include "bench/rays/embree_side.h"
 #include "bench/rays/our_side.h"
 #include "bench/rays/report.h"
-#include "core/image/atomic_file.h"
-#include "core/trace/surface.h"
+#include "core/files/atomic_file.h"
+#include "core/shade/surface.h"
 #include "pinocchio/load.h"
 #include "scenes/generator/scenes.h"
 
@@ -21,7 +21,7 @@ namespace {
 
 constexpr glm::ivec2 kSize{800, 600};
 constexpr std::array<std::string_view, 4> kRaced{"primary", "shadow", "reflection", "second bounce"};
-constexpr float kMirror = 0.5f;  // reflectance where --mirror-all makes every material a mirror
+constexpr float kMirror = 0.5f;  // the reflectance with --mirror-all
 
 struct Options {
   std::string scene, generate, json;
@@ -31,6 +31,12 @@ struct Options {
   bool mirror_all = false, robust = false, no_pass = false, no_speeds = false, frame = false,
        known_eye = false, animation = false;
 };
+
+std::vector<std::string> isa_choices() {
+  std::vector<std::string> choices(kIsaNames.begin(), kIsaNames.end());
+  choices.emplace_back("all");
+  return choices;
+}
 
 void add_options(CLI::App& program, Options& o) {
   const auto scene = program.add_option("SCENE", o.scene, "glTF (.gltf, .glb) or OBJ file");
@@ -43,7 +49,7 @@ void add_options(CLI::App& program, Options& o) {
       .add_option(
           "--isa", o.isas,
           "SIMD level of ours, repeatable; all: every one of this processor (best). Embree has the widest")
-      ->check(CLI::IsMember({"scalar", "sse4", "avx2", "avx512", "all"}));
+      ->check(CLI::IsMember(isa_choices()));
   program.add_option("--tree", o.tree, "how our BSP tree is split (sah)")
       ->check(CLI::IsMember({"sah", "spatial-median", "object-median"}));
   program.add_option("--triangle-test", o.test, "how our rays meet a triangle (filtered)")
@@ -85,7 +91,7 @@ Scene scene_of(const Options& o) {
   return std::move(*scene);
 }
 
-// Whether it did: asked to, or because nothing in the scene mirrors.
+// Whether materials were made mirrors: on request, or because the scene has none.
 bool make_mirrors(Scene& scene, bool wanted) {
   const auto reflects = [](const Material& m) { return m.reflects(); };
   MeshData mesh = *scene.mesh;
@@ -95,13 +101,13 @@ bool make_mirrors(Scene& scene, bool wanted) {
   return true;
 }
 
-// Embree has no more lanes than ours at its widest; it has none narrower than SSE4.
+// Embree gets at most as many lanes as our widest. It has none narrower than SSE4.
 Isa widest(const Options& o) {
   const std::vector<Isa> isas = chosen_isas(o.isas);
   return *std::max_element(isas.begin(), isas.end());
 }
 
-// As Engine::prepare has it.
+// As in Engine::prepare.
 BuildOptions build_options(const Options& o, const Scene& scene) {
   BuildOptions tree{.rule = parse_name<SplitRule>(kSplitRuleNames, o.tree).value(),
                     .threads = o.threads,
@@ -133,7 +139,7 @@ void run(const Options& o) {
   std::vector<std::unique_ptr<Tracer>> tracers;
   RayBackends backends;
   for (const Isa isa : chosen_isas(o.isas)) {
-    BuildCost cost;  // the tree is the same for each: the first tells the time
+    BuildCost cost;  // all trees are the same: the first one is timed
     tracers.push_back(build_ours(scene.mesh, tree, isa, tracers.empty() ? o.build_repeat : 1, cost));
     if (tracers.size() == 1) report.ours = cost;
     backends.push_back(our_backend(*tracers.back()));

@@ -9,7 +9,7 @@
 namespace pinocchio::bench {
 namespace {
 
-// Two hits are one where they name one triangle or meet where two triangles do.
+// Two hits are the same if they have the same triangle, or the same place on two adjacent ones.
 constexpr float kSamePlace = 1e-5f;  // relative distance
 
 bool same(const Hit& a, const Hit& b) {

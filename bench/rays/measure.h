@@ -10,29 +10,29 @@
 
 namespace pinocchio::bench {
 
-// Median wall time of `repeat` calls of `run`, seconds; `prepare` comes before each and is not timed.
+// The median wall time of `repeat` calls of `run`, in seconds. `prepare` is called before each and not timed.
 [[nodiscard]] double median_seconds(int repeat, const std::function<void()>& prepare,
                                     const std::function<void()>& run);
 
-// Wall time of one call, seconds.
+// The wall time of one call, in seconds.
 [[nodiscard]] double seconds_of(const std::function<void()>& run);
 
-// Wall time of one backend for the rays of a set, loaded before; seconds.
+// The wall time of a backend for the loaded rays of a set, in seconds.
 [[nodiscard]] double seconds_of_tracing(RayBackend& backend, const RaySet& set, Workers& workers);
 
-// How fast one backend traced one set.
+// The speed of a backend for a set.
 struct Speed {
   std::string set;
   std::string backend;
   int threads = 1;
   std::size_t rays = 0;
-  double mrays = 0.0;      // million rays a second, median
-  std::size_t differ = 0;  // rays that the last backend answers otherwise
+  double mrays = 0.0;      // million rays per second, median
+  std::size_t differ = 0;  // rays with another result than the last backend's
 };
 
 using RayBackends = std::vector<std::unique_ptr<RayBackend>>;
 
-// Every backend over the set, taking turns, `repeat` times.
+// Runs all backends on the set, interleaved, `repeat` times.
 [[nodiscard]] std::vector<Speed> race(const RaySet& set, const RayBackends& backends, Workers& workers,
                                       int repeat);
 

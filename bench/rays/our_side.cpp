@@ -4,12 +4,12 @@
 
 #include "bench/rays/measure.h"
 #include "core/bsp/tree.h"
-#include "core/trace/ray_queue.h"
+#include "core/trace/rays/ray_queue.h"
 
 namespace pinocchio::bench {
 namespace {
 
-// Rays in columns, as the tile pass has them.
+// Rays in columns, as in the tile pass.
 class Ours final : public RayBackend {
  public:
   explicit Ours(const Tracer& tracer) : tracer_(tracer) {}
@@ -62,7 +62,7 @@ class Ours final : public RayBackend {
   std::vector<std::uint8_t> blocked_;
 };
 
-// What the vectors hold on to, not only what they use.
+// The vectors' capacity, not only their size.
 template <class Vector>
 std::size_t held(const Vector& v) {
   return v.capacity() * sizeof(typename Vector::value_type);

@@ -8,7 +8,7 @@
 
 namespace pinocchio::bench {
 
-// Builds the tree `repeat` times and returns the last, with the median time in `cost`.
+// Builds the tree `repeat` times and returns the last one, with the median time in `cost`.
 [[nodiscard]] std::unique_ptr<Tracer> build_ours(const std::shared_ptr<const Mesh>& mesh,
                                                  const BuildOptions& options, Isa isa, int repeat,
                                                  BuildCost& cost);

@@ -13,16 +13,16 @@ namespace pinocchio::bench {
 
 enum class Query { closest, any };
 
-// Rays of one kind out of one frame, in the order in which the renderer traces them.
+// The rays of one kind in a frame, in the renderer's order.
 struct RaySet {
   std::string name;
   Query query = Query::closest;
   std::vector<Ray> rays;
 };
 
-// The rays of one raytraced frame, of the scene's first camera (or one that has the whole scene in view), by
+// The rays of a raytraced frame of the scene's first camera (or of one that sees the whole scene), by
 // generation: "primary"; "shadow", of visible points; "reflection" and "shadow of reflection", mirrored or
-// refracted once; "second bounce" and its shadow; and so on. A kind that the frame has none of is left out.
+// refracted once; "second bounce" and its shadow; and so on. Kinds without rays are left out.
 [[nodiscard]] std::vector<RaySet> frame_ray_sets(const Scene& scene, const Tracer& tracer, glm::ivec2 size);
 
 }  // namespace pinocchio::bench

@@ -6,7 +6,7 @@
 
 #include "bench/rays/embree_side.h"
 #include "core/base/system_info.h"
-#include "core/image/atomic_file.h"
+#include "core/files/atomic_file.h"
 
 namespace pinocchio::bench {
 namespace {
@@ -15,7 +15,7 @@ bool is_ours(const Speed& speed) {
   return speed.backend.rfind("ours", 0) == 0;
 }
 
-// Embree's speed at the same: one by one, or in packets.
+// Embree's speed on the same rays: single, or in packets.
 const Speed& embrees(const Report& report, const Speed& ours, bool packets) {
   return *std::find_if(report.speeds.begin(), report.speeds.end(), [&](const Speed& s) {
     return s.set == ours.set && s.threads == ours.threads && !is_ours(s) &&
@@ -34,7 +34,7 @@ void print_row(const Report& report, const Speed& ours) {
               ours.mrays / std::max(single.mrays, packets.mrays), ours.differ);
 }
 
-// How long Embree takes for so many shadow rays alone, its better way.
+// Embree's time for that many shadow rays, in its faster way.
 double embrees_rays_ms(const Report& report, const ShadowPass& pass) {
   double mrays = 0.0;
   for (const Speed& s : report.speeds)
@@ -129,7 +129,7 @@ void save_report(const Report& report, const std::filesystem::path& file) {
   for (const ShadowPass& pass : report.shadow_passes) passes.push_back(to_json(pass));
   nlohmann::json& frames = json["frames"] = nlohmann::json::array();
   for (const WholeFrame& frame : report.frames) frames.push_back(to_json(frame, report.scene));
-  // A path may hold bytes that are no UTF-8: replaced, or dump would throw.
+  // A path may have bytes that are not UTF-8. They are replaced, because dump would throw.
   write_text(file, json.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + "\n");
 }
 

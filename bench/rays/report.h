@@ -10,13 +10,13 @@
 
 namespace pinocchio::bench {
 
-// Everything one run of the program found.
+// The results of a run of the program.
 struct Report {
   std::string scene;
   std::size_t triangles = 0;
   std::string tree;  // split rule
   bool robust = false;
-  bool all_mirrors = false;  // every material was made a mirror
+  bool all_mirrors = false;  // all materials are mirrors
   int repeat = 0;
   BuildCost ours, embree;
   std::vector<Speed> speeds;
@@ -24,10 +24,10 @@ struct Report {
   std::vector<WholeFrame> frames;
 };
 
-// Tables for people, on stdout.
+// Prints tables to stdout.
 void print_report(const Report& report);
 
-// The same and the machine, as JSON. Throws EnvironmentError where the file cannot be written.
+// Writes the same and the machine as JSON. Throws EnvironmentError if the file cannot be written.
 void save_report(const Report& report, const std::filesystem::path& file);
 
 }  // namespace pinocchio::bench

@@ -4,12 +4,12 @@
 #include <glm/gtc/matrix_transform.hpp>
 #include <optional>
 
+#include "bench/one_ray/passes.h"
+#include "bench/one_ray/surface_at.h"
 #include "bench/rays/measure.h"
 #include "core/math/median.h"
 #include "core/parallel/tiles.h"
-#include "core/trace/passes.h"
-#include "core/trace/surface.h"
-#include "core/trace/view_params.h"
+#include "core/trace/view/view_params.h"
 
 namespace pinocchio::bench {
 namespace {
@@ -24,7 +24,7 @@ Camera turned(Camera camera, int frame) {
   return camera;
 }
 
-// What a shadow pass did one pixel at a time, with Embree's rays.
+// The shadow pass, one pixel at a time, with Embree's rays.
 void embree_pass(const TraceJob& job, const EmbreeSide& embree, const Image<std::uint32_t>& ids, int bits,
                  MaskImage& mask) {
   const std::vector<shared::LightParams> lights = casting_light_params(job.scene);
@@ -73,7 +73,7 @@ ShadowPass measure(const Scene& scene, const Tracer& tracer, const EmbreeSide& e
   std::vector<double> ours, theirs;
   for (int frame = 0; frame < kFrames; ++frame) {
     TraceJob job{scene, tracer, workers, view_params(turned(camera, frame), size)};
-    job.options.terminator = Terminator::off;  // one ray a question on both sides
+    job.options.terminator = Terminator::off;  // one ray for each shadow on both sides
     Image<std::uint32_t> ids(size);
     trace_visibility(job, ids);
     MaskImage mask, embrees;

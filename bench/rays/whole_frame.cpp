@@ -10,7 +10,7 @@
 namespace pinocchio::bench {
 namespace {
 
-// Seconds of Embree for a set, its two ways apart.
+// Embree's seconds for a set, for each of its two ways.
 struct Times {
   std::vector<double> single, packets;
   [[nodiscard]] double best_ms() const { return 1e3 * std::min(median(single), median(packets)); }
@@ -30,7 +30,7 @@ std::vector<WholeFrame> measure_frames(const Scene& scene, const Tracer& tracer,
     Drawing raytrace(job, size), hybrid(job, size, &raytrace.ids);
     std::vector<double> raytrace_s, hybrid_s;
     std::vector<Times> theirs(sets.size());
-    for (int i = 0; i <= repeat; ++i) {  // one more: the first
+    for (int i = 0; i <= repeat; ++i) {  // one more, for the first frame
       raytrace_s.push_back(seconds_of([&] { raytrace.draw(); }));
       hybrid_s.push_back(seconds_of([&] { hybrid.draw(); }));
       for (std::size_t k = 0; k < sets.size(); ++k) {

@@ -9,20 +9,20 @@
 
 namespace pinocchio::bench {
 
-// A whole frame of ours beside Embree's time for exactly the frame's rays: all generations, all shadow rays.
+// A whole frame of ours, and Embree's time for the same rays: all generations, all shadow rays.
 struct WholeFrame {
-  std::string mode;  // "raytrace": all of it on the CPU; "hybrid": what it traces for ids that are given
+  std::string mode;  // "raytrace": all of it on the CPU; "hybrid": the CPU's part for given ids
   int threads = 1;
   std::string isa;
   std::size_t rays = 0;
   double first_ms = 0.0;        // ours, of the first frame
   double ours_ms = 0.0;         // median of the others
-  double embree_rays_ms = 0.0;  // each kind of rays the better way, one by one or in packets; medians
+  double embree_rays_ms = 0.0;  // each kind of rays in the faster way, single or in packets; medians
 
   [[nodiscard]] double ratio() const { return ours_ms / embree_rays_ms; }
 };
 
-// The scene's first camera at `size` pixels. Ours and Embree take turns, `repeat` times.
+// Measures the scene's first camera at `size` pixels, ours and Embree interleaved, `repeat` times.
 [[nodiscard]] std::vector<WholeFrame> measure_frames(const Scene& scene, const Tracer& tracer,
                                                      const EmbreeSide& embree, glm::ivec2 size,
                                                      const std::vector<Workers*>& on, int repeat);

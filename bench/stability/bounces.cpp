@@ -1,12 +1,12 @@
-// Mirrors and glass in closed rooms whose light is known: what leaks, or hits its own surface, changes it.
+// Mirrors and glass in closed rooms with known light: a ray that leaks or hits its own surface changes it.
 #include <array>
 #include <cmath>
 
+#include "bench/one_ray/passes.h"
 #include "bench/stability/count.h"
 #include "bench/stability/shapes.h"
 #include "core/reference/reference.h"
-#include "core/trace/trace_tiles.h"
-#include "core/trace/view_params.h"
+#include "core/trace/view/view_params.h"
 #include "scenes/generator/paint.h"
 
 namespace pinocchio::stability {
@@ -46,7 +46,7 @@ Drawn draw(const Scene& scene, const Camera& camera, const Method& method, int r
   return drawn;
 }
 
-// A room around it whose six sides glow, each as it alone does.
+// A room around the object with six sides that glow, each in a colour of its own.
 void append_glowing_room(MeshData& mesh, float size) {
   const MeshData room = box(glm::vec3(-8.0f * size), glm::vec3(8.0f * size), 1);
   append(mesh, room, glowing("", glm::vec3(0.2f)));
@@ -59,8 +59,8 @@ void append_glowing_room(MeshData& mesh, float size) {
   }
 }
 
-// Pixels of glass against the reference's. Glass spreads rays that are a hair apart: where the reference
-// itself changes within a thirtieth of a pixel, it cannot tell.
+// Compares pixels of glass with the reference's. Glass spreads rays that are close together: pixels where the
+// reference changes within a thirtieth of a pixel are not compared.
 FailureCount against_reference(MeshData mesh, float size, const Method& method, int rays) {
   constexpr int kDepth = 8;
   constexpr float kTolerance = 0.01f, kShift = 0.03f;
@@ -76,7 +76,7 @@ FailureCount against_reference(MeshData mesh, float size, const Method& method, 
   for (std::size_t i = 0; i < drawn.ids.pixels().size(); ++i) {
     if (drawn.ids[i] == kNoTriangle || !scene.mesh->material_of(drawn.ids[i]).transmits()) continue;
     ++drawn.count.trials;
-    const bool same = std::abs(drawn.radiance[i].x - expected[i].x) <= kTolerance;  // NaN is not
+    const bool same = std::abs(drawn.radiance[i].x - expected[i].x) <= kTolerance;  // false for NaN
     const bool steady = std::abs(beside[i].x - expected[i].x) <= kTolerance;
     drawn.count.excused += !same && !steady ? 1 : 0;
     drawn.count.failures += !same && (steady || !std::isfinite(drawn.radiance[i].x)) ? 1 : 0;
@@ -84,7 +84,7 @@ FailureCount against_reference(MeshData mesh, float size, const Method& method, 
   return drawn.count;
 }
 
-// As it is, and where an offset of one length for all is no longer small.
+// At the usual scale, and at one where a fixed offset is no longer small.
 constexpr std::array kSizes{1.0f, 0x1p-14f};
 
 // A ball of water in a ball of glass.
@@ -99,7 +99,7 @@ FailureCount glass_in_glass(const Method& method, int rays) {
   return count;
 }
 
-// From inside a block of glass: beyond the critical angle all is mirrored, many times over.
+// From inside a block of glass: beyond the critical angle there is total reflection, many times.
 FailureCount total_reflection(const Method& method, int rays) {
   FailureCount count;
   for (const float size : kSizes) {
@@ -110,8 +110,9 @@ FailureCount total_reflection(const Method& method, int rays) {
   return count;
 }
 
-// A closed room whose walls glow a little and keep all light: every bounce adds the same, so that every pixel
-// is that times `bounces`, if no ray gets out. `draw` draws its reflection; `error`: how far off by rounding.
+// A closed room with walls that glow a little and absorb nothing: every bounce adds the same light, so that
+// every pixel is that light times `bounces` if no ray leaks. `draw` draws its reflection; `error`: of
+// rounding.
 template <class Draw>
 FailureCount even_room(Material wall, int bounces, float error, const Draw& draw) {
   constexpr float kGlow = 0x1p-6f;
@@ -141,7 +142,7 @@ FailureCount mirror_to_mirror(const Method& method, int rays) {
   });
 }
 
-// Light by samples, of the environment and of `indirect` bounces between matt surfaces.
+// Sampled light, of the environment and of `indirect` bounces between matt surfaces.
 Drawn draw_samples(const Scene& scene, const Camera& camera, const Method& method, int rays, int indirect) {
   const int side = std::clamp(static_cast<int>(std::sqrt(static_cast<float>(rays) / 16.0f)), 16, 64);
   Drawn drawn{Image<std::uint32_t>(glm::ivec2(side)), {}, {}};
@@ -162,8 +163,8 @@ Drawn draw_samples(const Scene& scene, const Camera& camera, const Method& metho
 
 constexpr int kMattBounces = 8;
 
-// In a closed room with a bright sky around it nothing is lit. In the room stands a coarse ball that nearly
-// touches it.
+// In a closed room with a bright sky around it nothing is lit. A coarse ball in the room nearly touches the
+// walls.
 FailureCount sky_outside(const Method& method, int rays) {
   FailureCount count;
   for (const float size : kSizes) {

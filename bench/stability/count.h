@@ -6,7 +6,7 @@
 
 namespace pinocchio::stability {
 
-// Adds the processor time that this thread takes to a count: other work on the machine is left out.
+// Adds this thread's processor time to a count, so that other work on the machine does not count.
 class Timed {
  public:
   explicit Timed(FailureCount& count) : count_(count) {}
@@ -21,11 +21,11 @@ class Timed {
   double begin_s_ = thread_seconds();
 };
 
-// The closest hits; their time is the count's.
+// Traces closest hits and adds the time to the count.
 [[nodiscard]] std::vector<Hit> trace(const Tracer& tracer, const std::vector<Ray>& rays, FailureCount& count);
 
-// Rays that all have to hit something, by both questions: a miss of either is a failure, and so is a distance
-// that is not finite.
+// Traces rays that must all hit something, as closest hits and as occlusion: a miss of either is a failure,
+// and so is a distance that is not finite.
 [[nodiscard]] FailureCount count_misses(const Tracer& tracer, const std::vector<Ray>& rays);
 
 }  // namespace pinocchio::stability

@@ -36,8 +36,8 @@ FailureCount zeros_and_denormals(const Method& method, int rays) {
   return count_misses(method.tracer(mesh), odd);
 }
 
-// Along an axis through a vertex of a rough ball: the ray runs in planes that the ball is split at, and meets
-// the edges of several triangles at once.
+// Rays along an axis through a vertex of a rough ball: they lie in planes that split the ball, and meet the
+// edges of several triangles at once.
 FailureCount in_split_planes(const Method& method, int rays) {
   const MeshData mesh = ball(glm::vec3(0.0f), 1.0f, 32, 0.3f);
   Random random(52);
@@ -47,7 +47,7 @@ FailureCount in_split_planes(const Method& method, int rays) {
     const int axis = static_cast<int>(random.next() % 3);
     const float side = origin[axis] < 0.0f ? -1.0f : 1.0f;
     origin[axis] = random.between(-0.1f, 0.1f);
-    if (glm::length(origin) > 0.6f) continue;  // else it might begin outside
+    if (glm::length(origin) > 0.6f) continue;  // it might begin outside
     glm::vec3 direction(odd.size() % 2 == 0 ? 0.0f : -0.0f);
     direction[axis] = side;
     odd.push_back({origin, kInfinity, direction});
@@ -55,7 +55,7 @@ FailureCount in_split_planes(const Method& method, int rays) {
   return count_misses(method.tracer(mesh), odd);
 }
 
-// From points of a rough ball's own vertices, edges and sides, to its middle: the far side has to be hit.
+// Rays from a rough ball's vertices, edges and sides to its centre: they must hit the far side.
 FailureCount origins_on_surface(const Method& method, int rays) {
   const MeshData mesh = ball(glm::vec3(0.0f), 1.0f, 32, 0.1f);
   Random random(53);

@@ -1,4 +1,4 @@
-// Leaves with holes, one close behind the other: a ray that meets a hole starts anew behind it, up to 32
+// Leaves with holes, close behind each other: a ray that meets a hole continues behind it, up to 32
 // times.
 #include <array>
 #include <cmath>
@@ -7,15 +7,15 @@
 #include "bench/stability/count.h"
 #include "bench/stability/shapes.h"
 #include "core/reference/reference.h"
-#include "core/trace/jitter.h"
-#include "core/trace/trace_tiles.h"
-#include "core/trace/view_params.h"
+#include "core/trace/tiles/trace_tiles.h"
+#include "core/trace/view/jitter.h"
+#include "core/trace/view/view_params.h"
 
 namespace pinocchio::stability {
 namespace {
 
 constexpr int kSamples = 4, kMostSide = 48;
-// As it is, and where an offset of one length for all is longer than the way to the next leaf.
+// At the usual scale, and at one where a fixed offset is longer than the distance to the next leaf.
 constexpr std::array kLeafSizes{1.0f, 0x1p-14f};
 
 Scene leaves(float size) {
@@ -26,8 +26,8 @@ Scene leaves(float size) {
   return scene;
 }
 
-// What each sample of each pixel sees, and whether the light reaches it, against the reference's. At a hole's
-// edge, where that changes within 0.03 pixels, it cannot tell.
+// Compares each sample's triangle and shadow with the reference's, except at holes' edges, where the
+// reference changes within 0.03 pixels.
 FailureCount leaves_with_holes(const Method& method, int rays) {
   const int side = std::clamp(static_cast<int>(std::sqrt(static_cast<float>(rays) / 16.0f)), 16, kMostSide);
   FailureCount count;

@@ -5,7 +5,7 @@
 #include <fstream>
 #include <system_error>
 
-#include "core/image/atomic_file.h"
+#include "core/files/atomic_file.h"
 
 namespace pinocchio::stability {
 namespace {

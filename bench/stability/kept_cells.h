@@ -1,4 +1,4 @@
-// What a run of the tables has counted so far, as it is kept in their folder until they are whole.
+// The counts of an unfinished run of the tables, which are kept in their folder.
 #pragma once
 
 #include <filesystem>
@@ -11,17 +11,17 @@ namespace pinocchio::stability {
 
 class KeptCells {
  public:
-  // Reads what a run that was ended has left in DIR/stability-part.json. Errors: it is of another run, or
-  // cannot be read. `run`: what the counts depend on.
+  // Reads DIR/stability-part.json of an interrupted run. Errors: it is of another run, or cannot be read.
+  // `run`: the properties that the counts depend on.
   [[nodiscard]] static Expected<KeptCells> open(const std::filesystem::path& folder,
                                                 const nlohmann::json& run, bool restart);
 
-  // Null where it was not counted. A cell's "table", "case" and "method" name it.
+  // The cell with that "table", "case" and "method"; null: it is not counted yet.
   [[nodiscard]] const nlohmann::json* find(const std::string& table, const std::string& stress_case,
                                            const std::string& method) const;
-  // Writes the file, whole or not at all. Throws EnvironmentError.
+  // Writes the file whole or not at all. Throws EnvironmentError.
   void add(nlohmann::json cell);
-  // The tables are whole.
+  // Removes the file: the tables are complete.
   void remove() const;
 
  private:

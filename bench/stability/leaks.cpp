@@ -13,7 +13,7 @@ FailureCount of_ball(const Method& method, int rays, const glm::vec3& center, fl
   return count_misses(method.tracer(mesh), rays_at_edges(mesh, center, 0.3f * radius, rays));
 }
 
-// Random points of a rough ball from its middle: what the other troubles' cost is to be seen against.
+// Rays from a rough ball's centre to random points: the cost of other cases is compared with this one.
 FailureCount usual_rays(const Method& method, int rays) {
   const MeshData mesh = ball(glm::vec3(0.0f), 1.0f, 32, 0.3f);
   Random random(42);
@@ -44,7 +44,7 @@ FailureCount needles(const Method& method, int rays) {
   return count_misses(method.tracer(mesh), rays_at_edges(mesh, {0.0f, 0.0f, -0.5f}, 0.4f, rays));
 }
 
-// Some rays truly pass between: a failure is what the reference hits and the method misses.
+// Some rays really pass through: a failure is a ray that the reference hits and the method misses.
 FailureCount t_junctions(const Method& method, int rays) {
   const MeshData mesh = ball_with_t_junctions(32);
   const Tracer tracer = method.tracer(mesh);

@@ -9,7 +9,7 @@
 
 namespace pinocchio::stability {
 
-// One way to trace, to be driven to where it fails.
+// A way to trace, which is tested where methods fail.
 struct Method {
   std::string name = "default";
   BuildOptions tree{};
@@ -22,11 +22,11 @@ struct Method {
   }
 };
 
-// The default first; then each method that could stand in its place, one at a time: triangle tests, ray
-// offsets, remedies of the shadow terminator, tree builders, and every packet width that this processor has.
+// The default, and then each alternative, one at a time: triangle tests, ray offsets, treatments of the
+// shadow terminator, tree builders, and every packet width that this processor has.
 [[nodiscard]] std::vector<Method> all_methods();
 
-// The default but for its triangle test, its offset, or its terminator.
+// The default with another triangle test, offset or terminator.
 [[nodiscard]] Method with(TriangleTest test);
 [[nodiscard]] Method with(OffsetMethod offset);
 [[nodiscard]] Method with(Terminator terminator);

@@ -10,7 +10,7 @@
 namespace pinocchio::stability {
 namespace {
 
-// Darker than this is black: every surface of these scenes sends a tenth of a colour that is at least 0.2.
+// Darker pixels count as black: every surface of these scenes reflects a tenth of a colour of at least 0.2.
 constexpr float kBlack = 0.01f;
 
 std::vector<FrameResult> draw(Engine& engine, const Shot& shot, const Settings& settings, int side,

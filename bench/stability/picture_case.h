@@ -1,5 +1,5 @@
-// The stability suite's pictures: where GPU and CPU see different triangles, and where the camera moves
-// faster than the CPU's part follows. Every scene is closed and lit from everywhere a little, so no pixel
+// The stability suite's pictures: cases where GPU and CPU see different triangles, and where the camera moves
+// faster than the CPU can follow. Every scene is closed and has ambient light, so that no pixel
 // may be black.
 #pragma once
 
@@ -14,7 +14,7 @@
 
 namespace pinocchio::stability {
 
-// One way to share a frame between GPU and CPU.
+// A way to split a frame between GPU and CPU.
 struct DrawMethod {
   std::string name;
   Processor composite = Processor::gpu;
@@ -23,12 +23,12 @@ struct DrawMethod {
 // The default first.
 [[nodiscard]] std::vector<DrawMethod> all_draw_methods();
 
-// Trials are pixels; seconds, those of the whole drawing.
+// Trials are pixels. Seconds are those of the whole drawing.
 struct PictureFailureCount : FailureCount {
-  std::uint64_t other_ids = 0;  // where the rasteriser sees another triangle than the ray
-  double worst_there = 0.0;     // largest difference of such a pixel to the ray traced picture, linear
+  std::uint64_t other_ids = 0;  // pixels where the rasteriser and the ray see different triangles
+  double worst_there = 0.0;     // the largest difference of such a pixel to the ray traced picture, linear
   double mean_error = 0.0;      // of all pixels to the ray traced picture of the same camera, linear
-  std::uint64_t holes = 0;      // reprojected: pixels that no older frame had an answer for
+  std::uint64_t holes = 0;      // reprojected: pixels without a value in any older frame
 };
 
 struct PictureStressCase {
@@ -38,8 +38,8 @@ struct PictureStressCase {
   std::string_view failure = "black or NaN pixels";
 };
 
-// Grazing and sub-pixel triangles, near-plane clipping, leaves with holes, z-fighting planes; a fast turn, a
-// cut, object edges.
+// Grazing and sub-pixel triangles, near-plane clipping, leaves with holes, z-fighting planes; a fast
+// rotation, a cut, object edges.
 [[nodiscard]] std::span<const PictureStressCase> picture_cases();
 
 }  // namespace pinocchio::stability

@@ -12,7 +12,7 @@ namespace {
 
 constexpr int kStillFrames = 3, kMovingFrames = 8;
 
-// A closed box of half side 4 around the origin; `lit` puts a light in it.
+// A closed box of half side 4 around the origin. `lit`: with a light in it.
 MeshData room() {
   MeshData data;
   MeshBuilder mesh(data);
@@ -117,7 +117,7 @@ Shot grazing_triangles() {
   MeshBuilder mesh(data);
   mesh.use(matt("", {0.3f, 0.8f, 0.4f}));
   const glm::vec3 eye(0.05f, 0.02f, 3.4f);
-  for (int i = -20; i <= 20; ++i) {  // fins along the line of sight, each missing the eye by a thousandth
+  for (int i = -20; i <= 20; ++i) {  // fins along the line of sight, each a thousandth beside the eye
     const float angle = 0.02f * static_cast<float>(i) + 0.003f;
     const glm::vec3 along(std::sin(angle), 0.0f, -std::cos(angle)), aside(1e-3f, 0.0f, 0.0f), up(0, 1, 0);
     const glm::vec3 front = eye + along + aside, back = eye + 6.0f * along + aside;
@@ -144,7 +144,7 @@ Shot near_plane() {
   MeshBuilder mesh(data);
   mesh.use(matt("", {0.4f, 0.4f, 0.9f}));
   const glm::vec3 eye(3.999f, -0.5f, 3.0f);  // a thousandth from the wall
-  for (int i = 0; i < 20; ++i) {  // long bars that pass beside the eye, from before it to behind it
+  for (int i = 0; i < 20; ++i) {             // long bars beside the eye, from in front of it to behind it
     const float angle = glm::two_pi<float>() * static_cast<float>(i) / 20.0f;
     const glm::vec3 beside = 5e-4f * glm::vec3(std::cos(angle), std::sin(angle), 0.0f);
     mesh.triangle(eye + beside + glm::vec3(0, 0, 0.9f), eye + 1.2f * beside + glm::vec3(0, 0, 0.9f),

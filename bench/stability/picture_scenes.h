@@ -12,21 +12,21 @@ struct Shot {
   std::vector<Camera> cameras;
 };
 
-// Each in a closed room with a light that casts shadows; three frames of one camera.
-[[nodiscard]] Shot grazing_triangles();    // fins that are seen edge on
+// Each is in a closed room with a light that casts shadows, for three frames of one camera.
+[[nodiscard]] Shot grazing_triangles();    // fins seen edge on
 [[nodiscard]] Shot sub_pixel_triangles();  // ten thousand, most smaller than a pixel
-[[nodiscard]] Shot near_plane();  // walls that the eye all but touches, and bars through the near plane
-[[nodiscard]] Shot foliage();     // leaves with holes, one close behind the other
-[[nodiscard]] Shot z_fighting();  // two floors of other triangles in one plane
+[[nodiscard]] Shot near_plane();           // walls next to the eye, and bars through the near plane
+[[nodiscard]] Shot foliage();              // leaves with holes, close behind each other
+[[nodiscard]] Shot z_fighting();           // two floors of different triangles in one plane
 
 [[nodiscard]] Shot ball_touches_wall();  // a light with a radius that reaches through a wall
 [[nodiscard]] Shot ball_around_room();   // ... larger than the scene
-[[nodiscard]] Shot ball_inside_mesh();   // ... within a closed box
+[[nodiscard]] Shot ball_inside_mesh();   // ... inside a closed box
 [[nodiscard]] Shot rough_mirrors();  // of lobe exponents 0, 1e-3, 1 and 1e6, and a panel that grazes a wall
 
 // A room with a mirror ball and thin bars; eight frames.
 [[nodiscard]] Shot fast_turn();     // 30 degrees a frame
 [[nodiscard]] Shot cut();           // from one side of the room to the other, half way
-[[nodiscard]] Shot object_edges();  // past the bars, slowly
+[[nodiscard]] Shot object_edges();  // slowly past the bars
 
 }  // namespace pinocchio::stability

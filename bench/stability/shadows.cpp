@@ -1,10 +1,10 @@
-// Shadow rays at every scale: convex bodies shadow nothing of themselves, closed rooms let nothing in.
+// Shadow rays at every scale: convex bodies do not shadow themselves, and no light enters closed rooms.
 #include <array>
 #include <cmath>
 
+#include "bench/one_ray/surface_at.h"
 #include "bench/stability/count.h"
 #include "bench/stability/shapes.h"
-#include "core/trace/surface.h"
 #include "pinocchio/nodes.h"
 
 namespace pinocchio::stability {
@@ -20,10 +20,10 @@ struct Set {
   Light light{};
   glm::vec3 center{0.0f};
   float half_side = 0.0f;  // of the room
-  float clear = 0.0f;      // points nearer than this to the room's other sides are not asked; 0: all are
+  float clear = 0.0f;      // points nearer than this to the room's other sides are not tested; 0: all are
 };
 
-// Whether the point is farther than `clear` from all sides of the room but its own.
+// Whether the point is farther than `clear` from all sides of the room except its own.
 bool is_clear(const Set& set, const SurfaceInteraction& surface) {
   if (set.clear == 0.0f) return true;
   for (int axis = 0; axis < 3; ++axis) {
@@ -33,7 +33,7 @@ bool is_clear(const Set& set, const SurfaceInteraction& surface) {
   return true;
 }
 
-// Shadow rays from what random rays out of the eye see, towards the light.
+// Shadow rays to the light from the hits of random rays from the eye.
 std::vector<Ray> shadow_rays(const Set& set, const Tracer& tracer, Terminator terminator, int rays) {
   Random random(71);
   std::vector<Ray> primary;
@@ -79,7 +79,7 @@ Light light_at(const glm::vec3& position) {
   return light;
 }
 
-// Half of the rays to the light, half to one as far away as the sun, the same way from the scene's middle.
+// Half of the rays to the light, half to one in the same direction that is as far away as the sun.
 FailureCount near_and_far(Set set, const Method& method, int rays, bool expected) {
   FailureCount count = count_shadows(set, method, rays / 2, expected);
   set.light.kind = Light::Kind::directional;
@@ -93,8 +93,8 @@ Set lit_body(float size, const glm::vec3& center) {
           light_at(center + size * glm::vec3(4, 5, 2)), center};
 }
 
-// A room seen from inside, the light outside it: every shadow ray has to be stopped. Where floats stand so
-// far apart that a point beside a corner cannot be told from one behind the next wall, none is asked.
+// A room seen from inside, with the light outside: every shadow ray must be blocked. Points are not tested
+// where floats are so far apart that points beside a corner and behind the next wall are the same.
 Set dark_room(float size, const glm::vec3& center) {
   const float spacing = 0x1p-23f * glm::length(center);
   return {box(center - glm::vec3(size), center + glm::vec3(size), 4),
@@ -105,7 +105,7 @@ Set dark_room(float size, const glm::vec3& center) {
           2.0f * spacing};
 }
 
-// Of a convex body every point sees all of a light that is above its horizon, wherever the light is.
+// Every point of a convex body sees all of a light above its horizon, wherever the light is.
 Set with_ball(Set set, const glm::vec3& center, float radius) {
   set.light.position = center;
   set.light.radius = radius;
@@ -120,7 +120,7 @@ Set touched_by_ball(float size, const glm::vec3& center) {
 Set within_ball(float size, const glm::vec3& center) {
   return with_ball(lit_body(size, center), center + size * glm::vec3(1, 0, 0), 8.0f * size);
 }
-// The light's ball is around the closed room, and shines into it from all sides.
+// The light's sphere surrounds the closed room and shines on it from all sides.
 Set room_within_ball(float size, const glm::vec3& center) {
   return with_ball(dark_room(size, center), center + size * glm::vec3(0.5f, 0.25f, 0.0f), 8.0f * size);
 }
@@ -146,7 +146,7 @@ FailureCount moved(const Method& method, int rays) {
   return count;
 }
 
-// Seen through a node that mirrors, flattens, shrinks or blows up: convex bodies stay convex, closed rooms
+// Under a node that mirrors, flattens, shrinks or enlarges: convex bodies stay convex, and closed rooms
 // closed.
 glm::mat4 scaling(float x, float y, float z) {
   return glm::mat4(glm::mat3(x, 0, 0, 0, y, 0, 0, 0, z));
@@ -197,7 +197,7 @@ FailureCount beside_one_far_larger(const Method& method, int rays) {
   return count_shadows({mesh, {0.5f, 2.0f, 0.5f}, light_at({3.0f, 2.0f, 1.0f})}, method, rays, false);
 }
 
-// A panel that lies in the plane of a floor, and one that stands on it, on its edge.
+// A panel in the plane of a floor, and one that stands on the floor on its edge.
 FailureCount grazing_panel(const Method& method, int rays) {
   FailureCount count;
   const MeshData body = octahedron(glm::vec3(0.0f), 1.0f, 4);
@@ -212,7 +212,7 @@ FailureCount grazing_panel(const Method& method, int rays) {
   return count;
 }
 
-// A ball of radius 0, and a disc of none, are the point and the direction: the same light, the same ray.
+// A sphere of radius 0 and a disc of diameter 0 are a point and a direction: the same light, the same ray.
 FailureCount no_radius(const Method& /*method*/, int rays) {
   FailureCount count;
   Random random(73);
@@ -221,7 +221,7 @@ FailureCount no_radius(const Method& /*method*/, int rays) {
     if (i % 2 == 1) light.kind = Light::Kind::directional, light.direction = glm::normalize(light.position);
     const shared::LightParams params = light_params(light);
     const glm::vec3 p = random_point(random, 5.0f);
-    const shared::Incident hard = shared::incident_light(params, p);
+    const shared::Incident hard = shared::incident_light(params, params.position, p);
     const glm::vec2 square(random.between(0.0f, 1.0f), random.between(0.0f, 1.0f));
     const shared::Incident sampled = shared::sampled_light(params, p, square);
     ++count.trials;
@@ -237,7 +237,8 @@ MeshData coarse_ball() {
   return ball(glm::vec3(0.0f), 1.0f, 12);
 }
 
-// A light that grazes a smooth ball of few triangles: what faces it is lit, as the ball is convex.
+// A light that grazes a smooth ball of few triangles: points that face it are lit, because the ball is
+// convex.
 FailureCount grazing_light(const Method& method, int rays) {
   FailureCount count;
   for (const float height : {0.0f, 0.5f, 2.0f})

@@ -1,4 +1,4 @@
-// Closed meshes and rays from inside them: whatever leaves without a hit has leaked.
+// Closed meshes and rays from inside them: a ray without a hit has leaked.
 #pragma once
 
 #include <vector>
@@ -12,14 +12,14 @@ namespace pinocchio::stability {
 // Appends a flat triangle of the mesh's last material, degenerate or not; a mesh without material gets one.
 void add(MeshData& mesh, const glm::vec3& a, const glm::vec3& b, const glm::vec3& c);
 
-// A ball whose vertices are moved in and out by up to `rough` of the radius; smooth normals.
+// A ball with vertices moved in and out by up to `rough` of the radius, and smooth normals.
 [[nodiscard]] MeshData ball(const glm::vec3& center, float radius, int around, float rough = 0.0f);
 
-// A box, each side cells x cells squares. With corners and cells that are powers of two every coordinate is
-// exact, wherever it stands.
+// A box with sides of cells x cells squares. If corners and cells are powers of two, every coordinate is
+// exact at any place.
 [[nodiscard]] MeshData box(const glm::vec3& lo, const glm::vec3& hi, int cells);
 
-// An octahedron of this `radius`, each side cells x cells triangles that lie exactly in one plane.
+// An octahedron of this `radius` with sides of cells x cells triangles that lie exactly in one plane.
 [[nodiscard]] MeshData octahedron(const glm::vec3& center, float radius, int cells);
 
 // A cube around the origin whose side towards +z is mostly strips a millionth as wide as they are long.
@@ -28,18 +28,18 @@ void add(MeshData& mesh, const glm::vec3& a, const glm::vec3& b, const glm::vec3
 // Two cones base to base: `around` triangles meet at either tip.
 [[nodiscard]] MeshData double_cone(int around);
 
-// A rough ball, of whose edges some are halved on one side only: the middle lies beside the edge by its
-// rounding, and leaves a gap or not.
+// A rough ball with some edges that are halved on one side only: rounding moves the middle off the edge,
+// which may leave a gap.
 [[nodiscard]] MeshData ball_with_t_junctions(int around);
 
-// Square leaves of half side `size` across z, one behind the other, of whose texels three in ten are solid:
-// an alpha mask of a material of their own.
+// Square leaves of half side `size` across z, one behind the other, with an alpha mask in a material of their
+// own. Three in ten texels are solid.
 void add_leaves(MeshData& mesh, const glm::vec3& center, float size, int layers);
 
 [[nodiscard]] glm::vec3 random_point(Random& random, float reach);
 [[nodiscard]] glm::vec3 corner(const MeshData& mesh, std::uint32_t triangle, int i);
 
-// From around `center`, by up to `reach`, towards vertices (one in four) and points on edges.
+// Rays from points within `reach` of `center` towards vertices (one in four) and points on edges.
 [[nodiscard]] std::vector<Ray> rays_at_edges(const MeshData& mesh, const glm::vec3& center, float reach,
                                              int rays);
 

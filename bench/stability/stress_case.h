@@ -1,5 +1,6 @@
-// The stability suite: what ray tracers stumble over, and how often a method does. tests/stability holds the
-// default methods to zero; `pinocchio chart --stability` prints the table.
+// The stability suite: difficult cases for ray tracers, and the number of a method's failures.
+// tests/stability requires zero failures of the default methods; `pinocchio chart --stability` prints the
+// table.
 #pragma once
 
 #include <cstdint>
@@ -10,12 +11,12 @@
 
 namespace pinocchio::stability {
 
-// What came of one case.
+// The result of a case.
 struct FailureCount {
   std::uint64_t trials = 0;
   std::uint64_t failures = 0;
-  std::uint64_t excused = 0;  // misses that are the scene's fault, by the reference in double
-  double seconds = 0.0;       // of the tracing alone, of a processor
+  std::uint64_t excused = 0;  // misses that are the scene's fault, according to the reference in double
+  double seconds = 0.0;       // processor time of tracing alone
 
   FailureCount& operator+=(const FailureCount& o) {
     trials += o.trials;
@@ -28,9 +29,9 @@ struct FailureCount {
 
 struct StressCase {
   std::string_view name;
-  std::string_view failure;  // what is counted
-  // rays: how many trials to make, about; at edges five times as many, where each is dear fewer. They are the
-  // same ones for every method.
+  std::string_view failure;  // the counted failures
+  // rays: the approximate number of trials: five times as many at edges, fewer where a trial is expensive.
+  // All methods have the same trials.
   FailureCount (*run)(const Method& method, int rays);
 };
 

@@ -5,7 +5,7 @@
 
 #include "bench/stability/picture_case.h"
 #include "core/base/system_info.h"
-#include "core/image/atomic_file.h"
+#include "core/files/atomic_file.h"
 
 namespace pinocchio::stability {
 namespace {
@@ -35,7 +35,7 @@ nlohmann::json to_json(const Cell& c) {
 FailureCount count_of(const nlohmann::json& cell) {
   return {cell["trials"], cell["failures"], cell["excused"], cell["seconds"]};
 }
-// What of a kept cell a count does not hold.
+// The members of a kept cell that a count does not have.
 nlohmann::json details(const nlohmann::json& cell) {
   nlohmann::json more = cell;
   for (const char* key :
@@ -44,7 +44,7 @@ nlohmann::json details(const nlohmann::json& cell) {
   return more;
 }
 
-// Runs every case by every method, but for what is kept. False where `after_cell` says so.
+// Runs every case with every method, except kept cells. False: `after_cell` returned false.
 template <class StressCases, class Methods, class Run>
 bool fill(const StressCases& cases, const Methods& methods, const Run& run,
           const std::function<bool()>& after_cell, KeptCells& kept, Table& table) {
@@ -86,7 +86,7 @@ std::string text_of(const Cell& cell) {
   std::string text = std::to_string(cell.count.failures);
   if (!cell.more.contains("other_ids"))
     text += " (" + number("%.2f", cell.ratio) + ")";
-  else  // whose times, of all threads and the GPU, say little on a busy machine: they are in the files
+  else  // times of all threads and the GPU mean little on a busy machine: they are only in the files
     text += ", ids " + std::to_string(cell.more["other_ids"].get<std::uint64_t>()) + ", mean " +
             number("%.4f", cell.more["mean_difference"].get<double>());
   if (cell.more.contains("holes") && cell.more["holes"] != 0)
@@ -94,7 +94,8 @@ std::string text_of(const Cell& cell) {
   return text;
 }
 
-// A column a method, a row a case: failures, and in brackets the time beside the default's.
+// A column for each method, a row for each case: failures, and in brackets the time relative to the
+// default's.
 std::string markdown(const Table& table) {
   std::string text = "| case | of | counted |";
   for (const std::string& method : table.methods) text += " " + method + " |";
@@ -127,7 +128,7 @@ std::string csv_lines(const Table& table) {
   return text;
 }
 
-// Failures of the defaults: the first column.
+// The defaults' failures: the first column.
 std::uint64_t default_failures(const Table& table) {
   std::uint64_t sum = 0;
   for (std::size_t i = 0; i < table.cells.size(); i += table.methods.size())

@@ -1,4 +1,4 @@
-// Every method driven to where methods fail: failures and cost on two tables, of rays and of pictures.
+// Every method in every difficult case: failures and cost in two tables, of rays and of pictures.
 #pragma once
 
 #include <cstdint>
@@ -18,7 +18,7 @@ namespace pinocchio::stability {
 struct Cell {
   std::string stress_case, failure, method;
   FailureCount count;
-  double ratio = 0.0;  // of the seconds to the default's, in the same run
+  double ratio = 0.0;  // of the seconds to the default's seconds in the same run
   nlohmann::json more;
 };
 
@@ -37,14 +37,14 @@ struct Tables {
   void write(const std::filesystem::path& folder) const;
 };
 
-// How many cells the two have.
+// The number of cells of the two tables.
 [[nodiscard]] std::size_t table_cells();
 
-// What counts depend on, beside the case and the method.
+// The properties that counts depend on, besides the case and the method.
 [[nodiscard]] nlohmann::json run_json(bool quick);
 
-// quick: a hundredth of the rays, small pictures. Takes the cells that are kept and keeps those that it
-// counts. Calls `after_cell` after each; nothing comes back where it says false.
+// quick: a hundredth of the rays, small pictures. Uses kept cells and keeps those that it counts. Calls
+// `after_cell` after each cell. Empty: `after_cell` returned false.
 [[nodiscard]] std::optional<Tables> make_tables(Engine& engine, bool quick,
                                                 const std::function<bool()>& after_cell, KeptCells& kept);
 

@@ -1,12 +1,12 @@
-// Where shading normals face a light and facets do not: dark facets on coarse meshes, and, for the remedies,
-// light where there is none.
+// Points where shading normals face a light and facets do not: dark facets on coarse meshes, and, with the
+// treatments, light at points that should be dark.
 #include <algorithm>
 #include <array>
 #include <cmath>
 
+#include "bench/one_ray/surface_at.h"
 #include "bench/stability/count.h"
 #include "bench/stability/shapes.h"
-#include "core/trace/surface.h"
 
 namespace pinocchio::stability {
 namespace {
@@ -17,7 +17,7 @@ Light point_light(const glm::vec3& position) {
   return light;
 }
 
-// What rays out of the eye towards points around the origin see, of triangles below `end`.
+// The hits of rays from the eye to points around the origin, on triangles below `end`.
 std::vector<SurfaceInteraction> seen_points(const Tracer& tracer, const glm::vec3& eye, std::uint32_t end,
                                             int rays, FailureCount& count) {
   Random random(72);
@@ -32,7 +32,7 @@ std::vector<SurfaceInteraction> seen_points(const Tracer& tracer, const glm::vec
   return points;
 }
 
-// How many of the points the light reaches.
+// The number of points that the light reaches.
 std::uint64_t count_lit(const Tracer& tracer, const std::vector<SurfaceInteraction>& points,
                         const Light& light, Terminator terminator, FailureCount& count) {
   const shared::LightParams params = light_params(light);
@@ -60,8 +60,8 @@ std::uint64_t count_lit(const Tracer& tracer, const std::vector<SurfaceInteracti
   return static_cast<std::uint64_t>(std::count(blocked.begin(), blocked.end(), 0));
 }
 
-// A ball is convex: whatever point of it the smooth ball's normal turns to the light is lit. All others show
-// the facets as an edge between light and dark.
+// A ball is convex: every point where the smooth ball's normal faces the light is lit. Other points would
+// show the facets as edges between light and dark.
 FailureCount dark_facets(const Method& method, int rays) {
   FailureCount count;
   for (const int around : {6, 12, 24}) {
@@ -80,7 +80,7 @@ FailureCount dark_facets(const Method& method, int rays) {
   return count;
 }
 
-// `inner` within closed walls, and a light outside: none of it is lit.
+// `inner` inside closed walls, with a light outside: nothing is lit.
 FailureCount behind_walls(const MeshData& inner, const MeshData& walls, const glm::vec3& eye,
                           const Method& method, int rays) {
   MeshData mesh = inner;
@@ -101,7 +101,7 @@ FailureCount behind_walls(const MeshData& inner, const MeshData& walls, const gl
   return count;
 }
 
-// A coarse ball that nearly touches the walls: its curved surface reaches through them. The eye is between
+// A coarse ball that nearly touches the walls: its curved surface extends through them. The eye is between
 // the two.
 FailureCount tight_room(const Method& method, int rays) {
   const float side = 1.0f + 0x1p-7f;
@@ -109,7 +109,7 @@ FailureCount tight_room(const Method& method, int rays) {
                       glm::vec3(0.95f * side), method, rays);
 }
 
-// A cube whose eight normals are the means of its sides', as smoothing of a whole mesh makes them.
+// A cube with eight normals that are means of its sides' normals, as after smoothing a whole mesh.
 MeshData smoothed_cube(float half_side, bool inwards) {
   MeshData mesh = box(glm::vec3(-half_side), glm::vec3(half_side), 1);
   for (std::size_t i = 0; i < mesh.positions.size(); ++i)
@@ -117,13 +117,13 @@ MeshData smoothed_cube(float half_side, bool inwards) {
   return mesh;
 }
 
-// Large triangles: under a closed shell a tenth of its size away.
+// Large triangles under a closed shell, at a tenth of its size.
 FailureCount smoothed_cube_in_shell(const Method& method, int rays) {
   return behind_walls(smoothed_cube(1.0f, false), box(glm::vec3(-1.125f), glm::vec3(1.125f), 4),
                       glm::vec3(1.1f, 1.05f, 1.09f), method, rays);
 }
 
-// A room whose own walls are smoothed; the eye is in it.
+// A room with smoothed walls; the eye is inside.
 FailureCount smoothed_room(const Method& method, int rays) {
   FailureCount count;
   for (const bool inwards : {false, true})
@@ -131,7 +131,7 @@ FailureCount smoothed_room(const Method& method, int rays) {
   return count;
 }
 
-// Normals that have nothing to do with the surface.
+// Normals that do not depend on the surface.
 FailureCount inconsistent_normals(const Method& method, int rays) {
   MeshData room = box(glm::vec3(-1.0f), glm::vec3(1.0f), 4), body = ball(glm::vec3(0.0f), 0.5f, 12);
   Random random(73);

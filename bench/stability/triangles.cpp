@@ -19,7 +19,7 @@ std::vector<Ray> rays_within(const glm::vec3& center, float reach, int rays) {
   return result;
 }
 
-// Points, segments and slivers of one line in a room: the answer is the room's as if they were not there.
+// Points, segments and slivers on a line in a room: rays hit the room as if they were not there.
 FailureCount degenerate(const Method& method, int rays) {
   const MeshData room = box(glm::vec3(-2.0f), glm::vec3(2.0f), 4);
   MeshData mesh = room;
@@ -27,7 +27,7 @@ FailureCount degenerate(const Method& method, int rays) {
   for (int i = 0; i < 2000; ++i) {
     const glm::vec3 a = random_point(random, 1.0f);
     const glm::vec3 step(0.0f, 0.25f, 0.5f), b = a + random_point(random, 1.0f);
-    const glm::vec3 on_line = glm::round(a * 16.0f) / 16.0f;  // so that three steps are exactly in line
+    const glm::vec3 on_line = glm::round(a * 16.0f) / 16.0f;  // three steps are exactly in line
     if (i % 3 == 0) add(mesh, a, a, a);
     if (i % 3 == 1) add(mesh, a, b, b);
     if (i % 3 == 2) add(mesh, on_line, on_line + step, on_line + 2.0f * step);
@@ -41,7 +41,7 @@ FailureCount degenerate(const Method& method, int rays) {
   return count;
 }
 
-// Everything nine times: of equal triangles the first is seen.
+// Nine copies of everything: of equal triangles the first one is seen.
 FailureCount duplicates(const Method& method, int rays) {
   const MeshData once = ball(glm::vec3(0.0f), 1.0f, 16, 0.3f);
   MeshData mesh = once;
@@ -57,7 +57,7 @@ FailureCount duplicates(const Method& method, int rays) {
   return count;
 }
 
-// Large and small triangles over each other in one plane, none of whose edges agree.
+// Large and small triangles over each other in one plane, without common edges.
 FailureCount coplanar(const Method& method, int rays) {
   MeshData mesh;
   Random random(63);

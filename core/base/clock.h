@@ -4,7 +4,7 @@
 
 namespace pinocchio {
 
-// The steady clock, seconds: the one time base of all stages (gl::GpuClock turns the GPU's to it).
+// The steady clock, seconds: the one time base of all stages (gl::GpuClock converts the GPU's to it).
 [[nodiscard]] inline double now_s() {
   return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
 }

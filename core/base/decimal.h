@@ -1,4 +1,4 @@
-// Numbers as text with a decimal point, whatever locale the program is in; printf, strtod and streams ask it.
+// Numbers as text with a decimal point, in every locale; printf, strtod and streams follow the locale.
 #pragma once
 
 #include <algorithm>
@@ -11,7 +11,7 @@
 
 namespace pinocchio {
 
-// As printf's %.*g in the C locale. Nine digits bring every float back to the last bit.
+// As printf's %.*g in the C locale. Nine digits reproduce every float exactly.
 inline std::string decimal(double value, int digits = 6) {
   std::array<char, 64> text{};
   const auto end =
@@ -43,7 +43,7 @@ std::from_chars_result read_decimal(std::string_view text, T& value) {
   std::from_chars_result result = std::from_chars(text.data(), text.data() + text.size(), value);
   if constexpr (std::is_floating_point_v<T>)
     if (result.ec == std::errc::result_out_of_range) {
-      const std::string_view number = text.substr(0, static_cast<std::size_t>(result.ptr - text.data()));
+      const std::string_view number = text.substr(0, result.ptr - text.data());
       value = is_below_one(number) ? T{0} : std::numeric_limits<T>::infinity();
       if (number.starts_with('-')) value = -value;
       result.ec = std::errc();

@@ -1,4 +1,4 @@
-// Memory for what is as large as a file.
+// Memory for arrays as large as a file.
 #pragma once
 
 #include <sys/mman.h>
@@ -11,9 +11,8 @@
 
 namespace pinocchio {
 
-// Asks for pages of 2 MiB, as far as whole ones lie in it: pages of 4 KiB, which the system gives one by one
-// as they are first written, take longer than what is written there. A wish: where it is not granted, small
-// pages serve.
+// Requests pages of 2 MiB for the whole ones inside. The system provides pages of 4 KiB one by one as they
+// are first written, which takes longer than the writing. Without large pages, small ones are used.
 inline void prefer_large_pages([[maybe_unused]] void* memory, [[maybe_unused]] std::size_t bytes) {
 #ifdef MADV_HUGEPAGE
   constexpr std::uintptr_t kLargePage = std::uintptr_t{1} << 21;
@@ -30,7 +29,7 @@ void reserve_large(std::vector<T, Allocator>& vector, std::size_t count) {
   prefer_large_pages(vector.data(), vector.capacity() * sizeof(T));
 }
 
-// Makes room for so many; where it has to move, for twice as many as there was room for.
+// Makes room for `count`; at least doubles the capacity where it grows.
 template <class T>
 void grow_large(std::vector<T>& vector, std::size_t count) {
   if (count > vector.capacity())
@@ -44,7 +43,7 @@ void resize_large(std::vector<T>& vector, std::size_t count, const T& value = T(
   vector.resize(count, value);
 }
 
-// Sets the new elements once, where resizing and copying would twice.
+// Writes the new elements once; resizing and copying would write them twice.
 template <class T>
 void append_large(std::vector<T>& vector, std::span<const T> more) {
   grow_large(vector, vector.size() + more.size());

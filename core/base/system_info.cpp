@@ -22,7 +22,7 @@ SystemInfo system_info() {
 std::size_t peak_memory_bytes() {
   rusage usage{};
   getrusage(RUSAGE_SELF, &usage);
-  return static_cast<std::size_t>(usage.ru_maxrss) * 1024;  // Linux counts KiB
+  return usage.ru_maxrss * 1024;  // Linux counts KiB
 }
 
 const char* version() {

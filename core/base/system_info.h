@@ -6,13 +6,13 @@
 namespace pinocchio {
 
 struct SystemInfo {
-  std::string cpu;  // model name, "unknown" where the system does not tell
+  std::string cpu;  // model name; "unknown" if the system does not say
   int cores = 1;    // that this process may use
 };
 
 [[nodiscard]] SystemInfo system_info();
 
-// The most memory that this process has had at a time, bytes; pages of its program and libraries included.
+// The peak memory of this process in bytes, including pages of its program and libraries.
 [[nodiscard]] std::size_t peak_memory_bytes();
 
 // The project's version, as in the EXR and --version.

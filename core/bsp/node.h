@@ -5,15 +5,15 @@
 
 namespace pinocchio {
 
-// Node of the binary space partition, 8 bytes, eight a cache line. The children of an inner node stand
-// side by side, the one below the split plane first.
+// Node of the binary space partition, 8 bytes, eight a cache line. The children of an inner node are
+// adjacent, the one below the split plane first.
 class BspNode {
  public:
   static BspNode inner(int axis, float split, std::uint32_t first_child) {
     assert(axis >= 0 && axis < 3 && first_child <= kMaxPayload);
     BspNode node;
     node.split_ = split;
-    node.bits_ = first_child << 2 | static_cast<std::uint32_t>(axis);
+    node.bits_ = first_child << 2 | axis;
     return node;
   }
   // References [first, first + count) in BspTree::references.
@@ -26,7 +26,7 @@ class BspNode {
   }
 
   [[nodiscard]] bool is_leaf() const { return (bits_ & 3u) == kLeafTag; }
-  [[nodiscard]] int axis() const { return static_cast<int>(bits_ & 3u); }
+  [[nodiscard]] int axis() const { return bits_ & 3u; }
   [[nodiscard]] float split() const { return split_; }
   [[nodiscard]] std::uint32_t first_child() const { return bits_ >> 2; }
   [[nodiscard]] std::uint32_t first_reference() const { return first_; }

@@ -20,7 +20,7 @@ ProjectedTriangle ProjectedTriangle::from(const glm::vec3& a, const glm::vec3& b
   const double det = n[k] != 0.0 ? n[k] : std::numeric_limits<double>::quiet_NaN();
   ProjectedTriangle triangle{};
   for (int i = 0; i < 3; ++i) triangle.a[i] = a[i];
-  triangle.k = static_cast<std::uint32_t>(k);
+  triangle.k = k;
   triangle.n_u = static_cast<float>(n[u] / det);
   triangle.n_v = static_cast<float>(n[v] / det);
   triangle.beta_u = static_cast<float>(ac[v] / det);

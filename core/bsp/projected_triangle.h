@@ -5,10 +5,10 @@
 
 namespace pinocchio {
 
-// A triangle prepared for the projected test (Wald, PhD thesis 2004, section 7.1): it is dropped along
-// its normal's longest axis k, and the ray's point in its plane is looked up in the plane (u, v) =
-// (k+1, k+2) mod 3. Coordinates are kept relative to vertex A rather than to the origin, which the thesis
-// does not do: no digits are lost where a small triangle lies far out.
+// A triangle prepared for the projected test (Wald, PhD thesis 2004, section 7.1): it is projected along its
+// normal's longest axis k, and the ray's point in its plane is tested in the plane (u, v) = (k+1, k+2) mod 3.
+// Unlike in the thesis, coordinates are relative to vertex A, so a small triangle far from the origin loses
+// no digits.
 struct ProjectedTriangle {
   float a[3];              // vertex A, in world axis order
   std::uint32_t k;         // the dropped axis
@@ -16,7 +16,7 @@ struct ProjectedTriangle {
   float beta_u, beta_v;    // weight of B  = beta_u * (h_u - a_u) + beta_v * (h_v - a_v)
   float gamma_u, gamma_v;  // weight of C, likewise
   std::uint32_t id;        // index in the scene's triangle order
-  float slope;             // what the sum of both weights changes by, at most, a unit of h_u and h_v
+  float slope;             // greatest change of the sum of both weights per unit of h_u and h_v
 
   // A triangle without area becomes one that no ray meets (its weights are NaN).
   static ProjectedTriangle from(const glm::vec3& a, const glm::vec3& b, const glm::vec3& c, std::uint32_t id);

@@ -20,18 +20,19 @@ inline constexpr std::size_t kCacheLine = 64;
 template <class T>
 using AlignedVector = std::vector<T, boost::alignment::aligned_allocator<T, kCacheLine>>;
 
-// Binary space partition over a mesh's triangles; built once (bsp/build.h), then only read. It looks into
-// the mesh, which stays where it is as long as this lives.
+// Binary space partition over a mesh's triangles; built once (build/build.h), then only read. It refers to
+// the mesh, which must stay in its place as long as the tree lives.
 struct BspTree {
   Bounds bounds;                            // widened by the rounding of a traversal step
   AlignedVector<BspNode> nodes;             // root first; node 1 is padding, so that siblings share a line
-  AlignedVector<std::uint32_t> references;  // of leaves, into the triangles
-  // In the order in which leaves refer to them first: a leaf's are mostly side by side, and near its
-  // neighbours'. For the tests that take corners the second, else the first; the other is empty.
+  AlignedVector<std::uint32_t> references;  // leaves' indices of triangles
+  // In the order in which leaves first refer to them: a leaf's triangles are mostly adjacent, and near those
+  // of its neighbours. The second array is for the tests that need corners, the first for the others; one is
+  // empty.
   AlignedVector<ProjectedTriangle> triangles;
   AlignedVector<CornerTriangle> corner_triangles;
   int depth = 0;                               // of the deepest leaf
-  TriangleTest test = TriangleTest::filtered;  // that these triangles are stored for
+  TriangleTest test = TriangleTest::filtered;  // the test that the triangles are stored for
   std::span<const glm::vec3> positions;        // the scene's
   std::span<const glm::uvec3> corners;         // the scene's triangles
 

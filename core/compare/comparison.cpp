@@ -57,7 +57,7 @@ Expected<Image<glm::vec3>> rgb_of(const NamedExr& file) {
   Image<glm::vec3> rgb(file.exr.data_window.size());
   const std::array<const char*, 3> names{"R", "G", "B"};
   for (int c = 0; c < 3; ++c) {
-    const auto channel = channel_of(file, names[static_cast<std::size_t>(c)]);
+    const auto channel = channel_of(file, names[c]);
     if (!channel) return Unexpected(channel.error());
     if ((*channel)->type == ExrChannel::Type::uint)
       return Unexpected(InputError{file.name, 0, "its R, G and B are integers", "colours are half or float"});
@@ -67,12 +67,12 @@ Expected<Image<glm::vec3>> rgb_of(const NamedExr& file) {
   return rgb;
 }
 
-// How many slots the header's list of casting lights names; 0 where there is none to read.
+// The number of slots in the header's list of casting lights; 0 without a readable list.
 int named_slots(const ExrFile& exr) {
   const auto found = exr.attributes.find("pinocchio.lights");
   if (found == exr.attributes.end() || !std::holds_alternative<std::string>(found->second)) return 0;
   const auto lights = nlohmann::json::parse(std::get<std::string>(found->second), nullptr, false);
-  return lights.is_array() ? static_cast<int>(std::min<std::size_t>(lights.size(), 32)) : 0;
+  return lights.is_array() ? std::min<std::size_t>(lights.size(), 32) : 0;
 }
 
 const ExrChannel* uint_channel(const ExrFile& exr, const char* name) {

@@ -1,4 +1,4 @@
-// Two EXR pictures, one against the other.
+// The comparison of two EXR pictures.
 #pragma once
 
 #include <optional>
@@ -13,24 +13,24 @@
 namespace pinocchio {
 
 struct NamedExr {
-  std::string name;  // as errors say it
+  std::string name;  // for errors
   ExrFile exr;
 };
 
 struct CompareOptions {
   float pixels_per_degree = kFlipPixelsPerDegree;
-  std::vector<std::string> channels;  // compared one by one beside RGB
-  bool all_channels = false;          // all that both files have
+  std::vector<std::string> channels;  // compared one by one, in addition to RGB
+  bool all_channels = false;          // all channels of both files
 };
 
-struct Comparison : PictureError {  // of the data window
+struct Comparison : PictureError {  // over the data window
   std::optional<MaskFigures> mask;
-  std::string no_mask;                                           // why there is no `mask`
-  std::vector<std::pair<std::string, ChannelFigures>> channels;  // by name, in the order asked
+  std::string no_mask;                                           // the reason why there is no `mask`
+  std::vector<std::pair<std::string, ChannelFigures>> channels;  // by name, in the requested order
 };
 
-// `b` is the reference. Errors: other sizes or windows; R, G, B or a channel asked for is missing; NaN or
-// infinity in R, G or B (how many pixels, and the first of them).
+// `b` is the reference. Errors: different sizes or windows; R, G, B or a requested channel is missing; NaN or
+// infinity in R, G or B (with the number of pixels, and the first one).
 [[nodiscard]] Expected<Comparison> compare(const NamedExr& a, const NamedExr& b,
                                            const CompareOptions& options, Workers& workers);
 

@@ -11,7 +11,7 @@
 namespace pinocchio {
 namespace {
 
-// The sums behind ErrorFigures.
+// The sums that ErrorFigures are computed from.
 class ErrorSums {
  public:
   void add(float a_value, float b_value) {
@@ -86,10 +86,10 @@ MaskFigures mask_figures(const MaskedPixels& a, const MaskedPixels& b, int named
     if (!hit(a, i) && !hit(b, i)) continue;
     ++pixels;
     set |= a.mask[i] | b.mask[i];
-    figures.differing += static_cast<std::uint64_t>(std::popcount(a.mask[i] ^ b.mask[i]));
+    figures.differing += std::popcount(a.mask[i] ^ b.mask[i]);
   }
   figures.slots = std::clamp(std::max(named_slots, static_cast<int>(std::bit_width(set))), 0, 32);
-  figures.bits = pixels * static_cast<std::uint64_t>(figures.slots);
+  figures.bits = pixels * figures.slots;
   return figures;
 }
 

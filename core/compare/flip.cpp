@@ -11,16 +11,16 @@
 namespace pinocchio {
 namespace {
 
-// Constants and names are those of "FLIP: A Difference Evaluator for Alternating Images" (HPG 2020).
+// Constants and names are from "FLIP: A Difference Evaluator for Alternating Images" (HPG 2020).
 constexpr float kQc = 0.7f;   // compresses large colour differences
 constexpr float kPc = 0.4f;   // share of the largest colour difference ...
 constexpr float kPt = 0.95f;  // ... that is mapped to this error
 constexpr float kQf = 0.5f;   // lifts small feature differences
 constexpr double kFeatureDegrees = 0.082;
 
-// Four planes are filtered at once, each by its own weights.
+// Four planes are filtered at once, each with its own weights.
 using Planes = Image<glm::vec4>;
-using Kernel = std::vector<glm::vec4>;  // odd; its middle is the pixel itself
+using Kernel = std::vector<glm::vec4>;  // of odd length; the middle is the pixel itself
 
 const glm::mat3 kXyzOfRgb =
     glm::transpose(glm::mat3(10135552.0 / 24577794.0, 8788810.0 / 24577794.0, 4435075.0 / 24577794.0,
@@ -29,7 +29,7 @@ const glm::mat3 kXyzOfRgb =
 const glm::mat3 kRgbOfXyz = glm::inverse(kXyzOfRgb);
 const glm::vec3 kWhite = kXyzOfRgb * glm::vec3(1.0f);
 
-// Opponent colours, linear in light, for XYZ relative to white.
+// Linear opponent colours of XYZ relative to white.
 glm::vec3 ycxcz(const glm::vec3& xyz) {
   return {116.0f * xyz.y - 16.0f, 500.0f * (xyz.x - xyz.y), 200.0f * (xyz.y - xyz.z)};
 }
@@ -39,7 +39,7 @@ glm::vec3 rgb_of_ycxcz(const glm::vec3& c) {
   return kRgbOfXyz * (kWhite * glm::vec3(y + c.y / 500.0f, y, y - c.z / 200.0f));
 }
 
-// CIELAB of linear RGB in [0, 1], its chroma weighted by lightness (the Hunt effect).
+// CIELAB of linear RGB in [0, 1], with the chroma weighted by lightness (the Hunt effect).
 glm::vec3 hunt_lab(const glm::vec3& rgb) {
   constexpr float kDelta = 6.0f / 29.0f;
   glm::vec3 f = kXyzOfRgb * rgb / kWhite;
@@ -54,15 +54,15 @@ float hyab(const glm::vec3& a, const glm::vec3& b) {
   return std::abs(a.x - b.x) + std::hypot(a.y - b.y, a.z - b.z);
 }
 
-// The eye's contrast sensitivity, a Gaussian for Y and for Cx and the sum of two for Cz, which is not
-// separable: its Gaussians take a plane each and are added after filtering.
+// The eye's contrast sensitivity: a Gaussian each for Y and Cx, and the sum of two for Cz. The sum is not
+// separable, so its Gaussians have a plane each and are added after filtering.
 Kernel contrast_kernel(double pixels_per_degree) {
   constexpr double kPi2 = std::numbers::pi * std::numbers::pi;
   constexpr std::array<double, 4> kWidth{0.0047, 0.0053, 0.04, 0.025};
-  // Amplitudes in one dimension: a product of two of them is the paper's a * sqrt(pi / b).
+  // Amplitudes in one dimension: the paper's a * sqrt(pi / b) is the product of two.
   const std::array<double, 4> amplitude{1.0, 1.0, std::sqrt(34.1 * std::sqrt(std::numbers::pi / 0.04)),
                                         std::sqrt(13.5 * std::sqrt(std::numbers::pi / 0.025))};
-  const int radius = static_cast<int>(std::ceil(3.0 * std::sqrt(0.04 / (2.0 * kPi2)) * pixels_per_degree));
+  const int radius = std::ceil(3.0 * std::sqrt(0.04 / (2.0 * kPi2)) * pixels_per_degree);
   std::vector<glm::dvec4> weights;
   glm::dvec4 sum(0.0);
   for (int x = -radius; x <= radius; ++x) {
@@ -84,10 +84,10 @@ struct FeatureWeight {
   float gaussian, edge, point;  // edge, point: first and second derivative
 };
 
-// Each side of a derivative weighs one, whatever the sampling makes of it.
+// The weights on each side of a derivative add up to one, whatever the sampling.
 std::vector<FeatureWeight> feature_weights(double pixels_per_degree) {
   const double sigma = 0.5 * kFeatureDegrees * pixels_per_degree;
-  const int radius = static_cast<int>(std::ceil(3.0 * sigma));
+  const int radius = std::ceil(3.0 * sigma);
   std::vector<glm::dvec3> weights;
   glm::dvec3 positive(0.0), negative(0.0);
   for (int x = -radius; x <= radius; ++x) {
@@ -107,19 +107,19 @@ std::vector<FeatureWeight> feature_weights(double pixels_per_degree) {
   return result;
 }
 
-// Along rows (step (1, 0)) or columns ((0, 1)); beyond the border the border goes on.
+// Filters along rows (step (1, 0)) or columns ((0, 1)). The border's pixels continue beyond it.
 Planes filtered(const Planes& in, const Kernel& kernel, glm::ivec2 step, Workers& workers) {
-  const int radius = static_cast<int>(kernel.size() / 2);
+  const int radius = kernel.size() / 2;
   const glm::ivec2 last = in.size() - 1;
   Planes out(in.size());
-  workers.for_each(static_cast<std::size_t>(in.height()), [&](std::size_t row) {
-    const int y = static_cast<int>(row);
+  workers.for_each(in.height(), [&](std::size_t row) {
+    const int y = row;
     for (int x = 0; x < in.width(); ++x) {
       glm::vec4 sum(0.0f);
       for (int i = -radius; i <= radius; ++i) {
         const int from_x = std::clamp(x + i * step.x, 0, last.x);
         const int from_y = std::clamp(y + i * step.y, 0, last.y);
-        sum += kernel[static_cast<std::size_t>(i + radius)] * in.at(from_x, from_y);
+        sum += kernel[i + radius] * in.at(from_x, from_y);
       }
       out.at(x, y) = sum;
     }
@@ -130,14 +130,14 @@ Planes filtered(const Planes& in, const Kernel& kernel, glm::ivec2 step, Workers
 Planes each_pixel(const Image<glm::vec3>& in, Workers& workers, glm::vec4 (*value)(const glm::vec3&)) {
   Planes out(in.size());
   const auto width = static_cast<std::size_t>(in.width());
-  workers.for_each(static_cast<std::size_t>(in.height()), [&](std::size_t row) {
+  workers.for_each(in.height(), [&](std::size_t row) {
     for (std::size_t i = row * width; i < (row + 1) * width; ++i)
       out[i] = value(glm::clamp(in[i], 0.0f, 1.0f));
   });
   return out;
 }
 
-// What the eye resolves, as rgb again: (Y, Cx, Cz, Cz) through the contrast kernel.
+// The picture as the eye resolves it, in rgb: (Y, Cx, Cz, Cz) filtered by the contrast kernel.
 Planes seen(const Image<glm::vec3>& image, const Kernel& kernel, Workers& workers) {
   const Planes opponent = each_pixel(image, workers, [](const glm::vec3& rgb) {
     const glm::vec3 c = ycxcz(kXyzOfRgb * rgb / kWhite);
@@ -185,7 +185,7 @@ Image<float> flip(const Image<glm::vec3>& a, const Image<glm::vec3>& b, float pi
   Image<float> errors(a.size());
   const auto width = static_cast<std::size_t>(a.width());
   const auto each = [&](const auto& body) {
-    workers.for_each(static_cast<std::size_t>(a.height()), [&](std::size_t row) {
+    workers.for_each(a.height(), [&](std::size_t row) {
       for (std::size_t i = row * width; i < (row + 1) * width; ++i) body(i);
     });
   };

@@ -9,7 +9,7 @@ namespace {
 
 constexpr int kKnots = 17;
 
-// Every sixteenth of the map's 256 colours, and its last; straight lines between.
+// Every sixteenth of the map's 256 colours, and the last. Colours between them are interpolated.
 const std::array<glm::vec3, kKnots> kColors{{
     {0, 0, 4},
     {10, 8, 34},
@@ -31,10 +31,10 @@ const std::array<glm::vec3, kKnots> kColors{{
 }};
 
 glm::u8vec3 color(float error) {
-  const float at = 255.0f * std::clamp(error, 0.0f, 1.0f);  // in the map's own steps
+  const float at = 255.0f * std::clamp(error, 0.0f, 1.0f);  // in the map's steps
   const int knot = std::min(static_cast<int>(at / 16.0f), kKnots - 2);
-  const float first = 16.0f * static_cast<float>(knot);
-  const float length = knot == kKnots - 2 ? 15.0f : 16.0f;  // the last is the 255th, not the 256th
+  const float first = 16.0f * knot;
+  const float length = knot == kKnots - 2 ? 15.0f : 16.0f;  // the last colour is the 255th, not the 256th
   const auto i = static_cast<std::size_t>(knot);
   return glm::u8vec3(glm::mix(kColors[i], kColors[i + 1], (at - first) / length) + 0.5f);
 }

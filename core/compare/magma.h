@@ -6,8 +6,8 @@
 
 namespace pinocchio {
 
-// Errors in [0, 1] as colours a person reads at a glance: black, violet, orange, pale yellow, as bright as
-// they are large (matplotlib's magma, to a step or two of 255). Out of range is clamped.
+// Errors in [0, 1] as colours: black, violet, orange, pale yellow, brighter for larger errors (matplotlib's
+// magma, within two steps of 255). Values out of range are clamped.
 [[nodiscard]] Image<glm::u8vec3> magma(const Image<float>& errors);
 
 }  // namespace pinocchio

@@ -9,7 +9,7 @@
 
 namespace pinocchio {
 
-// How far a picture is from its reference: in numbers, and as it seems to a person.
+// The difference between a picture and its reference, in figures and as a person sees it.
 struct PictureError {
   ErrorFigures rgb;
   Image<float> flip;

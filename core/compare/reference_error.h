@@ -8,19 +8,19 @@
 namespace pinocchio {
 
 enum class ErrorMap {
-  flip,        // how different it seems to a person
-  difference,  // largest of R, G and B's |a - b|, linear
+  flip,        // the difference that a person sees
+  difference,  // the largest |a - b| of R, G and B, linear
 };
 
-// How far a picture is from the precise one.
+// The difference between a picture and the precise one.
 struct ReferenceError {
   Image<glm::u8vec3> heat;  // sRGB; black: equal, pale yellow: 1 or more
   double rmse = 0.0;        // linear light, over R, G and B
-  double mean_flip = 0.0;   // as a screen shows the two: clamped to [0, 1]
+  double mean_flip = 0.0;   // of the pictures on a screen: clamped to [0, 1]
 };
 
-// picture, reference: the same size, RGBA, linear; what is not finite counts as black. Takes about a
-// second for a million pixels on one core: not for every frame.
+// picture, reference: the same size, RGBA, linear. Pixels that are not finite count as black. Takes about a
+// second for a million pixels on one core: too slow for every frame.
 [[nodiscard]] ReferenceError error_against(const Image<glm::vec4>& picture, const Image<glm::vec4>& reference,
                                            ErrorMap map, Workers& workers);
 

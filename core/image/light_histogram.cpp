@@ -33,15 +33,13 @@ std::vector<float> LightHistogram::by_luminance(float lo_stops, float hi_stops, 
   std::vector<float> counts(static_cast<std::size_t>(bins));
   for (std::size_t half = 0; half < kHalves; ++half) {
     if (luminance_[half] == 0) continue;
-    const float at =
-        (std::log2(value_of_half(half)) - lo_stops) / (hi_stops - lo_stops) * static_cast<float>(bins);
-    counts[static_cast<std::size_t>(std::clamp(at, 0.0f, static_cast<float>(bins - 1)))] +=
-        static_cast<float>(luminance_[half]);
+    const float at = (std::log2(value_of_half(half)) - lo_stops) / (hi_stops - lo_stops) * bins;
+    counts[static_cast<std::size_t>(std::clamp(at, 0.0f, static_cast<float>(bins - 1)))] += luminance_[half];
   }
   return counts;
 }
 
-// Exposure, curve and sRGB all rise: from some value on, all are shown so or brighter.
+// Exposure, curve and sRGB are monotonic: from one value on, all are shown as bright or brighter.
 std::size_t LightHistogram::first_shown_as(std::uint8_t value, float exposure_ev, ToneMap curve) const {
   const float gain = std::exp2(exposure_ev);
   const auto darker = [&](std::size_t half) {

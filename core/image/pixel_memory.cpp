@@ -12,21 +12,21 @@ namespace {
 
 constexpr std::size_t kLargePage = std::size_t{1} << 21, kCacheLineBytes = 64;
 
-// The last page is a large one, too, where an eighth at most is added by it.
+// The last page is a large one, too, if that adds at most an eighth.
 std::size_t whole_pages(std::size_t bytes) {
   const std::size_t whole = (bytes + kLargePage - 1) / kLargePage * kLargePage;
   return whole - bytes <= bytes / 8 ? whole : bytes;
 }
 
-// Blocks of large pages that were freed lately, the oldest first. Whoever finds another thread here does
-// without (in a process that was forked meanwhile, that may be for ever).
+// Recently freed blocks of large pages, the oldest first. A thread that finds the list locked does not wait
+// for it (in a forked process the lock may never be released).
 class Spare {
  public:
   void* take(std::size_t size) {
     const std::unique_lock lock(mutex_, std::try_to_lock);
     for (std::size_t i = 0; lock && i < count_; ++i)
       if (blocks_[i].size == size) return remove(i);
-    // Other sizes are asked for than were freed: what lies here is not kept for long.
+    // The requested sizes differ from the freed ones: free the oldest block.
     if (lock && count_ > 0) std::free(remove(0));
     return nullptr;
   }
@@ -54,7 +54,7 @@ class Spare {
     return block.memory;
   }
 
-  // The pictures of two frames of 800 x 600.
+  // Room for the pictures of two frames of 800 x 600.
   static constexpr std::size_t kMost = std::size_t{32} << 20;
 
   std::mutex mutex_;
@@ -62,7 +62,7 @@ class Spare {
   std::size_t count_ = 0, bytes_ = 0;
 };
 
-// Never destroyed: pictures of static storage may be freed after it would have been.
+// Never destroyed: pictures with static storage may be freed later.
 Spare& spare() {
   static Spare& all = *new Spare;
   return all;
@@ -78,7 +78,7 @@ void* allocate_pixels(std::size_t bytes) {
   void* memory = nullptr;
   if (posix_memalign(&memory, large ? kLargePage : kCacheLineBytes, size) != 0) throw std::bad_alloc();
 #ifdef MADV_HUGEPAGE
-  if (large) madvise(memory, size, MADV_HUGEPAGE);  // a wish: where it is not granted, small pages serve
+  if (large) madvise(memory, size, MADV_HUGEPAGE);  // without success, small pages are used
 #endif
   return memory;
 }

@@ -9,10 +9,10 @@ namespace pinocchio {
 // A picture without its alpha.
 [[nodiscard]] Image<glm::vec3> rgb_of(const Image<glm::vec4>& picture);
 
-// The same for error figures, which want finite numbers: what is not counts as black.
+// The same for error figures, which need finite numbers: pixels that are not finite become black.
 [[nodiscard]] Image<glm::vec3> finite_rgb_of(const Image<glm::vec4>& picture);
 
-// With an alpha of 1.
+// Adds an alpha of 1.
 [[nodiscard]] Image<glm::vec4> opaque(const Image<glm::vec3>& rgb);
 
 }  // namespace pinocchio

@@ -19,8 +19,8 @@ using namespace glm;  // GLSL's names
 
 namespace {
 
-// The curve's upper part by basic operations alone: libraries differ in the last bits of x^y. c^2.4 is c^2
-// times the fifth root of c^2, which Newton finds from above; c in (0, 1].
+// The curve's upper part in basic operations, because libraries differ in the last bits of x^y. c^2.4 is c^2
+// times the fifth root of c^2, which Newton's method finds from above; c in (0, 1].
 double power_2_4(double c) {
   const double square = c * c;
   double root = 1.0;
@@ -35,25 +35,25 @@ double srgb_to_linear(double c) {
   return c <= 0.04045 ? c / 12.92 : power_2_4((c + 0.055) / 1.055);
 }
 
-// A linear value's byte grows where the curve passes the middle between two bytes: at `first[i]`, the least
-// value of byte i.
+// A value's byte changes where the curve passes the middle between two bytes. `first[i]` is the least value
+// of byte i.
 struct Bytes {
   std::array<float, 256> linear{};
   std::array<float, 257> first{};
   Bytes() {
     first.back() = std::numeric_limits<float>::infinity();
     for (std::size_t i = 0; i < 256; ++i) {
-      linear[i] = static_cast<float>(srgb_to_linear(static_cast<double>(i) / 255.0));
+      linear[i] = srgb_to_linear(i / 255.0);
       if (i == 0) continue;
-      const double middle = srgb_to_linear((static_cast<double>(i) - 0.5) / 255.0);
-      first[i] = static_cast<float>(middle);
+      const double middle = srgb_to_linear((i - 0.5) / 255.0);
+      first[i] = middle;
       if (first[i] < middle) first[i] = std::nextafter(first[i], 2.0f);
     }
-    // Of values that share exponent and nine digits, the least one's byte: it or the next is theirs.
+    // The byte of the least value with the same exponent and nine digits. The others have this byte or the
+    // next.
     for (std::size_t i = 0; i < start.size(); ++i) {
       const float least = std::bit_cast<float>(kLeast + (static_cast<std::uint32_t>(i) << kDropped));
-      start[i] =
-          static_cast<std::uint8_t>(std::upper_bound(first.begin(), first.end(), least) - first.begin() - 1);
+      start[i] = std::upper_bound(first.begin(), first.end(), least) - first.begin() - 1;
     }
   }
 
@@ -64,11 +64,11 @@ struct Bytes {
   [[nodiscard]] std::uint8_t within(float value) const {  // [0, 1]
     const std::uint32_t bits = std::max(std::bit_cast<std::uint32_t>(value), kLeast);
     const std::size_t byte = start[(bits - kLeast) >> kDropped];
-    return static_cast<std::uint8_t>(byte + (value >= first[byte + 1] ? 1 : 0));
+    return byte + (value >= first[byte + 1] ? 1 : 0);
   }
 
  private:
-  static constexpr std::uint32_t kLeast = 0x39000000u;                         // 2^-13, whose byte is 0
+  static constexpr std::uint32_t kLeast = 0x39000000u;                         // 2^-13: its byte is 0
   static constexpr int kDropped = 14;                                          // digits
   std::array<std::uint8_t, ((0x3f800000u - kLeast) >> kDropped) + 1> start{};  // up to 1
 };
@@ -111,6 +111,16 @@ void linear_to_srgb8(std::span<const glm::vec4> linear, glm::u8vec4* to) {
 
 glm::vec3 tone_mapped(const glm::vec3& light, ToneMap curve) {
   return shared::tone_mapped(light, static_cast<int>(curve));
+}
+
+Image<glm::u8vec3> preview(const Image<glm::vec4>& color, float exposure_ev, ToneMap curve) {
+  const float gain = std::exp2(exposure_ev);
+  Image<glm::u8vec3> pixels(color.size());
+  for (std::size_t i = 0; i < color.pixels().size(); ++i) {
+    const glm::vec3 shown = tone_mapped(gain * glm::vec3(color[i]), curve);
+    for (int c = 0; c < 3; ++c) pixels[i][c] = linear_to_srgb8(shown[c]);
+  }
+  return pixels;
 }
 
 }  // namespace pinocchio

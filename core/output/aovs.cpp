@@ -1,38 +1,37 @@
 #include "core/output/aovs.h"
 
+#include <algorithm>
 #include <sstream>
+
+#include "pinocchio/frame_arrays.h"
 
 namespace pinocchio {
 
-namespace {
-
-// Each channel by name, with the layer alone: what may be asked for.
-const std::set<std::string>& known_names() {
-  static const std::set<std::string> kNames{"Z",           "P",          "P.X",          "P.Y",
-                                            "P.Z",         "N",          "N.X",          "N.Y",
-                                            "N.Z",         "Albedo",     "Albedo.R",     "Albedo.G",
-                                            "Albedo.B",    "id",         "id.triangle",  "shadow",
-                                            "shadow.mask", "reflection", "reflection.R", "reflection.G",
-                                            "reflection.B"};
-  return kNames;
+std::string aov_names() {
+  std::string names;
+  const AovSet all = *parse_aovs("all");
+  for (const std::string& name : all) names += (names.empty() ? "" : ", ") + name;
+  return names;
 }
 
-}  // namespace
-
 Expected<AovSet> parse_aovs(const std::string& text) {
-  static const AovSet kAll{"Z", "P", "N", "Albedo", "id", "shadow", "reflection"};
-  if (text == "all") return kAll;
   AovSet aovs;
   if (text == "none") return aovs;
+  if (text == "all") {
+    for (const LayerRow& row : kLayers)
+      if (!row.exr.name.empty()) aovs.emplace(row.exr.name);
+    return aovs;
+  }
   std::istringstream in(text);
   for (std::string name; std::getline(in, name, ',');) {
-    if (!known_names().count(name))
-      return Unexpected(
-          InputError{{},
-                     0,
-                     "'" + name + "' is not a layer",
-                     "choose from Z, P, N, Albedo, id, shadow, reflection, or say all or none"});
-    aovs.insert(name.substr(0, name.find('.')));
+    const auto* const row = std::ranges::find_if(kLayers, [&](const LayerRow& of) {
+      return !of.exr.name.empty() && !name.empty() &&
+             (of.exr.name == name || std::ranges::count(of.exr.channels, name) > 0);
+    });
+    if (row == kLayers.end())
+      return Unexpected(InputError{
+          {}, 0, "'" + name + "' is not a layer", "choose from " + aov_names() + ", or say all or none"});
+    aovs.emplace(row->exr.name);
   }
   return aovs;
 }

@@ -7,10 +7,13 @@
 
 namespace pinocchio {
 
-// Layers of a frame's EXR beside its colour: Z, P, N, Albedo, id, shadow, reflection.
+// Layers of a frame's EXR beside its colour, by their names in kLayers (pinocchio/frame_arrays.h).
 using AovSet = std::set<std::string>;
 
-// "all", "none", or layers or channels of theirs, separated by commas ("Z,P,id.triangle").
+// "all", "none", or layers or their channels, separated by commas ("Z,P,id.triangle").
 [[nodiscard]] Expected<AovSet> parse_aovs(const std::string& text);
+
+// The names of all layers, for people.
+[[nodiscard]] std::string aov_names();
 
 }  // namespace pinocchio

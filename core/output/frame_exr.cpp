@@ -1,35 +1,34 @@
 #include "core/output/frame_exr.h"
 
 #include <cmath>
+#include <cstddef>
 #include <filesystem>
 #include <nlohmann/json.hpp>
 #include <span>
+#include <type_traits>
 
 #include "core/base/system_info.h"
-#include "core/trace/view_params.h"
+#include "core/trace/view/view_params.h"
 
 namespace pinocchio {
 namespace {
 
-using Type = ExrChannel::Type;
-
-// One channel a component: names[c] gets component c of every pixel.
+// One channel a component of the values.
 template <class Pixel>
-void add_vector(std::vector<ExrChannel>& channels, std::span<const Pixel> pixels, Type type,
-                const std::vector<std::string>& names) {
-  for (std::size_t c = 0; c < names.size(); ++c) {
-    std::vector<float>& values = channels.emplace_back(names[c], type).values;
-    values.reserve(pixels.size());
-    for (const Pixel& pixel : pixels) values.push_back(pixel[static_cast<int>(c)]);
+void add_channels(const LayerRow& row, std::span<const Pixel> pixels, std::vector<ExrChannel>& channels) {
+  for (int c = 0; const std::string_view name : row.exr.channels) {
+    if (name.empty()) break;
+    ExrChannel& channel = channels.emplace_back(std::string(name), row.exr.type);
+    if constexpr (std::is_integral_v<Pixel>) {
+      channel.uints.assign(pixels.begin(), pixels.end());
+    } else if constexpr (std::is_same_v<Pixel, float>) {
+      channel.values.assign(pixels.begin(), pixels.end());
+    } else {
+      channel.values.reserve(pixels.size());
+      for (const Pixel& pixel : pixels) channel.values.push_back(pixel[c]);
+    }
+    ++c;
   }
-}
-
-ExrChannel mask_channel(const MaskImage& mask, int width, int y0, int y1) {
-  ExrChannel channel{"shadow.mask", Type::uint, {}, {}};
-  channel.uints.reserve(static_cast<std::size_t>(width) * static_cast<std::size_t>(y1 - y0));
-  for (int y = y0; y < y1; ++y)
-    for (int x = 0; x < width; ++x) channel.uints.push_back(mask.get(x, y));
-  return channel;
 }
 
 nlohmann::json vec3_json(const glm::vec3& v) {
@@ -70,8 +69,8 @@ void add_attributes(ExrFile& exr, const FrameOutput& frame) {
     exr.attributes["pinocchio.environment"] =
         std::filesystem::path(frame.scene.environment->source()).filename().string();
   exr.attributes["pinocchio.frame"] = frame.frame;
-  exr.attributes["pinocchio.time"] = static_cast<float>(
-      frame.time_s.value_or(static_cast<double>(frame.frame) / static_cast<double>(frame.frames_per_second)));
+  exr.attributes["pinocchio.time"] =
+      static_cast<float>(frame.time_s.value_or(frame.frame / static_cast<double>(frame.frames_per_second)));
   if (!frame.inputs.empty()) exr.attributes["pinocchio.inputs"] = frame.inputs;
   exr.attributes["pinocchio.camera"] = frame.camera.name;
   if (frame.camera.lens_radius > 0.0f) {
@@ -93,34 +92,34 @@ void add_attributes(ExrFile& exr, const FrameOutput& frame) {
 }  // namespace
 
 std::vector<ExrChannel> frame_channels(const FrameOutput& frame, const AovSet& aovs, int y0, int y1) {
-  const int width = frame.part.size().x;
-  const std::size_t first = static_cast<std::size_t>(y0) * static_cast<std::size_t>(width);
-  const std::size_t count = static_cast<std::size_t>(y1 - y0) * static_cast<std::size_t>(width);
-  const auto wanted = [&aovs](const char* layer) { return aovs.count(layer) > 0; };
+  const auto count = frame.part.size().x * static_cast<std::size_t>(y1 - y0);
+  FrameArrays to;
+  std::array<std::vector<std::byte>, kLayers.size()> memory;
+  // Calls use(row, member, memory) for each layer of the file; `member`: of FrameArrays.
+  const auto for_each_layer = [&](const auto& use) {
+    for (std::size_t i = 0; i < kLayers.size(); ++i) {
+      const LayerRow& row = kLayers[i];
+      if (row.exr.channels.front().empty() ||
+          (!row.exr.name.empty() && !aovs.contains(std::string(row.exr.name))))
+        continue;
+      std::visit(
+          [&](auto member) {
+            if constexpr (!std::is_same_v<decltype(member), std::monostate>) use(row, member, memory[i]);
+          },
+          row.array.values);
+    }
+  };
+  for_each_layer([&](const LayerRow&, auto member, std::vector<std::byte>& bytes) {
+    using Pointer = std::remove_reference_t<decltype(to.*member)>;
+    bytes.resize(count * sizeof(*(to.*member)));
+    to.*member = reinterpret_cast<Pointer>(bytes.data());
+  });
+  if (count > 0) frame.write_lines(y0, y1, to);
   std::vector<ExrChannel> channels;
-  add_vector(channels, frame.color.pixels().subspan(first, count), Type::half, {"R", "G", "B", "A"});
-  if (wanted("Z") || wanted("P") || wanted("N") || wanted("Albedo")) {
-    const SurfaceImages s = frame.surfaces(y0, y1);
-    if (wanted("Z"))
-      channels.push_back({"Z", Type::real, {s.z_eye.pixels().begin(), s.z_eye.pixels().end()}, {}});
-    if (wanted("P")) add_vector(channels, s.p_world.pixels(), Type::real, {"P.X", "P.Y", "P.Z"});
-    if (wanted("N")) add_vector(channels, s.n_shading.pixels(), Type::half, {"N.X", "N.Y", "N.Z"});
-    if (wanted("Albedo"))
-      add_vector(channels, s.albedo.pixels(), Type::half, {"Albedo.R", "Albedo.G", "Albedo.B"});
-  }
-  if (wanted("id")) {
-    const auto ids = frame.ids.pixels().subspan(first, count);
-    channels.push_back({"id.triangle", Type::uint, {}, {ids.begin(), ids.end()}});
-  }
-  if (wanted("shadow")) channels.push_back(mask_channel(frame.mask, width, y0, y1));
-  if (wanted("reflection")) {
-    const std::vector<std::string> names{"reflection.R", "reflection.G", "reflection.B"};
-    const std::vector<glm::vec3> none(frame.reflection.empty() ? count : 0, glm::vec3(0.0f));
-    add_vector(channels,
-               frame.reflection.empty() ? std::span<const glm::vec3>(none)
-                                        : frame.reflection.pixels().subspan(first, count),
-               Type::half, names);
-  }
+  for_each_layer([&](const LayerRow& row, auto member, const std::vector<std::byte>&) {
+    using Pixel = std::remove_pointer_t<std::remove_reference_t<decltype(to.*member)>>;
+    add_channels<Pixel>(row, {to.*member, count}, channels);
+  });
   return channels;
 }
 
@@ -143,7 +142,7 @@ glm::mat4 world_to_ndc(const Camera& camera, glm::ivec2 size) {
   const CameraAxes axes = camera_axes(camera);
   const double height = 2.0 * std::tan(glm::radians(static_cast<double>(camera.fov_deg)) * 0.5);
   const double aspect = static_cast<double>(size.x) / size.y;
-  const double width = height * aspect * static_cast<double>(camera.pixel_aspect);
+  const double width = height * aspect * camera.pixel_aspect;
   const glm::dvec2 axis = 0.5 + glm::dvec2(camera.axis_shift) / glm::dvec2(aspect, 1.0);
   const glm::dvec4 z = along(axes.forward, camera.eye);
   return from_rows(along(axes.right, camera.eye) / width + axis.x * z,

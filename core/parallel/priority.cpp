@@ -4,8 +4,8 @@
 
 namespace pinocchio {
 
-// On Linux a thread has a niceness of its own, 19 at most, and hands it on to the threads that it starts.
-void give_way(int steps) {
+// On Linux every thread has its own niceness, at most 19, which the threads that it starts inherit.
+void lower_priority(int steps) {
   setpriority(PRIO_PROCESS, 0, getpriority(PRIO_PROCESS, 0) + steps);
 }
 

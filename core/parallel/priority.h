@@ -2,14 +2,13 @@
 
 namespace pinocchio {
 
-// Steps of niceness; five are a quarter of the processor's time beside a thread that gives way by none
+// Steps of niceness. With five, a thread gets a quarter of the processor's time beside a thread with none
 // (sched(7)).
-inline constexpr int kForFrames =
-    5;  // what a window's frames are made of, and scenes that it reads: input first
-inline constexpr int kForBackground = 19;  // what nobody waits for: frames first
+inline constexpr int kForFrames = 5;       // for a window's frames and loading: input comes first
+inline constexpr int kForBackground = 19;  // for work that nobody waits for: frames come first
 
-// The calling thread, and those that it starts from now on, leave the processor to those that are less nice.
-// For good: a thread may not take its priority back.
-void give_way(int steps);
+// Lowers the priority of the calling thread and of the threads that it starts from now on. A thread cannot
+// raise its priority again.
+void lower_priority(int steps);
 
 }  // namespace pinocchio

@@ -27,7 +27,7 @@ void warn_of_missing_threads(int started, int wanted, const std::error_code& why
            "); the work goes on with fewer; ask for fewer threads, or raise the limit of processes "
            "('ulimit -u', a container's pids limit) or of memory ('ulimit -v')")
               .c_str());
-} catch (const std::bad_alloc&) {  // for the words: the work goes on without them
+} catch (const std::bad_alloc&) {  // no memory for the message: the work goes on without it
 }
 
 }  // namespace pinocchio

@@ -11,10 +11,10 @@
 
 namespace pinocchio {
 
-// Tells the handler of set_thread_warning(), the first time.
+// Calls the handler of set_thread_warning(), the first time only.
 void warn_of_missing_threads(int started, int wanted, const std::error_code& why) noexcept;
 
-// A std::thread or std::jthread that runs `body`; one that is not joinable where the system starts none.
+// A std::thread or std::jthread that runs `body`; not joinable if the system starts none.
 template <class Thread, class Body>
 [[nodiscard]] Thread start_thread(Body body) {
   try {
@@ -25,14 +25,14 @@ template <class Thread, class Body>
   }
 }
 
-// Does `work` on a thread of its own, which gives way by `niceness`. Where the system starts none, the work
-// is done when this returns. The future's destructor waits for the work.
+// Runs `work` on a thread of its own with this niceness. If the system starts none, the work is done when
+// this returns. The future's destructor waits for the work.
 template <class Work>
 [[nodiscard]] std::future<std::invoke_result_t<Work&>> run_aside(int niceness, Work work) {
   const auto kept = std::make_shared<Work>(std::move(work));
   try {
     return std::async(std::launch::async, [kept, niceness] {
-      if (niceness > 0) give_way(niceness);
+      if (niceness > 0) lower_priority(niceness);
       return (*kept)();
     });
   } catch (const std::system_error& error) {

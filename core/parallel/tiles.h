@@ -15,12 +15,10 @@ class TileGrid {
 
   explicit TileGrid(glm::ivec2 size) : size_(size), tiles_((size + kTileSize - 1) / kTileSize) {}
 
-  [[nodiscard]] std::size_t count() const {
-    return static_cast<std::size_t>(tiles_.x) * static_cast<std::size_t>(tiles_.y);
-  }
+  [[nodiscard]] std::size_t count() const { return std::size_t(tiles_.x) * tiles_.y; }
   [[nodiscard]] PixelBox tile(std::size_t i) const {
-    const int row_length = tiles_.x;
-    const glm::ivec2 cell(static_cast<int>(i) % row_length, static_cast<int>(i) / row_length);
+    const std::size_t row_length = tiles_.x;
+    const glm::ivec2 cell(i % row_length, i / row_length);
     const glm::ivec2 lo = cell * kTileSize;
     return {lo, glm::min(lo + kTileSize, size_)};
   }
@@ -30,8 +28,9 @@ class TileGrid {
   template <class Visit>
   static void for_each_pixel(const PixelBox& box, Visit visit) {
     const glm::ivec2 size = box.size();
-    const auto side = std::bit_ceil(static_cast<unsigned>(size.x > size.y ? size.x : size.y));
-    for (int i = 0; i < static_cast<int>(side * side); ++i) {
+    const unsigned longer = size.x > size.y ? size.x : size.y;
+    const int side = std::bit_ceil(longer);
+    for (int i = 0; i < side * side; ++i) {
       const int x = box.lo.x + even_bits(i), y = box.lo.y + even_bits(i >> 1);
       if (x < box.hi.x && y < box.hi.y) visit(x, y);
     }

@@ -19,14 +19,14 @@ struct Workers::Job {
 };
 
 Workers::Workers(int threads, int niceness) {
-  const int cores = static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
+  const int cores = std::max(1u, std::thread::hardware_concurrency());
   if (threads <= 0) threads = cores;
-  threads_.reserve(static_cast<std::size_t>(threads) - 1);
+  threads_.reserve(threads - 1);
   std::error_code why_not;
   try {
     while (count() < threads)
       threads_.emplace_back([this, niceness, number = count()] {
-        if (niceness > 0) give_way(niceness);
+        if (niceness > 0) lower_priority(niceness);
         run_thread(number);
       });
   } catch (const std::system_error& error) {
@@ -48,8 +48,8 @@ void Workers::keep(int threads) {
     kept_ = threads;
   }
   wake_.notify_all();
-  for (std::size_t i = static_cast<std::size_t>(threads) - 1; i < threads_.size(); ++i) threads_[i].join();
-  threads_.resize(static_cast<std::size_t>(threads) - 1);
+  for (std::size_t i = threads - 1; i < threads_.size(); ++i) threads_[i].join();
+  threads_.resize(threads - 1);
 }
 
 Workers::~Workers() {

@@ -14,9 +14,8 @@ namespace pinocchio {
 // Worker threads that live as long as this object and take tiles of one job at a time.
 class Workers {
  public:
-  // `threads` in all, the caller's own among them; 0: one a core. niceness: steps by which those
-  // that are its own give way (priority.h). Where the system does not start all of them, fewer do the work:
-  // one a core at most.
+  // `threads` in all, including the caller's; 0: one per core. niceness: of the threads other than the
+  // caller's (priority.h). If the system does not start all of them, fewer do the work: at most one per core.
   explicit Workers(int threads = 0, int niceness = 0);
   ~Workers();
   Workers(const Workers&) = delete;
@@ -24,9 +23,9 @@ class Workers {
 
   [[nodiscard]] int count() const { return static_cast<int>(threads_.size()) + 1; }
 
-  // Calls body(i) once for every i in [0, n), on all threads, and returns when all are done. What a body
-  // throws reaches the caller (the first of them; the rest of the job is dropped). One job at a time:
-  // callers on several threads take turns; a body must not start another. Threads that wake up when all is
+  // Calls body(i) once for every i in [0, n), on all threads, and returns when all are done. The first
+  // exception of a body reaches the caller; the rest of the job is dropped. One job at a time: callers on
+  // several threads take turns; a body must not start another. Threads that wake up after the last i was
   // taken are not waited for: a small job costs no more than the caller's own work.
   void for_each(std::size_t n, const std::function<void(std::size_t)>& body);
 

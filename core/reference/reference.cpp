@@ -3,7 +3,7 @@
 #include <cassert>
 
 #include "core/parallel/tiles.h"
-#include "core/trace/view_params.h"
+#include "core/trace/view/view_params.h"
 
 namespace pinocchio {
 
@@ -28,7 +28,7 @@ ReferencePicture reference_render(const Scene& scene, const View& view, int dept
     if (mirrors) picture.reflection.at(x, y) = pixel.reflection;
     picture.color.at(x, y) = pixel.color;
   };
-  const TileGrid grid(size);  // a tile's row is whole bytes of the mask
+  const TileGrid grid(size);  // a tile's row fills whole bytes of the mask
   const auto pixels = static_cast<double>(size.x) * size.y;
   workers.for_each(grid.count(), [&](std::size_t i) {
     const PixelBox tile = grid.tile(i);

@@ -7,16 +7,16 @@
 namespace pinocchio {
 namespace {
 
-// To the right round the picture, down and up as far as it goes.
+// Coordinates wrap around to the right, and are clamped downwards and upwards.
 glm::ivec2 wrapped(glm::ivec2 at, glm::ivec2 size) {
   return {((at.x % size.x) + size.x) % size.x, std::clamp(at.y, 0, size.y - 1)};
 }
 
-// Which of the growing sums the number falls under, 0 to 1 of the last, and how far between it and the one
-// before.
+// Finds the index in cumulative sums of a number in [0, 1) times the last sum, and the place between that sum
+// and the one before.
 struct Choice {
   std::size_t index;
-  double within, share;  // share: how likely it was
+  double within, share;  // share: the index's probability
 };
 Choice choice_of(const double* sums, std::size_t count, double number) {
   const double wanted = number * sums[count - 1];
@@ -28,10 +28,10 @@ Choice choice_of(const double* sums, std::size_t count, double number) {
 
 }  // namespace
 
-// A texel is as likely as the brightest of those about it, which interpolation brings into its area.
+// A texel's weight is the brightest of it and its neighbours, whose light interpolation brings into its area.
 ReferenceEnvironment::ReferenceEnvironment(const Scene& scene)
     : picture_(scene.environment->radiance()),
-      turn_(static_cast<double>(scene.environment_rotation_deg) / 360.0),
+      turn_(scene.environment_rotation_deg / 360.0),
       strength_(scene.environment_strength) {
   const glm::ivec2 size = picture_.size();
   double all = 0.0;
@@ -64,7 +64,7 @@ glm::dvec3 ReferenceEnvironment::at(const glm::dvec2& uv) const {
   return strength_ * sum;
 }
 
-// The middle is +Z, a quarter of the width left of it +X, the top row +Y.
+// The picture's middle is +Z, a quarter of the width to its left is +X, the top row is +Y.
 glm::dvec3 ReferenceEnvironment::radiance(const glm::dvec3& direction) const {
   const double around = std::atan2(direction.x, direction.z) / (2.0 * std::numbers::pi);
   const double down = std::atan2(std::hypot(direction.x, direction.z), direction.y) / std::numbers::pi;
@@ -76,13 +76,13 @@ ReferenceEnvironment::Sample ReferenceEnvironment::sample(const glm::dvec2& numb
   const glm::ivec2 size = picture_.size();
   if (rows_.back() == 0.0) return {{0.0, 1.0, 0.0}, glm::dvec3(0.0)};
   const Choice row = choice_of(rows_.data(), rows_.size(), numbers.y);
-  const Choice column = choice_of(columns_.data() + row.index * static_cast<std::size_t>(size.x),
-                                  static_cast<std::size_t>(size.x), numbers.x);
+  const Choice column = choice_of(columns_.data() + row.index * size.x, size.x, numbers.x);
   const glm::dvec2 uv =
       (glm::dvec2(column.index, row.index) + glm::dvec2(column.within, row.within)) / glm::dvec2(size);
   const double around = 2.0 * std::numbers::pi * (0.5 + turn_ - uv.x), down = std::numbers::pi * uv.y;
   const double per_uv = row.share * column.share * size.x * size.y;
-  const double steradian = 2.0 * std::numbers::pi * std::numbers::pi * std::sin(down);  // a unit of u times v
+  const double steradian =
+      2.0 * std::numbers::pi * std::numbers::pi * std::sin(down);  // for a unit of u times v
   return {{std::sin(down) * std::sin(around), std::cos(down), std::sin(down) * std::cos(around)},
           steradian / per_uv * at(uv)};
 }

@@ -7,17 +7,17 @@
 
 namespace pinocchio {
 
-// What is around a scene, in double, by code of its own.
+// A scene's environment, in double precision.
 class ReferenceEnvironment {
  public:
-  // The scene has an environment, which stays as long as this lives.
+  // The scene has an environment, which must outlive this object.
   explicit ReferenceEnvironment(const Scene& scene);
 
-  // Linear light that comes from there; the direction has any length but zero.
+  // Linear light from a direction of any length but zero.
   [[nodiscard]] glm::dvec3 radiance(const glm::dvec3& direction) const;
 
-  // A direction, likelier the more light comes from about there, and that light over how likely it was (per
-  // steradian). From two numbers in [0, 1).
+  // A direction, chosen by the light around it from two numbers in [0, 1), and its light divided by the
+  // probability density (per steradian).
   struct Sample {
     glm::dvec3 direction;  // unit
     glm::dvec3 light;
@@ -29,7 +29,7 @@ class ReferenceEnvironment {
 
   const Image<glm::vec3>& picture_;
   double turn_, strength_;  // revolutions
-  // Light up to the end of each row, and within each row up to the end of each texel: sums, not shares.
+  // Sums of light up to the end of each row, and within each row up to the end of each texel.
   std::vector<double> rows_, columns_;
 };
 

@@ -11,8 +11,8 @@ int longest_axis(const glm::dvec3& v) {
   return size.y >= size.z ? 1 : 2;
 }
 
-// Twice the signed area of the ray (the origin here) and the edge from p to q. Rounding never turns a
-// sign, it can only make a zero; that is asked again with more digits, as the paper has it.
+// Twice the signed area of the ray (at the origin) and the edge from p to q. Rounding cannot change the sign,
+// but it can give zero. Then the area is computed again with more digits, as in the paper.
 double edge_function(const glm::dvec3& p, const glm::dvec3& q) {
   const double area = p.x * q.y - p.y * q.x;
   if (area != 0.0) return area;
@@ -31,7 +31,7 @@ ReferenceTest::ReferenceTest(const ReferenceRay& ray)
       shear_(ray.direction[kx_] / ray.direction[kz_], ray.direction[ky_] / ray.direction[kz_],
              1.0 / ray.direction[kz_]) {}
 
-// Where the ray is the z axis and z counts in t.
+// Moves a point into the frame where the ray is the z axis and z is in units of t.
 glm::dvec3 ReferenceTest::in_ray_frame(const glm::vec3& p_world) const {
   const glm::dvec3 p = glm::dvec3(p_world) - ray_.origin;
   return {p[kx_] - shear_.x * p[kz_], p[ky_] - shear_.y * p[kz_], shear_.z * p[kz_]};
@@ -45,7 +45,7 @@ void ReferenceTest::meet(std::uint32_t id, const glm::vec3& a, const glm::vec3& 
   const bool any_positive = u > 0.0 || v > 0.0 || w > 0.0;
   if (any_negative == any_positive) return;  // outside, or edge on
 
-  // A mean of the corners' depths, so within them: what the tree's boxes rely on.
+  // A mean of the corners' depths lies between them. The tree's boxes rely on that.
   const glm::dvec3 weights = glm::dvec3(u, v, w) / (u + v + w);
   const double t = weights.x * pa.z + weights.y * pb.z + weights.z * pc.z;
   if (!(t > 0.0 && t < ray_.t_max)) return;

@@ -27,9 +27,9 @@ ReferenceMaterial as_it_stands(const Material& m) {
           m.gloss};
 }
 
-// What textures make of a surface at a point.
+// A surface's textured values at a point.
 struct PointSurface {
-  glm::dvec3 base, emissive, specular;  // the last: factor times colour
+  glm::dvec3 base, emissive, specular;  // specular: factor times colour
   double metallic, roughness, transmission;
 };
 
@@ -112,7 +112,7 @@ bool reference_hole(const Mesh& mesh, const ReferenceHit& hit) {
   const MaterialMaps* const maps = mesh.maps_of(hit.triangle);
   if (!maps || maps->alpha_mode == AlphaMode::opaque) return false;
   const double alpha = reference_alpha(mesh, hit);
-  return maps->alpha_mode == AlphaMode::mask ? alpha < static_cast<double>(maps->alpha_cutoff) : alpha <= 0.0;
+  return maps->alpha_mode == AlphaMode::mask ? alpha < maps->alpha_cutoff : alpha <= 0.0;
 }
 
 ReferenceMaterial reference_material(const Mesh& mesh, const ReferenceHit& hit, const ReferenceSpread& spread,
@@ -133,12 +133,11 @@ ReferenceMaterial reference_material(const Mesh& mesh, const ReferenceHit& hit, 
   if (maps->from_gltf) {
     const glm::dvec4 rough_metal = texel(maps->metallic_roughness, false);
     const GltfSurface& s = maps->surface;
-    const double specular = static_cast<double>(s.specular) * texel(maps->specular, false).a;
-    m = phong_of(
-        s, {scaled(s.base_color, base), scaled(s.emissive, emissive),
-            specular * scaled(s.specular_color, glm::dvec3(texel(maps->specular_color, true))),
-            static_cast<double>(s.metallic) * rough_metal.b, static_cast<double>(s.roughness) * rough_metal.g,
-            static_cast<double>(s.transmission) * texel(maps->transmission, false).r});
+    const double specular = s.specular * texel(maps->specular, false).a;
+    m = phong_of(s, {scaled(s.base_color, base), scaled(s.emissive, emissive),
+                     specular * scaled(s.specular_color, glm::dvec3(texel(maps->specular_color, true))),
+                     s.metallic * rough_metal.b, s.roughness * rough_metal.g,
+                     s.transmission * texel(maps->transmission, false).r});
   } else {
     m = as_it_stands(plain);
     m.ambient *= base;

@@ -7,32 +7,32 @@
 
 namespace pinocchio {
 
-// A material at a point, in double.
+// A material at a point, in double precision.
 struct ReferenceMaterial {
   glm::dvec3 ambient, diffuse, specular, emission, reflectance, transmittance;
   double shininess, ior;
   bool fresnel;
-  bool brdf;           // its coefficients hold a BRDF's 1 / pi; else that is counted to the light
+  bool brdf;           // the coefficients include a BRDF's 1 / pi; else the light includes it
   double gloss = 0.0;  // exponent of the mirrored rays' lobe; 0: sharp
-  double alpha = 1.0;  // the surface's share of what is seen there
+  double alpha = 1.0;  // the surface's share of the light at the point
 
   [[nodiscard]] bool reflects() const { return reflectance != glm::dvec3(0.0); }
   [[nodiscard]] bool transmits() const { return transmittance != glm::dvec3(0.0); }
 };
 
-// How far the neighbouring pixels' rays pass from a point, before they are followed to the surface.
+// The offsets of the neighbouring pixels' rays from a point, before they are followed to the surface.
 struct ReferenceSpread {
-  glm::dvec3 direction{0.0}, x{0.0}, y{0.0};  // direction zero: nothing is averaged
+  glm::dvec3 direction{0.0}, x{0.0}, y{0.0};  // direction zero: textures are not averaged
 };
 
-// The hit triangle's material there. n_shading lies on the side of the triangle's vertex normals, and is
+// The hit triangle's material at the point. n_shading, on the side of the triangle's vertex normals, is
 // turned by the normal map.
 [[nodiscard]] ReferenceMaterial reference_material(const Mesh& mesh, const ReferenceHit& hit,
                                                    const ReferenceSpread& spread, glm::dvec3& n_shading);
 
-// Base alpha times texture times vertex colour, where alpha counts; else 1.
+// Base alpha times texture times vertex colour, if the material uses alpha; else 1.
 [[nodiscard]] double reference_alpha(const Mesh& mesh, const ReferenceHit& hit);
-// Whether rays pass there as if nothing were there.
+// Whether rays pass the point as if there were no surface.
 [[nodiscard]] bool reference_hole(const Mesh& mesh, const ReferenceHit& hit);
 
 }  // namespace pinocchio

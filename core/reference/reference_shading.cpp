@@ -13,15 +13,15 @@ double square(double x) {
   return x * x;
 }
 
-// Between the two cones, as KHR_lights_punctual has it.
+// The falloff between the two cones, as KHR_lights_punctual defines it.
 double cone_share(const Light& light, const glm::dvec3& to_light) {
   const double cos_angle = -glm::dot(to_light, glm::dvec3(light.direction));
-  const double outer = light.cos_outer, width = static_cast<double>(light.cos_inner) - outer;
+  const double outer = light.cos_outer, width = light.cos_inner - outer;
   return square(std::clamp((cos_angle - outer) / std::max(width, 1e-6), 0.0, 1.0));
 }
 
-// Share of unpolarised light that a smooth dielectric mirrors (Born and Wolf, Principles of Optics, 1.5.2).
-// eta: index where the light goes over index where it comes from.
+// The share of unpolarised light that a smooth dielectric mirrors (Born and Wolf, Principles of
+// Optics, 1.5.2). eta: the index on the far side divided by the index on the near side.
 double fresnel(double cos_in, double eta) {
   const double sin2_out = (1.0 - square(cos_in)) / square(eta);  // Snell
   if (sin2_out >= 1.0) return 1.0;
@@ -31,21 +31,21 @@ double fresnel(double cos_in, double eta) {
   return 0.5 * (square(parallel) + square(perpendicular));
 }
 
-// Chiang, Li and Burley 2019: less light the nearer the facet is to turning away.
+// Chiang, Li and Burley 2019: the light falls to zero as the facet turns away.
 double smoothing_at(const ReferenceSurface& s, const glm::dvec3& to_light) {
   const double g = std::min(1.0, glm::dot(s.n_geometric, to_light) / (glm::dot(s.n_shading, to_light) *
                                                                       glm::dot(s.n_shading, s.n_geometric)));
   return -g * g * g + g * g + g;
 }
 
-// About the shading normal, unless that sends the ray into the surface; then about the geometric one.
+// Mirrors about the shading normal, or about the geometric normal if the ray would enter the surface.
 glm::dvec3 mirrored(const ReferenceSurface& s) {
   const auto about = [&s](const glm::dvec3& n) { return 2.0 * glm::dot(n, s.to_viewer) * n - s.to_viewer; };
   const glm::dvec3 direction = about(s.n_shading);
   return glm::dot(direction, s.n_geometric) > 0.0 ? direction : about(s.n_geometric);
 }
 
-// Likewise out of the surface. Zero where all is mirrored.
+// Refracts, also without entering the wrong side of the surface. Zero: total reflection.
 glm::dvec3 refracted(const ReferenceSurface& s, double eta) {
   const auto through = [&](const glm::dvec3& n) {
     const double cos_in = glm::dot(n, s.to_viewer);
@@ -66,8 +66,8 @@ ReferenceBounce bounce(const ReferenceSurface& s, const glm::dvec3& direction, c
 
 namespace {
 
-// A ray to the point of the light (null: far away); `radiance` is what arrives. Nothing where that is
-// nothing, or the surface faces away.
+// The light from a point of the lamp (null: infinitely far away) that arrives with `radiance`. Empty if the
+// radiance is zero or the surface faces away.
 void add_point(const ReferenceSurface& surface, const glm::dvec3& to_light, const glm::dvec3& radiance,
                const glm::dvec3* point, Terminator terminator, std::vector<ReferenceLight>& out) {
   if (radiance == glm::dvec3(0.0) || glm::dot(surface.n_shading, to_light) <= 0.0) return;
@@ -85,8 +85,8 @@ void add_point(const ReferenceSurface& surface, const glm::dvec3& to_light, cons
   out.back().way_up = ReferenceRay{from, origin - from, 1.0};
 }
 
-// Points of the square, one in each of side * side cells. Where in it depends on `place`, so that cells leave
-// no pattern in a picture.
+// Points of the square, one in each of side * side cells. The place in the cell depends on `place`, so that
+// the cells do not show in a picture.
 template <class Use>
 void for_each_cell(int side, const glm::dvec3& place, Use use) {
   std::seed_seq seed{std::hash<double>()(place.x), std::hash<double>()(place.y),
@@ -98,7 +98,7 @@ void for_each_cell(int side, const glm::dvec3& place, Use use) {
       use(glm::dvec2(x + within(random), y + within(random)) / static_cast<double>(side));
 }
 
-// A unit vector at that angle off the axis, `turn` of a circle around it.
+// A unit vector at that angle to the axis, rotated by `turn` of a circle around it.
 glm::dvec3 beside(const glm::dvec3& axis, double cosine, double turn) {
   const glm::dvec3 other = std::abs(axis.x) < 0.5 ? glm::dvec3(1, 0, 0) : glm::dvec3(0, 1, 0);
   const glm::dvec3 t = glm::normalize(glm::cross(axis, other)), u = glm::cross(axis, t);
@@ -106,7 +106,7 @@ glm::dvec3 beside(const glm::dvec3& axis, double cosine, double turn) {
   return sine * (std::cos(phi) * t + std::sin(phi) * u) + cosine * axis;
 }
 
-// By the solid angle of a ball of even radiance I / (pi r^2), or of a disc at infinity.
+// Samples the solid angle of a sphere with constant radiance I / (pi r^2), or of a disc at infinity.
 std::vector<ReferenceLight> round_light(const Light& light, const ReferenceSurface& surface,
                                         const glm::dvec3& strength, Terminator terminator) {
   constexpr double kShare = 1.0 / (kReferencePoints * kReferencePoints);
@@ -116,13 +116,13 @@ std::vector<ReferenceLight> round_light(const Light& light, const ReferenceSurfa
   const glm::dvec3 offset =
       directional ? -glm::dvec3(light.direction) : glm::dvec3(light.position) - surface.p_world;
   const double distance = glm::length(offset);
-  if (!directional && distance > static_cast<double>(light.range)) return points;
+  if (!directional && distance > light.range) return points;
   const bool inside = !directional && distance <= r;
-  const double sine = directional ? std::sin(glm::radians(0.5 * static_cast<double>(light.angle_deg)))
-                                  : (inside ? 1.0 : r / distance);
+  const double sine =
+      directional ? std::sin(glm::radians(0.5 * light.angle_deg)) : (inside ? 1.0 : r / distance);
   const double least = inside ? -1.0 : std::sqrt(1.0 - square(sine));  // cosine at the rim
   const glm::dvec3 axis = distance > 0.0 ? offset / distance : glm::dvec3(0, 1, 0);
-  // Radiance times solid angle: of a light that does not weaken as if at distance 1.
+  // Radiance times solid angle. A light without falloff is treated as if at distance 1.
   double solid = 2.0 * std::numbers::pi * (1.0 - least) / (std::numbers::pi * square(sine));
   if (light.falloff == Light::Falloff::inverse_square && !directional)
     solid /= std::max(std::max(square(distance), square(r)), 1e-12);
@@ -147,7 +147,7 @@ std::vector<ReferenceLight> rectangle_light(const Light& light, const ReferenceS
                              (cell.y - 0.5) * glm::dvec3(light.edge_v);
     const glm::dvec3 offset = point - surface.p_world;
     const double distance = glm::length(offset);
-    if (distance == 0.0 || distance > static_cast<double>(light.range)) return;
+    if (distance == 0.0 || distance > light.range) return;
     const glm::dvec3 to_light = offset / distance;
     double share = kShare * std::max(-glm::dot(to_light, glm::dvec3(light.direction)), 0.0);
     if (light.falloff == Light::Falloff::inverse_square) share /= std::max(square(distance), 1e-12);
@@ -170,7 +170,7 @@ std::vector<ReferenceLight> reference_lights(const Light& light, const Reference
   }
   const glm::dvec3 position(light.position), offset = position - surface.p_world;
   const double distance = glm::length(offset);
-  if (distance == 0.0 || distance > static_cast<double>(light.range)) return point;
+  if (distance == 0.0 || distance > light.range) return point;
   const glm::dvec3 to_light = offset / distance;
   if (light.falloff == Light::Falloff::inverse_square) radiance /= std::max(square(distance), 1e-12);
   if (light.kind == Light::Kind::spot) radiance *= cone_share(light, to_light);
@@ -196,7 +196,7 @@ std::vector<ReferenceBounce> reference_lobe(const ReferenceSurface& s, const Ref
   const glm::dvec3 axis = glm::normalize(mirrored.ray.direction),
                    weight = mirrored.weight / static_cast<double>(side * side);
   for_each_cell(side, s.p_world, [&](const glm::dvec2& cell) {
-    // Of (n + 1) / (2 pi) cos^n, the share within an angle is 1 - cos^(n + 1).
+    // The integral of (n + 1) / (2 pi) cos^n up to an angle is 1 - cos^(n + 1).
     const glm::dvec3 direction = beside(axis, std::pow(1.0 - cell.x, 1.0 / (s.material.gloss + 1.0)), cell.y);
     if (glm::dot(direction, s.n_geometric) > 0.0) rays.push_back(bounce(s, direction, weight));
   });
@@ -218,7 +218,7 @@ std::array<ReferenceBounce, 3> reference_bounces(const ReferenceSurface& s) {
   if (m.transmits()) {
     const double ior = m.ior, eta = s.leaving ? 1.0 / ior : ior;
     const glm::dvec3 through = refracted(s, eta);
-    // Where the two normals disagree there may be no way through although Fresnel has a share for it.
+    // If the two normals disagree, there may be no refracted ray although Fresnel's share is not zero.
     const double share = through == glm::dvec3(0.0) ? 1.0 : fresnel(cos_in, eta);
     return {bounce(s, mirrored(s), glm::dvec3(own * share)),
             bounce(s, through, own * (1.0 - share) * m.transmittance), straight};

@@ -11,22 +11,22 @@
 
 namespace pinocchio {
 
-// Light of one lamp at a point, before anything stands in its way.
+// The light of one lamp at a point, without shadows.
 struct ReferenceLight {
   glm::dvec3 to_light;                 // unit
   glm::dvec3 radiance;                 // linear
-  ReferenceRay shadow;                 // what hits it blocks the light
-  std::optional<ReferenceRay> way_up;  // likewise: to where `shadow` starts off the surface
+  ReferenceRay shadow;                 // a hit blocks the light
+  std::optional<ReferenceRay> way_up;  // to the start of `shadow` above the surface; a hit blocks the light
 };
 
-// Nothing where the light does not reach: too far, outside the cone, or behind the surface. A light with a
-// size is many such points, kReferencePoints squared, that share its radiance.
+// Empty if the light does not reach the point: too far, outside the cone, or behind the surface. A light with
+// a size has kReferencePoints squared entries that share its radiance.
 inline constexpr int kReferencePoints = 16;
 [[nodiscard]] std::vector<ReferenceLight> reference_lights(const Light& light,
                                                            const ReferenceSurface& surface,
                                                            Terminator terminator);
 
-// Light from all around: as many samples of the environment.
+// The environment's light, in as many samples.
 [[nodiscard]] std::vector<ReferenceLight> reference_sky(const ReferenceEnvironment& environment,
                                                         const ReferenceSurface& surface,
                                                         Terminator terminator);
@@ -35,18 +35,18 @@ inline constexpr int kReferencePoints = 16;
 //   I (kd (N.L) + ks (R.V)^n),  R = 2 (N.L) N - L
 [[nodiscard]] glm::dvec3 reference_phong(const ReferenceSurface& surface, const ReferenceLight& light);
 
-// A ray that leaves the surface, and its share of the light.
+// A ray that leaves the surface, and its weight.
 struct ReferenceBounce {
   glm::dvec3 weight{0.0};  // zero: no such ray
   ReferenceRay ray{};
 };
 
-// The mirrored ray of a glossy surface spread over its lobe, side * side of them.
+// The mirrored rays of a glossy surface, side * side of them, spread over its lobe.
 [[nodiscard]] std::vector<ReferenceBounce> reference_lobe(const ReferenceSurface& surface,
                                                           const ReferenceBounce& mirrored, int side);
 
-// Mirrored, refracted, and straight on behind a surface that blends. Dielectrics share by Fresnel's
-// equations; opaque mirrors have a constant reflectance or Schlick's.
+// The mirrored ray, the refracted one, and the one straight on through a surface that blends. Dielectrics
+// split the light by Fresnel's equations. Opaque mirrors have a constant reflectance or Schlick's.
 [[nodiscard]] std::array<ReferenceBounce, 3> reference_bounces(const ReferenceSurface& surface);
 
 }  // namespace pinocchio

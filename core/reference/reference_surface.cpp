@@ -8,25 +8,25 @@
 namespace pinocchio {
 namespace {
 
-// The tracer allows itself 32 roundings of float; a few hundred of double cost nothing here, and are a
-// million times less.
+// The tracer uses 32 roundings of float. A few hundred roundings of double cost nothing here and are a
+// million times smaller.
 constexpr double kPointError = 512.0 * 0x1p-53;
 
-// A triangle's own normal has no length where it has no area, vertex normals none where they cancel.
+// The geometric normal is zero if the triangle has no area; vertex normals may cancel each other.
 glm::dvec3 unit_or(const glm::dvec3& n, double least_square, const glm::dvec3& otherwise) {
   const double square = glm::dot(n, n);
   return square > least_square ? n / std::sqrt(square) : otherwise;
 }
 
-// The point `p` on the tangent plane of the vertex, if it lies below.
+// `p` projected onto the vertex's tangent plane if it lies below the plane, else `p`.
 glm::dvec3 at_least_on_plane(const glm::dvec3& p, const glm::dvec3& vertex, const glm::dvec3& normal) {
   const double below = -glm::dot(p - vertex, normal);
   return below > 0.0 && normal != glm::dvec3(0.0) ? p + below / glm::dot(normal, normal) * normal : p;
 }
 
-// From s.p_world to the curved surface (Hanika 2021); its normals are turned to the viewer.
+// The offset from s.p_world to the curved surface (Hanika 2021). The normals are turned to the viewer.
 glm::dvec3 lift_of(const Mesh& mesh, const ReferenceHit& hit, const ReferenceSurface& s) {
-  constexpr double kLeast = 1e-5;  // of the triangle's size: shaders/shared/terminator.glsl's
+  constexpr double kLeast = 1e-5;  // of the triangle's size, as in shaders/shared/terminator.glsl
   const glm::uvec3 corners = mesh.triangles[hit.triangle];
   const auto normal = [&](int i) { return (s.leaving ? -1.0 : 1.0) * glm::dvec3(mesh.normals[corners[i]]); };
   const auto vertex = [&](int i) { return glm::dvec3(mesh.positions[corners[i]]); };
@@ -58,7 +58,7 @@ ReferenceSurface reference_surface(const Mesh& mesh, const ReferenceRay& ray, co
                                   hit.weights.y * glm::dvec3(mesh.normals[corners.y]) +
                                   hit.weights.z * glm::dvec3(mesh.normals[corners.z]);
   s.n_shading = unit_or(interpolated, 1e-12, s.n_geometric);
-  // Where winding and vertex normals disagree about the outside, the normals are right.
+  // If winding and vertex normals disagree about the outside, the normals count.
   if (glm::dot(s.n_geometric, s.n_shading) < 0.0) s.n_geometric = -s.n_geometric;
   s.leaving = glm::dot(s.n_geometric, s.to_viewer) < 0.0;
   s.n_vertices = s.n_shading;

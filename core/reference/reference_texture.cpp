@@ -32,7 +32,7 @@ ReferenceTexture::ReferenceTexture(const Mesh& mesh, const ReferenceHit& hit, co
     : use_(use) {
   const std::vector<glm::vec2>& of_vertices = use.uv_set == 1 ? mesh.texcoords1 : mesh.texcoords;
   if (use.texture < 0 || of_vertices.empty()) return;
-  texture_ = &mesh.textures[static_cast<std::size_t>(use.texture)];
+  texture_ = &mesh.textures[use.texture];
   const glm::uvec3& t = mesh.triangles[hit.triangle];
   const auto uv = [&](std::uint32_t vertex) {
     return glm::dmat3x2(use.uv_from_texcoord) * glm::dvec3(glm::dvec2(of_vertices[vertex]), 1.0);
@@ -48,20 +48,20 @@ glm::dvec4 ReferenceTexture::at_point(bool is_color) const {
   return texture_ ? interpolated(texcoord_, 0, is_color) : glm::dvec4(1.0);
 }
 
-// Up to eight taps along the longer side of the pixel's parallelogram, each between two levels.
+// Up to eight taps along the longer side of the pixel's parallelogram, each interpolated between two levels.
 glm::dvec4 ReferenceTexture::mean(const ReferenceSpread& spread, bool is_color) const {
   if (!texture_ || texture_->levels() == 1 || spread.direction == glm::dvec3(0.0)) return at_point(is_color);
   const glm::dvec2 size(texture_->texels.size());
   const glm::dvec2 across = texcoord_by_move(spread.x, spread.direction);
   const glm::dvec2 down = texcoord_by_move(spread.y, spread.direction);
   const double longer = std::max(glm::length(across * size), glm::length(down * size));
-  if (!(longer > 1.0)) return at_point(is_color);
+  if (!(longer > 1.0 && longer < 1e18)) return at_point(is_color);
   const glm::dmat2 area(across * size, down * size);
   const double height = std::max(std::abs(glm::determinant(area)) / longer, 1.0);
-  const int taps = static_cast<int>(std::clamp(std::ceil(longer / height), 1.0, 8.0));
+  const int taps = std::clamp(std::ceil(longer / height), 1.0, 8.0);
   const glm::dvec2 side = glm::length(across * size) > glm::length(down * size) ? across : down;
   const double lod = std::clamp(std::log2(longer / taps), 0.0, texture_->levels() - 1.0);
-  const int level = static_cast<int>(lod);
+  const int level = lod;
   glm::dvec4 sum(0.0);
   for (int k = 0; k < taps; ++k) {
     const glm::dvec2 at = texcoord_ + ((k + 0.5) / taps - 0.5) * side;
@@ -77,8 +77,8 @@ glm::dmat2x3 ReferenceTexture::point_by_texcoord() const {
   return glm::dmat2x3(ab_, ac_) * glm::inverse(uv_by_edges);
 }
 
-// What the texture coordinate changes by where the point moves by `spread` and back to the triangle's plane
-// along `direction`: spread = u ab + v ac + w direction.
+// The change of the texture coordinate if the point moves by `spread`, and along `direction` back to the
+// triangle's plane: spread = u ab + v ac + w direction.
 glm::dvec2 ReferenceTexture::texcoord_by_move(const glm::dvec3& spread, const glm::dvec3& direction) const {
   const glm::dmat3 parts(ab_, ac_, direction);
   if (glm::determinant(parts) == 0.0) return glm::dvec2(0.0);

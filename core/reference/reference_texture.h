@@ -6,17 +6,17 @@
 
 namespace pinocchio {
 
-// One texture where a triangle is hit, in double.
+// A texture at a triangle's hit, in double precision.
 class ReferenceTexture {
  public:
   ReferenceTexture(const Mesh& mesh, const ReferenceHit& hit, const TextureUse& use);
 
-  // Else it is white.
+  // False: it is white everywhere.
   [[nodiscard]] bool there() const { return texture_ != nullptr; }
-  // RGBA, 0 to 1, colour linear: at the point itself, and as the mean over what a pixel sees of it.
+  // RGBA, 0 to 1, with linear colour: at the point, and as the mean over the pixel's footprint.
   [[nodiscard]] glm::dvec4 at_point(bool is_color) const;
   [[nodiscard]] glm::dvec4 mean(const ReferenceSpread& spread, bool is_color) const;
-  // The triangle's point by u, and by v; zero where the coordinates have no area.
+  // The derivatives of the triangle's point by u and v; zero if the coordinates have no area.
   [[nodiscard]] glm::dmat2x3 point_by_texcoord() const;
 
  private:

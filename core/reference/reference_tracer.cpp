@@ -9,7 +9,7 @@
 namespace pinocchio {
 namespace {
 
-// Two sides of a square of that width across the ray.
+// The sides of a square of that width at right angles to the ray.
 ReferenceSpread spread_of(const ReferenceRay& ray, double width) {
   if (ray.angle == 0.0) return {};
   int least = 0;
@@ -21,11 +21,10 @@ ReferenceSpread spread_of(const ReferenceRay& ray, double width) {
   return {ray.direction, width * across, width * glm::normalize(glm::cross(ray.direction, across))};
 }
 
-// After that way through a medium (Beer and Lambert).
+// The share of light that is left after a path through a medium (Beer and Lambert).
 glm::dvec3 left_of_light(const Material* medium, double way) {
   if (!medium) return glm::dvec3(1.0);
-  return glm::pow(glm::dvec3(medium->attenuation_color),
-                  glm::dvec3(way / static_cast<double>(medium->attenuation_distance)));
+  return glm::pow(glm::dvec3(medium->attenuation_color), glm::dvec3(way / medium->attenuation_distance));
 }
 
 }  // namespace
@@ -35,8 +34,9 @@ ReferenceTracer::Cone ReferenceTracer::cone_after(const ReferenceRay& ray, const
 }
 
 ReferenceTracer::Pixel ReferenceTracer::pixel(const shared::ViewParams& view, int x, int y, int depth) const {
+  const double footprint = static_cast<double>(options_.texture_footprint);
   ReferenceRay ray = reference_pixel_ray(view, x, y);
-  ray.angle = texture_footprint_ * glm::length(glm::dvec3(view.step_y));
+  ray.angle = footprint * glm::length(glm::dvec3(view.step_y));
   const ReferenceHit hit = closest_hit(ray);
   Pixel pixel;
   pixel.triangle = hit.triangle;
@@ -44,9 +44,9 @@ ReferenceTracer::Pixel ReferenceTracer::pixel(const shared::ViewParams& view, in
     if (environment_) pixel.color = glm::vec4(glm::vec3(environment_->radiance(ray.direction)), 0.0f);
     return pixel;
   }
-  const double side = texture_footprint_ * hit.t;
+  const double side = footprint * hit.t;
   ReferenceSpread spread{ray.direction, side * glm::dvec3(view.step_x), side * glm::dvec3(view.step_y)};
-  if (texture_footprint_ == 0.0) spread = {};
+  if (footprint == 0.0) spread = {};
   const ReferenceSurface surface = reference_surface(*scene_.mesh, ray, hit, spread);
   const glm::dvec3 own = direct(surface, pixel.mask);
   const glm::dvec3 mirrored = from_sky(surface) + bounced(surface, depth, cone_after(ray, hit),
@@ -56,14 +56,14 @@ ReferenceTracer::Pixel ReferenceTracer::pixel(const shared::ViewParams& view, in
   return pixel;
 }
 
-// The surface's light without mirrors and glass. Sets bit i of `bits` where casting light i reaches it.
+// The surface's light without mirrors and glass. Sets bit i of `bits` if casting light i reaches the point.
 glm::dvec3 ReferenceTracer::direct(const ReferenceSurface& surface, unsigned& bits) const {
   glm::dvec3 sum = surface.material.ambient * glm::dvec3(scene_.ambient_light) + surface.material.emission;
   int slot = -1;
   for (const Light& light : scene_.lights) {
     if (light.casts_shadow) ++slot;
-    double seen = 0.0, all = 0.0;  // of a light with a size
-    for (const ReferenceLight& point : reference_lights(light, surface, terminator_)) {
+    double seen = 0.0, all = 0.0;  // sums over the points of a light
+    for (const ReferenceLight& point : reference_lights(light, surface, options_.terminator)) {
       const bool hidden = light.casts_shadow && point.way_up && tree_.occluded(*point.way_up);
       const double share = hidden ? 0.0 : light.casts_shadow ? unblocked(point.shadow) : 1.0;
       seen += share;
@@ -75,18 +75,18 @@ glm::dvec3 ReferenceTracer::direct(const ReferenceSurface& surface, unsigned& bi
   return surface.material.alpha * sum;
 }
 
-// The environment's light that the surface sends on.
+// The environment's light that the surface reflects.
 glm::dvec3 ReferenceTracer::from_sky(const ReferenceSurface& surface) const {
   glm::dvec3 sum(0.0);
   if (!environment_) return sum;
-  for (const ReferenceLight& point : reference_sky(*environment_, surface, terminator_)) {
+  for (const ReferenceLight& point : reference_sky(*environment_, surface, options_.terminator)) {
     if (point.way_up && tree_.occluded(*point.way_up)) continue;
     sum += unblocked(point.shadow) * reference_phong(surface, point);
   }
   return surface.material.alpha * sum;
 }
 
-// Ir(R) + It(T), following `depth` bounces at most.
+// Ir(R) + It(T), with at most `depth` bounces.
 glm::dvec3 ReferenceTracer::bounced(const ReferenceSurface& surface, int depth, const Cone& cone,
                                     const Media& media, int lobe_side) const {
   glm::dvec3 sum(0.0);
@@ -110,8 +110,8 @@ glm::dvec3 ReferenceTracer::bounced(const ReferenceSurface& surface, int depth, 
   return sum;
 }
 
-// A surface that is met from behind bounds what the ray was in, whatever that began with. Walls without a
-// thickness bend nothing, and the medium is the same behind them.
+// A surface that is hit from behind ends the ray's medium, whichever surface the medium began at. Walls
+// without thickness do not refract, and the medium is the same behind them.
 ReferenceTracer::Media ReferenceTracer::media_at(const Material* of_ray, const ReferenceHit& hit,
                                                  const ReferenceSurface& surface) const {
   const Material& own = scene_.mesh->material_of(hit.triangle);
@@ -134,7 +134,7 @@ glm::dvec3 ReferenceTracer::seen(const ReferenceRay& ray, const Material* medium
 
 namespace {
 
-// Behind what it hit, as far as that may be off; a ray that ends somewhere still ends there.
+// Continues the ray behind the hit, by the hit's error. The ray's end stays.
 ReferenceRay continued(const Mesh& mesh, const ReferenceRay& ray, const ReferenceHit& hit) {
   const ReferenceSurface surface = reference_surface(mesh, ray, hit);
   const glm::dvec3 behind = leave(surface, ray.direction);
@@ -144,7 +144,7 @@ ReferenceRay continued(const Mesh& mesh, const ReferenceRay& ray, const Referenc
 
 }  // namespace
 
-// The first hit that is no hole.
+// The first hit that is not in a hole.
 ReferenceHit ReferenceTracer::closest_hit(const ReferenceRay& ray) const {
   ReferenceRay rest = ray;
   for (double passed = 0.0;;) {
@@ -159,9 +159,10 @@ ReferenceHit ReferenceTracer::closest_hit(const ReferenceRay& ray) const {
   }
 }
 
-// How much of a light comes along the ray. One sample decides by alpha of one half; in the mean over a pixel
-// surfaces that blend let what they do not cover through.
+// The share of a light that comes along the ray. In a single sample, surfaces that blend block the light if
+// alpha is at least one half. In a mean over samples, they let through the share that they do not cover.
 double ReferenceTracer::unblocked(const ReferenceRay& ray) const {
+  const bool one_of_many = options_.jitter != glm::vec2(0.0f);
   double share = 1.0;
   for (ReferenceRay rest = ray;;) {
     const ReferenceHit hit = tree_.closest_hit(rest);
@@ -170,9 +171,9 @@ double ReferenceTracer::unblocked(const ReferenceRay& ray) const {
     if (!maps || maps->alpha_mode == AlphaMode::opaque) return 0.0;
     const double alpha = std::clamp(reference_alpha(*scene_.mesh, hit), 0.0, 1.0);
     if (maps->alpha_mode == AlphaMode::mask ? !reference_hole(*scene_.mesh, hit)
-                                            : !one_of_many_ && alpha >= 0.5)
+                                            : !one_of_many && alpha >= 0.5)
       return 0.0;
-    if (maps->alpha_mode == AlphaMode::blend && one_of_many_) share *= 1.0 - alpha;
+    if (maps->alpha_mode == AlphaMode::blend && one_of_many) share *= 1.0 - alpha;
     if (share == 0.0) return 0.0;
     rest = continued(*scene_.mesh, rest, hit);
   }

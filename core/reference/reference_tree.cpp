@@ -11,23 +11,23 @@ namespace pinocchio {
 namespace {
 
 constexpr std::uint32_t kLeafSize = 4;
-constexpr std::size_t kStackSize = 64;  // halving 2^32 triangles is 32 levels, one waiting node each
+constexpr std::size_t kStackSize = 64;  // halving 2^32 triangles takes 32 levels, with one waiting node each
 
-// Boxes are widened by this share of the coordinates a ray meets: many times what subtracting the origin
-// and shearing a corner can err by in double, so that no box is missed whose triangle would be hit.
+// Boxes are widened by this share of the coordinates: many times the error of subtracting the origin and
+// shearing a corner in double, so that no box of a hit triangle is missed.
 constexpr double kBoxError = 32.0 * 0x1p-53;
 
 bool all_finite(const glm::dvec3& v) {
   return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
 }
 
-// Where the ray enters the box, its sides moved out by `margin`; infinity where it does not before t_max.
+// The t at which the ray enters the box, widened by `margin`; infinity if it does not enter before t_max.
 double entry(const ReferenceRay& ray, const Bounds& box, double margin, double t_max) {
   constexpr double kNever = std::numeric_limits<double>::infinity();
   double t_in = 0.0, t_out = t_max;
   for (int axis = 0; axis < 3; ++axis) {
-    const double lo = static_cast<double>(box.lo[axis]) - margin - ray.origin[axis];
-    const double hi = static_cast<double>(box.hi[axis]) + margin - ray.origin[axis];
+    const double lo = box.lo[axis] - margin - ray.origin[axis];
+    const double hi = box.hi[axis] + margin - ray.origin[axis];
     if (ray.direction[axis] == 0.0) {
       if (lo > 0.0 || hi < 0.0) return kNever;
       continue;
@@ -57,7 +57,7 @@ void ReferenceTree::build(const Progress* progress) {
     const Node node = nodes_[i];
     halve(node);
     const std::uint32_t half = node.count / 2;
-    nodes_[i].children = static_cast<std::uint32_t>(nodes_.size());
+    nodes_[i].children = nodes_.size();
     nodes_.push_back({{}, node.first, half, 0});
     nodes_.push_back({{}, node.first + half, node.count - half, 0});
   }
@@ -72,7 +72,7 @@ Bounds ReferenceTree::bounds_of(const Node& node) const {
   return box;
 }
 
-// Sorts the node's triangles into the half of lower and the half of higher centroids.
+// Sorts the node's triangles into a half with lower and a half with higher centroids.
 void ReferenceTree::halve(const Node& node) {
   const auto centroid_times_3 = [&](std::uint32_t id) {
     const glm::uvec3& t = mesh_.triangles[id];
@@ -102,7 +102,7 @@ ReferenceHit ReferenceTree::closest_hit(const ReferenceRay& ray) const {
   std::array<std::uint32_t, kStackSize> stack{0};
   for (std::size_t waiting = 1; waiting > 0;) {
     const Node& node = nodes_[stack[--waiting]];
-    // A box that begins at hit.t is entered too: there may be a lower id at the same t.
+    // A box that begins at hit.t is visited too: it may have a lower id at the same t.
     if (std::isinf(entry(ray, node.box, margin, std::min(ray.t_max, hit.t)))) continue;
     if (node.children != 0) {
       const double left = entry(ray, nodes_[node.children].box, margin, hit.t);

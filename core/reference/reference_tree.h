@@ -10,23 +10,23 @@
 
 namespace pinocchio {
 
-// A bounding volume hierarchy with nothing clever in it: halves by the median centroid along the longest
-// axis, down to four triangles. Nothing in common with the tracer's tree, so that each checks the other.
+// A simple bounding volume hierarchy: triangles are halved by the median centroid along the longest axis,
+// down to four. It has nothing in common with the tracer's tree, so that each checks the other.
 class ReferenceTree {
  public:
-  // `mesh` stays where it is as long as this lives. `progress` is only looked at.
+  // `mesh` must outlive this object. `progress` is only checked for cancellation.
   explicit ReferenceTree(const Mesh& mesh, const Progress* progress = nullptr);
 
-  // The closest triangle within the ray; of several at the same t the lowest id. A ray that is not finite
-  // or has no direction hits nothing. Safe to call from many threads.
+  // The closest triangle within the ray; of several at the same t, the one with the lowest id. A ray that is
+  // not finite or has no direction hits nothing. May be called from many threads.
   [[nodiscard]] ReferenceHit closest_hit(const ReferenceRay& ray) const;
   [[nodiscard]] bool occluded(const ReferenceRay& ray) const { return closest_hit(ray).valid(); }
 
  private:
   struct Node {
     Bounds box;                          // of the triangles' corners, which are floats: exact
-    std::uint32_t first = 0, count = 0;  // of order_
-    std::uint32_t children = 0;          // the two stand side by side; 0: a leaf
+    std::uint32_t first = 0, count = 0;  // in order_
+    std::uint32_t children = 0;          // index of the first of the two; 0: a leaf
   };
 
   void build(const Progress* progress);
@@ -34,7 +34,7 @@ class ReferenceTree {
   void halve(const Node& node);
 
   const Mesh& mesh_;
-  double reach_ = 0.0;                // largest coordinate of the scene
+  double reach_ = 0.0;                // the scene's largest coordinate
   std::vector<std::uint32_t> order_;  // triangle ids, leaf by leaf
   std::vector<Node> nodes_;           // root first
 };

@@ -1,6 +1,6 @@
 #include <algorithm>
 
-#include "core/scene/pose.h"
+#include "core/scene/pose/pose.h"
 #include "pinocchio/animation.h"
 #include "pinocchio/load.h"
 
@@ -12,7 +12,7 @@ void append(const std::vector<T>& from, std::vector<T>& to) {
   to.insert(to.end(), from.begin(), from.end());
 }
 
-// Grows a scene by parts; what places them is done at the end, node by node.
+// Adds parts to a scene; their nodes place them at the end.
 class Assembly {
  public:
   void add(const Part& part) {
@@ -39,10 +39,10 @@ class Assembly {
   }
 
   Expected<Scene> finish() {
-    // What was turned around where it was placed in its part was so by that part's matrices.
+    // Triangles that the part's matrices mirrored are turned around already.
     const std::vector<glm::mat4> world = world_matrices(tree_.nodes);
     std::vector<bool> deforms(world.size(), false);
-    for (const Deformation& d : rest_.deformations) deforms[static_cast<std::size_t>(d.node)] = true;
+    for (const Deformation& d : rest_.deformations) deforms[d.node] = true;
     const AttachedPlaces places = attached_places(rest_, result_);
     for (std::size_t n = 0; n < world.size(); ++n) {
       const Placement placement(world[n]);
@@ -92,7 +92,7 @@ class Assembly {
       Deformation deformation = tree.rest->deformations[d];
       deformation.node += root + 1;
       if (deformation.skin >= 0) deformation.skin += skins;
-      mirrored_[static_cast<std::size_t>(deformation.node)] = Deformer(tree, d, world).mirrors();
+      mirrored_[deformation.node] = Deformer(tree, d, world).mirrors();
       rest_.deformations.push_back(std::move(deformation));
       tree_.weights.push_back(tree.weights[d]);
     }
@@ -109,7 +109,7 @@ class Assembly {
     }
   }
 
-  // What its part attached to nothing hangs on the part's own node.
+  // Lights and cameras without a node of their part are attached to the part's node.
   template <class T>
   void add_attached(const std::vector<T>& of_part, const std::vector<Attached<T>>& attached,
                     const std::vector<std::size_t>& places, int root, std::vector<T>& all,
@@ -154,8 +154,8 @@ class Assembly {
     all.insert(all.end(), mesh.textures.begin(), mesh.textures.end());
   }
 
-  // Of a vertex: there where any part has it, `none` where this one has not. `before`: vertices of those
-  // before.
+  // Appends an attribute of vertices: any part that has it gives all parts one, `none` here where this one
+  // has none. `before`: the number of vertices of earlier parts.
   template <class T>
   void append_optional(const std::vector<T>& from, const T& none, std::size_t before,
                        std::vector<T>& to) const {
@@ -170,7 +170,7 @@ class Assembly {
   NodeTree tree_;
   RestPose rest_;
   Animation animation_;
-  std::vector<bool> mirrored_;  // a node: as its triangles stand
+  std::vector<bool> mirrored_;  // by node: its triangles are turned around
 };
 
 }  // namespace

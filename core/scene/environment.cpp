@@ -20,8 +20,7 @@ double mean_light(const Image<glm::vec3>& image, int x, int y) {
   for (int j = -1; j <= 1; ++j)
     for (int i = -1; i <= 1; ++i) {
       const double share = (i == 0 ? 0.75 : 0.125) * (j == 0 ? 0.75 : 0.125);
-      sum += share * static_cast<double>(brightness_of(
-                         image.at((x + i + size.x) % size.x, std::clamp(y + j, 0, size.y - 1))));
+      sum += share * brightness_of(image.at((x + i + size.x) % size.x, std::clamp(y + j, 0, size.y - 1)));
     }
   return sum;
 }
@@ -50,8 +49,7 @@ void make_to_one(const std::vector<double>& sums, float* ends) {
 Environment::Environment(Image<glm::vec3> radiance, std::string source)
     : radiance_(std::move(radiance)), source_(std::move(source)) {
   for (glm::vec3& c : radiance_.pixels()) c = is_finite(c) ? glm::max(c, 0.0f) : glm::vec3(0.0f);
-  const auto width = static_cast<std::size_t>(radiance_.width()),
-             height = static_cast<std::size_t>(radiance_.height());
+  const std::size_t width = radiance_.width(), height = radiance_.height();
   rows_.resize(height);
   columns_.resize(width * height);
   std::vector<double> of_row(width), of_rows(height);
@@ -61,34 +59,26 @@ Environment::Environment(Image<glm::vec3> radiance, std::string source)
     for (std::size_t x = 0; x < width; ++x)
       of_row[x] = sum += mean_light(radiance_, static_cast<int>(x), static_cast<int>(y));
     make_to_one(of_row, &columns_[y * width]);
-    const auto latitude = [&](std::size_t row) {
-      return std::cos(glm::pi<double>() * static_cast<double>(row) / static_cast<double>(height));
-    };
+    const auto latitude = [&](std::size_t row) { return std::cos(glm::pi<double>() * row / height); };
     of_rows[y] = all += sum * (latitude(y) - latitude(y + 1));
   }
   make_to_one(of_rows, rows_.data());
 }
 
 Environment::Place Environment::sample(const glm::vec2& numbers) const {
-  const auto width = static_cast<std::size_t>(radiance_.width()),
-             height = static_cast<std::size_t>(radiance_.height());
+  const std::size_t width = radiance_.width(), height = radiance_.height();
   const Found row = found_at(rows_.data(), height, numbers.y);
   const Found column = found_at(&columns_[row.index * width], width, numbers.x);
-  const glm::vec2 uv((static_cast<float>(column.index) + column.within) / static_cast<float>(width),
-                     (static_cast<float>(row.index) + row.within) / static_cast<float>(height));
+  const glm::vec2 uv((column.index + column.within) / width, (row.index + row.within) / height);
   return {uv, density(uv)};
 }
 
 float Environment::density(const glm::vec2& uv) const {
-  const auto width = static_cast<std::size_t>(radiance_.width()),
-             height = static_cast<std::size_t>(radiance_.height());
-  const auto texel = [](float t, std::size_t n) {
-    return std::min(static_cast<std::size_t>(t * static_cast<float>(n)), n - 1);
-  };
+  const std::size_t width = radiance_.width(), height = radiance_.height();
+  const auto texel = [](float t, std::size_t n) { return std::min(static_cast<std::size_t>(t * n), n - 1); };
   const std::size_t x = texel(uv.x, width), y = texel(uv.y, height);
   const auto share = [](const float* ends, std::size_t i) { return ends[i] - (i == 0 ? 0.0f : ends[i - 1]); };
-  return share(rows_.data(), y) * static_cast<float>(height) * share(&columns_[y * width], x) *
-         static_cast<float>(width);
+  return share(rows_.data(), y) * height * share(&columns_[y * width], x) * width;
 }
 
 }  // namespace pinocchio

@@ -1,28 +1,20 @@
 #include "pinocchio/load.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 
+#include "core/files/input_file.h"
 #include "core/math/finite.h"
 #include "core/parallel/parts.h"
-#include "core/scene/input_file.h"
-#include "core/scene/loaders.h"
+#include "core/scene/formats.h"
 
 namespace pinocchio {
 namespace {
 
-constexpr std::array<const char*, 4> kSceneExtensions{".gltf", ".glb", ".obj", ".ply"};
-
-constexpr std::size_t kMostVertices = 0xffffffffu;  // triangles and nodes count them with 32 bits
+constexpr std::size_t kMostVertices = 0xffffffffu;  // indices have 32 bits
 
 Unexpected error(const std::filesystem::path& path, const std::string& what, const std::string& remedy) {
   return Unexpected(InputError{path.string(), 0, what, remedy});
-}
-
-std::string lower(std::string text) {
-  std::transform(text.begin(), text.end(), text.begin(), [](unsigned char c) { return std::tolower(c); });
-  return text;
 }
 
 // scenes/cornell -> scenes/cornell.gltf, scenes/cornell/ -> scenes/cornell/cornell.gltf
@@ -32,23 +24,16 @@ Expected<std::filesystem::path> find_scene_file(const std::filesystem::path& pat
   if (std::filesystem::exists(status) && !std::filesystem::is_directory(status)) return path;
   const std::filesystem::path trimmed = path.has_filename() ? path : path.parent_path();
   for (const std::filesystem::path& stem : {trimmed, trimmed / trimmed.filename()})
-    for (const char* extension : kSceneExtensions)
-      if (std::filesystem::path file = stem.string() + extension;
-          std::filesystem::is_regular_file(file, ignored))
-        return file;
+    for (const SceneFormat& format : scene_formats())
+      for (const std::string_view extension : format.extensions)
+        if (std::filesystem::path file = stem.string().append(extension);
+            !extension.empty() && std::filesystem::is_regular_file(file, ignored))
+          return file;
   if (std::filesystem::is_directory(path, ignored))
     return error(path, "is a folder without a scene of that name",
-                 "name a .gltf, .glb, .obj or .ply file in it");
+                 "name a " + scene_extensions(FormatUse::read) + " file in it");
   const auto [what, remedy] = absence_of(path);
   return error(path, what, remedy);
-}
-
-Expected<Scene> load_by_extension(const std::filesystem::path& file, Loading& loading) {
-  const std::string extension = lower(file.extension().string());
-  if (extension == ".obj") return load_obj(file, loading);
-  if (extension == ".ply") return load_ply(file, loading);
-  if (extension == ".gltf" || extension == ".glb") return load_gltf(file, loading);
-  return error(file, "is not of a format that can be read", "convert it to .gltf, .glb, .obj or .ply");
 }
 
 template <class T>
@@ -77,12 +62,16 @@ Expected<Scene> load_scene(const std::filesystem::path& path, const LoadOptions&
   std::error_code ignored;
   if (std::filesystem::is_regular_file(*file, ignored) && std::filesystem::file_size(*file, ignored) == 0)
     return error(*file, "is empty", "is the export complete?");
-  Warnings own;  // of a scene that is refused for a file elsewhere, that is the one line
+  Warnings own;  // dropped where the scene is refused: the error is then its only line
   Warnings& heard = options.confine || !warnings ? own : *warnings;
   MemoryLimit limit(options.limit_bytes);
   InputFiles files(*file, options.confine);
   Loading loading{heard, progress, limit, files};
-  Expected<Scene> scene = load_by_extension(*file, loading);
+  const SceneFormat* const format = find_scene_format(*file);
+  if (!format)
+    return error(*file, "is not of a format that can be read",
+                 "convert it to " + scene_extensions(FormatUse::read));
+  Expected<Scene> scene = format->load(*file, loading);
   if (const std::optional<InputError> outside = files.error()) return Unexpected(*outside);
   if (warnings && &heard != warnings)
     for (const Warning& warning : own) warnings->add(warning);

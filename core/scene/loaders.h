@@ -1,23 +1,13 @@
-// The readers behind load_scene, one a format.
+// The readers of the scene formats (scene/formats.h).
 #pragma once
 
 #include <filesystem>
 
-#include "core/scene/input_files.h"
-#include "core/scene/memory_limit.h"
-#include "pinocchio/load.h"
-#include "pinocchio/progress.h"
+#include "core/files/loading.h"
 
 namespace pinocchio {
 
-struct Loading {
-  Warnings& warnings;
-  Progress* progress;  // may be null
-  MemoryLimit& limit;
-  InputFiles& files;  // beside the scene's
-};
-
-// What is said of triangles, whatever the format, of which a vertex is NaN or infinite.
+// The warning about triangles with a vertex that is NaN or infinite, for every format.
 inline constexpr const char* kUnplaced = "faces on vertices that are no finite numbers are left out";
 inline constexpr const char* kNotDrawn = "they are not drawn";
 

@@ -9,7 +9,7 @@
 namespace pinocchio {
 namespace {
 
-// Materials whose triangles have coloured vertices have maps that say so.
+// Gives materials whose triangles have coloured vertices maps with vertex_colors.
 void let_vertex_colors_count(MeshData& mesh) {
   if (mesh.colors.size() != mesh.positions.size()) return;
   std::vector<bool> colored(mesh.materials.size(), false);
@@ -23,16 +23,16 @@ void let_vertex_colors_count(MeshData& mesh) {
     if (colored[i]) make_maps(mesh, mesh.materials[i]).vertex_colors = true;
 }
 
-// Of the vertices that triangles have; one that there is not is left to check_scene.
+// The bounds of the vertices that triangles have. Indices out of range are skipped: check_scene reports them.
 Bounds bounds_of(const MeshData& mesh) {
   constexpr std::size_t kAtOnce = std::size_t{1} << 17;  // triangles
   std::vector<Bounds> parts(mesh.triangles.size() / kAtOnce + 1);
   for_each_part(mesh.triangles.size(), kAtOnce, [&](std::size_t first, std::size_t last) {
-    std::array<Bounds, 3> own;  // a corner: none waits for another's
+    std::array<Bounds, 3> own;  // one for each corner, so that no sum waits for another
     for (std::size_t i = first; i < last; ++i)
       for (int c = 0; c < 3; ++c)
         if (const std::uint32_t vertex = mesh.triangles[i][c]; vertex < mesh.positions.size())
-          own[static_cast<std::size_t>(c)].add(mesh.positions[vertex]);
+          own[c].add(mesh.positions[vertex]);
     for (const Bounds& corner : own) parts[first / kAtOnce].add(corner);
   });
   Bounds all;
@@ -47,7 +47,7 @@ MaterialMaps& make_maps(MeshData& mesh, Material& material) {
     material.maps = static_cast<int>(mesh.maps.size());
     mesh.maps.emplace_back();
   }
-  return mesh.maps[static_cast<std::size_t>(material.maps)];
+  return mesh.maps[material.maps];
 }
 
 Mesh::Mesh(MeshData data) : MeshData(std::move(data)), bounds_(bounds_of(*this)) {

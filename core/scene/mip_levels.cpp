@@ -12,11 +12,11 @@ namespace {
 
 using Level = Image<glm::vec4>;
 
-// What a texel's bytes stand for.
+// The value of a texel's bytes.
 struct TexelDecoder {
   explicit TexelDecoder(bool is_color) {
     for (std::size_t i = 0; i < 256; ++i) {
-      alpha[i] = static_cast<float>(i) / 255.0f;
+      alpha[i] = i / 255.0f;
       color[i] = is_color ? srgb8_to_linear(static_cast<std::uint8_t>(i)) : alpha[i];
     }
   }
@@ -36,20 +36,20 @@ bool is_even(const glm::ivec2& size) {
   return size.x % 2 == 0 && size.y % 2 == 0;
 }
 
-// The same numbers as half_as_wide() both ways gives where both sides are even.
+// The same numbers as half_as_wide() gives along both axes, for even sides.
 glm::vec4 mean_of_four(const glm::vec4& a, const glm::vec4& b, const glm::vec4& c, const glm::vec4& d) {
   const auto mean = [](const glm::vec4& x, const glm::vec4& y) { return 0.5f * x + 0.5f * y; };
   return mean(mean(a, b), mean(c, d));
 }
 
-// Half as wide: each pixel the mean of the stretch that it stands for, also where the width is odd.
+// Half as wide: each pixel is the mean of the stretch that it covers, also for odd widths.
 Level half_as_wide(const Level& from) {
   const int width = std::max(from.width() / 2, 1);
-  const float stretch = static_cast<float>(from.width()) / static_cast<float>(width);
+  const float stretch = from.width() / static_cast<float>(width);
   Level to({width, from.height()});
   for (int x = 0; x < width; ++x) {
-    const float begin = stretch * static_cast<float>(x), end = begin + stretch;
-    for (int k = static_cast<int>(begin); k < from.width() && static_cast<float>(k) < end; ++k) {
+    const float begin = stretch * x, end = begin + stretch;
+    for (int k = static_cast<int>(begin); k < from.width() && k < end; ++k) {
       const auto left = static_cast<float>(k);
       const float share = (std::min(end, left + 1.0f) - std::max(begin, left)) / stretch;
       for (int y = 0; y < to.height(); ++y) to.at(x, y) += share * from.at(k, y);
@@ -75,28 +75,28 @@ Level halved(const Level& from) {
   return to;
 }
 
-// The levels down to a block's one texel are made block by block, which stays in the cache.
+// The levels down to one texel a block are made block by block: a block stays in the cache.
 constexpr int kMostHalvings = 5;
 
-// How often both sides can be halved without a rest, at most so often.
+// How often both sides can be halved without a remainder, at most `most` times.
 int halvings_of(const glm::ivec2& size) {
   const auto both = static_cast<unsigned>(size.x | size.y);
   return std::min(std::countr_zero(both), kMostHalvings);
 }
 
-// Writes a texture's levels, largest first, where each has its place in `smaller_levels`.
+// Writes a texture's levels, largest first, to their places in `smaller_levels`.
 class LevelWriter {
  public:
   LevelWriter(Texture& texture, bool is_color) : texture_(texture), is_color_(is_color), decode_(is_color) {}
 
-  // The first `halvings` levels; what the last of them stands for.
+  // Makes the first `halvings` levels; returns the values of the last.
   Level write_blocks(int halvings) {
     const int side = 1 << halvings;
     std::size_t at = 0;
     for (int k = 1; k <= halvings; ++k) {
       const glm::ivec2 size = texture_.texels.size() / (1 << k);
-      first_[static_cast<std::size_t>(k)] = at;
-      at += static_cast<std::size_t>(size.x) * static_cast<std::size_t>(size.y);
+      first_[k] = at;
+      at += size.x * static_cast<std::size_t>(size.y);
     }
     texture_.smaller_levels.resize(at);
     Level last(texture_.texels.size() / side);
@@ -122,18 +122,18 @@ class LevelWriter {
     int side = 1 << halvings;
     for (int y = 0; y < side; ++y) {
       const glm::u8vec4* const row = &texture_.texels.at(block.x * side, block.y * side + y);
-      for (int x = 0; x < side; ++x) texels_[static_cast<std::size_t>(y * side + x)] = decode_(row[x]);
+      for (int x = 0; x < side; ++x) texels_[y * side + x] = decode_(row[x]);
     }
     for (int k = 1; k <= halvings; ++k) {
       side /= 2;
       const int width = texture_.texels.width() >> k;
       for (int y = 0; y < side; ++y) {
         glm::u8vec4* const to =
-            &texture_.smaller_levels[first_[static_cast<std::size_t>(k)] +
+            &texture_.smaller_levels[first_[k] +
                                      static_cast<std::size_t>((block.y * side + y) * width + block.x * side)];
-        const glm::vec4* const from = &texels_[static_cast<std::size_t>(4 * y * side)];
-        glm::vec4* const means = &texels_[static_cast<std::size_t>(y * side)];
-        for (int x = 0; x < side; ++x)  // what is written has been read
+        const glm::vec4* const from = &texels_[4 * y * side];
+        glm::vec4* const means = &texels_[y * side];
+        for (int x = 0; x < side; ++x)  // in place: reads are ahead of writes
           means[x] =
               mean_of_four(from[2 * x], from[2 * x + 1], from[2 * side + 2 * x], from[2 * side + 2 * x + 1]);
         encode({means, static_cast<std::size_t>(side)}, is_color_, to);
@@ -149,7 +149,7 @@ class LevelWriter {
   std::array<glm::vec4, std::size_t{1} << (2 * kMostHalvings)> texels_{};
 };
 
-// Of each texture: whether its smaller levels are looked up, and whether it is colour.
+// For each texture: whether its smaller levels are used, and whether it is colour.
 struct Needed {
   bool levels = false, is_color = false;
 };
@@ -159,7 +159,7 @@ std::vector<Needed> needed_of(const MeshData& mesh) {
   for (const MaterialMaps& m : mesh.maps)
     for (const TextureUse* use : m.uses())
       if (use != &m.alpha && use->used() && static_cast<std::size_t>(use->texture) < needed.size()) {
-        Needed& n = needed[static_cast<std::size_t>(use->texture)];
+        Needed& n = needed[use->texture];
         n.levels = true;
         n.is_color = n.is_color || use == &m.base_color || use == &m.emissive || use == &m.specular_color;
       }
@@ -189,7 +189,7 @@ void make_smaller_levels(MeshData& mesh, Progress* progress) {
         mesh.textures[i].texels.pixels().size() > 1)
       missing.push_back(i);
   if (missing.empty()) return;
-  begin_phase(progress, "textures", static_cast<double>(missing.size()));
+  begin_phase(progress, "textures", missing.size());
   std::vector<Texture>& textures = mesh.textures.edit();
   Workers workers(missing.size() > 1 ? 0 : 1);
   workers.for_each(missing.size(), [&](std::size_t i) {

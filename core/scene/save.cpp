@@ -1,19 +1,20 @@
 #include "pinocchio/save.h"
 
+#include "core/scene/formats.h"
 #include "pinocchio/error.h"
 
 namespace pinocchio {
 
 void save_scene(const Scene& scene, const std::filesystem::path& file, Progress* progress,
                 Warnings* warnings) {
-  const std::string extension = file.extension().string();
+  const SceneFormat* const format = find_scene_format(file);
+  if (!format || !format->save)
+    throw EnvironmentError(file.string() + ": is not of a format that can be written; choose " +
+                           scene_extensions(FormatUse::written));
   if (scene.environment && warnings)
     warnings->add({file.string(), "", "the environment is left out",
                    "it is black around the scene; --environment gives it back"});
-  if (extension == ".gltf" || extension == ".glb") return save_gltf(scene, file, progress, warnings);
-  if (extension == ".obj") return save_obj(scene, file, progress, warnings);
-  throw EnvironmentError(file.string() +
-                         ": is not of a format that can be written; choose .gltf, .glb or .obj");
+  format->save(scene, file, progress, warnings);
 }
 
 }  // namespace pinocchio

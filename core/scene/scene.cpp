@@ -17,7 +17,7 @@ std::vector<int> casting_lights(const Scene& scene) {
 std::vector<int> mask_slots(const Scene& scene) {
   std::vector<int> slots(scene.lights.size(), -1);
   int next = 0;
-  for (const int light : casting_lights(scene)) slots[static_cast<std::size_t>(light)] = next++;
+  for (const int light : casting_lights(scene)) slots[light] = next++;
   return slots;
 }
 
@@ -27,7 +27,7 @@ bool reaches(const Light& light, const Bounds& box) {
   const float sides = 0.5f * (glm::length(light.edge_u) + glm::length(light.edge_v));
   if (glm::distance(light.position, glm::clamp(light.position, box.lo, box.hi)) > light.range + sides)
     return false;
-  // A ball with a cone shines to the side of itself as well.
+  // A ball with a cone also lights beside its axis.
   if (light.kind != Light::Kind::spot || light.radius > 0.0f) return true;
   // The cone against the ball around the box.
   const glm::vec3 to_center = box.center() - light.position;
@@ -56,7 +56,7 @@ const Camera* find_camera(const Scene& scene, const std::string& name) {
 Camera camera_for_whole_scene(const Scene& scene) {
   Bounds bounds = scene.mesh->bounds();
   if (bounds.empty()) bounds.add(glm::vec3(0.0f));
-  // Not below what single precision can tell from the centre, or the eye would be where it looks.
+  // At least what single precision distinguishes from the centre: eye and target have to differ.
   const float least = std::max(1e-4f * glm::length(bounds.center()), 1e-6f);
   const float radius = std::max(0.5f * bounds.diagonal(), least);
   Camera camera;

@@ -1,4 +1,4 @@
-// Four lanes, SSE4.1. Names as in lanes_scalar.h.
+// Four lanes, SSE4.1 (simd/lanes.h).
 #pragma once
 
 #include <smmintrin.h>
@@ -6,167 +6,20 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
-#include <cstring>
 
-namespace pinocchio::sse4 {
+#include "core/simd/isas.h"
 
-inline constexpr int kWidth = 4;
+namespace pinocchio::PINOCCHIO_LANES {
+namespace {
 
-struct Mask {
-  __m128 m;
-  [[nodiscard]] unsigned bits() const { return static_cast<unsigned>(_mm_movemask_ps(m)); }
-  static Mask from_bits(unsigned bits) {
-    const __m128i lane = _mm_setr_epi32(1, 2, 4, 8);
-    return {
-        _mm_castsi128_ps(_mm_cmpeq_epi32(_mm_and_si128(_mm_set1_epi32(static_cast<int>(bits)), lane), lane))};
-  }
-};
-inline Mask operator&(Mask a, Mask b) {
-  return {_mm_and_ps(a.m, b.m)};
-}
-inline Mask operator|(Mask a, Mask b) {
-  return {_mm_or_ps(a.m, b.m)};
-}
-inline Mask operator~(Mask a) {
-  return {_mm_xor_ps(a.m, _mm_castsi128_ps(_mm_set1_epi32(-1)))};
-}
-
-struct Float {
-  __m128 v;
-  Float() = default;
-  Float(__m128 x) : v(x) {}  // NOLINT: what the intrinsics return
-  explicit Float(float x) : v(_mm_set1_ps(x)) {}
-  static Float load(const float* p) { return _mm_load_ps(p); }
-  void store(float* p) const { _mm_store_ps(p, v); }
-};
-inline Float operator+(Float a, Float b) {
-  return _mm_add_ps(a.v, b.v);
-}
-inline Float operator-(Float a, Float b) {
-  return _mm_sub_ps(a.v, b.v);
-}
-inline Float operator*(Float a, Float b) {
-  return _mm_mul_ps(a.v, b.v);
-}
-inline Float operator/(Float a, Float b) {
-  return _mm_div_ps(a.v, b.v);
-}
-inline Float operator-(Float a) {
-  return _mm_xor_ps(a.v, _mm_set1_ps(-0.0f));
-}
-inline Float sqrt(Float a) {
-  return _mm_sqrt_ps(a.v);
-}
-inline Mask operator<(Float a, Float b) {
-  return {_mm_cmplt_ps(a.v, b.v)};
-}
-inline Mask operator<=(Float a, Float b) {
-  return {_mm_cmple_ps(a.v, b.v)};
-}
-inline Mask operator==(Float a, Float b) {
-  return {_mm_cmpeq_ps(a.v, b.v)};
-}
-inline Float min(Float a, Float b) {
-  return _mm_min_ps(a.v, b.v);
-}
-inline Float max(Float a, Float b) {
-  return _mm_max_ps(a.v, b.v);
-}
-inline Float abs(Float a) {
-  return _mm_andnot_ps(_mm_set1_ps(-0.0f), a.v);
-}
-inline Float select(Mask m, Float yes, Float no) {
-  return _mm_blendv_ps(no.v, yes.v, m.m);
-}
-
-struct Int {
-  __m128i v;
-  Int() = default;
-  Int(__m128i x) : v(x) {}  // NOLINT: what the intrinsics return
-  explicit Int(std::uint32_t x) : v(_mm_set1_epi32(static_cast<int>(x))) {}
-  static Int load(const std::uint32_t* p) { return _mm_load_si128(reinterpret_cast<const __m128i*>(p)); }
-  void store(std::uint32_t* p) const { _mm_store_si128(reinterpret_cast<__m128i*>(p), v); }
-};
-inline Mask operator<(Int a, Int b) {
-  return {_mm_castsi128_ps(_mm_cmplt_epi32(a.v, b.v))};
-}
-inline Mask operator==(Int a, Int b) {
-  return {_mm_castsi128_ps(_mm_cmpeq_epi32(a.v, b.v))};
-}
-inline Int operator+(Int a, Int b) {
-  return _mm_add_epi32(a.v, b.v);
-}
-inline Int operator-(Int a, Int b) {
-  return _mm_sub_epi32(a.v, b.v);
-}
-inline Int operator*(Int a, Int b) {  // the lower half
-  return _mm_mullo_epi32(a.v, b.v);
-}
-inline Int operator&(Int a, Int b) {
-  return _mm_and_si128(a.v, b.v);
-}
-inline Int operator|(Int a, Int b) {
-  return _mm_or_si128(a.v, b.v);
-}
-inline Int operator^(Int a, Int b) {
-  return _mm_xor_si128(a.v, b.v);
-}
-template <int kBits>
-Int shift_left(Int a) {
-  return _mm_slli_epi32(a.v, kBits);
-}
-template <int kBits>
-Int shift_right(Int a) {
-  return _mm_srai_epi32(a.v, kBits);
-}
-template <int kBits>
-Int shift_in_zeros(Int a) {
-  return _mm_srli_epi32(a.v, kBits);
-}
-inline Int select(Mask m, Int yes, Int no) {
-  return _mm_castps_si128(_mm_blendv_ps(_mm_castsi128_ps(no.v), _mm_castsi128_ps(yes.v), m.m));
-}
-
-inline Int bits_of(Float a) {
-  return _mm_castps_si128(a.v);
-}
-inline Float from_bits(Int a) {
-  return _mm_castsi128_ps(a.v);
-}
-inline Float to_float(Int a) {
-  return _mm_cvtepi32_ps(a.v);
-}
-
-inline Float floor(Float a) {
-  return _mm_floor_ps(a.v);
-}
-inline Int to_int(Float a) {
-  return _mm_cvttps_epi32(a.v);
-}
-inline Int gather(const void* from, Int index, Mask m) {
-  alignas(16) std::uint32_t at[kWidth];
-  alignas(16) std::uint32_t found[kWidth]{};
-  index.store(at);
-  for (unsigned waiting = m.bits(); waiting != 0; waiting &= waiting - 1) {
-    const int lane = __builtin_ctz(waiting);
-    std::memcpy(found + lane, static_cast<const char*>(from) + 4 * static_cast<std::size_t>(at[lane]), 4);
-  }
-  return Int::load(found);
-}
-
-inline void load_columns(const float* const (&rows)[kWidth], Float (&columns)[4]) {
-  __m128 r[4];
-  for (int i = 0; i < 4; ++i) r[i] = _mm_load_ps(rows[i]);
-  const __m128 low01 = _mm_unpacklo_ps(r[0], r[1]), high01 = _mm_unpackhi_ps(r[0], r[1]);
-  const __m128 low23 = _mm_unpacklo_ps(r[2], r[3]), high23 = _mm_unpackhi_ps(r[2], r[3]);
-  columns[0] = _mm_shuffle_ps(low01, low23, _MM_SHUFFLE(1, 0, 1, 0));
-  columns[1] = _mm_shuffle_ps(low01, low23, _MM_SHUFFLE(3, 2, 3, 2));
-  columns[2] = _mm_shuffle_ps(high01, high23, _MM_SHUFFLE(1, 0, 1, 0));
-  columns[3] = _mm_shuffle_ps(high01, high23, _MM_SHUFFLE(3, 2, 3, 2));
-}
+using NativeFloat = __m128;
+using NativeDouble = __m128d;
+using NativeInt [[gnu::vector_size(16), gnu::may_alias]] = std::uint32_t;
+using NativeSigned [[gnu::vector_size(16), gnu::may_alias]] = std::int32_t;
+using NativeMask = NativeSigned;
 
 // By mask: which bytes come first.
-inline constexpr auto kPackOrder = [] {
+constexpr auto kPackOrder = [] {
   std::array<std::array<std::uint8_t, 16>, 16> order{};
   for (unsigned mask = 0; mask < 16; ++mask) {
     unsigned to = 0;
@@ -177,34 +30,64 @@ inline constexpr auto kPackOrder = [] {
   }
   return order;
 }();
-inline void store_packed(std::uint32_t* p, Int a, Mask m) {
-  const __m128i order = _mm_loadu_si128(reinterpret_cast<const __m128i*>(&kPackOrder[m.bits()]));
-  _mm_storeu_si128(reinterpret_cast<__m128i*>(p), _mm_shuffle_epi8(a.v, order));
-}
-inline void store_packed(float* p, Float a, Mask m) {
-  store_packed(reinterpret_cast<std::uint32_t*>(p), bits_of(a), m);
-}
 
-using NativeDouble = __m128d;
-inline constexpr int kParts = 2;
-inline NativeDouble splat(double x) {
-  return _mm_set1_pd(x);
-}
-inline NativeDouble min(NativeDouble a, NativeDouble b) {
-  return _mm_min_pd(a, b);
-}
-inline NativeDouble max(NativeDouble a, NativeDouble b) {
-  return _mm_max_pd(a, b);
-}
-inline NativeDouble native_exponent(NativeDouble a) {
-  return _mm_castsi128_pd(_mm_slli_epi64(_mm_castpd_si128(a), 52));
-}
-inline void widen(Float a, NativeDouble (&out)[kParts]) {
-  out[0] = _mm_cvtps_pd(a.v);
-  out[1] = _mm_cvtps_pd(_mm_movehl_ps(a.v, a.v));
-}
-inline Float narrow(const NativeDouble (&a)[kParts]) {
-  return _mm_movelh_ps(_mm_cvtpd_ps(a[0]), _mm_cvtpd_ps(a[1]));
-}
+struct Native {
+  static unsigned bits(NativeMask m) { return static_cast<unsigned>(_mm_movemask_ps(__m128(m))); }
+  static NativeMask mask(unsigned bits) {
+    const NativeInt lane{1, 2, 4, 8};
+    return (bits & lane) == lane;
+  }
+  static NativeMask less(NativeFloat a, NativeFloat b) { return a < b; }
+  static NativeMask less_equal(NativeFloat a, NativeFloat b) { return a <= b; }
+  static NativeMask equal(NativeFloat a, NativeFloat b) { return a == b; }
+  static NativeMask less(NativeSigned a, NativeSigned b) { return a < b; }
+  static NativeMask equal(NativeSigned a, NativeSigned b) { return a == b; }
 
-}  // namespace pinocchio::sse4
+  static NativeFloat min(NativeFloat a, NativeFloat b) { return _mm_min_ps(a, b); }
+  static NativeFloat max(NativeFloat a, NativeFloat b) { return _mm_max_ps(a, b); }
+  static NativeFloat abs(NativeFloat a) { return _mm_andnot_ps(_mm_set1_ps(-0.0f), a); }
+  static NativeFloat sqrt(NativeFloat a) { return _mm_sqrt_ps(a); }
+  static NativeFloat floor(NativeFloat a) { return _mm_floor_ps(a); }
+  static NativeFloat select(NativeMask m, NativeFloat yes, NativeFloat no) {
+    return _mm_blendv_ps(no, yes, __m128(m));
+  }
+  static NativeFloat to_float(NativeSigned a) { return _mm_cvtepi32_ps(__m128i(a)); }
+  static __m128i to_int(NativeFloat a) { return _mm_cvttps_epi32(a); }
+
+  static NativeInt gather(const void* from, NativeInt index, NativeMask m) {
+    alignas(16) std::uint32_t at[4];
+    alignas(16) std::uint32_t found[4]{};
+    *reinterpret_cast<NativeInt*>(at) = index;
+    for (unsigned waiting = bits(m); waiting != 0; waiting &= waiting - 1) {
+      const int lane = __builtin_ctz(waiting);
+      __builtin_memcpy(found + lane, static_cast<const char*>(from) + 4 * std::size_t{at[lane]}, 4);
+    }
+    return *reinterpret_cast<const NativeInt*>(found);
+  }
+  static NativeInt packed(NativeInt a, NativeMask m) {
+    const __m128i order = _mm_loadu_si128(reinterpret_cast<const __m128i*>(&kPackOrder[bits(m)]));
+    return NativeInt(_mm_shuffle_epi8(__m128i(a), order));
+  }
+
+  static NativeFloat load_rows(const float* const* rows) { return _mm_load_ps(rows[0]); }
+  static NativeFloat unpack_low(NativeFloat a, NativeFloat b) { return _mm_unpacklo_ps(a, b); }
+  static NativeFloat unpack_high(NativeFloat a, NativeFloat b) { return _mm_unpackhi_ps(a, b); }
+  static NativeFloat low_halves(NativeFloat a, NativeFloat b) { return _mm_shuffle_ps(a, b, 0x44); }
+  static NativeFloat high_halves(NativeFloat a, NativeFloat b) { return _mm_shuffle_ps(a, b, 0xee); }
+
+  static NativeDouble min(NativeDouble a, NativeDouble b) { return _mm_min_pd(a, b); }
+  static NativeDouble max(NativeDouble a, NativeDouble b) { return _mm_max_pd(a, b); }
+  static NativeDouble exponent(NativeDouble a) {
+    return _mm_castsi128_pd(_mm_slli_epi64(_mm_castpd_si128(a), 52));
+  }
+  static void widen(NativeFloat a, NativeDouble (&out)[2]) {
+    out[0] = _mm_cvtps_pd(a);
+    out[1] = _mm_cvtps_pd(_mm_movehl_ps(a, a));
+  }
+  static NativeFloat narrow(const NativeDouble (&a)[2]) {
+    return _mm_movelh_ps(_mm_cvtpd_ps(a[0]), _mm_cvtpd_ps(a[1]));
+  }
+};
+
+}  // namespace
+}  // namespace pinocchio::PINOCCHIO_LANES

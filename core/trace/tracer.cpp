@@ -6,25 +6,31 @@
 #include <string>
 #include <utility>
 
-#include "core/bsp/build.h"
-#include "core/trace/kernels.h"
-#include "core/trace/lane_steps.h"
-#include "core/trace/ray_sorter.h"
+#include "core/bsp/build/build.h"
+#include "core/trace/lanes/lane_steps.h"
+#include "core/trace/rays/ray_sorter.h"
+#include "core/trace/walk/kernels.h"
 #include "pinocchio/error.h"
 
 namespace pinocchio {
 namespace {
 
+#define PINOCCHIO_NAME(name, lanes, feature) #name,
+constexpr std::array<std::string_view, kIsaNames.size()> kListedNames{PINOCCHIO_ISAS(PINOCCHIO_NAME)};
+#undef PINOCCHIO_NAME
+static_assert(kListedNames == kIsaNames, "simd/isas.h and Isa list the same instruction sets");
+
 struct IsaEntry {
+  bool (*is_supported)();
   const Kernels& kernels;
   const LaneSteps& steps;
 };
 
 // In Isa's order, narrowest first.
-const std::array<IsaEntry, kIsaNames.size()> kIsas{{{scalar::kKernels, scalar::kSteps},
-                                                    {sse4::kKernels, sse4::kSteps},
-                                                    {avx2::kKernels, avx2::kSteps},
-                                                    {avx512::kKernels, avx512::kSteps}}};
+#define PINOCCHIO_ENTRY(name, lanes, feature) \
+  {[] { return __builtin_cpu_supports(feature) != 0; }, name::kKernels, name::kSteps},
+const IsaEntry kIsas[]{PINOCCHIO_ISAS(PINOCCHIO_ENTRY)};
+#undef PINOCCHIO_ENTRY
 
 const IsaEntry& entry_of(Isa isa) {
   return kIsas[static_cast<std::size_t>(isa)];
@@ -34,19 +40,19 @@ const Kernel& kernel_of(Isa isa, TriangleTest test) {
   return entry_of(isa).kernels[static_cast<std::size_t>(test)];
 }
 
-Isa choose(std::optional<Isa> wanted) {
+Isa checked_isa(std::optional<Isa> wanted) {
   if (!wanted) return default_isa();
   if (!isa_supported(*wanted))
     throw EnvironmentError("--isa " + std::string(isa_name(*wanted)) + ": this processor does not have it");
   return *wanted;
 }
 
-// Rays that are put in columns at a time.
+// Rays copied to columns at a time.
 constexpr std::size_t kBlock = 256;
 
 class Block {
  public:
-  // As many of the rays as fit; returns them.
+  // Copies as many of the rays as fit; returns those.
   std::span<const Ray> load(std::span<const Ray> rays) {
     rays = rays.first(std::min(rays.size(), kBlock));
     for (std::size_t i = 0; i < rays.size(); ++i) {
@@ -76,23 +82,13 @@ const LaneSteps& lane_steps(Isa isa) {
 }
 
 bool isa_supported(Isa isa) {
-  switch (isa) {
-    case Isa::scalar:
-      return true;
-    case Isa::sse4:
-      return __builtin_cpu_supports("sse4.1");
-    case Isa::avx2:
-      return __builtin_cpu_supports("avx2");
-    case Isa::avx512:
-      return __builtin_cpu_supports("avx512f");
-  }
-  return false;
+  return entry_of(isa).is_supported();
 }
 
 std::vector<Isa> supported_isas() {
   std::vector<Isa> found;
-  for (const Isa isa : {Isa::scalar, Isa::sse4, Isa::avx2, Isa::avx512})
-    if (isa_supported(isa)) found.push_back(isa);
+  for (const std::string_view name : kIsaNames)
+    if (const Isa isa = *parse_name<Isa>(kIsaNames, name); isa_supported(isa)) found.push_back(isa);
   return found;
 }
 
@@ -104,7 +100,7 @@ Tracer::Tracer(std::shared_ptr<const Mesh> mesh, const BuildOptions& options, st
                OffsetMethod offset)
     : mesh_(std::move(mesh)),
       tree_(std::make_shared<const BspTree>(build_tree(*mesh_, options))),
-      isa_(choose(isa)),
+      isa_(checked_isa(isa)),
       offset_(RayOffset::of(offset, tree_->bounds)) {}
 
 void Tracer::closest_hits(std::span<const Ray> rays, std::span<Hit> hits) const {
@@ -127,15 +123,15 @@ void Tracer::occluded(std::span<const Ray> rays, std::span<std::uint8_t> blocked
   for (std::size_t first = 0; first < rays.size(); first += kBlock) {
     const std::span<const Ray> part = block.load(rays.subspan(first));
     occluded(block.columns(), part.size(), found);
-    std::copy_n(found, part.size(), blocked.begin() + static_cast<std::ptrdiff_t>(first));
+    std::copy_n(found, part.size(), blocked.begin() + first);
   }
 }
 
 void Tracer::closest_hits(const RayColumns& rays, std::size_t n, std::uint32_t* triangle, float* t) const {
   const auto trace = kernel_of(isa_, tree_->test).closest_hits;
-  if (n < kLeastSorted || isa_ == Isa::scalar || !rays_part(rays, n))
+  if (n < kLeastSorted || isa_ == Isa::scalar || !rays_diverge(rays, n))
     return trace(*tree_, rays, n, triangle, t);
-  static thread_local RaySorter sorter;  // its memory is made once a thread
+  static thread_local RaySorter sorter;  // allocates once per thread
   const RayColumns sorted = sorter.sort(rays, n);
   trace(*tree_, sorted, n, sorter.triangles(), t ? sorter.distances() : nullptr);
   sorter.put_back(triangle, t);

@@ -1,4 +1,5 @@
-// A scene to EXR without a display, shadows and mirrors by the CPU. The 15 lines of the README.
+// Draws a scene to an EXR without a display; the CPU computes shadows and mirrors. The README shows these
+// lines.
 #include <pinocchio/engine.h>
 #include <pinocchio/load.h>
 
@@ -10,7 +11,7 @@ int main(int argc, char** argv) {
   if (!scene) return std::puts(scene.error().message().c_str()), 1;
   pinocchio::Engine engine;
   pinocchio::Settings settings;
-  settings.depth = 4;  // what is not set is resolved: the least that draws the scene exactly
+  settings.depth = 4;  // other settings are resolved: the cheapest that draw the scene exactly
   const auto camera = scene->cameras.empty() ? camera_for_whole_scene(*scene) : scene->cameras.front();
   const auto frame = engine.render(*scene, {.camera = camera, .size = {800, 600}}, settings);
   if (!frame) return std::puts(frame.error().message().c_str()), 1;

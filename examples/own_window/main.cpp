@@ -1,5 +1,5 @@
-// A window of one's own that hands us its OpenGL context: GLFW opens it, Pinocchio draws frames into
-// textures, and the program shows each as it likes.
+// A program with its own window and OpenGL context: GLFW opens the window, Pinocchio draws frames into
+// textures, and the program shows them.
 #include <pinocchio/engine.h>
 #include <pinocchio/load.h>
 #define GLFW_INCLUDE_GLEXT
@@ -55,11 +55,11 @@ int main(int argc, char** argv) {
     const int frames = argc > 2 ? std::atoi(argv[2]) : 1 << 30;
     for (int n = 0; n < frames && !glfwWindowShouldClose(window); ++n) {
       scene.lights.front().position.x =
-          home.x + 2.0f * std::sin(0.05f * static_cast<float>(n));  // copies nothing
+          home.x + 2.0f * std::sin(0.05f * static_cast<float>(n));  // copies no geometry
       renderer.submit({scene, tracer, *settings, view});
       glfwPollEvents();
     }
     renderer.drain();
-  }  // before its context
+  }  // the Engine ends before its context
   glfwTerminate();
 }

@@ -9,7 +9,7 @@ FOCAL = 140.0  # pixels
 
 
 def random_camera(scene, random):
-    """Somewhere around the scene, looking at a point near its middle."""
+    """The pose of a camera at a random place around the scene that looks at a point near its centre."""
     low, high = map(numpy.array, scene.bounds)
     middle, radius = (low + high) / 2, numpy.linalg.norm(high - low) / 2
     direction = random.normal(size=3)

@@ -1,7 +1,7 @@
-"""A picture test: fails where a person would see that the picture is no longer the one that was approved.
+"""A picture test: it fails if a person would see a difference to the approved picture.
 
     pytest test_picture.py             # the first run writes the approved picture
-    APPROVE=1 pytest test_picture.py   # after a change that was wanted
+    APPROVE=1 pytest test_picture.py   # after an intended change
 """
 import os
 import pathlib
@@ -11,7 +11,7 @@ import pinocchio
 import pytest
 
 APPROVED = pathlib.Path(__file__).with_name("approved")
-MOST_FLIP = 0.005  # mean over the picture; two pictures that nobody tells apart are far below
+MOST_FLIP = 0.005  # mean over the picture; far above the value of two pictures that look the same
 
 
 def a_scene():
@@ -34,6 +34,6 @@ def test_cone(name, eye):
     if os.environ.get("APPROVE") or not approved.exists():
         APPROVED.mkdir(exist_ok=True)
         result.write_exr(approved, aov="none")
-        pytest.skip(f"{approved} is new: look at it, and keep it")
+        pytest.skip(f"{approved} is new: check it, and keep it")
     error = pinocchio.compare(result, approved)
-    assert error["flip"] <= MOST_FLIP, f"FLIP {error['flip']:.4f}; if it was wanted, APPROVE=1"
+    assert error["flip"] <= MOST_FLIP, f"FLIP {error['flip']:.4f}; if the change is intended, set APPROVE=1"

@@ -8,7 +8,7 @@ from PIL import Image
 
 
 def on_screen(color, background=0.18):
-    """Linear RGBA over grey, as sRGB of 8 bits."""
+    """Converts linear RGBA over grey to 8-bit sRGB."""
     linear = numpy.clip(color[..., :3] + background * (1 - color[..., 3:]), 0, 1)
     srgb = numpy.where(linear <= 0.0031308, 12.92 * linear, 1.055 * linear ** (1 / 2.4) - 0.055)
     return (255 * srgb + 0.5).astype(numpy.uint8)

@@ -1,4 +1,5 @@
-// The ray tracer alone: rays in, hits out. Prints the scene in letters: # lit by its light, . in shadow.
+// The ray tracer without a renderer: rays in, hits out. Prints the scene in letters: # is lit by its light, .
+// is in shadow.
 #include <pinocchio/load.h>
 #include <pinocchio/tracer.h>
 #include <pinocchio/view.h>
@@ -20,7 +21,7 @@ int main(int argc, char** argv) {
 
   Image<Ray> to_light(view.size);
   for (std::size_t i = 0; i < hits.pixels().size(); ++i) {
-    // A little before the surface, which is not to shade itself.
+    // The shadow ray starts in front of the surface, so that the surface does not shadow itself.
     const glm::vec3 point =
         hits[i].valid() ? rays[i].origin + 0.999f * hits[i].t * rays[i].direction : light.position;
     to_light[i] = {point, 1.0f, light.position - point};

@@ -1,49 +1,112 @@
 #include "hybrid/exchange/channels.h"
 
+#include <algorithm>
+#include <array>
+#include <cstring>
+
 #include "hybrid/exchange/encode.h"
 #include "hybrid/exchange/reflection_tiles.h"
-#include "pinocchio/mask_image.h"
 
 namespace pinocchio {
 namespace {
 
-std::size_t bytes_of(glm::ivec2 texels, const gl::PixelFormat& format) {
-  return static_cast<std::size_t>(texels.x) * static_cast<std::size_t>(texels.y) * format.bytes;
+bool raster(const Settings& s) {
+  return s.visibility == Processor::gpu;
 }
 
-ChannelLayout whole(Channel channel, const gl::PixelFormat& texel, glm::ivec2 texels) {
-  return {channel, texel, texels, bytes_of(texels, texel)};
+bool on_gpu(const Settings& s) {
+  return s.composite == Processor::gpu;
 }
 
-ChannelLayout mask_layout(const Settings& s, glm::ivec2 size) {
+using S = const Settings&;
+using Bytes = std::span<const std::byte>;
+using Writable = std::span<std::byte>;
+
+ChannelTexture whole(const gl::PixelFormat& texel, glm::ivec2 texels) {
+  const auto count = static_cast<std::size_t>(texels.x) * static_cast<std::size_t>(texels.y);
+  return {.texel = texel, .texels = texels, .most_bytes = count * texel.bytes};
+}
+
+ChannelTexture mask_texture(S s, glm::ivec2 size) {
   const glm::ivec2 samples = scaled_size(size, s.mask_scale);
-  return whole(Channel::mask, gl::kR8Ui, {MaskImage::row_bytes_for(samples.x, s.mask_bits), samples.y});
+  return whole(gl::kR8Ui, {MaskImage::row_bytes_for(samples.x, s.mask_bits), samples.y});
 }
 
 // In tiles it ends in a texture of whole tiles, and an index travels before them.
-ChannelLayout reflection_layout(const Settings& s, glm::ivec2 size) {
+ChannelTexture reflection_texture(S s, glm::ivec2 size) {
   const glm::ivec2 samples = scaled_size(size, s.reflection_scale);
-  const auto [pixel, texels] = texel_format(s.reflection);
-  if (!s.tiles) return whole(Channel::reflection, pixel, {samples.x * texels, samples.y});
-  const glm::ivec2 padded = tile_columns_rows(samples) * kReflectionTile;
-  return {Channel::reflection, pixel, {padded.x * texels, padded.y}, most_tile_bytes(samples, s.reflection)};
+  const Packing& pack = packing(s.reflection);
+  if (!s.tiles) return whole(pack.texel, {samples.x * pack.texels, samples.y});
+  const glm::ivec2 tiles = tile_columns_rows(samples), padded = tiles * kReflectionTile;
+  return {.texel = pack.texel,
+          .texels = {padded.x * pack.texels, padded.y},
+          .most_bytes = most_tile_bytes(samples, s.reflection),
+          .tiles = tiles};
 }
+
+void encode_reflection(CpuImages& from, S s, Workers& workers, Writable to) {
+  if (!s.tiles) return pack_radiance(from.reflection, s.reflection, workers, to);
+  from.tiles = pack_tiles(from.reflection, s.reflection, workers, from.tile_index, to);
+}
+
+void decode_phong(Bytes bytes, S, CpuImages& to) {
+  if (to.phong_srgb.size() != to.ids.size()) to.phong_srgb = Image<glm::u8vec3>(to.ids.size());
+  std::ranges::copy(bytes, std::as_writable_bytes(to.phong_srgb.pixels()).begin());
+}
+
+// By channel.
+constexpr std::array<ChannelRow, kChannelNames.size()> kRows{{
+    {.channel = Channel::ids,
+     .travels = [](S s) { return raster(s) && !s.wide; },
+     .texture = [](S s, glm::ivec2 size) { return whole(id_format(s.id_bits).pixel, size); },
+     .decode = [](Bytes bytes, S s, CpuImages& to) { unpack_ids(bytes, s.id_bits, to.ids); }},
+    {.channel = Channel::normals,  // the slides send them; the tracer's hit points have their own
+     .travels = [](S s) { return raster(s) && s.normals; },
+     .texture = [](S, glm::ivec2 size) { return whole(gl::kRgb8, size); }},
+    {.channel = Channel::gbuffer,
+     .travels = [](S s) { return raster(s) && s.wide; },
+     .texture = [](S, glm::ivec2 size) { return whole(gl::kRgba32Ui, size); },
+     .decode = [](Bytes bytes, S, CpuImages& to) { unpack_gbuffer_ids(bytes, to.ids); }},
+    {.channel = Channel::phong,
+     .travels = [](S s) { return raster(s) && !on_gpu(s); },
+     .texture = [](S, glm::ivec2 size) { return whole(gl::kSrgb8, size); },
+     .decode = decode_phong},
+    {.channel = Channel::traced_ids,
+     .travels = [](S s) { return !raster(s) && on_gpu(s); },
+     .texture = [](S s, glm::ivec2 size) { return whole(id_format(s.id_bits).pixel, size); },
+     .encode = [](CpuImages& from, S s, Workers&, Writable to) { pack_ids(from.ids, s.id_bits, to); }},
+    {.channel = Channel::mask,
+     .travels = [](S s) { return on_gpu(s) && s.mask_bits > 0; },
+     .texture = mask_texture,
+     .encode = [](CpuImages& from, S, Workers&,
+                  Writable to) { std::memcpy(to.data(), from.mask.bytes().data(), to.size()); }},
+    {.channel = Channel::reflection,
+     .travels = [](S s) { return on_gpu(s) && s.reflects(); },
+     .texture = reflection_texture,
+     .encode = encode_reflection},
+    {.channel = Channel::picture,
+     .travels = [](S s) { return raster(s) && !on_gpu(s); },
+     .texture = [](S, glm::ivec2 size) { return whole(gl::kR8, component_size(size)); },
+     .encode = [](CpuImages& from, S, Workers& workers,
+                  Writable to) { pack_srgb(from.unpacked, workers, to); }},
+}};
+static_assert([] {
+  for (std::size_t i = 0; i < kRows.size(); ++i)
+    if (static_cast<std::size_t>(kRows[i].channel) != i) return false;
+  return true;
+}());
 
 }  // namespace
 
+const ChannelRow& channel_row(Channel channel) {
+  return kRows[static_cast<std::size_t>(channel)];
+}
+
 std::vector<ChannelLayout> channels_of(const Settings& s, glm::ivec2 size) {
-  const bool raster = s.visibility == Processor::gpu, on_gpu = s.composite == Processor::gpu;
   std::vector<ChannelLayout> channels;
   if (!s.traces() || !s.uses_gpu()) return channels;
-  const gl::PixelFormat ids = id_format(s.id_bits).pixel;
-  if (raster && !s.wide) channels.push_back(whole(Channel::ids, ids, size));
-  if (raster && s.normals) channels.push_back(whole(Channel::normals, gl::kRgb8, size));
-  if (raster && s.wide) channels.push_back(whole(Channel::gbuffer, gl::kRgba32Ui, size));
-  if (raster && !on_gpu) channels.push_back(whole(Channel::phong, gl::kSrgb8, size));
-  if (!raster && on_gpu) channels.push_back(whole(Channel::traced_ids, ids, size));
-  if (on_gpu && s.mask_bits > 0) channels.push_back(mask_layout(s, size));
-  if (on_gpu && s.reflects()) channels.push_back(reflection_layout(s, size));
-  if (raster && !on_gpu) channels.push_back(whole(Channel::picture, gl::kR8, component_size(size)));
+  for (const ChannelRow& row : kRows)
+    if (row.travels(s)) channels.push_back({row.texture(s, size), row.channel});
   return channels;
 }
 

@@ -22,7 +22,7 @@ float from_half_bits(std::uint16_t bits) {
   return half(half::FromBits, bits);
 }
 
-// Calls body(first, end) for each row's range of pixels, on all threads.
+// Calls body(first, end) with each row's range of pixels, on all threads.
 template <class Body>
 void for_each_row(glm::ivec2 size, Workers& workers, Body body) {
   const auto width = static_cast<std::size_t>(size.x);
@@ -30,7 +30,7 @@ void for_each_row(glm::ivec2 size, Workers& workers, Body body) {
                    [&](std::size_t row) { body(row * width, (row + 1) * width); });
 }
 
-// As OpenGL's EXT_texture_shared_exponent has it: the exponent is the brightest colour's.
+// The conversion of OpenGL's EXT_texture_shared_exponent: the exponent is the brightest colour's.
 std::uint32_t rgb9e5_bits(const glm::vec3& light) {
   constexpr int kMantissaBits = 9, kBias = 15;
   constexpr float kLargest = 65408.0f;  // (2^9 - 1) / 2^9 * 2^16
@@ -43,6 +43,37 @@ std::uint32_t rgb9e5_bits(const glm::vec3& light) {
   return mantissa(c.r) | mantissa(c.g) << 9u | mantissa(c.b) << 18u |
          static_cast<std::uint32_t>(exponent) << 27u;
 }
+
+void pack_srgb8(std::span<const glm::vec3> radiance, std::byte* to) {
+  for (const glm::vec3& light : radiance)
+    for (int c = 0; c < kComponents; ++c) *to++ = static_cast<std::byte>(linear_to_srgb8(light[c]));
+}
+
+void pack_rgb9e5(std::span<const glm::vec3> radiance, std::byte* to) {
+  for (std::size_t i = 0; i < radiance.size(); ++i) {
+    const std::uint32_t bits = rgb9e5_bits(radiance[i]);
+    std::memcpy(to + i * sizeof(bits), &bits, sizeof(bits));
+  }
+}
+
+void pack_halves(std::span<const glm::vec3> radiance, std::byte* to) {
+  auto* halves = reinterpret_cast<std::uint16_t*>(to);
+  for (const glm::vec3& light : radiance)
+    for (int c = 0; c < kComponents; ++c) *halves++ = half_bits(light[c]);
+}
+
+void pack_floats(std::span<const glm::vec3> radiance, std::byte* to) {
+  std::memcpy(to, radiance.data(), radiance.size_bytes());
+}
+
+// By ReflectionFormat.
+constexpr std::array<Packing, kReflectionFormatNames.size()> kPackings{{
+    {gl::kR8, 0, false, nullptr},
+    {gl::kR8, kComponents, true, pack_srgb8},
+    {gl::kRgb9E5, 1, false, pack_rgb9e5},
+    {gl::kR16F, kComponents, false, pack_halves},
+    {gl::kR32F, kComponents, false, pack_floats},
+}};
 
 }  // namespace
 
@@ -86,48 +117,13 @@ void pack_ids(const Image<std::uint32_t>& ids, int id_bits, std::span<std::byte>
   }
 }
 
+const Packing& packing(ReflectionFormat format) {
+  return kPackings[static_cast<std::size_t>(format)];
+}
+
 int bytes_per_pixel(ReflectionFormat format) {
-  constexpr std::array<int, kReflectionFormatNames.size()> kBytes{0, 3, 4, 6, 12};
-  return kBytes[static_cast<std::size_t>(format)];
-}
-
-TexelFormat texel_format(ReflectionFormat format) {
-  switch (format) {
-    case ReflectionFormat::rgb8:
-      return {gl::kR8, kComponents};
-    case ReflectionFormat::rgb9e5:
-      return {gl::kRgb9E5, 1};
-    case ReflectionFormat::full:
-      return {gl::kR32F, kComponents};
-    default:
-      return {gl::kR16F, kComponents};
-  }
-}
-
-void pack_pixels(std::span<const glm::vec3> radiance, ReflectionFormat format, std::byte* to) {
-  switch (format) {
-    case ReflectionFormat::none:
-      return;
-    case ReflectionFormat::rgb8:
-      for (const glm::vec3& light : radiance)
-        for (int c = 0; c < kComponents; ++c) *to++ = static_cast<std::byte>(linear_to_srgb8(light[c]));
-      return;
-    case ReflectionFormat::rgb9e5:
-      for (std::size_t i = 0; i < radiance.size(); ++i) {
-        const std::uint32_t bits = rgb9e5_bits(radiance[i]);
-        std::memcpy(to + i * sizeof(bits), &bits, sizeof(bits));
-      }
-      return;
-    case ReflectionFormat::half: {
-      auto* halves = reinterpret_cast<std::uint16_t*>(to);
-      for (const glm::vec3& light : radiance)
-        for (int c = 0; c < kComponents; ++c) *halves++ = half_bits(light[c]);
-      return;
-    }
-    case ReflectionFormat::full:
-      std::memcpy(to, radiance.data(), radiance.size_bytes());
-      return;
-  }
+  const Packing& pack = packing(format);
+  return pack.texels * static_cast<int>(pack.texel.bytes);
 }
 
 void pack_radiance(const Image<glm::vec3>& radiance, ReflectionFormat format, Workers& workers,
@@ -135,7 +131,7 @@ void pack_radiance(const Image<glm::vec3>& radiance, ReflectionFormat format, Wo
   const auto pixel_bytes = static_cast<std::size_t>(bytes_per_pixel(format));
   assert(bytes.size() == radiance.pixels().size() * pixel_bytes);
   for_each_row(radiance.size(), workers, [&](std::size_t first, std::size_t end) {
-    pack_pixels({&radiance[first], end - first}, format, bytes.data() + first * pixel_bytes);
+    packing(format).pack({&radiance[first], end - first}, bytes.data() + first * pixel_bytes);
   });
 }
 

@@ -1,4 +1,4 @@
-// The formats of what travels, and the pictures they stand for.
+// The formats that pictures travel in: what packs and unpacks them.
 #pragma once
 
 #include <cstddef>
@@ -7,46 +7,47 @@
 #include <span>
 
 #include "core/parallel/workers.h"
-#include "gl/texture.h"
+#include "gl/objects/texture.h"
 #include "pinocchio/image.h"
 #include "pinocchio/settings.h"
 
 namespace pinocchio {
 
-// How ids are stored and travel, and the value (of a component) that says nothing is seen.
+// How ids are stored and travel, and the value of a component where nothing is seen.
 struct IdFormat {
   gl::PixelFormat pixel;
   std::uint32_t none;
 };
 [[nodiscard]] IdFormat id_format(int id_bits);
 
-// Ids as the GPU sends them to 32 bits.
+// From the GPU's ids to ids of 32 bits.
 void unpack_ids(std::span<const std::byte> bytes, int id_bits, Image<std::uint32_t>& ids);
 
-// Ids out of design 2's 128-bit pixels.
+// From design 2's 128-bit pixels.
 void unpack_gbuffer_ids(std::span<const std::byte> bytes, Image<std::uint32_t>& ids);
 
-// 32-bit ids as the plan has them travel, the other way.
+// From ids of 32 bits to the GPU's.
 void pack_ids(const Image<std::uint32_t>& ids, int id_bits, std::span<std::byte> bytes);
 
-// RGB travels as one component a texel, three texels a pixel: a driver may have no three-component format
-// of its own and convert, at ten times a copy's cost. rgb9e5 is one texel.
+// How light is packed on its way. RGB is one component a texel, three texels a pixel: a driver may have no
+// three-component format of its own and convert, at ten times a copy's cost. rgb9e5 is one texel.
 inline constexpr int kComponents = 3;
-struct TexelFormat {
-  gl::PixelFormat pixel;
-  int texels;  // a pixel, side by side
+struct Packing {
+  gl::PixelFormat texel;
+  int texels;    // a pixel, side by side; 0: nothing travels
+  bool is_srgb;  // the values have the sRGB curve, which the shader removes
+  void (*pack)(std::span<const glm::vec3> radiance, std::byte* to);
 };
-[[nodiscard]] TexelFormat texel_format(ReflectionFormat format);
+[[nodiscard]] const Packing& packing(ReflectionFormat format);
 [[nodiscard]] inline glm::ivec2 component_size(glm::ivec2 size) {
   return {kComponents * size.x, size.y};
 }
 
-// Linear light in the reflection's format, rounded to nearest; what is too bright for it is clipped.
-void pack_pixels(std::span<const glm::vec3> radiance, ReflectionFormat format, std::byte* to);
+// Linear light in that format, rounded to nearest; too bright values are clipped.
 void pack_radiance(const Image<glm::vec3>& radiance, ReflectionFormat format, Workers& workers,
                    std::span<std::byte> bytes);
 
-// A picture at one sample for scale x scale pixels.
+// The samples of a picture that has one for scale x scale pixels.
 [[nodiscard]] inline glm::ivec2 scaled_size(glm::ivec2 size, int scale) {
   return (size + scale - 1) / scale;
 }

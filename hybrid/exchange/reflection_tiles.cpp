@@ -47,6 +47,7 @@ std::size_t pack_tiles(const Image<glm::vec3>& radiance, ReflectionFormat format
   const std::span<std::byte> tiles = to_gpu.subspan(std::as_bytes(std::span(index)).size());
   const auto columns = static_cast<std::size_t>(grid.x);
   const std::size_t last_row = count / columns, in_last_row = count % columns;
+  const Packing& pack = packing(format);
   const auto tile_row_bytes = static_cast<std::size_t>(kReflectionTile * bytes_per_pixel(format));
   workers.for_each(index.size(), [&](std::size_t i) {
     if (index[i] == kNoTile) return;
@@ -55,7 +56,7 @@ std::size_t pack_tiles(const Image<glm::vec3>& radiance, ReflectionFormat format
     std::byte* to = tiles.data() + row * columns * bytes_per_tile(format) + column * tile_row_bytes;
     const PixelBox box = box_of(i, grid.x, radiance.size());
     for (int y = box.lo.y; y < box.hi.y; ++y, to += width * tile_row_bytes)
-      pack_pixels({&radiance.at(box.lo.x, y), static_cast<std::size_t>(box.size().x)}, format, to);
+      pack.pack({&radiance.at(box.lo.x, y), static_cast<std::size_t>(box.size().x)}, to);
   });
   return count;
 }

@@ -1,5 +1,5 @@
-// A reflection image of which only the tiles with some light in them travel: an index that says where each
-// tile is, and those tiles one after the other. The GPU keeps them in a texture of the whole picture's size.
+// A reflection image of which only the tiles with some light travel: an index with each tile's place, and the
+// tiles one after the other. The GPU keeps them in a texture of the whole picture's size.
 #pragma once
 
 #include <cstddef>
@@ -22,18 +22,18 @@ inline constexpr std::uint32_t kNoTile = 0xffffffff;  // in the index: all of th
   return (size + kReflectionTile - 1) / kReflectionTile;
 }
 
-// One tile's bytes, edges filled up.
+// One tile's bytes, whole at the picture's edges too.
 [[nodiscard]] inline std::size_t bytes_per_tile(ReflectionFormat format) {
   return static_cast<std::size_t>(kReflectionTile * kReflectionTile * bytes_per_pixel(format));
 }
 
-// Index and tiles where every tile has light; 0 where there is no reflection.
+// Bytes of index and tiles where every tile has light; 0 without a reflection.
 [[nodiscard]] std::size_t most_tile_bytes(glm::ivec2 size, ReflectionFormat format);
 
-// Packs the image, linear light: the index (tile_columns_rows(), row by row), then the tiles, row of tiles by
-// row of tiles as they lie in the texture, tile_columns_rows().x side by side, the last row as wide as it has
-// tiles. Returns how many tiles were written. `to_gpu` is only written, as it is mapped for writing; the
-// index is built in `index`, which the caller keeps from frame to frame.
+// Packs the image, linear light: the index (tile_columns_rows(), row by row), then the tiles as rows of the
+// texture, tile_columns_rows().x tiles wide; the last row has the tiles that are left. Returns how many tiles
+// were written. `to_gpu` is only written, as it is mapped for writing; the index is built in `index`, whose
+// memory the caller keeps from frame to frame.
 std::size_t pack_tiles(const Image<glm::vec3>& radiance, ReflectionFormat format, Workers& workers,
                        std::vector<std::uint32_t>& index, std::span<std::byte> to_gpu);
 

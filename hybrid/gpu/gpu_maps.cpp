@@ -18,7 +18,7 @@ struct MapTexels {
   glm::vec4 base_metallic, emissive_roughness, specular, more, strengths, alpha_rule;
 };
 static_assert(sizeof(MapTexels) == 24 * sizeof(glm::vec4));
-struct DielectricTexels {  // where some material has one of them
+struct DielectricTexels {  // sent where some material has one of these
   UseTexels specular, specular_color, transmission;
 };
 static_assert(sizeof(DielectricTexels) == 9 * sizeof(glm::vec4));
@@ -39,7 +39,7 @@ std::vector<glm::u8vec4> all_texels(const Mesh& mesh) {
     texels.insert(texels.end(), texture.texels.pixels().begin(), texture.texels.pixels().end());
     texels.insert(texels.end(), texture.smaller_levels.begin(), texture.smaller_levels.end());
   }
-  if (texels.empty()) texels.resize(1);  // a texture buffer of no size is none
+  if (texels.empty()) texels.resize(1);  // a texture buffer cannot be empty
   return texels;
 }
 
@@ -71,14 +71,20 @@ std::vector<glm::vec4> map_texels(const Mesh& mesh, bool dielectric) {
   for (const MaterialMaps& m : mesh.maps) {
     const GltfSurface& s = m.surface;
     const auto use = [&](const TextureUse& u) { return use_texels(mesh, first, u); };
-    append_texels(MapTexels{use(m.base_color), use(m.metallic_roughness), use(m.normal), use(m.occlusion),
-                            use(m.emissive), use(m.alpha), glm::vec4(s.base_color, s.metallic),
-                            glm::vec4(s.emissive, s.roughness), glm::vec4(s.specular_color, s.specular),
-                            glm::vec4(s.ior, s.transmission, flag(s.volume), flag(s.unlit)),
-                            glm::vec4(m.normal_scale, m.occlusion_strength, flag(m.from_gltf),
-                                      static_cast<float>(m.alpha_channel)),
-                            glm::vec4(static_cast<float>(m.alpha_mode), m.alpha_factor, m.alpha_cutoff,
-                                      flag(m.vertex_colors))},
+    append_texels(MapTexels{.base_color = use(m.base_color),
+                            .metallic_roughness = use(m.metallic_roughness),
+                            .normal = use(m.normal),
+                            .occlusion = use(m.occlusion),
+                            .emissive = use(m.emissive),
+                            .alpha = use(m.alpha),
+                            .base_metallic = glm::vec4(s.base_color, s.metallic),
+                            .emissive_roughness = glm::vec4(s.emissive, s.roughness),
+                            .specular = glm::vec4(s.specular_color, s.specular),
+                            .more = glm::vec4(s.ior, s.transmission, flag(s.volume), flag(s.unlit)),
+                            .strengths = glm::vec4(m.normal_scale, m.occlusion_strength, flag(m.from_gltf),
+                                                   static_cast<float>(m.alpha_channel)),
+                            .alpha_rule = glm::vec4(static_cast<float>(m.alpha_mode), m.alpha_factor,
+                                                    m.alpha_cutoff, flag(m.vertex_colors))},
                   all);
     if (dielectric)
       append_texels(DielectricTexels{use(m.specular), use(m.specular_color), use(m.transmission)}, all);
@@ -86,7 +92,7 @@ std::vector<glm::vec4> map_texels(const Mesh& mesh, bool dielectric) {
   return all;
 }
 
-// One after the other; OpenGL 3.3 has 16 units, so they share one.
+// Both sets of texture coordinates, one after the other: OpenGL 3.3 has 16 units, so they share one.
 std::vector<glm::vec2> both_sets(const Mesh& mesh) {
   std::vector<glm::vec2> all = mesh.texcoords;
   if (all.empty() || !mesh.texcoords1.empty()) all.resize(mesh.positions.size());

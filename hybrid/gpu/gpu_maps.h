@@ -4,22 +4,22 @@
 #include <string>
 #include <vector>
 
-#include "gl/program.h"
-#include "gl/texture.h"
+#include "gl/objects/program.h"
+#include "gl/objects/texture.h"
 #include "pinocchio/mesh.h"
 
 namespace pinocchio {
 
-// What shaders/map_fetch.glsl reads of a mesh whose materials have maps; for others nothing is sent, and
-// programs are compiled without it.
+// The buffers that shaders/map_fetch.glsl reads for a mesh whose materials have maps. For other meshes
+// nothing is sent, and programs are compiled without that code.
 class GpuMaps {
  public:
-  // `shares_textures`: of a mesh that has the same ones; null: none is known.
+  // `shares_textures`: a mesh with the same textures, which are not sent again; null: none is known.
   explicit GpuMaps(const Mesh& mesh, const GpuMaps* shares_textures = nullptr);
 
-  // The next free texture unit.
+  // Sets the buffers on texture units from `first_unit` on; returns the next free one.
   int bind(const gl::Program& program, int first_unit) const;
-  // What programs that read it are compiled with.
+  // The definitions for programs that read the maps.
   [[nodiscard]] const std::vector<std::string>& definitions() const { return definitions_; }
   [[nodiscard]] bool has_holes() const { return has_holes_; }
 

@@ -5,7 +5,7 @@
 #include <span>
 #include <vector>
 
-#include "core/trace/surface.h"
+#include "core/shade/surface.h"
 
 namespace pinocchio {
 namespace {
@@ -32,12 +32,14 @@ std::vector<LightTexels> light_texels(const Scene& scene) {
   for (std::size_t i = 0; i < slots.size(); ++i) {
     const shared::LightParams p = light_params(scene.lights[i]);
     const auto slot = static_cast<float>(slots[i]);
-    texels.push_back({glm::vec4(p.position, static_cast<float>(p.kind)),
-                      glm::vec4(p.direction, p.inverse_square ? 1.0f : 0.0f), glm::vec4(p.radiance, p.range),
-                      glm::vec4(p.cos_inner, p.cos_outer, slot, 0.0f), glm::vec4(p.edge_u, p.size),
-                      glm::vec4(p.edge_v, 0.0f)});
+    texels.push_back({.position_kind = glm::vec4(p.position, static_cast<float>(p.kind)),
+                      .direction_falloff = glm::vec4(p.direction, p.inverse_square ? 1.0f : 0.0f),
+                      .radiance_range = glm::vec4(p.radiance, p.range),
+                      .cone_slot = glm::vec4(p.cos_inner, p.cos_outer, slot, 0.0f),
+                      .edge_u_size = glm::vec4(p.edge_u, p.size),
+                      .edge_v = glm::vec4(p.edge_v, 0.0f)});
   }
-  if (texels.empty()) texels.resize(1);  // a texture buffer of no size is none
+  if (texels.empty()) texels.resize(1);  // a texture buffer cannot be empty
   return texels;
 }
 
@@ -69,8 +71,8 @@ GpuMesh::GpuMesh(const Mesh& mesh, const Shared& shared)
     : geometry_(shared.geometry ? shared.geometry->geometry_ : std::make_shared<const Geometry>(mesh)),
       materials_(quads(material_texels(mesh))),
       maps_(mesh, shared.textures ? &shared.textures->maps_ : nullptr),
-      // Reversed float depth is as fine far away as near by, so the near plane may be next to nothing: depth
-      // leaves float's normal numbers only for what is 2^66 diagonals away.
+      // Reversed float depth is as fine far away as near by, so the near plane may be almost 0: depth leaves
+      // float's normal numbers only beyond 2^66 diagonals.
       z_near_(std::max(mesh.bounds().diagonal() * 0x1p-60f, std::numeric_limits<float>::min())) {}
 
 bool has_same_geometry(const Mesh& a, const Mesh& b) {

@@ -2,19 +2,19 @@
 
 #include <memory>
 
-#include "gl/draw.h"
-#include "gl/program.h"
-#include "gl/texture.h"
+#include "gl/objects/draw.h"
+#include "gl/objects/program.h"
+#include "gl/objects/texture.h"
 #include "hybrid/gpu/gpu_maps.h"
 #include "pinocchio/scene.h"
 
 namespace pinocchio {
 
-// A mesh as the GPU's passes read it: triangles for the rasteriser, texture buffers for
-// shaders/scene_fetch.glsl. Throws gl::Error where the GPU has no room.
+// A mesh on the GPU: triangles for the rasteriser, texture buffers for shaders/scene_fetch.glsl. Throws
+// gl::Error where the GPU has no room.
 class GpuMesh {
  public:
-  // What of another mesh is the same, and is not sent again; null: none is known that has it.
+  // Meshes with the same textures or geometry, which are not sent again; null: none is known.
   struct Shared {
     const GpuMesh* textures = nullptr;
     const GpuMesh* geometry = nullptr;  // has_same_geometry
@@ -23,7 +23,7 @@ class GpuMesh {
   explicit GpuMesh(const Mesh& mesh) : GpuMesh(mesh, Shared{}) {}
 
   void draw() const { geometry_->triangles.draw(); }
-  // Gives the program in use the buffers, on texture units from `first_unit` on; returns the next free one.
+  // Sets the buffers of the program in use, on texture units from `first_unit` on; returns the next free one.
   int bind(const gl::Program& program, int first_unit) const;
 
   [[nodiscard]] const GpuMaps& maps() const { return maps_; }
@@ -42,13 +42,13 @@ class GpuMesh {
   float z_near_;
 };
 
-// Whether the meshes differ in materials and maps alone, as after an edit.
+// Whether the meshes differ only in materials and maps, as after an edit.
 [[nodiscard]] bool has_same_geometry(const Mesh& a, const Mesh& b);
 
-// A frame's lights, likewise.
+// A frame's lights on the GPU.
 class GpuLights {
  public:
-  // Sends the scene's lights, unless they are the ones that are there.
+  // Sends the scene's lights, unless they are there already.
   void update(const Scene& scene);
   int bind(const gl::Program& program, int first_unit) const;
   [[nodiscard]] bool any_size() const { return any_size_; }
@@ -58,7 +58,7 @@ class GpuLights {
   bool any_size_ = false;
   gl::TextureBuffer lights_;
   glm::vec3 ambient_light_{0.0f};
-  bool empty_ = true;  // nothing was sent yet
+  bool empty_ = true;  // no lights were sent yet
 };
 
 }  // namespace pinocchio

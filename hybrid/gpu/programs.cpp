@@ -1,6 +1,6 @@
 #include "hybrid/gpu/programs.h"
 
-#include "gl/error.h"
+#include "gl/context/error.h"
 
 namespace pinocchio {
 
@@ -9,7 +9,7 @@ const gl::Program& Programs::get(const std::string& vertex_file, const std::stri
   Key key{vertex_file, fragment_file, definitions};
   const auto found = programs_.find(key);
   if (found != programs_.end()) return found->second;
-  gl::Program program = compile(key);  // first: what fails leaves nothing behind
+  gl::Program program = compile(key);  // before emplace, as it may throw
   return programs_.emplace(std::move(key), std::move(program)).first->second;
 }
 

@@ -141,8 +141,8 @@ ShadingPasses::Definitions ShadingPasses::definitions_of(const Inputs& inputs, c
   if (reflection.texture) {
     definitions.emplace_back("HAS_REFLECTION");
     define("REFLECTION_SCALE", reflection.scale);
-    define("REFLECTION_TEXELS", texel_format(reflection.format).texels);
-    if (reflection.format == ReflectionFormat::rgb8) definitions.emplace_back("REFLECTION_IS_SRGB");
+    define("REFLECTION_TEXELS", packing(reflection.format).texels);
+    if (packing(reflection.format).is_srgb) definitions.emplace_back("REFLECTION_IS_SRGB");
     if (reflection.index) define("REFLECTION_TILE", kReflectionTile);
   }
   if (of) definitions.emplace_back("REPROJECT");

@@ -4,21 +4,21 @@
 #include <string>
 #include <vector>
 
-#include "core/trace/shared.h"
-#include "core/trace/trace_options.h"
-#include "gl/draw.h"
-#include "gl/program.h"
-#include "gl/transfer.h"
+#include "core/shade/shared.h"
+#include "core/trace/rays/trace_options.h"
+#include "gl/objects/draw.h"
+#include "gl/objects/program.h"
+#include "gl/transfer/transfer.h"
 #include "hybrid/gpu/gpu_mesh.h"
 #include "hybrid/gpu/programs.h"
 #include "pinocchio/settings.h"
 
 namespace pinocchio {
 
-// Which lights a pass adds up.
+// The lights that a pass adds up.
 enum class LightSet {
-  all,   // those that cast where the mask says so, or everywhere without one
-  free,  // those that do not cast
+  all,   // casting lights where the mask says so, or everywhere without a mask; the others everywhere
+  free,  // lights that cast no shadow
 };
 
 // An older frame whose mask and reflection are warped to this one.
@@ -39,9 +39,9 @@ class ShadingPasses {
     const gl::Texture& ids;
     int id_bits;
     TraceOptions options;
-    const Scene& scene;  // whose environment is seen
+    const Scene& scene;  // its environment is the background
   };
-  // The CPU's answer; what is null is not in it.
+  // The CPU's answer; null parts are missing.
   struct Traced {
     struct Mask {
       const gl::Texture* texture = nullptr;  // R8UI, MaskImage's packed rows; null: every light reaches all
@@ -54,17 +54,17 @@ class ShadingPasses {
       ReflectionFormat format = ReflectionFormat::none;
       int scale = 1;
     } reflection;
-    const OlderFrame* of = nullptr;  // whose they are; null: this frame's
+    const OlderFrame* of = nullptr;  // the frame they were traced for; null: this one
   };
 
   explicit ShadingPasses(std::shared_ptr<Programs> programs) : programs_(std::move(programs)) {}
 
-  // Phong per light, plus reflection, linear light; alpha 0 where nothing is seen.
+  // Light of every light by the reflection model, plus reflection, linear; alpha 0 where nothing is seen.
   void composite(const Inputs& inputs, LightSet lights, const Traced& traced, const gl::Framebuffer& target);
-  // One of a frame's buffers for people: which, as a definition of shaders/inspect.frag (empty: none).
+  // A frame's layer as the window shows it.
   struct Inspected {
-    std::string definition;
-    int slot = 0;  // of the mask
+    std::string definition;  // of shaders/inspect.frag; empty: all is grey
+    int slot = 0;            // of the mask
     int age_frames = 0;
     glm::vec3 range_lo{0.0f}, range_hi{1.0f};  // of depth and position
   };
@@ -80,10 +80,10 @@ class ShadingPasses {
  private:
   using Definitions = Programs::Definitions;
   [[nodiscard]] const gl::Program& program(const std::string& file, const Definitions& definitions) const;
-  // Sets what every pass over ids reads; returns the next free texture unit.
+  // Sets the inputs of every pass over ids; returns the next free texture unit.
   int bind(const gl::Program& program, const Inputs& inputs) const;
   int bind(const gl::Program& program, const Inputs& inputs, const Traced& traced) const;
-  // What is seen behind everything: to the GPU, and for the program in use.
+  // The environment: sends it, and sets it for the program in use.
   void send(const std::shared_ptr<const Environment>& environment);
   void bind_environment(const gl::Program& program, const Scene& scene, int unit) const;
   [[nodiscard]] static Definitions definitions_of(const Inputs& inputs);
@@ -91,7 +91,7 @@ class ShadingPasses {
 
   std::shared_ptr<Programs> programs_;
   gl::FullscreenTriangle triangle_;
-  std::shared_ptr<const Environment> sent_;  // that environment_ is of
+  std::shared_ptr<const Environment> sent_;  // in environment_
   gl::Texture environment_;
 };
 

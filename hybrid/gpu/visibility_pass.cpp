@@ -18,7 +18,7 @@ glm::mat3 picture_from_eye(const shared::ViewParams& view, glm::ivec2 picture_si
   const glm::dvec2 scale = 2.0 / glm::dvec2(picture_size);
   const glm::dmat3 clip_from_pixel(glm::dvec3(scale.x, 0, 0), glm::dvec3(0, scale.y, 0),
                                    glm::dvec3(0.5 * scale - 1.0, 1));
-  shared::ViewParams whole = view;  // the part is cut out by the viewport
+  shared::ViewParams whole = view;  // the viewport selects the part
   whole.first = glm::vec2(0.0f);
   return glm::mat3(clip_from_pixel * pixel_from_eye(whole));
 }

@@ -2,8 +2,8 @@
 
 #include <memory>
 
-#include "core/trace/shared.h"
-#include "gl/framebuffer.h"
+#include "core/shade/shared.h"
+#include "gl/objects/framebuffer.h"
 #include "hybrid/gpu/gpu_mesh.h"
 #include "hybrid/gpu/programs.h"
 
@@ -14,8 +14,8 @@ class VisibilityPass {
  public:
   explicit VisibilityPass(std::shared_ptr<Programs> programs) : programs_(std::move(programs)) {}
 
-  // target: of id_format(id_bits), with depth; the part of a picture of `picture_size` that view.first
-  // names. Where nothing is seen, all bits are set.
+  // target: has id_format(id_bits) and depth; it is the part of a picture of `picture_size` that begins at
+  // view.first. All bits are set where nothing is seen.
   void draw(const GpuMesh& mesh, const shared::ViewParams& view, glm::ivec2 picture_size, int id_bits,
             const gl::Framebuffer& target) const;
 
@@ -23,10 +23,10 @@ class VisibilityPass {
   std::shared_ptr<Programs> programs_;
 };
 
-// What turns (p_world - eye) into (z x, z y, z) of the pixel (x, y) that sees the point, counted from
+// The matrix from (p_world - eye) to (z x, z y, z), where (x, y) is the point's pixel, counted from
 // view.first.
 [[nodiscard]] glm::dmat3 pixel_from_eye(const shared::ViewParams& view);
-// ... and into clip x, y and w. Row 0 of the picture is GL's row 0.
+// The matrix from (p_world - eye) to clip x, y and w. Row 0 of the picture is GL's row 0.
 [[nodiscard]] glm::mat3 picture_from_eye(const shared::ViewParams& view, glm::ivec2 picture_size);
 
 }  // namespace pinocchio

@@ -2,8 +2,8 @@
 
 #include <algorithm>
 
-#include "hybrid/engine_parts.h"
-#include "hybrid/frame_slot.h"
+#include "hybrid/engine/engine_parts.h"
+#include "hybrid/engine/frame_slot.h"
 
 namespace pinocchio {
 namespace {

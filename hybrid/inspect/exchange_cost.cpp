@@ -6,9 +6,9 @@
 
 #include "core/base/clock.h"
 #include "core/math/median.h"
-#include "gl/fence.h"
-#include "gl/transfer.h"
-#include "hybrid/engine_parts.h"
+#include "gl/objects/fence.h"
+#include "gl/transfer/transfer.h"
+#include "hybrid/engine/engine_parts.h"
 #include "hybrid/exchange/channels.h"
 
 namespace pinocchio {

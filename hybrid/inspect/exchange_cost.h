@@ -9,8 +9,8 @@
 
 namespace pinocchio {
 
-// What moving a frame's buffers costs by itself, with nothing to wait for: median milliseconds. The tracer
-// reads and writes the mapped buffers, so what it does there is not counted.
+// The cost of moving a frame's buffers, with nothing to wait for: median milliseconds. The tracer reads and
+// writes the mapped buffers itself; that time is not counted.
 struct ExchangeCost {
   double to_cpu_ms = 0.0, to_gpu_ms = 0.0;  // framebuffer to mapped memory; from there to a texture
   double memcpy_to_cpu_ms = 0.0, memcpy_to_gpu_ms = 0.0;  // plain copies of the same bytes

@@ -4,8 +4,8 @@
 #include <cstring>
 #include <vector>
 
-#include "hybrid/engine_parts.h"
-#include "hybrid/frame_slot.h"
+#include "hybrid/engine/engine_parts.h"
+#include "hybrid/engine/frame_slot.h"
 
 namespace pinocchio {
 

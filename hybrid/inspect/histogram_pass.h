@@ -4,25 +4,25 @@
 #include <optional>
 
 #include "core/image/light_histogram.h"
-#include "gl/draw.h"
-#include "gl/framebuffer.h"
-#include "gl/transfer.h"
+#include "gl/objects/draw.h"
+#include "gl/objects/framebuffer.h"
+#include "gl/transfer/transfer.h"
 
 namespace pinocchio {
 
 class Engine;
 class Programs;
 
-// reads: a picture, linear light. Counts its pixels by their light: of every second or third, across and
-// down, where it has more than a million.
+// reads: a picture, linear light. Counts its pixels by their light; of a picture with more than a million
+// pixels, every second or third, across and down.
 class HistogramPass {
  public:
   explicit HistogramPass(Engine& engine);
 
-  // Does not wait: the count is there some frames later.
+  // Does not wait: the count is ready some frames later.
   void start(const gl::Texture& picture);
   [[nodiscard]] bool started() const { return started_; }
-  // What was started last; waits where the GPU is not done.
+  // The count that was started last; waits where the GPU is not done.
   [[nodiscard]] LightHistogram take();
 
  private:

@@ -2,21 +2,21 @@
 
 #include <algorithm>
 #include <array>
+#include <cctype>
 #include <optional>
 
 #include "core/base/decimal.h"
-#include "hybrid/engine_parts.h"
+#include "hybrid/engine/engine_parts.h"
 #include "hybrid/exchange/encode.h"
 
 namespace pinocchio {
 namespace {
 
-constexpr std::array<const char*, kBufferViewNames.size()> kDefinitions{
-    "",         "SHOW_IDS",   "SHOW_NORMALS",  "SHOW_MASK",  "SHOW_REFLECTION",
-    "SHOW_AGE", "SHOW_DEPTH", "SHOW_POSITION", "SHOW_ALBEDO"};
-
-bool is_traced(BufferView view) {
-  return view == BufferView::mask || view == BufferView::reflection || view == BufferView::delay;
+// The definition of shaders/inspect.frag that shows the layer: SHOW_IDS.
+std::string definition_of(BufferView view) {
+  std::string name = "SHOW_" + std::string(layer_row(view).window.name);
+  std::ranges::transform(name, name.begin(), [](unsigned char c) { return std::toupper(c); });
+  return name;
 }
 
 void send(std::span<const std::byte> bytes, glm::ivec2 texels, const gl::PixelFormat& format,
@@ -41,12 +41,22 @@ std::string name_of_slot(int slot, const Scene& scene) {
          (name.empty() ? "" : " '" + name + "'");
 }
 
-std::string legend_of_delay(const FrameRecord& record) {
+std::string legend_of_range(int axes, const ChannelRange& range) {
+  if (axes == 1) return ": black " + text_of(range.lo.x) + ", white " + text_of(range.hi.x);
+  constexpr std::array<const char*, 3> kAxes{": red X", ", green Y", ", blue Z"};
+  std::string text;
+  for (int i = 0; i < axes; ++i)
+    text += std::string(kAxes[static_cast<std::size_t>(i)]) + " from " + text_of(range.lo[i]) + " to " +
+            text_of(range.hi[i]);
+  return text;
+}
+
+std::string legend_of_delay(const std::string& in_time, const FrameRecord& record) {
   if (record.age_frames > 0)
     return "shadows and reflections of " + std::to_string(record.age_frames) +
            " frame(s) before, warped: yellow 1, orange 2, red more; pink: a hole, nothing older fits";
   const int late = record.latency_frames;
-  return "green: shadows and reflections are the picture's own" +
+  return in_time +
          (late > 0 ? "; the whole picture is " + std::to_string(late) + " frame(s) late" : std::string());
 }
 
@@ -55,7 +65,7 @@ std::string legend_of_delay(const FrameRecord& record) {
 std::string missing(BufferView view, int slot, const Settings& s) {
   if (view == BufferView::delay && !s.uses_gpu())
     return "mode raytrace: the CPU draws alone, nothing comes later than the rest";
-  if (is_traced(view) && s.mask_bits == 0 && !s.reflects())
+  if (layer_row(view).window.traced && s.mask_bits == 0 && !s.reflects())
     return s.mask_bits.given ? "mode raster traces nothing: every light reaches everything"
                              : "this scene needs nothing traced: no light casts, nothing mirrors";
   if (view == BufferView::mask && s.mask_bits == 0) return "no light casts shadows: there is no mask";
@@ -71,32 +81,14 @@ std::string legend(BufferView view, int slot, const Frame& frame, const ChannelR
   if (std::string why = missing(view, slot, s); !why.empty()) return why;
   const std::string where =
       s.uses_gpu() && s.composite == Processor::cpu ? "; from the CPU, which has it alone (design 2)" : "";
-  switch (view) {
-    case BufferView::picture:
-      return "the finished picture";
-    case BufferView::ids:
-      return "triangle ids, a colour each; dark: nothing is seen";
-    case BufferView::normals:
-      return "shading normals, world space: red X, green Y, blue Z, from -1 (dark) to 1 (bright)";
-    case BufferView::mask:
-      return name_of_slot(slot, frame.request().scene) +
-             ": white lit, black in shadow, grey not asked (faces away, or nothing seen)" +
-             (s.light_cutoff > 0.0f ? "; black too where it is too faint for a ray" : "") + where;
-    case BufferView::reflection:
-      return "mirrored and refracted light" + where;
-    case BufferView::delay:
-      return legend_of_delay(frame.record());
-    case BufferView::depth:
-      return "depth along the view axis, scene units: black " + text_of(range.lo.x) + ", white " +
-             text_of(range.hi.x);
-    case BufferView::position:
-      return "world position, scene units: red X from " + text_of(range.lo.x) + " to " + text_of(range.hi.x) +
-             ", green Y from " + text_of(range.lo.y) + " to " + text_of(range.hi.y) + ", blue Z from " +
-             text_of(range.lo.z) + " to " + text_of(range.hi.z);
-    case BufferView::albedo:
-      return "diffuse colour, as textures and materials have it";
+  const LayerRow& row = layer_row(view);
+  std::string text(row.window.legend);
+  if (view == BufferView::delay) return legend_of_delay(text, frame.record());
+  if (view == BufferView::mask) {
+    text = name_of_slot(slot, frame.request().scene) + ": " + text;
+    if (s.light_cutoff > 0.0f) text += "; black too where it is too faint for a ray";
   }
-  return {};
+  return text + legend_of_range(row.window.ranged_axes, range) + (row.window.traced ? where : "");
 }
 
 InspectPass::InspectPass(Engine& engine)
@@ -113,13 +105,17 @@ void InspectPass::draw_buffer(const Frame& frame, BufferView view, int slot, con
   const FrameSlot& shown = frame.slot();
   const Settings& s = shown.request.settings;
   const FrameSlot* const of = shown.answer_of;
-  const bool has_it = missing(view, slot, s).empty() && (!is_traced(view) || of);
+  const bool has_it = missing(view, slot, s).empty() && (!layer_row(view).window.traced || of);
   ShadingPasses::Inspected what;
   if (has_it)
-    what = {kDefinitions[static_cast<std::size_t>(view)], slot, shown.record.age_frames, range.lo, range.hi};
+    what = {.definition = definition_of(view),
+            .slot = slot,
+            .age_frames = shown.record.age_frames,
+            .range_lo = range.lo,
+            .range_hi = range.hi};
   ShadingPasses::Traced traced;
   std::optional<OlderFrame> older;
-  if (has_it && is_traced(view)) {
+  if (has_it && layer_row(view).window.traced) {
     traced = s.composite == Processor::cpu ? send_from_cpu(shown.mask, shown.reflection, view)
                                            : of->answer_on_gpu();
     if (of != &shown) traced.of = &older.emplace(of->ids_texture(), of->view, shared::Sampling{});
@@ -130,16 +126,10 @@ void InspectPass::draw_buffer(const Frame& frame, BufferView view, int slot, con
 
 ShadingPasses::Inputs InspectPass::inputs_of(const FrameSlot& frame) {
   if (frame.request.settings.uses_gpu()) return frame.inputs();
-  constexpr int kIdBits = 32;  // as the CPU has them
+  constexpr int kIdBits = 32;  // the CPU's
   send(std::as_bytes(frame.ids.pixels()), frame.ids.size(), id_format(kIdBits).pixel, ids_);
   lights_.update(frame.request.scene);
-  return {.mesh = *engine_.parts().gpu_mesh(frame.request.scene.mesh),
-          .lights = lights_,
-          .view = frame.view,
-          .ids = ids_.texture,
-          .id_bits = kIdBits,
-          .options = trace_options(frame.request.settings, frame.request.view),
-          .scene = frame.request.scene};
+  return frame.inputs(*engine_.parts().gpu_mesh(frame.request.scene.mesh), lights_, ids_.texture, kIdBits);
 }
 
 ShadingPasses::Traced InspectPass::send_from_cpu(const MaskImage& mask, const Image<glm::vec3>& reflection,
@@ -150,8 +140,8 @@ ShadingPasses::Traced InspectPass::send_from_cpu(const MaskImage& mask, const Im
     traced.mask = {&mask_.texture, mask.bits(), 1};
   }
   if (view == BufferView::reflection) {
-    constexpr ReflectionFormat kFormat = ReflectionFormat::full;  // as the CPU has it
-    send(std::as_bytes(reflection.pixels()), component_size(reflection.size()), texel_format(kFormat).pixel,
+    constexpr ReflectionFormat kFormat = ReflectionFormat::full;  // the CPU's
+    send(std::as_bytes(reflection.pixels()), component_size(reflection.size()), packing(kFormat).texel,
          reflection_);
     traced.reflection = {&reflection_.texture, nullptr, kFormat, 1};
   }

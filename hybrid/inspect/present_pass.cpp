@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "hybrid/engine_parts.h"
+#include "hybrid/engine/engine_parts.h"
 
 namespace pinocchio {
 

@@ -4,32 +4,32 @@
 
 #include "core/image/tonemap.h"
 #include "core/parallel/tiles.h"
-#include "gl/draw.h"
+#include "gl/objects/draw.h"
 
 namespace pinocchio {
 
 class Engine;
 class Programs;
 
-// A part of the picture that is shown larger, its pixels as squares.
+// The part of the picture that is shown enlarged, its pixels as squares.
 struct PictureZoom {
-  float factor = 1.0f;     // 1: all of it
-  glm::vec2 corner{0.0f};  // what is at the window's upper left, 0 to 1 of the picture
+  float factor = 1.0f;     // 1: the whole picture
+  glm::vec2 corner{0.0f};  // point of the picture at the window's upper left, 0 to 1
 
-  // Where in the picture a place in the window is, both 0 to 1.
+  // The point of the picture at a point of the window, both 0 to 1.
   [[nodiscard]] glm::vec2 at(glm::vec2 window) const { return corner + window / factor; }
 };
 
-// reads: a picture. writes: the window, as a display shows it.
+// reads: a picture. writes: the window, in display colours.
 class PresentPass {
  public:
   explicit PresentPass(Engine& engine);
 
-  // picture: linear light, row 0 on top; it is stretched over the whole window, of which `box` (pixels, from
-  // the top left) is drawn. exposure_ev: stops brighter; curve: of what is light.
+  // Stretches the picture (linear light, row 0 on top) over the whole window and draws the part `box` of it
+  // (pixels, from the top left). exposure_ev: in stops; curve: for light above white.
   void draw(const gl::Texture& picture, glm::ivec2 window_pixels, const PixelBox& box, float exposure_ev,
             ToneMap curve, const PictureZoom& zoom = {}) const;
-  // Nothing to see yet.
+  // Draws black.
   void clear(glm::ivec2 window_pixels) const { clear(window_pixels, {{0, 0}, window_pixels}); }
   void clear(glm::ivec2 window_pixels, const PixelBox& box) const;
 

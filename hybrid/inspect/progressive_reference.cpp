@@ -10,7 +10,7 @@
 #include "core/parallel/start_thread.h"
 #include "core/parallel/workers.h"
 #include "core/reference/reference_tracer.h"
-#include "core/trace/view_params.h"
+#include "core/trace/view/view_params.h"
 
 namespace pinocchio {
 namespace {
@@ -21,7 +21,7 @@ static_assert(TileGrid::kTileSize % kSteps.front() == 0);  // samples of a tile 
 
 }  // namespace
 
-// One view's picture, as far as it is.
+// One view's picture, while it is made.
 struct ProgressiveReference::Job {
   Job(const ReferenceView& of, std::shared_ptr<pinocchio::Progress> mesh_progress)
       : scene(of.scene),
@@ -36,8 +36,8 @@ struct ProgressiveReference::Job {
   glm::ivec2 size;
   int depth;
   TraceOptions options;
-  pinocchio::Progress of_view;                   // cancelled: another is wanted
-  std::shared_ptr<pinocchio::Progress> of_mesh;  // ... of another mesh
+  pinocchio::Progress of_view;                   // cancelled: another view is wanted
+  std::shared_ptr<pinocchio::Progress> of_mesh;  // cancelled: another mesh is wanted
 
   struct Sample {
     glm::ivec2 at;
@@ -47,17 +47,17 @@ struct ProgressiveReference::Job {
     int step;  // each sample covers step x step pixels
     std::vector<Sample> samples;
   };
-  std::mutex mutex;            // of the two below
+  std::mutex mutex;            // guards the two below
   std::vector<Patch> patches;  // finished since the last poll
   std::exception_ptr error;
 
-  std::size_t samples_taken = 0;  // by poll
+  std::size_t samples_taken = 0;  // by poll()
 };
 
-// Draws jobs in the background; keeps the tree from one to the next.
-class ProgressiveReference::Artist {
+// Draws jobs in the background and keeps the tree between them.
+class ProgressiveReference::Painter {
  public:
-  explicit Artist(int threads) : workers_(threads) {}
+  explicit Painter(int threads) : workers_(threads) {}
 
   void draw(Job& job) {
     if (!tree_ || tree_mesh_ != job.scene.mesh) {
@@ -78,7 +78,7 @@ class ProgressiveReference::Artist {
     for (int y = tile.lo.y; y < tile.hi.y; y += step)
       for (int x = tile.lo.x; x < tile.hi.x; x += step) {
         if (job.of_view.cancelled()) return;
-        if (last_step > 0 && x % last_step == 0 && y % last_step == 0) continue;  // there already
+        if (last_step > 0 && x % last_step == 0 && y % last_step == 0) continue;  // of an earlier pass
         patch.samples.push_back({{x, y}, tracer.pixel(job.view, x, y, job.depth).color});
       }
     const std::lock_guard lock(job.mutex);
@@ -110,7 +110,6 @@ void ProgressiveReference::show(const ReferenceView& view) {
     stop();
   }
   view_ = std::make_unique<ReferenceView>(view);
-  // Under a moving camera little of the one before was ever shown.
   if (shown_.size() != view.view.box().size())
     shown_ = Image<glm::vec4>(view.view.box().size());
   else if (!shown_is_clear_)
@@ -157,8 +156,8 @@ ProgressiveReference::Progress ProgressiveReference::poll() {
 }
 
 void ProgressiveReference::work(const std::stop_token& stop) {
-  give_way(kForBackground);
-  std::optional<Artist> artist;
+  lower_priority(kForBackground);
+  std::optional<Painter> painter;
   std::shared_ptr<Job> job;
   for (;;) {
     {
@@ -168,8 +167,8 @@ void ProgressiveReference::work(const std::stop_token& stop) {
       job = wanted_;
     }
     try {
-      if (!artist) artist.emplace(threads_);
-      artist->draw(*job);
+      if (!painter) painter.emplace(threads_);
+      painter->draw(*job);
     } catch (const Cancelled&) {  // another mesh is wanted
     } catch (...) {
       const std::lock_guard lock(job->mutex);

@@ -7,14 +7,14 @@
 #include <vector>
 
 #include "core/parallel/tiles.h"
-#include "core/trace/trace_options.h"
-#include "core/trace/view_params.h"
+#include "core/trace/rays/trace_options.h"
+#include "core/trace/view/view_params.h"
 #include "pinocchio/image.h"
 #include "pinocchio/scene.h"
 
 namespace pinocchio {
 
-// What a reference is made of.
+// The picture that a reference is made of.
 struct ReferenceView {
   Scene scene;
   View view;
@@ -24,10 +24,10 @@ struct ReferenceView {
   friend bool operator==(const ReferenceView&, const ReferenceView&) = default;
 };
 
-// The precise picture (core/reference) of what is looked at, made in the background on threads of low
-// priority while frames are drawn: first one pixel in 8 x 8, shown as squares, then one in 4 x 4, in 2 x 2,
-// and all, each time tile by tile. One thread's object; no call waits for the background's work but the
-// destructor, which waits for the pixels begun.
+// The precise picture (core/reference) of a view, made in the background on threads of low priority while
+// frames are drawn: first one pixel in 8 x 8, shown as squares, then one in 4 x 4, in 2 x 2, and all, each
+// time tile by tile. Used by one thread. No call waits for the background except the destructor, which waits
+// for the pixels that were begun.
 class ProgressiveReference {
  public:
   explicit ProgressiveReference(int threads = 1);
@@ -35,23 +35,22 @@ class ProgressiveReference {
   ProgressiveReference(const ProgressiveReference&) = delete;
   ProgressiveReference& operator=(const ProgressiveReference&) = delete;
 
-  // From now on of this view; the one before is dropped at once. The same view again goes on as it is.
+  // Starts this view and drops the one before; does nothing if the view is the same.
   void show(const ReferenceView& view);
-  // Nothing is made any more until show().
+  // Makes nothing until the next show().
   void stop();
 
   struct Progress {
-    const Image<glm::vec4>& color;  // RGBA, linear, of the part; alpha 0: not there yet, or nothing is hit
-    double share = 0.0;             // of the pixels that are exact, 0 to 1
+    const Image<glm::vec4>& color;  // RGBA, linear, of the part; alpha 0: not made yet, or nothing is hit
+    double share = 0.0;             // exact pixels, 0 to 1
     bool changed = false;           // since the last poll
   };
-  // The newest of it. Throws what went wrong in the background (out of memory, no thread). Valid until the
-  // next call.
+  // The newest state, valid until the next call. Throws errors of the background (out of memory, no thread).
   [[nodiscard]] Progress poll();
 
  private:
   struct Job;
-  class Artist;
+  class Painter;
   void work(const std::stop_token& stop);
 
   int threads_;

@@ -1,5 +1,4 @@
-// The picture, on the GPU.
-#include "hybrid/exchange/encode.h"
+// The composite pass on the GPU.
 #include "hybrid/passes/passes.h"
 
 namespace pinocchio {
@@ -9,7 +8,7 @@ ShadingPasses::Traced FrameSlot::answer_on_gpu() const {
   ShadingPasses::Traced answer;
   if (s.mask_bits > 0) answer.mask = {&(*this)[Channel::mask].texture, s.mask_bits, s.mask_scale};
   if (s.reflects())
-    answer.reflection = {&(*this)[Channel::reflection].texture, s.tiles ? &reflection_index : nullptr,
+    answer.reflection = {&(*this)[Channel::reflection].texture, s.tiles ? &tile_index_texture : nullptr,
                          s.reflection, s.reflection_scale};
   return answer;
 }
@@ -21,8 +20,7 @@ void composite_on_gpu(GpuPasses& gpu, FrameSlot& frame, const FrameSlot* older) 
     gpu.shading.show(frame[Channel::picture].texture, frame.inputs(), frame.picture);
   } else {
     const FrameSlot& traced = older ? *older : frame;
-    const OlderFrame of{traced.ids_texture(), traced.view,
-                        trace_options(traced.request.settings, traced.request.view).sampling};
+    const OlderFrame of{traced.ids_texture(), traced.view, traced.options.sampling};
     ShadingPasses::Traced answer = traced.answer_on_gpu();
     if (older) answer.of = &of;
     gpu.shading.composite(frame.inputs(), LightSet::all, answer, frame.picture);

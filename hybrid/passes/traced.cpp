@@ -1,17 +1,16 @@
 // The CPU's part of a frame.
 #include <stdexcept>
 
-#include "core/trace/trace_tiles.h"
+#include "core/trace/tiles/trace_tiles.h"
 #include "hybrid/exchange/encode.h"
 #include "hybrid/passes/passes.h"
-#include "hybrid/samples.h"
 
 namespace pinocchio {
 namespace {
 
-// The phases of a tile are timed on each thread: placed one after the other from where the pass began, each
-// as long as all threads together spent on it, divided by their number.
-void note(const TileTimes& times, double begin_s, int threads, FrameRecord& record) {
+// The phases of a tile are timed on each thread. In the record they follow each other from the pass's begin,
+// each as long as all threads together spent on it, divided by their number.
+void record_times(const TileTimes& times, double begin_s, int threads, FrameRecord& record) {
   const auto place = [&](Stage stage, double seconds) {
     if (seconds <= 0.0) return;
     Span& span = record[stage];
@@ -33,74 +32,76 @@ void run(Workers& workers, FrameSlot& frame, const TileOutputs& outputs, double 
                      .tracer = *r.tracer,
                      .workers = workers,
                      .view = frame.view,
-                     .options = trace_options(r.settings, r.view),
+                     .options = frame.options,
                      .left_out = r.left_out.get(),
                      .progress = frame.progress,
                      .progress_steps = share};
   const double begin_s = now_s();
   const TileResult result = trace_tiles(job, outputs);
   frame.record.rays += result.rays;
-  note(result.times, begin_s, workers.count(), frame.record);
+  record_times(result.times, begin_s, workers.count(), frame.record);
+}
+
+// Whether rays leave the visible points, beside shadow rays.
+bool traces_further(const FrameRequest& r) {
+  return r.settings.reflects() &&
+         (r.settings.depth > 0 || r.settings.indirect > 0 || r.scene.environment != nullptr);
+}
+
+TileOutputs outputs_of(FrameSlot& frame, int scale, bool has_ids) {
+  TileOutputs out;
+  out.size = scaled_size(frame.size(), scale);
+  out.scale = scale;
+  if (has_ids) {
+    out.seen = &frame.ids;
+  } else {
+    out.ids = &frame.ids;
+  }
+  return out;
+}
+
+void add_mask(FrameSlot& frame, TileOutputs& out) {
+  if (frame.request.settings.mask_bits == 0) return;
+  out.mask_bits = frame.request.settings.mask_bits;
+  out.mask = &frame.mask;
+}
+
+void add_reflection(FrameSlot& frame, TileOutputs& out) {
+  if (!traces_further(frame.request)) return;
+  out.depth = frame.request.settings.depth;
+  out.indirect = frame.request.settings.indirect;
+  out.environment_light = true;
+  out.reflection = &frame.reflection;
 }
 
 }  // namespace
 
 void trace(Workers& workers, FrameSlot& frame) {
   const Settings& s = frame.request.settings;
-  const glm::ivec2 size = frame.size();
-  const bool traces_further =
-      s.reflects() && (s.depth > 0 || s.indirect > 0 || frame.request.scene.environment);
   bool has_ids = s.visibility == Processor::gpu;
-  const auto outputs = [&](int scale) {
-    TileOutputs out;
-    out.size = scaled_size(size, scale);
-    out.scale = scale;
-    if (has_ids) {
-      out.seen = &frame.ids;
-    } else {
-      out.ids = &frame.ids;
-    }
-    return out;
-  };
-  const auto add_mask = [&](TileOutputs& out) {
-    if (s.mask_bits == 0) return;
-    out.mask_bits = s.mask_bits;
-    out.mask = &frame.mask;
-  };
-  const auto add_reflection = [&](TileOutputs& out) {
-    if (!traces_further) return;
-    out.depth = s.depth;
-    out.indirect = s.indirect;
-    out.environment_light = true;
-    out.reflection = &frame.reflection;
-  };
-  if (s.reflects() && !traces_further)
-    frame.reflection = Image<glm::vec3>(scaled_size(size, s.reflection_scale));
+  if (s.reflects() && !traces_further(frame.request))
+    frame.reflection = Image<glm::vec3>(scaled_size(frame.size(), s.reflection_scale));
   const bool needs_ids = !has_ids && (s.mask_scale > 1 || s.reflection_scale > 1);
   const bool apart = s.mask_scale != s.reflection_scale && s.mask_bits > 0 && s.reflects();
   const double share = 1.0 / (1.0 + needs_ids + apart);
   if (needs_ids) {
-    run(workers, frame, outputs(1), share);  // every id travels, whatever is sampled
+    run(workers, frame, outputs_of(frame, 1, false), share);  // the ids of all pixels travel
     has_ids = true;
   }
+  TileOutputs out = outputs_of(frame, s.mask_bits > 0 ? s.mask_scale : s.reflection_scale, has_ids);
+  add_mask(frame, out);
   if (apart) {
-    TileOutputs mask = outputs(s.mask_scale), reflection = outputs(s.reflection_scale);
-    add_mask(mask);
-    add_reflection(reflection);
-    run(workers, frame, mask, share);
-    return run(workers, frame, reflection, share);
+    run(workers, frame, out, share);
+    out = outputs_of(frame, s.reflection_scale, has_ids);
   }
-  TileOutputs all = outputs(s.mask_bits > 0 ? s.mask_scale : s.reflection_scale);
-  add_mask(all);
-  add_reflection(all);
-  if (!s.uses_gpu()) all.color = &frame.color;
+  add_reflection(frame, out);
+  if (!s.uses_gpu()) out.color = &frame.color;
   if (s.uses_gpu() && s.composite == Processor::cpu) {
-    fit(frame.unpacked, size);
+    fit(frame.unpacked, frame.size());
     unpack_srgb(frame.phong_srgb.pixels(), workers, frame.unpacked);
-    all.added = &frame.unpacked;
+    out.added = &frame.unpacked;
   }
-  run(workers, frame, all, share);
-  if (all.added) pack_srgb(frame.unpacked, workers, frame[Channel::picture].bytes);
+  run(workers, frame, out, share);
 }
 
 MaskImage enlarged(const MaskImage& mask, int scale, glm::ivec2 size) {

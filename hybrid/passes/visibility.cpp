@@ -1,5 +1,4 @@
-// What each pixel sees.
-#include "hybrid/exchange/encode.h"
+// The visibility pass on the GPU.
 #include "hybrid/passes/passes.h"
 
 namespace pinocchio {
@@ -8,7 +7,8 @@ void rasterise(GpuPasses& gpu, FrameSlot& frame) {
   const Settings& s = frame.request.settings;
   const View& view = frame.request.view;
   frame.raster_timer.begin();
-  fit(frame[Channel::ids].target, frame.size(), id_format(s.id_bits).pixel, true);
+  fit(frame[Channel::ids].target, frame.size(), channel_row(Channel::ids).texture(s, frame.size()).texel,
+      true);
   gpu.visibility.draw(*frame.mesh, frame.view, view.size, s.id_bits, frame[Channel::ids].target);
   for (const ChannelLayout& c : frame.layout) {
     gl::Framebuffer& target = frame[c.channel].target;

@@ -23,22 +23,22 @@ std::string per_sample(int scale) {
 std::string who_draws(const Settings& s) {
   if (!s.uses_gpu() && s.by_machine)
     return std::string("the CPU draws alone, ") + kGainOverSoftwareGl +
-           ", for OpenGL is software here; it is not opened (--mode auto)";
+           ", as OpenGL is software here; it is not opened (--mode auto)";
   if (!s.uses_gpu()) return "the CPU draws alone; no OpenGL is opened";
   if (!s.traces()) return "the GPU draws alone";
   return s.composite == Processor::gpu
-             ? "the GPU puts the picture together (design 1)"
-             : "the GPU finds what is seen, the CPU puts the picture together (design 2)";
+             ? "the GPU composites the picture (design 1)"
+             : "the GPU finds the visible triangles, the CPU composites the picture (design 2)";
 }
 
 std::string why_primary(const SceneStats& stats, const Settings& s) {
-  const std::string triangles = std::to_string(stats.triangles) + " triangles to name";
+  const std::string triangles = std::to_string(stats.triangles) + " triangles";
   const std::string bits = std::to_string(s.id_bits) + " bits";
-  if (!s.traces()) return "the GPU finds what is seen, and ids stay there: nothing is left for the CPU";
+  if (!s.traces()) return "the GPU finds the visible triangles, and ids stay there: the CPU has no part";
   if (s.visibility == Processor::cpu)
-    return "the CPU finds what is seen, and ids of " + bits + " go to the GPU: " + triangles +
+    return "the CPU finds the visible triangles, and ids of " + bits + " go to the GPU: " + triangles +
            ", more than a software rasteriser draws in the time of a ray for every pixel";
-  return "the GPU finds what is seen, and ids of " + bits + " go to the CPU: " + triangles;
+  return "the GPU finds the visible triangles, and ids of " + bits + " go to the CPU: " + triangles;
 }
 
 std::string why_mask(const SceneStats& stats, const Settings& s) {
@@ -78,36 +78,34 @@ std::string why_reflection(const SceneStats& stats, const Settings& s) {
 
 std::string why_depth(const SceneStats& stats, const Settings& s) {
   const std::string bounces = plural(s.depth, "bounce");
-  if (s.depth < stats.useful_depth) return bounces + ": as many as are asked for";
+  if (s.depth < stats.useful_depth) return bounces + ": as many as requested";
   return bounces + (stats.useful_depth == 1 ? ": no mirror sees another"
-                                            : ": after them nothing is left that a pixel could show");
+                                            : ": further ones are too faint for a pixel to show");
 }
 
 std::string why_threads(const Settings& s) {
-  return s.threads == 0
-             ? "workers on all cores: rasteriser and tracer never finish sooner by sharing them out"
-             : plural(s.threads, "worker thread") + ", as asked for";
+  return s.threads == 0 ? "workers on all cores: rasteriser and tracer are never faster with fewer"
+                        : plural(s.threads, "worker thread") + ", as requested";
 }
 
 std::string why_rays(const Settings& s) {
   const std::string still =
-      s.reuse ? "a frame that is the last one again costs no ray" : "nothing of earlier frames is reused";
+      s.reuse ? "a frame like the last one costs no ray" : "nothing of earlier frames is reused";
   return s.light_cutoff > 0.0f
              ? "no shadow ray where a light brings less than half a step of an 8-bit picture; " + still
-             : "a shadow ray wherever a light may reach: the mask itself is kept; " + still;
+             : "a shadow ray wherever a light may reach, as the mask itself is kept; " + still;
 }
 
-// What of materials changes from point to point.
+// The texture and alpha code that the scene needs.
 std::string why_maps(const SceneStats& stats) {
   if (!stats.textures && !stats.vertex_colors && !stats.holes && !stats.blends)
     return "no texture code in the shaders: nothing is textured";
   std::string line = stats.textures        ? "textures are looked up: some triangle has one"
                      : stats.vertex_colors ? "vertex colours are looked up: some triangle has them"
                                            : "alpha is looked up: some triangle has it";
-  if (stats.holes) line += "; rays that meet a hole go on behind it";
-  if (stats.blends) line += "; what blends sends a ray straight on";
-  if (!stats.holes && !stats.blends)
-    line += "; nothing has holes or blends: rays stop where they meet something";
+  if (stats.holes) line += "; rays continue behind holes";
+  if (stats.blends) line += "; surfaces that blend send a ray straight on";
+  if (!stats.holes && !stats.blends) line += "; nothing has holes or blends: rays stop at their first hit";
   return line;
 }
 

@@ -7,7 +7,7 @@
 
 namespace pinocchio {
 
-// Why the resolved settings are as they are: one line a choice.
+// The reasons for the resolved settings, one line a choice.
 [[nodiscard]] std::vector<std::string> explain(const SceneStats& stats, const Settings& s);
 
 }  // namespace pinocchio

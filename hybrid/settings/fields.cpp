@@ -35,7 +35,7 @@ constexpr std::array<std::string_view, 5> kMaskBits{"0", "1", "2", "4", "8"};
 constexpr std::array<std::string_view, 3> kIdBits{"16", "24", "32"};
 constexpr std::array<std::string_view, 2> kFlag{"false", "true"};
 
-// What a field may be.
+// The values that a field may have.
 struct Domain {
   std::span<const std::string_view> choices{};
   double lo = 0.0, hi = 0.0;
@@ -50,7 +50,7 @@ constexpr Domain yes_or_no() {
   return one_of(kFlag);
 }
 
-// Reading and writing of one field.
+// Reads and writes one field.
 template <auto M>
 struct Access {
   using T = typename Member<decltype(M)>::Value;
@@ -98,8 +98,20 @@ constexpr Field field(std::string_view name, Domain domain, std::string_view uns
                     : std::is_same_v<T, float> ? Field::Kind::number
                                                : Field::Kind::whole;
   using A = Access<M>;
-  return {name,       kind,     domain.choices, domain.lo, domain.hi, unset,    help,
-          of_machine, formerly, &A::text,       &A::take,  &A::given, &A::copy, &A::same};
+  return {.name = name,
+          .kind = kind,
+          .choices = domain.choices,
+          .lo = domain.lo,
+          .hi = domain.hi,
+          .unset = unset,
+          .help = help,
+          .of_machine = of_machine,
+          .formerly = formerly,
+          .text = &A::text,
+          .take = &A::take,
+          .given = &A::given,
+          .copy = &A::copy,
+          .same = &A::same};
 }
 
 using S = Settings;
@@ -107,12 +119,13 @@ constexpr bool kOfMachine = true;
 constexpr std::array kTable{
     field<&S::visibility>("visibility", one_of(kProcessorNames),
                           "gpu; cpu where a software rasteriser would take longer than the rays",
-                          "who finds the triangle that each pixel sees"),
-    field<&S::composite>("composite", one_of(kProcessorNames), "gpu", "who puts the picture together"),
+                          "the processor that finds each pixel's visible triangle"),
+    field<&S::composite>("composite", one_of(kProcessorNames), "gpu",
+                         "the processor that composites the picture"),
     field<&S::by_machine>(
         "by_machine", yes_or_no(), "false",
-        "visibility and composite, where they are not given, by the machine: the GPU's where "
-        "OpenGL is hardware, else the CPU's, and no OpenGL is opened",
+        "choose visibility and composite, where they are not given: the GPU where OpenGL is "
+        "hardware, else the CPU, and no OpenGL is opened",
         kOfMachine),
     field<&S::exchange>(
         "exchange", one_of(kExchangeNames), "pipelined over several frames, sync for one",
@@ -121,18 +134,16 @@ constexpr std::array kTable{
     field<&S::spp>("spp", from_to(1, 65536), "1", "jittered samples a pixel, averaged in linear light"),
     field<&S::max_noise>(
         "max_noise", from_to(0, 1), "0",
-        "of several samples: a tile of 32x32 pixels takes no more once the standard error of their "
-        "means, linear, is below it; 0: every pixel takes all"),
-    field<&S::pixel_filter>(
-        "pixel_filter", one_of(kPixelFilterNames), "box",
-        "how a pixel's samples are spread: evenly over it, or over 3 pixels by a window that "
-        "leaves no stairs"),
-    field<&S::sequence>(
-        "sequence", one_of(kSequenceNames), "sobol",
-        "where samples are, of what is sampled: scrambled Sobol points; one such sequence turned "
-        "from pixel to pixel, so that noise is fine-grained; or by chance"),
-    field<&S::seed>("seed", from_to(0, 65535), "0", "another number: other samples"),
-    field<&S::depth>("depth", from_to(0, kMostBounces), "8, or as many as the scene's mirrors make use of",
+        "a tile of 32x32 pixels takes no more samples once the standard error of its pixels' "
+        "means, linear, is below this; 0: every pixel takes all samples"),
+    field<&S::pixel_filter>("pixel_filter", one_of(kPixelFilterNames), "box",
+                            "how a pixel's samples are spread: evenly over the pixel, or over 3 pixels by a "
+                            "window that smooths edges"),
+    field<&S::sequence>("sequence", one_of(kSequenceNames), "sobol",
+                        "sequence of a pixel's samples: scrambled Sobol points; one Sobol sequence rotated "
+                        "from pixel to pixel, so that noise is fine-grained; or random numbers"),
+    field<&S::seed>("seed", from_to(0, 65535), "0", "another seed gives other samples"),
+    field<&S::depth>("depth", from_to(0, kMostBounces), "8, or fewer where the scene's mirrors need no more",
                      "most bounces"),
     field<&S::mask_bits>("mask_bits", one_of(kMaskBits), "the fewest that hold the casting lights",
                          "bits a pixel of the shadow mask, one a light; 0: no shadows"),
@@ -143,39 +154,40 @@ constexpr std::array kTable{
     field<&S::reflection_scale>("reflection_scale", one_of(kScales), "1",
                                 "pixels a side that share a sample of mirrored light"),
     field<&S::tiles>("tiles", yes_or_no(), "true where mirrored light travels",
-                     "send only the tiles of 8x8 pixels that have mirrored light in them"),
+                     "send only the tiles of 8x8 pixels that have mirrored light"),
     field<&S::id_bits>("id_bits", one_of(kIdBits), "the fewest of 16 and 32 that name every triangle",
-                       "bits of a triangle's id on its way"),
+                       "bits of a triangle's id in transfers"),
     field<&S::normals>("normals", yes_or_no(), "false",
                        "send shading normals to the CPU as well, 3 bytes a pixel, as in 2005"),
     field<&S::wide>("wide", yes_or_no(), "false",
                     "send the 128 bits a pixel of 2005 to the CPU instead of ids alone"),
-    field<&S::throughput_cutoff>("throughput_cutoff", from_to(0, 1), "0.00012207031",
-                                 "light that a mirrored ray brings its pixel, linear, below which none is "
-                                 "fired; 0: all are",
-                                 false, "least_contribution"),
-    field<&S::light_cutoff>("light_cutoff", from_to(0, 1),
-                            "0 where the mask itself is kept, else half a step of an 8-bit picture",
-                            "light that a shadow ray brings a visible point, linear, below which none is "
-                            "fired; 0: all are",
-                            false, "least_light"),
+    field<&S::throughput_cutoff>(
+        "throughput_cutoff", from_to(0, 1), "0.00012207031",
+        "a mirrored ray is not fired where it would bring its pixel less light than this, "
+        "linear; 0: all are fired",
+        false, "least_contribution"),
+    field<&S::light_cutoff>(
+        "light_cutoff", from_to(0, 1),
+        "0 where the mask itself is kept, else half a step of an 8-bit picture",
+        "a shadow ray is not fired where it would bring its visible point less light than "
+        "this, linear; 0: all are fired",
+        false, "least_light"),
     field<&S::filter_textures>("filter_textures", yes_or_no(), "true",
-                               "average textures over what a pixel, and its mirror images, see of them"),
-    field<&S::indirect>(
-        "indirect", from_to(0, kMostBounces), "0",
-        "most bounces of light from one matt surface to the next, by samples; above 0 there is no "
-        "ambient light (docs/environment.md)"),
+                               "average textures over the area that a pixel or its mirror image covers"),
+    field<&S::indirect>("indirect", from_to(0, kMostBounces), "0",
+                        "most bounces of light from one matt surface to the next, by samples; above 0 there "
+                        "is no ambient light (docs/environment.md)"),
     field<&S::environment_rotation>("environment_rotation", from_to(-360, 360), "0",
-                                    "how far the environment is turned about the upward axis, degrees"),
+                                    "rotation of the environment about the upward axis, degrees"),
     field<&S::environment_strength>("environment_strength", from_to(0, 1e6), "1",
-                                    "what the environment's light is multiplied with; 0: there is none"),
+                                    "factor of the environment's light; 0: no environment"),
     field<&S::terminator>(
         "terminator", one_of(kTerminatorNames), terminator_name(kUsualTerminator),
-        "where a coarse mesh's shading normals face a light and its facets do not: off: dark; smoothed: "
-        "light falls to zero there; displaced: shadow rays start on the curved surface; turned-away: so "
-        "they do on facets that turn away (docs/terminator.md)"),
+        "where a coarse mesh's shading normals face a light and its facets do not: off: dark; "
+        "smoothed: light falls to zero there; displaced: shadow rays start on the curved "
+        "surface; turned-away: the same, on facets that turn away only (docs/terminator.md)"),
     field<&S::reuse>("reuse", yes_or_no(), "true",
-                     "draw nothing again for a frame that asks for what the last one did"),
+                     "do not draw a frame again whose request equals the last one's"),
     field<&S::persistent>("persistent", yes_or_no(), "false", "keep transfer buffers mapped", kOfMachine),
     field<&S::threads>("threads", from_to(0, kMostThreads), "0", "worker threads; 0: one a core", kOfMachine),
     field<&S::isa>("isa", one_of(kIsaNames), "the widest that the processor has", "SIMD level", kOfMachine),
@@ -186,8 +198,8 @@ constexpr std::array kTable{
     field<&S::triangle_test>("triangle_test", one_of(kTriangleTestNames), "filtered",
                              "how a ray meets a triangle (docs/stability.md)"),
     field<&S::offset>("offset", one_of(kOffsetMethodNames), "error-bound",
-                      "how far off a surface its shadow and mirrored rays start: one length, one a scene, or "
-                      "what rounding can do there"),
+                      "distance from a surface at which its shadow and mirrored rays start: one length, one "
+                      "length a scene, or a bound of the rounding error there"),
 };
 
 template <auto M>

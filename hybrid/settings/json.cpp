@@ -9,13 +9,13 @@
 namespace pinocchio {
 namespace {
 
-// The line on which `at` is, from 1.
+// The line of position `at`, from 1.
 int line_of(const std::string& text, std::size_t at) {
   return 1 + static_cast<int>(std::count(
                  text.begin(), text.begin() + static_cast<std::ptrdiff_t>(std::min(at, text.size())), '\n'));
 }
 
-// Where the field stands, from 1; 0: nowhere.
+// The line of the field, from 1; 0: it is not there.
 int line_of_field(const std::string& text, const std::string& name) {
   const std::size_t at = text.find('"' + name + '"');
   return at == std::string::npos ? 0 : line_of(text, at);
@@ -39,7 +39,7 @@ std::string text_of(const nlohmann::json& value) {
   return value.is_string() ? value.get<std::string>() : value.dump();
 }
 
-// What mode, design and primary said together, visibility and composite say now; "precise" was of them, too.
+// Former fields: mode, design and primary became visibility and composite; precise became an option.
 constexpr std::array<const char*, 4> kFormerNames{"design", "primary", "mode", "precise"};
 
 bool take_former(const std::string& name, const std::string& value, Settings& settings) {
@@ -84,7 +84,7 @@ nlohmann::json to_json(const Settings& settings, bool with_machine) {
 }
 
 Expected<Settings> load_settings(const std::filesystem::path& file) {
-  std::error_code ignored;  // looked at before it is opened: that of a pipe may never end
+  std::error_code ignored;  // checked before it is opened: opening a pipe may never return
   std::ifstream in;
   if (std::filesystem::is_regular_file(file, ignored)) in.open(file);
   if (!in.is_open())

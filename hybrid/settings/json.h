@@ -8,14 +8,14 @@
 
 namespace pinocchio {
 
-// Settings as people read, edit and give them back: every field by its name; without those of the machine,
-// what a picture depends on alone.
+// Settings as JSON that people can edit: every field by its name. with_machine: false leaves out the fields
+// that change no pixel.
 [[nodiscard]] nlohmann::json to_json(const Settings& settings, bool with_machine = true);
 
-// The settings of a file: their JSON, or an object that holds it under "plan" (as 'info --plan --json' and
-// --stats-json write). What is left out is not given. Files of the first version (mode, design, primary)
-// still read. An error, with the line where it is known: the file cannot be read, is no JSON, has a field or
-// a value that is none.
+// Reads settings: their JSON, or an object with it under "plan" (as 'info --plan --json' and --stats-json
+// write). Fields that are left out are not given. Files of the first version (mode, design, primary) are read
+// too. An error, with the line where it is known, where the file cannot be read, is no JSON, or has an
+// unknown field or value.
 [[nodiscard]] Expected<Settings> load_settings(const std::filesystem::path& file);
 
 }  // namespace pinocchio

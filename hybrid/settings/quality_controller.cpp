@@ -8,10 +8,10 @@
 namespace pinocchio {
 namespace {
 
-constexpr int kSettling = 3;        // frames after a change that still belong to the old plan
-constexpr std::size_t kWindow = 9;  // frames whose median counts
+constexpr int kSettling = 3;        // frames of the old plan that are delivered after a change
+constexpr std::size_t kWindow = 9;  // frames of a median
 constexpr int kFirstPatience = 30, kMostPatience = 10'000;  // frames
-constexpr double kRoom = 0.85;  // of the limit: what a way back may be expected to take
+constexpr double kRoom = 0.85;  // most of the limit that a better plan may be expected to take
 
 }  // namespace
 

@@ -7,16 +7,16 @@
 
 namespace pinocchio {
 
-// Keeps frames within a time: goes to the next cheaper plan of a front where frames take too long, and back
-// where there is room. It looks at medians, waits after every change, and after a way back that did not
-// last it waits twice as long before it tries again: so it settles, and never oscillates.
+// Keeps frames within a time limit: takes the next cheaper plan of a front where frames take too long, and
+// the next better one where there is time left. It compares medians, waits after every change, and doubles
+// the wait after a better plan that was too slow, so it does not oscillate.
 class QualityController {
  public:
-  // front: slowest first, not empty; of it the plans within budget.error are used (the first, where none is).
+  // front: slowest first, not empty. Plans beyond budget.error are not used, except the first.
   QualityController(std::vector<MeasuredSettings> front, const Budget& budget);
 
   [[nodiscard]] const MeasuredSettings& now() const { return front_[at_]; }
-  // Notes how long a frame took that was drawn by now(). True where now() is another plan afterwards.
+  // Adds the time of a frame that was drawn by now(). True where now() changed.
   bool note(double frame_ms);
 
  private:
@@ -27,8 +27,8 @@ class QualityController {
   std::size_t at_ = 0;
   std::vector<double> times_ms_;  // since the last change
   int frames_ = 0;                // since the last change
-  int patience_;                  // frames before a way back is tried
-  bool climbed_ = false;          // the last change was a way back
+  int patience_;                  // frames before a better plan is tried
+  bool climbed_ = false;          // the last change was to a better plan
 };
 
 }  // namespace pinocchio

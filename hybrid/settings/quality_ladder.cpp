@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "core/compare/pareto.h"
+#include "core/math/pareto.h"
 
 namespace pinocchio {
 namespace {
@@ -25,7 +25,7 @@ Settings without_shadows(Settings s) {
   return s;
 }
 
-// One sample for so many pixels, and so many bounces: of what the plan has at all.
+// With one sample for so many pixels and at most so many bounces.
 Settings thinned(Settings s, int mask_scale, int reflection_scale, int depth) {
   if (s.mask_bits > 0) s.mask_scale = mask_scale;
   if (s.reflects()) {

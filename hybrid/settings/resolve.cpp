@@ -9,10 +9,10 @@
 namespace pinocchio {
 namespace {
 
-constexpr std::size_t kMost16BitIds = 0xffff, kMost24BitIds = 0xffffff;  // one value less, as "none" is one
+constexpr std::size_t kMost16BitIds = 0xffff, kMost24BitIds = 0xffffff;  // all ones is "none"
 
-// A software rasteriser takes about as long for this many triangles as the tracer's primary rays for a
-// pixel (docs/measurements.md, "Who finds what is seen").
+// A software rasteriser takes as long for this many triangles as the tracer takes for a pixel's primary ray
+// (docs/measurements.md, "Who finds what is seen").
 constexpr double kTrianglesPerPixelForRays = 2.0;
 
 Unexpected refused(const std::string& what, const std::string& remedy) {
@@ -37,7 +37,7 @@ Expected<void> check(const Settings& s, const SceneStats& stats) {
   return {};
 }
 
-// Rays keep the cutoff's promise beyond the useful depth, too, so that nothing is lost by the limit.
+// The limit loses nothing: beyond the useful depth every ray is below the cutoff.
 void fill_depth(const SceneStats& stats, Settings& s) {
   if (!stats.mirrors) s.depth.value = 0;
   if (s.throughput_cutoff >= kThroughputCutoff) s.depth.value = std::min<int>(s.depth, stats.useful_depth);
@@ -47,7 +47,7 @@ void fill_depth(const SceneStats& stats, Settings& s) {
   if (s.reflection == ReflectionFormat::none) s.depth.value = 0;
 }
 
-// --mode auto. Where other settings need the GPU, it draws all the same.
+// --mode auto. The GPU stays where other settings need it.
 void choose_processors(const Circumstances& c, Settings& s) {
   if (!s.by_machine || !c.software_gl) return;
   Settings alone = s;

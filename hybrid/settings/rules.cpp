@@ -1,4 +1,4 @@
-// Presets, and what no two settings may say at once.
+// Presets, and combinations of settings that are refused.
 #include <algorithm>
 
 #include "pinocchio/settings.h"

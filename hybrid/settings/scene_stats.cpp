@@ -14,10 +14,10 @@ double area_of(const Mesh& mesh, const glm::uvec3& t) {
   return 0.5 * glm::length(glm::cross(b - a, c - a));
 }
 
-// Looks at mirror after mirror, to tell how often light can be mirrored.
+// Finds how often light can be mirrored, from all mirrors.
 class MirrorWalk {
  public:
-  // moves: what lies in one plane now need not do so later
+  // moves: mirrors in one plane may leave it later
   MirrorWalk(const Mesh& mesh, const Bounds& bounds, bool moves)
       : mesh_(mesh), slack_(1e-7 * static_cast<double>(bounds.diagonal())), flat_(!moves) {}
 
@@ -29,14 +29,14 @@ class MirrorWalk {
   }
 
   [[nodiscard]] int useful_depth() const {
-    if (flat_) return 1;  // what leaves a plane does not come back to it
+    if (flat_) return 1;  // a ray from a plane does not meet it again
     if (most_ >= 1.0) return kMostBounces;
     const double bounces = std::log(static_cast<double>(kThroughputCutoff)) / std::log(most_);
     return std::clamp(static_cast<int>(bounces), 1, kMostBounces);
   }
 
  private:
-  // Whether the triangle lies in the plane of the first one that has a plane.
+  // Whether the triangle lies in the plane of the first triangle with an area.
   bool in_plane(const glm::uvec3& t) {
     const glm::dvec3 a(mesh_.positions[t.x]), b(mesh_.positions[t.y]), c(mesh_.positions[t.z]);
     if (n_ == glm::dvec3(0.0)) {
@@ -69,10 +69,10 @@ bool sees_through(const Mesh& mesh, const Material& material) {
          (material.maps >= 0 && mesh.maps[static_cast<std::size_t>(material.maps)].blends());
 }
 
-// Materials that no triangle has are not needed.
+// The materials of some triangle.
 std::vector<bool> used_materials(const Mesh& mesh) {
   std::vector<bool> used(mesh.materials.size(), false);
-  std::uint32_t last = 0xffffffffu;  // neighbours mostly have the same
+  std::uint32_t last = 0xffffffffu;  // neighbours mostly have the same material
   for (const std::uint32_t material : mesh.triangle_materials)
     if (material != last) used[last = material] = true;
   return used;
@@ -99,7 +99,7 @@ SceneStats analyze(const Scene& scene) {
   }
   double all = 0.0, mirroring = 0.0, transmitting = 0.0;
   MirrorWalk walk(mesh, stats.bounds, scene.animation != nullptr);
-  // What has no area now may have some at another time.
+  // A triangle without an area may have one at another time.
   const double least_area = scene.animation ? std::numeric_limits<double>::min() : 0.0;
   for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
     const Material& material = mesh.materials[mesh.triangle_materials[i]];

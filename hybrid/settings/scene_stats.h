@@ -7,23 +7,22 @@
 
 namespace pinocchio {
 
-// What a scene asks of a frame; the plan models nothing beyond it. Every shading normal is a vertex's, which
-// the CPU has too: there are none that only the GPU knows.
+// The facts of a scene that settings are resolved by.
 struct SceneStats {
   std::size_t triangles = 0;
   Bounds bounds{};  // world space
   int lights = 0;
-  int casting_lights = 0;  // of those that reach something
+  int casting_lights = 0;  // that cast shadows and reach something
   int idle_lights = 0;     // that reach nothing
   bool environment = false;
   bool mirrors = false;             // some triangle's material reflects, transmits or blends
-  double mirror_share = 0.0;        // of the scene's surface that reflects or transmits
-  double transmitting_share = 0.0;  // of it that transmits
-  bool textures = false;            // some triangle's material has one
-  bool vertex_colors = false;       // ... or vertex colours
-  bool holes = false;               // some let rays pass where their alpha says so
-  bool blends = false;              // some show what is behind them by their alpha
-  // Bounces beyond which no ray brings its pixel kThroughputCutoff, or none finds another mirror.
+  double mirror_share = 0.0;        // share of the scene's surface that reflects or transmits
+  double transmitting_share = 0.0;  // share that transmits
+  bool textures = false;            // some triangle's material has a texture
+  bool vertex_colors = false;       // some triangle's material has vertex colours
+  bool holes = false;               // some material has holes by its alpha
+  bool blends = false;              // some material blends by its alpha
+  // Bounces beyond which no ray brings its pixel kThroughputCutoff, or none meets another mirror.
   int useful_depth = kMostBounces;
 
   [[nodiscard]] bool transmits() const { return transmitting_share > 0.0; }
@@ -32,7 +31,7 @@ struct SceneStats {
 // One walk over lights and triangles.
 [[nodiscard]] SceneStats analyze(const Scene& scene);
 
-// After a change of lights alone: what `stats` says of them, anew; the triangles are not walked.
+// Updates the facts about lights; the triangles are not walked.
 void recount_lights(const Scene& scene, SceneStats& stats);
 
 }  // namespace pinocchio

@@ -1,4 +1,4 @@
-"""Scenes from trimesh's meshes; trimesh itself is the caller's."""
+"""Scenes from trimesh's meshes. The caller imports trimesh."""
 
 from ._core import Error, Material, Scene, assemble
 
@@ -17,7 +17,7 @@ def _image(material):
 
 
 def _surface(mesh, material):
-    """Keyword arguments for Scene: the material given, else what the mesh's visual says."""
+    """Keyword arguments for Scene: the given material, else the mesh's visual."""
     import numpy
 
     visual = mesh.visual
@@ -41,10 +41,12 @@ def _surface(mesh, material):
 
 
 def from_trimesh(mesh, *, smooth=True, material=None, lights=(), ambient=(0.1, 0.1, 0.1)):
-    """A Scene of a trimesh.Trimesh, or of a trimesh.Scene, whose geometry becomes nodes that can be moved.
+    """A Scene from a trimesh.Trimesh, or from a trimesh.Scene, whose geometry becomes nodes that can be moved.
 
-    smooth: shade with the mesh's vertex normals; else triangles are flat. material: a Material in place of the
-    mesh's own colours or texture.
+    smooth: shade with the mesh's vertex normals. False: triangles are flat.
+    material: a Material that replaces the mesh's own colours or texture.
+    lights: a list of Light. ambient: three numbers, linear.
+    Raises Error if there are no triangles.
     """
     import numpy
 

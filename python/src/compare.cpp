@@ -38,14 +38,14 @@ Image<glm::vec3> image_of(const Picture& array) {
   if (array.dtype() == nb::dtype<float>()) return image_of<float>(array, [](float v) { return v; });
   if (array.dtype() == nb::dtype<double>())
     return image_of<double>(array, [](double v) { return static_cast<float>(v); });
-  throw Error("a picture is of float32 or float64 (linear) or uint8 (sRGB)");
+  throw Error("a picture has the type float32 or float64 (linear) or uint8 (sRGB)");
 }
 
 Image<glm::vec3> image_of_exr(const std::filesystem::path& path) {
   const ExrFile exr = value_or_throw(read_exr(path));
   Image<glm::vec3> image(exr.data_window.size());
   for (int c = 0; c < 3; ++c) {
-    const ExrChannel* const channel = exr.find(std::array{"R", "G", "B"}[static_cast<std::size_t>(c)]);
+    const ExrChannel* const channel = exr.find(std::array{"R", "G", "B"}[c]);
     if (!channel || channel->type == ExrChannel::Type::uint)
       throw Error(path.string() + ": has no colours R, G and B");
     for (std::size_t i = 0; i < channel->values.size(); ++i) image[i][c] = channel->values[i];
@@ -100,14 +100,18 @@ nb::dict channels_of(const std::filesystem::path& path) {
 }  // namespace
 
 void bind_compare(nb::module_& module) {
+  module.def("compare", &compare, "a"_a, "b"_a, "pixels_per_degree"_a = 67.0f,
+             "The difference between the picture `a` and its reference `b`, as a dict: 'rmse', 'relmse', "
+             "'psnr' (dB), 'max',\n"
+             "'flip' (mean LDR-FLIP) and 'flip_errors' (height, width) float32, in [0, 1].\n"
+             "a, b: a Result, an EXR file's path, or an array (height, width, 3 or 4): float is linear, "
+             "uint8 is sRGB.\n"
+             "pixels_per_degree: pixels per degree of visual angle, 1 to 1000.\n"
+             "Raises Error if the sizes differ, a value is not finite, or a file cannot be read.");
   module.def(
-      "compare", &compare, "a"_a, "b"_a, "pixels_per_degree"_a = 67.0f,
-      "How far picture `a` is from its reference `b`: 'rmse', 'relmse', 'psnr' (dB), 'max', 'flip' (mean\n"
-      "LDR-FLIP) and 'flip_errors' (h, w). Each is a Result, an EXR file, or an array (h, w, 3 or 4): float "
-      "is\n"
-      "linear, uint8 sRGB.");
-  module.def("read_exr", &channels_of, "path"_a,
-             "Channels of an EXR by name, each (h, w): float32, or uint32 of integers.");
+      "read_exr", &channels_of, "path"_a,
+      "The channels of an EXR file by name, each an array (height, width): float32, or uint32 for integers.\n"
+      "Raises Error if the file cannot be read.");
 }
 
 }  // namespace pinocchio::python

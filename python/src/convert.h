@@ -1,4 +1,4 @@
-// What Python says, in our types: vectors, matrices, arrays, errors.
+// Conversions between Python's types and ours: vectors, matrices, arrays, errors.
 #pragma once
 
 #include <nanobind/nanobind.h>
@@ -29,7 +29,7 @@ T value_or_throw(Expected<T>&& expected) {
   if constexpr (!std::is_void_v<T>) return std::move(*expected);
 }
 
-// Whatever NumPy can make such an array of: without a copy, where it is one already.
+// Anything that NumPy can convert to such an array. An array of the right type is not copied.
 template <class T, class Shape>
 struct Like {
   nb::ndarray<const T, Shape, nb::c_contig, nb::device::cpu> array;
@@ -51,7 +51,7 @@ std::vector<To> copied(const Array& array) {
   return {first, first + array.shape(0)};
 }
 
-// Rows in NumPy, columns in GLM.
+// NumPy has rows, GLM columns.
 inline glm::mat4 matrix_of(const Matrix& m) {
   glm::mat4 result;
   for (int row = 0; row < 4; ++row)
@@ -60,7 +60,7 @@ inline glm::mat4 matrix_of(const Matrix& m) {
   return result;
 }
 
-// An array that NumPy sees without a copy and `owner` keeps alive.
+// An array for NumPy, without a copy. `owner` keeps the memory alive.
 template <class T>
 nb::ndarray<nb::numpy, T> view_of(T* data, std::initializer_list<std::size_t> shape, nb::handle owner) {
   return {data, shape, owner};
@@ -89,7 +89,7 @@ struct type_caster<pinocchio::python::Like<T, Shape>> {
   }
 };
 
-// A vector is any sequence of that many numbers, and a tuple on its way back.
+// A vector is converted from any sequence of that many numbers, and to a tuple.
 template <int N>
 struct vec_caster {
   using Vec = glm::vec<N, float, glm::defaultp>;

@@ -8,6 +8,7 @@
 #include <mutex>
 
 #include "python/src/interrupt.h"
+#include "python/src/layers.h"
 #include "python/src/parts.h"
 #include "python/src/render_settings.h"
 #include "python/src/result.h"
@@ -33,7 +34,7 @@ Camera camera_of(const Scene& scene, const CameraChoice& choice) {
   return scene.cameras.empty() ? camera_for_whole_scene(scene) : scene.cameras.front();
 }
 
-// As the program: a scene without lights gets one.
+// As in the program, a scene without lights gets one.
 Scene lit(const Scene& scene, const Camera& camera) {
   Scene copy = scene;
   if (copy.lights.empty()) copy.lights.push_back(default_light(copy, camera));
@@ -43,66 +44,36 @@ Scene lit(const Scene& scene, const Camera& camera) {
 void check_size(const glm::ivec2& size) {
   if (size.x < 1 || size.y < 1 || size.x > 65536 || size.y > 65536)
     throw Error("size is " + std::to_string(size.x) + "x" + std::to_string(size.y) +
-                "; it is (width, height) in pixels");
+                "; it must be (width, height) in pixels");
 }
 
 using Array = nb::ndarray<nb::c_contig, nb::device::cpu>;
 
-// A kind of array that render_many fills.
-struct Output {
-  const char* name;
-  nb::dlpack::dtype type;
-  std::size_t bytes, channels;  // of a number; numbers a pixel
-  void (*point)(FrameArrays& to, void* data);
-};
-
-const Output kOutputs[] = {
-    {"color", nb::dtype<float>(), 4, 4,
-     [](FrameArrays& to, void* p) { to.color = static_cast<glm::vec4*>(p); }},
-    {"depth", nb::dtype<float>(), 4, 1, [](FrameArrays& to, void* p) { to.depth = static_cast<float*>(p); }},
-    {"position", nb::dtype<float>(), 4, 3,
-     [](FrameArrays& to, void* p) { to.position = static_cast<glm::vec3*>(p); }},
-    {"normal", nb::dtype<float>(), 4, 3,
-     [](FrameArrays& to, void* p) { to.normal = static_cast<glm::vec3*>(p); }},
-    {"albedo", nb::dtype<float>(), 4, 3,
-     [](FrameArrays& to, void* p) { to.albedo = static_cast<glm::vec3*>(p); }},
-    {"ids", nb::dtype<std::uint32_t>(), 4, 1,
-     [](FrameArrays& to, void* p) { to.ids = static_cast<std::uint32_t*>(p); }},
-    {"objects", nb::dtype<std::uint32_t>(), 4, 1,
-     [](FrameArrays& to, void* p) { to.objects = static_cast<std::uint32_t*>(p); }},
-    {"mask", nb::dtype<std::uint8_t>(), 1, 1,
-     [](FrameArrays& to, void* p) { to.mask = static_cast<std::uint8_t*>(p); }},
-    {"reflection", nb::dtype<float>(), 4, 3,
-     [](FrameArrays& to, void* p) { to.reflection = static_cast<glm::vec3*>(p); }},
-};
-
-const Output& output_named(const std::string& name) {
-  std::string names;
-  for (const Output& output : kOutputs) {
-    if (name == output.name) return output;
-    names += std::string(names.empty() ? "" : ", ") + output.name;
-  }
-  throw Error("there is no output '" + name + "'; choose from " + names);
+const LayerRow& output_named(const std::string& name) {
+  for (const LayerRow& row : kLayers)
+    if (!name.empty() && name == row.array.name) return row;
+  throw Error("there is no output '" + name + "'; choose from " + array_names());
 }
 
-std::vector<std::size_t> shape_of(const Output& output, std::size_t frames, const glm::ivec2& size) {
+std::vector<std::size_t> shape_of(const LayerRow& output, std::size_t frames, const glm::ivec2& size) {
   std::vector<std::size_t> shape{frames, static_cast<std::size_t>(size.y), static_cast<std::size_t>(size.x)};
-  if (output.channels > 1) shape.push_back(output.channels);
+  if (const std::size_t numbers = pixel_type(output).numbers; numbers > 1) shape.push_back(numbers);
   return shape;
 }
 
-nb::object new_array(const Output& output, const std::vector<std::size_t>& shape, FrameArrays& to) {
-  std::size_t bytes = output.bytes;
+nb::object new_array(const LayerRow& output, const std::vector<std::size_t>& shape, FrameArrays& to) {
+  const PixelType type = pixel_type(output);
+  std::size_t bytes = type.bytes;
   for (const std::size_t n : shape) bytes *= n;
   void* const data = ::operator new(std::max<std::size_t>(bytes, 1));
   const nb::capsule owner(data, [](void* p) noexcept { ::operator delete(p); });
-  output.point(to, data);
-  return nb::cast(nb::ndarray<nb::numpy>(data, shape.size(), shape.data(), owner, nullptr, output.type));
+  point(output, data, to);
+  return nb::cast(nb::ndarray<nb::numpy>(data, shape.size(), shape.data(), owner, nullptr, type.type));
 }
 
-nb::object given_array(const Output& output, const std::vector<std::size_t>& shape, nb::handle given,
+nb::object given_array(const LayerRow& output, const std::vector<std::size_t>& shape, nb::handle given,
                        FrameArrays& to) {
-  const std::string named = std::string("out['") + output.name + "'] ";
+  const std::string named = "out['" + std::string(output.array.name) + "'] ";
   nb::ndarray<> array;
   if (!nb::try_cast(given, array, false))
     throw nb::type_error((named + "is no array that can be written to in the CPU's memory").c_str());
@@ -112,26 +83,26 @@ nb::object given_array(const Output& output, const std::vector<std::size_t>& sha
     throw nb::type_error((named + "is on another device (DLPack's type " + std::to_string(device) +
                           "); the CPU fills it: give an array of its memory, and copy that to the device")
                              .c_str());
-  bool fits = array.dtype() == output.type && array.ndim() == shape.size() && array.is_valid();
+  bool fits = array.dtype() == pixel_type(output).type && array.ndim() == shape.size() && array.is_valid();
   std::int64_t stride = 1;
   for (std::size_t i = shape.size(); fits && i-- > 0; stride *= static_cast<std::int64_t>(shape[i]))
     fits = array.shape(i) == shape[i] && (shape[i] == 1 || array.stride(i) == stride);
   if (!fits) throw Error(named + "is not of the shape and type of this output; leave it out");
-  output.point(to, array.data());
+  point(output, array.data(), to);
   return nb::borrow(given);
 }
 
-// An Engine that knows which process it lives in. Calls from several threads take turns.
+// An Engine that knows its process. Calls from several threads are executed one after the other.
 class PyEngine {
  public:
   PyEngine(int threads, const std::string& backend, const std::string& device)
       : threads_(threads_wanted(threads)),
         engine_(std::make_unique<Engine>(EngineOptions{.backend = backend, .device = device})) {
-    // Else the first array imports it, and an interrupt meanwhile comes out as a TypeError.
+    // Without this the first array imports it, and an interrupt at that time becomes a TypeError.
     (void)nb::module_::import_("numpy");
   }
   ~PyEngine() {
-    if (pid_ != getpid()) (void)engine_.release();  // its threads stayed in the parent
+    if (pid_ != getpid()) (void)engine_.release();  // its threads are in the parent
   }
 
   [[nodiscard]] int threads() const { return or_one_a_core(threads_); }
@@ -166,7 +137,7 @@ class PyEngine {
     nb::dict result;
     FrameArrays to;
     for (const std::string& name : outputs) {
-      const Output& output = output_named(name);
+      const LayerRow& output = output_named(name);
       const std::vector<std::size_t> shape = shape_of(output, cameras.size(), size);
       result[name.c_str()] = out && out->contains(name.c_str())
                                  ? given_array(output, shape, (*out)[name.c_str()], to)
@@ -184,7 +155,7 @@ class PyEngine {
  private:
   void check_process() const {
     if (pid_ != getpid())
-      throw Error("this Engine was made before the process was forked; make one in each process");
+      throw Error("this Engine was created before the process was forked; create one in each process");
   }
 
   int threads_;
@@ -197,36 +168,45 @@ class PyEngine {
 
 void bind_engine(nb::module_& module) {
   static const std::string kRender =
-      "One picture, a Result. camera: a Camera, the name or number of one of the scene's, or None: its "
-      "first, else one\n"
-      "that has the whole scene in view. size: (width, height). A scene without lights gets one above the "
-      "camera.\n"
-      "By default the CPU draws alone (mode='raytrace'): no OpenGL is needed. Settings:\n\n" +
+      "Draws a picture and returns a Result.\n"
+      "camera: a Camera, or the name or index of one of the scene's. None: the scene's first camera, or one "
+      "that sees the\n"
+      "whole scene.\n"
+      "size: (width, height) in pixels.\n"
+      "A scene without lights gets one above the camera. By default the CPU draws alone (mode='raytrace') "
+      "and no OpenGL is\n"
+      "needed.\n"
+      "Raises Error if there is no such camera or setting, if settings contradict each other, or if OpenGL "
+      "fails.\n"
+      "Settings:\n\n" +
       settings_help();
+  static const std::string kRenderMany =
+      "Draws a picture from each camera and returns {name: array (n, height, width, ...)}.\n"
+      "outputs: names of " +
+      array_names() +
+      ",\n"
+      "each as in Result. Other layers are not computed.\n"
+      "out: the arrays of an earlier call, which are filled again.\n"
+      "Settings and errors as for render; TypeError if an array of `out` does not fit. Small pictures keep\n"
+      "all threads busy.";
   nb::class_<PyEngine>(
       module, "Engine",
-      "What pictures are drawn with: worker threads, the last scene's tree and, where settings ask for it,\n"
-      "an OpenGL context. It may be used from several threads, which take turns. A process may have "
-      "several.\n"
-      "Make them after a fork.")
+      "Worker threads, the last scene's tree and, if the settings need it, an OpenGL context.\n"
+      "Several threads may use an Engine; their calls are executed one after the other. A process may have "
+      "several\n"
+      "Engines. Create an Engine after a fork, not before it.")
       .def(nb::init<int, const std::string&, const std::string&>(), "threads"_a = 0, "backend"_a = "auto",
            "device"_a = "",
-           "threads: worker threads; 0: PINOCCHIO_THREADS of the environment, else one for each core that "
-           "the process\n"
-           "may use. Of several processes on one machine, give each its share. backend, device: of OpenGL, "
-           "as the\n"
-           "program's options.")
-      .def_prop_ro("threads", &PyEngine::threads, "How many threads draw.")
+           "threads: the number of worker threads. 0: the environment variable PINOCCHIO_THREADS, else one "
+           "for each core of the\n"
+           "process. If several processes share a machine, give each its share.\n"
+           "backend, device: of OpenGL, as the program's options.")
+      .def_prop_ro("threads", &PyEngine::threads, "The number of worker threads.")
       .def("render", &PyEngine::render, "scene"_a, "camera"_a = nb::none(), "size"_a = glm::ivec2(800, 600),
            "settings"_a, kRender.c_str())
       .def("render_many", &PyEngine::render_many, "scene"_a, "cameras"_a, "size"_a = glm::ivec2(800, 600),
            "outputs"_a = std::vector<std::string>{"color"}, "out"_a = nb::none(), "settings"_a,
-           "A picture from each camera: {name: array (n, height, width, ...)} of the `outputs`: color, "
-           "depth, position,\n"
-           "normal, albedo, ids, objects, mask, reflection, each as in Result. What is not asked for is not "
-           "computed.\n"
-           "out: arrays of an earlier call, filled again. Small pictures keep all threads busy. Settings as "
-           "for render.");
+           kRenderMany.c_str());
 }
 
 }  // namespace pinocchio::python

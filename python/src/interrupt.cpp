@@ -18,7 +18,7 @@ bool is_main_thread() {
 
 Interrupt::Interrupt(Progress& progress) : progress_(progress), watching_(is_main_thread()) {
   sigaction(SIGINT, nullptr, &before_);
-  if (before_.sa_handler == SIG_IGN) watching_ = false;  // as a shell starts jobs in the background
+  if (before_.sa_handler == SIG_IGN) watching_ = false;  // a shell starts background jobs this way
   if (!watching_) return;
   watched = &progress;
   struct sigaction action {};

@@ -1,4 +1,4 @@
-// Ctrl-C while Python waits for us.
+// Ctrl-C while Python waits for a call of this module.
 #pragma once
 
 #include <pinocchio/progress.h>
@@ -10,8 +10,8 @@
 
 namespace pinocchio::python {
 
-// While it lives, SIGINT cancels `progress`; then Python handles it. On threads other than Python's main one
-// it does nothing, as signals are that one's. Made and ended with the GIL held.
+// During its lifetime SIGINT cancels `progress`, and Python handles the signal afterwards. It does nothing on
+// threads other than Python's main one, which gets the signals. Construct and destroy it with the GIL held.
 class Interrupt {
  public:
   explicit Interrupt(Progress& progress);
@@ -19,7 +19,8 @@ class Interrupt {
   Interrupt(const Interrupt&) = delete;
   Interrupt& operator=(const Interrupt&) = delete;
 
-  // Lets Python handle the signal that came meanwhile, and throws what that raised (KeyboardInterrupt).
+  // Lets Python handle a signal that has arrived, and throws the exception that Python raises
+  // (KeyboardInterrupt).
   void check();
 
  private:
@@ -28,7 +29,7 @@ class Interrupt {
   struct sigaction before_ {};
 };
 
-// Runs work(progress) without the GIL; Ctrl-C cancels it and is raised.
+// Runs work(progress) without the GIL. Ctrl-C cancels it and raises KeyboardInterrupt.
 template <class Work>
 auto without_gil(Work work) {
   Progress progress;
@@ -39,7 +40,7 @@ auto without_gil(Work work) {
     result = work(&progress);
   } catch (const Cancelled&) {
     interrupt.check();
-    throw Error("interrupted");  // Python's handler raised nothing
+    throw Error("interrupted");  // Python's handler raised no exception
   }
   interrupt.check();
   return std::move(*result);

@@ -4,7 +4,7 @@
 
 namespace {
 
-// A RuntimeWarning; where warnings are errors, one that is shown and not raised, as the work goes on.
+// A RuntimeWarning. If warnings are errors, it is printed and not raised, because the work continues.
 void warn(const char* line) {
   const nanobind::gil_scoped_acquire held;
   if (PyErr_WarnEx(PyExc_RuntimeWarning, line, 1) != 0) PyErr_WriteUnraisable(nullptr);
@@ -25,7 +25,7 @@ NB_MODULE(_core, module) {
           std::rethrow_exception(thrown);
         } catch (const EnvironmentError& failed) {
           PyErr_SetString(static_cast<PyObject*>(type), failed.what());
-        } catch (const std::invalid_argument& wrong) {  // no such layer of an EXR
+        } catch (const std::invalid_argument& wrong) {  // an EXR has no such layer
           PyErr_SetString(static_cast<PyObject*>(type), wrong.what());
         }
       },

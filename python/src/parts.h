@@ -1,4 +1,4 @@
-// The parts of the module, a file each.
+// The parts of the module, one file each.
 #pragma once
 
 #include "python/src/convert.h"

@@ -48,7 +48,7 @@ std::string settings_help() {
     text += std::string(p.option) + "='" + std::string(p.value) + "': " + std::string(p.help) + "\n";
   for (const Field& f : settings_table())
     text += std::string(f.name) + ": " + std::string(f.help) + " (" + f.domain() +
-            "; where it is left out: " + std::string(f.unset) + ")\n";
+            "; default: " + std::string(f.unset) + ")\n";
   return text;
 }
 

@@ -1,4 +1,4 @@
-// Settings as Python says them: keyword arguments by the names of the one table.
+// Settings as Python's keyword arguments, with the names of settings_table().
 #pragma once
 
 #include <pinocchio/settings.h>
@@ -7,9 +7,9 @@
 
 namespace pinocchio::python {
 
-// Presets first, so that a field goes before them. Throws Error.
+// Presets are applied first, so that single fields override them. Throws Error.
 [[nodiscard]] Settings settings_of(const nb::kwargs& arguments, int threads);
-// A line a field: its name, domain, default and meaning.
+// One line for each field: its name, domain, default and meaning.
 [[nodiscard]] std::string settings_help();
 
 }  // namespace pinocchio::python

@@ -1,8 +1,10 @@
 #include "python/src/result.h"
 
 #include <nanobind/stl/filesystem.h>
+#include <map>
 
 #include "python/src/interrupt.h"
+#include "python/src/layers.h"
 #include "python/src/parts.h"
 
 namespace pinocchio::python {
@@ -23,7 +25,8 @@ auto picture(Image<glm::vec<N, float, glm::defaultp>>& image, nb::handle owner) 
       owner);
 }
 
-// Several threads may make them at the same time; the first one's are kept, as arrays view them.
+// Several threads may compute them at the same time. The first result is kept, because arrays are views of
+// it.
 SurfaceImages& surfaces(Result& result) {
   if (!result.surfaces) {
     SurfaceImages made = without_gil([&](Progress*) { return surfaces_of(result.frame); });
@@ -82,6 +85,14 @@ auto objects(nb::handle self) {
   return picture(result.objects, self);
 }
 
+// Read-only: depth, position, normal, albedo and objects index the scene by them.
+auto ids(nb::handle self) {
+  const Image<std::uint32_t>& ids = nb::cast<Result&>(self).frame.ids;
+  return view_of<const std::uint32_t>(
+      ids.pixels().data(), {static_cast<std::size_t>(ids.height()), static_cast<std::size_t>(ids.width())},
+      self);
+}
+
 template <auto M>
 auto of_frame(nb::handle self) {
   return picture(nb::cast<Result&>(self).frame.*M, self);
@@ -94,30 +105,23 @@ auto of_surfaces(nb::handle self) {
 }  // namespace
 
 void bind_result(nb::module_& module) {
-  nb::class_<Result>(
-      module, "Result",
-      "A finished picture. Arrays are (height, width, ...), row 0 on top; they are views, made when\n"
-      "first asked for.")
-      .def_prop_ro(
-          "color", &of_frame<&FrameResult::color>,
-          "(h, w, 4) float32: linear RGBA, mean of the samples. A: how much of the pixel is covered.")
-      .def_prop_ro("depth", &of_surfaces<&SurfaceImages::z_eye>,
-                   "(h, w) float32: distance along the view axis, scene units; inf where nothing is hit.")
-      .def_prop_ro("position", &of_surfaces<&SurfaceImages::p_world>,
-                   "(h, w, 3) float32, world; 0 where nothing is hit.")
-      .def_prop_ro("normal", &of_surfaces<&SurfaceImages::n_shading>,
-                   "(h, w, 3) float32: world shading normal, unit; 0 where nothing is hit.")
-      .def_prop_ro("albedo", &of_surfaces<&SurfaceImages::albedo>,
-                   "(h, w, 3) float32: diffuse colour, linear.")
-      .def_prop_ro("ids", &of_frame<&FrameResult::ids>,
-                   "(h, w) uint32: the triangle; 0xffffffff where nothing is hit.")
-      .def_prop_ro("objects", &objects,
-                   "(h, w) uint32: the node (Scene.nodes) that the triangle moves with; 0xffffffff where "
-                   "nothing is hit.")
-      .def_prop_ro("mask", &mask,
-                   "(h, w) uint8: bit i is set where the light in mask slot i reaches the point.")
-      .def_prop_ro("reflection", &reflection, "(h, w, 3) float32: mirrored and refracted light, linear.")
-      .def_prop_ro("record", &record, "What it cost: 'ms', 'stages' (ms), 'bytes', 'rays'.")
+  static std::map<Layer, std::string> docs;
+  const auto doc = [](Layer layer) { return docs.emplace(layer, doc_of(layer)).first->second.c_str(); };
+  static const std::string ids_doc = doc_of(Layer::ids) + " Read-only.";
+  nb::class_<Result>(module, "Result",
+                     "A finished picture. Arrays are (height, width, ...) with row 0 on top. They are views, "
+                     "which are made\n"
+                     "at first use.")
+      .def_prop_ro("color", &of_frame<&FrameResult::color>, doc(Layer::picture))
+      .def_prop_ro("depth", &of_surfaces<&SurfaceImages::z_eye>, doc(Layer::depth))
+      .def_prop_ro("position", &of_surfaces<&SurfaceImages::p_world>, doc(Layer::position))
+      .def_prop_ro("normal", &of_surfaces<&SurfaceImages::n_shading>, doc(Layer::normals))
+      .def_prop_ro("albedo", &of_surfaces<&SurfaceImages::albedo>, doc(Layer::albedo))
+      .def_prop_ro("ids", &ids, ids_doc.c_str())
+      .def_prop_ro("objects", &objects, doc(Layer::objects))
+      .def_prop_ro("mask", &mask, doc(Layer::mask))
+      .def_prop_ro("reflection", &reflection, doc(Layer::reflection))
+      .def_prop_ro("record", &record, "The cost as a dict: 'ms', 'stages' (ms), 'bytes', 'rays'.")
       .def_prop_ro("camera", [](const Result& r) { return r.frame.view.camera; })
       .def(
           "write_exr",
@@ -128,9 +132,11 @@ void bind_result(nb::module_& module) {
                 [&](Progress* progress) { return write_exr(path, r.frame, options, progress), true; });
           },
           "path"_a, "aov"_a = "all", "deterministic"_a = false,
-          "The picture with its layers, as the program writes it. aov: 'all', 'none' or some of Z, P, N, "
-          "Albedo, id,\n"
-          "shadow, reflection, with commas between. deterministic: leaves out how long it took.");
+          "Writes the picture with its layers to an EXR file, as the program does.\n"
+          "path: the file, which is written whole or not at all.\n"
+          "aov: 'all', 'none' or some of the program's --aov, separated by commas.\n"
+          "deterministic: without the render time, so that the same picture has the same bytes.\n"
+          "Raises Error if the file cannot be written or there is no such layer.");
 }
 
 }  // namespace pinocchio::python

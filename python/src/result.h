@@ -6,9 +6,9 @@
 
 namespace pinocchio::python {
 
-// A finished picture; what is made of it is made when it is first asked for, with the GIL held.
+// A finished picture. Arrays that are computed from it are made at first use, with the GIL held.
 struct Result {
-  FrameResult frame;  // never changed: calls that released the GIL read it
+  FrameResult frame;  // never changed: calls without the GIL read it
   double ms = 0.0;    // from the call to the picture
   std::optional<SurfaceImages> surfaces{};
   Image<std::uint8_t> mask{};

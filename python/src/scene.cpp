@@ -14,7 +14,7 @@
 namespace pinocchio::python {
 namespace {
 
-// A material, and the texture that it brings along.
+// A material and its texture.
 struct TexturedMaterial {
   Material material;
   std::shared_ptr<const Texture> texture;
@@ -40,7 +40,7 @@ Light light_of(std::optional<glm::vec3> position, std::optional<glm::vec3> direc
     throw Error("a light has a position (a point), a direction (a sun) or both (a spot)");
   if (falloff != "none" && falloff != "inverse_square")
     throw Error("falloff is '" + falloff + "'; it is 'none' or 'inverse_square'");
-  if (direction && glm::length(*direction) == 0.0f) throw Error("a light's direction is not zero");
+  if (direction && glm::length(*direction) == 0.0f) throw Error("a light's direction must not be zero");
   Light light;
   light.name = name;
   light.kind = !direction ? Light::Kind::point : position ? Light::Kind::spot : Light::Kind::directional;
@@ -65,7 +65,7 @@ const char* kind_of(const Light& light) {
   return kKinds[static_cast<int>(light.kind)];
 }
 
-// A material for each colour there is: of every triangle.
+// Makes a material for each different colour of the triangles.
 void color_triangles(const std::vector<glm::vec3>& colors, MeshData& mesh) {
   std::map<std::array<float, 3>, std::uint32_t> known;
   const std::vector<Material> given = mesh.materials;
@@ -91,7 +91,7 @@ void add_materials(const std::vector<TexturedMaterial>& materials, MeshData& mes
 
 void check_rows(std::size_t rows, std::size_t wanted, const char* what, const char* of) {
   if (rows != wanted)
-    throw Error(std::string(what) + " has " + std::to_string(rows) + " rows; it is one a " + of +
+    throw Error(std::string(what) + " has " + std::to_string(rows) + " rows; it needs one for each " + of +
                 ", there are " + std::to_string(wanted));
 }
 
@@ -114,7 +114,7 @@ Scene scene_of(const Floats3& vertices, const Words3& triangles, const std::opti
                                                : std::vector<std::uint32_t>(mesh.triangles.size(), 0u);
   add_materials(materials, mesh);
   if (!mesh.textures.empty() && mesh.texcoords.empty())
-    throw Error("a material has a texture, the scene no uvs; give uvs, one (u, v) a vertex");
+    throw Error("a material has a texture, but the scene has no uvs; give one (u, v) for each vertex");
   if (colors) {
     const std::vector<glm::vec3> given = copied<glm::vec3>(*colors);
     if (given.size() == mesh.positions.size()) {
@@ -144,14 +144,14 @@ Scene load(const std::filesystem::path& path, bool confine) {
 
 int node_of(const Scene& scene, const std::variant<int, std::string>& name) {
   if (!scene.nodes)
-    throw Error("the scene has no nodes to move; load a glTF file, or put scenes together (assemble)");
+    throw Error("the scene has no nodes to move; load a glTF file, or combine scenes (assemble)");
   if (std::holds_alternative<int>(name)) return std::get<int>(name);
   const int found = scene.nodes->find(std::get<std::string>(name));
   if (found >= 0) return found;
   throw Error("there is no node '" + std::get<std::string>(name) + "'; Scene.nodes lists them");
 }
 
-// Of a scene that is read without the GIL there is a cheap copy, as other threads may change it meanwhile.
+// A scene is copied (cheaply) before it is read without the GIL, because other threads may change it.
 Scene with_transforms(const Scene& scene, const nb::dict& transforms) {
   std::vector<NodeTransform> moves;
   for (const auto& [name, matrix] : transforms)
@@ -174,7 +174,9 @@ Scene assemble(const nb::dict& parts) {
 }
 
 void bind_material(nb::module_& module) {
-  nb::class_<TexturedMaterial>(module, "Material", "Phong with mirrors and glass; colours are linear.")
+  nb::class_<TexturedMaterial>(
+      module, "Material",
+      "A material of Phong's model with mirrors and glass. Colours are linear, three numbers each.")
       .def(
           "__init__",
           [](TexturedMaterial* self, const glm::vec3& diffuse, const glm::vec3& specular, float shininess,
@@ -204,18 +206,19 @@ void bind_material(nb::module_& module) {
           "fresnel"_a = false, "emission"_a = glm::vec3(0.0f), "ambient"_a = nb::none(),
           "texture"_a = nb::none(), "name"_a = "", "gloss"_a = 0.0f, "attenuation_color"_a = glm::vec3(1.0f),
           "attenuation_distance"_a = 0.0f,
-          "reflectance: the weight of the mirrored ray; with `fresnel`, its value at normal incidence.\n"
-          "transmittance: of the refracted ray, bent by `ior`. texture: (height, width, 3 or 4) uint8, sRGB; "
-          "its\n"
-          "colour multiplies diffuse and ambient. ambient: as diffuse, where it is left out. gloss: "
-          "exponent\n"
-          "of the lobe that mirrored rays are spread over by samples (spp); 0: sharp. attenuation_color: "
-          "what is\n"
-          "left of light that went `attenuation_distance`, scene units, through glass; 0: it is clear.");
+          "ambient: None: as diffuse.\n"
+          "reflectance: the weight of the mirrored ray; with `fresnel`, at normal incidence.\n"
+          "transmittance: the weight of the refracted ray, which is refracted by `ior`.\n"
+          "texture: (height, width, 3 or 4) uint8, sRGB. Its colour multiplies diffuse and ambient.\n"
+          "gloss: the exponent of the lobe over which samples (spp) spread mirrored rays. 0: sharp.\n"
+          "attenuation_color: the share of light that is left after `attenuation_distance` (scene units) "
+          "through glass.\n"
+          "attenuation_distance: 0: the glass is clear.\n"
+          "Raises Error if the texture has another shape.");
 }
 
 void bind_light(nb::module_& module) {
-  nb::class_<Light>(module, "Light", "A point light, a sun or a spot.")
+  nb::class_<Light>(module, "Light", "A point light, a sun or a spot light.")
       .def(
           "__init__",
           [](Light* self, std::optional<glm::vec3> position, std::optional<glm::vec3> direction,
@@ -229,13 +232,17 @@ void bind_light(nb::module_& module) {
           "intensity"_a = 1.0f, "falloff"_a = "none", "range"_a = std::numeric_limits<float>::infinity(),
           "inner_cone"_a = 0.0f, "outer_cone"_a = 45.0f, "casts_shadow"_a = true, "name"_a = "",
           "radius"_a = 0.0f, "angle"_a = 0.0f,
-          "With a position: a point light. With a direction, along which the light travels: a sun. With "
-          "both: a\n"
-          "spot, whose cones are degrees off its direction. falloff: 'none' (the same strength at any "
-          "distance) or\n"
-          "'inverse_square'. At most eight lights of a scene cast shadows. radius: of the ball that shines; "
-          "angle: diameter\n"
-          "of a sun's disc, degrees; with either, shadows are soft by samples (spp).")
+          "A light with a position is a point light, one with a direction a sun, one with both a spot "
+          "light.\n"
+          "position, direction: three numbers each; the light travels along the direction.\n"
+          "inner_cone, outer_cone: the spot light's cones, in degrees from its direction.\n"
+          "falloff: 'none' (the same strength at any distance) or 'inverse_square'.\n"
+          "range: no light reaches beyond it, in scene units.\n"
+          "casts_shadow: at most eight lights of a scene cast shadows.\n"
+          "radius: of the shining sphere, in scene units. angle: the diameter of a sun's disc, in degrees. "
+          "With either,\n"
+          "several samples (spp) give soft shadows.\n"
+          "Raises Error if there is neither position nor direction, or if falloff is another word.")
       .def_prop_ro("kind", &kind_of)
       .def_rw("name", &Light::name)
       .def_rw("position", &Light::position)
@@ -254,7 +261,7 @@ void bind_light(nb::module_& module) {
 void bind_scene(nb::module_& module) {
   bind_material(module);
   bind_light(module);
-  nb::class_<Scene>(module, "Scene", "What is drawn: a mesh, which copies share, with lights and cameras.")
+  nb::class_<Scene>(module, "Scene", "A mesh, which copies share, with lights and cameras.")
       .def(
           "__init__",
           [](Scene* self, const Floats3& vertices, const Words3& triangles,
@@ -273,17 +280,19 @@ void bind_scene(nb::module_& module) {
           "vertices"_a, "triangles"_a, "normals"_a = nb::none(), "uvs"_a = nb::none(),
           "colors"_a = nb::none(), "materials"_a = nb::none(), "triangle_materials"_a = nb::none(),
           "lights"_a = std::vector<Light>(), "ambient"_a = glm::vec3(0.1f),
-          "vertices: (n, 3), any unit; triangles: (m, 3) indices. normals: (n, 3), without them triangles "
-          "are flat.\n"
-          "uvs: (n, 2), (0, 0) is the texture's first texel. colors: (n, 3) of the vertices, or\n"
-          "(m, 3) of the triangles, linear; as many as both are the vertices'. materials: a\n"
-          "Material, or several, of which triangle_materials (m) says which triangle has which. A scene "
-          "without\n"
-          "lights is drawn with one above the camera.")
-      .def_rw("lights", &Scene::lights, "A copy: set it anew after changing one.")
-      .def_rw("cameras", &Scene::cameras, "A copy, likewise.")
+          "vertices: (n, 3) float32, in any unit. triangles: (m, 3) uint32, indices of vertices.\n"
+          "normals: (n, 3) float32. None: triangles are flat.\n"
+          "uvs: (n, 2) float32. (0, 0) is the texture's first texel.\n"
+          "colors: (n, 3) of the vertices or (m, 3) of the triangles, linear. If n equals m, they are the "
+          "vertices'.\n"
+          "materials: a Material or a list of them. triangle_materials: (m,) uint32, the index of each "
+          "triangle's material.\n"
+          "A scene without lights is drawn with one above the camera.\n"
+          "Raises Error if the numbers of rows do not match or an index is out of range.")
+      .def_rw("lights", &Scene::lights, "A copy of the list: assign it again after a change.")
+      .def_rw("cameras", &Scene::cameras, "A copy of the list, as for lights.")
       .def_rw("ambient", &Scene::ambient_light)
-      .def_ro("source", &Scene::source, "The file that it was loaded from.")
+      .def_ro("source", &Scene::source, "The path of the file that the scene was loaded from.")
       .def_prop_ro("bounds",
                    [](const Scene& s) { return nb::make_tuple(s.mesh->bounds().lo, s.mesh->bounds().hi); })
       .def_prop_ro(
@@ -292,21 +301,21 @@ void bind_scene(nb::module_& module) {
             const Mesh& mesh = *nb::cast<const Scene&>(self).mesh;
             return view_of<const float>(&mesh.positions.data()->x, {mesh.positions.size(), 3}, self);
           },
-          "(n, 3) float32, in world space; no copy.")
+          "(n, 3) float32, in world space. The array is not a copy.")
       .def_prop_ro(
           "normals",
           [](nb::handle self) {
             const Mesh& mesh = *nb::cast<const Scene&>(self).mesh;
             return view_of<const float>(&mesh.normals.data()->x, {mesh.normals.size(), 3}, self);
           },
-          "(n, 3) float32; 0 where the triangle's own counts. No copy.")
+          "(n, 3) float32; 0 where the triangle's own normal is used. The array is not a copy.")
       .def_prop_ro(
           "triangles",
           [](nb::handle self) {
             const Mesh& mesh = *nb::cast<const Scene&>(self).mesh;
             return view_of<const std::uint32_t>(&mesh.triangles.data()->x, {mesh.triangles.size(), 3}, self);
           },
-          "(m, 3) uint32; a row's number is the triangle's id. No copy.")
+          "(m, 3) uint32. The index of a row is the triangle's id. The array is not a copy.")
       .def_prop_ro(
           "nodes",
           [](const Scene& s) {
@@ -315,15 +324,16 @@ void bind_scene(nb::module_& module) {
               for (const Node& node : s.nodes->nodes) names.push_back(node.name);
             return names;
           },
-          "Names of what can be moved; the place in the list is the number in `objects`.")
-      .def("camera", &camera_for_whole_scene, "A camera that has the whole scene in view.")
+          "The names of the parts that can be moved. The index in the list is the number in `objects`.")
+      .def("camera", &camera_for_whole_scene, "A camera that sees the whole scene.")
       .def("posed", &with_transforms, "transforms"_a,
-           "The scene with nodes moved, and all below them: {name or number: 4x4 matrix, to its parent}. "
-           "Materials,\n"
-           "triangles and their ids stay; light and camera follow the node that they hang on.")
+           "The scene with nodes and their children moved.\n"
+           "transforms: {name or index: 4x4 matrix from the node to its parent}.\n"
+           "Materials, triangles and their ids stay. Lights and cameras move with their nodes.\n"
+           "Raises Error if there is no such node, or if a matrix gives numbers that are not finite.")
       .def_prop_ro(
           "duration", [](const Scene& s) { return duration_s(s); },
-          "Seconds that its animation takes; 0 where it has none.")
+          "The duration of the scene's animation, in seconds. 0: it has none.")
       .def(
           "at_time",
           [](const Scene& scene, double seconds) {
@@ -331,10 +341,11 @@ void bind_scene(nb::module_& module) {
                 without_gil([copy = scene, seconds](Progress*) { return at_time(copy, seconds); }));
           },
           "seconds"_a,
-          "The scene as its animation has it then: nodes, skins and morph targets, with lights and cameras "
-          "that hang\n"
-          "on them. Before its first key and behind its last one it stands still. Triangles and their ids "
-          "stay.")
+          "The scene at a time of its animation: its nodes, skins and morph targets, with the lights and "
+          "cameras of nodes.\n"
+          "seconds: before the first key and after the last one, the scene does not move.\n"
+          "Triangles and their ids stay.\n"
+          "Raises Error if the time is not finite.")
       .def("__copy__", [](const Scene& scene) { return scene; });
   module.def(
       "load_scene", &load, "path"_a, "confine"_a = false,

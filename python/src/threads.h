@@ -1,4 +1,4 @@
-// Numbers of threads as callers give them.
+// The number of threads that a caller requests.
 #pragma once
 
 #include <pinocchio/settings.h>
@@ -11,7 +11,7 @@
 
 namespace pinocchio::python {
 
-// What the constructors' argument says, or PINOCCHIO_THREADS where that is 0; 0: one a core.
+// The constructors' argument, or PINOCCHIO_THREADS if that is 0. 0: one for each core.
 inline int threads_wanted(int given) {
   if (given < 0 || given > kMostThreads)
     throw Error("threads is from 0 (one a core) to " + std::to_string(kMostThreads));

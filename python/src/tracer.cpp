@@ -17,7 +17,7 @@
 namespace pinocchio::python {
 namespace {
 
-constexpr std::size_t kChunk = 4096;  // rays that a thread takes at once
+constexpr std::size_t kChunk = 4096;  // rays that a thread traces at once
 
 std::shared_ptr<const Mesh> mesh_of(const Floats3& vertices, const Words3& triangles) {
   MeshData mesh;
@@ -45,14 +45,14 @@ Rays rays_of(const Floats3& origins, const Floats3& directions, const std::optio
   const std::size_t n = directions.shape(0);
   if (origins.shape(0) != n && origins.shape(0) != 1)
     throw Error("there are " + std::to_string(origins.shape(0)) + " origins and " + std::to_string(n) +
-                " directions; give as many, or one origin");
-  if (t_max && t_max->shape(0) != n) throw Error("t_max is one number a ray");
+                " directions; give the same number, or one origin");
+  if (t_max && t_max->shape(0) != n) throw Error("t_max has one number for each ray");
   return {origins.data(), directions.data(), t_max ? t_max->data() : nullptr, n,
           origins.shape(0) == n ? 3u : 0u};
 }
 
-// Calls body(first, last) for chunks of [0, n), on as many threads as are worth it, or fewer where the system
-// does not start them.
+// Calls body(first, last) for chunks of [0, n), on at most `threads` threads: fewer for few chunks, or if the
+// system does not start them.
 void for_chunks(std::size_t n, int threads, const Progress* progress,
                 const std::function<void(std::size_t, std::size_t)>& body) {
   std::atomic<std::size_t> next{0};
@@ -75,7 +75,7 @@ void for_chunks(std::size_t n, int threads, const Progress* progress,
     std::vector<std::jthread> helpers;
     try {
       for (int i = 1; i < std::min(threads, chunks); ++i) helpers.emplace_back(work);
-    } catch (const std::system_error&) {  // those that are there do it all
+    } catch (const std::system_error&) {  // the threads that started do all the work
     }
     work();
   }
@@ -132,7 +132,7 @@ class ArrayTracer {
 }  // namespace
 
 void bind_tracer(nb::module_& module) {
-  nb::class_<ArrayTracer>(module, "Tracer", "The ray tracer alone: rays in, hits out.")
+  nb::class_<ArrayTracer>(module, "Tracer", "The ray tracer without a renderer: rays in, hits out.")
       .def(
           "__init__",
           [](ArrayTracer* self, const Floats3& vertices, const Words3& triangles, int threads) {
@@ -141,15 +141,20 @@ void bind_tracer(nb::module_& module) {
             without_gil([&](Progress* progress) { return new (self) ArrayTracer(mesh, wanted, progress); });
           },
           "vertices"_a, "triangles"_a, "threads"_a = 0,
-          "vertices: (n, 3); triangles: (m, 3) indices. threads: as an Engine's.")
+          "Builds the tree of a mesh.\n"
+          "vertices: (n, 3) float32. triangles: (m, 3) uint32, indices of vertices.\n"
+          "threads: as for Engine.\n"
+          "Raises Error if an index is out of range or a vertex is not finite.")
       .def("closest_hits", &ArrayTracer::closest_hits, "origins"_a, "directions"_a, "t_max"_a = nb::none(),
-           "(t, triangle) of each ray: t float32, in lengths of the ray's direction, inf where nothing is "
-           "hit; triangle\n"
-           "uint32, 0xffffffff likewise. origins: (n, 3), or (1, 3) for all rays; directions: (n, 3), of any "
-           "length;\n"
-           "t_max: (n).")
+           "The closest hit of each ray, as (t, triangle).\n"
+           "origins: (n, 3), or (1, 3) for all rays. directions: (n, 3), of any length. t_max: (n,), or "
+           "None: infinity.\n"
+           "t: (n,) float32, in lengths of the ray's direction; inf where nothing is hit.\n"
+           "triangle: (n,) uint32; 0xffffffff where nothing is hit.\n"
+           "Raises Error if the numbers of rays differ.")
       .def("occluded", &ArrayTracer::occluded, "origins"_a, "directions"_a, "t_max"_a = nb::none(),
-           "(n) bool: whether anything lies within each ray; arguments as for closest_hits.");
+           "Whether a triangle is hit within each ray, as (n,) bool. Arguments and errors as for "
+           "closest_hits.");
 }
 
 }  // namespace pinocchio::python

@@ -198,3 +198,11 @@ def test_settings_are_in_the_docstring_and_the_stubs():
     assert os.path.exists(os.path.join(folder, "py.typed"))
     with open(os.path.join(folder, "_core.pyi")) as stub:
         assert "def render_many" in stub.read()
+
+
+def test_ids_cannot_be_written_to(scenes):
+    # Depth would index the scene by what was written.
+    result = pinocchio.Engine().render(pinocchio.load_scene(scenes / "cornell.gltf"), size=(8, 6))
+    with pytest.raises(ValueError, match="read-only"):
+        result.ids[:] = 10**9
+    assert result.depth.shape == (6, 8)

@@ -1,11 +1,11 @@
-// Source of GLSL and of C++ (core/trace/environment_light.h): light from far away, all around. Each side says
-// before what EnvironmentTexels is, and environment_texel(texels, at).
+// Source of GLSL and of C++ (core/trace/lanes/environment_light.h): light from far away, all around. Each side defines
+// EnvironmentTexels and environment_texel(texels, at) before it.
 
 struct EnvironmentParams {
   EnvironmentTexels texels;
   ivec2 size;
   float turn;      // how far the picture is turned about +Y, revolutions
-  float strength;  // multiplies what it holds
+  float strength;  // multiplies the texels
 };
 
 // atan(x) for x in [0, 1], radians; off by 2e-8 at most (Abramowitz and Stegun 1964, 4.4.49). GLSL's own may be
@@ -28,7 +28,7 @@ SHARED float revolutions(float y, float x) {
   return y < 0.0f ? 1.0f - turn : turn;
 }
 
-// Where a direction is in the picture: the middle is +Z, a quarter of the width left of it +X, the top row +Y
+// A direction's place in the picture: the middle is +Z, a quarter of the width left of it +X, the top row +Y
 // (OpenEXR's latitude-longitude maps). u in [0, 1).
 SHARED vec2 environment_place(EnvironmentParams env, vec3 direction) {
   float u = revolutions(direction.x, -direction.z) + env.turn;
@@ -50,7 +50,7 @@ SHARED vec3 environment_at(EnvironmentParams env, vec2 place) {
   return env.strength * mix(top, bottom, f.y);
 }
 
-// What comes from there, of any length but zero.
+// Light from there. The direction has any length but zero.
 SHARED vec3 environment_light(EnvironmentParams env, vec3 direction) {
   return environment_at(env, environment_place(env, direction));
 }

@@ -1,7 +1,7 @@
-// Source of GLSL and of C++ (core/trace/shared.h): what textures, vertex colours and alpha make of a material.
+// Source of GLSL and of C++ (core/shade/shared_maps.h): a material with textures, vertex colours and alpha.
 // Expects metallic_roughness.glsl.
 
-// What was looked up at the point; all ones where there is no texture.
+// The maps' values at the point; all ones where there is no texture.
 struct MapValues {
   vec3 base_color;  // times the vertex colour
   float metallic;
@@ -34,7 +34,7 @@ SHARED PhongSurface mapped_metallic_roughness(MetallicRoughness s, MapValues v) 
   return m;
 }
 
-// The normal that a normal map's texel (0 to 1) makes of n. All vectors lie on the side that the triangle's
+// n changed by a normal map's texel (0 to 1). All vectors lie on the side that the triangle's
 // vertex normals show. `tangent` is the vertices', its w the side of the bitangent; with w = 0 the tangent is
 // the direction on the triangle in which u grows (v grows downwards, hence the bitangent's sign).
 SHARED vec3 mapped_normal(vec3 n, vec4 tangent, vec3 ab, vec3 ac, vec2 uv_ab, vec2 uv_ac, vec3 texel,

@@ -1,4 +1,4 @@
-// Source of GLSL and of C++ (core/math/shared_material.h): glTF's metallic-roughness material as Phong's, for
+// Source of GLSL and of C++ (core/shade/shared_material.h): glTF's metallic-roughness material as Phong's, for
 // a whole material where it is loaded and for each point where textures change it. Expects phong.glsl.
 //   f0 = ((ior-1)/(ior+1))^2 specular specular_color, at most 1     mirrored at normal incidence, dielectric
 //   F0 = mix(f0, base, metallic)
@@ -8,8 +8,8 @@
 //   reflectance F0 max(0, 1 - roughness/0.25)^2, with Fresnel       our own falloff: above a roughness of a
 //                                                                   quarter a sharp mirror misleads
 //   ambient     base (1 - transmission)
-// Transmission refracts where there is a volume; without one the surface is infinitely thin and what
-// passes goes straight on (ior 1). Unlit: the base colour is emitted, and nothing else.
+// Transmission refracts where there is a volume; without one the surface is infinitely thin, and light goes
+// straight on (ior 1). Unlit: only the base colour is emitted.
 
 const float kOneByPi = 0.318309886183790671538f;
 const float kRoughestMirror = 0.25f;

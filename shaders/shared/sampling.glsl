@@ -1,27 +1,8 @@
-// Source of GLSL and of C++ (core/trace/shared.h): where a pixel's samples are, of each thing that it samples. The
-// same bits on both sides: whole numbers until the last step. core/trace/lanes/sampling.h is the same in lanes.
-
-const int kSequenceSobol = 0;
-const int kSequenceBlueNoise = 1;
-const int kSequenceRandom = 2;
-
-struct Sampling {
-  int sequence;
-  uint index;  // of the sample: 0, 1, 2, ... in every pixel
-  uint seed;   // another one: another picture of the same noise
-};
-
-// What is sampled has a dimension of its own; each bounce has as many again.
-const uint kDimensionsOfBounce = 0x10000u;
-const uint kLightDimension = 0u;  // and the lights that follow, in the scene's order
-const uint kMirrorDimension = 0x8000u;
-const uint kEnvironmentDimension = 0x8001u;
-const uint kDiffuseDimension = 0x8002u;
-const uint kLensDimension = 0x8003u;
-const uint kFilterDimension = 0x8004u;
+// Source of GLSL and of C++ (core/shade/shared.h, core/trace/lanes/shared.h): where a pixel's samples are. All compilers
+// give the same bits: the numbers are whole until the last step. Expects sampling_params.glsl.
 
 // A hash (Ettinger's "lowbias32", with the constants of least bias).
-SHARED uint mixed_bits(uint x) {
+SHARED whole mixed_bits(whole x) {
   x ^= x >> 16u;
   x *= 0x21f0aaadu;
   x ^= x >> 15u;
@@ -29,7 +10,7 @@ SHARED uint mixed_bits(uint x) {
   return x ^ (x >> 15u);
 }
 
-SHARED uint reversed_bits(uint x) {
+SHARED whole reversed_bits(whole x) {
   x = (x >> 16u) | (x << 16u);
   x = ((x >> 8u) & 0x00ff00ffu) | ((x & 0x00ff00ffu) << 8u);
   x = ((x >> 4u) & 0x0f0f0f0fu) | ((x & 0x0f0f0f0fu) << 4u);
@@ -38,9 +19,9 @@ SHARED uint reversed_bits(uint x) {
 }
 
 // Owen's scrambling of a number whose bits are reversed, as a hash (Laine and Karras 2011; Vegdahl's constants):
-// each bit is flipped by those below it alone.
-SHARED uint owen_scrambled(uint reversed, uint seed) {
-  uint x = reversed;
+// the lower bits alone decide whether a bit is flipped.
+SHARED whole owen_scrambled(whole reversed, whole seed) {
+  whole x = reversed;
   x ^= x * 0x3d20adeau;
   x += seed;
   x *= (seed >> 16u) | 1u;
@@ -49,7 +30,7 @@ SHARED uint owen_scrambled(uint reversed, uint seed) {
 }
 
 // The second dimension of Sobol's sequence, bits reversed: Pascal's triangle modulo 2 times the index's bits.
-SHARED uint sobol_second(uint index) {
+SHARED whole sobol_second(whole index) {
   index ^= index >> 16u;
   index ^= (index >> 8u) & 0x00ff00ffu;
   index ^= (index >> 4u) & 0x0f0f0f0fu;
@@ -59,38 +40,51 @@ SHARED uint sobol_second(uint index) {
 
 // Two dimensions at a time, the index shuffled for each pair (Burley, "Practical Hash-based Owen Scrambling",
 // JCGT 9(4), 2020): any two of them are stratified, others independent.
-SHARED uvec2 scrambled_sobol(uint index, uint seed) {
-  uint shuffled = reversed_bits(owen_scrambled(reversed_bits(index), seed));
-  return uvec2(reversed_bits(owen_scrambled(shuffled, mixed_bits(seed ^ 0x9e3779b9u))),
+SHARED whole2 scrambled_sobol(whole index, whole seed) {
+  whole shuffled = reversed_bits(owen_scrambled(reversed_bits(index), seed));
+  return whole2(reversed_bits(owen_scrambled(shuffled, mixed_bits(seed ^ 0x9e3779b9u))),
                reversed_bits(owen_scrambled(sobol_second(shuffled), mixed_bits(seed ^ 0x7f4a7c15u))));
 }
 
 // How far a pixel's points are moved around the square: neighbours far, by Roberts' R2 sequence (2018) as a
 // dither mask, mirrored one of four ways for each dimension.
-SHARED uvec2 dither_rotation(uvec2 pixel, uint way) {
-  uvec2 p = (way & 1u) != 0u ? uvec2(pixel.y, pixel.x) : pixel;
-  if ((way & 2u) != 0u) p.y = ~p.y;
-  return uvec2(p.x * 0xc13fa9a9u + p.y * 0x91e10da5u, p.x * 0x91e10da5u - p.y * 0xc13fa9a9u);
+SHARED whole2 dither_rotation(whole2 pixel, whole way) {
+  whole2 p = pick((way & 1u) != 0u, whole2(pixel.y, pixel.x), pixel);
+  p = pick((way & 2u) != 0u, whole2(p.x, ~p.y), p);
+  return whole2(p.x * 0xc13fa9a9u + p.y * 0x91e10da5u, p.x * 0x91e10da5u - p.y * 0xc13fa9a9u);
 }
 
-SHARED uint pixel_seed(uvec2 pixel, uint seed) { return mixed_bits(pixel.x + mixed_bits(pixel.y + mixed_bits(seed))); }
+// A pixel of the whole picture, and what its samples have in picture_seed.
+struct SampledPixel {
+  Sampling sampling;
+  whole2 at;
+  whole seed;
+};
 
-// In [0, 1)^2, for the pixel of the whole picture.
-SHARED vec2 sample_2d(Sampling s, uvec2 pixel, uint dimension) {
+SHARED SampledPixel sampled_pixel(Sampling sampling, whole2 at) {
+  SampledPixel pixel;
+  pixel.sampling = sampling;
+  pixel.at = at;
+  pixel.seed = mixed_bits(at.x + mixed_bits(at.y + mixed_bits(sampling.seed)));
+  return pixel;
+}
+
+// In [0, 1)^2.
+SHARED vec2 sample_2d(SampledPixel pixel, uint dimension) {
   uint of_dimension = dimension * 0x9e3779b9u;
-  uvec2 bits;
-  if (s.sequence == kSequenceBlueNoise) {
-    // Every pixel has the same points, each turned by its place (Georgiev and Fajardo, "Blue-noise Dithered
+  whole2 bits;
+  if (pixel.sampling.sequence == kSequenceBlueNoise) {
+    // All pixels have the same points, turned by the pixel's place (Georgiev and Fajardo, "Blue-noise Dithered
     // Sampling", 2016).
-    uint all = mixed_bits(mixed_bits(s.seed) + of_dimension);
-    bits = scrambled_sobol(s.index, all) + dither_rotation(pixel, all);
+    whole picture_seed = mixed_bits(mixed_bits(pixel.sampling.seed) + of_dimension);
+    bits = scrambled_sobol(pixel.sampling.index, picture_seed) + dither_rotation(pixel.at, picture_seed);
   } else {
-    uint own = mixed_bits(pixel_seed(pixel, s.seed) + of_dimension);
-    if (s.sequence == kSequenceSobol) {
-      bits = scrambled_sobol(s.index, own);
+    whole own = mixed_bits(pixel.seed + of_dimension);
+    if (pixel.sampling.sequence == kSequenceSobol) {
+      bits = scrambled_sobol(pixel.sampling.index, own);
     } else {
-      uint x = mixed_bits(own + s.index * 0x9e3779b9u);
-      bits = uvec2(x, mixed_bits(x + 0x7f4a7c15u));
+      whole x = mixed_bits(own + pixel.sampling.index * 0x9e3779b9u);
+      bits = whole2(x, mixed_bits(x + 0x7f4a7c15u));
     }
   }
   return vec2(bits >> 8u) * (1.0f / 16777216.0f);

@@ -1,63 +1,61 @@
-// Source of GLSL and of C++ (core/trace/shared.h): from a triangle's id to the point that a pixel sees.
+// Source of GLSL and of C++ (core/shade/shared.h, core/trace/lanes/shared.h): from a triangle's id to the point that a
+// pixel sees. A triangle is (a, a + ab, a + ac).
 
 // Barycentric weights (of a, b, c) of the point where the ray meets the triangle's plane, moved to the
 // nearest edge where rasteriser and ray disagree by a hair: the point is on the triangle, whatever the
 // two think of a silhouette pixel. Möller and Trumbore 1997, without the rejection.
-SHARED vec3 barycentric_of(vec3 origin, vec3 direction, vec3 a, vec3 b, vec3 c) {
-  vec3 edge_ab = b - a;
-  vec3 edge_ac = c - a;
+SHARED vec3 barycentric_of(vec3 origin, vec3 direction, vec3 a, vec3 ab, vec3 ac) {
   vec3 from_a = origin - a;
-  vec3 p = cross(direction, edge_ac);
-  float det = dot(edge_ab, p);
-  if (det == 0.0f) return vec3(1.0f / 3.0f);  // edge on: every point of it is as good
-  float u = clamp(dot(from_a, p) / det, 0.0f, 1.0f);
-  float v = clamp(dot(direction, cross(from_a, edge_ab)) / det, 0.0f, 1.0f);
-  float sum = u + v;
-  if (sum > 1.0f) {
-    u /= sum;
-    v /= sum;
+  vec3 p = cross(direction, ac);
+  real det = dot(ab, p);
+  real u = clamp(dot(from_a, p) / det, 0.0f, 1.0f);
+  real v = clamp(dot(direction, cross(from_a, ab)) / det, 0.0f, 1.0f);
+  real sum = u + v;
+  boolean beyond = sum > 1.0f;
+  if (any(beyond)) {
+    u = pick(beyond, u / sum, u);
+    v = pick(beyond, v / sum, v);
   }
-  return vec3(1.0f - u - v, u, v);
+  // Edge on, every point of the triangle is as good.
+  return pick(det == 0.0f, vec3(1.0f / 3.0f), vec3(1.0f - u - v, u, v));
 }
 
-SHARED vec3 point_on_triangle(vec3 weights, vec3 a, vec3 b, vec3 c) {
-  return a + weights.y * (b - a) + weights.z * (c - a);
+SHARED vec3 point_on_triangle(vec3 weights, vec3 a, vec3 ab, vec3 ac) { return a + weights.y * ab + weights.z * ac; }
+
+// The largest component of the two edges.
+SHARED real triangle_size(vec3 ab, vec3 ac) {
+  return max(max(max(abs(ab.x), abs(ab.y)), abs(ab.z)), max(max(abs(ac.x), abs(ac.y)), abs(ac.z)));
 }
 
-// The triangle's own normal by its winding; a sliver without area has none and answers with `fallback`.
-SHARED vec3 geometric_normal(vec3 a, vec3 b, vec3 c, vec3 fallback) {
-  vec3 ab = b - a;
-  vec3 ac = c - a;
+// The triangle's own normal by its winding; `fallback` for a sliver without area, which has none.
+SHARED vec3 geometric_normal(vec3 ab, vec3 ac, vec3 fallback) {
   // Scaled first: a cross product of edges of 1e-12 or 1e+20 would leave float's range.
-  float size = max(max(max(abs(ab.x), abs(ab.y)), abs(ab.z)), max(max(abs(ac.x), abs(ac.y)), abs(ac.z)));
-  if (size == 0.0f) return fallback;
+  real size = triangle_size(ab, ac);
   vec3 n = cross(ab / size, ac / size);
-  float square = dot(n, n);
-  return square > 0.0f ? n / sqrt(square) : fallback;
+  real square = dot(n, n);
+  return pick(size > 0.0f && square > 0.0f, n / sqrt(square), fallback);
 }
 
-// Vertex normals weighted; where they are zero or cancel, the geometric normal.
+// The weighted vertex normals; where they are zero or cancel, the geometric normal.
 SHARED vec3 shading_normal(vec3 weights, vec3 na, vec3 nb, vec3 nc, vec3 n_geometric) {
   vec3 n = weights.x * na + weights.y * nb + weights.z * nc;
-  float square = dot(n, n);
-  return square > 1e-12f ? n / sqrt(square) : n_geometric;
+  real square = dot(n, n);
+  return pick(square > 1e-12f, n / sqrt(square), n_geometric);
 }
 
 // Both normals on the viewer's side.
 struct FacingNormals {
   vec3 geometric;
   vec3 shading;
-  bool leaving;  // the viewer is inside: behind the surface
+  boolean leaving;  // the viewer is inside: behind the surface
 };
 
 SHARED FacingNormals face_viewer(vec3 n_geometric, vec3 n_shading, vec3 to_viewer) {
   // Where winding and vertex normals disagree about the outside, the normals are right.
-  if (dot(n_geometric, n_shading) < 0.0f) n_geometric = -n_geometric;
-  bool leaving = dot(n_geometric, to_viewer) < 0.0f;
-  float side = leaving ? -1.0f : 1.0f;
+  vec3 outwards = pick(dot(n_geometric, n_shading) < 0.0f, -n_geometric, n_geometric);
   FacingNormals result;
-  result.geometric = side * n_geometric;
-  result.shading = side * n_shading;
-  result.leaving = leaving;
+  result.leaving = dot(outwards, to_viewer) < 0.0f;
+  result.geometric = pick(result.leaving, -outwards, outwards);
+  result.shading = pick(result.leaving, -n_shading, n_shading);
   return result;
 }

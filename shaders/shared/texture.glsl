@@ -1,5 +1,6 @@
-// Source of GLSL and of C++ (core/trace/shared.h): looking textures up. Each side says before what TexelSource
-// is, and texel_at(source, i, is_color): the i-th texel, 0 to 1, colour (sRGB) made linear.
+// Source of GLSL and of C++ (core/shade/shared_maps.h): texture look-ups. Each side defines TexelSource and
+// texel_at(source, i, is_color) before it: the i-th texel, 0 to 1, colour (sRGB) made linear. The lanes have code of
+// their own (core/trace/lanes/texture.h).
 
 const int kWrapRepeat = 0;
 const int kWrapMirror = 1;
@@ -7,7 +8,7 @@ const int kWrapClamp = 2;
 
 struct TextureParams {
   TexelSource source;  // all levels, one after the other, row by row
-  ivec2 size;          // of the first; 0: there is no texture
+  ivec2 size;          // the first level's; 0: there is no texture
   int levels;
   int uv_set;
   mat3x2 uv_from_texcoord;
@@ -41,8 +42,8 @@ SHARED vec2 within_periods(TextureParams use, vec2 uv) {
 }
 
 // uv: within its periods. Bilinear by hand: hardware filters with 8 bits of weight, and the two sides would
-// differ. (The level is found anew each time: carried through the loop over taps, Mesa 22's llvmpipe compiles
-// for minutes.)
+// differ. (The level is found each time: where it is carried through the loop over taps, Mesa 22's llvmpipe
+// compiles for minutes.)
 SHARED vec4 sample_level(TextureParams use, vec2 uv, int level, bool is_color) {
   ivec2 size = use.size;
   int first = 0;
@@ -64,14 +65,15 @@ SHARED vec4 sample_level(TextureParams use, vec2 uv, int level, bool is_color) {
              f.y);
 }
 
-// Of the largest level, not filtered.
+// From the largest level, not filtered.
 SHARED vec4 sample_point(TextureParams use, vec2 uv, bool is_color) {
   return sample_level(use, within_periods(use, uv), 0, is_color);
 }
 
 const float kMostTaps = 8.0f;
+const float kLongestFootprint = 1.0e18f;  // In texels. Beyond it, its square is not a finite number.
 
-// The mean over what a pixel sees: levels by the shorter side of its footprint, several taps along the longer
+// The mean over a pixel's footprint: levels by the shorter side of its footprint, several taps along the longer
 // one (as the hardware's anisotropic filter: McCormack et al. 1999).
 SHARED vec4 sample_texture(TextureParams use, TexturePoint point, bool is_color) {
   vec2 x = point.change_x * vec2(use.size);
@@ -79,8 +81,8 @@ SHARED vec4 sample_texture(TextureParams use, TexturePoint point, bool is_color)
   float xx = dot(x, x);
   float yy = dot(y, y);
   float longer = sqrt(max(xx, yy));
-  // Written so that NaN is not filtered either.
-  if (use.levels <= 1 || !(longer > 1.0f && xx + yy > 0.0f))
+  // Written so that NaN and infinity are not filtered either.
+  if (use.levels <= 1 || !(longer > 1.0f && longer < kLongestFootprint && xx + yy > 0.0f))
     return sample_point(use, point.uv, is_color);
   float shorter = max(abs(x.x * y.y - x.y * y.x) / longer, 1.0f);  // the parallelogram's height
   float taps = clamp(ceil(longer / shorter), 1.0f, kMostTaps);
@@ -98,8 +100,8 @@ SHARED vec4 sample_texture(TextureParams use, TexturePoint point, bool is_color)
   return sum / taps;
 }
 
-// Where the ray's point moves by `spread` and then along `direction` back to the plane of triangle
-// (a, a + ab, a + ac): how far along ab and along ac, both times z (ray differentials: Igehy 1999).
+// The ray's point moves by `spread` and then along `direction` back to the plane of triangle (a, a + ab, a + ac):
+// how far that is along ab and along ac, both times z (ray differentials: Igehy 1999).
 SHARED vec3 moved_on_triangle(vec3 spread, vec3 direction, vec3 ab, vec3 ac) {
   vec3 n = cross(ab, ac);
   float towards = dot(n, direction);
@@ -109,5 +111,5 @@ SHARED vec3 moved_on_triangle(vec3 spread, vec3 direction, vec3 ab, vec3 ac) {
   return vec3(dot(cross(p, ac), n), dot(cross(ab, p), n), square);
 }
 
-// How a texture coordinate changes by that.
+// The change of a texture coordinate by that move.
 SHARED vec2 uv_change(vec3 moved, vec2 uv_ab, vec2 uv_ac) { return (moved.x * uv_ab + moved.y * uv_ac) / moved.z; }

@@ -1,12 +1,12 @@
-// Source of GLSL and of C++ (core/trace/shared.h): which ray a pixel looks along. Both sides build it
-// from the same ViewParams, so a pixel of the GPU and a ray of the CPU see the same point.
+// Source of GLSL and of C++ (core/shade/shared.h): a pixel's ray. Both sides build it from the same
+// ViewParams, so a pixel of the GPU and a ray of the CPU see the same point.
 
 struct ViewParams {
   vec3 eye;     // p_world of the pinhole
   vec3 corner;  // direction through the centre of the top left pixel; its forward component is 1
   vec3 step_x;  // one pixel to the right
   vec3 step_y;  // one pixel down
-  vec2 first;   // the picture's pixel that is called (0, 0): not zero where only a part is drawn
+  vec2 first;   // the picture's pixel at (0, 0): not zero where only a part is drawn
 };
 
 // Not a unit vector: its length along the view axis is 1, so t along the ray is z_eye.

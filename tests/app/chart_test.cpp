@@ -226,13 +226,13 @@ TEST_F(ChartTest, WrongUseIsOneLine) {
     std::string arguments;
     int exit_code;
     const char* says;
-  } kCases[] = {{kSmall + "--only depth,colour", 2, "'colour' is no axis; there are design, exchange"},
+  } kCases[] = {{kSmall + "--only depth,colour", 2, "'colour' is not an axis; there are design, exchange"},
                 {"--quick", 2, "--output"},
                 {kSmall + "--turntable 4", 2, "the camera's motion has 4 frames"},
                 {kSmall + "--repeat 0", 2, "--repeat"},
                 {kSmall + "--indirect 2", 2, "--indirect"},
                 {kSmall + "--stability", 2, "give a SCENE or --stability"},
-                {"-o file/d --quick", 1, "cannot be made a folder"}};
+                {"-o file/d --quick", 1, "the folder cannot be made"}};
   write("file", "");
   for (const auto& wrong : kCases) {
     const CommandResult result = run("chart" + scene("cornell") + wrong.arguments);

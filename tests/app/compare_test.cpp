@@ -146,7 +146,7 @@ TEST_F(CompareVerbTest, SequencesPairByNumber) {
     write_flat("b_" + number + ".exr", 0.5f);
   }
   EXPECT_EQ(figures("a.####.exr b_####.exr --max-error max=0")["pairs"].size(), 3u);
-  expect_error("a.####.exr b.exr", 2, "one is a sequence");
+  expect_error("a.####.exr b.exr", 2, "give #### in both names or in none");
   expect_error("c.####.exr b_####.exr", 4, "there is no EXR or PNG");
 }
 

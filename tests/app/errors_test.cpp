@@ -53,7 +53,7 @@ TEST_F(ErrorsTest, CameraPaths) {
   with(R"("frame": 1, "eye": [0, 1, 0], "target": [0, 1, 0])", "same point");
   with(R"("frame": 1, "eye": [0, 1, 2], "target": [0, 1, 0], "fov": -20)", "0 and 180");
   with(R"("frame": 1, "eye": [0, 1, 2], "traget": [0, 1, 0])", "there is no 'traget'");
-  with(R"("frame": 2, "eye": [0, 1, -3], "target": [0, 1, 0], "up": [0, 0, 0])", "its up is no direction");
+  with(R"("frame": 2, "eye": [0, 1, -3], "target": [0, 1, 0], "up": [0, 0, 0])", "its up is not a direction");
   with(R"("frame": 2, "eye": [0, 1, -3], "target": [0, 1, 0])", "in frame 1 eye and target meet");
   write("plan.json", R"({"depth": 1e999})");
   expect_error("render" + scene("cornell") + "--plan plan.json -o x.exr", 2, "too large");
@@ -82,7 +82,7 @@ TEST_F(ErrorsTest, Usage) {
   for (const char* time : {"0ms", "-1s", "0x10ms", "16sm", "ms", "nan", "1e400"})
     expect_error(render + "--budget=" + time + " -o x.exr", 2, "is not a time such as 16ms");
   for (const char* limit : {"flip", "flip=", "flip=-1", "flip=nan", "psnr=3", "=1"})
-    expect_error(render + "--max-error " + limit + " -o x.exr", 2, "is no METRIC=VALUE");
+    expect_error(render + "--max-error " + limit + " -o x.exr", 2, "is not METRIC=VALUE");
   expect_error(render + "--light 1,2,3,bright -o x.exr", 2, "--light");
   expect_error(render + "--spp 0 -o x.exr", 2, "--spp");
   expect_error(render + "--threads -1 -o x.exr", 2, "--threads");

@@ -3,6 +3,7 @@
 #include <iterator>
 #include <nlohmann/json.hpp>
 
+#include "pinocchio/frame_arrays.h"
 #include "tests/app/program_test.h"
 
 namespace pinocchio {
@@ -52,8 +53,8 @@ TEST_F(InfoTest, SceneIsDescribed) {
 TEST_F(InfoTest, PlanIsExplainedALineAChoice) {
   const CommandResult result = run("info --plan" + scene("two-lights"));
   EXPECT_EQ(result.exit_code, 0);
-  for (const char* words : {"ids of 16 bits", "shadow mask of 1 bit a pixel: 1 light casts",
-                            "8 bounces: as many as are asked for"})
+  for (const char* words :
+       {"ids of 16 bits", "shadow mask of 1 bit a pixel: 1 light casts", "8 bounces: as many as requested"})
     EXPECT_NE(result.out.find(words), std::string::npos) << words << "\n" << result.out;
   write("t.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
   const nlohmann::json json = nlohmann::json::parse(run("info --plan --json t.obj").out);
@@ -91,6 +92,8 @@ TEST_F(InfoTest, HelpNamesUnitsAndVersionIsTold) {
   EXPECT_EQ(help.exit_code, 0);
   for (const char* word : {"degrees", "pixels", "stops", "--size", "--backend"})
     EXPECT_NE(help.out.find(word), std::string::npos) << word;
+  for (const LayerRow& row : kLayers)
+    EXPECT_NE(help.out.find(row.exr.name), std::string::npos) << row.exr.name;
 }
 
 }  // namespace

@@ -1,9 +1,10 @@
-// Includes run one way: app -> hybrid -> {core, gl}; core and gl see nothing of each other but the family of
-// errors, and within core a
-// room sees only rooms below it. The laboratory (bench, scenes/generator) sees the libraries, which do not
-// see it, nor does the program but for the verbs that run it. The Python module sees public headers alone.
+// Includes run one way: app -> hybrid -> {core, gl}. core and gl share only the errors. The laboratory
+// (bench, scenes/generator) sees the libraries; the libraries do not see it, and of the program only the
+// verbs that run it do. The Python module sees only public headers. A room is a folder: rooms are read from
+// the tree, and no two rooms include each other, directly or through others.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <fstream>
 #include <map>
@@ -17,189 +18,242 @@
 namespace pinocchio {
 namespace {
 
-using Rooms = std::map<std::string, std::set<std::string>>;
+namespace fs = std::filesystem;
 
-// What each room may include beside itself.
-const Rooms kMaySee{{"core", {"shaders"}},
-                    {"gl", {}},
-                    {"hybrid", {"core", "gl"}},
-                    {"app", {"core", "gl", "hybrid", "bench", "scenes"}},
-                    {"python", {}},
-                    {"scenes", {"core"}},
-                    {"bench", {"core", "gl", "hybrid", "scenes"}}};
-// The family of errors, which each room throws of.
-const std::set<std::string> kErrors{"core/base/error.h", "core/base/open_gl_error.h"};
-// Who of the program may see the laboratory.
+// The floors, and which others each may include.
+const std::map<std::string, std::set<std::string>> kMaySee{
+    {"core", {"shaders"}},
+    {"gl", {}},
+    {"hybrid", {"core", "gl"}},
+    {"app", {"core", "gl", "hybrid", "bench", "scenes"}},
+    {"python", {}},
+    {"scenes", {"core"}},
+    {"bench", {"core", "gl", "hybrid", "scenes"}}};
+const std::set<std::string> kErrors{"pinocchio/error.h", "pinocchio/open_gl_error.h"};
+// The only files of the program that may see the laboratory.
 const std::set<std::string> kLaboratory{"bench", "scenes"}, kLaboratoryVerbs{"chart.cpp", "generate.cpp"};
-const Rooms kMaySeeInBench{{"chart", {}}, {"rays", {}}, {"stability", {}}};
-const Rooms kMaySeeInCore{{"base", {}},
-                          {"math", {}},
-                          {"simd", {}},
-                          {"parallel", {"base", "math"}},
-                          {"image", {"base", "math", "parallel"}},
-                          {"compare", {"base", "math", "image", "parallel"}},
-                          {"scene", {"base", "math", "image", "parallel"}},
-                          {"bsp", {"base", "math", "parallel", "scene"}},
-                          {"trace", {"base", "math", "image", "scene", "bsp", "simd", "parallel"}},
-                          {"reference", {"base", "math", "image", "scene", "parallel", "trace"}},
-                          {"output", {"base", "math", "image", "scene", "parallel", "trace"}}};
+// The engine's inside, which the program does not see.
+const std::set<std::string> kOfTheEngine{"hybrid/engine", "hybrid/gpu", "hybrid/passes"};
+constexpr std::ptrdiff_t kMostFiles = 24;  // in a folder of sources
 
-// Where core's public headers belong; those of hybrid are not named here.
-const std::map<std::string, std::string> kRoomOfPublic{
-    {"error.h", "base"},          {"open_gl_error.h", "base"},
-    {"progress.h", "base"},       {"names.h", "base"},
-    {"glm_layout.h", "math"},     {"bounds.h", "math"},
-    {"pixel_box.h", "math"},      {"ray.h", "math"},
-    {"image.h", "image"},         {"mask_image.h", "image"},
-    {"exr.h", "image"},           {"pixel_memory.h", "image"},
-    {"camera.h", "scene"},        {"light.h", "scene"},
-    {"load.h", "scene"},          {"material.h", "scene"},
-    {"material_maps.h", "scene"}, {"texture.h", "scene"},
-    {"animation.h", "scene"},     {"deformation.h", "scene"},
-    {"environment.h", "scene"},   {"terminator.h", "trace"},
-    {"threads.h", "parallel"},    {"mesh.h", "scene"},
-    {"nodes.h", "scene"},         {"save.h", "scene"},
-    {"scene.h", "scene"},         {"build_options.h", "bsp"},
-    {"triangle_test.h", "bsp"},   {"ray_counts.h", "trace"},
-    {"ray_offset.h", "trace"},    {"tracer.h", "trace"},
-    {"view.h", "trace"},          {"compare_pictures.h", "compare"},
-    {"frame_arrays.h", "trace"},  {"surface_images.h", "trace"}};
+struct Include {
+  std::string from, what;  // the file, and the path that it includes
+  [[nodiscard]] std::string text() const { return from + " includes " + what; }
+};
 
-// A public header as if it stood in its room: "pinocchio/tracer.h" is "core/trace/tracer.h".
-std::string in_its_room(const std::string& include) {
-  const std::string kPublic = "pinocchio/";
-  if (include.rfind(kPublic, 0) != 0) return include;
-  const std::string name = include.substr(kPublic.size());
-  const auto room = kRoomOfPublic.find(name);
-  return room == kRoomOfPublic.end() ? "hybrid/" + name : "core/" + room->second + "/" + name;
-}
-
-std::vector<std::string> includes_of(const std::filesystem::path& file) {
-  std::vector<std::string> found;
-  std::ifstream in(file);
-  for (std::string line; std::getline(in, line);) {
-    constexpr std::string_view kInclude = "#include \"";
-    if (line.rfind(kInclude, 0) == 0)
-      found.push_back(in_its_room(line.substr(kInclude.size(), line.rfind('"') - kInclude.size())));
-  }
-  return found;
-}
-
-bool is_source(const std::filesystem::path& file) {
+bool is_source(const fs::path& file) {
   return file.extension() == ".h" || file.extension() == ".cpp";
 }
 
-// "file includes what" for every include that no rule allows. Rooms are folders of `root`; includes
-// begin with `prefix`.
-std::vector<std::string> violations(const std::filesystem::path& root, const std::string& prefix,
-                                    const Rooms& may_see) {
-  std::vector<std::string> found;
-  for (const auto& [room, others] : may_see) {
-    if (!std::filesystem::exists(root / room)) continue;
-    for (const auto& entry : std::filesystem::recursive_directory_iterator(root / room)) {
-      if (!is_source(entry.path())) continue;
-      for (const std::string& include : includes_of(entry.path())) {
-        if (include.rfind(prefix, 0) != 0) continue;
-        const std::string rest = include.substr(prefix.size());
-        const std::string other = rest.substr(0, rest.find('/'));
-        if (other != room && !others.count(other) && !kErrors.count(include))
-          found.push_back(entry.path().string() + " includes " + include);
-      }
-    }
-  }
+std::vector<fs::path> sources(const fs::path& folder) {
+  std::vector<fs::path> found;
+  if (fs::exists(folder))
+    for (const auto& entry : fs::recursive_directory_iterator(folder))
+      if (is_source(entry.path())) found.push_back(entry.path());
   return found;
 }
 
-TEST(Layers, IncludesRunOneWay) {
-  for (const std::string& violation : violations(PINOCCHIO_SOURCE_DIR, "", kMaySee))
-    ADD_FAILURE() << violation;
+std::string text_of(const fs::path& file) {
+  std::ifstream in(file);
+  return {std::istreambuf_iterator<char>(in), {}};
 }
 
-TEST(Layers, WithinCoreToo) {
-  const std::filesystem::path core = std::filesystem::path(PINOCCHIO_SOURCE_DIR) / "core";
-  for (const std::string& violation : violations(core, "core/", kMaySeeInCore)) ADD_FAILURE() << violation;
-  for (const auto& entry : std::filesystem::directory_iterator(core)) {
-    if (entry.is_directory() && entry.path().filename() != "include") {
-      EXPECT_TRUE(kMaySeeInCore.count(entry.path().filename().string())) << entry.path() << " has no rule";
+std::vector<Include> includes_of(const fs::path& root, const fs::path& file) {
+  static const std::regex kInclude("(^|\n)#include \"([^\"]+)\"");
+  const std::string text = text_of(file);
+  std::vector<Include> found;
+  for (std::sregex_iterator at(text.begin(), text.end(), kInclude), end; at != end; ++at)
+    found.push_back({fs::relative(file, root).string(), (*at)[2]});
+  return found;
+}
+
+// The folders of "include/pinocchio".
+const std::vector<std::string> kLibraries{"core", "core/compare", "hybrid"};
+
+// "core/trace/walk"; the public headers of a library are a room, too.
+std::string room_of(const fs::path& root, const std::string& include) {
+  if (!include.starts_with("pinocchio/")) return fs::path(include).parent_path().string();
+  for (const std::string& library : kLibraries)
+    if (fs::exists(root / library / "include" / include)) return library + "/include/pinocchio";
+  return {};
+}
+
+std::string floor_of(const std::string& room) {
+  return room.substr(0, room.find('/'));
+}
+
+std::vector<std::string> floors_that_see_too_much(const fs::path& root) {
+  std::vector<std::string> found;
+  for (const auto& [floor, others] : kMaySee)
+    for (const fs::path& file : sources(root / floor))
+      for (const Include& include : includes_of(root, file)) {
+        const std::string other = floor_of(room_of(root, include.what));
+        const bool is_public = include.what.starts_with("pinocchio/");
+        const bool may = other == floor || others.count(other) || kErrors.count(include.what) ||
+                         (floor == "python" && is_public) || (floor == "gl" && other.empty());
+        if (!other.empty() && !may) found.push_back(include.text());
+      }
+  return found;
+}
+
+// One line for each circle of rooms: an include of each step.
+class Circles {
+ public:
+  explicit Circles(const fs::path& root) {
+    for (const auto& [floor, others] : kMaySee)
+      for (const fs::path& file : sources(root / floor)) {
+        const std::string room = fs::relative(file, root).parent_path().string();
+        for (const Include& include : includes_of(root, file)) {
+          const std::string other = room_of(root, include.what);
+          if (!other.empty() && other != room) steps_[room].emplace(other, include.text());
+        }
+      }
+    for (const auto& [room, steps] : steps_) visit(room);
+  }
+  [[nodiscard]] const std::vector<std::string>& found() const { return found_; }
+
+ private:
+  void visit(const std::string& room) {
+    if (const auto begun = std::ranges::find(way_, room); begun != way_.end()) {
+      std::string circle;
+      for (auto at = begun; at != way_.end(); ++at)
+        circle += steps_[*at].at(std::next(at) == way_.end() ? room : *std::next(at)) + "\n";
+      found_.push_back(circle);
+      return;
+    }
+    if (!done_.insert(room).second) return;
+    way_.push_back(room);
+    if (const auto steps = steps_.find(room); steps != steps_.end())
+      for (const auto& [other, example] : steps->second) visit(other);
+    way_.pop_back();
+  }
+
+  std::map<std::string, std::map<std::string, std::string>> steps_;
+  std::vector<std::string> way_, found_;
+  std::set<std::string> done_;
+};
+
+const fs::path kRoot = PINOCCHIO_SOURCE_DIR;
+
+TEST(Layers, IncludesRunOneWay) {
+  for (const std::string& violation : floors_that_see_too_much(kRoot)) ADD_FAILURE() << violation;
+}
+
+TEST(Layers, NoRoomsIncludeEachOther) {
+  const Circles circles(kRoot);
+  for (const std::string& circle : circles.found()) ADD_FAILURE() << circle;
+}
+
+TEST(Layers, PublicHeadersSeePublicHeadersAlone) {
+  for (const std::string& library : kLibraries)
+    for (const fs::path& file : sources(kRoot / library / "include"))
+      for (const Include& include : includes_of(kRoot, file)) {
+        EXPECT_TRUE(include.what.starts_with("pinocchio/")) << include.text();
+        EXPECT_FALSE(library != "hybrid" && floor_of(room_of(kRoot, include.what)) == "hybrid")
+            << include.text();
+      }
+}
+
+// They are libraries of their own: see core/CMakeLists.txt.
+TEST(Layers, CoreDoesNotSeeCompareAndReference) {
+  const std::regex kApart("core/(compare|reference)(/.*)?");
+  for (const fs::path& file : sources(kRoot / "core")) {
+    const std::string room = fs::relative(file, kRoot).parent_path().string();
+    for (const Include& include : includes_of(kRoot, file)) {
+      const std::string other = room_of(kRoot, include.what);
+      EXPECT_TRUE(!std::regex_match(other, kApart) || std::regex_match(room, kApart)) << include.text();
     }
   }
 }
 
-// They see public headers alone; core's, those of rooms that their own may see.
-TEST(Layers, PublicHeadersToo) {
-  const std::filesystem::path root(PINOCCHIO_SOURCE_DIR);
-  std::size_t of_core = 0;
-  for (const char* library : {"core", "hybrid"})
-    for (const auto& entry : std::filesystem::directory_iterator(root / library / "include/pinocchio")) {
-      const std::string name = entry.path().filename().string();
-      const auto room = kRoomOfPublic.find(name);
-      EXPECT_EQ(room != kRoomOfPublic.end(), library == std::string("core")) << name;
-      of_core += room != kRoomOfPublic.end() ? 1 : 0;
-      for (const std::string& include : includes_of(entry.path())) {
-        EXPECT_TRUE(kRoomOfPublic.count(std::filesystem::path(include).filename().string()) ||
-                    std::filesystem::exists(root / "hybrid/include/pinocchio" /
-                                            std::filesystem::path(include).filename()))
-            << name << " includes " << include;
-        if (room == kRoomOfPublic.end()) continue;
-        const std::string other = std::filesystem::path(include).parent_path().filename().string();
-        EXPECT_TRUE(other == room->second || kMaySeeInCore.at(room->second).count(other))
-            << name << " includes " << include;
-      }
+TEST(Layers, ARoomHasFewFiles) {
+  for (const auto& [floor, others] : kMaySee)
+    for (const auto& entry : fs::recursive_directory_iterator(kRoot / floor)) {
+      if (!entry.is_directory() || entry.path().parent_path().filename() == "include") continue;
+      EXPECT_LE(std::ranges::count_if(fs::directory_iterator(entry.path()), is_source), kMostFiles)
+          << entry.path();
     }
-  EXPECT_EQ(of_core, kRoomOfPublic.size());
 }
 
 TEST(Layers, TheLaboratoryIsApart) {
-  const std::filesystem::path root(PINOCCHIO_SOURCE_DIR);
-  for (const std::string& violation : violations(root / "bench", "bench/", kMaySeeInBench))
-    ADD_FAILURE() << violation;
-  for (const auto& entry : std::filesystem::recursive_directory_iterator(root / "app")) {
-    if (!is_source(entry.path()) || kLaboratoryVerbs.count(entry.path().filename().string())) continue;
-    for (const std::string& include : includes_of(entry.path()))
-      EXPECT_FALSE(kLaboratory.count(include.substr(0, include.find('/'))))
-          << entry.path() << " includes " << include;
+  for (const char* room : {"chart", "one_ray", "rays", "stability"})
+    for (const fs::path& file : sources(kRoot / "bench" / room))
+      for (const Include& include : includes_of(kRoot, file))
+        EXPECT_TRUE(!include.what.starts_with("bench/") || include.what.starts_with("bench/one_ray/") ||
+                    include.what.starts_with("bench/" + std::string(room) + "/"))
+            << include.text();
+  for (const fs::path& file : sources(kRoot / "app")) {
+    if (kLaboratoryVerbs.count(file.filename().string())) continue;
+    for (const Include& include : includes_of(kRoot, file))
+      EXPECT_FALSE(kLaboratory.count(floor_of(include.what))) << include.text();
   }
 }
 
-// How the engine is made inside is not the program's.
 TEST(Layers, TheProgramDoesNotSeeTheEnginesParts) {
-  for (const auto& entry : std::filesystem::recursive_directory_iterator(PINOCCHIO_SOURCE_DIR "/app")) {
-    if (!is_source(entry.path())) continue;
-    for (const std::string& include : includes_of(entry.path())) {
-      EXPECT_NE(include, "hybrid/engine_parts.h") << entry.path();
-      EXPECT_NE(include, "hybrid/frame_slot.h") << entry.path();
-      EXPECT_NE(include.substr(0, include.rfind('/') + 1), "hybrid/gpu/")
-          << entry.path() << " includes " << include;
-      EXPECT_NE(include.substr(0, include.rfind('/') + 1), "hybrid/passes/")
-          << entry.path() << " includes " << include;
-    }
-  }
+  for (const fs::path& file : sources(kRoot / "app"))
+    for (const Include& include : includes_of(kRoot, file))
+      EXPECT_FALSE(kOfTheEngine.count(room_of(kRoot, include.what))) << include.text();
 }
 
 TEST(Layers, GlCallsLiveInGlAlone) {
-  const std::filesystem::path root(PINOCCHIO_SOURCE_DIR);
   const std::regex kCall(R"(\bgl[A-Z]\w*\()");
-  for (const char* room : {"core", "hybrid", "app", "bench", "scenes"})
-    for (const auto& entry : std::filesystem::recursive_directory_iterator(root / room)) {
-      if (!is_source(entry.path())) continue;
-      std::ifstream in(entry.path());
-      const std::string text((std::istreambuf_iterator<char>(in)), {});
+  for (const char* floor : {"core", "hybrid", "app", "bench", "scenes"})
+    for (const fs::path& file : sources(kRoot / floor)) {
+      const std::string text = text_of(file);
       std::smatch call;
-      EXPECT_FALSE(std::regex_search(text, call, kCall)) << entry.path() << " calls " << call.str();
+      EXPECT_FALSE(std::regex_search(text, call, kCall)) << file << " calls " << call.str();
+    }
+}
+
+TEST(Layers, PicturesAreReadAndWrittenByCodecsAlone) {
+  const std::regex kLibrary("#include <(Imf|spng|stb/stb_image|turbojpeg|webp/)");
+  for (const char* floor : {"app", "bench", "core", "gl", "hybrid", "scenes"})
+    for (const fs::path& file : sources(kRoot / floor))
+      EXPECT_TRUE(file.parent_path().filename() == "codecs" || !std::regex_search(text_of(file), kLibrary))
+          << file;
+}
+
+// "(walk/kernel.h)" in a comment is a file of the tree.
+TEST(Layers, CommentsNameFilesThatExist) {
+  const std::regex kComment("//[^\n]*"), kFile(R"((^|[^\w/.$}])((\w+/)+\w+\.(h|cpp|glsl|frag|vert))\b)");
+  std::vector<std::string> files;
+  for (const char* folder :
+       {"app", "bench", "cmake", "core", "gl", "hybrid", "python", "scenes", "shaders", "tests"})
+    for (const auto& entry : fs::recursive_directory_iterator(kRoot / folder))
+      files.push_back(entry.path().string());
+  const auto exists = [&](const std::string& name) {
+    return std::ranges::any_of(files, [&](const std::string& file) { return file.ends_with("/" + name); });
+  };
+  for (const char* floor : {"app", "bench", "core", "gl", "hybrid", "python", "scenes"})
+    for (const fs::path& file : sources(kRoot / floor)) {
+      const std::string text = text_of(file);
+      for (std::sregex_iterator comment(text.begin(), text.end(), kComment), end; comment != end; ++comment) {
+        const std::string said = comment->str();
+        for (std::sregex_iterator at(said.begin(), said.end(), kFile); at != end; ++at) {
+          const std::string name = (*at)[2];
+          EXPECT_TRUE(name.starts_with("GL/") || exists(name)) << file << " names " << name;
+        }
+      }
     }
 }
 
 TEST(Layers, AViolationIsFound) {
-  const std::filesystem::path root = own_folder() / "layers";
-  std::filesystem::create_directories(root / "core/math");
-  std::filesystem::create_directories(root / "gl");
-  std::filesystem::create_directories(root / "hybrid");
+  const fs::path root = own_folder() / "layers";
+  for (const char* room : {"core/math", "core/image", "core/scene", "gl", "hybrid"})
+    fs::create_directories(root / room);
   std::ofstream(root / "core/math/bad.h") << "#pragma once\n#include \"gl/context.h\"\n";
   std::ofstream(root / "gl/bad.cpp") << "#include \"core/math/finite.h\"\n#include \"gl/good.h\"\n";
   std::ofstream(root / "core/math/worse.h") << "#include \"scenes/generator/random.h\"\n";
   std::ofstream(root / "hybrid/bad.cpp") << "#include \"bench/stability/table.h\"\n";
-  EXPECT_EQ(violations(root, "", kMaySee).size(), 4u);
-  std::filesystem::remove_all(root);
+  EXPECT_EQ(floors_that_see_too_much(root).size(), 4u);
+  ASSERT_EQ(Circles(root).found().size(), 1u);  // core/math and gl
+  EXPECT_EQ(std::ranges::count(Circles(root).found()[0], '\n'), 2);
+  std::ofstream(root / "core/math/a.h") << "#include \"core/image/b.h\"\n";
+  std::ofstream(root / "core/image/b.h") << "#include \"core/scene/c.h\"\n";
+  std::ofstream(root / "core/scene/c.h") << "#include \"core/math/a.h\"\n";
+  ASSERT_EQ(Circles(root).found().size(), 2u);
+  EXPECT_EQ(std::ranges::count(Circles(root).found()[0], '\n'), 3);
+  fs::remove_all(root);
 }
 
 }  // namespace

@@ -88,9 +88,9 @@ TEST_F(OutputsTest, BadInputIsOneLineAndTheRightCode) {
     EXPECT_EQ(std::count(result.err.begin(), result.err.end(), '\n'), 1) << result.err;
   };
   const std::string cornell = scene("cornell.gltf");
-  expect(2, "render" + cornell + "--preview x.png --exposure nan", "no number of stops");
+  expect(2, "render" + cornell + "--preview x.png --exposure nan", "not a number of stops");
   expect(2, "render" + cornell + "--preview x.png --path .", "cannot be read");
-  expect(2, "render" + cornell + "--preview x.png --up 0,0,0", "no direction");
+  expect(2, "render" + cornell + "--preview x.png --up 0,0,0", "not a direction");
   expect(2, "render" + cornell + "--preview x.png --eye 1e30,0,0", "more than 1e9");
   expect(2, "render" + cornell + "--preview x.png --target 0,1e30,0", "more than 1e9");
   ASSERT_EQ(mkfifo((folder_ / "pipe.gltf").c_str(), 0600), 0);

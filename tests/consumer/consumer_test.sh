@@ -19,13 +19,20 @@ build() { # SOURCE FOLDER OPTIONS...
   fi
   quietly cmake --build "$2"
 }
+links_core_alone() { # FOLDER of tracer_alone
+  if ninja -C "$1" -t commands tracer_alone | grep -oE -- '-o tracer_alone .*pinocchio_(compare|reference)'; then
+    echo "the tracer alone links more than Pinocchio::core"
+    exit 1
+  fi
+}
 commands_of() { # EXAMPLE: the project's own, of all that building it runs
   ninja -C "$work/build" -t commands "$1" | grep -E -- "-o (CMakeFiles/$1\.dir/|$1 )"
 }
 
 if [ "$how" = subdirectory ]; then
   quietly cmake -G Ninja -S "$tree/tests/consumer/subdirectory" -B "$work/build" -DPINOCCHIO_SOURCE="$tree" "$@"
-  (cd "$built" && cp --parents {core,gl,hybrid}/*.a "$work/build/pinocchio/")
+  (cd "$built" && cp --parents {core,core/compare,core/reference,gl,hybrid}/*.a "$work/build/pinocchio/")
+  links_core_alone "$work/build"
   for example in tracer_alone headless own_window; do
     mkdir -p "$work/build/CMakeFiles/$example.dir/$tree/examples/$example"
     (cd "$work/build" && quietly bash -e <(commands_of "$example"))
@@ -48,6 +55,9 @@ else
     build "$work/examples/$example" "$work/build-$example" -DCMAKE_PREFIX_PATH="$prefix" "$@"
     mkdir -p "$work/build" && mv "$work/build-$example/$example" "$work/build/"
   done
+  links_core_alone "$work/build-tracer_alone"
+  build "$tree/tests/consumer/compare" "$work/compare" -DCMAKE_PREFIX_PATH="$prefix" "$@"
+  "$work/compare/compare"
   build "$tree/tests/consumer/own_glad" "$work/own_glad" -DCMAKE_PREFIX_PATH="$prefix" "$@"
   for kind in STATIC SHARED; do "$work/own_glad/own_glad_$kind" "$tree/scenes/cornell.gltf"; done
 fi

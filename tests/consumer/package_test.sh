@@ -14,7 +14,7 @@ cd "$work/unpacked"
 
 program=$PWD/bin/pinocchio
 clean=(env -i PATH=/usr/bin:/bin HOME="$work")
-if "${clean[@]}" ldd "$program" | grep -E 'not found|/usr/.*(OpenEXR|tinygltf|tinyobj|Imath)'; then
+if "${clean[@]}" ldd "$program" | grep -E 'not found|/usr/.*(OpenEXR|tinyobj|Imath)'; then
   echo "the program does not find its own libraries"
   exit 1
 fi

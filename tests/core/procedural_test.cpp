@@ -1,6 +1,6 @@
 #include <map>
 
-#include "core/trace/view_params.h"
+#include "core/trace/view/view_params.h"
 #include "pinocchio/tracer.h"
 #include "scenes/generator/scenes.h"
 #include "tests/support/scenes.h"

@@ -1,5 +1,5 @@
 // An EXR, as compare reads it.
-#include "core/image/exr_open.h"
+#include "core/image/codecs/exr_open.h"
 #include "tests/fuzz/input.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {

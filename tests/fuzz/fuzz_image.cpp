@@ -1,9 +1,9 @@
 // A texture's bytes.
-#include "core/scene/texture_file.h"
+#include "core/image/codecs/formats.h"
 #include "tests/fuzz/input.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   pinocchio::MemoryLimit limit(pinocchio::fuzz::kMemory_bytes);
-  (void)pinocchio::decode_texture("fuzz", "fuzz", {data, size}, limit);
+  (void)pinocchio::decode_texture({"fuzz", "fuzz", {data, size}, limit});
   return 0;
 }

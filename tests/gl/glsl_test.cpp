@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <fstream>
 
-#include "gl/shader_source.h"
+#include "gl/objects/shader_source.h"
 #include "tests/support/command.h"
 #include "tests/support/own_file.h"
 #include "tests/support/source_path.h"
@@ -46,9 +46,15 @@ const std::vector<Definitions> kTraced{
      "REFLECTION_IS_SRGB", "REFLECTION_TILE 8", "REPROJECT"},
     {"HAS_MASK", "MASK_BITS 4", "MASK_SCALE 4", "HAS_REFLECTION", "REFLECTION_SCALE 1", "REFLECTION_TEXELS 3",
      "REFLECTION_TILE 8", "REPROJECT"}};
-const std::vector<Definitions> kShown{
-    {},           {"SHOW_IDS"},   {"SHOW_NORMALS"},  {"SHOW_MASK"},  {"SHOW_REFLECTION"},
-    {"SHOW_AGE"}, {"SHOW_DEPTH"}, {"SHOW_POSITION"}, {"SHOW_ALBEDO"}};
+const std::vector<Definitions> kShown{{},
+                                      {"SHOW_IDS"},
+                                      {"SHOW_NORMALS"},
+                                      {"SHOW_MASK"},
+                                      {"SHOW_REFLECTION"},
+                                      {"SHOW_DELAY"},
+                                      {"SHOW_DEPTH"},
+                                      {"SHOW_POSITION"},
+                                      {"SHOW_ALBEDO"}};
 
 class GlslTest : public testing::Test {
  protected:

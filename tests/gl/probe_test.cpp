@@ -1,4 +1,4 @@
-#include "gl/probe.h"
+#include "gl/open/probe.h"
 
 #include "core/base/clock.h"
 #include "tests/support/gl_test.h"

@@ -1,12 +1,12 @@
-#include "gl/program.h"
+#include "gl/objects/program.h"
 
 #include <filesystem>
 #include <fstream>
 #include <iterator>
 #include <regex>
 
-#include "gl/error.h"
-#include "gl/shader_source.h"
+#include "gl/context/error.h"
+#include "gl/objects/shader_source.h"
 #include "tests/support/gl_test.h"
 #include "tests/support/own_file.h"
 #include "tests/support/source_path.h"
@@ -50,7 +50,7 @@ TEST_P(ProgramTest, EveryShaderCompilesInEveryVariant) {
              {"HAS_MAPS", "HAS_COLORS", "HAS_TANGENTS", "FREE_LIGHTS_ONLY"}}) {
       definitions.emplace_back(bits);
       EXPECT_NO_THROW(gl::Program(kShaders, "fullscreen.vert", "composite.frag", definitions));
-      for (const char* shown : {"SHOW_IDS", "SHOW_NORMALS", "SHOW_MASK", "SHOW_AGE"}) {
+      for (const char* shown : {"SHOW_IDS", "SHOW_NORMALS", "SHOW_MASK", "SHOW_DELAY"}) {
         std::vector<std::string> with = definitions;
         with.emplace_back(shown);
         EXPECT_NO_THROW(gl::Program(kShaders, "fullscreen.vert", "inspect.frag", with)) << shown;

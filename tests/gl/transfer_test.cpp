@@ -1,4 +1,4 @@
-#include "gl/transfer.h"
+#include "gl/transfer/transfer.h"
 
 #include <sys/resource.h>
 #include <unistd.h>
@@ -9,9 +9,9 @@
 #include <numeric>
 #include <vector>
 
-#include "gl/draw.h"
-#include "gl/error.h"
-#include "gl/timer.h"
+#include "gl/context/error.h"
+#include "gl/objects/draw.h"
+#include "gl/objects/timer.h"
 #include "tests/support/gl_test.h"
 
 namespace pinocchio {

@@ -1,7 +1,7 @@
 // A still camera's samples, against the renderer's.
 #include "hybrid/inspect/accumulator.h"
 
-#include "core/trace/jitter.h"
+#include "core/trace/view/jitter.h"
 #include "tests/support/frames.h"
 
 namespace pinocchio {

@@ -1,6 +1,6 @@
 // Environments and light from other surfaces: one picture, whoever draws it.
 #include "core/reference/reference.h"
-#include "hybrid/samples.h"
+#include "hybrid/frame/samples.h"
 #include "hybrid/settings/resolve.h"
 #include "tests/support/draw.h"
 

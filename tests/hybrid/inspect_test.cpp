@@ -3,7 +3,7 @@
 #include <set>
 
 #include "core/image/tonemap.h"
-#include "core/trace/aov.h"
+#include "core/trace/tiles/aov.h"
 #include "hybrid/inspect/histogram_pass.h"
 #include "hybrid/inspect/inspect_pass.h"
 #include "tests/support/frames.h"
@@ -239,7 +239,7 @@ TEST_P(InspectTest, OfAPictureByTheCpuAloneToo) {
       std::size_t other = 0;
       for (std::size_t i = 0; i < hybrid.pixels().size(); ++i)
         other += glm::distance(hybrid[i], cpu[i]) > 0.002f * (1.0f + glm::length(hybrid[i]));
-      EXPECT_LT(other, hybrid.pixels().size() / 200) << kBufferViewNames[static_cast<std::size_t>(what)];
+      EXPECT_LT(other, hybrid.pixels().size() / 200) << layer_row(what).window.name;
     }
   });
   EXPECT_NE(missing(BufferView::delay, 0, alone), "");

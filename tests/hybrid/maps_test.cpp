@@ -6,7 +6,7 @@
 #include "core/image/rgb.h"
 #include "core/image/tonemap.h"
 #include "core/reference/reference.h"
-#include "core/trace/jitter.h"
+#include "core/trace/view/jitter.h"
 #include "tests/support/draw.h"
 
 namespace pinocchio {

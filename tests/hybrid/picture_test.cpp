@@ -1,9 +1,9 @@
 // Pictures of the GPU and of the CPU against each other.
 #include <cmath>
 
+#include "bench/one_ray/passes.h"
 #include "core/image/tonemap.h"
-#include "core/trace/passes.h"
-#include "core/trace/view_params.h"
+#include "core/trace/view/view_params.h"
 #include "tests/support/draw.h"
 #include "tests/support/shade.h"
 

@@ -10,7 +10,7 @@
 #include "core/compare/figures.h"
 #include "core/compare/reference_error.h"
 #include "core/reference/reference.h"
-#include "core/trace/view_params.h"
+#include "core/trace/view/view_params.h"
 #include "tests/support/draw.h"
 
 namespace pinocchio {

@@ -6,6 +6,7 @@
 
 #include "hybrid/settings/json.h"
 #include "hybrid/settings/resolve.h"
+#include "pinocchio/frame.h"
 #include "tests/support/own_file.h"
 
 namespace pinocchio {
@@ -259,6 +260,29 @@ TEST(Rules, TellBeforehandWhatAValueWouldBreak) {
   EXPECT_EQ(design2, with({{"composite", "cpu"}}));  // asked only
   for (const std::string_view isa : kIsaNames)
     EXPECT_EQ(broken_by({}, "isa", isa) == nullptr, isa_supported(*parse_name<Isa>(kIsaNames, isa))) << isa;
+}
+
+// What figures, the trace export and the window's timeline say of each mode.
+TEST(Processors, OfEachStageInEachMode) {
+  const auto name_of = [](Stage stage, const Settings& settings) {
+    const std::optional<Processor> processor = processor_of(stage, settings);
+    return processor ? std::string(kProcessorNames[static_cast<std::size_t>(*processor)]) : "none";
+  };
+  const struct {
+    const char *visibility, *composite, *raster, *picture;
+  } kModes[] = {{"gpu", "gpu", "gpu", "gpu"},  // hybrid of design 1, and raster
+                {"gpu", "cpu", "gpu", "gpu"},  // design 2: the GPU copies the CPU's picture
+                {"cpu", "gpu", "cpu", "gpu"},
+                {"cpu", "cpu", "cpu", "cpu"}};  // raytrace
+  for (const auto& mode : kModes) {
+    const Settings s = with({{"visibility", mode.visibility}, {"composite", mode.composite}});
+    EXPECT_EQ(name_of(Stage::raster, s), mode.raster);
+    EXPECT_EQ(name_of(Stage::composite, s), mode.picture);
+    for (const Stage stage : {Stage::trace_shadow, Stage::trace_reflection})
+      EXPECT_EQ(name_of(stage, s), "cpu");
+    for (const Stage stage : {Stage::readback, Stage::upload, Stage::present})
+      EXPECT_EQ(name_of(stage, s), "none");
+  }
 }
 
 // Every combination of who finds and who composites can be had.

@@ -5,9 +5,9 @@
 #include <numbers>
 
 #include "core/reference/reference.h"
-#include "core/trace/shared.h"
-#include "core/trace/trace_tiles.h"
-#include "core/trace/view_params.h"
+#include "core/shade/shared.h"
+#include "core/trace/tiles/trace_tiles.h"
+#include "core/trace/view/view_params.h"
 #include "tests/support/draw.h"
 #include "tests/support/gl_test.h"
 

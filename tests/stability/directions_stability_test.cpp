@@ -2,7 +2,7 @@
 
 #include "bench/stability/shapes.h"
 #include "bench/stability/steps.h"
-#include "core/bsp/build.h"
+#include "core/bsp/build/build.h"
 #include "tests/stability/hold.h"
 
 namespace pinocchio::stability {

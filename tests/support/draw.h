@@ -9,7 +9,7 @@
 #include <utility>
 #include <vector>
 
-#include "hybrid/samples.h"
+#include "hybrid/frame/samples.h"
 #include "pinocchio/engine.h"
 #include "tests/support/scenes.h"
 

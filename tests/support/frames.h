@@ -6,8 +6,8 @@
 #include <optional>
 #include <vector>
 
-#include "hybrid/engine_parts.h"
-#include "hybrid/frame_slot.h"
+#include "hybrid/engine/engine_parts.h"
+#include "hybrid/engine/frame_slot.h"
 #include "hybrid/settings/resolve.h"
 #include "tests/support/draw.h"
 #include "tests/support/gl_test.h"

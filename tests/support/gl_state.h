@@ -1,17 +1,26 @@
-// All of a context's state that OpenGL tells of, to compare before with after.
+// The state of a context, as far as OpenGL can be asked for it, to compare before with after.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <map>
 #include <string>
 #include <utility>
 #include <vector>
 
-#include "gl/functions.h"
+#include "gl/context/functions.h"
 
 namespace pinocchio {
 
 using GlState = std::map<std::string, std::vector<double>>;
+
+// 33, 45: the OpenGL version of the context that is current.
+inline int gl_version() {
+  GLint major = 0, minor = 0;
+  glGetIntegerv(GL_MAJOR_VERSION, &major);
+  glGetIntegerv(GL_MINOR_VERSION, &minor);
+  return 10 * major + minor;
+}
 
 namespace gl_state {
 
@@ -154,9 +163,24 @@ inline void read_indexed(GlState& state) {
   };
   const auto append = [&state](const std::string& name, GLenum query, GLuint index, int count) {
     GLdouble values[4] = {};
-    glGetDoublei_v(query, index, values);
+    GLint whole[4] = {};
+    if (glGetDoublei_v) {
+      glGetDoublei_v(query, index, values);
+    } else {  // before OpenGL 4.1
+      glGetIntegeri_v(query, index, whole);
+      std::copy_n(whole, 4, values);
+    }
     state[name].insert(state[name].end(), values, values + count);
   };
+  if (gl_version() < 41) {
+    for (const GLenum name :
+         {GL_VIEWPORT, GL_SCISSOR_BOX, GL_DEPTH_RANGE, GL_BLEND_SRC_RGB, GL_BLEND_DST_RGB}) {
+      GLdouble values[4] = {};
+      glGetDoublev(name, values);
+      state["one for all"].insert(state["one for all"].end(), values, values + 4);
+    }
+    state["GL_SCISSOR_TEST"] = {static_cast<double>(glIsEnabled(GL_SCISSOR_TEST))};
+  }
   for (GLuint i = 0; i < limit(GL_MAX_VIEWPORTS); ++i) {
     append("GL_VIEWPORT", GL_VIEWPORT, i, 4);
     append("GL_SCISSOR_BOX", GL_SCISSOR_BOX, i, 4);
@@ -213,7 +237,7 @@ inline void read_units(GlState& state) {
 
 }  // namespace gl_state
 
-// Of the context that is current, OpenGL 4.5.
+// The state of the context that is current. Before OpenGL 4.5 some of it does not exist: errors are dropped.
 inline GlState read_gl_state() {
   GlState state;
   gl_state::read_numbers(state);
@@ -222,13 +246,15 @@ inline GlState read_gl_state() {
   gl_state::read_units(state);
   for (const GLenum name : {GL_DEBUG_CALLBACK_FUNCTION, GL_DEBUG_CALLBACK_USER_PARAM}) {
     void* pointer = nullptr;
-    glGetPointerv(name, &pointer);
+    if (glGetPointerv) glGetPointerv(name, &pointer);
     state["debug callback"].push_back(static_cast<double>(reinterpret_cast<std::uintptr_t>(pointer)));
+  }
+  while (gl_version() < 45 && glGetError() != GL_NO_ERROR) {
   }
   return state;
 }
 
-// What differs, by name.
+// The names of what differs.
 inline std::vector<std::string> differences(const GlState& a, const GlState& b) {
   std::vector<std::string> names;
   for (const auto& [name, values] : a)

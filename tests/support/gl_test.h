@@ -5,7 +5,7 @@
 
 #include <memory>
 
-#include "gl/open.h"
+#include "gl/open/open.h"
 
 namespace pinocchio {
 

@@ -4,10 +4,10 @@
 
 #include <algorithm>
 
+#include "bench/one_ray/passes.h"
+#include "bench/one_ray/surface_at.h"
 #include "core/parallel/tiles.h"
-#include "core/trace/passes.h"
-#include "core/trace/surface.h"
-#include "core/trace/view_params.h"
+#include "core/trace/view/view_params.h"
 
 namespace pinocchio {
 
@@ -29,11 +29,11 @@ inline glm::vec3 sum_of_lights(const std::vector<ShadedLight>& lights, const Sur
   glm::vec3 sum(0.0f);
   for (const ShadedLight& light : lights) {
     if (light.slot >= 0 && !(bits >> light.slot & 1u)) continue;
-    const shared::Incident incident = shared::incident_light(light.params, s.p_world);
+    const shared::Incident incident = shared::incident_light(light.params, light.params.position, s.p_world);
     const bool lifted = s.lift != glm::vec3(0.0f) && lifts(kUsualTerminator) &&
                         shared::faces_light_lifted(s.n_shading, s.n_vertices, incident.to_light);
     if (!lifted && !shared::faces_light(s.n_shading, s.n_geometric, incident.to_light)) continue;
-    sum += shared::phong_light(s.material.phong, incident, s.n_shading, s.to_viewer);
+    sum += shared::phong_light(s.material.phong, incident, s.n_shading, s.to_viewer, true);
   }
   return sum;
 }

@@ -1,5 +1,5 @@
 // The camera under mouse and keys: no display needed.
-#include "app/window/camera_control.h"
+#include "app/window/camera/camera_control.h"
 
 #include <gtest/gtest.h>
 
@@ -58,10 +58,10 @@ TEST(CameraControl, DraggingDownLooksFromAboveAndStopsAtTheZenith) {
 
 TEST(CameraControl, LookingTurnsTheViewAndTheEyeStays) {
   CameraControl control = control_at({0, 0, 5}, {0, 0, 0});
-  control.look({0.0f, -kHeight / 4.0f}, kHeight);  // up
+  control.turn_view({0.0f, -kHeight / 4.0f}, kHeight);  // up
   expect_near(control.camera().eye, {0, 0, 5}, 1e-6f);
   EXPECT_GT(control.camera().target.y, 3.0f);
-  control.look({kHeight / 2.0f, 0.0f}, kHeight);  // a quarter to the right
+  control.turn_view({kHeight / 2.0f, 0.0f}, kHeight);  // a quarter to the right
   EXPECT_GT(control.camera().target.x, 3.0f);
   EXPECT_NEAR(distance_of(control), 5.0f, 1e-3f);
 }

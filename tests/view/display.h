@@ -159,7 +159,7 @@ class WindowTest : public testing::Test {
   // One that was grabbed, or a PNG file that the program wrote.
   [[nodiscard]] Picture picture(const std::string& name) const {
     const auto grabbed = pictures_.find(name);
-    return grabbed != pictures_.end() ? grabbed->second : read_picture(folder_ / name);
+    return grabbed != pictures_.end() ? grabbed->second : picture_of_file(folder_ / name);
   }
   // Pixels that differ; -1 where the pictures cannot be compared.
   [[nodiscard]] long long different(const std::string& a, const std::string& b) const {

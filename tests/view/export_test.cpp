@@ -1,12 +1,12 @@
 // What leaves the window: the command line, the camera's file, names that are not taken yet.
-#include "app/window/export.h"
+#include "app/window/model/export.h"
 
 #include <gtest/gtest.h>
 
 #include <fstream>
 #include <nlohmann/json.hpp>
 
-#include "app/window/settings.h"
+#include "app/window/model/settings.h"
 #include "tests/support/own_file.h"
 
 namespace pinocchio::app {

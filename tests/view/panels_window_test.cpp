@@ -172,7 +172,7 @@ TEST_F(PanelsTest, TheTimelineIsPausedAndZoomed) {
   drag_from(600, 490, -300);
   grabbed("again.png");
   EXPECT_LT(different_in(chart, "near.png", "again.png", kAlike), 50);
-  click(40, rows[0]);  // Go on
+  click(40, rows[0]);  // Continue
   turn();
   grabbed("on.png");
   turn();

@@ -11,7 +11,7 @@
 
 namespace pinocchio {
 
-Picture read_picture(const std::filesystem::path& file) {
+Picture picture_of_file(const std::filesystem::path& file) {
   constexpr int kChannels = 3;
   int width = 0, height = 0;
   const std::unique_ptr<stbi_uc, void (*)(void*)> bytes(

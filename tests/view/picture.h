@@ -14,7 +14,7 @@ namespace pinocchio {
 using Picture = Image<glm::u8vec3>;
 
 // A PNG file; no pixels where it cannot be read.
-[[nodiscard]] Picture read_picture(const std::filesystem::path& file);
+[[nodiscard]] Picture picture_of_file(const std::filesystem::path& file);
 
 // Of a box "WIDTHxHEIGHT+X+Y", as far as it lies in the picture.
 [[nodiscard]] Picture crop(const Picture& picture, const std::string& box);

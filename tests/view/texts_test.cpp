@@ -9,7 +9,7 @@
 #include <regex>
 #include <set>
 
-#include "app/window/overlay_parts.h"
+#include "app/window/overlay/parts.h"
 #include "hybrid/settings/resolve.h"
 #include "hybrid/settings/scene_stats.h"
 #include "pinocchio/load.h"

@@ -4,14 +4,14 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 
-#include "app/window/edit_history.h"
-#include "app/window/framing.h"
-#include "app/window/history.h"
-#include "app/window/messages.h"
+#include "app/window/camera/framing.h"
+#include "app/window/model/history.h"
+#include "app/window/model/messages.h"
+#include "app/window/model/model.h"
+#include "app/window/model/preferences.h"
+#include "app/window/model/scene_files.h"
 #include "app/window/pace.h"
-#include "app/window/pixel_report.h"
-#include "app/window/preferences.h"
-#include "app/window/scene_files.h"
+#include "app/window/scene/edit_history.h"
 #include "core/base/clock.h"
 #include "pinocchio/load.h"
 #include "tests/support/own_file.h"
@@ -29,7 +29,7 @@ TEST(Messages, NewsGoByThemselvesAndErrorsStayUntilMended) {
   EXPECT_TRUE(messages.expire(now_s() + 2.0));
   EXPECT_FALSE(messages.expire(now_s() + 2.0));
   EXPECT_EQ(messages.all().front().text, "second");
-  messages.mended("scene");
+  messages.clear("scene");
   ASSERT_EQ(messages.all().size(), 1u);
   messages.dismiss(0);
   EXPECT_TRUE(messages.all().empty());
@@ -127,13 +127,19 @@ TEST(Framing, WhatMattersOfARoomIsInIt) {
 // colour.
 TEST(PixelInspector, WhatLightsAndMirrorsBringIsTheColour) {
   const Scene scene = load_scene(PINOCCHIO_SOURCE_DIR "/scenes/two-lights").value();
-  const auto tracer = std::make_shared<const Tracer>(scene.mesh);
-  const View view{scene.cameras.front(), {160, 120}};
+  Model model;
+  model.scene = scene;
+  model.camera.set_camera(scene.cameras.front());
+  model.window_pixels = {160, 120};
+  model.settings.settings.depth = 8;
   PixelInspector inspector;
+  EXPECT_FALSE(inspector.report(model, {80, 60}));
+  EXPECT_TRUE(model.wants_tree);
+  model.tracer = std::make_shared<const Tracer>(scene.mesh);
   bool mirrors = false, shadow = false;
   for (int i = 0; i < 48; ++i) {
     const glm::ivec2 pixel(10 + 20 * (i % 8), 10 + 20 * (i / 8));
-    const PixelReport report = inspector.look(scene, tracer, view, pixel, 8);
+    const PixelReport report = inspector.report(model, pixel).value();
     if (report.triangle == kNoTriangle) continue;
     EXPECT_LT(report.material, scene.mesh->materials.size());
     EXPECT_GT(report.depth, 0.0f);
@@ -168,13 +174,13 @@ TEST(SceneFiles, AFolderIsSteppedThroughAndAround) {
   EXPECT_TRUE(scenes_in(folder / "missing").empty());
 }
 
-TEST(Pace, CountsFromWhenTheWindowLastLooked) {
+TEST(Pace, CountsFromTheLastPoll) {
   Pace pace;
-  pace.looked(0.0, 1.0, false);
-  pace.looked(1.5, 1.5, true);  // came while it was busy, since 1.0 at worst
+  pace.polled(0.0, 1.0, false);
+  pace.polled(1.5, 1.5, true);  // came while it was busy, since 1.0 at worst
   pace.redrawn(1.6, true);
-  pace.looked(1.6, 2.0, true);  // came while it waited
-  pace.looked(2.0, 2.1, true);  // and another before the answer
+  pace.polled(1.6, 2.0, true);  // came while it waited
+  pace.polled(2.0, 2.1, true);  // and another before the answer
   pace.redrawn(2.1, true);
   pace.redrawn(2.2, false);
   const nlohmann::json json = pace.json();

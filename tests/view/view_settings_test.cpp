@@ -1,14 +1,14 @@
 // The window's small parts that need no display: settings, history, projection, watched files.
-#include "app/window/actions.h"
+#include "app/window/model/actions.h"
 
 #include <gtest/gtest.h>
 
 #include <fstream>
 #include <set>
 
-#include "app/window/file_watch.h"
-#include "app/window/history.h"
-#include "app/window/projection.h"
+#include "app/window/camera/projection.h"
+#include "app/window/model/history.h"
+#include "app/window/scene/file_watch.h"
 #include "tests/support/own_file.h"
 
 namespace pinocchio::app {
@@ -116,11 +116,11 @@ TEST(ViewSettings, FewerAndMorePixelsMeetWholeSize) {
 TEST(ViewSettings, EveryBufferComesAndEachMaskSlot) {
   ViewSettings settings;
   std::set<std::pair<BufferView, int>> seen;
-  for (std::size_t i = 0; i < kBufferViewNames.size() + 2; ++i) {
+  for (std::size_t i = 0; i < kBufferViews + 2; ++i) {
     seen.insert({settings.buffer, settings.mask_slot});
     next_buffer(settings, 3);
   }
-  EXPECT_EQ(seen.size(), kBufferViewNames.size() + 2);
+  EXPECT_EQ(seen.size(), kBufferViews + 2);
   EXPECT_EQ(settings.buffer, BufferView::picture);
 }
 
@@ -172,20 +172,20 @@ TEST(FileWatch, AChangeCountsOnceAndWhenItHasSettled) {
   std::ofstream(folder / "below/a.frag") << "a";
   FileWatch watch(folder);
   double now = 1.0;
-  const auto look = [&] { return watch.changed(now += 1.0); };
-  EXPECT_FALSE(look());
+  const auto has_changed = [&] { return watch.changed(now += 1.0); };
+  EXPECT_FALSE(has_changed());
   std::ofstream(folder / "below/a.frag") << "aa";
-  EXPECT_FALSE(look());  // perhaps still being written
+  EXPECT_FALSE(has_changed());  // perhaps still being written
   std::ofstream(folder / "below/a.frag") << "aaa";
-  EXPECT_FALSE(look());
-  EXPECT_TRUE(look());
-  EXPECT_FALSE(look());
+  EXPECT_FALSE(has_changed());
+  EXPECT_TRUE(has_changed());
+  EXPECT_FALSE(has_changed());
   std::filesystem::remove(folder / "below/a.frag");
-  EXPECT_FALSE(look());
-  EXPECT_TRUE(look());
+  EXPECT_FALSE(has_changed());
+  EXPECT_TRUE(has_changed());
   EXPECT_FALSE(watch.changed(now + 0.01));
   std::filesystem::remove_all(folder);
-  EXPECT_FALSE(look());
+  EXPECT_FALSE(has_changed());
 }
 
 TEST(FileWatch, AFileThatIsWrittenAllTheTimeHoldsUpNoOther) {
@@ -194,15 +194,15 @@ TEST(FileWatch, AFileThatIsWrittenAllTheTimeHoldsUpNoOther) {
   FileWatch watch(folder);
   std::string log = "x";
   double now = 1.0;
-  const auto look = [&] {
+  const auto has_changed = [&] {
     std::ofstream(folder / "log.txt") << (log += "x");
     return watch.changed(now += 1.0);
   };
-  EXPECT_FALSE(look());
+  EXPECT_FALSE(has_changed());
   std::ofstream(folder / "scene.gltf") << "a";
-  EXPECT_FALSE(look());
-  EXPECT_TRUE(look());
-  EXPECT_FALSE(look());
+  EXPECT_FALSE(has_changed());
+  EXPECT_TRUE(has_changed());
+  EXPECT_FALSE(has_changed());
   std::filesystem::remove_all(folder);
 }
 

@@ -1,4 +1,4 @@
-// How a scene moves by itself: what its file says of nodes and weights over time.
+// A scene's own motion: nodes and weights over time, as its file gives them.
 #pragma once
 
 #include <cstddef>
@@ -15,25 +15,25 @@ namespace pinocchio {
 
 struct Scene;
 
-// Keys of one value, and what lies between them.
+// The keys of one value, and how it is interpolated between them.
 struct Track {
   enum class Path { translation, rotation, scale, weights };
   enum class Interpolation { step, linear, cubic_spline };
 
   Path path = Path::translation;
-  Interpolation interpolation = Interpolation::linear;  // of rotations: spherical
-  std::vector<float> times_s;                           // not falling, at least one
-  // For each key `width` numbers (a rotation's are x, y, z, w); of cubic splines three times as many: tangent
-  // in, value, tangent out.
+  Interpolation interpolation = Interpolation::linear;  // rotations: spherically
+  std::vector<float> times_s;                           // never falling, at least one
+  // `width` numbers for each key (a rotation's are x, y, z, w). A cubic spline has three times as many:
+  // tangent in, value, tangent out.
   std::vector<float> values;
   std::size_t width = 3;
-  std::size_t clip = 0;  // of the animation's: the one that it came with
+  std::size_t clip = 0;  // index of the file's animation that has the track
 
-  // Before the first key its value, behind the last one that key's. to.size() == width
+  // Before the first key: its value. After the last key: its value. to.size() == width
   void sample(double seconds, std::vector<float>& to) const;
 };
 
-// A node's transform in its parts: scaled, then turned, then moved.
+// A node's transform in parts: it is scaled, then rotated, then moved.
 struct NodeMotion {
   glm::vec3 translation{0.0f};
   glm::dquat rotation{1.0, 0.0, 0.0, 0.0};
@@ -44,11 +44,11 @@ struct NodeMotion {
 
 struct AnimatedNode {
   int node = -1;
-  NodeMotion at_rest;  // what no track moves
+  NodeMotion at_rest;  // for the parts without a track
   std::vector<Track> tracks;
 };
 
-// Animations of a file play together, each from 0 s on. Of two that move the same only the first is kept.
+// The animations of a file play together, each from 0 s. If two move the same part, the first counts.
 struct Animation {
   struct Clip {
     std::string name;
@@ -56,19 +56,19 @@ struct Animation {
   };
   std::vector<Clip> clips;
   std::vector<AnimatedNode> nodes;  // indices rise
-  double duration_s = 0.0;          // of the longest
+  double duration_s = 0.0;          // the longest animation's
 };
 
-// Of its animation; 0 where it has none.
+// The animation's duration; 0 without animation.
 [[nodiscard]] double duration_s(const Scene& scene);
 
-// Its cameras at that time; at_time()'s, without the rest.
+// The cameras that at_time() gives, without the rest of the scene.
 [[nodiscard]] std::vector<Camera> cameras_at(const Scene& scene, double seconds);
 
-// The scene as it is that long after its animation began, made of the rest pose alone: the same bits,
-// whichever pose `scene` is in. What nothing moves stays as it is. A new mesh of the same triangles and
-// materials, as posed() makes it; of a scene without animation, the scene itself. Errors: no finite time, or
-// a pose that leaves the mesh no finite numbers.
+// The scene `seconds` into its animation. It is computed from the rest pose, so that the result has the same
+// bits whatever pose `scene` is in. The mesh is new, with the same triangles and materials, as posed() makes
+// it. A scene without animation is returned as it is. Errors: the time is not finite, or the pose gives the
+// mesh numbers that are not.
 [[nodiscard]] Expected<Scene> at_time(const Scene& scene, double seconds);
 
 }  // namespace pinocchio

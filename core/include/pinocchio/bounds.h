@@ -24,7 +24,7 @@ struct Bounds {
   [[nodiscard]] glm::vec3 extent() const { return hi - lo; }
   [[nodiscard]] glm::vec3 center() const { return 0.5f * lo + 0.5f * hi; }
   [[nodiscard]] float diagonal() const { return empty() ? 0.0f : glm::length(extent()); }
-  // Half the surface area: all that ratios of areas (the SAH) need.
+  // Half the surface area, which is enough for ratios of areas (the SAH).
   [[nodiscard]] float half_area() const {
     const glm::vec3 e = extent();
     return e.x * e.y + e.y * e.z + e.z * e.x;

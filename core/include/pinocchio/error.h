@@ -1,5 +1,5 @@
-// Errors of input: what a person gave us and can mend. They travel as values (Expected), never as
-// exceptions; a failed environment (no context, disk full) is an EnvironmentError, caught once in main.
+// Errors in the input, which the user can correct, are returned as values (Expected), never thrown. A failed
+// environment (no context, disk full) is thrown as an EnvironmentError and caught once, in main.
 #pragma once
 
 #include <algorithm>
@@ -9,12 +9,12 @@
 
 namespace pinocchio {
 
-// One clear line: file, line where known, what is wrong, what to do.
+// One line: the file, the line if known, what is wrong, what to do.
 struct InputError {
-  std::string file;  // empty: not about a file
-  int line = 0;      // 1-based; 0: not known
+  std::string file;  // empty: no file is concerned
+  int line = 0;      // 1-based; 0: unknown
   std::string what;
-  std::string remedy;  // empty: nothing helpful to say
+  std::string remedy;  // empty: none is known
 
   [[nodiscard]] std::string message() const {
     std::string text = file;
@@ -22,7 +22,7 @@ struct InputError {
     if (!text.empty()) text += ": ";
     text += what;
     if (!remedy.empty()) text += "; " + remedy;
-    // What a damaged file holds is quoted: it stays one line and commands no terminal.
+    // The contents of a damaged file are quoted, so that they are one line without terminal commands.
     std::replace_if(
         text.begin(), text.end(), [](unsigned char c) { return c < ' ' || c == 0x7f; }, '?');
     return text;
@@ -33,7 +33,7 @@ template <class T>
 using Expected = tl::expected<T, InputError>;
 using Unexpected = tl::unexpected<InputError>;
 
-// Thrown where the machine, not the input, is at fault; what() is the line a person reads.
+// Thrown where the machine, not the input, is at fault. what() is one line for the user.
 class EnvironmentError : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;

@@ -17,8 +17,8 @@
 
 namespace pinocchio {
 
-// One channel of an EXR: a value a pixel of the data window, row by row from the top. Halves are held as
-// floats and rounded when they are written; what is finite stays finite (clamped to 65504).
+// One channel of an EXR: a value for each pixel of the data window, row by row from the top. Halves are held
+// as floats and rounded when they are written; finite values stay finite (clamped to 65504).
 struct ExrChannel {
   enum class Type { half, real, uint };
 
@@ -28,11 +28,11 @@ struct ExrChannel {
   std::vector<std::uint32_t> uints;  // uint
 };
 
-// How pixels are packed; without loss all of them.
+// The packing of pixels. All methods are lossless.
 enum class ExrCompression {
   zip,   // deflate, 16 lines at a time: the default of OpenEXR and of the programs that read it
   zips,  // deflate, line by line: for programs that read few lines at a time
-  piz,   // wavelets: smaller where pictures are grainy
+  piz,   // wavelets: smaller for grainy pictures
   rle,   // run lengths: fast
   none,
 };
@@ -48,21 +48,21 @@ struct ExrRational {
 using ExrAttribute = std::variant<std::string, float, glm::mat4, int, ExrRational>;
 
 struct ExrFile {
-  glm::ivec2 display_size{0, 0};  // displayWindow: (0, 0) to this
-  PixelBox data_window;           // the pixels there are
+  glm::ivec2 display_size{0, 0};  // displayWindow: from (0, 0) to this
+  PixelBox data_window;           // the pixels in the file
   std::vector<ExrChannel> channels;
-  // Matrices are column vectors' (GLM's); the file holds OpenEXR's row vectors', the transpose.
+  // Matrices are for column vectors, as in GLM. The file holds their transpose, for OpenEXR's row vectors.
   std::map<std::string, ExrAttribute> attributes;
   ExrCompression compression = ExrCompression::zip;
 
   [[nodiscard]] const ExrChannel* find(const std::string& name) const;
 };
 
-// One part, scan lines, Rec. 709 chromaticities; whole or not at all. Throws EnvironmentError where it
-// cannot be written. Both may be called from many threads, for files of their own. Phase "write".
+// Writes one part with scan lines and Rec. 709 chromaticities, whole or not at all. Throws EnvironmentError
+// where it cannot be written. Reading and writing different files on many threads is safe. Phase "write".
 void write_exr(const std::filesystem::path& file, const ExrFile& exr, Progress* progress = nullptr);
 
-// Reads any single-part EXR with unsubsampled channels. Errors name the file and what is wrong with it.
+// Reads any single-part EXR without subsampled channels. Errors name the file and what is wrong.
 [[nodiscard]] Expected<ExrFile> read_exr(const std::filesystem::path& file);
 
 }  // namespace pinocchio

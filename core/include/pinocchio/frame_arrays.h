@@ -1,27 +1,111 @@
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <glm/glm.hpp>
+#include <string_view>
+#include <variant>
 
+#include "pinocchio/exr.h"
 #include "pinocchio/glm_layout.h"
 
 namespace pinocchio {
 
-// Where pictures are written: arrays of the caller's, frame after frame, row after row from the top, with a
-// value a pixel. Null: not wanted, and nothing is traced for it. All are of the first sample but `color`.
+// The caller's arrays that pictures are written to: frame after frame, row after row from the top, one value
+// for each pixel. Null: the layer is not wanted, and nothing is traced for it. All arrays but `color` show
+// the first sample. kLayers describes each.
 struct FrameArrays {
-  glm::vec4* color = nullptr;        // linear RGBA, mean of the samples; A: how much of the pixel is covered
-  float* depth = nullptr;            // along the view axis, scene units; +inf where nothing is hit
-  glm::vec3* position = nullptr;     // world; 0 where nothing is hit, as the next two
-  glm::vec3* normal = nullptr;       // world, unit
-  glm::vec3* albedo = nullptr;       // diffuse colour, linear
-  std::uint32_t* ids = nullptr;      // triangles, kNoTriangle where nothing is hit
-  std::uint32_t* objects = nullptr;  // nodes (pinocchio/nodes.h), likewise; 0 where the scene has none
-  std::uint8_t* mask = nullptr;      // bit i: the light in mask slot i reaches the point
-  glm::vec3* reflection = nullptr;   // mirrored and refracted light, linear
+  glm::vec4* color = nullptr;
+  float* depth = nullptr;
+  glm::vec3* position = nullptr;
+  glm::vec3* normal = nullptr;
+  glm::vec3* albedo = nullptr;
+  std::uint32_t* ids = nullptr;
+  std::uint32_t* objects = nullptr;
+  std::uint8_t* mask = nullptr;
+  glm::vec3* reflection = nullptr;
 
   [[nodiscard]] bool wants_light() const { return color || mask || reflection; }
   [[nodiscard]] bool wants_surfaces() const { return depth || position || normal || albedo; }
 };
+
+// The layers of a picture. kLayers has a row for each, in this order. The window shows all but the last.
+enum class Layer { picture, ids, normals, mask, reflection, delay, depth, position, albedo, objects };
+
+// A layer as an EXR, --aov, the arrays of render_many and the window's views have it. Empty names: the layer
+// is not there.
+struct LayerRow {
+  Layer layer;
+  struct {
+    std::string_view name;  // in Python
+    std::variant<std::monostate, glm::vec4 * FrameArrays::*, glm::vec3 * FrameArrays::*,
+                 float * FrameArrays::*, std::uint32_t * FrameArrays::*, std::uint8_t * FrameArrays::*>
+        values;
+    std::string_view doc;
+  } array;
+  struct {
+    std::string_view name;                     // for --aov; empty for the colour, which is always written
+    std::array<std::string_view, 4> channels;  // one for each component
+    ExrChannel::Type type;
+  } exr;
+  struct {
+    std::string_view name, legend;
+    int ranged_axes;  // components that are shown within a range
+    bool traced;      // by rays: a reprojected picture shows an older frame's
+  } window;
+};
+
+inline constexpr ExrChannel::Type kHalf = ExrChannel::Type::half, kReal = ExrChannel::Type::real,
+                                  kUint = ExrChannel::Type::uint;
+inline constexpr std::array kLayers{
+    LayerRow{Layer::picture,
+             {"color", &FrameArrays::color,
+              "linear RGBA, mean of the samples; A: how much of the pixel is covered"},
+             {{}, {"R", "G", "B", "A"}, kHalf},
+             {"picture", "the finished picture", 0, false}},
+    LayerRow{Layer::ids,
+             {"ids", &FrameArrays::ids, "the triangle; 0xffffffff where nothing is hit"},
+             {"id", {"id.triangle"}, kUint},
+             {"ids", "triangle ids, a colour each; dark: nothing is seen", 0, false}},
+    LayerRow{Layer::normals,
+             {"normal", &FrameArrays::normal, "world shading normal, unit; 0 where nothing is hit"},
+             {"N", {"N.X", "N.Y", "N.Z"}, kHalf},
+             {"normals", "shading normals, world space: red X, green Y, blue Z, from -1 (dark) to 1 (bright)",
+              0, false}},
+    LayerRow{Layer::mask,
+             {"mask", &FrameArrays::mask, "bit i is set where the light in mask slot i reaches the point"},
+             {"shadow", {"shadow.mask"}, kUint},
+             {"mask", "white lit, black in shadow, grey not asked (faces away, or nothing seen)", 0, true}},
+    LayerRow{Layer::reflection,
+             {"reflection", &FrameArrays::reflection, "mirrored and refracted light, linear"},
+             {"reflection", {"reflection.R", "reflection.G", "reflection.B"}, kHalf},
+             {"reflection", "mirrored and refracted light", 0, true}},
+    LayerRow{
+        Layer::delay, {}, {}, {"delay", "green: shadows and reflections are the picture's own", 0, true}},
+    LayerRow{
+        Layer::depth,
+        {"depth", &FrameArrays::depth, "distance along the view axis, scene units; inf where nothing is hit"},
+        {"Z", {"Z"}, kReal},
+        {"depth", "depth along the view axis, scene units", 1, false}},
+    LayerRow{Layer::position,
+             {"position", &FrameArrays::position, "world position, scene units; 0 where nothing is hit"},
+             {"P", {"P.X", "P.Y", "P.Z"}, kReal},
+             {"position", "world position, scene units", 3, false}},
+    LayerRow{Layer::albedo,
+             {"albedo", &FrameArrays::albedo, "diffuse colour, linear; 0 where nothing is hit"},
+             {"Albedo", {"Albedo.R", "Albedo.G", "Albedo.B"}, kHalf},
+             {"albedo", "diffuse colour, as textures and materials have it", 0, false}},
+    LayerRow{
+        Layer::objects,
+        {"objects", &FrameArrays::objects,
+         "the node that the triangle moves with, 0 where the scene has no nodes; 0xffffffff where nothing is "
+         "hit"},
+        {},
+        {}},
+};
+
+[[nodiscard]] constexpr const LayerRow& layer_row(Layer layer) {
+  return kLayers[static_cast<std::size_t>(layer)];
+}
 
 }  // namespace pinocchio

@@ -1,5 +1,5 @@
-// GLM as the library was compiled with. GLM_FORCE_DEFAULT_ALIGNED_GENTYPES, GLM_FORCE_ALIGNED_GENTYPES or
-// GLM_FORCE_QUAT_DATA_WXYZ in the caller would change the layout of every structure without a word.
+// Refuses GLM_FORCE_DEFAULT_ALIGNED_GENTYPES, GLM_FORCE_ALIGNED_GENTYPES and GLM_FORCE_QUAT_DATA_WXYZ in the
+// caller: they would silently give every structure another layout than the library's.
 #pragma once
 
 #include <glm/glm.hpp>

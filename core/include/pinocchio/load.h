@@ -13,21 +13,21 @@
 
 namespace pinocchio {
 
-// What of a file does not reach the picture: one for each feature and file, however many places have it.
+// A feature of a file that the picture ignores. There is one warning for each feature and file.
 struct Warning {
-  std::string file;        // that holds it
-  std::string where;       // the first place: "material 'paint'", "line 12"; empty: all of it
+  std::string file;        // the file with the feature
+  std::string where;       // the first place: "material 'paint'", "line 12"; empty: the whole file
   std::string what;        // "its normal texture is left out"
-  std::string lost;        // what the picture loses by it
-  std::size_t places = 1;  // that have it
+  std::string lost;        // the effect on the picture
+  std::size_t places = 1;  // the number of places with it
 
-  // One clear line.
+  // One line.
   [[nodiscard]] std::string message() const;
 };
 
 class Warnings {
  public:
-  // Where the file's feature is known already, one place more of it.
+  // Adds the warning, or counts one more place if the file's feature has one already.
   void add(Warning warning);
 
   [[nodiscard]] bool empty() const { return all_.empty(); }
@@ -38,32 +38,32 @@ class Warnings {
 
  private:
   std::vector<Warning> all_;
-  std::map<std::pair<std::string, std::string>, std::size_t> known_;  // by file and what
+  std::map<std::pair<std::string, std::string>, std::size_t> known_;  // by `file` and `what`
 };
 
-// How far a scene's files are trusted.
+// How far the files of a scene are trusted.
 struct LoadOptions {
-  std::uint64_t limit_bytes = kUsualLoadLimit;  // most memory that they claim beyond their own bytes
-  // Whether files that the scene's file names are opened only below its folder, wherever `..`, absolute names
-  // and links lead. One elsewhere is an error.
+  std::uint64_t limit_bytes = kUsualLoadLimit;  // the most memory that they may claim beyond their own size
+  // Opens files that the scene's file names only if they are below its folder, after `..`, absolute names and
+  // links are followed. A file elsewhere is an error.
   bool confine = false;
 };
 
 // Reads glTF 2.0 (.gltf, .glb), Wavefront OBJ+MTL (.obj) or PLY (.ply), chosen by the file's extension. A
-// path without extension, or a folder, stands for the one scene file of that name (scenes/cornell ->
-// scenes/cornell.gltf). The result has passed check_scene. Errors name the file and, for text formats,
-// the line; what a picture can do without is added to `warnings` instead, which are whole where the result
-// is an error, too. Throws
-// std::bad_alloc where there is no memory. Phases "read" and "mesh". Any thread.
+// path without extension, or a folder, means the one scene file of that name (scenes/cornell ->
+// scenes/cornell.gltf). The result has passed check_scene. Errors name the file and, for text formats, the
+// line. Features that a picture can do without are added to `warnings`, which are complete even if the result
+// is an error. Throws std::bad_alloc where there is no memory. Phases "read" and "mesh". Any thread.
 [[nodiscard]] Expected<Scene> load_scene(const std::filesystem::path& path, Warnings* warnings = nullptr,
                                          Progress* progress = nullptr,
                                          std::uint64_t limit_bytes = kUsualLoadLimit);
 [[nodiscard]] Expected<Scene> load_scene(const std::filesystem::path& path, const LoadOptions& options,
                                          Warnings* warnings = nullptr, Progress* progress = nullptr);
 
-// What the rest of the program relies on: at least one triangle, at most kMaxTriangles, indices and
-// materials in range, finite positions within kFarthest, a finite normal (and texture coordinate) a position.
-inline constexpr float kFarthest = 1e9f;  // of a coordinate: beyond, areas overflow single precision
+// Checks what the rest of the library relies on: 1 to kMaxTriangles triangles, indices and materials in
+// range, finite positions within kFarthest, and a finite normal (and texture coordinate) for each position.
+inline constexpr float kFarthest =
+    1e9f;  // the largest coordinate: beyond it, areas overflow single precision
 [[nodiscard]] Expected<void> check_scene(const Scene& scene);
 
 }  // namespace pinocchio

@@ -13,14 +13,14 @@
 
 namespace pinocchio {
 
-// Which lights reach each pixel: `bits` (1, 2, 4 or 8) a pixel, packed low bits first, each row padded to
-// whole bytes. Bit i of a pixel is mask slot i.
+// The lights that reach each pixel: `bits` (1, 2, 4 or 8) for each pixel, packed from the low bits up, each
+// row padded to whole bytes. Bit i of a pixel is mask slot i.
 class MaskImage {
  public:
   MaskImage() = default;
   MaskImage(glm::ivec2 size, int bits) { resize(size, bits); }
 
-  // Fewest bits that hold `lights` casting lights: 0, 1, 2, 4 or 8.
+  // The fewest bits that hold `lights` casting lights: 0, 1, 2, 4 or 8.
   [[nodiscard]] static int bits_for(int lights) {
     assert(lights <= 8);
     return lights <= 2 ? lights : lights <= 4 ? 4 : 8;
@@ -47,7 +47,7 @@ class MaskImage {
     bytes_[byte_of(x, y)] |= static_cast<std::uint8_t>(1u << (shift_of(x) + slot));
   }
 
-  // All bits of the pixels from (x, y) on; x * bits is a multiple of 8, and they were 0.
+  // Sets all bits of the pixels from (x, y) on. They must be 0 before, and x * bits a multiple of 8.
   void set_row(int x, int y, std::span<const std::uint8_t> pixels) {
     if (bits_ == 0) return;
     std::uint8_t* const row = bytes_.data() + byte_of(x, y);
@@ -58,7 +58,7 @@ class MaskImage {
         std::memcpy(&packed, &pixels[first], 8);
       else
         for (std::size_t i = first + count; i-- > first;) packed = packed << 8 | pixels[i];
-      // 8 pixels of 8 bits become 4 of 16, 2 of 32, one of 64, of which so many bits are used.
+      // 8 pixels of 8 bits become 4 of 16, 2 of 32, and one of 64, each with so many used bits.
       for (int width = 8, used = bits_; width < 64; width *= 2, used *= 2)
         packed = (packed | packed >> (width - used)) & lowest_bits(used * 2, width * 2);
       for (std::size_t bytes = (count * static_cast<std::size_t>(bits_) + 7) / 8; bytes-- > 0; packed >>= 8)
@@ -71,7 +71,7 @@ class MaskImage {
     return static_cast<std::size_t>(y) * static_cast<std::size_t>(row_bytes_) +
            static_cast<std::size_t>(x * bits_ / 8);
   }
-  // A word whose fields of `width` bits have their lowest `used` set.
+  // A word of fields of `width` bits, each with its lowest `used` bits set.
   [[nodiscard]] static std::uint64_t lowest_bits(int used, int width) {
     const std::uint64_t field = used == 64 ? ~std::uint64_t{0} : (std::uint64_t{1} << used) - 1;
     return width == 64 ? field : width == 32 ? field * 0x100000001u : field * 0x1000100010001u;

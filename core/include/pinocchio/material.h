@@ -7,37 +7,37 @@
 
 namespace pinocchio {
 
-// Phong with mirrors and glass, in linear colour: I = Ia + Id(L) + Is(L) + Ir(R) + It(T), Whitted 1980.
+// Phong with mirrors and glass, in linear colour: I = Ia + Id(L) + Is(L) + Ir(R) + It(T) (Whitted 1980).
 struct Material {
   std::string name;
   glm::vec3 ambient{0.8f};
   glm::vec3 diffuse{0.8f};
   glm::vec3 specular{0.0f};
   float shininess = 1.0f;       // exponent of (R.V), not of the half vector
-  glm::vec3 reflectance{0.0f};  // weight of the mirrored ray; with `fresnel` its value at normal incidence
-  // Exponent of the lobe that its mirrored rays are spread over, by samples: the lower, the rougher. 0:
-  // sharp.
+  glm::vec3 reflectance{0.0f};  // weight of the mirrored ray; with `fresnel`: at normal incidence
+  // Exponent of the lobe over which samples spread the mirrored rays. Lower is rougher.
+  // 0: sharp.
   float gloss = 0.0f;
   glm::vec3 transmittance{0.0f};  // weight of the refracted ray; any component > 0 makes a dielectric
-  float ior = 1.0f;               // of the inside against the outside
-  // What is left of light that went `attenuation_distance`, scene units, through the inside (Beer and
-  // Lambert); 0: the inside is clear.
+  float ior = 1.0f;               // of the inside, relative to the outside
+  // The share of light that is left after `attenuation_distance` (scene units) through the inside (Beer and
+  // Lambert). Distance 0: the inside is clear.
   glm::vec3 attenuation_color{1.0f};
   float attenuation_distance = 0.0f;
   bool fresnel = false;  // opaque: reflectance rises to 1 at grazing angles (Schlick 1994)
   glm::vec3 emission{0.0f};
-  // Diffuse and specular are a BRDF's values, as glTF's metallic-roughness gives them; else they are Phong's
-  // coefficients, of lights whose strength counts the 1 / pi. Light from all around needs to know.
+  // True: diffuse and specular are a BRDF's values, as with glTF's metallic-roughness. False: they are
+  // Phong's coefficients for lights whose strength includes the 1 / pi.
   bool brdf = false;
-  // Index in MeshData::maps: what textures, vertex colours and alpha change of it; -1: nothing. What stands
-  // here is then the most that they make of reflectance and transmittance.
+  // Index in MeshData::maps: textures, vertex colours and alpha of this material; -1: none. With maps,
+  // reflectance and transmittance here are upper limits.
   int maps = -1;
 
   [[nodiscard]] bool reflects() const { return reflectance.x + reflectance.y + reflectance.z > 0.0f; }
   [[nodiscard]] bool is_glossy() const { return gloss > 0.0f && (reflects() || transmits()); }
   [[nodiscard]] bool transmits() const { return transmittance.x + transmittance.y + transmittance.z > 0.0f; }
   [[nodiscard]] bool attenuates() const { return attenuation_distance > 0.0f; }
-  // Whether any ray leaves a hit on this material.
+  // Whether hits on this material start mirrored or refracted rays.
   [[nodiscard]] bool spawns_rays() const { return reflects() || transmits(); }
 
   friend bool operator==(const Material&, const Material&) = default;

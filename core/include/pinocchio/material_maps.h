@@ -9,7 +9,7 @@
 
 namespace pinocchio {
 
-// What glTF 2.0 says of a surface; names and defaults as in the specification and its extensions.
+// glTF 2.0's description of a surface, with the names and defaults of the specification and its extensions.
 struct GltfSurface {
   glm::vec3 base_color{1.0f};
   float metallic = 1.0f;
@@ -19,17 +19,17 @@ struct GltfSurface {
   float specular = 1.0f;     // KHR_materials_specular
   glm::vec3 specular_color{1.0f};
   float transmission = 0.0f;  // KHR_materials_transmission
-  bool volume = false;        // KHR_materials_volume with a thickness: it refracts
+  bool volume = false;        // KHR_materials_volume with a thickness: the surface refracts
   bool unlit = false;         // KHR_materials_unlit
 
   friend bool operator==(const GltfSurface&, const GltfSurface&) = default;
 };
 
-// What alpha does: nothing; a hole where it is below alpha_cutoff; or the surface counts by its alpha, and
-// what a ray sees that goes straight on by the rest.
+// The effect of alpha. opaque: none. mask: a hole where alpha is below alpha_cutoff. blend: the surface is
+// weighted by alpha, and the light behind it by the rest.
 enum class AlphaMode : std::uint8_t { opaque, mask, blend };
 
-// What of a material textures, vertex colours and alpha change from point to point.
+// Textures, vertex colours and alpha of a material, which vary from point to point.
 struct MaterialMaps {
   TextureUse base_color;  // sRGB; multiplies `surface.base_color`, or the material's ambient and diffuse
   TextureUse metallic_roughness;  // G: roughness, B: metallic; from_gltf only
@@ -41,12 +41,12 @@ struct MaterialMaps {
   TextureUse specular;        // A; multiplies `surface.specular`
   TextureUse specular_color;  // sRGB; multiplies `surface.specular_color`
   TextureUse transmission;    // R; multiplies `surface.transmission`
-  int alpha_channel = 3;      // of that texture: 0 R to 3 A
+  int alpha_channel = 3;      // of the texture `alpha`: 0 R to 3 A
   float normal_scale = 1.0f;
   float occlusion_strength = 1.0f;
   bool vertex_colors = false;  // MeshData::colors multiply base colour and alpha
 
-  // Phong is made from `surface` at every point; else the material is Phong as it stands.
+  // True: Phong is computed from `surface` at every point. False: the material's own Phong values are used.
   bool from_gltf = false;
   GltfSurface surface;
 
@@ -54,18 +54,18 @@ struct MaterialMaps {
   float alpha_factor = 1.0f;
   float alpha_cutoff = 0.5f;
 
-  // Whether rays pass through some of its points as if nothing were there.
+  // Whether rays pass unchanged through some points of the material.
   [[nodiscard]] bool has_holes() const {
     return alpha_mode == AlphaMode::mask ||
            (alpha_mode == AlphaMode::blend && (alpha.used() || vertex_colors || alpha_factor <= 0.0f));
   }
   [[nodiscard]] bool blends() const { return alpha_mode == AlphaMode::blend; }
-  // Whether textures change what a dielectric mirrors and lets through.
+  // Whether textures change the reflectance and transmittance of a dielectric.
   [[nodiscard]] bool maps_dielectric() const {
     return specular.used() || specular_color.used() || transmission.used();
   }
 
-  // Every texture that may be used.
+  // All textures that the material may have.
   [[nodiscard]] std::array<TextureUse*, 9> uses() {
     return {&base_color, &metallic_roughness, &normal,         &occlusion,   &emissive,
             &alpha,      &specular,           &specular_color, &transmission};

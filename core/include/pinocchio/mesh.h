@@ -14,27 +14,27 @@
 
 namespace pinocchio {
 
-// What a mesh is made of, while it is being made: one soup of indexed triangles in world space. A triangle's
-// index here is its id everywhere: in the GPU's visibility buffer, in every Hit and in the EXR.
+// The data of a mesh while it is being made: indexed triangles in world space. A triangle's index is its id
+// everywhere: in the GPU's visibility buffer, in every Hit and in the EXR.
 struct MeshData {
   std::vector<glm::vec3> positions;
-  std::vector<glm::vec3> normals;  // one a position; a zero vector asks for the triangle's own (flat) normal
-  // One a position, or empty where nothing needs them; v grows downwards.
+  std::vector<glm::vec3> normals;  // one for each position; zero: the triangle's own (flat) normal is used
+  // One for each position, or empty if nothing needs them. v grows downwards.
   std::vector<glm::vec2> texcoords, texcoords1;
-  std::vector<glm::vec4> colors;    // linear; a finished mesh's maps say where they count
-  std::vector<glm::vec4> tangents;  // of normal maps, w: side of the bitangent; w = 0: made from texcoords
+  std::vector<glm::vec4> colors;    // linear; a finished mesh's maps say where they are used
+  std::vector<glm::vec4> tangents;  // for normal maps; w: the bitangent's side, 0: made from texcoords
   std::vector<glm::uvec3> triangles;
-  std::vector<std::uint32_t> triangle_materials;  // one a triangle
+  std::vector<std::uint32_t> triangle_materials;  // one for each triangle
 
   std::vector<Material> materials;
-  std::vector<MaterialMaps> maps;  // of the materials that have some
+  std::vector<MaterialMaps> maps;  // of the materials with maps
   Textures textures;
 };
 
-// The material's maps; made, as empty ones, where it has none yet.
+// The material's maps. If it has none, empty ones are added.
 [[nodiscard]] MaterialMaps& make_maps(MeshData& mesh, Material& material);
 
-// A finished mesh: const wherever it is shared, and its bounds are known.
+// A finished mesh with its bounds. It is const wherever it is shared.
 struct Mesh : MeshData {
   Mesh() = default;
   explicit Mesh(MeshData data);
@@ -43,7 +43,7 @@ struct Mesh : MeshData {
   [[nodiscard]] const Material& material_of(std::uint32_t triangle) const {
     return materials[triangle_materials[triangle]];
   }
-  // Null where nothing of the triangle's material changes from point to point.
+  // Null: the triangle's material is the same at every point.
   [[nodiscard]] const MaterialMaps* maps_of(std::uint32_t triangle) const {
     const int index = material_of(triangle).maps;
     return index < 0 ? nullptr : &maps[static_cast<std::size_t>(index)];

@@ -8,7 +8,7 @@
 
 namespace pinocchio {
 
-// The value of an enumeration whose names stand in its order; nothing where `name` is none of them.
+// The value of an enumeration whose names are listed in its order; none if `name` is not one of them.
 template <class Enum, std::size_t N>
 [[nodiscard]] std::optional<Enum> parse_name(const std::array<std::string_view, N>& names,
                                              std::string_view name) {

@@ -1,4 +1,4 @@
-// Parts of a scene that move: what a file calls nodes, and where they were before they were placed.
+// The parts of a scene that can move, which files call nodes, and their rest pose.
 #pragma once
 
 #include <cstdint>
@@ -22,14 +22,14 @@ struct Scene;
 
 struct Node {
   std::string name;
-  int parent = -1;        // its index, smaller than its child's; -1: none
-  glm::mat4 local{1.0f};  // parent from node; the world from a node without parent
-  // Of the mesh: what moves with it.
+  int parent = -1;        // the parent's index, smaller than the child's; -1: none
+  glm::mat4 local{1.0f};  // parent from node; for a node without parent, world from node
+  // The part of the mesh that moves with the node.
   std::uint32_t first_vertex = 0, vertices = 0;
   std::uint32_t first_triangle = 0, triangles = 0;
 };
 
-// A light or camera that moves with a node, as the node sees it; `index` is its place in the scene.
+// A light or camera that moves with a node, in the node's space. `index` is its place in the scene.
 template <class T>
 struct Attached {
   int node;
@@ -37,17 +37,17 @@ struct Attached {
   T at_rest;
 };
 
-// What never changes while nodes move; vertices as their own node sees them, all of the mesh's.
+// The data that does not change while nodes move: all vertices of the mesh, each in its node's space.
 struct RestPose {
   std::vector<glm::vec3> positions, normals;
-  std::vector<glm::vec4> tangents;  // empty where the mesh has none
+  std::vector<glm::vec4> tangents;  // empty: the mesh has none
   std::vector<Attached<Light>> lights;
   std::vector<Attached<Camera>> cameras;
   std::vector<Skin> skins;
-  std::vector<Deformation> deformations;  // one a node at most; nodes rise
+  std::vector<Deformation> deformations;  // at most one for each node, in the order of nodes
 };
 
-// A scene's nodes where they are now. No two have a triangle in common, and the ranges rise with the index.
+// A scene's nodes in their current pose. They share no triangles, and the ranges rise with the index.
 struct NodeTree {
   std::vector<Node> nodes;
   std::vector<std::vector<float>> weights;  // of each deformation's morph targets
@@ -56,10 +56,10 @@ struct NodeTree {
   [[nodiscard]] glm::mat4 world_from(int node) const;
   // The node that a triangle moves with; -1: none.
   [[nodiscard]] int node_of(std::uint32_t triangle) const;
-  [[nodiscard]] int find(std::string_view name) const;  // the first of that name; -1: there is none
+  [[nodiscard]] int find(std::string_view name) const;  // the first with that name; -1: there is none
 };
 
-// That node as pictures name it: kNoTriangle where there is none, 0 where the scene has no nodes at all.
+// The triangle's node as pictures store it: kNoTriangle without a triangle, 0 if the scene has no nodes.
 [[nodiscard]] std::uint32_t object_of(const Scene& scene, std::uint32_t triangle);
 
 struct NodeTransform {
@@ -67,38 +67,38 @@ struct NodeTransform {
   glm::mat4 local;  // replaces the node's
 };
 
-// Of a node's morph targets, one each.
+// The weights of a node's morph targets, one for each.
 struct NodeWeights {
   int node;
   std::vector<float> weights;
 };
 
-// The scene with these nodes moved, and all that hangs on them: a new mesh of the same triangles, materials
-// and textures, so triangle ids stay. What does not move keeps every bit; poses do not add up their rounding.
-// Costs a copy of the mesh, but for its textures; a tracer of it is built anew. Errors: no such node, other
-// than one weight a target, or a transform that leaves the mesh no finite numbers.
+// The scene with these nodes and their children moved: a new mesh of the same triangles, materials and
+// textures, with the same triangle ids. Nodes that do not move keep every bit, and rounding does not add up
+// over poses. Costs a copy of the mesh without its textures; its tracer must be built again. Errors: no such
+// node, another number of weights than of targets, or a transform that makes numbers that are not finite.
 [[nodiscard]] Expected<Scene> posed(const Scene& scene, std::span<const NodeTransform> transforms,
                                     std::span<const NodeWeights> weights = {});
 
-// Scenes put together, each a node of that name with its own nodes below it. Lights and cameras come along;
-// ambient light is the first one's.
+// Several scenes as one: each is a node of that name with its own nodes below it. The result has all lights
+// and cameras, and the first scene's ambient light.
 struct Part {
   std::string name;
-  std::reference_wrapper<const Scene> scene;  // that outlives the part: a temporary one does not compile
+  std::reference_wrapper<const Scene> scene;  // it must outlive the part: a temporary one does not compile
   glm::mat4 world_from_part{1.0f};
 };
 [[nodiscard]] Expected<Scene> assembled(std::span<const Part> parts);
 
-// How a node places what is its. The identity keeps every bit, -0 and all.
+// A node's transform of its vertices and directions. The identity keeps every bit, also of -0.
 class Placement {
  public:
   explicit Placement(const glm::mat4& world_from_node);
 
   [[nodiscard]] glm::vec3 position(const glm::vec3& p) const;
-  [[nodiscard]] glm::vec3 normal(const glm::vec3& n) const;     // unit; of zero, zero
-  [[nodiscard]] glm::vec4 tangent(const glm::vec4& t) const;    // a mirror changes its bitangent's side
+  [[nodiscard]] glm::vec3 normal(const glm::vec3& n) const;     // unit; zero stays zero
+  [[nodiscard]] glm::vec4 tangent(const glm::vec4& t) const;    // a mirror changes the bitangent's side
   [[nodiscard]] glm::vec3 direction(const glm::vec3& d) const;  // unit
-  [[nodiscard]] bool mirrors() const { return mirrors_; }       // triangles turn around
+  [[nodiscard]] bool mirrors() const { return mirrors_; }       // triangles are turned around
 
  private:
   glm::mat4 world_from_node_;

@@ -1,24 +1,24 @@
-// Errors of OpenGL, as every program that draws may catch them. Pinocchio::core throws none of them.
+// OpenGL's errors, for every program that draws. Pinocchio::core does not throw them.
 #pragma once
 
 #include "pinocchio/error.h"
 
 namespace pinocchio {
 
-// The machine's OpenGL failed: out of memory, a shader that does not compile, a limit. what() is the line
-// a person reads.
+// The machine's OpenGL failed: out of memory, a shader that does not compile, a limit. what() is one line for
+// the user.
 class OpenGlError : public EnvironmentError {
  public:
   using EnvironmentError::EnvironmentError;
 };
 
-// There is no OpenGL context that serves; what() lists what was tried and why each failed.
+// There is no usable OpenGL context. what() lists what was tried and why each failed.
 class NoOpenGlError : public OpenGlError {
  public:
   using OpenGlError::OpenGlError;
 };
 
-// The GPU was reset, and the context is lost with all that was in it.
+// The GPU was reset, and the context is lost with all its objects.
 class OpenGlLostError : public OpenGlError {
  public:
   using OpenGlError::OpenGlError;

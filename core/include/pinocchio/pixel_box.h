@@ -6,7 +6,7 @@
 
 namespace pinocchio {
 
-// Half-open box of pixels.
+// A half-open box of pixels.
 struct PixelBox {
   glm::ivec2 lo{0, 0};
   glm::ivec2 hi{0, 0};

@@ -1,4 +1,4 @@
-// Memory for pictures, which are large and often drawn once.
+// Memory for pictures, which are large and often used once.
 #pragma once
 
 #include <cstddef>
@@ -6,9 +6,9 @@
 
 namespace pinocchio {
 
-// Asks for pages of 2 MiB where that wastes little: pages of 4 KiB, which the system gives one by one as they
-// are first written, take longer than drawing a small mesh. What was freed lately is given again, as fresh
-// pages have to be cleared. Throws std::bad_alloc.
+// Memory in pages of 2 MiB where that wastes little: the system provides pages of 4 KiB one by one at the
+// first write, which takes longer than drawing a small mesh. Freed memory is used again, because the system
+// must clear new pages. Throws std::bad_alloc.
 [[nodiscard]] void* allocate_pixels(std::size_t bytes);
 void free_pixels(void* memory, std::size_t bytes) noexcept;
 
@@ -18,7 +18,7 @@ struct PixelAllocator {
 
   PixelAllocator() = default;
   template <class Other>
-  PixelAllocator(const PixelAllocator<Other>&) {}  // NOLINT: as the standard asks
+  PixelAllocator(const PixelAllocator<Other>&) {}  // NOLINT: the standard requires it
 
   [[nodiscard]] T* allocate(std::size_t n) {
     if (n > static_cast<std::size_t>(-1) / (2 * sizeof(T))) throw std::bad_array_new_length();

@@ -1,7 +1,7 @@
-// Long work that can be watched, and ended early. Every function that takes long has a Progress* at the end
-// of its arguments or in its options; null, the default, costs nothing:
+// Progress and cancellation of long work. Every function that takes long has a Progress*, as its last
+// argument or in its options. Null, the default, costs nothing:
 //
-//   Progress progress;                              // outlives the work
+//   Progress progress;                              // must outlive the work
 //   std::thread watcher([&] { show(progress.phase(), progress.fraction()); });
 //   load_scene(file, &warnings, &progress);         // throws Cancelled soon after progress.cancel()
 #pragma once
@@ -12,18 +12,18 @@
 
 namespace pinocchio {
 
-// Thrown by work whose Progress was cancelled, from the thread that called it. No file is half written, and
-// every object is left as good as it was.
+// Thrown on the calling thread by work whose Progress was cancelled. No file is half written, and every
+// object stays usable.
 class Cancelled : public std::runtime_error {
  public:
   Cancelled() : std::runtime_error("cancelled") {}
 };
 
-// Safe to use from any thread; cancel() and cancelled() from signal handlers, too. Once cancelled it stays
-// so.
+// May be used from any thread, cancel() and cancelled() also from signal handlers. It cannot be reset after
+// cancel().
 class Progress {
  public:
-  // whole: of the work that this one's is a part of, cancelled with it; it outlives this one. Null: of none.
+  // whole: the progress of larger work, with which this one is cancelled. It outlives this one. Null: none.
   explicit Progress(const Progress* whole = nullptr) : whole_(whole) {}
 
   void cancel() noexcept { cancelled_.store(true, std::memory_order_relaxed); }
@@ -31,15 +31,15 @@ class Progress {
     return cancelled_.load(std::memory_order_relaxed) || (whole_ && whole_->cancelled());
   }
 
-  // What is being done now: "read", "build", "render", "write" ...; empty before anything has begun.
+  // The current phase: "read", "build", "render", "write" ... Empty before the work begins.
   [[nodiscard]] const char* phase() const noexcept { return phase_.load(std::memory_order_acquire); }
-  // How much of the phase is done, 0 to 1.
+  // The done share of the phase, 0 to 1.
   [[nodiscard]] double fraction() const noexcept {
     const double total = total_.load(std::memory_order_relaxed);
     return total > 0.0 ? std::clamp(done_.load(std::memory_order_relaxed) / total, 0.0, 1.0) : 0.0;
   }
 
-  // For those who do the work. `phase` is a string literal; `steps` are of any size, and may be done in
+  // For the code that does the work. `phase` is a string literal. Steps may have any size and be done in
   // parts.
   void begin(const char* phase, double steps) noexcept {
     done_.store(0.0, std::memory_order_relaxed);
@@ -56,7 +56,7 @@ class Progress {
   static_assert(std::atomic<bool>::is_always_lock_free);
 };
 
-// The same where there may be none.
+// The same for a pointer that may be null.
 inline void throw_if_cancelled(const Progress* progress) {
   if (progress && progress->cancelled()) throw Cancelled();
 }
@@ -64,7 +64,7 @@ inline void begin_phase(Progress* progress, const char* phase, double steps) {
   throw_if_cancelled(progress);
   if (progress) progress->begin(phase, steps);
 }
-// After each piece of work; often enough, that a second is many pieces.
+// Called after each piece of work, many times a second. Throws Cancelled.
 inline void advance(Progress* progress, double steps = 1.0) {
   throw_if_cancelled(progress);
   if (progress) progress->advance(steps);

@@ -9,13 +9,13 @@
 namespace pinocchio {
 
 inline constexpr std::uint32_t kNoTriangle = 0xffffffffu;
-// Light that a ray brings its pixel, linear, below which it is not followed, by default: less than half a
-// step of an 8-bit sRGB picture, even on black (slope 12.92).
+// Default limit: a ray that adds less linear light to its pixel is not followed. It is less than half a step
+// of an 8-bit sRGB picture, even on black (slope 12.92).
 inline constexpr float kThroughputCutoff = 0x1p-13f;
 inline constexpr float kInfinity = std::numeric_limits<float>::infinity();
 
-// Points origin + t * direction with 0 < t < t_max. The direction need not be a unit vector: t counts
-// in its length (a primary ray's t is z_eye, a shadow ray's light sits at t = 1).
+// The points origin + t * direction with 0 < t < t_max. The direction need not be a unit vector: t is in
+// units of its length. A primary ray's t is z_eye, a shadow ray's light is at t = 1.
 struct Ray {
   glm::vec3 origin;
   float t_max = kInfinity;

@@ -5,18 +5,18 @@
 
 namespace pinocchio {
 
-// How far off a surface its shadow, mirrored and refracted rays start.
+// How far from a surface its shadow, mirrored and refracted rays start.
 enum class OffsetMethod {
   fixed,        // one length for every scene
-  scaled,       // one length a scene, from its size
-  error_bound,  // by what rounding can do at that point
+  scaled,       // one length for each scene, from its size
+  error_bound,  // the largest rounding error at that point
 };
 
-// Of error_bound. A ray's origin is rounded once, from the exact point moved along the normal: twice that
-// keeps it on its side.
+// For error_bound. A ray's origin, the exact point moved along the normal, is rounded once: twice that error
+// keeps it on its side of the surface.
 inline constexpr float kPointError = 2.0f * 0x1p-24f;
-// A triangle test errs by a few roundings of the distances it works with (Wächter and Binder 2019 take 32 of
-// all coordinates).
+// The error of a triangle test is a few roundings of its distances (Wächter and Binder 2019 use 32 roundings
+// of all coordinates).
 inline constexpr float kTriangleError = 32.0f * 0x1p-24f;
 
 inline constexpr std::array kOffsetMethods{OffsetMethod::fixed, OffsetMethod::scaled,
@@ -27,7 +27,7 @@ inline constexpr std::array<std::string_view, 3> kOffsetMethodNames{"fixed", "sc
   return name_of(kOffsetMethodNames, method);
 }
 
-// The method with the scene's length; by default the error bound, which needs none.
+// The method with its length for a scene. The default, the error bound, needs no length.
 struct RayOffset {
   OffsetMethod method = OffsetMethod::error_bound;
   float length = 0.0f;  // scene units; fixed, scaled

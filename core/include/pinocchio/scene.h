@@ -18,8 +18,8 @@ namespace pinocchio {
 
 struct Animation;
 
-// A cheap value: copies share the mesh, so that moving a light copies no geometry. Lengths are in the file's
-// units ("scene units"), colours linear.
+// Cheap to copy: copies share the mesh, so that moving a light copies no geometry. Lengths are in the file's
+// units ("scene units"), colours are linear.
 struct Scene {
   Scene() = default;
   explicit Scene(MeshData data) : mesh(std::make_shared<const Mesh>(std::move(data))) {}
@@ -27,17 +27,17 @@ struct Scene {
   std::shared_ptr<const Mesh> mesh = std::make_shared<const Mesh>();  // never null
   std::vector<Light> lights;
   std::vector<Camera> cameras;
-  glm::vec3 ambient_light{0.1f};                   // Ia; no file format we read carries it
-  std::shared_ptr<const Environment> environment;  // seen where no triangle is, and shines; null: black
-  float environment_rotation_deg = 0.0f;           // how far it is turned about +Y
-  float environment_strength = 1.0f;               // multiplies its light
-  std::shared_ptr<const NodeTree> nodes;           // of what can be moved; null: nothing can
+  glm::vec3 ambient_light{0.1f};                   // Ia; no file format that we read has it
+  std::shared_ptr<const Environment> environment;  // light where no triangle is; null: black
+  float environment_rotation_deg = 0.0f;           // about +Y
+  float environment_strength = 1.0f;               // multiplies the environment's light
+  std::shared_ptr<const NodeTree> nodes;           // the parts that can move; null: none
   std::shared_ptr<const Animation> animation;      // of the nodes (pinocchio/animation.h); null: none
 
-  std::string source;                     // path it was loaded from
-  std::vector<std::string> source_files;  // that path and all files it names, also those that are missing
+  std::string source;                     // the file's path
+  std::vector<std::string> source_files;  // that path and all files that it names, also missing ones
 
-  // Whether they look the same, from anywhere.
+  // Whether they look the same from anywhere.
   friend bool operator==(const Scene& a, const Scene& b) {
     return a.mesh == b.mesh && a.lights == b.lights && a.ambient_light == b.ambient_light &&
            a.environment == b.environment && a.environment_rotation_deg == b.environment_rotation_deg &&
@@ -45,33 +45,33 @@ struct Scene {
   }
 };
 
-// Indices in scene.lights of the lights that cast shadows; position in the result is the mask slot.
+// Indices in scene.lights of the lights that cast shadows. The position in the result is the mask slot.
 [[nodiscard]] std::vector<int> casting_lights(const Scene& scene);
 
-// The other way round: each light's mask slot, -1 where it does not cast.
+// The inverse: each light's mask slot, -1 for a light that does not cast.
 [[nodiscard]] std::vector<int> mask_slots(const Scene& scene);
 
-// Whether any of the box may be lit by it. False only where surely none is: no radiance, out of range, or
-// outside the spot's cone.
+// Whether the light may reach a part of the box. False only if it certainly does not: no radiance, out of
+// range, or outside the spot's cone.
 [[nodiscard]] bool reaches(const Light& light, const Bounds& box);
 
-// Lights that reach nothing cast nothing: no mask slot is spent on them.
+// Lights that reach nothing do not cast, so that they take no mask slot.
 void drop_idle_casters(Scene& scene);
 
-// Whether one picture of it is one sample of many: of lights with a size, of glossy mirrors, of an
+// Whether a picture of the scene needs many samples: the scene has lights with a size, glossy mirrors or an
 // environment.
 [[nodiscard]] bool takes_samples(const Scene& scene);
 
-// First camera named `name`, else nullptr.
+// The first camera named `name`; null: none.
 [[nodiscard]] const Camera* find_camera(const Scene& scene, const std::string& name);
 
-// A camera that has the whole scene in view, from slightly above and to the side.
+// A camera that sees the whole scene, from slightly above and to the side.
 [[nodiscard]] Camera camera_for_whole_scene(const Scene& scene);
 
-// The light a scene without lights gets: a casting point light above and beside the camera's eye.
+// The light of a scene without lights: a casting point light above and beside the camera's eye.
 [[nodiscard]] Light default_light(const Scene& scene, const Camera& camera);
 
-// Exact upper limits of what the renderer can draw; above them loading is an error that says so.
+// The exact limits of the renderer. Loading a larger scene is an error that names the limit.
 inline constexpr std::size_t kMaxTriangles = 0x3fffffffu;
 
 }  // namespace pinocchio

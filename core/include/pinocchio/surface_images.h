@@ -7,10 +7,10 @@
 
 namespace pinocchio {
 
-// What the visible point of each pixel is like, beside its colour; all from the triangle's id.
+// Properties of the visible point of each pixel, all computed from its triangle's id.
 struct SurfaceImages {
   Image<float> z_eye;          // along the view axis; +inf where nothing is hit
-  Image<glm::vec3> p_world;    // 0 where nothing is hit, as the next two
+  Image<glm::vec3> p_world;    // this and the next two are 0 where nothing is hit
   Image<glm::vec3> n_shading;  // unit
   Image<glm::vec3> albedo;     // diffuse colour, linear
 };

@@ -14,13 +14,13 @@
 
 namespace pinocchio {
 
-// RGBA, 8 bits a channel; colour is sRGB as the file stores it, alpha and all that is no colour linear. Row 0
-// is the top row.
+// RGBA, 8 bits for each channel. Colour is sRGB, as the file stores it; alpha and other data are linear. Row
+// 0 is the top row.
 struct Texture {
   std::string name;
   Image<glm::u8vec4> texels;
-  // Half as wide and high, again and again down to one texel, each the mean of the one before; a finished
-  // mesh has them of the textures that are interpolated.
+  // Mipmap levels from half the size down to one texel, each the mean of the previous. A finished mesh has
+  // them for the textures that are interpolated.
   std::vector<glm::u8vec4> smaller_levels{};
 
   [[nodiscard]] int levels() const {
@@ -29,8 +29,8 @@ struct Texture {
   }
 };
 
-// A mesh's textures. Copies share them until one is edited, so that meshes of which only vertices differ hold
-// them once.
+// A mesh's textures. Copies share them until one is edited, so that meshes with different vertices hold them
+// once.
 class Textures {
  public:
   Textures() = default;
@@ -43,28 +43,28 @@ class Textures {
   [[nodiscard]] const Texture* begin() const { return all_ ? all_->data() : nullptr; }
   [[nodiscard]] const Texture* end() const { return begin() + size(); }
 
-  // To be changed; what copies see of them stays.
+  // For changes. Copies keep the old textures.
   [[nodiscard]] std::vector<Texture>& edit() {
     if (!all_ || all_.use_count() > 1) all_ = std::make_shared<std::vector<Texture>>(begin(), end());
     return *all_;
   }
-  // Whether they are the very same, not only alike.
+  // Whether both share the same textures, not only equal ones.
   [[nodiscard]] bool shares_with(const Textures& other) const { return all_ == other.all_; }
 
  private:
   std::shared_ptr<std::vector<Texture>> all_;  // null: none
 };
 
-// What is seen beyond a texture's edges.
+// How a texture continues beyond its edges.
 enum class Wrap : std::uint8_t { repeat, mirror, clamp };
 
-// One texture on a surface.
+// How a surface uses a texture.
 struct TextureUse {
-  int texture = -1;  // index in MeshData::textures; -1: none, as white
+  int texture = -1;  // index in MeshData::textures; -1: none, like white
   int uv_set = 0;    // 0: MeshData::texcoords, 1: MeshData::texcoords1
   glm::mat3x2 uv_from_texcoord{1.0f, 0.0f, 0.0f, 1.0f, 0.0f, 0.0f};  // KHR_texture_transform, MTL's -s and -o
   Wrap wrap_u = Wrap::repeat, wrap_v = Wrap::repeat;
-  bool nearest = false;  // else interpolated
+  bool nearest = false;  // false: interpolated
 
   [[nodiscard]] bool used() const { return texture >= 0; }
   friend bool operator==(const TextureUse&, const TextureUse&) = default;

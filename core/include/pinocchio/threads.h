@@ -1,11 +1,11 @@
-// What happens where the system refuses to start a thread: a limit of processes or of memory is reached.
+// The system may refuse to start a thread, when a limit of processes or of memory is reached.
 #pragma once
 
 namespace pinocchio {
 
-// The work goes on with the threads that did start, at least with the calling one, and gives the same result.
-// `handler` hears of it in one line, once, on the thread that wanted the threads; null, the default: nobody
-// does.
+// The work then continues with the threads that did start, at least the calling one, and gives the same
+// result. `handler` gets one line about it, once, on the thread that asked for the threads. Null, the
+// default: no handler.
 using ThreadWarning = void (*)(const char* line);
 void set_thread_warning(ThreadWarning handler);
 

@@ -19,7 +19,7 @@ struct BspTree;
 struct LaneSteps;
 struct RayColumns;
 
-// Width of the packets that rays are traced in.
+// The instruction set, which sets the width of ray packets.
 enum class Isa { scalar, sse4, avx2, avx512 };
 
 inline constexpr std::array<std::string_view, 4> kIsaNames{"scalar", "sse4", "avx2", "avx512"};
@@ -29,37 +29,37 @@ inline constexpr std::array<std::string_view, 4> kIsaNames{"scalar", "sse4", "av
 [[nodiscard]] bool isa_supported(Isa isa);        // by this processor
 [[nodiscard]] std::vector<Isa> supported_isas();  // narrowest first
 
-// The widest that this processor has: wider was faster wherever it was measured (docs/measurements.md).
+// The widest that this processor supports: wider was faster in every measurement (docs/measurements.md).
 [[nodiscard]] Isa default_isa();
 
-// A mesh, which it shares, and its tree: closest hits and occlusion of any number of rays, which need not
-// belong together; neighbours in the span that go the same way are traced as one packet. What a ray hits does
-// not depend on its neighbours nor on the packet's width, to the last bit. Of triangles at one distance
-// the lowest id is hit. A ray whose origin or direction is NaN or infinite, or whose direction is zero,
-// hits nothing. Safe to call from many threads.
+// A shared mesh and its tree: closest hits and occlusion of any number of rays. Rays need not be coherent;
+// neighbours in the span with similar directions are traced as one packet. A ray's hit does not depend, to
+// the last bit, on its neighbours or the packet's width. Of triangles at the same distance, the one with the
+// lowest id is hit. A ray with NaN or infinity in its origin or direction, or with a zero direction, hits
+// nothing. May be called from many threads.
 class Tracer {
  public:
-  // Builds the tree, on options.threads threads. The mesh has at least one triangle and finite positions, as
-  // load_scene and check_scene see to. `isa`: nothing asks for default_isa(); one that the processor lacks
-  // throws EnvironmentError.
+  // Builds the tree on options.threads threads. The mesh has at least one triangle and finite positions,
+  // which load_scene and check_scene ensure. `isa`: none means default_isa(). Throws EnvironmentError if the
+  // processor does not support it.
   explicit Tracer(std::shared_ptr<const Mesh> mesh, const BuildOptions& options = {},
                   std::optional<Isa> isa = {}, OffsetMethod offset = OffsetMethod::error_bound);
 
-  // hits[i] is the closest of ray i, its t in lengths of the ray's direction; hits.size() == rays.size().
+  // hits[i]: the closest hit of ray i, t in lengths of the ray's direction. hits.size() == rays.size().
   void closest_hits(std::span<const Ray> rays, std::span<Hit> hits) const;
-  // blocked[i] = 1 where any triangle lies within ray i, else 0; blocked.size() == rays.size().
+  // blocked[i] is 1 if ray i meets any triangle, else 0. blocked.size() == rays.size().
   void occluded(std::span<const Ray> rays, std::span<std::uint8_t> blocked) const;
 
-  // The same of `n` rays in columns, as trace/kernels.h has it: what the tile pass uses.
+  // The same for `n` rays in columns (walk/kernels.h), for the tile pass.
   void closest_hits(const RayColumns& rays, std::size_t n, std::uint32_t* triangle, float* t = nullptr) const;
   void occluded(const RayColumns& rays, std::size_t n, std::uint8_t* blocked) const;
-  // Steps of the tile pass at this tracer's width.
+  // The steps of the tile pass at this tracer's width.
   [[nodiscard]] const LaneSteps& steps() const;
 
   [[nodiscard]] const Mesh& mesh() const { return *mesh_; }
   [[nodiscard]] const BspTree& tree() const { return *tree_; }
   [[nodiscard]] Isa isa() const { return isa_; }
-  // Of the rays that start on its surfaces: what surface_at wants.
+  // How rays that start on its surfaces keep off them.
   [[nodiscard]] const RayOffset& offset() const { return offset_; }
 
  private:

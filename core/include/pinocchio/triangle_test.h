@@ -4,12 +4,12 @@
 
 namespace pinocchio {
 
-// How a ray is asked whether it meets a triangle (core/trace/triangle_tests/).
+// The method that tests whether a ray meets a triangle (core/trace/triangle_tests/).
 enum class TriangleTest {
-  projected,         // Wald 2004, as of 2005: dropped along an axis, weights looked up in the plane
+  projected,         // Wald 2004, revised 2005: projected along an axis, weights computed in the plane
   moeller_trumbore,  // Möller and Trumbore 1997: weights by cross products of the corners
   watertight,        // Woop, Benthin and Wald 2013: signs of edge functions in the ray's own frame
-  filtered,  // projected, with a bound of its own error; what that leaves in doubt is decided in double
+  filtered,          // projected, with an error bound; doubtful cases are decided in double precision
 };
 
 inline constexpr std::array kTriangleTests{TriangleTest::projected, TriangleTest::moeller_trumbore,

@@ -1,4 +1,4 @@
-// Part of trace/kernel.h's files: materials with maps, for the lanes that have one.
+// Part of walk/kernel.h's files: materials with maps, for the lanes that have one.
 #pragma once
 
 #include "core/trace/lanes/material.h"
@@ -18,7 +18,7 @@ inline Vec load(const MapLanes::Column (&columns)[3]) {
   return {Float::load(columns[0]), Float::load(columns[1]), Float::load(columns[2])};
 }
 
-// Rare, and large: out of the way of the lanes that have none.
+// Not inlined: it is large, and most packets have no maps.
 [[gnu::noinline]] void apply_maps(const Bounce& bounce, Int triangle, const Vec& origin, const Vec& direction,
                                   Float width, LaneSurface& s, LaneMaterial& m) {
   MapLanes packet;

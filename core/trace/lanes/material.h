@@ -1,7 +1,7 @@
-// Part of trace/kernel.h's files.
+// Part of walk/kernel.h's files: the materials that a packet's rays meet.
 #pragma once
 
-#include "core/trace/lanes/vector.h"
+#include "core/trace/lanes/shared.h"
 
 namespace pinocchio::PINOCCHIO_LANES {
 namespace {
@@ -10,10 +10,7 @@ inline bool any_component(const glm::vec3& v) {
   return v.x + v.y + v.z > 0.0f;
 }
 
-// The materials that the lanes see.
-struct LaneMaterial {
-  Vec ambient{Float(0.0f)}, diffuse{Float(0.0f)}, specular{Float(0.0f)}, emission{Float(0.0f)};
-  Float shininess{0.0f};
+struct LaneMaterial : PhongParams {
   Vec reflectance{Float(0.0f)}, transmittance{Float(0.0f)};
   Float ior{1.0f};
   Float alpha{1.0f};
@@ -21,6 +18,8 @@ struct LaneMaterial {
   unsigned glossy = 0, fresnel = 0, reflects = 0, transmits = 0, mapped = 0, blends = 0, brdf = 0;  // lanes
 
   LaneMaterial(const SceneArrays& scene, Int materials, Mask lanes) {
+    ambient = diffuse = specular = emission = Vec(Float(0.0f));
+    shininess = 0.0f;
     for_each_distinct(materials, lanes, [&](std::uint32_t index, Mask same) {
       const Material& m = scene.materials[index];
       ambient = select(same, Vec(m.ambient), ambient);

@@ -1,20 +1,19 @@
-// Part of trace/kernel.h's files: light that goes through a coloured medium (Beer and Lambert). What a
+// Part of walk/kernel.h's files: light that goes through a coloured medium (Beer and Lambert). What a
 // material encloses begins where a ray is refracted into it and ends where one meets it from behind.
 #pragma once
 
 #include "core/trace/lanes/material.h"
-#include "core/trace/lanes/power.h"
 #include "core/trace/lanes/surface.h"
 
 namespace pinocchio::PINOCCHIO_LANES {
 namespace {
 
-// On both sides of the surfaces that a packet meets: a material's index, or kNoMedium.
+// The media on both sides of the surfaces that a packet meets: a material's index, or kNoMedium.
 struct LaneMedia {
   Int here{kNoMedium}, beyond{kNoMedium};
 };
 
-// Rare: out of the way of scenes without.
+// Not inlined: few scenes have a medium.
 [[gnu::noinline]] LaneMedia media_at(const Bounce& bounce, Int of_ray, Int material, const LaneSurface& s,
                                      Float ior, Mask lanes) {
   Mask own = Mask::from_bits(0);
@@ -23,12 +22,12 @@ struct LaneMedia {
   });
   const Int none(kNoMedium);
   const Int here = select(own & s.leaving, material, of_ray);
-  // Walls without a thickness bend nothing, and the medium is the same behind them.
+  // Walls without a thickness do not bend light, and the medium is the same behind them.
   const Mask thin = (ior == Float(1.0f)) & ~own;
   return {here, select(thin, here, select(own & ~s.leaving, material, none))};
 }
 
-// What is left of light after that way through a medium.
+// The share of light that is left after `length` in the medium.
 [[gnu::noinline]] Vec attenuation(const Bounce& bounce, Int medium, Float length, Mask lanes) {
   Vec left(Float(1.0f));
   for_each_distinct(medium, lanes & ~(medium == Int(kNoMedium)), [&](std::uint32_t index, Mask same) {

@@ -1,4 +1,4 @@
-// Part of trace/kernel.h's files.
+// Part of walk/kernel.h's files: x^y.
 #pragma once
 
 namespace pinocchio::PINOCCHIO_LANES {
@@ -24,8 +24,8 @@ namespace {
 // 2^x; beyond what a float holds, zero or infinity.
 [[gnu::always_inline]] inline Float exp2_of(const Double& x) {
   const Double t = clamp(x, -200.0, 200.0);
-  // Added to 1.5 * 2^52 a number loses its fraction, and the rest stands in its lowest bits: here with 1023
-  // added, an exponent of double.
+  // A number added to 1.5 * 2^52 loses its fraction, and the whole part is in the lowest bits: with 1023
+  // added, they are an exponent of double.
   constexpr double kRound = 0x1.8p52 + 1023.0;
   const Double shifted = t + Double(kRound);
   const Double f = t - (shifted - Double(kRound));  // [-1/2, 1/2]
@@ -42,8 +42,8 @@ namespace {
   return to_float(sum * low_bits_to_exponent(shifted));
 }
 
-// x^y for x > 0 and any y, within 0.51 units in the last place (tests/core/trace_tiles_test.cpp holds it
-// against libm): the same bits at every width and on every machine.
+// x^y for x > 0 and any y, within 0.51 units in the last place (tests/core/trace/trace_tiles_test.cpp holds
+// it against libm): the same bits at every width and on every machine.
 [[gnu::noinline]] Float power(Float x, Float y) {
   return exp2_of(Double(y) * log2_of(x));
 }

@@ -1,11 +1,9 @@
-// Part of trace/kernel.h's files: mirrored and refracted rays. Dielectrics share by Fresnel's equations
+// Part of walk/kernel.h's files: mirrored and refracted rays. Dielectrics share by Fresnel's equations
 // (beyond the critical angle all is mirrored); opaque mirrors have a constant reflectance or Schlick's.
 #pragma once
 
-#include "core/trace/lanes/light.h"
 #include "core/trace/lanes/material.h"
 #include "core/trace/lanes/medium.h"
-#include "core/trace/lanes/sized_light.h"
 #include "core/trace/lanes/surface.h"
 
 namespace pinocchio::PINOCCHIO_LANES {
@@ -18,13 +16,12 @@ inline Vec mirrored(const LaneSurface& s) {
   return select(good, direction, reflect(-s.to_viewer, s.n_geometric));
 }
 
-// About the mirrored direction by its lobe, (n + 1) / (2 pi) cos^n; n 0: the mirrored direction itself. What
-// would go into the surface is lost: `lanes` keep the others.
-inline Vec spread(const LaneSurface& s, const Vec& direction, Float gloss, const LanePoint& square,
-                  Mask& lanes) {
+// A direction of the lobe about the mirrored one, (n + 1) / (2 pi) cos^n; the mirrored direction itself where
+// n is 0. `lanes` loses those that would go into the surface.
+inline Vec spread(const LaneSurface& s, const Vec& direction, Float gloss, const vec2& square, Mask& lanes) {
   const Float zero(0.0f), one(1.0f);
   const Mask sharp = gloss == zero;
-  const LanePoint disc = disc_of_square(square);
+  const vec2 disc = disc_of_square(square);
   const Float rho2 = min(disc.x * disc.x + disc.y * disc.y, Float(0x1.fffffep-1f));
   const Float cosine = power(one - rho2, one / (gloss + one));
   const Float sine = sqrt(max(one - cosine * cosine, zero));
@@ -61,7 +58,7 @@ inline Float fresnel_dielectric(Float cos_in, Float eta) {
   return select(one <= sin2_out, one, Float(0.5f) * (parallel * parallel + perpendicular * perpendicular));
 }
 
-// A packet's rays behind the last of the queue's; those alone that are worth `least` in any colour.
+// Appends the rays of `lanes` to the queue.
 inline void append(const Vec& origin, const Vec& direction, const Vec& light, Int pixel, Mask lanes,
                    RayQueue& queue) {
   const std::size_t i = queue.size;
@@ -78,7 +75,8 @@ inline void append(const Vec& origin, const Vec& direction, const Vec& light, In
   queue.size += static_cast<std::size_t>(__builtin_popcount(lanes.bits()));
 }
 
-// `medium`: that the rays go through; null where no material has one.
+// Appends those rays that are worth `least` in some colour. `medium`: what they go through; null where no
+// material has one.
 inline void follow(const LaneSurface& s, const Vec& direction, const Vec& throughput, Int pixel, Mask lanes,
                    float least, RayQueue& queue, const Int* medium) {
   const Mask worth = lanes & ~(largest(throughput) < Float(least));
@@ -88,7 +86,7 @@ inline void follow(const LaneSurface& s, const Vec& direction, const Vec& throug
   append(offset_origin(s, direction), direction, throughput, pixel, worth, queue);
 }
 
-// What a surface that blends leaves of what is behind it.
+// Rays through a surface that blends, with what it leaves of the light from behind.
 inline void go_straight_on(const LaneSurface& s, const LaneMaterial& m, const Vec& throughput, Int pixel,
                            Mask lanes, const Bounce& bounce, const LaneMedia* media) {
   follow(s, -s.to_viewer, throughput * (Float(1.0f) - m.alpha), pixel, lanes & Mask::from_bits(m.blends),
@@ -97,7 +95,7 @@ inline void go_straight_on(const LaneSurface& s, const LaneMaterial& m, const Ve
 
 template <bool kSampled>
 inline void scatter(const LaneSurface& s, const LaneMaterial& m, const Vec& throughput,
-                    const LaneSampling* sampling, Int pixel, Mask lanes, const Bounce& bounce,
+                    const SampledPixel* sampling, Int pixel, Mask lanes, const Bounce& bounce,
                     const LaneMedia* media) {
   const unsigned alive = lanes.bits(), glass = m.transmits & alive,
                  opaque = m.reflects & ~m.transmits & alive;
@@ -117,7 +115,7 @@ inline void scatter(const LaneSurface& s, const LaneMaterial& m, const Vec& thro
     const Float eta = select(s.leaving, one / m.ior, m.ior);
     const Vec through = refracted(s, eta);
     // Where the two normals disagree there may be no way through although Fresnel has a share for it.
-    const Float share = select(is_dark(through), one, fresnel_dielectric(cos_in, eta));
+    const Float share = select(through == Vec(zero), one, fresnel_dielectric(cos_in, eta));
     mirror_share = select(Mask::from_bits(glass), Vec(share), mirror_share);
     follow(s, through, own * (one - share) * m.transmittance, pixel, Mask::from_bits(glass),
            bounce.options->throughput_cutoff, *bounce.refracted, media ? &media->beyond : nullptr);

@@ -1,10 +1,9 @@
-// Part of trace/kernel.h's files: the steps of trace/lane_steps.h, included last.
+// Part of walk/kernel.h's files: the steps of lanes/lane_steps.h, included last.
 #pragma once
 
 #include <optional>
 
 #include "core/trace/lanes/environment.h"
-#include "core/trace/lanes/light.h"
 #include "core/trace/lanes/maps.h"
 #include "core/trace/lanes/scatter.h"
 #include "core/trace/lanes/terminator.h"
@@ -62,73 +61,79 @@ inline void add_light(const Vec& light, const std::uint32_t* pixel, Mask lanes, 
   }
 }
 
-// Towards a light that casts: shadow rays for `lanes`, which carry `light`.
-inline void ask(const BounceLight& from, const ShadowStarts& starts, const LaneIncident& incident,
-                const Vec& light, Int pixel, Mask lanes, const Bounce& bounce) {
+// Shadow rays of `lanes` towards a light that casts. They carry `light`.
+inline void append_shadow_rays(const BounceLight& from, const ShadowStarts& starts, const Incident& incident,
+                               const Vec& light, Int pixel, Mask lanes, const Bounce& bounce) {
   if (lanes.bits() == 0) return;
   const Vec origin = starts.origins(incident.to_light);
   const bool far = from.params.kind == shared::kLightDirectional;
   const Vec direction = far ? incident.to_light : incident.target - origin;  // the light sits at t = 1
   append(origin, direction, light, pixel, lanes, bounce.shadow[from.slot]);
-  starts.ask_ways_up(lanes, bounce.shadow[from.slot], bounce.ways_up[from.slot]);
+  starts.append_ways_up(lanes, bounce.shadow[from.slot], bounce.ways_up[from.slot]);
 }
 
-// The pixels that the tile's samples are of.
-inline IntPair whole_picture_pixel(const Bounce& bounce, Int pixel) {
+// The whole picture's pixels that the tile's samples belong to.
+inline whole2 whole_picture_pixel(const Bounce& bounce, Int pixel) {
   const Int row = shift_right<kTileBits>(pixel), scale(bounce.scale);
   return {(pixel - shift_left<kTileBits>(row)) * scale + Int(bounce.corner.x),
           row * scale + Int(bounce.corner.y)};
 }
 
-// Where a light's light comes from at the points of a packet.
+// The light that comes from one light to the points of a packet.
 template <bool kSampled>
-[[gnu::always_inline]] inline LaneIncident light_from(const BounceLight& light, const LaneSurface& s,
-                                                      const LaneSampling* sampling, std::uint32_t dimension) {
+[[gnu::always_inline]] inline Incident light_from(const BounceLight& light, const LaneSurface& s,
+                                                  const SampledPixel* sampling, std::uint32_t dimension) {
   if constexpr (kSampled)
     if (light.has_size)
       return sampled_light(light.params, s.p_world,
                            sample_2d(*sampling, dimension + shared::kLightDimension + light.index));
-  return incident_light(light.params, Vec(light.params.position), s.p_world);
+  return incident_light(light.params, light.params.position, s.p_world);
 }
 
-// What the lights do at the points of a packet; returns what reaches them for certain.
+// An upper bound of what the light adds to the point, in its brightest colour: Phong's terms with the
+// highlight at its greatest.
+inline Float most_light(const LaneMaterial& material, const Incident& incident, const LaneSurface& s) {
+  const Float n_dot_l = max(dot(s.n_shading, incident.to_light), Float(0.0f));
+  return largest(incident.radiance * (material.diffuse * n_dot_l + material.specular));
+}
+
+// Lights the points of a packet: appends shadow rays and returns the light that needs none.
 template <bool kSampled>
 inline Vec light_points(const Bounce& bounce, const Corners& corners, const LaneSurface& s,
-                        const LaneMaterial& m, const Vec& throughput, const LaneSampling* sampling, Int pixel,
+                        const LaneMaterial& m, const Vec& throughput, const SampledPixel* sampling, Int pixel,
                         Mask lanes) {
   ShadowStarts starts(bounce.options->terminator, corners, s);
   Vec sum(Float(0.0f));
-  if (bounce.adds_ambient) sum = m.ambient * Vec(bounce.ambient_light) + m.emission;
+  if (bounce.adds_ambient) sum = phong_ambient(m, bounce.ambient_light);
   for (std::size_t i = 0; i < bounce.light_count; ++i) {
     const BounceLight& light = bounce.lights[i];
-    const LaneIncident incident = light_from<kSampled>(light, s, sampling, bounce.dimension);
-    Mask lit = lanes & starts.faces_light(incident.to_light) & ~is_dark(incident.radiance);
+    const Incident incident = light_from<kSampled>(light, s, sampling, bounce.dimension);
+    Mask lit = lanes & starts.faces_light(incident.to_light) & (incident.radiance != Vec(0.0f));
     if (bounce.visible && light.slot >= 0 && bounce.options->light_cutoff > 0.0f)
       lit = lit & ~(most_light(m, incident, s) < Float(bounce.options->light_cutoff));
     if (lit.bits() == 0) continue;
     Vec term(Float(0.0f));
-    if (bounce.adds_light) term = phong_light(m, incident, s, lit);
+    if (bounce.adds_light) term = phong_light(m, incident, s.n_shading, s.to_viewer, lit);
     if (bounce.options->terminator == Terminator::smoothed)
-      term = term * terminator_factor(s, incident.to_light);
+      term = term * terminator_factor(s.n_shading, s.n_geometric, incident.to_light);
     if (light.slot < 0) {
       sum = select(lit, sum + term, sum);
       continue;
     }
     const Vec carried = throughput * term;
     if (!bounce.visible) lit = lit & ~(largest(carried) < Float(bounce.options->throughput_cutoff));
-    ask(light, starts, incident, carried, pixel, lit, bounce);
+    append_shadow_rays(light, starts, incident, carried, pixel, lit, bounce);
   }
   if constexpr (kSampled)
-    if (bounce.environment) ask_environment(bounce, starts, s, m, throughput, *sampling, pixel, lanes);
+    if (bounce.environment) sample_environment(bounce, starts, s, m, throughput, *sampling, pixel, lanes);
   return sum;
 }
 
-// How many rays ahead of a packet what it reads is fetched: its triangles, then, by these, their corners. On
-// meshes of small triangles the step would wait for memory most of its time.
+// How many rays ahead of a packet its triangles are fetched, and then their corners. On meshes of small
+// triangles the step would wait for memory most of its time.
 constexpr std::size_t kTrianglesAhead = 96, kCornersAhead = 32;
 
-// Calls fetch(triangle) for rays `first` and on, a packet of them; for neighbours that meet the same one,
-// once.
+// Calls fetch(triangle) for a packet of rays from `first` on; once for neighbours that meet the same one.
 template <class Fetch>
 inline void for_each_ahead(const RayQueue& rays, std::size_t first, Fetch fetch) {
   const std::size_t end = first + kWidth < rays.size ? first + kWidth : rays.size;
@@ -153,8 +158,8 @@ inline void fetch_corners(const SceneArrays& scene, const RayQueue& rays, std::s
   });
 }
 
-// kSampled: some light has a size, some mirror is rough, or there is light from all around. Scenes without
-// pay nothing for what those need.
+// kSampled: some light has a size, some mirror is rough, or there is light from all around. Other scenes pay
+// nothing for it.
 template <bool kSampled>
 void bounce_packets(const Bounce& bounce, const RayQueue& rays) {
   const bool reads_material = bounce.adds_light || bounce.adds_ambient || bounce.mirrored ||
@@ -192,9 +197,10 @@ void bounce_packets(const Bounce& bounce, const RayQueue& rays) {
     }
     const LaneMedia* const media = surrounding ? &*surrounding : nullptr;
     const Vec own = m.blends != 0 ? throughput * m.alpha : throughput;
-    std::optional<LaneSampling> sampling;
-    if constexpr (kSampled) sampling.emplace(bounce.options->sampling, whole_picture_pixel(bounce, pixel));
-    const LaneSampling* const samples = kSampled ? &*sampling : nullptr;
+    std::optional<SampledPixel> sampling;
+    if constexpr (kSampled)
+      sampling = sampled_pixel(bounce.options->sampling, whole_picture_pixel(bounce, pixel));
+    const SampledPixel* const samples = kSampled ? &*sampling : nullptr;
     const Vec certain = light_points<kSampled>(bounce, corners, s, m, own, samples, pixel, lanes);
     if (bounce.adds_light) add_light(own * certain, rays.pixel + i, lanes, bounce.radiance);
     if (bounce.mirrored) scatter<kSampled>(s, m, throughput, samples, pixel, lanes, bounce, media);
@@ -213,7 +219,8 @@ inline void put(const Vec& v, float* const (&columns)[3], std::size_t i) {
   v.z.store(columns[2] + i);
 }
 
-void see(const Bounce& bounce, const glm::vec3& axis, const RayQueue& rays, const SeenColumns& to) {
+void visible_points(const Bounce& bounce, const glm::vec3& axis, const RayQueue& rays,
+                    const SeenColumns& to) {
   const bool reads_material = to.albedo[0] != nullptr || bounce.scene.mesh != nullptr;
   for (std::size_t i = 0; i < rays.size; i += kWidth) {
     fetch_triangles(bounce.scene, rays, i + kTrianglesAhead);
@@ -232,22 +239,8 @@ void see(const Bounce& bounce, const glm::vec3& axis, const RayQueue& rays, cons
   }
 }
 
-void powers(const float* x, const float* y, float* result, std::size_t count) {
-  for (std::size_t i = 0; i < count; i += kWidth)
-    power(Float::load(x + i), Float::load(y + i)).store(result + i);
-}
-
-void samples(const shared::Sampling& of, const std::uint32_t* x, const std::uint32_t* y,
-             std::uint32_t dimension, float* u, float* v, std::size_t count) {
-  for (std::size_t i = 0; i < count; i += kWidth) {
-    const LanePoint p = sample_2d(LaneSampling(of, {Int::load(x + i), Int::load(y + i)}), dimension);
-    p.x.store(u + i);
-    p.y.store(v + i);
-  }
-}
-
 }  // namespace
 
-const LaneSteps kSteps{camera_rays, keep_hits, bounce_rays, see, samples, powers, sample_texture};
+const LaneSteps kSteps{camera_rays, keep_hits, bounce_rays, visible_points};
 
 }  // namespace pinocchio::PINOCCHIO_LANES

@@ -1,7 +1,7 @@
-// Part of trace/kernel.h's files: core/trace/surface.cpp and shaders/shared/surface.glsl in lanes.
+// Part of walk/kernel.h's files: core/shade/surface.cpp in lanes.
 #pragma once
 
-#include "core/trace/lanes/vector.h"
+#include "core/trace/lanes/shared.h"
 
 namespace pinocchio::PINOCCHIO_LANES {
 namespace {
@@ -35,38 +35,8 @@ struct LaneSurface {
   Vec to_viewer;    // unit
   Mask leaving;     // the ray met the surface from behind
   Float offset;     // how far off the surface a new ray starts
-  Float width;      // of the ray's cone there, where textures are filtered
+  Float width;      // the ray's cone's there, where textures are filtered
 };
-
-inline Vec barycentric_of(const Vec& origin, const Vec& direction, const Vec& a, const Vec& ab,
-                          const Vec& ac) {
-  const Vec from_a = origin - a, p = cross(direction, ac);
-  const Float det = dot(ab, p);
-  Float u = clamp(dot(from_a, p) / det, 0.0f, 1.0f);
-  Float v = clamp(dot(direction, cross(from_a, ab)) / det, 0.0f, 1.0f);
-  const Float sum = u + v;
-  const Mask beyond = Float(1.0f) < sum;
-  if (beyond.bits() != 0) {
-    u = select(beyond, u / sum, u);
-    v = select(beyond, v / sum, v);
-  }
-  const Mask edge_on = det == Float(0.0f);
-  return select(edge_on, Vec(Float(1.0f / 3.0f)), Vec(Float(1.0f) - u - v, u, v));
-}
-
-inline Vec geometric_normal(const Vec& ab, const Vec& ac, const Vec& fallback) {
-  const Float size = max(largest(abs(ab)), largest(abs(ac)));
-  const Vec n = cross(ab / size, ac / size);
-  const Float square = dot(n, n);
-  // Written so that NaN (a size of zero) fails.
-  return select(Float(0.0f) < square, n / sqrt(square), fallback);
-}
-
-inline Vec shading_normal(const Vec& weights, const Vec (&normal)[3], const Vec& n_geometric) {
-  const Vec n = normal[0] * weights.x + normal[1] * weights.y + normal[2] * weights.z;
-  const Float square = dot(n, n);
-  return select(Float(1e-12f) < square, n / sqrt(square), n_geometric);
-}
 
 [[gnu::always_inline]] inline Double point_of(Float weight_b, Float weight_c, Float a, Float b, Float c) {
   const Double from(a);
@@ -85,17 +55,17 @@ inline LaneSurface surface_of(const Corners& corners, const Vec& origin, const V
                point_of(s.weights.y, s.weights.z, a.z, b.z, c.z)};
   s.p_world = {to_float(s.p_exact.x), to_float(s.p_exact.y), to_float(s.p_exact.z)};
 
-  const Float zero(0.0f);
-  Vec n_geometric = geometric_normal(ab, ac, s.to_viewer);
-  const Vec n_shading = shading_normal(s.weights, corners.normal, n_geometric);
-  n_geometric = select(dot(n_geometric, n_shading) < zero, -n_geometric, n_geometric);
-  s.leaving = dot(n_geometric, s.to_viewer) < zero;
-  s.n_geometric = select(s.leaving, -n_geometric, n_geometric);
-  s.n_shading = select(s.leaving, -n_shading, n_shading);
+  const Vec n_geometric = geometric_normal(ab, ac, s.to_viewer);
+  const Vec n_shading =
+      shading_normal(s.weights, corners.normal[0], corners.normal[1], corners.normal[2], n_geometric);
+  const FacingNormals facing = face_viewer(n_geometric, n_shading, s.to_viewer);
+  s.n_geometric = facing.geometric;
+  s.n_shading = facing.shading;
+  s.leaving = facing.leaving;
 
   if (offset.method == OffsetMethod::error_bound) {
     s.offset = Float(kPointError) * dot(abs(s.n_geometric), abs(s.p_world)) +
-               Float(kTriangleError) * max(largest(abs(ab)), largest(abs(ac)));
+               Float(kTriangleError) * triangle_size(ab, ac);
   } else {
     s.offset = Float(offset.length);
   }

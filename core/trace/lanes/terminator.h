@@ -1,29 +1,13 @@
-// Part of trace/kernel.h's files: shaders/shared/terminator.glsl in lanes, and what follows for shadow rays.
+// Part of walk/kernel.h's files: what the remedies of the shadow terminator mean for shadow rays.
 #pragma once
 
-#include "core/trace/lanes/light.h"
+#include "core/trace/lanes/scatter.h"
 #include "core/trace/lanes/surface.h"
 
 namespace pinocchio::PINOCCHIO_LANES {
 namespace {
 
-inline Mask same(const Vec& a, const Vec& b) {
-  return (a.x == b.x) & (a.y == b.y) & (a.z == b.z);
-}
-
-inline Vec to_tangent_plane(const Vec& from_vertex, const Vec& n) {
-  const Float zero(0.0f), square = dot(n, n), height = dot(from_vertex, n);
-  return select((height < zero) & (zero < square), n * (-height / square), Vec(zero));
-}
-
-inline Float terminator_factor(const LaneSurface& s, const Vec& to_light) {
-  const Float one(1.0f);
-  const Float g =
-      dot(s.n_geometric, to_light) / (dot(s.n_shading, to_light) * dot(s.n_shading, s.n_geometric));
-  return select(g < one, (one + g - g * g) * g, one);
-}
-
-// Where the shadow rays of a packet's points start, and towards which lights there are any.
+// The origins of a packet's shadow rays, and the lights that they are fired towards.
 class ShadowStarts {
  public:
   ShadowStarts(Terminator method, const Corners& corners, const LaneSurface& surface)
@@ -31,10 +15,10 @@ class ShadowStarts {
     if (method == Terminator::displaced) find_lift();
   }
 
-  // Whether light from there is asked for; those that the next origins() are for.
+  // Whether a shadow ray is fired that way. Decides which of the next origins() are lifted.
   [[nodiscard, gnu::always_inline]] Mask faces_light(const Vec& to_light) {
     lifted_ = 0;
-    const Mask usual = PINOCCHIO_LANES::faces_light(s_, to_light);
+    const Mask usual = PINOCCHIO_LANES::faces_light(s_.n_shading, s_.n_geometric, to_light);
     if (!lifts(method_)) return usual;
     const Float zero(0.0f);
     const Mask turned = (zero < dot(s_.n_shading, to_light)) & ~(zero < dot(s_.n_geometric, to_light));
@@ -42,7 +26,7 @@ class ShadowStarts {
       if (turned.bits() == 0) return usual;
       if (!found_) find_lift();
     }
-    const Mask kept = turned & has_lift_ & (zero < dot(n_vertices_, to_light));
+    const Mask kept = turned & has_lift_ & faces_light_lifted(s_.n_shading, n_vertices_, to_light);
     lifted_ = (method_ == Terminator::displaced ? kept | (usual & has_lift_) : kept).bits();
     return usual | kept;
   }
@@ -54,16 +38,16 @@ class ShadowStarts {
     return from;
   }
 
-  // The ways up to the lifted origins among those of `lanes`, which were just appended to `shadow` and have
-  // to be free, too; `pixel` is the shadow ray's place in its queue.
-  void ask_ways_up(Mask lanes, const RayQueue& shadow, RayQueue& up) const {
+  // Appends rays up to the lifted origins of `lanes`, whose shadow rays were just appended to `shadow`: these
+  // ways have to be free, too. Their `pixel` is the shadow ray's place in its queue.
+  void append_ways_up(Mask lanes, const RayQueue& shadow, RayQueue& up) const {
     if (method_ == Terminator::turned_away && (lanes.bits() & lifted_) != 0) [[unlikely]]
-      append_ways_up(lanes, shadow, up);
+      append_lifted(lanes, shadow, up);
   }
 
  private:
-  // Few packets hold a facet that turns away: what is done for those is kept out of the way of the others.
-  [[gnu::noinline]] void append_ways_up(Mask lanes, const RayQueue& shadow, RayQueue& up) const {
+  // Not inlined: few packets hold a facet that turns away.
+  [[gnu::noinline]] void append_lifted(Mask lanes, const RayQueue& shadow, RayQueue& up) const {
     const Vec from = offset_origin(s_, s_.n_geometric);
     alignas(64) std::uint32_t place[kWidth] = {};
     auto next = static_cast<std::uint32_t>(shadow.size) -
@@ -78,13 +62,9 @@ class ShadowStarts {
     const Vec &a = corners_.position[0], ab = corners_.position[1] - a, ac = corners_.position[2] - a;
     Vec n[3];
     for (int i = 0; i < 3; ++i) n[i] = select(s_.leaving, -corners_.normal[i], corners_.normal[i]);
-    const Vec from_a = ab * s_.weights.y + ac * s_.weights.z;
-    lift_ = to_tangent_plane(from_a, n[0]) * s_.weights.x +
-            to_tangent_plane(from_a - ab, n[1]) * s_.weights.y +
-            to_tangent_plane(from_a - ac, n[2]) * s_.weights.z;
-    const Float least = Float(shared::kLeastLift) * max(largest(abs(ab)), largest(abs(ac)));
-    has_lift_ = (least < dot(lift_, s_.n_geometric)) & ~(same(n[0], n[1]) & same(n[0], n[2]));
-    n_vertices_ = shading_normal(s_.weights, n, s_.n_geometric);
+    lift_ = terminator_lift(s_.weights, ab, ac, n[0], n[1], n[2], s_.n_geometric);
+    has_lift_ = lift_ != Vec(0.0f);
+    n_vertices_ = shading_normal(s_.weights, n[0], n[1], n[2], s_.n_geometric);
   }
 
   [[nodiscard, gnu::noinline]] Vec lifted_origin() const {

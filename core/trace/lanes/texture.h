@@ -1,18 +1,16 @@
-// Part of trace/kernel.h's files: shaders/shared/texture.glsl over lanes, operation by operation, so that its
-// texels are those of one ray at a time to the bit.
+// Part of walk/kernel.h's files: shaders/shared/texture.glsl in lanes, operation by operation, so that the
+// texels have the bits of one look-up at a time. It is written for lanes, as their levels and taps differ
+// from lane to lane and a packet's texels are gathered.
 #pragma once
 
 #include <algorithm>
 #include <cmath>
 
-#include "core/trace/lane_texture.h"
+#include "core/shade/lane_texture.h"
+#include "core/trace/lanes/shared.h"
 
 namespace pinocchio::PINOCCHIO_LANES {
 namespace {
-
-inline bool any(Mask m) {
-  return m.bits() != 0;
-}
 
 struct Texel {
   Float c[4];
@@ -73,7 +71,7 @@ inline Texel sample_level(const LaneTexture& t, Float u, Float v, const TextureL
              y - base_y);
 }
 
-// Which levels a lane looks at, one lane after the other: logarithms are the library's.
+// The two levels that each lane reads. Lane by lane, as logarithms are the library's.
 struct LaneLevels {
   alignas(64) std::uint32_t first[2][kMostLanes];
   alignas(64) float width[2][kMostLanes], height[2][kMostLanes];
@@ -114,7 +112,8 @@ struct LaneLevels {
   const Float x0 = xu * width, x1 = xv * height, y0 = yu * width, y1 = yv * height;
   const Float xx = x0 * x0 + x1 * x1, yy = y0 * y0 + y1 * y1;
   const Float longer = sqrt(max(yy, xx));
-  const Mask filtered = t.levels > 1 ? lanes & (one < longer) & (zero < xx + yy) : Mask::from_bits(0);
+  const Mask filtered = t.levels > 1 ? lanes & (one < longer) & (longer < Float(1.0e18f)) & (zero < xx + yy)
+                                     : Mask::from_bits(0);
   const Float shorter = max(abs(x0 * y1 - x1 * y0) / longer, one);
   const Float many = -floor(-(longer / shorter));
   const Float taps = select(filtered, min(max(many, one), Float(8.0f)), one);

@@ -1,5 +1,5 @@
-// Part of trace/kernel.h's files. Vectors of lanes; every operation in the order that GLM has it, so that the
-// lanes' pictures are those of the scalar code.
+// Part of walk/kernel.h's files: vectors of lanes. Every operation has GLM's order, so that the lanes'
+// pictures are those of the scalar code.
 #pragma once
 
 namespace pinocchio::PINOCCHIO_LANES {
@@ -10,8 +10,7 @@ struct Vec {
   Vec() = default;
   Vec(Float a, Float b, Float c) : x(a), y(b), z(c) {}
   explicit Vec(Float all) : x(all), y(all), z(all) {}
-  template <class Triple>  // glm::vec3
-  explicit Vec(const Triple& v) : x(v.x), y(v.y), z(v.z) {}
+  Vec(const glm::vec3& v) : x(v.x), y(v.y), z(v.z) {}  // NOLINT: all lanes
 
   static Vec load(float* const (&columns)[3], std::size_t i) {
     return {Float::load(columns[0] + i), Float::load(columns[1] + i), Float::load(columns[2] + i)};
@@ -29,11 +28,29 @@ inline Vec operator*(const Vec& a, const Vec& b) {
 inline Vec operator*(const Vec& a, Float s) {
   return {a.x * s, a.y * s, a.z * s};
 }
+inline Vec operator*(Float s, const Vec& a) {
+  return a * s;
+}
 inline Vec operator/(const Vec& a, Float s) {
   return {a.x / s, a.y / s, a.z / s};
 }
 inline Vec operator-(const Vec& a) {
   return {-a.x, -a.y, -a.z};
+}
+inline Vec& operator+=(Vec& a, const Vec& b) {
+  return a = a + b;
+}
+inline Vec& operator*=(Vec& a, Float s) {
+  return a = a * s;
+}
+inline Vec& operator/=(Vec& a, Float s) {
+  return a = a / s;
+}
+inline Mask operator==(const Vec& a, const Vec& b) {
+  return (a.x == b.x) & (a.y == b.y) & (a.z == b.z);
+}
+inline Mask operator!=(const Vec& a, const Vec& b) {
+  return ~(a == b);
 }
 inline Vec select(Mask m, const Vec& yes, const Vec& no) {
   return {select(m, yes.x, no.x), select(m, yes.y, no.y), select(m, yes.z, no.z)};
@@ -65,22 +82,21 @@ struct DoubleVec {
   Double x, y, z;
 };
 
-// Calls take(value, lanes) for each distinct value among the `waiting` lanes: what belongs to it is fetched
-// once and broadcast under a mask, which is faster than a gather where neighbours see the same and no slower
-// where they do not.
-template <class Take>
-inline void for_each_distinct(Int values, Mask lanes, Take take) {
+// Calls visit(value, lanes) for each distinct value among `lanes`: its data is read once and broadcast under
+// a mask, which is faster than a gather where neighbours see the same and no slower where they do not.
+template <class Visit>
+inline void for_each_distinct(Int values, Mask lanes, Visit visit) {
   alignas(64) std::uint32_t value[kWidth];
   values.store(value);
   unsigned waiting = lanes.bits();
   for (int lane = 0; waiting != 0;) {
-    // A branch on purpose: where most values differ, the processor foretells that the next lane is next and
-    // does not wait for the comparison that says so.
+    // A branch on purpose: where most values differ, the processor predicts that the next lane is next and
+    // does not wait for the comparison.
     if ((waiting >> lane & 1) == 0) [[unlikely]]
       lane = __builtin_ctz(waiting);
     const std::uint32_t one = value[lane++];
     const Mask same = lanes & (values == Int(one));
-    take(one, same);
+    visit(one, same);
     waiting &= ~same.bits();
   }
 }

@@ -1,4 +1,4 @@
-// Many pictures of one scene, straight into arrays: for data sets and simulators.
+// Many pictures of one scene, written to arrays: for data sets and simulators.
 #pragma once
 
 #include <glm/glm.hpp>
@@ -16,10 +16,10 @@
 
 namespace pinocchio {
 
-// A picture of `size` pixels from each camera, written to the arrays: the same values, to the last bit, as
-// those of Engine::render. Of the arrays that are null nothing is computed. Where the CPU draws alone, the
-// pictures' tiles are one queue for all worker threads, and once warm no picture allocates anything. Phases
-// "build" and "render". From the Engine's thread. Throws NoOpenGlError.
+// Writes a picture of `size` pixels from each camera to the arrays: the same values, to the last bit, as
+// those of Engine::render. Nothing is computed for null arrays. If the CPU draws alone, the tiles of all
+// pictures are one queue for all worker threads, and after the first call no picture allocates memory. Phases
+// "build" and "render". Call it on the Engine's thread. Throws NoOpenGlError.
 [[nodiscard]] Expected<RayCounts> render_many(Engine& engine, const Scene& scene,
                                               std::span<const Camera> cameras, glm::ivec2 size,
                                               const Settings& settings, const FrameArrays& to,

@@ -1,4 +1,4 @@
-// What a frame cost, and what it shows.
+// A frame's cost and its picture.
 #pragma once
 
 #include <array>
@@ -21,14 +21,29 @@
 
 namespace pinocchio {
 
-// The stages of a frame, in the order a frame goes through them; names as in the figures.
+// The stages of a frame, in the order a frame passes them; names as in statistics and traces.
 enum class Stage { raster, readback, trace_shadow, trace_reflection, upload, composite, present };
 inline constexpr std::array<std::string_view, 7> kStageNames{
     "raster", "readback", "trace_shadow", "trace_reflection", "upload", "composite", "present"};
 // The processor that does a stage of frames of these settings; empty for transfers and the display.
-[[nodiscard]] std::optional<Processor> processor_of(Stage stage, const Settings& settings);
+[[nodiscard]] inline std::optional<Processor> processor_of(Stage stage, const Settings& settings) {
+  switch (stage) {
+    case Stage::raster:
+      return settings.visibility;
+    case Stage::trace_shadow:
+    case Stage::trace_reflection:
+      return Processor::cpu;
+    case Stage::composite:  // with visibility gpu and composite cpu, the GPU copies the CPU's picture
+      return settings.uses_gpu() ? Processor::gpu : Processor::cpu;
+    case Stage::readback:
+    case Stage::upload:
+    case Stage::present:
+      break;
+  }
+  return std::nullopt;
+}
 
-// What travels: the first four from GPU to CPU, the others back.
+// The channels between the processors: the first four go from GPU to CPU, the others back.
 enum class Channel { ids, normals, gbuffer, phong, traced_ids, mask, reflection, picture };
 inline constexpr std::array<std::string_view, 8> kChannelNames{
     "ids", "normals", "gbuffer", "phong", "traced_ids", "mask", "reflection", "picture"};
@@ -36,21 +51,21 @@ inline constexpr std::array<std::string_view, 8> kChannelNames{
   return channel < Channel::traced_ids;
 }
 
-// When something was done, seconds of the steady clock.
+// The time of some work, in seconds of the steady clock.
 struct Span {
   double begin_s = 0.0, end_s = 0.0;
 
   [[nodiscard]] double ms() const { return 1e3 * (end_s - begin_s); }
 };
 
-// What one frame cost.
+// The cost of one frame.
 struct FrameRecord {
-  std::uint64_t number = 0;                       // of the frame, in the order they were asked for
+  std::uint64_t number = 0;                       // of the frame, in the order of requests
   std::array<Span, kStageNames.size()> stages{};  // empty: the schedule has no such stage
   std::array<std::optional<Processor>, kStageNames.size()> processors{};  // processor_of each stage
-  Span frame;              // camera sampled to picture delivered
-  int latency_frames = 0;  // frames begun between the two
-  int age_frames = 0;      // how much older the mask and reflection shown are
+  Span frame;              // from reading the camera to delivering the picture
+  int latency_frames = 0;  // frames that began in between
+  int age_frames = 0;      // how much older the shown mask and reflection are
   std::array<std::size_t, kChannelNames.size()> bytes{};
   RayCounts rays;
 
@@ -60,7 +75,7 @@ struct FrameRecord {
   [[nodiscard]] std::size_t operator[](Channel channel) const {
     return bytes[static_cast<std::size_t>(channel)];
   }
-  // Of all that goes to the CPU, or to the GPU.
+  // The sum of all channels to the CPU, or to the GPU.
   [[nodiscard]] std::size_t bytes_to_cpu() const { return sum_bytes(true); }
   [[nodiscard]] std::size_t bytes_to_gpu() const { return sum_bytes(false); }
 
@@ -73,44 +88,43 @@ struct FrameRecord {
   }
 };
 
-// A finished picture on the CPU, with what it was made of. Row 0 is the top row.
+// A finished picture on the CPU, with its inputs. Row 0 is the top row.
 struct FrameResult {
-  Image<glm::vec4> color;  // linear RGBA, mean of the samples; A: how much of the pixel is covered
-  // Of the first sample, at the pixels' centres:
+  Image<glm::vec4> color;  // linear RGBA, mean of the samples; A: the covered share of the pixel
+  // The first sample, at the pixels' centres:
   Image<std::uint32_t> ids;     // kNoTriangle where nothing is seen
-  MaskImage mask;               // 0 bits where no light casts, or the frame's own is not traced yet
-  Image<glm::vec3> reflection;  // linear light; empty, likewise
-  Scene scene;                  // what it shows, ...
-  View view;                    // ... from where
-  Settings settings;            // that it was drawn by
-  FrameRecord record;           // without what is known later only: the GPU's times
-  std::size_t holes = 0;        // reprojected: pixels that no older frame had an answer for
+  MaskImage mask;               // 0 bits if no light casts, or the frame's own mask is not traced yet
+  Image<glm::vec3> reflection;  // linear light; empty in the same cases
+  Scene scene;                  // the inputs: the scene, ...
+  View view;                    // ... the view ...
+  Settings settings;            // ... and the settings
+  FrameRecord record;           // without the GPU's times, which are known later
+  std::size_t holes = 0;        // reprojected: pixels without a value in any older frame
 };
 
-// What the frame's visible points are like, from its ids.
+// The properties of the frame's visible points, computed from its ids.
 [[nodiscard]] SurfaceImages surfaces_of(const FrameResult& frame);
 
-// Its shadow mask, a byte a pixel whatever its bits; `to` has room for all.
+// Copies its shadow mask to `to`: one byte for each pixel, for any number of bits.
 void unpack_mask(const FrameResult& frame, std::uint8_t* to);
 
 struct ExrOptions {
-  std::string layers =
-      "all";  // or "none", or some of Z, P, N, Albedo, id, shadow, reflection with commas between
+  std::string layers = "all";  // or "none", or EXR names of kLayers with commas between
   ExrCompression compression = ExrCompression::zip;
-  std::optional<double> render_s{};  // what it took, for its header
-  // For its header, too: which frame of an animation it is, and how many there are a second.
+  std::optional<double> render_s{};  // the render time, for the header
+  // For the header: the frame's number in an animation, and the frames per second.
   int frame = 0;
   int frames_per_second = 24;
-  std::optional<double> time_s{};  // of the animation; else frame / frames_per_second
-  std::string inputs{};            // likewise: what the picture was made of (the program writes JSON)
+  std::optional<double> time_s{};  // time in the animation; none: frame / frames_per_second
+  std::string inputs{};            // for the header: the picture's inputs (the program writes JSON)
 };
 
-// The picture with its layers and attributes, one part, scene-linear. Whole or not at all; throws
+// Writes the picture with its layers and attributes, one part, scene-linear, whole or not at all. Throws
 // EnvironmentError where it cannot be written. Source: OpenEXR's standard attributes. Phase "write".
 void write_exr(const std::filesystem::path& file, const FrameResult& frame, const ExrOptions& options = {},
                Progress* progress = nullptr);
-// The header that it would get, and its channels without values: for those who look whether a file is this
-// frame's.
+// The header that write_exr would write, and its channels without values: to check whether a file has this
+// frame.
 [[nodiscard]] ExrFile exr_header(const FrameResult& frame, const ExrOptions& options = {});
 
 }  // namespace pinocchio

@@ -1,4 +1,4 @@
-// An animated scene, frame after frame.
+// The poses of an animated scene, frame after frame.
 #pragma once
 
 #include <future>
@@ -13,16 +13,16 @@
 
 namespace pinocchio {
 
-// Gives the scene's poses with their trees, and makes the next one on a thread of its own meanwhile. What a
-// pose is made of does not depend on those before it.
+// Returns the scene's poses with their trees. Meanwhile it makes the next pose on a thread of its own. A pose
+// does not depend on earlier ones.
 class PoseAhead {
  public:
   struct Pose {
     Scene scene;
-    std::shared_ptr<const Tracer> tracer;  // null where the settings trace nothing
+    std::shared_ptr<const Tracer> tracer;  // null: the settings trace nothing
   };
 
-  // `progress`, which may be null, ends what is begun once it is cancelled.
+  // `progress`, which may be null, cancels work that has begun.
   explicit PoseAhead(Scene scene, Progress* progress = nullptr)
       : scene_(std::move(scene)), progress_(progress) {}
   // Cancels the pose that is being made ahead.
@@ -30,12 +30,12 @@ class PoseAhead {
   PoseAhead(PoseAhead&&) noexcept = default;
   PoseAhead& operator=(PoseAhead&&) = delete;
 
-  // The pose at that time, for frames of these resolved settings. `next_s`: the time that will be asked for
-  // next, if it is known.
+  // The pose at that time, for frames with these resolved settings. `next_s`: the time of the next request,
+  // if it is known.
   [[nodiscard]] Expected<Pose> at(double seconds, const Settings& settings,
                                   std::optional<double> next_s = {});
 
-  // How far the pose is that was begun ahead last; null: none was.
+  // The progress of the pose that was last begun ahead; null: none was.
   [[nodiscard]] std::shared_ptr<const Progress> next_progress() const { return next_progress_; }
 
  private:
@@ -43,7 +43,7 @@ class PoseAhead {
     double seconds;
     Settings settings;
 
-    // Whether a pose made for the one is the other's.
+    // Whether a pose made for one is valid for the other.
     [[nodiscard]] bool same_as(const Wanted& other) const;
   };
   void begin(const Wanted& wanted);

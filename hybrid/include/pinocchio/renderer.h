@@ -1,4 +1,4 @@
-// A stream of frames: several in flight at once, each delivered once, in order.
+// A stream of frames: several are in flight at once, and each is delivered once, in order.
 #pragma once
 
 #include <cstdint>
@@ -21,76 +21,76 @@ class Texture;
 class Engine;
 struct FrameSlot;
 
-// What a frame is to show. A cheap value: moving a light or the camera copies no geometry.
+// The content of a frame. Cheap to copy: moving a light or the camera copies no geometry.
 struct FrameRequest {
   Scene scene;
-  std::shared_ptr<const Tracer> tracer;  // of the scene's mesh; null where the settings trace nothing
+  std::shared_ptr<const Tracer> tracer;  // of the scene's mesh; null: the settings trace nothing
   Settings settings;                     // resolved
   View view;
-  // Tiles of 32 x 32 pixels, row by row, of which nothing is traced where it is not 0: what the frame shows
-  // there does not count. Null: there are none.
+  // One value for each tile of 32 x 32 pixels, row by row. Where it is not 0 nothing is traced, and the
+  // picture there is undefined. Null: all tiles are traced.
   std::shared_ptr<const std::vector<std::uint8_t>> left_out{};
 
   friend bool operator==(const FrameRequest&, const FrameRequest&) = default;
 };
 
-// A finished frame, valid inside the callback that it is given to.
+// A finished frame. It is valid only inside the callback.
 class Frame {
  public:
   explicit Frame(FrameSlot& slot) : slot_(slot) {}
 
   [[nodiscard]] const FrameRequest& request() const;
-  // Without what is known later only: the GPU's times.
+  // Without the GPU's times, which are known later.
   [[nodiscard]] FrameRecord& record() const;
-  // The picture on the GPU, linear light, row 0 on top; where the CPU drew alone it is sent there now.
-  // Throws NoOpenGlError where there is none.
+  // The picture on the GPU, in linear light, row 0 on top. If the CPU drew alone, this call uploads it.
+  // Throws NoOpenGlError if there is no OpenGL.
   [[nodiscard]] const gl::Texture& texture() const;
-  // Its OpenGL name, for programs with a context of their own.
+  // The texture's OpenGL name, for programs with their own context.
   [[nodiscard]] unsigned texture_name() const;
-  // The picture on the CPU, with what it was made of; waits for the GPU.
+  // The picture on the CPU, with its inputs. Waits for the GPU.
   [[nodiscard]] FrameResult read() const;
   // The same without ids, mask and reflection.
   void read_color(Image<glm::vec4>& color) const;
-  // Everything that it was made of: for those who look inside (hybrid/inspect).
+  // All data of the frame, for hybrid/inspect.
   [[nodiscard]] FrameSlot& slot() const { return slot_; }
 
  private:
   FrameSlot& slot_;
 };
 
-// What is done with finished frames; either may be left out.
+// The callbacks for finished frames. Either may be empty.
 struct FrameSinks {
-  std::function<void(Frame&)> frame{};               // before its buffers are used again
-  std::function<void(const FrameRecord&)> record{};  // later, when the GPU's clock has told all
+  std::function<void(Frame&)> frame{};               // before the frame's buffers are used again
+  std::function<void(const FrameRecord&)> record{};  // later, when the GPU's times are known
 };
 
-// One ordered stream of frames on an Engine, which must outlive it; used from the Engine's thread. Unless
-// reprojected, a picture is made of its own frame's parts alone, so that the pipelined picture is the
-// synchronous one, bit for bit.
+// An ordered stream of frames on an Engine, which must outlive it. It is used on the Engine's thread. Unless
+// frames are reprojected, a picture consists of its own frame's parts only, so that the pipelined picture is
+// the synchronous one, bit for bit.
 class Renderer {
  public:
-  // `progress` advances by a step a frame, while it is traced, and outlives the Renderer. Once it is
-  // cancelled, submit and drain throw Cancelled; frames that were delivered are whole.
+  // `progress` advances by one step for each traced frame, and must outlive the Renderer. After it is
+  // cancelled, submit and drain throw Cancelled. Delivered frames are complete.
   Renderer(Engine& engine, FrameSinks sinks, Progress* progress = nullptr);
   ~Renderer();
   Renderer(const Renderer&) = delete;
   Renderer& operator=(const Renderer&) = delete;
 
-  // Begins a frame and delivers what that finishes. Where the settings reuse and the request is the last one
-  // again, nothing is drawn, traced or sent: all in flight is delivered, then the last picture once more.
-  // What went wrong on the tracing thread is thrown when that frame would have been delivered; the frame is
-  // lost, the others are not. Where OpenGL fails, all in flight are lost, and the next frame starts afresh.
-  // Throws OpenGlError: NoOpenGlError where there is none, OpenGlLostError where its context is lost.
+  // Begins a frame and delivers the frames that this finishes. If the settings reuse frames and the request
+  // repeats the last one, nothing is drawn, traced or sent: frames in flight are delivered, then the last
+  // picture again. An error of the tracing thread is thrown when its frame would be delivered; only that
+  // frame is lost. If OpenGL fails, all frames in flight are lost, and the next submit starts again.
+  // Throws OpenGlError: NoOpenGlError if there is no OpenGL, OpenGlLostError if its context is lost.
   void submit(const FrameRequest& request);
-  // The same for a window, which never waits for the CPU: delivers what is done, and begins the frame where
-  // the CPU is not behind. False: it is not begun; try again with what is wanted then.
+  // The same for a window, without waiting for the CPU: delivers finished frames, and begins the frame unless
+  // the CPU is behind. False: the frame did not begin; try again later with a current request.
   bool try_submit(const FrameRequest& request);
-  // Delivers what is done of the frames in flight, and gives the CPU the next of them, without waiting for
-  // it. True: none is left.
+  // Delivers finished frames and gives the CPU the next frame in flight, without waiting for it. True: no
+  // frame is left.
   bool advance();
-  // Whether the CPU is at work on a frame.
+  // Whether the CPU is tracing a frame.
   [[nodiscard]] bool is_tracing() const;
-  // Delivers every frame that is still in flight.
+  // Waits for all frames in flight and delivers them.
   void drain();
 
  private:

@@ -1,5 +1,5 @@
-// How a frame is drawn: one struct. Every field stands in one table (settings_table()), from which come the
-// command line's options, the settings' JSON, the window's widgets, the chart's axes and docs/settings.md.
+// The settings of a frame. Every field has a row in one table (settings_table()). The command line's options,
+// the settings' JSON, the window's widgets, the chart's axes and docs/settings.md are made from it.
 #pragma once
 
 #include <array>
@@ -15,35 +15,35 @@
 
 namespace pinocchio {
 
-// Who does a part of the work.
+// The processor that does a part of the work.
 enum class Processor { cpu, gpu };
 inline constexpr std::array<std::string_view, 2> kProcessorNames{"cpu", "gpu"};
 
-// When the GPU gets the CPU's part of a frame.
+// The time at which the GPU gets the CPU's part of a frame.
 enum class Exchange {
-  sync,       // at once: everybody waits
-  pipelined,  // frames later: GPU and CPU work on different frames meanwhile
-  reproject,  // never waited for: the newest raster at once, an older frame's mask and reflection warped to
-              // it
+  sync,       // at once: GPU and CPU wait for each other
+  pipelined,  // frames later: GPU and CPU work on different frames
+  reproject,  // never waited for: the newest raster is shown at once, with an older frame's mask and
+              // reflection warped to it
 };
 inline constexpr std::array<std::string_view, 3> kExchangeNames{"sync", "pipelined", "reproject"};
 
-// How mirrored and refracted light travels to the GPU.
+// The format of mirrored and refracted light on its way to the GPU.
 enum class ReflectionFormat {
   none,
-  rgb8,    // 3 bytes a pixel, sRGB, clipped at 1: the slides'
+  rgb8,    // 3 bytes a pixel, sRGB, clipped at 1: the slides' format
   rgb9e5,  // 4 bytes: 9 bits a colour, one exponent
-  half,    // 6 bytes: exact to the picture's own format
+  half,    // 6 bytes: as exact as the picture's format
   full,    // 12 bytes: float
 };
 inline constexpr std::array<std::string_view, 5> kReflectionFormatNames{"none", "rgb8", "rgb9e5", "half",
                                                                         "float"};
 [[nodiscard]] int bytes_per_pixel(ReflectionFormat format);
 
-// Where the samples of a pixel are of what is sampled: lights with a size, glossy mirrors, lenses.
+// The sequence of a pixel's samples of lights with a size, glossy mirrors and lenses.
 enum class Sequence {
-  sobol,       // scrambled Sobol points, each pixel its own: the error falls faster than by chance
-  blue_noise,  // one sequence for all, turned from pixel to pixel: what error is left is fine-grained
+  sobol,       // scrambled Sobol points, different for each pixel: the error falls faster than at random
+  blue_noise,  // one sequence, shifted from pixel to pixel: the remaining error is fine-grained
   random,
 };
 inline constexpr std::array<std::string_view, 3> kSequenceNames{"sobol", "blue-noise", "random"};
@@ -52,7 +52,7 @@ inline constexpr std::array<std::string_view, 2> kPixelFilterNames{"box", "black
 
 inline constexpr int kMostBounces = 64, kMostThreads = 1024;
 
-// A value, and whether the user set it: assigning to it says so. What nobody set, resolve() fills in.
+// A value, and whether the user set it by an assignment. resolve() chooses values that are not set.
 template <class T>
 struct Setting {
   T value{};
@@ -66,7 +66,7 @@ struct Setting {
     return setting;
   }
   operator T() const { return value; }
-  // Where nobody set it.
+  // Sets the value unless the user did.
   void fill(T v) {
     if (!given) value = v;
   }
@@ -109,58 +109,58 @@ struct Settings {
 
   [[nodiscard]] bool reflects() const { return reflection != ReflectionFormat::none; }
   [[nodiscard]] bool uses_gpu() const { return visibility == Processor::gpu || composite == Processor::gpu; }
-  // Whether anything is left for the CPU to do.
+  // Whether the CPU has any work.
   [[nodiscard]] bool traces() const {
     return mask_bits > 0 || reflects() || visibility == Processor::cpu || composite == Processor::cpu;
   }
 
-  // The same values, whoever set them.
+  // Whether the values are the same, whoever set them.
   friend bool operator==(const Settings& a, const Settings& b);
 };
 
-// A field of Settings, for programs that read, write or show settings by name.
+// A field of Settings, for code that reads, writes or shows settings by name.
 struct Field {
   enum class Kind { choice, whole, number, flag };
 
-  std::string_view name;  // in JSON; on the command line with '-' for '_'
+  std::string_view name;  // as in JSON; on the command line with '-' instead of '_'
   Kind kind;
-  std::span<const std::string_view> choices;  // all values there are; empty: from lo to hi, or a flag
+  std::span<const std::string_view> choices;  // all values; empty: numbers from lo to hi, or a flag
   double lo, hi;
-  std::string_view unset;  // what it is where nobody set it, in words
+  std::string_view unset;  // the value if it is not set, in words
   std::string_view help;
-  bool of_machine;            // of how it is computed: no pixel changes with it
+  bool of_machine;            // changes only how a picture is computed, and no pixel
   std::string_view formerly;  // its name in older files; empty: none
 
-  std::string (*text)(const Settings&);            // the value as it is written
-  bool (*take)(std::string_view text, Settings&);  // false, and nothing changed: no such value
+  std::string (*text)(const Settings&);            // the value as text
+  bool (*take)(std::string_view text, Settings&);  // false: there is no such value, and nothing changes
   bool (*given)(const Settings&);
-  void (*copy)(const Settings& from, Settings& to);  // value and whether it was set
-  bool (*same)(const Settings&, const Settings&);    // of the values
+  void (*copy)(const Settings& from, Settings& to);  // the value, and whether it was set
+  bool (*same)(const Settings&, const Settings&);    // compares the values
 
-  // What it may be, in words: "sync, pipelined or reproject", "a whole number from 0 to 64".
+  // The allowed values in words: "sync, pipelined or reproject", "a whole number from 0 to 64".
   [[nodiscard]] std::string domain() const;
   [[nodiscard]] std::string option() const;  // "--mask-bits"
 };
 [[nodiscard]] std::span<const Field> settings_table();
 [[nodiscard]] const Field* find_field(std::string_view name);  // by name or former name; null: none
 
-// Sets a field by its name. An error that names the domain where there is no such field or value.
+// Sets a field by its name. If there is no such field or value, the error names the allowed ones.
 [[nodiscard]] Expected<void> set(Settings& settings, std::string_view field, std::string_view text);
 
-// Every field that `over` gives replaces the one of `settings`.
+// Each field that is set in `over` replaces the one in `settings`.
 void override_with(const Settings& over, Settings& settings);
 
-// Rows that set several fields at once, by the option and the value that name them.
+// A preset: an option with a value that sets several fields at once.
 struct Preset {
   std::string_view option, value;  // "mode", "raytrace"
   std::string_view help;
   void (*apply)(Settings&);
 };
 [[nodiscard]] std::span<const Preset> presets();
-// "mode", "design" or "plan"; false: there is no such value.
+// option: "mode", "design" or "plan". False: there is no such value.
 bool apply_preset(std::string_view option, std::string_view value, Settings& settings);
 
-// What no two fields may say at once, and why.
+// A combination of fields that is not allowed, and the reason.
 struct Rule {
   std::string_view what, remedy;
   bool (*broken)(const Settings&);
@@ -168,12 +168,12 @@ struct Rule {
 [[nodiscard]] std::span<const Rule> settings_rules();
 // The first rule that the settings break; null: none.
 [[nodiscard]] const Rule* broken_rule(const Settings& settings);
-// The first rule that would break if the field had that value; null: it can be had.
+// The first rule that the settings would break with that value of the field; null: none.
 [[nodiscard]] const Rule* broken_by(const Settings& settings, std::string_view field, std::string_view text);
 
-// How a tracer's tree is built.
+// The options for building a tracer's tree.
 [[nodiscard]] BuildOptions build_options(const Settings& settings);
-// Whether a tracer of the one's is the other's.
+// Whether a tracer for one can be used for the other.
 [[nodiscard]] bool same_tracer(const Settings& a, const Settings& b);
 
 }  // namespace pinocchio

@@ -1,0 +1,317 @@
+#include "app/cli/options.h"
+
+#include <algorithm>
+#include <cstdio>
+#include <limits>
+#include <memory>
+
+#include "app/cli/add_option.h"
+#include "app/cli/check_camera.h"
+#include "app/cli/console.h"
+#include "app/cli/errors.h"
+#include "app/cli/groups.h"
+#include "core/scene/formats.h"
+#include "hybrid/settings/json.h"
+#include "pinocchio/load.h"
+
+namespace pinocchio::app {
+namespace {
+
+std::optional<glm::ivec2> parse_picture_size(const std::string& text) {
+  const std::optional<glm::ivec2> size = parse_size(text);
+  if (!size || size->x < 1 || size->y < 1 || size->x > kMaxSide || size->y > kMaxSide) return std::nullopt;
+  return static_cast<long long>(size->x) * size->y <= kMaxPixels ? size : std::nullopt;
+}
+
+// The settings that are neither methods nor of the machine.
+constexpr std::array<std::pair<const char*, std::array<std::string_view, 14>>, 3> kGroupedFields{{
+    {kSamplesGroup, {"spp", "max_noise", "pixel_filter", "sequence", "seed"}},
+    {kLightGroup, {"indirect", "environment_rotation", "environment_strength"}},
+    {kExchangeGroup,
+     {"visibility", "composite", "by_machine", "exchange", "mask_bits", "mask_scale", "reflection",
+      "reflection_scale", "tiles", "id_bits", "normals", "wide", "reuse", "persistent"}},
+}};
+
+const char* group_of(const Field& field) {
+  for (const auto& [group, names] : kGroupedFields)
+    if (std::ranges::find(names, field.name) != names.end()) return group;
+  return field.name == "threads" || field.name == "isa" ? kMachineGroup : kMethodGroup;
+}
+
+// "--mask-bits" and the like. What is given goes to `given`.
+void add_field(CLI::App& verb, const Field& field, Settings& given) {
+  begin_group(verb, group_of(field));
+  const std::string help = std::string(field.help) + " (" + std::string(field.unset) + ")";
+  if (field.kind == Field::Kind::flag) {
+    const std::string name = field.option();
+    verb.add_flag_function(
+        name + ",!--no-" + name.substr(2),
+        [&](std::int64_t count) { field.take(count > 0 ? "true" : "false", given); }, help);
+    return;
+  }
+  const std::string number = field.kind == Field::Kind::number ? "NUMBER" : "N";
+  verb.add_option_function<std::string>(
+          field.option(),
+          [&](const std::string& text) {
+            if (!field.take(text, given))
+              throw CLI::ValidationError(field.option(), "'" + text + "' is not " + field.domain());
+          },
+          help)
+      ->type_name(field.choices.empty() ? number : listed(field.choices, "|", "|"));
+}
+
+// What the command line gives, before presets and the plan's file are applied.
+struct GivenSettings {
+  Settings settings;
+  std::string mode, design, plan;
+};
+
+void add_preset(CLI::App& verb, const std::string& option, const std::string& help, std::string& value) {
+  const bool takes_files = option == "plan";
+  std::vector<std::string> values;
+  for (const Preset& preset : presets())
+    if (preset.option == option) values.emplace_back(preset.value);
+  if (takes_files) values.emplace_back("FILE.json");
+  const auto known = [=](const std::string& text) {
+    Settings ignored;
+    return (takes_files && text.ends_with(".json")) || apply_preset(option, text, ignored)
+               ? std::optional(text)
+               : std::nullopt;
+  };
+  add_parsed(verb, "--" + option, help, listed(values, ", ", " or "), known, value)
+      ->type_name(listed(values, "|", "|"));
+}
+
+// Single settings override presets, which override the plan's file.
+void settle(const GivenSettings& given, DrawOptions& o) {
+  if (given.plan.ends_with(".json")) {
+    o.plan_file = given.plan;
+    const Expected<Settings> loaded = load_settings(given.plan);
+    if (!loaded) throw CLI::ValidationError("--plan", loaded.error().message());
+    o.settings = *loaded;
+  }
+  apply_preset("design", given.design, o.settings);
+  apply_preset("mode", given.mode, o.settings);
+  override_with(given.settings, o.settings);
+  if (apply_preset("plan", given.plan, o.settings)) override_with(given.settings, o.settings);
+  if (o.precise && o.settings.uses_gpu())
+    throw CLI::ValidationError("--precise", "draws with --mode raytrace alone");
+}
+
+void add_camera_options(CLI::App& verb, DrawOptions& o) {
+  begin_group(verb, kCameraGroup);
+  verb.add_option(
+      "--camera", o.camera,
+      "a camera of the scene, by its name or its number from 0 (the first; without cameras, a view "
+      "of the whole scene)");
+  add_parsed(verb, "--eye", "position of the camera, scene units", "x,y,z", parse_vec3, o.eye);
+  add_parsed(verb, "--target", "point that the camera looks at", "x,y,z", parse_vec3, o.target);
+  add_parsed(verb, "--up", "direction that is up (0,1,0 with --eye and --target, else the camera's)", "x,y,z",
+             parse_vec3, o.up);
+  const auto parse_fov = [](const std::string& text) {
+    const std::optional<float> fov_deg = parse_float(text);
+    return fov_deg && *fov_deg > 0.0f && *fov_deg < 180.0f ? fov_deg : std::nullopt;
+  };
+  add_parsed(verb, "--fov", "vertical field of view, degrees", "between 0 and 180", parse_fov, o.fov_deg)
+      ->type_name("DEG");
+  const auto add_length = [&verb](const char* name, const char* help, std::optional<float>& to) {
+    add_parsed(verb, name, help, "a length that is not negative",
+               number_within(0.0f, std::numeric_limits<float>::max()), to)
+        ->type_name("LENGTH");
+  };
+  add_length("--lens-radius",
+             "radius of the lens, scene units, for depth of field, which needs samples; 0: a pinhole",
+             o.lens_radius);
+  add_length("--focus", "distance along the view axis that is sharp, scene units (the target's distance)",
+             o.focus);
+}
+
+void add_light_options(CLI::App& verb, DrawOptions& o) {
+  begin_group(verb, kLightGroup);
+  const auto add_lights = [&o](const std::vector<std::string>& texts) {
+    for (const std::string& text : texts) {
+      const std::optional<Light> light = parse_light(text);
+      if (!light)
+        throw CLI::ValidationError("--light",
+                                   "'" + text + "' is not x,y,z[,intensity[,cast|nocast[,radius]]]");
+      o.lights.push_back(*light);
+    }
+  };
+  verb.add_option_function<std::vector<std::string>>(
+          "--light", add_lights,
+          "add a point light, equally bright at any distance; with a radius, in scene units, it is a ball, "
+          "whose shadows are soft with several samples; repeatable")
+      ->type_name("x,y,z[,intensity[,cast|nocast[,radius]]]")
+      ->expected(1)
+      ->take_all();
+  verb.add_option("--environment", o.environment,
+                  "light and background around the scene: EXR or Radiance (.hdr), latitude and longitude")
+      ->type_name("FILE");
+}
+
+}  // namespace
+
+void add_context_options(CLI::App& verb, DrawOptions& o) {
+  begin_group(verb, kMachineGroup);
+  verb.add_option("--backend", o.engine.backend,
+                  "OpenGL context: auto, egl, osmesa, or glfw, which needs a display (auto)")
+      ->check(CLI::IsMember({"auto", "egl", "osmesa", "glfw"}))
+      ->envname("PINOCCHIO_BACKEND");
+  const auto parse_device = [](const std::string& text) {
+    const std::optional<int> number = parse_int(text);
+    return text == "software" || (number && *number >= 0) ? std::optional(text) : std::nullopt;
+  };
+  add_parsed(verb, "--device", "EGL device number, or software",
+             "a device number or software ('pinocchio info --system' lists them)", parse_device,
+             o.engine.device)
+      ->type_name("TEXT")
+      ->envname("PINOCCHIO_DEVICE");
+  verb.add_option("--gl-threads", o.engine.gl_threads, "threads of a software rasteriser (all cores)")
+      ->check(CLI::Range(1, 32));
+}
+
+void add_size_option(CLI::App& verb, DrawOptions& o, const std::string& help) {
+  begin_group(verb, kPictureGroup);
+  add_parsed(verb, "--size", help,
+             "WxH, each from 1 to " + std::to_string(kMaxSide) + " and at most " +
+                 std::to_string(kMaxPixels) + " pixels",
+             parse_picture_size, o.size)
+      ->type_name("WxH");
+}
+
+void add_trust_options(CLI::App& verb, DrawOptions& o) {
+  begin_group(verb, kOtherGroup);
+  verb.add_option_function<std::uint64_t>(
+          "--load-limit", [&o](std::uint64_t mib) { o.load_limit = mib << 20; },
+          "most memory for what the scene's files unpack to: pictures, compressed meshes, copies (4096)")
+      ->type_name("MIB")
+      ->check(CLI::Range(std::uint64_t{1}, std::uint64_t{1} << 30));
+  verb.add_flag("--confine", o.confine,
+                "open only files in the scene's folder and below, wherever names and links lead; for scenes "
+                "from unknown sources");
+  verb.add_flag("--strict", o.strict, "fail where a part of the scene's files would be ignored");
+}
+
+void add_scene_options(CLI::App& verb, DrawOptions& o) {
+  verb.add_option("SCENE", o.scene, scene_format_names() + " file")->required();
+  add_camera_options(verb, o);
+  add_light_options(verb, o);
+  add_trust_options(verb, o);
+  verb.add_flag("--quiet", o.quiet, "print errors only");
+  verb.add_option("--progress", o.progress, "progress bar: auto (on a terminal), on, off (auto)")
+      ->check(CLI::IsMember({"auto", "on", "off"}));
+}
+
+void add_settings_options(CLI::App& verb, DrawOptions& o) {
+  const auto given = std::make_shared<GivenSettings>();
+  begin_group(verb, kMethodGroup);
+  add_preset(
+      verb, "mode",
+      "what draws: hybrid, both processors; raytrace, the CPU; raster, the GPU; auto, whichever is faster "
+      "here (hybrid)",
+      given->mode);
+  add_preset(verb, "design", "where the picture is composited: 1, on the GPU; 2, on the CPU (1)",
+             given->design);
+  add_preset(verb, "plan",
+             "auto: trace and send only what the scene needs; slides: the fixed bytes of 2005; FILE.json: "
+             "settings that 'info SCENE --plan --json' wrote; other options override them (auto)",
+             given->plan);
+  for (const Field& field : settings_table()) add_field(verb, field, given->settings);
+  verb.parse_complete_callback([&o, given] { settle(*given, o); });
+}
+
+void add_still_options(CLI::App& verb, DrawOptions& o) {
+  begin_group(verb, kPictureGroup);
+  add_parsed(verb, "--crop",
+             "half-open pixel box to draw; the EXR keeps the full displayWindow (whole frame)", "x0,y0,x1,y1",
+             parse_box, o.crop);
+  begin_group(verb, kMethodGroup);
+  verb.add_flag("--precise", o.precise,
+                "with --mode raytrace: draw the reference, in double precision and without shortcuts; slow, "
+                "and in glass each bounce doubles the time");
+}
+
+void add_draw_options(CLI::App& verb, DrawOptions& o) {
+  add_scene_options(verb, o);
+  add_size_option(verb, o, "size of the picture, pixels (800x600)");
+  add_settings_options(verb, o);
+  add_context_options(verb, o);
+  add_still_options(verb, o);
+  begin_group(verb, kOtherGroup);
+}
+
+Scene load_whole(const DrawOptions& options, Warnings& warnings, pinocchio::Progress* progress) {
+  if (!progress) progress = &run_progress();
+  Expected<Scene> scene =
+      load_scene(options.scene, LoadOptions{options.load_limit, options.confine}, &warnings, progress);
+  if (scene && !options.environment.empty()) {
+    auto environment = load_environment(options.environment, progress, options.load_limit, &warnings);
+    if (environment)
+      scene->environment = std::move(*environment);
+    else
+      scene = pinocchio::Unexpected(environment.error());
+  }
+  if (!scene || (!options.quiet && !options.strict))  // warnings may explain why it cannot be read
+    for (const Warning& warning : warnings)
+      std::fprintf(stderr, "pinocchio: warning: %s\n", warning.message().c_str());
+  if (scene && options.strict && !warnings.empty()) {
+    const std::size_t more = warnings.size() - 1;
+    throw Exit(kBadScene, warnings[0].message() +
+                              (more > 0 ? "; and " + std::to_string(more) + " more" : "") +
+                              " ('pinocchio info' lists them; without --strict the rest is drawn)");
+  }
+  return value_or_exit(std::move(scene), kBadScene);
+}
+
+void light_if_dark(Scene& scene, const DrawOptions& options) {
+  if (!scene.lights.empty() || scene.environment) return;
+  scene.lights.push_back(default_light(scene, camera_for(options, scene)));
+  if (!options.quiet)
+    std::fprintf(stderr, "pinocchio: %s has no light; a default one is used (add one with --light x,y,z)\n",
+                 scene.source.c_str());
+}
+
+Scene load_scene_for(const DrawOptions& options) {
+  Warnings warnings;
+  Scene scene = load_whole(options, warnings);
+  scene.lights.insert(scene.lights.end(), options.lights.begin(), options.lights.end());
+  light_if_dark(scene, options);
+  return scene;
+}
+
+Camera camera_for(const DrawOptions& options, const Scene& scene) {
+  Camera camera = scene.cameras.empty() ? camera_for_whole_scene(scene) : scene.cameras.front();
+  if (!options.camera.empty()) {
+    const std::optional<int> number = parse_int(options.camera);
+    const Camera* found = find_camera(scene, options.camera);
+    if (!found && number && *number >= 0 && *number < std::ssize(scene.cameras))
+      found = &scene.cameras[*number];
+    if (!found) {
+      std::string known;
+      for (const Camera& c : scene.cameras) known += (known.empty() ? "" : ", ") + c.name;
+      throw Exit(kUsage, "--camera " + options.camera + ": " + options.scene + " has " +
+                             (known.empty() ? "no camera" : "only these cameras: " + known));
+    }
+    camera = *found;
+  }
+  if (options.eye) camera.eye = *options.eye;
+  if (options.target) camera.target = *options.target;
+  if (options.eye && options.target) camera.up = Camera{}.up;
+  if (options.up) camera.up = *options.up;
+  if (options.fov_deg) camera.fov_deg = *options.fov_deg;
+  if (options.lens_radius) camera.lens_radius = *options.lens_radius;
+  if (options.focus) camera.focus_distance = *options.focus;
+  check_camera(camera, "the camera");
+  return camera;
+}
+
+PixelBox part_of(const DrawOptions& options) {
+  const PixelBox whole{{0, 0}, options.size};
+  if (!options.crop) return whole;
+  const PixelBox part{glm::max(options.crop->lo, whole.lo), glm::min(options.crop->hi, whole.hi)};
+  if (part.empty())
+    throw Exit(kUsage, "--crop: no pixel of the picture is in the box; it is x0,y0,x1,y1, half-open");
+  return part;
+}
+
+}  // namespace pinocchio::app

@@ -1,0 +1,80 @@
+#pragma once
+
+#include <glm/glm.hpp>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "pinocchio/engine.h"
+#include "pinocchio/load.h"
+#include "pinocchio/scene.h"
+#include "pinocchio/view.h"
+
+namespace CLI {
+class App;
+}
+
+namespace pinocchio::app {
+
+inline constexpr int kMaxSide = 16384;              // of a picture, pixels
+inline constexpr long long kMaxPixels = 1LL << 26;  // of a picture: about 12 GB with every EXR layer
+
+// What every verb that draws takes from the command line, checked.
+struct DrawOptions {
+  std::string scene;
+  glm::ivec2 size{800, 600};
+  Settings settings;      // given by the command line and its plan's file
+  std::string plan_file;  // --plan FILE.json
+  EngineOptions engine;
+  std::string camera;  // name or index. Empty: the first, else a view of the whole scene
+  std::optional<glm::vec3> eye, target, up;
+  std::optional<float> fov_deg, lens_radius, focus;
+  std::vector<Light> lights;  // added to the scene's
+  std::string environment;    // file. Empty: none
+  std::optional<PixelBox> crop;
+  bool precise = false;  // draw the reference
+  std::string progress = "auto";
+  bool quiet = false;
+  std::uint64_t load_limit = kUsualLoadLimit;  // bytes
+  bool confine = false;                        // open only files below the scene's folder
+  bool strict = false;                         // fail where a part of the scene would be ignored
+
+  // Of a Progress.
+  [[nodiscard]] std::string progress_mode() const { return quiet ? "off" : progress; }
+};
+
+// Each adds options to a verb; their values are in `options` once the command line is parsed. A wrong value
+// is a CLI::ValidationError: exit code 2 and a line that says what is wanted. Scene, camera, lights,
+// messages:
+void add_scene_options(CLI::App& verb, DrawOptions& options);
+// --load-limit, --confine and --strict:
+void add_trust_options(CLI::App& verb, DrawOptions& options);
+// --size. The help names the verb's default:
+void add_size_option(CLI::App& verb, DrawOptions& options, const std::string& help);
+// Every setting of the table, and the presets:
+void add_settings_options(CLI::App& verb, DrawOptions& options);
+// The OpenGL context, for verbs without a window:
+void add_context_options(CLI::App& verb, DrawOptions& options);
+// --crop and --precise:
+void add_still_options(CLI::App& verb, DrawOptions& options);
+// All of these.
+void add_draw_options(CLI::App& verb, DrawOptions& options);
+
+// Loads the scene and prints what is ignored of it. Ends the verb with kBadScene where the file cannot be
+// read, or where options.strict and a part is ignored.
+[[nodiscard]] Scene load_whole(const DrawOptions& options, Warnings& warnings,
+                               pinocchio::Progress* progress = nullptr);
+
+// Adds a default light to a scene without lights, and says so on stderr.
+void light_if_dark(Scene& scene, const DrawOptions& options);
+
+// load_whole, with the options' lights, and light_if_dark.
+[[nodiscard]] Scene load_scene_for(const DrawOptions& options);
+
+// The camera that the options name. Ends the verb with kUsage where the scene has no such camera.
+[[nodiscard]] Camera camera_for(const DrawOptions& options, const Scene& scene);
+
+// The pixels to draw: --crop within --size, or all. Ends the verb with kUsage where there are none.
+[[nodiscard]] PixelBox part_of(const DrawOptions& options);
+
+}  // namespace pinocchio::app

@@ -1,0 +1,57 @@
+// Parsers of the command line's values. Each returns nothing where the text is not one.
+#pragma once
+
+#include <glm/glm.hpp>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "core/parallel/tiles.h"
+#include "pinocchio/light.h"
+
+namespace pinocchio::app {
+
+[[nodiscard]] std::vector<std::string> split(const std::string& text, char separator);
+// "a, b or c"
+template <class Names>
+[[nodiscard]] std::string listed(const Names& names, std::string_view separator, std::string_view last) {
+  std::string text;
+  for (std::size_t i = 0; i < std::size(names); ++i)
+    text.append(i == 0 ? "" : i + 1 == std::size(names) ? last : separator).append(names[i]);
+  return text;
+}
+
+[[nodiscard]] std::optional<float> parse_float(const std::string& text);  // finite
+// A parser of numbers from lo to hi.
+[[nodiscard]] inline auto number_within(float lo, float hi) {
+  return [=](const std::string& text) {
+    const std::optional<float> value = parse_float(text);
+    return value && *value >= lo && *value <= hi ? value : std::nullopt;
+  };
+}
+[[nodiscard]] std::optional<double> parse_double(const std::string& text);        // finite
+[[nodiscard]] std::optional<double> parse_milliseconds(const std::string& text);  // 16, 16ms or 0.5s; above 0
+[[nodiscard]] std::optional<int> parse_int(const std::string& text);
+[[nodiscard]] std::optional<glm::vec3> parse_vec3(const std::string& text);   // x,y,z
+[[nodiscard]] std::optional<glm::ivec2> parse_size(const std::string& text);  // WxH
+[[nodiscard]] std::optional<PixelBox> parse_box(const std::string& text);     // x0,y0,x1,y1
+[[nodiscard]] std::optional<Light> parse_light(const std::string& text);  // x,y,z[,intensity[,cast|nocast]]
+
+// A-B[xSTEP], or A alone.
+struct FrameRange {
+  int first = 0, last = 0, step = 1;
+
+  [[nodiscard]] std::size_t count() const {
+    return static_cast<std::size_t>((static_cast<long long>(last) - first) / step + 1);
+  }
+  [[nodiscard]] int number(std::size_t i) const {
+    return static_cast<int>(first + static_cast<long long>(i) * step);
+  }
+  [[nodiscard]] bool contains(int number) const {
+    return number >= first && number <= last && (static_cast<long long>(number) - first) % step == 0;
+  }
+};
+[[nodiscard]] std::optional<FrameRange> parse_frames(const std::string& text);
+
+}  // namespace pinocchio::app

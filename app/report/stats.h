@@ -1,0 +1,23 @@
+#pragma once
+
+#include <nlohmann/json_fwd.hpp>
+#include <vector>
+
+#include "gl/context/context.h"
+#include "pinocchio/frame.h"
+#include "pinocchio/scene.h"
+#include "pinocchio/tracer.h"
+
+namespace pinocchio::app {
+
+// {"p50", "p95", "p99"} by nearest rank; zeros where there are no values.
+[[nodiscard]] nlohmann::json percentiles(std::vector<double> values);
+
+// CPU, cores, SIMD level (`used`), OpenGL and versions. context: null where none was opened.
+[[nodiscard]] nlohmann::json system_json(const gl::ContextInfo* context, Isa used = default_isa());
+
+// The figures of a run (--stats-json): times in milliseconds, sizes in bytes, per frame.
+[[nodiscard]] nlohmann::json figures(const std::vector<FrameRecord>& records, const Settings& settings,
+                                     const Scene& scene, const gl::ContextInfo* context);
+
+}  // namespace pinocchio::app

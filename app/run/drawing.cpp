@@ -1,0 +1,91 @@
+#include "app/run/drawing.h"
+
+#include <cstdio>
+#include <cstdlib>
+
+#include "app/cli/console.h"
+#include "app/cli/errors.h"
+#include "gl/context/context.h"
+
+namespace pinocchio::app {
+namespace {
+
+EngineOptions engine_options(const DrawOptions& options) {
+  EngineOptions engine = options.engine;
+  engine.gl_debug = std::getenv("PINOCCHIO_GL_DEBUG") != nullptr;
+  return engine;
+}
+
+Settings with_usual(Settings settings, Exchange usual) {
+  settings.exchange.fill(usual);
+  return settings;
+}
+
+}  // namespace
+
+Drawing::Drawing(const DrawOptions& options, Scene scene, Exchange usual, bool keeps_mask, bool any_settings,
+                 const std::optional<Camera>& only)
+    : options_(options),
+      part_(part_of(options)),
+      keeps_mask_(keeps_mask),
+      engine_(engine_options(options)),
+      scene_(std::move(scene)) {
+  drop_idle_casters(scene_);
+  stats_ = analyze(scene_);
+  if (any_settings) engine_.open_gl();
+  software_gl_ = engine_.gl_is_software(options.settings);
+  if (!options.quiet && !engine_.gl_failure().empty())
+    std::fprintf(stderr, "pinocchio: warning: %s: the CPU draws alone (--mode auto)\n",
+                 one_line(engine_.gl_failure()).c_str());
+  Expected<Settings> resolved = resolve(with_usual(options.settings, usual));
+  if (!resolved) {
+    InputError error = resolved.error();
+    error.file = options.plan_file;
+    throw Exit(
+        options.plan_file.empty() && !broken_rule(with_usual(options.settings, usual)) ? kBadScene : kUsage,
+        error.message());
+  }
+  settings_ = *resolved;
+  if (!options.quiet)
+    for (const std::string& line : losses(settings_, stats_))
+      if (!options.plan_file.empty())
+        std::fprintf(stderr, "pinocchio: warning: %s: %s\n", options.plan_file.c_str(), line.c_str());
+  if (!options.quiet && !any_settings) advise(with_usual(options.settings, usual));
+  if (scene_.animation)
+    poses_.emplace(scene_, &run_progress());
+  else if (any_settings || (settings_.traces() && !options.precise)) {
+    const View view{only.value_or(Camera{}), options.size, part_};
+    tracer_ = Engine::prepare(scene_, settings_, &run_progress(), only ? &view : nullptr);
+  }
+}
+
+void Drawing::advise(Settings automatic) const {
+  if (!software_gl_ || !settings_.uses_gpu() || !settings_.traces()) return;
+  automatic.by_machine = true;
+  const Expected<Settings> other = resolve(automatic);
+  if (!other || other->uses_gpu()) return;
+  std::fprintf(stderr,
+               "pinocchio: OpenGL is software here (%s); --mode auto would draw with the CPU alone, %s\n",
+               engine_.gl_info()->renderer.c_str(), kGainOverSoftwareGl);
+}
+
+Expected<Settings> Drawing::resolve(const Settings& wanted) const {
+  return pinocchio::resolve(wanted, stats_, {part_.size(), software_gl_, keeps_mask_});
+}
+
+FrameRequest Drawing::request(const Settings& settings, const CameraFrame& frame, const CameraFrame* next) {
+  const View view{frame.camera, options_.size, part_};
+  if (!poses_) return {scene_, tracer_, settings, view};
+  const std::optional<double> next_s = next ? std::optional(next->time_s) : std::nullopt;
+  PoseAhead::Pose pose = value_or_exit(poses_->at(frame.time_s, settings, next_s), kBadScene);
+  return {std::move(pose.scene), std::move(pose.tracer), settings, view};
+}
+
+FrameRequest Drawing::untraced_request(const CameraFrame& frame) const {
+  return {value_or_exit(at_time(scene_, frame.time_s), kBadScene),
+          nullptr,
+          settings_,
+          {frame.camera, options_.size, part_}};
+}
+
+}  // namespace pinocchio::app

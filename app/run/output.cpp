@@ -1,0 +1,172 @@
+#include "app/run/output.h"
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+#include <system_error>
+#include <type_traits>
+#include <variant>
+
+#include "app/cli/add_option.h"
+#include "app/cli/errors.h"
+#include "app/cli/groups.h"
+#include "core/files/atomic_file.h"
+#include "core/files/checksum.h"
+#include "core/image/codecs/png.h"
+#include "core/image/tonemap.h"
+#include "core/output/aovs.h"
+
+namespace pinocchio::app {
+namespace {
+
+// Checks that a file's name ends so.
+auto ends_in(const char* extension) {
+  return [extension](const std::string& file) {
+    return std::filesystem::path(file).extension() == extension
+               ? std::string()
+               : "'" + file + "' does not end in " + extension;
+  };
+}
+
+// ASCII alone, because PNG's text is Latin-1 and file names may not be UTF-8.
+std::string ascii_json(const nlohmann::json& json) {
+  return json.dump(-1, ' ', true, nlohmann::json::error_handler_t::replace);
+}
+
+}  // namespace
+
+void add_display_options(CLI::App& verb, float& exposure_ev, ToneMap& curve, int most_stops) {
+  begin_group(verb, kPictureGroup);
+  add_parsed(verb, "--exposure", "exposure of what is shown or previewed, in stops (0)",
+             "a number of stops from " + std::to_string(-most_stops) + " to " + std::to_string(most_stops),
+             number_within(-1.0f * most_stops, 1.0f * most_stops), exposure_ev)
+      ->type_name("STOPS");
+  add_choice(verb, "--tone-map", "how light brighter than white is shown (clip)", kToneMapNames, curve);
+}
+
+void add_output_options(CLI::App& verb, OutputOptions& options) {
+  begin_group(verb, kPictureGroup);
+  verb.add_option("-o,--output", options.exr,
+                  "the picture and its layers, scene-linear; #### stands for the frame's number")
+      ->type_name("FILE.exr")
+      ->check(ends_in(".exr"));
+  verb.add_option("--preview", options.preview, "the picture as a screen shows it (sRGB, 8 bits)")
+      ->type_name("FILE.png")
+      ->check(ends_in(".png"));
+  verb.add_option("--aov", options.aovs,
+                  "EXR layers: all, none or some of " + aov_names() + ", with commas between (all)")
+      ->type_name("LIST")
+      ->check([](const std::string& text) {
+        const Expected<AovSet> aovs = parse_aovs(text);
+        return aovs ? std::string() : aovs.error().message();
+      });
+  add_choice(verb, "--compression", "compression of the EXR, lossless (zip)", kExrCompressionNames,
+             options.compression);
+  add_display_options(verb, options.exposure_ev, options.tone_map, 64);
+  verb.add_flag("--deterministic", options.deterministic,
+                "leave the render time out of the EXR, so that every machine writes the same file");
+  verb.add_flag(
+      "--skip-existing", options.skip_existing,
+      "skip frames whose files are complete and were drawn by the same settings from the same files");
+  begin_group(verb, kOtherGroup);
+}
+
+std::string json_text(const nlohmann::json& json) {
+  return json.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + "\n";
+}
+
+void write_json(const std::filesystem::path& file, const nlohmann::json& json) {
+  write_text(file, json_text(json));
+}
+
+void make_folder(const std::filesystem::path& folder) {
+  std::error_code error;
+  std::filesystem::create_directories(folder, error);
+  if (error)
+    throw Exit(kFailed, folder.string() + ": the folder cannot be made (" + error.message() +
+                            "); give another one with -o DIR");
+}
+
+void check_outputs(const OutputOptions& options, const FrameRange& range) {
+  for (const std::string& pattern : {options.exr, options.preview}) {
+    if (pattern.empty()) continue;
+    if (range.count() > 1 && pattern.find('#') == std::string::npos)
+      throw Exit(kUsage, pattern + ": one file cannot hold " + std::to_string(range.count()) +
+                             " frames; put #### in place of the frame's number");
+    check_writable(numbered(pattern, range.first));
+  }
+}
+
+std::vector<NamedFile> output_files(const OutputOptions& options, const FrameRange& range,
+                                    const NamedFile& other) {
+  std::vector<NamedFile> files{other};
+  for (const auto& [role, pattern] :
+       {std::pair("-o", options.exr), std::pair("--preview", options.preview)}) {
+    if (pattern.empty()) continue;
+    for (const int number : numbers_in_use(pattern, range, other.file))
+      files.push_back({role, numbered(pattern, number)});
+  }
+  return files;
+}
+
+ExrOptions exr_options(const OutputOptions& options, const FrameHeader& frame) {
+  return {.layers = options.aovs,
+          .compression = options.compression,
+          .frame = frame.number,
+          .frames_per_second = frame.fps,
+          .time_s = frame.time_s,
+          .inputs = options.inputs};
+}
+
+std::string inputs_json(const Scene& scene, bool precise) {
+  nlohmann::json inputs{{"precise", precise}, {"files", nlohmann::json::array()}};
+  const auto add = [&](const std::string& file) {
+    const std::optional<std::string> content = fingerprint(file);
+    inputs["files"].push_back({{"name", std::filesystem::path(file).filename().string()},
+                               {"content", content ? nlohmann::json(*content) : nullptr}});
+  };
+  for (const std::string& file : scene.source_files) add(file);
+  if (scene.environment) add(scene.environment->source());
+  return ascii_json(inputs);
+}
+
+std::string preview_text(const OutputOptions& options, const ExrFile& header) {
+  const PixelBox& part = header.data_window;
+  nlohmann::json json{
+      {"exposure", options.exposure_ev},
+      {"toneMap", name_of(kToneMapNames, options.tone_map)},
+      {"displaySize", {header.display_size.x, header.display_size.y}},
+      {"dataWindow", {part.lo.x, part.lo.y, part.hi.x, part.hi.y}},
+  };
+  for (const auto& [name, attribute] : header.attributes)
+    std::visit(
+        [&json, &name](const auto& value) {
+          using Value = std::decay_t<decltype(value)>;
+          if constexpr (std::is_same_v<Value, glm::mat4>)
+            json[name] = std::vector<float>(&value[0][0], &value[0][0] + 16);
+          else if constexpr (std::is_same_v<Value, ExrRational>)
+            json[name] = {value.numerator, value.denominator};
+          else
+            json[name] = value;
+        },
+        attribute);
+  return ascii_json(json);
+}
+
+bool keeps_mask(const OutputOptions& options) {
+  return !options.exr.empty() && parse_aovs(options.aovs)->contains("shadow");
+}
+
+void write_outputs(const OutputOptions& options, const DrawnFrame& frame) {
+  const ExrOptions same_for_all = exr_options(options, frame.header);
+  if (!options.exr.empty()) {
+    ExrOptions exr = same_for_all;
+    if (!options.deterministic) exr.render_s = frame.render_s;
+    write_exr(numbered(options.exr, frame.header.number), frame.picture, exr);
+  }
+  if (!options.preview.empty())
+    write_png(numbered(options.preview, frame.header.number),
+              preview(frame.picture.color, options.exposure_ev, options.tone_map),
+              preview_text(options, exr_header(frame.picture, same_for_all)));
+}
+
+}  // namespace pinocchio::app

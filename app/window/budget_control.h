@@ -1,0 +1,38 @@
+#pragma once
+
+#include <memory>
+
+#include "app/run/budget.h"
+#include "app/window/frame_loop.h"
+
+namespace pinocchio::app {
+
+// --budget and --max-error in the window: measures cheaper settings, one each turn, then keeps frames within
+// the budget.
+class BudgetControl {
+ public:
+  BudgetControl(Engine& engine, Model& model, Screen& screen, FrameLoop& frames, const BudgetOptions& options)
+      : engine_(engine), model_(model), screen_(screen), frames_(frames), options_(options) {}
+
+  // What the frames are drawn by where `exact` would be drawn without a budget.
+  [[nodiscard]] Settings settings_for(const Settings& exact);
+  void note(double frame_ms);
+  [[nodiscard]] bool is_measuring() const { return trial_ != nullptr; }
+  // Makes explicit in `settings` what was given up for the budget.
+  void add_given_up(Settings& settings) const;
+
+ private:
+  void measure();
+  void begin(const Settings& exact);
+
+  Engine& engine_;
+  Model& model_;
+  Screen& screen_;
+  FrameLoop& frames_;
+  BudgetOptions options_;
+  Settings exact_;                                 // what trial_ and controller_ make cheaper
+  std::unique_ptr<BudgetTrial> trial_;             // null: nothing is being measured
+  std::unique_ptr<QualityController> controller_;  // null: there is no budget, or it is not measured yet
+};
+
+}  // namespace pinocchio::app

@@ -1,0 +1,175 @@
+#include "app/window/frame_loop.h"
+
+#include <malloc.h>
+
+#include <algorithm>
+#include <utility>
+
+#include "app/cli/console.h"
+#include "core/base/clock.h"
+#include "core/trace/view/jitter.h"
+#include "gl/context/error.h"
+
+namespace pinocchio::app {
+namespace {
+
+constexpr int kUsualSamples = 256;  // of a still camera: no display shows a difference beyond
+
+// Whether the requests differ at most in where pixels are sampled.
+bool same_view(const FrameRequest& a, const FrameRequest& b) {
+  FrameRequest moved = a;
+  moved.view.jitter = b.view.jitter;
+  moved.view.sample = b.view.sample;
+  return moved == b;
+}
+
+// A lost OpenGL context, or a machine that fails otherwise. Other errors of OpenGL become messages.
+bool ends_the_window(const std::exception& error) {
+  if (dynamic_cast<const gl::ContextLostError*>(&error) || dynamic_cast<const gl::NoContextError*>(&error))
+    return true;
+  return dynamic_cast<const EnvironmentError*>(&error) && !dynamic_cast<const gl::Error*>(&error);
+}
+
+}  // namespace
+
+FrameLoop::FrameLoop(Engine& engine, Model& model, Screen& screen, SplitView& split, FrameSinks sinks)
+    : engine_(engine),
+      model_(model),
+      screen_(screen),
+      split_(split),
+      sinks_(std::move(sinks)),
+      inspect_(engine),
+      accumulator_(engine),
+      renderer_(engine, {[this](Frame& frame) { deliver(frame); }, sinks_.record}) {}
+
+// While a scene is loaded, no further samples are begun: loading takes less time, and the window answers.
+int FrameLoop::most_samples() const {
+  if (model_.is_loading()) return std::max(sample_, 1);
+  const Settings& given = model_.applied.settings;
+  return given.spp.given ? given.spp.value : kUsualSamples;
+}
+
+FrameRequest FrameLoop::next_request() {
+  FrameRequest next = model_.request();
+  if (!newest_ || !same_view(*newest_, next)) sample_ = 0;
+  if (model_.gathers())
+    next.view = at_sample(next.view, std::min(sample_, most_samples() - 1), next.settings.pixel_filter);
+  return next;
+}
+
+bool FrameLoop::only_overlay_changed() const {
+  return screen_.redraws() > 0 && screen_.has_picture() && !again_ && !model_.idle && newest_ &&
+         same_view(*newest_, model_.request());
+}
+
+void FrameLoop::draw() {
+  try {
+    draw_next();
+  } catch (const std::exception& error) {
+    if (ends_the_window(error)) throw;
+    model_.messages.error("drawing", one_line(error.what()));
+    newest_ = next_request();  // not tried again until something changes
+    model_.idle = true;
+  }
+}
+
+void FrameLoop::draw_next() {
+  const FrameRequest request = next_request();
+  model_.picture_size = request.view.size;
+  if (split_.follow(request)) screen_.request_redraw(1);
+  if (model_.idle && split_.wants_picture()) again_ = true;
+  const bool new_frame = newest_ != request;
+  if (!new_frame && !again_) return settle();
+  model_.idle = false;
+  // Input is handled between showing a frame and beginning the next one.
+  (void)renderer_.advance();
+  if (screen_.shown() || !renderer_.try_submit(request)) return;
+  again_ = false;
+  if (!new_frame) return;
+  model_.messages.clear("drawing");
+  settled_ = false;
+  newest_ = request;
+  ++sample_;
+}
+
+// Delivers what is in flight; then nothing is drawn until something changes.
+void FrameLoop::settle() {
+  const bool was_idle = model_.idle;
+  model_.idle = renderer_.advance();
+  if (!model_.idle || was_idle) return;
+  // A reprojected frame has an older frame's mask until it is requested again.
+  again_ = !std::exchange(settled_, true) && model_.drawn.exchange == Exchange::reproject;
+  model_.idle = !again_;
+  if (again_) return;
+  renderer_.drain();  // does not wait: it collects the last frames' figures
+  malloc_trim(0);     // drawing needed more memory than showing
+  model_.history.pause();
+  screen_.request_redraw(1);
+}
+
+void FrameLoop::restart() {
+  newest_.reset();
+  sample_ = 0;
+  accumulator_.reset();
+}
+
+FrameResult FrameLoop::draw_now(const Settings& settings) {
+  renderer_.drain();
+  FrameRequest request = model_.request();
+  request.settings = settings;
+  FrameResult picture;
+  Renderer renderer(engine_, {[&](const Frame& frame) { picture = frame.read(); }, {}});
+  renderer.submit(request);
+  renderer.drain();
+  return picture;
+}
+
+void FrameLoop::add_gathered(FrameResult& picture) {
+  picture.settings.spp = 1;
+  if (!model_.gathers() || accumulator_.samples() <= 1 ||
+      accumulator_.average().size() != picture.color.size())
+    return;
+  accumulator_.read_average(picture.color);
+  picture.settings.spp = accumulator_.samples();
+}
+
+void FrameLoop::deliver(Frame& frame) {
+  split_.compare(frame, newest_);
+  Span& present = frame.record()[Stage::present];
+  present.begin_s = now_s();
+  const BufferView buffer = model_.applied.buffer;
+  screen_.set_picture(&chosen_buffer(frame),
+                      buffer == BufferView::picture || buffer == BufferView::reflection);
+  screen_.show();
+  present.end_s = now_s();
+  sinks_.frame(frame);
+}
+
+const gl::Texture& FrameLoop::chosen_buffer(const Frame& frame) {
+  const ViewSettings& settings = model_.applied;
+  model_.samples = 1;
+  model_.legend.clear();
+  if (settings.buffer != BufferView::picture) {
+    model_.shown_range = settings.range.value_or(channel_range());
+    model_.legend = legend(settings.buffer, settings.mask_slot, frame, model_.shown_range);
+    return inspect_.draw(frame, settings.buffer, settings.mask_slot, model_.shown_range);
+  }
+  if (!model_.gathers() || frame.request().view.camera != model_.camera.camera()) return frame.texture();
+  accumulator_.add(frame);
+  if (accumulator_.samples() <= 1) return frame.texture();
+  model_.samples = accumulator_.samples();
+  return accumulator_.average().color();
+}
+
+// From the scene's nearest point to its farthest, or from one side of its box to the other.
+ChannelRange FrameLoop::channel_range() const {
+  const Bounds& box = model_.stats.bounds;
+  if (model_.applied.buffer == BufferView::position) return {box.lo, glm::max(box.hi, box.lo + 1e-6f)};
+  const CameraAxes axes = camera_axes(model_.camera.camera());
+  const glm::vec3 to = box.center() - model_.camera.camera().eye, half = 0.5f * box.extent();
+  const float middle = glm::dot(to, axes.forward), reach = glm::dot(half, glm::abs(axes.forward));
+  const float near_z = std::max(middle - reach, 0.0f), far_z = std::max(middle + reach, near_z + 1e-6f);
+  return {glm::vec3(near_z), glm::vec3(far_z)};
+}
+
+}  // namespace pinocchio::app

@@ -1,0 +1,102 @@
+#pragma once
+
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "app/window/camera/camera_control.h"
+#include "app/window/model/actions.h"
+#include "app/window/model/history.h"
+#include "app/window/model/messages.h"
+#include "app/window/model/panels.h"
+#include "app/window/model/pixel_report.h"
+#include "app/window/model/scene_files.h"
+#include "app/window/model/scene_loader.h"
+#include "app/window/model/settings.h"
+#include "core/image/light_histogram.h"
+#include "hybrid/inspect/present_pass.h"
+
+namespace pinocchio::app {
+
+// What the timeline shows.
+struct TimelineView {
+  bool paused = false;
+  int frames = 6;                    // shown at once
+  int back = 0;                      // frames between the last one shown and the newest, while paused
+  std::vector<FrameRecord> records;  // the frames when it was paused
+};
+
+// The time of an animated scene.
+struct PlaybackState {
+  bool playing = false;
+  double time_s = 0.0;            // to be shown
+  std::optional<double> posed_s;  // of the scene that is shown. Nothing: the scene is to be posed again
+};
+
+// The folder that the panel Files shows.
+struct FileList {
+  std::filesystem::path folder;  // empty: the scene's
+  std::vector<FolderEntry> entries;
+
+  void go_to(const std::filesystem::path& to) {
+    folder = to;
+    entries = scenes_in(to);
+  }
+};
+
+// What the window shows and what can be changed in it: the session fills it, the overlay shows and edits it.
+struct Model {
+  ViewSettings settings;  // as edited
+  ViewSettings applied;   // in force: `settings` of this turn, where the scene can be drawn by them
+  OpenPanels panels;
+  CameraControl camera;
+  Scene scene;                              // with lights and materials as edited
+  bool scene_edited = false;                // the scene is not its file's
+  SceneStats stats;                         // of the scene
+  std::shared_ptr<const Tracer> tracer;     // null: nothing is traced, or the tree is not built yet
+  bool wants_tree = false;                  // also where frames trace nothing: pixels are inspected
+  bool lights_changed = false;              // by the overlay
+  int material = 0;                         // shown in the panel Materials
+  std::optional<Material> edited_material;  // its new value, by the overlay
+  std::optional<PixelReport> pixel;         // under the pointer. Nothing: the panel is closed
+  std::optional<double> pixel_error;        // against the reference. Nothing: it is not complete
+  std::optional<LightHistogram> histogram;  // of the picture. Nothing: no light is shown, or no panel Drawing
+  FileList files;
+  Settings drawn;  // resolved from `applied`
+  History history;
+  TimelineView timeline;
+  PlaybackState playback;
+  int samples = 0;    // gathered by the still camera
+  bool idle = false;  // the picture is done: nothing is drawn until something changes
+
+  SceneLoader::Progress loading;
+  Messages messages;
+  std::string legend;               // what the channel's colours mean. Empty: the picture is shown
+  ChannelRange shown_range;         // of the channel that is shown
+  std::string comparison;           // with the reference, in words. Empty: there is none
+  std::vector<Action> requested;    // by keys and buttons
+  std::string file_to_open;         // requested. Empty: none
+  int camera_to_show = -1;          // requested, one of the scene's. -1: none
+  std::vector<std::string> recent;  // scene files, newest first
+
+  glm::ivec2 window_pixels{0, 0}, picture_size{0, 0};
+  PictureZoom zoom;
+  std::string recording;  // name of the sequence that is written. Empty: none
+  std::string renderer;   // OpenGL's, in words
+  int threads = 0;        // of the tracer
+
+  [[nodiscard]] bool has_scene() const { return !scene.source.empty(); }
+  [[nodiscard]] bool is_loading() const { return !loading.phase.empty(); }
+  // Whether a still camera's samples are gathered: channels and comparisons show one sample.
+  [[nodiscard]] bool gathers() const {
+    return applied.accumulate && applied.buffer == BufferView::picture && applied.split == Split::off;
+  }
+  // Of the picture for the window, pixels.
+  [[nodiscard]] glm::ivec2 wanted_size() const;
+  // The frame that shows all this, sampled at the pixels' centres.
+  [[nodiscard]] FrameRequest request() const;
+};
+
+}  // namespace pinocchio::app

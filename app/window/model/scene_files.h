@@ -1,0 +1,23 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace pinocchio::app {
+
+// Whether load_scene reads files with this extension.
+[[nodiscard]] bool is_scene_file(const std::filesystem::path& file);
+
+// An entry of a folder.
+struct FolderEntry {
+  std::filesystem::path path;
+  bool is_folder = false;
+};
+// Folders first, then scene files, each by name. Empty where the folder cannot be read.
+[[nodiscard]] std::vector<FolderEntry> scenes_in(const std::filesystem::path& folder);
+
+// The scene file `by` places after this one in its folder, in a circle. Empty: there is no other.
+[[nodiscard]] std::string neighbour_of(const std::filesystem::path& file, int by);
+
+}  // namespace pinocchio::app

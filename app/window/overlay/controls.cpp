@@ -1,0 +1,186 @@
+// The panels Drawing and Camera.
+#include <algorithm>
+#include <array>
+#include <string>
+#include <utility>
+
+#include "app/window/overlay/parts.h"
+
+namespace pinocchio::app {
+namespace {
+
+// The names of a plan's values in the window.
+std::string_view shown_name(std::string_view value) {
+  return value == "slides" ? "fixed" : value == "auto" ? "as needed" : value;
+}
+
+std::string help_of(const char* field) {
+  return std::string(find_field(field)->help);
+}
+
+void draw_preset(const char* option, const std::string& help, ViewSettings& s) {
+  std::vector<Choice> choices = preset_choices(option, s);
+  const auto chosen = std::ranges::find(choices, preset_of(option, s), &Choice::text) - choices.begin();
+  const std::vector<Choice> values = choices;
+  if (std::string_view(option) == "plan")
+    for (Choice& choice : choices) choice.text = shown_name(choice.text);
+  if (const int clicked = choose(option, help, choices, chosen); clicked >= 0)
+    choose_preset(option, values[clicked].text, s);
+}
+
+void draw_exchange(ViewSettings& s) {
+  const Field& field = *find_field("exchange");
+  const Exchange now = wanted_settings(s).exchange;
+  if (const int clicked =
+          choose("exchange", std::string(field.help), field_choices(field, s), static_cast<std::size_t>(now));
+      clicked >= 0)
+    s.settings.exchange = static_cast<Exchange>(clicked);
+}
+
+void draw_quality_controls(ViewSettings& s) {
+  checkbox("shadows", s.shadows, help_of("mask_bits"));
+  ImGui::SameLine();
+  checkbox("reflections", s.reflections, help_of("reflection"));
+  int depth = s.settings.depth;
+  if (slider("depth", depth, 0, 16, format(depth == 1 ? "%d bounce" : "%d bounces", depth), help_of("depth")))
+    s.settings.depth = depth;
+  slider("exposure", s.exposure_ev, -8.0f, 8.0f, format("%+.1f stops", s.exposure_ev),
+         "brightness of the picture; one stop doubles the light");
+  const std::vector<Choice> curves{
+      {kToneMapNames[0], "light brighter than white is shown as white"},
+      {kToneMapNames[1], "all light is shown darker, the brightest light most"},
+      {kToneMapNames[2], "like film: more contrast, and highlights fade to white"}};
+  if (const int clicked = choose("tone curve", "how light brighter than white is shown", curves,
+                                 static_cast<std::size_t>(s.tone_map));
+      clicked >= 0)
+    s.tone_map = static_cast<ToneMap>(clicked);
+  slider("resolution", s.scale, kLeastScale, kMostScale, format("%.0f %%", 100.0 * s.scale),
+         "pixels of the picture for one of the window, along a side");
+  checkbox("gather samples", s.accumulate,
+           "while the camera stands still, more samples for each pixel smooth the picture");
+  ImGui::SameLine();
+  checkbox("vsync", s.vsync, "wait for the display between pictures");
+}
+
+// The range that is shown of a channel whose values go beyond 0 to 1.
+void draw_range(Model& model) {
+  ViewSettings& s = model.settings;
+  const int axes = layer_row(s.buffer).window.ranged_axes;
+  if (axes == 0) return;
+  bool automatic = !s.range;
+  if (checkbox("automatic range", automatic, "from the scene's size")) {
+    s.range.reset();
+    if (!automatic) s.range = model.shown_range;
+  }
+  if (!s.range) return;
+  const float speed = std::max(1e-3f * model.stats.bounds.diagonal(), 1e-6f);
+  label("black at", "values in scene units");
+  ImGui::DragScalarN("##lo", ImGuiDataType_Float, &s.range->lo.x, axes, speed, nullptr, nullptr, "%.3f");
+  tooltip("drag, or Ctrl + click to type a number");
+  label("white at", "values in scene units");
+  ImGui::DragScalarN("##hi", ImGuiDataType_Float, &s.range->hi.x, axes, speed, nullptr, nullptr, "%.3f");
+  tooltip("drag, or Ctrl + click to type a number");
+}
+
+void draw_shown(Model& model) {
+  ViewSettings& s = model.settings;
+  label("show", "the picture, or one of the channels it is made of");
+  const auto name_of = [](BufferView view, int slot) {
+    std::string name(layer_row(view).window.name);
+    if (view == BufferView::mask) name += " " + std::to_string(slot);
+    return name;
+  };
+  if (ImGui::BeginCombo("##buffer", name_of(s.buffer, s.mask_slot).c_str())) {
+    for (std::size_t i = 0; i < kBufferViews; ++i) {
+      const auto view = static_cast<BufferView>(i);
+      for (int slot = 0; slot < (view == BufferView::mask ? std::max(model.stats.casting_lights, 1) : 1);
+           ++slot)
+        if (list_item(name_of(view, slot).c_str(),
+                      s.buffer == view && (view != BufferView::mask || s.mask_slot == slot))) {
+          s.buffer = view;
+          s.mask_slot = slot;
+        }
+    }
+    ImGui::EndCombo();
+  }
+  tooltip("the picture, or one of the channels it is made of");
+  draw_range(model);
+  const std::vector<Choice> sides{
+      {"off", "the picture alone"},
+      {"reference", "the right half shows the reference, in double precision"},
+      {"difference", "the right half shows how visible the difference from the reference is (FLIP)"}};
+  if (const int clicked =
+          choose("compare", "compare the picture with a reference, which is drawn in the background", sides,
+                 static_cast<std::size_t>(s.split));
+      clicked >= 0)
+    s.split = static_cast<Split>(clicked);
+}
+
+void draw_about(const Model& model) {
+  ImGui::PushStyleColor(ImGuiCol_Text, ImGui::GetStyle().Colors[ImGuiCol_TextDisabled]);
+  paragraph(format("%d x %d pixels, %d thread%s", model.picture_size.x, model.picture_size.y, model.threads,
+                   model.threads == 1 ? "" : "s"));
+  paragraph(model.renderer);
+  ImGui::PopStyleColor();
+}
+
+}  // namespace
+
+void draw_controls(Model& model, float scale) {
+  ViewSettings& s = model.settings;
+  draw_preset("mode", "which processors draw", s);
+  draw_preset("design", "where the picture is composited", s);
+  draw_preset("plan", "what is sent between the processors", s);
+  draw_exchange(s);
+  ImGui::Separator();
+  draw_quality_controls(s);
+  draw_histogram(model, scale);
+  ImGui::Separator();
+  draw_shown(model);
+  ImGui::Separator();
+  draw_about(model);
+}
+
+void draw_camera(Model& model, float) {
+  const Camera& camera = model.camera.camera();
+  const auto row_of = [](const char* name, const glm::vec3& v, const char* help) {
+    row(name, format("%.2f, %.2f, %.2f", v.x, v.y, v.z), help);
+  };
+  row_of("eye", camera.eye, "position of the camera: x, y, z in the scene's units");
+  row_of("target", camera.target,
+         "point that the camera looks at and turns around; double-click a surface to set it");
+  row("field of view", format("%.1f degrees", camera.fov_deg), "from the lower to the upper edge");
+  struct ActionButton {
+    const char* name;
+    Action action;
+    const char* help;
+  };
+  const auto draw = [&model](std::initializer_list<ActionButton> buttons) {
+    bool first = true;
+    for (const auto& [name, action, help] : buttons) {
+      if (!std::exchange(first, false)) ImGui::SameLine();
+      if (button(name, help)) model.requested.push_back(action);
+    }
+  };
+  draw({{"Fit", Action::frame_all, "show the whole scene, without the walls around it (F)"},
+        {"Reset", Action::reset_camera, "the camera as at the start (R)"},
+        {"Save", Action::save_camera, "save the camera to a file for render --path (C)"}});
+  draw({{"Front", Action::view_front, "look along -z"},
+        {"Right", Action::view_right, "look along -x"},
+        {"Top", Action::view_top, "look along -y"}});
+  draw(
+      {{"Screenshot", Action::screenshot, "write a PNG of the window and an EXR of the picture (F12)"},
+       {"Print command", Action::print_command, "print the command that renders this without a window (P)"}});
+  if (model.scene.cameras.empty()) return;
+  ImGui::Separator();
+  for (std::size_t i = 0; i < model.scene.cameras.size(); ++i) {
+    const std::string& name = model.scene.cameras[i].name;
+    ImGui::PushID(i);
+    if (list_item((std::to_string(i + 1) + "  " + (name.empty() ? "camera" : name)).c_str()))
+      model.camera_to_show = i;
+    ImGui::PopID();
+    tooltip("use this camera of the file");
+  }
+}
+
+}  // namespace pinocchio::app

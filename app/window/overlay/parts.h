@@ -1,0 +1,43 @@
+#pragma once
+
+#include "app/window/model/model.h"
+#include "app/window/overlay/widgets.h"
+
+namespace pinocchio::app {
+
+// The processor or path of a stage: a row of the timeline each.
+enum class Lane { gpu, exchange, cpu, window };
+[[nodiscard]] Lane lane_of(Stage stage, const Settings& settings);
+[[nodiscard]] const char* lane_name(Lane lane);
+[[nodiscard]] ImVec4 lane_color(Lane lane);
+// A stage in words.
+[[nodiscard]] const char* stage_label(Stage stage);
+
+// The panels' contents, each into the ImGui window that is open. scale: pixels for one of a usual display.
+void draw_help(Model& model, float scale);
+void draw_figures(Model& model, float scale);
+void draw_controls(Model& model, float scale);
+void draw_all_settings(Model& model, float scale);
+void draw_light_controls(Model& model, float scale);
+void draw_camera(Model& model, float scale);
+// Part of the panel Drawing, while the picture's light is counted.
+void draw_histogram(const Model& model, float scale);
+void draw_timeline(Model& model, float scale);
+void draw_pixel(Model& model, float scale);
+void draw_materials(Model& model, float scale);
+void draw_files(Model& model, float scale);
+
+// One line at the window's lower edge.
+void draw_status_line(Model& model, float scale);
+[[nodiscard]] float status_height(float scale);
+// Above the status line.
+void draw_messages(Model& model, float scale);
+// For an animated scene: play, pause and its time, above the status line.
+void draw_playback(Model& model, float scale);
+void draw_loading(Model& model, float scale);
+// What the picture's colours mean, at the window's upper edge.
+void draw_caption(Model& model, float scale);
+// A handle at each light in the picture, which can be dragged.
+void draw_light_handles(Model& model, float scale);
+
+}  // namespace pinocchio::app

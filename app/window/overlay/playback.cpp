@@ -1,0 +1,35 @@
+// The controls of an animated scene's time.
+#include <algorithm>
+
+#include "app/window/overlay/parts.h"
+#include "pinocchio/animation.h"
+
+namespace pinocchio::app {
+
+void draw_playback(Model& model, float scale) {
+  if (!model.scene.animation) return;
+  const ImVec2 display = ImGui::GetIO().DisplaySize;
+  const float margin = 8.0f * scale;
+  ImGui::SetNextWindowPos(ImVec2(0.5f * display.x, display.y - status_height(scale) - margin),
+                          ImGuiCond_Always, ImVec2(0.5f, 1.0f));
+  ImGui::Begin("playback", nullptr,
+               kBare | ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoFocusOnAppearing);
+  PlaybackState& playback = model.playback;
+  if (button(playback.playing ? "Pause" : "Play", "the scene's animation, in a loop (Space)"))
+    model.requested.push_back(Action::play);
+  ImGui::SameLine();
+  const float length_s = duration_s(model.scene);
+  float time_s = playback.time_s;
+  ImGui::SetNextItemWidth(std::min(260.0f * scale, 0.4f * display.x));
+  if (ImGui::SliderFloat("##time", &time_s, 0.0f, length_s, "", ImGuiSliderFlags_AlwaysClamp)) {
+    playback.playing = false;
+    playback.time_s = time_s;
+  }
+  tooltip("the time that is shown; drag it, or press Ctrl + Left or Ctrl + Right for one frame");
+  ImGui::SameLine();
+  ImGui::TextUnformatted(format("%.2f of %.2f s", playback.time_s, length_s).c_str());
+  tooltip("seconds since the animation's beginning, and its length");
+  ImGui::End();
+}
+
+}  // namespace pinocchio::app

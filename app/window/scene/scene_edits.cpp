@@ -1,0 +1,67 @@
+#include "app/window/scene/scene_edits.h"
+
+#include <utility>
+
+#include "core/base/clock.h"
+
+namespace pinocchio::app {
+
+// Whether the overlay is hidden does not count as an edit.
+EditState SceneEdits::state() const {
+  EditState state{model_.settings, model_.camera.camera(), model_.scene.lights, model_.scene.mesh->materials};
+  state.settings.overlay = true;
+  return state;
+}
+
+void SceneEdits::begin() {
+  model_.lights_changed = model_.scene_edited = false;
+  history_.begin(state());
+}
+
+void SceneEdits::note() {
+  if (model_.has_scene()) history_.note(state(), now_s());
+}
+
+void SceneEdits::undo() {
+  note();  // keys may have been pressed just before
+  restore(history_.undo(), "nothing to undo");
+}
+
+void SceneEdits::redo() {
+  note();
+  restore(history_.redo(), "nothing to redo");
+}
+
+void SceneEdits::restore(const std::optional<EditState>& state, const char* otherwise) {
+  if (!state) return model_.messages.hint(otherwise, 2.0);
+  const bool overlay = model_.settings.overlay;
+  model_.settings = state->settings;
+  model_.settings.overlay = overlay;
+  model_.camera.set_camera(state->camera);
+  if (model_.scene.mesh->materials != state->materials) set_materials(state->materials);
+  if (model_.scene.lights == state->lights) return;
+  model_.scene.lights = state->lights;
+  model_.lights_changed = true;
+}
+
+// The tree stays valid: the triangles are the same.
+void SceneEdits::set_materials(std::vector<Material> materials) {
+  auto mesh = std::make_shared<Mesh>(*model_.scene.mesh);
+  mesh->materials = std::move(materials);
+  model_.scene.mesh = std::move(mesh);
+  model_.stats = analyze(model_.scene);
+  model_.scene_edited = true;
+}
+
+void SceneEdits::apply() {
+  if (model_.edited_material) {
+    std::vector<Material> materials = model_.scene.mesh->materials;
+    materials.at(model_.material) = *std::exchange(model_.edited_material, std::nullopt);
+    set_materials(std::move(materials));
+  }
+  if (!std::exchange(model_.lights_changed, false)) return;
+  model_.scene_edited = true;
+  recount_lights(model_.scene, model_.stats);
+}
+
+}  // namespace pinocchio::app

@@ -1,0 +1,75 @@
+#include "app/window/scene/scene_source.h"
+
+#include <utility>
+
+#include "app/cli/errors.h"
+
+namespace pinocchio::app {
+
+SceneSource::SceneSource(Model& model, const DrawOptions& options, bool watch)
+    : model_(model), options_(options), watches_(watch) {
+  load(options_);
+}
+
+void SceneSource::open(const std::string& file) {
+  DrawOptions draw = options_;
+  draw.scene = file;
+  // The command line's camera and lights belong to another scene.
+  draw.camera.clear();
+  draw.eye = draw.target = draw.up = std::nullopt;
+  draw.fov_deg = draw.lens_radius = draw.focus = std::nullopt;
+  draw.lights.clear();
+  load(draw);
+}
+
+// The loader does one thing at a time: a tree that is being built is dropped.
+void SceneSource::load(const DrawOptions& options) {
+  if (!model_.tracer) tree_settings_.reset();
+  pending_ = options;
+  loader_.load(options);
+}
+
+void SceneSource::cancel() {
+  loader_.cancel();
+  pending_.reset();
+  model_.messages.hint(!model_.has_scene() ? "nothing is open: drop a file on the window, or press F10"
+                       : model_.tracer
+                           ? "cancelled; the scene before stays"
+                           : "cancelled; without shadows and mirrors until the scene is opened again");
+}
+
+SceneLoader::News SceneSource::poll() {
+  SceneLoader::News news = loader_.poll();
+  model_.loading = loader_.progress();
+  if (news.error.empty()) return news;
+  if (!model_.has_scene()) throw Exit(news.code, news.error);
+  model_.messages.error("scene", news.error);
+  reject();
+  return news;
+}
+
+void SceneSource::accept(const Scene& scene) {
+  if (pending_) options_ = *std::exchange(pending_, std::nullopt);
+  tree_settings_.reset();
+  if (!watches_) return;
+  if (watch_ && model_.scene.source == scene.source) {
+    model_.messages.news(scene.source + " was loaded again");
+    watch_->follow(scene.source_files);
+  } else {
+    watch_.emplace(scene.source_files);
+  }
+}
+
+void SceneSource::request_tree(const Settings& given) {
+  Settings settings = given;
+  if (model_.wants_tree && !settings.traces()) apply_preset("mode", "raytrace", settings);
+  if (!settings.traces() || !loader_.progress().phase.empty()) return;
+  if (tree_settings_ && same_tracer(*tree_settings_, settings)) return;
+  tree_settings_ = settings;
+  if (model_.scene.animation)
+    model_.playback.posed_s.reset();  // each pose has a tree of its own
+  else
+    loader_.build_tree(model_.scene, settings);
+}
+
+}  // namespace pinocchio::app

@@ -1,0 +1,52 @@
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "app/window/model/model.h"
+#include "app/window/scene/file_watch.h"
+
+namespace pinocchio::app {
+
+// Where the window's scene comes from: loads scenes and builds their trees in the background, and watches
+// their files.
+class SceneSource {
+ public:
+  // watch: a scene is loaded again when its files change.
+  SceneSource(Model& model, const DrawOptions& options, bool watch);
+
+  // What the scene in the window was loaded by.
+  [[nodiscard]] const DrawOptions& options() const { return options_; }
+  // Begins to load a file. Until it is read, the scene before stays.
+  void open(const std::string& file);
+  void reload() { load(options_); }
+  void cancel();
+  // What the background has finished. An error of a scene ends the verb where no scene is open, else it
+  // becomes a message.
+  [[nodiscard]] SceneLoader::News poll();
+  [[nodiscard]] bool is_busy() const { return loader_.busy(); }
+
+  // The scene that was polled is in the window now, or is not going to be.
+  void accept(const Scene& scene);
+  void reject() { pending_.reset(); }
+  // Whether a file of the scene has changed.
+  [[nodiscard]] bool has_changed(double now_s) { return watch_ && watch_->changed(now_s); }
+
+  // Begins to build the tree that these settings trace in, where there is none. Until it is built, frames
+  // trace in the old tree.
+  void request_tree(const Settings& settings);
+  [[nodiscard]] Settings tree_settings() const { return tree_settings_.value_or(model_.drawn); }
+
+ private:
+  void load(const DrawOptions& options);
+
+  Model& model_;
+  SceneLoader loader_;
+  DrawOptions options_;
+  std::optional<DrawOptions> pending_;     // of the scene that is being read
+  std::optional<Settings> tree_settings_;  // of the tree that is built, or being built
+  bool watches_;
+  std::optional<FileWatch> watch_;
+};
+
+}  // namespace pinocchio::app

@@ -1,0 +1,49 @@
+// BMP, GIF and TGA by stb_image, whose names and macros stay in this file.
+#include <algorithm>
+#include <cstdlib>
+#include <limits>
+#include <memory>
+
+#define STB_IMAGE_STATIC
+// Missing bytes of a file that is cut off are zero, so that its picture is the same every time.
+#define STBI_MALLOC(size) std::calloc(1, size)
+#define STBI_REALLOC(old, size) std::realloc(old, size)
+#define STBI_FREE(memory) std::free(memory)
+#define STB_IMAGE_IMPLEMENTATION
+#define STBI_ONLY_BMP
+#define STBI_ONLY_GIF
+#define STBI_ONLY_TGA
+#pragma GCC diagnostic push
+#pragma GCC diagnostic ignored "-Wunused-function"
+#pragma GCC diagnostic ignored "-Wmissing-field-initializers"
+#include <stb/stb_image.h>
+#pragma GCC diagnostic pop
+
+#include "core/image/codecs/decoders.h"
+
+namespace pinocchio {
+
+bool is_stb(std::span<const unsigned char> bytes) {
+  int width = 0, height = 0, channels = 0;
+  return bytes.size() <= std::numeric_limits<int>::max() &&
+         stbi_info_from_memory(bytes.data(), static_cast<int>(bytes.size()), &width, &height, &channels) != 0;
+}
+
+Expected<DecodedImage> decode_stb(const EncodedPicture& picture) {
+  const auto size = static_cast<int>(picture.bytes.size());
+  int width = 0, height = 0, channels = 0;
+  if (stbi_info_from_memory(picture.bytes.data(), size, &width, &height, &channels) == 0)
+    return picture.error(std::string("cannot be decoded: ") + stbi_failure_reason());
+  // A BMP whose first row is its top one says so by a height below zero.
+  Expected<DecodedImage> image = picture.black(width, std::abs(std::int64_t{height}));
+  if (!image) return image;
+  const std::unique_ptr<stbi_uc, void (*)(void*)> pixels(
+      stbi_load_from_memory(picture.bytes.data(), size, &width, &height, &channels, 4), stbi_image_free);
+  if (!pixels || glm::ivec2(width, height) != image->texture.texels.size())
+    return picture.error(std::string("cannot be decoded: ") +
+                         (pixels ? "its size changes" : stbi_failure_reason()));
+  std::copy_n(pixels.get(), bytes_of(*image).size(), bytes_of(*image).data());
+  return image;
+}
+
+}  // namespace pinocchio

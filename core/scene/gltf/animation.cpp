@@ -1,0 +1,193 @@
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <nlohmann/json.hpp>
+#include <set>
+
+#include "core/scene/gltf/deformation.h"
+#include "core/scene/gltf/format/json.h"
+
+namespace pinocchio {
+namespace {
+
+using Json = nlohmann::json;
+
+constexpr const char* kStill = "it stands still there";
+
+struct NamedPath {
+  const char* name;
+  Track::Path path;
+  std::size_t width;
+};
+constexpr NamedPath kPaths[] = {{"translation", Track::Path::translation, 3},
+                                {"rotation", Track::Path::rotation, 4},
+                                {"scale", Track::Path::scale, 3},
+                                {"weights", Track::Path::weights, 0}};
+
+// A channel of an animation; indices are the file's.
+struct Channel {
+  int sampler, node;
+  const NamedPath* path;  // null: not one of glTF's own
+
+  explicit Channel(const Json& json)
+      : sampler(index_member(&json, "sampler")), node(index_member(member(&json, "target"), "node")) {
+    const std::string name = text_member(member(&json, "target"), "path");
+    const auto* const found =
+        std::ranges::find_if(kPaths, [&](const NamedPath& p) { return name == p.name; });
+    path = found == std::end(kPaths) ? nullptr : found;
+  }
+};
+
+class AnimationReader {
+ public:
+  AnimationReader(const GltfFile& file, const NodeTree& tree, const std::vector<int>& place_of_node,
+                  Warnings& warnings)
+      : file_(file), tree_(tree), place_of_node_(place_of_node), warnings_(warnings) {}
+
+  Expected<std::shared_ptr<const Animation>> read() {
+    const Json& animations = file_.items("animations");
+    for (std::size_t i = 0; i < animations.size(); ++i) {
+      const std::string name = text_member(&animations[i], "name");
+      where_ = "animation " + (name.empty() ? std::to_string(i) : "'" + name + "'");
+      if (const Expected<void> added = add(name, animations[i]); !added) return Unexpected(added.error());
+    }
+    if (nodes_.empty()) return std::shared_ptr<const Animation>();
+    for (auto& [index, node] : nodes_) result_.nodes.push_back(std::move(node));
+    for (const Animation::Clip& clip : result_.clips)
+      result_.duration_s = std::max(result_.duration_s, clip.duration_s);
+    return std::make_shared<const Animation>(std::move(result_));
+  }
+
+ private:
+  using Moved = std::pair<int, Track::Path>;  // a node of the scene
+
+  Expected<void> add(const std::string& name, const Json& from) {
+    std::vector<Channel> channels;
+    for (const Json& channel : array_member(&from, "channels")) channels.emplace_back(channel);
+    const auto moves_what_is_moved = [this](const Channel& channel) {
+      return channel.path && moved_.contains({place_of(channel), channel.path->path});
+    };
+    if (std::ranges::any_of(channels, moves_what_is_moved)) {
+      warn("animations of what an earlier one moves are left out", "the first one is shown");
+      return {};
+    }
+    Animation::Clip clip{name};
+    bool any = false;
+    for (const Channel& channel : channels) {
+      throw_if_cancelled(file_.progress);
+      Expected<std::optional<Track>> track = track_of(array_member(&from, "samplers"), channel);
+      if (!track) return Unexpected(track.error());
+      if (!*track) continue;
+      clip.duration_s = std::max(clip.duration_s, static_cast<double>((*track)->times_s.back()));
+      const int node = place_of(channel);
+      if (!moved_.emplace(node, (*track)->path).second) {
+        warn("a second channel of the same node is left out", "the first one is shown");
+        continue;
+      }
+      (*track)->clip = result_.clips.size();
+      node_of(node, channel.node).tracks.push_back(std::move(**track));
+      any = true;
+    }
+    if (any) result_.clips.push_back(std::move(clip));
+    return {};
+  }
+
+  // None: it moves nothing that is drawn, or is left out with a warning.
+  Expected<std::optional<Track>> track_of(const Json& samplers, const Channel& channel) {
+    const auto none = [] { return std::optional<Track>(); };
+    if (!channel.path || channel.node < 0) return none();  // an extension's
+    if (!in_range(channel.node, place_of_node_))
+      return file_.error(where_ + " moves node " + which_of(channel.node, place_of_node_));
+    if (place_of(channel) < 0) return none();  // it is in no scene that is drawn
+    if (channel.sampler < 0) return left_out("channels that name no sampler are left out");
+    if (!in_range(channel.sampler, samplers))
+      return file_.error(where_ + " names sampler " + std::to_string(channel.sampler) + ", it has " +
+                         std::to_string(samplers.size()));
+    const Track::Path path = channel.path->path;
+    if (path != Track::Path::weights && item_of(file_.nodes, channel.node).matrix)
+      return left_out("channels of nodes that have a matrix are left out");
+    const std::size_t width =
+        path == Track::Path::weights ? targets_of(place_of(channel)) : channel.path->width;
+    if (width == 0) return left_out("weights of a node without morph targets are left out");
+    return sampled(item_of(samplers, channel.sampler), path, width);
+  }
+
+  Expected<std::optional<Track>> sampled(const Json& sampler, Track::Path path, std::size_t width) {
+    Track track;
+    track.path = path;
+    track.width = width;
+    const std::string interpolation = text_member(&sampler, "interpolation");
+    if (interpolation == "STEP")
+      track.interpolation = Track::Interpolation::step;
+    else if (interpolation == "CUBICSPLINE")
+      track.interpolation = Track::Interpolation::cubic_spline;
+    else if (!interpolation.empty() && interpolation != "LINEAR")
+      return left_out("channels of an unknown interpolation are left out");
+    const int input = index_member(&sampler, "input"), output = index_member(&sampler, "output");
+    // Many channels may name one accessor.
+    for (const int accessor : {input, output})
+      if (in_range(accessor, file_.accessors) &&
+          !file_.limit->take(file_.path.string(), where_, item_of(file_.accessors, accessor).count,
+                             4 * sizeof(float)))
+        return Unexpected(*file_.limit->error());
+    Expected<std::vector<float>> times = file_.floats(input, 1);
+    if (!times) return Unexpected(times.error());
+    Expected<std::vector<float>> values =
+        file_.floats(output, path == Track::Path::weights ? 1 : static_cast<int>(width));
+    if (!values) return Unexpected(values.error());
+    const auto finite = [](float f) { return std::isfinite(f); };
+    if (!std::ranges::all_of(*times, finite) || !std::ranges::all_of(*values, finite))
+      return left_out("channels of numbers that are not finite are left out");
+    if (times->empty() || !std::ranges::is_sorted(*times))
+      return left_out("channels whose times do not rise are left out");
+    const std::size_t each = track.interpolation == Track::Interpolation::cubic_spline ? 3 * width : width;
+    if (values->size() != times->size() * each)
+      return left_out("channels without a value for each time are left out");
+    track.times_s = std::move(*times);
+    track.values = std::move(*values);
+    return std::optional(std::move(track));
+  }
+
+  std::optional<Track> left_out(const std::string& what) {
+    warn(what, kStill);
+    return std::nullopt;
+  }
+
+  void warn(const std::string& what, const std::string& lost) {
+    warnings_.add({file_.path.string(), where_, what, lost});
+  }
+
+  [[nodiscard]] int place_of(const Channel& channel) const {
+    return in_range(channel.node, place_of_node_) ? item_of(place_of_node_, channel.node) : -1;
+  }
+
+  [[nodiscard]] std::size_t targets_of(int node) const {
+    const auto found = std::ranges::find(tree_.rest->deformations, node, &Deformation::node);
+    return found == tree_.rest->deformations.end() ? 0 : found->targets.size();
+  }
+
+  AnimatedNode& node_of(int node, int in_file) {
+    const auto [at, is_new] = nodes_.try_emplace(node);
+    if (is_new) at->second = {node, item_of(file_.nodes, in_file).motion, {}};
+    return at->second;
+  }
+
+  const GltfFile& file_;
+  const NodeTree& tree_;
+  const std::vector<int>& place_of_node_;
+  Warnings& warnings_;
+  std::string where_;
+  std::set<Moved> moved_;
+  std::map<int, AnimatedNode> nodes_;
+  Animation result_;
+};
+
+}  // namespace
+
+Expected<std::shared_ptr<const Animation>> gltf_animation(const GltfFile& file, const NodeTree& tree,
+                                                          const std::vector<int>& place_of_node,
+                                                          Warnings& warnings) {
+  return AnimationReader(file, tree, place_of_node, warnings).read();
+}
+
+}  // namespace pinocchio

@@ -1,0 +1,93 @@
+// The memory that placed meshes need: a file of a few kilobytes may place one a million times.
+#include <algorithm>
+#include <map>
+#include <set>
+
+#include "core/scene/gltf/file.h"
+#include "core/scene/gltf/format/json.h"
+
+namespace pinocchio {
+namespace {
+
+// In double: a file may claim more than any integer holds.
+struct MeshSize {
+  double triangles = 0.0, vertices = 0.0;
+};
+
+double count_of(const GltfFile& file, int accessor) {
+  return file.count(accessor).value_or(0);
+}
+
+MeshSize size_of(const GltfFile& file, const GltfMesh& mesh) {
+  MeshSize size;
+  std::set<GltfAttributes> known;  // primitives that share their attributes share the vertices
+  for (const GltfPrimitive& primitive : mesh.primitives) {
+    const int position = primitive.attribute("POSITION");
+    if (primitive.mode < kGltfTriangles || position < 0) continue;
+    const double vertices = count_of(file, position);
+    const double corners = primitive.indices >= 0 ? count_of(file, primitive.indices) : vertices;
+    size.triangles += primitive.mode == kGltfTriangles ? corners / 3.0 : corners;
+    if (known.insert(primitive.attributes).second) size.vertices += vertices;
+  }
+  return size;
+}
+
+// How often a node places its mesh.
+double placings_of(const GltfFile& file, const GltfNode& node) {
+  const nlohmann::json* attributes = member(extension(node.json, "EXT_mesh_gpu_instancing"), "attributes");
+  if (!attributes) return 1.0;
+  double most = 0.0;
+  for (const char* name : {"TRANSLATION", "ROTATION", "SCALE"})
+    most = std::max(most, count_of(file, index_member(attributes, name)));
+  return most;
+}
+
+std::map<int, double> placings_by_mesh(const GltfFile& file, std::vector<int> open) {
+  const std::vector<GltfNode>& nodes = file.nodes;
+  std::vector<bool> seen(nodes.size(), false);
+  std::map<int, double> placings;
+  while (!open.empty()) {
+    const int index = open.back();
+    open.pop_back();
+    if (!in_range(index, nodes) || seen[index]) continue;  // an error where the nodes are read
+    seen[index] = true;
+    const GltfNode& node = item_of(nodes, index);
+    if (in_range(node.mesh, file.meshes)) placings[node.mesh] += placings_of(file, node);
+    open.insert(open.end(), node.children.begin(), node.children.end());
+  }
+  return placings;
+}
+
+std::uint64_t whole(double number) {
+  constexpr double kMost = 9e18;
+  return static_cast<std::uint64_t>(std::min(number, kMost));
+}
+
+}  // namespace
+
+Expected<void> take_gltf_memory(const GltfFile& file, const std::vector<int>& roots) {
+  // A mesh's first placing, by corner: the file has held its data once already.
+  constexpr double kCornerBytes = 40.0;
+  // A copy: vertices at rest and placed, triangles and their share of the tree (measured).
+  constexpr double kTriangleBytes = 160.0, kVertexBytes = 96.0, kPlacingBytes = 128.0;
+  double first_bytes = 0.0, bytes = 0.0, triangles = 0.0, copies = 0.0;
+  for (const auto& [mesh, placings] : placings_by_mesh(file, roots)) {
+    const MeshSize size = size_of(file, item_of(file.meshes, mesh));
+    const double more = std::max(placings - 1.0, 0.0);
+    first_bytes += kCornerBytes * std::max(size.vertices, 3.0 * size.triangles);
+    bytes += more * (kTriangleBytes * size.triangles + kVertexBytes * size.vertices + kPlacingBytes);
+    triangles += placings * size.triangles;
+    copies += more;
+  }
+  const std::string name = file.path.string();
+  const std::string what = std::to_string(whole(triangles)) + " triangles, with " +
+                           std::to_string(whole(copies)) + " copies of meshes,";
+  if (triangles > kMaxTriangles)
+    return file.error("places " + what + " and the limit is " + std::to_string(kMaxTriangles), "split it");
+  if (!file.limit->take(name, "placing its meshes", whole(first_bytes), 1) ||
+      !file.limit->take(name, "placing " + what, whole(bytes), 1))
+    return Unexpected(*file.limit->error());
+  return {};
+}
+
+}  // namespace pinocchio

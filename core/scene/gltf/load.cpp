@@ -1,0 +1,411 @@
+#include <algorithm>
+#include <cmath>
+#include <glm/gtc/type_ptr.hpp>
+#include <map>
+#include <nlohmann/json.hpp>
+
+#include "core/math/finite.h"
+#include "core/scene/gltf/deformation.h"
+#include "core/scene/gltf/format/json.h"
+#include "core/scene/loaders.h"
+#include "core/scene/pose/pose.h"
+
+namespace pinocchio {
+namespace {
+
+using Json = nlohmann::json;
+
+glm::vec3 direction_of(const glm::mat4& world, const glm::vec3& local) {
+  const glm::vec3 d(world * glm::vec4(local, 0.0f));
+  const float length = glm::length(d);
+  return length > 0.0f ? d / length : local;
+}
+
+std::optional<float> length_member(const Json* extras, const char* key) {
+  const std::optional<float> size = value_member<float>(extras, key);
+  return size && *size >= 0.0f && std::isfinite(*size) ? size : std::nullopt;
+}
+
+// Its sides lie along the node's x and y, it faces -z.
+void make_rectangle(const glm::vec2& sides, const glm::mat4& world, Light& light) {
+  light.kind = Light::Kind::rectangle;
+  light.edge_u = glm::vec3(world * glm::vec4(sides.x, 0.0f, 0.0f, 0.0f));
+  light.edge_v = glm::vec3(world * glm::vec4(0.0f, sides.y, 0.0f, 0.0f));
+}
+
+constexpr std::pair<const char*, Light::Kind> kLightTypes[] = {
+    {"point", Light::Kind::point}, {"directional", Light::Kind::directional}, {"spot", Light::Kind::spot}};
+
+Light light_of(const Json& json, const GltfNode& node, const glm::mat4& world) {
+  Light light;
+  light.name = text_member(&json, "name");
+  if (light.name.empty()) light.name = node.name;
+  const std::string type = text_member(&json, "type");
+  light.kind = Light::Kind::point;
+  for (const auto& [name, kind] : kLightTypes)
+    if (type == name) light.kind = kind;
+  light.position = glm::vec3(world[3]);
+  light.direction = direction_of(world, {0, 0, -1});
+  if (const std::vector<double> color = numbers_member(&json, "color"); color.size() == 3)
+    light.color = glm::make_vec3(color.data());
+  light.intensity = value_member<float>(&json, "intensity").value_or(1.0f);
+  light.falloff =
+      light.kind == Light::Kind::directional ? Light::Falloff::none : Light::Falloff::inverse_square;
+  if (const double range = value_member<double>(&json, "range").value_or(0.0); range > 0.0)
+    light.range = static_cast<float>(range);
+  if (light.kind == Light::Kind::spot) {
+    const Json* spot = member(&json, "spot");
+    constexpr double kUsualCone = 0.7853981634;
+    light.cos_inner =
+        static_cast<float>(std::cos(value_member<double>(spot, "innerConeAngle").value_or(0.0)));
+    light.cos_outer =
+        static_cast<float>(std::cos(value_member<double>(spot, "outerConeAngle").value_or(kUsualCone)));
+  }
+  for (const Json* extras : {our_extras(&json), our_extras(node.json)}) {
+    light.casts_shadow = value_member<bool>(extras, "castsShadow").value_or(light.casts_shadow);
+    light.radius = length_member(extras, "radius").value_or(light.radius);
+    light.angle_deg = std::min(length_member(extras, "angle").value_or(light.angle_deg), 180.0f);
+    if (const std::optional<glm::vec2> sides = value_member<glm::vec2>(extras, "rectangle"))
+      make_rectangle(*sides, world, light);
+    if (text_member(extras, "falloff") == "none") light.falloff = Light::Falloff::none;
+  }
+  return light;
+}
+
+// Looks along -Z; only `target` of our extras tells how far the target is.
+Camera camera_of(const Json& json, const GltfNode& node, const glm::mat4& world) {
+  Camera camera;
+  camera.name = !node.name.empty() ? node.name : text_member(&json, "name");
+  camera.eye = glm::vec3(world[3]);
+  camera.target = camera.eye + direction_of(world, {0, 0, -1});
+  camera.up = direction_of(world, {0, 1, 0});
+  const Json* const extras = our_extras(node.json);
+  const std::optional<glm::vec3> target = value_member<glm::vec3>(extras, "target");
+  if (target && *target != camera.eye) camera.target = *target;
+  const std::optional<glm::vec3> up = value_member<glm::vec3>(extras, "up");
+  if (up && *up != glm::vec3(0.0f)) camera.up = *up;
+  const double yfov = value_member<double>(member(&json, "perspective"), "yfov").value_or(0.0);
+  camera.fov_deg = static_cast<float>(glm::degrees(yfov));
+  camera.lens_radius = length_member(extras, "lensRadius").value_or(0.0f);
+  camera.focus_distance = length_member(extras, "focusDistance").value_or(0.0f);
+  return camera;
+}
+
+// In the space of the node whose transform is `world`.
+Light at_rest(const glm::mat4& world, Light light) {
+  const Placement to_node(glm::inverse(world));
+  const glm::vec3 origin = to_node.position(glm::vec3(0.0f));
+  light.edge_u = to_node.position(light.edge_u) - origin;
+  light.edge_v = to_node.position(light.edge_v) - origin;
+  light.position = glm::vec3(0.0f);
+  light.direction = {0, 0, -1};
+  return light;
+}
+Camera at_rest(const glm::mat4& world, Camera camera) {
+  const Placement to_node(glm::inverse(world));
+  camera.eye = glm::vec3(0.0f);
+  camera.target = to_node.position(camera.target);
+  camera.up = to_node.direction(camera.up);
+  return camera;
+}
+
+bool can_look(const Camera& camera) {
+  return camera.fov_deg > 0.0f && camera.fov_deg < 180.0f && is_finite(camera.eye) &&
+         is_finite(camera.target) && is_finite(camera.up);
+}
+
+bool can_shine(const Light& light) {
+  return is_finite(light.position) && is_finite(light.direction) && is_finite(light.edge_u) &&
+         is_finite(light.edge_v) && is_finite(light.intensity * light.color);
+}
+
+// Drops texture coordinates and tangents that no map uses, and colours that are all white.
+void drop_unused_attributes(MeshData& mesh, RestPose& rest) {
+  bool set0 = false, set1 = false, normals = false;
+  for (const MaterialMaps& m : mesh.maps) {
+    for (const TextureUse* use : m.uses())
+      if (use->used()) (use->uv_set == 1 ? set1 : set0) = true;
+    normals = normals || m.normal.used();
+  }
+  const auto given = [](const glm::vec4& t) { return t.w != 0.0f; };
+  // Primitives without coordinates have zeros.
+  const std::size_t vertices = mesh.positions.size();
+  const auto keep = [vertices](bool needed, std::vector<glm::vec2>& texcoords) {
+    needed ? texcoords.resize(vertices) : std::vector<glm::vec2>().swap(texcoords);
+  };
+  keep(set0, mesh.texcoords);
+  keep(set1, mesh.texcoords1);
+  if (!normals || std::none_of(mesh.tangents.begin(), mesh.tangents.end(), given))
+    mesh.tangents = {}, rest.tangents = {};
+  const auto colored = [](const glm::vec4& c) { return c != glm::vec4(1.0f); };
+  if (std::none_of(mesh.colors.begin(), mesh.colors.end(), colored)) mesh.colors = {};
+}
+
+class SceneReader {
+ public:
+  SceneReader(const GltfFile& file, Loading& loading) : file_(file), loading_(loading) {
+    add_gltf_materials(file, mesh_);
+  }
+
+  Expected<Scene> read() {
+    const std::vector<int> roots = this->roots();
+    if (const Expected<void> fits = take_gltf_memory(file_, roots); !fits) return Unexpected(fits.error());
+    std::vector<Placed> open;
+    for (const int root : roots) open.push_back({root, -1, glm::mat4(1.0f)});
+    std::reverse(open.begin(), open.end());  // popped in the file's order
+    std::vector<bool> seen(file_.nodes.size(), false);
+    begin_phase(file_.progress, "mesh", file_.nodes.size());
+    while (!open.empty()) {
+      advance(file_.progress);
+      const Placed at = open.back();
+      open.pop_back();
+      if (!in_range(at.node, file_.nodes)) return file_.error("names node " + which_of(at.node, file_.nodes));
+      const auto index = static_cast<std::size_t>(at.node);
+      if (seen[index])
+        return file_.error("reaches node " + std::to_string(at.node) + " twice: nodes are no tree");
+      seen[index] = true;
+      const GltfNode& node = file_.nodes[index];
+      const glm::mat4 local = node.parent_from_node(), world = at.world_from_parent * local;
+      place_of_node_[index] = static_cast<int>(tree_.nodes.size());
+      begin(node, at.parent, local);
+      if (const Expected<void> added = add(node, world); !added) return Unexpected(added.error());
+      end(world);
+      const int place = static_cast<int>(tree_.nodes.size()) - 1;
+      for (auto child = node.children.rbegin(); child != node.children.rend(); ++child)
+        open.push_back({*child, place, world});
+    }
+    finish();
+    if (const Expected<void> skinned = add_skins(); !skinned) return Unexpected(skinned.error());
+    scene_.mesh = std::make_shared<const Mesh>(std::move(mesh_));
+    Expected<std::shared_ptr<const Animation>> animation =
+        gltf_animation(file_, tree_, place_of_node_, loading_.warnings);
+    if (!animation) return Unexpected(animation.error());
+    scene_.animation = std::move(*animation);
+    scene_.nodes = std::make_shared<const NodeTree>(std::move(tree_));
+    return std::move(scene_);
+  }
+
+ private:
+  struct Placed {
+    int node, parent;  // in the file; in tree_
+    glm::mat4 world_from_parent;
+  };
+
+  // What is added between begin() and end() moves with this node.
+  void begin(const GltfNode& node, int parent, const glm::mat4& local) {
+    tree_.nodes.push_back({node.name, parent, local, static_cast<std::uint32_t>(mesh_.positions.size()), 0,
+                           static_cast<std::uint32_t>(mesh_.triangles.size()), 0});
+    lights_before_ = scene_.lights.size();
+    cameras_before_ = scene_.cameras.size();
+  }
+  void end(const glm::mat4& world) {
+    Node& node = tree_.nodes.back();
+    node.vertices = static_cast<std::uint32_t>(mesh_.positions.size()) - node.first_vertex;
+    node.triangles = static_cast<std::uint32_t>(mesh_.triangles.size()) - node.first_triangle;
+    const int index = static_cast<int>(tree_.nodes.size()) - 1;
+    for (std::size_t i = lights_before_; i < scene_.lights.size(); ++i)
+      rest_.lights.push_back({index, i, at_rest(world, scene_.lights[i])});
+    for (std::size_t i = cameras_before_; i < scene_.cameras.size(); ++i)
+      rest_.cameras.push_back({index, i, at_rest(world, scene_.cameras[i])});
+  }
+
+  // The scene that is drawn: the default one, else the first. Null: the file has none.
+  [[nodiscard]] const Json* shown_scene() const {
+    const Json& scenes = file_.items("scenes");
+    const int shown = index_member(file_.json.get(), "scene");
+    if (scenes.empty()) return nullptr;
+    return in_range(shown, scenes) ? &item_of(scenes, shown) : &scenes[0];
+  }
+
+  // That scene's nodes; without a scene, every node that is nobody's child.
+  [[nodiscard]] std::vector<int> roots() const {
+    if (const Json* scene = shown_scene()) return indices_member(scene, "nodes");
+    std::vector<bool> is_child(file_.nodes.size(), false);
+    for (const GltfNode& node : file_.nodes)
+      for (const int child : node.children)
+        if (in_range(child, is_child)) is_child[child] = true;
+    std::vector<int> found;
+    for (std::size_t i = 0; i < is_child.size(); ++i)
+      if (!is_child[i]) found.push_back(static_cast<int>(i));
+    return found;
+  }
+
+  Expected<void> add(const GltfNode& node, const glm::mat4& world) {
+    if (node.mesh >= 0) {
+      const auto default_material = static_cast<std::uint32_t>(mesh_.materials.size() - 1);
+      Expected<std::vector<glm::mat4>> instances = instances_of(node);
+      if (!instances) return Unexpected(instances.error());
+      if (node.skin >= 0 && !in_range(node.skin, file_.skins))
+        return file_.error("a node names skin " + which_of(node.skin, file_.skins));
+      DeformationReader deformation(file_, node, tree_.nodes.back().first_vertex, loading_.warnings);
+      for (const glm::mat4& instance : *instances) {
+        const std::size_t first = mesh_.positions.size();
+        const Expected<void> added =
+            add_gltf_mesh(file_, node.mesh, world * instance, default_material, mesh_, rest_,
+                          deformation.needed() ? &deformation : nullptr, loading_.warnings);
+        if (!added) return added;
+        deformation.place(instance, static_cast<std::uint32_t>(first),
+                          std::span(rest_.normals).subspan(first));
+        if (instance != glm::mat4(1.0f)) place_rest(Placement(instance), first);
+      }
+      if (deformation.needed()) add_deformation(node, deformation);
+    }
+    if (in_range(node.camera, file_.items("cameras")))
+      add_camera(item_of(file_.items("cameras"), node.camera), node, world);
+    const Json* const light = member(extension(node.json, "KHR_lights_punctual"), "light");
+    if (!light) return {};
+    const Json& lights = array_member(extension(file_.json.get(), "KHR_lights_punctual"), "lights");
+    if (!in_range(index_of(*light), lights))
+      return file_.error("a node names a light that there is not, there are " +
+                         std::to_string(lights.size()));
+    add_light(item_of(lights, index_of(*light)), node, world);
+    return {};
+  }
+
+  void add_camera(const Json& json, const GltfNode& node, const glm::mat4& world) {
+    const Camera camera = camera_of(json, node, world);
+    if (text_member(&json, "type") != "perspective") {
+      warn("camera '" + camera.name + "'", "is not perspective and left out", "it cannot be looked through");
+    } else if (!can_look(camera)) {
+      warn("camera '" + camera.name + "'", "has no field of view within 0 and 180 degrees and is left out",
+           "it cannot be looked through");
+    } else {
+      scene_.cameras.push_back(camera);
+    }
+  }
+
+  void add_light(const Json& json, const GltfNode& node, const glm::mat4& world) {
+    const Light light = light_of(json, node, world);
+    const std::string type = text_member(&json, "type"), where = "light '" + light.name + "'";
+    if (std::ranges::none_of(kLightTypes, [&](const auto& known) { return type == known.first; }))
+      warn(where, "its type is none of glTF's", "it shines as a point light");
+    if (can_shine(light)) {
+      scene_.lights.push_back(light);
+    } else {
+      warn(where, "is not of finite numbers and left out", "its light is missing");
+    }
+  }
+
+  // The deformation is applied once all nodes are known, in add_skins.
+  void add_deformation(const GltfNode& node, DeformationReader& reader) {
+    rest_.deformations.push_back(reader.result());
+    rest_.deformations.back().node = static_cast<int>(tree_.nodes.size()) - 1;
+    rest_.deformations.back().skin = reader.skinned() ? node.skin : -1;  // the file's index until add_skins
+    tree_.weights.push_back(reader.weights());
+  }
+
+  // Reads the skins that deformations use, and applies weights and skins to the mesh.
+  Expected<void> add_skins() {
+    std::map<int, int> skins;  // index in rest_.skins by the file's
+    for (Deformation& deformation : rest_.deformations) {
+      if (deformation.skin < 0) continue;
+      const auto [at, is_new] = skins.try_emplace(deformation.skin, -1);
+      if (is_new) {
+        Expected<std::optional<Skin>> skin = gltf_skin(file_, at->first, place_of_node_);
+        if (!skin) return Unexpected(skin.error());
+        if (*skin) {
+          at->second = static_cast<int>(rest_.skins.size());
+          rest_.skins.push_back(std::move(**skin));
+        } else {
+          warn("skin " + std::to_string(at->first), "skins of joints that are not in the scene are left out",
+               "what they cover stays as its node has it");
+        }
+      }
+      deformation.skin = at->second;
+    }
+    tree_.rest = std::make_shared<const RestPose>(std::move(rest_));
+    const std::vector<glm::mat4> world = world_matrices(tree_.nodes);
+    for (std::size_t d = 0; d < tree_.weights.size(); ++d) {
+      const Deformation& deformation = tree_.rest->deformations[d];
+      const bool weighs = std::ranges::any_of(tree_.weights[d], [](float w) { return w != 0.0f; });
+      if (deformation.skin < 0 && !weighs) continue;  // nothing deforms it
+      const Node& node = tree_.nodes[deformation.node];
+      const Deformer deformer(tree_, d, world);
+      deformer.place(mesh_);
+      if (deformer.mirrors() != Placement(world[deformation.node]).mirrors()) turn_around(node, mesh_);
+    }
+    return {};
+  }
+
+  // The rest pose of an instance is in its node's space.
+  void place_rest(const Placement& instance, std::size_t first) {
+    for (std::size_t i = first; i < rest_.positions.size(); ++i) {
+      rest_.positions[i] = instance.position(rest_.positions[i]);
+      rest_.normals[i] = instance.normal(rest_.normals[i]);
+      if (!rest_.tangents.empty()) rest_.tangents[i] = instance.tangent(rest_.tangents[i]);
+    }
+  }
+
+  // Where EXT_mesh_gpu_instancing places copies of the node's mesh; without it, one in place.
+  [[nodiscard]] Expected<std::vector<glm::mat4>> instances_of(const GltfNode& node) const {
+    const Json* attributes = member(extension(node.json, "EXT_mesh_gpu_instancing"), "attributes");
+    if (!attributes) return std::vector{glm::mat4(1.0f)};
+    std::vector<float> values[3];
+    std::size_t count = 0;
+    constexpr struct {
+      const char* name;
+      int components;
+    } kAttributes[] = {{"TRANSLATION", 3}, {"ROTATION", 4}, {"SCALE", 3}};
+    for (int i = 0; i < 3; ++i) {
+      if (!member(attributes, kAttributes[i].name)) continue;
+      Expected<std::vector<float>> read =
+          file_.floats(index_member(attributes, kAttributes[i].name), kAttributes[i].components);
+      if (!read) return Unexpected(read.error());
+      const std::size_t elements = read->size() / kAttributes[i].components;
+      if (count != 0 && elements != count)
+        return file_.error("a node's instances have attributes of different lengths");
+      count = elements;
+      values[i] = std::move(*read);
+    }
+    std::vector<glm::mat4> instances;
+    const auto& [translations, rotations, scales] = values;
+    for (std::size_t i = 0; i < count; ++i) {
+      NodeMotion motion;
+      if (!translations.empty()) motion.translation = glm::make_vec3(&translations[3 * i]);
+      if (const float* r = rotations.empty() ? nullptr : &rotations[4 * i])
+        motion.rotation = glm::dquat(r[3], r[0], r[1], r[2]);
+      if (!scales.empty()) motion.scale = glm::make_vec3(&scales[3 * i]);
+      instances.push_back(motion.matrix());
+    }
+    return instances;
+  }
+
+  void warn(const std::string& where, const std::string& what, const std::string& lost) {
+    loading_.warnings.add({file_.path.string(), where, what, lost});
+  }
+
+  void finish() {
+    scene_.source_files = file_.named_files;
+    add_gltf_textures(file_, mesh_, loading_);
+    drop_unused_attributes(mesh_, rest_);
+    if (const Json* scene = shown_scene()) {
+      scene_.ambient_light =
+          value_member<glm::vec3>(our_extras(scene), "ambient").value_or(scene_.ambient_light);
+      scene_.environment = gltf_environment(file_, *scene, loading_);
+    }
+    const auto last = static_cast<std::uint32_t>(mesh_.materials.size() - 1);
+    if (std::find(mesh_.triangle_materials.begin(), mesh_.triangle_materials.end(), last) ==
+            mesh_.triangle_materials.end() &&
+        last > 0)
+      mesh_.materials.pop_back();  // no triangle has the default
+  }
+
+  const GltfFile& file_;
+  Loading& loading_;
+  Scene scene_;
+  MeshData mesh_;
+  NodeTree tree_;
+  RestPose rest_;
+  std::vector<int> place_of_node_ = std::vector<int>(file_.nodes.size(), -1);  // in tree_, by the file's
+  std::size_t lights_before_ = 0, cameras_before_ = 0;
+};
+
+}  // namespace
+
+Expected<Scene> load_gltf(const std::filesystem::path& path, Loading& loading) {
+  const Expected<GltfFile> file = read_gltf_file(path, loading);
+  if (!file) return Unexpected(file.error());
+  return SceneReader(*file, loading).read();
+}
+
+}  // namespace pinocchio

@@ -1,0 +1,117 @@
+#include <map>
+
+#include "core/image/codecs/texture_file.h"
+#include "core/scene/gltf/file.h"
+#include "core/scene/gltf/phong_from_gltf.h"
+#include "core/scene/mip_levels.h"
+
+namespace pinocchio {
+namespace {
+
+// The images of these indices, decoded. None: an image cannot be read, which is a warning.
+std::vector<std::optional<Texture>> textures_of(const GltfFile& file, const std::vector<int>& images,
+                                                Loading& loading) {
+  std::vector<std::optional<Texture>> textures(images.size());
+  std::vector<EncodedImage> encoded;
+  std::vector<std::size_t> whose;
+  const auto warn = [&](std::size_t i, const std::string& what, const std::string& lost) {
+    loading.warnings.add({file.path.string(), "image " + std::to_string(images[i]), what, lost});
+  };
+  const auto cannot_be_read = [&](std::size_t i, const InputError& error) {
+    warn(i, "an image cannot be read: " + error.message(), "what it would have covered has one colour");
+  };
+  for (std::size_t i = 0; i < images.size(); ++i) {
+    Expected<EncodedImage> image = gltf_image(file, images[i]);
+    if (!image) {
+      cannot_be_read(i, image.error());
+      continue;
+    }
+    encoded.push_back(std::move(*image));
+    whose.push_back(i);
+  }
+  std::vector<Expected<DecodedImage>> decoded = decode_textures(encoded, loading);
+  for (std::size_t k = 0; k < decoded.size(); ++k) {
+    if (!decoded[k]) {
+      cannot_be_read(whose[k], decoded[k].error());
+      continue;
+    }
+    if (!decoded[k]->damage.empty())
+      warn(whose[k], "an image is damaged: " + decoded[k]->damage, "part of it is missing");
+    textures[whose[k]] = std::move(decoded[k]->texture);
+  }
+  return textures;
+}
+
+// The least and the greatest value of each channel, 0 to 1; both 1 without a texture.
+struct TexelRange {
+  glm::vec4 least{1.0f}, most{1.0f};
+};
+
+TexelRange range_of(const MeshData& mesh, const TextureUse& use) {
+  if (!use.used()) return {};
+  glm::u8vec4 least(255), most(0);
+  for (const glm::u8vec4& t : mesh.textures[use.texture].texels.pixels()) {
+    least = glm::min(least, t);
+    most = glm::max(most, t);
+  }
+  return {glm::vec4(least) / 255.0f, glm::vec4(most) / 255.0f};
+}
+
+// The most that a surface mirrors and lets through anywhere: it decides whether rays are traced for it.
+void bound_rays(const MeshData& mesh, Material& material, const MaterialMaps& maps) {
+  if (!maps.from_gltf || !(maps.metallic_roughness.used() || maps.transmission.used())) return;
+  const TexelRange rough_metal = range_of(mesh, maps.metallic_roughness),
+                   passes = range_of(mesh, maps.transmission);
+  GltfSurface sharpest = maps.surface;
+  sharpest.roughness *= rough_metal.least.g;
+  sharpest.metallic *= rough_metal.most.b;
+  sharpest.transmission *= passes.least.r;  // transmitted light is not mirrored
+  const Material mirror = phong_from_gltf(sharpest);
+  material.reflectance = mirror.reflectance;
+  material.fresnel = mirror.fresnel;
+  // The less metallic a surface is, the more light passes through it.
+  GltfSurface clearest = maps.surface;
+  clearest.metallic *= rough_metal.least.b;
+  clearest.transmission *= passes.most.r;
+  material.transmittance = phong_from_gltf(clearest).transmittance;
+}
+
+}  // namespace
+
+Expected<EncodedImage> gltf_image(const GltfFile& file, int index) {
+  const GltfImage& image = item_of(file.images, index);
+  if (!image.buffer_view && !image.file.empty())
+    return EncodedImage{image.file, std::filesystem::path(image.file).filename().string(), std::nullopt};
+  EncodedImage result{file.path.string(), image.name.empty() ? std::to_string(index) : image.name,
+                      image.bytes};
+  if (!image.buffer_view) return result;
+  const auto bytes = file.bytes(*image.buffer_view, "image " + std::to_string(index));
+  if (!bytes) return Unexpected(bytes.error());
+  result.bytes = *bytes;
+  return result;
+}
+
+void add_gltf_textures(const GltfFile& file, MeshData& mesh, Loading& loading) {
+  std::vector<TextureUse*> uses;
+  for (MaterialMaps& m : mesh.maps)
+    for (TextureUse* use : m.uses())
+      if (use->used()) uses.push_back(use);
+  std::vector<int> images;  // in the order of their first use
+  std::map<int, std::size_t> place;
+  for (const TextureUse* use : uses)
+    if (place.try_emplace(use->texture, images.size()).second) images.push_back(use->texture);
+
+  std::vector<std::optional<Texture>> textures = textures_of(file, images, loading);
+  std::vector<int> ours(images.size(), -1);
+  for (std::size_t i = 0; i < images.size(); ++i) {
+    if (!textures[i]) continue;
+    ours[i] = static_cast<int>(mesh.textures.size());
+    mesh.textures.edit().push_back(std::move(*textures[i]));
+  }
+  for (TextureUse* use : uses) use->texture = ours[place.at(use->texture)];
+  make_smaller_levels(mesh, loading.progress);
+  for (Material& material : mesh.materials)
+    if (material.maps >= 0) bound_rays(mesh, material, mesh.maps[material.maps]);
+}
+
+}  // namespace pinocchio

@@ -1,0 +1,112 @@
+#include "core/scene/obj/mesh.h"
+
+#include <boost/functional/hash.hpp>
+#include <unordered_map>
+
+#include "core/geometry/polygon.h"
+#include "core/image/tonemap.h"
+
+namespace pinocchio {
+namespace {
+
+// A vertex is one combination of position, normal, texture coordinate and, where normals are made from a
+// smoothing group, that group.
+class ObjMeshBuilder {
+ public:
+  ObjMeshBuilder(const ObjText& obj, MeshData& mesh) : obj_(obj), mesh_(mesh) {
+    vertices_.reserve(obj.positions.size());
+  }
+
+  void add(const ObjText::Face& face, std::uint32_t material, const PolygonTriangles& polygon) {
+    for (const glm::uvec3& corners : polygon.triangles) {
+      glm::uvec3 triangle;
+      for (int i = 0; i < 3; ++i)
+        triangle[i] = vertex_of(obj_.corners[face.first + corners[i]], face.smoothing_group);
+      mesh_.triangles.push_back(triangle);
+      mesh_.triangle_materials.push_back(material);
+      if (face.smoothing_group == 0) continue;
+      const glm::vec3 a = mesh_.positions[triangle.x];
+      const glm::vec3 n = glm::cross(mesh_.positions[triangle.y] - a, mesh_.positions[triangle.z] - a);
+      for (int i = 0; i < 3; ++i)
+        if (obj_.corners[face.first + corners[i]].normal < 0)
+          mesh_.normals[triangle[i]] += n;  // weighted by area
+    }
+  }
+
+  void finish() {
+    for (const std::uint32_t vertex : smooth_vertices_)
+      if (glm::vec3& n = mesh_.normals[vertex]; n != glm::vec3(0.0f)) n = glm::normalize(n);
+    if (!any_texcoord_) mesh_.texcoords.clear();
+  }
+
+ private:
+  struct Key {
+    ObjText::Corner corner;
+    std::uint32_t group;
+    bool operator==(const Key&) const = default;
+  };
+  struct Hash {
+    std::size_t operator()(const Key& k) const {
+      std::size_t hash = k.group;
+      boost::hash_combine(hash, k.corner.position);
+      boost::hash_combine(hash, k.corner.texcoord);
+      boost::hash_combine(hash, k.corner.normal);
+      return hash;
+    }
+  };
+
+  std::uint32_t vertex_of(const ObjText::Corner& corner, std::uint32_t smoothing_group) {
+    const std::uint32_t group = corner.normal < 0 ? smoothing_group : 0;
+    const auto [at, is_new] =
+        vertices_.try_emplace({corner, group}, static_cast<std::uint32_t>(mesh_.positions.size()));
+    if (!is_new) return at->second;
+    if (group > 0) smooth_vertices_.push_back(at->second);
+    append(corner);
+    return at->second;
+  }
+
+  void append(const ObjText::Corner& corner) {
+    const auto position = static_cast<std::size_t>(corner.position);
+    mesh_.positions.push_back(obj_.positions[position]);
+    mesh_.normals.push_back(corner.normal < 0 ? glm::vec3(0.0f) : obj_.normals[corner.normal]);
+    if (!obj_.colors.empty()) mesh_.colors.emplace_back(srgb_to_linear(obj_.colors[position]), 1.0f);
+    glm::vec2 texcoord(0.0f);
+    if (corner.texcoord >= 0) {
+      const glm::vec2& t = obj_.texcoords[corner.texcoord];
+      texcoord = {t.x, 1.0f - t.y};  // OBJ's v points up
+      any_texcoord_ = true;
+    }
+    mesh_.texcoords.push_back(texcoord);
+  }
+
+  const ObjText& obj_;
+  MeshData& mesh_;
+  std::unordered_map<Key, std::uint32_t, Hash> vertices_;
+  std::vector<std::uint32_t> smooth_vertices_;
+  bool any_texcoord_ = false;
+};
+
+}  // namespace
+
+void add_obj_faces(const ObjText& obj, const std::vector<std::uint32_t>& materials,
+                   const std::filesystem::path& file, Loading& loading, MeshData& mesh) {
+  constexpr std::size_t kFacesBetweenLooks = 4096;
+  begin_phase(loading.progress, "mesh", obj.faces.size());
+  ObjMeshBuilder builder(obj, mesh);
+  std::vector<glm::vec3> corners;
+  for (std::size_t i = 0; i < obj.faces.size(); ++i) {
+    const ObjText::Face& face = obj.faces[i];
+    corners.clear();
+    for (std::size_t c = 0; c < face.count; ++c)
+      corners.push_back(obj.positions[obj.corners[face.first + c].position]);
+    const PolygonTriangles polygon = triangulate(corners);
+    if (!polygon.simple)
+      loading.warnings.add({file.string(), "line " + std::to_string(face.line), "a face crosses itself",
+                            "which parts of it are filled is a guess"});
+    builder.add(face, face.material < 0 ? 0 : materials[face.material], polygon);
+    if (i % kFacesBetweenLooks == kFacesBetweenLooks - 1) advance(loading.progress, kFacesBetweenLooks);
+  }
+  builder.finish();
+}
+
+}  // namespace pinocchio

@@ -1,0 +1,13 @@
+#pragma once
+
+#include "core/scene/loaders.h"
+#include "core/scene/obj/text.h"
+
+namespace pinocchio {
+
+// Appends the faces of an OBJ as triangles. `materials`: indices of the mesh's materials, one for each
+// name of obj.materials; faces before the first name have material 0. Phase "mesh".
+void add_obj_faces(const ObjText& obj, const std::vector<std::uint32_t>& materials,
+                   const std::filesystem::path& file, Loading& loading, MeshData& mesh);
+
+}  // namespace pinocchio

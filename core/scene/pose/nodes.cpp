@@ -1,0 +1,220 @@
+#include "pinocchio/nodes.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+#include "core/scene/pose/pose.h"
+#include "pinocchio/load.h"
+#include "pinocchio/ray.h"
+#include "pinocchio/scene.h"
+
+namespace pinocchio {
+namespace {
+
+Unexpected refused(const std::string& what, const std::string& remedy) {
+  return Unexpected(InputError{{}, 0, what, remedy});
+}
+
+// Lights and cameras follow the node's position alone: their other members stay as set.
+void place(const Placement& now, const Light& rest, Light& to) {
+  to.position = now.position(rest.position);
+  to.direction = now.direction(rest.direction);
+  const glm::vec3 origin = now.position(glm::vec3(0.0f));
+  to.edge_u = now.position(rest.edge_u) - origin;
+  to.edge_v = now.position(rest.edge_v) - origin;
+}
+void place(const Placement& now, const Camera& rest, Camera& to) {
+  to.eye = now.position(rest.eye);
+  to.target = now.position(rest.target);
+  if (to.target == to.eye)
+    to.target += rest.target - rest.eye;  // a node of scale 0: the direction is unchanged
+  to.up = now.direction(rest.up);
+}
+
+// As many items of a name as before are the same ones, in order; else the index identifies an item.
+template <class T>
+std::vector<std::size_t> places_of(const std::vector<Attached<T>>& attached, const std::vector<T>& now) {
+  std::map<std::string_view, std::vector<std::size_t>> were, are;  // ascending indices by name
+  for (const Attached<T>& a : attached) were[a.at_rest.name].push_back(a.index);
+  for (auto& [name, indices] : were) std::ranges::sort(indices);
+  for (std::size_t i = 0; i < now.size(); ++i) are[now[i].name].push_back(i);
+  std::vector<std::size_t> places;
+  for (const Attached<T>& a : attached) {
+    const std::vector<std::size_t>&before = were[a.at_rest.name], &after = are[a.at_rest.name];
+    if (before.size() == after.size()) {
+      places.push_back(
+          after[static_cast<std::size_t>(std::ranges::lower_bound(before, a.index) - before.begin())]);
+    } else {
+      places.push_back(std::ranges::binary_search(after, a.index) ? a.index : kGone);
+    }
+  }
+  return places;
+}
+
+template <class T>
+void place_attached(const std::vector<Attached<T>>& attached, const std::vector<std::size_t>& places,
+                    int node, const Placement& now, std::vector<T>& to) {
+  for (std::size_t i = 0; i < attached.size(); ++i)
+    if (attached[i].node == node && places[i] != kGone) place(now, attached[i].at_rest, to[places[i]]);
+}
+
+}  // namespace
+
+glm::mat4 NodeTree::world_from(int node) const {
+  std::vector<int> path;
+  for (int n = node; n >= 0; n = nodes[n].parent) path.push_back(n);
+  glm::mat4 world = nodes[path.back()].local;
+  for (path.pop_back(); !path.empty(); path.pop_back()) world = world * nodes[path.back()].local;
+  return world;
+}
+
+int NodeTree::node_of(std::uint32_t triangle) const {
+  const auto after = std::upper_bound(nodes.begin(), nodes.end(), triangle,
+                                      [](std::uint32_t t, const Node& n) { return t < n.first_triangle; });
+  for (auto n = after; n != nodes.begin();) {  // nodes without triangles may be in between
+    --n;
+    if (n->triangles == 0) continue;
+    return triangle < n->first_triangle + n->triangles ? static_cast<int>(n - nodes.begin()) : -1;
+  }
+  return -1;
+}
+
+int NodeTree::find(std::string_view name) const {
+  const auto found = std::ranges::find(nodes, name, &Node::name);
+  return found == nodes.end() ? -1 : static_cast<int>(found - nodes.begin());
+}
+
+std::uint32_t object_of(const Scene& scene, std::uint32_t triangle) {
+  if (triangle == kNoTriangle) return kNoTriangle;
+  return scene.nodes ? static_cast<std::uint32_t>(scene.nodes->node_of(triangle)) : 0u;
+}
+
+Placement::Placement(const glm::mat4& m)
+    : world_from_node_(m),
+      normals_to_world_(glm::transpose(glm::inverse(glm::mat3(m)))),
+      mirrors_(glm::determinant(glm::mat3(m)) < 0.0f),
+      identity_(m == glm::mat4(1.0f)) {}
+
+glm::vec3 Placement::position(const glm::vec3& p) const {
+  return identity_ ? p : glm::vec3(world_from_node_ * glm::vec4(p, 1.0f));
+}
+
+glm::vec3 Placement::normal(const glm::vec3& n) const {
+  if (identity_ || n == glm::vec3(0.0f)) return n;
+  const glm::vec3 world = normals_to_world_ * n;
+  const float length = glm::length(world);
+  return length > 0.0f && std::isfinite(length) ? world / length : glm::vec3(0.0f);
+}
+
+glm::vec4 Placement::tangent(const glm::vec4& t) const {
+  if (t.w == 0.0f) return glm::vec4(0.0f);
+  return {glm::mat3(world_from_node_) * glm::vec3(t), mirrors_ ? -t.w : t.w};
+}
+
+glm::vec3 Placement::direction(const glm::vec3& d) const {
+  const glm::vec3 world(world_from_node_ * glm::vec4(d, 0.0f));
+  const float length = glm::length(world);
+  return length > 0.0f && std::isfinite(length) ? world / length : d;
+}
+
+std::vector<glm::mat4> world_matrices(const std::vector<Node>& nodes) {
+  std::vector<glm::mat4> world;
+  world.reserve(nodes.size());
+  for (const Node& node : nodes)
+    world.push_back(node.parent < 0 ? node.local : world[node.parent] * node.local);
+  return world;
+}
+
+void place_vertices(const Node& node, const Placement& now, const RestPose& rest, MeshData& mesh) {
+  const std::size_t last = std::size_t{node.first_vertex} + node.vertices;
+  for (std::size_t v = node.first_vertex; v < last; ++v) {
+    mesh.positions[v] = now.position(rest.positions[v]);
+    mesh.normals[v] = now.normal(rest.normals[v]);
+    if (!mesh.tangents.empty()) mesh.tangents[v] = now.tangent(rest.tangents[v]);
+  }
+}
+
+void turn_around(const Node& node, MeshData& mesh) {
+  const std::size_t last = std::size_t{node.first_triangle} + node.triangles;
+  for (std::size_t t = node.first_triangle; t < last; ++t)
+    std::swap(mesh.triangles[t].y, mesh.triangles[t].z);
+}
+
+AttachedPlaces attached_places(const RestPose& rest, const Scene& scene) {
+  return {places_of(rest.lights, scene.lights), places_of(rest.cameras, scene.cameras)};
+}
+
+void place_attached(const RestPose& rest, const AttachedPlaces& places, int node, const Placement& now,
+                    Scene& scene) {
+  place_attached(rest.lights, places.lights, node, now, scene.lights);
+  place_attached(rest.cameras, places.cameras, node, now, scene.cameras);
+}
+
+Expected<Scene> placed_anew(const Scene& scene, std::shared_ptr<const NodeTree> tree,
+                            const NodeFlags& flagged) {
+  const std::vector<glm::mat4> before = world_matrices(scene.nodes->nodes), now = world_matrices(tree->nodes);
+  std::vector<bool> moved(now.size()), deforms(now.size(), false);
+  for (std::size_t n = 0; n < now.size(); ++n)
+    moved[n] = (!flagged.empty() && flagged[n]) || now[n] != before[n];
+  Scene result = scene;
+  MeshData mesh = *scene.mesh;
+  const RestPose& rest = *tree->rest;
+  const AttachedPlaces places = attached_places(rest, scene);
+  for (std::size_t d = 0; d < rest.deformations.size(); ++d) {
+    const Deformation& deformation = rest.deformations[d];
+    const auto n = static_cast<std::size_t>(deformation.node);
+    deforms[n] = true;
+    const std::vector<int> own{deformation.node};
+    const std::vector<int>& follows = deformation.skin < 0 ? own : rest.skins[deformation.skin].joints;
+    const bool stays = tree->weights[d] == scene.nodes->weights[d] && !(!flagged.empty() && flagged[n]) &&
+                       std::ranges::none_of(follows, [&](int node) { return moved[node]; });
+    if (stays) continue;
+    const Deformer deformer(*tree, d, now);
+    deformer.place(mesh);
+    if (deformer.mirrors() != Deformer(*scene.nodes, d, before).mirrors()) turn_around(tree->nodes[n], mesh);
+  }
+  for (std::size_t n = 0; n < now.size(); ++n) {
+    if (!moved[n]) continue;
+    const Placement placement(now[n]);
+    place_attached(rest, places, static_cast<int>(n), placement, result);
+    if (deforms[n]) continue;
+    place_vertices(tree->nodes[n], placement, rest, mesh);
+    if (placement.mirrors() != Placement(before[n]).mirrors()) turn_around(tree->nodes[n], mesh);
+  }
+  result.mesh = std::make_shared<const Mesh>(std::move(mesh));
+  result.nodes = std::move(tree);
+  if (const Expected<void> checked = check_scene(result); !checked) return Unexpected(checked.error());
+  return result;
+}
+
+Expected<Scene> posed(const Scene& scene, std::span<const NodeTransform> transforms,
+                      std::span<const NodeWeights> weights) {
+  if (!scene.nodes)
+    return refused("the scene has no nodes to move", "load a glTF file, or put scenes together");
+  auto tree = std::make_shared<NodeTree>(*scene.nodes);
+  const auto unknown = [&](int node) {
+    return node < 0 || static_cast<std::size_t>(node) >= tree->nodes.size();
+  };
+  const auto no_such = [&](int node) {
+    return refused("there is no node " + std::to_string(node),
+                   "the scene has " + std::to_string(tree->nodes.size()));
+  };
+  for (const NodeTransform& t : transforms) {
+    if (unknown(t.node)) return no_such(t.node);
+    tree->nodes[t.node].local = t.local;
+  }
+  for (const NodeWeights& w : weights) {
+    if (unknown(w.node)) return no_such(w.node);
+    const auto found = std::ranges::find(tree->rest->deformations, w.node, &Deformation::node);
+    const auto d = static_cast<std::size_t>(found - tree->rest->deformations.begin());
+    const std::size_t targets = d < tree->weights.size() ? tree->weights[d].size() : 0;
+    if (w.weights.size() != targets)
+      return refused("node " + std::to_string(w.node) + " has " + std::to_string(targets) + " morph targets",
+                     "give as many weights");
+    if (targets > 0) tree->weights[d] = w.weights;
+  }
+  return placed_anew(scene, std::move(tree), {});
+}
+
+}  // namespace pinocchio

@@ -1,0 +1,67 @@
+// Materials that textures, vertex colours and alpha change from point to point (pinocchio/material_maps.h).
+// One point at a time, compiled once for all processors. Lanes with such a material call it, and read the
+// textures themselves (shade/map_lanes.h).
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <glm/glm.hpp>
+
+#include "core/shade/footprint.h"
+#include "core/shade/shared.h"
+#include "pinocchio/mesh.h"
+
+namespace pinocchio {
+
+// Where a ray meets a triangle.
+struct MapPoint {
+  std::uint32_t triangle;
+  glm::vec3 weights;    // barycentric
+  glm::vec3 n_shading;  // facing the viewer, as
+  bool leaving;         // says: the surface is seen from behind
+  RaySpread spread{};   // the area that textures are averaged over
+};
+
+struct MappedMaterial {
+  shared::PhongSurface surface;
+  glm::vec3 n_shading;  // as the normal map has it
+  float alpha;          // the surface's share; the rest is what a ray sees that goes straight on
+};
+
+// The texels of a material's textures at a point; white where it has none.
+struct MapTexels {
+  glm::vec4 base_color{1.0f}, emissive{1.0f}, metallic_roughness{1.0f}, occlusion{1.0f}, normal{1.0f};
+  glm::vec4 specular{1.0f}, specular_color{1.0f}, transmission{1.0f};
+};
+
+struct MapTexel {
+  TextureUse MaterialMaps::*use;
+  glm::vec4 MapTexels::*texel;
+  bool is_color;
+};
+inline constexpr std::array<MapTexel, 8> kMapTexels{
+    {{&MaterialMaps::base_color, &MapTexels::base_color, true},
+     {&MaterialMaps::emissive, &MapTexels::emissive, true},
+     {&MaterialMaps::metallic_roughness, &MapTexels::metallic_roughness, false},
+     {&MaterialMaps::occlusion, &MapTexels::occlusion, false},
+     {&MaterialMaps::normal, &MapTexels::normal, false},
+     {&MaterialMaps::specular, &MapTexels::specular, false},
+     {&MaterialMaps::specular_color, &MapTexels::specular_color, true},
+     {&MaterialMaps::transmission, &MapTexels::transmission, false}}};
+
+class Lookup;  // shade/map_lookup.h
+
+// The triangle's material has maps.
+[[nodiscard]] MappedMaterial mapped_material(const Mesh& mesh, const MapPoint& point, const Lookup& lookup,
+                                             const MapTexels& texels);
+
+// Whether a ray passes the triangle there as if nothing were there: by alpha alone, at the point itself.
+[[nodiscard]] bool is_hole(const Mesh& mesh, std::uint32_t triangle, const glm::vec3& weights);
+// Likewise for a shadow ray. A surface that blends lets it pass where alpha is below `threshold`.
+[[nodiscard]] bool lets_shadow_ray_pass(const Mesh& mesh, std::uint32_t triangle, const glm::vec3& weights,
+                                        float threshold);
+
+// The material as it stands, without maps.
+[[nodiscard]] shared::PhongSurface plain_material(const Material& material);
+
+}  // namespace pinocchio

@@ -1,0 +1,57 @@
+// The sources that GLSL and C++ share of textures and maps, compiled here as C++, a point at a time.
+#pragma once
+
+#include <array>
+
+#include "core/image/tonemap.h"
+#include "core/shade/shared.h"
+#include "pinocchio/texture.h"
+
+namespace pinocchio::shared {
+
+// Texture look-ups. A colour's four channels are one register.
+namespace texels {
+
+using Channels __attribute__((vector_size(16))) = float;
+
+struct vec4 {
+  Channels lanes;
+  explicit vec4(float all) : lanes{all, all, all, all} {}
+  explicit vec4(Channels c) : lanes(c) {}
+  vec4& operator+=(const vec4& other) { return lanes += other.lanes, *this; }
+  friend vec4 operator/(const vec4& a, float b) { return vec4(a.lanes / b); }
+  explicit operator glm::vec4() const { return {lanes[0], lanes[1], lanes[2], lanes[3]}; }
+};
+[[nodiscard]] inline vec4 mix(const vec4& a, const vec4& b, float share) {
+  return vec4(a.lanes * (1.0f - share) + b.lanes * share);
+}
+
+struct TexelSource {
+  const glm::u8vec4 *first_level, *others;
+  int first_count;
+  const float* linear_from_srgb8;
+};
+
+[[nodiscard, gnu::always_inline]] inline vec4 texel_at(const TexelSource& source, int i, bool is_color) {
+  const glm::u8vec4& t =
+      i < source.first_count ? source.first_level[i] : source.others[i - source.first_count];
+  const auto a = static_cast<float>(t.a);
+  if (!is_color)
+    return vec4(Channels{static_cast<float>(t.r), static_cast<float>(t.g), static_cast<float>(t.b), a} /
+                255.0f);
+  const float* const linear = source.linear_from_srgb8;
+  return vec4(Channels{linear[t.r], linear[t.g], linear[t.b], a / 255.0f});
+}
+
+// Always inlined: a tap is a few instructions, and GLSL passes structs by value.
+#define SHARED [[nodiscard, gnu::always_inline]] inline
+#include "shaders/shared/texture.glsl"
+#undef SHARED
+
+}  // namespace texels
+
+#define SHARED [[nodiscard]] inline
+#include "shaders/shared/maps.glsl"
+#undef SHARED
+
+}  // namespace pinocchio::shared

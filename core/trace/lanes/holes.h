@@ -1,0 +1,36 @@
+#pragma once
+
+#include <cstdint>
+#include <glm/glm.hpp>
+#include <vector>
+
+#include "core/trace/rays/ray_queue.h"
+#include "pinocchio/tracer.h"
+
+namespace pinocchio {
+
+// The sample that decides whether a surface that blends lets a shadow ray pass.
+struct SamplePlace {
+  glm::ivec2 corner;  // of the tile, in the picture
+  glm::vec2 jitter;   // zero: the only sample, or the first
+};
+
+// Rays through surfaces that let some of them pass (material_maps.h): a ray that meets a hole goes on behind
+// it. The tree does not know about holes, so that scenes without them pay nothing.
+class Holes {
+ public:
+  // rays.triangle holds the first triangle of each ray; afterwards, the first one that is no hole there.
+  void pass(const Tracer& tracer, RayQueue& rays);
+
+  // blocked[i] = 1 where something that is no hole lies within shadow ray i, else 0. Where a surface blends,
+  // rays are let through at alpha below one half, or, in further samples of a pixel, below a random number.
+  void shadows(const Tracer& tracer, const RayQueue& rays, float reach, const SamplePlace& place,
+               std::uint8_t* blocked);
+
+ private:
+  void go_on(const Tracer& tracer, const RayQueue& rays, std::size_t i, std::uint32_t triangle);
+
+  RayQueue on_, next_;  // `pixel` is the ray's place in the queue that it is from
+};
+
+}  // namespace pinocchio

@@ -1,0 +1,97 @@
+// The steps of a tile (tiles/tile_tracer.h) that are computed in lanes: trace/lanes/, compiled once for each
+// instruction set, like the kernels. The others are tested against the scalar one.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <glm/glm.hpp>
+
+#include "core/parallel/tiles.h"
+#include "core/shade/map_lanes.h"
+#include "core/shade/shared.h"
+#include "core/trace/rays/ray_queue.h"
+#include "core/trace/rays/trace_options.h"
+#include "pinocchio/ray_offset.h"
+#include "pinocchio/scene.h"
+
+namespace pinocchio {
+
+// A pixel's number within its tile: row by row.
+inline constexpr int kTileBits = 5;
+static_assert(1 << kTileBits == TileGrid::kTileSize);
+
+class EnvironmentLight;
+
+// The scene's arrays as the lanes read them.
+struct SceneArrays {
+  const glm::vec3 *positions, *normals;
+  const glm::uvec3* triangles;
+  const std::uint32_t* triangle_materials;
+  const Material* materials;
+  const Mesh* mesh;  // for materials with maps (shade/map_lanes.h); null: there are none
+
+  [[nodiscard]] static SceneArrays of(const Mesh& mesh);
+};
+
+struct BounceLight {
+  shared::LightParams params;
+  int slot;  // in the mask, and its shadow queue's index; -1: casts no shadow
+  bool has_size;
+  std::uint32_t index;  // in the scene
+};
+
+// What a step computes where rays meet triangles.
+struct Bounce {
+  SceneArrays scene{};
+  RayOffset offset{};
+  const TraceOptions* options = nullptr;
+  const Footprint* footprint = nullptr;  // the rays', for textures
+  const BounceLight* lights = nullptr;
+  std::size_t light_count = 0;
+  glm::vec3 ambient_light{0.0f};
+  bool visible = false;       // the rays are the camera's
+  bool adds_ambient = false;  // and emission
+  bool attenuates = false;    // some material absorbs light that goes through it
+  bool adds_light = false;    // lights that cast none add theirs to `radiance`, shadow rays carry it
+  // Whether anything is sampled; the whole picture's pixel that is (0, 0) in the queues; the distance of the
+  // picture's samples in pixels; the first dimension of the rays' generation.
+  bool samples = false;
+  glm::uvec2 corner{0};
+  std::uint32_t scale = 1, dimension = 0;
+  const EnvironmentLight* environment = nullptr;  // lights the points; null: none does
+
+  // Outputs. Queues have room for all rays of the step; null: not wanted.
+  RayQueue* shadow = nullptr;  // one a slot
+  // Likewise: rays to the origins of lifted shadow rays; their `pixel` is the shadow ray's place in its
+  // queue.
+  RayQueue* ways_up = nullptr;
+  RayQueue *sky = nullptr, *sky_ways_up = nullptr;  // the environment's, likewise
+  RayQueue *mirrored = nullptr, *refracted = nullptr, *straight = nullptr;
+  RayQueue* diffuse = nullptr;  // towards light from other surfaces
+  float* radiance = nullptr;    // a tile's pixels, RGBA
+};
+
+// The points that rays see, a column each, with room behind the last ray for a packet; null: not wanted.
+struct SeenColumns {
+  float* depth = nullptr;  // along an axis
+  float *position[3] = {}, *normal[3] = {};
+  float* albedo[3] = {};
+};
+
+struct LaneSteps {
+  // Sets directions and origins of the rays of the tile at `corner`, whose pixels are set.
+  void (*camera_rays)(const shared::ViewParams& view, glm::ivec2 corner, RayQueue& rays);
+  // Drops the rays whose triangle is kNoTriangle; the others stay in order.
+  void (*keep_hits)(RayQueue& rays);
+  // Appends to the bounce's queues. All rays have hit.
+  void (*bounce)(const Bounce& bounce, const RayQueue& rays);
+  // Writes what the camera's rays see. All have hit. Reads the bounce's scene and footprint.
+  void (*visible_points)(const Bounce& bounce, const glm::vec3& axis, const RayQueue& rays,
+                         const SeenColumns& to);
+};
+
+enum class Isa;  // pinocchio/tracer.h
+// The processor has them.
+[[nodiscard]] const LaneSteps& lane_steps(Isa isa);
+
+}  // namespace pinocchio

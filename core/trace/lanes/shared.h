@@ -1,0 +1,120 @@
+// Part of walk/kernel.h's files: the sources that GLSL and C++ share, compiled over lanes. What is the same
+// for all points of a packet (a light, the sampling) stays scalar, so that branches on it are branches.
+#pragma once
+
+#include "core/shade/shared.h"
+#include "core/trace/lanes/power.h"
+#include "core/trace/lanes/vector.h"
+
+namespace pinocchio::PINOCCHIO_LANES {
+namespace {
+
+// What the sources are written over (shaders/shared/glsl.glsl).
+using real = Float;
+using boolean = Mask;
+using vec3 = Vec;
+
+inline Mask operator>(Float a, Float b) {
+  return b < a;
+}
+inline Mask operator!=(Float a, Float b) {
+  return ~(a == b);
+}
+inline Mask operator&&(Mask a, Mask b) {
+  return a & b;
+}
+inline Mask operator||(Mask a, Mask b) {
+  return a | b;
+}
+inline bool any(Mask m) {
+  return m.bits() != 0;
+}
+inline Float pick(Mask m, Float yes, Float no) {
+  return select(m, yes, no);
+}
+inline Vec pick(Mask m, const Vec& yes, const Vec& no) {
+  return select(m, yes, no);
+}
+inline Float pow(Float x, Float y) {
+  return power(x, y);
+}
+inline Float length(const Vec& v) {
+  return sqrt(dot(v, v));
+}
+
+struct vec2 {
+  Float x, y;
+  vec2() = default;
+  vec2(Float a, Float b) : x(a), y(b) {}
+};
+inline vec2 operator-(const vec2& a, float b) {
+  return {a.x - b, a.y - b};
+}
+inline vec2 operator*(const vec2& a, float b) {
+  return {a.x * b, a.y * b};
+}
+inline vec2 operator*(float a, const vec2& b) {
+  return b * a;
+}
+
+// Bits without a sign.
+struct whole {
+  Int v;
+  whole() = default;
+  whole(Int bits) : v(bits) {}            // NOLINT: the same bits
+  whole(std::uint32_t bits) : v(bits) {}  // NOLINT: all lanes
+
+  friend whole operator>>(whole a, unsigned n) { return Int::of(a.v.v >> n); }
+  friend whole operator<<(whole a, unsigned n) { return Int::of(a.v.v << n); }
+  friend whole operator~(whole a) { return a ^ 0xffffffffu; }
+  friend whole operator+(whole a, whole b) { return a.v + b.v; }
+  friend whole operator-(whole a, whole b) { return a.v - b.v; }
+  friend whole operator*(whole a, whole b) { return a.v * b.v; }
+  friend whole operator&(whole a, whole b) { return a.v & b.v; }
+  friend whole operator|(whole a, whole b) { return a.v | b.v; }
+  friend whole operator^(whole a, whole b) { return a.v ^ b.v; }
+  friend Mask operator!=(whole a, whole b) { return ~(a.v == b.v); }
+  whole& operator+=(whole b) { return *this = *this + b; }
+  whole& operator*=(whole b) { return *this = *this * b; }
+  whole& operator^=(whole b) { return *this = *this ^ b; }
+};
+
+struct whole2 {
+  whole x, y;
+  whole2() = default;
+  whole2(whole a, whole b) : x(a), y(b) {}
+  explicit operator vec2() const { return {to_float(x.v), to_float(y.v)}; }  // below 2^31
+};
+inline whole2 operator+(const whole2& a, const whole2& b) {
+  return {a.x + b.x, a.y + b.y};
+}
+inline whole2 operator>>(const whole2& a, unsigned n) {
+  return {a.x >> n, a.y >> n};
+}
+inline whole2 pick(Mask m, const whole2& yes, const whole2& no) {
+  return {select(m, yes.x.v, no.x.v), select(m, yes.y.v, no.y.v)};
+}
+
+using uint = std::uint32_t;
+using LightParams = const shared::LightParams&;
+using Sampling = shared::Sampling;
+using shared::kLightDirectional, shared::kLightRectangle, shared::kLightSpot;
+using shared::kSequenceBlueNoise, shared::kSequenceSobol;
+
+// As GLM has them: the first operand where either is NaN.
+#define min(a, b) min(b, a)
+#define max(a, b) max(b, a)
+#define SHARED [[nodiscard, maybe_unused, gnu::always_inline]] inline
+// clang-format off
+#include "shaders/shared/phong.glsl"
+#include "shaders/shared/sampling.glsl"
+#include "shaders/shared/sized_light.glsl"
+#include "shaders/shared/surface.glsl"
+#include "shaders/shared/terminator.glsl"
+// clang-format on
+#undef SHARED
+#undef min
+#undef max
+
+}  // namespace
+}  // namespace pinocchio::PINOCCHIO_LANES

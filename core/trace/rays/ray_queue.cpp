@@ -1,0 +1,53 @@
+#include "core/trace/rays/ray_queue.h"
+
+#include <algorithm>
+
+namespace pinocchio {
+namespace {
+
+constexpr std::size_t kFloatColumns = 9, kWordColumns = 2;
+
+}  // namespace
+
+void RayQueue::make_room(std::size_t rays, bool cones, bool media) {
+  size = 0;
+  const std::size_t needed = rays + kQueuePad;
+  if (cones && widths_.size() < needed) widths_ = AlignedVector<float>(2 * needed);
+  width = cones ? widths_.data() : nullptr;
+  if (media && media_.size() < needed) media_ = AlignedVector<std::uint32_t>(2 * needed);
+  medium = media ? media_.data() : nullptr;
+  if (needed <= room_) return;
+  // Not a power of two apart: columns of one ray would compete for one set of the cache.
+  constexpr std::size_t kLine = kCacheLine / sizeof(float);
+  const std::size_t room = (std::max(needed, 2 * room_) + kLine - 1) / kLine * kLine + kLine;
+  room_ = 0;  // in case the allocation fails
+  floats_ = AlignedVector<float>(kFloatColumns * room);
+  words_ = AlignedVector<std::uint32_t>(kWordColumns * room);
+  room_ = room;
+  float* column = floats_.data();
+  for (auto* triple : {&origin, &direction, &light})
+    for (float*& one : *triple) {
+      one = column;
+      column += room_;
+    }
+  pixel = words_.data();
+  triangle = pixel + room_;
+}
+
+void RayQueue::make_more_room(std::size_t rays, bool cones, bool media) {
+  const std::size_t needed = size + rays + kQueuePad;
+  if (needed <= room_ && (!cones || (width && widths_.size() >= needed)) &&
+      (!media || (medium && media_.size() >= needed)))
+    return;
+  RayQueue larger;
+  larger.make_room(2 * size + rays, cones, media);
+  larger.size = size;
+  for (auto columns : {&RayQueue::origin, &RayQueue::direction, &RayQueue::light})
+    for (int axis = 0; axis < 3; ++axis) std::copy_n((this->*columns)[axis], size, (larger.*columns)[axis]);
+  std::copy_n(pixel, size, larger.pixel);
+  if (cones && width) std::copy_n(width, size, larger.width);
+  if (media && medium) std::copy_n(medium, size, larger.medium);
+  *this = std::move(larger);
+}
+
+}  // namespace pinocchio

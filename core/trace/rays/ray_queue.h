@@ -1,0 +1,58 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "core/bsp/tree.h"
+#include "pinocchio/ray.h"
+
+namespace pinocchio {
+
+// Padding of a column: no packet has more lanes, and a kernel reads and writes whole packets.
+inline constexpr std::size_t kQueuePad = 16;
+
+// A ray's medium where it passes through none that absorbs light.
+inline constexpr std::uint32_t kNoMedium = 0xffffffffu;
+
+// Rays as columns, one value a ray, each column on a cache line of its own.
+struct RayColumns {
+  const float* origin[3];
+  const float* direction[3];
+  const float* t_max;  // null: `reach` for all
+  float reach = kInfinity;
+};
+
+// A thread's rays of one kind: filled packet by packet, traced, and read again. Lanes append to it by storing
+// whole packets behind the last ray, so it is given its size beforehand (make_room) and never grows
+// meanwhile.
+struct RayQueue {
+  float *origin[3] = {}, *direction[3] = {};
+  float* light[3] = {};               // a path's throughput; a shadow ray's light if it is not blocked
+  std::uint32_t* pixel = nullptr;     // in the tile
+  float* width = nullptr;             // of its cone at the origin; null: textures are not filtered
+  std::uint32_t* triangle = nullptr;  // hit by the ray
+  std::uint32_t* medium =
+      nullptr;  // the material that it passes through, or kNoMedium; null: there are no media
+  std::size_t size = 0;
+
+  // Empties the queue and makes room for `rays` and a packet. cones, media: with the columns `width`,
+  // `medium`.
+  void make_room(std::size_t rays, bool cones = false, bool media = false);
+
+  // Keeps the rays and makes room for `rays` more.
+  void make_more_room(std::size_t rays, bool cones = false, bool media = false);
+
+  [[nodiscard]] RayColumns columns(float reach = kInfinity) const {
+    return {{origin[0], origin[1], origin[2]}, {direction[0], direction[1], direction[2]}, nullptr, reach};
+  }
+
+ private:
+  AlignedVector<float> floats_;
+  AlignedVector<std::uint32_t> words_;
+  AlignedVector<float> widths_;
+  AlignedVector<std::uint32_t> media_;
+  std::size_t room_ = 0;
+};
+
+}  // namespace pinocchio

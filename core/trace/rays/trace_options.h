@@ -1,0 +1,33 @@
+#pragma once
+
+#include <glm/glm.hpp>
+
+#include "core/shade/shared.h"
+#include "pinocchio/ray.h"
+#include "pinocchio/terminator.h"
+
+namespace pinocchio {
+
+namespace shared {
+[[nodiscard]] inline bool operator==(const Sampling& a, const Sampling& b) {
+  return a.sequence == b.sequence && a.index == b.index && a.seed == b.seed;
+}
+}  // namespace shared
+
+// How rays are followed and points shaded. Everything that traces or shades reads this one value: the tile
+// pass, batches of pictures, the bounce step, the GPU's passes and the reference.
+struct TraceOptions {
+  // Mirrored and refracted rays, and the shadow rays of what they hit, are not fired where they would bring
+  // their pixel less light than this, linear.
+  float throughput_cutoff = kThroughputCutoff;
+  // The same for shadow rays of visible points. 0: all are fired, so that every bit of the mask is exact.
+  float light_cutoff = 0.0f;
+  float texture_footprint = 1.0f;  // side of the square that textures are averaged over, pixels; 0: a point
+  Terminator terminator = kUsualTerminator;
+  glm::vec2 jitter{0.0f};       // View's: tells the samples of a pixel apart where they decide at random
+  shared::Sampling sampling{};  // the sample of sized lights, rough mirrors and the environment
+
+  friend bool operator==(const TraceOptions&, const TraceOptions&) = default;
+};
+
+}  // namespace pinocchio

@@ -1,0 +1,103 @@
+#include "core/trace/tiles/aov.h"
+
+#include <algorithm>
+#include <span>
+#include <type_traits>
+
+#include "core/parallel/tiles.h"
+#include "core/trace/view/view_params.h"
+#include "pinocchio/tracer.h"
+
+namespace pinocchio {
+namespace {
+
+constexpr std::size_t kRays = static_cast<std::size_t>(TileGrid::kTileSize) * TileGrid::kTileSize;
+
+// A thread's memory for a tile.
+struct SeenTile {
+  RayQueue rays;
+  alignas(kCacheLine) float columns[10][kRays + kQueuePad];
+};
+
+// Calls use(array, columns, nothing) for each layer of the surfaces that is wanted: its array, its columns in
+// `seen`, and its value where nothing is hit.
+template <class Use>
+void for_each_layer(const FrameArrays& to, SeenColumns& seen, const Use& use) {
+  if (to.depth) use(to.depth, std::span(&seen.depth, 1), kInfinity);
+  if (to.position) use(to.position, std::span(seen.position), glm::vec3(0.0f));
+  if (to.normal) use(to.normal, std::span(seen.normal), glm::vec3(0.0f));
+  if (to.albedo) use(to.albedo, std::span(seen.albedo), glm::vec3(0.0f));
+}
+
+// Makes the rays of the pixels that see something.
+void put_rays(glm::ivec2 size, const std::uint32_t* ids, std::size_t ids_width, RayQueue& rays) {
+  rays.make_room(kRays);
+  TileGrid::for_each_pixel({{0, 0}, size}, [&](int x, int y) {
+    const std::uint32_t triangle = ids[static_cast<std::size_t>(y) * ids_width + static_cast<std::size_t>(x)];
+    rays.pixel[rays.size] = static_cast<std::uint32_t>(y << kTileBits | x);
+    rays.triangle[rays.size] = triangle;
+    rays.size += triangle != kNoTriangle ? 1 : 0;
+  });
+}
+
+}  // namespace
+
+void write_visible_points(const VisibleScene& of, const PixelBox& tile, const std::uint32_t* ids,
+                          std::size_t ids_width, const FrameArrays& to, std::size_t first,
+                          std::size_t width) {
+  const glm::ivec2 size = tile.size();
+  static thread_local SeenTile memory;
+  SeenColumns seen;
+  std::size_t used = 0;
+  for_each_layer(to, seen, [&](auto* values, std::span<float*> columns, const auto& nothing) {
+    for (float*& column : columns) column = memory.columns[used++];
+    for (int y = 0; y < size.y; ++y)
+      std::fill_n(values + first + static_cast<std::size_t>(y) * width, size.x, nothing);
+  });
+
+  RayQueue& rays = memory.rays;
+  put_rays(size, ids, ids_width, rays);
+  if (rays.size == 0) return;
+  of.steps.camera_rays(of.view, tile.lo, rays);
+  const Footprint footprint = of.filter_textures ? Footprint::of_camera(of.view) : Footprint{};
+  Bounce at;
+  at.scene = SceneArrays::of(of.mesh);
+  at.footprint = &footprint;
+  of.steps.visible_points(at, view_axis(of.view), rays, seen);
+
+  for_each_layer(to, seen, [&]<class Value>(Value* values, std::span<float*> columns, const Value&) {
+    for (std::size_t i = 0; i < rays.size; ++i) {
+      const std::uint32_t x = rays.pixel[i] & (TileGrid::kTileSize - 1), y = rays.pixel[i] >> kTileBits;
+      Value& value = values[first + y * width + x];
+      if constexpr (std::is_same_v<Value, float>) {
+        value = columns[0][i];
+      } else {
+        value = {columns[0][i], columns[1][i], columns[2][i]};
+      }
+    }
+  });
+}
+
+void write_visible_lines(const VisibleScene& of, const Image<std::uint32_t>& ids, int y0, int y1,
+                         const FrameArrays& to, std::size_t first) {
+  const glm::ivec2 size{ids.width(), y1 - y0};
+  const auto width = static_cast<std::size_t>(size.x);
+  const TileGrid grid(size);
+  for (std::size_t i = 0; i < grid.count(); ++i) {
+    const PixelBox box = grid.tile(i), tile{box.lo + glm::ivec2(0, y0), box.hi + glm::ivec2(0, y0)};
+    const std::size_t place = static_cast<std::size_t>(box.lo.y) * width + static_cast<std::size_t>(box.lo.x);
+    write_visible_points(of, tile, &ids.at(tile.lo.x, tile.lo.y), width, to, first + place, width);
+  }
+}
+
+SurfaceImages surface_images(const Mesh& mesh, const shared::ViewParams& view,
+                             const Image<std::uint32_t>& ids, int y0, int y1, bool filter_textures) {
+  const glm::ivec2 size{ids.width(), y1 - y0};
+  SurfaceImages images{Image<float>(size), Image<glm::vec3>(size), Image<glm::vec3>(size),
+                       Image<glm::vec3>(size)};
+  write_visible_lines({mesh, lane_steps(default_isa()), view, filter_textures}, ids, y0, y1,
+                      arrays_of(images));
+  return images;
+}
+
+}  // namespace pinocchio

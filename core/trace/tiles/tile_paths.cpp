@@ -1,0 +1,121 @@
+// The rays of a tile beyond the visible points: mirrored and refracted rays, the environment, light from
+// other surfaces.
+#include <algorithm>
+
+#include "core/trace/tiles/tile_tracer.h"
+#include "core/trace/view/view_params.h"
+
+namespace pinocchio {
+
+// Follows the rays that the camera's rays spawned, then those of matt surfaces, bounce by bounce.
+void TileTracer::follow() {
+  if (!reflects_ && rays_[0].size + rays_[1].size + rays_[2].size + next_diffuse_.size > 0)
+    reflected_.fill(glm::vec4(0.0f)), reflects_ = true;
+  follow_mirrors(0);
+  for (int bounce = 1; bounce <= plan_->out.indirect && next_diffuse_.size > 0; ++bounce) {
+    follow_diffuse(bounce);
+    follow_mirrors(bounce);
+  }
+}
+
+// Follows a bounce's rays between matt surfaces. The environment's light along them was added where they
+// start.
+void TileTracer::follow_diffuse(int bounce_count) {
+  std::swap(diffuse_, next_diffuse_);
+  counts_.indirect += diffuse_.size;
+  const int generation = bounce_count * (plan_->out.depth + 1);
+  next_diffuse_.make_room(0, plan_->further.footprint->angle > 0.0f, plan_->further.attenuates);
+  make_room(diffuse_.size, rays_);
+  Bounce step = plan_->further;
+  step.mirrored = plan_->out.depth > 0 ? rays_.data() : nullptr;
+  step.diffuse = bounce_count < plan_->out.indirect ? &next_diffuse_ : nullptr;
+  find_hits(diffuse_, generation);
+  plan_->job.tracer.steps().keep_hits(diffuse_);
+  bounce(step, generation, diffuse_, rays_, reflected_);
+  fire_shadows(generation, reflected_);
+  fire_at_environment(generation);
+}
+
+// Traces generation by generation: all rays of one before the next.
+void TileTracer::follow_mirrors(int bounce_count) {
+  for (int step_count = 1; step_count <= plan_->out.depth; ++step_count) {
+    const int generation = bounce_count * (plan_->out.depth + 1) + step_count;
+    const std::size_t mirrored = rays_[0].size, through = rays_[1].size + rays_[2].size;
+    const std::size_t rays = mirrored + through;
+    if (rays == 0) return;
+    counts_.reflection += mirrored;
+    counts_.refraction += through;
+    make_room(rays, next_);
+    Bounce step = plan_->further;
+    step.mirrored = step_count < plan_->out.depth ? next_.data() : nullptr;
+    step.diffuse = bounce_count < plan_->out.indirect ? &next_diffuse_ : nullptr;
+    for (RayQueue& queue : rays_) {
+      find_hits(queue, generation);
+      if (plan_->environment && (bounce_count == 0 || &queue != &rays_[2])) add_environment(queue);
+      plan_->job.tracer.steps().keep_hits(queue);
+      bounce(step, generation, queue, next_, reflected_);
+    }
+    fire_shadows(generation, reflected_);
+    fire_at_environment(generation);
+    std::swap(rays_, next_);
+  }
+}
+
+// Adds the environment's light along rays that hit nothing.
+void TileTracer::add_environment(const RayQueue& rays) {
+  for (std::size_t i = 0; i < rays.size; ++i) {
+    if (rays.triangle[i] != kNoTriangle) continue;
+    const glm::vec3 light =
+        plan_->environment->radiance({rays.direction[0][i], rays.direction[1][i], rays.direction[2][i]});
+    const glm::vec3 share(rays.light[0][i], rays.light[1][i], rays.light[2][i]);
+    reflected_[rays.pixel[i]] += glm::vec4(share * light, 0.0f);
+  }
+}
+
+// Fires shadow rays at samples of the environment; its light is added to the mirrored light, also at visible
+// points.
+void TileTracer::fire_at_environment(int generation) {
+  if (!plan_->further.environment || sky_.size == 0) return;
+  if (blocked_.size() < sky_.size + kQueuePad) blocked_.resize(2 * sky_.size + kQueuePad);
+  if (plan_->out.on_rays) plan_->out.on_rays({sky_.columns(), sky_.size, generation, true});
+  ask_occluded(sky_, kInfinity);
+  block_by_ways_up(sky_ways_up_, generation);
+  for (std::size_t i = 0; i < sky_.size; ++i)
+    if (!blocked_[i])
+      reflected_[sky_.pixel[i]] += glm::vec4(sky_.light[0][i], sky_.light[1][i], sky_.light[2][i], 0.0f);
+}
+
+// Sets blocked_ for each shadow ray.
+void TileTracer::ask_occluded(const RayQueue& queue, float reach) {
+  const TilePlan& plan = *plan_;
+  counts_.shadow += queue.size;
+  if (plan.has_holes || plan.blends) {
+    holes_.shadows(plan.job.tracer, queue, reach,
+                   {tile_.lo + glm::ivec2(plan.view.first), plan.job.options.jitter}, blocked_.data());
+  } else {
+    plan.job.tracer.occluded(queue.columns(reach), queue.size, blocked_.data());
+  }
+}
+
+// A ray that would start behind something, after it was lifted, counts as blocked. Holes are ignored: the way
+// up is short.
+void TileTracer::block_by_ways_up(const RayQueue& up, int generation) {
+  if (up.size == 0) return;
+  if (up_blocked_.size() < up.size + kQueuePad) up_blocked_.resize(2 * up.size + kQueuePad);
+  if (plan_->out.on_rays) plan_->out.on_rays({up.columns(1.0f), up.size, generation, true});
+  plan_->job.tracer.occluded(up.columns(1.0f), up.size, up_blocked_.data());
+  counts_.shadow += up.size;
+  for (std::size_t i = 0; i < up.size; ++i) blocked_[up.pixel[i]] |= up_blocked_[i];
+}
+
+// Adds the environment where nothing is hit; alpha stays 0.
+void TileTracer::paint_background() const {
+  for (int y = tile_.lo.y; y < tile_.hi.y; ++y)
+    for (int x = tile_.lo.x; x < tile_.hi.x; ++x) {
+      glm::vec4& color = plan_->out.color->at(x, y);
+      if (color.a == 0.0f)
+        color = glm::vec4(plan_->environment->radiance(pixel_ray(plan_->view, x, y).direction), 0.0f);
+    }
+}
+
+}  // namespace pinocchio

@@ -1,0 +1,78 @@
+#include "core/trace/tiles/tile_plan.h"
+
+#include <algorithm>
+
+#include "core/shade/surface.h"
+#include "core/trace/view/view_params.h"
+
+namespace pinocchio {
+namespace {
+
+std::vector<BounceLight> lights_of(const Scene& scene) {
+  std::vector<BounceLight> lights;
+  const std::vector<int> slots = mask_slots(scene);
+  for (std::size_t i = 0; i < slots.size(); ++i) {
+    const shared::LightParams params = light_params(scene.lights[i]);
+    lights.push_back({params, slots[i], shared::has_size(params), static_cast<std::uint32_t>(i)});
+  }
+  return lights;
+}
+
+// Whether textures are averaged.
+bool filters(const TraceJob& job) {
+  const Textures& textures = job.scene.mesh->textures;
+  return job.options.texture_footprint > 0.0f &&
+         std::any_of(textures.begin(), textures.end(), [](const Texture& t) { return t.levels() > 1; });
+}
+
+bool any_maps(const Mesh& mesh, bool (MaterialMaps::*is)() const) {
+  return std::any_of(mesh.maps.begin(), mesh.maps.end(), [is](const MaterialMaps& m) { return (m.*is)(); });
+}
+
+}  // namespace
+
+SceneArrays SceneArrays::of(const Mesh& mesh) {
+  return {mesh.positions.data(),          mesh.normals.data(),   mesh.triangles.data(),
+          mesh.triangle_materials.data(), mesh.materials.data(), mesh.maps.empty() ? nullptr : &mesh};
+}
+
+void TilePlan::set_view(const shared::ViewParams& from) {
+  view = scaled_view(from, out.scale);
+  first = glm::ivec2(from.first);
+  if (filters(job)) seen_footprint = Footprint::of_camera(view, job.options.texture_footprint);
+  further_footprint = seen_footprint.of_cones();
+}
+
+TilePlan::TilePlan(const TraceJob& j, const TileOutputs& o)
+    : job(j),
+      out(o),
+      has_holes(any_maps(*j.scene.mesh, &MaterialMaps::has_holes)),
+      blends(any_maps(*j.scene.mesh, &MaterialMaps::blends)),
+      all_lights(lights_of(j.scene)),
+      casting(casting_lights(j.scene).size()) {
+  set_view(j.view);
+  further.scene = SceneArrays::of(*job.scene.mesh);
+  further.offset = job.tracer.offset();
+  further.options = &job.options;
+  further.footprint = &further_footprint;
+  further.lights = all_lights.data();
+  further.light_count = all_lights.size();
+  further.ambient_light = job.scene.ambient_light;
+  further.adds_ambient = further.adds_light = true;
+  further.samples = takes_samples(job.scene) || out.indirect > 0;
+  further.attenuates = std::ranges::any_of(job.scene.mesh->materials, &Material::attenuates);
+  further.scale = static_cast<std::uint32_t>(out.scale);
+  if (job.scene.environment) environment.emplace(job.scene);
+  if (environment && environment->shines() && o.environment_light) further.environment = &*environment;
+  visible = further;
+  visible.footprint = &seen_footprint;
+  visible.visible = true;
+  visible.adds_ambient = out.color != nullptr;
+  visible.adds_light = out.color || out.added;
+  for (const BounceLight& light : all_lights)
+    if (light.slot >= 0 ? out.mask_bits > 0 : visible.adds_ambient) visible_lights.push_back(light);
+  visible.lights = visible_lights.data();
+  visible.light_count = visible_lights.size();
+}
+
+}  // namespace pinocchio

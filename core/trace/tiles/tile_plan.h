@@ -1,0 +1,32 @@
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <vector>
+
+#include "core/shade/footprint.h"
+#include "core/trace/lanes/environment_light.h"
+#include "core/trace/lanes/lane_steps.h"
+#include "core/trace/tiles/trace_tiles.h"
+
+namespace pinocchio {
+
+// The shared input of a picture's tiles.
+struct TilePlan {
+  TilePlan(const TraceJob& job, const TileOutputs& outputs);
+  // Sets the view of the samples.
+  void set_view(const shared::ViewParams& from);
+
+  const TraceJob& job;
+  const TileOutputs& out;
+  shared::ViewParams view;  // of the samples
+  glm::ivec2 first{0};      // the first pixel, in the whole picture
+  Footprint seen_footprint, further_footprint;
+  bool has_holes, blends;  // some material does
+  std::vector<BounceLight> all_lights, visible_lights;
+  std::size_t casting;  // lights
+  std::optional<EnvironmentLight> environment;
+  Bounce visible, further;  // the step of the camera's rays, and of the rays that they spawn
+};
+
+}  // namespace pinocchio

@@ -1,0 +1,229 @@
+#include "core/trace/tiles/tile_tracer.h"
+
+#include <algorithm>
+#include <cassert>
+#include <chrono>
+#include <cstring>
+
+#include "core/shade/surface.h"
+#include "core/trace/view/view_params.h"
+
+namespace pinocchio {
+namespace {
+
+double seconds() {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
+}
+
+// Seconds since the last call.
+class Lap {
+ public:
+  double restart() {
+    const double now = seconds(), since = now - last_;
+    last_ = now;
+    return since;
+  }
+
+ private:
+  double last_ = seconds();
+};
+
+// The pixels of a tile along a Z curve: packets of any width are neighbours in the picture.
+const std::vector<std::uint32_t>& z_curve() {
+  static const std::vector<std::uint32_t> kCurve = [] {
+    std::vector<std::uint32_t> curve;
+    TileGrid::for_each_pixel({{0, 0}, glm::ivec2(TileGrid::kTileSize)}, [&](int x, int y) {
+      curve.push_back(static_cast<std::uint32_t>(y << kTileBits | x));
+    });
+    return curve;
+  }();
+  return kCurve;
+}
+
+}  // namespace
+
+TileResult TileTracer::trace(const TilePlan& plan, const PixelBox& tile) {
+  plan_ = &plan;
+  tile_ = tile;
+  counts_ = {};
+  reflects_ = false;
+  TileTimes times;
+  Lap lap;
+  start();
+  find_visible();
+  times.primary = lap.restart();
+  if (seen_.size > 0) {
+    light_visible();
+    times.shadow = lap.restart();
+    follow();
+    times.reflection = lap.restart();
+  }
+  write();
+  times.composite = lap.restart();
+  return {counts_, times};
+}
+
+// Makes the rays of the tile's pixels; with given ids, of the pixels that see something.
+void TileTracer::start() {
+  seen_.make_room(kPixels);
+  const bool given = plan_->out.seen != nullptr, whole = tile_.size() == glm::ivec2(TileGrid::kTileSize);
+  if (!whole) ids_.fill(kNoTriangle);
+  if (given && !fetch_ids()) return;
+  if (whole && !given) {
+    std::copy(z_curve().begin(), z_curve().end(), seen_.pixel);
+    seen_.size = kPixels;
+  } else {
+    if (!given)
+      for (int y = 0; y < tile_.size().y; ++y)
+        std::fill_n(&ids_[static_cast<std::size_t>(y) << kTileBits], tile_.size().x, 0u);
+    std::size_t count = 0;
+    for (const std::uint32_t pixel : z_curve()) {
+      const std::uint32_t triangle = ids_[pixel];
+      seen_.pixel[count] = pixel;
+      seen_.triangle[count] = triangle;
+      count += triangle != kNoTriangle ? 1 : 0;
+    }
+    seen_.size = count;
+  }
+  plan_->job.tracer.steps().camera_rays(plan_->view, tile_.lo, seen_);
+}
+
+// Tiles whose ids are prefetched while one is traced: many tiles see nothing and are done at once.
+constexpr std::size_t kTilesAhead = 4;
+
+// Copies the tile's ids. False: no pixel sees anything.
+bool TileTracer::fetch_ids() {
+  const Image<std::uint32_t>& seen = *plan_->out.seen;
+  const int scale = plan_->out.scale;
+  const auto width = static_cast<std::size_t>(tile_.size().x);
+  std::uint32_t all = kNoTriangle;
+  for (int y = tile_.lo.y; y < tile_.hi.y; ++y) {
+    const std::uint32_t* const from = &seen.at(tile_.lo.x * scale, y * scale);
+    std::uint32_t* const to = &ids_[static_cast<std::size_t>(y - tile_.lo.y) << kTileBits];
+    for (std::size_t i = 0; i < width; i += kCacheLine / sizeof(*from))
+      __builtin_prefetch(from + kTilesAhead * width + i);
+    if (scale == 1) {
+      std::memcpy(to, from, width * sizeof(*to));
+    } else {
+      for (std::size_t i = 0; i < width; ++i) to[i] = from[i * static_cast<std::size_t>(scale)];
+    }
+    for (int i = 0; i < TileGrid::kTileSize; ++i) all &= to[i];  // none beyond `width`
+  }
+  return all != kNoTriangle;
+}
+
+void TileTracer::find_hits(RayQueue& rays, int generation) {
+  if (plan_->out.on_rays) plan_->out.on_rays({rays.columns(), rays.size, generation, false});
+  plan_->job.tracer.closest_hits(rays.columns(), rays.size, rays.triangle);
+  if (plan_->has_holes) holes_.pass(plan_->job.tracer, rays);
+}
+
+void TileTracer::find_visible() {
+  const TileOutputs& out = plan_->out;
+  if (out.seen) return;
+  find_hits(seen_, 0);
+  counts_.primary += seen_.size;
+  if (out.ids) {
+    for (std::size_t i = 0; i < seen_.size; ++i) ids_[seen_.pixel[i]] = seen_.triangle[i];
+    for (int y = tile_.lo.y; y < tile_.hi.y; ++y)
+      std::memcpy(&out.ids->at(tile_.lo.x, y), &ids_[static_cast<std::size_t>(y - tile_.lo.y) << kTileBits],
+                  static_cast<std::size_t>(tile_.size().x) * sizeof(std::uint32_t));
+  }
+  plan_->job.tracer.steps().keep_hits(seen_);
+}
+
+void TileTracer::make_room(std::size_t rays, Generation& next) {
+  const bool cones = plan_->further.footprint->angle > 0.0f, media = plan_->further.attenuates;
+  for (std::size_t i = 0; i < next.size(); ++i)
+    next[i].make_room(i < 2 || plan_->blends ? rays : 0, cones, media);
+  for (std::size_t i = 0; i < plan_->casting; ++i) shadow_[i].make_room(rays);
+  if (plan_->further.environment) sky_.make_room(rays);
+  if (plan_->out.indirect > 0) next_diffuse_.make_more_room(rays, cones, media);
+  if (plan_->job.options.terminator != Terminator::turned_away) return;
+  for (std::size_t i = 0; i < plan_->casting; ++i) ways_up_[i].make_room(rays);
+  if (plan_->further.environment) sky_ways_up_.make_room(rays);
+}
+
+void TileTracer::bounce(Bounce step, int generation, const RayQueue& rays, Generation& next,
+                        Radiance& radiance) {
+  step.corner = glm::uvec2(plan_->first + tile_.lo * plan_->out.scale);
+  step.dimension = static_cast<std::uint32_t>(generation) * shared::kDimensionsOfBounce;
+  step.shadow = shadow_.data();
+  step.ways_up = ways_up_.data();
+  step.sky = &sky_;
+  step.sky_ways_up = &sky_ways_up_;
+  step.radiance = &radiance[0].x;
+  if (step.mirrored) step.mirrored = &next[0], step.refracted = &next[1], step.straight = &next[2];
+  plan_->job.tracer.steps().bounce(step, rays);
+}
+
+void TileTracer::light_visible() {
+  mask_.fill(0);
+  if (plan_->visible.adds_light) {
+    direct_.fill(glm::vec4(0.0f));
+    for (std::size_t i = 0; i < seen_.size; ++i) direct_[seen_.pixel[i]].a = 1.0f;
+  }
+  next_diffuse_.make_room(0, plan_->further.footprint->angle > 0.0f, plan_->further.attenuates);
+  make_room(seen_.size, rays_);
+  Bounce step = plan_->visible;
+  step.mirrored = plan_->out.depth > 0 ? rays_.data() : nullptr;
+  step.diffuse = plan_->out.indirect > 0 ? &next_diffuse_ : nullptr;
+  if (!step.mirrored && !step.diffuse && step.light_count == 0 && !step.adds_ambient && !step.environment)
+    return;
+  reflects_ = step.environment != nullptr;
+  if (reflects_) reflected_.fill(glm::vec4(0.0f));
+  bounce(step, 0, seen_, rays_, direct_);
+  fire_shadows(0, direct_);
+  fire_at_environment(0);
+}
+
+void TileTracer::fire_shadows(int generation, Radiance& radiance) {
+  const bool visible = generation == 0, adds = !visible || plan_->visible.adds_light;
+  for (const BounceLight& light : plan_->all_lights) {
+    if (light.slot < 0) continue;
+    const RayQueue& queue = shadow_[static_cast<std::size_t>(light.slot)];
+    if (queue.size == 0) continue;
+    if (blocked_.size() < queue.size + kQueuePad) blocked_.resize(2 * queue.size + kQueuePad);
+    const float reach = light.params.kind == shared::kLightDirectional ? kInfinity : 1.0f;
+    if (plan_->out.on_rays) plan_->out.on_rays({queue.columns(reach), queue.size, generation, true});
+    ask_occluded(queue, reach);
+    block_by_ways_up(ways_up_[static_cast<std::size_t>(light.slot)], generation);
+    if (visible)  // without a branch, which would be predicted badly at the edges of shadows
+      for (std::size_t i = 0; i < queue.size; ++i)
+        mask_[queue.pixel[i]] |= static_cast<std::uint8_t>((blocked_[i] ^ 1u) << light.slot);
+    if (!adds) continue;
+    for (std::size_t i = 0; i < queue.size; ++i)
+      if (!blocked_[i])
+        radiance[queue.pixel[i]] += glm::vec4(queue.light[0][i], queue.light[1][i], queue.light[2][i], 0.0f);
+  }
+}
+
+void TileTracer::write() const {
+  const TileOutputs& out = plan_->out;
+  const auto width = static_cast<std::size_t>(tile_.size().x);
+  const bool empty = seen_.size == 0, mirrors = reflects_;
+  for (int y = tile_.lo.y; y < tile_.hi.y; ++y) {
+    const std::size_t row = static_cast<std::size_t>(y - tile_.lo.y) << kTileBits;
+    const auto of = [&](auto* image) { return &image->at(tile_.lo.x, y); };
+    const glm::vec4 *const direct = &direct_[row], *const reflected = &reflected_[row];
+    const auto light = [&](std::size_t i) { return mirrors ? direct[i] + reflected[i] : direct[i]; };
+    if (out.reflection && !mirrors)
+      std::memset(of(out.reflection), 0, width * sizeof(glm::vec3));
+    else if (out.reflection)
+      for (std::size_t i = 0; i < width; ++i) of(out.reflection)[i] = glm::vec3(reflected[i]);
+    if (empty) {
+      if (out.color) std::memset(of(out.color), 0, width * sizeof(glm::vec4));
+      continue;
+    }
+    if (out.color && !mirrors)
+      std::memcpy(of(out.color), direct, width * sizeof(glm::vec4));
+    else if (out.color)
+      for (std::size_t i = 0; i < width; ++i) of(out.color)[i] = light(i);
+    if (out.added)
+      for (std::size_t i = 0; i < width; ++i) of(out.added)[i] += glm::vec3(light(i));
+    if (out.mask) out.mask->set_row(tile_.lo.x, y, std::span(mask_).subspan(row, width));
+  }
+  if (out.color && plan_->environment) paint_background();
+}
+
+}  // namespace pinocchio

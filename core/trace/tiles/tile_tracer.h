@@ -1,0 +1,61 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "core/parallel/tiles.h"
+#include "core/trace/lanes/holes.h"
+#include "core/trace/lanes/lane_steps.h"
+#include "core/trace/rays/ray_queue.h"
+#include "core/trace/tiles/tile_plan.h"
+
+namespace pinocchio {
+
+// Traces tiles with one thread's memory.
+class TileTracer {
+ public:
+  TileResult trace(const TilePlan& plan, const PixelBox& tile);
+
+ private:
+  static constexpr std::size_t kPixels = std::size_t{TileGrid::kTileSize} * TileGrid::kTileSize;
+  // Mirrored rays, refracted rays, and rays that go straight through surfaces that blend.
+  using Generation = std::array<RayQueue, 3>;
+  // Linear RGB; A is 1 where something is hit.
+  using Radiance = std::array<glm::vec4, kPixels>;
+
+  void start();
+  [[nodiscard]] bool fetch_ids();
+  void find_hits(RayQueue& rays, int generation);
+  void find_visible();
+  void light_visible();
+  void follow();
+  void follow_mirrors(int bounce);
+  void follow_diffuse(int bounce);
+  void add_environment(const RayQueue& missed);
+  void paint_background() const;
+  void bounce(Bounce step, int generation, const RayQueue& rays, Generation& next, Radiance& radiance);
+  void make_room(std::size_t rays, Generation& next);
+  void fire_shadows(int generation, Radiance& radiance);
+  void fire_at_environment(int generation);
+  void ask_occluded(const RayQueue& queue, float reach);
+  void block_by_ways_up(const RayQueue& up, int generation);
+  void write() const;
+
+  const TilePlan* plan_ = nullptr;
+  PixelBox tile_;
+  RayCounts counts_;
+  RayQueue seen_;
+  Generation rays_, next_;
+  RayQueue diffuse_, next_diffuse_;
+  std::array<RayQueue, kMaxCastingLights> shadow_, ways_up_;
+  RayQueue sky_, sky_ways_up_;
+  std::vector<std::uint8_t> blocked_, up_blocked_;
+  Holes holes_;
+  Radiance direct_, reflected_;
+  bool reflects_ = false;  // reflected_ may hold light
+  std::array<std::uint8_t, kPixels> mask_;
+  std::array<std::uint32_t, kPixels> ids_;  // of the tile's pixels, row by row: given or found
+};
+
+}  // namespace pinocchio

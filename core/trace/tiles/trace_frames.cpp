@@ -1,0 +1,156 @@
+#include "core/trace/tiles/trace_frames.h"
+
+#include <algorithm>
+#include <atomic>
+#include <mutex>
+
+#include "core/trace/tiles/aov.h"
+#include "core/trace/tiles/tile_tracer.h"
+#include "core/trace/view/jitter.h"
+#include "core/trace/view/view_params.h"
+
+namespace pinocchio {
+namespace {
+
+constexpr int kSide = TileGrid::kTileSize;
+
+// A thread's memory for a tile, allocated once.
+struct TileImages {
+  TileTracer tracer;
+  Image<glm::vec4> color{glm::ivec2(kSide)}, sum{glm::ivec2(kSide)};
+  Image<std::uint32_t> ids{glm::ivec2(kSide)};
+  Image<glm::vec3> reflection{glm::ivec2(kSide)};
+  MaskImage mask;
+};
+
+// One thread's share of a job. A tile is traced as a picture of its own that begins at the tile's first
+// pixel; its rays are the whole picture's to the last bit.
+class Share {
+ public:
+  Share(const FramesJob& job, const FrameArrays& to, TileImages& images)
+      : job_(job),
+        to_(to),
+        images_(images),
+        trace_job_{job.scene, job.tracer, job.workers, {}, job.options},
+        outputs_(outputs(job, to, images)),
+        plan_(trace_job_, outputs_) {}
+
+  RayCounts draw(std::size_t frame, const PixelBox& tile) {
+    const Camera& camera = job_.cameras[frame];
+    const PixelBox box{{0, 0}, tile.size()};
+    const int samples = to_.color ? job_.spp : 1;
+    RayCounts rays;
+    for (int k = 0; k < samples; ++k) {
+      TraceOptions& options = trace_job_.options;
+      options.jitter = jitter_of(k, job_.filter);
+      options.sampling.index = job_.options.sampling.index + static_cast<std::uint32_t>(k);
+      plan_.set_view(view_params(camera, job_.size, options.jitter, tile.lo, lens_point_of(k)));
+      outputs_.ids = k == 0 ? &images_.ids : nullptr;
+      outputs_.reflection = k == 0 && to_.reflection ? &images_.reflection : nullptr;
+      outputs_.mask = k == 0 && to_.mask && job_.outputs.mask_bits > 0 ? &images_.mask : nullptr;
+      if (outputs_.mask) images_.mask.resize(glm::ivec2(kSide), job_.outputs.mask_bits);
+      rays += images_.tracer.trace(plan_, box).rays;
+      add_sample(k, box);
+    }
+    copy(frame, tile, samples);
+    if (to_.wants_surfaces())
+      add_surfaces(view_params(camera, job_.size, glm::vec2(0.0f), tile.lo), frame, tile);
+    return rays;
+  }
+
+ private:
+  static TileOutputs outputs(const FramesJob& job, const FrameArrays& to, TileImages& images) {
+    TileOutputs out = job.outputs;
+    out.size = glm::ivec2(kSide);
+    out.ids = &images.ids;
+    if (!to.color && !to.mask) out.mask_bits = 0;
+    if (!to.color && !to.reflection) {
+      out.depth = out.indirect = 0;
+      out.environment_light = false;
+    }
+    out.color = to.color ? &images.color : nullptr;
+    return out;
+  }
+
+  void add_sample(int k, const PixelBox& box) {
+    if (!to_.color || job_.spp == 1) return;
+    for (int y = 0; y < box.hi.y; ++y)
+      for (int x = 0; x < box.hi.x; ++x)
+        images_.sum.at(x, y) =
+            k == 0 ? images_.color.at(x, y) : images_.sum.at(x, y) + images_.color.at(x, y);
+  }
+
+  // The place in the arrays of the first pixel in row y of the tile.
+  [[nodiscard]] std::size_t row_of(std::size_t frame, const PixelBox& tile, int y) const {
+    const auto width = static_cast<std::size_t>(job_.size.x), height = static_cast<std::size_t>(job_.size.y);
+    return (frame * height + static_cast<std::size_t>(tile.lo.y + y)) * width +
+           static_cast<std::size_t>(tile.lo.x);
+  }
+
+  void copy(std::size_t frame, const PixelBox& tile, int samples) {
+    const glm::ivec2 size = tile.size();
+    const Image<glm::vec4>& color = samples > 1 ? images_.sum : images_.color;
+    const auto share = static_cast<float>(samples);
+    for (int y = 0; y < size.y; ++y) {
+      const std::size_t row = row_of(frame, tile, y);
+      const auto put = [&](const auto& image, auto* to) {
+        if (to) std::copy_n(&image.at(0, y), size.x, to + row);
+      };
+      put(images_.ids, to_.ids);
+      put(images_.reflection, to_.reflection);
+      put(color, to_.color);
+      if (samples > 1)
+        for (int x = 0; x < size.x; ++x) to_.color[row + static_cast<std::size_t>(x)] /= share;
+      for (int x = 0; x < size.x; ++x) {
+        const std::size_t pixel = row + static_cast<std::size_t>(x);
+        if (to_.mask)
+          to_.mask[pixel] =
+              static_cast<std::uint8_t>(job_.outputs.mask_bits > 0 ? images_.mask.get(x, y) : 0u);
+        if (to_.objects) to_.objects[pixel] = object_of(job_.scene, images_.ids.at(x, y));
+      }
+    }
+  }
+
+  void add_surfaces(const shared::ViewParams& view, std::size_t frame, const PixelBox& tile) {
+    const VisibleScene of{*job_.scene.mesh, job_.tracer.steps(), view, job_.options.texture_footprint > 0.0f};
+    write_visible_points(of, {{0, 0}, tile.size()}, &images_.ids.at(0, 0), kSide, to_, row_of(frame, tile, 0),
+                         static_cast<std::size_t>(job_.size.x));
+  }
+
+  const FramesJob& job_;
+  const FrameArrays& to_;
+  TileImages& images_;
+  TraceJob trace_job_;
+  TileOutputs outputs_;
+  TilePlan plan_;
+};
+
+}  // namespace
+
+RayCounts trace_frames(const FramesJob& job, const FrameArrays& to) {
+  const TileGrid grid(job.size);
+  const std::size_t all = grid.count() * job.cameras.size();
+  std::atomic<std::size_t> next{0};
+  std::mutex mutex;
+  RayCounts rays;
+  // One body a thread; each takes tiles until none is left.
+  job.workers.for_each(static_cast<std::size_t>(job.workers.count()), [&](std::size_t) {
+    static thread_local TileImages images;
+    Share share(job, to, images);
+    RayCounts own;
+    try {
+      for (std::size_t i; (i = next.fetch_add(1, std::memory_order_relaxed)) < all;) {
+        own += share.draw(i / grid.count(), grid.tile(i % grid.count()));
+        advance(job.progress, job.spp / static_cast<double>(grid.count()));
+      }
+    } catch (...) {
+      next = all;
+      throw;
+    }
+    const std::lock_guard lock(mutex);
+    rays += own;
+  });
+  return rays;
+}
+
+}  // namespace pinocchio

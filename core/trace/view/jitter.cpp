@@ -1,0 +1,54 @@
+#include "core/trace/view/jitter.h"
+
+#include <cmath>
+#include <numbers>
+
+#include "core/shade/shared.h"
+
+namespace pinocchio {
+namespace {
+
+// Integral of the window of Blackman and Harris (1978), 3 pixels wide, from -1.5 to x.
+double share_left_of(double x) {
+  constexpr double kA0 = 0.35875, kA1 = 0.48829, kA2 = 0.14128, kA3 = 0.01168;
+  const double t = x / 3.0 + 0.5, turn = 2.0 * std::numbers::pi;
+  return t - (kA1 * std::sin(turn * t) - kA2 / 2.0 * std::sin(2.0 * turn * t) +
+              kA3 / 3.0 * std::sin(3.0 * turn * t)) /
+                 (turn * kA0);
+}
+
+// Inverse of share_left_of, by bisection.
+double place_of_share(double share) {
+  double lo = -1.5, hi = 1.5;
+  while (hi - lo > 1e-7) {
+    const double middle = 0.5 * (lo + hi);
+    (share_left_of(middle) < share ? lo : hi) = middle;
+  }
+  return 0.5 * (lo + hi);
+}
+
+// Point k of an additive recurrence (Roberts 2018), evenly spread at any length; the first is the middle.
+glm::dvec2 even_point(int k, const glm::dvec2& step) {
+  return glm::fract(0.5 + static_cast<double>(k) * step);
+}
+
+}  // namespace
+
+glm::vec2 jitter_of(int k, PixelFilter filter) {
+  const glm::dvec2 at = even_point(k, {0.75487766624669276, 0.56984029099805327});
+  if (filter == PixelFilter::box || k == 0) return glm::vec2(at - 0.5);
+  return {place_of_share(at.x), place_of_share(at.y)};
+}
+
+glm::vec2 lens_point_of(int k) {
+  if (k == 0) return glm::vec2(0.0f);
+  return shared::disc_of_square(glm::vec2(even_point(k, {0.81917251339616444, 0.67104360670378927})));
+}
+
+View at_sample(View view, int k, PixelFilter filter) {
+  view.jitter = jitter_of(k, filter);
+  view.sample = k;
+  return view;
+}
+
+}  // namespace pinocchio

@@ -1,0 +1,239 @@
+// The traversal, written once over the lanes and the triangle tests beside this file. It is compiled for each
+// instruction set (kernel.cpp.in). Everything is in that set's namespace, PINOCCHIO_LANES: the linker
+// must never keep a function compiled for AVX as the one for all.
+#include <type_traits>
+#include <utility>
+
+#include "core/bsp/tree.h"
+#include "core/simd/lanes.h"
+#include "core/trace/lanes/lane_steps.h"
+#include "core/trace/walk/exact_triangle.h"
+#include "core/trace/walk/filtered.h"
+#include "core/trace/walk/found.h"
+#include "core/trace/walk/kernels.h"
+#include "core/trace/walk/leaf_lanes.h"
+#include "core/trace/walk/moeller_trumbore.h"
+#include "core/trace/walk/packet.h"
+#include "core/trace/walk/projected.h"
+#include "core/trace/walk/watertight.h"
+#include "pinocchio/build_options.h"
+#include "pinocchio/ray.h"
+
+namespace pinocchio::PINOCCHIO_LANES {
+namespace {
+
+// Narrows [t_near, t_far] to the tree's box. min and max return their second operand for NaN, so a ray that
+// lies in a face of the box (0 * inf) leaves the interval unchanged.
+inline void enter_bounds(const Bounds& b, const Packet& p, const Octant& c, const bool (&negative)[3],
+                         Float& t_near, Float& t_far) {
+  for (int axis = 0; axis < 3; ++axis) {
+    const Float lo(b.lo[axis]), hi(b.hi[axis]);
+    const Float& first = negative[axis] ? hi : lo;
+    const Float& last = negative[axis] ? lo : hi;
+    t_near = max((first - p.o[axis]) * c.inverse[axis] * Float(kEarly), t_near);
+    t_far = min((last - p.o[axis]) * c.inverse[axis] * Float(kLate), t_far);
+  }
+}
+
+// Packets that traverse the tree together: each node is fetched and its branches are decided once for all of
+// them.
+template <int kPackets>
+struct Group {
+  Packet packets[kPackets];
+  Octant octants[kPackets];
+};
+
+template <int kPackets>
+struct StackEntry {
+  Float t_near[kPackets], t_far[kPackets];
+  std::uint32_t node;
+};
+
+// Traverses the tree front to back and calls leaf(node, living) for every leaf that a living lane passes
+// through. A lane of `lanes` lives while its interval within the node is not empty. `t_best`, which the leaf
+// may lower, ends the interval. `negative`: the signs of the lanes' common octant. Which leaves a lane visits
+// depends on its ray alone.
+template <int kPackets, class Leaf>
+inline void walk(const BspTree& tree, const Group<kPackets>& group, const bool (&negative)[3],
+                 const Mask (&lanes)[kPackets], const Float (&t_best)[kPackets], Leaf leaf) {
+  const BspNode* const nodes = tree.nodes.data();
+  const std::uint32_t* const references = tree.references.data();
+  Float t_near[kPackets], t_far[kPackets];
+  unsigned living[kPackets], any = 0;
+#pragma GCC unroll 4
+  for (int k = 0; k < kPackets; ++k) {
+    t_near[k] = Float(0.0f);
+    t_far[k] = t_best[k] * Float(kLate);
+    enter_bounds(tree.bounds, group.packets[k], group.octants[k], negative, t_near[k], t_far[k]);
+    living[k] = (lanes[k] & (t_near[k] <= t_far[k])).bits();
+    any |= living[k];
+  }
+  StackEntry<kPackets> stack[kMaxTreeDepth];
+  int top = 0;
+  std::uint32_t index = 0;
+  while (true) {
+    if (any != 0) {
+      const BspNode node = nodes[index];
+      if (!node.is_leaf()) {
+        const int axis = node.axis();
+        const std::uint32_t low = node.first_child();
+        __builtin_prefetch(nodes + low);
+        const std::uint32_t first = negative[axis] ? low + 1 : low, second = negative[axis] ? low : low + 1;
+        const Float split(node.split());
+        Float t[kPackets];
+        // NaN (a ray that lies in the plane) must enter both sides, so the comparisons find the lanes that
+        // may skip a side, not those that enter it.
+        unsigned enter_first = 0, enter_second = 0;
+#pragma GCC unroll 4
+        for (int k = 0; k < kPackets; ++k) {
+          t[k] = (split - group.packets[k].o[axis]) * group.octants[k].inverse[axis];
+          enter_first |= living[k] & ~(t[k] < t_near[k]).bits();
+          enter_second |= living[k] & ~(t_far[k] < t[k]).bits();
+        }
+        if (enter_first == 0) {
+          index = second;
+        } else if (enter_second == 0) {
+          index = first;
+        } else {
+          StackEntry<kPackets>& entry = stack[top++];
+          entry.node = second;
+          const BspNode& later = nodes[second];  // loaded already: on its sibling's cache line
+          __builtin_prefetch(later.is_leaf() ? static_cast<const void*>(references + later.first_reference())
+                                             : static_cast<const void*>(nodes + later.first_child()));
+          index = first;
+          any = 0;
+#pragma GCC unroll 4
+          for (int k = 0; k < kPackets; ++k) {
+            entry.t_near[k] = max(t[k] * Float(kEarly), t_near[k]);
+            entry.t_far[k] = t_far[k];
+            t_far[k] = min(t[k] * Float(kLate), t_far[k]);
+            living[k] = (lanes[k] & (t_near[k] <= t_far[k])).bits();
+            any |= living[k];
+          }
+        }
+        continue;
+      }
+      if (node.reference_count() > 0) leaf(node, living);
+    }
+    if (top == 0) return;
+    const StackEntry<kPackets>& entry = stack[--top];
+    index = entry.node;
+    any = 0;
+#pragma GCC unroll 4
+    for (int k = 0; k < kPackets; ++k) {
+      t_near[k] = entry.t_near[k];
+      t_far[k] = min(entry.t_far[k], t_best[k] * Float(kLate));
+      living[k] = (lanes[k] & (t_near[k] <= t_far[k])).bits();
+      any |= living[k];
+    }
+  }
+}
+
+// Computes 1 / d and calls body(negative, lanes) for each octant among the rays.
+template <int kPackets, class Body>
+inline void for_each_octant(Group<kPackets>& group, Body body) {
+  unsigned waiting[kPackets], falling[kPackets][3], any = 0;
+  for (int k = 0; k < kPackets; ++k) {
+    const Packet& p = group.packets[k];
+    waiting[k] = p.living;
+    any |= p.living;
+    for (int axis = 0; axis < 3; ++axis) {
+      group.octants[k].inverse[axis] = Float(1.0f) / p.d[axis];
+      falling[k][axis] = (p.d[axis] < Float(0.0f)).bits();
+    }
+  }
+  while (any != 0) {
+    int first = 0;
+    while (waiting[first] == 0) ++first;
+    bool negative[3];
+    for (int axis = 0; axis < 3; ++axis)
+      negative[axis] = (falling[first][axis] >> __builtin_ctz(waiting[first]) & 1u) != 0;
+    Mask lanes[kPackets];
+    any = 0;
+    for (int k = 0; k < kPackets; ++k) {
+      unsigned same = waiting[k];
+      for (int axis = 0; axis < 3; ++axis) same &= negative[axis] ? falling[k][axis] : ~falling[k][axis];
+      lanes[k] = Mask::from_bits(same);
+      waiting[k] &= ~same;
+      any |= waiting[k];
+    }
+    body(negative, lanes);
+  }
+}
+
+// A leaf's triangles are anywhere in memory: all are prefetched at once, not one after the other.
+template <class Stored>
+inline void fetch_ahead(const Stored* triangles, const std::uint32_t* of_leaf, std::uint32_t count) {
+  for (std::uint32_t r = 0; r < count; ++r) {
+    const char* const at = reinterpret_cast<const char*>(triangles + of_leaf[r]);
+    __builtin_prefetch(at);
+    __builtin_prefetch(at + sizeof(Stored) - 1);
+  }
+}
+
+// Finds what a group of packets hits: rays i and on of n.
+template <class Test, class Found, std::size_t... kIndex>
+inline Found hits_of_group(const BspTree& tree, const RayColumns& rays, std::size_t i, std::size_t n,
+                           std::index_sequence<kIndex...>) {
+  constexpr int kPackets = sizeof...(kIndex);
+  Group<kPackets> group;
+  (group.packets[kIndex].load(rays, i + kIndex * kWidth, n), ...);
+  const Test tests[]{Test(tree, group.packets[kIndex])...};
+  Found found({group.packets[kIndex].t_max...});
+  const auto* const triangles = Test::stored(tree);
+  for_each_octant(group, [&](const bool(&negative)[3], const Mask(&lanes)[kPackets]) {
+    walk(tree, group, negative, lanes, found.t_best, [&](const BspNode& leaf, unsigned(&open)[kPackets]) {
+      const std::uint32_t* const of_leaf = tree.references.data() + leaf.first_reference();
+      fetch_ahead(triangles, of_leaf, leaf.reference_count());
+      if (LeafLanes::is_cheaper<Test>(leaf.reference_count(), open))
+        return hits_by_ray(tree, rays, i, leaf, open, found);
+      for (std::uint32_t r = 0; r < leaf.reference_count(); ++r) {
+        const auto& tri = triangles[of_leaf[r]];
+        for (int k = 0; k < kPackets; ++k) {
+          if (open[k] == 0) continue;
+          Float t;
+          const Mask inside = tests[k].intersect(tri, Mask::from_bits(open[k]), t);
+          open[k] &= ~found.add(k, inside, t, Int(tri.id));
+        }
+      }
+    });
+  });
+  return found;
+}
+
+constexpr int kPackets = 4;  // in a group
+
+template <class Test>
+void closest_hits(const BspTree& tree, const RayColumns& rays, std::size_t n, std::uint32_t* triangle,
+                  float* t) {
+  for (std::size_t i = 0; i < n; i += kPackets * kWidth) {
+    const auto found =
+        hits_of_group<Test, ClosestHits<kPackets>>(tree, rays, i, n, std::make_index_sequence<kPackets>());
+    for (std::size_t k = 0; k < kPackets && i + k * kWidth < n; ++k) {
+      found.id[k].store(triangle + i + k * kWidth);
+      if (t) found.t_best[k].store(t + i + k * kWidth);
+    }
+  }
+}
+
+template <class Test>
+void occluded(const BspTree& tree, const RayColumns& rays, std::size_t n, std::uint8_t* blocked) {
+  for (std::size_t i = 0; i < n; i += kPackets * kWidth) {
+    const auto found =
+        hits_of_group<Test, AnyHits<kPackets>>(tree, rays, i, n, std::make_index_sequence<kPackets>());
+    for (std::size_t k = 0; k < kPackets && i + k * kWidth < n; ++k)
+      for (unsigned lane = 0; lane < kWidth; ++lane)
+        blocked[i + k * kWidth + lane] = static_cast<std::uint8_t>(found.hit[k] >> lane & 1u);
+  }
+}
+
+template <class Test>
+constexpr Kernel kKernelOf{closest_hits<Test>, occluded<Test>};
+
+}  // namespace
+
+// In the order of TriangleTest.
+const Kernels kKernels{kKernelOf<ProjectedTest>, kKernelOf<MoellerTrumboreTest>, kKernelOf<WatertightTest>,
+                       kKernelOf<FilteredTest>};
+
+}  // namespace pinocchio::PINOCCHIO_LANES

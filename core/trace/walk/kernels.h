@@ -1,0 +1,37 @@
+// The entry points of each instruction set's kernels, one for each triangle test.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+
+#include "core/bsp/tree.h"
+#include "core/simd/isas.h"
+#include "core/trace/rays/ray_queue.h"
+
+namespace pinocchio {
+
+// Kernels for n rays. All columns, the results' included, are read and written in whole packets: they are
+// aligned and have room for kQueuePad more rays (rays/ray_queue.h).
+struct Kernel {
+  // Writes the triangle that each ray hits (kNoTriangle: none) and, unless `t` is null, its distance (t_max:
+  // none).
+  void (*closest_hits)(const BspTree& tree, const RayColumns& rays, std::size_t n, std::uint32_t* triangle,
+                       float* t);
+  // Writes 1 for a ray that meets any triangle, else 0.
+  void (*occluded)(const BspTree& tree, const RayColumns& rays, std::size_t n, std::uint8_t* blocked);
+};
+
+using Kernels = std::array<Kernel, kTriangleTests.size()>;  // by TriangleTest
+
+struct LaneSteps;  // trace/lanes/lane_steps.h
+
+#define PINOCCHIO_DECLARE(name, lanes, feature) \
+  namespace name {                              \
+  extern const Kernels kKernels;                \
+  extern const LaneSteps kSteps;                \
+  }
+PINOCCHIO_ISAS(PINOCCHIO_DECLARE)
+#undef PINOCCHIO_DECLARE
+
+}  // namespace pinocchio

@@ -1,0 +1,66 @@
+#include "hybrid/frame/lines.h"
+
+#include <algorithm>
+
+#include "core/parallel/workers.h"
+#include "core/trace/tiles/aov.h"
+#include "core/trace/view/view_params.h"
+
+namespace pinocchio {
+
+void write_lines(const FrameResult& frame, int y0, int y1, const FrameArrays& to, std::size_t first) {
+  const auto width = static_cast<std::size_t>(frame.ids.width());
+  const std::size_t begin = static_cast<std::size_t>(y0) * width,
+                    count = static_cast<std::size_t>(y1 - y0) * width;
+  const auto copy = [&]<class Value>(const Image<Value>& image, Value* values) {
+    if (!values) return;
+    if (image.empty()) {
+      std::fill_n(values + first, count, Value(0));
+    } else {
+      std::copy_n(&image[begin], count, values + first);
+    }
+  };
+  copy(frame.color, to.color);
+  copy(frame.ids, to.ids);
+  copy(frame.reflection, to.reflection);
+  for (std::size_t i = 0; i < count; ++i) {
+    if (to.objects) to.objects[first + i] = object_of(frame.scene, frame.ids[begin + i]);
+    if (!to.mask) continue;
+    const int x = static_cast<int>(i % width), y = y0 + static_cast<int>(i / width);
+    to.mask[first + i] = static_cast<std::uint8_t>(frame.mask.bits() > 0 ? frame.mask.get(x, y) : 0u);
+  }
+  if (!to.wants_surfaces()) return;
+  View view = frame.view;
+  view.jitter = glm::vec2(0.0f);
+  const shared::ViewParams params = view_params(view);
+  write_visible_lines({*frame.scene.mesh, lane_steps(default_isa()), params, frame.settings.filter_textures},
+                      frame.ids, y0, y1, to, first);
+}
+
+void write_layers(const FrameResult& frame, const FrameArrays& to, std::size_t first) {
+  constexpr int kLines = 16;  // a task
+  const glm::ivec2 size = frame.ids.size();
+  if (!to.wants_surfaces()) return write_lines(frame, 0, size.y, to, first);
+  Workers workers(frame.settings.threads);
+  workers.for_each(static_cast<std::size_t>((size.y + kLines - 1) / kLines), [&](std::size_t i) {
+    const int y0 = static_cast<int>(i) * kLines;
+    const auto place = static_cast<std::size_t>(y0) * static_cast<std::size_t>(size.x);
+    write_lines(frame, y0, std::min(y0 + kLines, size.y), to, first + place);
+  });
+}
+
+SurfaceImages surfaces_of(const FrameResult& frame) {
+  const glm::ivec2 size = frame.ids.size();
+  SurfaceImages all{Image<float>(size), Image<glm::vec3>(size), Image<glm::vec3>(size),
+                    Image<glm::vec3>(size)};
+  write_layers(frame, arrays_of(all));
+  return all;
+}
+
+void unpack_mask(const FrameResult& frame, std::uint8_t* to) {
+  FrameArrays arrays;
+  arrays.mask = to;
+  write_lines(frame, 0, frame.ids.height(), arrays);
+}
+
+}  // namespace pinocchio

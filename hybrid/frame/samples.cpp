@@ -1,0 +1,113 @@
+#include "hybrid/frame/samples.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/parallel/tiles.h"
+#include "core/trace/view/jitter.h"
+
+namespace pinocchio {
+
+namespace {
+
+float texture_footprint(const Settings& settings, const View& view) {
+  if (!settings.filter_textures) return 0.0f;
+  const int samples = std::max(settings.spp.value, view.sample + 1);  // accumulated samples exceed spp
+  return samples == 1 ? 1.0f : 1.0f / std::sqrt(static_cast<float>(samples));
+}
+
+}  // namespace
+
+TraceOptions trace_options(const Settings& settings, const View& view) {
+  return {.throughput_cutoff = settings.throughput_cutoff,
+          .light_cutoff = settings.light_cutoff,
+          .texture_footprint = texture_footprint(settings, view),
+          .terminator = settings.terminator,
+          .jitter = view.jitter,
+          .sampling = {static_cast<int>(settings.sequence.value), static_cast<std::uint32_t>(view.sample),
+                       static_cast<std::uint32_t>(settings.seed)}};
+}
+
+void settle_environment(Scene& scene, const Settings& settings) {
+  scene.environment_rotation_deg = settings.environment_rotation;
+  scene.environment_strength = settings.environment_strength;
+  if (settings.environment_strength <= 0.0f) scene.environment.reset();
+  // Ambient light stands for light from other surfaces and the sky.
+  if (settings.reflects() && (settings.indirect > 0 || scene.environment))
+    scene.ambient_light = glm::vec3(0.0f);
+}
+
+void submit_samples(Renderer& renderer, FrameRequest request, SampleMean* mean) {
+  for (int k = 0; k < request.settings.spp; ++k) {
+    request.view = at_sample(request.view, k, request.settings.pixel_filter);
+    if (mean) request.left_out = mean->finished_;
+    if (request.left_out && std::ranges::count(*request.left_out, 0) == 0) break;
+    renderer.submit(request);
+  }
+  if (!mean || !mean->is_adaptive()) return;
+  renderer.drain();  // frames in flight are samples of this picture
+  if (mean->samples_ > 0) mean->finish();
+}
+
+void SampleMean::add(Frame& frame) {
+  if (samples_ == 0) {
+    sum_ = frame.read();
+    if (is_adaptive()) sample_ = sum_.color;
+  } else {
+    frame.read_color(sample_);
+  }
+  if (is_adaptive()) {
+    add_tiles(frame.request());
+  } else if (samples_ > 0) {
+    for (std::size_t i = 0; i < sample_.pixels().size(); ++i) sum_.color[i] += sample_[i];
+  }
+  if (++samples_ == spp_) finish();
+}
+
+// Adds the tiles that the frame traced.
+void SampleMean::add_tiles(const FrameRequest& request) {
+  const TileGrid grid(sum_.color.size());
+  if (samples_ == 0) {
+    squares_ = Image<glm::vec3>(sum_.color.size());
+    tile_samples_.assign(grid.count(), 0);
+  }
+  for (std::size_t i = 0; i < grid.count(); ++i) {
+    if (request.left_out && (*request.left_out)[i] != 0) continue;
+    TileGrid::for_each_pixel(grid.tile(i), [&](int x, int y) {
+      const glm::vec4& sample = sample_.at(x, y);
+      if (samples_ > 0) sum_.color.at(x, y) += sample;
+      squares_.at(x, y) += glm::vec3(sample) * glm::vec3(sample);
+    });
+    if (++tile_samples_[i] % 16 == 0) check_tile(i);
+  }
+}
+
+void SampleMean::check_tile(std::size_t tile) {
+  const TileGrid grid(sum_.color.size());
+  const double n = tile_samples_[tile];
+  double sum = 0.0;
+  TileGrid::for_each_pixel(grid.tile(tile), [&](int x, int y) {
+    const glm::dvec3 mean = glm::dvec3(sum_.color.at(x, y)) / n, squares = glm::dvec3(squares_.at(x, y)) / n;
+    const glm::dvec3 of_mean = glm::max(squares - mean * mean, 0.0) / (n - 1.0);
+    sum += (of_mean.x + of_mean.y + of_mean.z) / 3.0;
+  });
+  const glm::ivec2 size = grid.tile(tile).size();
+  if (std::sqrt(sum / (size.x * size.y)) > static_cast<double>(max_noise_)) return;
+  auto finished = finished_ ? std::make_shared<std::vector<std::uint8_t>>(*finished_)
+                            : std::make_shared<std::vector<std::uint8_t>>(grid.count());
+  (*finished)[tile] = 1;
+  finished_ = std::move(finished);
+}
+
+void SampleMean::finish() {
+  const TileGrid grid(sum_.color.size());
+  for (std::size_t i = 0; i < grid.count() && samples_ > 1; ++i) {
+    const auto share = static_cast<float>(is_adaptive() ? tile_samples_[i] : samples_);
+    TileGrid::for_each_pixel(grid.tile(i), [&](int x, int y) { sum_.color.at(x, y) /= share; });
+  }
+  samples_ = 0;
+  finished_ = nullptr;
+  done_(std::move(sum_));
+}
+
+}  // namespace pinocchio

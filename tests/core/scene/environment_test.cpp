@@ -1,0 +1,415 @@
+#include "pinocchio/environment.h"
+
+#include <array>
+#include <fstream>
+#include <glm/gtc/constants.hpp>
+
+#include "core/trace/lanes/environment_light.h"
+#include "core/trace/tiles/trace_tiles.h"
+#include "core/trace/view/jitter.h"
+#include "core/trace/view/view_params.h"
+#include "pinocchio/exr.h"
+#include "scenes/generator/mesh_builder.h"
+#include "tests/support/own_file.h"
+#include "tests/support/scenes.h"
+
+namespace pinocchio {
+namespace {
+
+// Each pixel another colour, one of them far brighter: a sun.
+Image<glm::vec3> sky(glm::ivec2 size) {
+  Image<glm::vec3> image(size);
+  Random random(3);
+  for (glm::vec3& c : image.pixels())
+    c = {random.between(0.0f, 1.0f), random.between(0.0f, 1.0f), random.between(0.0f, 1.0f)};
+  image.at(size.x / 3, size.y / 4) = glm::vec3(2000.0f, 1500.0f, 1000.0f);
+  return image;
+}
+
+ExrFile exr_of(const Image<glm::vec3>& image) {
+  ExrFile exr;
+  exr.display_size = image.size();
+  exr.data_window = {{0, 0}, image.size()};
+  for (const int c : {0, 1, 2}) {
+    ExrChannel channel{std::string(1, "RGB"[c]), ExrChannel::Type::real, {}, {}};
+    for (const glm::vec3& p : image.pixels()) channel.values.push_back(p[c]);
+    exr.channels.push_back(std::move(channel));
+  }
+  return exr;
+}
+
+// RGBE without run lengths.
+void write_hdr(const std::filesystem::path& file, glm::ivec2 size, const std::string& texel,
+               std::size_t missing = 0) {
+  std::ofstream out(file, std::ios::binary);
+  out << "#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y " << size.y << " +X " << size.x << "\n";
+  std::string bytes;
+  for (int i = 0; i < size.x * size.y; ++i) bytes += texel;
+  out.write(bytes.data(), static_cast<std::streamsize>(bytes.size() - missing));
+}
+
+TEST(Environment, IsReadFromExrAndRadiance) {
+  const Image<glm::vec3> image = sky({12, 6});
+  write_exr(own_file("sky.exr"), exr_of(image));
+  const auto exr = load_environment(own_file("sky.exr"));
+  ASSERT_TRUE(exr) << exr.error().message();
+  EXPECT_TRUE(std::ranges::equal((*exr)->radiance().pixels(), image.pixels()));
+
+  write_hdr(own_file("sky.hdr"), {4, 2},
+            std::string("\x80\x40\x20\x82", 4));  // 2^2 times halves, quarters, eighths
+  const auto hdr = load_environment(own_file("sky.hdr"));
+  ASSERT_TRUE(hdr) << hdr.error().message();
+  EXPECT_EQ((*hdr)->radiance().size(), glm::ivec2(4, 2));
+  EXPECT_EQ((*hdr)->radiance().at(3, 1), glm::vec3(2.0f, 1.0f, 0.5f));
+}
+
+// Each line packed by channels or not; there, a pixel repeated the old way.
+TEST(Environment, RadianceLinesArePackedOrPlain) {
+  const std::string head = "#?RGBE\n# by hand\nFORMAT=32-bit_rle_rgbe\nEXPOSURE=1\n\n-Y 2 +X 8\n";
+  const auto channel = [](char value) {
+    return std::string{static_cast<char>(133), value, 3, value, value, value};
+  };
+  const std::string packed =
+      std::string("\2\2\0\10", 4) + channel('\x80') + channel('\x40') + channel('\x20') + channel('\x82');
+  const std::string plain = std::string("\x80\x40\x20\x82\x20\x40\x80\x81\1\1\1\6", 12);
+  std::ofstream(own_file("both.hdr"), std::ios::binary) << head + packed + plain;
+  const auto sky = load_environment(own_file("both.hdr"));
+  ASSERT_TRUE(sky) << sky.error().message();
+  for (int x = 0; x < 8; ++x) {
+    EXPECT_EQ((*sky)->radiance().at(x, 0), glm::vec3(2.0f, 1.0f, 0.5f)) << x;
+    EXPECT_EQ((*sky)->radiance().at(x, 1),
+              x == 0 ? glm::vec3(2.0f, 1.0f, 0.5f) : glm::vec3(0.25f, 0.5f, 1.0f))
+        << x;
+  }
+  for (const std::string& bad :
+       {packed + plain.substr(0, 11), packed.substr(0, 9), std::string("\2\2\0\10\0\0\0\0\0\0\0\0", 12),
+        std::string("\2\2\0\10\xff\1", 6), std::string("\1\1\1\6", 4)}) {
+    std::ofstream(own_file("bad.hdr"), std::ios::binary) << head + bad;
+    EXPECT_FALSE(load_environment(own_file("bad.hdr")));
+  }
+  std::ofstream(own_file("none.hdr"), std::ios::binary) << "#?RGBE\nFORMAT=32-bit_rle_rgbe\n\n-Y 0 +X 8\n";
+  EXPECT_FALSE(load_environment(own_file("none.hdr")));
+}
+
+TEST(Environment, BadFilesAreErrorsThatNameThem) {
+  const auto error_of = [](const std::filesystem::path& file, std::uint64_t limit = kUsualLoadLimit) {
+    const auto loaded = load_environment(file, nullptr, limit);
+    EXPECT_FALSE(loaded) << file;
+    return loaded ? std::string() : loaded.error().message();
+  };
+  EXPECT_NE(error_of(own_file("missing.exr")).find("missing.exr"), std::string::npos);
+  std::ofstream(own_file("text.hdr")) << "hello";
+  EXPECT_NE(error_of(own_file("text.hdr")).find("neither EXR nor Radiance"), std::string::npos);
+  std::ofstream(own_file("header.hdr")) << "#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y none";
+  EXPECT_NE(error_of(own_file("header.hdr")).find("header.hdr"), std::string::npos);
+
+  write_exr(own_file("sky.exr"), exr_of(sky({64, 32})));
+  std::filesystem::copy(own_file("sky.exr"), own_file("cut.exr"));
+  std::filesystem::resize_file(own_file("cut.exr"), std::filesystem::file_size(own_file("cut.exr")) / 2);
+  EXPECT_NE(error_of(own_file("cut.exr")).find("cut.exr"), std::string::npos);
+  EXPECT_NE(error_of(own_file("sky.exr"), 1000).find("--load-limit"), std::string::npos);
+  write_hdr(own_file("large.hdr"), {64, 32}, std::string("\x80\x40\x20\x82", 4));
+  EXPECT_NE(error_of(own_file("large.hdr"), 1000).find("--load-limit"), std::string::npos);
+
+  ExrFile depth = exr_of(sky({4, 2}));
+  for (ExrChannel& channel : depth.channels) channel.name = "Z" + channel.name;
+  write_exr(own_file("depth.exr"), depth);
+  EXPECT_NE(error_of(own_file("depth.exr")).find("no channels"), std::string::npos);
+}
+
+TEST(Environment, DensityAddsUpToOne) {
+  const Environment environment(sky({32, 16}));
+  double sum = 0.0;
+  constexpr int kSteps = 64;
+  for (int y = 0; y < kSteps; ++y)
+    for (int x = 0; x < 2 * kSteps; ++x)
+      sum +=
+          static_cast<double>(environment.density((glm::vec2(x, y) + 0.5f) / glm::vec2(2 * kSteps, kSteps)));
+  EXPECT_NEAR(sum / (2.0 * kSteps * kSteps), 1.0, 1e-5);
+}
+
+Scene under(Image<glm::vec3> image, MeshData mesh) {
+  Scene scene(std::move(mesh));
+  scene.ambient_light = glm::vec3(0.0f);
+  scene.environment = std::make_shared<const Environment>(std::move(image));
+  return scene;
+}
+
+// What a sample's direction finds is what it brought, over its likelihood; together they are the whole sky's
+// light.
+TEST(Environment, SamplesBringTheWholeSky) {
+  Scene scene = under(sky({32, 16}), {});
+  scene.environment_rotation_deg = 33.0f;
+  scene.environment_strength = 0.5f;
+  const EnvironmentLight light(scene);
+  constexpr int kSide = 1024;
+  glm::dvec3 sampled(0.0), exact(0.0);
+  SampleLanes packet{};
+  for (int i = 0; i < kSide * kSide; ++i) {
+    packet.number[0][0] = (static_cast<float>(i % kSide) + 0.5f) / kSide;
+    packet.number[1][0] = (static_cast<float>(i / kSide) + 0.5f) / kSide;
+    light.sample(1u, packet);
+    const glm::vec3 direction(packet.direction[0][0], packet.direction[1][0], packet.direction[2][0]);
+    const glm::vec3 brought(packet.light[0][0], packet.light[1][0], packet.light[2][0]),
+        seen = light.radiance(direction);
+    ASSERT_NEAR(glm::length(direction), 1.0f, 1e-5f);
+    ASSERT_LT(glm::length(glm::normalize(brought) - glm::normalize(seen)), 0.02f);
+    sampled += glm::dvec3(brought) / double{kSide * kSide};
+  }
+  constexpr int kFine = 1024;  // evenly over the sphere
+  for (int i = 0; i < kFine * kFine; ++i) {
+    const float height = 2.0f * (static_cast<float>(i / kFine) + 0.5f) / kFine - 1.0f,
+                across = std::sqrt(1.0f - height * height);
+    const float turn = glm::two_pi<float>() * (static_cast<float>(i % kFine) + 0.5f) / kFine;
+    exact += glm::dvec3(light.radiance({across * std::cos(turn), height, across * std::sin(turn)})) *
+             (4.0 * glm::pi<double>() / (double{kFine} * kFine));
+  }
+  for (int c = 0; c < 3; ++c) EXPECT_NEAR(sampled[c] / exact[c], 1.0, 0.005);
+}
+
+// OpenEXR's latitude-longitude maps: the middle is +Z, a quarter of the width to the left +X.
+TEST(Environment, IsTheRightWayAround) {
+  Image<glm::vec3> image({8, 4});
+  image.at(1, 1) = image.at(2, 1) = image.at(1, 2) = image.at(2, 2) = {1, 0, 0};
+  image.at(3, 1) = image.at(4, 1) = image.at(3, 2) = image.at(4, 2) = {0, 1, 0};
+  for (int x = 0; x < 8; ++x) image.at(x, 0) = {0, 0, 1};
+  Scene scene = under(image, {});
+  EXPECT_GT(EnvironmentLight(scene).radiance({1, 0, 0}).r, 0.9f);
+  EXPECT_GT(EnvironmentLight(scene).radiance({0, 0, 2}).g, 0.9f);
+  EXPECT_GT(EnvironmentLight(scene).radiance({0, 3, 0}).b, 0.9f);
+  scene.environment_rotation_deg = 90.0f;  // about +Y: what was at +Z is at +X
+  EXPECT_GT(EnvironmentLight(scene).radiance({1, 0, 0}).g, 0.9f);
+}
+
+struct Drawn {
+  Image<glm::vec4> color;
+  Image<glm::vec3> reflection;
+  RayCounts rays;
+};
+
+Drawn draw(const Scene& scene, int samples, int indirect, std::optional<Isa> isa = {}, int threads = 2,
+           int depth = 8, glm::ivec2 size = {64, 48}, bool jittered = false) {
+  const Tracer tracer(scene.mesh, {}, isa);
+  Workers workers(threads);
+  Drawn sum{Image<glm::vec4>(size), Image<glm::vec3>(size), {}};
+  for (int k = 0; k < samples; ++k) {
+    TraceJob job{scene, tracer, workers,
+                 view_params(scene.cameras.front(), size, jittered ? jitter_of(k) : glm::vec2(0.0f))};
+    job.options.throughput_cutoff = 0.0f;
+    job.options.sampling.index = static_cast<std::uint32_t>(k);
+    Image<glm::vec4> color;
+    Image<glm::vec3> reflection;
+    TileOutputs out;
+    out.size = size;
+    out.depth = depth;
+    out.indirect = indirect;
+    out.environment_light = true;
+    out.mask_bits = 8;
+    out.color = &color;
+    out.reflection = &reflection;
+    sum.rays += trace_tiles(job, out).rays;
+    for (std::size_t i = 0; i < color.pixels().size(); ++i) {
+      sum.color[i] += color[i] / static_cast<float>(samples);
+      sum.reflection[i] += reflection[i] / static_cast<float>(samples);
+    }
+  }
+  return sum;
+}
+
+Camera looking(const glm::vec3& eye, const glm::vec3& target) {
+  Camera camera;
+  camera.eye = eye;
+  camera.target = target;
+  return camera;
+}
+
+// A white ball under an even sky cannot be seen.
+TEST(WhiteFurnace, AnEvenSkyIsAsBrightAsTheBall) {
+  MeshData mesh;
+  MeshBuilder builder(mesh);
+  Material white;
+  white.diffuse = glm::vec3(1.0f);
+  builder.use(white);
+  builder.sphere(glm::vec3(0.0f), 1.0f, 96);
+  for (const bool brdf : {false, true}) {
+    mesh.materials[0].brdf = brdf;
+    mesh.materials[0].diffuse = glm::vec3(brdf ? glm::one_over_pi<float>() : 1.0f);
+    Scene scene = under(Image<glm::vec3>({16, 8}, glm::vec3(1.0f)), mesh);
+    scene.cameras = {looking({0, 0, 3}, {0, 0, 0})};
+    const Drawn drawn = draw(scene, 128, 2);
+    double inside = 0.0, outside = 0.0, count = 0.0;
+    for (const glm::vec4& c : drawn.color.pixels()) {
+      if (c.a == 1.0f) inside += static_cast<double>(c.g), ++count;
+      if (c.a == 0.0f) outside = static_cast<double>(c.g);
+    }
+    EXPECT_NEAR(inside / count, 1.0, 0.005);
+    EXPECT_NEAR(outside, 1.0, 1e-6);
+  }
+}
+
+// In a closed room that glows and reflects a share, each bounce adds that share of the one before: every
+// pixel is the same, and is what the series says. Through a mirror it is so, too.
+TEST(WhiteFurnace, AClosedRoomHoldsItsLight) {
+  for (const bool mirror : {false, true}) {
+    MeshData mesh;
+    MeshBuilder builder(mesh);
+    Material wall;
+    wall.diffuse = glm::vec3(0.9f, 0.5f, 0.1f);
+    wall.emission = glm::vec3(1.0f);
+    builder.use(wall);
+    builder.sphere(glm::vec3(0.0f), 1.0f, 24);
+    for (glm::vec3& n : mesh.normals) n = glm::vec3(0.0f);  // flat: no direction is lost
+    if (mirror) {
+      Material perfect;
+      perfect.diffuse = glm::vec3(0.0f);
+      perfect.reflectance = glm::vec3(1.0f);
+      builder.use(perfect);
+      builder.sphere(glm::vec3(0.2f, 0.0f, -0.3f), 0.25f, 24);
+    }
+    Scene scene(mesh);
+    scene.ambient_light = glm::vec3(0.0f);
+    scene.cameras = {looking({0, 0, 0.5f}, {0, 0, -1})};
+    for (const int bounces : {0, 1, 4}) {
+      glm::vec3 expected(0.0f);
+      for (int n = 0; n <= bounces; ++n) expected = 1.0f + wall.diffuse * expected;
+      const Drawn drawn = draw(scene, 1, bounces, {}, 2, 32);
+      glm::vec3 lo(1e9f), hi(0.0f);
+      for (const glm::vec4& c : drawn.color.pixels())
+        lo = glm::min(lo, glm::vec3(c)), hi = glm::max(hi, glm::vec3(c));
+      for (int c = 0; c < 3; ++c) {
+        EXPECT_NEAR(lo[c], expected[c], 1e-4f) << bounces << " bounces, mirror " << mirror;
+        EXPECT_NEAR(hi[c], expected[c], 1e-4f) << bounces << " bounces, mirror " << mirror;
+      }
+    }
+  }
+}
+
+// Blocks of 32 x 32 pixels, row by row, within 1.5 % of these means.
+void expect_as_bright(const Image<glm::vec4>& color, const std::array<glm::vec3, 12>& blocks) {
+  for (int block = 0; block < 12; ++block) {
+    glm::vec3 mean(0.0f);
+    for (int y = 0; y < 32; ++y)
+      for (int x = 0; x < 32; ++x)
+        mean += glm::vec3(color.at(32 * (block % 4) + x, 32 * (block / 4) + y)) / (32.0f * 32.0f);
+    const glm::vec3& expected = blocks[static_cast<std::size_t>(block)];
+    for (int c = 0; c < 3; ++c) EXPECT_NEAR(mean[c] / expected[c], 1.0f, 0.015f) << block << " " << c;
+  }
+}
+
+// cornell with matt balls, a lamp that falls off by the square and glows not, two bounces: what Mitsuba 3's
+// path integrator makes of it, the means of blocks of 32 x 32 pixels (scripts/environment, 512 samples).
+constexpr std::array<glm::vec3, 12> kMitsubaCornell{{
+    {0.24947f, 0.02969f, 0.02005f},
+    {0.4192f, 0.3026f, 0.23961f},
+    {0.3378f, 0.3484f, 0.23919f},
+    {0.05508f, 0.16775f, 0.03271f},
+    {0.18262f, 0.01578f, 0.00988f},
+    {0.23162f, 0.15139f, 0.11828f},
+    {0.2475f, 0.27186f, 0.17611f},
+    {0.03572f, 0.12285f, 0.01991f},
+    {0.11742f, 0.02711f, 0.01936f},
+    {0.13934f, 0.11067f, 0.08488f},
+    {0.0887f, 0.08413f, 0.05547f},
+    {0.03444f, 0.07604f, 0.02053f},
+}};
+
+TEST(Indirect, CornellIsAsBrightAsMitsubasEverywhere) {
+  Scene scene = load_or_die(source_path("scenes/cornell.gltf"));
+  scene.ambient_light = glm::vec3(0.0f);
+  scene.lights[0].falloff = Light::Falloff::inverse_square;
+  {
+    MeshEdit mesh(scene);
+    for (Material& m : mesh->materials) {
+      if (m.spawns_rays()) m.diffuse = glm::vec3(0.5f);
+      m.reflectance = m.transmittance = m.specular = m.emission = glm::vec3(0.0f);
+    }
+  }
+  const Drawn drawn = draw(scene, 64, 2, {}, 2, 0, {128, 96}, true);
+  expect_as_bright(drawn.color, kMitsubaCornell);
+}
+
+// A floor half under a plate, its sky a gradient with a sun of two degrees: likewise (scripts/environment
+// --only plate).
+constexpr std::array<glm::vec3, 12> kMitsubaPlate{{
+    {0.08279f, 0.09918f, 0.11972f},
+    {0.08147f, 0.09732f, 0.11715f},
+    {0.0814f, 0.09729f, 0.11722f},
+    {0.08298f, 0.09925f, 0.11964f},
+    {0.30231f, 0.32551f, 0.3507f},
+    {0.30174f, 0.32493f, 0.3501f},
+    {0.3011f, 0.32419f, 0.34925f},
+    {0.30259f, 0.32586f, 0.35111f},
+    {0.37301f, 0.42408f, 0.48975f},
+    {0.37303f, 0.42415f, 0.48992f},
+    {0.37307f, 0.42425f, 0.49007f},
+    {0.37389f, 0.42513f, 0.49105f},
+}};
+
+TEST(Environment, LightsAFloorUnderAPlateAsMitsubasDoes) {
+  MeshData mesh;
+  MeshBuilder builder(mesh);
+  Material matte;
+  matte.diffuse = glm::vec3(0.5f);
+  builder.use(matte);
+  builder.quad({-6, 0, -6}, {-6, 0, 6}, {6, 0, 6}, {6, 0, -6});
+  builder.quad({-4, 1, -4}, {-4, 1, 4}, {0, 1, 4}, {0, 1, -4});
+  constexpr glm::ivec2 kSky{512, 256};
+  Image<glm::vec3> image(kSky);
+  for (int y = 0; y < kSky.y; ++y) {
+    const float up = std::cos(glm::pi<float>() * (static_cast<float>(y) + 0.5f) / static_cast<float>(kSky.y));
+    const glm::vec3 above(0.3f + 0.2f * up, 0.4f + 0.3f * up, 0.5f + 0.5f * up);
+    for (int x = 0; x < kSky.x; ++x) image.at(x, y) = up < 0.0f ? glm::vec3(0.2f, 0.16f, 0.12f) : above;
+  }
+  for (int i = 0; i < 9; ++i) image.at(150 + i % 3, 70 + i / 3) = {2000.0f, 1900.0f, 1700.0f};
+  Scene scene = under(std::move(image), mesh);
+  scene.cameras = {looking({1.5f, 0.9f, 0.0f}, {-0.2f, 0.0f, 0.0f})};
+  scene.cameras[0].fov_deg = 40.0f;
+  const Drawn drawn = draw(scene, 64, 0, {}, 2, 0, {128, 96}, true);
+  expect_as_bright(drawn.color, kMitsubaPlate);
+}
+
+TEST(EnvironmentAndIndirect, HaveTheSameBitsAtAnyWidth) {
+  Scene scene = load_or_die(source_path("scenes/cornell.gltf"));
+  scene.environment = std::make_shared<const Environment>(sky({32, 16}));
+  scene.cameras.front().eye.z += 1.0f;
+  std::optional<Drawn> expected;
+  for (const Isa isa : supported_isas())
+    for (const int threads : {1, 3}) {
+      const Drawn drawn = draw(scene, 2, 2, isa, threads);
+      if (!expected) expected = drawn;
+      EXPECT_TRUE(std::ranges::equal(drawn.color.pixels(), expected->color.pixels()) &&
+                  std::ranges::equal(drawn.reflection.pixels(), expected->reflection.pixels()))
+          << isa_name(isa) << " " << threads;
+    }
+  EXPECT_GT(expected->rays.indirect, 0u);
+}
+
+// Where nothing is sampled nothing is paid for.
+TEST(EnvironmentAndIndirect, ScenesWithoutAreAsTheyWere) {
+  const Scene scene = load_or_die(source_path("scenes/cornell.gltf"));
+  const Drawn one = draw(scene, 1, 0), two = draw(scene, 2, 0);
+  EXPECT_TRUE(std::ranges::equal(one.color.pixels(), two.color.pixels()));
+  EXPECT_EQ(one.rays.indirect, 0u);
+  EXPECT_EQ(2 * one.rays.shadow, two.rays.shadow);
+}
+
+// The environment in a mirror, and straight ahead.
+TEST(EnvironmentAndIndirect, IsSeenInMirrorsAndBehind) {
+  MeshData mesh;
+  MeshBuilder builder(mesh);
+  Material mirror;
+  mirror.diffuse = glm::vec3(0.0f);
+  mirror.reflectance = glm::vec3(0.5f);
+  builder.use(mirror);
+  builder.sphere(glm::vec3(0.0f), 1.0f, 64);
+  Scene scene = under(Image<glm::vec3>({8, 4}, glm::vec3(0.25f, 1.0f, 4.0f)), mesh);
+  scene.cameras = {looking({0, 0, 3}, {0, 0, 0})};
+  const Drawn drawn = draw(scene, 1, 0);
+  for (const glm::vec4& c : drawn.color.pixels()) {
+    const glm::vec3 expected = (c.a > 0.0f ? 0.5f : 1.0f) * glm::vec3(0.25f, 1.0f, 4.0f);
+    for (int i = 0; i < 3; ++i) EXPECT_NEAR(c[i], expected[i], 1e-5f);
+  }
+}
+
+}  // namespace
+}  // namespace pinocchio

@@ -1,0 +1,40 @@
+// Functions of the lanes that only tests call by themselves, compiled for each instruction set as the kernels
+// are.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+
+#include "core/shade/lane_texture.h"
+#include "core/shade/shared.h"
+#include "core/simd/isas.h"
+#include "pinocchio/tracer.h"
+
+namespace pinocchio {
+
+// `count`: a multiple of 16.
+struct LaneProbe {
+  // The points of `dimension` of the pixels (x, y).
+  void (*samples)(const shared::Sampling& sampling, const std::uint32_t* x, const std::uint32_t* y,
+                  std::uint32_t dimension, float* u, float* v, std::size_t count);
+  // x^y for x > 0.
+  void (*power)(const float* x, const float* y, float* result, std::size_t count);
+  SampleTexture sample_texture;
+};
+
+#define PINOCCHIO_DECLARE_PROBE(name, lanes, feature) \
+  namespace name {                                    \
+  extern const LaneProbe kProbe;                      \
+  }
+PINOCCHIO_ISAS(PINOCCHIO_DECLARE_PROBE)
+#undef PINOCCHIO_DECLARE_PROBE
+
+// The processor has them.
+[[nodiscard]] inline const LaneProbe& lane_probe(Isa isa) {
+#define PINOCCHIO_PROBE(name, lanes, feature) &name::kProbe,
+  const LaneProbe* const probes[] = {PINOCCHIO_ISAS(PINOCCHIO_PROBE)};
+#undef PINOCCHIO_PROBE
+  return *probes[static_cast<std::size_t>(isa)];
+}
+
+}  // namespace pinocchio

@@ -1,0 +1,96 @@
+// Textures looked up by lanes (core/trace/lanes/texture.h) against one look-up at a time, which is the source
+// that the GPU has too: the same bits.
+#include <cmath>
+#include <cstring>
+#include <limits>
+
+#include "core/shade/map_lookup.h"
+#include "core/simd/isas.h"
+#include "tests/core/trace/lane_probe.h"
+#include "tests/support/scenes.h"
+
+namespace pinocchio {
+namespace {
+
+Texture noise(const glm::ivec2& size, bool with_levels, Random& random) {
+  Texture texture{"noise", Image<glm::u8vec4>(size)};
+  const auto texel = [&] {
+    glm::u8vec4 t;
+    for (int c = 0; c < 4; ++c) t[c] = static_cast<std::uint8_t>(random.between(0.0f, 255.99f));
+    return t;
+  };
+  for (glm::u8vec4& t : texture.texels.pixels()) t = texel();
+  if (!with_levels) return texture;
+  for (glm::ivec2 level = size; level != glm::ivec2(1);) {
+    level = glm::max(level / 2, glm::ivec2(1));
+    for (int i = 0; i < level.x * level.y; ++i) texture.smaller_levels.push_back(texel());
+  }
+  return texture;
+}
+
+// Whole numbers, edges, far outside, and how much a pixel sees: nothing to the whole texture, NaN and
+// infinity.
+void place(TexturePoints& points, unsigned lane, Random& random) {
+  const auto coordinate = [&] {
+    const float kind = random.between(0.0f, 8.0f);
+    if (kind < 1.0f) return std::floor(random.between(-3.0f, 3.0f));
+    if (kind < 2.0f) return random.between(-1e-9f, 1e-9f);
+    if (kind < 3.0f) return random.between(-1e5f, 1e5f);
+    return random.between(-2.5f, 2.5f);
+  };
+  const auto change = [&] {
+    const float kind = random.between(0.0f, 16.0f);
+    if (kind < 2.0f) return 0.0f;
+    if (kind < 2.5f) return std::numeric_limits<float>::quiet_NaN();
+    if (kind < 3.0f) return std::numeric_limits<float>::infinity();
+    if (kind < 3.5f) return std::exp2(random.between(30.0f, 127.0f));
+    return std::copysign(std::exp2(random.between(-12.0f, 4.0f)), random.between(-1.0f, 1.0f));
+  };
+  for (int axis = 0; axis < 2; ++axis) {
+    points.uv[axis][lane] = coordinate();
+    points.change_x[axis][lane] = change();
+    points.change_y[axis][lane] = change();
+  }
+}
+
+TEST(LaneTexture, SameBitsAsOneByOneAtEveryWidth) {
+  Random random(11);
+  Mesh mesh;
+  for (const bool with_levels : {false, true})
+    for (const glm::ivec2 size : {glm::ivec2(1), {7, 5}, {64, 16}, {1, 33}})
+      mesh.textures.edit().push_back(noise(size, with_levels, random));
+  std::vector<TextureUse> uses;
+  for (int texture = 0; texture < static_cast<int>(mesh.textures.size()); ++texture)
+    for (const Wrap wrap_u : {Wrap::repeat, Wrap::mirror, Wrap::clamp})
+      for (const Wrap wrap_v : {Wrap::repeat, Wrap::mirror, Wrap::clamp})
+        for (const bool nearest : {false, true})
+          uses.push_back({.texture = texture, .wrap_u = wrap_u, .wrap_v = wrap_v, .nearest = nearest});
+  for (const Isa isa : supported_isas()) {
+    const SampleTexture sample = lane_probe(isa).sample_texture;
+    const unsigned width = kLaneCounts[static_cast<std::size_t>(isa)];
+    for (const TextureUse& use : uses)
+      for (int round = 0; round < 20; ++round) {
+        const bool is_color = round % 2 == 0;
+        TexturePoints points{};
+        for (unsigned lane = 0; lane < width; ++lane) place(points, lane, random);
+        const unsigned lanes = round == 0 ? 1u : (1u << width) - 1u;
+        sample(lane_texture(mesh, use, is_color), lanes, points);
+        for (unsigned lane = 0; lane < width && lanes >> lane & 1u; ++lane) {
+          const auto at = [&](const TexturePoints::Column(&of)[2]) {
+            return glm::vec2(of[0][lane], of[1][lane]);
+          };
+          const glm::vec4 one(shared::texels::sample_texture(
+              params_of(mesh, use), {at(points.uv), at(points.change_x), at(points.change_y)}, is_color));
+          for (int c = 0; c < 4; ++c) {
+            ASSERT_TRUE(std::isfinite(one[c]));
+            ASSERT_EQ(std::memcmp(&points.texel[c][lane], &one[c], sizeof(float)), 0)
+                << isa_name(isa) << " texture " << use.texture << " channel " << c << ": "
+                << points.texel[c][lane] << " " << one[c];
+          }
+        }
+      }
+  }
+}
+
+}  // namespace
+}  // namespace pinocchio

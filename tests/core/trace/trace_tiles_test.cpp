@@ -1,0 +1,375 @@
+// The tile pass against itself: one output at a time, at every width and number of threads; and its composite
+// against one that is summed pixel by pixel. That its masks and mirrored light are right is held against
+// others: Embree (embree_test) and the reference (reference_agreement_test).
+#include "core/trace/tiles/trace_tiles.h"
+
+#include <cmath>
+#include <cstring>
+
+#include "core/bsp/tree.h"
+#include "pinocchio/view.h"
+#include "tests/core/trace/lane_probe.h"
+#include "tests/support/scenes.h"
+#include "tests/support/shade.h"
+
+namespace pinocchio {
+namespace {
+
+constexpr glm::ivec2 kSize{150, 90};  // tiles that are cut off on both sides
+constexpr int kDepth = 6;
+
+struct Drawn {
+  Image<std::uint32_t> ids{kSize};
+  MaskImage mask;
+  Image<glm::vec3> reflection{kSize};
+  Image<glm::vec4> color{kSize};
+  RayCounts rays;
+};
+
+template <class T>
+bool same_bits(const Image<T>& a, const Image<T>& b) {
+  return a.size() == b.size() &&
+         std::memcmp(a.pixels().data(), b.pixels().data(), a.pixels().size_bytes()) == 0;
+}
+
+bool same_rays(const RayCounts& a, const RayCounts& b) {
+  return a.primary == b.primary && a.shadow == b.shadow && a.reflection == b.reflection &&
+         a.refraction == b.refraction;
+}
+
+// Distance of two numbers in units of the last place of a half float.
+float half_steps(float a, float b) {
+  const float size = std::max(std::abs(a), std::abs(b));
+  const int exponent = std::max(size > 0.0f ? std::ilogb(size) : -14, -14);
+  return std::abs(a - b) / std::ldexp(1.0f, exponent - 10);
+}
+
+int mask_bits_of(const Scene& scene) {
+  return MaskImage::bits_for(static_cast<int>(casting_lights(scene).size()));
+}
+
+Drawn one_by_one(const TraceJob& job) {
+  Drawn drawn;
+  drawn.rays += trace_visibility(job, drawn.ids);
+  drawn.rays += trace_shadow_mask(job, drawn.ids, mask_bits_of(job.scene), drawn.mask);
+  drawn.rays += trace_reflection(job, drawn.ids, kDepth, drawn.reflection);
+  shade(job, drawn.ids, drawn.mask, drawn.reflection, drawn.color);
+  return drawn;
+}
+
+Drawn by_tiles(const TraceJob& job, const Image<std::uint32_t>* seen = nullptr) {
+  Drawn drawn;
+  TileOutputs out;
+  out.size = kSize;
+  out.seen = seen;
+  if (seen) drawn.ids = *seen;
+  if (!seen) out.ids = &drawn.ids;
+  out.mask_bits = mask_bits_of(job.scene);
+  out.mask = &drawn.mask;
+  out.depth = kDepth;
+  out.reflection = &drawn.reflection;
+  out.color = &drawn.color;
+  drawn.rays = trace_tiles(job, out).rays;
+  return drawn;
+}
+
+Camera camera_of(const Scene& scene) {
+  return scene.cameras.empty() ? camera_for_whole_scene(scene) : scene.cameras.front();
+}
+
+// Everything a scene can ask for: every kind of light, glass, mirrors, a texture, flat and smooth normals.
+Scene all_sorts() {
+  Scene scene = random_soup(300, 0.5f, 7);
+  Random random(11);
+  {
+    MeshEdit mesh(scene);
+    mesh->materials.assign(5, Material{});
+    mesh->materials[1].reflectance = {0.5f, 0.4f, 0.3f};
+    mesh->materials[1].fresnel = true;
+    mesh->materials[2].transmittance = glm::vec3(0.9f);
+    mesh->materials[2].ior = 1.5f;
+    mesh->materials[3].specular = glm::vec3(0.7f);
+    mesh->materials[3].shininess = 37.5f;
+    mesh->materials[3].reflectance = glm::vec3(0.2f);
+    make_maps(*mesh, mesh->materials[4]).base_color.texture = 0;
+    mesh->materials[4].emission = {0.0f, 0.1f, 0.0f};
+    Texture texture{"noise", Image<glm::u8vec4>({7, 5})};
+    for (glm::u8vec4& texel : texture.texels.pixels())
+      texel = glm::u8vec4(random.between(0, 255), random.between(0, 255), random.between(0, 255), 255);
+    mesh->textures.edit().push_back(texture);
+    for (std::size_t i = 0; i < mesh->triangles.size(); ++i)
+      mesh->triangle_materials[i] = static_cast<std::uint32_t>(i % mesh->materials.size());
+    for (std::size_t i = 0; i < mesh->positions.size(); ++i) {
+      mesh->texcoords.emplace_back(random.between(-2, 2), random.between(-2, 2));
+      if (i % 7 < 4) mesh->normals[i] = glm::normalize(random_point(random, 1.0f));
+    }
+  }
+  scene.lights = {point_light({2, 3, 1}), point_light({-1, 2, 3}, false), point_light({0, 4, 0})};
+  scene.lights[0].falloff = Light::Falloff::inverse_square;
+  scene.lights[0].intensity = 8.0f;
+  scene.lights[1].range = 3.0f;
+  scene.lights[2].kind = Light::Kind::spot;
+  scene.lights[2].cos_inner = 0.95f;
+  scene.lights[2].cos_outer = 0.8f;
+  Light sun;
+  sun.kind = Light::Kind::directional;
+  sun.direction = glm::normalize(glm::vec3(-1, -2, -1));
+  scene.lights.push_back(sun);
+  scene.lights.push_back(point_light({3, 0.5f, 3}));
+  return scene;
+}
+
+std::vector<Scene> scenes() {
+  std::vector<Scene> all{all_sorts(), plate_over_floor()};
+  for (const std::string& name : own_scenes()) all.push_back(load_or_die(source_path(name)));
+  return all;
+}
+
+void expect_close(const Drawn& tiles, const Drawn& passes) {
+  EXPECT_TRUE(same_bits(tiles.ids, passes.ids));
+  EXPECT_TRUE(std::ranges::equal(tiles.mask.bytes(), passes.mask.bytes()));
+  EXPECT_TRUE(same_rays(tiles.rays, passes.rays));
+  float worst_reflection = 0.0f, worst_color = 0.0f;
+  for (std::size_t i = 0; i < tiles.ids.pixels().size(); ++i) {
+    for (int c = 0; c < 3; ++c)
+      worst_reflection =
+          std::max(worst_reflection, half_steps(tiles.reflection[i][c], passes.reflection[i][c]));
+    for (int c = 0; c < 4; ++c)
+      worst_color = std::max(worst_color, half_steps(tiles.color[i][c], passes.color[i][c]));
+  }
+  EXPECT_LE(worst_reflection, 1.0f);
+  EXPECT_LE(worst_color, 1.0f);
+}
+
+TEST(TraceTiles, TogetherAreWhatTheyAreOneByOneAndSummedPixelByPixel) {
+  for (const Scene& scene : scenes()) {
+    SCOPED_TRACE(scene.source);
+    const Tracer tracer(scene.mesh);
+    Workers workers(2);
+    const TraceJob job{scene, tracer, workers, view_params(camera_of(scene), kSize)};
+    const Drawn passes = one_by_one(job);
+    expect_close(by_tiles(job), passes);
+    Drawn seen = by_tiles(job, &passes.ids);
+    EXPECT_EQ(seen.rays.primary, 0u);
+    seen.rays.primary = passes.rays.primary;
+    expect_close(seen, passes);
+  }
+}
+
+TEST(TraceTiles, LightCutoffTogetherAndOneByOne) {
+  const Scene scene = all_sorts();
+  const Tracer tracer(scene.mesh);
+  Workers workers(2);
+  TraceJob job{scene, tracer, workers, view_params(camera_of(scene), kSize)};
+  job.options.light_cutoff = 0.3f;
+  job.options.throughput_cutoff = 0.05f;
+  expect_close(by_tiles(job), one_by_one(job));
+}
+
+TEST(TraceTiles, SameBitsForAnyWidthAndThreads) {
+  for (const Scene& scene : scenes()) {
+    SCOPED_TRACE(scene.source);
+    std::optional<Drawn> expected;
+    for (const Isa isa : supported_isas())
+      for (const int threads : {1, 3}) {
+        const Tracer tracer(scene.mesh, {}, isa);
+        Workers workers(threads);
+        const Drawn drawn = by_tiles({scene, tracer, workers, view_params(camera_of(scene), kSize)});
+        if (!expected) expected = drawn;
+        EXPECT_TRUE(same_bits(drawn.ids, expected->ids) && same_bits(drawn.color, expected->color) &&
+                    same_bits(drawn.reflection, expected->reflection) &&
+                    std::ranges::equal(drawn.mask.bytes(), expected->mask.bytes()))
+            << isa_name(isa) << " " << threads;
+      }
+  }
+}
+
+TEST(TraceTiles, EachOutputAloneIsWhatItIsAmongAll) {
+  const Scene scene = all_sorts();
+  const Tracer tracer(scene.mesh);
+  Workers workers(2);
+  const TraceJob job{scene, tracer, workers, view_params(camera_of(scene), kSize)};
+  const Drawn all = by_tiles(job);
+  MaskImage mask;
+  TileOutputs out;
+  out.size = kSize;
+  out.seen = &all.ids;
+  out.mask_bits = mask_bits_of(scene);
+  out.mask = &mask;
+  trace_tiles(job, out);
+  EXPECT_TRUE(std::ranges::equal(mask.bytes(), all.mask.bytes()));
+
+  Image<glm::vec3> reflection;
+  out = {};
+  out.size = kSize;
+  out.seen = &all.ids;
+  out.depth = kDepth;
+  out.reflection = &reflection;
+  trace_tiles(job, out);
+  EXPECT_TRUE(same_bits(reflection, all.reflection));
+}
+
+TEST(TraceTiles, AddedLightIsWhatIsAddedPixelByPixel) {
+  const Scene scene = all_sorts();
+  const Tracer tracer(scene.mesh);
+  Workers workers(2);
+  const TraceJob job{scene, tracer, workers, view_params(camera_of(scene), kSize)};
+  const Drawn passes = one_by_one(job);
+  Image<glm::vec3> expected(kSize, glm::vec3(0.25f)), added = expected;
+  add_traced_light(job, passes.ids, passes.mask, passes.reflection, expected);
+  TileOutputs out;
+  out.size = kSize;
+  out.seen = &passes.ids;
+  out.mask_bits = mask_bits_of(scene);
+  out.depth = kDepth;
+  out.added = &added;
+  trace_tiles(job, out);
+  for (std::size_t i = 0; i < added.pixels().size(); ++i)
+    for (int c = 0; c < 3; ++c) ASSERT_LE(half_steps(added[i][c], expected[i][c]), 1.0f);
+}
+
+TEST(TraceTiles, EverySecondPixelOfAPart) {
+  const Scene scene = all_sorts();
+  const Tracer tracer(scene.mesh);
+  Workers workers(2);
+  const TraceJob job{scene, tracer, workers, view_params(camera_of(scene), {200, 120}, {}, {33, 17})};
+  Image<std::uint32_t> ids(kSize);
+  trace_visibility(job, ids);
+  Image<std::uint32_t> sampled((kSize + 1) / 2);
+  for (int y = 0; y < sampled.height(); ++y)
+    for (int x = 0; x < sampled.width(); ++x) sampled.at(x, y) = ids.at(2 * x, 2 * y);
+  TraceJob half = job;
+  half.view = scaled_view(job.view, 2);
+  MaskImage expected, mask;
+  trace_shadow_mask(half, sampled, 4, expected);
+  TileOutputs out;
+  out.size = sampled.size();
+  out.seen = &ids;
+  out.scale = 2;
+  out.mask_bits = 4;
+  out.mask = &mask;
+  trace_tiles(job, out);
+  EXPECT_TRUE(std::ranges::equal(mask.bytes(), expected.bytes()));
+}
+
+// Mask, mirrored light and composite of a view's samples, wherever the ids come from.
+struct Sampled {
+  MaskImage mask;
+  Image<glm::vec3> reflection;
+  Image<glm::vec4> color;
+};
+
+Sampled sampled(const TraceJob& job, const Image<std::uint32_t>& ids, int scale) {
+  Sampled drawn;
+  TileOutputs out;
+  out.size = (ids.size() + scale - 1) / scale;
+  out.seen = &ids;
+  out.scale = scale;
+  out.mask_bits = mask_bits_of(job.scene);
+  out.mask = &drawn.mask;
+  out.depth = kDepth;
+  out.reflection = &drawn.reflection;
+  out.color = &drawn.color;
+  trace_tiles(job, out);
+  return drawn;
+}
+
+TEST(TraceTiles, SameBitsAtAnyWidthOfEverySecondAndFourthPixel) {
+  const Scene scene = all_sorts();
+  Workers workers(2);
+  const shared::ViewParams view = view_params(camera_of(scene), kSize);
+  Image<std::uint32_t> ids(kSize);
+  trace_visibility({scene, Tracer(scene.mesh), workers, view}, ids);
+  for (const int scale : {1, 2, 4}) {
+    std::optional<Sampled> expected;
+    for (const Isa isa : supported_isas()) {
+      const Tracer tracer(scene.mesh, {}, isa);
+      const Sampled drawn = sampled({scene, tracer, workers, view}, ids, scale);
+      if (!expected) expected = drawn;
+      EXPECT_TRUE(std::ranges::equal(drawn.mask.bytes(), expected->mask.bytes()) &&
+                  same_bits(drawn.reflection, expected->reflection) &&
+                  same_bits(drawn.color, expected->color))
+          << isa_name(isa) << " " << scale;
+    }
+  }
+}
+
+// What the mask pass says, asked ray by ray: surfaces and shadow rays of core/shade/surface.cpp, no lanes.
+MaskImage mask_by_pixel(const TraceJob& job, const Image<std::uint32_t>& ids, int scale) {
+  const std::vector<shared::LightParams> lights = casting_light_params(job.scene);
+  const shared::ViewParams view = scaled_view(job.view, scale);
+  MaskImage mask((ids.size() + scale - 1) / scale, mask_bits_of(job.scene));
+  for (int y = 0; y < mask.size().y; ++y)
+    for (int x = 0; x < mask.size().x; ++x) {
+      const std::uint32_t id = ids.at(x * scale, y * scale);
+      if (id == kNoTriangle) continue;
+      const Ray seen = pixel_ray(view, x, y);
+      const SurfaceInteraction surface = surface_at(job.tracer.mesh(), id, seen.origin, seen.direction);
+      for (std::size_t slot = 0; slot < lights.size(); ++slot)
+        if (const std::optional<Ray> ray = shadow_ray(lights[slot], surface)) {
+          std::uint8_t blocked = 0;
+          job.tracer.occluded({&*ray, 1}, {&blocked, 1});
+          std::uint8_t up_blocked = 0;
+          if (const std::optional<Ray> up = lift_ray(lights[slot], surface))
+            job.tracer.occluded({&*up, 1}, {&up_blocked, 1});
+          if (!blocked && !up_blocked) mask.set_bit(x, y, static_cast<int>(slot));
+        }
+    }
+  return mask;
+}
+
+TEST(TraceTiles, MasksAreThoseAskedRayByRay) {
+  for (const Scene& scene : scenes()) {
+    SCOPED_TRACE(scene.source);
+    Workers workers(2);
+    const Tracer scalar(scene.mesh, {}, Isa::scalar), widest(scene.mesh);
+    const shared::ViewParams view = view_params(camera_of(scene), kSize);
+    Image<std::uint32_t> ids(kSize);
+    trace_visibility({scene, widest, workers, view}, ids);
+    for (const int scale : {1, 4}) {
+      const MaskImage expected = mask_by_pixel({scene, scalar, workers, view}, ids, scale);
+      EXPECT_TRUE(std::ranges::equal(sampled({scene, widest, workers, view}, ids, scale).mask.bytes(),
+                                     expected.bytes()))
+          << scale;
+    }
+  }
+}
+
+// Distance in units in the last place of the float nearest to the true value.
+double error_ulps(float ours, double exact) {
+  const int exponent = std::max(std::ilogb(exact), -126);
+  return std::abs(static_cast<double>(ours) - exact) / std::ldexp(1.0, exponent - 23);
+}
+
+TEST(Power, WithinHalfAUnitOfLibmAtEveryWidth) {
+  constexpr std::size_t kCount = 1 << 16;
+  AlignedVector<float> x(kCount), y(kCount), ours(kCount), first(kCount);
+  Random random(3);
+  for (std::size_t i = 0; i < kCount; ++i) {
+    // Every order of magnitude of x, denormals as well, and near 1, where exponents of highlights matter.
+    x[i] = i % 2 == 0 ? std::ldexp(random.between(0.5f, 1.0f), -static_cast<int>(i / 2 % 149))
+                      : 1.0f - std::ldexp(random.between(0.5f, 1.0f), -static_cast<int>(i / 2 % 24));
+    if (!(x[i] > 0.0f)) x[i] = 0x1p-149f;
+    y[i] = std::exp2(random.between(-8.0f, 14.0f));
+  }
+  x[0] = 1.0f, x[1] = 0x1.000002p0f, y[1] = 1e6f, y[2] = 0.0f, x[3] = 0.5f, y[3] = 1.0f;
+  double worst = 0.0;
+  for (const Isa isa : supported_isas()) {
+    lane_probe(isa).power(x.data(), y.data(), ours.data(), kCount);
+    if (isa == Isa::scalar) first = ours;
+    EXPECT_EQ(std::memcmp(ours.data(), first.data(), kCount * sizeof(float)), 0) << isa_name(isa);
+    for (std::size_t i = 0; i < kCount; ++i) {
+      const double exact = std::pow(static_cast<double>(x[i]), static_cast<double>(y[i]));
+      if (exact < 0x1p-149) {
+        EXPECT_LE(ours[i], 0x1p-149f);
+      } else {
+        worst = std::max(worst, error_ulps(ours[i], exact));
+      }
+    }
+  }
+  std::printf("  worst error %.4f units in the last place\n", worst);
+  EXPECT_LE(worst, 0.51);
+}
+
+}  // namespace
+}  // namespace pinocchio
