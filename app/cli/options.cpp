@@ -12,7 +12,6 @@
 #include "app/cli/groups.h"
 #include "core/scene/formats.h"
 #include "hybrid/settings/json.h"
-#include "pinocchio/load.h"
 
 namespace pinocchio::app {
 namespace {

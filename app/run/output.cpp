@@ -1,6 +1,5 @@
 #include "app/run/output.h"
 
-#include <algorithm>
 #include <nlohmann/json.hpp>
 #include <system_error>
 #include <type_traits>
@@ -12,7 +11,6 @@
 #include "core/files/atomic_file.h"
 #include "core/files/checksum.h"
 #include "core/image/codecs/png.h"
-#include "core/image/tonemap.h"
 #include "core/output/aovs.h"
 
 namespace pinocchio::app {
