@@ -5,7 +5,6 @@
 
 #include "core/image/codecs/png.h"
 #include "core/scene/gltf/format/constants.h"
-#include "core/scene/gltf/format/material_table.h"
 #include "core/scene/gltf/save/data.h"
 
 namespace pinocchio {
