@@ -9,6 +9,7 @@
 #include "shared/surface.glsl"
 #include "shared/light_params.glsl"
 #include "shared/phong.glsl"
+#include "shared/microfacet.glsl"
 #include "scene_fetch.glsl"
 #include "map_fetch.glsl"
 
