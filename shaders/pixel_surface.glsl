@@ -76,9 +76,10 @@ PixelSurface surface_of(uint id, ivec2 pixel) {
                             s.n.geometric) != vec3(0.0);
 #endif
   s.alpha = 1.0;
-  int maps;
-  s.material = fetch_material(int(texelFetch(triangle_materials, int(id)).r), maps, s.transmits);
+  int material = int(texelFetch(triangle_materials, int(id)).r);
+  s.material = fetch_material(material, s.transmits);
 #ifdef HAS_MAPS
+  int maps = fetch_maps(material);
   if (maps >= 0) {
     float t = texture_spread * dot(s.p_world - eye, direction) / dot(direction, direction);
     MapPoint point = MapPoint(corners, weights, b - a, c - a,

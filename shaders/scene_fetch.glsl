@@ -25,16 +25,17 @@ vec3 linear_from_srgb(vec3 c) {
   return mix(c / 12.92, pow((c + 0.055) / 1.055, vec3(2.4)), greaterThan(c, vec3(0.04045)));
 }
 
-// A material as it stands, and where its maps are (map_fetch.glsl); -1: it has none.
-ShadingParams fetch_material(int material, out int maps, out bool transmits) {
+// Where the material's maps are (map_fetch.glsl); -1: it has none.
+int fetch_maps(int material) { return int(texelFetch(materials, kMaterialTexels * material + 1).w) - 1; }
+
+// A material without its maps.
+ShadingParams fetch_material(int material, out bool transmits) {
   int first = kMaterialTexels * material;
   vec4 ambient_shininess = texelFetch(materials, first);
-  vec4 diffuse_maps = texelFetch(materials, first + 1);
-  maps = int(diffuse_maps.w) - 1;
   ShadingParams m;
   m.ambient = ambient_shininess.rgb;
   m.shininess = ambient_shininess.a;
-  m.diffuse = diffuse_maps.rgb;
+  m.diffuse = texelFetch(materials, first + 1).rgb;
   vec4 specular_alpha = texelFetch(materials, first + 2);
   m.specular = specular_alpha.rgb;
   m.ggx_alpha = specular_alpha.a;
