@@ -33,8 +33,8 @@ inline glm::vec3 sum_of_lights(const std::vector<ShadedLight>& lights, const Sur
     const bool lifted = s.lift != glm::vec3(0.0f) && lifts(kUsualTerminator) &&
                         shared::faces_light_lifted(s.n_shading, s.n_vertices, incident.to_light);
     if (!lifted && !shared::faces_light(s.n_shading, s.n_geometric, incident.to_light)) continue;
-    sum += shared::reflected_light(shared::viewed_from(s.to_viewer, s.n_shading, s.material.shading), incident,
-                                   s.n_shading, s.to_viewer, true, 0.0f);
+    sum += shared::reflected_light(shared::viewed_from(s.to_viewer, s.n_shading, s.material.shading),
+                                   incident, s.n_shading, s.to_viewer, true, 0.0f);
   }
   return sum;
 }
@@ -57,8 +57,8 @@ void for_each_surface(const TraceJob& job, const Image<std::uint32_t>& ids, cons
   });
 }
 
-// Each light's reflected light times its mask bit, plus reflection (empty: none). RGBA, linear; A is 1 where something is
-// hit. mask of 0 bits: no light casts.
+// Each light's reflected light times its mask bit, plus reflection (empty: none). RGBA, linear; A is 1 where
+// something is hit. mask of 0 bits: no light casts.
 inline void shade(const TraceJob& job, const Image<std::uint32_t>& ids, const MaskImage& mask,
                   const Image<glm::vec3>& reflection, Image<glm::vec4>& color) {
   if (color.size() != ids.size()) color = Image<glm::vec4>(ids.size());

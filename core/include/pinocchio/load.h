@@ -1,9 +1,11 @@
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <filesystem>
 #include <map>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -44,6 +46,7 @@ class Warnings {
 // The reflection model of a scene's materials: each file's own (glTF's for its metallic-roughness materials,
 // else Phong's), or Phong's for all.
 enum class Shading : std::uint8_t { from_file, phong };
+inline constexpr std::array<std::string_view, 2> kShadingNames{"auto", "phong"};
 
 // How the files of a scene are read, and how far they are trusted.
 struct LoadOptions {

@@ -6,6 +6,7 @@
 #include "core/image/codecs/png.h"
 #include "core/scene/gltf/format/constants.h"
 #include "core/scene/gltf/format/material_table.h"
+#include "core/scene/gltf/material_from_surface.h"
 #include "core/scene/gltf/save/data.h"
 
 namespace pinocchio {
@@ -14,7 +15,6 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 float roughness_of(const Material& m) {
-  if (m.is_microfacet()) return std::sqrt(m.ggx_alpha);
   return std::sqrt(std::sqrt(2.0f / (4.0f * m.shininess + 2.0f)));
 }
 
@@ -76,8 +76,8 @@ Json GltfMaterialWriter::material(const Material& m) {
   const MaterialMaps none;
   const MaterialMaps& maps = m.maps < 0 ? none : mesh_.maps[m.maps];
   Json json{{"name", m.name}};
-  if (maps.from_gltf) {
-    add_surface(m, maps.surface, json);
+  if (maps.from_gltf || m.is_microfacet()) {
+    add_surface(m, maps.from_gltf ? maps.surface : surface_of_material(m), json);
   } else {
     Material usual;
     usual.ambient = m.diffuse;
