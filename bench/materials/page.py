@@ -1,0 +1,108 @@
+"""The figures as tables: of docs/materials.md between <!-- begin X --> and <!-- end X -->, and all rows in one file."""
+import re
+
+import numpy
+
+from spheres import share, worst_colour
+
+BARS = {"noise, equal samples": 1.15, "noise, equal time": 0.7, "white furnace, brightest ring": 1.005, "mean colour": 0.03}
+
+
+def ratios(row):
+    a, b = row["ours"], row["theirs"]
+    nothing = b["noise"] < 1e-4  # of what is black
+    return {"noise, equal samples": 1.0 if nothing else a["noise"] / b["noise"], "noise, equal time": 0.0 if nothing else a["noise_in_their_time"] / b["noise"],
+            "mean colour": worst_colour(a["mean"], row["appendix_b"]["mix"])}
+
+
+def matrix(rows, value, form):
+    """Metallic down, roughness across."""
+    cells = {(r["metallic"], r["roughness"]): value(r) for r in rows}
+    across, down = sorted({k[1] for k in cells}), sorted({k[0] for k in cells})
+    lines = ["| metallic \\ roughness | " + " | ".join(f"{r:g}" for r in across) + " |", "|---:|" + "---:|" * len(across)]
+    lines += [f"| {m:g} | " + " | ".join(form.format(cells[m, r]) if (m, r) in cells else "" for r in across) + " |" for m in down]
+    return "\n".join(lines)
+
+
+def coloured(rows):
+    """Means of dielectrics and half metals over the reference, with all four ways to couple the matt part."""
+    lines = ["| base colour | metallic | roughness | / principled | / mix | / short | / view | / none | worst channel / mix |", "|---|---:|---:|---:|---:|---:|---:|---:|---:|"]
+    for r in rows:
+        mean = r["ours"]["mean"]
+        cells = [share(mean, r["theirs"]["mean"])] + [share(mean, r["appendix_b"][c]) for c in ("mix", "short", "view", "none")]
+        lines.append(f"| {r['name'].split('-m')[0].replace('-', ' ')} | {r['metallic']:g} | {r['roughness']:g} | " + " | ".join(f"{c:.3f}" for c in cells) +
+                     f" | {worst_colour(mean, r['appendix_b']['mix']):.1%} |")
+    return "\n".join(lines)
+
+
+def furnace(rows):
+    lines = ["| metallic | roughness | mean | centre | brightest ring | one scattering returns (mix; short; view; none) |", "|---:|---:|---:|---:|---:|---|"]
+    for r in rows:
+        f, b = r["furnace"], r["appendix_b"]
+        lines.append(f"| {r['metallic']:g} | {r['roughness']:g} | {f['mean']:.3f} | {f['centre']:.3f} | {f['brightest_ring']:.3f} | " +
+                     "; ".join(f"{numpy.mean(b[c]):.3f}" for c in ("mix", "short", "view", "none")) + " |")
+    return "\n".join(lines)
+
+
+def of_models(rows):
+    lines = ["| model | mean / principled | / appendix B | worst channel | noise: ours | Mitsuba | equal samples | ms: ours | Mitsuba | equal time | fireflies: ours | Mitsuba |",
+             "|---|" + "---:|" * 11]
+    for r in rows:
+        a, b, of = r["ours"], r["theirs"], ratios(r)
+        lines.append(f"| {r['name']} | {share(a['mean'], b['mean']):.3f} | {share(a['mean'], r['appendix_b']['mix']):.3f} | {of['mean colour']:.1%} | {a['noise']:.3f} | "
+                     f"{b['noise']:.3f} | {of['noise, equal samples']:.2f} | {a['ms']:.0f} | {b['ms']:.0f} | {of['noise, equal time']:.2f} | {a['fireflies']} | {b['fireflies']} |")
+    return "\n".join(lines)
+
+
+def bars(spheres, models):
+    """Each bar, how many keep it, and the worst."""
+    lines = ["| bar | spheres that keep it | worst | models that keep it | worst |", "|---|---:|---|---:|---|"]
+
+    def cells(rows, value, limit):
+        found = [(value(r), r["name"] + (f", {r['sky']}" if "sky" in r else "")) for r in rows]
+        if not found:
+            return ["", ""]
+        worst = max(found)
+        return [f"{sum(v <= limit for v, _ in found)} of {len(found)}", f"{worst[0]:.3g} ({worst[1]})"]
+
+    for name, limit in BARS.items():
+        if name.startswith("white"):
+            row = cells([r for r in spheres if "furnace" in r], lambda r: r["furnace"]["brightest_ring"], limit) + ["", ""]
+        else:
+            value = lambda r, name=name: ratios(r)[name]
+            row = cells(spheres, value, limit) + cells(models, value, limit)
+        lines.append(f"| {name}: {'within 3 %' if limit == 0.03 else f'at most {limit:g}'} | " + " | ".join(row) + " |")
+    return "\n".join(lines)
+
+
+def blocks(results):
+    spheres, models = results.get("spheres", []), results.get("models", [])
+    grid = lambda sky: [r for r in spheres if r["sky"] == sky and r["kind"] == "grid"]
+    found = {}
+    run = f"`scripts/materials {results['arguments']}`".replace(" `", "`") + f", {results['date']}, {results['cpu']}, {results['threads']} threads, {results['simd']}; " \
+        f"{results['revision']}; Mitsuba {results['mitsuba']}; {results['seconds'] / 60:.0f} minutes."
+    found["run"] = run + "\n\n" + bars(spheres, models)
+    if spheres:
+        found["furnace"] = furnace([r for r in grid("even") if r["metallic"] in (0.0, 0.5, 1.0)])
+        mean = lambda r: share(r["ours"]["mean"], r["appendix_b"]["mix"])
+        found["means"] = "Even sky, ours / appendix B:\n\n" + matrix(grid("even"), mean, "{:.3f}") + "\n\nSky with a sun, ours / appendix B:\n\n" + \
+            matrix(grid("sun"), mean, "{:.3f}") + "\n\nEven sky, ours / principled:\n\n" + \
+            matrix(grid("even"), lambda r: share(r["ours"]["mean"], r["theirs"]["mean"]), "{:.2f}")
+        found["noise"] = "Ours / Mitsuba's at 16 samples:\n\n" + matrix(grid("sun"), lambda r: ratios(r)["noise, equal samples"], "{:.2f}") + \
+            "\n\nIn the time of Mitsuba's 16 samples:\n\n" + matrix(grid("sun"), lambda r: ratios(r)["noise, equal time"], "{:.2f}") + \
+            "\n\nOurs alone (rms / mean):\n\n" + matrix(grid("sun"), lambda r: r["ours"]["noise"], "{:.3f}")
+        found["colours"] = coloured([r for r in spheres if r["sky"] == "even" and r["kind"] == "colour"])
+    if models:
+        found["models"] = of_models(models)
+    return found
+
+
+def write(results, page, everything):
+    found = blocks(results)
+    if page:
+        text = page.read_text(encoding="utf-8")
+        for name, content in found.items():
+            pattern = re.compile(rf"(<!-- begin {name} -->\n).*?(<!-- end {name} -->)", re.S)
+            text = pattern.sub(lambda m: m.group(1) + content + "\n" + m.group(2), text)
+        page.write_text(text, encoding="utf-8")
+    everything.write_text("\n\n".join(f"## {name}\n\n{content}" for name, content in found.items()) + "\n", encoding="utf-8")
