@@ -26,14 +26,16 @@ class Case:
         return f"{colour}-m{self.metallic:g}-r{self.roughness:g}"
 
 
-def all_cases(quick=False):
-    """The grid is of white spheres, so that the even sky is a white furnace; then dielectrics of several colours, and the same as half metal."""
+def all_cases(quick=False, colours=True):
+    """The grid is of white spheres, so that the even sky is a white furnace; then dielectrics of several colours, and the same as half metal.
+    Without `colours`, of those the dark red dielectrics alone."""
     metals = [0.0, 0.5, 1.0] if quick else STEPS
     roughness = [0.0, 0.33, 0.67, 1.0] if quick else STEPS
     found = [Case("grid", COLOURS["white"], m, r) for m in metals for r in roughness]
     for name, colour in COLOURS.items():
         for metallic in (0.0, 0.5):
-            found += [Case("colour", colour, metallic, r) for r in COLOURED_ROUGHNESS if not (quick and r == 0.17) and name != "white"]
+            if name != "white" and (colours or (name == "dark red" and metallic == 0)):
+                found += [Case("colour", colour, metallic, r) for r in COLOURED_ROUGHNESS if not (quick and r == 0.17)]
     return found
 
 

@@ -67,13 +67,12 @@ def write_ply(path, positions, normals, coordinates, faces):
 
 
 def shapes(mitsuba, document, data, folder, model):
-    """The dictionary of shapes, and the box of all points."""
+    """The dictionary of shapes: one for each material of each primitive, and for each side that a texture is seen from."""
     materials = Materials(mitsuba, document, data, model)
-    found, low, high = {}, numpy.full(3, numpy.inf), numpy.full(3, -numpy.inf)
+    found = {}
     for i, (positions, normals, sets, faces, index) in enumerate(gltf.parts(document, data)):
         used = gltf.textures_of(document["materials"][index]) if index is not None else []
         coordinates = sets.get(used[0].get("texCoord", 0)) if used else None
-        low, high = numpy.minimum(low, positions.min(0)), numpy.maximum(high, positions.max(0))
         mirrored = is_mirrored(positions, normals, coordinates, faces) if coordinates is not None else numpy.zeros(len(faces), bool)
         for turned in (False, True):
             chosen = faces[mirrored == turned]
@@ -83,4 +82,4 @@ def shapes(mitsuba, document, data, folder, model):
             write_ply(path, positions, normals, coordinates, chosen)
             found[f"part{i}x{int(turned)}"] = {"type": "ply", "filename": str(path), "face_normals": normals is None,
                                               "bsdf": materials.of(index, coordinates is not None, turned)}
-    return found, low, high
+    return found

@@ -12,19 +12,21 @@ import skies
 import theirs
 
 FOV = 30.0
+MARGIN = 1.08
 REFERENCE_SAMPLES = 128
 
 
-def view_of(low, high, towards):
-    """The whole box in view."""
-    middle, radius = (low + high) / 2, numpy.linalg.norm(high - low) / 2
-    away = numpy.array(towards) / numpy.linalg.norm(towards)
-    return tuple(middle + away * radius * 0.95 / math.sin(math.radians(FOV / 2))), tuple(middle), FOV
-
-
-def box_of(document, data):
-    points = [positions for positions, *_ in gltf.parts(document, data)]
-    return numpy.min([p.min(0) for p in points], 0), numpy.max([p.max(0) for p in points], 0)
+def view_of(document, data, towards, size):
+    """Eye, target and field of view that bring all points into the picture."""
+    points = numpy.concatenate([positions for positions, *_ in gltf.parts(document, data)])
+    middle = (points.min(0) + points.max(0)) / 2
+    back = numpy.array(towards) / numpy.linalg.norm(towards)
+    right = numpy.cross((0, 1, 0), back)
+    right /= numpy.linalg.norm(right)
+    x, y, z = ((points - middle) @ axis for axis in (right, numpy.cross(back, right), back))
+    scale = math.tan(math.radians(FOV / 2)) / MARGIN
+    away = max((z + numpy.abs(y) / scale).max(), (z + numpy.abs(x) / (scale * size[0] / size[1])).max())
+    return tuple(middle + away * back), tuple(middle), FOV
 
 
 def compare(mitsuba, ours, model, document, data, sky, folder):
@@ -33,11 +35,11 @@ def compare(mitsuba, ours, model, document, data, sky, folder):
     gltf.write(scene, document, data)
     parts = folder / "parts"
     parts.mkdir(exist_ok=True)
-    shapes, low, high = gltf_in_mitsuba.shapes(mitsuba, document, data, parts, "principled")
-    view = view_of(low, high, model.towards)
+    shapes = gltf_in_mitsuba.shapes(mitsuba, document, data, parts, "principled")
+    view = view_of(document, data, model.towards, ours.size)
     their_scene = theirs.Scene(mitsuba, shapes, skies.sunny(), view, ours.size)
     found, mask, pictures = measure.compare(lambda n, seed: ours.render(scene, view, sky, n, seed), their_scene.render)
-    shapes, _, _ = gltf_in_mitsuba.shapes(mitsuba, document, data, parts, "gltf")
+    shapes = gltf_in_mitsuba.shapes(mitsuba, document, data, parts, "gltf")
     reference = theirs.Scene(mitsuba, shapes, skies.sunny(), view, ours.size).mean_of(REFERENCE_SAMPLES, 10)
     pictures["reference"] = reference
     return {"name": model.name, **found, "appendix_b": {"mix": figures.mean(reference, mask).tolist()}}, pictures
@@ -64,7 +66,7 @@ def run(mitsuba, ours, sky, folder, cache, quick, tell):
         whole = file
         if model.steel:
             whole = folder / f"{model.name.replace(', ', '-').replace(' ', '-')}.glb"
-        picture, _ = ours.render(whole, view_of(*box_of(document, data), model.towards), sky, measure.SAMPLES, 1)
+        picture, _ = ours.render(whole, view_of(document, data, model.towards, ours.size), sky, measure.SAMPLES, 1)
         pictures["sheet"] = picture
         numpy.savez_compressed(kept, **figures.halves(pictures, ("sheet", "ours", "theirs", "reference")))
         if model.measured:

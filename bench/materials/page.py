@@ -82,6 +82,9 @@ def blocks(results):
     run = f"`scripts/materials {results['arguments']}`".replace(" `", "`") + f", {results['date']}, {results['cpu']}, {results['threads']} threads, {results['simd']}; " \
         f"{results['revision']}; Mitsuba {results['mitsuba']}; {results['seconds'] / 60:.0f} minutes."
     found["run"] = run + "\n\n" + bars(spheres, models)
+    both = [abs(share(r["plugin"], r["appendix_b"]["mix"]) - 1) for r in spheres if "plugin" in r]
+    if both:
+        found["run"] += f"\n\nUnder the even sky the two references of appendix B differ by at most {max(both):.2%}."
     if spheres:
         found["furnace"] = furnace([r for r in grid("even") if r["metallic"] in (0.0, 0.5, 1.0)])
         mean = lambda r: share(r["ours"]["mean"], r["appendix_b"]["mix"])

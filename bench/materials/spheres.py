@@ -46,7 +46,7 @@ def run(mitsuba, ours, files, folder, quick, tell):
     mu = numpy.nan_to_num(appendix_b.cosines_of_pixels(ours.size, cases.EYE[2], cases.FOV, 1))
     for sky, file in files.items():
         ball = Ball(mitsuba, skies.ALL[sky](), ours.size)
-        for case in cases.all_cases(quick):
+        for case in cases.all_cases(quick, colours=sky == "even"):
             scene = cases.write_sphere(folder / "sphere.glb", case)
             ball.become(case)
             found, mask, pictures = measure.compare(lambda n, seed: ours.render(scene, VIEW, file, n, seed), ball.scene.render)
@@ -54,6 +54,7 @@ def run(mitsuba, ours, files, folder, quick, tell):
             if sky == "even":
                 row["appendix_b"] = {c: figures.mean(appendix_b.picture(case, ours.size, cases.EYE[2], cases.FOV, c), mask).tolist()
                                      for c in appendix_b.COUPLINGS}
+                row["plugin"] = figures.mean(ball.reference.render(REFERENCE_SAMPLES // 4, 10)[0], mask).tolist()  # must be "mix"
                 row["furnace"] = furnace(pictures["ours, many"], mask, mu)
             else:
                 row["appendix_b"] = {"mix": figures.mean(ball.reference.mean_of(REFERENCE_SAMPLES, 10), mask).tolist()}

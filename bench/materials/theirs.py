@@ -4,12 +4,21 @@ import os
 import time
 
 
-def start(threads):
-    """Mitsuba, with the newest LLVM of the system: 16 and older fail on AVX-512."""
+OLDEST_LLVM = 17  # 16 and older fail on AVX-512
+
+
+def newest_llvm():
+    """The library's path; None where all are too old."""
     found = glob.glob("/usr/lib/*/libLLVM-*.so.1") + glob.glob("/usr/lib/*/libLLVM.so.*")
     version = lambda path: int("".join(c if c.isdigit() else " " for c in os.path.basename(path)).split()[0])
-    if found:
-        os.environ.setdefault("DRJIT_LIBLLVM_PATH", max(found, key=version))
+    return max((path for path in found if version(path) >= OLDEST_LLVM), key=version, default=None)
+
+
+def start(threads):
+    """Mitsuba, on that many threads."""
+    library = newest_llvm()
+    if library:
+        os.environ.setdefault("DRJIT_LIBLLVM_PATH", library)
     import drjit
     import mitsuba
 
