@@ -39,8 +39,8 @@ def register(mi, dr):
             tangent2 = (1 - z * z) / dr.maximum(z * z, 1e-12)
             return 0.5 * (dr.sqrt(1 + alpha * alpha * dr.maximum(tangent2, 0)) - 1)
 
-        def values(self, si, wo, active):
-            """The BRDF times the cosine, and the density of sampling that direction."""
+        def values(self, ctx, si, wo, active):
+            """The BRDF times the cosine, and the density of sampling that direction. A context may leave the matt part out."""
             wi = si.wi
             colour, metallic, alpha = self.surface(si, active)
             up = active & (wi.z > 0) & (wo.z > 0)
@@ -53,7 +53,7 @@ def register(mi, dr):
             mirror = d / ((1 + of_view + of_light) * 4 * nv)  # times the cosine
             grazing = (1 - vh) ** 5
             dielectric = F0 + (1 - F0) * grazing
-            matt = nl / math.pi * (1 - dielectric)
+            matt = nl / math.pi * (1 - dielectric) if mi.has_flag(ctx.type_mask, mi.BSDFFlags.DiffuseReflection) else 0.0
             value = (1 - metallic) * (colour * matt + mirror * dielectric) + metallic * mirror * (colour + (1 - colour) * grazing)
             share = self.mirror_share(wi, colour, metallic)
             density = share * d / ((1 + of_view) * 4 * nv) + (1 - share) * nl / math.pi
@@ -71,7 +71,7 @@ def register(mi, dr):
             h = dr.normalize(mi.Vector3f(alpha * cap.x, alpha * cap.y, dr.maximum(cap.z, 1e-9)))
             mirrored = 2 * dr.dot(wi, h) * h - wi
             wo = dr.select(sample1 < share, mirrored, mi.warp.square_to_cosine_hemisphere(sample2))
-            value, density = self.values(si, wo, active)
+            value, density = self.values(ctx, si, wo, active)
             found = dr.zeros(mi.BSDFSample3f)
             found.wo, found.pdf, found.eta = wo, density, 1.0
             found.sampled_type = mi.UInt32(+mi.BSDFFlags.GlossyReflection)
@@ -80,13 +80,13 @@ def register(mi, dr):
             return found, dr.select(good, value / dr.maximum(density, 1e-30), 0)
 
         def eval(self, ctx, si, wo, active):
-            return self.values(si, wo, active)[0]
+            return self.values(ctx, si, wo, active)[0]
 
         def pdf(self, ctx, si, wo, active):
-            return self.values(si, wo, active)[1]
+            return self.values(ctx, si, wo, active)[1]
 
         def eval_pdf(self, ctx, si, wo, active):
-            return self.values(si, wo, active)
+            return self.values(ctx, si, wo, active)
 
         def to_string(self):
             return "Gltf[]"

@@ -40,7 +40,7 @@ def compare(mitsuba, ours, model, document, data, sky, folder):
     their_scene = theirs.Scene(mitsuba, shapes, skies.sunny(), view, ours.size)
     found, mask, pictures = measure.compare(lambda n, seed: ours.render(scene, view, sky, n, seed), their_scene.render)
     shapes = gltf_in_mitsuba.shapes(mitsuba, document, data, parts, "gltf")
-    reference = theirs.Scene(mitsuba, shapes, skies.sunny(), view, ours.size).mean_of(REFERENCE_SAMPLES, 10)
+    reference = theirs.Scene(mitsuba, shapes, skies.sunny(), view, ours.size, {"type": "mirrors"}).mean_of(REFERENCE_SAMPLES, 10)
     pictures["reference"] = reference
     return {"name": model.name, **found, "appendix_b": {"mix": figures.mean(reference, mask).tolist()}}, pictures
 

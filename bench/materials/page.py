@@ -75,13 +75,16 @@ def bars(spheres, models):
     return "\n".join(lines)
 
 
+def under(run):
+    """What stands above a table: the command, the date and the machine."""
+    return f"`{' '.join(['scripts/materials', run['arguments']]).strip()}`, {run['date']}, {run['cpu']}, {run['threads']} threads, {run['simd']}; {run['revision']}; " \
+        f"Mitsuba {run['mitsuba']}; {run['seconds'] / 60:.0f} minutes."
+
+
 def blocks(results):
-    spheres, models = results.get("spheres", []), results.get("models", [])
+    spheres, models = (results.get(name, {"rows": []})["rows"] for name in ("spheres", "models"))
     grid = lambda sky: [r for r in spheres if r["sky"] == sky and r["kind"] == "grid"]
-    found = {}
-    run = f"`scripts/materials {results['arguments']}`".replace(" `", "`") + f", {results['date']}, {results['cpu']}, {results['threads']} threads, {results['simd']}; " \
-        f"{results['revision']}; Mitsuba {results['mitsuba']}; {results['seconds'] / 60:.0f} minutes."
-    found["run"] = run + "\n\n" + bars(spheres, models)
+    found = {"run": "\n\n".join(under(part["run"]) for part in results.values()) + "\n\n" + bars(spheres, models)}
     both = [abs(share(r["plugin"], r["appendix_b"]["mix"]) - 1) for r in spheres if "plugin" in r]
     if both:
         found["run"] += f"\n\nUnder the even sky the two references of appendix B differ by at most {max(both):.2%}."

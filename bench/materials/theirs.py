@@ -40,11 +40,11 @@ def principled(base, metallic, roughness):
 class Scene:
     """Shapes under a sky, which is an array: with one thread, Mitsuba waits forever for an EXR file. Pictures are (height, width, 4); the sky itself is not drawn, the last channel is what the shapes cover."""
 
-    def __init__(self, mitsuba, shapes, sky, view, size, depth=2):
+    def __init__(self, mitsuba, shapes, sky, view, size, integrator=None):
         eye, target, fov = view
         self.mitsuba = mitsuba
         self.scene = mitsuba.load_dict({
-            "type": "scene", "integrator": {"type": "path", "max_depth": depth, "rr_depth": 1000, "hide_emitters": True},
+            "type": "scene", "integrator": integrator or {"type": "path", "max_depth": 2, "hide_emitters": True},
             "sky": {"type": "envmap", "bitmap": mitsuba.Bitmap(sky)}, **shapes})
         self.sensor = mitsuba.load_dict({
             "type": "perspective", "fov_axis": "y", "fov": fov, "near_clip": 1e-3, "far_clip": 1e5,
