@@ -12,6 +12,8 @@
 #include "app/cli/groups.h"
 #include "core/scene/formats.h"
 #include "hybrid/settings/json.h"
+#include "pinocchio/load.h"
+#include "pinocchio/names.h"
 
 namespace pinocchio::app {
 namespace {
@@ -191,10 +193,22 @@ void add_trust_options(CLI::App& verb, DrawOptions& o) {
   verb.add_flag("--strict", o.strict, "fail where a part of the scene's files would be ignored");
 }
 
+void add_shading_option(CLI::App& verb, DrawOptions& o) {
+  begin_group(verb, kMethodGroup);
+  verb.add_option_function<std::string>(
+          "--shading",
+          [&o](const std::string& name) { o.shading = *parse_name<Shading>(kShadingNames, name); },
+          "reflection model: auto, that of the file (glTF's for metallic-roughness, else Phong's); phong, "
+          "Phong's for all (auto)")
+      ->type_name("MODEL")
+      ->check(CLI::IsMember({"auto", "phong"}));
+}
+
 void add_scene_options(CLI::App& verb, DrawOptions& o) {
   verb.add_option("SCENE", o.scene, scene_format_names() + " file")->required();
   add_camera_options(verb, o);
   add_light_options(verb, o);
+  add_shading_option(verb, o);
   add_trust_options(verb, o);
   verb.add_flag("--quiet", o.quiet, "print errors only");
   verb.add_option("--progress", o.progress, "progress bar: auto (on a terminal), on, off (auto)")
@@ -241,8 +255,8 @@ void add_draw_options(CLI::App& verb, DrawOptions& o) {
 
 Scene load_whole(const DrawOptions& options, Warnings& warnings, pinocchio::Progress* progress) {
   if (!progress) progress = &run_progress();
-  Expected<Scene> scene =
-      load_scene(options.scene, LoadOptions{options.load_limit, options.confine}, &warnings, progress);
+  Expected<Scene> scene = load_scene(
+      options.scene, LoadOptions{options.load_limit, options.confine, options.shading}, &warnings, progress);
   if (scene && !options.environment.empty()) {
     auto environment = load_environment(options.environment, progress, options.load_limit, &warnings);
     if (environment)

@@ -37,6 +37,7 @@ struct DrawOptions {
   bool quiet = false;
   std::uint64_t load_limit = kUsualLoadLimit;  // bytes
   bool confine = false;                        // open only files below the scene's folder
+  Shading shading = Shading::from_file;
   bool strict = false;                         // fail where a part of the scene would be ignored
 
   // Of a Progress.

@@ -1,5 +1,6 @@
 #include "app/run/output.h"
 
+#include "pinocchio/names.h"
 #include <nlohmann/json.hpp>
 #include <system_error>
 #include <type_traits>
@@ -115,8 +116,10 @@ ExrOptions exr_options(const OutputOptions& options, const FrameHeader& frame) {
           .inputs = options.inputs};
 }
 
-std::string inputs_json(const Scene& scene, bool precise) {
-  nlohmann::json inputs{{"precise", precise}, {"files", nlohmann::json::array()}};
+std::string inputs_json(const Scene& scene, bool precise, Shading shading) {
+  nlohmann::json inputs{{"precise", precise},
+                        {"shading", name_of(kShadingNames, shading)},
+                        {"files", nlohmann::json::array()}};
   const auto add = [&](const std::string& file) {
     const std::optional<std::string> content = fingerprint(file);
     inputs["files"].push_back({{"name", std::filesystem::path(file).filename().string()},

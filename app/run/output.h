@@ -10,6 +10,7 @@
 #include "app/cli/parse.h"
 #include "core/image/tonemap.h"
 #include "core/parallel/workers.h"
+#include "pinocchio/load.h"
 #include "pinocchio/renderer.h"
 #include "pinocchio/scene.h"
 
@@ -44,7 +45,7 @@ struct FrameHeader {
 
 // Describes what a frame's pixels depend on beside its settings, camera and lights: the bytes of the scene's
 // files and of its environment, and whether the reference draws it. Reads these files.
-[[nodiscard]] std::string inputs_json(const Scene& scene, bool precise);
+[[nodiscard]] std::string inputs_json(const Scene& scene, bool precise, Shading shading);
 
 // Describes a preview: the EXR's header as JSON, the exposure and the tone curve. It goes into the PNG.
 [[nodiscard]] std::string preview_text(const OutputOptions& options, const ExrFile& header);

@@ -75,7 +75,7 @@ class RenderRun {
     Scene scene = load_scene_for(options_.draw);
     frames_.emplace(options_.animation, options_.draw, scene);
     check(scene);
-    options_.output.inputs = inputs_json(scene, options_.draw.precise);
+    options_.output.inputs = inputs_json(scene, options_.draw.precise, options_.draw.shading);
     Drawing drawing(options_.draw, std::move(scene),
                     frames_->size() > 1 ? Exchange::pipelined : Exchange::sync, keeps_mask(options_.output),
                     false, frames_->only_camera());

@@ -98,6 +98,7 @@ std::string Recording::print_command(const Settings& settings, const DrawOptions
   view.tone_map = model_.applied.tone_map;
   view.load_limit = draw.load_limit;
   view.confine = draw.confine;
+  view.shading = draw.shading;
   const std::string command = render_command(view, name);
   std::printf("%s\n", command.c_str());
   std::fflush(stdout);

@@ -131,10 +131,13 @@ Scene scene_of(const Floats3& vertices, const Words3& triangles, const std::opti
   return scene;
 }
 
-Scene load(const std::filesystem::path& path, bool confine) {
+Scene load(const std::filesystem::path& path, bool confine, const std::string& shading) {
   Warnings warnings;
   LoadOptions options;
   options.confine = confine;
+  const auto model = parse_name<Shading>(kShadingNames, shading);
+  if (!model) throw Error("shading '" + shading + "' is unknown; 'auto' and 'phong' are known");
+  options.shading = *model;
   Scene scene = value_or_throw(
       without_gil([&](Progress* progress) { return load_scene(path, options, &warnings, progress); }));
   for (const Warning& warning : warnings)
@@ -348,9 +351,12 @@ void bind_scene(nb::module_& module) {
           "Raises Error if the time is not finite.")
       .def("__copy__", [](const Scene& scene) { return scene; });
   module.def(
-      "load_scene", &load, "path"_a, "confine"_a = false,
+      "load_scene", &load, "path"_a, "confine"_a = false, "shading"_a = "auto",
       "Reads a scene by its extension, as the program does. What is left out of the file is a warning. With\n"
-      "confine, files that it names are opened only below its folder, wherever names and links lead.");
+      "confine, files that it names are opened only below its folder, wherever names and links lead.\n"
+      "shading: 'auto', the file's reflection model (glTF's for metallic-roughness materials, else Phong's), "
+      "or 'phong'.\n"
+      "Raises Error if it is another word.");
   module.def("assemble", &assemble, "parts"_a,
              "One scene of several: {name: scene} or {name: (scene, 4x4 matrix)}. Each becomes a node that "
              "can be moved\n"

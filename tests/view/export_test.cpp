@@ -58,10 +58,11 @@ TEST(Export, WhatIsReadBesideTheSceneIsSaid) {
   view.environment = "a sky.hdr";
   view.load_limit = std::uint64_t{8} << 30;
   view.confine = true;
+  view.shading = Shading::phong;
   view.camera.lens_radius = 0.25f;
   view.camera.focus_distance = 3.0f;
   const std::string command = render_command(view, "boat");
-  for (const char* part : {" --environment 'a sky.hdr' ", " --load-limit 8192 ", " --confine ",
+  for (const char* part : {" --environment 'a sky.hdr' ", " --load-limit 8192 ", " --confine ", " --shading phong ",
                            " --lens-radius 0.25 ", " --focus 3 "})
     EXPECT_TRUE(holds(command, part)) << part << " in " << command;
 }

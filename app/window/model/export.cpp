@@ -60,6 +60,8 @@ std::string render_command(const ExportedView& view, const std::string& name) {
   if (!view.environment.empty()) text += " --environment " + quoted(view.environment);
   if (view.load_limit != kUsualLoadLimit) text += " --load-limit " + std::to_string(view.load_limit >> 20);
   if (view.confine) text += " --confine";
+  if (view.shading != Shading::from_file)
+    text += " --shading " + std::string(name_of(kShadingNames, view.shading));
   if (view.time_s) text += " --time " + nlohmann::json(*view.time_s).dump();
   if (view.samples > 1) text += " --spp " + std::to_string(view.samples);
   if (view.exposure_ev != 0.0f) text += " --exposure " + shortest(view.exposure_ev);

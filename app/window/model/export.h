@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "core/image/tonemap.h"
+#include "pinocchio/load.h"
 #include "pinocchio/scene.h"
 #include "pinocchio/settings.h"
 
@@ -24,6 +25,7 @@ struct ExportedView {
   std::optional<double> time_s{};              // of the scene's animation
   std::uint64_t load_limit = kUsualLoadLimit;  // bytes
   bool confine = false;
+  Shading shading = Shading::from_file;
 };
 
 // The command line that draws the view to name.exr and name.png. Numbers are exact.

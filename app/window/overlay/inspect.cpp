@@ -1,9 +1,12 @@
 // The panels Pixel, Materials and Files.
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
+#include <glm/gtc/constants.hpp>
 #include <string>
 
 #include "app/window/overlay/parts.h"
+#include "core/shade/shared_material.h"
 
 namespace pinocchio::app {
 namespace {
@@ -49,7 +52,22 @@ bool edit_color(const char* name, glm::vec3& color, const std::string& help) {
   return changed;
 }
 
+// The parameters of glTF's reflection model. The ambient light has the brighter of its colours.
+bool edit_microfacet(Material& m) {
+  glm::vec3 matt = m.diffuse * glm::pi<float>();
+  float roughness = std::sqrt(m.ggx_alpha);
+  bool changed = edit_color("matt", matt, "colour of the diffusely reflected light; black for metals");
+  changed =
+      edit_color("mirror", m.specular, "F0: colour of what is mirrored head on; 0.04 for plastic") || changed;
+  if (changed) m.diffuse = matt / glm::pi<float>(), m.ambient = glm::max(matt, m.specular);
+  if (!slider("roughness", roughness, 0.0f, 1.0f, format("%.2f", roughness), "0: a mirror, 1: matt"))
+    return changed;
+  m.ggx_alpha = std::max(roughness * roughness, shared::kLeastAlpha);
+  return true;
+}
+
 bool edit_material(Material& m) {
+  if (m.is_microfacet()) return edit_microfacet(m);
   bool changed = edit_color("diffuse", m.diffuse, "kd: diffusely reflected light, linear colour");
   if (changed) m.ambient = m.diffuse;
   changed = edit_color("specular", m.specular, "ks: the highlight's colour") || changed;

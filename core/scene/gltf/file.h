@@ -163,7 +163,9 @@ template <class Items>
 [[nodiscard]] Expected<GltfFile> read_gltf_file(const std::filesystem::path& path, Loading& loading);
 
 // The file's materials, in the file's order, with their maps, whose textures are still the file's images.
-void add_gltf_materials(const GltfFile& file, MeshData& mesh);
+// The extension whose materials have a specular colour and glossiness; it is read before metallic-roughness.
+inline constexpr const char* kSpecularGlossiness = "KHR_materials_pbrSpecularGlossiness";
+void add_gltf_materials(const GltfFile& file, MeshData& mesh, Shading shading);
 
 struct EncodedImage;
 // Image `index` of the file, which is in range.

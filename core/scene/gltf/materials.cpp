@@ -5,7 +5,7 @@
 #include "core/scene/gltf/file.h"
 #include "core/scene/gltf/format/json.h"
 #include "core/scene/gltf/format/material_table.h"
-#include "core/scene/gltf/phong_from_gltf.h"
+#include "core/scene/gltf/material_from_surface.h"
 
 namespace pinocchio {
 namespace {
@@ -18,10 +18,24 @@ glm::vec4 base_color_of(const Json& json) {
   return c.size() == 4 ? glm::vec4(c[0], c[1], c[2], c[3]) : glm::vec4(1.0f);
 }
 
+// KHR_materials_pbrSpecularGlossiness: a matt part with a mirroring layer of any colour. glTF's dielectric
+// has it with KHR_materials_specular's colour, which is a factor of its 0.04.
+GltfSurface specular_glossiness(const Json& json) {
+  constexpr float kUsualF0 = 0.04f;
+  GltfSurface s;
+  const std::vector<double> diffuse = numbers_member(&json, "diffuseFactor");
+  if (diffuse.size() == 4) s.base_color = glm::vec3(diffuse[0], diffuse[1], diffuse[2]);
+  s.metallic = 0.0f;
+  s.roughness = 1.0f - glm::clamp(value_member<float>(&json, "glossinessFactor").value_or(1.0f), 0.0f, 1.0f);
+  s.specular_color = value_member<glm::vec3>(&json, "specularFactor").value_or(glm::vec3(1.0f)) / kUsualF0;
+  return s;
+}
+
 GltfSurface surface_of(const Json& json, Material& material) {
   GltfSurface s;
   for (const GltfParameter& row : kSurfaceParameters) read_gltf_parameter(json, row, material, s);
   s.base_color = glm::vec3(base_color_of(json));
+  if (const Json* other = extension(&json, kSpecularGlossiness)) s = specular_glossiness(*other);
   if (const std::vector<double> e = numbers_member(&json, "emissiveFactor"); e.size() == 3)
     s.emissive = glm::vec3(e[0], e[1], e[2]);
   s.emissive *= value_member<float>(extension(&json, "KHR_materials_emissive_strength"), "emissiveStrength")
@@ -103,6 +117,12 @@ MaterialMaps maps_of(const GltfFile& file, const Json& json) {
       factor = value_member<float>(info, row.factor).value_or(factor);
     }
   }
+  const Json* const other = extension(&json, kSpecularGlossiness);
+  if (other) {
+    maps.base_color = use_of(file, member(other, "diffuseTexture"));
+    maps.specular_color = use_of(file, member(other, "specularGlossinessTexture"));
+    maps.metallic_roughness = {};
+  }
   const std::string alpha_mode = text_member(&json, "alphaMode");
   if (alpha_mode == "MASK") maps.alpha_mode = AlphaMode::mask;
   if (alpha_mode == "BLEND") maps.alpha_mode = AlphaMode::blend;
@@ -110,6 +130,8 @@ MaterialMaps maps_of(const GltfFile& file, const Json& json) {
   maps.alpha = maps.base_color;
   maps.alpha_cutoff = value_member<float>(&json, "alphaCutoff").value_or(maps.alpha_cutoff);
   maps.alpha_factor = base_color_of(json).a;
+  if (const std::vector<double> diffuse = numbers_member(other, "diffuseFactor"); other)
+    maps.alpha_factor = diffuse.size() == 4 ? static_cast<float>(diffuse[3]) : 1.0f;
   // A material that blends with alpha 1 everywhere is opaque.
   if (maps.blends() && maps.alpha_factor >= 1.0f && !maps.alpha.used()) maps.alpha_mode = AlphaMode::opaque;
   return maps;
@@ -120,13 +142,13 @@ bool changes(const MaterialMaps& m) {
          std::ranges::any_of(m.uses(), &TextureUse::used);
 }
 
-// Phong of our own extras, else Phong from metallic-roughness.
-Material material_of(const Json& json, MaterialMaps& maps) {
+// Phong of our own extras, else from metallic-roughness.
+Material material_of(const Json& json, MaterialMaps& maps, Shading shading) {
   Material material;
   maps.surface = surface_of(json, material);
   maps.from_gltf = member(our_extras(&json), "phong") == nullptr;
   if (maps.from_gltf)
-    material = phong_from_gltf(maps.surface);
+    material = material_from_surface(maps.surface, shading);
   else
     read_phong(json, maps.surface.base_color, material, maps.surface);
   material.name = text_member(&json, "name");
@@ -147,7 +169,7 @@ std::vector<bool> colored_materials(const GltfFile& file) {
 
 }  // namespace
 
-void add_gltf_materials(const GltfFile& file, MeshData& mesh) {
+void add_gltf_materials(const GltfFile& file, MeshData& mesh, Shading shading) {
   // What primitives without a material have: an empty one (glTF 2.0, "Default Material").
   const Json default_material{{"name", "default"}};
   const std::vector<bool> colored = colored_materials(file);
@@ -156,7 +178,7 @@ void add_gltf_materials(const GltfFile& file, MeshData& mesh) {
     const Json& json = i < materials.size() ? materials[i] : default_material;
     MaterialMaps maps = maps_of(file, json);
     maps.vertex_colors = colored[i];
-    Material material = material_of(json, maps);
+    Material material = material_of(json, maps, shading);
     if (colored[i] && text_member(&json, "alphaMode") == "BLEND") maps.alpha_mode = AlphaMode::blend;
     if (changes(maps)) make_maps(mesh, material) = maps;
     mesh.materials.push_back(std::move(material));

@@ -1,8 +1,11 @@
+#include <cmath>
 #include <map>
+#include <nlohmann/json.hpp>
 
 #include "core/image/codecs/texture_file.h"
 #include "core/scene/gltf/file.h"
-#include "core/scene/gltf/phong_from_gltf.h"
+#include "core/scene/gltf/format/json.h"
+#include "core/scene/gltf/material_from_surface.h"
 #include "core/scene/mip_levels.h"
 
 namespace pinocchio {
@@ -57,6 +60,33 @@ TexelRange range_of(const MeshData& mesh, const TextureUse& use) {
   return {glm::vec4(least) / 255.0f, glm::vec4(most) / 255.0f};
 }
 
+// The roughness in green of a texture that has glossiness in alpha.
+Texture roughness_texture(const Texture& from, float glossiness) {
+  Texture texture{from.name, from.texels};
+  for (glm::u8vec4& t : texture.texels.pixels())
+    t = {255, static_cast<std::uint8_t>(std::lround(255.0f - glossiness * t.a)), 255, 255};
+  return texture;
+}
+
+// Textures of specular colour and glossiness hold the roughness, too, which is made a texture of its own.
+void add_roughness(const GltfFile& file, MeshData& mesh, Loading& loading) {
+  const nlohmann::json& materials = file.items("materials");
+  for (std::size_t i = 0; i < materials.size() && i < mesh.materials.size(); ++i) {
+    const int maps = mesh.materials[i].maps;
+    if (maps < 0 || !extension(&materials[i], kSpecularGlossiness)) continue;
+    MaterialMaps& m = mesh.maps[maps];
+    if (!m.specular_color.used()) continue;
+    const Texture& from = mesh.textures[m.specular_color.texture];
+    if (!loading.limit.take(file.path.string(), "a texture's roughness", from.texels.pixels().size(), 4))
+      return;
+    const float glossiness = 1.0f - m.surface.roughness;
+    mesh.textures.edit().push_back(roughness_texture(from, glossiness));
+    m.metallic_roughness = m.specular_color;
+    m.metallic_roughness.texture = static_cast<int>(mesh.textures.size()) - 1;
+    m.surface.roughness = 1.0f;
+  }
+}
+
 // The most that a surface mirrors and lets through anywhere: it decides whether rays are traced for it.
 void bound_rays(const MeshData& mesh, Material& material, const MaterialMaps& maps) {
   if (!maps.from_gltf || !(maps.metallic_roughness.used() || maps.transmission.used())) return;
@@ -66,14 +96,15 @@ void bound_rays(const MeshData& mesh, Material& material, const MaterialMaps& ma
   sharpest.roughness *= rough_metal.least.g;
   sharpest.metallic *= rough_metal.most.b;
   sharpest.transmission *= passes.least.r;  // transmitted light is not mirrored
-  const Material mirror = phong_from_gltf(sharpest);
+  const Shading shading = material.is_microfacet() ? Shading::from_file : Shading::phong;
+  const Material mirror = material_from_surface(sharpest, shading);
   material.reflectance = mirror.reflectance;
   material.fresnel = mirror.fresnel;
   // The less metallic a surface is, the more light passes through it.
   GltfSurface clearest = maps.surface;
   clearest.metallic *= rough_metal.least.b;
   clearest.transmission *= passes.most.r;
-  material.transmittance = phong_from_gltf(clearest).transmittance;
+  material.transmittance = material_from_surface(clearest, shading).transmittance;
 }
 
 }  // namespace
@@ -109,6 +140,7 @@ void add_gltf_textures(const GltfFile& file, MeshData& mesh, Loading& loading) {
     mesh.textures.edit().push_back(std::move(*textures[i]));
   }
   for (TextureUse* use : uses) use->texture = ours[place.at(use->texture)];
+  add_roughness(file, mesh, loading);
   make_smaller_levels(mesh, loading.progress);
   for (Material& material : mesh.materials)
     if (material.maps >= 0) bound_rays(mesh, material, mesh.maps[material.maps]);

@@ -24,7 +24,7 @@ struct TilePlan {
   Footprint seen_footprint, further_footprint;
   bool has_holes, blends;  // some material does
   std::vector<BounceLight> all_lights, visible_lights;
-  std::size_t casting;  // lights
+  std::size_t casting, sized_lights;  // lights
   std::optional<EnvironmentLight> environment;
   Bounce visible, further;  // the step of the camera's rays, and of the rays that they spawn
 };

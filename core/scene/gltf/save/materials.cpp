@@ -5,6 +5,7 @@
 
 #include "core/image/codecs/png.h"
 #include "core/scene/gltf/format/constants.h"
+#include "core/scene/gltf/material_from_surface.h"
 #include "core/scene/gltf/save/data.h"
 
 namespace pinocchio {
@@ -29,7 +30,7 @@ Json nearest_pbr(const Material& m) {
   return pbr_json(base, m.reflects() && !m.fresnel ? 1.0f : 0.0f, m.spawns_rays() ? 0.0f : roughness_of(m));
 }
 
-// The metallic-roughness that Phong was made of (phong_from_gltf): ambient is the base colour, diffuse the
+// The metallic-roughness that Phong was made of (material_from_surface): ambient is the base colour, diffuse the
 // base colour times what metal leaves, over pi.
 Json original_pbr(const Material& m) {
   constexpr float kUsualDiffuse = 0.96f * 0.318309886f;
@@ -74,8 +75,8 @@ Json GltfMaterialWriter::material(const Material& m) {
   const MaterialMaps none;
   const MaterialMaps& maps = m.maps < 0 ? none : mesh_.maps[m.maps];
   Json json{{"name", m.name}};
-  if (maps.from_gltf) {
-    add_surface(m, maps.surface, json);
+  if (maps.from_gltf || m.is_microfacet()) {
+    add_surface(m, maps.from_gltf ? maps.surface : surface_of_material(m), json);
   } else {
     Material usual;
     usual.ambient = m.diffuse;
