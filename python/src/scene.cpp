@@ -1,5 +1,6 @@
 #include <pinocchio/animation.h>
 #include <pinocchio/load.h>
+#include <pinocchio/names.h>
 #include <pinocchio/scene.h>
 
 #include <nanobind/stl/filesystem.h>
