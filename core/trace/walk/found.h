@@ -59,8 +59,8 @@ struct ClosestFronts : ClosestHits<kPackets> {
   }
 
  private:
-  // The lanes of packet k that run along the triangle's normal, of which float keeps the direction alone: a
-  // small or large triangle's is out of its range.
+  // The lanes of packet k that run along the triangle's normal. The normal is scaled, as the product of short
+  // or long edges would leave float's range.
   [[gnu::noinline]] Mask from_behind(unsigned k, std::uint32_t triangle) const {
     const glm::uvec3& corners = tree_.corners.data()[triangle];
     const glm::vec3* const positions = tree_.positions.data();
