@@ -79,9 +79,6 @@ TEST(LoadGltf, MaterialsSayWhetherTheyAreDoubleSided) {
   const Expected<Scene> again = load_scene(own_file("saved.gltf"));
   ASSERT_TRUE(again) << again.error().message();
   expect_said(*again);
-  // Nothing has it: it does not make a scene one with single-sided materials.
-  json["meshes"][0]["primitives"][0]["material"] = 1;
-  EXPECT_EQ(load_good(json).mesh->materials.back().double_sided, std::nullopt);
 }
 
 TEST(LoadGltf, LightsWithOurExtras) {
