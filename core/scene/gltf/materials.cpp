@@ -136,23 +136,15 @@ Material material_of(const Json& json, MaterialMaps& maps) {
   return material;
 }
 
-// What primitives have a material; the last: what those without one have.
-struct MaterialUse {
-  bool used = false;
-  bool colored = false;  // one of them has coloured vertices
-};
-
-std::vector<MaterialUse> material_uses(const GltfFile& file) {
+// Whether a primitive of the material has coloured vertices, by material; the last: primitives without one.
+std::vector<bool> colored_materials(const GltfFile& file) {
   const std::size_t materials = file.items("materials").size();
-  std::vector<MaterialUse> uses(materials + 1);
+  std::vector<bool> colored(materials + 1, false);
   for (const GltfMesh& mesh : file.meshes)
-    for (const GltfPrimitive& p : mesh.primitives) {
-      if (p.material >= static_cast<int>(materials)) continue;
-      MaterialUse& use = uses[p.material >= 0 ? static_cast<std::size_t>(p.material) : materials];
-      use.used = true;
-      use.colored |= p.attributes.contains("COLOR_0");
-    }
-  return uses;
+    for (const GltfPrimitive& p : mesh.primitives)
+      if (p.attributes.contains("COLOR_0") && p.material < static_cast<int>(materials))
+        colored[p.material >= 0 ? static_cast<std::size_t>(p.material) : materials] = true;
+  return colored;
 }
 
 }  // namespace
@@ -160,16 +152,14 @@ std::vector<MaterialUse> material_uses(const GltfFile& file) {
 void add_gltf_materials(const GltfFile& file, MeshData& mesh) {
   // What primitives without a material have: an empty one (glTF 2.0, "Default Material").
   const Json default_material{{"name", "default"}};
-  const std::vector<MaterialUse> uses = material_uses(file);
+  const std::vector<bool> colored = colored_materials(file);
   const Json& materials = file.items("materials");
   for (std::size_t i = 0; i <= materials.size(); ++i) {
     const Json& json = i < materials.size() ? materials[i] : default_material;
     MaterialMaps maps = maps_of(file, json);
-    maps.vertex_colors = uses[i].colored;
+    maps.vertex_colors = colored[i];
     Material material = material_of(json, maps);
-    if (uses[i].colored && text_member(&json, "alphaMode") == "BLEND") maps.alpha_mode = AlphaMode::blend;
-    // Scenes in which no triangle is single-sided need no culling.
-    if (i == materials.size() && !uses[i].used) material.double_sided.reset();
+    if (colored[i] && text_member(&json, "alphaMode") == "BLEND") maps.alpha_mode = AlphaMode::blend;
     if (changes(maps)) make_maps(mesh, material) = maps;
     mesh.materials.push_back(std::move(material));
   }
