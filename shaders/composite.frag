@@ -1,5 +1,5 @@
 #version 330 core
-// The picture: each light's Phong term times its mask bit, plus the traced reflection. Phong and composite are one
+// The picture: each light's reflected light times its mask bit, plus the traced reflection. Shading and composite are one
 // pass, as the mask weighs each light by itself and the sum of lights cannot be weighed afterwards.
 //   ID_BITS           16, 24 or 32
 //   HAS_MASK          the CPU's shadow mask; without it every light reaches everything
@@ -21,6 +21,7 @@
 #include "shared/terminator.glsl"
 #include "shared/light_params.glsl"
 #include "shared/phong.glsl"
+#include "shared/microfacet.glsl"
 #ifdef HAS_SIZED_LIGHTS
 #include "shared/sampling_params.glsl"
 #include "shared/sampling.glsl"
@@ -63,6 +64,7 @@ const float kLargestHalf = 65504.0;
 uniform int sequence;
 uniform uint sample_index;  // the mask's frame's
 uniform uint sample_seed;
+uniform float throughput_cutoff;
 
 Incident light_at(int i, vec3 p_world, ivec2 pixel) {
   LightParams light = fetch_light(i);
@@ -75,6 +77,18 @@ Incident light_at(int i, vec3 p_world, ivec2 pixel) {
   return incident_light(light, light.position, p_world);
 }
 #endif
+
+// What reflected_light weighs the lobe's density with: the CPU's rays along the lobe look for casting lights.
+float lobe_counted(PixelSurface s, int slot) {
+#if defined(HAS_SIZED_LIGHTS) && defined(HAS_REFLECTION)
+  if (slot < 0 || !(s.material.ggx_alpha > 0.0)) return 0.0;
+  if (s.transmits) return kAlone;
+  float share = lobe_share(s.material, cosine_of_view(s.n.shading, s.to_viewer));
+  return s.alpha * share < throughput_cutoff ? 0.0 : 1.0;
+#else
+  return 0.0;
+#endif
+}
 
 float share_of_light(Reach reach, int slot) {
 #ifdef FREE_LIGHTS_ONLY
@@ -96,14 +110,15 @@ void main() {
   Reach reach = reach_from(source, id);
   vec3 sum = phong_ambient(s.material, ambient_light);
   for (int i = 0; i < light_count; ++i) {
-    float share = share_of_light(reach, fetch_mask_slot(i));
+    int slot = fetch_mask_slot(i);
+    float share = share_of_light(reach, slot);
     if (share == 0.0) continue;
     Incident incident = light_at(i, s.p_world, source.pixel);
     if (!faces_light(s, incident.to_light)) continue;
 #ifdef TERMINATOR_SMOOTHS
     share *= terminator_factor(s.n.shading, s.n.geometric, incident.to_light);
 #endif
-    sum += share * phong_light(s.material, incident, s.n.shading, s.to_viewer, true);
+    sum += share * reflected_light(s.material, incident, s.n.shading, s.to_viewer, true, lobe_counted(s, slot));
   }
 #ifdef HAS_MAPS
   sum *= s.alpha;

@@ -127,7 +127,7 @@ vec3 mapped_normal_at(int maps, MapPoint p, vec3 n) {
                        map_texel(maps, kParameters + 4).x);
 }
 
-PhongParams mapped_material_at(int maps, MapPoint p, PhongParams plain) {
+ShadingParams mapped_material_at(int maps, MapPoint p, ShadingParams plain, inout bool transmits) {
   vec4 base_metallic = map_texel(maps, kParameters);
   vec4 emissive_roughness = map_texel(maps, kParameters + 1);
   vec4 specular = map_texel(maps, kParameters + 2);  // its colour, and factor
@@ -144,7 +144,7 @@ PhongParams mapped_material_at(int maps, MapPoint p, PhongParams plain) {
   v.specular = 1.0;
   v.specular_color = vec3(1.0);
   v.transmission = 1.0;
-  if (strengths.z == 0.0) return mapped_phong(phong_surface(plain), v).phong;
+  if (strengths.z == 0.0) return mapped_phong(material_point(plain), v).shading;
   vec4 texel = look_up(fetch_use(maps, kMetallicRoughness), p, false);
   v.roughness = texel.g;
   v.metallic = texel.b;
@@ -156,7 +156,9 @@ PhongParams mapped_material_at(int maps, MapPoint p, PhongParams plain) {
   MetallicRoughness s =
       MetallicRoughness(base_metallic.rgb, base_metallic.a, emissive_roughness.a, emissive_roughness.rgb, more.x,
                         specular.a, specular.rgb, more.y, more.z > 0.0, more.w > 0.0);
-  return mapped_metallic_roughness(s, v).phong;
+  MaterialPoint m = mapped_metallic_roughness(s, v, plain.ggx_alpha == 0.0);
+  transmits = m.transmittance != vec3(0.0);
+  return m.shading;
 }
 
 float alpha_at(int maps, MapPoint p, vec4 alpha) {

@@ -36,7 +36,8 @@ struct PixelSurface {
   vec3 p_world;
   vec3 to_viewer;
   FacingNormals n;       // normal map applied
-  PhongParams material;  // maps applied
+  ShadingParams material;  // maps applied
+  bool transmits;        // refracted rays are traced for it
   float alpha;           // the surface's share; the rest is what a ray sees that goes straight on
 #ifdef TERMINATOR_LIFTS
   vec3 n_vertices;  // without normal map
@@ -75,9 +76,10 @@ PixelSurface surface_of(uint id, ivec2 pixel) {
                             s.n.geometric) != vec3(0.0);
 #endif
   s.alpha = 1.0;
-  int maps;
-  s.material = fetch_material(int(texelFetch(triangle_materials, int(id)).r), maps);
+  int material = int(texelFetch(triangle_materials, int(id)).r);
+  s.material = fetch_material(material, s.transmits);
 #ifdef HAS_MAPS
+  int maps = fetch_maps(material);
   if (maps >= 0) {
     float t = texture_spread * dot(s.p_world - eye, direction) / dot(direction, direction);
     MapPoint point = MapPoint(corners, weights, b - a, c - a,
@@ -85,9 +87,10 @@ PixelSurface surface_of(uint id, ivec2 pixel) {
                               moved_on_triangle(t * step_y, direction, b - a, c - a));
     float side = s.n.leaving ? -1.0 : 1.0;
     s.n.shading = side * mapped_normal_at(maps, point, side * s.n.shading);
-    s.material = mapped_material_at(maps, point, s.material);
+    s.material = mapped_material_at(maps, point, s.material, s.transmits);
     s.alpha = coverage_at(maps, point);
   }
 #endif
+  s.material = viewed_from(s.to_viewer, s.n.shading, s.material);
   return s;
 }

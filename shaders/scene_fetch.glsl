@@ -7,7 +7,7 @@ uniform samplerBuffer normals;              // 3 texels a vertex
 uniform samplerBuffer materials;            // kMaterialTexels a material
 uniform samplerBuffer lights;               // kLightTexels a light
 
-const int kMaterialTexels = 4;
+const int kMaterialTexels = 5;
 const int kLightTexels = 6;
 
 vec3 fetch_vec3(samplerBuffer buffer, uint i) {
@@ -25,18 +25,26 @@ vec3 linear_from_srgb(vec3 c) {
   return mix(c / 12.92, pow((c + 0.055) / 1.055, vec3(2.4)), greaterThan(c, vec3(0.04045)));
 }
 
-// A material as it stands, and where its maps are (map_fetch.glsl); -1: it has none.
-PhongParams fetch_material(int material, out int maps) {
+// Where the material's maps are (map_fetch.glsl); -1: it has none.
+int fetch_maps(int material) { return int(texelFetch(materials, kMaterialTexels * material + 1).w) - 1; }
+
+// A material without its maps.
+ShadingParams fetch_material(int material, out bool transmits) {
   int first = kMaterialTexels * material;
   vec4 ambient_shininess = texelFetch(materials, first);
-  vec4 diffuse_maps = texelFetch(materials, first + 1);
-  maps = int(diffuse_maps.w) - 1;
-  PhongParams m;
+  ShadingParams m;
   m.ambient = ambient_shininess.rgb;
   m.shininess = ambient_shininess.a;
-  m.diffuse = diffuse_maps.rgb;
-  m.specular = texelFetch(materials, first + 2).rgb;
+  m.diffuse = texelFetch(materials, first + 1).rgb;
+  vec4 specular_alpha = texelFetch(materials, first + 2);
+  m.specular = specular_alpha.rgb;
+  m.ggx_alpha = specular_alpha.a;
   m.emission = texelFetch(materials, first + 3).rgb;
+  m.occlusion = 1.0;
+  vec4 layer = texelFetch(materials, first + 4);
+  m.layer = layer.xy;
+  m.grazing = layer.z;
+  transmits = layer.w > 0.0;
   return m;
 }
 

@@ -8,6 +8,7 @@
 #include "shared/terminator.glsl"
 #include "shared/light_params.glsl"
 #include "shared/phong.glsl"
+#include "shared/microfacet.glsl"
 #include "scene_fetch.glsl"
 #include "map_fetch.glsl"
 #include "pixel_surface.glsl"

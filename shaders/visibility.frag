@@ -10,6 +10,7 @@
 #include "shared/surface.glsl"
 #include "shared/light_params.glsl"
 #include "shared/phong.glsl"
+#include "shared/microfacet.glsl"
 #include "scene_fetch.glsl"
 #include "map_fetch.glsl"
 
@@ -22,8 +23,7 @@ uniform vec2 first_pixel;  // the part's, of the picture
 // Decided where the pixel's ray meets the triangle, as the ray tracer does.
 void discard_hole() {
   int id = gl_PrimitiveID;
-  int maps;
-  fetch_material(int(texelFetch(triangle_materials, id).r), maps);
+  int maps = fetch_maps(int(texelFetch(triangle_materials, id).r));
   if (maps < 0) return;
   ViewParams view = ViewParams(eye, corner, step_x, step_y, vec2(0.0));
   vec3 direction = pixel_direction(view, floor(gl_FragCoord.xy) + first_pixel);

@@ -20,7 +20,7 @@ namespace pinocchio {
 struct SurfaceInteraction : BareSurface {  // n_shading: normal map applied
   glm::vec3 n_vertices;                    // unit, interpolated: n_shading without normal map
   glm::vec3 lift;                 // up to the curved surface that the vertex normals mean; zero: none
-  shared::PhongSurface material;  // here: maps applied
+  shared::MaterialPoint material;  // here: maps applied
   float alpha = 1.0f;             // the surface's share; the rest is what a ray sees that goes straight on
 };
 

@@ -100,8 +100,8 @@ SurfaceInteraction EmbreePicture::surface_of(const Hit& hit, const Ray& ray,
 }
 
 glm::vec3 EmbreePicture::direct(const SurfaceInteraction& s) const {
-  const shared::PhongParams phong = s.material.phong;
-  glm::vec3 sum = shared::phong_ambient(phong, scene_.ambient_light);
+  const shared::ShadingParams material = shared::viewed_from(s.to_viewer, s.n_shading, s.material.shading);
+  glm::vec3 sum = shared::phong_ambient(material, scene_.ambient_light);
   for (std::size_t i = 0; i < lights_.size(); ++i) {
     const shared::Incident incident = shared::incident_light(lights_[i], lights_[i].position, s.p_world);
     if (incident.radiance == glm::vec3(0.0f) ||
@@ -114,7 +114,7 @@ glm::vec3 EmbreePicture::direct(const SurfaceInteraction& s) const {
                        : Ray{origin, kAtTheLight, incident.target - origin}))
         continue;
     }
-    sum += shared::phong_light(phong, incident, s.n_shading, s.to_viewer, true);
+    sum += shared::reflected_light(material, incident, s.n_shading, s.to_viewer, true, 0.0f);
   }
   return s.alpha * sum;
 }

@@ -43,7 +43,7 @@ float fresnel_dielectric(float cos_in, float eta) {
 
 void scatter(const SurfaceInteraction& surface, const glm::vec3& throughput, float least,
              std::vector<PathRay>& out) {
-  const shared::PhongSurface& m = surface.material;
+  const shared::MaterialPoint& m = surface.material;
   const float cos_in = std::clamp(glm::dot(surface.n_shading, surface.to_viewer), 0.0f, 1.0f);
   const glm::vec3 own = surface.alpha < 1.0f ? throughput * surface.alpha : throughput;
   if (m.transmittance.x + m.transmittance.y + m.transmittance.z > 0.0f) {

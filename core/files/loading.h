@@ -13,6 +13,7 @@ struct Loading {
   Progress* progress;  // may be null
   MemoryLimit& limit;
   InputFiles& files;  // the files beside the scene's
+  Shading shading = Shading::from_file;
 };
 
 }  // namespace pinocchio

@@ -65,16 +65,34 @@ glm::dvec3 ReferenceEnvironment::at(const glm::dvec2& uv) const {
 }
 
 // The picture's middle is +Z, a quarter of the width to its left is +X, the top row is +Y.
-glm::dvec3 ReferenceEnvironment::radiance(const glm::dvec3& direction) const {
+glm::dvec2 ReferenceEnvironment::place_of(const glm::dvec3& direction) const {
   const double around = std::atan2(direction.x, direction.z) / (2.0 * std::numbers::pi);
   const double down = std::atan2(std::hypot(direction.x, direction.z), direction.y) / std::numbers::pi;
   const double u = 0.5 - around + turn_;
-  return at({u - std::floor(u), down});
+  return {u - std::floor(u), down};
+}
+
+glm::dvec3 ReferenceEnvironment::radiance(const glm::dvec3& direction) const {
+  return at(place_of(direction));
+}
+
+double ReferenceEnvironment::density(const glm::dvec3& direction) const {
+  if (rows_.back() == 0.0) return 0.0;
+  const glm::ivec2 size = picture_.size();
+  const glm::dvec2 uv = place_of(direction);
+  const glm::ivec2 texel = glm::min(glm::ivec2(uv * glm::dvec2(size)), size - 1);
+  const auto share = [](const double* sums, int i, int count) {
+    return (sums[i] - (i == 0 ? 0.0 : sums[i - 1])) / sums[count - 1];
+  };
+  const double per_uv = share(rows_.data(), texel.y, size.y) * size.y *
+                        share(columns_.data() + std::size_t(texel.y) * size.x, texel.x, size.x) * size.x;
+  return per_uv / (2.0 * std::numbers::pi * std::numbers::pi *
+                   std::max(std::hypot(direction.x, direction.z) / glm::length(direction), 1e-12));
 }
 
 ReferenceEnvironment::Sample ReferenceEnvironment::sample(const glm::dvec2& numbers) const {
   const glm::ivec2 size = picture_.size();
-  if (rows_.back() == 0.0) return {{0.0, 1.0, 0.0}, glm::dvec3(0.0)};
+  if (rows_.back() == 0.0) return {{0.0, 1.0, 0.0}, glm::dvec3(0.0), 0.0};
   const Choice row = choice_of(rows_.data(), rows_.size(), numbers.y);
   const Choice column = choice_of(columns_.data() + row.index * size.x, size.x, numbers.x);
   const glm::dvec2 uv =
@@ -84,7 +102,8 @@ ReferenceEnvironment::Sample ReferenceEnvironment::sample(const glm::dvec2& numb
   const double steradian =
       2.0 * std::numbers::pi * std::numbers::pi * std::sin(down);  // for a unit of u times v
   return {{std::sin(down) * std::sin(around), std::cos(down), std::sin(down) * std::cos(around)},
-          steradian / per_uv * at(uv)};
+          steradian / per_uv * at(uv),
+          per_uv / steradian};
 }
 
 }  // namespace pinocchio

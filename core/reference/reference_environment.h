@@ -21,11 +21,14 @@ class ReferenceEnvironment {
   struct Sample {
     glm::dvec3 direction;  // unit
     glm::dvec3 light;
+    double density;
   };
   [[nodiscard]] Sample sample(const glm::dvec2& numbers) const;
+  [[nodiscard]] double density(const glm::dvec3& direction) const;
 
  private:
   [[nodiscard]] glm::dvec3 at(const glm::dvec2& uv) const;
+  [[nodiscard]] glm::dvec2 place_of(const glm::dvec3& direction) const;
 
   const Image<glm::vec3>& picture_;
   double turn_, strength_;  // revolutions

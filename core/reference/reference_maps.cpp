@@ -24,18 +24,21 @@ ReferenceMaterial as_it_stands(const Material& m) {
           m.ior,
           m.fresnel,
           m.brdf,
+          m.ggx_alpha,
+          m.grazing,
+          glm::dvec2(m.layer),
           m.gloss};
 }
 
 // A surface's textured values at a point.
 struct PointSurface {
   glm::dvec3 base, emissive, specular;  // specular: factor times colour
-  double metallic, roughness, transmission;
+  double strength, metallic, roughness, transmission;
 };
 
-// docs/conventions.md, "Metallic-roughness as Phong".
-ReferenceMaterial phong_of(const GltfSurface& s, const PointSurface& at) {
-  const auto& [base, emissive, specular, metallic, roughness, transmission] = at;
+// docs/conventions.md, "Metallic-roughness".
+ReferenceMaterial material_of(const GltfSurface& s, const PointSurface& at, bool phong) {
+  const auto& [base, emissive, specular, strength, metallic, roughness, transmission] = at;
   ReferenceMaterial m{};
   m.brdf = true;
   m.shininess = m.ior = 1.0;
@@ -49,6 +52,14 @@ ReferenceMaterial phong_of(const GltfSurface& s, const PointSurface& at) {
   m.diffuse = (1.0 - most) * (1.0 - metallic) * (1.0 - transmission) / std::numbers::pi * base;
   m.shininess = std::clamp((2.0 / std::max(std::pow(roughness, 4.0), 1e-8) - 2.0) / 4.0, 1.0, 10000.0);
   m.specular = (m.shininess + 2.0) / (2.0 * std::numbers::pi) * f0;
+  if (!phong) {
+    m.diffuse /= std::max(1.0 - most, 1e-9);
+    m.specular = f0;
+    m.ggx_alpha = std::clamp(roughness * roughness, 0.0005, 1.0);
+    const double f90 = std::min(strength, 1.0);
+    m.grazing = f90 + (1.0 - f90) * metallic;
+    m.layer = {most, f90};
+  }
   if (transmission > 0.0 && metallic < 1.0) {
     m.transmittance = (1.0 - metallic) * transmission * base;
     if (s.volume) m.ior = n;
@@ -134,10 +145,12 @@ ReferenceMaterial reference_material(const Mesh& mesh, const ReferenceHit& hit, 
     const glm::dvec4 rough_metal = texel(maps->metallic_roughness, false);
     const GltfSurface& s = maps->surface;
     const double specular = s.specular * texel(maps->specular, false).a;
-    m = phong_of(s, {scaled(s.base_color, base), scaled(s.emissive, emissive),
+    m = material_of(s,
+                    {scaled(s.base_color, base), scaled(s.emissive, emissive),
                      specular * scaled(s.specular_color, glm::dvec3(texel(maps->specular_color, true))),
-                     s.metallic * rough_metal.b, s.roughness * rough_metal.g,
-                     s.transmission * texel(maps->transmission, false).r});
+                     specular, s.metallic * rough_metal.b, s.roughness * rough_metal.g,
+                     s.transmission * texel(maps->transmission, false).r},
+                    !plain.is_microfacet());
   } else {
     m = as_it_stands(plain);
     m.ambient *= base;

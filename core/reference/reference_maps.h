@@ -12,9 +12,12 @@ struct ReferenceMaterial {
   glm::dvec3 ambient, diffuse, specular, emission, reflectance, transmittance;
   double shininess, ior;
   bool fresnel;
-  bool brdf;           // the coefficients include a BRDF's 1 / pi; else the light includes it
-  double gloss = 0.0;  // exponent of the mirrored rays' lobe; 0: sharp
-  double alpha = 1.0;  // the surface's share of the light at the point
+  bool brdf;               // the coefficients include a BRDF's 1 / pi; else the light includes it
+  double ggx_alpha = 0.0;  // roughness squared; 0: Phong's model
+  double grazing = 1.0;    // F90; `specular` is F0
+  glm::dvec2 layer{0.0};   // F0 and F90 of the layer above the matt one
+  double gloss = 0.0;      // exponent of the mirrored rays' lobe; 0: sharp
+  double alpha = 1.0;      // the surface's share of the light at the point
 
   [[nodiscard]] bool reflects() const { return reflectance != glm::dvec3(0.0); }
   [[nodiscard]] bool transmits() const { return transmittance != glm::dvec3(0.0); }

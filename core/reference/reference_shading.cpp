@@ -6,6 +6,8 @@
 #include <numbers>
 #include <random>
 
+#include "core/reference/reference_lobe.h"
+
 namespace pinocchio {
 namespace {
 
@@ -13,16 +15,15 @@ double square(double x) {
   return x * x;
 }
 
-// The falloff between the two cones, as KHR_lights_punctual defines it.
-double cone_share(const Light& light, const glm::dvec3& to_light) {
+}  // namespace
+
+double reference_cone_share(const Light& light, const glm::dvec3& to_light) {
   const double cos_angle = -glm::dot(to_light, glm::dvec3(light.direction));
   const double outer = light.cos_outer, width = light.cos_inner - outer;
   return square(std::clamp((cos_angle - outer) / std::max(width, 1e-6), 0.0, 1.0));
 }
 
-// The share of unpolarised light that a smooth dielectric mirrors (Born and Wolf, Principles of
-// Optics, 1.5.2). eta: the index on the far side divided by the index on the near side.
-double fresnel(double cos_in, double eta) {
+double reference_fresnel(double cos_in, double eta) {
   const double sin2_out = (1.0 - square(cos_in)) / square(eta);  // Snell
   if (sin2_out >= 1.0) return 1.0;
   const double cos_out = std::sqrt(1.0 - sin2_out);
@@ -30,6 +31,8 @@ double fresnel(double cos_in, double eta) {
   const double perpendicular = (cos_in - eta * cos_out) / (cos_in + eta * cos_out);
   return 0.5 * (square(parallel) + square(perpendicular));
 }
+
+namespace {
 
 // Chiang, Li and Burley 2019: the light falls to zero as the facet turns away.
 double smoothing_at(const ReferenceSurface& s, const glm::dvec3& to_light) {
@@ -69,7 +72,8 @@ namespace {
 // The light from a point of the lamp (null: infinitely far away) that arrives with `radiance`. Empty if the
 // radiance is zero or the surface faces away.
 void add_point(const ReferenceSurface& surface, const glm::dvec3& to_light, const glm::dvec3& radiance,
-               const glm::dvec3* point, Terminator terminator, std::vector<ReferenceLight>& out) {
+               const glm::dvec3* point, double density, Terminator terminator,
+               std::vector<ReferenceLight>& out) {
   if (radiance == glm::dvec3(0.0) || glm::dot(surface.n_shading, to_light) <= 0.0) return;
   const bool turned_away = glm::dot(surface.n_geometric, to_light) <= 0.0;
   const bool can_lift = lifts(terminator) && surface.lift != glm::dvec3(0.0);
@@ -79,16 +83,15 @@ void add_point(const ReferenceSurface& surface, const glm::dvec3& to_light, cons
   const double share = terminator == Terminator::smoothed ? smoothing_at(surface, to_light) : 1.0;
   out.push_back({to_light, share * radiance,
                  point ? ReferenceRay{origin, *point - origin, 1.0} : ReferenceRay{origin, to_light},
-                 std::nullopt});
+                 std::nullopt, density});
   if (!lifted || terminator != Terminator::turned_away) return;
   const glm::dvec3 from = leave(surface, surface.n_geometric);
   out.back().way_up = ReferenceRay{from, origin - from, 1.0};
 }
 
-// Points of the square, one in each of side * side cells. The place in the cell depends on `place`, so that
-// the cells do not show in a picture.
-template <class Use>
-void for_each_cell(int side, const glm::dvec3& place, Use use) {
+}  // namespace
+
+void reference_cells(int side, const glm::dvec3& place, const std::function<void(const glm::dvec2&)>& use) {
   std::seed_seq seed{std::hash<double>()(place.x), std::hash<double>()(place.y),
                      std::hash<double>()(place.z)};
   std::minstd_rand random(seed);
@@ -98,13 +101,14 @@ void for_each_cell(int side, const glm::dvec3& place, Use use) {
       use(glm::dvec2(x + within(random), y + within(random)) / static_cast<double>(side));
 }
 
-// A unit vector at that angle to the axis, rotated by `turn` of a circle around it.
-glm::dvec3 beside(const glm::dvec3& axis, double cosine, double turn) {
+glm::dvec3 reference_beside(const glm::dvec3& axis, double cosine, double turn) {
   const glm::dvec3 other = std::abs(axis.x) < 0.5 ? glm::dvec3(1, 0, 0) : glm::dvec3(0, 1, 0);
   const glm::dvec3 t = glm::normalize(glm::cross(axis, other)), u = glm::cross(axis, t);
   const double sine = std::sqrt(std::max(1.0 - square(cosine), 0.0)), phi = 2.0 * std::numbers::pi * turn;
   return sine * (std::cos(phi) * t + std::sin(phi) * u) + cosine * axis;
 }
+
+namespace {
 
 // Samples the solid angle of a sphere with constant radiance I / (pi r^2), or of a disc at infinity.
 std::vector<ReferenceLight> round_light(const Light& light, const ReferenceSurface& surface,
@@ -126,14 +130,14 @@ std::vector<ReferenceLight> round_light(const Light& light, const ReferenceSurfa
   double solid = 2.0 * std::numbers::pi * (1.0 - least) / (std::numbers::pi * square(sine));
   if (light.falloff == Light::Falloff::inverse_square && !directional)
     solid /= std::max(std::max(square(distance), square(r)), 1e-12);
-  for_each_cell(kReferencePoints, surface.p_world, [&](const glm::dvec2& cell) {
-    const glm::dvec3 to_light = beside(axis, 1.0 - cell.x * (1.0 - least), cell.y);
+  reference_cells(kReferencePoints, surface.p_world, [&](const glm::dvec2& cell) {
+    const glm::dvec3 to_light = reference_beside(axis, 1.0 - cell.x * (1.0 - least), cell.y);
     const double along = glm::dot(to_light, offset);
     const double chord = std::sqrt(std::max(square(along) - square(distance) + square(r), 0.0));
-    const double cone = light.kind == Light::Kind::spot ? cone_share(light, to_light) : 1.0;
+    const double cone = light.kind == Light::Kind::spot ? reference_cone_share(light, to_light) : 1.0;
     const glm::dvec3 point = surface.p_world + (inside ? along + chord : along - chord) * to_light;
-    add_point(surface, to_light, kShare * solid * cone * strength, directional ? nullptr : &point, terminator,
-              points);
+    add_point(surface, to_light, kShare * solid * cone * strength, directional ? nullptr : &point,
+              1.0 / (2.0 * std::numbers::pi * (1.0 - least)), terminator, points);
   });
   return points;
 }
@@ -142,7 +146,7 @@ std::vector<ReferenceLight> rectangle_light(const Light& light, const ReferenceS
                                             const glm::dvec3& strength, Terminator terminator) {
   constexpr double kShare = 1.0 / (kReferencePoints * kReferencePoints);
   std::vector<ReferenceLight> points;
-  for_each_cell(kReferencePoints, surface.p_world, [&](const glm::dvec2& cell) {
+  reference_cells(kReferencePoints, surface.p_world, [&](const glm::dvec2& cell) {
     const glm::dvec3 point = glm::dvec3(light.position) + (cell.x - 0.5) * glm::dvec3(light.edge_u) +
                              (cell.y - 0.5) * glm::dvec3(light.edge_v);
     const glm::dvec3 offset = point - surface.p_world;
@@ -151,7 +155,10 @@ std::vector<ReferenceLight> rectangle_light(const Light& light, const ReferenceS
     const glm::dvec3 to_light = offset / distance;
     double share = kShare * std::max(-glm::dot(to_light, glm::dvec3(light.direction)), 0.0);
     if (light.falloff == Light::Falloff::inverse_square) share /= std::max(square(distance), 1e-12);
-    add_point(surface, to_light, share * strength, &point, terminator, points);
+    const double facing = -glm::dot(to_light, glm::dvec3(light.direction));
+    const double area = glm::length(glm::cross(glm::dvec3(light.edge_u), glm::dvec3(light.edge_v)));
+    add_point(surface, to_light, share * strength, &point,
+              facing > 0.0 ? square(distance) / (facing * area) : 0.0, terminator, points);
   });
   return points;
 }
@@ -165,7 +172,7 @@ std::vector<ReferenceLight> reference_lights(const Light& light, const Reference
   if (light.has_size()) return round_light(light, surface, radiance, terminator);
   std::vector<ReferenceLight> point;
   if (light.kind == Light::Kind::directional) {
-    add_point(surface, -glm::dvec3(light.direction), radiance, nullptr, terminator, point);
+    add_point(surface, -glm::dvec3(light.direction), radiance, nullptr, 0.0, terminator, point);
     return point;
   }
   const glm::dvec3 position(light.position), offset = position - surface.p_world;
@@ -173,8 +180,8 @@ std::vector<ReferenceLight> reference_lights(const Light& light, const Reference
   if (distance == 0.0 || distance > light.range) return point;
   const glm::dvec3 to_light = offset / distance;
   if (light.falloff == Light::Falloff::inverse_square) radiance /= std::max(square(distance), 1e-12);
-  if (light.kind == Light::Kind::spot) radiance *= cone_share(light, to_light);
-  add_point(surface, to_light, radiance, &position, terminator, point);
+  if (light.kind == Light::Kind::spot) radiance *= reference_cone_share(light, to_light);
+  add_point(surface, to_light, radiance, &position, 0.0, terminator, point);
   return point;
 }
 
@@ -183,9 +190,9 @@ std::vector<ReferenceLight> reference_sky(const ReferenceEnvironment& environmen
   const double share =
       (surface.material.brdf ? 1.0 : std::numbers::inv_pi) / (kReferencePoints * kReferencePoints);
   std::vector<ReferenceLight> points;
-  for_each_cell(kReferencePoints, surface.p_world, [&](const glm::dvec2& cell) {
+  reference_cells(kReferencePoints, surface.p_world, [&](const glm::dvec2& cell) {
     const ReferenceEnvironment::Sample from = environment.sample(cell);
-    add_point(surface, from.direction, share * from.light, nullptr, terminator, points);
+    add_point(surface, from.direction, share * from.light, nullptr, from.density, terminator, points);
   });
   return points;
 }
@@ -195,16 +202,27 @@ std::vector<ReferenceBounce> reference_lobe(const ReferenceSurface& s, const Ref
   std::vector<ReferenceBounce> rays;
   const glm::dvec3 axis = glm::normalize(mirrored.ray.direction),
                    weight = mirrored.weight / static_cast<double>(side * side);
-  for_each_cell(side, s.p_world, [&](const glm::dvec2& cell) {
+  reference_cells(side, s.p_world, [&](const glm::dvec2& cell) {
     // The integral of (n + 1) / (2 pi) cos^n up to an angle is 1 - cos^(n + 1).
-    const glm::dvec3 direction = beside(axis, std::pow(1.0 - cell.x, 1.0 / (s.material.gloss + 1.0)), cell.y);
+    const glm::dvec3 direction =
+        reference_beside(axis, std::pow(1.0 - cell.x, 1.0 / (s.material.gloss + 1.0)), cell.y);
     if (glm::dot(direction, s.n_geometric) > 0.0) rays.push_back(bounce(s, direction, weight));
   });
   return rays;
 }
 
-glm::dvec3 reference_phong(const ReferenceSurface& s, const ReferenceLight& light) {
+glm::dvec3 reference_reflected(const ReferenceSurface& s, const ReferenceLight& light, bool lobes) {
   const double n_dot_l = glm::dot(s.n_shading, light.to_light);
+  if (s.material.ggx_alpha > 0.0) {
+    const bool sized = light.density > 0.0;
+    double counts = 1.0;
+    if (sized && lobes)
+      counts = s.material.transmits()
+                   ? 0.0
+                   : light.density / (light.density + reference_lobe_density(s, light.to_light));
+    const glm::dvec3 mirrored = reference_mirrored(s, light.to_light, sized ? 0.0005 : 0.007);
+    return light.radiance * (n_dot_l * reference_matt(s, light.to_light) + counts * mirrored);
+  }
   const double r_dot_v = glm::dot(2.0 * n_dot_l * s.n_shading - light.to_light, s.to_viewer);
   const double highlight = r_dot_v > 0.0 ? std::pow(r_dot_v, s.material.shininess) : 0.0;
   return light.radiance * (s.material.diffuse * n_dot_l + s.material.specular * highlight);
@@ -219,7 +237,7 @@ std::array<ReferenceBounce, 3> reference_bounces(const ReferenceSurface& s) {
     const double ior = m.ior, eta = s.leaving ? 1.0 / ior : ior;
     const glm::dvec3 through = refracted(s, eta);
     // If the two normals disagree, there may be no refracted ray although Fresnel's share is not zero.
-    const double share = through == glm::dvec3(0.0) ? 1.0 : fresnel(cos_in, eta);
+    const double share = through == glm::dvec3(0.0) ? 1.0 : reference_fresnel(cos_in, eta);
     return {bounce(s, mirrored(s), glm::dvec3(own * share)),
             bounce(s, through, own * (1.0 - share) * m.transmittance), straight};
   }

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <functional>
 #include <glm/glm.hpp>
 #include <vector>
 
@@ -17,7 +18,22 @@ struct ReferenceLight {
   glm::dvec3 radiance;                 // linear
   ReferenceRay shadow;                 // a hit blocks the light
   std::optional<ReferenceRay> way_up;  // to the start of `shadow` above the surface; a hit blocks the light
+  double density = 0.0;                // of the direction, per steradian; 0: the light has no size
 };
+
+// The falloff between a spot's two cones, as KHR_lights_punctual defines it.
+[[nodiscard]] double reference_cone_share(const Light& light, const glm::dvec3& to_light);
+
+// The share of unpolarised light that a smooth dielectric mirrors (Born and Wolf, Principles of
+// Optics, 1.5.2). eta: the index on the far side divided by the index on the near side.
+[[nodiscard]] double reference_fresnel(double cos_in, double eta);
+
+// A unit vector at that angle to the axis, rotated by `turn` of a circle around it.
+[[nodiscard]] glm::dvec3 reference_beside(const glm::dvec3& axis, double cosine, double turn);
+
+// Points of the square, one in each of side * side cells. The place in the cell depends on `place`, so that
+// the cells do not show in a picture.
+void reference_cells(int side, const glm::dvec3& place, const std::function<void(const glm::dvec2&)>& use);
 
 // Empty if the light does not reach the point: too far, outside the cone, or behind the surface. A light with
 // a size has kReferencePoints squared entries that share its radiance.
@@ -31,9 +47,11 @@ inline constexpr int kReferencePoints = 16;
                                                         const ReferenceSurface& surface,
                                                         Terminator terminator);
 
-// Id + Is of that light (Phong, "Illumination for Computer Generated Pictures", CACM 18(6), 1975):
+// Id + Is of that light, by Phong ("Illumination for Computer Generated Pictures", CACM 18(6), 1975),
 //   I (kd (N.L) + ks (R.V)^n),  R = 2 (N.L) N - L
-[[nodiscard]] glm::dvec3 reference_phong(const ReferenceSurface& surface, const ReferenceLight& light);
+// or by glTF's model. lobes: directions of the lobe are sampled too, and light with a size counts in part.
+[[nodiscard]] glm::dvec3 reference_reflected(const ReferenceSurface& surface, const ReferenceLight& light,
+                                             bool lobes);
 
 // A ray that leaves the surface, and its weight.
 struct ReferenceBounce {

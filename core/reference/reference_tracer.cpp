@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 
+#include "core/reference/reference_lobe.h"
 #include "core/reference/reference_shading.h"
 
 namespace pinocchio {
@@ -69,7 +70,7 @@ glm::dvec3 ReferenceTracer::direct(const ReferenceSurface& surface, unsigned& bi
       const double share = hidden ? 0.0 : light.casts_shadow ? unblocked(point.shadow) : 1.0;
       seen += share;
       all += 1.0;
-      sum += share * reference_phong(surface, point);
+      sum += share * reference_reflected(surface, point, lobes_ && light.casts_shadow);
     }
     if (light.casts_shadow && all > 0.0 && seen >= 0.5 * all) bits |= 1u << slot;
   }
@@ -82,7 +83,7 @@ glm::dvec3 ReferenceTracer::from_sky(const ReferenceSurface& surface) const {
   if (!environment_) return sum;
   for (const ReferenceLight& point : reference_sky(*environment_, surface, options_.terminator)) {
     if (point.way_up && tree_.occluded(*point.way_up)) continue;
-    sum += unblocked(point.shadow) * reference_phong(surface, point);
+    sum += unblocked(point.shadow) * reference_reflected(surface, point, lobes_);
   }
   return surface.material.alpha * sum;
 }
@@ -91,6 +92,8 @@ glm::dvec3 ReferenceTracer::from_sky(const ReferenceSurface& surface) const {
 glm::dvec3 ReferenceTracer::bounced(const ReferenceSurface& surface, int depth, const Cone& cone,
                                     const Media& media, int lobe_side) const {
   glm::dvec3 sum(0.0);
+  const bool lobe = lobes_ && surface.material.ggx_alpha > 0.0;
+  if (lobe) sum += along_lobe(surface, depth, cone, media, lobe_side);
   if (depth <= 0) return sum;
   const auto follow = [&](const ReferenceBounce& bounce, const Material* medium, int side,
                           bool straight = false) {
@@ -102,7 +105,7 @@ glm::dvec3 ReferenceTracer::bounced(const ReferenceSurface& surface, int depth, 
   };
   const std::array<ReferenceBounce, 3> bounces = reference_bounces(surface);
   for (std::size_t i = 0; i < bounces.size(); ++i) {
-    if (bounces[i].weight == glm::dvec3(0.0)) continue;
+    if (bounces[i].weight == glm::dvec3(0.0) || (lobe && i < 2)) continue;
     if (i > 0 || surface.material.gloss == 0.0) {
       follow(bounces[i], i == 1 ? media.beyond : media.here, lobe_side, i == 2);
     } else {
@@ -111,6 +114,51 @@ glm::dvec3 ReferenceTracer::bounced(const ReferenceSurface& surface, int depth, 
     }
   }
   return sum;
+}
+
+// The light along directions of the glossy lobe: of lights with a size, and of what rays that way see.
+glm::dvec3 ReferenceTracer::along_lobe(const ReferenceSurface& s, int depth, const Cone& cone,
+                                       const Media& media, int lobe_side) const {
+  const ReferenceMaterial& m = s.material;
+  const bool glass = m.transmits(), thin = m.ior == 1.0;
+  const auto counts = [&](double own, double other) {
+    return glass || own == 0.0 ? 1.0 : own / (own + other);
+  };
+  const auto along = [&](const glm::dvec3& direction, const Material* medium, double density) {
+    ReferenceRay ray{leave(s, direction), direction};
+    ray.width = cone.width;
+    ray.angle = cone.angle;
+    const bool sky = environment_ && !closest_hit(ray).valid();
+    const double share = sky ? counts(density, environment_->density(direction)) : 1.0;
+    if (depth > 0) return share * seen(ray, medium, depth - 1, std::max(lobe_side / 4, 1));
+    return sky ? share * unblocked(ray) * environment_->radiance(direction) : glm::dvec3(0.0);
+  };
+  glm::dvec3 sum(0.0);
+  for (const ReferenceLobe& lobe : reference_lobe_samples(s, lobe_side)) {
+    const double cosine = glm::dot(s.to_viewer, lobe.facet), eta = s.leaving ? 1.0 / m.ior : m.ior;
+    glm::dvec3 mirrored = reference_schlick(m, cosine), through(0.0);
+    if (glass) {
+      through = thin ? lobe.direction - 2.0 * glm::dot(s.n_shading, lobe.direction) * s.n_shading
+                     : glm::refract(-s.to_viewer, lobe.facet, 1.0 / eta);
+      if (glm::dot(through, s.n_geometric) >= 0.0) through = glm::dvec3(0.0);
+      if (through == glm::dvec3(0.0))
+        mirrored = glm::dvec3(1.0);
+      else if (!thin)
+        mirrored = glm::dvec3(reference_fresnel(cosine, eta));
+    }
+    glm::dvec3 light(0.0);
+    for (const Light& each : scene_.lights) {
+      if (!each.has_size() || !each.casts_shadow) continue;
+      if (const auto met = reference_meeting(each, s, lobe.direction))
+        light += unblocked(met->shadow) * counts(lobe.density, met->density) * met->radiance;
+    }
+    light += along(lobe.direction, media.here, lobe.density);
+    sum += lobe.share * mirrored * light;
+    if (through != glm::dvec3(0.0) && depth > 0)
+      sum += lobe.share * (1.0 - std::max({mirrored.x, mirrored.y, mirrored.z})) * m.transmittance *
+             along(through, media.beyond, 0.0);
+  }
+  return m.alpha * sum;
 }
 
 // A surface that is hit from behind ends the ray's medium, whichever surface the medium began at. Walls

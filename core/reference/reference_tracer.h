@@ -25,6 +25,7 @@ class ReferenceTracer {
   ReferenceTracer(const Scene& scene, const ReferenceTree& tree, const TraceOptions& options = {})
       : scene_(scene), tree_(tree), options_(options) {
     if (scene.environment) environment_.emplace(scene);
+    lobes_ = takes_samples(scene);
   }
 
   struct Pixel {
@@ -55,6 +56,8 @@ class ReferenceTracer {
                                const ReferenceSurface& surface) const;
   [[nodiscard]] glm::dvec3 bounced(const ReferenceSurface& surface, int depth, const Cone& cone,
                                    const Media& media, int lobe_side) const;
+  [[nodiscard]] glm::dvec3 along_lobe(const ReferenceSurface& surface, int depth, const Cone& cone,
+                                      const Media& media, int lobe_side) const;
   // The light along a ray that begins in `medium`.
   [[nodiscard]] glm::dvec3 seen(const ReferenceRay& ray, const Material* medium, int depth,
                                 int lobe_side) const;
@@ -67,6 +70,7 @@ class ReferenceTracer {
   const ReferenceTree& tree_;
   TraceOptions options_;
   std::optional<ReferenceEnvironment> environment_;
+  bool lobes_ = false;  // glossy lobes are sampled; else mirrors are sharp
 };
 
 // The ray of the pixel (x, y). Its t is z_eye.

@@ -25,14 +25,24 @@ double mean_light(const Image<glm::vec3>& image, int x, int y) {
   return sum;
 }
 
+// For each k, the first of `count` ends that grow to 1 above k / count (Chen and Asau 1974).
+void find_guides(const float* ends, std::size_t count, std::uint32_t* guides) {
+  std::uint32_t index = 0;
+  for (std::size_t k = 0; k < count; ++k) {
+    while (index + 1 < count && ends[index] * count <= k) ++index;
+    guides[k] = index;
+  }
+}
+
 // Where `number` falls among ends that grow to 1: index and place within, 0 to 1.
 struct Found {
   std::size_t index;
   float within;
 };
-Found found_at(const float* ends, std::size_t count, float number) {
-  const auto index =
-      std::min(static_cast<std::size_t>(std::upper_bound(ends, ends + count, number) - ends), count - 1);
+Found found_at(const float* ends, const std::uint32_t* guides, std::size_t count, float number) {
+  std::size_t index = guides[std::min(static_cast<std::size_t>(number * count), count - 1)];
+  while (index > 0 && ends[index - 1] > number) --index;  // the product was rounded
+  while (index + 1 < count && ends[index] <= number) ++index;
   const float begin = index == 0 ? 0.0f : ends[index - 1];
   return {index, std::clamp((number - begin) / (ends[index] - begin), 0.0f, 0x1.fffffep-1f)};
 }
@@ -63,12 +73,18 @@ Environment::Environment(Image<glm::vec3> radiance, std::string source)
     of_rows[y] = all += sum * (latitude(y) - latitude(y + 1));
   }
   make_to_one(of_rows, rows_.data());
+  row_guides_.resize(height);
+  column_guides_.resize(width * height);
+  find_guides(rows_.data(), height, row_guides_.data());
+  for (std::size_t y = 0; y < height; ++y)
+    find_guides(&columns_[y * width], width, &column_guides_[y * width]);
 }
 
 Environment::Place Environment::sample(const glm::vec2& numbers) const {
   const std::size_t width = radiance_.width(), height = radiance_.height();
-  const Found row = found_at(rows_.data(), height, numbers.y);
-  const Found column = found_at(&columns_[row.index * width], width, numbers.x);
+  const Found row = found_at(rows_.data(), row_guides_.data(), height, numbers.y);
+  const Found column =
+      found_at(&columns_[row.index * width], &column_guides_[row.index * width], width, numbers.x);
   const glm::vec2 uv((column.index + column.within) / width, (row.index + row.within) / height);
   return {uv, density(uv)};
 }

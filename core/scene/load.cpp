@@ -66,7 +66,7 @@ Expected<Scene> load_scene(const std::filesystem::path& path, const LoadOptions&
   Warnings& heard = options.confine || !warnings ? own : *warnings;
   MemoryLimit limit(options.limit_bytes);
   InputFiles files(*file, options.confine);
-  Loading loading{heard, progress, limit, files};
+  Loading loading{heard, progress, limit, files, options.shading};
   const SceneFormat* const format = find_scene_format(*file);
   if (!format)
     return error(*file, "is not of a format that can be read",

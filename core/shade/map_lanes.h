@@ -20,7 +20,7 @@ struct MapLanes {
   unsigned leaving;                 // lanes
   // Outputs.
   alignas(64) Column ambient[3], diffuse[3], specular[3], emission[3], reflectance[3], transmittance[3];
-  alignas(64) Column shininess, ior, alpha;
+  alignas(64) Column shininess, occlusion, ggx_alpha, grazing, layer[2], ior, alpha;
   unsigned fresnel, reflects, transmits, blends;  // lanes
 };
 

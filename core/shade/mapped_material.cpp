@@ -22,12 +22,20 @@ float alpha_at(const MaterialMaps& maps, const Lookup& lookup) {
 
 }  // namespace
 
-shared::PhongSurface plain_material(const Material& m) {
-  return {{m.ambient, m.diffuse, m.specular, m.shininess, m.emission},
-          m.reflectance,
-          m.transmittance,
-          m.ior,
-          m.fresnel};
+shared::MaterialPoint plain_material(const Material& m) {
+  return {.shading = {.ambient = m.ambient,
+                      .diffuse = m.diffuse,
+                      .specular = m.specular,
+                      .shininess = m.shininess,
+                      .emission = m.emission,
+                      .occlusion = 1.0f,
+                      .ggx_alpha = m.ggx_alpha,
+                      .grazing = m.grazing,
+                      .layer = m.layer},
+          .reflectance = m.reflectance,
+          .transmittance = m.transmittance,
+          .ior = m.ior,
+          .fresnel = m.fresnel};
 }
 
 MappedMaterial mapped_material(const Mesh& mesh, const MapPoint& point, const Lookup& lookup,
@@ -41,8 +49,10 @@ MappedMaterial mapped_material(const Mesh& mesh, const MapPoint& point, const Lo
   if (maps.vertex_colors) v.base_color *= glm::vec3(lookup.color());
 
   MappedMaterial mapped;
-  mapped.surface = maps.from_gltf ? shared::mapped_metallic_roughness(metallic_roughness(maps.surface), v)
-                                  : shared::mapped_phong(plain_material(mesh.material_of(point.triangle)), v);
+  const Material& plain = mesh.material_of(point.triangle);
+  mapped.surface = maps.from_gltf ? shared::mapped_metallic_roughness(metallic_roughness(maps.surface), v,
+                                                                      !plain.is_microfacet())
+                                  : shared::mapped_phong(plain_material(plain), v);
   mapped.n_shading =
       lookup.normal(maps.normal, maps.normal_scale, glm::vec3(texels.normal), point.n_shading, point.leaving);
   mapped.alpha = maps.blends() ? glm::clamp(alpha_at(maps, lookup), 0.0f, 1.0f) : 1.0f;

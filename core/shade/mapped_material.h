@@ -23,7 +23,7 @@ struct MapPoint {
 };
 
 struct MappedMaterial {
-  shared::PhongSurface surface;
+  shared::MaterialPoint surface;
   glm::vec3 n_shading;  // as the normal map has it
   float alpha;          // the surface's share; the rest is what a ray sees that goes straight on
 };
@@ -62,6 +62,6 @@ class Lookup;  // shade/map_lookup.h
                                         float threshold);
 
 // The material as it stands, without maps.
-[[nodiscard]] shared::PhongSurface plain_material(const Material& material);
+[[nodiscard]] shared::MaterialPoint plain_material(const Material& material);
 
 }  // namespace pinocchio

@@ -26,6 +26,7 @@ template <class T>
 // clang-format off
 #include "shaders/shared/light_params.glsl"
 #include "shaders/shared/phong.glsl"
+#include "shaders/shared/microfacet.glsl"
 #include "shaders/shared/metallic_roughness.glsl"
 // clang-format on
 #undef SHARED

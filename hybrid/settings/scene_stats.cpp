@@ -22,7 +22,7 @@ class MirrorWalk {
       : mesh_(mesh), slack_(1e-7 * static_cast<double>(bounds.diagonal())), flat_(!moves) {}
 
   void add(const glm::uvec3& t, const Material& m, bool see_through) {
-    const bool unlimited = see_through || m.fresnel;
+    const bool unlimited = see_through || m.fresnel || m.is_microfacet();
     const float most = std::max({m.reflectance.x, m.reflectance.y, m.reflectance.z});
     most_ = std::max(most_, unlimited ? 1.0 : static_cast<double>(most));
     if (flat_) flat_ = !see_through && in_plane(t);
@@ -64,6 +64,11 @@ void note(const MaterialMaps& maps, SceneStats& stats) {
   stats.blends = stats.blends || maps.blends();
 }
 
+// Whether hits on the material start mirrored rays. sampled: directions of glossy lobes are.
+bool mirrors(const Material& material, bool sampled) {
+  return material.reflects() || (sampled && material.is_microfacet());
+}
+
 bool sees_through(const Mesh& mesh, const Material& material) {
   return material.transmits() ||
          (material.maps >= 0 && mesh.maps[static_cast<std::size_t>(material.maps)].blends());
@@ -85,13 +90,14 @@ SceneStats analyze(const Scene& scene) {
   SceneStats stats;
   stats.triangles = mesh.triangles.size();
   stats.bounds = mesh.bounds();
+  const bool sampled = takes_samples(scene);
   recount_lights(scene, stats);
   const std::vector<bool> used = used_materials(mesh);
   for (std::size_t m = 0; m < used.size(); ++m) {
     if (!used[m]) continue;
     const Material& material = mesh.materials[m];
     if (material.maps >= 0) note(mesh.maps[static_cast<std::size_t>(material.maps)], stats);
-    stats.mirrors = stats.mirrors || material.reflects() || sees_through(mesh, material);
+    stats.mirrors = stats.mirrors || mirrors(material, sampled) || sees_through(mesh, material);
   }
   if (!stats.mirrors) {
     stats.useful_depth = 0;
@@ -106,7 +112,7 @@ SceneStats analyze(const Scene& scene) {
     const double area = std::max(area_of(mesh, mesh.triangles[i]), least_area);
     all += area;
     const bool see_through = sees_through(mesh, material);
-    if (!see_through && !material.reflects()) continue;
+    if (!see_through && !mirrors(material, sampled)) continue;
     mirroring += area;
     if (see_through) transmitting += area;
     walk.add(mesh.triangles[i], material, see_through);

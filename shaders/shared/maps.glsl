@@ -13,15 +13,16 @@ struct MapValues {
   float transmission;
 };
 
-SHARED PhongSurface mapped_phong(PhongSurface plain, MapValues v) {
-  PhongSurface m = plain;
-  m.phong.ambient *= v.base_color * v.occlusion;
-  m.phong.diffuse *= v.base_color;
-  m.phong.emission *= v.emissive;
+SHARED MaterialPoint mapped_phong(MaterialPoint plain, MapValues v) {
+  MaterialPoint m = plain;
+  m.shading.ambient *= v.base_color;
+  m.shading.occlusion = v.occlusion;
+  m.shading.diffuse *= v.base_color;
+  m.shading.emission *= v.emissive;
   return m;
 }
 
-SHARED PhongSurface mapped_metallic_roughness(MetallicRoughness s, MapValues v) {
+SHARED MaterialPoint mapped_metallic_roughness(MetallicRoughness s, MapValues v, bool as_phong) {
   s.base_color *= v.base_color;
   s.metallic *= v.metallic;
   s.roughness *= v.roughness;
@@ -29,8 +30,8 @@ SHARED PhongSurface mapped_metallic_roughness(MetallicRoughness s, MapValues v) 
   s.specular *= v.specular;
   s.specular_color *= v.specular_color;
   s.transmission *= v.transmission;
-  PhongSurface m = phong_from_metallic_roughness(s);
-  m.phong.ambient *= v.occlusion;
+  MaterialPoint m = from_metallic_roughness(s, as_phong);
+  m.shading.occlusion = v.occlusion;
   return m;
 }
 

@@ -1,13 +1,19 @@
-// Source of GLSL and of C++ (core/shade/shared_material.h): glTF's metallic-roughness material as Phong's, for
-// a whole material where it is loaded and for each point where textures change it. Expects phong.glsl.
-//   f0 = ((ior-1)/(ior+1))^2 specular specular_color, at most 1     mirrored at normal incidence, dielectric
-//   F0 = mix(f0, base, metallic)
+// Source of GLSL and of C++ (core/shade/shared_material.h): glTF's metallic-roughness material as the parameters of
+// its reflection model, or as Phong's, for a whole material where it is loaded and for each point where textures
+// change it. Expects phong.glsl and microfacet.glsl.
+//   f0 = min(((ior-1)/(ior+1))^2 specular_color, 1) specular         mirrored at normal incidence, dielectric
+//   F0 = mix(f0, base, metallic), F90 = mix(specular, 1, metallic)
+//   ambient     base (1 - transmission)
+// glTF's model (microfacet.glsl):
+//   diffuse     base (1 - metallic) (1 - transmission) / pi
+//   specular    F0, alpha = roughness^2
+// Phong's:
 //   diffuse     base (1 - max f0) (1 - metallic) (1 - transmission) / pi
 //   shininess s a quarter of Blinn's 2/r^4 - 2 (Karis 2013), within [1, 10000]
 //   specular    F0 (s + 2) / (2 pi)                                 keeps the highlight's energy (Lewis 1993)
+// Both, where mirrors are not sampled:
 //   reflectance F0 max(0, 1 - roughness/0.25)^2, with Fresnel       our own falloff: above a roughness of a
 //                                                                   quarter a sharp mirror misleads
-//   ambient     base (1 - transmission)
 // Transmission refracts where there is a volume; without one the surface is infinitely thin, and light goes
 // straight on (ior 1). Unlit: only the base colour is emitted.
 
@@ -29,8 +35,8 @@ struct MetallicRoughness {
 };
 
 // The whole material at a point.
-struct PhongSurface {
-  PhongParams phong;
+struct MaterialPoint {
+  ShadingParams shading;
   vec3 reflectance;
   vec3 transmittance;
   float ior;
@@ -39,14 +45,28 @@ struct PhongSurface {
 
 SHARED float largest_of(vec3 v) { return max(max(v.x, v.y), v.z); }
 
-SHARED PhongSurface phong_surface(PhongParams phong) {
-  PhongSurface surface;
-  surface.phong = phong;
-  surface.reflectance = vec3(0.0f);
-  surface.transmittance = vec3(0.0f);
-  surface.ior = 1.0f;
-  surface.fresnel = false;
-  return surface;
+SHARED ShadingParams phong_params(vec3 ambient, vec3 diffuse, vec3 specular, float shininess, vec3 emission) {
+  ShadingParams m;
+  m.ambient = ambient;
+  m.diffuse = diffuse;
+  m.specular = specular;
+  m.shininess = shininess;
+  m.emission = emission;
+  m.occlusion = 1.0f;
+  m.ggx_alpha = 0.0f;
+  m.grazing = 1.0f;
+  m.layer = vec2(0.0f);
+  return m;
+}
+
+SHARED MaterialPoint material_point(ShadingParams shading) {
+  MaterialPoint point;
+  point.shading = shading;
+  point.reflectance = vec3(0.0f);
+  point.transmittance = vec3(0.0f);
+  point.ior = 1.0f;
+  point.fresnel = false;
+  return point;
 }
 
 SHARED float shininess_of(float roughness) {
@@ -54,26 +74,23 @@ SHARED float shininess_of(float roughness) {
   return clamp(0.25f * (2.0f / max(r2 * r2, 1e-8f) - 2.0f), 1.0f, 10000.0f);
 }
 
-SHARED PhongSurface phong_from_metallic_roughness(MetallicRoughness s) {
-  PhongParams black;
-  black.ambient = vec3(0.0f);
-  black.diffuse = vec3(0.0f);
-  black.specular = vec3(0.0f);
-  black.shininess = 1.0f;
-  black.emission = s.emissive;
-  PhongSurface m = phong_surface(black);
-  if (s.unlit) {
-    m.phong.emission = s.base_color;
-    return m;
-  }
+SHARED MaterialPoint from_metallic_roughness(MetallicRoughness s, bool as_phong) {
+  if (s.unlit) return material_point(phong_params(vec3(0.0f), vec3(0.0f), vec3(0.0f), 1.0f, s.base_color));
   float root = (s.ior - 1.0f) / (s.ior + 1.0f);
   vec3 dielectric_f0 = min(root * root * s.specular * s.specular_color, vec3(1.0f));
   vec3 f0 = mix(dielectric_f0, s.base_color, s.metallic);
   float opaque = (1.0f - s.metallic) * (1.0f - s.transmission);
-  m.phong.ambient = s.base_color * (1.0f - s.transmission);
-  m.phong.diffuse = s.base_color * (1.0f - largest_of(dielectric_f0)) * opaque * kOneByPi;
-  m.phong.shininess = shininess_of(s.roughness);
-  m.phong.specular = f0 * (m.phong.shininess + 2.0f) * (0.5f * kOneByPi);
+  ShadingParams shading = phong_params(s.base_color * (1.0f - s.transmission), s.base_color * opaque * kOneByPi, f0,
+                                       shininess_of(s.roughness), s.emissive);
+  if (as_phong) {
+    shading.diffuse = s.base_color * (1.0f - largest_of(dielectric_f0)) * opaque * kOneByPi;
+    shading.specular = f0 * (shading.shininess + 2.0f) * (0.5f * kOneByPi);
+  } else {
+    shading.ggx_alpha = clamp(s.roughness * s.roughness, kLeastAlpha, 1.0f);
+    shading.grazing = mix(min(s.specular, 1.0f), 1.0f, s.metallic);
+    shading.layer = vec2(largest_of(dielectric_f0), min(s.specular, 1.0f));
+  }
+  MaterialPoint m = material_point(shading);
   if (s.transmission > 0.0f && s.metallic < 1.0f) {
     m.transmittance = s.base_color * (s.transmission * (1.0f - s.metallic));
     m.ior = s.volume ? s.ior : 1.0f;

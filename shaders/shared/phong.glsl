@@ -4,18 +4,24 @@
 // The mirrored and refracted terms Ir and It come from the ray tracer, a generation at a time.
 // Expects light_params.glsl.
 
-struct PhongParams {
+// A point's reflection model: Phong's, or glTF's (microfacet.glsl).
+struct ShadingParams {
   vec3 ambient;
-  vec3 diffuse;
-  vec3 specular;
-  real shininess;
+  vec3 diffuse;    // glTF: base / pi below the layer, limited by matt_limit
+  vec3 specular;   // Phong: coefficient. glTF: F0, mirrored at normal incidence
+  real shininess;  // Phong: exponent
   vec3 emission;
+  real occlusion;  // share of the ambient light that reaches the point
+  real ggx_alpha;  // glTF: roughness squared, above 0. Phong: 0
+  real grazing;    // glTF: F90, mirrored at grazing incidence
+  vec2 layer;      // glTF: F0 and F90 of the dielectric layer on the matt one, in its brightest colour
 };
 
 struct Incident {
   vec3 to_light;  // unit
   vec3 radiance;  // zero: the light does not reach this far or this way
   vec3 target;    // p_world of the light, where a shadow ray ends; not set for directional lights
+  real density;   // of the direction among all that are sampled, per steradian; 0: the light has no size
 };
 
 SHARED real cone_share(LightParams light, vec3 to_light) {
@@ -30,6 +36,7 @@ SHARED Incident incident_light(LightParams light, vec3 position, vec3 p_world) {
   Incident result;
   result.radiance = light.radiance;
   result.target = position;
+  result.density = 0.0f;
   if (light.kind == kLightDirectional) {
     result.to_light = -vec3(light.direction);
     return result;
@@ -50,13 +57,13 @@ SHARED boolean faces_light(vec3 n_shading, vec3 n_geometric, vec3 to_light) {
   return dot(n_shading, to_light) > 0.0f && dot(n_geometric, to_light) > 0.0f;
 }
 
-SHARED vec3 phong_ambient(PhongParams material, vec3 ambient_light) {
-  return material.ambient * ambient_light + material.emission;
+SHARED vec3 phong_ambient(ShadingParams material, vec3 ambient_light) {
+  return material.ambient * material.occlusion * ambient_light + material.emission;
 }
 
-// Id + Is of one light where it reaches the point: where `lit` holds, the light is before n. n, to_viewer and
+// Phong's Id + Is of one light where it reaches the point: where `lit` holds, the light is before n. n, to_viewer and
 // incident.to_light are unit vectors.
-SHARED vec3 phong_light(PhongParams material, Incident incident, vec3 n, vec3 to_viewer, boolean lit) {
+SHARED vec3 phong_light(ShadingParams material, Incident incident, vec3 n, vec3 to_viewer, boolean lit) {
   real n_dot_l = dot(n, incident.to_light);
   vec3 sum = material.diffuse * n_dot_l;
   if (any(lit && material.specular != vec3(0.0f))) {

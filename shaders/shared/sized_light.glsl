@@ -7,6 +7,7 @@
 //   rectangle  even radiance on the side that it faces; points evenly by area, so each counts by its cosine
 
 const float kPiByFour = 0.785398163397448309616f;
+const float kOneByTwoPi = 0.159154943091895335769f;
 
 // The square on the disc of radius 1, neighbours as neighbours, areas in proportion (Shirley and Chiu 1997). Sine and
 // cosine are their series: the same on every machine.
@@ -22,14 +23,26 @@ SHARED vec2 disc_of_square(vec2 square) {
   return vec2(radius * pick(wide, cosine, sine), radius * pick(wide, sine, cosine));
 }
 
-// A vector given along two axes across `axis` and along it (Duff et al. 2017).
-SHARED vec3 around(vec3 axis, vec3 local) {
+// Two axes across a unit vector (Duff et al. 2017).
+struct Across {
+  vec3 t;
+  vec3 u;
+};
+
+SHARED Across across(vec3 axis) {
   real side = pick(axis.z < 0.0f, -1.0f, 1.0f);
   real a = -1.0f / (side + axis.z);
   real b = axis.x * axis.y * a;
-  vec3 t = vec3(1.0f + side * axis.x * axis.x * a, side * b, -side * axis.x);
-  vec3 u = vec3(b, side + axis.y * axis.y * a, -axis.y);
-  return t * local.x + u * local.y + axis * local.z;
+  Across result;
+  result.t = vec3(1.0f + side * axis.x * axis.x * a, side * b, -side * axis.x);
+  result.u = vec3(b, side + axis.y * axis.y * a, -axis.y);
+  return result;
+}
+
+// A vector given along two axes across `axis` and along it.
+SHARED vec3 around(vec3 axis, vec3 local) {
+  Across axes = across(axis);
+  return axes.t * local.x + axes.u * local.y + axis * local.z;
 }
 
 // Unit; even in solid angle over the cone as `disc` is over the disc.
@@ -57,6 +70,7 @@ SHARED Incident ball_light(LightParams light, vec3 p_world, vec2 disc) {
   real from_inside = sqrt(max(along * along + (r2 - square), 0.0f));
   real from_outside = light.size * sqrt(max(1.0f - rho2 * (2.0f - rho2 * one_minus_cos) / (1.0f + cosine), 0.0f));
   result.target = p_world + result.to_light * pick(inside, along + from_inside, along - from_outside);
+  result.density = kOneByTwoPi / one_minus_cos;
   result.radiance = light.radiance * pick(inside, 4.0f, 2.0f / (1.0f + cosine));
   result.radiance = pick(distance > light.range, vec3(0.0f), result.radiance);
   if (light.inverse_square) result.radiance /= max(max(square, r2), 1e-12f);
@@ -64,17 +78,25 @@ SHARED Incident ball_light(LightParams light, vec3 p_world, vec2 disc) {
   return result;
 }
 
+SHARED Incident rectangle_light(LightParams light, vec3 p_world, vec2 square) {
+  vec3 position = light.position + light.edge_u * (square.x - 0.5f) + light.edge_v * (square.y - 0.5f);
+  Incident result = incident_light(light, position, p_world);
+  vec3 offset = position - p_world;
+  real area = length(cross(light.edge_u, light.edge_v)) * max(dot(-result.to_light, light.direction), 0.0f);
+  result.density = pick(area > 0.0f, dot(offset, offset) / area, 0.0f);
+  return result;
+}
+
 // What comes from the light's point `square`, in [0, 1)^2, standing for the whole light.
 SHARED Incident sampled_light(LightParams light, vec3 p_world, vec2 square) {
-  if (light.kind == kLightRectangle)
-    return incident_light(light, light.position + light.edge_u * (square.x - 0.5f) + light.edge_v * (square.y - 0.5f),
-                          p_world);
+  if (light.kind == kLightRectangle) return rectangle_light(light, p_world, square);
   if (!(light.size > 0.0f)) return incident_light(light, light.position, p_world);
   vec2 disc = disc_of_square(square);
   if (light.kind != kLightDirectional) return ball_light(light, p_world, disc);
   Incident result;
   result.to_light = direction_in_cone(-vec3(light.direction), light.size, disc);
   result.target = vec3(0.0f);
+  result.density = kOneByTwoPi / light.size;
   result.radiance = light.radiance * (2.0f / (2.0f - light.size));
   return result;
 }

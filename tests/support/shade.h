@@ -33,7 +33,8 @@ inline glm::vec3 sum_of_lights(const std::vector<ShadedLight>& lights, const Sur
     const bool lifted = s.lift != glm::vec3(0.0f) && lifts(kUsualTerminator) &&
                         shared::faces_light_lifted(s.n_shading, s.n_vertices, incident.to_light);
     if (!lifted && !shared::faces_light(s.n_shading, s.n_geometric, incident.to_light)) continue;
-    sum += shared::phong_light(s.material.phong, incident, s.n_shading, s.to_viewer, true);
+    sum += shared::reflected_light(shared::viewed_from(s.to_viewer, s.n_shading, s.material.shading), incident,
+                                   s.n_shading, s.to_viewer, true, 0.0f);
   }
   return sum;
 }
@@ -56,7 +57,7 @@ void for_each_surface(const TraceJob& job, const Image<std::uint32_t>& ids, cons
   });
 }
 
-// Phong per light times its mask bit, plus reflection (empty: none). RGBA, linear; A is 1 where something is
+// Each light's reflected light times its mask bit, plus reflection (empty: none). RGBA, linear; A is 1 where something is
 // hit. mask of 0 bits: no light casts.
 inline void shade(const TraceJob& job, const Image<std::uint32_t>& ids, const MaskImage& mask,
                   const Image<glm::vec3>& reflection, Image<glm::vec4>& color) {
@@ -64,7 +65,7 @@ inline void shade(const TraceJob& job, const Image<std::uint32_t>& ids, const Ma
   std::fill(color.pixels().begin(), color.pixels().end(), glm::vec4(0.0f));
   const std::vector<ShadedLight> lights = shaded_lights(job.scene);
   for_each_surface(job, ids, mask, [&](std::size_t pixel, const SurfaceInteraction& surface, unsigned bits) {
-    glm::vec3 sum = shared::phong_ambient(surface.material.phong, job.scene.ambient_light) +
+    glm::vec3 sum = shared::phong_ambient(surface.material.shading, job.scene.ambient_light) +
                     sum_of_lights(lights, surface, bits);
     if (!reflection.empty()) sum += reflection[pixel];
     color[pixel] = glm::vec4(sum, 1.0f);

@@ -47,6 +47,8 @@ class Environment {
   // Cumulative light, from 0 to 1: up to the end of each row, and within each row up to the end of each
   // texel. A texel has the interpolated light of its area, weighted by its row's share of the sphere.
   std::vector<float> rows_, columns_;
+  // Where the search for a number k / n among n ends begins, likewise.
+  std::vector<std::uint32_t> row_guides_, column_guides_;
 };
 
 // Reads an EXR or Radiance (.hdr, RGBE) picture, told by its bytes. An EXR has the channels R, G and B, or Y

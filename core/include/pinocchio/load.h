@@ -41,12 +41,17 @@ class Warnings {
   std::map<std::pair<std::string, std::string>, std::size_t> known_;  // by `file` and `what`
 };
 
-// How far the files of a scene are trusted.
+// The reflection model of a scene's materials: each file's own (glTF's for its metallic-roughness materials,
+// else Phong's), or Phong's for all.
+enum class Shading : std::uint8_t { from_file, phong };
+
+// How the files of a scene are read, and how far they are trusted.
 struct LoadOptions {
   std::uint64_t limit_bytes = kUsualLoadLimit;  // the most memory that they may claim beyond their own size
   // Opens files that the scene's file names only if they are below its folder, after `..`, absolute names and
   // links are followed. A file elsewhere is an error.
   bool confine = false;
+  Shading shading = Shading::from_file;
 };
 
 // Reads glTF 2.0 (.gltf, .glb), Wavefront OBJ+MTL (.obj) or PLY (.ply), chosen by the file's extension. A

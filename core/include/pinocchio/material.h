@@ -8,14 +8,20 @@
 
 namespace pinocchio {
 
-// Phong with mirrors and glass, in linear colour: I = Ia + Id(L) + Is(L) + Ir(R) + It(T) (Whitted 1980).
+// A reflection model with mirrors and glass, in linear colour: I = Ia + Id(L) + Is(L) + Ir(R) + It(T) (Whitted
+// 1980). Id and Is are Phong's or glTF's.
 struct Material {
   std::string name;
   glm::vec3 ambient{0.8f};
   glm::vec3 diffuse{0.8f};
-  glm::vec3 specular{0.0f};
+  glm::vec3 specular{0.0f};     // glTF's model: F0, mirrored at normal incidence
   float shininess = 1.0f;       // exponent of (R.V), not of the half vector
-  glm::vec3 reflectance{0.0f};  // weight of the mirrored ray; with `fresnel`: at normal incidence
+  // glTF's reflection model (GGX): roughness squared. 0: Phong's model.
+  float ggx_alpha = 0.0f;
+  float grazing = 1.0f;   // glTF's model: F90, mirrored at grazing incidence
+  glm::vec2 layer{0.0f};  // glTF's model: F0 and F90 of the dielectric layer above the matt one
+  // Weight of the mirrored ray where mirrors are not sampled; with `fresnel`: at normal incidence.
+  glm::vec3 reflectance{0.0f};
   // Exponent of the lobe over which samples spread the mirrored rays. Lower is rougher.
   // 0: sharp.
   float gloss = 0.0f;
@@ -36,6 +42,7 @@ struct Material {
   // reflectance and transmittance here are upper limits.
   int maps = -1;
 
+  [[nodiscard]] bool is_microfacet() const { return ggx_alpha > 0.0f; }
   [[nodiscard]] bool reflects() const { return reflectance.x + reflectance.y + reflectance.z > 0.0f; }
   [[nodiscard]] bool is_glossy() const { return gloss > 0.0f && (reflects() || transmits()); }
   [[nodiscard]] bool transmits() const { return transmittance.x + transmittance.y + transmittance.z > 0.0f; }

@@ -163,7 +163,7 @@ template <class Items>
 [[nodiscard]] Expected<GltfFile> read_gltf_file(const std::filesystem::path& path, Loading& loading);
 
 // The file's materials, in the file's order, with their maps, whose textures are still the file's images.
-void add_gltf_materials(const GltfFile& file, MeshData& mesh);
+void add_gltf_materials(const GltfFile& file, MeshData& mesh, Shading shading);
 
 struct EncodedImage;
 // Image `index` of the file, which is in range.

@@ -144,7 +144,7 @@ void drop_unused_attributes(MeshData& mesh, RestPose& rest) {
 class SceneReader {
  public:
   SceneReader(const GltfFile& file, Loading& loading) : file_(file), loading_(loading) {
-    add_gltf_materials(file, mesh_);
+    add_gltf_materials(file, mesh_, loading_.shading);
   }
 
   Expected<Scene> read() {

@@ -5,7 +5,7 @@
 #include "core/scene/gltf/file.h"
 #include "core/scene/gltf/format/json.h"
 #include "core/scene/gltf/format/material_table.h"
-#include "core/scene/gltf/phong_from_gltf.h"
+#include "core/scene/gltf/material_from_surface.h"
 
 namespace pinocchio {
 namespace {
@@ -120,13 +120,13 @@ bool changes(const MaterialMaps& m) {
          std::ranges::any_of(m.uses(), &TextureUse::used);
 }
 
-// Phong of our own extras, else Phong from metallic-roughness.
-Material material_of(const Json& json, MaterialMaps& maps) {
+// Phong of our own extras, else from metallic-roughness.
+Material material_of(const Json& json, MaterialMaps& maps, Shading shading) {
   Material material;
   maps.surface = surface_of(json, material);
   maps.from_gltf = member(our_extras(&json), "phong") == nullptr;
   if (maps.from_gltf)
-    material = phong_from_gltf(maps.surface);
+    material = material_from_surface(maps.surface, shading);
   else
     read_phong(json, maps.surface.base_color, material, maps.surface);
   material.name = text_member(&json, "name");
@@ -149,7 +149,7 @@ std::vector<bool> colored_materials(const GltfFile& file) {
 
 }  // namespace
 
-void add_gltf_materials(const GltfFile& file, MeshData& mesh) {
+void add_gltf_materials(const GltfFile& file, MeshData& mesh, Shading shading) {
   // What primitives without a material have: an empty one (glTF 2.0, "Default Material").
   const Json default_material{{"name", "default"}};
   const std::vector<bool> colored = colored_materials(file);
@@ -158,7 +158,7 @@ void add_gltf_materials(const GltfFile& file, MeshData& mesh) {
     const Json& json = i < materials.size() ? materials[i] : default_material;
     MaterialMaps maps = maps_of(file, json);
     maps.vertex_colors = colored[i];
-    Material material = material_of(json, maps);
+    Material material = material_of(json, maps, shading);
     if (colored[i] && text_member(&json, "alphaMode") == "BLEND") maps.alpha_mode = AlphaMode::blend;
     if (changes(maps)) make_maps(mesh, material) = maps;
     mesh.materials.push_back(std::move(material));

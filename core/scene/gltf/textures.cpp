@@ -2,7 +2,7 @@
 
 #include "core/image/codecs/texture_file.h"
 #include "core/scene/gltf/file.h"
-#include "core/scene/gltf/phong_from_gltf.h"
+#include "core/scene/gltf/material_from_surface.h"
 #include "core/scene/mip_levels.h"
 
 namespace pinocchio {
@@ -66,14 +66,15 @@ void bound_rays(const MeshData& mesh, Material& material, const MaterialMaps& ma
   sharpest.roughness *= rough_metal.least.g;
   sharpest.metallic *= rough_metal.most.b;
   sharpest.transmission *= passes.least.r;  // transmitted light is not mirrored
-  const Material mirror = phong_from_gltf(sharpest);
+  const Shading shading = material.is_microfacet() ? Shading::from_file : Shading::phong;
+  const Material mirror = material_from_surface(sharpest, shading);
   material.reflectance = mirror.reflectance;
   material.fresnel = mirror.fresnel;
   // The less metallic a surface is, the more light passes through it.
   GltfSurface clearest = maps.surface;
   clearest.metallic *= rough_metal.least.b;
   clearest.transmission *= passes.most.r;
-  material.transmittance = phong_from_gltf(clearest).transmittance;
+  material.transmittance = material_from_surface(clearest, shading).transmittance;
 }
 
 }  // namespace

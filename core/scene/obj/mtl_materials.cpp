@@ -6,7 +6,7 @@
 
 #include "core/files/input_file.h"
 #include "core/image/codecs/texture_file.h"
-#include "core/scene/gltf/phong_from_gltf.h"
+#include "core/scene/gltf/material_from_surface.h"
 
 namespace pinocchio {
 namespace {
@@ -43,7 +43,7 @@ void apply_metallic_roughness(const MtlMaterial& m, Material& material) {
   surface.base_color = material.diffuse;
   surface.metallic = m.metallic.value_or(0.0f);
   surface.roughness = m.roughness.value_or(0.5f);
-  const Material phong = phong_from_gltf(surface);
+  const Material phong = material_from_surface(surface, Shading::phong);
   material.diffuse *= 1.0f - surface.metallic;
   material.specular = phong.specular * std::numbers::pi_v<float>;
   material.shininess = phong.shininess;

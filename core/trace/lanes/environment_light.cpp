@@ -41,7 +41,25 @@ void EnvironmentLight::sample(unsigned lanes, SampleLanes& packet) const {
     packet.direction[1][i] = down.cosine;
     packet.direction[2][i] = -down.sine * around.cosine;
     for (int c = 0; c < 3; ++c) packet.light[c][i] = light[c];
+    packet.density[i] = 1.0f / share;
   });
+}
+
+void EnvironmentLight::look_up(unsigned lanes, SampleLanes& packet) const {
+  for_each_lane(lanes, [&](int i) {
+    const glm::vec3 direction(packet.direction[0][i], packet.direction[1][i], packet.direction[2][i]);
+    const glm::vec3 light = radiance(direction);
+    for (int c = 0; c < 3; ++c) packet.light[c][i] = light[c];
+    packet.density[i] = density(direction);
+  });
+}
+
+float EnvironmentLight::density(const glm::vec3& direction) const {
+  if (!shines_) return 0.0f;
+  const glm::vec3 d = glm::normalize(direction);
+  const float sine = std::sqrt(d.x * d.x + d.z * d.z);
+  const float area = 2.0f * glm::pi<float>() * glm::pi<float>() * std::max(sine, 1e-6f);
+  return environment_->density(shared::environment_place(params_, d)) / area;
 }
 
 }  // namespace pinocchio

@@ -34,6 +34,7 @@ struct SampleLanes {
   alignas(64) Column number[2];     // in [0, 1)
   alignas(64) Column direction[3];  // unit
   alignas(64) Column light[3];      // from there, divided by the direction's density
+  alignas(64) Column density;       // per steradian
 };
 
 // A scene's environment as rays read it.
@@ -47,6 +48,10 @@ class EnvironmentLight {
   }
   // A direction from two numbers. Directions that more light comes from are likelier.
   void sample(unsigned lanes, SampleLanes& packet) const;
+  // The light from the packet's directions, not divided, and the density with which sample() finds them.
+  void look_up(unsigned lanes, SampleLanes& packet) const;
+  // The density of sample()'s directions at this one, per steradian.
+  [[nodiscard]] float density(const glm::vec3& direction) const;
   [[nodiscard]] bool shines() const { return shines_; }
 
  private:

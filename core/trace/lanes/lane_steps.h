@@ -59,13 +59,15 @@ struct Bounce {
   glm::uvec2 corner{0};
   std::uint32_t scale = 1, dimension = 0;
   const EnvironmentLight* environment = nullptr;  // lights the points; null: none does
+  bool lobes = false;  // directions of glossy lobes are sampled; else mirrors are sharp
 
   // Outputs. Queues have room for all rays of the step; null: not wanted.
   RayQueue* shadow = nullptr;  // one a slot
   // Likewise: rays to the origins of lifted shadow rays; their `pixel` is the shadow ray's place in its
   // queue.
   RayQueue* ways_up = nullptr;
-  RayQueue *sky = nullptr, *sky_ways_up = nullptr;  // the environment's, likewise
+  RayQueue *sky = nullptr, *sky_ways_up = nullptr;  // the environment's and distant lights', likewise
+  RayQueue* lobe_lights = nullptr;                  // from glossy lobes to lights with a size
   RayQueue *mirrored = nullptr, *refracted = nullptr, *straight = nullptr;
   RayQueue* diffuse = nullptr;  // towards light from other surfaces
   float* radiance = nullptr;    // a tile's pixels, RGBA

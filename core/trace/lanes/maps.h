@@ -41,6 +41,13 @@ inline Vec load(const MapLanes::Column (&columns)[3]) {
   m.reflectance = select(mapped, load(packet.reflectance), m.reflectance);
   m.transmittance = select(mapped, load(packet.transmittance), m.transmittance);
   m.shininess = select(mapped, Float::load(packet.shininess), m.shininess);
+  m.occlusion = select(mapped, Float::load(packet.occlusion), m.occlusion);
+  if (m.microfacet != 0) {
+    m.ggx_alpha = select(mapped, Float::load(packet.ggx_alpha), m.ggx_alpha);
+    m.grazing = select(mapped, Float::load(packet.grazing), m.grazing);
+    m.layer.x = select(mapped, Float::load(packet.layer[0]), m.layer.x);
+    m.layer.y = select(mapped, Float::load(packet.layer[1]), m.layer.y);
+  }
   m.ior = select(mapped, Float::load(packet.ior), m.ior);
   m.fresnel = (m.fresnel & ~m.mapped) | packet.fresnel;
   m.reflects = (m.reflects & ~m.mapped) | packet.reflects;

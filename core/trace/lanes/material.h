@@ -10,16 +10,18 @@ inline bool any_component(const glm::vec3& v) {
   return v.x + v.y + v.z > 0.0f;
 }
 
-struct LaneMaterial : PhongParams {
+struct LaneMaterial : ShadingParams {
   Vec reflectance{Float(0.0f)}, transmittance{Float(0.0f)};
   Float ior{1.0f};
   Float alpha{1.0f};
   Float gloss{0.0f};
-  unsigned glossy = 0, fresnel = 0, reflects = 0, transmits = 0, mapped = 0, blends = 0, brdf = 0;  // lanes
+  unsigned glossy = 0, microfacet = 0, fresnel = 0, reflects = 0, transmits = 0, mapped = 0, blends = 0,
+           brdf = 0;  // lanes
 
   LaneMaterial(const SceneArrays& scene, Int materials, Mask lanes) {
     ambient = diffuse = specular = emission = Vec(Float(0.0f));
-    shininess = 0.0f;
+    shininess = ggx_alpha = grazing = layer.x = layer.y = 0.0f;
+    occlusion = 1.0f;
     for_each_distinct(materials, lanes, [&](std::uint32_t index, Mask same) {
       const Material& m = scene.materials[index];
       ambient = select(same, Vec(m.ambient), ambient);
@@ -33,6 +35,13 @@ struct LaneMaterial : PhongParams {
       const unsigned bits = same.bits();
       if (m.fresnel) fresnel |= bits;
       if (m.brdf) brdf |= bits;
+      if (m.is_microfacet()) {
+        ggx_alpha = select(same, Float(m.ggx_alpha), ggx_alpha);
+        grazing = select(same, Float(m.grazing), grazing);
+        layer.x = select(same, Float(m.layer.x), layer.x);
+        layer.y = select(same, Float(m.layer.y), layer.y);
+        microfacet |= bits;
+      }
       if (m.gloss > 0.0f) {
         gloss = select(same, Float(m.gloss), gloss);
         glossy |= bits;

@@ -78,13 +78,26 @@ inline void append(const Vec& origin, const Vec& direction, const Vec& light, In
 // Appends those rays that are worth `least` in some colour. `medium`: what they go through; null where no
 // material has one.
 inline void follow(const LaneSurface& s, const Vec& direction, const Vec& throughput, Int pixel, Mask lanes,
-                   float least, RayQueue& queue, const Int* medium) {
+                   float least, RayQueue& queue, const Int* medium, Float density = Float(0.0f)) {
   const Mask worth = lanes & ~(largest(throughput) < Float(least));
   if (worth.bits() == 0) return;
+  if (queue.density) store_packed(queue.density + queue.size, density, worth);
   if (queue.width) store_packed(queue.width + queue.size, s.width, worth);
   if (medium) store_packed(queue.medium + queue.size, *medium, worth);
   append(offset_origin(s, direction), direction, throughput, pixel, worth, queue);
 }
+
+// One direction a point along the lobe of glTF's reflection model, by the density of visible normals
+// (lobe.h).
+struct LaneLobe {
+  Mask lanes = Mask::from_bits(0);  // the points that have one
+  Vec facet{Float(0.0f)};           // unit normal of the microfacet
+  Vec direction{Float(0.0f)};       // unit
+  Vec throughput{Float(0.0f)};      // share of the light from there
+  Float unshadowed{0.0f};           // the part of it that is not Fresnel's
+  Float density{0.0f};              // per steradian; 0: no other method finds this light
+  Float counted{0.0f};              // what reflected_light weighs the lobe's density with
+};
 
 // Rays through a surface that blends, with what it leaves of the light from behind.
 inline void go_straight_on(const LaneSurface& s, const LaneMaterial& m, const Vec& throughput, Int pixel,
@@ -93,41 +106,74 @@ inline void go_straight_on(const LaneSurface& s, const LaneMaterial& m, const Ve
          bounce.options->throughput_cutoff, *bounce.straight, media ? &media->here : nullptr);
 }
 
+// Glass: sharp, or about the lobe's facets where it is rough. An infinitely thin wall (ior 1) mirrors by
+// Schlick's formula where lobes are sampled, and lets light pass without bending it.
 template <bool kSampled>
-inline void scatter(const LaneSurface& s, const LaneMaterial& m, const Vec& throughput,
-                    const SampledPixel* sampling, Int pixel, Mask lanes, const Bounce& bounce,
-                    const LaneMedia* media) {
-  const unsigned alive = lanes.bits(), glass = m.transmits & alive,
-                 opaque = m.reflects & ~m.transmits & alive;
-  if ((m.blends & alive) != 0) go_straight_on(s, m, throughput, pixel, lanes, bounce, media);
-  if ((glass | opaque) == 0) return;
-  const Float zero(0.0f), one(1.0f);
-  const Float cos_in = clamp(dot(s.n_shading, s.to_viewer), 0.0f, 1.0f);
-  Vec mirror_share(zero), own = throughput;
-  if (m.blends != 0) own = own * m.alpha;
-  if (opaque != 0) {
-    // Schlick 1994: (1 - cos)^5.
-    const Float c = one - cos_in, c2 = c * c;
-    const Float grazing = select(Mask::from_bits(m.fresnel), c2 * c2 * c, zero);
-    mirror_share = m.reflectance + (Vec(one) - m.reflectance) * grazing;
-  }
-  if (glass != 0) {
-    const Float eta = select(s.leaving, one / m.ior, m.ior);
-    const Vec through = refracted(s, eta);
-    // Where the two normals disagree there may be no way through although Fresnel has a share for it.
-    const Float share = select(through == Vec(zero), one, fresnel_dielectric(cos_in, eta));
-    mirror_share = select(Mask::from_bits(glass), Vec(share), mirror_share);
-    follow(s, through, own * (one - share) * m.transmittance, pixel, Mask::from_bits(glass),
-           bounce.options->throughput_cutoff, *bounce.refracted, media ? &media->beyond : nullptr);
-  }
-  Mask mirrors = Mask::from_bits(glass | opaque);
-  Vec direction = mirrored(s);
-  if constexpr (kSampled)
-    if ((m.glossy & (glass | opaque)) != 0)
+[[gnu::noinline]] void scatter_glass(const LaneSurface& s, const LaneMaterial& m, const Vec& own,
+                                     const LaneLobe& lobe, const SampledPixel* sampling, Int pixel,
+                                     Mask lanes, const Bounce& bounce, const LaneMedia* media) {
+  const Float zero(0.0f), one(1.0f), two(2.0f);
+  const float least = bounce.options->throughput_cutoff;
+  const Float eta = select(s.leaving, one / m.ior, m.ior);
+  Float cos_in = clamp(dot(s.n_shading, s.to_viewer), 0.0f, 1.0f), left = one;
+  Vec through = refracted(s, eta), direction = mirrored(s), mirror_share(zero);
+  Mask mirrors = lanes, thin = Mask::from_bits(0);
+  if constexpr (kSampled) {
+    if ((m.glossy & lanes.bits()) != 0)
       direction = spread(s, direction, m.gloss,
                          sample_2d(*sampling, bounce.dimension + shared::kMirrorDimension), mirrors);
-  follow(s, direction, own * mirror_share, pixel, mirrors, bounce.options->throughput_cutoff,
-         *bounce.mirrored, media ? &media->here : nullptr);
+    const Mask rough = lobe.lanes & (Float(shared::kLeastAlpha) < m.ggx_alpha);
+    thin = lobe.lanes & (m.ior == one);
+    if (rough.bits() != 0) {
+      cos_in = select(rough, clamp(dot(lobe.facet, s.to_viewer), 0.0f, 1.0f), cos_in);
+      const Vec passed = lobe.direction - s.n_shading * (two * dot(s.n_shading, lobe.direction));
+      const Vec bent = select(thin, passed, refract(-s.to_viewer, lobe.facet, one / eta));
+      through = select(rough, select(dot(bent, s.n_geometric) < zero, bent, Vec(zero)), through);
+      direction = select(rough, lobe.direction, direction);
+      left = select(rough, lobe.unshadowed, left);
+    }
+  }
+  // Where the two normals disagree there may be no way through although Fresnel has a share for it.
+  const Float share = select(through == Vec(zero), one, fresnel_dielectric(cos_in, eta));
+  mirror_share = Vec(share);
+  if (thin.bits() != 0) mirror_share = select(thin, schlick(m.specular, m.grazing, cos_in), mirror_share);
+  follow(s, through, own * ((one - largest(mirror_share)) * left) * m.transmittance, pixel, lanes, least,
+         *bounce.refracted, media ? &media->beyond : nullptr);
+  follow(s, direction, own * mirror_share * left, pixel, mirrors, least, *bounce.mirrored,
+         media ? &media->here : nullptr);
+}
+
+template <bool kSampled>
+inline void scatter(const LaneSurface& s, const LaneMaterial& m, const Vec& throughput, const LaneLobe& lobe,
+                    const SampledPixel* sampling, Int pixel, Mask lanes, const Bounce& bounce,
+                    const LaneMedia* media) {
+  const Mask glass = lanes & Mask::from_bits(m.transmits),
+             opaque =
+                 lanes & Mask::from_bits(m.reflects & ~m.transmits & ~(bounce.lobes ? m.microfacet : 0u));
+  if ((m.blends & lanes.bits()) != 0) go_straight_on(s, m, throughput, pixel, lanes, bounce, media);
+  const Vec own = m.blends != 0 ? throughput * m.alpha : throughput;
+  const Int* const medium = media ? &media->here : nullptr;
+  if (opaque.bits() != 0) {
+    // Schlick 1994: (1 - cos)^5.
+    const Float zero(0.0f), one(1.0f);
+    const Float c = one - clamp(dot(s.n_shading, s.to_viewer), 0.0f, 1.0f), c2 = c * c;
+    const Float grazing = select(Mask::from_bits(m.fresnel), c2 * c2 * c, zero);
+    Mask mirrors = opaque;
+    Vec direction = mirrored(s);
+    if constexpr (kSampled)
+      if ((m.glossy & opaque.bits()) != 0)
+        direction = spread(s, direction, m.gloss,
+                           sample_2d(*sampling, bounce.dimension + shared::kMirrorDimension), mirrors);
+    follow(s, direction, own * (m.reflectance + (Vec(one) - m.reflectance) * grazing), pixel, mirrors,
+           bounce.options->throughput_cutoff, *bounce.mirrored, medium);
+  }
+  if constexpr (kSampled) {
+    const Mask glossy = lobe.lanes & ~glass & (lobe.throughput != Vec(0.0f));
+    if (glossy.bits() != 0)
+      follow(s, lobe.direction, own * lobe.throughput, pixel, glossy, 0.0f, *bounce.mirrored, medium,
+             lobe.density);
+  }
+  if (glass.bits() != 0) scatter_glass<kSampled>(s, m, own, lobe, sampling, pixel, glass, bounce, media);
 }
 
 }  // namespace

@@ -107,6 +107,7 @@ using shared::kSequenceBlueNoise, shared::kSequenceSobol;
 #define SHARED [[nodiscard, maybe_unused, gnu::always_inline]] inline
 // clang-format off
 #include "shaders/shared/phong.glsl"
+#include "shaders/shared/microfacet.glsl"
 #include "shaders/shared/sampling.glsl"
 #include "shaders/shared/sized_light.glsl"
 #include "shaders/shared/surface.glsl"

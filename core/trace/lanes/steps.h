@@ -4,6 +4,7 @@
 #include <optional>
 
 #include "core/trace/lanes/environment.h"
+#include "core/trace/lanes/lobe.h"
 #include "core/trace/lanes/maps.h"
 #include "core/trace/lanes/scatter.h"
 #include "core/trace/lanes/terminator.h"
@@ -91,29 +92,36 @@ template <bool kSampled>
 }
 
 // An upper bound of what the light adds to the point, in its brightest colour: Phong's terms with the
-// highlight at its greatest.
-inline Float most_light(const LaneMaterial& material, const Incident& incident, const LaneSurface& s) {
+// highlight at its greatest; what glTF's model returns.
+inline Float most_light(const LaneMaterial& material, const Incident& incident, const LaneSurface& s,
+                        Float lobe) {
   const Float n_dot_l = max(dot(s.n_shading, incident.to_light), Float(0.0f));
-  return largest(incident.radiance * (material.diffuse * n_dot_l + material.specular));
+  const Float phong = largest(incident.radiance * (material.diffuse * n_dot_l + material.specular));
+  if (material.microfacet == 0) return phong;
+  const Mask microfacet = Mask::from_bits(material.microfacet);
+  return select(microfacet,
+                largest(reflected_light(material, incident, s.n_shading, s.to_viewer, microfacet, lobe)),
+                phong);
 }
 
 // Lights the points of a packet: appends shadow rays and returns the light that needs none.
 template <bool kSampled>
 inline Vec light_points(const Bounce& bounce, const Corners& corners, const LaneSurface& s,
-                        const LaneMaterial& m, const Vec& throughput, const SampledPixel* sampling, Int pixel,
-                        Mask lanes) {
+                        const LaneMaterial& m, const Vec& throughput, const LaneLobe& lobe,
+                        const SampledPixel* sampling, Int pixel, Mask lanes) {
   ShadowStarts starts(bounce.options->terminator, corners, s);
   Vec sum(Float(0.0f));
   if (bounce.adds_ambient) sum = phong_ambient(m, bounce.ambient_light);
   for (std::size_t i = 0; i < bounce.light_count; ++i) {
     const BounceLight& light = bounce.lights[i];
     const Incident incident = light_from<kSampled>(light, s, sampling, bounce.dimension);
+    const Float counted = light.slot < 0 ? Float(0.0f) : lobe.counted;  // lobes look for casting lights
     Mask lit = lanes & starts.faces_light(incident.to_light) & (incident.radiance != Vec(0.0f));
     if (bounce.visible && light.slot >= 0 && bounce.options->light_cutoff > 0.0f)
-      lit = lit & ~(most_light(m, incident, s) < Float(bounce.options->light_cutoff));
+      lit = lit & ~(most_light(m, incident, s, counted) < Float(bounce.options->light_cutoff));
     if (lit.bits() == 0) continue;
     Vec term(Float(0.0f));
-    if (bounce.adds_light) term = phong_light(m, incident, s.n_shading, s.to_viewer, lit);
+    if (bounce.adds_light) term = reflected_light(m, incident, s.n_shading, s.to_viewer, lit, counted);
     if (bounce.options->terminator == Terminator::smoothed)
       term = term * terminator_factor(s.n_shading, s.n_geometric, incident.to_light);
     if (light.slot < 0) {
@@ -125,7 +133,8 @@ inline Vec light_points(const Bounce& bounce, const Corners& corners, const Lane
     append_shadow_rays(light, starts, incident, carried, pixel, lit, bounce);
   }
   if constexpr (kSampled)
-    if (bounce.environment) sample_environment(bounce, starts, s, m, throughput, *sampling, pixel, lanes);
+    if (bounce.environment)
+      sample_environment(bounce, starts, s, m, throughput, lobe, *sampling, pixel, lanes);
   return sum;
 }
 
@@ -201,9 +210,20 @@ void bounce_packets(const Bounce& bounce, const RayQueue& rays) {
     if constexpr (kSampled)
       sampling = sampled_pixel(bounce.options->sampling, whole_picture_pixel(bounce, pixel));
     const SampledPixel* const samples = kSampled ? &*sampling : nullptr;
-    const Vec certain = light_points<kSampled>(bounce, corners, s, m, own, samples, pixel, lanes);
+    LaneLobe lobe;
+    if (m.microfacet != 0) {
+      m.diffuse = viewed_from(s.to_viewer, s.n_shading, m).diffuse;
+      if constexpr (kSampled)
+        if (bounce.lobes) lobe = sample_lobe(s, m, own, *samples, lanes, bounce);
+    }
+    const Vec certain = light_points<kSampled>(bounce, corners, s, m, own, lobe, samples, pixel, lanes);
     if (bounce.adds_light) add_light(own * certain, rays.pixel + i, lanes, bounce.radiance);
-    if (bounce.mirrored) scatter<kSampled>(s, m, throughput, samples, pixel, lanes, bounce, media);
+    if constexpr (kSampled)
+      if (lobe.lanes.bits() != 0) {
+        light_along_lobe(bounce, s, lobe, own, pixel);
+        if (bounce.environment && !bounce.mirrored) sky_along_lobe(bounce, s, lobe, own, pixel);
+      }
+    if (bounce.mirrored) scatter<kSampled>(s, m, throughput, lobe, samples, pixel, lanes, bounce, media);
     if constexpr (kSampled)
       if (bounce.diffuse) scatter_diffuse(bounce, s, m, own, *samples, pixel, lanes, media);
   }
@@ -235,7 +255,8 @@ void visible_points(const Bounce& bounce, const glm::vec3& axis, const RayQueue&
     if (to.depth) dot(s.p_world - origin, Vec(axis)).store(to.depth + i);
     if (to.position[0]) put(s.p_world, to.position, i);
     if (to.normal[0]) put(s.n_shading, to.normal, i);
-    if (to.albedo[0]) put(m.diffuse, to.albedo, i);
+    // glTF's base colour; of Phong's materials the matt part.
+    if (to.albedo[0]) put(select(Mask::from_bits(m.microfacet), m.ambient, m.diffuse), to.albedo, i);
   }
 }
 

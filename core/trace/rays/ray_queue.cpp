@@ -9,13 +9,16 @@ constexpr std::size_t kFloatColumns = 9, kWordColumns = 2;
 
 }  // namespace
 
-void RayQueue::make_room(std::size_t rays, bool cones, bool media) {
+void RayQueue::make_room(std::size_t rays, const ExtraColumns& extra) {
   size = 0;
   const std::size_t needed = rays + kQueuePad;
-  if (cones && widths_.size() < needed) widths_ = AlignedVector<float>(2 * needed);
-  width = cones ? widths_.data() : nullptr;
-  if (media && media_.size() < needed) media_ = AlignedVector<std::uint32_t>(2 * needed);
-  medium = media ? media_.data() : nullptr;
+  const auto column_of = [needed](auto& column, bool wanted) {
+    if (wanted && column.size() < needed) column = std::remove_cvref_t<decltype(column)>(2 * needed);
+    return wanted ? column.data() : nullptr;
+  };
+  width = column_of(widths_, extra.width);
+  density = column_of(densities_, extra.density);
+  medium = column_of(media_, extra.medium);
   if (needed <= room_) return;
   // Not a power of two apart: columns of one ray would compete for one set of the cache.
   constexpr std::size_t kLine = kCacheLine / sizeof(float);
@@ -34,19 +37,19 @@ void RayQueue::make_room(std::size_t rays, bool cones, bool media) {
   triangle = pixel + room_;
 }
 
-void RayQueue::make_more_room(std::size_t rays, bool cones, bool media) {
+void RayQueue::make_more_room(std::size_t rays, const ExtraColumns& extra) {
   const std::size_t needed = size + rays + kQueuePad;
-  if (needed <= room_ && (!cones || (width && widths_.size() >= needed)) &&
-      (!media || (medium && media_.size() >= needed)))
+  if (needed <= room_ && (!extra.width || (width && widths_.size() >= needed)) &&
+      (!extra.medium || (medium && media_.size() >= needed)))
     return;
   RayQueue larger;
-  larger.make_room(2 * size + rays, cones, media);
+  larger.make_room(2 * size + rays, extra);
   larger.size = size;
   for (auto columns : {&RayQueue::origin, &RayQueue::direction, &RayQueue::light})
     for (int axis = 0; axis < 3; ++axis) std::copy_n((this->*columns)[axis], size, (larger.*columns)[axis]);
   std::copy_n(pixel, size, larger.pixel);
-  if (cones && width) std::copy_n(width, size, larger.width);
-  if (media && medium) std::copy_n(medium, size, larger.medium);
+  if (extra.width && width) std::copy_n(width, size, larger.width);
+  if (extra.medium && medium) std::copy_n(medium, size, larger.medium);
   *this = std::move(larger);
 }
 

@@ -23,6 +23,11 @@ struct RayColumns {
   float reach = kInfinity;
 };
 
+// The columns that not every queue has.
+struct ExtraColumns {
+  bool width = false, medium = false, density = false;
+};
+
 // A thread's rays of one kind: filled packet by packet, traced, and read again. Lanes append to it by storing
 // whole packets behind the last ray, so it is given its size beforehand (make_room) and never grows
 // meanwhile.
@@ -31,17 +36,18 @@ struct RayQueue {
   float* light[3] = {};               // a path's throughput; a shadow ray's light if it is not blocked
   std::uint32_t* pixel = nullptr;     // in the tile
   float* width = nullptr;             // of its cone at the origin; null: textures are not filtered
+  float* density = nullptr;           // of the direction, per steradian, where other methods find it too;
+                                      // else 0
   std::uint32_t* triangle = nullptr;  // hit by the ray
   std::uint32_t* medium =
       nullptr;  // the material that it passes through, or kNoMedium; null: there are no media
   std::size_t size = 0;
 
-  // Empties the queue and makes room for `rays` and a packet. cones, media: with the columns `width`,
-  // `medium`.
-  void make_room(std::size_t rays, bool cones = false, bool media = false);
+  // Empties the queue and makes room for `rays` and a packet.
+  void make_room(std::size_t rays, const ExtraColumns& extra = {});
 
-  // Keeps the rays and makes room for `rays` more.
-  void make_more_room(std::size_t rays, bool cones = false, bool media = false);
+  // Keeps the rays and makes room for `rays` more. Densities are not kept.
+  void make_more_room(std::size_t rays, const ExtraColumns& extra = {});
 
   [[nodiscard]] RayColumns columns(float reach = kInfinity) const {
     return {{origin[0], origin[1], origin[2]}, {direction[0], direction[1], direction[2]}, nullptr, reach};
@@ -50,7 +56,7 @@ struct RayQueue {
  private:
   AlignedVector<float> floats_;
   AlignedVector<std::uint32_t> words_;
-  AlignedVector<float> widths_;
+  AlignedVector<float> widths_, densities_;
   AlignedVector<std::uint32_t> media_;
   std::size_t room_ = 0;
 };

@@ -25,7 +25,7 @@ void TileTracer::follow_diffuse(int bounce_count) {
   std::swap(diffuse_, next_diffuse_);
   counts_.indirect += diffuse_.size;
   const int generation = bounce_count * (plan_->out.depth + 1);
-  next_diffuse_.make_room(0, plan_->further.footprint->angle > 0.0f, plan_->further.attenuates);
+  next_diffuse_.make_room(0, extra_columns());
   make_room(diffuse_.size, rays_);
   Bounce step = plan_->further;
   step.mirrored = plan_->out.depth > 0 ? rays_.data() : nullptr;
@@ -70,24 +70,32 @@ void TileTracer::follow_mirrors(int bounce_count) {
 void TileTracer::add_environment(const RayQueue& rays) {
   for (std::size_t i = 0; i < rays.size; ++i) {
     if (rays.triangle[i] != kNoTriangle) continue;
-    const glm::vec3 light =
-        plan_->environment->radiance({rays.direction[0][i], rays.direction[1][i], rays.direction[2][i]});
+    const glm::vec3 direction(rays.direction[0][i], rays.direction[1][i], rays.direction[2][i]);
+    glm::vec3 light = plan_->environment->radiance(direction);
+    // A sample of the environment where the ray starts may have found the same light.
+    const float density = rays.density && plan_->further.environment ? rays.density[i] : 0.0f;
+    if (density > 0.0f) light *= density / (density + plan_->environment->density(direction));
     const glm::vec3 share(rays.light[0][i], rays.light[1][i], rays.light[2][i]);
     reflected_[rays.pixel[i]] += glm::vec4(share * light, 0.0f);
   }
 }
 
-// Fires shadow rays at samples of the environment; its light is added to the mirrored light, also at visible
-// points.
+// Fires shadow rays at samples of the environment, and along lobes at lights.
 void TileTracer::fire_at_environment(int generation) {
-  if (!plan_->further.environment || sky_.size == 0) return;
-  if (blocked_.size() < sky_.size + kQueuePad) blocked_.resize(2 * sky_.size + kQueuePad);
-  if (plan_->out.on_rays) plan_->out.on_rays({sky_.columns(), sky_.size, generation, true});
-  ask_occluded(sky_, kInfinity);
-  block_by_ways_up(sky_ways_up_, generation);
-  for (std::size_t i = 0; i < sky_.size; ++i)
+  fire_reflected(sky_, kInfinity, sky_ways_up_, generation);
+  fire_reflected(lobe_lights_, 1.0f, {}, generation);
+}
+
+// Adds the light of shadow rays that nothing blocks to the mirrored light, also at visible points.
+void TileTracer::fire_reflected(RayQueue& queue, float reach, const RayQueue& ways_up, int generation) {
+  if (queue.size == 0) return;
+  if (blocked_.size() < queue.size + kQueuePad) blocked_.resize(2 * queue.size + kQueuePad);
+  if (plan_->out.on_rays) plan_->out.on_rays({queue.columns(reach), queue.size, generation, true});
+  ask_occluded(queue, reach);
+  block_by_ways_up(ways_up, generation);
+  for (std::size_t i = 0; i < queue.size; ++i)
     if (!blocked_[i])
-      reflected_[sky_.pixel[i]] += glm::vec4(sky_.light[0][i], sky_.light[1][i], sky_.light[2][i], 0.0f);
+      reflected_[queue.pixel[i]] += glm::vec4(queue.light[0][i], queue.light[1][i], queue.light[2][i], 0.0f);
 }
 
 // Sets blocked_ for each shadow ray.

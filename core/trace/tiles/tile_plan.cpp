@@ -50,7 +50,8 @@ TilePlan::TilePlan(const TraceJob& j, const TileOutputs& o)
       blends(any_maps(*j.scene.mesh, &MaterialMaps::blends)),
       passed_backs(*j.scene.mesh, j.options.backfaces),
       all_lights(lights_of(j.scene)),
-      casting(casting_lights(j.scene).size()) {
+      casting(casting_lights(j.scene).size()),
+      sized_lights(static_cast<std::size_t>(std::ranges::count_if(j.scene.lights, &Light::has_size))) {
   set_view(j.view);
   further.scene = SceneArrays::of(*job.scene.mesh);
   further.offset = job.tracer.offset();
@@ -65,6 +66,8 @@ TilePlan::TilePlan(const TraceJob& j, const TileOutputs& o)
   further.scale = static_cast<std::uint32_t>(out.scale);
   if (job.scene.environment) environment.emplace(job.scene);
   if (environment && environment->shines() && o.environment_light) further.environment = &*environment;
+  further.lobes = further.samples && (o.reflection || o.color || o.added) &&
+                  std::ranges::any_of(job.scene.mesh->materials, &Material::is_microfacet);
   visible = further;
   visible.footprint = &seen_footprint;
   visible.visible = true;

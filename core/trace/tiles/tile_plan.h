@@ -26,7 +26,7 @@ struct TilePlan {
   bool has_holes, blends;      // some material does
   PassedBacksOf passed_backs;  // by the camera's rays
   std::vector<BounceLight> all_lights, visible_lights;
-  std::size_t casting;  // lights
+  std::size_t casting, sized_lights;  // lights
   std::optional<EnvironmentLight> environment;
   Bounce visible, further;  // the step of the camera's rays, and of the rays that they spawn
 };

@@ -135,16 +135,27 @@ void TileTracer::find_visible() {
   plan_->job.tracer.steps().keep_hits(seen_);
 }
 
+ExtraColumns TileTracer::extra_columns() const {
+  return {.width = plan_->further.footprint->angle > 0.0f, .medium = plan_->further.attenuates};
+}
+
 void TileTracer::make_room(std::size_t rays, Generation& next) {
-  const bool cones = plan_->further.footprint->angle > 0.0f, media = plan_->further.attenuates;
-  for (std::size_t i = 0; i < next.size(); ++i)
-    next[i].make_room(i < kStraight || plan_->blends ? rays : 0, cones, media);
+  const ExtraColumns extra = extra_columns();
+  ExtraColumns of_mirrored = extra;
+  of_mirrored.density = plan_->further.lobes;
+  next[kMirrored].make_room(rays, of_mirrored);
+  next[kRefracted].make_room(rays, extra);
+  next[kStraight].make_room(plan_->blends ? rays : 0, extra);
+  next[kStraightFromCamera].make_room(plan_->blends && plan_->passed_backs.any() ? rays : 0, extra);
   for (std::size_t i = 0; i < plan_->casting; ++i) shadow_[i].make_room(rays);
-  if (plan_->further.environment) sky_.make_room(rays);
-  if (plan_->out.indirect > 0) next_diffuse_.make_more_room(rays, cones, media);
-  if (plan_->job.options.terminator != Terminator::turned_away) return;
-  for (std::size_t i = 0; i < plan_->casting; ++i) ways_up_[i].make_room(rays);
-  if (plan_->further.environment) sky_ways_up_.make_room(rays);
+  // A sample of the environment, one along a lobe, and distant lights that the lobe meets.
+  const std::size_t along_lobes = plan_->further.lobes ? plan_->sized_lights : 0;
+  sky_.make_room(rays * (plan_->further.lobes ? 2 + along_lobes : 1));
+  lobe_lights_.make_room(rays * along_lobes);
+  if (plan_->out.indirect > 0) next_diffuse_.make_more_room(rays, extra);
+  const std::size_t up = plan_->job.options.terminator == Terminator::turned_away ? rays : 0;
+  for (std::size_t i = 0; i < plan_->casting; ++i) ways_up_[i].make_room(up);
+  sky_ways_up_.make_room(plan_->further.environment ? up : 0);
 }
 
 void TileTracer::bounce(Bounce step, int generation, const RayQueue& rays, Generation& next,
@@ -155,6 +166,7 @@ void TileTracer::bounce(Bounce step, int generation, const RayQueue& rays, Gener
   step.ways_up = ways_up_.data();
   step.sky = &sky_;
   step.sky_ways_up = &sky_ways_up_;
+  step.lobe_lights = &lobe_lights_;
   step.radiance = &radiance[0].x;
   if (step.mirrored) {
     step.mirrored = &next[kMirrored];
@@ -170,14 +182,14 @@ void TileTracer::light_visible() {
     direct_.fill(glm::vec4(0.0f));
     for (std::size_t i = 0; i < seen_.size; ++i) direct_[seen_.pixel[i]].a = 1.0f;
   }
-  next_diffuse_.make_room(0, plan_->further.footprint->angle > 0.0f, plan_->further.attenuates);
+  next_diffuse_.make_room(0, extra_columns());
   make_room(seen_.size, rays_);
   Bounce step = plan_->visible;
   step.mirrored = plan_->out.depth > 0 ? rays_.data() : nullptr;
   step.diffuse = plan_->out.indirect > 0 ? &next_diffuse_ : nullptr;
   if (!step.mirrored && !step.diffuse && step.light_count == 0 && !step.adds_ambient && !step.environment)
     return;
-  reflects_ = step.environment != nullptr;
+  reflects_ = step.environment || step.lobes;
   if (reflects_) reflected_.fill(glm::vec4(0.0f));
   bounce(step, 0, seen_, rays_, direct_, true);
   fire_shadows(0, direct_);

@@ -38,9 +38,11 @@ class TileTracer {
   void paint_background() const;
   void bounce(Bounce step, int generation, const RayQueue& rays, Generation& next, Radiance& radiance,
               bool of_camera = false);
+  [[nodiscard]] ExtraColumns extra_columns() const;
   void make_room(std::size_t rays, Generation& next);
   void fire_shadows(int generation, Radiance& radiance);
   void fire_at_environment(int generation);
+  void fire_reflected(RayQueue& queue, float reach, const RayQueue& ways_up, int generation);
   void ask_occluded(const RayQueue& queue, float reach);
   void block_by_ways_up(const RayQueue& up, int generation);
   void write() const;
@@ -52,7 +54,7 @@ class TileTracer {
   Generation rays_, next_;
   RayQueue diffuse_, next_diffuse_;
   std::array<RayQueue, kMaxCastingLights> shadow_, ways_up_;
-  RayQueue sky_, sky_ways_up_;
+  RayQueue sky_, sky_ways_up_, lobe_lights_;
   std::vector<std::uint8_t> blocked_, up_blocked_;
   Holes holes_;
   Radiance direct_, reflected_;

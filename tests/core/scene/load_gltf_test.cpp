@@ -1,4 +1,4 @@
-#include "core/scene/gltf/phong_from_gltf.h"
+#include "core/scene/gltf/material_from_surface.h"
 #include "pinocchio/save.h"
 #include "tests/support/gltf.h"
 
@@ -218,22 +218,41 @@ TEST(LoadGltf, NormalsOfNoLengthAreMissedBesideOthers) {
   EXPECT_NE(warnings[0].what.find("normals of no length"), std::string::npos);
 }
 
-TEST(PhongFromGltf, FollowsItsFormula) {
+TEST(MaterialFromSurface, PhongFollowsItsFormula) {
   GltfSurface s;
   s.base_color = {0.5f, 0.6f, 0.7f};
   s.metallic = 0.0f;
   s.roughness = 0.5f;
-  const Material plastic = phong_from_gltf(s);
+  const Material plastic = material_from_surface(s, Shading::phong);
   EXPECT_NEAR(plastic.diffuse.x, 0.5f * 0.96f / 3.14159265f, 1e-6f);
   EXPECT_NEAR(plastic.shininess, 0.25f * (2.0f / 0.0625f - 2.0f), 1e-4f);
   EXPECT_NEAR(plastic.specular.x, 0.04f * (plastic.shininess + 2.0f) / (2.0f * 3.14159265f), 1e-5f);
   EXPECT_FALSE(plastic.reflects());  // too rough for a mirror
   s.metallic = 1.0f;
   s.roughness = 0.1f;
-  const Material metal = phong_from_gltf(s);
+  const Material metal = material_from_surface(s, Shading::phong);
   EXPECT_EQ(metal.diffuse, glm::vec3(0.0f));
   EXPECT_NEAR(metal.reflectance.y, 0.6f * 0.36f, 1e-5f);
   EXPECT_TRUE(metal.fresnel);
+  EXPECT_FALSE(metal.is_microfacet());
+}
+
+// glTF 2.0, appendix B, with KHR_materials_specular and _ior.
+TEST(MaterialFromSurface, GltfsModelHasItsParameters) {
+  GltfSurface s;
+  s.base_color = {0.5f, 0.6f, 0.7f};
+  s.metallic = 0.25f;
+  s.roughness = 0.5f;
+  s.specular = 0.5f;
+  const Material m = material_from_surface(s, Shading::from_file);
+  EXPECT_TRUE(m.is_microfacet());
+  EXPECT_FLOAT_EQ(m.ggx_alpha, 0.25f);
+  EXPECT_FLOAT_EQ(m.diffuse.x, 0.5f * 0.75f / 3.14159265f);
+  EXPECT_FLOAT_EQ(m.layer.x, 0.02f);
+  EXPECT_FLOAT_EQ(m.layer.y, 0.5f);
+  EXPECT_FLOAT_EQ(m.specular.z, 0.75f * 0.02f + 0.25f * 0.7f);
+  EXPECT_FLOAT_EQ(m.grazing, 0.75f * 0.5f + 0.25f);
+  EXPECT_TRUE(m.brdf);
 }
 
 TEST(LoadGltf, SparseAccessorsAreFilledIn) {

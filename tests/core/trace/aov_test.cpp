@@ -37,7 +37,8 @@ Points one_by_one(const Scene& scene, const shared::ViewParams& view, const Imag
       points.depth.at(x, y) = glm::dot(s.p_world - view.eye, view_axis(view));
       points.position.at(x, y) = s.p_world;
       points.normal.at(x, y) = s.n_shading;
-      points.albedo.at(x, y) = s.material.phong.diffuse;
+      const shared::ShadingParams& m = s.material.shading;
+      points.albedo.at(x, y) = m.ggx_alpha > 0.0f ? m.ambient : m.diffuse;
     }
   return points;
 }

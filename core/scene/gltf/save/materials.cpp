@@ -14,6 +14,7 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 float roughness_of(const Material& m) {
+  if (m.is_microfacet()) return std::sqrt(m.ggx_alpha);
   return std::sqrt(std::sqrt(2.0f / (4.0f * m.shininess + 2.0f)));
 }
 
@@ -30,7 +31,7 @@ Json nearest_pbr(const Material& m) {
   return pbr_json(base, m.reflects() && !m.fresnel ? 1.0f : 0.0f, m.spawns_rays() ? 0.0f : roughness_of(m));
 }
 
-// The metallic-roughness that Phong was made of (phong_from_gltf): ambient is the base colour, diffuse the
+// The metallic-roughness that Phong was made of (material_from_surface): ambient is the base colour, diffuse the
 // base colour times what metal leaves, over pi.
 Json original_pbr(const Material& m) {
   constexpr float kUsualDiffuse = 0.96f * 0.318309886f;

@@ -1,0 +1,154 @@
+#include "core/reference/reference_lobe.h"
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <numbers>
+#include <random>
+
+namespace pinocchio {
+namespace {
+
+constexpr double kPi = std::numbers::pi;
+
+double square(double x) {
+  return x * x;
+}
+
+double cosine_of_view(const ReferenceSurface& s) {
+  return std::max(glm::dot(s.n_shading, s.to_viewer), 0.001);  // as shaders/shared/microfacet.glsl
+}
+
+// Walter et al., "Microfacet Models for Refraction through Rough Surfaces", EGSR 2007, equation 33. The
+// tangent comes from the sine, which keeps its digits where the angle is small.
+double facet_density(const glm::dvec3& n, const glm::dvec3& h, double alpha) {
+  const double cosine = glm::dot(n, h),
+               tangent2 = glm::dot(glm::cross(n, h), glm::cross(n, h)) / square(cosine);
+  if (cosine <= 0.0) return 0.0;
+  return square(alpha) / (kPi * square(square(cosine)) * square(square(alpha) + tangent2));
+}
+
+// Smith's auxiliary function (Heitz, "Understanding the Masking-Shadowing Function", JCGT 3(2), 2014).
+double lambda(double cosine, double alpha) {
+  return 0.5 * (std::sqrt(1.0 + square(alpha) * (1.0 / square(cosine) - 1.0)) - 1.0);
+}
+
+double shadowing(double n_dot_l, double n_dot_v, double alpha) {
+  return 1.0 / (1.0 + lambda(n_dot_l, alpha) + lambda(n_dot_v, alpha));
+}
+
+// The share of light from all around that the lobe mirrors: the model's definition is this fit to the
+// integrals (MaterialX 1.38, mx_ggx_dir_albedo_analytic).
+double albedo(double f0, double f90, double x, double y) {
+  const double of[9] = {1.0, x, y, x * y, x * x, y * y, x * x * y, x * y * y, x * x * y * y};
+  constexpr double k[4][9] = {{0.1003, -0.6303, 9.748, -2.038, 29.34, -8.245, -26.44, 19.99, -5.448},
+                              {0.9345, -2.323, 2.229, -3.748, 1.424, -0.7684, 1.436, 0.2913, 0.6286},
+                              {1.0, -1.765, 8.263, 11.53, 28.96, -7.507, -36.11, 15.86, 33.37},
+                              {1.0, 0.2281, 15.94, -55.83, 13.08, 41.26, 54.9, 300.2, -285.1}};
+  double sum[4] = {};
+  for (int row = 0; row < 4; ++row)
+    for (int i = 0; i < 9; ++i) sum[row] += k[row][i] * of[i];
+  return f0 * std::clamp(sum[0] / sum[2], 0.0, 1.0) + f90 * std::clamp(sum[1] / sum[3], 0.0, 1.0);
+}
+
+double largest(const glm::dvec3& v) {
+  return std::max({v.x, v.y, v.z});
+}
+
+}  // namespace
+
+glm::dvec3 reference_matt(const ReferenceSurface& s, const glm::dvec3& to_light) {
+  const ReferenceMaterial& m = s.material;
+  const double n_dot_v = cosine_of_view(s), away = 1.0 - n_dot_v;
+  const auto mirrored = [&m](double fifth) { return m.layer.x + (m.layer.y - m.layer.x) * fifth; };
+  const double mean_fifth = 0.0257 * away * away * away - 0.002 * away * away + 0.0044 * away;
+  const double all = std::numbers::pi * largest(m.diffuse) * (1.0 - mirrored(mean_fifth));
+  const double left = 1.0 - albedo(largest(m.specular), m.grazing, n_dot_v, m.ggx_alpha);
+  const double cosine = std::clamp(glm::dot(s.to_viewer, glm::normalize(s.to_viewer + to_light)), 0.0, 1.0);
+  return std::min(left / std::max(all, 1e-6), 1.0) * (1.0 - mirrored(std::pow(1.0 - cosine, 5.0))) *
+         m.diffuse;
+}
+
+glm::dvec3 reference_schlick(const ReferenceMaterial& m, double cosine) {
+  return m.specular +
+         (glm::dvec3(m.grazing) - m.specular) * std::pow(1.0 - std::clamp(cosine, 0.0, 1.0), 5.0);
+}
+
+glm::dvec3 reference_mirrored(const ReferenceSurface& s, const glm::dvec3& to_light, double least_alpha) {
+  const double alpha = std::max(s.material.ggx_alpha, least_alpha), n_dot_v = cosine_of_view(s);
+  const double n_dot_l = glm::dot(s.n_shading, to_light);
+  if (n_dot_l <= 0.0) return glm::dvec3(0.0);
+  const glm::dvec3 h = glm::normalize(to_light + s.to_viewer);
+  return reference_schlick(s.material, glm::dot(s.to_viewer, h)) *
+         (facet_density(s.n_shading, h, alpha) * shadowing(n_dot_l, n_dot_v, alpha) / (4.0 * n_dot_v));
+}
+
+double reference_lobe_density(const ReferenceSurface& s, const glm::dvec3& to_light) {
+  const glm::dvec3 h = glm::normalize(to_light + s.to_viewer);
+  const double v_dot_h = glm::dot(s.to_viewer, h);
+  if (v_dot_h <= 0.0) return 0.0;
+  return facet_density(s.n_shading, h, s.material.ggx_alpha) * glm::dot(s.n_shading, h) / (4.0 * v_dot_h);
+}
+
+std::vector<ReferenceLobe> reference_lobe_samples(const ReferenceSurface& s, int side) {
+  const double alpha = s.material.ggx_alpha, n_dot_v = cosine_of_view(s);
+  std::vector<ReferenceLobe> samples;
+  reference_cells(side, s.p_world, [&](const glm::dvec2& cell) {
+    const double tangent = alpha * std::sqrt(cell.x / (1.0 - cell.x));
+    const glm::dvec3 h = reference_beside(s.n_shading, 1.0 / std::sqrt(1.0 + square(tangent)), cell.y);
+    const double v_dot_h = glm::dot(s.to_viewer, h), n_dot_h = glm::dot(s.n_shading, h);
+    const glm::dvec3 l = 2.0 * v_dot_h * h - s.to_viewer;
+    const double n_dot_l = glm::dot(s.n_shading, l), outside = glm::dot(s.n_geometric, l);
+    if (v_dot_h <= 0.0 || n_dot_l <= 0.0) return;
+    const double share =
+        shadowing(n_dot_l, n_dot_v, alpha) * v_dot_h / (n_dot_v * n_dot_h * static_cast<double>(side * side));
+    // A direction into the surface is mirrored by its plane; no other method finds it.
+    if (outside > 0.0)
+      samples.push_back({h, l, share, facet_density(s.n_shading, h, alpha) * n_dot_h / (4.0 * v_dot_h)});
+    else
+      samples.push_back({h, l - 2.0 * outside * s.n_geometric, share, 0.0});
+  });
+  return samples;
+}
+
+std::optional<ReferenceMeeting> reference_meeting(const Light& light, const ReferenceSurface& s,
+                                                  const glm::dvec3& direction) {
+  const glm::dvec3 strength = glm::dvec3(light.color) * static_cast<double>(light.intensity);
+  const glm::dvec3 origin = leave(s, direction);
+  if (light.kind == Light::Kind::directional) {
+    const double least = std::cos(glm::radians(0.5 * light.angle_deg));
+    if (glm::dot(direction, -glm::dvec3(light.direction)) < least) return {};
+    const double radiance = 1.0 / (kPi * (1.0 - square(least)));
+    return ReferenceMeeting{radiance * strength, 1.0 / (2.0 * kPi * (1.0 - least)), {origin, direction}};
+  }
+  const glm::dvec3 offset = glm::dvec3(light.position) - s.p_world;
+  const auto up_to = [&](double t) { return ReferenceRay{origin, s.p_world + t * direction - origin, 1.0}; };
+  const bool falls = light.falloff == Light::Falloff::inverse_square;
+  if (light.kind == Light::Kind::rectangle) {
+    const glm::dvec3 u(light.edge_u), v(light.edge_v), n(light.direction);
+    const double towards = -glm::dot(direction, n), t = -glm::dot(offset, n) / towards;
+    if (towards <= 0.0 || t <= 0.0 || t > light.range) return {};
+    const glm::dvec3 at = t * direction - offset, normal = glm::cross(u, v);
+    const double area2 = glm::dot(normal, normal);
+    if (std::abs(glm::dot(glm::cross(at, v), normal)) > 0.5 * area2 ||
+        std::abs(glm::dot(glm::cross(u, at), normal)) > 0.5 * area2)
+      return {};
+    const double density = square(t) / (towards * std::sqrt(area2));
+    const double share = towards / (falls ? std::max(square(t), 1e-12) : 1.0);
+    return ReferenceMeeting{share * density * strength, density, up_to(t)};
+  }
+  const double distance2 = glm::dot(offset, offset), r = light.radius, along = glm::dot(direction, offset);
+  const double chord2 = square(along) - distance2 + square(r);
+  const bool inside = distance2 <= square(r);
+  if (chord2 <= 0.0 || (!inside && along <= 0.0) || std::sqrt(distance2) > light.range) return {};
+  const double least = inside ? -1.0 : std::sqrt(1.0 - square(r) / distance2);
+  // Radiance I / (pi r^2); a light without falloff is treated as if at distance 1.
+  const double own_square = inside ? 1.0 : square(r) / distance2;
+  double radiance = 1.0 / (kPi * own_square);
+  if (falls) radiance /= std::max(std::max(distance2, square(r)), 1e-12);
+  if (light.kind == Light::Kind::spot) radiance *= reference_cone_share(light, direction);
+  return ReferenceMeeting{radiance * strength, 1.0 / (2.0 * kPi * (1.0 - least)),
+                          up_to(inside ? along + std::sqrt(chord2) : along - std::sqrt(chord2))};
+}
+
+}  // namespace pinocchio

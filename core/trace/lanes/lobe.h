@@ -1,0 +1,124 @@
+// Part of walk/kernel.h's files: directions of the lobe of glTF's reflection model, and the lights that they
+// meet.
+#pragma once
+
+#include "core/trace/lanes/material.h"
+#include "core/trace/lanes/scatter.h"
+#include "core/trace/lanes/surface.h"
+
+namespace pinocchio::PINOCCHIO_LANES {
+namespace {
+
+// The lobes that are worth a ray. `own`: the paths' throughput.
+[[gnu::noinline]] LaneLobe sample_lobe(const LaneSurface& s, const LaneMaterial& m, const Vec& own,
+                                       const SampledPixel& sampling, Mask lanes, const Bounce& bounce) {
+  const Float zero(0.0f), one(1.0f), two(2.0f);
+  const Float n_dot_v = cosine_of_view(s.n_shading, s.to_viewer);
+  const Mask glass = Mask::from_bits(m.transmits);
+  LaneLobe lobe;
+  lobe.lanes = lanes & Mask::from_bits(m.microfacet) &
+               (glass | ~(largest(own) * lobe_share(m, n_dot_v) < Float(bounce.options->throughput_cutoff)));
+  const vec2 disc = disc_of_square(sample_2d(sampling, bounce.dimension + shared::kMirrorDimension));
+  const Across axes = across(s.n_shading);
+  const Vec v{dot(axes.t, s.to_viewer), dot(axes.u, s.to_viewer), n_dot_v};
+  const Vec h = visible_normal(v, m.ggx_alpha, disc);
+  lobe.facet = axes.t * h.x + axes.u * h.y + s.n_shading * h.z;
+  const Float v_dot_h = dot(s.to_viewer, lobe.facet);
+  Vec direction = lobe.facet * (two * v_dot_h) - s.to_viewer;
+  const Float n_dot_l = dot(s.n_shading, direction), outside = dot(direction, s.n_geometric);
+  lobe.unshadowed = select(
+      zero < n_dot_l,
+      two * n_dot_l * ggx_visibility(n_dot_l, n_dot_v, m.ggx_alpha) / ggx_viewed(n_dot_v, m.ggx_alpha), zero);
+  lobe.throughput = schlick(m.specular, m.grazing, v_dot_h) * lobe.unshadowed;
+  // Into the surface, by a normal that is not the triangle's: the direction's mirror image lies outside.
+  const Mask inwards = ~(zero < outside);
+  lobe.direction = select(inwards, direction - s.n_geometric * (two * outside), direction);
+  lobe.density =
+      select(inwards | glass, zero,
+             Float(0.5f) * ggx(h.z, h.x * h.x + h.y * h.y, m.ggx_alpha) * ggx_viewed(n_dot_v, m.ggx_alpha));
+  lobe.counted = select(lobe.lanes, select(glass, Float(kAlone), one), zero);
+  return lobe;
+}
+
+// How a lobe's direction meets a light with a size: as if that light had been sampled there.
+struct LaneMeeting {
+  Mask met;
+  Incident incident;
+};
+
+inline LaneMeeting meet_ball(const LightParams& light, const Vec& p_world, const Vec& direction) {
+  const Vec offset = Vec(light.position) - p_world;
+  const Float square = dot(offset, offset), r2(light.size * light.size), along = dot(direction, offset);
+  const Vec off = offset - direction * along;
+  const Float rest = r2 - dot(off, off), zero(0.0f), one(1.0f);
+  const Mask inside = square <= r2;
+  LaneMeeting m;
+  m.met = (zero < rest) & (inside | (zero < along));
+  const Float sine2 = select(inside, one, r2 / square), cosine = sqrt(one - sine2);
+  const Float one_minus_cos = select(inside, Float(2.0f), sine2 / (one + cosine));
+  const Float chord = sqrt(max(rest, zero));
+  m.incident.target = p_world + direction * select(inside, along + chord, along - chord);
+  m.incident.density = Float(shared::kOneByTwoPi) / one_minus_cos;
+  m.incident.radiance = Vec(light.radiance) * select(inside, Float(4.0f), Float(2.0f) / (one + cosine));
+  m.met = m.met & ~(Float(light.range) < sqrt(square));
+  if (light.inverse_square) m.incident.radiance = m.incident.radiance / max(max(square, r2), Float(1e-12f));
+  if (light.kind == kLightSpot) m.incident.radiance = m.incident.radiance * cone_share(light, direction);
+  return m;
+}
+
+inline LaneMeeting meet_rectangle(const LightParams& light, const Vec& p_world, const Vec& direction) {
+  const Vec n(light.direction);
+  const glm::vec3 across = glm::cross(light.edge_u, light.edge_v);
+  const float square = glm::dot(across, across);
+  // Coordinates along the sides, -1/2 to 1/2 on the light.
+  const Vec to_u(glm::cross(light.edge_v, across) / square), to_v(glm::cross(across, light.edge_u) / square);
+  const Float zero(0.0f), towards = -dot(direction, n);
+  const Vec offset = p_world - Vec(light.position);
+  const Float distance = dot(offset, n) / towards;
+  const Vec at = offset + direction * distance;
+  const Float u = dot(at, to_u), v = dot(at, to_v), half(0.5f);
+  LaneMeeting m;
+  m.met = (zero < towards) & (zero < distance) & (abs(u) <= half) & (abs(v) <= half) &
+          ~(Float(light.range) < distance);
+  m.incident.target = p_world + direction * distance;
+  m.incident.density = distance * distance / (towards * Float(std::sqrt(square)));
+  m.incident.radiance = Vec(light.radiance) * towards;
+  if (light.inverse_square)
+    m.incident.radiance = m.incident.radiance / max(distance * distance, Float(1e-12f));
+  return m;
+}
+
+inline LaneMeeting meet_disc(const LightParams& light, const Vec& direction) {
+  const Vec off = direction + Vec(light.direction);  // its square is 2 - 2 cos
+  LaneMeeting m;
+  m.met = dot(off, off) * Float(0.5f) <= Float(light.size);
+  m.incident.target = direction;
+  m.incident.density = Float(shared::kOneByTwoPi / light.size);
+  m.incident.radiance = Vec(light.radiance) * Float(2.0f / (2.0f - light.size));
+  return m;
+}
+
+// Fires shadow rays along the lobe at the casting lights with a size that it meets.
+[[gnu::noinline]] void light_along_lobe(const Bounce& bounce, const LaneSurface& s, const LaneLobe& lobe,
+                                        const Vec& own, Int pixel) {
+  for (std::size_t i = 0; i < bounce.light_count; ++i) {
+    const BounceLight& light = bounce.lights[i];
+    if (!light.has_size || light.slot < 0) continue;
+    const bool far = light.params.kind == shared::kLightDirectional;
+    const LaneMeeting m = far ? meet_disc(light.params, lobe.direction)
+                          : light.params.kind == shared::kLightRectangle
+                              ? meet_rectangle(light.params, s.p_world, lobe.direction)
+                              : meet_ball(light.params, s.p_world, lobe.direction);
+    const Float combined = lobe.density + m.incident.density;
+    const Float counts = select(Float(0.0f) < lobe.density, lobe.density / combined, Float(1.0f));
+    const Vec carried = own * lobe.throughput * m.incident.radiance * (m.incident.density * counts);
+    const Mask lit = lobe.lanes & m.met & (carried != Vec(0.0f));
+    if (lit.bits() == 0) continue;
+    const Vec origin = offset_origin(s, lobe.direction);
+    append(origin, far ? lobe.direction : m.incident.target - origin, carried, pixel, lit,
+           far ? *bounce.sky : *bounce.lobe_lights);
+  }
+}
+
+}  // namespace
+}  // namespace pinocchio::PINOCCHIO_LANES

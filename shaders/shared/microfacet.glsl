@@ -1,0 +1,148 @@
+// Source of GLSL and of C++ (core/shade/shared_material.h, core/trace/lanes/shared.h): glTF's reflection model (glTF 2.0,
+// appendix B), and light reflected by either model. Expects phong.glsl.
+//   specular  F D V     D: GGX (Walter et al. 2007), V: height-correlated Smith (Heitz 2014), F: Schlick 1994
+//   matt      base / pi (1 - F(V.H)), F that of the dielectric layer above. At grazing angles that returns up to 1.9
+//             times the light: there it is limited to what the lobe leaves of light from all around.
+// Alpha is roughness squared, kLeastAlpha at least. A light without a size stands for a small lamp: its highlight is
+// that of kLeastHighlight at least.
+
+const float kPi = 3.14159265358979323846f;
+const float kLeastAlpha = 0.0005f;
+const float kLeastHighlight = 0.007f;
+const float kAlone = 1e30f;  // weighs a density so that no other sample of the light counts
+const float kLeastCosine = 0.001f;  // of the viewer's angle, where a mapped normal turns away
+
+SHARED real fifth_power(real x) {
+  real x2 = x * x;
+  return x2 * x2 * x;
+}
+
+SHARED vec3 schlick(vec3 f0, real f90, real cosine) {
+  return f0 + (vec3(f90) - f0) * fifth_power(1.0f - clamp(cosine, 0.0f, 1.0f));
+}
+
+// Density of microfacet normals, from the cosine and the squared sine of their angle.
+SHARED real ggx(real cosine, real sine2, real alpha) {
+  real a2 = alpha * alpha;
+  real across = cosine * cosine * a2 + sine2;
+  return a2 / (kPi * across * across);
+}
+
+// The masking and shadowing function divided by 4 (N.L) (N.V).
+SHARED real ggx_visibility(real n_dot_l, real n_dot_v, real alpha) {
+  real a2 = alpha * alpha;
+  return 0.5f / (n_dot_l * sqrt(n_dot_v * n_dot_v * (1.0f - a2) + a2) + n_dot_v * sqrt(n_dot_l * n_dot_l * (1.0f - a2) + a2));
+}
+
+// Twice N.V over one plus Smith's function for the viewer: the density of visible normals is D (V.H) times that over
+// N.V, of mirrored directions a quarter of it over V.H.
+SHARED real ggx_viewed(real n_dot_v, real alpha) {
+  real a2 = alpha * alpha;
+  return 1.0f / (n_dot_v + sqrt(n_dot_v * n_dot_v * (1.0f - a2) + a2));
+}
+
+SHARED real cosine_of_view(vec3 n, vec3 to_viewer) { return max(dot(n, to_viewer), kLeastCosine); }
+
+// The share of light from all around that GGX mirrors towards the viewer: x times F0 plus y times F90. Within 0.03, beyond
+// grazing angles 0.01 (fitted to integrals: MaterialX 1.38, mx_ggx_dir_albedo_analytic).
+SHARED vec2 ggx_albedo(real n_dot_v, real alpha) {
+  real x = n_dot_v;
+  real y = alpha;
+  real x2 = x * x;
+  real y2 = y * y;
+  real a = 0.1003f - 0.6303f * x + 9.748f * y - 2.038f * x * y + 29.34f * x2 - 8.245f * y2 - 26.44f * x2 * y +
+           19.99f * x * y2 - 5.448f * x2 * y2;
+  real b = 0.9345f - 2.323f * x + 2.229f * y - 3.748f * x * y + 1.424f * x2 - 0.7684f * y2 + 1.436f * x2 * y +
+           0.2913f * x * y2 + 0.6286f * x2 * y2;
+  real of_a = 1.0f - 1.765f * x + 8.263f * y + 11.53f * x * y + 28.96f * x2 - 7.507f * y2 - 36.11f * x2 * y +
+              15.86f * x * y2 + 33.37f * x2 * y2;
+  real of_b = 1.0f + 0.2281f * x + 15.94f * y - 55.83f * x * y + 13.08f * x2 + 41.26f * y2 + 54.9f * x2 * y +
+              300.2f * x * y2 - 285.1f * x2 * y2;
+  return vec2(clamp(a / of_a, 0.0f, 1.0f), clamp(b / of_b, 0.0f, 1.0f));
+}
+
+SHARED real brightest(vec3 v) { return max(max(v.x, v.y), v.z); }
+
+// The brightest share that the lobe mirrors of light from all around.
+SHARED real lobe_share(ShadingParams m, real n_dot_v) {
+  vec2 albedo = ggx_albedo(n_dot_v, m.ggx_alpha);
+  return brightest(m.specular) * albedo.x + m.grazing * albedo.y;
+}
+
+SHARED real layer_fresnel(ShadingParams m, real fifth) { return m.layer.x + (m.layer.y - m.layer.x) * fifth; }
+
+// The factor of the matt part so that lobe and matt part return no more than all light from all around. The mean of
+// (1 - V.H)^5 over that light is a polynomial within 1e-4.
+SHARED real matt_limit(ShadingParams m, real n_dot_v) {
+  real x = 1.0f - n_dot_v;
+  real mean_fifth = x * (0.0044f + x * (0.0257f * x - 0.002f));
+  real matt = kPi * brightest(m.diffuse) * (1.0f - layer_fresnel(m, mean_fifth));
+  return min((1.0f - lobe_share(m, n_dot_v)) / max(matt, 1e-6f), 1.0f);
+}
+
+// The parameters for one viewer. Phong's are the same for all.
+SHARED ShadingParams viewed_from(vec3 to_viewer, vec3 n, ShadingParams m) {
+  ShadingParams viewed = m;
+  boolean microfacet = m.ggx_alpha > 0.0f;
+  if (any(microfacet))
+    viewed.diffuse = pick(microfacet, m.diffuse * matt_limit(m, cosine_of_view(n, to_viewer)), m.diffuse);
+  return viewed;
+}
+
+// A direction of the lobe, and the density with which it is sampled, per steradian.
+struct LobeLight {
+  vec3 reflected;  // share of the light from there, times N.L
+  real density;
+  real below;  // share of that light that reaches the matt part
+};
+
+SHARED LobeLight lobe_light(ShadingParams m, vec3 n, vec3 to_viewer, vec3 to_light) {
+  vec3 sum = to_viewer + to_light;
+  vec3 h = sum / sqrt(max(dot(sum, sum), 1e-20f));
+  vec3 off = cross(n, h);
+  real n_dot_v = cosine_of_view(n, to_viewer);
+  real n_dot_l = max(dot(n, to_light), 0.0f);
+  real d = ggx(dot(n, h), dot(off, off), m.ggx_alpha);
+  LobeLight result;
+  real fifth = fifth_power(1.0f - clamp(dot(to_viewer, h), 0.0f, 1.0f));
+  result.below = 1.0f - layer_fresnel(m, fifth);
+  result.reflected = (m.specular + (vec3(m.grazing) - m.specular) * fifth) *
+                     (d * ggx_visibility(max(n_dot_l, 1e-7f), n_dot_v, m.ggx_alpha) * n_dot_l);
+  result.density = 0.5f * d * ggx_viewed(n_dot_v, m.ggx_alpha);
+  return result;
+}
+
+// A microfacet's normal as the viewer sees them (Heitz, "Sampling the GGX Distribution of Visible Normals", JCGT 7(4),
+// 2018), from a point of the unit disc. All vectors have the normal as their third axis.
+SHARED vec3 visible_normal(vec3 to_viewer, real alpha, vec2 disc) {
+  vec3 v = vec3(to_viewer.x * alpha, to_viewer.y * alpha, to_viewer.z);
+  v /= sqrt(dot(v, v));
+  real square = v.x * v.x + v.y * v.y;
+  boolean tilted = square > 0.0f;
+  real inverse = 1.0f / sqrt(pick(tilted, square, 1.0f));
+  vec3 t = pick(tilted, vec3(-v.y * inverse, v.x * inverse, 0.0f), vec3(1.0f, 0.0f, 0.0f));
+  vec3 u = cross(v, t);
+  real rest = max(1.0f - disc.x * disc.x, 0.0f);
+  real s = 0.5f * (1.0f + v.z);
+  real y = (1.0f - s) * sqrt(rest) + s * disc.y;
+  vec3 h = t * disc.x + u * y + v * sqrt(max(rest - y * y, 0.0f));
+  vec3 stretched = vec3(h.x * alpha, h.y * alpha, max(h.z, 1e-6f));
+  return stretched / sqrt(dot(stretched, stretched));
+}
+
+// What one light adds where it reaches the point of those parameters (viewed_from): where `lit` holds, the light is before n. n, to_viewer and
+// incident.to_light are unit vectors. lobe: 1 where rays along the lobe look for lights with a size too, so that
+// a sample of such a light counts in part (Veach and Guibas 1995, balance heuristic); else 0.
+SHARED vec3 reflected_light(ShadingParams m, Incident incident, vec3 n, vec3 to_viewer, boolean lit, real lobe) {
+  vec3 sum = phong_light(m, incident, n, to_viewer, lit && m.ggx_alpha <= 0.0f);
+  boolean glossy = lit && m.ggx_alpha > 0.0f;
+  if (any(glossy)) {
+    ShadingParams wide = m;
+    boolean sized = incident.density > 0.0f;
+    wide.ggx_alpha = max(m.ggx_alpha, pick(sized, kLeastAlpha, kLeastHighlight));
+    LobeLight light = lobe_light(wide, n, to_viewer, incident.to_light);
+    real counts = pick(sized, incident.density / (incident.density + lobe * light.density), 1.0f);
+    sum = pick(glossy, incident.radiance * (m.diffuse * (light.below * dot(n, incident.to_light)) + light.reflected * counts), sum);
+  }
+  return sum;
+}
