@@ -1,6 +1,7 @@
 #pragma once
 
 #include <glm/glm.hpp>
+#include <optional>
 #include <string>
 
 #include "pinocchio/glm_layout.h"
@@ -35,6 +36,8 @@ struct Material {
   // True: diffuse and specular are a BRDF's values, as with glTF's metallic-roughness. False: they are
   // Phong's coefficients for lights whose strength includes the 1 / pi.
   bool brdf = false;
+  // Whether the surface has two sides that are seen (pinocchio/backfaces.h). Nothing: the file does not say.
+  std::optional<bool> double_sided;
   // Index in MeshData::maps: textures, vertex colours and alpha of this material; -1: none. With maps,
   // reflectance and transmittance here are upper limits.
   int maps = -1;

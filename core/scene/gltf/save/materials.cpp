@@ -86,6 +86,9 @@ Json GltfMaterialWriter::material(const Material& m) {
     for (const GltfParameter& row : kPhongParameters) write_gltf_parameter(row, m, maps.surface, usual, json);
     add_emission(m.emission, json);
   }
+  // Without a word, our Phong is as undecided as before, and glTF's own surface single-sided.
+  if (maps.from_gltf ? m.double_sided.value_or(true) : m.double_sided.has_value())
+    json["doubleSided"] = m.double_sided.value_or(true);
   if (m.attenuates()) {
     add_extension(json, "KHR_materials_volume", {{"thicknessFactor", 1.0f}});
     for (const GltfParameter& row : kVolumeParameters)
