@@ -1,5 +1,4 @@
 // A finished frame, as its sink sees it.
-#include <algorithm>
 
 #include "hybrid/engine/engine_parts.h"
 #include "hybrid/engine/frame_slot.h"
@@ -50,9 +49,7 @@ const gl::Texture& Frame::texture() const {
     const StageTimer timer(slot_.record, Stage::upload);
     slot_.release_unused();
     fit(slot_.shown, slot_.color.size(), gl::kRgba32F);
-    const std::span<std::byte> bytes = slot_.picture_up.open(slot_.shown.bytes());
-    std::ranges::copy(std::as_bytes(slot_.color.pixels()), bytes.begin());
-    slot_.picture_up.send(slot_.shown);
+    slot_.picture_up.send(std::as_bytes(slot_.color.pixels()), slot_.shown);
   });
   slot_.is_shown = true;
   return slot_.shown;

@@ -9,7 +9,7 @@
 #include <ctime>
 #include <string_view>
 
-#include "app/cli/exit_codes.h"
+#include "app/cli/errors.h"
 #include "core/files/part_file.h"
 
 namespace pinocchio::app {

@@ -3,10 +3,19 @@
 #include <stdexcept>
 #include <string>
 
-#include "app/cli/exit_codes.h"
 #include "pinocchio/error.h"
 
 namespace pinocchio::app {
+
+enum ExitCode {
+  kDone = 0,
+  kFailed = 1,         // while running
+  kUsage = 2,          // wrong command line
+  kNoContext = 3,      // no OpenGL context
+  kBadScene = 4,       // scene cannot be read
+  kAboveLimit = 5,     // compare
+  kInterrupted = 130,  // SIGINT, SIGTERM, SIGHUP
+};
 
 // Ends a verb: one line for stderr and the exit code. Thrown by verbs, caught once in main.
 class Exit : public std::runtime_error {

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <optional>
-#include <string_view>
 
 #include "core/files/atomic_file.h"
 #include "core/files/folder.h"

@@ -3,25 +3,18 @@
 
 #include <glm/glm.hpp>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
 
+#include "core/base/listed.h"
 #include "core/parallel/tiles.h"
 #include "pinocchio/light.h"
 
 namespace pinocchio::app {
 
 [[nodiscard]] std::vector<std::string> split(const std::string& text, char separator);
-// "a, b or c"
-template <class Names>
-[[nodiscard]] std::string listed(const Names& names, std::string_view separator, std::string_view last) {
-  std::string text;
-  for (std::size_t i = 0; i < std::size(names); ++i)
-    text.append(i == 0 ? "" : i + 1 == std::size(names) ? last : separator).append(names[i]);
-  return text;
-}
-
 [[nodiscard]] std::optional<float> parse_float(const std::string& text);  // finite
 // A parser of numbers from lo to hi.
 [[nodiscard]] inline auto number_within(float lo, float hi) {
@@ -53,5 +46,16 @@ struct FrameRange {
   }
 };
 [[nodiscard]] std::optional<FrameRange> parse_frames(const std::string& text);
+
+// METRIC=VALUE of --max-error.
+struct ErrorLimit {
+  std::string metric;  // lower case
+  double value = 0.0;
+};
+
+// Throws CLI::ValidationError where the text is not one of `metrics` (in any case), '=' and a number that is
+// not negative.
+[[nodiscard]] ErrorLimit parse_error_limit(const std::string& text,
+                                           std::span<const std::string_view> metrics);
 
 }  // namespace pinocchio::app

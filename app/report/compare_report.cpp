@@ -5,7 +5,8 @@
 #include <cstdio>
 #include <nlohmann/json.hpp>
 
-#include "app/cli/exit_codes.h"
+#include "app/cli/errors.h"
+#include "core/base/decimal.h"
 
 namespace pinocchio::app {
 namespace {
@@ -15,8 +16,7 @@ std::string remark(const Comparison& result, float pixels_per_degree, const std:
   if (metric == "relmse") return "mean of (a - b)^2 / (b^2 + 0.01)";
   if (metric == "psnr") return "dB, peak 1, of the values clamped to [0, 1]";
   if (metric == "flip")
-    return "mean LDR-FLIP, clamped to [0, 1] and sRGB, " + number_text(pixels_per_degree) +
-           " pixels per degree";
+    return "mean LDR-FLIP, clamped to [0, 1] and sRGB, " + decimal(pixels_per_degree) + " pixels per degree";
   if (metric != "mask") return "";
   if (!result.mask) return "not compared: " + result.no_mask;
   return "share of shadow.mask bits that differ: " + std::to_string(result.mask->differing) + " of " +
@@ -58,24 +58,15 @@ nlohmann::json finite_json(const std::optional<double>& value) {
 }
 
 std::string xml_text(const std::string& text) {
+  constexpr std::array<std::pair<char, const char*>, 4> kEscapes{
+      {{'&', "&amp;"}, {'<', "&lt;"}, {'>', "&gt;"}, {'"', "&quot;"}}};
   std::string escaped;
   for (const char c : text) {
-    switch (c) {
-      case '&':
-        escaped += "&amp;";
-        break;
-      case '<':
-        escaped += "&lt;";
-        break;
-      case '>':
-        escaped += "&gt;";
-        break;
-      case '"':
-        escaped += "&quot;";
-        break;
-      default:
-        escaped += static_cast<unsigned char>(c) < ' ' ? ' ' : c;
-    }
+    const auto* const found = std::ranges::find(kEscapes, c, &std::pair<char, const char*>::first);
+    if (found != kEscapes.end())
+      escaped += found->second;
+    else
+      escaped += static_cast<unsigned char>(c) < ' ' ? ' ' : c;
   }
   return escaped;
 }
@@ -92,19 +83,13 @@ std::optional<double> figure(const Comparison& result, const std::string_view me
   return std::nullopt;
 }
 
-std::string number_text(double value) {
-  std::array<char, 32> text{};
-  std::snprintf(text.data(), text.size(), "%.6g", value);
-  return text.data();
-}
-
 void print_pair(const PairResult& result, float pixels_per_degree) {
   std::printf("%s against %s\n", result.pair.a.c_str(), result.pair.b.c_str());
   for (const std::string_view metric : kMetrics) {
     const std::optional<double> value = figure(*result.figures, metric);
     const std::string text = remark(*result.figures, pixels_per_degree, metric);
     std::printf("  %-7s %s\n", metric.data(),
-                ((value ? number_text(*value) : "-") + (text.empty() ? "" : "  " + text)).c_str());
+                ((value ? decimal(*value) : "-") + (text.empty() ? "" : "  " + text)).c_str());
   }
   for (const auto& [name, c] : result.figures->channels) {
     std::printf("  %s: %llu of %llu pixels differ", name.c_str(),
@@ -128,7 +113,7 @@ void print_table(const std::vector<PairResult>& results) {
     std::printf("%-*s", width, name.c_str());
     for (const std::string_view metric : kMetrics) {
       const std::optional<double> value = value_of(metric);
-      std::printf(" %12s", value ? number_text(*value).c_str() : "-");
+      std::printf(" %12s", value ? decimal(*value).c_str() : "-");
     }
     std::printf("\n");
   };
@@ -200,7 +185,7 @@ std::string junit_xml(const std::vector<PairResult>& results) {
       xml += "      <system-out>";
       for (const std::string_view metric : kMetrics)
         if (const std::optional<double> value = figure(*result.figures, metric))
-          xml += std::string(metric) + " " + number_text(*value) + "\n";
+          xml += std::string(metric) + " " + decimal(*value) + "\n";
       xml += xml_text(result.heatmap) + "</system-out>\n";
     }
     xml += "    </testcase>\n";

@@ -27,7 +27,6 @@ struct PairResult {
 
 // Nothing: the metric has no figure here.
 [[nodiscard]] std::optional<double> figure(const Comparison& result, std::string_view metric);
-[[nodiscard]] std::string number_text(double value);
 
 void print_pair(const PairResult& result, float pixels_per_degree);
 // A line for each pair, then the worst and the mean of each metric.

@@ -38,11 +38,11 @@ nlohmann::json bytes_json(const std::vector<FrameRecord>& records) {
 }
 
 nlohmann::json rays_json(const std::vector<FrameRecord>& records) {
-  return {{"primary", per_frame(records, [](const FrameRecord& r) { return r.rays.primary; })},
-          {"shadow", per_frame(records, [](const FrameRecord& r) { return r.rays.shadow; })},
-          {"reflection", per_frame(records, [](const FrameRecord& r) { return r.rays.reflection; })},
-          {"refraction", per_frame(records, [](const FrameRecord& r) { return r.rays.refraction; })},
-          {"indirect", per_frame(records, [](const FrameRecord& r) { return r.rays.indirect; })}};
+  nlohmann::json json;
+  for (const RayKind& kind : kRayKinds)
+    json[std::string(kind.name)] =
+        per_frame(records, [&kind](const FrameRecord& r) { return r.rays.*kind.count; });
+  return json;
 }
 
 double frames_per_second(const std::vector<FrameRecord>& records) {

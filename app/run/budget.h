@@ -6,9 +6,9 @@
 #include <string>
 #include <vector>
 
+#include "app/cli/parse.h"
 #include "app/run/animation.h"
 #include "app/run/drawing.h"
-#include "app/run/error_limit.h"
 #include "hybrid/settings/quality_controller.h"
 
 namespace pinocchio::app {

@@ -1,7 +1,5 @@
 #include "app/run/output.h"
 
-#include "pinocchio/names.h"
-#include <algorithm>
 #include <nlohmann/json.hpp>
 #include <system_error>
 #include <type_traits>
@@ -13,8 +11,8 @@
 #include "core/files/atomic_file.h"
 #include "core/files/checksum.h"
 #include "core/image/codecs/png.h"
-#include "core/image/tonemap.h"
 #include "core/output/aovs.h"
+#include "pinocchio/names.h"
 
 namespace pinocchio::app {
 namespace {
@@ -119,9 +117,8 @@ ExrOptions exr_options(const OutputOptions& options, const FrameHeader& frame) {
 }
 
 std::string inputs_json(const Scene& scene, bool precise, Shading shading) {
-  nlohmann::json inputs{{"precise", precise},
-                        {"shading", name_of(kShadingNames, shading)},
-                        {"files", nlohmann::json::array()}};
+  nlohmann::json inputs{
+      {"precise", precise}, {"shading", name_of(kShadingNames, shading)}, {"files", nlohmann::json::array()}};
   const auto add = [&](const std::string& file) {
     const std::optional<std::string> content = fingerprint(file);
     inputs["files"].push_back({{"name", std::filesystem::path(file).filename().string()},

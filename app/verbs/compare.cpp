@@ -9,10 +9,11 @@
 #include "app/cli/console.h"
 #include "app/cli/errors.h"
 #include "app/cli/named_files.h"
+#include "app/cli/parse.h"
 #include "app/report/compare_report.h"
-#include "app/run/error_limit.h"
 #include "app/run/output.h"
 #include "app/verbs/verbs.h"
+#include "core/base/decimal.h"
 #include "core/compare/magma.h"
 #include "core/files/atomic_file.h"
 #include "core/image/codecs/formats.h"
@@ -42,8 +43,8 @@ void apply_limits(const std::vector<ErrorLimit>& limits, PairResult& result) {
     }
     const bool higher_is_better = limit.metric == "psnr";
     if (higher_is_better ? *value >= limit.value : *value <= limit.value) continue;
-    broken += (broken.empty() ? "" : ", ") + limit.metric + " " + number_text(*value) + " is " +
-              (higher_is_better ? "below " : "above ") + number_text(limit.value);
+    broken += (broken.empty() ? "" : ", ") + limit.metric + " " + decimal(*value) + " is " +
+              (higher_is_better ? "below " : "above ") + decimal(limit.value);
   }
   if (broken.empty()) return;
   result.failure = result.pair.a.string() + ": " + broken;

@@ -27,7 +27,7 @@ void AppliedSettings::update() {
 // alone.
 bool AppliedSettings::apply(const ViewSettings& settings) {
   Expected<Settings> wanted =
-      resolved(wanted_settings(settings), model_.stats, settings.buffer == BufferView::mask);
+      resolved(wanted_settings(settings), model_.stats, settings.buffer == Layer::mask);
   if (!wanted) {
     model_.messages.hint(wanted.error().message());
     return false;

@@ -15,14 +15,6 @@ namespace {
 
 constexpr int kUsualSamples = 256;  // of a still camera: no display shows a difference beyond
 
-// Whether the requests differ at most in where pixels are sampled.
-bool same_view(const FrameRequest& a, const FrameRequest& b) {
-  FrameRequest moved = a;
-  moved.view.jitter = b.view.jitter;
-  moved.view.sample = b.view.sample;
-  return moved == b;
-}
-
 // A lost OpenGL context, or a machine that fails otherwise. Other errors of OpenGL become messages.
 bool ends_the_window(const std::exception& error) {
   if (dynamic_cast<const gl::ContextLostError*>(&error) || dynamic_cast<const gl::NoContextError*>(&error))
@@ -137,9 +129,8 @@ void FrameLoop::deliver(Frame& frame) {
   split_.compare(frame, newest_);
   Span& present = frame.record()[Stage::present];
   present.begin_s = now_s();
-  const BufferView buffer = model_.applied.buffer;
-  screen_.set_picture(&chosen_buffer(frame),
-                      buffer == BufferView::picture || buffer == BufferView::reflection);
+  const Layer buffer = model_.applied.buffer;
+  screen_.set_picture(&chosen_buffer(frame), buffer == Layer::picture || buffer == Layer::reflection);
   screen_.show();
   present.end_s = now_s();
   sinks_.frame(frame);
@@ -149,7 +140,7 @@ const gl::Texture& FrameLoop::chosen_buffer(const Frame& frame) {
   const ViewSettings& settings = model_.applied;
   model_.samples = 1;
   model_.legend.clear();
-  if (settings.buffer != BufferView::picture) {
+  if (settings.buffer != Layer::picture) {
     model_.shown_range = settings.range.value_or(channel_range());
     model_.legend = legend(settings.buffer, settings.mask_slot, frame, model_.shown_range);
     return inspect_.draw(frame, settings.buffer, settings.mask_slot, model_.shown_range);
@@ -164,7 +155,7 @@ const gl::Texture& FrameLoop::chosen_buffer(const Frame& frame) {
 // From the scene's nearest point to its farthest, or from one side of its box to the other.
 ChannelRange FrameLoop::channel_range() const {
   const Bounds& box = model_.stats.bounds;
-  if (model_.applied.buffer == BufferView::position) return {box.lo, glm::max(box.hi, box.lo + 1e-6f)};
+  if (model_.applied.buffer == Layer::position) return {box.lo, glm::max(box.hi, box.lo + 1e-6f)};
   const CameraAxes axes = camera_axes(model_.camera.camera());
   const glm::vec3 to = box.center() - model_.camera.camera().eye, half = 0.5f * box.extent();
   const float middle = glm::dot(to, axes.forward), reach = glm::dot(half, glm::abs(axes.forward));

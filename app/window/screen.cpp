@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <utility>
 
-#include "app/window/overlay/overlay.h"
+#include "app/window/overlay/parts.h"
 #include "core/base/clock.h"
 #include "core/image/codecs/png.h"
 #include "gl/objects/framebuffer.h"

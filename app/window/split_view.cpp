@@ -24,8 +24,7 @@ constexpr double kLeastShare = 0.06;  // the first pass is through
 void send(gl::Upload& upload, const Image<glm::vec4>& image, std::unique_ptr<gl::Texture>& texture) {
   if (!texture || texture->size() != image.size())
     texture = std::make_unique<gl::Texture>(image.size(), gl::kRgba32F);
-  std::ranges::copy(std::as_bytes(image.pixels()), upload.open(texture->bytes()).begin());
-  upload.send(*texture);
+  upload.send(std::as_bytes(image.pixels()), *texture);
 }
 
 }  // namespace

@@ -19,6 +19,13 @@ inline std::string decimal(double value, int digits = 6) {
   return {text.data(), end};
 }
 
+// The shortest text that is read as the same number: 3, 0.5.
+template <class T>
+std::string shortest(T value) {
+  std::array<char, 32> text{};
+  return {text.data(), std::to_chars(text.data(), text.data() + text.size(), value).ptr};
+}
+
 // Whether a decimal number is nearer to zero than one is.
 inline bool is_below_one(std::string_view number) {
   const std::size_t exponent_at = std::min(number.find_first_of("eE"), number.size());

@@ -1,8 +1,6 @@
 #include "core/geometry/polygon.h"
 
-#include <algorithm>
 #include <cmath>
-#include <numeric>
 #include <optional>
 
 #include "core/geometry/monotone.h"

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <cstdint>
 #include <glm/glm.hpp>
 #include <span>
 #include <vector>

@@ -1,7 +1,6 @@
 #include "core/image/tonemap.h"
 
 #include <algorithm>
-#include <array>
 #include <bit>
 #include <cmath>
 #include <limits>

@@ -35,20 +35,6 @@ nlohmann::json vec3_json(const glm::vec3& v) {
   return {v.x, v.y, v.z};
 }
 
-const char* kind_name(Light::Kind kind) {
-  switch (kind) {
-    case Light::Kind::point:
-      return "point";
-    case Light::Kind::directional:
-      return "directional";
-    case Light::Kind::spot:
-      return "spot";
-    case Light::Kind::rectangle:
-      return "rectangle";
-  }
-  return "";
-}
-
 // Rows of a matrix for column vectors.
 glm::mat4 from_rows(const glm::dvec4& x, const glm::dvec4& y, const glm::dvec4& z, const glm::dvec4& w) {
   return glm::mat4(glm::transpose(glm::dmat4(x, y, z, w)));
@@ -152,20 +138,19 @@ glm::mat4 world_to_ndc(const Camera& camera, glm::ivec2 size) {
 namespace {
 
 nlohmann::json light_json(const Light& light) {
+  const LightKind& kind = kind_of(light);
   nlohmann::json json{{"name", light.name},
-                      {"kind", kind_name(light.kind)},
+                      {"kind", kind.name},
                       {"color", vec3_json(light.color)},
                       {"intensity", light.intensity}};
-  if (light.kind != Light::Kind::directional) json["position"] = vec3_json(light.position);
-  if (light.kind != Light::Kind::point) json["direction"] = vec3_json(light.direction);
-  if (light.kind == Light::Kind::spot)
-    json["cone"] = {{"cosInner", light.cos_inner}, {"cosOuter", light.cos_outer}};
+  if (kind.has_position) json["position"] = vec3_json(light.position);
+  if (kind.has_direction) json["direction"] = vec3_json(light.direction);
+  if (kind.has_cone) json["cone"] = {{"cosInner", light.cos_inner}, {"cosOuter", light.cos_outer}};
   if (light.falloff == Light::Falloff::inverse_square) json["falloff"] = "inverse square";
   if (std::isfinite(light.range)) json["range"] = light.range;
-  if (light.radius > 0.0f) json["radius"] = light.radius;
-  if (light.angle_deg > 0.0f) json["angleDegrees"] = light.angle_deg;
-  if (light.kind == Light::Kind::rectangle)
-    json["edges"] = {vec3_json(light.edge_u), vec3_json(light.edge_v)};
+  for (const LightSize& size : kLightSizes)
+    if (light.*size.value > 0.0f) json[std::string(size.exr_name)] = light.*size.value;
+  if (kind.has_sides) json["edges"] = {vec3_json(light.edge_u), vec3_json(light.edge_v)};
   return json;
 }
 

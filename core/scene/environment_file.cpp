@@ -1,10 +1,8 @@
 #include <algorithm>
-#include <array>
-#include <charconv>
 #include <cmath>
 #include <cstdlib>
-#include <system_error>
 
+#include "core/base/decimal.h"
 #include "core/files/input_file.h"
 #include "core/files/memory_limit.h"
 #include "core/image/codecs/formats.h"
@@ -43,14 +41,10 @@ void repair(const std::filesystem::path& file, Image<glm::vec3>& image, Warnings
   for (glm::vec3& pixel : image.pixels())
     for (int c = 0; c < 3; ++c)
       if (!std::isfinite(pixel[c])) pixel[c] = pixel[c] > 0.0f ? largest : 0.0f;
-  std::array<char, 32> value{};
-  const char* const end =
-      std::to_chars(value.data(), value.data() + value.size(), largest, std::chars_format::general, 6).ptr;
-  const std::string most(static_cast<const char*>(value.data()), end);
   warnings.add(
       {file.string(), "",
        "pixels hold NaN (" + std::to_string(not_numbers) + ") or infinity (" + std::to_string(infinite) + ")",
-       "NaN is read as 0, infinity as the largest finite value, " + most});
+       "NaN is read as 0, infinity as the largest finite value, " + decimal(largest)});
 }
 
 void warn_of_shape(const std::filesystem::path& file, const glm::ivec2& size, Warnings& warnings) {

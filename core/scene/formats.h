@@ -3,11 +3,11 @@
 
 #include <array>
 #include <filesystem>
-#include <span>
 #include <string>
 #include <string_view>
 
-#include "core/scene/loaders.h"
+#include "core/files/loading.h"
+#include "pinocchio/save.h"
 #include "pinocchio/scene.h"
 
 namespace pinocchio {
@@ -19,7 +19,20 @@ struct SceneFormat {
   void (*save)(const Scene&, const std::filesystem::path&, Progress*, Warnings*);  // null: it is only read
 };
 
-[[nodiscard]] std::span<const SceneFormat> scene_formats();
+[[nodiscard]] Expected<Scene> load_gltf(const std::filesystem::path& path, Loading& loading);
+[[nodiscard]] Expected<Scene> load_obj(const std::filesystem::path& path, Loading& loading);
+[[nodiscard]] Expected<Scene> load_ply(const std::filesystem::path& path, Loading& loading);
+
+// A path without an extension names the first of these files that exists.
+inline constexpr SceneFormat kSceneFormats[] = {
+    {"glTF", {".gltf", ".glb"}, load_gltf, save_gltf},
+    {"OBJ", {".obj"}, load_obj, save_obj},
+    {"PLY", {".ply"}, load_ply, nullptr},
+};
+
+// The warning about triangles with a vertex that is NaN or infinite, for every format.
+inline constexpr const char* kUnplaced = "faces on vertices that are no finite numbers are left out";
+inline constexpr const char* kNotDrawn = "they are not drawn";
 
 // The file's extension in lower case, with its dot.
 [[nodiscard]] std::string lower_extension(const std::filesystem::path& file);

@@ -1,6 +1,5 @@
 #include "pinocchio/mesh.h"
 
-#include <algorithm>
 #include <array>
 
 #include "core/parallel/parts.h"

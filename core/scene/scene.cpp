@@ -23,12 +23,13 @@ std::vector<int> mask_slots(const Scene& scene) {
 
 bool reaches(const Light& light, const Bounds& box) {
   if (box.empty() || light.color * light.intensity == glm::vec3(0.0f)) return false;
-  if (light.kind == Light::Kind::directional) return true;
+  const LightKind& kind = kind_of(light);
+  if (!kind.has_position) return true;
   const float sides = 0.5f * (glm::length(light.edge_u) + glm::length(light.edge_v));
   if (glm::distance(light.position, glm::clamp(light.position, box.lo, box.hi)) > light.range + sides)
     return false;
   // A ball with a cone also lights beside its axis.
-  if (light.kind != Light::Kind::spot || light.radius > 0.0f) return true;
+  if (!kind.has_cone || light.has_size()) return true;
   // The cone against the ball around the box.
   const glm::vec3 to_center = box.center() - light.position;
   const float distance = glm::length(to_center), radius = 0.5f * box.diagonal();

@@ -1,6 +1,5 @@
 #include "gl/objects/framebuffer.h"
 
-#include <cstdio>
 #include <string>
 
 #include "gl/context/context.h"

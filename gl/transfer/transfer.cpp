@@ -1,5 +1,6 @@
 #include "gl/transfer/transfer.h"
 
+#include <algorithm>
 #include <cassert>
 #include <string>
 
@@ -90,6 +91,11 @@ std::span<std::byte> Upload::open(std::size_t bytes) {
   fence_.wait();
   buffer_.reserve(bytes);
   return buffer_.map(bytes);
+}
+
+void Upload::send(std::span<const std::byte> bytes, const Texture& target) {
+  std::ranges::copy(bytes, open(bytes.size()).begin());
+  send(target);
 }
 
 void Upload::send(std::initializer_list<Piece> pieces) {

@@ -71,6 +71,9 @@ class Upload {
   // Starts the transfer into the whole of `target`. Does not wait.
   void send(const Texture& target) { send({{&target, {0, 0}, target.size(), 0}}); }
 
+  // Both, for a picture that is in memory: `bytes` fill the texture.
+  void send(std::span<const std::byte> bytes, const Texture& target);
+
   // A box of a texture, and where in the buffer its rows begin, tightly packed.
   struct Piece {
     const Texture* target;

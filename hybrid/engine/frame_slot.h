@@ -1,9 +1,7 @@
 #pragma once
 
-#include <array>
 #include <future>
 #include <memory>
-#include <optional>
 #include <vector>
 
 #include "core/base/clock.h"

@@ -1,7 +1,5 @@
 #include "hybrid/gpu/shading_passes.h"
 
-#include <algorithm>
-
 #include "hybrid/exchange/encode.h"
 #include "hybrid/exchange/reflection_tiles.h"
 #include "hybrid/gpu/visibility_pass.h"
@@ -36,9 +34,7 @@ void ShadingPasses::send(const std::shared_ptr<const Environment>& environment) 
   if (sent_ == environment) return;
   const Image<glm::vec3>& picture = environment->radiance();
   environment_ = gl::Texture(picture.size(), gl::kRgb32F);
-  gl::Upload upload;
-  std::ranges::copy(std::as_bytes(picture.pixels()), upload.open(picture.pixels().size_bytes()).begin());
-  upload.send(environment_);
+  gl::Upload().send(std::as_bytes(picture.pixels()), environment_);
   sent_ = environment;
 }
 

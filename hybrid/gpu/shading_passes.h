@@ -2,7 +2,6 @@
 
 #include <memory>
 #include <string>
-#include <vector>
 
 #include "core/shade/shared.h"
 #include "core/trace/rays/trace_options.h"

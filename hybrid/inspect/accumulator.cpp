@@ -6,15 +6,12 @@
 #include "hybrid/engine/frame_slot.h"
 
 namespace pinocchio {
-namespace {
 
 bool same_view(FrameRequest a, const FrameRequest& b) {
   a.view.jitter = b.view.jitter;
   a.view.sample = b.view.sample;
   return a == b;
 }
-
-}  // namespace
 
 Accumulator::Accumulator(Engine& engine)
     : engine_(engine), programs_(engine.parts().enter([&] { return engine.parts().gpu().programs; })) {}
@@ -48,9 +45,7 @@ const gl::Texture& Accumulator::whole_picture(const Frame& frame) {
   if (!frame.slot().picture_was_packed()) return frame.texture();
   frame.slot().copy_unpacked(whole_);
   fit(whole_texture_, whole_.size(), gl::kRgba32F);
-  const std::span<std::byte> bytes = upload_.open(whole_texture_.bytes());
-  std::ranges::copy(std::as_bytes(whole_.pixels()), bytes.begin());
-  upload_.send(whole_texture_);
+  upload_.send(std::as_bytes(whole_.pixels()), whole_texture_);
   return whole_texture_;
 }
 

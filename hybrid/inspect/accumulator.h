@@ -14,6 +14,9 @@ namespace pinocchio {
 
 class Programs;
 
+// Whether the requests differ at most in where pixels are sampled.
+[[nodiscard]] bool same_view(FrameRequest a, const FrameRequest& b);
+
 // The mean of a still camera's frames, which differ only in their samples. Frame k is requested with
 // at_sample(view, k) (core/trace/view/jitter.h).
 class Accumulator {

@@ -1,7 +1,5 @@
 #pragma once
 
-#include <cstddef>
-
 #include <glm/glm.hpp>
 
 #include "pinocchio/engine.h"

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <memory>
-#include <optional>
 
 #include "core/image/light_histogram.h"
 #include "gl/objects/draw.h"

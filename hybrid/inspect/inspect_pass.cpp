@@ -13,7 +13,7 @@ namespace pinocchio {
 namespace {
 
 // The definition of shaders/inspect.frag that shows the layer: SHOW_IDS.
-std::string definition_of(BufferView view) {
+std::string definition_of(Layer view) {
   std::string name = "SHOW_" + std::string(layer_row(view).window.name);
   std::ranges::transform(name, name.begin(), [](unsigned char c) { return std::toupper(c); });
   return name;
@@ -22,9 +22,7 @@ std::string definition_of(BufferView view) {
 void send(std::span<const std::byte> bytes, glm::ivec2 texels, const gl::PixelFormat& format,
           ChannelBuffer& to) {
   fit(to.texture, texels, format);
-  const std::span<std::byte> open = to.up.open(bytes.size());
-  std::copy(bytes.begin(), bytes.end(), open.begin());
-  to.up.send(to.texture);
+  to.up.send(bytes, to.texture);
 }
 
 std::string text_of(float value) {
@@ -62,29 +60,29 @@ std::string legend_of_delay(const std::string& in_time, const FrameRecord& recor
 
 }  // namespace
 
-std::string missing(BufferView view, int slot, const Settings& s) {
-  if (view == BufferView::delay && !s.uses_gpu())
+std::string missing(Layer view, int slot, const Settings& s) {
+  if (view == Layer::delay && !s.uses_gpu())
     return "mode raytrace: the CPU draws alone, nothing comes later than the rest";
   if (layer_row(view).window.traced && s.mask_bits == 0 && !s.reflects())
     return s.mask_bits.given ? "mode raster traces nothing: every light reaches everything"
                              : "this scene needs nothing traced: no light casts, nothing mirrors";
-  if (view == BufferView::mask && s.mask_bits == 0) return "no light casts shadows: there is no mask";
-  if (view == BufferView::mask && slot >= s.mask_bits)
+  if (view == Layer::mask && s.mask_bits == 0) return "no light casts shadows: there is no mask";
+  if (view == Layer::mask && slot >= s.mask_bits)
     return "the mask has " + std::to_string(s.mask_bits) + " slot(s), counted from 0";
-  if (view == BufferView::reflection && !s.reflects())
+  if (view == Layer::reflection && !s.reflects())
     return "nothing mirrors or refracts: there is no reflection";
   return {};
 }
 
-std::string legend(BufferView view, int slot, const Frame& frame, const ChannelRange& range) {
+std::string legend(Layer view, int slot, const Frame& frame, const ChannelRange& range) {
   const Settings& s = frame.request().settings;
   if (std::string why = missing(view, slot, s); !why.empty()) return why;
   const std::string where =
       s.uses_gpu() && s.composite == Processor::cpu ? "; from the CPU, which has it alone (design 2)" : "";
   const LayerRow& row = layer_row(view);
   std::string text(row.window.legend);
-  if (view == BufferView::delay) return legend_of_delay(text, frame.record());
-  if (view == BufferView::mask) {
+  if (view == Layer::delay) return legend_of_delay(text, frame.record());
+  if (view == Layer::mask) {
     text = name_of_slot(slot, frame.request().scene) + ": " + text;
     if (s.light_cutoff > 0.0f) text += "; black too where it is too faint for a ray";
   }
@@ -94,14 +92,13 @@ std::string legend(BufferView view, int slot, const Frame& frame, const ChannelR
 InspectPass::InspectPass(Engine& engine)
     : engine_(engine), shading_(engine.parts().enter([&] { return engine.parts().gpu().programs; })) {}
 
-const gl::Texture& InspectPass::draw(const Frame& frame, BufferView view, int slot,
-                                     const ChannelRange& range) {
-  if (view == BufferView::picture) return frame.texture();
+const gl::Texture& InspectPass::draw(const Frame& frame, Layer view, int slot, const ChannelRange& range) {
+  if (view == Layer::picture) return frame.texture();
   engine_.parts().enter([&] { draw_buffer(frame, view, slot, range); });
   return target_.color();
 }
 
-void InspectPass::draw_buffer(const Frame& frame, BufferView view, int slot, const ChannelRange& range) {
+void InspectPass::draw_buffer(const Frame& frame, Layer view, int slot, const ChannelRange& range) {
   const FrameSlot& shown = frame.slot();
   const Settings& s = shown.request.settings;
   const FrameSlot* const of = shown.answer_of;
@@ -133,13 +130,13 @@ ShadingPasses::Inputs InspectPass::inputs_of(const FrameSlot& frame) {
 }
 
 ShadingPasses::Traced InspectPass::send_from_cpu(const MaskImage& mask, const Image<glm::vec3>& reflection,
-                                                 BufferView view) {
+                                                 Layer view) {
   ShadingPasses::Traced traced;
-  if (view == BufferView::mask) {
+  if (view == Layer::mask) {
     send(std::as_bytes(mask.bytes()), {mask.row_bytes(), mask.size().y}, gl::kR8Ui, mask_);
     traced.mask = {&mask_.texture, mask.bits(), 1};
   }
-  if (view == BufferView::reflection) {
+  if (view == Layer::reflection) {
     constexpr ReflectionFormat kFormat = ReflectionFormat::full;  // the CPU's
     send(std::as_bytes(reflection.pixels()), component_size(reflection.size()), packing(kFormat).texel,
          reflection_);

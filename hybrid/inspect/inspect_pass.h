@@ -1,7 +1,6 @@
 #pragma once
 
 #include <cstddef>
-#include <memory>
 #include <string>
 
 #include "gl/objects/framebuffer.h"
@@ -11,9 +10,8 @@
 
 namespace pinocchio {
 
-// A layer that the window shows as a picture: all up to this number.
-using BufferView = Layer;
-inline constexpr std::size_t kBufferViews = static_cast<std::size_t>(Layer::objects);
+// The window shows the layers up to this number as pictures.
+inline constexpr std::size_t kShownLayers = static_cast<std::size_t>(Layer::objects);
 
 // The values that are shown black and white, by axis.
 struct ChannelRange {
@@ -23,10 +21,9 @@ struct ChannelRange {
 };
 
 // Why a frame of these settings has no such layer, in words; empty: it has one. `slot`: of the mask.
-[[nodiscard]] std::string missing(BufferView view, int slot, const Settings& settings);
+[[nodiscard]] std::string missing(Layer view, int slot, const Settings& settings);
 // What the colours mean, or why the layer is missing, in words.
-[[nodiscard]] std::string legend(BufferView view, int slot, const Frame& frame,
-                                 const ChannelRange& range = {});
+[[nodiscard]] std::string legend(Layer view, int slot, const Frame& frame, const ChannelRange& range = {});
 
 // reads: a delivered frame's buffers. writes: one of them as a picture.
 class InspectPass {
@@ -36,13 +33,13 @@ class InspectPass {
   // Called while the frame is delivered (FrameSinks::frame). The result has the frame's size and linear
   // light; it is the frame's own texture for `picture`, else this object's until the next call. A missing
   // layer is grey. `range`: for layers with ranged_axes.
-  const gl::Texture& draw(const Frame& frame, BufferView view, int slot, const ChannelRange& range = {});
+  const gl::Texture& draw(const Frame& frame, Layer view, int slot, const ChannelRange& range = {});
 
  private:
-  void draw_buffer(const Frame& frame, BufferView view, int slot, const ChannelRange& range);
+  void draw_buffer(const Frame& frame, Layer view, int slot, const ChannelRange& range);
   // Where the CPU composites, only it has mask and reflection: sends them.
   [[nodiscard]] ShadingPasses::Traced send_from_cpu(const MaskImage& mask, const Image<glm::vec3>& reflection,
-                                                    BufferView view);
+                                                    Layer view);
 
   // The frame's inputs for the GPU's passes; ids that only the CPU has are sent.
   [[nodiscard]] ShadingPasses::Inputs inputs_of(const FrameSlot& frame);

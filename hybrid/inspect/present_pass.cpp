@@ -9,33 +9,33 @@ namespace pinocchio {
 PresentPass::PresentPass(Engine& engine)
     : engine_(engine), programs_(engine.parts().enter([&] { return engine.parts().gpu().programs; })) {}
 
-void PresentPass::draw(const gl::Texture& picture, glm::ivec2 window_pixels, const PixelBox& box,
-                       float exposure_ev, ToneMap curve, const PictureZoom& zoom) const {
+// Draws a part of the window by the pass's program, whose uniforms `set` sets.
+template <class Set>
+void PresentPass::draw_part(glm::ivec2 window_pixels, const PixelBox& box, const Set& set) const {
   engine_.parts().enter([&] {
     gl::begin_window_pass(window_pixels, box.lo, box.size());
     const gl::Program& program = programs_->get("fullscreen.vert", "present.frag");
     program.use();
-    program.set("picture", 0, picture);
     program.set("window_pixels", glm::vec2(window_pixels));
-    program.set("gain", std::exp2(exposure_ev));
-    program.set("tone_curve", static_cast<int>(curve));
-    program.set("zoom", zoom.factor);
-    program.set("zoom_corner", zoom.corner);
+    set(program);
     triangle_.draw();
     gl::end_window_pass();
   });
 }
 
-void PresentPass::clear(glm::ivec2 window_pixels, const PixelBox& box) const {
-  engine_.parts().enter([&] {
-    gl::begin_window_pass(window_pixels, box.lo, box.size());
-    const gl::Program& program = programs_->get("fullscreen.vert", "present.frag");
-    program.use();
-    program.set("gain", 0.0f);
-    program.set("window_pixels", glm::vec2(window_pixels));
-    triangle_.draw();
-    gl::end_window_pass();
+void PresentPass::draw(const gl::Texture& picture, glm::ivec2 window_pixels, const PixelBox& box,
+                       float exposure_ev, ToneMap curve, const PictureZoom& zoom) const {
+  draw_part(window_pixels, box, [&](const gl::Program& program) {
+    program.set("picture", 0, picture);
+    program.set("gain", std::exp2(exposure_ev));
+    program.set("tone_curve", static_cast<int>(curve));
+    program.set("zoom", zoom.factor);
+    program.set("zoom_corner", zoom.corner);
   });
+}
+
+void PresentPass::clear(glm::ivec2 window_pixels, const PixelBox& box) const {
+  draw_part(window_pixels, box, [](const gl::Program& program) { program.set("gain", 0.0f); });
 }
 
 }  // namespace pinocchio

@@ -34,6 +34,9 @@ class PresentPass {
   void clear(glm::ivec2 window_pixels, const PixelBox& box) const;
 
  private:
+  template <class Set>
+  void draw_part(glm::ivec2 window_pixels, const PixelBox& box, const Set& set) const;
+
   Engine& engine_;
   std::shared_ptr<Programs> programs_;
   gl::FullscreenTriangle triangle_;

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <atomic>
 #include <optional>
 #include <stdexcept>
 
@@ -10,7 +9,6 @@
 #include "core/parallel/start_thread.h"
 #include "core/parallel/workers.h"
 #include "core/reference/reference_tracer.h"
-#include "core/trace/view/view_params.h"
 
 namespace pinocchio {
 namespace {

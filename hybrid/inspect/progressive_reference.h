@@ -4,7 +4,6 @@
 #include <memory>
 #include <mutex>
 #include <thread>
-#include <vector>
 
 #include "core/parallel/tiles.h"
 #include "core/trace/rays/trace_options.h"

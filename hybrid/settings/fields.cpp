@@ -4,6 +4,8 @@
 #include <cmath>
 #include <optional>
 
+#include "core/base/decimal.h"
+#include "core/base/listed.h"
 #include "pinocchio/settings.h"
 
 namespace pinocchio {
@@ -15,11 +17,6 @@ template <class T>
 struct Member<Setting<T> Settings::*> {
   using Value = T;
 };
-
-std::string text_of_number(auto value) {
-  char text[32];
-  return {text, std::to_chars(text, text + sizeof text, value).ptr};
-}
 
 template <class T>
 std::optional<T> number_of(std::string_view text, double lo, double hi) {
@@ -62,7 +59,7 @@ struct Access {
     } else if constexpr (std::is_enum_v<T>) {
       return std::string(row().choices[static_cast<std::size_t>(value)]);
     } else {
-      return text_of_number(value);
+      return shortest(value);
     }
   }
   static bool take(std::string_view text, Settings& s) {
@@ -212,21 +209,12 @@ const Field& Access<M>::row() {
   return *std::ranges::find_if(kTable, [](const Field& f) { return f.copy == &Access<M>::copy; });
 }
 
-std::string listed(std::span<const std::string_view> names) {
-  std::string text;
-  for (std::size_t i = 0; i < names.size(); ++i) {
-    if (i > 0) text += i + 1 == names.size() ? " or " : ", ";
-    text += names[i];
-  }
-  return text;
-}
-
 }  // namespace
 
 std::string Field::domain() const {
-  if (!choices.empty()) return listed(choices);
-  return (kind == Kind::whole ? "a whole number from " : "a number from ") + text_of_number(lo) + " to " +
-         text_of_number(hi);
+  if (!choices.empty()) return listed(choices, ", ", " or ");
+  return (kind == Kind::whole ? "a whole number from " : "a number from ") + shortest(lo) + " to " +
+         shortest(hi);
 }
 
 std::string Field::option() const {

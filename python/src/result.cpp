@@ -46,11 +46,8 @@ nb::dict record(const Result& result) {
   bytes["gpu_to_cpu"] = r.bytes_to_cpu();
   bytes["cpu_to_gpu"] = r.bytes_to_gpu();
   bytes["buffers"] = buffers;
-  rays["primary"] = r.rays.primary;
-  rays["shadow"] = r.rays.shadow;
-  rays["reflection"] = r.rays.reflection;
-  rays["refraction"] = r.rays.refraction;
-  rays["indirect"] = r.rays.indirect;
+  for (const RayKind& kind : kRayKinds)
+    rays[nb::str(kind.name.data(), kind.name.size())] = r.rays.*kind.count;
   all["ms"] = result.ms;
   all["stages"] = stages;
   all["bytes"] = bytes;

@@ -3,6 +3,7 @@
 #include <pinocchio/scene.h>
 
 #include <nanobind/stl/filesystem.h>
+#include <nanobind/stl/string_view.h>
 #include <nanobind/stl/variant.h>
 #include <algorithm>
 #include <cmath>
@@ -43,14 +44,18 @@ Light light_of(std::optional<glm::vec3> position, std::optional<glm::vec3> direc
   if (direction && glm::length(*direction) == 0.0f) throw Error("a light's direction must not be zero");
   Light light;
   light.name = name;
-  light.kind = !direction ? Light::Kind::point : position ? Light::Kind::spot : Light::Kind::directional;
+  // The first kind that has what is given: no rectangle.
+  const auto* const kind = std::ranges::find_if(kLightKinds, [&](const LightKind& row) {
+    return row.has_position == position.has_value() && row.has_direction == direction.has_value();
+  });
+  light.kind = kind->kind;
   if (position) light.position = *position;
   if (direction) light.direction = glm::normalize(*direction);
   light.color = color;
   light.intensity = intensity;
   light.falloff = falloff == "none" ? Light::Falloff::none : Light::Falloff::inverse_square;
   light.range = range;
-  if (light.kind == Light::Kind::spot) {
+  if (kind->has_cone) {
     light.cos_inner = std::cos(glm::radians(inner_cone));
     light.cos_outer = std::cos(glm::radians(outer_cone));
   }
@@ -58,11 +63,6 @@ Light light_of(std::optional<glm::vec3> position, std::optional<glm::vec3> direc
   light.radius = radius;
   light.angle_deg = angle;
   return light;
-}
-
-const char* kind_of(const Light& light) {
-  constexpr const char* kKinds[] = {"point", "directional", "spot", "rectangle"};
-  return kKinds[static_cast<int>(light.kind)];
 }
 
 // Makes a material for each different colour of the triangles.
@@ -251,7 +251,7 @@ void bind_light(nb::module_& module) {
           "With either,\n"
           "several samples (spp) give soft shadows.\n"
           "Raises Error if there is neither position nor direction, or if falloff is another word.")
-      .def_prop_ro("kind", &kind_of)
+      .def_prop_ro("kind", [](const Light& light) { return kind_of(light).name; })
       .def_rw("name", &Light::name)
       .def_rw("position", &Light::position)
       .def_prop_rw(

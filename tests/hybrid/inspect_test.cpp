@@ -33,7 +33,7 @@ class InspectTest : public FramesTest {
   void look_at(const Scene& scene, const Settings& settings, const std::function<void(Frame&)>& look) {
     draw({request(scene, settings, kSize)}, Exchange::sync, look);
   }
-  Image<glm::vec4> view(const Frame& frame, BufferView what, int slot = 0) {
+  Image<glm::vec4> view(const Frame& frame, Layer what, int slot = 0) {
     return read(pass_->draw(frame, what, slot));
   }
 
@@ -49,7 +49,7 @@ TEST_P(InspectTest, IdsHaveAColourEach) {
     if (id_bits == 32) settings.visibility = Processor::cpu;
     look_at(scene, settings, [&](Frame& frame) {
       const Image<std::uint32_t>& ids = frame.slot().ids;
-      const Image<glm::vec4> picture = view(frame, BufferView::ids);
+      const Image<glm::vec4> picture = view(frame, Layer::ids);
       std::map<std::uint32_t, glm::vec4> color_of;
       std::set<std::tuple<float, float, float>> colors;
       for (std::size_t i = 0; i < picture.pixels().size(); ++i) {
@@ -73,9 +73,9 @@ TEST_P(InspectTest, DepthPositionAndAlbedoAreTheTracersWithinTheirRange) {
   look_at(scene, settings_for(scene), [&](Frame& frame) {
     const FrameSlot& slot = frame.slot();
     const SurfaceImages surface = surface_images(*scene.mesh, slot.view, slot.ids, 0, slot.ids.height());
-    const Image<glm::vec4> depth = read(pass_->draw(frame, BufferView::depth, 0, near_far));
-    const Image<glm::vec4> position = read(pass_->draw(frame, BufferView::position, 0, sides));
-    const Image<glm::vec4> albedo = view(frame, BufferView::albedo);
+    const Image<glm::vec4> depth = read(pass_->draw(frame, Layer::depth, 0, near_far));
+    const Image<glm::vec4> position = read(pass_->draw(frame, Layer::position, 0, sides));
+    const Image<glm::vec4> albedo = view(frame, Layer::albedo);
     for (std::size_t i = 0; i < depth.pixels().size(); ++i) {
       if (slot.ids[i] == kNoTriangle) continue;
       ASSERT_NEAR(linear_to_srgb(depth[i].x), surface.z_eye[i] / box.diagonal(), 0.002f);
@@ -85,7 +85,7 @@ TEST_P(InspectTest, DepthPositionAndAlbedoAreTheTracersWithinTheirRange) {
         ASSERT_NEAR(albedo[i][c], surface.albedo[i][c], 0.002f);
       }
     }
-    EXPECT_NE(legend(BufferView::depth, 0, frame, near_far).find("black 0"), std::string::npos);
+    EXPECT_NE(legend(Layer::depth, 0, frame, near_far).find("black 0"), std::string::npos);
   });
 }
 
@@ -115,7 +115,7 @@ TEST_P(InspectTest, NormalsAreTheTracers) {
   Workers workers(2);
   look_at(scene, settings_for(scene), [&](Frame& frame) {
     const FrameSlot& slot = frame.slot();
-    const Image<glm::vec4> picture = view(frame, BufferView::normals);
+    const Image<glm::vec4> picture = view(frame, Layer::normals);
     const Image<glm::vec3> n =
         surface_images(*scene.mesh, slot.view, slot.ids, 0, slot.ids.height()).n_shading;
     for (std::size_t i = 0; i < picture.pixels().size(); ++i) {
@@ -148,7 +148,7 @@ TEST_P(InspectTest, MasksAreWhiteWhereLitBlackInShadowGreyWhereNotAsked) {
   for (const char* design : {"1", "2"})
     look_at(scene, settings_for(scene, by({{"design", design}})), [&](Frame& frame) {
       for (int slot = 0; slot < 2; ++slot) {
-        const glm::ivec3 count = check_mask(view(frame, BufferView::mask, slot), frame.slot(), slot);
+        const glm::ivec3 count = check_mask(view(frame, Layer::mask, slot), frame.slot(), slot);
         for (int c = 0; c < 3; ++c) EXPECT_GT(count[c], 50) << design << " " << slot << " " << c;
       }
     });
@@ -158,7 +158,7 @@ TEST_P(InspectTest, ReflectionIsTheTracedLight) {
   const Scene scene = load_or_die(source_path("scenes/cornell"));
   for (const char* design : {"1", "2"})
     look_at(scene, settings_for(scene, by({{"design", design}})), [&](Frame& frame) {
-      const Image<glm::vec4> picture = view(frame, BufferView::reflection);
+      const Image<glm::vec4> picture = view(frame, Layer::reflection);
       float brightest = 0.0f;
       for (std::size_t i = 0; i < picture.pixels().size(); ++i) {
         if (frame.slot().ids[i] == kNoTriangle) continue;
@@ -178,7 +178,7 @@ TEST_P(InspectTest, AtLowerResolutionsItShowsWhatTheCompositeReads) {
   settings.mask_scale = settings.reflection_scale = 2;
   settings.tiles = true;
   look_at(scene, settings, [&](Frame& frame) {
-    const Image<glm::vec4> mask = view(frame, BufferView::mask), light = view(frame, BufferView::reflection);
+    const Image<glm::vec4> mask = view(frame, Layer::mask), light = view(frame, Layer::reflection);
     bool half_lit = false;
     float brightest = 0.0f;
     for (std::size_t i = 0; i < mask.pixels().size(); ++i) {
@@ -201,7 +201,7 @@ TEST_P(InspectTest, AgeIsFlatUnlessReprojectedAndThenTellsHoles) {
   for (const Exchange exchange : {Exchange::sync, Exchange::pipelined, Exchange::reproject}) {
     std::size_t aged = 0, holes = 0;
     draw(moving, exchange, [&](Frame& frame) {
-      const Image<glm::vec4> age = view(frame, BufferView::delay), picture = read(frame.texture());
+      const Image<glm::vec4> age = view(frame, Layer::delay), picture = read(frame.texture());
       aged += frame.record().age_frames > 0;
       for (std::size_t i = 0; i < age.pixels().size(); ++i) {
         const bool hole = picture[i].a > 0.0f && picture[i].a < 1.0f;
@@ -217,7 +217,7 @@ TEST_P(InspectTest, AgeIsFlatUnlessReprojectedAndThenTellsHoles) {
         }
         holes += hole;
       }
-      EXPECT_FALSE(legend(BufferView::delay, 0, frame).empty());
+      EXPECT_FALSE(legend(Layer::delay, 0, frame).empty());
     });
     EXPECT_EQ(aged > 0, exchange == Exchange::reproject);
     EXPECT_EQ(holes > 0, exchange == Exchange::reproject);
@@ -227,14 +227,13 @@ TEST_P(InspectTest, AgeIsFlatUnlessReprojectedAndThenTellsHoles) {
 TEST_P(InspectTest, OfAPictureByTheCpuAloneToo) {
   const Scene scene = load_or_die(source_path("scenes/cornell"));
   const Settings alone = settings_for(scene, by({{"mode", "raytrace"}}));
-  std::map<BufferView, Image<glm::vec4>> by_cpu;
-  constexpr std::array kViews{BufferView::ids, BufferView::normals, BufferView::mask, BufferView::reflection,
-                              BufferView::picture};
+  std::map<Layer, Image<glm::vec4>> by_cpu;
+  constexpr std::array kViews{Layer::ids, Layer::normals, Layer::mask, Layer::reflection, Layer::picture};
   look_at(scene, alone, [&](Frame& frame) {
-    for (const BufferView what : kViews) by_cpu[what] = view(frame, what);
+    for (const Layer what : kViews) by_cpu[what] = view(frame, what);
   });
   look_at(scene, settings_for(scene), [&](Frame& frame) {
-    for (const BufferView what : kViews) {
+    for (const Layer what : kViews) {
       const Image<glm::vec4> hybrid = view(frame, what), &cpu = by_cpu[what];
       std::size_t other = 0;
       for (std::size_t i = 0; i < hybrid.pixels().size(); ++i)
@@ -242,7 +241,7 @@ TEST_P(InspectTest, OfAPictureByTheCpuAloneToo) {
       EXPECT_LT(other, hybrid.pixels().size() / 200) << layer_row(what).window.name;
     }
   });
-  EXPECT_NE(missing(BufferView::delay, 0, alone), "");
+  EXPECT_NE(missing(Layer::delay, 0, alone), "");
 }
 
 // A reprojected frame's mask is the older one's where its points were then: what the picture shows.
@@ -253,7 +252,7 @@ TEST_P(InspectTest, AReprojectedMaskFollowsThePicture) {
   Image<glm::vec4> own;
   int delivered = 0;
   draw(jittered, Exchange::reproject, [&](Frame& frame) {
-    const Image<glm::vec4> mask = view(frame, BufferView::mask);
+    const Image<glm::vec4> mask = view(frame, Layer::mask);
     if (delivered++ == 0) own = mask;
     std::size_t other = 0;
     for (std::size_t i = 0; i < mask.pixels().size(); ++i) other += mask[i] != own[i];
@@ -266,7 +265,7 @@ TEST_P(InspectTest, WhatAFrameHasNotIsSaidAndGrey) {
   const Scene scene = load_or_die(source_path("scenes/two-lights"));
   look_at(scene, settings_for(scene, by({{"mode", "raster"}})), [&](Frame& frame) {
     const Image<std::uint32_t>& ids = frame.slot().ids;
-    for (const BufferView what : {BufferView::mask, BufferView::reflection, BufferView::delay}) {
+    for (const Layer what : {Layer::mask, Layer::reflection, Layer::delay}) {
       EXPECT_NE(missing(what, 0, frame.request().settings), "");
       const Image<glm::vec4> picture = view(frame, what);
       for (std::size_t i = 0; i < picture.pixels().size(); ++i)
@@ -274,13 +273,13 @@ TEST_P(InspectTest, WhatAFrameHasNotIsSaidAndGrey) {
           ASSERT_TRUE(is_grey(picture[i], kNothingAsked) || is_grey(picture[i], kDark));
         }
     }
-    for (const BufferView what : {BufferView::picture, BufferView::ids, BufferView::normals})
+    for (const Layer what : {Layer::picture, Layer::ids, Layer::normals})
       EXPECT_EQ(missing(what, 0, frame.request().settings), "");
-    EXPECT_EQ(&pass_->draw(frame, BufferView::picture, 0), &frame.texture());
+    EXPECT_EQ(&pass_->draw(frame, Layer::picture, 0), &frame.texture());
   });
   const Settings settings = settings_for(scene);
-  EXPECT_EQ(missing(BufferView::mask, 0, settings), "");
-  EXPECT_NE(missing(BufferView::mask, 1, settings), "");  // its other light does not cast
+  EXPECT_EQ(missing(Layer::mask, 0, settings), "");
+  EXPECT_NE(missing(Layer::mask, 1, settings), "");  // its other light does not cast
 }
 
 }  // namespace

@@ -115,13 +115,13 @@ TEST(ViewSettings, FewerAndMorePixelsMeetWholeSize) {
 
 TEST(ViewSettings, EveryBufferComesAndEachMaskSlot) {
   ViewSettings settings;
-  std::set<std::pair<BufferView, int>> seen;
-  for (std::size_t i = 0; i < kBufferViews + 2; ++i) {
+  std::set<std::pair<Layer, int>> seen;
+  for (std::size_t i = 0; i < kShownLayers + 2; ++i) {
     seen.insert({settings.buffer, settings.mask_slot});
     next_buffer(settings, 3);
   }
-  EXPECT_EQ(seen.size(), kBufferViews + 2);
-  EXPECT_EQ(settings.buffer, BufferView::picture);
+  EXPECT_EQ(seen.size(), kShownLayers + 2);
+  EXPECT_EQ(settings.buffer, Layer::picture);
 }
 
 TEST(ViewSettings, ShadowsAndReflectionsAreSwitches) {

@@ -34,6 +34,11 @@ const Rule* brighten(S& s, float stops) {
   return set(s.exposure_ev, s.exposure_ev + stops);
 }
 
+KeyBinding with_control(KeyBinding binding) {
+  binding.with_control = true;
+  return binding;
+}
+
 }  // namespace
 
 const std::vector<KeyBinding>& key_bindings() {
@@ -85,13 +90,13 @@ const std::vector<KeyBinding>& key_bindings() {
       {gl::kKeyLeft, "Left", Action::previous_file, "previous scene of the folder"},
       {gl::kKeyRight, "Right", Action::next_file, "next scene of the folder"},
       {gl::kKeySpace, "Space", Action::play, "play or pause the scene's animation"},
-      {gl::kKeyLeft, "Ctrl + Left", Action::frame_back, "the animation's previous frame", true},
-      {gl::kKeyRight, "Ctrl + Right", Action::frame_on, "the animation's next frame", true},
+      with_control({gl::kKeyLeft, "Ctrl + Left", Action::frame_back, "the animation's previous frame"}),
+      with_control({gl::kKeyRight, "Ctrl + Right", Action::frame_on, "the animation's next frame"}),
       {'K', "K", Action::record, "record the pictures as PNG files, with Shift as EXR too; or stop"},
-      {'O', "Ctrl + O", Panel::files, "open a scene", true},
-      {'S', "Ctrl + S", Action::save_scene, "save the scene as glTF", true},
-      {'Z', "Ctrl + Z", Action::undo, "undo", true},
-      {'Y', "Ctrl + Y", Action::redo, "redo", true},
+      with_control({'O', "Ctrl + O", Panel::files, "open a scene"}),
+      with_control({'S', "Ctrl + S", Action::save_scene, "save the scene as glTF"}),
+      with_control({'Z', "Ctrl + Z", Action::undo, "undo"}),
+      with_control({'Y', "Ctrl + Y", Action::redo, "redo"}),
       {gl::kKeyEscape, "Esc", Action::close, "close what is open, leave full screen, quit"},
   };
   return kBindings;

@@ -1,24 +1,17 @@
 #include "app/window/model/export.h"
 
 #include <array>
-#include <charconv>
 #include <cstdio>
 #include <nlohmann/json.hpp>
 
 #include "app/window/model/settings.h"
+#include "core/base/decimal.h"
 
 namespace pinocchio::app {
 namespace {
 
-// The shortest text that is parsed to the same number.
-std::string exact(float value) {
-  std::array<char, 32> text{};
-  const auto end = std::to_chars(text.data(), text.data() + text.size(), value).ptr;
-  return {text.data(), end};
-}
-
 std::string exact(const glm::vec3& v) {
-  return exact(v.x) + "," + exact(v.y) + "," + exact(v.z);
+  return shortest(v.x) + "," + shortest(v.y) + "," + shortest(v.z);
 }
 
 // One word for a shell.
@@ -57,13 +50,13 @@ std::string render_command(const ExportedView& view, const std::string& name) {
   const Camera& camera = view.camera;
   text += " --eye " + exact(camera.eye) + " --target " + exact(camera.target);
   if (camera.up != glm::vec3(0, 1, 0)) text += " --up " + exact(camera.up);
-  text += " --fov " + exact(camera.fov_deg);
-  if (camera.lens_radius > 0.0f) text += " --lens-radius " + exact(camera.lens_radius);
-  if (camera.focus_distance > 0.0f) text += " --focus " + exact(camera.focus_distance);
+  text += " --fov " + shortest(camera.fov_deg);
+  if (camera.lens_radius > 0.0f) text += " --lens-radius " + shortest(camera.lens_radius);
+  if (camera.focus_distance > 0.0f) text += " --focus " + shortest(camera.focus_distance);
   for (const Light& light : view.extra_lights)
-    text += " --light " + exact(light.position) + "," + exact(light.intensity) +
+    text += " --light " + exact(light.position) + "," + shortest(light.intensity) +
             (light.casts_shadow ? ",cast" : ",nocast") +
-            (light.radius > 0.0f ? "," + exact(light.radius) : "");
+            (light.radius > 0.0f ? "," + shortest(light.radius) : "");
   if (!view.environment.empty()) text += " --environment " + quoted(view.environment);
   if (view.load_limit != kUsualLoadLimit) text += " --load-limit " + std::to_string(view.load_limit >> 20);
   if (view.confine) text += " --confine";
@@ -71,7 +64,7 @@ std::string render_command(const ExportedView& view, const std::string& name) {
     text += " --shading " + std::string(name_of(kShadingNames, view.shading));
   if (view.time_s) text += " --time " + nlohmann::json(*view.time_s).dump();
   if (view.samples > 1) text += " --spp " + std::to_string(view.samples);
-  if (view.exposure_ev != 0.0f) text += " --exposure " + exact(view.exposure_ev);
+  if (view.exposure_ev != 0.0f) text += " --exposure " + shortest(view.exposure_ev);
   if (view.tone_map != ToneMap::clip)
     text += " --tone-map " + std::string(name_of(kToneMapNames, view.tone_map));
   return text + " -o " + quoted(name + ".exr") + " --preview " + quoted(name + ".png");

@@ -91,7 +91,7 @@ struct Model {
   [[nodiscard]] bool is_loading() const { return !loading.phase.empty(); }
   // Whether a still camera's samples are gathered: channels and comparisons show one sample.
   [[nodiscard]] bool gathers() const {
-    return applied.accumulate && applied.buffer == BufferView::picture && applied.split == Split::off;
+    return applied.accumulate && applied.buffer == Layer::picture && applied.split == Split::off;
   }
   // Of the picture for the window, pixels.
   [[nodiscard]] glm::ivec2 wanted_size() const;

@@ -1,9 +1,6 @@
 #pragma once
 
 #include <array>
-#include <span>
-#include <string>
-#include <string_view>
 
 namespace pinocchio::app {
 

@@ -1,12 +1,9 @@
 #include "app/window/model/pixel_report.h"
 
-#include <algorithm>
-
 #include "app/window/model/model.h"
 #include "core/trace/tiles/aov.h"
 #include "core/trace/view/jitter.h"
 #include "core/trace/view/view_params.h"
-#include "pinocchio/renderer.h"
 
 namespace pinocchio::app {
 namespace {

@@ -5,7 +5,6 @@
 #include <thread>
 #include <utility>
 
-#include "app/cli/errors.h"
 #include "app/window/camera/framing.h"
 #include "core/base/clock.h"
 #include "core/parallel/start_thread.h"

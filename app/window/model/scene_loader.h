@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "app/cli/exit_codes.h"
+#include "app/cli/errors.h"
 #include "app/cli/options.h"
 #include "hybrid/settings/scene_stats.h"
 #include "pinocchio/progress.h"

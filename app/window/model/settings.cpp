@@ -117,12 +117,12 @@ const Rule* next_exchange(ViewSettings& s) {
 }
 
 void next_buffer(ViewSettings& s, int mask_slots) {
-  if (s.buffer == BufferView::mask && s.mask_slot + 1 < mask_slots) {
+  if (s.buffer == Layer::mask && s.mask_slot + 1 < mask_slots) {
     ++s.mask_slot;
     return;
   }
   s.mask_slot = 0;
-  s.buffer = next(s.buffer, kBufferViews);
+  s.buffer = next(s.buffer, kShownLayers);
 }
 
 ViewSettings possible(ViewSettings settings) {

@@ -21,7 +21,7 @@ struct ViewSettings {
   ToneMap tone_map = ToneMap::clip;
   float scale = 1.0f;  // pixels of the picture for one of the window, along a side
   bool vsync = true;
-  BufferView buffer = BufferView::picture;
+  Layer buffer = Layer::picture;
   int mask_slot = 0;                  // that `buffer` shows
   std::optional<ChannelRange> range;  // of depth and position. Nothing: the scene's
   Split split = Split::off;

@@ -1,6 +1,5 @@
 // The panels Drawing and Camera.
 #include <algorithm>
-#include <array>
 #include <string>
 #include <utility>
 
@@ -50,10 +49,7 @@ void draw_quality_controls(ViewSettings& s) {
       {kToneMapNames[0], "light brighter than white is shown as white"},
       {kToneMapNames[1], "all light is shown darker, the brightest light most"},
       {kToneMapNames[2], "like film: more contrast, and highlights fade to white"}};
-  if (const int clicked = choose("tone curve", "how light brighter than white is shown", curves,
-                                 static_cast<std::size_t>(s.tone_map));
-      clicked >= 0)
-    s.tone_map = static_cast<ToneMap>(clicked);
+  choose_value("tone curve", "how light brighter than white is shown", curves, s.tone_map);
   slider("resolution", s.scale, kLeastScale, kMostScale, format("%.0f %%", 100.0 * s.scale),
          "pixels of the picture for one of the window, along a side");
   checkbox("gather samples", s.accumulate,
@@ -85,18 +81,17 @@ void draw_range(Model& model) {
 void draw_shown(Model& model) {
   ViewSettings& s = model.settings;
   label("show", "the picture, or one of the channels it is made of");
-  const auto name_of = [](BufferView view, int slot) {
+  const auto name_of = [](Layer view, int slot) {
     std::string name(layer_row(view).window.name);
-    if (view == BufferView::mask) name += " " + std::to_string(slot);
+    if (view == Layer::mask) name += " " + std::to_string(slot);
     return name;
   };
   if (ImGui::BeginCombo("##buffer", name_of(s.buffer, s.mask_slot).c_str())) {
-    for (std::size_t i = 0; i < kBufferViews; ++i) {
-      const auto view = static_cast<BufferView>(i);
-      for (int slot = 0; slot < (view == BufferView::mask ? std::max(model.stats.casting_lights, 1) : 1);
-           ++slot)
+    for (std::size_t i = 0; i < kShownLayers; ++i) {
+      const auto view = static_cast<Layer>(i);
+      for (int slot = 0; slot < (view == Layer::mask ? std::max(model.stats.casting_lights, 1) : 1); ++slot)
         if (list_item(name_of(view, slot).c_str(),
-                      s.buffer == view && (view != BufferView::mask || s.mask_slot == slot))) {
+                      s.buffer == view && (view != Layer::mask || s.mask_slot == slot))) {
           s.buffer = view;
           s.mask_slot = slot;
         }
@@ -109,11 +104,8 @@ void draw_shown(Model& model) {
       {"off", "the picture alone"},
       {"reference", "the right half shows the reference, in double precision"},
       {"difference", "the right half shows how visible the difference from the reference is (FLIP)"}};
-  if (const int clicked =
-          choose("compare", "compare the picture with a reference, which is drawn in the background", sides,
-                 static_cast<std::size_t>(s.split));
-      clicked >= 0)
-    s.split = static_cast<Split>(clicked);
+  choose_value("compare", "compare the picture with a reference, which is drawn in the background", sides,
+               s.split);
 }
 
 void draw_about(const Model& model) {

@@ -1,7 +1,5 @@
 // The panel Frame times: graphs, bytes, rays, and the reasons for the settings.
 #include <algorithm>
-#include <array>
-#include <cstdio>
 #include <string>
 
 #include "app/window/overlay/parts.h"

@@ -1,5 +1,4 @@
 // The panel Help: mouse and keys.
-#include <array>
 #include <string_view>
 
 #include "app/window/overlay/parts.h"

@@ -1,6 +1,5 @@
 // The panel Lights, and a mark for each light in the picture, which can be dragged.
 #include <algorithm>
-#include <cmath>
 #include <string>
 
 #include "app/window/camera/projection.h"
@@ -18,21 +17,16 @@ float drag_speed(const Model& model) {
 
 // The light's size, for soft shadows.
 bool edit_size(Light& light, const Model& model) {
-  bool changed = false;
-  if (light.kind == Light::Kind::directional) {
-    label("angle",
-          "diameter of its disc in degrees, 0.53 for the sun; above 0, shadows are soft once samples are "
-          "gathered");
-    changed = ImGui::DragFloat("##angle", &light.angle_deg, 0.02f, 0.0f, 180.0f, "%.2f");
-    light.angle_deg = glm::clamp(light.angle_deg, 0.0f, 180.0f);
-  } else if (light.kind != Light::Kind::rectangle) {
-    label("radius",
-          "radius of the light, in the scene's units; above 0, shadows are soft once samples are gathered");
-    changed = ImGui::DragFloat("##radius", &light.radius, 0.25f * drag_speed(model), 0.0f, 1e6f, "%.3f");
-    light.radius = std::max(light.radius, 0.0f);
-  } else {
-    return false;
-  }
+  const LightSize* const size = kind_of(light).size;
+  if (!size) return false;
+  const bool is_length = size->largest == kAnyLength;
+  const std::string name(size->name);
+  label(name.c_str(),
+        (std::string(size->what) + "; above 0, shadows are soft once samples are gathered").c_str());
+  const bool changed = ImGui::DragFloat(("##" + name).c_str(), &(light.*size->value),
+                                        is_length ? 0.25f * drag_speed(model) : 0.02f, 0.0f,
+                                        std::min(size->largest, 1e6f), is_length ? "%.3f" : "%.2f");
+  light.*size->value = glm::clamp(light.*size->value, 0.0f, size->largest);
   tooltip("drag, or Ctrl + click to type a number");
   return changed;
 }
@@ -41,17 +35,17 @@ bool edit_light(Light& light, const Model& model) {
   const std::string shadows = (light.name.empty() ? "light" : light.name) + ": casts shadows";
   bool changed = checkbox(shadows.c_str(), light.casts_shadow, "off: its light passes through everything");
   const float speed = std::max(0.01f * light.intensity, 0.005f);
-  if (light.kind == Light::Kind::directional) {
+  if (kind_of(light).has_position) {
+    label("position", "x y z in the scene's units; drag a number, or the light's mark in the picture");
+    changed =
+        ImGui::DragFloat3("##position", &light.position.x, drag_speed(model), 0.0f, 0.0f, "%.2f") || changed;
+  } else {
     label("direction", "direction of its light, x y z");
     if (ImGui::DragFloat3("##direction", &light.direction.x, 0.01f, 0.0f, 0.0f, "%.2f")) {
       const float length = glm::length(light.direction);
       light.direction = length > 1e-6f ? light.direction / length : glm::vec3(0.0f, -1.0f, 0.0f);
       changed = true;
     }
-  } else {
-    label("position", "x y z in the scene's units; drag a number, or the light's mark in the picture");
-    changed =
-        ImGui::DragFloat3("##position", &light.position.x, drag_speed(model), 0.0f, 0.0f, "%.2f") || changed;
   }
   tooltip("drag, or Ctrl + click to type a number");
   label("intensity", "multiplies the light's colour; 1: as bright as the file has white");
@@ -110,7 +104,7 @@ void draw_light_controls(Model& model, float) {
 void draw_light_handles(Model& model, float scale) {
   const ImVec2 display = ImGui::GetIO().DisplaySize;
   for (std::size_t i = 0; i < model.scene.lights.size(); ++i)
-    if (model.scene.lights[i].kind != Light::Kind::directional)
+    if (kind_of(model.scene.lights[i]).has_position)
       model.lights_changed =
           drag_mark(model.scene.lights[i], i, model.camera.camera(), {display.x, display.y}, scale) ||
           model.lights_changed;

@@ -1,5 +1,3 @@
-#include "app/window/overlay/overlay.h"
-
 #include <algorithm>
 #include <array>
 

@@ -8,12 +8,15 @@ namespace pinocchio::app {
 // The processor or path of a stage: a row of the timeline each.
 enum class Lane { gpu, exchange, cpu, window };
 [[nodiscard]] Lane lane_of(Stage stage, const Settings& settings);
-[[nodiscard]] const char* lane_name(Lane lane);
 [[nodiscard]] ImVec4 lane_color(Lane lane);
 // A stage in words.
 [[nodiscard]] const char* stage_label(Stage stage);
 
-// The panels' contents, each into the ImGui window that is open. scale: pixels for one of a usual display.
+// Describes the overlay to ImGui, within a frame of Gui; edits the model where a person edits it. scale:
+// pixels for one of a usual display.
+void draw_overlay(Model& model, float scale);
+
+// The panels' contents, each into the ImGui window that is open.
 void draw_help(Model& model, float scale);
 void draw_figures(Model& model, float scale);
 void draw_controls(Model& model, float scale);

@@ -1,5 +1,4 @@
 // The panel All settings: for each its name, its value, and a button that goes back to the default.
-#include <algorithm>
 #include <array>
 #include <string>
 

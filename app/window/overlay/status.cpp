@@ -1,7 +1,5 @@
 // What needs no panel: the status line, messages, and the progress of loading.
 #include <algorithm>
-#include <array>
-#include <cmath>
 #include <string>
 
 #include "app/window/overlay/parts.h"

@@ -9,7 +9,15 @@ namespace pinocchio::app {
 namespace {
 
 constexpr int kMostFramesShown = 60;
-constexpr std::array<Lane, 4> kLanes{Lane::gpu, Lane::exchange, Lane::cpu, Lane::window};
+// In the order of Lane.
+struct LaneRow {
+  const char* name;
+  ImVec4 color;
+};
+const std::array<LaneRow, 4> kLanes{{{"GPU", {0.47f, 0.80f, 0.52f, 1.0f}},
+                                     {"transfer", {0.50f, 0.70f, 0.95f, 1.0f}},
+                                     {"CPU", {0.98f, 0.68f, 0.34f, 1.0f}},
+                                     {"display", {0.72f, 0.66f, 0.88f, 1.0f}}}};
 
 // Places times and rows on the screen.
 struct Chart {
@@ -96,11 +104,6 @@ Lane lane_of(Stage stage, const Settings& settings) {
   return stage == Stage::present ? Lane::window : Lane::exchange;
 }
 
-const char* lane_name(Lane lane) {
-  constexpr std::array<const char*, 4> kNames{"GPU", "transfer", "CPU", "display"};
-  return kNames[static_cast<std::size_t>(lane)];
-}
-
 const char* stage_label(Stage stage) {
   constexpr std::array<const char*, kStageNames.size()> kLabels{
       "rasterize", "read back", "trace shadows", "trace reflections", "upload", "composite", "present"};
@@ -108,10 +111,7 @@ const char* stage_label(Stage stage) {
 }
 
 ImVec4 lane_color(Lane lane) {
-  constexpr std::array<std::array<float, 3>, 4> kColors{
-      {{0.47f, 0.80f, 0.52f}, {0.50f, 0.70f, 0.95f}, {0.98f, 0.68f, 0.34f}, {0.72f, 0.66f, 0.88f}}};
-  const auto& c = kColors[static_cast<std::size_t>(lane)];
-  return {c[0], c[1], c[2], 1.0f};
+  return kLanes[static_cast<std::size_t>(lane)].color;
 }
 
 namespace {
@@ -148,13 +148,14 @@ void handle_pointer(TimelineView& view, const Chart& chart) {
 
 void draw_lanes(const Chart& chart, float x) {
   ImDrawList& list = *ImGui::GetWindowDrawList();
-  for (const Lane lane : kLanes) {
-    const float y = chart.y(lane);
+  for (std::size_t i = 0; i < kLanes.size(); ++i) {
+    const auto& [name, color] = kLanes[i];
+    const float y = chart.y(static_cast<Lane>(i));
     list.AddRectFilled({chart.lo.x, y + 1.0f}, {chart.lo.x + chart.size.x, y + chart.row_height - 1.0f},
                        IM_COL32(255, 255, 255, 12), 2.0f);
     list.AddText({x, y + 0.5f * (chart.row_height - ImGui::GetTextLineHeight())},
-                 ImGui::ColorConvertFloat4ToU32(lane_color(lane)), lane_name(lane));
-    ImGui::LogText("%s ", lane_name(lane));
+                 ImGui::ColorConvertFloat4ToU32(color), name);
+    ImGui::LogText("%s ", name);
   }
 }
 

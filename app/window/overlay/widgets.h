@@ -31,6 +31,13 @@ void paragraph(const std::string& text);
 // A row of buttons of which one is chosen. Returns the one that is clicked, or -1.
 [[nodiscard]] int choose(const char* name, const std::string& help, const std::vector<Choice>& choices,
                          std::size_t chosen);
+// The same for an enumeration whose values have the choices' order.
+template <class Enum>
+void choose_value(const char* name, const std::string& help, const std::vector<Choice>& choices,
+                  Enum& value) {
+  const int clicked = choose(name, help, choices, static_cast<std::size_t>(value));
+  if (clicked >= 0) value = static_cast<Enum>(clicked);
+}
 // shown: the value with its unit, beside the slider.
 bool slider(const char* name, float& value, float lo, float hi, const std::string& shown,
             const std::string& help);

@@ -1,7 +1,6 @@
 #include "app/window/scene/file_watch.h"
 
 #include <algorithm>
-#include <utility>
 
 namespace pinocchio::app {
 

@@ -1,7 +1,6 @@
 #include "core/bsp/build/split.h"
 
 #include <algorithm>
-#include <vector>
 
 namespace pinocchio {
 namespace {

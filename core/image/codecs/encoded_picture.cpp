@@ -1,7 +1,5 @@
 #include "core/image/codecs/encoded_picture.h"
 
-#include <algorithm>
-
 namespace pinocchio {
 
 Unexpected EncodedPicture::error(const std::string& what) const {

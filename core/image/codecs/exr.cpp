@@ -12,6 +12,7 @@
 #include <ImfStringAttribute.h>
 
 #include <algorithm>
+#include <array>
 #include <stdexcept>
 
 #include "core/image/codecs/exr_open.h"
@@ -19,20 +20,13 @@
 namespace pinocchio {
 namespace {
 
-// The nearest of the methods that we write.
+// The methods that we write, in the order of ExrCompression; others are near to the first.
+constexpr std::array kImfCompressions{Imf::ZIP_COMPRESSION, Imf::ZIPS_COMPRESSION, Imf::PIZ_COMPRESSION,
+                                      Imf::RLE_COMPRESSION, Imf::NO_COMPRESSION};
+
 ExrCompression compression_of(Imf::Compression compression) {
-  switch (compression) {
-    case Imf::NO_COMPRESSION:
-      return ExrCompression::none;
-    case Imf::RLE_COMPRESSION:
-      return ExrCompression::rle;
-    case Imf::ZIPS_COMPRESSION:
-      return ExrCompression::zips;
-    case Imf::PIZ_COMPRESSION:
-      return ExrCompression::piz;
-    default:
-      return ExrCompression::zip;
-  }
+  const auto found = std::ranges::find(kImfCompressions, compression);
+  return static_cast<ExrCompression>(found == kImfCompressions.end() ? 0 : found - kImfCompressions.begin());
 }
 
 glm::mat4 glm_matrix(const Imath::M44f& m) {

@@ -3,6 +3,7 @@
 #include <openexr.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstring>
 #include <map>
@@ -32,33 +33,10 @@ void check(exr_result_t result) {
   throw std::runtime_error(complaint.empty() ? exr_get_default_error_message(result) : complaint);
 }
 
-exr_compression_t exr_compression(ExrCompression compression) {
-  switch (compression) {
-    case ExrCompression::zip:
-      return EXR_COMPRESSION_ZIP;
-    case ExrCompression::zips:
-      return EXR_COMPRESSION_ZIPS;
-    case ExrCompression::piz:
-      return EXR_COMPRESSION_PIZ;
-    case ExrCompression::rle:
-      return EXR_COMPRESSION_RLE;
-    case ExrCompression::none:
-      return EXR_COMPRESSION_NONE;
-  }
-  return EXR_COMPRESSION_ZIP;
-}
-
-exr_pixel_type_t exr_type(ExrChannel::Type type) {
-  switch (type) {
-    case ExrChannel::Type::half:
-      return EXR_PIXEL_HALF;
-    case ExrChannel::Type::real:
-      return EXR_PIXEL_FLOAT;
-    case ExrChannel::Type::uint:
-      return EXR_PIXEL_UINT;
-  }
-  return EXR_PIXEL_HALF;
-}
+// In the order of ExrCompression and of ExrChannel::Type.
+constexpr std::array kExrCompressions{EXR_COMPRESSION_ZIP, EXR_COMPRESSION_ZIPS, EXR_COMPRESSION_PIZ,
+                                      EXR_COMPRESSION_RLE, EXR_COMPRESSION_NONE};
+constexpr std::array kExrTypes{EXR_PIXEL_HALF, EXR_PIXEL_FLOAT, EXR_PIXEL_UINT};
 
 // An EXR that is being written.
 struct Context {
@@ -107,12 +85,13 @@ void write_header(exr_context_t exr, const ExrFile& file) {
   const exr_attr_box2i_t data{{box.lo.x, box.lo.y}, {box.hi.x - 1, box.hi.y - 1}};
   const exr_attr_v2f_t center{0.0f, 0.0f};
   check(exr_initialize_required_attr(exr, kPart, &display, &data, 1.0f, &center, 1.0f,
-                                     EXR_LINEORDER_INCREASING_Y, exr_compression(file.compression)));
+                                     EXR_LINEORDER_INCREASING_Y,
+                                     kExrCompressions[static_cast<std::size_t>(file.compression)]));
   const exr_attr_chromaticities_t rec709{0.64f, 0.33f, 0.30f, 0.60f, 0.15f, 0.06f, 0.3127f, 0.3290f};
   check(exr_attr_set_chromaticities(exr, kPart, "chromaticities", &rec709));
   for (const auto& [name, value] : file.attributes) std::visit(SetAttribute{exr, name.c_str()}, value);
   for (const ExrChannel& channel : file.channels)
-    check(exr_add_channel(exr, kPart, channel.name.c_str(), exr_type(channel.type),
+    check(exr_add_channel(exr, kPart, channel.name.c_str(), kExrTypes[static_cast<std::size_t>(channel.type)],
                           EXR_PERCEPTUALLY_LOGARITHMIC, 1, 1));
   check(exr_write_header(exr));
 }
@@ -205,18 +184,10 @@ void write_file(const std::filesystem::path& file, const ExrFile& header, Worker
   workers.for_each(chunks, [&](std::size_t n) {
     const int i = n, y0 = i * lines_of_chunk, y1 = std::min(y0 + lines_of_chunk, size.y);
     std::vector<std::byte> bytes = lines_of(band(y0, y1), size.x, y1 - y0);
-    switch (header.compression) {
-      case ExrCompression::zip:
-      case ExrCompression::zips:
-        bytes = pack_zip(bytes);
-        break;
-      case ExrCompression::piz:
-      case ExrCompression::rle:
-        bytes = packed_by_openexr(to.exr, header.data_window.lo.y + y0, std::move(bytes));
-        break;
-      case ExrCompression::none:
-        break;
-    }
+    if (header.compression == ExrCompression::zip || header.compression == ExrCompression::zips)
+      bytes = pack_zip(bytes);
+    else if (header.compression != ExrCompression::none)
+      bytes = packed_by_openexr(to.exr, header.data_window.lo.y + y0, std::move(bytes));
     put_chunk(to, header, lines_of_chunk, i, std::move(bytes));
     advance(progress);
   });

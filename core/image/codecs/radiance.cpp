@@ -2,7 +2,6 @@
 // end on some damaged files.
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <stdexcept>
 #include <string_view>
 #include <vector>

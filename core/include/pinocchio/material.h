@@ -8,14 +8,14 @@
 
 namespace pinocchio {
 
-// A reflection model with mirrors and glass, in linear colour: I = Ia + Id(L) + Is(L) + Ir(R) + It(T) (Whitted
-// 1980). Id and Is are Phong's or glTF's.
+// A reflection model with mirrors and glass, in linear colour: I = Ia + Id(L) + Is(L) + Ir(R) + It(T)
+// (Whitted 1980). Id and Is are Phong's or glTF's.
 struct Material {
   std::string name;
   glm::vec3 ambient{0.8f};
   glm::vec3 diffuse{0.8f};
-  glm::vec3 specular{0.0f};     // glTF's model: F0, mirrored at normal incidence
-  float shininess = 1.0f;       // exponent of (R.V), not of the half vector
+  glm::vec3 specular{0.0f};  // glTF's model: F0, mirrored at normal incidence
+  float shininess = 1.0f;    // exponent of (R.V), not of the half vector
   // glTF's reflection model (GGX): roughness squared. 0: Phong's model.
   float ggx_alpha = 0.0f;
   float grazing = 1.0f;   // glTF's model: F90, mirrored at grazing incidence

@@ -2,8 +2,6 @@
 
 #include <cstdint>
 #include <glm/glm.hpp>
-#include <string>
-#include <utility>
 #include <vector>
 
 #include "pinocchio/bounds.h"

@@ -15,8 +15,8 @@
 #include <vector>
 
 #include "core/files/file_bytes.h"
+#include "core/scene/formats.h"
 #include "core/scene/gltf/format/constants.h"
-#include "core/scene/loaders.h"
 #include "pinocchio/animation.h"
 
 namespace pinocchio {

@@ -5,9 +5,9 @@
 #include <nlohmann/json.hpp>
 
 #include "core/math/finite.h"
+#include "core/scene/formats.h"
 #include "core/scene/gltf/deformation.h"
 #include "core/scene/gltf/format/json.h"
-#include "core/scene/loaders.h"
 #include "core/scene/pose/pose.h"
 
 namespace pinocchio {
@@ -26,34 +26,45 @@ std::optional<float> length_member(const Json* extras, const char* key) {
   return size && *size >= 0.0f && std::isfinite(*size) ? size : std::nullopt;
 }
 
-// Its sides lie along the node's x and y, it faces -z.
-void make_rectangle(const glm::vec2& sides, const glm::mat4& world, Light& light) {
-  light.kind = Light::Kind::rectangle;
-  light.edge_u = glm::vec3(world * glm::vec4(sides.x, 0.0f, 0.0f, 0.0f));
-  light.edge_v = glm::vec3(world * glm::vec4(0.0f, sides.y, 0.0f, 0.0f));
+// The kind of glTF's `type`; null: glTF has no such type.
+const LightKind* kind_of_type(std::string_view type) {
+  const auto* const found = std::ranges::find(kLightKinds, type, &LightKind::gltf_type);
+  return found == kLightKinds.end() ? nullptr : found;
 }
 
-constexpr std::pair<const char*, Light::Kind> kLightTypes[] = {
-    {"point", Light::Kind::point}, {"directional", Light::Kind::directional}, {"spot", Light::Kind::spot}};
+// What our extras tell about a light. The sides lie along the node's x and y.
+void add_extras(const Json* extras, const glm::mat4& world, Light& light) {
+  light.casts_shadow = value_member<bool>(extras, "castsShadow").value_or(light.casts_shadow);
+  for (const LightSize& size : kLightSizes)
+    if (const std::optional<float> value = length_member(extras, std::string(size.name).c_str()))
+      light.*size.value = std::min(*value, size.largest);
+  for (const LightKind& kind : kLightKinds) {
+    if (!kind.has_sides) continue;
+    const std::optional<glm::vec2> sides = value_member<glm::vec2>(extras, std::string(kind.name));
+    if (!sides) continue;
+    light.kind = kind.kind;
+    light.edge_u = glm::vec3(world * glm::vec4(sides->x, 0.0f, 0.0f, 0.0f));
+    light.edge_v = glm::vec3(world * glm::vec4(0.0f, sides->y, 0.0f, 0.0f));
+  }
+  if (text_member(extras, "falloff") == "none") light.falloff = Light::Falloff::none;
+}
 
 Light light_of(const Json& json, const GltfNode& node, const glm::mat4& world) {
   Light light;
   light.name = text_member(&json, "name");
   if (light.name.empty()) light.name = node.name;
-  const std::string type = text_member(&json, "type");
-  light.kind = Light::Kind::point;
-  for (const auto& [name, kind] : kLightTypes)
-    if (type == name) light.kind = kind;
+  const LightKind* const given = kind_of_type(text_member(&json, "type"));
+  const LightKind& kind = given ? *given : kLightKinds.front();
+  light.kind = kind.kind;
   light.position = glm::vec3(world[3]);
   light.direction = direction_of(world, {0, 0, -1});
   if (const std::vector<double> color = numbers_member(&json, "color"); color.size() == 3)
     light.color = glm::make_vec3(color.data());
   light.intensity = value_member<float>(&json, "intensity").value_or(1.0f);
-  light.falloff =
-      light.kind == Light::Kind::directional ? Light::Falloff::none : Light::Falloff::inverse_square;
+  light.falloff = kind.has_position ? Light::Falloff::inverse_square : Light::Falloff::none;
   if (const double range = value_member<double>(&json, "range").value_or(0.0); range > 0.0)
     light.range = static_cast<float>(range);
-  if (light.kind == Light::Kind::spot) {
+  if (kind.has_cone) {
     const Json* spot = member(&json, "spot");
     constexpr double kUsualCone = 0.7853981634;
     light.cos_inner =
@@ -61,14 +72,7 @@ Light light_of(const Json& json, const GltfNode& node, const glm::mat4& world) {
     light.cos_outer =
         static_cast<float>(std::cos(value_member<double>(spot, "outerConeAngle").value_or(kUsualCone)));
   }
-  for (const Json* extras : {our_extras(&json), our_extras(node.json)}) {
-    light.casts_shadow = value_member<bool>(extras, "castsShadow").value_or(light.casts_shadow);
-    light.radius = length_member(extras, "radius").value_or(light.radius);
-    light.angle_deg = std::min(length_member(extras, "angle").value_or(light.angle_deg), 180.0f);
-    if (const std::optional<glm::vec2> sides = value_member<glm::vec2>(extras, "rectangle"))
-      make_rectangle(*sides, world, light);
-    if (text_member(extras, "falloff") == "none") light.falloff = Light::Falloff::none;
-  }
+  for (const Json* extras : {our_extras(&json), our_extras(node.json)}) add_extras(extras, world, light);
   return light;
 }
 
@@ -91,22 +95,19 @@ Camera camera_of(const Json& json, const GltfNode& node, const glm::mat4& world)
   return camera;
 }
 
-// In the space of the node whose transform is `world`.
-Light at_rest(const glm::mat4& world, Light light) {
-  const Placement to_node(glm::inverse(world));
-  const glm::vec3 origin = to_node.position(glm::vec3(0.0f));
-  light.edge_u = to_node.position(light.edge_u) - origin;
-  light.edge_v = to_node.position(light.edge_v) - origin;
-  light.position = glm::vec3(0.0f);
-  light.direction = {0, 0, -1};
-  return light;
+// In the space of the node whose transform is `world`. Its own place has no rounding.
+Light at_rest(const glm::mat4& world, const Light& light) {
+  Light rest = light;
+  place(Placement(glm::inverse(world)), light, rest);
+  rest.position = glm::vec3(0.0f);
+  rest.direction = {0, 0, -1};
+  return rest;
 }
-Camera at_rest(const glm::mat4& world, Camera camera) {
-  const Placement to_node(glm::inverse(world));
-  camera.eye = glm::vec3(0.0f);
-  camera.target = to_node.position(camera.target);
-  camera.up = to_node.direction(camera.up);
-  return camera;
+Camera at_rest(const glm::mat4& world, const Camera& camera) {
+  Camera rest = camera;
+  place(Placement(glm::inverse(world)), camera, rest);
+  rest.eye = glm::vec3(0.0f);
+  return rest;
 }
 
 bool can_look(const Camera& camera) {
@@ -276,8 +277,8 @@ class SceneReader {
 
   void add_light(const Json& json, const GltfNode& node, const glm::mat4& world) {
     const Light light = light_of(json, node, world);
-    const std::string type = text_member(&json, "type"), where = "light '" + light.name + "'";
-    if (std::ranges::none_of(kLightTypes, [&](const auto& known) { return type == known.first; }))
+    const std::string where = "light '" + light.name + "'";
+    if (!kind_of_type(text_member(&json, "type")))
       warn(where, "its type is none of glTF's", "it shines as a point light");
     if (can_shine(light)) {
       scene_.lights.push_back(light);

@@ -2,7 +2,6 @@
 #include <algorithm>
 #include <array>
 #include <glm/gtc/type_ptr.hpp>
-#include <limits>
 #include <nlohmann/json.hpp>
 
 #include "core/scene/gltf/buffers.h"

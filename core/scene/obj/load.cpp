@@ -1,9 +1,8 @@
-#include <algorithm>
 #include <map>
 
 #include "core/files/input_file.h"
 #include "core/files/text_lines.h"
-#include "core/scene/loaders.h"
+#include "core/scene/formats.h"
 #include "core/scene/obj/mesh.h"
 #include "core/scene/obj/mtl_features.h"
 #include "core/scene/obj/mtl_materials.h"

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "core/scene/loaders.h"
+#include "core/scene/formats.h"
 #include "core/scene/obj/text.h"
 
 namespace pinocchio {

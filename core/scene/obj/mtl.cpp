@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <string>
 #include <utility>
 
 #include "core/base/decimal.h"
@@ -99,6 +98,93 @@ bool refracts_by_tr(const MtlMaterial& m) {
   return (m.illum == 4 || m.illum == 6 || m.illum == 7) && m.ni > 1.0f;
 }
 
+// How a statement is read, and what the picture loses without it.
+struct Statement {
+  std::string_view keyword;
+  void (*read)(std::string_view line, MtlMaterial& m, Dissolving& said) = nullptr;
+  std::string_view lost{};  // empty: it is read, or has no effect on the picture
+};
+
+template <auto M>
+constexpr Statement color_row(std::string_view keyword) {
+  return {keyword, [](std::string_view line, MtlMaterial& m, Dissolving&) { m.*M = color(line); }};
+}
+template <auto M>
+constexpr Statement number_row(std::string_view keyword) {
+  return {keyword, [](std::string_view line, MtlMaterial& m, Dissolving&) { m.*M = number_or(line, m.*M); }};
+}
+template <auto M>
+constexpr Statement texture_row(std::string_view keyword) {
+  return {keyword, [](std::string_view line, MtlMaterial& m, Dissolving&) { m.*M = texture(line); }};
+}
+constexpr Statement lost_row(std::string_view keyword, std::string_view lost) {
+  return {keyword, nullptr, lost};
+}
+float share_or(std::string_view line, float otherwise) {
+  return std::clamp(number_or(line, otherwise), 0.0f, 1.0f);
+}
+
+using Mtl = MtlMaterial;
+constexpr std::string_view kGlossy = "highlights and mirrors are as Ks and Ns say",
+                           kSmooth = "the surface looks smooth", kSheen = "the sheen of cloth is missing",
+                           kCoat = "highlights of the clear coat are missing",
+                           kRound = "highlights are round";
+
+constexpr Statement kStatements[] = {
+    color_row<&Mtl::ka>("Ka"),
+    color_row<&Mtl::kd>("Kd"),
+    color_row<&Mtl::ks>("Ks"),
+    color_row<&Mtl::ke>("Ke"),
+    color_row<&Mtl::tf>("Tf"),
+    color_row<&Mtl::tf>("Kt"),
+    number_row<&Mtl::ns>("Ns"),
+    number_row<&Mtl::ni>("Ni"),
+    {"illum",
+     [](std::string_view line, Mtl& m, Dissolving&) {
+       m.illum = static_cast<int>(std::clamp(number_or(line, 0.0f), 0.0f, 10.0f));
+     }},
+    {"Pm", [](std::string_view line, Mtl& m, Dissolving&) { m.metallic = share_or(line, 0.0f); }},
+    {"Pr", [](std::string_view line, Mtl& m, Dissolving&) { m.roughness = share_or(line, 0.5f); }},
+    {"d",
+     [](std::string_view line, Mtl&, Dissolving& said) {
+       std::string_view rest = line;
+       said.d = share_or(next_word(rest) == "-halo" ? rest : line, 1.0f);
+     }},
+    {"Tr", [](std::string_view line, Mtl&, Dissolving& said) { said.tr = share_or(line, 0.0f); }},
+    texture_row<&Mtl::map_kd>("map_Kd"),
+    texture_row<&Mtl::map_d>("map_d"),
+    texture_row<&Mtl::map_ke>("map_Ke"),
+    texture_row<&Mtl::map_bump>("map_Bump"),
+    texture_row<&Mtl::map_bump>("map_bump"),
+    texture_row<&Mtl::map_bump>("bump"),
+    texture_row<&Mtl::norm>("norm"),
+    texture_row<&Mtl::norm>("map_Kn"),
+    {"map_Ka"},  // exporters repeat map_Kd, which ambient light uses
+    {"sharpness"},
+    {"map_aat"},
+    lost_row("map_Ks", "highlights have one colour"),
+    lost_row("map_Ns", "highlights are equally sharp everywhere"),
+    lost_row("map_Tr", "its holes are filled"),
+    lost_row("disp", kSmooth),
+    lost_row("map_disp", kSmooth),
+    lost_row("map_Disp", kSmooth),
+    lost_row("decal", "it is not painted on"),
+    lost_row("refl", "its picture is not mirrored"),
+    lost_row("map_Pr", kGlossy),
+    lost_row("map_Pm", kGlossy),
+    lost_row("Ps", kSheen),
+    lost_row("map_Ps", kSheen),
+    lost_row("Pc", kCoat),
+    lost_row("Pcr", kCoat),
+    lost_row("aniso", kRound),
+    lost_row("anisor", kRound),
+};
+
+const Statement* find_statement(std::string_view keyword) {
+  const auto* const found = std::ranges::find(kStatements, keyword, &Statement::keyword);
+  return found == std::end(kStatements) ? nullptr : found;
+}
+
 class MtlReader {
  public:
   // A comment names the program that wrote the file.
@@ -114,8 +200,9 @@ class MtlReader {
     if (keyword == "newmtl") {
       all_.emplace_back().name = trimmed(line);
       dissolving_.emplace_back();
-    } else if (!all_.empty() && !read_texture(all_.back(), keyword, line)) {
-      read_value(all_.back(), keyword, line);
+    } else if (const Statement* const known = find_statement(keyword);
+               known && known->read && !all_.empty()) {
+      known->read(line, all_.back(), dissolving_.back());
     }
   }
   MtlFile take() {
@@ -132,36 +219,6 @@ class MtlReader {
   }
 
  private:
-  static bool read_texture(MtlMaterial& m, std::string_view keyword, std::string_view line) {
-    MtlTexture* const to = keyword == "map_Kd"                                                   ? &m.map_kd
-                           : keyword == "map_d"                                                  ? &m.map_d
-                           : keyword == "map_Ke"                                                 ? &m.map_ke
-                           : keyword == "map_Bump" || keyword == "map_bump" || keyword == "bump" ? &m.map_bump
-                           : keyword == "norm" || keyword == "map_Kn"                            ? &m.norm
-                                                                                                 : nullptr;
-    if (to) *to = texture(line);
-    return to != nullptr;
-  }
-
-  void read_value(MtlMaterial& m, std::string_view keyword, std::string_view line) {
-    if (keyword == "Ka") m.ka = color(line);
-    if (keyword == "Kd") m.kd = color(line);
-    if (keyword == "Ks") m.ks = color(line);
-    if (keyword == "Ke") m.ke = color(line);
-    if (keyword == "Tf" || keyword == "Kt") m.tf = color(line);
-    if (keyword == "Ns") m.ns = number_or(line, m.ns);
-    if (keyword == "Ni") m.ni = number_or(line, m.ni);
-    if (keyword == "illum") m.illum = static_cast<int>(std::clamp(number_or(line, 0.0f), 0.0f, 10.0f));
-    if (keyword == "Pm") m.metallic = std::clamp(number_or(line, 0.0f), 0.0f, 1.0f);
-    if (keyword == "Pr") m.roughness = std::clamp(number_or(line, 0.5f), 0.0f, 1.0f);
-    if (keyword == "d") {
-      std::string_view rest = line;
-      dissolving_.back().d =
-          std::clamp(number_or(next_word(rest) == "-halo" ? rest : line, 1.0f), 0.0f, 1.0f);
-    }
-    if (keyword == "Tr") dissolving_.back().tr = std::clamp(number_or(line, 0.0f), 0.0f, 1.0f);
-  }
-
   [[nodiscard]] std::string opacity_reason(const std::vector<MtlMaterial>& materials) const {
     const auto any_tr = [this](auto fits) {
       return std::ranges::any_of(
@@ -196,6 +253,11 @@ MtlFile read_mtl(std::string_view text) {
     reader.read(keyword, line);
   }
   return reader.take();
+}
+
+std::optional<std::string_view> lost_without(std::string_view keyword) {
+  const Statement* const known = find_statement(keyword);
+  return known ? std::optional(known->lost) : std::nullopt;
 }
 
 bool reads_mtl_option(std::string_view option) {

@@ -38,6 +38,10 @@ struct MtlFile {
 // until 2022, which the file's header names, and others, in whose files nothing would be visible otherwise.
 [[nodiscard]] MtlFile read_mtl(std::string_view text);
 
+// What the picture loses without the statement of this keyword, as it is not read. Empty: nothing. None: it
+// is no statement of MTL.
+[[nodiscard]] std::optional<std::string_view> lost_without(std::string_view keyword);
+
 // Whether read_mtl reads this option of a texture.
 [[nodiscard]] bool reads_mtl_option(std::string_view option);
 

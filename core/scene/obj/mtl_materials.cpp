@@ -1,7 +1,6 @@
 #include "core/scene/obj/mtl_materials.h"
 
 #include <algorithm>
-#include <cmath>
 #include <numbers>
 
 #include "core/files/input_file.h"

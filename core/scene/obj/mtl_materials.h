@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "core/scene/loaders.h"
+#include "core/scene/formats.h"
 #include "core/scene/obj/mtl.h"
 
 namespace pinocchio {

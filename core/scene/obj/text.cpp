@@ -11,7 +11,7 @@
 #include "core/base/decimal.h"
 #include "core/files/text_lines.h"
 #include "core/math/finite.h"
-#include "core/scene/loaders.h"
+#include "core/scene/formats.h"
 
 namespace pinocchio {
 namespace {

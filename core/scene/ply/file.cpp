@@ -1,7 +1,6 @@
 #include "core/scene/ply/file.h"
 
 #include <algorithm>
-#include <array>
 #include <bit>
 #include <charconv>
 #include <cmath>
@@ -14,30 +13,6 @@
 namespace pinocchio {
 namespace {
 
-struct TypeName {
-  std::string_view name;
-  PlyType type;
-};
-
-constexpr TypeName kPlyTypes[] = {
-    {"char", PlyType::int8},      {"int8", PlyType::int8},       {"uchar", PlyType::uint8},
-    {"uint8", PlyType::uint8},    {"short", PlyType::int16},     {"int16", PlyType::int16},
-    {"ushort", PlyType::uint16},  {"uint16", PlyType::uint16},   {"int", PlyType::int32},
-    {"int32", PlyType::int32},    {"uint", PlyType::uint32},     {"uint32", PlyType::uint32},
-    {"float", PlyType::float32},  {"float32", PlyType::float32}, {"double", PlyType::float64},
-    {"float64", PlyType::float64}};
-
-std::optional<PlyType> type_of(std::string_view name) {
-  for (const TypeName& t : kPlyTypes)
-    if (t.name == name) return t.type;
-  return std::nullopt;
-}
-
-std::size_t size_of(PlyType type) {
-  constexpr std::size_t kSizes[] = {1, 1, 2, 2, 4, 4, 4, 8};
-  return kSizes[static_cast<std::size_t>(type)];
-}
-
 template <class T>
 double read(const char* at, bool swapped) {
   char bytes[sizeof(T)];
@@ -48,35 +23,34 @@ double read(const char* at, bool swapped) {
   return static_cast<double>(value);
 }
 
-double read(PlyType type, const char* at, bool swapped) {
-  switch (type) {
-    case PlyType::int8:
-      return read<std::int8_t>(at, swapped);
-    case PlyType::uint8:
-      return read<std::uint8_t>(at, swapped);
-    case PlyType::int16:
-      return read<std::int16_t>(at, swapped);
-    case PlyType::uint16:
-      return read<std::uint16_t>(at, swapped);
-    case PlyType::int32:
-      return read<std::int32_t>(at, swapped);
-    case PlyType::uint32:
-      return read<std::uint32_t>(at, swapped);
-    case PlyType::float32:
-      return read<float>(at, swapped);
-    case PlyType::float64:
-      return read<double>(at, swapped);
-  }
-  return 0.0;
+// In the order of PlyType.
+struct TypeRow {
+  std::string_view name, other_name;
+  std::size_t size;
+  double (*read)(const char* at, bool swapped);
+};
+template <class T>
+constexpr TypeRow type_row(std::string_view name, std::string_view other_name) {
+  return {name, other_name, sizeof(T), read<T>};
+}
+constexpr TypeRow kPlyTypes[] = {
+    type_row<std::int8_t>("char", "int8"),    type_row<std::uint8_t>("uchar", "uint8"),
+    type_row<std::int16_t>("short", "int16"), type_row<std::uint16_t>("ushort", "uint16"),
+    type_row<std::int32_t>("int", "int32"),   type_row<std::uint32_t>("uint", "uint32"),
+    type_row<float>("float", "float32"),      type_row<double>("double", "float64"),
+};
+
+const TypeRow& type_row(PlyType type) {
+  return kPlyTypes[static_cast<std::size_t>(type)];
+}
+
+std::optional<PlyType> type_of(std::string_view name) {
+  for (const TypeRow& row : kPlyTypes)
+    if (row.name == name || row.other_name == name) return static_cast<PlyType>(&row - kPlyTypes);
+  return std::nullopt;
 }
 
 }  // namespace
-
-std::string number_text(double number) {
-  std::array<char, 32> text{};
-  const auto written = std::to_chars(text.data(), text.data() + text.size(), number);
-  return {text.data(), written.ptr};
-}
 
 Unexpected PlyFile::error(const std::string& what) const {
   return Unexpected(
@@ -108,7 +82,7 @@ Expected<void> PlyFile::read_header() {
   for (const PlyElement& element : elements_) {
     std::size_t row = 0;
     for (const PlyProperty& p : element.properties)
-      row += format_ == Format::ascii ? 2 : size_of(p.is_list ? p.count_type : p.type);
+      row += format_ == Format::ascii ? 2 : type_row(p.is_list ? p.count_type : p.type).size;
     if (row > 0 && element.count > (text.size() + 1 - at_ - std::min(least, text.size() - at_)) / row)
       return error("its header promises " + std::to_string(element.count) + " of element " + element.name +
                    ", the file is too short for them");
@@ -177,10 +151,10 @@ bool PlyFile::is_text() const {
 
 bool PlyFile::read_number(PlyType type, double& value) {
   if (format_ != Format::ascii) {
-    const std::size_t size = size_of(type);
+    const std::size_t size = type_row(type).size;
     if (bytes_.size() - at_ < size) return false;
     constexpr bool kLittleHere = std::endian::native == std::endian::little;
-    value = read(type, bytes_.data() + at_, (format_ == Format::little) != kLittleHere);
+    value = type_row(type).read(bytes_.data() + at_, (format_ == Format::little) != kLittleHere);
     at_ += size;
     return true;
   }
@@ -213,10 +187,10 @@ Expected<void> PlyFile::read_row(const PlyElement& element, PlyRow& row) {
     }
     double count = 0.0;
     if (!read_number(p.count_type, count)) return cut(p);
-    const std::size_t left = (bytes_.size() - at_) / (format_ == Format::ascii ? 1 : size_of(p.type));
+    const std::size_t left = (bytes_.size() - at_) / (format_ == Format::ascii ? 1 : type_row(p.type).size);
     if (!(count >= 0.0 && count <= left) || count != std::floor(count))
       return error("cannot read " + p.name + " of element " + element.name + ": a list of " +
-                   number_text(count) + " does not fit the file");
+                   shortest(count) + " does not fit the file");
     row.lists[i].resize(static_cast<std::size_t>(count));
     for (double& value : row.lists[i])
       if (!read_number(p.type, value)) return cut(p);

@@ -37,9 +37,6 @@ struct PlyRow {
   std::vector<std::vector<double>> lists;
 };
 
-// As messages show it: 3, 0.5.
-[[nodiscard]] std::string number_text(double number);
-
 class PlyFile {
  public:
   // Reads the header. One that states more rows than the file can hold is an error.

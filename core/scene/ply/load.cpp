@@ -3,12 +3,13 @@
 #include <type_traits>
 #include <utility>
 
+#include "core/base/decimal.h"
 #include "core/files/input_file.h"
 #include "core/geometry/polygon.h"
 #include "core/image/codecs/texture_file.h"
 #include "core/image/tonemap.h"
 #include "core/math/finite.h"
-#include "core/scene/loaders.h"
+#include "core/scene/formats.h"
 #include "core/scene/ply/file.h"
 
 namespace pinocchio {
@@ -241,7 +242,7 @@ class PlyBuilder {
   }
 
   [[nodiscard]] Unexpected no_such_vertex(double index) const {
-    return ply_.error("a face names vertex " + number_text(index) + ", there are " +
+    return ply_.error("a face names vertex " + shortest(index) + ", there are " +
                       std::to_string(mesh_.positions.size()) + " so far: does its header fit its data?");
   }
 

@@ -16,22 +16,6 @@ Unexpected refused(const std::string& what, const std::string& remedy) {
   return Unexpected(InputError{{}, 0, what, remedy});
 }
 
-// Lights and cameras follow the node's position alone: their other members stay as set.
-void place(const Placement& now, const Light& rest, Light& to) {
-  to.position = now.position(rest.position);
-  to.direction = now.direction(rest.direction);
-  const glm::vec3 origin = now.position(glm::vec3(0.0f));
-  to.edge_u = now.position(rest.edge_u) - origin;
-  to.edge_v = now.position(rest.edge_v) - origin;
-}
-void place(const Placement& now, const Camera& rest, Camera& to) {
-  to.eye = now.position(rest.eye);
-  to.target = now.position(rest.target);
-  if (to.target == to.eye)
-    to.target += rest.target - rest.eye;  // a node of scale 0: the direction is unchanged
-  to.up = now.direction(rest.up);
-}
-
 // As many items of a name as before are the same ones, in order; else the index identifies an item.
 template <class T>
 std::vector<std::size_t> places_of(const std::vector<Attached<T>>& attached, const std::vector<T>& now) {
@@ -116,6 +100,22 @@ glm::vec3 Placement::direction(const glm::vec3& d) const {
   const glm::vec3 world(world_from_node_ * glm::vec4(d, 0.0f));
   const float length = glm::length(world);
   return length > 0.0f && std::isfinite(length) ? world / length : d;
+}
+
+void place(const Placement& now, const Light& rest, Light& to) {
+  to.position = now.position(rest.position);
+  to.direction = now.direction(rest.direction);
+  const glm::vec3 origin = now.position(glm::vec3(0.0f));
+  to.edge_u = now.position(rest.edge_u) - origin;
+  to.edge_v = now.position(rest.edge_v) - origin;
+}
+
+void place(const Placement& now, const Camera& rest, Camera& to) {
+  to.eye = now.position(rest.eye);
+  to.target = now.position(rest.target);
+  if (to.target == to.eye)
+    to.target += rest.target - rest.eye;  // a node of scale 0: the direction is unchanged
+  to.up = now.direction(rest.up);
 }
 
 std::vector<glm::mat4> world_matrices(const std::vector<Node>& nodes) {

@@ -19,6 +19,10 @@ using NodeFlags = std::vector<bool>;
 [[nodiscard]] Expected<Scene> placed_anew(const Scene& scene, std::shared_ptr<const NodeTree> tree,
                                           const NodeFlags& flagged);
 
+// Lights and cameras follow their node's position alone: other members of `to` stay as set.
+void place(const Placement& now, const Light& rest, Light& to);
+void place(const Placement& now, const Camera& rest, Camera& to);
+
 // Places the node's own vertices, but no lights or cameras.
 void place_vertices(const Node& node, const Placement& now, const RestPose& rest, MeshData& mesh);
 // Indices in the scene of the lights and cameras that the rest pose attaches to nodes, in the rest pose's
@@ -29,7 +33,7 @@ struct AttachedPlaces {
   std::vector<std::size_t> lights, cameras;
 };
 [[nodiscard]] AttachedPlaces attached_places(const RestPose& rest, const Scene& scene);
-// Lights and cameras attached to the node follow its position alone: their other members stay as set.
+// Places the lights and cameras that are attached to the node.
 void place_attached(const RestPose& rest, const AttachedPlaces& places, int node, const Placement& now,
                     Scene& scene);
 // Reverses triangles, as mirroring requires: their outside stays outside.

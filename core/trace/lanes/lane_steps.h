@@ -5,12 +5,14 @@
 #include <cstddef>
 #include <cstdint>
 #include <glm/glm.hpp>
+#include <tuple>
 
 #include "core/parallel/tiles.h"
 #include "core/shade/map_lanes.h"
 #include "core/shade/shared.h"
 #include "core/trace/rays/ray_queue.h"
 #include "core/trace/rays/trace_options.h"
+#include "pinocchio/frame_arrays.h"
 #include "pinocchio/ray_offset.h"
 #include "pinocchio/scene.h"
 
@@ -79,6 +81,22 @@ struct SeenColumns {
   float *position[3] = {}, *normal[3] = {};
   float* albedo[3] = {};
 };
+
+// A layer of the visible surfaces: its array, its columns, and its value where nothing is hit.
+template <class Value, class Columns>
+struct SeenLayer {
+  Value* FrameArrays::*array;
+  Columns SeenColumns::*columns;
+  Value nothing;
+};
+// One row for each member of SeenColumns. tiles/aov.cpp writes them all.
+inline constexpr std::tuple kSeenLayers{
+    SeenLayer{&FrameArrays::depth, &SeenColumns::depth, kInfinity},
+    SeenLayer{&FrameArrays::position, &SeenColumns::position, glm::vec3(0.0f)},
+    SeenLayer{&FrameArrays::normal, &SeenColumns::normal, glm::vec3(0.0f)},
+    SeenLayer{&FrameArrays::albedo, &SeenColumns::albedo, glm::vec3(0.0f)},
+};
+inline constexpr std::size_t kSeenColumns = sizeof(SeenColumns) / sizeof(float*);
 
 struct LaneSteps {
   // Sets directions and origins of the rays of the tile at `corner`, whose pixels are set.

@@ -2,7 +2,6 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <vector>
 
 #include "core/bsp/tree.h"
 #include "pinocchio/ray.h"

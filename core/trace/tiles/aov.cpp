@@ -16,17 +16,23 @@ constexpr std::size_t kRays = static_cast<std::size_t>(TileGrid::kTileSize) * Ti
 // A thread's memory for a tile.
 struct SeenTile {
   RayQueue rays;
-  alignas(kCacheLine) float columns[10][kRays + kQueuePad];
+  alignas(kCacheLine) float columns[kSeenColumns][kRays + kQueuePad];
 };
 
-// Calls use(array, columns, nothing) for each layer of the surfaces that is wanted: its array, its columns in
-// `seen`, and its value where nothing is hit.
+std::span<float*> columns_in(float*& column) {
+  return {&column, 1};
+}
+std::span<float*> columns_in(float* (&columns)[3]) {
+  return columns;
+}
+
+// Calls use(array, columns, nothing) for each of kSeenLayers that is wanted.
 template <class Use>
 void for_each_layer(const FrameArrays& to, SeenColumns& seen, const Use& use) {
-  if (to.depth) use(to.depth, std::span(&seen.depth, 1), kInfinity);
-  if (to.position) use(to.position, std::span(seen.position), glm::vec3(0.0f));
-  if (to.normal) use(to.normal, std::span(seen.normal), glm::vec3(0.0f));
-  if (to.albedo) use(to.albedo, std::span(seen.albedo), glm::vec3(0.0f));
+  const auto use_wanted = [&](const auto& layer) {
+    if (to.*layer.array) use(to.*layer.array, columns_in(seen.*layer.columns), layer.nothing);
+  };
+  std::apply([&](const auto&... layers) { (use_wanted(layers), ...); }, kSeenLayers);
 }
 
 // Makes the rays of the pixels that see something.

@@ -124,8 +124,7 @@ TEST(LoadLost, VersionAndRequiredExtensionsBeforeAnythingElse) {
   json["asset"]["version"] = "1.0";
   json["buffers"] = {{"binary_glTF", {{"byteLength", 0}}}};  // as 1.0 has it
   EXPECT_NE(error_of(json).find("is glTF 1.0"), std::string::npos);
-  for (const char* name :
-       {"KHR_texture_basisu", "MSFT_texture_dds", "KHR_materials_clearcoat"}) {
+  for (const char* name : {"KHR_texture_basisu", "MSFT_texture_dds", "KHR_materials_clearcoat"}) {
     json = triangle_json();
     json["extensionsRequired"] = {name};
     json["buffers"][0]["uri"] = "nowhere.bin";

@@ -10,8 +10,9 @@ namespace {
 
 // These bindings fail to compile where a member is added: give it a row, or name it with those that have code
 // of their own, then count it here.
-constexpr std::size_t kOwnCodeOfMaterial = 7;  // name, emission, maps, ggx_alpha, grazing, layer, double_sided
-constexpr std::size_t kOwnCodeOfSurface = 4;   // base_color, emissive, volume, unlit
+constexpr std::size_t kOwnCodeOfMaterial =
+    7;                                        // name, emission, maps, ggx_alpha, grazing, layer, double_sided
+constexpr std::size_t kOwnCodeOfSurface = 4;  // base_color, emissive, volume, unlit
 
 std::size_t members_of_material() {
   const Material material;

@@ -1,6 +1,7 @@
 #include "pinocchio/scene.h"
 
 #include <cmath>
+#include <set>
 
 #include "tests/support/scenes.h"
 
@@ -14,6 +15,32 @@ bool finite(const glm::vec3& v) {
 std::string complaint_of(const Scene& scene) {
   const Expected<void> checked = check_scene(scene);
   return checked ? "" : checked.error().message();
+}
+
+// A kind without its row, or a row in another place, does not compile.
+static_assert(kLightKinds.size() == static_cast<std::size_t>(Light::Kind::rectangle) + 1);
+static_assert([] {
+  for (std::size_t i = 0; i < kLightKinds.size(); ++i)
+    if (kLightKinds[i].kind != static_cast<Light::Kind>(i)) return false;
+  return true;
+}());
+
+TEST(LightKinds, EachHasANameAndASizeOfItsOwn) {
+  std::set<std::string_view> names;
+  for (const LightKind& kind : kLightKinds) {
+    EXPECT_TRUE(names.insert(kind.name).second) << kind.name;
+    EXPECT_FALSE(kind.gltf_type.empty()) << kind.name;
+    EXPECT_TRUE(kind.has_position || kind.has_direction) << kind.name;
+    EXPECT_NE(kind.has_sides, kind.size != nullptr) << kind.name;
+    Light light;
+    light.kind = kind.kind;
+    EXPECT_EQ(light.has_size(), kind.has_sides) << kind.name;
+    for (const LightSize& size : kLightSizes) {
+      Light sized = light;
+      sized.*size.value = 0.5f;
+      EXPECT_EQ(sized.has_size(), kind.has_sides || kind.size == &size) << kind.name << " " << size.name;
+    }
+  }
 }
 
 TEST(Scene, CastingLightsAreInSceneOrder) {

@@ -5,7 +5,6 @@
 
 #include "core/image/codecs/png.h"
 #include "core/scene/gltf/format/constants.h"
-#include "core/scene/gltf/format/material_table.h"
 #include "core/scene/gltf/material_from_surface.h"
 #include "core/scene/gltf/save/data.h"
 
@@ -31,8 +30,8 @@ Json nearest_pbr(const Material& m) {
   return pbr_json(base, m.reflects() && !m.fresnel ? 1.0f : 0.0f, m.spawns_rays() ? 0.0f : roughness_of(m));
 }
 
-// The metallic-roughness that Phong was made of (material_from_surface): ambient is the base colour, diffuse the
-// base colour times what metal leaves, over pi.
+// The metallic-roughness that Phong was made of (material_from_surface): ambient is the base colour, diffuse
+// the base colour times what metal leaves, over pi.
 Json original_pbr(const Material& m) {
   constexpr float kUsualDiffuse = 0.96f * 0.318309886f;
   const glm::vec3 base = glm::min(m.ambient, glm::vec3(1.0f));

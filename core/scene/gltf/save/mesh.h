@@ -4,7 +4,6 @@
 #include <cstdint>
 #include <glm/glm.hpp>
 #include <span>
-#include <vector>
 
 #include "core/scene/gltf/save/data.h"
 #include "pinocchio/mesh.h"

@@ -1,5 +1,4 @@
 #include <algorithm>
-#include <cstring>
 #include <glm/gtc/type_ptr.hpp>
 #include <nlohmann/json.hpp>
 #include <optional>
@@ -33,48 +32,32 @@ bool near(const glm::vec3& a, const glm::vec3& b) {
   return glm::length(a - b) <= 1e-4f * (glm::length(a) + glm::length(b));
 }
 
-// The light as its node sees it: where it rests, or, where it was moved by itself since, where that is from
-// the node now.
-Light as_node_sees(const Attached<Light>& attached, const Light& light, const glm::mat4& now) {
-  Light at_rest = light;
-  const auto place = [&](const Placement& placement, const Light& from) {
-    const glm::vec3 origin = placement.position(glm::vec3(0.0f));
-    at_rest.position = placement.position(from.position);
-    at_rest.direction = placement.direction(from.direction);
-    at_rest.edge_u = placement.position(from.edge_u) - origin;
-    at_rest.edge_v = placement.position(from.edge_v) - origin;
-  };
-  place(Placement(now), attached.at_rest);
-  const bool stays = near(at_rest.position, light.position) && near(at_rest.direction, light.direction) &&
-                     near(at_rest.edge_u, light.edge_u) && near(at_rest.edge_v, light.edge_v);
-  if (stays || glm::determinant(glm::mat3(now)) == 0.0f) {
-    at_rest.position = attached.at_rest.position;
-    at_rest.direction = attached.at_rest.direction;
-    at_rest.edge_u = attached.at_rest.edge_u;
-    at_rest.edge_v = attached.at_rest.edge_v;
-  } else {
-    place(Placement(glm::inverse(now)), light);
-  }
-  return at_rest;
+bool same_place(const Light& a, const Light& b) {
+  return near(a.position, b.position) && near(a.direction, b.direction) && near(a.edge_u, b.edge_u) &&
+         near(a.edge_v, b.edge_v);
+}
+bool same_place(const Camera& a, const Camera& b) {
+  return near(a.eye, b.eye) && near(a.target, b.target) && near(a.up, b.up);
 }
 
-Camera as_node_sees(const Attached<Camera>& attached, const Camera& camera, const glm::mat4& now) {
-  Camera at_rest = camera;
-  const auto place = [&](const Placement& placement, const Camera& from) {
-    at_rest.eye = placement.position(from.eye);
-    at_rest.target = placement.position(from.target);
-    at_rest.up = placement.direction(from.up);
-  };
-  place(Placement(now), attached.at_rest);
-  const bool stays =
-      near(at_rest.eye, camera.eye) && near(at_rest.target, camera.target) && near(at_rest.up, camera.up);
-  if (stays || glm::determinant(glm::mat3(now)) == 0.0f) {
-    at_rest.eye = attached.at_rest.eye;
-    at_rest.target = attached.at_rest.target;
-    at_rest.up = attached.at_rest.up;
-  } else {
-    place(Placement(glm::inverse(now)), camera);
-  }
+void copy_place(const Light& from, Light& to) {
+  to.position = from.position, to.direction = from.direction;
+  to.edge_u = from.edge_u, to.edge_v = from.edge_v;
+}
+void copy_place(const Camera& from, Camera& to) {
+  to.eye = from.eye, to.target = from.target, to.up = from.up;
+}
+
+// The light or camera as its node sees it: where it rests, or, if it was moved by itself since, where that is
+// from the node now.
+template <class T>
+T as_node_sees(const Attached<T>& attached, const T& item, const glm::mat4& now) {
+  T at_rest = item, with_node = item;
+  place(Placement(now), attached.at_rest, with_node);
+  if (same_place(with_node, item) || glm::determinant(glm::mat3(now)) == 0.0f)
+    copy_place(attached.at_rest, at_rest);
+  else
+    place(Placement(glm::inverse(now)), item, at_rest);
   return at_rest;
 }
 
@@ -205,36 +188,33 @@ class GltfWriter {
   Json light_node(const Light& light) {
     Json& lights = json_["extensions"]["KHR_lights_punctual"]["lights"];
     if (lights.empty()) extensions_.emplace_back("KHR_lights_punctual");
-    constexpr const char* kTypes[] = {"point", "directional", "spot",
-                                      "point"};  // a rectangle: where none is known
+    const LightKind& kind = kind_of(light);
     Json json{{"name", light.name},
-              {"type", kTypes[static_cast<int>(light.kind)]},
+              {"type", kind.gltf_type},
               {"color", vec3_json(light.color)},
               {"intensity", light.intensity}};
     if (std::isfinite(light.range)) json["range"] = light.range;
-    if (light.kind == Light::Kind::spot)
+    if (kind.has_cone)
       json["spot"] = {{"innerConeAngle", std::acos(light.cos_inner)},
                       {"outerConeAngle", std::acos(light.cos_outer)}};
     Json ours = Json::object();
     if (!light.casts_shadow) ours["castsShadow"] = false;
-    if (light.kind != Light::Kind::directional && light.falloff == Light::Falloff::none)
-      ours["falloff"] = "none";
-    if (light.radius > 0.0f) ours["radius"] = light.radius;
-    if (light.angle_deg > 0.0f) ours["angle"] = light.angle_deg;
+    if (kind.has_position && light.falloff == Light::Falloff::none) ours["falloff"] = "none";
+    for (const LightSize& size : kLightSizes)
+      if (light.*size.value > 0.0f) ours[std::string(size.name)] = light.*size.value;
     CameraAxes axes = camera_axes({{}, light.position, light.position + light.direction, {0, 1, 0}, 0});
-    if (light.kind == Light::Kind::rectangle) {
+    if (kind.has_sides) {
       const float u = glm::length(light.edge_u), v = glm::length(light.edge_v);
-      ours["rectangle"] = {u, v};
+      ours[std::string(kind.name)] = {u, v};
       if (u > 0.0f && v > 0.0f) axes = {light.edge_u / u, light.edge_v / v, light.direction};
     }
     if (!ours.empty()) json["extras"]["pinocchio"] = ours;
 
     Json node{{"name", light.name}, {"extensions", {{"KHR_lights_punctual", {{"light", lights.size()}}}}}};
-    if (light.kind == Light::Kind::point) {
-      node["translation"] = vec3_json(light.position);
-    } else {
+    if (kind.has_direction)
       node["matrix"] = aimed_matrix(light.position, axes.right, axes.up, axes.forward);
-    }
+    else
+      node["translation"] = vec3_json(light.position);
     lights.push_back(json);
     return node;
   }
