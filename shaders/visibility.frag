@@ -2,6 +2,7 @@
 // Visibility buffer (Burns and Hunt 2013): the triangle's index is all that a pixel keeps.
 //   ID_BITS  16 or 32: one number; 24: three bytes
 //   HAS_HOLES  some materials' maps have holes, which are not drawn
+//   PASSES_BACKS  the backs of some materials are not drawn
 
 #ifdef HAS_HOLES
 #include "shared/glsl.glsl"
@@ -38,10 +39,27 @@ void discard_hole() {
 void discard_hole() {}
 #endif
 
+#ifdef PASSES_BACKS
+#ifndef HAS_HOLES
+uniform usamplerBuffer triangle_materials;  // 1 texel a triangle
+#endif
+uniform usamplerBuffer passed_backs;  // 1 texel a material: bit i says whether setting i leaves out its backs
+uniform int backfaces;                // the setting
+
+void discard_back() {
+  if (gl_FrontFacing) return;
+  int material = int(texelFetch(triangle_materials, gl_PrimitiveID).r);
+  if ((texelFetch(passed_backs, material).r >> backfaces & 1u) != 0u) discard;
+}
+#else
+void discard_back() {}
+#endif
+
 #if ID_BITS == 24
 out uvec4 triangle_id;
 
 void main() {
+  discard_back();
   discard_hole();
   uint id = uint(gl_PrimitiveID);
   triangle_id = uvec4(id & 0xffu, id >> 8u & 0xffu, id >> 16u, 0u);
@@ -50,6 +68,7 @@ void main() {
 out uint triangle_id;
 
 void main() {
+  discard_back();
   discard_hole();
   triangle_id = uint(gl_PrimitiveID);
 }

@@ -38,7 +38,7 @@ struct DrawOptions {
   std::uint64_t load_limit = kUsualLoadLimit;  // bytes
   bool confine = false;                        // open only files below the scene's folder
   Shading shading = Shading::from_file;
-  bool strict = false;                         // fail where a part of the scene would be ignored
+  bool strict = false;  // fail where a part of the scene would be ignored
 
   // Of a Progress.
   [[nodiscard]] std::string progress_mode() const { return quiet ? "off" : progress; }

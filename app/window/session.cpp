@@ -308,7 +308,7 @@ void Session::set_pivot() {
   if (!model_.tracer) return model_.messages.hint(kNoTree);
   if (const std::optional<glm::vec3> p =
           surface_under(glm::vec2(input_.pixel_under_pointer()), glm::vec2(model_.wanted_size()),
-                        model_.camera.camera(), *model_.tracer))
+                        model_.camera.camera(), *model_.tracer, model_.settings.settings.backfaces))
     model_.camera.set_target(*p);
 }
 

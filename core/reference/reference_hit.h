@@ -13,8 +13,9 @@ struct ReferenceRay {
   glm::dvec3 origin;
   glm::dvec3 direction;
   double t_max = std::numeric_limits<double>::infinity();
-  double width = 0.0;  // of the cone that textures are averaged over, at the origin; it widens by
-  double angle = 0.0;  // radians
+  double width = 0.0;      // of the cone that textures are averaged over, at the origin; it widens by
+  double angle = 0.0;      // radians
+  bool of_camera = false;  // comes from the eye and was neither mirrored nor refracted
 };
 
 struct ReferenceHit {

@@ -31,13 +31,14 @@ glm::dvec3 left_of_light(const Material* medium, double way) {
 }  // namespace
 
 ReferenceTracer::Cone ReferenceTracer::cone_after(const ReferenceRay& ray, const ReferenceHit& hit) {
-  return {ray.width + ray.angle * hit.t * glm::length(ray.direction), ray.angle};
+  return {ray.width + ray.angle * hit.t * glm::length(ray.direction), ray.angle, ray.of_camera};
 }
 
 ReferenceTracer::Pixel ReferenceTracer::pixel(const shared::ViewParams& view, int x, int y, int depth) const {
   const double footprint = static_cast<double>(options_.texture_footprint);
   ReferenceRay ray = reference_pixel_ray(view, x, y);
   ray.angle = footprint * glm::length(glm::dvec3(view.step_y));
+  ray.of_camera = true;
   const ReferenceHit hit = closest_hit(ray);
   Pixel pixel;
   pixel.triangle = hit.triangle;
@@ -94,17 +95,19 @@ glm::dvec3 ReferenceTracer::bounced(const ReferenceSurface& surface, int depth, 
   const bool lobe = lobes_ && surface.material.ggx_alpha > 0.0;
   if (lobe) sum += along_lobe(surface, depth, cone, media, lobe_side);
   if (depth <= 0) return sum;
-  const auto follow = [&](const ReferenceBounce& bounce, const Material* medium, int side) {
+  const auto follow = [&](const ReferenceBounce& bounce, const Material* medium, int side,
+                          bool straight = false) {
     ReferenceRay ray = bounce.ray;
     ray.width = cone.width;
     ray.angle = cone.angle;
+    ray.of_camera = straight && cone.of_camera;
     sum += bounce.weight * seen(ray, medium, depth - 1, side);
   };
   const std::array<ReferenceBounce, 3> bounces = reference_bounces(surface);
   for (std::size_t i = 0; i < bounces.size(); ++i) {
     if (bounces[i].weight == glm::dvec3(0.0) || (lobe && i < 2)) continue;
     if (i > 0 || surface.material.gloss == 0.0) {
-      follow(bounces[i], i == 1 ? media.beyond : media.here, lobe_side);
+      follow(bounces[i], i == 1 ? media.beyond : media.here, lobe_side, i == 2);
     } else {
       for (const ReferenceBounce& ray : reference_lobe(surface, bounces[i], lobe_side))
         follow(ray, media.here, std::max(lobe_side / 4, 1));
@@ -185,18 +188,37 @@ namespace {
 // Continues the ray behind the hit, by the hit's error. The ray's end stays.
 ReferenceRay continued(const Mesh& mesh, const ReferenceRay& ray, const ReferenceHit& hit) {
   const ReferenceSurface surface = reference_surface(mesh, ray, hit);
-  const glm::dvec3 behind = leave(surface, ray.direction);
-  if (std::isinf(ray.t_max)) return {behind, ray.direction};
-  return {behind, ray.origin + ray.t_max * ray.direction - behind, 1.0};
+  ReferenceRay rest{leave(surface, ray.direction), ray.direction};
+  rest.of_camera = ray.of_camera;
+  if (std::isinf(ray.t_max)) return rest;
+  rest.direction = ray.origin + ray.t_max * ray.direction - rest.origin;
+  rest.t_max = 1.0;
+  return rest;
 }
 
 }  // namespace
 
-// The first hit that is not in a hole.
+// Whether the ray comes from the camera and meets the triangle's back, and its material has one side.
+bool ReferenceTracer::passes_back(const ReferenceRay& ray, std::uint32_t triangle) const {
+  const std::optional<bool>& double_sided = scene_.mesh->material_of(triangle).double_sided;
+  const bool stays = options_.backfaces == Backfaces::draw ||
+                     (options_.backfaces == Backfaces::automatic && !double_sided) ||
+                     (double_sided && *double_sided);
+  if (stays || !ray.of_camera) return false;
+  const glm::uvec3& corners = scene_.mesh->triangles[triangle];
+  const glm::dvec3 a(scene_.mesh->positions[corners.x]), b(scene_.mesh->positions[corners.y]),
+      c(scene_.mesh->positions[corners.z]);
+  return glm::dot(glm::cross(b - a, c - a), ray.direction) > 0.0;
+}
+
+// The first hit that is not in a hole, nor on a passed back.
 ReferenceHit ReferenceTracer::closest_hit(const ReferenceRay& ray) const {
   ReferenceRay rest = ray;
+  ReferenceTree::IsPassed is_passed;
+  if (ray.of_camera && options_.backfaces != Backfaces::draw)
+    is_passed = [&](std::uint32_t triangle) { return passes_back(ray, triangle); };
   for (double passed = 0.0;;) {
-    ReferenceHit hit = tree_.closest_hit(rest);
+    ReferenceHit hit = tree_.closest_hit(rest, is_passed);
     if (!hit.valid()) return hit;
     if (!reference_hole(*scene_.mesh, hit)) {
       hit.t += passed;

@@ -19,9 +19,9 @@ namespace pinocchio {
 class ReferenceTracer {
  public:
   // `tree` may be another scene's with the same triangles. Scene and tree must outlive this object. Of the
-  // options, only the footprint of textures and the terminator are used: the reference follows every ray and
-  // takes many samples itself. Jitter other than 0 means that the picture is one of many that are averaged;
-  // shadows of surfaces that blend are then grey.
+  // options, only the footprint of textures, the terminator and the passed backs are used: the reference
+  // follows every ray and takes many samples itself. Jitter other than 0 means that the picture is one of
+  // many that are averaged; shadows of surfaces that blend are then grey.
   ReferenceTracer(const Scene& scene, const ReferenceTree& tree, const TraceOptions& options = {})
       : scene_(scene), tree_(tree), options_(options) {
     if (scene.environment) environment_.emplace(scene);
@@ -40,9 +40,10 @@ class ReferenceTracer {
  private:
   glm::dvec3 direct(const ReferenceSurface& surface, unsigned& bits) const;
   [[nodiscard]] glm::dvec3 from_sky(const ReferenceSurface& surface) const;
-  // The footprint of textures at further hits of a ray.
+  // The footprint of textures at further hits of a ray, and whether it comes from the camera.
   struct Cone {
     double width, angle;
+    bool of_camera;
   };
   [[nodiscard]] static Cone cone_after(const ReferenceRay& ray, const ReferenceHit& hit);
   // A glossy surface has lobe_side squared mirrored rays, and fewer at the hits of these rays.
@@ -62,6 +63,7 @@ class ReferenceTracer {
                                 int lobe_side) const;
 
   [[nodiscard]] ReferenceHit closest_hit(const ReferenceRay& ray) const;
+  [[nodiscard]] bool passes_back(const ReferenceRay& ray, std::uint32_t triangle) const;
   [[nodiscard]] double unblocked(const ReferenceRay& ray) const;
 
   const Scene& scene_;

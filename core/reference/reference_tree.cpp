@@ -92,7 +92,7 @@ void ReferenceTree::halve(const Node& node) {
   });
 }
 
-ReferenceHit ReferenceTree::closest_hit(const ReferenceRay& ray) const {
+ReferenceHit ReferenceTree::closest_hit(const ReferenceRay& ray, const IsPassed& is_passed) const {
   ReferenceHit hit;
   if (nodes_.empty() || !all_finite(ray.origin) || !all_finite(ray.direction) ||
       ray.direction == glm::dvec3(0.0))
@@ -113,6 +113,7 @@ ReferenceHit ReferenceTree::closest_hit(const ReferenceRay& ray) const {
       continue;
     }
     for (std::uint32_t k = node.first; k < node.first + node.count; ++k) {
+      if (is_passed && is_passed(order_[k])) continue;
       const glm::uvec3& t = mesh_.triangles[order_[k]];
       test.meet(order_[k], mesh_.positions[t.x], mesh_.positions[t.y], mesh_.positions[t.z], hit);
     }

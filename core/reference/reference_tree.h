@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <vector>
 
 #include "core/reference/reference_hit.h"
@@ -18,8 +19,10 @@ class ReferenceTree {
   explicit ReferenceTree(const Mesh& mesh, const Progress* progress = nullptr);
 
   // The closest triangle within the ray; of several at the same t, the one with the lowest id. A ray that is
-  // not finite or has no direction hits nothing. May be called from many threads.
-  [[nodiscard]] ReferenceHit closest_hit(const ReferenceRay& ray) const;
+  // not finite or has no direction hits nothing. Triangles for which `is_passed` is true are ignored. May be
+  // called from many threads.
+  using IsPassed = std::function<bool(std::uint32_t triangle)>;
+  [[nodiscard]] ReferenceHit closest_hit(const ReferenceRay& ray, const IsPassed& is_passed = {}) const;
   [[nodiscard]] bool occluded(const ReferenceRay& ray) const { return closest_hit(ray).valid(); }
 
  private:

@@ -103,14 +103,16 @@ Tracer::Tracer(std::shared_ptr<const Mesh> mesh, const BuildOptions& options, st
       isa_(checked_isa(isa)),
       offset_(RayOffset::of(offset, tree_->bounds)) {}
 
-void Tracer::closest_hits(std::span<const Ray> rays, std::span<Hit> hits) const {
+void Tracer::closest_hits(std::span<const Ray> rays, std::span<Hit> hits, Backfaces backfaces) const {
   assert(rays.size() == hits.size());
+  const PassedBacksOf passed(*mesh_, backfaces);
+  const PassedBacks backs = passed.columns();
   Block block;
   alignas(kCacheLine) std::uint32_t triangle[kBlock];
   alignas(kCacheLine) float t[kBlock];
   for (std::size_t first = 0; first < rays.size(); first += kBlock) {
     const std::span<const Ray> part = block.load(rays.subspan(first));
-    closest_hits(block.columns(), part.size(), triangle, t);
+    closest_hits(block.columns(), part.size(), triangle, t, passed.any() ? &backs : nullptr);
     for (std::size_t i = 0; i < part.size(); ++i)
       hits[first + i] = triangle[i] == kNoTriangle ? Hit{} : Hit{t[i], triangle[i]};
   }
@@ -127,13 +129,17 @@ void Tracer::occluded(std::span<const Ray> rays, std::span<std::uint8_t> blocked
   }
 }
 
-void Tracer::closest_hits(const RayColumns& rays, std::size_t n, std::uint32_t* triangle, float* t) const {
-  const auto trace = kernel_of(isa_, tree_->test).closest_hits;
-  if (n < kLeastSorted || isa_ == Isa::scalar || !rays_diverge(rays, n))
-    return trace(*tree_, rays, n, triangle, t);
+void Tracer::closest_hits(const RayColumns& rays, std::size_t n, std::uint32_t* triangle, float* t,
+                          const PassedBacks* backs) const {
+  const Kernel& kernel = kernel_of(isa_, tree_->test);
+  const auto trace = [&](const RayColumns& from, std::uint32_t* ids, float* distances) {
+    if (backs) return kernel.closest_fronts(*tree_, from, n, *backs, ids, distances);
+    kernel.closest_hits(*tree_, from, n, ids, distances);
+  };
+  if (n < kLeastSorted || isa_ == Isa::scalar || !rays_diverge(rays, n)) return trace(rays, triangle, t);
   static thread_local RaySorter sorter;  // allocates once per thread
   const RayColumns sorted = sorter.sort(rays, n);
-  trace(*tree_, sorted, n, sorter.triangles(), t ? sorter.distances() : nullptr);
+  trace(sorted, sorter.triangles(), t ? sorter.distances() : nullptr);
   sorter.put_back(triangle, t);
 }
 

@@ -82,6 +82,8 @@ constexpr Integer kIntegers[] = {
     {GL_READ_FRAMEBUFFER_BINDING, [](GLint name) { glBindFramebuffer(GL_READ_FRAMEBUFFER, name); }},
     {GL_VERTEX_ARRAY_BINDING, [](GLint name) { glBindVertexArray(name); }},
     {GL_POLYGON_MODE, [](GLint mode) { glPolygonMode(GL_FRONT_AND_BACK, mode); }},
+    {GL_FRONT_FACE, [](GLint turn) { glFrontFace(turn); }},
+    {GL_CULL_FACE_MODE, [](GLint side) { glCullFace(side); }},
     {GL_CLAMP_READ_COLOR, [](GLint clamp) { glClampColor(GL_CLAMP_READ_COLOR, clamp); }},
     {GL_DEPTH_FUNC, [](GLint function) { glDepthFunc(function); }},
     {GL_DEPTH_WRITEMASK, [](GLint on) { glDepthMask(on != 0); }}};
@@ -168,12 +170,15 @@ void set_raster_state(const RasterState& state) {
     return name == GL_DEPTH_TEST         ? state.depth
            : name == GL_FRAMEBUFFER_SRGB ? state.srgb
            : name == GL_SCISSOR_TEST     ? state.scissor
+           : name == GL_CULL_FACE        ? state.fronts_only
                                          : false;
   };
   for (const Capability& c : kCapabilities)
     if (c.since <= version()) set_capability(c.name, is_on(c.name));
   if (state.scissor) set_scissor(state.scissor_box);
   glPolygonMode(GL_FRONT_AND_BACK, GL_FILL);
+  glFrontFace(GL_CW);  // row 0 of a picture is its top
+  glCullFace(GL_BACK);
   set_polygon_offset(0.0f, 0.0f, 0.0f);  // llvmpipe adds the offset, enabled or not
   glColorMaski(0, GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
   glDepthMask(GL_TRUE);

@@ -15,6 +15,7 @@ inline constexpr int kTextureUnits = 16;
 struct RasterState {
   bool depth = false;         // reversed: greater is nearer
   bool srgb = true;           // linear light is encoded, where the target's format is sRGB
+  bool fronts_only = false;   // only triangles that run counterclockwise; row 0 is the picture's top
   bool scissor = false;       // only the box below is drawn
   glm::ivec4 scissor_box{0};  // x, y, width, height
 };

@@ -33,11 +33,11 @@ void FullscreenTriangle::draw() const {
 }
 
 void begin_depth_pass(const Framebuffer& target, std::uint32_t clear, glm::ivec2 picture_size,
-                      glm::ivec2 first) {
+                      glm::ivec2 first, bool fronts_only) {
   target.bind();
   // The viewport is the whole picture's, so that a part has the same rounding and the same pixels.
   set_viewport(-first, picture_size);
-  set_raster_state({.depth = true});
+  set_raster_state({.depth = true, .fronts_only = fronts_only});
   const GLuint color[4] = {clear, clear, clear, clear};
   const GLfloat infinitely_far = 0.0f;
   glClearBufferuiv(GL_COLOR, 0, color);

@@ -35,9 +35,10 @@ class FullscreenTriangle {
 
 // Begins draws into `target` in which the nearest surface wins: reversed depth, 0 (infinitely far) to 1 (the
 // near plane). Clears depth, and colour to the unsigned integers `clear`. `target` is the part of a picture
-// of `picture_size` that starts at pixel `first`.
+// of `picture_size` that starts at pixel `first`. fronts_only: triangles whose corners run
+// clockwise in the picture are not drawn.
 void begin_depth_pass(const Framebuffer& target, std::uint32_t clear, glm::ivec2 picture_size,
-                      glm::ivec2 first);
+                      glm::ivec2 first, bool fronts_only = false);
 
 // Begins draws into `target` without depth and without clearing: the draws write every pixel.
 void begin_fullscreen_pass(const Framebuffer& target);

@@ -23,6 +23,7 @@ TraceOptions trace_options(const Settings& settings, const View& view) {
           .light_cutoff = settings.light_cutoff,
           .texture_footprint = texture_footprint(settings, view),
           .terminator = settings.terminator,
+          .backfaces = settings.backfaces,
           .jitter = view.jitter,
           .sampling = {static_cast<int>(settings.sequence.value), static_cast<std::uint32_t>(view.sample),
                        static_cast<std::uint32_t>(settings.seed)}};

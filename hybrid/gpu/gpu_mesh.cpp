@@ -27,6 +27,32 @@ std::vector<MaterialTexels> material_texels(const Mesh& mesh) {
   return texels;
 }
 
+// One for each material: bit i says whether the camera sees through its backs with kBackfaces[i].
+std::vector<std::uint32_t> back_texels(const Mesh& mesh) {
+  std::vector<std::uint32_t> texels;
+  for (const Material& m : mesh.materials) {
+    std::uint32_t bits = 0;
+    for (std::size_t i = 0; i < kBackfaces.size(); ++i) bits |= passes_backs(m, kBackfaces[i]) ? 1u << i : 0u;
+    texels.push_back(bits);
+  }
+  return texels;
+}
+
+std::array<GpuMesh::Share, kBackfaces.size()> shares_of_passed_backs(const Mesh& mesh) {
+  const std::vector<std::uint32_t> texels = back_texels(mesh);
+  std::uint32_t some = 0, all = ~0u;
+  for (const std::uint32_t material : mesh.triangle_materials) {
+    some |= texels[material];
+    all &= texels[material];
+  }
+  std::array<GpuMesh::Share, kBackfaces.size()> shares{};
+  for (std::size_t i = 0; i < shares.size(); ++i)
+    shares[i] = !(some >> i & 1u)  ? GpuMesh::Share::none
+                : !(all >> i & 1u) ? GpuMesh::Share::some
+                                   : GpuMesh::Share::all;
+  return shares;
+}
+
 std::vector<LightTexels> light_texels(const Scene& scene) {
   std::vector<LightTexels> texels;
   const std::vector<int> slots = mask_slots(scene);
@@ -71,6 +97,8 @@ GpuMesh::Geometry::Geometry(const Mesh& mesh)
 GpuMesh::GpuMesh(const Mesh& mesh, const Shared& shared)
     : geometry_(shared.geometry ? shared.geometry->geometry_ : std::make_shared<const Geometry>(mesh)),
       materials_(quads(material_texels(mesh))),
+      backs_(unsigneds(back_texels(mesh))),
+      passed_backs_(shares_of_passed_backs(mesh)),
       maps_(mesh, shared.textures ? &shared.textures->maps_ : nullptr),
       // Reversed float depth is as fine far away as near by, so the near plane may be almost 0: depth leaves
       // float's normal numbers only beyond 2^66 diagonals.
@@ -89,6 +117,12 @@ int GpuMesh::bind(const gl::Program& program, int first_unit) const {
   program.set("normals", unit++, geometry_->normals);
   program.set("materials", unit++, materials_);
   return maps_.bind(program, unit);
+}
+
+int GpuMesh::bind_backs(const gl::Program& program, int first_unit) const {
+  program.set("triangle_materials", first_unit, geometry_->triangle_materials);
+  program.set("passed_backs", first_unit + 1, backs_);
+  return first_unit + 2;
 }
 
 void GpuLights::update(const Scene& scene) {

@@ -1,11 +1,13 @@
 #pragma once
 
+#include <array>
 #include <memory>
 
 #include "gl/objects/draw.h"
 #include "gl/objects/program.h"
 #include "gl/objects/texture.h"
 #include "hybrid/gpu/gpu_maps.h"
+#include "pinocchio/backfaces.h"
 #include "pinocchio/scene.h"
 
 namespace pinocchio {
@@ -26,6 +28,14 @@ class GpuMesh {
   // Sets the buffers of the program in use, on texture units from `first_unit` on; returns the next free one.
   int bind(const gl::Program& program, int first_unit) const;
 
+  // How many of the triangles have backs that the camera sees through.
+  enum class Share { none, some, all };
+  [[nodiscard]] Share passed_backs(Backfaces backfaces) const {
+    return passed_backs_[static_cast<std::size_t>(backfaces)];
+  }
+  // Sets what tells which those are (shaders/visibility.frag), as bind() sets the rest.
+  int bind_backs(const gl::Program& program, int first_unit) const;
+
   [[nodiscard]] const GpuMaps& maps() const { return maps_; }
   [[nodiscard]] bool shares_geometry_with(const GpuMesh& other) const { return geometry_ == other.geometry_; }
   [[nodiscard]] float z_near() const { return z_near_; }  // scene units
@@ -37,7 +47,8 @@ class GpuMesh {
     gl::TextureBuffer corners, triangle_materials, positions, normals;
   };
   std::shared_ptr<const Geometry> geometry_;
-  gl::TextureBuffer materials_;
+  gl::TextureBuffer materials_, backs_;
+  std::array<Share, kBackfaces.size()> passed_backs_;
   GpuMaps maps_;
   float z_near_;
 };

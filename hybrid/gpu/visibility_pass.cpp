@@ -24,7 +24,7 @@ glm::mat3 picture_from_eye(const shared::ViewParams& view, glm::ivec2 picture_si
 }
 
 void VisibilityPass::draw(const GpuMesh& mesh, const shared::ViewParams& view, glm::ivec2 picture_size,
-                          int id_bits, const gl::Framebuffer& target) const {
+                          int id_bits, Backfaces backfaces, const gl::Framebuffer& target) const {
   Programs::Definitions definitions{"ID_BITS " + std::to_string(id_bits == 24 ? 24 : 32)};
   const bool holes = mesh.maps().has_holes();
   if (holes) {
@@ -32,18 +32,28 @@ void VisibilityPass::draw(const GpuMesh& mesh, const shared::ViewParams& view, g
     const Programs::Definitions& of_maps = mesh.maps().definitions();
     definitions.insert(definitions.end(), of_maps.begin(), of_maps.end());
   }
+  // Where all backs are passed, the rasteriser leaves them out, which is cheaper.
+  const GpuMesh::Share backs = mesh.passed_backs(backfaces);
+  const bool some_backs = backs == GpuMesh::Share::some;
+  if (some_backs) definitions.emplace_back("PASSES_BACKS");
   const gl::Program& program = programs_->get("visibility.vert", "visibility.frag", definitions);
-  gl::begin_depth_pass(target, id_format(id_bits).none, picture_size, glm::ivec2(view.first));
+  gl::begin_depth_pass(target, id_format(id_bits).none, picture_size, glm::ivec2(view.first),
+                       backs == GpuMesh::Share::all);
   program.use();
   program.set("eye", view.eye);
   program.set("picture_from_eye", picture_from_eye(view, picture_size));
   program.set("z_near", mesh.z_near());
+  int unit = 0;
   if (holes) {
-    mesh.bind(program, 0);
+    unit = mesh.bind(program, unit);
     program.set("corner", view.corner);
     program.set("step_x", view.step_x);
     program.set("step_y", view.step_y);
     program.set("first_pixel", view.first);
+  }
+  if (some_backs) {
+    mesh.bind_backs(program, unit);
+    program.set("backfaces", static_cast<int>(backfaces));
   }
   mesh.draw();
 }

@@ -15,9 +15,9 @@ class VisibilityPass {
   explicit VisibilityPass(std::shared_ptr<Programs> programs) : programs_(std::move(programs)) {}
 
   // target: has id_format(id_bits) and depth; it is the part of a picture of `picture_size` that begins at
-  // view.first. All bits are set where nothing is seen.
+  // view.first. All bits are set where nothing is seen. `backfaces`: the backs that are not drawn.
   void draw(const GpuMesh& mesh, const shared::ViewParams& view, glm::ivec2 picture_size, int id_bits,
-            const gl::Framebuffer& target) const;
+            Backfaces backfaces, const gl::Framebuffer& target) const;
 
  private:
   std::shared_ptr<Programs> programs_;

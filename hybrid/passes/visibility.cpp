@@ -9,7 +9,8 @@ void rasterise(GpuPasses& gpu, FrameSlot& frame) {
   frame.raster_timer.begin();
   fit(frame[Channel::ids].target, frame.size(), channel_row(Channel::ids).texture(s, frame.size()).texel,
       true);
-  gpu.visibility.draw(*frame.mesh, frame.view, view.size, s.id_bits, frame[Channel::ids].target);
+  gpu.visibility.draw(*frame.mesh, frame.view, view.size, s.id_bits, frame.options.backfaces,
+                      frame[Channel::ids].target);
   for (const ChannelLayout& c : frame.layout) {
     gl::Framebuffer& target = frame[c.channel].target;
     if (goes_to_cpu(c.channel) && c.channel != Channel::ids) fit(target, c.texels, c.texel);

@@ -183,6 +183,11 @@ constexpr std::array kTable{
         "where a coarse mesh's shading normals face a light and its facets do not: off: dark; "
         "smoothed: light falls to zero there; displaced: shadow rays start on the curved "
         "surface; turned-away: the same, on facets that turn away only (docs/terminator.md)"),
+    field<&S::backfaces>(
+        "backfaces", one_of(kBackfacesNames), "auto",
+        "surfaces that the camera sees through from behind: auto: those whose file says that they are "
+        "single-sided, as glTF does; draw: none; cull: all whose file does not say that they are "
+        "double-sided. Shadows, mirrors and glass keep both sides"),
     field<&S::reuse>("reuse", yes_or_no(), "true",
                      "do not draw a frame again whose request equals the last one's"),
     field<&S::persistent>("persistent", yes_or_no(), "false", "keep transfer buffers mapped", kOfMachine),

@@ -187,7 +187,8 @@ void bind_material(nb::module_& module) {
              const glm::vec3& reflectance, const glm::vec3& transmittance, float ior, bool fresnel,
              const glm::vec3& emission, const std::optional<glm::vec3>& ambient,
              const std::optional<Texels>& texture, const std::string& name, float gloss,
-             const glm::vec3& attenuation_color, float attenuation_distance) {
+             const glm::vec3& attenuation_color, float attenuation_distance,
+             std::optional<bool> double_sided) {
             Material m;
             m.name = name;
             m.ambient = ambient.value_or(diffuse);
@@ -202,6 +203,7 @@ void bind_material(nb::module_& module) {
             m.gloss = gloss;
             m.attenuation_color = attenuation_color;
             m.attenuation_distance = attenuation_distance;
+            m.double_sided = double_sided;
             new (self) TexturedMaterial{
                 m, texture ? std::make_shared<const Texture>(texture_of(*texture)) : nullptr};
           },
@@ -209,7 +211,7 @@ void bind_material(nb::module_& module) {
           "reflectance"_a = glm::vec3(0.0f), "transmittance"_a = glm::vec3(0.0f), "ior"_a = 1.0f,
           "fresnel"_a = false, "emission"_a = glm::vec3(0.0f), "ambient"_a = nb::none(),
           "texture"_a = nb::none(), "name"_a = "", "gloss"_a = 0.0f, "attenuation_color"_a = glm::vec3(1.0f),
-          "attenuation_distance"_a = 0.0f,
+          "attenuation_distance"_a = 0.0f, "double_sided"_a = nb::none(),
           "ambient: None: as diffuse.\n"
           "reflectance: the weight of the mirrored ray; with `fresnel`, at normal incidence.\n"
           "transmittance: the weight of the refracted ray, which is refracted by `ior`.\n"
@@ -218,6 +220,9 @@ void bind_material(nb::module_& module) {
           "attenuation_color: the share of light that is left after `attenuation_distance` (scene units) "
           "through glass.\n"
           "attenuation_distance: 0: the glass is clear.\n"
+          "double_sided: False: the camera sees through the surface from behind, unless backfaces='draw'. "
+          "None: "
+          "only with backfaces='cull'.\n"
           "Raises Error if the texture has another shape.");
 }
 

@@ -59,6 +59,16 @@ def test_glass_takes_light_by_the_way_through_it():
     assert seen == pytest.approx([0.25**0.5, 0.5**0.5, 1], abs=2e-3)
 
 
+def test_the_camera_sees_through_the_backs_of_single_sided_materials():
+    corners, triangles = quad()
+    below = pinocchio.Camera(eye=(0, 0, -9), target=(0, 0, 0), up=(0, 1, 0), fov=2)
+    for double_sided, backfaces, seen in [(None, "auto", True), (None, "cull", False), (True, "cull", True),
+                                          (False, "auto", False), (False, "draw", True)]:
+        scene = pinocchio.Scene(corners, triangles, materials=pinocchio.Material(double_sided=double_sided))
+        ids = pinocchio.Engine().render(scene, below, size=(4, 4), backfaces=backfaces).ids
+        assert (ids[2, 2] != 0xffffffff) == seen, (double_sided, backfaces)
+
+
 def test_lights_and_cameras_change_between_calls():
     engine, scene = pinocchio.Engine(), floor(lights=[pinocchio.Light(position=(0, 0, 3))])
     lit = engine.render(scene, pinocchio.Camera(**ABOVE), size=(8, 8)).mask

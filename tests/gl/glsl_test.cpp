@@ -111,9 +111,11 @@ TEST_F(GlslTest, EveryVariantIsGlslToTheLetter) {
   for (const Definitions& bits : kIds) {
     add("show.frag", bits);
     add("visibility.vert", bits);
-    add("visibility.frag", bits);
-    for (const Definitions& maps : kMaps)
-      if (!maps.empty()) add("visibility.frag", joined({bits, {"HAS_HOLES"}, maps}));
+    for (const Definitions& backs : {Definitions{}, Definitions{"PASSES_BACKS"}}) {
+      add("visibility.frag", joined({bits, backs}));
+      for (const Definitions& maps : kMaps)
+        if (!maps.empty()) add("visibility.frag", joined({bits, backs, {"HAS_HOLES"}, maps}));
+    }
   }
   for (const char* file : {"accumulate.frag", "present.frag", "light.frag", "fullscreen.vert"}) add(file, {});
   EXPECT_GT(count(), 300u);

@@ -62,8 +62,8 @@ TEST(Export, WhatIsReadBesideTheSceneIsSaid) {
   view.camera.lens_radius = 0.25f;
   view.camera.focus_distance = 3.0f;
   const std::string command = render_command(view, "boat");
-  for (const char* part : {" --environment 'a sky.hdr' ", " --load-limit 8192 ", " --confine ", " --shading phong ",
-                           " --lens-radius 0.25 ", " --focus 3 "})
+  for (const char* part : {" --environment 'a sky.hdr' ", " --load-limit 8192 ", " --confine ",
+                           " --shading phong ", " --lens-radius 0.25 ", " --focus 3 "})
     EXPECT_TRUE(holds(command, part)) << part << " in " << command;
 }
 

@@ -1,4 +1,6 @@
 // The window as a person meets it: what covers the picture, where input goes, what it costs to stand still.
+#include "core/image/tonemap.h"
+#include "pinocchio/exr.h"
 #include "tests/view/display.h"
 
 namespace pinocchio {
@@ -285,13 +287,13 @@ TEST_F(OverlayTest, SequencesAreRecorded) {
   EXPECT_TRUE(becomes([&] { return exists("cornell-001-0003.exr"); }));
   key("k");
   EXPECT_TRUE(exists("cornell-001-0002.png"));
-  const CommandResult seen =
-      run_command("cd '" + folder_.string() +
-                      "' && '" PINOCCHIO_PROGRAM "' compare cornell-001-0002.exr cornell-001-0002.png --json",
-                  folder_);
-  ASSERT_EQ(seen.exit_code, 0) << seen.err;
-  EXPECT_LT(nlohmann::json::parse(seen.out)["flip"].get<double>(),
-            0.01);  // the same frame, but for its bytes
+  // The same frame: the screen's bytes are those of the file's light, as the GPU rounds.
+  const Expected<ExrFile> light = read_exr(folder_ / "cornell-001-0002.exr");
+  ASSERT_TRUE(light);
+  Image<glm::vec4> color(light->data_window.size());
+  for (std::size_t i = 0; i < color.pixels().size(); ++i)
+    color[i] = {light->find("R")->values[i], light->find("G")->values[i], light->find("B")->values[i], 1.0f};
+  EXPECT_EQ(different_pixels(preview(color, 0.0f), picture("cornell-001-0002.png"), 1), 0);
   // Pictures alone, which go on where the camera goes.
   key("k");
   drag(1, 40, 10);

@@ -48,12 +48,12 @@ Camera before_walls(Camera camera, const Bounds& seen, const Tracer& tracer) {
 }
 
 std::optional<glm::vec3> surface_under(glm::vec2 pixel, glm::vec2 screen, const Camera& camera,
-                                       const Tracer& tracer) {
+                                       const Tracer& tracer, Backfaces backfaces) {
   const glm::ivec2 size = glm::max(glm::ivec2(screen), 1),
                    at = glm::clamp(glm::ivec2(pixel), glm::ivec2(0), size - 1);
   const Image<Ray> rays = camera_rays({camera, size, {at, at + 1}});
   std::array<Hit, 1> hit{};
-  tracer.closest_hits(rays.pixels(), hit);
+  tracer.closest_hits(rays.pixels(), hit, backfaces);
   if (!hit[0].valid()) return std::nullopt;
   return rays[0].origin + hit[0].t * rays[0].direction;
 }

@@ -17,6 +17,6 @@ namespace pinocchio::app {
 
 // The point of the surface that the pixel shows. Nothing: there is no surface. screen: pixels.
 [[nodiscard]] std::optional<glm::vec3> surface_under(glm::vec2 pixel, glm::vec2 screen, const Camera& camera,
-                                                     const Tracer& tracer);
+                                                     const Tracer& tracer, Backfaces backfaces);
 
 }  // namespace pinocchio::app

@@ -78,6 +78,12 @@ bool edit_material(Material& m) {
   changed = slider("index", m.ior, 1.0f, 3.0f, format("%.2f", m.ior),
                    "index of refraction, for transparent materials") ||
             changed;
+  bool double_sided = m.double_sided.value_or(true);
+  if (checkbox("double-sided", double_sided,
+               "off: the camera sees through the surface from behind, unless backfaces is draw")) {
+    m.double_sided = double_sided;
+    changed = true;
+  }
   return changed;
 }
 

@@ -1,20 +1,21 @@
 #pragma once
 
 #include <glm/glm.hpp>
+#include <optional>
 #include <string>
 
 #include "pinocchio/glm_layout.h"
 
 namespace pinocchio {
 
-// A reflection model with mirrors and glass, in linear colour: I = Ia + Id(L) + Is(L) + Ir(R) + It(T) (Whitted
-// 1980). Id and Is are Phong's or glTF's.
+// A reflection model with mirrors and glass, in linear colour: I = Ia + Id(L) + Is(L) + Ir(R) + It(T)
+// (Whitted 1980). Id and Is are Phong's or glTF's.
 struct Material {
   std::string name;
   glm::vec3 ambient{0.8f};
   glm::vec3 diffuse{0.8f};
-  glm::vec3 specular{0.0f};     // glTF's model: F0, mirrored at normal incidence
-  float shininess = 1.0f;       // exponent of (R.V), not of the half vector
+  glm::vec3 specular{0.0f};  // glTF's model: F0, mirrored at normal incidence
+  float shininess = 1.0f;    // exponent of (R.V), not of the half vector
   // glTF's reflection model (GGX): roughness squared. 0: Phong's model.
   float ggx_alpha = 0.0f;
   float grazing = 1.0f;   // glTF's model: F90, mirrored at grazing incidence
@@ -35,6 +36,8 @@ struct Material {
   // True: diffuse and specular are a BRDF's values, as with glTF's metallic-roughness. False: they are
   // Phong's coefficients for lights whose strength includes the 1 / pi.
   bool brdf = false;
+  // Whether the surface has two sides that are seen (pinocchio/backfaces.h). Nothing: the file does not say.
+  std::optional<bool> double_sided;
   // Index in MeshData::maps: textures, vertex colours and alpha of this material; -1: none. With maps,
   // reflectance and transmittance here are upper limits.
   int maps = -1;

@@ -8,6 +8,7 @@
 #include <string_view>
 #include <vector>
 
+#include "pinocchio/backfaces.h"
 #include "pinocchio/build_options.h"
 #include "pinocchio/mesh.h"
 #include "pinocchio/ray.h"
@@ -17,6 +18,7 @@ namespace pinocchio {
 
 struct BspTree;
 struct LaneSteps;
+struct PassedBacks;
 struct RayColumns;
 
 // The instruction set, which sets the width of ray packets.
@@ -46,12 +48,16 @@ class Tracer {
                   std::optional<Isa> isa = {}, OffsetMethod offset = OffsetMethod::error_bound);
 
   // hits[i]: the closest hit of ray i, t in lengths of the ray's direction. hits.size() == rays.size().
-  void closest_hits(std::span<const Ray> rays, std::span<Hit> hits) const;
+  // `backfaces`: the backs that the rays pass; without, they are stopped by both sides.
+  void closest_hits(std::span<const Ray> rays, std::span<Hit> hits,
+                    Backfaces backfaces = Backfaces::draw) const;
   // blocked[i] is 1 if ray i meets any triangle, else 0. blocked.size() == rays.size().
   void occluded(std::span<const Ray> rays, std::span<std::uint8_t> blocked) const;
 
-  // The same for `n` rays in columns (walk/kernels.h), for the tile pass.
-  void closest_hits(const RayColumns& rays, std::size_t n, std::uint32_t* triangle, float* t = nullptr) const;
+  // The same for `n` rays in columns (walk/kernels.h), for the tile pass. `backs`: those that the rays pass;
+  // null: none.
+  void closest_hits(const RayColumns& rays, std::size_t n, std::uint32_t* triangle, float* t = nullptr,
+                    const PassedBacks* backs = nullptr) const;
   void occluded(const RayColumns& rays, std::size_t n, std::uint8_t* blocked) const;
   // The steps of the tile pass at this tracer's width.
   [[nodiscard]] const LaneSteps& steps() const;

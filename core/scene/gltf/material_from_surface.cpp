@@ -34,7 +34,7 @@ GltfSurface surface_of_material(const Material& m) {
   const GltfSurface usual;
   const auto brightest = [](const glm::vec3& v) { return std::max({v.x, v.y, v.z}); };
   GltfSurface s;
-  s.roughness = std::sqrt(m.ggx_alpha);
+  s.roughness = m.ggx_alpha > shared::kLeastAlpha ? std::sqrt(m.ggx_alpha) : 0.0f;
   s.emissive = m.emission;
   // Base colour times what is not metal, and its parts that are matt and let light through.
   const glm::vec3 matt = m.diffuse * glm::pi<float>(), plastic = matt + m.transmittance;

@@ -152,6 +152,8 @@ Material material_of(const Json& json, MaterialMaps& maps, Shading shading) {
   else
     read_phong(json, maps.surface.base_color, material, maps.surface);
   material.name = text_member(&json, "name");
+  material.double_sided = value_member<bool>(&json, "doubleSided");
+  if (maps.from_gltf && !material.double_sided) material.double_sided = false;  // glTF's default
   if (maps.surface.volume && material.transmits()) read_attenuation(json, material, maps.surface);
   return material;
 }

@@ -55,7 +55,7 @@ void Holes::go_on(const Tracer& tracer, const RayQueue& rays, std::size_t i, std
   append(next_, offset_origin(s, direction), direction, static_cast<std::uint32_t>(i));
 }
 
-void Holes::pass(const Tracer& tracer, RayQueue& rays) {
+void Holes::pass(const Tracer& tracer, RayQueue& rays, const PassedBacks* backs) {
   const Mesh& mesh = tracer.mesh();
   // By the ray from its first origin, as surfaces are.
   const auto meets_hole = [&](std::size_t i) {
@@ -69,7 +69,7 @@ void Holes::pass(const Tracer& tracer, RayQueue& rays) {
   for (int layer = 0; next_.size > 0 && layer < kMostLayers; ++layer) {
     std::swap(on_, next_);
     next_.make_room(on_.size);
-    tracer.closest_hits(on_.columns(), on_.size, on_.triangle);
+    tracer.closest_hits(on_.columns(), on_.size, on_.triangle, nullptr, backs);
     for (std::size_t k = 0; k < on_.size; ++k) {
       const std::size_t i = on_.pixel[k];
       rays.triangle[i] = on_.triangle[k];

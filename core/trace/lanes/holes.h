@@ -20,7 +20,8 @@ struct SamplePlace {
 class Holes {
  public:
   // rays.triangle holds the first triangle of each ray; afterwards, the first one that is no hole there.
-  void pass(const Tracer& tracer, RayQueue& rays);
+  // `backs`: those that the rays pass, too; null: none.
+  void pass(const Tracer& tracer, RayQueue& rays, const PassedBacks* backs = nullptr);
 
   // blocked[i] = 1 where something that is no hole lies within shadow ray i, else 0. Where a surface blends,
   // rays are let through at alpha below one half, or, in further samples of a pixel, below a random number.

@@ -3,6 +3,7 @@
 #include <glm/glm.hpp>
 
 #include "core/shade/shared.h"
+#include "pinocchio/backfaces.h"
 #include "pinocchio/ray.h"
 #include "pinocchio/terminator.h"
 
@@ -24,6 +25,7 @@ struct TraceOptions {
   float light_cutoff = 0.0f;
   float texture_footprint = 1.0f;  // side of the square that textures are averaged over, pixels; 0: a point
   Terminator terminator = kUsualTerminator;
+  Backfaces backfaces = Backfaces::automatic;  // which backs the camera's rays pass
   glm::vec2 jitter{0.0f};       // View's: tells the samples of a pixel apart where they decide at random
   shared::Sampling sampling{};  // the sample of sized lights, rough mirrors and the environment
 

@@ -9,8 +9,9 @@ namespace pinocchio {
 
 // Follows the rays that the camera's rays spawned, then those of matt surfaces, bounce by bounce.
 void TileTracer::follow() {
-  if (!reflects_ && rays_[0].size + rays_[1].size + rays_[2].size + next_diffuse_.size > 0)
-    reflected_.fill(glm::vec4(0.0f)), reflects_ = true;
+  std::size_t rays = next_diffuse_.size;
+  for (const RayQueue& queue : rays_) rays += queue.size;
+  if (!reflects_ && rays > 0) reflected_.fill(glm::vec4(0.0f)), reflects_ = true;
   follow_mirrors(0);
   for (int bounce = 1; bounce <= plan_->out.indirect && next_diffuse_.size > 0; ++bounce) {
     follow_diffuse(bounce);
@@ -40,7 +41,9 @@ void TileTracer::follow_diffuse(int bounce_count) {
 void TileTracer::follow_mirrors(int bounce_count) {
   for (int step_count = 1; step_count <= plan_->out.depth; ++step_count) {
     const int generation = bounce_count * (plan_->out.depth + 1) + step_count;
-    const std::size_t mirrored = rays_[0].size, through = rays_[1].size + rays_[2].size;
+    const std::size_t mirrored = rays_[kMirrored].size,
+                      through =
+                          rays_[kRefracted].size + rays_[kStraight].size + rays_[kStraightFromCamera].size;
     const std::size_t rays = mirrored + through;
     if (rays == 0) return;
     counts_.reflection += mirrored;
@@ -50,10 +53,12 @@ void TileTracer::follow_mirrors(int bounce_count) {
     step.mirrored = step_count < plan_->out.depth ? next_.data() : nullptr;
     step.diffuse = bounce_count < plan_->out.indirect ? &next_diffuse_ : nullptr;
     for (RayQueue& queue : rays_) {
-      find_hits(queue, generation);
-      if (plan_->environment && (bounce_count == 0 || &queue != &rays_[2])) add_environment(queue);
+      const bool of_camera = &queue == &rays_[kStraightFromCamera];
+      if (of_camera && queue.size == 0) continue;
+      find_hits(queue, generation, of_camera);
+      if (plan_->environment && (bounce_count == 0 || &queue != &rays_[kStraight])) add_environment(queue);
       plan_->job.tracer.steps().keep_hits(queue);
-      bounce(step, generation, queue, next_, reflected_);
+      bounce(step, generation, queue, next_, reflected_, of_camera);
     }
     fire_shadows(generation, reflected_);
     fire_at_environment(generation);

@@ -48,6 +48,7 @@ TilePlan::TilePlan(const TraceJob& j, const TileOutputs& o)
       out(o),
       has_holes(any_maps(*j.scene.mesh, &MaterialMaps::has_holes)),
       blends(any_maps(*j.scene.mesh, &MaterialMaps::blends)),
+      passed_backs(*j.scene.mesh, j.options.backfaces),
       all_lights(lights_of(j.scene)),
       casting(casting_lights(j.scene).size()),
       sized_lights(static_cast<std::size_t>(std::ranges::count_if(j.scene.lights, &Light::has_size))) {

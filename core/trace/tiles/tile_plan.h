@@ -7,6 +7,7 @@
 #include "core/shade/footprint.h"
 #include "core/trace/lanes/environment_light.h"
 #include "core/trace/lanes/lane_steps.h"
+#include "core/trace/rays/passed_backs.h"
 #include "core/trace/tiles/trace_tiles.h"
 
 namespace pinocchio {
@@ -22,7 +23,8 @@ struct TilePlan {
   shared::ViewParams view;  // of the samples
   glm::ivec2 first{0};      // the first pixel, in the whole picture
   Footprint seen_footprint, further_footprint;
-  bool has_holes, blends;  // some material does
+  bool has_holes, blends;      // some material does
+  PassedBacksOf passed_backs;  // by the camera's rays
   std::vector<BounceLight> all_lights, visible_lights;
   std::size_t casting, sized_lights;  // lights
   std::optional<EnvironmentLight> environment;

@@ -112,16 +112,19 @@ bool TileTracer::fetch_ids() {
   return all != kNoTriangle;
 }
 
-void TileTracer::find_hits(RayQueue& rays, int generation) {
+// of_camera: the rays come straight from the camera.
+void TileTracer::find_hits(RayQueue& rays, int generation, bool of_camera) {
   if (plan_->out.on_rays) plan_->out.on_rays({rays.columns(), rays.size, generation, false});
-  plan_->job.tracer.closest_hits(rays.columns(), rays.size, rays.triangle);
-  if (plan_->has_holes) holes_.pass(plan_->job.tracer, rays);
+  const PassedBacks passed = plan_->passed_backs.columns();
+  const PassedBacks* const backs = of_camera && plan_->passed_backs.any() ? &passed : nullptr;
+  plan_->job.tracer.closest_hits(rays.columns(), rays.size, rays.triangle, nullptr, backs);
+  if (plan_->has_holes) holes_.pass(plan_->job.tracer, rays, backs);
 }
 
 void TileTracer::find_visible() {
   const TileOutputs& out = plan_->out;
   if (out.seen) return;
-  find_hits(seen_, 0);
+  find_hits(seen_, 0, true);
   counts_.primary += seen_.size;
   if (out.ids) {
     for (std::size_t i = 0; i < seen_.size; ++i) ids_[seen_.pixel[i]] = seen_.triangle[i];
@@ -140,9 +143,10 @@ void TileTracer::make_room(std::size_t rays, Generation& next) {
   const ExtraColumns extra = extra_columns();
   ExtraColumns of_mirrored = extra;
   of_mirrored.density = plan_->further.lobes;
-  next[0].make_room(rays, of_mirrored);
-  next[1].make_room(rays, extra);
-  next[2].make_room(plan_->blends ? rays : 0, extra);
+  next[kMirrored].make_room(rays, of_mirrored);
+  next[kRefracted].make_room(rays, extra);
+  next[kStraight].make_room(plan_->blends ? rays : 0, extra);
+  next[kStraightFromCamera].make_room(plan_->blends && plan_->passed_backs.any() ? rays : 0, extra);
   for (std::size_t i = 0; i < plan_->casting; ++i) shadow_[i].make_room(rays);
   // A sample of the environment, one along a lobe, and distant lights that the lobe meets.
   const std::size_t along_lobes = plan_->further.lobes ? plan_->sized_lights : 0;
@@ -155,7 +159,7 @@ void TileTracer::make_room(std::size_t rays, Generation& next) {
 }
 
 void TileTracer::bounce(Bounce step, int generation, const RayQueue& rays, Generation& next,
-                        Radiance& radiance) {
+                        Radiance& radiance, bool of_camera) {
   step.corner = glm::uvec2(plan_->first + tile_.lo * plan_->out.scale);
   step.dimension = static_cast<std::uint32_t>(generation) * shared::kDimensionsOfBounce;
   step.shadow = shadow_.data();
@@ -164,7 +168,11 @@ void TileTracer::bounce(Bounce step, int generation, const RayQueue& rays, Gener
   step.sky_ways_up = &sky_ways_up_;
   step.lobe_lights = &lobe_lights_;
   step.radiance = &radiance[0].x;
-  if (step.mirrored) step.mirrored = &next[0], step.refracted = &next[1], step.straight = &next[2];
+  if (step.mirrored) {
+    step.mirrored = &next[kMirrored];
+    step.refracted = &next[kRefracted];
+    step.straight = &next[of_camera && plan_->passed_backs.any() ? kStraightFromCamera : kStraight];
+  }
   plan_->job.tracer.steps().bounce(step, rays);
 }
 
@@ -183,7 +191,7 @@ void TileTracer::light_visible() {
     return;
   reflects_ = step.environment || step.lobes;
   if (reflects_) reflected_.fill(glm::vec4(0.0f));
-  bounce(step, 0, seen_, rays_, direct_);
+  bounce(step, 0, seen_, rays_, direct_, true);
   fire_shadows(0, direct_);
   fire_at_environment(0);
 }

@@ -19,14 +19,16 @@ class TileTracer {
 
  private:
   static constexpr std::size_t kPixels = std::size_t{TileGrid::kTileSize} * TileGrid::kTileSize;
-  // Mirrored rays, refracted rays, and rays that go straight through surfaces that blend.
-  using Generation = std::array<RayQueue, 3>;
+  // Mirrored rays, refracted rays, and rays that go straight through surfaces that blend. Where the camera's
+  // rays pass backs, those that come straight from the camera are apart, as they pass them, too.
+  enum Kind : std::size_t { kMirrored, kRefracted, kStraight, kStraightFromCamera, kKinds };
+  using Generation = std::array<RayQueue, kKinds>;
   // Linear RGB; A is 1 where something is hit.
   using Radiance = std::array<glm::vec4, kPixels>;
 
   void start();
   [[nodiscard]] bool fetch_ids();
-  void find_hits(RayQueue& rays, int generation);
+  void find_hits(RayQueue& rays, int generation, bool of_camera = false);
   void find_visible();
   void light_visible();
   void follow();
@@ -34,7 +36,8 @@ class TileTracer {
   void follow_diffuse(int bounce);
   void add_environment(const RayQueue& missed);
   void paint_background() const;
-  void bounce(Bounce step, int generation, const RayQueue& rays, Generation& next, Radiance& radiance);
+  void bounce(Bounce step, int generation, const RayQueue& rays, Generation& next, Radiance& radiance,
+              bool of_camera = false);
   [[nodiscard]] ExtraColumns extra_columns() const;
   void make_room(std::size_t rays, Generation& next);
   void fire_shadows(int generation, Radiance& radiance);

@@ -2,6 +2,8 @@
 #pragma once
 
 #include "core/bsp/tree.h"
+#include "core/trace/rays/passed_backs.h"
+#include "core/trace/walk/packet.h"
 
 namespace pinocchio::PINOCCHIO_LANES {
 namespace {
@@ -21,15 +23,66 @@ struct ClosestHits {
     }
   }
 
-  [[gnu::always_inline]] inline unsigned add(unsigned k, Mask lanes, Float t, Int triangle) {
-    const Mask closer = lanes & ((t < t_best[k]) | ((t == t_best[k]) & (triangle < id[k])));
-    t_best[k] = select(closer, t, t_best[k]);
-    id[k] = select(closer, triangle, id[k]);
+  [[gnu::always_inline]] inline unsigned add(unsigned k, Mask lanes, Float t, std::uint32_t triangle) {
+    keep(k, closer(k, lanes, t, triangle), t, triangle);
     return 0;
   }
 
   Float t_best[kPackets];
   Int id[kPackets];
+
+ protected:
+  [[gnu::always_inline]] inline Mask closer(unsigned k, Mask lanes, Float t, std::uint32_t triangle) const {
+    return lanes & ((t < t_best[k]) | ((t == t_best[k]) & (Int(triangle) < id[k])));
+  }
+  [[gnu::always_inline]] inline void keep(unsigned k, Mask lanes, Float t, std::uint32_t triangle) {
+    t_best[k] = select(lanes, t, t_best[k]);
+    id[k] = select(lanes, Int(triangle), id[k]);
+  }
+};
+
+// The closest triangle that is not met from a passed back: as if those backs were not there, whatever lies at
+// the same distance.
+template <int kPackets>
+struct ClosestFronts : ClosestHits<kPackets> {
+  // The packets' rays are those from `first` on.
+  ClosestFronts(const Float (&t_max)[kPackets], const BspTree& tree, const RayColumns& rays,
+                std::size_t first, const PassedBacks& backs)
+      : ClosestHits<kPackets>(t_max), tree_(tree), rays_(rays), first_(first), backs_(backs) {}
+
+  [[gnu::always_inline]] inline unsigned add(unsigned k, Mask lanes, Float t, std::uint32_t triangle) {
+    Mask met = this->closer(k, lanes, t, triangle);
+    if (met.bits() == 0) return 0;
+    if (backs_.passed[backs_.triangle_materials[triangle]] != 0) met = met & ~from_behind(k, triangle);
+    this->keep(k, met, t, triangle);
+    return 0;
+  }
+
+ private:
+  // The lanes of packet k that run along the triangle's normal. The normal is scaled, as the product of short
+  // or long edges would leave float's range.
+  [[gnu::noinline]] Mask from_behind(unsigned k, std::uint32_t triangle) const {
+    const glm::uvec3& corners = tree_.corners.data()[triangle];
+    const glm::vec3* const positions = tree_.positions.data();
+    const glm::vec3 &a = positions[corners.x], &b = positions[corners.y], &c = positions[corners.z];
+    const double ab[3] = {double{b.x} - a.x, double{b.y} - a.y, double{b.z} - a.z};
+    const double ac[3] = {double{c.x} - a.x, double{c.y} - a.y, double{c.z} - a.z};
+    const double n[3] = {ab[1] * ac[2] - ab[2] * ac[1], ab[2] * ac[0] - ab[0] * ac[2],
+                         ab[0] * ac[1] - ab[1] * ac[0]};
+    double longest = 0.0;
+    for (const double x : n) longest = longest < x ? x : longest < -x ? -x : longest;
+    if (longest == 0.0) return Mask::from_bits(0);
+    Float along(0.0f);
+    for (int axis = 0; axis < 3; ++axis)
+      along = along + Float(static_cast<float>(n[axis] / longest)) *
+                          Float::load(rays_.direction[axis] + first_ + k * kWidth);
+    return Float(0.0f) < along;
+  }
+
+  const BspTree& tree_;
+  const RayColumns& rays_;
+  std::size_t first_;
+  PassedBacks backs_;
 };
 
 // Whether there is any triangle.
@@ -39,7 +92,7 @@ struct AnyHits {
     for (int k = 0; k < kPackets; ++k) t_best[k] = t_max[k];
   }
 
-  [[gnu::always_inline]] inline unsigned add(unsigned k, Mask lanes, Float t, Int) {
+  [[gnu::always_inline]] inline unsigned add(unsigned k, Mask lanes, Float t, std::uint32_t) {
     const Mask met = lanes & (t < t_best[k]);
     const unsigned done = met.bits();
     if (done == 0) return 0;

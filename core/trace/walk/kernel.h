@@ -171,15 +171,16 @@ inline void fetch_ahead(const Stored* triangles, const std::uint32_t* of_leaf, s
   }
 }
 
-// Finds what a group of packets hits: rays i and on of n.
-template <class Test, class Found, std::size_t... kIndex>
+// Finds what a group of packets hits: rays i and on of n. `more`: what Found is made of, beside the rays'
+// ends.
+template <class Test, class Found, std::size_t... kIndex, class... More>
 inline Found hits_of_group(const BspTree& tree, const RayColumns& rays, std::size_t i, std::size_t n,
-                           std::index_sequence<kIndex...>) {
+                           std::index_sequence<kIndex...>, const More&... more) {
   constexpr int kPackets = sizeof...(kIndex);
   Group<kPackets> group;
   (group.packets[kIndex].load(rays, i + kIndex * kWidth, n), ...);
   const Test tests[]{Test(tree, group.packets[kIndex])...};
-  Found found({group.packets[kIndex].t_max...});
+  Found found({group.packets[kIndex].t_max...}, more...);
   const auto* const triangles = Test::stored(tree);
   for_each_octant(group, [&](const bool(&negative)[3], const Mask(&lanes)[kPackets]) {
     walk(tree, group, negative, lanes, found.t_best, [&](const BspNode& leaf, unsigned(&open)[kPackets]) {
@@ -193,7 +194,7 @@ inline Found hits_of_group(const BspTree& tree, const RayColumns& rays, std::siz
           if (open[k] == 0) continue;
           Float t;
           const Mask inside = tests[k].intersect(tri, Mask::from_bits(open[k]), t);
-          open[k] &= ~found.add(k, inside, t, Int(tri.id));
+          open[k] &= ~found.add(k, inside, t, tri.id);
         }
       }
     });
@@ -203,17 +204,31 @@ inline Found hits_of_group(const BspTree& tree, const RayColumns& rays, std::siz
 
 constexpr int kPackets = 4;  // in a group
 
+// The hits of the group of rays i and on.
+inline void store_hits(const ClosestHits<kPackets>& found, std::size_t i, std::size_t n,
+                       std::uint32_t* triangle, float* t) {
+  for (std::size_t k = 0; k < kPackets && i + k * kWidth < n; ++k) {
+    found.id[k].store(triangle + i + k * kWidth);
+    if (t) found.t_best[k].store(t + i + k * kWidth);
+  }
+}
+
 template <class Test>
 void closest_hits(const BspTree& tree, const RayColumns& rays, std::size_t n, std::uint32_t* triangle,
                   float* t) {
-  for (std::size_t i = 0; i < n; i += kPackets * kWidth) {
-    const auto found =
-        hits_of_group<Test, ClosestHits<kPackets>>(tree, rays, i, n, std::make_index_sequence<kPackets>());
-    for (std::size_t k = 0; k < kPackets && i + k * kWidth < n; ++k) {
-      found.id[k].store(triangle + i + k * kWidth);
-      if (t) found.t_best[k].store(t + i + k * kWidth);
-    }
-  }
+  for (std::size_t i = 0; i < n; i += kPackets * kWidth)
+    store_hits(
+        hits_of_group<Test, ClosestHits<kPackets>>(tree, rays, i, n, std::make_index_sequence<kPackets>()), i,
+        n, triangle, t);
+}
+
+template <class Test>
+void closest_fronts(const BspTree& tree, const RayColumns& rays, std::size_t n, const PassedBacks& backs,
+                    std::uint32_t* triangle, float* t) {
+  for (std::size_t i = 0; i < n; i += kPackets * kWidth)
+    store_hits(hits_of_group<Test, ClosestFronts<kPackets>>(
+                   tree, rays, i, n, std::make_index_sequence<kPackets>(), tree, rays, i, backs),
+               i, n, triangle, t);
 }
 
 template <class Test>
@@ -228,7 +243,7 @@ void occluded(const BspTree& tree, const RayColumns& rays, std::size_t n, std::u
 }
 
 template <class Test>
-constexpr Kernel kKernelOf{closest_hits<Test>, occluded<Test>};
+constexpr Kernel kKernelOf{closest_hits<Test>, closest_fronts<Test>, occluded<Test>};
 
 }  // namespace
 

@@ -7,6 +7,7 @@
 
 #include "core/bsp/tree.h"
 #include "core/simd/isas.h"
+#include "core/trace/rays/passed_backs.h"
 #include "core/trace/rays/ray_queue.h"
 
 namespace pinocchio {
@@ -18,6 +19,9 @@ struct Kernel {
   // none).
   void (*closest_hits)(const BspTree& tree, const RayColumns& rays, std::size_t n, std::uint32_t* triangle,
                        float* t);
+  // Likewise, for rays that pass those backs.
+  void (*closest_fronts)(const BspTree& tree, const RayColumns& rays, std::size_t n, const PassedBacks& backs,
+                         std::uint32_t* triangle, float* t);
   // Writes 1 for a ray that meets any triangle, else 0.
   void (*occluded)(const BspTree& tree, const RayColumns& rays, std::size_t n, std::uint8_t* blocked);
 };

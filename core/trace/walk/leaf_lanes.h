@@ -135,8 +135,8 @@ template <class Found, int kPackets>
         unsigned met = triangles.intersect(rays, i + k * kWidth + lane, t).bits();
         for (; met != 0; met &= met - 1) {
           const unsigned m = __builtin_ctz(met);
-          const unsigned done = found.add(k, Mask::from_bits(1u << lane), Float(lane_of(t, m)),
-                                          Int(lane_of(triangles.ids(), m)));
+          const unsigned done =
+              found.add(k, Mask::from_bits(1u << lane), Float(lane_of(t, m)), lane_of(triangles.ids(), m));
           open[k] &= ~done;
           if (done != 0) break;
         }

@@ -8,6 +8,7 @@
 #include <string>
 #include <string_view>
 
+#include "pinocchio/backfaces.h"
 #include "pinocchio/error.h"
 #include "pinocchio/terminator.h"
 #include "pinocchio/tracer.h"
@@ -96,6 +97,7 @@ struct Settings {
   Setting<int> indirect;
   Setting<float> environment_rotation, environment_strength = Setting<float>::by_default(1.0f);
   Setting<Terminator> terminator = Setting<Terminator>::by_default(kUsualTerminator);
+  Setting<Backfaces> backfaces = Setting<Backfaces>::by_default(Backfaces::automatic);
   Setting<bool> filter_textures = Setting<bool>::by_default(true);
   Setting<bool> reuse = Setting<bool>::by_default(true);
   Setting<bool> persistent;

@@ -1,4 +1,5 @@
 #include "core/scene/gltf/material_from_surface.h"
+#include "pinocchio/save.h"
 #include "tests/support/gltf.h"
 
 namespace pinocchio {
@@ -54,6 +55,30 @@ TEST(LoadGltf, MirroringTransformsTurnTrianglesAround) {
   Json json = triangle_json();
   json["nodes"][0]["scale"] = {-1, 1, 1};
   EXPECT_EQ(load_good(json).mesh->triangles[0], glm::uvec3(0, 2, 1));
+}
+
+// What glTF's own materials do not say is its default; ours say nothing unless it is there.
+TEST(LoadGltf, MaterialsSayWhetherTheyAreDoubleSided) {
+  Json json = triangle_json();
+  const Json phong{{"pinocchio", {{"phong", {{"kd", 0.5}}}}}};
+  json["materials"] = {Json::object(),
+                       {{"doubleSided", true}},
+                       {{"doubleSided", false}},
+                       {{"extras", phong}},
+                       {{"extras", phong}, {"doubleSided", true}},
+                       {{"extras", phong}, {"doubleSided", false}}};
+  const std::vector<std::optional<bool>> said{false, true, false, std::nullopt, true, false};
+  const auto expect_said = [&said](const Scene& scene) {
+    for (std::size_t i = 0; i < said.size(); ++i)
+      EXPECT_EQ(scene.mesh->materials.at(i).double_sided, said[i]) << "material " << i;
+  };
+  const Scene scene = load_good(json);
+  expect_said(scene);
+  EXPECT_EQ(scene.mesh->materials.back().double_sided, false);  // the default material
+  save_scene(scene, own_file("saved.gltf"));
+  const Expected<Scene> again = load_scene(own_file("saved.gltf"));
+  ASSERT_TRUE(again) << again.error().message();
+  expect_said(*again);
 }
 
 TEST(LoadGltf, LightsWithOurExtras) {

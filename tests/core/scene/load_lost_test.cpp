@@ -86,10 +86,11 @@ TEST(LoadLost, MembersOfTheWrongType) {
   texture["index"] = 0;
   texture["extensions"]["KHR_texture_transform"] = "turned";
   EXPECT_NE(line_about(warnings_of(json), "baseColorTexture's KHR_texture_transform is not an object"), "");
-  for (const Json& material : {Json{{"pbrMetallicRoughness", Json::array()}},
-                               Json{{"pbrMetallicRoughness", {{"metallicFactor", "0"}}}},
-                               Json{{"pbrMetallicRoughness", {{"baseColorFactor", {1, 1, 1}}}}},
-                               Json{{"alphaMode", "mask"}}, Json{{"emissiveFactor", {1, 1, "1"}}}})
+  for (const Json& material :
+       {Json{{"pbrMetallicRoughness", Json::array()}},
+        Json{{"pbrMetallicRoughness", {{"metallicFactor", "0"}}}},
+        Json{{"pbrMetallicRoughness", {{"baseColorFactor", {1, 1, 1}}}}}, Json{{"alphaMode", "mask"}},
+        Json{{"doubleSided", 1}}, Json{{"emissiveFactor", {1, 1, "1"}}}})
     EXPECT_NE(line_about(warnings_of(with_material(material)), "is not of the type"), "") << material;
 }
 
@@ -123,8 +124,7 @@ TEST(LoadLost, VersionAndRequiredExtensionsBeforeAnythingElse) {
   json["asset"]["version"] = "1.0";
   json["buffers"] = {{"binary_glTF", {{"byteLength", 0}}}};  // as 1.0 has it
   EXPECT_NE(error_of(json).find("is glTF 1.0"), std::string::npos);
-  for (const char* name :
-       {"KHR_texture_basisu", "MSFT_texture_dds", "KHR_materials_clearcoat"}) {
+  for (const char* name : {"KHR_texture_basisu", "MSFT_texture_dds", "KHR_materials_clearcoat"}) {
     json = triangle_json();
     json["extensionsRequired"] = {name};
     json["buffers"][0]["uri"] = "nowhere.bin";

@@ -24,9 +24,10 @@ std::vector<Ray> random_rays(int count, std::uint64_t seed) {
   return rays;
 }
 
-std::vector<Hit> trace(const Tracer& tracer, const std::vector<Ray>& rays) {
+std::vector<Hit> trace(const Tracer& tracer, const std::vector<Ray>& rays,
+                       Backfaces backfaces = Backfaces::draw) {
   std::vector<Hit> hits(rays.size());
-  tracer.closest_hits(rays, hits);
+  tracer.closest_hits(rays, hits, backfaces);
   return hits;
 }
 
@@ -36,17 +37,26 @@ std::vector<std::uint8_t> blocked(const Tracer& tracer, const std::vector<Ray>& 
   return result;
 }
 
+bool runs_along_normal(const Mesh& mesh, std::uint32_t triangle, const glm::vec3& direction) {
+  const glm::uvec3& t = mesh.triangles[triangle];
+  const glm::dvec3 a(mesh.positions[t.x]), b(mesh.positions[t.y]), c(mesh.positions[t.z]);
+  return glm::dot(glm::cross(b - a, c - a), glm::dvec3(direction)) > 0.0;
+}
+
 // The nearest of what trees of one triangle each find: nothing to traverse.
-std::vector<Hit> brute_force(const Mesh& mesh, const std::vector<Ray>& rays) {
+std::vector<Hit> brute_force(const Mesh& mesh, const std::vector<Ray>& rays,
+                             Backfaces backfaces = Backfaces::draw,
+                             TriangleTest test = BuildOptions{}.triangle_test) {
   std::vector<Hit> best(rays.size());
   for (std::uint32_t i = 0; i < mesh.triangles.size(); ++i) {
     const glm::uvec3& t = mesh.triangles[i];
     MeshData one;
     add_triangle(one, mesh.positions[t.x], mesh.positions[t.y], mesh.positions[t.z]);
-    const std::vector<Hit> hits =
-        trace(Tracer(std::make_shared<const Mesh>(std::move(one)), {}, Isa::scalar), rays);
+    const std::vector<Hit> hits = trace(
+        Tracer(std::make_shared<const Mesh>(std::move(one)), {.triangle_test = test}, Isa::scalar), rays);
     for (std::size_t ray = 0; ray < rays.size(); ++ray)
-      if (hits[ray].valid() && !(best[ray].valid() && best[ray].t <= hits[ray].t))
+      if (hits[ray].valid() && !(best[ray].valid() && best[ray].t <= hits[ray].t) &&
+          !(passes_backs(mesh.material_of(i), backfaces) && runs_along_normal(mesh, i, rays[ray].direction)))
         best[ray] = {hits[ray].t, i};
   }
   return best;
@@ -66,6 +76,37 @@ TEST(Tracer, FindsWhatLookingAtEveryTriangleFinds) {
       EXPECT_EQ(stopped[i] != 0, expected[i].valid()) << "ray " << i;
     }
   }
+}
+
+// Every triangle is there twice, so that a passed one is never alone at its distance.
+TEST(Tracer, PassesTheBacksOfSingleSidedMaterials) {
+  Scene scene = random_soup(40, 0.6f, 13);
+  {
+    MeshEdit mesh(scene);
+    mesh->materials.resize(3);
+    mesh->materials[1].double_sided = false;
+    mesh->materials[2].double_sided = true;
+    for (std::uint32_t i = 0; i < 40; ++i) {
+      const glm::uvec3 t = mesh->triangles[i];
+      mesh->triangles.emplace_back(t.x, t.z, t.y);
+      mesh->triangle_materials[i] = i % 3;
+      mesh->triangle_materials.push_back(i / 2 % 3);
+    }
+  }
+  const std::vector<Ray> rays = random_rays(600, 14);
+  for (const Backfaces backfaces : kBackfaces)
+    for (const TriangleTest test : kTriangleTests) {
+      const std::vector<Hit> expected = brute_force(*scene.mesh, rays, backfaces, test);
+      for (const Isa isa : supported_isas()) {
+        const Tracer tracer(scene.mesh, {.triangle_test = test}, isa);
+        EXPECT_EQ(trace(tracer, rays, backfaces), expected) << isa_name(isa);
+        const std::vector<Hit> both_sides = trace(tracer, rays);
+        EXPECT_EQ(expected == both_sides, backfaces == Backfaces::draw);
+        // Shadow rays are stopped by both sides.
+        const std::vector<std::uint8_t> stopped = blocked(tracer, rays);
+        for (std::size_t i = 0; i < rays.size(); ++i) EXPECT_EQ(stopped[i] != 0, both_sides[i].valid());
+      }
+    }
 }
 
 TEST(Tracer, SameBitsAtEveryWidthAndGrouping) {

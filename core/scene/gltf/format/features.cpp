@@ -71,6 +71,9 @@ template <std::size_t kCount>
 bool are_numbers(const Json& json) {
   return json.is_array() && json.size() == kCount && std::all_of(json.begin(), json.end(), is_number);
 }
+bool is_boolean(const Json& json) {
+  return json.is_boolean();
+}
 bool is_alpha_mode(const Json& json) {
   return json == "OPAQUE" || json == "MASK" || json == "BLEND";
 }
@@ -91,6 +94,7 @@ constexpr TypedMember kTypedMembers[] = {
     {"/extensions/KHR_materials_pbrSpecularGlossiness/glossinessFactor", is_number},
     {"/alphaMode", is_alpha_mode},
     {"/alphaCutoff", is_number},
+    {"/doubleSided", is_boolean},
     {"/extensions", is_object},
     {"/extensions/KHR_materials_volume/thicknessFactor", is_number},
 };

@@ -30,8 +30,8 @@ Json nearest_pbr(const Material& m) {
   return pbr_json(base, m.reflects() && !m.fresnel ? 1.0f : 0.0f, m.spawns_rays() ? 0.0f : roughness_of(m));
 }
 
-// The metallic-roughness that Phong was made of (material_from_surface): ambient is the base colour, diffuse the
-// base colour times what metal leaves, over pi.
+// The metallic-roughness that Phong was made of (material_from_surface): ambient is the base colour, diffuse
+// the base colour times what metal leaves, over pi.
 Json original_pbr(const Material& m) {
   constexpr float kUsualDiffuse = 0.96f * 0.318309886f;
   const glm::vec3 base = glm::min(m.ambient, glm::vec3(1.0f));
@@ -85,6 +85,9 @@ Json GltfMaterialWriter::material(const Material& m) {
     for (const GltfParameter& row : kPhongParameters) write_gltf_parameter(row, m, maps.surface, usual, json);
     add_emission(m.emission, json);
   }
+  // Without a word, our Phong is as undecided as before, and glTF's own surface single-sided.
+  if (maps.from_gltf ? m.double_sided.value_or(true) : m.double_sided.has_value())
+    json["doubleSided"] = m.double_sided.value_or(true);
   if (m.attenuates()) {
     add_extension(json, "KHR_materials_volume", {{"thicknessFactor", 1.0f}});
     for (const GltfParameter& row : kVolumeParameters)
