@@ -100,7 +100,7 @@ Scene many_balls() {
   MeshBuilder builder(mesh);
   int i = 0;
   for (const float metallic : {0.0f, 1.0f})
-    for (const float roughness : {0.05f, 0.3f, 0.8f}) {
+    for (const float roughness : {0.15f, 0.4f, 0.8f}) {
       builder.use(material({0.8f, 0.5f, 0.3f}, metallic, roughness));
       builder.sphere(glm::vec3(1.2f * static_cast<float>(i % 3) - 1.2f, i < 3 ? 0.6f : -0.6f, 0.0f), 0.55f,
                      48);
@@ -147,25 +147,40 @@ double mean_of(const Image<glm::vec4>& picture, int x, int y, int side) {
 TEST(ReflectionModel, TheReferenceIsTheMeanOfManySamples) {
   Scene scene = many_balls();
   Settings many = sampled(by({{"mode", "raytrace"}}), 512);
-  many.depth = 1;
-  constexpr glm::ivec2 kSmall{32, 24};
+  many.depth = 0;
+  constexpr glm::ivec2 kSmall{48, 36};
   const FrameResult mean = draw_one(scene, {many, kSmall});
   settle_environment(scene, *resolve(many, analyze(scene)));
   Workers workers(2);
   Image<glm::vec4> exact(kSmall);
-  constexpr int kPlaces = 4;
+  constexpr int kPlaces = 16;
   for (int k = 0; k < kPlaces; ++k) {
     View view{first_camera(scene), kSmall};
-    view.jitter = (glm::vec2(k, 3 * k % kPlaces) + 0.5f) / static_cast<float>(kPlaces) - 0.5f;
-    const ReferencePicture sample = reference_render(scene, view, 1, workers);
+    view.jitter = (glm::vec2(k, 7 * k % kPlaces) + 0.5f) / static_cast<float>(kPlaces) - 0.5f;
+    const ReferencePicture sample = reference_render(scene, view, 0, workers);
     for (std::size_t i = 0; i < exact.pixels().size(); ++i)
       exact[i] += sample.color[i] / static_cast<float>(kPlaces);
   }
-  constexpr int kBlock = 8;
+  constexpr int kBlock = 12;
   for (int y = 0; y < kSmall.y; y += kBlock)
     for (int x = 0; x < kSmall.x; x += kBlock)
       EXPECT_NEAR(mean_of(mean.color, x, y, kBlock) / mean_of(exact, x, y, kBlock), 1.0, 0.03)
           << x << ", " << y;
+}
+
+// On a lone ball, rays that follow the lobe see what shadow rays along it do.
+TEST(ReflectionModel, FollowedLobesBringTheSameLightAsAskedOnes) {
+  for (const float roughness : {0.1f, 0.5f}) {
+    const Scene scene = ball(material(glm::vec3(0.9f), 1.0f, roughness), sunny_sky());
+    Settings asked = sampled(by({{"mode", "raytrace"}}), 256), followed = asked;
+    asked.depth = 0;
+    followed.depth = 1;
+    constexpr glm::ivec2 kSmall{48, 36};
+    EXPECT_NEAR(returned_by(draw_one(scene, {followed, kSmall})).mean /
+                    returned_by(draw_one(scene, {asked, kSmall})).mean,
+                1.0, 0.01)
+        << roughness;
+  }
 }
 
 // The GPU weighs its share of a sized light as the CPU's rays along the lobe do theirs.
