@@ -11,10 +11,6 @@ namespace {
 
 constexpr double kPi = std::numbers::pi;
 
-double square(double x) {
-  return x * x;
-}
-
 double cosine_of_view(const ReferenceSurface& s) {
   return std::max(glm::dot(s.n_shading, s.to_viewer), 0.001);  // as shaders/shared/microfacet.glsl
 }

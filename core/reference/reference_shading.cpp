@@ -9,13 +9,6 @@
 #include "core/reference/reference_lobe.h"
 
 namespace pinocchio {
-namespace {
-
-double square(double x) {
-  return x * x;
-}
-
-}  // namespace
 
 double reference_cone_share(const Light& light, const glm::dvec3& to_light) {
   const double cos_angle = -glm::dot(to_light, glm::dvec3(light.direction));

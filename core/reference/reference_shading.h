@@ -12,6 +12,10 @@
 
 namespace pinocchio {
 
+[[nodiscard]] constexpr double square(double x) {
+  return x * x;
+}
+
 // The light of one lamp at a point, without shadows.
 struct ReferenceLight {
   glm::dvec3 to_light;                 // unit
