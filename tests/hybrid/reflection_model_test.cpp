@@ -77,8 +77,9 @@ TEST(ReflectionModel, AWhiteBallReturnsNoMoreThanItGets) {
       const Returned back =
           returned_by(draw_one(scene, {sampled(by({{"mode", "raytrace"}}), 64), glm::ivec2(64, 48)}));
       EXPECT_LT(back.mean, 1.005) << metallic << ", " << roughness;
-      if (roughness <= 0.1f || metallic == 0.0f)
+      if (roughness <= 0.1f || metallic == 0.0f) {
         EXPECT_GT(back.mean, roughness > 0.5f ? 0.97 : 0.99) << metallic << ", " << roughness;
+      }
       EXPECT_GT(back.mean, 0.38) << metallic << ", " << roughness;
     }
 }
@@ -89,7 +90,9 @@ TEST(ReflectionModel, NoPixelIsBlackOrADotUnderASunnySky) {
     const Scene scene = ball(material(glm::vec3(0.9f), 1.0f, roughness), sunny_sky());
     const FrameResult drawn = draw_one(scene, {sampled(by({{"mode", "raytrace"}}), 16), glm::ivec2(64, 48)});
     for (const glm::vec4& c : drawn.color.pixels()) {
-      if (c.a == 1.0f) EXPECT_GT(c.g, 0.02f) << roughness;
+      if (c.a == 1.0f) {
+        EXPECT_GT(c.g, 0.02f) << roughness;
+      }
     }
   }
 }
