@@ -189,10 +189,10 @@ TEST(ReflectionModel, TheReferenceIsTheMeanOfManySamples) {
   settle_environment(scene, *resolve(many, analyze(scene)));
   Workers workers(2);
   Image<glm::vec4> exact(kSmall);
-  constexpr int kPlaces = 16;
+  constexpr int kPlaces = 34;  // with the step of 21 a Fibonacci lattice
   for (int k = 0; k < kPlaces; ++k) {
     View view{first_camera(scene), kSmall};
-    view.jitter = (glm::vec2(k, 7 * k % kPlaces) + 0.5f) / static_cast<float>(kPlaces) - 0.5f;
+    view.jitter = (glm::vec2(k, 21 * k % kPlaces) + 0.5f) / static_cast<float>(kPlaces) - 0.5f;
     const ReferencePicture sample = reference_render(scene, view, 0, workers);
     for (std::size_t i = 0; i < exact.pixels().size(); ++i)
       exact[i] += sample.color[i] / static_cast<float>(kPlaces);
