@@ -6,7 +6,7 @@
 Each scene's lights get a size (SIZE_OF_LIGHTS), and each sequence 1, 4, 16, ... samples; --max-noise stops them where a tile is good
 enough. The error is the root mean square of linear light against a picture of many more samples with another seed; the bias is
 that of the whole picture's mean, with its standard error over the seeds; time is the processor's, of all threads. Written to FOLDER: results.json,
-which holds what is measured already, table.md, and convergence.svg (needs matplotlib and numpy). --draw draws from results.json alone.
+which holds what is measured already, table.md, max-noise.csv, and convergence.svg (needs matplotlib and numpy). --draw draws from results.json alone.
 """
 import argparse
 import csv
