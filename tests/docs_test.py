@@ -77,8 +77,8 @@ def main():
                     small = " --size 32x24" if verb in DRAWING and "--size" not in line else ""
                     small += " --only exchange --repeat 1" if verb == "chart" and "--only" not in line else ""
                     error = failure(f"'{program}' {match[1]}{small}")
-                elif line.startswith("oiiotool "):
-                    error = failure(line) if shutil.which("oiiotool") else ""
+                elif line.split()[0] in ("oiiotool", "convert"):
+                    error = failure(line) if shutil.which(line.split()[0]) else ""
                 elif (missing := looked_up(line, program, source)) is None:
                     error = "no test knows this command"
                 elif missing:

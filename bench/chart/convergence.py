@@ -6,9 +6,10 @@
 Each scene's lights get a size (SIZE_OF_LIGHTS), and each sequence 1, 4, 16, ... samples; --max-noise stops them where a tile is good
 enough. The error is the root mean square of linear light against a picture of many more samples with another seed; the bias is
 that of the whole picture's mean, with its standard error over the seeds; time is the processor's, of all threads. Written to FOLDER: results.json,
-which holds what is measured already, table.md, and convergence.svg (needs matplotlib and numpy). --draw draws from results.json alone.
+which holds what is measured already, table.md, max-noise.csv, and convergence.svg (needs matplotlib and numpy). --draw draws from results.json alone.
 """
 import argparse
+import csv
 import json
 import math
 import pathlib
@@ -160,14 +161,19 @@ def table(results):
                 of = {p["value"]: p["error"] for p in points}
                 lines.append(f"| {name} | {sequence} | {of.get(16, 0):.2g} | {points[-1]['error']:.2g} ({points[-1]['value']}) | "
                              f"{slope(late, 'spp'):.2f} | {slope(late, 'seconds'):.2f} |")
-    lines += ["", "| scene | `--max-noise` | samples a pixel | error | as many for all | bias | its standard error |", "|---|---:|---:|---:|---:|---:|---:|"]
+    return "\n".join(lines)
+
+
+def adaptive_rows(results):
+    """--max-noise: what each limit costs, its error beside as many samples for all, and how far the picture's mean is off."""
+    rows = [("scene", "max-noise", "samples a pixel", "error", "as many for all", "bias, %", "its standard error, %")]
     for name in SCENES:
         every = series_of(results, name, "sobol")
         for p in reversed(series_of(results, name, ADAPTIVE)):
             error = f"{2 ** between(every, math.log2(p['spp'])):.2g}" if len(every) > 1 else ""
-            lines.append(f"| {name} | {p['value']} | {p['spp']:.1f} | {p['error']:.2g} | {error} | {100 * p['bias']:+.3f} % | "
-                         f"{'' if p['bias_error'] is None else format(100 * p['bias_error'], '.3f') + ' %'} |")
-    return "\n".join(lines)
+            rows.append((name, p["value"], f"{p['spp']:.1f}", f"{p['error']:.2g}", error, f"{100 * p['bias']:+.3f}",
+                         "" if p["bias_error"] is None else f"{100 * p['bias_error']:.3f}"))
+    return rows
 
 
 def between(points, at):
@@ -222,6 +228,8 @@ def main():
     text = table(results)
     (arguments.folder / "table.md").write_text(text + "\n")
     print(text)
+    with (arguments.folder / "max-noise.csv").open("w", encoding="utf-8", newline="") as out:
+        csv.writer(out, lineterminator="\n").writerows(adaptive_rows(results))
     draw(results, arguments.folder)
 
 
