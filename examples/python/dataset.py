@@ -2,7 +2,7 @@
 import sys
 
 import numpy
-import pinocchio
+import pinocchio_renderer as pn
 
 SIZE = (128, 128)
 FOCAL = 140.0  # pixels
@@ -25,11 +25,11 @@ def random_camera(scene, random):
 
 
 def main(file, out, pictures=100):
-    scene, random = pinocchio.load_scene(file), numpy.random.default_rng(0)
+    scene, random = pn.load_scene(file), numpy.random.default_rng(0)
     poses = numpy.stack([random_camera(scene, random) for _ in range(pictures)])
     center = (SIZE[0] - 1) / 2, (SIZE[1] - 1) / 2
-    cameras = [pinocchio.Camera.from_intrinsics(SIZE, FOCAL, FOCAL, *center, pose) for pose in poses]
-    arrays = pinocchio.Engine().render_many(scene, cameras, SIZE, outputs=["color", "depth", "ids", "objects"])
+    cameras = [pn.Camera.from_intrinsics(SIZE, FOCAL, FOCAL, *center, pose) for pose in poses]
+    arrays = pn.Engine().render_many(scene, cameras, SIZE, outputs=["color", "depth", "ids", "objects"])
     numpy.savez_compressed(out, poses=poses, focal=FOCAL, center=center, **arrays)
     print(f"{out}: {pictures} pictures of {SIZE[0]}x{SIZE[1]}, poses, colour, depth, ids, objects")
 

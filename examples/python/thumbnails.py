@@ -3,7 +3,7 @@ import pathlib
 import sys
 
 import numpy
-import pinocchio
+import pinocchio_renderer as pn
 from PIL import Image
 
 
@@ -15,14 +15,14 @@ def on_screen(color, background=0.18):
 
 
 def main(folder, out, size=256):
-    engine, out = pinocchio.Engine(), pathlib.Path(out)
+    engine, out = pn.Engine(), pathlib.Path(out)
     out.mkdir(parents=True, exist_ok=True)
     for path in sorted(pathlib.Path(folder).iterdir()):
         if path.suffix.lower() not in (".gltf", ".glb", ".obj", ".ply"):
             continue
         try:
-            scene = pinocchio.load_scene(path)
-        except pinocchio.Error as error:  # one line: the file, what is wrong, what to do
+            scene = pn.load_scene(path)
+        except pn.Error as error:  # one line: the file, what is wrong, what to do
             print(error, file=sys.stderr)
             continue
         picture = engine.render(scene, scene.camera(), size=(size, size), spp=4)

@@ -17,7 +17,7 @@ using namespace nb::literals;
 
 namespace pinocchio::python {
 
-// pinocchio.Error
+// pinocchio_renderer.Error
 class Error : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;

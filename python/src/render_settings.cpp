@@ -36,7 +36,7 @@ Settings settings_of(const nb::kwargs& arguments, int threads) {
     const std::string name = nb::cast<std::string>(key);
     if (is_preset(name)) continue;
     if (!find_field(name))
-      throw Error("there is no setting '" + name + "'; help(pinocchio.Engine.render) lists them");
+      throw Error("there is no setting '" + name + "'; help(pinocchio_renderer.Engine.render) lists them");
     (void)value_or_throw(set(settings, name, text_of(value)).map([] { return true; }));
   }
   return settings;

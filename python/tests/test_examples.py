@@ -5,7 +5,7 @@ import sys
 import nbclient
 import nbformat
 import numpy
-import pinocchio
+import pinocchio_renderer as pn
 import pytest
 from conftest import TREE
 from PIL import Image
@@ -35,8 +35,8 @@ def test_a_data_set(tmp_path, scenes):
     arrays = numpy.load(tmp_path / "set.npz")
     assert arrays["color"].shape == (3, 128, 128, 4) and arrays["poses"].shape == (3, 4, 4)
     # Each pixel's depth and pose give the point that a ray of that pixel meets.
-    scene = pinocchio.load_scene(scenes / "cornell.gltf")
-    tracer = pinocchio.Tracer(scene.vertices, scene.triangles)
+    scene = pn.load_scene(scenes / "cornell.gltf")
+    tracer = pn.Tracer(scene.vertices, scene.triangles)
     v, u = numpy.indices((128, 128))
     cx, cy = arrays["center"]
     directions = numpy.stack([(u - cx) / arrays["focal"], (v - cy) / arrays["focal"], numpy.ones_like(u)], -1)

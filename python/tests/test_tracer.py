@@ -1,6 +1,6 @@
 """Random rays of meshes: the tracer beside Embree (trimesh with embreex)."""
 import numpy
-import pinocchio
+import pinocchio_renderer as pn
 import pytest
 
 trimesh = pytest.importorskip("trimesh")
@@ -32,7 +32,7 @@ def rays(seed):
 
 def test_hits_are_embrees(mesh):
     origins, directions = rays(1)
-    t, triangle = pinocchio.Tracer(mesh.vertices, mesh.faces).closest_hits(origins, directions)
+    t, triangle = pn.Tracer(mesh.vertices, mesh.faces).closest_hits(origins, directions)
     theirs = RayMeshIntersector(mesh).intersects_first(origins, directions)
     ours = triangle.astype(numpy.int64)
     ours[triangle == 0xFFFFFFFF] = -1
@@ -52,7 +52,7 @@ def test_hits_are_embrees(mesh):
 
 def test_occlusion_is_a_hit_within_reach(mesh):
     origins, directions = rays(2)
-    tracer = pinocchio.Tracer(mesh.vertices, mesh.faces, threads=2)
+    tracer = pn.Tracer(mesh.vertices, mesh.faces, threads=2)
     t, _ = tracer.closest_hits(origins, directions)
     numpy.testing.assert_array_equal(tracer.occluded(origins, directions), numpy.isfinite(t))
     reach = numpy.full(RAYS, 1.0, numpy.float32)
@@ -61,7 +61,7 @@ def test_occlusion_is_a_hit_within_reach(mesh):
 
 
 def test_one_origin_for_all():
-    tracer = pinocchio.Tracer(*quad())
+    tracer = pn.Tracer(*quad())
     directions = numpy.array([[0, 0, -1], [0, 0, 1], [0.1, 0.1, -1]], numpy.float32)
     t, triangle = tracer.closest_hits(numpy.array([[0.1, 0.2, 2]], numpy.float32), directions)
     assert t.tolist() == [2.0, numpy.inf, 2.0]
@@ -76,13 +76,13 @@ def quad():
 def test_threads_are_the_programs(monkeypatch):
     vertices, triangles = quad()
     for wrong in (-1, 1025, 2**31 - 1):
-        with pytest.raises(pinocchio.Error, match="threads is from 0 .* to 1024"):
-            pinocchio.Tracer(vertices, triangles, threads=wrong)
+        with pytest.raises(pn.Error, match="threads is from 0 .* to 1024"):
+            pn.Tracer(vertices, triangles, threads=wrong)
     with pytest.raises(TypeError):
-        pinocchio.Tracer(vertices, triangles, threads=2.5)
+        pn.Tracer(vertices, triangles, threads=2.5)
     origins, directions = numpy.zeros((1, 3)), numpy.random.default_rng(3).normal(size=(20000, 3))
-    hits = [pinocchio.Tracer(vertices, triangles, threads=n).closest_hits(origins, directions) for n in (1, 7)]
+    hits = [pn.Tracer(vertices, triangles, threads=n).closest_hits(origins, directions) for n in (1, 7)]
     monkeypatch.setenv("PINOCCHIO_THREADS", "3")
-    hits.append(pinocchio.Tracer(vertices, triangles).closest_hits(origins, directions))
+    hits.append(pn.Tracer(vertices, triangles).closest_hits(origins, directions))
     for other in hits[1:]:
         assert all(numpy.array_equal(a, b) for a, b in zip(hits[0], other))

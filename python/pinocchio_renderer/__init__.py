@@ -1,8 +1,8 @@
 """Pictures of 3D scenes as NumPy arrays: exact shadows and mirrors, with no GPU and no display.
 
-    import pinocchio
-    scene = pinocchio.load_scene("scenes/cornell.gltf")
-    picture = pinocchio.Engine().render(scene, size=(320, 240))
+    import pinocchio_renderer as pn
+    scene = pn.load_scene("scenes/cornell.gltf")
+    picture = pn.Engine().render(scene, size=(320, 240))
     picture.color      # (240, 320, 4) float32, linear
     picture.write_exr("cornell.exr")
 """
