@@ -5,12 +5,15 @@
     picture = pn.Engine().render(scene, size=(320, 240))
     picture.color      # (240, 320, 4) float32, linear
     picture.write_exr("cornell.exr")
+
+It is not the robotics library `pinocchio` (PyPI: pin). Both may be installed.
 """
 
 from ._core import (
     Camera,
     Engine,
     Error,
+    Hits,
     Light,
     Material,
     Result,
@@ -28,6 +31,7 @@ __all__ = [
     "Camera",
     "Engine",
     "Error",
+    "Hits",
     "Light",
     "Material",
     "Result",

@@ -35,7 +35,7 @@ def test_many_pictures_are_the_pictures_one_by_one(scenes):
     "arguments, says",
     [
         ({"colour": 1}, "there is no setting 'colour'"),
-        ({"depth": 99}, "depth is 99; it is a whole number from 0 to 64"),
+        ({"bounces": 99}, "bounces is 99; it is a whole number from 0 to 64"),
         ({"mode": "best"}, "mode is best; it is one of"),
         ({"camera": "nowhere"}, "no camera 'nowhere'"),
         ({"size": (0, 5)}, "size is 0x5"),
