@@ -9,6 +9,7 @@
 It is not the robotics library `pinocchio` (PyPI: pin). Both may be installed.
 """
 
+from . import _core
 from ._core import (
     Camera,
     Engine,
@@ -19,13 +20,14 @@ from ._core import (
     Result,
     Scene,
     Tracer,
-    __version__,
     assemble,
     compare,
     load_scene,
     read_exr,
 )
 from ._trimesh import from_trimesh
+
+__version__: str = getattr(_core, "__version__")
 
 __all__ = [
     "Camera",

@@ -6,14 +6,17 @@
 namespace pinocchio::python {
 namespace {
 
-std::string text_of(nb::handle value) { return nb::str(value).c_str(); }
+std::string text_of(nb::handle value) {
+  return nb::str(value).c_str();
+}
 
 // "(n, 3)", "(4, 4)"
 std::string named_shape(const std::vector<int>& shape) {
   static constexpr const char* kLetters[] = {"n", "m", "k"};
   std::string text = "(";
   std::size_t letter = 0;
-  for (const int n : shape) text += (text.size() > 1 ? ", " : "") + (n < 0 ? kLetters[letter++] : std::to_string(n));
+  for (const int n : shape)
+    text += (text.size() > 1 ? ", " : "") + (n < 0 ? kLetters[letter++] : std::to_string(n));
   return text + (shape.size() == 1 ? ",)" : ")");
 }
 
@@ -39,7 +42,8 @@ void check_whole(nb::handle array, const std::string& name, const std::string& t
 
 }  // namespace
 
-nb::object array_of(nb::handle source, const std::string& name, const char* type, const std::vector<int>& shape) {
+nb::object array_of(nb::handle source, const std::string& name, const char* type,
+                    const std::vector<int>& shape) {
   const nb::module_ numpy = nb::module_::import_("numpy");
   const std::string wanted = "it is an array " + named_shape(shape) + " of numbers";
   nb::object array;
@@ -64,7 +68,8 @@ nb::object array_of(nb::handle source, const std::string& name, const char* type
 
 std::vector<float> numbers_of(nb::handle source, const std::string& name, int count) {
   const nb::object array = array_of(source, name, "float32", {count});
-  const auto numbers = nb::cast<nb::ndarray<const float, nb::ndim<1>, nb::c_contig, nb::device::cpu>>(array, false);
+  const auto numbers =
+      nb::cast<nb::ndarray<const float, nb::ndim<1>, nb::c_contig, nb::device::cpu>>(array, false);
   for (int i = 0; i < count; ++i)
     if (!std::isfinite(numbers.data()[i]))
       throw Error(name + " holds " + text_of(array[i]) + "; it needs finite numbers");
@@ -73,12 +78,14 @@ std::vector<float> numbers_of(nb::handle source, const std::string& name, int co
 
 glm::mat4 Matrix::read(const std::string& name) const {
   const nb::object array = array_of(source, name, "float64", {4, 4});
-  const auto m = nb::cast<nb::ndarray<const double, nb::ndim<2>, nb::c_contig, nb::device::cpu>>(array, false);
+  const auto m =
+      nb::cast<nb::ndarray<const double, nb::ndim<2>, nb::c_contig, nb::device::cpu>>(array, false);
   glm::mat4 result;
   for (int i = 0; i < 16; ++i) {
     const auto number = static_cast<float>(m.data()[i]);
     if (!std::isfinite(number))
-      throw Error(name + " holds " + text_of(array[nb::make_tuple(i / 4, i % 4)]) + "; it needs finite numbers");
+      throw Error(name + " holds " + text_of(array[nb::make_tuple(i / 4, i % 4)]) +
+                  "; it needs finite numbers");
     result[i % 4][i / 4] = number;
   }
   return result;
@@ -86,7 +93,8 @@ glm::mat4 Matrix::read(const std::string& name) const {
 
 glm::ivec2 Size::read() const {
   const nb::object array = array_of(source, "size", "uint32", {2});
-  const auto n = nb::cast<nb::ndarray<const std::uint32_t, nb::ndim<1>, nb::c_contig, nb::device::cpu>>(array, false);
+  const auto n =
+      nb::cast<nb::ndarray<const std::uint32_t, nb::ndim<1>, nb::c_contig, nb::device::cpu>>(array, false);
   if (n.data()[0] < 1 || n.data()[1] < 1 || n.data()[0] > 65536 || n.data()[1] > 65536)
     throw Error("size is " + std::to_string(n.data()[0]) + "x" + std::to_string(n.data()[1]) +
                 "; it must be (width, height) in pixels");

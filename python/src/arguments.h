@@ -1,5 +1,5 @@
-// Arguments that are arrays or vectors. They are converted when they are read, so that an error names the argument and
-// says which shape it needs.
+// Arguments that are arrays or vectors. They are converted when they are read, so that an error names the
+// argument and says which shape it needs.
 #pragma once
 
 #include <nanobind/nanobind.h>
@@ -30,8 +30,9 @@ T value_or_throw(Expected<T>&& expected) {
   if constexpr (!std::is_void_v<T>) return std::move(*expected);
 }
 
-// The object as a C-contiguous NumPy array of `type` and `shape`, where -1 is any length. An array that is one already
-// is not copied. Text, numbers out of range and fractions where whole numbers are needed are errors.
+// The object as a C-contiguous NumPy array of `type` and `shape`, where -1 is any length. An array that is
+// one already is not copied. Text, numbers out of range and fractions where whole numbers are needed are
+// errors.
 [[nodiscard]] nb::object array_of(nb::handle source, const std::string& name, const char* type,
                                   const std::vector<int>& shape);
 // The same for `count` finite numbers in a row.
@@ -107,13 +108,15 @@ void def_three(Class& bound, const char* name, Get get, const char* doc = "") {
 namespace nanobind::detail {
 
 // Any object, which is converted when it is read.
-#define PINOCCHIO_UNREAD(TYPE, NAME)                                        \
-  NB_TYPE_CASTER(TYPE, const_name(NAME))                                    \
-  bool from_python(handle source, uint32_t, cleanup_list*) noexcept {       \
-    value.source = borrow(source);                                          \
-    return true;                                                            \
-  }                                                                         \
-  static handle from_cpp(const TYPE& argument, rv_policy, cleanup_list*) noexcept { return argument.source.inc_ref(); }
+#define PINOCCHIO_UNREAD(TYPE, NAME)                                                \
+  NB_TYPE_CASTER(TYPE, const_name(NAME))                                            \
+  bool from_python(handle source, uint32_t, cleanup_list*) noexcept {               \
+    value.source = borrow(source);                                                  \
+    return true;                                                                    \
+  }                                                                                 \
+  static handle from_cpp(const TYPE& argument, rv_policy, cleanup_list*) noexcept { \
+    return argument.source.inc_ref();                                               \
+  }
 
 template <class T, int... N>
 struct type_caster<pinocchio::python::Like<T, N...>> {
@@ -141,7 +144,8 @@ struct type_caster<glm::vec3> {
 
   bool from_python(handle, uint32_t, cleanup_list*) noexcept { return false; }
   static handle from_cpp(const glm::vec3& v, rv_policy, cleanup_list*) noexcept {
-    return Py_BuildValue("(ddd)", static_cast<double>(v.x), static_cast<double>(v.y), static_cast<double>(v.z));
+    return Py_BuildValue("(ddd)", static_cast<double>(v.x), static_cast<double>(v.y),
+                         static_cast<double>(v.z));
   }
 };
 template <>

@@ -37,7 +37,8 @@ void check_rigid(const glm::mat4& m) {
   const float skew = std::max({std::abs(product[0][1]), std::abs(product[0][2]), std::abs(product[1][2])});
   if (skew > kRotationError)
     throw Error("pose shears: its first three columns are not at right angles to each other");
-  if (glm::determinant(axes) < 0.0f) throw Error("pose mirrors: the determinant of its rotation is -1, not 1");
+  if (glm::determinant(axes) < 0.0f)
+    throw Error("pose mirrors: the determinant of its rotation is -1, not 1");
   if (m[0][3] != 0.0f || m[1][3] != 0.0f || m[2][3] != 0.0f || m[3][3] != 1.0f)
     throw Error("pose is no camera-to-world matrix: its last row is not (0, 0, 0, 1)");
 }
@@ -71,7 +72,8 @@ Camera camera_with_matrix(const Size& argument, double fx, double fy, double cx,
 }  // namespace
 
 void bind_camera(nb::module_& module) {
-  nb::class_<Camera> bound(module, "Camera", "A pinhole or thin-lens camera. The world is right-handed, Y up.");
+  nb::class_<Camera> bound(module, "Camera",
+                           "A pinhole or thin-lens camera. The world is right-handed, Y up.");
   bound
       .def(
           "__init__",
@@ -89,7 +91,8 @@ void bind_camera(nb::module_& module) {
                   "pose: a 4x4 camera-to-world matrix.\n"
                   "convention: 'opencv' (z forward, y down) or 'opengl' (looks along -z, y up).\n"
                   "fov: the vertical field of view, in degrees.\n"
-                  "Raises Error if the matrix scales, shears or mirrors, or if the convention or the field of view is another "
+                  "Raises Error if the matrix scales, shears or mirrors, or if the convention or the field "
+                  "of view is another "
                   "one.")
       .def_static(
           "from_intrinsics", &camera_with_matrix, "size"_a, "fx"_a, "fy"_a, "cx"_a, "cy"_a,
@@ -129,8 +132,10 @@ void bind_camera(nb::module_& module) {
         unpickle(state, read);
         new (&self) Camera(std::move(read));
       });
-  def_three(bound, "eye", [](Camera& c) -> glm::vec3& { return c.eye; }, "Scene units.");
-  def_three(bound, "target", [](Camera& c) -> glm::vec3& { return c.target; }, "A point that the camera looks at.");
+  def_three(
+      bound, "eye", [](Camera& c) -> glm::vec3& { return c.eye; }, "Scene units.");
+  def_three(
+      bound, "target", [](Camera& c) -> glm::vec3& { return c.target; }, "A point that the camera looks at.");
   def_three(bound, "up", [](Camera& c) -> glm::vec3& { return c.up; });
 }
 

@@ -13,7 +13,8 @@ nb::ndarray<nb::numpy, T> view_of(T* data, std::initializer_list<std::size_t> sh
 
 // The vector as an array that owns it.
 template <class T, class From>
-nb::ndarray<nb::numpy, T> array_that_owns(std::vector<From>&& values, std::initializer_list<std::size_t> shape) {
+nb::ndarray<nb::numpy, T> array_that_owns(std::vector<From>&& values,
+                                          std::initializer_list<std::size_t> shape) {
   auto* const kept = new std::vector<From>(std::move(values));
   const nb::capsule owner(kept, [](void* p) noexcept { delete static_cast<std::vector<From>*>(p); });
   return {reinterpret_cast<T*>(kept->data()), shape, owner};
@@ -28,7 +29,9 @@ std::string shown(const T& value) {
 // A method that says why objects of the class do not pickle, and what to do instead.
 template <class Class>
 void def_no_pickle(Class& bound, const char* why) {
-  bound.def("__reduce__", [why](nb::handle) -> nb::object { throw nb::type_error(why); });
+  bound.def(
+      "__reduce__", [why](nb::handle) -> nb::object { throw nb::type_error(why); },
+      nb::sig("def __reduce__(self) -> typing.NoReturn"));
 }
 
 }  // namespace pinocchio::python

@@ -109,7 +109,8 @@ class PyEngine {
 
   [[nodiscard]] int threads() const { return or_one_a_core(threads_); }
 
-  Result render(const PyScene& given, const CameraChoice& choice, const Size& pixels, const nb::kwargs& arguments) {
+  Result render(const PyScene& given, const CameraChoice& choice, const Size& pixels,
+                const nb::kwargs& arguments) {
     check_open();
     const glm::ivec2 size = pixels.read();
     const Scene scene = given.now();
@@ -210,10 +211,13 @@ void bind_engine(nb::module_& module) {
            "backend, device: of OpenGL, as the program's options.")
       .def_prop_ro("threads", &PyEngine::threads, "The number of worker threads.")
       .def("close", &PyEngine::close,
-           "Ends the threads and frees the tree and the OpenGL context. Later pictures raise Error. `with Engine() as "
+           "Ends the threads and frees the tree and the OpenGL context. Later pictures raise Error. `with "
+           "Engine() as "
            "engine:`\n"
            "closes it at the end of the block.")
-      .def("__enter__", [](nb::handle self) { return nb::borrow(self); }, nb::sig("def __enter__(self) -> Engine"))
+      .def(
+          "__enter__", [](nb::handle self) { return nb::borrow(self); },
+          nb::sig("def __enter__(self) -> Engine"))
       .def(
           "__exit__", [](PyEngine& engine, const nb::args&) { engine.close(); },
           nb::sig("def __exit__(self, *exception: object) -> None"))
@@ -229,10 +233,13 @@ void bind_engine(nb::module_& module) {
            kRender.c_str())
       .def("render_many", &PyEngine::render_many, "scene"_a, "cameras"_a, "size"_a = glm::ivec2(800, 600),
            "outputs"_a = std::vector<std::string>{"color"}, "out"_a = nb::none(), "settings"_a,
-           nb::sig("def render_many(self, scene: Scene, cameras: collections.abc.Sequence[Camera | int | str | None], "
-                   "size: collections.abc.Sequence[int] = (800, 600), outputs: collections.abc.Sequence[str] = "
-                   "('color',), out: collections.abc.Mapping[str, typing.Any] | None = None, **settings: object) -> "
-                   "dict[str, numpy.typing.NDArray[typing.Any]]"),
+           nb::sig(
+               "def render_many(self, scene: Scene, cameras: collections.abc.Sequence[Camera | int | str | "
+               "None], "
+               "size: collections.abc.Sequence[int] = (800, 600), outputs: collections.abc.Sequence[str] = "
+               "('color',), out: collections.abc.Mapping[str, typing.Any] | None = None, **settings: object) "
+               "-> "
+               "dict[str, numpy.typing.NDArray[typing.Any]]"),
            kRenderMany.c_str());
   def_no_pickle(bound, "an Engine does not pickle, as it has threads: create one in each process");
 }

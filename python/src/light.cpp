@@ -22,9 +22,9 @@ Light::Falloff falloff_of(const std::string& falloff) {
   return falloff == "none" ? Light::Falloff::none : Light::Falloff::inverse_square;
 }
 
-Light light_of(const std::optional<Three>& position, const std::optional<Three>& direction, const Three& color,
-               float intensity, const std::string& falloff, float range, float inner_cone, float outer_cone,
-               bool casts_shadow, const std::string& name, float radius, float angle) {
+Light light_of(const std::optional<Three>& position, const std::optional<Three>& direction,
+               const Three& color, float intensity, const std::string& falloff, float range, float inner_cone,
+               float outer_cone, bool casts_shadow, const std::string& name, float radius, float angle) {
   if (!position && !direction)
     throw Error("a light has a position (a point), a direction (a sun) or both (a spot)");
   for (const auto& [what, number] : {std::pair("intensity", intensity), {"radius", radius}, {"angle", angle}})
@@ -60,9 +60,8 @@ void bind_light(nb::module_& module) {
       .def(
           "__init__",
           [](Light* self, const std::optional<Three>& position, const std::optional<Three>& direction,
-             const Three& color, float intensity, const std::string& falloff, float range,
-             float inner_cone, float outer_cone, bool casts_shadow, const std::string& name, float radius,
-             float angle) {
+             const Three& color, float intensity, const std::string& falloff, float range, float inner_cone,
+             float outer_cone, bool casts_shadow, const std::string& name, float radius, float angle) {
             new (self) Light(light_of(position, direction, color, intensity, falloff, range, inner_cone,
                                       outer_cone, casts_shadow, name, radius, angle));
           },

@@ -57,13 +57,13 @@ Scene scene_of(const Floats3& vertices, const Words3& triangles, const std::opti
   mesh.positions = copied<glm::vec3>(vertices.read("vertices"));
   mesh.triangles = copied<glm::uvec3>(triangles.read("triangles"));
   const std::size_t n = mesh.positions.size();
-  mesh.normals = normals ? rows_of<glm::vec3>(*normals, "normals", n, "vertex")
-                         : std::vector(n, glm::vec3(0.0f));
+  mesh.normals =
+      normals ? rows_of<glm::vec3>(*normals, "normals", n, "vertex") : std::vector(n, glm::vec3(0.0f));
   if (uvs) mesh.texcoords = rows_of<glm::vec2>(*uvs, "uvs", n, "vertex");
-  mesh.triangle_materials =
-      triangle_materials
-          ? rows_of<std::uint32_t>(*triangle_materials, "triangle_materials", mesh.triangles.size(), "triangle")
-          : std::vector<std::uint32_t>(mesh.triangles.size(), 0u);
+  mesh.triangle_materials = triangle_materials
+                                ? rows_of<std::uint32_t>(*triangle_materials, "triangle_materials",
+                                                         mesh.triangles.size(), "triangle")
+                                : std::vector<std::uint32_t>(mesh.triangles.size(), 0u);
   add_materials(materials, mesh);
   if (!mesh.textures.empty() && mesh.texcoords.empty())
     throw Error("a material has a texture, but the scene has no uvs; give one (u, v) for each vertex");

@@ -23,17 +23,16 @@ Texture texture_of(const Texels& argument) {
 }  // namespace
 
 void bind_material(nb::module_& module) {
-  nb::class_<TexturedMaterial>(
-      module, "Material",
-      "A material of Phong's model with mirrors and glass. Colours are linear, three numbers each. It does not "
-      "change.")
+  nb::class_<TexturedMaterial>(module, "Material",
+                               "A material of Phong's model with mirrors and glass. Colours are linear, "
+                               "three numbers each. It does not "
+                               "change.")
       .def(
           "__init__",
           [](TexturedMaterial* self, const Three& diffuse, const Three& specular, float shininess,
              const Three& reflectance, const Three& transmittance, float ior, bool fresnel,
-             const Three& emission, const std::optional<Three>& ambient,
-             const std::optional<Texels>& texture, const std::string& name, float gloss,
-             const Three& attenuation_color, float attenuation_distance,
+             const Three& emission, const std::optional<Three>& ambient, const std::optional<Texels>& texture,
+             const std::string& name, float gloss, const Three& attenuation_color, float attenuation_distance,
              std::optional<bool> double_sided) {
             Material m;
             m.name = name;
@@ -81,7 +80,8 @@ void bind_material(nb::module_& module) {
       .def_prop_ro("emission", [](const TexturedMaterial& m) { return m.material.emission; })
       .def_prop_ro("ambient", [](const TexturedMaterial& m) { return m.material.ambient; })
       .def_prop_ro("gloss", [](const TexturedMaterial& m) { return m.material.gloss; })
-      .def_prop_ro("attenuation_color", [](const TexturedMaterial& m) { return m.material.attenuation_color; })
+      .def_prop_ro("attenuation_color",
+                   [](const TexturedMaterial& m) { return m.material.attenuation_color; })
       .def_prop_ro("attenuation_distance",
                    [](const TexturedMaterial& m) { return m.material.attenuation_distance; })
       .def_prop_ro("double_sided", [](const TexturedMaterial& m) { return m.material.double_sided; })
@@ -93,13 +93,15 @@ void bind_material(nb::module_& module) {
           "glTF's roughness. None: the material is of Phong's model.")
       .def_prop_ro(
           "texture",
-          [](nb::handle self) -> std::optional<nb::ndarray<const std::uint8_t, nb::numpy, nb::shape<-1, -1, 4>>> {
+          [](nb::handle self)
+              -> std::optional<nb::ndarray<const std::uint8_t, nb::numpy, nb::shape<-1, -1, 4>>> {
             const auto& texture = nb::cast<const TexturedMaterial&>(self).texture;
             if (!texture) return std::nullopt;
             const Image<glm::u8vec4>& texels = texture->texels;
             return nb::ndarray<const std::uint8_t, nb::numpy, nb::shape<-1, -1, 4>>(
                 &texels.pixels().data()->x,
-                {static_cast<std::size_t>(texels.height()), static_cast<std::size_t>(texels.width()), 4}, self);
+                {static_cast<std::size_t>(texels.height()), static_cast<std::size_t>(texels.width()), 4},
+                self);
           },
           "(height, width, 4) uint8, sRGB, or None. The array is not a copy.")
       .def("__repr__",

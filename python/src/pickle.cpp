@@ -60,10 +60,7 @@ class Writer {
     (*this)(source);
   }
   template <class T>
-    requires(!Plain<T>)
-  void operator()(T& structure) {
-    parts(*this, structure);
-  }
+  requires(!Plain<T>) void operator()(T& structure) { parts(*this, structure); }
 
   [[nodiscard]] nb::bytes bytes() const { return nb::bytes(bytes_.data(), bytes_.size()); }
 
@@ -143,10 +140,7 @@ class Reader {
     }
   }
   template <class T>
-    requires(!Plain<T>)
-  void operator()(T& structure) {
-    parts(*this, structure);
-  }
+  requires(!Plain<T>) void operator()(T& structure) { parts(*this, structure); }
 
  private:
   const char* at_;
@@ -158,7 +152,8 @@ void each(Archive& archive, T&... values) {
   (archive(values), ...);
 }
 
-// The structured bindings name every member: a structure with a new one does not compile here until it is written, too.
+// The structured bindings name every member: a structure with a new one does not compile here until it is
+// written, too.
 template <class A>
 void parts(A& a, Camera& value) {
   auto& [name, eye, target, up, fov, lens, focus, aspect, shift] = value;
@@ -166,16 +161,17 @@ void parts(A& a, Camera& value) {
 }
 template <class A>
 void parts(A& a, Light& value) {
-  auto& [name, kind, position, direction, color, intensity, falloff, range, inner, outer, casts, radius, angle, u, v] =
-      value;
-  each(a, name, kind, position, direction, color, intensity, falloff, range, inner, outer, casts, radius, angle, u, v);
+  auto& [name, kind, position, direction, color, intensity, falloff, range, inner, outer, casts, radius,
+         angle, u, v] = value;
+  each(a, name, kind, position, direction, color, intensity, falloff, range, inner, outer, casts, radius,
+       angle, u, v);
 }
 template <class A>
 void parts(A& a, Material& value) {
-  auto& [name, ambient, diffuse, specular, shininess, alpha, grazing, layer, reflectance, gloss, transmittance, ior,
-         color, distance, fresnel, emission, brdf, sides, maps] = value;
-  each(a, name, ambient, diffuse, specular, shininess, alpha, grazing, layer, reflectance, gloss, transmittance, ior,
-       color, distance, fresnel, emission, brdf, sides, maps);
+  auto& [name, ambient, diffuse, specular, shininess, alpha, grazing, layer, reflectance, gloss,
+         transmittance, ior, color, distance, fresnel, emission, brdf, sides, maps] = value;
+  each(a, name, ambient, diffuse, specular, shininess, alpha, grazing, layer, reflectance, gloss,
+       transmittance, ior, color, distance, fresnel, emission, brdf, sides, maps);
 }
 template <class A>
 void parts(A& a, Texture& value) {
@@ -184,10 +180,10 @@ void parts(A& a, Texture& value) {
 }
 template <class A>
 void parts(A& a, MeshData& value) {
-  auto& [positions, normals, texcoords, texcoords1, colors, tangents, triangles, of_triangles, materials, maps,
-         textures] = value;
-  each(a, positions, normals, texcoords, texcoords1, colors, tangents, triangles, of_triangles, materials, maps,
-       textures);
+  auto& [positions, normals, texcoords, texcoords1, colors, tangents, triangles, of_triangles, materials,
+         maps, textures] = value;
+  each(a, positions, normals, texcoords, texcoords1, colors, tangents, triangles, of_triangles, materials,
+       maps, textures);
 }
 template <class A>
 void parts(A& a, Node& value) {
@@ -246,7 +242,8 @@ void parts(A& a, Animation& value) {
 }
 template <class A>
 void parts(A& a, Scene& value) {
-  auto& [mesh, lights, cameras, ambient, environment, rotation, strength, nodes, animation, source, files] = value;
+  auto& [mesh, lights, cameras, ambient, environment, rotation, strength, nodes, animation, source, files] =
+      value;
   each(a, mesh, lights, cameras, ambient, environment, rotation, strength, nodes, animation, source, files);
 }
 template <class A>
@@ -268,23 +265,38 @@ void read(const nb::bytes& bytes, T& value) {
   Reader reader(bytes);
   std::string format;
   reader(format);
-  if (format != kFormat) throw Error("the pickle is of '" + format + "'; this is '" + std::string(kFormat) + "'");
+  if (format != kFormat)
+    throw Error("the pickle is of '" + format + "'; this is '" + std::string(kFormat) + "'");
   reader(value);
 }
 
 }  // namespace
 
-nb::bytes pickled(const Scene& scene) { return written(scene); }
-nb::bytes pickled(const Camera& camera) { return written(camera); }
-nb::bytes pickled(const Light& light) { return written(light); }
-nb::bytes pickled(const TexturedMaterial& material) { return written(material); }
+nb::bytes pickled(const Scene& scene) {
+  return written(scene);
+}
+nb::bytes pickled(const Camera& camera) {
+  return written(camera);
+}
+nb::bytes pickled(const Light& light) {
+  return written(light);
+}
+nb::bytes pickled(const TexturedMaterial& material) {
+  return written(material);
+}
 
 void unpickle(const nb::bytes& bytes, Scene& scene) {
   read(bytes, scene);
   (void)value_or_throw(check_scene(scene).map([] { return true; }));
 }
-void unpickle(const nb::bytes& bytes, Camera& camera) { read(bytes, camera); }
-void unpickle(const nb::bytes& bytes, Light& light) { read(bytes, light); }
-void unpickle(const nb::bytes& bytes, TexturedMaterial& material) { read(bytes, material); }
+void unpickle(const nb::bytes& bytes, Camera& camera) {
+  read(bytes, camera);
+}
+void unpickle(const nb::bytes& bytes, Light& light) {
+  read(bytes, light);
+}
+void unpickle(const nb::bytes& bytes, TexturedMaterial& material) {
+  read(bytes, material);
+}
 
 }  // namespace pinocchio::python

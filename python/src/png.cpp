@@ -21,7 +21,8 @@ void add_number(std::string& to, std::uint32_t number) {
   for (int shift = 24; shift >= 0; shift -= 8) to.push_back(static_cast<char>(number >> shift & 0xff));
 }
 
-void add_chunk(std::string& to, const std::string& body, const nb::module_& zlib) {  // its type, then its data
+void add_chunk(std::string& to, const std::string& body,
+               const nb::module_& zlib) {  // its type, then its data
   add_number(to, static_cast<std::uint32_t>(body.size() - 4));
   to += body;
   add_number(to, nb::cast<std::uint32_t>(zlib.attr("crc32")(nb::bytes(body.data(), body.size()))));
@@ -29,7 +30,7 @@ void add_chunk(std::string& to, const std::string& body, const nb::module_& zlib
 
 }  // namespace
 
-nb::bytes png_of(const Image<glm::vec4>& color, float exposure) {
+nb::bytes png_of(const Image<glm::vec4>& color, float exposure, bool opaque) {
   if (!std::isfinite(exposure)) throw Error("exposure is not a finite number");
   const float factor = std::exp2(exposure);
   std::string rows;
@@ -38,7 +39,8 @@ nb::bytes png_of(const Image<glm::vec4>& color, float exposure) {
     rows.push_back(0);  // no filter
     for (int x = 0; x < color.width(); ++x) {
       const glm::vec4& pixel = color.at(x, y);
-      const float alpha = std::clamp(pixel.a, 0.0f, 1.0f);  // the colour is multiplied by it already
+      const float alpha =
+          opaque ? 1.0f : std::clamp(pixel.a, 0.0f, 1.0f);  // the colour is multiplied by it already
       for (int c = 0; c < 3; ++c)
         rows.push_back(static_cast<char>(srgb8(alpha > 0.0f ? factor * pixel[c] / alpha : 0.0f)));
       rows.push_back(static_cast<char>(static_cast<std::uint8_t>(255.0f * alpha + 0.5f)));

@@ -6,23 +6,27 @@
 namespace pinocchio::python {
 namespace {
 
-// A field that has another name in Python, because an array of the picture, or something close to one, has its own.
+// A field that has another name in Python, because an array of the picture, or something close to one, has
+// its own.
 struct Renamed {
   std::string_view field, python, why;
 };
 constexpr std::array kRenamed{
-    Renamed{"depth", "bounces", "depth is an array of the picture; the setting for the most bounces is 'bounces'"},
+    Renamed{"depth", "bounces",
+            "depth is an array of the picture; the setting for the most bounces is 'bounces'"},
     Renamed{"normals", "send_normals",
-            "normals would be taken for the array 'normal', which each picture has; the setting that sends normals to "
+            "normals would be taken for the array 'normal', which each picture has; the setting that sends "
+            "normals to "
             "the CPU is 'send_normals'"},
     Renamed{"reflection", "reflection_format",
-            "reflection is an array of the picture; the setting for how that light travels is 'reflection_format'"},
+            "reflection is an array of the picture; the setting for how that light travels is "
+            "'reflection_format'"},
 };
 
 // What changes how the parts of a frame travel between CPU and GPU; help lists it last.
 constexpr std::array<std::string_view, 14> kTransport{
-    "visibility", "composite",        "by_machine", "exchange", "mask_bits", "mask_scale", "reflection",
-    "reflection_scale", "tiles", "id_bits", "normals", "wide", "reuse", "persistent"};
+    "visibility",       "composite", "by_machine", "exchange", "mask_bits", "mask_scale", "reflection",
+    "reflection_scale", "tiles",     "id_bits",    "normals",  "wide",      "reuse",      "persistent"};
 
 std::string_view python_name(const Field& field) {
   for (const Renamed& row : kRenamed)
@@ -45,7 +49,8 @@ std::string text_of(nb::handle value) {
 }
 
 bool is_bool(nb::handle value) {
-  return nb::isinstance<nb::bool_>(value) || text_of(value.type().attr("__name__")).starts_with("bool");  // NumPy's
+  return nb::isinstance<nb::bool_>(value) ||
+         text_of(value.type().attr("__name__")).starts_with("bool");  // NumPy's
 }
 
 // The value as text. A number in quotes is no number, and True is none either.
@@ -100,7 +105,9 @@ Settings settings_of(const nb::kwargs& arguments, int threads) {
 }
 
 std::string settings_help() {
-  const auto is_transport = [](const Field& f) { return std::ranges::find(kTransport, f.name) != kTransport.end(); };
+  const auto is_transport = [](const Field& f) {
+    return std::ranges::find(kTransport, f.name) != kTransport.end();
+  };
   std::string text;
   // What a picture needs first, in this order; then the others as the table has them.
   constexpr std::array<std::string_view, 4> kFirst{"spp", "depth", "indirect", "seed"};

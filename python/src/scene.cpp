@@ -68,7 +68,8 @@ void set_environment(PyScene& self, nb::handle value) {
   }
   const auto array = Pixels{nb::borrow(value)}.read("environment");
   if (array.size() == 0) throw Error("environment is empty; it is an array (height, width, 3) of light");
-  if (!std::all_of(array.data(), array.data() + array.size(), [](float v) { return v >= 0.0f && std::isfinite(v); }))
+  if (!std::all_of(array.data(), array.data() + array.size(),
+                   [](float v) { return v >= 0.0f && std::isfinite(v); }))
     throw Error("environment holds light that is negative or not finite");
   Image<glm::vec3> light({array.shape(1), array.shape(0)});
   std::copy_n(array.data(), array.size(), &light.pixels().data()->x);
@@ -78,7 +79,8 @@ void set_environment(PyScene& self, nb::handle value) {
 nb::object environment_of(const PyScene& self) {
   if (!self.scene.environment) return nb::none();
   auto* const kept = new std::shared_ptr<const Environment>(self.scene.environment);
-  const nb::capsule owner(kept, [](void* p) noexcept { delete static_cast<std::shared_ptr<const Environment>*>(p); });
+  const nb::capsule owner(
+      kept, [](void* p) noexcept { delete static_cast<std::shared_ptr<const Environment>*>(p); });
   const Image<glm::vec3>& light = (*kept)->radiance();
   return nb::cast(view_of<const float>(
       &light.pixels().data()->x,
@@ -100,8 +102,9 @@ PyScene with_transforms(const PyScene& self, const nb::dict& transforms) {
   const Scene scene = self.now();
   std::vector<NodeTransform> moves;
   for (const auto& [name, matrix] : transforms)
-    moves.push_back({node_of(scene, nb::cast<std::variant<int, std::string>>(name)),
-                     Matrix{nb::borrow(matrix)}.read("the transform of " + std::string(nb::repr(name).c_str()))});
+    moves.push_back(
+        {node_of(scene, nb::cast<std::variant<int, std::string>>(name)),
+         Matrix{nb::borrow(matrix)}.read("the transform of " + std::string(nb::repr(name).c_str()))});
   return PyScene(value_or_throw(without_gil([&](Progress*) { return posed(scene, moves); })));
 }
 
@@ -112,9 +115,11 @@ PyScene assemble(const nb::dict& parts) {
   for (const auto& [name, part] : parts) {
     const bool placed = nb::isinstance<nb::tuple>(part);
     const std::string named = nb::cast<std::string>(name);
-    if (placed && nb::len(part) != 2) throw Error("the part '" + named + "' is a scene, or (scene, 4x4 matrix)");
+    if (placed && nb::len(part) != 2)
+      throw Error("the part '" + named + "' is a scene, or (scene, 4x4 matrix)");
     const nb::object scene = placed ? nb::object(part[0]) : nb::borrow(part);
-    if (!nb::isinstance<PyScene>(scene)) throw Error("the part '" + named + "' is a scene, or (scene, 4x4 matrix)");
+    if (!nb::isinstance<PyScene>(scene))
+      throw Error("the part '" + named + "' is a scene, or (scene, 4x4 matrix)");
     scenes.push_back(nb::cast<const PyScene&>(scene).now());
     all.push_back({named, scenes.back(),
                    placed ? Matrix{part[1]}.read("the matrix of '" + named + "'") : glm::mat4(1.0f)});
@@ -129,7 +134,8 @@ std::vector<TexturedMaterial> materials_of(const Mesh& mesh) {
     if (material.maps < 0) continue;
     const TextureUse& use = mesh.maps[static_cast<std::size_t>(material.maps)].base_color;
     if (use.used())
-      all.back().texture = std::make_shared<const Texture>(mesh.textures[static_cast<std::size_t>(use.texture)]);
+      all.back().texture =
+          std::make_shared<const Texture>(mesh.textures[static_cast<std::size_t>(use.texture)]);
   }
   return all;
 }
@@ -140,13 +146,17 @@ std::string counted(std::size_t n, const char* what) {
 
 std::string described(const PyScene& self) {
   const Scene& s = self.scene;
-  return "<Scene" + (s.source.empty() ? "" : " " + shown(std::filesystem::path(s.source).filename().string())) + ": " +
-         counted(s.mesh->triangles.size(), "triangle") + ", " + counted(s.mesh->materials.size(), "material") + ", " +
-         counted(s.nodes ? s.nodes->nodes.size() : 0, "node") + ", " + counted(self.lights.size(), "light") + ", " +
-         counted(self.cameras.size(), "camera") + ">";
+  return "<Scene" +
+         (s.source.empty() ? "" : " " + shown(std::filesystem::path(s.source).filename().string())) + ": " +
+         counted(s.mesh->triangles.size(), "triangle") + ", " +
+         counted(s.mesh->materials.size(), "material") + ", " +
+         counted(s.nodes ? s.nodes->nodes.size() : 0, "node") + ", " + counted(self.lights.size(), "light") +
+         ", " + counted(self.cameras.size(), "camera") + ">";
 }
 
-const Mesh& mesh_of(nb::handle self) { return *nb::cast<const PyScene&>(self).scene.mesh; }
+const Mesh& mesh_of(nb::handle self) {
+  return *nb::cast<const PyScene&>(self).scene.mesh;
+}
 
 using SceneClass = nb::class_<PyScene>;
 using MaterialList = std::variant<TexturedMaterial, std::vector<TexturedMaterial>>;
@@ -155,10 +165,11 @@ void bind_making(SceneClass& bound) {
   bound
       .def(
           "__init__",
-          [](PyScene* self, const Floats3& vertices, const Words3& triangles, const std::optional<Floats3>& normals,
-             const std::optional<Floats2>& uvs, const std::optional<Floats3>& colors,
-             const std::optional<MaterialList>& materials, const std::optional<Words>& triangle_materials,
-             const nb::typed<nb::iterable, Light>& lights, const Three& ambient, nb::object environment) {
+          [](PyScene* self, const Floats3& vertices, const Words3& triangles,
+             const std::optional<Floats3>& normals, const std::optional<Floats2>& uvs,
+             const std::optional<Floats3>& colors, const std::optional<MaterialList>& materials,
+             const std::optional<Words>& triangle_materials, const nb::typed<nb::iterable, Light>& lights,
+             const Three& ambient, nb::object environment) {
             std::vector<TexturedMaterial> all;
             if (materials && std::holds_alternative<TexturedMaterial>(*materials))
               all.push_back(std::get<TexturedMaterial>(*materials));
@@ -171,10 +182,9 @@ void bind_making(SceneClass& bound) {
             set_environment(made, environment);
             new (self) PyScene(std::move(made));
           },
-          "vertices"_a, "triangles"_a, "normals"_a = nb::none(), "uvs"_a = nb::none(), "colors"_a = nb::none(),
-          "materials"_a = nb::none(), "triangle_materials"_a = nb::none(), "lights"_a = nb::make_tuple(),
-          "ambient"_a = glm::vec3(0.1f),
-          "environment"_a = nb::none(),
+          "vertices"_a, "triangles"_a, "normals"_a = nb::none(), "uvs"_a = nb::none(),
+          "colors"_a = nb::none(), "materials"_a = nb::none(), "triangle_materials"_a = nb::none(),
+          "lights"_a = nb::make_tuple(), "ambient"_a = glm::vec3(0.1f), "environment"_a = nb::none(),
           "vertices: (n, 3) float32, in any unit. triangles: (m, 3) uint32, indices of vertices.\n"
           "normals: (n, 3) float32. None: triangles are flat.\n"
           "uvs: (n, 2) float32. (0, 0) is the texture's first texel.\n"
@@ -184,7 +194,8 @@ void bind_making(SceneClass& bound) {
           "triangle's material.\n"
           "environment: the light around the scene, as the property of that name.\n"
           "A scene without lights is drawn with one above the camera.\n"
-          "Raises Error if the numbers of rows do not match, an index is out of range or a number is not finite.")
+          "Raises Error if the numbers of rows do not match, an index is out of range or a number is not "
+          "finite.")
       .def("__repr__", &described)
       .def("__copy__", [](const PyScene& self) { return PyScene(self.now()); })
       .def(
@@ -214,45 +225,35 @@ void bind_surroundings(SceneClass& bound) {
             s.cameras = nb::list(cameras);
           },
           "A list of Camera, which can be changed as lights can.")
-      .def_prop_rw("environment", &environment_of, &set_environment, nb::for_setter(nb::arg("value").none()),
-                   nb::for_getter(nb::sig("def environment(self) -> numpy.typing.NDArray[numpy.float32] | None")),
-                   nb::for_setter(nb::sig("def environment(self, value: str | os.PathLike[str] | "
-                                          "numpy.typing.ArrayLike | None, /) -> None")),
-                   "The light from all directions around the scene, (height, width, 3) float32, linear: a picture in "
-                   "latitude\n"
-                   "and longitude, whose top row is +Y, whose middle is +Z, and +X a quarter of the width to the left "
-                   "of it.\n"
-                   "None: there is none. Set it to such an array, or to the path of an EXR or HDR file.\n"
-                   "Raises Error if the file cannot be read, or if light is negative or not finite.")
       .def_prop_rw(
-          "environment_strength", [](const PyScene& s) { return s.scene.environment_strength; },
-          [](PyScene& s, float factor) {
-            if (!(factor >= 0.0f && std::isfinite(factor)))
-              throw Error("environment_strength is " + shown(factor) + "; it is a finite number, 0 or more");
-            s.scene.environment_strength = factor;
-          },
-          "A factor of the environment's light.")
-      .def_prop_rw(
-          "environment_rotation", [](const PyScene& s) { return s.scene.environment_rotation_deg; },
-          [](PyScene& s, float degrees) {
-            if (!std::isfinite(degrees)) throw Error("environment_rotation is not a finite number");
-            s.scene.environment_rotation_deg = degrees;
-          },
-          "The environment's rotation about +Y, in degrees.")
-      .def_prop_ro("source", [](const PyScene& s) { return s.scene.source; },
-                   "The path of the file that the scene was loaded from.");
-  def_three(bound, "ambient", [](PyScene& s) -> glm::vec3& { return s.scene.ambient_light; },
-            "Light that reaches every point, linear.");
+          "environment", &environment_of, &set_environment, nb::for_setter(nb::arg("value").none()),
+          nb::for_getter(nb::sig("def environment(self) -> numpy.typing.NDArray[numpy.float32] | None")),
+          nb::for_setter(nb::sig("def environment(self, value: str | os.PathLike[str] | "
+                                 "numpy.typing.ArrayLike | None, /) -> None")),
+          "The light from all directions around the scene, (height, width, 3) float32, linear: a picture in "
+          "latitude\n"
+          "and longitude, whose top row is +Y, whose middle is +Z, and +X a quarter of the width to the left "
+          "of it.\n"
+          "None: there is none. Set it to such an array, or to the path of an EXR or HDR file. The settings\n"
+          "environment_strength and environment_rotation of a picture change it.\n"
+          "Raises Error if the file cannot be read, or if light is negative or not finite.")
+      .def_prop_ro(
+          "source", [](const PyScene& s) { return s.scene.source; },
+          "The path of the file that the scene was loaded from.");
+  def_three(
+      bound, "ambient", [](PyScene& s) -> glm::vec3& { return s.scene.ambient_light; },
+      "Light that reaches every point, linear.");
 }
 
 void bind_mesh(SceneClass& bound) {
   bound
-      .def_prop_ro("bounds",
-                   [](const PyScene& s) {
-                     const Bounds& box = s.scene.mesh->bounds();
-                     return std::array{box.lo, box.hi};
-                   },
-                   "The lowest and the highest corner of the scene's box.")
+      .def_prop_ro(
+          "bounds",
+          [](const PyScene& s) {
+            const Bounds& box = s.scene.mesh->bounds();
+            return std::array{box.lo, box.hi};
+          },
+          "The lowest and the highest corner of the scene's box.")
       .def_prop_ro(
           "vertices",
           [](nb::handle self) {
@@ -294,13 +295,14 @@ void bind_mesh(SceneClass& bound) {
           "triangle_materials",
           [](nb::handle self) {
             const Mesh& mesh = mesh_of(self);
-            return view_of<const std::uint32_t>(mesh.triangle_materials.data(), {mesh.triangle_materials.size()},
-                                                self);
+            return view_of<const std::uint32_t>(mesh.triangle_materials.data(),
+                                                {mesh.triangle_materials.size()}, self);
           },
           "(m,) uint32: the index in `materials` of each triangle's material. The array is not a copy.")
       .def_prop_ro(
           "materials", [](const PyScene& s) { return materials_of(*s.scene.mesh); },
-          "The materials, in the order of `triangle_materials`. A Material has the base colour's texture; other "
+          "The materials, in the order of `triangle_materials`. A Material has the base colour's texture; "
+          "other "
           "textures\n"
           "are in the scene alone.");
 }
@@ -309,7 +311,8 @@ void bind_nodes(SceneClass& bound) {
   bound
       .def_prop_ro(
           "nodes", [](const PyScene& s) { return node_names(s.scene); },
-          "The names of the parts that can be moved. The index in the list is the number in `objects`. Names differ: "
+          "The names of the parts that can be moved. The index in the list is the number in `objects`. Names "
+          "differ: "
           "node 7\n"
           "is '#7' if it has no name, and 'wheel#7' if an earlier node is called 'wheel'.")
       .def_prop_ro(
@@ -321,6 +324,7 @@ void bind_nodes(SceneClass& bound) {
             const std::size_t n = nodes.size();
             return array_that_owns<std::uint32_t>(std::move(nodes), {n});
           },
+          nb::rv_policy::reference,
           "(m,) uint32: the index in `nodes` of each triangle's node, 0 if the scene has no nodes. "
           "triangle_nodes[ids] is\n"
           "`objects`.")
@@ -393,18 +397,21 @@ void bind_scene(nb::module_& module) {
   bind_nodes(bound);
   module.def(
       "load_scene", &load, "path"_a, "confine"_a = false, "shading"_a = "auto",
+      nb::sig("def load_scene(path: str | os.PathLike[str], confine: bool = False, shading: str = 'auto') -> "
+              "Scene"),
       "Reads a scene by its extension, as the program does. What is left out of the file is a warning. With\n"
       "confine, files that it names are opened only below its folder, wherever names and links lead.\n"
       "shading: 'auto', the file's reflection model (glTF's for metallic-roughness materials, else Phong's), "
       "or 'phong'.\n"
       "Raises Error if it is another word.");
-  module.def("assemble", &assemble, "parts"_a,
-             nb::sig("def assemble(parts: collections.abc.Mapping[str, Scene] | collections.abc.Mapping[str, "
-                     "tuple[Scene, numpy.typing.ArrayLike]] | collections.abc.Mapping[str, Scene | tuple[Scene, "
-                     "numpy.typing.ArrayLike]]) -> Scene"),
-             "One scene of several: {name: scene} or {name: (scene, 4x4 matrix)}. Each becomes a node that "
-             "can be moved\n"
-             "(Scene.posed), with its own nodes below it.");
+  module.def(
+      "assemble", &assemble, "parts"_a,
+      nb::sig("def assemble(parts: collections.abc.Mapping[str, Scene] | collections.abc.Mapping[str, "
+              "tuple[Scene, numpy.typing.ArrayLike]] | collections.abc.Mapping[str, Scene | tuple[Scene, "
+              "numpy.typing.ArrayLike]]) -> Scene"),
+      "One scene of several: {name: scene} or {name: (scene, 4x4 matrix)}. Each becomes a node that "
+      "can be moved\n"
+      "(Scene.posed), with its own nodes below it.");
 }
 
 }  // namespace pinocchio::python

@@ -46,8 +46,14 @@ struct Rays {
 };
 
 Rays rays_of(const Floats3& origins, const Floats3& directions, const std::optional<Floats>& t_max) {
-  Rays rays{.o = origins.read("origins"), .d = directions.read("directions"), .t_max = {}, .origins = nullptr,
-            .directions = nullptr, .lengths = nullptr, .count = 0, .origin_step = 0};
+  Rays rays{.o = origins.read("origins"),
+            .d = directions.read("directions"),
+            .t_max = {},
+            .origins = nullptr,
+            .directions = nullptr,
+            .lengths = nullptr,
+            .count = 0,
+            .origin_step = 0};
   const std::size_t n = rays.d.shape(0);
   if (rays.o.shape(0) != n && rays.o.shape(0) != 1)
     throw Error("there are " + std::to_string(rays.o.shape(0)) + " origins and " + std::to_string(n) +
@@ -173,7 +179,8 @@ class ArrayTracer {
 
   [[nodiscard]] std::size_t triangles() const { return scene_->mesh->triangles.size(); }
 
-  Hits closest_hits(const Floats3& origins, const Floats3& directions, const std::optional<Floats>& t_max) const {
+  Hits closest_hits(const Floats3& origins, const Floats3& directions,
+                    const std::optional<Floats>& t_max) const {
     const Rays rays = rays_of(origins, directions, t_max);
     Hits found{.scene = scene_,
                .rays = std::vector<Ray>(rays.count),
@@ -224,55 +231,71 @@ nb::object triangle_of(nb::handle self) {
 }
 
 void bind_hits(nb::module_& module) {
-  nb::class_<Hits>(module, "Hits",
-                   "What rays hit, an array each. `t, triangle = hits` unpacks the first two. The others are computed "
-                   "when they are\n"
-                   "read.")
+  nb::class_<Hits>(
+      module, "Hits",
+      "What rays hit, an array each. `t, triangle = hits` unpacks the first two. The others are computed "
+      "when they are\n"
+      "read.")
       .def_prop_ro("t", &t_of, nb::sig("def t(self) -> numpy.typing.NDArray[numpy.float32]"),
                    "(n,) float32, in lengths of the ray's direction; inf where nothing is hit.")
-      .def_prop_ro("triangle", &triangle_of, nb::sig("def triangle(self) -> numpy.typing.NDArray[numpy.uint32]"),
+      .def_prop_ro("triangle", &triangle_of,
+                   nb::sig("def triangle(self) -> numpy.typing.NDArray[numpy.uint32]"),
                    "(n,) uint32; 0xffffffff where nothing is hit. Read-only.")
-      .def_prop_ro("distance", &distances_of, "(n,) float32: from the ray's origin, scene units; inf where nothing is "
+      .def_prop_ro("distance", &distances_of, nb::rv_policy::reference,
+                   "(n,) float32: from the ray's origin, scene units; inf where nothing is "
                    "hit.")
       .def_prop_ro(
-          "node", [](const Hits& hits) { return indices_of(hits, &object_of); },
-          "(n,) uint32: the index in Scene.nodes, 0 if the scene has no nodes; 0xffffffff where nothing is hit.")
+          "node", [](const Hits& hits) { return indices_of(hits, &object_of); }, nb::rv_policy::reference,
+          "(n,) uint32: the index in Scene.nodes, 0 if the scene has no nodes; 0xffffffff where nothing is "
+          "hit.")
       .def_prop_ro(
           "material",
           [](const Hits& hits) {
-            return indices_of(hits, [](const Scene& s, std::uint32_t t) { return s.mesh->triangle_materials[t]; });
+            return indices_of(hits,
+                              [](const Scene& s, std::uint32_t t) { return s.mesh->triangle_materials[t]; });
           },
+          nb::rv_policy::reference,
           "(n,) uint32: the index in Scene.materials; 0xffffffff where nothing is hit.")
       .def_prop_ro(
-          "position", [](const Hits& hits) { return rows_of(hits, [](const HitPoint& p) { return p.position; }); },
+          "position",
+          [](const Hits& hits) { return rows_of(hits, [](const HitPoint& p) { return p.position; }); },
+          nb::rv_policy::reference,
           "(n, 3) float32: the point that is hit, in world space; 0 where nothing is hit.")
       .def_prop_ro(
-          "barycentrics", [](const Hits& hits) { return rows_of(hits, [](const HitPoint& p) { return p.weights; }); },
+          "barycentrics",
+          [](const Hits& hits) { return rows_of(hits, [](const HitPoint& p) { return p.weights; }); },
+          nb::rv_policy::reference,
           "(n, 3) float32: the weights of the triangle's vertices at that point; 0 where nothing is hit.")
       .def_prop_ro(
-          "normal", [](const Hits& hits) { return rows_of(hits, [](const HitPoint& p) { return p.shading; }); },
-          "(n, 3) float32: the vertices' normals there, unit, towards the ray's origin, without normal maps; 0 where "
+          "normal",
+          [](const Hits& hits) { return rows_of(hits, [](const HitPoint& p) { return p.shading; }); },
+          nb::rv_policy::reference,
+          "(n, 3) float32: the vertices' normals there, unit, towards the ray's origin, without normal maps; "
+          "0 where "
           "nothing\n"
           "is hit.")
       .def_prop_ro(
-          "triangle_normal", [](const Hits& hits) { return rows_of(hits, [](const HitPoint& p) { return p.facet; }); },
-          "(n, 3) float32: the triangle's own normal, unit, towards the ray's origin; 0 where nothing is hit.")
+          "triangle_normal",
+          [](const Hits& hits) { return rows_of(hits, [](const HitPoint& p) { return p.facet; }); },
+          nb::rv_policy::reference,
+          "(n, 3) float32: the triangle's own normal, unit, towards the ray's origin; 0 where nothing is "
+          "hit.")
       .def("__len__", [](const Hits&) { return 2; })
       .def(
           "__iter__",
-          [](nb::handle self) {
-            return nb::make_tuple(t_of(self), triangle_of(self)).attr("__iter__")();
-          },
+          [](nb::handle self) { return nb::make_tuple(t_of(self), triangle_of(self)).attr("__iter__")(); },
           nb::sig("def __iter__(self) -> collections.abc.Iterator[numpy.typing.NDArray[typing.Any]]"))
       .def(
-          "__getitem__", [](nb::handle self, int i) -> nb::object {
+          "__getitem__",
+          [](nb::handle self, int i) -> nb::object {
             if (i < -2 || i > 1) throw nb::index_error("closest hits are (t, triangle)");
             return (i + 2) % 2 == 0 ? t_of(self) : triangle_of(self);
           },
           nb::sig("def __getitem__(self, index: int, /) -> numpy.typing.NDArray[typing.Any]"))
       .def("__repr__", [](const Hits& hits) {
         const auto missed = static_cast<std::size_t>(std::ranges::count(hits.triangle, kNoTriangle));
-        return "<Hits: " + std::to_string(hits.t.size() - missed) + " of " + std::to_string(hits.t.size()) + " rays>";
+        return "<Hits: " + std::to_string(hits.t.size() - missed) + " of " + std::to_string(hits.t.size()) +
+               " rays>";
       });
 }
 
@@ -307,12 +330,13 @@ void bind_tracer(nb::module_& module) {
           "Raises Error if an index is out of range or a vertex is not finite.")
       .def("__repr__",
            [](const ArrayTracer& t) { return "<Tracer: " + std::to_string(t.triangles()) + " triangles>"; })
-      .def("closest_hits", &ArrayTracer::closest_hits, "origins"_a, "directions"_a, "t_max"_a = nb::none(),
-           "The closest hit of each ray, as Hits: `t, triangle = tracer.closest_hits(...)`, or hits.distance, "
-           "hits.node and so on.\n"
-           "origins: (n, 3), or (1, 3) for all rays. directions: (n, 3), of any length. t_max: (n,), or "
-           "None: infinity.\n"
-           "Raises Error if the numbers of rays differ.")
+      .def(
+          "closest_hits", &ArrayTracer::closest_hits, "origins"_a, "directions"_a, "t_max"_a = nb::none(),
+          "The closest hit of each ray, as Hits: `t, triangle = tracer.closest_hits(...)`, or hits.distance, "
+          "hits.node and so on.\n"
+          "origins: (n, 3), or (1, 3) for all rays. directions: (n, 3), of any length. t_max: (n,), or "
+          "None: infinity.\n"
+          "Raises Error if the numbers of rays differ.")
       .def("occluded", &ArrayTracer::occluded, "origins"_a, "directions"_a, "t_max"_a = nb::none(),
            "Whether a triangle is hit within each ray, as (n,) bool. Arguments and errors as for "
            "closest_hits.");

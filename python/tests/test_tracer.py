@@ -86,3 +86,53 @@ def test_threads_are_the_programs(monkeypatch):
     hits.append(pn.Tracer(vertices, triangles).closest_hits(origins, directions))
     for other in hits[1:]:
         assert all(numpy.array_equal(a, b) for a, b in zip(hits[0], other))
+
+
+def test_rays_of_a_scene(scenes):
+    scene = pn.load_scene(scenes / "two-lights.gltf")
+    camera = pn.Camera.from_intrinsics((80, 60), 70, 70, 39.5, 29.5, look_at((0.4, 1.5, 3.0), (0, 0.3, 0)))
+    result = pn.Engine().render(scene, camera, size=(80, 60))
+    v, u = numpy.indices((60, 80))
+    pose = look_at((0.4, 1.5, 3.0), (0, 0.3, 0))
+    directions = numpy.stack([(u - 39.5) / 70, (v - 29.5) / 70, numpy.ones((60, 80))], -1).reshape(-1, 3)
+    directions = 3 * directions @ pose[:3, :3].T  # of any length
+    hits = pn.Tracer(scene).closest_hits(pose[None, :3, 3], directions)
+    t, triangle = hits
+    assert len(hits) == 2 and numpy.array_equal(hits[0], t) and numpy.array_equal(hits[-1], triangle)
+    same = (triangle == result.ids.ravel()) & (triangle != 0xFFFFFFFF)
+    assert same.sum() > 1000 and (triangle == result.ids.ravel()).mean() > 0.995
+    numpy.testing.assert_allclose(hits.distance, t * numpy.linalg.norm(directions, axis=1), rtol=1e-5)
+    numpy.testing.assert_allclose(hits.position[same], result.position.reshape(-1, 3)[same], atol=2e-4)
+    numpy.testing.assert_array_equal(hits.node[same], result.objects.ravel()[same])
+    numpy.testing.assert_array_equal(hits.material[same], scene.triangle_materials[triangle[same]])
+    corners = scene.vertices[scene.triangles[triangle[same]]]
+    numpy.testing.assert_allclose(numpy.einsum("nc,nci->ni", hits.barycentrics[same], corners), hits.position[same], atol=1e-5)
+    apart = numpy.einsum("ni,ni->n", hits.normal[same], result.normal.reshape(-1, 3)[same])
+    assert numpy.median(apart) > 0.9999 and (apart > 0.99).mean() > 0.98
+    facing = numpy.einsum("ni,ni->n", hits.triangle_normal[same], directions[same])
+    assert (facing <= 0).all()
+    missed = triangle == 0xFFFFFFFF
+    assert (hits.node[missed] == 0xFFFFFFFF).all() and not hits.normal[missed].any() and numpy.isinf(hits.distance[missed]).all()
+
+
+def test_rays_of_a_posed_scene():
+    part = pn.Scene(*quad())
+    scene = pn.assemble({"floor": part, "plate": part})
+    pose = numpy.eye(4)
+    pose[2, 3] = 1.5
+    ray = numpy.array([[0.2, 0.3, 4]]), numpy.array([[0, 0, -2.0]])
+    for moved, distance, node in [(scene, 4.0, 0), (scene.posed({"plate": pose}), 2.5, 1)]:
+        hits = pn.Tracer(moved, threads=1).closest_hits(*ray)
+        assert (hits.distance[0], hits.t[0], hits.node[0]) == (distance, distance / 2, node)
+        numpy.testing.assert_allclose(hits.triangle_normal, [[0, 0, 1]])
+    assert not pn.Tracer(scene).occluded(*ray, [1.9]).any() and pn.Tracer(scene).occluded(*ray, [2.1]).all()
+
+
+def look_at(eye, target):
+    """A camera-to-world matrix with OpenCV's axes."""
+    forward = numpy.subtract(target, eye) / numpy.linalg.norm(numpy.subtract(target, eye))
+    right = numpy.cross(forward, (0, 1, 0))
+    right /= numpy.linalg.norm(right)
+    pose = numpy.eye(4)
+    pose[:3] = numpy.column_stack([right, numpy.cross(forward, right), forward, eye])
+    return pose

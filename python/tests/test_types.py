@@ -1,0 +1,66 @@
+"""The stubs: mypy takes the examples, and what users write, as strictly as it can."""
+import pathlib
+import re
+import subprocess
+import sys
+
+import pinocchio_renderer as pn
+import pytest
+from conftest import TREE
+
+pytest.importorskip("mypy")
+
+USER = """
+import copy
+import pathlib
+import numpy as np
+import pinocchio_renderer as pn
+
+camera = pn.Camera(eye=np.array([0, 0, 4]), target=(0, 0, 0), up=[0, 1, 0])
+camera.eye = np.zeros(3)
+x: float = camera.eye[0]
+scene = pn.Scene(np.zeros((3, 3)), [[0, 1, 2]], lights=[pn.Light(position=np.ones(3))], materials=pn.Material())
+scene.lights.append(pn.Light(direction=(0, -1, 0)))
+scene.environment = np.ones((4, 8, 3))
+scene.environment = pathlib.Path("sky.exr")
+scene = copy.deepcopy(pn.load_scene(pathlib.Path("a.gltf")).posed({"arm": np.eye(4)}))
+robot = pn.assemble({"floor": scene, "cup": (scene, np.eye(4))})
+with pn.Engine(threads=2) as engine:
+    result = engine.render(robot, camera, size=(64, 48), spp=4, mode="raytrace")
+    arrays = engine.render_many(robot, [camera, None, "front"], (64, 64), outputs=["color", "depth"])
+result.write_exr("a.exr")
+mean: float = float((result.depth + arrays["depth"][0]).mean())
+t, triangle = pn.Tracer(robot).closest_hits(np.zeros((1, 3)), np.ones((1, 3)))
+names: list[str] = [material.name for material in robot.materials]
+error: float = pn.compare(result, "a.exr")["flip"]
+"""
+WRONG = ["pn.Camera(eye=1j, target=(0, 0, 0))", "pn.Light(position=(0, 0, 0)).kinds", "pn.Engine(threads='two')",
+         "pn.load_scene(3)", "pn.Engine().render('scene')"]
+
+
+def mypy(*files, cwd):
+    command = [sys.executable, "-m", "mypy", "--strict", "--no-incremental", "--cache-dir", str(cwd / "cache"), *map(str, files)]
+    done = subprocess.run(command, cwd=cwd, capture_output=True, text=True)
+    return [line for line in done.stdout.splitlines() if ": error: " in line]
+
+
+def test_what_users_write_is_typed(tmp_path):
+    (tmp_path / "user.py").write_text(USER)
+    assert mypy("user.py", cwd=tmp_path) == []
+    (tmp_path / "wrong.py").write_text("import pinocchio_renderer as pn\n\n" + "\n".join(WRONG) + "\n")
+    found = {int(re.match(r"wrong.py:(\d+):", line)[1]) - 3 for line in mypy("wrong.py", cwd=tmp_path)}
+    assert found == set(range(len(WRONG)))
+
+
+def test_the_examples_are_typed(tmp_path):
+    examples = sorted((TREE / "examples/python").glob("*.py"))
+    assert len(examples) >= 3
+    for example in examples:
+        assert mypy(example, cwd=tmp_path) == [], example
+
+
+def test_the_stubs_are_typed(tmp_path):
+    folder = pathlib.Path(pn.__file__).parent
+    assert mypy(*folder.glob("*.py"), *folder.glob("*.pyi"), cwd=tmp_path) == []
+    stub = (folder / "_core.pyi").read_text()
+    assert "def render_many" in stub and "**settings: object" in stub
