@@ -14,7 +14,7 @@ APPROVED = pathlib.Path(__file__).with_name("approved")
 MOST_FLIP = 0.005  # mean over the picture; far above the value of two pictures that look the same
 
 
-def a_scene():
+def a_scene() -> pn.Scene:
     t = numpy.linspace(0, 2 * numpy.pi, 65)[:-1]
     rim = numpy.stack([numpy.cos(t), 0 * t, numpy.sin(t)], axis=1)
     vertices = numpy.vstack([rim, [[0, 1.5, 0]], 4 * rim - [0, 0.01, 0], [[0, -0.01, 0]]])
@@ -27,7 +27,7 @@ def a_scene():
 
 
 @pytest.mark.parametrize("name, eye", [("side", (0, 2, 6)), ("above", (1, 7, 1))])
-def test_cone(name, eye):
+def test_cone(name: str, eye: tuple[float, float, float]) -> None:
     camera = pn.Camera(eye, (0, 0.5, 0))
     result = pn.Engine().render(a_scene(), camera, size=(160, 120), spp=4)
     approved = APPROVED / f"{name}.exr"

@@ -34,7 +34,7 @@ t, triangle = pn.Tracer(robot).closest_hits(np.zeros((1, 3)), np.ones((1, 3)))
 names: list[str] = [material.name for material in robot.materials]
 error: float = pn.compare(result, "a.exr")["flip"]
 """
-WRONG = ["pn.Camera(eye=1j, target=(0, 0, 0))", "pn.Light(position=(0, 0, 0)).kinds", "pn.Engine(threads='two')",
+WRONG = ["pn.Camera(eye=None, target=(0, 0, 0))", "pn.Light(position=(0, 0, 0)).kinds", "pn.Engine(threads='two')",
          "pn.load_scene(3)", "pn.Engine().render('scene')"]
 
 
