@@ -76,6 +76,15 @@ std::vector<float> numbers_of(nb::handle source, const std::string& name, int co
   return {numbers.data(), numbers.data() + count};
 }
 
+float number_within(double value, const char* name, double lo, double hi) {
+  if (std::isfinite(value) && value >= lo && value <= hi) return static_cast<float>(value);
+  const auto text = [](double number) { return text_of(nb::float_(number)); };
+  const bool has_end = std::isfinite(hi) && hi < std::numeric_limits<float>::max();
+  throw Error(std::string(name) + " is " + text(value) + "; it is a finite number" +
+              (lo > std::numeric_limits<float>::lowest() ? ", " + text(lo) + " or more" : "") +
+              (has_end ? " and at most " + text(hi) : ""));
+}
+
 glm::mat4 Matrix::read(const std::string& name) const {
   const nb::object array = array_of(source, name, "float64", {4, 4});
   const auto m =

@@ -38,6 +38,9 @@ T value_or_throw(Expected<T>&& expected) {
 // The same for `count` finite numbers in a row.
 [[nodiscard]] std::vector<float> numbers_of(nb::handle source, const std::string& name, int count);
 
+// The number, or an Error that names it if it is not finite or not from lo to hi.
+[[nodiscard]] float number_within(double value, const char* name, double lo, double hi);
+
 template <class T>
 constexpr const char* kTypeName = nullptr;
 template <>
@@ -101,6 +104,18 @@ void def_three(Class& bound, const char* name, Get get, const char* doc = "") {
   bound.def_prop_rw(
       name, [get](const T& object) -> glm::vec3 { return get(const_cast<T&>(object)); },
       [get, name](T& object, const Three& value) { get(object) = value.read(name); }, doc);
+}
+
+// A property that is a number from lo to hi. `member`: pointer to it.
+template <class Class, class Member>
+void def_number(Class& bound, const char* name, Member member, double lo, double hi, const char* doc = "") {
+  using T = typename Class::Type;
+  bound.def_prop_rw(
+      name, [member](const T& object) { return object.*member; },
+      [member, name, lo, hi](T& object, double value) {
+        object.*member = number_within(value, name, lo, hi);
+      },
+      doc);
 }
 
 }  // namespace pinocchio::python

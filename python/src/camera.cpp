@@ -10,6 +10,7 @@
 namespace pinocchio::python {
 namespace {
 
+constexpr double kLargest = std::numeric_limits<float>::max(), kLeastFov = 1e-4;
 constexpr float kRotationError = 1e-3f;  // of a rotation in few digits
 
 // A distance at which eye + forward keeps the direction's digits.
@@ -113,11 +114,6 @@ void bind_camera(nb::module_& module) {
           "size"_a,
           "(fx, fy, cx, cy) in pixels, for a picture of that size: the arguments of from_intrinsics.")
       .def_rw("name", &Camera::name)
-      .def_rw("fov", &Camera::fov_deg, "The vertical field of view, in degrees.")
-      .def_rw("lens_radius", &Camera::lens_radius,
-              "The lens radius in scene units, for depth of field with several samples (spp). 0: a pinhole.")
-      .def_rw("focus_distance", &Camera::focus_distance,
-              "The distance of sharp points along the view axis, in scene units. 0: the target's.")
       .def("__copy__", [](const Camera& camera) { return camera; })
       .def(
           "__deepcopy__", [](const Camera& camera, nb::handle) { return camera; }, "memo"_a)
@@ -132,6 +128,12 @@ void bind_camera(nb::module_& module) {
         unpickle(state, read);
         new (&self) Camera(std::move(read));
       });
+  def_number(bound, "fov", &Camera::fov_deg, kLeastFov, 180.0 - kLeastFov,
+             "The vertical field of view, in degrees.");
+  def_number(bound, "lens_radius", &Camera::lens_radius, 0.0, kLargest,
+             "The lens radius in scene units, for depth of field with several samples (spp). 0: a pinhole.");
+  def_number(bound, "focus_distance", &Camera::focus_distance, 0.0, kLargest,
+             "The distance of sharp points along the view axis, in scene units. 0: the target's.");
   def_three(
       bound, "eye", [](Camera& c) -> glm::vec3& { return c.eye; }, "Scene units.");
   def_three(

@@ -10,6 +10,8 @@
 namespace pinocchio::python {
 namespace {
 
+constexpr double kLargest = std::numeric_limits<float>::max();
+
 glm::vec3 unit(const Three& argument) {
   const glm::vec3 direction = argument.read("direction");
   if (glm::length(direction) == 0.0f) throw Error("a light's direction must not be zero");
@@ -27,8 +29,6 @@ Light light_of(const std::optional<Three>& position, const std::optional<Three>&
                float outer_cone, bool casts_shadow, const std::string& name, float radius, float angle) {
   if (!position && !direction)
     throw Error("a light has a position (a point), a direction (a sun) or both (a spot)");
-  for (const auto& [what, number] : {std::pair("intensity", intensity), {"radius", radius}, {"angle", angle}})
-    if (!std::isfinite(number)) throw Error(std::string(what) + " is not a finite number");
   Light light;
   light.name = name;
   // The first kind that has what is given: no rectangle.
@@ -39,7 +39,7 @@ Light light_of(const std::optional<Three>& position, const std::optional<Three>&
   if (position) light.position = position->read("position");
   if (direction) light.direction = unit(*direction);
   light.color = color.read("color");
-  light.intensity = intensity;
+  light.intensity = number_within(intensity, "intensity", 0.0, kLargest);
   light.falloff = falloff_of(falloff);
   light.range = range;
   if (kind->has_cone) {
@@ -47,8 +47,8 @@ Light light_of(const std::optional<Three>& position, const std::optional<Three>&
     light.cos_outer = std::cos(glm::radians(outer_cone));
   }
   light.casts_shadow = casts_shadow;
-  light.radius = radius;
-  light.angle_deg = angle;
+  light.radius = number_within(radius, "radius", 0.0, kLargest);
+  light.angle_deg = number_within(angle, "angle", 0.0, 180.0);
   return light;
 }
 
@@ -82,10 +82,7 @@ void bind_light(nb::module_& module) {
           "Raises Error if there is neither position nor direction, or if falloff is another word.")
       .def_prop_ro("kind", [](const Light& light) { return kind_of(light).name; })
       .def_rw("name", &Light::name)
-      .def_rw("intensity", &Light::intensity)
       .def_rw("casts_shadow", &Light::casts_shadow)
-      .def_rw("radius", &Light::radius)
-      .def_rw("angle", &Light::angle_deg)
       .def_prop_rw(
           "direction", [](const Light& l) { return l.direction; },
           [](Light& l, const Three& d) { l.direction = unit(d); })
@@ -111,6 +108,9 @@ void bind_light(nb::module_& module) {
         unpickle(state, read);
         new (&self) Light(std::move(read));
       });
+  def_number(bound, "intensity", &Light::intensity, 0.0, kLargest);
+  def_number(bound, "radius", &Light::radius, 0.0, kLargest, "Of the shining sphere, in scene units.");
+  def_number(bound, "angle", &Light::angle_deg, 0.0, 180.0, "The diameter of a sun's disc, in degrees.");
   def_three(bound, "position", [](Light& l) -> glm::vec3& { return l.position; });
   def_three(bound, "color", [](Light& l) -> glm::vec3& { return l.color; });
 }

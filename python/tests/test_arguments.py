@@ -41,7 +41,8 @@ def node_scene():
         (lambda: pn.Light(position=(0, 0)), r"position has the shape \(2,\)"),
         (lambda: pn.Light(direction=(0, 0, 0)), "direction must not be zero"),
         (lambda: pn.Light(position=(0, 0, numpy.inf)), "position holds inf; it needs finite numbers"),
-        (lambda: pn.Light(position=(0, 0, 1), intensity=numpy.nan), "intensity is not a finite number"),
+        (lambda: pn.Light(position=(0, 0, 1), intensity=numpy.nan), "intensity is nan; it is a finite number, 0.0 or more"),
+        (lambda: pn.Light(direction=(0, 0, 1), angle=200), "angle is 200.0; it is a finite number, 0.0 or more and at most 180"),
         (lambda: pn.Camera("here", (0, 0, 0)), "eye is of the type <U4"),
         (lambda: pn.Camera((0, numpy.nan, 5), (0, 0, 0)), "eye holds nan; it needs finite numbers"),
         (lambda: pn.Camera.from_pose(NAN_POSE), "pose holds nan; it needs finite numbers"),
@@ -109,3 +110,19 @@ def test_help_begins_with_what_changes_the_picture():
     last = [text.index(f"\n{name}: ") for name in ("id_bits", "reflection_format", "visibility", "mask_bits")]
     assert max(first) < min(last)
     assert text.index("\nspp: ") < text.index("\nbounces: ")
+
+
+@pytest.mark.parametrize("make, name, wrong", [
+    (lambda: pn.Camera((0, 0, 4), (0, 0, 0)), "fov", (0, 180, -1, numpy.nan)),
+    (lambda: pn.Camera((0, 0, 4), (0, 0, 0)), "lens_radius", (-1, numpy.inf)),
+    (lambda: pn.Light(position=(0, 0, 4)), "intensity", (-1, numpy.nan)),
+    (lambda: pn.Light(position=(0, 0, 4)), "radius", (-1, numpy.inf)),
+])
+def test_a_property_takes_what_the_constructor_takes(make, name, wrong):
+    value = make()
+    setattr(value, name, 2.5)
+    assert getattr(value, name) == 2.5
+    for number in wrong:
+        with pytest.raises(pn.Error, match=f"{name} is {float(number)}; it is a finite number"):
+            setattr(value, name, number)
+    assert getattr(value, name) == 2.5
