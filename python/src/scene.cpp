@@ -277,6 +277,27 @@ void bind_nodes(SceneClass& bound) {
           "node 7\n"
           "is '#7' if it has no name, and 'wheel#7' if an earlier node is called 'wheel'.")
       .def_prop_ro(
+          "node_parents",
+          [](const PyScene& s) {
+            std::vector<std::int32_t> parents;
+            if (s.scene.nodes)
+              for (const Node& node : s.scene.nodes->nodes) parents.push_back(node.parent);
+            const std::size_t n = parents.size();
+            return array_that_owns<std::int32_t>(std::move(parents), {n});
+          },
+          nb::rv_policy::reference, "(n,) int32: the index of each node's parent, -1 for none.")
+      .def_prop_ro(
+          "node_transforms",
+          [](const PyScene& s) {
+            std::vector<glm::mat4> rows;
+            if (s.scene.nodes)
+              for (const Node& node : s.scene.nodes->nodes) rows.push_back(glm::transpose(node.local));
+            const std::size_t n = rows.size();
+            return array_that_owns<float>(std::move(rows), {n, 4, 4});
+          },
+          nb::rv_policy::reference,
+          "(n, 4, 4) float32: the matrix from each node to its parent now, as `posed` takes it.")
+      .def_prop_ro(
           "triangle_nodes",
           [](const PyScene& s) {
             std::vector<std::uint32_t> nodes(s.scene.mesh->triangles.size());

@@ -109,6 +109,21 @@ def test_every_node_has_a_name_of_its_own(tmp_path):
         assert (by_name.vertices[scene.triangles[scene.triangle_nodes == i], 2] == 5).all()
 
 
+def test_the_poses_of_nodes_are_read(scenes):
+    pose = numpy.eye(4)
+    pose[:3, 3] = (1, 2, 3)
+    scene = pn.assemble({"floor": pn.Scene(*quad()), "plate": (pn.Scene(*quad()), pose)})
+    numpy.testing.assert_array_equal(scene.node_transforms, [numpy.eye(4), pose])
+    assert scene.node_parents.tolist() == [-1, -1] and pn.Scene(*quad()).node_transforms.shape == (0, 4, 4)
+    moved = scene.posed({"floor": pose})
+    numpy.testing.assert_array_equal(moved.node_transforms, [pose, pose])
+    mill = pn.load_scene(scenes / "windmill.glb")
+    later = mill.at_time(0.5)
+    assert (mill.node_parents < numpy.arange(len(mill.nodes))).all() and mill.node_parents.dtype == numpy.int32
+    again = mill.posed(dict(zip(mill.nodes, later.node_transforms)))
+    numpy.testing.assert_allclose(again.vertices, later.vertices, atol=1e-6)
+
+
 def test_an_engine_ends():
     scene = pn.Scene(*quad())
     with pn.Engine(threads=2) as engine:
