@@ -83,7 +83,7 @@ float lobe_counted(PixelSurface s, int slot) {
 #if defined(HAS_SIZED_LIGHTS) && defined(HAS_REFLECTION)
   if (slot < 0 || !(s.material.ggx_alpha > 0.0)) return 0.0;
   if (s.transmits) return kAlone;
-  float share = lobe_share(s.material, cosine_of_view(s.n.shading, s.to_viewer));
+  float share = mirrored_share(s.material, cosine_of_view(s.n.shading, s.to_viewer));
   return s.alpha * share < throughput_cutoff ? 0.0 : 1.0;
 #else
   return 0.0;

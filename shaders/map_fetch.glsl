@@ -35,9 +35,18 @@ const int kParameters = 18;
 const int kSpecular = 24;
 const int kSpecularColor = 27;
 const int kTransmission = 30;
-const int kMapTexels = 33;
+const int kLayers = 33;
 #else
-const int kMapTexels = 24;
+const int kLayers = 24;
+#endif
+#ifdef HAS_LAYER_MAPS
+const int kClearcoat = kLayers + 2;
+const int kClearcoatRoughness = kLayers + 5;
+const int kSheenColor = kLayers + 8;
+const int kSheenRoughness = kLayers + 11;
+const int kMapTexels = kLayers + 14;
+#else
+const int kMapTexels = kLayers;
 #endif
 
 struct MapPoint {
@@ -127,12 +136,15 @@ vec3 mapped_normal_at(int maps, MapPoint p, vec3 n) {
                        map_texel(maps, kParameters + 4).x);
 }
 
+// Whether the normal map is the clear coat's too.
+bool coat_is_mapped(int maps) { return map_texel(maps, kParameters + 4).z > 1.0; }
+
 ShadingParams mapped_material_at(int maps, MapPoint p, ShadingParams plain, inout bool transmits) {
   vec4 base_metallic = map_texel(maps, kParameters);
   vec4 emissive_roughness = map_texel(maps, kParameters + 1);
   vec4 specular = map_texel(maps, kParameters + 2);  // its colour, and factor
   vec4 more = map_texel(maps, kParameters + 3);      // ior, transmission, volume, unlit
-  vec4 strengths = map_texel(maps, kParameters + 4); // of normal and occlusion; from_gltf, alpha's channel
+  vec4 strengths = map_texel(maps, kParameters + 4); // of normal and occlusion; from_gltf (2: coat_is_mapped), alpha's channel
   vec4 alpha = map_texel(maps, kParameters + 5);     // mode, factor, cut-off; vertex colours
   MapValues v;
   v.base_color = look_up(fetch_use(maps, kBaseColor), p, true).rgb;
@@ -144,6 +156,7 @@ ShadingParams mapped_material_at(int maps, MapPoint p, ShadingParams plain, inou
   v.specular = 1.0;
   v.specular_color = vec3(1.0);
   v.transmission = 1.0;
+  v.layers = GltfLayers(1.0, 1.0, vec3(1.0), 1.0);
   if (strengths.z == 0.0) return mapped_phong(material_point(plain), v).shading;
   vec4 texel = look_up(fetch_use(maps, kMetallicRoughness), p, false);
   v.roughness = texel.g;
@@ -153,11 +166,28 @@ ShadingParams mapped_material_at(int maps, MapPoint p, ShadingParams plain, inou
   v.specular_color = look_up(fetch_use(maps, kSpecularColor), p, true).rgb;
   v.transmission = look_up(fetch_use(maps, kTransmission), p, false).r;
 #endif
+  GltfLayers layers = GltfLayers(0.0, 0.0, vec3(0.0), 0.0);
+#ifdef HAS_LAYER_MAPS
+  vec4 coat = map_texel(maps, kLayers);  // factor, roughness; sheen's roughness
+  layers = GltfLayers(coat.x, coat.y, map_texel(maps, kLayers + 1).rgb, coat.z);
+  v.layers.coat = look_up(fetch_use(maps, kClearcoat), p, false).r;
+  v.layers.coat_roughness = look_up(fetch_use(maps, kClearcoatRoughness), p, false).g;
+  v.layers.sheen = look_up(fetch_use(maps, kSheenColor), p, true).rgb;
+  v.layers.sheen_roughness = look_up(fetch_use(maps, kSheenRoughness), p, false).a;
+#endif
   MetallicRoughness s =
       MetallicRoughness(base_metallic.rgb, base_metallic.a, emissive_roughness.a, emissive_roughness.rgb, more.x,
                         specular.a, specular.rgb, more.y, more.z > 0.0, more.w > 0.0);
-  MaterialPoint m = mapped_metallic_roughness(s, v, plain.ggx_alpha == 0.0);
+  MaterialPoint m = mapped_metallic_roughness(s, layers, v, plain.ggx_alpha == 0.0);
   transmits = m.transmittance != vec3(0.0);
+#ifndef HAS_LAYER_MAPS
+  if (!transmits) {
+    m.shading.sheen = plain.sheen;
+    m.shading.sheen_alpha = plain.sheen_alpha;
+    m.shading.coat = plain.coat;
+    m.shading.coat_alpha = plain.coat_alpha;
+  }
+#endif
   return m.shading;
 }
 

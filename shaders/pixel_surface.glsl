@@ -78,6 +78,7 @@ PixelSurface surface_of(uint id, ivec2 pixel) {
   s.alpha = 1.0;
   int material = int(texelFetch(triangle_materials, int(id)).r);
   s.material = fetch_material(material, s.transmits);
+  s.material.coat_normal = s.n.shading;
 #ifdef HAS_MAPS
   int maps = fetch_maps(material);
   if (maps >= 0) {
@@ -86,8 +87,10 @@ PixelSurface surface_of(uint id, ivec2 pixel) {
                               moved_on_triangle(t * step_x, direction, b - a, c - a),
                               moved_on_triangle(t * step_y, direction, b - a, c - a));
     float side = s.n.leaving ? -1.0 : 1.0;
+    vec3 coat_normal = s.n.shading;
     s.n.shading = side * mapped_normal_at(maps, point, side * s.n.shading);
     s.material = mapped_material_at(maps, point, s.material, s.transmits);
+    s.material.coat_normal = coat_is_mapped(maps) ? s.n.shading : coat_normal;
     s.alpha = coverage_at(maps, point);
   }
 #endif

@@ -7,7 +7,7 @@ uniform samplerBuffer normals;              // 3 texels a vertex
 uniform samplerBuffer materials;            // kMaterialTexels a material
 uniform samplerBuffer lights;               // kLightTexels a light
 
-const int kMaterialTexels = 5;
+const int kMaterialTexels = 7;
 const int kLightTexels = 6;
 
 vec3 fetch_vec3(samplerBuffer buffer, uint i) {
@@ -44,7 +44,19 @@ ShadingParams fetch_material(int material, out bool transmits) {
   vec4 layer = texelFetch(materials, first + 4);
   m.layer = layer.xy;
   m.grazing = layer.z;
-  transmits = layer.w > 0.0;
+  int bits = int(layer.w);
+  transmits = (bits & 1) != 0;
+  m.sheen = vec3(0.0);
+  m.sheen_alpha = m.coat_alpha = 1.0;
+  m.coat = 0.0;
+  m.coat_normal = vec3(0.0);
+  if ((bits & 2) != 0) {
+    vec4 sheen = texelFetch(materials, first + 5), coat = texelFetch(materials, first + 6);
+    m.sheen = sheen.rgb;
+    m.sheen_alpha = sheen.a;
+    m.coat = coat.x;
+    m.coat_alpha = coat.y;
+  }
   return m;
 }
 

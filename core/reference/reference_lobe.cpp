@@ -11,8 +11,11 @@ namespace {
 
 constexpr double kPi = std::numbers::pi;
 
+double cosine_of_view(const glm::dvec3& n, const ReferenceSurface& s) {
+  return std::max(glm::dot(n, s.to_viewer), 0.001);  // as shaders/shared/microfacet.glsl
+}
 double cosine_of_view(const ReferenceSurface& s) {
-  return std::max(glm::dot(s.n_shading, s.to_viewer), 0.001);  // as shaders/shared/microfacet.glsl
+  return cosine_of_view(s.n_shading, s);
 }
 
 // Walter et al., "Microfacet Models for Refraction through Rough Surfaces", EGSR 2007, equation 33. The
@@ -51,7 +54,80 @@ double largest(const glm::dvec3& v) {
   return std::max({v.x, v.y, v.z});
 }
 
+// Estevez and Kulla, "Production Friendly Microfacet Sheen BRDF", 2017, with the visibility of Neubelt and
+// Pettineo, "Crafting a Next-Gen Material Pipeline for The Order: 1886", 2013. Times the light's cosine.
+double sheen_of(double sine2_of_h, double n_dot_l, double n_dot_v, double alpha) {
+  const double d = (2.0 + 1.0 / alpha) * std::pow(sine2_of_h, 0.5 / alpha) / (2.0 * kPi);
+  return d * n_dot_l / (4.0 * (n_dot_l + n_dot_v - n_dot_l * n_dot_v));
+}
+
+// The integral of sheen_of over all light.
+double sheen_albedo(double n_dot_v, double alpha) {
+  constexpr int kSide = 64;
+  const double sine_v = std::sqrt(std::max(1.0 - square(n_dot_v), 0.0));
+  double sum = 0.0;
+  for (int i = 0; i < kSide * kSide; ++i) {
+    const double z = (i % kSide + 0.5) / kSide, phi = (i / kSide + 0.5) / kSide * kPi;
+    const double sine_l = std::sqrt(1.0 - square(z));
+    const glm::dvec3 h =
+        glm::normalize(glm::dvec3(sine_l * std::cos(phi) + sine_v, sine_l * std::sin(phi), z + n_dot_v));
+    sum += sheen_of(std::max(1.0 - square(h.z), 1e-12), z, n_dot_v, alpha);
+  }
+  return 2.0 * kPi * sum / square(kSide);
+}
+
+// Of a table, as every point asks for it.
+double tabulated_sheen_albedo(double n_dot_v, double alpha) {
+  constexpr int kSide = 48;
+  static const std::vector<double> table = [] {
+    std::vector<double> made;
+    for (int i = 0; i <= kSide; ++i)
+      for (int k = 0; k <= kSide; ++k)
+        made.push_back(sheen_albedo(std::max(square(static_cast<double>(k) / kSide), 0.001),
+                                    std::max(square(static_cast<double>(i) / kSide), 0.005)));
+    return made;
+  }();
+  const double x = kSide * std::sqrt(n_dot_v), y = kSide * std::sqrt(alpha);
+  const int k = std::min(static_cast<int>(x), kSide - 1), i = std::min(static_cast<int>(y), kSide - 1);
+  const auto row = [&](int r) {
+    const double* const from = &table[static_cast<std::size_t>(r * (kSide + 1) + k)];
+    return from[0] + (x - k) * (from[1] - from[0]);
+  };
+  return row(i) + (y - i) * (row(i + 1) - row(i));
+}
+
+double sheen_returned(const ReferenceSurface& s) {
+  if (s.material.sheen == glm::dvec3(0.0)) return 0.0;
+  return largest(s.material.sheen) * tabulated_sheen_albedo(cosine_of_view(s), s.material.sheen_alpha);
+}
+
 }  // namespace
+
+ReferenceFacets reference_base(const ReferenceSurface& s) {
+  return {s.n_shading, s.material.ggx_alpha};
+}
+
+ReferenceFacets reference_coat(const ReferenceSurface& s) {
+  return {s.material.coat_is_mapped ? s.n_shading : s.n_vertices, s.material.coat_alpha};
+}
+
+double reference_coat_share(const ReferenceSurface& s) {
+  if (s.material.coat == 0.0) return 0.0;
+  return s.material.coat * (0.04 + 0.96 * std::pow(1.0 - cosine_of_view(reference_coat(s).n, s), 5.0));
+}
+
+double reference_below_layers(const ReferenceSurface& s) {
+  return (1.0 - reference_coat_share(s)) * (1.0 - std::min(sheen_returned(s), 1.0));
+}
+
+glm::dvec3 reference_sheen(const ReferenceSurface& s, const glm::dvec3& to_light) {
+  const double n_dot_l = glm::dot(s.n_shading, to_light);
+  if (s.material.sheen == glm::dvec3(0.0) || n_dot_l <= 0.0) return glm::dvec3(0.0);
+  const glm::dvec3 h = glm::normalize(to_light + s.to_viewer);
+  const double sine2 = std::max(1.0 - square(glm::dot(s.n_shading, h)), 1e-12);
+  return (1.0 - reference_coat_share(s)) / std::max(sheen_returned(s), 1.0) *
+         sheen_of(sine2, n_dot_l, cosine_of_view(s), s.material.sheen_alpha) * s.material.sheen;
+}
 
 glm::dvec3 reference_matt(const ReferenceSurface& s, const glm::dvec3& to_light) {
   const ReferenceMaterial& m = s.material;
@@ -70,37 +146,39 @@ glm::dvec3 reference_schlick(const ReferenceMaterial& m, double cosine) {
          (glm::dvec3(m.grazing) - m.specular) * std::pow(1.0 - std::clamp(cosine, 0.0, 1.0), 5.0);
 }
 
-glm::dvec3 reference_mirrored(const ReferenceSurface& s, const glm::dvec3& to_light, double least_alpha) {
-  const double alpha = std::max(s.material.ggx_alpha, least_alpha), n_dot_v = cosine_of_view(s);
-  const double n_dot_l = glm::dot(s.n_shading, to_light);
-  if (n_dot_l <= 0.0) return glm::dvec3(0.0);
+double reference_mirrored(const ReferenceSurface& s, const ReferenceFacets& facets,
+                          const glm::dvec3& to_light) {
+  const double n_dot_l = glm::dot(facets.n, to_light), n_dot_v = cosine_of_view(facets.n, s);
+  if (n_dot_l <= 0.0) return 0.0;
   const glm::dvec3 h = glm::normalize(to_light + s.to_viewer);
-  return reference_schlick(s.material, glm::dot(s.to_viewer, h)) *
-         (facet_density(s.n_shading, h, alpha) * shadowing(n_dot_l, n_dot_v, alpha) / (4.0 * n_dot_v));
+  return facet_density(facets.n, h, facets.alpha) * shadowing(n_dot_l, n_dot_v, facets.alpha) /
+         (4.0 * n_dot_v);
 }
 
-double reference_lobe_density(const ReferenceSurface& s, const glm::dvec3& to_light) {
+double reference_lobe_density(const ReferenceSurface& s, const ReferenceFacets& facets,
+                              const glm::dvec3& to_light) {
   const glm::dvec3 h = glm::normalize(to_light + s.to_viewer);
   const double v_dot_h = glm::dot(s.to_viewer, h);
   if (v_dot_h <= 0.0) return 0.0;
-  return facet_density(s.n_shading, h, s.material.ggx_alpha) * glm::dot(s.n_shading, h) / (4.0 * v_dot_h);
+  return facet_density(facets.n, h, facets.alpha) * glm::dot(facets.n, h) / (4.0 * v_dot_h);
 }
 
-std::vector<ReferenceLobe> reference_lobe_samples(const ReferenceSurface& s, int side) {
-  const double alpha = s.material.ggx_alpha, n_dot_v = cosine_of_view(s);
+std::vector<ReferenceLobe> reference_lobe_samples(const ReferenceSurface& s, const ReferenceFacets& facets,
+                                                  int side) {
+  const double alpha = facets.alpha, n_dot_v = cosine_of_view(facets.n, s);
   std::vector<ReferenceLobe> samples;
   reference_cells(side, s.p_world, [&](const glm::dvec2& cell) {
     const double tangent = alpha * std::sqrt(cell.x / (1.0 - cell.x));
-    const glm::dvec3 h = reference_beside(s.n_shading, 1.0 / std::sqrt(1.0 + square(tangent)), cell.y);
-    const double v_dot_h = glm::dot(s.to_viewer, h), n_dot_h = glm::dot(s.n_shading, h);
+    const glm::dvec3 h = reference_beside(facets.n, 1.0 / std::sqrt(1.0 + square(tangent)), cell.y);
+    const double v_dot_h = glm::dot(s.to_viewer, h), n_dot_h = glm::dot(facets.n, h);
     const glm::dvec3 l = 2.0 * v_dot_h * h - s.to_viewer;
-    const double n_dot_l = glm::dot(s.n_shading, l), outside = glm::dot(s.n_geometric, l);
+    const double n_dot_l = glm::dot(facets.n, l), outside = glm::dot(s.n_geometric, l);
     if (v_dot_h <= 0.0 || n_dot_l <= 0.0) return;
     const double share =
         shadowing(n_dot_l, n_dot_v, alpha) * v_dot_h / (n_dot_v * n_dot_h * static_cast<double>(side * side));
     // A direction into the surface is mirrored by its plane; no other method finds it.
     if (outside > 0.0)
-      samples.push_back({h, l, share, facet_density(s.n_shading, h, alpha) * n_dot_h / (4.0 * v_dot_h)});
+      samples.push_back({h, l, share, facet_density(facets.n, h, alpha) * n_dot_h / (4.0 * v_dot_h)});
     else
       samples.push_back({h, l - 2.0 * outside * s.n_geometric, share, 0.0});
   });

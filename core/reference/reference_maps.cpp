@@ -27,18 +27,38 @@ ReferenceMaterial as_it_stands(const Material& m) {
           m.ggx_alpha,
           m.grazing,
           glm::dvec2(m.layer),
-          m.gloss};
+          m.gloss,
+          glm::dvec3(m.sheen),
+          m.sheen_alpha,
+          m.coat,
+          m.coat_alpha};
 }
 
 // A surface's textured values at a point.
 struct PointSurface {
   glm::dvec3 base, emissive, specular;  // specular: factor times colour
   double strength, metallic, roughness, transmission;
+  glm::dvec3 sheen;
+  double sheen_roughness, coat, coat_roughness;
 };
+
+double squared_roughness(double roughness, double least) {
+  return std::clamp(roughness * roughness, least, 1.0);
+}
+
+// How much of a mirror is left where no samples are taken.
+double sharpness(double roughness) {
+  return std::pow(std::max(0.0, 1.0 - roughness / 0.25), 2.0);
+}
+
+glm::dvec3 or_none(const glm::dvec3& mirror) {
+  return std::max({mirror.x, mirror.y, mirror.z}) > 1.0 / 255.0 ? mirror : glm::dvec3(0.0);
+}
 
 // docs/conventions.md, "Metallic-roughness".
 ReferenceMaterial material_of(const GltfSurface& s, const PointSurface& at, bool phong) {
-  const auto& [base, emissive, specular, strength, metallic, roughness, transmission] = at;
+  const auto& [base, emissive, specular, strength, metallic, roughness, transmission, sheen, sheen_roughness,
+               coat, coat_roughness] = at;
   ReferenceMaterial m{};
   m.brdf = true;
   m.shininess = m.ior = 1.0;
@@ -55,7 +75,7 @@ ReferenceMaterial material_of(const GltfSurface& s, const PointSurface& at, bool
   if (!phong) {
     m.diffuse /= std::max(1.0 - most, 1e-9);
     m.specular = f0;
-    m.ggx_alpha = std::clamp(roughness * roughness, 0.0005, 1.0);
+    m.ggx_alpha = squared_roughness(roughness, 0.0005);
     const double f90 = std::min(strength, 1.0);
     m.grazing = f90 + (1.0 - f90) * metallic;
     m.layer = {most, f90};
@@ -65,10 +85,17 @@ ReferenceMaterial material_of(const GltfSurface& s, const PointSurface& at, bool
     if (s.volume) m.ior = n;
     return m;
   }
-  const glm::dvec3 mirror = std::pow(std::max(0.0, 1.0 - roughness / 0.25), 2.0) * f0;
-  if (std::max({mirror.x, mirror.y, mirror.z}) <= 1.0 / 255.0) return m;
-  m.reflectance = mirror;
-  m.fresnel = true;
+  m.reflectance = or_none(sharpness(roughness) * f0);
+  if (!phong) {
+    m.sheen = sheen;
+    m.sheen_alpha = squared_roughness(sheen_roughness, 0.005);
+    m.coat = coat;
+    m.coat_alpha = squared_roughness(coat_roughness, 0.0005);
+    const double of_coat = 0.04 * coat;
+    m.reflectance =
+        or_none((1.0 - of_coat) * m.reflectance + glm::dvec3(of_coat * sharpness(coat_roughness)));
+  }
+  m.fresnel = m.reflects();
   return m;
 }
 
@@ -149,8 +176,13 @@ ReferenceMaterial reference_material(const Mesh& mesh, const ReferenceHit& hit, 
                     {scaled(s.base_color, base), scaled(s.emissive, emissive),
                      specular * scaled(s.specular_color, glm::dvec3(texel(maps->specular_color, true))),
                      specular, s.metallic * rough_metal.b, s.roughness * rough_metal.g,
-                     s.transmission * texel(maps->transmission, false).r},
+                     s.transmission * texel(maps->transmission, false).r,
+                     scaled(s.sheen_color, glm::dvec3(texel(maps->sheen_color, true))),
+                     s.sheen_roughness * texel(maps->sheen_roughness, false).a,
+                     s.clearcoat * texel(maps->clearcoat, false).r,
+                     s.clearcoat_roughness * texel(maps->clearcoat_roughness, false).g},
                     !plain.is_microfacet());
+    m.coat_is_mapped = maps->coat_is_mapped;
   } else {
     m = as_it_stands(plain);
     m.ambient *= base;

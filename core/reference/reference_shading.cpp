@@ -208,13 +208,20 @@ glm::dvec3 reference_reflected(const ReferenceSurface& s, const ReferenceLight& 
   const double n_dot_l = glm::dot(s.n_shading, light.to_light);
   if (s.material.ggx_alpha > 0.0) {
     const bool sized = light.density > 0.0;
-    double counts = 1.0;
-    if (sized && lobes)
-      counts = s.material.transmits()
-                   ? 0.0
-                   : light.density / (light.density + reference_lobe_density(s, light.to_light));
-    const glm::dvec3 mirrored = reference_mirrored(s, light.to_light, sized ? 0.0005 : 0.007);
-    return light.radiance * (n_dot_l * reference_matt(s, light.to_light) + counts * mirrored);
+    const auto mirrored = [&](ReferenceFacets facets) {
+      facets.alpha = std::max(facets.alpha, sized ? 0.0005 : 0.007);
+      const double all = reference_mirrored(s, facets, light.to_light);
+      if (!sized || !lobes) return all;
+      if (s.material.transmits()) return 0.0;
+      return all * light.density / (light.density + reference_lobe_density(s, facets, light.to_light));
+    };
+    const double v_dot_h = glm::dot(s.to_viewer, glm::normalize(s.to_viewer + light.to_light));
+    glm::dvec3 share =
+        reference_below_layers(s) * (n_dot_l * reference_matt(s, light.to_light) +
+                                     mirrored(reference_base(s)) * reference_schlick(s.material, v_dot_h)) +
+        reference_sheen(s, light.to_light);
+    if (s.material.coat > 0.0) share += reference_coat_share(s) * mirrored(reference_coat(s));
+    return light.radiance * share;
   }
   const double r_dot_v = glm::dot(2.0 * n_dot_l * s.n_shading - light.to_light, s.to_viewer);
   const double highlight = r_dot_v > 0.0 ? std::pow(r_dot_v, s.material.shininess) : 0.0;

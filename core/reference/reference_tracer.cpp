@@ -60,7 +60,8 @@ ReferenceTracer::Pixel ReferenceTracer::pixel(const shared::ViewParams& view, in
 
 // The surface's light without mirrors and glass. Sets bit i of `bits` if casting light i reaches the point.
 glm::dvec3 ReferenceTracer::direct(const ReferenceSurface& surface, unsigned& bits) const {
-  glm::dvec3 sum = surface.material.ambient * glm::dvec3(scene_.ambient_light) + surface.material.emission;
+  glm::dvec3 sum = surface.material.ambient * glm::dvec3(scene_.ambient_light) +
+                   reference_below_layers(surface) * surface.material.emission;
   int slot = -1;
   for (const Light& light : scene_.lights) {
     if (light.casts_shadow) ++slot;
@@ -133,8 +134,21 @@ glm::dvec3 ReferenceTracer::along_lobe(const ReferenceSurface& s, int depth, con
     if (depth > 0) return share * seen(ray, medium, depth - 1, std::max(lobe_side / 4, 1));
     return sky ? share * unblocked(ray) * environment_->radiance(direction) : glm::dvec3(0.0);
   };
+  const auto found = [&](const ReferenceLobe& lobe) {
+    glm::dvec3 light(0.0);
+    for (const Light& each : scene_.lights) {
+      if (!each.has_size() || !each.casts_shadow) continue;
+      if (const auto met = reference_meeting(each, s, lobe.direction))
+        light += unblocked(met->shadow) * counts(lobe.density, met->density) * met->radiance;
+    }
+    return light + along(lobe.direction, media.here, lobe.density);
+  };
   glm::dvec3 sum(0.0);
-  for (const ReferenceLobe& lobe : reference_lobe_samples(s, lobe_side)) {
+  if (m.coat > 0.0)
+    for (const ReferenceLobe& lobe : reference_lobe_samples(s, reference_coat(s), lobe_side))
+      sum += lobe.share * reference_coat_share(s) * found(lobe);
+  const double below = reference_below_layers(s);
+  for (const ReferenceLobe& lobe : reference_lobe_samples(s, reference_base(s), lobe_side)) {
     const double cosine = glm::dot(s.to_viewer, lobe.facet), eta = s.leaving ? 1.0 / m.ior : m.ior;
     glm::dvec3 mirrored = reference_schlick(m, cosine), through(0.0);
     if (glass) {
@@ -146,14 +160,7 @@ glm::dvec3 ReferenceTracer::along_lobe(const ReferenceSurface& s, int depth, con
       else if (!thin)
         mirrored = glm::dvec3(reference_fresnel(cosine, eta));
     }
-    glm::dvec3 light(0.0);
-    for (const Light& each : scene_.lights) {
-      if (!each.has_size() || !each.casts_shadow) continue;
-      if (const auto met = reference_meeting(each, s, lobe.direction))
-        light += unblocked(met->shadow) * counts(lobe.density, met->density) * met->radiance;
-    }
-    light += along(lobe.direction, media.here, lobe.density);
-    sum += lobe.share * mirrored * light;
+    sum += lobe.share * below * mirrored * found(lobe);
     if (through != glm::dvec3(0.0) && depth > 0)
       sum += lobe.share * (1.0 - std::max({mirrored.x, mirrored.y, mirrored.z})) * m.transmittance *
              along(through, media.beyond, 0.0);

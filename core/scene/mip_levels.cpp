@@ -161,7 +161,8 @@ std::vector<Needed> needed_of(const MeshData& mesh) {
       if (use != &m.alpha && use->used() && static_cast<std::size_t>(use->texture) < needed.size()) {
         Needed& n = needed[use->texture];
         n.levels = true;
-        n.is_color = n.is_color || use == &m.base_color || use == &m.emissive || use == &m.specular_color;
+        n.is_color = n.is_color || use == &m.base_color || use == &m.emissive || use == &m.specular_color ||
+                     use == &m.sheen_color;
       }
   return needed;
 }

@@ -62,7 +62,7 @@ struct LaneLookups {
 
 void map_lanes(const Mesh& mesh, const Footprint& footprint, SampleTexture sample, unsigned lanes,
                MapLanes& p) {
-  p.fresnel = p.reflects = p.transmits = p.blends = 0;
+  p.fresnel = p.reflects = p.transmits = p.blends = p.coat_is_mapped = 0;
   std::array<MapPoint, kMostLanes> points;
   LaneLookups packet;
   for_lanes_of(lanes, [&](unsigned lane) {
@@ -103,6 +103,12 @@ void map_lanes(const Mesh& mesh, const Footprint& footprint, SampleTexture sampl
     if (any_component(m.surface.reflectance)) p.reflects |= bit;
     if (any_component(m.surface.transmittance)) p.transmits |= bit;
     if (m.alpha < 1.0f) p.blends |= bit;
+    if ((p.layered & bit) == 0) return;
+    store(m.surface.shading.sheen, lane, p.sheen);
+    p.sheen_alpha[lane] = m.surface.shading.sheen_alpha;
+    p.coat[lane] = m.surface.shading.coat;
+    p.coat_alpha[lane] = m.surface.shading.coat_alpha;
+    if (mesh.maps_of(p.triangle[lane])->coat_is_mapped) p.coat_is_mapped |= bit;
   });
 }
 

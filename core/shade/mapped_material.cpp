@@ -9,11 +9,6 @@ static_assert(static_cast<int>(AlphaMode::opaque) == shared::kAlphaOpaque &&
               static_cast<int>(AlphaMode::mask) == shared::kAlphaMask &&
               static_cast<int>(AlphaMode::blend) == shared::kAlphaBlend);
 
-shared::MetallicRoughness metallic_roughness(const GltfSurface& s) {
-  return {s.base_color, s.metallic,       s.roughness,    s.emissive, s.ior,
-          s.specular,   s.specular_color, s.transmission, s.volume,   s.unlit};
-}
-
 float alpha_at(const MaterialMaps& maps, const Lookup& lookup) {
   float alpha = maps.alpha_factor * lookup.at_point(maps.alpha, false)[maps.alpha_channel];
   if (maps.vertex_colors) alpha *= lookup.color().a;
@@ -21,6 +16,15 @@ float alpha_at(const MaterialMaps& maps, const Lookup& lookup) {
 }
 
 }  // namespace
+
+shared::MetallicRoughness metallic_roughness(const GltfSurface& s) {
+  return {s.base_color, s.metallic,       s.roughness,    s.emissive, s.ior,
+          s.specular,   s.specular_color, s.transmission, s.volume,   s.unlit};
+}
+
+shared::GltfLayers layers(const GltfSurface& s) {
+  return {s.clearcoat, s.clearcoat_roughness, s.sheen_color, s.sheen_roughness};
+}
 
 shared::MaterialPoint plain_material(const Material& m) {
   return {.shading = {.ambient = m.ambient,
@@ -31,7 +35,12 @@ shared::MaterialPoint plain_material(const Material& m) {
                       .occlusion = 1.0f,
                       .ggx_alpha = m.ggx_alpha,
                       .grazing = m.grazing,
-                      .layer = m.layer},
+                      .layer = m.layer,
+                      .sheen = m.sheen,
+                      .sheen_alpha = m.sheen_alpha,
+                      .coat = m.coat,
+                      .coat_alpha = m.coat_alpha,
+                      .coat_normal = glm::vec3(0.0f)},
           .reflectance = m.reflectance,
           .transmittance = m.transmittance,
           .ior = m.ior,
@@ -41,18 +50,24 @@ shared::MaterialPoint plain_material(const Material& m) {
 MappedMaterial mapped_material(const Mesh& mesh, const MapPoint& point, const Lookup& lookup,
                                const MapTexels& texels) {
   const MaterialMaps& maps = *mesh.maps_of(point.triangle);
-  shared::MapValues v{
-      glm::vec3(texels.base_color),     texels.metallic_roughness.b,
-      texels.metallic_roughness.g,      1.0f + maps.occlusion_strength * (texels.occlusion.r - 1.0f),
-      glm::vec3(texels.emissive),       texels.specular.a,
-      glm::vec3(texels.specular_color), texels.transmission.r};
+  shared::MapValues v{glm::vec3(texels.base_color),
+                      texels.metallic_roughness.b,
+                      texels.metallic_roughness.g,
+                      1.0f + maps.occlusion_strength * (texels.occlusion.r - 1.0f),
+                      glm::vec3(texels.emissive),
+                      texels.specular.a,
+                      glm::vec3(texels.specular_color),
+                      texels.transmission.r,
+                      {texels.clearcoat.r, texels.clearcoat_roughness.g, glm::vec3(texels.sheen_color),
+                       texels.sheen_roughness.a}};
   if (maps.vertex_colors) v.base_color *= glm::vec3(lookup.color());
 
   MappedMaterial mapped;
   const Material& plain = mesh.material_of(point.triangle);
-  mapped.surface = maps.from_gltf ? shared::mapped_metallic_roughness(metallic_roughness(maps.surface), v,
-                                                                      !plain.is_microfacet())
-                                  : shared::mapped_phong(plain_material(plain), v);
+  mapped.surface = maps.from_gltf
+                       ? shared::mapped_metallic_roughness(metallic_roughness(maps.surface),
+                                                           layers(maps.surface), v, !plain.is_microfacet())
+                       : shared::mapped_phong(plain_material(plain), v);
   mapped.n_shading =
       lookup.normal(maps.normal, maps.normal_scale, glm::vec3(texels.normal), point.n_shading, point.leaving);
   mapped.alpha = maps.blends() ? glm::clamp(alpha_at(maps, lookup), 0.0f, 1.0f) : 1.0f;

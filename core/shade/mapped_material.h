@@ -32,6 +32,7 @@ struct MappedMaterial {
 struct MapTexels {
   glm::vec4 base_color{1.0f}, emissive{1.0f}, metallic_roughness{1.0f}, occlusion{1.0f}, normal{1.0f};
   glm::vec4 specular{1.0f}, specular_color{1.0f}, transmission{1.0f};
+  glm::vec4 clearcoat{1.0f}, clearcoat_roughness{1.0f}, sheen_color{1.0f}, sheen_roughness{1.0f};
 };
 
 struct MapTexel {
@@ -39,7 +40,7 @@ struct MapTexel {
   glm::vec4 MapTexels::*texel;
   bool is_color;
 };
-inline constexpr std::array<MapTexel, 8> kMapTexels{
+inline constexpr std::array<MapTexel, 12> kMapTexels{
     {{&MaterialMaps::base_color, &MapTexels::base_color, true},
      {&MaterialMaps::emissive, &MapTexels::emissive, true},
      {&MaterialMaps::metallic_roughness, &MapTexels::metallic_roughness, false},
@@ -47,7 +48,11 @@ inline constexpr std::array<MapTexel, 8> kMapTexels{
      {&MaterialMaps::normal, &MapTexels::normal, false},
      {&MaterialMaps::specular, &MapTexels::specular, false},
      {&MaterialMaps::specular_color, &MapTexels::specular_color, true},
-     {&MaterialMaps::transmission, &MapTexels::transmission, false}}};
+     {&MaterialMaps::transmission, &MapTexels::transmission, false},
+     {&MaterialMaps::clearcoat, &MapTexels::clearcoat, false},
+     {&MaterialMaps::clearcoat_roughness, &MapTexels::clearcoat_roughness, false},
+     {&MaterialMaps::sheen_color, &MapTexels::sheen_color, true},
+     {&MaterialMaps::sheen_roughness, &MapTexels::sheen_roughness, false}}};
 
 class Lookup;  // shade/map_lookup.h
 
@@ -60,6 +65,10 @@ class Lookup;  // shade/map_lookup.h
 // Likewise for a shadow ray. A surface that blends lets it pass where alpha is below `threshold`.
 [[nodiscard]] bool lets_shadow_ray_pass(const Mesh& mesh, std::uint32_t triangle, const glm::vec3& weights,
                                         float threshold);
+
+// A surface as the shared sources have it.
+[[nodiscard]] shared::MetallicRoughness metallic_roughness(const GltfSurface& surface);
+[[nodiscard]] shared::GltfLayers layers(const GltfSurface& surface);
 
 // The material as it stands, without maps.
 [[nodiscard]] shared::MaterialPoint plain_material(const Material& material);

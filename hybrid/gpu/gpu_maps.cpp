@@ -22,6 +22,11 @@ struct DielectricTexels {  // sent where some material has one of these
   UseTexels specular, specular_color, transmission;
 };
 static_assert(sizeof(DielectricTexels) == 9 * sizeof(glm::vec4));
+struct LayerTexels {  // likewise
+  glm::vec4 coat, sheen;
+  UseTexels clearcoat, clearcoat_roughness, sheen_color, sheen_roughness;
+};
+static_assert(sizeof(LayerTexels) == 14 * sizeof(glm::vec4));
 
 std::vector<std::size_t> first_texels(const Mesh& mesh) {
   std::vector<std::size_t> first;
@@ -64,7 +69,7 @@ void append_texels(const T& texels, std::vector<glm::vec4>& to) {
   to.insert(to.end(), first, first + sizeof(T) / sizeof(glm::vec4));
 }
 
-std::vector<glm::vec4> map_texels(const Mesh& mesh, bool dielectric) {
+std::vector<glm::vec4> map_texels(const Mesh& mesh, bool dielectric, bool layers) {
   const std::vector<std::size_t> first = first_texels(mesh);
   const auto flag = [](bool b) { return b ? 1.0f : 0.0f; };
   std::vector<glm::vec4> all;
@@ -81,13 +86,23 @@ std::vector<glm::vec4> map_texels(const Mesh& mesh, bool dielectric) {
                             .emissive_roughness = glm::vec4(s.emissive, s.roughness),
                             .specular = glm::vec4(s.specular_color, s.specular),
                             .more = glm::vec4(s.ior, s.transmission, flag(s.volume), flag(s.unlit)),
-                            .strengths = glm::vec4(m.normal_scale, m.occlusion_strength, flag(m.from_gltf),
+                            .strengths = glm::vec4(m.normal_scale, m.occlusion_strength,
+                                                   flag(m.from_gltf) + flag(m.from_gltf && m.coat_is_mapped),
                                                    static_cast<float>(m.alpha_channel)),
                             .alpha_rule = glm::vec4(static_cast<float>(m.alpha_mode), m.alpha_factor,
                                                     m.alpha_cutoff, flag(m.vertex_colors))},
                   all);
     if (dielectric)
       append_texels(DielectricTexels{use(m.specular), use(m.specular_color), use(m.transmission)}, all);
+    if (layers)
+      append_texels(
+          LayerTexels{.coat = glm::vec4(s.clearcoat, s.clearcoat_roughness, s.sheen_roughness, 0.0f),
+                      .sheen = glm::vec4(s.sheen_color, 0.0f),
+                      .clearcoat = use(m.clearcoat),
+                      .clearcoat_roughness = use(m.clearcoat_roughness),
+                      .sheen_color = use(m.sheen_color),
+                      .sheen_roughness = use(m.sheen_roughness)},
+          all);
   }
   return all;
 }
@@ -113,7 +128,9 @@ GpuMaps::GpuMaps(const Mesh& mesh, const GpuMaps* shares_textures) {
   has_holes_ = std::any_of(mesh.maps.begin(), mesh.maps.end(), [](const auto& m) { return m.has_holes(); });
   const bool dielectric = std::ranges::any_of(mesh.maps, [](const auto& m) { return m.maps_dielectric(); });
   if (dielectric) definitions_.emplace_back("HAS_DIELECTRIC_MAPS");
-  maps_ = buffer_of(map_texels(mesh, dielectric), GL_RGBA32F, sizeof(glm::vec4));
+  const bool layers = std::ranges::any_of(mesh.maps, [](const auto& m) { return m.maps_layers(); });
+  if (layers) definitions_.emplace_back("HAS_LAYER_MAPS");
+  maps_ = buffer_of(map_texels(mesh, dielectric, layers), GL_RGBA32F, sizeof(glm::vec4));
   texels_ = shares_textures ? shares_textures->texels_ : nullptr;
   if (!texels_)
     texels_ =

@@ -12,7 +12,7 @@ namespace {
 
 // Layouts of shaders/scene_fetch.glsl.
 struct MaterialTexels {
-  glm::vec4 ambient_shininess, diffuse_maps, specular_alpha, emission, layer_grazing;
+  glm::vec4 ambient_shininess, diffuse_maps, specular_alpha, emission, layer_grazing, sheen, coat;
 };
 struct LightTexels {
   glm::vec4 position_kind, direction_falloff, radiance_range, cone_slot, edge_u_size, edge_v;
@@ -21,9 +21,11 @@ struct LightTexels {
 std::vector<MaterialTexels> material_texels(const Mesh& mesh) {
   std::vector<MaterialTexels> texels;
   for (const Material& m : mesh.materials)
-    texels.push_back({glm::vec4(m.ambient, m.shininess), glm::vec4(m.diffuse, static_cast<float>(m.maps + 1)),
-                      glm::vec4(m.specular, m.ggx_alpha), glm::vec4(m.emission, 0.0f),
-                      glm::vec4(m.layer, m.grazing, m.transmits() ? 1.0f : 0.0f)});
+    texels.push_back(
+        {glm::vec4(m.ambient, m.shininess), glm::vec4(m.diffuse, static_cast<float>(m.maps + 1)),
+         glm::vec4(m.specular, m.ggx_alpha), glm::vec4(m.emission, 0.0f),
+         glm::vec4(m.layer, m.grazing, (m.transmits() ? 1.0f : 0.0f) + (m.has_layers() ? 2.0f : 0.0f)),
+         glm::vec4(m.sheen, m.sheen_alpha), glm::vec4(m.coat, m.coat_alpha, 0.0f, 0.0f)});
   return texels;
 }
 

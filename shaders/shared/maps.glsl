@@ -11,6 +11,7 @@ struct MapValues {
   float specular;
   vec3 specular_color;
   float transmission;
+  GltfLayers layers;
 };
 
 SHARED MaterialPoint mapped_phong(MaterialPoint plain, MapValues v) {
@@ -22,7 +23,7 @@ SHARED MaterialPoint mapped_phong(MaterialPoint plain, MapValues v) {
   return m;
 }
 
-SHARED MaterialPoint mapped_metallic_roughness(MetallicRoughness s, MapValues v, bool as_phong) {
+SHARED MaterialPoint mapped_metallic_roughness(MetallicRoughness s, GltfLayers l, MapValues v, bool as_phong) {
   s.base_color *= v.base_color;
   s.metallic *= v.metallic;
   s.roughness *= v.roughness;
@@ -32,7 +33,11 @@ SHARED MaterialPoint mapped_metallic_roughness(MetallicRoughness s, MapValues v,
   s.transmission *= v.transmission;
   MaterialPoint m = from_metallic_roughness(s, as_phong);
   m.shading.occlusion = v.occlusion;
-  return m;
+  l.coat *= v.layers.coat;
+  l.coat_roughness *= v.layers.coat_roughness;
+  l.sheen *= v.layers.sheen;
+  l.sheen_roughness *= v.layers.sheen_roughness;
+  return with_layers(m, l);
 }
 
 // n changed by a normal map's texel (0 to 1). All vectors lie on the side that the triangle's

@@ -7,6 +7,7 @@
 // glTF's model (microfacet.glsl):
 //   diffuse     base (1 - metallic) (1 - transmission) / pi
 //   specular    F0, alpha = roughness^2
+//   above it, where nothing is transmitted: KHR_materials_clearcoat and _sheen
 // Phong's:
 //   diffuse     base (1 - max f0) (1 - metallic) (1 - transmission) / pi
 //   shininess s a quarter of Blinn's 2/r^4 - 2 (Karis 2013), within [1, 10000]
@@ -34,6 +35,14 @@ struct MetallicRoughness {
   bool unlit;
 };
 
+// KHR_materials_clearcoat and _sheen.
+struct GltfLayers {
+  float coat;
+  float coat_roughness;
+  vec3 sheen;
+  float sheen_roughness;
+};
+
 // The whole material at a point.
 struct MaterialPoint {
   ShadingParams shading;
@@ -56,6 +65,11 @@ SHARED ShadingParams phong_params(vec3 ambient, vec3 diffuse, vec3 specular, flo
   m.ggx_alpha = 0.0f;
   m.grazing = 1.0f;
   m.layer = vec2(0.0f);
+  m.sheen = vec3(0.0f);
+  m.sheen_alpha = 1.0f;
+  m.coat = 0.0f;
+  m.coat_alpha = 1.0f;
+  m.coat_normal = vec3(0.0f);
   return m;
 }
 
@@ -72,6 +86,12 @@ SHARED MaterialPoint material_point(ShadingParams shading) {
 SHARED float shininess_of(float roughness) {
   float r2 = roughness * roughness;
   return clamp(0.25f * (2.0f / max(r2 * r2, 1e-8f) - 2.0f), 1.0f, 10000.0f);
+}
+
+// The share of a mirror where it stays sharp.
+SHARED float sharp_share(float roughness) {
+  float sharp = max(0.0f, 1.0f - roughness / kRoughestMirror);
+  return sharp * sharp;
 }
 
 SHARED MaterialPoint from_metallic_roughness(MetallicRoughness s, bool as_phong) {
@@ -96,11 +116,27 @@ SHARED MaterialPoint from_metallic_roughness(MetallicRoughness s, bool as_phong)
     m.ior = s.volume ? s.ior : 1.0f;
     return m;
   }
-  float sharp = max(0.0f, 1.0f - s.roughness / kRoughestMirror);
-  vec3 mirror = f0 * sharp * sharp;
+  vec3 mirror = f0 * sharp_share(s.roughness);
   if (largest_of(mirror) > kLeastReflectance) {
     m.reflectance = mirror;
     m.fresnel = true;
   }
   return m;
+}
+
+// Adds the layers to a material of glTF's model. On glass they are left out.
+SHARED MaterialPoint with_layers(MaterialPoint m, GltfLayers l) {
+  MaterialPoint layered = m;
+  if (m.shading.ggx_alpha == 0.0f || m.transmittance != vec3(0.0f)) return layered;
+  layered.shading.sheen = l.sheen;
+  layered.shading.sheen_alpha = clamp(l.sheen_roughness * l.sheen_roughness, kLeastSheenAlpha, 1.0f);
+  layered.shading.coat = l.coat;
+  layered.shading.coat_alpha = clamp(l.coat_roughness * l.coat_roughness, kLeastAlpha, 1.0f);
+  float coat_f0 = kCoatF0 * l.coat;
+  vec3 mirror = m.reflectance * (1.0f - coat_f0) + vec3(coat_f0 * sharp_share(l.coat_roughness));
+  if (largest_of(mirror) > kLeastReflectance) {
+    layered.reflectance = mirror;
+    layered.fresnel = true;
+  }
+  return layered;
 }

@@ -15,6 +15,11 @@ struct ShadingParams {
   real ggx_alpha;  // glTF: roughness squared, above 0. Phong: 0
   real grazing;    // glTF: F90, mirrored at grazing incidence
   vec2 layer;      // glTF: F0 and F90 of the dielectric layer on the matt one, in its brightest colour
+  vec3 sheen;      // KHR_materials_sheen: what it returns; black: none
+  real sheen_alpha;   // its roughness squared
+  real coat;       // KHR_materials_clearcoat: the coat's factor; viewed_from makes it the share that it mirrors
+  real coat_alpha;    // its roughness squared
+  vec3 coat_normal;   // unit, facing the viewer; set where there is a coat
 };
 
 struct Incident {

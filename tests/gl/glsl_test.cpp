@@ -27,6 +27,8 @@ const std::vector<Definitions> kTerminators{{}, {"TERMINATOR_LIFTS"}, {"TERMINAT
 const std::vector<Definitions> kMaps{{},
                                      {"HAS_MAPS"},
                                      {"HAS_MAPS", "HAS_DIELECTRIC_MAPS"},
+                                     {"HAS_MAPS", "HAS_LAYER_MAPS"},
+                                     {"HAS_MAPS", "HAS_DIELECTRIC_MAPS", "HAS_LAYER_MAPS"},
                                      {"HAS_MAPS", "HAS_COLORS"},
                                      {"HAS_MAPS", "HAS_TANGENTS"},
                                      {"HAS_MAPS", "HAS_DIELECTRIC_MAPS", "HAS_COLORS", "HAS_TANGENTS"}};

@@ -6,6 +6,7 @@
 #include "core/image/rgb.h"
 #include "core/image/tonemap.h"
 #include "core/reference/reference.h"
+#include "core/scene/gltf/material_from_surface.h"
 #include "core/trace/view/jitter.h"
 #include "tests/support/draw.h"
 
@@ -53,7 +54,18 @@ struct Feature {
   const char* name;
   MaterialMaps maps;
   glm::ivec2 texture{7, 5};
+  bool gltf_model = false;
 };
+
+Material material_of(const Feature& f) {
+  if (f.gltf_model) return material_from_surface(f.maps.surface, Shading::from_file);
+  Material material;
+  material.specular = glm::vec3(0.3f);
+  material.shininess = 20.0f;
+  if (f.maps.transmission.used()) material.transmittance = glm::vec3(1.0f);
+  if (f.maps.metallic_roughness.used()) material.reflectance = glm::vec3(1.0f), material.fresnel = true;
+  return material;
+}
 
 TextureUse use(Wrap u = Wrap::repeat, Wrap v = Wrap::repeat) {
   TextureUse t;
@@ -107,6 +119,25 @@ std::vector<Feature> features() {
     m.specular = m.transmission = use();
     m.specular_color = use(Wrap::mirror, Wrap::clamp);
   });
+  add("clear coat and sheen", [](MaterialMaps& m) {
+    m.from_gltf = m.coat_is_mapped = true;
+    m.surface.metallic = 0.0f;
+    m.surface.clearcoat = m.surface.clearcoat_roughness = 0.7f;
+    m.surface.sheen_color = {0.4f, 0.5f, 0.6f};
+    m.surface.sheen_roughness = 0.9f;
+    m.normal = m.clearcoat = m.sheen_color = use();
+    m.clearcoat_roughness = m.sheen_roughness = use(Wrap::mirror, Wrap::clamp);
+  });
+  all.back().gltf_model = true;
+  add("normal map below a smooth coat", [](MaterialMaps& m) {
+    m.from_gltf = true;
+    m.surface.metallic = 1.0f;
+    m.surface.clearcoat = 1.0f;
+    m.surface.clearcoat_roughness = 0.4f;
+    m.normal = use();
+    m.normal_scale = 0.4f;
+  });
+  all.back().gltf_model = true;
   add("unlit, vertex colours", [](MaterialMaps& m) {
     m.from_gltf = m.surface.unlit = m.vertex_colors = true;
     m.base_color = use();
@@ -142,12 +173,7 @@ double share_apart(const Image<glm::vec4>& a, const Image<glm::vec4>& b) {
 TEST(Maps, LookTheSameToGpuCpuAndReference) {
   Workers workers(2);
   for (const Feature& f : features()) {
-    Material material;
-    material.specular = glm::vec3(0.3f);
-    material.shininess = 20.0f;
-    if (f.maps.transmission.used()) material.transmittance = glm::vec3(1.0f);
-    if (f.maps.metallic_roughness.used()) material.reflectance = glm::vec3(1.0f), material.fresnel = true;
-    const Scene scene = plate_with(f.maps, noise(f.texture, 9), material);
+    const Scene scene = plate_with(f.maps, noise(f.texture, 9), material_of(f));
     const FrameResult hybrid = draw_one(scene, {.settings = by({{"mode", "hybrid"}}), .size = kSize});
     const FrameResult traced = draw_one(scene, {.settings = by({{"mode", "raytrace"}}), .size = kSize});
     const ReferencePicture precise = reference_render(scene, {first_camera(scene), kSize}, 8, workers);
@@ -199,7 +225,7 @@ TEST(Maps, EachOfManySamplesAveragesTexturesOverItsShareOfThePixel) {
 
 TEST(Maps, WidthOfLanesAndThreadsChangeNothing) {
   for (const Feature& f : features()) {
-    const Scene scene = plate_with(f.maps, noise(f.texture, 9));
+    const Scene scene = plate_with(f.maps, noise(f.texture, 9), material_of(f));
     DrawRequest request{.settings = by({{"mode", "raytrace"}}), .size = {100, 75}};
     const FrameResult widest = draw_one(scene, request);
     request.settings.isa = Isa::scalar;

@@ -36,6 +36,21 @@ Image<glm::vec3> even_sky() {
   return Image<glm::vec3>({16, 8}, glm::vec3(1.0f));
 }
 
+Material coated(float roughness, float metallic = 1.0f) {
+  return material_from_surface({.base_color = glm::vec3(1.0f),
+                                .metallic = metallic,
+                                .roughness = 0.5f,
+                                .clearcoat = 1.0f,
+                                .clearcoat_roughness = roughness},
+                               Shading::from_file);
+}
+
+Material cloth(const glm::vec3& base, const glm::vec3& sheen, float roughness) {
+  return material_from_surface(
+      {.base_color = base, .metallic = 0.0f, .sheen_color = sheen, .sheen_roughness = roughness},
+      Shading::from_file);
+}
+
 // A sky with one small, bright spot.
 Image<glm::vec3> sunny_sky() {
   Image<glm::vec3> sky({64, 32}, glm::vec3(0.2f, 0.3f, 0.5f));
@@ -84,6 +99,20 @@ TEST(ReflectionModel, AWhiteBallReturnsNoMoreThanItGets) {
     }
 }
 
+TEST(ReflectionModel, LayersReturnNoMoreThanTheyGet) {
+  for (const float roughness : {0.0f, 0.1f, 0.3f, 0.6f, 1.0f})
+    for (const Material& of :
+         {coated(roughness), coated(roughness, 0.0f), cloth(glm::vec3(1.0f), glm::vec3(1.0f), roughness),
+          cloth(glm::vec3(0.0f), glm::vec3(1.0f), roughness)}) {
+      const Returned back = returned_by(
+          draw_one(ball(of, even_sky()), {sampled(by({{"mode", "raytrace"}}), 64), glm::ivec2(64, 48)}));
+      EXPECT_LT(back.mean, 1.005) << roughness;
+      if (of.diffuse.x > 0.0f) {
+        EXPECT_GT(back.mean, 0.9) << roughness;
+      }
+    }
+}
+
 // A smooth metal finds the sky by its lobe where samples of the sky miss it.
 TEST(ReflectionModel, NoPixelIsBlackUnderASunnySky) {
   for (const float roughness : {0.0f, 0.1f, 0.3f, 0.6f, 1.0f}) {
@@ -102,13 +131,17 @@ Scene many_balls() {
   MeshData mesh;
   MeshBuilder builder(mesh);
   int i = 0;
+  const auto add = [&](const Material& of) {
+    builder.use(of);
+    builder.sphere(1.1f * glm::vec3(static_cast<float>(i % 3 - 1), static_cast<float>(1 - i / 3), 0.0f), 0.5f,
+                   48);
+    ++i;
+  };
   for (const float metallic : {0.0f, 1.0f})
-    for (const float roughness : {0.15f, 0.4f, 0.8f}) {
-      builder.use(material({0.8f, 0.5f, 0.3f}, metallic, roughness));
-      builder.sphere(glm::vec3(1.2f * static_cast<float>(i % 3) - 1.2f, i < 3 ? 0.6f : -0.6f, 0.0f), 0.55f,
-                     48);
-      ++i;
-    }
+    for (const float roughness : {0.15f, 0.4f, 0.8f}) add(material({0.8f, 0.5f, 0.3f}, metallic, roughness));
+  add(coated(0.15f));
+  add(coated(0.5f, 0.0f));
+  add(cloth({0.3f, 0.1f, 0.1f}, {0.5f, 0.6f, 0.9f}, 0.4f));
   Scene scene(mesh);
   scene.ambient_light = glm::vec3(0.0f);
   scene.environment = std::make_shared<const Environment>(sunny_sky());

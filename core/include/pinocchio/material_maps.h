@@ -19,8 +19,12 @@ struct GltfSurface {
   float specular = 1.0f;     // KHR_materials_specular
   glm::vec3 specular_color{1.0f};
   float transmission = 0.0f;  // KHR_materials_transmission
-  bool volume = false;        // KHR_materials_volume with a thickness: the surface refracts
-  bool unlit = false;         // KHR_materials_unlit
+  float clearcoat = 0.0f;     // KHR_materials_clearcoat
+  float clearcoat_roughness = 0.0f;
+  glm::vec3 sheen_color{0.0f};  // KHR_materials_sheen
+  float sheen_roughness = 0.0f;
+  bool volume = false;  // KHR_materials_volume with a thickness: the surface refracts
+  bool unlit = false;   // KHR_materials_unlit
 
   friend bool operator==(const GltfSurface&, const GltfSurface&) = default;
 };
@@ -37,12 +41,17 @@ struct MaterialMaps {
   TextureUse occlusion;           // R; multiplies ambient light
   TextureUse emissive;            // sRGB; multiplies emission
   TextureUse alpha;               // multiplies `alpha_factor`
-  // KHR_materials_specular and _transmission; from_gltf only
-  TextureUse specular;        // A; multiplies `surface.specular`
-  TextureUse specular_color;  // sRGB; multiplies `surface.specular_color`
-  TextureUse transmission;    // R; multiplies `surface.transmission`
-  int alpha_channel = 3;      // of the texture `alpha`: 0 R to 3 A
+  // KHR_materials_specular, _transmission, _clearcoat and _sheen; from_gltf only
+  TextureUse specular;             // A; multiplies `surface.specular`
+  TextureUse specular_color;       // sRGB; multiplies `surface.specular_color`
+  TextureUse transmission;         // R; multiplies `surface.transmission`
+  TextureUse clearcoat;            // R; multiplies `surface.clearcoat`
+  TextureUse clearcoat_roughness;  // G; multiplies `surface.clearcoat_roughness`
+  TextureUse sheen_color;          // sRGB; multiplies `surface.sheen_color`
+  TextureUse sheen_roughness;      // A; multiplies `surface.sheen_roughness`
+  int alpha_channel = 3;           // of the texture `alpha`: 0 R to 3 A
   float normal_scale = 1.0f;
+  bool coat_is_mapped = false;  // the normal map is the clear coat's too
   float occlusion_strength = 1.0f;
   bool vertex_colors = false;  // MeshData::colors multiply base colour and alpha
 
@@ -64,15 +73,41 @@ struct MaterialMaps {
   [[nodiscard]] bool maps_dielectric() const {
     return specular.used() || specular_color.used() || transmission.used();
   }
+  // Likewise of clear coat and sheen.
+  [[nodiscard]] bool maps_layers() const {
+    return clearcoat.used() || clearcoat_roughness.used() || sheen_color.used() || sheen_roughness.used();
+  }
 
   // All textures that the material may have.
-  [[nodiscard]] std::array<TextureUse*, 9> uses() {
-    return {&base_color, &metallic_roughness, &normal,         &occlusion,   &emissive,
-            &alpha,      &specular,           &specular_color, &transmission};
+  [[nodiscard]] std::array<TextureUse*, 13> uses() {
+    return {&base_color,
+            &metallic_roughness,
+            &normal,
+            &occlusion,
+            &emissive,
+            &alpha,
+            &specular,
+            &specular_color,
+            &transmission,
+            &clearcoat,
+            &clearcoat_roughness,
+            &sheen_color,
+            &sheen_roughness};
   }
-  [[nodiscard]] std::array<const TextureUse*, 9> uses() const {
-    return {&base_color, &metallic_roughness, &normal,         &occlusion,   &emissive,
-            &alpha,      &specular,           &specular_color, &transmission};
+  [[nodiscard]] std::array<const TextureUse*, 13> uses() const {
+    return {&base_color,
+            &metallic_roughness,
+            &normal,
+            &occlusion,
+            &emissive,
+            &alpha,
+            &specular,
+            &specular_color,
+            &transmission,
+            &clearcoat,
+            &clearcoat_roughness,
+            &sheen_color,
+            &sheen_roughness};
   }
 
   friend bool operator==(const MaterialMaps&, const MaterialMaps&) = default;

@@ -4,15 +4,13 @@
 #include <cmath>
 #include <glm/gtc/constants.hpp>
 
-#include "core/shade/shared_material.h"
+#include "core/shade/mapped_material.h"
 
 namespace pinocchio {
 
 Material material_from_surface(const GltfSurface& s, Shading shading) {
-  const shared::MaterialPoint p =
-      shared::from_metallic_roughness({s.base_color, s.metallic, s.roughness, s.emissive, s.ior, s.specular,
-                                       s.specular_color, s.transmission, s.volume, s.unlit},
-                                      shading == Shading::phong);
+  const shared::MaterialPoint p = shared::with_layers(
+      shared::from_metallic_roughness(metallic_roughness(s), shading == Shading::phong), layers(s));
   Material m;
   m.ambient = p.shading.ambient;
   m.diffuse = p.shading.diffuse;
@@ -21,6 +19,10 @@ Material material_from_surface(const GltfSurface& s, Shading shading) {
   m.ggx_alpha = p.shading.ggx_alpha;
   m.grazing = p.shading.grazing;
   m.layer = p.shading.layer;
+  m.sheen = p.shading.sheen;
+  m.sheen_alpha = p.shading.sheen_alpha;
+  m.coat = p.shading.coat;
+  m.coat_alpha = p.shading.coat_alpha;
   m.emission = p.shading.emission;
   m.reflectance = p.reflectance;
   m.transmittance = p.transmittance;
@@ -36,6 +38,10 @@ GltfSurface surface_of_material(const Material& m) {
   GltfSurface s;
   s.roughness = m.ggx_alpha > shared::kLeastAlpha ? std::sqrt(m.ggx_alpha) : 0.0f;
   s.emissive = m.emission;
+  s.clearcoat = m.coat;
+  if (m.coat > 0.0f && m.coat_alpha > shared::kLeastAlpha) s.clearcoat_roughness = std::sqrt(m.coat_alpha);
+  s.sheen_color = m.sheen;
+  if (m.sheen != glm::vec3(0.0f)) s.sheen_roughness = std::sqrt(m.sheen_alpha);
   // Base colour times what is not metal, and its parts that are matt and let light through.
   const glm::vec3 matt = m.diffuse * glm::pi<float>(), plastic = matt + m.transmittance;
   const float opaque = brightest(matt), all = brightest(plastic);

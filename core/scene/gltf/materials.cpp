@@ -117,6 +117,8 @@ MaterialMaps maps_of(const GltfFile& file, const Json& json) {
       factor = value_member<float>(info, row.factor).value_or(factor);
     }
   }
+  const Json* const of_coat = find_at(&json, "/extensions/KHR_materials_clearcoat/clearcoatNormalTexture");
+  maps.coat_is_mapped = maps.normal.used() && of_coat && use_of(file, of_coat) == maps.normal;
   const Json* const other = extension(&json, kSpecularGlossiness);
   if (other) {
     maps.base_color = use_of(file, member(other, "diffuseTexture"));

@@ -126,6 +126,8 @@ class ObjWriter {
     if (maps.maps_dielectric())
       lost("its specular and transmission textures are left out",
            "all of it shines and lets light through alike");
+    if (maps.maps_layers())
+      lost("the textures of its clear coat and sheen are left out", "all of it is coated alike");
     if (maps.occlusion.used())
       lost("its occlusion texture is left out", "its hollows are as bright as the rest");
   }

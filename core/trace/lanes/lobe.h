@@ -13,29 +13,48 @@ namespace {
 [[gnu::noinline]] LaneLobe sample_lobe(const LaneSurface& s, const LaneMaterial& m, const Vec& own,
                                        const SampledPixel& sampling, Mask lanes, const Bounce& bounce) {
   const Float zero(0.0f), one(1.0f), two(2.0f);
-  const Float n_dot_v = cosine_of_view(s.n_shading, s.to_viewer);
-  const Mask glass = Mask::from_bits(m.transmits);
+  const Mask glass = Mask::from_bits(m.transmits), coated = zero < m.coat;
+  const Float base_dot_v = cosine_of_view(s.n_shading, s.to_viewer);
   LaneLobe lobe;
-  lobe.lanes = lanes & Mask::from_bits(m.microfacet) &
-               (glass | ~(largest(own) * lobe_share(m, n_dot_v) < Float(bounce.options->throughput_cutoff)));
-  const vec2 disc = disc_of_square(sample_2d(sampling, bounce.dimension + shared::kMirrorDimension));
-  const Across axes = across(s.n_shading);
+  lobe.lanes =
+      lanes & Mask::from_bits(m.microfacet) &
+      (glass | ~(largest(own) * mirrored_share(m, base_dot_v) < Float(bounce.options->throughput_cutoff)));
+  vec2 number = sample_2d(sampling, bounce.dimension + shared::kMirrorDimension);
+  Vec n = s.n_shading;
+  Float alpha = m.ggx_alpha, n_dot_v = base_dot_v;
+  if (coated.bits() != 0) {
+    // One number tells which layer, and what is left of it is a number again.
+    const Float chance = coat_chance(m, base_dot_v);
+    const Mask by_coat = coated & (number.x < chance);
+    const Float rest = select(by_coat, number.x / chance, (number.x - chance) / (one - chance));
+    number.x = select(coated, clamp(rest, 0.0f, 0x1.fffffep-1f), number.x);
+    n = select(by_coat, m.coat_normal, n);
+    alpha = select(by_coat, m.coat_alpha, alpha);
+    n_dot_v = cosine_of_view(n, s.to_viewer);
+  }
+  const vec2 disc = disc_of_square(number);
+  const Across axes = across(n);
   const Vec v{dot(axes.t, s.to_viewer), dot(axes.u, s.to_viewer), n_dot_v};
-  const Vec h = visible_normal(v, m.ggx_alpha, disc);
-  lobe.facet = axes.t * h.x + axes.u * h.y + s.n_shading * h.z;
+  const Vec h = visible_normal(v, alpha, disc);
+  lobe.facet = axes.t * h.x + axes.u * h.y + n * h.z;
   const Float v_dot_h = dot(s.to_viewer, lobe.facet);
   Vec direction = lobe.facet * (two * v_dot_h) - s.to_viewer;
-  const Float n_dot_l = dot(s.n_shading, direction), outside = dot(direction, s.n_geometric);
-  lobe.unshadowed = select(
-      zero < n_dot_l,
-      two * n_dot_l * ggx_visibility(n_dot_l, n_dot_v, m.ggx_alpha) / ggx_viewed(n_dot_v, m.ggx_alpha), zero);
+  const Float n_dot_l = dot(n, direction), outside = dot(direction, s.n_geometric);
+  lobe.unshadowed =
+      select(zero < n_dot_l,
+             two * n_dot_l * ggx_visibility(n_dot_l, n_dot_v, alpha) / ggx_viewed(n_dot_v, alpha), zero);
   lobe.throughput = schlick(m.specular, m.grazing, v_dot_h) * lobe.unshadowed;
+  Float density = Float(0.5f) * ggx(h.z, h.x * h.x + h.y * h.y, alpha) * ggx_viewed(n_dot_v, alpha);
+  if (coated.bits() != 0) {
+    const LobeLight both = lobe_light(m, s.n_shading, s.to_viewer, direction);
+    lobe.throughput =
+        select(coated, select(zero < n_dot_l, both.reflected / both.density, Vec(zero)), lobe.throughput);
+    density = select(coated, both.density, density);
+  }
   // Into the surface, by a normal that is not the triangle's: the direction's mirror image lies outside.
   const Mask inwards = ~(zero < outside);
   lobe.direction = select(inwards, direction - s.n_geometric * (two * outside), direction);
-  lobe.density =
-      select(inwards | glass, zero,
-             Float(0.5f) * ggx(h.z, h.x * h.x + h.y * h.y, m.ggx_alpha) * ggx_viewed(n_dot_v, m.ggx_alpha));
+  lobe.density = select(inwards | glass, zero, density);
   lobe.counted = select(lobe.lanes, select(glass, Float(kAlone), one), zero);
   return lobe;
 }

@@ -30,6 +30,7 @@ inline Vec load(const MapLanes::Column (&columns)[3]) {
   store(s.n_shading, packet.n_shading);
   width.store(packet.width);
   packet.leaving = s.leaving.bits();
+  packet.layered = m.layered & m.mapped;
   map_lanes(*bounce.scene.mesh, *bounce.footprint, sample_texture, m.mapped, packet);
 
   const Mask mapped = Mask::from_bits(m.mapped);
@@ -47,6 +48,14 @@ inline Vec load(const MapLanes::Column (&columns)[3]) {
     m.grazing = select(mapped, Float::load(packet.grazing), m.grazing);
     m.layer.x = select(mapped, Float::load(packet.layer[0]), m.layer.x);
     m.layer.y = select(mapped, Float::load(packet.layer[1]), m.layer.y);
+  }
+  if (packet.layered != 0) {
+    const Mask layered = Mask::from_bits(packet.layered);
+    m.sheen = select(layered, load(packet.sheen), m.sheen);
+    m.sheen_alpha = select(layered, Float::load(packet.sheen_alpha), m.sheen_alpha);
+    m.coat = select(layered, Float::load(packet.coat), m.coat);
+    m.coat_alpha = select(layered, Float::load(packet.coat_alpha), m.coat_alpha);
+    m.coat_normal = select(Mask::from_bits(packet.coat_is_mapped), s.n_shading, m.coat_normal);
   }
   m.ior = select(mapped, Float::load(packet.ior), m.ior);
   m.fresnel = (m.fresnel & ~m.mapped) | packet.fresnel;

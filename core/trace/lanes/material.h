@@ -16,12 +16,15 @@ struct LaneMaterial : ShadingParams {
   Float alpha{1.0f};
   Float gloss{0.0f};
   unsigned glossy = 0, microfacet = 0, fresnel = 0, reflects = 0, transmits = 0, mapped = 0, blends = 0,
-           brdf = 0;  // lanes
+           brdf = 0, layered = 0;  // lanes
 
   LaneMaterial(const SceneArrays& scene, Int materials, Mask lanes) {
     ambient = diffuse = specular = emission = Vec(Float(0.0f));
     shininess = ggx_alpha = grazing = layer.x = layer.y = 0.0f;
     occlusion = 1.0f;
+    sheen = coat_normal = Vec(Float(0.0f));
+    coat = 0.0f;
+    sheen_alpha = coat_alpha = 1.0f;
     for_each_distinct(materials, lanes, [&](std::uint32_t index, Mask same) {
       const Material& m = scene.materials[index];
       ambient = select(same, Vec(m.ambient), ambient);
@@ -41,6 +44,13 @@ struct LaneMaterial : ShadingParams {
         layer.x = select(same, Float(m.layer.x), layer.x);
         layer.y = select(same, Float(m.layer.y), layer.y);
         microfacet |= bits;
+      }
+      if (m.has_layers()) {
+        sheen = select(same, Vec(m.sheen), sheen);
+        sheen_alpha = select(same, Float(m.sheen_alpha), sheen_alpha);
+        coat = select(same, Float(m.coat), coat);
+        coat_alpha = select(same, Float(m.coat_alpha), coat_alpha);
+        layered |= bits;
       }
       if (m.gloss > 0.0f) {
         gloss = select(same, Float(m.gloss), gloss);

@@ -185,6 +185,7 @@ void bounce_packets(const Bounce& bounce, const RayQueue& rays) {
     const Vec origin = Vec::load(rays.origin, i), direction = Vec::load(rays.direction, i);
     LaneSurface s = surface_of(corners, origin, direction, bounce.offset);
     LaneMaterial m(bounce.scene, corners.material, reads_material ? lanes : Mask::from_bits(0));
+    if (m.layered != 0) m.coat_normal = s.n_shading;
     s.width = Float(0.0f);
     if (bounce.footprint->angle > 0.0f) {
       const Float before = bounce.visible ? Float(0.0f) : Float::load(rays.width + i);
@@ -212,7 +213,9 @@ void bounce_packets(const Bounce& bounce, const RayQueue& rays) {
     const SampledPixel* const samples = kSampled ? &*sampling : nullptr;
     LaneLobe lobe;
     if (m.microfacet != 0) {
-      m.diffuse = viewed_from(s.to_viewer, s.n_shading, m).diffuse;
+      const ShadingParams viewed = viewed_from(s.to_viewer, s.n_shading, m);
+      m.diffuse = viewed.diffuse;
+      if (m.layered != 0) static_cast<ShadingParams&>(m) = viewed;
       if constexpr (kSampled)
         if (bounce.lobes) lobe = sample_lobe(s, m, own, *samples, lanes, bounce);
     }

@@ -42,10 +42,10 @@ TEST(LoadLost, WhatIsReadIsNotWarnedOf) {
 
 TEST(LoadLost, ExtensionsByName) {
   const Json json = with_material(
-      {{"name", "paint"}, {"extensions", {{"KHR_materials_clearcoat", Json::object()}, {"ACME_new", 1}}}});
+      {{"name", "paint"}, {"extensions", {{"KHR_materials_iridescence", Json::object()}, {"ACME_new", 1}}}});
   const Warnings warnings = warnings_of(json);
-  EXPECT_NE(line_about(warnings, "KHR_materials_clearcoat").find("material 'paint'"), std::string::npos);
-  EXPECT_NE(line_about(warnings, "KHR_materials_clearcoat").find("clear coat are missing"),
+  EXPECT_NE(line_about(warnings, "KHR_materials_iridescence").find("material 'paint'"), std::string::npos);
+  EXPECT_NE(line_about(warnings, "KHR_materials_iridescence").find("thin films are missing"),
             std::string::npos);
   EXPECT_NE(line_about(warnings, "ACME_new"), "");
   EXPECT_EQ(warnings.size(), 2u);
@@ -53,7 +53,7 @@ TEST(LoadLost, ExtensionsByName) {
 
 TEST(LoadLost, MaterialsThatNothingUsesAreNotMissed) {
   Json json = triangle_json();
-  json["materials"] = {{{"extensions", {{"KHR_materials_clearcoat", Json::object()}}}}};
+  json["materials"] = {{{"extensions", {{"KHR_materials_iridescence", Json::object()}}}}};
   EXPECT_TRUE(warnings_of(json).empty());
 }
 
@@ -124,7 +124,7 @@ TEST(LoadLost, VersionAndRequiredExtensionsBeforeAnythingElse) {
   json["asset"]["version"] = "1.0";
   json["buffers"] = {{"binary_glTF", {{"byteLength", 0}}}};  // as 1.0 has it
   EXPECT_NE(error_of(json).find("is glTF 1.0"), std::string::npos);
-  for (const char* name : {"KHR_texture_basisu", "MSFT_texture_dds", "KHR_materials_clearcoat"}) {
+  for (const char* name : {"KHR_texture_basisu", "MSFT_texture_dds", "KHR_materials_iridescence"}) {
     json = triangle_json();
     json["extensionsRequired"] = {name};
     json["buffers"][0]["uri"] = "nowhere.bin";

@@ -42,8 +42,6 @@ constexpr Extension kExtensions[] = {
      "convert its AVIF images to PNG, JPEG or WebP"},
     {"KHR_texture_transform", "", ""},
     {"KHR_materials_pbrSpecularGlossiness", "", ""},
-    {"KHR_materials_clearcoat", "highlights of the clear coat are missing", ""},
-    {"KHR_materials_sheen", "the sheen of cloth is missing", ""},
     {"KHR_materials_iridescence", "colours of thin films are missing", ""},
     {"KHR_materials_anisotropy", "highlights are round", ""},
     {"KHR_materials_dispersion", "glass does not split colours", ""},
@@ -197,6 +195,11 @@ class FeatureAudit {
           factor && !factor->is_number())
         wrong_type(row.factor);
     }
+    const Json* const of_coat =
+        find_at(&material, "/extensions/KHR_materials_clearcoat/clearcoatNormalTexture");
+    const Json* const of_base = member(&material, "normalTexture");
+    if (of_coat && !(of_base && number_of(*of_coat, "index", -1) == number_of(*of_base, "index", -2)))
+      lost(where, "the normal map of its clear coat is left out", "the coat is smooth");
   }
 
   void check_texture(std::size_t material, const Json& info, const std::string& which,

@@ -41,6 +41,10 @@ inline constexpr GltfParameter kSurfaceParameters[] = {
     {"/extensions/KHR_materials_specular/specularFactor", &GltfSurface::specular},
     {"/extensions/KHR_materials_specular/specularColorFactor", &GltfSurface::specular_color},
     {"/extensions/KHR_materials_transmission/transmissionFactor", &GltfSurface::transmission},
+    {"/extensions/KHR_materials_clearcoat/clearcoatFactor", &GltfSurface::clearcoat},
+    {"/extensions/KHR_materials_clearcoat/clearcoatRoughnessFactor", &GltfSurface::clearcoat_roughness},
+    {"/extensions/KHR_materials_sheen/sheenColorFactor", &GltfSurface::sheen_color},
+    {"/extensions/KHR_materials_sheen/sheenRoughnessFactor", &GltfSurface::sheen_roughness},
 };
 
 // Of what both kinds of materials may have inside.
@@ -66,6 +70,10 @@ inline constexpr GltfTexture kGltfTextures[] = {
     {"/extensions/KHR_materials_specular/specularTexture", &MaterialMaps::specular},
     {"/extensions/KHR_materials_specular/specularColorTexture", &MaterialMaps::specular_color},
     {"/extensions/KHR_materials_transmission/transmissionTexture", &MaterialMaps::transmission},
+    {"/extensions/KHR_materials_clearcoat/clearcoatTexture", &MaterialMaps::clearcoat},
+    {"/extensions/KHR_materials_clearcoat/clearcoatRoughnessTexture", &MaterialMaps::clearcoat_roughness},
+    {"/extensions/KHR_materials_sheen/sheenColorTexture", &MaterialMaps::sheen_color},
+    {"/extensions/KHR_materials_sheen/sheenRoughnessTexture", &MaterialMaps::sheen_roughness},
 };
 
 // The extension that a row's member is part of; empty: glTF itself.
