@@ -1,24 +1,34 @@
-# What `cmake --install` puts into a prefix, by component: `library` (headers, archives, PinocchioConfig.cmake,
+# What `cmake --install` puts into a prefix, by component: `library` (headers, archives, CMake's package,
 # examples), `program` (with scenes and docs). The libraries of the system that the program needs (`bundled`) go into the
 # archive of `cpack -G TGZ` alone, which runs where it is unpacked, on any x86-64 Linux as new as the one that
 # built it; libc and OpenGL stay outside.
 include(GNUInstallDirs)
 include(CMakePackageConfigHelpers)
 
-set(config_folder ${CMAKE_INSTALL_LIBDIR}/cmake/Pinocchio)
-# An export file for each component of find_package(Pinocchio).
+# The robotics library `pinocchio` may be in the same prefix: its headers are include/pinocchio/NAME.hpp, its libraries
+# lib/libpinocchio_NAME.so and its CMake package is lib/cmake/pinocchio (tests/consumer/robotics_pinocchio.txt). No file
+# or folder of ours has one of those names, also where the file system ignores case.
+set(config_folder ${CMAKE_INSTALL_LIBDIR}/cmake/PinocchioRenderer)
+set(header_folder ${CMAKE_INSTALL_INCLUDEDIR}/pinocchio-renderer)
+# An export file for each component of find_package(PinocchioRenderer).
 set(core_targets pinocchio_core)
 set(compare_targets pinocchio_compare)
 set(pinocchio_targets pinocchio_glad pinocchio_gl pinocchio_reference pinocchio_hybrid)
 foreach(name core compare pinocchio)
-  install(TARGETS ${${name}_targets} EXPORT ${name}_export COMPONENT library FILE_SET HEADERS COMPONENT library)
+  install(TARGETS ${${name}_targets} EXPORT ${name}_export COMPONENT library
+          FILE_SET HEADERS DESTINATION ${header_folder} COMPONENT library)
   install(EXPORT ${name}_export FILE ${name}.cmake NAMESPACE Pinocchio:: DESTINATION ${config_folder} COMPONENT library)
 endforeach()
-configure_package_config_file(cmake/PinocchioConfig.cmake.in ${PROJECT_BINARY_DIR}/PinocchioConfig.cmake
+configure_package_config_file(cmake/PinocchioRendererConfig.cmake.in ${PROJECT_BINARY_DIR}/PinocchioRendererConfig.cmake
                               INSTALL_DESTINATION ${config_folder})
-write_basic_package_version_file(${PROJECT_BINARY_DIR}/PinocchioConfigVersion.cmake COMPATIBILITY SameMinorVersion)
-install(FILES ${PROJECT_BINARY_DIR}/PinocchioConfig.cmake ${PROJECT_BINARY_DIR}/PinocchioConfigVersion.cmake
-        DESTINATION ${config_folder} COMPONENT library)
+# find_package(Pinocchio) looks in this folder as well: it finds the same package.
+file(WRITE ${PROJECT_BINARY_DIR}/PinocchioConfig.cmake
+     "include(\${CMAKE_CURRENT_LIST_DIR}/PinocchioRendererConfig.cmake)\n")
+foreach(name PinocchioRenderer Pinocchio)
+  write_basic_package_version_file(${PROJECT_BINARY_DIR}/${name}ConfigVersion.cmake COMPATIBILITY SameMinorVersion)
+  install(FILES ${PROJECT_BINARY_DIR}/${name}Config.cmake ${PROJECT_BINARY_DIR}/${name}ConfigVersion.cmake
+          DESTINATION ${config_folder} COMPONENT library)
+endforeach()
 install(DIRECTORY examples DESTINATION share/doc/pinocchio COMPONENT library)
 
 install(TARGETS pinocchio RUNTIME_DEPENDENCY_SET pinocchio_libraries DESTINATION bin COMPONENT program)

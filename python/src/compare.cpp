@@ -101,6 +101,11 @@ nb::dict channels_of(const std::filesystem::path& path) {
 
 void bind_compare(nb::module_& module) {
   module.def("compare", &compare, "a"_a, "b"_a, "pixels_per_degree"_a = 67.0f,
+             nb::sig("def compare(a: Result | str | os.PathLike[str] | numpy.typing.NDArray[typing.Any], b: "
+                     "Result | str | "
+                     "os.PathLike[str] | numpy.typing.NDArray[typing.Any], pixels_per_degree: float = 67.0) "
+                     "-> dict[str, "
+                     "typing.Any]"),
              "The difference between the picture `a` and its reference `b`, as a dict: 'rmse', 'relmse', "
              "'psnr' (dB), 'max',\n"
              "'flip' (mean LDR-FLIP) and 'flip_errors' (height, width) float32, in [0, 1].\n"
@@ -110,6 +115,7 @@ void bind_compare(nb::module_& module) {
              "Raises Error if the sizes differ, a value is not finite, or a file cannot be read.");
   module.def(
       "read_exr", &channels_of, "path"_a,
+      nb::sig("def read_exr(path: str | os.PathLike[str]) -> dict[str, numpy.typing.NDArray[typing.Any]]"),
       "The channels of an EXR file by name, each an array (height, width): float32, or uint32 for integers.\n"
       "Raises Error if the file cannot be read.");
 }

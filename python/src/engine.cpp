@@ -12,6 +12,7 @@
 #include "python/src/parts.h"
 #include "python/src/render_settings.h"
 #include "python/src/result.h"
+#include "python/src/scene.h"
 #include "python/src/threads.h"
 
 namespace pinocchio::python {
@@ -40,14 +41,6 @@ Scene lit(const Scene& scene, const Camera& camera) {
   if (copy.lights.empty()) copy.lights.push_back(default_light(copy, camera));
   return copy;
 }
-
-void check_size(const glm::ivec2& size) {
-  if (size.x < 1 || size.y < 1 || size.x > 65536 || size.y > 65536)
-    throw Error("size is " + std::to_string(size.x) + "x" + std::to_string(size.y) +
-                "; it must be (width, height) in pixels");
-}
-
-using Array = nb::ndarray<nb::c_contig, nb::device::cpu>;
 
 const LayerRow& output_named(const std::string& name) {
   for (const LayerRow& row : kLayers)
@@ -105,18 +98,29 @@ class PyEngine {
     if (pid_ != getpid()) (void)engine_.release();  // its threads are in the parent
   }
 
+  // Waits for the calls of other threads.
+  void close() {
+    const nb::gil_scoped_release released;
+    const std::lock_guard lock(mutex_);
+    if (pid_ != getpid()) (void)engine_.release();
+    engine_.reset();
+  }
+  [[nodiscard]] bool is_closed() const { return !engine_; }
+
   [[nodiscard]] int threads() const { return or_one_a_core(threads_); }
 
-  Result render(const Scene& scene, const CameraChoice& choice, const glm::ivec2& size,
+  Result render(const PyScene& given, const CameraChoice& choice, const Size& pixels,
                 const nb::kwargs& arguments) {
-    check_process();
-    check_size(size);
+    check_open();
+    const glm::ivec2 size = pixels.read();
+    const Scene scene = given.now();
     const Settings settings = settings_of(arguments, threads_);
     const Camera camera = camera_of(scene, choice);
     const Scene drawn = lit(scene, camera);
     const bool is_dark = scene.lights.empty();
     return without_gil([&](Progress* progress) {
       const std::lock_guard lock(mutex_);
+      check_open();
       const auto begin = std::chrono::steady_clock::now();
       Result result{
           value_or_throw(engine_->render(drawn, {.camera = camera, .size = size}, settings, progress))};
@@ -126,11 +130,12 @@ class PyEngine {
     });
   }
 
-  nb::dict render_many(const Scene& scene, const std::vector<CameraChoice>& choices, const glm::ivec2& size,
+  nb::dict render_many(const PyScene& given, const std::vector<CameraChoice>& choices, const Size& pixels,
                        const std::vector<std::string>& outputs, const std::optional<nb::dict>& out,
                        const nb::kwargs& arguments) {
-    check_process();
-    check_size(size);
+    check_open();
+    const glm::ivec2 size = pixels.read();
+    const Scene scene = given.now();
     const Settings settings = settings_of(arguments, threads_);
     std::vector<Camera> cameras;
     for (const CameraChoice& choice : choices) cameras.push_back(camera_of(scene, choice));
@@ -147,13 +152,15 @@ class PyEngine {
     const Scene drawn = lit(scene, cameras.front());
     without_gil([&](Progress* progress) {
       const std::lock_guard lock(mutex_);
+      check_open();
       return value_or_throw(pinocchio::render_many(*engine_, drawn, cameras, size, settings, to, progress));
     });
     return result;
   }
 
  private:
-  void check_process() const {
+  void check_open() const {
+    if (!engine_) throw Error("this Engine is closed; create another one");
     if (pid_ != getpid())
       throw Error("this Engine was created before the process was forked; create one in each process");
   }
@@ -178,7 +185,7 @@ void bind_engine(nb::module_& module) {
       "needed.\n"
       "Raises Error if there is no such camera or setting, if settings contradict each other, or if OpenGL "
       "fails.\n"
-      "Settings:\n\n" +
+      "Settings, those of the picture first:\n\n" +
       settings_help();
   static const std::string kRenderMany =
       "Draws a picture from each camera and returns {name: array (n, height, width, ...)}.\n"
@@ -189,12 +196,13 @@ void bind_engine(nb::module_& module) {
       "out: the arrays of an earlier call, which are filled again.\n"
       "Settings and errors as for render; TypeError if an array of `out` does not fit. Small pictures keep\n"
       "all threads busy.";
-  nb::class_<PyEngine>(
+  nb::class_<PyEngine> bound(
       module, "Engine",
       "Worker threads, the last scene's tree and, if the settings need it, an OpenGL context.\n"
       "Several threads may use an Engine; their calls are executed one after the other. A process may have "
       "several\n"
-      "Engines. Create an Engine after a fork, not before it.")
+      "Engines. Create an Engine after a fork, not before it.");
+  bound
       .def(nb::init<int, const std::string&, const std::string&>(), "threads"_a = 0, "backend"_a = "auto",
            "device"_a = "",
            "threads: the number of worker threads. 0: the environment variable PINOCCHIO_THREADS, else one "
@@ -202,11 +210,38 @@ void bind_engine(nb::module_& module) {
            "process. If several processes share a machine, give each its share.\n"
            "backend, device: of OpenGL, as the program's options.")
       .def_prop_ro("threads", &PyEngine::threads, "The number of worker threads.")
+      .def("close", &PyEngine::close,
+           "Ends the threads and frees the tree and the OpenGL context. Later pictures raise Error. `with "
+           "Engine() as "
+           "engine:`\n"
+           "closes it at the end of the block.")
+      .def(
+          "__enter__", [](nb::handle self) { return nb::borrow(self); },
+          nb::sig("def __enter__(self) -> Engine"))
+      .def(
+          "__exit__", [](PyEngine& engine, const nb::args&) { engine.close(); },
+          nb::sig("def __exit__(self, *exception: object) -> None"))
+      .def("__repr__",
+           [](const PyEngine& engine) {
+             return engine.is_closed() ? std::string("<Engine, closed>")
+                                       : "<Engine: " + std::to_string(engine.threads()) + " threads>";
+           })
       .def("render", &PyEngine::render, "scene"_a, "camera"_a = nb::none(), "size"_a = glm::ivec2(800, 600),
-           "settings"_a, kRender.c_str())
+           "settings"_a,
+           nb::sig("def render(self, scene: Scene, camera: Camera | int | str | None = None, size: "
+                   "collections.abc.Sequence[int] = (800, 600), **settings: object) -> Result"),
+           kRender.c_str())
       .def("render_many", &PyEngine::render_many, "scene"_a, "cameras"_a, "size"_a = glm::ivec2(800, 600),
            "outputs"_a = std::vector<std::string>{"color"}, "out"_a = nb::none(), "settings"_a,
+           nb::sig(
+               "def render_many(self, scene: Scene, cameras: collections.abc.Sequence[Camera | int | str | "
+               "None], "
+               "size: collections.abc.Sequence[int] = (800, 600), outputs: collections.abc.Sequence[str] = "
+               "('color',), out: collections.abc.Mapping[str, typing.Any] | None = None, **settings: object) "
+               "-> "
+               "dict[str, numpy.typing.NDArray[typing.Any]]"),
            kRenderMany.c_str());
+  def_no_pickle(bound, "an Engine does not pickle, as it has threads: create one in each process");
 }
 
 }  // namespace pinocchio::python

@@ -32,6 +32,8 @@ NB_MODULE(_core, module) {
       error.ptr());
   set_thread_warning(warn);
   bind_camera(module);
+  bind_material(module);
+  bind_light(module);
   bind_scene(module);
   bind_result(module);
   bind_engine(module);

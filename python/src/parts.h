@@ -6,6 +6,8 @@
 namespace pinocchio::python {
 
 void bind_camera(nb::module_& module);
+void bind_material(nb::module_& module);
+void bind_light(nb::module_& module);
 void bind_scene(nb::module_& module);
 void bind_result(nb::module_& module);
 void bind_engine(nb::module_& module);

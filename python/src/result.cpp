@@ -1,11 +1,15 @@
 #include "python/src/result.h"
 
 #include <nanobind/stl/filesystem.h>
+#include <algorithm>
+#include <cctype>
+#include <cstdio>
 #include <map>
 
 #include "python/src/interrupt.h"
 #include "python/src/layers.h"
 #include "python/src/parts.h"
+#include "python/src/png.h"
 
 namespace pinocchio::python {
 namespace {
@@ -90,6 +94,18 @@ auto ids(nb::handle self) {
       self);
 }
 
+bool has_extension(const std::filesystem::path& path, const char* wanted) {
+  std::string extension = path.extension().string();
+  std::ranges::transform(extension, extension.begin(), [](unsigned char c) { return std::tolower(c); });
+  return extension == wanted;
+}
+
+std::string milliseconds(double ms) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.3g", ms);
+  return text;
+}
+
 template <auto M>
 auto of_frame(nb::handle self) {
   return picture(nb::cast<Result&>(self).frame.*M, self);
@@ -105,11 +121,12 @@ void bind_result(nb::module_& module) {
   static std::map<Layer, std::string> docs;
   const auto doc = [](Layer layer) { return docs.emplace(layer, doc_of(layer)).first->second.c_str(); };
   static const std::string ids_doc = doc_of(Layer::ids) + " Read-only.";
-  nb::class_<Result>(module, "Result",
-                     "A finished picture. Arrays are (height, width, ...) with row 0 on top. They are views, "
-                     "which are made\n"
-                     "at first use.")
-      .def_prop_ro("color", &of_frame<&FrameResult::color>, doc(Layer::picture))
+  nb::class_<Result> bound(
+      module, "Result",
+      "A finished picture. Arrays are (height, width, ...) with row 0 on top. They are views, "
+      "which are made\n"
+      "at first use.");
+  bound.def_prop_ro("color", &of_frame<&FrameResult::color>, doc(Layer::picture))
       .def_prop_ro("depth", &of_surfaces<&SurfaceImages::z_eye>, doc(Layer::depth))
       .def_prop_ro("position", &of_surfaces<&SurfaceImages::p_world>, doc(Layer::position))
       .def_prop_ro("normal", &of_surfaces<&SurfaceImages::n_shading>, doc(Layer::normals))
@@ -118,22 +135,54 @@ void bind_result(nb::module_& module) {
       .def_prop_ro("objects", &objects, doc(Layer::objects))
       .def_prop_ro("mask", &mask, doc(Layer::mask))
       .def_prop_ro("reflection", &reflection, doc(Layer::reflection))
-      .def_prop_ro("record", &record, "The cost as a dict: 'ms', 'stages' (ms), 'bytes', 'rays'.")
+      .def_prop_ro("record", &record, nb::sig("def record(self) -> dict[str, typing.Any]"),
+                   "The cost as a dict: 'ms', 'stages' (ms), 'bytes', 'rays'.")
       .def_prop_ro("camera", [](const Result& r) { return r.frame.view.camera; })
       .def(
           "write_exr",
           [](const Result& r, const std::filesystem::path& path, const std::string& aov, bool deterministic) {
+            if (!has_extension(path, ".exr"))
+              throw Error(path.string() + ": write_exr writes EXR files; end the name in .exr" +
+                          (has_extension(path, ".png") ? ", or use write_png" : ""));
             ExrOptions options{.layers = aov};
             if (!deterministic) options.render_s = 1e-3 * r.ms;
             without_gil(
                 [&](Progress* progress) { return write_exr(path, r.frame, options, progress), true; });
           },
           "path"_a, "aov"_a = "all", "deterministic"_a = false,
+          nb::sig("def write_exr(self, path: str | os.PathLike[str], aov: str = 'all', deterministic: bool = "
+                  "False) -> "
+                  "None"),
           "Writes the picture with its layers to an EXR file, as the program does.\n"
           "path: the file, which is written whole or not at all.\n"
           "aov: 'all', 'none' or some of the program's --aov, separated by commas.\n"
           "deterministic: without the render time, so that the same picture has the same bytes.\n"
-          "Raises Error if the file cannot be written or there is no such layer.");
+          "Raises Error if the file cannot be written, if its name does not end in .exr or if there is no "
+          "such "
+          "layer.")
+      .def(
+          "write_png",
+          [](const Result& r, const std::filesystem::path& path, float exposure) {
+            if (!has_extension(path, ".png"))
+              throw Error(path.string() + ": write_png writes PNG files; end the name in .png");
+            write_bytes(path, png_of(r.frame.color, exposure, r.frame.scene.environment != nullptr));
+          },
+          "path"_a, "exposure"_a = 0.0f,
+          nb::sig("def write_png(self, path: str | os.PathLike[str], exposure: float = 0.0) -> None"),
+          "Writes the colour as a screen shows it: sRGB, 8 bits, with alpha where no environment is behind "
+          "the scene; what is brighter than white is white.\n"
+          "path: the file, which is written whole or not at all. exposure: stops brighter.\n"
+          "Raises Error if the file cannot be written or if its name does not end in .png.")
+      .def("_repr_png_",
+           [](const Result& r) { return png_of(r.frame.color, 0.0f, r.frame.scene.environment != nullptr); })
+      .def("__repr__", [](const Result& r) {
+        return "<Result: " + std::to_string(r.frame.color.width()) + "x" +
+               std::to_string(r.frame.color.height()) + " pixels, " +
+               std::to_string(r.frame.settings.spp.value) + " spp, " + milliseconds(r.ms) + " ms>";
+      });
+  def_no_pickle(
+      bound,
+      "a Result does not pickle: send its arrays (result.color, result.depth and so on), or write_exr");
 }
 
 }  // namespace pinocchio::python

@@ -3,136 +3,39 @@
 #include <pinocchio/names.h>
 #include <pinocchio/scene.h>
 
+#include <nanobind/stl/array.h>
 #include <nanobind/stl/filesystem.h>
 #include <nanobind/stl/string_view.h>
 #include <nanobind/stl/variant.h>
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <map>
+#include <set>
 
+#include "python/src/environment.h"
 #include "python/src/interrupt.h"
+#include "python/src/make_scene.h"
 #include "python/src/parts.h"
+#include "python/src/pickle.h"
 
 namespace pinocchio::python {
 namespace {
 
-// A material and its texture.
-struct TexturedMaterial {
-  Material material;
-  std::shared_ptr<const Texture> texture;
-};
-
-Texture texture_of(const Texels& texels) {
-  const std::size_t channels = texels.shape(2);
-  if (channels < 3 || channels > 4 || texels.shape(0) == 0 || texels.shape(1) == 0)
-    throw Error("a texture is an array (height, width, 3 or 4) of uint8, sRGB");
-  Texture texture{"", Image<glm::u8vec4>({texels.shape(1), texels.shape(0)})};
-  const std::uint8_t* from = texels.data();
-  for (glm::u8vec4& texel : texture.texels.pixels()) {
-    texel = {from[0], from[1], from[2], channels == 4 ? from[3] : 255};
-    from += channels;
+// The objects of a list, each of which is a T.
+template <class T>
+std::vector<T> all_of(nb::handle list, const std::string& name, const char* wanted) {
+  std::vector<T> values;
+  for (const nb::handle item : nb::cast<nb::iterable>(nb::borrow(list))) {
+    if (!nb::isinstance<T>(item))
+      throw Error(name + "[" + std::to_string(values.size()) + "] is a " +
+                  nb::cast<std::string>(item.type().attr("__name__")) + "; it must be a " + wanted);
+    values.push_back(nb::cast<T>(item));
   }
-  return texture;
+  return values;
 }
 
-Light light_of(std::optional<glm::vec3> position, std::optional<glm::vec3> direction, const glm::vec3& color,
-               float intensity, const std::string& falloff, float range, float inner_cone, float outer_cone,
-               bool casts_shadow, const std::string& name, float radius, float angle) {
-  if (!position && !direction)
-    throw Error("a light has a position (a point), a direction (a sun) or both (a spot)");
-  if (falloff != "none" && falloff != "inverse_square")
-    throw Error("falloff is '" + falloff + "'; it is 'none' or 'inverse_square'");
-  if (direction && glm::length(*direction) == 0.0f) throw Error("a light's direction must not be zero");
-  Light light;
-  light.name = name;
-  // The first kind that has what is given: no rectangle.
-  const auto* const kind = std::ranges::find_if(kLightKinds, [&](const LightKind& row) {
-    return row.has_position == position.has_value() && row.has_direction == direction.has_value();
-  });
-  light.kind = kind->kind;
-  if (position) light.position = *position;
-  if (direction) light.direction = glm::normalize(*direction);
-  light.color = color;
-  light.intensity = intensity;
-  light.falloff = falloff == "none" ? Light::Falloff::none : Light::Falloff::inverse_square;
-  light.range = range;
-  if (kind->has_cone) {
-    light.cos_inner = std::cos(glm::radians(inner_cone));
-    light.cos_outer = std::cos(glm::radians(outer_cone));
-  }
-  light.casts_shadow = casts_shadow;
-  light.radius = radius;
-  light.angle_deg = angle;
-  return light;
-}
-
-// Makes a material for each different colour of the triangles.
-void color_triangles(const std::vector<glm::vec3>& colors, MeshData& mesh) {
-  std::map<std::array<float, 3>, std::uint32_t> known;
-  const std::vector<Material> given = mesh.materials;
-  for (std::size_t t = 0; t < colors.size(); ++t) {
-    const glm::vec3& c = colors[t];
-    const auto [at, is_new] = known.try_emplace({c.x, c.y, c.z}, static_cast<std::uint32_t>(known.size()));
-    mesh.triangle_materials[t] = at->second;
-  }
-  mesh.materials.assign(known.size(), given.front());
-  for (const auto& [color, index] : known)
-    mesh.materials[index].ambient = mesh.materials[index].diffuse = {color[0], color[1], color[2]};
-}
-
-void add_materials(const std::vector<TexturedMaterial>& materials, MeshData& mesh) {
-  for (const TexturedMaterial& m : materials) {
-    mesh.materials.push_back(m.material);
-    if (!m.texture) continue;
-    make_maps(mesh, mesh.materials.back()).base_color.texture = static_cast<int>(mesh.textures.size());
-    mesh.textures.edit().push_back(*m.texture);
-  }
-  if (mesh.materials.empty()) mesh.materials.emplace_back();
-}
-
-void check_rows(std::size_t rows, std::size_t wanted, const char* what, const char* of) {
-  if (rows != wanted)
-    throw Error(std::string(what) + " has " + std::to_string(rows) + " rows; it needs one for each " + of +
-                ", there are " + std::to_string(wanted));
-}
-
-Scene scene_of(const Floats3& vertices, const Words3& triangles, const std::optional<Floats3>& normals,
-               const std::optional<Floats2>& uvs, const std::optional<Floats3>& colors,
-               const std::vector<TexturedMaterial>& materials, const std::optional<Words>& triangle_materials,
-               std::vector<Light> lights, const glm::vec3& ambient) {
-  MeshData mesh;
-  mesh.positions = copied<glm::vec3>(vertices);
-  mesh.triangles = copied<glm::uvec3>(triangles);
-  if (normals) check_rows(normals->shape(0), mesh.positions.size(), "normals", "vertex");
-  mesh.normals = normals ? copied<glm::vec3>(*normals) : std::vector(mesh.positions.size(), glm::vec3(0.0f));
-  if (uvs) {
-    check_rows(uvs->shape(0), mesh.positions.size(), "uvs", "vertex");
-    mesh.texcoords = copied<glm::vec2>(*uvs);
-  }
-  if (triangle_materials)
-    check_rows(triangle_materials->shape(0), mesh.triangles.size(), "triangle_materials", "triangle");
-  mesh.triangle_materials = triangle_materials ? copied<std::uint32_t>(*triangle_materials)
-                                               : std::vector<std::uint32_t>(mesh.triangles.size(), 0u);
-  add_materials(materials, mesh);
-  if (!mesh.textures.empty() && mesh.texcoords.empty())
-    throw Error("a material has a texture, but the scene has no uvs; give one (u, v) for each vertex");
-  if (colors) {
-    const std::vector<glm::vec3> given = copied<glm::vec3>(*colors);
-    if (given.size() == mesh.positions.size()) {
-      for (const glm::vec3& color : given) mesh.colors.emplace_back(color, 1.0f);
-    } else {
-      check_rows(given.size(), mesh.triangles.size(), "colors", "vertex or triangle");
-      color_triangles(given, mesh);
-    }
-  }
-  Scene scene(std::move(mesh));
-  scene.lights = std::move(lights);
-  scene.ambient_light = ambient;
-  (void)value_or_throw(check_scene(scene).map([] { return true; }));
-  return scene;
-}
-
-Scene load(const std::filesystem::path& path, bool confine, const std::string& shading) {
+PyScene load(const std::filesystem::path& path, bool confine, const std::string& shading) {
   Warnings warnings;
   LoadOptions options;
   options.confine = confine;
@@ -141,154 +44,108 @@ Scene load(const std::filesystem::path& path, bool confine, const std::string& s
   options.shading = *model;
   Scene scene = value_or_throw(
       without_gil([&](Progress* progress) { return load_scene(path, options, &warnings, progress); }));
-  for (const Warning& warning : warnings)
-    if (PyErr_WarnEx(PyExc_UserWarning, warning.message().c_str(), 1) != 0) throw nb::python_error();
-  return scene;
+  warn_of(warnings);
+  return PyScene(std::move(scene));
 }
 
 int node_of(const Scene& scene, const std::variant<int, std::string>& name) {
   if (!scene.nodes)
     throw Error("the scene has no nodes to move; load a glTF file, or combine scenes (assemble)");
   if (std::holds_alternative<int>(name)) return std::get<int>(name);
-  const int found = scene.nodes->find(std::get<std::string>(name));
-  if (found >= 0) return found;
+  const std::vector<std::string> names = node_names(scene);
+  const auto found = std::ranges::find(names, std::get<std::string>(name));
+  if (found != names.end()) return static_cast<int>(found - names.begin());
   throw Error("there is no node '" + std::get<std::string>(name) + "'; Scene.nodes lists them");
 }
 
 // A scene is copied (cheaply) before it is read without the GIL, because other threads may change it.
-Scene with_transforms(const Scene& scene, const nb::dict& transforms) {
+PyScene with_transforms(const PyScene& self, const nb::dict& transforms) {
+  const Scene scene = self.now();
   std::vector<NodeTransform> moves;
   for (const auto& [name, matrix] : transforms)
-    moves.push_back({node_of(scene, nb::cast<std::variant<int, std::string>>(name)),
-                     matrix_of(nb::cast<Matrix>(matrix))});
-  return value_or_throw(without_gil([&, copy = scene](Progress*) { return posed(copy, moves); }));
+    moves.push_back(
+        {node_of(scene, nb::cast<std::variant<int, std::string>>(name)),
+         Matrix{nb::borrow(matrix)}.read("the transform of " + std::string(nb::repr(name).c_str()))});
+  return PyScene(value_or_throw(without_gil([&](Progress*) { return posed(scene, moves); })));
 }
 
-Scene assemble(const nb::dict& parts) {
+PyScene assemble(const nb::dict& parts) {
   std::vector<Scene> scenes;
   scenes.reserve(nb::len(parts));
   std::vector<Part> all;
   for (const auto& [name, part] : parts) {
     const bool placed = nb::isinstance<nb::tuple>(part);
-    scenes.push_back(nb::cast<Scene>(placed ? nb::object(part[0]) : nb::borrow(part)));
-    all.push_back({nb::cast<std::string>(name), scenes.back(),
-                   placed ? matrix_of(nb::cast<Matrix>(nb::object(part[1]))) : glm::mat4(1.0f)});
+    const std::string named = nb::cast<std::string>(name);
+    if (placed && nb::len(part) != 2)
+      throw Error("the part '" + named + "' is a scene, or (scene, 4x4 matrix)");
+    const nb::object scene = placed ? nb::object(part[0]) : nb::borrow(part);
+    if (!nb::isinstance<PyScene>(scene))
+      throw Error("the part '" + named + "' is a scene, or (scene, 4x4 matrix)");
+    scenes.push_back(nb::cast<const PyScene&>(scene).now());
+    all.push_back({named, scenes.back(),
+                   placed ? Matrix{part[1]}.read("the matrix of '" + named + "'") : glm::mat4(1.0f)});
   }
-  return value_or_throw(without_gil([&](Progress*) { return assembled(all); }));
+  return PyScene(value_or_throw(without_gil([&](Progress*) { return assembled(all); })));
 }
 
-void bind_material(nb::module_& module) {
-  nb::class_<TexturedMaterial>(
-      module, "Material",
-      "A material of Phong's model with mirrors and glass. Colours are linear, three numbers each.")
-      .def(
-          "__init__",
-          [](TexturedMaterial* self, const glm::vec3& diffuse, const glm::vec3& specular, float shininess,
-             const glm::vec3& reflectance, const glm::vec3& transmittance, float ior, bool fresnel,
-             const glm::vec3& emission, const std::optional<glm::vec3>& ambient,
-             const std::optional<Texels>& texture, const std::string& name, float gloss,
-             const glm::vec3& attenuation_color, float attenuation_distance,
-             std::optional<bool> double_sided) {
-            Material m;
-            m.name = name;
-            m.ambient = ambient.value_or(diffuse);
-            m.diffuse = diffuse;
-            m.specular = specular;
-            m.shininess = shininess;
-            m.reflectance = reflectance;
-            m.transmittance = transmittance;
-            m.ior = ior;
-            m.fresnel = fresnel;
-            m.emission = emission;
-            m.gloss = gloss;
-            m.attenuation_color = attenuation_color;
-            m.attenuation_distance = attenuation_distance;
-            m.double_sided = double_sided;
-            new (self) TexturedMaterial{
-                m, texture ? std::make_shared<const Texture>(texture_of(*texture)) : nullptr};
-          },
-          "diffuse"_a = glm::vec3(0.8f), "specular"_a = glm::vec3(0.0f), "shininess"_a = 1.0f,
-          "reflectance"_a = glm::vec3(0.0f), "transmittance"_a = glm::vec3(0.0f), "ior"_a = 1.0f,
-          "fresnel"_a = false, "emission"_a = glm::vec3(0.0f), "ambient"_a = nb::none(),
-          "texture"_a = nb::none(), "name"_a = "", "gloss"_a = 0.0f, "attenuation_color"_a = glm::vec3(1.0f),
-          "attenuation_distance"_a = 0.0f, "double_sided"_a = nb::none(),
-          "ambient: None: as diffuse.\n"
-          "reflectance: the weight of the mirrored ray; with `fresnel`, at normal incidence.\n"
-          "transmittance: the weight of the refracted ray, which is refracted by `ior`.\n"
-          "texture: (height, width, 3 or 4) uint8, sRGB. Its colour multiplies diffuse and ambient.\n"
-          "gloss: the exponent of the lobe over which samples (spp) spread mirrored rays. 0: sharp.\n"
-          "attenuation_color: the share of light that is left after `attenuation_distance` (scene units) "
-          "through glass.\n"
-          "attenuation_distance: 0: the glass is clear.\n"
-          "double_sided: False: the camera sees through the surface from behind, unless backfaces='draw'. "
-          "None: "
-          "only with backfaces='cull'.\n"
-          "Raises Error if the texture has another shape.");
+std::vector<TexturedMaterial> materials_of(const Mesh& mesh) {
+  std::vector<TexturedMaterial> all;
+  for (const Material& material : mesh.materials) {
+    all.push_back({material, nullptr});
+    if (material.maps < 0) continue;
+    const TextureUse& use = mesh.maps[static_cast<std::size_t>(material.maps)].base_color;
+    if (use.used())
+      all.back().texture =
+          std::make_shared<const Texture>(mesh.textures[static_cast<std::size_t>(use.texture)]);
+  }
+  return all;
 }
 
-void bind_light(nb::module_& module) {
-  nb::class_<Light>(module, "Light", "A point light, a sun or a spot light.")
-      .def(
-          "__init__",
-          [](Light* self, std::optional<glm::vec3> position, std::optional<glm::vec3> direction,
-             const glm::vec3& color, float intensity, const std::string& falloff, float range,
-             float inner_cone, float outer_cone, bool casts_shadow, const std::string& name, float radius,
-             float angle) {
-            new (self) Light(light_of(position, direction, color, intensity, falloff, range, inner_cone,
-                                      outer_cone, casts_shadow, name, radius, angle));
-          },
-          "position"_a = nb::none(), "direction"_a = nb::none(), "color"_a = glm::vec3(1.0f),
-          "intensity"_a = 1.0f, "falloff"_a = "none", "range"_a = std::numeric_limits<float>::infinity(),
-          "inner_cone"_a = 0.0f, "outer_cone"_a = 45.0f, "casts_shadow"_a = true, "name"_a = "",
-          "radius"_a = 0.0f, "angle"_a = 0.0f,
-          "A light with a position is a point light, one with a direction a sun, one with both a spot "
-          "light.\n"
-          "position, direction: three numbers each; the light travels along the direction.\n"
-          "inner_cone, outer_cone: the spot light's cones, in degrees from its direction.\n"
-          "falloff: 'none' (the same strength at any distance) or 'inverse_square'.\n"
-          "range: no light reaches beyond it, in scene units.\n"
-          "casts_shadow: at most eight lights of a scene cast shadows.\n"
-          "radius: of the shining sphere, in scene units. angle: the diameter of a sun's disc, in degrees. "
-          "With either,\n"
-          "several samples (spp) give soft shadows.\n"
-          "Raises Error if there is neither position nor direction, or if falloff is another word.")
-      .def_prop_ro("kind", [](const Light& light) { return kind_of(light).name; })
-      .def_rw("name", &Light::name)
-      .def_rw("position", &Light::position)
-      .def_prop_rw(
-          "direction", [](const Light& l) { return l.direction; },
-          [](Light& l, const glm::vec3& d) { l.direction = glm::normalize(d); })
-      .def_rw("color", &Light::color)
-      .def_rw("intensity", &Light::intensity)
-      .def_rw("casts_shadow", &Light::casts_shadow)
-      .def_rw("radius", &Light::radius)
-      .def_rw("angle", &Light::angle_deg);
+std::string counted(std::size_t n, const char* what) {
+  return std::to_string(n) + " " + what + (n == 1 ? "" : "s");
 }
 
-}  // namespace
+std::string described(const PyScene& self) {
+  const Scene& s = self.scene;
+  return "<Scene" +
+         (s.source.empty() ? "" : " " + shown(std::filesystem::path(s.source).filename().string())) + ": " +
+         counted(s.mesh->triangles.size(), "triangle") + ", " +
+         counted(s.mesh->materials.size(), "material") + ", " +
+         counted(s.nodes ? s.nodes->nodes.size() : 0, "node") + ", " + counted(self.lights.size(), "light") +
+         ", " + counted(self.cameras.size(), "camera") + ">";
+}
 
-void bind_scene(nb::module_& module) {
-  bind_material(module);
-  bind_light(module);
-  nb::class_<Scene>(module, "Scene", "A mesh, which copies share, with lights and cameras.")
+const Mesh& mesh_of(nb::handle self) {
+  return *nb::cast<const PyScene&>(self).scene.mesh;
+}
+
+using SceneClass = nb::class_<PyScene>;
+using MaterialList = std::variant<TexturedMaterial, std::vector<TexturedMaterial>>;
+
+void bind_making(SceneClass& bound) {
+  bound
       .def(
           "__init__",
-          [](Scene* self, const Floats3& vertices, const Words3& triangles,
+          [](PyScene* self, const Floats3& vertices, const Words3& triangles,
              const std::optional<Floats3>& normals, const std::optional<Floats2>& uvs,
-             const std::optional<Floats3>& colors, const nb::object& materials,
-             const std::optional<Words>& triangle_materials, const std::vector<Light>& lights,
-             const glm::vec3& ambient) {
+             const std::optional<Floats3>& colors, const std::optional<MaterialList>& materials,
+             const std::optional<Words>& triangle_materials, const nb::typed<nb::iterable, Light>& lights,
+             const Three& ambient, nb::object environment) {
             std::vector<TexturedMaterial> all;
-            if (nb::isinstance<TexturedMaterial>(materials))
-              all.push_back(nb::cast<TexturedMaterial>(materials));
-            else if (!materials.is_none())
-              for (const nb::handle m : materials) all.push_back(nb::cast<TexturedMaterial>(m));
-            new (self) Scene(scene_of(vertices, triangles, normals, uvs, colors, all, triangle_materials,
-                                      lights, ambient));
+            if (materials && std::holds_alternative<TexturedMaterial>(*materials))
+              all.push_back(std::get<TexturedMaterial>(*materials));
+            else if (materials)
+              all = std::get<std::vector<TexturedMaterial>>(*materials);
+            Scene scene =
+                scene_of(vertices, triangles, normals, uvs, colors, all, triangle_materials, ambient);
+            scene.lights = all_of<Light>(lights, "lights", "Light");
+            PyScene made(std::move(scene));
+            set_environment(made, environment);
+            new (self) PyScene(std::move(made));
           },
           "vertices"_a, "triangles"_a, "normals"_a = nb::none(), "uvs"_a = nb::none(),
           "colors"_a = nb::none(), "materials"_a = nb::none(), "triangle_materials"_a = nb::none(),
-          "lights"_a = std::vector<Light>(), "ambient"_a = glm::vec3(0.1f),
+          "lights"_a = nb::make_tuple(), "ambient"_a = glm::vec3(0.1f), "environment"_a = nb::none(),
           "vertices: (n, 3) float32, in any unit. triangles: (m, 3) uint32, indices of vertices.\n"
           "normals: (n, 3) float32. None: triangles are flat.\n"
           "uvs: (n, 2) float32. (0, 0) is the texture's first texel.\n"
@@ -296,77 +153,247 @@ void bind_scene(nb::module_& module) {
           "vertices'.\n"
           "materials: a Material or a list of them. triangle_materials: (m,) uint32, the index of each "
           "triangle's material.\n"
+          "environment: the light around the scene, as the property of that name.\n"
           "A scene without lights is drawn with one above the camera.\n"
-          "Raises Error if the numbers of rows do not match or an index is out of range.")
-      .def_rw("lights", &Scene::lights, "A copy of the list: assign it again after a change.")
-      .def_rw("cameras", &Scene::cameras, "A copy of the list, as for lights.")
-      .def_rw("ambient", &Scene::ambient_light)
-      .def_ro("source", &Scene::source, "The path of the file that the scene was loaded from.")
-      .def_prop_ro("bounds",
-                   [](const Scene& s) { return nb::make_tuple(s.mesh->bounds().lo, s.mesh->bounds().hi); })
+          "Raises Error if the numbers of rows do not match, an index is out of range or a number is not "
+          "finite.")
+      .def("__repr__", &described)
+      .def("__copy__", [](const PyScene& self) { return PyScene(self.now()); })
+      .def(
+          "__deepcopy__", [](const PyScene& self, nb::handle) { return PyScene(self.now()); }, "memo"_a,
+          "A copy with lights and cameras of its own. The mesh, which never changes, is shared.")
+      .def("__getstate__", [](const PyScene& self) { return pickled(self.now()); })
+      .def("__setstate__", [](PyScene& self, const nb::bytes& state) {
+        Scene scene;
+        unpickle(state, scene);
+        new (&self) PyScene(std::move(scene));
+      });
+}
+
+void bind_surroundings(SceneClass& bound) {
+  bound
+      .def_prop_rw(
+          "lights", [](const PyScene& s) { return nb::typed<nb::list, Light>(s.lights); },
+          [](PyScene& s, const nb::typed<nb::iterable, Light>& lights) {
+            (void)all_of<Light>(lights, "lights", "Light");
+            s.lights = nb::list(lights);
+          },
+          "A list of Light: append to it, or change its lights, and the next picture shows it.")
+      .def_prop_rw(
+          "cameras", [](const PyScene& s) { return nb::typed<nb::list, Camera>(s.cameras); },
+          [](PyScene& s, const nb::typed<nb::iterable, Camera>& cameras) {
+            (void)all_of<Camera>(cameras, "cameras", "Camera");
+            s.cameras = nb::list(cameras);
+          },
+          "A list of Camera, which can be changed as lights can.")
+      .def_prop_rw(
+          "environment", &environment_of, &set_environment, nb::for_setter(nb::arg("value").none()),
+          nb::for_getter(nb::sig("def environment(self) -> numpy.typing.NDArray[numpy.float32] | None")),
+          nb::for_setter(nb::sig("def environment(self, value: str | os.PathLike[str] | "
+                                 "numpy.typing.ArrayLike | None, /) -> None")),
+          "The light from all directions around the scene, (height, width, 3) float32, linear: a picture in "
+          "latitude\n"
+          "and longitude, whose top row is +Y, whose middle is +Z, and +X a quarter of the width to the left "
+          "of it.\n"
+          "None: there is none. Set it to such an array, or to the path of an EXR or HDR file. The settings\n"
+          "environment_strength and environment_rotation of a picture change it.\n"
+          "Raises Error if the file cannot be read, or if light is negative or not finite.")
+      .def_prop_ro(
+          "source", [](const PyScene& s) { return s.scene.source; },
+          "The path of the file that the scene was loaded from.");
+  def_three(
+      bound, "ambient", [](PyScene& s) -> glm::vec3& { return s.scene.ambient_light; },
+      "Light that reaches every point, linear.");
+}
+
+void bind_mesh(SceneClass& bound) {
+  bound
+      .def_prop_ro(
+          "bounds",
+          [](const PyScene& s) {
+            const Bounds& box = s.scene.mesh->bounds();
+            return std::array{box.lo, box.hi};
+          },
+          "The lowest and the highest corner of the scene's box.")
       .def_prop_ro(
           "vertices",
           [](nb::handle self) {
-            const Mesh& mesh = *nb::cast<const Scene&>(self).mesh;
+            const Mesh& mesh = mesh_of(self);
             return view_of<const float>(&mesh.positions.data()->x, {mesh.positions.size(), 3}, self);
           },
           "(n, 3) float32, in world space. The array is not a copy.")
       .def_prop_ro(
           "normals",
           [](nb::handle self) {
-            const Mesh& mesh = *nb::cast<const Scene&>(self).mesh;
+            const Mesh& mesh = mesh_of(self);
             return view_of<const float>(&mesh.normals.data()->x, {mesh.normals.size(), 3}, self);
           },
           "(n, 3) float32; 0 where the triangle's own normal is used. The array is not a copy.")
       .def_prop_ro(
+          "uvs",
+          [](nb::handle self) -> std::optional<nb::ndarray<nb::numpy, const float>> {
+            const Mesh& mesh = mesh_of(self);
+            if (mesh.texcoords.empty()) return std::nullopt;
+            return view_of<const float>(&mesh.texcoords.data()->x, {mesh.texcoords.size(), 2}, self);
+          },
+          "(n, 2) float32; v grows downwards. None: the scene has none. The array is not a copy.")
+      .def_prop_ro(
+          "colors",
+          [](nb::handle self) -> std::optional<nb::ndarray<nb::numpy, const float>> {
+            const Mesh& mesh = mesh_of(self);
+            if (mesh.colors.empty()) return std::nullopt;
+            return view_of<const float>(&mesh.colors.data()->x, {mesh.colors.size(), 4}, self);
+          },
+          "(n, 4) float32: the vertices' linear RGBA. None: the scene has none. The array is not a copy.")
+      .def_prop_ro(
           "triangles",
           [](nb::handle self) {
-            const Mesh& mesh = *nb::cast<const Scene&>(self).mesh;
+            const Mesh& mesh = mesh_of(self);
             return view_of<const std::uint32_t>(&mesh.triangles.data()->x, {mesh.triangles.size(), 3}, self);
           },
           "(m, 3) uint32. The index of a row is the triangle's id. The array is not a copy.")
       .def_prop_ro(
-          "nodes",
-          [](const Scene& s) {
-            std::vector<std::string> names;
-            if (s.nodes)
-              for (const Node& node : s.nodes->nodes) names.push_back(node.name);
-            return names;
+          "triangle_materials",
+          [](nb::handle self) {
+            const Mesh& mesh = mesh_of(self);
+            return view_of<const std::uint32_t>(mesh.triangle_materials.data(),
+                                                {mesh.triangle_materials.size()}, self);
           },
-          "The names of the parts that can be moved. The index in the list is the number in `objects`.")
-      .def("camera", &camera_for_whole_scene, "A camera that sees the whole scene.")
+          "(m,) uint32: the index in `materials` of each triangle's material. The array is not a copy.")
+      .def_prop_ro(
+          "materials", [](const PyScene& s) { return materials_of(*s.scene.mesh); },
+          "The materials, in the order of `triangle_materials`. A Material has the base colour's texture; "
+          "other "
+          "textures\n"
+          "are in the scene alone.");
+}
+
+void bind_nodes(SceneClass& bound) {
+  bound
+      .def_prop_ro(
+          "nodes", [](const PyScene& s) { return node_names(s.scene); },
+          "The names of the parts that can be moved. The index in the list is the number in `objects`. Names "
+          "differ: "
+          "node 7\n"
+          "is '#7' if it has no name, and 'wheel#7' if an earlier node is called 'wheel'.")
+      .def_prop_ro(
+          "node_parents",
+          [](const PyScene& s) {
+            std::vector<std::int32_t> parents;
+            if (s.scene.nodes)
+              for (const Node& node : s.scene.nodes->nodes) parents.push_back(node.parent);
+            const std::size_t n = parents.size();
+            return array_that_owns<std::int32_t>(std::move(parents), {n});
+          },
+          nb::rv_policy::reference, "(n,) int32: the index of each node's parent, -1 for none.")
+      .def_prop_ro(
+          "node_transforms",
+          [](const PyScene& s) {
+            std::vector<glm::mat4> rows;
+            if (s.scene.nodes)
+              for (const Node& node : s.scene.nodes->nodes) rows.push_back(glm::transpose(node.local));
+            const std::size_t n = rows.size();
+            return array_that_owns<float>(std::move(rows), {n, 4, 4});
+          },
+          nb::rv_policy::reference,
+          "(n, 4, 4) float32: the matrix from each node to its parent now, as `posed` takes it.")
+      .def_prop_ro(
+          "triangle_nodes",
+          [](const PyScene& s) {
+            std::vector<std::uint32_t> nodes(s.scene.mesh->triangles.size());
+            for (std::size_t t = 0; t < nodes.size(); ++t)
+              nodes[t] = object_of(s.scene, static_cast<std::uint32_t>(t));
+            const std::size_t n = nodes.size();
+            return array_that_owns<std::uint32_t>(std::move(nodes), {n});
+          },
+          nb::rv_policy::reference,
+          "(m,) uint32: the index in `nodes` of each triangle's node, 0 if the scene has no nodes. "
+          "triangle_nodes[ids] is\n"
+          "`objects`.")
+      .def(
+          "camera", [](const PyScene& s) { return camera_for_whole_scene(s.now()); },
+          "A camera that sees the whole scene.")
       .def("posed", &with_transforms, "transforms"_a,
+           nb::sig("def posed(self, transforms: collections.abc.Mapping[str, numpy.typing.ArrayLike] | "
+                   "collections.abc.Mapping[int, numpy.typing.ArrayLike]) -> Scene"),
            "The scene with nodes and their children moved.\n"
            "transforms: {name or index: 4x4 matrix from the node to its parent}.\n"
            "Materials, triangles and their ids stay. Lights and cameras move with their nodes.\n"
            "Raises Error if there is no such node, or if a matrix gives numbers that are not finite.")
       .def_prop_ro(
-          "duration", [](const Scene& s) { return duration_s(s); },
+          "duration", [](const PyScene& s) { return duration_s(s.scene); },
           "The duration of the scene's animation, in seconds. 0: it has none.")
       .def(
           "at_time",
-          [](const Scene& scene, double seconds) {
-            return value_or_throw(
-                without_gil([copy = scene, seconds](Progress*) { return at_time(copy, seconds); }));
+          [](const PyScene& self, double seconds) {
+            const Scene scene = self.now();
+            return PyScene(value_or_throw(without_gil([&](Progress*) { return at_time(scene, seconds); })));
           },
           "seconds"_a,
           "The scene at a time of its animation: its nodes, skins and morph targets, with the lights and "
           "cameras of nodes.\n"
           "seconds: before the first key and after the last one, the scene does not move.\n"
           "Triangles and their ids stay.\n"
-          "Raises Error if the time is not finite.")
-      .def("__copy__", [](const Scene& scene) { return scene; });
+          "Raises Error if the time is not finite.");
+}
+
+}  // namespace
+
+PyScene::PyScene(Scene from) : scene(std::move(from)) {
+  for (Light& light : scene.lights) lights.append(std::move(light));
+  for (Camera& camera : scene.cameras) cameras.append(std::move(camera));
+  scene.lights.clear();
+  scene.cameras.clear();
+}
+
+Scene PyScene::now() const {
+  Scene copy = scene;
+  copy.lights = all_of<Light>(lights, "scene.lights", "Light");
+  copy.cameras = all_of<Camera>(cameras, "scene.cameras", "Camera");
+  return copy;
+}
+
+std::vector<std::string> node_names(const Scene& scene) {
+  std::vector<std::string> names;
+  if (!scene.nodes) return names;
+  std::set<std::string> taken;
+  for (const Node& node : scene.nodes->nodes) taken.insert(node.name);
+  std::set<std::string> used;
+  for (std::size_t i = 0; i < scene.nodes->nodes.size(); ++i) {
+    std::string name = scene.nodes->nodes[i].name;
+    if (name.empty() || used.contains(name)) {
+      name += "#" + std::to_string(i);
+      while (taken.contains(name) || used.contains(name)) name += "#";
+    }
+    used.insert(name);
+    names.push_back(std::move(name));
+  }
+  return names;
+}
+
+void bind_scene(nb::module_& module) {
+  SceneClass bound(module, "Scene", "A mesh, which copies share, with lights, cameras and an environment.");
+  bind_making(bound);
+  bind_surroundings(bound);
+  bind_mesh(bound);
+  bind_nodes(bound);
   module.def(
       "load_scene", &load, "path"_a, "confine"_a = false, "shading"_a = "auto",
+      nb::sig("def load_scene(path: str | os.PathLike[str], confine: bool = False, shading: str = 'auto') -> "
+              "Scene"),
       "Reads a scene by its extension, as the program does. What is left out of the file is a warning. With\n"
       "confine, files that it names are opened only below its folder, wherever names and links lead.\n"
       "shading: 'auto', the file's reflection model (glTF's for metallic-roughness materials, else Phong's), "
       "or 'phong'.\n"
       "Raises Error if it is another word.");
-  module.def("assemble", &assemble, "parts"_a,
-             "One scene of several: {name: scene} or {name: (scene, 4x4 matrix)}. Each becomes a node that "
-             "can be moved\n"
-             "(Scene.posed), with its own nodes below it.");
+  module.def(
+      "assemble", &assemble, "parts"_a,
+      nb::sig("def assemble(parts: collections.abc.Mapping[str, Scene] | collections.abc.Mapping[str, "
+              "tuple[Scene, numpy.typing.ArrayLike]] | collections.abc.Mapping[str, Scene | tuple[Scene, "
+              "numpy.typing.ArrayLike]]) -> Scene"),
+      "One scene of several: {name: scene} or {name: (scene, 4x4 matrix)}. Each becomes a node that "
+      "can be moved\n"
+      "(Scene.posed), with its own nodes below it.");
 }
 
 }  // namespace pinocchio::python

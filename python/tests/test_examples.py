@@ -5,7 +5,7 @@ import sys
 import nbclient
 import nbformat
 import numpy
-import pinocchio
+import pinocchio_renderer as pn
 import pytest
 from conftest import TREE
 from PIL import Image
@@ -35,8 +35,8 @@ def test_a_data_set(tmp_path, scenes):
     arrays = numpy.load(tmp_path / "set.npz")
     assert arrays["color"].shape == (3, 128, 128, 4) and arrays["poses"].shape == (3, 4, 4)
     # Each pixel's depth and pose give the point that a ray of that pixel meets.
-    scene = pinocchio.load_scene(scenes / "cornell.gltf")
-    tracer = pinocchio.Tracer(scene.vertices, scene.triangles)
+    scene = pn.load_scene(scenes / "cornell.gltf")
+    tracer = pn.Tracer(scene.vertices, scene.triangles)
     v, u = numpy.indices((128, 128))
     cx, cy = arrays["center"]
     directions = numpy.stack([(u - cx) / arrays["focal"], (v - cy) / arrays["focal"], numpy.ones_like(u)], -1)
@@ -46,6 +46,24 @@ def test_a_data_set(tmp_path, scenes):
         same = triangle == ids.ravel()
         assert same.mean() > 0.999
         numpy.testing.assert_allclose(t[same], depth.ravel()[same], rtol=1e-4)
+
+
+def test_a_lidar(tmp_path, scenes):
+    done = run(EXAMPLES / "lidar.py", scenes / "cornell.gltf", "points.npz", cwd=tmp_path)
+    points = numpy.load(tmp_path / "points.npz")
+    n = len(points["distance"])
+    assert f"{n} points of {900 * 32} beams" in done.stdout and n > 10000
+    assert points["position"].shape == (n, 3) and points["node"].max() < len(points["names"])
+    # Noise aside, each point is on a surface of the scene.
+    scene = pn.load_scene(scenes / "cornell.gltf")
+    low, high = map(numpy.array, scene.bounds)
+    assert (points["position"] > low - 0.1).all() and (points["position"] < high + 0.1).all()
+    corners = scene.vertices[scene.triangles[points["triangle"]]].astype(float)
+    normals = numpy.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
+    normals /= numpy.linalg.norm(normals, axis=1)[:, None]
+    off = numpy.einsum("ni,ni->n", points["position"] - corners[:, 0], normals)
+    assert numpy.abs(off).max() < 0.1 and off.std() < 0.011
+    assert (points["intensity"] >= 0).all()
 
 
 def test_the_picture_test_approves_and_compares(tmp_path):

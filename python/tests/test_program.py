@@ -2,7 +2,7 @@
 import subprocess
 
 import numpy
-import pinocchio
+import pinocchio_renderer as pn
 import pytest
 
 CHANNELS = {
@@ -31,8 +31,8 @@ def test_every_channel(scenes, program, tmp_path, name, options, settings):
     theirs, ours = tmp_path / "program.exr", tmp_path / "module.exr"
     command = [program, "render", scenes / name, *options, "--size", "160x100", "-o", theirs, "--quiet"]
     subprocess.run(command, check=True)
-    wanted = pinocchio.read_exr(theirs)
-    result = pinocchio.Engine().render(pinocchio.load_scene(scenes / name), size=(160, 100), **settings)
+    wanted = pn.read_exr(theirs)
+    result = pn.Engine().render(pn.load_scene(scenes / name), size=(160, 100), **settings)
     for field, names in {**CHANNELS, **HALVES}.items():
         array = getattr(result, field)
         array = array.reshape(*array.shape[:2], -1)
@@ -40,5 +40,5 @@ def test_every_channel(scenes, program, tmp_path, name, options, settings):
             found = array[..., i].astype(numpy.float16 if field in HALVES else array.dtype)
             numpy.testing.assert_array_equal(found.astype(wanted[channel].dtype), wanted[channel], err_msg=channel)
     result.write_exr(ours)
-    for channel, values in pinocchio.read_exr(ours).items():
+    for channel, values in pn.read_exr(ours).items():
         numpy.testing.assert_array_equal(values, wanted[channel], err_msg=channel)

@@ -1,13 +1,13 @@
 """Scenes from arrays, trimesh and glTF; what moves; cameras by their matrix."""
 import numpy
-import pinocchio
+import pinocchio_renderer as pn
 import pytest
 
 from test_tracer import quad
 
 
 def floor(**more):
-    return pinocchio.Scene(*quad(), **more)
+    return pn.Scene(*quad(), **more)
 
 
 ABOVE = dict(eye=(0, 0, 4), target=(0, 0, 0), up=(0, 1, 0))
@@ -18,7 +18,7 @@ def test_arrays_are_seen_without_a_copy():
     assert scene.vertices.shape == (4, 3) and scene.triangles.dtype == numpy.uint32
     with pytest.raises(ValueError):
         scene.vertices[0, 0] = 1
-    result = pinocchio.Engine().render(scene, size=(8, 6))
+    result = pn.Engine().render(scene, size=(8, 6))
     assert numpy.shares_memory(result.color, result.color) and result.color.base is not None
     depth = result.depth
     del result
@@ -26,8 +26,8 @@ def test_arrays_are_seen_without_a_copy():
 
 
 def test_colors_materials_and_textures():
-    engine, camera = pinocchio.Engine(), pinocchio.Camera(**ABOVE, fov=20)
-    sun = [pinocchio.Light(direction=(0, 0, -1))]
+    engine, camera = pn.Engine(), pn.Camera(**ABOVE, fov=20)
+    sun = [pn.Light(direction=(0, 0, -1))]
     colored = floor(colors=numpy.array([[1, 0, 0], [0, 0, 1]], numpy.float32), lights=sun)
     albedo = engine.render(colored, camera, size=(16, 16)).albedo
     assert {tuple(a) for a in albedo.reshape(-1, 3)} == {(1, 0, 0), (0, 0, 1)}
@@ -35,12 +35,12 @@ def test_colors_materials_and_textures():
     texels = numpy.zeros((2, 2, 3), numpy.uint8)
     texels[0] = 255  # its upper half is white
     uvs = numpy.array([[0, 1], [1, 1], [1, 0], [0, 0]], numpy.float32)
-    textured = floor(uvs=uvs, materials=pinocchio.Material(diffuse=(1, 1, 1), texture=texels), lights=sun)
-    albedo = engine.render(textured, pinocchio.Camera(**ABOVE, fov=28), size=(16, 16)).albedo[..., 0]
+    textured = floor(uvs=uvs, materials=pn.Material(diffuse=(1, 1, 1), texture=texels), lights=sun)
+    albedo = engine.render(textured, pn.Camera(**ABOVE, fov=28), size=(16, 16)).albedo[..., 0]
     assert albedo[4, 8] > 0.9 and albedo[11, 8] < 0.1
 
-    metal = pinocchio.Material(diffuse=(0, 0, 0), reflectance=(0.5, 0.5, 0.5))
-    mirror = floor(materials=[pinocchio.Material(), metal], triangle_materials=numpy.array([0, 1]), lights=sun)
+    metal = pn.Material(diffuse=(0, 0, 0), reflectance=(0.5, 0.5, 0.5))
+    mirror = floor(materials=[pn.Material(), metal], triangle_materials=numpy.array([0, 1]), lights=sun)
     assert engine.render(mirror, camera, size=(8, 8)).record["rays"]["reflection"] > 0
 
 
@@ -49,31 +49,31 @@ def test_glass_takes_light_by_the_way_through_it():
     vertices = numpy.concatenate([corners + numpy.float32([0, 0, z]) for z in (0, 1, 2)])
     # a wall, a slab's lower and upper face
     triangles = numpy.concatenate([triangles, triangles[:, ::-1] + 4, triangles + 8])
-    wall = pinocchio.Material(diffuse=(0, 0, 0), emission=(1, 1, 1))
-    glass = pinocchio.Material(diffuse=(0, 0, 0), transmittance=(1, 1, 1), attenuation_color=(0.25, 0.5, 1),
+    wall = pn.Material(diffuse=(0, 0, 0), emission=(1, 1, 1))
+    glass = pn.Material(diffuse=(0, 0, 0), transmittance=(1, 1, 1), attenuation_color=(0.25, 0.5, 1),
                                attenuation_distance=2)
-    scene = pinocchio.Scene(vertices, triangles, materials=[wall, glass],
+    scene = pn.Scene(vertices, triangles, materials=[wall, glass],
                             triangle_materials=numpy.array([0, 0, 1, 1, 1, 1]))
-    camera = pinocchio.Camera(eye=(0, 0, 9), target=(0, 0, 0), up=(0, 1, 0), fov=2)
-    seen = pinocchio.Engine().render(scene, camera, size=(4, 4), mode="raytrace").color[2, 2, :3]
+    camera = pn.Camera(eye=(0, 0, 9), target=(0, 0, 0), up=(0, 1, 0), fov=2)
+    seen = pn.Engine().render(scene, camera, size=(4, 4), mode="raytrace").color[2, 2, :3]
     assert seen == pytest.approx([0.25**0.5, 0.5**0.5, 1], abs=2e-3)
 
 
 def test_the_camera_sees_through_the_backs_of_single_sided_materials():
     corners, triangles = quad()
-    below = pinocchio.Camera(eye=(0, 0, -9), target=(0, 0, 0), up=(0, 1, 0), fov=2)
+    below = pn.Camera(eye=(0, 0, -9), target=(0, 0, 0), up=(0, 1, 0), fov=2)
     for double_sided, backfaces, seen in [(None, "auto", True), (None, "cull", False), (True, "cull", True),
                                           (False, "auto", False), (False, "draw", True)]:
-        scene = pinocchio.Scene(corners, triangles, materials=pinocchio.Material(double_sided=double_sided))
-        ids = pinocchio.Engine().render(scene, below, size=(4, 4), backfaces=backfaces).ids
+        scene = pn.Scene(corners, triangles, materials=pn.Material(double_sided=double_sided))
+        ids = pn.Engine().render(scene, below, size=(4, 4), backfaces=backfaces).ids
         assert (ids[2, 2] != 0xffffffff) == seen, (double_sided, backfaces)
 
 
 def test_lights_and_cameras_change_between_calls():
-    engine, scene = pinocchio.Engine(), floor(lights=[pinocchio.Light(position=(0, 0, 3))])
-    lit = engine.render(scene, pinocchio.Camera(**ABOVE), size=(8, 8)).mask
-    scene.lights = [pinocchio.Light(position=(0, 0, -3))]
-    behind = engine.render(scene, pinocchio.Camera(**ABOVE), size=(8, 8)).mask
+    engine, scene = pn.Engine(), floor(lights=[pn.Light(position=(0, 0, 3))])
+    lit = engine.render(scene, pn.Camera(**ABOVE), size=(8, 8)).mask
+    scene.lights = [pn.Light(position=(0, 0, -3))]
+    behind = engine.render(scene, pn.Camera(**ABOVE), size=(8, 8)).mask
     assert lit[4, 4] == 1 and behind[4, 4] == 0
 
 
@@ -81,19 +81,19 @@ def test_nodes_move(scenes):
     part = floor()
     pose = numpy.eye(4)
     pose[2, 3] = 1.0
-    scene = pinocchio.assemble({"floor": part, "plate": (part, pose)})
+    scene = pn.assemble({"floor": part, "plate": (part, pose)})
     assert scene.nodes == ["floor", "plate"]
-    engine, camera = pinocchio.Engine(), pinocchio.Camera(**ABOVE, fov=20)
+    engine, camera = pn.Engine(), pn.Camera(**ABOVE, fov=20)
     assert engine.render(scene, camera, size=(8, 8)).depth[4, 4] == pytest.approx(3.0)
     assert set(engine.render(scene, camera, size=(8, 8)).objects.flat) == {1}
     pose[2, 3] = -0.5
     moved = scene.posed({"plate": pose})
     assert engine.render(moved, camera, size=(8, 8)).depth[4, 4] == pytest.approx(4.0)
     assert scene.vertices[4, 2] == 1.0  # the scene is as it was
-    with pytest.raises(pinocchio.Error, match="no node 'roof'"):
+    with pytest.raises(pn.Error, match="no node 'roof'"):
         scene.posed({"roof": pose})
 
-    cornell = pinocchio.load_scene(scenes / "cornell.gltf")
+    cornell = pn.load_scene(scenes / "cornell.gltf")
     lamp = numpy.eye(4)
     lamp[:3, 3] = (0.5, 1, 1)
     assert cornell.posed({"lamp": lamp}).lights[0].position == pytest.approx((0.5, 1, 1))
@@ -103,13 +103,13 @@ def test_trimesh():
     trimesh = pytest.importorskip("trimesh")
     box = trimesh.creation.box()
     box.visual.face_colors = [255, 0, 0, 255]
-    scene = pinocchio.from_trimesh(box, smooth=False)
-    result = pinocchio.Engine().render(scene, size=(32, 32))
+    scene = pn.from_trimesh(box, smooth=False)
+    result = pn.Engine().render(scene, size=(32, 32))
     assert tuple(result.albedo[16, 16]) == (1, 0, 0)
     world = trimesh.Scene()
     world.add_geometry(box, node_name="near")
     world.add_geometry(box, node_name="far", transform=trimesh.transformations.translation_matrix([5, 0, 0]))
-    both = pinocchio.from_trimesh(world)
+    both = pn.from_trimesh(world)
     assert sorted(both.nodes) == ["far", "near"] and both.bounds[1][0] == pytest.approx(5.5)
 
 
@@ -119,9 +119,9 @@ def test_camera_matrix_turns_depth_into_points():
     angle = 0.3
     pose[:3, :3] = [[numpy.cos(angle), 0, numpy.sin(angle)], [0, 1, 0], [-numpy.sin(angle), 0, numpy.cos(angle)]]
     pose[:3, 3] = (-0.4, 0.1, -3)
-    camera = pinocchio.Camera.from_intrinsics((64, 48), fx, fy, cx, cy, pose)
+    camera = pn.Camera.from_intrinsics((64, 48), fx, fy, cx, cy, pose)
     assert camera.intrinsics((64, 48)) == pytest.approx((fx, fy, cx, cy), rel=1e-5)
-    result = pinocchio.Engine().render(floor(), camera, size=(64, 48))
+    result = pn.Engine().render(floor(), camera, size=(64, 48))
     seen = numpy.isfinite(result.depth)
     assert 100 < seen.sum() < seen.size
     v, u = numpy.nonzero(seen)
@@ -130,20 +130,20 @@ def test_camera_matrix_turns_depth_into_points():
     numpy.testing.assert_allclose((pose @ in_camera)[:3].T, result.position[seen], atol=2e-5)
 
     flip = numpy.diag([1.0, -1, -1, 1])
-    same = pinocchio.Camera.from_intrinsics((64, 48), fx, fy, cx, cy, pose @ flip, convention="opengl")
-    numpy.testing.assert_array_equal(pinocchio.Engine().render(floor(), same, size=(64, 48)).ids, result.ids)
+    same = pn.Camera.from_intrinsics((64, 48), fx, fy, cx, cy, pose @ flip, convention="opengl")
+    numpy.testing.assert_array_equal(pn.Engine().render(floor(), same, size=(64, 48)).ids, result.ids)
 
 
 def test_an_animated_scene_moves(scenes):
-    still = pinocchio.load_scene(scenes / "cornell.gltf")
+    still = pn.load_scene(scenes / "cornell.gltf")
     assert still.duration == 0
-    mill = pinocchio.load_scene(scenes / "windmill.glb")
+    mill = pn.load_scene(scenes / "windmill.glb")
     assert mill.duration == 4
     later = mill.at_time(0.5)
     assert (later.triangles == mill.triangles).all()
     assert (later.vertices != mill.vertices).any()
     assert (later.at_time(0).vertices == mill.at_time(0).vertices).all()
-    with pytest.raises(pinocchio.Error):
+    with pytest.raises(pn.Error):
         mill.at_time(float("nan"))
 
 
@@ -152,6 +152,6 @@ def test_confined_scenes_name_files_below_their_folder_only(tmp_path):
     (tmp_path / "scene").mkdir()
     scene = tmp_path / "scene" / "a.obj"
     scene.write_text("mtllib ../m.mtl\nusemtl m\nv 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n")
-    assert len(pinocchio.load_scene(scene).vertices) == 3
-    with pytest.raises(pinocchio.Error, match="lies outside the scene's folder"):
-        pinocchio.load_scene(scene, confine=True)
+    assert len(pn.load_scene(scene).vertices) == 3
+    with pytest.raises(pn.Error, match="lies outside the scene's folder"):
+        pn.load_scene(scene, confine=True)

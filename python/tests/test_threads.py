@@ -5,7 +5,7 @@ import sys
 import threading
 
 import numpy
-import pinocchio
+import pinocchio_renderer as pn
 import pytest
 
 
@@ -29,7 +29,7 @@ def at_the_same_time(count, call):
 
 
 def test_arrays_that_are_asked_for_at_the_same_time_are_the_same(scenes):
-    engine, scene = pinocchio.Engine(threads=1), pinocchio.load_scene(scenes / "cornell.gltf")
+    engine, scene = pn.Engine(threads=1), pn.load_scene(scenes / "cornell.gltf")
     for _ in range(5):
         result = engine.render(scene, size=(160, 120))
         arrays = at_the_same_time(6, lambda i: result.depth)
@@ -38,8 +38,8 @@ def test_arrays_that_are_asked_for_at_the_same_time_are_the_same(scenes):
 
 
 def test_an_exr_is_written_while_reflections_are_first_asked_for(scenes, tmp_path):
-    engine, scene = pinocchio.Engine(threads=1), pinocchio.load_scene(scenes / "cornell.gltf")
-    result = engine.render(scene, size=(320, 240), depth=0)
+    engine, scene = pn.Engine(threads=1), pn.load_scene(scenes / "cornell.gltf")
+    result = engine.render(scene, size=(320, 240), bounces=0)
     got = at_the_same_time(2, lambda i: result.reflection if i else result.write_exr(tmp_path / "x.exr"))
     assert got[0] is None and not got[1].any()
     assert numpy.array_equal(result.reflection, got[1])
@@ -48,25 +48,25 @@ def test_an_exr_is_written_while_reflections_are_first_asked_for(scenes, tmp_pat
 # A process of its own: where a scene is read while it changes, it dies.
 def test_a_scene_may_change_while_it_is_read(scenes):
     code = f"""
-import pinocchio, threading
-scene = pinocchio.load_scene({str(scenes / 'windmill.glb')!r})
+import threading, pinocchio_renderer as pn
+scene = pn.load_scene({str(scenes / 'windmill.glb')!r})
 name, done = scene.nodes[0], threading.Event()
-lights = [[pinocchio.Light((0, 9, 0), name='x' * 50, casts_shadow=False)] * n for n in (1, 40, 3, 200)]
+lights = [[pn.Light((0, 9, 0), name='x' * 50, casts_shadow=False)] * n for n in (1, 40, 3, 200)]
 def change():
     i = 0
     while not done.is_set():
         i += 1
         scene.lights = lights[i % 4]
-        scene.cameras = [pinocchio.Camera((0, 0, 9), (0, 0, 0), name='y' * 50)] * (i % 7)
+        scene.cameras = [pn.Camera((0, 0, 9), (0, 0, 0), name='y' * 50)] * (i % 7)
 thread = threading.Thread(target=change, daemon=True)
 thread.start()
 eye = [[1, 0, 0, 0], [0, 1, 0, 0], [0, 0, 1, 0], [0, 0, 0, 1]]
-engine = pinocchio.Engine(threads=1)
+engine = pn.Engine(threads=1)
 for i in range(300):
     moved = scene.at_time(i / 100), scene.posed({{name: eye}})
     assert all(len(s.lights) in (1, 3, 40, 200) and len(s.cameras) < 7 for s in moved)
     if i % 30 == 0:
-        engine.render(scene, pinocchio.Camera((0, 2, 9), (0, 0, 0)), size=(8, 8), mode='raytrace')
+        engine.render(scene, pn.Camera((0, 2, 9), (0, 0, 0)), size=(8, 8), mode='raytrace')
 done.set()
 thread.join()
 """
@@ -107,7 +107,7 @@ class OnlyCuda:
 
 
 def test_pictures_are_written_to_the_cpus_memory_alone(scenes):
-    engine, scene = pinocchio.Engine(threads=1), pinocchio.load_scene(scenes / "cornell.gltf")
+    engine, scene = pn.Engine(threads=1), pn.load_scene(scenes / "cornell.gltf")
 
     def draw(out):
         return engine.render_many(scene, [None], (8, 6), out={"color": out})["color"]
@@ -123,7 +123,7 @@ def test_pictures_are_written_to_the_cpus_memory_alone(scenes):
         with pytest.raises(TypeError, match="out\\['color'\\] is no array that can be written to"):
             draw(wrong)
     assert not locked.any()
-    with pytest.raises(pinocchio.Error, match="not of the shape"):
+    with pytest.raises(pn.Error, match="not of the shape"):
         draw(Tensor((1, 6, 8, 3), 1))
     tensor = Tensor((1, 6, 8, 4), 1)
     assert draw(tensor) is tensor

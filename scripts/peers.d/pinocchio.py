@@ -4,12 +4,12 @@ VARIANTS = {"Pinocchio Python": {"many": False}, "Pinocchio render_many": {"many
 
 
 def frames(job, many):
-    import pinocchio
+    import pinocchio_renderer as pn
 
-    lights = [pinocchio.Light(position=p) for p in job.lights]
-    scene = pinocchio.Scene(job.vertices, job.faces, normals=job.normals, lights=lights)
-    engine = pinocchio.Engine(threads=job.threads)
-    cameras = [pinocchio.Camera.from_pose(job.pose(k), "opengl", job.fov) for k in range(len(job.eyes))]
+    lights = [pn.Light(position=p) for p in job.lights]
+    scene = pn.Scene(job.vertices, job.faces, normals=job.normals, lights=lights)
+    engine = pn.Engine(threads=job.threads)
+    cameras = [pn.Camera.from_pose(job.pose(k), "opengl", job.fov) for k in range(len(job.eyes))]
     out = None
     while many:
         out = engine.render_many(scene, cameras, tuple(job.size), ["color"], out=out)

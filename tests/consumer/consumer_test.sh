@@ -14,13 +14,38 @@ quietly() {
 build() { # SOURCE FOLDER OPTIONS...
   quietly cmake -G Ninja -S "$1" -B "$2" "${@:3}"
   if grep -iE 'warning|does not exist|possible reasons' "$work/log"; then
-    echo "$1: what find_package(Pinocchio) prints looks like a failure"
+    echo "$1: what find_package(PinocchioRenderer) prints looks like a failure"
     exit 1
   fi
   quietly cmake --build "$2"
 }
+# The robotics library `pinocchio` in the same prefix: no path of its file list is one of ours, with letters of any case,
+# and a program finds both. Its files here are stand-ins.
+stands_beside_robotics() { # PREFIX
+  local theirs=$tree/tests/consumer/robotics_pinocchio.txt file
+  (cd "$1" && find . -type f | sed 's|^\./||') | tr '[:upper:]' '[:lower:]' | sort >"$work/ours"
+  if grep -v '^#' "$theirs" | tr '[:upper:]' '[:lower:]' | sort | comm -12 - "$work/ours" | grep .; then
+    echo "these files are the robotics library's as well"
+    exit 1
+  fi
+  if grep -E '^include/pinocchio/|/cmake/pinocchio/|/libpinocchio_(collision|default|parsers|visualizers)\.' "$work/ours"; then
+    echo "these files lie in folders of the robotics library, or have its libraries' names"
+    exit 1
+  fi
+  grep -v '^#' "$theirs" | while read -r file; do
+    mkdir -p "$1/$(dirname "$file")"
+    true >"$1/$file"
+  done
+  echo '#define PINOCCHIO_ROBOTICS 1' >"$1/include/pinocchio/fwd.hpp"
+  cat >"$1/lib/cmake/pinocchio/pinocchioConfig.cmake" <<'EOF'
+add_library(pinocchio::pinocchio INTERFACE IMPORTED)
+target_include_directories(pinocchio::pinocchio INTERFACE ${CMAKE_CURRENT_LIST_DIR}/../../../include)
+EOF
+  build "$tree/tests/consumer/beside_robotics" "$work/beside" -DCMAKE_PREFIX_PATH="$1" "${@:2}"
+  "$work/beside/beside_robotics"
+}
 links_core_alone() { # FOLDER of tracer_alone
-  if ninja -C "$1" -t commands tracer_alone | grep -oE -- '-o tracer_alone .*pinocchio_(compare|reference)'; then
+  if ninja -C "$1" -t commands tracer_alone | grep -oE -- '-o tracer_alone .*pinocchio_renderer_(compare|reference)'; then
     echo "the tracer alone links more than Pinocchio::core"
     exit 1
   fi
@@ -59,6 +84,7 @@ else
   build "$tree/tests/consumer/compare" "$work/compare" -DCMAKE_PREFIX_PATH="$prefix" "$@"
   "$work/compare/compare"
   build "$tree/tests/consumer/own_glad" "$work/own_glad" -DCMAKE_PREFIX_PATH="$prefix" "$@"
+  stands_beside_robotics "$prefix" "$@"
   for kind in STATIC SHARED; do "$work/own_glad/own_glad_$kind" "$tree/scenes/cornell.gltf"; done
 fi
 

@@ -1,9 +1,16 @@
 """Scenes from trimesh's meshes. The caller imports trimesh."""
 
-from ._core import Error, Material, Scene, assemble
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any, Iterable, Optional
+
+from ._core import Error, Light, Material, Scene, assemble
+
+if TYPE_CHECKING:
+    from numpy.typing import ArrayLike
 
 
-def _linear(srgb):
+def _linear(srgb: Any) -> Any:
     """sRGB 0..255 to linear 0..1 (IEC 61966-2-1)."""
     import numpy
 
@@ -11,12 +18,12 @@ def _linear(srgb):
     return numpy.where(c <= 0.04045, c / 12.92, ((c + 0.055) / 1.055) ** 2.4).astype(numpy.float32)
 
 
-def _image(material):
+def _image(material: Any) -> Any:
     image = getattr(material, "baseColorTexture", None)
     return image if image is not None else getattr(material, "image", None)
 
 
-def _surface(mesh, material):
+def _surface(mesh: Any, material: Optional[Material]) -> dict[str, Any]:
     """Keyword arguments for Scene: the given material, else the mesh's visual."""
     import numpy
 
@@ -40,7 +47,14 @@ def _surface(mesh, material):
     return {}
 
 
-def from_trimesh(mesh, *, smooth=True, material=None, lights=(), ambient=(0.1, 0.1, 0.1)):
+def from_trimesh(
+    mesh: Any,
+    *,
+    smooth: bool = True,
+    material: Optional[Material] = None,
+    lights: Iterable[Light] = (),
+    ambient: ArrayLike = (0.1, 0.1, 0.1),
+) -> Scene:
     """A Scene from a trimesh.Trimesh, or from a trimesh.Scene, whose geometry becomes nodes that can be moved.
 
     smooth: shade with the mesh's vertex normals. False: triangles are flat.

@@ -1,0 +1,31 @@
+#pragma once
+
+#include <pinocchio/scene.h>
+
+#include <memory>
+
+#include "python/src/convert.h"
+
+namespace pinocchio::python {
+
+// A Scene whose lights and cameras are Python's lists, so that they can be changed in place.
+struct PyScene {
+  explicit PyScene(Scene from);
+
+  // The scene with the lights and cameras that the lists hold now. The GIL is held. Throws Error.
+  [[nodiscard]] Scene now() const;
+
+  Scene scene;  // its own lights and cameras are empty
+  nb::list lights, cameras;
+};
+
+// A material and its texture.
+struct TexturedMaterial {
+  Material material;
+  std::shared_ptr<const Texture> texture;
+};
+
+// The nodes' names: '#7' for node 7 where it has none, 'wheel#7' where an earlier node has its name.
+[[nodiscard]] std::vector<std::string> node_names(const Scene& scene);
+
+}  // namespace pinocchio::python
