@@ -99,7 +99,9 @@ TEST(ReflectionModel, AWhiteBallReturnsNoMoreThanItGets) {
     }
 }
 
+// Prints a row for each roughness of the layer: a coat on metal, on white, sheen on white, on black.
 TEST(ReflectionModel, LayersReturnNoMoreThanTheyGet) {
+  int count = 0;
   for (const float roughness : {0.0f, 0.1f, 0.3f, 0.6f, 1.0f})
     for (const Material& of :
          {coated(roughness), coated(roughness, 0.0f), cloth(glm::vec3(1.0f), glm::vec3(1.0f), roughness),
@@ -110,6 +112,7 @@ TEST(ReflectionModel, LayersReturnNoMoreThanTheyGet) {
       if (of.diffuse.x > 0.0f) {
         EXPECT_GT(back.mean, 0.9) << roughness;
       }
+      std::printf(" %.3f%s", back.mean, ++count % 4 == 0 ? "\n" : "");
     }
 }
 
