@@ -4,7 +4,7 @@ import sys
 
 DRAW = """
 import pathlib, resource, warnings
-import pinocchio
+import pinocchio_renderer as pinocchio
 scene = pinocchio.load_scene({scene!r})
 soft, hard = resource.getrlimit(resource.RLIMIT_AS)
 def limit(more_mib):
