@@ -12,7 +12,7 @@
 #include "python/src/parts.h"
 #include "python/src/render_settings.h"
 #include "python/src/result.h"
-#include "python/src/scene.h"
+#include "python/src/scene/scene.h"
 #include "python/src/threads.h"
 
 namespace pinocchio::python {

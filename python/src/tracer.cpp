@@ -13,7 +13,7 @@
 
 #include "python/src/interrupt.h"
 #include "python/src/parts.h"
-#include "python/src/scene.h"
+#include "python/src/scene/scene.h"
 #include "python/src/threads.h"
 
 namespace pinocchio::python {

@@ -1,4 +1,4 @@
-#include "python/src/environment.h"
+#include "python/src/scene/environment.h"
 
 #include <pinocchio/environment.h>
 

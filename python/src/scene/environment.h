@@ -3,7 +3,7 @@
 
 #include <pinocchio/load.h>
 
-#include "python/src/scene.h"
+#include "python/src/scene/scene.h"
 
 namespace pinocchio::python {
 

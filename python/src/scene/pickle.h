@@ -1,7 +1,7 @@
 // Scenes and their parts as bytes, for pickle. The bytes are read by the version that wrote them.
 #pragma once
 
-#include "python/src/scene.h"
+#include "python/src/scene/scene.h"
 
 namespace pinocchio::python {
 

@@ -13,11 +13,11 @@
 #include <map>
 #include <set>
 
-#include "python/src/environment.h"
 #include "python/src/interrupt.h"
-#include "python/src/make_scene.h"
 #include "python/src/parts.h"
-#include "python/src/pickle.h"
+#include "python/src/scene/environment.h"
+#include "python/src/scene/make_scene.h"
+#include "python/src/scene/pickle.h"
 
 namespace pinocchio::python {
 namespace {

@@ -1,4 +1,4 @@
-#include "python/src/make_scene.h"
+#include "python/src/scene/make_scene.h"
 
 #include <pinocchio/load.h>
 

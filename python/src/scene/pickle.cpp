@@ -1,4 +1,4 @@
-#include "python/src/pickle.h"
+#include "python/src/scene/pickle.h"
 
 #include <pinocchio/animation.h>
 #include <pinocchio/load.h>

@@ -1,7 +1,7 @@
 // Scenes from arrays.
 #pragma once
 
-#include "python/src/scene.h"
+#include "python/src/scene/scene.h"
 
 namespace pinocchio::python {
 

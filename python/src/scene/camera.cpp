@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "python/src/parts.h"
-#include "python/src/pickle.h"
+#include "python/src/scene/pickle.h"
 
 namespace pinocchio::python {
 namespace {
