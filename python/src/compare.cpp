@@ -5,9 +5,9 @@
 #include <array>
 #include <cmath>
 
-#include "python/src/interrupt.h"
-#include "python/src/parts.h"
 #include "python/src/result.h"
+#include "python/src/support/interrupt.h"
+#include "python/src/support/parts.h"
 
 namespace pinocchio::python {
 namespace {

@@ -7,12 +7,12 @@
 #include <cstring>
 #include <mutex>
 
-#include "python/src/interrupt.h"
 #include "python/src/layers.h"
-#include "python/src/parts.h"
 #include "python/src/render_settings.h"
 #include "python/src/result.h"
 #include "python/src/scene/scene.h"
+#include "python/src/support/interrupt.h"
+#include "python/src/support/parts.h"
 #include "python/src/threads.h"
 
 namespace pinocchio::python {

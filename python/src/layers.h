@@ -5,7 +5,7 @@
 #include <string>
 #include <type_traits>
 
-#include "python/src/parts.h"
+#include "python/src/support/parts.h"
 
 namespace pinocchio::python {
 

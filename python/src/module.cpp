@@ -1,6 +1,6 @@
 #include <pinocchio/threads.h>
 
-#include "python/src/parts.h"
+#include "python/src/support/parts.h"
 
 namespace {
 

@@ -3,7 +3,7 @@
 
 #include <pinocchio/settings.h>
 
-#include "python/src/convert.h"
+#include "python/src/support/convert.h"
 
 namespace pinocchio::python {
 

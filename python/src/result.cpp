@@ -6,10 +6,10 @@
 #include <cstdio>
 #include <map>
 
-#include "python/src/interrupt.h"
 #include "python/src/layers.h"
-#include "python/src/parts.h"
 #include "python/src/png.h"
+#include "python/src/support/interrupt.h"
+#include "python/src/support/parts.h"
 
 namespace pinocchio::python {
 namespace {

@@ -7,7 +7,7 @@
 #include <cstdlib>
 #include <thread>
 
-#include "python/src/convert.h"
+#include "python/src/support/convert.h"
 
 namespace pinocchio::python {
 

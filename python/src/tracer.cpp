@@ -11,9 +11,9 @@
 #include <system_error>
 #include <thread>
 
-#include "python/src/interrupt.h"
-#include "python/src/parts.h"
 #include "python/src/scene/scene.h"
+#include "python/src/support/interrupt.h"
+#include "python/src/support/parts.h"
 #include "python/src/threads.h"
 
 namespace pinocchio::python {

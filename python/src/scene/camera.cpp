@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "python/src/parts.h"
 #include "python/src/scene/pickle.h"
+#include "python/src/support/parts.h"
 
 namespace pinocchio::python {
 namespace {

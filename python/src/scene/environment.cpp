@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "python/src/interrupt.h"
+#include "python/src/support/interrupt.h"
 
 namespace pinocchio::python {
 

@@ -1,7 +1,7 @@
 #include <cmath>
 
-#include "python/src/parts.h"
 #include "python/src/scene/pickle.h"
+#include "python/src/support/parts.h"
 
 namespace pinocchio::python {
 namespace {

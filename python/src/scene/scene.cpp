@@ -13,11 +13,11 @@
 #include <map>
 #include <set>
 
-#include "python/src/interrupt.h"
-#include "python/src/parts.h"
 #include "python/src/scene/environment.h"
 #include "python/src/scene/make_scene.h"
 #include "python/src/scene/pickle.h"
+#include "python/src/support/interrupt.h"
+#include "python/src/support/parts.h"
 
 namespace pinocchio::python {
 namespace {

@@ -4,7 +4,7 @@
 
 #include <memory>
 
-#include "python/src/convert.h"
+#include "python/src/support/convert.h"
 
 namespace pinocchio::python {
 

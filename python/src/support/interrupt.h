@@ -6,7 +6,7 @@
 #include <csignal>
 #include <optional>
 
-#include "python/src/convert.h"
+#include "python/src/support/convert.h"
 
 namespace pinocchio::python {
 

@@ -1,7 +1,7 @@
 // Arrays and text for Python.
 #pragma once
 
-#include "python/src/arguments.h"
+#include "python/src/support/arguments.h"
 
 namespace pinocchio::python {
 

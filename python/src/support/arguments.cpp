@@ -1,4 +1,4 @@
-#include "python/src/arguments.h"
+#include "python/src/support/arguments.h"
 
 #include <cmath>
 #include <limits>

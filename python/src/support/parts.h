@@ -1,7 +1,7 @@
 // The parts of the module, one file each.
 #pragma once
 
-#include "python/src/convert.h"
+#include "python/src/support/convert.h"
 
 namespace pinocchio::python {
 

@@ -1,4 +1,4 @@
-#include "python/src/interrupt.h"
+#include "python/src/support/interrupt.h"
 
 namespace pinocchio::python {
 namespace {
