@@ -17,15 +17,6 @@ float alpha_at(const MaterialMaps& maps, const Lookup& lookup) {
 
 }  // namespace
 
-shared::MetallicRoughness metallic_roughness(const GltfSurface& s) {
-  return {s.base_color, s.metallic,       s.roughness,    s.emissive, s.ior,
-          s.specular,   s.specular_color, s.transmission, s.volume,   s.unlit};
-}
-
-shared::GltfLayers layers(const GltfSurface& s) {
-  return {s.clearcoat, s.clearcoat_roughness, s.sheen_color, s.sheen_roughness};
-}
-
 shared::MaterialPoint plain_material(const Material& m) {
   return {.shading = {.ambient = m.ambient,
                       .diffuse = m.diffuse,

@@ -67,8 +67,21 @@ class Lookup;  // shade/map_lookup.h
                                         float threshold);
 
 // A surface as the shared sources have it.
-[[nodiscard]] shared::MetallicRoughness metallic_roughness(const GltfSurface& surface);
-[[nodiscard]] shared::GltfLayers layers(const GltfSurface& surface);
+[[nodiscard]] inline shared::MetallicRoughness metallic_roughness(const GltfSurface& s) {
+  return {.base_color = s.base_color,
+          .metallic = s.metallic,
+          .roughness = s.roughness,
+          .emissive = s.emissive,
+          .ior = s.ior,
+          .specular = s.specular,
+          .specular_color = s.specular_color,
+          .transmission = s.transmission,
+          .volume = s.volume,
+          .unlit = s.unlit};
+}
+[[nodiscard]] inline shared::GltfLayers layers(const GltfSurface& s) {
+  return {s.clearcoat, s.clearcoat_roughness, s.sheen_color, s.sheen_roughness};
+}
 
 // The material as it stands, without maps.
 [[nodiscard]] shared::MaterialPoint plain_material(const Material& material);
