@@ -41,7 +41,9 @@ uniform float environment_strength;
 struct EnvironmentTexels {
   int lod;
 };
-vec3 environment_texel(EnvironmentTexels texels, ivec2 at) { return texelFetch(environment, at, texels.lod).rgb; }
+vec3 environment_texel(EnvironmentTexels texels, float column, float row) {
+  return texelFetch(environment, ivec2(column, row), texels.lod).rgb;
+}
 
 #include "shared/environment.glsl"
 

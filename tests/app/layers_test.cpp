@@ -213,8 +213,8 @@ TEST(Layers, PicturesAreReadAndWrittenByCodecsAlone) {
           << file;
 }
 
-// The table of light kinds is in light.h. Beside it, only what computes the light of a kind names kinds, and the
-// studio, which makes a light.
+// The table of light kinds is in light.h. Beside it, only what computes the light of a kind names kinds, and
+// the studio, which makes a light.
 TEST(Layers, LightKindsAreListedOnce) {
   const std::regex kKind("Light::Kind::[a-z]|\"(directional|rectangle)\"");
   const std::set<std::string> kCompute{"light.h", "surface.cpp", "reference_lobe.cpp",

@@ -22,7 +22,7 @@ namespace pinocchio {
 inline constexpr int kTileBits = 5;
 static_assert(1 << kTileBits == TileGrid::kTileSize);
 
-class EnvironmentLight;
+struct EnvironmentLight;
 
 // The scene's arrays as the lanes read them.
 struct SceneArrays {
@@ -108,6 +108,13 @@ struct LaneSteps {
   // Writes what the camera's rays see. All have hit. Reads the bounce's scene and footprint.
   void (*visible_points)(const Bounce& bounce, const glm::vec3& axis, const RayQueue& rays,
                          const SeenColumns& to);
+  // Adds the environment's light along rays that hit nothing to the radiance of the rays' pixels, RGBA.
+  // counts_samples: where a ray with a density starts, a sample of the environment may have found the light.
+  void (*add_environment)(const EnvironmentLight& environment, bool counts_samples, const RayQueue& rays,
+                          float* radiance);
+  // Adds the environment to the tile's pixels with alpha 0.
+  void (*paint_background)(const EnvironmentLight& environment, const shared::ViewParams& view,
+                           const PixelBox& tile, Image<glm::vec4>& color);
 };
 
 enum class Isa;  // pinocchio/tracer.h

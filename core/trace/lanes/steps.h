@@ -50,18 +50,6 @@ void keep_hits(RayQueue& rays) {
   rays.size = kept;
 }
 
-// Adds the lanes' light to their pixels, lane after lane.
-inline void add_light(const Vec& light, const std::uint32_t* pixel, Mask lanes, float* radiance) {
-  alignas(64) float rgb[3][kWidth];
-  light.x.store(rgb[0]);
-  light.y.store(rgb[1]);
-  light.z.store(rgb[2]);
-  for (unsigned waiting = lanes.bits(); waiting != 0; waiting &= waiting - 1) {
-    const int lane = __builtin_ctz(waiting);
-    for (std::size_t c = 0; c < 3; ++c) radiance[4 * pixel[lane] + c] += rgb[c][lane];
-  }
-}
-
 // Shadow rays of `lanes` towards a light that casts. They carry `light`.
 inline void append_shadow_rays(const BounceLight& from, const ShadowStarts& starts, const Incident& incident,
                                const Vec& light, Int pixel, Mask lanes, const Bounce& bounce) {
@@ -265,6 +253,7 @@ void visible_points(const Bounce& bounce, const glm::vec3& axis, const RayQueue&
 
 }  // namespace
 
-const LaneSteps kSteps{camera_rays, keep_hits, bounce_rays, visible_points};
+const LaneSteps kSteps{camera_rays,    keep_hits,       bounce_rays,
+                       visible_points, add_environment, paint_background};
 
 }  // namespace pinocchio::PINOCCHIO_LANES

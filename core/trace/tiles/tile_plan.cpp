@@ -65,7 +65,7 @@ TilePlan::TilePlan(const TraceJob& j, const TileOutputs& o)
   further.attenuates = std::ranges::any_of(job.scene.mesh->materials, &Material::attenuates);
   further.scale = static_cast<std::uint32_t>(out.scale);
   if (job.scene.environment) environment.emplace(job.scene);
-  if (environment && environment->shines() && o.environment_light) further.environment = &*environment;
+  if (environment && environment->shines && o.environment_light) further.environment = &*environment;
   further.lobes = further.samples && (o.reflection || o.color || o.added) &&
                   std::ranges::any_of(job.scene.mesh->materials, &Material::is_microfacet);
   visible = further;

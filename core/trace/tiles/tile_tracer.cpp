@@ -242,7 +242,8 @@ void TileTracer::write() const {
       for (std::size_t i = 0; i < width; ++i) of(out.added)[i] += glm::vec3(light(i));
     if (out.mask) out.mask->set_row(tile_.lo.x, y, std::span(mask_).subspan(row, width));
   }
-  if (out.color && plan_->environment) paint_background();
+  if (out.color && plan_->environment)
+    plan_->job.tracer.steps().paint_background(*plan_->environment, plan_->view, tile_, *out.color);
 }
 
 }  // namespace pinocchio
