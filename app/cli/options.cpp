@@ -28,7 +28,8 @@ std::optional<glm::ivec2> parse_picture_size(const std::string& text) {
 // The settings that are neither methods nor of the machine.
 constexpr std::array<std::pair<const char*, std::array<std::string_view, 14>>, 3> kGroupedFields{{
     {kSamplesGroup, {"spp", "max_noise", "pixel_filter", "sequence", "seed"}},
-    {kLightGroup, {"indirect", "environment_rotation", "environment_strength"}},
+    {kLightGroup,
+     {"indirect", "environment_rotation", "environment_strength", "environment_light", "glossy"}},
     {kExchangeGroup,
      {"visibility", "composite", "by_machine", "exchange", "mask_bits", "mask_scale", "reflection",
       "reflection_scale", "tiles", "id_bits", "normals", "wide", "reuse", "persistent"}},

@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "core/scene/light_reach.h"
+#include "pinocchio/studio.h"
 
 namespace pinocchio {
 namespace {
@@ -127,6 +128,7 @@ void recount_lights(const Scene& scene, SceneStats& stats) {
   stats.lights = static_cast<int>(scene.lights.size());
   stats.casting_lights = stats.idle_lights = 0;
   stats.environment = scene.environment != nullptr;
+  stats.studio = has_studio_light(scene);
   for (const Light& light : scene.lights) {
     if (!may_reach(light, scene)) {
       ++stats.idle_lights;

@@ -5,17 +5,12 @@
 #include "core/trace/lanes/environment_light.h"
 #include "core/trace/lanes/lobe.h"
 #include "core/trace/lanes/maps.h"
+#include "core/trace/lanes/prefiltered.h"
 #include "core/trace/lanes/scatter.h"
 #include "core/trace/lanes/terminator.h"
 
 namespace pinocchio::PINOCCHIO_LANES {
 namespace {
-
-// The factor on light from all around. Where Phong's coefficients are not a BRDF's, the lights hold their 1 /
-// pi, and other light needs it here.
-inline Float brdf_share(const LaneMaterial& m) {
-  return select(Mask::from_bits(m.brdf), Float(1.0f), Float(0.31830988618f));
-}
 
 // A shadow ray towards one direction of the environment, with the light that it brings.
 [[gnu::noinline]] void sample_environment(const Bounce& bounce, ShadowStarts& starts, const LaneSurface& s,

@@ -1,7 +1,10 @@
 #pragma once
 
+#include <cmath>
 #include <glm/glm.hpp>
+#include <memory>
 
+#include "core/scene/prefiltered_sky.h"
 #include "pinocchio/environment.h"
 #include "pinocchio/scene.h"
 
@@ -16,7 +19,9 @@ struct EnvironmentLight {
         turn(scene.environment_rotation_deg / 360.0f),
         strength(scene.environment_strength),
         shares(scene.environment->shares()),
-        shines(scene.environment_strength > 0.0f && !scene.environment->is_black()) {}
+        shines(scene.environment_strength > 0.0f && !scene.environment->is_black()),
+        cos_turn(std::cos(glm::radians(scene.environment_rotation_deg))),
+        sin_turn(std::sin(glm::radians(scene.environment_rotation_deg))) {}
 
   const glm::vec3* pixels;
   glm::ivec2 size;
@@ -24,6 +29,8 @@ struct EnvironmentLight {
   float strength;
   Environment::Shares shares;
   bool shines;
+  float cos_turn, sin_turn;
+  std::shared_ptr<const PrefilteredSky> prefiltered;  // null: it is sampled
 };
 
 }  // namespace pinocchio

@@ -60,7 +60,8 @@ struct Bounce {
   bool samples = false;
   glm::uvec2 corner{0};
   std::uint32_t scale = 1, dimension = 0;
-  const EnvironmentLight* environment = nullptr;  // lights the points; null: none does
+  const EnvironmentLight* environment = nullptr;  // its samples light the points; null: none do
+  const EnvironmentLight* prefiltered = nullptr;  // its means light the points; null: none do
   bool lobes = false;  // directions of glossy lobes are sampled; else mirrors are sharp
 
   // Outputs. Queues have room for all rays of the step; null: not wanted.
@@ -73,6 +74,7 @@ struct Bounce {
   RayQueue *mirrored = nullptr, *refracted = nullptr, *straight = nullptr;
   RayQueue* diffuse = nullptr;  // towards light from other surfaces
   float* radiance = nullptr;    // a tile's pixels, RGBA
+  float* traced = nullptr;      // likewise, for `prefiltered`
 };
 
 // The points that rays see, a column each, with room behind the last ray for a packet; null: not wanted.

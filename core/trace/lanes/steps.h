@@ -161,7 +161,8 @@ template <bool kSampled>
 void bounce_packets(const Bounce& bounce, const RayQueue& rays) {
   const bool reads_material = bounce.adds_light || bounce.adds_ambient || bounce.mirrored ||
                               (bounce.visible && bounce.options->light_cutoff > 0.0f) ||
-                              bounce.scene.mesh != nullptr || bounce.environment || bounce.diffuse;
+                              bounce.scene.mesh != nullptr || bounce.environment || bounce.prefiltered ||
+                              bounce.diffuse;
   for (std::size_t i = 0; i < kTrianglesAhead; i += kWidth) fetch_triangles(bounce.scene, rays, i);
   for (std::size_t i = 0; i < kCornersAhead; i += kWidth) fetch_corners(bounce.scene, rays, i);
   for (std::size_t i = 0; i < rays.size; i += kWidth) {
@@ -209,6 +210,11 @@ void bounce_packets(const Bounce& bounce, const RayQueue& rays) {
     }
     const Vec certain = light_points<kSampled>(bounce, corners, s, m, own, lobe, samples, pixel, lanes);
     if (bounce.adds_light) add_light(own * certain, rays.pixel + i, lanes, bounce.radiance);
+    if (bounce.prefiltered) {
+      const Vec sky =
+          light_of_sky(*bounce.prefiltered, s, m, bounce.mirrored != nullptr, bounce.lobes, lanes);
+      add_light(own * sky, rays.pixel + i, lanes, bounce.traced);
+    }
     if constexpr (kSampled)
       if (lobe.lanes.bits() != 0) {
         light_along_lobe(bounce, s, lobe, own, pixel);
