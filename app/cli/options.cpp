@@ -29,7 +29,8 @@ std::optional<glm::ivec2> parse_picture_size(const std::string& text) {
 constexpr std::array<std::pair<const char*, std::array<std::string_view, 14>>, 3> kGroupedFields{{
     {kSamplesGroup, {"spp", "max_noise", "pixel_filter", "sequence", "seed"}},
     {kLightGroup,
-     {"indirect", "environment_rotation", "environment_strength", "environment_light", "glossy"}},
+     {"indirect", "environment_rotation", "environment_strength", "environment_light", "glossy",
+      "sky_occlusion"}},
     {kExchangeGroup,
      {"visibility", "composite", "by_machine", "exchange", "mask_bits", "mask_scale", "reflection",
       "reflection_scale", "tiles", "id_bits", "normals", "wide", "reuse", "persistent"}},
@@ -301,10 +302,12 @@ void light_if_dark(Scene& scene, const DrawOptions& options) {
 }
 
 std::string assumed_light(const Scene& scene, const DrawOptions& options) {
-  return scene.source + (options.studio
-                             ? " has no light; a studio lights it (--studio off, --light x,y,z or "
-                               "--environment FILE change that)"
-                             : " has no light; a default one is used (add one with --light x,y,z)");
+  if (!options.studio)
+    return scene.source + " has no light; a default one is used (add one with --light x,y,z)";
+  const bool framed = scene.cameras.empty() && options.camera.empty() && !options.eye;
+  return scene.source + " has no light" + (framed ? " and no camera" : "") + "; a studio lights " +
+         (framed ? "and frames it" : "it") + " (--studio off; --light x,y,z, --environment FILE" +
+         (framed ? " and --eye x,y,z" : "") + " replace its parts)";
 }
 
 Scene load_scene_for(const DrawOptions& options) {

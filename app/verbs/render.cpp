@@ -76,6 +76,7 @@ class RenderRun {
   int run() {
     const double begin_s = now_s();
     Scene scene = load_scene_for(options_.draw);
+    if (has_studio_light(scene)) options_.draw.settings.spp.fill(kStudioSamples);
     frames_.emplace(options_.animation, options_.draw, scene);
     check(scene);
     options_.output.inputs = inputs_json(scene, options_.draw.precise, options_.draw.shading);
@@ -101,10 +102,6 @@ class RenderRun {
         !has_studio_light(drawing.scene()))
       return;
     options_.output.exposure_ev = studio_exposure(drawing, (*frames_)[0]);
-    if (!options_.draw.quiet)
-      std::fprintf(stderr,
-                   "pinocchio: %s: the preview's exposure is %+.2f stops (--exposure STOPS changes it)\n",
-                   drawing.scene().source.c_str(), static_cast<double>(options_.output.exposure_ev));
   }
 
   [[nodiscard]] nlohmann::json stats(const Drawing& drawing) const {
@@ -239,6 +236,9 @@ class RenderRun {
       std::printf("  %zu pixels a frame are holes of the reprojection\n",
                   holes_ / std::max<std::size_t>(delivered_, 1));
     if (budget_) budget_->report();
+    if (options_.output.exposure_ev != 0.0f && options_.exposure->count() == 0)
+      std::printf("  the preview is exposed %+.2f stops, by what it shows (--exposure STOPS)\n",
+                  static_cast<double>(options_.output.exposure_ev));
     if (skipped_ > 0) std::printf("  %zu frames were there already\n", skipped_);
     for (const int number : written_)
       for (const std::string& pattern : {options_.output.exr, options_.output.preview})

@@ -126,8 +126,8 @@ PrefilteredSky::PrefilteredSky(const Environment& environment) {
   const Image<glm::vec3> coarse = reduced(fine, {64, 32});
   irradiance = irradiance_of(fine);
   for (std::size_t i = 0; i < levels.size(); ++i)
-    levels[i] =
-        i == 0 ? seen_by(fine, kRoughness[i], fine.size()) : seen_by(coarse, kRoughness[i], coarse.size());
+    levels[i] = i == 0 ? seen_by(fine, kSkyRoughness[i], fine.size())
+                       : seen_by(coarse, kSkyRoughness[i], coarse.size());
 }
 
 std::shared_ptr<const PrefilteredSky> prefiltered(const std::shared_ptr<const Environment>& environment) {

@@ -10,14 +10,15 @@
 
 namespace pinocchio {
 
+// The roughnesses (square roots of alpha) of surfaces that see the levels of a prefiltered sky. A smoother
+// one sees the environment itself.
+constexpr std::array<float, 5> kSkyRoughness{0.2f, 0.35f, 0.5f, 0.7f, 1.0f};
+
 // An environment's means over the directions that surfaces reflect (shaders/shared/prefiltered.glsl).
 struct PrefilteredSky {
   // The irradiance by direction: coefficients of 1, y, z, x, xy, yz, 3 zz - 1, xz, xx - yy.
   std::array<glm::vec3, 9> irradiance{};
-  // Pictures in latitude and longitude, seen by surfaces of these roughnesses (the square root of alpha). A
-  // smoother surface sees the environment itself.
-  static constexpr std::array<float, 5> kRoughness{0.2f, 0.35f, 0.5f, 0.7f, 1.0f};
-  std::array<Image<glm::vec3>, kRoughness.size()> levels;
+  std::array<Image<glm::vec3>, kSkyRoughness.size()> levels;  // in latitude and longitude
 
   explicit PrefilteredSky(const Environment& environment);
 };

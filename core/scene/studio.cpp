@@ -111,7 +111,7 @@ struct Slopes {
 std::shared_ptr<const Environment> studio_sky() {
   static const std::shared_ptr<const Environment> kSky = [] {
     constexpr glm::ivec2 kSize{128, 64};
-    constexpr float kFloor = 0.08f, kHorizon = 0.2f, kZenith = 0.5f;
+    constexpr float kFloor = 0.1f, kHorizon = 0.25f, kZenith = 0.5f;
     // Soft boxes, which metals mirror. They are above what a studio_camera sees behind the object.
     struct Box {
       glm::vec3 towards;

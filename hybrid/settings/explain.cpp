@@ -79,10 +79,10 @@ std::string why_reflection(const SceneStats& stats, const Settings& s) {
 std::string why_sky(const Settings& s) {
   if (s.environment_light == EnvironmentMethod::sampled)
     return "the environment lights by samples: exact in the mean, with noise";
-  return std::string(
-             "the environment lights by means, without noise; it casts no shadows, and rough surfaces "
-             "mirror ") +
-         (s.glossy == Glossy::sampled ? "the scene by samples" : "it alone");
+  return "the environment lights by means, without noise; it casts " +
+         (s.sky_occlusion > 0 ? "shadows by " + plural(s.sky_occlusion, "ray") + " a point"
+                              : std::string("no shadows")) +
+         ", and rough surfaces mirror " + (s.glossy == Glossy::sampled ? "the scene by samples" : "it alone");
 }
 
 std::string why_depth(const SceneStats& stats, const Settings& s) {

@@ -187,6 +187,10 @@ constexpr std::array kTable{
         "glossy", one_of(kGlossyNames), "sampled; sharp where the environment is prefiltered",
         "what rough surfaces mirror: sampled, all that their lobes see; sharp, an image that fades "
         "out with roughness, without noise"),
+    field<&S::sky_occlusion>(
+        "sky_occlusion", from_to(0, 64), "0; 8 for the studio",
+        "shadow rays at each point that hide a prefiltered environment, about the surface's "
+        "normal; 0: it casts no shadows"),
     field<&S::terminator>(
         "terminator", one_of(kTerminatorNames), terminator_name(kUsualTerminator),
         "where a coarse mesh's shading normals face a light and its facets do not: off: dark; "

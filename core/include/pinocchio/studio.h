@@ -17,4 +17,7 @@ namespace pinocchio {
 void add_studio_light(Scene& scene);
 [[nodiscard]] bool has_studio_light(const Scene& scene);
 
+// Samples a pixel that make a picture in the studio smooth.
+inline constexpr int kStudioSamples = 4;
+
 }  // namespace pinocchio

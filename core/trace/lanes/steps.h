@@ -211,9 +211,12 @@ void bounce_packets(const Bounce& bounce, const RayQueue& rays) {
     const Vec certain = light_points<kSampled>(bounce, corners, s, m, own, lobe, samples, pixel, lanes);
     if (bounce.adds_light) add_light(own * certain, rays.pixel + i, lanes, bounce.radiance);
     if (bounce.prefiltered) {
-      const Vec sky =
+      const SkyLight sky =
           light_of_sky(*bounce.prefiltered, s, m, bounce.mirrored != nullptr, bounce.lobes, lanes);
-      add_light(own * sky, rays.pixel + i, lanes, bounce.traced);
+      if (bounce.options->sky_occlusion > 0)
+        hide_sky(bounce, s, sky, own, pixel, lanes);
+      else
+        add_light(own * (sky.matt + sky.mirrored), rays.pixel + i, lanes, bounce.traced);
     }
     if constexpr (kSampled)
       if (lobe.lanes.bits() != 0) {

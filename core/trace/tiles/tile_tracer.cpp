@@ -150,7 +150,9 @@ void TileTracer::make_room(std::size_t rays, Generation& next) {
   for (std::size_t i = 0; i < plan_->casting; ++i) shadow_[i].make_room(rays);
   // A sample of the environment, one along a lobe, and distant lights that the lobe meets.
   const std::size_t along_lobes = plan_->further.lobes ? plan_->sized_lights : 0;
-  sky_.make_room(rays * (plan_->further.lobes ? 2 + along_lobes : 1));
+  const std::size_t hiding =
+      plan_->further.prefiltered ? static_cast<std::size_t>(plan_->job.options.sky_occlusion) : 0;
+  sky_.make_room(rays * (plan_->further.lobes ? 2 + along_lobes + hiding : 1 + hiding));
   lobe_lights_.make_room(rays * along_lobes);
   if (plan_->out.indirect > 0) next_diffuse_.make_more_room(rays, extra);
   const std::size_t up = plan_->job.options.terminator == Terminator::turned_away ? rays : 0;

@@ -99,6 +99,7 @@ struct Settings {
   Setting<float> environment_rotation, environment_strength = Setting<float>::by_default(1.0f);
   Setting<EnvironmentMethod> environment_light;
   Setting<Glossy> glossy;
+  Setting<int> sky_occlusion;
   Setting<Terminator> terminator = Setting<Terminator>::by_default(kUsualTerminator);
   Setting<Backfaces> backfaces = Setting<Backfaces>::by_default(Backfaces::automatic);
   Setting<bool> filter_textures = Setting<bool>::by_default(true);
