@@ -19,7 +19,21 @@ std::vector<Light> extra_lights(const std::vector<Light>& lights, const DrawOpti
   return options.lights;
 }
 
+// A person can look for it.
+std::string whole_path(const std::string& file) {
+  std::error_code unknown;
+  const std::filesystem::path path = std::filesystem::absolute(file, unknown);
+  return unknown ? file : path.string();
+}
+
 }  // namespace
+
+// The environment, where the scene's own file does not hold it.
+std::string Recording::environment_file(const DrawOptions& draw) const {
+  const std::shared_ptr<const Environment>& environment = model_.scene.environment;
+  if (!environment) return {};
+  return is_environment_file(environment->source()) ? environment->source() : draw.environment;
+}
 
 std::string Recording::file_name(const std::vector<std::string>& extensions) const {
   const std::string stem = std::filesystem::path(model_.scene.source).stem().string();
@@ -63,7 +77,7 @@ void Recording::add(const Frame& frame) {
 void Recording::save_camera() {
   const std::string file = file_name({"-camera.json"}) + "-camera.json";
   write_text(file, camera_path_json(model_.camera.camera()));
-  model_.messages.news(file + " written, for --path");
+  model_.messages.news(whole_path(file) + " written, for --path");
 }
 
 void Recording::save_gltf() {
@@ -75,7 +89,9 @@ void Recording::save_gltf() {
   Warnings warnings;
   save_scene(scene, file, nullptr, &warnings);
   for (const Warning& warning : warnings) model_.messages.warning(warning.message());
-  model_.messages.news(file + " written");
+  model_.messages.news(whole_path(file) + " written");
+  if (const std::string light = environment_file({}); !light.empty())
+    model_.messages.hint("glTF holds no environment: give --environment " + light + " with it", 12.0);
 }
 
 std::string Recording::print_command(const Settings& settings, const DrawOptions& draw) {
@@ -85,13 +101,14 @@ std::string Recording::print_command(const Settings& settings, const DrawOptions
   if (model_.scene_edited) {
     view.scene = name + ".gltf";
     save_scene(model_.scene, view.scene);
+    model_.messages.news("the edited scene is in " + whole_path(view.scene));
   } else {
     view.extra_lights = extra_lights(model_.scene.lights, draw);
     if (model_.scene.animation) view.time_s = model_.playback.posed_s;
   }
   view.settings = settings;
   view.camera = model_.camera.camera();
-  if (model_.scene.environment) view.environment = draw.environment;
+  view.environment = environment_file(draw);
   view.size = model_.wanted_size();
   view.samples = model_.gathers() ? std::max(model_.samples, 1) : 1;
   view.exposure_ev = model_.applied.exposure_ev;

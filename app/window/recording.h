@@ -28,6 +28,7 @@ class Recording {
   [[nodiscard]] std::string print_command(const Settings& settings, const DrawOptions& draw);
 
  private:
+  [[nodiscard]] std::string environment_file(const DrawOptions& draw) const;
   [[nodiscard]] std::string file_name(const std::vector<std::string>& extensions) const;
 
   Model& model_;

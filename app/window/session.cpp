@@ -54,6 +54,7 @@ Session::Session(gl::Window& window, const ViewOptions& options)
   model_.window_pixels = window_.pixels();
   screen_.gui().set_layout(preferences_.layout);
   window_.set_vsync(options.vsync);
+  tried_ = options.draw.scene;
   if (options.watch && !engine_.shader_folder().empty()) shader_watch_.emplace(engine_.shader_folder());
 }
 
@@ -65,7 +66,7 @@ Session::~Session() {
 
 void Session::run() {
   last_turn_s_ = now_s();
-  while (!window_.close_asked() && !interrupted()) {
+  while (!is_closed() && !interrupted()) {
     input_.handle_events(patience_s(), [this] { perform_requests(); });
     model_.window_pixels = window_.pixels();
     advance();
@@ -75,6 +76,15 @@ void Session::run() {
     if (!model_.playback.playing && !input_.is_busy()) edits_.note();
     if (!window_.minimised()) draw();
   }
+}
+
+// The display asks to close the window, and no edit would be lost.
+bool Session::is_closed() {
+  if (!window_.close_asked()) return false;
+  if (!model_.unsaved) return true;
+  window_.stay_open();
+  leave({});
+  return false;
 }
 
 // Moves the camera and the scene's time on to now.
@@ -105,6 +115,12 @@ void Session::poll_scene() {
   if (was_loading && !model_.is_loading()) screen_.request_redraw();
   if (news.scene && can_draw(news.stats)) show_scene(news);
   if (news.tracer) model_.tracer = std::move(news.tracer);
+  if (!news.environment) return;
+  const std::string file = news.environment->source();
+  edits_.set_environment(std::move(news.environment));
+  model_.messages.clear("scene");
+  for (const std::string& warning : news.warnings) model_.messages.warning(warning);
+  model_.messages.hint(file + " is the scene's environment (Ctrl + Z takes it back)");
 }
 
 // Where the settings cannot draw the scene, the verb ends, or the scene before stays.
@@ -131,6 +147,9 @@ void Session::show_scene(SceneLoader::News& news) {
   model_.camera.set_scene(news.stats.bounds, news.interest);
   first_camera_ = news.camera;
   model_.messages.clear("scene");
+  model_.messages.clear_warnings();
+  model_.all_warnings = false;
+  tried_.clear();
   for (const std::string& warning : news.warnings) model_.messages.warning(warning);
   model_.history.clear();
   model_.zoom = {};
@@ -148,7 +167,7 @@ void Session::show_scene(SceneLoader::News& news) {
 }
 
 void Session::poll_files() {
-  if (source_.has_changed(now_s())) source_.reload();
+  if (source_.has_changed(now_s())) leave({.file = model_.scene.source, .reload = true});
   if (!shader_watch_ || !shader_watch_->changed(now_s())) return;
   if (const Expected<void> reloaded = engine_.reload_shaders()) {
     model_.messages.clear("shaders");
@@ -198,7 +217,11 @@ void Session::inspect_pixel() {
 
 void Session::perform_requests() {
   for (const Action action : std::exchange(model_.requested, {})) perform(action);
-  if (const std::string file = std::exchange(model_.file_to_open, {}); !file.empty()) source_.open(file);
+  if (const std::string file = std::exchange(model_.file_to_open, {}); is_environment_file(file)) {
+    source_.open_environment(file);
+  } else if (!file.empty()) {
+    leave({.file = file});
+  }
   if (const int camera = std::exchange(model_.camera_to_show, -1); camera >= 0) show_camera(camera);
 }
 
@@ -240,6 +263,7 @@ void Session::perform(Action action) {
       case Action::previous_file:
         return open_neighbour(-1);
       case Action::cancel_loading:
+        tried_.clear();
         return source_.cancel();
       case Action::full_screen:
         return window_.set_full_screen(!window_.full_screen());
@@ -251,6 +275,10 @@ void Session::perform(Action action) {
         return playback_.step(1);
       case Action::close:
         return close_something();
+      case Action::save_and_leave:
+      case Action::leave_unsaved:
+      case Action::stay:
+        return answer(action);
     }
   } catch (const std::exception& error) {  // a file that cannot be written
     model_.messages.error("file", error.what());
@@ -263,23 +291,54 @@ void Session::write_file(Action action) {
   apply_changes();
   Settings settings = wanted_settings(model_.applied);
   if (action == Action::save_camera) return recording_.save_camera();
-  if (action == Action::save_scene) return recording_.save_gltf();
+  if (action == Action::save_scene) {
+    recording_.save_gltf();
+    return edits_.saved();
+  }
   if (action == Action::screenshot) {
     if (model_.tracer) settings = settings_.resolved(settings, model_.stats, true).value_or(model_.drawn);
     return recording_.save_screenshot(model_.tracer ? settings : Settings{model_.drawn});
   }
   budget_.add_given_up(settings);
   window_.set_clipboard(recording_.print_command(settings, source_.options()));
+  if (model_.scene_edited) edits_.saved();
   model_.messages.hint("the command that renders this is on the terminal and in the clipboard", 6.0);
 }
 
 // The innermost thing that is open.
 void Session::close_something() {
   if (screen_.gui().close_popup()) return;
-  for (const Panel panel : {Panel::help, Panel::files})
-    if (bool& open = model_.panels[panel]; std::exchange(open, false)) return;
+  if (model_.settings.overlay) {
+    if (const std::optional<Panel> panel = screen_.gui().front_panel(model_.panels)) {
+      model_.panels[*panel] = false;
+      return;
+    }
+  }
   if (window_.full_screen()) return window_.set_full_screen(false);
-  window_.ask_close();
+  leave({});
+}
+
+void Session::leave(const Leaving& to) {
+  if (!model_.unsaved) return leave_now(to);
+  model_.leaving = to;
+  screen_.request_redraw();
+}
+
+void Session::leave_now(const Leaving& to) {
+  if (to.reload) return source_.reload();
+  if (to.file.empty()) {
+    model_.unsaved = false;
+    return window_.ask_close();
+  }
+  tried_ = to.file;
+  source_.open(to.file);
+}
+
+void Session::answer(Action action) {
+  const std::optional<Leaving> to = std::exchange(model_.leaving, std::nullopt);
+  if (!to || action == Action::stay) return;
+  if (action == Action::save_and_leave) write_file(Action::save_scene);
+  leave_now(*to);
 }
 
 void Session::frame_all() {
@@ -330,9 +389,11 @@ void Session::expose_for_point() {
 }
 
 void Session::open_neighbour(int by) {
-  const std::string file = neighbour_of(model_.scene.source, by);
+  std::error_code unknown;  // a file that could not be read is stepped over
+  const bool from_tried = std::filesystem::is_regular_file(tried_, unknown);
+  const std::string file = neighbour_of(from_tried ? tried_ : model_.scene.source, by);
   if (file.empty()) return model_.messages.hint("there is no other scene in the folder");
-  source_.open(file);
+  leave({.file = file});
 }
 
 }  // namespace pinocchio::app

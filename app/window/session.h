@@ -29,15 +29,17 @@ class Session {
   Session(gl::Window& window, const ViewOptions& options);
   ~Session();
 
-  // Returns when the window is closed or the program interrupted. Ends the verb where the scene of the
-  // command line cannot be read.
+  // Returns when the window is closed or the program interrupted.
   void run();
   // Whether a thread still reads a scene.
   [[nodiscard]] bool is_loading() const { return source_.is_busy(); }
   [[nodiscard]] const Pace& pace() const { return screen_.pace(); }
   [[nodiscard]] const Scene& scene() const { return model_.scene; }
+  // Of the verb: why no scene could be opened.
+  [[nodiscard]] ExitCode code() const { return source_.code(); }
 
  private:
+  [[nodiscard]] bool is_closed();
   [[nodiscard]] double patience_s() const;
   void advance();
   void poll_scene();
@@ -52,6 +54,10 @@ class Session {
   void perform(Action action);
   void write_file(Action action);
   void close_something();
+  // Does it at once where no edit is lost, else asks first.
+  void leave(const Leaving& to);
+  void leave_now(const Leaving& to);
+  void answer(Action action);
   void frame_all();
   void show_camera(std::size_t number);
   void set_pivot();
@@ -76,6 +82,7 @@ class Session {
   PixelInspector inspector_;
   std::optional<FileWatch> shader_watch_;  // with --watch
   Camera first_camera_;                    // of the scene
+  std::string tried_;                      // file that was opened last and is not shown. Empty: none
   double last_turn_s_ = 0.0;
 };
 

@@ -97,7 +97,7 @@ const std::vector<KeyBinding>& key_bindings() {
       with_control({'S', "Ctrl + S", Action::save_scene, "save the scene as glTF"}),
       with_control({'Z', "Ctrl + Z", Action::undo, "undo"}),
       with_control({'Y', "Ctrl + Y", Action::redo, "redo"}),
-      {gl::kKeyEscape, "Esc", Action::close, "close what is open, leave full screen, quit"},
+      {gl::kKeyEscape, "Esc", Action::close, "close a popup or panel, leave full screen, quit"},
   };
   return kBindings;
 }

@@ -36,7 +36,10 @@ enum class Action {
   set_pivot,  // these three: at the pointer
   pick_material,
   expose_for_point,
-  close,  // what is open: a popup, help, full screen, else the window
+  close,           // what is open: a popup, a panel, full screen, else the window
+  save_and_leave,  // these three answer whether edits are dropped (Leaving)
+  leave_unsaved,
+  stay,
 };
 
 // Changes settings. Returns the rule that prevents it, or null.

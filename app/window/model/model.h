@@ -35,6 +35,12 @@ struct PlaybackState {
   std::optional<double> posed_s;  // of the scene that is shown. Nothing: the scene is to be posed again
 };
 
+// What a person is about to do although the scene has edits that are not saved.
+struct Leaving {
+  std::string file;     // to open. Empty: the window is closed
+  bool reload = false;  // `file` is the shown scene's, which has changed
+};
+
 // The folder that the panel Files shows.
 struct FileList {
   std::filesystem::path folder;  // empty: the scene's
@@ -54,6 +60,8 @@ struct Model {
   CameraControl camera;
   Scene scene;                              // with lights and materials as edited
   bool scene_edited = false;                // the scene is not its file's
+  bool unsaved = false;                     // its edits are in no file
+  std::optional<Leaving> leaving;           // waits for an answer. Nothing: no question is asked
   SceneStats stats;                         // of the scene
   std::shared_ptr<const Tracer> tracer;     // null: nothing is traced, or the tree is not built yet
   bool wants_tree = false;                  // also where frames trace nothing: pixels are inspected
@@ -76,6 +84,7 @@ struct Model {
   std::string legend;               // what the channel's colours mean. Empty: the picture is shown
   ChannelRange shown_range;         // of the channel that is shown
   std::string comparison;           // with the reference, in words. Empty: there is none
+  bool is_comparing = false;        // the reference or the error is not complete
   std::vector<Action> requested;    // by keys and buttons
   std::string file_to_open;         // requested. Empty: none
   int camera_to_show = -1;          // requested, one of the scene's. -1: none
@@ -83,9 +92,12 @@ struct Model {
 
   glm::ivec2 window_pixels{0, 0}, picture_size{0, 0};
   PictureZoom zoom;
-  std::string recording;  // name of the sequence that is written. Empty: none
-  std::string renderer;   // OpenGL's, in words
-  int threads = 0;        // of the tracer
+  std::string recording;      // name of the sequence that is written. Empty: none
+  std::string renderer;       // OpenGL's, in words
+  int threads = 0;            // of the tracer
+  std::string given_up;       // for the budget while the scene or camera moves, in words. Empty: nothing
+  bool is_cheaper = false;    // the picture shown is without what is given up
+  bool all_warnings = false;  // each warning is shown, not the first alone
 
   [[nodiscard]] bool has_scene() const { return !scene.source.empty(); }
   [[nodiscard]] bool is_loading() const { return !loading.phase.empty(); }

@@ -38,6 +38,17 @@ void SceneLoader::load(const DrawOptions& options) {
         [options](pinocchio::Progress& progress) { return read(options, progress); });
 }
 
+void SceneLoader::load_environment(const std::string& file, std::uint64_t limit_bytes) {
+  start("reading " + file, file, [file, limit_bytes](pinocchio::Progress& progress) {
+    News news;
+    Warnings warnings;
+    news.environment =
+        value_or_exit(pinocchio::load_environment(file, &progress, limit_bytes, &warnings), kBadScene);
+    for (const Warning& warning : warnings) news.warnings.push_back(warning.message());
+    return news;
+  });
+}
+
 void SceneLoader::build_tree(const Scene& scene, const Settings& settings) {
   const std::string triangles = std::to_string(scene.mesh->triangles.size());
   start("building the tree of " + triangles + " triangles", scene.source,

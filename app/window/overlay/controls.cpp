@@ -36,10 +36,25 @@ void draw_exchange(ViewSettings& s) {
     s.settings.exchange = static_cast<Exchange>(clicked);
 }
 
-void draw_quality_controls(ViewSettings& s) {
-  checkbox("shadows", s.shadows, help_of("mask_bits"));
+// A mode without tracing has neither, whatever is chosen for the others.
+void draw_traced_parts(const Model& model, ViewSettings& s) {
+  const bool traces = s.mode != "raster";
+  const std::string none = "mode raster draws without shadows and reflections";
+  bool shadows = traces && s.shadows, reflections = traces && s.reflections;
+  ImGui::BeginDisabled(!traces);
+  if (checkbox("shadows", shadows, traces ? help_of("mask_bits") : none)) s.shadows = shadows;
   ImGui::SameLine();
-  checkbox("reflections", s.reflections, help_of("reflection"));
+  if (checkbox("reflections", reflections, traces ? help_of("reflection") : none))
+    s.reflections = reflections;
+  ImGui::EndDisabled();
+  if (model.given_up.empty()) return;
+  ImGui::PushStyleColor(ImGuiCol_Text, kAccent);
+  paragraph("While the picture moves, the budget leaves out: " + model.given_up);
+  ImGui::PopStyleColor();
+}
+
+void draw_quality_controls(const Model& model, ViewSettings& s) {
+  draw_traced_parts(model, s);
   int depth = s.settings.depth;
   if (slider("depth", depth, 0, 16, format(depth == 1 ? "%d bounce" : "%d bounces", depth), help_of("depth")))
     s.settings.depth = depth;
@@ -125,7 +140,7 @@ void draw_controls(Model& model, float scale) {
   draw_preset("plan", "what is sent between the processors", s);
   draw_exchange(s);
   ImGui::Separator();
-  draw_quality_controls(s);
+  draw_quality_controls(model, s);
   draw_histogram(model, scale);
   ImGui::Separator();
   draw_shown(model);

@@ -194,6 +194,21 @@ bool Gui::close_popup() {
   return true;
 }
 
+std::optional<Panel> Gui::front_panel(const OpenPanels& panels) const {
+  const ImVector<ImGuiWindow*>& by_use = ImGui::GetCurrentContext()->WindowsFocusOrder;
+  std::optional<Panel> front;
+  int front_at = -1;
+  for (std::size_t i = 0; i < kPanels.size(); ++i) {
+    const auto panel = static_cast<Panel>(i);
+    const ImGuiWindow* const window = panels[panel] ? ImGui::FindWindowByName(kPanels[i].title) : nullptr;
+    const int at = window ? by_use.index_from_ptr(by_use.find(const_cast<ImGuiWindow*>(window))) : -1;
+    if (!panels[panel] || (front && at <= front_at)) continue;
+    front = panel;
+    front_at = at;
+  }
+  return front;
+}
+
 std::string Gui::layout() const {
   return ImGui::SaveIniSettingsToMemory();
 }

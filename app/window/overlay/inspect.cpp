@@ -151,7 +151,9 @@ void draw_files(Model& model, float) {
       else
         model.file_to_open = entry.path.string();
     }
-    tooltip(entry.is_folder ? "open this folder" : "open this scene");
+    tooltip(entry.is_folder                   ? "open this folder"
+            : is_environment_file(entry.path) ? "light the scene with this environment"
+                                              : "open this scene");
   }
   ImGui::EndChild();
   if (!go_to.empty()) files.go_to(go_to);

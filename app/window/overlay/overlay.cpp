@@ -31,12 +31,12 @@ constexpr std::array<Placement, kPanels.size()> kPlaces{{
 struct Area {
   ImVec2 lo, size;
 };
-Area panel_area(float scale) {
+Area panel_area(const Model& model, float scale) {
   const ImVec2 display = ImGui::GetIO().DisplaySize;
   const float margin = kMargin * scale;
   return {{margin, margin},
           {std::max(display.x - 2.0f * margin, 1.0f),
-           std::max(display.y - 2.0f * margin - status_height(scale), 1.0f)}};
+           std::max(display.y - 2.0f * margin - status_height(scale) - playback_height(model, scale), 1.0f)}};
 }
 
 // Panels stay inside a window that became smaller.
@@ -50,7 +50,7 @@ void keep_inside(const Area& area) {
 void draw_panel(Panel panel, Model& model, float scale) {
   const auto i = static_cast<std::size_t>(panel);
   const Placement& place = kPlaces[i];
-  const Area area = panel_area(scale);
+  const Area area = panel_area(model, scale);
   const float width = std::min(place.width * scale, area.size.x);
   ImGui::SetNextWindowPos(ImVec2(area.lo.x + place.x * area.size.x, area.lo.y + place.y * area.size.y),
                           ImGuiCond_FirstUseEver, ImVec2(place.x, place.y));
@@ -138,6 +138,7 @@ void draw_overlay(Model& model, float scale) {
   }
   draw_loading(model, scale);
   draw_messages(model, scale);
+  draw_question(model, scale);
 }
 
 }  // namespace pinocchio::app

@@ -6,14 +6,26 @@
 
 namespace pinocchio::app {
 
+namespace {
+
+constexpr float kMargin = 8.0f;
+
+}  // namespace
+
+float playback_height(const Model& model, float scale) {
+  if (!model.scene.animation) return 0.0f;
+  return ImGui::GetFrameHeight() + 2.0f * ImGui::GetStyle().WindowPadding.y + kMargin * scale;
+}
+
 void draw_playback(Model& model, float scale) {
   if (!model.scene.animation) return;
   const ImVec2 display = ImGui::GetIO().DisplaySize;
-  const float margin = 8.0f * scale;
+  const float margin = kMargin * scale;
   ImGui::SetNextWindowPos(ImVec2(0.5f * display.x, display.y - status_height(scale) - margin),
                           ImGuiCond_Always, ImVec2(0.5f, 1.0f));
   ImGui::Begin("playback", nullptr,
                kBare | ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoFocusOnAppearing);
+  keep_in_front();
   PlaybackState& playback = model.playback;
   if (button(playback.playing ? "Pause" : "Play", "the scene's animation, in a loop (Space)"))
     model.requested.push_back(Action::play);

@@ -1,5 +1,7 @@
 #include "app/window/overlay/widgets.h"
 
+#include <imgui_internal.h>  // BringWindowToDisplayFront
+
 #include <array>
 #include <cstdarg>
 #include <cstdio>
@@ -132,6 +134,11 @@ bool button(const char* name, const std::string& help, bool chosen) {
   if (chosen) pop_chosen();
   tooltip(help);
   return clicked;
+}
+
+void keep_in_front() {
+  if (!ImGui::IsPopupOpen(nullptr, ImGuiPopupFlags_AnyPopup))
+    ImGui::BringWindowToDisplayFront(ImGui::GetCurrentWindow());
 }
 
 bool list_item(const char* name, bool chosen) {

@@ -1,10 +1,12 @@
 #pragma once
 
+#include <memory>
 #include <optional>
 #include <vector>
 
 #include "app/window/model/settings.h"
 #include "pinocchio/camera.h"
+#include "pinocchio/environment.h"
 #include "pinocchio/light.h"
 #include "pinocchio/material.h"
 
@@ -16,6 +18,7 @@ struct EditState {
   Camera camera;
   std::vector<Light> lights;
   std::vector<Material> materials;
+  std::shared_ptr<const Environment> environment;
 
   friend bool operator==(const EditState&, const EditState&) = default;
 };

@@ -8,7 +8,8 @@ namespace pinocchio::app {
 
 // Whether the overlay is hidden does not count as an edit.
 EditState SceneEdits::state() const {
-  EditState state{model_.settings, model_.camera.camera(), model_.scene.lights, model_.scene.mesh->materials};
+  EditState state{model_.settings, model_.camera.camera(), model_.scene.lights, model_.scene.mesh->materials,
+                  model_.scene.environment};
   state.settings.overlay = true;
   return state;
 }
@@ -16,6 +17,30 @@ EditState SceneEdits::state() const {
 void SceneEdits::begin() {
   model_.lights_changed = model_.scene_edited = false;
   history_.begin(state());
+  saved();
+}
+
+void SceneEdits::saved() {
+  model_.unsaved = false;
+  saved_lights_ = model_.scene.lights;
+  saved_materials_ = model_.scene.mesh->materials;
+}
+
+// Edits that were taken back need not be saved. An animation moves lights: they may differ without edits.
+void SceneEdits::note_edit() {
+  model_.scene_edited = true;
+  model_.unsaved = model_.scene.animation || model_.scene.lights != saved_lights_ ||
+                   model_.scene.mesh->materials != saved_materials_;
+}
+
+void SceneEdits::set_environment(std::shared_ptr<const Environment> environment) {
+  std::vector<Light>& lights = model_.scene.lights;
+  const auto is_assumed = [](const Light& light) {
+    return light.name == "default" || light.name == "studio";
+  };
+  if (environment && std::erase_if(lights, is_assumed) > 0) std::erase_if(saved_lights_, is_assumed);
+  model_.scene.environment = std::move(environment);
+  model_.stats = analyze(model_.scene);
 }
 
 void SceneEdits::note() {
@@ -39,6 +64,7 @@ void SceneEdits::restore(const std::optional<EditState>& state, const char* othe
   model_.settings.overlay = overlay;
   model_.camera.set_camera(state->camera);
   if (model_.scene.mesh->materials != state->materials) set_materials(state->materials);
+  if (model_.scene.environment != state->environment) set_environment(state->environment);
   if (model_.scene.lights == state->lights) return;
   model_.scene.lights = state->lights;
   model_.lights_changed = true;
@@ -50,7 +76,7 @@ void SceneEdits::set_materials(std::vector<Material> materials) {
   mesh->materials = std::move(materials);
   model_.scene.mesh = std::move(mesh);
   model_.stats = analyze(model_.scene);
-  model_.scene_edited = true;
+  note_edit();
 }
 
 void SceneEdits::apply() {
@@ -60,7 +86,7 @@ void SceneEdits::apply() {
     set_materials(std::move(materials));
   }
   if (!std::exchange(model_.lights_changed, false)) return;
-  model_.scene_edited = true;
+  note_edit();
   recount_lights(model_.scene, model_.stats);
 }
 

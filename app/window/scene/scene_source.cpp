@@ -2,8 +2,6 @@
 
 #include <utility>
 
-#include "app/cli/errors.h"
-
 namespace pinocchio::app {
 
 SceneSource::SceneSource(Model& model, const DrawOptions& options, bool watch)
@@ -20,6 +18,14 @@ void SceneSource::open(const std::string& file) {
   draw.fov_deg = draw.lens_radius = draw.focus = std::nullopt;
   draw.lights.clear();
   load(draw);
+}
+
+// A tree that is being built is dropped, and requested again afterwards.
+void SceneSource::open_environment(const std::string& file) {
+  if (!model_.has_scene()) return model_.messages.hint("open a scene first, then its environment");
+  if (!model_.tracer) tree_settings_.reset();
+  pending_.reset();
+  loader_.load_environment(file, options_.load_limit);
 }
 
 // The loader does one thing at a time: a tree that is being built is dropped.
@@ -42,7 +48,7 @@ SceneLoader::News SceneSource::poll() {
   SceneLoader::News news = loader_.poll();
   model_.loading = loader_.progress();
   if (news.error.empty()) return news;
-  if (!model_.has_scene()) throw Exit(news.code, news.error);
+  code_ = news.code;
   model_.messages.error("scene", news.error);
   reject();
   return news;

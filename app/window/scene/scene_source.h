@@ -19,11 +19,14 @@ class SceneSource {
   [[nodiscard]] const DrawOptions& options() const { return options_; }
   // Begins to load a file. Until it is read, the scene before stays.
   void open(const std::string& file);
+  // The same for a picture of light from all directions.
+  void open_environment(const std::string& file);
   void reload() { load(options_); }
   void cancel();
-  // What the background has finished. An error of a scene ends the verb where no scene is open, else it
-  // becomes a message.
+  // What the background has finished. An error becomes a message.
   [[nodiscard]] SceneLoader::News poll();
+  // Of the verb, where no scene could be opened.
+  [[nodiscard]] ExitCode code() const { return model_.has_scene() ? kDone : code_; }
   [[nodiscard]] bool is_busy() const { return loader_.busy(); }
 
   // The scene that was polled is in the window now, or is not going to be.
@@ -45,6 +48,7 @@ class SceneSource {
   DrawOptions options_;
   std::optional<DrawOptions> pending_;     // of the scene that is being read
   std::optional<Settings> tree_settings_;  // of the tree that is built, or being built
+  ExitCode code_ = kDone;
   bool watches_;
   std::optional<FileWatch> watch_;
 };
