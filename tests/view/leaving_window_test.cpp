@@ -86,9 +86,9 @@ TEST_F(LeavingTest, TheCloseButtonAsksAndItsAnswerCanBeClicked) {
   xdo("windowfocus --sync " + window_ + " key alt+F4");
   EXPECT_TRUE(asks());
   EXPECT_TRUE(program_->running());
-  const std::vector<int> buttons = widgets_at(400, 200, 320);
+  const std::vector<int> buttons = widgets_at(334, 200, 320);
   ASSERT_FALSE(buttons.empty());
-  click(400, buttons.back());  // drop the edits
+  click(340, buttons.back());  // drop the edits
   EXPECT_EQ(program_->wait(), 0) << errors();
   EXPECT_FALSE(saved());
 }
