@@ -145,6 +145,7 @@ const gl::Texture& FrameLoop::chosen_buffer(const Frame& frame) {
     model_.legend = legend(settings.buffer, settings.mask_slot, frame, model_.shown_range);
     return inspect_.draw(frame, settings.buffer, settings.mask_slot, model_.shown_range);
   }
+  if (settings.wireframe) return wireframe_.draw(frame);
   if (!model_.gathers() || frame.request().view.camera != model_.camera.camera()) return frame.texture();
   accumulator_.add(frame);
   if (accumulator_.samples() <= 1) return frame.texture();

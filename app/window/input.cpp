@@ -13,6 +13,8 @@ constexpr float kSameSpot = 4.0f;  // pixels
 
 Action with_shift(Action action, bool shift) {
   if (!shift) return action;
+  if (action == Action::save_scene) return Action::save_as;
+  if (action == Action::screenshot) return Action::screenshot_window;
   return action == Action::undo ? Action::redo : action == Action::record ? Action::record_exr : action;
 }
 

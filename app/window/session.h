@@ -4,7 +4,9 @@
 
 #include "app/window/applied_settings.h"
 #include "app/window/input.h"
+#include "app/window/leave.h"
 #include "app/window/model/preferences.h"
+#include "app/window/pointing.h"
 #include "app/window/recording.h"
 #include "app/window/scene/playback.h"
 #include "app/window/scene/scene_edits.h"
@@ -39,7 +41,6 @@ class Session {
   [[nodiscard]] ExitCode code() const { return source_.code(); }
 
  private:
-  [[nodiscard]] bool is_closed();
   [[nodiscard]] double patience_s() const;
   void advance();
   void poll_scene();
@@ -54,16 +55,8 @@ class Session {
   void perform(Action action);
   void write_file(Action action);
   void close_something();
-  // Does it at once where no edit is lost, else asks first.
-  void leave(const Leaving& to);
-  void leave_now(const Leaving& to);
-  void answer(Action action);
   void frame_all();
   void show_camera(std::size_t number);
-  void set_pivot();
-  void pick_material();
-  void expose_for_point();
-  void open_neighbour(int by);
 
   gl::Window& window_;
   Preferences preferences_;
@@ -78,11 +71,12 @@ class Session {
   AppliedSettings settings_;
   SceneEdits edits_;
   Playback playback_;
+  Pointing pointing_;
+  HiddenParts parts_;
   Recording recording_;
-  PixelInspector inspector_;
+  Leave leave_;
   std::optional<FileWatch> shader_watch_;  // with --watch
   Camera first_camera_;                    // of the scene
-  std::string tried_;                      // file that was opened last and is not shown. Empty: none
   double last_turn_s_ = 0.0;
 };
 

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <algorithm>
+#include <cstdint>
 #include <filesystem>
 #include <memory>
 #include <optional>
@@ -17,6 +19,7 @@
 #include "app/window/model/settings.h"
 #include "core/image/light_histogram.h"
 #include "hybrid/inspect/present_pass.h"
+#include "pinocchio/animation.h"
 
 namespace pinocchio::app {
 
@@ -33,6 +36,27 @@ struct PlaybackState {
   bool playing = false;
   double time_s = 0.0;            // to be shown
   std::optional<double> posed_s;  // of the scene that is shown. Nothing: the scene is to be posed again
+  float speed = 1.0f;
+  int clip = -1;                         // the animation of the file that is played. -1: all together
+  std::shared_ptr<const Animation> all;  // of the file. Null: none
+};
+
+// What the panel Scene shows of the file, and which of its parts are hidden: nodes, or materials where the
+// file has no nodes.
+struct SceneParts {
+  std::uintmax_t bytes = 0;  // of the file
+  std::vector<std::string> extensions, warnings;
+  std::vector<bool> hidden{};  // by part
+  bool changed = false;      // `hidden`, by the overlay
+
+  [[nodiscard]] bool hides() const { return std::ranges::find(hidden, true) != hidden.end(); }
+};
+
+// Where the window writes files.
+struct SavePlace {
+  std::string folder;  // empty: the working directory
+  std::string name;    // without extension. Empty: the scene's, with the first free number
+  bool replaces = false;
 };
 
 // What a person is about to do although the scene has edits that are not saved.
@@ -40,6 +64,14 @@ struct Leaving {
   std::string file;     // to open. Empty: the window is closed
   bool reload = false;  // `file` is the shown scene's, which has changed
 };
+
+struct MaterialEdit {
+  Material material;
+  std::optional<GltfSurface> surface{};  // of its maps. Nothing: it has none, or not from glTF
+};
+
+// The material's name, or its number where it has none.
+[[nodiscard]] std::string name_of_material(const Mesh& mesh, std::size_t material);
 
 // The folder that the panel Files shows.
 struct FileList {
@@ -58,21 +90,26 @@ struct Model {
   ViewSettings applied;   // in force: `settings` of this turn, where the scene can be drawn by them
   OpenPanels panels;
   CameraControl camera;
-  Scene scene;                              // with lights and materials as edited
-  bool scene_edited = false;                // the scene is not its file's
-  bool unsaved = false;                     // its edits are in no file
-  std::optional<Leaving> leaving;           // waits for an answer. Nothing: no question is asked
-  SceneStats stats;                         // of the scene
-  std::shared_ptr<const Tracer> tracer;     // null: nothing is traced, or the tree is not built yet
-  bool wants_tree = false;                  // also where frames trace nothing: pixels are inspected
-  bool lights_changed = false;              // by the overlay
-  int material = 0;                         // shown in the panel Materials
-  std::optional<Material> edited_material;  // its new value, by the overlay
-  std::optional<PixelReport> pixel;         // under the pointer. Nothing: the panel is closed
-  std::optional<double> pixel_error;        // against the reference. Nothing: it is not complete
+  Scene scene;                                // with lights and materials as edited
+  bool scene_edited = false;                  // the scene is not its file's
+  bool unsaved = false;                       // its edits are in no file
+  std::optional<Leaving> leaving;             // waits for an answer. Nothing: no question is asked
+  SceneStats stats;                           // of the scene
+  std::shared_ptr<const Tracer> tracer;       // null: nothing is traced, or the tree is not built yet
+  bool wants_tree = false;                    // also where frames trace nothing: pixels are inspected
+  bool lights_changed = false;                // by the overlay
+  bool drops_environment = false;             // by the overlay
+  int material = 0;                           // shown in the panel Materials
+  bool material_picked = false;               // in the picture: the panel's list is to scroll to it
+  std::optional<MaterialEdit> material_edit;  // its new value, by the overlay
+  std::optional<PixelReport> pixel;           // under the pointer. Nothing: the panel is closed
+  std::optional<double> pixel_error;          // against the reference. Nothing: it is not complete
   std::optional<LightHistogram> histogram;  // of the picture. Nothing: no light is shown, or no panel Drawing
   FileList files;
-  Settings drawn;  // resolved from `applied`
+  SceneParts parts;
+  SavePlace save;
+  bool is_over_limit = false;  // the file that was opened last was refused for its memory
+  Settings drawn;              // resolved from `applied`
   History history;
   TimelineView timeline;
   PlaybackState playback;
@@ -92,18 +129,21 @@ struct Model {
 
   glm::ivec2 window_pixels{0, 0}, picture_size{0, 0};
   PictureZoom zoom;
-  std::string recording;      // name of the sequence that is written. Empty: none
-  std::string renderer;       // OpenGL's, in words
-  int threads = 0;            // of the tracer
-  std::string given_up;       // for the budget while the scene or camera moves, in words. Empty: nothing
-  bool is_cheaper = false;    // the picture shown is without what is given up
-  bool all_warnings = false;  // each warning is shown, not the first alone
+  PanelPlaces places;
+  std::string settings_search;  // in the panel All settings
+  std::string recording;        // name of the sequence that is written. Empty: none
+  std::string renderer;         // OpenGL's, in words
+  int threads = 0;              // of the tracer
+  std::string given_up;         // for the budget while the scene or camera moves, in words. Empty: nothing
+  bool is_cheaper = false;      // the picture shown is without what is given up
+  bool all_warnings = false;    // each warning is shown, not the first alone
 
   [[nodiscard]] bool has_scene() const { return !scene.source.empty(); }
   [[nodiscard]] bool is_loading() const { return !loading.phase.empty(); }
   // Whether a still camera's samples are gathered: channels and comparisons show one sample.
   [[nodiscard]] bool gathers() const {
-    return applied.accumulate && applied.buffer == Layer::picture && applied.split == Split::off;
+    return applied.accumulate && applied.buffer == Layer::picture && applied.split == Split::off &&
+           !applied.wireframe;
   }
   // Of the picture for the window, pixels.
   [[nodiscard]] glm::ivec2 wanted_size() const;

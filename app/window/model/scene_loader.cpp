@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "app/window/camera/framing.h"
+#include "app/window/model/gltf_extensions.h"
 #include "core/base/clock.h"
 #include "core/parallel/start_thread.h"
 
@@ -29,6 +30,7 @@ SceneLoader::News SceneLoader::read(const DrawOptions& options, pinocchio::Progr
   news.stats = analyze(scene);
   news.interest = bounds_of_interest(*scene.mesh);
   news.camera = camera_for(options, scene);
+  news.extensions = gltf_extensions(scene.source);
   news.scene = std::move(scene);
   return news;
 }

@@ -31,6 +31,7 @@ class SceneLoader {
     Bounds interest;                                 // bounds_of_interest (framing.h)
     std::vector<std::string> warnings;               // what is ignored of its file
     Camera camera;                                   // by the options
+    std::vector<std::string> extensions;             // of glTF, that its file uses
     std::shared_ptr<const Tracer> tracer;            // a tree was built
     std::shared_ptr<const Environment> environment;  // was read
     std::string error;                               // one line: the scene could not be loaded

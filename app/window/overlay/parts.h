@@ -23,12 +23,16 @@ void draw_controls(Model& model, float scale);
 void draw_all_settings(Model& model, float scale);
 void draw_light_controls(Model& model, float scale);
 void draw_camera(Model& model, float scale);
+// Part of the panel Lights.
+void draw_environment(Model& model);
 // Part of the panel Drawing, while the picture's light is counted.
 void draw_histogram(const Model& model, float scale);
 void draw_timeline(Model& model, float scale);
 void draw_pixel(Model& model, float scale);
 void draw_materials(Model& model, float scale);
 void draw_files(Model& model, float scale);
+void draw_scene(Model& model, float scale);
+void draw_save(Model& model, float scale);
 
 // One line at the window's lower edge.
 void draw_status_line(Model& model, float scale);

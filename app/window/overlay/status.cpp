@@ -142,15 +142,18 @@ void draw_messages(Model& model, float scale) {
                (kBare & ~ImGuiWindowFlags_NoScrollbar) | ImGuiWindowFlags_AlwaysAutoResize |
                    ImGuiWindowFlags_NoFocusOnAppearing);
   keep_in_front();
+  draw_warnings(model, width - 3.0f * margin);
   std::size_t dismissed = all.size();
   for (std::size_t i = 0; i < all.size(); ++i) {
     if (!is_shown(all[i]) || all[i].kind == Messages::Kind::warning) continue;
     ImGui::PushID(i);
     if (draw_message(all[i].text, all[i].kind, width - 3.0f * margin)) dismissed = i;
+    if (model.is_over_limit && all[i].about == "scene" &&
+        button("Open it anyway", "without a limit of memory, if the file is to be trusted"))
+      model.requested.push_back(Action::open_unlimited);
     ImGui::PopID();
   }
   model.messages.dismiss(dismissed);
-  draw_warnings(model, width - 3.0f * margin);
   ImGui::End();
 }
 

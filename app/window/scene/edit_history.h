@@ -9,6 +9,7 @@
 #include "pinocchio/environment.h"
 #include "pinocchio/light.h"
 #include "pinocchio/material.h"
+#include "pinocchio/material_maps.h"
 
 namespace pinocchio::app {
 
@@ -18,6 +19,7 @@ struct EditState {
   Camera camera;
   std::vector<Light> lights;
   std::vector<Material> materials;
+  std::vector<MaterialMaps> maps;
   std::shared_ptr<const Environment> environment;
 
   friend bool operator==(const EditState&, const EditState&) = default;

@@ -30,7 +30,7 @@ class SceneEdits {
  private:
   [[nodiscard]] EditState state() const;
   void restore(const std::optional<EditState>& state, const char* otherwise);
-  void set_materials(std::vector<Material> materials);
+  void set_materials(std::vector<Material> materials, std::vector<MaterialMaps> maps);
 
   void note_edit();
 

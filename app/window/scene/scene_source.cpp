@@ -20,6 +20,15 @@ void SceneSource::open(const std::string& file) {
   load(draw);
 }
 
+void SceneSource::open_unlimited() {
+  constexpr std::uint64_t kNoLimit = std::uint64_t{1} << 50;
+  model_.is_over_limit = false;
+  std::optional<DrawOptions> draw = std::exchange(refused_, std::nullopt);
+  if (!draw) return;
+  draw->load_limit = kNoLimit;
+  load(*draw);
+}
+
 // A tree that is being built is dropped, and requested again afterwards.
 void SceneSource::open_environment(const std::string& file) {
   if (!model_.has_scene()) return model_.messages.hint("open a scene first, then its environment");
@@ -50,6 +59,8 @@ SceneLoader::News SceneSource::poll() {
   if (news.error.empty()) return news;
   code_ = news.code;
   model_.messages.error("scene", news.error);
+  model_.is_over_limit = pending_ && news.error.find("--load-limit") != std::string::npos;
+  if (model_.is_over_limit) refused_ = pending_;
   reject();
   return news;
 }

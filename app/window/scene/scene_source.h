@@ -22,6 +22,8 @@ class SceneSource {
   // The same for a picture of light from all directions.
   void open_environment(const std::string& file);
   void reload() { load(options_); }
+  // Begins to load the file that was refused for its memory, without a limit.
+  void open_unlimited();
   void cancel();
   // What the background has finished. An error becomes a message.
   [[nodiscard]] SceneLoader::News poll();
@@ -38,6 +40,8 @@ class SceneSource {
   // Begins to build the tree that these settings trace in, where there is none. Until it is built, frames
   // trace in the old tree.
   void request_tree(const Settings& settings);
+  // The triangles are others now.
+  void forget_tree() { tree_settings_.reset(); }
   [[nodiscard]] Settings tree_settings() const { return tree_settings_.value_or(model_.drawn); }
 
  private:
@@ -47,6 +51,7 @@ class SceneSource {
   SceneLoader loader_;
   DrawOptions options_;
   std::optional<DrawOptions> pending_;     // of the scene that is being read
+  std::optional<DrawOptions> refused_;     // for its memory
   std::optional<Settings> tree_settings_;  // of the tree that is built, or being built
   ExitCode code_ = kDone;
   bool watches_;
