@@ -41,6 +41,7 @@ class FrameLoop {
   void draw_next();
   void settle();
   void deliver(Frame& frame);
+  void read_numbers(const Frame& frame);
   [[nodiscard]] const gl::Texture& chosen_buffer(const Frame& frame);
   [[nodiscard]] ChannelRange channel_range() const;
 

@@ -39,7 +39,7 @@ void Screen::show() {
   const glm::ivec2 pixels = window_.pixels();
   if (pixels.x < 1 || pixels.y < 1) return;
   shown_ = true;
-  model_.window_pixels = pixels;
+  model_.set_window_pixels(pixels);
   draw_picture();
   if (!png_file_.empty() && !with_overlay_) write_png_file();
   gui_.draw();

@@ -68,10 +68,7 @@ void Session::run() {
   last_turn_s_ = now_s();
   while (!leave_.is_closed() && !interrupted()) {
     input_.handle_events(patience_s(), [this] { perform_requests(); });
-    if (const glm::ivec2 pixels = window_.pixels(); model_.window_pixels != pixels) {
-      model_.window_pixels = pixels;
-      model_.zoom = {};  // its place would be another one
-    }
+    model_.set_window_pixels(window_.pixels());
     advance();
     poll_scene();
     poll_files();
@@ -185,8 +182,8 @@ void Session::apply_changes() {
   wanted = possible(wanted);
   if (wanted.vsync != applied.vsync) window_.set_vsync(wanted.vsync);
   if (wanted.buffer != applied.buffer || wanted.mask_slot != applied.mask_slot ||
-      wanted.split != applied.split || wanted.accumulate != applied.accumulate ||
-      wanted.range != applied.range)
+      wanted.split != applied.split || wanted.wireframe != applied.wireframe ||
+      wanted.accumulate != applied.accumulate || wanted.range != applied.range)
     frames_.deliver_again();
   if (!(wanted == applied)) screen_.request_redraw();
   if (!model_.has_scene()) {

@@ -81,6 +81,7 @@ TEST_F(PanelsTest, AMaterialIsPickedAndChanged) {
         return different_in(kPicture, "first.png", "redone.png") > 100;
       },
       20.0));
+  key("ctrl+s");
   expect_clean_close();
 }
 
@@ -119,11 +120,13 @@ TEST_F(PanelsTest, ButtonsLookAlongTheAxes) {
     return v;
   };
   settle();
-  const std::vector<int> rows = widgets_at(8 + 14, 8 + 30, 250);
-  ASSERT_GE(rows.size(), 3u);                               // of buttons
-  const std::array<int, 3> xs{40, 93, 140}, axes{2, 0, 1};  // front, right, top
+  const std::vector<int> rows = widgets_at(150, 30, 250);  // eye, target, two sliders, "Bottom"
+  ASSERT_GE(rows.size(), 5u);
+  const int second_y = rows[4], first_y = second_y - (rows[1] - rows[0]);
+  const std::array<int, 6> xs{42, 92, 136, 39, 85, 140},
+      axes{2, 0, 1, 2, 0, 1};  // front, right, top; back ...
   for (std::size_t i = 0; i < xs.size(); ++i) {
-    click(xs[i], rows[1]);
+    click(xs[i], i < 3 ? first_y : second_y);
     EXPECT_TRUE(becomes(
         [&] {
           const std::string command = command_line();
@@ -131,7 +134,8 @@ TEST_F(PanelsTest, ButtonsLookAlongTheAxes) {
                      target = vector_of(option(command, "--target"));
           for (int axis = 0; axis < 3; ++axis) {
             const double off = eye[static_cast<std::size_t>(axis)] - target[static_cast<std::size_t>(axis)];
-            if (axis == axes[i] ? off < 1.0 : std::abs(off) > 0.02) return false;
+            const double along = i < 3 ? off : -off;
+            if (axis == axes[i] ? along < 1.0 : std::abs(off) > 0.02) return false;
           }
           return true;
         },
@@ -186,8 +190,8 @@ TEST_F(PanelsTest, ALightIsMovedAndPutBack) {
   open_with("Lights", 8, scene("cornell"), " --mode raster");
   settle("before.png");
   const std::vector<int> rows = widgets_at(8 + 112, 8 + 22, 300);
-  ASSERT_GE(rows.size(), 2u);        // position, intensity
-  drag_from(8 + 140, rows[1], -60);  // darker
+  ASSERT_GE(rows.size(), 3u);        // position, colour, intensity
+  drag_from(8 + 140, rows[2], -60);  // darker
   EXPECT_TRUE(becomes(
       [&] {
         grab("after.png");

@@ -53,7 +53,7 @@ Model full_model() {
   model.given_up = "shadows";
   model.leaving.emplace();
   model.parts = {.bytes = 1000, .extensions = {"EXT"}, .warnings = {"warning"}, .hidden = {}};
-  model.parts.hidden.assign(model.scene.nodes ? model.scene.nodes->nodes.size() : 0, false);
+  model.parts.hidden.assign(model.scene.mesh->materials.size(), false);
   model.playback.all = model.scene.animation;
   return model;
 }

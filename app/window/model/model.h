@@ -41,13 +41,14 @@ struct PlaybackState {
   std::shared_ptr<const Animation> all;  // of the file. Null: none
 };
 
-// What the panel Scene shows of the file, and which of its parts are hidden: nodes, or materials where the
-// file has no nodes.
+// What the panel Scene shows of the file, and which of its parts are hidden: nodes, or materials where one
+// node has all triangles.
 struct SceneParts {
   std::uintmax_t bytes = 0;  // of the file
   std::vector<std::string> extensions, warnings;
+  bool are_nodes = false;      // else materials
   std::vector<bool> hidden{};  // by part
-  bool changed = false;      // `hidden`, by the overlay
+  bool changed = false;        // `hidden`, by the overlay
 
   [[nodiscard]] bool hides() const { return std::ranges::find(hidden, true) != hidden.end(); }
 };
@@ -132,6 +133,7 @@ struct Model {
   PanelPlaces places;
   std::string settings_search;  // in the panel All settings
   std::string recording;        // name of the sequence that is written. Empty: none
+  Image<glm::vec4> numbers;     // the picture's light, where pixels are enlarged enough. Empty: they are not
   std::string renderer;         // OpenGL's, in words
   int threads = 0;              // of the tracer
   std::string given_up;         // for the budget while the scene or camera moves, in words. Empty: nothing
@@ -145,6 +147,10 @@ struct Model {
     return applied.accumulate && applied.buffer == Layer::picture && applied.split == Split::off &&
            !applied.wireframe;
   }
+  // Another size of the window ends the enlargement: its place would be another one.
+  void set_window_pixels(glm::ivec2 pixels);
+  // Whether pixels are enlarged so far that their values can be read on them.
+  [[nodiscard]] bool wants_numbers() const;
   // Of the picture for the window, pixels.
   [[nodiscard]] glm::ivec2 wanted_size() const;
   // The frame that shows all this, sampled at the pixels' centres.

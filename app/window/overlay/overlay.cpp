@@ -207,6 +207,7 @@ void draw_overlay(Model& model, float scale) {
     if (model.has_scene() && model.panels[Panel::lights] && model.zoom.factor <= 1.0f)
       draw_light_handles(model, scale);
     draw_divider(model, scale);
+    draw_numbers(model);
     draw_caption(model, scale);
     draw_status_line(model, scale);
     draw_playback(model, scale);

@@ -48,6 +48,8 @@ void draw_question(Model& model, float scale);
 [[nodiscard]] float playback_height(const Model& model, float scale);
 // What the picture's colours mean, at the window's upper edge.
 void draw_caption(Model& model, float scale);
+// The light of each pixel, while pixels are enlarged so far that it can be read.
+void draw_numbers(const Model& model);
 // A handle at each light in the picture, which can be dragged.
 void draw_light_handles(Model& model, float scale);
 

@@ -49,8 +49,8 @@ void draw_save(Model& model, float) {
   checkbox("replace files", model.save.replaces, "off: a file that exists is not written again");
   draw_buttons(model, "scene", "the whole scene with its edits; the camera comes first",
                {{".glb", Action::save_glb, "one file"},
-                {".gltf", Action::save_gltf, "text, with a .bin beside it"},
-                {".obj", Action::save_obj, "triangles and materials alone, with an .mtl beside it"}});
+                {".gltf", Action::save_gltf, "text, with a .bin file"},
+                {".obj", Action::save_obj, "triangles and materials alone, with an .mtl file"}});
   draw_buttons(model, "picture", "the picture without panels, as large as it is drawn",
                {{"PNG", Action::save_png, "as the window shows it"},
                 {"PNG, transparent", Action::save_transparent, "without the background"},

@@ -37,7 +37,7 @@ void draw_facts(const Model& model) {
 // With all nodes below it.
 void set_hidden(Model& model, std::size_t part, bool is_hidden) {
   std::vector<bool>& hidden = model.parts.hidden;
-  const bool are_nodes = model.scene.nodes && !model.scene.nodes->nodes.empty();
+  const bool are_nodes = model.parts.are_nodes;
   std::vector<bool> below(hidden.size(), false);
   for (std::size_t i = part; i < hidden.size(); ++i) {
     const int parent = are_nodes ? model.scene.nodes->nodes[i].parent : -1;
@@ -65,13 +65,20 @@ void draw_part(Model& model, std::size_t part, const std::string& name, std::siz
   ImGui::PopID();
 }
 
+// Those with triangles, or with such nodes below them.
 void draw_nodes(Model& model, float scale) {
   const std::vector<Node>& nodes = model.scene.nodes->nodes;
+  std::vector<std::size_t> triangles(nodes.size(), 0);
+  for (std::size_t i = nodes.size(); i-- > 0;) {
+    triangles[i] += nodes[i].triangles;
+    if (nodes[i].parent >= 0) triangles[nodes[i].parent] += triangles[i];
+  }
   std::vector<int> depths(nodes.size(), 0);
   for (std::size_t i = 0; i < nodes.size(); ++i) {
     if (nodes[i].parent >= 0) depths[i] = depths[nodes[i].parent] + 1;
+    if (triangles[i] == 0) continue;
     const std::string& name = nodes[i].name;
-    draw_part(model, i, name.empty() ? "node " + std::to_string(i) : name, nodes[i].triangles,
+    draw_part(model, i, name.empty() ? "node " + std::to_string(i) : name, triangles[i],
               std::min(depths[i], 8), scale);
   }
 }
@@ -90,10 +97,9 @@ void draw_scene(Model& model, float scale) {
   if (!model.has_scene()) return paragraph("no scene");
   draw_facts(model);
   ImGui::Separator();
-  const bool are_nodes = model.scene.nodes && !model.scene.nodes->nodes.empty();
-  if (model.parts.hidden.size() !=
-      (are_nodes ? model.scene.nodes->nodes.size() : model.scene.mesh->materials.size()))
-    return;
+  const bool are_nodes = model.parts.are_nodes;
+  const std::size_t count = are_nodes ? model.scene.nodes->nodes.size() : model.scene.mesh->materials.size();
+  if (model.parts.hidden.size() != count) return;  // no scene was shown yet
   ImGui::BeginDisabled(!model.parts.hides());
   if (button("Show all", "no part is hidden")) {
     model.parts.hidden.assign(model.parts.hidden.size(), false);

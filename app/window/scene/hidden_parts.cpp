@@ -1,5 +1,6 @@
 #include "app/window/scene/hidden_parts.h"
 
+#include <algorithm>
 #include <utility>
 
 namespace pinocchio::app {
@@ -7,15 +8,17 @@ namespace pinocchio::app {
 void HiddenParts::begin() {
   const Scene& scene = model_.scene;
   triangles_ = scene.mesh->triangles;
-  const bool has_nodes = scene.nodes && !scene.nodes->nodes.empty();
-  model_.parts.hidden.assign(has_nodes ? scene.nodes->nodes.size() : scene.mesh->materials.size(), false);
+  const auto has_triangles = [](const Node& node) { return node.triangles > 0; };
+  model_.parts.are_nodes = scene.nodes && std::ranges::count_if(scene.nodes->nodes, has_triangles) > 1;
+  model_.parts.hidden.assign(
+      model_.parts.are_nodes ? scene.nodes->nodes.size() : scene.mesh->materials.size(), false);
   model_.parts.changed = false;
 }
 
 // Triangles of no node are not hidden.
 std::size_t HiddenParts::part_of(std::uint32_t triangle) const {
   const Scene& scene = model_.scene;
-  if (!scene.nodes || scene.nodes->nodes.empty()) return scene.mesh->triangle_materials[triangle];
+  if (!model_.parts.are_nodes) return scene.mesh->triangle_materials[triangle];
   const int node = scene.nodes->node_of(triangle);
   return node < 0 ? model_.parts.hidden.size() : static_cast<std::size_t>(node);
 }
