@@ -54,13 +54,13 @@ class EditingTest : public WindowTest {
   }
 };
 
-// A point light, a sun and a spot; each is in the saved scene, can be coloured, and is gone once removed.
+// A point light and parallel light; each is in the saved scene, can be coloured, and is gone once removed.
 TEST_F(EditingTest, LightsAreAddedColouredAndRemoved) {
   open_with("Lights", scene("cornell"), "--mode raster");
   const auto lights = [this] { return saved()["extensions"]["KHR_lights_punctual"]["lights"]; };
-  const std::vector<int> first = widgets_at(121, 30, 560);  // position, colour, intensity, radius, "add"
+  const std::vector<int> first = widgets_at(121, 30, 560);  // position, colour, intensity, radius, kinds
   ASSERT_EQ(first.size(), 5u);
-  click(121, first[4]);
+  click(40, first[4]);
   EXPECT_TRUE(picture_becomes_other("opened.png"));
   ASSERT_EQ(lights().size(), 2u);
   EXPECT_EQ(lights()[1]["type"], "point");
@@ -71,7 +71,7 @@ TEST_F(EditingTest, LightsAreAddedColouredAndRemoved) {
   EXPECT_LT(color[0].get<double>(), 0.5 * color[1].get<double>()) << color;
   settle();
   std::vector<int> rows = widgets_at(121, 30, 590);
-  click(168, rows.back());  // the sun
+  click(121, rows.back());  // parallel light
   EXPECT_TRUE(becomes([&] { return lights().size() == 3; }));
   EXPECT_EQ(lights()[2]["type"], "directional");
   settle("three.png");

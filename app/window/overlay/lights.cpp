@@ -77,36 +77,36 @@ bool edit_light(Light& light, const Model& model) {
 }
 
 // Between the camera and what it looks at, above; it shines there.
-Light new_light(Light::Kind kind, const Model& model) {
+Light new_light(const LightKind& kind, const Model& model) {
+  constexpr float kCone_deg = 25.0f, kBright_deg = 20.0f;
   const Camera& camera = model.camera.camera();
   const CameraAxes axes = camera_axes(camera);
   const glm::vec3 to_eye = camera.eye - camera.target;
   const float distance = glm::length(to_eye);
   Light light;
-  light.kind = kind;
+  light.kind = kind.kind;
   light.name = "light " + std::to_string(model.scene.lights.size() + 1);
   light.position = camera.target + 0.4f * to_eye + 0.25f * distance * (axes.up + 0.5f * axes.right);
   light.direction = glm::normalize(camera.target - light.position);
   light.intensity = 0.5f;
-  if (kind == Light::Kind::spot) light.cos_outer = std::cos(glm::radians(25.0f));
-  if (kind == Light::Kind::spot) light.cos_inner = std::cos(glm::radians(20.0f));
+  if (kind.has_cone) {
+    light.cos_inner = std::cos(glm::radians(kBright_deg));
+    light.cos_outer = std::cos(glm::radians(kCone_deg));
+  }
+  if (kind.has_sides) {
+    light.edge_u = 0.2f * distance * glm::normalize(glm::cross(light.direction, axes.up));
+    light.edge_v = glm::cross(light.direction, light.edge_u);
+  }
   return light;
 }
 
 void draw_adding(Model& model) {
-  struct Kind {
-    const char* name;
-    Light::Kind kind;
-    const char* help;
-  };
-  label("add", "a light between the camera and what it looks at");
+  ImGui::TextUnformatted("add a light");
+  tooltip("between the camera and what it looks at");
   bool first = true;
-  for (const auto& [name, kind, help] :
-       {Kind{"Point", Light::Kind::point, "a light that shines in all directions"},
-        Kind{"Sun", Light::Kind::directional, "parallel light from far away"},
-        Kind{"Spot", Light::Kind::spot, "a cone of light"}}) {
+  for (const LightKind& kind : kLightKinds) {
     if (!std::exchange(first, false)) ImGui::SameLine();
-    if (!button(name, help)) continue;
+    if (!button(std::string(kind.name).c_str(), "add a light of this kind")) continue;
     model.scene.lights.push_back(new_light(kind, model));
     model.lights_changed = true;
   }
