@@ -45,17 +45,19 @@ int view(const ViewOptions& options) {
   if (!options.stats_json.empty()) check_writable(options.stats_json);
   const std::unique_ptr<gl::Window> window = open_window(options);
   bool is_loading = false;
+  ExitCode scene_code = kDone;
   {
     Session session(*window, options);
     session.run();
     is_loading = session.is_loading();
+    scene_code = session.code();
     std::vector<NamedFile> inputs;
     for (const std::string& file : session.scene().source_files) inputs.push_back({"the scene's", file});
     check_apart(inputs, {{"--stats-json", options.stats_json}});
     if (!options.stats_json.empty()) write_json(options.stats_json, session.pace().json());
   }
   window->context().throw_complaints();
-  const int code = interrupted() ? kInterrupted : kDone;
+  const int code = interrupted() ? kInterrupted : scene_code;
   if (!is_loading) return code;
   // A thread still reads a scene that is not wanted any more, and may lock files: only what was printed is
   // flushed.

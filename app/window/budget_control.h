@@ -14,7 +14,8 @@ class BudgetControl {
   BudgetControl(Engine& engine, Model& model, Screen& screen, FrameLoop& frames, const BudgetOptions& options)
       : engine_(engine), model_(model), screen_(screen), frames_(frames), options_(options) {}
 
-  // What the frames are drawn by where `exact` would be drawn without a budget.
+  // What the frames are drawn by where `exact` would be drawn without a budget: cheaper settings while
+  // something moves, the exact ones once camera and scene stand still.
   [[nodiscard]] Settings settings_for(const Settings& exact);
   void note(double frame_ms);
   [[nodiscard]] bool is_measuring() const { return trial_ != nullptr; }
@@ -24,6 +25,8 @@ class BudgetControl {
  private:
   void measure();
   void begin(const Settings& exact);
+  [[nodiscard]] bool stands_still();
+  void tell_given_up(const Settings& cheaper);
 
   Engine& engine_;
   Model& model_;
@@ -33,6 +36,12 @@ class BudgetControl {
   Settings exact_;                                 // what trial_ and controller_ make cheaper
   std::unique_ptr<BudgetTrial> trial_;             // null: nothing is being measured
   std::unique_ptr<QualityController> controller_;  // null: there is no budget, or it is not measured yet
+  // What was seen when something moved last, and when.
+  Scene scene_;
+  Camera camera_;
+  glm::ivec2 size_{0};
+  double moved_s_ = 0.0;
+  bool still_ = false;
 };
 
 }  // namespace pinocchio::app

@@ -70,6 +70,8 @@ void FrameLoop::draw_next() {
   model_.picture_size = request.view.size;
   if (split_.follow(request)) screen_.request_redraw(1);
   if (model_.idle && split_.wants_picture()) again_ = true;
+  if (!model_.wants_numbers()) model_.numbers = {};
+  if (model_.wants_numbers() && model_.numbers.empty()) again_ = true;
   const bool new_frame = newest_ != request;
   if (!new_frame && !again_) return settle();
   model_.idle = false;
@@ -130,10 +132,20 @@ void FrameLoop::deliver(Frame& frame) {
   Span& present = frame.record()[Stage::present];
   present.begin_s = now_s();
   const Layer buffer = model_.applied.buffer;
-  screen_.set_picture(&chosen_buffer(frame), buffer == Layer::picture || buffer == Layer::reflection);
+  const gl::Texture& shown = chosen_buffer(frame);
+  if (model_.wants_numbers()) read_numbers(frame);
+  screen_.set_picture(&shown, buffer == Layer::picture || buffer == Layer::reflection);
   screen_.show();
   present.end_s = now_s();
   sinks_.frame(frame);
+}
+
+// The mean of the gathered samples, or the frame's light.
+void FrameLoop::read_numbers(const Frame& frame) {
+  if (model_.samples > 1)
+    accumulator_.read_average(model_.numbers);
+  else
+    frame.read_color(model_.numbers);
 }
 
 const gl::Texture& FrameLoop::chosen_buffer(const Frame& frame) {
@@ -145,6 +157,7 @@ const gl::Texture& FrameLoop::chosen_buffer(const Frame& frame) {
     model_.legend = legend(settings.buffer, settings.mask_slot, frame, model_.shown_range);
     return inspect_.draw(frame, settings.buffer, settings.mask_slot, model_.shown_range);
   }
+  if (settings.wireframe) return wireframe_.draw(frame);
   if (!model_.gathers() || frame.request().view.camera != model_.camera.camera()) return frame.texture();
   accumulator_.add(frame);
   if (accumulator_.samples() <= 1) return frame.texture();

@@ -3,6 +3,7 @@
 #include <optional>
 
 #include "app/window/screen.h"
+#include "app/window/wireframe.h"
 #include "hybrid/inspect/accumulator.h"
 #include "hybrid/inspect/inspect_pass.h"
 #include "pinocchio/renderer.h"
@@ -40,6 +41,7 @@ class FrameLoop {
   void draw_next();
   void settle();
   void deliver(Frame& frame);
+  void read_numbers(const Frame& frame);
   [[nodiscard]] const gl::Texture& chosen_buffer(const Frame& frame);
   [[nodiscard]] ChannelRange channel_range() const;
 
@@ -50,6 +52,7 @@ class FrameLoop {
   FrameSinks sinks_;
   InspectPass inspect_;
   Accumulator accumulator_;
+  Wireframe wireframe_;
   std::optional<FrameRequest> newest_;  // the request drawn last
   int sample_ = 0;                      // the still camera's next
   bool again_ = false;                  // newest_ is to be delivered again

@@ -13,6 +13,8 @@ constexpr float kSameSpot = 4.0f;  // pixels
 
 Action with_shift(Action action, bool shift) {
   if (!shift) return action;
+  if (action == Action::save_scene) return Action::save_as;
+  if (action == Action::screenshot) return Action::screenshot_window;
   return action == Action::undo ? Action::redo : action == Action::record ? Action::record_exr : action;
 }
 
@@ -71,7 +73,16 @@ void Input::handle_scroll(const gl::ScrollEvent& event) {
       glm::clamp(fixed - share / zoom.factor, glm::vec2(0.0f), glm::vec2(1.0f - 1.0f / zoom.factor));
 }
 
+// Whether edits are dropped. Other keys do nothing until that is answered.
+void Input::answer(const gl::KeyEvent& event) {
+  if (!event.down || event.repeated) return;
+  if (event.key == gl::kKeyEnter) model_.requested.push_back(Action::save_and_leave);
+  if (event.character == 'D') model_.requested.push_back(Action::leave_unsaved);
+  if (event.key == gl::kKeyEscape) model_.requested.push_back(Action::stay);
+}
+
 void Input::handle_key(const gl::KeyEvent& event) {
+  if (model_.leaving) return answer(event);
   if (navigation_.handle(event) || !event.down || event.with.alt) return;
   const int number = event.key - '1';
   if (number >= 0 && number < 9 && !event.with.control) {

@@ -29,6 +29,7 @@ class Input {
  private:
   void handle(const gl::WindowEvent& event);
   void handle_key(const gl::KeyEvent& event);
+  void answer(const gl::KeyEvent& event);
   void handle_button(const gl::ButtonEvent& event);
   void handle_scroll(const gl::ScrollEvent& event);
   [[nodiscard]] glm::vec2 pointer_share() const;

@@ -1,6 +1,7 @@
 #include "app/window/recording.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
 
 #include "app/window/model/export.h"
@@ -19,21 +20,49 @@ std::vector<Light> extra_lights(const std::vector<Light>& lights, const DrawOpti
   return options.lights;
 }
 
+// A person can look for it.
+std::string whole_path(const std::string& file) {
+  std::error_code unknown;
+  const std::filesystem::path path = std::filesystem::absolute(file, unknown);
+  return unknown ? file : path.string();
+}
+
+// The picture's colours, as far as a surface covers each pixel. A black background has no part in them.
+Image<glm::u8vec4> without_background(const FrameResult& picture, const ViewSettings& shown) {
+  Image<glm::vec4> color = picture.color;
+  if (!picture.scene.environment)
+    for (glm::vec4& c : color.pixels())
+      if (c.a > 0.0f) c = glm::vec4(glm::vec3(c) / std::min(c.a, 1.0f), c.a);
+  const Image<glm::u8vec3> rgb = preview(color, shown.exposure_ev, shown.tone_map);
+  Image<glm::u8vec4> rgba(color.size());
+  for (std::size_t i = 0; i < rgba.pixels().size(); ++i)
+    rgba[i] = glm::u8vec4(rgb[i], std::lround(255.0f * std::clamp(color[i].a, 0.0f, 1.0f)));
+  return rgba;
+}
+
 }  // namespace
+
+// The environment, where the scene's own file does not hold it.
+std::string Recording::environment_file(const DrawOptions& draw) const {
+  const std::shared_ptr<const Environment>& environment = model_.scene.environment;
+  if (!environment) return {};
+  return is_environment_file(environment->source()) ? environment->source() : draw.environment;
+}
 
 std::string Recording::file_name(const std::vector<std::string>& extensions) const {
   const std::string stem = std::filesystem::path(model_.scene.source).stem().string();
-  return unused_name(stem.empty() ? "view" : stem, extensions);
+  const std::filesystem::path folder(model_.save.folder);
+  return unused_name((folder / (stem.empty() ? "view" : stem)).string(), extensions);
 }
 
-void Recording::save_screenshot(const Settings& settings) {
+void Recording::save_screenshot(const Settings& settings, bool with_overlay) {
   const std::string name = file_name({".png", ".exr"});
   frames_.drain();
   const double begin_s = now_s();
   FrameResult picture = frames_.draw_now(settings);
   frames_.add_gathered(picture);
   write_exr(name + ".exr", picture, {.render_s = now_s() - begin_s, .time_s = model_.playback.posed_s});
-  screen_.save_next(name + ".png");
+  screen_.save_next(name + ".png", with_overlay);
 }
 
 void Recording::toggle_sequence(bool with_exr) {
@@ -63,35 +92,78 @@ void Recording::add(const Frame& frame) {
 void Recording::save_camera() {
   const std::string file = file_name({"-camera.json"}) + "-camera.json";
   write_text(file, camera_path_json(model_.camera.camera()));
-  model_.messages.news(file + " written, for --path");
+  model_.messages.news(whole_path(file) + " written, for --path");
 }
 
 void Recording::save_gltf() {
-  const std::string file = file_name({".gltf", ".bin"}) + ".gltf";
-  Scene scene = model_.scene;
+  save_scene_to(file_name({".gltf", ".bin"}) + ".gltf");
+}
+
+// With all its parts and animations. A scene opens with its first camera.
+void Recording::save_scene_to(const std::string& file) {
+  Scene scene = parts_.whole_scene();
+  scene.animation = model_.playback.all;
   Camera camera = model_.camera.camera();
   camera.name = "window";
-  scene.cameras.insert(scene.cameras.begin(), camera);  // a scene opens with its first camera
+  scene.cameras.insert(scene.cameras.begin(), camera);
   Warnings warnings;
   save_scene(scene, file, nullptr, &warnings);
   for (const Warning& warning : warnings) model_.messages.warning(warning.message());
-  model_.messages.news(file + " written");
+  model_.messages.news(whole_path(file) + " written");
+  if (const std::string light = environment_file({}); !light.empty())
+    model_.messages.hint("it holds no environment: give --environment " + light + " with it", 12.0);
+}
+
+std::string Recording::chosen_file(const std::string& extension) const {
+  const SavePlace& place = model_.save;
+  if (place.name.empty()) return file_name({extension}) + extension;
+  std::string file = (std::filesystem::path(place.folder) / place.name).string();
+  if (!file.ends_with(extension)) file += extension;
+  std::error_code unknown;
+  if (std::filesystem::exists(file, unknown) && !place.replaces)
+    throw EnvironmentError(file + " exists: choose another name, or tick 'replace files'");
+  return file;
+}
+
+void Recording::save_as(Action action, const Settings& settings) {
+  if (action == Action::save_glb) return save_scene_to(chosen_file(".glb"));
+  if (action == Action::save_gltf) return save_scene_to(chosen_file(".gltf"));
+  if (action == Action::save_obj) return save_scene_to(chosen_file(".obj"));
+  save_picture(action, settings, chosen_file(action == Action::save_exr ? ".exr" : ".png"));
+}
+
+void Recording::save_picture(Action action, const Settings& settings, const std::string& file) {
+  frames_.drain();
+  const double begin_s = now_s();
+  FrameResult picture = frames_.draw_now(settings);
+  frames_.add_gathered(picture);
+  const ViewSettings& shown = model_.applied;
+  if (action == Action::save_exr) {
+    write_exr(file, picture, {.render_s = now_s() - begin_s, .time_s = model_.playback.posed_s});
+  } else if (action == Action::save_png) {
+    write_png(file, preview(picture.color, shown.exposure_ev, shown.tone_map));
+  } else {
+    write_text(file, encode_png(without_background(picture, shown)));
+  }
+  model_.messages.news(whole_path(file) + " written");
 }
 
 std::string Recording::print_command(const Settings& settings, const DrawOptions& draw) {
   const std::string name = file_name({".png", ".exr", ".gltf"});
   ExportedView view;
   view.scene = model_.scene.source;
-  if (model_.scene_edited) {
+  if (model_.scene_edited || model_.parts.hides()) {
     view.scene = name + ".gltf";
     save_scene(model_.scene, view.scene);
+    model_.messages.news("the scene as it is shown is in " + whole_path(view.scene));
   } else {
     view.extra_lights = extra_lights(model_.scene.lights, draw);
     if (model_.scene.animation) view.time_s = model_.playback.posed_s;
+    if (model_.playback.clip >= 0) model_.messages.hint("render plays all animations of the file together");
   }
   view.settings = settings;
   view.camera = model_.camera.camera();
-  if (model_.scene.environment) view.environment = draw.environment;
+  view.environment = environment_file(draw);
   view.size = model_.wanted_size();
   view.samples = model_.gathers() ? std::max(model_.samples, 1) : 1;
   view.exposure_ev = model_.applied.exposure_ev;

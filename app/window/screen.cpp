@@ -39,8 +39,9 @@ void Screen::show() {
   const glm::ivec2 pixels = window_.pixels();
   if (pixels.x < 1 || pixels.y < 1) return;
   shown_ = true;
-  model_.window_pixels = pixels;
+  model_.set_window_pixels(pixels);
   draw_picture();
+  if (!png_file_.empty() && !with_overlay_) write_png_file();
   gui_.draw();
   redraws_ = std::max(redraws_ - 1, 0);
   redrawn_s_ = now_s();
@@ -82,8 +83,9 @@ void Screen::write_png_file() {
   const std::string file = std::exchange(png_file_, {});
   try {
     write_png(file, read_pixels());
-    model_.messages.news(file + " and " + std::filesystem::path(file).replace_extension(".exr").string() +
-                         " written");
+    std::error_code unknown;
+    const std::filesystem::path path = std::filesystem::absolute(file, unknown);
+    model_.messages.news(path.string() + " and " + path.stem().string() + ".exr written");
   } catch (const EnvironmentError& error) {
     model_.messages.error("file", error.what());
   }
@@ -92,13 +94,14 @@ void Screen::write_png_file() {
 void Screen::count_light() {
   constexpr double kBetween_s = 0.5;
   if (!model_.panels[Panel::drawing] || !picture_ || !is_light_) {
+    if (model_.histogram) request_redraw();  // the panel becomes smaller
     model_.histogram.reset();
     counted_ = false;
     return;
   }
   if (histogram_.started()) {
+    request_redraw(model_.histogram ? 1 : kSettling);  // the panel becomes larger
     model_.histogram.emplace(histogram_.take());
-    request_redraw(1);
   }
   if (counted_ || (model_.histogram && !model_.idle && now_s() - counted_s_ < kBetween_s)) return;
   histogram_.start(*picture_);

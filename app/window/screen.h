@@ -39,8 +39,11 @@ class Screen {
   void show();
   // The picture, without the overlay, as the display would show it.
   [[nodiscard]] Image<glm::u8vec3> read_picture();
-  // Writes the window to this file when it is drawn next.
-  void save_next(const std::string& png) { png_file_ = png; }
+  // Writes the window to this file when it is drawn next: with what is over the picture, or without.
+  void save_next(const std::string& png, bool with_overlay) {
+    png_file_ = png;
+    with_overlay_ = with_overlay;
+  }
 
   // Counts the picture's light for the panel Drawing: twice a second, and once of the finished picture.
   void count_light();
@@ -66,6 +69,7 @@ class Screen {
   int redraws_ = kSettling;
   double redrawn_s_ = 0.0;
   std::string png_file_;  // empty: none is to be written
+  bool with_overlay_ = false;
 };
 
 }  // namespace pinocchio::app

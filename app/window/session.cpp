@@ -1,7 +1,6 @@
 #include "app/window/session.h"
 
 #include <algorithm>
-#include <cmath>
 #include <utility>
 
 #include "app/cli/console.h"
@@ -14,7 +13,6 @@ namespace pinocchio::app {
 namespace {
 
 constexpr double kLongestStep_s = 0.1;  // of flight, however long a frame took
-constexpr const char* kNoTree = "the tree is being built; try again when it is done";
 
 ViewSettings settings_of(const ViewOptions& options) {
   ViewSettings settings;
@@ -46,7 +44,10 @@ Session::Session(gl::Window& window, const ViewOptions& options)
       settings_(engine_, model_, screen_, source_, budget_),
       edits_(model_),
       playback_(model_),
-      recording_(model_, screen_, frames_) {
+      pointing_(model_, input_),
+      parts_(model_),
+      recording_(model_, screen_, frames_, parts_),
+      leave_(window_, model_, source_, options.draw.scene, [this] { write_file(Action::save_scene); }) {
   model_.settings = model_.applied = settings_of(options);
   model_.panels = preferences_.panels;
   model_.recent = preferences_.recent;
@@ -65,9 +66,9 @@ Session::~Session() {
 
 void Session::run() {
   last_turn_s_ = now_s();
-  while (!window_.close_asked() && !interrupted()) {
+  while (!leave_.is_closed() && !interrupted()) {
     input_.handle_events(patience_s(), [this] { perform_requests(); });
-    model_.window_pixels = window_.pixels();
+    model_.set_window_pixels(window_.pixels());
     advance();
     poll_scene();
     poll_files();
@@ -105,6 +106,12 @@ void Session::poll_scene() {
   if (was_loading && !model_.is_loading()) screen_.request_redraw();
   if (news.scene && can_draw(news.stats)) show_scene(news);
   if (news.tracer) model_.tracer = std::move(news.tracer);
+  if (!news.environment) return;
+  const std::string file = news.environment->source();
+  edits_.set_environment(std::move(news.environment));
+  model_.messages.clear("scene");
+  for (const std::string& warning : news.warnings) model_.messages.warning(warning);
+  model_.messages.hint(file + " is the scene's environment (Ctrl + Z takes it back)");
 }
 
 // Where the settings cannot draw the scene, the verb ends, or the scene before stays.
@@ -131,6 +138,9 @@ void Session::show_scene(SceneLoader::News& news) {
   model_.camera.set_scene(news.stats.bounds, news.interest);
   first_camera_ = news.camera;
   model_.messages.clear("scene");
+  model_.messages.clear_warnings();
+  model_.all_warnings = false;
+  leave_.arrived();
   for (const std::string& warning : news.warnings) model_.messages.warning(warning);
   model_.history.clear();
   model_.zoom = {};
@@ -144,11 +154,17 @@ void Session::show_scene(SceneLoader::News& news) {
     model_.playback = {};
   }
   model_.playback.posed_s.reset();
+  std::error_code unknown;
+  model_.parts = {.bytes = std::filesystem::file_size(model_.scene.source, unknown),
+                  .extensions = std::move(news.extensions),
+                  .warnings = std::move(news.warnings)};
+  parts_.begin();
+  playback_.begin();
   edits_.begin();
 }
 
 void Session::poll_files() {
-  if (source_.has_changed(now_s())) source_.reload();
+  if (source_.has_changed(now_s())) leave_.request({.file = model_.scene.source, .reload = true});
   if (!shader_watch_ || !shader_watch_->changed(now_s())) return;
   if (const Expected<void> reloaded = engine_.reload_shaders()) {
     model_.messages.clear("shaders");
@@ -166,8 +182,8 @@ void Session::apply_changes() {
   wanted = possible(wanted);
   if (wanted.vsync != applied.vsync) window_.set_vsync(wanted.vsync);
   if (wanted.buffer != applied.buffer || wanted.mask_slot != applied.mask_slot ||
-      wanted.split != applied.split || wanted.accumulate != applied.accumulate ||
-      wanted.range != applied.range)
+      wanted.split != applied.split || wanted.wireframe != applied.wireframe ||
+      wanted.accumulate != applied.accumulate || wanted.range != applied.range)
     frames_.deliver_again();
   if (!(wanted == applied)) screen_.request_redraw();
   if (!model_.has_scene()) {
@@ -175,6 +191,12 @@ void Session::apply_changes() {
     return;
   }
   edits_.apply();
+  if (parts_.apply()) {
+    playback_.cancel();
+    model_.playback.posed_s.reset();
+    model_.tracer.reset();
+    source_.forget_tree();
+  }
   settings_.update();
 }
 
@@ -191,14 +213,18 @@ void Session::draw() {
 // While the panel Pixel is open.
 void Session::inspect_pixel() {
   if (!model_.panels[Panel::pixel]) return model_.pixel.reset();
-  if (!input_.over_picture() || !inspector_.update(model_, input_.pixel_under_pointer())) return;
+  if (!input_.over_picture() || !pointing_.inspector().update(model_, input_.pixel_under_pointer())) return;
   screen_.request_redraw(1);
   model_.pixel_error = model_.pixel ? split_.error_of(*model_.pixel) : std::nullopt;
 }
 
 void Session::perform_requests() {
   for (const Action action : std::exchange(model_.requested, {})) perform(action);
-  if (const std::string file = std::exchange(model_.file_to_open, {}); !file.empty()) source_.open(file);
+  if (const std::string file = std::exchange(model_.file_to_open, {}); is_environment_file(file)) {
+    source_.open_environment(file);
+  } else if (!file.empty()) {
+    leave_.request({.file = file});
+  }
   if (const int camera = std::exchange(model_.camera_to_show, -1); camera >= 0) show_camera(camera);
 }
 
@@ -208,6 +234,7 @@ void Session::perform(Action action) {
       case Action::frame_all:
         return frame_all();
       case Action::reset_camera:
+        model_.zoom = {};
         return model_.camera.set_camera(first_camera_);
       case Action::view_front:
         return model_.camera.view_from({0, 0, 1});
@@ -215,12 +242,18 @@ void Session::perform(Action action) {
         return model_.camera.view_from({1, 0, 0});
       case Action::view_top:
         return model_.camera.view_from({0, 1, 0});
+      case Action::view_back:
+        return model_.camera.view_from({0, 0, -1});
+      case Action::view_left:
+        return model_.camera.view_from({-1, 0, 0});
+      case Action::view_bottom:
+        return model_.camera.view_from({0, -1, 0});
       case Action::set_pivot:
-        return set_pivot();
+        return pointing_.set_pivot();
       case Action::pick_material:
-        return pick_material();
+        return pointing_.pick_material();
       case Action::expose_for_point:
-        return expose_for_point();
+        return pointing_.expose();
       case Action::next_buffer:
         return next_buffer(model_.settings, model_.stats.casting_lights);
       case Action::undo:
@@ -231,16 +264,30 @@ void Session::perform(Action action) {
       case Action::record_exr:
         return recording_.toggle_sequence(action == Action::record_exr);
       case Action::screenshot:
+      case Action::screenshot_window:
       case Action::save_camera:
       case Action::save_scene:
       case Action::print_command:
         return write_file(action);
       case Action::next_file:
-        return open_neighbour(1);
+        return leave_.open_neighbour(1);
       case Action::previous_file:
-        return open_neighbour(-1);
+        return leave_.open_neighbour(-1);
       case Action::cancel_loading:
+        leave_.arrived();
         return source_.cancel();
+      case Action::open_unlimited:
+        return source_.open_unlimited();
+      case Action::save_as:
+        model_.panels[Panel::save] = true;
+        return;
+      case Action::save_glb:
+      case Action::save_gltf:
+      case Action::save_obj:
+      case Action::save_png:
+      case Action::save_transparent:
+      case Action::save_exr:
+        return write_file(action);
       case Action::full_screen:
         return window_.set_full_screen(!window_.full_screen());
       case Action::play:
@@ -251,6 +298,10 @@ void Session::perform(Action action) {
         return playback_.step(1);
       case Action::close:
         return close_something();
+      case Action::save_and_leave:
+      case Action::leave_unsaved:
+      case Action::stay:
+        return leave_.answer(action);
     }
   } catch (const std::exception& error) {  // a file that cannot be written
     model_.messages.error("file", error.what());
@@ -263,27 +314,41 @@ void Session::write_file(Action action) {
   apply_changes();
   Settings settings = wanted_settings(model_.applied);
   if (action == Action::save_camera) return recording_.save_camera();
-  if (action == Action::save_scene) return recording_.save_gltf();
-  if (action == Action::screenshot) {
-    if (model_.tracer) settings = settings_.resolved(settings, model_.stats, true).value_or(model_.drawn);
-    return recording_.save_screenshot(model_.tracer ? settings : Settings{model_.drawn});
+  if (action == Action::save_scene) {
+    recording_.save_gltf();
+    return edits_.saved();
+  }
+  Settings of_picture{model_.drawn};
+  if (model_.tracer) of_picture = settings_.resolved(settings, model_.stats, true).value_or(model_.drawn);
+  if (action == Action::screenshot || action == Action::screenshot_window)
+    return recording_.save_screenshot(of_picture, action == Action::screenshot_window);
+  if (action != Action::print_command) {
+    recording_.save_as(action, of_picture);
+    if (action == Action::save_glb || action == Action::save_gltf) edits_.saved();
+    return;
   }
   budget_.add_given_up(settings);
   window_.set_clipboard(recording_.print_command(settings, source_.options()));
+  if (model_.scene_edited) edits_.saved();
   model_.messages.hint("the command that renders this is on the terminal and in the clipboard", 6.0);
 }
 
 // The innermost thing that is open.
 void Session::close_something() {
   if (screen_.gui().close_popup()) return;
-  for (const Panel panel : {Panel::help, Panel::files})
-    if (bool& open = model_.panels[panel]; std::exchange(open, false)) return;
+  if (model_.settings.overlay) {
+    if (const std::optional<Panel> panel = screen_.gui().front_panel(model_.panels)) {
+      model_.panels[*panel] = false;
+      return;
+    }
+  }
   if (window_.full_screen()) return window_.set_full_screen(false);
-  window_.ask_close();
+  leave_.request({});
 }
 
 void Session::frame_all() {
   const glm::vec2 size(window_.pixels());
+  model_.zoom = {};
   model_.camera.frame_all(size.x / std::max(size.y, 1.0f));
   model_.wants_tree = true;
   if (!model_.tracer)
@@ -301,38 +366,6 @@ void Session::show_camera(std::size_t number) {
     model_.messages.hint("the scene has " + std::to_string(cameras.size()) +
                          (cameras.size() == 1 ? " camera" : " cameras"));
   }
-}
-
-void Session::set_pivot() {
-  model_.wants_tree = true;
-  if (!model_.tracer) return model_.messages.hint(kNoTree);
-  if (const std::optional<glm::vec3> p =
-          surface_under(glm::vec2(input_.pixel_under_pointer()), glm::vec2(model_.wanted_size()),
-                        model_.camera.camera(), *model_.tracer, model_.settings.settings.backfaces))
-    model_.camera.set_target(*p);
-}
-
-void Session::pick_material() {
-  const std::optional<PixelReport> pixel = inspector_.report(model_, input_.pixel_under_pointer());
-  if (!pixel) return model_.messages.hint(kNoTree);
-  if (pixel->triangle == kNoTriangle) return;
-  model_.material = pixel->material;
-  model_.panels[Panel::materials] = true;
-}
-
-// The point is shown as bright as an 18 % grey card in full light.
-void Session::expose_for_point() {
-  constexpr float kMiddleGrey = 0.18f;
-  const std::optional<PixelReport> pixel = inspector_.report(model_, input_.pixel_under_pointer());
-  if (!pixel) return model_.messages.hint(kNoTree);
-  const float luminance = glm::dot(pixel->color, glm::vec3(0.2126f, 0.7152f, 0.0722f));  // Rec. 709
-  if (luminance > 0.0f) model_.settings.exposure_ev = std::log2(kMiddleGrey / luminance);
-}
-
-void Session::open_neighbour(int by) {
-  const std::string file = neighbour_of(model_.scene.source, by);
-  if (file.empty()) return model_.messages.hint("there is no other scene in the folder");
-  source_.open(file);
 }
 
 }  // namespace pinocchio::app

@@ -4,7 +4,9 @@
 
 #include "app/window/applied_settings.h"
 #include "app/window/input.h"
+#include "app/window/leave.h"
 #include "app/window/model/preferences.h"
+#include "app/window/pointing.h"
 #include "app/window/recording.h"
 #include "app/window/scene/playback.h"
 #include "app/window/scene/scene_edits.h"
@@ -29,13 +31,14 @@ class Session {
   Session(gl::Window& window, const ViewOptions& options);
   ~Session();
 
-  // Returns when the window is closed or the program interrupted. Ends the verb where the scene of the
-  // command line cannot be read.
+  // Returns when the window is closed or the program interrupted.
   void run();
   // Whether a thread still reads a scene.
   [[nodiscard]] bool is_loading() const { return source_.is_busy(); }
   [[nodiscard]] const Pace& pace() const { return screen_.pace(); }
   [[nodiscard]] const Scene& scene() const { return model_.scene; }
+  // Of the verb: why no scene could be opened.
+  [[nodiscard]] ExitCode code() const { return source_.code(); }
 
  private:
   [[nodiscard]] double patience_s() const;
@@ -54,10 +57,6 @@ class Session {
   void close_something();
   void frame_all();
   void show_camera(std::size_t number);
-  void set_pivot();
-  void pick_material();
-  void expose_for_point();
-  void open_neighbour(int by);
 
   gl::Window& window_;
   Preferences preferences_;
@@ -72,8 +71,10 @@ class Session {
   AppliedSettings settings_;
   SceneEdits edits_;
   Playback playback_;
+  Pointing pointing_;
+  HiddenParts parts_;
   Recording recording_;
-  PixelInspector inspector_;
+  Leave leave_;
   std::optional<FileWatch> shader_watch_;  // with --watch
   Camera first_camera_;                    // of the scene
   double last_turn_s_ = 0.0;

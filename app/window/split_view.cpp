@@ -157,6 +157,7 @@ bool SplitView::follow(const FrameRequest& request) {
   const std::string before = std::exchange(model_.comparison, {});
   if (settings.split == Split::off || settings.settings.indirect > 0) {
     comparison_.reset();
+    model_.is_comparing = false;
     if (settings.split != Split::off) model_.comparison = "the reference draws no indirect light";
     return model_.comparison != before;
   }
@@ -170,6 +171,7 @@ bool SplitView::follow(const FrameRequest& request) {
   model_.comparison = std::string("left: as drawn   right: ") +
                       (settings.split == Split::heat_map ? "visible difference" : "reference") + "   " +
                       comparison_->text();
+  model_.is_comparing = !comparison_->done();
   return newer || model_.comparison != before;
 }
 

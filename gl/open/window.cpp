@@ -146,6 +146,10 @@ void Window::ask_close() {
   glfwSetWindowShouldClose(handle(), GLFW_TRUE);
 }
 
+void Window::stay_open() {
+  glfwSetWindowShouldClose(handle(), GLFW_FALSE);
+}
+
 glm::ivec2 Window::pixels() const {
   glm::ivec2 size(0);
   glfwGetFramebufferSize(handle(), &size.x, &size.y);

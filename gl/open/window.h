@@ -88,6 +88,7 @@ class Window {
 
   [[nodiscard]] bool close_asked() const;
   void ask_close();
+  void stay_open();                         // takes the request to close back
   [[nodiscard]] glm::ivec2 pixels() const;  // the framebuffer's size; 0 where the window is minimised
   [[nodiscard]] bool minimised() const;
   // The scale of text and lines: 1 on a usual display, 2 on a high-DPI one.

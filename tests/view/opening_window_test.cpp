@@ -45,6 +45,38 @@ TEST_F(OpeningTest, ADroppedFileIsOpenedAndABadOneChangesNothing) {
   EXPECT_EQ(program_->wait(), 0);
 }
 
+// It lights the scene and is seen behind it, in the command and in the window; and is taken back.
+TEST_F(OpeningTest, ADroppedEnvironmentLightsTheScene) {
+  std::ofstream(folder_ / "triangle.obj") << "v -0.3 0 0\nv 0.3 0 0\nv 0 0.3 0\nf 1 2 3\n";
+  std::ofstream sky(folder_ / "sky.hdr", std::ios::binary);
+  sky << "#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y 8 +X 16\n";
+  for (int i = 0; i < 8 * 16; ++i) sky << "\x20\x40\x7f\x80";  // blue
+  sky.close();
+  open("triangle.obj", "--spp 1 --light 0,1,2");
+  settle("before.png");
+  const std::string top = "320x60+0+0";
+  ASSERT_TRUE(drop("sky.hdr"));
+  EXPECT_TRUE(becomes([&] {
+    grab("blue.png");
+    const std::array<double, 3> mean = mean_of(crop(picture("blue.png"), top));
+    return mean[2] > mean[0] + 0.2;
+  })) << errors();
+  EXPECT_NE(option(command_line(), "--environment").find("sky.hdr"), std::string::npos);
+  EXPECT_EQ(lines_of("triangle-001.gltf"), 0);  // the scene itself is as in its file
+  pause_ms(500);
+  key("ctrl+z");
+  EXPECT_TRUE(becomes([&] {
+    grab("back.png");
+    return different_in(top, "before.png", "back.png") == 0;
+  }));
+  key("ctrl+y");
+  EXPECT_TRUE(becomes([&] {
+    grab("again.png");
+    return different_in(top, "blue.png", "again.png") == 0;
+  }));
+  expect_clean_close();
+}
+
 // While it is read: text, which takes a second at least; then while its tree is built.
 TEST_F(OpeningTest, CancelKeepsWhatIsShown) {
   copy_scenes({"cornell.gltf", "cornell.bin"});

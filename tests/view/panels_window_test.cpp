@@ -81,6 +81,7 @@ TEST_F(PanelsTest, AMaterialIsPickedAndChanged) {
         return different_in(kPicture, "first.png", "redone.png") > 100;
       },
       20.0));
+  key("ctrl+s");
   expect_clean_close();
 }
 
@@ -119,11 +120,12 @@ TEST_F(PanelsTest, ButtonsLookAlongTheAxes) {
     return v;
   };
   settle();
-  const std::vector<int> rows = widgets_at(8 + 14, 8 + 30, 250);
-  ASSERT_GE(rows.size(), 3u);                               // of buttons
-  const std::array<int, 3> xs{40, 93, 140}, axes{2, 0, 1};  // front, right, top
+  const std::vector<int> rows = widgets_at(150, 30, 250);  // eye, target, two sliders, "Top", "Bottom"
+  ASSERT_GE(rows.size(), 6u);
+  const std::array<int, 6> xs{42, 92, 136, 39, 85, 140},
+      axes{2, 0, 1, 2, 0, 1};  // front, right, top; back ...
   for (std::size_t i = 0; i < xs.size(); ++i) {
-    click(xs[i], rows[1]);
+    click(xs[i], rows[i < 3 ? 4 : 5]);
     EXPECT_TRUE(becomes(
         [&] {
           const std::string command = command_line();
@@ -131,7 +133,8 @@ TEST_F(PanelsTest, ButtonsLookAlongTheAxes) {
                      target = vector_of(option(command, "--target"));
           for (int axis = 0; axis < 3; ++axis) {
             const double off = eye[static_cast<std::size_t>(axis)] - target[static_cast<std::size_t>(axis)];
-            if (axis == axes[i] ? off < 1.0 : std::abs(off) > 0.02) return false;
+            const double along = i < 3 ? off : -off;
+            if (axis == axes[i] ? along < 1.0 : std::abs(off) > 0.02) return false;
           }
           return true;
         },
@@ -186,8 +189,8 @@ TEST_F(PanelsTest, ALightIsMovedAndPutBack) {
   open_with("Lights", 8, scene("cornell"), " --mode raster");
   settle("before.png");
   const std::vector<int> rows = widgets_at(8 + 112, 8 + 22, 300);
-  ASSERT_GE(rows.size(), 2u);        // position, intensity
-  drag_from(8 + 140, rows[1], -60);  // darker
+  ASSERT_GE(rows.size(), 3u);        // position, colour, intensity
+  drag_from(8 + 140, rows[2], -60);  // darker
   EXPECT_TRUE(becomes(
       [&] {
         grab("after.png");
@@ -202,6 +205,39 @@ TEST_F(PanelsTest, ALightIsMovedAndPutBack) {
         return different_in(kPicture, "before.png", "undone.png") == 0;
       },
       20.0));
+  expect_clean_close();
+}
+
+// A panel in front keeps what is below it quiet.
+TEST_F(PanelsTest, TooltipsDoNotLeakThroughPanels) {
+  std::filesystem::create_directories(folder_ / "config/pinocchio");
+  const std::string layout =
+      "[Window][Timeline]\nPos=8,400\nSize=100,100\nCollapsed=0\n"
+      "[Window][Camera]\nPos=8,330\nSize=100,100\nCollapsed=0\n";
+  std::ofstream(folder_ / "config/pinocchio/window.json")
+      << nlohmann::json{{"open", {"Timeline", "Camera"}}, {"layout", layout}};
+  open_as_is(scene("cornell"), "800x600", "--spp 1");
+  for (int i = 0; i < 2; ++i) drag(1, 40, 0);
+  click(150, 340);                           // the camera's title: it comes to the front
+  const std::string box = "150x90+330+440";  // right of that panel, on the timeline
+  xdo(at(700, 20));
+  settle("quiet.png");
+  // Wherever a stage is below.
+  for (int y = 444; y < 506; y += 10) {  // beside the camera's buttons
+    xdo(at(296, y));
+    settle("hovered.png");
+    EXPECT_EQ(different_in(box, "quiet.png", "hovered.png"), 0) << y;
+  }
+  click(296, 338);  // the camera's panel is closed
+  xdo(at(700, 20));
+  settle("quiet.png");
+  bool told = false;
+  for (int y = 440; y < 530 && !told; y += 8) {
+    xdo(at(296, y));
+    settle("hovered.png");
+    told = different_in(box, "quiet.png", "hovered.png") > 500;
+  }
+  EXPECT_TRUE(told);
   expect_clean_close();
 }
 

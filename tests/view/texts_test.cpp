@@ -50,6 +50,11 @@ Model full_model() {
   model.pixel_error = 0.0;
   model.histogram.emplace(std::vector<LightHistogram::Sample>{{0x3c00, 0x3c00}, {0, 0}});
   model.renderer = "renderer";
+  model.given_up = "shadows";
+  model.leaving.emplace();
+  model.parts = {.bytes = 1000, .extensions = {"EXT"}, .warnings = {"warning"}, .hidden = {}};
+  model.parts.hidden.assign(model.scene.mesh->materials.size(), false);
+  model.playback.all = model.scene.animation;
   return model;
 }
 
@@ -66,11 +71,11 @@ std::set<std::string> shown(Model& model) {
   int width = 0, height = 0;
   io.Fonts->GetTexDataAsRGBA32(&pixels, &width, &height);
   using Draw = void (*)(Model&, float);
-  constexpr std::array<Draw, 10> kInPanels{
-      draw_help,   draw_figures,   draw_controls, draw_all_settings, draw_light_controls,
-      draw_camera, draw_materials, draw_pixel,    draw_timeline,     draw_files};
-  constexpr std::array<Draw, 5> kOfTheirOwn{draw_status_line, draw_playback, draw_messages, draw_loading,
-                                            draw_caption};
+  constexpr std::array<Draw, 12> kInPanels{
+      draw_help,      draw_figures, draw_controls, draw_all_settings, draw_light_controls, draw_camera,
+      draw_materials, draw_pixel,   draw_timeline, draw_files,        draw_scene,          draw_save};
+  constexpr std::array<Draw, 6> kOfTheirOwn{draw_status_line, draw_playback, draw_messages,
+                                            draw_loading,     draw_caption,  draw_question};
   for (int frame = 0; frame < 4; ++frame) {
     io.DeltaTime = 0.02f;
     ImGui::NewFrame();

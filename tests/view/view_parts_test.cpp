@@ -35,6 +35,18 @@ TEST(Messages, NewsGoByThemselvesAndErrorsStayUntilMended) {
   EXPECT_TRUE(messages.all().empty());
 }
 
+TEST(Messages, AHintReplacesTheOneAboutTheSame) {
+  Messages messages;
+  messages.hint("measuring 1 of 9", 1.0, "budget");
+  messages.hint("other");
+  messages.hint("measuring 2 of 9", 1.0, "budget");
+  ASSERT_EQ(messages.all().size(), 2u);
+  EXPECT_EQ(messages.all().back().text, "measuring 2 of 9");
+  for (int i = 0; i < 3; ++i) messages.warning("warning " + std::to_string(i));
+  messages.clear_warnings();
+  EXPECT_EQ(messages.all().size(), 2u);
+}
+
 TEST(Preferences, AreReadAsTheyWereWritten) {
   const std::filesystem::path file = own_folder() / "config/pinocchio/window.json";
   std::filesystem::remove_all(own_folder() / "config");
@@ -163,10 +175,10 @@ TEST(SceneFiles, AFolderIsSteppedThroughAndAround) {
   const std::filesystem::path folder = own_folder() / "scenes";
   std::filesystem::remove_all(folder);
   std::filesystem::create_directories(folder / "more");
-  for (const char* name : {"b.GLB", "a.obj", "c.ply", "notes.txt", ".hidden.obj"})
+  for (const char* name : {"b.GLB", "a.obj", "c.ply", "bb.hdr", "notes.txt", ".hidden.obj"})
     std::ofstream(folder / name) << "x";
   const std::vector<FolderEntry> entries = scenes_in(folder);
-  ASSERT_EQ(entries.size(), 4u);
+  ASSERT_EQ(entries.size(), 5u);  // arrows step over the environment
   EXPECT_TRUE(entries[0].is_folder);
   EXPECT_EQ(neighbour_of(folder / "a.obj", 1), (folder / "b.GLB").string());
   EXPECT_EQ(neighbour_of(folder / "a.obj", -1), (folder / "c.ply").string());

@@ -272,5 +272,45 @@ TEST_F(WidgetsTest, SlidersDoNotCoverTheirText) {
   expect_clean_close();
 }
 
+// What is not drawn is not ticked.
+TEST_F(WidgetsTest, RasterTicksNeitherShadowsNorReflections) {
+  open_drawing("cornell");
+  const std::vector<int> all = rows();
+  ASSERT_EQ(all.size(), kCompare + 1u);
+  const auto amber = [&](const std::string& file) {
+    const int y = (all[kExchange] + all[kDepth]) / 2;
+    return std::ranges::count_if(pixels("200x20+12+" + std::to_string(y - 10), file),
+                                 [](const glm::u8vec3& c) { return c.r > c.b + 60; });
+  };
+  EXPECT_GT(amber("opened.png"), 40);
+  key("m m");  // raytrace, raster
+  still("raster.png");
+  EXPECT_EQ(amber("raster.png"), 0);
+  key("m m");  // auto, hybrid
+  still("hybrid.png");
+  EXPECT_GT(amber("hybrid.png"), 40);
+  expect_clean_close();
+}
+
+// The status line says "done" only once the reference is complete, too.
+TEST_F(WidgetsTest, DoneIsSaidWhenTheReferenceIsComplete) {
+  open_drawing("cornell");
+  const std::string word = "34x16+8+580";
+  key("b");
+  EXPECT_TRUE(becomes([&] {
+    grab("comparing.png");
+    return different_in(word, "opened.png", "comparing.png") > 20;
+  }));
+  pause_ms(1000);
+  grab("comparing.png");
+  EXPECT_GT(different_in(word, "opened.png", "comparing.png"), 20);
+  key("b b");  // off
+  EXPECT_TRUE(becomes([&] {
+    grab("done.png");
+    return different_in(word, "opened.png", "done.png") == 0;
+  }));
+  expect_clean_close();
+}
+
 }  // namespace
 }  // namespace pinocchio

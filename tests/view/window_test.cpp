@@ -252,14 +252,6 @@ TEST_F(WindowTest, AClosedWindowDoesNotWaitForAScene) {
   expect_clean_close();
 }
 
-TEST_F(WindowTest, ASceneThatCannotBeReadIsFour) {
-  std::ofstream(folder_ / "broken.obj") << "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 7\n";
-  program_.emplace(std::vector<std::string>{PINOCCHIO_PROGRAM, "view", "broken.obj"}, folder_,
-                   std::vector<std::string>{"DISPLAY=" + display_}, folder_ / "out.txt", folder_ / "err.txt");
-  EXPECT_EQ(program_->wait(), 4);
-  EXPECT_NE(errors().find("broken.obj:4: a face names vertex 7"), std::string::npos) << errors();
-}
-
 TEST(View, WithoutADisplayItEndsWithThreeAndPointsToRender) {
   const CommandResult result = run_command("env -u DISPLAY -u WAYLAND_DISPLAY '" PINOCCHIO_PROGRAM
                                            "' view '" PINOCCHIO_SOURCE_DIR "/scenes/cornell'",

@@ -69,10 +69,13 @@ const std::vector<KeyBinding>& key_bindings() {
       {'V', "V", Action::next_buffer, "show the next channel: ids, normals, depth ..."},
       {'B', "B", change([](S& s) { return set(s.split, next(s.split, 3)); }),
        "compare with the reference; difference; off"},
+      {'Z', "Z", change([](S& s) { return toggle(s.wireframe); }), "edges of the visible triangles"},
+      {'T', "T", Panel::scene, "panel: what the file holds; hide parts"},
       {'N', "N", change([](S& s) { return toggle(s.accumulate); }),
        "gather samples while the camera stands still"},
       {'Y', "Y", change([](S& s) { return toggle(s.vsync); }), "wait for the display (vsync)"},
-      {gl::kKeyF12, "F12", Action::screenshot, "screenshot: PNG of the window, EXR of the picture"},
+      {gl::kKeyF12, "F12", Action::screenshot,
+       "screenshot: the picture as PNG and EXR; with Shift, the panels too"},
       {'C', "C", Action::save_camera, "save the camera for --path"},
       {'P', "P", Action::print_command, "print the command that renders this"},
       {'H', "H", change([](S& s) { return toggle(s.overlay); }), "hide or show everything over the picture"},
@@ -94,10 +97,11 @@ const std::vector<KeyBinding>& key_bindings() {
       with_control({gl::kKeyRight, "Ctrl + Right", Action::frame_on, "the animation's next frame"}),
       {'K', "K", Action::record, "record the pictures as PNG files, with Shift as EXR too; or stop"},
       with_control({'O', "Ctrl + O", Panel::files, "open a scene"}),
-      with_control({'S', "Ctrl + S", Action::save_scene, "save the scene as glTF"}),
+      with_control({'S', "Ctrl + S", Action::save_scene,
+                    "save the scene as glTF; with Shift, choose folder and name"}),
       with_control({'Z', "Ctrl + Z", Action::undo, "undo"}),
       with_control({'Y', "Ctrl + Y", Action::redo, "redo"}),
-      {gl::kKeyEscape, "Esc", Action::close, "close what is open, leave full screen, quit"},
+      {gl::kKeyEscape, "Esc", Action::close, "close a popup or panel, leave full screen, quit"},
   };
   return kBindings;
 }

@@ -17,10 +17,14 @@ enum class Action {
   view_front,
   view_right,
   view_top,
+  view_back,
+  view_left,
+  view_bottom,
   next_buffer,
   undo,
   redo,
   screenshot,
+  screenshot_window,  // with the panels
   record,
   record_exr,
   save_camera,
@@ -29,6 +33,14 @@ enum class Action {
   next_file,
   previous_file,
   cancel_loading,
+  open_unlimited,  // what was refused for its memory
+  save_as,         // opens the panel Save; the next six are its buttons
+  save_glb,
+  save_gltf,
+  save_obj,
+  save_png,
+  save_transparent,
+  save_exr,
   full_screen,
   play,  // or pause
   frame_back,
@@ -36,7 +48,10 @@ enum class Action {
   set_pivot,  // these three: at the pointer
   pick_material,
   expose_for_point,
-  close,  // what is open: a popup, help, full screen, else the window
+  close,           // what is open: a popup, a panel, full screen, else the window
+  save_and_leave,  // these three answer whether edits are dropped (Leaving)
+  leave_unsaved,
+  stay,
 };
 
 // Changes settings. Returns the rule that prevents it, or null.

@@ -8,7 +8,7 @@
 namespace pinocchio::app {
 namespace {
 
-constexpr std::size_t kMost = 6;  // on the display at once
+constexpr std::size_t kMost = 100;  // warnings of one file are folded into one line
 
 }  // namespace
 
@@ -25,8 +25,9 @@ void Messages::news(const std::string& text, double seconds) {
   hint(text, seconds);
 }
 
-void Messages::hint(const std::string& text, double seconds) {
-  add({Kind::news, text, {}, now_s() + seconds});
+void Messages::hint(const std::string& text, double seconds, const std::string& about) {
+  clear(about);
+  add({Kind::news, text, about, now_s() + seconds});
 }
 
 void Messages::warning(const std::string& text) {
@@ -44,6 +45,10 @@ void Messages::error(const std::string& about, const std::string& text) {
 
 void Messages::clear(const std::string& about) {
   std::erase_if(all_, [&](const Message& m) { return !m.about.empty() && m.about == about; });
+}
+
+void Messages::clear_warnings() {
+  std::erase_if(all_, [](const Message& m) { return m.kind == Kind::warning; });
 }
 
 void Messages::dismiss(std::size_t i) {

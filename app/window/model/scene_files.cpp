@@ -10,6 +10,11 @@ bool is_scene_file(const std::filesystem::path& file) {
   return find_scene_format(file) != nullptr;
 }
 
+bool is_environment_file(const std::filesystem::path& file) {
+  const std::string extension = lower_extension(file);
+  return extension == ".hdr" || extension == ".exr";
+}
+
 std::vector<FolderEntry> scenes_in(const std::filesystem::path& folder) {
   std::vector<FolderEntry> entries;
   std::error_code error;
@@ -20,7 +25,7 @@ std::vector<FolderEntry> scenes_in(const std::filesystem::path& folder) {
     if (name.starts_with('.')) continue;
     if (at->is_directory(unknown))
       entries.push_back({at->path(), true});
-    else if (is_scene_file(at->path()) && at->is_regular_file(unknown))
+    else if ((is_scene_file(at->path()) || is_environment_file(at->path())) && at->is_regular_file(unknown))
       entries.push_back({at->path(), false});
   }
   std::ranges::sort(entries, [](const FolderEntry& a, const FolderEntry& b) {
@@ -32,7 +37,7 @@ std::vector<FolderEntry> scenes_in(const std::filesystem::path& folder) {
 std::string neighbour_of(const std::filesystem::path& file, int by) {
   std::vector<std::string> files;
   for (const FolderEntry& entry : scenes_in(file.parent_path()))
-    if (!entry.is_folder) files.push_back(entry.path.filename().string());
+    if (!entry.is_folder && is_scene_file(entry.path)) files.push_back(entry.path.filename().string());
   const auto at = std::ranges::find(files, file.filename().string());
   if (files.size() < 2 && at != files.end()) return {};
   if (files.empty()) return {};

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "app/window/camera/framing.h"
+#include "app/window/model/gltf_extensions.h"
 #include "core/base/clock.h"
 #include "core/parallel/start_thread.h"
 
@@ -27,6 +28,7 @@ SceneLoader::News SceneLoader::read(const DrawOptions& options, pinocchio::Progr
   news.stats = analyze(scene);
   news.interest = bounds_of_interest(*scene.mesh);
   news.camera = camera_for(options, scene);
+  news.extensions = gltf_extensions(scene.source);
   news.scene = std::move(scene);
   return news;
 }
@@ -34,6 +36,17 @@ SceneLoader::News SceneLoader::read(const DrawOptions& options, pinocchio::Progr
 void SceneLoader::load(const DrawOptions& options) {
   start("reading " + options.scene, options.scene,
         [options](pinocchio::Progress& progress) { return read(options, progress); });
+}
+
+void SceneLoader::load_environment(const std::string& file, std::uint64_t limit_bytes) {
+  start("reading " + file, file, [file, limit_bytes](pinocchio::Progress& progress) {
+    News news;
+    Warnings warnings;
+    news.environment =
+        value_or_exit(pinocchio::load_environment(file, &progress, limit_bytes, &warnings), kBadScene);
+    for (const Warning& warning : warnings) news.warnings.push_back(warning.message());
+    return news;
+  });
 }
 
 void SceneLoader::build_tree(const Scene& scene, const Settings& settings) {

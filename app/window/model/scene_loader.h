@@ -27,17 +27,20 @@ class SceneLoader {
   // What was finished since the last poll(); mostly nothing.
   struct News {
     std::optional<Scene> scene;
-    SceneStats stats;                      // of the scene
-    Bounds interest;                       // bounds_of_interest (framing.h)
-    std::vector<std::string> warnings;     // what is ignored of its file
-    Camera camera;                         // by the options
-    std::shared_ptr<const Tracer> tracer;  // a tree was built
-    std::string error;                     // one line: the scene could not be loaded
-    ExitCode code = kDone;                 // of the error
+    SceneStats stats;                                // of the scene
+    Bounds interest;                                 // bounds_of_interest (framing.h)
+    std::vector<std::string> warnings;               // what is ignored of its file
+    Camera camera;                                   // by the options
+    std::vector<std::string> extensions;             // of glTF, that its file uses
+    std::shared_ptr<const Tracer> tracer;            // a tree was built
+    std::shared_ptr<const Environment> environment;  // was read
+    std::string error;                               // one line: the scene could not be loaded
+    ExitCode code = kDone;                           // of the error
   };
 
   // Each begins in the background; earlier work is dropped.
   void load(const DrawOptions& options);
+  void load_environment(const std::string& file, std::uint64_t limit_bytes);
   void build_tree(const Scene& scene, const Settings& settings);
   // Drops the work, which ends soon.
   void cancel();

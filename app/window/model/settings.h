@@ -26,6 +26,7 @@ struct ViewSettings {
   std::optional<ChannelRange> range;  // of depth and position. Nothing: the scene's
   Split split = Split::off;
   float split_at = 0.5f;   // of the window's width
+  bool wireframe = false;  // the edges of visible triangles are drawn over the picture
   bool accumulate = true;  // a still camera gathers samples
   bool overlay = true;
 

@@ -1,7 +1,6 @@
-// The panels Drawing and Camera.
+// The panel Drawing.
 #include <algorithm>
 #include <string>
-#include <utility>
 
 #include "app/window/overlay/parts.h"
 
@@ -36,10 +35,25 @@ void draw_exchange(ViewSettings& s) {
     s.settings.exchange = static_cast<Exchange>(clicked);
 }
 
-void draw_quality_controls(ViewSettings& s) {
-  checkbox("shadows", s.shadows, help_of("mask_bits"));
+// A mode without tracing has neither, whatever is chosen for the others.
+void draw_traced_parts(const Model& model, ViewSettings& s) {
+  const bool traces = s.mode != "raster";
+  const std::string none = "mode raster draws without shadows and reflections";
+  bool shadows = traces && s.shadows, reflections = traces && s.reflections;
+  ImGui::BeginDisabled(!traces);
+  if (checkbox("shadows", shadows, traces ? help_of("mask_bits") : none)) s.shadows = shadows;
   ImGui::SameLine();
-  checkbox("reflections", s.reflections, help_of("reflection"));
+  if (checkbox("reflections", reflections, traces ? help_of("reflection") : none))
+    s.reflections = reflections;
+  ImGui::EndDisabled();
+  if (model.given_up.empty()) return;
+  ImGui::PushStyleColor(ImGuiCol_Text, kAccent);
+  paragraph("While the picture moves, the budget leaves out: " + model.given_up);
+  ImGui::PopStyleColor();
+}
+
+void draw_quality_controls(const Model& model, ViewSettings& s) {
+  draw_traced_parts(model, s);
   int depth = s.settings.depth;
   if (slider("depth", depth, 0, 16, format(depth == 1 ? "%d bounce" : "%d bounces", depth), help_of("depth")))
     s.settings.depth = depth;
@@ -52,6 +66,8 @@ void draw_quality_controls(ViewSettings& s) {
   choose_value("tone curve", "how light brighter than white is shown", curves, s.tone_map);
   slider("resolution", s.scale, kLeastScale, kMostScale, format("%.0f %%", 100.0 * s.scale),
          "pixels of the picture for one of the window, along a side");
+  checkbox("edges", s.wireframe, "the edges of the visible triangles, over the picture (Z)");
+  ImGui::SameLine();
   checkbox("gather samples", s.accumulate,
            "while the camera stands still, more samples for each pixel smooth the picture");
   ImGui::SameLine();
@@ -125,54 +141,12 @@ void draw_controls(Model& model, float scale) {
   draw_preset("plan", "what is sent between the processors", s);
   draw_exchange(s);
   ImGui::Separator();
-  draw_quality_controls(s);
+  draw_quality_controls(model, s);
   draw_histogram(model, scale);
   ImGui::Separator();
   draw_shown(model);
   ImGui::Separator();
   draw_about(model);
-}
-
-void draw_camera(Model& model, float) {
-  const Camera& camera = model.camera.camera();
-  const auto row_of = [](const char* name, const glm::vec3& v, const char* help) {
-    row(name, format("%.2f, %.2f, %.2f", v.x, v.y, v.z), help);
-  };
-  row_of("eye", camera.eye, "position of the camera: x, y, z in the scene's units");
-  row_of("target", camera.target,
-         "point that the camera looks at and turns around; double-click a surface to set it");
-  row("field of view", format("%.1f degrees", camera.fov_deg), "from the lower to the upper edge");
-  struct ActionButton {
-    const char* name;
-    Action action;
-    const char* help;
-  };
-  const auto draw = [&model](std::initializer_list<ActionButton> buttons) {
-    bool first = true;
-    for (const auto& [name, action, help] : buttons) {
-      if (!std::exchange(first, false)) ImGui::SameLine();
-      if (button(name, help)) model.requested.push_back(action);
-    }
-  };
-  draw({{"Fit", Action::frame_all, "show the whole scene, without the walls around it (F)"},
-        {"Reset", Action::reset_camera, "the camera as at the start (R)"},
-        {"Save", Action::save_camera, "save the camera to a file for render --path (C)"}});
-  draw({{"Front", Action::view_front, "look along -z"},
-        {"Right", Action::view_right, "look along -x"},
-        {"Top", Action::view_top, "look along -y"}});
-  draw(
-      {{"Screenshot", Action::screenshot, "write a PNG of the window and an EXR of the picture (F12)"},
-       {"Print command", Action::print_command, "print the command that renders this without a window (P)"}});
-  if (model.scene.cameras.empty()) return;
-  ImGui::Separator();
-  for (std::size_t i = 0; i < model.scene.cameras.size(); ++i) {
-    const std::string& name = model.scene.cameras[i].name;
-    ImGui::PushID(i);
-    if (list_item((std::to_string(i + 1) + "  " + (name.empty() ? "camera" : name)).c_str()))
-      model.camera_to_show = i;
-    ImGui::PopID();
-    tooltip("use this camera of the file");
-  }
 }
 
 }  // namespace pinocchio::app

@@ -39,7 +39,7 @@ void set_colors(ImGuiStyle& style) {
   const auto set = [&style](int which, float r, float g, float b, float a) {
     style.Colors[which] = ImVec4(r, g, b, a);
   };
-  set(ImGuiCol_WindowBg, 0.06f, 0.07f, 0.09f, 0.97f);
+  set(ImGuiCol_WindowBg, 0.06f, 0.07f, 0.09f, 1.0f);  // panels may lie above each other
   set(ImGuiCol_PopupBg, 0.08f, 0.09f, 0.11f, 0.98f);
   set(ImGuiCol_Border, 1.0f, 1.0f, 1.0f, 0.08f);
   set(ImGuiCol_FrameBg, 1.0f, 1.0f, 1.0f, 0.07f);
@@ -57,6 +57,8 @@ void set_colors(ImGuiStyle& style) {
   set(ImGuiCol_CheckMark, 0.98f, 0.68f, 0.30f, 1.0f);
   set(ImGuiCol_SliderGrab, 0.95f, 0.62f, 0.25f, 0.75f);
   set(ImGuiCol_SliderGrabActive, 0.98f, 0.68f, 0.30f, 1.0f);
+  set(ImGuiCol_PlotHistogram, 0.62f, 0.36f, 0.08f, 1.0f);  // a bar of progress, below white letters
+  set(ImGuiCol_TextSelectedBg, 0.62f, 0.36f, 0.08f, 1.0f);
   set(ImGuiCol_PlotLines, 0.98f, 0.72f, 0.38f, 1.0f);
   set(ImGuiCol_Separator, 1.0f, 1.0f, 1.0f, 0.12f);
 }
@@ -192,6 +194,21 @@ bool Gui::close_popup() {
   if (!ImGui::IsPopupOpen(nullptr, ImGuiPopupFlags_AnyPopup)) return false;
   ImGui::ClosePopupToLevel(ImGui::GetCurrentContext()->OpenPopupStack.Size - 1, true);
   return true;
+}
+
+std::optional<Panel> Gui::front_panel(const OpenPanels& panels) const {
+  const ImVector<ImGuiWindow*>& by_use = ImGui::GetCurrentContext()->WindowsFocusOrder;
+  std::optional<Panel> front;
+  int front_at = -1;
+  for (std::size_t i = 0; i < kPanels.size(); ++i) {
+    const auto panel = static_cast<Panel>(i);
+    const ImGuiWindow* const window = panels[panel] ? ImGui::FindWindowByName(kPanels[i].title) : nullptr;
+    const int at = window ? by_use.index_from_ptr(by_use.find(const_cast<ImGuiWindow*>(window))) : -1;
+    if (!panels[panel] || (front && at <= front_at)) continue;
+    front = panel;
+    front_at = at;
+  }
+  return front;
 }
 
 std::string Gui::layout() const {

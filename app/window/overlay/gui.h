@@ -1,8 +1,10 @@
 #pragma once
 
 #include <functional>
+#include <optional>
 #include <string>
 
+#include "app/window/model/panels.h"
 #include "gl/open/window.h"
 
 namespace pinocchio::app {
@@ -28,6 +30,8 @@ class Gui {
   [[nodiscard]] bool wants_text() const;
   // Closes the innermost popup or text field. False: there is none.
   bool close_popup();
+  // Of the open panels, the one that was opened or used last. Nothing: none is open.
+  [[nodiscard]] std::optional<Panel> front_panel(const OpenPanels& panels) const;
   // Whether a control is held.
   [[nodiscard]] bool is_active() const;
   [[nodiscard]] float scale() const { return scale_; }  // pixels for one of a usual display

@@ -1,12 +1,9 @@
-// The panels Pixel, Materials and Files.
+// The panels Pixel and Files.
 #include <algorithm>
-#include <cmath>
 #include <filesystem>
-#include <glm/gtc/constants.hpp>
 #include <string>
 
 #include "app/window/overlay/parts.h"
-#include "core/shade/shared_material.h"
 
 namespace pinocchio::app {
 namespace {
@@ -17,11 +14,6 @@ std::string rgb_text(const glm::vec3& v) {
 
 std::string xyz_text(const glm::vec3& v) {
   return format("%.3f, %.3f, %.3f", v.x, v.y, v.z);
-}
-
-std::string name_of(const Mesh& mesh, std::size_t material) {
-  const std::string& name = mesh.materials[material].name;
-  return name.empty() ? "material " + std::to_string(material) : name;
 }
 
 void draw_cost(const Model& model, const PixelReport& pixel) {
@@ -40,53 +32,6 @@ void draw_cost(const Model& model, const PixelReport& pixel) {
       "mean for each pixel of the last frame");
 }
 
-bool edit_color(const char* name, glm::vec3& color, const std::string& help) {
-  label(name, help);
-  ImGui::PushID(name);
-  const bool changed =
-      ImGui::ColorEdit3("##color", &color.x,
-                        ImGuiColorEditFlags_Float | ImGuiColorEditFlags_HDR | ImGuiColorEditFlags_NoOptions);
-  ImGui::PopID();
-  tooltip(help);
-  color = glm::max(color, glm::vec3(0.0f));
-  return changed;
-}
-
-// The parameters of glTF's reflection model. The ambient light has the brighter of its colours.
-bool edit_microfacet(Material& m) {
-  glm::vec3 matt = m.diffuse * glm::pi<float>();
-  float roughness = std::sqrt(m.ggx_alpha);
-  bool changed = edit_color("matt", matt, "colour of the diffusely reflected light; black for metals");
-  changed =
-      edit_color("mirror", m.specular, "F0: colour of what is mirrored head on; 0.04 for plastic") || changed;
-  if (changed) m.diffuse = matt / glm::pi<float>(), m.ambient = glm::max(matt, m.specular);
-  if (!slider("roughness", roughness, 0.0f, 1.0f, format("%.2f", roughness), "0: a mirror, 1: matt"))
-    return changed;
-  m.ggx_alpha = std::max(roughness * roughness, shared::kLeastAlpha);
-  return true;
-}
-
-bool edit_material(Material& m) {
-  if (m.is_microfacet()) return edit_microfacet(m);
-  bool changed = edit_color("diffuse", m.diffuse, "kd: diffusely reflected light, linear colour");
-  if (changed) m.ambient = m.diffuse;
-  changed = edit_color("specular", m.specular, "ks: the highlight's colour") || changed;
-  changed = slider("shininess", m.shininess, 1.0f, 256.0f, format("%.0f", m.shininess),
-                   "exponent of the highlight: higher is smaller and sharper") ||
-            changed;
-  changed = edit_color("mirror", m.reflectance, "weight of a mirrored ray; 0: no mirror") || changed;
-  changed = slider("index", m.ior, 1.0f, 3.0f, format("%.2f", m.ior),
-                   "index of refraction, for transparent materials") ||
-            changed;
-  bool double_sided = m.double_sided.value_or(true);
-  if (checkbox("double-sided", double_sided,
-               "off: the camera sees through the surface from behind, unless backfaces is draw")) {
-    m.double_sided = double_sided;
-    changed = true;
-  }
-  return changed;
-}
-
 }  // namespace
 
 void draw_pixel(Model& model, float) {
@@ -96,7 +41,7 @@ void draw_pixel(Model& model, float) {
   row("colour", rgb_text(pixel.color), "linear light, one sample at the pixel's centre");
   if (pixel.triangle == kNoTriangle) return paragraph("no surface is visible here");
   row("triangle", std::to_string(pixel.triangle), "its id, as in the EXR");
-  row("material", name_of(*model.scene.mesh, pixel.material), "Ctrl + click edits it");
+  row("material", name_of_material(*model.scene.mesh, pixel.material), "Ctrl + click edits it");
   row("depth", format("%.4g", pixel.depth), "along the view axis, scene units");
   row("position", xyz_text(pixel.position), "x, y, z, scene units");
   row("normal", xyz_text(pixel.normal), "shading normal, unit length");
@@ -111,24 +56,6 @@ void draw_pixel(Model& model, float) {
   if (model.pixel_error)
     row("error", format("%.6f", *model.pixel_error),
         "largest difference of a colour from the reference here");
-}
-
-void draw_materials(Model& model, float scale) {
-  if (!model.has_scene()) return paragraph("no scene");
-  const Mesh& mesh = *model.scene.mesh;
-  model.material = std::clamp(model.material, 0, int(mesh.materials.size()) - 1);
-  ImGui::BeginChild("list", ImVec2(0.0f, 6.0f * ImGui::GetTextLineHeightWithSpacing()), true);
-  for (int i = 0; i < std::ssize(mesh.materials); ++i) {
-    ImGui::PushID(i);
-    if (list_item(name_of(mesh, i).c_str(), model.material == i)) model.material = i;
-    ImGui::PopID();
-    tooltip("edit this material; Ctrl + click in the picture picks one");
-  }
-  ImGui::EndChild();
-  if (model.material < 0) return;
-  ImGui::Dummy(ImVec2(0.0f, 2.0f * scale));
-  Material material = mesh.materials[model.material];
-  if (edit_material(material)) model.edited_material = material;
 }
 
 void draw_files(Model& model, float) {
@@ -151,7 +78,9 @@ void draw_files(Model& model, float) {
       else
         model.file_to_open = entry.path.string();
     }
-    tooltip(entry.is_folder ? "open this folder" : "open this scene");
+    tooltip(entry.is_folder                   ? "open this folder"
+            : is_environment_file(entry.path) ? "light the scene with this environment"
+                                              : "open this scene");
   }
   ImGui::EndChild();
   if (!go_to.empty()) files.go_to(go_to);

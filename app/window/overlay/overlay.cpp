@@ -1,5 +1,10 @@
+#include <imgui_internal.h>  // FindWindowByName, FindWindowSettings
+
 #include <algorithm>
 #include <array>
+#include <cmath>
+#include <utility>
+#include <vector>
 
 #include "app/window/overlay/parts.h"
 #include "core/compare/magma.h"
@@ -18,47 +23,119 @@ constexpr std::array<Placement, kPanels.size()> kPlaces{{
     {620.0f, 0.5f, 0.5f, draw_help},
     {300.0f, 0.0f, 0.0f, draw_figures},
     {350.0f, 1.0f, 0.0f, draw_controls},
-    {350.0f, 1.0f, 0.0f, draw_all_settings},
+    {520.0f, 1.0f, 0.0f, draw_all_settings},
     {300.0f, 0.0f, 1.0f, draw_light_controls},
     {300.0f, 0.0f, 0.5f, draw_camera},
-    {320.0f, 1.0f, 0.5f, draw_materials},
+    {340.0f, 1.0f, 0.5f, draw_materials},
     {340.0f, 1.0f, 1.0f, draw_pixel},
     {760.0f, 0.0f, 1.0f, draw_timeline},
     {460.0f, 0.5f, 0.2f, draw_files},
+    {340.0f, 0.0f, 0.0f, draw_scene},
+    {420.0f, 0.5f, 0.5f, draw_save},
 }};
 
 // The window without margins and status line.
 struct Area {
   ImVec2 lo, size;
 };
-Area panel_area(float scale) {
+Area panel_area(const Model& model, float scale) {
   const ImVec2 display = ImGui::GetIO().DisplaySize;
   const float margin = kMargin * scale;
   return {{margin, margin},
           {std::max(display.x - 2.0f * margin, 1.0f),
-           std::max(display.y - 2.0f * margin - status_height(scale), 1.0f)}};
+           std::max(display.y - 2.0f * margin - status_height(scale) - playback_height(model, scale), 1.0f)}};
 }
 
 // Panels stay inside a window that became smaller.
-void keep_inside(const Area& area) {
-  const ImVec2 at = ImGui::GetWindowPos(), size = ImGui::GetWindowSize();
-  const float x = std::max(std::min(at.x, area.lo.x + area.size.x - size.x), area.lo.x);
-  const float y = std::max(std::min(at.y, area.lo.y + area.size.y - size.y), area.lo.y);
-  if (x != at.x || y != at.y) ImGui::SetWindowPos(ImVec2(x, y));
+ImVec2 inside(const Area& area, ImVec2 at, ImVec2 size) {
+  return {std::max(std::min(at.x, area.lo.x + area.size.x - size.x), area.lo.x),
+          std::max(std::min(at.y, area.lo.y + area.size.y - size.y), area.lo.y)};
+}
+
+// What the rectangle covers of the other open panels, pixels.
+float covered(const Model& model, Panel panel, ImVec2 at, ImVec2 size) {
+  float sum = 0.0f;
+  for (std::size_t i = 0; i < kPanels.size(); ++i) {
+    const auto other = static_cast<Panel>(i);
+    const ImGuiWindow* const window = ImGui::FindWindowByName(kPanels[i].title);
+    if (other == panel || !model.panels[other] || model.places.is_new[i] || !window) continue;
+    const float width =
+        std::min(at.x + size.x, window->Pos.x + window->Size.x) - std::max(at.x, window->Pos.x);
+    const float height =
+        std::min(at.y + size.y, window->Pos.y + window->Size.y) - std::max(at.y, window->Pos.y);
+    if (width > 0.0f && height > 0.0f) sum += width * height;
+  }
+  return sum;
+}
+
+// The place that covers least of the other panels: its usual one, corners, or beside and below others.
+ImVec2 free_place(const Model& model, Panel panel, const Area& area, ImVec2 usual, ImVec2 size, float gap) {
+  std::vector<ImVec2> places{usual};
+  const float right = area.lo.x + area.size.x - size.x, bottom = area.lo.y + area.size.y - size.y;
+  for (const float x : {area.lo.x, right})
+    for (const float y : {area.lo.y, bottom}) places.emplace_back(x, y);
+  for (std::size_t i = 0; i < kPanels.size(); ++i) {
+    const ImGuiWindow* const other = ImGui::FindWindowByName(kPanels[i].title);
+    if (!other || !model.panels[static_cast<Panel>(i)] || static_cast<Panel>(i) == panel) continue;
+    const ImVec2 end(other->Pos.x + other->Size.x + gap, other->Pos.y + other->Size.y + gap);
+    const ImVec2 before(other->Pos.x - size.x - gap, other->Pos.y - size.y - gap);
+    for (const float x : {area.lo.x, right, other->Pos.x}) {
+      places.emplace_back(x, end.y);
+      places.emplace_back(x, before.y);
+    }
+    for (const float y : {area.lo.y, other->Pos.y}) {
+      places.emplace_back(end.x, y);
+      places.emplace_back(before.x, y);
+    }
+  }
+  ImVec2 best = inside(area, usual, size);
+  float least = covered(model, panel, best, size);
+  for (const ImVec2& place : places) {
+    const ImVec2 at = inside(area, place, size);
+    const float lost = covered(model, panel, at, size);
+    if (lost >= least) continue;
+    best = at;
+    least = lost;
+  }
+  return best;
+}
+
+float moved_with(float at, float size, float lo, float was, float is) {
+  const float middle = at + 0.5f * size - lo;
+  if (std::abs(middle - 0.5f * was) < 0.05f * was) return at + 0.5f * (is - was);
+  return middle > 0.5f * was ? at + is - was : at;
+}
+
+// Panels keep their distance from the nearer edges of a window that changes its size.
+ImVec2 moved_with(PanelPlaces::Area& before, const Area& area, ImVec2 at, ImVec2 size) {
+  const PanelPlaces::Area was = std::exchange(before, {area.size.x, area.size.y});
+  if (was.width <= 0.0f) return at;
+  return {moved_with(at.x, size.x, area.lo.x, was.width, area.size.x),
+          moved_with(at.y, size.y, area.lo.y, was.height, area.size.y)};
 }
 
 void draw_panel(Panel panel, Model& model, float scale) {
   const auto i = static_cast<std::size_t>(panel);
   const Placement& place = kPlaces[i];
-  const Area area = panel_area(scale);
+  const Area area = panel_area(model, scale);
   const float width = std::min(place.width * scale, area.size.x);
+  const char* const title = kPanels[i].title;
+  const bool is_known = ImGui::FindWindowByName(title) || ImGui::FindWindowSettings(ImHashStr(title));
+  if (!is_known) model.places.is_new[i] = true;
   ImGui::SetNextWindowPos(ImVec2(area.lo.x + place.x * area.size.x, area.lo.y + place.y * area.size.y),
                           ImGuiCond_FirstUseEver, ImVec2(place.x, place.y));
   ImGui::SetNextWindowSizeConstraints(ImVec2(width, 0.0f), ImVec2(width, area.size.y));
-  const bool shown = ImGui::Begin(kPanels[i].title, &model.panels[panel],
-                                  ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoNav);
+  const bool shown =
+      ImGui::Begin(title, &model.panels[panel], ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoNav);
   if (shown) place.draw(model, scale);
-  keep_inside(area);
+  const ImVec2 at = ImGui::GetWindowPos(), size = ImGui::GetWindowSize();
+  ImVec2 to = inside(area, moved_with(model.places.areas[i], area, at, size), size);
+  // Its size is known once it was measured, in a frame that does not show it.
+  if (model.places.is_new[i] && ImGui::GetCurrentWindow()->HiddenFramesCannotSkipItems == 0) {
+    to = free_place(model, panel, area, to, size, kMargin * scale);
+    model.places.is_new[i] = false;
+  }
+  if (to.x != at.x || to.y != at.y) ImGui::SetWindowPos(to);
   ImGui::End();
 }
 
@@ -130,6 +207,7 @@ void draw_overlay(Model& model, float scale) {
     if (model.has_scene() && model.panels[Panel::lights] && model.zoom.factor <= 1.0f)
       draw_light_handles(model, scale);
     draw_divider(model, scale);
+    draw_numbers(model);
     draw_caption(model, scale);
     draw_status_line(model, scale);
     draw_playback(model, scale);
@@ -138,6 +216,7 @@ void draw_overlay(Model& model, float scale) {
   }
   draw_loading(model, scale);
   draw_messages(model, scale);
+  draw_question(model, scale);
 }
 
 }  // namespace pinocchio::app

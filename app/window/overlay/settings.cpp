@@ -1,6 +1,10 @@
 // The panel All settings: for each its name, its value, and a button that goes back to the default.
+#include <algorithm>
 #include <array>
+#include <cctype>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include "app/window/overlay/parts.h"
 
@@ -74,25 +78,88 @@ void draw_row(const Row& row, const Settings& wanted) {
     edit_number(row);
   }
   ImGui::EndDisabled();
-  if (!given) return;
-  ImGui::SameLine();
-  if (ImGui::SmallButton("x")) field.copy(Settings{}, settings);
-  tooltip("back to: " + std::string(field.unset));
+  if (given) {
+    ImGui::SameLine();
+    if (ImGui::SmallButton("x")) field.copy(Settings{}, settings);
+    tooltip("back to: " + std::string(field.unset));
+  }
+  ImGui::TableNextColumn();
+  ImGui::AlignTextToFramePadding();
+  ImGui::TextColored(style.Colors[ImGuiCol_TextDisabled], "%s", std::string(field.unset).c_str());
+  tooltip("default: " + std::string(field.unset));
+}
+
+// The groups in which settings are listed; the last has all others.
+struct Group {
+  const char* name;
+  std::vector<std::string_view> fields;
+};
+const std::vector<Group>& groups() {
+  static const std::vector<Group> kGroups{
+      {"Samples", {"spp", "max_noise", "pixel_filter", "sequence", "seed"}},
+      {"Light",
+       {"depth", "indirect", "environment_rotation", "environment_strength", "throughput_cutoff",
+        "light_cutoff", "terminator", "backfaces", "filter_textures"}},
+      {"Between CPU and GPU",
+       {"visibility", "composite", "by_machine", "exchange", "mask_bits", "mask_scale", "reflection",
+        "reflection_scale", "tiles", "id_bits", "normals", "wide", "reuse", "persistent"}},
+      {"Tree and machine", {}}};
+  return kGroups;
+}
+
+bool is_in(const Group& group, const Field& field) {
+  const auto has = [&](const Group& g) { return std::ranges::find(g.fields, field.name) != g.fields.end(); };
+  return group.fields.empty() ? std::ranges::none_of(groups(), has) : has(group);
+}
+
+// Whether name, help or value have the words that are searched for.
+bool is_found(const Row& row, const std::string& search) {
+  const auto lower = [](std::string text) {
+    std::ranges::transform(text, text.begin(), [](unsigned char c) { return std::tolower(c); });
+    return text;
+  };
+  const std::string all = std::string(row.field.name) + " " + std::string(row.field.help) + " " + row.text;
+  return lower(all).find(lower(search)) != std::string::npos;
+}
+
+void draw_search(Model& model) {
+  std::array<char, 64> text{};
+  model.settings_search.copy(text.data(), text.size() - 1);
+  ImGui::SetNextItemWidth(-1.0f);
+  if (ImGui::InputTextWithHint("##search", "search", text.data(), text.size()))
+    model.settings_search = text.data();
+  tooltip("a word of a setting's name, help or value");
+}
+
+void draw_group(const Group& group, Model& model, const Settings& wanted) {
+  bool is_first = true;
+  for (const Field& field : settings_table()) {
+    if (!is_in(group, field)) continue;
+    const Row row{field, model, field.text(field.given(wanted) ? wanted : model.drawn),
+                  field_choices(field, model.settings)};
+    if (!is_found(row, model.settings_search)) continue;
+    if (std::exchange(is_first, false)) {
+      ImGui::TableNextRow();
+      ImGui::TableNextColumn();
+      ImGui::TextColored(kAccent, "%s", group.name);
+    }
+    ImGui::PushID(field.name.data());
+    draw_row(row, wanted);
+    ImGui::PopID();
+  }
 }
 
 }  // namespace
 
 void draw_all_settings(Model& model, float) {
-  if (!ImGui::BeginTable("settings", 2)) return;
-  ImGui::TableSetupColumn("name", ImGuiTableColumnFlags_WidthFixed);
+  draw_search(model);
+  if (!ImGui::BeginTable("settings", 3)) return;
+  ImGui::TableSetupColumn("setting", ImGuiTableColumnFlags_WidthFixed);
   ImGui::TableSetupColumn("value", ImGuiTableColumnFlags_WidthStretch);
+  ImGui::TableSetupColumn("default", ImGuiTableColumnFlags_WidthStretch);
+  ImGui::TableHeadersRow();
   const Settings wanted = wanted_settings(model.settings);
-  for (const Field& field : settings_table()) {
-    const std::string text = field.text(field.given(wanted) ? wanted : model.drawn);
-    ImGui::PushID(field.name.data());
-    draw_row({field, model, text, field_choices(field, model.settings)}, wanted);
-    ImGui::PopID();
-  }
+  for (const Group& group : groups()) draw_group(group, model, wanted);
   ImGui::EndTable();
 }
 

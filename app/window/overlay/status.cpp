@@ -14,6 +14,8 @@ std::string picture_text(const Model& model) {
   if (!model.has_scene()) return "no scene";
   std::string text = mode_name(model.drawn);
   if (!model.recording.empty()) text = "recording   " + text;
+  if (model.unsaved) text += "   edited";
+  if (model.is_cheaper) text += "   within the budget";
   if (model.zoom.factor > 1.0f) text += format("   enlarged %.1f times", model.zoom.factor);
   text += format("   %d sample%s a pixel", model.samples, model.samples == 1 ? "" : "s");
   return text;
@@ -22,7 +24,9 @@ std::string picture_text(const Model& model) {
 std::string rate_text(const Model& model) {
   if (!model.has_scene()) return {};
   const float ms = median_of_newest(model.history.frame_ms(), kMedianOf);
-  if (model.idle && !model.is_loading()) return format("done   %.1f ms a frame", ms);
+  const std::string done = model.is_comparing ? "comparing" : "done";
+  if (model.idle && !model.is_loading()) return ms > 0.0f ? done + format("   %.1f ms a frame", ms) : done;
+  if (ms <= 0.0f) return "drawing";
   return format("%.1f frames/s   %.1f ms", model.history.rate(), ms);
 }
 
@@ -82,6 +86,46 @@ void draw_status_line(Model& model, float scale) {
   ImGui::End();
 }
 
+namespace {
+
+// True: it is dismissed.
+bool draw_message(const std::string& text, Messages::Kind kind, float width) {
+  const bool dismissed = ImGui::SmallButton("x");
+  tooltip("dismiss");
+  ImGui::SameLine();
+  ImGui::PushTextWrapPos(width);
+  ImGui::PushStyleColor(ImGuiCol_Text, color_of(kind));
+  ImGui::TextUnformatted(text.c_str());
+  ImGui::PopStyleColor();
+  ImGui::PopTextWrapPos();
+  return dismissed;
+}
+
+// Several warnings take the place of one, until a person asks for all.
+void draw_warnings(Model& model, float width) {
+  const std::vector<Messages::Message>& all = model.messages.all();
+  const auto is_warning = [](const Messages::Message& m) { return m.kind == Messages::Kind::warning; };
+  const std::ptrdiff_t count = std::ranges::count_if(all, is_warning);
+  if (count == 0) return;
+  ImGui::PushID("warnings");
+  const Messages::Message& first = *std::ranges::find_if(all, is_warning);
+  bool dismissed = draw_message(first.text, Messages::Kind::warning, width);
+  if (count > 1) {
+    const std::string more = model.all_warnings ? "fewer" : std::to_string(count - 1) + " more";
+    if (button(more.c_str(), "all warnings about this scene, or the first alone"))
+      model.all_warnings = !model.all_warnings;
+  }
+  ImGui::PushTextWrapPos(width);
+  for (const Messages::Message& message : all)
+    if (model.all_warnings && is_warning(message) && &message != &first)
+      ImGui::TextColored(color_of(message.kind), "%s", message.text.c_str());
+  ImGui::PopTextWrapPos();
+  ImGui::PopID();
+  if (dismissed) model.messages.clear_warnings();
+}
+
+}  // namespace
+
 void draw_messages(Model& model, float scale) {
   const std::vector<Messages::Message>& all = model.messages.all();
   // Warnings and errors are shown even while the overlay is hidden.
@@ -91,28 +135,26 @@ void draw_messages(Model& model, float scale) {
   if (std::ranges::none_of(all, is_shown)) return;
   const ImVec2 display = ImGui::GetIO().DisplaySize;
   const float margin = 2.0f * kPadding * scale, width = std::min(0.7f * display.x, 560.0f * scale);
-  const float bottom = display.y - margin - (model.settings.overlay ? status_height(scale) : 0.0f);
-  ImGui::SetNextWindowPos(ImVec2(margin, bottom), ImGuiCond_Always, ImVec2(0.0f, 1.0f));
+  const float below = model.settings.overlay ? status_height(scale) + playback_height(model, scale) : 0.0f;
+  ImGui::SetNextWindowPos(ImVec2(margin, display.y - margin - below), ImGuiCond_Always, ImVec2(0.0f, 1.0f));
   ImGui::SetNextWindowSizeConstraints(ImVec2(0.0f, 0.0f), ImVec2(width, 0.6f * display.y));
   ImGui::Begin("messages", nullptr,
                (kBare & ~ImGuiWindowFlags_NoScrollbar) | ImGuiWindowFlags_AlwaysAutoResize |
                    ImGuiWindowFlags_NoFocusOnAppearing);
+  keep_in_front();
+  draw_warnings(model, width - 3.0f * margin);
   std::size_t dismissed = all.size();
   for (std::size_t i = 0; i < all.size(); ++i) {
-    if (!is_shown(all[i])) continue;
+    if (!is_shown(all[i]) || all[i].kind == Messages::Kind::warning) continue;
     ImGui::PushID(i);
-    if (ImGui::SmallButton("x")) dismissed = i;
-    tooltip("dismiss");
+    if (draw_message(all[i].text, all[i].kind, width - 3.0f * margin)) dismissed = i;
+    if (model.is_over_limit && all[i].about == "scene" &&
+        button("Open it anyway", "without a limit of memory, if the file is to be trusted"))
+      model.requested.push_back(Action::open_unlimited);
     ImGui::PopID();
-    ImGui::SameLine();
-    ImGui::PushTextWrapPos(width - 3.0f * margin);
-    ImGui::PushStyleColor(ImGuiCol_Text, color_of(all[i].kind));
-    ImGui::TextUnformatted(all[i].text.c_str());
-    ImGui::PopStyleColor();
-    ImGui::PopTextWrapPos();
   }
-  ImGui::End();
   model.messages.dismiss(dismissed);
+  ImGui::End();
 }
 
 void draw_loading(Model& model, float scale) {

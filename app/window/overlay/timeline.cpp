@@ -60,7 +60,8 @@ void draw_span(const Chart& chart, const FrameRecord& record, Stage stage, Lane 
     list.AddText(at, IM_COL32(10, 10, 12, 255), text.c_str());
     break;
   }
-  if (ImGui::IsMouseHoveringRect(lo, hi))
+  if (ImGui::IsWindowHovered(ImGuiHoveredFlags_AllowWhenBlockedByActiveItem) &&
+      ImGui::IsMouseHoveringRect(lo, hi))
     ImGui::SetTooltip("%s of frame %llu: %.2f ms", name.c_str(),
                       static_cast<unsigned long long>(record.number), span.ms());
 }

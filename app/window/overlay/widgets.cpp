@@ -1,8 +1,12 @@
 #include "app/window/overlay/widgets.h"
 
+#include <imgui_internal.h>  // BringWindowToDisplayFront
+
 #include <array>
 #include <cstdarg>
 #include <cstdio>
+
+#include "core/image/tonemap.h"
 
 namespace pinocchio::app {
 namespace {
@@ -132,6 +136,24 @@ bool button(const char* name, const std::string& help, bool chosen) {
   if (chosen) pop_chosen();
   tooltip(help);
   return clicked;
+}
+
+bool edit_color(const char* name, glm::vec3& color, const std::string& help) {
+  label(name, help);
+  glm::vec3 shown(linear_to_srgb(color.x), linear_to_srgb(color.y), linear_to_srgb(color.z));
+  ImGui::PushID(name);
+  const bool changed =
+      ImGui::ColorEdit3("##color", &shown.x,
+                        ImGuiColorEditFlags_Float | ImGuiColorEditFlags_HDR | ImGuiColorEditFlags_NoOptions);
+  ImGui::PopID();
+  tooltip(help + "; sRGB: drag a number, Ctrl + click to type it, or click the swatch");
+  if (changed) color = srgb_to_linear(glm::max(shown, glm::vec3(0.0f)));
+  return changed;
+}
+
+void keep_in_front() {
+  if (!ImGui::IsPopupOpen(nullptr, ImGuiPopupFlags_AnyPopup))
+    ImGui::BringWindowToDisplayFront(ImGui::GetCurrentWindow());
 }
 
 bool list_item(const char* name, bool chosen) {

@@ -44,6 +44,10 @@ bool slider(const char* name, float& value, float lo, float hi, const std::strin
 bool slider(const char* name, int& value, int lo, int hi, const std::string& shown, const std::string& help);
 bool checkbox(const char* name, bool& value, const std::string& help);
 bool button(const char* name, const std::string& help, bool chosen = false);
+// A colour in linear light, edited as displays and other programs give it (sRGB).
+bool edit_color(const char* name, glm::vec3& color, const std::string& help);
+// The window that is being described stays in front of panels, as long as no list or menu is open.
+void keep_in_front();
 // A line of a list. True: it is clicked.
 [[nodiscard]] bool list_item(const char* name, bool chosen = false);
 

@@ -1,12 +1,15 @@
 #pragma once
 
+#include <memory>
 #include <optional>
 #include <vector>
 
 #include "app/window/model/settings.h"
 #include "pinocchio/camera.h"
+#include "pinocchio/environment.h"
 #include "pinocchio/light.h"
 #include "pinocchio/material.h"
+#include "pinocchio/material_maps.h"
 
 namespace pinocchio::app {
 
@@ -16,6 +19,8 @@ struct EditState {
   Camera camera;
   std::vector<Light> lights;
   std::vector<Material> materials;
+  std::vector<MaterialMaps> maps;
+  std::shared_ptr<const Environment> environment;
 
   friend bool operator==(const EditState&, const EditState&) = default;
 };

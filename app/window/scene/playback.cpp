@@ -7,6 +7,7 @@
 
 #include "app/cli/console.h"
 #include "app/run/animation.h"
+#include "app/window/scene/clips.h"
 #include "core/parallel/start_thread.h"
 #include "pinocchio/animation.h"
 
@@ -26,11 +27,28 @@ Expected<PoseAhead::Pose> pose_of(std::future<Expected<PoseAhead::Pose>>& pose) 
 
 }  // namespace
 
+void Playback::begin() {
+  model_.playback.all = model_.scene.animation;
+  model_.playback.clip = clip_ = -1;
+  rest_ = model_.scene.nodes;
+}
+
+void Playback::change_clip() {
+  PlaybackState& state = model_.playback;
+  if (state.clip == clip_ || !state.all || !rest_) return;
+  cancel();
+  clip_ = state.clip;
+  model_.scene.animation = clip_ < 0 ? state.all : clip_of(*state.all, clip_, *rest_);
+  state.time_s = 0.0;
+  state.posed_s.reset();
+}
+
 bool Playback::advance(double turn_s, const Settings& tree_settings) {
   if (!model_.scene.animation) return false;
+  change_clip();
   if (PlaybackState& state = model_.playback; state.playing) {
     const double length_s = duration_s(model_.scene);
-    state.time_s = length_s > 0.0 ? std::fmod(state.time_s + turn_s, length_s) : 0.0;
+    state.time_s = length_s > 0.0 ? std::fmod(state.time_s + state.speed * turn_s, length_s) : 0.0;
   }
   const bool posed = receive_pose();
   if (!is_posing() && model_.playback.posed_s != model_.playback.time_s) begin_pose(tree_settings);

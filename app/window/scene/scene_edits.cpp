@@ -8,7 +8,9 @@ namespace pinocchio::app {
 
 // Whether the overlay is hidden does not count as an edit.
 EditState SceneEdits::state() const {
-  EditState state{model_.settings, model_.camera.camera(), model_.scene.lights, model_.scene.mesh->materials};
+  EditState state{model_.settings,         model_.camera.camera(),
+                  model_.scene.lights,     model_.scene.mesh->materials,
+                  model_.scene.mesh->maps, model_.scene.environment};
   state.settings.overlay = true;
   return state;
 }
@@ -16,6 +18,30 @@ EditState SceneEdits::state() const {
 void SceneEdits::begin() {
   model_.lights_changed = model_.scene_edited = false;
   history_.begin(state());
+  saved();
+}
+
+void SceneEdits::saved() {
+  model_.unsaved = false;
+  saved_lights_ = model_.scene.lights;
+  saved_materials_ = model_.scene.mesh->materials;
+}
+
+// Edits that were taken back need not be saved. An animation moves lights: they may differ without edits.
+void SceneEdits::note_edit() {
+  model_.scene_edited = true;
+  model_.unsaved = model_.scene.animation || model_.scene.lights != saved_lights_ ||
+                   model_.scene.mesh->materials != saved_materials_;
+}
+
+void SceneEdits::set_environment(std::shared_ptr<const Environment> environment) {
+  std::vector<Light>& lights = model_.scene.lights;
+  const auto is_assumed = [](const Light& light) {
+    return light.name == "default" || light.name == "studio";
+  };
+  if (environment && std::erase_if(lights, is_assumed) > 0) std::erase_if(saved_lights_, is_assumed);
+  model_.scene.environment = std::move(environment);
+  model_.stats = analyze(model_.scene);
 }
 
 void SceneEdits::note() {
@@ -38,29 +64,36 @@ void SceneEdits::restore(const std::optional<EditState>& state, const char* othe
   model_.settings = state->settings;
   model_.settings.overlay = overlay;
   model_.camera.set_camera(state->camera);
-  if (model_.scene.mesh->materials != state->materials) set_materials(state->materials);
+  const Mesh& mesh = *model_.scene.mesh;
+  if (mesh.materials != state->materials || mesh.maps != state->maps)
+    set_materials(state->materials, state->maps);
+  if (model_.scene.environment != state->environment) set_environment(state->environment);
   if (model_.scene.lights == state->lights) return;
   model_.scene.lights = state->lights;
   model_.lights_changed = true;
 }
 
 // The tree stays valid: the triangles are the same.
-void SceneEdits::set_materials(std::vector<Material> materials) {
+void SceneEdits::set_materials(std::vector<Material> materials, std::vector<MaterialMaps> maps) {
   auto mesh = std::make_shared<Mesh>(*model_.scene.mesh);
   mesh->materials = std::move(materials);
+  mesh->maps = std::move(maps);
   model_.scene.mesh = std::move(mesh);
   model_.stats = analyze(model_.scene);
-  model_.scene_edited = true;
+  note_edit();
 }
 
 void SceneEdits::apply() {
-  if (model_.edited_material) {
+  if (const auto edit = std::exchange(model_.material_edit, std::nullopt)) {
     std::vector<Material> materials = model_.scene.mesh->materials;
-    materials.at(model_.material) = *std::exchange(model_.edited_material, std::nullopt);
-    set_materials(std::move(materials));
+    std::vector<MaterialMaps> maps = model_.scene.mesh->maps;
+    materials.at(model_.material) = edit->material;
+    if (edit->surface) maps.at(edit->material.maps).surface = *edit->surface;
+    set_materials(std::move(materials), std::move(maps));
   }
+  if (std::exchange(model_.drops_environment, false)) set_environment(nullptr);
   if (!std::exchange(model_.lights_changed, false)) return;
-  model_.scene_edited = true;
+  note_edit();
   recount_lights(model_.scene, model_.stats);
 }
 

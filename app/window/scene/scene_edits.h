@@ -17,6 +17,11 @@ class SceneEdits {
   void begin();
   // Puts the overlay's edits into the scene.
   void apply();
+  // Light from all directions, instead of the scene's own and of the light that it was given for lack of one.
+  // Null: none.
+  void set_environment(std::shared_ptr<const Environment> environment);
+  // The edits are in a file now.
+  void saved();
   // Remembers the present state, for undo.
   void note();
   void undo();
@@ -25,10 +30,15 @@ class SceneEdits {
  private:
   [[nodiscard]] EditState state() const;
   void restore(const std::optional<EditState>& state, const char* otherwise);
-  void set_materials(std::vector<Material> materials);
+  void set_materials(std::vector<Material> materials, std::vector<MaterialMaps> maps);
+
+  void note_edit();
 
   Model& model_;
   EditHistory history_;
+  // What the file holds.
+  std::vector<Light> saved_lights_;
+  std::vector<Material> saved_materials_;
 };
 
 }  // namespace pinocchio::app

@@ -2,8 +2,6 @@
 
 #include <utility>
 
-#include "app/cli/errors.h"
-
 namespace pinocchio::app {
 
 SceneSource::SceneSource(Model& model, const DrawOptions& options, bool watch)
@@ -20,6 +18,23 @@ void SceneSource::open(const std::string& file) {
   draw.fov_deg = draw.lens_radius = draw.focus = std::nullopt;
   draw.lights.clear();
   load(draw);
+}
+
+void SceneSource::open_unlimited() {
+  constexpr std::uint64_t kNoLimit = std::uint64_t{1} << 50;
+  model_.is_over_limit = false;
+  std::optional<DrawOptions> draw = std::exchange(refused_, std::nullopt);
+  if (!draw) return;
+  draw->load_limit = kNoLimit;
+  load(*draw);
+}
+
+// A tree that is being built is dropped, and requested again afterwards.
+void SceneSource::open_environment(const std::string& file) {
+  if (!model_.has_scene()) return model_.messages.hint("open a scene first, then its environment");
+  if (!model_.tracer) tree_settings_.reset();
+  pending_.reset();
+  loader_.load_environment(file, options_.load_limit);
 }
 
 // The loader does one thing at a time: a tree that is being built is dropped.
@@ -42,8 +57,10 @@ SceneLoader::News SceneSource::poll() {
   SceneLoader::News news = loader_.poll();
   model_.loading = loader_.progress();
   if (news.error.empty()) return news;
-  if (!model_.has_scene()) throw Exit(news.code, news.error);
+  code_ = news.code;
   model_.messages.error("scene", news.error);
+  model_.is_over_limit = pending_ && news.error.find("--load-limit") != std::string::npos;
+  if (model_.is_over_limit) refused_ = pending_;
   reject();
   return news;
 }

@@ -19,11 +19,16 @@ class SceneSource {
   [[nodiscard]] const DrawOptions& options() const { return options_; }
   // Begins to load a file. Until it is read, the scene before stays.
   void open(const std::string& file);
+  // The same for a picture of light from all directions.
+  void open_environment(const std::string& file);
   void reload() { load(options_); }
+  // Begins to load the file that was refused for its memory, without a limit.
+  void open_unlimited();
   void cancel();
-  // What the background has finished. An error of a scene ends the verb where no scene is open, else it
-  // becomes a message.
+  // What the background has finished. An error becomes a message.
   [[nodiscard]] SceneLoader::News poll();
+  // Of the verb, where no scene could be opened.
+  [[nodiscard]] ExitCode code() const { return model_.has_scene() ? kDone : code_; }
   [[nodiscard]] bool is_busy() const { return loader_.busy(); }
 
   // The scene that was polled is in the window now, or is not going to be.
@@ -35,6 +40,8 @@ class SceneSource {
   // Begins to build the tree that these settings trace in, where there is none. Until it is built, frames
   // trace in the old tree.
   void request_tree(const Settings& settings);
+  // The triangles are others now.
+  void forget_tree() { tree_settings_.reset(); }
   [[nodiscard]] Settings tree_settings() const { return tree_settings_.value_or(model_.drawn); }
 
  private:
@@ -44,7 +51,9 @@ class SceneSource {
   SceneLoader loader_;
   DrawOptions options_;
   std::optional<DrawOptions> pending_;     // of the scene that is being read
+  std::optional<DrawOptions> refused_;     // for its memory
   std::optional<Settings> tree_settings_;  // of the tree that is built, or being built
+  ExitCode code_ = kDone;
   bool watches_;
   std::optional<FileWatch> watch_;
 };

@@ -1,0 +1,38 @@
+#pragma once
+
+#include <functional>
+#include <string>
+#include <utility>
+
+#include "app/window/scene/scene_source.h"
+#include "gl/open/window.h"
+
+namespace pinocchio::app {
+
+// Opens another file or closes the window. Where edits would be lost, a person is asked first.
+class Leave {
+ public:
+  // first: the file that is opened at the start. save: writes the edits to a file.
+  Leave(gl::Window& window, Model& model, SceneSource& source, std::string first, std::function<void()> save)
+      : window_(window), model_(model), source_(source), save_(std::move(save)), tried_(std::move(first)) {}
+
+  // Whether the display asks to close the window, and no edit would be lost.
+  [[nodiscard]] bool is_closed();
+  void request(const Leaving& to);
+  void answer(Action action);
+  // A file that could not be read is stepped over.
+  void open_neighbour(int by);
+  // The file that was opened is shown, or was cancelled.
+  void arrived() { tried_.clear(); }
+
+ private:
+  void leave_now(const Leaving& to);
+
+  gl::Window& window_;
+  Model& model_;
+  SceneSource& source_;
+  std::function<void()> save_;
+  std::string tried_;  // the file that was opened last and is not shown. Empty: none
+};
+
+}  // namespace pinocchio::app

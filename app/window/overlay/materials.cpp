@@ -1,0 +1,103 @@
+// The panel Materials.
+#include <algorithm>
+#include <string>
+#include <utility>
+
+#include "app/window/overlay/parts.h"
+#include "core/scene/gltf/material_from_surface.h"
+
+namespace pinocchio::app {
+namespace {
+
+bool slide(const char* name, float& value, float lo, float hi, const std::string& help) {
+  return slider(name, value, lo, hi, format("%.2f", value), help);
+}
+
+// In the words of glTF and of the programs that write it.
+bool edit_surface(GltfSurface& s, bool textured) {
+  const std::string times = textured ? "; multiplies the texture's" : "";
+  bool changed = edit_color("base colour", s.base_color, "colour of the surface" + times);
+  s.base_color = glm::min(s.base_color, glm::vec3(1.0f));
+  changed =
+      slide("metallic", s.metallic, 0.0f, 1.0f, "1: a metal, 0: plastic, wood, cloth" + times) || changed;
+  changed = slide("roughness", s.roughness, 0.0f, 1.0f, "0: a mirror, 1: matt" + times) || changed;
+  changed = edit_color("emitted", s.emissive, "light that the surface emits" + times) || changed;
+  changed = slide("transmission", s.transmission, 0.0f, 1.0f, "1: glass" + times) || changed;
+  changed = slide("index", s.ior, 1.0f, 3.0f, "index of refraction; 1.5 for glass and plastic") || changed;
+  changed = slide("clear coat", s.clearcoat, 0.0f, 1.0f, "a layer of varnish" + times) || changed;
+  if (s.clearcoat > 0.0f)
+    changed =
+        slide("its roughness", s.clearcoat_roughness, 0.0f, 1.0f, "of the clear coat" + times) || changed;
+  return changed;
+}
+
+// Phong's parameters, of files that give them.
+bool edit_phong(Material& m) {
+  bool changed = edit_color("diffuse", m.diffuse, "kd: diffusely reflected light");
+  if (changed) m.ambient = m.diffuse;
+  changed = edit_color("specular", m.specular, "ks: the highlight's colour") || changed;
+  changed = slider("shininess", m.shininess, 1.0f, 256.0f, format("%.0f", m.shininess),
+                   "exponent of the highlight: higher is smaller and sharper") ||
+            changed;
+  changed = edit_color("mirror", m.reflectance, "weight of a mirrored ray; black: no mirror") || changed;
+  changed = slide("index", m.ior, 1.0f, 3.0f, "index of refraction, for transparent materials") || changed;
+  return changed;
+}
+
+// What a surface does not tell stays.
+Material with_surface(const Material& before, const GltfSurface& surface) {
+  Material m = material_from_surface(surface, Shading::from_file);
+  m.name = before.name;
+  m.double_sided = before.double_sided;
+  m.maps = before.maps;
+  m.attenuation_color = before.attenuation_color;
+  m.attenuation_distance = before.attenuation_distance;
+  return m;
+}
+
+void edit(Model& model, const Mesh& mesh) {
+  MaterialEdit edited{.material = mesh.materials[model.material]};
+  Material& m = edited.material;
+  const MaterialMaps* const maps = m.maps >= 0 ? &mesh.maps[m.maps] : nullptr;
+  bool changed = false;
+  if (m.is_microfacet()) {
+    const bool of_maps = maps && maps->from_gltf;
+    GltfSurface surface = of_maps ? maps->surface : surface_of_material(m);
+    changed = edit_surface(surface, maps != nullptr);
+    if (changed) {
+      m = with_surface(m, surface);
+      if (of_maps) edited.surface = surface;
+    }
+  } else {
+    changed = edit_phong(m);
+  }
+  bool double_sided = m.double_sided.value_or(true);
+  if (checkbox("double-sided", double_sided,
+               "off: the camera sees through the surface from behind, unless backfaces is draw")) {
+    m.double_sided = double_sided;
+    changed = true;
+  }
+  if (changed) model.material_edit = std::move(edited);
+}
+
+}  // namespace
+
+void draw_materials(Model& model, float scale) {
+  if (!model.has_scene()) return paragraph("no scene");
+  const Mesh& mesh = *model.scene.mesh;
+  model.material = std::clamp(model.material, 0, int(mesh.materials.size()) - 1);
+  ImGui::BeginChild("list", ImVec2(0.0f, 6.0f * ImGui::GetTextLineHeightWithSpacing()), true);
+  for (int i = 0; i < std::ssize(mesh.materials); ++i) {
+    ImGui::PushID(i);
+    if (list_item(name_of_material(mesh, i).c_str(), model.material == i)) model.material = i;
+    ImGui::PopID();
+    tooltip("edit this material; Ctrl + click in the picture picks one");
+    if (i == model.material && std::exchange(model.material_picked, false)) ImGui::SetScrollHereY();
+  }
+  ImGui::EndChild();
+  if (model.material < 0) return;
+  ImGui::Dummy(ImVec2(0.0f, 2.0f * scale));
+  edit(model, mesh);
+}
+
+}  // namespace pinocchio::app
