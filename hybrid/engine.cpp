@@ -151,7 +151,7 @@ std::shared_ptr<const GpuMesh> Engine::Parts::gpu_mesh(const std::shared_ptr<con
 std::shared_ptr<const Tracer> Engine::Parts::tracer_of(const Scene& scene, const Settings& resolved,
                                                        Progress* progress) {
   if (!last_tracer || &last_tracer->mesh() != scene.mesh.get() || !same_tracer(resolved, last_settings))
-    last_tracer = prepare(scene, resolved, progress);
+    last_tracer = prepare(scene, resolved, progress, nullptr, last_tracer.get());
   last_settings = resolved;
   return last_tracer;
 }
@@ -201,7 +201,7 @@ Expected<Settings> Engine::resolve(const Scene& scene, glm::ivec2 size, const Se
 constexpr float kMarginPixels = 7.0f;
 
 std::shared_ptr<const Tracer> Engine::prepare(const Scene& scene, const Settings& settings,
-                                              Progress* progress, const View* only) {
+                                              Progress* progress, const View* only, const Tracer* before) {
   if (!settings.traces()) return nullptr;
   BuildOptions options = build_options(settings);
   options.progress = progress;
@@ -210,7 +210,7 @@ std::shared_ptr<const Tracer> Engine::prepare(const Scene& scene, const Settings
     options.eye = only->camera.eye;
     options.margin = std::min(options.margin, kMarginPixels * glm::length(view_params(*only).step_y));
   }
-  return std::make_shared<const Tracer>(scene.mesh, options, Isa{settings.isa}, settings.offset);
+  return std::make_shared<const Tracer>(scene, options, Isa{settings.isa}, settings.offset, before);
 }
 
 Expected<FrameResult> Engine::render(const Scene& scene, const View& view, const Settings& settings,

@@ -121,6 +121,7 @@ struct Engine::Parts {
   Settings last_settings;  // of last_tracer
   std::shared_ptr<const Mesh> last_mesh;
   SceneStats last_stats;  // of last_mesh
+  double last_pose_s = 0.0;  // when the pose was made that the last record has the times of
 
   TracingThread tracing;  // last: ends first
 };

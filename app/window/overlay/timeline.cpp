@@ -106,7 +106,8 @@ Lane lane_of(Stage stage, const Settings& settings) {
 
 const char* stage_label(Stage stage) {
   constexpr std::array<const char*, kStageNames.size()> kLabels{
-      "rasterize", "read back", "trace shadows", "trace reflections", "upload", "composite", "present"};
+      "pose",   "build trees", "rasterize", "read back", "trace shadows", "trace reflections",
+      "upload", "composite",   "present"};
   return kLabels[static_cast<std::size_t>(stage)];
 }
 
