@@ -131,8 +131,21 @@ Workers& Engine::Parts::workers(int threads) {
   return pools.try_emplace(threads, threads, options.gives_way ? kForFrames : 0).first->second;
 }
 
+std::shared_ptr<GpuMesh> Engine::Parts::moved_gpu_mesh(const Mesh& mesh) {
+  const auto found = std::ranges::find_if(meshes, [&](const auto& entry) {
+    const auto& [other, sent] = entry;
+    return sent && other.use_count() == 1 && sent.use_count() == 1 && sent->is_alone() &&
+           are_poses_of_one(*other, mesh);
+  });
+  if (found == meshes.end()) return nullptr;
+  const auto free = meshes.extract(found);
+  free.mapped()->move(*free.key()->pose(), mesh);
+  return free.mapped();
+}
+
 std::shared_ptr<const GpuMesh> Engine::Parts::gpu_mesh(const std::shared_ptr<const Mesh>& mesh) {
-  std::shared_ptr<const GpuMesh>& found = meshes[mesh];
+  std::shared_ptr<GpuMesh>& found = meshes[mesh];
+  if (!found) found = moved_gpu_mesh(*mesh);
   if (!found) {
     GpuMesh::Shared shared;
     for (const auto& [other, sent] : meshes) {  // another pose, or the mesh before a material was edited
@@ -141,7 +154,7 @@ std::shared_ptr<const GpuMesh> Engine::Parts::gpu_mesh(const std::shared_ptr<con
         shared.textures = sent.get();
       if (has_same_geometry(*other, *mesh)) shared.geometry = sent.get();
     }
-    found = std::make_shared<const GpuMesh>(*mesh, shared);
+    found = std::make_shared<GpuMesh>(*mesh, shared);
   }
   std::erase_if(meshes,
                 [&](const auto& entry) { return entry.first != mesh && entry.first.use_count() == 1; });
@@ -160,7 +173,7 @@ const SceneStats& Engine::Parts::stats_of(const Scene& scene) {
   if (last_mesh == scene.mesh) {
     recount_lights(scene, last_stats);
   } else {
-    last_stats = analyze(scene);
+    last_stats = pose_stats.of(scene);
     last_mesh = scene.mesh;
   }
   return last_stats;

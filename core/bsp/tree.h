@@ -3,6 +3,8 @@
 #include <boost/align/aligned_allocator.hpp>
 #include <cstddef>
 #include <cstdint>
+#include <new>
+#include <utility>
 #include <vector>
 
 #include "core/base/large_memory.h"
@@ -16,8 +18,25 @@ namespace pinocchio {
 
 inline constexpr std::size_t kCacheLine = 64;
 
+// Leaves new elements without values: they are written anyhow, mostly by several threads.
 template <class T>
-using AlignedVector = std::vector<T, boost::alignment::aligned_allocator<T, kCacheLine>>;
+struct CacheAllocator : boost::alignment::aligned_allocator<T, kCacheLine> {
+  template <class U>
+  struct rebind {
+    using other = CacheAllocator<U>;
+  };
+  template <class U>
+  void construct(U* at) {
+    ::new (static_cast<void*>(at)) U;
+  }
+  template <class U, class... Values>
+  void construct(U* at, Values&&... values) {
+    ::new (static_cast<void*>(at)) U(std::forward<Values>(values)...);
+  }
+};
+
+template <class T>
+using AlignedVector = std::vector<T, CacheAllocator<T>>;
 
 // Triangles as a test wants them, in the order in which a tree's leaves first refer to them: a leaf's
 // triangles are mostly adjacent, and near those of its neighbours. The second array is for the tests that

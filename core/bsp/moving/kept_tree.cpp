@@ -16,6 +16,8 @@ constexpr double kMostError = 1e-3;
 // Least determinant of a matrix whose greatest entry is 1: below it, a tree has nearly lost a dimension.
 constexpr double kFlat = 1e-6;
 
+using Quad [[gnu::vector_size(32)]] = double;
+
 bool is_flat(const glm::dmat3& m) {
   double most = 0.0;
   for (int i = 0; i < 3; ++i)
@@ -52,21 +54,26 @@ std::optional<Motion> motion_since(const KeptTree& kept, const Scene& scene, con
   if (is_flat(glm::dmat3(now)) || is_flat(glm::dmat3(kept.world_from_root))) return std::nullopt;
   Motion motion{kept.world_from_root * glm::inverse(now), glm::dvec3(0.0)};
   if (is_flat(glm::dmat3(motion.tree_from_world))) return std::nullopt;
-  const glm::dmat3 turn(motion.tree_from_world);
-  const glm::dvec3 shift(motion.tree_from_world[3]);
+  const glm::dmat4& m = motion.tree_from_world;
+  const Quad x{m[0].x, m[0].y, m[0].z, 0.0}, y{m[1].x, m[1].y, m[1].z, 0.0}, z{m[2].x, m[2].y, m[2].z, 0.0},
+      shift{m[3].x, m[3].y, m[3].z, 0.0};
+  Quad most{0.0, 0.0, 0.0, 0.0}, sum{0.0, 0.0, 0.0, 0.0};
   const glm::vec3* built = kept.vertices.data();
-  bool finite = true;
   for (const int n : nodes) {
     const Node& node = scene.nodes->nodes[n];
     const glm::vec3* const now_at = scene.mesh->positions.data() + node.first_vertex;
-    for (std::uint32_t v = 0; v < node.vertices; ++v) {
-      const glm::dvec3 off = glm::abs(turn * glm::dvec3(now_at[v]) + shift - glm::dvec3(*built++));
-      finite &= off.x + off.y + off.z < std::numeric_limits<double>::infinity();
-      motion.error = glm::max(motion.error, off);
+    for (std::uint32_t v = 0; v < node.vertices; ++v, ++built) {
+      const Quad off = x * static_cast<double>(now_at[v].x) + y * static_cast<double>(now_at[v].y) +
+                       z * static_cast<double>(now_at[v].z) + shift - Quad{built->x, built->y, built->z, 0.0};
+      const Quad size = off < 0.0 ? -off : off;
+      most = size > most ? size : most;
+      sum += size;  // NaN stays
     }
   }
-  const double most = kMostError * static_cast<double>(kept.tree->exact_bounds.diagonal());
-  if (!finite || std::max({motion.error.x, motion.error.y, motion.error.z}) > most) return std::nullopt;
+  motion.error = {most[0], most[1], most[2]};
+  const double limit = kMostError * static_cast<double>(kept.tree->exact_bounds.diagonal());
+  if (!std::isfinite(sum[0] + sum[1] + sum[2]) || std::max({most[0], most[1], most[2]}) > limit)
+    return std::nullopt;
   return motion;
 }
 

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstring>
 #include <optional>
+#include <thread>
 #include <utility>
 
 #include "core/bsp/build/build.h"
@@ -20,6 +21,20 @@ constexpr std::uint8_t kMoves = 2;
 
 // Triangles that a thread places at a time.
 constexpr std::size_t kChunk = 2048;
+
+// Triangles for which a thread more is started.
+constexpr std::size_t kForThread = 8192;
+
+// Whether both sets of options build the same tree over the same triangles. Lights do not count: they change
+// no hit, and move.
+bool build_same_trees(const BuildOptions& a, const BuildOptions& b) {
+  return a.rule == b.rule && a.max_depth == b.max_depth && a.leaf_size == b.leaf_size &&
+         a.cost_step == b.cost_step && a.cost_intersection == b.cost_intersection &&
+         a.cost_intersection_light == b.cost_intersection_light &&
+         a.cost_intersection_small == b.cost_intersection_small && a.small_side == b.small_side &&
+         a.eye == b.eye && a.cost_intersection_eye == b.cost_intersection_eye && a.margin == b.margin &&
+         a.triangle_test == b.triangle_test;
+}
 
 // Whether both meshes are poses of one, and how the nodes of the second differ.
 class Comparison {
@@ -61,8 +76,10 @@ class Trees {
       motion_ = std::make_shared<MotionState>();
       motion_->mesh = scene.mesh;
       motion_->nodes = scene.nodes;
+      motion_->options = options;
+      motion_->options.progress = nullptr;
     }
-    if (before && state && motion_ && before->still->test == options.triangle_test &&
+    if (before && state && motion_ && build_same_trees(state->options, options) &&
         state->nodes->nodes.size() == scene.nodes->nodes.size()) {
       const Comparison to(*state->mesh, mesh_);
       if (to.related(scene.nodes->nodes.size())) keep(*before, *state, to);
@@ -174,7 +191,7 @@ class Trees {
   // The part of a group's triangles that one thread places.
   struct Chunk {
     std::size_t group, first, last;
-    Bounds bounds;
+    bool any_flat;  // a triangle has no area
   };
 
   void place_groups() {
@@ -188,7 +205,10 @@ class Trees {
       for (const int n : motion_->groups[g].nodes) triangles += node(n).triangles;
     }
     if (moved.empty()) return;
-    Workers workers(triangles > kChunk ? options_.threads : 1);
+    // To start a thread takes as long as to place thousands of triangles.
+    const auto threads = static_cast<int>(
+        std::min<std::size_t>(1 + triangles / kForThread, std::max(1u, std::thread::hardware_concurrency())));
+    Workers workers(options_.threads > 0 ? std::min(options_.threads, threads) : threads);
     std::vector<std::optional<Motion>> motions(motion_->groups.size());
     std::vector<std::shared_ptr<StoredTriangles>> stored(motion_->groups.size());
     workers.for_each(moved.size(), [&](std::size_t i) {
@@ -207,11 +227,17 @@ class Trees {
     std::vector<Chunk> chunks;
     for (const std::size_t g : moved)
       for (std::size_t first = 0, n = motion_->groups[g].kept->order.size(); first < n; first += kChunk)
-        chunks.push_back({g, first, std::min(n, first + kChunk), {}});
+        chunks.push_back({g, first, std::min(n, first + kChunk), false});
     workers.for_each(chunks.size(), [&](std::size_t i) {
       place(motion_->groups[chunks[i].group].kept->order, chunks[i], *stored[chunks[i].group]);
     });
-    for (const Chunk& chunk : chunks) motion_->groups[chunk.group].bounds.add(chunk.bounds);
+    for (std::size_t i = 0; i < chunks.size();) {
+      MovingGroup& group = motion_->groups[chunks[i].group];
+      bool any_flat = false;
+      for (const std::size_t of = chunks[i].group; i < chunks.size() && chunks[i].group == of; ++i)
+        any_flat |= chunks[i].any_flat;
+      group.bounds = any_flat ? bounds_with_area(group) : bounds_of(group);
+    }
     for (const std::size_t g : moved) {
       MovingGroup& group = motion_->groups[g];
       group.placed.tree = group.kept->tree;
@@ -228,11 +254,7 @@ class Trees {
                       &c = mesh_.positions[corners.z];
       const ProjectedTriangle triangle = ProjectedTriangle::from(a, b, c, order[i]);
       const bool flat = std::isnan(triangle.n_u);
-      if (!flat) {
-        chunk.bounds.add(a);
-        chunk.bounds.add(b);
-        chunk.bounds.add(c);
-      }
+      chunk.any_flat |= flat;
       if (!stored.has_corners()) {
         stored.triangles[i] = triangle;
         continue;
@@ -240,6 +262,25 @@ class Trees {
       stored.corner_triangles[i] = CornerTriangle::from(mesh_.positions, corners, order[i]);
       if (flat) std::fill_n(&stored.corner_triangles[i].corners[0][0], 9, triangle.n_u);
     }
+  }
+
+  [[nodiscard]] Bounds bounds_of(const MovingGroup& group) const {
+    Bounds bounds;
+    for (const int n : group.nodes)
+      bounds.add(mesh_.pose() ? mesh_.pose()->nodes[n].bounds : bounds_with_area(group));
+    return bounds;
+  }
+
+  // Of its triangles that have an area.
+  [[nodiscard]] Bounds bounds_with_area(const MovingGroup& group) const {
+    Bounds bounds;
+    for (const std::uint32_t id : group.kept->order) {
+      const glm::uvec3& t = mesh_.triangles[id];
+      const glm::vec3 &a = mesh_.positions[t.x], &b = mesh_.positions[t.y], &c = mesh_.positions[t.z];
+      if (std::isnan(ProjectedTriangle::from(a, b, c, id).n_u)) continue;
+      for (const glm::vec3& corner : {a, b, c}) bounds.add(corner);
+    }
+    return bounds;
   }
 
   void join() {

@@ -25,6 +25,7 @@ struct MovingGroup {
 struct MotionState {
   std::shared_ptr<const Mesh> mesh;
   std::shared_ptr<const NodeTree> nodes;
+  BuildOptions options;
   // How often each node has moved against its parent, and changed its shape; at most 2, which gives it a tree
   // of its own. Empty: never.
   std::vector<std::uint8_t> moves, reshapes;

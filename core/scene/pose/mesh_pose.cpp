@@ -22,12 +22,16 @@ void copy_part(const std::vector<T>& from, std::size_t first, std::size_t count,
   if (!from.empty()) std::copy_n(from.begin() + first, count, to.begin() + first);
 }
 
-// Whether the vertices of the triangles [first, last) are those of [from, to).
-bool has_own_vertices(const MeshData& mesh, std::size_t first, std::size_t last, std::size_t from,
-                      std::size_t to) {
-  for (std::size_t t = first; t < last; ++t)
-    for (int c = 0; c < 3; ++c)
-      if (const std::uint32_t v = mesh.triangles[t][c]; v < from || v >= to) return false;
+// Whether the node's triangles have no other vertices than its own; sets `whole`.
+bool has_own_vertices(const MeshData& mesh, NodePlace& node) {
+  std::vector<bool> used(node.vertices, false);
+  for (std::size_t t = 0; t < node.triangles; ++t)
+    for (int c = 0; c < 3; ++c) {
+      const std::uint32_t v = mesh.triangles[node.first_triangle + t][c] - node.first_vertex;  // or large
+      if (v >= node.vertices) return false;
+      used[v] = true;
+    }
+  node.whole = std::ranges::find(used, false) == used.end();
   return true;
 }
 
@@ -39,14 +43,18 @@ std::shared_ptr<const MeshPose> first_pose(const Scene& scene) {
   std::size_t triangles = 0, vertices = 0;  // of the nodes before
   for (const Node& node : scene.nodes->nodes) {
     NodePlace& place = pose->nodes.emplace_back();
+    place.first_vertex = node.first_vertex;
+    place.vertices = node.vertices;
+    place.first_triangle = node.first_triangle;
+    place.triangles = node.triangles;
     if (node.triangles == 0 && node.vertices == 0) continue;
     const std::size_t last_triangle = std::size_t{node.first_triangle} + node.triangles,
                       last_vertex = std::size_t{node.first_vertex} + node.vertices;
     if (node.first_triangle < triangles || node.first_vertex < vertices ||
         last_triangle > mesh.triangles.size() || last_vertex > mesh.positions.size() ||
-        !has_own_vertices(mesh, node.first_triangle, last_triangle, node.first_vertex, last_vertex))
+        !has_own_vertices(mesh, place))
       return nullptr;
-    place.bounds = bounds_of(node, mesh);
+    place.bounds = bounds_of(place, mesh);
     pose->others.add(bounds_of(mesh, triangles, node.first_triangle));
     triangles = last_triangle;
     vertices = last_vertex;
@@ -61,14 +69,25 @@ std::shared_ptr<PosePool> make_pose_pool() {
   return std::make_shared<PosePool>();
 }
 
-Bounds bounds_of(const Node& node, const MeshData& mesh) {
-  return bounds_of(mesh, node.first_triangle, std::size_t{node.first_triangle} + node.triangles);
+Bounds bounds_of(const NodePlace& node, const MeshData& mesh) {
+  if (!node.whole)
+    return bounds_of(mesh, node.first_triangle, std::size_t{node.first_triangle} + node.triangles);
+  Bounds bounds;
+  for (std::size_t v = 0; v < node.vertices; ++v) bounds.add(mesh.positions[node.first_vertex + v]);
+  return bounds;
 }
 
 Bounds MeshPose::bounds() const {
   Bounds all = others;
   for (const NodePlace& node : nodes) all.add(node.bounds);
   return all;
+}
+
+std::vector<const NodePlace*> MeshPose::moved_since(const MeshPose& other) const {
+  std::vector<const NodePlace*> moved;
+  for (std::size_t n = 0; n < nodes.size(); ++n)
+    if (!nodes[n].same_as(other.nodes[n])) moved.push_back(&nodes[n]);
+  return moved;
 }
 
 std::uint64_t PosePool::next_number() {

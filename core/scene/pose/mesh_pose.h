@@ -13,8 +13,10 @@ namespace pinocchio {
 
 // Where a node's vertices are.
 struct NodePlace {
+  std::uint32_t first_vertex = 0, vertices = 0, first_triangle = 0, triangles = 0;  // the node's
   std::uint64_t number = 0;  // of the placing, no two are equal; 0: as in the first mesh
   bool rigid = false;        // placed by `world` alone
+  bool whole = false;        // its triangles have all of its vertices
   glm::mat4 world{0.0f};
   Bounds bounds;  // of its triangles
 
@@ -35,6 +37,8 @@ struct MeshPose {
   [[nodiscard]] bool is_of_same_mesh(const MeshPose& other) const {
     return !first.owner_before(other.first) && !other.first.owner_before(first);
   }
+  // The nodes that are not where they are in another pose of the mesh. It has as many.
+  [[nodiscard]] std::vector<const NodePlace*> moved_since(const MeshPose& other) const;
   [[nodiscard]] Bounds bounds() const;
 };
 
@@ -62,7 +66,7 @@ class PosePool : public std::enable_shared_from_this<PosePool> {
   std::vector<std::unique_ptr<Mesh>> left_;  // the poses that nobody holds, oldest first
 };
 
-// The bounds of a node's triangles.
-[[nodiscard]] Bounds bounds_of(const Node& node, const MeshData& mesh);
+// The bounds of a node's triangles in another mesh.
+[[nodiscard]] Bounds bounds_of(const NodePlace& node, const MeshData& mesh);
 
 }  // namespace pinocchio

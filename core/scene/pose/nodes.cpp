@@ -243,7 +243,11 @@ Expected<Scene> placed_anew(const Scene& scene, std::shared_ptr<const NodeTree> 
   for (std::size_t n = 0; n < now.size(); ++n) {
     const Node& node = result.nodes->nodes[n];
     if (!placed[n] || node.vertices == 0) continue;
-    pose->nodes[n] = {PosePool::next_number(), !changes.deforms[n], now[n], bounds_of(node, *mesh)};
+    NodePlace& place = pose->nodes[n];
+    place.number = PosePool::next_number();
+    place.rigid = !changes.deforms[n];
+    place.world = now[n];
+    place.bounds = bounds_of(place, *mesh);
     sound = sound && is_sound(node, *mesh);
   }
   pose->begin_s = begin_s;

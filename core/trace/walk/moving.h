@@ -15,6 +15,13 @@ struct MovedGroup {
       const Packet& from = world.packets[k];
       Packet& moved = group.packets[k];
       moved.living = living[k];
+      if (living[k] == 0) {
+        for (int axis = 0; axis < 3; ++axis) {
+          moved.o[axis] = error[k][axis] = Float(0.0f);
+          moved.d[axis] = Float(1.0f);
+        }
+        continue;
+      }
       for (int axis = 0; axis < 3; ++axis) {
         const float(&row)[4] = to.tree_from_world[axis];
         const Float x = Float(row[0]) * from.o[0], y = Float(row[1]) * from.o[1],
