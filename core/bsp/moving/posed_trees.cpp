@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <functional>
 #include <optional>
 #include <thread>
 #include <utility>
@@ -22,8 +23,11 @@ constexpr std::uint8_t kMoves = 2;
 // Triangles that a thread places at a time.
 constexpr std::size_t kChunk = 2048;
 
-// Triangles for which a thread more is started.
-constexpr std::size_t kForThread = 8192;
+// Fewer triangles are placed by one thread.
+constexpr std::size_t kForThreads = 8192;
+
+// More threads would wait for memory.
+constexpr int kMostThreads = 8;
 
 // Whether both sets of options build the same tree over the same triangles. Lights do not count: they change
 // no hit, and move.
@@ -97,6 +101,7 @@ class Trees {
   // Takes over from the pose before what is still valid.
   void keep(const SceneTrees& before, const MotionState& state, const Comparison& to) {
     const std::size_t n = scene_.nodes->nodes.size();
+    motion_->workers = state.workers;
     differs_.resize(n);
     for (std::size_t i = 0; i < n; ++i) differs_[i] = to.differs(i);
     count_moves(state);
@@ -194,6 +199,16 @@ class Trees {
     bool any_flat;  // a triangle has no area
   };
 
+  // Kept from pose to pose: to start threads takes as long as to place thousands of triangles.
+  Workers& workers() {
+    if (!motion_->workers) {
+      const auto cores = static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
+      const int wanted = options_.threads > 0 ? options_.threads : cores;
+      motion_->workers = std::make_shared<Workers>(std::min(wanted, kMostThreads));
+    }
+    return *motion_->workers;
+  }
+
   void place_groups() {
     if (!motion_) return;
     const std::vector<glm::mat4> world = world_matrices(scene_.nodes->nodes);
@@ -205,13 +220,13 @@ class Trees {
       for (const int n : motion_->groups[g].nodes) triangles += node(n).triangles;
     }
     if (moved.empty()) return;
-    // To start a thread takes as long as to place thousands of triangles.
-    const auto threads = static_cast<int>(
-        std::min<std::size_t>(1 + triangles / kForThread, std::max(1u, std::thread::hardware_concurrency())));
-    Workers workers(options_.threads > 0 ? std::min(options_.threads, threads) : threads);
+    const auto for_each = [&](std::size_t n, const std::function<void(std::size_t)>& body) {
+      if (triangles >= kForThreads && options_.threads != 1) return workers().for_each(n, body);
+      for (std::size_t i = 0; i < n; ++i) body(i);
+    };
     std::vector<std::optional<Motion>> motions(motion_->groups.size());
     std::vector<std::shared_ptr<StoredTriangles>> stored(motion_->groups.size());
-    workers.for_each(moved.size(), [&](std::size_t i) {
+    for_each(moved.size(), [&](std::size_t i) {
       MovingGroup& group = motion_->groups[moved[i]];
       const glm::mat4 root = group.root < 0 ? glm::mat4(1.0f) : world[group.root];
       std::optional<Motion>& motion = motions[moved[i]];
@@ -228,7 +243,7 @@ class Trees {
     for (const std::size_t g : moved)
       for (std::size_t first = 0, n = motion_->groups[g].kept->order.size(); first < n; first += kChunk)
         chunks.push_back({g, first, std::min(n, first + kChunk), false});
-    workers.for_each(chunks.size(), [&](std::size_t i) {
+    for_each(chunks.size(), [&](std::size_t i) {
       place(motion_->groups[chunks[i].group].kept->order, chunks[i], *stored[chunks[i].group]);
     });
     for (std::size_t i = 0; i < chunks.size();) {

@@ -10,7 +10,7 @@
 
 namespace pinocchio {
 
-struct MeshPose;
+class Workers;
 
 // Nodes with a tree of their own.
 struct MovingGroup {
@@ -30,6 +30,7 @@ struct MotionState {
   // of its own. Empty: never.
   std::vector<std::uint8_t> moves, reshapes;
   std::vector<MovingGroup> groups;
+  std::shared_ptr<Workers> workers;  // null: so far there was too little work for them
 };
 
 struct PosedTrees {

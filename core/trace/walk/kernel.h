@@ -232,9 +232,10 @@ inline Found hits_of_group(const SceneTrees& scene, const RayColumns& rays, std:
   const Test tests[]{Test(scene, group.packets[kIndex])...};
   Found found({group.packets[kIndex].t_max...}, more...);
   const BspTree& tree = *scene.still;
-  for_each_octant(group, [&](const bool(&negative)[3], const Mask(&lanes)[kPackets]) {
-    hits_in_tree(scene, tree, tree, group, ExactPlanes{}, negative, lanes, tests, rays, i, found);
-  });
+  if (!tree.references.empty())
+    for_each_octant(group, [&](const bool(&negative)[3], const Mask(&lanes)[kPackets]) {
+      hits_in_tree(scene, tree, tree, group, ExactPlanes{}, negative, lanes, tests, rays, i, found);
+    });
   if (!scene.top.empty()) add_moving_hits<Test>(scene, rays, i, n, packets, found);
   return found;
 }

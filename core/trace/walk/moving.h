@@ -59,14 +59,14 @@ inline unsigned reach_box(const Bounds& box, const Group<kPackets>& group, const
   unsigned any = 0;
   for (int k = 0; k < kPackets; ++k) {
     const Packet& p = group.packets[k];
-    Float t_near(0.0f), t_far = t_best[k] * Float(kLate);
+    Float t_near(0.0f), t_far = t_best[k];
     for (int axis = 0; axis < 3; ++axis) {
       const Float a = (Float(box.lo[axis]) - p.o[axis]) * group.octants[k].inverse[axis];
       const Float b = (Float(box.hi[axis]) - p.o[axis]) * group.octants[k].inverse[axis];
-      t_near = max(min(a, b) * Float(kEarly), t_near);
-      t_far = min(max(a, b) * Float(kLate), t_far);
+      t_near = max(min(a, b), t_near);
+      t_far = min(max(a, b), t_far);
     }
-    living[k] = p.living & (t_near <= t_far).bits();
+    living[k] = p.living & (t_near * Float(kEarly) <= t_far * Float(kLate)).bits();
     any |= living[k];
   }
   return any;
