@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "core/bsp/build/build_mesh.h"
+#include "core/bsp/build_mesh.h"
 #include "core/bsp/tree.h"
 #include "pinocchio/build_options.h"
 #include "pinocchio/mesh.h"

@@ -3,9 +3,9 @@
 #include <cstddef>
 #include <span>
 
-#include "core/bsp/build/build_mesh.h"
 #include "core/bsp/build/build_reference.h"
 #include "core/bsp/build/split.h"
+#include "core/bsp/build_mesh.h"
 
 namespace pinocchio {
 
