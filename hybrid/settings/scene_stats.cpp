@@ -7,6 +7,7 @@
 
 #include "core/scene/light_reach.h"
 #include "core/scene/pose/mesh_pose.h"
+#include "pinocchio/studio.h"
 
 namespace pinocchio {
 namespace {
@@ -173,6 +174,7 @@ void recount_lights(const Scene& scene, SceneStats& stats) {
   stats.lights = static_cast<int>(scene.lights.size());
   stats.casting_lights = stats.idle_lights = 0;
   stats.environment = scene.environment != nullptr;
+  stats.studio = has_studio_light(scene);
   for (const Light& light : scene.lights) {
     if (!may_reach(light, scene)) {
       ++stats.idle_lights;

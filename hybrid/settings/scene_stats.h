@@ -18,6 +18,7 @@ struct SceneStats {
   int casting_lights = 0;  // that cast shadows and reach something
   int idle_lights = 0;     // that reach nothing
   bool environment = false;
+  bool studio = false;              // the light is the studio's
   bool mirrors = false;             // some triangle's material reflects, transmits or blends
   double mirror_share = 0.0;        // share of the scene's surface that reflects or transmits
   double transmitting_share = 0.0;  // share that transmits

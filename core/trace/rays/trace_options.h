@@ -5,6 +5,7 @@
 #include "core/shade/shared.h"
 #include "pinocchio/backfaces.h"
 #include "pinocchio/ray.h"
+#include "pinocchio/sampled_light.h"
 #include "pinocchio/terminator.h"
 
 namespace pinocchio {
@@ -26,6 +27,8 @@ struct TraceOptions {
   float texture_footprint = 1.0f;  // side of the square that textures are averaged over, pixels; 0: a point
   Terminator terminator = kUsualTerminator;
   Backfaces backfaces = Backfaces::automatic;  // which backs the camera's rays pass
+  EnvironmentMethod environment_light = EnvironmentMethod::sampled;
+  Glossy glossy = Glossy::sampled;
   glm::vec2 jitter{0.0f};       // View's: tells the samples of a pixel apart where they decide at random
   shared::Sampling sampling{};  // the sample of sized lights, rough mirrors and the environment
 
