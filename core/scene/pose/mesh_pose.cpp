@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <atomic>
+#include <thread>
 #include <utility>
 
 namespace pinocchio {
@@ -63,6 +64,10 @@ std::shared_ptr<const MeshPose> first_pose(const Scene& scene) {
   return pose;
 }
 
+// Fewer vertices are placed by one thread; more threads would wait for memory.
+constexpr std::size_t kForThreads = 8192;
+constexpr unsigned kMostThreads = 8;
+
 }  // namespace
 
 std::shared_ptr<PosePool> make_pose_pool() {
@@ -93,6 +98,19 @@ std::vector<const NodePlace*> MeshPose::moved_since(const MeshPose& other) const
 std::uint64_t PosePool::next_number() {
   static std::atomic<std::uint64_t> last{0};
   return ++last;
+}
+
+void PosePool::for_each(std::size_t n, std::size_t vertices, const std::function<void(std::size_t)>& body) {
+  if (n < 2 || vertices < kForThreads) {
+    for (std::size_t i = 0; i < n; ++i) body(i);
+    return;
+  }
+  {
+    const std::lock_guard lock(mutex_);
+    if (!workers_)
+      workers_.emplace(static_cast<int>(std::clamp(std::thread::hardware_concurrency(), 1u, kMostThreads)));
+  }
+  workers_->for_each(n, body);
 }
 
 std::shared_ptr<const MeshPose> PosePool::pose_of(const Scene& scene) {

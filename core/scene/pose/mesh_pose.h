@@ -3,10 +3,13 @@
 
 #include <cstdint>
 #include <cstring>
+#include <functional>
 #include <memory>
 #include <mutex>
+#include <optional>
 #include <vector>
 
+#include "core/parallel/workers.h"
 #include "pinocchio/scene.h"
 
 namespace pinocchio {
@@ -57,11 +60,16 @@ class PosePool : public std::enable_shared_from_this<PosePool> {
 
   [[nodiscard]] static std::uint64_t next_number();
 
+  // Calls body(i) for all of [0, n): on several threads, which are kept, where that many vertices are worth
+  // it.
+  void for_each(std::size_t n, std::size_t vertices, const std::function<void(std::size_t)>& body);
+
  private:
   void put_back(std::unique_ptr<Mesh> mesh);
   [[nodiscard]] std::unique_ptr<Mesh> pop(const MeshPose& pose);
 
   std::mutex mutex_;
+  std::optional<Workers> workers_;
   std::shared_ptr<const MeshPose> first_;    // of the last mesh that was posed first
   std::vector<std::unique_ptr<Mesh>> left_;  // the poses that nobody holds, oldest first
 };

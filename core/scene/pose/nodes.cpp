@@ -1,6 +1,7 @@
 #include "pinocchio/nodes.h"
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 #include <limits>
 #include <map>
@@ -217,38 +218,46 @@ Expected<Scene> placed_anew(const Scene& scene, std::shared_ptr<const NodeTree> 
   std::unique_ptr<Mesh> mesh =
       was ? rest.pool->like(scene, *was, placed) : std::make_unique<Mesh>(*scene.mesh);
   Scene result = scene;
-  for (const std::size_t d : changes.deformed) {
-    const Deformer deformer(*tree, d, now);
-    deformer.place(*mesh);
-    if (deformer.mirrors() != Deformer(*scene.nodes, d, before).mirrors())
-      turn_around(tree->nodes[rest.deformations[d].node], *mesh);
-  }
   const AttachedPlaces places = attached_places(rest, scene);
+  for (std::size_t n = 0; n < now.size(); ++n)
+    if (changes.moved[n]) place_attached(rest, places, static_cast<int>(n), Placement(now[n]), result);
+  auto pose = was ? std::make_shared<MeshPose>(*was) : nullptr;
+  std::vector<std::size_t> nodes;  // those with vertices to place
+  std::size_t vertices = 0;
   for (std::size_t n = 0; n < now.size(); ++n) {
-    if (!changes.moved[n]) continue;
-    const Placement placement(now[n]);
-    place_attached(rest, places, static_cast<int>(n), placement, result);
-    if (changes.deforms[n]) continue;
-    place_vertices(tree->nodes[n], placement, rest, *mesh);
-    if (placement.mirrors() != Placement(before[n]).mirrors()) turn_around(tree->nodes[n], *mesh);
+    if (!placed[n] || tree->nodes[n].vertices == 0) continue;
+    nodes.push_back(n);
+    vertices += tree->nodes[n].vertices;
   }
-  result.nodes = std::move(tree);
-  if (!was) {
-    result.mesh = std::make_shared<const Mesh>(MeshData(std::move(*mesh)));
-    if (const Expected<void> checked = check_scene(result); !checked) return Unexpected(checked.error());
-    return result;
-  }
-  auto pose = std::make_shared<MeshPose>(*was);
-  bool sound = true;
-  for (std::size_t n = 0; n < now.size(); ++n) {
-    const Node& node = result.nodes->nodes[n];
-    if (!placed[n] || node.vertices == 0) continue;
+  std::atomic<bool> sound = true;
+  rest.pool->for_each(nodes.size(), vertices, [&](std::size_t i) {
+    const std::size_t n = nodes[i];
+    const Node& node = tree->nodes[n];
+    if (changes.deforms[n]) {
+      const auto d = static_cast<std::size_t>(
+          std::ranges::find(rest.deformations, static_cast<int>(n), &Deformation::node) -
+          rest.deformations.begin());
+      const Deformer deformer(*tree, d, now);
+      deformer.place(*mesh);
+      if (deformer.mirrors() != Deformer(*scene.nodes, d, before).mirrors()) turn_around(node, *mesh);
+    } else {
+      const Placement placement(now[n]);
+      place_vertices(node, placement, rest, *mesh);
+      if (placement.mirrors() != Placement(before[n]).mirrors()) turn_around(node, *mesh);
+    }
+    if (!pose) return;
     NodePlace& place = pose->nodes[n];
     place.number = PosePool::next_number();
     place.rigid = !changes.deforms[n];
     place.world = now[n];
     place.bounds = bounds_of(place, *mesh);
-    sound = sound && is_sound(node, *mesh);
+    if (!is_sound(node, *mesh)) sound = false;
+  });
+  result.nodes = std::move(tree);
+  if (!pose) {
+    result.mesh = std::make_shared<const Mesh>(MeshData(std::move(*mesh)));
+    if (const Expected<void> checked = check_scene(result); !checked) return Unexpected(checked.error());
+    return result;
   }
   pose->begin_s = begin_s;
   pose->end_s = now_s();
