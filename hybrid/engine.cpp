@@ -131,8 +131,21 @@ Workers& Engine::Parts::workers(int threads) {
   return pools.try_emplace(threads, threads, options.gives_way ? kForFrames : 0).first->second;
 }
 
+std::shared_ptr<GpuMesh> Engine::Parts::moved_gpu_mesh(const Mesh& mesh) {
+  const auto found = std::ranges::find_if(meshes, [&](const auto& entry) {
+    const auto& [other, sent] = entry;
+    return sent && other.use_count() == 1 && sent.use_count() == 1 && sent->is_alone() &&
+           are_poses_of_one(*other, mesh);
+  });
+  if (found == meshes.end()) return nullptr;
+  const auto free = meshes.extract(found);
+  free.mapped()->move(*free.key()->pose(), mesh);
+  return free.mapped();
+}
+
 std::shared_ptr<const GpuMesh> Engine::Parts::gpu_mesh(const std::shared_ptr<const Mesh>& mesh) {
-  std::shared_ptr<const GpuMesh>& found = meshes[mesh];
+  std::shared_ptr<GpuMesh>& found = meshes[mesh];
+  if (!found) found = moved_gpu_mesh(*mesh);
   if (!found) {
     GpuMesh::Shared shared;
     for (const auto& [other, sent] : meshes) {  // another pose, or the mesh before a material was edited
@@ -141,7 +154,7 @@ std::shared_ptr<const GpuMesh> Engine::Parts::gpu_mesh(const std::shared_ptr<con
         shared.textures = sent.get();
       if (has_same_geometry(*other, *mesh)) shared.geometry = sent.get();
     }
-    found = std::make_shared<const GpuMesh>(*mesh, shared);
+    found = std::make_shared<GpuMesh>(*mesh, shared);
   }
   std::erase_if(meshes,
                 [&](const auto& entry) { return entry.first != mesh && entry.first.use_count() == 1; });
@@ -151,7 +164,7 @@ std::shared_ptr<const GpuMesh> Engine::Parts::gpu_mesh(const std::shared_ptr<con
 std::shared_ptr<const Tracer> Engine::Parts::tracer_of(const Scene& scene, const Settings& resolved,
                                                        Progress* progress) {
   if (!last_tracer || &last_tracer->mesh() != scene.mesh.get() || !same_tracer(resolved, last_settings))
-    last_tracer = prepare(scene, resolved, progress);
+    last_tracer = prepare(scene, resolved, progress, nullptr, last_tracer.get());
   last_settings = resolved;
   return last_tracer;
 }
@@ -160,7 +173,7 @@ const SceneStats& Engine::Parts::stats_of(const Scene& scene) {
   if (last_mesh == scene.mesh) {
     recount_lights(scene, last_stats);
   } else {
-    last_stats = analyze(scene);
+    last_stats = pose_stats.of(scene);
     last_mesh = scene.mesh;
   }
   return last_stats;
@@ -201,7 +214,7 @@ Expected<Settings> Engine::resolve(const Scene& scene, glm::ivec2 size, const Se
 constexpr float kMarginPixels = 7.0f;
 
 std::shared_ptr<const Tracer> Engine::prepare(const Scene& scene, const Settings& settings,
-                                              Progress* progress, const View* only) {
+                                              Progress* progress, const View* only, const Tracer* before) {
   if (!settings.traces()) return nullptr;
   BuildOptions options = build_options(settings);
   options.progress = progress;
@@ -210,7 +223,7 @@ std::shared_ptr<const Tracer> Engine::prepare(const Scene& scene, const Settings
     options.eye = only->camera.eye;
     options.margin = std::min(options.margin, kMarginPixels * glm::length(view_params(*only).step_y));
   }
-  return std::make_shared<const Tracer>(scene.mesh, options, Isa{settings.isa}, settings.offset);
+  return std::make_shared<const Tracer>(scene, options, Isa{settings.isa}, settings.offset, before);
 }
 
 Expected<FrameResult> Engine::render(const Scene& scene, const View& view, const Settings& settings,

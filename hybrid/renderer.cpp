@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "core/base/clock.h"
+#include "core/scene/pose/mesh_pose.h"
 #include "gl/context/context.h"
 #include "gl/context/error.h"
 #include "hybrid/exchange/encode.h"
@@ -58,6 +59,7 @@ class Renderer::Loop {
   [[nodiscard]] int frames_drawn() const;       // not counting delivered ones
   bool repeat(const FrameRequest& request);
   FrameSlot& begin(FrameRequest&& request);
+  void record_pose(FrameSlot& frame);
   void draw(FrameSlot& frame);
   void submit_reprojected(FrameSlot& now);
   void start_trace(FrameSlot& frame);
@@ -210,6 +212,16 @@ bool Renderer::Loop::repeat(const FrameRequest& request) {
   return true;
 }
 
+// The first frame of a pose tells what it took.
+void Renderer::Loop::record_pose(FrameSlot& frame) {
+  const FrameRequest& request = frame.request;
+  const MeshPose* const pose = request.scene.mesh->pose().get();
+  if (!pose || std::exchange(engine_.last_pose_s, pose->begin_s) == pose->begin_s) return;
+  frame.record[Stage::pose] = {pose->begin_s, pose->end_s};
+  if (request.tracer)
+    frame.record[Stage::trees] = {request.tracer->build_begin_s(), request.tracer->build_end_s()};
+}
+
 FrameSlot& Renderer::Loop::begin(FrameRequest&& request) {
   const gl::Mapping mapping = request.settings.persistent ? gl::Mapping::persistent : gl::Mapping::each_time;
   std::unique_ptr<FrameSlot>& slot = slots_[drawn_ % kFramesInFlight];
@@ -226,6 +238,7 @@ FrameSlot& Renderer::Loop::begin(FrameRequest&& request) {
   }
   generation_ = generation();
   frame.begin(std::move(request), next_number_++, progress_);
+  record_pose(frame);
   if (gpu) draw(frame);
   frame.state = FrameSlot::State::drawn;  // last: a frame is lost if drawing throws
   return frame;

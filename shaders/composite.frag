@@ -41,7 +41,9 @@ uniform float environment_strength;
 struct EnvironmentTexels {
   int lod;
 };
-vec3 environment_texel(EnvironmentTexels texels, ivec2 at) { return texelFetch(environment, at, texels.lod).rgb; }
+vec3 environment_texel(EnvironmentTexels texels, float column, float row) {
+  return texelFetch(environment, ivec2(column, row), texels.lod).rgb;
+}
 
 #include "shared/environment.glsl"
 
@@ -80,7 +82,7 @@ Incident light_at(int i, vec3 p_world, ivec2 pixel) {
 
 // What reflected_light weighs the lobe's density with: the CPU's rays along the lobe look for casting lights.
 float lobe_counted(PixelSurface s, int slot) {
-#if defined(HAS_SIZED_LIGHTS) && defined(HAS_REFLECTION)
+#if defined(HAS_SAMPLED_LOBES) && defined(HAS_REFLECTION)
   if (slot < 0 || !(s.material.ggx_alpha > 0.0)) return 0.0;
   if (s.transmits) return kAlone;
   float share = mirrored_share(s.material, cosine_of_view(s.n.shading, s.to_viewer));

@@ -14,6 +14,7 @@
 #include "hybrid/settings/json.h"
 #include "pinocchio/load.h"
 #include "pinocchio/names.h"
+#include "pinocchio/studio.h"
 
 namespace pinocchio::app {
 namespace {
@@ -27,7 +28,9 @@ std::optional<glm::ivec2> parse_picture_size(const std::string& text) {
 // The settings that are neither methods nor of the machine.
 constexpr std::array<std::pair<const char*, std::array<std::string_view, 14>>, 3> kGroupedFields{{
     {kSamplesGroup, {"spp", "max_noise", "pixel_filter", "sequence", "seed"}},
-    {kLightGroup, {"indirect", "environment_rotation", "environment_strength"}},
+    {kLightGroup,
+     {"indirect", "environment_rotation", "environment_strength", "environment_light", "glossy",
+      "sky_occlusion"}},
     {kExchangeGroup,
      {"visibility", "composite", "by_machine", "exchange", "mask_bits", "mask_scale", "reflection",
       "reflection_scale", "tiles", "id_bits", "normals", "wide", "reuse", "persistent"}},
@@ -244,6 +247,19 @@ void add_still_options(CLI::App& verb, DrawOptions& o) {
                 "and in glass each bounce doubles the time");
 }
 
+void add_studio_option(CLI::App& verb, DrawOptions& o, bool usual) {
+  o.studio = usual;
+  begin_group(verb, kLightGroup);
+  verb.add_option_function<std::string>(
+          "--studio", [&o](const std::string& text) { o.studio = text == "on"; },
+          std::string("a soft sky and a directional light for scenes without light, a camera whose picture "
+                      "the object "
+                      "fills for scenes without camera; off: a point light and a view of the whole scene (") +
+              (usual ? "on)" : "off)"))
+      ->type_name("on|off")
+      ->check(CLI::IsMember({"on", "off"}));
+}
+
 void add_draw_options(CLI::App& verb, DrawOptions& o) {
   add_scene_options(verb, o);
   add_size_option(verb, o, "size of the picture, pixels (800x600)");
@@ -278,10 +294,20 @@ Scene load_whole(const DrawOptions& options, Warnings& warnings, pinocchio::Prog
 
 void light_if_dark(Scene& scene, const DrawOptions& options) {
   if (!scene.lights.empty() || scene.environment) return;
-  scene.lights.push_back(default_light(scene, camera_for(options, scene)));
-  if (!options.quiet)
-    std::fprintf(stderr, "pinocchio: %s has no light; a default one is used (add one with --light x,y,z)\n",
-                 scene.source.c_str());
+  if (options.studio)
+    add_studio_light(scene);
+  else
+    scene.lights.push_back(default_light(scene, camera_for(options, scene)));
+  if (!options.quiet) std::fprintf(stderr, "pinocchio: %s\n", assumed_light(scene, options).c_str());
+}
+
+std::string assumed_light(const Scene& scene, const DrawOptions& options) {
+  if (!options.studio)
+    return scene.source + " has no light; a default one is used (add one with --light x,y,z)";
+  const bool framed = scene.cameras.empty() && options.camera.empty() && !options.eye;
+  return scene.source + " has no light" + (framed ? " and no camera" : "") + "; a studio lights " +
+         (framed ? "and frames it" : "it") + " (--studio off; --light x,y,z, --environment FILE" +
+         (framed ? " and --eye x,y,z" : "") + " replace its parts)";
 }
 
 Scene load_scene_for(const DrawOptions& options) {
@@ -293,7 +319,9 @@ Scene load_scene_for(const DrawOptions& options) {
 }
 
 Camera camera_for(const DrawOptions& options, const Scene& scene) {
-  Camera camera = scene.cameras.empty() ? camera_for_whole_scene(scene) : scene.cameras.front();
+  Camera camera = !scene.cameras.empty() ? scene.cameras.front()
+                  : options.studio       ? studio_camera(scene, options.size)
+                                         : camera_for_whole_scene(scene);
   if (!options.camera.empty()) {
     const std::optional<int> number = parse_int(options.camera);
     const Camera* found = find_camera(scene, options.camera);

@@ -31,6 +31,7 @@ struct DrawOptions {
   std::optional<float> fov_deg, lens_radius, focus;
   std::vector<Light> lights;  // added to the scene's
   std::string environment;    // file. Empty: none
+  bool studio = false;        // light and a camera for scenes that bring none
   std::optional<PixelBox> crop;
   bool precise = false;  // draw the reference
   std::string progress = "auto";
@@ -56,6 +57,8 @@ void add_size_option(CLI::App& verb, DrawOptions& options, const std::string& he
 void add_settings_options(CLI::App& verb, DrawOptions& options);
 // The OpenGL context, for verbs without a window:
 void add_context_options(CLI::App& verb, DrawOptions& options);
+// --studio; `usual`: where it is not given:
+void add_studio_option(CLI::App& verb, DrawOptions& options, bool usual);
 // --crop and --precise:
 void add_still_options(CLI::App& verb, DrawOptions& options);
 // All of these.
@@ -66,8 +69,11 @@ void add_draw_options(CLI::App& verb, DrawOptions& options);
 [[nodiscard]] Scene load_whole(const DrawOptions& options, Warnings& warnings,
                                pinocchio::Progress* progress = nullptr);
 
-// Adds a default light to a scene without lights, and says so on stderr.
+// Lights a scene without lights, by the studio or a default light, and says so on stderr.
 void light_if_dark(Scene& scene, const DrawOptions& options);
+
+// What light_if_dark says.
+[[nodiscard]] std::string assumed_light(const Scene& scene, const DrawOptions& options);
 
 // load_whole, with the options' lights, and light_if_dark.
 [[nodiscard]] Scene load_scene_for(const DrawOptions& options);

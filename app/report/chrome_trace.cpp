@@ -34,7 +34,10 @@ struct Slice {
 
 std::vector<Slice> slices_of(const std::vector<FrameRecord>& records) {
   std::vector<Slice> slices;
-  const double begin_s = records.empty() ? 0.0 : records.front().frame.begin_s;
+  double begin_s = records.empty() ? 0.0 : records.front().frame.begin_s;
+  for (const FrameRecord& record : records)  // a pose is made before its frame
+    for (const Stage stage : {Stage::pose, Stage::trees})
+      if (record[stage].end_s > 0.0) begin_s = std::min(begin_s, record[stage].begin_s);
   const auto ns = [begin_s](double s) { return std::int64_t{std::llround(1e9 * (s - begin_s))}; };
   for (const FrameRecord& record : records)
     for (std::size_t i = 0; i < kStageNames.size(); ++i)
@@ -90,7 +93,7 @@ void name_threads(const std::vector<Slice>& slices, nlohmann::json& events) {
 void add_arrows(const std::vector<Slice>& slices, nlohmann::json& events) {
   std::map<std::uint64_t, std::vector<const Slice*>> ways;
   for (const Slice& slice : slices)
-    if (slice.stage != Stage::raster && slice.stage != Stage::present) ways[slice.frame].push_back(&slice);
+    if (slice.stage > Stage::raster && slice.stage != Stage::present) ways[slice.frame].push_back(&slice);
   for (auto& [frame, way] : ways) {
     std::ranges::stable_sort(way, {}, [](const Slice* slice) { return slice->stage; });
     for (std::size_t i = 0; i < way.size() && way.size() > 1; ++i) {

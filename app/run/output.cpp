@@ -13,6 +13,7 @@
 #include "core/image/codecs/png.h"
 #include "core/output/aovs.h"
 #include "pinocchio/names.h"
+#include "pinocchio/studio.h"
 
 namespace pinocchio::app {
 namespace {
@@ -125,7 +126,10 @@ std::string inputs_json(const Scene& scene, bool precise, Shading shading) {
                                {"content", content ? nlohmann::json(*content) : nullptr}});
   };
   for (const std::string& file : scene.source_files) add(file);
-  if (scene.environment) add(scene.environment->source());
+  if (has_studio_light(scene))
+    inputs["studio"] = true;
+  else if (scene.environment)
+    add(scene.environment->source());
   return ascii_json(inputs);
 }
 

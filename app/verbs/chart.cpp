@@ -220,6 +220,7 @@ Run add_chart(CLI::App& program) {
       "chart", "sweep the settings of a scene; chart error against time, with the Pareto front");
   add_scene_options(verb, options->draw);
   add_context_options(verb, options->draw);
+  add_studio_option(verb, options->draw, false);
   add_size_option(verb, options->draw, "size of the picture, pixels (400x300; with --quick 160x120)");
   add_animation_options(verb, options->animation);
   verb.add_option(

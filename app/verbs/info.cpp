@@ -277,6 +277,7 @@ Run add_info(CLI::App& program) {
       ->excludes(scene);
   verb.add_flag("--plan", options->plan, "print how a hybrid frame of the scene is drawn, and why");
   verb.add_flag("--json", options->json, "print JSON");
+  add_studio_option(verb, options->draw, true);
   add_trust_options(verb, options->draw);
   return [options] {
     if (options->settings) return show_settings(*options);

@@ -288,6 +288,7 @@ Run add_measure(CLI::App& program) {
   CLI::App& verb =
       *program.add_subcommand("measure", "draw frames along a camera path; report bytes, times and latency");
   add_draw_options(verb, options->draw);
+  add_studio_option(verb, options->draw, false);
   add_animation_options(verb, options->animation);
   verb.get_option("--frames")
       ->description("frames to draw: N of them, or frames A to B")

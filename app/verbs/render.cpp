@@ -19,6 +19,7 @@
 #include "app/run/frame_writer.h"
 #include "app/run/output.h"
 #include "app/run/skip_existing.h"
+#include "app/run/studio_exposure.h"
 #include "app/verbs/verbs.h"
 #include "core/base/clock.h"
 #include "core/files/atomic_file.h"
@@ -27,6 +28,7 @@
 #include "gl/context/context.h"
 #include "hybrid/frame/samples.h"
 #include "hybrid/frame/schedule.h"
+#include "pinocchio/studio.h"
 
 namespace pinocchio::app {
 namespace {
@@ -37,6 +39,7 @@ struct RenderOptions {
   BudgetOptions budget;
   OutputOptions output;
   std::string stats_json;
+  const CLI::Option* exposure = nullptr;  // --exposure
 };
 
 // The mean of the reference's samples.
@@ -73,12 +76,14 @@ class RenderRun {
   int run() {
     const double begin_s = now_s();
     Scene scene = load_scene_for(options_.draw);
+    if (has_studio_light(scene)) options_.draw.settings.spp.fill(kStudioSamples);
     frames_.emplace(options_.animation, options_.draw, scene);
     check(scene);
     options_.output.inputs = inputs_json(scene, options_.draw.precise, options_.draw.shading);
     Drawing drawing(options_.draw, std::move(scene),
                     frames_->size() > 1 ? Exchange::pipelined : Exchange::sync, keeps_mask(options_.output),
                     false, frames_->only_camera());
+    expose(drawing);
     const double ready_s = now_s();
     progress_.emplace(options_.draw.progress_mode(), "render", frames_->size());
     if (find_next_frame(drawing)) draw(drawing);
@@ -90,6 +95,15 @@ class RenderRun {
   }
 
  private:
+  // A single picture of a scene that the studio lights is exposed by what it shows. Frames of a range keep
+  // one exposure, also where several machines draw parts of the range.
+  void expose(Drawing& drawing) {
+    if (options_.output.preview.empty() || options_.exposure->count() > 0 || frames_->size() > 1 ||
+        !has_studio_light(drawing.scene()))
+      return;
+    options_.output.exposure_ev = studio_exposure(drawing, (*frames_)[0]);
+  }
+
   [[nodiscard]] nlohmann::json stats(const Drawing& drawing) const {
     nlohmann::json json = figures(records_, drawing.settings(), drawing.scene(), drawing.gl_info());
     if (drawing.settings().exchange == Exchange::reproject)
@@ -222,6 +236,9 @@ class RenderRun {
       std::printf("  %zu pixels a frame are holes of the reprojection\n",
                   holes_ / std::max<std::size_t>(delivered_, 1));
     if (budget_) budget_->report();
+    if (options_.output.exposure_ev != 0.0f && options_.exposure->count() == 0)
+      std::printf("  the preview is exposed %+.2f stops, by what it shows (--exposure STOPS)\n",
+                  static_cast<double>(options_.output.exposure_ev));
     if (skipped_ > 0) std::printf("  %zu frames were there already\n", skipped_);
     for (const int number : written_)
       for (const std::string& pattern : {options_.output.exr, options_.output.preview})
@@ -255,9 +272,11 @@ Run add_render(CLI::App& program) {
   auto options = std::make_shared<RenderOptions>();
   CLI::App& verb = *program.add_subcommand("render", "draw a scene to EXR and PNG files, without a display");
   add_draw_options(verb, options->draw);
+  add_studio_option(verb, options->draw, true);
   add_animation_options(verb, options->animation);
   add_budget_options(verb, options->budget);
   add_output_options(verb, options->output);
+  options->exposure = verb.get_option("--exposure");
   verb.add_option("--stats-json", options->stats_json, "write the figures of the run as JSON");
   return [options] { return RenderRun(*options).run(); };
 }

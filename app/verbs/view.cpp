@@ -73,6 +73,7 @@ Run add_view(CLI::App& program) {
   add_scene_options(verb, options->draw);
   add_size_option(verb, options->draw, "size of the picture in the window, pixels (800x600)");
   add_settings_options(verb, options->draw);
+  add_studio_option(verb, options->draw, true);
   add_budget_options(verb, options->budget);
   add_display_options(verb, options->exposure_ev, options->tone_map, kMostExposure);
   begin_group(verb, kOtherGroup);

@@ -9,6 +9,7 @@
 
 #include "bench/rays/animated_frames.h"
 #include "bench/rays/embree_side.h"
+#include "bench/rays/motion.h"
 #include "bench/rays/our_side.h"
 #include "bench/rays/report.h"
 #include "core/files/atomic_file.h"
@@ -30,6 +31,7 @@ struct Options {
   int triangles = 0, repeat = 7, build_repeat = 3, threads = 0;
   bool mirror_all = false, robust = false, no_pass = false, no_speeds = false, frame = false,
        known_eye = false, animation = false;
+  MotionOptions motion{.moving = 0};
 };
 
 std::vector<std::string> isa_choices() {
@@ -69,6 +71,17 @@ void add_options(CLI::App& program, Options& o) {
   program.add_flag("--animation", o.animation,
                    "instead: frames of an animated scene, their trees built anew, with each rule (a still "
                    "scene is turned)");
+  const auto motion =
+      program.add_option("--motion", o.motion.moving,
+                         "instead: frames of a scene of balls, so many of which move each frame, "
+                         "against the same frames standing still");
+  motion->check(CLI::Range(1, 100000))->excludes(scene);
+  program.add_option("--parts", o.motion.parts, "balls in all, with --motion (100)")
+      ->check(CLI::Range(1, 100000))
+      ->needs(motion);
+  program.add_option("--pixels", o.motion.size.x, "width and height of the picture, with --motion (256)")
+      ->check(CLI::Range(1, 8192))
+      ->needs(motion);
   program.add_option("--json", o.json, "write everything to this file");
 }
 
@@ -118,8 +131,21 @@ BuildOptions build_options(const Options& o, const Scene& scene) {
   return tree;
 }
 
+void run_motion(const Options& o) {
+  MotionOptions motion = o.motion;
+  motion.parts = std::max(motion.parts, motion.moving);
+  motion.size.y = motion.size.x;
+  if (o.triangles > 0) motion.triangles = o.triangles;
+  motion.threads = o.threads;
+  motion.frames = std::max(4 * o.repeat, 8);
+  const Motion measured = measure_motion(motion, build_options(o, Scene{}));
+  print(measured);
+  if (!o.json.empty()) save(measured, o.json);
+}
+
 void run(const Options& o) {
   if (!o.json.empty()) check_writable(o.json);
+  if (o.motion.moving > 0) return run_motion(o);
   Scene scene = scene_of(o);
   if (o.animation) {
     const int frames = std::max(4 * o.repeat, 8);
@@ -177,7 +203,7 @@ int parse_and_run(int argc, char** argv) {
   add_options(program, options);
   try {
     program.parse(argc, argv);
-    if (options.scene.empty() == options.generate.empty())
+    if (options.motion.moving == 0 && options.scene.empty() == options.generate.empty())
       throw CLI::ValidationError("give a SCENE or --generate NAME");
   } catch (const CLI::ParseError& error) {
     if (error.get_exit_code() == 0) return program.exit(error);  // --help

@@ -3,7 +3,7 @@
 #include <array>
 
 #include "bench/rays/measure.h"
-#include "core/bsp/tree.h"
+#include "core/bsp/scene_trees.h"
 #include "core/trace/rays/ray_queue.h"
 
 namespace pinocchio::bench {
@@ -76,7 +76,7 @@ std::unique_ptr<Tracer> build_ours(const std::shared_ptr<const Mesh>& mesh, cons
   cost.name = "ours";
   cost.seconds = median_seconds(
       repeat, [&] { tracer.reset(); }, [&] { tracer = std::make_unique<Tracer>(mesh, options, isa); });
-  const BspTree& tree = tracer->tree();
+  const BspTree& tree = *tracer->trees().still;
   cost.bytes = held(tree.nodes) + held(tree.references) + held(tree.triangles) + held(tree.corner_triangles);
   return tracer;
 }

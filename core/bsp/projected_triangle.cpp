@@ -4,6 +4,11 @@
 #include <limits>
 
 namespace pinocchio {
+namespace {
+
+using Pair [[gnu::vector_size(16)]] = double;
+
+}  // namespace
 
 ProjectedTriangle ProjectedTriangle::from(const glm::vec3& a, const glm::vec3& b, const glm::vec3& c,
                                           std::uint32_t id) {
@@ -16,17 +21,21 @@ ProjectedTriangle ProjectedTriangle::from(const glm::vec3& a, const glm::vec3& b
   if (std::abs(n.z) > std::abs(n[k])) k = 2;
   const int u = (k + 1) % 3, v = (k + 2) % 3;
 
-  // In the plane (u, v), h - a = beta * ab + gamma * ac; the determinant is the normal's component k.
+  // In the plane (u, v), h - a = beta * ab + gamma * ac; the determinant is the normal's component k. Two
+  // quotients at a time: they are what takes the time.
   const double det = n[k] != 0.0 ? n[k] : std::numeric_limits<double>::quiet_NaN();
-  ProjectedTriangle triangle{};
+  const Pair both{det, det};
+  const Pair slopes = Pair{n[u], n[v]} / both, beta = Pair{ac[v], -ac[u]} / both,
+             gamma = Pair{-ab[v], ab[u]} / both;
+  ProjectedTriangle triangle;
   for (int i = 0; i < 3; ++i) triangle.a[i] = a[i];
   triangle.k = k;
-  triangle.n_u = static_cast<float>(n[u] / det);
-  triangle.n_v = static_cast<float>(n[v] / det);
-  triangle.beta_u = static_cast<float>(ac[v] / det);
-  triangle.beta_v = static_cast<float>(-ac[u] / det);
-  triangle.gamma_u = static_cast<float>(-ab[v] / det);
-  triangle.gamma_v = static_cast<float>(ab[u] / det);
+  triangle.n_u = static_cast<float>(slopes[0]);
+  triangle.n_v = static_cast<float>(slopes[1]);
+  triangle.beta_u = static_cast<float>(beta[0]);
+  triangle.beta_v = static_cast<float>(beta[1]);
+  triangle.gamma_u = static_cast<float>(gamma[0]);
+  triangle.gamma_v = static_cast<float>(gamma[1]);
   triangle.slope = std::abs(triangle.beta_u) + std::abs(triangle.beta_v) + std::abs(triangle.gamma_u) +
                    std::abs(triangle.gamma_v);
   triangle.id = id;

@@ -3,10 +3,11 @@
 #include <boost/align/aligned_allocator.hpp>
 #include <cstddef>
 #include <cstdint>
-#include <glm/glm.hpp>
-#include <span>
+#include <new>
+#include <utility>
 #include <vector>
 
+#include "core/base/large_memory.h"
 #include "core/bsp/corner_triangle.h"
 #include "core/bsp/node.h"
 #include "core/bsp/projected_triangle.h"
@@ -17,24 +18,51 @@ namespace pinocchio {
 
 inline constexpr std::size_t kCacheLine = 64;
 
+// Leaves new elements without values: they are written anyhow, mostly by several threads.
 template <class T>
-using AlignedVector = std::vector<T, boost::alignment::aligned_allocator<T, kCacheLine>>;
+struct CacheAllocator : boost::alignment::aligned_allocator<T, kCacheLine> {
+  template <class U>
+  struct rebind {
+    using other = CacheAllocator<U>;
+  };
+  template <class U>
+  void construct(U* at) {
+    ::new (static_cast<void*>(at)) U;
+  }
+  template <class U, class... Values>
+  void construct(U* at, Values&&... values) {
+    ::new (static_cast<void*>(at)) U(std::forward<Values>(values)...);
+  }
+};
 
-// Binary space partition over a mesh's triangles; built once (build/build.h), then only read. It refers to
-// the mesh, which must stay in its place as long as the tree lives.
-struct BspTree {
-  Bounds bounds;                            // widened by the rounding of a traversal step
-  AlignedVector<BspNode> nodes;             // root first; node 1 is padding, so that siblings share a line
-  AlignedVector<std::uint32_t> references;  // leaves' indices of triangles
-  // In the order in which leaves first refer to them: a leaf's triangles are mostly adjacent, and near those
-  // of its neighbours. The second array is for the tests that need corners, the first for the others; one is
-  // empty.
+template <class T>
+using AlignedVector = std::vector<T, CacheAllocator<T>>;
+
+// Triangles as a test wants them, in the order in which a tree's leaves first refer to them: a leaf's
+// triangles are mostly adjacent, and near those of its neighbours. The second array is for the tests that
+// need corners, the first for the others; one is empty.
+struct StoredTriangles {
   AlignedVector<ProjectedTriangle> triangles;
   AlignedVector<CornerTriangle> corner_triangles;
-  int depth = 0;                               // of the deepest leaf
-  TriangleTest test = TriangleTest::filtered;  // the test that the triangles are stored for
-  std::span<const glm::vec3> positions;        // the scene's
-  std::span<const glm::uvec3> corners;         // the scene's triangles
+  TriangleTest test = TriangleTest::filtered;
+
+  [[nodiscard]] bool has_corners() const {
+    return test == TriangleTest::moeller_trumbore || test == TriangleTest::watertight;
+  }
+  void make_room(std::size_t count) {
+    if (!has_corners()) reserve_large(triangles, count);
+    corner_triangles.resize(has_corners() ? count : 0);
+    triangles.resize(has_corners() ? 0 : count);
+  }
+};
+
+// Binary space partition over a mesh's triangles; built once (build/build.h), then only read.
+struct BspTree : StoredTriangles {
+  Bounds bounds;                            // widened by the rounding of a traversal step
+  Bounds exact_bounds;                      // of the triangles
+  AlignedVector<BspNode> nodes;             // root first; node 1 is padding, so that siblings share a line
+  AlignedVector<std::uint32_t> references;  // leaves' indices of triangles
+  int depth = 0;                            // of the deepest leaf
 
   [[nodiscard]] std::size_t bytes() const {
     return nodes.size() * sizeof(BspNode) + references.size() * sizeof(std::uint32_t) +

@@ -34,19 +34,6 @@ void find_guides(const float* ends, std::size_t count, std::uint32_t* guides) {
   }
 }
 
-// Where `number` falls among ends that grow to 1: index and place within, 0 to 1.
-struct Found {
-  std::size_t index;
-  float within;
-};
-Found found_at(const float* ends, const std::uint32_t* guides, std::size_t count, float number) {
-  std::size_t index = guides[std::min(static_cast<std::size_t>(number * count), count - 1)];
-  while (index > 0 && ends[index - 1] > number) --index;  // the product was rounded
-  while (index + 1 < count && ends[index] <= number) ++index;
-  const float begin = index == 0 ? 0.0f : ends[index - 1];
-  return {index, std::clamp((number - begin) / (ends[index] - begin), 0.0f, 0x1.fffffep-1f)};
-}
-
 // Sums so far, made to end with 1 (or all zero).
 void make_to_one(const std::vector<double>& sums, float* ends) {
   const double whole = sums.back();
@@ -78,23 +65,6 @@ Environment::Environment(Image<glm::vec3> radiance, std::string source)
   find_guides(rows_.data(), height, row_guides_.data());
   for (std::size_t y = 0; y < height; ++y)
     find_guides(&columns_[y * width], width, &column_guides_[y * width]);
-}
-
-Environment::Place Environment::sample(const glm::vec2& numbers) const {
-  const std::size_t width = radiance_.width(), height = radiance_.height();
-  const Found row = found_at(rows_.data(), row_guides_.data(), height, numbers.y);
-  const Found column =
-      found_at(&columns_[row.index * width], &column_guides_[row.index * width], width, numbers.x);
-  const glm::vec2 uv((column.index + column.within) / width, (row.index + row.within) / height);
-  return {uv, density(uv)};
-}
-
-float Environment::density(const glm::vec2& uv) const {
-  const std::size_t width = radiance_.width(), height = radiance_.height();
-  const auto texel = [](float t, std::size_t n) { return std::min(static_cast<std::size_t>(t * n), n - 1); };
-  const std::size_t x = texel(uv.x, width), y = texel(uv.y, height);
-  const auto share = [](const float* ends, std::size_t i) { return ends[i] - (i == 0 ? 0.0f : ends[i - 1]); };
-  return share(rows_.data(), y) * height * share(&columns_[y * width], x) * width;
 }
 
 }  // namespace pinocchio

@@ -54,4 +54,6 @@ Mesh::Mesh(MeshData data) : MeshData(std::move(data)), bounds_(bounds_of(*this))
   make_smaller_levels(*this, nullptr);
 }
 
+Mesh::Mesh(const Mesh& other) : MeshData(other), bounds_(other.bounds_) {}
+
 }  // namespace pinocchio

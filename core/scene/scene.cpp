@@ -43,9 +43,13 @@ void drop_idle_casters(Scene& scene) {
   for (Light& light : scene.lights) light.casts_shadow = light.casts_shadow && may_reach(light, scene);
 }
 
-bool takes_samples(const Scene& scene) {
-  return scene.environment != nullptr || std::ranges::any_of(scene.lights, &Light::has_size) ||
-         std::ranges::any_of(scene.mesh->materials, &Material::is_glossy);
+bool takes_samples(const Scene& scene, EnvironmentMethod sky, Glossy glossy) {
+  const std::vector<Material>& materials = scene.mesh->materials;
+  const bool lobes = glossy == Glossy::sampled;
+  return (scene.environment && (sky == EnvironmentMethod::sampled ||
+                                (lobes && std::ranges::any_of(materials, &Material::is_microfacet)))) ||
+         std::ranges::any_of(scene.lights, &Light::has_size) ||
+         (lobes && std::ranges::any_of(materials, &Material::is_glossy));
 }
 
 const Camera* find_camera(const Scene& scene, const std::string& name) {

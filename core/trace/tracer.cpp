@@ -6,7 +6,8 @@
 #include <string>
 #include <utility>
 
-#include "core/bsp/build/build.h"
+#include "core/base/clock.h"
+#include "core/bsp/moving/posed_trees.h"
 #include "core/trace/lanes/lane_steps.h"
 #include "core/trace/rays/ray_sorter.h"
 #include "core/trace/walk/kernels.h"
@@ -96,12 +97,30 @@ Isa default_isa() {
   return supported_isas().back();
 }
 
+namespace {
+
+Scene scene_of(std::shared_ptr<const Mesh> mesh) {
+  Scene scene;
+  scene.mesh = std::move(mesh);
+  return scene;
+}
+
+}  // namespace
+
 Tracer::Tracer(std::shared_ptr<const Mesh> mesh, const BuildOptions& options, std::optional<Isa> isa,
                OffsetMethod offset)
-    : mesh_(std::move(mesh)),
-      tree_(std::make_shared<const BspTree>(build_tree(*mesh_, options))),
-      isa_(checked_isa(isa)),
-      offset_(RayOffset::of(offset, tree_->bounds)) {}
+    : Tracer(scene_of(std::move(mesh)), options, isa, offset, nullptr) {}
+
+Tracer::Tracer(const Scene& scene, const BuildOptions& options, std::optional<Isa> isa, OffsetMethod offset,
+               const Tracer* before)
+    : build_begin_s_(now_s()), mesh_(scene.mesh), isa_(checked_isa(isa)) {
+  PosedTrees posed = build_posed_trees(scene, options, before ? before->trees_.get() : nullptr,
+                                       before ? before->motion_.get() : nullptr);
+  trees_ = std::move(posed.trees);
+  motion_ = std::move(posed.motion);
+  offset_ = RayOffset::of(offset, trees_->bounds);
+  build_end_s_ = now_s();
+}
 
 void Tracer::closest_hits(std::span<const Ray> rays, std::span<Hit> hits, Backfaces backfaces) const {
   assert(rays.size() == hits.size());
@@ -131,10 +150,10 @@ void Tracer::occluded(std::span<const Ray> rays, std::span<std::uint8_t> blocked
 
 void Tracer::closest_hits(const RayColumns& rays, std::size_t n, std::uint32_t* triangle, float* t,
                           const PassedBacks* backs) const {
-  const Kernel& kernel = kernel_of(isa_, tree_->test);
+  const Kernel& kernel = kernel_of(isa_, trees_->still->test);
   const auto trace = [&](const RayColumns& from, std::uint32_t* ids, float* distances) {
-    if (backs) return kernel.closest_fronts(*tree_, from, n, *backs, ids, distances);
-    kernel.closest_hits(*tree_, from, n, ids, distances);
+    if (backs) return kernel.closest_fronts(*trees_, from, n, *backs, ids, distances);
+    kernel.closest_hits(*trees_, from, n, ids, distances);
   };
   if (n < kLeastSorted || isa_ == Isa::scalar || !rays_diverge(rays, n)) return trace(rays, triangle, t);
   static thread_local RaySorter sorter;  // allocates once per thread
@@ -144,7 +163,7 @@ void Tracer::closest_hits(const RayColumns& rays, std::size_t n, std::uint32_t* 
 }
 
 void Tracer::occluded(const RayColumns& rays, std::size_t n, std::uint8_t* blocked) const {
-  kernel_of(isa_, tree_->test).occluded(*tree_, rays, n, blocked);
+  kernel_of(isa_, trees_->still->test).occluded(*trees_, rays, n, blocked);
 }
 
 const LaneSteps& Tracer::steps() const {

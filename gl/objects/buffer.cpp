@@ -22,4 +22,10 @@ Buffer::Buffer(std::span<const std::byte> data) : bytes_(data.size()) {
   throw_errors("the GPU has no room for a buffer of " + std::to_string(data.size()) + " bytes");
 }
 
+void Buffer::write_bytes(std::size_t offset, std::span<const std::byte> data) {
+  if (data.empty()) return;
+  glBindBuffer(GL_COPY_WRITE_BUFFER, handle_.name());
+  glBufferSubData(GL_COPY_WRITE_BUFFER, offset, data.size(), data.data());
+}
+
 }  // namespace pinocchio::gl

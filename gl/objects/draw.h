@@ -17,6 +17,13 @@ class Mesh {
   Mesh(std::span<const glm::vec3> positions, std::span<const glm::uvec3> triangles);
 
   void draw() const;
+  // Replaces those from `first` on.
+  void write_positions(std::size_t first, std::span<const glm::vec3> positions) {
+    positions_.write(first, positions);
+  }
+  void write_triangles(std::size_t first, std::span<const glm::uvec3> triangles) {
+    indices_.write(first, triangles);
+  }
 
  private:
   VertexArray vertex_array_;

@@ -71,6 +71,11 @@ class TextureBuffer {
       : TextureBuffer(std::as_bytes(data), internal_format, bytes_per_texel) {}
 
   [[nodiscard]] GLuint name() const { return handle_.name(); }
+  // Replaces the elements from `first` on.
+  template <class T>
+  void write(std::size_t first, std::span<const T> data) {
+    buffer_.write(first, data);
+  }
 
  private:
   Buffer buffer_;

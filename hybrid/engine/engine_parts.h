@@ -89,6 +89,8 @@ struct Engine::Parts {
   [[nodiscard]] Workers& workers(int threads);
   // The mesh's buffers on the GPU; sent at the first call, released once nobody else holds the mesh.
   [[nodiscard]] std::shared_ptr<const GpuMesh> gpu_mesh(const std::shared_ptr<const Mesh>& mesh);
+  // The buffers of another pose of the mesh that no frame uses any more, with what has moved; null: none.
+  [[nodiscard]] std::shared_ptr<GpuMesh> moved_gpu_mesh(const Mesh& mesh);
 
   // The last scene's tracer and statistics are kept while its mesh is the same.
   [[nodiscard]] std::shared_ptr<const Tracer> tracer_of(const Scene& scene, const Settings& resolved,
@@ -116,11 +118,13 @@ struct Engine::Parts {
   std::unique_ptr<GpuPasses> passes;
   std::mutex pools_mutex;
   std::map<int, Workers> pools;  // by number of threads; idle pools cost nothing
-  std::map<std::shared_ptr<const Mesh>, std::shared_ptr<const GpuMesh>> meshes;
+  std::map<std::shared_ptr<const Mesh>, std::shared_ptr<GpuMesh>> meshes;
   std::shared_ptr<const Tracer> last_tracer;
   Settings last_settings;  // of last_tracer
   std::shared_ptr<const Mesh> last_mesh;
   SceneStats last_stats;  // of last_mesh
+  PoseStats pose_stats;
+  double last_pose_s = 0.0;  // when the pose was made that the last record has the times of
 
   TracingThread tracing;  // last: ends first
 };

@@ -24,6 +24,9 @@ TraceOptions trace_options(const Settings& settings, const View& view) {
           .texture_footprint = texture_footprint(settings, view),
           .terminator = settings.terminator,
           .backfaces = settings.backfaces,
+          .environment_light = settings.environment_light,
+          .glossy = settings.glossy,
+          .sky_occlusion = settings.sky_occlusion,
           .jitter = view.jitter,
           .sampling = {static_cast<int>(settings.sequence.value), static_cast<std::uint32_t>(view.sample),
                        static_cast<std::uint32_t>(settings.seed)}};

@@ -144,6 +144,12 @@ GpuMaps::GpuMaps(const Mesh& mesh, const GpuMaps* shares_textures) {
   if (!quads.empty()) vertex_quads_ = buffer_of(quads, GL_RGBA32F, sizeof(glm::vec4));
 }
 
+void GpuMaps::update_tangents(const Mesh& mesh, std::size_t first_vertex, std::size_t vertices) {
+  if (mesh.maps.empty() || mesh.tangents.empty()) return;
+  vertex_quads_.write(mesh.colors.size() + first_vertex,
+                      std::span(mesh.tangents).subspan(first_vertex, vertices));
+}
+
 int GpuMaps::bind(const gl::Program& program, int first_unit) const {
   if (definitions_.empty()) return first_unit;
   int unit = first_unit;

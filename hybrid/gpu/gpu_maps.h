@@ -17,6 +17,9 @@ class GpuMaps {
   // `shares_textures`: a mesh with the same textures, which are not sent again; null: none is known.
   explicit GpuMaps(const Mesh& mesh, const GpuMaps* shares_textures = nullptr);
 
+  // Sends the tangents of these vertices again.
+  void update_tangents(const Mesh& mesh, std::size_t first_vertex, std::size_t vertices);
+
   // Sets the buffers on texture units from `first_unit` on; returns the next free one.
   int bind(const gl::Program& program, int first_unit) const;
   // The definitions for programs that read the maps.

@@ -5,6 +5,7 @@
 #include <span>
 #include <vector>
 
+#include "core/scene/pose/mesh_pose.h"
 #include "core/shade/surface.h"
 
 namespace pinocchio {
@@ -87,6 +88,12 @@ gl::TextureBuffer unsigneds(const std::vector<T>& data) {
   return {std::span<const T>(data), GL_R32UI, sizeof(std::uint32_t)};
 }
 
+// Reversed float depth is as fine far away as near by, so the near plane may be almost 0: depth leaves
+// float's normal numbers only beyond 2^66 diagonals.
+float z_near_of(const Mesh& mesh) {
+  return std::max(mesh.bounds().diagonal() * 0x1p-60f, std::numeric_limits<float>::min());
+}
+
 }  // namespace
 
 GpuMesh::Geometry::Geometry(const Mesh& mesh)
@@ -97,14 +104,32 @@ GpuMesh::Geometry::Geometry(const Mesh& mesh)
       normals(floats(mesh.normals)) {}
 
 GpuMesh::GpuMesh(const Mesh& mesh, const Shared& shared)
-    : geometry_(shared.geometry ? shared.geometry->geometry_ : std::make_shared<const Geometry>(mesh)),
+    : geometry_(shared.geometry ? shared.geometry->geometry_ : std::make_shared<Geometry>(mesh)),
       materials_(quads(material_texels(mesh))),
       backs_(unsigneds(back_texels(mesh))),
       passed_backs_(shares_of_passed_backs(mesh)),
       maps_(mesh, shared.textures ? &shared.textures->maps_ : nullptr),
-      // Reversed float depth is as fine far away as near by, so the near plane may be almost 0: depth leaves
-      // float's normal numbers only beyond 2^66 diagonals.
-      z_near_(std::max(mesh.bounds().diagonal() * 0x1p-60f, std::numeric_limits<float>::min())) {}
+      z_near_(z_near_of(mesh)) {}
+
+void GpuMesh::move(const MeshPose& before, const Mesh& now) {
+  for (const NodePlace* const node : now.pose()->moved_since(before)) {
+    const auto vertices = [node](const auto& of) {
+      return std::span(of).subspan(node->first_vertex, node->vertices);
+    };
+    const auto triangles = std::span(now.triangles).subspan(node->first_triangle, node->triangles);
+    geometry_->triangles.write_positions(node->first_vertex, vertices(now.positions));
+    geometry_->positions.write(node->first_vertex, vertices(now.positions));
+    geometry_->normals.write(node->first_vertex, vertices(now.normals));
+    geometry_->triangles.write_triangles(node->first_triangle, triangles);
+    geometry_->corners.write(node->first_triangle, triangles);
+    maps_.update_tangents(now, node->first_vertex, node->vertices);
+  }
+  z_near_ = z_near_of(now);
+}
+
+bool are_poses_of_one(const Mesh& a, const Mesh& b) {
+  return a.pose() && b.pose() && a.pose()->is_of_same_mesh(*b.pose());
+}
 
 bool has_same_geometry(const Mesh& a, const Mesh& b) {
   return a.positions == b.positions && a.normals == b.normals && a.triangles == b.triangles &&

@@ -24,6 +24,11 @@ class GpuMesh {
   explicit GpuMesh(const Mesh& mesh, const Shared& shared);
   explicit GpuMesh(const Mesh& mesh) : GpuMesh(mesh, Shared{}) {}
 
+  // Whether nobody else has any of its buffers of vertices and triangles.
+  [[nodiscard]] bool is_alone() const { return geometry_.use_count() == 1; }
+  // Sends what differs between two poses of one mesh: from now on this is `now`. is_alone().
+  void move(const MeshPose& before, const Mesh& now);
+
   void draw() const { geometry_->triangles.draw(); }
   // Sets the buffers of the program in use, on texture units from `first_unit` on; returns the next free one.
   int bind(const gl::Program& program, int first_unit) const;
@@ -46,12 +51,15 @@ class GpuMesh {
     gl::Mesh triangles;
     gl::TextureBuffer corners, triangle_materials, positions, normals;
   };
-  std::shared_ptr<const Geometry> geometry_;
+  std::shared_ptr<Geometry> geometry_;
   gl::TextureBuffer materials_, backs_;
   std::array<Share, kBackfaces.size()> passed_backs_;
   GpuMaps maps_;
   float z_near_;
 };
+
+// Whether both are poses of one mesh.
+[[nodiscard]] bool are_poses_of_one(const Mesh& a, const Mesh& b);
 
 // Whether the meshes differ only in materials and maps, as after an edit.
 [[nodiscard]] bool has_same_geometry(const Mesh& a, const Mesh& b);

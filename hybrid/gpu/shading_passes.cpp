@@ -9,7 +9,10 @@ namespace pinocchio {
 void ShadingPasses::composite(const Inputs& inputs, LightSet lights, const Traced& traced,
                               const gl::Framebuffer& target) {
   Definitions definitions = definitions_of(inputs, traced);
-  if (inputs.lights.any_size()) definitions.emplace_back("HAS_SIZED_LIGHTS");
+  if (inputs.lights.any_size()) {
+    definitions.emplace_back("HAS_SIZED_LIGHTS");
+    if (inputs.options.glossy == Glossy::sampled) definitions.emplace_back("HAS_SAMPLED_LOBES");
+  }
   if (lights == LightSet::free) definitions.emplace_back("FREE_LIGHTS_ONLY");
   if (inputs.scene.environment) {
     definitions.emplace_back("HAS_ENVIRONMENT");

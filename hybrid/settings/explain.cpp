@@ -76,6 +76,15 @@ std::string why_reflection(const SceneStats& stats, const Settings& s) {
          (stats.transmits() ? "mirrors or refracts" : "mirrors");
 }
 
+std::string why_sky(const Settings& s) {
+  if (s.environment_light == EnvironmentMethod::sampled)
+    return "the environment lights by samples: exact in the mean, with noise";
+  return "the environment lights by means, without noise; it casts " +
+         (s.sky_occlusion > 0 ? "shadows by " + plural(s.sky_occlusion, "ray") + " a point"
+                              : std::string("no shadows")) +
+         ", and rough surfaces mirror " + (s.glossy == Glossy::sampled ? "the scene by samples" : "it alone");
+}
+
 std::string why_depth(const SceneStats& stats, const Settings& s) {
   const std::string bounces = plural(s.depth, "bounce");
   if (s.depth < stats.useful_depth) return bounces + ": as many as requested";
@@ -116,6 +125,7 @@ std::vector<std::string> explain(const SceneStats& stats, const Settings& s) {
   if (s.uses_gpu()) lines.push_back(why_primary(stats, s));
   lines.push_back(why_mask(stats, s));
   lines.push_back(why_reflection(stats, s));
+  if (stats.environment && s.environment_strength > 0.0f && s.reflects()) lines.push_back(why_sky(s));
   if (s.reflects()) lines.push_back(why_depth(stats, s));
   if (s.mask_bits > 0) lines.push_back(why_rays(s));
   if (s.traces()) lines.push_back(why_threads(s));

@@ -178,6 +178,19 @@ constexpr std::array kTable{
                                     "rotation of the environment about the upward axis, degrees"),
     field<&S::environment_strength>("environment_strength", from_to(0, 1e6), "1",
                                     "factor of the environment's light; 0: no environment"),
+    field<&S::environment_light>("environment_light", one_of(kEnvironmentMethodNames),
+                                 "sampled; prefiltered for the studio",
+                                 "how the environment lights surfaces: sampled, exact with many samples; "
+                                 "prefiltered, by means, without noise "
+                                 "and without shadows of the sky (docs/environment.md)"),
+    field<&S::glossy>(
+        "glossy", one_of(kGlossyNames), "sampled; sharp where the environment is prefiltered",
+        "what rough surfaces mirror: sampled, all that their lobes see; sharp, an image that fades "
+        "out with roughness, without noise"),
+    field<&S::sky_occlusion>(
+        "sky_occlusion", from_to(0, 64), "0; 8 for the studio",
+        "shadow rays at each point that hide a prefiltered environment, about the surface's "
+        "normal; 0: it casts no shadows"),
     field<&S::terminator>(
         "terminator", one_of(kTerminatorNames), terminator_name(kUsualTerminator),
         "where a coarse mesh's shading normals face a light and its facets do not: off: dark; "

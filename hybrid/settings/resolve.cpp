@@ -65,6 +65,11 @@ Expected<Settings> resolve(const Settings& settings, const SceneStats& stats, co
                        std::to_string(kMaxCastingLights),
                    "let some not cast (extras.pinocchio.castsShadow, or --light x,y,z,intensity,nocast)");
   Settings s = settings;
+  if (stats.studio) {
+    s.environment_light.fill(EnvironmentMethod::prefiltered);
+    s.sky_occlusion.fill(8);
+  }
+  if (s.environment_light == EnvironmentMethod::prefiltered) s.glossy.fill(Glossy::sharp);
   s.id_bits.fill(stats.triangles < kMost16BitIds ? 16 : 32);
   s.mask_bits.fill(MaskImage::bits_for(stats.casting_lights));
   fill_depth(stats, s);

@@ -3,8 +3,11 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <span>
 
 #include "core/scene/light_reach.h"
+#include "core/scene/pose/mesh_pose.h"
+#include "pinocchio/studio.h"
 
 namespace pinocchio {
 namespace {
@@ -14,48 +17,38 @@ double area_of(const Mesh& mesh, const glm::uvec3& t) {
   return 0.5 * glm::length(glm::cross(b - a, c - a));
 }
 
-// Finds how often light can be mirrored, from all mirrors.
-class MirrorWalk {
- public:
-  // moves: mirrors in one plane may leave it later
-  MirrorWalk(const Mesh& mesh, const Bounds& bounds, bool moves)
-      : mesh_(mesh), slack_(1e-7 * static_cast<double>(bounds.diagonal())), flat_(!moves) {}
-
-  void add(const glm::uvec3& t, const Material& m, bool see_through) {
-    const bool unlimited = see_through || m.fresnel || m.is_microfacet();
-    const float most = std::max({m.reflectance.x, m.reflectance.y, m.reflectance.z});
-    most_ = std::max(most_, unlimited ? 1.0 : static_cast<double>(most));
-    if (flat_) flat_ = !see_through && in_plane(t);
-  }
-
-  [[nodiscard]] int useful_depth() const {
-    if (flat_) return 1;  // a ray from a plane does not meet it again
-    if (most_ >= 1.0) return kMostBounces;
-    const double bounces = std::log(static_cast<double>(kThroughputCutoff)) / std::log(most_);
-    return std::clamp(static_cast<int>(bounces), 1, kMostBounces);
-  }
-
- private:
-  // Whether the triangle lies in the plane of the first triangle with an area.
-  bool in_plane(const glm::uvec3& t) {
-    const glm::dvec3 a(mesh_.positions[t.x]), b(mesh_.positions[t.y]), c(mesh_.positions[t.z]);
-    if (n_ == glm::dvec3(0.0)) {
-      const glm::dvec3 n = glm::cross(b - a, c - a);
-      if (glm::length(n) == 0.0) return true;
-      n_ = glm::normalize(n);
-      d_ = glm::dot(n_, a);
+// Whether the triangles all lie in the plane of the first that has an area: a ray from it does not meet it
+// again.
+bool lie_in_one_plane(const Mesh& mesh, std::span<const std::uint32_t> triangles) {
+  const double slack = 1e-7 * static_cast<double>(mesh.bounds().diagonal());
+  glm::dvec3 n(0.0);
+  double d = 0.0;
+  for (const std::uint32_t triangle : triangles) {
+    const glm::uvec3& t = mesh.triangles[triangle];
+    const glm::dvec3 a(mesh.positions[t.x]), b(mesh.positions[t.y]), c(mesh.positions[t.z]);
+    if (n == glm::dvec3(0.0)) {
+      const glm::dvec3 normal = glm::cross(b - a, c - a);
+      if (glm::length(normal) == 0.0) continue;
+      n = glm::normalize(normal);
+      d = glm::dot(n, a);
     }
-    const auto off = [&](const glm::dvec3& p) { return std::abs(glm::dot(n_, p) - d_); };
-    return std::max({off(a), off(b), off(c)}) <= slack_;
+    const auto off = [&](const glm::dvec3& p) { return std::abs(glm::dot(n, p) - d); };
+    if (!(std::max({off(a), off(b), off(c)}) <= slack)) return false;
   }
+  return true;
+}
 
-  const Mesh& mesh_;
-  double slack_;
-  double most_ = 0.0;
-  bool flat_;
-  glm::dvec3 n_{0.0};
-  double d_ = 0.0;
-};
+// The most light that a mirror of the material returns.
+double most_mirrored(const Material& m, bool see_through) {
+  if (see_through || m.fresnel || m.is_microfacet()) return 1.0;
+  return static_cast<double>(std::max({m.reflectance.x, m.reflectance.y, m.reflectance.z}));
+}
+
+int depth_of_mirrors(double most) {
+  if (most >= 1.0) return kMostBounces;
+  const double bounces = std::log(static_cast<double>(kThroughputCutoff)) / std::log(most);
+  return std::clamp(static_cast<int>(bounces), 1, kMostBounces);
+}
 
 void note(const MaterialMaps& maps, SceneStats& stats) {
   stats.textures = stats.textures || std::ranges::any_of(maps.uses(), &TextureUse::used);
@@ -86,47 +79,102 @@ std::vector<bool> used_materials(const Mesh& mesh) {
 }  // namespace
 
 SceneStats analyze(const Scene& scene) {
+  return PoseStats().of(scene);
+}
+
+SceneStats PoseStats::of(const Scene& scene) {
   const Mesh& mesh = *scene.mesh;
-  SceneStats stats;
-  stats.triangles = mesh.triangles.size();
-  stats.bounds = mesh.bounds();
-  const bool sampled = takes_samples(scene);
-  recount_lights(scene, stats);
+  const std::shared_ptr<const MeshPose>& pose = mesh.pose();
+  const bool sampled = takes_samples(scene), moves = scene.animation != nullptr;
+  const bool known = pose && pose_ && pose_->is_of_same_mesh(*pose) && sampled == sampled_ && moves == moves_;
+  if (!known) {
+    sampled_ = sampled;
+    moves_ = moves;
+    look_at_materials(mesh);
+  }
+  stats_.bounds = mesh.bounds();
+  recount_lights(scene, stats_);
+  if (stats_.mirrors) {
+    add_areas(mesh, known ? pose_.get() : nullptr);
+    stats_.useful_depth =
+        !moves && !sees_through_ && lie_in_one_plane(mesh, mirroring_) ? 1 : depth_of_mirrors(most_);
+  }
+  pose_ = pose;
+  return stats_;
+}
+
+// What all poses have in common.
+void PoseStats::look_at_materials(const Mesh& mesh) {
+  stats_ = {};
+  stats_.triangles = mesh.triangles.size();
+  stats_.useful_depth = 0;
+  most_ = 0.0;
+  sees_through_ = false;
+  mirroring_.clear();
+  kinds_.assign(mesh.materials.size(), Kind::plain);
   const std::vector<bool> used = used_materials(mesh);
   for (std::size_t m = 0; m < used.size(); ++m) {
     if (!used[m]) continue;
     const Material& material = mesh.materials[m];
-    if (material.maps >= 0) note(mesh.maps[static_cast<std::size_t>(material.maps)], stats);
-    stats.mirrors = stats.mirrors || mirrors(material, sampled) || sees_through(mesh, material);
-  }
-  if (!stats.mirrors) {
-    stats.useful_depth = 0;
-    return stats;
-  }
-  double all = 0.0, mirroring = 0.0, transmitting = 0.0;
-  MirrorWalk walk(mesh, stats.bounds, scene.animation != nullptr);
-  // A triangle without an area may have one at another time.
-  const double least_area = scene.animation ? std::numeric_limits<double>::min() : 0.0;
-  for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
-    const Material& material = mesh.materials[mesh.triangle_materials[i]];
-    const double area = std::max(area_of(mesh, mesh.triangles[i]), least_area);
-    all += area;
+    if (material.maps >= 0) note(mesh.maps[static_cast<std::size_t>(material.maps)], stats_);
     const bool see_through = sees_through(mesh, material);
-    if (!see_through && !mirrors(material, sampled)) continue;
-    mirroring += area;
-    if (see_through) transmitting += area;
-    walk.add(mesh.triangles[i], material, see_through);
+    if (!see_through && !mirrors(material, sampled_)) continue;
+    kinds_[m] = see_through ? Kind::see_through : Kind::mirror;
+    stats_.mirrors = true;
+    sees_through_ = sees_through_ || see_through;
+    most_ = std::max(most_, most_mirrored(material, see_through));
   }
-  if (all > 0.0) stats.mirror_share = mirroring / all;
-  if (all > 0.0) stats.transmitting_share = transmitting / all;
-  stats.useful_depth = walk.useful_depth();
-  return stats;
+  if (!stats_.mirrors) return;
+  for (std::size_t i = 0; i < mesh.triangles.size(); ++i)
+    if (kinds_[mesh.triangle_materials[i]] != Kind::plain)
+      mirroring_.push_back(static_cast<std::uint32_t>(i));
+}
+
+PoseStats::Areas PoseStats::areas_of(const Mesh& mesh, std::size_t first, std::size_t last) const {
+  // A triangle without an area may have one at another time.
+  const double least_area = moves_ ? std::numeric_limits<double>::min() : 0.0;
+  Areas sum;
+  for (std::size_t i = first; i < last; ++i) {
+    const Kind kind = kinds_[mesh.triangle_materials[i]];
+    const double area = std::max(area_of(mesh, mesh.triangles[i]), least_area);
+    sum.all += area;
+    if (kind != Kind::plain) sum.mirroring += area;
+    if (kind == Kind::see_through) sum.transmitting += area;
+  }
+  return sum;
+}
+
+// `before`: the pose of the areas that are known; null: none.
+void PoseStats::add_areas(const Mesh& mesh, const MeshPose* before) {
+  static const std::vector<NodePlace> kNoNodes;
+  const std::vector<NodePlace>& nodes = mesh.pose() ? mesh.pose()->nodes : kNoNodes;
+  if (!before) {
+    nodes_.assign(nodes.size(), {});
+    others_ = {};
+    std::size_t next = 0;
+    for (const NodePlace& node : nodes) {
+      if (node.triangles == 0) continue;
+      others_ += areas_of(mesh, next, node.first_triangle);
+      next = std::size_t{node.first_triangle} + node.triangles;
+    }
+    others_ += areas_of(mesh, next, mesh.triangles.size());
+  }
+  Areas sum = others_;
+  for (std::size_t n = 0; n < nodes.size(); ++n) {
+    const NodePlace& node = nodes[n];
+    if (node.triangles > 0 && !(before && node.same_as(before->nodes[n])))
+      nodes_[n] = areas_of(mesh, node.first_triangle, std::size_t{node.first_triangle} + node.triangles);
+    sum += nodes_[n];
+  }
+  stats_.mirror_share = sum.all > 0.0 ? sum.mirroring / sum.all : 0.0;
+  stats_.transmitting_share = sum.all > 0.0 ? sum.transmitting / sum.all : 0.0;
 }
 
 void recount_lights(const Scene& scene, SceneStats& stats) {
   stats.lights = static_cast<int>(scene.lights.size());
   stats.casting_lights = stats.idle_lights = 0;
   stats.environment = scene.environment != nullptr;
+  stats.studio = has_studio_light(scene);
   for (const Light& light : scene.lights) {
     if (!may_reach(light, scene)) {
       ++stats.idle_lights;

@@ -76,12 +76,16 @@ SHARED real lobe_share(ShadingParams m, real n_dot_v) {
 
 SHARED real layer_fresnel(ShadingParams m, real fifth) { return m.layer.x + (m.layer.y - m.layer.x) * fifth; }
 
-// The factor of the matt part so that lobe and matt part return no more than all light from all around. The mean of
-// (1 - V.H)^5 over that light is a polynomial within 1e-4.
-SHARED real matt_limit(ShadingParams m, real n_dot_v) {
+// The share of light from all around that reaches the matt part. The mean of (1 - V.H)^5 over that light is a polynomial
+// within 1e-4.
+SHARED real mean_below(ShadingParams m, real n_dot_v) {
   real x = 1.0f - n_dot_v;
-  real mean_fifth = x * (0.0044f + x * (0.0257f * x - 0.002f));
-  real matt = kPi * brightest(m.diffuse) * (1.0f - layer_fresnel(m, mean_fifth));
+  return 1.0f - layer_fresnel(m, x * (0.0044f + x * (0.0257f * x - 0.002f)));
+}
+
+// The factor of the matt part so that lobe and matt part return no more than all light from all around.
+SHARED real matt_limit(ShadingParams m, real n_dot_v) {
+  real matt = kPi * brightest(m.diffuse) * mean_below(m, n_dot_v);
   return min((1.0f - lobe_share(m, n_dot_v)) / max(matt, 1e-6f), 1.0f);
 }
 

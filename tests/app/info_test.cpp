@@ -57,7 +57,7 @@ TEST_F(InfoTest, PlanIsExplainedALineAChoice) {
        {"ids of 16 bits", "shadow mask of 1 bit a pixel: 1 light casts", "8 bounces: as many as requested"})
     EXPECT_NE(result.out.find(words), std::string::npos) << words << "\n" << result.out;
   write("t.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
-  const nlohmann::json json = nlohmann::json::parse(run("info --plan --json t.obj").out);
+  const nlohmann::json json = nlohmann::json::parse(run("info --plan --json --studio off t.obj").out);
   EXPECT_EQ(json["plan"]["mask_bits"], 1);  // of the default light, as the verbs that draw give it
   EXPECT_EQ(json["plan"]["reflection"], "none");
   EXPECT_FALSE(json["why"].empty());

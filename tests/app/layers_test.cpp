@@ -213,11 +213,12 @@ TEST(Layers, PicturesAreReadAndWrittenByCodecsAlone) {
           << file;
 }
 
-// The table of light kinds is in light.h. Beside it, only what computes the light of a kind names kinds.
+// The table of light kinds is in light.h. Beside it, only what computes the light of a kind names kinds, and
+// the studio, which makes a light.
 TEST(Layers, LightKindsAreListedOnce) {
   const std::regex kKind("Light::Kind::[a-z]|\"(directional|rectangle)\"");
   const std::set<std::string> kCompute{"light.h", "surface.cpp", "reference_lobe.cpp",
-                                       "reference_shading.cpp"};
+                                       "reference_shading.cpp", "studio.cpp"};
   for (const char* floor : {"app", "core", "gl", "hybrid", "python"})
     for (const fs::path& file : sources(kRoot / floor))
       EXPECT_TRUE(kCompute.count(file.filename().string()) || !std::regex_search(text_of(file), kKind))

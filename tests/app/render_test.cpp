@@ -74,8 +74,8 @@ TEST_F(RenderTest, WritesEveryChannelAndTheFigures) {
   EXPECT_GT(buffers["reflection"], 0);
   EXPECT_LT(buffers["reflection"], 80 * 60 * 6);  // half RGB, where there is some
   EXPECT_EQ(figures["latency"]["frames"], 0);
-  for (const char* stage :
-       {"raster", "readback", "trace_shadow", "trace_reflection", "upload", "composite", "present"})
+  for (const char* stage : {"pose", "trees", "raster", "readback", "trace_shadow", "trace_reflection",
+                            "upload", "composite", "present"})
     for (const char* p : {"p50", "p95", "p99"})
       EXPECT_TRUE(figures["stages"][stage]["ms"][p].is_number()) << stage;
   for (const char* kind : {"primary", "shadow", "reflection", "refraction"})

@@ -1,10 +1,12 @@
 // What nobody set is the least that draws the scene exactly.
 #include "hybrid/settings/resolve.h"
 
+#include <array>
 #include <cmath>
+#include <glm/gtc/matrix_transform.hpp>
 
 #include "hybrid/exchange/channels.h"
-
+#include "pinocchio/nodes.h"
 #include "tests/support/scenes.h"
 
 namespace pinocchio {
@@ -195,6 +197,35 @@ TEST(SceneStats, DepthThatIsWorthFollowing) {
   EXPECT_EQ(analyze(Scene(flat)).useful_depth, 1);  // no mirror sees another
   flat.positions[3].y = 0.01f;
   EXPECT_EQ(analyze(Scene(flat)).useful_depth, kMostBounces);
+}
+
+// A mirror beside another in its plane, and turned out of it; lights and areas as of each pose alone.
+TEST(SceneStats, OfPosesAreThoseOfEachAlone) {
+  MeshData square;
+  add_triangle(square, {0, 0, 0}, {1, 0, 0}, {0, 0, -1});
+  square.materials[0].reflectance = glm::vec3(1.0f);
+  const Scene mirror{square};
+  square.materials[0].reflectance = glm::vec3(0.0f);
+  const Scene wall{std::move(square)};
+  const glm::mat4 one(1.0f), beside = glm::translate(one, {3, 0, 0}),
+                             turned = glm::rotate(beside, 1.0f, {1, 0, 0}),
+                             large = glm::scale(turned, glm::vec3(2.0f));
+  const std::array parts{Part{"a", mirror}, Part{"b", mirror, beside}, Part{"wall", wall, turned}};
+  const Scene scene = assembled(parts).value();
+  PoseStats poses;
+  (void)poses.of(scene);
+  std::vector<int> depths;
+  for (const glm::mat4& place : {beside, turned, large, beside}) {
+    const Scene now = posed(scene, std::array{NodeTransform{1, place}}).value();
+    const SceneStats stats = poses.of(now), alone = analyze(now);
+    EXPECT_EQ(stats.mirror_share, alone.mirror_share);
+    EXPECT_EQ(stats.useful_depth, alone.useful_depth);
+    EXPECT_EQ(stats.bounds.hi, alone.bounds.hi);
+    EXPECT_EQ(stats.triangles, 3u);
+    EXPECT_NEAR(stats.mirror_share, place == large ? 5.0 / 6.0 : 2.0 / 3.0, 1e-6);
+    depths.push_back(stats.useful_depth);
+  }
+  EXPECT_EQ(depths, (std::vector<int>{1, kMostBounces, kMostBounces, 1}));
 }
 
 }  // namespace

@@ -278,7 +278,7 @@ TEST(Processors, OfEachStageInEachMode) {
     const Settings s = with({{"visibility", mode.visibility}, {"composite", mode.composite}});
     EXPECT_EQ(name_of(Stage::raster, s), mode.raster);
     EXPECT_EQ(name_of(Stage::composite, s), mode.picture);
-    for (const Stage stage : {Stage::trace_shadow, Stage::trace_reflection})
+    for (const Stage stage : {Stage::pose, Stage::trees, Stage::trace_shadow, Stage::trace_reflection})
       EXPECT_EQ(name_of(stage, s), "cpu");
     for (const Stage stage : {Stage::readback, Stage::upload, Stage::present})
       EXPECT_EQ(name_of(stage, s), "none");

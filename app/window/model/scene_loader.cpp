@@ -22,9 +22,7 @@ SceneLoader::News SceneLoader::read(const DrawOptions& options, pinocchio::Progr
   scene.lights.insert(scene.lights.end(), options.lights.begin(), options.lights.end());
   if (!options.quiet) {
     for (const Warning& warning : warnings) news.warnings.push_back(warning.message());
-    if (scene.lights.empty() && !scene.environment)
-      news.warnings.push_back(scene.source +
-                              " has no light; a default one is used (add one with --light x,y,z)");
+    if (scene.lights.empty() && !scene.environment) news.warnings.push_back(assumed_light(scene, options));
   }
   light_if_dark(scene, silent);
   news.stats = analyze(scene);

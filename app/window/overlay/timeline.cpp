@@ -43,8 +43,9 @@ ImU32 color_of(Lane lane, std::uint64_t frame, float alpha) {
 void draw_span(const Chart& chart, const FrameRecord& record, Stage stage, Lane lane) {
   const Span& span = record[stage];
   if (span.end_s <= span.begin_s || span.end_s <= chart.begin_s) return;
-  // The readback of one frame overlaps the next one's: each has its half of the row.
-  const bool travels = stage == Stage::readback;
+  // The readback of one frame overlaps the next one's, and a pose is made while another is traced: each has
+  // its half of the row.
+  const bool travels = stage == Stage::readback || stage == Stage::pose || stage == Stage::trees;
   const float height = (travels ? 0.5f : 1.0f) * (chart.row_height - 4.0f);
   const float top = travels && record.number % 2 == 1 ? height : 0.0f;
   const ImVec2 lo(chart.x(span.begin_s), chart.y(lane) + 2.0f + top);
@@ -107,7 +108,8 @@ Lane lane_of(Stage stage, const Settings& settings) {
 
 const char* stage_label(Stage stage) {
   constexpr std::array<const char*, kStageNames.size()> kLabels{
-      "rasterize", "read back", "trace shadows", "trace reflections", "upload", "composite", "present"};
+      "pose",   "build trees", "rasterize", "read back", "trace shadows", "trace reflections",
+      "upload", "composite",   "present"};
   return kLabels[static_cast<std::size_t>(stage)];
 }
 

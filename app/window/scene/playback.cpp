@@ -59,9 +59,10 @@ void Playback::begin_pose(const Settings& tree_settings) {
   posed_from_ = model_.scene;
   model_.playback.posed_s = model_.playback.time_s;
   progress_ = std::make_shared<pinocchio::Progress>();
-  pose_ = run_aside(kForFrames,
-                    [scene = posed_from_, time_s = model_.playback.time_s, progress = progress_,
-                     tree_settings] { return PoseAhead(scene, progress.get()).at(time_s, tree_settings); });
+  pose_ = run_aside(kForFrames, [scene = posed_from_, time_s = model_.playback.time_s, progress = progress_,
+                                 before = model_.tracer, tree_settings] {
+    return PoseAhead(scene, progress.get(), before).at(time_s, tree_settings);
+  });
 }
 
 void Playback::cancel() {

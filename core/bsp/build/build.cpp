@@ -35,23 +35,23 @@ void for_each_chunk(Workers& workers, std::size_t n, const Body& body) {
 
 // Prepares the triangles, in the scene's order, and the references that the tree is built from. A triangle
 // without area is left out of the tree: no ray meets it.
-References prepare(const Mesh& mesh, Workers& workers, BspTree& tree,
+References prepare(const BuildMesh& mesh, Workers& workers, BspTree& tree,
                    AlignedVector<ProjectedTriangle>& triangles) {
-  const std::size_t n = mesh.triangles.size();
+  const std::size_t n = mesh.size();
   triangles.resize(n);
   References all(n);
   for_each_chunk(workers, n, [&](std::size_t first, std::size_t last) {
     for (std::size_t i = first; i < last; ++i) {
-      const glm::uvec3& t = mesh.triangles[i];
+      const std::uint32_t id = mesh.id(i);
+      const glm::uvec3& t = mesh.triangles[id];
       const glm::vec3 &a = mesh.positions[t.x], &b = mesh.positions[t.y], &c = mesh.positions[t.z];
-      const auto id = static_cast<std::uint32_t>(i);
       triangles[i] = ProjectedTriangle::from(a, b, c, id);
       all[i] = BuildReference::of(id, {glm::min(glm::min(a, b), c), glm::max(glm::max(a, b), c)});
     }
   });
   std::size_t kept = 0;
   for (std::size_t i = 0; i < n; ++i) {
-    if (std::isnan(triangles[i].n_u)) continue;
+    if (!mesh.keeps_flat && std::isnan(triangles[i].n_u)) continue;
     if (kept != i) all[kept] = all[i];
     ++kept;
     tree.bounds.add(all[i].bounds());
@@ -100,15 +100,6 @@ BspNode moved(const BspNode& n, const Placed& to) {
                      : BspNode::inner(n.axis(), n.split(), n.first_child() - 2 + to.first_node);
 }
 
-CornerTriangle corner_triangle(const Mesh& mesh, std::uint32_t id) {
-  CornerTriangle result;
-  result.id = id;
-  for (int corner = 0; corner < 3; ++corner)
-    for (int axis = 0; axis < 3; ++axis)
-      result.corners[corner][axis] = mesh.positions[mesh.triangles[id][corner]][axis];
-  return result;
-}
-
 void copy(const Placed& from, BspTree& tree) {
   const Subtree& part = *from.part;
   std::transform(part.nodes.begin() + 2, part.nodes.end(), tree.nodes.begin() + from.first_node,
@@ -130,38 +121,27 @@ void join(const TreeTop& top, const Layout& layout, Workers& workers, BspTree& t
   }
 }
 
-// Stores the triangles in the order in which leaves refer to them. References, the scene's ids until then,
-// become indices in that order.
-void store_triangles(const Mesh& mesh, const AlignedVector<ProjectedTriangle>& prepared, Workers& workers,
-                     BspTree& tree) {
+// The order in which leaves refer to the triangles, as numbers from the mesh's first_id() on. References,
+// such numbers until then, become indices in that order.
+std::vector<std::uint32_t> order_triangles(const BuildMesh& mesh, BspTree& tree) {
   constexpr std::uint32_t kNone = 0xffffffffu;
-  std::vector<std::uint32_t> place(prepared.size(), kNone), order;
-  order.reserve(prepared.size());
+  const std::uint32_t first = mesh.first_id();
+  std::vector<std::uint32_t> place(mesh.end_id() - first, kNone), order;
+  order.reserve(mesh.size());
   for (std::uint32_t& reference : tree.references) {
-    std::uint32_t& at = place[reference];
+    std::uint32_t& at = place[reference - first];
     if (at == kNone) {
       at = static_cast<std::uint32_t>(order.size());
       order.push_back(reference);
     }
     reference = at;
   }
-  const bool corners = tree.test == TriangleTest::moeller_trumbore || tree.test == TriangleTest::watertight;
-  if (!corners) reserve_large(tree.triangles, order.size());
-  tree.corner_triangles.resize(corners ? order.size() : 0);
-  tree.triangles.resize(corners ? 0 : order.size());
-  for_each_chunk(workers, order.size(), [&](std::size_t first, std::size_t last) {
-    for (std::size_t i = first; i < last; ++i)
-      if (corners)
-        tree.corner_triangles[i] = corner_triangle(mesh, order[i]);
-      else
-        tree.triangles[i] = prepared[order[i]];
-  });
+  return order;
 }
 
-void build_nodes(const Mesh& mesh, const BuildOptions& options, Workers& workers, BspTree& tree) {
-  AlignedVector<ProjectedTriangle> triangles;
-  References all = prepare(mesh, workers, tree, triangles);
-  const int max_depth = depth_of(options, mesh.triangles.size());
+void build_nodes(const BuildMesh& mesh, const BuildOptions& options, Workers& workers, References all,
+                 BspTree& tree) {
+  const int max_depth = depth_of(options, mesh.size());
   const CostModel model(options, tree.bounds, options.lights);
   TreeTop top = build_top(mesh, options, model, max_depth, std::move(all), tree.bounds, workers);
 
@@ -184,10 +164,10 @@ void build_nodes(const Mesh& mesh, const BuildOptions& options, Workers& workers
   Layout layout(queue, top.nodes.size());
   for (std::size_t i = 0; i < roots.size(); ++i) layout.place(i, roots[i]);
   join(top, layout, workers, tree);
-  store_triangles(mesh, triangles, workers, tree);
 }
 
-// A ray computes its entry into the box with three roundings; flat scenes need some thickness, too.
+}  // namespace
+
 void widen(Bounds& bounds) {
   if (bounds.empty()) return;
   const glm::vec3 largest = glm::max(glm::abs(bounds.lo), glm::abs(bounds.hi));
@@ -196,17 +176,36 @@ void widen(Bounds& bounds) {
   bounds.hi += margin;
 }
 
-}  // namespace
-
-BspTree build_tree(const Mesh& mesh, const BuildOptions& options) {
+BspTree build_tree(const BuildMesh& mesh, const BuildOptions& options) {
   begin_phase(options.progress, "build", 1.0);
   BspTree tree;
   Workers workers(options.threads);
-  tree.test = options.triangle_test;
-  tree.positions = mesh.positions;
-  tree.corners = mesh.triangles;
-  build_nodes(mesh, options, workers, tree);
+  AlignedVector<ProjectedTriangle> prepared;
+  build_nodes(mesh, options, workers, prepare(mesh, workers, tree, prepared), tree);
+  tree.exact_bounds = tree.bounds;
   widen(tree.bounds);
+  const std::vector<std::uint32_t> order = order_triangles(mesh, tree);
+  tree.test = options.triangle_test;
+  tree.make_room(order.size());
+  for_each_chunk(workers, order.size(), [&](std::size_t first, std::size_t last) {
+    for (std::size_t i = first; i < last; ++i)
+      if (tree.has_corners())
+        tree.corner_triangles[i] = CornerTriangle::from(mesh.positions, mesh.triangles[order[i]], order[i]);
+      else
+        tree.triangles[i] =
+            prepared[mesh.ids ? std::ranges::lower_bound(*mesh.ids, order[i]) - mesh.ids->begin() : order[i]];
+  });
+  return tree;
+}
+
+BspTree build_nodes(const BuildMesh& mesh, const BuildOptions& options, std::vector<std::uint32_t>& order) {
+  BspTree tree;
+  Workers workers(mesh.size() < kChunk ? 1 : options.threads);
+  AlignedVector<ProjectedTriangle> prepared;
+  build_nodes(mesh, options, workers, prepare(mesh, workers, tree, prepared), tree);
+  tree.exact_bounds = tree.bounds;
+  widen(tree.bounds);
+  order = order_triangles(mesh, tree);
   return tree;
 }
 

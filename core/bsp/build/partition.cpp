@@ -32,7 +32,7 @@ Halves count_halves(std::span<const BuildReference> references, const SplitPlane
   return n;
 }
 
-Halves partition(const Mesh& mesh, std::span<const BuildReference> references, const Bounds& box,
+Halves partition(const BuildMesh& mesh, std::span<const BuildReference> references, const Bounds& box,
                  const SplitPlane& plane, BuildReference* low, BuildReference* high) {
   Halves n;
   for (const BuildReference& at : references) {

@@ -5,7 +5,7 @@
 
 #include "core/bsp/build/build_reference.h"
 #include "core/bsp/build/split.h"
-#include "pinocchio/mesh.h"
+#include "core/bsp/build_mesh.h"
 
 namespace pinocchio {
 
@@ -28,7 +28,7 @@ struct Halves {
 
 // Writes the references of the children of node `box`, in order, and returns how many. Both arrays hold no
 // less than count_halves says, and one more; `high` may be where `references` are.
-Halves partition(const Mesh& mesh, std::span<const BuildReference> references, const Bounds& box,
+Halves partition(const BuildMesh& mesh, std::span<const BuildReference> references, const Bounds& box,
                  const SplitPlane& plane, BuildReference* low, BuildReference* high);
 
 }  // namespace pinocchio

@@ -65,7 +65,7 @@ class SubtreeBuilder {
  public:
   // Upper children of large nodes go to `queue` instead of being built. How large is a constant: the parts
   // are the same for any number of threads.
-  SubtreeBuilder(const Mesh& mesh, const BuildOptions& options, const CostModel& model, int max_depth,
+  SubtreeBuilder(const BuildMesh& mesh, const BuildOptions& options, const CostModel& model, int max_depth,
                  PartQueue& queue)
       : mesh_(mesh), options_(options), model_(model), max_depth_(max_depth), queue_(queue) {}
 
@@ -77,7 +77,7 @@ class SubtreeBuilder {
   [[nodiscard]] std::optional<SplitPlane> choose(std::span<const BuildReference> references,
                                                  const OpenNode& node);
 
-  const Mesh& mesh_;
+  const BuildMesh& mesh_;
   const BuildOptions& options_;
   const CostModel& model_;
   int max_depth_;

@@ -68,7 +68,7 @@ void choose_by_median(Level& level, SplitRule rule, Workers& workers) {
 
 class TopBuilder {
  public:
-  TopBuilder(const Mesh& mesh, const BuildOptions& options, const CostModel& model, int max_depth,
+  TopBuilder(const BuildMesh& mesh, const BuildOptions& options, const CostModel& model, int max_depth,
              Workers& workers)
       : mesh_(mesh), options_(options), model_(model), max_depth_(max_depth), workers_(workers) {}
 
@@ -164,7 +164,7 @@ class TopBuilder {
     });
   }
 
-  const Mesh& mesh_;
+  const BuildMesh& mesh_;
   const BuildOptions& options_;
   const CostModel& model_;
   int max_depth_;
@@ -174,7 +174,7 @@ class TopBuilder {
 
 }  // namespace
 
-TreeTop build_top(const Mesh& mesh, const BuildOptions& options, const CostModel& model, int max_depth,
+TreeTop build_top(const BuildMesh& mesh, const BuildOptions& options, const CostModel& model, int max_depth,
                   References all, const Bounds& bounds, Workers& workers) {
   return TopBuilder(mesh, options, model, max_depth, workers).build(std::move(all), bounds);
 }

@@ -14,7 +14,7 @@ struct TreeTop {
 
 // Splits the root level by level until each node is small enough for one thread. All threads work on all
 // nodes of a level. The result does not depend on the number of threads.
-[[nodiscard]] TreeTop build_top(const Mesh& mesh, const BuildOptions& options, const CostModel& model,
+[[nodiscard]] TreeTop build_top(const BuildMesh& mesh, const BuildOptions& options, const CostModel& model,
                                 int max_depth, References all, const Bounds& bounds, Workers& workers);
 
 }  // namespace pinocchio

@@ -32,22 +32,22 @@ class Environment {
   [[nodiscard]] const std::string& source() const { return source_; }  // the file's path
   [[nodiscard]] bool is_black() const { return rows_.back() <= 0.0f; }
 
-  // A place in the picture (u to the right and v down, 0 to 1), chosen by brightness from two numbers in [0,
-  // 1), and its density per unit of u times v. Not for black environments.
-  struct Place {
-    glm::vec2 uv;
-    float density;
+  // What places are chosen by, so that bright ones are likelier. Cumulative light, from 0 to 1: up to the end
+  // of each row, and within each row up to the end of each texel. A texel has the interpolated light of its
+  // area, weighted by its row's share of the sphere. Guides: where the search for a number k / n among n ends
+  // begins, likewise.
+  struct Shares {
+    const float *rows, *columns;
+    const std::uint32_t *row_guides, *column_guides;
   };
-  [[nodiscard]] Place sample(const glm::vec2& numbers) const;
-  [[nodiscard]] float density(const glm::vec2& uv) const;
+  [[nodiscard]] Shares shares() const {
+    return {rows_.data(), columns_.data(), row_guides_.data(), column_guides_.data()};
+  }
 
  private:
   Image<glm::vec3> radiance_;
   std::string source_;
-  // Cumulative light, from 0 to 1: up to the end of each row, and within each row up to the end of each
-  // texel. A texel has the interpolated light of its area, weighted by its row's share of the sphere.
   std::vector<float> rows_, columns_;
-  // Where the search for a number k / n among n ends begins, likewise.
   std::vector<std::uint32_t> row_guides_, column_guides_;
 };
 

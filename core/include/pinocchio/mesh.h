@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <glm/glm.hpp>
+#include <memory>
 #include <vector>
 
 #include "pinocchio/bounds.h"
@@ -32,10 +33,15 @@ struct MeshData {
 // The material's maps. If it has none, empty ones are added.
 [[nodiscard]] MaterialMaps& make_maps(MeshData& mesh, Material& material);
 
+struct MeshPose;
+
 // A finished mesh with its bounds. It is const wherever it is shared.
 struct Mesh : MeshData {
   Mesh() = default;
   explicit Mesh(MeshData data);
+  // A copy, which may be edited, is no pose of the original's.
+  Mesh(const Mesh& other);
+  Mesh& operator=(const Mesh&) = delete;
 
   [[nodiscard]] const Bounds& bounds() const { return bounds_; }
   [[nodiscard]] const Material& material_of(std::uint32_t triangle) const {
@@ -47,8 +53,13 @@ struct Mesh : MeshData {
     return index < 0 ? nullptr : &maps[static_cast<std::size_t>(index)];
   }
 
+  // Where its nodes are (core/scene/pose/mesh_pose.h); null: posed() did not make it.
+  [[nodiscard]] const std::shared_ptr<const MeshPose>& pose() const { return pose_; }
+
  private:
+  friend class PosePool;  // sets both for meshes whose nodes it has moved
   Bounds bounds_;
+  std::shared_ptr<const MeshPose> pose_;
 };
 
 }  // namespace pinocchio

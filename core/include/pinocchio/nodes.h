@@ -37,6 +37,9 @@ struct Attached {
   T at_rest;
 };
 
+class PosePool;
+[[nodiscard]] std::shared_ptr<PosePool> make_pose_pool();
+
 // The data that does not change while nodes move: all vertices of the mesh, each in its node's space.
 struct RestPose {
   std::vector<glm::vec3> positions, normals;
@@ -44,7 +47,8 @@ struct RestPose {
   std::vector<Attached<Light>> lights;
   std::vector<Attached<Camera>> cameras;
   std::vector<Skin> skins;
-  std::vector<Deformation> deformations;  // at most one for each node, in the order of nodes
+  std::vector<Deformation> deformations;              // at most one for each node, in the order of nodes
+  std::shared_ptr<PosePool> pool = make_pose_pool();  // poses that nobody holds any more, for the next ones
 };
 
 // A scene's nodes in their current pose. They share no triangles, and the ranges rise with the index.
@@ -75,8 +79,10 @@ struct NodeWeights {
 
 // The scene with these nodes and their children moved: a new mesh of the same triangles, materials and
 // textures, with the same triangle ids. Nodes that do not move keep every bit, and rounding does not add up
-// over poses. Costs a copy of the mesh without its textures; its tracer must be built again. Errors: no such
-// node, another number of weights than of targets, or a transform that makes numbers that are not finite.
+// over poses. The first poses cost a copy of the mesh without its textures. Later ones take the mesh of an
+// earlier pose that nobody holds any more, and cost what differs. A tracer of the new mesh is needed; it
+// keeps the trees of the one before (pinocchio/tracer.h). Errors: no such node, another number of weights
+// than of targets, or a transform that makes numbers that are not finite.
 [[nodiscard]] Expected<Scene> posed(const Scene& scene, std::span<const NodeTransform> transforms,
                                     std::span<const NodeWeights> weights = {});
 

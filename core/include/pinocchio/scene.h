@@ -13,6 +13,7 @@
 #include "pinocchio/light.h"
 #include "pinocchio/mesh.h"
 #include "pinocchio/nodes.h"
+#include "pinocchio/sampled_light.h"
 
 namespace pinocchio {
 
@@ -58,9 +59,10 @@ struct Scene {
 // Lights that reach nothing do not cast, so that they take no mask slot.
 void drop_idle_casters(Scene& scene);
 
-// Whether a picture of the scene needs many samples: the scene has lights with a size, glossy mirrors or an
-// environment.
-[[nodiscard]] bool takes_samples(const Scene& scene);
+// Whether a picture of the scene by these methods needs many samples: the scene has lights with a size,
+// glossy mirrors or an environment.
+[[nodiscard]] bool takes_samples(const Scene& scene, EnvironmentMethod sky = EnvironmentMethod::sampled,
+                                 Glossy glossy = Glossy::sampled);
 
 // The first camera named `name`; null: none.
 [[nodiscard]] const Camera* find_camera(const Scene& scene, const std::string& name);

@@ -13,13 +13,15 @@
 #include "pinocchio/mesh.h"
 #include "pinocchio/ray.h"
 #include "pinocchio/ray_offset.h"
+#include "pinocchio/scene.h"
 
 namespace pinocchio {
 
-struct BspTree;
 struct LaneSteps;
+struct MotionState;
 struct PassedBacks;
 struct RayColumns;
+struct SceneTrees;
 
 // The instruction set, which sets the width of ray packets.
 enum class Isa { scalar, sse4, avx2, avx512 };
@@ -34,7 +36,7 @@ inline constexpr std::array<std::string_view, 4> kIsaNames{"scalar", "sse4", "av
 // The widest that this processor supports: wider was faster in every measurement (docs/measurements.md).
 [[nodiscard]] Isa default_isa();
 
-// A shared mesh and its tree: closest hits and occlusion of any number of rays. Rays need not be coherent;
+// A shared mesh and its trees: closest hits and occlusion of any number of rays. Rays need not be coherent;
 // neighbours in the span with similar directions are traced as one packet. A ray's hit does not depend, to
 // the last bit, on its neighbours or the packet's width. Of triangles at the same distance, the one with the
 // lowest id is hit. A ray with NaN or infinity in its origin or direction, or with a zero direction, hits
@@ -46,6 +48,11 @@ class Tracer {
   // processor does not support it.
   explicit Tracer(std::shared_ptr<const Mesh> mesh, const BuildOptions& options = {},
                   std::optional<Isa> isa = {}, OffsetMethod offset = OffsetMethod::error_bound);
+  // The same for a scene's mesh. `before`: a tracer of another pose of the scene (posed, at_time), with the
+  // same options; null: none. Its trees are kept where nodes stand still or moved without changing their
+  // shape. Nodes get trees of their own when they move for the second time. No hit depends on it.
+  Tracer(const Scene& scene, const BuildOptions& options, std::optional<Isa> isa, OffsetMethod offset,
+         const Tracer* before);
 
   // hits[i]: the closest hit of ray i, t in lengths of the ray's direction. hits.size() == rays.size().
   // `backfaces`: the backs that the rays pass; without, they are stopped by both sides.
@@ -63,14 +70,19 @@ class Tracer {
   [[nodiscard]] const LaneSteps& steps() const;
 
   [[nodiscard]] const Mesh& mesh() const { return *mesh_; }
-  [[nodiscard]] const BspTree& tree() const { return *tree_; }
+  [[nodiscard]] const SceneTrees& trees() const { return *trees_; }
   [[nodiscard]] Isa isa() const { return isa_; }
   // How rays that start on its surfaces keep off them.
   [[nodiscard]] const RayOffset& offset() const { return offset_; }
+  // When its trees were built, seconds of the steady clock.
+  [[nodiscard]] double build_begin_s() const { return build_begin_s_; }
+  [[nodiscard]] double build_end_s() const { return build_end_s_; }
 
  private:
+  double build_begin_s_, build_end_s_ = 0.0;
   std::shared_ptr<const Mesh> mesh_;
-  std::shared_ptr<const BspTree> tree_;
+  std::shared_ptr<const MotionState> motion_;  // for the next pose's tracer; null: the scene has no nodes
+  std::shared_ptr<const SceneTrees> trees_;
   Isa isa_;
   RayOffset offset_;
 };

@@ -1,9 +1,13 @@
 #include "pinocchio/nodes.h"
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
+#include <limits>
 #include <map>
 
+#include "core/base/clock.h"
+#include "core/scene/pose/mesh_pose.h"
 #include "core/scene/pose/pose.h"
 #include "pinocchio/load.h"
 #include "pinocchio/ray.h"
@@ -151,40 +155,115 @@ void place_attached(const RestPose& rest, const AttachedPlaces& places, int node
   place_attached(rest.cameras, places.cameras, node, now, scene.cameras);
 }
 
-Expected<Scene> placed_anew(const Scene& scene, std::shared_ptr<const NodeTree> tree,
-                            const NodeFlags& flagged) {
-  const std::vector<glm::mat4> before = world_matrices(scene.nodes->nodes), now = world_matrices(tree->nodes);
-  std::vector<bool> moved(now.size()), deforms(now.size(), false);
-  for (std::size_t n = 0; n < now.size(); ++n)
-    moved[n] = (!flagged.empty() && flagged[n]) || now[n] != before[n];
-  Scene result = scene;
-  MeshData mesh = *scene.mesh;
-  const RestPose& rest = *tree->rest;
-  const AttachedPlaces places = attached_places(rest, scene);
+namespace {
+
+// What becomes of each node.
+struct Changes {
+  std::vector<bool> moved, deforms;   // by node; only `moved` ones are placed, with what is attached to them
+  std::vector<std::size_t> deformed;  // the deformations that are computed again
+
+  // The nodes whose vertices are placed.
+  [[nodiscard]] std::vector<bool> placed(const RestPose& rest) const {
+    std::vector<bool> nodes(moved.size());
+    for (std::size_t n = 0; n < nodes.size(); ++n) nodes[n] = moved[n] && !deforms[n];
+    for (const std::size_t d : deformed) nodes[rest.deformations[d].node] = true;
+    return nodes;
+  }
+};
+
+Changes changes_of(const Scene& scene, const NodeTree& tree, const NodeFlags& flagged,
+                   const std::vector<glm::mat4>& before, const std::vector<glm::mat4>& now) {
+  Changes changes{std::vector<bool>(now.size()), std::vector<bool>(now.size(), false), {}};
+  const auto is_flagged = [&](std::size_t n) { return !flagged.empty() && flagged[n]; };
+  for (std::size_t n = 0; n < now.size(); ++n) changes.moved[n] = is_flagged(n) || now[n] != before[n];
+  const RestPose& rest = *tree.rest;
   for (std::size_t d = 0; d < rest.deformations.size(); ++d) {
     const Deformation& deformation = rest.deformations[d];
     const auto n = static_cast<std::size_t>(deformation.node);
-    deforms[n] = true;
+    changes.deforms[n] = true;
     const std::vector<int> own{deformation.node};
     const std::vector<int>& follows = deformation.skin < 0 ? own : rest.skins[deformation.skin].joints;
-    const bool stays = tree->weights[d] == scene.nodes->weights[d] && !(!flagged.empty() && flagged[n]) &&
-                       std::ranges::none_of(follows, [&](int node) { return moved[node]; });
-    if (stays) continue;
-    const Deformer deformer(*tree, d, now);
-    deformer.place(mesh);
-    if (deformer.mirrors() != Deformer(*scene.nodes, d, before).mirrors()) turn_around(tree->nodes[n], mesh);
+    const bool stays = tree.weights[d] == scene.nodes->weights[d] && !is_flagged(n) &&
+                       std::ranges::none_of(follows, [&](int node) { return changes.moved[node]; });
+    if (!stays) changes.deformed.push_back(d);
   }
+  return changes;
+}
+
+// Whether a check of the whole scene would pass the node's vertices.
+bool is_sound(const Node& node, const MeshData& mesh) {
+  const auto within = [](const glm::vec3& v, float most) {
+    return (std::abs(v.x) <= most) & (std::abs(v.y) <= most) & (std::abs(v.z) <= most);
+  };
+  constexpr float kLargest = std::numeric_limits<float>::max();
+  bool sound = true;
+  for (std::size_t v = node.first_vertex; v < std::size_t{node.first_vertex} + node.vertices; ++v) {
+    sound &= within(mesh.positions[v], kFarthest) & within(mesh.normals[v], kLargest);
+    if (!mesh.tangents.empty())
+      sound &= within(glm::vec3(mesh.tangents[v]), kLargest) & (std::abs(mesh.tangents[v].w) <= kLargest);
+  }
+  return sound;
+}
+
+}  // namespace
+
+Expected<Scene> placed_anew(const Scene& scene, std::shared_ptr<const NodeTree> tree,
+                            const NodeFlags& flagged) {
+  const double begin_s = now_s();
+  const std::vector<glm::mat4> before = world_matrices(scene.nodes->nodes), now = world_matrices(tree->nodes);
+  const Changes changes = changes_of(scene, *tree, flagged, before, now);
+  const RestPose& rest = *tree->rest;
+  const std::vector<bool> placed = changes.placed(rest);
+  const std::shared_ptr<const MeshPose> was = rest.pool->pose_of(scene);
+  std::unique_ptr<Mesh> mesh =
+      was ? rest.pool->like(scene, *was, placed) : std::make_unique<Mesh>(*scene.mesh);
+  Scene result = scene;
+  const AttachedPlaces places = attached_places(rest, scene);
+  for (std::size_t n = 0; n < now.size(); ++n)
+    if (changes.moved[n]) place_attached(rest, places, static_cast<int>(n), Placement(now[n]), result);
+  auto pose = was ? std::make_shared<MeshPose>(*was) : nullptr;
+  std::vector<std::size_t> nodes;  // those with vertices to place
+  std::size_t vertices = 0;
   for (std::size_t n = 0; n < now.size(); ++n) {
-    if (!moved[n]) continue;
-    const Placement placement(now[n]);
-    place_attached(rest, places, static_cast<int>(n), placement, result);
-    if (deforms[n]) continue;
-    place_vertices(tree->nodes[n], placement, rest, mesh);
-    if (placement.mirrors() != Placement(before[n]).mirrors()) turn_around(tree->nodes[n], mesh);
+    if (!placed[n] || tree->nodes[n].vertices == 0) continue;
+    nodes.push_back(n);
+    vertices += tree->nodes[n].vertices;
   }
-  result.mesh = std::make_shared<const Mesh>(std::move(mesh));
+  std::atomic<bool> sound = true;
+  rest.pool->for_each(nodes.size(), vertices, [&](std::size_t i) {
+    const std::size_t n = nodes[i];
+    const Node& node = tree->nodes[n];
+    if (changes.deforms[n]) {
+      const auto d = static_cast<std::size_t>(
+          std::ranges::find(rest.deformations, static_cast<int>(n), &Deformation::node) -
+          rest.deformations.begin());
+      const Deformer deformer(*tree, d, now);
+      deformer.place(*mesh);
+      if (deformer.mirrors() != Deformer(*scene.nodes, d, before).mirrors()) turn_around(node, *mesh);
+    } else {
+      const Placement placement(now[n]);
+      place_vertices(node, placement, rest, *mesh);
+      if (placement.mirrors() != Placement(before[n]).mirrors()) turn_around(node, *mesh);
+    }
+    if (!pose) return;
+    NodePlace& place = pose->nodes[n];
+    place.number = PosePool::next_number();
+    place.rigid = !changes.deforms[n];
+    place.world = now[n];
+    place.bounds = bounds_of(place, *mesh);
+    if (!is_sound(node, *mesh)) sound = false;
+  });
   result.nodes = std::move(tree);
-  if (const Expected<void> checked = check_scene(result); !checked) return Unexpected(checked.error());
+  if (!pose) {
+    result.mesh = std::make_shared<const Mesh>(MeshData(std::move(*mesh)));
+    if (const Expected<void> checked = check_scene(result); !checked) return Unexpected(checked.error());
+    return result;
+  }
+  pose->begin_s = begin_s;
+  pose->end_s = now_s();
+  result.mesh = rest.pool->finish(std::move(mesh), std::move(pose));
+  if (!sound)
+    if (const Expected<void> checked = check_scene(result); !checked) return Unexpected(checked.error());
   return result;
 }
 

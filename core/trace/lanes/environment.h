@@ -5,29 +5,20 @@
 #include "core/trace/lanes/environment_light.h"
 #include "core/trace/lanes/lobe.h"
 #include "core/trace/lanes/maps.h"
+#include "core/trace/lanes/prefiltered.h"
 #include "core/trace/lanes/scatter.h"
 #include "core/trace/lanes/terminator.h"
 
 namespace pinocchio::PINOCCHIO_LANES {
 namespace {
 
-// The factor on light from all around. Where Phong's coefficients are not a BRDF's, the lights hold their 1 /
-// pi, and other light needs it here.
-inline Float brdf_share(const LaneMaterial& m) {
-  return select(Mask::from_bits(m.brdf), Float(1.0f), Float(0.31830988618f));
-}
-
 // A shadow ray towards one direction of the environment, with the light that it brings.
 [[gnu::noinline]] void sample_environment(const Bounce& bounce, ShadowStarts& starts, const LaneSurface& s,
                                           const LaneMaterial& m, const Vec& throughput, const LaneLobe& lobe,
                                           const SampledPixel& sampling, Int pixel, Mask lanes) {
-  SampleLanes packet{};
-  const vec2 numbers = sample_2d(sampling, bounce.dimension + shared::kEnvironmentDimension);
-  numbers.x.store(packet.number[0]);
-  numbers.y.store(packet.number[1]);
-  bounce.environment->sample(lanes.bits(), packet);
-  const Vec direction = load(packet.direction);
-  const Incident incident{direction, load(packet.light), direction, Float::load(packet.density)};
+  const vec2 number = sample_2d(sampling, bounce.dimension + shared::kEnvironmentDimension);
+  const EnvironmentSample sample = sampled_environment(*bounce.environment, number, lanes);
+  const Incident incident{sample.direction, sample.light, sample.direction, sample.density};
   Mask lit = lanes & starts.faces_light(incident.to_light) & (incident.radiance != Vec(0.0f));
   if (lit.bits() == 0) return;
   Vec carried =
@@ -43,12 +34,10 @@ inline Float brdf_share(const LaneMaterial& m) {
 // A shadow ray along the lobe where no ray follows it, with the environment's light.
 [[gnu::noinline]] void sky_along_lobe(const Bounce& bounce, const LaneSurface& s, const LaneLobe& lobe,
                                       const Vec& own, Int pixel) {
-  SampleLanes packet{};
-  store(lobe.direction, packet.direction);
-  bounce.environment->look_up(lobe.lanes.bits(), packet);
-  const Float other = Float::load(packet.density);
+  const Float other = density_of_light(*bounce.environment, lobe.direction, lobe.lanes);
   const Float counts = select(Float(0.0f) < lobe.density, lobe.density / (lobe.density + other), Float(1.0f));
-  const Vec carried = own * lobe.throughput * load(packet.light) * counts;
+  const Vec light = light_from_environment(*bounce.environment, lobe.direction, lobe.lanes);
+  const Vec carried = own * lobe.throughput * light * counts;
   const Mask lit = lobe.lanes & (carried != Vec(0.0f));
   if (lit.bits() != 0)
     append(offset_origin(s, lobe.direction), lobe.direction, carried, pixel, lit, *bounce.sky);
@@ -72,6 +61,70 @@ inline Float brdf_share(const LaneMaterial& m) {
   }
   follow(s, direction, light, pixel, lanes & (Float(0.0f) < dot(direction, s.n_geometric)),
          bounce.options->throughput_cutoff, *bounce.diffuse, media ? &media->here : nullptr);
+}
+
+// Adds the lanes' light to their pixels, lane after lane.
+inline void add_light(const Vec& light, const std::uint32_t* pixel, Mask lanes, float* radiance) {
+  alignas(64) float rgb[3][kWidth];
+  light.x.store(rgb[0]);
+  light.y.store(rgb[1]);
+  light.z.store(rgb[2]);
+  for (unsigned waiting = lanes.bits(); waiting != 0; waiting &= waiting - 1) {
+    const int lane = __builtin_ctz(waiting);
+    for (std::size_t c = 0; c < 3; ++c) radiance[4 * pixel[lane] + c] += rgb[c][lane];
+  }
+}
+
+// Adds the environment's light along rays that hit nothing. counts_samples: where the ray starts, a sample of
+// the environment may have found the same light.
+void add_environment(const EnvironmentLight& environment, bool counts_samples, const RayQueue& rays,
+                     float* radiance) {
+  const Float zero(0.0f), one(1.0f);
+  for (std::size_t i = 0; i < rays.size; i += kWidth) {
+    const Mask missed = lanes_from(i, rays.size) & (Int::load(rays.triangle + i) == Int(kNoTriangle));
+    if (!any(missed)) continue;
+    const Vec direction = Vec::load(rays.direction, i);
+    Vec light = light_from_environment(environment, direction, missed);
+    if (counts_samples && rays.density) {
+      const Float density = Float::load(rays.density + i);
+      const Mask both = missed & (zero < density);
+      if (any(both)) {
+        const Float other = density_of_light(environment, direction, both);
+        light = light * select(both, density / (density + other), one);
+      }
+    }
+    add_light(Vec::load(rays.light, i) * light, rays.pixel + i, missed, radiance);
+  }
+}
+
+// Adds the environment to the tile's pixels that show nothing; alpha stays 0.
+void paint_background(const EnvironmentLight& environment, const shared::ViewParams& view,
+                      const PixelBox& tile, Image<glm::vec4>& color) {
+  static_assert(kWidth <= 16);
+  alignas(64) static constexpr std::uint32_t kLane[16] = {0, 1, 2,  3,  4,  5,  6,  7,
+                                                          8, 9, 10, 11, 12, 13, 14, 15};
+  const Vec corner(view.corner), step_x(view.step_x), step_y(view.step_y);
+  for (int y = tile.lo.y; y < tile.hi.y; ++y)
+    for (int x = tile.lo.x; x < tile.hi.x; x += kWidth) {
+      glm::vec4* const pixels = &color.at(x, y);
+      const int count = tile.hi.x - x < kWidth ? tile.hi.x - x : kWidth;
+      unsigned empty = 0;
+      for (int i = 0; i < count; ++i) empty |= (pixels[i].a == 0.0f ? 1u : 0u) << i;
+      if (empty == 0) continue;
+      const Float column =
+          Float(view.first.x) + to_float(Int::load(kLane) + Int(static_cast<std::uint32_t>(x)));
+      const Float row(view.first.y + static_cast<float>(y));
+      const Vec light = light_from_environment(environment, corner + step_x * column + step_y * row,
+                                               Mask::from_bits(empty));
+      alignas(64) float rgb[3][kWidth];
+      light.x.store(rgb[0]);
+      light.y.store(rgb[1]);
+      light.z.store(rgb[2]);
+      for (; empty != 0; empty &= empty - 1) {
+        const int i = __builtin_ctz(empty);
+        pixels[i] = glm::vec4(rgb[0][i], rgb[1][i], rgb[2][i], 0.0f);
+      }
+    }
 }
 
 }  // namespace

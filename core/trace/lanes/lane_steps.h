@@ -22,7 +22,7 @@ namespace pinocchio {
 inline constexpr int kTileBits = 5;
 static_assert(1 << kTileBits == TileGrid::kTileSize);
 
-class EnvironmentLight;
+struct EnvironmentLight;
 
 // The scene's arrays as the lanes read them.
 struct SceneArrays {
@@ -60,7 +60,8 @@ struct Bounce {
   bool samples = false;
   glm::uvec2 corner{0};
   std::uint32_t scale = 1, dimension = 0;
-  const EnvironmentLight* environment = nullptr;  // lights the points; null: none does
+  const EnvironmentLight* environment = nullptr;  // its samples light the points; null: none do
+  const EnvironmentLight* prefiltered = nullptr;  // its means light the points; null: none do
   bool lobes = false;  // directions of glossy lobes are sampled; else mirrors are sharp
 
   // Outputs. Queues have room for all rays of the step; null: not wanted.
@@ -73,6 +74,7 @@ struct Bounce {
   RayQueue *mirrored = nullptr, *refracted = nullptr, *straight = nullptr;
   RayQueue* diffuse = nullptr;  // towards light from other surfaces
   float* radiance = nullptr;    // a tile's pixels, RGBA
+  float* traced = nullptr;      // likewise, for `prefiltered`
 };
 
 // The points that rays see, a column each, with room behind the last ray for a packet; null: not wanted.
@@ -108,6 +110,13 @@ struct LaneSteps {
   // Writes what the camera's rays see. All have hit. Reads the bounce's scene and footprint.
   void (*visible_points)(const Bounce& bounce, const glm::vec3& axis, const RayQueue& rays,
                          const SeenColumns& to);
+  // Adds the environment's light along rays that hit nothing to the radiance of the rays' pixels, RGBA.
+  // counts_samples: where a ray with a density starts, a sample of the environment may have found the light.
+  void (*add_environment)(const EnvironmentLight& environment, bool counts_samples, const RayQueue& rays,
+                          float* radiance);
+  // Adds the environment to the tile's pixels with alpha 0.
+  void (*paint_background)(const EnvironmentLight& environment, const shared::ViewParams& view,
+                           const PixelBox& tile, Image<glm::vec4>& color);
 };
 
 enum class Isa;  // pinocchio/tracer.h

@@ -63,5 +63,11 @@ struct LaneMaterial : ShadingParams {
   }
 };
 
+// The factor on light from all around. Where Phong's coefficients are not a BRDF's, the lights hold their 1 /
+// pi, and other light needs it here.
+inline Float brdf_share(const LaneMaterial& m) {
+  return select(Mask::from_bits(m.brdf), Float(1.0f), Float(0.31830988618f));
+}
+
 }  // namespace
 }  // namespace pinocchio::PINOCCHIO_LANES

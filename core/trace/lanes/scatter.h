@@ -119,7 +119,7 @@ template <bool kSampled>
   Vec through = refracted(s, eta), direction = mirrored(s), mirror_share(zero);
   Mask mirrors = lanes, thin = Mask::from_bits(0);
   if constexpr (kSampled) {
-    if ((m.glossy & lanes.bits()) != 0)
+    if ((m.glossy & lanes.bits()) != 0 && bounce.options->glossy == Glossy::sampled)
       direction = spread(s, direction, m.gloss,
                          sample_2d(*sampling, bounce.dimension + shared::kMirrorDimension), mirrors);
     const Mask rough = lobe.lanes & (Float(shared::kLeastAlpha) < m.ggx_alpha);
@@ -161,7 +161,7 @@ inline void scatter(const LaneSurface& s, const LaneMaterial& m, const Vec& thro
     Mask mirrors = opaque;
     Vec direction = mirrored(s);
     if constexpr (kSampled)
-      if ((m.glossy & opaque.bits()) != 0)
+      if ((m.glossy & opaque.bits()) != 0 && bounce.options->glossy == Glossy::sampled)
         direction = spread(s, direction, m.gloss,
                            sample_2d(*sampling, bounce.dimension + shared::kMirrorDimension), mirrors);
     follow(s, direction, own * (m.reflectance + (Vec(one) - m.reflectance) * grazing), pixel, mirrors,

@@ -38,6 +38,9 @@ inline Vec pick(Mask m, const Vec& yes, const Vec& no) {
 inline Float pow(Float x, Float y) {
   return power(x, y);
 }
+inline Vec mix(const Vec& a, const Vec& b, Float share) {
+  return a * (Float(1.0f) - share) + b * share;
+}
 inline Float length(const Vec& v) {
   return sqrt(dot(v, v));
 }

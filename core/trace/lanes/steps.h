@@ -50,18 +50,6 @@ void keep_hits(RayQueue& rays) {
   rays.size = kept;
 }
 
-// Adds the lanes' light to their pixels, lane after lane.
-inline void add_light(const Vec& light, const std::uint32_t* pixel, Mask lanes, float* radiance) {
-  alignas(64) float rgb[3][kWidth];
-  light.x.store(rgb[0]);
-  light.y.store(rgb[1]);
-  light.z.store(rgb[2]);
-  for (unsigned waiting = lanes.bits(); waiting != 0; waiting &= waiting - 1) {
-    const int lane = __builtin_ctz(waiting);
-    for (std::size_t c = 0; c < 3; ++c) radiance[4 * pixel[lane] + c] += rgb[c][lane];
-  }
-}
-
 // Shadow rays of `lanes` towards a light that casts. They carry `light`.
 inline void append_shadow_rays(const BounceLight& from, const ShadowStarts& starts, const Incident& incident,
                                const Vec& light, Int pixel, Mask lanes, const Bounce& bounce) {
@@ -173,7 +161,8 @@ template <bool kSampled>
 void bounce_packets(const Bounce& bounce, const RayQueue& rays) {
   const bool reads_material = bounce.adds_light || bounce.adds_ambient || bounce.mirrored ||
                               (bounce.visible && bounce.options->light_cutoff > 0.0f) ||
-                              bounce.scene.mesh != nullptr || bounce.environment || bounce.diffuse;
+                              bounce.scene.mesh != nullptr || bounce.environment || bounce.prefiltered ||
+                              bounce.diffuse;
   for (std::size_t i = 0; i < kTrianglesAhead; i += kWidth) fetch_triangles(bounce.scene, rays, i);
   for (std::size_t i = 0; i < kCornersAhead; i += kWidth) fetch_corners(bounce.scene, rays, i);
   for (std::size_t i = 0; i < rays.size; i += kWidth) {
@@ -221,6 +210,14 @@ void bounce_packets(const Bounce& bounce, const RayQueue& rays) {
     }
     const Vec certain = light_points<kSampled>(bounce, corners, s, m, own, lobe, samples, pixel, lanes);
     if (bounce.adds_light) add_light(own * certain, rays.pixel + i, lanes, bounce.radiance);
+    if (bounce.prefiltered) {
+      const SkyLight sky =
+          light_of_sky(*bounce.prefiltered, s, m, bounce.mirrored != nullptr, bounce.lobes, lanes);
+      if (bounce.options->sky_occlusion > 0)
+        hide_sky(bounce, s, sky, own, pixel, lanes);
+      else
+        add_light(own * (sky.matt + sky.mirrored), rays.pixel + i, lanes, bounce.traced);
+    }
     if constexpr (kSampled)
       if (lobe.lanes.bits() != 0) {
         light_along_lobe(bounce, s, lobe, own, pixel);
@@ -265,6 +262,7 @@ void visible_points(const Bounce& bounce, const glm::vec3& axis, const RayQueue&
 
 }  // namespace
 
-const LaneSteps kSteps{camera_rays, keep_hits, bounce_rays, visible_points};
+const LaneSteps kSteps{camera_rays,    keep_hits,       bounce_rays,
+                       visible_points, add_environment, paint_background};
 
 }  // namespace pinocchio::PINOCCHIO_LANES

@@ -5,6 +5,7 @@
 #include "core/shade/shared.h"
 #include "pinocchio/backfaces.h"
 #include "pinocchio/ray.h"
+#include "pinocchio/sampled_light.h"
 #include "pinocchio/terminator.h"
 
 namespace pinocchio {
@@ -26,7 +27,10 @@ struct TraceOptions {
   float texture_footprint = 1.0f;  // side of the square that textures are averaged over, pixels; 0: a point
   Terminator terminator = kUsualTerminator;
   Backfaces backfaces = Backfaces::automatic;  // which backs the camera's rays pass
-  glm::vec2 jitter{0.0f};       // View's: tells the samples of a pixel apart where they decide at random
+  EnvironmentMethod environment_light = EnvironmentMethod::sampled;
+  Glossy glossy = Glossy::sampled;
+  int sky_occlusion = 0;   // shadow rays about the normal for a prefiltered environment; 0: it casts none
+  glm::vec2 jitter{0.0f};  // View's: tells the samples of a pixel apart where they decide at random
   shared::Sampling sampling{};  // the sample of sized lights, rough mirrors and the environment
 
   friend bool operator==(const TraceOptions&, const TraceOptions&) = default;

@@ -56,27 +56,15 @@ void TileTracer::follow_mirrors(int bounce_count) {
       const bool of_camera = &queue == &rays_[kStraightFromCamera];
       if (of_camera && queue.size == 0) continue;
       find_hits(queue, generation, of_camera);
-      if (plan_->environment && (bounce_count == 0 || &queue != &rays_[kStraight])) add_environment(queue);
+      if (plan_->environment && (bounce_count == 0 || &queue != &rays_[kStraight]))
+        plan_->job.tracer.steps().add_environment(*plan_->environment, plan_->further.environment != nullptr,
+                                                  queue, &reflected_[0].x);
       plan_->job.tracer.steps().keep_hits(queue);
       bounce(step, generation, queue, next_, reflected_, of_camera);
     }
     fire_shadows(generation, reflected_);
     fire_at_environment(generation);
     std::swap(rays_, next_);
-  }
-}
-
-// Adds the environment's light along rays that hit nothing.
-void TileTracer::add_environment(const RayQueue& rays) {
-  for (std::size_t i = 0; i < rays.size; ++i) {
-    if (rays.triangle[i] != kNoTriangle) continue;
-    const glm::vec3 direction(rays.direction[0][i], rays.direction[1][i], rays.direction[2][i]);
-    glm::vec3 light = plan_->environment->radiance(direction);
-    // A sample of the environment where the ray starts may have found the same light.
-    const float density = rays.density && plan_->further.environment ? rays.density[i] : 0.0f;
-    if (density > 0.0f) light *= density / (density + plan_->environment->density(direction));
-    const glm::vec3 share(rays.light[0][i], rays.light[1][i], rays.light[2][i]);
-    reflected_[rays.pixel[i]] += glm::vec4(share * light, 0.0f);
   }
 }
 
@@ -119,16 +107,6 @@ void TileTracer::block_by_ways_up(const RayQueue& up, int generation) {
   plan_->job.tracer.occluded(up.columns(1.0f), up.size, up_blocked_.data());
   counts_.shadow += up.size;
   for (std::size_t i = 0; i < up.size; ++i) blocked_[up.pixel[i]] |= up_blocked_[i];
-}
-
-// Adds the environment where nothing is hit; alpha stays 0.
-void TileTracer::paint_background() const {
-  for (int y = tile_.lo.y; y < tile_.hi.y; ++y)
-    for (int x = tile_.lo.x; x < tile_.hi.x; ++x) {
-      glm::vec4& color = plan_->out.color->at(x, y);
-      if (color.a == 0.0f)
-        color = glm::vec4(plan_->environment->radiance(pixel_ray(plan_->view, x, y).direction), 0.0f);
-    }
 }
 
 }  // namespace pinocchio

@@ -61,13 +61,19 @@ TilePlan::TilePlan(const TraceJob& j, const TileOutputs& o)
   further.light_count = all_lights.size();
   further.ambient_light = job.scene.ambient_light;
   further.adds_ambient = further.adds_light = true;
-  further.samples = takes_samples(job.scene) || out.indirect > 0;
+  const bool microfacets = std::ranges::any_of(job.scene.mesh->materials, &Material::is_microfacet);
+  const bool sampled_lobes = job.options.glossy == Glossy::sampled;
+  further.samples =
+      takes_samples(job.scene, job.options.environment_light, job.options.glossy) || out.indirect > 0;
   further.attenuates = std::ranges::any_of(job.scene.mesh->materials, &Material::attenuates);
   further.scale = static_cast<std::uint32_t>(out.scale);
   if (job.scene.environment) environment.emplace(job.scene);
-  if (environment && environment->shines() && o.environment_light) further.environment = &*environment;
-  further.lobes = further.samples && (o.reflection || o.color || o.added) &&
-                  std::ranges::any_of(job.scene.mesh->materials, &Material::is_microfacet);
+  if (environment && environment->shines && o.environment_light) {
+    const bool sampled = job.options.environment_light == EnvironmentMethod::sampled;
+    if (!sampled) environment->prefiltered = prefiltered(job.scene.environment);
+    (sampled ? further.environment : further.prefiltered) = &*environment;
+  }
+  further.lobes = further.samples && sampled_lobes && microfacets && (o.reflection || o.color || o.added);
   visible = further;
   visible.footprint = &seen_footprint;
   visible.visible = true;

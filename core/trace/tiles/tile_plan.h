@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "core/shade/footprint.h"
-#include "core/trace/lanes/environment_light.h"
+#include "core/trace/lanes/environment_params.h"
 #include "core/trace/lanes/lane_steps.h"
 #include "core/trace/rays/passed_backs.h"
 #include "core/trace/tiles/trace_tiles.h"

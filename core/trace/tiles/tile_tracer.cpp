@@ -150,7 +150,9 @@ void TileTracer::make_room(std::size_t rays, Generation& next) {
   for (std::size_t i = 0; i < plan_->casting; ++i) shadow_[i].make_room(rays);
   // A sample of the environment, one along a lobe, and distant lights that the lobe meets.
   const std::size_t along_lobes = plan_->further.lobes ? plan_->sized_lights : 0;
-  sky_.make_room(rays * (plan_->further.lobes ? 2 + along_lobes : 1));
+  const std::size_t hiding =
+      plan_->further.prefiltered ? static_cast<std::size_t>(plan_->job.options.sky_occlusion) : 0;
+  sky_.make_room(rays * (plan_->further.lobes ? 2 + along_lobes + hiding : 1 + hiding));
   lobe_lights_.make_room(rays * along_lobes);
   if (plan_->out.indirect > 0) next_diffuse_.make_more_room(rays, extra);
   const std::size_t up = plan_->job.options.terminator == Terminator::turned_away ? rays : 0;
@@ -168,6 +170,7 @@ void TileTracer::bounce(Bounce step, int generation, const RayQueue& rays, Gener
   step.sky_ways_up = &sky_ways_up_;
   step.lobe_lights = &lobe_lights_;
   step.radiance = &radiance[0].x;
+  step.traced = &reflected_[0].x;
   if (step.mirrored) {
     step.mirrored = &next[kMirrored];
     step.refracted = &next[kRefracted];
@@ -187,9 +190,10 @@ void TileTracer::light_visible() {
   Bounce step = plan_->visible;
   step.mirrored = plan_->out.depth > 0 ? rays_.data() : nullptr;
   step.diffuse = plan_->out.indirect > 0 ? &next_diffuse_ : nullptr;
-  if (!step.mirrored && !step.diffuse && step.light_count == 0 && !step.adds_ambient && !step.environment)
+  if (!step.mirrored && !step.diffuse && step.light_count == 0 && !step.adds_ambient && !step.environment &&
+      !step.prefiltered)
     return;
-  reflects_ = step.environment || step.lobes;
+  reflects_ = step.environment || step.prefiltered || step.lobes;
   if (reflects_) reflected_.fill(glm::vec4(0.0f));
   bounce(step, 0, seen_, rays_, direct_, true);
   fire_shadows(0, direct_);
@@ -242,7 +246,8 @@ void TileTracer::write() const {
       for (std::size_t i = 0; i < width; ++i) of(out.added)[i] += glm::vec3(light(i));
     if (out.mask) out.mask->set_row(tile_.lo.x, y, std::span(mask_).subspan(row, width));
   }
-  if (out.color && plan_->environment) paint_background();
+  if (out.color && plan_->environment)
+    plan_->job.tracer.steps().paint_background(*plan_->environment, plan_->view, tile_, *out.color);
 }
 
 }  // namespace pinocchio

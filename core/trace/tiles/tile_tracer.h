@@ -34,8 +34,6 @@ class TileTracer {
   void follow();
   void follow_mirrors(int bounce);
   void follow_diffuse(int bounce);
-  void add_environment(const RayQueue& missed);
-  void paint_background() const;
   void bounce(Bounce step, int generation, const RayQueue& rays, Generation& next, Radiance& radiance,
               bool of_camera = false);
   [[nodiscard]] ExtraColumns extra_columns() const;

@@ -17,7 +17,7 @@ double edge_function(const glm::dvec3& p, const glm::dvec3& q) {
 
 }  // namespace
 
-bool meets_exactly(const BspTree& tree, std::uint32_t id, const float (&origin)[3],
+bool meets_exactly(const SceneTrees& scene, std::uint32_t id, const float (&origin)[3],
                    const float (&direction)[3], float& t) {
   const glm::dvec3 o(origin[0], origin[1], origin[2]), d(direction[0], direction[1], direction[2]);
   const glm::dvec3 size = glm::abs(d);
@@ -25,10 +25,10 @@ bool meets_exactly(const BspTree& tree, std::uint32_t id, const float (&origin)[
   const int kx = (kz + 1) % 3, ky = (kz + 2) % 3;
   const double shear_x = d[kx] / d[kz], shear_y = d[ky] / d[kz];
   const auto in_ray_frame = [&](std::uint32_t corner) {
-    const glm::dvec3 p = glm::dvec3(tree.positions[corner]) - o;
+    const glm::dvec3 p = glm::dvec3(scene.positions[corner]) - o;
     return glm::dvec3(p[kx] - shear_x * p[kz], p[ky] - shear_y * p[kz], p[kz]);
   };
-  const glm::uvec3& corners = tree.corners[id];
+  const glm::uvec3& corners = scene.corners[id];
   const glm::dvec3 a = in_ray_frame(corners.x), b = in_ray_frame(corners.y), c = in_ray_frame(corners.z);
   const double u = edge_function(c, b), v = edge_function(a, c), w = edge_function(b, a);
   const bool any_negative = u < 0.0 || v < 0.0 || w < 0.0;

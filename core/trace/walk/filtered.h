@@ -45,10 +45,10 @@ struct Filter {
 // The test of a packet's rays against one triangle.
 class FilteredTest {
  public:
-  FilteredTest(const BspTree& tree, const Packet& packet)
-      : tree_(tree), p_(packet), away_error_(Float(Filter::kTestError) * packet.reach) {}
+  FilteredTest(const SceneTrees& scene, const Packet& packet)
+      : scene_(scene), p_(packet), away_error_(Float(Filter::kTestError) * packet.reach) {}
 
-  static const ProjectedTriangle* stored(const BspTree& tree) { return tree.triangles.data(); }
+  static const ProjectedTriangle* stored(const StoredTriangles& of) { return of.triangles.data(); }
 
   [[gnu::always_inline]] inline Mask intersect(const ProjectedTriangle& tri, Mask lanes, Float& t) const {
     const Filter filter(DroppedRay(tri, p_), PlaneLanes(tri), p_.reach, away_error_, lanes);
@@ -72,13 +72,13 @@ class FilteredTest {
       if (!(asked >> lane & 1u)) continue;
       const float origin[3] = {o[0][lane], o[1][lane], o[2][lane]};
       const float direction[3] = {d[0][lane], d[1][lane], d[2][lane]};
-      if (!meets_exactly(tree_, id, origin, direction, exact_t[lane])) kept &= ~(1u << lane);
+      if (!meets_exactly(scene_, id, origin, direction, exact_t[lane])) kept &= ~(1u << lane);
     }
     t = Float::load(exact_t);
     return Mask::from_bits(kept);
   }
 
-  const BspTree& tree_;
+  const SceneTrees& scene_;
   const Packet& p_;
   Float away_error_;
 };

@@ -1,7 +1,7 @@
 // Part of walk/kernel.h.
 #pragma once
 
-#include "core/bsp/tree.h"
+#include "core/bsp/scene_trees.h"
 #include "core/trace/rays/passed_backs.h"
 #include "core/trace/walk/packet.h"
 
@@ -46,9 +46,9 @@ struct ClosestHits {
 template <int kPackets>
 struct ClosestFronts : ClosestHits<kPackets> {
   // The packets' rays are those from `first` on.
-  ClosestFronts(const Float (&t_max)[kPackets], const BspTree& tree, const RayColumns& rays,
+  ClosestFronts(const Float (&t_max)[kPackets], const SceneTrees& scene, const RayColumns& rays,
                 std::size_t first, const PassedBacks& backs)
-      : ClosestHits<kPackets>(t_max), tree_(tree), rays_(rays), first_(first), backs_(backs) {}
+      : ClosestHits<kPackets>(t_max), scene_(scene), rays_(rays), first_(first), backs_(backs) {}
 
   [[gnu::always_inline]] inline unsigned add(unsigned k, Mask lanes, Float t, std::uint32_t triangle) {
     Mask met = this->closer(k, lanes, t, triangle);
@@ -62,8 +62,8 @@ struct ClosestFronts : ClosestHits<kPackets> {
   // The lanes of packet k that run along the triangle's normal. The normal is scaled, as the product of short
   // or long edges would leave float's range.
   [[gnu::noinline]] Mask from_behind(unsigned k, std::uint32_t triangle) const {
-    const glm::uvec3& corners = tree_.corners.data()[triangle];
-    const glm::vec3* const positions = tree_.positions.data();
+    const glm::uvec3& corners = scene_.corners.data()[triangle];
+    const glm::vec3* const positions = scene_.positions.data();
     const glm::vec3 &a = positions[corners.x], &b = positions[corners.y], &c = positions[corners.z];
     const double ab[3] = {double{b.x} - a.x, double{b.y} - a.y, double{b.z} - a.z};
     const double ac[3] = {double{c.x} - a.x, double{c.y} - a.y, double{c.z} - a.z};
@@ -79,7 +79,7 @@ struct ClosestFronts : ClosestHits<kPackets> {
     return Float(0.0f) < along;
   }
 
-  const BspTree& tree_;
+  const SceneTrees& scene_;
   const RayColumns& rays_;
   std::size_t first_;
   PassedBacks backs_;

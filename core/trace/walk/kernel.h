@@ -22,19 +22,6 @@
 namespace pinocchio::PINOCCHIO_LANES {
 namespace {
 
-// Narrows [t_near, t_far] to the tree's box. min and max return their second operand for NaN, so a ray that
-// lies in a face of the box (0 * inf) leaves the interval unchanged.
-inline void enter_bounds(const Bounds& b, const Packet& p, const Octant& c, const bool (&negative)[3],
-                         Float& t_near, Float& t_far) {
-  for (int axis = 0; axis < 3; ++axis) {
-    const Float lo(b.lo[axis]), hi(b.hi[axis]);
-    const Float& first = negative[axis] ? hi : lo;
-    const Float& last = negative[axis] ? lo : hi;
-    t_near = max((first - p.o[axis]) * c.inverse[axis] * Float(kEarly), t_near);
-    t_far = min((last - p.o[axis]) * c.inverse[axis] * Float(kLate), t_far);
-  }
-}
-
 // Packets that traverse the tree together: each node is fetched and its branches are decided once for all of
 // them.
 template <int kPackets>
@@ -42,6 +29,32 @@ struct Group {
   Packet packets[kPackets];
   Octant octants[kPackets];
 };
+
+// Planes that are exactly where the rays meet them.
+struct ExactPlanes {
+  // When ray k may cross a plane of that axis at the earliest and at the latest; offset: from its origin.
+  [[gnu::always_inline]] inline void cross(int, int, Float offset, Float inverse, Float& early,
+                                           Float& late) const {
+    early = late = offset * inverse;
+  }
+};
+
+// Narrows [t_near, t_far] of packet k to the tree's box. min and max return their second operand for NaN, so
+// a ray that lies in a face of the box (0 * inf) leaves the interval unchanged.
+template <class Planes>
+inline void enter_bounds(const Bounds& b, const Packet& p, const Octant& c, const Planes& planes, int k,
+                         const bool (&negative)[3], Float& t_near, Float& t_far) {
+  for (int axis = 0; axis < 3; ++axis) {
+    const Float lo(b.lo[axis]), hi(b.hi[axis]);
+    const Float& first = negative[axis] ? hi : lo;
+    const Float& last = negative[axis] ? lo : hi;
+    Float early, late, unused;
+    planes.cross(k, axis, first - p.o[axis], c.inverse[axis], early, unused);
+    planes.cross(k, axis, last - p.o[axis], c.inverse[axis], unused, late);
+    t_near = max(early * Float(kEarly), t_near);
+    t_far = min(late * Float(kLate), t_far);
+  }
+}
 
 template <int kPackets>
 struct StackEntry {
@@ -53,9 +66,10 @@ struct StackEntry {
 // through. A lane of `lanes` lives while its interval within the node is not empty. `t_best`, which the leaf
 // may lower, ends the interval. `negative`: the signs of the lanes' common octant. Which leaves a lane visits
 // depends on its ray alone.
-template <int kPackets, class Leaf>
-inline void walk(const BspTree& tree, const Group<kPackets>& group, const bool (&negative)[3],
-                 const Mask (&lanes)[kPackets], const Float (&t_best)[kPackets], Leaf leaf) {
+template <int kPackets, class Planes, class Leaf>
+inline void walk(const BspTree& tree, const Group<kPackets>& group, const Planes& planes,
+                 const bool (&negative)[3], const Mask (&lanes)[kPackets], const Float (&t_best)[kPackets],
+                 Leaf leaf) {
   const BspNode* const nodes = tree.nodes.data();
   const std::uint32_t* const references = tree.references.data();
   Float t_near[kPackets], t_far[kPackets];
@@ -64,7 +78,7 @@ inline void walk(const BspTree& tree, const Group<kPackets>& group, const bool (
   for (int k = 0; k < kPackets; ++k) {
     t_near[k] = Float(0.0f);
     t_far[k] = t_best[k] * Float(kLate);
-    enter_bounds(tree.bounds, group.packets[k], group.octants[k], negative, t_near[k], t_far[k]);
+    enter_bounds(tree.bounds, group.packets[k], group.octants[k], planes, k, negative, t_near[k], t_far[k]);
     living[k] = (lanes[k] & (t_near[k] <= t_far[k])).bits();
     any |= living[k];
   }
@@ -80,15 +94,16 @@ inline void walk(const BspTree& tree, const Group<kPackets>& group, const bool (
         __builtin_prefetch(nodes + low);
         const std::uint32_t first = negative[axis] ? low + 1 : low, second = negative[axis] ? low : low + 1;
         const Float split(node.split());
-        Float t[kPackets];
+        Float early[kPackets], late[kPackets];
         // NaN (a ray that lies in the plane) must enter both sides, so the comparisons find the lanes that
         // may skip a side, not those that enter it.
         unsigned enter_first = 0, enter_second = 0;
 #pragma GCC unroll 4
         for (int k = 0; k < kPackets; ++k) {
-          t[k] = (split - group.packets[k].o[axis]) * group.octants[k].inverse[axis];
-          enter_first |= living[k] & ~(t[k] < t_near[k]).bits();
-          enter_second |= living[k] & ~(t_far[k] < t[k]).bits();
+          planes.cross(k, axis, split - group.packets[k].o[axis], group.octants[k].inverse[axis], early[k],
+                       late[k]);
+          enter_first |= living[k] & ~(late[k] < t_near[k]).bits();
+          enter_second |= living[k] & ~(t_far[k] < early[k]).bits();
         }
         if (enter_first == 0) {
           index = second;
@@ -104,9 +119,9 @@ inline void walk(const BspTree& tree, const Group<kPackets>& group, const bool (
           any = 0;
 #pragma GCC unroll 4
           for (int k = 0; k < kPackets; ++k) {
-            entry.t_near[k] = max(t[k] * Float(kEarly), t_near[k]);
+            entry.t_near[k] = max(early[k] * Float(kEarly), t_near[k]);
             entry.t_far[k] = t_far[k];
-            t_far[k] = min(t[k] * Float(kLate), t_far[k]);
+            t_far[k] = min(late[k] * Float(kLate), t_far[k]);
             living[k] = (lanes[k] & (t_near[k] <= t_far[k])).bits();
             any |= living[k];
           }
@@ -171,34 +186,57 @@ inline void fetch_ahead(const Stored* triangles, const std::uint32_t* of_leaf, s
   }
 }
 
+// Finds what those lanes of a group of packets, the rays from i on, hit in a tree. `group` has the rays where
+// the tree is, `tests` where the triangles are.
+template <class Test, class Found, int kPackets, class Planes>
+[[gnu::always_inline]] inline void hits_in_tree(const SceneTrees& scene, const BspTree& tree,
+                                                const StoredTriangles& stored, const Group<kPackets>& group,
+                                                const Planes& planes, const bool (&negative)[3],
+                                                const Mask (&lanes)[kPackets], const Test (&tests)[kPackets],
+                                                const RayColumns& rays, std::size_t i, Found& found) {
+  const auto* const triangles = Test::stored(stored);
+  walk(tree, group, planes, negative, lanes, found.t_best,
+       [&](const BspNode& leaf, unsigned(&open)[kPackets]) {
+         const std::uint32_t* const of_leaf = tree.references.data() + leaf.first_reference();
+         fetch_ahead(triangles, of_leaf, leaf.reference_count());
+         if (LeafLanes::is_cheaper<Test>(leaf.reference_count(), open))
+           return hits_by_ray(scene, stored, of_leaf, leaf.reference_count(), rays, i, open, found);
+         for (std::uint32_t r = 0; r < leaf.reference_count(); ++r) {
+           const auto& tri = triangles[of_leaf[r]];
+           for (int k = 0; k < kPackets; ++k) {
+             if (open[k] == 0) continue;
+             Float t;
+             const Mask inside = tests[k].intersect(tri, Mask::from_bits(open[k]), t);
+             open[k] &= ~found.add(k, inside, t, tri.id);
+           }
+         }
+       });
+}
+
+}  // namespace
+}  // namespace pinocchio::PINOCCHIO_LANES
+
+#include "core/trace/walk/moving.h"
+
+namespace pinocchio::PINOCCHIO_LANES {
+namespace {
+
 // Finds what a group of packets hits: rays i and on of n. `more`: what Found is made of, beside the rays'
 // ends.
 template <class Test, class Found, std::size_t... kIndex, class... More>
-inline Found hits_of_group(const BspTree& tree, const RayColumns& rays, std::size_t i, std::size_t n,
-                           std::index_sequence<kIndex...>, const More&... more) {
+inline Found hits_of_group(const SceneTrees& scene, const RayColumns& rays, std::size_t i, std::size_t n,
+                           std::index_sequence<kIndex...> packets, const More&... more) {
   constexpr int kPackets = sizeof...(kIndex);
   Group<kPackets> group;
   (group.packets[kIndex].load(rays, i + kIndex * kWidth, n), ...);
-  const Test tests[]{Test(tree, group.packets[kIndex])...};
+  const Test tests[]{Test(scene, group.packets[kIndex])...};
   Found found({group.packets[kIndex].t_max...}, more...);
-  const auto* const triangles = Test::stored(tree);
-  for_each_octant(group, [&](const bool(&negative)[3], const Mask(&lanes)[kPackets]) {
-    walk(tree, group, negative, lanes, found.t_best, [&](const BspNode& leaf, unsigned(&open)[kPackets]) {
-      const std::uint32_t* const of_leaf = tree.references.data() + leaf.first_reference();
-      fetch_ahead(triangles, of_leaf, leaf.reference_count());
-      if (LeafLanes::is_cheaper<Test>(leaf.reference_count(), open))
-        return hits_by_ray(tree, rays, i, leaf, open, found);
-      for (std::uint32_t r = 0; r < leaf.reference_count(); ++r) {
-        const auto& tri = triangles[of_leaf[r]];
-        for (int k = 0; k < kPackets; ++k) {
-          if (open[k] == 0) continue;
-          Float t;
-          const Mask inside = tests[k].intersect(tri, Mask::from_bits(open[k]), t);
-          open[k] &= ~found.add(k, inside, t, tri.id);
-        }
-      }
+  const BspTree& tree = *scene.still;
+  if (!tree.references.empty())
+    for_each_octant(group, [&](const bool(&negative)[3], const Mask(&lanes)[kPackets]) {
+      hits_in_tree(scene, tree, tree, group, ExactPlanes{}, negative, lanes, tests, rays, i, found);
     });
-  });
+  if (!scene.top.empty()) add_moving_hits<Test>(scene, rays, i, n, packets, found);
   return found;
 }
 
@@ -214,28 +252,28 @@ inline void store_hits(const ClosestHits<kPackets>& found, std::size_t i, std::s
 }
 
 template <class Test>
-void closest_hits(const BspTree& tree, const RayColumns& rays, std::size_t n, std::uint32_t* triangle,
+void closest_hits(const SceneTrees& scene, const RayColumns& rays, std::size_t n, std::uint32_t* triangle,
                   float* t) {
   for (std::size_t i = 0; i < n; i += kPackets * kWidth)
     store_hits(
-        hits_of_group<Test, ClosestHits<kPackets>>(tree, rays, i, n, std::make_index_sequence<kPackets>()), i,
-        n, triangle, t);
+        hits_of_group<Test, ClosestHits<kPackets>>(scene, rays, i, n, std::make_index_sequence<kPackets>()),
+        i, n, triangle, t);
 }
 
 template <class Test>
-void closest_fronts(const BspTree& tree, const RayColumns& rays, std::size_t n, const PassedBacks& backs,
+void closest_fronts(const SceneTrees& scene, const RayColumns& rays, std::size_t n, const PassedBacks& backs,
                     std::uint32_t* triangle, float* t) {
   for (std::size_t i = 0; i < n; i += kPackets * kWidth)
     store_hits(hits_of_group<Test, ClosestFronts<kPackets>>(
-                   tree, rays, i, n, std::make_index_sequence<kPackets>(), tree, rays, i, backs),
+                   scene, rays, i, n, std::make_index_sequence<kPackets>(), scene, rays, i, backs),
                i, n, triangle, t);
 }
 
 template <class Test>
-void occluded(const BspTree& tree, const RayColumns& rays, std::size_t n, std::uint8_t* blocked) {
+void occluded(const SceneTrees& scene, const RayColumns& rays, std::size_t n, std::uint8_t* blocked) {
   for (std::size_t i = 0; i < n; i += kPackets * kWidth) {
     const auto found =
-        hits_of_group<Test, AnyHits<kPackets>>(tree, rays, i, n, std::make_index_sequence<kPackets>());
+        hits_of_group<Test, AnyHits<kPackets>>(scene, rays, i, n, std::make_index_sequence<kPackets>());
     for (std::size_t k = 0; k < kPackets && i + k * kWidth < n; ++k)
       for (unsigned lane = 0; lane < kWidth; ++lane)
         blocked[i + k * kWidth + lane] = static_cast<std::uint8_t>(found.hit[k] >> lane & 1u);

@@ -5,7 +5,7 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "core/bsp/tree.h"
+#include "core/bsp/scene_trees.h"
 #include "core/simd/isas.h"
 #include "core/trace/rays/passed_backs.h"
 #include "core/trace/rays/ray_queue.h"
@@ -17,13 +17,13 @@ namespace pinocchio {
 struct Kernel {
   // Writes the triangle that each ray hits (kNoTriangle: none) and, unless `t` is null, its distance (t_max:
   // none).
-  void (*closest_hits)(const BspTree& tree, const RayColumns& rays, std::size_t n, std::uint32_t* triangle,
-                       float* t);
+  void (*closest_hits)(const SceneTrees& scene, const RayColumns& rays, std::size_t n,
+                       std::uint32_t* triangle, float* t);
   // Likewise, for rays that pass those backs.
-  void (*closest_fronts)(const BspTree& tree, const RayColumns& rays, std::size_t n, const PassedBacks& backs,
-                         std::uint32_t* triangle, float* t);
+  void (*closest_fronts)(const SceneTrees& scene, const RayColumns& rays, std::size_t n,
+                         const PassedBacks& backs, std::uint32_t* triangle, float* t);
   // Writes 1 for a ray that meets any triangle, else 0.
-  void (*occluded)(const BspTree& tree, const RayColumns& rays, std::size_t n, std::uint8_t* blocked);
+  void (*occluded)(const SceneTrees& scene, const RayColumns& rays, std::size_t n, std::uint8_t* blocked);
 };
 
 using Kernels = std::array<Kernel, kTriangleTests.size()>;  // by TriangleTest

@@ -33,11 +33,12 @@ class LeafLanes {
     return loads * (kLoadCost + kRayCost * rays) < triangles * kPacketCost * packets;
   }
 
-  LeafLanes(const BspTree& tree, const std::uint32_t* references, std::uint32_t count)
-      : tree_(tree), lanes_(lanes_from(0, count)) {
+  LeafLanes(const SceneTrees& scene, const StoredTriangles& stored, const std::uint32_t* references,
+            std::uint32_t count)
+      : scene_(scene), lanes_(lanes_from(0, count)) {
     const float* rows[3][kWidth];
     for (std::uint32_t lane = 0; lane < kWidth; ++lane) {
-      const ProjectedTriangle& tri = tree.triangles.data()[references[lane < count ? lane : 0]];
+      const ProjectedTriangle& tri = stored.triangles.data()[references[lane < count ? lane : 0]];
       rows[0][lane] = tri.a;  // and k as a[3]
       rows[1][lane] = &tri.n_u;
       rows[2][lane] = &tri.gamma_u;
@@ -108,26 +109,26 @@ class LeafLanes {
     unsigned kept = inside.bits();
     for (unsigned asked = doubtful.bits(); asked != 0; asked &= asked - 1) {
       const int lane = __builtin_ctz(asked);
-      if (!meets_exactly(tree_, id[lane], origin, direction, exact_t[lane])) kept &= ~(1u << lane);
+      if (!meets_exactly(scene_, id[lane], origin, direction, exact_t[lane])) kept &= ~(1u << lane);
     }
     t = Float::load(exact_t);
     return Mask::from_bits(kept);
   }
 
-  const BspTree& tree_;
+  const SceneTrees& scene_;
   Mask lanes_, k_is_x_, k_is_y_;
   Float a_[3];  // vertex A, dropped
   PlaneLanes plane_;
   Int id_;
 };
 
-// What hits_of_group (walk/kernel.h) does in a leaf, for the open lanes of the rays from i on.
+// What hits_in_tree (walk/kernel.h) does in a leaf, for the open lanes of the rays from i on.
 template <class Found, int kPackets>
-[[gnu::noinline]] void hits_by_ray(const BspTree& tree, const RayColumns& rays, std::size_t i,
-                                   const BspNode& leaf, unsigned (&open)[kPackets], Found& found) {
-  const std::uint32_t* const of_leaf = tree.references.data() + leaf.first_reference();
-  for (std::uint32_t r = 0; r < leaf.reference_count(); r += kWidth) {
-    const LeafLanes triangles(tree, of_leaf + r, leaf.reference_count() - r);
+[[gnu::noinline]] void hits_by_ray(const SceneTrees& scene, const StoredTriangles& stored,
+                                   const std::uint32_t* of_leaf, std::uint32_t count, const RayColumns& rays,
+                                   std::size_t i, unsigned (&open)[kPackets], Found& found) {
+  for (std::uint32_t r = 0; r < count; r += kWidth) {
+    const LeafLanes triangles(scene, stored, of_leaf + r, count - r);
     for (unsigned k = 0; k < kPackets; ++k) {
       for (unsigned left = open[k]; left != 0; left &= left - 1) {
         const unsigned lane = __builtin_ctz(left);

@@ -10,9 +10,9 @@ namespace {
 // paper's smallest determinant is left out: small triangles fall below it.
 class MoellerTrumboreTest {
  public:
-  MoellerTrumboreTest(const BspTree&, const Packet& packet) : p_(packet) {}
+  MoellerTrumboreTest(const SceneTrees&, const Packet& packet) : p_(packet) {}
 
-  static const CornerTriangle* stored(const BspTree& tree) { return tree.corner_triangles.data(); }
+  static const CornerTriangle* stored(const StoredTriangles& of) { return of.corner_triangles.data(); }
 
   [[gnu::always_inline]] inline Mask intersect(const CornerTriangle& tri, Mask lanes, Float& t) const {
     Float ab[3], ac[3], from_a[3], p[3], q[3];

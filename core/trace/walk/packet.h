@@ -1,7 +1,7 @@
 // Part of walk/kernel.h.
 #pragma once
 
-#include "core/bsp/tree.h"
+#include "core/bsp/scene_trees.h"
 #include "core/simd/lanes.h"
 #include "core/trace/walk/kernels.h"
 #include "pinocchio/ray.h"
@@ -63,7 +63,7 @@ struct Octant {
 };
 
 // A triangle test is an object for one packet, whose rays it may prepare:
-//   stored(tree)              the triangles in its format, in the tree's order
+//   stored(triangles)         the triangles in its format, in the tree's order
 //   intersect(triangle, lanes, t) which of `lanes` meet it at 0 < t; sets their t
 // The order of operations is fixed, and a lane's answer depends on its ray alone.
 

@@ -57,9 +57,9 @@ struct PlanePoint {
 // round their weights differently, so rays can pass between them.
 class ProjectedTest {
  public:
-  ProjectedTest(const BspTree&, const Packet& packet) : p_(packet) {}
+  ProjectedTest(const SceneTrees&, const Packet& packet) : p_(packet) {}
 
-  static const ProjectedTriangle* stored(const BspTree& tree) { return tree.triangles.data(); }
+  static const ProjectedTriangle* stored(const StoredTriangles& of) { return of.triangles.data(); }
 
   [[gnu::always_inline]] inline Mask intersect(const ProjectedTriangle& tri, Mask lanes, Float& t) const {
     const PlanePoint at(DroppedRay(tri, p_), PlaneLanes(tri));

@@ -12,7 +12,7 @@ namespace {
 // axes.
 class WatertightTest {
  public:
-  WatertightTest(const BspTree&, const Packet& packet) : p_(packet) {
+  WatertightTest(const SceneTrees&, const Packet& packet) : p_(packet) {
     const Float x = abs(p_.d[0]), y = abs(p_.d[1]), z = abs(p_.d[2]);
     z_is_x_ = (y <= x) & (z <= x);
     z_is_y_ = ~z_is_x_ & (z <= y);
@@ -22,7 +22,7 @@ class WatertightTest {
     shear_z_ = Float(1.0f) / d_z;
   }
 
-  static const CornerTriangle* stored(const BspTree& tree) { return tree.corner_triangles.data(); }
+  static const CornerTriangle* stored(const StoredTriangles& of) { return of.corner_triangles.data(); }
 
   [[gnu::always_inline]] inline Mask intersect(const CornerTriangle& tri, Mask lanes, Float& t) const {
     Float a[3], b[3], c[3];

@@ -55,13 +55,15 @@ class Engine {
                                            bool keeps_mask = true) const;
 
   // The tree for frames with these settings; null if they trace nothing. `only`: the view of all frames, for
-  // which the tree is then optimised. No picture depends on it. Any thread.
+  // which the tree is then optimised. `before`: the tracer of another pose of the scene, whose trees are kept
+  // where they still serve. No picture depends on either. Any thread.
   [[nodiscard]] static std::shared_ptr<const Tracer> prepare(const Scene& scene, const Settings& settings,
                                                              Progress* progress = nullptr,
-                                                             const View* only = nullptr);
+                                                             const View* only = nullptr,
+                                                             const Tracer* before = nullptr);
 
-  // Draws one picture and waits for it: resolves, prepares (the last scene's tree is kept) and averages the
-  // samples. Phases "build" and "render".
+  // Draws one picture and waits for it: resolves, prepares (the last scene's trees are kept, also for another
+  // pose of it) and averages the samples. Phases "build" and "render".
   [[nodiscard]] Expected<FrameResult> render(const Scene& scene, const View& view,
                                              const Settings& settings = {}, Progress* progress = nullptr);
 

@@ -21,15 +21,29 @@
 
 namespace pinocchio {
 
-// The stages of a frame, in the order a frame passes them; names as in statistics and traces.
-enum class Stage { raster, readback, trace_shadow, trace_reflection, upload, composite, present };
-inline constexpr std::array<std::string_view, 7> kStageNames{
-    "raster", "readback", "trace_shadow", "trace_reflection", "upload", "composite", "present"};
+// The stages of a frame, in the order a frame passes them; names as in statistics and traces. The first frame
+// of a pose has the times of `pose` (posed, at_time) and `trees`, which may lie before it.
+enum class Stage {
+  pose,
+  trees,
+  raster,
+  readback,
+  trace_shadow,
+  trace_reflection,
+  upload,
+  composite,
+  present
+};
+inline constexpr std::array<std::string_view, 9> kStageNames{"pose",     "trees",        "raster",
+                                                             "readback", "trace_shadow", "trace_reflection",
+                                                             "upload",   "composite",    "present"};
 // The processor that does a stage of frames of these settings; empty for transfers and the display.
 [[nodiscard]] inline std::optional<Processor> processor_of(Stage stage, const Settings& settings) {
   switch (stage) {
     case Stage::raster:
       return settings.visibility;
+    case Stage::pose:
+    case Stage::trees:
     case Stage::trace_shadow:
     case Stage::trace_reflection:
       return Processor::cpu;

@@ -14,7 +14,7 @@
 namespace pinocchio {
 
 // Returns the scene's poses with their trees. Meanwhile it makes the next pose on a thread of its own. A pose
-// does not depend on earlier ones.
+// does not depend on earlier ones, but keeps their trees where they still serve.
 class PoseAhead {
  public:
   struct Pose {
@@ -22,9 +22,10 @@ class PoseAhead {
     std::shared_ptr<const Tracer> tracer;  // null: the settings trace nothing
   };
 
-  // `progress`, which may be null, cancels work that has begun.
-  explicit PoseAhead(Scene scene, Progress* progress = nullptr)
-      : scene_(std::move(scene)), progress_(progress) {}
+  // `progress`, which may be null, cancels work that has begun. `before`: a tracer of any of the poses.
+  explicit PoseAhead(Scene scene, Progress* progress = nullptr,
+                     std::shared_ptr<const Tracer> before = nullptr)
+      : scene_(std::move(scene)), progress_(progress), before_(std::move(before)) {}
   // Cancels the pose that is being made ahead.
   ~PoseAhead();
   PoseAhead(PoseAhead&&) noexcept = default;
@@ -49,10 +50,12 @@ class PoseAhead {
   void begin(const Wanted& wanted);
   [[nodiscard]] Expected<Pose> made_ahead();
   void drop_next();
-  [[nodiscard]] static Expected<Pose> make(const Scene& scene, const Wanted& wanted, Progress* progress);
+  [[nodiscard]] static Expected<Pose> make(const Scene& scene, const Wanted& wanted, const Tracer* before,
+                                           Progress* progress);
 
   Scene scene_;
   Progress* progress_;
+  std::shared_ptr<const Tracer> before_;  // the last pose's
   std::optional<Wanted> last_wanted_, next_wanted_;
   std::optional<Pose> last_;
   std::shared_ptr<Progress> next_progress_;

@@ -10,6 +10,7 @@
 
 #include "pinocchio/backfaces.h"
 #include "pinocchio/error.h"
+#include "pinocchio/sampled_light.h"
 #include "pinocchio/terminator.h"
 #include "pinocchio/tracer.h"
 #include "pinocchio/view.h"
@@ -96,6 +97,9 @@ struct Settings {
   Setting<float> light_cutoff;
   Setting<int> indirect;
   Setting<float> environment_rotation, environment_strength = Setting<float>::by_default(1.0f);
+  Setting<EnvironmentMethod> environment_light;
+  Setting<Glossy> glossy;
+  Setting<int> sky_occlusion;
   Setting<Terminator> terminator = Setting<Terminator>::by_default(kUsualTerminator);
   Setting<Backfaces> backfaces = Setting<Backfaces>::by_default(Backfaces::automatic);
   Setting<bool> filter_textures = Setting<bool>::by_default(true);

@@ -4,16 +4,12 @@
 
 #include "core/image/codecs/png.h"
 #include "core/image/tonemap.h"
-#include "core/trace/lanes/environment_light.h"
 #include "scenes/generator/random.h"
+#include "tests/core/trace/environment_columns.h"
 #include "tests/support/gltf.h"
 
 namespace pinocchio {
 namespace {
-
-glm::vec3 at(const Scene& scene, const glm::vec3& direction) {
-  return EnvironmentLight(scene).radiance(direction);
-}
 
 void write_face(int face, const Image<glm::u8vec4>& texels) {
   std::ofstream(own_file("face" + std::to_string(face) + ".png"), std::ios::binary) << encode_png(texels);
@@ -59,7 +55,7 @@ TEST(CubeMap, FacesOfAGltfFileAreWhereTheyLook) {
   ASSERT_NE(scene->environment, nullptr);
   EXPECT_EQ(scene->environment->radiance().size(), glm::ivec2(32, 16));
   for (int face = 0; face < 6; ++face)
-    EXPECT_NEAR(at(*scene, kAxes[face]).g, light_of_face(face), 1e-4f) << face;
+    EXPECT_NEAR(light_from(*scene, kAxes[face]).g, light_of_face(face), 1e-4f) << face;
 }
 
 // Seen from the middle with +Y up, pictures are not mirrored: the left of the one ahead (-Z) is at -X.
@@ -73,29 +69,30 @@ TEST(CubeMap, FacesAreTheRightWayAround) {
   for (const auto& [ahead, right] : around)
     for (const float side : {-1.0f, 1.0f})
       for (const float up : {-1.0f, 1.0f}) {
-        const glm::vec3 light = at(scene, ahead + 0.5f * side * right + glm::vec3(0.0f, 0.4f * up, 0.0f));
+        const glm::vec3 light =
+            light_from(scene, ahead + 0.5f * side * right + glm::vec3(0.0f, 0.4f * up, 0.0f));
         EXPECT_NEAR(light.r, side < 0.0f ? 1.0f : 0.0f, 1e-4f);
         EXPECT_NEAR(light.g, up > 0.0f ? 1.0f : 0.0f, 1e-4f);
       }
   // Above, the lower edge is towards +Z; below, the upper one is.
-  EXPECT_NEAR(at(scene, {0.5f, 1, 0.5f}).g, 0.0f, 1e-4f);
-  EXPECT_NEAR(at(scene, {0.5f, 1, 0.5f}).r, 1.0f, 1e-4f);
-  EXPECT_NEAR(at(scene, {0.5f, -1, 0.5f}).g, 1.0f, 1e-4f);
-  EXPECT_NEAR(at(scene, {0.5f, -1, 0.5f}).r, 1.0f, 1e-4f);
+  EXPECT_NEAR(light_from(scene, {0.5f, 1, 0.5f}).g, 0.0f, 1e-4f);
+  EXPECT_NEAR(light_from(scene, {0.5f, 1, 0.5f}).r, 1.0f, 1e-4f);
+  EXPECT_NEAR(light_from(scene, {0.5f, -1, 0.5f}).g, 1.0f, 1e-4f);
+  EXPECT_NEAR(light_from(scene, {0.5f, -1, 0.5f}).r, 1.0f, 1e-4f);
 }
 
 TEST(CubeMap, AlphaDividesAndIntensityAndRotationCount) {
   const Scene bright = load_good(boxed([](int, int, int) { return glm::u8vec4(255, 188, 0, 51); }));
-  EXPECT_NEAR(at(bright, {1, 2, 3}).r, 5.0f, 1e-3f);
-  EXPECT_NEAR(at(bright, {1, 2, 3}).g, 5.0f * srgb8_to_linear(188), 1e-3f);
+  EXPECT_NEAR(light_from(bright, {1, 2, 3}).r, 5.0f, 1e-3f);
+  EXPECT_NEAR(light_from(bright, {1, 2, 3}).g, 5.0f * srgb8_to_linear(188), 1e-3f);
   Json json = greys();
   Json& light = json["extensions"]["EXT_lights_image_based"]["lights"][0];
   light["intensity"] = 2.5;
   light["rotation"] = {0, 0.70710678, 0, 0.70710678};  // a quarter about +Y: +Z goes to +X
   const Scene scene = load_good(json);
-  EXPECT_NEAR(at(scene, {1, 0, 0}).g, 2.5f * light_of_face(4), 1e-3f);
-  EXPECT_NEAR(at(scene, {0, 0, 1}).g, 2.5f * light_of_face(1), 1e-3f);
-  EXPECT_NEAR(at(scene, {0, 1, 0}).g, 2.5f * light_of_face(2), 1e-3f);
+  EXPECT_NEAR(light_from(scene, {1, 0, 0}).g, 2.5f * light_of_face(4), 1e-3f);
+  EXPECT_NEAR(light_from(scene, {0, 0, 1}).g, 2.5f * light_of_face(1), 1e-3f);
+  EXPECT_NEAR(light_from(scene, {0, 1, 0}).g, 2.5f * light_of_face(2), 1e-3f);
 }
 
 // What latitude and longitude cost: of a smooth sky 0.5 %, also across edges and corners; of all light 0.1 %.
@@ -133,7 +130,7 @@ TEST(CubeMap, LatitudeAndLongitudeKeepItsLight) {
   for (int i = 0; i < 20000; ++i) {
     const glm::vec3 d(random.between(-1.0f, 1.0f), random.between(-1.0f, 1.0f), random.between(-1.0f, 1.0f));
     if (glm::length(d) < 0.01f) continue;
-    const glm::vec3 apart = glm::abs(at(scene, d) / sky(glm::normalize(d)) - 1.0f);
+    const glm::vec3 apart = glm::abs(light_from(scene, d) / sky(glm::normalize(d)) - 1.0f);
     worst = std::max({worst, apart.r, apart.g, apart.b});
   }
   EXPECT_LT(worst, 0.01f);

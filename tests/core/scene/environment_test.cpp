@@ -4,12 +4,12 @@
 #include <fstream>
 #include <glm/gtc/constants.hpp>
 
-#include "core/trace/lanes/environment_light.h"
 #include "core/trace/tiles/trace_tiles.h"
 #include "core/trace/view/jitter.h"
 #include "core/trace/view/view_params.h"
 #include "pinocchio/exr.h"
 #include "scenes/generator/mesh_builder.h"
+#include "tests/core/trace/environment_columns.h"
 #include "tests/support/own_file.h"
 #include "tests/support/scenes.h"
 
@@ -117,17 +117,6 @@ TEST(Environment, BadFilesAreErrorsThatNameThem) {
   EXPECT_NE(error_of(own_file("depth.exr")).find("no channels"), std::string::npos);
 }
 
-TEST(Environment, DensityAddsUpToOne) {
-  const Environment environment(sky({32, 16}));
-  double sum = 0.0;
-  constexpr int kSteps = 64;
-  for (int y = 0; y < kSteps; ++y)
-    for (int x = 0; x < 2 * kSteps; ++x)
-      sum +=
-          static_cast<double>(environment.density((glm::vec2(x, y) + 0.5f) / glm::vec2(2 * kSteps, kSteps)));
-  EXPECT_NEAR(sum / (2.0 * kSteps * kSteps), 1.0, 1e-5);
-}
-
 Scene under(Image<glm::vec3> image, MeshData mesh) {
   Scene scene(std::move(mesh));
   scene.ambient_light = glm::vec3(0.0f);
@@ -136,35 +125,63 @@ Scene under(Image<glm::vec3> image, MeshData mesh) {
 }
 
 // What a sample's direction finds is what it brought, over its likelihood; together they are the whole sky's
-// light.
+// light. Every width has the same bits.
 TEST(Environment, SamplesBringTheWholeSky) {
   Scene scene = under(sky({32, 16}), {});
   scene.environment_rotation_deg = 33.0f;
   scene.environment_strength = 0.5f;
-  const EnvironmentLight light(scene);
   constexpr int kSide = 1024;
-  glm::dvec3 sampled(0.0), exact(0.0);
-  SampleLanes packet{};
-  for (int i = 0; i < kSide * kSide; ++i) {
-    packet.number[0][0] = (static_cast<float>(i % kSide) + 0.5f) / kSide;
-    packet.number[1][0] = (static_cast<float>(i / kSide) + 0.5f) / kSide;
-    light.sample(1u, packet);
-    const glm::vec3 direction(packet.direction[0][0], packet.direction[1][0], packet.direction[2][0]);
-    const glm::vec3 brought(packet.light[0][0], packet.light[1][0], packet.light[2][0]),
-        seen = light.radiance(direction);
-    ASSERT_NEAR(glm::length(direction), 1.0f, 1e-5f);
-    ASSERT_LT(glm::length(glm::normalize(brought) - glm::normalize(seen)), 0.02f);
-    sampled += glm::dvec3(brought) / double{kSide * kSide};
+  EnvironmentColumns samples(kSide * kSide);
+  for (std::size_t i = 0; i < samples.u.size(); ++i) {
+    samples.u[i] = (static_cast<float>(i % kSide) + 0.5f) / kSide;
+    samples.v[i] = (static_cast<float>(i / kSide) + 0.5f) / kSide;
   }
-  constexpr int kFine = 1024;  // evenly over the sphere
-  for (int i = 0; i < kFine * kFine; ++i) {
-    const float height = 2.0f * (static_cast<float>(i / kFine) + 0.5f) / kFine - 1.0f,
+  samples.sample(scene);
+  EnvironmentColumns seen = samples;
+  seen.look_up(scene);
+  glm::dvec3 sampled(0.0), exact(0.0);
+  for (std::size_t i = 0; i < samples.u.size(); ++i) {
+    ASSERT_NEAR(glm::length(samples.direction_of(i)), 1.0f, 1e-5f);
+    ASSERT_LT(glm::length(glm::normalize(samples.light_of(i)) - glm::normalize(seen.light_of(i))), 0.02f);
+    ASSERT_NEAR(samples.density[i] / seen.density[i], 1.0f, 0.02f) << i;
+    sampled += glm::dvec3(samples.light_of(i)) / double{kSide * kSide};
+  }
+  EnvironmentColumns sphere(kSide * kSide);  // evenly over it
+  for (std::size_t i = 0; i < sphere.u.size(); ++i) {
+    const float height = 2.0f * (static_cast<float>(i / kSide) + 0.5f) / kSide - 1.0f,
                 across = std::sqrt(1.0f - height * height);
-    const float turn = glm::two_pi<float>() * (static_cast<float>(i % kFine) + 0.5f) / kFine;
-    exact += glm::dvec3(light.radiance({across * std::cos(turn), height, across * std::sin(turn)})) *
-             (4.0 * glm::pi<double>() / (double{kFine} * kFine));
+    const float turn = glm::two_pi<float>() * (static_cast<float>(i % kSide) + 0.5f) / kSide;
+    sphere.set_direction(i, {across * std::cos(turn), height, across * std::sin(turn)});
+  }
+  sphere.look_up(scene);
+  double density = 0.0;
+  for (std::size_t i = 0; i < sphere.u.size(); ++i) {
+    const double area = 4.0 * glm::pi<double>() / (double{kSide} * kSide);
+    exact += glm::dvec3(sphere.light_of(i)) * area;
+    density += static_cast<double>(sphere.density[i]) * area;
   }
   for (int c = 0; c < 3; ++c) EXPECT_NEAR(sampled[c] / exact[c], 1.0, 0.005);
+  EXPECT_NEAR(density, 1.0, 0.005);
+  for (const Isa isa : supported_isas()) {
+    EnvironmentColumns again = samples, seen_again = seen;
+    again.sample(scene, isa);
+    seen_again.look_up(scene, isa);
+    EXPECT_TRUE(again == samples && seen_again == seen) << static_cast<int>(isa);
+  }
+}
+
+TEST(Environment, AnglesAreRoundedOnce) {
+  constexpr std::size_t kCount = 4096;
+  AlignedVector<float> turns(kCount), cosine(kCount), sine(kCount);
+  for (std::size_t i = 0; i < kCount; ++i) turns[i] = static_cast<float>(i) / 1537.0f - 1.0f;
+  for (const Isa isa : supported_isas()) {
+    lane_probe(isa).angles(turns.data(), cosine.data(), sine.data(), kCount);
+    for (std::size_t i = 0; i < kCount; ++i) {
+      const double radians = glm::two_pi<double>() * static_cast<double>(turns[i]);
+      EXPECT_NEAR(cosine[i], std::cos(radians), 6.0e-8) << turns[i];
+      EXPECT_NEAR(sine[i], std::sin(radians), 6.0e-8) << turns[i];
+    }
+  }
 }
 
 // OpenEXR's latitude-longitude maps: the middle is +Z, a quarter of the width to the left +X.
@@ -174,11 +191,11 @@ TEST(Environment, IsTheRightWayAround) {
   image.at(3, 1) = image.at(4, 1) = image.at(3, 2) = image.at(4, 2) = {0, 1, 0};
   for (int x = 0; x < 8; ++x) image.at(x, 0) = {0, 0, 1};
   Scene scene = under(image, {});
-  EXPECT_GT(EnvironmentLight(scene).radiance({1, 0, 0}).r, 0.9f);
-  EXPECT_GT(EnvironmentLight(scene).radiance({0, 0, 2}).g, 0.9f);
-  EXPECT_GT(EnvironmentLight(scene).radiance({0, 3, 0}).b, 0.9f);
+  EXPECT_GT(light_from(scene, {1, 0, 0}).r, 0.9f);
+  EXPECT_GT(light_from(scene, {0, 0, 2}).g, 0.9f);
+  EXPECT_GT(light_from(scene, {0, 3, 0}).b, 0.9f);
   scene.environment_rotation_deg = 90.0f;  // about +Y: what was at +Z is at +X
-  EXPECT_GT(EnvironmentLight(scene).radiance({1, 0, 0}).g, 0.9f);
+  EXPECT_GT(light_from(scene, {1, 0, 0}).g, 0.9f);
 }
 
 struct Drawn {

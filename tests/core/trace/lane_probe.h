@@ -8,6 +8,7 @@
 #include "core/shade/lane_texture.h"
 #include "core/shade/shared.h"
 #include "core/simd/isas.h"
+#include "core/trace/lanes/environment_params.h"
 #include "pinocchio/tracer.h"
 
 namespace pinocchio {
@@ -20,6 +21,15 @@ struct LaneProbe {
   // x^y for x > 0.
   void (*power)(const float* x, const float* y, float* result, std::size_t count);
   SampleTexture sample_texture;
+  // The environment's light from directions, three columns each, and its samples' density there.
+  void (*environment_light)(const EnvironmentLight& environment, const float* const* direction,
+                            float* const* light, float* density, std::size_t count);
+  // Its samples by two numbers each: directions, and light divided by the density.
+  void (*environment_samples)(const EnvironmentLight& environment, const float* u, const float* v,
+                              float* const* direction, float* const* light, float* density,
+                              std::size_t count);
+  // Cosine and sine of angles in revolutions.
+  void (*angles)(const float* revolutions, float* cosine, float* sine, std::size_t count);
 };
 
 #define PINOCCHIO_DECLARE_PROBE(name, lanes, feature) \

@@ -6,7 +6,8 @@
 #include <string_view>
 #include <thread>
 
-#include "core/bsp/tree.h"
+#include "core/bsp/scene_trees.h"
+#include "pinocchio/animation.h"
 #include "tests/support/frames.h"
 #include "tests/support/own_file.h"
 
@@ -127,7 +128,7 @@ TEST(Engine, ATreeForOneViewDrawsTheSamePicture) {
   renderer.drain();
   ASSERT_EQ(pictures.size(), 2u);
   EXPECT_TRUE(same(pictures[0], pictures[1]));
-  EXPECT_LT(only->tree().references.size(), any->tree().references.size());
+  EXPECT_LT(only->trees().still->references.size(), any->trees().still->references.size());
 }
 
 // By its way to OpenGL's functions alone, as a window library gives it.
@@ -235,6 +236,56 @@ TEST_P(SharedEngineTest, SendsNoGeometryAgainWhereMaterialsAloneDiffer) {
   engine_.emplace(context());  // that has no other mesh
   draw({after}, Exchange::sync, look);
   EXPECT_TRUE(same(pictures.back(), pictures[1]));
+}
+
+// Poses one after the other, with trees and buffers that are kept, and each by itself.
+TEST_P(SharedEngineTest, DrawsPosesAsIfEachWereTheOnlyOne) {
+  const Scene scene = load_or_die(source_path("scenes/windmill.glb"));
+  const Settings settings = settings_for(scene);
+  constexpr int kPoses = 6;
+  for (const Exchange exchange : {Exchange::sync, Exchange::pipelined}) {
+    std::vector<FrameRequest> requests;
+    std::vector<FrameRecord> records;
+    std::vector<Image<glm::vec4>> pictures;
+    std::shared_ptr<const Tracer> tracer;
+    std::size_t most = 0;
+    {
+      Renderer renderer(*engine_, {[&](Frame& frame) { frame.read_color(pictures.emplace_back()); },
+                                   [&](const FrameRecord& record) { records.push_back(record); }});
+      for (int i = 0; i < kPoses; ++i) {
+        const Scene posed = at_time(scene, 0.1 * i).value();
+        FrameRequest next = request(posed, settings, {48, 32});
+        next.settings.exchange = exchange;
+        next.tracer = tracer = Engine::prepare(posed, settings, nullptr, nullptr, tracer.get());
+        renderer.submit(next);
+        most = std::max(most, engine_->parts().meshes.size());
+        requests.push_back(next);
+        requests.back().tracer = nullptr;
+        requests.back().scene = scene;  // the pose may go
+      }
+      renderer.drain();
+    }
+    EXPECT_FALSE(tracer->trees().moving.empty());
+    EXPECT_LE(most, 4u);
+    ASSERT_EQ(pictures.size(), std::size_t{kPoses});
+    for (const FrameRecord& record : records) {
+      EXPECT_GT(record[Stage::pose].ms(), 0.0);
+      EXPECT_GT(record[Stage::trees].ms(), 0.0);
+    }
+    for (int i = 0; i < kPoses; ++i) {
+      engine_.emplace(context());  // that has no other mesh
+      const Scene posed = at_time(scene, 0.1 * i).value();
+      FrameRequest alone = requests[static_cast<std::size_t>(i)];
+      alone.scene = posed;
+      alone.scene.mesh = std::make_shared<const Mesh>(MeshData(*posed.mesh));
+      alone.tracer = Engine::prepare(alone.scene, settings);
+      draw({alone}, Exchange::sync, [&](Frame& frame) {
+        Image<glm::vec4> picture;
+        frame.read_color(picture);
+        EXPECT_TRUE(same(picture, pictures[static_cast<std::size_t>(i)])) << i;
+      });
+    }
+  }
 }
 
 }  // namespace

@@ -1,0 +1,333 @@
+#include "core/bsp/moving/posed_trees.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <functional>
+#include <optional>
+#include <thread>
+#include <utility>
+
+#include "core/bsp/build/build.h"
+#include "core/bsp/moving/top_level.h"
+#include "core/parallel/workers.h"
+#include "core/scene/pose/mesh_pose.h"
+#include "core/scene/pose/pose.h"
+
+namespace pinocchio {
+namespace {
+
+// How often a node moves before it gets a tree of its own: nodes that are put in their place once do not.
+constexpr std::uint8_t kMoves = 2;
+
+// Triangles that a thread places at a time.
+constexpr std::size_t kChunk = 2048;
+
+// Fewer triangles are placed by one thread.
+constexpr std::size_t kForThreads = 8192;
+
+// More threads would wait for memory.
+constexpr int kMostThreads = 8;
+
+// Whether both sets of options build the same tree over the same triangles. Lights do not count: they change
+// no hit, and move.
+bool build_same_trees(const BuildOptions& a, const BuildOptions& b) {
+  return a.rule == b.rule && a.max_depth == b.max_depth && a.leaf_size == b.leaf_size &&
+         a.cost_step == b.cost_step && a.cost_intersection == b.cost_intersection &&
+         a.cost_intersection_light == b.cost_intersection_light &&
+         a.cost_intersection_small == b.cost_intersection_small && a.small_side == b.small_side &&
+         a.eye == b.eye && a.cost_intersection_eye == b.cost_intersection_eye && a.margin == b.margin &&
+         a.triangle_test == b.triangle_test;
+}
+
+// Whether both meshes are poses of one, and how the nodes of the second differ.
+class Comparison {
+ public:
+  Comparison(const Mesh& before, const Mesh& now) : before_(before.pose().get()), now_(now.pose().get()) {
+    if (before_ && now_)
+      related_ = before_->is_of_same_mesh(*now_);
+    else if (before_ || now_)
+      related_ = (before_ ? before_ : now_)->first.lock().get() == (before_ ? &now : &before);
+    else
+      related_ = &before == &now;
+  }
+
+  [[nodiscard]] bool related(std::size_t nodes) const {
+    const auto fits = [nodes](const MeshPose* pose) { return !pose || pose->nodes.size() == nodes; };
+    return related_ && fits(before_) && fits(now_);
+  }
+  [[nodiscard]] bool differs(std::size_t node) const {
+    return !place_of(before_, node).same_as(place_of(now_, node));
+  }
+
+ private:
+  [[nodiscard]] static const NodePlace& place_of(const MeshPose* pose, std::size_t node) {
+    static const NodePlace kFirst;
+    return pose ? pose->nodes[node] : kFirst;
+  }
+
+  const MeshPose *before_, *now_;
+  bool related_ = false;
+};
+
+class Trees {
+ public:
+  Trees(const Scene& scene, const BuildOptions& options, const SceneTrees* before, const MotionState* state)
+      : scene_(scene), options_(options), mesh_(*scene.mesh) {
+    trees_->positions = mesh_.positions;
+    trees_->corners = mesh_.triangles;
+    if (scene.nodes) {
+      motion_ = std::make_shared<MotionState>();
+      motion_->mesh = scene.mesh;
+      motion_->nodes = scene.nodes;
+      motion_->options = options;
+      motion_->options.progress = nullptr;
+    }
+    if (before && state && motion_ && build_same_trees(state->options, options) &&
+        state->nodes->nodes.size() == scene.nodes->nodes.size()) {
+      const Comparison to(*state->mesh, mesh_);
+      if (to.related(scene.nodes->nodes.size())) keep(*before, *state, to);
+    }
+    if (!trees_->still) build_still();
+    place_groups();
+    join();
+  }
+
+  [[nodiscard]] PosedTrees finish() { return {std::move(trees_), std::move(motion_)}; }
+
+ private:
+  [[nodiscard]] const Node& node(int n) const { return scene_.nodes->nodes[n]; }
+
+  // Takes over from the pose before what is still valid.
+  void keep(const SceneTrees& before, const MotionState& state, const Comparison& to) {
+    const std::size_t n = scene_.nodes->nodes.size();
+    motion_->workers = state.workers;
+    differs_.resize(n);
+    for (std::size_t i = 0; i < n; ++i) differs_[i] = to.differs(i);
+    count_moves(state);
+    gather_groups();
+    std::vector<bool> was_still(n, true);
+    for (const MovingGroup& group : state.groups)
+      for (const int i : group.nodes) was_still[i] = false;
+    bool same = true;
+    for (std::size_t i = 0; i < n; ++i) {
+      if (node(static_cast<int>(i)).triangles == 0) continue;
+      same = same && was_still[i] == is_still_[i] && !(is_still_[i] && differs_[i]);
+    }
+    if (same) trees_->still = before.still;
+    for (MovingGroup& group : motion_->groups) {
+      const auto known = std::ranges::find(state.groups, group.nodes, &MovingGroup::nodes);
+      if (known == state.groups.end() || known->root != group.root) continue;
+      const bool moved = std::ranges::any_of(group.nodes, [&](int i) { return differs_[i]; });
+      if (!moved)
+        group = *known;
+      else if (group.root >= 0)
+        group.kept = known->kept;
+    }
+  }
+
+  void count_moves(const MotionState& state) {
+    const std::size_t n = scene_.nodes->nodes.size();
+    const auto count = [n](const std::vector<std::uint8_t>& from) {
+      return from.empty() ? std::vector<std::uint8_t>(n, 0) : from;
+    };
+    motion_->moves = count(state.moves);
+    motion_->reshapes = count(state.reshapes);
+    const auto add = [](std::uint8_t& to) { to = std::min<std::uint8_t>(to + 1, kMoves); };
+    for (std::size_t i = 0; i < n; ++i)
+      if (std::memcmp(&scene_.nodes->nodes[i].local, &state.nodes->nodes[i].local, sizeof(glm::mat4)) != 0)
+        add(motion_->moves[i]);
+    for (const Deformation& d : scene_.nodes->rest->deformations)
+      if (differs_[d.node]) add(motion_->reshapes[d.node]);
+  }
+
+  // The nodes that get trees of their own. Nodes move with the nearest one above that moves.
+  void gather_groups() {
+    const std::size_t n = scene_.nodes->nodes.size();
+    std::vector<bool> deforms(n, false);
+    for (const Deformation& d : scene_.nodes->rest->deformations) deforms[d.node] = true;
+    std::vector<int> root(n, -1);
+    std::vector<std::vector<int>> of_root(n);
+    std::vector<int> reshaped;
+    std::size_t still = mesh_.triangles.size(), deforming = 0;
+    is_still_.assign(n, true);
+    for (std::size_t i = 0; i < n; ++i) {
+      const Node& at = scene_.nodes->nodes[i];
+      root[i] = motion_->moves[i] >= kMoves ? static_cast<int>(i) : at.parent >= 0 ? root[at.parent] : -1;
+      if (at.triangles == 0 || (deforms[i] ? motion_->reshapes[i] < kMoves : root[i] < 0)) continue;
+      still -= at.triangles;
+      is_still_[i] = false;
+      if (deforms[i]) {
+        deforming += at.triangles;
+        reshaped.push_back(static_cast<int>(i));
+      } else {
+        of_root[root[i]].push_back(static_cast<int>(i));
+      }
+    }
+    for (std::size_t i = 0; i < n; ++i)
+      if (!of_root[i].empty())
+        motion_->groups.push_back({static_cast<int>(i), std::move(of_root[i]), nullptr, {}, {}});
+    // Trees of their own would save little, where most of what is built anyhow deforms.
+    for (const int i : reshaped) {
+      if (deforming > still)
+        is_still_[i] = true;
+      else
+        motion_->groups.push_back({-1, {i}, nullptr, {}, {}});
+    }
+  }
+
+  void build_still() {
+    if (!motion_ || motion_->groups.empty()) {
+      trees_->still = std::make_shared<const BspTree>(build_tree(mesh_, options_));
+      return;
+    }
+    std::vector<bool> left_out(mesh_.triangles.size(), false);
+    for (const MovingGroup& group : motion_->groups)
+      for (const int n : group.nodes)
+        std::fill_n(left_out.begin() + node(n).first_triangle, node(n).triangles, true);
+    std::vector<std::uint32_t> ids;
+    for (std::size_t i = 0; i < left_out.size(); ++i)
+      if (!left_out[i]) ids.push_back(static_cast<std::uint32_t>(i));
+    BuildMesh part(mesh_);
+    part.ids = ids;
+    trees_->still = std::make_shared<const BspTree>(build_tree(part, options_));
+  }
+
+  // The part of a group's triangles that one thread places.
+  struct Chunk {
+    std::size_t group, first, last;
+    bool any_flat;  // a triangle has no area
+  };
+
+  // Kept from pose to pose: to start threads takes as long as to place thousands of triangles.
+  Workers& workers() {
+    if (!motion_->workers) {
+      const auto cores = static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
+      const int wanted = options_.threads > 0 ? options_.threads : cores;
+      motion_->workers = std::make_shared<Workers>(std::min(wanted, kMostThreads));
+    }
+    return *motion_->workers;
+  }
+
+  void place_groups() {
+    if (!motion_) return;
+    const std::vector<glm::mat4> world = world_matrices(scene_.nodes->nodes);
+    std::vector<std::size_t> moved;
+    std::size_t triangles = 0;
+    for (std::size_t g = 0; g < motion_->groups.size(); ++g) {
+      if (motion_->groups[g].placed.triangles) continue;
+      moved.push_back(g);
+      for (const int n : motion_->groups[g].nodes) triangles += node(n).triangles;
+    }
+    if (moved.empty()) return;
+    const auto for_each = [&](std::size_t n, const std::function<void(std::size_t)>& body) {
+      if (triangles >= kForThreads && options_.threads != 1) return workers().for_each(n, body);
+      for (std::size_t i = 0; i < n; ++i) body(i);
+    };
+    std::vector<std::optional<Motion>> motions(motion_->groups.size());
+    std::vector<std::shared_ptr<StoredTriangles>> stored(motion_->groups.size());
+    for_each(moved.size(), [&](std::size_t i) {
+      MovingGroup& group = motion_->groups[moved[i]];
+      const glm::mat4 root = group.root < 0 ? glm::mat4(1.0f) : world[group.root];
+      std::optional<Motion>& motion = motions[moved[i]];
+      if (group.kept) motion = motion_since(*group.kept, scene_, group.nodes, root);
+      if (!motion) {
+        group.kept = std::make_shared<const KeptTree>(build_kept(scene_, group.nodes, root, options_));
+        motion = Motion{glm::dmat4(1.0), glm::dvec3(0.0)};
+      }
+      stored[moved[i]] = std::make_shared<StoredTriangles>();
+      stored[moved[i]]->test = options_.triangle_test;
+      stored[moved[i]]->make_room(group.kept->order.size());
+    });
+    std::vector<Chunk> chunks;
+    for (const std::size_t g : moved)
+      for (std::size_t first = 0, n = motion_->groups[g].kept->order.size(); first < n; first += kChunk)
+        chunks.push_back({g, first, std::min(n, first + kChunk), false});
+    for_each(chunks.size(), [&](std::size_t i) {
+      place(motion_->groups[chunks[i].group].kept->order, chunks[i], *stored[chunks[i].group]);
+    });
+    for (std::size_t i = 0; i < chunks.size();) {
+      MovingGroup& group = motion_->groups[chunks[i].group];
+      bool any_flat = false;
+      for (const std::size_t of = chunks[i].group; i < chunks.size() && chunks[i].group == of; ++i)
+        any_flat |= chunks[i].any_flat;
+      group.bounds = any_flat ? bounds_with_area(group) : bounds_of(group);
+    }
+    for (const std::size_t g : moved) {
+      MovingGroup& group = motion_->groups[g];
+      group.placed.tree = group.kept->tree;
+      group.placed.triangles = std::move(stored[g]);
+      if (!group.bounds.empty()) motions[g]->describe(group.bounds, group.placed);
+    }
+  }
+
+  // Stores triangles as posed. Those without an area are never hit, as if the tree did not have them.
+  void place(const std::vector<std::uint32_t>& order, Chunk& chunk, StoredTriangles& stored) const {
+    for (std::size_t i = chunk.first; i < chunk.last; ++i) {
+      const glm::uvec3& corners = mesh_.triangles[order[i]];
+      const glm::vec3 &a = mesh_.positions[corners.x], &b = mesh_.positions[corners.y],
+                      &c = mesh_.positions[corners.z];
+      const ProjectedTriangle triangle = ProjectedTriangle::from(a, b, c, order[i]);
+      const bool flat = std::isnan(triangle.n_u);
+      chunk.any_flat |= flat;
+      if (!stored.has_corners()) {
+        stored.triangles[i] = triangle;
+        continue;
+      }
+      stored.corner_triangles[i] = CornerTriangle::from(mesh_.positions, corners, order[i]);
+      if (flat) std::fill_n(&stored.corner_triangles[i].corners[0][0], 9, triangle.n_u);
+    }
+  }
+
+  [[nodiscard]] Bounds bounds_of(const MovingGroup& group) const {
+    Bounds bounds;
+    for (const int n : group.nodes)
+      bounds.add(mesh_.pose() ? mesh_.pose()->nodes[n].bounds : bounds_with_area(group));
+    return bounds;
+  }
+
+  // Of its triangles that have an area.
+  [[nodiscard]] Bounds bounds_with_area(const MovingGroup& group) const {
+    Bounds bounds;
+    for (const std::uint32_t id : group.kept->order) {
+      const glm::uvec3& t = mesh_.triangles[id];
+      const glm::vec3 &a = mesh_.positions[t.x], &b = mesh_.positions[t.y], &c = mesh_.positions[t.z];
+      if (std::isnan(ProjectedTriangle::from(a, b, c, id).n_u)) continue;
+      for (const glm::vec3& corner : {a, b, c}) bounds.add(corner);
+    }
+    return bounds;
+  }
+
+  void join() {
+    Bounds all = trees_->still->exact_bounds;
+    std::vector<Bounds> boxes;
+    if (motion_) {
+      for (const MovingGroup& group : motion_->groups) {
+        if (group.bounds.empty()) continue;
+        all.add(group.bounds);
+        trees_->moving.push_back(group.placed);
+        boxes.push_back(group.bounds);
+        widen(boxes.back());
+      }
+    }
+    trees_->top = build_top_level(boxes);
+    widen(all);
+    trees_->bounds = all;
+  }
+
+  const Scene& scene_;
+  const BuildOptions& options_;
+  const Mesh& mesh_;
+  std::shared_ptr<SceneTrees> trees_ = std::make_shared<SceneTrees>();
+  std::shared_ptr<MotionState> motion_;
+  std::vector<bool> differs_, is_still_;  // by node; of the pose before
+};
+
+}  // namespace
+
+PosedTrees build_posed_trees(const Scene& scene, const BuildOptions& options, const SceneTrees* before,
+                             const MotionState* state) {
+  return Trees(scene, options, before, state).finish();
+}
+
+}  // namespace pinocchio

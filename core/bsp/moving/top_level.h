@@ -1,0 +1,13 @@
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "core/bsp/scene_trees.h"
+
+namespace pinocchio {
+
+// The binary tree over the boxes: median splits along the longest side of their centres.
+[[nodiscard]] std::vector<TopNode> build_top_level(std::span<const Bounds> boxes);
+
+}  // namespace pinocchio

@@ -1,0 +1,54 @@
+#pragma once
+
+#include <cstdint>
+#include <glm/glm.hpp>
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "core/bsp/tree.h"
+
+namespace pinocchio {
+
+// A tree that was built in an earlier pose and has only been moved since. Rays are brought to where it was
+// built; the triangles that they are tested against are the present pose's.
+struct MovingTree {
+  std::shared_ptr<const BspTree> tree;  // without triangles
+  std::shared_ptr<const StoredTriangles> triangles;
+  // Where the tree was built, from the world: three rows.
+  float tree_from_world[3][4];
+  // A ray's point, brought there, is off by at most margin + kPerOrigin * |row| * |origin| from the point of
+  // the triangle that it is on in the tree. That includes the rounding of the vertices.
+  float margin[3];
+  static constexpr float kPerOrigin = 0x1p-19f;
+};
+
+// A node of the top level: a binary tree of boxes over the moving trees.
+struct TopNode {
+  Bounds box;           // p_world, widened
+  std::uint32_t first;  // of two adjacent children, or the moving tree
+  int axis;             // along which the first child is below the second; -1: one tree
+};
+
+// All trees of a scene in one pose.
+struct SceneTrees {
+  std::shared_ptr<const BspTree> still;  // of all that has no tree of its own; its root may be an empty leaf
+  std::span<const glm::vec3> positions;  // the scene's
+  std::span<const glm::uvec3> corners;   // the scene's triangles
+  std::vector<MovingTree> moving{};
+  std::vector<TopNode> top{};  // the root first; empty: nothing moves
+  Bounds bounds{};             // as of a tree over all
+
+  [[nodiscard]] std::size_t bytes() const {
+    std::size_t sum = still->bytes();
+    for (const MovingTree& m : moving)
+      sum += m.tree->bytes() + m.triangles->triangles.size() * sizeof(ProjectedTriangle) +
+             m.triangles->corner_triangles.size() * sizeof(CornerTriangle);
+    return sum;
+  }
+};
+
+// The deepest top level: halves of at most 2^30 trees.
+inline constexpr int kMostTopDepth = 32;
+
+}  // namespace pinocchio

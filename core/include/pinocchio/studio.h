@@ -1,0 +1,23 @@
+// The first picture of a file that brings no camera or no light.
+#pragma once
+
+#include <glm/glm.hpp>
+
+#include "pinocchio/scene.h"
+
+namespace pinocchio {
+
+// A camera on the front quarter (+Z, as glTF defines it), somewhat above. The silhouette of what the file
+// shows fills 85 % of the shorter side of a picture of `size` pixels. Grounds and skies around it are left
+// out of account: flat parts below that reach beyond the rest, and large parts around the rest that face it.
+[[nodiscard]] Camera studio_camera(const Scene& scene, glm::ivec2 size);
+
+// Lights a scene that has no light: a soft, neutral sky and a directional light that casts, from the left of
+// a studio_camera.
+void add_studio_light(Scene& scene);
+[[nodiscard]] bool has_studio_light(const Scene& scene);
+
+// Samples a pixel that make a picture in the studio smooth.
+inline constexpr int kStudioSamples = 4;
+
+}  // namespace pinocchio

@@ -1,0 +1,148 @@
+#include "core/scene/prefiltered_sky.h"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/gtc/constants.hpp>
+#include <mutex>
+#include <vector>
+
+namespace pinocchio {
+namespace {
+
+using glm::pi;
+
+// The direction of a place in the picture, as Environment has it.
+glm::dvec3 direction_of(double u, double v) {
+  const double down = pi<double>() * v, turn = 2.0 * pi<double>() * u;
+  return {std::sin(down) * std::sin(turn), std::cos(down), -std::sin(down) * std::cos(turn)};
+}
+
+// The picture's light at a place between texels' centres.
+glm::dvec3 light_at(const Image<glm::vec3>& picture, double u, double v) {
+  const glm::ivec2 size = picture.size();
+  const double x = u * size.x - 0.5, y = v * size.y - 0.5;
+  const double column = std::floor(x), row = std::floor(y);
+  const auto texel = [&](double c, double r) {
+    const int i = static_cast<int>(c) % size.x;
+    return glm::dvec3(picture.at(i < 0 ? i + size.x : i, std::clamp(static_cast<int>(r), 0, size.y - 1)));
+  };
+  return glm::mix(glm::mix(texel(column, row), texel(column + 1, row), x - column),
+                  glm::mix(texel(column, row + 1), texel(column + 1, row + 1), x - column), y - row);
+}
+
+// The means of the picture's light over the texels of a picture of that size.
+Image<glm::vec3> reduced(const Image<glm::vec3>& picture, glm::ivec2 size) {
+  const auto steps = [](int from, int to) { return std::max(2, (from + to - 1) / to); };
+  const int across = steps(picture.width(), size.x), down = steps(picture.height(), size.y);
+  Image<glm::vec3> means(size);
+  for (int y = 0; y < size.y; ++y)
+    for (int x = 0; x < size.x; ++x) {
+      glm::dvec3 sum(0.0);
+      double area = 0.0;
+      for (int j = 0; j < down; ++j) {
+        const double v = (y + (j + 0.5) / down) / size.y, sine = std::sin(pi<double>() * v);
+        for (int i = 0; i < across; ++i)
+          sum += sine * light_at(picture, (x + (i + 0.5) / across) / size.x, v);
+        area += sine * across;
+      }
+      means.at(x, y) = glm::vec3(sum / area);
+    }
+  return means;
+}
+
+// Calls visit(direction, solid angle, light) for each texel.
+template <class Visit>
+void for_each_texel(const Image<glm::vec3>& picture, Visit visit) {
+  const glm::dvec2 size(picture.size());
+  for (int y = 0; y < picture.height(); ++y) {
+    const double angle = 2.0 * pi<double>() / size.x *
+                         (std::cos(pi<double>() * y / size.y) - std::cos(pi<double>() * (y + 1) / size.y));
+    for (int x = 0; x < picture.width(); ++x)
+      visit(direction_of((x + 0.5) / size.x, (y + 0.5) / size.y), angle, glm::dvec3(picture.at(x, y)));
+  }
+}
+
+// Ramamoorthi and Hanrahan 2001: the light's coefficients, times those of the cosine, times the basis'
+// constants, so that a sum of products with the polynomials is the irradiance.
+std::array<glm::vec3, 9> irradiance_of(const Image<glm::vec3>& sky) {
+  constexpr double kFlat = 0.282095, kLinear = 0.488603, kMixed = 1.092548, kZ = 0.315392, kXY = 0.546274;
+  const double cosine[3] = {pi<double>(), 2.0 * pi<double>() / 3.0, pi<double>() / 4.0};
+  std::array<glm::dvec3, 9> light{};
+  constexpr std::array<double, 9> kBasis{kFlat, kLinear, kLinear, kLinear, kMixed, kMixed, kZ, kMixed, kXY};
+  for_each_texel(sky, [&](const glm::dvec3& d, double angle, const glm::dvec3& from) {
+    const std::array<double, 9> polynomial{
+        1.0, d.y, d.z, d.x, d.x * d.y, d.y * d.z, 3.0 * d.z * d.z - 1.0, d.x * d.z, d.x * d.x - d.y * d.y};
+    for (std::size_t i = 0; i < 9; ++i) light[i] += angle * kBasis[i] * polynomial[i] * from;
+  });
+  std::array<glm::vec3, 9> irradiance{};
+  for (std::size_t i = 0; i < 9; ++i)
+    irradiance[i] = glm::vec3(cosine[i == 0 ? 0 : i < 4 ? 1 : 2] * kBasis[i] * light[i]);
+  return irradiance;
+}
+
+// What a mirror of that roughness sees that is looked at along its normal: the density of its facets, times
+// the cosine (Karis 2013). Pairs of texels with the same rows and distance in longitude have the same weight.
+Image<glm::vec3> seen_by(const Image<glm::vec3>& sky, float roughness, glm::ivec2 size) {
+  const int width = sky.width(), height = sky.height(), finer = width / size.x;
+  const double alpha2 = std::pow(static_cast<double>(roughness), 4.0);
+  Image<glm::vec3> seen(size);
+  std::vector<float> weights(static_cast<std::size_t>(width));
+  for (int y = 0; y < size.y; ++y) {
+    const double v = (y + 0.5) / size.y;
+    const glm::dvec3 n = direction_of(0.5 * finer / width, v);  // of column 0
+    std::vector<glm::vec3> sums(static_cast<std::size_t>(size.x), glm::vec3(0.0f));
+    double all = 0.0;
+    for (int row = 0; row < height; ++row) {
+      const double angle =
+          std::cos(pi<double>() * row / height) - std::cos(pi<double>() * (row + 1) / height);
+      double of_row = 0.0;
+      for (int column = 0; column < width; ++column) {
+        const double n_dot_l = glm::dot(n, direction_of((column + 0.5) / width, (row + 0.5) / height));
+        const double n_dot_h2 = 0.5 * (1.0 + n_dot_l);  // squared
+        const double across = n_dot_h2 * (alpha2 - 1.0) + 1.0;
+        const double weight = n_dot_l > 0.0 ? angle * n_dot_l / (across * across) : 0.0;
+        weights[static_cast<std::size_t>(column)] = static_cast<float>(weight);
+        of_row += weight;
+      }
+      all += of_row;
+      if (of_row == 0.0) continue;
+      for (int x = 0; x < size.x; ++x) {
+        glm::vec3 sum(0.0f);
+        for (int column = 0; column < width; ++column)
+          sum += weights[static_cast<std::size_t>(column)] * sky.at((column + x * finer) % width, row);
+        sums[static_cast<std::size_t>(x)] += sum;
+      }
+    }
+    for (int x = 0; x < size.x; ++x)
+      seen.at(x, y) = sums[static_cast<std::size_t>(x)] / static_cast<float>(std::max(all, 1e-30));
+  }
+  return seen;
+}
+
+}  // namespace
+
+PrefilteredSky::PrefilteredSky(const Environment& environment) {
+  const Image<glm::vec3> fine = reduced(environment.radiance(), {128, 64});
+  const Image<glm::vec3> coarse = reduced(fine, {64, 32});
+  irradiance = irradiance_of(fine);
+  for (std::size_t i = 0; i < levels.size(); ++i)
+    levels[i] = i == 0 ? seen_by(fine, kSkyRoughness[i], fine.size())
+                       : seen_by(coarse, kSkyRoughness[i], coarse.size());
+}
+
+std::shared_ptr<const PrefilteredSky> prefiltered(const std::shared_ptr<const Environment>& environment) {
+  struct Kept {
+    std::weak_ptr<const Environment> of;
+    std::shared_ptr<const PrefilteredSky> sky;
+  };
+  static std::mutex mutex;
+  static std::vector<Kept> kept;
+  const std::lock_guard lock(mutex);
+  std::erase_if(kept, [](const Kept& k) { return k.of.expired(); });
+  for (const Kept& k : kept)
+    if (k.of.lock() == environment) return k.sky;
+  kept.push_back({environment, std::make_shared<const PrefilteredSky>(*environment)});
+  return kept.back().sky;
+}
+
+}  // namespace pinocchio
