@@ -17,13 +17,13 @@ class PlaybackWindowTest : public WindowTest {
     const std::string time = option(command_line(), "--time");
     return time.empty() ? -1.0 : std::stod(time);
   }
-  // From the slider's right end, which what P says does not cover, to x.
+  // From the slider's right end to x.
   void pull(int x, int y) const {
     const auto to = [&](int column) {
       return "mousemove --window " + window_ + " " + std::to_string(column) + " " + std::to_string(y) +
              " sleep 0.1 ";
     };
-    xdo(to(490) + "mousedown 1 sleep 0.1 " + to((490 + x) / 2) + to(x) + "mouseup 1");
+    xdo(to(465) + "mousedown 1 sleep 0.1 " + to((465 + x) / 2) + to(x) + "mouseup 1");
   }
   // A pose is made after it was asked for.
   template <class Condition>
@@ -66,7 +66,7 @@ TEST_F(PlaybackWindowTest, TheSliderStopsAndMovesTheTime) {
   key(kStill);
   EXPECT_EQ(time_s(), 0.0);
   // It lies above the status line, in the middle; how high that is depends on the font.
-  constexpr int kLeft = 300, kMiddle = 400, kRight = 470;
+  constexpr int kLeft = 270, kMiddle = 350, kRight = 440;
   int y = 553;
   const auto found = [&] {
     pull(kMiddle, y);

@@ -124,11 +124,11 @@ TEST_F(WindowTest, ADraggedLightIsInAFileThatTheCommandDraws) {
   open(scene("cornell"), "--eye 0,1,3.4 --target 0,1,0 --light 0,1,0,0.5 --mode raster");
   EXPECT_NE(command_line().find("--light 0,1,0,0.5,cast"), std::string::npos);
   key("h F5");
-  xdo("windowsize --sync " + window_ + " 400 400");
+  xdo("windowsize --sync " + window_ + " 700 500");
   pause_ms(500);
   const std::string to = "mousemove --window " + window_ + " ";
-  xdo(to + "200 200 sleep 0.5 mousedown 1 sleep 0.4 " + to + "206 203 sleep 0.4 " + to +
-      "212 206 sleep 0.4 mouseup 1");
+  xdo(to + "350 250 sleep 0.5 mousedown 1 sleep 0.4 " + to + "356 253 sleep 0.4 " + to +
+      "362 256 sleep 0.4 mouseup 1");
   const std::string command = command_line();
   EXPECT_NE(command.find("render cornell-001.gltf"), std::string::npos) << command;
   EXPECT_EQ(command.find("--light"), std::string::npos) << command;

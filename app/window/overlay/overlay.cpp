@@ -101,9 +101,10 @@ ImVec2 free_place(const Model& model, Panel panel, const Area& area, ImVec2 usua
 }
 
 float moved_with(float at, float size, float lo, float was, float is) {
-  const float middle = at + 0.5f * size - lo;
-  if (std::abs(middle - 0.5f * was) < 0.05f * was) return at + 0.5f * (is - was);
-  return middle > 0.5f * was ? at + is - was : at;
+  constexpr float kMiddle = 0.1f;  // of the area
+  const float before = at - lo, behind = was - before - size;
+  if (before > kMiddle * was && std::abs(before - behind) < kMiddle * was) return at + 0.5f * (is - was);
+  return before <= behind ? at : at + is - was;
 }
 
 // Panels keep their distance from the nearer edges of a window that changes its size.

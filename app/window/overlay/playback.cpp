@@ -9,7 +9,7 @@ namespace pinocchio::app {
 
 namespace {
 
-constexpr float kMargin = 8.0f;
+constexpr float kBarGap = 8.0f;
 
 // Files may hold several animations.
 void draw_clips(PlaybackState& playback, float scale) {
@@ -36,13 +36,13 @@ void draw_clips(PlaybackState& playback, float scale) {
 
 float playback_height(const Model& model, float scale) {
   if (!model.scene.animation) return 0.0f;
-  return ImGui::GetFrameHeight() + 2.0f * ImGui::GetStyle().WindowPadding.y + kMargin * scale;
+  return ImGui::GetFrameHeight() + 2.0f * ImGui::GetStyle().WindowPadding.y + kBarGap * scale;
 }
 
 void draw_playback(Model& model, float scale) {
   if (!model.scene.animation) return;
   const ImVec2 display = ImGui::GetIO().DisplaySize;
-  const float margin = kMargin * scale;
+  const float margin = kBarGap * scale;
   ImGui::SetNextWindowPos(ImVec2(0.5f * display.x, display.y - status_height(scale) - margin),
                           ImGuiCond_Always, ImVec2(0.5f, 1.0f));
   ImGui::Begin("playback", nullptr,
