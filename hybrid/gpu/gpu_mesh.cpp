@@ -104,7 +104,8 @@ GpuMesh::GpuMesh(const Mesh& mesh, const Shared& shared)
       maps_(mesh, shared.textures ? &shared.textures->maps_ : nullptr),
       // Reversed float depth is as fine far away as near by, so the near plane may be almost 0: depth leaves
       // float's normal numbers only beyond 2^66 diagonals.
-      z_near_(std::max(mesh.bounds().diagonal() * 0x1p-60f, std::numeric_limits<float>::min())) {}
+      z_near_(std::max(mesh.bounds().diagonal() * 0x1p-60f, std::numeric_limits<float>::min())),
+      bounds_(mesh.bounds()) {}
 
 bool has_same_geometry(const Mesh& a, const Mesh& b) {
   return a.positions == b.positions && a.normals == b.normals && a.triangles == b.triangles &&

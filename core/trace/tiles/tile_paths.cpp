@@ -6,6 +6,12 @@
 #include "core/trace/view/view_params.h"
 
 namespace pinocchio {
+namespace {
+
+// Of what is hit, however clear it is: 0 is where nothing is.
+constexpr float kLeastCoverage = 1e-30f;
+
+}  // namespace
 
 // Follows the rays that the camera's rays spawned, then those of matt surfaces, bounce by bounce.
 void TileTracer::follow() {
@@ -56,6 +62,7 @@ void TileTracer::follow_mirrors(int bounce_count) {
       const bool of_camera = &queue == &rays_[kStraightFromCamera];
       if (of_camera && queue.size == 0) continue;
       find_hits(queue, generation, of_camera);
+      if (of_camera && plan_->out.coverage) uncover(queue);
       if (plan_->environment && (bounce_count == 0 || &queue != &rays_[kStraight])) add_environment(queue);
       plan_->job.tracer.steps().keep_hits(queue);
       bounce(step, generation, queue, next_, reflected_, of_camera);
@@ -77,6 +84,16 @@ void TileTracer::add_environment(const RayQueue& rays) {
     if (density > 0.0f) light *= density / (density + plan_->environment->density(direction));
     const glm::vec3 share(rays.light[0][i], rays.light[1][i], rays.light[2][i]);
     reflected_[rays.pixel[i]] += glm::vec4(share * light, 0.0f);
+  }
+}
+
+// Rays that went through all that blends and hit nothing: what is left of their light is not covered.
+void TileTracer::uncover(const RayQueue& rays) {
+  for (std::size_t i = 0; i < rays.size; ++i) {
+    if (rays.triangle[i] != kNoTriangle) continue;
+    float& alpha = direct_[rays.pixel[i]].a;
+    const float left = (rays.light[0][i] + rays.light[1][i] + rays.light[2][i]) / 3.0f;
+    alpha = std::max(alpha - left, kLeastCoverage);
   }
 }
 
@@ -126,8 +143,10 @@ void TileTracer::paint_background() const {
   for (int y = tile_.lo.y; y < tile_.hi.y; ++y)
     for (int x = tile_.lo.x; x < tile_.hi.x; ++x) {
       glm::vec4& color = plan_->out.color->at(x, y);
-      if (color.a == 0.0f)
-        color = glm::vec4(plan_->environment->radiance(pixel_ray(plan_->view, x, y).direction), 0.0f);
+      if (color.a != 0.0f) continue;
+      const Ray ray = plan_->model ? plan_->model->ray(x, y) : pixel_ray(plan_->view, x, y);
+      if (ray.direction != glm::vec3(0.0f))
+        color = glm::vec4(plan_->environment->radiance(ray.direction), 0.0f);
     }
 }
 

@@ -35,6 +35,7 @@ class TileTracer {
   void follow_mirrors(int bounce);
   void follow_diffuse(int bounce);
   void add_environment(const RayQueue& missed);
+  void uncover(const RayQueue& straight);
   void paint_background() const;
   void bounce(Bounce step, int generation, const RayQueue& rays, Generation& next, Radiance& radiance,
               bool of_camera = false);
@@ -58,7 +59,8 @@ class TileTracer {
   std::vector<std::uint8_t> blocked_, up_blocked_;
   Holes holes_;
   Radiance direct_, reflected_;
-  bool reflects_ = false;  // reflected_ may hold light
+  Footprint seen_footprint_;  // of the tile, where a RayModel makes the rays
+  bool reflects_ = false;     // reflected_ may hold light
   std::array<std::uint8_t, kPixels> mask_;
   std::array<std::uint32_t, kPixels> ids_;  // of the tile's pixels, row by row: given or found
 };
