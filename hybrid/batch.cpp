@@ -7,6 +7,7 @@
 #include "hybrid/engine/engine_parts.h"
 #include "hybrid/frame/lines.h"
 #include "hybrid/frame/samples.h"
+#include "pinocchio/layers.h"
 
 namespace pinocchio {
 namespace {

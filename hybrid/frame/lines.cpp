@@ -8,6 +8,7 @@
 #include "core/trace/tiles/motion.h"
 #include "core/trace/view/ray_model.h"
 #include "core/trace/view/view_params.h"
+#include "pinocchio/layers.h"
 
 namespace pinocchio {
 

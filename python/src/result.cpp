@@ -1,5 +1,7 @@
 #include "python/src/result.h"
 
+#include <pinocchio/layers.h>
+
 #include <nanobind/stl/filesystem.h>
 #include <algorithm>
 #include <cctype>

@@ -46,10 +46,9 @@ class Share {
       TraceOptions& options = trace_job_.options;
       options.jitter = jitter_of(k, job_.filter);
       options.sampling.index = job_.options.sampling.index + static_cast<std::uint32_t>(k);
-      const View view{
-          .camera = camera, .size = job_.size, .part = tile, .jitter = options.jitter, .sample = k};
-      const std::optional<RayModel> model = RayModel::of(view);
-      plan_.set_view(view_params(view), model ? &*model : nullptr);
+      const std::optional<RayModel> model = model_of(camera, tile, options.jitter);
+      plan_.set_view(view_params(camera, job_.size, options.jitter, tile.lo, lens_point_of(k)),
+                     model ? &*model : nullptr);
       outputs_.ids = k == 0 ? &images_.ids : nullptr;
       outputs_.reflection = k == 0 && to_.reflection ? &images_.reflection : nullptr;
       outputs_.mask = k == 0 && to_.mask && job_.outputs.mask_bits > 0 ? &images_.mask : nullptr;
@@ -58,9 +57,8 @@ class Share {
       add_sample(k, box);
     }
     copy(frame, tile, samples);
-    const View view{.camera = camera, .size = job_.size, .part = tile};
-    if (to_.wants_surfaces()) add_surfaces(view, frame, tile);
-    if (to_.motion) add_motion(view, frame, tile);
+    if (to_.wants_surfaces()) add_surfaces(camera, frame, tile);
+    if (to_.motion) add_motion({.camera = camera, .size = job_.size, .part = tile}, frame, tile);
     return rays;
   }
 
@@ -117,9 +115,17 @@ class Share {
     }
   }
 
-  void add_surfaces(const View& view, std::size_t frame, const PixelBox& tile) {
-    const std::optional<RayModel> model = RayModel::of(view);
-    const VisibleScene of{*job_.scene.mesh, job_.tracer.steps(), view_params(view),
+  // None, and nothing is copied, where view_params makes the rays.
+  [[nodiscard]] std::optional<RayModel> model_of(const Camera& camera, const PixelBox& tile,
+                                                 glm::vec2 jitter = glm::vec2(0.0f)) const {
+    if (camera.is_rasterisable()) return std::nullopt;
+    return RayModel::of({.camera = camera, .size = job_.size, .part = tile, .jitter = jitter});
+  }
+
+  void add_surfaces(const Camera& camera, std::size_t frame, const PixelBox& tile) {
+    const std::optional<RayModel> model = model_of(camera, tile);
+    const VisibleScene of{*job_.scene.mesh, job_.tracer.steps(),
+                          view_params(camera, job_.size, glm::vec2(0.0f), tile.lo),
                           job_.options.texture_footprint > 0.0f, model ? &*model : nullptr};
     write_visible_points(of, {{0, 0}, tile.size()}, &images_.ids.at(0, 0), kSide, to_, row_of(frame, tile, 0),
                          static_cast<std::size_t>(job_.size.x));

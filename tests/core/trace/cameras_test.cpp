@@ -165,8 +165,8 @@ TEST(Cameras, TheCallersRaysAreTheirPixels) {
     given->origins.emplace_back(i, 0.0f, 1.0f);
     given->directions.emplace_back(0.0f, i == 5 ? NAN : 1.0f, 2.0f);
   }
-  const Image<Ray> rays =
-      camera_rays({.size = {4, 3}, .part = {{1, 1}, {4, 3}}, .jitter = {0.3f, 0.2f}, .rays = given});
+  const Image<Ray> rays = camera_rays(
+      {.camera = {}, .size = {4, 3}, .part = {{1, 1}, {4, 3}}, .jitter = {0.3f, 0.2f}, .rays = given});
   EXPECT_EQ(rays.at(1, 0).origin, glm::vec3(6, 0, 1));
   EXPECT_EQ(rays.at(1, 0).direction, glm::vec3(0, 1, 2));
   EXPECT_EQ(rays.at(0, 0).direction, glm::vec3(0.0f));
