@@ -130,7 +130,7 @@ TEST_F(DataSetsTest, FramesGoToStandardOutput) {
   std::ifstream in(folder_ / "frames", std::ios::binary);
   const std::string bytes(std::istreambuf_iterator<char>(in), {});
   EXPECT_NE(bytes.substr(0, 600), bytes.substr(600, 600));
-  EXPECT_GT(*std::ranges::max_element(bytes.substr(0, 600)), '\0');
+  EXPECT_NE(bytes.substr(0, 600), std::string(600, '\0'));
   // A reader that ends early is an error, not a signal.
   const CommandResult early =
       run("render" + scene("two-lights") +

@@ -84,7 +84,7 @@ TEST(RayPictures, OfACamerasRaysAreItsPicture) {
        {Projection::perspective, Projection::orthographic, Projection::panorama, Projection::fisheye}) {
     Scene scene = orthographic("cornell");
     scene.cameras.front().projection = projection;
-    Engine engine({});
+    Engine engine;
     Settings settings = by({{"mode", "raytrace"}});
     settings.filter_textures = false;
     const View by_camera{.camera = scene.cameras.front(), .size = kSize};
@@ -105,7 +105,7 @@ TEST(RayPictures, OfACamerasRaysAreItsPicture) {
 // OpenGL is not even opened.
 TEST(RayPictures, GoToTheCpuByThemselves) {
   Scene scene = scene_named("two-lights");
-  Engine engine({.device = "no such device"});
+  Engine engine(EngineOptions{.device = "no such device"});
   for (const Projection projection : {Projection::panorama, Projection::fisheye}) {
     Camera camera = scene.cameras.front();
     camera.projection = projection;
@@ -139,7 +139,7 @@ TEST(RayPictures, TexturesAreAveragedOverThePixelsOfTheModel) {
   const Scene textured = scene_named("terrace");
   Camera camera = textured.cameras.front();
   camera.projection = Projection::panorama;
-  Engine engine({});
+  Engine engine;
   Settings one = by({{"mode", "raytrace"}}), many = one;
   many.spp = 64;
   Settings unfiltered = one;

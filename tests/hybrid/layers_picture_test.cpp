@@ -55,7 +55,7 @@ std::vector<Settings> both_ways() {
 }
 
 Layers draw(const Scene& scene, const MotionTo& motion, const Settings& settings) {
-  Engine engine({});
+  Engine engine;
   Layers layers;
   const auto done =
       render_many(engine, scene, scene.cameras, kSize, settings, layers.arrays(), nullptr, {&motion, 1});
@@ -151,7 +151,7 @@ TEST(DataLayers, CoverageGoesToTheCpu) {
   const Scene scene = two_squares();
   Settings settings;
   settings.coverage = true;
-  Engine engine({.device = "no such device"});
+  Engine engine(EngineOptions{.device = "no such device"});
   const auto picture = engine.render(scene, {.camera = scene.cameras.front(), .size = kSize}, settings);
   ASSERT_TRUE(picture) << picture.error().message();
   EXPECT_FALSE(picture->settings.uses_gpu());
