@@ -193,7 +193,8 @@ Engine::~Engine() {
 
 Expected<Settings> Engine::resolve(const Scene& scene, glm::ivec2 size, const Settings& settings,
                                    bool keeps_mask) const {
-  return pinocchio::resolve(settings, parts_->stats_of(scene), {size, gl_is_software(settings), keeps_mask});
+  const bool software = gl_is_software(settled(settings));
+  return pinocchio::resolve(settings, parts_->stats_of(scene), {size, software, keeps_mask});
 }
 
 // Pixels that BuildOptions::margin was in the chart that chose it, at 800 x 600. In a narrower view or a
