@@ -193,8 +193,7 @@ Engine::~Engine() {
 
 Expected<Settings> Engine::resolve(const Scene& scene, glm::ivec2 size, const Settings& settings,
                                    bool keeps_mask) const {
-  const bool software = gl_is_software(settled(settings));
-  return pinocchio::resolve(settings, parts_->stats_of(scene), {size, software, keeps_mask});
+  return pinocchio::resolve(settings, parts_->stats_of(scene), {size, gl_is_software(settings), keeps_mask});
 }
 
 // Pixels that BuildOptions::margin was in the chart that chose it, at 800 x 600. In a narrower view or a
@@ -249,7 +248,7 @@ bool Engine::gl_is_software(const Settings& settings) const {
       return true;
     }
   }
-  if (settings.uses_gpu()) open_gl();
+  if (settings.uses_gpu() && !settings.coverage) open_gl();  // coverage is the CPU's
   return gl_info() && gl_info()->software;
 }
 

@@ -34,7 +34,7 @@ Drawing::Drawing(const DrawOptions& options, Scene scene, Exchange usual, bool k
   stats_ = analyze(scene_);
   needs_rays_ = !camera_for(options_, scene_).is_rasterisable();
   if (any_settings) engine_.open_gl();
-  if (!needs_rays_) software_gl_ = engine_.gl_is_software(settled(options.settings));
+  if (!needs_rays_) software_gl_ = engine_.gl_is_software(options.settings);
   if (!options.quiet && !engine_.gl_failure().empty())
     std::fprintf(stderr, "pinocchio: warning: %s: the CPU draws alone (--mode auto)\n",
                  one_line(engine_.gl_failure()).c_str());

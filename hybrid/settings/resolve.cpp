@@ -58,24 +58,21 @@ void choose_processors(const Circumstances& c, Settings& s) {
 
 }  // namespace
 
-Settings settled(Settings settings) {
-  if (!settings.coverage) return settings;
-  settings.visibility.fill(Processor::cpu);
-  settings.composite.fill(Processor::cpu);
-  return settings;
-}
-
 Expected<Settings> resolve(const Settings& settings, const SceneStats& stats, const Circumstances& c) {
   if (stats.casting_lights > kMaxCastingLights)
     return refused("the scene has " + std::to_string(stats.casting_lights) +
                        " lights that cast shadows, the shadow mask holds " +
                        std::to_string(kMaxCastingLights),
                    "let some not cast (extras.pinocchio.castsShadow, or --light x,y,z,intensity,nocast)");
-  Settings s = settled(settings);
+  Settings s = settings;
   s.id_bits.fill(stats.triangles < kMost16BitIds ? 16 : 32);
   s.mask_bits.fill(MaskImage::bits_for(stats.casting_lights));
   fill_depth(stats, s);
   choose_processors(c, s);
+  if (s.coverage) {
+    s.visibility.fill(Processor::cpu);
+    s.composite.fill(Processor::cpu);
+  }
   if (c.needs_rays) draw_on_cpu(s);
   // All lights together stay below half a step.
   const bool needs_bits = c.keeps_mask || s.mask_bits == 0;

@@ -20,9 +20,6 @@ struct Circumstances {
 // for every scene and size that was measured, so by_machine needs no other fact.
 inline constexpr const char* kGainOverSoftwareGl = "1.5 to 4 times as fast at 800x600";
 
-// The settings with what follows from them alone, before anybody looks for OpenGL: coverage is the CPU's.
-[[nodiscard]] Settings settled(Settings settings);
-
 // Fills in the settings that are not given: the least work that draws the scene exactly (to half a step of an
 // 8-bit picture). An error where two settings contradict each other, or the scene exceeds a limit (more
 // casting lights than mask slots, ids with too few bits).
