@@ -1,9 +1,13 @@
 #include "pinocchio/batch.h"
 
+#include <algorithm>
+#include <cassert>
+
 #include "core/trace/tiles/trace_frames.h"
 #include "hybrid/engine/engine_parts.h"
 #include "hybrid/frame/lines.h"
 #include "hybrid/frame/samples.h"
+#include "pinocchio/layers.h"
 
 namespace pinocchio {
 namespace {
@@ -15,7 +19,7 @@ bool fits_tile_queue(const Settings& s) {
 
 RayCounts draw_tiles(Engine::Parts& engine, const Scene& scene, const std::shared_ptr<const Tracer>& tracer,
                      std::span<const Camera> cameras, glm::ivec2 size, const Settings& s,
-                     const FrameArrays& to, Progress* progress) {
+                     const FrameArrays& to, Progress* progress, std::span<const MotionTo> motion) {
   Scene lit = scene;
   settle_lights(lit, s);
   FramesJob job{lit, *tracer, engine.workers(s.threads), cameras, size};
@@ -26,18 +30,22 @@ RayCounts draw_tiles(Engine::Parts& engine, const Scene& scene, const std::share
     job.outputs.environment_light = true;
   }
   job.outputs.mask_bits = s.mask_bits;
+  job.outputs.coverage = s.coverage;
   job.options = trace_options(s, {});
   job.filter = s.pixel_filter;
   job.progress = progress;
+  job.motion = motion;
   return trace_frames(job, to);
 }
 
 RayCounts draw_frames(Engine& engine, FrameRequest request, std::span<const Camera> cameras,
-                      const FrameArrays& to, Progress* progress) {
+                      const FrameArrays& to, Progress* progress, std::span<const MotionTo> motion) {
   RayCounts rays;
-  std::size_t pixels = 0;  // written
+  std::size_t pixels = 0, frames = 0;  // written
   SampleMean mean(request.settings, [&](FrameResult&& frame) {
+    if (!motion.empty()) frame.motion = motion[frames];
     write_layers(frame, to, pixels);
+    ++frames;
     pixels += frame.ids.pixels().size();
   });
   Renderer renderer(
@@ -56,18 +64,20 @@ RayCounts draw_frames(Engine& engine, FrameRequest request, std::span<const Came
 
 Expected<RayCounts> render_many(Engine& engine, const Scene& scene, std::span<const Camera> cameras,
                                 glm::ivec2 size, const Settings& settings, const FrameArrays& to,
-                                Progress* progress) {
+                                Progress* progress, std::span<const MotionTo> motion) {
   if (cameras.empty()) return RayCounts{};
+  assert(motion.empty() || motion.size() == cameras.size());
   Settings wanted = settings;
+  if (!std::ranges::all_of(cameras, &Camera::is_rasterisable)) draw_on_cpu(wanted);
   wanted.exchange.fill(settings.uses_gpu() && cameras.size() > 1 ? Exchange::pipelined : Exchange::sync);
   const Expected<Settings> resolved = engine.resolve(scene, size, wanted);
   if (!resolved) return Unexpected(resolved.error());
   const std::shared_ptr<const Tracer> tracer = engine.parts().tracer_of(scene, *resolved, progress);
   begin_phase(progress, "render", static_cast<double>(cameras.size()) * resolved->spp);
   if (fits_tile_queue(*resolved))
-    return draw_tiles(engine.parts(), scene, tracer, cameras, size, *resolved, to, progress);
+    return draw_tiles(engine.parts(), scene, tracer, cameras, size, *resolved, to, progress, motion);
   return draw_frames(engine, {scene, tracer, *resolved, {.camera = cameras.front(), .size = size}}, cameras,
-                     to, progress);
+                     to, progress, motion);
 }
 
 }  // namespace pinocchio

@@ -220,7 +220,7 @@ std::shared_ptr<const Tracer> Engine::prepare(const Scene& scene, const Settings
   options.progress = progress;
   options.lights = casting_light_positions(scene);
   if (only) {
-    options.eye = only->camera.eye;
+    if (!only->rays && only->camera.projection != Projection::orthographic) options.eye = only->camera.eye;
     options.margin = std::min(options.margin, kMarginPixels * glm::length(view_params(*only).step_y));
   }
   return std::make_shared<const Tracer>(scene, options, Isa{settings.isa}, settings.offset, before);
@@ -228,7 +228,9 @@ std::shared_ptr<const Tracer> Engine::prepare(const Scene& scene, const Settings
 
 Expected<FrameResult> Engine::render(const Scene& scene, const View& view, const Settings& settings,
                                      Progress* progress) {
-  const Expected<Settings> resolved = resolve(scene, view.box().size(), settings);
+  Settings wanted = settings;
+  if (!view.is_rasterisable()) draw_on_cpu(wanted);
+  const Expected<Settings> resolved = resolve(scene, view.box().size(), wanted);
   if (!resolved) return Unexpected(resolved.error());
   const std::shared_ptr<const Tracer> tracer = parts_->tracer_of(scene, *resolved, progress);
   begin_phase(progress, "render", resolved->spp);
@@ -259,7 +261,7 @@ bool Engine::gl_is_software(const Settings& settings) const {
       return true;
     }
   }
-  if (settings.uses_gpu()) open_gl();
+  if (settings.uses_gpu() && !settings.coverage) open_gl();  // coverage is the CPU's
   return gl_info() && gl_info()->software;
 }
 

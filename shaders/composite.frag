@@ -49,7 +49,7 @@ vec3 environment_texel(EnvironmentTexels texels, float column, float row) {
 
 vec3 background(ivec2 pixel) {
   EnvironmentParams env = EnvironmentParams(EnvironmentTexels(0), ivec2(environment_size), environment_turn, environment_strength);
-  return environment_light(env, pixel_direction(ViewParams(eye, corner, step_x, step_y, first), vec2(pixel)));
+  return environment_light(env, pixel_direction(view_of_picture(), vec2(pixel)));
 }
 #else
 vec3 background(ivec2 pixel) { return vec3(0.0); }

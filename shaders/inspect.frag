@@ -77,8 +77,9 @@ vec3 color_of_pixel(uint id, ivec2 pixel) {
   bool hole = source_of(pixel, id, surface_of(id, pixel).p_world).hole;
   return hole ? kHole : kAges[clamp(age_frames, 0, 3)];
 #elif defined(SHOW_DEPTH)
-  vec3 direction = pixel_direction(ViewParams(eye, corner, step_x, step_y, first), vec2(pixel));
-  float z_eye = dot(surface_of(id, pixel).p_world - eye, direction) / dot(direction, direction);
+  vec3 direction = pixel_direction(view_of_picture(), vec2(pixel));
+  vec3 origin = pixel_origin(view_of_picture(), vec2(pixel));
+  float z_eye = dot(surface_of(id, pixel).p_world - origin, direction) / dot(direction, direction);
   return in_range(vec3(z_eye));
 #elif defined(SHOW_POSITION)
   return in_range(surface_of(id, pixel).p_world);

@@ -1,5 +1,6 @@
 // What the pixel sees, from the id that the visibility pass left: the shared sources fed from the scene's
 // buffers. Expects the shared sources and scene_fetch.glsl before it.
+//   PARALLEL_RAYS  the camera is orthographic
 
 uniform usampler2D ids;
 uniform vec3 eye;
@@ -8,6 +9,12 @@ uniform vec3 step_x;
 uniform vec3 step_y;
 uniform vec2 first;
 uniform float texture_spread;  // side of what they are averaged over, pixels; 0: textures are not filtered
+
+#ifdef PARALLEL_RAYS
+const bool kParallel = true;
+#else
+const bool kParallel = false;
+#endif
 
 #if ID_BITS == 16
 const uint kNoTriangle = 0xffffu;
@@ -32,6 +39,10 @@ vec3 fetch_rgb(sampler2D from, ivec2 pixel) {
   return vec3(texelFetch(from, at, 0).r, texelFetch(from, at + ivec2(1, 0), 0).r, texelFetch(from, at + ivec2(2, 0), 0).r);
 }
 
+ViewParams view_of_picture() {
+  return ViewParams(eye, corner, step_x, step_y, first, kParallel);
+}
+
 struct PixelSurface {
   vec3 p_world;
   vec3 to_viewer;
@@ -54,13 +65,14 @@ bool faces_light(PixelSurface s, vec3 to_light) {
 }
 
 PixelSurface surface_of(uint id, ivec2 pixel) {
-  ViewParams view = ViewParams(eye, corner, step_x, step_y, first);
+  ViewParams view = view_of_picture();
+  vec3 origin = pixel_origin(view, vec2(pixel));
   vec3 direction = pixel_direction(view, vec2(pixel));
   uvec3 corners = fetch_corners(id);
   vec3 a = fetch_vec3(positions, corners.x);
   vec3 b = fetch_vec3(positions, corners.y);
   vec3 c = fetch_vec3(positions, corners.z);
-  vec3 weights = barycentric_of(eye, direction, a, b - a, c - a);
+  vec3 weights = barycentric_of(origin, direction, a, b - a, c - a);
   PixelSurface s;
   s.p_world = point_on_triangle(weights, a, b - a, c - a);
   s.to_viewer = -normalize(direction);
@@ -82,7 +94,7 @@ PixelSurface surface_of(uint id, ivec2 pixel) {
 #ifdef HAS_MAPS
   int maps = fetch_maps(material);
   if (maps >= 0) {
-    float t = texture_spread * dot(s.p_world - eye, direction) / dot(direction, direction);
+    float t = kParallel ? texture_spread : texture_spread * dot(s.p_world - eye, direction) / dot(direction, direction);
     MapPoint point = MapPoint(corners, weights, b - a, c - a,
                               moved_on_triangle(t * step_x, direction, b - a, c - a),
                               moved_on_triangle(t * step_y, direction, b - a, c - a));

@@ -111,7 +111,7 @@ Source source_of(ivec2 pixel, uint id, vec3 p_world) {
   vec3 at = old_pixel_from_eye * (p_world - old_eye);
   ivec2 last = textureSize(old_ids, 0) - 1;
   // Clamped first: no int holds every float.
-  ivec2 nearest = ivec2(clamp(floor(at.xy / max(at.z, 1e-20) + 0.5), vec2(0.0), vec2(last)));
+  ivec2 nearest = ivec2(clamp(floor((kParallel ? at.xy - first : at.xy / max(at.z, 1e-20)) + 0.5), vec2(0.0), vec2(last)));
   if (at.z > 0.0) {
     // The pixel itself first, then its neighbours.
     for (int i = 0; i < 9; ++i) {

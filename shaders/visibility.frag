@@ -2,6 +2,7 @@
 // Visibility buffer (Burns and Hunt 2013): the triangle's index is all that a pixel keeps.
 //   ID_BITS  16 or 32: one number; 24: three bytes
 //   HAS_HOLES  some materials' maps have holes, which are not drawn
+//   PARALLEL_RAYS  the camera is orthographic
 //   PASSES_BACKS  the backs of some materials are not drawn
 
 #ifdef HAS_HOLES
@@ -19,19 +20,25 @@ uniform vec3 corner;
 uniform vec3 step_x;
 uniform vec3 step_y;
 uniform vec2 first_pixel;  // the part's, of the picture
+#ifdef PARALLEL_RAYS
+const bool kParallel = true;
+#else
+const bool kParallel = false;
+#endif
 
 // Decided where the pixel's ray meets the triangle, as the ray tracer does.
 void discard_hole() {
   int id = gl_PrimitiveID;
   int maps = fetch_maps(int(texelFetch(triangle_materials, id).r));
   if (maps < 0) return;
-  ViewParams view = ViewParams(eye, corner, step_x, step_y, vec2(0.0));
-  vec3 direction = pixel_direction(view, floor(gl_FragCoord.xy) + first_pixel);
+  ViewParams view = ViewParams(eye, corner, step_x, step_y, vec2(0.0), kParallel);
+  vec2 pixel = floor(gl_FragCoord.xy) + first_pixel;
+  vec3 direction = pixel_direction(view, pixel);
   uvec3 corners = fetch_corners(uint(id));
   vec3 a = fetch_vec3(positions, corners.x);
   vec3 b = fetch_vec3(positions, corners.y);
   vec3 c = fetch_vec3(positions, corners.z);
-  vec3 weights = barycentric_of(eye, direction, a, b - a, c - a);
+  vec3 weights = barycentric_of(pixel_origin(view, pixel), direction, a, b - a, c - a);
   MapPoint point = MapPoint(corners, weights, b - a, c - a, vec3(0.0, 0.0, 1.0), vec3(0.0, 0.0, 1.0));
   if (hole_at(maps, point)) discard;
 }

@@ -18,8 +18,12 @@ void check_camera(const Camera& camera, const std::string& whose) {
   if (camera.eye == camera.target) fail("its eye and its target are the same point; move one of them");
   if (!(glm::length(glm::dvec3(camera.up)) > 0.0) || is_far(camera.up))
     fail("its up is not a direction; give one such as 0,1,0");
-  if (!(camera.fov_deg > 0.0f && camera.fov_deg < 180.0f))
-    fail("its field of view is not between 0 and 180 degrees");
+  const bool is_fisheye = camera.projection == Projection::fisheye;
+  if (!(camera.fov_deg > 0.0f && (is_fisheye ? camera.fov_deg <= kWidestFisheye : camera.fov_deg < 180.0f)))
+    fail(is_fisheye ? "its field of view is not between 0 and 360 degrees"
+                    : "its field of view is not between 0 and 180 degrees");
+  if (!(camera.height > 0.0f && camera.height <= kFarthest))
+    fail("its height is not above 0, or more than 1e9");
 }
 
 }  // namespace pinocchio::app

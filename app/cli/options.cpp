@@ -1,6 +1,7 @@
 #include "app/cli/options.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
 #include <limits>
 #include <memory>
@@ -102,34 +103,6 @@ void settle(const GivenSettings& given, DrawOptions& o) {
     throw CLI::ValidationError("--precise", "draws with --mode raytrace alone");
 }
 
-void add_camera_options(CLI::App& verb, DrawOptions& o) {
-  begin_group(verb, kCameraGroup);
-  verb.add_option(
-      "--camera", o.camera,
-      "a camera of the scene, by its name or its number from 0 (the first; without cameras, a view "
-      "of the whole scene)");
-  add_parsed(verb, "--eye", "position of the camera, scene units", "x,y,z", parse_vec3, o.eye);
-  add_parsed(verb, "--target", "point that the camera looks at", "x,y,z", parse_vec3, o.target);
-  add_parsed(verb, "--up", "direction that is up (0,1,0 with --eye and --target, else the camera's)", "x,y,z",
-             parse_vec3, o.up);
-  const auto parse_fov = [](const std::string& text) {
-    const std::optional<float> fov_deg = parse_float(text);
-    return fov_deg && *fov_deg > 0.0f && *fov_deg < 180.0f ? fov_deg : std::nullopt;
-  };
-  add_parsed(verb, "--fov", "vertical field of view, degrees", "between 0 and 180", parse_fov, o.fov_deg)
-      ->type_name("DEG");
-  const auto add_length = [&verb](const char* name, const char* help, std::optional<float>& to) {
-    add_parsed(verb, name, help, "a length that is not negative",
-               number_within(0.0f, std::numeric_limits<float>::max()), to)
-        ->type_name("LENGTH");
-  };
-  add_length("--lens-radius",
-             "radius of the lens, scene units, for depth of field, which needs samples; 0: a pinhole",
-             o.lens_radius);
-  add_length("--focus", "distance along the view axis that is sharp, scene units (the target's distance)",
-             o.focus);
-}
-
 void add_light_options(CLI::App& verb, DrawOptions& o) {
   begin_group(verb, kLightGroup);
   const auto add_lights = [&o](const std::vector<std::string>& texts) {
@@ -154,6 +127,46 @@ void add_light_options(CLI::App& verb, DrawOptions& o) {
 }
 
 }  // namespace
+
+void add_camera_options(CLI::App& verb, DrawOptions& o) {
+  begin_group(verb, kCameraGroup);
+  verb.add_option(
+      "--camera", o.camera,
+      "a camera of the scene, by its name or its number from 0 (the first; without cameras, a view "
+      "of the whole scene)");
+  add_parsed(verb, "--eye", "position of the camera, scene units", "x,y,z", parse_vec3, o.eye);
+  add_parsed(verb, "--target", "point that the camera looks at", "x,y,z", parse_vec3, o.target);
+  add_parsed(verb, "--up", "direction that is up (0,1,0 with --eye and --target, else the camera's)", "x,y,z",
+             parse_vec3, o.up);
+  const auto parse_fov = [](const std::string& text) {
+    const std::optional<float> fov_deg = parse_float(text);
+    return fov_deg && *fov_deg > 0.0f && *fov_deg <= kWidestFisheye ? fov_deg : std::nullopt;
+  };
+  add_parsed(verb, "--fov", "vertical field of view, degrees; of a fisheye up to 360",
+             "between 0 and 180, of a fisheye up to 360", parse_fov, o.fov_deg)
+      ->type_name("DEG");
+  const auto add_length = [&verb](const char* name, const char* help, std::optional<float>& to) {
+    add_parsed(verb, name, help, "a length that is not negative",
+               number_within(0.0f, std::numeric_limits<float>::max()), to)
+        ->type_name("LENGTH");
+  };
+  add_length("--lens-radius",
+             "radius of the lens, scene units, for depth of field, which needs samples; 0: a pinhole",
+             o.lens_radius);
+  add_length("--focus", "distance along the view axis that is sharp, scene units (the target's distance)",
+             o.focus);
+  add_parsed(
+      verb, "--projection",
+      "perspective; orthographic, with parallel rays; panorama, longitude and latitude all around; "
+      "fisheye, distance from the centre by the angle. The last two are drawn by the CPU (the camera's)",
+      listed(kProjectionNames, ", ", " or "),
+      [](const std::string& text) { return parse_name<Projection>(kProjectionNames, text); }, o.projection)
+      ->type_name(listed(kProjectionNames, "|", "|"));
+  add_parsed(verb, "--height",
+             "height of an orthographic picture, scene units (the camera's, or as at the target with --fov)",
+             "a length above 0", number_within(1e-30f, std::numeric_limits<float>::max()), o.height)
+      ->type_name("LENGTH");
+}
 
 void add_context_options(CLI::App& verb, DrawOptions& o) {
   begin_group(verb, kMachineGroup);
@@ -194,6 +207,9 @@ void add_trust_options(CLI::App& verb, DrawOptions& o) {
                 "open only files in the scene's folder and below, wherever names and links lead; for scenes "
                 "from unknown sources");
   verb.add_flag("--strict", o.strict, "fail where a part of the scene's files would be ignored");
+  add_choice(verb, "--up-axis", "the axis of the scene's file that points up (y)", kUpAxisNames, o.up_axis);
+  verb.add_option("--animation", o.animation,
+                  "the file's animation that plays, by its name or its number from 0 (all, together)");
 }
 
 void add_shading_option(CLI::App& verb, DrawOptions& o) {
@@ -271,8 +287,9 @@ void add_draw_options(CLI::App& verb, DrawOptions& o) {
 
 Scene load_whole(const DrawOptions& options, Warnings& warnings, pinocchio::Progress* progress) {
   if (!progress) progress = &run_progress();
-  Expected<Scene> scene = load_scene(
-      options.scene, LoadOptions{options.load_limit, options.confine, options.shading}, &warnings, progress);
+  const LoadOptions how{options.load_limit, options.confine, options.shading, options.animation,
+                        options.up_axis};
+  Expected<Scene> scene = load_scene(options.scene, how, &warnings, progress);
   if (scene && !options.environment.empty()) {
     auto environment = load_environment(options.environment, progress, options.load_limit, &warnings);
     if (environment)
@@ -318,6 +335,20 @@ Scene load_scene_for(const DrawOptions& options) {
   return scene;
 }
 
+namespace {
+
+// An orthographic picture shows at the target what the perspective one did.
+void set_projection(Projection projection, Camera& camera) {
+  if (projection == camera.projection) return;
+  if (projection == Projection::orthographic && camera.projection == Projection::perspective)
+    camera.height = 2.0f * glm::length(camera.target - camera.eye) *
+                    std::tan(glm::radians(0.5f * std::min(camera.fov_deg, 179.0f)));
+  if (projection != Projection::perspective && projection != Projection::fisheye) camera.distortion = {};
+  camera.projection = projection;
+}
+
+}  // namespace
+
 Camera camera_for(const DrawOptions& options, const Scene& scene) {
   Camera camera = !scene.cameras.empty() ? scene.cameras.front()
                   : options.studio       ? studio_camera(scene, options.size)
@@ -340,6 +371,8 @@ Camera camera_for(const DrawOptions& options, const Scene& scene) {
   if (options.eye && options.target) camera.up = Camera{}.up;
   if (options.up) camera.up = *options.up;
   if (options.fov_deg) camera.fov_deg = *options.fov_deg;
+  if (options.projection) set_projection(*options.projection, camera);
+  if (options.height) camera.height = *options.height;
   if (options.lens_radius) camera.lens_radius = *options.lens_radius;
   if (options.focus) camera.focus_distance = *options.focus;
   check_camera(camera, "the camera");

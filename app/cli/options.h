@@ -29,9 +29,11 @@ struct DrawOptions {
   std::string camera;  // name or index. Empty: the first, else a view of the whole scene
   std::optional<glm::vec3> eye, target, up;
   std::optional<float> fov_deg, lens_radius, focus;
-  std::vector<Light> lights;  // added to the scene's
-  std::string environment;    // file. Empty: none
-  bool studio = false;        // light and a camera for scenes that bring none
+  std::optional<Projection> projection;
+  std::optional<float> height;  // of an orthographic picture
+  std::vector<Light> lights;    // added to the scene's
+  std::string environment;      // file. Empty: none
+  bool studio = false;          // light and a camera for scenes that bring none
   std::optional<PixelBox> crop;
   bool precise = false;  // draw the reference
   std::string progress = "auto";
@@ -39,6 +41,8 @@ struct DrawOptions {
   std::uint64_t load_limit = kUsualLoadLimit;  // bytes
   bool confine = false;                        // open only files below the scene's folder
   Shading shading = Shading::from_file;
+  std::string animation;  // name or number of the one that plays. Empty: all
+  UpAxis up_axis = UpAxis::y;
   bool strict = false;  // fail where a part of the scene would be ignored
 
   // Of a Progress.
@@ -49,7 +53,9 @@ struct DrawOptions {
 // is a CLI::ValidationError: exit code 2 and a line that says what is wanted. Scene, camera, lights,
 // messages:
 void add_scene_options(CLI::App& verb, DrawOptions& options);
-// --load-limit, --confine and --strict:
+// --camera, --eye and the like:
+void add_camera_options(CLI::App& verb, DrawOptions& options);
+// --load-limit, --confine, --strict, --up-axis and --animation:
 void add_trust_options(CLI::App& verb, DrawOptions& options);
 // --size. The help names the verb's default:
 void add_size_option(CLI::App& verb, DrawOptions& options, const std::string& help);

@@ -93,7 +93,14 @@ Camera CameraFrames::camera_of(int number, double time_s) const {
 }
 
 CameraFrame CameraFrames::operator[](std::size_t i) const {
-  const int number = range_.number(i);
+  return frame_of(range_.number(i));
+}
+
+CameraFrame CameraFrames::beside(std::size_t i, bool later) const {
+  return frame_of(range_.number(i) + (later ? range_.step : -range_.step));
+}
+
+CameraFrame CameraFrames::frame_of(int number) const {
   const double time_s = options_.time_of(number);
   const Camera camera = camera_of(number, time_s);
   if (camera.eye == camera.target)

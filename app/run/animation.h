@@ -45,11 +45,14 @@ class CameraFrames {
   [[nodiscard]] std::size_t size() const { return range_.count(); }
   [[nodiscard]] const FrameRange& range() const { return range_; }
   [[nodiscard]] CameraFrame operator[](std::size_t i) const;
+  // The frame one step later than frame i, or earlier: also before the first and after the last one.
+  [[nodiscard]] CameraFrame beside(std::size_t i, bool later) const;
   // The camera of all frames. Nothing: it moves.
   [[nodiscard]] std::optional<Camera> only_camera() const;
 
  private:
   [[nodiscard]] Camera camera_of(int number, double time_s) const;
+  [[nodiscard]] CameraFrame frame_of(int number) const;
   [[noreturn]] void refuse_coincidence(int number) const;
 
   AnimationOptions options_;

@@ -32,8 +32,9 @@ Drawing::Drawing(const DrawOptions& options, Scene scene, Exchange usual, bool k
       scene_(std::move(scene)) {
   drop_idle_casters(scene_);
   stats_ = analyze(scene_);
+  needs_rays_ = !camera_for(options_, scene_).is_rasterisable();
   if (any_settings) engine_.open_gl();
-  software_gl_ = engine_.gl_is_software(options.settings);
+  if (!needs_rays_) software_gl_ = engine_.gl_is_software(options.settings);
   if (!options.quiet && !engine_.gl_failure().empty())
     std::fprintf(stderr, "pinocchio: warning: %s: the CPU draws alone (--mode auto)\n",
                  one_line(engine_.gl_failure()).c_str());
@@ -70,7 +71,7 @@ void Drawing::advise(Settings automatic) const {
 }
 
 Expected<Settings> Drawing::resolve(const Settings& wanted) const {
-  return pinocchio::resolve(wanted, stats_, {part_.size(), software_gl_, keeps_mask_});
+  return pinocchio::resolve(wanted, stats_, {part_.size(), software_gl_, keeps_mask_, needs_rays_});
 }
 
 FrameRequest Drawing::request(const Settings& settings, const CameraFrame& frame, const CameraFrame* next) {

@@ -48,6 +48,7 @@ class Drawing {
   PixelBox part_;
   bool keeps_mask_;
   bool software_gl_ = false;
+  bool needs_rays_ = false;  // the camera's: OpenGL cannot draw them
   Engine engine_;
   Scene scene_;
   SceneStats stats_;

@@ -1,6 +1,8 @@
 #include "app/run/output.h"
 
+#include <cstdio>
 #include <nlohmann/json.hpp>
+#include <span>
 #include <system_error>
 #include <type_traits>
 #include <variant>
@@ -52,13 +54,27 @@ void add_output_options(CLI::App& verb, OutputOptions& options) {
   verb.add_option("--preview", options.preview, "the picture as a screen shows it (sRGB, 8 bits)")
       ->type_name("FILE.png")
       ->check(ends_in(".png"));
+  verb.add_option_function<std::string>(
+          "--raw", [&options](const std::string&) { options.raw = true; },
+          "-: write the frames to standard output, one after the other, as a screen shows them: rows from "
+          "the "
+          "top, 3 bytes a pixel (ffmpeg -f rawvideo -pix_fmt rgb24 -s WxH -i -)")
+      ->type_name("-")
+      ->check(CLI::IsMember({"-"}));
   verb.add_option("--aov", options.aovs,
-                  "EXR layers: all, none or some of " + aov_names() + ", with commas between (all)")
+                  "EXR layers: all, none or some of " + aov_names() +
+                      ", with commas between; all leaves out motion and ids other than the triangle's (all)")
       ->type_name("LIST")
       ->check([](const std::string& text) {
         const Expected<AovSet> aovs = parse_aovs(text);
         return aovs ? std::string() : aovs.error().message();
       });
+  verb.add_option_function<std::string>(
+          "--motion-to",
+          [&options](const std::string& frame) { options.motion_to_former = frame == "former"; },
+          "the frame that the layer motion leads to: next or former (next)")
+      ->type_name("next|former")
+      ->check(CLI::IsMember({"next", "former"}));
   add_choice(verb, "--compression", "compression of the EXR, lossless (zip)", kExrCompressionNames,
              options.compression);
   add_display_options(verb, options.exposure_ev, options.tone_map, 64);
@@ -117,9 +133,13 @@ ExrOptions exr_options(const OutputOptions& options, const FrameHeader& frame) {
           .inputs = options.inputs};
 }
 
-std::string inputs_json(const Scene& scene, bool precise, Shading shading) {
-  nlohmann::json inputs{
-      {"precise", precise}, {"shading", name_of(kShadingNames, shading)}, {"files", nlohmann::json::array()}};
+std::string inputs_json(const Scene& scene, const DrawOptions& draw, const OutputOptions& output) {
+  nlohmann::json inputs{{"precise", draw.precise},
+                        {"shading", name_of(kShadingNames, draw.shading)},
+                        {"files", nlohmann::json::array()}};
+  if (!draw.animation.empty()) inputs["animation"] = draw.animation;
+  if (draw.up_axis != UpAxis::y) inputs["upAxis"] = name_of(kUpAxisNames, draw.up_axis);
+  if (keeps_motion(output)) inputs["motionTo"] = output.motion_to_former ? "former" : "next";
   const auto add = [&](const std::string& file) {
     const std::optional<std::string> content = fingerprint(file);
     inputs["files"].push_back({{"name", std::filesystem::path(file).filename().string()},
@@ -160,6 +180,22 @@ bool keeps_mask(const OutputOptions& options) {
   return !options.exr.empty() && parse_aovs(options.aovs)->contains("shadow");
 }
 
+bool keeps_motion(const OutputOptions& options) {
+  return !options.exr.empty() && parse_aovs(options.aovs)->contains("motion");
+}
+
+namespace {
+
+// RGB, 8 bits each, rows from the top.
+void write_raw(const Image<glm::u8vec3>& picture) {
+  const std::span<const glm::u8vec3> pixels = picture.pixels();
+  if (std::fwrite(pixels.data(), sizeof(glm::u8vec3), pixels.size(), stdout) != pixels.size() ||
+      std::fflush(stdout) != 0)
+    throw EnvironmentError("--raw -: standard output cannot be written; has its reader ended?");
+}
+
+}  // namespace
+
 void write_outputs(const OutputOptions& options, const DrawnFrame& frame) {
   const ExrOptions same_for_all = exr_options(options, frame.header);
   if (!options.exr.empty()) {
@@ -167,6 +203,7 @@ void write_outputs(const OutputOptions& options, const DrawnFrame& frame) {
     if (!options.deterministic) exr.render_s = frame.render_s;
     write_exr(numbered(options.exr, frame.header.number), frame.picture, exr);
   }
+  if (options.raw) write_raw(preview(frame.picture.color, options.exposure_ev, options.tone_map));
   if (!options.preview.empty())
     write_png(numbered(options.preview, frame.header.number),
               preview(frame.picture.color, options.exposure_ev, options.tone_map),

@@ -7,6 +7,7 @@
 
 #include "app/cli/named_files.h"
 #include "app/cli/numbered.h"
+#include "app/cli/options.h"
 #include "app/cli/parse.h"
 #include "core/image/tonemap.h"
 #include "core/parallel/workers.h"
@@ -20,17 +21,19 @@ class App;
 
 namespace pinocchio::app {
 
-// -o, --preview, --aov, --compression, --exposure, --tone-map, --deterministic, --skip-existing
+// -o, --preview, --raw, --aov, --compression, --exposure, --tone-map, --deterministic, --skip-existing
 struct OutputOptions {
   std::string exr;      // "####" stands for the frame's number
   std::string preview;  // PNG
+  bool raw = false;     // frames go to standard output
   std::string aovs = "all";
   ExrCompression compression = ExrCompression::zip;
   float exposure_ev = 0.0f;
   ToneMap tone_map = ToneMap::clip;
   bool deterministic = false;
   bool skip_existing = false;
-  std::string inputs;  // inputs_json of the scene, for the files' headers
+  bool motion_to_former = false;  // the layer `motion` leads to the former frame, not to the next
+  std::string inputs;             // inputs_json of the scene, for the files' headers
 };
 
 // A frame's number and time.
@@ -44,8 +47,9 @@ struct FrameHeader {
 [[nodiscard]] ExrOptions exr_options(const OutputOptions& options, const FrameHeader& frame);
 
 // Describes what a frame's pixels depend on beside its settings, camera and lights: the bytes of the scene's
-// files and of its environment, and whether the reference draws it. Reads these files.
-[[nodiscard]] std::string inputs_json(const Scene& scene, bool precise, Shading shading);
+// files and of its environment, how they are read, and whether the reference draws it. Reads these files.
+[[nodiscard]] std::string inputs_json(const Scene& scene, const DrawOptions& draw,
+                                      const OutputOptions& output);
 
 // Describes a preview: the EXR's header as JSON, the exposure and the tone curve. It goes into the PNG.
 [[nodiscard]] std::string preview_text(const OutputOptions& options, const ExrFile& header);
@@ -77,8 +81,9 @@ void check_outputs(const OutputOptions& options, const FrameRange& range);
 [[nodiscard]] std::vector<NamedFile> output_files(const OutputOptions& options, const FrameRange& range,
                                                   const NamedFile& other);
 
-// Whether an EXR with the shadow mask is written.
+// Whether an EXR with the shadow mask, or with motion, is written.
 [[nodiscard]] bool keeps_mask(const OutputOptions& options);
+[[nodiscard]] bool keeps_motion(const OutputOptions& options);
 
 // Writes one frame to the files that the options name, each whole or not at all.
 void write_outputs(const OutputOptions& options, const DrawnFrame& frame);

@@ -22,6 +22,7 @@
 #include "hybrid/settings/resolve.h"
 #include "pinocchio/animation.h"
 #include "pinocchio/load.h"
+#include "pinocchio/names.h"
 #include "pinocchio/tracer.h"
 
 namespace pinocchio::app {
@@ -88,6 +89,15 @@ nlohmann::json scene_json(const Scene& scene, const Warnings& warnings) {
             {"gpu_normals", false}}}};  // the CPU knows all normals that files hold
 }
 
+std::string optics_of(const Camera& camera) {
+  char text[64];
+  if (camera.projection == Projection::orthographic)
+    std::snprintf(text, sizeof text, "orthographic, %g high", camera.height);
+  else
+    std::snprintf(text, sizeof text, "%g degrees", camera.fov_deg);
+  return text;
+}
+
 // From time 0 to the end, both included.
 std::size_t frames_of(double duration_s) {
   return 1 + std::size_t(std::ceil(std::min(duration_s, 1e9) * kUsualFps));
@@ -103,7 +113,7 @@ void print_scene(const Scene& scene, const Warnings& warnings) {
   for (const Light& light : scene.lights)
     std::printf("  light '%s'%s\n", light.name.c_str(), light.casts_shadow ? ", casts shadows" : "");
   for (const Camera& camera : scene.cameras)
-    std::printf("  camera '%s', %g degrees\n", camera.name.c_str(), camera.fov_deg);
+    std::printf("  camera '%s', %s\n", camera.name.c_str(), optics_of(camera).c_str());
   if (scene.animation) {
     for (const Animation::Clip& clip : scene.animation->clips)
       std::printf("  animation '%s', %g s\n", clip.name.c_str(), clip.duration_s);
@@ -214,9 +224,21 @@ struct PlanHere {
 
 // How a hybrid frame is drawn on this machine, and what --mode auto would choose. Without OpenGL, a GPU is
 // assumed.
-Expected<PlanHere> plan_here(const SceneStats& stats) {
+Expected<PlanHere> plan_here(const SceneStats& stats, const Camera& camera) {
   Circumstances circumstances;
+  circumstances.needs_rays = !camera.is_rasterisable();
   bool any_gl = true;
+  if (circumstances.needs_rays) {
+    const Expected<Settings> alone = resolve({}, stats, circumstances);
+    if (!alone) return Unexpected(alone.error());
+    std::vector<std::string> why = explain(stats, *alone);
+    why.insert(why.begin(),
+               camera.is_distorted()
+                   ? std::string("the lens distorts, which OpenGL cannot draw: rays are the CPU's")
+                   : "a " + std::string(name_of(kProjectionNames, camera.projection)) +
+                         " is nothing that OpenGL can draw: rays are the CPU's");
+    return PlanHere{*alone, std::move(why)};
+  }
   try {
     circumstances.software_gl = gl::open_context({})->info().software;
   } catch (const gl::NoContextError&) {
@@ -249,7 +271,7 @@ int show_scene(const InfoOptions& options) {
   if (options.plan) light_if_dark(scene, options.draw);  // as other verbs do
   const SceneStats stats = analyze(scene);
   std::optional<PlanHere> plan;
-  if (options.plan) plan = value_or_exit(plan_here(stats), kBadScene);
+  if (options.plan) plan = value_or_exit(plan_here(stats, camera_for(draw, scene)), kBadScene);
   if (options.json) {
     nlohmann::json json = scene_json(scene, warnings);
     if (plan) json["plan"] = plan_json(plan->settings);
@@ -278,6 +300,7 @@ Run add_info(CLI::App& program) {
   verb.add_flag("--plan", options->plan, "print how a hybrid frame of the scene is drawn, and why");
   verb.add_flag("--json", options->json, "print JSON");
   add_studio_option(verb, options->draw, true);
+  add_camera_options(verb, options->draw);
   add_trust_options(verb, options->draw);
   return [options] {
     if (options->settings) return show_settings(*options);

@@ -1,7 +1,10 @@
 // render: draws one frame or a range to EXR and PNG, without a display.
+#include <unistd.h>
+
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <array>
+#include <csignal>
 #include <cstdio>
 #include <deque>
 #include <memory>
@@ -28,6 +31,7 @@
 #include "gl/context/context.h"
 #include "hybrid/frame/samples.h"
 #include "hybrid/frame/schedule.h"
+#include "pinocchio/animation.h"
 #include "pinocchio/studio.h"
 
 namespace pinocchio::app {
@@ -75,11 +79,12 @@ class RenderRun {
 
   int run() {
     const double begin_s = now_s();
+    if (options_.output.raw) std::signal(SIGPIPE, SIG_IGN);  // its reader's end is an error of the run
     Scene scene = load_scene_for(options_.draw);
     if (has_studio_light(scene)) options_.draw.settings.spp.fill(kStudioSamples);
     frames_.emplace(options_.animation, options_.draw, scene);
     check(scene);
-    options_.output.inputs = inputs_json(scene, options_.draw.precise, options_.draw.shading);
+    options_.output.inputs = inputs_json(scene, options_.draw, options_.output);
     Drawing drawing(options_.draw, std::move(scene),
                     frames_->size() > 1 ? Exchange::pipelined : Exchange::sync, keeps_mask(options_.output),
                     false, frames_->only_camera());
@@ -89,7 +94,7 @@ class RenderRun {
     if (find_next_frame(drawing)) draw(drawing);
     progress_.reset();
     if (!options_.stats_json.empty()) write_json(options_.stats_json, stats(drawing));
-    if (!options_.draw.quiet) report(drawing, ready_s - begin_s);
+    if (!options_.draw.quiet && !options_.output.raw) report(drawing, ready_s - begin_s);
     throw_if_cancelled(&run_progress());
     return kDone;
   }
@@ -115,15 +120,21 @@ class RenderRun {
   void check(const Scene& scene) const {
     if (options_.draw.precise && options_.draw.settings.indirect > 0)
       throw Exit(kUsage, "--precise draws no --indirect light; leave out --precise and use --spp");
-    if (options_.output.exr.empty() && options_.output.preview.empty() && options_.stats_json.empty())
+    if (options_.output.exr.empty() && options_.output.preview.empty() && !options_.output.raw &&
+        options_.stats_json.empty())
       throw Exit(kUsage,
-                 "nothing to write; name a file with -o FILE.exr, --preview FILE.png or --stats-json");
+                 "nothing to write; name a file with -o FILE.exr, --preview FILE.png or --stats-json, or "
+                 "write frames to standard output with --raw -");
+    if (options_.output.raw && isatty(STDOUT_FILENO) != 0)
+      throw Exit(kUsage, "--raw - writes bytes that no terminal shows; pipe them to a program or a file");
     check_apart(input_files(options_.draw, options_.animation, scene),
                 output_files(options_.output, frames_->range(), {"--stats-json", options_.stats_json}));
     check_outputs(options_.output, frames_->range());
     if (options_.output.skip_existing && (options_.output.exr.empty() || options_.budget.any()))
       throw Exit(kUsage,
                  "--skip-existing compares the headers of EXR files; give -o FILE.exr, and no --budget");
+    if (options_.output.skip_existing && options_.output.raw)
+      throw Exit(kUsage, "--skip-existing would leave frames out of --raw -; leave out one of them");
     if (options_.output.skip_existing && options_.draw.settings.exchange == Exchange::reproject)
       throw Exit(kUsage,
                  "--skip-existing: a reprojected frame depends on earlier frames; use --exchange pipelined");
@@ -145,6 +156,7 @@ class RenderRun {
         progress_->step();
       } else {
         next_ = frame;
+        next_place_ = next_index_;
       }
     }
     return next_ ? &*next_ : nullptr;
@@ -152,7 +164,7 @@ class RenderRun {
 
   [[nodiscard]] std::optional<CameraFrame> begin_frame(const Drawing& drawing) {
     if (!find_next_frame(drawing)) return std::nullopt;
-    begun_.push_back({header_of(*next_), now_s()});
+    begun_.push_back({header_of(*next_), now_s(), next_place_});
     return std::exchange(next_, std::nullopt);
   }
 
@@ -212,9 +224,17 @@ class RenderRun {
     begun_.pop_front();
     ++delivered_;
     holes_ += picture.holes;
+    if (keeps_motion(options_.output)) picture.motion = motion_of(drawing, begun.place);
     writer.write({begun.header, std::move(picture), begin_s - begun.at_s});
     drawing.engine().throw_gl_complaints();
     delivering_s_ += now_s() - begin_s;
+  }
+
+  // The frame that a frame's motion leads to.
+  [[nodiscard]] MotionTo motion_of(const Drawing& drawing, std::size_t place) const {
+    const CameraFrame other = frames_->beside(place, !options_.output.motion_to_former);
+    return {value_or_exit(at_time(drawing.scene(), std::max(other.time_s, 0.0)), kBadScene).mesh,
+            other.camera};
   }
 
   // Records are kept only for --stats-json: ranges may be long.
@@ -249,9 +269,11 @@ class RenderRun {
   std::optional<CameraFrames> frames_;
   std::size_t next_index_ = 0;  // in frames_
   std::optional<CameraFrame> next_;
+  std::size_t next_place_ = 0;  // of next_ in frames_
   struct Begun {
     FrameHeader header;
     double at_s;
+    std::size_t place;  // in frames_
   };
   std::deque<Begun> begun_;  // not delivered yet
   std::optional<Progress> progress_;

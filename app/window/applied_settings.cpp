@@ -8,7 +8,9 @@ namespace pinocchio::app {
 
 Expected<Settings> AppliedSettings::resolved(const Settings& wanted, const SceneStats& stats,
                                              bool keeps_mask) const {
-  return resolve(wanted, stats, {model_.wanted_size(), engine_.gl_info()->software, keeps_mask});
+  return resolve(wanted, stats,
+                 {model_.wanted_size(), engine_.gl_info()->software, keeps_mask,
+                  !model_.camera.camera().is_rasterisable()});
 }
 
 void AppliedSettings::update() {

@@ -14,6 +14,7 @@ struct Loading {
   MemoryLimit& limit;
   InputFiles& files;  // the files beside the scene's
   Shading shading = Shading::from_file;
+  std::string animation{};  // LoadOptions'
 };
 
 }  // namespace pinocchio

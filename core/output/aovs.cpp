@@ -9,21 +9,21 @@ namespace pinocchio {
 
 std::string aov_names() {
   std::string names;
-  const AovSet all = *parse_aovs("all");
-  for (const std::string& name : all) names += (names.empty() ? "" : ", ") + name;
+  for (const LayerRow& row : kLayers)
+    if (!row.exr.name.empty()) names += (names.empty() ? "" : ", ") + std::string(row.exr.name);
   return names;
 }
 
 Expected<AovSet> parse_aovs(const std::string& text) {
   AovSet aovs;
   if (text == "none") return aovs;
-  if (text == "all") {
-    for (const LayerRow& row : kLayers)
-      if (!row.exr.name.empty()) aovs.emplace(row.exr.name);
-    return aovs;
-  }
   std::istringstream in(text);
   for (std::string name; std::getline(in, name, ',');) {
+    if (name == "all") {
+      for (const LayerRow& row : kLayers)
+        if (!row.exr.name.empty() && !row.exr.by_name_only) aovs.emplace(row.exr.name);
+      continue;
+    }
     const auto* const row = std::ranges::find_if(kLayers, [&](const LayerRow& of) {
       return !of.exr.name.empty() && !name.empty() &&
              (of.exr.name == name || std::ranges::count(of.exr.channels, name) > 0);

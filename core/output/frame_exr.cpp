@@ -9,6 +9,8 @@
 
 #include "core/base/system_info.h"
 #include "core/trace/view/view_params.h"
+#include "pinocchio/names.h"
+#include "pinocchio/nodes.h"
 
 namespace pinocchio {
 namespace {
@@ -45,9 +47,49 @@ glm::dvec4 along(const glm::vec3& axis, const glm::vec3& eye) {
   return {glm::dvec3(axis), -glm::dot(glm::dvec3(axis), glm::dvec3(eye))};
 }
 
+// The names, by number; bytes that are not UTF-8 are replaced.
+template <class Named>
+std::string names_json(const std::vector<Named>& all) {
+  nlohmann::json names = nlohmann::json::array();
+  for (const Named& one : all) names.push_back(one.name);
+  return names.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
+}
+
+// What the numbers in the layers mean.
+void add_names(ExrFile& exr, const FrameOutput& frame, const AovSet& aovs) {
+  const auto wanted = [&](Layer layer) { return aovs.contains(std::string(layer_row(layer).exr.name)); };
+  if (wanted(Layer::objects))
+    exr.attributes["pinocchio.nodes"] =
+        frame.scene.nodes ? names_json(frame.scene.nodes->nodes) : std::string("[]");
+  if (wanted(Layer::materials))
+    exr.attributes["pinocchio.materials"] = names_json(frame.scene.mesh->materials);
+}
+
+// The camera, where it is no pinhole.
+void add_projection(ExrFile& exr, const FrameOutput& frame) {
+  const Camera& camera = frame.camera;
+  if (frame.has_rays) {
+    exr.attributes["pinocchio.projection"] = std::string("rays");
+    return;
+  }
+  if (camera.projection != Projection::perspective)
+    exr.attributes["pinocchio.projection"] = std::string(name_of(kProjectionNames, camera.projection));
+  if (camera.projection == Projection::fisheye || camera.is_distorted()) {
+    const Intrinsics k = intrinsics_of(camera, frame.size);
+    exr.attributes["pinocchio.intrinsics"] = nlohmann::json{
+        {"fx", k.fx},
+        {"fy", k.fy},
+        {"cx", k.cx},
+        {"cy", k.cy},
+        {"distortion", camera.distortion}}.dump();
+  }
+}
+
 void add_attributes(ExrFile& exr, const FrameOutput& frame) {
   exr.attributes["worldToCamera"] = world_to_camera(frame.camera);
-  exr.attributes["worldToNDC"] = world_to_ndc(frame.camera, frame.size);
+  if (frame.camera.is_rasterisable() && !frame.has_rays)
+    exr.attributes["worldToNDC"] = world_to_ndc(frame.camera, frame.size);
+  add_projection(exr, frame);
   exr.attributes["pinocchio.version"] = std::string(version());
   exr.attributes["pinocchio.plan"] = frame.plan_json;
   exr.attributes["pinocchio.scene"] = std::filesystem::path(frame.scene.source).filename().string();
@@ -114,6 +156,7 @@ ExrFile frame_exr(const FrameOutput& frame, const AovSet& aovs, int y0, int y1) 
   exr.display_size = frame.size;
   exr.data_window = frame.part;
   add_attributes(exr, frame);
+  add_names(exr, frame, aovs);
   exr.channels = frame_channels(frame, aovs, y0, y1);
   return exr;
 }
@@ -126,10 +169,16 @@ glm::mat4 world_to_camera(const Camera& camera) {
 
 glm::mat4 world_to_ndc(const Camera& camera, glm::ivec2 size) {
   const CameraAxes axes = camera_axes(camera);
-  const double height = 2.0 * std::tan(glm::radians(static_cast<double>(camera.fov_deg)) * 0.5);
+  const bool parallel = camera.projection == Projection::orthographic;
+  const double height = parallel ? static_cast<double>(camera.height)
+                                 : 2.0 * std::tan(glm::radians(static_cast<double>(camera.fov_deg)) * 0.5);
   const double aspect = static_cast<double>(size.x) / size.y;
   const double width = height * aspect * camera.pixel_aspect;
   const glm::dvec2 axis = 0.5 + glm::dvec2(camera.axis_shift) / glm::dvec2(aspect, 1.0);
+  if (parallel)
+    return from_rows(along(axes.right, camera.eye) / width + glm::dvec4(0, 0, 0, axis.x),
+                     glm::dvec4(0, 0, 0, axis.y) - along(axes.up, camera.eye) / height,
+                     along(axes.forward, camera.eye), {0, 0, 0, 1});
   const glm::dvec4 z = along(axes.forward, camera.eye);
   return from_rows(along(axes.right, camera.eye) / width + axis.x * z,
                    axis.y * z - along(axes.up, camera.eye) / height, {0, 0, 0, 1}, z);

@@ -28,6 +28,7 @@ struct FrameOutput {
   int frames_per_second = 24;
   std::optional<double> time_s{};  // of the animation; else frame / frames_per_second
   int age_frames = 0;              // reprojected: how much older the shown mask and reflection are
+  bool has_rays = false;           // the caller gave the rays
   std::string inputs{};            // what else the picture was made of, where its maker says so
 };
 
@@ -40,7 +41,8 @@ struct FrameOutput {
 // World to OpenEXR's camera space: left-handed, x right, y up, looking along +z. Column vectors.
 [[nodiscard]] glm::mat4 world_to_camera(const Camera& camera);
 // World to x and y in [0, 1] across the picture, y down, after division by w = z_eye; z is z_near / z_eye
-// of an infinite view, 1 at z_eye = 1, 0 at infinity.
+// of an infinite view, 1 at z_eye = 1, 0 at infinity. Of an orthographic camera, w is 1 and z is z_eye. Other
+// cameras have no such matrix.
 [[nodiscard]] glm::mat4 world_to_ndc(const Camera& camera, glm::ivec2 size);
 // The casting lights in mask-slot order, and the lights that cast no shadow: name, kind, world position or
 // direction, colour and intensity of each.

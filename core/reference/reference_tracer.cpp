@@ -37,7 +37,10 @@ ReferenceTracer::Cone ReferenceTracer::cone_after(const ReferenceRay& ray, const
 ReferenceTracer::Pixel ReferenceTracer::pixel(const shared::ViewParams& view, int x, int y, int depth) const {
   const double footprint = static_cast<double>(options_.texture_footprint);
   ReferenceRay ray = reference_pixel_ray(view, x, y);
-  ray.angle = footprint * glm::length(glm::dvec3(view.step_y));
+  // The angle between parallel rays is 0, which would mean that nothing is averaged.
+  const double height = footprint * glm::length(glm::dvec3(view.step_y));
+  ray.angle = view.parallel ? std::min(height, 1e-30) : height;
+  if (view.parallel) ray.width = height;
   ray.of_camera = true;
   const ReferenceHit hit = closest_hit(ray);
   Pixel pixel;
@@ -46,7 +49,7 @@ ReferenceTracer::Pixel ReferenceTracer::pixel(const shared::ViewParams& view, in
     if (environment_) pixel.color = glm::vec4(glm::vec3(environment_->radiance(ray.direction)), 0.0f);
     return pixel;
   }
-  const double side = footprint * hit.t;
+  const double side = view.parallel ? footprint : footprint * hit.t;
   ReferenceSpread spread{ray.direction, side * glm::dvec3(view.step_x), side * glm::dvec3(view.step_y)};
   if (footprint == 0.0) spread = {};
   const ReferenceSurface surface = reference_surface(*scene_.mesh, ray, hit, spread);
@@ -258,8 +261,10 @@ double ReferenceTracer::unblocked(const ReferenceRay& ray) const {
 
 ReferenceRay reference_pixel_ray(const shared::ViewParams& view, int x, int y) {
   const glm::dvec2 at = glm::dvec2(view.first) + glm::dvec2(x, y);
-  return {glm::dvec3(view.eye),
-          glm::dvec3(view.corner) + at.x * glm::dvec3(view.step_x) + at.y * glm::dvec3(view.step_y)};
+  const glm::dvec3 eye(view.eye), corner(view.corner),
+      to_pixel = at.x * glm::dvec3(view.step_x) + at.y * glm::dvec3(view.step_y);
+  if (view.parallel) return {eye + to_pixel, corner};
+  return {eye, corner + to_pixel};
 }
 
 }  // namespace pinocchio

@@ -1,6 +1,9 @@
 #include "pinocchio/camera.h"
 
 #include <cmath>
+#include <glm/gtc/constants.hpp>
+
+#include "core/math/lens.h"
 
 namespace pinocchio {
 
@@ -15,7 +18,8 @@ CameraAxes camera_axes(const Camera& camera) {
 
 Camera with_intrinsics(Camera camera, const Intrinsics& k, glm::ivec2 size) {
   const glm::dvec2 full(size);
-  camera.fov_deg = static_cast<float>(glm::degrees(2.0 * std::atan(0.5 * full.y / k.fy)));
+  camera.fov_deg = static_cast<float>(glm::degrees(
+      camera.projection == Projection::fisheye ? full.y / k.fy : 2.0 * std::atan(0.5 * full.y / k.fy)));
   camera.pixel_aspect = static_cast<float>(k.fy / k.fx);
   camera.axis_shift = glm::vec2((glm::dvec2(k.cx, k.cy) + 0.5 - 0.5 * full) / full.y);
   return camera;
@@ -23,9 +27,67 @@ Camera with_intrinsics(Camera camera, const Intrinsics& k, glm::ivec2 size) {
 
 Intrinsics intrinsics_of(const Camera& camera, glm::ivec2 size) {
   const glm::dvec2 full(size);
-  const double fy = 0.5 * full.y / std::tan(glm::radians(0.5 * camera.fov_deg));
+  const double fy = camera.projection == Projection::fisheye
+                        ? full.y / glm::radians(static_cast<double>(camera.fov_deg))
+                        : 0.5 * full.y / std::tan(glm::radians(0.5 * camera.fov_deg));
   const glm::dvec2 center = 0.5 * full - 0.5 + glm::dvec2(camera.axis_shift) * full.y;
   return {fy / camera.pixel_aspect, fy, center.x, center.y};
+}
+
+namespace {
+
+// Of a point in camera space: x right, y down, z forward. None: it is not seen.
+std::optional<glm::dvec2> perspective_pixel(const Camera& camera, glm::ivec2 size, const glm::dvec3& p) {
+  if (!(p.z > 0.0)) return std::nullopt;
+  glm::dvec2 at = glm::dvec2(p) / p.z;
+  if (camera.is_distorted()) {
+    const glm::dvec2 shown = distorted(camera.distortion, at);
+    const std::optional<glm::dvec2> seen = undistorted(camera.distortion, shown);
+    if (!seen || glm::length(*seen - at) > 1e-6 * (1.0 + glm::length(at))) return std::nullopt;
+    at = shown;
+  }
+  const Intrinsics k = intrinsics_of(camera, size);
+  return glm::dvec2(k.fx * at.x + k.cx, k.fy * at.y + k.cy);
+}
+
+std::optional<glm::dvec2> fisheye_pixel(const Camera& camera, glm::ivec2 size, const glm::dvec3& p) {
+  const double across = glm::length(glm::dvec2(p)), angle = std::atan2(across, p.z);
+  if (!(across > 0.0 || p.z > 0.0)) return std::nullopt;
+  const double distance = fisheye_distance(camera.distortion, angle);
+  const std::optional<double> seen = fisheye_angle(camera.distortion, distance);
+  if (!seen || std::abs(*seen - angle) > 1e-6) return std::nullopt;
+  const glm::dvec2 at = across > 0.0 ? distance / across * glm::dvec2(p) : glm::dvec2(0.0);
+  const Intrinsics k = intrinsics_of(camera, size);
+  return glm::dvec2(k.fx * at.x + k.cx, k.fy * at.y + k.cy);
+}
+
+}  // namespace
+
+std::optional<glm::dvec2> pixel_of(const Camera& camera, glm::ivec2 size, const glm::dvec3& p_world) {
+  const CameraAxes axes = camera_axes(camera);
+  const glm::dvec3 to = p_world - glm::dvec3(camera.eye);
+  const glm::dvec3 p(glm::dot(to, glm::dvec3(axes.right)), -glm::dot(to, glm::dvec3(axes.up)),
+                     glm::dot(to, glm::dvec3(axes.forward)));
+  const glm::dvec2 full(size);
+  switch (camera.projection) {
+    case Projection::perspective:
+      return perspective_pixel(camera, size, p);
+    case Projection::fisheye:
+      return fisheye_pixel(camera, size, p);
+    case Projection::orthographic: {
+      if (!(p.z > 0.0)) return std::nullopt;
+      const double fy = full.y / static_cast<double>(camera.height), fx = fy / camera.pixel_aspect;
+      return glm::dvec2(fx, fy) * glm::dvec2(p) + 0.5 * full - 0.5 + glm::dvec2(camera.axis_shift) * full.y;
+    }
+    case Projection::panorama: {
+      const double pi = glm::pi<double>(), distance = glm::length(p);
+      if (!(distance > 0.0)) return std::nullopt;
+      return glm::dvec2(0.5 + std::atan2(p.x, p.z) / (2.0 * pi), 0.5 + std::asin(p.y / distance) / pi) *
+                 full -
+             0.5;
+    }
+  }
+  return std::nullopt;
 }
 
 }  // namespace pinocchio

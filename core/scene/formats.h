@@ -22,12 +22,14 @@ struct SceneFormat {
 [[nodiscard]] Expected<Scene> load_gltf(const std::filesystem::path& path, Loading& loading);
 [[nodiscard]] Expected<Scene> load_obj(const std::filesystem::path& path, Loading& loading);
 [[nodiscard]] Expected<Scene> load_ply(const std::filesystem::path& path, Loading& loading);
+[[nodiscard]] Expected<Scene> load_stl(const std::filesystem::path& path, Loading& loading);
 
 // A path without an extension names the first of these files that exists.
 inline constexpr SceneFormat kSceneFormats[] = {
     {"glTF", {".gltf", ".glb"}, load_gltf, save_gltf},
     {"OBJ", {".obj"}, load_obj, save_obj},
     {"PLY", {".ply"}, load_ply, nullptr},
+    {"STL", {".stl"}, load_stl, nullptr},
 };
 
 // The warning about triangles with a vertex that is NaN or infinite, for every format.

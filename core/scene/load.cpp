@@ -7,6 +7,7 @@
 #include "core/math/finite.h"
 #include "core/parallel/parts.h"
 #include "core/scene/formats.h"
+#include "core/scene/up_axis.h"
 
 namespace pinocchio {
 namespace {
@@ -66,7 +67,7 @@ Expected<Scene> load_scene(const std::filesystem::path& path, const LoadOptions&
   Warnings& heard = options.confine || !warnings ? own : *warnings;
   MemoryLimit limit(options.limit_bytes);
   InputFiles files(*file, options.confine);
-  Loading loading{heard, progress, limit, files, options.shading};
+  Loading loading{heard, progress, limit, files, options.shading, options.animation};
   const SceneFormat* const format = find_scene_format(*file);
   if (!format)
     return error(*file, "is not of a format that can be read",
@@ -76,6 +77,11 @@ Expected<Scene> load_scene(const std::filesystem::path& path, const LoadOptions&
   if (warnings && &heard != warnings)
     for (const Warning& warning : own) warnings->add(warning);
   if (limit.error()) return Unexpected(*limit.error());
+  if (!scene) return scene;
+  if (!options.animation.empty() && !scene->animation)
+    return error(*file, "has no animation '" + options.animation + "'",
+                 "leave out the choice of an animation");
+  if (options.up_axis == UpAxis::z) scene = turned_up(std::move(*scene));
   if (!scene) return scene;
   scene->source = file->string();
   scene->source_files.insert(scene->source_files.begin(), scene->source);

@@ -19,10 +19,16 @@ struct RaySpread {
 struct Footprint {
   glm::vec3 step_x{0.0f}, step_y{0.0f};  // ViewParams', for camera rays; zero: cones
   float angle = 0.0f;                    // radians; 0: nothing is averaged
+  // Of camera rays: the cones' width where they begin; whether they are parallel.
+  float start_width = 0.0f;
+  bool parallel = false;
 
   // `side`: the side of a sample's share of its pixel.
   [[nodiscard]] static Footprint of_camera(const shared::ViewParams& view, float side = 1.0f) {
-    return {side * view.step_x, side * view.step_y, side * glm::length(view.step_y)};
+    const float height = side * glm::length(view.step_y);
+    // The angle of parallel rays is as good as 0.
+    if (view.parallel) return {side * view.step_x, side * view.step_y, 1e-30f, height, true};
+    return {side * view.step_x, side * view.step_y, height};
   }
   [[nodiscard]] Footprint of_cones() const { return {glm::vec3(0.0f), glm::vec3(0.0f), angle}; }
 
@@ -30,6 +36,7 @@ struct Footprint {
   [[nodiscard]] RaySpread at(const glm::vec3& origin, const glm::vec3& direction, const glm::vec3& p_world,
                              float width) const {
     if (angle == 0.0f) return {};
+    if (parallel) return {direction, step_x, step_y};
     if (step_x != glm::vec3(0.0f)) {
       const float t = glm::dot(p_world - origin, direction) / glm::dot(direction, direction);
       return {direction, t * step_x, t * step_y};

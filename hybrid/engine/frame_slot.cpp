@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <stdexcept>
 #include <utility>
 
 #include "hybrid/frame/schedule.h"
@@ -27,6 +28,9 @@ void FrameSlot::begin(FrameRequest&& next, std::uint64_t number, Progress* its_p
   for (std::size_t i = 0; i < kStageNames.size(); ++i)
     record.processors[i] = processor_of(static_cast<Stage>(i), request.settings);
   view = view_params(request.view);
+  model = RayModel::of(request.view);
+  if (model && request.settings.uses_gpu())
+    throw std::logic_error("OpenGL cannot draw the view; call draw_on_cpu for its settings");
   options = trace_options(request.settings, request.view);
   layout = channels_of(request.settings, size());
 }
@@ -50,7 +54,8 @@ bool FrameSlot::is_tracing() const {
 bool FrameSlot::reprojects_to(const FrameSlot& newer) const {
   const Settings &a = request.settings, &b = newer.request.settings;
   return answered && a.composite == b.composite && request.scene == newer.request.scene &&
-         a.mask_bits == b.mask_bits && a.reflection == b.reflection && a.id_bits == b.id_bits;
+         view.parallel == newer.view.parallel && a.mask_bits == b.mask_bits && a.reflection == b.reflection &&
+         a.id_bits == b.id_bits;
 }
 
 void FrameSlot::copy_unpacked(Image<glm::vec4>& copy) const {

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "core/base/clock.h"
+#include "core/trace/view/ray_model.h"
 #include "core/trace/view/view_params.h"
 #include "gl/objects/timer.h"
 #include "gl/transfer/transfer.h"
@@ -59,6 +60,7 @@ struct FrameSlot : CpuImages {
   gl::Mapping mapping;
   FrameRequest request;
   shared::ViewParams view;
+  std::optional<RayModel> model;  // makes the rays; none: `view` does
   TraceOptions options;
   FrameRecord record;
   Progress* progress = nullptr;

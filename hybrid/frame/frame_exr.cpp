@@ -35,6 +35,7 @@ FrameOutput output_of(const FrameResult& frame, const ExrOptions& options) {
           .frames_per_second = options.frames_per_second,
           .time_s = options.time_s,
           .age_frames = frame.record.age_frames,
+          .has_rays = frame.view.rays != nullptr,
           .inputs = options.inputs};
 }
 

@@ -4,7 +4,11 @@
 
 #include "core/parallel/workers.h"
 #include "core/trace/tiles/aov.h"
+#include "core/trace/tiles/identities.h"
+#include "core/trace/tiles/motion.h"
+#include "core/trace/view/ray_model.h"
 #include "core/trace/view/view_params.h"
+#include "pinocchio/layers.h"
 
 namespace pinocchio {
 
@@ -23,24 +27,28 @@ void write_lines(const FrameResult& frame, int y0, int y1, const FrameArrays& to
   copy(frame.color, to.color);
   copy(frame.ids, to.ids);
   copy(frame.reflection, to.reflection);
-  for (std::size_t i = 0; i < count; ++i) {
-    if (to.objects) to.objects[first + i] = object_of(frame.scene, frame.ids[begin + i]);
-    if (!to.mask) continue;
+  if (count > 0) write_identities(frame.scene, {&frame.ids[begin], count}, to, first);
+  for (std::size_t i = 0; to.mask && i < count; ++i) {
     const int x = static_cast<int>(i % width), y = y0 + static_cast<int>(i / width);
     to.mask[first + i] = static_cast<std::uint8_t>(frame.mask.bits() > 0 ? frame.mask.get(x, y) : 0u);
   }
-  if (!to.wants_surfaces()) return;
+  if (!(to.wants_surfaces() || to.motion) || count == 0) return;
   View view = frame.view;
   view.jitter = glm::vec2(0.0f);
-  const shared::ViewParams params = view_params(view);
-  write_visible_lines({*frame.scene.mesh, lane_steps(default_isa()), params, frame.settings.filter_textures},
+  if (to.motion)
+    write_motion(*frame.scene.mesh, view, frame.motion.value_or(MotionTo{nullptr, view.camera}),
+                 {{0, y0}, {frame.ids.width(), y1}}, &frame.ids[begin], width, to.motion, first, width);
+  if (!to.wants_surfaces()) return;
+  const std::optional<RayModel> model = RayModel::of(view);
+  write_visible_lines({*frame.scene.mesh, lane_steps(default_isa()), view_params(view),
+                       frame.settings.filter_textures, model ? &*model : nullptr},
                       frame.ids, y0, y1, to, first);
 }
 
 void write_layers(const FrameResult& frame, const FrameArrays& to, std::size_t first) {
   constexpr int kLines = 16;  // a task
   const glm::ivec2 size = frame.ids.size();
-  if (!to.wants_surfaces()) return write_lines(frame, 0, size.y, to, first);
+  if (!to.wants_surfaces() && !to.motion) return write_lines(frame, 0, size.y, to, first);
   Workers workers(frame.settings.threads);
   workers.for_each(static_cast<std::size_t>((size.y + kLines - 1) / kLines), [&](std::size_t i) {
     const int y0 = static_cast<int>(i) * kLines;

@@ -10,7 +10,4 @@ namespace pinocchio {
 // Writes the lines [y0, y1) of the wanted layers to the arrays, from place `first` on. Any thread.
 void write_lines(const FrameResult& frame, int y0, int y1, const FrameArrays& to, std::size_t first = 0);
 
-// All lines; where surfaces are looked up, on threads of its own.
-void write_layers(const FrameResult& frame, const FrameArrays& to, std::size_t first = 0);
-
 }  // namespace pinocchio

@@ -109,7 +109,8 @@ GpuMesh::GpuMesh(const Mesh& mesh, const Shared& shared)
       backs_(unsigneds(back_texels(mesh))),
       passed_backs_(shares_of_passed_backs(mesh)),
       maps_(mesh, shared.textures ? &shared.textures->maps_ : nullptr),
-      z_near_(z_near_of(mesh)) {}
+      z_near_(z_near_of(mesh)),
+      bounds_(mesh.bounds()) {}
 
 void GpuMesh::move(const MeshPose& before, const Mesh& now) {
   for (const NodePlace* const node : now.pose()->moved_since(before)) {
@@ -125,6 +126,7 @@ void GpuMesh::move(const MeshPose& before, const Mesh& now) {
     maps_.update_tangents(now, node->first_vertex, node->vertices);
   }
   z_near_ = z_near_of(now);
+  bounds_ = now.bounds();
 }
 
 bool are_poses_of_one(const Mesh& a, const Mesh& b) {

@@ -44,6 +44,7 @@ class GpuMesh {
   [[nodiscard]] const GpuMaps& maps() const { return maps_; }
   [[nodiscard]] bool shares_geometry_with(const GpuMesh& other) const { return geometry_ == other.geometry_; }
   [[nodiscard]] float z_near() const { return z_near_; }  // scene units
+  [[nodiscard]] const Bounds& bounds() const { return bounds_; }
 
  private:
   struct Geometry {
@@ -56,6 +57,7 @@ class GpuMesh {
   std::array<Share, kBackfaces.size()> passed_backs_;
   GpuMaps maps_;
   float z_near_;
+  Bounds bounds_;
 };
 
 // Whether both are poses of one mesh.

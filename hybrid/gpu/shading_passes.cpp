@@ -120,6 +120,7 @@ int ShadingPasses::bind(const gl::Program& program, const Inputs& inputs, const 
 
 ShadingPasses::Definitions ShadingPasses::definitions_of(const Inputs& inputs) {
   Definitions definitions{"ID_BITS " + std::to_string(inputs.id_bits)};
+  if (inputs.view.parallel) definitions.emplace_back("PARALLEL_RAYS");
   if (lifts(inputs.options.terminator)) definitions.emplace_back("TERMINATOR_LIFTS");
   if (inputs.options.terminator == Terminator::smoothed) definitions.emplace_back("TERMINATOR_SMOOTHS");
   const Definitions& of_maps = inputs.mesh.maps().definitions();

@@ -24,9 +24,10 @@ class VisibilityPass {
 };
 
 // The matrix from (p_world - eye) to (z x, z y, z), where (x, y) is the point's pixel, counted from
-// view.first.
+// view.first; with parallel rays, to (x, y, z), and x and y are counted from the whole picture's first pixel.
 [[nodiscard]] glm::dmat3 pixel_from_eye(const shared::ViewParams& view);
-// The matrix from (p_world - eye) to clip x, y and w. Row 0 of the picture is GL's row 0.
+// The matrix from (p_world - eye) to clip x, y and w; with parallel rays, to clip x and y, less half a pixel
+// and 1, and z_eye. Row 0 of the picture is GL's row 0.
 [[nodiscard]] glm::mat3 picture_from_eye(const shared::ViewParams& view, glm::ivec2 picture_size);
 
 }  // namespace pinocchio

@@ -33,6 +33,7 @@ void run(Workers& workers, FrameSlot& frame, const TileOutputs& outputs, double 
                      .workers = workers,
                      .view = frame.view,
                      .options = frame.options,
+                     .model = frame.model ? &*frame.model : nullptr,
                      .left_out = r.left_out.get(),
                      .progress = frame.progress,
                      .progress_steps = share};
@@ -96,6 +97,7 @@ void trace(Workers& workers, FrameSlot& frame) {
   }
   add_reflection(frame, out);
   if (!s.uses_gpu()) out.color = &frame.color;
+  out.coverage = s.coverage;
   if (s.uses_gpu() && s.composite == Processor::cpu) {
     fit(frame.unpacked, frame.size());
     unpack_srgb(frame.phong_srgb.pixels(), workers, frame.unpacked);

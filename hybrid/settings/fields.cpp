@@ -169,6 +169,8 @@ constexpr std::array kTable{
         "a shadow ray is not fired where it would bring its visible point less light than "
         "this, linear; 0: all are fired",
         false, "least_light"),
+    field<&S::coverage>("coverage", yes_or_no(), "false",
+                        "alpha counts what surfaces that blend let through; the CPU draws alone"),
     field<&S::filter_textures>("filter_textures", yes_or_no(), "true",
                                "average textures over the area that a pixel or its mirror image covers"),
     field<&S::indirect>("indirect", from_to(0, kMostBounces), "0",

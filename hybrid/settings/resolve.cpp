@@ -74,6 +74,11 @@ Expected<Settings> resolve(const Settings& settings, const SceneStats& stats, co
   s.mask_bits.fill(MaskImage::bits_for(stats.casting_lights));
   fill_depth(stats, s);
   choose_processors(c, s);
+  if (s.coverage) {
+    s.visibility.fill(Processor::cpu);
+    s.composite.fill(Processor::cpu);
+  }
+  if (c.needs_rays) draw_on_cpu(s);
   // All lights together stay below half a step.
   const bool needs_bits = c.keeps_mask || s.mask_bits == 0;
   s.light_cutoff.fill(needs_bits ? 0.0f

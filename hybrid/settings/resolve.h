@@ -13,6 +13,7 @@ struct Circumstances {
   glm::ivec2 size{800, 600};  // of the drawn part, pixels
   bool software_gl = false;   // the rasteriser runs on the tracer's cores
   bool keeps_mask = true;     // every bit of the mask is wanted, visible or not
+  bool needs_rays = false;    // OpenGL cannot draw the view (View::is_rasterisable): the CPU draws alone
 };
 
 // The gain of the CPU alone over hybrid with a software OpenGL (docs/measurements.md, "Who draws"). It holds

@@ -69,6 +69,8 @@ constexpr std::array kRules{
          [](const Settings& s) {
            return s.wide && (s.visibility == Processor::cpu || s.composite == Processor::gpu);
          }},
+    Rule{"coverage is counted by the CPU's rays", "leave it out, or let the CPU draw alone (--mode raytrace)",
+         [](const Settings& s) { return s.coverage && s.uses_gpu(); }},
     Rule{"this processor does not have the SIMD level", "'pinocchio info --system' lists what it has",
          [](const Settings& s) { return !isa_supported(s.isa); }},
 };
@@ -77,6 +79,10 @@ constexpr std::array kRules{
 
 std::span<const Preset> presets() {
   return kPresets;
+}
+
+void draw_on_cpu(Settings& settings) {
+  draw_all_on(Processor::cpu, Processor::cpu, settings);
 }
 
 bool apply_preset(std::string_view option, std::string_view value, Settings& settings) {

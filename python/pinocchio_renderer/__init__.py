@@ -25,6 +25,7 @@ from ._core import (
     load_scene,
     read_exr,
 )
+from ._masks import amodal_masks, boxes, visible_share
 from ._trimesh import from_trimesh
 
 __version__: str = getattr(_core, "__version__")
@@ -40,9 +41,12 @@ __all__ = [
     "Scene",
     "Tracer",
     "__version__",
+    "amodal_masks",
     "assemble",
+    "boxes",
     "compare",
     "from_trimesh",
     "load_scene",
     "read_exr",
+    "visible_share",
 ]

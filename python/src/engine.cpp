@@ -85,6 +85,64 @@ nb::object given_array(const LayerRow& output, const std::vector<std::size_t>& s
   return nb::borrow(given);
 }
 
+// Sets the rays of a picture: (origins, directions), each (h, w, 3), or (n, 3) for a picture of one row. One
+// origin serves for all.
+void set_rays(const nb::object& given, View& view) {
+  const char* const wanted =
+      "rays is (origins, directions), arrays of the shape (height, width, 3) or (n, 3)";
+  if (!nb::isinstance<nb::sequence>(given) || nb::len(given) != 2) throw Error(wanted);
+  const nb::module_ numpy = nb::module_::import_("numpy");
+  const auto axes_of = [&](nb::handle array) { return nb::cast<int>(numpy.attr("ndim")(array)); };
+  const auto read = [](nb::handle array, const char* name, int axes) {
+    const std::vector<int> shape = axes == 1   ? std::vector{3}
+                                   : axes == 3 ? std::vector{-1, -1, 3}
+                                               : std::vector{-1, 3};
+    return array_of(array, name, "float32", shape);
+  };
+  const int axes = axes_of(given[1]), axes_of_origins = axes_of(given[0]);
+  if ((axes != 2 && axes != 3) || (axes_of_origins != axes && axes_of_origins != 1)) throw Error(wanted);
+  nb::object directions = read(given[1], "directions of rays", axes),
+             origins = read(given[0], "origins of rays", axes_of_origins);
+  try {
+    origins = numpy.attr("broadcast_to")(origins, directions.attr("shape"));
+  } catch (const nb::python_error&) {
+    throw Error("the origins of rays do not have the shape of their directions; give as many, or one");
+  }
+  if (axes == 2) {
+    directions = directions.attr("reshape")(1, -1, 3);
+    origins = origins.attr("reshape")(1, -1, 3);
+  }
+  const auto height = nb::cast<int>(directions.attr("shape")[0]),
+             width = nb::cast<int>(directions.attr("shape")[1]);
+  if (width < 1 || height < 1) throw Error("there are no rays");
+  const auto values = [&](const nb::object& array, const char* name) {
+    const Floats3::Array rows = Floats3{array.attr("reshape")(-1, 3)}.read(name);
+    return copied<glm::vec3>(rows);
+  };
+  auto rays = std::make_shared<PixelRays>();
+  rays->origins = values(origins, "the origins of rays");
+  rays->directions = values(directions, "the directions of rays");
+  view.rays = std::move(rays);
+  view.size = {width, height};
+}
+
+// The frames that motion leads to, one for each camera: the other scene and the other cameras that are given,
+// else the picture's own.
+std::vector<MotionTo> motions(const Scene& scene, const std::vector<Camera>& cameras, const PyScene* other,
+                              const std::optional<std::vector<CameraChoice>>& choices) {
+  if (choices && choices->size() != cameras.size())
+    throw Error("there are " + std::to_string(choices->size()) + " motion_cameras and " +
+                std::to_string(cameras.size()) + " cameras; give one for each");
+  if (other && other->scene.mesh->triangles.size() != scene.mesh->triangles.size())
+    throw Error(
+        "motion_scene has other triangles; it is another pose of the scene (Scene.posed, Scene.at_time)");
+  std::vector<MotionTo> all;
+  for (std::size_t i = 0; i < cameras.size(); ++i)
+    all.push_back(
+        {other ? other->scene.mesh : nullptr, choices ? camera_of(scene, (*choices)[i]) : cameras[i]});
+  return all;
+}
+
 // An Engine that knows its process. Calls from several threads are executed one after the other.
 class PyEngine {
  public:
@@ -109,21 +167,24 @@ class PyEngine {
 
   [[nodiscard]] int threads() const { return or_one_a_core(threads_); }
 
-  Result render(const PyScene& given, const CameraChoice& choice, const Size& pixels,
+  Result render(const PyScene& given, const CameraChoice& choice, const Size& pixels, const nb::object& rays,
                 const nb::kwargs& arguments) {
     check_open();
-    const glm::ivec2 size = pixels.read();
+    View view;
+    if (rays.is_none())
+      view.size = pixels.read();
+    else
+      set_rays(rays, view);
     const Scene scene = given.now();
     const Settings settings = settings_of(arguments, threads_);
-    const Camera camera = camera_of(scene, choice);
-    const Scene drawn = lit(scene, camera);
+    view.camera = camera_of(scene, choice);
+    const Scene drawn = lit(scene, view.camera);
     const bool is_dark = scene.lights.empty();
     return without_gil([&](Progress* progress) {
       const std::lock_guard lock(mutex_);
       check_open();
       const auto begin = std::chrono::steady_clock::now();
-      Result result{
-          value_or_throw(engine_->render(drawn, {.camera = camera, .size = size}, settings, progress))};
+      Result result{value_or_throw(engine_->render(drawn, view, settings, progress))};
       result.ms = std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - begin).count();
       if (is_dark) result.frame.scene.lights = drawn.lights;
       return result;
@@ -132,6 +193,8 @@ class PyEngine {
 
   nb::dict render_many(const PyScene& given, const std::vector<CameraChoice>& choices, const Size& pixels,
                        const std::vector<std::string>& outputs, const std::optional<nb::dict>& out,
+                       const PyScene* motion_scene,
+                       const std::optional<std::vector<CameraChoice>>& motion_cameras,
                        const nb::kwargs& arguments) {
     check_open();
     const glm::ivec2 size = pixels.read();
@@ -149,11 +212,14 @@ class PyEngine {
                                  : new_array(output, shape, to);
     }
     if (cameras.empty()) return result;
+    const std::vector<MotionTo> motion =
+        to.motion ? motions(scene, cameras, motion_scene, motion_cameras) : std::vector<MotionTo>();
     const Scene drawn = lit(scene, cameras.front());
     without_gil([&](Progress* progress) {
       const std::lock_guard lock(mutex_);
       check_open();
-      return value_or_throw(pinocchio::render_many(*engine_, drawn, cameras, size, settings, to, progress));
+      return value_or_throw(
+          pinocchio::render_many(*engine_, drawn, cameras, size, settings, to, progress, motion));
     });
     return result;
   }
@@ -180,6 +246,10 @@ void bind_engine(nb::module_& module) {
       "that sees the\n"
       "whole scene.\n"
       "size: (width, height) in pixels.\n"
+      "rays: (origins, directions) of the pixels, in place of the camera's and of size: arrays (height, "
+      "width, "
+      "3), or (n, 3)\n"
+      "for a picture of one row, for a lidar say. One origin serves for all. Depth is then the distance.\n"
       "A scene without lights gets one above the camera. By default the CPU draws alone (mode='raytrace') "
       "and no OpenGL is\n"
       "needed.\n"
@@ -194,6 +264,9 @@ void bind_engine(nb::module_& module) {
       ",\n"
       "each as in Result. Other layers are not computed.\n"
       "out: the arrays of an earlier call, which are filled again.\n"
+      "motion_scene, motion_cameras: the other pose of the scene, and a camera for each picture, that the "
+      "output motion\n"
+      "leads to. None: the scene, or the cameras, themselves.\n"
       "Settings and errors as for render; TypeError if an array of `out` does not fit. Small pictures keep\n"
       "all threads busy.";
   nb::class_<PyEngine> bound(
@@ -227,18 +300,22 @@ void bind_engine(nb::module_& module) {
                                        : "<Engine: " + std::to_string(engine.threads()) + " threads>";
            })
       .def("render", &PyEngine::render, "scene"_a, "camera"_a = nb::none(), "size"_a = glm::ivec2(800, 600),
-           "settings"_a,
+           "rays"_a = nb::none(), "settings"_a,
            nb::sig("def render(self, scene: Scene, camera: Camera | int | str | None = None, size: "
-                   "collections.abc.Sequence[int] = (800, 600), **settings: object) -> Result"),
+                   "collections.abc.Sequence[int] = (800, 600), rays: tuple[numpy.typing.ArrayLike, "
+                   "numpy.typing.ArrayLike] | None = None, **settings: object) -> Result"),
            kRender.c_str())
       .def("render_many", &PyEngine::render_many, "scene"_a, "cameras"_a, "size"_a = glm::ivec2(800, 600),
-           "outputs"_a = std::vector<std::string>{"color"}, "out"_a = nb::none(), "settings"_a,
+           "outputs"_a = std::vector<std::string>{"color"}, "out"_a = nb::none(),
+           "motion_scene"_a.none() = nb::none(), "motion_cameras"_a = nb::none(), "settings"_a,
            nb::sig(
                "def render_many(self, scene: Scene, cameras: collections.abc.Sequence[Camera | int | str | "
                "None], "
                "size: collections.abc.Sequence[int] = (800, 600), outputs: collections.abc.Sequence[str] = "
-               "('color',), out: collections.abc.Mapping[str, typing.Any] | None = None, **settings: object) "
-               "-> "
+               "('color',), out: collections.abc.Mapping[str, typing.Any] | None = None, motion_scene: Scene "
+               "| "
+               "None = None, motion_cameras: collections.abc.Sequence[Camera | int | str | None] | None = "
+               "None, **settings: object) -> "
                "dict[str, numpy.typing.NDArray[typing.Any]]"),
            kRenderMany.c_str());
   def_no_pickle(bound, "an Engine does not pickle, as it has threads: create one in each process");

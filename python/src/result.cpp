@@ -1,5 +1,7 @@
 #include "python/src/result.h"
 
+#include <pinocchio/layers.h>
+
 #include <nanobind/stl/filesystem.h>
 #include <algorithm>
 #include <cctype>
@@ -8,6 +10,7 @@
 
 #include "python/src/layers.h"
 #include "python/src/png.h"
+#include "python/src/scene/scene.h"
 #include "python/src/support/interrupt.h"
 #include "python/src/support/parts.h"
 
@@ -76,14 +79,41 @@ auto mask(nb::handle self) {
   return picture(result.mask, self);
 }
 
-auto objects(nb::handle self) {
+// A layer of numbers that are looked up by the ids.
+template <auto Member, auto Array>
+auto identities(nb::handle self) {
   Result& result = nb::cast<Result&>(self);
-  if (result.objects.empty()) {
-    result.objects = Image<std::uint32_t>(result.frame.ids.size());
-    for (std::size_t i = 0; i < result.frame.ids.pixels().size(); ++i)
-      result.objects[i] = object_of(result.frame.scene, result.frame.ids[i]);
+  Image<std::uint32_t>& image = result.*Member;
+  if (image.empty()) {
+    Image<std::uint32_t> made(result.frame.ids.size());
+    FrameArrays to;
+    to.*Array = made.pixels().data();
+    write_layers(result.frame, to);
+    image = std::move(made);
   }
-  return picture(result.objects, self);
+  return picture(image, self);
+}
+
+// The other frame that motion leads to: the scene and the camera that are given, else this picture's own.
+MotionTo motion_to(const Result& result, const PyScene* scene, const Camera* camera) {
+  const Mesh& mesh = *result.frame.scene.mesh;
+  if (scene && scene->scene.mesh->triangles.size() != mesh.triangles.size())
+    throw Error("the other scene has " + std::to_string(scene->scene.mesh->triangles.size()) +
+                " triangles, this one " + std::to_string(mesh.triangles.size()) +
+                "; motion is between two poses of one scene (Scene.posed, Scene.at_time)");
+  return {scene ? scene->scene.mesh : nullptr, camera ? *camera : result.frame.view.camera};
+}
+
+auto motion(const Result& result, const PyScene* scene, const Camera* camera) {
+  FrameResult frame = result.frame;
+  frame.motion = motion_to(result, scene, camera);
+  std::vector<glm::vec2> values(frame.ids.pixels().size());
+  FrameArrays to;
+  to.motion = values.data();
+  without_gil([&](Progress*) { return write_layers(frame, to), true; });
+  const auto height = static_cast<std::size_t>(frame.ids.height()),
+             width = static_cast<std::size_t>(frame.ids.width());
+  return array_that_owns<float>(std::move(values), {height, width, 2});
 }
 
 // Read-only: depth, position, normal, albedo and objects index the scene by them.
@@ -132,7 +162,19 @@ void bind_result(nb::module_& module) {
       .def_prop_ro("normal", &of_surfaces<&SurfaceImages::n_shading>, doc(Layer::normals))
       .def_prop_ro("albedo", &of_surfaces<&SurfaceImages::albedo>, doc(Layer::albedo))
       .def_prop_ro("ids", &ids, ids_doc.c_str())
-      .def_prop_ro("objects", &objects, doc(Layer::objects))
+      .def_prop_ro("objects", &identities<&Result::objects, &FrameArrays::objects>, doc(Layer::objects))
+      .def_prop_ro("materials", &identities<&Result::materials, &FrameArrays::materials>,
+                   doc(Layer::materials))
+      .def_prop_ro("primitives", &identities<&Result::primitives, &FrameArrays::primitives>,
+                   doc(Layer::primitives))
+      .def("motion", &motion, "scene"_a.none() = nb::none(), "camera"_a.none() = nb::none(),
+           nb::rv_policy::reference,
+           "(h, w, 2) float32: pixels from each point to its place in another frame, x to the right and y "
+           "down; 0 where\n"
+           "nothing is hit, NaN where the other frame's camera does not see the point.\n"
+           "scene: the scene in its other pose (Scene.posed, Scene.at_time). None: nothing has moved.\n"
+           "camera: the other frame's. None: this picture's.\n"
+           "Raises Error if the other scene has other triangles.")
       .def_prop_ro("mask", &mask, doc(Layer::mask))
       .def_prop_ro("reflection", &reflection, doc(Layer::reflection))
       .def_prop_ro("record", &record, nb::sig("def record(self) -> dict[str, typing.Any]"),
@@ -140,23 +182,26 @@ void bind_result(nb::module_& module) {
       .def_prop_ro("camera", [](const Result& r) { return r.frame.view.camera; })
       .def(
           "write_exr",
-          [](const Result& r, const std::filesystem::path& path, const std::string& aov, bool deterministic) {
+          [](const Result& r, const std::filesystem::path& path, const std::string& aov, bool deterministic,
+             const PyScene* motion_scene, const Camera* motion_camera) {
             if (!has_extension(path, ".exr"))
               throw Error(path.string() + ": write_exr writes EXR files; end the name in .exr" +
                           (has_extension(path, ".png") ? ", or use write_png" : ""));
             ExrOptions options{.layers = aov};
             if (!deterministic) options.render_s = 1e-3 * r.ms;
-            without_gil(
-                [&](Progress* progress) { return write_exr(path, r.frame, options, progress), true; });
+            FrameResult frame = r.frame;
+            frame.motion = motion_to(r, motion_scene, motion_camera);
+            without_gil([&](Progress* progress) { return write_exr(path, frame, options, progress), true; });
           },
-          "path"_a, "aov"_a = "all", "deterministic"_a = false,
+          "path"_a, "aov"_a = "all", "deterministic"_a = false, "motion_scene"_a.none() = nb::none(),
+          "motion_camera"_a.none() = nb::none(),
           nb::sig("def write_exr(self, path: str | os.PathLike[str], aov: str = 'all', deterministic: bool = "
-                  "False) -> "
-                  "None"),
+                  "False, motion_scene: Scene | None = None, motion_camera: Camera | None = None) -> None"),
           "Writes the picture with its layers to an EXR file, as the program does.\n"
           "path: the file, which is written whole or not at all.\n"
           "aov: 'all', 'none' or some of the program's --aov, separated by commas.\n"
           "deterministic: without the render time, so that the same picture has the same bytes.\n"
+          "motion_scene, motion_camera: of the layer motion, as for Result.motion.\n"
           "Raises Error if the file cannot be written, if its name does not end in .exr or if there is no "
           "such "
           "layer.")

@@ -12,7 +12,7 @@ struct Result {
   double ms = 0.0;    // from the call to the picture
   std::optional<SurfaceImages> surfaces{};
   Image<std::uint8_t> mask{};
-  Image<std::uint32_t> objects{};
+  Image<std::uint32_t> objects{}, materials{}, primitives{};
   Image<glm::vec3> no_reflection{};  // zeros, where the frame traced none
 };
 

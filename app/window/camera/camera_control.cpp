@@ -50,7 +50,9 @@ void CameraControl::turn_view(glm::vec2 pixels, float window_height) {
 
 void CameraControl::pan(glm::vec2 pixels, float window_height) {
   const CameraAxes axes = camera_axes(camera_);
-  const float height = 2.0f * distance() * std::tan(glm::radians(0.5f * camera_.fov_deg));
+  const float height = camera_.projection == Projection::orthographic
+                           ? camera_.height
+                           : 2.0f * distance() * std::tan(glm::radians(0.5f * camera_.fov_deg));
   const float pixel = height / std::max(window_height, 1.0f);
   const glm::vec3 move = (-pixels.x * axes.right + pixels.y * axes.up) * pixel;
   camera_.eye += move;
@@ -63,6 +65,8 @@ void CameraControl::zoom(float steps) {
   const float least = std::max(1e-5f * size, 1e-5f * glm::length(camera_.target));
   const float wanted =
       std::clamp(distance() * std::pow(kZoomStep, steps), least, std::max(1e3f * size, least));
+  // Parallel rays show nothing larger from nearer.
+  if (camera_.projection == Projection::orthographic) camera_.height *= wanted / distance();
   camera_.eye = camera_.target - wanted * camera_axes(camera_).forward;
 }
 
@@ -82,6 +86,7 @@ void CameraControl::frame_all(float aspect) {
   const float half_height = std::tan(glm::radians(0.5f * camera_.fov_deg));
   const float half_angle = std::atan(half_height * std::min(aspect, 1.0f));
   camera_.target = interest_.center();
+  camera_.height = 2.1f * radius / std::min(aspect, 1.0f);
   camera_.eye = camera_.target - forward * (1.05f * radius / std::sin(half_angle));
 }
 

@@ -51,6 +51,9 @@ std::string render_command(const ExportedView& view, const std::string& name) {
   text += " --eye " + exact(camera.eye) + " --target " + exact(camera.target);
   if (camera.up != glm::vec3(0, 1, 0)) text += " --up " + exact(camera.up);
   text += " --fov " + shortest(camera.fov_deg);
+  if (camera.projection != Projection::perspective)
+    text += " --projection " + std::string(name_of(kProjectionNames, camera.projection));
+  if (camera.projection == Projection::orthographic) text += " --height " + shortest(camera.height);
   if (camera.lens_radius > 0.0f) text += " --lens-radius " + shortest(camera.lens_radius);
   if (camera.focus_distance > 0.0f) text += " --focus " + shortest(camera.focus_distance);
   for (const Light& light : view.extra_lights)

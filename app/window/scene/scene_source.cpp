@@ -15,7 +15,8 @@ void SceneSource::open(const std::string& file) {
   // The command line's camera and lights belong to another scene.
   draw.camera.clear();
   draw.eye = draw.target = draw.up = std::nullopt;
-  draw.fov_deg = draw.lens_radius = draw.focus = std::nullopt;
+  draw.fov_deg = draw.lens_radius = draw.focus = draw.height = std::nullopt;
+  draw.projection = std::nullopt;
   draw.lights.clear();
   load(draw);
 }

@@ -24,13 +24,31 @@ struct FrameArrays {
   std::uint32_t* objects = nullptr;
   std::uint8_t* mask = nullptr;
   glm::vec3* reflection = nullptr;
+  std::uint32_t* materials = nullptr;
+  std::uint32_t* primitives = nullptr;
+  glm::vec2* motion = nullptr;
 
   [[nodiscard]] bool wants_light() const { return color || mask || reflection; }
   [[nodiscard]] bool wants_surfaces() const { return depth || position || normal || albedo; }
 };
 
-// The layers of a picture. kLayers has a row for each, in this order. The window shows all but the last.
-enum class Layer { picture, ids, normals, mask, reflection, delay, depth, position, albedo, objects };
+// The layers of a picture. kLayers has a row for each, in this order. The window shows those before
+// `objects`.
+enum class Layer {
+  picture,
+  ids,
+  normals,
+  mask,
+  reflection,
+  delay,
+  depth,
+  position,
+  albedo,
+  objects,
+  materials,
+  primitives,
+  motion
+};
 
 // A layer as an EXR, --aov, the arrays of render_many and the window's views have it. Empty names: the layer
 // is not there.
@@ -39,7 +57,8 @@ struct LayerRow {
   struct {
     std::string_view name;  // in Python
     std::variant<std::monostate, glm::vec4 * FrameArrays::*, glm::vec3 * FrameArrays::*,
-                 float * FrameArrays::*, std::uint32_t * FrameArrays::*, std::uint8_t * FrameArrays::*>
+                 glm::vec2 * FrameArrays::*, float * FrameArrays::*, std::uint32_t * FrameArrays::*,
+                 std::uint8_t * FrameArrays::*>
         values;
     std::string_view doc;
   } array;
@@ -47,6 +66,7 @@ struct LayerRow {
     std::string_view name;                     // for --aov; empty for the colour, which is always written
     std::array<std::string_view, 4> channels;  // one for each component
     ExrChannel::Type type;
+    bool by_name_only = false;  // `all` does not mean it
   } exr;
   struct {
     std::string_view name, legend;
@@ -100,8 +120,25 @@ inline constexpr std::array kLayers{
         {"objects", &FrameArrays::objects,
          "the node that the triangle moves with, 0 where the scene has no nodes; 0xffffffff where nothing is "
          "hit"},
-        {},
+        {"id.node", {"id.node"}, kUint, true},
         {}},
+    LayerRow{
+        Layer::materials,
+        {"materials", &FrameArrays::materials, "the triangle's material; 0xffffffff where nothing is hit"},
+        {"id.material", {"id.material"}, kUint, true},
+        {}},
+    LayerRow{Layer::primitives,
+             {"primitives", &FrameArrays::primitives,
+              "the triangle's number within its node, from 0: its face in the mesh that the node was made "
+              "of; 0xffffffff where nothing is hit"},
+             {"id.primitive", {"id.primitive"}, kUint, true},
+             {}},
+    LayerRow{Layer::motion,
+             {"motion", &FrameArrays::motion,
+              "pixels from the point to its place in another frame: x to the right, y down; 0 where nothing "
+              "is hit, NaN where the other frame's camera does not see the point"},
+             {"motion", {"motion.X", "motion.Y"}, kReal, true},
+             {}},
 };
 
 [[nodiscard]] constexpr const LayerRow& layer_row(Layer layer) {

@@ -48,6 +48,11 @@ class Warnings {
 enum class Shading : std::uint8_t { from_file, phong };
 inline constexpr std::array<std::string_view, 2> kShadingNames{"auto", "phong"};
 
+// The axis of a file's coordinates that points up. Scenes have Y up: with z, the file's (x, y, z) is the
+// scene's (x, z, -y).
+enum class UpAxis : std::uint8_t { y, z };
+inline constexpr std::array<std::string_view, 2> kUpAxisNames{"y", "z"};
+
 // How the files of a scene are read, and how far they are trusted.
 struct LoadOptions {
   std::uint64_t limit_bytes = kUsualLoadLimit;  // the most memory that they may claim beyond their own size
@@ -55,10 +60,13 @@ struct LoadOptions {
   // links are followed. A file elsewhere is an error.
   bool confine = false;
   Shading shading = Shading::from_file;
+  // The name or the number of the file's animation that the scene plays. Empty: all of them, together.
+  std::string animation{};
+  UpAxis up_axis = UpAxis::y;
 };
 
-// Reads glTF 2.0 (.gltf, .glb), Wavefront OBJ+MTL (.obj) or PLY (.ply), chosen by the file's extension. A
-// path without extension, or a folder, means the one scene file of that name (scenes/cornell ->
+// Reads glTF 2.0 (.gltf, .glb), Wavefront OBJ+MTL (.obj), PLY (.ply) or STL (.stl), chosen by the file's
+// extension. A path without extension, or a folder, means the one scene file of that name (scenes/cornell ->
 // scenes/cornell.gltf). The result has passed check_scene. Errors name the file and, for text formats, the
 // line. Features that a picture can do without are added to `warnings`, which are complete even if the result
 // is an error. Throws std::bad_alloc where there is no memory. Phases "read" and "mesh". Any thread.

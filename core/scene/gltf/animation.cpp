@@ -1,9 +1,11 @@
 #include <algorithm>
+#include <charconv>
 #include <cmath>
 #include <map>
 #include <nlohmann/json.hpp>
 #include <set>
 
+#include "core/base/listed.h"
 #include "core/scene/gltf/deformation.h"
 #include "core/scene/gltf/format/json.h"
 
@@ -41,12 +43,15 @@ struct Channel {
 class AnimationReader {
  public:
   AnimationReader(const GltfFile& file, const NodeTree& tree, const std::vector<int>& place_of_node,
-                  Warnings& warnings)
-      : file_(file), tree_(tree), place_of_node_(place_of_node), warnings_(warnings) {}
+                  Warnings& warnings, const std::string& chosen)
+      : file_(file), tree_(tree), place_of_node_(place_of_node), warnings_(warnings), chosen_(chosen) {}
 
   Expected<std::shared_ptr<const Animation>> read() {
     const Json& animations = file_.items("animations");
+    const std::optional<std::size_t> only = chosen_.empty() ? std::nullopt : place_of_chosen(animations);
+    if (!chosen_.empty() && !only) return no_such_animation(animations);
     for (std::size_t i = 0; i < animations.size(); ++i) {
+      if (only && i != *only) continue;
       const std::string name = text_member(&animations[i], "name");
       where_ = "animation " + (name.empty() ? std::to_string(i) : "'" + name + "'");
       if (const Expected<void> added = add(name, animations[i]); !added) return Unexpected(added.error());
@@ -60,6 +65,27 @@ class AnimationReader {
 
  private:
   using Moved = std::pair<int, Track::Path>;  // a node of the scene
+
+  // By name, else by number.
+  [[nodiscard]] std::optional<std::size_t> place_of_chosen(const Json& animations) const {
+    for (std::size_t i = 0; i < animations.size(); ++i)
+      if (text_member(&animations[i], "name") == chosen_) return i;
+    std::size_t number = 0;
+    const char* const end = chosen_.data() + chosen_.size();
+    const auto [last, error] = std::from_chars(chosen_.data(), end, number);
+    const bool is_number = error == std::errc() && last == end;
+    return is_number && number < animations.size() ? std::optional(number) : std::nullopt;
+  }
+
+  [[nodiscard]] Unexpected no_such_animation(const Json& animations) const {
+    std::vector<std::string> names;
+    for (std::size_t i = 0; i < animations.size(); ++i) {
+      const std::string name = text_member(&animations[i], "name");
+      names.push_back(std::to_string(i) + (name.empty() ? "" : " '" + name + "'"));
+    }
+    return file_.error("has no animation '" + chosen_ + "'",
+                       names.empty() ? "it has none" : "choose from " + listed(names, ", ", " or "));
+  }
 
   Expected<void> add(const std::string& name, const Json& from) {
     std::vector<Channel> channels;
@@ -176,6 +202,7 @@ class AnimationReader {
   const NodeTree& tree_;
   const std::vector<int>& place_of_node_;
   Warnings& warnings_;
+  const std::string& chosen_;  // the name or the number of the only one that is read; empty: all are
   std::string where_;
   std::set<Moved> moved_;
   std::map<int, AnimatedNode> nodes_;
@@ -186,8 +213,8 @@ class AnimationReader {
 
 Expected<std::shared_ptr<const Animation>> gltf_animation(const GltfFile& file, const NodeTree& tree,
                                                           const std::vector<int>& place_of_node,
-                                                          Warnings& warnings) {
-  return AnimationReader(file, tree, place_of_node, warnings).read();
+                                                          Warnings& warnings, const std::string& chosen) {
+  return AnimationReader(file, tree, place_of_node, warnings, chosen).read();
 }
 
 }  // namespace pinocchio

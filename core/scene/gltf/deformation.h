@@ -55,10 +55,12 @@ class DeformationReader {
 [[nodiscard]] Expected<std::optional<Skin>> gltf_skin(const GltfFile& file, int skin,
                                                       const std::vector<int>& place_of_node);
 
-// The file's animations of nodes that are in the scene; null where there are none.
+// The file's animations of nodes that are in the scene; null where there are none. `chosen`: the name or the
+// number of the only one that is read; empty: all.
 [[nodiscard]] Expected<std::shared_ptr<const Animation>> gltf_animation(const GltfFile& file,
                                                                         const NodeTree& tree,
                                                                         const std::vector<int>& place_of_node,
-                                                                        Warnings& warnings);
+                                                                        Warnings& warnings,
+                                                                        const std::string& chosen);
 
 }  // namespace pinocchio

@@ -88,8 +88,13 @@ Camera camera_of(const Json& json, const GltfNode& node, const glm::mat4& world)
   if (target && *target != camera.eye) camera.target = *target;
   const std::optional<glm::vec3> up = value_member<glm::vec3>(extras, "up");
   if (up && *up != glm::vec3(0.0f)) camera.up = *up;
-  const double yfov = value_member<double>(member(&json, "perspective"), "yfov").value_or(0.0);
-  camera.fov_deg = static_cast<float>(glm::degrees(yfov));
+  if (text_member(&json, "type") == "orthographic") {
+    camera.projection = Projection::orthographic;
+    camera.height = 2.0f * value_member<float>(member(&json, "orthographic"), "ymag").value_or(0.0f);
+  } else {
+    const double yfov = value_member<double>(member(&json, "perspective"), "yfov").value_or(0.0);
+    camera.fov_deg = static_cast<float>(glm::degrees(yfov));
+  }
   camera.lens_radius = length_member(extras, "lensRadius").value_or(0.0f);
   camera.focus_distance = length_member(extras, "focusDistance").value_or(0.0f);
   return camera;
@@ -111,8 +116,9 @@ Camera at_rest(const glm::mat4& world, const Camera& camera) {
 }
 
 bool can_look(const Camera& camera) {
-  return camera.fov_deg > 0.0f && camera.fov_deg < 180.0f && is_finite(camera.eye) &&
-         is_finite(camera.target) && is_finite(camera.up);
+  return camera.fov_deg > 0.0f && camera.fov_deg < 180.0f && camera.height > 0.0f &&
+         std::isfinite(camera.height) && is_finite(camera.eye) && is_finite(camera.target) &&
+         is_finite(camera.up);
 }
 
 bool can_shine(const Light& light) {
@@ -179,7 +185,7 @@ class SceneReader {
     if (const Expected<void> skinned = add_skins(); !skinned) return Unexpected(skinned.error());
     scene_.mesh = std::make_shared<const Mesh>(std::move(mesh_));
     Expected<std::shared_ptr<const Animation>> animation =
-        gltf_animation(file_, tree_, place_of_node_, loading_.warnings);
+        gltf_animation(file_, tree_, place_of_node_, loading_.warnings, loading_.animation);
     if (!animation) return Unexpected(animation.error());
     scene_.animation = std::move(*animation);
     scene_.nodes = std::make_shared<const NodeTree>(std::move(tree_));
@@ -265,10 +271,13 @@ class SceneReader {
 
   void add_camera(const Json& json, const GltfNode& node, const glm::mat4& world) {
     const Camera camera = camera_of(json, node, world);
-    if (text_member(&json, "type") != "perspective") {
-      warn("camera '" + camera.name + "'", "is not perspective and left out", "it cannot be looked through");
+    const std::string type = text_member(&json, "type");
+    if (type != "perspective" && type != "orthographic") {
+      warn("camera '" + camera.name + "'", "is neither perspective nor orthographic and left out",
+           "it cannot be looked through");
     } else if (!can_look(camera)) {
-      warn("camera '" + camera.name + "'", "has no field of view within 0 and 180 degrees and is left out",
+      warn("camera '" + camera.name + "'",
+           "has no field of view within 0 and 180 degrees, or no height, and is left out",
            "it cannot be looked through");
     } else {
       scene_.cameras.push_back(camera);

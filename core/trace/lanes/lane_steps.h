@@ -107,7 +107,8 @@ struct LaneSteps {
   void (*keep_hits)(RayQueue& rays);
   // Appends to the bounce's queues. All rays have hit.
   void (*bounce)(const Bounce& bounce, const RayQueue& rays);
-  // Writes what the camera's rays see. All have hit. Reads the bounce's scene and footprint.
+  // Writes what the camera's rays see. All have hit. Reads the bounce's scene and footprint. `axis`: the one
+  // that depth is measured along; zero: depth is the distance.
   void (*visible_points)(const Bounce& bounce, const glm::vec3& axis, const RayQueue& rays,
                          const SeenColumns& to);
   // Adds the environment's light along rays that hit nothing to the radiance of the rays' pixels, RGBA.

@@ -12,8 +12,27 @@
 namespace pinocchio::PINOCCHIO_LANES {
 namespace {
 
+inline void put(const Vec& v, float* const (&columns)[3], std::size_t i) {
+  v.x.store(columns[0] + i);
+  v.y.store(columns[1] + i);
+  v.z.store(columns[2] + i);
+}
+
+inline void parallel_rays(const shared::ViewParams& view, glm::ivec2 corner, RayQueue& rays) {
+  const Vec first(view.eye), step_x(view.step_x), step_y(view.step_y), direction(view.corner);
+  for (std::size_t i = 0; i < rays.size; i += kWidth) {
+    const Int pixel = Int::load(rays.pixel + i), row = shift_right<kTileBits>(pixel);
+    const Float x = Float(view.first.x) +
+                    to_float(pixel - shift_left<kTileBits>(row) + Int(static_cast<std::uint32_t>(corner.x)));
+    const Float y = Float(view.first.y) + to_float(row + Int(static_cast<std::uint32_t>(corner.y)));
+    put(first + step_x * x + step_y * y, rays.origin, i);
+    put(direction, rays.direction, i);
+  }
+}
+
 void camera_rays(const shared::ViewParams& view, glm::ivec2 corner, RayQueue& rays) {
   const Vec first(view.corner), step_x(view.step_x), step_y(view.step_y), eye(view.eye);
+  if (view.parallel) return parallel_rays(view, corner, rays);
   for (std::size_t i = 0; i < rays.size; i += kWidth) {
     const Int pixel = Int::load(rays.pixel + i), row = shift_right<kTileBits>(pixel);
     const Float x = Float(view.first.x) +
@@ -177,7 +196,8 @@ void bounce_packets(const Bounce& bounce, const RayQueue& rays) {
     if (m.layered != 0) m.coat_normal = s.n_shading;
     s.width = Float(0.0f);
     if (bounce.footprint->angle > 0.0f) {
-      const Float before = bounce.visible ? Float(0.0f) : Float::load(rays.width + i);
+      const Float before =
+          bounce.visible ? Float(bounce.footprint->start_width) : Float::load(rays.width + i);
       const Vec way = s.p_world - origin;
       s.width = before + Float(bounce.footprint->angle) * sqrt(dot(way, way));
       if (m.mapped != 0) apply_maps(bounce, triangle, origin, direction, before, s, m);
@@ -233,15 +253,10 @@ void bounce_rays(const Bounce& bounce, const RayQueue& rays) {
   bounce.samples ? bounce_packets<true>(bounce, rays) : bounce_packets<false>(bounce, rays);
 }
 
-inline void put(const Vec& v, float* const (&columns)[3], std::size_t i) {
-  v.x.store(columns[0] + i);
-  v.y.store(columns[1] + i);
-  v.z.store(columns[2] + i);
-}
-
 void visible_points(const Bounce& bounce, const glm::vec3& axis, const RayQueue& rays,
                     const SeenColumns& to) {
   const bool reads_material = to.albedo[0] != nullptr || bounce.scene.mesh != nullptr;
+  const bool by_distance = axis == glm::vec3(0.0f);
   for (std::size_t i = 0; i < rays.size; i += kWidth) {
     fetch_triangles(bounce.scene, rays, i + kTrianglesAhead);
     fetch_corners(bounce.scene, rays, i + kCornersAhead);
@@ -252,7 +267,10 @@ void visible_points(const Bounce& bounce, const glm::vec3& axis, const RayQueue&
     LaneSurface s = surface_of(corners, origin, direction, bounce.offset);
     LaneMaterial m(bounce.scene, corners.material, reads_material ? lanes : Mask::from_bits(0));
     if (m.mapped != 0) apply_maps(bounce, triangle, origin, direction, Float(0.0f), s, m);
-    if (to.depth) dot(s.p_world - origin, Vec(axis)).store(to.depth + i);
+    if (to.depth) {
+      const Vec way = s.p_world - origin;
+      (by_distance ? sqrt(dot(way, way)) : dot(way, Vec(axis))).store(to.depth + i);
+    }
     if (to.position[0]) put(s.p_world, to.position, i);
     if (to.normal[0]) put(s.n_shading, to.normal, i);
     // glTF's base colour; of Phong's materials the matt part.

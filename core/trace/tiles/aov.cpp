@@ -5,6 +5,7 @@
 #include <type_traits>
 
 #include "core/parallel/tiles.h"
+#include "core/trace/view/ray_model.h"
 #include "core/trace/view/view_params.h"
 #include "pinocchio/tracer.h"
 
@@ -64,12 +65,17 @@ void write_visible_points(const VisibleScene& of, const PixelBox& tile, const st
   RayQueue& rays = memory.rays;
   put_rays(size, ids, ids_width, rays);
   if (rays.size == 0) return;
-  of.steps.camera_rays(of.view, tile.lo, rays);
-  const Footprint footprint = of.filter_textures ? Footprint::of_camera(of.view) : Footprint{};
+  if (of.model)
+    of.model->fill(tile.lo, kTileBits, rays);
+  else
+    of.steps.camera_rays(of.view, tile.lo, rays);
+  Footprint footprint;
+  if (of.filter_textures)
+    footprint = of.model ? of.model->footprint((tile.lo + tile.hi) / 2, 1.0f) : Footprint::of_camera(of.view);
   Bounce at;
   at.scene = SceneArrays::of(of.mesh);
   at.footprint = &footprint;
-  of.steps.visible_points(at, view_axis(of.view), rays, seen);
+  of.steps.visible_points(at, of.model ? of.model->depth_axis() : view_axis(of.view), rays, seen);
 
   for_each_layer(to, seen, [&]<class Value>(Value* values, std::span<float*> columns, const Value&) {
     for (std::size_t i = 0; i < rays.size; ++i) {

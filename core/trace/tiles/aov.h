@@ -13,12 +13,15 @@
 
 namespace pinocchio {
 
+class RayModel;
+
 // The scene and the view whose visible points are described.
 struct VisibleScene {
   const Mesh& mesh;
   const LaneSteps& steps;
   const shared::ViewParams& view;
   bool filter_textures = true;
+  const RayModel* model = nullptr;  // makes the camera's rays; null: `view` does
 };
 
 // Writes the wanted layers of the surfaces (depth, position, normal, albedo) for a tile's pixels, from the

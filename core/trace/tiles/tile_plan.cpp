@@ -36,10 +36,13 @@ SceneArrays SceneArrays::of(const Mesh& mesh) {
           mesh.triangle_materials.data(), mesh.materials.data(), mesh.maps.empty() ? nullptr : &mesh};
 }
 
-void TilePlan::set_view(const shared::ViewParams& from) {
+void TilePlan::set_view(const shared::ViewParams& from, const RayModel* rays) {
   view = scaled_view(from, out.scale);
+  model = rays;
   first = glm::ivec2(from.first);
-  if (filters(job)) seen_footprint = Footprint::of_camera(view, job.options.texture_footprint);
+  const float side = job.options.texture_footprint;
+  if (filters(job))
+    seen_footprint = model ? model->footprint(out.size / 2, side) : Footprint::of_camera(view, side);
   further_footprint = seen_footprint.of_cones();
 }
 
@@ -52,7 +55,8 @@ TilePlan::TilePlan(const TraceJob& j, const TileOutputs& o)
       all_lights(lights_of(j.scene)),
       casting(casting_lights(j.scene).size()),
       sized_lights(static_cast<std::size_t>(std::ranges::count_if(j.scene.lights, &Light::has_size))) {
-  set_view(j.view);
+  straight_apart = blends && (passed_backs.any() || o.coverage);
+  set_view(j.view, j.model);
   further.scene = SceneArrays::of(*job.scene.mesh);
   further.offset = job.tracer.offset();
   further.options = &job.options;

@@ -85,7 +85,12 @@ void TileTracer::start() {
     }
     seen_.size = count;
   }
-  plan_->job.tracer.steps().camera_rays(plan_->view, tile_.lo, seen_);
+  if (!plan_->model) return plan_->job.tracer.steps().camera_rays(plan_->view, tile_.lo, seen_);
+  plan_->model->fill(tile_.lo, kTileBits, seen_);
+  seen_footprint_ = plan_->seen_footprint;
+  if (seen_footprint_.angle > 0.0f)
+    seen_footprint_ =
+        plan_->model->footprint((tile_.lo + tile_.hi) / 2, plan_->job.options.texture_footprint);
 }
 
 // Tiles whose ids are prefetched while one is traced: many tiles see nothing and are done at once.
@@ -146,7 +151,7 @@ void TileTracer::make_room(std::size_t rays, Generation& next) {
   next[kMirrored].make_room(rays, of_mirrored);
   next[kRefracted].make_room(rays, extra);
   next[kStraight].make_room(plan_->blends ? rays : 0, extra);
-  next[kStraightFromCamera].make_room(plan_->blends && plan_->passed_backs.any() ? rays : 0, extra);
+  next[kStraightFromCamera].make_room(plan_->straight_apart ? rays : 0, extra);
   for (std::size_t i = 0; i < plan_->casting; ++i) shadow_[i].make_room(rays);
   // A sample of the environment, one along a lobe, and distant lights that the lobe meets.
   const std::size_t along_lobes = plan_->further.lobes ? plan_->sized_lights : 0;
@@ -174,7 +179,7 @@ void TileTracer::bounce(Bounce step, int generation, const RayQueue& rays, Gener
   if (step.mirrored) {
     step.mirrored = &next[kMirrored];
     step.refracted = &next[kRefracted];
-    step.straight = &next[of_camera && plan_->passed_backs.any() ? kStraightFromCamera : kStraight];
+    step.straight = &next[of_camera && plan_->straight_apart ? kStraightFromCamera : kStraight];
   }
   plan_->job.tracer.steps().bounce(step, rays);
 }
@@ -188,6 +193,7 @@ void TileTracer::light_visible() {
   next_diffuse_.make_room(0, extra_columns());
   make_room(seen_.size, rays_);
   Bounce step = plan_->visible;
+  if (plan_->model) step.footprint = &seen_footprint_;
   step.mirrored = plan_->out.depth > 0 ? rays_.data() : nullptr;
   step.diffuse = plan_->out.indirect > 0 ? &next_diffuse_ : nullptr;
   if (!step.mirrored && !step.diffuse && step.light_count == 0 && !step.adds_ambient && !step.environment &&
@@ -221,7 +227,7 @@ void TileTracer::fire_shadows(int generation, Radiance& radiance) {
   }
 }
 
-void TileTracer::write() const {
+void TileTracer::write() {
   const TileOutputs& out = plan_->out;
   const auto width = static_cast<std::size_t>(tile_.size().x);
   const bool empty = seen_.size == 0, mirrors = reflects_;
@@ -246,8 +252,7 @@ void TileTracer::write() const {
       for (std::size_t i = 0; i < width; ++i) of(out.added)[i] += glm::vec3(light(i));
     if (out.mask) out.mask->set_row(tile_.lo.x, y, std::span(mask_).subspan(row, width));
   }
-  if (out.color && plan_->environment)
-    plan_->job.tracer.steps().paint_background(*plan_->environment, plan_->view, tile_, *out.color);
+  if (out.color && plan_->environment) paint_background();
 }
 
 }  // namespace pinocchio

@@ -34,6 +34,8 @@ class TileTracer {
   void follow();
   void follow_mirrors(int bounce);
   void follow_diffuse(int bounce);
+  void uncover(const RayQueue& straight);
+  void paint_background();
   void bounce(Bounce step, int generation, const RayQueue& rays, Generation& next, Radiance& radiance,
               bool of_camera = false);
   [[nodiscard]] ExtraColumns extra_columns() const;
@@ -43,7 +45,7 @@ class TileTracer {
   void fire_reflected(RayQueue& queue, float reach, const RayQueue& ways_up, int generation);
   void ask_occluded(const RayQueue& queue, float reach);
   void block_by_ways_up(const RayQueue& up, int generation);
-  void write() const;
+  void write();
 
   const TilePlan* plan_ = nullptr;
   PixelBox tile_;
@@ -56,7 +58,8 @@ class TileTracer {
   std::vector<std::uint8_t> blocked_, up_blocked_;
   Holes holes_;
   Radiance direct_, reflected_;
-  bool reflects_ = false;  // reflected_ may hold light
+  Footprint seen_footprint_;  // of the tile, where a RayModel makes the rays
+  bool reflects_ = false;     // reflected_ may hold light
   std::array<std::uint8_t, kPixels> mask_;
   std::array<std::uint32_t, kPixels> ids_;  // of the tile's pixels, row by row: given or found
 };

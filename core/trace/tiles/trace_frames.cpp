@@ -5,6 +5,8 @@
 #include <mutex>
 
 #include "core/trace/tiles/aov.h"
+#include "core/trace/tiles/identities.h"
+#include "core/trace/tiles/motion.h"
 #include "core/trace/tiles/tile_tracer.h"
 #include "core/trace/view/jitter.h"
 #include "core/trace/view/view_params.h"
@@ -44,7 +46,9 @@ class Share {
       TraceOptions& options = trace_job_.options;
       options.jitter = jitter_of(k, job_.filter);
       options.sampling.index = job_.options.sampling.index + static_cast<std::uint32_t>(k);
-      plan_.set_view(view_params(camera, job_.size, options.jitter, tile.lo, lens_point_of(k)));
+      const std::optional<RayModel> model = model_of(camera, tile, options.jitter);
+      plan_.set_view(view_params(camera, job_.size, options.jitter, tile.lo, lens_point_of(k)),
+                     model ? &*model : nullptr);
       outputs_.ids = k == 0 ? &images_.ids : nullptr;
       outputs_.reflection = k == 0 && to_.reflection ? &images_.reflection : nullptr;
       outputs_.mask = k == 0 && to_.mask && job_.outputs.mask_bits > 0 ? &images_.mask : nullptr;
@@ -53,8 +57,8 @@ class Share {
       add_sample(k, box);
     }
     copy(frame, tile, samples);
-    if (to_.wants_surfaces())
-      add_surfaces(view_params(camera, job_.size, glm::vec2(0.0f), tile.lo), frame, tile);
+    if (to_.wants_surfaces()) add_surfaces(camera, frame, tile);
+    if (to_.motion) add_motion({.camera = camera, .size = job_.size, .part = tile}, frame, tile);
     return rays;
   }
 
@@ -106,15 +110,32 @@ class Share {
         if (to_.mask)
           to_.mask[pixel] =
               static_cast<std::uint8_t>(job_.outputs.mask_bits > 0 ? images_.mask.get(x, y) : 0u);
-        if (to_.objects) to_.objects[pixel] = object_of(job_.scene, images_.ids.at(x, y));
       }
+      write_identities(job_.scene, {&images_.ids.at(0, y), static_cast<std::size_t>(size.x)}, to_, row);
     }
   }
 
-  void add_surfaces(const shared::ViewParams& view, std::size_t frame, const PixelBox& tile) {
-    const VisibleScene of{*job_.scene.mesh, job_.tracer.steps(), view, job_.options.texture_footprint > 0.0f};
+  // None, and nothing is copied, where view_params makes the rays.
+  [[nodiscard]] std::optional<RayModel> model_of(const Camera& camera, const PixelBox& tile,
+                                                 glm::vec2 jitter = glm::vec2(0.0f)) const {
+    if (camera.is_rasterisable()) return std::nullopt;
+    return RayModel::of({.camera = camera, .size = job_.size, .part = tile, .jitter = jitter});
+  }
+
+  void add_surfaces(const Camera& camera, std::size_t frame, const PixelBox& tile) {
+    const std::optional<RayModel> model = model_of(camera, tile);
+    const VisibleScene of{*job_.scene.mesh, job_.tracer.steps(),
+                          view_params(camera, job_.size, glm::vec2(0.0f), tile.lo),
+                          job_.options.texture_footprint > 0.0f, model ? &*model : nullptr};
     write_visible_points(of, {{0, 0}, tile.size()}, &images_.ids.at(0, 0), kSide, to_, row_of(frame, tile, 0),
                          static_cast<std::size_t>(job_.size.x));
+  }
+
+  void add_motion(const View& view, std::size_t frame, const PixelBox& tile) {
+    const MotionTo still{nullptr, view.camera};
+    write_motion(*job_.scene.mesh, view, job_.motion.empty() ? still : job_.motion[frame],
+                 {{0, 0}, tile.size()}, &images_.ids.at(0, 0), kSide, to_.motion, row_of(frame, tile, 0),
+                 static_cast<std::size_t>(job_.size.x));
   }
 
   const FramesJob& job_;

@@ -9,6 +9,7 @@
 #include "core/trace/tiles/trace_tiles.h"
 #include "pinocchio/camera.h"
 #include "pinocchio/frame_arrays.h"
+#include "pinocchio/motion.h"
 #include "pinocchio/progress.h"
 #include "pinocchio/scene.h"
 #include "pinocchio/tracer.h"
@@ -26,7 +27,8 @@ struct FramesJob {
   TraceOptions options{};  // of the first sample
   TileOutputs outputs{};   // mask_bits, depth, indirect, environment_light; the rest is set by trace_frames
   PixelFilter filter = PixelFilter::box;
-  Progress* progress = nullptr;  // advances with each tile; a picture is `spp` steps
+  std::span<const MotionTo> motion{};  // one for each camera; empty: none
+  Progress* progress = nullptr;        // advances with each tile; a picture is `spp` steps
 };
 
 // The same bits as trace_tiles, surface_images and the mean of the samples give for each picture. Once the

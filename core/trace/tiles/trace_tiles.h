@@ -21,6 +21,8 @@
 
 namespace pinocchio {
 
+class RayModel;
+
 // The pass's input: the scene, its tree, the threads and the picture's rays.
 struct TraceJob {
   const Scene& scene;  // its mesh is the tracer's
@@ -28,6 +30,7 @@ struct TraceJob {
   Workers& workers;
   shared::ViewParams view;
   TraceOptions options{};
+  const RayModel* model = nullptr;  // makes the camera's rays; null: `view` does
   // Tiles (TileGrid's) that are not traced where it is not 0; null: all are.
   const std::vector<std::uint8_t>* left_out = nullptr;
   // Advances with each tile; all tiles together are progress_steps.
@@ -71,8 +74,10 @@ struct TileOutputs {
   int indirect = 0;
 
   // The composite: the reflection model's light of every light that reaches the point, plus reflection. RGBA,
-  // linear; A is 1 where something is hit.
+  // linear; A is 1 where something is hit. With `coverage`, A is less where all that is hit blends: the share
+  // of light from behind that is held back.
   Image<glm::vec4>* color = nullptr;
+  bool coverage = false;
   // The part of the composite that rays decide (casting lights, reflection) is added to this image.
   Image<glm::vec3>* added = nullptr;
 

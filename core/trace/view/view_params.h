@@ -36,7 +36,8 @@ namespace pinocchio {
 
 // The ray of the pixel (x, y); its t is z_eye.
 [[nodiscard]] inline Ray pixel_ray(const shared::ViewParams& view, int x, int y) {
-  return {view.eye, kInfinity, shared::pixel_direction(view, glm::vec2(x, y))};
+  return {shared::pixel_origin(view, glm::vec2(x, y)), kInfinity,
+          shared::pixel_direction(view, glm::vec2(x, y))};
 }
 
 }  // namespace pinocchio

@@ -12,6 +12,7 @@
 #include "pinocchio/exr.h"
 #include "pinocchio/image.h"
 #include "pinocchio/mask_image.h"
+#include "pinocchio/motion.h"
 #include "pinocchio/progress.h"
 #include "pinocchio/ray_counts.h"
 #include "pinocchio/scene.h"
@@ -114,6 +115,8 @@ struct FrameResult {
   Settings settings;            // ... and the settings
   FrameRecord record;           // without the GPU's times, which are known later
   std::size_t holes = 0;        // reprojected: pixels without a value in any older frame
+  // The frame that the layer `motion` leads to, which the caller sets. None: to this one, so that it is 0.
+  std::optional<MotionTo> motion{};
 };
 
 // The properties of the frame's visible points, computed from its ids.

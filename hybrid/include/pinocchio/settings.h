@@ -102,6 +102,7 @@ struct Settings {
   Setting<int> sky_occlusion;
   Setting<Terminator> terminator = Setting<Terminator>::by_default(kUsualTerminator);
   Setting<Backfaces> backfaces = Setting<Backfaces>::by_default(Backfaces::automatic);
+  Setting<bool> coverage;
   Setting<bool> filter_textures = Setting<bool>::by_default(true);
   Setting<bool> reuse = Setting<bool>::by_default(true);
   Setting<bool> persistent;
@@ -165,6 +166,9 @@ struct Preset {
 [[nodiscard]] std::span<const Preset> presets();
 // option: "mode", "design" or "plan". False: there is no such value.
 bool apply_preset(std::string_view option, std::string_view value, Settings& settings);
+
+// Lets the CPU draw alone, whatever is set: for views that OpenGL cannot draw (View::is_rasterisable).
+void draw_on_cpu(Settings& settings);
 
 // A combination of fields that is not allowed, and the reason.
 struct Rule {

@@ -1,5 +1,7 @@
 #include <pinocchio/camera.h>
 
+#include <pinocchio/names.h>
+
 #include <nanobind/stl/tuple.h>
 #include <algorithm>
 #include <cmath>
@@ -10,7 +12,7 @@
 namespace pinocchio::python {
 namespace {
 
-constexpr double kLargest = std::numeric_limits<float>::max(), kLeastFov = 1e-4;
+constexpr double kLargest = std::numeric_limits<float>::max(), kLeastFov = 1e-4, kLeastHeight = 1e-30;
 constexpr float kRotationError = 1e-3f;  // of a rotation in few digits
 
 // A distance at which eye + forward keeps the direction's digits.
@@ -56,25 +58,75 @@ Camera camera_at(const Matrix& pose, const std::string& convention, float fov) {
   return camera_of(eye, eye + reach_from(eye) * forward, -sign * glm::vec3(m[1]), fov, "");
 }
 
+// OpenCV's coefficients of a lens: 4, 5 or 8 of them, of fisheyes 4.
+void set_distortion(Camera& camera, const std::vector<double>& given) {
+  const bool is_fisheye = camera.projection == Projection::fisheye;
+  const std::size_t n = given.size();
+  if (!(n == 0 || n == 4 || (!is_fisheye && (n == 5 || n == 8))))
+    throw Error("distortion has " + std::to_string(n) + " numbers; " +
+                (is_fisheye ? "a fisheye has 4: k1, k2, k3, k4"
+                            : "there are 4, 5 or 8: k1, k2, p1, p2, k3, k4, k5, k6, as OpenCV orders them"));
+  if (n > 0 && !is_fisheye && camera.projection != Projection::perspective)
+    throw Error("perspective cameras and fisheyes have a distortion, others have none");
+  camera.distortion = {};
+  for (std::size_t i = 0; i < n; ++i)
+    camera.distortion[i] = number_within(given[i], "distortion", -kLargest, kLargest);
+}
+
 Camera camera_with_matrix(const Size& argument, double fx, double fy, double cx, double cy,
-                          const std::optional<Matrix>& pose, const std::string& convention) {
+                          const std::optional<Matrix>& pose, const std::string& convention,
+                          const std::vector<double>& distortion, const std::string& projection) {
   const glm::ivec2 size = argument.read();
   if (!(fx > 0.0 && fy > 0.0)) throw Error("fx and fy are in pixels; they must be above 0");
   if (!std::isfinite(fx) || !std::isfinite(fy) || !std::isfinite(cx) || !std::isfinite(cy))
     throw Error("fx, fy, cx and cy are in pixels; they must be finite");
+  if (projection != "perspective" && projection != "fisheye")
+    throw Error("projection is '" + projection +
+                "'; a camera matrix is of a 'perspective' or a 'fisheye' one");
   Camera camera;
   camera.eye = glm::vec3(0.0f);
   camera.target = {0, 0, 1};
   camera.up = {0, -1, 0};
   if (pose) camera = camera_at(*pose, convention, 45.0f);
-  return with_intrinsics(camera, {fx, fy, cx, cy}, size);
+  if (projection == "fisheye") camera.projection = Projection::fisheye;
+  set_distortion(camera, distortion);
+  Camera made = with_intrinsics(camera, {fx, fy, cx, cy}, size);
+  if (camera.projection == Projection::fisheye && made.fov_deg > kWidestFisheye)
+    throw Error("fy is " + shown(fy) + " pixels, a field of view of " + shown(made.fov_deg) +
+                " degrees; a fisheye has at most 360");
+  return made;
+}
+
+Camera aimed(Projection projection, const Three& eye, const Three& target, const Three& up, float fov,
+             const std::string& name) {
+  Camera camera = camera_of(eye.read("eye"), target.read("target"), up.read("up"), 45.0f, name);
+  camera.projection = projection;
+  if (projection == Projection::fisheye)
+    camera.fov_deg = number_within(fov, "fov", kLeastFov, kWidestFisheye);
+  return camera;
+}
+
+// Where the camera sees points, (n, 2); NaN where it does not.
+auto projected(const Camera& camera, const Floats3& points, const Size& argument) {
+  const glm::ivec2 size = argument.read();
+  const Floats3::Array given = points.read("points");
+  const auto all = copied<glm::vec3>(given);
+  std::vector<double> pixels;
+  pixels.reserve(2 * all.size());
+  for (const glm::vec3& p : all) {
+    const glm::dvec2 at =
+        pixel_of(camera, size, glm::dvec3(p)).value_or(glm::dvec2(std::numeric_limits<double>::quiet_NaN()));
+    pixels.insert(pixels.end(), {at.x, at.y});
+  }
+  const std::size_t n = all.size();
+  return array_that_owns<double>(std::move(pixels), {n, 2});
 }
 
 }  // namespace
 
 void bind_camera(nb::module_& module) {
-  nb::class_<Camera> bound(module, "Camera",
-                           "A pinhole or thin-lens camera. The world is right-handed, Y up.");
+  nb::class_<Camera> bound(
+      module, "Camera", "A camera: by default a pinhole or thin-lens one. The world is right-handed, Y up.");
   bound
       .def(
           "__init__",
@@ -97,14 +149,72 @@ void bind_camera(nb::module_& module) {
                   "one.")
       .def_static(
           "from_intrinsics", &camera_with_matrix, "size"_a, "fx"_a, "fy"_a, "cx"_a, "cy"_a,
-          "pose"_a = nb::none(), "convention"_a = "opencv",
+          "pose"_a = nb::none(), "convention"_a = "opencv", "distortion"_a = std::vector<double>{},
+          "projection"_a = "perspective",
           "A camera from OpenCV's camera matrix, in pixels of a picture of `size` (width, height).\n"
           "A point (x, y, z) in camera space (x right, y down, z forward) is seen at (fx x/z + cx, fy y/z + "
           "cy).\n"
           "(0, 0) is the centre of the top left pixel. So a depth is converted to a point by\n"
           "x = (u - cx) / fx * depth, y = (v - cy) / fy * depth, z = depth.\n"
           "pose: a 4x4 camera-to-world matrix. None: the camera is at the origin and looks along +z.\n"
-          "Raises Error if fx, fy or size is not above 0, or if the matrix scales, shears or mirrors.")
+          "distortion: OpenCV's coefficients: k1, k2, p1, p2[, k3[, k4, k5, k6]]; of projection='fisheye' "
+          "k1, "
+          "k2, k3, k4.\n"
+          "Raises Error if fx, fy or size is not above 0, if the matrix scales, shears or mirrors, or if the "
+          "lens has another\n"
+          "number of coefficients.")
+      .def_static(
+          "orthographic",
+          [](const Three& eye, const Three& target, const Three& up, float height, const std::string& name) {
+            Camera camera = aimed(Projection::orthographic, eye, target, up, 45.0f, name);
+            camera.height = number_within(height, "height", kLeastHeight, kLargest);
+            return camera;
+          },
+          "eye"_a, "target"_a, "up"_a = glm::vec3(0, 1, 0), "height"_a = 2.0f, "name"_a = "",
+          "A camera with parallel rays, which sees what is in front of `eye`.\n"
+          "height: of the picture, in scene units. Other arguments and errors as for Camera.")
+      .def_static(
+          "fisheye",
+          [](const Three& eye, const Three& target, const Three& up, float fov,
+             const std::vector<double>& distortion, const std::string& name) {
+            Camera camera = aimed(Projection::fisheye, eye, target, up, fov, name);
+            set_distortion(camera, distortion);
+            return camera;
+          },
+          "eye"_a, "target"_a, "up"_a = glm::vec3(0, 1, 0), "fov"_a = 180.0f,
+          "distortion"_a = std::vector<double>{}, "name"_a = "",
+          "A camera whose picture shows angles as distances from its centre (equidistant).\n"
+          "fov: the angle from the lower to the upper edge, in degrees, at most 360. distortion: k1, k2, k3, "
+          "k4 of OpenCV's\n"
+          "fisheye. Other arguments and errors as for Camera.")
+      .def_static(
+          "panorama",
+          [](const Three& eye, const Three& target, const Three& up, const std::string& name) {
+            return aimed(Projection::panorama, eye, target, up, 45.0f, name);
+          },
+          "eye"_a, "target"_a, "up"_a = glm::vec3(0, 1, 0), "name"_a = "",
+          "A camera that sees everything around `eye`: longitude across, -180 to 180 degrees, with `target` "
+          "in the middle;\n"
+          "latitude down, 90 to -90. A picture of the shape 2 to 1 has square pixels.")
+      .def("project", &projected, "points"_a, "size"_a, nb::rv_policy::reference,
+           "(n, 2) float64: where the camera sees points (n, 3) of the world, in pixels of a picture of "
+           "`size`; "
+           "(0, 0) is the\n"
+           "centre of the top left pixel. It may be outside the picture. NaN: the camera does not see the "
+           "point, "
+           "as it is\n"
+           "behind, or beyond the angle up to which its distortion grows.")
+      .def_prop_ro(
+          "projection", [](const Camera& c) { return std::string(name_of(kProjectionNames, c.projection)); },
+          "'perspective', 'orthographic', 'panorama' or 'fisheye'.")
+      .def_prop_rw(
+          "distortion",
+          [](const Camera& c) {
+            const std::size_t n = c.projection == Projection::fisheye ? 4 : c.distortion.size();
+            return std::vector<double>(c.distortion.begin(), c.distortion.begin() + static_cast<long>(n));
+          },
+          [](Camera& c, const std::vector<double>& given) { set_distortion(c, given); },
+          "OpenCV's coefficients of the lens, in OpenCV's order.")
       .def(
           "intrinsics",
           [](const Camera& camera, const Size& size) {
@@ -119,8 +229,14 @@ void bind_camera(nb::module_& module) {
           "__deepcopy__", [](const Camera& camera, nb::handle) { return camera; }, "memo"_a)
       .def("__repr__",
            [](const Camera& c) {
-             return "<Camera " + (c.name.empty() ? "" : shown(c.name) + ", ") + "eye=" + shown(c.eye) +
-                    ", target=" + shown(c.target) + ", fov=" + shown(c.fov_deg) + ">";
+             const std::string kind = c.projection == Projection::perspective
+                                          ? ""
+                                          : std::string(name_of(kProjectionNames, c.projection)) + ", ";
+             const std::string size = c.projection == Projection::orthographic ? "height=" + shown(c.height)
+                                      : c.projection == Projection::panorama   ? std::string("all around")
+                                                                               : "fov=" + shown(c.fov_deg);
+             return "<Camera " + (c.name.empty() ? "" : shown(c.name) + ", ") + kind + "eye=" + shown(c.eye) +
+                    ", target=" + shown(c.target) + ", " + size + ">";
            })
       .def("__getstate__", [](const Camera& camera) { return pickled(camera); })
       .def("__setstate__", [](Camera& self, const nb::bytes& state) {
@@ -128,8 +244,15 @@ void bind_camera(nb::module_& module) {
         unpickle(state, read);
         new (&self) Camera(std::move(read));
       });
-  def_number(bound, "fov", &Camera::fov_deg, kLeastFov, 180.0 - kLeastFov,
-             "The vertical field of view, in degrees.");
+  bound.def_prop_rw(
+      "fov", [](const Camera& c) { return c.fov_deg; },
+      [](Camera& c, double value) {
+        const bool is_fisheye = c.projection == Projection::fisheye;
+        c.fov_deg = number_within(value, "fov", kLeastFov, is_fisheye ? kWidestFisheye : 180.0 - kLeastFov);
+      },
+      "The vertical field of view, in degrees; of a fisheye up to 360.");
+  def_number(bound, "height", &Camera::height, kLeastHeight, kLargest,
+             "The height of an orthographic picture, in scene units.");
   def_number(bound, "lens_radius", &Camera::lens_radius, 0.0, kLargest,
              "The lens radius in scene units, for depth of field with several samples (spp). 0: a pinhole.");
   def_number(bound, "focus_distance", &Camera::focus_distance, 0.0, kLargest,

@@ -156,8 +156,8 @@ void each(Archive& archive, T&... values) {
 // written, too.
 template <class A>
 void parts(A& a, Camera& value) {
-  auto& [name, eye, target, up, fov, lens, focus, aspect, shift] = value;
-  each(a, name, eye, target, up, fov, lens, focus, aspect, shift);
+  auto& [name, eye, target, up, fov, lens, focus, aspect, shift, projection, height, distortion] = value;
+  each(a, name, eye, target, up, fov, lens, focus, aspect, shift, projection, height, distortion);
 }
 template <class A>
 void parts(A& a, Light& value) {

@@ -1,4 +1,3 @@
-#include <pinocchio/animation.h>
 #include <pinocchio/load.h>
 #include <pinocchio/names.h>
 #include <pinocchio/scene.h>
@@ -10,8 +9,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <map>
-#include <set>
 
 #include "python/src/scene/environment.h"
 #include "python/src/scene/make_scene.h"
@@ -35,38 +32,23 @@ std::vector<T> all_of(nb::handle list, const std::string& name, const char* want
   return values;
 }
 
-PyScene load(const std::filesystem::path& path, bool confine, const std::string& shading) {
+PyScene load(const std::filesystem::path& path, bool confine, const std::string& shading,
+             const std::variant<int, std::string>& animation, const std::string& up_axis) {
   Warnings warnings;
   LoadOptions options;
   options.confine = confine;
   const auto model = parse_name<Shading>(kShadingNames, shading);
   if (!model) throw Error("shading '" + shading + "' is unknown; 'auto' and 'phong' are known");
   options.shading = *model;
+  const int* const number = std::get_if<int>(&animation);
+  options.animation = number ? std::to_string(*number) : std::get<std::string>(animation);
+  const auto axis = parse_name<UpAxis>(kUpAxisNames, up_axis);
+  if (!axis) throw Error("up_axis is '" + up_axis + "'; it is 'y' or 'z'");
+  options.up_axis = *axis;
   Scene scene = value_or_throw(
       without_gil([&](Progress* progress) { return load_scene(path, options, &warnings, progress); }));
   warn_of(warnings);
   return PyScene(std::move(scene));
-}
-
-int node_of(const Scene& scene, const std::variant<int, std::string>& name) {
-  if (!scene.nodes)
-    throw Error("the scene has no nodes to move; load a glTF file, or combine scenes (assemble)");
-  if (std::holds_alternative<int>(name)) return std::get<int>(name);
-  const std::vector<std::string> names = node_names(scene);
-  const auto found = std::ranges::find(names, std::get<std::string>(name));
-  if (found != names.end()) return static_cast<int>(found - names.begin());
-  throw Error("there is no node '" + std::get<std::string>(name) + "'; Scene.nodes lists them");
-}
-
-// A scene is copied (cheaply) before it is read without the GIL, because other threads may change it.
-PyScene with_transforms(const PyScene& self, const nb::dict& transforms) {
-  const Scene scene = self.now();
-  std::vector<NodeTransform> moves;
-  for (const auto& [name, matrix] : transforms)
-    moves.push_back(
-        {node_of(scene, nb::cast<std::variant<int, std::string>>(name)),
-         Matrix{nb::borrow(matrix)}.read("the transform of " + std::string(nb::repr(name).c_str()))});
-  return PyScene(value_or_throw(without_gil([&](Progress*) { return posed(scene, moves); })));
 }
 
 PyScene assemble(const nb::dict& parts) {
@@ -268,75 +250,6 @@ void bind_mesh(SceneClass& bound) {
           "are in the scene alone.");
 }
 
-void bind_nodes(SceneClass& bound) {
-  bound
-      .def_prop_ro(
-          "nodes", [](const PyScene& s) { return node_names(s.scene); },
-          "The names of the parts that can be moved. The index in the list is the number in `objects`. Names "
-          "differ: "
-          "node 7\n"
-          "is '#7' if it has no name, and 'wheel#7' if an earlier node is called 'wheel'.")
-      .def_prop_ro(
-          "node_parents",
-          [](const PyScene& s) {
-            std::vector<std::int32_t> parents;
-            if (s.scene.nodes)
-              for (const Node& node : s.scene.nodes->nodes) parents.push_back(node.parent);
-            const std::size_t n = parents.size();
-            return array_that_owns<std::int32_t>(std::move(parents), {n});
-          },
-          nb::rv_policy::reference, "(n,) int32: the index of each node's parent, -1 for none.")
-      .def_prop_ro(
-          "node_transforms",
-          [](const PyScene& s) {
-            std::vector<glm::mat4> rows;
-            if (s.scene.nodes)
-              for (const Node& node : s.scene.nodes->nodes) rows.push_back(glm::transpose(node.local));
-            const std::size_t n = rows.size();
-            return array_that_owns<float>(std::move(rows), {n, 4, 4});
-          },
-          nb::rv_policy::reference,
-          "(n, 4, 4) float32: the matrix from each node to its parent now, as `posed` takes it.")
-      .def_prop_ro(
-          "triangle_nodes",
-          [](const PyScene& s) {
-            std::vector<std::uint32_t> nodes(s.scene.mesh->triangles.size());
-            for (std::size_t t = 0; t < nodes.size(); ++t)
-              nodes[t] = object_of(s.scene, static_cast<std::uint32_t>(t));
-            const std::size_t n = nodes.size();
-            return array_that_owns<std::uint32_t>(std::move(nodes), {n});
-          },
-          nb::rv_policy::reference,
-          "(m,) uint32: the index in `nodes` of each triangle's node, 0 if the scene has no nodes. "
-          "triangle_nodes[ids] is\n"
-          "`objects`.")
-      .def(
-          "camera", [](const PyScene& s) { return camera_for_whole_scene(s.now()); },
-          "A camera that sees the whole scene.")
-      .def("posed", &with_transforms, "transforms"_a,
-           nb::sig("def posed(self, transforms: collections.abc.Mapping[str, numpy.typing.ArrayLike] | "
-                   "collections.abc.Mapping[int, numpy.typing.ArrayLike]) -> Scene"),
-           "The scene with nodes and their children moved.\n"
-           "transforms: {name or index: 4x4 matrix from the node to its parent}.\n"
-           "Materials, triangles and their ids stay. Lights and cameras move with their nodes.\n"
-           "Raises Error if there is no such node, or if a matrix gives numbers that are not finite.")
-      .def_prop_ro(
-          "duration", [](const PyScene& s) { return duration_s(s.scene); },
-          "The duration of the scene's animation, in seconds. 0: it has none.")
-      .def(
-          "at_time",
-          [](const PyScene& self, double seconds) {
-            const Scene scene = self.now();
-            return PyScene(value_or_throw(without_gil([&](Progress*) { return at_time(scene, seconds); })));
-          },
-          "seconds"_a,
-          "The scene at a time of its animation: its nodes, skins and morph targets, with the lights and "
-          "cameras of nodes.\n"
-          "seconds: before the first key and after the last one, the scene does not move.\n"
-          "Triangles and their ids stay.\n"
-          "Raises Error if the time is not finite.");
-}
-
 }  // namespace
 
 PyScene::PyScene(Scene from) : scene(std::move(from)) {
@@ -353,24 +266,6 @@ Scene PyScene::now() const {
   return copy;
 }
 
-std::vector<std::string> node_names(const Scene& scene) {
-  std::vector<std::string> names;
-  if (!scene.nodes) return names;
-  std::set<std::string> taken;
-  for (const Node& node : scene.nodes->nodes) taken.insert(node.name);
-  std::set<std::string> used;
-  for (std::size_t i = 0; i < scene.nodes->nodes.size(); ++i) {
-    std::string name = scene.nodes->nodes[i].name;
-    if (name.empty() || used.contains(name)) {
-      name += "#" + std::to_string(i);
-      while (taken.contains(name) || used.contains(name)) name += "#";
-    }
-    used.insert(name);
-    names.push_back(std::move(name));
-  }
-  return names;
-}
-
 void bind_scene(nb::module_& module) {
   SceneClass bound(module, "Scene", "A mesh, which copies share, with lights, cameras and an environment.");
   bind_making(bound);
@@ -378,14 +273,17 @@ void bind_scene(nb::module_& module) {
   bind_mesh(bound);
   bind_nodes(bound);
   module.def(
-      "load_scene", &load, "path"_a, "confine"_a = false, "shading"_a = "auto",
-      nb::sig("def load_scene(path: str | os.PathLike[str], confine: bool = False, shading: str = 'auto') -> "
-              "Scene"),
+      "load_scene", &load, "path"_a, "confine"_a = false, "shading"_a = "auto", "animation"_a = "",
+      "up_axis"_a = "y",
+      nb::sig("def load_scene(path: str | os.PathLike[str], confine: bool = False, shading: str = 'auto', "
+              "animation: int | str = '', up_axis: str = 'y') -> Scene"),
       "Reads a scene by its extension, as the program does. What is left out of the file is a warning. With\n"
       "confine, files that it names are opened only below its folder, wherever names and links lead.\n"
       "shading: 'auto', the file's reflection model (glTF's for metallic-roughness materials, else Phong's), "
       "or 'phong'.\n"
-      "Raises Error if it is another word.");
+      "animation: the name or the number of the file's animation that plays. '': all, together.\n"
+      "up_axis: 'z' turns a file whose z points up, as many STL files do.\n"
+      "Raises Error if a word is another one, or if there is no such animation.");
   module.def(
       "assemble", &assemble, "parts"_a,
       nb::sig("def assemble(parts: collections.abc.Mapping[str, Scene] | collections.abc.Mapping[str, "

@@ -28,4 +28,7 @@ struct TexturedMaterial {
 // The nodes' names: '#7' for node 7 where it has none, 'wheel#7' where an earlier node has its name.
 [[nodiscard]] std::vector<std::string> node_names(const Scene& scene);
 
+// Scene's properties and methods of nodes.
+void bind_nodes(nb::class_<PyScene>& bound);
+
 }  // namespace pinocchio::python

@@ -142,7 +142,7 @@ TEST(Layers, EachHasOneRowAndIsFoundByItsNames) {
     EXPECT_EQ(row.array.name.empty(), std::holds_alternative<std::monostate>(row.array.values));
     EXPECT_EQ(row.array.name.empty(), row.array.doc.empty());
     EXPECT_EQ(row.window.name.empty(), row.window.legend.empty());
-    EXPECT_EQ(row.window.name.empty(), row.layer == Layer::objects);  // the window shows those before it
+    EXPECT_EQ(row.window.name.empty(), row.layer >= Layer::objects);  // the window shows those before it
     if (row.exr.name.empty()) continue;
     EXPECT_TRUE(names.insert(row.exr.name).second) << row.exr.name;
     const AovSet alone{std::string(row.exr.name)};
@@ -151,7 +151,8 @@ TEST(Layers, EachHasOneRowAndIsFoundByItsNames) {
       if (!channel.empty()) {
         EXPECT_EQ(*parse_aovs(std::string(channel)), alone);
       }
-    EXPECT_TRUE(parse_aovs("all")->contains(std::string(row.exr.name)));
+    EXPECT_NE(parse_aovs("all")->contains(std::string(row.exr.name)), row.exr.by_name_only);
+    EXPECT_TRUE(parse_aovs("all," + std::string(row.exr.name))->contains(std::string(row.exr.name)));
     EXPECT_NE(parse_aovs("bogus").error().message().find(std::string(row.exr.name)), std::string::npos);
   }
 }

@@ -317,6 +317,31 @@ TEST(Animation, OfTwoThatMoveTheSameTheFirstPlays) {
   expect_near(at(scene, 1).mesh->positions[0], {1, 0, 0});
 }
 
+TEST(Animation, TheChosenOnePlaysAlone) {
+  Moving m = beside_another();
+  m.animate(0, "translation", {0, 9}, m.floats({0, 0, 0, 0, 9, 0}, "VEC3"), "LINEAR", 1);
+  m.json["animations"][0]["name"] = "1";
+  m.json["animations"][1]["name"] = "wave";
+  std::ofstream(own_file("test.gltf")) << m.json.dump();
+  const auto chosen = [](const std::string& name) {
+    return load_scene(own_file("test.gltf"), LoadOptions{.animation = name});
+  };
+  const Scene wave = chosen("wave").value();
+  EXPECT_DOUBLE_EQ(duration_s(wave), 9.0);
+  expect_near(at(wave, 1).mesh->positions[0], {0, 1, 0});
+  for (const char* const first : {"1", "0"}) {  // a name comes before a number
+    const Scene scene = chosen(first).value();
+    EXPECT_DOUBLE_EQ(duration_s(scene), 1.0);
+    expect_near(at(scene, 1).mesh->positions[0], {1, 0, 0});
+  }
+  for (const char* const none : {"walk", "2", "-1", "0x"}) {
+    const Expected<Scene> scene = chosen(none);
+    ASSERT_FALSE(scene) << none;
+    EXPECT_NE(scene.error().message().find("choose from 0 '1' or 1 'wave'"), std::string::npos)
+        << scene.error().message();
+  }
+}
+
 TEST(Animation, StillScenesPayNothing) {
   const Scene scene = load_good(triangle_json());
   EXPECT_FALSE(scene.animation);

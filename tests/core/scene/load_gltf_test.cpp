@@ -118,19 +118,31 @@ TEST(LoadGltf, Cameras) {
   Json json = triangle_json();
   json["cameras"] = {
       {{"type", "perspective"}, {"perspective", {{"yfov", 1.0}, {"znear", 0.1}}}},
-      {{"type", "orthographic"}, {"orthographic", {{"xmag", 1}, {"ymag", 1}, {"zfar", 9}, {"znear", 1}}}}};
-  json["nodes"] = {
-      {{"mesh", 0}}, {{"camera", 0}, {"name", "eye"}, {"translation", {0, 0, 4}}}, {{"camera", 1}}};
-  json["scenes"][0]["nodes"] = {0, 1, 2};
+      {{"type", "orthographic"}, {"orthographic", {{"xmag", 1}, {"ymag", 1.5}, {"zfar", 9}, {"znear", 1}}}},
+      {{"type", "cylindrical"}},
+      {{"type", "orthographic"}, {"orthographic", {{"xmag", 1}, {"ymag", 0}, {"zfar", 9}, {"znear", 1}}}}};
+  json["nodes"] = {{{"mesh", 0}},
+                   {{"camera", 0}, {"name", "eye"}, {"translation", {0, 0, 4}}},
+                   {{"camera", 1}},
+                   {{"camera", 2}},
+                   {{"camera", 3}}};
+  json["scenes"][0]["nodes"] = {0, 1, 2, 3, 4};
   Warnings warnings;
   const Expected<Scene> scene = load(json, &warnings);
   ASSERT_TRUE(scene);
-  ASSERT_EQ(scene->cameras.size(), 1u);
+  ASSERT_EQ(scene->cameras.size(), 2u);
   EXPECT_EQ(scene->cameras[0].name, "eye");
   EXPECT_EQ(scene->cameras[0].eye, glm::vec3(0, 0, 4));
   EXPECT_EQ(scene->cameras[0].target, glm::vec3(0, 0, 3));
   EXPECT_NEAR(scene->cameras[0].fov_deg, 57.29578f, 1e-4f);
-  EXPECT_EQ(warnings.size(), 1u);
+  EXPECT_EQ(scene->cameras[1].projection, Projection::orthographic);
+  EXPECT_EQ(scene->cameras[1].height, 3.0f);
+  EXPECT_EQ(warnings.size(), 2u);  // no such camera, and one without a height
+  save_scene(*scene, own_file("cameras.gltf"));
+  const Scene saved = load_scene(own_file("cameras.gltf")).value();
+  ASSERT_EQ(saved.cameras.size(), 2u);
+  EXPECT_EQ(saved.cameras[1].projection, Projection::orthographic);
+  EXPECT_EQ(saved.cameras[1].height, 3.0f);
 }
 
 TEST(LoadGltf, PhongExtrasAndExtensions) {

@@ -142,8 +142,8 @@ TEST(Split, PartitionLosesNothingAndMayOverwriteItsInput) {
   }
   const SplitPlane plane{1, 0.1f, true, 0.0f};
   std::vector<BuildReference> low(references.size() + 1), high(references.size() + 1), in_place = references;
-  const Halves n = partition(*scene.mesh, references, box, plane, low.data(), high.data());
-  const Halves again = partition(*scene.mesh, in_place, box, plane, low.data(), in_place.data());
+  const Halves n = partition(BuildMesh(*scene.mesh), references, box, plane, low.data(), high.data());
+  const Halves again = partition(BuildMesh(*scene.mesh), in_place, box, plane, low.data(), in_place.data());
   EXPECT_EQ(n.low, again.low);
   EXPECT_EQ(n.high, again.high);
   std::vector<int> seen(references.size());

@@ -170,6 +170,17 @@ class GltfWriter {
     add_skins_and_animation(scene_, place, data_);
   }
 
+  // glTF has perspective and orthographic cameras; xmag and zfar are for viewers that need them.
+  static Json optics_of(const Camera& camera) {
+    if (camera.projection == Projection::orthographic)
+      return {
+          {"type", "orthographic"},
+          {"orthographic",
+           {{"xmag", 0.5 * camera.height}, {"ymag", 0.5 * camera.height}, {"znear", 0.0}, {"zfar", 1e6}}}};
+    const double yfov = glm::radians(static_cast<double>(camera.fov_deg));
+    return {{"type", "perspective"}, {"perspective", {{"yfov", yfov}, {"znear", 0.01}}}};
+  }
+
   // As its node's parent sees it, with its target and up, which our extras have as the world sees them.
   Json camera_node(const Camera& camera, const Camera& in_world) {
     const CameraAxes axes = camera_axes(camera);
@@ -177,8 +188,7 @@ class GltfWriter {
     if (camera.lens_radius > 0.0f) ours["lensRadius"] = camera.lens_radius;
     if (camera.focus_distance > 0.0f) ours["focusDistance"] = camera.focus_distance;
     const std::size_t index = json_["cameras"].size();
-    const double yfov = glm::radians(static_cast<double>(camera.fov_deg));
-    json_["cameras"].push_back({{"type", "perspective"}, {"perspective", {{"yfov", yfov}, {"znear", 0.01}}}});
+    json_["cameras"].push_back(optics_of(camera));
     return {{"name", camera.name},
             {"camera", index},
             {"matrix", aimed_matrix(camera.eye, axes.right, axes.up, axes.forward)},

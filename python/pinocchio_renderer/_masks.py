@@ -1,0 +1,131 @@
+"""Boxes, masks and visible shares of a scene's nodes, for data sets."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any, Dict, Iterable, List, Optional, Sequence, Set, Tuple, Union
+
+from ._core import Camera, Engine, Scene
+
+if TYPE_CHECKING:
+    import numpy
+    from numpy.typing import ArrayLike, NDArray
+
+Node = Union[int, str]
+NOTHING = 0xFFFFFFFF
+
+
+def boxes(ids: ArrayLike) -> Dict[int, Tuple[int, int, int, int]]:
+    """The tight box of each number in a picture of ids: {number: (x0, y0, x1, y1)}, in pixels, x1 and y1 excluded.
+
+    ids: (h, w) of whole numbers, as Result.objects, Result.materials and Result.ids are. 0xffffffff, where nothing is
+    hit, has no box.
+    """
+    import numpy
+
+    picture = numpy.asarray(ids)
+    if picture.ndim != 2:
+        raise ValueError(f"ids has the shape {picture.shape}; give the ids of one picture, (height, width)")
+    numbers, places = numpy.unique(picture, return_inverse=True)
+    places = places.reshape(picture.shape)
+    found = {}
+    rows, columns = numpy.indices(picture.shape)
+    low = numpy.full((len(numbers), 2), max(picture.shape, default=0))
+    high = numpy.zeros((len(numbers), 2), int)
+    for axis, of_pixel in enumerate((columns, rows)):
+        numpy.minimum.at(low[:, axis], places, of_pixel)
+        numpy.maximum.at(high[:, axis], places, of_pixel + 1)
+    for i, number in enumerate(numbers):
+        if number != NOTHING:
+            found[int(number)] = (int(low[i, 0]), int(low[i, 1]), int(high[i, 0]), int(high[i, 1]))
+    return found
+
+
+def _number(scene: Scene, node: Node) -> int:
+    if isinstance(node, str):
+        names = list(scene.nodes)
+        if node not in names:
+            raise ValueError(f"there is no node '{node}'; Scene.nodes lists them")
+        return names.index(node)
+    return int(node)
+
+
+def _with_children(scene: Scene, node: Node) -> List[int]:
+    inside: Set[int] = {_number(scene, node)}
+    for child, parent in enumerate(scene.node_parents):
+        if int(parent) in inside:
+            inside.add(child)
+    return sorted(inside)
+
+
+def amodal_masks(
+    engine: Engine,
+    scene: Scene,
+    nodes: Optional[Iterable[Node]] = None,
+    camera: Optional[Union[Camera, int, str]] = None,
+    size: Sequence[int] = (800, 600),
+    **settings: object,
+) -> Dict[Node, NDArray[numpy.bool_]]:
+    """The pixels in which each node would be seen if nothing else were there: {node: (h, w) bool}.
+
+    nodes: names or indices of Scene.nodes, each with all nodes below it. None: every node with triangles of its own.
+    camera, size, settings: as for Engine.render. Each node takes a picture, which traces the camera's rays alone.
+    Raises ValueError if there is no such node.
+    """
+    chosen = list(nodes) if nodes is not None else _drawn_nodes(scene)
+    if camera is None or not isinstance(camera, Camera):
+        camera = _camera(scene, camera)
+    masks: Dict[Node, Any] = {}
+    for node in chosen:
+        part = scene.only([_number(scene, node)])
+        if part is None:
+            import numpy
+
+            masks[node] = numpy.zeros((size[1], size[0]), bool)
+            continue
+        seen = engine.render_many(part, [camera], size, outputs=["ids"], **settings)["ids"][0]
+        masks[node] = seen != NOTHING
+    return masks
+
+
+def _drawn_nodes(scene: Scene) -> List[Node]:
+    import numpy
+
+    names = list(scene.nodes)
+    return [names[i] for i in numpy.unique(scene.triangle_nodes) if i < len(names)]
+
+
+def _camera(scene: Scene, camera: Optional[Union[int, str]]) -> Camera:
+    cameras = list(scene.cameras)
+    if camera is None:
+        return cameras[0] if cameras else scene.camera()
+    for one in cameras:
+        if one.name == camera:
+            return one
+    if isinstance(camera, int) and 0 <= camera < len(cameras):
+        return cameras[camera]
+    raise ValueError(f"the scene has no camera {camera!r}; Scene.cameras lists them")
+
+
+def visible_share(
+    engine: Engine,
+    scene: Scene,
+    nodes: Optional[Iterable[Node]] = None,
+    camera: Optional[Union[Camera, int, str]] = None,
+    size: Sequence[int] = (800, 600),
+    **settings: object,
+) -> Dict[Node, float]:
+    """The share of each node's pixels that other nodes leave visible: {node: 0 to 1}; 0 outside the picture.
+
+    Arguments and errors as for amodal_masks.
+    """
+    import numpy
+
+    chosen = list(nodes) if nodes is not None else _drawn_nodes(scene)
+    if camera is None or not isinstance(camera, Camera):
+        camera = _camera(scene, camera)
+    objects = engine.render_many(scene, [camera], size, outputs=["objects"], **settings)["objects"][0]
+    shares: Dict[Node, float] = {}
+    for node, mask in amodal_masks(engine, scene, chosen, camera, size, **settings).items():
+        seen = numpy.isin(objects, _with_children(scene, node)) & mask
+        shares[node] = float(seen.sum() / max(int(mask.sum()), 1))
+    return shares

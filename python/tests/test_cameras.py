@@ -1,0 +1,150 @@
+"""Cameras beside the pinhole, and rays that the caller gives."""
+import copy
+import pickle
+
+import numpy
+import pinocchio_renderer as pn
+import pytest
+
+SIZE = (80, 60)
+CV = [0.1, -0.05, 0.002, -0.003, 0.01, 0.05, 0.02, 0.001]
+AT = {"eye": (0.3, 1.0, 5.0), "target": (0.0, 0.4, 0.0)}
+
+
+def cameras():
+    pose = numpy.eye(4)
+    pose[:3, 3] = 0.1, 1.0, -4.0
+    pose[:3, :3] = [[1, 0, 0], [0, -1, 0], [0, 0, -1]]
+    pose[2, 3] = 5.0
+    return {
+        "orthographic": pn.Camera.orthographic(**AT, height=3.0),
+        "panorama": pn.Camera.panorama(**AT),
+        "fisheye": pn.Camera.fisheye(**AT, fov=200, distortion=[0.02, -0.003, 0.0004, 0.0]),
+        "lens": pn.Camera.from_intrinsics(SIZE, 70, 72, 38, 31, pose, distortion=CV),
+        "fisheye lens": pn.Camera.from_intrinsics(
+            SIZE, 30, 31, 38, 31, pose, distortion=[0.02, -0.003, 0.0004, 0.0], projection="fisheye"
+        ),
+    }
+
+
+@pytest.mark.parametrize("name", cameras())
+def test_points_of_a_picture_project_to_their_pixels(scenes, name):
+    camera = cameras()[name]
+    picture = pn.Engine().render(pn.load_scene(scenes / "two-lights.gltf"), camera, SIZE)
+    seen = picture.ids != 0xFFFFFFFF
+    assert seen.sum() > 100
+    y, x = numpy.nonzero(seen)
+    at = camera.project(picture.position[seen], SIZE)
+    numpy.testing.assert_allclose(at, numpy.stack([x, y], -1), atol=2e-3)
+
+
+def test_opencv_agrees_about_lenses():
+    cv2 = pytest.importorskip("cv2")
+    made = cameras()
+    rng = numpy.random.default_rng(1)
+    camera_points = rng.uniform((-1, -1, 1.5), (1, 1, 4), (200, 3))
+    pose = numpy.array([[1, 0, 0, 0.1], [0, -1, 0, 1.0], [0, 0, -1, 5.0], [0, 0, 0, 1]])
+    world = (camera_points @ pose[:3, :3].T + pose[:3, 3]).astype(numpy.float32)
+    k = numpy.array([[70, 0, 38], [0, 72, 31], [0, 0, 1.0]])
+    expected, _ = cv2.projectPoints(camera_points, numpy.zeros(3), numpy.zeros(3), k, numpy.array(CV))
+    numpy.testing.assert_allclose(made["lens"].project(world, SIZE), expected[:, 0], atol=1e-3)
+    k = numpy.array([[30, 0, 38], [0, 31, 31], [0, 0, 1.0]])
+    expected, _ = cv2.fisheye.projectPoints(
+        camera_points[:, None], numpy.zeros((1, 3)), numpy.zeros((1, 3)), k, numpy.array([0.02, -0.003, 0.0004, 0.0])
+    )
+    numpy.testing.assert_allclose(made["fisheye lens"].project(world, SIZE), expected[:, 0], atol=1e-3)
+
+
+def test_a_stereo_pair_has_the_disparity_of_its_baseline(scenes):
+    scene = pn.load_scene(scenes / "two-lights.gltf")
+    left = pn.Camera(eye=(0, 1, 5), target=(0, 1, 0), fov=50)
+    right = pn.Camera(eye=(0.1, 1, 5), target=(0.1, 1, 0), fov=50)
+    picture = pn.Engine().render(scene, left, SIZE)
+    seen = picture.ids != 0xFFFFFFFF
+    fx = left.intrinsics(SIZE)[0]
+    numpy.testing.assert_allclose(picture.motion(camera=right)[seen][:, 0], -0.1 * fx / picture.depth[seen], atol=1e-3)
+
+
+@pytest.mark.parametrize("name", cameras())
+def test_cameras_copy_pickle_and_show_themselves(name):
+    camera = cameras()[name]
+    for other in (copy.copy(camera), copy.deepcopy(camera), pickle.loads(pickle.dumps(camera))):
+        assert repr(other) == repr(camera)
+        assert (other.projection, other.distortion, other.height) == (camera.projection, camera.distortion, camera.height)
+    assert camera.projection in repr(camera) or camera.projection == "perspective"
+
+
+def test_wrong_cameras_are_refused():
+    with pytest.raises(pn.Error, match="height is 0.0"):
+        pn.Camera.orthographic(**AT, height=0)
+    with pytest.raises(pn.Error, match="fov is 361.0"):
+        pn.Camera.fisheye(**AT, fov=361)
+    with pytest.raises(pn.Error, match="distortion has 3 numbers; a fisheye has 4"):
+        pn.Camera.fisheye(**AT, distortion=[1, 2, 3])
+    with pytest.raises(pn.Error, match="distortion has 6 numbers; there are 4, 5 or 8"):
+        pn.Camera.from_intrinsics(SIZE, 70, 70, 40, 30, distortion=[0] * 6)
+    with pytest.raises(pn.Error, match="projection is 'wide'"):
+        pn.Camera.from_intrinsics(SIZE, 70, 70, 40, 30, projection="wide")
+    with pytest.raises(pn.Error, match="others have none"):
+        pn.Camera.panorama(**AT).distortion = [0.1, 0, 0, 0]
+
+
+def test_a_picture_of_given_rays_is_shaded_as_any_other(scenes):
+    scene = pn.load_scene(scenes / "two-lights.gltf")
+    camera = cameras()["orthographic"]
+    picture = pn.Engine().render(scene, camera, SIZE)
+    y, x = numpy.indices(SIZE[::-1])
+    forward = numpy.subtract(AT["target"], AT["eye"])
+    forward /= numpy.linalg.norm(forward)
+    right = numpy.cross(forward, (0, 1, 0))
+    right /= numpy.linalg.norm(right)
+    up = numpy.cross(right, forward)
+    step = 3.0 / SIZE[1]
+    origins = (
+        numpy.array(AT["eye"])
+        + (x[..., None] + 0.5 - SIZE[0] / 2) * step * right
+        - (y[..., None] + 0.5 - SIZE[1] / 2) * step * up
+    )
+    given = pn.Engine().render(scene, rays=(origins, numpy.broadcast_to(forward, origins.shape)))
+    assert given.color.shape == picture.color.shape
+    assert (given.ids != picture.ids).sum() <= 5
+    same = given.ids == picture.ids
+    assert numpy.quantile(numpy.abs(given.color - picture.color)[same], 0.99) < 1e-3
+    hit = same & (picture.ids != 0xFFFFFFFF)
+    numpy.testing.assert_allclose(given.depth[hit], picture.depth[hit], rtol=1e-4)
+
+
+def test_a_lidars_beams_in_one_row(scenes):
+    scene = pn.load_scene(scenes / "two-lights.gltf")
+    turn, height = numpy.meshgrid(numpy.linspace(0, 2 * numpy.pi, 90, False), numpy.linspace(-0.4, 0.2, 16))
+    beams = numpy.stack([numpy.cos(height) * numpy.sin(turn), numpy.sin(height), numpy.cos(height) * numpy.cos(turn)], -1)
+    beams = beams.reshape(-1, 3).astype(numpy.float32)
+    scan = pn.Engine().render(scene, rays=((0, 1, 4), beams))
+    assert scan.depth.shape == (1, 90 * 16)
+    hits = pn.Tracer(scene).closest_hits([(0, 1, 4)], beams)
+    numpy.testing.assert_array_equal(scan.ids[0], hits.triangle)
+    numpy.testing.assert_allclose(scan.depth[0], hits.distance, rtol=1e-5)
+    numpy.testing.assert_array_equal(scan.objects[0], hits.node)
+
+
+def test_wrong_rays_are_refused(scenes):
+    scene = pn.load_scene(scenes / "two-lights.gltf")
+    engine = pn.Engine()
+    for rays in ((1, 2), numpy.zeros(3), (numpy.zeros((4, 3)), numpy.zeros((4, 2))), (numpy.zeros(3),)):
+        with pytest.raises(pn.Error, match="rays"):
+            engine.render(scene, rays=rays)
+    with pytest.raises(pn.Error, match="do not have the shape of their directions"):
+        engine.render(scene, rays=(numpy.zeros((4, 3)), numpy.zeros((5, 3))))
+    broken = engine.render(scene, rays=(numpy.zeros((2, 3)), [[0, 0, 0], [0, numpy.nan, 1]]))
+    assert (broken.ids == 0xFFFFFFFF).all()
+
+
+def test_stl_and_the_axis_that_points_up(tmp_path):
+    file = tmp_path / "part.stl"
+    file.write_text("solid a\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0 0\nvertex 0 2 3\nendloop\nendfacet\n")
+    assert pn.load_scene(file).vertices[2].tolist() == [0, 2, 3]
+    assert pn.load_scene(file, up_axis="z").vertices[2].tolist() == [0, 3, -2]
+    with pytest.raises(pn.Error, match="up_axis is 'x'"):
+        pn.load_scene(file, up_axis="x")
+    with pytest.raises(pn.Error, match="has no animation 'walk'"):
+        pn.load_scene(file, animation="walk")
