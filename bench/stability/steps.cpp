@@ -17,10 +17,11 @@ Steps steps_of(const BspTree& tree, const Ray& ray) {
   one.packets[0].load({{&o.x, &o.y, &o.z}, {&d.x, &d.y, &d.z}, &ray.t_max}, 0, 1);
   const counting::Float t_best[1] = {one.packets[0].t_max};
   counting::for_each_octant(one, [&](const bool(&negative)[3], const counting::Mask(&lanes)[1]) {
-    counting::walk(tree, one, counting::ExactPlanes{}, negative, lanes, t_best, [&](const BspNode& leaf, const unsigned(&)[1]) {
-      ++steps.leaves;
-      steps.triangle_tests += leaf.reference_count();
-    });
+    counting::walk(tree, one, counting::ExactPlanes{}, negative, lanes, t_best,
+                   [&](const BspNode& leaf, const unsigned(&)[1]) {
+                     ++steps.leaves;
+                     steps.triangle_tests += leaf.reference_count();
+                   });
   });
   return steps;
 }
