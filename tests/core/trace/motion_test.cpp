@@ -48,16 +48,20 @@ std::vector<Ray> rays_at(const Mesh& mesh, int count, std::uint64_t seed) {
 std::vector<Ray> agreed(const Mesh& mesh, const std::vector<Ray>& rays, TriangleTest test) {
   if (test == TriangleTest::filtered || test == TriangleTest::watertight) return rays;
   std::vector<bool> agree(rays.size(), true);
-  for (const Backfaces backfaces : {Backfaces::draw, Backfaces::cull}) {
-    std::vector<Hit> first, hits(rays.size());
-    for (const SplitRule rule : {SplitRule::sah, SplitRule::spatial_median, SplitRule::object_median})
-      for (const int leaf : {1, 1000000}) {  // the latter are mostly a leaf of all
-        const BuildOptions options{.rule = rule, .leaf_size = leaf, .threads = 1, .triangle_test = test};
-        Tracer(std::make_shared<const Mesh>(mesh), options, Isa::scalar).closest_hits(rays, hits, backfaces);
-        if (first.empty()) first = hits;
-        for (std::size_t i = 0; i < rays.size(); ++i) agree[i] = agree[i] && hits[i] == first[i];
+  const auto shared = std::make_shared<const Mesh>(mesh);
+  std::vector<std::vector<Hit>> first(2);
+  for (const SplitRule rule : {SplitRule::sah, SplitRule::spatial_median, SplitRule::object_median})
+    for (const int leaf : {1, 1000000}) {  // the latter are mostly a leaf of all
+      const BuildOptions options{.rule = rule, .leaf_size = leaf, .threads = 1, .triangle_test = test};
+      const Tracer tracer(shared, options, Isa::scalar);
+      for (const Backfaces backfaces : {Backfaces::draw, Backfaces::cull}) {
+        std::vector<Hit> hits(rays.size());
+        tracer.closest_hits(rays, hits, backfaces);
+        std::vector<Hit>& known = first[backfaces == Backfaces::cull ? 1 : 0];
+        if (known.empty()) known = hits;
+        for (std::size_t i = 0; i < rays.size(); ++i) agree[i] = agree[i] && hits[i] == known[i];
       }
-  }
+    }
   std::vector<Ray> same;
   for (std::size_t i = 0; i < rays.size(); ++i)
     if (agree[i]) same.push_back(rays[i]);
@@ -254,6 +258,28 @@ TEST(Motion, WhatDeformsHasItsTreeBuiltAgain) {
     chains.check(posed(scene, {}, {&weights, 1}).value(), 200, static_cast<std::uint64_t>(i), "weights");
   }
   EXPECT_EQ(chains.last().trees().moving.size(), 1u);
+}
+
+// Enough vertices for several threads.
+TEST(Motion, ManyNodesArePlacedAsOneByOne) {
+  constexpr int kParts = 12;
+  const Scene one = ball(64);
+  std::vector<Part> parts;
+  for (int p = 0; p < kParts; ++p) parts.push_back({"part " + std::to_string(p), one});
+  const Scene scene = assembled(parts).value();
+  ASSERT_GT(scene.mesh->positions.size(), 20000u);
+  Random random(4);
+  for (int pose = 0; pose < 4; ++pose) {
+    std::vector<NodeTransform> moves;
+    for (int p = 0; p < kParts; ++p) moves.push_back({p, random_transform(random, p)});
+    const Scene now = posed(scene, moves).value();
+    Scene alone = scene;
+    for (const NodeTransform& move : moves) alone = posed(alone, std::array{move}).value();
+    EXPECT_EQ(now.mesh->positions, alone.mesh->positions);
+    EXPECT_EQ(now.mesh->normals, alone.mesh->normals);
+    EXPECT_EQ(now.mesh->triangles, alone.mesh->triangles);
+    EXPECT_EQ(now.mesh->bounds().hi, alone.mesh->bounds().hi);
+  }
 }
 
 // Meshes of poses that nobody holds are used again: the new ones' bits do not tell.
