@@ -25,6 +25,8 @@ Model full_model() {
   Model model;
   model.scene = load_scene(PINOCCHIO_SOURCE_DIR "/scenes/cornell").value();
   model.scene.animation = load_scene(PINOCCHIO_SOURCE_DIR "/scenes/windmill").value().animation;
+  model.scene.source = "scene.gltf";  // texts name no folder of a machine
+  model.save.folder = "pictures";
   model.stats = analyze(model.scene);
   model.settings.overlay = true;
   model.settings.split = Split::heat_map;
