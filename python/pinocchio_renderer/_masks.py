@@ -63,7 +63,7 @@ def amodal_masks(
     nodes: Optional[Iterable[Node]] = None,
     camera: Optional[Union[Camera, int, str]] = None,
     size: Sequence[int] = (800, 600),
-    **settings: object,
+    **settings: Any,
 ) -> Dict[Node, NDArray[numpy.bool_]]:
     """The pixels in which each node would be seen if nothing else were there: {node: (h, w) bool}.
 
@@ -112,7 +112,7 @@ def visible_share(
     nodes: Optional[Iterable[Node]] = None,
     camera: Optional[Union[Camera, int, str]] = None,
     size: Sequence[int] = (800, 600),
-    **settings: object,
+    **settings: Any,
 ) -> Dict[Node, float]:
     """The share of each node's pixels that other nodes leave visible: {node: 0 to 1}; 0 outside the picture.
 
