@@ -1,4 +1,8 @@
-"""The figures as tables: of docs/materials.md between <!-- begin X --> and <!-- end X -->, and all rows in one file."""
+"""The figures as tables: of docs/materials.md between <!-- begin X --> and <!-- end X -->, and all rows in one file.
+
+Long tables are CSV files in docs/measurements, and the page links to them.
+"""
+import csv
 import re
 
 import numpy
@@ -7,6 +11,9 @@ from spheres import share, worst_colour
 
 LEAST_NOISE = 0.01  # less is not seen: what is exact under an even sky is no measure
 BARS = {"noise, equal samples": 1.15, "noise, equal time": 0.7, "white furnace, brightest ring": 1.005, "mean colour, beside mix": 0.03, "mean colour, beside view": 0.03}
+
+
+IN_FILES = {"furnace": "The white furnace at each metallic and roughness", "colours": "The colours at each metallic and roughness", "models": "Every model"}
 
 
 def ratios(row):
@@ -50,7 +57,7 @@ def furnace(rows):
 
 
 def of_models(rows):
-    lines = ["| model | mean / principled | / appendix B | worst channel | noise: ours | Mitsuba | equal samples | ms: ours | Mitsuba | equal time | fireflies: ours | Mitsuba |",
+    lines = ["| model | mean / principled | / appendix B | worst channel | noise: ours | noise: Mitsuba | equal samples | ms: ours | ms: Mitsuba | equal time | fireflies: ours | fireflies: Mitsuba |",
              "|---|" + "---:|" * 11]
     for r in rows:
         a, b, of = r["ours"], r["theirs"], ratios(r)
@@ -111,12 +118,23 @@ def blocks(results):
     return found
 
 
+def as_file(name, table, folder):
+    """Writes a Markdown table as a CSV file; the line that links to it."""
+    rows = [[cell.strip() for cell in line.strip("|").split("|")] for line in table.splitlines()]
+    file = folder / f"materials-{name}.csv"
+    with file.open("w", encoding="utf-8", newline="") as out:
+        csv.writer(out, lineterminator="\n").writerows(rows[:1] + rows[2:])
+    return f"{IN_FILES[name]}: [{file.name}](measurements/{file.name})."
+
+
 def write(results, page, everything):
     found = blocks(results)
     if page:
         text = page.read_text(encoding="utf-8")
         for name, content in found.items():
+            if name in IN_FILES:
+                content = as_file(name, content, page.parent / "measurements")
             pattern = re.compile(rf"(<!-- begin {name} -->\n).*?(<!-- end {name} -->)", re.S)
-            text = pattern.sub(lambda m: m.group(1) + content + "\n" + m.group(2), text)
+            text = pattern.sub(lambda m, content=content: m.group(1) + content + "\n" + m.group(2), text)
         page.write_text(text, encoding="utf-8")
     everything.write_text("\n\n".join(f"## {name}\n\n{content}" for name, content in found.items()) + "\n", encoding="utf-8")
