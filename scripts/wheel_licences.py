@@ -33,7 +33,7 @@ def main(wheel: str, folder: str) -> None:
     licences = record.replace("RECORD", "licenses/bundled")
     rows = ["Libraries in this wheel, the Debian packages that they come from, and the versions; each package's licence is beside this file.", ""]
     added = {}
-    for library in sorted(name for name in files if ".libs/" in name):
+    for library in sorted(name for name in files if ".libs/" in name and not name.endswith("/")):
         package = package_of(pathlib.PurePath(library).name)
         version = subprocess.check_output(["dpkg-query", "-W", "-f", "${Version}", package], text=True).split("\n")[0]
         added[f"{licences}/{package}.txt"] = pathlib.Path(f"/usr/share/doc/{package}/copyright").read_bytes()

@@ -62,13 +62,16 @@ def main(file: str, out: str, pictures: int, workers: int = 2, shard_size: int =
     folder.mkdir(parents=True, exist_ok=True)
     ranges = {s: (s * shard_size, min((s + 1) * shard_size, pictures)) for s in range(-(-pictures // shard_size))}
     left = [shard for shard in ranges if not (folder / name_of(shard)).is_file()]
-    drawn, failed, tries = 0, [], dict.fromkeys(left, 0)
+    drawn, tries = 0, dict.fromkeys(left, 0)
+    failed: list[int] = []
+    running: dict[Any, tuple[int, Any]] = {}
+    cluster: Any = ray
     ray.init(ignore_reinit_error=True, log_to_driver=False, include_dashboard=False)
-    threads = max(1, int(ray.cluster_resources()["CPU"]) // workers)
+    threads = max(1, int(cluster.cluster_resources()["CPU"]) // workers)
     remote: Any = ray.remote(num_cpus=threads, max_restarts=-1)(Worker)
     actors = [remote.remote(str(pathlib.Path(file).resolve()), str(folder.resolve()), threads) for _ in range(workers)]
     ray.get([actor.__ray_ready__.remote() for actor in actors])
-    begin, running = time.perf_counter(), {}
+    begin = time.perf_counter()
     free = actors * QUEUED  # an actor for each shard that may be given out: back-pressure
     while left or running:
         while left and free:
