@@ -122,4 +122,17 @@ Image<glm::u8vec3> preview(const Image<glm::vec4>& color, float exposure_ev, Ton
   return pixels;
 }
 
+Image<glm::u8vec4> preview_with_alpha(const Image<glm::vec4>& color, float exposure_ev, ToneMap curve) {
+  const float gain = std::exp2(exposure_ev);
+  Image<glm::u8vec4> pixels(color.size());
+  for (std::size_t i = 0; i < color.pixels().size(); ++i) {
+    const float alpha = std::clamp(color[i].a, 0.0f, 1.0f);
+    if (alpha <= 0.0f) continue;  // 0, 0, 0, 0
+    const glm::vec3 shown = tone_mapped(gain / alpha * glm::vec3(color[i]), curve);
+    for (int c = 0; c < 3; ++c) pixels[i][c] = linear_to_srgb8(shown[c]);
+    pixels[i].a = static_cast<std::uint8_t>(255.0f * alpha + 0.5f);
+  }
+  return pixels;
+}
+
 }  // namespace pinocchio

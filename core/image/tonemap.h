@@ -23,12 +23,15 @@ namespace pinocchio {
 void linear_to_srgb8(std::span<const glm::vec4> linear, glm::u8vec4* to);
 
 // The curve that maps light of any strength to a screen's range.
-enum class ToneMap { clip, reinhard, aces };
-inline constexpr std::array<std::string_view, 3> kToneMapNames{"clip", "reinhard", "aces"};
+enum class ToneMap { clip, reinhard, aces, neutral };
+inline constexpr std::array<std::string_view, 4> kToneMapNames{"clip", "reinhard", "aces", "neutral"};
 [[nodiscard]] glm::vec3 tone_mapped(const glm::vec3& light, ToneMap curve);
 
 // Linear RGBA as a screen shows it, over black: `exposure_ev` stops brighter, tone-mapped, sRGB, 8 bits.
 [[nodiscard]] Image<glm::u8vec3> preview(const Image<glm::vec4>& color, float exposure_ev,
                                          ToneMap curve = ToneMap::clip);
+// The same with the picture's alpha, not multiplied into the colour: for pictures without a background.
+[[nodiscard]] Image<glm::u8vec4> preview_with_alpha(const Image<glm::vec4>& color, float exposure_ev,
+                                                    ToneMap curve);
 
 }  // namespace pinocchio

@@ -62,7 +62,8 @@ void draw_quality_controls(const Model& model, ViewSettings& s) {
   const std::vector<Choice> curves{
       {kToneMapNames[0], "light brighter than white is shown as white"},
       {kToneMapNames[1], "all light is shown darker, the brightest light most"},
-      {kToneMapNames[2], "like film: more contrast, and highlights fade to white"}};
+      {kToneMapNames[2], "like film: more contrast, and highlights fade to white"},
+      {kToneMapNames[3], "colours stay as they are, and highlights fade to white"}};
   choose_value("tone curve", "how light brighter than white is shown", curves, s.tone_map);
   slider("resolution", s.scale, kLeastScale, kMostScale, format("%.0f %%", 100.0 * s.scale),
          "pixels of the picture for one of the window, along a side");

@@ -80,7 +80,7 @@ TEST(Tonemap, ExposureIsInStops) {
 }
 
 TEST(Tonemap, CurvesBringAllLightIntoWhatAScreenShows) {
-  for (const ToneMap curve : {ToneMap::clip, ToneMap::reinhard, ToneMap::aces}) {
+  for (const ToneMap curve : {ToneMap::clip, ToneMap::reinhard, ToneMap::aces, ToneMap::neutral}) {
     float before = -1.0f;
     for (float light = 0.0f; light < 1e5f; light = 1.3f * light + 0.001f) {
       const float shown = tone_mapped(glm::vec3(light), curve).x;
@@ -93,6 +93,28 @@ TEST(Tonemap, CurvesBringAllLightIntoWhatAScreenShows) {
   EXPECT_EQ(tone_mapped(glm::vec3(0.3f, 1.0f, 7.0f), ToneMap::clip), glm::vec3(0.3f, 1.0f, 1.0f));
   EXPECT_FLOAT_EQ(tone_mapped(glm::vec3(3.0f), ToneMap::reinhard).x, 0.75f);
   EXPECT_NEAR(tone_mapped(glm::vec3(1.0f), ToneMap::aces).x, 0.8038f, 1e-4f);
+}
+
+// By the specification's formulas, worked out by hand.
+TEST(Tonemap, NeutralKeepsColoursAndFadesHighlightsToWhite) {
+  const glm::vec3 shown = tone_mapped(glm::vec3(0.5f, 0.2f, 0.1f), ToneMap::neutral);
+  EXPECT_NEAR(shown.x, 0.46f, 1e-6f);
+  EXPECT_NEAR(shown.y, 0.16f, 1e-6f);
+  EXPECT_NEAR(shown.z, 0.06f, 1e-6f);
+  EXPECT_NEAR(tone_mapped(glm::vec3(0.04f), ToneMap::neutral).x, 0.01f, 1e-6f);      // 6.25 x^2
+  EXPECT_NEAR(tone_mapped(glm::vec3(1.04f), ToneMap::neutral).x, 0.88f, 1e-6f);      // 1 - 0.24^2 / 0.48
+  const glm::vec3 red = tone_mapped(glm::vec3(4.0f, 0.0f, 0.0f), ToneMap::neutral);  // peak 4
+  const float peak = 1.0f - 0.0576f / 3.48f, white = 1.0f - 1.0f / (0.15f * (4.0f - peak) + 1.0f);
+  EXPECT_NEAR(red.x, peak, 1e-5f);
+  EXPECT_NEAR(red.y, white * peak, 1e-5f);
+}
+
+TEST(Tonemap, AlphaIsStraightInPreviews) {
+  Image<glm::vec4> half({2, 1});
+  half[0] = glm::vec4(0.25f, 0.0f, 0.0f, 0.5f);
+  const Image<glm::u8vec4> shown = preview_with_alpha(half, 0.0f, ToneMap::clip);
+  EXPECT_EQ(shown[0], glm::u8vec4(linear_to_srgb8(0.5f), 0, 0, 128));
+  EXPECT_EQ(shown[1], glm::u8vec4(0));
 }
 
 }  // namespace
