@@ -76,7 +76,8 @@ TEST_P(ReloadTest, AChangedShaderDrawsTheNextFrame) {
 TEST_P(ReloadTest, AnErrorNamesFileAndLineAndTheLastGoodStay) {
   const Image<glm::vec4> before = picture();
   // The one that is changed well must not come alone.
-  replace("visibility.vert", "gl_Position = vec4(clip.xy", "gl_Position = vec4(0.5 * clip.xy");
+  replace("visibility.vert", "gl_Position = vec4(clip.xy, z_near",
+          "gl_Position = vec4(0.5 * clip.xy, z_near");
   const std::string old = replace("traced_light.glsl", "struct Source {", "struct Source { nonsense;");
   const std::string text = text_of("traced_light.glsl");
   const auto line =
