@@ -15,27 +15,27 @@ constexpr float kFov_deg = 35.0f;  // of the shorter side
 const glm::vec3 kTowardsEye = glm::normalize(glm::vec3(0.5f, 0.35f, 1.0f));
 
 // What may be the surroundings of the rest: all triangles of a node with one material.
-struct Part {
+struct Surroundings {
   Bounds bounds;
   std::vector<std::uint32_t> triangles;
 };
 
-std::vector<Part> parts_of(const Scene& scene) {
+std::vector<Surroundings> parts_of(const Scene& scene) {
   const Mesh& mesh = *scene.mesh;
-  std::map<std::pair<int, std::uint32_t>, Part> parts;
+  std::map<std::pair<int, std::uint32_t>, Surroundings> parts;
   for (std::uint32_t i = 0; i < mesh.triangles.size(); ++i) {
-    Part& part = parts[{scene.nodes ? scene.nodes->node_of(i) : -1, mesh.triangle_materials[i]}];
+    Surroundings& part = parts[{scene.nodes ? scene.nodes->node_of(i) : -1, mesh.triangle_materials[i]}];
     part.triangles.push_back(i);
     for (int k = 0; k < 3; ++k) part.bounds.add(mesh.positions[mesh.triangles[i][k]]);
   }
-  std::vector<Part> all;
+  std::vector<Surroundings> all;
   for (auto& [key, part] : parts) all.push_back(std::move(part));
   return all;
 }
 
-Bounds bounds_without(const std::vector<Part>& parts, const Part& without) {
+Bounds bounds_without(const std::vector<Surroundings>& parts, const Surroundings& without) {
   Bounds rest;
-  for (const Part& part : parts)
+  for (const Surroundings& part : parts)
     if (&part != &without) {
       rest.add(part.bounds.lo);
       rest.add(part.bounds.hi);
@@ -53,7 +53,7 @@ bool is_ground(const Bounds& part, const Bounds& rest) {
 }
 
 // A part around the rest whose triangles face it.
-bool is_sky(const Mesh& mesh, const Part& part, const Bounds& rest) {
+bool is_sky(const Mesh& mesh, const Surroundings& part, const Bounds& rest) {
   constexpr float kLarger = 2.0f;
   if (part.bounds.diagonal() < kLarger * rest.diagonal()) return false;
   for (int axis : {0, 2})
@@ -73,11 +73,11 @@ bool is_sky(const Mesh& mesh, const Part& part, const Bounds& rest) {
 // The corners of the triangles that the picture is of.
 std::vector<glm::vec3> corners_of_object(const Scene& scene) {
   const Mesh& mesh = *scene.mesh;
-  std::vector<Part> parts = parts_of(scene);
+  std::vector<Surroundings> parts = parts_of(scene);
   for (bool found = true; found && parts.size() > 1;) {
     found = false;
     const auto largest = std::ranges::max_element(
-        parts, {}, [](const Part& part) { return glm::length(part.bounds.hi - part.bounds.lo); });
+        parts, {}, [](const Surroundings& part) { return glm::length(part.bounds.hi - part.bounds.lo); });
     const Bounds rest = bounds_without(parts, *largest);
     if (is_ground(largest->bounds, rest) || is_sky(mesh, *largest, rest)) {
       parts.erase(largest);
@@ -86,7 +86,7 @@ std::vector<glm::vec3> corners_of_object(const Scene& scene) {
   }
   std::vector<bool> seen(mesh.positions.size());
   std::vector<glm::vec3> corners;
-  for (const Part& part : parts)
+  for (const Surroundings& part : parts)
     for (const std::uint32_t i : part.triangles)
       for (int k = 0; k < 3; ++k) {
         const std::uint32_t vertex = mesh.triangles[i][k];
