@@ -36,10 +36,10 @@ double srgb_to_linear(double c) {
 
 // A value's byte changes where the curve passes the middle between two bytes. `first[i]` is the least value
 // of byte i.
-struct Bytes {
+struct SrgbBytes {
   std::array<float, 256> linear{};
   std::array<float, 257> first{};
-  Bytes() {
+  SrgbBytes() {
     first.back() = std::numeric_limits<float>::infinity();
     for (std::size_t i = 0; i < 256; ++i) {
       linear[i] = srgb_to_linear(i / 255.0);
@@ -72,9 +72,9 @@ struct Bytes {
   std::array<std::uint8_t, ((0x3f800000u - kLeast) >> kDropped) + 1> start{};  // up to 1
 };
 
-const Bytes& bytes() {
-  static const Bytes kBytes;
-  return kBytes;
+const SrgbBytes& bytes() {
+  static const SrgbBytes kSrgbBytes;
+  return kSrgbBytes;
 }
 
 }  // namespace
@@ -103,7 +103,7 @@ std::uint8_t linear_to_srgb8(float linear) {
 }
 
 void linear_to_srgb8(std::span<const glm::vec4> linear, glm::u8vec4* to) {
-  const Bytes& b = bytes();
+  const SrgbBytes& b = bytes();
   for (const glm::vec4& t : linear)
     *to++ = {b.within(t.r), b.within(t.g), b.within(t.b), static_cast<std::uint8_t>(t.a * 255.0f + 0.5f)};
 }

@@ -21,7 +21,7 @@ namespace {
 constexpr std::uint8_t kMoves = 2;
 
 // Triangles that a thread places at a time.
-constexpr std::size_t kChunk = 2048;
+constexpr std::size_t kPosedChunk = 2048;
 
 // Fewer triangles are placed by one thread.
 constexpr std::size_t kForThreads = 8192;
@@ -241,8 +241,8 @@ class Trees {
     });
     std::vector<Chunk> chunks;
     for (const std::size_t g : moved)
-      for (std::size_t first = 0, n = motion_->groups[g].kept->order.size(); first < n; first += kChunk)
-        chunks.push_back({g, first, std::min(n, first + kChunk), false});
+      for (std::size_t first = 0, n = motion_->groups[g].kept->order.size(); first < n; first += kPosedChunk)
+        chunks.push_back({g, first, std::min(n, first + kPosedChunk), false});
     for_each(chunks.size(), [&](std::size_t i) {
       place(motion_->groups[chunks[i].group].kept->order, chunks[i], *stored[chunks[i].group]);
     });
