@@ -123,7 +123,8 @@ TEST_F(WidgetsTest, TheToneCurveIsChosen) {
   open_drawing("cornell");
   const std::vector<int> all = rows();
   ASSERT_EQ(all.size(), kCompare + 1u);
-  const std::array<int, 3> xs{kPanelX + 110, kPanelX + 200, kPanelX + 290};  // clip, reinhard, aces
+  const std::array<int, 4> xs{kPanelX + 99, kPanelX + 166, kPanelX + 234,
+                              kPanelX + 301};  // clip, reinhard, aces, neutral
   click(xs[1], all[kToneCurve]);
   still("reinhard.png");
   EXPECT_LT(mean(kPicture, "reinhard.png")[0], mean(kPicture, "opened.png")[0] - 0.05);  // all is darker
@@ -133,6 +134,8 @@ TEST_F(WidgetsTest, TheToneCurveIsChosen) {
   EXPECT_GT(different_in(kPicture, "reinhard.png", "aces.png"), 100000);
   EXPECT_GT(different_in(kPicture, "opened.png", "aces.png"), 100000);
   EXPECT_EQ(option(command_line(), "--tone-map"), "aces");
+  click(xs[3], all[kToneCurve]);
+  EXPECT_TRUE(becomes([this] { return option(command_line(), "--tone-map") == "neutral"; }));
   click(xs[0], all[kToneCurve]);
   still("clip.png");
   EXPECT_EQ(different_in(kPicture, "opened.png", "clip.png"), 0);
