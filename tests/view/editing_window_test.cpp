@@ -80,7 +80,7 @@ TEST_F(EditingTest, LightsAreAddedColouredAndRemoved) {
   EXPECT_EQ(lights().size(), 2u);
   pause_ms(500);
   key("ctrl+z");
-  EXPECT_TRUE(picture_becomes("three.png"));
+  EXPECT_TRUE(becomes([&] { return lights().size() == 3; }));
   key("ctrl+s");
   expect_clean_close();
 }

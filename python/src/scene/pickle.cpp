@@ -214,7 +214,8 @@ void parts(A& a, Deformation& value) {
 }
 template <class A>
 void parts(A& a, RestPose& value) {
-  auto& [positions, normals, tangents, lights, cameras, skins, deformations] = value;
+  auto& [positions, normals, tangents, lights, cameras, skins, deformations, pool] =
+      value;  // a new pool is made
   each(a, positions, normals, tangents, lights, cameras, skins, deformations);
 }
 template <class A>
