@@ -78,7 +78,7 @@ void add_draw_options(CLI::App& verb, DrawOptions& options);
 // Lights a scene without lights, by the studio or a default light, and says so on stderr.
 void light_if_dark(Scene& scene, const DrawOptions& options);
 
-// What light_if_dark says.
+// The line that light_if_dark prints.
 [[nodiscard]] std::string assumed_light(const Scene& scene, const DrawOptions& options);
 
 // load_whole, with the options' lights, and light_if_dark.

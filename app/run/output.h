@@ -81,7 +81,7 @@ void check_outputs(const OutputOptions& options, const FrameRange& range);
 [[nodiscard]] std::vector<NamedFile> output_files(const OutputOptions& options, const FrameRange& range,
                                                   const NamedFile& other);
 
-// Whether an EXR with the shadow mask, or with motion, is written.
+// Whether an EXR is written that has the shadow mask, or the layer motion.
 [[nodiscard]] bool keeps_mask(const OutputOptions& options);
 [[nodiscard]] bool keeps_motion(const OutputOptions& options);
 

@@ -14,8 +14,8 @@ class BudgetControl {
   BudgetControl(Engine& engine, Model& model, Screen& screen, FrameLoop& frames, const BudgetOptions& options)
       : engine_(engine), model_(model), screen_(screen), frames_(frames), options_(options) {}
 
-  // What the frames are drawn by where `exact` would be drawn without a budget: cheaper settings while
-  // something moves, the exact ones once camera and scene stand still.
+  // The settings for the next frame: cheaper ones than `exact` while something moves, `exact` once camera and
+  // scene stand still.
   [[nodiscard]] Settings settings_for(const Settings& exact);
   void note(double frame_ms);
   [[nodiscard]] bool is_measuring() const { return trial_ != nullptr; }
@@ -36,7 +36,7 @@ class BudgetControl {
   Settings exact_;                                 // what trial_ and controller_ make cheaper
   std::unique_ptr<BudgetTrial> trial_;             // null: nothing is being measured
   std::unique_ptr<QualityController> controller_;  // null: there is no budget, or it is not measured yet
-  // What was seen when something moved last, and when.
+  // Scene, camera and size at the last movement, and its time.
   Scene scene_;
   Camera camera_;
   glm::ivec2 size_{0};

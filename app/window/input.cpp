@@ -73,7 +73,7 @@ void Input::handle_scroll(const gl::ScrollEvent& event) {
       glm::clamp(fixed - share / zoom.factor, glm::vec2(0.0f), glm::vec2(1.0f - 1.0f / zoom.factor));
 }
 
-// Whether edits are dropped. Other keys do nothing until that is answered.
+// Keys that answer the question about unsaved edits. Until then other keys do nothing.
 void Input::answer(const gl::KeyEvent& event) {
   if (!event.down || event.repeated) return;
   if (event.key == gl::kKeyEnter) model_.requested.push_back(Action::save_and_leave);

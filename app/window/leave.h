@@ -16,7 +16,7 @@ class Leave {
   Leave(gl::Window& window, Model& model, SceneSource& source, std::string first, std::function<void()> save)
       : window_(window), model_(model), source_(source), save_(std::move(save)), tried_(std::move(first)) {}
 
-  // Whether the display asks to close the window, and no edit would be lost.
+  // True if the user closes the window and there are no unsaved edits.
   [[nodiscard]] bool is_closed();
   void request(const Leaving& to);
   void answer(Action action);

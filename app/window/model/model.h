@@ -41,8 +41,8 @@ struct PlaybackState {
   std::shared_ptr<const Animation> all;  // of the file. Null: none
 };
 
-// What the panel Scene shows of the file, and which of its parts are hidden: nodes, or materials where one
-// node has all triangles.
+// The panel Scene: facts about the file, and its parts, which can be hidden. Parts are nodes, or materials if
+// one node has all triangles.
 struct SceneParts {
   std::uintmax_t bytes = 0;  // of the file
   std::vector<std::string> extensions, warnings;
@@ -53,7 +53,7 @@ struct SceneParts {
   [[nodiscard]] bool hides() const { return std::ranges::find(hidden, true) != hidden.end(); }
 };
 
-// Where the window writes files.
+// Folder and name of the files that the window writes.
 struct SavePlace {
   std::string folder;  // empty: the working directory
   std::string name;    // without extension. Empty: the scene's, with the first free number

@@ -7,30 +7,6 @@
 namespace pinocchio::PINOCCHIO_LANES {
 namespace {
 
-struct EnvironmentTexels {
-  const glm::vec3* pixels;
-  std::uint32_t width;
-  Mask lanes;  // others read nothing
-};
-
-inline Vec environment_texel(const EnvironmentTexels& texels, Float column, Float row) {
-  const Int first = (to_int(row) * Int(texels.width) + to_int(column)) * Int(3);
-  const auto channel = [&](std::uint32_t c) {
-    return from_bits(gather(texels.pixels, first + Int(c), texels.lanes));
-  };
-  return {channel(0), channel(1), channel(2)};
-}
-
-using ivec2 = glm::ivec2;
-
-#define min(a, b) min(b, a)
-#define max(a, b) max(b, a)
-#define SHARED [[nodiscard, maybe_unused, gnu::always_inline]] inline
-#include "shaders/shared/environment.glsl"
-#undef SHARED
-#undef min
-#undef max
-
 inline EnvironmentParams params_of(const EnvironmentLight& e, Mask lanes) {
   return {{e.pixels, static_cast<std::uint32_t>(e.size.x), lanes}, e.size, e.turn, e.strength};
 }

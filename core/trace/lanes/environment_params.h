@@ -20,8 +20,8 @@ struct EnvironmentLight {
         strength(scene.environment_strength),
         shares(scene.environment->shares()),
         shines(scene.environment_strength > 0.0f && !scene.environment->is_black()),
-        cos_turn(std::cos(glm::radians(scene.environment_rotation_deg))),
-        sin_turn(std::sin(glm::radians(scene.environment_rotation_deg))) {}
+        cos_turn(static_cast<float>(std::cos(glm::radians(double{scene.environment_rotation_deg})))),
+        sin_turn(static_cast<float>(std::sin(glm::radians(double{scene.environment_rotation_deg})))) {}
 
   const glm::vec3* pixels;
   glm::ivec2 size;

@@ -9,27 +9,16 @@
 namespace pinocchio::PINOCCHIO_LANES {
 namespace {
 
-struct SkyIrradiance {
-  const glm::vec3* c;
-};
-
 // A direction about +Z by the cosine: of `rays` of a sample, which are evenly spread and turned from sample
 // to sample.
-inline glm::vec3 sky_ray(int k, int rays, std::uint32_t sample) {
+inline Vec sky_ray(int k, int rays, std::uint32_t sample) {
   constexpr float kGolden = 0.618034f;
   const float turn = kGolden * static_cast<float>(k) + 0.754878f * static_cast<float>(sample & 0xffffu);
   const float square = (static_cast<float>(k) + 0.5f) / static_cast<float>(rays);
-  const float angle = 6.2831853f * (turn - std::floor(turn));
-  return {std::sqrt(square) * std::cos(angle), std::sqrt(square) * std::sin(angle), std::sqrt(1.0f - square)};
+  const Angle angle = angle_of(Float(turn) - floor(Float(turn)));
+  const Float across = sqrt(Float(square));
+  return {across * angle.cosine, across * angle.sine, sqrt(Float(1.0f - square))};
 }
-
-#define min(a, b) min(b, a)
-#define max(a, b) max(b, a)
-#define SHARED [[nodiscard, maybe_unused, gnu::always_inline]] inline
-#include "shaders/shared/prefiltered.glsl"
-#undef SHARED
-#undef min
-#undef max
 
 // The light that lobes of that alpha about `axis` see: between two levels of the sky.
 [[gnu::noinline]] Vec light_of_lobe(const EnvironmentLight& e, const Vec& axis, Float alpha, Mask lanes) {
@@ -128,8 +117,7 @@ struct SkyLight {
   const int rays = bounce.options->sky_occlusion;
   const Vec part = throughput * sky.matt * Float(1.0f / static_cast<float>(rays));
   for (int k = 0; k < rays; ++k) {
-    const glm::vec3 ray = sky_ray(k, rays, bounce.options->sampling.index);
-    fire(around(s.n_shading, Vec(ray)), part);
+    fire(around(s.n_shading, sky_ray(k, rays, bounce.options->sampling.index)), part);
   }
 }
 

@@ -104,6 +104,26 @@ using Sampling = shared::Sampling;
 using shared::kLightDirectional, shared::kLightRectangle, shared::kLightSpot;
 using shared::kSequenceBlueNoise, shared::kSequenceSobol;
 
+using ivec2 = glm::ivec2;
+
+struct EnvironmentTexels {
+  const glm::vec3* pixels;
+  std::uint32_t width;
+  Mask lanes;  // others read nothing
+};
+
+inline Vec environment_texel(const EnvironmentTexels& texels, Float column, Float row) {
+  const Int first = (to_int(row) * Int(texels.width) + to_int(column)) * Int(3);
+  const auto channel = [&](std::uint32_t c) {
+    return from_bits(gather(texels.pixels, first + Int(c), texels.lanes));
+  };
+  return {channel(0), channel(1), channel(2)};
+}
+
+struct SkyIrradiance {
+  const glm::vec3* c;
+};
+
 // As GLM has them: the first operand where either is NaN.
 #define min(a, b) min(b, a)
 #define max(a, b) max(b, a)
@@ -115,6 +135,8 @@ using shared::kSequenceBlueNoise, shared::kSequenceSobol;
 #include "shaders/shared/sized_light.glsl"
 #include "shaders/shared/surface.glsl"
 #include "shaders/shared/terminator.glsl"
+#include "shaders/shared/environment.glsl"
+#include "shaders/shared/prefiltered.glsl"
 // clang-format on
 #undef SHARED
 #undef min
