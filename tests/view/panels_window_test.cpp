@@ -234,8 +234,12 @@ TEST_F(PanelsTest, TooltipsDoNotLeakThroughPanels) {
   bool told = false;
   for (int y = 440; y < 530 && !told; y += 8) {
     xdo(at(296, y));
-    settle("hovered.png");
-    told = different_in(box, "quiet.png", "hovered.png") > 500;
+    told = becomes(
+        [&] {
+          grab("hovered.png");
+          return different_in(box, "quiet.png", "hovered.png") > 500;
+        },
+        2.0);
   }
   EXPECT_TRUE(told);
   expect_clean_close();
