@@ -16,25 +16,30 @@
 namespace pinocchio {
 namespace {
 
-#define PINOCCHIO_NAME(name, lanes, feature) #name,
-constexpr std::array<std::string_view, kIsaNames.size()> kListedNames{PINOCCHIO_ISAS(PINOCCHIO_NAME)};
-#undef PINOCCHIO_NAME
-static_assert(kListedNames == kIsaNames, "simd/isas.h and Isa list the same instruction sets");
-
 struct IsaEntry {
+  Isa isa;
   bool (*is_supported)();
   const Kernels& kernels;
   const LaneSteps& steps;
 };
 
-// In Isa's order, narrowest first.
+// Of this architecture, narrowest first.
 #define PINOCCHIO_ENTRY(name, lanes, feature) \
-  {[] { return __builtin_cpu_supports(feature) != 0; }, name::kKernels, name::kSteps},
+  {Isa::name, [] { return PINOCCHIO_PROCESSOR_HAS(feature); }, name::kKernels, name::kSteps},
 const IsaEntry kIsas[]{PINOCCHIO_ISAS(PINOCCHIO_ENTRY)};
 #undef PINOCCHIO_ENTRY
 
+const IsaEntry* find_entry(Isa isa) {
+  const auto found =
+      std::find_if(std::begin(kIsas), std::end(kIsas), [isa](const IsaEntry& e) { return e.isa == isa; });
+  return found == std::end(kIsas) ? nullptr : found;
+}
+
+// `isa` is supported.
 const IsaEntry& entry_of(Isa isa) {
-  return kIsas[static_cast<std::size_t>(isa)];
+  const IsaEntry* const entry = find_entry(isa);
+  assert(entry);
+  return *entry;
 }
 
 const Kernel& kernel_of(Isa isa, TriangleTest test) {
@@ -83,13 +88,14 @@ const LaneSteps& lane_steps(Isa isa) {
 }
 
 bool isa_supported(Isa isa) {
-  return entry_of(isa).is_supported();
+  const IsaEntry* const entry = find_entry(isa);
+  return entry && entry->is_supported();
 }
 
 std::vector<Isa> supported_isas() {
   std::vector<Isa> found;
-  for (const std::string_view name : kIsaNames)
-    if (const Isa isa = *parse_name<Isa>(kIsaNames, name); isa_supported(isa)) found.push_back(isa);
+  for (const IsaEntry& entry : kIsas)
+    if (entry.is_supported()) found.push_back(entry.isa);
   return found;
 }
 

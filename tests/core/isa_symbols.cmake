@@ -1,4 +1,4 @@
-# Looks at the kernels in the archive ARCHIVE with NM: a function that a kernel's file shares with others
+# Looks at the kernels in the archive ARCHIVE, compiled for PROCESSOR, with NM: a function that a kernel's file shares with others
 # (weak, or global outside its own namespace) may be the one the linker keeps, and then every processor
 # would run, say, AVX2 code. Run as a script by ctest.
 if(NOT NM OR NM MATCHES "NOTFOUND")
@@ -10,7 +10,7 @@ execute_process(COMMAND ${NM} -C -A --defined-only ${ARCHIVE} OUTPUT_VARIABLE li
 string(REPLACE ";" "," lines "${lines}")
 string(REPLACE "\n" ";" lines "${lines}")
 
-file(READ ${CMAKE_CURRENT_LIST_DIR}/../../core/simd/isas.h isas)
+file(READ ${CMAKE_CURRENT_LIST_DIR}/../../core/simd/isas_${PROCESSOR}.h isas)
 string(REGEX MATCHALL "ROW\\([a-z0-9]+, [0-9]+, \"" isas "${isas}")
 list(LENGTH isas listed)
 set(kernels 0)
@@ -31,6 +31,6 @@ endforeach()
 if(leaks)
   message(FATAL_ERROR "compiled for one instruction set and seen by all:${leaks}")
 elseif(listed EQUAL 0 OR NOT kernels EQUAL listed)
-  message(FATAL_ERROR "found ${kernels} kernels in ${ARCHIVE}, not the ${listed} of core/simd/isas.h")
+  message(FATAL_ERROR "found ${kernels} kernels in ${ARCHIVE}, not the ${listed} of core/simd/isas_${PROCESSOR}.h")
 endif()
 message("${kernels} kernels, no function of theirs is seen outside")

@@ -7,8 +7,8 @@
 
 namespace pinocchio {
 
-// A triangle in a node under construction: `lo` and `hi` bound the part of it inside the node. Two SSE
-// registers. Without initial values: arrays cost nothing before they are written.
+// A triangle in a node under construction: `lo` and `hi` bound the part of it inside the node. Two
+// registers of four. Without initial values: arrays cost nothing before they are written.
 struct alignas(16) BuildReference {
   float lo[3];
   std::uint32_t triangle;

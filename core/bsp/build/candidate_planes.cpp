@@ -1,7 +1,5 @@
 #include "core/bsp/build/candidate_planes.h"
 
-#include <emmintrin.h>
-
 #include <algorithm>
 
 namespace pinocchio {
@@ -10,67 +8,60 @@ namespace {
 // Above this many bounds sorting is faster than comparing each with each.
 constexpr std::size_t kCompareLimit = 96;
 
-__m128 select(__m128 mask, __m128 yes, __m128 no) {
-  return _mm_or_ps(_mm_and_ps(mask, yes), _mm_andnot_ps(mask, no));
-}
-
 // The best of the planes that each of four lanes has seen.
 class BestOfLanes {
  public:
-  BestOfLanes(const SahCost& cost, float to_beat) : cost_(cost), least_(_mm_set1_ps(to_beat)) {}
+  BestOfLanes(const SahCost& cost, float to_beat) : cost_(cost), least_(all_of(to_beat)) {}
 
-  void consider(__m128 position, __m128 low, __m128 flat, __m128 high) {
-    const __m128 with_low = cost_(position, _mm_add_ps(low, flat), high);
-    const __m128 with_high = cost_(position, low, _mm_add_ps(high, flat));
-    const __m128 cost = _mm_min_ps(with_low, with_high);
-    const __m128 better = _mm_cmplt_ps(cost, least_);
-    least_ = select(better, cost, least_);
-    position_ = select(better, position, position_);
-    goes_high_ = select(better, _mm_cmplt_ps(with_high, with_low), goes_high_);
+  void consider(Four position, Four low, Four flat, Four high) {
+    const Four with_low = cost_(position, low + flat, high);
+    const Four with_high = cost_(position, low, high + flat);
+    const Four cost = min(with_low, with_high);
+    const FourInts better = cost < least_;
+    least_ = better ? cost : least_;
+    position_ = better ? position : position_;
+    goes_high_ = better ? with_high < with_low : goes_high_;
   }
 
   void put(int axis, SplitPlane& best) const {
-    alignas(16) float cost[4], position[4];
-    _mm_store_ps(cost, least_);
-    _mm_store_ps(position, position_);
-    const int goes_high = _mm_movemask_ps(goes_high_);
     for (int i = 0; i < 4; ++i)
-      if (cost[i] < best.cost) best = {axis, position[i], !(goes_high >> i & 1), cost[i]};
+      if (least_[i] < best.cost) best = {axis, position_[i], goes_high_[i] == 0, least_[i]};
   }
 
  private:
   const SahCost& cost_;
-  __m128 least_, position_ = _mm_setzero_ps(), goes_high_ = _mm_setzero_ps();
+  Four least_, position_{};
+  FourInts goes_high_{};
 };
 
 // How many of `bounds` are below (or above, or at) each of eight positions.
 struct Eight {
-  __m128i first = _mm_setzero_si128(), second = _mm_setzero_si128();
+  FourInts first{}, second{};
 };
 template <class Compare>
-Eight count(std::span<const float> bounds, __m128 first, __m128 second, Compare compare) {
+Eight count(std::span<const float> bounds, Four first, Four second, Compare compare) {
   Eight n;
   for (const float x : bounds) {
-    const __m128 bound = _mm_set1_ps(x);
-    n.first = _mm_sub_epi32(n.first, _mm_castps_si128(compare(bound, first)));
-    n.second = _mm_sub_epi32(n.second, _mm_castps_si128(compare(bound, second)));
+    const Four bound = all_of(x);
+    n.first -= compare(bound, first);
+    n.second -= compare(bound, second);
   }
   return n;
 }
 
 // Compares each plane with each bound: with few of them this is faster than sorting.
 void compare_all(const CandidatePlanes& p, const float* candidates, std::size_t n, BestOfLanes& best) {
-  const __m128 before = _mm_set1_ps(p.before), behind = _mm_set1_ps(p.behind);
-  const auto sum = [](__m128 base, __m128i count) { return _mm_add_ps(base, _mm_cvtepi32_ps(count)); };
-  const __m128 zero = _mm_setzero_ps();
+  const Four before = all_of(p.before), behind = all_of(p.behind);
   for (std::size_t i = 0; i < n; i += 8) {
-    const __m128 first = _mm_loadu_ps(candidates + i), second = _mm_loadu_ps(candidates + i + 4);
-    const Eight low = count(p.lows, first, second, [](__m128 x, __m128 at) { return _mm_cmplt_ps(x, at); });
-    const Eight high = count(p.highs, first, second, [](__m128 x, __m128 at) { return _mm_cmpgt_ps(x, at); });
-    const Eight flat = count(p.flats, first, second, [](__m128 x, __m128 at) { return _mm_cmpeq_ps(x, at); });
-    best.consider(first, sum(before, low.first), sum(zero, flat.first), sum(behind, high.first));
+    const Four first = load_unaligned(candidates + i), second = load_unaligned(candidates + i + 4);
+    const Eight low = count(p.lows, first, second, [](Four x, Four at) { return x < at; });
+    const Eight high = count(p.highs, first, second, [](Four x, Four at) { return x > at; });
+    const Eight flat = count(p.flats, first, second, [](Four x, Four at) { return x == at; });
+    best.consider(first, before + to_floats(low.first), to_floats(flat.first),
+                  behind + to_floats(high.first));
     if (i + 4 < n)
-      best.consider(second, sum(before, low.second), sum(zero, flat.second), sum(behind, high.second));
+      best.consider(second, before + to_floats(low.second), to_floats(flat.second),
+                    behind + to_floats(high.second));
   }
 }
 
@@ -94,7 +85,7 @@ void sweep(const CandidatePlanes& p, float* candidates, BestOfLanes& best) {
       counts[1][lane] = flat_end - flat;
       counts[2][lane] = p.behind + (p.highs.size() - ended);
     }
-    best.consider(_mm_loadu_ps(four), _mm_load_ps(counts[0]), _mm_load_ps(counts[1]), _mm_load_ps(counts[2]));
+    best.consider(load_unaligned(four), load_four(counts[0]), load_four(counts[1]), load_four(counts[2]));
   }
 }
 

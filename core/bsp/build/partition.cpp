@@ -1,8 +1,7 @@
 #include "core/bsp/build/partition.h"
 
-#include <emmintrin.h>
-
 #include "core/bsp/build/clip.h"
+#include "core/simd/four.h"
 
 namespace pinocchio {
 namespace {
@@ -15,9 +14,9 @@ Bounds within(Bounds part, const BuildReference& r) {
   return part;
 }
 
-void put(__m128 lo, __m128 hi, BuildReference& to) {
-  _mm_store_ps(to.lo, lo);
-  _mm_store_ps(to.hi, hi);
+void put(Four lo, Four hi, BuildReference& to) {
+  store_four(to.lo, lo);
+  store_four(to.hi, hi);
 }
 
 }  // namespace
@@ -37,7 +36,7 @@ Halves partition(const BuildMesh& mesh, std::span<const BuildReference> referenc
   Halves n;
   for (const BuildReference& at : references) {
     const ChildOverlap overlap(at, plane);
-    const __m128 lo = _mm_load_ps(at.lo), hi = _mm_load_ps(at.hi);
+    const Four lo = load_four(at.lo), hi = load_four(at.hi);
     put(lo, hi, low[n.low]);
     put(lo, hi, high[n.high]);  // may overwrite `at`
     if (overlap.low & overlap.high) {

@@ -41,13 +41,13 @@ class SlabCosts {
     high_[n] = high;
     position_[n] = slabs.edge(n, axis);
     for (int i = 0; i < n; i += 4) {
-      const __m128 low4 = _mm_load_ps(low_ + i), behind = _mm_loadu_ps(high_ + i + 1),
-                   position = _mm_load_ps(position_ + i);
-      _mm_store_ps(edge_cost_ + i, cost(position, low4, _mm_load_ps(high_ + i)));
+      const Four low4 = load_four(low_ + i), behind = load_unaligned(high_ + i + 1),
+                 position = load_four(position_ + i);
+      store_four(edge_cost_ + i, cost(position, low4, load_four(high_ + i)));
       // Any plane in slab i has no fewer before it than begin before the slab, no fewer behind it than end
       // behind the slab, and the cost of such a split is linear in between.
-      _mm_store_ps(least_ + i, _mm_min_ps(cost(position, low4, behind),
-                                          cost(_mm_loadu_ps(position_ + i + 1), low4, behind)));
+      store_four(least_ + i,
+                 min(cost(position, low4, behind), cost(load_unaligned(position_ + i + 1), low4, behind)));
     }
   }
 
@@ -137,7 +137,7 @@ void gather(std::span<const BuildReference> references, const Bounds& node, int 
             SplitScratch& s) {
   const float lo = node.lo[axis], hi = node.hi[axis];
   for (std::size_t i = 0; i < references.size(); ++i) {
-    const std::size_t first = s.ends[i].first[axis], last = s.ends[i].last[axis];
+    const std::size_t first = s.ends[i].on[axis].first, last = s.ends[i].on[axis].last;
     if (!(open.is_open[first] | open.is_open[last])) continue;
     const float a = references[i].lo[axis], b = references[i].hi[axis];
     if (open.is_open[first] && a > lo && a < hi) {

@@ -1,17 +1,19 @@
 #include "core/bsp/build/slabs.h"
 
-#include <emmintrin.h>
-
 #include <algorithm>
 #include <cassert>
+
+#include "core/simd/four.h"
 
 namespace pinocchio {
 namespace {
 
-// Slabs of a bound's three coordinates. `last` is a whole number; max returns its second operand for NaN.
-__m128i slabs_of(__m128 bound, __m128 lo, __m128 scale, __m128 last) {
-  const __m128 x = _mm_mul_ps(_mm_sub_ps(bound, lo), scale);
-  return _mm_cvttps_epi32(_mm_min_ps(_mm_max_ps(x, _mm_setzero_ps()), last));
+using Words [[gnu::vector_size(16)]] = std::uint16_t;
+using Bytes [[gnu::vector_size(8)]] = std::uint8_t;
+
+// Slabs of a bound's three coordinates. `last` is a whole number; NaN is in slab 0.
+FourInts slabs_of(Four bound, Four lo, Four scale, Four last) {
+  return to_ints(min(max((bound - lo) * scale, Four{}), last));
 }
 
 }  // namespace
@@ -31,27 +33,29 @@ Slabs::Slabs(const Bounds& node, int count) : count_(count) {
 }
 
 void Slabs::add(std::span<const BuildReference> references, Ends* memory) {
-  const __m128 lo = _mm_load_ps(lo_), hi = _mm_load_ps(hi_), scale = _mm_load_ps(scale_);
-  const __m128 last = _mm_set1_ps(count_ - 1);
+  const Four lo = load_four(lo_), hi = load_four(hi_), scale = load_four(scale_);
+  const Four last = all_of(count_ - 1);
   // Clears the fourth lane, which holds no float: arithmetic on its bits would be slow.
-  const __m128 xyz = _mm_castsi128_ps(_mm_set_epi32(0, -1, -1, -1));
-  __m128i at_lo = _mm_load_si128(reinterpret_cast<const __m128i*>(at_lo_));
-  __m128i at_hi = _mm_load_si128(reinterpret_cast<const __m128i*>(at_hi_));
+  const FourInts xyz{-1, -1, -1, 0};
+  FourInts at_lo{}, at_hi{};
   for (const BuildReference& r : references) {
-    const __m128 r_lo = _mm_and_ps(xyz, _mm_load_ps(r.lo)), r_hi = _mm_and_ps(xyz, _mm_load_ps(r.hi));
-    at_lo = _mm_sub_epi32(at_lo, _mm_castps_si128(_mm_cmple_ps(r_lo, lo)));
-    at_hi = _mm_sub_epi32(at_hi, _mm_castps_si128(_mm_cmpge_ps(r_hi, hi)));
-    const __m128i ends = _mm_packs_epi32(slabs_of(r_lo, lo, scale, last), slabs_of(r_hi, lo, scale, last));
-    ++starts_[0][_mm_extract_epi16(ends, 0)];
-    ++starts_[1][_mm_extract_epi16(ends, 1)];
-    ++starts_[2][_mm_extract_epi16(ends, 2)];
-    ++ends_[0][_mm_extract_epi16(ends, 4)];
-    ++ends_[1][_mm_extract_epi16(ends, 5)];
-    ++ends_[2][_mm_extract_epi16(ends, 6)];
-    if (memory) _mm_storel_epi64(reinterpret_cast<__m128i*>(memory++), _mm_packus_epi16(ends, ends));
+    const Four r_lo = Four(xyz & FourInts(load_four(r.lo))), r_hi = Four(xyz & FourInts(load_four(r.hi)));
+    at_lo -= r_lo <= lo;
+    at_hi -= r_hi >= hi;
+    // The first and the last slab on each axis, side by side.
+    const Words ends = Words(slabs_of(r_lo, lo, scale, last) | slabs_of(r_hi, lo, scale, last) << 16);
+    ++starts_[0][ends[0]];
+    ++ends_[0][ends[1]];
+    ++starts_[1][ends[2]];
+    ++ends_[1][ends[3]];
+    ++starts_[2][ends[4]];
+    ++ends_[2][ends[5]];
+    if (memory) *memory++ = __builtin_bit_cast(Ends, __builtin_convertvector(ends, Bytes));
   }
-  _mm_store_si128(reinterpret_cast<__m128i*>(at_lo_), at_lo);
-  _mm_store_si128(reinterpret_cast<__m128i*>(at_hi_), at_hi);
+  for (int axis = 0; axis < 3; ++axis) {
+    at_lo_[axis] += at_lo[axis];
+    at_hi_[axis] += at_hi[axis];
+  }
 }
 
 void Slabs::add(const Slabs& other) {

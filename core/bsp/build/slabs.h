@@ -20,7 +20,9 @@ class Slabs {
 
   // `memory`: receives for each reference the slabs in which it begins and ends; null: not wanted.
   struct Ends {
-    std::uint8_t first[4], last[4];  // by axis; the fourth is unused
+    struct {
+      std::uint8_t first, last;
+    } on[4];  // by axis; the fourth is unused
   };
   void add(std::span<const BuildReference> references, Ends* memory = nullptr);
   void add(const Slabs& other);  // of the same node and count
@@ -48,8 +50,8 @@ class Slabs {
   alignas(16) float hi_[4];
   alignas(16) float scale_[4];
   float width_[3];
-  alignas(16) std::uint32_t at_lo_[4] = {};
-  alignas(16) std::uint32_t at_hi_[4] = {};
+  std::uint32_t at_lo_[3] = {};
+  std::uint32_t at_hi_[3] = {};
   Counts starts_, ends_;
 };
 

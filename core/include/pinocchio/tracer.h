@@ -24,9 +24,10 @@ struct RayColumns;
 struct SceneTrees;
 
 // The instruction set, which sets the width of ray packets.
-enum class Isa { scalar, sse4, avx2, avx512 };
+// The same names on every architecture: x86-64 has the first four, 64-bit Arm scalar and neon.
+enum class Isa { scalar, sse4, avx2, avx512, neon };
 
-inline constexpr std::array<std::string_view, 4> kIsaNames{"scalar", "sse4", "avx2", "avx512"};
+inline constexpr std::array<std::string_view, 5> kIsaNames{"scalar", "sse4", "avx2", "avx512", "neon"};
 [[nodiscard]] constexpr std::string_view isa_name(Isa isa) {
   return name_of(kIsaNames, isa);
 }

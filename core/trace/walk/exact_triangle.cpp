@@ -8,11 +8,12 @@ namespace pinocchio {
 namespace {
 
 // Twice the signed area of the triangle that the edge from p to q spans with the ray, the origin here.
-// Rounding never flips its sign but can make it zero; then it is computed again with more digits.
+// Rounding never flips its sign but can make it zero: then both products are the same number, and what
+// rounding took from each decides.
 double edge_function(const glm::dvec3& p, const glm::dvec3& q) {
-  const double area = p.x * q.y - p.y * q.x;
-  if (area != 0.0) return area;
-  return static_cast<double>(static_cast<long double>(p.x) * q.y - static_cast<long double>(p.y) * q.x);
+  const double low = p.x * q.y, high = p.y * q.x;
+  if (low != high) return low - high;
+  return std::fma(p.x, q.y, -low) - std::fma(p.y, q.x, -high);
 }
 
 }  // namespace

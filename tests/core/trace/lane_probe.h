@@ -2,6 +2,7 @@
 // are.
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 
@@ -15,6 +16,8 @@ namespace pinocchio {
 
 // `count`: a multiple of 16.
 struct LaneProbe {
+  Isa isa;
+  unsigned width;  // lanes
   // The points of `dimension` of the pixels (x, y).
   void (*samples)(const shared::Sampling& sampling, const std::uint32_t* x, const std::uint32_t* y,
                   std::uint32_t dimension, float* u, float* v, std::size_t count);
@@ -44,7 +47,8 @@ PINOCCHIO_ISAS(PINOCCHIO_DECLARE_PROBE)
 #define PINOCCHIO_PROBE(name, lanes, feature) &name::kProbe,
   const LaneProbe* const probes[] = {PINOCCHIO_ISAS(PINOCCHIO_PROBE)};
 #undef PINOCCHIO_PROBE
-  return *probes[static_cast<std::size_t>(isa)];
+  return **std::find_if(std::begin(probes), std::end(probes),
+                        [isa](const LaneProbe* p) { return p->isa == isa; });
 }
 
 }  // namespace pinocchio

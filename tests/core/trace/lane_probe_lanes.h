@@ -58,6 +58,6 @@ void angles(const float* revolutions, float* cosine, float* sine, std::size_t co
 
 }  // namespace
 
-const LaneProbe kProbe{samples, powers, sample_texture, environment_lights, environment_samples, angles};
+const LaneProbe kProbe{Isa::PINOCCHIO_LANES, kWidth, samples, powers, sample_texture, environment_lights, environment_samples, angles};
 
 }  // namespace pinocchio::PINOCCHIO_LANES

@@ -67,7 +67,7 @@ TEST(LaneTexture, SameBitsAsOneByOneAtEveryWidth) {
           uses.push_back({.texture = texture, .wrap_u = wrap_u, .wrap_v = wrap_v, .nearest = nearest});
   for (const Isa isa : supported_isas()) {
     const SampleTexture sample = lane_probe(isa).sample_texture;
-    const unsigned width = kLaneCounts[static_cast<std::size_t>(isa)];
+    const unsigned width = lane_probe(isa).width;
     for (const TextureUse& use : uses)
       for (int round = 0; round < 20; ++round) {
         const bool is_color = round % 2 == 0;

@@ -1,0 +1,21 @@
+# Compiles for 64-bit Arm Linux on another machine, with Debian's cross compiler and the packages of a Debian for arm64
+# that stands in PINOCCHIO_ARM64_ROOT (scripts/arm64-root makes one). Tests run under QEMU.
+set(CMAKE_SYSTEM_NAME Linux)
+set(CMAKE_SYSTEM_PROCESSOR aarch64)
+set(PINOCCHIO_ARM64_ROOT "$ENV{PINOCCHIO_ARM64_ROOT}" CACHE PATH "A Debian for arm64, unpacked")
+if(NOT EXISTS "${PINOCCHIO_ARM64_ROOT}/usr/include")
+  message(FATAL_ERROR "PINOCCHIO_ARM64_ROOT (\"${PINOCCHIO_ARM64_ROOT}\") holds no Debian for arm64; scripts/arm64-root makes one")
+endif()
+list(APPEND CMAKE_TRY_COMPILE_PLATFORM_VARIABLES PINOCCHIO_ARM64_ROOT)
+
+set(CMAKE_C_COMPILER aarch64-linux-gnu-gcc)
+set(CMAKE_CXX_COMPILER aarch64-linux-gnu-g++)
+set(CMAKE_SYSROOT ${PINOCCHIO_ARM64_ROOT})
+set(CMAKE_LIBRARY_ARCHITECTURE aarch64-linux-gnu)
+set(CMAKE_FIND_ROOT_PATH_MODE_PROGRAM NEVER)
+set(CMAKE_FIND_ROOT_PATH_MODE_LIBRARY ONLY)
+set(CMAKE_FIND_ROOT_PATH_MODE_INCLUDE ONLY)
+set(CMAKE_FIND_ROOT_PATH_MODE_PACKAGE ONLY)
+set(ENV{PKG_CONFIG_SYSROOT_DIR} ${PINOCCHIO_ARM64_ROOT})
+set(ENV{PKG_CONFIG_LIBDIR} ${PINOCCHIO_ARM64_ROOT}/usr/lib/aarch64-linux-gnu/pkgconfig:${PINOCCHIO_ARM64_ROOT}/usr/share/pkgconfig)
+set(CMAKE_CROSSCOMPILING_EMULATOR qemu-aarch64-static -L ${PINOCCHIO_ARM64_ROOT})

@@ -1,0 +1,42 @@
+// Four floats or integers in a register that every processor of the architecture has: what the tree builder
+// computes with. Arithmetic and comparisons are the compiler's, `m ? a : b` selects by lane. The kernels'
+// lanes are those of simd/lanes.h.
+#pragma once
+
+#include <cstdint>
+
+namespace pinocchio {
+
+using Four [[gnu::vector_size(16), gnu::may_alias]] = float;
+using FourInts [[gnu::vector_size(16), gnu::may_alias]] = std::int32_t;  // masks: -1 or 0
+
+inline Four all_of(float x) {
+  return x - Four{};
+}
+// Aligned to 16 bytes.
+inline Four load_four(const float* p) {
+  return *reinterpret_cast<const Four*>(p);
+}
+inline void store_four(float* p, Four v) {
+  *reinterpret_cast<Four*>(p) = v;
+}
+inline Four load_unaligned(const float* p) {
+  Four v;
+  __builtin_memcpy(&v, p, sizeof v);
+  return v;
+}
+// The second operand where either is NaN.
+inline Four min(Four a, Four b) {
+  return a < b ? a : b;
+}
+inline Four max(Four a, Four b) {
+  return a > b ? a : b;
+}
+inline Four to_floats(FourInts v) {
+  return __builtin_convertvector(v, Four);
+}
+inline FourInts to_ints(Four v) {  // towards zero; only of what fits
+  return __builtin_convertvector(v, FourInts);
+}
+
+}  // namespace pinocchio
