@@ -1,6 +1,6 @@
 # What `cmake --install` puts into a prefix, by component: `library` (headers, archives, CMake's package,
 # examples), `program` (with scenes and docs). The libraries of the system that the program needs (`bundled`) go into the
-# archive of `cpack -G TGZ` alone, which runs where it is unpacked, on any x86-64 Linux as new as the one that
+# archive of `cpack -G TGZ` alone, which runs where it is unpacked, on any Linux of that processor as new as the one that
 # built it; libc and OpenGL stay outside.
 include(GNUInstallDirs)
 include(CMakePackageConfigHelpers)
@@ -41,7 +41,7 @@ install(DIRECTORY docs DESTINATION share/doc/pinocchio COMPONENT program)
 find_package(Python3 REQUIRED COMPONENTS Interpreter)
 set(help_files ${PROJECT_BINARY_DIR}/help/pinocchio.1 ${PROJECT_BINARY_DIR}/help/pinocchio.bash ${PROJECT_BINARY_DIR}/help/_pinocchio)
 add_custom_command(OUTPUT ${help_files}
-  COMMAND Python3::Interpreter ${PROJECT_SOURCE_DIR}/cmake/from_help.py $<TARGET_FILE:pinocchio> ${PROJECT_BINARY_DIR}/help
+  COMMAND Python3::Interpreter ${PROJECT_SOURCE_DIR}/cmake/from_help.py ${PINOCCHIO_RUN} ${PROJECT_BINARY_DIR}/help
   DEPENDS pinocchio ${PROJECT_SOURCE_DIR}/cmake/from_help.py VERBATIM)
 add_custom_target(help_files ALL DEPENDS ${help_files})
 install(FILES ${PROJECT_BINARY_DIR}/help/pinocchio.1 DESTINATION share/man/man1 COMPONENT program)
@@ -58,7 +58,7 @@ set_target_properties(pinocchio PROPERTIES INSTALL_RPATH "$ORIGIN/../lib")
 target_link_options(pinocchio PRIVATE -Wl,--disable-new-dtags)
 
 set(CPACK_GENERATOR TGZ DEB)
-set(CPACK_PACKAGE_FILE_NAME pinocchio-${PROJECT_VERSION}-linux-x86_64)
+set(CPACK_PACKAGE_FILE_NAME pinocchio-${PROJECT_VERSION}-linux-${CMAKE_SYSTEM_PROCESSOR})
 set(CPACK_ARCHIVE_COMPONENT_INSTALL ON)
 set(CPACK_COMPONENTS_ALL program bundled)
 set(CPACK_COMPONENTS_GROUPING ALL_COMPONENTS_IN_ONE)
@@ -72,6 +72,9 @@ set(CPACK_PACKAGE_DESCRIPTION_SUMMARY "Hybrid renderer: a CPU ray tracer and Ope
 set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
 set(CPACK_DEBIAN_PACKAGE_SECTION graphics)
 set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON)
+if(CMAKE_CROSSCOMPILING)
+  set(CPACK_DEBIAN_PACKAGE_ARCHITECTURE arm64)
+endif()
 set(CPACK_DEBIAN_PACKAGE_DEPENDS "libegl1, libgl1-mesa-dri")
 set(CPACK_DEBIAN_PACKAGE_RECOMMENDS "libosmesa6, python3-matplotlib")
 include(CPack)

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <iosfwd>
 #include <string>
 
 namespace pinocchio {
@@ -11,6 +12,9 @@ struct SystemInfo {
 };
 
 [[nodiscard]] SystemInfo system_info();
+
+// The first processor's name in the text of Linux's /proc/cpuinfo: x86 writes a name, Arm numbers.
+[[nodiscard]] std::string processor_name(std::istream& cpuinfo);
 
 // The peak memory of this process in bytes, including pages of its program and libraries.
 [[nodiscard]] std::size_t peak_memory_bytes();

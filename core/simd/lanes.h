@@ -102,7 +102,7 @@ inline Int select(Mask m, Int yes, Int no) {
 inline Float to_float(Int a) {
   return Float::of(Native::to_float(NativeSigned(a.v)));
 }
-inline Int to_int(Float a) {  // towards zero; only of what fits
+inline Int to_int(Float a) {  // towards zero; what does not fit, and NaN, is the lowest integer
   return Int::of(NativeInt(Native::to_int(a.v)));
 }
 

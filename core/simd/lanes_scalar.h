@@ -31,7 +31,9 @@ struct Native {
   static float floor(float a) { return __builtin_floorf(a); }
   static float select(bool m, float yes, float no) { return m ? yes : no; }
   static float to_float(std::int32_t a) { return static_cast<float>(a); }
-  static std::int32_t to_int(float a) { return static_cast<std::int32_t>(a); }
+  static std::int32_t to_int(float a) {
+    return a >= -0x1p31f && a < 0x1p31f ? static_cast<std::int32_t>(a) : INT32_MIN;
+  }
 
   static std::uint32_t gather(const void* from, std::uint32_t index, bool m) {
     std::uint32_t a = 0;

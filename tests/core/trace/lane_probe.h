@@ -14,6 +14,31 @@
 
 namespace pinocchio {
 
+// What an operation of core/simd/lanes.h does with the bits of two numbers. Masks are 1 or 0.
+enum class LaneOp {
+  min,
+  max,
+  less,
+  less_equal,
+  equal,
+  abs,
+  sqrt,
+  floor,
+  add,
+  multiply,
+  divide,
+  to_float,
+  to_int,
+  whole_less,
+  shift_left,
+  shift_right,
+  shift_in_zeros,
+  through_double,
+  double_min_max,
+  gather,
+  packed,
+};
+
 // `count`: a multiple of 16.
 struct LaneProbe {
   Isa isa;
@@ -31,6 +56,10 @@ struct LaneProbe {
   void (*environment_samples)(const EnvironmentLight& environment, const float* u, const float* v,
                               float* const* direction, float* const* light, float* density,
                               std::size_t count);
+  // result[i]: the operation on a[i] and b[i]. gather: the word of `b` at a[i] & 15 where b[i] is odd, else
+  // 0. packed: the a[i] whose b[i] is odd, first in each 16, then zeros.
+  void (*values)(LaneOp op, const std::uint32_t* a, const std::uint32_t* b, std::uint32_t* result,
+                 std::size_t count);
   // Cosine and sine of angles in revolutions.
   void (*angles)(const float* revolutions, float* cosine, float* sine, std::size_t count);
 };

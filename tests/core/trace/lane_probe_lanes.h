@@ -56,8 +56,82 @@ void angles(const float* revolutions, float* cosine, float* sine, std::size_t co
   }
 }
 
+Int bits_of(Mask m) {
+  return select(m, Int(1), Int(0));
+}
+
+Int value(LaneOp op, Int x, Int y, const std::uint32_t* table) {
+  const Float a = from_bits(x), b = from_bits(y);
+  switch (op) {
+    case LaneOp::min:
+      return bits_of(min(a, b));
+    case LaneOp::max:
+      return bits_of(max(a, b));
+    case LaneOp::less:
+      return bits_of(a < b);
+    case LaneOp::less_equal:
+      return bits_of(a <= b);
+    case LaneOp::equal:
+      return bits_of(a == b);
+    case LaneOp::abs:
+      return bits_of(abs(a));
+    case LaneOp::sqrt:
+      return bits_of(sqrt(a));
+    case LaneOp::floor:
+      return bits_of(floor(a));
+    case LaneOp::add:
+      return bits_of(a + b);
+    case LaneOp::multiply:
+      return bits_of(a * b);
+    case LaneOp::divide:
+      return bits_of(a / b);
+    case LaneOp::to_float:
+      return bits_of(to_float(x));
+    case LaneOp::to_int:
+      return to_int(a);
+    case LaneOp::whole_less:
+      return bits_of(x < y);
+    case LaneOp::shift_left:
+      return shift_left<7>(x);
+    case LaneOp::shift_right:
+      return shift_right<7>(x);
+    case LaneOp::shift_in_zeros:
+      return shift_in_zeros<7>(x);
+    case LaneOp::through_double:
+      return bits_of(to_float(Double(a) * Double(b)));
+    case LaneOp::double_min_max:
+      return bits_of(to_float(clamp(Double(a), -1.0, 2.0)));
+    case LaneOp::gather:
+      return gather(table, x & Int(15), (y & Int(1)) == Int(1));
+    case LaneOp::packed:
+      break;
+  }
+  return Int(0);
+}
+
+void values(LaneOp op, const std::uint32_t* a, const std::uint32_t* b, std::uint32_t* result,
+            std::size_t count) {
+  for (std::size_t block = 0; block < count; block += 16) {
+    std::size_t to = 0;
+    alignas(64) std::uint32_t packed[32]{};  // room for a register behind the last
+    for (std::size_t i = block; i < block + 16; i += kWidth) {
+      const Int x = Int::load(a + i), y = Int::load(b + i);
+      if (op != LaneOp::packed) {
+        value(op, x, y, b).store(result + i);
+        continue;
+      }
+      const Mask odd = (y & Int(1)) == Int(1);
+      store_packed(packed + to, x, odd);
+      to += static_cast<std::size_t>(__builtin_popcount(odd.bits()));
+    }
+    if (op != LaneOp::packed) continue;
+    for (std::size_t i = 0; i < 16; ++i) result[block + i] = i < to ? packed[i] : 0;
+  }
+}
+
 }  // namespace
 
-const LaneProbe kProbe{Isa::PINOCCHIO_LANES, kWidth, samples, powers, sample_texture, environment_lights, environment_samples, angles};
+const LaneProbe kProbe{Isa::PINOCCHIO_LANES, kWidth, samples, powers, sample_texture, environment_lights,
+                       environment_samples,  values, angles};
 
 }  // namespace pinocchio::PINOCCHIO_LANES
