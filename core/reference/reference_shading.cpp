@@ -90,8 +90,10 @@ void reference_cells(int side, const glm::dvec3& place, const std::function<void
   std::minstd_rand random(seed);
   std::uniform_real_distribution<double> within(0.0, 1.0);
   for (int y = 0; y < side; ++y)
-    for (int x = 0; x < side; ++x)
-      use(glm::dvec2(x + within(random), y + within(random)) / static_cast<double>(side));
+    for (int x = 0; x < side; ++x) {
+      const double v = within(random), u = within(random);  // in this order on every machine
+      use(glm::dvec2(x + u, y + v) / static_cast<double>(side));
+    }
 }
 
 glm::dvec3 reference_beside(const glm::dvec3& axis, double cosine, double turn) {
