@@ -4,7 +4,9 @@
 #include "core/trace/tiles/trace_tiles.h"
 
 #include <cmath>
+#include <cstdlib>
 #include <cstring>
+#include <fstream>
 
 #include "core/bsp/tree.h"
 #include "pinocchio/view.h"
@@ -166,7 +168,15 @@ TEST(TraceTiles, LightCutoffTogetherAndOneByOne) {
   expect_close(by_tiles(job), one_by_one(job));
 }
 
+// PINOCCHIO_WRITE_BITS names a file for the pictures, which scripts/test-arm64 compares between
+// architectures.
 TEST(TraceTiles, SameBitsForAnyWidthAndThreads) {
+  std::ofstream written;
+  if (const char* const file = std::getenv("PINOCCHIO_WRITE_BITS")) written.open(file, std::ios::binary);
+  const auto write = [&](const auto& pixels) {
+    written.write(reinterpret_cast<const char*>(pixels.data()),
+                  static_cast<std::streamsize>(pixels.size_bytes()));
+  };
   for (const Scene& scene : scenes()) {
     SCOPED_TRACE(scene.source);
     std::optional<Drawn> expected;
@@ -181,6 +191,8 @@ TEST(TraceTiles, SameBitsForAnyWidthAndThreads) {
                     std::ranges::equal(drawn.mask.bytes(), expected->mask.bytes()))
             << isa_name(isa) << " " << threads;
       }
+    write(expected->ids.pixels());
+    write(expected->color.pixels());
   }
 }
 
