@@ -95,7 +95,7 @@ void probe_callers(gl::Context& context) {
     failure = error.what();
   }
   context.leave();
-  if (!failure.empty()) throw NoOpenGlError("the caller's OpenGL context does not serve: " + failure);
+  if (!failure.empty()) throw NoOpenGlError("the caller's OpenGL context cannot be used: " + failure);
 }
 
 }  // namespace

@@ -35,7 +35,7 @@ class PathReader {
 
  private:
   [[noreturn]] void fail(const std::string& what) const {
-    throw Exit(kUsage, file_ + ": " + what + "; see 'Camera paths' in the README");
+    throw Exit(kUsage, file_ + ": " + what + "; see 'Camera paths' in docs/rendering.md");
   }
 
   [[nodiscard]] nlohmann::json parse() const {

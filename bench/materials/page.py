@@ -13,7 +13,8 @@ LEAST_NOISE = 0.01  # less is not seen: what is exact under an even sky is no me
 BARS = {"noise, equal samples": 1.15, "noise, equal time": 0.7, "white furnace, brightest ring": 1.005, "mean colour, beside mix": 0.03, "mean colour, beside view": 0.03}
 
 
-IN_FILES = {"furnace": "The white furnace at each metallic and roughness", "colours": "The colours at each metallic and roughness", "models": "Every model"}
+IN_FILES = {"furnace": "The white furnace at each metallic and roughness", "means": "Ours over each reference at each metallic and roughness",
+            "colours": "The colours at each metallic and roughness", "noise": "The noise at each metallic and roughness", "models": "Every model"}
 
 
 def ratios(row):
@@ -29,6 +30,14 @@ def matrix(rows, value, form):
     across, down = sorted({k[1] for k in cells}), sorted({k[0] for k in cells})
     lines = ["| metallic \\ roughness | " + " | ".join(f"{r:g}" for r in across) + " |", "|---:|" + "---:|" * len(across)]
     lines += [f"| {m:g} | " + " | ".join(form.format(cells[m, r]) if (m, r) in cells else "" for r in across) + " |" for m in down]
+    return "\n".join(lines)
+
+
+def matrices(named):
+    """Several of them as one table: what a row is stands before it."""
+    head, *_ = (table.splitlines()[:2] for table in named.values())
+    lines = [f"| figure {head[0]}", f"|---{head[1]}"]
+    lines += [f"| {name} {row}" for name, table in named.items() for row in table.splitlines()[2:]]
     return "\n".join(lines)
 
 
@@ -103,12 +112,12 @@ def blocks(results):
     if spheres:
         found["furnace"] = furnace(grid("even"))
         mean = lambda r, coupling="mix": share(r["ours"]["mean"], r["appendix_b"][coupling])
-        found["means"] = "Even sky, ours / *mix*:\n\n" + matrix(grid("even"), mean, "{:.3f}") + "\n\nEven sky, ours / *view*:\n\n" + \
-            matrix(grid("even"), lambda r: mean(r, "view"), "{:.3f}") + "\n\nSky with a sun, ours / *mix*:\n\n" + \
-            matrix(grid("sun"), mean, "{:.3f}")
-        found["noise"] = "Ours / Mitsuba's at 16 samples:\n\n" + matrix(grid("sun"), lambda r: ratios(r)["noise, equal samples"], "{:.2f}") + \
-            "\n\nIn the time of Mitsuba's 16 samples:\n\n" + matrix(grid("sun"), lambda r: ratios(r)["noise, equal time"], "{:.2f}") + \
-            "\n\nOurs alone (rms / mean):\n\n" + matrix(grid("sun"), lambda r: r["ours"]["noise"], "{:.3f}")
+        found["means"] = matrices({"even sky, ours / mix": matrix(grid("even"), mean, "{:.3f}"),
+                                   "even sky, ours / view": matrix(grid("even"), lambda r: mean(r, "view"), "{:.3f}"),
+                                   "sky with a sun, ours / mix": matrix(grid("sun"), mean, "{:.3f}")})
+        found["noise"] = matrices({"ours / Mitsuba's, 16 samples": matrix(grid("sun"), lambda r: ratios(r)["noise, equal samples"], "{:.2f}"),
+                                   "ours / Mitsuba's, time of its 16 samples": matrix(grid("sun"), lambda r: ratios(r)["noise, equal time"], "{:.2f}"),
+                                   "ours alone, rms / mean": matrix(grid("sun"), lambda r: r["ours"]["noise"], "{:.3f}")})
         coloured_of = lambda keep: coloured([r for r in spheres if r["sky"] == "even" and r["kind"] == "colour" and keep(r)])
         found["colours"] = coloured_of(lambda r: r["metallic"] == 0 or r["base"][0] == 0.5)
         found["further colours"] = coloured_of(lambda r: r["metallic"] != 0 and r["base"][0] != 0.5)  # in no page

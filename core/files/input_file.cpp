@@ -74,7 +74,7 @@ Expected<FileBytes> read_input_file(const std::filesystem::path& file, Progress*
 Expected<FileBytes> read_open_file(int descriptor, const std::filesystem::path& file, Progress* progress) {
   const Descriptor in(descriptor);
   const std::optional<struct stat> status = in.status();
-  if (!status) return fail(file, "cannot be read", "is it yours to read?");
+  if (!status) return fail(file, "cannot be read", "check its permissions");
   if (!S_ISREG(status->st_mode)) return fail(file, kNoFile, "name a file");
   const auto size = static_cast<std::size_t>(status->st_size);
   FileBytes bytes(size);
@@ -87,7 +87,7 @@ Expected<FileBytes> read_open_file(int descriptor, const std::filesystem::path& 
     if (found == Descriptor::Found::failure) failed = true;
     advance(progress, last - first);
   });
-  if (failed) return fail(file, "cannot be read to its end", "is its disk whole?");
+  if (failed) return fail(file, "cannot be read to its end", "check the disk");
   if (ended) return fail(file, "became shorter while it was read", "is another program writing it?");
   return bytes;
 }

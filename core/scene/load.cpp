@@ -107,7 +107,7 @@ Expected<void> check_scene(const Scene& scene) {
       mesh.triangle_materials.size() != mesh.triangles.size() || !one_each_or_none(mesh.texcoords, mesh) ||
       !one_each_or_none(mesh.texcoords1, mesh) || !one_each_or_none(mesh.colors, mesh) ||
       !one_each_or_none(mesh.tangents, mesh))
-    return fail("does not hold one of everything for each vertex and triangle", "export it again");
+    return fail("its arrays do not have one entry for each vertex or triangle", "export it again");
   const auto no_number = [&](const std::string& what, std::size_t vertex) {
     return fail(what + std::to_string(vertex) + " is not a finite number", "export it again");
   };
@@ -134,16 +134,16 @@ Expected<void> check_scene(const Scene& scene) {
       return no_number("the tangent of vertex ", i);
   for (const Material& m : mesh.materials)
     if (m.maps >= static_cast<int>(mesh.maps.size()))
-      return fail("material '" + m.name + "' names maps that there are not", "export it again");
+      return fail("material '" + m.name + "' names texture maps that do not exist", "export it again");
   if (!std::all_of(mesh.maps.begin(), mesh.maps.end(),
                    [&](const auto& m) { return names_known_textures(m, mesh); }))
-    return fail("a material names a texture that there is not", "export it again");
+    return fail("a material names a texture that does not exist", "export it again");
   const std::size_t lost = first_where(mesh.triangles.size(), [&](std::size_t i) {
     const glm::uvec3& t = mesh.triangles[i];
     return std::max({t.x, t.y, t.z}) >= vertices || mesh.triangle_materials[i] >= mesh.materials.size();
   });
   if (lost < mesh.triangles.size())
-    return fail("triangle " + std::to_string(lost) + " names a vertex or material that there is not",
+    return fail("triangle " + std::to_string(lost) + " names a vertex or material that does not exist",
                 "export it again");
   return {};
 }

@@ -47,7 +47,7 @@ DeformationReader::DeformationReader(const GltfFile& file, const GltfNode& node,
   deformation_.targets.resize(targets_);
   if (!in_range(node.skin, file.skins)) return;
   if (sets == 0) {
-    warn("its skin is left out, as no vertex names a joint", "it stays as its node has it");
+    warn("its skin is left out, as no vertex names a joint", "it moves with its node alone");
     return;
   }
   joints_ = item_of(file.skins, node.skin).joints.size();

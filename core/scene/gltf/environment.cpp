@@ -87,7 +87,7 @@ std::shared_ptr<const Environment> gltf_environment(const GltfFile& file, const 
   };
   const Json& lights = array_member(extension(file.json.get(), kExtension), "lights");
   const int index = index_member(use, "light");
-  if (!in_range(index, lights)) return leave_out("it names a light that there is not");
+  if (!in_range(index, lights)) return leave_out("it names a light that does not exist");
   const Json& light = item_of(lights, index);
   const Expected<CubeMap> cube = cube_of(file, light, loading);
   if (!cube) return leave_out(cube.error().message());

@@ -263,7 +263,7 @@ class SceneReader {
     if (!light) return {};
     const Json& lights = array_member(extension(file_.json.get(), "KHR_lights_punctual"), "lights");
     if (!in_range(index_of(*light), lights))
-      return file_.error("a node names a light that there is not, there are " +
+      return file_.error("a node names a light that does not exist, there are " +
                          std::to_string(lights.size()));
     add_light(item_of(lights, index_of(*light)), node, world);
     return {};
@@ -274,11 +274,11 @@ class SceneReader {
     const std::string type = text_member(&json, "type");
     if (type != "perspective" && type != "orthographic") {
       warn("camera '" + camera.name + "'", "is neither perspective nor orthographic and left out",
-           "it cannot be looked through");
+           "its view is missing");
     } else if (!can_look(camera)) {
       warn("camera '" + camera.name + "'",
            "has no field of view within 0 and 180 degrees, or no height, and is left out",
-           "it cannot be looked through");
+           "its view is missing");
     } else {
       scene_.cameras.push_back(camera);
     }
@@ -288,7 +288,7 @@ class SceneReader {
     const Light light = light_of(json, node, world);
     const std::string where = "light '" + light.name + "'";
     if (!kind_of_type(text_member(&json, "type")))
-      warn(where, "its type is none of glTF's", "it shines as a point light");
+      warn(where, "its type is not one of glTF's", "it shines as a point light");
     if (can_shine(light)) {
       scene_.lights.push_back(light);
     } else {
@@ -318,7 +318,7 @@ class SceneReader {
           rest_.skins.push_back(std::move(**skin));
         } else {
           warn("skin " + std::to_string(at->first), "skins of joints that are not in the scene are left out",
-               "what they cover stays as its node has it");
+               "what they cover moves with its node alone");
         }
       }
       deformation.skin = at->second;

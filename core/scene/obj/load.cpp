@@ -78,7 +78,7 @@ class MtlLibraries {
     MtlFile read = read_mtl(text.text());
     if (!read.opacity_reason.empty())
       loading_.warnings.add({mtl.string(), "", "Tr is read as opacity: " + read.opacity_reason,
-                             "write d where Tr should hide its materials"});
+                             "write d where Tr should make materials transparent"});
     for (MtlMaterial& m : read.materials) {
       by_name_.try_emplace(m.name, static_cast<int>(materials.size()));
       materials.push_back(std::move(m));

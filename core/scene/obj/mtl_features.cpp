@@ -33,7 +33,7 @@ void add_lost_mtl_features(const std::filesystem::path& file, std::string_view t
     const std::optional<std::string_view> lost = lost_without(keyword);
     if (!lost) {
       warnings.add({file.string(), where + " (" + std::string(keyword.substr(0, 20)) + ")",
-                    "statements that are not known are left out", "what they stand for is missing"});
+                    "unknown statements are left out", "what they stand for is missing"});
     } else if (!lost->empty()) {
       warnings.add({file.string(), where, std::string(keyword) + " is left out", std::string(*lost)});
     } else if (is_texture(keyword)) {

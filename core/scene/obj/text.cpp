@@ -147,7 +147,7 @@ class ObjReader {
     if (keyword == "curv" || keyword == "curv2" || keyword == "surf")
       return lost(keyword, "curves and free-form surfaces are left out", "they are not drawn");
     if (std::find(std::begin(kQuiet), std::end(kQuiet), keyword) == std::end(kQuiet))
-      lost(keyword, "statements that are not known are left out", "what they stand for is missing");
+      lost(keyword, "unknown statements are left out", "what they stand for is missing");
   }
 
   // x y z, x y z w, or x y z r g b
@@ -216,7 +216,8 @@ class ObjReader {
       if (*index > highest_[kind].index) highest_[kind] = {*index, line_};
     }
     if (!corner.empty())
-      return fail(line_, "a face has the corner '" + std::string(whole) + "', it ends after the normal");
+      return fail(line_,
+                  "a face has the corner '" + std::string(whole) + "', which goes on after the normal");
     obj_.corners.push_back({indices[kVertex], indices[kTexcoord], indices[kNormal]});
     return {};
   }

@@ -116,7 +116,7 @@ class PlyBuilder {
                         std::to_string(faces_) + " faces have fewer than three corners or no place, and " +
                         std::to_string(left) + " bytes follow the last one");
     lost("", "bytes follow its last element (" + std::to_string(left) + ")",
-         "does its header count all of its elements?");
+         "they are not drawn; does its header count all elements?");
     return {};
   }
 

@@ -151,7 +151,7 @@ TEST(CubeMap, WhatIsWrongWithItIsAWarning) {
     return json;
   };
   const std::string light = "/extensions/EXT_lights_image_based/lights/0/";
-  without(bent("/scenes/0/extensions/EXT_lights_image_based/light", 7), "a light that there is not");
+  without(bent("/scenes/0/extensions/EXT_lights_image_based/light", 7), "a light that does not exist");
   without(bent((light + "specularImages").c_str(), Json::array()), "do not begin with six images");
   without(bent((light + "specularImages/0/3").c_str(), 6), "do not begin with six images");
   without(bent("/images/2/uri", "nowhere.png"), "nowhere.png");

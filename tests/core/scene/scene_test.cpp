@@ -122,7 +122,7 @@ TEST(CheckScene, SaysWhatIsWrong) {
   EXPECT_NE(complaint_of(bad).find("vertex 4"), std::string::npos);
   bad = good;
   MeshEdit(bad)->normals.pop_back();
-  EXPECT_NE(complaint_of(bad).find("one of everything"), std::string::npos);
+  EXPECT_NE(complaint_of(bad).find("one entry for each vertex or triangle"), std::string::npos);
   bad = good;
   MeshEdit(bad)->positions[0].x = -2.0f * kFarthest;
   EXPECT_NE(complaint_of(bad).find("scale the scene down"), std::string::npos);

@@ -206,7 +206,7 @@ class FeatureAudit {
                      const std::string& where) {
     const Json* texture = element_of("textures", number_of(info, "index", -1));
     if (!texture || !has_image(*texture))
-      lost(where, which + " names no image that there is", "what it would have covered has one colour");
+      lost(where, which + " names an image that does not exist", "what it would have covered has one colour");
     if (number_of(info, "texCoord", 0) > 1)
       lost(where, "texture coordinates beyond the second set are left out",
            "its texture lies as the first set says");

@@ -172,8 +172,8 @@ int GltfMaterialWriter::base_image(const Material& m, const MaterialMaps& maps) 
   if (color && alpha &&
       !(lie_alike(maps.base_color, maps.alpha) && color->texels.size() == alpha->texels.size())) {
     warnings_.add({file_, "material '" + m.name + "'",
-                   "an alpha texture that lies otherwise than the colour's is left out",
-                   "it is as opaque everywhere as its factor says"});
+                   "an alpha texture placed differently from the colour's is left out",
+                   "it is everywhere as opaque as its factor says"});
     alpha = nullptr;
   }
   Texture both = color ? *color : *alpha;
