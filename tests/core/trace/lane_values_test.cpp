@@ -87,7 +87,7 @@ const Row kRows[]{
     row(LaneOp::multiply, 0, kInfinity, kNan),
     row(LaneOp::divide, 1, 3, 0x1.555556p-2f),
     row(LaneOp::divide, 1, -0.0f, -kInfinity),
-    row(LaneOp::divide, 0x1p-126f, 3, 0x1.55554p-128f),
+    row(LaneOp::divide, 0x1p-126f, 3, 0x2aaaabp-149f),
     row(LaneOp::divide, 0, 0, kNan),
 
     {LaneOp::to_float, 16777217, 0, bits(16777216.0f)},
