@@ -3,42 +3,22 @@
 
 #include <immintrin.h>
 
-#include <array>
 #include <cstdint>
 
-#include "core/simd/isas.h"
+#include "core/simd/vector_lanes.h"
 
 namespace pinocchio::PINOCCHIO_LANES {
 namespace {
 
 using NativeFloat = __m256;
 using NativeDouble = __m256d;
-using NativeInt [[gnu::vector_size(32), gnu::may_alias]] = std::uint32_t;
-using NativeSigned [[gnu::vector_size(32), gnu::may_alias]] = std::int32_t;
-using NativeMask = NativeSigned;
 
-// By mask: which lanes come first.
-constexpr auto kPackOrder = [] {
-  std::array<std::array<std::uint8_t, 8>, 256> order{};
-  for (unsigned mask = 0; mask < 256; ++mask) {
-    unsigned to = 0;
-    for (unsigned lane = 0; lane < 8; ++lane)
-      if (mask >> lane & 1u) order[mask][to++] = static_cast<std::uint8_t>(lane);
-  }
-  return order;
-}();
-
-struct Native {
+struct Native : VectorLanes<NativeFloat> {
   static unsigned bits(NativeMask m) { return static_cast<unsigned>(_mm256_movemask_ps(__m256(m))); }
   static NativeMask mask(unsigned bits) {
     const NativeInt lane{1, 2, 4, 8, 16, 32, 64, 128};
     return (bits & lane) == lane;
   }
-  static NativeMask less(NativeFloat a, NativeFloat b) { return a < b; }
-  static NativeMask less_equal(NativeFloat a, NativeFloat b) { return a <= b; }
-  static NativeMask equal(NativeFloat a, NativeFloat b) { return a == b; }
-  static NativeMask less(NativeSigned a, NativeSigned b) { return a < b; }
-  static NativeMask equal(NativeSigned a, NativeSigned b) { return a == b; }
 
   static NativeFloat min(NativeFloat a, NativeFloat b) { return _mm256_min_ps(a, b); }
   static NativeFloat max(NativeFloat a, NativeFloat b) { return _mm256_max_ps(a, b); }
@@ -57,7 +37,7 @@ struct Native {
   }
   static NativeInt packed(NativeInt a, NativeMask m) {
     const __m256i order =
-        _mm256_cvtepu8_epi32(_mm_loadl_epi64(reinterpret_cast<const __m128i*>(&kPackOrder[bits(m)])));
+        _mm256_cvtepu8_epi32(_mm_loadl_epi64(reinterpret_cast<const __m128i*>(&kPackOrder<1>[bits(m)])));
     return NativeInt(_mm256_permutevar8x32_epi32(__m256i(a), order));
   }
 

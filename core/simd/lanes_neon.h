@@ -4,35 +4,18 @@
 
 #include <arm_neon.h>
 
-#include <array>
 #include <cstddef>
 #include <cstdint>
 
-#include "core/simd/isas.h"
+#include "core/simd/vector_lanes.h"
 
 namespace pinocchio::PINOCCHIO_LANES {
 namespace {
 
 using NativeFloat = float32x4_t;
 using NativeDouble = float64x2_t;
-using NativeInt [[gnu::vector_size(16), gnu::may_alias]] = std::uint32_t;
-using NativeSigned [[gnu::vector_size(16), gnu::may_alias]] = std::int32_t;
-using NativeMask = NativeSigned;
 
-// By mask: which bytes come first.
-constexpr auto kPackOrder = [] {
-  std::array<std::array<std::uint8_t, 16>, 16> order{};
-  for (unsigned mask = 0; mask < 16; ++mask) {
-    unsigned to = 0;
-    for (unsigned lane = 0; lane < 4; ++lane)
-      if (mask >> lane & 1u)
-        for (unsigned byte = 0; byte < 4; ++byte)
-          order[mask][to++] = static_cast<std::uint8_t>(4 * lane + byte);
-  }
-  return order;
-}();
-
-struct Native {
+struct Native : VectorLanes<NativeFloat> {
   static unsigned bits(NativeMask m) {
     const NativeInt lane{1, 2, 4, 8};
     return vaddvq_u32(uint32x4_t(NativeInt(m) & lane));
@@ -41,11 +24,6 @@ struct Native {
     const NativeInt lane{1, 2, 4, 8};
     return (bits & lane) == lane;
   }
-  static NativeMask less(NativeFloat a, NativeFloat b) { return NativeMask(a < b); }
-  static NativeMask less_equal(NativeFloat a, NativeFloat b) { return NativeMask(a <= b); }
-  static NativeMask equal(NativeFloat a, NativeFloat b) { return NativeMask(a == b); }
-  static NativeMask less(NativeSigned a, NativeSigned b) { return a < b; }
-  static NativeMask equal(NativeSigned a, NativeSigned b) { return a == b; }
 
   static NativeFloat min(NativeFloat a, NativeFloat b) { return select(less(a, b), a, b); }
   static NativeFloat max(NativeFloat a, NativeFloat b) { return select(less(b, a), a, b); }
@@ -72,7 +50,7 @@ struct Native {
     return found;
   }
   static NativeInt packed(NativeInt a, NativeMask m) {
-    return NativeInt(vqtbl1q_u8(uint8x16_t(a), vld1q_u8(kPackOrder[bits(m)].data())));
+    return NativeInt(vqtbl1q_u8(uint8x16_t(a), vld1q_u8(kPackOrder<4>[bits(m)].data())));
   }
 
   static NativeFloat load_rows(const float* const* rows) { return vld1q_f32(rows[0]); }

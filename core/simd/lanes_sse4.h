@@ -3,45 +3,23 @@
 
 #include <smmintrin.h>
 
-#include <array>
 #include <cstddef>
 #include <cstdint>
 
-#include "core/simd/isas.h"
+#include "core/simd/vector_lanes.h"
 
 namespace pinocchio::PINOCCHIO_LANES {
 namespace {
 
 using NativeFloat = __m128;
 using NativeDouble = __m128d;
-using NativeInt [[gnu::vector_size(16), gnu::may_alias]] = std::uint32_t;
-using NativeSigned [[gnu::vector_size(16), gnu::may_alias]] = std::int32_t;
-using NativeMask = NativeSigned;
 
-// By mask: which bytes come first.
-constexpr auto kPackOrder = [] {
-  std::array<std::array<std::uint8_t, 16>, 16> order{};
-  for (unsigned mask = 0; mask < 16; ++mask) {
-    unsigned to = 0;
-    for (unsigned lane = 0; lane < 4; ++lane)
-      if (mask >> lane & 1u)
-        for (unsigned byte = 0; byte < 4; ++byte)
-          order[mask][to++] = static_cast<std::uint8_t>(4 * lane + byte);
-  }
-  return order;
-}();
-
-struct Native {
+struct Native : VectorLanes<NativeFloat> {
   static unsigned bits(NativeMask m) { return static_cast<unsigned>(_mm_movemask_ps(__m128(m))); }
   static NativeMask mask(unsigned bits) {
     const NativeInt lane{1, 2, 4, 8};
     return (bits & lane) == lane;
   }
-  static NativeMask less(NativeFloat a, NativeFloat b) { return a < b; }
-  static NativeMask less_equal(NativeFloat a, NativeFloat b) { return a <= b; }
-  static NativeMask equal(NativeFloat a, NativeFloat b) { return a == b; }
-  static NativeMask less(NativeSigned a, NativeSigned b) { return a < b; }
-  static NativeMask equal(NativeSigned a, NativeSigned b) { return a == b; }
 
   static NativeFloat min(NativeFloat a, NativeFloat b) { return _mm_min_ps(a, b); }
   static NativeFloat max(NativeFloat a, NativeFloat b) { return _mm_max_ps(a, b); }
@@ -65,7 +43,7 @@ struct Native {
     return *reinterpret_cast<const NativeInt*>(found);
   }
   static NativeInt packed(NativeInt a, NativeMask m) {
-    const __m128i order = _mm_loadu_si128(reinterpret_cast<const __m128i*>(&kPackOrder[bits(m)]));
+    const __m128i order = _mm_loadu_si128(reinterpret_cast<const __m128i*>(&kPackOrder<4>[bits(m)]));
     return NativeInt(_mm_shuffle_epi8(__m128i(a), order));
   }
 
