@@ -13,7 +13,7 @@ namespace {
 using NativeFloat = __m256;
 using NativeDouble = __m256d;
 
-struct Native : VectorLanes<NativeFloat> {
+struct Native : VectorLanes {
   static unsigned bits(NativeMask m) { return static_cast<unsigned>(_mm256_movemask_ps(__m256(m))); }
   static NativeMask mask(unsigned bits) {
     const NativeInt lane{1, 2, 4, 8, 16, 32, 64, 128};

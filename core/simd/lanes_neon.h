@@ -15,7 +15,7 @@ namespace {
 using NativeFloat = float32x4_t;
 using NativeDouble = float64x2_t;
 
-struct Native : VectorLanes<NativeFloat> {
+struct Native : VectorLanes {
   static unsigned bits(NativeMask m) {
     const NativeInt lane{1, 2, 4, 8};
     return vaddvq_u32(uint32x4_t(NativeInt(m) & lane));

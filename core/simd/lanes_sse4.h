@@ -14,7 +14,7 @@ namespace {
 using NativeFloat = __m128;
 using NativeDouble = __m128d;
 
-struct Native : VectorLanes<NativeFloat> {
+struct Native : VectorLanes {
   static unsigned bits(NativeMask m) { return static_cast<unsigned>(_mm_movemask_ps(__m128(m))); }
   static NativeMask mask(unsigned bits) {
     const NativeInt lane{1, 2, 4, 8};

@@ -28,11 +28,11 @@ constexpr auto kPackOrder = [] {
   return order;
 }();
 
-template <class Float>
 struct VectorLanes {
-  static NativeMask less(Float a, Float b) { return NativeMask(a < b); }
-  static NativeMask less_equal(Float a, Float b) { return NativeMask(a <= b); }
-  static NativeMask equal(Float a, Float b) { return NativeMask(a == b); }
+  using Floats [[gnu::vector_size(4 * kWidth), gnu::may_alias]] = float;
+  static NativeMask less(Floats a, Floats b) { return NativeMask(a < b); }
+  static NativeMask less_equal(Floats a, Floats b) { return NativeMask(a <= b); }
+  static NativeMask equal(Floats a, Floats b) { return NativeMask(a == b); }
   static NativeMask less(NativeSigned a, NativeSigned b) { return a < b; }
   static NativeMask equal(NativeSigned a, NativeSigned b) { return a == b; }
 };
