@@ -81,7 +81,8 @@ TEST(LoadLost, MembersOfTheWrongType) {
   Json& texture = json["materials"][0]["pbrMetallicRoughness"]["baseColorTexture"];
   for (const Json& index : {Json(-1), Json(1), Json("0"), Json()}) {
     texture["index"] = index;
-    EXPECT_NE(line_about(warnings_of(json), "its baseColorTexture names an image that does not exist"), "") << index;
+    EXPECT_NE(line_about(warnings_of(json), "its baseColorTexture names an image that does not exist"), "")
+        << index;
   }
   texture["index"] = 0;
   texture["extensions"]["KHR_texture_transform"] = "turned";
