@@ -80,6 +80,7 @@ Camera camera_of(const Scene& scene) {
 }
 
 // Everything a scene can ask for: every kind of light, glass, mirrors, a texture, flat and smooth normals.
+// Braces around random numbers: every compiler draws them in that order.
 Scene all_sorts() {
   Scene scene = random_soup(300, 0.5f, 7);
   Random random(11);
@@ -96,13 +97,15 @@ Scene all_sorts() {
     make_maps(*mesh, mesh->materials[4]).base_color.texture = 0;
     mesh->materials[4].emission = {0.0f, 0.1f, 0.0f};
     Texture texture{"noise", Image<glm::u8vec4>({7, 5})};
-    for (glm::u8vec4& texel : texture.texels.pixels())
-      texel = glm::u8vec4(random.between(0, 255), random.between(0, 255), random.between(0, 255), 255);
+    for (glm::u8vec4& texel : texture.texels.pixels()) {
+      const glm::vec3 color{random.between(0, 255), random.between(0, 255), random.between(0, 255)};
+      texel = glm::u8vec4(color, 255);
+    }
     mesh->textures.edit().push_back(texture);
     for (std::size_t i = 0; i < mesh->triangles.size(); ++i)
       mesh->triangle_materials[i] = static_cast<std::uint32_t>(i % mesh->materials.size());
     for (std::size_t i = 0; i < mesh->positions.size(); ++i) {
-      mesh->texcoords.emplace_back(random.between(-2, 2), random.between(-2, 2));
+      mesh->texcoords.push_back(glm::vec2{random.between(-2, 2), random.between(-2, 2)});
       if (i % 7 < 4) mesh->normals[i] = glm::normalize(random_point(random, 1.0f));
     }
   }
