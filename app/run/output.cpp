@@ -34,6 +34,19 @@ std::string ascii_json(const nlohmann::json& json) {
   return json.dump(-1, ' ', true, nlohmann::json::error_handler_t::replace);
 }
 
+// The inputs of all frames, and for the layer `motion` the other frame's time and what of its camera may
+// differ from this frame's: another turntable, path or step leads the same picture's points elsewhere.
+std::string inputs_of(const OutputOptions& options, const FrameHeader& frame) {
+  if (!frame.motion_to) return options.inputs;
+  const auto numbers = [](const glm::vec3& v) { return nlohmann::json{v.x, v.y, v.z}; };
+  const Camera& camera = frame.motion_to->camera;
+  nlohmann::json inputs = nlohmann::json::parse(options.inputs);
+  inputs["motionFrame"] = {
+      {"time", frame.motion_to->time_s}, {"eye", numbers(camera.eye)}, {"target", numbers(camera.target)},
+      {"up", numbers(camera.up)},        {"fov", camera.fov_deg},      {"height", camera.height}};
+  return ascii_json(inputs);
+}
+
 }  // namespace
 
 void add_display_options(CLI::App& verb, float& exposure_ev, ToneMap& curve, int most_stops) {
@@ -130,7 +143,7 @@ ExrOptions exr_options(const OutputOptions& options, const FrameHeader& frame) {
           .frame = frame.number,
           .frames_per_second = frame.fps,
           .time_s = frame.time_s,
-          .inputs = options.inputs};
+          .inputs = inputs_of(options, frame)};
 }
 
 std::string inputs_json(const Scene& scene, const DrawOptions& draw, const OutputOptions& output) {

@@ -2,6 +2,7 @@
 
 #include <filesystem>
 #include <nlohmann/json_fwd.hpp>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -9,6 +10,7 @@
 #include "app/cli/numbered.h"
 #include "app/cli/options.h"
 #include "app/cli/parse.h"
+#include "app/run/animation.h"
 #include "core/image/tonemap.h"
 #include "core/parallel/workers.h"
 #include "pinocchio/load.h"
@@ -41,6 +43,7 @@ struct FrameHeader {
   int number = 0;
   int fps = 24;
   double time_s = 0.0;
+  std::optional<CameraFrame> motion_to{};  // the frame that the layer `motion` leads to, where it is kept
 };
 
 // How the frame's EXR is written, without the render time.

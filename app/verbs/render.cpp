@@ -141,8 +141,15 @@ class RenderRun {
     if (!options_.stats_json.empty()) check_writable(options_.stats_json);
   }
 
-  [[nodiscard]] FrameHeader header_of(const CameraFrame& frame) const {
-    return {frame.number, options_.animation.fps, frame.time_s};
+  [[nodiscard]] FrameHeader header_of(const CameraFrame& frame, std::size_t place) const {
+    FrameHeader header{frame.number, options_.animation.fps, frame.time_s};
+    if (keeps_motion(options_.output)) header.motion_to = frame_of_motion(place);
+    return header;
+  }
+
+  // The frame that a frame's motion leads to.
+  [[nodiscard]] CameraFrame frame_of_motion(std::size_t place) const {
+    return frames_->beside(place, !options_.output.motion_to_former);
   }
 
   // The next frame to draw, skipping existing ones. Null: no frame is left.
@@ -151,7 +158,7 @@ class RenderRun {
       throw_if_cancelled(&run_progress());
       const CameraFrame frame = (*frames_)[next_index_];
       if (options_.output.skip_existing &&
-          is_drawn_already(options_.output, drawing.untraced_request(frame), header_of(frame))) {
+          is_drawn_already(options_.output, drawing.untraced_request(frame), header_of(frame, next_index_))) {
         ++skipped_;
         progress_->step();
       } else {
@@ -164,7 +171,7 @@ class RenderRun {
 
   [[nodiscard]] std::optional<CameraFrame> begin_frame(const Drawing& drawing) {
     if (!find_next_frame(drawing)) return std::nullopt;
-    begun_.push_back({header_of(*next_), now_s(), next_place_});
+    begun_.push_back({header_of(*next_, next_place_), now_s(), next_place_});
     return std::exchange(next_, std::nullopt);
   }
 
@@ -230,9 +237,8 @@ class RenderRun {
     delivering_s_ += now_s() - begin_s;
   }
 
-  // The frame that a frame's motion leads to.
   [[nodiscard]] MotionTo motion_of(const Drawing& drawing, std::size_t place) const {
-    const CameraFrame other = frames_->beside(place, !options_.output.motion_to_former);
+    const CameraFrame other = frame_of_motion(place);
     return {value_or_exit(at_time(drawing.scene(), std::max(other.time_s, 0.0)), kBadScene).mesh,
             other.camera};
   }

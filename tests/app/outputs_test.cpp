@@ -232,6 +232,24 @@ TEST_F(OutputsTest, SkipExistingDrawsAgainWhatAnyInputChanges) {
   expect_new("");
 }
 
+// The layer motion leads to another frame, whose camera and time no other part of the header says.
+TEST_F(OutputsTest, SkipExistingDrawsAgainWhereMotionLeadsElsewhere) {
+  const auto drawn = [&](const std::string& more) {
+    const CommandResult result =
+        run("render" + scene("cornell.gltf") +
+            "--size 16x12 --mode raytrace -o f#.exr --skip-existing --frames 0 " + more);
+    EXPECT_EQ(result.exit_code, 0) << result.err;
+    return result.out.find("f0.exr") != std::string::npos;
+  };
+  const std::string motion = "--aov motion ";
+  for (const std::string more : {"--turntable 4", "--turntable 8", "--turntable 8 --motion-to former"}) {
+    EXPECT_TRUE(drawn(motion + more)) << more;
+    EXPECT_FALSE(drawn(motion + more)) << more;
+  }
+  EXPECT_TRUE(drawn("--aov none --turntable 8"));
+  EXPECT_FALSE(drawn("--aov none --turntable 4"));  // frame 0 is the same picture
+}
+
 // Files that were copied, fetched again or touched are the same; those that were changed are not, whatever
 // their time.
 TEST_F(OutputsTest, SkipExistingAsksNoClock) {
