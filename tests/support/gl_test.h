@@ -13,6 +13,7 @@ class GlTest : public testing::TestWithParam<const char*> {
  protected:
   void SetUp() override { context_ = gl::open_context({GetParam(), "", true}); }
   void TearDown() override {
+    if (!context_) return;  // none could be opened, and SetUp said why
     for (const std::string& complaint : context_->complaints()) ADD_FAILURE() << "OpenGL: " << complaint;
   }
   [[nodiscard]] gl::Context& context() { return *context_; }

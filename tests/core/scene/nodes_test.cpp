@@ -4,6 +4,8 @@
 #include <array>
 #include <cmath>
 #include <glm/gtc/matrix_transform.hpp>
+#include <string>
+#include <type_traits>
 
 #include "tests/support/scenes.h"
 
@@ -50,6 +52,10 @@ TEST_P(Nodes, ComeBackToWhereTheyWere) {
   for (std::size_t i = 0; i < here.cameras.size(); ++i)
     EXPECT_LT(glm::distance(here.cameras[i].target, scene.cameras[i].target), 1e-4f);
 }
+
+// A part does not outlive its scene.
+static_assert(std::is_constructible_v<Part, std::string, const Scene&>);
+static_assert(!std::is_constructible_v<Part, std::string, Scene>);
 
 TEST(Assembled, PartsMoveWithWhatHangsOnThem) {
   const Scene a = one_triangle("a"), b = one_triangle("b");
