@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include "pinocchio/tracer.h"
 #include "tests/support/command.h"
 #include "tests/support/own_file.h"
 
@@ -32,6 +33,11 @@ class ProgramTest : public testing::Test {
   }
   [[nodiscard]] static std::string scene(const std::string& name) {
     return " '" PINOCCHIO_SOURCE_DIR "/scenes/" + name + "' ";
+  }
+
+  // The option for the narrowest lanes that every processor of this architecture has.
+  [[nodiscard]] static std::string four_lanes() {
+    return "--isa " + std::string(isa_name(supported_isas().at(1)));
   }
 
   std::filesystem::path folder_;

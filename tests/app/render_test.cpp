@@ -95,8 +95,9 @@ TEST_F(RenderTest, DeterministicFilesAreEqualToTheByte) {
 
 TEST_F(RenderTest, ThreadsIsaAndExchangeDoNotChangeThePixels) {
   expect_done("render" + scene("two-lights") + kSmall + "-o a.exr");
-  for (const char* options :
-       {"--threads 1", "--threads 4", "--isa scalar", "--isa sse4", "--exchange pipelined"}) {
+  const std::vector<std::string> all{"--threads 1", "--threads 4", "--isa scalar", four_lanes(),
+                                     "--exchange pipelined"};
+  for (const std::string& options : all) {
     expect_done("render" + scene("two-lights") + kSmall + options + " -o b.exr");
     EXPECT_TRUE(same_pixels(exr("a.exr"), exr("b.exr"))) << options;
   }
