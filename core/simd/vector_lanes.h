@@ -1,5 +1,5 @@
-// What the lanes_NAME.h have in common whose masks are registers as wide as their numbers. Included by them,
-// with the name of the namespace in PINOCCHIO_LANES.
+// Shared by the lanes_NAME.h whose masks are registers as wide as their numbers. Each includes this file with
+// the name of its namespace in PINOCCHIO_LANES.
 #pragma once
 
 #include <array>

@@ -23,7 +23,7 @@ struct IsaEntry {
   const LaneSteps& steps;
 };
 
-// Of this architecture, narrowest first.
+// The instruction sets of this architecture, narrowest first.
 #define PINOCCHIO_ENTRY(name, lanes, feature) \
   {Isa::name, [] { return PINOCCHIO_PROCESSOR_HAS(feature); }, name::kKernels, name::kSteps},
 const IsaEntry kIsas[]{PINOCCHIO_ISAS(PINOCCHIO_ENTRY)};

@@ -24,7 +24,7 @@ struct RayColumns;
 struct SceneTrees;
 
 // The instruction set, which sets the width of ray packets.
-// The same names on every architecture: x86-64 has the first four, 64-bit Arm scalar and neon.
+// All architectures use the same names: x86-64 has the first four, 64-bit Arm has scalar and neon.
 enum class Isa { scalar, sse4, avx2, avx512, neon };
 
 inline constexpr std::array<std::string_view, 5> kIsaNames{"scalar", "sse4", "avx2", "avx512", "neon"};

@@ -33,7 +33,7 @@ const LightKind* kind_of_type(std::string_view type) {
   return found == kLightKinds.end() ? nullptr : found;
 }
 
-// What our extras tell about a light. The sides lie along the node's x and y.
+// Applies our extras to a light. The sides of an area light lie along the node's x and y axes.
 void add_extras(const Json* extras, const glm::mat4& world, Light& light) {
   light.casts_shadow = value_member<bool>(extras, "castsShadow").value_or(light.casts_shadow);
   for (const LightSize& size : kLightSizes)

@@ -9,7 +9,7 @@
 
 namespace pinocchio {
 
-// Whether glTF has lights of this `type`.
+// Returns whether glTF defines this light `type`.
 [[nodiscard]] bool is_light_type(std::string_view type);
 
 // Placed by `world`, the node's transform, with what our extras tell. A type that glTF does not have shines
@@ -22,7 +22,7 @@ namespace pinocchio {
 [[nodiscard]] Light at_rest(const glm::mat4& world, const Light& light);
 [[nodiscard]] Camera at_rest(const glm::mat4& world, const Camera& camera);
 
-// Whether all their numbers are usable.
+// Return whether their numbers are finite; a camera also needs a field of view and a height.
 [[nodiscard]] bool can_look(const Camera& camera);
 [[nodiscard]] bool can_shine(const Light& light);
 

@@ -14,7 +14,7 @@
 
 namespace pinocchio {
 
-// What an operation of core/simd/lanes.h does with the bits of two numbers. Masks are 1 or 0.
+// An operation of core/simd/lanes.h, applied to the bits of two numbers. The result of a comparison is 1 or 0.
 enum class LaneOp {
   min,
   max,
