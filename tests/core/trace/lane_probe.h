@@ -14,7 +14,7 @@
 
 namespace pinocchio {
 
-// An operation of core/simd/lanes.h, applied to the bits of two numbers. The result of a comparison is 1 or 0.
+// An operation of core/simd/lanes.h, applied to the bits of two numbers. A comparison gives 1 or 0.
 enum class LaneOp {
   min,
   max,
