@@ -198,10 +198,10 @@ TEST_F(EditingTest, TheEnvironmentIsTurnedAndMadeStronger) {
   click(240, rows[of_lights]);
   xdo(at(700, 500));
   EXPECT_TRUE(becomes([this] { return !option(command_line(), "--environment-rotation").empty(); }));
-  click(122, rows[of_lights + 1]);
+  click(190, rows[of_lights + 1]);
   xdo(at(700, 500));
   EXPECT_TRUE(
-      becomes([this] { return std::stod("0" + option(command_line(), "--environment-strength")) > 0.0; }));
+      becomes([this] { return !option(command_line(), "--environment-strength").empty(); }));
   expect_clean_close();
 }
 

@@ -67,7 +67,7 @@ class RadianceReader {
       const unsigned char code = next();
       const std::size_t count = code > 128 ? code - 128u : code;
       if (count == 0 || count > pixels.size() - x)
-        throw RadianceDamage("a run of equal pixels is longer than its row");
+        throw RadianceDamage("a run of equal pixels does not fit its row");
       const unsigned char value = code > 128 ? next() : 0;
       for (const std::size_t end = x + count; x < end; ++x) pixels[x][channel] = code > 128 ? value : next();
     }
@@ -86,7 +86,7 @@ class RadianceReader {
       }
       const std::size_t count = shift < 32 ? std::size_t{e} << shift : pixels.size();
       if (x == 0 || count > pixels.size() - x)
-        throw RadianceDamage("a run of equal pixels is longer than its row");
+        throw RadianceDamage("a run of equal pixels does not fit its row");
       std::fill_n(pixels.begin() + x, count, pixels[x - 1]);
       x += count;
       shift += 8;
