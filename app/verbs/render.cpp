@@ -126,7 +126,9 @@ class RenderRun {
                  "nothing to write; name a file with -o FILE.exr, --preview FILE.png or --stats-json, or "
                  "write frames to standard output with --raw -");
     if (options_.output.raw && isatty(STDOUT_FILENO) != 0)
-      throw Exit(kUsage, "--raw - writes bytes that no terminal shows; pipe them to a program or a file");
+      throw Exit(
+          kUsage,
+          "--raw - writes binary data, which a terminal cannot show; pipe them to a program or a file");
     check_apart(input_files(options_.draw, options_.animation, scene),
                 output_files(options_.output, frames_->range(), {"--stats-json", options_.stats_json}));
     check_outputs(options_.output, frames_->range());

@@ -89,7 +89,7 @@ nb::object given_array(const LayerRow& output, const std::vector<std::size_t>& s
 // origin serves for all.
 void set_rays(const nb::object& given, View& view) {
   const char* const wanted =
-      "rays is (origins, directions), arrays of the shape (height, width, 3) or (n, 3)";
+      "rays must be (origins, directions), arrays of the shape (height, width, 3) or (n, 3)";
   if (!nb::isinstance<nb::sequence>(given) || nb::len(given) != 2) throw Error(wanted);
   const nb::module_ numpy = nb::module_::import_("numpy");
   const auto axes_of = [&](nb::handle array) { return nb::cast<int>(numpy.attr("ndim")(array)); };
