@@ -8,7 +8,8 @@
 #include <tuple>
 
 #include "core/parallel/tiles.h"
-#include "core/shade/map_lanes.h"
+#include "core/shade/footprint.h"
+#include "core/shade/lane_maps.h"
 #include "core/shade/shared.h"
 #include "core/trace/rays/ray_queue.h"
 #include "core/trace/rays/trace_options.h"
@@ -30,9 +31,12 @@ struct SceneArrays {
   const glm::uvec3* triangles;
   const std::uint32_t* triangle_materials;
   const Material* materials;
-  const Mesh* mesh;  // for materials with maps (shade/map_lanes.h); null: there are none
+  // For materials with maps; null: there are none.
+  const LaneMaps* maps;
+  const glm::vec4 *colors, *tangents;
 
-  [[nodiscard]] static SceneArrays of(const Mesh& mesh);
+  // `maps`: the mesh's.
+  [[nodiscard]] static SceneArrays of(const Mesh& mesh, const LaneMapsOf& maps);
 };
 
 struct BounceLight {

@@ -179,9 +179,11 @@ inline void fetch_corners(const SceneArrays& scene, const RayQueue& rays, std::s
 template <bool kSampled>
 void bounce_packets(const Bounce& bounce, const RayQueue& rays) {
   const bool reads_material = bounce.adds_light || bounce.adds_ambient || bounce.mirrored ||
-                              (bounce.visible && bounce.options->light_cutoff > 0.0f) ||
-                              bounce.scene.mesh != nullptr || bounce.environment || bounce.prefiltered ||
-                              bounce.diffuse;
+                              (bounce.visible && bounce.options->light_cutoff > 0.0f) || bounce.environment ||
+                              bounce.prefiltered || bounce.diffuse;
+  const unsigned wanted =
+      maps_wanted(reads_material, bounce.adds_ambient,
+                  bounce.prefiltered || (bounce.adds_ambient && bounce.ambient_light != glm::vec3(0.0f)));
   for (std::size_t i = 0; i < kTrianglesAhead; i += kWidth) fetch_triangles(bounce.scene, rays, i);
   for (std::size_t i = 0; i < kCornersAhead; i += kWidth) fetch_corners(bounce.scene, rays, i);
   for (std::size_t i = 0; i < rays.size; i += kWidth) {
@@ -192,7 +194,8 @@ void bounce_packets(const Bounce& bounce, const RayQueue& rays) {
     const Corners corners(bounce.scene, triangle, lanes);
     const Vec origin = Vec::load(rays.origin, i), direction = Vec::load(rays.direction, i);
     LaneSurface s = surface_of(corners, origin, direction, bounce.offset);
-    LaneMaterial m(bounce.scene, corners.material, reads_material ? lanes : Mask::from_bits(0));
+    LaneMaterial m(bounce.scene, corners.material,
+                   reads_material || bounce.scene.maps ? lanes : Mask::from_bits(0));
     if (m.layered != 0) m.coat_normal = s.n_shading;
     s.width = Float(0.0f);
     if (bounce.footprint->angle > 0.0f) {
@@ -200,9 +203,9 @@ void bounce_packets(const Bounce& bounce, const RayQueue& rays) {
           bounce.visible ? Float(bounce.footprint->start_width) : Float::load(rays.width + i);
       const Vec way = s.p_world - origin;
       s.width = before + Float(bounce.footprint->angle) * sqrt(dot(way, way));
-      if (m.mapped != 0) apply_maps(bounce, triangle, origin, direction, before, s, m);
+      if (m.mapped != 0) apply_maps(bounce, corners, triangle, origin, direction, before, wanted, s, m);
     } else if (m.mapped != 0) {
-      apply_maps(bounce, triangle, origin, direction, s.width, s, m);
+      apply_maps(bounce, corners, triangle, origin, direction, s.width, wanted, s, m);
     }
     Vec throughput = bounce.visible ? Vec(Float(1.0f)) : Vec::load(rays.light, i);
     std::optional<LaneMedia> surrounding;
@@ -255,7 +258,8 @@ void bounce_rays(const Bounce& bounce, const RayQueue& rays) {
 
 void visible_points(const Bounce& bounce, const glm::vec3& axis, const RayQueue& rays,
                     const SeenColumns& to) {
-  const bool reads_material = to.albedo[0] != nullptr || bounce.scene.mesh != nullptr;
+  const bool reads_material = to.albedo[0] != nullptr;
+  const unsigned wanted = maps_wanted(reads_material, false, false);
   const bool by_distance = axis == glm::vec3(0.0f);
   for (std::size_t i = 0; i < rays.size; i += kWidth) {
     fetch_triangles(bounce.scene, rays, i + kTrianglesAhead);
@@ -265,8 +269,9 @@ void visible_points(const Bounce& bounce, const glm::vec3& axis, const RayQueue&
     const Corners corners(bounce.scene, triangle, lanes);
     const Vec origin = Vec::load(rays.origin, i), direction = Vec::load(rays.direction, i);
     LaneSurface s = surface_of(corners, origin, direction, bounce.offset);
-    LaneMaterial m(bounce.scene, corners.material, reads_material ? lanes : Mask::from_bits(0));
-    if (m.mapped != 0) apply_maps(bounce, triangle, origin, direction, Float(0.0f), s, m);
+    LaneMaterial m(bounce.scene, corners.material,
+                   reads_material || bounce.scene.maps ? lanes : Mask::from_bits(0));
+    if (m.mapped != 0) apply_maps(bounce, corners, triangle, origin, direction, Float(0.0f), wanted, s, m);
     if (to.depth) {
       const Vec way = s.p_world - origin;
       (by_distance ? sqrt(dot(way, way)) : dot(way, Vec(axis))).store(to.depth + i);

@@ -31,9 +31,15 @@ bool any_maps(const Mesh& mesh, bool (MaterialMaps::*is)() const) {
 
 }  // namespace
 
-SceneArrays SceneArrays::of(const Mesh& mesh) {
-  return {mesh.positions.data(),          mesh.normals.data(),   mesh.triangles.data(),
-          mesh.triangle_materials.data(), mesh.materials.data(), mesh.maps.empty() ? nullptr : &mesh};
+SceneArrays SceneArrays::of(const Mesh& mesh, const LaneMapsOf& maps) {
+  return {mesh.positions.data(),
+          mesh.normals.data(),
+          mesh.triangles.data(),
+          mesh.triangle_materials.data(),
+          mesh.materials.data(),
+          maps.data(),
+          mesh.colors.empty() ? nullptr : mesh.colors.data(),
+          mesh.tangents.empty() ? nullptr : mesh.tangents.data()};
 }
 
 void TilePlan::set_view(const shared::ViewParams& from, const RayModel* rays) {
@@ -49,6 +55,7 @@ void TilePlan::set_view(const shared::ViewParams& from, const RayModel* rays) {
 TilePlan::TilePlan(const TraceJob& j, const TileOutputs& o)
     : job(j),
       out(o),
+      maps(*j.scene.mesh),
       has_holes(any_maps(*j.scene.mesh, &MaterialMaps::has_holes)),
       blends(any_maps(*j.scene.mesh, &MaterialMaps::blends)),
       passed_backs(*j.scene.mesh, j.options.backfaces),
@@ -57,7 +64,7 @@ TilePlan::TilePlan(const TraceJob& j, const TileOutputs& o)
       sized_lights(static_cast<std::size_t>(std::ranges::count_if(j.scene.lights, &Light::has_size))) {
   straight_apart = blends && (passed_backs.any() || o.coverage);
   set_view(j.view, j.model);
-  further.scene = SceneArrays::of(*job.scene.mesh);
+  further.scene = SceneArrays::of(*job.scene.mesh, maps);
   further.offset = job.tracer.offset();
   further.options = &job.options;
   further.footprint = &further_footprint;
