@@ -111,7 +111,8 @@ void GatheredLight::fill_planes(Workers& workers) {
   stride_ = (size_.x + 2 * kDenoiseBorder + kPacket + kPacket - 1) / kPacket * kPacket;
   const std::size_t lines = static_cast<std::size_t>(size_.y) + 2 * kDenoiseBorder;
   const std::size_t floats = kPlanes * lines * static_cast<std::size_t>(stride_);
-  if (planes_.size() != floats) planes_ = AlignedVector<float>(floats);
+  // Numbers everywhere: a weight of 0 times none would be none.
+  if (planes_.size() != floats) planes_.assign(floats, 0.0f);
   std::size_t used = 0;
   for (auto& channel : guides_.normal) channel = plane(used++);
   float* const normal[3] = {plane(0), plane(1), plane(2)};

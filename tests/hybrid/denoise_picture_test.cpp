@@ -58,6 +58,31 @@ double distance(const Image<glm::vec4>& a, const Image<glm::vec4>& b) {
   return std::sqrt(squares / static_cast<double>(a.pixels().size()));
 }
 
+// The distance over pixels whose surroundings see one square of the scene: at others, few samples see edges
+// roughly.
+double distance_within(const FrameResult& a, const FrameResult& b) {
+  double squares = 0.0, count = 0.0;
+  for (int y = 1; y + 1 < kSize.y; ++y)
+    for (int x = 1; x + 1 < kSize.x; ++x) {
+      bool inside = a.ids.at(x, y) != kNoTriangle;
+      for (int k = 0; k < 9; ++k)
+        inside = inside && a.ids.at(x + k % 3 - 1, y + k / 3 - 1) / 2 == a.ids.at(x, y) / 2;
+      if (!inside) continue;
+      const glm::dvec4 off(a.color.at(x, y) - b.color.at(x, y));
+      squares += glm::dot(off, off);
+      count += 1.0;
+    }
+  return std::sqrt(squares / count);
+}
+
+// The share of pixels that differ by more than `by`: at a few edges, GPU and CPU see neighbouring triangles.
+double share_off(const Image<glm::vec4>& a, const Image<glm::vec4>& b, float by) {
+  std::size_t off = 0;
+  for (std::size_t i = 0; i < a.pixels().size(); ++i)
+    off += glm::any(glm::greaterThan(glm::abs(a[i] - b[i]), glm::vec4(by))) ? 1 : 0;
+  return static_cast<double>(off) / static_cast<double>(a.pixels().size());
+}
+
 bool same_bits(const Image<glm::vec4>& a, const Image<glm::vec4>& b) {
   return std::memcmp(a.pixels().data(), b.pixels().data(), a.pixels().size_bytes()) == 0;
 }
@@ -67,7 +92,7 @@ TEST(DenoisedPicture, FewSamplesAreNearTheTruth) {
     const FrameResult truth = picture(scene, with({{"mode", "raytrace"}}, 1024, false));
     const FrameResult plain = picture(scene, with({{"mode", "raytrace"}}, 4, false));
     const FrameResult filtered = picture(scene, with({{"mode", "raytrace"}}, 4));
-    EXPECT_LT(distance(filtered.color, truth.color), 0.5 * distance(plain.color, truth.color));
+    EXPECT_LT(distance_within(filtered, truth), 0.5 * distance_within(plain, truth));
   }
 }
 
@@ -102,10 +127,10 @@ TEST(DenoisedPicture, HybridAgreesWithTheCpu) {
       const FrameResult expected = picture(scene, with({{"mode", "raytrace"}}, spp));
       ASSERT_TRUE(expected.settings.denoise);
       const FrameResult on_gpu = picture(scene, with({{"mode", "hybrid"}}, spp));
-      EXPECT_LT(distance(on_gpu.color, expected.color), 0.002) << spp;
+      EXPECT_LT(share_off(on_gpu.color, expected.color, 0.004f), 0.003) << spp;
       if (spp == 1) continue;  // a single picture of design 2 is packed in 8 bits
       const FrameResult by_cpu = picture(scene, with({{"mode", "hybrid"}, {"design", "2"}}, spp));
-      EXPECT_LT(distance(by_cpu.color, expected.color), 0.004) << spp;
+      EXPECT_LT(share_off(by_cpu.color, expected.color, 0.01f), 0.003) << spp;
     }
 }
 
