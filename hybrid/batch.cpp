@@ -19,7 +19,8 @@ namespace {
 
 // Whether the tile queue can draw it: the CPU alone, every pixel with a sample of its own.
 bool fits_tile_queue(const Settings& s) {
-  return !s.uses_gpu() && s.mask_scale == 1 && s.reflection_scale == 1 && s.max_noise == 0.0f;
+  return !s.uses_gpu() && s.mask_scale == 1 && s.reflection_scale == 1 && s.max_noise == 0.0f && !s.denoise &&
+         !(s.average_layers && s.spp > 1);
 }
 
 RayCounts draw_tiles(Engine::Parts& engine, const Scene& scene, const std::shared_ptr<const Tracer>& tracer,

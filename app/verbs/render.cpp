@@ -120,6 +120,8 @@ class RenderRun {
   void check(const Scene& scene) const {
     if (options_.draw.precise && options_.draw.settings.indirect > 0)
       throw Exit(kUsage, "--precise draws no --indirect light; leave out --precise and use --spp");
+    if (options_.draw.precise && (options_.draw.settings.denoise || options_.draw.settings.average_layers))
+      throw Exit(kUsage, "--precise draws no --denoise and no --average-layers; leave out one of them");
     if (options_.output.exr.empty() && options_.output.preview.empty() && !options_.output.raw &&
         options_.stats_json.empty())
       throw Exit(kUsage,

@@ -193,6 +193,14 @@ constexpr std::array kTable{
         "sky_occlusion", from_to(0, 64), "0; 8 for the studio",
         "shadow rays at each point that hide a prefiltered environment, about the surface's "
         "normal; 0: it casts no shadows"),
+    field<&S::denoise>(
+        "denoise", yes_or_no(), "false; true in the window",
+        "filter the light that samples find (environment, lights with a size, rough mirrors, "
+        "other surfaces), for few samples; hard light, sharp mirrors and textures stay as they are "
+        "(docs/denoise.md)"),
+    field<&S::average_layers>("average_layers", yes_or_no(), "false",
+                              "the layers N and Albedo are means over the samples, as denoisers want them, "
+                              "not of the first sample"),
     field<&S::terminator>(
         "terminator", one_of(kTerminatorNames), terminator_name(kUsualTerminator),
         "where a coarse mesh's shading normals face a light and its facets do not: off: dark; "

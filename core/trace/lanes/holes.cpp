@@ -46,7 +46,7 @@ float threshold_of(const SamplePlace& place, std::uint32_t pixel, std::uint32_t 
   for (const std::uint32_t part :
        {std::bit_cast<std::uint32_t>(place.jitter.y),
         static_cast<std::uint32_t>(place.corner.x) + (pixel & mask),
-        static_cast<std::uint32_t>(place.corner.y) + (pixel >> kTileBits), triangle})
+        static_cast<std::uint32_t>(place.corner.y) + (pixel >> kTileBits & mask), triangle})
     seed = mixed(seed) + part;
   return static_cast<float>(mixed(seed) >> 8) * 0x1p-24f;
 }

@@ -23,7 +23,11 @@ namespace pinocchio {
 inline constexpr int kTileBits = 5;
 static_assert(1 << kTileBits == TileGrid::kTileSize);
 
+// Rays whose light is found at random have their pixel's number plus this, where that light is kept apart.
+inline constexpr std::uint32_t kSampledPixels = 1u << (2 * kTileBits);
+
 struct EnvironmentLight;
+struct SampledPoint;
 
 // The scene's arrays as the lanes read them.
 struct SceneArrays {
@@ -78,7 +82,11 @@ struct Bounce {
   RayQueue *mirrored = nullptr, *refracted = nullptr, *straight = nullptr;
   RayQueue* diffuse = nullptr;  // towards light from other surfaces
   float* radiance = nullptr;    // a tile's pixels, RGBA
-  float* traced = nullptr;      // likewise, for `prefiltered`
+  float* traced = nullptr;      // likewise, for `prefiltered`; from kSampledPixels on for `sampled`
+  // kSampledPixels: what is found at random from here on is kept apart for the filter (core/denoise); 0: it
+  // is not.
+  std::uint32_t sampled = 0;
+  SampledPoint* points = nullptr;  // a tile's pixels: the surfaces, for the filter; null: not wanted
 };
 
 // The points that rays see, a column each, with room behind the last ray for a packet; null: not wanted.

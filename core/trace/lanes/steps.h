@@ -6,6 +6,7 @@
 #include "core/trace/lanes/environment.h"
 #include "core/trace/lanes/lobe.h"
 #include "core/trace/lanes/maps.h"
+#include "core/trace/lanes/sampled.h"
 #include "core/trace/lanes/scatter.h"
 #include "core/trace/lanes/terminator.h"
 
@@ -82,6 +83,7 @@ inline void append_shadow_rays(const BounceLight& from, const ShadowStarts& star
 
 // The whole picture's pixels that the tile's samples belong to.
 inline whole2 whole_picture_pixel(const Bounce& bounce, Int pixel) {
+  pixel = pixel & Int(kSampledPixels - 1);
   const Int row = shift_right<kTileBits>(pixel), scale(bounce.scale);
   return {(pixel - shift_left<kTileBits>(row)) * scale + Int(bounce.corner.x),
           row * scale + Int(bounce.corner.y)};
@@ -128,9 +130,15 @@ inline Vec light_points(const Bounce& bounce, const Corners& corners, const Lane
       lit = lit & ~(most_light(m, incident, s, counted) < Float(bounce.options->light_cutoff));
     if (lit.bits() == 0) continue;
     Vec term(Float(0.0f));
-    if (bounce.adds_light) term = reflected_light(m, incident, s.n_shading, s.to_viewer, lit, counted);
+    const bool apart = kSampled && bounce.sampled != 0 && light.has_size;
+    if (bounce.adds_light || apart)
+      term = reflected_light(m, incident, s.n_shading, s.to_viewer, lit, counted);
     if (bounce.options->terminator == Terminator::smoothed)
       term = term * terminator_factor(s.n_shading, s.n_geometric, incident.to_light);
+    if (apart && light.slot < 0) {
+      add_light(throughput * term, pixel + Int(bounce.sampled), lit, bounce.traced);
+      continue;
+    }
     if (light.slot < 0) {
       sum = select(lit, sum + term, sum);
       continue;
@@ -141,7 +149,8 @@ inline Vec light_points(const Bounce& bounce, const Corners& corners, const Lane
   }
   if constexpr (kSampled)
     if (bounce.environment)
-      sample_environment(bounce, starts, s, m, throughput, lobe, *sampling, pixel, lanes);
+      sample_environment(bounce, starts, s, m, throughput, lobe, *sampling, pixel + Int(bounce.sampled),
+                         lanes);
   return sum;
 }
 
@@ -180,7 +189,7 @@ template <bool kSampled>
 void bounce_packets(const Bounce& bounce, const RayQueue& rays) {
   const bool reads_material = bounce.adds_light || bounce.adds_ambient || bounce.mirrored ||
                               (bounce.visible && bounce.options->light_cutoff > 0.0f) || bounce.environment ||
-                              bounce.prefiltered || bounce.diffuse;
+                              bounce.prefiltered || bounce.diffuse || bounce.sampled != 0;
   const unsigned wanted =
       maps_wanted(reads_material, bounce.adds_ambient,
                   bounce.prefiltered || (bounce.adds_ambient && bounce.ambient_light != glm::vec3(0.0f)));
@@ -231,6 +240,8 @@ void bounce_packets(const Bounce& bounce, const RayQueue& rays) {
       if constexpr (kSampled)
         if (bounce.lobes) lobe = sample_lobe(s, m, own, *samples, lanes, bounce);
     }
+    if constexpr (kSampled)
+      if (bounce.points) write_points(bounce, s, m, s.p_world - origin, pixel, lanes);
     const Vec certain = light_points<kSampled>(bounce, corners, s, m, own, lobe, samples, pixel, lanes);
     if (bounce.adds_light) add_light(own * certain, rays.pixel + i, lanes, bounce.radiance);
     if (bounce.prefiltered) {
@@ -243,12 +254,14 @@ void bounce_packets(const Bounce& bounce, const RayQueue& rays) {
     }
     if constexpr (kSampled)
       if (lobe.lanes.bits() != 0) {
-        light_along_lobe(bounce, s, lobe, own, pixel);
-        if (bounce.environment && !bounce.mirrored) sky_along_lobe(bounce, s, lobe, own, pixel);
+        const Int of_lobe = lobe_pixel(bounce, lobe, pixel);
+        light_along_lobe(bounce, s, lobe, own, of_lobe);
+        if (bounce.environment && !bounce.mirrored) sky_along_lobe(bounce, s, lobe, own, of_lobe);
       }
     if (bounce.mirrored) scatter<kSampled>(s, m, throughput, lobe, samples, pixel, lanes, bounce, media);
     if constexpr (kSampled)
-      if (bounce.diffuse) scatter_diffuse(bounce, s, m, own, *samples, pixel, lanes, media);
+      if (bounce.diffuse)
+        scatter_diffuse(bounce, s, m, own, *samples, pixel + Int(bounce.sampled), lanes, media);
   }
 }
 

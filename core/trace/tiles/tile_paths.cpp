@@ -17,7 +17,10 @@ constexpr float kLeastCoverage = 1e-30f;
 void TileTracer::follow() {
   std::size_t rays = next_diffuse_.size;
   for (const RayQueue& queue : rays_) rays += queue.size;
-  if (!reflects_ && rays > 0) reflected_.fill(glm::vec4(0.0f)), reflects_ = true;
+  if (!reflects_ && rays > 0) {
+    reflects_ = true;
+    begin_light();
+  }
   follow_mirrors(0);
   for (int bounce = 1; bounce <= plan_->out.indirect && next_diffuse_.size > 0; ++bounce) {
     follow_diffuse(bounce);
@@ -38,8 +41,8 @@ void TileTracer::follow_diffuse(int bounce_count) {
   step.diffuse = bounce_count < plan_->out.indirect ? &next_diffuse_ : nullptr;
   find_hits(diffuse_, generation);
   plan_->job.tracer.steps().keep_hits(diffuse_);
-  bounce(step, generation, diffuse_, rays_, reflected_);
-  fire_shadows(generation, reflected_);
+  bounce(step, generation, diffuse_, rays_, reflected_.data());
+  fire_shadows(generation, reflected_.data());
   fire_at_environment(generation);
 }
 
@@ -67,9 +70,9 @@ void TileTracer::follow_mirrors(int bounce_count) {
         plan_->job.tracer.steps().add_environment(*plan_->environment, plan_->further.environment != nullptr,
                                                   queue, &reflected_[0].x);
       plan_->job.tracer.steps().keep_hits(queue);
-      bounce(step, generation, queue, next_, reflected_, of_camera);
+      bounce(step, generation, queue, next_, reflected_.data(), of_camera);
     }
-    fire_shadows(generation, reflected_);
+    fire_shadows(generation, reflected_.data());
     fire_at_environment(generation);
     std::swap(rays_, next_);
   }

@@ -84,14 +84,16 @@ TilePlan::TilePlan(const TraceJob& j, const TileOutputs& o)
     if (!sampled) environment->prefiltered = prefiltered(job.scene.environment);
     (sampled ? further.environment : further.prefiltered) = &*environment;
   }
-  further.lobes = further.samples && sampled_lobes && microfacets && (o.reflection || o.color || o.added);
+  further.lobes =
+      further.samples && sampled_lobes && microfacets && (o.reflection || o.color || o.added || o.sampled);
   visible = further;
   visible.footprint = &seen_footprint;
   visible.visible = true;
   visible.adds_ambient = out.color != nullptr;
   visible.adds_light = out.color || out.added;
   for (const BounceLight& light : all_lights)
-    if (light.slot >= 0 ? out.mask_bits > 0 : visible.adds_ambient) visible_lights.push_back(light);
+    if (light.slot >= 0 ? out.mask_bits > 0 : visible.adds_ambient || (out.sampled && light.has_size))
+      visible_lights.push_back(light);
   visible.lights = visible_lights.data();
   visible.light_count = visible_lights.size();
 }
