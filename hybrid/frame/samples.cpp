@@ -5,6 +5,7 @@
 
 #include "core/parallel/tiles.h"
 #include "core/trace/view/jitter.h"
+#include "hybrid/settings/resolve.h"
 
 namespace pinocchio {
 
@@ -39,6 +40,22 @@ void settle_environment(Scene& scene, const Settings& settings) {
   // Ambient light stands for light from other surfaces and the sky.
   if (settings.reflects() && (settings.indirect > 0 || scene.environment))
     scene.ambient_light = glm::vec3(0.0f);
+}
+
+namespace {
+
+int casting(const Scene& scene) {
+  return static_cast<int>(std::ranges::count_if(scene.lights, &Light::casts_shadow));
+}
+
+}  // namespace
+
+int mask_bits_of(const Settings& settings, const Scene& scene) {
+  return settings.mask_bits == 0 ? 0 : std::max<int>(settings.mask_bits, MaskImage::bits_for(casting(scene)));
+}
+
+bool sends_lights(const Settings& settings, const Scene& scene) {
+  return adds_lights(settings, casting(scene));
 }
 
 void submit_samples(Renderer& renderer, FrameRequest request, SampleMean* mean) {
