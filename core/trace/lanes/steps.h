@@ -189,7 +189,7 @@ template <bool kSampled>
 void bounce_packets(const Bounce& bounce, const RayQueue& rays) {
   const bool reads_material = bounce.adds_light || bounce.adds_ambient || bounce.mirrored ||
                               (bounce.visible && bounce.options->light_cutoff > 0.0f) || bounce.environment ||
-                              bounce.prefiltered || bounce.diffuse || bounce.sampled != 0;
+                              bounce.prefiltered || bounce.diffuse || bounce.sampled != 0 || bounce.points;
   const unsigned wanted =
       maps_wanted(reads_material, bounce.adds_ambient,
                   bounce.prefiltered || (bounce.adds_ambient && bounce.ambient_light != glm::vec3(0.0f)));

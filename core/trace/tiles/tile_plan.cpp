@@ -134,7 +134,7 @@ TilePlan::TilePlan(const TraceJob& j, const TileOutputs& o)
   if (job.scene.environment) environment.emplace(job.scene);
   if (environment && environment->shines && o.environment_light) {
     const bool sampled = job.options.environment_light == EnvironmentMethod::sampled;
-    if (!sampled) environment->prefiltered = prefiltered(job.scene.environment);
+    if (!sampled || out.sampled) environment->prefiltered = prefiltered(job.scene.environment);
     (sampled ? further.environment : further.prefiltered) = &*environment;
   }
   further.lobes =
