@@ -53,7 +53,7 @@ ReferenceTracer::Pixel ReferenceTracer::pixel(const shared::ViewParams& view, in
   ReferenceSpread spread{ray.direction, side * glm::dvec3(view.step_x), side * glm::dvec3(view.step_y)};
   if (footprint == 0.0) spread = {};
   const ReferenceSurface surface = reference_surface(*scene_.mesh, ray, hit, spread);
-  const glm::dvec3 own = direct(surface, pixel.mask);
+  const glm::dvec3 own = direct(surface, &pixel.mask);
   const glm::dvec3 mirrored = from_sky(surface) + bounced(surface, depth, cone_after(ray, hit),
                                                           media_at(nullptr, hit, surface), kLobeSide);
   pixel.reflection = glm::vec3(mirrored);
@@ -61,13 +61,12 @@ ReferenceTracer::Pixel ReferenceTracer::pixel(const shared::ViewParams& view, in
   return pixel;
 }
 
-// The surface's light without mirrors and glass. Sets bit i of `bits` if casting light i reaches the point.
-glm::dvec3 ReferenceTracer::direct(const ReferenceSurface& surface, unsigned& bits) const {
+// The surface's light without mirrors and glass. `reached`: becomes whether each casting light reaches the
+// point.
+glm::dvec3 ReferenceTracer::direct(const ReferenceSurface& surface, std::vector<bool>* reached) const {
   glm::dvec3 sum = surface.material.ambient * glm::dvec3(scene_.ambient_light) +
                    reference_below_layers(surface) * surface.material.emission;
-  int slot = -1;
   for (const Light& light : scene_.lights) {
-    if (light.casts_shadow) ++slot;
     double seen = 0.0, all = 0.0;  // sums over the points of a light
     for (const ReferenceLight& point : reference_lights(light, surface, options_.terminator)) {
       const bool hidden = light.casts_shadow && point.way_up && tree_.occluded(*point.way_up);
@@ -76,7 +75,7 @@ glm::dvec3 ReferenceTracer::direct(const ReferenceSurface& surface, unsigned& bi
       all += 1.0;
       sum += share * reference_reflected(surface, point, lobes_ && light.casts_shadow);
     }
-    if (light.casts_shadow && all > 0.0 && seen >= 0.5 * all) bits |= 1u << slot;
+    if (light.casts_shadow && reached) reached->push_back(all > 0.0 && seen >= 0.5 * all);
   }
   return surface.material.alpha * sum;
 }
@@ -186,11 +185,10 @@ glm::dvec3 ReferenceTracer::seen(const ReferenceRay& ray, const Material* medium
   if (!hit.valid()) return environment_ ? environment_->radiance(ray.direction) : glm::dvec3(0.0);
   const Cone cone = cone_after(ray, hit);
   const ReferenceSurface surface = reference_surface(*scene_.mesh, ray, hit, spread_of(ray, cone.width));
-  unsigned bits = 0;
   const Media media = media_at(medium, hit, surface);
   const double way = hit.t * glm::length(ray.direction);
   return left_of_light(media.here, way) *
-         (direct(surface, bits) + from_sky(surface) + bounced(surface, depth, cone, media, lobe_side));
+         (direct(surface) + from_sky(surface) + bounced(surface, depth, cone, media, lobe_side));
 }
 
 namespace {

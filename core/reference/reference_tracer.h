@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <glm/glm.hpp>
 #include <optional>
+#include <vector>
 
 #include "core/reference/reference_environment.h"
 #include "core/reference/reference_surface.h"
@@ -30,7 +31,7 @@ class ReferenceTracer {
 
   struct Pixel {
     std::uint32_t triangle = kNoTriangle;  // at the sample point
-    unsigned mask = 0;                     // bit i: casting light i reaches the point
+    std::vector<bool> mask;                // casting light i reaches the point; empty: none does
     glm::vec3 reflection{0.0f};            // mirrored, refracted and the environment's light, linear
     glm::vec4 color{0.0f};  // linear; A is 1 if a triangle is hit, 0 if the environment is seen
   };
@@ -38,7 +39,7 @@ class ReferenceTracer {
   [[nodiscard]] Pixel pixel(const shared::ViewParams& view, int x, int y, int depth) const;
 
  private:
-  glm::dvec3 direct(const ReferenceSurface& surface, unsigned& bits) const;
+  glm::dvec3 direct(const ReferenceSurface& surface, std::vector<bool>* reached = nullptr) const;
   [[nodiscard]] glm::dvec3 from_sky(const ReferenceSurface& surface) const;
   // The footprint of textures at further hits of a ray, and whether it comes from the camera.
   struct Cone {

@@ -51,10 +51,9 @@ void write_lines(const FrameResult& frame, int y0, int y1, const FrameArrays& to
   copy(frame.ids, to.ids);
   copy(frame.reflection, to.reflection);
   if (count > 0) write_identities(frame.scene, {&frame.ids[begin], count}, to, first);
-  for (std::size_t i = 0; to.mask && i < count; ++i) {
-    const int x = static_cast<int>(i % width), y = y0 + static_cast<int>(i / width);
-    to.mask[first + i] = static_cast<std::uint8_t>(frame.mask.bits() > 0 ? frame.mask.get(x, y) : 0u);
-  }
+  for (std::size_t i = 0; to.mask && i < count; i += width)
+    frame.mask.copy_row(0, y0 + static_cast<int>(i / width), width, to.mask_bytes,
+                        to.mask + (first + i) * to.mask_bytes);
   if (!(to.wants_surfaces() || to.motion) || count == 0) return;
   View view = frame.view;
   view.jitter = glm::vec2(0.0f);
@@ -95,9 +94,10 @@ SurfaceImages surfaces_of(const FrameResult& frame) {
   return all;
 }
 
-void unpack_mask(const FrameResult& frame, std::uint8_t* to) {
+void unpack_mask(const FrameResult& frame, std::uint8_t* to, std::size_t bytes) {
   FrameArrays arrays;
   arrays.mask = to;
+  arrays.mask_bytes = bytes;
   write_lines(frame, 0, frame.ids.height(), arrays);
 }
 

@@ -15,6 +15,8 @@ void ShadingPasses::composite(const Inputs& inputs, LightSet lights, const Trace
     if (inputs.options.glossy == Glossy::sampled) definitions.emplace_back("HAS_SAMPLED_LOBES");
   }
   if (lights == LightSet::free) definitions.emplace_back("FREE_LIGHTS_ONLY");
+  if (traced.mask.texture && inputs.lights.casting() > traced.mask.bits)
+    definitions.emplace_back("LIGHTS_IN_REFLECTION");
   if (inputs.scene.environment) {
     definitions.emplace_back("HAS_ENVIRONMENT");
     send(inputs.scene.environment);  // first: it binds textures of its own
@@ -58,6 +60,7 @@ void ShadingPasses::inspect(const Inputs& inputs, const Traced& traced, const In
   p.use();
   bind(p, inputs, traced);
   p.set("slot", what.slot);
+  p.set("first_slot", what.first_slot);
   p.set("age_frames", what.age_frames);
   p.set("range_lo", what.range_lo);
   p.set("range_hi", what.range_hi);

@@ -22,7 +22,8 @@ struct FrameArrays {
   glm::vec3* albedo = nullptr;
   std::uint32_t* ids = nullptr;
   std::uint32_t* objects = nullptr;
-  std::uint8_t* mask = nullptr;
+  std::uint8_t* mask = nullptr;  // mask_bytes for each pixel: slot i is bit i % 8 of byte i / 8
+  std::size_t mask_bytes = 1;    // MaskImage::bytes_for() holds every light; fewer: the lowest slots
   glm::vec3* reflection = nullptr;
   std::uint32_t* materials = nullptr;
   std::uint32_t* primitives = nullptr;
@@ -93,7 +94,10 @@ inline constexpr std::array kLayers{
              {"normals", "shading normals, world space: red X, green Y, blue Z, from -1 (dark) to 1 (bright)",
               0, false}},
     LayerRow{Layer::mask,
-             {"mask", &FrameArrays::mask, "bit i is set where the light in mask slot i reaches the point"},
+             {"mask", &FrameArrays::mask,
+              "bit i is set where the light in mask slot i reaches the point; uint16, uint32 or uint64 for "
+              "more than "
+              "8, 16 or 32 casting lights, and (h, w, n) uint64 of 64 lights each for more than 64"},
              {"shadow", {"shadow.mask"}, kUint},
              {"mask", "white lit, black in shadow, grey not asked (faces away, or nothing seen)", 0, true}},
     LayerRow{Layer::reflection,

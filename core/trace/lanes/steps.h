@@ -77,8 +77,8 @@ inline void append_shadow_rays(const BounceLight& from, const ShadowStarts& star
   const Vec origin = starts.origins(incident.to_light);
   const bool far = from.params.kind == shared::kLightDirectional;
   const Vec direction = far ? incident.to_light : incident.target - origin;  // the light sits at t = 1
-  append(origin, direction, light, pixel, lanes, bounce.shadow[from.slot]);
-  starts.append_ways_up(lanes, bounce.shadow[from.slot], bounce.ways_up[from.slot]);
+  append(origin, direction, light, pixel, lanes, bounce.shadow[from.queue]);
+  starts.append_ways_up(lanes, bounce.shadow[from.queue], bounce.ways_up[from.queue]);
 }
 
 // The whole picture's pixels that the tile's samples belong to.
