@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <glm/glm.hpp>
 #include <string_view>
@@ -22,12 +23,14 @@ struct FrameArrays {
   glm::vec3* albedo = nullptr;
   std::uint32_t* ids = nullptr;
   std::uint32_t* objects = nullptr;
-  std::uint8_t* mask = nullptr;  // mask_bytes for each pixel: slot i is bit i % 8 of byte i / 8
-  std::size_t mask_bytes = 1;    // MaskImage::bytes_for() holds every light; fewer: the lowest slots
+  std::uint8_t* mask = nullptr;
   glm::vec3* reflection = nullptr;
   std::uint32_t* materials = nullptr;
   std::uint32_t* primitives = nullptr;
   glm::vec2* motion = nullptr;
+  // Of a pixel in `mask`: slot i is bit i % 8 of byte i / 8. MaskImage::bytes_for() holds every casting
+  // light, fewer hold the lowest slots.
+  std::size_t mask_bytes = 1;
 
   [[nodiscard]] bool wants_light() const { return color || mask || reflection; }
   [[nodiscard]] bool wants_surfaces() const { return depth || position || normal || albedo; }
