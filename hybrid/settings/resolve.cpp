@@ -29,14 +29,14 @@ bool exceeds_mask(const Settings& s, int casting_lights) {
 
 // Below 8 bits a mask holds all lights: the light of others is added by whole bytes of slots.
 Expected<void> check_mask(const Settings& s, const SceneStats& stats) {
-  const bool fewer = s.mask_bits != 0 && s.mask_bits < stats.casting_lights;
-  const std::string held = "mask_bits " + std::to_string(s.mask_bits) + " cannot hold the scene's " +
-                           std::to_string(stats.casting_lights) + " casting lights";
-  if (fewer && s.mask_bits < 8) return refused(held, "use more bits, or 0 for no shadows");
+  const std::string bits = std::to_string(s.mask_bits), lights = std::to_string(stats.casting_lights);
+  if (s.mask_bits != 0 && s.mask_bits < std::min(8, stats.casting_lights))
+    return refused("mask_bits " + bits + " cannot hold the scene's " + lights + " casting lights",
+                   "use more bits, or 0 for no shadows");
   if (exceeds_mask(s, stats.casting_lights) && !s.reflects())
-    return refused(held + ", and with reflection none the light of the others does not travel",
-                   s.mask_bits < kMostMaskBits ? "use more bits, or leave reflection out"
-                                               : "leave reflection out, or use composite cpu (--design 2)");
+    return refused("mask_bits " + bits + " cannot hold the scene's " + lights +
+                       " casting lights, and with reflection none no other light travels",
+                   "leave reflection out, use more bits (64 at most), or composite cpu (--design 2)");
   return {};
 }
 
