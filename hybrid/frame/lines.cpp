@@ -16,8 +16,11 @@ namespace {
 void write_surfaces(const FrameResult& frame, const View& view, int y0, int y1, const FrameArrays& to,
                     std::size_t first) {
   const std::optional<RayModel> model = RayModel::of(view);
-  write_visible_lines({*frame.scene.mesh, lane_steps(default_isa()), view_params(view),
-                       frame.settings.filter_textures, model ? &*model : nullptr},
+  const Mesh& mesh = *frame.scene.mesh;
+  const LaneMapsOf maps(mesh);
+  const SceneArrays arrays = SceneArrays::of(mesh, maps);
+  write_visible_lines({arrays, lane_steps(default_isa()), view_params(view), frame.settings.filter_textures,
+                       model ? &*model : nullptr},
                       frame.ids, y0, y1, to, first);
 }
 
