@@ -1,7 +1,6 @@
 #include "pinocchio/load.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 
 #include "core/base/listed.h"
@@ -55,24 +54,23 @@ bool names_known_textures(const MaterialMaps& m, const Mesh& mesh) {
 // else.
 Expected<void> judge_left_out(const std::string& file, const PointsAndLines& strokes, bool is_empty,
                               Warnings& warnings) {
-  struct Row {
-    const PointsAndLines::Kind& kind;
-    const char *name, *option;
-  };
-  const std::array rows{Row{strokes.points, "points", "--point-size"},
-                        Row{strokes.lines, "lines", "--line-width"}};
   std::vector<std::string> names, options;
-  for (const auto& [kind, name, option] : rows) {
-    if (kind.left_out == 0) continue;
+  const auto note = [&](const PointsAndLines::Kind& kind, const char* name, const char* option) {
+    if (kind.left_out == 0) return;
     names.emplace_back(name);
     options.push_back(std::string(option) + " D");
-    if (!is_empty)
-      warnings.add({file, kind.left_out_at, std::string(name) + " are left out",
-                    "they are not drawn; " + std::string(option) + " draws them", kind.left_out});
-  }
-  if (!is_empty || names.empty()) return {};
-  return error(file, "holds no triangles, only " + listed(names, ", ", " and "),
-               "draw them with " + listed(options, ", ", " and ") + ", a diameter in scene units");
+  };
+  note(strokes.points, "points", "--point-size");
+  note(strokes.lines, "lines", "--line-width");
+  const auto warn = [&](const PointsAndLines::Kind& kind, const char* what, const char* lost) {
+    if (kind.left_out > 0) warnings.add({file, kind.left_out_at, what, lost, kind.left_out});
+  };
+  if (is_empty && !names.empty())
+    return error(file, "holds no triangles, only " + listed(names, ", ", " and "),
+                 "draw them with " + listed(options, ", ", " and ") + ", a diameter in scene units");
+  warn(strokes.points, "points are left out", "they are not drawn; --point-size draws them");
+  warn(strokes.lines, "lines are left out", "they are not drawn; --line-width draws them");
+  return {};
 }
 
 }  // namespace

@@ -71,7 +71,9 @@ Expected<void> take_strokes(const std::string& file, double points, double lines
   const double triangles = points * detail.ball_triangles + lines * detail.tube_triangles(),
                vertices = points * detail.ball_vertices + lines * detail.tube_vertices();
   constexpr double kMost = 9e18;  // fits 64 bits
-  const auto whole = [](double number) { return static_cast<std::uint64_t>(std::min(number, double{kMost})); };
+  const auto whole = [](double number) {
+    return static_cast<std::uint64_t>(std::min(number, double{kMost}));
+  };
   const std::string what = std::to_string(whole(points)) + " points and " + std::to_string(whole(lines)) +
                            " lines as " + std::to_string(whole(triangles)) + " triangles";
   if (triangles > kMaxTriangles)
@@ -104,9 +106,10 @@ AddedStrokes add_strokes(std::span<const Stroke> strokes, const MeshData& from, 
 
 void warn_of_unplaced(const std::string& file, const std::string& where, std::size_t unplaced,
                       Warnings& warnings) {
-  if (unplaced > 0)
-    warnings.add({file, where, "points and lines on vertices that are no finite numbers are left out",
-                  kNotDrawn, unplaced});
+  const auto warn = [&](const char* what, const char* lost) {
+    if (unplaced > 0) warnings.add({file, where, what, lost, unplaced});
+  };
+  warn("points and lines on vertices that are no finite numbers are left out", kNotDrawn);
 }
 
 }  // namespace pinocchio
