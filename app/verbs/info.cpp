@@ -71,6 +71,7 @@ nlohmann::json scene_json(const Scene& scene, const Warnings& warnings) {
           {"lights", lights},
           {"cameras", cameras},
           {"animations", animations_json(scene)},
+          {"variants", scene.variants},
           {"duration_s", duration_s(scene)},
           {"bounds", {{"lo", vec3_json(bounds.lo)}, {"hi", vec3_json(bounds.hi)}}},
           {"needs",
@@ -128,6 +129,8 @@ void print_scene(const Scene& scene, const Warnings& warnings) {
     std::printf("  light '%s'%s\n", light.name.c_str(), light.casts_shadow ? ", casts shadows" : "");
   for (const Camera& camera : scene.cameras)
     std::printf("  camera '%s', %s\n", camera.name.c_str(), optics_of(camera).c_str());
+  for (const std::string& variant : scene.variants)
+    std::printf("  variant '%s' of the materials (--variant)\n", variant.c_str());
   if (scene.animation) {
     for (const Animation::Clip& clip : scene.animation->clips)
       std::printf("  animation '%s', %g s\n", clip.name.c_str(), clip.duration_s);
