@@ -18,6 +18,12 @@ float texture_footprint(const Settings& settings, const View& view) {
   return samples == 1 ? 1.0f : 1.0f / std::sqrt(static_cast<float>(samples));
 }
 
+std::optional<float> catcher_height(const Settings& settings) {
+  const ShadowCatcher& catcher = settings.shadow_catcher.value;
+  return catcher.kind == ShadowCatcher::Kind::at && settings.reflects() ? std::optional(catcher.height)
+                                                                        : std::nullopt;
+}
+
 }  // namespace
 
 TraceOptions trace_options(const Settings& settings, const View& view) {
@@ -30,6 +36,8 @@ TraceOptions trace_options(const Settings& settings, const View& view) {
           .glossy = settings.glossy,
           .sky_occlusion = settings.sky_occlusion,
           .denoise = settings.denoise,
+          .background = settings.background,
+          .catcher_height = catcher_height(settings),
           .jitter = view.jitter,
           .sampling = {static_cast<int>(settings.sequence.value), static_cast<std::uint32_t>(view.sample),
                        static_cast<std::uint32_t>(settings.seed)}};

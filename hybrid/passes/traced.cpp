@@ -45,8 +45,9 @@ void run(Workers& workers, FrameSlot& frame, const TileOutputs& outputs, double 
 
 // Whether rays leave the visible points, beside shadow rays.
 bool traces_further(const FrameRequest& r) {
-  return r.settings.reflects() && (r.settings.depth > 0 || r.settings.indirect > 0 ||
-                                   r.scene.environment != nullptr || r.settings.denoise);
+  return r.settings.reflects() &&
+         (r.settings.depth > 0 || r.settings.indirect > 0 || r.scene.environment != nullptr ||
+          r.settings.denoise || r.settings.shadow_catcher.value.kind != ShadowCatcher::Kind::off);
 }
 
 TileOutputs outputs_of(FrameSlot& frame, int scale, bool has_ids) {
@@ -73,6 +74,7 @@ void add_reflection(FrameSlot& frame, TileOutputs& out) {
   out.indirect = frame.request.settings.indirect;
   out.environment_light = true;
   out.reflection = &frame.reflection;
+  out.caught_in_reflection = frame.options.catcher_height && frame.request.settings.uses_gpu();
 }
 
 // Filters the frame's sampled light with that of the samples before, and adds it to the frame's images.

@@ -62,7 +62,12 @@ TilePlan::TilePlan(const TraceJob& j, const TileOutputs& o)
       all_lights(lights_of(j.scene)),
       casting(casting_lights(j.scene).size()),
       sized_lights(static_cast<std::size_t>(std::ranges::count_if(j.scene.lights, &Light::has_size))) {
-  straight_apart = blends && (passed_backs.any() || o.coverage);
+  const Backdrop behind = backdrop_of(j.scene, j.options.background);
+  if (behind.picture) backdrop.emplace(*behind.picture, behind.rotation_deg, behind.strength);
+  if (j.options.catcher_height && (o.color || o.caught_in_reflection))
+    catcher.emplace(j.scene.mesh->bounds(), *j.options.catcher_height);
+  straight_apart = blends && (passed_backs.any() || o.coverage || catcher ||
+                              j.options.background.kind != Background::Kind::environment);
   set_view(j.view, j.model);
   further.scene = SceneArrays::of(*job.scene.mesh, maps);
   further.offset = job.tracer.offset();

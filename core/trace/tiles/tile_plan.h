@@ -8,6 +8,7 @@
 #include "core/trace/lanes/environment_params.h"
 #include "core/trace/lanes/lane_steps.h"
 #include "core/trace/rays/passed_backs.h"
+#include "core/trace/tiles/catcher_plane.h"
 #include "core/trace/tiles/trace_tiles.h"
 #include "core/trace/view/ray_model.h"
 
@@ -30,8 +31,9 @@ struct TilePlan {
   bool straight_apart;         // rays that come straight from the camera have a queue of their own
   PassedBacksOf passed_backs;  // by the camera's rays
   std::vector<BounceLight> all_lights, visible_lights;
-  std::size_t casting, sized_lights;  // lights
-  std::optional<EnvironmentLight> environment;
+  std::size_t casting, sized_lights;                      // lights
+  std::optional<EnvironmentLight> environment, backdrop;  // backdrop: the background, where it is a picture
+  std::optional<CatcherPlane> catcher;                    // none: no shadows are caught
   Bounce visible, further;  // the step of the camera's rays, and of the rays that they spawn
 };
 

@@ -59,6 +59,10 @@ TileResult TileTracer::trace(const TilePlan& plan, const PixelBox& tile) {
     follow();
     times.reflection = lap.restart();
   }
+  if (plan_->catcher) {
+    catch_shadows();
+    times.shadow += lap.restart();
+  }
   write();
   times.composite = lap.restart();
   return {counts_, times};
@@ -73,6 +77,8 @@ void TileTracer::begin_light() {
 // Makes the rays of the tile's pixels; with given ids, of the pixels that see something.
 void TileTracer::start() {
   seen_.make_room(kPixels);
+  ground_.make_room(0);
+  straight_ground_.make_room(0);
   const bool given = plan_->out.seen != nullptr, whole = tile_.size() == glm::ivec2(TileGrid::kTileSize);
   if (!whole) ids_.fill(kNoTriangle);
   if (given && !fetch_ids()) return;
@@ -271,7 +277,8 @@ void TileTracer::write() {
       for (std::size_t i = 0; i < width; ++i) of(out.added)[i] += glm::vec3(light(i));
     if (out.mask) out.mask->set_row(tile_.lo.x, y, std::span(mask_).subspan(row, width));
   }
-  if (out.color && plan_->environment) paint_background();
+  if (out.color) paint_background();
+  if (plan_->catcher) write_lost();
 }
 
 }  // namespace pinocchio
