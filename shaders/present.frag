@@ -9,6 +9,8 @@ uniform vec2 window_pixels;
 uniform float gain;  // 0: black
 uniform int tone_curve;
 uniform int chequer_pixels;  // side of the squares behind a transparent picture; 0: it is not transparent
+uniform bool has_color_behind;
+uniform vec3 color_behind;  // in the picture, behind the scene
 uniform float zoom;  // 1: the whole picture
 uniform vec2 zoom_corner;
 
@@ -27,13 +29,19 @@ vec4 interpolate(vec2 at, ivec2 size) {
   return mix(above, below, t.y);
 }
 
-// Alpha is the colour's weight, which is taken out for the tone curve, as in a PNG file.
-vec3 shown_light(vec4 light) {
-  if (chequer_pixels == 0) return tone_mapped(light.rgb * gain, tone_curve);
-  float alpha = clamp(light.a, 0.0, 1.0);
-  vec3 own = alpha > 0.0 ? alpha * tone_mapped(light.rgb * (gain / alpha), tone_curve) : vec3(0.0);
+vec3 chequered() {
   ivec2 square = ivec2(gl_FragCoord.xy) / chequer_pixels;
-  return own + (1.0 - alpha) * (((square.x + square.y) & 1) == 0 ? 0.32 : 0.22);
+  return vec3(((square.x + square.y) & 1) == 0 ? 0.32 : 0.22);
+}
+
+// Exposure and tone curve are the scene's. A colour behind it is shown as it is, and so are chequers.
+vec3 shown_light(vec4 light) {
+  if (chequer_pixels == 0 && !has_color_behind) return tone_mapped(light.rgb * gain, tone_curve);
+  float alpha = clamp(light.a, 0.0, 1.0);
+  vec3 behind = (1.0 - alpha) * (has_color_behind ? color_behind : chequered());
+  if (alpha == 0.0) return behind;
+  vec3 own = max(has_color_behind ? light.rgb - behind : light.rgb, vec3(0.0));
+  return behind + alpha * tone_mapped(own * (gain / alpha), tone_curve);
 }
 
 void main() {

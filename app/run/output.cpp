@@ -14,6 +14,7 @@
 #include "core/files/checksum.h"
 #include "core/image/codecs/png.h"
 #include "core/output/aovs.h"
+#include "hybrid/frame/samples.h"
 #include "pinocchio/names.h"
 #include "pinocchio/studio.h"
 
@@ -230,7 +231,7 @@ void write_outputs(const OutputOptions& options, const DrawnFrame& frame) {
   if (frame.picture.settings.background.value.is_transparent())
     write_shown(preview_with_alpha(color, options.exposure_ev, options.tone_map));
   else
-    write_shown(preview(color, options.exposure_ev, options.tone_map));
+    write_shown(preview(color, options.exposure_ev, options.tone_map, color_behind(frame.picture.settings)));
 }
 
 }  // namespace pinocchio::app

@@ -9,6 +9,7 @@
 #include "core/base/clock.h"
 #include "core/files/atomic_file.h"
 #include "core/image/codecs/png.h"
+#include "hybrid/frame/samples.h"
 #include "pinocchio/save.h"
 
 namespace pinocchio::app {
@@ -139,7 +140,7 @@ void Recording::save_picture(Action action, const Settings& settings, const std:
   if (action == Action::save_exr) {
     write_exr(file, picture, {.render_s = now_s() - begin_s, .time_s = model_.playback.posed_s});
   } else {
-    write_png(file, preview(picture.color, shown.exposure_ev, shown.tone_map));
+    write_png(file, preview(picture.color, shown.exposure_ev, shown.tone_map, color_behind(settings)));
   }
   model_.messages.news(whole_path(file) + " written");
 }

@@ -43,6 +43,11 @@ TraceOptions trace_options(const Settings& settings, const View& view) {
                        static_cast<std::uint32_t>(settings.seed)}};
 }
 
+std::optional<glm::vec3> color_behind(const Settings& settings) {
+  const Background& background = settings.background.value;
+  return background.kind == Background::Kind::color ? std::optional(background.color) : std::nullopt;
+}
+
 void settle_environment(Scene& scene, const Settings& settings) {
   scene.environment_rotation_deg = settings.environment_rotation;
   scene.environment_strength = settings.environment_strength;

@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "core/trace/rays/trace_options.h"
@@ -20,6 +21,9 @@ void settle_environment(Scene& scene, const Settings& settings);
 
 // Whether the requests differ at most in where pixels are sampled.
 [[nodiscard]] bool same_view(FrameRequest a, const FrameRequest& b);
+
+// The colour behind the scene, which pictures for a screen show without exposure; none: it is no colour.
+[[nodiscard]] std::optional<glm::vec3> color_behind(const Settings& settings);
 
 class SampleMean;
 

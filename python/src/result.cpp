@@ -124,13 +124,6 @@ auto ids(nb::handle self) {
       self);
 }
 
-// Whether a picture, or a colour, is behind the scene.
-bool is_opaque(const FrameResult& frame) {
-  const Background& background = frame.settings.background.value;
-  return background.kind == Background::Kind::color ||
-         backdrop_of(frame.scene, background).picture != nullptr;
-}
-
 bool has_extension(const std::filesystem::path& path, const char* wanted) {
   std::string extension = path.extension().string();
   std::ranges::transform(extension, extension.begin(), [](unsigned char c) { return std::tolower(c); });
@@ -217,7 +210,7 @@ void bind_result(nb::module_& module) {
           [](const Result& r, const std::filesystem::path& path, float exposure) {
             if (!has_extension(path, ".png"))
               throw Error(path.string() + ": write_png writes PNG files; end the name in .png");
-            write_bytes(path, png_of(r.frame.color, exposure, is_opaque(r.frame)));
+            write_bytes(path, png_of(r.frame, exposure));
           },
           "path"_a, "exposure"_a = 0.0f,
           nb::sig("def write_png(self, path: str | os.PathLike[str], exposure: float = 0.0) -> None"),
@@ -226,7 +219,7 @@ void bind_result(nb::module_& module) {
           "colour is behind the scene; what is brighter than white is white.\n"
           "path: the file, which is written whole or not at all. exposure: stops brighter.\n"
           "Raises Error if the file cannot be written or if its name does not end in .png.")
-      .def("_repr_png_", [](const Result& r) { return png_of(r.frame.color, 0.0f, is_opaque(r.frame)); })
+      .def("_repr_png_", [](const Result& r) { return png_of(r.frame, 0.0f); })
       .def("__repr__", [](const Result& r) {
         return "<Result: " + std::to_string(r.frame.color.width()) + "x" +
                std::to_string(r.frame.color.height()) + " pixels, " +

@@ -161,6 +161,7 @@ void TileTracer::find_lost(RayQueue& rays) {
   step.footprint = &no_textures;
   step.visible = true;
   step.attenuates = step.lobes = false;
+  step.environment = plan_->ground_sky && plan_->ground_sky->shines ? &*plan_->ground_sky : nullptr;
   make_room(rays.size, next_);
   step.corner = glm::uvec2(plan_->first + tile_.lo * plan_->out.scale);
   step.shadow = shadow_.data();

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "core/scene/ground_sky.h"
 #include "core/shade/surface.h"
 #include "core/trace/view/view_params.h"
 
@@ -88,6 +89,12 @@ TilePlan::TilePlan(const TraceJob& j, const TileOutputs& o)
     const bool sampled = job.options.environment_light == EnvironmentMethod::sampled;
     if (!sampled) environment->prefiltered = prefiltered(job.scene.environment);
     (sampled ? further.environment : further.prefiltered) = &*environment;
+  }
+  if (catcher && further.environment) {
+    sky_on_ground = pinocchio::sky_on_ground(j.scene.environment);
+    ground_sky = *environment;
+    ground_sky->shares = sky_on_ground->shares();
+    ground_sky->shines = !sky_on_ground->is_black();
   }
   further.lobes =
       further.samples && sampled_lobes && microfacets && (o.reflection || o.color || o.added || o.sampled);

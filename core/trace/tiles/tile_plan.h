@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <memory>
 #include <optional>
 #include <vector>
 
@@ -34,6 +35,8 @@ struct TilePlan {
   std::size_t casting, sized_lights;                      // lights
   std::optional<EnvironmentLight> environment, backdrop;  // backdrop: the background, where it is a picture
   std::optional<CatcherPlane> catcher;                    // none: no shadows are caught
+  std::shared_ptr<const Environment> sky_on_ground;       // kept for `ground_sky`
+  std::optional<EnvironmentLight> ground_sky;             // the environment, sampled for the catcher's plane
   Bounce visible, further;  // the step of the camera's rays, and of the rays that they spawn
 };
 
