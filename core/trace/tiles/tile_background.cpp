@@ -10,6 +10,10 @@ namespace {
 // Of what is hit, however clear it is: 0 is where nothing is.
 constexpr float kLeastCoverage = 1e-30f;
 
+// Rays at a prefiltered sky, for each of a surface's: on ground of one colour the edge of each direction's
+// shadow shows.
+constexpr int kGroundRays = 4;
+
 float luminance(float r, float g, float b) {
   return 0.2126f * r + 0.7152f * g + 0.0722f * b;  // Rec. 709
 }
@@ -153,6 +157,7 @@ void TileTracer::find_lost(RayQueue& rays) {
   if (rays.size == 0) return;
   for (std::size_t i = 0; i < rays.size; ++i) ground_light_[rays.pixel[i]] = glm::vec4(0.0f);
   TraceOptions options = plan_->job.options;
+  options.sky_occlusion *= kGroundRays;
   options.light_cutoff = options.throughput_cutoff = 0.0f;  // shares of light, however faint it is
   const Footprint no_textures;
   Bounce step = plan_->further;
@@ -163,6 +168,7 @@ void TileTracer::find_lost(RayQueue& rays) {
   step.attenuates = step.lobes = false;
   step.environment = plan_->ground_sky && plan_->ground_sky->shines ? &*plan_->ground_sky : nullptr;
   make_room(rays.size, next_);
+  sky_.make_room(rays.size * (2 + static_cast<std::size_t>(options.sky_occlusion)));
   step.corner = glm::uvec2(plan_->first + tile_.lo * plan_->out.scale);
   step.shadow = shadow_.data();
   step.ways_up = ways_up_.data();
