@@ -24,8 +24,13 @@ CatcherPlane::CatcherPlane(const Bounds& scene, float height) : height_(height) 
 }
 
 SceneArrays CatcherPlane::arrays() const {
-  return {positions_.data(),          normals_.data(), triangles_.data(),
-          triangle_materials_.data(), &white_,         nullptr};
+  SceneArrays arrays{};
+  arrays.positions = positions_.data();
+  arrays.normals = normals_.data();
+  arrays.triangles = triangles_.data();
+  arrays.triangle_materials = triangle_materials_.data();
+  arrays.materials = &white_;
+  return arrays;
 }
 
 std::optional<std::uint32_t> CatcherPlane::triangle_at(const Ray& ray) const {
