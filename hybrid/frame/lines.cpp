@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "core/parallel/workers.h"
+#include "core/shade/lane_maps.h"
 #include "core/trace/tiles/aov.h"
 #include "core/trace/tiles/identities.h"
 #include "core/trace/tiles/motion.h"
@@ -16,7 +17,9 @@ namespace {
 void write_surfaces(const FrameResult& frame, const View& view, int y0, int y1, const FrameArrays& to,
                     std::size_t first) {
   const std::optional<RayModel> model = RayModel::of(view);
-  write_visible_lines({*frame.scene.mesh, lane_steps(default_isa()), view_params(view),
+  const LaneMapsOf maps(*frame.scene.mesh);
+  const SceneArrays arrays = SceneArrays::of(*frame.scene.mesh, maps);
+  write_visible_lines({arrays, lane_steps(default_isa()), view_params(view),
                        frame.settings.filter_textures, model ? &*model : nullptr},
                       frame.ids, y0, y1, to, first);
 }
