@@ -1,4 +1,5 @@
 // pinocchio VERB SCENE [options]
+#include <algorithm>
 #include <cerrno>
 #include <csignal>
 #include <cstdio>
@@ -12,6 +13,7 @@
 #include "app/cli/console.h"
 #include "app/cli/errors.h"
 #include "app/cli/groups.h"
+#include "app/cli/options.h"
 #include "app/verbs/verbs.h"
 #include "core/base/system_info.h"
 #include "pinocchio/open_gl_error.h"
@@ -64,7 +66,9 @@ int parse_and_run(int argc, char** argv) {
       {"compare", add_compare(program)},  {"info", add_info(program)},
       {"generate", add_generate(program)}};
   try {
-    program.parse(argc, argv);
+    std::vector<std::string> arguments = with_values({argv + 1, argv + argc});
+    std::ranges::reverse(arguments);  // as CLI11 takes them
+    program.parse(std::move(arguments));
   } catch (const CLI::ParseError& error) {
     if (error.get_exit_code() == 0) return code_after_flush(program.exit(error));  // --help, --version
     const std::vector<CLI::App*> chosen = program.get_subcommands();

@@ -8,15 +8,22 @@
 namespace pinocchio {
 namespace {
 
-// Counts the pixels that the composite marked, and makes them opaque as they are.
+// Counts the pixels that the composite marked (composite.frag), and makes them opaque as they are.
 std::size_t close_holes(Image<glm::vec4>& color) {
+  constexpr float kHole = 1.0f - 0x1p-11f;
   std::size_t holes = 0;
   for (glm::vec4& pixel : color.pixels())
-    if (pixel.a > 0.0f && pixel.a < 1.0f) {
+    if (pixel.a == kHole) {
       pixel.a = 1.0f;
       ++holes;
     }
   return holes;
+}
+
+// Where nothing is seen, mirrored light has travelled with what the shadow catcher lost.
+void remove_lost(const Image<std::uint32_t>& ids, Image<glm::vec3>& reflection) {
+  for (std::size_t i = 0; i < ids.pixels().size(); ++i)
+    if (ids[i] == kNoTriangle) reflection[i] = glm::vec3(0.0f);
 }
 
 // Brings the ids to the CPU where they did not travel.
@@ -88,6 +95,8 @@ FrameResult Frame::read() const {
   if (slot_.answered && s.reflects())
     result.reflection =
         s.reflection_scale == 1 ? slot_.reflection : enlarged(slot_.reflection, s.reflection_scale, size);
+  if (!result.reflection.empty() && slot_.options.catcher_height && s.uses_gpu())
+    remove_lost(result.ids, result.reflection);
   result.scene = slot_.request.scene;
   result.view = slot_.request.view;
   result.settings = s;

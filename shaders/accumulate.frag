@@ -10,7 +10,7 @@ out vec4 color;
 void main() {
   ivec2 pixel = ivec2(gl_FragCoord.xy);
   color = texelFetch(picture, pixel, 0);
-  if (color.a > 0.0) color.a = 1.0;  // a reprojected picture's hole is covered too
+  if (color.a == 1.0 - 1.0 / 2048.0) color.a = 1.0;  // a reprojected picture's hole is covered too
   if (samples == 0) return;
   vec4 before = texelFetch(average, pixel, 0);
   color = before + (color - before) / float(samples + 1);

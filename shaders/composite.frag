@@ -6,7 +6,8 @@
 //   FREE_LIGHTS_ONLY  lights that cast are left out: the CPU adds them (design 2)
 //   HAS_REFLECTION    the CPU's mirrored and refracted light; traced_light.glsl has its formats
 //   HAS_MAPS          some material has maps
-//   HAS_ENVIRONMENT   something is seen where no triangle is
+//   HAS_ENVIRONMENT   a picture is seen where no triangle is; HAS_BACKGROUND_COLOR: a colour
+//   HAS_CATCHER       the shadow catcher: where no triangle is, the reflection has the share of light that it lost
 //   TERMINATOR_LIFTS, TERMINATOR_SMOOTHS  remedies of the shadow terminator; neither: none
 //   HAS_SIZED_LIGHTS  some light has a size: the picture is lit by those points of it that the CPU's shadow rays
 //                     of the same sample went to
@@ -14,7 +15,7 @@
 //   REPROJECT         mask and reflection are an older frame's, whose view and ids are given: each pixel reads
 //                     them where its point was seen then. Where neither that pixel nor a neighbour saw the
 //                     same triangle, the pixel is a hole: every light reaches it, and it takes the reflection
-//                     that is there; its alpha is 1/2.
+//                     that is there; its alpha is kHole.
 
 #include "shared/glsl.glsl"
 #include "shared/view.glsl"
@@ -52,8 +53,29 @@ vec3 background(ivec2 pixel) {
   EnvironmentParams env = EnvironmentParams(EnvironmentTexels(0), ivec2(environment_size), environment_turn, environment_strength);
   return environment_light(env, pixel_direction(view_of_picture(), vec2(pixel)));
 }
+#elif defined(HAS_BACKGROUND_COLOR)
+uniform vec3 background_color;
+vec3 background(ivec2 pixel) { return background_color; }
 #else
 vec3 background(ivec2 pixel) { return vec3(0.0); }
+#endif
+
+// A hole's alpha (hybrid/frame.cpp, accumulate.frag): the largest half below 1, which no share of light has.
+const float kHole = 1.0 - 1.0 / 2048.0;
+
+#ifdef HAS_CATCHER
+uniform float catcher_height;
+
+// The share of light that the shadow catcher lost; 0 where the pixel does not see its plane.
+float lost_light(ivec2 pixel) {
+  vec3 origin = pixel_origin(view_of_picture(), vec2(pixel));
+  vec3 direction = pixel_direction(view_of_picture(), vec2(pixel));
+  if (!(direction.y < 0.0 && origin.y > catcher_height)) return 0.0;
+  Source source = source_of(pixel, kNoTriangle, origin + (catcher_height - origin.y) / direction.y * direction);
+  return source.hole ? 0.0 : clamp(reflected_light(source.pixel, kNoTriangle).r, 0.0, 1.0 - 1.0 / 1024.0);
+}
+#else
+float lost_light(ivec2 pixel) { return 0.0; }
 #endif
 
 uniform vec3 ambient_light;
@@ -104,7 +126,8 @@ void main() {
   ivec2 pixel = ivec2(gl_FragCoord.xy);
   uint id = fetch_id(ids, pixel);
   if (id == kNoTriangle) {
-    color = vec4(min(background(pixel), kLargestHalf), 0.0);
+    float lost = lost_light(pixel);
+    color = vec4((1.0 - lost) * min(background(pixel), kLargestHalf), lost);
     return;
   }
 
@@ -132,6 +155,5 @@ void main() {
 #ifdef HAS_REFLECTION
   sum += reflected_light(source.pixel, id);
 #endif
-  // Alpha 1/2 marks a hole.
-  color = vec4(min(sum, kLargestHalf), source.hole ? 0.5 : 1.0);
+  color = vec4(min(sum, kLargestHalf), source.hole ? kHole : 1.0);
 }

@@ -41,7 +41,7 @@ uint material_of(uint id) {
 
 float likeness(uint a, uint b) {
   if (a == b) return 1.0;
-  if (a == kNoTriangle) return 1e-8;
+  if (a == kNoTriangle || b == kNoTriangle) return 1e-8;
   return material_of(a) == material_of(b) ? 0.1 : 1e-4;
 }
 

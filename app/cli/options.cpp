@@ -31,7 +31,7 @@ constexpr std::array<std::pair<const char*, std::array<std::string_view, 14>>, 3
     {kSamplesGroup, {"spp", "max_noise", "pixel_filter", "sequence", "seed", "denoise", "average_layers"}},
     {kLightGroup,
      {"indirect", "environment_rotation", "environment_strength", "environment_light", "glossy",
-      "sky_occlusion"}},
+      "sky_occlusion", "background", "shadow_catcher"}},
     {kExchangeGroup,
      {"visibility", "composite", "by_machine", "exchange", "mask_bits", "mask_scale", "reflection",
       "reflection_scale", "tiles", "id_bits", "normals", "wide", "reuse", "persistent"}},
@@ -46,7 +46,9 @@ const char* group_of(const Field& field) {
 // "--mask-bits" and the like. What is given goes to `given`.
 void add_field(CLI::App& verb, const Field& field, Settings& given) {
   begin_group(verb, group_of(field));
-  const std::string help = std::string(field.help) + " (" + std::string(field.unset) + ")";
+  const std::string help = std::string(field.help) +
+                           (field.kind == Field::Kind::text ? ": " + field.domain() : "") + " (" +
+                           std::string(field.unset) + ")";
   if (field.kind == Field::Kind::flag) {
     const std::string name = field.option();
     verb.add_flag_function(
@@ -54,6 +56,8 @@ void add_field(CLI::App& verb, const Field& field, Settings& given) {
         [&](std::int64_t count) { field.take(count > 0 ? "true" : "false", given); }, help);
     return;
   }
+  const std::string examples = listed(field.examples, "|", "|");
+  const std::string texts = field.alone.empty() ? examples : "[" + examples + "]";
   const std::string number = field.kind == Field::Kind::number ? "NUMBER" : "N";
   verb.add_option_function<std::string>(
           field.option(),
@@ -62,7 +66,9 @@ void add_field(CLI::App& verb, const Field& field, Settings& given) {
               throw CLI::ValidationError(field.option(), "'" + text + "' is not " + field.domain());
           },
           help)
-      ->type_name(field.choices.empty() ? number : listed(field.choices, "|", "|"));
+      ->type_name(field.kind == Field::Kind::text ? texts
+                  : field.choices.empty()         ? number
+                                                  : listed(field.choices, "|", "|"));
 }
 
 // What the command line gives, before presets and the plan's file are applied.
@@ -127,6 +133,21 @@ void add_light_options(CLI::App& verb, DrawOptions& o) {
 }
 
 }  // namespace
+
+void add_background_options(CLI::App& verb, DrawOptions& o) {
+  for (const char* name : {"background", "shadow_catcher"}) add_field(verb, *find_field(name), o.settings);
+}
+
+std::vector<std::string> with_values(std::vector<std::string> arguments) {
+  for (std::size_t i = 0; i < arguments.size(); ++i)
+    for (const Field& field : settings_table()) {
+      if (field.alone.empty() || arguments[i] != field.option()) continue;
+      Settings ignored;
+      const bool has_value = i + 1 < arguments.size() && field.take(arguments[i + 1], ignored);
+      if (!has_value) arguments[i] += "=" + std::string(field.alone);
+    }
+  return arguments;
+}
 
 void add_camera_options(CLI::App& verb, DrawOptions& o) {
   begin_group(verb, kCameraGroup);

@@ -67,10 +67,15 @@ void add_settings_options(CLI::App& verb, DrawOptions& options);
 void add_context_options(CLI::App& verb, DrawOptions& options);
 // --studio; `usual`: where it is not given:
 void add_studio_option(CLI::App& verb, DrawOptions& options, bool usual);
+// --background and --shadow-catcher, for verbs that take no other settings:
+void add_background_options(CLI::App& verb, DrawOptions& options);
 // --crop and --precise:
 void add_still_options(CLI::App& verb, DrawOptions& options);
 // All of these.
 void add_draw_options(CLI::App& verb, DrawOptions& options);
+
+// The command line's arguments, where options that may stand alone (--shadow-catcher) have their value.
+[[nodiscard]] std::vector<std::string> with_values(std::vector<std::string> arguments);
 
 // Loads the scene and prints what is ignored of it. Ends the verb with kBadScene where the file cannot be
 // read, or where options.strict and a part is ignored.

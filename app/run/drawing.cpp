@@ -51,6 +51,11 @@ Drawing::Drawing(const DrawOptions& options, Scene scene, Exchange usual, bool k
     for (const std::string& line : losses(settings_, stats_))
       if (!options.plan_file.empty())
         std::fprintf(stderr, "pinocchio: warning: %s: %s\n", options.plan_file.c_str(), line.c_str());
+  if (!options.quiet && settings_.background.value.is_transparent() && stats_.blends && !settings_.coverage)
+    std::fprintf(
+        stderr,
+        "pinocchio: warning: the background is transparent, but surfaces that blend have alpha 1: only "
+        "the CPU drawing alone counts what they let through (--mode raytrace)\n");
   if (!options.quiet && !any_settings) advise(with_usual(options.settings, usual));
   if (scene_.animation)
     poses_.emplace(scene_, &run_progress());

@@ -14,6 +14,7 @@
 #include "core/files/checksum.h"
 #include "core/image/codecs/png.h"
 #include "core/output/aovs.h"
+#include "hybrid/frame/samples.h"
 #include "pinocchio/names.h"
 #include "pinocchio/studio.h"
 
@@ -64,14 +65,16 @@ void add_output_options(CLI::App& verb, OutputOptions& options) {
                   "the picture and its layers, scene-linear; #### stands for the frame's number")
       ->type_name("FILE.exr")
       ->check(ends_in(".exr"));
-  verb.add_option("--preview", options.preview, "the picture as a screen shows it (sRGB, 8 bits)")
+  verb.add_option("--preview", options.preview,
+                  "the picture as a screen shows it (sRGB, 8 bits; with alpha on a transparent background)")
       ->type_name("FILE.png")
       ->check(ends_in(".png"));
   verb.add_option_function<std::string>(
           "--raw", [&options](const std::string&) { options.raw = true; },
           "-: write the frames to standard output, one after the other, as a screen shows them: rows from "
           "the "
-          "top, 3 bytes a pixel (ffmpeg -f rawvideo -pix_fmt rgb24 -s WxH -i -)")
+          "top, 3 bytes a pixel (ffmpeg -f rawvideo -pix_fmt rgb24 -s WxH -i -), 4 with --background "
+          "transparent (rgba)")
       ->type_name("-")
       ->check(CLI::IsMember({"-"}));
   verb.add_option("--aov", options.aovs,
@@ -202,10 +205,11 @@ bool keeps_motion(const OutputOptions& options) {
 
 namespace {
 
-// RGB, 8 bits each, rows from the top.
-void write_raw(const Image<glm::u8vec3>& picture) {
-  const std::span<const glm::u8vec3> pixels = picture.pixels();
-  if (std::fwrite(pixels.data(), sizeof(glm::u8vec3), pixels.size(), stdout) != pixels.size() ||
+// 8 bits a component, rows from the top.
+template <class Pixel>
+void write_raw(const Image<Pixel>& picture) {
+  const std::span<const Pixel> pixels = picture.pixels();
+  if (std::fwrite(pixels.data(), sizeof(Pixel), pixels.size(), stdout) != pixels.size() ||
       std::fflush(stdout) != 0)
     throw EnvironmentError("--raw -: standard output cannot be written; has its reader ended?");
 }
@@ -219,11 +223,18 @@ void write_outputs(const OutputOptions& options, const DrawnFrame& frame) {
     if (!options.deterministic) exr.render_s = frame.render_s;
     write_exr(numbered(options.exr, frame.header.number), frame.picture, exr);
   }
-  if (options.raw) write_raw(preview(frame.picture.color, options.exposure_ev, options.tone_map));
-  if (!options.preview.empty())
-    write_png(numbered(options.preview, frame.header.number),
-              preview(frame.picture.color, options.exposure_ev, options.tone_map),
-              preview_text(options, exr_header(frame.picture, same_for_all)));
+  const auto write_shown = [&](const auto& picture) {
+    if (options.raw) write_raw(picture);
+    if (!options.preview.empty())
+      write_png(numbered(options.preview, frame.header.number), picture,
+                preview_text(options, exr_header(frame.picture, same_for_all)));
+  };
+  if (!options.raw && options.preview.empty()) return;
+  const Image<glm::vec4>& color = frame.picture.color;
+  if (frame.picture.settings.background.value.is_transparent())
+    write_shown(preview_with_alpha(color, options.exposure_ev, options.tone_map));
+  else
+    write_shown(preview(color, options.exposure_ev, options.tone_map, color_behind(frame.picture.settings)));
 }
 
 }  // namespace pinocchio::app

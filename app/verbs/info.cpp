@@ -241,12 +241,12 @@ struct PlanHere {
 
 // How a hybrid frame is drawn on this machine, and what --mode auto would choose. Without OpenGL, a GPU is
 // assumed.
-Expected<PlanHere> plan_here(const SceneStats& stats, const Camera& camera) {
+Expected<PlanHere> plan_here(const SceneStats& stats, const Camera& camera, const Settings& given) {
   Circumstances circumstances;
   circumstances.needs_rays = !camera.is_rasterisable();
   bool any_gl = true;
   if (circumstances.needs_rays) {
-    const Expected<Settings> alone = resolve({}, stats, circumstances);
+    const Expected<Settings> alone = resolve(given, stats, circumstances);
     if (!alone) return Unexpected(alone.error());
     std::vector<std::string> why = explain(stats, *alone);
     why.insert(why.begin(),
@@ -263,10 +263,10 @@ Expected<PlanHere> plan_here(const SceneStats& stats, const Camera& camera) {
     std::fprintf(stderr,
                  "pinocchio: no OpenGL here (see 'pinocchio info --system'); the plan is for a GPU\n");
   }
-  const Expected<Settings> settings = resolve({}, stats, circumstances);
+  const Expected<Settings> settings = resolve(given, stats, circumstances);
   if (!settings) return Unexpected(settings.error());
   std::vector<std::string> why = explain(stats, *settings);
-  Settings by_machine;
+  Settings by_machine = given;
   by_machine.by_machine = true;
   const Expected<Settings> automatic =
       resolve(by_machine, stats, {circumstances.size, circumstances.software_gl || !any_gl});
@@ -288,7 +288,8 @@ int show_scene(const InfoOptions& options) {
   if (options.plan) light_if_dark(scene, options.draw);  // as other verbs do
   const SceneStats stats = analyze(scene);
   std::optional<PlanHere> plan;
-  if (options.plan) plan = value_or_exit(plan_here(stats, camera_for(draw, scene)), kBadScene);
+  if (options.plan)
+    plan = value_or_exit(plan_here(stats, camera_for(draw, scene), options.draw.settings), kBadScene);
   if (options.json) {
     nlohmann::json json = scene_json(scene, warnings);
     if (plan) json["plan"] = plan_json(plan->settings);
@@ -317,6 +318,7 @@ Run add_info(CLI::App& program) {
   verb.add_flag("--plan", options->plan, "print how a hybrid frame of the scene is drawn, and why");
   verb.add_flag("--json", options->json, "print JSON");
   add_studio_option(verb, options->draw, true);
+  add_background_options(verb, options->draw);
   add_camera_options(verb, options->draw);
   add_trust_options(verb, options->draw);
   return [options] {

@@ -9,6 +9,7 @@
 #include "core/base/clock.h"
 #include "core/trace/view/jitter.h"
 #include "gl/context/error.h"
+#include "hybrid/frame/samples.h"
 
 namespace pinocchio::app {
 namespace {
@@ -114,6 +115,22 @@ FrameResult FrameLoop::draw_now(const Settings& settings) {
   FrameResult picture;
   Renderer renderer(engine_, {[&](const Frame& frame) { picture = frame.read(); }, {}});
   renderer.submit(request);
+  renderer.drain();
+  return picture;
+}
+
+FrameResult FrameLoop::draw_transparent(Settings settings) {
+  constexpr int kMostSamples = 64;
+  renderer_.drain();
+  settings.background = Background{Background::Kind::transparent};
+  settings.exchange = Exchange::sync;
+  settings.spp = model_.gathers() ? std::clamp(accumulator_.samples(), 1, kMostSamples) : 1;
+  FrameRequest request = model_.request();
+  request.settings = settings;
+  FrameResult picture;
+  SampleMean mean(settings, [&](FrameResult&& whole) { picture = std::move(whole); });
+  Renderer renderer(engine_, {[&](Frame& frame) { mean.add(frame); }, {}});
+  submit_samples(renderer, request, &mean);
   renderer.drain();
   return picture;
 }

@@ -9,6 +9,7 @@
 #include "core/base/clock.h"
 #include "core/files/atomic_file.h"
 #include "core/image/codecs/png.h"
+#include "hybrid/frame/samples.h"
 #include "pinocchio/save.h"
 
 namespace pinocchio::app {
@@ -25,19 +26,6 @@ std::string whole_path(const std::string& file) {
   std::error_code unknown;
   const std::filesystem::path path = std::filesystem::absolute(file, unknown);
   return unknown ? file : path.string();
-}
-
-// The picture's colours, as far as a surface covers each pixel. A black background has no part in them.
-Image<glm::u8vec4> without_background(const FrameResult& picture, const ViewSettings& shown) {
-  Image<glm::vec4> color = picture.color;
-  if (!picture.scene.environment)
-    for (glm::vec4& c : color.pixels())
-      if (c.a > 0.0f) c = glm::vec4(glm::vec3(c) / std::min(c.a, 1.0f), c.a);
-  const Image<glm::u8vec3> rgb = preview(color, shown.exposure_ev, shown.tone_map);
-  Image<glm::u8vec4> rgba(color.size());
-  for (std::size_t i = 0; i < rgba.pixels().size(); ++i)
-    rgba[i] = glm::u8vec4(rgb[i], std::lround(255.0f * std::clamp(color[i].a, 0.0f, 1.0f)));
-  return rgba;
 }
 
 }  // namespace
@@ -81,11 +69,16 @@ void Recording::toggle_sequence(bool with_exr) {
 void Recording::add(const Frame& frame) {
   if (model_.recording.empty() || !screen_.has_picture()) return;
   const std::string name = model_.recording + format("-%04d", ++recorded_);
-  write_png(name + ".png", screen_.read_picture());
-  if (!with_exr_) return;
+  const bool with_alpha = frame.request().settings.background.value.is_transparent();
+  if (!with_alpha) write_png(name + ".png", screen_.read_picture());
+  if (!with_exr_ && !with_alpha) return;
   FrameResult picture = frame.read();
   picture.settings.spp = 1;
   if (model_.samples > 1) frames_.add_gathered(picture);  // else the camera moved, and one sample is shown
+  if (with_alpha)
+    write_png(name + ".png",
+              preview_with_alpha(picture.color, model_.applied.exposure_ev, model_.applied.tone_map));
+  if (!with_exr_) return;
   write_exr(name + ".exr", picture, {.frame = recorded_, .time_s = model_.playback.posed_s});
 }
 
@@ -133,17 +126,21 @@ void Recording::save_as(Action action, const Settings& settings) {
 }
 
 void Recording::save_picture(Action action, const Settings& settings, const std::string& file) {
+  const ViewSettings& shown = model_.applied;
+  if (action == Action::save_transparent ||
+      (action == Action::save_png && settings.background.value.is_transparent())) {
+    write_png(file, preview_with_alpha(frames_.draw_transparent(settings).color, shown.exposure_ev,
+                                       shown.tone_map));
+    return model_.messages.news(whole_path(file) + " written");
+  }
   frames_.drain();
   const double begin_s = now_s();
   FrameResult picture = frames_.draw_now(settings);
   frames_.add_gathered(picture);
-  const ViewSettings& shown = model_.applied;
   if (action == Action::save_exr) {
     write_exr(file, picture, {.render_s = now_s() - begin_s, .time_s = model_.playback.posed_s});
-  } else if (action == Action::save_png) {
-    write_png(file, preview(picture.color, shown.exposure_ev, shown.tone_map));
   } else {
-    write_text(file, encode_png(without_background(picture, shown)));
+    write_png(file, preview(picture.color, shown.exposure_ev, shown.tone_map, color_behind(settings)));
   }
   model_.messages.news(whole_path(file) + " written");
 }

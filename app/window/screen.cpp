@@ -57,7 +57,8 @@ void Screen::draw_picture() {
   const int split = split_.is_on() ? int(settings.split_at * pixels.x) : pixels.x;
   const auto draw = [&](const gl::Texture& texture, const PixelBox& box, bool is_light) {
     present_.draw(texture, pixels, box, is_light ? settings.exposure_ev : 0.0f,
-                  is_light ? settings.tone_map : ToneMap::clip, model_.zoom);
+                  is_light ? settings.tone_map : ToneMap::clip, model_.zoom,
+                  is_light ? model_.drawn.background.value : Background{});
   };
   draw(*picture_, {{0, 0}, {split, pixels.y}}, is_light_);
   if (!split_.is_on()) return;

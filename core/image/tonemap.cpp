@@ -112,11 +112,19 @@ glm::vec3 tone_mapped(const glm::vec3& light, ToneMap curve) {
   return shared::tone_mapped(light, static_cast<int>(curve));
 }
 
-Image<glm::u8vec3> preview(const Image<glm::vec4>& color, float exposure_ev, ToneMap curve) {
+Image<glm::u8vec3> preview(const Image<glm::vec4>& color, float exposure_ev, ToneMap curve,
+                           const std::optional<glm::vec3>& behind) {
   const float gain = std::exp2(exposure_ev);
+  const auto shown_light = [&](const glm::vec4& pixel) {
+    if (!behind) return tone_mapped(gain * glm::vec3(pixel), curve);
+    const float alpha = std::clamp(pixel.a, 0.0f, 1.0f);
+    const glm::vec3 rest = (1.0f - alpha) * *behind;
+    if (alpha == 0.0f) return rest;
+    return rest + alpha * tone_mapped(gain / alpha * glm::max(glm::vec3(pixel) - rest, 0.0f), curve);
+  };
   Image<glm::u8vec3> pixels(color.size());
   for (std::size_t i = 0; i < color.pixels().size(); ++i) {
-    const glm::vec3 shown = tone_mapped(gain * glm::vec3(color[i]), curve);
+    const glm::vec3 shown = shown_light(color[i]);
     for (int c = 0; c < 3; ++c) pixels[i][c] = linear_to_srgb8(shown[c]);
   }
   return pixels;

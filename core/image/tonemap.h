@@ -3,6 +3,7 @@
 #include <array>
 #include <cstdint>
 #include <glm/glm.hpp>
+#include <optional>
 #include <span>
 #include <string_view>
 
@@ -28,8 +29,11 @@ inline constexpr std::array<std::string_view, 4> kToneMapNames{"clip", "reinhard
 [[nodiscard]] glm::vec3 tone_mapped(const glm::vec3& light, ToneMap curve);
 
 // Linear RGBA as a screen shows it, over black: `exposure_ev` stops brighter, tone-mapped, sRGB, 8 bits.
+// `behind`: the colour that the picture has behind the scene. It is shown as it is, without exposure and
+// curve.
 [[nodiscard]] Image<glm::u8vec3> preview(const Image<glm::vec4>& color, float exposure_ev,
-                                         ToneMap curve = ToneMap::clip);
+                                         ToneMap curve = ToneMap::clip,
+                                         const std::optional<glm::vec3>& behind = {});
 // The same with the picture's alpha, not multiplied into the colour: for pictures without a background.
 [[nodiscard]] Image<glm::u8vec4> preview_with_alpha(const Image<glm::vec4>& color, float exposure_ev,
                                                     ToneMap curve);

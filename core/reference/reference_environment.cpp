@@ -29,10 +29,9 @@ Choice choice_of(const double* sums, std::size_t count, double number) {
 }  // namespace
 
 // A texel's weight is the brightest of it and its neighbours, whose light interpolation brings into its area.
-ReferenceEnvironment::ReferenceEnvironment(const Scene& scene)
-    : picture_(scene.environment->radiance()),
-      turn_(scene.environment_rotation_deg / 360.0),
-      strength_(scene.environment_strength) {
+ReferenceEnvironment::ReferenceEnvironment(const Environment& environment, double rotation_deg,
+                                           double strength)
+    : picture_(environment.radiance()), turn_(rotation_deg / 360.0), strength_(strength) {
   const glm::ivec2 size = picture_.size();
   double all = 0.0;
   for (int y = 0; y < size.y; ++y) {

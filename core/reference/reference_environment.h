@@ -10,8 +10,12 @@ namespace pinocchio {
 // A scene's environment, in double precision.
 class ReferenceEnvironment {
  public:
+  // The environment must outlive this object.
+  ReferenceEnvironment(const Environment& environment, double rotation_deg, double strength);
   // The scene has an environment, which must outlive this object.
-  explicit ReferenceEnvironment(const Scene& scene);
+  explicit ReferenceEnvironment(const Scene& scene)
+      : ReferenceEnvironment(*scene.environment, static_cast<double>(scene.environment_rotation_deg),
+                             static_cast<double>(scene.environment_strength)) {}
 
   // Linear light from a direction of any length but zero.
   [[nodiscard]] glm::dvec3 radiance(const glm::dvec3& direction) const;

@@ -46,7 +46,7 @@ ReferenceTracer::Pixel ReferenceTracer::pixel(const shared::ViewParams& view, in
   Pixel pixel;
   pixel.triangle = hit.triangle;
   if (!hit.valid()) {
-    if (environment_) pixel.color = glm::vec4(glm::vec3(environment_->radiance(ray.direction)), 0.0f);
+    pixel.color = glm::vec4(behind(ray));
     return pixel;
   }
   const double side = view.parallel ? footprint : footprint * hit.t;
@@ -57,8 +57,59 @@ ReferenceTracer::Pixel ReferenceTracer::pixel(const shared::ViewParams& view, in
   const glm::dvec3 mirrored = from_sky(surface) + bounced(surface, depth, cone_after(ray, hit),
                                                           media_at(nullptr, hit, surface), kLobeSide);
   pixel.reflection = glm::vec3(mirrored);
-  pixel.color = glm::vec4(glm::vec3(own + mirrored), 1.0f);
+  const double left = options_.background.is_transparent() ? left_behind(ray, hit, depth) : 0.0;
+  pixel.color = glm::vec4(glm::vec3(own + mirrored), static_cast<float>(1.0 - left));
   return pixel;
+}
+
+glm::dvec4 ReferenceTracer::behind(const ReferenceRay& ray) const {
+  glm::dvec3 light(0.0);
+  if (backdrop_) light = backdrop_->radiance(ray.direction);
+  if (options_.background.kind == Background::Kind::color) light = glm::dvec3(options_.background.color);
+  const double lost = options_.catcher_height ? lost_on_ground(ray) : 0.0;
+  return {(1.0 - lost) * light, lost};
+}
+
+// The share of its light that a white matt plane loses to shadows where the ray meets it from above.
+double ReferenceTracer::lost_on_ground(const ReferenceRay& ray) const {
+  const auto height = static_cast<double>(*options_.catcher_height);
+  if (!(ray.direction.y < 0.0 && ray.origin.y > height)) return 0.0;
+  const double t = (height - ray.origin.y) / ray.direction.y;
+  ReferenceSurface ground{};
+  ground.p_world = ray.origin + t * ray.direction;
+  ground.p_world.y = height;
+  ground.n_geometric = ground.n_shading = ground.n_vertices = glm::dvec3(0.0, 1.0, 0.0);
+  ground.to_viewer = -glm::normalize(ray.direction);
+  ground.error = 1e-12 * glm::length(ground.p_world);
+  ground.material.alpha = 1.0;
+  const auto luminance = [](const glm::dvec3& c) { return glm::dot(c, glm::dvec3(0.2126, 0.7152, 0.0722)); };
+  double all = luminance(glm::dvec3(scene_.ambient_light)), lost = 0.0;
+  const auto add = [&](const ReferenceLight& point, bool casts) {
+    const double light = luminance(point.radiance) * std::max(point.to_light.y, 0.0);
+    all += light;
+    if (casts) lost += light * (1.0 - unblocked(point.shadow));
+  };
+  for (const Light& light : scene_.lights)
+    for (const ReferenceLight& point : reference_lights(light, ground, options_.terminator))
+      add(point, light.casts_shadow);
+  if (environment_)
+    for (const ReferenceLight& point : reference_sky(*environment_, ground, options_.terminator))
+      add(point, true);
+  return all > 0.0 ? lost / all : 0.0;
+}
+
+double ReferenceTracer::left_behind(ReferenceRay ray, ReferenceHit hit, int depth) const {
+  double left = 1.0;
+  for (; hit.valid(); --depth) {
+    const ReferenceSurface surface = reference_surface(*scene_.mesh, ray, hit);
+    const ReferenceBounce straight = reference_bounces(surface)[2];
+    if (straight.weight == glm::dvec3(0.0) || depth <= 0) return 0.0;
+    left *= 1.0 - surface.material.alpha;
+    ray = straight.ray;
+    ray.of_camera = true;
+    hit = closest_hit(ray);
+  }
+  return left * (1.0 - behind(ray).a);
 }
 
 // The surface's light without mirrors and glass. `reached`: becomes whether each casting light reaches the
@@ -182,6 +233,7 @@ ReferenceTracer::Media ReferenceTracer::media_at(const Material* of_ray, const R
 glm::dvec3 ReferenceTracer::seen(const ReferenceRay& ray, const Material* medium, int depth,
                                  int lobe_side) const {
   const ReferenceHit hit = closest_hit(ray);
+  if (!hit.valid() && ray.of_camera) return glm::dvec3(behind(ray));
   if (!hit.valid()) return environment_ ? environment_->radiance(ray.direction) : glm::dvec3(0.0);
   const Cone cone = cone_after(ray, hit);
   const ReferenceSurface surface = reference_surface(*scene_.mesh, ray, hit, spread_of(ray, cone.width));

@@ -20,12 +20,14 @@ namespace pinocchio {
 class ReferenceTracer {
  public:
   // `tree` may be another scene's with the same triangles. Scene and tree must outlive this object. Of the
-  // options, only the footprint of textures, the terminator and the passed backs are used: the reference
-  // follows every ray and takes many samples itself. Jitter other than 0 means that the picture is one of
-  // many that are averaged; shadows of surfaces that blend are then grey.
+  // options, only the footprint of textures, the terminator, the passed backs, the background and the shadow
+  // catcher are used: the reference follows every ray and takes many samples itself. Jitter other than 0
+  // means that the picture is one of many that are averaged; shadows of surfaces that blend are then grey.
   ReferenceTracer(const Scene& scene, const ReferenceTree& tree, const TraceOptions& options = {})
       : scene_(scene), tree_(tree), options_(options) {
     if (scene.environment) environment_.emplace(scene);
+    if (const Backdrop b = backdrop_of(scene, options.background); b.picture)
+      backdrop_.emplace(*b.picture, static_cast<double>(b.rotation_deg), static_cast<double>(b.strength));
     lobes_ = takes_samples(scene);
   }
 
@@ -33,13 +35,22 @@ class ReferenceTracer {
     std::uint32_t triangle = kNoTriangle;  // at the sample point
     std::vector<bool> mask;                // casting light i reaches the point; empty: none does
     glm::vec3 reflection{0.0f};            // mirrored, refracted and the environment's light, linear
-    glm::vec4 color{0.0f};  // linear; A is 1 if a triangle is hit, 0 if the environment is seen
+    // Linear; A is 1 if a triangle is hit, 0 if the background is seen, or the share of light that the shadow
+    // catcher lost. On a transparent background, surfaces that blend have less than 1.
+    glm::vec4 color{0.0f};
   };
   // The pixel (x, y), counted from view.first, with at most `depth` bounces.
   [[nodiscard]] Pixel pixel(const shared::ViewParams& view, int x, int y, int depth) const;
 
  private:
   glm::dvec3 direct(const ReferenceSurface& surface, std::vector<bool>* reached = nullptr) const;
+  // Behind the scene, by a ray straight from the camera that hits nothing: the background, less what the
+  // shadow catcher lost, and that share.
+  [[nodiscard]] glm::dvec4 behind(const ReferenceRay& ray) const;
+  [[nodiscard]] double lost_on_ground(const ReferenceRay& ray) const;
+  // The share of the background that the camera's ray sees through surfaces that blend, less what the shadow
+  // catcher holds back of it.
+  [[nodiscard]] double left_behind(ReferenceRay ray, ReferenceHit hit, int depth) const;
   [[nodiscard]] glm::dvec3 from_sky(const ReferenceSurface& surface) const;
   // The footprint of textures at further hits of a ray, and whether it comes from the camera.
   struct Cone {
@@ -70,7 +81,7 @@ class ReferenceTracer {
   const Scene& scene_;
   const ReferenceTree& tree_;
   TraceOptions options_;
-  std::optional<ReferenceEnvironment> environment_;
+  std::optional<ReferenceEnvironment> environment_, backdrop_;
   bool lobes_ = false;  // glossy lobes are sampled; else mirrors are sharp
 };
 

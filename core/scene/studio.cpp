@@ -107,37 +107,6 @@ struct Slopes {
   [[nodiscard]] double middle() const { return 0.5 * (least + largest); }
 };
 
-// Always the same one.
-std::shared_ptr<const Environment> studio_sky() {
-  static const std::shared_ptr<const Environment> kSky = [] {
-    constexpr glm::ivec2 kSize{128, 64};
-    constexpr double kFloor = 0.1, kHorizon = 0.25, kZenith = 0.5;
-    // Soft boxes, which metals mirror. They are above what a studio_camera sees behind the object.
-    struct Box {
-      glm::dvec3 towards;
-      double radiance, sharpness;
-    };
-    const Box boxes[] = {{glm::normalize(glm::dvec3(-0.6, 0.7, 0.8)), 1.6, 14.0},
-                         {glm::normalize(glm::dvec3(1.0, 0.6, 0.3)), 1.0, 18.0},
-                         {glm::normalize(glm::dvec3(-0.3, 1.0, -0.6)), 1.0, 18.0}};
-    Image<glm::vec3> sky(kSize);
-    for (int row = 0; row < kSize.y; ++row)
-      for (int column = 0; column < kSize.x; ++column) {
-        // In double precision and rounded, so that every machine has the same sky.
-        const double down = glm::pi<double>() * (row + 0.5) / kSize.y;
-        const double turn = glm::two_pi<double>() * (0.5 - (column + 0.5) / kSize.x);
-        const glm::dvec3 d(std::sin(down) * std::sin(turn), std::cos(down), std::sin(down) * std::cos(turn));
-        double light =
-            glm::mix(kHorizon, d.y > 0.0 ? kZenith : kFloor, glm::smoothstep(0.0, 1.0, std::abs(d.y)));
-        for (const Box& box : boxes)
-          light += box.radiance * std::exp(box.sharpness * (glm::dot(d, box.towards) - 1.0));
-        sky.at(column, row) = glm::vec3(static_cast<float>(light));
-      }
-    return std::make_shared<const Environment>(std::move(sky));
-  }();
-  return kSky;
-}
-
 Light key_light() {
   Light key;
   key.name = "studio";
@@ -199,6 +168,36 @@ Camera studio_camera(const Scene& scene, glm::ivec2 size) {
   camera.target = glm::vec3(target);
   camera.eye = glm::vec3(target - distance * forward);
   return camera;
+}
+
+std::shared_ptr<const Environment> studio_sky() {
+  static const std::shared_ptr<const Environment> kSky = [] {
+    constexpr glm::ivec2 kSize{128, 64};
+    constexpr double kFloor = 0.1, kHorizon = 0.25, kZenith = 0.5;
+    // Soft boxes, which metals mirror. They are above what a studio_camera sees behind the object.
+    struct Box {
+      glm::dvec3 towards;
+      double radiance, sharpness;
+    };
+    const Box boxes[] = {{glm::normalize(glm::dvec3(-0.6, 0.7, 0.8)), 1.6, 14.0},
+                         {glm::normalize(glm::dvec3(1.0, 0.6, 0.3)), 1.0, 18.0},
+                         {glm::normalize(glm::dvec3(-0.3, 1.0, -0.6)), 1.0, 18.0}};
+    Image<glm::vec3> sky(kSize);
+    for (int row = 0; row < kSize.y; ++row)
+      for (int column = 0; column < kSize.x; ++column) {
+        // In double precision and rounded, so that every machine has the same sky.
+        const double down = glm::pi<double>() * (row + 0.5) / kSize.y;
+        const double turn = glm::two_pi<double>() * (0.5 - (column + 0.5) / kSize.x);
+        const glm::dvec3 d(std::sin(down) * std::sin(turn), std::cos(down), std::sin(down) * std::cos(turn));
+        double light =
+            glm::mix(kHorizon, d.y > 0.0 ? kZenith : kFloor, glm::smoothstep(0.0, 1.0, std::abs(d.y)));
+        for (const Box& box : boxes)
+          light += box.radiance * std::exp(box.sharpness * (glm::dot(d, box.towards) - 1.0));
+        sky.at(column, row) = glm::vec3(static_cast<float>(light));
+      }
+    return std::make_shared<const Environment>(std::move(sky));
+  }();
+  return kSky;
 }
 
 void add_studio_light(Scene& scene) {

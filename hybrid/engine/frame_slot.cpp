@@ -55,7 +55,7 @@ bool FrameSlot::reprojects_to(const FrameSlot& newer) const {
   const Settings &a = request.settings, &b = newer.request.settings;
   return answered && a.composite == b.composite && request.scene == newer.request.scene &&
          view.parallel == newer.view.parallel && a.mask_bits == b.mask_bits && a.reflection == b.reflection &&
-         a.id_bits == b.id_bits;
+         a.id_bits == b.id_bits && options.catcher_height == newer.options.catcher_height;
 }
 
 void FrameSlot::copy_unpacked(Image<glm::vec4>& copy) const {

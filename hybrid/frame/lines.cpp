@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "core/parallel/workers.h"
+#include "core/shade/lane_maps.h"
 #include "core/trace/tiles/aov.h"
 #include "core/trace/tiles/identities.h"
 #include "core/trace/tiles/motion.h"

@@ -19,6 +19,12 @@ float texture_footprint(const Settings& settings, const View& view) {
   return samples == 1 ? 1.0f : 1.0f / std::sqrt(static_cast<float>(samples));
 }
 
+std::optional<float> catcher_height(const Settings& settings) {
+  const ShadowCatcher& catcher = settings.shadow_catcher.value;
+  return catcher.kind == ShadowCatcher::Kind::at && settings.reflects() ? std::optional(catcher.height)
+                                                                        : std::nullopt;
+}
+
 }  // namespace
 
 TraceOptions trace_options(const Settings& settings, const View& view) {
@@ -31,9 +37,16 @@ TraceOptions trace_options(const Settings& settings, const View& view) {
           .glossy = settings.glossy,
           .sky_occlusion = settings.sky_occlusion,
           .denoise = settings.denoise,
+          .background = settings.background,
+          .catcher_height = catcher_height(settings),
           .jitter = view.jitter,
           .sampling = {static_cast<int>(settings.sequence.value), static_cast<std::uint32_t>(view.sample),
                        static_cast<std::uint32_t>(settings.seed)}};
+}
+
+std::optional<glm::vec3> color_behind(const Settings& settings) {
+  const Background& background = settings.background.value;
+  return background.kind == Background::Kind::color ? std::optional(background.color) : std::nullopt;
 }
 
 void settle_environment(Scene& scene, const Settings& settings) {

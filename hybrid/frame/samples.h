@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "core/trace/rays/trace_options.h"
@@ -26,6 +27,9 @@ void settle_environment(Scene& scene, const Settings& settings);
 // Whether some casting lights are beyond the mask that goes to the GPU: the CPU adds theirs to the mirrored
 // light.
 [[nodiscard]] bool sends_lights(const Settings& settings, const Scene& scene);
+
+// The colour behind the scene, which pictures for a screen show without exposure; none: it is no colour.
+[[nodiscard]] std::optional<glm::vec3> color_behind(const Settings& settings);
 
 class SampleMean;
 

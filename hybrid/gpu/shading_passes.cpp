@@ -17,15 +17,23 @@ void ShadingPasses::composite(const Inputs& inputs, LightSet lights, const Trace
   if (lights == LightSet::free) definitions.emplace_back("FREE_LIGHTS_ONLY");
   if (traced.mask.texture && inputs.lights.casting() > traced.mask.bits)
     definitions.emplace_back("LIGHTS_IN_REFLECTION");
-  if (inputs.scene.environment) {
+  const Background& background = inputs.options.background;
+  const Backdrop backdrop = backdrop_of(inputs.scene, background);
+  if (backdrop.picture) {
     definitions.emplace_back("HAS_ENVIRONMENT");
-    send(inputs.scene.environment);  // first: it binds textures of its own
+    send(backdrop.picture);  // first: it binds textures of its own
   }
+  const bool has_color = background.kind == Background::Kind::color;
+  if (has_color) definitions.emplace_back("HAS_BACKGROUND_COLOR");
+  const bool catches = traced.reflection.texture && inputs.options.catcher_height;
+  if (catches) definitions.emplace_back("HAS_CATCHER");
   gl::begin_fullscreen_pass(target);
   const gl::Program& p = program("composite.frag", definitions);
   p.use();
   const int unit = bind(p, inputs, traced);
-  if (inputs.scene.environment) bind_environment(p, inputs.scene, unit);
+  if (backdrop.picture) bind_backdrop(p, backdrop, unit);
+  if (has_color) p.set("background_color", background.color);
+  if (catches) p.set("catcher_height", *inputs.options.catcher_height);
   if (inputs.lights.any_size()) {
     const shared::Sampling& sampling = traced.of ? traced.of->sampling : inputs.options.sampling;
     p.set("sequence", sampling.sequence);
@@ -44,11 +52,11 @@ void ShadingPasses::send(const std::shared_ptr<const Environment>& environment) 
   sent_ = environment;
 }
 
-void ShadingPasses::bind_environment(const gl::Program& program, const Scene& scene, int unit) const {
+void ShadingPasses::bind_backdrop(const gl::Program& program, const Backdrop& backdrop, int unit) const {
   program.set("environment", unit, environment_);
   program.set("environment_size", glm::vec2(environment_.size()));
-  program.set("environment_turn", scene.environment_rotation_deg / 360.0f);
-  program.set("environment_strength", scene.environment_strength);
+  program.set("environment_turn", backdrop.rotation_deg / 360.0f);
+  program.set("environment_strength", backdrop.strength);
 }
 
 void ShadingPasses::inspect(const Inputs& inputs, const Traced& traced, const Inspected& what,

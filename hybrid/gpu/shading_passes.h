@@ -38,7 +38,7 @@ class ShadingPasses {
     const gl::Texture& ids;
     int id_bits;
     TraceOptions options;
-    const Scene& scene;  // its environment is the background
+    const Scene& scene;  // its environment may be the background
   };
   // The CPU's answer; null parts are missing.
   struct Traced {
@@ -58,7 +58,8 @@ class ShadingPasses {
 
   explicit ShadingPasses(std::shared_ptr<Programs> programs) : programs_(std::move(programs)) {}
 
-  // Light of every light by the reflection model, plus reflection, linear; alpha 0 where nothing is seen.
+  // Light of every light by the reflection model, plus reflection, linear; where nothing is seen, the
+  // background with alpha 0, or with the share of light that the shadow catcher lost.
   void composite(const Inputs& inputs, LightSet lights, const Traced& traced, const gl::Framebuffer& target);
   // A frame's layer as the window shows it.
   struct Inspected {
@@ -83,9 +84,9 @@ class ShadingPasses {
   // Sets the inputs of every pass over ids; returns the next free texture unit.
   int bind(const gl::Program& program, const Inputs& inputs) const;
   int bind(const gl::Program& program, const Inputs& inputs, const Traced& traced) const;
-  // The environment: sends it, and sets it for the program in use.
+  // The background's picture: sends it, and sets it for the program in use.
   void send(const std::shared_ptr<const Environment>& environment);
-  void bind_environment(const gl::Program& program, const Scene& scene, int unit) const;
+  void bind_backdrop(const gl::Program& program, const Backdrop& backdrop, int unit) const;
   [[nodiscard]] static Definitions definitions_of(const Inputs& inputs);
   [[nodiscard]] static Definitions definitions_of(const Inputs& inputs, const Traced& traced);
 

@@ -24,11 +24,16 @@ void PresentPass::draw_part(glm::ivec2 window_pixels, const PixelBox& box, const
 }
 
 void PresentPass::draw(const gl::Texture& picture, glm::ivec2 window_pixels, const PixelBox& box,
-                       float exposure_ev, ToneMap curve, const PictureZoom& zoom) const {
+                       float exposure_ev, ToneMap curve, const PictureZoom& zoom,
+                       const Background& background) const {
+  constexpr int kChequer_pixels = 12;
   draw_part(window_pixels, box, [&](const gl::Program& program) {
     program.set("picture", 0, picture);
     program.set("gain", std::exp2(exposure_ev));
     program.set("tone_curve", static_cast<int>(curve));
+    program.set("chequer_pixels", background.is_transparent() ? kChequer_pixels : 0);
+    program.set("has_color_behind", background.kind == Background::Kind::color ? 1 : 0);
+    program.set("color_behind", background.color);
     program.set("zoom", zoom.factor);
     program.set("zoom_corner", zoom.corner);
   });

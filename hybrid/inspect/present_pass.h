@@ -5,6 +5,7 @@
 #include "core/image/tonemap.h"
 #include "core/parallel/tiles.h"
 #include "gl/objects/draw.h"
+#include "pinocchio/background.h"
 
 namespace pinocchio {
 
@@ -26,9 +27,10 @@ class PresentPass {
   explicit PresentPass(Engine& engine);
 
   // Stretches the picture (linear light, row 0 on top) over the whole window and draws the part `box` of it
-  // (pixels, from the top left). exposure_ev: in stops; curve: for light above white.
+  // (pixels, from the top left). exposure_ev: in stops; curve: for light above white. background: the
+  // picture's; a colour is shown without exposure and curve, a transparent one as chequers.
   void draw(const gl::Texture& picture, glm::ivec2 window_pixels, const PixelBox& box, float exposure_ev,
-            ToneMap curve, const PictureZoom& zoom = {}) const;
+            ToneMap curve, const PictureZoom& zoom = {}, const Background& background = {}) const;
   // Draws black.
   void clear(glm::ivec2 window_pixels) const { clear(window_pixels, {{0, 0}, window_pixels}); }
   void clear(glm::ivec2 window_pixels, const PixelBox& box) const;

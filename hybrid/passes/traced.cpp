@@ -48,7 +48,8 @@ void run(Workers& workers, FrameSlot& frame, const TileOutputs& outputs, double 
 bool traces_further(const FrameRequest& r) {
   return r.settings.reflects() &&
          (r.settings.depth > 0 || r.settings.indirect > 0 || r.scene.environment != nullptr ||
-          r.settings.denoise || sends_lights(r.settings, r.scene));
+          r.settings.denoise || sends_lights(r.settings, r.scene) ||
+          r.settings.shadow_catcher.value.kind != ShadowCatcher::Kind::off);
 }
 
 TileOutputs outputs_of(FrameSlot& frame, int scale, bool has_ids) {
@@ -77,6 +78,7 @@ void add_reflection(FrameSlot& frame, TileOutputs& out) {
   out.reflection = &frame.reflection;
   if (sends_lights(frame.request.settings, frame.request.scene))
     out.first_added_slot = frame.request.settings.mask_bits;
+  out.caught_in_reflection = frame.options.catcher_height && frame.request.settings.uses_gpu();
 }
 
 // Filters the frame's sampled light with that of the samples before, and adds it to the frame's images.

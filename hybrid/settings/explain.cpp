@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "core/base/decimal.h"
 #include "hybrid/settings/resolve.h"
 
 namespace pinocchio {
@@ -102,6 +103,26 @@ std::string why_denoise(const Settings& s) {
          ": less noise, and soft detail of light is lost; hard light, sharp mirrors and textures stay exact";
 }
 
+std::string why_background(const SceneStats& stats, const Settings& s) {
+  const Background& background = s.background.value;
+  if (background.kind == Background::Kind::color)
+    return "behind the scene is the colour " + to_text(background) + ", linear";
+  if (background.kind == Background::Kind::studio) return "behind the scene is the studio's neutral sky";
+  if (!background.is_transparent())
+    return stats.environment ? "behind the scene is its environment" : "behind the scene is black";
+  if (!stats.blends) return "behind the scene is nothing: alpha is the covered share of a pixel";
+  return s.coverage ? "behind the scene is nothing: the CPU draws alone, as it counts what surfaces that "
+                      "blend let through (coverage)"
+                    : "behind the scene is nothing; surfaces that blend have alpha 1 without coverage";
+}
+
+std::string why_catcher(const Settings& s) {
+  if (!s.reflects()) return "the shadow catcher catches nothing: the plan traces no mirrored light";
+  return "the shadow catcher at height " + shortest(s.shadow_catcher.value.height) +
+         " takes shadow rays at each pixel of the ground that sees nothing else" +
+         (s.uses_gpu() ? "; its alpha travels in the reflection pass" : "");
+}
+
 std::string why_depth(const SceneStats& stats, const Settings& s) {
   const std::string bounces = plural(s.depth, "bounce");
   if (s.depth < stats.useful_depth) return bounces + ": as many as requested";
@@ -144,6 +165,9 @@ std::vector<std::string> explain(const SceneStats& stats, const Settings& s) {
   lines.push_back(why_reflection(stats, s));
   if (stats.environment && s.environment_strength > 0.0f && s.reflects()) lines.push_back(why_sky(s));
   if (s.denoise) lines.push_back(why_denoise(s));
+  if (s.background.given || s.background.value.kind != Background::Kind::environment)
+    lines.push_back(why_background(stats, s));
+  if (s.shadow_catcher.value.kind != ShadowCatcher::Kind::off) lines.push_back(why_catcher(s));
   if (s.reflects() && (stats.mirrors || !adds_lights(s, stats.casting_lights)))
     lines.push_back(why_depth(stats, s));
   if (s.mask_bits > 0) lines.push_back(why_rays(s));

@@ -32,19 +32,42 @@ constexpr std::array<std::string_view, 8> kMaskBits{"0", "1", "2", "4", "8", "16
 constexpr std::array<std::string_view, 3> kIdBits{"16", "24", "32"};
 constexpr std::array<std::string_view, 2> kFlag{"false", "true"};
 
+constexpr std::array<std::string_view, 5> kBackgrounds{"environment", "studio", "transparent", "white",
+                                                       "0.18,0.18,0.18"};
+constexpr std::array<std::string_view, 3> kCatchers{"off", "lowest", "0"};
+
 // The values that a field may have.
 struct Domain {
   std::span<const std::string_view> choices{};
   double lo = 0.0, hi = 0.0;
+  std::string_view words{};
+  std::span<const std::string_view> examples{};
+  std::string_view alone{};
 };
 constexpr Domain one_of(std::span<const std::string_view> choices) {
-  return {choices, 0.0, 0.0};
+  return {.choices = choices};
 }
 constexpr Domain from_to(double lo, double hi) {
-  return {{}, lo, hi};
+  return {.lo = lo, .hi = hi};
 }
 constexpr Domain yes_or_no() {
   return one_of(kFlag);
+}
+
+constexpr Domain text(std::string_view words, std::span<const std::string_view> examples,
+                      std::string_view alone = {}) {
+  return {.words = words, .examples = examples, .alone = alone};
+}
+
+template <class T>
+concept IsText = requires(const T& value) {
+  to_text(value);
+};
+std::optional<Background> parsed(std::string_view text, const Background&) {
+  return parse_background(text);
+}
+std::optional<ShadowCatcher> parsed(std::string_view text, const ShadowCatcher&) {
+  return parse_shadow_catcher(text);
 }
 
 // Reads and writes one field.
@@ -56,6 +79,8 @@ struct Access {
     const T value = s.*M;
     if constexpr (std::is_same_v<T, bool>) {
       return value ? "true" : "false";
+    } else if constexpr (IsText<T>) {
+      return to_text(value);
     } else if constexpr (std::is_enum_v<T>) {
       return std::string(row().choices[static_cast<std::size_t>(value)]);
     } else {
@@ -69,6 +94,10 @@ struct Access {
     const auto index = chosen - field.choices.begin();
     if constexpr (std::is_same_v<T, bool>) {
       s.*M = index == 1;
+    } else if constexpr (IsText<T>) {
+      const std::optional<T> value = parsed(text, T{});
+      if (!value) return false;
+      s.*M = *value;
     } else if constexpr (std::is_enum_v<T>) {
       s.*M = static_cast<T>(index);
     } else {
@@ -90,7 +119,8 @@ template <auto M>
 constexpr Field field(std::string_view name, Domain domain, std::string_view unset, std::string_view help,
                       bool of_machine = false, std::string_view formerly = {}) {
   using T = typename Access<M>::T;
-  const auto kind = std::is_same_v<T, bool>    ? Field::Kind::flag
+  const auto kind = IsText<T>                  ? Field::Kind::text
+                    : std::is_same_v<T, bool>  ? Field::Kind::flag
                     : std::is_enum_v<T>        ? Field::Kind::choice
                     : std::is_same_v<T, float> ? Field::Kind::number
                                                : Field::Kind::whole;
@@ -100,6 +130,9 @@ constexpr Field field(std::string_view name, Domain domain, std::string_view uns
           .choices = domain.choices,
           .lo = domain.lo,
           .hi = domain.hi,
+          .words = domain.words,
+          .examples = domain.examples,
+          .alone = domain.alone,
           .unset = unset,
           .help = help,
           .of_machine = of_machine,
@@ -203,6 +236,14 @@ constexpr std::array kTable{
     field<&S::average_layers>("average_layers", yes_or_no(), "false",
                               "the layers N and Albedo are means over the samples, as denoisers want them, "
                               "not of the first sample"),
+    field<&S::background>(
+        "background", text(kBackgroundTexts, kBackgrounds), "environment; studio where the studio lights",
+        "what is behind the scene; light, mirrors and glass keep the environment. Transparent: alpha 0, "
+        "also in PNG files"),
+    field<&S::shadow_catcher>(
+        "shadow_catcher", text(kShadowCatcherTexts, kCatchers, "lowest"), "off; lowest for the studio",
+        "a ground, at a height or at the scene's lowest point, that shows only the shadows on it: its alpha "
+        "is the share of light that they take"),
     field<&S::terminator>(
         "terminator", one_of(kTerminatorNames), terminator_name(kUsualTerminator),
         "where a coarse mesh's shading normals face a light and its facets do not: off: dark; "
@@ -237,6 +278,7 @@ const Field& Access<M>::row() {
 }  // namespace
 
 std::string Field::domain() const {
+  if (kind == Kind::text) return std::string(words);
   if (!choices.empty()) return listed(choices, ", ", " or ");
   return (kind == Kind::whole ? "a whole number from " : "a number from ") + shortest(lo) + " to " +
          shortest(hi);

@@ -31,6 +31,8 @@ bool suits(const nlohmann::json& value, Field::Kind kind) {
       return value.is_number();
     case Field::Kind::flag:
       return value.is_boolean();
+    case Field::Kind::text:
+      return value.is_string() || value.is_number();
   }
   return false;
 }
@@ -77,8 +79,9 @@ nlohmann::json to_json(const Settings& settings, bool with_machine) {
   for (const Field& field : settings_table()) {
     if (field.of_machine && !with_machine) continue;
     const std::string text = field.text(settings);
-    json[std::string(field.name)] =
-        field.kind == Field::Kind::choice ? nlohmann::json(text) : nlohmann::json::parse(text);
+    json[std::string(field.name)] = field.kind == Field::Kind::choice || field.kind == Field::Kind::text
+                                        ? nlohmann::json(text)
+                                        : nlohmann::json::parse(text);
   }
   return json;
 }

@@ -54,9 +54,11 @@ Expected<void> check(const Settings& s, const SceneStats& stats) {
 void fill_depth(const SceneStats& stats, Settings& s) {
   if (!stats.mirrors) s.depth.value = 0;
   if (s.throughput_cutoff >= kThroughputCutoff) s.depth.value = std::min<int>(s.depth, stats.useful_depth);
-  // Samples of an environment, and of light from other surfaces, travel with mirrored light.
+  // Samples of an environment, of light from other surfaces and of the shadow catcher travel with mirrored
+  // light.
   const bool samples = s.indirect > 0 || (stats.environment && s.environment_strength > 0.0f) ||
-                       (s.denoise && stats.sized_lights);
+                       (s.denoise && stats.sized_lights) ||
+                       s.shadow_catcher.value.kind != ShadowCatcher::Kind::off;
   s.reflection.fill(s.depth > 0 || samples ? ReflectionFormat::half : ReflectionFormat::none);
   if (s.reflection == ReflectionFormat::none) s.depth.value = 0;
 }
@@ -73,6 +75,22 @@ void make_way_for_lights(const SceneStats& stats, Settings& s) {
   if (!exceeds_mask(s, stats.casting_lights)) return;
   s.reflection.fill(ReflectionFormat::half);
   if (!s.reflects()) s.composite.fill(Processor::cpu);
+}
+
+// What is behind the scene. Where the background is transparent, surfaces that blend are, too: by coverage,
+// which the CPU counts where it may draw alone. The shadow catcher's share of light travels with mirrored
+// light, which design 2 does not send.
+void fill_background(const SceneStats& stats, Settings& s) {
+  if (stats.studio) s.background.fill({Background::Kind::studio});
+  const bool gpu_given = (s.visibility.given && s.visibility == Processor::gpu) ||
+                         (s.composite.given && s.composite == Processor::gpu);
+  if (s.background.value.is_transparent() && stats.blends && !gpu_given) s.coverage.fill(true);
+  const bool travels = s.visibility == Processor::cpu || s.composite == Processor::gpu;
+  const bool reflects = !s.reflection.given || s.reflects();
+  if (stats.studio && travels && reflects) s.shadow_catcher.fill({ShadowCatcher::Kind::lowest});
+  if (s.shadow_catcher.value.kind == ShadowCatcher::Kind::lowest)
+    s.shadow_catcher.value = {ShadowCatcher::Kind::at,
+                              std::clamp(stats.bounds.lo.y, -kMostCatcherHeight, kMostCatcherHeight)};
 }
 
 // --mode auto. The GPU stays where other settings need it.
@@ -95,6 +113,7 @@ Expected<Settings> resolve(const Settings& settings, const SceneStats& stats, co
   if (s.environment_light == EnvironmentMethod::prefiltered) s.glossy.fill(Glossy::sharp);
   s.id_bits.fill(stats.triangles < kMost16BitIds ? 16 : 32);
   s.mask_bits.fill(mask_bits_for(stats.casting_lights));
+  fill_background(stats, s);
   fill_depth(stats, s);
   choose_processors(c, s);
   if (s.coverage) {
@@ -144,6 +163,8 @@ std::vector<std::string> losses(const Settings& s, const SceneStats& stats) {
     lines.emplace_back("reflection none: the environment is seen, and lights nothing");
   if (s.reflection.given && !s.reflects() && s.indirect > 0)
     lines.emplace_back("reflection none: light from other surfaces is left out");
+  if (s.reflection.given && !s.reflects() && s.shadow_catcher.value.kind != ShadowCatcher::Kind::off)
+    lines.emplace_back("reflection none: the shadow catcher catches nothing");
   return lines;
 }
 

@@ -89,6 +89,12 @@ constexpr std::array kRules{
     Rule{"denoise of several samples sends light below zero, which reflection rgb8 and rgb9e5 cannot hold",
          "use reflection half or float, or --no-denoise",
          [](const Settings& s) { return s.denoise && s.denoise.given && !can_send_denoised(s); }},
+    Rule{"shadow_catcher does not travel with visibility gpu and composite cpu",
+         "leave it out, use composite gpu (--design 1), or let the CPU draw alone (--mode raytrace)",
+         [](const Settings& s) {
+           return s.shadow_catcher.value.kind != ShadowCatcher::Kind::off && s.visibility == Processor::gpu &&
+                  s.composite == Processor::cpu;
+         }},
     Rule{"this processor does not have the SIMD level", "'pinocchio info --system' lists what it has",
          [](const Settings& s) { return !isa_supported(s.isa); }},
 };

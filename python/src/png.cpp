@@ -28,22 +28,36 @@ void add_chunk(std::string& to, const std::string& body,
   add_number(to, nb::cast<std::uint32_t>(zlib.attr("crc32")(nb::bytes(body.data(), body.size()))));
 }
 
+// A pixel on its way to sRGB.
+glm::vec4 shown(const glm::vec4& pixel, float factor, const Background& background, bool opaque) {
+  if (background.kind != Background::Kind::color) {
+    const float alpha =
+        opaque ? 1.0f : std::clamp(pixel.a, 0.0f, 1.0f);  // the colour is multiplied by it already
+    return alpha > 0.0f ? glm::vec4(factor / alpha * glm::vec3(pixel), alpha) : glm::vec4(0.0f);
+  }
+  const float alpha = std::clamp(pixel.a, 0.0f, 1.0f);
+  const glm::vec3 behind = (1.0f - alpha) * background.color;
+  if (alpha == 0.0f) return glm::vec4(behind, 1.0f);
+  const glm::vec3 own = factor / alpha * glm::max(glm::vec3(pixel) - behind, 0.0f);
+  return glm::vec4(behind + alpha * glm::min(own, 1.0f), 1.0f);
+}
+
 }  // namespace
 
-nb::bytes png_of(const Image<glm::vec4>& color, float exposure, bool opaque) {
+nb::bytes png_of(const FrameResult& frame, float exposure) {
   if (!std::isfinite(exposure)) throw Error("exposure is not a finite number");
   const float factor = std::exp2(exposure);
+  const Image<glm::vec4>& color = frame.color;
+  const Background& background = frame.settings.background.value;
+  const bool opaque = backdrop_of(frame.scene, background).picture != nullptr;
   std::string rows;
   rows.reserve(color.pixels().size() * 4 + static_cast<std::size_t>(color.height()));
   for (int y = 0; y < color.height(); ++y) {
     rows.push_back(0);  // no filter
     for (int x = 0; x < color.width(); ++x) {
-      const glm::vec4& pixel = color.at(x, y);
-      const float alpha =
-          opaque ? 1.0f : std::clamp(pixel.a, 0.0f, 1.0f);  // the colour is multiplied by it already
-      for (int c = 0; c < 3; ++c)
-        rows.push_back(static_cast<char>(srgb8(alpha > 0.0f ? factor * pixel[c] / alpha : 0.0f)));
-      rows.push_back(static_cast<char>(static_cast<std::uint8_t>(255.0f * alpha + 0.5f)));
+      const glm::vec4 pixel = shown(color.at(x, y), factor, background, opaque);
+      for (int c = 0; c < 3; ++c) rows.push_back(static_cast<char>(srgb8(pixel[c])));
+      rows.push_back(static_cast<char>(static_cast<std::uint8_t>(255.0f * pixel.a + 0.5f)));
     }
   }
   const nb::module_ zlib = nb::module_::import_("zlib");

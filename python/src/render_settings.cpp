@@ -53,9 +53,23 @@ bool is_bool(nb::handle value) {
          text_of(value.type().attr("__name__")).starts_with("bool");  // NumPy's
 }
 
+// A colour may be a sequence of numbers; True stands for the option without a value, False for "off".
+std::string text_of_text(const Field& field, nb::handle value, const std::string& named) {
+  if (is_bool(value)) {
+    if (field.alone.empty()) throw Error(named + "; it is " + field.domain());
+    return std::string(nb::cast<bool>(nb::bool_(nb::borrow(value))) ? field.alone : field.examples.front());
+  }
+  if (nb::isinstance<nb::str>(value) || !PySequence_Check(value.ptr())) return text_of(value);
+  std::string text;
+  for (const nb::handle item : nb::borrow<nb::sequence>(value))
+    text += (text.empty() ? "" : ",") + std::string(nb::str(nb::float_(item)).c_str());
+  return text;
+}
+
 // The value as text. A number in quotes is no number, and True is none either.
 std::string text_of(const Field& field, nb::handle value) {
   const std::string named = std::string(python_name(field)) + " is " + nb::repr(value).c_str();
+  if (field.kind == Field::Kind::text) return text_of_text(field, value, named);
   const bool takes_text = field.kind == Field::Kind::choice;
   if (field.kind == Field::Kind::flag) {
     if (!is_bool(value)) throw Error(named + "; it is True or False");

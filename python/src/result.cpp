@@ -216,16 +216,16 @@ void bind_result(nb::module_& module) {
           [](const Result& r, const std::filesystem::path& path, float exposure) {
             if (!has_extension(path, ".png"))
               throw Error(path.string() + ": write_png writes PNG files; end the name in .png");
-            write_bytes(path, png_of(r.frame.color, exposure, r.frame.scene.environment != nullptr));
+            write_bytes(path, png_of(r.frame, exposure));
           },
           "path"_a, "exposure"_a = 0.0f,
           nb::sig("def write_png(self, path: str | os.PathLike[str], exposure: float = 0.0) -> None"),
-          "Writes the colour as a screen shows it: sRGB, 8 bits, with alpha where no environment is behind "
-          "the scene; what is brighter than white is white.\n"
+          "Writes the colour as a screen shows it: sRGB, 8 bits, with alpha where neither an environment nor "
+          "a "
+          "colour is behind the scene; what is brighter than white is white.\n"
           "path: the file, which is written whole or not at all. exposure: stops brighter.\n"
           "Raises Error if the file cannot be written or if its name does not end in .png.")
-      .def("_repr_png_",
-           [](const Result& r) { return png_of(r.frame.color, 0.0f, r.frame.scene.environment != nullptr); })
+      .def("_repr_png_", [](const Result& r) { return png_of(r.frame, 0.0f); })
       .def("__repr__", [](const Result& r) {
         return "<Result: " + std::to_string(r.frame.color.width()) + "x" +
                std::to_string(r.frame.color.height()) + " pixels, " +

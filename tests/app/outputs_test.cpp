@@ -277,5 +277,46 @@ TEST_F(OutputsTest, DeterministicFilesAreTheSameToTheByte) {
   }
 }
 
+TEST_F(OutputsTest, ABackgroundIsInEveryFile) {
+  write("t.obj", "v -1 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
+  const std::string render = "render --shadow-catcher t.obj --mode raytrace --size 32x24 ";
+  const auto color_type = [&](const std::string& more) {  // of the PNG: 2 RGB, 6 RGBA
+    const CommandResult result = run(render + more + " --preview t.png");
+    EXPECT_EQ(result.exit_code, 0) << result.err;
+    return static_cast<int>(read_file(folder_ / "t.png").at(25));
+  };
+  EXPECT_EQ(color_type("--background transparent"), 6);
+  EXPECT_EQ(color_type("--background '#336699'"), 2);
+  EXPECT_EQ(color_type(""), 2);
+  EXPECT_EQ(run(render + "--raw - > three").exit_code, 0);
+  EXPECT_EQ(run(render + "--background transparent --raw - > four").exit_code, 0);
+  EXPECT_EQ(read_file(folder_ / "three").size(), 32u * 24u * 3u);
+  EXPECT_EQ(read_file(folder_ / "four").size(), 32u * 24u * 4u);
+  const auto skipped = [&](const std::string& more) {
+    const CommandResult result = run(render + "-o t.exr --preview t.png --skip-existing " + more);
+    EXPECT_EQ(result.exit_code, 0) << result.err;
+    return result.out.find("t.exr\n") == std::string::npos;
+  };
+  EXPECT_FALSE(skipped("--background transparent"));
+  EXPECT_TRUE(skipped("--background transparent"));
+  EXPECT_FALSE(skipped("--background white"));
+  EXPECT_FALSE(skipped("--background white --shadow-catcher off"));
+  EXPECT_TRUE(skipped("--background '#ffffff' --shadow-catcher off"));
+}
+
+TEST_F(OutputsTest, BackgroundsThatCannotBeSayWhatCan) {
+  write("t.obj", "v -1 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
+  const auto expect = [&](const std::string& arguments, int code, const std::string& said) {
+    const CommandResult result = run(arguments);
+    EXPECT_EQ(result.exit_code, code) << arguments;
+    EXPECT_NE((result.out + result.err).find(said), std::string::npos) << result.out << result.err;
+  };
+  expect("render t.obj --preview t.png --background 1,2", 2, "'1,2' is not environment, studio, transparent");
+  expect("render t.obj --preview t.png --shadow-catcher=deep", 2, "'deep' is not off, lowest or a height");
+  expect("render t.obj --preview t.png --shadow-catcher 0 --design 2", 2, "shadow_catcher does not travel");
+  expect("info t.obj --plan --background transparent", 0, "behind the scene is nothing");
+  expect("info t.obj --plan", 0, "the shadow catcher at height 0 takes shadow rays");
+}
+
 }  // namespace
 }  // namespace pinocchio

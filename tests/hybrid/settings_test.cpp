@@ -15,6 +15,7 @@ namespace {
 // Values that the field may have.
 std::vector<std::string> values_of(const Field& field) {
   if (!field.choices.empty()) return {field.choices.begin(), field.choices.end()};
+  if (field.kind == Field::Kind::text) return {field.examples.begin(), field.examples.end()};
   const auto text = [&](double value) {
     return field.kind == Field::Kind::whole ? std::to_string(static_cast<long>(value))
                                             : nlohmann::json(static_cast<float>(value)).dump();

@@ -117,8 +117,9 @@ TEST(Export, EveryGivenSettingIsSaid) {
 // A value of the field that it does not have by itself.
 std::string another_value(const Field& field) {
   const Settings usual;
-  for (const std::string_view choice : field.choices)
-    if (choice != field.text(usual)) return std::string(choice);
+  for (const auto& values : {field.choices, field.examples})
+    for (const std::string_view value : values)
+      if (value != field.text(usual)) return std::string(value);
   for (const double value : {field.hi, field.lo}) {
     std::string text = std::to_string(value);
     text.resize(text.find('.'));

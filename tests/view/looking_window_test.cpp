@@ -1,4 +1,5 @@
 // The window, looked at closely and edited: what panels, clicks with keys held, and the wheel do.
+#include "core/image/tonemap.h"
 #include "tests/view/display.h"
 
 namespace pinocchio {
@@ -220,6 +221,22 @@ TEST_F(LookingTest, TheCommandSaysTheTimeOfAnAnimation) {
   key("ctrl+Right ctrl+Right");
   EXPECT_TRUE(becomes([this] { return !option(command_line(), "--time").empty(); }, 10.0)) << command_line();
   expect_clean_close();
+}
+
+// A colour as it is given, whatever the exposure; nothing as chequers of two greys.
+TEST_F(LookingTest, BackgroundsAreShown) {
+  std::ofstream(folder_ / "triangle.obj") << "v -1 -1 0\nv 1 -1 0\nv 0 1 0\nf 1 2 3\n";
+  const auto corner = [&](const std::string& background) {
+    open("triangle.obj", "--light 0,0,5 --exposure 1 --background " + background);
+    settle("shown.png");
+    expect_clean_close();
+    return crop(picture("shown.png"), "48x48+0+0");
+  };
+  const Picture color = corner("0.2,0.4,0.6"), chequers = corner("transparent");
+  ASSERT_FALSE(color.empty());
+  EXPECT_EQ(count_colors(color), 1u);
+  EXPECT_EQ(color[0], glm::u8vec3(linear_to_srgb8(0.2f), linear_to_srgb8(0.4f), linear_to_srgb8(0.6f)));
+  EXPECT_EQ(count_colors(chequers), 2u);
 }
 
 }  // namespace

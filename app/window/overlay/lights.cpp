@@ -169,6 +169,7 @@ void draw_light_controls(Model& model, float scale) {
   }
   draw_adding(model);
   draw_environment(model);
+  draw_background(model);
 }
 
 void draw_light_handles(Model& model, float scale) {

@@ -25,6 +25,7 @@ void draw_light_controls(Model& model, float scale);
 void draw_camera(Model& model, float scale);
 // Part of the panel Lights.
 void draw_environment(Model& model);
+void draw_background(Model& model);
 // Part of the panel Drawing, while the picture's light is counted.
 void draw_histogram(const Model& model, float scale);
 void draw_timeline(Model& model, float scale);

@@ -44,12 +44,13 @@ void edit_choice(const Row& row) {
   ImGui::EndCombo();
 }
 
-// The value counts after Enter, so that no tree is built for every digit.
+// A number or a text. The value counts after Enter, so that no tree is built for every digit.
 void edit_number(const Row& row) {
-  std::array<char, 32> text{};
+  std::array<char, 64> text{};
   row.text.copy(text.data(), text.size() - 1);
-  if (ImGui::InputText("##number", text.data(), text.size(),
-                       ImGuiInputTextFlags_CharsScientific | ImGuiInputTextFlags_EnterReturnsTrue))
+  const ImGuiInputTextFlags any =
+      row.field.kind == Field::Kind::text ? 0 : ImGuiInputTextFlags_CharsScientific;
+  if (ImGui::InputText("##number", text.data(), text.size(), any | ImGuiInputTextFlags_EnterReturnsTrue))
     row.set(text.data());
   tooltip(std::string(row.field.help) + ": " + row.field.domain() + ", then Enter");
 }
@@ -99,7 +100,7 @@ const std::vector<Group>& groups() {
       {"Samples", {"spp", "max_noise", "pixel_filter", "sequence", "seed"}},
       {"Light",
        {"depth", "indirect", "environment_rotation", "environment_strength", "throughput_cutoff",
-        "light_cutoff", "terminator", "backfaces", "filter_textures"}},
+        "light_cutoff", "background", "shadow_catcher", "terminator", "backfaces", "filter_textures"}},
       {"Between CPU and GPU",
        {"visibility", "composite", "by_machine", "exchange", "mask_bits", "mask_scale", "reflection",
         "reflection_scale", "tiles", "id_bits", "normals", "wide", "reuse", "persistent"}},

@@ -58,6 +58,11 @@ void write_png(const std::filesystem::path& file, const Image<glm::u8vec3>& pixe
   write_text(file, encode(pixels.size(), 3, std::as_bytes(pixels.pixels()), text));
 }
 
+void write_png(const std::filesystem::path& file, const Image<glm::u8vec4>& pixels, const std::string& text) {
+  check_writable(file);
+  write_text(file, encode(pixels.size(), 4, std::as_bytes(pixels.pixels()), text));
+}
+
 Expected<DecodedImage> decode_png(const EncodedPicture& picture) {
   const SpngContext context(spng_ctx_new(0), spng_ctx_free);
   if (!context) return picture.error("cannot be decoded");

@@ -16,6 +16,9 @@ namespace pinocchio {
 // if it is empty, there is no such chunk. Throws EnvironmentError.
 void write_png(const std::filesystem::path& file, const Image<glm::u8vec3>& pixels,
                const std::string& text = {});
+// The same with alpha, which is not multiplied into the colour.
+void write_png(const std::filesystem::path& file, const Image<glm::u8vec4>& pixels,
+               const std::string& text = {});
 
 // The text that the file was written with; none where the file cannot be decoded to its end.
 [[nodiscard]] std::optional<std::string> text_of_png(const std::filesystem::path& file);

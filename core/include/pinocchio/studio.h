@@ -2,6 +2,7 @@
 #pragma once
 
 #include <glm/glm.hpp>
+#include <memory>
 
 #include "pinocchio/scene.h"
 
@@ -16,6 +17,9 @@ namespace pinocchio {
 // a studio_camera.
 void add_studio_light(Scene& scene);
 [[nodiscard]] bool has_studio_light(const Scene& scene);
+
+// The studio's sky: neutral, darker below the horizon, with soft boxes above. Always the same one.
+[[nodiscard]] std::shared_ptr<const Environment> studio_sky();
 
 // Samples a pixel that make a picture in the studio smooth.
 inline constexpr int kStudioSamples = 4;

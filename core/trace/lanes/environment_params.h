@@ -12,16 +12,19 @@ namespace pinocchio {
 
 // A scene's environment as rays read it (lanes/environment_light.h).
 struct EnvironmentLight {
+  // The environment must outlive this object.
+  EnvironmentLight(const Environment& environment, float rotation_deg, float factor)
+      : pixels(environment.radiance().pixels().data()),
+        size(environment.radiance().size()),
+        turn(rotation_deg / 360.0f),
+        strength(factor),
+        shares(environment.shares()),
+        shines(factor > 0.0f && !environment.is_black()),
+        cos_turn(static_cast<float>(std::cos(glm::radians(double{rotation_deg})))),
+        sin_turn(static_cast<float>(std::sin(glm::radians(double{rotation_deg})))) {}
   // The scene has an environment.
   explicit EnvironmentLight(const Scene& scene)
-      : pixels(scene.environment->radiance().pixels().data()),
-        size(scene.environment->radiance().size()),
-        turn(scene.environment_rotation_deg / 360.0f),
-        strength(scene.environment_strength),
-        shares(scene.environment->shares()),
-        shines(scene.environment_strength > 0.0f && !scene.environment->is_black()),
-        cos_turn(static_cast<float>(std::cos(glm::radians(double{scene.environment_rotation_deg})))),
-        sin_turn(static_cast<float>(std::sin(glm::radians(double{scene.environment_rotation_deg})))) {}
+      : EnvironmentLight(*scene.environment, scene.environment_rotation_deg, scene.environment_strength) {}
 
   const glm::vec3* pixels;
   glm::ivec2 size;

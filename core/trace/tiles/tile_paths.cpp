@@ -1,17 +1,8 @@
 // The rays of a tile beyond the visible points: mirrored and refracted rays, the environment, light from
 // other surfaces.
-#include <algorithm>
-
 #include "core/trace/tiles/tile_tracer.h"
-#include "core/trace/view/view_params.h"
 
 namespace pinocchio {
-namespace {
-
-// Of what is hit, however clear it is: 0 is where nothing is.
-constexpr float kLeastCoverage = 1e-30f;
-
-}  // namespace
 
 // Follows the rays that the camera's rays spawned, then those of matt surfaces, bounce by bounce.
 void TileTracer::follow() {
@@ -64,8 +55,9 @@ void TileTracer::follow_mirrors(int bounce_count) {
       const bool of_camera = &queue == &rays_[kStraightFromCamera];
       if (of_camera && queue.size == 0) continue;
       find_hits(queue, generation, of_camera);
-      if (of_camera && plan_->out.coverage) uncover(queue);
-      if (plan_->environment && (bounce_count == 0 || &queue != &rays_[kStraight]))
+      if (of_camera)
+        see_background(queue);
+      else if (plan_->environment && (bounce_count == 0 || &queue != &rays_[kStraight]))
         plan_->job.tracer.steps().add_environment(*plan_->environment, plan_->further.environment != nullptr,
                                                   queue, &reflected_[0].x);
       plan_->job.tracer.steps().keep_hits(queue);
@@ -73,16 +65,6 @@ void TileTracer::follow_mirrors(int bounce_count) {
     }
     light_points(step, generation, rays_, plan_->further_lights, reflected_.data());
     std::swap(rays_, next_);
-  }
-}
-
-// Rays that went through all that blends and hit nothing: what is left of their light is not covered.
-void TileTracer::uncover(const RayQueue& rays) {
-  for (std::size_t i = 0; i < rays.size; ++i) {
-    if (rays.triangle[i] != kNoTriangle) continue;
-    float& alpha = direct_[rays.pixel[i]].a;
-    const float left = (rays.light[0][i] + rays.light[1][i] + rays.light[2][i]) / 3.0f;
-    alpha = std::max(alpha - left, kLeastCoverage);
   }
 }
 
@@ -125,36 +107,6 @@ void TileTracer::block_by_ways_up(const RayQueue& up, int generation) {
   plan_->job.tracer.occluded(up.columns(1.0f), up.size, up_blocked_.data());
   counts_.shadow += up.size;
   for (std::size_t i = 0; i < up.size; ++i) blocked_[up.pixel[i]] |= up_blocked_[i];
-}
-
-// Adds the environment where nothing is hit; alpha stays 0.
-void TileTracer::paint_background() {
-  const LaneSteps& steps = plan_->job.tracer.steps();
-  if (!plan_->model) {
-    steps.paint_background(*plan_->environment, plan_->view, tile_, *plan_->out.color);
-    return;
-  }
-  sky_.make_room(kPixels);
-  for (int y = tile_.lo.y; y < tile_.hi.y; ++y)
-    for (int x = tile_.lo.x; x < tile_.hi.x; ++x) {
-      if (plan_->out.color->at(x, y).a != 0.0f) continue;
-      const glm::vec3 direction = plan_->model->ray(x, y).direction;
-      if (direction == glm::vec3(0.0f)) continue;
-      const std::size_t i = sky_.size++;
-      for (int c = 0; c < 3; ++c) {
-        sky_.direction[c][i] = direction[c];
-        sky_.light[c][i] = 1.0f;
-      }
-      sky_.pixel[i] = static_cast<std::uint32_t>((y - tile_.lo.y) << kTileBits | (x - tile_.lo.x));
-      sky_.triangle[i] = kNoTriangle;
-    }
-  reflected_.fill(glm::vec4(0.0f));
-  steps.add_environment(*plan_->environment, false, sky_, &reflected_[0].x);
-  for (std::size_t i = 0; i < sky_.size; ++i) {
-    const std::uint32_t pixel = sky_.pixel[i], row = pixel >> kTileBits;
-    plan_->out.color->at(tile_.lo.x + static_cast<int>(pixel - (row << kTileBits)),
-                         tile_.lo.y + static_cast<int>(row)) = reflected_[pixel];
-  }
 }
 
 }  // namespace pinocchio

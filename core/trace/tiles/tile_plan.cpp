@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cassert>
 
+#include "core/scene/ground_sky.h"
 #include "core/shade/surface.h"
 #include "core/trace/view/view_params.h"
 
@@ -116,7 +117,12 @@ TilePlan::TilePlan(const TraceJob& j, const TileOutputs& o)
       most_sized(most_of(further_lights,
                          [](const BounceLight& light) { return light.slot >= 0 && light.has_size; })) {
   assert(o.mask_bits == 0 || o.mask_bits >= static_cast<int>(casting_lights(j.scene).size()));
-  straight_apart = blends && (passed_backs.any() || o.coverage);
+  const Backdrop behind = backdrop_of(j.scene, j.options.background);
+  if (behind.picture) backdrop.emplace(*behind.picture, behind.rotation_deg, behind.strength);
+  if (j.options.catcher_height && (o.color || o.caught_in_reflection))
+    catcher.emplace(j.scene.mesh->bounds(), *j.options.catcher_height);
+  straight_apart = blends && (passed_backs.any() || o.coverage || catcher ||
+                              j.options.background.kind != Background::Kind::environment);
   set_view(j.view, j.model);
   further.scene = SceneArrays::of(*job.scene.mesh, maps);
   further.offset = job.tracer.offset();
@@ -136,6 +142,12 @@ TilePlan::TilePlan(const TraceJob& j, const TileOutputs& o)
     const bool sampled = job.options.environment_light == EnvironmentMethod::sampled;
     if (!sampled || out.sampled) environment->prefiltered = prefiltered(job.scene.environment);
     (sampled ? further.environment : further.prefiltered) = &*environment;
+  }
+  if (catcher && further.environment) {
+    sky_on_ground = pinocchio::sky_on_ground(j.scene.environment);
+    ground_sky = *environment;
+    ground_sky->shares = sky_on_ground->shares();
+    ground_sky->shines = !sky_on_ground->is_black();
   }
   further.lobes =
       further.samples && sampled_lobes && microfacets && (o.reflection || o.color || o.added || o.sampled);

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <memory>
 #include <optional>
 #include <vector>
 
@@ -8,6 +9,7 @@
 #include "core/trace/lanes/environment_params.h"
 #include "core/trace/lanes/lane_steps.h"
 #include "core/trace/rays/passed_backs.h"
+#include "core/trace/tiles/catcher_plane.h"
 #include "core/trace/tiles/trace_tiles.h"
 #include "core/trace/view/ray_model.h"
 
@@ -46,7 +48,10 @@ struct TilePlan {
   std::vector<LightGroup> further_lights, visible_lights;
   std::size_t most_casting, most_sized;  // casting lights of a group, and those of them with a size
   bool lights_in_reflection = false;     // some group has
-  std::optional<EnvironmentLight> environment;
+  std::optional<EnvironmentLight> environment, backdrop;  // backdrop: the background, where it is a picture
+  std::optional<CatcherPlane> catcher;                    // none: no shadows are caught
+  std::shared_ptr<const Environment> sky_on_ground;       // kept for `ground_sky`
+  std::optional<EnvironmentLight> ground_sky;             // the environment, sampled for the catcher's plane
   Bounce visible, further;  // the step of the camera's rays, and of the rays that they spawn
 };
 

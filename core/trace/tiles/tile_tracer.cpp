@@ -59,6 +59,10 @@ TileResult TileTracer::trace(const TilePlan& plan, const PixelBox& tile) {
     follow();
     times.reflection = lap.restart();
   }
+  if (plan_->catcher) {
+    catch_shadows();
+    times.shadow += lap.restart();
+  }
   write();
   times.composite = lap.restart();
   return {counts_, times};
@@ -73,6 +77,8 @@ void TileTracer::begin_light() {
 // Makes the rays of the tile's pixels; with given ids, of the pixels that see something.
 void TileTracer::start() {
   seen_.make_room(kPixels);
+  ground_.make_room(0);
+  straight_ground_.make_room(0);
   const bool given = plan_->out.seen != nullptr, whole = tile_.size() == glm::ivec2(TileGrid::kTileSize);
   if (!whole) ids_.fill(kNoTriangle);
   if (given && !fetch_ids()) return;
@@ -294,7 +300,8 @@ void TileTracer::write() {
       out.mask->set_row(tile_.lo.x, y, std::span(mask_).subspan(i + row, width),
                         static_cast<int>(i / kPixels));
   }
-  if (out.color && plan_->environment) paint_background();
+  if (out.color) paint_background();
+  if (plan_->catcher) write_lost();
 }
 
 }  // namespace pinocchio

@@ -38,8 +38,16 @@ class TileTracer {
   void follow();
   void follow_mirrors(int bounce);
   void follow_diffuse(int bounce);
+  void see_background(RayQueue& straight);
+  void add_background(const RayQueue& straight);
   void uncover(const RayQueue& straight);
+  void uncover(std::uint32_t pixel, float by);
   void paint_background();
+  void paint_backdrop();
+  void catch_shadows();
+  void find_lost(RayQueue& rays);
+  void count_lost(const RayQueue& queue, float reach);
+  void write_lost();
   void bounce(Bounce step, int generation, const RayQueue& rays, Generation& next, glm::vec4* radiance,
               bool of_camera = false);
   [[nodiscard]] ExtraColumns extra_columns() const;
@@ -67,6 +75,10 @@ class TileTracer {
   Radiance<kPixels> direct_;
   Radiance<2 * kPixels> reflected_;  // from kSampledPixels on: what is kept apart
   std::vector<SampledPoint> points_;
+  // With a shadow catcher: rays at its plane, of pixels that see nothing, and behind surfaces that blend. By
+  // pixel: the light of the plane (RGB) and what shadows take from it (A), then the lost share (A).
+  RayQueue ground_, straight_ground_;
+  Radiance<kPixels> ground_light_;
   Footprint seen_footprint_;                // of the tile, where a RayModel makes the rays
   bool reflects_ = false;                   // reflected_ may hold light
   std::vector<std::uint8_t> mask_;          // kPixels for each byte of the mask

@@ -77,10 +77,14 @@ struct TileOutputs {
   // Also in `reflection`, whatever mask_bits is: the light at visible points of the casting lights in slots
   // from this one on, a multiple of 8.
   int first_added_slot = std::numeric_limits<int>::max();
+  // In `reflection`, a pixel that sees nothing has the share of light that the shadow catcher lost there, in
+  // all three colours.
+  bool caught_in_reflection = false;
 
   // The composite: the reflection model's light of every light that reaches the point, plus reflection. RGBA,
-  // linear; A is 1 where something is hit. With `coverage`, A is less where all that is hit blends: the share
-  // of light from behind that is held back.
+  // linear; A is 1 where something is hit, and behind that job.options' background is drawn, whose A is 0, or
+  // the share of light that the shadow catcher lost. With `coverage`, A is less where all that is hit blends:
+  // the share of light from behind that is held back.
   Image<glm::vec4>* color = nullptr;
   bool coverage = false;
   // The part of the composite that rays decide (casting lights, reflection) is added to this image.

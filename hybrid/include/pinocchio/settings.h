@@ -9,8 +9,10 @@
 #include <string_view>
 
 #include "pinocchio/backfaces.h"
+#include "pinocchio/background.h"
 #include "pinocchio/error.h"
 #include "pinocchio/sampled_light.h"
+#include "pinocchio/shadow_catcher.h"
 #include "pinocchio/terminator.h"
 #include "pinocchio/tracer.h"
 #include "pinocchio/view.h"
@@ -101,6 +103,8 @@ struct Settings {
   Setting<Glossy> glossy;
   Setting<int> sky_occlusion;
   Setting<bool> denoise, average_layers;
+  Setting<Background> background;
+  Setting<ShadowCatcher> shadow_catcher;
   Setting<Terminator> terminator = Setting<Terminator>::by_default(kUsualTerminator);
   Setting<Backfaces> backfaces = Setting<Backfaces>::by_default(Backfaces::automatic);
   Setting<bool> coverage;
@@ -128,12 +132,15 @@ struct Settings {
 
 // A field of Settings, for code that reads, writes or shows settings by name.
 struct Field {
-  enum class Kind { choice, whole, number, flag };
+  enum class Kind { choice, whole, number, flag, text };
 
   std::string_view name;  // as in JSON; on the command line with '-' instead of '_'
   Kind kind;
-  std::span<const std::string_view> choices;  // all values; empty: numbers from lo to hi, or a flag
+  std::span<const std::string_view> choices;  // all values; empty: numbers from lo to hi, a flag or a text
   double lo, hi;
+  std::string_view words;                      // of a text: the allowed values in words ...
+  std::span<const std::string_view> examples;  // ... and some of them
+  std::string_view alone;  // the value that the option has on the command line without one; empty: none
   std::string_view unset;  // the value if it is not set, in words
   std::string_view help;
   bool of_machine;            // changes only how a picture is computed, and no pixel
