@@ -6,6 +6,7 @@
 //   FREE_LIGHTS_ONLY  lights that cast are left out: the CPU adds them (design 2)
 //   HAS_REFLECTION    the CPU's mirrored and refracted light; traced_light.glsl has its formats
 //   HAS_MAPS          some material has maps
+//   EYE_IN_MEDIUM     the eye lies in a body that absorbs light
 //   HAS_ENVIRONMENT   something is seen where no triangle is
 //   TERMINATOR_LIFTS, TERMINATOR_SMOOTHS  remedies of the shadow terminator; neither: none
 //   HAS_SIZED_LIGHTS  some light has a size: the picture is lit by those points of it that the CPU's shadow rays
@@ -53,6 +54,17 @@ vec3 background(ivec2 pixel) {
 }
 #else
 vec3 background(ivec2 pixel) { return vec3(0.0); }
+#endif
+
+#ifdef EYE_IN_MEDIUM
+uniform vec3 eye_medium_color;  // what is left of light after
+uniform float eye_medium_distance;
+
+// What is left of light on its way to the eye (Beer and Lambert).
+vec3 left_of_light(vec3 p_world) {
+  vec3 left = pow(max(eye_medium_color, 1e-30), vec3(distance(eye, p_world) / eye_medium_distance));
+  return mix(vec3(0.0), left, greaterThan(eye_medium_color, vec3(0.0)));
+}
 #endif
 
 uniform vec3 ambient_light;
@@ -124,6 +136,9 @@ void main() {
   }
 #ifdef HAS_MAPS
   sum *= s.alpha;
+#endif
+#ifdef EYE_IN_MEDIUM
+  sum *= left_of_light(s.p_world);
 #endif
 #ifdef HAS_REFLECTION
   sum += reflected_light(source.pixel, id);

@@ -27,6 +27,7 @@ TraceOptions trace_options(const Settings& settings, const View& view) {
           .environment_light = settings.environment_light,
           .glossy = settings.glossy,
           .sky_occlusion = settings.sky_occlusion,
+          .glass_shadows = settings.glass_shadows,
           .jitter = view.jitter,
           .sampling = {static_cast<int>(settings.sequence.value), static_cast<std::uint32_t>(view.sample),
                        static_cast<std::uint32_t>(settings.seed)}};

@@ -14,6 +14,7 @@ void ShadingPasses::composite(const Inputs& inputs, LightSet lights, const Trace
     if (inputs.options.glossy == Glossy::sampled) definitions.emplace_back("HAS_SAMPLED_LOBES");
   }
   if (lights == LightSet::free) definitions.emplace_back("FREE_LIGHTS_ONLY");
+  if (inputs.eye_medium) definitions.emplace_back("EYE_IN_MEDIUM");
   if (inputs.scene.environment) {
     definitions.emplace_back("HAS_ENVIRONMENT");
     send(inputs.scene.environment);  // first: it binds textures of its own
@@ -23,6 +24,10 @@ void ShadingPasses::composite(const Inputs& inputs, LightSet lights, const Trace
   p.use();
   const int unit = bind(p, inputs, traced);
   if (inputs.scene.environment) bind_environment(p, inputs.scene, unit);
+  if (inputs.eye_medium) {
+    p.set("eye_medium_color", inputs.eye_medium->attenuation_color);
+    p.set("eye_medium_distance", inputs.eye_medium->attenuation_distance);
+  }
   if (inputs.lights.any_size()) {
     const shared::Sampling& sampling = traced.of ? traced.of->sampling : inputs.options.sampling;
     p.set("sequence", sampling.sequence);

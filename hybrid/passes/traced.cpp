@@ -1,6 +1,7 @@
 // The CPU's part of a frame.
 #include <stdexcept>
 
+#include "core/trace/tiles/tinted_shadows.h"
 #include "core/trace/tiles/trace_tiles.h"
 #include "hybrid/exchange/encode.h"
 #include "hybrid/passes/passes.h"
@@ -43,10 +44,16 @@ void run(Workers& workers, FrameSlot& frame, const TileOutputs& outputs, double 
   record_times(result.times, begin_s, workers.count(), frame.record);
 }
 
-// Whether rays leave the visible points, beside shadow rays.
-bool traces_further(const FrameRequest& r) {
+// Whether light at the visible points may come through glass, beside the mask.
+bool tints(const FrameSlot& frame) {
+  return frame.request.settings.mask_bits > 0 && tints_shadows(*frame.request.scene.mesh, frame.options);
+}
+
+// Whether there is traced light beside what the mask decides.
+bool traces_further(const FrameSlot& frame) {
+  const FrameRequest& r = frame.request;
   return r.settings.reflects() &&
-         (r.settings.depth > 0 || r.settings.indirect > 0 || r.scene.environment != nullptr);
+         (r.settings.depth > 0 || r.settings.indirect > 0 || r.scene.environment != nullptr || tints(frame));
 }
 
 TileOutputs outputs_of(FrameSlot& frame, int scale, bool has_ids) {
@@ -68,7 +75,7 @@ void add_mask(FrameSlot& frame, TileOutputs& out) {
 }
 
 void add_reflection(FrameSlot& frame, TileOutputs& out) {
-  if (!traces_further(frame.request)) return;
+  if (!traces_further(frame)) return;
   out.depth = frame.request.settings.depth;
   out.indirect = frame.request.settings.indirect;
   out.environment_light = true;
@@ -80,7 +87,7 @@ void add_reflection(FrameSlot& frame, TileOutputs& out) {
 void trace(Workers& workers, FrameSlot& frame) {
   const Settings& s = frame.request.settings;
   bool has_ids = s.visibility == Processor::gpu;
-  if (s.reflects() && !traces_further(frame.request))
+  if (s.reflects() && !traces_further(frame))
     frame.reflection = Image<glm::vec3>(scaled_size(frame.size(), s.reflection_scale));
   const bool needs_ids = !has_ids && (s.mask_scale > 1 || s.reflection_scale > 1);
   const bool apart = s.mask_scale != s.reflection_scale && s.mask_bits > 0 && s.reflects();
@@ -94,6 +101,7 @@ void trace(Workers& workers, FrameSlot& frame) {
   if (apart) {
     run(workers, frame, out, share);
     out = outputs_of(frame, s.reflection_scale, has_ids);
+    if (tints(frame)) out.mask_bits = s.mask_bits;  // shadow rays again, for light through glass
   }
   add_reflection(frame, out);
   if (!s.uses_gpu()) out.color = &frame.color;

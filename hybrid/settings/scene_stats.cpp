@@ -117,6 +117,7 @@ void PoseStats::look_at_materials(const Mesh& mesh) {
     if (!used[m]) continue;
     const Material& material = mesh.materials[m];
     if (material.maps >= 0) note(mesh.maps[static_cast<std::size_t>(material.maps)], stats_);
+    stats_.glass = stats_.glass || material.transmits();
     const bool see_through = sees_through(mesh, material);
     if (!see_through && !mirrors(material, sampled_)) continue;
     kinds_[m] = see_through ? Kind::see_through : Kind::mirror;

@@ -99,7 +99,7 @@ const std::vector<Group>& groups() {
       {"Samples", {"spp", "max_noise", "pixel_filter", "sequence", "seed"}},
       {"Light",
        {"depth", "indirect", "environment_rotation", "environment_strength", "throughput_cutoff",
-        "light_cutoff", "terminator", "backfaces", "filter_textures"}},
+        "light_cutoff", "glass_shadows", "terminator", "backfaces", "filter_textures"}},
       {"Between CPU and GPU",
        {"visibility", "composite", "by_machine", "exchange", "mask_bits", "mask_scale", "reflection",
         "reflection_scale", "tiles", "id_bits", "normals", "wide", "reuse", "persistent"}},

@@ -4,6 +4,7 @@
 
 #include "core/shade/shared.h"
 #include "pinocchio/backfaces.h"
+#include "pinocchio/glass_shadows.h"
 #include "pinocchio/ray.h"
 #include "pinocchio/sampled_light.h"
 #include "pinocchio/terminator.h"
@@ -29,8 +30,9 @@ struct TraceOptions {
   Backfaces backfaces = Backfaces::automatic;  // which backs the camera's rays pass
   EnvironmentMethod environment_light = EnvironmentMethod::sampled;
   Glossy glossy = Glossy::sampled;
-  int sky_occlusion = 0;   // shadow rays about the normal for a prefiltered environment; 0: it casts none
-  glm::vec2 jitter{0.0f};  // View's: tells the samples of a pixel apart where they decide at random
+  int sky_occlusion = 0;  // shadow rays about the normal for a prefiltered environment; 0: it casts none
+  GlassShadows glass_shadows = GlassShadows::opaque;
+  glm::vec2 jitter{0.0f};       // View's: tells the samples of a pixel apart where they decide at random
   shared::Sampling sampling{};  // the sample of sized lights, rough mirrors and the environment
 
   friend bool operator==(const TraceOptions&, const TraceOptions&) = default;

@@ -3,6 +3,8 @@
 #include <algorithm>
 
 #include "core/shade/surface.h"
+#include "core/trace/tiles/medium_at.h"
+#include "core/trace/tiles/tinted_shadows.h"
 #include "core/trace/view/view_params.h"
 
 namespace pinocchio {
@@ -44,6 +46,8 @@ void TilePlan::set_view(const shared::ViewParams& from, const RayModel* rays) {
   if (filters(job))
     seen_footprint = model ? model->footprint(out.size / 2, side) : Footprint::of_camera(view, side);
   further_footprint = seen_footprint.of_cones();
+  const bool one_eye = model ? model->has_one_eye() : !view.parallel;
+  visible.eye_medium = medium_of_eye(job.tracer, view.eye, one_eye);
 }
 
 TilePlan::TilePlan(const TraceJob& j, const TileOutputs& o)
@@ -51,12 +55,12 @@ TilePlan::TilePlan(const TraceJob& j, const TileOutputs& o)
       out(o),
       has_holes(any_maps(*j.scene.mesh, &MaterialMaps::has_holes)),
       blends(any_maps(*j.scene.mesh, &MaterialMaps::blends)),
+      tints((o.reflection || o.color || o.added) && tints_shadows(*j.scene.mesh, j.options)),
       passed_backs(*j.scene.mesh, j.options.backfaces),
       all_lights(lights_of(j.scene)),
       casting(casting_lights(j.scene).size()),
       sized_lights(static_cast<std::size_t>(std::ranges::count_if(j.scene.lights, &Light::has_size))) {
   straight_apart = blends && (passed_backs.any() || o.coverage);
-  set_view(j.view, j.model);
   further.scene = SceneArrays::of(*job.scene.mesh);
   further.offset = job.tracer.offset();
   further.options = &job.options;
@@ -70,6 +74,7 @@ TilePlan::TilePlan(const TraceJob& j, const TileOutputs& o)
   further.samples =
       takes_samples(job.scene, job.options.environment_light, job.options.glossy) || out.indirect > 0;
   further.attenuates = std::ranges::any_of(job.scene.mesh->materials, &Material::attenuates);
+  further.tints = tints;
   further.scale = static_cast<std::uint32_t>(out.scale);
   if (job.scene.environment) environment.emplace(job.scene);
   if (environment && environment->shines && o.environment_light) {
@@ -78,6 +83,8 @@ TilePlan::TilePlan(const TraceJob& j, const TileOutputs& o)
     (sampled ? further.environment : further.prefiltered) = &*environment;
   }
   further.lobes = further.samples && sampled_lobes && microfacets && (o.reflection || o.color || o.added);
+  shadows = further;
+  shadows.footprint = &no_footprint;
   visible = further;
   visible.footprint = &seen_footprint;
   visible.visible = true;
@@ -87,6 +94,7 @@ TilePlan::TilePlan(const TraceJob& j, const TileOutputs& o)
     if (light.slot >= 0 ? out.mask_bits > 0 : visible.adds_ambient) visible_lights.push_back(light);
   visible.lights = visible_lights.data();
   visible.light_count = visible_lights.size();
+  set_view(j.view, j.model);
 }
 
 }  // namespace pinocchio

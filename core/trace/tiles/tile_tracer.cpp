@@ -146,19 +146,22 @@ ExtraColumns TileTracer::extra_columns() const {
 
 void TileTracer::make_room(std::size_t rays, Generation& next) {
   const ExtraColumns extra = extra_columns();
-  ExtraColumns of_mirrored = extra;
+  ExtraColumns of_mirrored = extra, of_straight = extra;
   of_mirrored.density = plan_->further.lobes;
+  of_straight.density =
+      plan_->tints && plan_->environment && (plan_->further.lobes || plan_->out.indirect > 0);
   next[kMirrored].make_room(rays, of_mirrored);
-  next[kRefracted].make_room(rays, extra);
-  next[kStraight].make_room(plan_->blends ? rays : 0, extra);
-  next[kStraightFromCamera].make_room(plan_->straight_apart ? rays : 0, extra);
-  for (std::size_t i = 0; i < plan_->casting; ++i) shadow_[i].make_room(rays);
+  next[kRefracted].make_room(rays, of_straight);
+  next[kStraight].make_room(plan_->blends ? rays : 0, of_straight);
+  next[kStraightFromCamera].make_room(plan_->straight_apart ? rays : 0, of_straight);
+  const ExtraColumns of_shadow{.medium = plan_->tints && extra.medium};
+  for (std::size_t i = 0; i < plan_->casting; ++i) shadow_[i].make_room(rays, of_shadow);
   // A sample of the environment, one along a lobe, and distant lights that the lobe meets.
   const std::size_t along_lobes = plan_->further.lobes ? plan_->sized_lights : 0;
   const std::size_t hiding =
       plan_->further.prefiltered ? static_cast<std::size_t>(plan_->job.options.sky_occlusion) : 0;
-  sky_.make_room(rays * (plan_->further.lobes ? 2 + along_lobes + hiding : 1 + hiding));
-  lobe_lights_.make_room(rays * along_lobes);
+  sky_.make_room(rays * (plan_->further.lobes ? 2 + along_lobes + hiding : 1 + hiding), of_shadow);
+  lobe_lights_.make_room(rays * along_lobes, of_shadow);
   if (plan_->out.indirect > 0) next_diffuse_.make_more_room(rays, extra);
   const std::size_t up = plan_->job.options.terminator == Terminator::turned_away ? rays : 0;
   for (std::size_t i = 0; i < plan_->casting; ++i) ways_up_[i].make_room(up);
@@ -199,7 +202,7 @@ void TileTracer::light_visible() {
   if (!step.mirrored && !step.diffuse && step.light_count == 0 && !step.adds_ambient && !step.environment &&
       !step.prefiltered)
     return;
-  reflects_ = step.environment || step.prefiltered || step.lobes;
+  reflects_ = step.environment || step.prefiltered || step.lobes || step.tints;
   if (reflects_) reflected_.fill(glm::vec4(0.0f));
   bounce(step, 0, seen_, rays_, direct_, true);
   fire_shadows(0, direct_);
@@ -219,7 +222,8 @@ void TileTracer::fire_shadows(int generation, Radiance& radiance) {
     block_by_ways_up(ways_up_[static_cast<std::size_t>(light.slot)], generation);
     if (visible)  // without a branch, which would be predicted badly at the edges of shadows
       for (std::size_t i = 0; i < queue.size; ++i)
-        mask_[queue.pixel[i]] |= static_cast<std::uint8_t>((blocked_[i] ^ 1u) << light.slot);
+        mask_[queue.pixel[i]] |= static_cast<std::uint8_t>(((blocked_[i] & 1u) ^ 1u) << light.slot);
+    if (plan_->tints) add_light_through_glass(queue);
     if (!adds) continue;
     for (std::size_t i = 0; i < queue.size; ++i)
       if (!blocked_[i])

@@ -9,6 +9,7 @@
 #include "core/trace/lanes/lane_steps.h"
 #include "core/trace/rays/ray_queue.h"
 #include "core/trace/tiles/tile_plan.h"
+#include "core/trace/tiles/tinted_shadows.h"
 
 namespace pinocchio {
 
@@ -45,6 +46,7 @@ class TileTracer {
   void fire_reflected(RayQueue& queue, float reach, const RayQueue& ways_up, int generation);
   void ask_occluded(const RayQueue& queue, float reach);
   void block_by_ways_up(const RayQueue& up, int generation);
+  void add_light_through_glass(const RayQueue& queue);
   void write();
 
   const TilePlan* plan_ = nullptr;
@@ -55,8 +57,11 @@ class TileTracer {
   RayQueue diffuse_, next_diffuse_;
   std::array<RayQueue, kMaxCastingLights> shadow_, ways_up_;
   RayQueue sky_, sky_ways_up_, lobe_lights_;
-  std::vector<std::uint8_t> blocked_, up_blocked_;
+  // By shadow ray. Bit 0: something is in the way; bit 1: nor does light come through glass.
+  std::vector<std::uint8_t> blocked_;
+  std::vector<std::uint8_t> up_blocked_;
   Holes holes_;
+  TintedShadows tinted_;
   Radiance direct_, reflected_;
   Footprint seen_footprint_;  // of the tile, where a RayModel makes the rays
   bool reflects_ = false;     // reflected_ may hold light

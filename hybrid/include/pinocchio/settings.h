@@ -10,6 +10,7 @@
 
 #include "pinocchio/backfaces.h"
 #include "pinocchio/error.h"
+#include "pinocchio/glass_shadows.h"
 #include "pinocchio/sampled_light.h"
 #include "pinocchio/terminator.h"
 #include "pinocchio/tracer.h"
@@ -100,6 +101,7 @@ struct Settings {
   Setting<EnvironmentMethod> environment_light;
   Setting<Glossy> glossy;
   Setting<int> sky_occlusion;
+  Setting<GlassShadows> glass_shadows;
   Setting<Terminator> terminator = Setting<Terminator>::by_default(kUsualTerminator);
   Setting<Backfaces> backfaces = Setting<Backfaces>::by_default(Backfaces::automatic);
   Setting<bool> coverage;

@@ -1,0 +1,15 @@
+#pragma once
+
+#include <array>
+#include <string_view>
+
+namespace pinocchio {
+
+// What a shadow ray does where it meets a surface that transmits.
+enum class GlassShadows {
+  opaque,  // it ends: glass casts a full shadow
+  tinted,  // it goes straight on, with the share of the light that the glass lets through
+};
+inline constexpr std::array<std::string_view, 2> kGlassShadowsNames{"opaque", "tinted"};
+
+}  // namespace pinocchio
