@@ -194,7 +194,7 @@ constexpr std::array kTable{
         "shadow rays at each point that hide a prefiltered environment, about the surface's "
         "normal; 0: it casts no shadows"),
     field<&S::glass_shadows>(
-        "glass_shadows", one_of(kGlassShadowsNames), "opaque",
+        "glass_shadows", one_of(kGlassShadowsNames), glass_shadows_name(kUsualGlassShadows),
         "shadow rays that meet glass: opaque: they end, it casts a full shadow; tinted: they "
         "go straight on, with what Fresnel's equations, the glass's colour and the way "
         "through it leave of the light (docs/glass.md)"),

@@ -101,7 +101,7 @@ struct Settings {
   Setting<EnvironmentMethod> environment_light;
   Setting<Glossy> glossy;
   Setting<int> sky_occlusion;
-  Setting<GlassShadows> glass_shadows;
+  Setting<GlassShadows> glass_shadows = Setting<GlassShadows>::by_default(kUsualGlassShadows);
   Setting<Terminator> terminator = Setting<Terminator>::by_default(kUsualTerminator);
   Setting<Backfaces> backfaces = Setting<Backfaces>::by_default(Backfaces::automatic);
   Setting<bool> coverage;
