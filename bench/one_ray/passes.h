@@ -29,8 +29,8 @@ inline RayCounts trace_shadow_mask(const TraceJob& job, const Image<std::uint32_
 }
 
 // Mirrored plus refracted light of every pixel, linear, without the direct light of the visible point
-// itself; generation by generation, `depth` of them at most. radiance is resized to ids' size. With glass, the
-// shadow rays of the visible points are fired, too.
+// itself; generation by generation, `depth` of them at most. radiance is resized to ids' size. With glass,
+// the shadow rays of the visible points are fired, too.
 inline RayCounts trace_reflection(const TraceJob& job, const Image<std::uint32_t>& ids, int depth,
                                   Image<glm::vec3>& radiance) {
   TileOutputs out;
