@@ -77,6 +77,7 @@ class Renderer::Loop {
   FrameSinks sinks_;
   Progress* progress_;
   gl::GpuClock clock_;
+  Gathering gathering_;  // before slots_, whose destructors wait for the tracing thread
   std::uint64_t next_number_ = 0;
   int generation_ = 0;                             // of the programs that drew the newest frame
   std::uint64_t drawn_ = 0;                        // frames that were not repeats
@@ -263,8 +264,8 @@ void Renderer::Loop::start_trace(FrameSlot& frame) {
   if (!frame.request.settings.traces()) return;
   take_on_cpu(frame);
   Workers& workers = engine_.workers(frame.request.settings.threads);
-  frame.tracing = engine_.tracing.post([&workers, &frame] {
-    trace(workers, frame);
+  frame.tracing = engine_.tracing.post([this, &workers, &frame] {
+    trace(workers, frame, gathering_);
     encode_answer(workers, frame);
   });
 }

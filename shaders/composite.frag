@@ -11,6 +11,7 @@
 //   TERMINATOR_LIFTS, TERMINATOR_SMOOTHS  remedies of the shadow terminator; neither: none
 //   HAS_SIZED_LIGHTS  some light has a size: the picture is lit by those points of it that the CPU's shadow rays
 //                     of the same sample went to
+//   SIZED_LIGHTS_ARE_TRACED  the CPU's light has theirs, filtered
 //   REPROJECT         mask and reflection are an older frame's, whose view and ids are given: each pixel reads
 //                     them where its point was seen then. Where neither that pixel nor a neighbour saw the
 //                     same triangle, the pixel is a hole: every light reaches it, and it takes the reflection
@@ -124,6 +125,9 @@ void main() {
   Reach reach = reach_from(source, id);
   vec3 sum = phong_ambient(s.material, ambient_light);
   for (int i = 0; i < light_count; ++i) {
+#ifdef SIZED_LIGHTS_ARE_TRACED
+    if (has_size(fetch_light(i))) continue;
+#endif
     int slot = fetch_mask_slot(i);
     float share = share_of_light(reach, slot);
     if (share == 0.0) continue;

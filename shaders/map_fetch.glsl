@@ -132,7 +132,7 @@ vec3 mapped_normal_at(int maps, MapPoint p, vec3 n) {
 #endif
 #endif
   MapTexcoord at = texcoord_of(t, p);
-  return mapped_normal(n, tangent, p.ab, p.ac, at.uv_ab, at.uv_ac, look_up(t, p, false).rgb,
+  return mapped_normal(n, tangent.xyz, tangent.w, p.ab, p.ac, at.uv_ab, at.uv_ac, look_up(t, p, false).rgb,
                        map_texel(maps, kParameters + 4).x);
 }
 
@@ -166,21 +166,20 @@ ShadingParams mapped_material_at(int maps, MapPoint p, ShadingParams plain, inou
   v.specular_color = look_up(fetch_use(maps, kSpecularColor), p, true).rgb;
   v.transmission = look_up(fetch_use(maps, kTransmission), p, false).r;
 #endif
-  GltfLayers layers = GltfLayers(0.0, 0.0, vec3(0.0), 0.0);
-#ifdef HAS_LAYER_MAPS
-  vec4 coat = map_texel(maps, kLayers);  // factor, roughness; sheen's roughness
-  layers = GltfLayers(coat.x, coat.y, map_texel(maps, kLayers + 1).rgb, coat.z);
-  v.layers.coat = look_up(fetch_use(maps, kClearcoat), p, false).r;
-  v.layers.coat_roughness = look_up(fetch_use(maps, kClearcoatRoughness), p, false).g;
-  v.layers.sheen = look_up(fetch_use(maps, kSheenColor), p, true).rgb;
-  v.layers.sheen_roughness = look_up(fetch_use(maps, kSheenRoughness), p, false).a;
-#endif
   MetallicRoughness s =
       MetallicRoughness(base_metallic.rgb, base_metallic.a, emissive_roughness.a, emissive_roughness.rgb, more.x,
                         specular.a, specular.rgb, more.y, more.z > 0.0, more.w > 0.0);
-  MaterialPoint m = mapped_metallic_roughness(s, layers, v, plain.ggx_alpha == 0.0);
+  MaterialPoint m = mapped_metallic_roughness(s, v, plain.ggx_alpha == 0.0);
   transmits = m.transmittance != vec3(0.0);
-#ifndef HAS_LAYER_MAPS
+#ifdef HAS_LAYER_MAPS
+  vec4 coat = map_texel(maps, kLayers);  // factor, roughness; sheen's roughness
+  GltfLayers layers;
+  layers.coat = coat.x * look_up(fetch_use(maps, kClearcoat), p, false).r;
+  layers.coat_roughness = coat.y * look_up(fetch_use(maps, kClearcoatRoughness), p, false).g;
+  layers.sheen = map_texel(maps, kLayers + 1).rgb * look_up(fetch_use(maps, kSheenColor), p, true).rgb;
+  layers.sheen_roughness = coat.z * look_up(fetch_use(maps, kSheenRoughness), p, false).a;
+  m = with_layers(m, layers);
+#else
   if (!transmits) {
     m.shading.sheen = plain.sheen;
     m.shading.sheen_alpha = plain.sheen_alpha;

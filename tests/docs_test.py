@@ -80,8 +80,10 @@ def main():
                     if pipe and not shutil.which(theirs.split()[0]):
                         theirs = "cat > /dev/null"
                     error = failure(f"set -o pipefail; '{program}' {ours}{small}{pipe}{theirs}")
-                elif line.split()[0] in ("oiiotool", "convert"):
+                elif line.split()[0] in ("oiiotool", "convert", "cp", "sed"):
                     error = failure(line) if shutil.which(line.split()[0]) else ""
+                elif line.startswith("scripts/sky "):
+                    error = failure(f"'{source}/{line.split()[0]}' {line.split()[1]}")
                 elif (missing := looked_up(line, program, source)) is None:
                     error = "no test knows this command"
                 elif missing:

@@ -28,7 +28,7 @@ std::optional<glm::ivec2> parse_picture_size(const std::string& text) {
 
 // The settings that are neither methods nor of the machine.
 constexpr std::array<std::pair<const char*, std::array<std::string_view, 14>>, 3> kGroupedFields{{
-    {kSamplesGroup, {"spp", "max_noise", "pixel_filter", "sequence", "seed"}},
+    {kSamplesGroup, {"spp", "max_noise", "pixel_filter", "sequence", "seed", "denoise", "average_layers"}},
     {kLightGroup,
      {"indirect", "environment_rotation", "environment_strength", "environment_light", "glossy",
       "sky_occlusion", "glass_shadows"}},

@@ -84,7 +84,7 @@ CameraFrames::CameraFrames(AnimationOptions options, const DrawOptions& draw, Sc
 
 void CameraFrames::refuse_coincidence(int number) const {
   throw Exit(kUsage, options_.path + ": in frame " + std::to_string(number) +
-                         " eye and target meet; add a key frame");
+                         " the camera's eye is at its target; add a key frame");
 }
 
 Camera CameraFrames::camera_of(int number, double time_s) const {

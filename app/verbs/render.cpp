@@ -120,13 +120,17 @@ class RenderRun {
   void check(const Scene& scene) const {
     if (options_.draw.precise && options_.draw.settings.indirect > 0)
       throw Exit(kUsage, "--precise draws no --indirect light; leave out --precise and use --spp");
+    if (options_.draw.precise && (options_.draw.settings.denoise || options_.draw.settings.average_layers))
+      throw Exit(kUsage, "--precise draws no --denoise and no --average-layers; leave out one of them");
     if (options_.output.exr.empty() && options_.output.preview.empty() && !options_.output.raw &&
         options_.stats_json.empty())
       throw Exit(kUsage,
                  "nothing to write; name a file with -o FILE.exr, --preview FILE.png or --stats-json, or "
                  "write frames to standard output with --raw -");
     if (options_.output.raw && isatty(STDOUT_FILENO) != 0)
-      throw Exit(kUsage, "--raw - writes bytes that no terminal shows; pipe them to a program or a file");
+      throw Exit(
+          kUsage,
+          "--raw - writes binary data, which a terminal cannot show; pipe them to a program or a file");
     check_apart(input_files(options_.draw, options_.animation, scene),
                 output_files(options_.output, frames_->range(), {"--stats-json", options_.stats_json}));
     check_outputs(options_.output, frames_->range());

@@ -158,6 +158,7 @@ std::string Recording::print_command(const Settings& settings, const DrawOptions
     model_.messages.news("the scene as it is shown is in " + whole_path(view.scene));
   } else {
     view.extra_lights = extra_lights(model_.scene.lights, draw);
+    view.up_axis = draw.up_axis;
     if (model_.scene.animation) view.time_s = model_.playback.posed_s;
     if (model_.playback.clip >= 0) model_.messages.hint("render plays all animations of the file together");
   }

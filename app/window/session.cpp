@@ -128,10 +128,12 @@ bool Session::can_draw(const SceneStats& stats) {
 
 void Session::show_scene(SceneLoader::News& news) {
   Scene& scene = *news.scene;
-  const bool again = model_.scene.source == scene.source;
+  const UpAxis axis_before = model_.up_axis;
   frames_.drain();
   playback_.cancel();
   source_.accept(scene);
+  model_.up_axis = source_.options().up_axis;
+  const bool again = model_.scene.source == scene.source && model_.up_axis == axis_before;
   settings_.set_lights(scene.lights);
   model_.stats = news.stats;
   model_.tracer.reset();
@@ -225,6 +227,8 @@ void Session::perform_requests() {
   } else if (!file.empty()) {
     leave_.request({.file = file});
   }
+  if (const auto axis = std::exchange(model_.up_axis_to_use, std::nullopt))
+    leave_.request({.file = model_.scene.source, .up_axis = axis});
   if (const int camera = std::exchange(model_.camera_to_show, -1); camera >= 0) show_camera(camera);
 }
 

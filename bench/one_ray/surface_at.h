@@ -35,7 +35,29 @@ struct SurfaceInteraction : BareSurface {  // n_shading: normal map applied
       texels.*map.texel =
           glm::vec4(shared::texels::sample_texture(params_of(mesh, use), lookup.point_on(use), map.is_color));
   }
-  return mapped_material(mesh, point, lookup, texels);
+  shared::MapValues v{glm::vec3(texels.base_color),
+                      texels.metallic_roughness.b,
+                      texels.metallic_roughness.g,
+                      1.0f + maps.occlusion_strength * (texels.occlusion.r - 1.0f),
+                      glm::vec3(texels.emissive),
+                      texels.specular.a,
+                      glm::vec3(texels.specular_color),
+                      texels.transmission.r,
+                      {texels.clearcoat.r, texels.clearcoat_roughness.g, glm::vec3(texels.sheen_color),
+                       texels.sheen_roughness.a}};
+  if (maps.vertex_colors) v.base_color *= glm::vec3(lookup.color());
+
+  MappedMaterial mapped;
+  const Material& plain = mesh.material_of(point.triangle);
+  mapped.surface = maps.from_gltf
+                       ? shared::with_layers(shared::mapped_metallic_roughness(
+                                                 metallic_roughness(maps.surface), v, !plain.is_microfacet()),
+                                             shared::mapped_layers(layers(maps.surface), v.layers))
+                       : shared::mapped_phong(plain_material(plain), v);
+  mapped.n_shading =
+      lookup.normal(maps.normal, maps.normal_scale, glm::vec3(texels.normal), point.n_shading, point.leaving);
+  mapped.alpha = maps.blends() ? glm::clamp(lookup.alpha(maps), 0.0f, 1.0f) : 1.0f;
+  return mapped;
 }
 
 // The point of triangle `id` that the ray meets.

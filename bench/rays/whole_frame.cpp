@@ -5,6 +5,7 @@
 
 #include "bench/rays/drawing.h"
 #include "bench/rays/measure.h"
+#include "bench/rays/texture_samples.h"
 #include "core/math/median.h"
 
 namespace pinocchio::bench {
@@ -22,17 +23,19 @@ std::vector<WholeFrame> measure_frames(const Scene& scene, const Tracer& tracer,
                                        glm::ivec2 size, const std::vector<Workers*>& on, int repeat) {
   const shared::ViewParams view = first_view(scene, size);
   const std::vector<RaySet> sets = frame_ray_sets(scene, tracer, size);
+  const TextureSamples textures(scene, tracer, view, sets);
   const auto single = embree.single(), packets = embree.packets();
 
   std::vector<WholeFrame> frames;
   for (Workers* workers : on) {
     const TraceJob job{scene, tracer, *workers, view};
     Drawing raytrace(job, size), hybrid(job, size, &raytrace.ids);
-    std::vector<double> raytrace_s, hybrid_s;
+    std::vector<double> raytrace_s, hybrid_s, textures_s;
     std::vector<Times> theirs(sets.size());
     for (int i = 0; i <= repeat; ++i) {  // one more, for the first frame
       raytrace_s.push_back(seconds_of([&] { raytrace.draw(); }));
       hybrid_s.push_back(seconds_of([&] { hybrid.draw(); }));
+      textures_s.push_back(textures.seconds(*workers));
       for (std::size_t k = 0; k < sets.size(); ++k) {
         theirs[k].single.push_back(seconds_of_tracing(*single, sets[k], *workers));
         theirs[k].packets.push_back(seconds_of_tracing(*packets, sets[k], *workers));
@@ -52,6 +55,7 @@ std::vector<WholeFrame> measure_frames(const Scene& scene, const Tracer& tracer,
     for (const auto& [frame, times] : {std::pair(&all, &raytrace_s), std::pair(&traced, &hybrid_s)}) {
       frame->first_ms = 1e3 * times->front();
       frame->ours_ms = 1e3 * median(std::vector(times->begin() + 1, times->end()));
+      frame->textures_ms = 1e3 * median(textures_s);
       frames.push_back(*frame);
     }
   }

@@ -18,8 +18,10 @@ struct WholeFrame {
   double first_ms = 0.0;        // ours, of the first frame
   double ours_ms = 0.0;         // median of the others
   double embree_rays_ms = 0.0;  // each kind of rays in the faster way, single or in packets; medians
+  double textures_ms = 0.0;     // of a plain loop over the texture samples of their hits; median
 
   [[nodiscard]] double ratio() const { return ours_ms / embree_rays_ms; }
+  [[nodiscard]] double ratio_with_textures() const { return ours_ms / (embree_rays_ms + textures_ms); }
 };
 
 // Measures the scene's first camera at `size` pixels, ours and Embree interleaved, `repeat` times.

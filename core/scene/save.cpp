@@ -13,7 +13,7 @@ void save_scene(const Scene& scene, const std::filesystem::path& file, Progress*
                            scene_extensions(FormatUse::written));
   if (scene.environment && warnings)
     warnings->add({file.string(), "", "the environment is left out",
-                   "it is black around the scene; --environment gives it back"});
+                   "the background is black; load it with --environment"});
   format->save(scene, file, progress, warnings);
 }
 

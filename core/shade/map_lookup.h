@@ -1,7 +1,6 @@
-// Textures and vertex colours at a point of a triangle, for mapped_material.cpp and map_lanes.cpp.
+// Textures and vertex colours at a point of a triangle, one at a time.
 #pragma once
 
-#include "core/shade/lane_texture.h"
 #include "core/shade/mapped_material.h"
 #include "core/shade/shared_maps.h"
 
@@ -31,20 +30,6 @@ template <class T>
           use.nearest};
 }
 
-[[nodiscard]] inline LaneTexture lane_texture(const Mesh& mesh, const TextureUse& use, bool is_color) {
-  const Texture& t = mesh.textures[static_cast<std::size_t>(use.texture)];
-  return {t.texels.pixels().data(),
-          t.smaller_levels.data(),
-          t.texels.width(),
-          t.texels.height(),
-          t.levels(),
-          use.wrap_u,
-          use.wrap_v,
-          use.nearest,
-          is_color,
-          linear_from_srgb8().data()};
-}
-
 // Reads textures and vertex colours at one point.
 class Lookup {
  public:
@@ -58,8 +43,8 @@ class Lookup {
   Lookup(const Mesh& mesh, const MapPoint& point) : Lookup(mesh, point.triangle, point.weights) {
     filters_ = point.spread.direction != glm::vec3(0.0f);
     if (!filters_) return;
-    moved_x_ = shared::texels::moved_on_triangle(point.spread.x, point.spread.direction, ab_, ac_);
-    moved_y_ = shared::texels::moved_on_triangle(point.spread.y, point.spread.direction, ab_, ac_);
+    moved_x_ = shared::moved_on_triangle(point.spread.x, point.spread.direction, ab_, ac_);
+    moved_y_ = shared::moved_on_triangle(point.spread.y, point.spread.direction, ab_, ac_);
   }
 
   [[nodiscard]] glm::vec4 at_point(const TextureUse& use, bool is_color) const {
@@ -73,8 +58,8 @@ class Lookup {
     shared::texels::TexturePoint where{coordinate(use), glm::vec2(0.0f), glm::vec2(0.0f)};
     if (filters_ && mesh_.textures[static_cast<std::size_t>(use.texture)].levels() > 1) {
       const Edges e = edges(use);
-      where.change_x = shared::texels::uv_change(moved_x_, e.ab, e.ac);
-      where.change_y = shared::texels::uv_change(moved_y_, e.ab, e.ac);
+      where.change_x = shared::uv_change(moved_x_, e.ab, e.ac);
+      where.change_y = shared::uv_change(moved_y_, e.ab, e.ac);
     }
     return where;
   }
@@ -87,7 +72,15 @@ class Lookup {
     const glm::vec4 tangent =
         mesh_.tangents.empty() ? glm::vec4(0.0f) : weighted(mesh_.tangents, corners_, weights_);
     const float side = leaving ? -1.0f : 1.0f;
-    return side * shared::mapped_normal(side * n, tangent, ab_, ac_, e.ab, e.ac, texel, scale);
+    return side *
+           shared::mapped_normal(side * n, glm::vec3(tangent), tangent.w, ab_, ac_, e.ab, e.ac, texel, scale);
+  }
+
+  // Not filtered.
+  [[nodiscard]] float alpha(const MaterialMaps& maps) const {
+    float alpha = maps.alpha_factor * at_point(maps.alpha, false)[maps.alpha_channel];
+    if (maps.vertex_colors) alpha *= color().a;
+    return alpha;
   }
 
   [[nodiscard]] glm::vec4 color() const {

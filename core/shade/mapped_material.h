@@ -1,6 +1,5 @@
-// Materials that textures, vertex colours and alpha change from point to point (pinocchio/material_maps.h).
-// One point at a time, compiled once for all processors. Lanes with such a material call it, and read the
-// textures themselves (shade/map_lanes.h).
+// Materials that textures, vertex colours and alpha change from point to point (pinocchio/material_maps.h),
+// one point at a time. Lanes have them in trace/lanes/maps.h.
 #pragma once
 
 #include <array>
@@ -53,12 +52,6 @@ inline constexpr std::array<MapTexel, 12> kMapTexels{
      {&MaterialMaps::clearcoat_roughness, &MapTexels::clearcoat_roughness, false},
      {&MaterialMaps::sheen_color, &MapTexels::sheen_color, true},
      {&MaterialMaps::sheen_roughness, &MapTexels::sheen_roughness, false}}};
-
-class Lookup;  // shade/map_lookup.h
-
-// The triangle's material has maps.
-[[nodiscard]] MappedMaterial mapped_material(const Mesh& mesh, const MapPoint& point, const Lookup& lookup,
-                                             const MapTexels& texels);
 
 // Whether a ray passes the triangle there as if nothing were there: by alpha alone, at the point itself.
 [[nodiscard]] bool is_hole(const Mesh& mesh, std::uint32_t triangle, const glm::vec3& weights);

@@ -20,6 +20,9 @@ template <class T>
 [[nodiscard]] inline bool any(bool condition) {
   return condition;
 }
+[[nodiscard]] inline bool none() {
+  return false;
+}
 
 #define SHARED [[nodiscard]] inline
 // In the order in which they need each other:

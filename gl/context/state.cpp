@@ -155,7 +155,8 @@ void refuse_queries() {
   glBeginConditionalRender(name, GL_QUERY_NO_WAIT);
   const GLenum error = glGetError();
   if (error == GL_INVALID_OPERATION)
-    throw Error("the caller's context draws on a condition (glBeginConditionalRender); end it first");
+    throw Error(
+        "conditional rendering (glBeginConditionalRender) is active in the caller's context; end it first");
   if (error == GL_NO_ERROR) glEndConditionalRender();
 }
 

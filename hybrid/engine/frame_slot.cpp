@@ -89,6 +89,10 @@ void FrameSlot::release_unused() {
   }
   if (s.mask_bits == 0) mask = {};
   if (!s.reflects()) reflection = {};
+  if (!s.denoise) {
+    sampled = {};
+    filtered = {};
+  }
   if (!uses_gpu || !s.reflects() || !s.tiles) {
     tile_index_texture = {};
     tile_index = {};

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "core/base/clock.h"
+#include "core/denoise/sampled_point.h"
 #include "core/trace/view/ray_model.h"
 #include "core/trace/view/view_params.h"
 #include "gl/objects/timer.h"
@@ -81,6 +82,8 @@ struct FrameSlot : CpuImages {
   bool answered = false;           // the CPU's part is where it belongs
   gl::Texture tile_index_texture;  // tile_index on the GPU
   Image<glm::vec4> color;          // the CPU alone: the finished picture, linear
+  Image<SampledPoint> sampled;     // with denoise: this frame's sample
+  Image<glm::vec3> filtered;       // ... and what its picture shows for it
 
   gl::Framebuffer picture;  // the finished picture, RGBA16F, linear light; none where the CPU draws alone
   gl::Readback picture_back;

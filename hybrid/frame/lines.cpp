@@ -11,6 +11,31 @@
 #include "pinocchio/layers.h"
 
 namespace pinocchio {
+namespace {
+
+void write_surfaces(const FrameResult& frame, const View& view, int y0, int y1, const FrameArrays& to,
+                    std::size_t first) {
+  const std::optional<RayModel> model = RayModel::of(view);
+  const LaneMapsOf maps(*frame.scene.mesh);
+  const SceneArrays arrays = SceneArrays::of(*frame.scene.mesh, maps);
+  write_visible_lines({arrays, lane_steps(default_isa()), view_params(view),
+                       frame.settings.filter_textures, model ? &*model : nullptr},
+                      frame.ids, y0, y1, to, first);
+}
+
+// Calls body(y0, y1, place of the first pixel) for bands of lines, on all threads.
+template <class Body>
+void for_each_band(const FrameResult& frame, const Body& body) {
+  constexpr int kLines = 16;  // a task
+  const glm::ivec2 size = frame.ids.size();
+  Workers workers(frame.settings.threads);
+  workers.for_each(static_cast<std::size_t>((size.y + kLines - 1) / kLines), [&](std::size_t i) {
+    const int y0 = static_cast<int>(i) * kLines;
+    body(y0, std::min(y0 + kLines, size.y), static_cast<std::size_t>(y0) * static_cast<std::size_t>(size.x));
+  });
+}
+
+}  // namespace
 
 void write_lines(const FrameResult& frame, int y0, int y1, const FrameArrays& to, std::size_t first) {
   const auto width = static_cast<std::size_t>(frame.ids.width());
@@ -38,23 +63,30 @@ void write_lines(const FrameResult& frame, int y0, int y1, const FrameArrays& to
   if (to.motion)
     write_motion(*frame.scene.mesh, view, frame.motion.value_or(MotionTo{nullptr, view.camera}),
                  {{0, y0}, {frame.ids.width(), y1}}, &frame.ids[begin], width, to.motion, first, width);
-  if (!to.wants_surfaces()) return;
-  const std::optional<RayModel> model = RayModel::of(view);
-  write_visible_lines({*frame.scene.mesh, lane_steps(default_isa()), view_params(view),
-                       frame.settings.filter_textures, model ? &*model : nullptr},
-                      frame.ids, y0, y1, to, first);
+  FrameArrays of_first = to;
+  const auto copy_mean = [&](const Image<glm::vec3>& mean, glm::vec3* FrameArrays::*layer) {
+    if (mean.empty() || !(to.*layer)) return;
+    copy(mean, to.*layer);
+    of_first.*layer = nullptr;
+  };
+  copy_mean(frame.mean_normal, &FrameArrays::normal);
+  copy_mean(frame.mean_albedo, &FrameArrays::albedo);
+  if (of_first.wants_surfaces()) write_surfaces(frame, view, y0, y1, of_first, first);
+}
+
+void write_sample_surfaces(const FrameResult& frame, SurfaceImages& to) {
+  FrameArrays arrays;
+  arrays.normal = to.n_shading.pixels().data();
+  arrays.albedo = to.albedo.pixels().data();
+  for_each_band(frame, [&](int y0, int y1, std::size_t first) {
+    write_surfaces(frame, frame.view, y0, y1, arrays, first);
+  });
 }
 
 void write_layers(const FrameResult& frame, const FrameArrays& to, std::size_t first) {
-  constexpr int kLines = 16;  // a task
-  const glm::ivec2 size = frame.ids.size();
-  if (!to.wants_surfaces() && !to.motion) return write_lines(frame, 0, size.y, to, first);
-  Workers workers(frame.settings.threads);
-  workers.for_each(static_cast<std::size_t>((size.y + kLines - 1) / kLines), [&](std::size_t i) {
-    const int y0 = static_cast<int>(i) * kLines;
-    const auto place = static_cast<std::size_t>(y0) * static_cast<std::size_t>(size.x);
-    write_lines(frame, y0, std::min(y0 + kLines, size.y), to, first + place);
-  });
+  if (!to.wants_surfaces() && !to.motion) return write_lines(frame, 0, frame.ids.height(), to, first);
+  for_each_band(frame,
+                [&](int y0, int y1, std::size_t place) { write_lines(frame, y0, y1, to, first + place); });
 }
 
 SurfaceImages surfaces_of(const FrameResult& frame) {

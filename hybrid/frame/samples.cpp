@@ -5,6 +5,8 @@
 
 #include "core/parallel/tiles.h"
 #include "core/trace/view/jitter.h"
+#include "hybrid/frame/lines.h"
+#include "pinocchio/surface_images.h"
 
 namespace pinocchio {
 
@@ -27,6 +29,7 @@ TraceOptions trace_options(const Settings& settings, const View& view) {
           .environment_light = settings.environment_light,
           .glossy = settings.glossy,
           .sky_occlusion = settings.sky_occlusion,
+          .denoise = settings.denoise,
           .glass_shadows = settings.glass_shadows,
           .jitter = view.jitter,
           .sampling = {static_cast<int>(settings.sequence.value), static_cast<std::uint32_t>(view.sample),
@@ -40,6 +43,12 @@ void settle_environment(Scene& scene, const Settings& settings) {
   // Ambient light stands for light from other surfaces and the sky.
   if (settings.reflects() && (settings.indirect > 0 || scene.environment))
     scene.ambient_light = glm::vec3(0.0f);
+}
+
+bool same_view(FrameRequest a, const FrameRequest& b) {
+  a.view.jitter = b.view.jitter;
+  a.view.sample = b.view.sample;
+  return a == b;
 }
 
 void submit_samples(Renderer& renderer, FrameRequest request, SampleMean* mean) {
@@ -61,12 +70,29 @@ void SampleMean::add(Frame& frame) {
   } else {
     frame.read_color(sample_);
   }
+  if (frame.request().settings.average_layers && spp_ > 1) add_surfaces(frame);
   if (is_adaptive()) {
     add_tiles(frame.request());
   } else if (samples_ > 0) {
     for (std::size_t i = 0; i < sample_.pixels().size(); ++i) sum_.color[i] += sample_[i];
   }
   if (++samples_ == spp_) finish();
+}
+
+// Adds what the frame's sample sees to the layers that are means.
+void SampleMean::add_surfaces(const Frame& frame) {
+  const FrameResult sample = frame.read();
+  SurfaceImages seen{{}, {}, Image<glm::vec3>(sample.ids.size()), Image<glm::vec3>(sample.ids.size())};
+  write_sample_surfaces(sample, seen);
+  if (samples_ == 0) {
+    sum_.mean_normal = std::move(seen.n_shading);
+    sum_.mean_albedo = std::move(seen.albedo);
+    return;
+  }
+  for (std::size_t i = 0; i < sum_.mean_normal.pixels().size(); ++i) {
+    sum_.mean_normal[i] += seen.n_shading[i];
+    sum_.mean_albedo[i] += seen.albedo[i];
+  }
 }
 
 // Adds the tiles that the frame traced.
@@ -110,6 +136,8 @@ void SampleMean::finish() {
     const auto share = static_cast<float>(is_adaptive() ? tile_samples_[i] : samples_);
     TileGrid::for_each_pixel(grid.tile(i), [&](int x, int y) { sum_.color.at(x, y) /= share; });
   }
+  for (Image<glm::vec3>* const mean : {&sum_.mean_normal, &sum_.mean_albedo})
+    for (glm::vec3& pixel : mean->pixels()) pixel /= static_cast<float>(samples_);
   samples_ = 0;
   finished_ = nullptr;
   done_(std::move(sum_));

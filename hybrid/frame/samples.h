@@ -18,6 +18,9 @@ namespace pinocchio {
 // environment, or light from other surfaces, is sampled.
 void settle_environment(Scene& scene, const Settings& settings);
 
+// Whether the requests differ at most in where pixels are sampled.
+[[nodiscard]] bool same_view(FrameRequest a, const FrameRequest& b);
+
 class SampleMean;
 
 // Submits a frame for each sample a pixel: the first at the pixels' centres, the others spread over them.
@@ -38,6 +41,7 @@ class SampleMean {
  private:
   friend void submit_samples(Renderer& renderer, FrameRequest request, SampleMean* mean);
   [[nodiscard]] bool is_adaptive() const { return max_noise_ > 0.0f && spp_ > 1; }
+  void add_surfaces(const Frame& frame);
   void add_tiles(const FrameRequest& request);
   void check_tile(std::size_t tile);
   void finish();

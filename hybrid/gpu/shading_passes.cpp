@@ -11,6 +11,7 @@ void ShadingPasses::composite(const Inputs& inputs, LightSet lights, const Trace
   Definitions definitions = definitions_of(inputs, traced);
   if (inputs.lights.any_size()) {
     definitions.emplace_back("HAS_SIZED_LIGHTS");
+    if (inputs.options.denoise) definitions.emplace_back("SIZED_LIGHTS_ARE_TRACED");
     if (inputs.options.glossy == Glossy::sampled) definitions.emplace_back("HAS_SAMPLED_LOBES");
   }
   if (lights == LightSet::free) definitions.emplace_back("FREE_LIGHTS_ONLY");

@@ -7,12 +7,6 @@
 
 namespace pinocchio {
 
-bool same_view(FrameRequest a, const FrameRequest& b) {
-  a.view.jitter = b.view.jitter;
-  a.view.sample = b.view.sample;
-  return a == b;
-}
-
 Accumulator::Accumulator(Engine& engine)
     : engine_(engine), programs_(engine.parts().enter([&] { return engine.parts().gpu().programs; })) {}
 

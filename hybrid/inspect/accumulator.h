@@ -8,14 +8,12 @@
 #include "gl/objects/framebuffer.h"
 #include "gl/objects/texture.h"
 #include "gl/transfer/transfer.h"
+#include "hybrid/frame/samples.h"
 #include "pinocchio/renderer.h"
 
 namespace pinocchio {
 
 class Programs;
-
-// Whether the requests differ at most in where pixels are sampled.
-[[nodiscard]] bool same_view(FrameRequest a, const FrameRequest& b);
 
 // The mean of a still camera's frames, which differ only in their samples. Frame k is requested with
 // at_sample(view, k) (core/trace/view/jitter.h).

@@ -52,8 +52,8 @@ bool tints(const FrameSlot& frame) {
 // Whether there is traced light beside what the mask decides.
 bool traces_further(const FrameSlot& frame) {
   const FrameRequest& r = frame.request;
-  return r.settings.reflects() &&
-         (r.settings.depth > 0 || r.settings.indirect > 0 || r.scene.environment != nullptr || tints(frame));
+  return r.settings.reflects() && (r.settings.depth > 0 || r.settings.indirect > 0 ||
+                                   r.scene.environment != nullptr || r.settings.denoise || tints(frame));
 }
 
 TileOutputs outputs_of(FrameSlot& frame, int scale, bool has_ids) {
@@ -82,9 +82,30 @@ void add_reflection(FrameSlot& frame, TileOutputs& out) {
   out.reflection = &frame.reflection;
 }
 
+// Filters the frame's sampled light with that of the samples before, and adds it to the frame's images.
+void add_filtered(Workers& workers, FrameSlot& frame, Gathering& gathering) {
+  if (!frame.options.denoise) return gathering.release();
+  Span& stage = frame.record[Stage::trace_reflection];
+  const double begin_s = now_s();
+  gathering.add(frame.request, frame.sampled, workers, frame.filtered);
+  const Settings& s = frame.request.settings;
+  const bool sends_picture = s.uses_gpu() && s.composite == Processor::cpu;
+  const auto width = static_cast<std::size_t>(frame.size().x);
+  workers.for_each(static_cast<std::size_t>(frame.size().y), [&](std::size_t line) {
+    for (std::size_t i = line * width; i < (line + 1) * width; ++i) {
+      const glm::vec3& light = frame.filtered[i];
+      frame.reflection[i] += light;
+      if (!s.uses_gpu()) frame.color[i] += glm::vec4(light, 0.0f);
+      if (sends_picture) frame.unpacked[i] += light;
+    }
+  });
+  if (stage.end_s == 0.0) stage = {begin_s, begin_s};
+  stage.end_s += now_s() - begin_s;
+}
+
 }  // namespace
 
-void trace(Workers& workers, FrameSlot& frame) {
+void trace(Workers& workers, FrameSlot& frame, Gathering& gathering) {
   const Settings& s = frame.request.settings;
   bool has_ids = s.visibility == Processor::gpu;
   if (s.reflects() && !traces_further(frame))
@@ -111,7 +132,9 @@ void trace(Workers& workers, FrameSlot& frame) {
     unpack_srgb(frame.phong_srgb.pixels(), workers, frame.unpacked);
     out.added = &frame.unpacked;
   }
+  if (frame.options.denoise) out.sampled = &frame.sampled;
   run(workers, frame, out, share);
+  add_filtered(workers, frame, gathering);
 }
 
 MaskImage enlarged(const MaskImage& mask, int scale, glm::ivec2 size) {

@@ -92,6 +92,12 @@ std::string why_sky(const Settings& s) {
          ", and rough surfaces mirror " + (s.glossy == Glossy::sampled ? "the scene by samples" : "it alone");
 }
 
+std::string why_denoise(const Settings& s) {
+  return "sampled light is filtered by the CPU, " +
+         (s.spp > 1 ? "the mean of " + plural(s.spp, "sample") : std::string("each sample")) +
+         ": less noise, and soft detail of light is lost; hard light, sharp mirrors and textures stay exact";
+}
+
 std::string why_depth(const SceneStats& stats, const Settings& s) {
   const std::string bounces = plural(s.depth, "bounce");
   if (s.depth < stats.useful_depth) return bounces + ": as many as requested";
@@ -135,6 +141,7 @@ std::vector<std::string> explain(const SceneStats& stats, const Settings& s) {
   const bool sky = stats.environment && s.environment_strength > 0.0f;
   if (stats.glass && s.reflects() && (sky || s.mask_bits > 0)) lines.push_back(why_glass(s));
   if (sky && s.reflects()) lines.push_back(why_sky(s));
+  if (s.denoise) lines.push_back(why_denoise(s));
   if (s.reflects()) lines.push_back(why_depth(stats, s));
   if (s.mask_bits > 0) lines.push_back(why_rays(s));
   if (s.traces()) lines.push_back(why_threads(s));

@@ -198,6 +198,14 @@ constexpr std::array kTable{
         "shadow rays that meet glass: opaque: they end, it casts a full shadow; tinted: they "
         "go straight on, with what Fresnel's equations, the glass's colour and the way "
         "through it leave of the light (docs/glass.md)"),
+    field<&S::denoise>(
+        "denoise", yes_or_no(), "false; true in the window",
+        "filter the light that samples find (environment, lights with a size, rough mirrors, "
+        "other surfaces), for few samples; hard light, sharp mirrors and textures stay as they are "
+        "(docs/denoise.md)"),
+    field<&S::average_layers>("average_layers", yes_or_no(), "false",
+                              "the layers N and Albedo are means over the samples, as denoisers want them, "
+                              "not of the first sample"),
     field<&S::terminator>(
         "terminator", one_of(kTerminatorNames), terminator_name(kUsualTerminator),
         "where a coarse mesh's shading normals face a light and its facets do not: off: dark; "

@@ -15,6 +15,7 @@ Settings without_mirrors(Settings s) {
   s.reflection = ReflectionFormat::none;
   s.reflection_scale = 1;
   s.tiles = false;
+  s.denoise.value = false;
   s.depth = 0;
   return s;
 }
@@ -32,6 +33,7 @@ Settings thinned(Settings s, int mask_scale, int reflection_scale, int depth) {
     s.reflection_scale = reflection_scale;
     s.depth = std::min<int>(s.depth, depth);
   }
+  if (!can_denoise(s)) s.denoise.value = false;
   return s;
 }
 
@@ -52,6 +54,7 @@ std::vector<Settings> quality_ladder(const Settings& exact) {
   if (exact.reflects()) {
     Settings narrow = exact;
     narrow.reflection = ReflectionFormat::rgb9e5;
+    if (!can_denoise(narrow)) narrow.denoise.value = false;
     add_unless_there(ladder, narrow);
   }
   for (const int depth : {4, 2, 1}) add_unless_there(ladder, thinned(exact, 1, 1, depth));
@@ -76,6 +79,7 @@ std::string given_up(const Settings& exact, const Settings& s) {
   if (exact.mask_bits > 0 && s.mask_bits == 0) lost.emplace_back("shadows");
   if (s.mask_bits > 0 && s.mask_scale > exact.mask_scale)
     lost.push_back(std::string("shadows at ") + resolution(s.mask_scale) + " resolution");
+  if (exact.denoise && !s.denoise) lost.emplace_back("the filter of sampled light");
   if (exact.reflects() && !s.reflects()) lost.emplace_back("reflections");
   if (s.reflects()) {
     if (s.reflection_scale > exact.reflection_scale)

@@ -48,10 +48,18 @@ void fill_depth(const SceneStats& stats, Settings& s) {
   if (s.throughput_cutoff >= kThroughputCutoff) s.depth.value = std::min<int>(s.depth, stats.useful_depth);
   // Samples of an environment, and of light from other surfaces, travel with mirrored light, and so does
   // light through glass.
-  const bool samples = s.indirect > 0 || (stats.environment && s.environment_strength > 0.0f);
+  const bool samples = s.indirect > 0 || (stats.environment && s.environment_strength > 0.0f) ||
+                       (s.denoise && stats.sized_lights);
   s.reflection.fill(s.depth > 0 || samples || lights_through_glass(s, stats) ? ReflectionFormat::half
                                                                              : ReflectionFormat::none);
   if (s.reflection == ReflectionFormat::none) s.depth.value = 0;
+}
+
+// Whether light is found at random.
+bool takes_samples(const SceneStats& stats, const Settings& s) {
+  const bool sky = stats.environment && s.environment_strength > 0.0f, lobes = s.glossy == Glossy::sampled;
+  return s.indirect > 0 || stats.sized_lights || (sky && s.environment_light == EnvironmentMethod::sampled) ||
+         (lobes && (stats.glossy || (sky && stats.microfacets)));
 }
 
 // --mode auto. The GPU stays where other settings need it.
@@ -96,6 +104,9 @@ Expected<Settings> resolve(const Settings& settings, const SceneStats& stats, co
   if (c.software_gl && s.exchange != Exchange::reproject && s.composite == Processor::gpu && s.traces() &&
       faster_by_rays)
     s.visibility.fill(Processor::cpu);
+  // Filtered light travels with mirrored light.
+  if (!takes_samples(stats, s) || !s.reflects() || (!s.denoise.given && !can_denoise(s)))
+    s.denoise.value = false;
   if (const Expected<void> checked = check(s, stats); !checked) return Unexpected(checked.error());
   return s;
 }

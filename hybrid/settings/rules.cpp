@@ -49,7 +49,19 @@ constexpr std::array kPresets{
     Preset{"plan", "slides", "the fixed bytes of 2005", apply_slides},
 };
 
+// What the filter needs. Where denoise is not given, it is off without it (resolve.cpp).
+bool can_denoise_pixels(const Settings& s) {
+  return s.max_noise == 0.0f && s.mask_scale == 1 && s.reflection_scale == 1;
+}
+
+bool can_send_denoised(const Settings& s) {
+  return s.spp == 1 || s.composite == Processor::cpu ||
+         (s.reflection != ReflectionFormat::rgb8 && s.reflection != ReflectionFormat::rgb9e5);
+}
+
 constexpr std::array kRules{
+    Rule{"average_layers counts as many samples in every pixel", "leave it out, or max_noise",
+         [](const Settings& s) { return s.average_layers && s.max_noise > 0.0f; }},
     Rule{"exchange reproject warps a mask and a reflection, which composite cpu does not send",
          "use composite gpu (--design 1)",
          [](const Settings& s) {
@@ -72,6 +84,12 @@ constexpr std::array kRules{
          }},
     Rule{"coverage is counted by the CPU's rays", "leave it out, or let the CPU draw alone (--mode raytrace)",
          [](const Settings& s) { return s.coverage && s.uses_gpu(); }},
+    Rule{"denoise filters pixels that have as many samples as each other",
+         "leave out max_noise, mask_scale and reflection_scale, or use --no-denoise",
+         [](const Settings& s) { return s.denoise && s.denoise.given && !can_denoise_pixels(s); }},
+    Rule{"denoise of several samples sends light below zero, which reflection rgb8 and rgb9e5 cannot hold",
+         "use reflection half or float, or --no-denoise",
+         [](const Settings& s) { return s.denoise && s.denoise.given && !can_send_denoised(s); }},
     Rule{"this processor does not have the SIMD level", "'pinocchio info --system' lists what it has",
          [](const Settings& s) { return !isa_supported(s.isa); }},
 };
@@ -92,6 +110,10 @@ bool apply_preset(std::string_view option, std::string_view value, Settings& set
   if (found == kPresets.end()) return false;
   found->apply(settings);
   return true;
+}
+
+bool can_denoise(const Settings& settings) {
+  return can_denoise_pixels(settings) && can_send_denoised(settings);
 }
 
 std::span<const Rule> settings_rules() {

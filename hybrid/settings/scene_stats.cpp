@@ -116,6 +116,8 @@ void PoseStats::look_at_materials(const Mesh& mesh) {
   for (std::size_t m = 0; m < used.size(); ++m) {
     if (!used[m]) continue;
     const Material& material = mesh.materials[m];
+    stats_.glossy = stats_.glossy || material.is_glossy();
+    stats_.microfacets = stats_.microfacets || material.is_microfacet();
     if (material.maps >= 0) note(mesh.maps[static_cast<std::size_t>(material.maps)], stats_);
     stats_.glass = stats_.glass || material.transmits();
     const bool see_through = sees_through(mesh, material);
@@ -176,6 +178,7 @@ void recount_lights(const Scene& scene, SceneStats& stats) {
   stats.casting_lights = stats.idle_lights = 0;
   stats.environment = scene.environment != nullptr;
   stats.studio = has_studio_light(scene);
+  stats.sized_lights = std::ranges::any_of(scene.lights, &Light::has_size);
   for (const Light& light : scene.lights) {
     if (!may_reach(light, scene)) {
       ++stats.idle_lights;

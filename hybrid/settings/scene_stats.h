@@ -19,6 +19,9 @@ struct SceneStats {
   int idle_lights = 0;     // that reach nothing
   bool environment = false;
   bool studio = false;              // the light is the studio's
+  bool sized_lights = false;        // some light has a size
+  bool glossy = false;              // some triangle's material is a rough mirror of Phong's
+  bool microfacets = false;         // some triangle's material has glTF's model
   bool mirrors = false;             // some triangle's material reflects, transmits or blends
   double mirror_share = 0.0;        // share of the scene's surface that reflects or transmits
   double transmitting_share = 0.0;  // share that transmits

@@ -33,12 +33,13 @@ Image<glm::vec3> image_of(const Picture& array, Convert convert) {
 }
 
 Image<glm::vec3> image_of(const Picture& array) {
-  if (array.shape(2) < 3 || array.shape(2) > 4) throw Error("a picture is an array (height, width, 3 or 4)");
+  if (array.shape(2) < 3 || array.shape(2) > 4)
+    throw Error("a picture must be an array (height, width, 3 or 4)");
   if (array.dtype() == nb::dtype<std::uint8_t>()) return image_of<std::uint8_t>(array, linear_of);
   if (array.dtype() == nb::dtype<float>()) return image_of<float>(array, [](float v) { return v; });
   if (array.dtype() == nb::dtype<double>())
     return image_of<double>(array, [](double v) { return static_cast<float>(v); });
-  throw Error("a picture has the type float32 or float64 (linear) or uint8 (sRGB)");
+  throw Error("a picture must have the type float32 or float64 (linear) or uint8 (sRGB)");
 }
 
 Image<glm::vec3> image_of_exr(const std::filesystem::path& path) {

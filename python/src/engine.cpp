@@ -2,12 +2,12 @@
 #include <pinocchio/engine.h>
 #include <unistd.h>
 
-#include <nanobind/stl/variant.h>
 #include <chrono>
 #include <cstring>
 #include <mutex>
 
 #include "python/src/layers.h"
+#include "python/src/pictures.h"
 #include "python/src/render_settings.h"
 #include "python/src/result.h"
 #include "python/src/scene/scene.h"
@@ -17,30 +17,6 @@
 
 namespace pinocchio::python {
 namespace {
-
-using CameraChoice = std::variant<std::monostate, Camera, int, std::string>;
-
-Camera camera_of(const Scene& scene, const CameraChoice& choice) {
-  if (const auto* camera = std::get_if<Camera>(&choice)) return *camera;
-  if (const auto* name = std::get_if<std::string>(&choice)) {
-    if (const Camera* found = find_camera(scene, *name)) return *found;
-    throw Error("the scene has no camera '" + *name + "'; Scene.cameras lists them");
-  }
-  if (const int* index = std::get_if<int>(&choice)) {
-    if (*index >= 0 && static_cast<std::size_t>(*index) < scene.cameras.size())
-      return scene.cameras[static_cast<std::size_t>(*index)];
-    throw Error("the scene has no camera " + std::to_string(*index) + ", there are " +
-                std::to_string(scene.cameras.size()));
-  }
-  return scene.cameras.empty() ? camera_for_whole_scene(scene) : scene.cameras.front();
-}
-
-// As in the program, a scene without lights gets one.
-Scene lit(const Scene& scene, const Camera& camera) {
-  Scene copy = scene;
-  if (copy.lights.empty()) copy.lights.push_back(default_light(copy, camera));
-  return copy;
-}
 
 const LayerRow& output_named(const std::string& name) {
   for (const LayerRow& row : kLayers)
@@ -83,64 +59,6 @@ nb::object given_array(const LayerRow& output, const std::vector<std::size_t>& s
   if (!fits) throw Error(named + "is not of the shape and type of this output; leave it out");
   point(output, array.data(), to);
   return nb::borrow(given);
-}
-
-// Sets the rays of a picture: (origins, directions), each (h, w, 3), or (n, 3) for a picture of one row. One
-// origin serves for all.
-void set_rays(const nb::object& given, View& view) {
-  const char* const wanted =
-      "rays is (origins, directions), arrays of the shape (height, width, 3) or (n, 3)";
-  if (!nb::isinstance<nb::sequence>(given) || nb::len(given) != 2) throw Error(wanted);
-  const nb::module_ numpy = nb::module_::import_("numpy");
-  const auto axes_of = [&](nb::handle array) { return nb::cast<int>(numpy.attr("ndim")(array)); };
-  const auto read = [](nb::handle array, const char* name, int axes) {
-    const std::vector<int> shape = axes == 1   ? std::vector{3}
-                                   : axes == 3 ? std::vector{-1, -1, 3}
-                                               : std::vector{-1, 3};
-    return array_of(array, name, "float32", shape);
-  };
-  const int axes = axes_of(given[1]), axes_of_origins = axes_of(given[0]);
-  if ((axes != 2 && axes != 3) || (axes_of_origins != axes && axes_of_origins != 1)) throw Error(wanted);
-  nb::object directions = read(given[1], "directions of rays", axes),
-             origins = read(given[0], "origins of rays", axes_of_origins);
-  try {
-    origins = numpy.attr("broadcast_to")(origins, directions.attr("shape"));
-  } catch (const nb::python_error&) {
-    throw Error("the origins of rays do not have the shape of their directions; give as many, or one");
-  }
-  if (axes == 2) {
-    directions = directions.attr("reshape")(1, -1, 3);
-    origins = origins.attr("reshape")(1, -1, 3);
-  }
-  const auto height = nb::cast<int>(directions.attr("shape")[0]),
-             width = nb::cast<int>(directions.attr("shape")[1]);
-  if (width < 1 || height < 1) throw Error("there are no rays");
-  const auto values = [&](const nb::object& array, const char* name) {
-    const Floats3::Array rows = Floats3{array.attr("reshape")(-1, 3)}.read(name);
-    return copied<glm::vec3>(rows);
-  };
-  auto rays = std::make_shared<PixelRays>();
-  rays->origins = values(origins, "the origins of rays");
-  rays->directions = values(directions, "the directions of rays");
-  view.rays = std::move(rays);
-  view.size = {width, height};
-}
-
-// The frames that motion leads to, one for each camera: the other scene and the other cameras that are given,
-// else the picture's own.
-std::vector<MotionTo> motions(const Scene& scene, const std::vector<Camera>& cameras, const PyScene* other,
-                              const std::optional<std::vector<CameraChoice>>& choices) {
-  if (choices && choices->size() != cameras.size())
-    throw Error("there are " + std::to_string(choices->size()) + " motion_cameras and " +
-                std::to_string(cameras.size()) + " cameras; give one for each");
-  if (other && other->scene.mesh->triangles.size() != scene.mesh->triangles.size())
-    throw Error(
-        "motion_scene has other triangles; it is another pose of the scene (Scene.posed, Scene.at_time)");
-  std::vector<MotionTo> all;
-  for (std::size_t i = 0; i < cameras.size(); ++i)
-    all.push_back(
-        {other ? other->scene.mesh : nullptr, choices ? camera_of(scene, (*choices)[i]) : cameras[i]});
-  return all;
 }
 
 // An Engine that knows its process. Calls from several threads are executed one after the other.
@@ -195,31 +113,38 @@ class PyEngine {
                        const std::vector<std::string>& outputs, const std::optional<nb::dict>& out,
                        const PyScene* motion_scene,
                        const std::optional<std::vector<CameraChoice>>& motion_cameras,
-                       const nb::kwargs& arguments) {
+                       const std::optional<std::vector<nb::dict>>& given_poses, const nb::kwargs& arguments) {
     check_open();
+    if (given_poses && (motion_scene || motion_cameras))
+      throw Error("with poses, motion leads to the next picture; leave out motion_scene and motion_cameras");
     const glm::ivec2 size = pixels.read();
     const Scene scene = given.now();
     const Settings settings = settings_of(arguments, threads_);
     std::vector<Camera> cameras;
     for (const CameraChoice& choice : choices) cameras.push_back(camera_of(scene, choice));
+    const Poses poses = given_poses ? poses_of(scene, choices, *given_poses) : Poses{};
+    const std::size_t pictures = given_poses ? poses.pictures.size() : cameras.size();
     nb::dict result;
     FrameArrays to;
     for (const std::string& name : outputs) {
       const LayerRow& output = output_named(name);
-      const std::vector<std::size_t> shape = shape_of(output, cameras.size(), size);
+      const std::vector<std::size_t> shape = shape_of(output, pictures, size);
       result[name.c_str()] = out && out->contains(name.c_str())
                                  ? given_array(output, shape, (*out)[name.c_str()], to)
                                  : new_array(output, shape, to);
     }
-    if (cameras.empty()) return result;
-    const std::vector<MotionTo> motion =
-        to.motion ? motions(scene, cameras, motion_scene, motion_cameras) : std::vector<MotionTo>();
+    if (pictures == 0) return result;
+    const std::vector<MotionTo> motion = to.motion && !given_poses
+                                             ? motions(scene, cameras, motion_scene, motion_cameras)
+                                             : std::vector<MotionTo>();
     const Scene drawn = lit(scene, cameras.front());
     without_gil([&](Progress* progress) {
       const std::lock_guard lock(mutex_);
       check_open();
       return value_or_throw(
-          pinocchio::render_many(*engine_, drawn, cameras, size, settings, to, progress, motion));
+          given_poses
+              ? pinocchio::render_many(*engine_, drawn, poses.pictures, size, settings, to, progress)
+              : pinocchio::render_many(*engine_, drawn, cameras, size, settings, to, progress, motion));
     });
     return result;
   }
@@ -267,6 +192,11 @@ void bind_engine(nb::module_& module) {
       "motion_scene, motion_cameras: the other pose of the scene, and a camera for each picture, that the "
       "output motion\n"
       "leads to. None: the scene, or the cameras, themselves.\n"
+      "poses: what Scene.posed takes, for each picture; cameras are then one for each, or one for all, and "
+      "those of the scene move\n"
+      "with their nodes. The next pose is made while one is drawn. Motion leads to the next picture, and is "
+      "0 "
+      "in the last one.\n"
       "Settings and errors as for render; TypeError if an array of `out` does not fit. Small pictures keep\n"
       "all threads busy.";
   nb::class_<PyEngine> bound(
@@ -307,7 +237,8 @@ void bind_engine(nb::module_& module) {
            kRender.c_str())
       .def("render_many", &PyEngine::render_many, "scene"_a, "cameras"_a, "size"_a = glm::ivec2(800, 600),
            "outputs"_a = std::vector<std::string>{"color"}, "out"_a = nb::none(),
-           "motion_scene"_a.none() = nb::none(), "motion_cameras"_a = nb::none(), "settings"_a,
+           "motion_scene"_a.none() = nb::none(), "motion_cameras"_a = nb::none(), "poses"_a = nb::none(),
+           "settings"_a,
            nb::sig(
                "def render_many(self, scene: Scene, cameras: collections.abc.Sequence[Camera | int | str | "
                "None], "
@@ -315,7 +246,8 @@ void bind_engine(nb::module_& module) {
                "('color',), out: collections.abc.Mapping[str, typing.Any] | None = None, motion_scene: Scene "
                "| "
                "None = None, motion_cameras: collections.abc.Sequence[Camera | int | str | None] | None = "
-               "None, **settings: object) -> "
+               "None, poses: collections.abc.Sequence[collections.abc.Mapping[str, numpy.typing.ArrayLike] | "
+               "collections.abc.Mapping[int, numpy.typing.ArrayLike]] | None = None, **settings: object) -> "
                "dict[str, numpy.typing.NDArray[typing.Any]]"),
            kRenderMany.c_str());
   def_no_pickle(bound, "an Engine does not pickle, as it has threads: create one in each process");

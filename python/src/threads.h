@@ -14,7 +14,7 @@ namespace pinocchio::python {
 // The constructors' argument, or PINOCCHIO_THREADS if that is 0. 0: one for each core.
 inline int threads_wanted(int given) {
   if (given < 0 || given > kMostThreads)
-    throw Error("threads is from 0 (one a core) to " + std::to_string(kMostThreads));
+    throw Error("threads must be from 0 (one a core) to " + std::to_string(kMostThreads));
   const char* const said = std::getenv("PINOCCHIO_THREADS");
   return given > 0 || !said ? given : std::clamp(std::atoi(said), 0, kMostThreads);
 }

@@ -59,7 +59,7 @@ Rays rays_of(const Floats3& origins, const Floats3& directions, const std::optio
     throw Error("there are " + std::to_string(rays.o.shape(0)) + " origins and " + std::to_string(n) +
                 " directions; give the same number, or one origin");
   if (t_max) rays.t_max = t_max->read("t_max");
-  if (rays.t_max && rays.t_max->shape(0) != n) throw Error("t_max has one number for each ray");
+  if (rays.t_max && rays.t_max->shape(0) != n) throw Error("t_max must have one number for each ray");
   rays.origins = rays.o.data();
   rays.directions = rays.d.data();
   rays.lengths = rays.t_max ? rays.t_max->data() : nullptr;

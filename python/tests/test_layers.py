@@ -72,6 +72,46 @@ def test_motion_leads_to_the_next_and_the_former_frame(squares):
     numpy.testing.assert_array_equal(many[0], motion)
 
 
+def test_poses_are_the_pictures_one_by_one(squares):
+    squares.lights.append(pn.Light(position=(1, 2, 4)))  # without it, each call adds a light that suits the scene
+    engine, size = pn.Engine(), (60, 40)
+    poses = [{"before": moved(x, 0.8, 1)} for x in (0.0, 0.4, 0.8)]
+    poses.insert(1, poses[0])
+    outputs = ["color", "depth", "ids", "motion"]
+    arrays = engine.render_many(squares, [None], size, poses=poses, outputs=outputs)
+    for i, pose in enumerate(poses):
+        now = squares.posed(pose)
+        one = engine.render(now, size=size)
+        for name in outputs[:3]:
+            numpy.testing.assert_array_equal(arrays[name][i], getattr(one, name), err_msg=name)
+        numpy.testing.assert_array_equal(arrays["motion"][i], one.motion(scene=squares.posed(poses[min(i + 1, 3)])))
+    assert arrays["motion"][1].any() and not arrays["motion"][0].any()
+    other = pn.Camera(eye=(0.5, 0, 5), target=(0.5, 0, 0), fov=90)
+    two = engine.render_many(squares, [None, other], size, poses=poses[2:])
+    numpy.testing.assert_array_equal(two["color"][1], engine.render(squares.posed(poses[3]), other, size=size).color)
+
+
+def test_a_camera_of_the_scene_moves_with_its_node(scenes):
+    scene = pn.load_scene(scenes / "windmill.glb")
+    node = scene.nodes.index("main")
+    pose = scene.node_transforms[node].copy()
+    pose[1, 3] += 1.0
+    depth = pn.Engine().render_many(scene, [0], (30, 20), outputs=["depth"], poses=[{node: pose}])["depth"][0]
+    numpy.testing.assert_array_equal(depth, pn.Engine().render(scene.posed({node: pose}), size=(30, 20)).depth)
+    assert (depth != pn.Engine().render(scene, size=(30, 20)).depth).any()
+
+
+def test_poses_that_cannot_be_are_refused(squares):
+    draw = lambda *cameras, **more: pn.Engine().render_many(squares, cameras, (20, 20), outputs=["motion"], **more)
+    with pytest.raises(pn.Error, match="3 poses and 2 cameras; give a camera for each pose, or one for all"):
+        draw(None, None, poses=[{}, {}, {}])
+    with pytest.raises(pn.Error, match="leave out motion_scene"):
+        draw(None, poses=[{}], motion_scene=squares)
+    with pytest.raises(pn.Error, match="no node 'roof'"):
+        draw(None, poses=[{}, {"roof": numpy.eye(4)}])
+    assert draw(None, poses=[])["motion"].shape == (0, 20, 20, 2)
+
+
 def test_motion_of_another_scene_is_refused(squares):
     picture = pn.Engine().render(squares, size=(20, 20))
     with pytest.raises(pn.Error, match="2 triangles, this one 4; motion is between two poses"):

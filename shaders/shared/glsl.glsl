@@ -9,3 +9,4 @@
 #define whole2 uvec2
 #define pick(condition, yes, no) ((condition) ? (yes) : (no))
 #define any(condition) (condition)
+#define none() false

@@ -1,16 +1,16 @@
-// Source of GLSL and of C++ (core/shade/shared_maps.h): a material with textures, vertex colours and alpha.
-// Expects metallic_roughness.glsl.
+// Source of GLSL and of C++ (core/shade/shared_maps.h, core/trace/lanes/shared.h): a material with textures, vertex
+// colours and alpha. Expects metallic_roughness.glsl.
 
 // The maps' values at the point; all ones where there is no texture.
 struct MapValues {
   vec3 base_color;  // times the vertex colour
-  float metallic;
-  float roughness;
-  float occlusion;  // strength applied
+  real metallic;
+  real roughness;
+  real occlusion;  // strength applied
   vec3 emissive;
-  float specular;
+  real specular;
   vec3 specular_color;
-  float transmission;
+  real transmission;
   GltfLayers layers;
 };
 
@@ -23,7 +23,8 @@ SHARED MaterialPoint mapped_phong(MaterialPoint plain, MapValues v) {
   return m;
 }
 
-SHARED MaterialPoint mapped_metallic_roughness(MetallicRoughness s, GltfLayers l, MapValues v, bool as_phong) {
+SHARED MaterialPoint mapped_metallic_roughness(MetallicRoughness plain, MapValues v, bool as_phong) {
+  MetallicRoughness s = plain;
   s.base_color *= v.base_color;
   s.metallic *= v.metallic;
   s.roughness *= v.roughness;
@@ -33,36 +34,50 @@ SHARED MaterialPoint mapped_metallic_roughness(MetallicRoughness s, GltfLayers l
   s.transmission *= v.transmission;
   MaterialPoint m = from_metallic_roughness(s, as_phong);
   m.shading.occlusion = v.occlusion;
-  l.coat *= v.layers.coat;
-  l.coat_roughness *= v.layers.coat_roughness;
-  l.sheen *= v.layers.sheen;
-  l.sheen_roughness *= v.layers.sheen_roughness;
-  return with_layers(m, l);
+  return m;
 }
 
+SHARED GltfLayers mapped_layers(GltfLayers plain, GltfLayers v) {
+  GltfLayers l = plain;
+  l.coat *= v.coat;
+  l.coat_roughness *= v.coat_roughness;
+  l.sheen *= v.sheen;
+  l.sheen_roughness *= v.sheen_roughness;
+  return l;
+}
+
+// The ray's point moves by `spread` and then along `direction` back to the plane of triangle (a, a + ab, a + ac):
+// how far that is along ab and along ac, both times z (ray differentials: Igehy 1999).
+SHARED vec3 moved_on_triangle(vec3 spread, vec3 direction, vec3 ab, vec3 ac) {
+  vec3 n = cross(ab, ac);
+  real towards = dot(n, direction);
+  real square = dot(n, n);
+  vec3 p = spread - direction * (dot(n, spread) / towards);
+  return pick(towards == 0.0f || square == 0.0f, vec3(0.0f, 0.0f, 1.0f),
+              vec3(dot(cross(p, ac), n), dot(cross(ab, p), n), square));
+}
+
+// The change of a texture coordinate by that move.
+SHARED vec2 uv_change(vec3 moved, vec2 uv_ab, vec2 uv_ac) { return (moved.x * uv_ab + moved.y * uv_ac) / moved.z; }
+
 // n changed by a normal map's texel (0 to 1). All vectors lie on the side that the triangle's
-// vertex normals show. `tangent` is the vertices', its w the side of the bitangent; with w = 0 the tangent is
+// vertex normals show. `tangent` is the vertices', side_of_v the side of the bitangent; where that is 0, the tangent is
 // the direction on the triangle in which u grows (v grows downwards, hence the bitangent's sign).
-SHARED vec3 mapped_normal(vec3 n, vec4 tangent, vec3 ab, vec3 ac, vec2 uv_ab, vec2 uv_ac, vec3 texel,
+SHARED vec3 mapped_normal(vec3 n, vec3 tangent, real side_of_v, vec3 ab, vec3 ac, vec2 uv_ab, vec2 uv_ac, vec3 texel,
                           float scale) {
-  vec3 along_u = vec3(tangent);
-  float side = tangent.w < 0.0f ? -1.0f : 1.0f;
-  if (tangent.w == 0.0f) {
-    float det = uv_ab.x * uv_ac.y - uv_ac.x * uv_ab.y;
-    if (det == 0.0f) return n;
-    along_u = (ab * uv_ac.y - ac * uv_ab.y) / det;
-    vec3 against_v = (ab * uv_ac.x - ac * uv_ab.x) / det;
-    side = dot(cross(n, along_u), against_v) < 0.0f ? -1.0f : 1.0f;
-  }
+  boolean given = side_of_v != 0.0f;
+  real det = uv_ab.x * uv_ac.y - uv_ac.x * uv_ab.y;
+  vec3 along_u = pick(given, tangent, (ab * uv_ac.y - ac * uv_ab.y) / det);
+  vec3 against_v = (ab * uv_ac.x - ac * uv_ab.x) / det;
+  real side = pick(pick(given, side_of_v, dot(cross(n, along_u), against_v)) < 0.0f, -1.0f, 1.0f);
   vec3 t = along_u - n * dot(n, along_u);
-  float square = dot(t, t);
-  if (!(square > 0.0f)) return n;
+  real square = dot(t, t);
   t /= sqrt(square);
   vec3 bitangent = side * cross(n, t);
-  vec3 local = (texel * 2.0f - 1.0f) * vec3(scale, scale, 1.0f);
+  vec3 local = (texel * 2.0f - vec3(1.0f)) * vec3(scale, scale, 1.0f);
   vec3 mapped = t * local.x + bitangent * local.y + n * local.z;
-  float length2 = dot(mapped, mapped);
-  return length2 > 1e-12f ? mapped / sqrt(length2) : n;
+  real length2 = dot(mapped, mapped);
+  return pick((given || det != 0.0f) && square > 0.0f && length2 > 1e-12f, mapped / sqrt(length2), n);
 }
 
 const int kAlphaOpaque = 0;

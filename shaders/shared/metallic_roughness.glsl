@@ -1,6 +1,6 @@
-// Source of GLSL and of C++ (core/shade/shared_material.h): glTF's metallic-roughness material as the parameters of
-// its reflection model, or as Phong's, for a whole material where it is loaded and for each point where textures
-// change it. Expects phong.glsl and microfacet.glsl.
+// Source of GLSL and of C++ (core/shade/shared_material.h, core/trace/lanes/shared.h): glTF's metallic-roughness material as
+// the parameters of its reflection model, or as Phong's, for a whole material where it is loaded and for each point where
+// textures change it. Expects phong.glsl and microfacet.glsl.
 //   f0 = min(((ior-1)/(ior+1))^2 specular_color, 1) specular         mirrored at normal incidence, dielectric
 //   F0 = mix(f0, base, metallic), F90 = mix(specular, 1, metallic)
 //   ambient     base (1 - transmission)
@@ -24,23 +24,23 @@ const float kLeastReflectance = 1.0f / 255.0f;  // weaker mirrors are not worth 
 
 struct MetallicRoughness {
   vec3 base_color;
-  float metallic;
-  float roughness;
+  real metallic;
+  real roughness;
   vec3 emissive;
-  float ior;
-  float specular;
+  real ior;
+  real specular;
   vec3 specular_color;
-  float transmission;
+  real transmission;
   bool volume;
   bool unlit;
 };
 
 // KHR_materials_clearcoat and _sheen.
 struct GltfLayers {
-  float coat;
-  float coat_roughness;
+  real coat;
+  real coat_roughness;
   vec3 sheen;
-  float sheen_roughness;
+  real sheen_roughness;
 };
 
 // The whole material at a point.
@@ -48,13 +48,13 @@ struct MaterialPoint {
   ShadingParams shading;
   vec3 reflectance;
   vec3 transmittance;
-  float ior;
-  bool fresnel;
+  real ior;
+  boolean fresnel;
 };
 
-SHARED float largest_of(vec3 v) { return max(max(v.x, v.y), v.z); }
+SHARED real largest_of(vec3 v) { return max(max(v.x, v.y), v.z); }
 
-SHARED ShadingParams phong_params(vec3 ambient, vec3 diffuse, vec3 specular, float shininess, vec3 emission) {
+SHARED ShadingParams phong_params(vec3 ambient, vec3 diffuse, vec3 specular, real shininess, vec3 emission) {
   ShadingParams m;
   m.ambient = ambient;
   m.diffuse = diffuse;
@@ -79,27 +79,27 @@ SHARED MaterialPoint material_point(ShadingParams shading) {
   point.reflectance = vec3(0.0f);
   point.transmittance = vec3(0.0f);
   point.ior = 1.0f;
-  point.fresnel = false;
+  point.fresnel = none();
   return point;
 }
 
-SHARED float shininess_of(float roughness) {
-  float r2 = roughness * roughness;
+SHARED real shininess_of(real roughness) {
+  real r2 = roughness * roughness;
   return clamp(0.25f * (2.0f / max(r2 * r2, 1e-8f) - 2.0f), 1.0f, 10000.0f);
 }
 
 // The share of a mirror where it stays sharp.
-SHARED float sharp_share(float roughness) {
-  float sharp = max(0.0f, 1.0f - roughness / kRoughestMirror);
+SHARED real sharp_share(real roughness) {
+  real sharp = max(0.0f, 1.0f - roughness / kRoughestMirror);
   return sharp * sharp;
 }
 
 SHARED MaterialPoint from_metallic_roughness(MetallicRoughness s, bool as_phong) {
   if (s.unlit) return material_point(phong_params(vec3(0.0f), vec3(0.0f), vec3(0.0f), 1.0f, s.base_color));
-  float root = (s.ior - 1.0f) / (s.ior + 1.0f);
+  real root = (s.ior - 1.0f) / (s.ior + 1.0f);
   vec3 dielectric_f0 = min(root * root * s.specular * s.specular_color, vec3(1.0f));
   vec3 f0 = mix(dielectric_f0, s.base_color, s.metallic);
-  float opaque = (1.0f - s.metallic) * (1.0f - s.transmission);
+  real opaque = (1.0f - s.metallic) * (1.0f - s.transmission);
   ShadingParams shading = phong_params(s.base_color * (1.0f - s.transmission), s.base_color * opaque * kOneByPi, f0,
                                        shininess_of(s.roughness), s.emissive);
   if (as_phong) {
@@ -111,32 +111,29 @@ SHARED MaterialPoint from_metallic_roughness(MetallicRoughness s, bool as_phong)
     shading.layer = vec2(largest_of(dielectric_f0), min(s.specular, 1.0f));
   }
   MaterialPoint m = material_point(shading);
-  if (s.transmission > 0.0f && s.metallic < 1.0f) {
-    m.transmittance = s.base_color * (s.transmission * (1.0f - s.metallic));
-    m.ior = s.volume ? s.ior : 1.0f;
-    return m;
-  }
+  boolean transmits = s.transmission > 0.0f && s.metallic < 1.0f;
+  m.transmittance = pick(transmits, s.base_color * (s.transmission * (1.0f - s.metallic)), vec3(0.0f));
+  if (s.volume) m.ior = pick(transmits, s.ior, 1.0f);
   vec3 mirror = f0 * sharp_share(s.roughness);
-  if (largest_of(mirror) > kLeastReflectance) {
-    m.reflectance = mirror;
-    m.fresnel = true;
-  }
+  m.fresnel = !transmits && largest_of(mirror) > kLeastReflectance;
+  m.reflectance = pick(m.fresnel, mirror, vec3(0.0f));
   return m;
 }
 
 // Adds the layers to a material of glTF's model. On glass they are left out.
 SHARED MaterialPoint with_layers(MaterialPoint m, GltfLayers l) {
   MaterialPoint layered = m;
-  if (m.shading.ggx_alpha == 0.0f || m.transmittance != vec3(0.0f)) return layered;
-  layered.shading.sheen = l.sheen;
-  layered.shading.sheen_alpha = clamp(l.sheen_roughness * l.sheen_roughness, kLeastSheenAlpha, 1.0f);
-  layered.shading.coat = l.coat;
-  layered.shading.coat_alpha = clamp(l.coat_roughness * l.coat_roughness, kLeastAlpha, 1.0f);
-  float coat_f0 = kCoatF0 * l.coat;
+  boolean above = m.shading.ggx_alpha != 0.0f && m.transmittance == vec3(0.0f);
+  layered.shading.sheen = pick(above, l.sheen, m.shading.sheen);
+  layered.shading.sheen_alpha =
+      pick(above, clamp(l.sheen_roughness * l.sheen_roughness, kLeastSheenAlpha, 1.0f), m.shading.sheen_alpha);
+  layered.shading.coat = pick(above, l.coat, m.shading.coat);
+  layered.shading.coat_alpha =
+      pick(above, clamp(l.coat_roughness * l.coat_roughness, kLeastAlpha, 1.0f), m.shading.coat_alpha);
+  real coat_f0 = kCoatF0 * l.coat;
   vec3 mirror = m.reflectance * (1.0f - coat_f0) + vec3(coat_f0 * sharp_share(l.coat_roughness));
-  if (largest_of(mirror) > kLeastReflectance) {
-    layered.reflectance = mirror;
-    layered.fresnel = true;
-  }
+  boolean mirrors = above && largest_of(mirror) > kLeastReflectance;
+  layered.reflectance = pick(mirrors, mirror, m.reflectance);
+  layered.fresnel = m.fresnel || mirrors;
   return layered;
 }

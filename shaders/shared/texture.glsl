@@ -99,17 +99,3 @@ SHARED vec4 sample_texture(TextureParams use, TexturePoint point, bool is_color)
   }
   return sum / taps;
 }
-
-// The ray's point moves by `spread` and then along `direction` back to the plane of triangle (a, a + ab, a + ac):
-// how far that is along ab and along ac, both times z (ray differentials: Igehy 1999).
-SHARED vec3 moved_on_triangle(vec3 spread, vec3 direction, vec3 ab, vec3 ac) {
-  vec3 n = cross(ab, ac);
-  float towards = dot(n, direction);
-  float square = dot(n, n);
-  if (towards == 0.0f || square == 0.0f) return vec3(0.0f, 0.0f, 1.0f);
-  vec3 p = spread - direction * (dot(n, spread) / towards);
-  return vec3(dot(cross(p, ac), n), dot(cross(ab, p), n), square);
-}
-
-// The change of a texture coordinate by that move.
-SHARED vec2 uv_change(vec3 moved, vec2 uv_ab, vec2 uv_ac) { return (moved.x * uv_ab + moved.y * uv_ac) / moved.z; }

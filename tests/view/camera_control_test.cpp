@@ -85,6 +85,19 @@ TEST(CameraControl, ZoomStopsBeforeTheTarget) {
   EXPECT_TRUE(std::isfinite(distance_of(control)));
 }
 
+// The target's plane is as high as before; back again, the camera is where it was.
+TEST(CameraControl, AnotherProjectionShowsTheTargetAsLarge) {
+  CameraControl control = control_at({0, 0, 5}, {0, 0, 0});
+  const float tangent = std::tan(glm::radians(0.5f * control.camera().fov_deg));
+  control.set_projection(Projection::orthographic);
+  EXPECT_NEAR(control.camera().height, 2.0f * 5.0f * tangent, 1e-5f);
+  control.zoom(3.0f);
+  const float height = control.camera().height;
+  control.set_projection(Projection::perspective);
+  EXPECT_NEAR(2.0f * distance_of(control) * tangent, height, 1e-4f);
+  EXPECT_LT(distance_of(control), 4.0f);
+}
+
 TEST(CameraControl, FlyingTakesTheTargetAlong) {
   CameraControl control = control_at({0, 0, 5}, {0, 0, 0});
   control.fly({0, 0, 1}, 1.0f, false);

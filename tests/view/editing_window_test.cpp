@@ -139,6 +139,72 @@ TEST_F(EditingTest, TheCameraIsTypedAndDragged) {
   expect_clean_close();
 }
 
+// Parallel rays, with the target as large as before; then a height that is typed; Ctrl + Z takes both back.
+TEST_F(EditingTest, TheProjectionIsChosen) {
+  open_with("Camera", scene("cornell"));
+  const std::vector<int> rows = widgets_at(150, 30, 200);  // eye, target, field of view, lens, projection
+  ASSERT_GE(rows.size(), 5u);
+  click(200, rows[4]);
+  pause_ms(300);
+  const std::vector<int> lines = runs(brightness(120, rows[4] + 14, 60, 90), rows[4] + 14, 120, 6, 20);
+  ASSERT_EQ(lines.size(), 4u);  // perspective, orthographic, panorama, fisheye
+  click(150, lines[1]);
+  xdo(at(700, 500));
+  EXPECT_TRUE(picture_becomes_other("opened.png"));
+  const std::string command = command_line();
+  EXPECT_EQ(option(command, "--projection"), "orthographic");
+  const double height = std::stod(option(command, "--height"));
+  settle("orthographic.png");
+  type(200, widgets_at(150, 30, 200)[2], "0 period 8");
+  EXPECT_TRUE(picture_becomes_other("orthographic.png"));
+  EXPECT_NEAR(std::stod(option(command_line(), "--height")), 0.8, 1e-6);
+  EXPECT_GT(std::abs(height - 0.8), 0.1);
+  pause_ms(500);
+  key("ctrl+z");
+  EXPECT_TRUE(picture_becomes("orthographic.png"));
+  key("ctrl+z");
+  EXPECT_TRUE(picture_becomes("opened.png"));
+  EXPECT_EQ(option(command_line(), "--projection"), "");
+  expect_clean_close();
+}
+
+// A file whose z points up is read again and turned; the command draws it so.
+TEST_F(EditingTest, TheUpAxisIsChosen) {
+  std::ofstream(folder_ / "tower.obj")
+      << "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 4\nf 1 3 2\nf 1 2 4\nf 2 3 4\nf 1 4 3\n";
+  open_with("Scene", "tower.obj", "--mode raster");
+  const auto axis_row = [this] { return widgets_at(200, 30, 400).front(); };
+  click(280, axis_row());  // z
+  xdo(at(700, 500));
+  EXPECT_TRUE(picture_becomes_other("opened.png"));
+  EXPECT_EQ(option(command_line(), "--up-axis"), "z");
+  settle("turned.png");
+  click(160, axis_row());  // y
+  xdo(at(700, 500));
+  EXPECT_TRUE(picture_becomes("opened.png"));
+  EXPECT_EQ(option(command_line(), "--up-axis"), "");
+  expect_clean_close();
+}
+
+// An environment's rows in the panel Lights, below those of a light and the kinds of lights.
+TEST_F(EditingTest, TheEnvironmentIsTurnedAndMadeStronger) {
+  std::ofstream(folder_ / "sky.hdr", std::ios::binary)
+      << "#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y 1 +X 4\n"
+      << std::string("\x80\x20\x20\x80\x20\x80\x20\x80\x20\x20\x80\x80\x80\x80\x20\x80", 16);
+  open_with("Lights", scene("two-lights"), "--environment sky.hdr --mode raster --eye 0,2,9 --target 0,3,0");
+  const std::size_t of_lights = 9;  // position, colour, intensity, radius of two lights, kinds
+  const std::vector<int> rows = widgets_at(121, 30, 590);
+  ASSERT_GE(rows.size(), of_lights + 2);
+  click(240, rows[of_lights]);
+  xdo(at(700, 500));
+  EXPECT_TRUE(becomes([this] { return !option(command_line(), "--environment-rotation").empty(); }));
+  click(190, rows[of_lights + 1]);
+  xdo(at(700, 500));
+  EXPECT_TRUE(
+      becomes([this] { return !option(command_line(), "--environment-strength").empty(); }));
+  expect_clean_close();
+}
+
 // One part alone, then all again; the command draws what is shown.
 TEST_F(EditingTest, PartsAreHiddenAndShownAlone) {
   open_with("Scene", scene("cornell"));
@@ -158,6 +224,12 @@ TEST_F(EditingTest, PartsAreHiddenAndShownAlone) {
   EXPECT_TRUE(picture_becomes("opened.png"));
   click(40, rows[1]);  // its tick
   EXPECT_TRUE(picture_becomes_other("opened.png"));
+  settle("hidden.png");
+  pause_ms(500);
+  key("ctrl+z");
+  EXPECT_TRUE(picture_becomes("opened.png"));
+  key("ctrl+y");
+  EXPECT_TRUE(picture_becomes("hidden.png"));
   key("Right");  // hiding is no edit: nothing is asked
   EXPECT_TRUE(
       becomes([this] { return xdo("getwindowname " + window_).find("cornell.gltf") == std::string::npos; }));

@@ -230,6 +230,14 @@ TEST_F(WidgetsTest, ChosenAndHoveredLookDifferent) {
   xdo(at(chosen_x + 10, all[kMode]));
   settle("both.png");
   expect_apart({plain, hovered, chosen, button(chosen_x, "both.png")});
+  // Letters are dark on the accent's colour, and light elsewhere.
+  const auto letters = [&](int x, auto is_letter) {
+    return std::ranges::count_if(
+        pixels("60x12+" + std::to_string(x) + "+" + std::to_string(all[kMode] - 6), "opened.png"), is_letter);
+  };
+  EXPECT_GT(letters(chosen_x, [](const glm::u8vec3& c) { return c.r < 90 && c.g < 90; }), 20);
+  EXPECT_EQ(letters(chosen_x, [](const glm::u8vec3& c) { return c.b > 200; }), 0);
+  EXPECT_GT(letters(plain_x, [](const glm::u8vec3& c) { return c.b > 150; }), 20);
   // The list: its first line is chosen.
   click(kWidgetX, all[kShow]);
   xdo(at(kWidgetX + 80, all[kShow]));

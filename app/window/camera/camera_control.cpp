@@ -10,6 +10,7 @@ namespace {
 
 constexpr float kNearestToUp = 0.005f;  // radians: straight up or down, left and right are undefined
 constexpr float kZoomStep = 0.9f;
+constexpr float kWidestPinhole_deg = 120.0f;  // that is still of use
 constexpr float kDiagonalsASecond = 0.15f, kFast = 4.0f;
 
 glm::vec3 turned(const glm::vec3& v, float radians, const glm::vec3& axis) {
@@ -97,6 +98,20 @@ void CameraControl::view_from(const glm::vec3& from) {
                               ? glm::vec3(0, 0, kNearestToUp)
                               : glm::vec3(0.0f);
   camera_.eye = camera_.target + away * glm::normalize(from + aside);
+}
+
+void CameraControl::set_projection(Projection projection) {
+  if (projection == camera_.projection) return;
+  const float tangent = std::tan(glm::radians(0.5f * std::min(camera_.fov_deg, kWidestPinhole_deg)));
+  if (projection == Projection::orthographic) camera_.height = 2.0f * distance() * tangent;
+  if (camera_.projection == Projection::orthographic)
+    camera_.eye = camera_.target - 0.5f * camera_.height / tangent * camera_axes(camera_).forward;
+  camera_.projection = projection;
+  camera_.distortion = {};
+  if (projection == Projection::perspective)
+    camera_.fov_deg = std::min(camera_.fov_deg, kWidestPinhole_deg);
+  else
+    camera_.lens_radius = camera_.focus_distance = 0.0f;
 }
 
 void CameraControl::set_target(const glm::vec3& p) {

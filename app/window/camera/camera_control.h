@@ -33,6 +33,8 @@ class CameraControl {
   void frame_all(float aspect);
   // Moves to the direction `from` of the target, at the same distance.
   void view_from(const glm::vec3& from);
+  // Sees the target as large as before, where the other projection has a height or a field of view.
+  void set_projection(Projection projection);
   // The camera turns around that point from now on, and shows it in the middle.
   void set_target(const glm::vec3& p);
   [[nodiscard]] const Bounds& interest() const { return interest_; }

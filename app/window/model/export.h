@@ -26,6 +26,7 @@ struct ExportedView {
   std::uint64_t load_limit = kUsualLoadLimit;  // bytes
   bool confine = false;
   Shading shading = Shading::from_file;
+  UpAxis up_axis = UpAxis::y;  // of the scene's file
 };
 
 // The command line that draws the view to name.exr and name.png. Numbers are exact.

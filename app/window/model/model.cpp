@@ -27,6 +27,7 @@ glm::ivec2 Model::wanted_size() const {
 FrameRequest Model::request() const {
   FrameRequest request{scene, tracer, drawn, {camera.camera(), wanted_size()}};
   drop_idle_casters(request.scene);
+  request.shows_samples = true;
   return request;
 }
 

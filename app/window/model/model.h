@@ -20,6 +20,7 @@
 #include "core/image/light_histogram.h"
 #include "hybrid/inspect/present_pass.h"
 #include "pinocchio/animation.h"
+#include "pinocchio/load.h"
 
 namespace pinocchio::app {
 
@@ -62,8 +63,9 @@ struct SavePlace {
 
 // What a person is about to do although the scene has edits that are not saved.
 struct Leaving {
-  std::string file;     // to open. Empty: the window is closed
-  bool reload = false;  // `file` is the shown scene's, which has changed
+  std::string file;                 // to open. Empty: the window is closed
+  bool reload = false;              // `file` is the shown scene's, which has changed
+  std::optional<UpAxis> up_axis{};  // `file` is the shown scene's, to be turned. Nothing: it is not
 };
 
 struct MaterialEdit {
@@ -119,14 +121,16 @@ struct Model {
 
   SceneLoader::Progress loading;
   Messages messages;
-  std::string legend;               // what the channel's colours mean. Empty: the picture is shown
-  ChannelRange shown_range;         // of the channel that is shown
-  std::string comparison;           // with the reference, in words. Empty: there is none
-  bool is_comparing = false;        // the reference or the error is not complete
-  std::vector<Action> requested;    // by keys and buttons
-  std::string file_to_open;         // requested. Empty: none
-  int camera_to_show = -1;          // requested, one of the scene's. -1: none
-  std::vector<std::string> recent;  // scene files, newest first
+  std::string legend;                    // what the channel's colours mean. Empty: the picture is shown
+  ChannelRange shown_range;              // of the channel that is shown
+  std::string comparison;                // with the reference, in words. Empty: there is none
+  bool is_comparing = false;             // the reference or the error is not complete
+  std::vector<Action> requested;         // by keys and buttons
+  std::string file_to_open;              // requested. Empty: none
+  int camera_to_show = -1;               // requested, one of the scene's. -1: none
+  UpAxis up_axis = UpAxis::y;            // of the scene's file
+  std::optional<UpAxis> up_axis_to_use;  // requested. Nothing: the same
+  std::vector<std::string> recent;       // scene files, newest first
 
   glm::ivec2 window_pixels{0, 0}, picture_size{0, 0};
   PictureZoom zoom;

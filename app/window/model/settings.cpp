@@ -57,6 +57,7 @@ bool add_preset(const Preset& preset, const Settings& settings, Settings& covere
 Settings wanted_settings(const ViewSettings& settings) {
   Settings s = settings.settings;
   s.exchange.fill(Exchange::pipelined);
+  s.denoise.fill(true);
   apply_preset("mode", settings.mode, s);
   apply_preset("plan", settings.plan, s);
   if (!settings.shadows) s.mask_bits = 0;

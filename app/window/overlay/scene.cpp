@@ -9,7 +9,17 @@
 namespace pinocchio::app {
 namespace {
 
-void draw_facts(const Model& model) {
+// The file is read again.
+void choose_up_axis(Model& model) {
+  const int clicked =
+      choose("up axis", "the axis of the file that points up: y in glTF, often z in STL, PLY and OBJ",
+             {{"y", "as in glTF"}, {"z", "the scene is turned, so that its z points up"}},
+             static_cast<std::size_t>(model.up_axis));
+  if (clicked >= 0 && static_cast<UpAxis>(clicked) != model.up_axis)
+    model.up_axis_to_use = static_cast<UpAxis>(clicked);
+}
+
+void draw_facts(Model& model) {
   const Scene& scene = model.scene;
   const Mesh& mesh = *scene.mesh;
   const auto count = [](const char* name, std::size_t value, const char* help) {
@@ -28,6 +38,7 @@ void draw_facts(const Model& model) {
         "their number, and the length of the longest");
   const glm::vec3 size = model.stats.bounds.extent();
   row("extent", format("%.4g x %.4g x %.4g", size.x, size.y, size.z), "x, y and z, in the scene's units");
+  choose_up_axis(model);
   if (model.parts.extensions.empty() && model.parts.warnings.empty()) return;
   ImGui::Separator();
   for (const std::string& name : model.parts.extensions) paragraph(name);

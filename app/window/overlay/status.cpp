@@ -9,6 +9,7 @@ namespace pinocchio::app {
 namespace {
 
 constexpr float kPadding = 4.0f;
+constexpr float kLeastShown_ms = 0.05f;  // less is shown as 0.0
 
 std::string picture_text(const Model& model) {
   if (!model.has_scene()) return "no scene";
@@ -25,7 +26,8 @@ std::string rate_text(const Model& model) {
   if (!model.has_scene()) return {};
   const float ms = median_of_newest(model.history.frame_ms(), kMedianOf);
   const std::string done = model.is_comparing ? "comparing" : "done";
-  if (model.idle && !model.is_loading()) return ms > 0.0f ? done + format("   %.1f ms a frame", ms) : done;
+  if (model.idle && !model.is_loading())
+    return ms >= kLeastShown_ms ? done + format("   %.1f ms a frame", ms) : done;
   if (ms <= 0.0f) return "drawing";
   return format("%.1f frames/s   %.1f ms", model.history.rate(), ms);
 }

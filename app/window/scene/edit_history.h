@@ -21,6 +21,7 @@ struct EditState {
   std::vector<Material> materials;
   std::vector<MaterialMaps> maps;
   std::shared_ptr<const Environment> environment;
+  std::vector<bool> hidden;  // parts
 
   friend bool operator==(const EditState&, const EditState&) = default;
 };

@@ -8,9 +8,9 @@ namespace pinocchio::app {
 
 // Whether the overlay is hidden does not count as an edit.
 EditState SceneEdits::state() const {
-  EditState state{model_.settings,         model_.camera.camera(),
-                  model_.scene.lights,     model_.scene.mesh->materials,
-                  model_.scene.mesh->maps, model_.scene.environment};
+  EditState state{
+      model_.settings,         model_.camera.camera(),   model_.scene.lights, model_.scene.mesh->materials,
+      model_.scene.mesh->maps, model_.scene.environment, model_.parts.hidden};
   state.settings.overlay = true;
   return state;
 }
@@ -68,6 +68,10 @@ void SceneEdits::restore(const std::optional<EditState>& state, const char* othe
   if (mesh.materials != state->materials || mesh.maps != state->maps)
     set_materials(state->materials, state->maps);
   if (model_.scene.environment != state->environment) set_environment(state->environment);
+  if (model_.parts.hidden != state->hidden) {
+    model_.parts.hidden = state->hidden;
+    model_.parts.changed = true;
+  }
   if (model_.scene.lights == state->lights) return;
   model_.scene.lights = state->lights;
   model_.lights_changed = true;

@@ -9,15 +9,30 @@ SceneSource::SceneSource(Model& model, const DrawOptions& options, bool watch)
   load(options_);
 }
 
-void SceneSource::open(const std::string& file) {
-  DrawOptions draw = options_;
-  draw.scene = file;
-  // The command line's camera and lights belong to another scene.
+namespace {
+
+// The command line's belongs to another scene, or to one that is turned otherwise.
+void forget_camera_and_lights(DrawOptions& draw) {
   draw.camera.clear();
   draw.eye = draw.target = draw.up = std::nullopt;
   draw.fov_deg = draw.lens_radius = draw.focus = draw.height = std::nullopt;
   draw.projection = std::nullopt;
   draw.lights.clear();
+}
+
+}  // namespace
+
+void SceneSource::open(const std::string& file) {
+  DrawOptions draw = options_;
+  draw.scene = file;
+  forget_camera_and_lights(draw);
+  load(draw);
+}
+
+void SceneSource::turn_up(UpAxis axis) {
+  DrawOptions draw = options_;
+  draw.up_axis = axis;
+  forget_camera_and_lights(draw);
   load(draw);
 }
 

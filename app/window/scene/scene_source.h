@@ -22,6 +22,8 @@ class SceneSource {
   // The same for a picture of light from all directions.
   void open_environment(const std::string& file);
   void reload() { load(options_); }
+  // The same with another axis of the file pointing up.
+  void turn_up(UpAxis axis);
   // Begins to load the file that was refused for its memory, without a limit.
   void open_unlimited();
   void cancel();

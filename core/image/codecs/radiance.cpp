@@ -28,11 +28,11 @@ class RadianceReader {
     bool rgbe = false;
     for (std::string_view text = line(); !text.empty(); text = line())
       rgbe = rgbe || text == "FORMAT=32-bit_rle_rgbe";
-    if (!rgbe) throw RadianceDamage("its pixels are not RGBE");
+    if (!rgbe) throw RadianceDamage("its FORMAT is not 32-bit_rle_rgbe");
     constexpr int kMostSide = 1 << 20;
     glm::ivec2 size(0);
     if (std::sscanf(std::string(line()).c_str(), "-Y %7d +X %7d", &size.y, &size.x) != 2)
-      throw RadianceDamage("its lines do not go from the left to the right and from the top down");
+      throw RadianceDamage("its rows are not in the order -Y +X (from the top down, left to right)");
     if (size.x < 1 || size.y < 1 || size.x > kMostSide || size.y > kMostSide)
       throw RadianceDamage("its size is impossible");
     return size;
@@ -66,7 +66,8 @@ class RadianceReader {
     for (std::size_t x = 0; x < pixels.size();) {
       const unsigned char code = next();
       const std::size_t count = code > 128 ? code - 128u : code;
-      if (count == 0 || count > pixels.size() - x) throw RadianceDamage("a run of its pixels is too long");
+      if (count == 0 || count > pixels.size() - x)
+        throw RadianceDamage("a run of equal pixels does not fit its row");
       const unsigned char value = code > 128 ? next() : 0;
       for (const std::size_t end = x + count; x < end; ++x) pixels[x][channel] = code > 128 ? value : next();
     }
@@ -84,7 +85,8 @@ class RadianceReader {
         continue;
       }
       const std::size_t count = shift < 32 ? std::size_t{e} << shift : pixels.size();
-      if (x == 0 || count > pixels.size() - x) throw RadianceDamage("a run of its pixels is too long");
+      if (x == 0 || count > pixels.size() - x)
+        throw RadianceDamage("a run of equal pixels does not fit its row");
       std::fill_n(pixels.begin() + x, count, pixels[x - 1]);
       x += count;
       shift += 8;

@@ -94,7 +94,7 @@ class AnimationReader {
       return channel.path && moved_.contains({place_of(channel), channel.path->path});
     };
     if (std::ranges::any_of(channels, moves_what_is_moved)) {
-      warn("animations of what an earlier one moves are left out", "the first one is shown");
+      warn("animations that move the same thing as an earlier one are left out", "the first one is shown");
       return {};
     }
     Animation::Clip clip{name};
@@ -107,7 +107,8 @@ class AnimationReader {
       clip.duration_s = std::max(clip.duration_s, static_cast<double>((*track)->times_s.back()));
       const int node = place_of(channel);
       if (!moved_.emplace(node, (*track)->path).second) {
-        warn("a second channel of the same node is left out", "the first one is shown");
+        warn("a second animation channel for the same property of a node is left out",
+             "the first one is shown");
         continue;
       }
       (*track)->clip = result_.clips.size();

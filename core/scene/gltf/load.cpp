@@ -162,11 +162,11 @@ class SceneReader {
     const std::string type = text_member(&json, "type");
     if (type != "perspective" && type != "orthographic") {
       warn("camera '" + camera.name + "'", "is neither perspective nor orthographic and left out",
-           "its view is missing");
+           "it cannot be chosen");
     } else if (!can_look(camera)) {
       warn("camera '" + camera.name + "'",
            "has no field of view within 0 and 180 degrees, or no height, and is left out",
-           "its view is missing");
+           "it cannot be chosen");
     } else {
       scene_.cameras.push_back(camera);
     }
@@ -176,11 +176,11 @@ class SceneReader {
     const Light light = light_of(json, node, world);
     const std::string where = "light '" + light.name + "'";
     if (!is_light_type(text_member(&json, "type")))
-      warn(where, "its type is not one of glTF's", "it shines as a point light");
+      warn(where, "its type is not one of glTF's", "it is drawn as a point light");
     if (can_shine(light)) {
       scene_.lights.push_back(light);
     } else {
-      warn(where, "is not of finite numbers and left out", "its light is missing");
+      warn(where, "has numbers that are not finite and is left out", "its light is missing");
     }
   }
 

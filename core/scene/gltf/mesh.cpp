@@ -317,7 +317,7 @@ Expected<void> add_gltf_mesh(const GltfFile& file, int mesh, const glm::mat4& wo
     warnings.add(
         {file.path.string(), "mesh " + std::to_string(mesh), kUnplaced, kNotDrawn, placer.unplaced()});
   if (placer.is_partly_smooth())
-    warnings.add({file.path.string(), "mesh " + std::to_string(mesh), "normals of no length are left out",
+    warnings.add({file.path.string(), "mesh " + std::to_string(mesh), "normals of length 0 are left out",
                   "triangles there are shaded by the normals of their other corners"});
   return {};
 }

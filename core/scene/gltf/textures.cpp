@@ -21,7 +21,7 @@ std::vector<std::optional<Texture>> textures_of(const GltfFile& file, const std:
     loading.warnings.add({file.path.string(), "image " + std::to_string(images[i]), what, lost});
   };
   const auto cannot_be_read = [&](std::size_t i, const InputError& error) {
-    warn(i, "an image cannot be read: " + error.message(), "what it would have covered has one colour");
+    warn(i, "an image cannot be read: " + error.message(), "surfaces that it should cover have one colour");
   };
   for (std::size_t i = 0; i < images.size(); ++i) {
     Expected<EncodedImage> image = gltf_image(file, images[i]);

@@ -40,7 +40,7 @@ void add_lost_mtl_features(const std::filesystem::path& file, std::string_view t
       for (std::string_view word; (word = next_word(line)).starts_with('-') && !is_number(word);) {
         if (!reads_mtl_option(word))
           warnings.add({file.string(), where, "a texture's option " + std::string(word) + " is left out",
-                        "the texture lies or looks as without it"});
+                        "the texture is drawn as if the option were not there"});
         std::string_view rest = line;  // its values: numbers, or on and off
         while (is_number(word = next_word(rest)) && !word.empty()) line = rest;
         if (word == "on" || word == "off" || word.size() == 1) line = rest;

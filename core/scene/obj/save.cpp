@@ -53,7 +53,7 @@ class ObjWriter {
       text += "\nnewmtl " + material_name(i, m) + "\n";
       add_phong(m, text);
       if (m.attenuates())
-        warnings_.add({file_.string(), "material '" + m.name + "'", "the colour of its inside is left out",
+        warnings_.add({file_.string(), "material '" + m.name + "'", "the colour of its volume is left out",
                        "thick glass is as clear as thin glass"});
       if (const MaterialMaps* maps = maps_of(m)) add_maps(m, *maps, text);
     }
@@ -119,17 +119,17 @@ class ObjWriter {
       add_texture("map_d", kChannels[maps.alpha_channel], maps.alpha, lost, text);
       add_number(text, "d", maps.alpha_factor);
       if (!maps.blends())
-        lost("the cutoff of its alpha is left out", "what is a hole shines through by its alpha");
+        lost("its alpha cutoff is left out", "its holes are drawn half transparent, by their alpha");
     }
     if (maps.metallic_roughness.used())
-      lost("its metallic-roughness texture is left out", "all of it shines alike");
+      lost("its metallic-roughness texture is left out", "all of it has one metalness and one roughness");
     if (maps.maps_dielectric())
       lost("its specular and transmission textures are left out",
-           "all of it shines and lets light through alike");
+           "its highlights and its transparency are the same everywhere");
     if (maps.maps_layers())
-      lost("the textures of its clear coat and sheen are left out", "all of it is coated alike");
-    if (maps.occlusion.used())
-      lost("its occlusion texture is left out", "its hollows are as bright as the rest");
+      lost("the textures of its clear coat and sheen are left out",
+           "its coat and sheen are the same everywhere");
+    if (maps.occlusion.used()) lost("its occlusion texture is left out", "its hollows are not darkened");
   }
 
   template <class Lost>
@@ -142,7 +142,7 @@ class ObjWriter {
     if (t[0].y != 0.0f || t[1].x != 0.0f) lost("the rotation of a texture is left out", "it lies unrotated");
     if (use.nearest) lost("textures without interpolation are interpolated", "their texels are blurred");
     if (use.wrap_u != use.wrap_v || use.wrap_u == Wrap::mirror)
-      lost("how a texture goes on beyond its edges is left out", "it is repeated there");
+      lost("the wrap mode of a texture is left out", "it is repeated there");
     const std::string name = file_.stem().string() + "-" + std::to_string(use.texture) + ".png";
     texture_files_.try_emplace(use.texture, name);
     text += keyword + std::string(option);

@@ -216,8 +216,8 @@ class ObjReader {
       if (*index > highest_[kind].index) highest_[kind] = {*index, line_};
     }
     if (!corner.empty())
-      return fail(line_,
-                  "a face has the corner '" + std::string(whole) + "', which goes on after the normal");
+      return fail(line_, "a face has the corner '" + std::string(whole) +
+                             "', which has text after the index of its normal");
     obj_.corners.push_back({indices[kVertex], indices[kTexcoord], indices[kNormal]});
     return {};
   }

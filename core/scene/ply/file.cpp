@@ -112,7 +112,8 @@ Expected<void> PlyFile::read_header_line(std::string_view line, bool& ended) {
     const std::string_view count = next_word(line);
     const auto [end, failure] = std::from_chars(count.data(), count.data() + count.size(), element.count);
     if (failure != std::errc() || end != count.data() + count.size() || element.count > 0xffffffffu)
-      return error("element " + element.name + " has the number '" + std::string(count) + "'");
+      return error("element " + element.name + " has '" + std::string(count) +
+                   "' where its number is expected");
     elements_.push_back(std::move(element));
   } else if (word == "property") {
     PlyProperty property;
@@ -120,14 +121,15 @@ Expected<void> PlyFile::read_header_line(std::string_view line, bool& ended) {
     property.is_list = type == "list";
     if (property.is_list) {
       const std::optional<PlyType> count_type = type_of(next_word(line));
-      if (!count_type) return error("a list's length is of no known type");
+      if (!count_type) return error("a list's length has a type that PLY does not know");
       property.count_type = *count_type;
       type = next_word(line);
     }
     const std::optional<PlyType> known = type_of(type);
     property.name = next_word(line);
     if (!known || elements_.empty())
-      return error("property " + property.name + " is of no element or no known type");
+      return error("property " + property.name +
+                   " belongs to no element or has a type that PLY does not know");
     property.type = *known;
     elements_.back().properties.push_back(std::move(property));
   } else if (word == "comment" && next_word(line) == "TextureFile") {

@@ -136,8 +136,8 @@ std::vector<Camera> cameras_at(const Scene& scene, double seconds) {
 
 Expected<Scene> at_time(const Scene& scene, double seconds) {
   if (!std::isfinite(seconds))
-    return Unexpected(
-        InputError{scene.source, 0, "there is no time " + decimal(seconds) + " s", "give a finite number"});
+    return Unexpected(InputError{scene.source, 0, "the time " + decimal(seconds) + " s is not finite",
+                                 "give a finite number"});
   if (!scene.animation || !scene.nodes) return scene;
   std::shared_ptr<const NodeTree> tree = tree_at(scene, seconds);
   const NodeFlags flags = moving(*scene.animation, *tree);

@@ -89,7 +89,7 @@ class StlReader {
                    "states " + std::to_string(count) + " triangles, its " + std::to_string(bytes_.size()) +
                        " bytes hold " + std::to_string((bytes_.size() - kBeforeTriangles) / kTriangleBytes),
                    "is the export complete?");
-    lost("bytes behind the last triangle are left out", "they may be a second part");
+    lost("bytes after the last triangle are left out", "they may be a second part");
     return binary(count);
   }
 

@@ -76,6 +76,12 @@ inline void add_light(const Vec& light, const std::uint32_t* pixel, Mask lanes, 
   }
 }
 
+inline void add_light(const Vec& light, Int pixels, Mask lanes, float* radiance) {
+  alignas(64) std::uint32_t pixel[kWidth];
+  pixels.store(pixel);
+  add_light(light, pixel, lanes, radiance);
+}
+
 // Adds the environment's light along rays that hit nothing. counts_samples: where the ray starts, a sample of
 // the environment may have found the same light.
 void add_environment(const EnvironmentLight& environment, bool counts_samples, const RayQueue& rays,

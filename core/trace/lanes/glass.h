@@ -22,6 +22,7 @@ inline Vec share_straight_on(const LaneSurface& s, const LaneMaterial& m) {
 }
 
 void cross_glass(const Bounce& bounce, const std::uint32_t* holes, bool ends, RayQueue& rays) {
+  const unsigned wanted = maps_wanted(true, false, false);
   for (std::size_t i = 0; i < rays.size; i += kWidth) {
     const Mask lanes = lanes_from(i, rays.size);
     const Int triangle = Int::load(rays.triangle + i);
@@ -35,7 +36,7 @@ void cross_glass(const Bounce& bounce, const std::uint32_t* holes, bool ends, Ra
       const Corners corners(bounce.scene, triangle, met);
       LaneSurface s = surface_of(corners, origin, direction, bounce.offset);
       LaneMaterial m(bounce.scene, corners.material, met);
-      if (m.mapped != 0) apply_maps(bounce, triangle, origin, direction, Float(0.0f), s, m);
+      if (m.mapped != 0) apply_maps(bounce, corners, triangle, origin, direction, Float(0.0f), wanted, s, m);
       const Mask hole = met & ~(Int::load(holes + i) == Int(0u));
       light = select(met & ~hole, light * share_straight_on(s, m), light);
       if (rays.medium) {

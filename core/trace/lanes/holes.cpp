@@ -23,6 +23,12 @@ void append(RayQueue& queue, const glm::vec3& origin, const glm::vec3& direction
   queue.pixel[i] = from;
 }
 
+// Others stop every ray.
+bool has_alpha(const Mesh& mesh, std::uint32_t triangle) {
+  const MaterialMaps* const maps = mesh.maps_of(triangle);
+  return maps && maps->alpha_mode != AlphaMode::opaque;
+}
+
 std::uint32_t mixed(std::uint32_t x) {  // Wellons 2018
   x = (x ^ x >> 16) * 0x7feb352du;
   x = (x ^ x >> 15) * 0x846ca68bu;
@@ -37,7 +43,7 @@ float threshold_of(const SamplePlace& place, std::uint32_t pixel, std::uint32_t 
   for (const std::uint32_t part :
        {std::bit_cast<std::uint32_t>(place.jitter.y),
         static_cast<std::uint32_t>(place.corner.x) + (pixel & mask),
-        static_cast<std::uint32_t>(place.corner.y) + (pixel >> kTileBits), triangle})
+        static_cast<std::uint32_t>(place.corner.y) + (pixel >> kTileBits & mask), triangle})
     seed = mixed(seed) + part;
   return static_cast<float>(mixed(seed) >> 8) * 0x1p-24f;
 }
@@ -61,7 +67,7 @@ void Holes::pass(const Tracer& tracer, RayQueue& rays, const PassedBacks* backs)
   const Mesh& mesh = tracer.mesh();
   // By the ray from its first origin, as surfaces are.
   const auto meets_hole = [&](std::size_t i) {
-    return rays.triangle[i] != kNoTriangle &&
+    return rays.triangle[i] != kNoTriangle && has_alpha(mesh, rays.triangle[i]) &&
            is_hole(mesh, rays.triangle[i],
                    weights_at(mesh, rays.triangle[i], at(rays.origin, i), at(rays.direction, i)));
   };
@@ -94,6 +100,10 @@ void Holes::shadows(const Tracer& tracer, const RayQueue& rays, float reach, con
       const std::uint32_t from = on_.pixel[k], triangle = on_.triangle[k];
       blocked[from] = 0;
       if (triangle == kNoTriangle) continue;
+      if (!has_alpha(mesh, triangle)) {
+        blocked[from] = 1;
+        continue;
+      }
       const glm::vec3 origin = at(on_.origin, k), direction = at(on_.direction, k);
       const glm::vec3 weights = weights_at(mesh, triangle, origin, direction);
       if (!passes_hole(mesh, triangle, weights, place, rays.pixel[from])) {

@@ -8,7 +8,8 @@
 #include <tuple>
 
 #include "core/parallel/tiles.h"
-#include "core/shade/map_lanes.h"
+#include "core/shade/footprint.h"
+#include "core/shade/lane_maps.h"
 #include "core/shade/shared.h"
 #include "core/trace/rays/ray_queue.h"
 #include "core/trace/rays/trace_options.h"
@@ -22,7 +23,11 @@ namespace pinocchio {
 inline constexpr int kTileBits = 5;
 static_assert(1 << kTileBits == TileGrid::kTileSize);
 
+// Rays whose light is found at random have their pixel's number plus this, where that light is kept apart.
+inline constexpr std::uint32_t kSampledPixels = 1u << (2 * kTileBits);
+
 struct EnvironmentLight;
+struct SampledPoint;
 
 // The scene's arrays as the lanes read them.
 struct SceneArrays {
@@ -30,9 +35,12 @@ struct SceneArrays {
   const glm::uvec3* triangles;
   const std::uint32_t* triangle_materials;
   const Material* materials;
-  const Mesh* mesh;  // for materials with maps (shade/map_lanes.h); null: there are none
+  // For materials with maps; null: there are none.
+  const LaneMaps* maps;
+  const glm::vec4 *colors, *tangents;
 
-  [[nodiscard]] static SceneArrays of(const Mesh& mesh);
+  // `maps`: the mesh's.
+  [[nodiscard]] static SceneArrays of(const Mesh& mesh, const LaneMapsOf& maps);
 };
 
 struct BounceLight {
@@ -78,7 +86,11 @@ struct Bounce {
   RayQueue *mirrored = nullptr, *refracted = nullptr, *straight = nullptr;
   RayQueue* diffuse = nullptr;  // towards light from other surfaces
   float* radiance = nullptr;    // a tile's pixels, RGBA
-  float* traced = nullptr;      // likewise, for `prefiltered`
+  float* traced = nullptr;      // likewise, for `prefiltered`; from kSampledPixels on for `sampled`
+  // kSampledPixels: what is found at random from here on is kept apart for the filter (core/denoise); 0: it
+  // is not.
+  std::uint32_t sampled = 0;
+  SampledPoint* points = nullptr;  // a tile's pixels: the surfaces, for the filter; null: not wanted
 };
 
 // The points that rays see, a column each, with room behind the last ray for a packet; null: not wanted.

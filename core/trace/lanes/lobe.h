@@ -55,6 +55,7 @@ namespace {
   const Mask inwards = ~(zero < outside);
   lobe.direction = select(inwards, direction - s.n_geometric * (two * outside), direction);
   lobe.density = select(inwards | glass, zero, density);
+  lobe.rough = lobe.lanes & ~glass & (Float(kSharpAlpha) < alpha);
   lobe.counted = select(lobe.lanes, select(glass, Float(kAlone), one), zero);
   return lobe;
 }

@@ -1,6 +1,7 @@
 // Part of walk/kernel.h's files: materials with maps, for the lanes that have one.
 #pragma once
 
+#include "core/shade/mapped_material.h"
 #include "core/trace/lanes/material.h"
 #include "core/trace/lanes/surface.h"
 #include "core/trace/lanes/texture.h"
@@ -8,61 +9,313 @@
 namespace pinocchio::PINOCCHIO_LANES {
 namespace {
 
-inline void store(const Vec& v, MapLanes::Column (&columns)[3]) {
-  v.x.store(columns[0]);
-  v.y.store(columns[1]);
-  v.z.store(columns[2]);
+// Rows of kMapTexels, as bits.
+enum : unsigned {
+  kBaseColorMap = 1u << 0,
+  kEmissiveMap = 1u << 1,
+  kMetallicRoughnessMap = 1u << 2,
+  kOcclusionMap = 1u << 3,
+  kNormalMap = 1u << 4,
+  kSpecularMap = 1u << 5,
+  kSpecularColorMap = 1u << 6,
+  kTransmissionMap = 1u << 7,
+  kClearcoatMap = 1u << 8,
+  kClearcoatRoughnessMap = 1u << 9,
+  kSheenColorMap = 1u << 10,
+  kSheenRoughnessMap = 1u << 11,
+  kAllMaps = (1u << 12) - 1u,
+};
+static_assert(kMapTexels[4].use == &MaterialMaps::normal &&
+              kMapTexels[11].use == &MaterialMaps::sheen_roughness);
+
+// Where rays with maps meet their triangles, and how far their neighbours are.
+struct MapPoints {
+  Vec ab, ac;
+  bool filters;
+  Vec moved_x{Float(0.0f)}, moved_y{Float(0.0f)};  // moved_on_triangle
+
+  // `width`: the rays' cones' at their origins.
+  MapPoints(const Footprint& footprint, const Corners& corners, const Vec& origin, const Vec& direction,
+            const Vec& p_world, Float width)
+      : ab(corners.position[1] - corners.position[0]),
+        ac(corners.position[2] - corners.position[0]),
+        filters(footprint.angle != 0.0f) {
+    if (!filters) return;
+    Vec x(footprint.step_x), y(footprint.step_y);
+    if (!footprint.parallel && footprint.step_x != glm::vec3(0.0f)) {
+      const Float t = dot(p_world - origin, direction) / dot(direction, direction);
+      x = t * x;
+      y = t * y;
+    } else if (!footprint.parallel) {
+      const Vec way = p_world - origin, size = abs(direction);
+      const Float here = width + Float(footprint.angle) * length(way);
+      const Mask by_x = (size.x <= size.y) & (size.x <= size.z), by_y = size.y <= size.z;
+      const Vec axis = select(by_x, Vec(Float(1.0f), Float(0.0f), Float(0.0f)),
+                              select(by_y, Vec(Float(0.0f), Float(1.0f), Float(0.0f)),
+                                     Vec(Float(0.0f), Float(0.0f), Float(1.0f))));
+      const Vec across = normalize(cross(direction, axis));
+      x = here * across;
+      y = here * normalize(cross(direction, across));
+    }
+    moved_x = moved_on_triangle(x, direction, ab, ac);
+    moved_y = moved_on_triangle(y, direction, ab, ac);
+  }
+};
+
+// A texture coordinate, and its change along the triangle's edges.
+struct MapCoordinates {
+  vec2 uv, ab, ac;
+
+  MapCoordinates(const SceneArrays& scene, const TexturePlace& place, Int triangle, const Vec& weights,
+                 Mask lanes) {
+    const Float zero(0.0f);
+    vec2 corner[3] = {{zero, zero}, {zero, zero}, {zero, zero}};
+    for_each_distinct(triangle, lanes, [&](std::uint32_t id, Mask same) {
+      const glm::uvec3& corners = scene.triangles[id];
+      const std::uint32_t index[3] = {corners.x, corners.y, corners.z};
+#pragma GCC unroll 3
+      for (int i = 0; i < 3; ++i) {
+        corner[i].x = select(same, Float(place.texcoords[index[i]].x), corner[i].x);
+        corner[i].y = select(same, Float(place.texcoords[index[i]].y), corner[i].y);
+      }
+    });
+    const auto& m = place.uv_from_texcoord;
+    const auto placed = [&](const vec2& p) {
+      return vec2(Float(m[0][0]) * p.x + Float(m[1][0]) * p.y + Float(m[2][0]),
+                  Float(m[0][1]) * p.x + Float(m[1][1]) * p.y + Float(m[2][1]));
+    };
+    uv = placed(weights.x * corner[0] + weights.y * corner[1] + weights.z * corner[2]);
+    const vec2 a = placed(corner[0]);
+    ab = placed(corner[1]) - a;
+    ac = placed(corner[2]) - a;
+  }
+};
+
+// A vertex's four numbers (colours, tangents) at the points.
+struct VertexQuad {
+  Vec xyz;
+  Float w;
+};
+inline VertexQuad weighted_quad(const SceneArrays& scene, const glm::vec4* quads, Int triangle,
+                                const Vec& weights, Mask lanes) {
+  Float corner[3][4];
+  for (auto& quad : corner)
+    for (Float& number : quad) number = Float(0.0f);
+  for_each_distinct(triangle, lanes, [&](std::uint32_t id, Mask same) {
+    const glm::uvec3& corners = scene.triangles[id];
+    const std::uint32_t index[3] = {corners.x, corners.y, corners.z};
+    for (int i = 0; i < 3; ++i) {
+      const glm::vec4& quad = quads[index[i]];
+      const float numbers[4] = {quad.x, quad.y, quad.z, quad.w};
+      for (int c = 0; c < 4; ++c) corner[i][c] = select(same, Float(numbers[c]), corner[i][c]);
+    }
+  });
+  Float of[4];
+  for (int c = 0; c < 4; ++c)
+    of[c] = weights.x * corner[0][c] + weights.y * corner[1][c] + weights.z * corner[2][c];
+  return {{of[0], of[1], of[2]}, of[3]};
 }
 
-inline Vec load(const MapLanes::Column (&columns)[3]) {
-  return {Float::load(columns[0]), Float::load(columns[1]), Float::load(columns[2])};
+struct TexelColumns {
+  Float c[4];
+  [[nodiscard]] Vec rgb() const { return {c[0], c[1], c[2]}; }
+};
+inline TexelColumns columns_of(const float (&rows)[kMostLanes][4]) {
+  const float* of[kWidth];
+  for (unsigned lane = 0; lane < kWidth; ++lane) of[lane] = rows[lane];
+  TexelColumns texels;
+  load_columns(of, texels.c);
+  return texels;
+}
+
+// A material's texels at the points where some of them are; white where there is no texture.
+struct MapTexelLanes {
+  MapValues v;
+  Vec normal_texel;
+  vec2 normal_ab, normal_ac;  // the normal map's coordinates along the edges
+  bool has_normal = false;
+
+  [[gnu::noinline]] MapTexelLanes(const SceneArrays& scene, const LaneMaps& maps, const MapPoints& points,
+                                  Int triangle, const Vec& weights, Mask lanes, unsigned wanted) {
+    const Vec white(Float(1.0f));
+    v.base_color = v.emissive = v.specular_color = v.layers.sheen = white;
+    v.metallic = v.roughness = v.occlusion = v.specular = v.transmission = Float(1.0f);
+    v.layers.coat = v.layers.coat_roughness = v.layers.sheen_roughness = Float(1.0f);
+    for (int i = 0; i < maps.count; ++i) {
+      const TexturePlace& place = maps.places[i];
+      if ((place.maps & wanted) == 0) continue;
+      const MapCoordinates at(scene, place, triangle, weights, lanes);
+      TexturePoints p;
+      at.uv.x.store(p.uv[0]);
+      at.uv.y.store(p.uv[1]);
+      const bool filters = points.filters && place.levels > 1;
+      const vec2 none{Float(0.0f), Float(0.0f)};
+      const vec2 x = filters ? uv_change(points.moved_x, at.ab, at.ac) : none;
+      const vec2 y = filters ? uv_change(points.moved_y, at.ab, at.ac) : none;
+      x.x.store(p.change_x[0]);
+      x.y.store(p.change_x[1]);
+      y.x.store(p.change_y[0]);
+      y.y.store(p.change_y[1]);
+      sample_textures(place, lanes.bits(), wanted, p);
+      if ((place.maps & kNormalMap) != 0) {
+        normal_ab = at.ab;
+        normal_ac = at.ac;
+        has_normal = true;
+      }
+      for (int k = 0; k < place.count; ++k)
+        if ((place.textures[k].maps & wanted) != 0) use(columns_of(p.texel[k]), place.textures[k].maps);
+    }
+  }
+
+ private:
+  void use(const TexelColumns& t, unsigned maps) {
+    if (maps & kBaseColorMap) v.base_color = t.rgb();
+    if (maps & kEmissiveMap) v.emissive = t.rgb();
+    if (maps & kMetallicRoughnessMap) {
+      v.roughness = t.c[1];
+      v.metallic = t.c[2];
+    }
+    if (maps & kOcclusionMap) v.occlusion = t.c[0];
+    if (maps & kNormalMap) normal_texel = t.rgb();
+    if (maps & kSpecularMap) v.specular = t.c[3];
+    if (maps & kSpecularColorMap) v.specular_color = t.rgb();
+    if (maps & kTransmissionMap) v.transmission = t.c[0];
+    if (maps & kClearcoatMap) v.layers.coat = t.c[0];
+    if (maps & kClearcoatRoughnessMap) v.layers.coat_roughness = t.c[1];
+    if (maps & kSheenColorMap) v.layers.sheen = t.rgb();
+    if (maps & kSheenRoughnessMap) v.layers.sheen_roughness = t.c[3];
+  }
+};
+
+// Not filtered.
+[[gnu::noinline]] Float alpha_at(const SceneArrays& scene, const LaneMaps& maps, Int triangle,
+                                 const Vec& weights, Mask lanes) {
+  Float texel(1.0f);
+  if (maps.alpha) {
+    const MapCoordinates at(scene, *maps.alpha, triangle, weights, lanes);
+    TexturePoints p;
+    at.uv.x.store(p.uv[0]);
+    at.uv.y.store(p.uv[1]);
+    for (int axis = 0; axis < 2; ++axis) {
+      Float(0.0f).store(p.change_x[axis]);
+      Float(0.0f).store(p.change_y[axis]);
+    }
+    sample_textures(*maps.alpha, lanes.bits(), ~0u, p);
+    texel = columns_of(p.texel[0]).c[maps.maps->alpha_channel];
+  }
+  Float alpha = Float(maps.maps->alpha_factor) * texel;
+  if (maps.maps->vertex_colors && scene.colors)
+    alpha = alpha * weighted_quad(scene, scene.colors, triangle, weights, lanes).w;
+  return alpha;
+}
+
+// The reflection model of a material of glTF's at the points.
+inline MaterialPoint gltf_material(const MaterialMaps& maps, const Material& plain, const MapValues& v) {
+  const GltfSurface& s = maps.surface;
+  MetallicRoughness surface;
+  surface.base_color = s.base_color;
+  surface.metallic = s.metallic;
+  surface.roughness = s.roughness;
+  surface.emissive = s.emissive;
+  surface.ior = s.ior;
+  surface.specular = s.specular;
+  surface.specular_color = s.specular_color;
+  surface.transmission = s.transmission;
+  surface.volume = s.volume;
+  surface.unlit = s.unlit;
+  MaterialPoint point = mapped_metallic_roughness(surface, v, !plain.is_microfacet());
+  if (!plain.has_layers()) return point;
+  GltfLayers layers;
+  layers.coat = s.clearcoat;
+  layers.coat_roughness = s.clearcoat_roughness;
+  layers.sheen = s.sheen_color;
+  layers.sheen_roughness = s.sheen_roughness;
+  return with_layers(point, mapped_layers(layers, v.layers));
+}
+
+// Sets what the maps of one material change, for its lanes.
+inline void set_material(const MaterialMaps& maps, const Material& plain, const MapValues& v, Mask same,
+                         LaneMaterial& m) {
+  const unsigned bits = same.bits();
+  if (!maps.from_gltf) {
+    m.ambient = select(same, m.ambient * v.base_color, m.ambient);
+    m.occlusion = select(same, v.occlusion, m.occlusion);
+    m.diffuse = select(same, m.diffuse * v.base_color, m.diffuse);
+    m.emission = select(same, m.emission * v.emissive, m.emission);
+    return;
+  }
+  const MaterialPoint point = gltf_material(maps, plain, v);
+  const ShadingParams& shading = point.shading;
+  m.ambient = select(same, shading.ambient, m.ambient);
+  m.diffuse = select(same, shading.diffuse, m.diffuse);
+  m.specular = select(same, shading.specular, m.specular);
+  m.emission = select(same, shading.emission, m.emission);
+  m.shininess = select(same, shading.shininess, m.shininess);
+  m.occlusion = select(same, shading.occlusion, m.occlusion);
+  m.reflectance = select(same, point.reflectance, m.reflectance);
+  m.transmittance = select(same, point.transmittance, m.transmittance);
+  m.ior = select(same, point.ior, m.ior);
+  m.fresnel = (m.fresnel & ~bits) | (point.fresnel.bits() & bits);
+  const auto any_component = [&](const Vec& c) { return (same & (Float(0.0f) < c.x + c.y + c.z)).bits(); };
+  m.reflects = (m.reflects & ~bits) | any_component(point.reflectance);
+  m.transmits = (m.transmits & ~bits) | any_component(point.transmittance);
+  if (plain.is_microfacet()) {
+    m.ggx_alpha = select(same, shading.ggx_alpha, m.ggx_alpha);
+    m.grazing = select(same, shading.grazing, m.grazing);
+    m.layer.x = select(same, shading.layer.x, m.layer.x);
+    m.layer.y = select(same, shading.layer.y, m.layer.y);
+  }
+  if (!plain.has_layers()) return;
+  m.sheen = select(same, shading.sheen, m.sheen);
+  m.sheen_alpha = select(same, shading.sheen_alpha, m.sheen_alpha);
+  m.coat = select(same, shading.coat, m.coat);
+  m.coat_alpha = select(same, shading.coat_alpha, m.coat_alpha);
+}
+
+// The maps of which a step reads what they change.
+inline unsigned maps_wanted(bool reads_material, bool adds_ambient, bool ambient_light) {
+  unsigned wanted = kNormalMap;
+  if (reads_material) wanted |= kAllMaps & ~(kEmissiveMap | kOcclusionMap);
+  if (adds_ambient) wanted |= kEmissiveMap;
+  if (ambient_light) wanted |= kOcclusionMap;
+  return wanted;
 }
 
 // Not inlined: it is large, and most packets have no maps.
-[[gnu::noinline]] void apply_maps(const Bounce& bounce, Int triangle, const Vec& origin, const Vec& direction,
-                                  Float width, LaneSurface& s, LaneMaterial& m) {
-  MapLanes packet;
-  triangle.store(packet.triangle);
-  store(s.weights, packet.weights);
-  store(origin, packet.origin);
-  store(direction, packet.direction);
-  store(s.p_world, packet.p_world);
-  store(s.n_shading, packet.n_shading);
-  width.store(packet.width);
-  packet.leaving = s.leaving.bits();
-  packet.layered = m.layered & m.mapped;
-  map_lanes(*bounce.scene.mesh, *bounce.footprint, sample_texture, m.mapped, packet);
-
-  const Mask mapped = Mask::from_bits(m.mapped);
-  s.n_shading = load(packet.n_shading);
-  m.ambient = select(mapped, load(packet.ambient), m.ambient);
-  m.diffuse = select(mapped, load(packet.diffuse), m.diffuse);
-  m.specular = select(mapped, load(packet.specular), m.specular);
-  m.emission = select(mapped, load(packet.emission), m.emission);
-  m.reflectance = select(mapped, load(packet.reflectance), m.reflectance);
-  m.transmittance = select(mapped, load(packet.transmittance), m.transmittance);
-  m.shininess = select(mapped, Float::load(packet.shininess), m.shininess);
-  m.occlusion = select(mapped, Float::load(packet.occlusion), m.occlusion);
-  if (m.microfacet != 0) {
-    m.ggx_alpha = select(mapped, Float::load(packet.ggx_alpha), m.ggx_alpha);
-    m.grazing = select(mapped, Float::load(packet.grazing), m.grazing);
-    m.layer.x = select(mapped, Float::load(packet.layer[0]), m.layer.x);
-    m.layer.y = select(mapped, Float::load(packet.layer[1]), m.layer.y);
-  }
-  if (packet.layered != 0) {
-    const Mask layered = Mask::from_bits(packet.layered);
-    m.sheen = select(layered, load(packet.sheen), m.sheen);
-    m.sheen_alpha = select(layered, Float::load(packet.sheen_alpha), m.sheen_alpha);
-    m.coat = select(layered, Float::load(packet.coat), m.coat);
-    m.coat_alpha = select(layered, Float::load(packet.coat_alpha), m.coat_alpha);
-    m.coat_normal = select(Mask::from_bits(packet.coat_is_mapped), s.n_shading, m.coat_normal);
-  }
-  m.ior = select(mapped, Float::load(packet.ior), m.ior);
-  m.fresnel = (m.fresnel & ~m.mapped) | packet.fresnel;
-  m.reflects = (m.reflects & ~m.mapped) | packet.reflects;
-  m.transmits = (m.transmits & ~m.mapped) | packet.transmits;
-  m.blends = packet.blends;
-  m.alpha = select(Mask::from_bits(m.blends), Float::load(packet.alpha), m.alpha);
+[[gnu::noinline]] void apply_maps(const Bounce& bounce, const Corners& corners, Int triangle,
+                                  const Vec& origin, const Vec& direction, Float width, unsigned wanted,
+                                  LaneSurface& s, LaneMaterial& m) {
+  const SceneArrays& scene = bounce.scene;
+  const MapPoints points(*bounce.footprint, corners, origin, direction, s.p_world, width);
+  const Float side = select(s.leaving, Float(-1.0f), Float(1.0f));
+  const Vec n_vertices = s.n_shading;
+  for_each_distinct(corners.material, Mask::from_bits(m.mapped), [&](std::uint32_t index, Mask same) {
+    const Material& plain = scene.materials[index];
+    const LaneMaps& lane_maps = scene.maps[plain.maps];
+    const MaterialMaps& maps = *lane_maps.maps;
+    MapTexelLanes texels(scene, lane_maps, points, triangle, s.weights, same, wanted);
+    if (texels.has_normal) {
+      VertexQuad tangent{Vec(Float(0.0f)), Float(0.0f)};
+      if (scene.tangents) tangent = weighted_quad(scene, scene.tangents, triangle, s.weights, same);
+      const Vec n =
+          side * mapped_normal(side * n_vertices, tangent.xyz, tangent.w, points.ab, points.ac,
+                               texels.normal_ab, texels.normal_ac, texels.normal_texel, maps.normal_scale);
+      s.n_shading = select(same, n, s.n_shading);
+      if (maps.coat_is_mapped && plain.has_layers()) m.coat_normal = select(same, n, m.coat_normal);
+    }
+    if (maps.blends()) {
+      const Float alpha = clamp(alpha_at(scene, lane_maps, triangle, s.weights, same), 0.0f, 1.0f);
+      const Mask blends = same & (alpha < Float(1.0f));
+      m.alpha = select(blends, alpha, m.alpha);
+      m.blends |= blends.bits();
+    }
+    if ((wanted & kBaseColorMap) == 0) return;
+    texels.v.occlusion = Float(1.0f) + Float(maps.occlusion_strength) * (texels.v.occlusion - Float(1.0f));
+    if (maps.vertex_colors && scene.colors)
+      texels.v.base_color =
+          texels.v.base_color * weighted_quad(scene, scene.colors, triangle, s.weights, same).xyz;
+    set_material(maps, plain, texels.v, same, m);
+  });
 }
 
 }  // namespace

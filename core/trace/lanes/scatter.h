@@ -110,7 +110,17 @@ struct LaneLobe {
   Float unshadowed{0.0f};           // the part of it that is not Fresnel's
   Float density{0.0f};              // per steradian; 0: no other method finds this light
   Float counted{0.0f};              // what reflected_light weighs the lobe's density with
+  Mask rough = Mask::from_bits(0);  // the points whose lobe mirrors no sharp image
 };
+
+// Smoother lobes mirror a sharp image, which the filter leaves alone: roughness 0.1, and Phong's exponent for
+// it.
+constexpr float kSharpAlpha = 0.01f, kSharpGloss = 5000.0f;
+
+// The pixels of the lobe's rays (kSampledPixels).
+inline Int lobe_pixel(const Bounce& bounce, const LaneLobe& lobe, Int pixel) {
+  return bounce.sampled == 0 ? pixel : select(lobe.rough, pixel + Int(bounce.sampled), pixel);
+}
 
 // Rays through a surface that blends, with what it leaves of the light from behind.
 inline void go_straight_on(const LaneSurface& s, const LaneMaterial& m, const Vec& throughput, Int pixel,
@@ -173,18 +183,22 @@ inline void scatter(const LaneSurface& s, const LaneMaterial& m, const Vec& thro
     const Float grazing = select(Mask::from_bits(m.fresnel), c2 * c2 * c, zero);
     Mask mirrors = opaque;
     Vec direction = mirrored(s);
+    Int of_mirror = pixel;
     if constexpr (kSampled)
-      if ((m.glossy & opaque.bits()) != 0 && bounce.options->glossy == Glossy::sampled)
+      if ((m.glossy & opaque.bits()) != 0 && bounce.options->glossy == Glossy::sampled) {
         direction = spread(s, direction, m.gloss,
                            sample_2d(*sampling, bounce.dimension + shared::kMirrorDimension), mirrors);
-    follow(s, direction, own * (m.reflectance + (Vec(one) - m.reflectance) * grazing), pixel, mirrors,
+        const Mask rough = Mask::from_bits(m.glossy) & (m.gloss < Float(kSharpGloss));
+        of_mirror = select(rough, pixel + Int(bounce.sampled), pixel);
+      }
+    follow(s, direction, own * (m.reflectance + (Vec(one) - m.reflectance) * grazing), of_mirror, mirrors,
            bounce.options->throughput_cutoff, *bounce.mirrored, medium);
   }
   if constexpr (kSampled) {
     const Mask glossy = lobe.lanes & ~glass & (lobe.throughput != Vec(0.0f));
     if (glossy.bits() != 0)
-      follow(s, lobe.direction, own * lobe.throughput, pixel, glossy, 0.0f, *bounce.mirrored, medium,
-             lobe.density);
+      follow(s, lobe.direction, own * lobe.throughput, lobe_pixel(bounce, lobe, pixel), glossy, 0.0f,
+             *bounce.mirrored, medium, lobe.density);
   }
   if (glass.bits() != 0) scatter_glass<kSampled>(s, m, own, lobe, sampling, pixel, glass, bounce, media);
 }

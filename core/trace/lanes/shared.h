@@ -26,8 +26,14 @@ inline Mask operator&&(Mask a, Mask b) {
 inline Mask operator||(Mask a, Mask b) {
   return a | b;
 }
+inline Mask operator!(Mask a) {
+  return ~a;
+}
 inline bool any(Mask m) {
   return m.bits() != 0;
+}
+inline Mask none() {
+  return Mask::from_bits(0);
 }
 inline Float pick(Mask m, Float yes, Float no) {
   return select(m, yes, no);
@@ -38,8 +44,17 @@ inline Vec pick(Mask m, const Vec& yes, const Vec& no) {
 inline Float pow(Float x, Float y) {
   return power(x, y);
 }
+inline Float mix(Float a, Float b, Float share) {
+  return a * (Float(1.0f) - share) + b * share;
+}
 inline Vec mix(const Vec& a, const Vec& b, Float share) {
   return a * (Float(1.0f) - share) + b * share;
+}
+inline Vec min(const Vec& a, const Vec& b) {
+  return {min(a.x, b.x), min(a.y, b.y), min(a.z, b.z)};
+}
+inline Float& operator*=(Float& a, Float b) {
+  return a = a * b;
 }
 inline Float length(const Vec& v) {
   return sqrt(dot(v, v));
@@ -48,6 +63,7 @@ inline Float length(const Vec& v) {
 struct vec2 {
   Float x, y;
   vec2() = default;
+  explicit vec2(Float all) : x(all), y(all) {}
   vec2(Float a, Float b) : x(a), y(b) {}
 };
 inline vec2 operator-(const vec2& a, float b) {
@@ -58,6 +74,18 @@ inline vec2 operator*(const vec2& a, float b) {
 }
 inline vec2 operator*(float a, const vec2& b) {
   return b * a;
+}
+inline vec2 operator*(Float a, const vec2& b) {
+  return {a * b.x, a * b.y};
+}
+inline vec2 operator/(const vec2& a, Float b) {
+  return {a.x / b, a.y / b};
+}
+inline vec2 operator+(const vec2& a, const vec2& b) {
+  return {a.x + b.x, a.y + b.y};
+}
+inline vec2 operator-(const vec2& a, const vec2& b) {
+  return {a.x - b.x, a.y - b.y};
 }
 
 // Bits without a sign.
@@ -131,6 +159,8 @@ struct SkyIrradiance {
 // clang-format off
 #include "shaders/shared/phong.glsl"
 #include "shaders/shared/microfacet.glsl"
+#include "shaders/shared/metallic_roughness.glsl"
+#include "shaders/shared/maps.glsl"
 #include "shaders/shared/sampling.glsl"
 #include "shaders/shared/sized_light.glsl"
 #include "shaders/shared/surface.glsl"

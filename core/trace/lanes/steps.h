@@ -7,6 +7,7 @@
 #include "core/trace/lanes/glass.h"
 #include "core/trace/lanes/lobe.h"
 #include "core/trace/lanes/maps.h"
+#include "core/trace/lanes/sampled.h"
 #include "core/trace/lanes/scatter.h"
 #include "core/trace/lanes/terminator.h"
 
@@ -79,6 +80,7 @@ inline void append_shadow_rays(const BounceLight& from, const LaneSurface& s, co
 
 // The whole picture's pixels that the tile's samples belong to.
 inline whole2 whole_picture_pixel(const Bounce& bounce, Int pixel) {
+  pixel = pixel & Int(kSampledPixels - 1);
   const Int row = shift_right<kTileBits>(pixel), scale(bounce.scale);
   return {(pixel - shift_left<kTileBits>(row)) * scale + Int(bounce.corner.x),
           row * scale + Int(bounce.corner.y)};
@@ -125,10 +127,15 @@ inline Vec light_points(const Bounce& bounce, const Corners& corners, const Lane
       lit = lit & ~(most_light(m, incident, s, counted) < Float(bounce.options->light_cutoff));
     if (lit.bits() == 0) continue;
     Vec term(Float(0.0f));
-    if (bounce.adds_light || bounce.tints)
+    const bool apart = kSampled && bounce.sampled != 0 && light.has_size;
+    if (bounce.adds_light || apart || bounce.tints)
       term = reflected_light(m, incident, s.n_shading, s.to_viewer, lit, counted);
     if (bounce.options->terminator == Terminator::smoothed)
       term = term * terminator_factor(s.n_shading, s.n_geometric, incident.to_light);
+    if (apart && light.slot < 0) {
+      add_light(throughput * term, pixel + Int(bounce.sampled), lit, bounce.traced);
+      continue;
+    }
     if (light.slot < 0) {
       sum = select(lit, sum + term, sum);
       continue;
@@ -139,7 +146,8 @@ inline Vec light_points(const Bounce& bounce, const Corners& corners, const Lane
   }
   if constexpr (kSampled)
     if (bounce.environment)
-      sample_environment(bounce, starts, s, m, throughput, lobe, *sampling, pixel, lanes);
+      sample_environment(bounce, starts, s, m, throughput, lobe, *sampling, pixel + Int(bounce.sampled),
+                         lanes);
   return sum;
 }
 
@@ -177,9 +185,11 @@ inline void fetch_corners(const SceneArrays& scene, const RayQueue& rays, std::s
 template <bool kSampled>
 void bounce_packets(const Bounce& bounce, const RayQueue& rays) {
   const bool reads_material = bounce.adds_light || bounce.adds_ambient || bounce.mirrored ||
-                              (bounce.visible && bounce.options->light_cutoff > 0.0f) ||
-                              bounce.scene.mesh != nullptr || bounce.environment || bounce.prefiltered ||
-                              bounce.diffuse || bounce.tints;
+                              (bounce.visible && bounce.options->light_cutoff > 0.0f) || bounce.environment ||
+                              bounce.prefiltered || bounce.diffuse || bounce.sampled != 0 || bounce.tints;
+  const unsigned wanted =
+      maps_wanted(reads_material, bounce.adds_ambient,
+                  bounce.prefiltered || (bounce.adds_ambient && bounce.ambient_light != glm::vec3(0.0f)));
   for (std::size_t i = 0; i < kTrianglesAhead; i += kWidth) fetch_triangles(bounce.scene, rays, i);
   for (std::size_t i = 0; i < kCornersAhead; i += kWidth) fetch_corners(bounce.scene, rays, i);
   for (std::size_t i = 0; i < rays.size; i += kWidth) {
@@ -190,7 +200,8 @@ void bounce_packets(const Bounce& bounce, const RayQueue& rays) {
     const Corners corners(bounce.scene, triangle, lanes);
     const Vec origin = Vec::load(rays.origin, i), direction = Vec::load(rays.direction, i);
     LaneSurface s = surface_of(corners, origin, direction, bounce.offset);
-    LaneMaterial m(bounce.scene, corners.material, reads_material ? lanes : Mask::from_bits(0));
+    LaneMaterial m(bounce.scene, corners.material,
+                   reads_material || bounce.scene.maps ? lanes : Mask::from_bits(0));
     if (m.layered != 0) m.coat_normal = s.n_shading;
     s.width = Float(0.0f);
     if (bounce.footprint->angle > 0.0f) {
@@ -198,9 +209,9 @@ void bounce_packets(const Bounce& bounce, const RayQueue& rays) {
           bounce.visible ? Float(bounce.footprint->start_width) : Float::load(rays.width + i);
       const Vec way = s.p_world - origin;
       s.width = before + Float(bounce.footprint->angle) * sqrt(dot(way, way));
-      if (m.mapped != 0) apply_maps(bounce, triangle, origin, direction, before, s, m);
+      if (m.mapped != 0) apply_maps(bounce, corners, triangle, origin, direction, before, wanted, s, m);
     } else if (m.mapped != 0) {
-      apply_maps(bounce, triangle, origin, direction, s.width, s, m);
+      apply_maps(bounce, corners, triangle, origin, direction, s.width, wanted, s, m);
     }
     Vec throughput = bounce.visible ? Vec(Float(1.0f)) : Vec::load(rays.light, i);
     std::optional<LaneMedia> surrounding;
@@ -228,6 +239,8 @@ void bounce_packets(const Bounce& bounce, const RayQueue& rays) {
       if constexpr (kSampled)
         if (bounce.lobes) lobe = sample_lobe(s, m, own, *samples, lanes, bounce);
     }
+    if constexpr (kSampled)
+      if (bounce.points) write_points(bounce, s, m, s.p_world - origin, pixel, lanes);
     const Vec certain = light_points<kSampled>(bounce, corners, s, m, own, lobe, samples, pixel, lanes);
     if (bounce.adds_light) add_light(own * certain, rays.pixel + i, lanes, bounce.radiance);
     if (bounce.prefiltered) {
@@ -240,12 +253,14 @@ void bounce_packets(const Bounce& bounce, const RayQueue& rays) {
     }
     if constexpr (kSampled)
       if (lobe.lanes.bits() != 0) {
-        light_along_lobe(bounce, s, lobe, own, pixel);
-        if (bounce.environment && !bounce.mirrored) sky_along_lobe(bounce, s, lobe, own, pixel);
+        const Int of_lobe = lobe_pixel(bounce, lobe, pixel);
+        light_along_lobe(bounce, s, lobe, own, of_lobe);
+        if (bounce.environment && !bounce.mirrored) sky_along_lobe(bounce, s, lobe, own, of_lobe);
       }
     if (bounce.mirrored) scatter<kSampled>(s, m, throughput, lobe, samples, pixel, lanes, bounce, media);
     if constexpr (kSampled)
-      if (bounce.diffuse) scatter_diffuse(bounce, s, m, own, *samples, pixel, lanes, media);
+      if (bounce.diffuse)
+        scatter_diffuse(bounce, s, m, own, *samples, pixel + Int(bounce.sampled), lanes, media);
   }
 }
 
@@ -255,7 +270,8 @@ void bounce_rays(const Bounce& bounce, const RayQueue& rays) {
 
 void visible_points(const Bounce& bounce, const glm::vec3& axis, const RayQueue& rays,
                     const SeenColumns& to) {
-  const bool reads_material = to.albedo[0] != nullptr || bounce.scene.mesh != nullptr;
+  const bool reads_material = to.albedo[0] != nullptr;
+  const unsigned wanted = maps_wanted(reads_material, false, false);
   const bool by_distance = axis == glm::vec3(0.0f);
   for (std::size_t i = 0; i < rays.size; i += kWidth) {
     fetch_triangles(bounce.scene, rays, i + kTrianglesAhead);
@@ -265,8 +281,9 @@ void visible_points(const Bounce& bounce, const glm::vec3& axis, const RayQueue&
     const Corners corners(bounce.scene, triangle, lanes);
     const Vec origin = Vec::load(rays.origin, i), direction = Vec::load(rays.direction, i);
     LaneSurface s = surface_of(corners, origin, direction, bounce.offset);
-    LaneMaterial m(bounce.scene, corners.material, reads_material ? lanes : Mask::from_bits(0));
-    if (m.mapped != 0) apply_maps(bounce, triangle, origin, direction, Float(0.0f), s, m);
+    LaneMaterial m(bounce.scene, corners.material,
+                   reads_material || bounce.scene.maps ? lanes : Mask::from_bits(0));
+    if (m.mapped != 0) apply_maps(bounce, corners, triangle, origin, direction, Float(0.0f), wanted, s, m);
     if (to.depth) {
       const Vec way = s.p_world - origin;
       (by_distance ? sqrt(dot(way, way)) : dot(way, Vec(axis))).store(to.depth + i);

@@ -1,30 +1,17 @@
 // Part of walk/kernel.h's files: shaders/shared/texture.glsl in lanes, operation by operation, so that the
-// texels have the bits of one look-up at a time. It is written for lanes, as their levels and taps differ
-// from lane to lane and a packet's texels are gathered.
+// texels have the bits of one look-up at a time. Where the texels lie is computed for a packet at once, and
+// for all textures that are read there. Texels are fetched a point at a time, the channels of two levels in
+// one register: gathers would cost more than all arithmetic on them.
 #pragma once
 
-#include <algorithm>
 #include <cmath>
 
-#include "core/shade/lane_texture.h"
+#include "core/shade/lane_maps.h"
+#include "core/simd/texels.h"
 #include "core/trace/lanes/shared.h"
 
 namespace pinocchio::PINOCCHIO_LANES {
 namespace {
-
-struct Texel {
-  Float c[4];
-};
-inline Texel mix(const Texel& a, const Texel& b, Float share) {
-  Texel mixed;
-  for (int i = 0; i < 4; ++i) mixed.c[i] = a.c[i] * (Float(1.0f) - share) + b.c[i] * share;
-  return mixed;
-}
-
-struct TextureLevel {
-  Int first;
-  Float width, height;
-};
 
 inline Float within_period(Float t, Wrap wrap) {
   if (wrap == Wrap::clamp) return min(max(t, Float(0.0f)), Float(1.0f));
@@ -39,81 +26,119 @@ inline Float wrapped_texel(Float i, Float n, Wrap wrap) {
   return min(max(i, Float(0.0f)), n - Float(1.0f));
 }
 
-inline Texel texel_at(const LaneTexture& t, Int i, Mask lanes) {
-  const Int count(static_cast<std::uint32_t>(t.width * t.height));
-  const Mask first = lanes & (i < count), other = lanes & ~first;
-  Int bits(0);
-  if (any(first)) bits = gather(t.first_level, i, first);
-  if (any(other)) bits = bits | gather(t.others, i - count, other);
-  const Int bytes[4] = {bits & Int(255), shift_in_zeros<8>(bits) & Int(255),
-                        shift_in_zeros<16>(bits) & Int(255), shift_in_zeros<24>(bits)};
-  Texel texel;
-  for (int c = 0; c < 4; ++c)
-    texel.c[c] = t.is_color && c < 3 ? from_bits(gather(t.linear_from_srgb8, bytes[c], lanes))
-                                     : to_float(bytes[c]) / Float(255.0f);
-  return texel;
-}
-
-inline Texel sample_level(const LaneTexture& t, Float u, Float v, const TextureLevel& level, Mask lanes) {
-  const Float half(t.nearest ? 0.0f : 0.5f), one(1.0f);
-  const Float x = u * level.width - half, y = v * level.height - half;
-  const Float base_x = floor(x), base_y = floor(y);
-  const Int width = to_int(level.width);
-  const auto column = [&](Float i) { return to_int(wrapped_texel(i, level.width, t.wrap_u)); };
-  const auto row = [&](Float i) {
-    return level.first + to_int(wrapped_texel(i, level.height, t.wrap_v)) * width;
-  };
-  const Int left = column(base_x), above = row(base_y);
-  if (t.nearest) return texel_at(t, above + left, lanes);
-  const Int right = column(base_x + one), below = row(base_y + one);
-  return mix(mix(texel_at(t, above + left, lanes), texel_at(t, above + right, lanes), x - base_x),
-             mix(texel_at(t, below + left, lanes), texel_at(t, below + right, lanes), x - base_x),
-             y - base_y);
-}
-
-// The two levels that each lane reads. Lane by lane, as logarithms are the library's.
+// The levels that each lane reads. Lane by lane, as logarithms are the library's.
 struct LaneLevels {
-  alignas(64) std::uint32_t first[2][kMostLanes];
-  alignas(64) float width[2][kMostLanes], height[2][kMostLanes];
-  alignas(64) float part[kMostLanes];  // of the second
+  alignas(64) std::uint32_t first[2][kMostLanes]{};
+  alignas(64) float width[2][kMostLanes]{}, height[2][kMostLanes]{};
+  alignas(64) float part[kMostLanes]{};  // of the second
+  unsigned largest = 0;                  // lanes whose first level is the texture's
 
-  LaneLevels(const LaneTexture& t, unsigned lanes, unsigned filtered, const float* texels_apart) {
+  LaneLevels(const TexturePlace& place, unsigned lanes, unsigned filtered, const float* texels_apart) {
     for (unsigned waiting = lanes; waiting != 0; waiting &= waiting - 1) {
       const int lane = __builtin_ctz(waiting);
-      const float most = static_cast<float>(t.levels - 1);
+      const float most = static_cast<float>(place.levels - 1);
       float lod = 0.0f;
       if (filtered >> lane & 1) lod = ::log2f(texels_apart[lane] < 65536.0f ? texels_apart[lane] : 65536.0f);
       lod = lod < 0.0f ? 0.0f : (most < lod ? most : lod);
-      int w = t.width, h = t.height, at = 0;
-      for (int level = static_cast<int>(lod); level >= 0; --level) {
-        first[0][lane] = static_cast<std::uint32_t>(at);
-        width[0][lane] = static_cast<float>(w);
-        height[0][lane] = static_cast<float>(h);
-        at += w * h;
-        w = w > 1 ? w / 2 : 1;
-        h = h > 1 ? h / 2 : 1;
+      const int fine = static_cast<int>(lod);
+      part[lane] = lod - static_cast<float>(fine);
+      if (fine == 0) largest |= 1u << lane;
+      for (int i = 0; i < 2; ++i) {
+        const TextureLevel& level = place.level[fine + i < place.levels ? fine + i : fine];
+        first[i][lane] = level.first;
+        width[i][lane] = level.width;
+        height[i][lane] = level.height;
       }
-      first[1][lane] = static_cast<std::uint32_t>(at);
-      width[1][lane] = static_cast<float>(w);
-      height[1][lane] = static_cast<float>(h);
-      part[lane] = lod - static_cast<float>(static_cast<int>(lod));
     }
-  }
-  [[nodiscard]] TextureLevel level(int i) const {
-    return {Int::load(first[i]), Float::load(width[i]), Float::load(height[i])};
   }
 };
 
-[[gnu::noinline]] void sample_texture(const LaneTexture& t, unsigned wanted, TexturePoints& p) {
+// The four texels about a point, and its place among them.
+struct LaneQuads {
+  alignas(64) std::uint32_t texel[4][kMostLanes];  // above left and right, below left and right
+  alignas(64) float x[kMostLanes], y[kMostLanes];
+
+  [[gnu::always_inline]] inline void find(const TexturePlace& place, Float u, Float v, Int first, Float width,
+                                          Float height) {
+    const Float one(1.0f);
+    if (place.nearest) {
+      const Int at = first + to_int(wrapped_texel(floor(v * height), height, place.wrap_v)) * to_int(width) +
+                     to_int(wrapped_texel(floor(u * width), width, place.wrap_u));
+      for (auto& column : texel) at.store(column);
+      Float(0.0f).store(x);
+      Float(0.0f).store(y);
+      return;
+    }
+    const Float at_x = u * width - Float(0.5f), at_y = v * height - Float(0.5f);
+    const Float base_x = floor(at_x), base_y = floor(at_y);
+    const Int left = to_int(wrapped_texel(base_x, width, place.wrap_u));
+    const Int right = to_int(wrapped_texel(base_x + one, width, place.wrap_u));
+    const Int above = first + to_int(wrapped_texel(base_y, height, place.wrap_v)) * to_int(width);
+    const Int below = first + to_int(wrapped_texel(base_y + one, height, place.wrap_v)) * to_int(width);
+    (above + left).store(texel[0]);
+    (above + right).store(texel[1]);
+    (below + left).store(texel[2]);
+    (below + right).store(texel[3]);
+    (at_x - base_x).store(x);
+    (at_y - base_y).store(y);
+  }
+};
+
+// A tap of each lane of `on`, added to the textures' sums.
+struct Taps {
+  LaneQuads quads[2];  // of the finer level, and of the coarser one
+
+  [[gnu::always_inline]] inline void add(const TexturePlace& place, const LaneLevels& levels, unsigned on,
+                                         unsigned between, unsigned maps, TexturePoints& p) const {
+    for (; on != 0; on &= on - 1) {
+      const int lane = __builtin_ctz(on);
+      const bool largest = (levels.largest >> lane & 1u) != 0, both = (between >> lane & 1u) != 0;
+      const LaneQuads &fine = quads[0], &coarse = quads[1];
+      const float part = levels.part[lane];
+      TexelWeights x, y;
+      x.set(fine.x[lane], coarse.x[lane]);
+      y.set(fine.y[lane], coarse.y[lane]);
+      for (int i = 0; i < place.count; ++i) {
+        const LaneTexture& t = place.textures[i];
+        if ((t.maps & maps) == 0) continue;
+        const void* const from = largest ? t.first_level : t.others;
+        TexelRow sum = load_row(p.texel[i][lane]);
+        if (both) {
+          TexelRows quad[4];
+          for (int k = 0; k < 4; ++k) {
+            const std::uint32_t a = texel_bits(from, fine.texel[k][lane]),
+                                b = texel_bits(t.others, coarse.texel[k][lane]);
+            t.linear_from_srgb8 ? quad[k].set_colors(a, b, t.linear_from_srgb8) : quad[k].set(a, b);
+          }
+          const TexelRows at = mixed(mixed(quad[0], quad[1], x), mixed(quad[2], quad[3], x), y);
+          sum = sum + (at.first() * (1.0f - part) + at.second() * part);
+        } else {
+          TexelRow quad[4];
+          for (int k = 0; k < 4; ++k) {
+            const std::uint32_t a = texel_bits(from, fine.texel[k][lane]);
+            quad[k] = t.linear_from_srgb8 ? color_row(a, t.linear_from_srgb8) : texel_row(a);
+          }
+          const float fx = fine.x[lane], fy = fine.y[lane];
+          sum = sum + mixed(mixed(quad[0], quad[1], fx), mixed(quad[2], quad[3], fx), fy);
+        }
+        store_row(p.texel[i][lane], sum);
+      }
+    }
+  }
+};
+
+[[gnu::noinline]] void sample_textures(const TexturePlace& place, unsigned wanted, unsigned maps,
+                                       TexturePoints& p) {
   const Mask lanes = Mask::from_bits(wanted);
-  const Float one(1.0f), zero(0.0f), width(static_cast<float>(t.width)), height(static_cast<float>(t.height));
+  const Float one(1.0f), zero(0.0f), width(place.level[0].width), height(place.level[0].height);
   const Float xu = Float::load(p.change_x[0]), xv = Float::load(p.change_x[1]);
   const Float yu = Float::load(p.change_y[0]), yv = Float::load(p.change_y[1]);
   const Float x0 = xu * width, x1 = xv * height, y0 = yu * width, y1 = yv * height;
   const Float xx = x0 * x0 + x1 * x1, yy = y0 * y0 + y1 * y1;
   const Float longer = sqrt(max(yy, xx));
-  const Mask filtered = t.levels > 1 ? lanes & (one < longer) & (longer < Float(1.0e18f)) & (zero < xx + yy)
-                                     : Mask::from_bits(0);
+  const Mask filtered = place.levels > 1
+                            ? lanes & (one < longer) & (longer < Float(1.0e18f)) & (zero < xx + yy)
+                            : Mask::from_bits(0);
   const Float shorter = max(abs(x0 * y1 - x1 * y0) / longer, one);
   const Float many = -floor(-(longer / shorter));
   const Float taps = select(filtered, min(max(many, one), Float(8.0f)), one);
@@ -122,27 +147,33 @@ struct LaneLevels {
 
   alignas(64) float texels_apart[kMostLanes];
   (longer / taps).store(texels_apart);
-  const LaneLevels levels(t, wanted, filtered.bits(), texels_apart);
-  const TextureLevel fine = levels.level(0), coarse = levels.level(1);
-  const Float part = Float::load(levels.part);
-  const Mask between = lanes & (zero < part);
+  const LaneLevels levels(place, wanted, filtered.bits(), texels_apart);
+  const unsigned between = (lanes & (zero < Float::load(levels.part))).bits();
 
-  Texel sum{{zero, zero, zero, zero}};
+  for (int i = 0; i < place.count; ++i)
+    for (unsigned lane = 0; lane < kWidth; ++lane) store_row(p.texel[i][lane], TexelRow{});
   const Float u = Float::load(p.uv[0]), v = Float::load(p.uv[1]);
+  Taps tap;
   for (float k = 0.5f;; k += 1.0f) {
-    const Mask on = lanes & (Float(k) < taps);
-    if (!any(on)) break;
+    const unsigned on = (lanes & (Float(k) < taps)).bits();
+    if (on == 0) break;
     const Float share = Float(k) / taps - Float(0.5f);
-    const Float at_u = within_period(u + along_u * share, t.wrap_u);
-    const Float at_v = within_period(v + along_v * share, t.wrap_v);
-    Texel texel = sample_level(t, at_u, at_v, fine, on);
-    if (const Mask both = on & between; any(both)) {
-      const Texel mixed = mix(texel, sample_level(t, at_u, at_v, coarse, both), part);
-      for (int c = 0; c < 4; ++c) texel.c[c] = select(both, mixed.c[c], texel.c[c]);
-    }
-    for (int c = 0; c < 4; ++c) sum.c[c] = select(on, sum.c[c] + texel.c[c], sum.c[c]);
+    const Float at_u = within_period(u + along_u * share, place.wrap_u);
+    const Float at_v = within_period(v + along_v * share, place.wrap_v);
+    for (int i = 0; i < 2; ++i)
+      if (i == 0 || (on & between) != 0)
+        tap.quads[i].find(place, at_u, at_v, Int::load(levels.first[i]), Float::load(levels.width[i]),
+                          Float::load(levels.height[i]));
+    tap.add(place, levels, on, between, maps, p);
   }
-  for (int c = 0; c < 4; ++c) (sum.c[c] / taps).store(p.texel[c]);
+  alignas(64) float count[kMostLanes];
+  taps.store(count);
+  for (unsigned waiting = wanted; waiting != 0; waiting &= waiting - 1) {
+    const int lane = __builtin_ctz(waiting);
+    if (count[lane] == 1.0f) continue;
+    for (int i = 0; i < place.count; ++i)
+      store_row(p.texel[i][lane], load_row(p.texel[i][lane]) / count[lane]);
+  }
 }
 
 }  // namespace

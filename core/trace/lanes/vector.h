@@ -40,6 +40,9 @@ inline Vec operator-(const Vec& a) {
 inline Vec& operator+=(Vec& a, const Vec& b) {
   return a = a + b;
 }
+inline Vec& operator*=(Vec& a, const Vec& b) {
+  return a = a * b;
+}
 inline Vec& operator*=(Vec& a, Float s) {
   return a = a * s;
 }

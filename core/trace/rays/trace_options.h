@@ -31,6 +31,7 @@ struct TraceOptions {
   EnvironmentMethod environment_light = EnvironmentMethod::sampled;
   Glossy glossy = Glossy::sampled;
   int sky_occlusion = 0;  // shadow rays about the normal for a prefiltered environment; 0: it casts none
+  bool denoise = false;   // light that is found at random is kept apart for the filter (core/denoise)
   GlassShadows glass_shadows = kUsualGlassShadows;
   glm::vec2 jitter{0.0f};       // View's: tells the samples of a pixel apart where they decide at random
   shared::Sampling sampling{};  // the sample of sized lights, rough mirrors and the environment

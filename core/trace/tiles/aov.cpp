@@ -73,7 +73,7 @@ void write_visible_points(const VisibleScene& of, const PixelBox& tile, const st
   if (of.filter_textures)
     footprint = of.model ? of.model->footprint((tile.lo + tile.hi) / 2, 1.0f) : Footprint::of_camera(of.view);
   Bounce at;
-  at.scene = SceneArrays::of(of.mesh);
+  at.scene = of.arrays;
   at.footprint = &footprint;
   of.steps.visible_points(at, of.model ? of.model->depth_axis() : view_axis(of.view), rays, seen);
 
@@ -107,7 +107,9 @@ SurfaceImages surface_images(const Mesh& mesh, const shared::ViewParams& view,
   const glm::ivec2 size{ids.width(), y1 - y0};
   SurfaceImages images{Image<float>(size), Image<glm::vec3>(size), Image<glm::vec3>(size),
                        Image<glm::vec3>(size)};
-  write_visible_lines({mesh, lane_steps(default_isa()), view, filter_textures}, ids, y0, y1,
+  const LaneMapsOf maps(mesh);
+  const SceneArrays arrays = SceneArrays::of(mesh, maps);
+  write_visible_lines({arrays, lane_steps(default_isa()), view, filter_textures}, ids, y0, y1,
                       arrays_of(images));
   return images;
 }

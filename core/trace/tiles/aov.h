@@ -17,7 +17,7 @@ class RayModel;
 
 // The scene and the view whose visible points are described.
 struct VisibleScene {
-  const Mesh& mesh;
+  const SceneArrays& arrays;
   const LaneSteps& steps;
   const shared::ViewParams& view;
   bool filter_textures = true;

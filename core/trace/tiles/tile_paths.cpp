@@ -17,7 +17,10 @@ constexpr float kLeastCoverage = 1e-30f;
 void TileTracer::follow() {
   std::size_t rays = next_diffuse_.size;
   for (const RayQueue& queue : rays_) rays += queue.size;
-  if (!reflects_ && rays > 0) reflected_.fill(glm::vec4(0.0f)), reflects_ = true;
+  if (!reflects_ && rays > 0) {
+    reflects_ = true;
+    begin_light();
+  }
   follow_mirrors(0);
   for (int bounce = 1; bounce <= plan_->out.indirect && next_diffuse_.size > 0; ++bounce) {
     follow_diffuse(bounce);
@@ -39,8 +42,8 @@ void TileTracer::follow_diffuse(int bounce_count) {
   step.of_matt = true;
   find_hits(diffuse_, generation);
   plan_->job.tracer.steps().keep_hits(diffuse_);
-  bounce(step, generation, diffuse_, rays_, reflected_);
-  fire_shadows(generation, reflected_);
+  bounce(step, generation, diffuse_, rays_, reflected_.data());
+  fire_shadows(generation, reflected_.data());
   fire_at_environment(generation);
 }
 
@@ -68,9 +71,9 @@ void TileTracer::follow_mirrors(int bounce_count) {
         plan_->job.tracer.steps().add_environment(*plan_->environment, plan_->further.environment != nullptr,
                                                   queue, &reflected_[0].x);
       plan_->job.tracer.steps().keep_hits(queue);
-      bounce(step, generation, queue, next_, reflected_, of_camera);
+      bounce(step, generation, queue, next_, reflected_.data(), of_camera);
     }
-    fire_shadows(generation, reflected_);
+    fire_shadows(generation, reflected_.data());
     fire_at_environment(generation);
     std::swap(rays_, next_);
   }
@@ -99,7 +102,7 @@ void TileTracer::fire_reflected(RayQueue& queue, float reach, const RayQueue& wa
   if (plan_->out.on_rays) plan_->out.on_rays({queue.columns(reach), queue.size, generation, true});
   ask_occluded(queue, reach);
   block_by_ways_up(ways_up, generation);
-  if (plan_->tints) add_light_through_glass(queue);
+  if (plan_->tints) add_light_through_glass(queue, reflected_.data());
   for (std::size_t i = 0; i < queue.size; ++i)
     if (!blocked_[i])
       reflected_[queue.pixel[i]] += glm::vec4(queue.light[0][i], queue.light[1][i], queue.light[2][i], 0.0f);
@@ -133,9 +136,9 @@ void TileTracer::block_by_ways_up(const RayQueue& up, int generation) {
 
 // Adds what came of the last shadow rays' light through glass. It is traced light at visible points, too: the
 // mask has no shades.
-void TileTracer::add_light_through_glass(const RayQueue& queue) {
+void TileTracer::add_light_through_glass(const RayQueue& queue, glm::vec4* to) {
   for (const TintedShadows::Lit& lit : tinted_.lit())
-    if (blocked_[lit.ray] == 1) reflected_[queue.pixel[lit.ray]] += glm::vec4(lit.light, 0.0f);
+    if (blocked_[lit.ray] == 1) to[queue.pixel[lit.ray]] += glm::vec4(lit.light, 0.0f);
 }
 
 // Adds the environment where nothing is hit; alpha stays 0.

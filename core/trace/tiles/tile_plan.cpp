@@ -33,9 +33,15 @@ bool any_maps(const Mesh& mesh, bool (MaterialMaps::*is)() const) {
 
 }  // namespace
 
-SceneArrays SceneArrays::of(const Mesh& mesh) {
-  return {mesh.positions.data(),          mesh.normals.data(),   mesh.triangles.data(),
-          mesh.triangle_materials.data(), mesh.materials.data(), mesh.maps.empty() ? nullptr : &mesh};
+SceneArrays SceneArrays::of(const Mesh& mesh, const LaneMapsOf& maps) {
+  return {mesh.positions.data(),
+          mesh.normals.data(),
+          mesh.triangles.data(),
+          mesh.triangle_materials.data(),
+          mesh.materials.data(),
+          maps.data(),
+          mesh.colors.empty() ? nullptr : mesh.colors.data(),
+          mesh.tangents.empty() ? nullptr : mesh.tangents.data()};
 }
 
 void TilePlan::set_view(const shared::ViewParams& from, const RayModel* rays) {
@@ -53,15 +59,16 @@ void TilePlan::set_view(const shared::ViewParams& from, const RayModel* rays) {
 TilePlan::TilePlan(const TraceJob& j, const TileOutputs& o)
     : job(j),
       out(o),
+      maps(*j.scene.mesh),
       has_holes(any_maps(*j.scene.mesh, &MaterialMaps::has_holes)),
       blends(any_maps(*j.scene.mesh, &MaterialMaps::blends)),
-      tints((o.reflection || o.color || o.added) && tints_shadows(*j.scene.mesh, j.options)),
+      tints((o.reflection || o.color || o.added || o.sampled) && tints_shadows(*j.scene.mesh, j.options)),
       passed_backs(*j.scene.mesh, j.options.backfaces),
       all_lights(lights_of(j.scene)),
       casting(casting_lights(j.scene).size()),
       sized_lights(static_cast<std::size_t>(std::ranges::count_if(j.scene.lights, &Light::has_size))) {
   straight_apart = blends && (passed_backs.any() || o.coverage);
-  further.scene = SceneArrays::of(*job.scene.mesh);
+  further.scene = SceneArrays::of(*job.scene.mesh, maps);
   further.offset = job.tracer.offset();
   further.options = &job.options;
   further.footprint = &further_footprint;
@@ -82,7 +89,8 @@ TilePlan::TilePlan(const TraceJob& j, const TileOutputs& o)
     if (!sampled) environment->prefiltered = prefiltered(job.scene.environment);
     (sampled ? further.environment : further.prefiltered) = &*environment;
   }
-  further.lobes = further.samples && sampled_lobes && microfacets && (o.reflection || o.color || o.added);
+  further.lobes =
+      further.samples && sampled_lobes && microfacets && (o.reflection || o.color || o.added || o.sampled);
   shadows = further;
   shadows.footprint = &no_footprint;
   visible = further;
@@ -91,7 +99,8 @@ TilePlan::TilePlan(const TraceJob& j, const TileOutputs& o)
   visible.adds_ambient = out.color != nullptr;
   visible.adds_light = out.color || out.added;
   for (const BounceLight& light : all_lights)
-    if (light.slot >= 0 ? out.mask_bits > 0 : visible.adds_ambient) visible_lights.push_back(light);
+    if (light.slot >= 0 ? out.mask_bits > 0 : visible.adds_ambient || (out.sampled && light.has_size))
+      visible_lights.push_back(light);
   visible.lights = visible_lights.data();
   visible.light_count = visible_lights.size();
   set_view(j.view, j.model);

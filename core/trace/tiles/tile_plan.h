@@ -21,6 +21,7 @@ struct TilePlan {
 
   const TraceJob& job;
   const TileOutputs& out;
+  LaneMapsOf maps;
   shared::ViewParams view;          // of the samples
   const RayModel* model = nullptr;  // makes the camera's rays; null: `view` does
   glm::ivec2 first{0};              // the first pixel, in the whole picture

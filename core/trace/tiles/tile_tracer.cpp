@@ -46,7 +46,8 @@ TileResult TileTracer::trace(const TilePlan& plan, const PixelBox& tile) {
   plan_ = &plan;
   tile_ = tile;
   counts_ = {};
-  reflects_ = false;
+  reflects_ = plan.out.sampled != nullptr;
+  if (reflects_) begin_light();
   TileTimes times;
   Lap lap;
   start();
@@ -61,6 +62,12 @@ TileResult TileTracer::trace(const TilePlan& plan, const PixelBox& tile) {
   write();
   times.composite = lap.restart();
   return {counts_, times};
+}
+
+// Nothing is mirrored yet, and nothing seen by the filter.
+void TileTracer::begin_light() {
+  std::fill_n(reflected_.begin(), plan_->out.sampled ? 2 * kPixels : kPixels, glm::vec4(0.0f));
+  if (plan_->out.sampled) points_.assign(kPixels, {});
 }
 
 // Makes the rays of the tile's pixels; with given ids, of the pixels that see something.
@@ -169,7 +176,7 @@ void TileTracer::make_room(std::size_t rays, Generation& next) {
 }
 
 void TileTracer::bounce(Bounce step, int generation, const RayQueue& rays, Generation& next,
-                        Radiance& radiance, bool of_camera) {
+                        glm::vec4* radiance, bool of_camera) {
   step.corner = glm::uvec2(plan_->first + tile_.lo * plan_->out.scale);
   step.dimension = static_cast<std::uint32_t>(generation) * shared::kDimensionsOfBounce;
   step.shadow = shadow_.data();
@@ -177,7 +184,7 @@ void TileTracer::bounce(Bounce step, int generation, const RayQueue& rays, Gener
   step.sky = &sky_;
   step.sky_ways_up = &sky_ways_up_;
   step.lobe_lights = &lobe_lights_;
-  step.radiance = &radiance[0].x;
+  step.radiance = &radiance->x;
   step.traced = &reflected_[0].x;
   if (step.mirrored) {
     step.mirrored = &next[kMirrored];
@@ -202,15 +209,20 @@ void TileTracer::light_visible() {
   if (!step.mirrored && !step.diffuse && step.light_count == 0 && !step.adds_ambient && !step.environment &&
       !step.prefiltered)
     return;
-  reflects_ = step.environment || step.prefiltered || step.lobes || step.tints;
-  if (reflects_) reflected_.fill(glm::vec4(0.0f));
-  bounce(step, 0, seen_, rays_, direct_, true);
-  fire_shadows(0, direct_);
+  if (plan_->out.sampled) {
+    step.sampled = kSampledPixels;
+    step.points = points_.data();
+  } else if (step.environment || step.prefiltered || step.lobes || step.tints) {
+    reflects_ = true;
+    begin_light();
+  }
+  bounce(step, 0, seen_, rays_, direct_.data(), true);
+  fire_shadows(0, direct_.data());
   fire_at_environment(0);
 }
 
-void TileTracer::fire_shadows(int generation, Radiance& radiance) {
-  const bool visible = generation == 0, adds = !visible || plan_->visible.adds_light;
+void TileTracer::fire_shadows(int generation, glm::vec4* radiance) {
+  const bool visible = generation == 0;
   for (const BounceLight& light : plan_->all_lights) {
     if (light.slot < 0) continue;
     const RayQueue& queue = shadow_[static_cast<std::size_t>(light.slot)];
@@ -223,11 +235,13 @@ void TileTracer::fire_shadows(int generation, Radiance& radiance) {
     if (visible)  // without a branch, which would be predicted badly at the edges of shadows
       for (std::size_t i = 0; i < queue.size; ++i)
         mask_[queue.pixel[i]] |= static_cast<std::uint8_t>(((blocked_[i] & 1u) ^ 1u) << light.slot);
-    if (plan_->tints) add_light_through_glass(queue);
-    if (!adds) continue;
+    const bool apart = visible && plan_->out.sampled && light.has_size;
+    if (plan_->tints) add_light_through_glass(queue, apart ? &reflected_[kSampledPixels] : reflected_.data());
+    if (visible && !apart && !plan_->visible.adds_light) continue;
+    glm::vec4* const to = apart ? &reflected_[kSampledPixels] : radiance;
     for (std::size_t i = 0; i < queue.size; ++i)
       if (!blocked_[i])
-        radiance[queue.pixel[i]] += glm::vec4(queue.light[0][i], queue.light[1][i], queue.light[2][i], 0.0f);
+        to[queue.pixel[i]] += glm::vec4(queue.light[0][i], queue.light[1][i], queue.light[2][i], 0.0f);
   }
 }
 
@@ -244,6 +258,11 @@ void TileTracer::write() {
       std::memset(of(out.reflection), 0, width * sizeof(glm::vec3));
     else if (out.reflection)
       for (std::size_t i = 0; i < width; ++i) of(out.reflection)[i] = glm::vec3(reflected[i]);
+    if (out.sampled)
+      for (std::size_t i = 0; i < width; ++i) {
+        SampledPoint& point = of(out.sampled)[i] = points_[row + i];
+        point.light = glm::vec3(reflected_[kSampledPixels + row + i]);
+      }
     if (empty) {
       if (out.color) std::memset(of(out.color), 0, width * sizeof(glm::vec4));
       continue;

@@ -25,9 +25,12 @@ class TileTracer {
   enum Kind : std::size_t { kMirrored, kRefracted, kStraight, kStraightFromCamera, kKinds };
   using Generation = std::array<RayQueue, kKinds>;
   // Linear RGB; A is 1 where something is hit.
-  using Radiance = std::array<glm::vec4, kPixels>;
+  template <std::size_t kCount>
+  using Radiance = std::array<glm::vec4, kCount>;
+  static_assert(kSampledPixels == kPixels);
 
   void start();
+  void begin_light();
   [[nodiscard]] bool fetch_ids();
   void find_hits(RayQueue& rays, int generation, bool of_camera = false);
   void find_visible();
@@ -37,16 +40,16 @@ class TileTracer {
   void follow_diffuse(int bounce);
   void uncover(const RayQueue& straight);
   void paint_background();
-  void bounce(Bounce step, int generation, const RayQueue& rays, Generation& next, Radiance& radiance,
+  void bounce(Bounce step, int generation, const RayQueue& rays, Generation& next, glm::vec4* radiance,
               bool of_camera = false);
   [[nodiscard]] ExtraColumns extra_columns() const;
   void make_room(std::size_t rays, Generation& next);
-  void fire_shadows(int generation, Radiance& radiance);
+  void fire_shadows(int generation, glm::vec4* radiance);
   void fire_at_environment(int generation);
   void fire_reflected(RayQueue& queue, float reach, const RayQueue& ways_up, int generation);
   void ask_occluded(const RayQueue& queue, float reach);
   void block_by_ways_up(const RayQueue& up, int generation);
-  void add_light_through_glass(const RayQueue& queue);
+  void add_light_through_glass(const RayQueue& queue, glm::vec4* to);
   void write();
 
   const TilePlan* plan_ = nullptr;
@@ -62,7 +65,9 @@ class TileTracer {
   std::vector<std::uint8_t> up_blocked_;
   Holes holes_;
   TintedShadows tinted_;
-  Radiance direct_, reflected_;
+  Radiance<kPixels> direct_;
+  Radiance<2 * kPixels> reflected_;  // from kSampledPixels on: what is kept apart
+  std::vector<SampledPoint> points_;
   Footprint seen_footprint_;  // of the tile, where a RayModel makes the rays
   bool reflects_ = false;     // reflected_ may hold light
   std::array<std::uint8_t, kPixels> mask_;

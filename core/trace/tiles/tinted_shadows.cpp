@@ -7,7 +7,7 @@
 namespace pinocchio {
 namespace {
 
-glm::vec3 at(float* const (&columns)[3], std::size_t i) {
+glm::vec3 vector_at(float* const (&columns)[3], std::size_t i) {
   return {columns[0][i], columns[1][i], columns[2][i]};
 }
 
@@ -45,7 +45,8 @@ void TintedShadows::find_holes(const Mesh& mesh, const RayQueue& rays, const Sam
     const std::uint32_t triangle = on_.triangle[k];
     holes_[k] = 0;
     if (triangle == kNoTriangle || !mesh.maps_of(triangle)) continue;
-    const glm::vec3 weights = weights_at(mesh, triangle, at(on_.origin, k), at(on_.direction, k));
+    const glm::vec3 weights =
+        weights_at(mesh, triangle, vector_at(on_.origin, k), vector_at(on_.direction, k));
     holes_[k] = passes_hole(mesh, triangle, weights, place, rays.pixel[on_.pixel[k]]) ? 1 : 0;
   }
 }
@@ -54,7 +55,7 @@ void TintedShadows::find_holes(const Mesh& mesh, const RayQueue& rays, const Sam
 void TintedShadows::keep_going(float least, std::uint8_t* blocked) {
   std::size_t kept = 0;
   for (std::size_t k = 0; k < on_.size; ++k) {
-    const glm::vec3 light = at(on_.light, k);
+    const glm::vec3 light = vector_at(on_.light, k);
     const std::uint32_t from = on_.pixel[k];
     if (on_.triangle[k] == kNoTriangle) {
       if (is_tinted_[k])

@@ -126,7 +126,7 @@ class Share {
 
   void add_surfaces(const Camera& camera, std::size_t frame, const PixelBox& tile) {
     const std::optional<RayModel> model = model_of(camera, tile);
-    const VisibleScene of{*job_.scene.mesh, job_.tracer.steps(),
+    const VisibleScene of{plan_.visible.scene, job_.tracer.steps(),
                           view_params(camera, job_.size, glm::vec2(0.0f), tile.lo),
                           job_.options.texture_footprint > 0.0f, model ? &*model : nullptr};
     write_visible_points(of, {{0, 0}, tile.size()}, &images_.ids.at(0, 0), kSide, to_, row_of(frame, tile, 0),

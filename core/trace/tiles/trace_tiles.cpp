@@ -14,6 +14,7 @@ TileResult trace_tiles(const TraceJob& job, const TileOutputs& outputs) {
   fit(outputs.ids);
   fit(outputs.reflection);
   fit(outputs.color);
+  fit(outputs.sampled);
   if (outputs.mask) outputs.mask->resize(size, outputs.mask_bits);
 
   const TilePlan plan(job, outputs);

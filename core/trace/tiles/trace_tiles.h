@@ -8,6 +8,7 @@
 #include <glm/glm.hpp>
 #include <vector>
 
+#include "core/denoise/sampled_point.h"
 #include "core/parallel/workers.h"
 #include "core/shade/shared.h"
 #include "core/trace/rays/ray_queue.h"
@@ -80,6 +81,9 @@ struct TileOutputs {
   bool coverage = false;
   // The part of the composite that rays decide (casting lights, reflection) is added to this image.
   Image<glm::vec3>* added = nullptr;
+  // The light that is found at random: of lights with a size, the environment, rough mirrors and other
+  // surfaces. It is in none of the images above then. Null: it is in them.
+  Image<SampledPoint>* sampled = nullptr;
 
   // Called with every batch, from all threads.
   std::function<void(const RayBatch&)> on_rays;

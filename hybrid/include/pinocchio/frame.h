@@ -117,6 +117,9 @@ struct FrameResult {
   std::size_t holes = 0;        // reprojected: pixels without a value in any older frame
   // The frame that the layer `motion` leads to, which the caller sets. None: to this one, so that it is 0.
   std::optional<MotionTo> motion{};
+  // With Settings::average_layers and several samples: the layers N and Albedo, means over the samples; a
+  // sample that hits nothing counts as 0. Else empty.
+  Image<glm::vec3> mean_normal{}, mean_albedo{};
 };
 
 // The properties of the frame's visible points, computed from its ids.

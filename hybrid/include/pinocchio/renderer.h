@@ -30,6 +30,9 @@ struct FrameRequest {
   // One value for each tile of 32 x 32 pixels, row by row. Where it is not 0 nothing is traced, and the
   // picture there is undefined. Null: all tiles are traced.
   std::shared_ptr<const std::vector<std::uint8_t>> left_out{};
+  // With denoise: the mean of the samples so far is shown after each, so that it is filtered from the first
+  // one on, and not after the last of Settings::spp alone.
+  bool shows_samples = false;
 
   friend bool operator==(const FrameRequest&, const FrameRequest&) = default;
 };

@@ -102,6 +102,7 @@ struct Settings {
   Setting<Glossy> glossy;
   Setting<int> sky_occlusion;
   Setting<GlassShadows> glass_shadows = Setting<GlassShadows>::by_default(kUsualGlassShadows);
+  Setting<bool> denoise, average_layers;
   Setting<Terminator> terminator = Setting<Terminator>::by_default(kUsualTerminator);
   Setting<Backfaces> backfaces = Setting<Backfaces>::by_default(Backfaces::automatic);
   Setting<bool> coverage;
@@ -171,6 +172,9 @@ bool apply_preset(std::string_view option, std::string_view value, Settings& set
 
 // Lets the CPU draw alone, whatever is set: for views that OpenGL cannot draw (View::is_rasterisable).
 void draw_on_cpu(Settings& settings);
+
+// Whether the other settings let light be filtered.
+[[nodiscard]] bool can_denoise(const Settings& settings);
 
 // A combination of fields that is not allowed, and the reason.
 struct Rule {

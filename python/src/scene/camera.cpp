@@ -67,7 +67,7 @@ void set_distortion(Camera& camera, const std::vector<double>& given) {
                 (is_fisheye ? "a fisheye has 4: k1, k2, k3, k4"
                             : "there are 4, 5 or 8: k1, k2, p1, p2, k3, k4, k5, k6, as OpenCV orders them"));
   if (n > 0 && !is_fisheye && camera.projection != Projection::perspective)
-    throw Error("perspective cameras and fisheyes have a distortion, others have none");
+    throw Error("only perspective and fisheye cameras can have a distortion");
   camera.distortion = {};
   for (std::size_t i = 0; i < n; ++i)
     camera.distortion[i] = number_within(given[i], "distortion", -kLargest, kLargest);

@@ -28,7 +28,7 @@ Light light_of(const std::optional<Three>& position, const std::optional<Three>&
                const Three& color, float intensity, const std::string& falloff, float range, float inner_cone,
                float outer_cone, bool casts_shadow, const std::string& name, float radius, float angle) {
   if (!position && !direction)
-    throw Error("a light has a position (a point), a direction (a sun) or both (a spot)");
+    throw Error("a light needs a position (a point), a direction (a sun) or both (a spot)");
   Light light;
   light.name = name;
   // The first kind that has what is given: no rectangle.

@@ -10,7 +10,7 @@ Texture texture_of(const Texels& argument) {
   const auto texels = argument.read("texture");
   const std::size_t channels = texels.shape(2);
   if (channels < 3 || channels > 4 || texels.shape(0) == 0 || texels.shape(1) == 0)
-    throw Error("a texture is an array (height, width, 3 or 4) of uint8, sRGB");
+    throw Error("a texture must be an array (height, width, 3 or 4) of uint8, sRGB");
   Texture texture{"", Image<glm::u8vec4>({texels.shape(1), texels.shape(0)})};
   const std::uint8_t* from = texels.data();
   for (glm::u8vec4& texel : texture.texels.pixels()) {

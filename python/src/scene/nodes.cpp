@@ -26,11 +26,7 @@ int node_of(const Scene& scene, const std::variant<int, std::string>& name) {
 // A scene is copied (cheaply) before it is read without the GIL, because other threads may change it.
 PyScene with_transforms(const PyScene& self, const nb::dict& transforms) {
   const Scene scene = self.now();
-  std::vector<NodeTransform> moves;
-  for (const auto& [name, matrix] : transforms)
-    moves.push_back(
-        {node_of(scene, nb::cast<std::variant<int, std::string>>(name)),
-         Matrix{nb::borrow(matrix)}.read("the transform of " + std::string(nb::repr(name).c_str()))});
+  const std::vector<NodeTransform> moves = transforms_of(scene, transforms);
   return PyScene(value_or_throw(without_gil([&](Progress*) { return posed(scene, moves); })));
 }
 
@@ -52,6 +48,15 @@ std::vector<std::string> node_names(const Scene& scene) {
     names.push_back(std::move(name));
   }
   return names;
+}
+
+std::vector<NodeTransform> transforms_of(const Scene& scene, const nb::dict& transforms) {
+  std::vector<NodeTransform> moves;
+  for (const auto& [name, matrix] : transforms)
+    moves.push_back(
+        {node_of(scene, nb::cast<std::variant<int, std::string>>(name)),
+         Matrix{nb::borrow(matrix)}.read("the transform of " + std::string(nb::repr(name).c_str()))});
+  return moves;
 }
 
 void bind_nodes(nb::class_<PyScene>& bound) {

@@ -59,10 +59,10 @@ PyScene assemble(const nb::dict& parts) {
     const bool placed = nb::isinstance<nb::tuple>(part);
     const std::string named = nb::cast<std::string>(name);
     if (placed && nb::len(part) != 2)
-      throw Error("the part '" + named + "' is a scene, or (scene, 4x4 matrix)");
+      throw Error("the part '" + named + "' must be a scene, or (scene, 4x4 matrix)");
     const nb::object scene = placed ? nb::object(part[0]) : nb::borrow(part);
     if (!nb::isinstance<PyScene>(scene))
-      throw Error("the part '" + named + "' is a scene, or (scene, 4x4 matrix)");
+      throw Error("the part '" + named + "' must be a scene, or (scene, 4x4 matrix)");
     scenes.push_back(nb::cast<const PyScene&>(scene).now());
     all.push_back({named, scenes.back(),
                    placed ? Matrix{part[1]}.read("the matrix of '" + named + "'") : glm::mat4(1.0f)});

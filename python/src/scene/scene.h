@@ -1,8 +1,11 @@
 #pragma once
 
+#include <pinocchio/nodes.h>
 #include <pinocchio/scene.h>
 
 #include <memory>
+#include <string>
+#include <vector>
 
 #include "python/src/support/convert.h"
 
@@ -27,6 +30,9 @@ struct TexturedMaterial {
 
 // The nodes' names: '#7' for node 7 where it has none, 'wheel#7' where an earlier node has its name.
 [[nodiscard]] std::vector<std::string> node_names(const Scene& scene);
+
+// The moves of {name or index: 4x4 matrix from the node to its parent}. Throws Error.
+[[nodiscard]] std::vector<NodeTransform> transforms_of(const Scene& scene, const nb::dict& transforms);
 
 // Scene's properties and methods of nodes.
 void bind_nodes(nb::class_<PyScene>& bound);

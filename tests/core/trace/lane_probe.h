@@ -6,7 +6,7 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "core/shade/lane_texture.h"
+#include "core/shade/lane_maps.h"
 #include "core/shade/shared.h"
 #include "core/simd/isas.h"
 #include "core/trace/lanes/environment_params.h"
@@ -48,7 +48,7 @@ struct LaneProbe {
                   std::uint32_t dimension, float* u, float* v, std::size_t count);
   // x^y for x > 0.
   void (*power)(const float* x, const float* y, float* result, std::size_t count);
-  SampleTexture sample_texture;
+  SampleTextures sample_textures;
   // The environment's light from directions, three columns each, and its samples' density there.
   void (*environment_light)(const EnvironmentLight& environment, const float* const* direction,
                             float* const* light, float* density, std::size_t count);

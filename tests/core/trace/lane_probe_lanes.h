@@ -131,7 +131,7 @@ void values(LaneOp op, const std::uint32_t* a, const std::uint32_t* b, std::uint
 
 }  // namespace
 
-const LaneProbe kProbe{Isa::PINOCCHIO_LANES, kWidth, samples, powers, sample_texture, environment_lights,
+const LaneProbe kProbe{Isa::PINOCCHIO_LANES, kWidth, samples, powers, sample_textures, environment_lights,
                        environment_samples,  values, angles};
 
 }  // namespace pinocchio::PINOCCHIO_LANES

@@ -66,26 +66,32 @@ TEST(LaneTexture, SameBitsAsOneByOneAtEveryWidth) {
         for (const bool nearest : {false, true})
           uses.push_back({.texture = texture, .wrap_u = wrap_u, .wrap_v = wrap_v, .nearest = nearest});
   for (const Isa isa : supported_isas()) {
-    const SampleTexture sample = lane_probe(isa).sample_texture;
+    const SampleTextures sample = lane_probe(isa).sample_textures;
     const unsigned width = lane_probe(isa).width;
     for (const TextureUse& use : uses)
       for (int round = 0; round < 20; ++round) {
-        const bool is_color = round % 2 == 0;
         TexturePoints points{};
         for (unsigned lane = 0; lane < width; ++lane) place(points, lane, random);
         const unsigned lanes = round == 0 ? 1u : (1u << width) - 1u;
-        sample(lane_texture(mesh, use, is_color), lanes, points);
+        TexturePlace at = texture_place(mesh, use);
+        const LaneTexture textures[]{lane_texture(mesh, use, true, 1u), lane_texture(mesh, use, false, 2u)};
+        at.textures = textures;
+        at.count = 2;
+        sample(at, lanes, 3u, points);
         for (unsigned lane = 0; lane < width && lanes >> lane & 1u; ++lane) {
-          const auto at = [&](const TexturePoints::Column(&of)[2]) {
-            return glm::vec2(of[0][lane], of[1][lane]);
+          const auto of = [&](const TexturePoints::Column(&columns)[2]) {
+            return glm::vec2(columns[0][lane], columns[1][lane]);
           };
-          const glm::vec4 one(shared::texels::sample_texture(
-              params_of(mesh, use), {at(points.uv), at(points.change_x), at(points.change_y)}, is_color));
-          for (int c = 0; c < 4; ++c) {
-            ASSERT_TRUE(std::isfinite(one[c]));
-            ASSERT_EQ(std::memcmp(&points.texel[c][lane], &one[c], sizeof(float)), 0)
-                << isa_name(isa) << " texture " << use.texture << " channel " << c << ": "
-                << points.texel[c][lane] << " " << one[c];
+          for (const bool is_color : {true, false}) {
+            const glm::vec4 one(shared::texels::sample_texture(
+                params_of(mesh, use), {of(points.uv), of(points.change_x), of(points.change_y)}, is_color));
+            const float* const texel = points.texel[is_color ? 0 : 1][lane];
+            for (int c = 0; c < (is_color ? 3 : 4); ++c) {
+              ASSERT_TRUE(std::isfinite(one[c]));
+              ASSERT_EQ(std::memcmp(&texel[c], &one[c], sizeof(float)), 0)
+                  << isa_name(isa) << " texture " << use.texture << " channel " << c << ": " << texel[c]
+                  << " " << one[c];
+            }
           }
         }
       }

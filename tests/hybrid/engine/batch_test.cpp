@@ -1,8 +1,11 @@
 // Many pictures into arrays are, bit for bit, the pictures one by one; measured cameras on both processors.
 #include "pinocchio/batch.h"
 
+#include <array>
 #include <atomic>
 #include <cstdlib>
+#include <cstring>
+#include <glm/gtc/matrix_transform.hpp>
 #include <new>
 
 #include "tests/support/draw.h"
@@ -149,6 +152,74 @@ TEST(BatchOutputs, EndWhenTheyAreCancelled) {
   EXPECT_THROW((void)render_many(engine, scene, cameras_of(scene, 2), kSize, by({{"mode", "raytrace"}}),
                                  arrays.all(), &progress),
                Cancelled);
+}
+
+// Poses that are made while earlier ones are drawn: two pictures of one pose, one of the scene as it is, and
+// the last one from the scene's own camera.
+class Poses : public testing::TestWithParam<const char*> {
+ protected:
+  [[nodiscard]] NodeTransform turned(float degrees) const {
+    const auto node = static_cast<int>(scene_.nodes->nodes.size()) - 1;
+    const glm::mat4& local = scene_.nodes->nodes.back().local;
+    return {node, glm::rotate(local, glm::radians(degrees), glm::vec3(0.0f, 0.0f, 1.0f))};
+  }
+
+  const Scene scene_ = load_or_die(source_path("scenes/windmill"));
+  const std::vector<NodeTransform> a_{turned(20.0f)}, b_{turned(40.0f)};
+  const std::vector<Camera> cameras_ = cameras_of(scene_, 4);
+  const std::array<PosedPicture, 5> pictures_{PosedPicture{a_, cameras_[0]}, PosedPicture{a_, cameras_[1]},
+                                              PosedPicture{{}, cameras_[2]}, PosedPicture{b_, cameras_[3]},
+                                              PosedPicture{a_, std::size_t{0}}};
+};
+INSTANTIATE_TEST_SUITE_P(Modes, Poses, testing::Values("raytrace", "hybrid"));
+
+TEST_P(Poses, AreThePicturesOneByOne) {
+  Settings settings = by({{"mode", GetParam()}});
+  settings.threads = 2;
+  Engine engine, other;
+  Arrays arrays(pictures_.size());
+  const Expected<RayCounts> drawn = render_many(engine, scene_, pictures_, kSize, settings, arrays.all());
+  ASSERT_TRUE(drawn) << drawn.error().message();
+  for (std::size_t i = 0; i < pictures_.size(); ++i) {
+    const Scene now = posed(scene_, pictures_[i].pose).value();
+    const auto* const camera = std::get_if<Camera>(&pictures_[i].camera);
+    const FrameResult frame =
+        other.render(now, {.camera = camera ? *camera : now.cameras.front(), .size = kSize}, settings)
+            .value();
+    EXPECT_TRUE(same(frame.color, arrays.color, i));
+    EXPECT_TRUE(same(frame.ids, arrays.ids, i));
+    EXPECT_TRUE(same(surfaces_of(frame).p_world, arrays.position, i));
+  }
+}
+
+TEST_P(Poses, MotionLeadsToTheNextPicture) {
+  const Settings settings = by({{"mode", GetParam()}});
+  Engine engine;
+  std::vector<glm::vec2> found(pictures_.size() * kPixels), wanted(kPixels);
+  ASSERT_TRUE(render_many(engine, scene_, pictures_, kSize, settings, {.motion = found.data()}));
+  for (std::size_t i = 0; i + 1 < pictures_.size(); ++i) {
+    const Scene now = posed(scene_, pictures_[i].pose).value(),
+                next = posed(scene_, pictures_[i + 1].pose).value();
+    const auto* const camera = std::get_if<Camera>(&pictures_[i + 1].camera);
+    const MotionTo to{next.mesh, camera ? *camera : next.cameras.front()};
+    ASSERT_TRUE(render_many(engine, now, std::array{std::get<Camera>(pictures_[i].camera)}, kSize, settings,
+                            {.motion = wanted.data()}, nullptr, std::array{to}));
+    EXPECT_EQ(std::memcmp(wanted.data(), &found[i * kPixels], kPixels * sizeof wanted[0]), 0);
+  }
+  EXPECT_TRUE(
+      std::all_of(found.end() - kPixels, found.end(), [](glm::vec2 m) { return m == glm::vec2(0.0f); }));
+}
+
+TEST(PosesInError, EndWithTheFirstThatCannotBe) {
+  const Scene scene = load_or_die(source_path("scenes/windmill"));
+  const std::vector<NodeTransform> bad{{1000, glm::mat4(1.0f)}};
+  const std::array pictures{PosedPicture{{}, first_camera(scene)}, PosedPicture{bad, first_camera(scene)}};
+  Engine engine;
+  Arrays arrays(2);
+  const Expected<RayCounts> drawn =
+      render_many(engine, scene, pictures, kSize, by({{"mode", "raytrace"}}), arrays.all());
+  ASSERT_FALSE(drawn);
+  EXPECT_NE(drawn.error().message().find("1000"), std::string::npos) << drawn.error().message();
 }
 
 // A rasteriser and rays agree on what a camera off its axis sees but at a few edges.

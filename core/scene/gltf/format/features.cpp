@@ -176,7 +176,7 @@ class FeatureAudit {
 
   void check_material(std::size_t index, const Json& material, const std::string& where) {
     const auto wrong_type = [&](std::string_view at) {
-      lost(where, "its " + last_name(at) + " is not of the type that glTF has there", "the default is used");
+      lost(where, "its " + last_name(at) + " has the wrong type", "the default is used");
     };
     for (const TypedMember& row : kTypedMembers)
       if (const Json* value = find_at(&material, row.at); value && !row.fits(*value)) wrong_type(row.at);
@@ -206,14 +206,16 @@ class FeatureAudit {
                      const std::string& where) {
     const Json* texture = element_of("textures", number_of(info, "index", -1));
     if (!texture || !has_image(*texture))
-      lost(where, which + " names an image that does not exist", "what it would have covered has one colour");
+      lost(where, which + " names an image that does not exist",
+           "surfaces that it should cover have one colour");
     if (number_of(info, "texCoord", 0) > 1)
       lost(where, "texture coordinates beyond the second set are left out",
            "its texture lies as the first set says");
     const Json* extensions = member(&info, "extensions");
     const Json* transform = member(extensions, "KHR_texture_transform");
     if (transform && !transform->is_object())
-      lost(where, which + "'s KHR_texture_transform is not an object", "it lies untransformed");
+      lost(where, which + "'s KHR_texture_transform is not an object",
+           "its texture is placed as if there were none");
     const double usual = number_of(info, "texCoord", 0),
                  set = transform ? number_of(*transform, "texCoord", usual) : usual;
     if (uncovered_[set == 1 ? 1 : 0].contains(static_cast<double>(material)))

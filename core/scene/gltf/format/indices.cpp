@@ -66,11 +66,11 @@ class IndexAudit {
     if (number && *number < count_) return;
     std::string where;
     for (const std::string& name : within_) where += (where.empty() ? "" : ".") + name;
-    warnings_.add({file_, where,
-                   "names " + index.dump(-1, ' ', true).substr(0, 40) + " of " + std::string(reference.in) +
-                       ", there are " + std::to_string(count_),
-                   number && reference.refused ? "nothing can be made of what names it"
-                                               : "it counts as if it named none"});
+    warnings_.add(
+        {file_, where,
+         "names " + index.dump(-1, ' ', true).substr(0, 40) + " of " + std::string(reference.in) +
+             ", there are " + std::to_string(count_),
+         number && reference.refused ? "the file cannot be drawn if this is used" : "it is ignored"});
   }
 
   std::string file_;

@@ -173,7 +173,7 @@ int GltfMaterialWriter::base_image(const Material& m, const MaterialMaps& maps) 
       !(lie_alike(maps.base_color, maps.alpha) && color->texels.size() == alpha->texels.size())) {
     warnings_.add({file_, "material '" + m.name + "'",
                    "an alpha texture placed differently from the colour's is left out",
-                   "it is everywhere as opaque as its factor says"});
+                   "its opacity is the same everywhere"});
     alpha = nullptr;
   }
   Texture both = color ? *color : *alpha;

@@ -1,0 +1,170 @@
+#include "core/denoise/gathered_light.h"
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+#include <utility>
+
+namespace pinocchio {
+namespace {
+
+constexpr std::size_t kPlanes = 15;
+constexpr int kLines = 8;              // a task
+constexpr float kLeastAlbedo = 0.02f;  // that light is divided by
+constexpr float kMostLight = 1e18f;    // that the filter takes: squares stay finite
+
+float luminance(const glm::vec3& rgb) {
+  return 0.2126f * rgb.r + 0.7152f * rgb.g + 0.0722f * rgb.b;  // Rec. 709
+}
+
+// Light that is no number, or beyond all bounds, would spread to other pixels.
+glm::vec3 usable(const glm::vec3& light) {
+  const auto is_usable = [](float c) { return std::abs(c) < kMostLight; };
+  return is_usable(light.r) && is_usable(light.g) && is_usable(light.b) ? light : glm::vec3(0.0f);
+}
+
+bool is_surface(const SampledPoint& point) {
+  return point.distance < kInfinity && glm::dot(point.normal, point.normal) < 1.1f &&
+         glm::dot(point.albedo, point.albedo) < kMostLight;
+}
+
+template <class Body>
+void for_each_line(int lines, Workers& workers, const Body& body) {
+  workers.for_each(static_cast<std::size_t>((lines + kLines - 1) / kLines), [&](std::size_t i) {
+    const int first = static_cast<int>(i) * kLines;
+    for (int y = first; y < std::min(first + kLines, lines); ++y) body(y);
+  });
+}
+
+}  // namespace
+
+// The sum of what the surfaces return.
+glm::vec3 GatheredLight::returned(const Sum& sum) {
+  return glm::max(sum.albedo, glm::vec3(kLeastAlbedo * sum.hits));
+}
+
+void GatheredLight::add(const Image<SampledPoint>& sample, Picture picture, Isa isa, Workers& workers,
+                        Image<glm::vec3>& light) {
+  const bool filters = picture == Picture::filtered;
+  if (samples_ == 0) {
+    size_ = sample.size();
+    sums_.assign(sample.pixels().size(), Sum{});
+  }
+  assert(sample.size() == size_);
+  if (light.size() != size_) light = Image<glm::vec3>(size_);
+  gather(sample, workers);
+  ++samples_;
+  if (filters) {
+    fill_planes(workers);
+    filter(isa, workers);
+  }
+  const auto width = static_cast<std::size_t>(size_.x);
+  const auto count = static_cast<float>(samples_);
+  for_each_line(size_.y, workers, [&](int y) {
+    for (std::size_t x = 0; x < width; ++x) {
+      const std::size_t i = static_cast<std::size_t>(y) * width + x;
+      const std::ptrdiff_t at = y * stride_ + static_cast<std::ptrdiff_t>(x);
+      Sum& sum = sums_[i];
+      glm::vec3 all = picture == Picture::kept ? sum.shown * (count / (count - 1.0f)) : sum.light;
+      if (filters && sum.hits > 0.0f)
+        all = returned(sum) * glm::vec3(now_.light[0][at], now_.light[1][at], now_.light[2][at]);
+      light[i] = all - sum.shown;
+      sum.shown = all;
+    }
+  });
+}
+
+void GatheredLight::gather(const Image<SampledPoint>& sample, Workers& workers) {
+  const auto width = static_cast<std::size_t>(size_.x);
+  for_each_line(size_.y, workers, [&](int y) {
+    for (std::size_t i = static_cast<std::size_t>(y) * width; i < static_cast<std::size_t>(y + 1) * width;
+         ++i) {
+      const SampledPoint& point = sample[i];
+      Sum& sum = sums_[i];
+      const glm::vec3 light = usable(point.light);
+      sum.light += light;
+      if (!is_surface(point)) continue;
+      const float bare = luminance(light / glm::max(point.albedo, glm::vec3(kLeastAlbedo)));
+      sum.albedo += point.albedo;
+      if (sum.hits == 0.0f) {
+        sum.normal = point.normal;
+        sum.distance = point.distance;
+        sum.guide_albedo = luminance(point.albedo);
+      }
+      sum.hits += 1.0f;
+      sum.first += bare;
+      sum.second += bare * bare;
+    }
+  });
+}
+
+float* GatheredLight::plane(std::size_t number) {
+  const std::size_t lines = static_cast<std::size_t>(size_.y) + 2 * kDenoiseBorder;
+  const auto stride = static_cast<std::size_t>(stride_);
+  return planes_.data() + (number * lines + kDenoiseBorder) * stride + kDenoiseBorder;
+}
+
+// Means of the samples. Pixels that see nothing, and those around the picture, are infinitely far.
+void GatheredLight::fill_planes(Workers& workers) {
+  constexpr int kPacket = static_cast<int>(kCacheLine / sizeof(float));
+  static_assert(kDenoiseBorder % kPacket == 0);
+  stride_ = (size_.x + 2 * kDenoiseBorder + kPacket + kPacket - 1) / kPacket * kPacket;
+  const std::size_t lines = static_cast<std::size_t>(size_.y) + 2 * kDenoiseBorder;
+  const std::size_t floats = kPlanes * lines * static_cast<std::size_t>(stride_);
+  // Numbers everywhere: a weight of 0 times none would be none.
+  if (planes_.size() != floats) planes_.assign(floats, 0.0f);
+  std::size_t used = 0;
+  for (auto& channel : guides_.normal) channel = plane(used++);
+  float* const normal[3] = {plane(0), plane(1), plane(2)};
+  float* const distance = plane(used++);
+  float* const albedo = plane(used++);
+  for (DenoiseLight* const light : {&now_, &next_}) {
+    for (float*& channel : light->light) channel = plane(used++);
+    light->variance = plane(used++);
+  }
+  contrast_ = {plane(used), plane(used + 1)};
+  assert(used + 2 == kPlanes);
+  guides_.width = size_.x;
+  guides_.stride = stride_;
+  guides_.distance = distance;
+  guides_.albedo = albedo;
+  for_each_line(static_cast<int>(lines), workers, [&](int line) {
+    float* const first = distance + (line - kDenoiseBorder) * stride_ - kDenoiseBorder;
+    std::fill_n(first, stride_, kInfinity);
+  });
+  for_each_line(size_.y, workers, [&](int y) {
+    for (int x = 0; x < size_.x; ++x) {
+      const Sum& sum = sums_[static_cast<std::size_t>(y) * static_cast<std::size_t>(size_.x) + x];
+      const std::ptrdiff_t at = y * stride_ + x;
+      const bool seen = sum.hits > 0.0f;
+      const glm::vec3 of_surface = returned(sum), light = seen ? sum.light / of_surface : glm::vec3(0.0f);
+      const float mean = sum.first / sum.hits;
+      for (int c = 0; c < 3; ++c) {
+        normal[c][at] = sum.normal[c];
+        now_.light[c][at] = light[c];
+      }
+      albedo[at] = sum.guide_albedo;
+      if (seen) distance[at] = sum.distance;
+      // Of the mean.
+      now_.variance[at] =
+          sum.hits > 1.0f ? std::max(sum.second / sum.hits - mean * mean, 0.0f) / (sum.hits - 1.0f) : 0.0f;
+    }
+  });
+}
+
+void GatheredLight::filter(Isa isa, Workers& workers) {
+  const DenoiseSteps& steps = denoise_steps(isa);
+  float* const variance = next_.variance;
+  for_each_line(size_.y, workers,
+                [&](int y) { steps.estimate(guides_, now_, samples_ == 1, y, variance, contrast_); });
+  std::swap(now_.variance, next_.variance);
+  for (int level = 0; level < kDenoiseLevels; ++level) {
+    // One sample's luminance says little; later levels have their own.
+    const DenoiseContrast* const contrast = level == 0 ? &contrast_ : nullptr;
+    for_each_line(size_.y, workers,
+                  [&](int y) { steps.filter(guides_, now_, contrast, next_, 1 << level, y); });
+    std::swap(now_, next_);
+  }
+}
+
+}  // namespace pinocchio

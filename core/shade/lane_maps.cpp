@@ -1,0 +1,115 @@
+#include "core/shade/lane_maps.h"
+
+#include <algorithm>
+#include <cstddef>
+
+#include "core/image/tonemap.h"
+#include "core/shade/mapped_material.h"
+
+namespace pinocchio {
+namespace {
+
+const std::vector<glm::vec2>& texcoords_of(const Mesh& mesh, const TextureUse& use) {
+  return use.uv_set == 1 ? mesh.texcoords1 : mesh.texcoords;
+}
+
+bool is_readable(const Mesh& mesh, const TextureUse& use) {
+  return use.used() && !texcoords_of(mesh, use).empty();
+}
+
+const Texture& texture_of(const Mesh& mesh, const TextureUse& use) {
+  return mesh.textures[static_cast<std::size_t>(use.texture)];
+}
+
+bool share_place(const Mesh& mesh, const TextureUse& a, const TextureUse& b) {
+  TextureUse same = b;
+  same.texture = a.texture;
+  const Texture &s = texture_of(mesh, a), &t = texture_of(mesh, b);
+  return a == same && s.texels.size() == t.texels.size() && s.levels() == t.levels();
+}
+
+// The rows of kMapTexels that a texture is read for.
+struct TextureRead {
+  const TextureUse* use;
+  bool is_color;
+  unsigned maps;
+};
+
+// Each texture once, whatever reads it.
+std::vector<TextureRead> textures_read(const Mesh& mesh, const MaterialMaps& maps) {
+  std::vector<TextureRead> reads;
+  for (std::size_t i = 0; i < kMapTexels.size(); ++i) {
+    const TextureUse& use = maps.*kMapTexels[i].use;
+    if (!is_readable(mesh, use)) continue;
+    const auto same = std::ranges::find_if(
+        reads, [&](const TextureRead& r) { return *r.use == use && r.is_color == kMapTexels[i].is_color; });
+    if (same != reads.end())
+      same->maps |= 1u << i;
+    else
+      reads.push_back({&use, kMapTexels[i].is_color, 1u << i});
+  }
+  return reads;
+}
+
+}  // namespace
+
+TexturePlace texture_place(const Mesh& mesh, const TextureUse& use) {
+  const Texture& texture = texture_of(mesh, use);
+  TexturePlace place{};
+  place.texcoords = texcoords_of(mesh, use).data();
+  for (int column = 0; column < 3; ++column)
+    for (int row = 0; row < 2; ++row) place.uv_from_texcoord[column][row] = use.uv_from_texcoord[column][row];
+  place.levels = texture.levels();
+  glm::ivec2 size = texture.texels.size();
+  std::uint32_t first = 0;
+  for (int i = 0; i < place.levels; ++i) {
+    place.level[i] = {first, static_cast<float>(size.x), static_cast<float>(size.y)};
+    if (i > 0) first += static_cast<std::uint32_t>(size.x) * static_cast<std::uint32_t>(size.y);
+    size = glm::max(size / 2, glm::ivec2(1));
+  }
+  place.wrap_u = use.wrap_u;
+  place.wrap_v = use.wrap_v;
+  place.nearest = use.nearest;
+  return place;
+}
+
+LaneTexture lane_texture(const Mesh& mesh, const TextureUse& use, bool is_color, unsigned maps) {
+  const Texture& t = texture_of(mesh, use);
+  return {t.texels.pixels().data(), t.smaller_levels.data(), is_color ? linear_from_srgb8().data() : nullptr,
+          maps};
+}
+
+LaneMapsOf::LaneMapsOf(const Mesh& mesh) {
+  if (mesh.maps.empty()) return;
+  // Nothing moves when one more is added: others point at it.
+  const std::size_t most = mesh.maps.size() * (kMapTexels.size() + 1);
+  places_.reserve(most);
+  textures_.reserve(most);
+  for (const MaterialMaps& maps : mesh.maps) {
+    LaneMaps lane_maps{&maps, places_.data() + places_.size(), 0, nullptr};
+    std::vector<TextureRead> reads = textures_read(mesh, maps);
+    while (!reads.empty()) {
+      TexturePlace& place = places_.emplace_back(texture_place(mesh, *reads.front().use));
+      place.textures = textures_.data() + textures_.size();
+      const TextureUse& first = *reads.front().use;
+      std::erase_if(reads, [&](const TextureRead& r) {
+        if (!share_place(mesh, first, *r.use)) return false;
+        textures_.push_back(lane_texture(mesh, *r.use, r.is_color, r.maps));
+        ++place.count;
+        place.maps |= r.maps;
+        return true;
+      });
+      ++lane_maps.count;
+    }
+    if (is_readable(mesh, maps.alpha) && maps.alpha_mode != AlphaMode::opaque) {
+      TexturePlace& place = places_.emplace_back(texture_place(mesh, maps.alpha));
+      place.textures = &textures_.emplace_back(lane_texture(mesh, maps.alpha, false, ~0u));
+      place.count = 1;
+      place.maps = ~0u;
+      lane_maps.alpha = &place;
+    }
+    maps_.push_back(lane_maps);
+  }
+}
+
+}  // namespace pinocchio
