@@ -35,7 +35,7 @@ RayCounts draw_tiles(Engine::Parts& engine, const Scene& scene, const std::share
     job.outputs.indirect = s.indirect;
     job.outputs.environment_light = true;
   }
-  job.outputs.mask_bits = s.mask_bits;
+  job.outputs.mask_bits = mask_bits_of(s, lit);
   job.outputs.coverage = s.coverage;
   job.options = trace_options(s, {});
   job.filter = s.pixel_filter;
@@ -89,7 +89,7 @@ FrameArrays advanced(FrameArrays to, std::size_t pixels) {
     std::visit(
         [&](auto member) {
           if constexpr (!std::is_same_v<decltype(member), std::monostate>)
-            if (to.*member) to.*member += pixels;
+            if (to.*member) to.*member += pixels * (row.layer == Layer::mask ? to.mask_bytes : 1);
         },
         row.array.values);
   return to;

@@ -88,7 +88,7 @@ def shown(text):
         lines = paragraph.splitlines()
         is_code = lines[0].startswith("    ")
         is_list = any(re.match(r"\s*[-*] |\S+: |\w+  ", line) for line in lines[1:])
-        result.append("```\n" + paragraph + "\n```" if is_code or is_list else plain(paragraph))
+        result.append("```\n" + textwrap.dedent(paragraph) + "\n```" if is_code or is_list else plain(paragraph))
     return "\n\n".join(result)
 
 

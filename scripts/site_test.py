@@ -113,7 +113,7 @@ def test_search(browser, base):
         found = []
         for _ in range(50):
             time.sleep(0.1)
-            found = [a.get_attribute("href") for a in browser.find_elements("css selector", "a.md-search-result__link")][:8]
+            found = browser.execute_script("return [...document.querySelectorAll('a.md-search-result__link')].map(a => a.href)")[:8]
             if found and page and any(page in link for link in found):
                 break
         if page and not any(page in link for link in found):

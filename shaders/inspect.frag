@@ -20,6 +20,7 @@
 
 uniform int light_count;
 uniform int slot;        // SHOW_MASK: of the mask
+uniform int first_slot;  // SHOW_MASK: that the texture has
 uniform int age_frames;  // SHOW_DELAY: of the answer that is shown
 uniform vec3 range_lo;   // SHOW_DEPTH, SHOW_POSITION: what is black ...
 uniform vec3 range_hi;   // ... and what is white
@@ -53,7 +54,7 @@ bool asked(PixelSurface s) {
 
 vec3 color_of_mask(uint id, ivec2 pixel) {
   PixelSurface s = surface_of(id, pixel);
-  float reach = reach_of_light(reach_from(source_of(pixel, id, s.p_world), id), slot);
+  float reach = reach_of_light(reach_from(source_of(pixel, id, s.p_world), id), slot - first_slot);
   return reach > 0.0 || asked(s) ? vec3(reach) : kNothingAsked;
 }
 #endif

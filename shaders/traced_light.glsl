@@ -1,6 +1,8 @@
 // The CPU's mask and reflection of a pixel, and the places in them to read. Expects pixel_surface.glsl
 // and scene_fetch.glsl before it.
-//   HAS_MASK        MASK_BITS a sample, one sample for MASK_SCALE x MASK_SCALE pixels
+//   HAS_MASK        MASK_BITS a sample, one sample for MASK_SCALE x MASK_SCALE pixels: up to 8 in a texel's byte,
+//                   more in a texel of one or two words
+//   LIGHTS_IN_REFLECTION  the light in slots beyond MASK_BITS is in the reflection
 //   HAS_REFLECTION  one sample for REFLECTION_SCALE x REFLECTION_SCALE pixels, of REFLECTION_TEXELS texels;
 //                   REFLECTION_IS_SRGB: in bytes; REFLECTION_TILE: only tiles of so many samples a side that
 //                   have some light in them, and an index that says where each is
@@ -61,11 +63,19 @@ Samples samples_near(ivec2 pixel, uint id, int scale) {
 }
 
 #ifdef HAS_MASK
-float mask_bit(ivec2 at, int slot) {
+#if MASK_BITS > 8
+#define MaskSample uvec2
+MaskSample mask_sample(ivec2 at) { return texelFetch(mask, at, 0).rg; }
+float mask_bit(MaskSample lights, int slot) { return float((slot < 32 ? lights.x : lights.y) >> uint(slot & 31) & 1u); }
+#else
+#define MaskSample ivec2
+MaskSample mask_sample(ivec2 at) { return at; }
+float mask_bit(MaskSample at, int slot) {
   int bit = at.x * MASK_BITS + slot;
   uint byte_of_mask = texelFetch(mask, ivec2(bit / 8, at.y), 0).r;
   return float(byte_of_mask >> uint(bit % 8) & 1u);
 }
+#endif
 #endif
 
 #ifdef HAS_REFLECTION
@@ -131,7 +141,10 @@ struct Reach {
   Source source;
 #ifdef HAS_MASK
 #if MASK_SCALE > 1
-  Samples samples;
+  float weight[4];
+  MaskSample lights[4];
+#else
+  MaskSample lights;
 #endif
 #endif
 };
@@ -141,7 +154,11 @@ Reach reach_from(Source source, uint id) {
   reach.source = source;
 #ifdef HAS_MASK
 #if MASK_SCALE > 1
-  reach.samples = samples_near(source.pixel, id, MASK_SCALE);
+  Samples samples = samples_near(source.pixel, id, MASK_SCALE);
+  reach.weight = samples.weight;
+  for (int k = 0; k < 4; ++k) reach.lights[k] = mask_sample(samples.at[k]);
+#else
+  reach.lights = mask_sample(source.pixel);
 #endif
 #endif
   return reach;
@@ -151,13 +168,16 @@ Reach reach_from(Source source, uint id) {
 float reach_of_light(Reach reach, int slot) {
   if (slot < 0) return 1.0;
 #ifdef HAS_MASK
+#ifdef LIGHTS_IN_REFLECTION
+  if (slot >= MASK_BITS) return 0.0;
+#endif
   if (reach.source.hole) return 1.0;
 #if MASK_SCALE > 1
   float sum = 0.0;
-  for (int k = 0; k < 4; ++k) sum += reach.samples.weight[k] * mask_bit(reach.samples.at[k], slot);
+  for (int k = 0; k < 4; ++k) sum += reach.weight[k] * mask_bit(reach.lights[k], slot);
   return sum;
 #else
-  return mask_bit(reach.source.pixel, slot);
+  return mask_bit(reach.lights, slot);
 #endif
 #else
   return 1.0;

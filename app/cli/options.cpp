@@ -210,6 +210,21 @@ void add_trust_options(CLI::App& verb, DrawOptions& o) {
   add_choice(verb, "--up-axis", "the axis of the scene's file that points up (y)", kUpAxisNames, o.up_axis);
   verb.add_option("--animation", o.animation,
                   "the file's animation that plays, by its name or its number from 0 (all, together)");
+  verb.add_option(
+          "--variant", o.variant,
+          "the variant of the file's materials, by its name, which 'info' lists (the file's usual one)")
+      ->type_name("NAME");
+  const auto add_diameter = [&](const char* name, const char* help, float& to) {
+    add_parsed(verb, name, help, "a diameter above 0",
+               number_within(std::numeric_limits<float>::min(), std::numeric_limits<float>::max()), to)
+        ->type_name("D");
+  };
+  add_diameter("--point-size",
+               "draw the file's points as balls of this diameter, scene units (they are left out)",
+               o.point_size);
+  add_diameter("--line-width",
+               "draw the file's lines as tubes of this diameter, scene units (they are left out)",
+               o.line_width);
 }
 
 void add_shading_option(CLI::App& verb, DrawOptions& o) {
@@ -287,8 +302,14 @@ void add_draw_options(CLI::App& verb, DrawOptions& o) {
 
 Scene load_whole(const DrawOptions& options, Warnings& warnings, pinocchio::Progress* progress) {
   if (!progress) progress = &run_progress();
-  const LoadOptions how{options.load_limit, options.confine, options.shading, options.animation,
-                        options.up_axis};
+  const LoadOptions how{.limit_bytes = options.load_limit,
+                        .confine = options.confine,
+                        .shading = options.shading,
+                        .animation = options.animation,
+                        .up_axis = options.up_axis,
+                        .point_size = options.point_size,
+                        .line_width = options.line_width,
+                        .variant = options.variant};
   Expected<Scene> scene = load_scene(options.scene, how, &warnings, progress);
   if (scene && !options.environment.empty()) {
     auto environment = load_environment(options.environment, progress, options.load_limit, &warnings);

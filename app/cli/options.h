@@ -43,7 +43,9 @@ struct DrawOptions {
   Shading shading = Shading::from_file;
   std::string animation;  // name or number of the one that plays. Empty: all
   UpAxis up_axis = UpAxis::y;
-  bool strict = false;  // fail where a part of the scene would be ignored
+  float point_size = 0.0f, line_width = 0.0f;  // scene units. 0: points and lines are left out
+  std::string variant;                         // of the file's materials. Empty: those that it shows first
+  bool strict = false;                         // fail where a part of the scene would be ignored
 
   // Of a Progress.
   [[nodiscard]] std::string progress_mode() const { return quiet ? "off" : progress; }
@@ -55,7 +57,7 @@ struct DrawOptions {
 void add_scene_options(CLI::App& verb, DrawOptions& options);
 // --camera, --eye and the like:
 void add_camera_options(CLI::App& verb, DrawOptions& options);
-// --load-limit, --confine, --strict, --up-axis and --animation:
+// --load-limit, --confine, --strict, and how the file is read: --up-axis, --animation and the like:
 void add_trust_options(CLI::App& verb, DrawOptions& options);
 // --size. The help names the verb's default:
 void add_size_option(CLI::App& verb, DrawOptions& options, const std::string& help);

@@ -12,6 +12,7 @@
 #include "core/compare/figures.h"
 #include "core/compare/flip.h"
 #include "core/image/rgb.h"
+#include "hybrid/frame/samples.h"
 #include "hybrid/settings/json.h"
 
 namespace pinocchio::app {
@@ -43,7 +44,7 @@ BudgetTrial::BudgetTrial(Engine& engine, const Settings& exact, const BudgetOpti
   const bool raster = exact.mask_bits.given && exact.reflection.given && !exact.traces();
   if (exact.composite == Processor::cpu || raster)
     throw Exit(kUsage, "--budget and --max-error need --mode hybrid and --design 1");
-  ladder_ = quality_ladder(exact);
+  ladder_ = quality_ladder(exact, sends_lights(exact, frame_(exact, 0).scene));
 }
 
 void BudgetTrial::step() {

@@ -152,6 +152,9 @@ std::string inputs_json(const Scene& scene, const DrawOptions& draw, const Outpu
                         {"files", nlohmann::json::array()}};
   if (!draw.animation.empty()) inputs["animation"] = draw.animation;
   if (draw.up_axis != UpAxis::y) inputs["upAxis"] = name_of(kUpAxisNames, draw.up_axis);
+  if (!draw.variant.empty()) inputs["variant"] = draw.variant;
+  if (draw.point_size > 0.0f) inputs["pointSize"] = draw.point_size;
+  if (draw.line_width > 0.0f) inputs["lineWidth"] = draw.line_width;
   if (keeps_motion(output)) inputs["motionTo"] = output.motion_to_former ? "former" : "next";
   const auto add = [&](const std::string& file) {
     const std::optional<std::string> content = fingerprint(file);

@@ -71,11 +71,13 @@ nlohmann::json scene_json(const Scene& scene, const Warnings& warnings) {
           {"lights", lights},
           {"cameras", cameras},
           {"animations", animations_json(scene)},
+          {"variants", scene.variants},
           {"duration_s", duration_s(scene)},
           {"bounds", {{"lo", vec3_json(bounds.lo)}, {"hi", vec3_json(bounds.hi)}}},
           {"needs",
            {{"lights", stats.lights},
             {"casting_lights", stats.casting_lights},
+            {"mask_bits", mask_bits_for(stats.casting_lights)},
             {"idle_lights", stats.idle_lights},
             {"reflection", stats.mirrors},
             {"mirror_share", stats.mirror_share},
@@ -103,6 +105,19 @@ std::size_t frames_of(double duration_s) {
   return 1 + std::size_t(std::ceil(std::min(duration_s, 1e9) * kUsualFps));
 }
 
+// What shadows cost where the GPU composites.
+std::string cost_of_shadows(const SceneStats& stats) {
+  if (stats.casting_lights == 0) return "";
+  const int bits = mask_bits_for(stats.casting_lights);
+  std::string text = ": as many shadow rays at each point, ";
+  text += bits < 8 ? std::to_string(bits) + (bits == 1 ? " bit" : " bits")
+                   : std::to_string(bits / 8) + (bits == 8 ? " byte" : " bytes");
+  text += " a pixel of shadow mask";
+  if (const int more = stats.casting_lights - bits; more > 0)
+    text += ", and the light of " + std::to_string(more) + " with mirrored light";
+  return text;
+}
+
 void print_scene(const Scene& scene, const Warnings& warnings) {
   const SceneStats stats = analyze(scene);
   const Bounds b = scene.mesh->bounds();
@@ -114,6 +129,8 @@ void print_scene(const Scene& scene, const Warnings& warnings) {
     std::printf("  light '%s'%s\n", light.name.c_str(), light.casts_shadow ? ", casts shadows" : "");
   for (const Camera& camera : scene.cameras)
     std::printf("  camera '%s', %s\n", camera.name.c_str(), optics_of(camera).c_str());
+  for (const std::string& variant : scene.variants)
+    std::printf("  variant '%s' of the materials (--variant)\n", variant.c_str());
   if (scene.animation) {
     for (const Animation::Clip& clip : scene.animation->clips)
       std::printf("  animation '%s', %g s\n", clip.name.c_str(), clip.duration_s);
@@ -123,8 +140,8 @@ void print_scene(const Scene& scene, const Warnings& warnings) {
   if (!warnings.empty()) std::printf("left out\n");
   for (const Warning& warning : warnings) std::printf("  %s\n", warning.message().c_str());
   std::printf("needs\n");
-  std::printf("  %d of %d lights cast shadows (at most %d may); %d reach nothing\n", stats.casting_lights,
-              stats.lights, kMaxCastingLights, stats.idle_lights);
+  std::printf("  %d of %d lights cast shadows%s; %d reach nothing\n", stats.casting_lights, stats.lights,
+              cost_of_shadows(stats).c_str(), stats.idle_lights);
   std::printf("  %.1f %% of the surface mirrors or refracts, %.1f %% refracts%s\n",
               100.0 * stats.mirror_share, 100.0 * stats.transmitting_share,
               stats.textures ? "; some has textures" : "");

@@ -135,6 +135,15 @@ Values combinations(const SweepRequest& request) {
           {"shallow-quarter-reproject", shallow + quarter + reproject, kFull}};
 }
 
+// Masks that hold the casting lights, and narrower ones: the light of the others travels with mirrored light.
+Values mask_widths(const SweepRequest& request) {
+  Values values;
+  for (const int bits : {8, 16, 32, 64})
+    if (bits <= request.base.mask_bits && request.base.mask_bits > 8)
+      values.push_back({std::to_string(bits), {{"mask_bits", std::to_string(bits)}}});
+  return values;
+}
+
 struct Axis {
   AxisName name;
   Values (*values)(const SweepRequest&);
@@ -150,6 +159,7 @@ constexpr std::array kAxes{
     Axis{{"reflection-scale", "reflection, resolution"},
          [](const SweepRequest&) { return scales("reflection_scale"); }},
     Axis{{"mask-scale", "shadow mask, resolution"}, [](const SweepRequest&) { return scales("mask_scale"); }},
+    Axis{{"mask-bits", "shadow mask, bits"}, mask_widths},
     Axis{{"tiles", "tiles that are sent"}, tiles},
     Axis{{"depth", "most bounces"}, depths},
     Axis{{"cutoff", "contribution cut-off"}, cutoffs},

@@ -72,10 +72,10 @@ int named_slots(const ExrFile& exr) {
   const auto found = exr.attributes.find("pinocchio.lights");
   if (found == exr.attributes.end() || !std::holds_alternative<std::string>(found->second)) return 0;
   const auto lights = nlohmann::json::parse(std::get<std::string>(found->second), nullptr, false);
-  return lights.is_array() ? std::min<std::size_t>(lights.size(), 32) : 0;
+  return lights.is_array() ? static_cast<int>(lights.size()) : 0;
 }
 
-const ExrChannel* uint_channel(const ExrFile& exr, const char* name) {
+const ExrChannel* uint_channel(const ExrFile& exr, const std::string& name) {
   const ExrChannel* channel = exr.find(name);
   return channel && channel->type == ExrChannel::Type::uint ? channel : nullptr;
 }
@@ -90,7 +90,9 @@ void compare_masks(const NamedExr& a, const NamedExr& b, Comparison& result) {
       return;
     }
     const ExrChannel* ids = uint_channel(file->exr, "id.triangle");
-    masked[i].mask = mask->uints;
+    masked[i].mask.emplace_back(mask->uints);
+    for (int k = 1; (mask = uint_channel(file->exr, "shadow.mask" + std::to_string(k))); ++k)
+      masked[i].mask.emplace_back(mask->uints);
     if (ids) masked[i].ids = ids->uints;
     ++i;
   }

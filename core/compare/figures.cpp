@@ -75,20 +75,32 @@ ChannelFigures channel_figures(std::span<const std::uint32_t> a, std::span<const
 }
 
 MaskFigures mask_figures(const MaskedPixels& a, const MaskedPixels& b, int named_slots) {
-  assert(a.mask.size() == b.mask.size());
+  assert(!a.mask.empty() && !b.mask.empty() && a.mask.front().size() == b.mask.front().size());
   const auto hit = [](const MaskedPixels& of, std::size_t i) {
     return of.ids.empty() || of.ids[i] != kNoTriangle;
   };
+  const auto slots_of = [](const MaskedPixels& of, std::size_t word, std::size_t i) {
+    return word < of.mask.size() ? of.mask[word][i] : 0u;
+  };
+  const std::size_t words = std::max(a.mask.size(), b.mask.size());
   MaskFigures figures;
-  std::uint32_t set = 0;
+  std::vector<std::uint32_t> set(words);
   std::uint64_t pixels = 0;
-  for (std::size_t i = 0; i < a.mask.size(); ++i) {
+  for (std::size_t i = 0; i < a.mask.front().size(); ++i) {
     if (!hit(a, i) && !hit(b, i)) continue;
     ++pixels;
-    set |= a.mask[i] | b.mask[i];
-    figures.differing += std::popcount(a.mask[i] ^ b.mask[i]);
+    for (std::size_t word = 0; word < words; ++word) {
+      const std::uint32_t of_a = slots_of(a, word, i), of_b = slots_of(b, word, i);
+      set[word] |= of_a | of_b;
+      figures.differing += std::popcount(of_a ^ of_b);
+    }
   }
-  figures.slots = std::clamp(std::max(named_slots, static_cast<int>(std::bit_width(set))), 0, 32);
+  figures.slots = std::clamp(named_slots, 0, 32 * static_cast<int>(words));
+  for (int word = 0; const std::uint32_t bits : set) {
+    if (bits != 0)
+      figures.slots = std::max(figures.slots, 32 * word + static_cast<int>(std::bit_width(bits)));
+    ++word;
+  }
   figures.bits = pixels * figures.slots;
   return figures;
 }

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <glm/glm.hpp>
 #include <span>
+#include <vector>
 
 namespace pinocchio {
 
@@ -44,7 +45,8 @@ struct MaskFigures {
 // Compares shadow masks over the pixels where either picture shows a triangle (empty ids: over all pixels):
 // bits [0, named_slots), and more up to the highest bit that is set.
 struct MaskedPixels {
-  std::span<const std::uint32_t> mask, ids;
+  std::vector<std::span<const std::uint32_t>> mask;  // 32 slots each; what one picture lacks is 0
+  std::span<const std::uint32_t> ids;
 };
 [[nodiscard]] MaskFigures mask_figures(const MaskedPixels& a, const MaskedPixels& b, int named_slots);
 

@@ -89,7 +89,7 @@ void GatheredLight::gather(const Image<SampledPoint>& sample, Workers& workers) 
       if (sum.hits == 0.0f) {
         sum.normal = point.normal;
         sum.distance = point.distance;
-        sum.guide_albedo = luminance(point.albedo);
+        sum.guide_albedo = point.guide_albedo;
       }
       sum.hits += 1.0f;
       sum.first += bare;

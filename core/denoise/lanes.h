@@ -14,7 +14,7 @@ namespace {
 constexpr float kSpline[] = {0.0625f, 0.25f, 0.375f, 0.25f, 0.0625f};  // B3, across and down
 static_assert(sizeof(kSpline) / sizeof(*kSpline) == 2 * kDenoiseRadius + 1);
 
-constexpr float kOfNormal = 64.0f;          // x per 1 - cosine of the angle between normals
+constexpr float kOfNormal = 16.0f;          // x per 1 - cosine of the angle between normals
 constexpr float kOfAlbedo = 4.0f;           // x per squared relative difference of albedos
 constexpr float kOfLuminance = 16.0f;       // squared: standard deviations of the noise that count as x = 1
 constexpr float kSmallestContrast = 1e-4f;  // squared: a share of the luminance below which contrast is noise

@@ -6,6 +6,18 @@
 #include "pinocchio/frame_arrays.h"
 
 namespace pinocchio {
+namespace {
+
+// A channel of the layer; a mask's may have a number ("shadow.mask1").
+bool is_channel_of(const LayerRow& row, const std::string& name) {
+  const auto has = [&](const std::string& channel) {
+    return std::ranges::count(row.exr.channels, channel) > 0;
+  };
+  if (row.layer != Layer::mask) return has(name);
+  return has(name.substr(0, name.find_last_not_of("0123456789") + 1));
+}
+
+}  // namespace
 
 std::string aov_names() {
   std::string names;
@@ -25,8 +37,7 @@ Expected<AovSet> parse_aovs(const std::string& text) {
       continue;
     }
     const auto* const row = std::ranges::find_if(kLayers, [&](const LayerRow& of) {
-      return !of.exr.name.empty() && !name.empty() &&
-             (of.exr.name == name || std::ranges::count(of.exr.channels, name) > 0);
+      return !of.exr.name.empty() && !name.empty() && (of.exr.name == name || is_channel_of(of, name));
     });
     if (row == kLayers.end())
       return Unexpected(InputError{

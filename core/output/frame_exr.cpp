@@ -1,5 +1,6 @@
 #include "core/output/frame_exr.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <filesystem>
@@ -30,6 +31,29 @@ void add_channels(const LayerRow& row, std::span<const Pixel> pixels, std::vecto
       for (const Pixel& pixel : pixels) channel.values.push_back(pixel[c]);
     }
     ++c;
+  }
+}
+
+// Casting lights of a mask's channel: shadow.mask, shadow.mask1 and so on.
+constexpr std::size_t kLightsOfChannel = 32;
+
+// The bytes of a pixel's mask.
+std::size_t mask_bytes_of(const Scene& scene) {
+  const std::size_t lights = casting_lights(scene).size();
+  return lights <= 8 ? 1 : (lights + kLightsOfChannel - 1) / kLightsOfChannel * sizeof(std::uint32_t);
+}
+
+void add_mask_channels(const LayerRow& row, const FrameArrays& of, std::size_t pixels,
+                       std::vector<ExrChannel>& channels) {
+  for (std::size_t first = 0; first < of.mask_bytes; first += sizeof(std::uint32_t)) {
+    const std::size_t number = first / sizeof(std::uint32_t);
+    ExrChannel& channel = channels.emplace_back(
+        std::string(row.exr.channels.front()) + (number == 0 ? "" : std::to_string(number)), row.exr.type);
+    channel.uints.resize(pixels);
+    const std::size_t bytes = std::min(of.mask_bytes - first, sizeof(std::uint32_t));
+    for (std::size_t i = 0; i < pixels; ++i)
+      for (std::size_t byte = 0; byte < bytes; ++byte)
+        channel.uints[i] |= std::uint32_t{of.mask[i * of.mask_bytes + first + byte]} << 8 * byte;
   }
 }
 
@@ -122,6 +146,7 @@ void add_attributes(ExrFile& exr, const FrameOutput& frame) {
 std::vector<ExrChannel> frame_channels(const FrameOutput& frame, const AovSet& aovs, int y0, int y1) {
   const auto count = frame.part.size().x * static_cast<std::size_t>(y1 - y0);
   FrameArrays to;
+  to.mask_bytes = mask_bytes_of(frame.scene);
   std::array<std::vector<std::byte>, kLayers.size()> memory;
   // Calls use(row, member, memory) for each layer of the file; `member`: of FrameArrays.
   const auto for_each_layer = [&](const auto& use) {
@@ -137,16 +162,19 @@ std::vector<ExrChannel> frame_channels(const FrameOutput& frame, const AovSet& a
           row.array.values);
     }
   };
-  for_each_layer([&](const LayerRow&, auto member, std::vector<std::byte>& bytes) {
+  for_each_layer([&](const LayerRow& row, auto member, std::vector<std::byte>& bytes) {
     using Pointer = std::remove_reference_t<decltype(to.*member)>;
-    bytes.resize(count * sizeof(*(to.*member)));
+    bytes.resize(count * sizeof(*(to.*member)) * (row.layer == Layer::mask ? to.mask_bytes : 1));
     to.*member = reinterpret_cast<Pointer>(bytes.data());
   });
   if (count > 0) frame.write_lines(y0, y1, to);
   std::vector<ExrChannel> channels;
   for_each_layer([&](const LayerRow& row, auto member, const std::vector<std::byte>&) {
     using Pixel = std::remove_pointer_t<std::remove_reference_t<decltype(to.*member)>>;
-    add_channels<Pixel>(row, {to.*member, count}, channels);
+    if (row.layer == Layer::mask)
+      add_mask_channels(row, to, count, channels);
+    else
+      add_channels<Pixel>(row, {to.*member, count}, channels);
   });
   return channels;
 }

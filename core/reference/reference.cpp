@@ -1,7 +1,5 @@
 #include "core/reference/reference.h"
 
-#include <cassert>
-
 #include "core/parallel/tiles.h"
 #include "core/trace/view/view_params.h"
 
@@ -10,7 +8,6 @@ namespace pinocchio {
 ReferencePicture reference_render(const Scene& scene, const View& view, int depth, Workers& workers,
                                   Progress* progress, TraceOptions options) {
   const auto casting = static_cast<int>(casting_lights(scene).size());
-  assert(casting <= kMaxCastingLights);
   const glm::ivec2 size = view.box().size();
   const bool mirrors = depth > 0 || scene.environment;
   ReferencePicture picture{Image<std::uint32_t>(size), MaskImage(size, MaskImage::bits_for(casting)),
@@ -23,8 +20,8 @@ ReferencePicture reference_render(const Scene& scene, const View& view, int dept
   const auto draw_pixel = [&](int x, int y) {
     const ReferenceTracer::Pixel pixel = tracer.pixel(rays, x, y, depth);
     picture.ids.at(x, y) = pixel.triangle;
-    for (int slot = 0; slot < casting; ++slot)
-      if (pixel.mask >> slot & 1u) picture.mask.set_bit(x, y, slot);
+    for (std::size_t slot = 0; slot < pixel.mask.size(); ++slot)
+      if (pixel.mask[slot]) picture.mask.set_bit(x, y, static_cast<int>(slot));
     if (mirrors) picture.reflection.at(x, y) = pixel.reflection;
     picture.color.at(x, y) = pixel.color;
   };

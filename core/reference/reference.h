@@ -25,8 +25,7 @@ struct ReferencePicture {
 };
 
 // Draws view.box() with at most `depth` bounces. An environment and each light with a size take 256 samples
-// for each point. The scene has at most kMaxCastingLights casting lights.
-// Advances `progress` by one step.
+// for each point. Advances `progress` by one step.
 [[nodiscard]] ReferencePicture reference_render(const Scene& scene, const View& view, int depth,
                                                 Workers& workers, Progress* progress = nullptr,
                                                 TraceOptions options = {});

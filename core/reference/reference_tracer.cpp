@@ -58,7 +58,7 @@ ReferenceTracer::Pixel ReferenceTracer::pixel(const shared::ViewParams& view, in
   if (media.here && surface.material.ior == 1.0 && !scene_.mesh->material_of(hit.triangle).attenuates())
     media.beyond = media.here;
   const glm::dvec3 way = left_of_light(media.here, hit.t * glm::length(ray.direction));
-  const Direct own = direct(surface, media.here, pixel.mask);
+  const Direct own = direct(surface, media.here, &pixel.mask);
   const glm::dvec3 mirrored = way * (own.tinted + from_sky(surface, media.here) +
                                      bounced(surface, depth, cone_after(ray, hit), media, kLobeSide, 0.0));
   pixel.reflection = glm::vec3(mirrored);
@@ -66,15 +66,14 @@ ReferenceTracer::Pixel ReferenceTracer::pixel(const shared::ViewParams& view, in
   return pixel;
 }
 
-// The surface's light without mirrors and glass. Sets bit i of `bits` if casting light i reaches the point.
+// The surface's light without mirrors and glass. `reached`: becomes whether each casting light reaches the
+// point.
 ReferenceTracer::Direct ReferenceTracer::direct(const ReferenceSurface& surface, const Material* medium,
-                                                unsigned& bits) const {
+                                                std::vector<bool>* reached) const {
   Direct sum;
   sum.free = surface.material.ambient * glm::dvec3(scene_.ambient_light) +
              reference_below_layers(surface) * surface.material.emission;
-  int slot = -1;
   for (const Light& light : scene_.lights) {
-    if (light.casts_shadow) ++slot;
     double seen = 0.0, all = 0.0;  // sums over the points of a light
     for (const ReferenceLight& point : reference_lights(light, surface, options_.terminator)) {
       const bool hidden = light.casts_shadow && point.way_up && tree_.occluded(*point.way_up);
@@ -87,7 +86,7 @@ ReferenceTracer::Direct ReferenceTracer::direct(const ReferenceSurface& surface,
       sum.free += share.free * reflected;
       sum.tinted += share.tinted * reflected;
     }
-    if (light.casts_shadow && all > 0.0 && seen >= 0.5 * all) bits |= 1u << slot;
+    if (light.casts_shadow && reached) reached->push_back(all > 0.0 && seen >= 0.5 * all);
   }
   return {surface.material.alpha * sum.free, surface.material.alpha * sum.tinted};
 }
@@ -205,10 +204,9 @@ glm::dvec3 ReferenceTracer::seen(const ReferenceRay& ray, const Material* medium
   }
   const Cone cone = cone_after(ray, hit);
   const ReferenceSurface surface = reference_surface(*scene_.mesh, ray, hit, spread_of(ray, cone.width));
-  unsigned bits = 0;
   const Media media = media_at(medium, hit, surface);
   const double way = hit.t * glm::length(ray.direction);
-  const Direct own = direct(surface, media.here, bits);
+  const Direct own = direct(surface, media.here);
   return left_of_light(media.here, way) * (own.free + own.tinted + from_sky(surface, media.here) +
                                            bounced(surface, depth, cone, media, lobe_side, density));
 }

@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <glm/glm.hpp>
 #include <optional>
+#include <vector>
 
 #include "core/reference/reference_environment.h"
 #include "core/reference/reference_surface.h"
@@ -31,7 +32,7 @@ class ReferenceTracer {
 
   struct Pixel {
     std::uint32_t triangle = kNoTriangle;  // at the sample point
-    unsigned mask = 0;                     // bit i: casting light i reaches the point
+    std::vector<bool> mask;                // casting light i reaches the point; empty: none does
     glm::vec3 reflection{0.0f};            // mirrored, refracted and the environment's light, linear
     glm::vec4 color{0.0f};  // linear; A is 1 if a triangle is hit, 0 if the environment is seen
   };
@@ -44,7 +45,8 @@ class ReferenceTracer {
   struct Direct {
     glm::dvec3 free{0.0}, tinted{0.0};
   };
-  Direct direct(const ReferenceSurface& surface, const Material* medium, unsigned& bits) const;
+  Direct direct(const ReferenceSurface& surface, const Material* medium,
+                std::vector<bool>* reached = nullptr) const;
   [[nodiscard]] glm::dvec3 from_sky(const ReferenceSurface& surface, const Material* medium) const;
   // The footprint of textures at further hits of a ray, and whether it comes from the camera.
   struct Cone {

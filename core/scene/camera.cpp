@@ -90,4 +90,16 @@ std::optional<glm::dvec2> pixel_of(const Camera& camera, glm::ivec2 size, const 
   return std::nullopt;
 }
 
+StereoPair stereo_pair(const Camera& camera, float baseline) {
+  const auto moved = [&](const char* side, float by) {
+    Camera eye = camera;
+    const glm::vec3 shift = by * camera_axes(camera).right;
+    eye.eye += shift;
+    eye.target += shift;
+    eye.name += (eye.name.empty() ? "" : " ") + std::string(side);
+    return eye;
+  };
+  return {moved("left", -0.5f * baseline), moved("right", 0.5f * baseline)};
+}
+
 }  // namespace pinocchio

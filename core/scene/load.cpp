@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/base/listed.h"
 #include "core/files/input_file.h"
 #include "core/math/finite.h"
 #include "core/parallel/parts.h"
@@ -49,6 +50,29 @@ bool names_known_textures(const MaterialMaps& m, const Mesh& mesh) {
   return std::ranges::all_of(m.uses(), known);
 }
 
+// Points and lines that the file holds and nothing draws: a warning each, or an error where it holds nothing
+// else.
+Expected<void> judge_left_out(const std::string& file, const PointsAndLines& strokes, bool is_empty,
+                              Warnings& warnings) {
+  std::vector<std::string> names, options;
+  const auto note = [&](const PointsAndLines::Kind& kind, const char* name, const char* option) {
+    if (kind.left_out == 0) return;
+    names.emplace_back(name);
+    options.push_back(std::string(option) + " D");
+  };
+  note(strokes.points, "points", "--point-size");
+  note(strokes.lines, "lines", "--line-width");
+  const auto warn = [&](const PointsAndLines::Kind& kind, const char* what, const char* lost) {
+    if (kind.left_out > 0) warnings.add({file, kind.left_out_at, what, lost, kind.left_out});
+  };
+  if (is_empty && !names.empty())
+    return error(file, "holds no triangles, only " + listed(names, ", ", " and "),
+                 "draw them with " + listed(options, ", ", " and ") + ", a diameter in scene units");
+  warn(strokes.points, "points are left out", "they are not drawn; --point-size draws them");
+  warn(strokes.lines, "lines are left out", "they are not drawn; --line-width draws them");
+  return {};
+}
+
 }  // namespace
 
 Expected<Scene> load_scene(const std::filesystem::path& path, Warnings* warnings, Progress* progress,
@@ -67,17 +91,25 @@ Expected<Scene> load_scene(const std::filesystem::path& path, const LoadOptions&
   Warnings& heard = options.confine || !warnings ? own : *warnings;
   MemoryLimit limit(options.limit_bytes);
   InputFiles files(*file, options.confine);
-  Loading loading{heard, progress, limit, files, options.shading, options.animation};
+  Loading loading{heard, progress, limit, files, options.shading, options.animation, options.variant};
+  loading.strokes.points.diameter = options.point_size;
+  loading.strokes.lines.diameter = options.line_width;
   const SceneFormat* const format = find_scene_format(*file);
   if (!format)
     return error(*file, "is not of a format that can be read",
                  "convert it to " + scene_extensions(FormatUse::read));
   Expected<Scene> scene = format->load(*file, loading);
+  const Expected<void> left_out = judge_left_out(file->string(), loading.strokes,
+                                                 scene && scene->mesh->triangles.empty(), loading.warnings);
   if (const std::optional<InputError> outside = files.error()) return Unexpected(*outside);
   if (warnings && &heard != warnings)
     for (const Warning& warning : own) warnings->add(warning);
   if (limit.error()) return Unexpected(*limit.error());
   if (!scene) return scene;
+  if (!left_out) return Unexpected(left_out.error());
+  if (!options.variant.empty() && scene->variants.empty())
+    return error(*file, "has no variants of its materials, and none named '" + options.variant + "'",
+                 "leave out the choice of a variant");
   if (!options.animation.empty() && !scene->animation)
     return error(*file, "has no animation '" + options.animation + "'",
                  "leave out the choice of an animation");

@@ -19,6 +19,7 @@ Expected<Scene> turned_up(Scene scene) {
     const Part part{"z up", scene, kTurn};
     Expected<Scene> result = assembled({&part, 1});
     if (result) result->source_files = scene.source_files;
+    if (result) result->variants = scene.variants;
     return result;
   }
   MeshData mesh = *scene.mesh;

@@ -21,6 +21,7 @@ struct PixelFormat {
 inline constexpr PixelFormat kR8Ui{GL_R8UI, GL_RED_INTEGER, GL_UNSIGNED_BYTE, 1};
 inline constexpr PixelFormat kR16Ui{GL_R16UI, GL_RED_INTEGER, GL_UNSIGNED_SHORT, 2};
 inline constexpr PixelFormat kR32Ui{GL_R32UI, GL_RED_INTEGER, GL_UNSIGNED_INT, 4};
+inline constexpr PixelFormat kRg32Ui{GL_RG32UI, GL_RG_INTEGER, GL_UNSIGNED_INT, 8};
 inline constexpr PixelFormat kId24{GL_RGBA8UI, GL_RGB_INTEGER, GL_UNSIGNED_BYTE,
                                    3};  // the fourth byte is not transferred
 inline constexpr PixelFormat kRgba32Ui{GL_RGBA32UI, GL_RGBA_INTEGER, GL_UNSIGNED_INT, 16};

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cstring>
 
 #include "hybrid/exchange/encode.h"
@@ -27,9 +28,33 @@ ChannelTexture whole(const gl::PixelFormat& texel, glm::ivec2 texels) {
   return {.texel = texel, .texels = texels, .most_bytes = count * texel.bytes};
 }
 
+}  // namespace
+
+// MaskImage's bytes are the texels' in a little-endian machine, as all are that we know of.
+static_assert(std::endian::native == std::endian::little);
+ChannelTexture packed_mask_texture(int bits, glm::ivec2 samples) {
+  if (bits <= 8) return whole(gl::kR8Ui, {MaskImage::row_bytes_for(samples.x, bits), samples.y});
+  return whole(bits == 16 ? gl::kR16Ui : bits == 32 ? gl::kR32Ui : gl::kRg32Ui, samples);
+}
+
+namespace {
+
 ChannelTexture mask_texture(S s, glm::ivec2 size) {
-  const glm::ivec2 samples = scaled_size(size, s.mask_scale);
-  return whole(gl::kR8Ui, {MaskImage::row_bytes_for(samples.x, s.mask_bits), samples.y});
+  return packed_mask_texture(s.mask_bits, scaled_size(size, s.mask_scale));
+}
+
+// The slots that travel; the CPU's mask has all.
+void encode_mask(CpuImages& from, S s, Workers&, Writable to) {
+  const MaskImage& mask = from.mask;
+  if (mask.bits() == s.mask_bits) {
+    std::memcpy(to.data(), mask.bytes().data(), to.size());
+    return;
+  }
+  const auto bytes = static_cast<std::size_t>(s.mask_bits / 8),
+             width = static_cast<std::size_t>(mask.size().x);
+  for (int y = 0; y < mask.size().y; ++y)
+    mask.copy_row(0, y, width, bytes,
+                  reinterpret_cast<std::uint8_t*>(to.data()) + static_cast<std::size_t>(y) * width * bytes);
 }
 
 // In tiles it ends in a texture of whole tiles, and an index travels before them.
@@ -78,8 +103,7 @@ constexpr std::array<ChannelRow, kChannelNames.size()> kRows{{
     {.channel = Channel::mask,
      .travels = [](S s) { return on_gpu(s) && s.mask_bits > 0; },
      .texture = mask_texture,
-     .encode = [](CpuImages& from, S, Workers&,
-                  Writable to) { std::memcpy(to.data(), from.mask.bytes().data(), to.size()); }},
+     .encode = encode_mask},
     {.channel = Channel::reflection,
      .travels = [](S s) { return on_gpu(s) && s.reflects(); },
      .texture = reflection_texture,

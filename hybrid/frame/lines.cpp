@@ -16,10 +16,11 @@ namespace {
 void write_surfaces(const FrameResult& frame, const View& view, int y0, int y1, const FrameArrays& to,
                     std::size_t first) {
   const std::optional<RayModel> model = RayModel::of(view);
-  const LaneMapsOf maps(*frame.scene.mesh);
-  const SceneArrays arrays = SceneArrays::of(*frame.scene.mesh, maps);
-  write_visible_lines({arrays, lane_steps(default_isa()), view_params(view),
-                       frame.settings.filter_textures, model ? &*model : nullptr},
+  const Mesh& mesh = *frame.scene.mesh;
+  const LaneMapsOf maps(mesh);
+  const SceneArrays arrays = SceneArrays::of(mesh, maps);
+  write_visible_lines({arrays, lane_steps(default_isa()), view_params(view), frame.settings.filter_textures,
+                       model ? &*model : nullptr},
                       frame.ids, y0, y1, to, first);
 }
 
@@ -53,10 +54,9 @@ void write_lines(const FrameResult& frame, int y0, int y1, const FrameArrays& to
   copy(frame.ids, to.ids);
   copy(frame.reflection, to.reflection);
   if (count > 0) write_identities(frame.scene, {&frame.ids[begin], count}, to, first);
-  for (std::size_t i = 0; to.mask && i < count; ++i) {
-    const int x = static_cast<int>(i % width), y = y0 + static_cast<int>(i / width);
-    to.mask[first + i] = static_cast<std::uint8_t>(frame.mask.bits() > 0 ? frame.mask.get(x, y) : 0u);
-  }
+  for (std::size_t i = 0; to.mask && i < count; i += width)
+    frame.mask.copy_row(0, y0 + static_cast<int>(i / width), width, to.mask_bytes,
+                        to.mask + (first + i) * to.mask_bytes);
   if (!(to.wants_surfaces() || to.motion) || count == 0) return;
   View view = frame.view;
   view.jitter = glm::vec2(0.0f);
@@ -97,9 +97,10 @@ SurfaceImages surfaces_of(const FrameResult& frame) {
   return all;
 }
 
-void unpack_mask(const FrameResult& frame, std::uint8_t* to) {
+void unpack_mask(const FrameResult& frame, std::uint8_t* to, std::size_t bytes) {
   FrameArrays arrays;
   arrays.mask = to;
+  arrays.mask_bytes = bytes;
   write_lines(frame, 0, frame.ids.height(), arrays);
 }
 

@@ -6,6 +6,7 @@
 #include "core/parallel/tiles.h"
 #include "core/trace/view/jitter.h"
 #include "hybrid/frame/lines.h"
+#include "hybrid/settings/resolve.h"
 #include "pinocchio/surface_images.h"
 
 namespace pinocchio {
@@ -49,6 +50,22 @@ bool same_view(FrameRequest a, const FrameRequest& b) {
   a.view.jitter = b.view.jitter;
   a.view.sample = b.view.sample;
   return a == b;
+}
+
+namespace {
+
+int casting(const Scene& scene) {
+  return static_cast<int>(std::ranges::count_if(scene.lights, &Light::casts_shadow));
+}
+
+}  // namespace
+
+int mask_bits_of(const Settings& settings, const Scene& scene) {
+  return settings.mask_bits == 0 ? 0 : std::max<int>(settings.mask_bits, MaskImage::bits_for(casting(scene)));
+}
+
+bool sends_lights(const Settings& settings, const Scene& scene) {
+  return adds_lights(settings, casting(scene));
 }
 
 void submit_samples(Renderer& renderer, FrameRequest request, SampleMean* mean) {

@@ -21,6 +21,12 @@ void settle_environment(Scene& scene, const Settings& settings);
 // Whether the requests differ at most in where pixels are sampled.
 [[nodiscard]] bool same_view(FrameRequest a, const FrameRequest& b);
 
+// The bits a pixel of the frame's mask on the CPU, which has every casting light; 0: none.
+[[nodiscard]] int mask_bits_of(const Settings& settings, const Scene& scene);
+// Whether some casting lights are beyond the mask that goes to the GPU: the CPU adds theirs to the mirrored
+// light.
+[[nodiscard]] bool sends_lights(const Settings& settings, const Scene& scene);
+
 class SampleMean;
 
 // Submits a frame for each sample a pixel: the first at the pixels' centres, the others spread over them.

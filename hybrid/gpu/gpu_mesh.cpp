@@ -160,6 +160,7 @@ void GpuLights::update(const Scene& scene) {
   lights_ = quads(light_texels(scene));
   sent_ = scene.lights;
   any_size_ = std::ranges::any_of(sent_, &Light::has_size);
+  casting_ = static_cast<int>(std::ranges::count_if(sent_, &Light::casts_shadow));
   empty_ = false;
 }
 

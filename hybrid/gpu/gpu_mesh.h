@@ -73,10 +73,12 @@ class GpuLights {
   void update(const Scene& scene);
   int bind(const gl::Program& program, int first_unit) const;
   [[nodiscard]] bool any_size() const { return any_size_; }
+  [[nodiscard]] int casting() const { return casting_; }  // how many cast shadows
 
  private:
   std::vector<Light> sent_;
   bool any_size_ = false;
+  int casting_ = 0;
   gl::TextureBuffer lights_;
   glm::vec3 ambient_light_{0.0f};
   bool empty_ = true;  // no lights were sent yet

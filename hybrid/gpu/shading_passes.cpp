@@ -16,6 +16,8 @@ void ShadingPasses::composite(const Inputs& inputs, LightSet lights, const Trace
   }
   if (lights == LightSet::free) definitions.emplace_back("FREE_LIGHTS_ONLY");
   if (inputs.eye_medium) definitions.emplace_back("EYE_IN_MEDIUM");
+  if (traced.mask.texture && inputs.lights.casting() > traced.mask.bits)
+    definitions.emplace_back("LIGHTS_IN_REFLECTION");
   if (inputs.scene.environment) {
     definitions.emplace_back("HAS_ENVIRONMENT");
     send(inputs.scene.environment);  // first: it binds textures of its own
@@ -63,6 +65,7 @@ void ShadingPasses::inspect(const Inputs& inputs, const Traced& traced, const In
   p.use();
   bind(p, inputs, traced);
   p.set("slot", what.slot);
+  p.set("first_slot", what.first_slot);
   p.set("age_frames", what.age_frames);
   p.set("range_lo", what.range_lo);
   p.set("range_hi", what.range_hi);

@@ -44,7 +44,7 @@ class ShadingPasses {
   // The CPU's answer; null parts are missing.
   struct Traced {
     struct Mask {
-      const gl::Texture* texture = nullptr;  // R8UI, MaskImage's packed rows; null: every light reaches all
+      const gl::Texture* texture = nullptr;  // packed_mask_texture(); null: every light reaches all
       int bits = 0;                          // a sample
       int scale = 1;                         // one sample for scale x scale pixels
     } mask;
@@ -65,6 +65,7 @@ class ShadingPasses {
   struct Inspected {
     std::string definition;  // of shaders/inspect.frag; empty: all is grey
     int slot = 0;            // of the mask
+    int first_slot = 0;      // that the mask's texture has
     int age_frames = 0;
     glm::vec3 range_lo{0.0f}, range_hi{1.0f};  // of depth and position
   };

@@ -39,6 +39,22 @@ std::string name_of_slot(int slot, const Scene& scene) {
          (name.empty() ? "" : " '" + name + "'");
 }
 
+int casting_of(const FrameRequest& request) {
+  return static_cast<int>(casting_lights(request.scene).size());
+}
+
+// The slots from `first` on, a multiple of eight; all of a mask with fewer.
+MaskImage eight_slots(const MaskImage& mask, int first) {
+  if (mask.bits() <= 8) return mask;
+  MaskImage slots(mask.size(), 8);
+  for (int y = 0; y < mask.size().y; ++y)
+    for (int x = 0; x < mask.size().x; ++x) {
+      const auto byte = static_cast<std::uint8_t>(mask.get(x, y, first / 32 * 32) >> first % 32);
+      slots.set_row(x, y, {&byte, 1});
+    }
+  return slots;
+}
+
 std::string legend_of_range(int axes, const ChannelRange& range) {
   if (axes == 1) return ": black " + text_of(range.lo.x) + ", white " + text_of(range.hi.x);
   constexpr std::array<const char*, 3> kAxes{": red X", ", green Y", ", blue Z"};
@@ -60,15 +76,16 @@ std::string legend_of_delay(const std::string& in_time, const FrameRecord& recor
 
 }  // namespace
 
-std::string missing(Layer view, int slot, const Settings& s) {
+std::string missing(Layer view, int slot, const Settings& s, int casting_lights) {
   if (view == Layer::delay && !s.uses_gpu())
     return "mode raytrace: the CPU draws alone, nothing comes later than the rest";
   if (layer_row(view).window.traced && s.mask_bits == 0 && !s.reflects())
     return s.mask_bits.given ? "mode raster traces nothing: every light reaches everything"
                              : "this scene needs nothing traced: no light casts, nothing mirrors";
   if (view == Layer::mask && s.mask_bits == 0) return "no light casts shadows: there is no mask";
-  if (view == Layer::mask && slot >= s.mask_bits)
-    return "the mask has " + std::to_string(s.mask_bits) + " slot(s), counted from 0";
+  const int slots = std::max<int>(s.mask_bits, casting_lights);
+  if (view == Layer::mask && slot >= slots)
+    return "the mask has " + std::to_string(slots) + " slot(s), counted from 0";
   if (view == Layer::reflection && !s.reflects())
     return "nothing mirrors or refracts: there is no reflection";
   return {};
@@ -76,7 +93,7 @@ std::string missing(Layer view, int slot, const Settings& s) {
 
 std::string legend(Layer view, int slot, const Frame& frame, const ChannelRange& range) {
   const Settings& s = frame.request().settings;
-  if (std::string why = missing(view, slot, s); !why.empty()) return why;
+  if (std::string why = missing(view, slot, s, casting_of(frame.request())); !why.empty()) return why;
   const std::string where =
       s.uses_gpu() && s.composite == Processor::cpu ? "; from the CPU, which has it alone (design 2)" : "";
   const LayerRow& row = layer_row(view);
@@ -102,7 +119,8 @@ void InspectPass::draw_buffer(const Frame& frame, Layer view, int slot, const Ch
   const FrameSlot& shown = frame.slot();
   const Settings& s = shown.request.settings;
   const FrameSlot* const of = shown.answer_of;
-  const bool has_it = missing(view, slot, s).empty() && (!layer_row(view).window.traced || of);
+  const bool has_it =
+      missing(view, slot, s, casting_of(shown.request)).empty() && (!layer_row(view).window.traced || of);
   ShadingPasses::Inspected what;
   if (has_it)
     what = {.definition = definition_of(view),
@@ -113,8 +131,12 @@ void InspectPass::draw_buffer(const Frame& frame, Layer view, int slot, const Ch
   ShadingPasses::Traced traced;
   std::optional<OlderFrame> older;
   if (has_it && layer_row(view).window.traced) {
-    traced = s.composite == Processor::cpu ? send_from_cpu(shown.mask, shown.reflection, view)
-                                           : of->answer_on_gpu();
+    if (s.composite == Processor::cpu || (view == Layer::mask && slot >= s.mask_bits)) {
+      what.first_slot = slot / 8 * 8;
+      traced = send_from_cpu(s.composite == Processor::cpu ? shown : *of, view, what.first_slot);
+    } else {
+      traced = of->answer_on_gpu();
+    }
     if (of != &shown) traced.of = &older.emplace(of->ids_texture(), of->view, shared::Sampling{});
   }
   fit(target_, shown.size(), gl::kRgba16F);
@@ -129,12 +151,14 @@ ShadingPasses::Inputs InspectPass::inputs_of(const FrameSlot& frame) {
   return frame.inputs(*engine_.parts().gpu_mesh(frame.request.scene.mesh), lights_, ids_.texture, kIdBits);
 }
 
-ShadingPasses::Traced InspectPass::send_from_cpu(const MaskImage& mask, const Image<glm::vec3>& reflection,
-                                                 Layer view) {
+ShadingPasses::Traced InspectPass::send_from_cpu(const FrameSlot& frame, Layer view, int first_slot) {
   ShadingPasses::Traced traced;
+  const Image<glm::vec3>& reflection = frame.reflection;
   if (view == Layer::mask) {
-    send(std::as_bytes(mask.bytes()), {mask.row_bytes(), mask.size().y}, gl::kR8Ui, mask_);
-    traced.mask = {&mask_.texture, mask.bits(), 1};
+    const MaskImage mask = eight_slots(frame.mask, first_slot);
+    const ChannelTexture texture = packed_mask_texture(mask.bits(), mask.size());
+    send(std::as_bytes(mask.bytes()), texture.texels, texture.texel, mask_);
+    traced.mask = {&mask_.texture, mask.bits(), frame.request.settings.mask_scale};
   }
   if (view == Layer::reflection) {
     constexpr ReflectionFormat kFormat = ReflectionFormat::full;  // the CPU's

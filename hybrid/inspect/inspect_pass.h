@@ -20,8 +20,9 @@ struct ChannelRange {
   friend bool operator==(const ChannelRange&, const ChannelRange&) = default;
 };
 
-// Why a frame of these settings has no such layer, in words; empty: it has one. `slot`: of the mask.
-[[nodiscard]] std::string missing(Layer view, int slot, const Settings& settings);
+// Why a frame of these settings has no such layer, in words; empty: it has one. `slot`: of the mask, which on
+// the CPU has as many as there are casting lights.
+[[nodiscard]] std::string missing(Layer view, int slot, const Settings& settings, int casting_lights = 0);
 // What the colours mean, or why the layer is missing, in words.
 [[nodiscard]] std::string legend(Layer view, int slot, const Frame& frame, const ChannelRange& range = {});
 
@@ -37,9 +38,9 @@ class InspectPass {
 
  private:
   void draw_buffer(const Frame& frame, Layer view, int slot, const ChannelRange& range);
-  // Where the CPU composites, only it has mask and reflection: sends them.
-  [[nodiscard]] ShadingPasses::Traced send_from_cpu(const MaskImage& mask, const Image<glm::vec3>& reflection,
-                                                    Layer view);
+  // Sends the layer of a frame that the CPU has alone: where it composites, and for slots beyond the mask
+  // that the GPU has. Of the mask, eight slots from `first_slot` on.
+  [[nodiscard]] ShadingPasses::Traced send_from_cpu(const FrameSlot& frame, Layer view, int first_slot);
 
   // The frame's inputs for the GPU's passes; ids that only the CPU has are sent.
   [[nodiscard]] ShadingPasses::Inputs inputs_of(const FrameSlot& frame);

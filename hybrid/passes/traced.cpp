@@ -1,4 +1,5 @@
 // The CPU's part of a frame.
+#include <bit>
 #include <stdexcept>
 
 #include "core/trace/tiles/tinted_shadows.h"
@@ -49,11 +50,12 @@ bool tints(const FrameSlot& frame) {
   return frame.request.settings.mask_bits > 0 && tints_shadows(*frame.request.scene.mesh, frame.options);
 }
 
-// Whether there is traced light beside what the mask decides.
+// Whether light comes to the visible points by other rays than the mask's.
 bool traces_further(const FrameSlot& frame) {
   const FrameRequest& r = frame.request;
-  return r.settings.reflects() && (r.settings.depth > 0 || r.settings.indirect > 0 ||
-                                   r.scene.environment != nullptr || r.settings.denoise || tints(frame));
+  return r.settings.reflects() &&
+         (r.settings.depth > 0 || r.settings.indirect > 0 || r.scene.environment != nullptr ||
+          r.settings.denoise || sends_lights(r.settings, r.scene) || tints(frame));
 }
 
 TileOutputs outputs_of(FrameSlot& frame, int scale, bool has_ids) {
@@ -70,7 +72,7 @@ TileOutputs outputs_of(FrameSlot& frame, int scale, bool has_ids) {
 
 void add_mask(FrameSlot& frame, TileOutputs& out) {
   if (frame.request.settings.mask_bits == 0) return;
-  out.mask_bits = frame.request.settings.mask_bits;
+  out.mask_bits = mask_bits_of(frame.request.settings, frame.request.scene);
   out.mask = &frame.mask;
 }
 
@@ -80,6 +82,8 @@ void add_reflection(FrameSlot& frame, TileOutputs& out) {
   out.indirect = frame.request.settings.indirect;
   out.environment_light = true;
   out.reflection = &frame.reflection;
+  if (sends_lights(frame.request.settings, frame.request.scene))
+    out.first_added_slot = frame.request.settings.mask_bits;
 }
 
 // Filters the frame's sampled light with that of the samples before, and adds it to the frame's images.
@@ -122,7 +126,8 @@ void trace(Workers& workers, FrameSlot& frame, Gathering& gathering) {
   if (apart) {
     run(workers, frame, out, share);
     out = outputs_of(frame, s.reflection_scale, has_ids);
-    if (tints(frame)) out.mask_bits = s.mask_bits;  // shadow rays again, for light through glass
+    if (tints(frame))
+      out.mask_bits = mask_bits_of(s, frame.request.scene);  // shadow rays again, for light through glass
   }
   add_reflection(frame, out);
   if (!s.uses_gpu()) out.color = &frame.color;
@@ -141,8 +146,9 @@ MaskImage enlarged(const MaskImage& mask, int scale, glm::ivec2 size) {
   MaskImage large(size, mask.bits());
   for (int y = 0; y < size.y; ++y)
     for (int x = 0; x < size.x; ++x)
-      for (unsigned bits = mask.get(x / scale, y / scale), slot = 0; bits >> slot != 0; ++slot)
-        if (bits >> slot & 1u) large.set_bit(x, y, static_cast<int>(slot));
+      for (int first = 0; first < mask.bits(); first += 32)
+        for (unsigned bits = mask.get(x / scale, y / scale, first); bits != 0; bits &= bits - 1)
+          large.set_bit(x, y, first + std::countr_zero(bits));
   return large;
 }
 

@@ -48,8 +48,15 @@ std::string why_mask(const SceneStats& stats, const Settings& s) {
     return stats.idle_lights == stats.lights ? "no shadow mask: no light reaches anything"
                                              : "no shadow mask: no light casts";
   }
-  return "shadow mask of " + plural(s.mask_bits, "bit") + " a pixel" + per_sample(s.mask_scale) + ": " +
-         plural(stats.casting_lights, "light") + (stats.casting_lights == 1 ? " casts" : " cast");
+  const bool travels = s.uses_gpu() && s.composite == Processor::gpu;
+  std::string text = "shadow mask of " + plural(s.mask_bits, "bit") + " a pixel";
+  if (travels && s.mask_bits > 8) text += ", " + plural(s.mask_bits / 8, "byte") + " to the GPU";
+  text += per_sample(s.mask_scale) + ": " + plural(stats.casting_lights, "light") +
+          (stats.casting_lights == 1 ? " casts" : " cast");
+  if (adds_lights(s, stats.casting_lights))
+    text += "; the CPU shades " + std::to_string(stats.casting_lights - s.mask_bits) +
+            " of them, whose light travels with mirrored light";
+  return text;
 }
 
 std::string format_of(const Settings& s) {
@@ -66,6 +73,10 @@ std::string format_of(const Settings& s) {
 }
 
 std::string why_reflection(const SceneStats& stats, const Settings& s) {
+  const bool lights = adds_lights(s, stats.casting_lights);
+  if (!stats.mirrors && lights)
+    return "light that the CPU shades is sent as " + format_of(s) + per_sample(s.reflection_scale) +
+           ": nothing mirrors or refracts, but some lights are not in the mask";
   if (!stats.mirrors) return "no reflection pass: nothing mirrors or refracts";
   if (!s.reflects()) return "no reflection pass: the plan leaves mirrors out (depth 0)";
   std::string text = "reflection pass";
@@ -142,7 +153,8 @@ std::vector<std::string> explain(const SceneStats& stats, const Settings& s) {
   if (stats.glass && s.reflects() && (sky || s.mask_bits > 0)) lines.push_back(why_glass(s));
   if (sky && s.reflects()) lines.push_back(why_sky(s));
   if (s.denoise) lines.push_back(why_denoise(s));
-  if (s.reflects()) lines.push_back(why_depth(stats, s));
+  if (s.reflects() && (stats.mirrors || !adds_lights(s, stats.casting_lights)))
+    lines.push_back(why_depth(stats, s));
   if (s.mask_bits > 0) lines.push_back(why_rays(s));
   if (s.traces()) lines.push_back(why_threads(s));
   lines.push_back(why_maps(stats));

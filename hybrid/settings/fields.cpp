@@ -28,7 +28,7 @@ std::optional<T> number_of(std::string_view text, double lo, double hi) {
 }
 
 constexpr std::array<std::string_view, 3> kScales{"1", "2", "4"};
-constexpr std::array<std::string_view, 5> kMaskBits{"0", "1", "2", "4", "8"};
+constexpr std::array<std::string_view, 8> kMaskBits{"0", "1", "2", "4", "8", "16", "32", "64"};
 constexpr std::array<std::string_view, 3> kIdBits{"16", "24", "32"};
 constexpr std::array<std::string_view, 2> kFlag{"false", "true"};
 
@@ -142,8 +142,10 @@ constexpr std::array kTable{
     field<&S::seed>("seed", from_to(0, 65535), "0", "another seed gives other samples"),
     field<&S::depth>("depth", from_to(0, kMostBounces), "8, or fewer where the scene's mirrors need no more",
                      "most bounces"),
-    field<&S::mask_bits>("mask_bits", one_of(kMaskBits), "the fewest that hold the casting lights",
-                         "bits a pixel of the shadow mask, one a light; 0: no shadows"),
+    field<&S::mask_bits>("mask_bits", one_of(kMaskBits),
+                         "the fewest that hold the casting lights, at most 64",
+                         "bits a pixel of the shadow mask that goes to the GPU, one a light; from 8 on, the "
+                         "light of casting lights beyond them travels with mirrored light; 0: no shadows"),
     field<&S::mask_scale>("mask_scale", one_of(kScales), "1",
                           "pixels a side that share a sample of the shadow mask"),
     field<&S::reflection>("reflection", one_of(kReflectionFormatNames), "half where something mirrors",

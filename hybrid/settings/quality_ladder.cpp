@@ -48,7 +48,7 @@ bool keeps(const MeasuredSettings& measured, const Budget& budget) {
 
 }  // namespace
 
-std::vector<Settings> quality_ladder(const Settings& exact) {
+std::vector<Settings> quality_ladder(const Settings& exact, bool lights_in_reflection) {
   std::vector<Settings> ladder{exact};
   constexpr int kAll = kMostBounces;
   if (exact.reflects()) {
@@ -65,8 +65,10 @@ std::vector<Settings> quality_ladder(const Settings& exact) {
     add_unless_there(ladder, thinned(exact, scale, scale, 2));
   }
   add_unless_there(ladder, thinned(exact, 4, 4, 1));
-  add_unless_there(ladder, without_mirrors(exact));
-  add_unless_there(ladder, thinned(without_mirrors(exact), 4, 1, kAll));
+  if (!lights_in_reflection) {
+    add_unless_there(ladder, without_mirrors(exact));
+    add_unless_there(ladder, thinned(without_mirrors(exact), 4, 1, kAll));
+  }
   add_unless_there(ladder, without_shadows(exact));
   Settings raster = without_mirrors(without_shadows(exact));
   raster.visibility = Processor::gpu;

@@ -9,8 +9,8 @@
 namespace pinocchio {
 
 // The exact settings, which composite on the GPU, and cheaper ones, each once: fewer samples of mask and
-// reflection, fewer bounces, fewer bits, and last no mirrors or shadows.
-[[nodiscard]] std::vector<Settings> quality_ladder(const Settings& exact);
+// reflection, fewer bounces, fewer bits, and last no mirrors or shadows. lights_in_reflection: adds_lights().
+[[nodiscard]] std::vector<Settings> quality_ladder(const Settings& exact, bool lights_in_reflection = false);
 
 // The losses of `settings` against `exact`, in words; empty: none.
 [[nodiscard]] std::string given_up(const Settings& exact, const Settings& settings);

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <string>
 
-#include "pinocchio/light.h"
 #include "pinocchio/mask_image.h"
 
 namespace pinocchio {
@@ -23,6 +22,24 @@ std::size_t most_ids(int id_bits) {
   return id_bits == 16 ? kMost16BitIds : id_bits == 24 ? kMost24BitIds : 0xffffffffu;
 }
 
+// Whether the GPU's mask does not have all casting lights.
+bool exceeds_mask(const Settings& s, int casting_lights) {
+  return s.composite == Processor::gpu && s.mask_bits != 0 && s.mask_bits < casting_lights;
+}
+
+// Below 8 bits a mask holds all lights: the light of others is added by whole bytes of slots.
+Expected<void> check_mask(const Settings& s, const SceneStats& stats) {
+  const std::string bits = std::to_string(s.mask_bits), lights = std::to_string(stats.casting_lights);
+  if (s.mask_bits != 0 && s.mask_bits < std::min(8, stats.casting_lights))
+    return refused("mask_bits " + bits + " cannot hold the scene's " + lights + " casting lights",
+                   "use more bits, or 0 for no shadows");
+  if (exceeds_mask(s, stats.casting_lights) && !s.reflects())
+    return refused("mask_bits " + bits + " cannot hold the scene's " + lights +
+                       " casting lights, and with reflection none no other light travels",
+                   "leave reflection out, use more bits (64 at most), or composite cpu (--design 2)");
+  return {};
+}
+
 Expected<void> check(const Settings& s, const SceneStats& stats) {
   if (const Rule* const rule = broken_rule(s))
     return refused(std::string(rule->what), std::string(rule->remedy));
@@ -30,11 +47,7 @@ Expected<void> check(const Settings& s, const SceneStats& stats) {
     return refused("id_bits " + std::to_string(s.id_bits) + " cannot name the scene's " +
                        std::to_string(stats.triangles) + " triangles",
                    "use more bits (--plan auto, where --plan slides says 24)");
-  if (s.mask_bits != 0 && s.mask_bits < stats.casting_lights)
-    return refused("mask_bits " + std::to_string(s.mask_bits) + " cannot hold the scene's " +
-                       std::to_string(stats.casting_lights) + " casting lights",
-                   "use more bits, or 0 for no shadows");
-  return {};
+  return check_mask(s, stats);
 }
 
 bool lights_through_glass(const Settings& s, const SceneStats& stats) {
@@ -62,6 +75,13 @@ bool takes_samples(const SceneStats& stats, const Settings& s) {
          (lobes && (stats.glossy || (sky && stats.microfacets)));
 }
 
+// Lights beyond the mask travel as light. Where that is ruled out, the CPU composites.
+void make_way_for_lights(const SceneStats& stats, Settings& s) {
+  if (!exceeds_mask(s, stats.casting_lights)) return;
+  s.reflection.fill(ReflectionFormat::half);
+  if (!s.reflects()) s.composite.fill(Processor::cpu);
+}
+
 // --mode auto. The GPU stays where other settings need it.
 void choose_processors(const Circumstances& c, Settings& s) {
   if (!s.by_machine || !c.software_gl) return;
@@ -74,11 +94,6 @@ void choose_processors(const Circumstances& c, Settings& s) {
 }  // namespace
 
 Expected<Settings> resolve(const Settings& settings, const SceneStats& stats, const Circumstances& c) {
-  if (stats.casting_lights > kMaxCastingLights)
-    return refused("the scene has " + std::to_string(stats.casting_lights) +
-                       " lights that cast shadows, the shadow mask holds " +
-                       std::to_string(kMaxCastingLights),
-                   "let some not cast (extras.pinocchio.castsShadow, or --light x,y,z,intensity,nocast)");
   Settings s = settings;
   if (stats.studio) {
     s.environment_light.fill(EnvironmentMethod::prefiltered);
@@ -86,7 +101,7 @@ Expected<Settings> resolve(const Settings& settings, const SceneStats& stats, co
   }
   if (s.environment_light == EnvironmentMethod::prefiltered) s.glossy.fill(Glossy::sharp);
   s.id_bits.fill(stats.triangles < kMost16BitIds ? 16 : 32);
-  s.mask_bits.fill(MaskImage::bits_for(stats.casting_lights));
+  s.mask_bits.fill(mask_bits_for(stats.casting_lights));
   fill_depth(stats, s);
   choose_processors(c, s);
   if (s.coverage) {
@@ -94,6 +109,7 @@ Expected<Settings> resolve(const Settings& settings, const SceneStats& stats, co
     s.composite.fill(Processor::cpu);
   }
   if (c.needs_rays) draw_on_cpu(s);
+  make_way_for_lights(stats, s);
   // All lights together stay below half a step.
   const bool needs_bits = c.keeps_mask || s.mask_bits == 0;
   s.light_cutoff.fill(needs_bits ? 0.0f
@@ -111,11 +127,24 @@ Expected<Settings> resolve(const Settings& settings, const SceneStats& stats, co
   return s;
 }
 
+int mask_bits_for(int casting_lights) {
+  return std::min(MaskImage::bits_for(casting_lights), kMostMaskBits);
+}
+
+bool adds_lights(const Settings& s, int casting_lights) {
+  return exceeds_mask(s, casting_lights) && s.reflects();
+}
+
 std::vector<std::string> losses(const Settings& s, const SceneStats& stats) {
   std::vector<std::string> lines;
   if (s.mask_bits.given && s.mask_bits == 0 && stats.casting_lights > 0)
     lines.push_back("mask_bits 0: the shadows of " + std::to_string(stats.casting_lights) +
                     " light(s) are left out");
+  if (adds_lights(s, stats.casting_lights) && s.reflection == ReflectionFormat::rgb8)
+    lines.push_back(
+        "mask_bits " + std::to_string(s.mask_bits) + ": the light of the other " +
+        std::to_string(stats.casting_lights - s.mask_bits) +
+        " lights travels with mirrored light, of which reflection rgb8 clips what is brighter than white");
   if (s.reflection.given && !s.reflects() && stats.mirrors)
     lines.emplace_back("reflection none: mirrors and glass are left out");
   if (s.reflection.given && !s.reflects() && lights_through_glass(s, stats))

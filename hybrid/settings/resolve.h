@@ -21,10 +21,16 @@ struct Circumstances {
 inline constexpr const char* kGainOverSoftwareGl = "1.5 to 4 times as fast at 800x600";
 
 // Fills in the settings that are not given: the least work that draws the scene exactly (to half a step of an
-// 8-bit picture). An error where two settings contradict each other, or the scene exceeds a limit (more
-// casting lights than mask slots, ids with too few bits).
+// 8-bit picture). An error where two settings contradict each other or the scene (a mask or ids with too few
+// bits).
 [[nodiscard]] Expected<Settings> resolve(const Settings& settings, const SceneStats& stats,
                                          const Circumstances& circumstances = {});
+
+// The bits of the mask that goes to the GPU, where they are not given.
+[[nodiscard]] int mask_bits_for(int casting_lights);
+// Whether some of the casting lights are beyond the mask that goes to the GPU, and their light is added to
+// the mirrored light.
+[[nodiscard]] bool adds_lights(const Settings& resolved, int casting_lights);
 
 // The picture's losses by given settings, one line each; empty: none.
 [[nodiscard]] std::vector<std::string> losses(const Settings& resolved, const SceneStats& stats);

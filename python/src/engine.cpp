@@ -24,14 +24,24 @@ const LayerRow& output_named(const std::string& name) {
   throw Error("there is no output '" + name + "'; choose from " + array_names());
 }
 
-std::vector<std::size_t> shape_of(const LayerRow& output, std::size_t frames, const glm::ivec2& size) {
+// Of the lights that the pictures are drawn with. In other poses, lights may reach something that reach
+// nothing now.
+std::size_t mask_bytes_of(Scene scene, const Settings& settings, bool has_poses) {
+  if (settings.mask_bits == 0) return 1;
+  if (!has_poses) drop_idle_casters(scene);
+  return MaskImage::bytes_for(casting_lights(scene).size());
+}
+
+std::vector<std::size_t> shape_of(const LayerRow& output, std::size_t frames, const glm::ivec2& size,
+                                  std::size_t mask_bytes) {
   std::vector<std::size_t> shape{frames, static_cast<std::size_t>(size.y), static_cast<std::size_t>(size.x)};
-  if (const std::size_t numbers = pixel_type(output).numbers; numbers > 1) shape.push_back(numbers);
+  if (const std::size_t numbers = pixel_type(output, mask_bytes).numbers; numbers > 1)
+    shape.push_back(numbers);
   return shape;
 }
 
 nb::object new_array(const LayerRow& output, const std::vector<std::size_t>& shape, FrameArrays& to) {
-  const PixelType type = pixel_type(output);
+  const PixelType type = pixel_type(output, to.mask_bytes);
   std::size_t bytes = type.bytes;
   for (const std::size_t n : shape) bytes *= n;
   void* const data = ::operator new(std::max<std::size_t>(bytes, 1));
@@ -52,7 +62,8 @@ nb::object given_array(const LayerRow& output, const std::vector<std::size_t>& s
     throw nb::type_error((named + "is on another device (DLPack's type " + std::to_string(device) +
                           "); the CPU fills it: give an array of its memory, and copy that to the device")
                              .c_str());
-  bool fits = array.dtype() == pixel_type(output).type && array.ndim() == shape.size() && array.is_valid();
+  bool fits = array.dtype() == pixel_type(output, to.mask_bytes).type && array.ndim() == shape.size() &&
+              array.is_valid();
   std::int64_t stride = 1;
   for (std::size_t i = shape.size(); fits && i-- > 0; stride *= static_cast<std::int64_t>(shape[i]))
     fits = array.shape(i) == shape[i] && (shape[i] == 1 || array.stride(i) == stride);
@@ -124,11 +135,13 @@ class PyEngine {
     for (const CameraChoice& choice : choices) cameras.push_back(camera_of(scene, choice));
     const Poses poses = given_poses ? poses_of(scene, choices, *given_poses) : Poses{};
     const std::size_t pictures = given_poses ? poses.pictures.size() : cameras.size();
+    const Scene drawn = cameras.empty() ? scene : lit(scene, cameras.front());
     nb::dict result;
     FrameArrays to;
+    to.mask_bytes = mask_bytes_of(drawn, settings, given_poses.has_value());
     for (const std::string& name : outputs) {
       const LayerRow& output = output_named(name);
-      const std::vector<std::size_t> shape = shape_of(output, pictures, size);
+      const std::vector<std::size_t> shape = shape_of(output, pictures, size, to.mask_bytes);
       result[name.c_str()] = out && out->contains(name.c_str())
                                  ? given_array(output, shape, (*out)[name.c_str()], to)
                                  : new_array(output, shape, to);
@@ -137,7 +150,6 @@ class PyEngine {
     const std::vector<MotionTo> motion = to.motion && !given_poses
                                              ? motions(scene, cameras, motion_scene, motion_cameras)
                                              : std::vector<MotionTo>();
-    const Scene drawn = lit(scene, cameras.front());
     without_gil([&](Progress* progress) {
       const std::lock_guard lock(mutex_);
       check_open();

@@ -16,7 +16,23 @@ struct PixelType {
   std::size_t bytes, numbers;  // of a number; numbers of a pixel
 };
 
-inline PixelType pixel_type(const LayerRow& row) {
+// Of a mask with so many bytes a pixel: one number, or numbers of 64 bits.
+inline PixelType mask_type(std::size_t bytes) {
+  switch (bytes) {
+    case 1:
+      return {nb::dtype<std::uint8_t>(), "uint8", 1, 1};
+    case 2:
+      return {nb::dtype<std::uint16_t>(), "uint16", 2, 1};
+    case 4:
+      return {nb::dtype<std::uint32_t>(), "uint32", 4, 1};
+    default:
+      return {nb::dtype<std::uint64_t>(), "uint64", 8, bytes / 8};
+  }
+}
+
+// mask_bytes: FrameArrays::mask_bytes.
+inline PixelType pixel_type(const LayerRow& row, std::size_t mask_bytes = 1) {
+  if (row.layer == Layer::mask) return mask_type(mask_bytes);
   return std::visit(
       [](auto member) -> PixelType {
         if constexpr (std::is_same_v<decltype(member), std::monostate>) {

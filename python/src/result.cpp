@@ -70,13 +70,19 @@ auto reflection(nb::handle self) {
   return picture(result.no_reflection, self);
 }
 
-auto mask(nb::handle self) {
+nb::ndarray<nb::numpy> mask(nb::handle self) {
   Result& result = nb::cast<Result&>(self);
+  const Image<std::uint32_t>& ids = result.frame.ids;
+  const std::size_t bytes = MaskImage::bytes_for(casting_lights(result.frame.scene).size());
   if (result.mask.empty()) {
-    result.mask = Image<std::uint8_t>(result.frame.ids.size());
-    unpack_mask(result.frame, result.mask.pixels().data());
+    result.mask.resize((ids.pixels().size() * bytes + 7) / 8);
+    unpack_mask(result.frame, reinterpret_cast<std::uint8_t*>(result.mask.data()), bytes);
   }
-  return picture(result.mask, self);
+  const PixelType type = mask_type(bytes);
+  std::vector<std::size_t> shape{static_cast<std::size_t>(ids.height()),
+                                 static_cast<std::size_t>(ids.width())};
+  if (type.numbers > 1) shape.push_back(type.numbers);
+  return {result.mask.data(), shape.size(), shape.data(), self, nullptr, type.type};
 }
 
 // A layer of numbers that are looked up by the ids.

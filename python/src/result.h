@@ -3,6 +3,7 @@
 #include <pinocchio/frame.h>
 
 #include <optional>
+#include <vector>
 
 namespace pinocchio::python {
 
@@ -11,7 +12,7 @@ struct Result {
   FrameResult frame;  // never changed: calls without the GIL read it
   double ms = 0.0;    // from the call to the picture
   std::optional<SurfaceImages> surfaces{};
-  Image<std::uint8_t> mask{};
+  std::vector<std::uint64_t> mask{};  // of pixel_type()
   Image<std::uint32_t> objects{}, materials{}, primitives{};
   Image<glm::vec3> no_reflection{};  // zeros, where the frame traced none
 };

@@ -139,6 +139,82 @@ def test_wrong_rays_are_refused(scenes):
     assert (broken.ids == 0xFFFFFFFF).all()
 
 
+def test_stereo_cameras_have_the_disparity_of_their_baseline(scenes):
+    scene = pn.load_scene(scenes / "two-lights.gltf")
+    middle = pn.Camera(eye=(0.3, 1, 5), target=(0, 0.4, 0), fov=50)
+    left, right = middle.stereo(0.12)
+    assert numpy.linalg.norm(numpy.subtract(right.eye, left.eye)) == pytest.approx(0.12, rel=1e-5)
+    picture = pn.Engine().render(scene, left, SIZE)
+    seen = picture.ids != 0xFFFFFFFF
+    motion = picture.motion(camera=right)[seen]
+    fx = left.intrinsics(SIZE)[0]
+    numpy.testing.assert_allclose(-motion[:, 0], fx * 0.12 / picture.depth[seen], rtol=1e-3, atol=1e-3)
+    numpy.testing.assert_allclose(motion[:, 1], 0, atol=1e-3)
+    with pytest.raises(pn.Error, match="baseline"):
+        middle.stereo(float("nan"))
+
+
+def test_points_and_lines_are_drawn_by_their_diameters(tmp_path):
+    file = tmp_path / "cloud.ply"
+    file.write_text(
+        "ply\nformat ascii 1.0\nelement vertex 2\nproperty float x\nproperty float y\nproperty float z\n"
+        "property uchar red\nproperty uchar green\nproperty uchar blue\nend_header\n0 0 0 255 0 0\n1 0 0 0 0 255\n"
+    )
+    with pytest.raises(pn.Error, match="only points; draw them with --point-size D"):
+        pn.load_scene(file)
+    with pytest.raises(pn.Error, match="point_size is a diameter"):
+        pn.load_scene(file, point_size=-1)
+    scene = pn.load_scene(file, point_size=0.5)
+    camera = pn.Camera.orthographic(eye=(0.5, 0, 3), target=(0.5, 0, 0), height=1)
+    scene.lights.append(pn.Light(position=(0.5, 0, 30)))
+    picture = pn.Engine().render(scene, camera, (200, 100), mode="raytrace")
+    seen = picture.ids != 0xFFFFFFFF
+    assert seen.sum() == pytest.approx(2 * numpy.pi * 25**2, rel=0.01)  # pixels of two discs
+    red, blue = picture.color[seen & (picture.position[..., 0] < 0.5)], picture.color[picture.position[..., 0] > 0.6]
+    assert red[:, 0].mean() > 10 * red[:, 2].mean() and blue[:, 2].mean() > 10 * blue[:, 0].mean()
+    wire = tmp_path / "wire.obj"
+    wire.write_text("v 0 0 0\nv 1 0 0\nv 1 1 0\nl 1 2 3\n")
+    assert len(pn.load_scene(wire, line_width=0.1).triangles) == 2 * 1024
+
+
+def test_variants_of_materials(tmp_path):
+    import json
+    import struct
+
+    gltf = {
+        "asset": {"version": "2.0"},
+        "buffers": [{"byteLength": 36, "uri": "three.bin"}],
+        "bufferViews": [{"buffer": 0, "byteLength": 36}],
+        "accessors": [{"bufferView": 0, "componentType": 5126, "count": 3, "type": "VEC3"}],
+        "materials": [{"name": "plain"}, {"name": "painted"}],
+        "meshes": [
+            {
+                "primitives": [
+                    {
+                        "attributes": {"POSITION": 0},
+                        "material": 0,
+                        "extensions": {"KHR_materials_variants": {"mappings": [{"material": 1, "variants": [0]}]}},
+                    }
+                ]
+            }
+        ],
+        "nodes": [{"mesh": 0}],
+        "scenes": [{"nodes": [0]}],
+        "extensions": {"KHR_materials_variants": {"variants": [{"name": "night"}]}},
+        "extensionsUsed": ["KHR_materials_variants"],
+    }
+    (tmp_path / "three.bin").write_bytes(struct.pack("<9f", 0, 0, 0, 1, 0, 0, 0, 1, 0))
+    file = tmp_path / "three.gltf"
+    file.write_text(json.dumps(gltf))
+    scene = pn.load_scene(file)
+    assert scene.variants == ["night"] and pickle.loads(pickle.dumps(scene)).variants == ["night"]
+    assert scene.materials[int(scene.triangle_materials[0])].name == "plain"
+    night = pn.load_scene(file, variant="night")
+    assert night.materials[int(night.triangle_materials[0])].name == "painted"
+    with pytest.raises(pn.Error, match="choose from 'night'"):
+        pn.load_scene(file, variant="noon")
+
+
 def test_stl_and_the_axis_that_points_up(tmp_path):
     file = tmp_path / "part.stl"
     file.write_text("solid a\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0 0\nvertex 0 2 3\nendloop\nendfacet\n")

@@ -77,6 +77,26 @@ def test_lights_and_cameras_change_between_calls():
     assert lit[4, 4] == 1 and behind[4, 4] == 0
 
 
+@pytest.mark.parametrize("count, dtype, numbers", [(1, "uint8", 0), (8, "uint8", 0), (9, "uint16", 0), (17, "uint32", 0),
+                                                   (40, "uint64", 0), (64, "uint64", 0), (65, "uint64", 2),
+                                                   (130, "uint64", 3)])
+def test_a_mask_has_a_bit_for_every_casting_light(count, dtype, numbers):
+    lights = [pn.Light(position=(0, 0, 3), casts_shadow=False),
+              *[pn.Light(position=(0, 0, 3)) for _ in range(count - 1)],
+              pn.Light(position=(0, 0, -3)),  # behind the floor
+              pn.Light(position=(1000, 0, 3), range=1)]  # reaches nothing: no bit
+    engine, scene, size = pn.Engine(), floor(lights=lights), (8, 6)
+    mask = engine.render(scene, pn.Camera(**ABOVE), size=size).mask
+    assert mask.dtype == dtype and mask.shape == (6, 8) + ((numbers,) if numbers else ())
+    slots = sum(int(word) << 64 * i for i, word in enumerate(numpy.atleast_1d(mask[3, 4])))
+    assert slots == (1 << (count - 1)) - 1
+    many = engine.render_many(scene, [pn.Camera(**ABOVE)] * 2, size=size, outputs=["mask"])["mask"]
+    assert many.dtype == dtype and many.shape == (2, *mask.shape)
+    assert (many == mask).all()
+    again = engine.render_many(scene, [pn.Camera(**ABOVE)] * 2, size=size, outputs=["mask"], out={"mask": many})
+    assert again["mask"] is many
+
+
 def test_nodes_move(scenes):
     part = floor()
     pose = numpy.eye(4)

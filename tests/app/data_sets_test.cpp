@@ -1,6 +1,8 @@
 // What data sets need, from the command line: layers by name, cameras, STL, raw frames.
+#include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
+#include <vector>
 
 #include "pinocchio/exr.h"
 #include "tests/app/program_test.h"
@@ -148,6 +150,37 @@ TEST_F(DataSetsTest, OneOfAFilesAnimationsPlays) {
   const CommandResult none = run("render" + scene("windmill") + kSmall + "--animation fly -o x.exr");
   EXPECT_EQ(none.exit_code, 4);
   EXPECT_NE(none.err.find("has no animation 'fly'; choose from 0"), std::string::npos) << none.err;
+}
+
+// In every mode the same ids: those of the node, of the material and of the triangle within the node.
+TEST_F(DataSetsTest, PointsAndLinesAreDrawnInEveryMode) {
+  write("wire.obj", "v 0 0 0\nv 1 0 0\nv 1 1 0\np 1\nl 2 3\n");
+  const CommandResult refused = run("render wire.obj -o x.exr");
+  EXPECT_EQ(refused.exit_code, 4);
+  EXPECT_NE(refused.err.find("draw them with --point-size D and --line-width D"), std::string::npos)
+      << refused.err;
+  EXPECT_EQ(std::ranges::count(refused.err, '\n'), 1) << refused.err;
+  EXPECT_EQ(run("render wire.obj --point-size 0 -o x.exr").exit_code, 2);
+  std::vector<std::uint32_t> first;
+  for (const char* mode : {"raytrace", "hybrid", "raster"}) {
+    expect_done(
+        std::string("render wire.obj --size 80x60 --quiet --point-size 0.4 --line-width 0.2 --eye 0.5,0.5,4 "
+                    "--target 0.5,0.5,0 --aov all,id.node,id.material,id.primitive -o wire.exr --mode ") +
+        mode);
+    const auto file = exr("wire.exr");
+    const std::vector<std::uint32_t>& ids = file.find("id.triangle")->uints;
+    EXPECT_GT(std::ranges::count_if(ids, [](std::uint32_t id) { return id < 1280; }), 50) << mode;
+    EXPECT_GT(std::ranges::count_if(ids, [](std::uint32_t id) { return id >= 1280 && id != 0xffffffff; }), 50)
+        << mode;
+    EXPECT_EQ(file.find("id.primitive")->uints, ids) << mode;  // the file has no nodes
+    if (first.empty()) first = ids;
+    std::size_t others = 0;  // edges of triangles may fall to either neighbour
+    for (std::size_t i = 0; i < ids.size(); ++i) others += ids[i] != first[i] ? 1 : 0;
+    EXPECT_LE(others, ids.size() / 200) << mode;
+  }
+  const CommandResult info = run("info wire.obj --point-size 0.4");
+  EXPECT_EQ(info.exit_code, 0);
+  EXPECT_NE(info.out.find("lines are left out"), std::string::npos) << info.out;
 }
 
 TEST_F(DataSetsTest, StlIsDrawnWithTheAxisThatIsUp) {

@@ -27,8 +27,11 @@ Image<SampledPoint> wall(Light light, const glm::vec3& albedo = kAlbedo) {
   Image<SampledPoint> sample(kSize);
   for (int y = 0; y < kSize.y; ++y)
     for (int x = 0; x < kSize.x; ++x)
-      sample.at(x, y) = {
-          .light = light(x, y) * albedo, .albedo = albedo, .normal = {0, 0, 1}, .distance = 5.0f};
+      sample.at(x, y) = {.light = light(x, y) * albedo,
+                         .albedo = albedo,
+                         .normal = {0, 0, 1},
+                         .distance = 5.0f,
+                         .guide_albedo = albedo.g};
   return sample;
 }
 
@@ -84,7 +87,7 @@ TEST(Denoise, EdgesOfSurfacesStaySharp) {
         SampledPoint& point = sample.at(x, y);
         if (edge == normal) point.normal = {0.8f, 0.0f, 0.6f};
         if (edge == distance) point.distance = 6.0f;
-        if (edge == albedo) point.albedo *= 0.25f;
+        if (edge == albedo) point.guide_albedo *= 0.25f;
         point.light = {};  // dark on this side
       }
     const Image<glm::vec3> light = filtered(sample);

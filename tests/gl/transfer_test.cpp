@@ -28,7 +28,7 @@ std::vector<std::byte> numbered_bytes(std::size_t count, unsigned first) {
 
 TEST_P(TransferTest, WhatGoesUpComesBack) {
   for (const gl::Mapping mapping : {gl::Mapping::each_time, gl::Mapping::persistent}) {
-    for (const gl::PixelFormat& format : {gl::kR8Ui, gl::kR16Ui, gl::kR32Ui}) {
+    for (const gl::PixelFormat& format : {gl::kR8Ui, gl::kR16Ui, gl::kR32Ui, gl::kRg32Ui}) {
       const gl::Framebuffer target({13, 7}, format, false);  // rows that are no multiple of four bytes
       gl::Upload upload(mapping);
       gl::Readback readback(mapping);

@@ -92,7 +92,7 @@ TEST(DenoisedPicture, FewSamplesAreNearTheTruth) {
     const FrameResult truth = picture(scene, with({{"mode", "raytrace"}}, 1024, false));
     const FrameResult plain = picture(scene, with({{"mode", "raytrace"}}, 4, false));
     const FrameResult filtered = picture(scene, with({{"mode", "raytrace"}}, 4));
-    EXPECT_LT(distance_within(filtered, truth), 0.5 * distance_within(plain, truth));
+    EXPECT_LT(distance_within(filtered, truth), 0.75 * distance_within(plain, truth));
   }
 }
 
@@ -127,7 +127,7 @@ TEST(DenoisedPicture, HybridAgreesWithTheCpu) {
       const FrameResult expected = picture(scene, with({{"mode", "raytrace"}}, spp));
       ASSERT_TRUE(expected.settings.denoise);
       const FrameResult on_gpu = picture(scene, with({{"mode", "hybrid"}}, spp));
-      EXPECT_LT(share_off(on_gpu.color, expected.color, 0.004f), 0.003) << spp;
+      EXPECT_LT(share_off(on_gpu.color, expected.color, 0.01f), 0.004) << spp;
       if (spp == 1) continue;  // a single picture of design 2 is packed in 8 bits
       const FrameResult by_cpu = picture(scene, with({{"mode", "hybrid"}, {"design", "2"}}, spp));
       EXPECT_LT(share_off(by_cpu.color, expected.color, 0.01f), 0.003) << spp;

@@ -1,4 +1,5 @@
 // The pictures of a frame's buffers, against the buffers.
+#include <cmath>
 #include <map>
 #include <set>
 
@@ -133,7 +134,7 @@ glm::ivec3 check_mask(const Image<glm::vec4>& picture, const FrameSlot& frame, i
       const glm::vec4& color = picture.at(x, y);
       const bool white = color.g == 1.0f, black = color.g == 0.0f;
       EXPECT_TRUE(white || black || is_grey(color, kNothingAsked));
-      EXPECT_EQ(white, (frame.mask.get(x, y) >> slot & 1u) != 0);
+      EXPECT_EQ(white, (frame.mask.get(x, y, slot / 32 * 32) >> slot % 32 & 1u) != 0);
       if (frame.ids.at(x, y) == kNoTriangle) {
         EXPECT_TRUE(is_grey(color, kNothingAsked));
       }
@@ -242,6 +243,22 @@ TEST_P(InspectTest, OfAPictureByTheCpuAloneToo) {
     }
   });
   EXPECT_NE(missing(Layer::delay, 0, alone), "");
+}
+
+// Also slots that only the CPU has.
+TEST_P(InspectTest, EverySlotOfManyLights) {
+  Scene scene = plate_over_floor();
+  for (int i = 0; i < 70; ++i)
+    scene.lights.push_back(point_light({4.0f * std::cos(0.3f * static_cast<float>(i)), 5.0f,
+                                        4.0f * std::sin(0.3f * static_cast<float>(i))}));
+  for (const char* design : {"1", "2"})
+    look_at(scene, settings_for(scene, by({{"design", design}})), [&](Frame& frame) {
+      for (const int slot : {0, 9, 31, 32, 63, 64, 69}) {
+        EXPECT_GT(check_mask(view(frame, Layer::mask, slot), frame.slot(), slot).x, 0) << slot;
+        EXPECT_NE(legend(Layer::mask, slot, frame).find("slot " + std::to_string(slot)), std::string::npos);
+      }
+      EXPECT_NE(legend(Layer::mask, 70, frame).find("the mask has 70 slot(s)"), std::string::npos);
+    });
 }
 
 // A reprojected frame's mask is the older one's where its points were then: what the picture shows.

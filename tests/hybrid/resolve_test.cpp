@@ -36,6 +36,11 @@ TEST(Resolve, ModelsWhatTheSceneNeeds) {
   EXPECT_EQ(settings_for(scene_with(2, 0, false)).mask_bits, 2);
   EXPECT_EQ(settings_for(scene_with(3, 0, false)).mask_bits, 4);
   EXPECT_EQ(settings_for(scene_with(5, 0, false)).mask_bits, 8);
+  EXPECT_EQ(settings_for(scene_with(8, 1, false)).mask_bits, 8);
+  EXPECT_EQ(settings_for(scene_with(9, 0, false)).mask_bits, 16);
+  EXPECT_EQ(settings_for(scene_with(17, 0, false)).mask_bits, 32);
+  EXPECT_EQ(settings_for(scene_with(64, 0, false)).mask_bits, 64);
+  EXPECT_FALSE(settings_for(scene_with(64, 0, false)).reflects());
   EXPECT_FALSE(settings_for(scene_with(1, 0, false)).reflects());
   EXPECT_TRUE(settings_for(scene_with(0, 0, true)).reflects());
   EXPECT_FALSE(settings_for(scene_with(4, 0, true), by_mode("raster")).traces());
@@ -72,12 +77,51 @@ TEST(Resolve, IdsTakeAsManyBitsAsThereAreTriangles) {
   EXPECT_EQ(resolve({}, stats)->id_bits, 32);
 }
 
-TEST(Resolve, NineCastingLightsAreAnErrorThatNamesTheLimit) {
-  EXPECT_TRUE(resolve({}, analyze(scene_with(8, 1, false))));
-  const Expected<Settings> settings = resolve({}, analyze(scene_with(9, 0, false)));
+TEST(Resolve, LightsBeyondTheMaskTravelAsLight) {
+  const SceneStats stats = analyze(scene_with(65, 0, false));
+  const Settings settings = resolve({}, stats).value();
+  EXPECT_EQ(settings.mask_bits, 64);
+  EXPECT_EQ(settings.reflection, ReflectionFormat::half);
+  EXPECT_EQ(settings.composite, Processor::gpu);
+  EXPECT_TRUE(adds_lights(settings, stats.casting_lights));
+  EXPECT_TRUE(losses(settings, stats).empty());
+  // Where the CPU composites there is no limit, and nothing travels for it.
+  EXPECT_FALSE(resolve(by_mode("raytrace"), stats)->reflects());
+  Settings design2;
+  design2.composite = Processor::cpu;
+  EXPECT_FALSE(resolve(design2, stats)->reflects());
+  // A narrower mask by request.
+  Settings narrow;
+  narrow.mask_bits = 8;
+  EXPECT_TRUE(resolve(narrow, stats)->reflects());
+}
+
+TEST(Resolve, LightsThatCannotTravelAreTheCpusOrAnError) {
+  const SceneStats stats = analyze(scene_with(65, 0, false));
+  Settings wanted;
+  wanted.reflection = ReflectionFormat::none;
+  EXPECT_EQ(resolve(wanted, stats)->composite, Processor::cpu);
+  wanted.composite = Processor::gpu;
+  const Expected<Settings> settings = resolve(wanted, stats);
   ASSERT_FALSE(settings);
-  EXPECT_NE(settings.error().message().find("9 lights"), std::string::npos);
-  EXPECT_NE(settings.error().message().find("holds 8"), std::string::npos);
+  EXPECT_NE(settings.error().message().find("mask_bits 64 cannot hold the scene's 65 casting lights"),
+            std::string::npos)
+      << settings.error().message();
+  wanted.mask_bits = 0;
+  EXPECT_TRUE(resolve(wanted, stats));
+  Settings byte;
+  byte.mask_bits = 4;
+  EXPECT_FALSE(resolve(byte, stats));
+}
+
+TEST(Resolve, TheSlidesEightBitsSayWhatTheyCost) {
+  const SceneStats few = analyze(scene_with(8, 0, false)), many = analyze(scene_with(9, 0, false));
+  Settings slides;
+  EXPECT_TRUE(apply_preset("plan", "slides", slides));
+  EXPECT_TRUE(losses(resolve(slides, few).value(), few).empty());
+  const std::vector<std::string> lines = losses(resolve(slides, many).value(), many);
+  ASSERT_EQ(lines.size(), 1u);
+  EXPECT_NE(lines.front().find("mask_bits 8: the light of the other 1"), std::string::npos) << lines.front();
 }
 
 TEST(Resolve, WhatASceneDoesNotNeedIsNotSent) {
@@ -87,6 +131,9 @@ TEST(Resolve, WhatASceneDoesNotNeedIsNotSent) {
   EXPECT_EQ(traffic(0, false).to_cpu + traffic(0, false).to_gpu, 0u);
   EXPECT_EQ(traffic(1, false).to_gpu, 60'000u);  // one bit a pixel
   EXPECT_EQ(traffic(8, false).to_gpu, 480'000u);
+  EXPECT_EQ(traffic(9, false).to_gpu, 960'000u);
+  EXPECT_EQ(traffic(17, false).to_gpu, 1'920'000u);
+  EXPECT_EQ(traffic(40, false).to_gpu, 3'840'000u);
   const std::size_t tiles = 100 * 75;  // of 8 x 8 pixels, each with four bytes to say where it is
   EXPECT_EQ(traffic(0, true).to_gpu, tiles * (4 + 8 * 8 * 6));  // half RGB, at most
   EXPECT_EQ(traffic(1, true).to_cpu, 960'000u);                 // 16-bit ids

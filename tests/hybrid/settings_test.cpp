@@ -151,7 +151,7 @@ TEST(SettingsFile, MistakesAreNamedWithTheirLine) {
   expect_error("", "is no JSON");
   expect_error("[1, 2]", "is no plan");
   expect_error("{\"plan\": 3}", "is no plan");
-  expect_error("{\"mask_bits\": 3}", "it is 0, 1, 2, 4 or 8");
+  expect_error("{\"mask_bits\": 3}", "it is 0, 1, 2, 4, 8, 16, 32 or 64");
   expect_error("{\"id_bits\": 8}", "it is 16, 24 or 32");
   expect_error("{\"mask_scale\": 3}", "it is 1, 2 or 4");
   expect_error("{\"depth\": 1e9}", "depth is");

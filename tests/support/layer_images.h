@@ -33,10 +33,10 @@ struct LayerImages {
     copy(surfaces.p_world, to.position);
     copy(surfaces.n_shading, to.normal);
     copy(surfaces.albedo, to.albedo);
-    for (std::size_t i = 0; to.mask && i < ids.pixels().size(); ++i) {
-      const int x = static_cast<int>(i) % ids.width(), y = static_cast<int>(i) / ids.width();
-      to.mask[i] = static_cast<std::uint8_t>(mask.get(x, y));
-    }
+    const auto width = static_cast<std::size_t>(ids.width());
+    for (int y = 0; to.mask && y < ids.height(); ++y)
+      mask.copy_row(0, y, width, to.mask_bytes,
+                    to.mask + static_cast<std::size_t>(y) * width * to.mask_bytes);
   }
 };
 

@@ -14,7 +14,6 @@ Settings settings_for(bool traced, int depth) {
   apply_preset("mode", "raytrace", s);
   s.exchange = Exchange::sync;
   s.depth = depth;
-  s.mask_bits = kMaxCastingLights;
   s.reflection = traced && depth > 0 ? ReflectionFormat::full : ReflectionFormat::none;
   s.tiles = s.reuse = false;
   s.light_cutoff = 0.0f;

@@ -25,6 +25,8 @@ void forget_camera_and_lights(DrawOptions& draw) {
 void SceneSource::open(const std::string& file) {
   DrawOptions draw = options_;
   draw.scene = file;
+  draw.animation.clear();  // they are another file's
+  draw.variant.clear();
   forget_camera_and_lights(draw);
   load(draw);
 }

@@ -60,6 +60,14 @@ struct CameraAxes {
 };
 [[nodiscard]] CameraAxes camera_axes(const Camera& camera);
 
+// The cameras of two eyes, each half of `baseline` (scene units) to its side of the camera, with parallel
+// axes. A point at depth z along the axis lies further left in the right one's picture by fx * baseline / z
+// pixels.
+struct StereoPair {
+  Camera left, right;
+};
+[[nodiscard]] StereoPair stereo_pair(const Camera& camera, float baseline);
+
 // The place where the camera sees the point, in pixels of a picture of `size`, as Intrinsics counts them: it
 // may lie outside the picture. None: the camera does not see it, as it is behind, or beyond the angle up to
 // which the distortion grows. Source: OpenCV's projectPoints and fisheye::projectPoints.

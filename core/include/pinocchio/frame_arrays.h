@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <glm/glm.hpp>
 #include <string_view>
@@ -27,6 +28,9 @@ struct FrameArrays {
   std::uint32_t* materials = nullptr;
   std::uint32_t* primitives = nullptr;
   glm::vec2* motion = nullptr;
+  // Of a pixel in `mask`: slot i is bit i % 8 of byte i / 8. MaskImage::bytes_for() holds every casting
+  // light, fewer hold the lowest slots.
+  std::size_t mask_bytes = 1;
 
   [[nodiscard]] bool wants_light() const { return color || mask || reflection; }
   [[nodiscard]] bool wants_surfaces() const { return depth || position || normal || albedo; }
@@ -93,7 +97,10 @@ inline constexpr std::array kLayers{
              {"normals", "shading normals, world space: red X, green Y, blue Z, from -1 (dark) to 1 (bright)",
               0, false}},
     LayerRow{Layer::mask,
-             {"mask", &FrameArrays::mask, "bit i is set where the light in mask slot i reaches the point"},
+             {"mask", &FrameArrays::mask,
+              "bit i is set where the light in mask slot i reaches the point; uint16, uint32 or uint64 for "
+              "more than "
+              "8, 16 or 32 casting lights, and (h, w, n) uint64 of 64 lights each for more than 64"},
              {"shadow", {"shadow.mask"}, kUint},
              {"mask", "white lit, black in shadow, grey not asked (faces away, or nothing seen)", 0, true}},
     LayerRow{Layer::reflection,

@@ -104,7 +104,4 @@ inline bool Light::has_size() const {
   return row.has_sides || this->*row.size->value > 0.0f;
 }
 
-// Mask slots, one bit each: the casting lights in scene order.
-inline constexpr int kMaxCastingLights = 8;
-
 }  // namespace pinocchio

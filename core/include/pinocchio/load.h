@@ -63,6 +63,12 @@ struct LoadOptions {
   // The name or the number of the file's animation that the scene plays. Empty: all of them, together.
   std::string animation{};
   UpAxis up_axis = UpAxis::y;
+  // Diameters, in scene units, of the balls and tubes that draw the file's points and lines. 0: they are left
+  // out, which is a warning; of a file that holds nothing else, an error.
+  float point_size = 0.0f, line_width = 0.0f;
+  // The name of one of the file's variants of its materials (Scene::variants). Empty: those that the file
+  // shows first.
+  std::string variant{};
 };
 
 // Reads glTF 2.0 (.gltf, .glb), Wavefront OBJ+MTL (.obj), PLY (.ply) or STL (.stl), chosen by the file's

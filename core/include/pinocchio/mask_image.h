@@ -13,17 +13,21 @@
 
 namespace pinocchio {
 
-// The lights that reach each pixel: `bits` (1, 2, 4 or 8) for each pixel, packed from the low bits up, each
-// row padded to whole bytes. Bit i of a pixel is mask slot i.
+// The lights that reach each pixel: `bits` (1, 2, 4, 8, 16, 32 or a multiple of 64) for each pixel, packed
+// from the low bits and bytes up, each row padded to whole bytes. Bit i of a pixel is mask slot i.
 class MaskImage {
  public:
   MaskImage() = default;
   MaskImage(glm::ivec2 size, int bits) { resize(size, bits); }
 
-  // The fewest bits that hold `lights` casting lights: 0, 1, 2, 4 or 8.
+  // The fewest bits that hold `lights` casting lights.
   [[nodiscard]] static int bits_for(int lights) {
-    assert(lights <= 8);
-    return lights <= 2 ? lights : lights <= 4 ? 4 : 8;
+    if (lights > 32) return (lights + 63) / 64 * 64;
+    return lights == 0 ? 0 : static_cast<int>(std::bit_ceil(static_cast<unsigned>(lights)));
+  }
+  // The bytes of a pixel that hold its bits: 1, 2, 4 or a multiple of 8.
+  [[nodiscard]] static std::size_t bytes_for(std::size_t lights) {
+    return static_cast<std::size_t>(std::max(bits_for(static_cast<int>(lights)) / 8, 1));
   }
   [[nodiscard]] static int row_bytes_for(int width, int bits) { return (width * bits + 7) / 8; }
 
@@ -39,18 +43,49 @@ class MaskImage {
   [[nodiscard]] int row_bytes() const { return row_bytes_; }
   [[nodiscard]] std::span<const std::uint8_t> bytes() const { return bytes_; }
 
-  [[nodiscard]] unsigned get(int x, int y) const {
-    if (bits_ == 0) return 0;
-    return (bytes_[byte_of(x, y)] >> shift_of(x)) & ((1u << bits_) - 1u);
+  // The 32 slots from `first` on, a multiple of 32: slot first + i is bit i. Slots beyond bits() are 0.
+  [[nodiscard]] unsigned get(int x, int y, int first = 0) const {
+    if (bits_ == 0 || first >= std::max(bits_, 8)) return 0;
+    if (bits_ < 8) return bytes_[byte_of(x, y)] >> shift_of(x) & ((1u << bits_) - 1u);
+    unsigned slots = 0;
+    for (int i = std::min(bits_ - first, 32) / 8; i-- > 0;)
+      slots = slots << 8 | bytes_[byte_of(x, y) + static_cast<std::size_t>(first / 8 + i)];
+    return slots;
   }
   void set_bit(int x, int y, int slot) {
-    bytes_[byte_of(x, y)] |= static_cast<std::uint8_t>(1u << (shift_of(x) + slot));
+    const int bit = shift_of(x) + slot;
+    bytes_[byte_of(x, y) + static_cast<std::size_t>(bit / 8)] |= static_cast<std::uint8_t>(1u << bit % 8);
   }
 
-  // Sets all bits of the pixels from (x, y) on. They must be 0 before, and x * bits a multiple of 8.
-  void set_row(int x, int y, std::span<const std::uint8_t> pixels) {
+  // Copies `count` pixels from (x, y) on, `bytes` to each: slot i is bit i % 8 of byte i / 8. Slots that the
+  // mask does not have are 0, slots beyond `bytes` are left out.
+  void copy_row(int x, int y, std::size_t count, std::size_t bytes, std::uint8_t* to) const {
+    const std::size_t own = static_cast<std::size_t>(bits_) / 8;
+    if (own == bytes) {
+      std::memcpy(to, bytes_.data() + byte_of(x, y), count * bytes);
+      return;
+    }
+    std::fill_n(to, count * bytes, std::uint8_t{0});
+    for (std::size_t i = 0; i < count; ++i) {
+      const int at = x + static_cast<int>(i);
+      if (bits_ < 8)
+        to[i * bytes] = static_cast<std::uint8_t>(get(at, y));
+      else
+        std::memcpy(to + i * bytes, bytes_.data() + byte_of(at, y), std::min(own, bytes));
+    }
+  }
+
+  // Sets the slots 8 * byte to 8 * byte + 7 of the pixels from (x, y) on. They must be 0 before, and x * bits
+  // a multiple of 8.
+  void set_row(int x, int y, std::span<const std::uint8_t> pixels, int byte = 0) {
     if (bits_ == 0) return;
-    std::uint8_t* const row = bytes_.data() + byte_of(x, y);
+    std::uint8_t* row = bytes_.data() + byte_of(x, y);
+    if (bits_ > 8) {
+      row += byte;
+      for (std::size_t i = 0; i < pixels.size(); ++i)
+        row[i * static_cast<std::size_t>(bits_ / 8)] = pixels[i];
+      return;
+    }
     for (std::size_t first = 0, at = 0; first < pixels.size(); first += 8) {
       const std::size_t count = std::min<std::size_t>(pixels.size() - first, 8);
       std::uint64_t packed = 0;

@@ -35,6 +35,7 @@ struct Scene {
   std::shared_ptr<const NodeTree> nodes;           // the parts that can move; null: none
   std::shared_ptr<const Animation> animation;      // of the nodes (pinocchio/animation.h); null: none
 
+  std::vector<std::string> variants;      // names of the file's variants of its materials (LoadOptions)
   std::string source;                     // the file's path
   std::vector<std::string> source_files;  // that path and all files that it names, also missing ones
 

@@ -5,6 +5,7 @@
 
 #include "core/scene/gltf/file.h"
 #include "core/scene/gltf/format/json.h"
+#include "core/scene/strokes.h"
 
 namespace pinocchio {
 namespace {
@@ -12,20 +13,29 @@ namespace {
 // In double: a file may claim more than any integer holds.
 struct MeshSize {
   double triangles = 0.0, vertices = 0.0;
+  double points = 0.0, lines = 0.0;
 };
 
 double count_of(const GltfFile& file, int accessor) {
   return file.count(accessor).value_or(0);
 }
 
-MeshSize size_of(const GltfFile& file, const GltfMesh& mesh) {
+MeshSize size_of(const GltfFile& file, const GltfMesh& mesh, const PointsAndLines& strokes) {
   MeshSize size;
   std::set<GltfAttributes> known;  // primitives that share their attributes share the vertices
   for (const GltfPrimitive& primitive : mesh.primitives) {
     const int position = primitive.attribute("POSITION");
-    if (primitive.mode < kGltfTriangles || position < 0) continue;
+    if (position < 0) continue;
     const double vertices = count_of(file, position);
     const double corners = primitive.indices >= 0 ? count_of(file, primitive.indices) : vertices;
+    if (is_stroke_mode(primitive.mode)) {
+      const bool points = primitive.mode == kGltfPoints;
+      if (!(points ? strokes.points : strokes.lines).drawn()) continue;
+      (points ? size.points : size.lines) +=
+          static_cast<double>(stroke_count(primitive.mode, static_cast<std::size_t>(corners)));
+      size.vertices += vertices;  // they are read for each placing
+      continue;
+    }
     size.triangles += primitive.mode == kGltfTriangles ? corners / 3.0 : corners;
     if (known.insert(primitive.attributes).second) size.vertices += vertices;
   }
@@ -52,7 +62,7 @@ std::map<int, double> placings_by_mesh(const GltfFile& file, std::vector<int> op
     if (!in_range(index, nodes) || seen[index]) continue;  // an error where the nodes are read
     seen[index] = true;
     const GltfNode& node = item_of(nodes, index);
-    if (in_range(node.mesh, file.meshes)) placings[node.mesh] += placings_of(file, node);
+    if (node.visible && in_range(node.mesh, file.meshes)) placings[node.mesh] += placings_of(file, node);
     open.insert(open.end(), node.children.begin(), node.children.end());
   }
   return placings;
@@ -65,19 +75,22 @@ std::uint64_t whole(double number) {
 
 }  // namespace
 
-Expected<void> take_gltf_memory(const GltfFile& file, const std::vector<int>& roots) {
+Expected<void> take_gltf_memory(const GltfFile& file, const std::vector<int>& roots, Loading& loading) {
   // A mesh's first placing, by corner: the file has held its data once already.
   constexpr double kCornerBytes = 40.0;
   // A copy: vertices at rest and placed, triangles and their share of the tree (measured).
   constexpr double kTriangleBytes = 160.0, kVertexBytes = 96.0, kPlacingBytes = 128.0;
   double first_bytes = 0.0, bytes = 0.0, triangles = 0.0, copies = 0.0;
+  double points = 0.0, lines = 0.0;
   for (const auto& [mesh, placings] : placings_by_mesh(file, roots)) {
-    const MeshSize size = size_of(file, item_of(file.meshes, mesh));
+    const MeshSize size = size_of(file, item_of(file.meshes, mesh), loading.strokes);
     const double more = std::max(placings - 1.0, 0.0);
     first_bytes += kCornerBytes * std::max(size.vertices, 3.0 * size.triangles);
     bytes += more * (kTriangleBytes * size.triangles + kVertexBytes * size.vertices + kPlacingBytes);
     triangles += placings * size.triangles;
     copies += more;
+    points += placings * size.points;
+    lines += placings * size.lines;
   }
   const std::string name = file.path.string();
   const std::string what = std::to_string(whole(triangles)) + " triangles, with " +
@@ -87,7 +100,7 @@ Expected<void> take_gltf_memory(const GltfFile& file, const std::vector<int>& ro
   if (!file.limit->take(name, "placing its meshes", whole(first_bytes), 1) ||
       !file.limit->take(name, "placing " + what, whole(bytes), 1))
     return Unexpected(*file.limit->error());
-  return {};
+  return take_strokes(name, points, lines, loading);
 }
 
 }  // namespace pinocchio

@@ -54,19 +54,21 @@ DeformationReader::DeformationReader(const GltfFile& file, const GltfNode& node,
   deformation_.influences_per_vertex = sets * kInfluencesASet;
 }
 
-Expected<void> DeformationReader::add(const GltfPrimitive& primitive, std::uint32_t first,
-                                      std::size_t count) {
+Expected<void> DeformationReader::add(const GltfPrimitive& primitive, std::uint32_t first, std::size_t count,
+                                      std::span<const std::uint32_t> sources) {
   for (std::size_t t = 0; t < primitive.targets.size(); ++t) {
     throw_if_cancelled(file_.progress);
-    if (const Expected<void> added = add_target(primitive.targets[t], first, count, deformation_.targets[t]);
+    if (const Expected<void> added =
+            add_target(primitive.targets[t], first, count, sources, deformation_.targets[t]);
         !added)
       return added;
   }
-  return skinned() ? add_influences(primitive, count) : Expected<void>();
+  return skinned() ? add_influences(primitive, count, sources) : Expected<void>();
 }
 
 Expected<void> DeformationReader::add_target(const GltfAttributes& accessors, std::uint32_t first,
-                                             std::size_t count, MorphTarget& to) {
+                                             std::size_t count, std::span<const std::uint32_t> sources,
+                                             MorphTarget& to) {
   constexpr std::array kNames{"POSITION", "NORMAL", "TANGENT"};
   for (const auto& [name, accessor] : accessors)
     if (std::ranges::find(kNames, name) == kNames.end())
@@ -83,13 +85,14 @@ Expected<void> DeformationReader::add_target(const GltfAttributes& accessors, st
     if (!std::ranges::all_of(*read, [](float f) { return std::isfinite(f); }))
       return file_.error("accessor " + std::to_string(accessor) +
                          " of a morph target holds no finite numbers");
-    offsets[i] = std::move(*read);
+    if (sources.empty() || i == 0) offsets[i] = std::move(*read);
   }
   const std::array<std::vector<glm::vec3>*, 3> kept{&to.positions, &to.normals, &to.tangents};
-  for (std::size_t v = 0; v < count; ++v) {
+  for (std::size_t v = 0; v < (sources.empty() ? count : sources.size()); ++v) {
+    const std::size_t from = sources.empty() ? v : sources[v];
     const auto offset = [&](std::size_t i) {
-      return offsets[i].empty() ? glm::vec3(0.0f)
-                                : glm::vec3(offsets[i][3 * v], offsets[i][3 * v + 1], offsets[i][3 * v + 2]);
+      const std::vector<float>& all = offsets[i];
+      return all.empty() ? glm::vec3(0.0f) : glm::vec3(all[3 * from], all[3 * from + 1], all[3 * from + 2]);
     };
     if (offset(0) == glm::vec3(0.0f) && offset(1) == glm::vec3(0.0f) && offset(2) == glm::vec3(0.0f))
       continue;
@@ -107,11 +110,12 @@ Expected<void> DeformationReader::add_target(const GltfAttributes& accessors, st
   return {};
 }
 
-Expected<void> DeformationReader::add_influences(const GltfPrimitive& primitive, std::size_t count) {
-  const std::size_t stride = deformation_.influences_per_vertex, begin = deformation_.influences.size();
-  if (!file_.limit->take(file_.path.string(), "a skin", count, stride * sizeof(Influence)))
+Expected<void> DeformationReader::add_influences(const GltfPrimitive& primitive, std::size_t count,
+                                                 std::span<const std::uint32_t> sources) {
+  const std::size_t stride = deformation_.influences_per_vertex;
+  if (!file_.limit->take(file_.path.string(), "a skin", count + sources.size(), stride * sizeof(Influence)))
     return Unexpected(*file_.limit->error());
-  deformation_.influences.resize(begin + count * stride);
+  std::vector<Influence> influences(count * stride);
   for (std::size_t set = 0; set * kInfluencesASet < stride && has_set(primitive, set); ++set) {
     const Expected<std::vector<float>> joints = file_.floats(primitive.attribute(set_name("JOINTS", set)), 4);
     if (!joints) return Unexpected(joints.error());
@@ -128,12 +132,17 @@ Expected<void> DeformationReader::add_influences(const GltfPrimitive& primitive,
       if (!(joint >= 0.0f && joint < joints_))
         return file_.error("a vertex names joint " + std::to_string(static_cast<long long>(joint)) +
                            " of skin " + std::to_string(node_.skin) + ", it has " + std::to_string(joints_));
-      deformation_.influences[begin + i / 4 * stride + set * kInfluencesASet + i % 4] = {
-          static_cast<std::uint32_t>(joint), weight};
+      influences[i / 4 * stride + set * kInfluencesASet + i % 4] = {static_cast<std::uint32_t>(joint),
+                                                                    weight};
     }
   }
-  for (std::size_t v = 0; v < count; ++v)
-    settle_weights(std::span(deformation_.influences).subspan(begin + v * stride, stride));
+  for (std::size_t v = 0; v < count; ++v) settle_weights(std::span(influences).subspan(v * stride, stride));
+  std::vector<Influence>& all = deformation_.influences;
+  if (sources.empty()) all.insert(all.end(), influences.begin(), influences.end());
+  for (const std::uint32_t source : sources) {
+    const auto from = influences.begin() + static_cast<std::ptrdiff_t>(source * stride);
+    all.insert(all.end(), from, from + static_cast<std::ptrdiff_t>(stride));
+  }
   return {};
 }
 

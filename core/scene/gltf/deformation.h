@@ -22,8 +22,10 @@ class DeformationReader {
   [[nodiscard]] bool needed() const { return targets_ > 0 || skinned(); }
   [[nodiscard]] bool skinned() const { return joints_ > 0; }
   // Adds `count` vertices that begin at the scene's vertex `first`. Calls follow the order of the node's
-  // vertices without gaps.
-  [[nodiscard]] Expected<void> add(const GltfPrimitive& primitive, std::uint32_t first, std::size_t count);
+  // vertices without gaps. `sources`: the primitive's vertex that each follows, of balls and tubes, whose
+  // normals keep their directions; empty: its own.
+  [[nodiscard]] Expected<void> add(const GltfPrimitive& primitive, std::uint32_t first, std::size_t count,
+                                   std::span<const std::uint32_t> sources = {});
   // Transforms the offsets of an instance's vertices, from the scene's `first` on. normals: the mesh's,
   // untransformed.
   void place(const glm::mat4& instance, std::uint32_t first, std::span<const glm::vec3> normals);
@@ -34,8 +36,9 @@ class DeformationReader {
 
  private:
   Expected<void> add_target(const GltfAttributes& accessors, std::uint32_t first, std::size_t count,
-                            MorphTarget& to);
-  Expected<void> add_influences(const GltfPrimitive& primitive, std::size_t count);
+                            std::span<const std::uint32_t> sources, MorphTarget& to);
+  Expected<void> add_influences(const GltfPrimitive& primitive, std::size_t count,
+                                std::span<const std::uint32_t> sources);
   void settle_weights(std::span<Influence> of_vertex);
   void warn(const std::string& what, const std::string& lost);
 

@@ -79,6 +79,7 @@ struct GltfNode {
   int mesh = -1, skin = -1, camera = -1;
   std::vector<int> children{};
   std::vector<float> weights{};
+  bool visible = true;                   // neither the node nor one above it is hidden
   const nlohmann::json* json = nullptr;  // its extensions and extras
 
   [[nodiscard]] glm::mat4 parent_from_node() const { return matrix ? *matrix : motion.matrix(); }
@@ -106,6 +107,7 @@ struct GltfFile {
   Progress* progress = nullptr;
   MemoryLimit* limit = nullptr;
   InputFiles* files = nullptr;
+  int variant = -1;  // of its materials; -1: those that it shows first
 
   std::span<const unsigned char> store(FileBytes bytes) {
     return storage.emplace_back(std::move(bytes)).unsigned_bytes();
@@ -182,7 +184,8 @@ void add_gltf_textures(const GltfFile& file, MeshData& mesh, Loading& loading);
 
 // Claims the memory that the meshes of these nodes and their children need, copies of them above all,
 // before any is allocated.
-[[nodiscard]] Expected<void> take_gltf_memory(const GltfFile& file, const std::vector<int>& roots);
+[[nodiscard]] Expected<void> take_gltf_memory(const GltfFile& file, const std::vector<int>& roots,
+                                              Loading& loading);
 
 class DeformationReader;
 
@@ -191,6 +194,18 @@ class DeformationReader;
 // it.
 [[nodiscard]] Expected<void> add_gltf_mesh(const GltfFile& file, int mesh, const glm::mat4& world_from_mesh,
                                            std::uint32_t default_material, MeshData& to, RestPose& rest,
-                                           DeformationReader* deformation, Warnings& warnings);
+                                           DeformationReader* deformation, Loading& loading);
+
+// Whether the mode is one of points or of lines.
+[[nodiscard]] bool is_stroke_mode(int mode);
+// The number of points or of lines that `corners` of that mode make.
+[[nodiscard]] std::size_t stroke_count(int mode, std::size_t corners);
+
+// The same of a primitive of points or lines. Returns how many are left out, as their place is not finite.
+[[nodiscard]] Expected<std::size_t> add_gltf_strokes(const GltfFile& file, const GltfPrimitive& primitive,
+                                                     const glm::mat4& world_from_mesh,
+                                                     std::uint32_t default_material, MeshData& to,
+                                                     RestPose& rest, DeformationReader* deformation,
+                                                     const PointsAndLines& how);
 
 }  // namespace pinocchio

@@ -7,6 +7,7 @@
 #include "core/scene/gltf/attached.h"
 #include "core/scene/gltf/deformation.h"
 #include "core/scene/gltf/format/json.h"
+#include "core/scene/gltf/format/variants.h"
 #include "core/scene/pose/pose.h"
 
 namespace pinocchio {
@@ -44,7 +45,8 @@ class SceneReader {
 
   Expected<Scene> read() {
     const std::vector<int> roots = this->roots();
-    if (const Expected<void> fits = take_gltf_memory(file_, roots); !fits) return Unexpected(fits.error());
+    if (const Expected<void> fits = take_gltf_memory(file_, roots, loading_); !fits)
+      return Unexpected(fits.error());
     std::vector<Placed> open;
     for (const int root : roots) open.push_back({root, -1, glm::mat4(1.0f)});
     std::reverse(open.begin(), open.end());  // popped in the file's order
@@ -126,7 +128,7 @@ class SceneReader {
   }
 
   Expected<void> add(const GltfNode& node, const glm::mat4& world) {
-    if (node.mesh >= 0) {
+    if (node.mesh >= 0 && node.visible) {
       const auto default_material = static_cast<std::uint32_t>(mesh_.materials.size() - 1);
       Expected<std::vector<glm::mat4>> instances = instances_of(node);
       if (!instances) return Unexpected(instances.error());
@@ -137,7 +139,7 @@ class SceneReader {
         const std::size_t first = mesh_.positions.size();
         const Expected<void> added =
             add_gltf_mesh(file_, node.mesh, world * instance, default_material, mesh_, rest_,
-                          deformation.needed() ? &deformation : nullptr, loading_.warnings);
+                          deformation.needed() ? &deformation : nullptr, loading_);
         if (!added) return added;
         deformation.place(instance, static_cast<std::uint32_t>(first),
                           std::span(rest_.normals).subspan(first));
@@ -148,7 +150,7 @@ class SceneReader {
     if (in_range(node.camera, file_.items("cameras")))
       add_camera(item_of(file_.items("cameras"), node.camera), node, world);
     const Json* const light = member(extension(node.json, "KHR_lights_punctual"), "light");
-    if (!light) return {};
+    if (!light || !node.visible) return {};
     const Json& lights = array_member(extension(file_.json.get(), "KHR_lights_punctual"), "lights");
     if (!in_range(index_of(*light), lights))
       return file_.error("a node names a light that does not exist, there are " +
@@ -274,6 +276,7 @@ class SceneReader {
 
   void finish() {
     scene_.source_files = file_.named_files;
+    scene_.variants = gltf_variants(*file_.json);
     add_gltf_textures(file_, mesh_, loading_);
     drop_unused_attributes(mesh_, rest_);
     if (const Json* scene = shown_scene()) {

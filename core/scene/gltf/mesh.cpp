@@ -9,6 +9,7 @@
 #include "core/math/finite.h"
 #include "core/parallel/parts.h"
 #include "core/scene/gltf/deformation.h"
+#include "core/scene/strokes.h"
 
 namespace pinocchio {
 namespace {
@@ -285,18 +286,21 @@ class MeshPlacer {
 
 Expected<void> add_gltf_mesh(const GltfFile& file, int mesh, const glm::mat4& world_from_mesh,
                              std::uint32_t default_material, MeshData& to, RestPose& rest,
-                             DeformationReader* deformation, Warnings& warnings) {
+                             DeformationReader* deformation, Loading& loading) {
+  Warnings& warnings = loading.warnings;
   if (!in_range(mesh, file.meshes)) return file.error("a node names mesh " + which_of(mesh, file.meshes));
   MeshPlacer placer(file, world_from_mesh, to, rest, deformation);
+  std::size_t unplaced_strokes = 0;
   const std::vector<GltfPrimitive>& primitives = item_of(file.meshes, mesh).primitives;
   for (const GltfPrimitive& primitive : primitives) {
-    if (primitive.mode >= kGltfPoints && primitive.mode <= kGltfLineStrip) {
-      const bool points = primitive.mode == kGltfPoints;
-      warnings.add({file.path.string(), "mesh " + std::to_string(mesh),
-                    points ? "points are left out" : "lines are left out", "they are not drawn"});
+    PointsAndLines::Kind& strokes =
+        primitive.mode == kGltfPoints ? loading.strokes.points : loading.strokes.lines;
+    const bool is_stroke = is_stroke_mode(primitive.mode);
+    if (is_stroke && !strokes.drawn()) {
+      strokes.leave_out("mesh " + std::to_string(mesh));
       continue;
     }
-    if (primitive.mode != kGltfTriangles && primitive.mode != kGltfTriangleStrip &&
+    if (!is_stroke && primitive.mode != kGltfTriangles && primitive.mode != kGltfTriangleStrip &&
         primitive.mode != kGltfTriangleFan)
       return file.error("a primitive has the mode " + std::to_string(primitive.mode) +
                         ", which glTF does not know");
@@ -305,13 +309,19 @@ Expected<void> add_gltf_mesh(const GltfFile& file, int mesh, const glm::mat4& wo
                     "primitives without positions are left out", "they are not drawn"});
       continue;
     }
-    if (const Expected<void> added = placer.add(primitive, default_material); !added) {
+    const Expected<std::size_t> added =
+        is_stroke ? add_gltf_strokes(file, primitive, world_from_mesh, default_material, to, rest,
+                                     deformation, loading.strokes)
+                  : placer.add(primitive, default_material).transform([] { return std::size_t{0}; });
+    unplaced_strokes += added.value_or(0);
+    if (!added) {
       InputError error = added.error();
       error.what = "mesh " + std::to_string(mesh) + "'s primitive " +
                    std::to_string(&primitive - &primitives.front()) + ": " + error.what;
       return Unexpected(error);
     }
   }
+  warn_of_unplaced(file.path.string(), "mesh " + std::to_string(mesh), unplaced_strokes, warnings);
   placer.forget_unplaced();
   if (placer.unplaced() > 0)
     warnings.add(

@@ -6,6 +6,7 @@
 
 #include "core/scene/gltf/buffers.h"
 #include "core/scene/gltf/format/json.h"
+#include "core/scene/gltf/format/variants.h"
 
 namespace pinocchio {
 namespace {
@@ -35,11 +36,11 @@ GltfAttributes attributes_of(const Json& json) {
   return attributes;
 }
 
-GltfPrimitive primitive_of(const Json& json) {
+GltfPrimitive primitive_of(const Json& json, int variant) {
   GltfPrimitive primitive;
   if (const Json* attributes = member(&json, "attributes")) primitive.attributes = attributes_of(*attributes);
   primitive.indices = index_member(&json, "indices");
-  primitive.material = index_member(&json, "material");
+  primitive.material = material_in_variant(json, variant);
   if (json.contains("mode")) primitive.mode = index_member(&json, "mode");
   for (const Json& target : array_member(&json, "targets"))
     primitive.targets.push_back(attributes_of(target));
@@ -73,8 +74,25 @@ GltfNode node_of(const Json& json) {
   node.camera = index_member(&json, "camera");
   node.children = indices_member(&json, "children");
   node.weights = weights_of(json);
+  node.visible = value_member<bool>(extension(&json, "KHR_node_visibility"), "visible").value_or(true);
   node.json = &json;
   return node;
+}
+
+// Hides what is below hidden nodes.
+void hide_children(std::vector<GltfNode>& nodes) {
+  std::vector<std::size_t> open;
+  for (std::size_t i = 0; i < nodes.size(); ++i)
+    if (!nodes[i].visible) open.push_back(i);
+  while (!open.empty()) {
+    const std::size_t hidden = open.back();
+    open.pop_back();
+    for (const int child : nodes[hidden].children)
+      if (in_range(child, nodes) && nodes[child].visible) {
+        nodes[child].visible = false;
+        open.push_back(static_cast<std::size_t>(child));
+      }
+  }
 }
 
 class ListReader {
@@ -87,10 +105,11 @@ class ListReader {
       GltfMesh& mesh = file_.meshes.emplace_back();
       for (const Json& primitive : array_member(&json, "primitives"))
         if (require(primitive.is_object(), primitive, "is not an object"))
-          mesh.primitives.push_back(primitive_of(primitive));
+          mesh.primitives.push_back(primitive_of(primitive, file_.variant));
       mesh.weights = weights_of(json);
     }
     for (const Json& json : file_.items("nodes")) file_.nodes.push_back(node_of(json));
+    hide_children(file_.nodes);
     for (const Json& json : file_.items("skins")) {
       const Json* joints = member(&json, "joints");
       require(joints && joints->is_array(), json, "lacks its array of joints");

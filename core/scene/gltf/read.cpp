@@ -6,6 +6,7 @@
 #include "core/files/input_file.h"
 #include "core/scene/gltf/buffers.h"
 #include "core/scene/gltf/format/features.h"
+#include "core/scene/gltf/format/variants.h"
 
 namespace pinocchio {
 namespace {
@@ -149,7 +150,10 @@ Expected<GltfFile> read_gltf_file(const std::filesystem::path& path, Loading& lo
   file.json = std::make_shared<const nlohmann::json>(std::move(gltf));
   if (const Expected<void> readable = check_gltf_requirements(path, *file.json); !readable)
     return Unexpected(readable.error());
-  add_lost_gltf_features(path, *file.json, loading.warnings);
+  Expected<int> variant = chosen_gltf_variant(path, *file.json, loading.variant);
+  if (!variant) return Unexpected(variant.error());
+  file.variant = *variant;
+  add_lost_gltf_features(path, *file.json, file.variant, loading);
   add_lost_gltf_references(path, *file.json, loading.warnings);
   if (const Expected<void> read = check_gltf_objects(file)
                                       .and_then([&] { return read_gltf_buffers(file, parts->binary); })

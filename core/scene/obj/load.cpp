@@ -96,7 +96,7 @@ Expected<Scene> load_obj(const std::filesystem::path& path, Loading& loading) {
   Expected<FileBytes> bytes = read_input_file(path, loading.progress);
   if (!bytes) return Unexpected(bytes.error());
   FileBytes text = as_utf8(std::move(*bytes));
-  const Expected<ObjText> obj = read_obj_text(text, path, loading.warnings, loading.progress);
+  const Expected<ObjText> obj = read_obj_text(text, path, loading);
   if (!obj) return Unexpected(obj.error());
   MtlLibraries mtl(path, loading);
   for (const std::string& names : obj->libraries) mtl.read(names);
@@ -107,6 +107,8 @@ Expected<Scene> load_obj(const std::filesystem::path& path, Loading& loading) {
   for (const std::string& name : obj->materials)
     material_of_name.push_back(static_cast<std::uint32_t>(mtl.find(name) + 1));
   add_obj_faces(*obj, material_of_name, path, loading, mesh);
+  if (const Expected<void> added = add_obj_strokes(*obj, material_of_name, path, loading, mesh); !added)
+    return Unexpected(added.error());
   MtlMaterials materials(path, mesh, loading);
   for (const MtlMaterial& m : mtl.materials) mesh.materials.push_back(materials.make(m));
   if (mesh.textures.empty()) mesh.texcoords.clear();

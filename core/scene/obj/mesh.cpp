@@ -5,6 +5,7 @@
 
 #include "core/geometry/polygon.h"
 #include "core/image/tonemap.h"
+#include "core/scene/strokes.h"
 
 namespace pinocchio {
 namespace {
@@ -32,6 +33,9 @@ class ObjMeshBuilder {
           mesh_.normals[triangle[i]] += n;  // weighted by area
     }
   }
+
+  // The vertex of a point or a line's end.
+  std::uint32_t vertex_of(const ObjText::Corner& corner) { return vertex_of(corner, 0); }
 
   void finish() {
     for (const std::uint32_t vertex : smooth_vertices_)
@@ -107,6 +111,34 @@ void add_obj_faces(const ObjText& obj, const std::vector<std::uint32_t>& materia
     if (i % kFacesBetweenLooks == kFacesBetweenLooks - 1) advance(loading.progress, kFacesBetweenLooks);
   }
   builder.finish();
+}
+
+Expected<void> add_obj_strokes(const ObjText& obj, const std::vector<std::uint32_t>& materials,
+                               const std::filesystem::path& file, Loading& loading, MeshData& mesh) {
+  if (obj.strokes.empty()) return {};
+  double points = 0.0, lines = 0.0;
+  for (const ObjText::Stroke& stroke : obj.strokes)
+    (stroke.is_point ? points : lines) += static_cast<double>(stroke.count - (stroke.is_point ? 0 : 1));
+  if (const Expected<void> fits = take_strokes(file.string(), points, lines, loading); !fits) return fits;
+  MeshData ends;  // the vertices that points and lines have
+  ObjMeshBuilder builder(obj, ends);
+  std::vector<Stroke> strokes;
+  for (const ObjText::Stroke& stroke : obj.strokes) {
+    const std::uint32_t material = stroke.material < 0 ? 0 : materials[stroke.material];
+    std::uint32_t last = 0;
+    for (std::size_t i = 0; i < stroke.count; ++i) {
+      const std::uint32_t vertex = builder.vertex_of(obj.corners[stroke.first + i]);
+      if (stroke.is_point)
+        strokes.push_back({vertex, vertex, true, material});
+      else if (i > 0)
+        strokes.push_back({last, vertex, false, material});
+      last = vertex;
+    }
+  }
+  builder.finish();
+  const AddedStrokes added = add_strokes(strokes, ends, loading.strokes, loading.progress, mesh);
+  warn_of_unplaced(file.string(), "", added.unplaced, loading.warnings);
+  return {};
 }
 
 }  // namespace pinocchio

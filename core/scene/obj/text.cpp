@@ -42,8 +42,8 @@ constexpr int kLinesBetweenLooks = 4096;
 
 class ObjReader {
  public:
-  ObjReader(const std::filesystem::path& file, Warnings& warnings)
-      : file_(file.string()), warnings_(warnings) {}
+  ObjReader(const std::filesystem::path& file, Loading& loading)
+      : file_(file.string()), warnings_(loading.warnings), strokes_(loading.strokes) {}
 
   Expected<ObjText> read(std::span<char> text, const Progress* progress) {
     join_lines(text);
@@ -55,7 +55,7 @@ class ObjReader {
     // Forward references are allowed, so the count is known only at the end.
     for (const Kind kind : {kVertex, kTexcoord, kNormal})
       if (highest_[kind].index > count(kind)) {
-        const std::string what = std::string("a face names ") + kKindNames[kind] + " " +
+        const std::string what = highest_[kind].whose + " names " + kKindNames[kind] + " " +
                                  std::to_string(highest_[kind].index) + ", there are " +
                                  std::to_string(count(kind));
         if (kind == kVertex) return fail(highest_[kind].line, what);
@@ -73,6 +73,7 @@ class ObjReader {
   struct Reference {
     long long index = 0;
     int line = 0;
+    std::string whose{};
   };
 
   Unexpected fail(int line, const std::string& what) const {
@@ -96,6 +97,7 @@ class ObjReader {
       return read_numbers(line, 1, 2, kTexcoord,
                           [this](const float* t) { obj_.texcoords.emplace_back(t[0], t[1]); });
     if (word == "f") return read_face(line);
+    if (word == "p" || word == "l") return read_stroke(word, line);
     if (word == "s")
       group_ = number<std::uint32_t>(next_word(line)).value_or(0);  // "off" is 0
     else if (word == "usemtl")
@@ -142,8 +144,6 @@ class ObjReader {
   }
 
   void warn_of(std::string_view keyword) {
-    if (keyword == "p") return lost(keyword, "points are left out", "they are not drawn");
-    if (keyword == "l") return lost(keyword, "lines are left out", "they are not drawn");
     if (keyword == "curv" || keyword == "curv2" || keyword == "surf")
       return lost(keyword, "curves and free-form surfaces are left out", "they are not drawn");
     if (std::find(std::begin(kQuiet), std::end(kQuiet), keyword) == std::end(kQuiet))
@@ -185,8 +185,7 @@ class ObjReader {
 
   Expected<void> read_face(std::string_view line) {
     const std::size_t first = obj_.corners.size();
-    for (std::string_view corner; !(corner = next_word(line)).empty() && corner.front() != '#';)
-      if (const Expected<void> read = read_corner(corner); !read) return read;
+    if (const Expected<void> read = read_corners("a face", line); !read) return read;
     const std::size_t corners = obj_.corners.size() - first;
     if (corners < 3) {  // exporters write some; they have no area
       obj_.corners.resize(first);
@@ -194,6 +193,36 @@ class ObjReader {
       return {};
     }
     obj_.faces.push_back({first, corners, group_, material_, line_});
+    return {};
+  }
+
+  // p v ..., l v/vt ...; not read where it is not drawn
+  Expected<void> read_stroke(std::string_view keyword, std::string_view line) {
+    const bool is_point = keyword == "p";
+    PointsAndLines::Kind& kind = is_point ? strokes_.points : strokes_.lines;
+    if (!kind.drawn()) {
+      kind.leave_out("line " + std::to_string(line_) + " (" + std::string(keyword) + ")");
+      return {};
+    }
+    const std::size_t first = obj_.corners.size();
+    if (const Expected<void> read = read_corners(is_point ? "a point" : "a line", line); !read) return read;
+    const std::size_t corners = obj_.corners.size() - first;
+    if (corners >= (is_point ? 1u : 2u)) {
+      obj_.strokes.push_back({first, corners, is_point, material_, line_});
+    } else {
+      obj_.corners.resize(first);
+      lost(
+          keyword,
+          is_point ? "points without a vertex are left out" : "lines of fewer than two vertices are left out",
+          kNotDrawn);
+    }
+    return {};
+  }
+
+  Expected<void> read_corners(const char* whose, std::string_view line) {
+    whose_ = whose;
+    for (std::string_view corner; !(corner = next_word(line)).empty() && corner.front() != '#';)
+      if (const Expected<void> read = read_corner(corner); !read) return read;
     return {};
   }
 
@@ -209,14 +238,14 @@ class ObjReader {
       if (word.empty() && kind != kVertex) continue;
       const std::optional<long long> index = number<long long>(word);
       if (!index || *index == 0 || *index < -count(kind) || *index > std::numeric_limits<int>::max())
-        return fail(line_, "a face names " + std::string(kKindNames[kind]) + " '" +
+        return fail(line_, whose_ + " names " + std::string(kKindNames[kind]) + " '" +
                                std::string(word.substr(0, 40)) + "', there are " +
                                std::to_string(count(kind)) + " so far");
       indices[kind] = static_cast<int>(*index > 0 ? *index - 1 : count(kind) + *index);
-      if (*index > highest_[kind].index) highest_[kind] = {*index, line_};
+      if (*index > highest_[kind].index) highest_[kind] = {*index, line_, whose_};
     }
     if (!corner.empty())
-      return fail(line_, "a face has the corner '" + std::string(whole) +
+      return fail(line_, whose_ + " has the corner '" + std::string(whole) +
                              "', which has text after the index of its normal");
     obj_.corners.push_back({indices[kVertex], indices[kTexcoord], indices[kNormal]});
     return {};
@@ -224,6 +253,8 @@ class ObjReader {
 
   std::string file_;
   Warnings& warnings_;
+  PointsAndLines& strokes_;
+  std::string whose_;  // "a face": what has the corners that are read
   ObjText obj_;
   std::unordered_map<std::string, int> material_names_;
   std::array<Reference, kKinds> highest_{};
@@ -235,9 +266,8 @@ class ObjReader {
 
 }  // namespace
 
-Expected<ObjText> read_obj_text(std::span<char> text, const std::filesystem::path& file, Warnings& warnings,
-                                const Progress* progress) {
-  return ObjReader(file, warnings).read(text, progress);
+Expected<ObjText> read_obj_text(std::span<char> text, const std::filesystem::path& file, Loading& loading) {
+  return ObjReader(file, loading).read(text, loading.progress);
 }
 
 }  // namespace pinocchio

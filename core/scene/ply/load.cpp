@@ -11,6 +11,7 @@
 #include "core/math/finite.h"
 #include "core/scene/formats.h"
 #include "core/scene/ply/file.h"
+#include "core/scene/strokes.h"
 
 namespace pinocchio {
 namespace {
@@ -72,7 +73,7 @@ class PlyBuilder {
     }
     if (const Expected<void> whole = check_rest(); !whole) return Unexpected(whole.error());
     if (!faces_seen_ && !mesh_.positions.empty())
-      lost("element vertex", "points are left out", "they are not drawn");
+      if (const Expected<void> drawn = points(); !drawn) return Unexpected(drawn.error());
     if (texture_) lost("comment TextureFile", "its texture is left out", "there are no texture coordinates");
     if (textured() && !std::exchange(mesh_.colors, {}).empty())
       lost("", "colours are left out", "its texture gives the colour");
@@ -189,6 +190,25 @@ class PlyBuilder {
       polygon();
       return {};
     });
+  }
+
+  // Without faces, the vertices are a cloud of points.
+  Expected<void> points() {
+    if (!loading_.strokes.points.drawn()) {
+      loading_.strokes.points.leave_out("element vertex");
+      return {};
+    }
+    const std::size_t count = mesh_.positions.size();
+    if (const Expected<void> fits = take_strokes(path_.string(), static_cast<double>(count), 0.0, loading_);
+        !fits)
+      return fits;
+    std::vector<Stroke> strokes(count);
+    for (std::uint32_t i = 0; i < count; ++i) strokes[i] = {i, i, true, 0};
+    MeshData cloud = std::exchange(mesh_, {});
+    mesh_.textures = cloud.textures;
+    const AddedStrokes added = add_strokes(strokes, cloud, loading_.strokes, loading_.progress, mesh_);
+    warn_of_unplaced(path_.string(), "element vertex", added.unplaced, loading_.warnings);
+    return {};
   }
 
   // A face corner's texture coordinates; zero: the list is too short.

@@ -30,7 +30,7 @@ struct EnvironmentLight {
   Environment::Shares shares;
   bool shines;
   float cos_turn, sin_turn;
-  std::shared_ptr<const PrefilteredSky> prefiltered;  // null: it is sampled
+  std::shared_ptr<const PrefilteredSky> prefiltered;  // null: nothing reads it
 };
 
 }  // namespace pinocchio

@@ -45,7 +45,8 @@ struct SceneArrays {
 
 struct BounceLight {
   shared::LightParams params;
-  int slot;  // in the mask, and its shadow queue's index; -1: casts no shadow
+  int slot;   // in the mask; -1: casts no shadow
+  int queue;  // its shadow queue's index; -1: casts no shadow
   bool has_size;
   std::uint32_t index;  // in the scene
 };
@@ -77,7 +78,7 @@ struct Bounce {
   bool lobes = false;  // directions of glossy lobes are sampled; else mirrors are sharp
 
   // Outputs. Queues have room for all rays of the step; null: not wanted.
-  RayQueue* shadow = nullptr;  // one a slot
+  RayQueue* shadow = nullptr;  // one for each of the step's casting lights
   // Likewise: rays to the origins of lifted shadow rays; their `pixel` is the shadow ray's place in its
   // queue.
   RayQueue* ways_up = nullptr;

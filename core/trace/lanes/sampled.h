@@ -3,6 +3,7 @@
 
 #include "core/denoise/sampled_point.h"
 #include "core/trace/lanes/material.h"
+#include "core/trace/lanes/prefiltered.h"
 #include "core/trace/lanes/surface.h"
 
 namespace pinocchio::PINOCCHIO_LANES {
@@ -19,15 +20,33 @@ inline Vec sampled_albedo(const LaneSurface& s, const LaneMaterial& m) {
   return m.blends != 0 ? albedo * m.alpha : albedo;
 }
 
+// The same under the environment, without its shadows, in units of its mean: what varies with the normal and
+// the viewer is divided off, and what the filter smooths is little more than the shadows (as in Heitz et al.
+// 2018, "Combining analytic direct illumination and stochastic shadows").
+inline Vec returned_of_sky(const EnvironmentLight& e, const LaneSurface& s, const LaneMaterial& m,
+                           const Vec& albedo, Mask lanes) {
+  const glm::vec3& mean = e.prefiltered->irradiance[0];
+  const float unit = 0.31830988618f * e.strength * (0.2126f * mean.x + 0.7152f * mean.y + 0.0722f * mean.z);
+  if (!(unit > 0.0f)) return albedo;
+  const SkyLight sky = light_of_sky(e, s, m, false, false, lanes);
+  const Vec light = (sky.matt + sky.mirrored) * (m.alpha * Float(1.0f / unit));
+  const Float least(0.1f);  // where the few coefficients know of no light
+  return {max(light.x, albedo.x * least), max(light.y, albedo.y * least), max(light.z, albedo.z * least)};
+}
+
 // Writes the points of a packet. way: from the eye.
 [[gnu::noinline]] void write_points(const Bounce& bounce, const LaneSurface& s, const LaneMaterial& m,
                                     const Vec& way, Int pixels, Mask lanes) {
   alignas(64) std::uint32_t pixel[kWidth];
-  alignas(64) float values[7][kWidth];
-  const Vec albedo = sampled_albedo(s, m);
-  const Float all[7] = {albedo.x,      albedo.y,      albedo.z,           s.n_shading.x,
-                        s.n_shading.y, s.n_shading.z, sqrt(dot(way, way))};
-  for (int k = 0; k < 7; ++k) all[k].store(values[k]);
+  alignas(64) float values[8][kWidth];
+  const Vec even = sampled_albedo(s, m);
+  const bool under_sky = bounce.environment && bounce.environment->prefiltered;
+  const Vec albedo = under_sky ? returned_of_sky(*bounce.environment, s, m, even, lanes) : even;
+  const Float guide =
+      Float(0.2126f) * even.x + Float(0.7152f) * even.y + Float(0.0722f) * even.z;  // Rec. 709
+  const Float all[8] = {
+      albedo.x, albedo.y, albedo.z, s.n_shading.x, s.n_shading.y, s.n_shading.z, sqrt(dot(way, way)), guide};
+  for (int k = 0; k < 8; ++k) all[k].store(values[k]);
   pixels.store(pixel);
   for (unsigned waiting = lanes.bits(); waiting != 0; waiting &= waiting - 1) {
     const int lane = __builtin_ctz(waiting);
@@ -35,6 +54,7 @@ inline Vec sampled_albedo(const LaneSurface& s, const LaneMaterial& m) {
     point.albedo = {values[0][lane], values[1][lane], values[2][lane]};
     point.normal = {values[3][lane], values[4][lane], values[5][lane]};
     point.distance = values[6][lane];
+    point.guide_albedo = values[7][lane];
   }
 }
 

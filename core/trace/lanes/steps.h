@@ -74,8 +74,8 @@ inline void append_shadow_rays(const BounceLight& from, const LaneSurface& s, co
   const Vec origin = starts.origins(incident.to_light);
   const bool far = from.params.kind == shared::kLightDirectional;
   const Vec direction = far ? incident.to_light : incident.target - origin;  // the light sits at t = 1
-  append_shadow_ray(s, origin, direction, light, pixel, lanes, bounce.shadow[from.slot]);
-  starts.append_ways_up(lanes, bounce.shadow[from.slot], bounce.ways_up[from.slot]);
+  append_shadow_ray(s, origin, direction, light, pixel, lanes, bounce.shadow[from.queue]);
+  starts.append_ways_up(lanes, bounce.shadow[from.queue], bounce.ways_up[from.queue]);
 }
 
 // The whole picture's pixels that the tile's samples belong to.
@@ -186,7 +186,8 @@ template <bool kSampled>
 void bounce_packets(const Bounce& bounce, const RayQueue& rays) {
   const bool reads_material = bounce.adds_light || bounce.adds_ambient || bounce.mirrored ||
                               (bounce.visible && bounce.options->light_cutoff > 0.0f) || bounce.environment ||
-                              bounce.prefiltered || bounce.diffuse || bounce.sampled != 0 || bounce.tints;
+                              bounce.prefiltered || bounce.diffuse || bounce.sampled != 0 || bounce.points ||
+                              bounce.tints;
   const unsigned wanted =
       maps_wanted(reads_material, bounce.adds_ambient,
                   bounce.prefiltered || (bounce.adds_ambient && bounce.ambient_light != glm::vec3(0.0f)));

@@ -43,8 +43,7 @@ void TileTracer::follow_diffuse(int bounce_count) {
   find_hits(diffuse_, generation);
   plan_->job.tracer.steps().keep_hits(diffuse_);
   bounce(step, generation, diffuse_, rays_, reflected_.data());
-  fire_shadows(generation, reflected_.data());
-  fire_at_environment(generation);
+  light_points(step, generation, {&diffuse_, 1}, plan_->further_lights, reflected_.data());
 }
 
 // Traces generation by generation: all rays of one before the next.
@@ -73,8 +72,7 @@ void TileTracer::follow_mirrors(int bounce_count) {
       plan_->job.tracer.steps().keep_hits(queue);
       bounce(step, generation, queue, next_, reflected_.data(), of_camera);
     }
-    fire_shadows(generation, reflected_.data());
-    fire_at_environment(generation);
+    light_points(step, generation, rays_, plan_->further_lights, reflected_.data());
     std::swap(rays_, next_);
   }
 }

@@ -1,6 +1,7 @@
 #include "core/trace/tiles/tile_plan.h"
 
 #include <algorithm>
+#include <cassert>
 
 #include "core/shade/surface.h"
 #include "core/trace/tiles/medium_at.h"
@@ -10,14 +11,48 @@
 namespace pinocchio {
 namespace {
 
-std::vector<BounceLight> lights_of(const Scene& scene) {
-  std::vector<BounceLight> lights;
+// In the scene's order.
+std::vector<LightGroup> groups_of(const Scene& scene) {
+  constexpr int kGroup = static_cast<int>(kLightGroup);
   const std::vector<int> slots = mask_slots(scene);
+  std::vector<LightGroup> groups(1);
   for (std::size_t i = 0; i < slots.size(); ++i) {
     const shared::LightParams params = light_params(scene.lights[i]);
-    lights.push_back({params, slots[i], shared::has_size(params), static_cast<std::uint32_t>(i)});
+    const int slot = slots[i], byte = std::max(slot, 0) / kGroup;
+    if (static_cast<std::size_t>(byte) == groups.size()) groups.push_back({.lights = {}, .byte = byte});
+    groups[static_cast<std::size_t>(byte)].lights.push_back({.params = params,
+                                                             .slot = slot,
+                                                             .queue = slot < 0 ? -1 : slot % kGroup,
+                                                             .has_size = shared::has_size(params),
+                                                             .index = static_cast<std::uint32_t>(i)});
   }
-  return lights;
+  return groups;
+}
+
+// The most lights of a group for which `is` is true.
+template <class Is>
+std::size_t most_of(const std::vector<LightGroup>& groups, Is is) {
+  std::size_t most = 0;
+  for (const LightGroup& group : groups)
+    most = std::max(most, static_cast<std::size_t>(std::ranges::count_if(group.lights, is)));
+  return most;
+}
+
+// What lights visible points. Without a mask, casting lights do not, unless their light is in the mirrored
+// light.
+std::vector<LightGroup> visible_groups(const std::vector<LightGroup>& all, const TileOutputs& out,
+                                       bool adds_ambient) {
+  std::vector<LightGroup> groups;
+  for (const LightGroup& from : all) {
+    LightGroup group{.lights = {}, .byte = from.byte};
+    group.in_reflection = out.reflection && from.byte * static_cast<int>(kLightGroup) >= out.first_added_slot;
+    for (const BounceLight& light : from.lights)
+      if (light.slot >= 0 ? out.mask_bits > 0 || group.in_reflection
+                          : adds_ambient || (out.sampled && light.has_size))
+        group.lights.push_back(light);
+    if (groups.empty() || !group.lights.empty()) groups.push_back(std::move(group));
+  }
+  return groups;
 }
 
 // Whether textures are averaged.
@@ -32,6 +67,23 @@ bool any_maps(const Mesh& mesh, bool (MaterialMaps::*is)() const) {
 }
 
 }  // namespace
+
+Bounce lit_by(const LightGroup& group, const Bounce& step) {
+  Bounce lit = step;
+  lit.lights = group.lights.data();
+  lit.light_count = group.lights.size();
+  return lit;
+}
+
+Bounce lights_alone(const LightGroup& group, const Bounce& step) {
+  Bounce alone = lit_by(group, step);
+  alone.adds_ambient = false;
+  alone.adds_light = step.adds_light || group.in_reflection;
+  alone.environment = alone.prefiltered = nullptr;
+  alone.points = nullptr;
+  alone.mirrored = alone.refracted = alone.straight = alone.diffuse = nullptr;
+  return alone;
+}
 
 SceneArrays SceneArrays::of(const Mesh& mesh, const LaneMapsOf& maps) {
   return {mesh.positions.data(),
@@ -64,16 +116,17 @@ TilePlan::TilePlan(const TraceJob& j, const TileOutputs& o)
       blends(any_maps(*j.scene.mesh, &MaterialMaps::blends)),
       tints((o.reflection || o.color || o.added || o.sampled) && tints_shadows(*j.scene.mesh, j.options)),
       passed_backs(*j.scene.mesh, j.options.backfaces),
-      all_lights(lights_of(j.scene)),
-      casting(casting_lights(j.scene).size()),
-      sized_lights(static_cast<std::size_t>(std::ranges::count_if(j.scene.lights, &Light::has_size))) {
+      further_lights(groups_of(j.scene)),
+      most_casting(most_of(further_lights, [](const BounceLight& light) { return light.slot >= 0; })),
+      most_sized(most_of(further_lights,
+                         [](const BounceLight& light) { return light.slot >= 0 && light.has_size; })) {
+  assert(o.mask_bits == 0 || o.mask_bits >= static_cast<int>(casting_lights(j.scene).size()));
   straight_apart = blends && (passed_backs.any() || o.coverage);
   further.scene = SceneArrays::of(*job.scene.mesh, maps);
   further.offset = job.tracer.offset();
   further.options = &job.options;
   further.footprint = &further_footprint;
-  further.lights = all_lights.data();
-  further.light_count = all_lights.size();
+  further = lit_by(further_lights.front(), further);
   further.ambient_light = job.scene.ambient_light;
   further.adds_ambient = further.adds_light = true;
   const bool microfacets = std::ranges::any_of(job.scene.mesh->materials, &Material::is_microfacet);
@@ -86,7 +139,7 @@ TilePlan::TilePlan(const TraceJob& j, const TileOutputs& o)
   if (job.scene.environment) environment.emplace(job.scene);
   if (environment && environment->shines && o.environment_light) {
     const bool sampled = job.options.environment_light == EnvironmentMethod::sampled;
-    if (!sampled) environment->prefiltered = prefiltered(job.scene.environment);
+    if (!sampled || out.sampled) environment->prefiltered = prefiltered(job.scene.environment);
     (sampled ? further.environment : further.prefiltered) = &*environment;
   }
   further.lobes =
@@ -98,11 +151,9 @@ TilePlan::TilePlan(const TraceJob& j, const TileOutputs& o)
   visible.visible = true;
   visible.adds_ambient = out.color != nullptr;
   visible.adds_light = out.color || out.added;
-  for (const BounceLight& light : all_lights)
-    if (light.slot >= 0 ? out.mask_bits > 0 : visible.adds_ambient || (out.sampled && light.has_size))
-      visible_lights.push_back(light);
-  visible.lights = visible_lights.data();
-  visible.light_count = visible_lights.size();
+  visible_lights = visible_groups(further_lights, out, visible.adds_ambient);
+  lights_in_reflection = std::ranges::any_of(visible_lights, &LightGroup::in_reflection);
+  visible = lit_by(visible_lights.front(), visible);
   set_view(j.view, j.model);
 }
 

@@ -13,6 +13,19 @@
 
 namespace pinocchio {
 
+// The lights that a bounce step computes: kLightGroup casting lights at most, so that a tile's shadow rays
+// stay in the cache however many lights there are. The first group also has the lights that do not cast.
+// A group's casting lights are the bits of one byte of the mask.
+inline constexpr std::size_t kLightGroup = 8;
+struct LightGroup {
+  std::vector<BounceLight> lights;
+  int byte = 0;                // of the mask
+  bool in_reflection = false;  // the light at visible points is added to the mirrored light
+};
+// The step with the group's lights; with nothing else than them.
+[[nodiscard]] Bounce lit_by(const LightGroup& group, const Bounce& step);
+[[nodiscard]] Bounce lights_alone(const LightGroup& group, const Bounce& step);
+
 // The shared input of a picture's tiles.
 struct TilePlan {
   TilePlan(const TraceJob& job, const TileOutputs& outputs);
@@ -30,8 +43,10 @@ struct TilePlan {
   bool tints;                  // shadow rays go on through glass
   bool straight_apart;         // rays that come straight from the camera have a queue of their own
   PassedBacksOf passed_backs;  // by the camera's rays
-  std::vector<BounceLight> all_lights, visible_lights;
-  std::size_t casting, sized_lights;  // lights
+  // Groups of all lights, and of those that light visible points; the first group may be empty.
+  std::vector<LightGroup> further_lights, visible_lights;
+  std::size_t most_casting, most_sized;  // casting lights of a group, and those of them with a size
+  bool lights_in_reflection = false;     // some group has
   std::optional<EnvironmentLight> environment;
   Bounce visible, further;  // the step of the camera's rays, and of the rays that they spawn
   Bounce shadows;           // of shadow rays that go on through glass: textures are not averaged

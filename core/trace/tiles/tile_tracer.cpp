@@ -161,17 +161,22 @@ void TileTracer::make_room(std::size_t rays, Generation& next) {
   next[kRefracted].make_room(rays, of_straight);
   next[kStraight].make_room(plan_->blends ? rays : 0, of_straight);
   next[kStraightFromCamera].make_room(plan_->straight_apart ? rays : 0, of_straight);
-  const ExtraColumns of_shadow{.medium = plan_->tints && extra.medium};
-  for (std::size_t i = 0; i < plan_->casting; ++i) shadow_[i].make_room(rays, of_shadow);
+  if (plan_->out.indirect > 0) next_diffuse_.make_more_room(rays, extra);
+  make_room_for_shadows(rays);
+}
+
+// For the lights of one group.
+void TileTracer::make_room_for_shadows(std::size_t rays) {
+  const ExtraColumns of_shadow{.medium = plan_->tints && extra_columns().medium};
+  for (std::size_t i = 0; i < plan_->most_casting; ++i) shadow_[i].make_room(rays, of_shadow);
   // A sample of the environment, one along a lobe, and distant lights that the lobe meets.
-  const std::size_t along_lobes = plan_->further.lobes ? plan_->sized_lights : 0;
+  const std::size_t along_lobes = plan_->further.lobes ? plan_->most_sized : 0;
   const std::size_t hiding =
       plan_->further.prefiltered ? static_cast<std::size_t>(plan_->job.options.sky_occlusion) : 0;
   sky_.make_room(rays * (plan_->further.lobes ? 2 + along_lobes + hiding : 1 + hiding), of_shadow);
   lobe_lights_.make_room(rays * along_lobes, of_shadow);
-  if (plan_->out.indirect > 0) next_diffuse_.make_more_room(rays, extra);
   const std::size_t up = plan_->job.options.terminator == Terminator::turned_away ? rays : 0;
-  for (std::size_t i = 0; i < plan_->casting; ++i) ways_up_[i].make_room(up);
+  for (std::size_t i = 0; i < plan_->most_casting; ++i) ways_up_[i].make_room(up);
   sky_ways_up_.make_room(plan_->further.environment ? up : 0);
 }
 
@@ -195,7 +200,7 @@ void TileTracer::bounce(Bounce step, int generation, const RayQueue& rays, Gener
 }
 
 void TileTracer::light_visible() {
-  mask_.fill(0);
+  mask_.assign(static_cast<std::size_t>(plan_->visible_lights.back().byte + 1) * kPixels, 0);
   if (plan_->visible.adds_light) {
     direct_.fill(glm::vec4(0.0f));
     for (std::size_t i = 0; i < seen_.size; ++i) direct_[seen_.pixel[i]].a = 1.0f;
@@ -206,38 +211,55 @@ void TileTracer::light_visible() {
   if (plan_->model) step.footprint = &seen_footprint_;
   step.mirrored = plan_->out.depth > 0 ? rays_.data() : nullptr;
   step.diffuse = plan_->out.indirect > 0 ? &next_diffuse_ : nullptr;
-  if (!step.mirrored && !step.diffuse && step.light_count == 0 && !step.adds_ambient && !step.environment &&
-      !step.prefiltered)
+  if (!step.mirrored && !step.diffuse && step.light_count == 0 && plan_->visible_lights.size() == 1 &&
+      !step.adds_ambient && !step.environment && !step.prefiltered)
     return;
   if (plan_->out.sampled) {
     step.sampled = kSampledPixels;
     step.points = points_.data();
-  } else if (step.environment || step.prefiltered || step.lobes || step.tints) {
+  } else if (step.environment || step.prefiltered || step.lobes || step.tints ||
+             plan_->lights_in_reflection) {
     reflects_ = true;
     begin_light();
   }
   bounce(step, 0, seen_, rays_, direct_.data(), true);
-  fire_shadows(0, direct_.data());
-  fire_at_environment(0);
+  light_points(step, 0, {&seen_, 1}, plan_->visible_lights, direct_.data());
 }
 
-void TileTracer::fire_shadows(int generation, glm::vec4* radiance) {
-  const bool visible = generation == 0;
-  for (const BounceLight& light : plan_->all_lights) {
+// Fires the step's shadow rays. Then lights its points by each group of lights after the first.
+void TileTracer::light_points(const Bounce& step, int generation, std::span<const RayQueue> points,
+                              const std::vector<LightGroup>& groups, glm::vec4* radiance) {
+  for (const LightGroup& group : groups) {
+    glm::vec4* const to = group.in_reflection ? reflected_.data() : radiance;
+    if (&group != &groups.front()) {
+      std::size_t count = 0;
+      for (const RayQueue& queue : points) count += queue.size;
+      make_room_for_shadows(count);
+      for (const RayQueue& queue : points) bounce(lights_alone(group, step), generation, queue, next_, to);
+    }
+    fire_shadows(group, generation, to);
+    fire_at_environment(generation);
+  }
+}
+
+void TileTracer::fire_shadows(const LightGroup& group, int generation, glm::vec4* radiance) {
+  const bool visible = generation == 0, adds = !visible || plan_->visible.adds_light || group.in_reflection;
+  std::uint8_t* const mask = visible ? &mask_[static_cast<std::size_t>(group.byte) * kPixels] : nullptr;
+  for (const BounceLight& light : group.lights) {
     if (light.slot < 0) continue;
-    const RayQueue& queue = shadow_[static_cast<std::size_t>(light.slot)];
+    const RayQueue& queue = shadow_[static_cast<std::size_t>(light.queue)];
     if (queue.size == 0) continue;
     if (blocked_.size() < queue.size + kQueuePad) blocked_.resize(2 * queue.size + kQueuePad);
     const float reach = light.params.kind == shared::kLightDirectional ? kInfinity : 1.0f;
     if (plan_->out.on_rays) plan_->out.on_rays({queue.columns(reach), queue.size, generation, true});
     ask_occluded(queue, reach);
-    block_by_ways_up(ways_up_[static_cast<std::size_t>(light.slot)], generation);
+    block_by_ways_up(ways_up_[static_cast<std::size_t>(light.queue)], generation);
     if (visible)  // without a branch, which would be predicted badly at the edges of shadows
       for (std::size_t i = 0; i < queue.size; ++i)
-        mask_[queue.pixel[i]] |= static_cast<std::uint8_t>(((blocked_[i] & 1u) ^ 1u) << light.slot);
+        mask[queue.pixel[i]] |= static_cast<std::uint8_t>(((blocked_[i] & 1u) ^ 1u) << light.queue);
     const bool apart = visible && plan_->out.sampled && light.has_size;
     if (plan_->tints) add_light_through_glass(queue, apart ? &reflected_[kSampledPixels] : reflected_.data());
-    if (visible && !apart && !plan_->visible.adds_light) continue;
+    if (!adds && !apart) continue;
     glm::vec4* const to = apart ? &reflected_[kSampledPixels] : radiance;
     for (std::size_t i = 0; i < queue.size; ++i)
       if (!blocked_[i])
@@ -273,7 +295,9 @@ void TileTracer::write() {
       for (std::size_t i = 0; i < width; ++i) of(out.color)[i] = light(i);
     if (out.added)
       for (std::size_t i = 0; i < width; ++i) of(out.added)[i] += glm::vec3(light(i));
-    if (out.mask) out.mask->set_row(tile_.lo.x, y, std::span(mask_).subspan(row, width));
+    for (std::size_t i = 0; out.mask && i < mask_.size(); i += kPixels)
+      out.mask->set_row(tile_.lo.x, y, std::span(mask_).subspan(i + row, width),
+                        static_cast<int>(i / kPixels));
   }
   if (out.color && plan_->environment) paint_background();
 }

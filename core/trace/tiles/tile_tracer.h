@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "core/parallel/tiles.h"
@@ -44,7 +45,10 @@ class TileTracer {
               bool of_camera = false);
   [[nodiscard]] ExtraColumns extra_columns() const;
   void make_room(std::size_t rays, Generation& next);
-  void fire_shadows(int generation, glm::vec4* radiance);
+  void make_room_for_shadows(std::size_t rays);
+  void light_points(const Bounce& step, int generation, std::span<const RayQueue> points,
+                    const std::vector<LightGroup>& groups, glm::vec4* radiance);
+  void fire_shadows(const LightGroup& group, int generation, glm::vec4* radiance);
   void fire_at_environment(int generation);
   void fire_reflected(RayQueue& queue, float reach, const RayQueue& ways_up, int generation);
   void ask_occluded(const RayQueue& queue, float reach);
@@ -58,7 +62,7 @@ class TileTracer {
   RayQueue seen_;
   Generation rays_, next_;
   RayQueue diffuse_, next_diffuse_;
-  std::array<RayQueue, kMaxCastingLights> shadow_, ways_up_;
+  std::array<RayQueue, kLightGroup> shadow_, ways_up_;
   RayQueue sky_, sky_ways_up_, lobe_lights_;
   // By shadow ray. Bit 0: something is in the way; bit 1: nor does light come through glass.
   std::vector<std::uint8_t> blocked_;
@@ -68,9 +72,9 @@ class TileTracer {
   Radiance<kPixels> direct_;
   Radiance<2 * kPixels> reflected_;  // from kSampledPixels on: what is kept apart
   std::vector<SampledPoint> points_;
-  Footprint seen_footprint_;  // of the tile, where a RayModel makes the rays
-  bool reflects_ = false;     // reflected_ may hold light
-  std::array<std::uint8_t, kPixels> mask_;
+  Footprint seen_footprint_;                // of the tile, where a RayModel makes the rays
+  bool reflects_ = false;                   // reflected_ may hold light
+  std::vector<std::uint8_t> mask_;          // kPixels for each byte of the mask
   std::array<std::uint32_t, kPixels> ids_;  // of the tile's pixels, row by row: given or found
 };
 

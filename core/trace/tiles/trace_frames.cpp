@@ -107,12 +107,11 @@ class Share {
       put(color, to_.color);
       if (samples > 1)
         for (int x = 0; x < size.x; ++x) to_.color[row + static_cast<std::size_t>(x)] /= share;
-      for (int x = 0; x < size.x; ++x) {
-        const std::size_t pixel = row + static_cast<std::size_t>(x);
-        if (to_.mask)
-          to_.mask[pixel] =
-              static_cast<std::uint8_t>(job_.outputs.mask_bits > 0 ? images_.mask.get(x, y) : 0u);
-      }
+      const auto width = static_cast<std::size_t>(size.x);
+      if (to_.mask && job_.outputs.mask_bits > 0)
+        images_.mask.copy_row(0, y, width, to_.mask_bytes, to_.mask + row * to_.mask_bytes);
+      else if (to_.mask)
+        std::fill_n(to_.mask + row * to_.mask_bytes, width * to_.mask_bytes, std::uint8_t{0});
       write_identities(job_.scene, {&images_.ids.at(0, y), static_cast<std::size_t>(size.x)}, to_, row);
     }
   }

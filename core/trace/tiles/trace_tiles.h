@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <functional>
 #include <glm/glm.hpp>
+#include <limits>
 #include <vector>
 
 #include "core/denoise/sampled_point.h"
@@ -59,9 +60,9 @@ struct TileOutputs {
   Image<std::uint32_t>* ids = nullptr;  // the triangles that camera rays find
 
   // Bit i of a sample: the casting light in mask slot i reaches the visible point. 0 where nothing is seen,
-  // the surface faces away, or the light brings less than job.options.light_cutoff. mask_bits: 1, 2, 4 or 8,
-  // at least the number of casting lights; 0: visible points fire no shadow rays, and casting lights do not
-  // reach them.
+  // the surface faces away, or the light brings less than job.options.light_cutoff. mask_bits: of a
+  // MaskImage, at least the number of casting lights; 0: visible points fire no shadow rays, and casting
+  // lights do not reach them.
   int mask_bits = 0;
   MaskImage* mask = nullptr;
 
@@ -73,6 +74,9 @@ struct TileOutputs {
   // with at most `indirect` bounces.
   bool environment_light = false;
   int indirect = 0;
+  // Also in `reflection`, whatever mask_bits is: the light at visible points of the casting lights in slots
+  // from this one on, a multiple of 8.
+  int first_added_slot = std::numeric_limits<int>::max();
 
   // The composite: the reflection model's light of every light that reaches the point, plus reflection. RGBA,
   // linear; A is 1 where something is hit. With `coverage`, A is less where all that is hit blends: the share

@@ -125,8 +125,9 @@ struct FrameResult {
 // The properties of the frame's visible points, computed from its ids.
 [[nodiscard]] SurfaceImages surfaces_of(const FrameResult& frame);
 
-// Copies its shadow mask to `to`: one byte for each pixel, for any number of bits.
-void unpack_mask(const FrameResult& frame, std::uint8_t* to);
+// Copies its shadow mask to `to`: `bytes` for each pixel, slot i in bit i % 8 of byte i / 8. One byte holds
+// eight casting lights; MaskImage::bytes_for() says how many hold all.
+void unpack_mask(const FrameResult& frame, std::uint8_t* to, std::size_t bytes = 1);
 
 struct ExrOptions {
   std::string layers = "all";  // or "none", or EXR names of kLayers with commas between

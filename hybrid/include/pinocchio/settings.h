@@ -53,7 +53,7 @@ inline constexpr std::array<std::string_view, 3> kSequenceNames{"sobol", "blue-n
 
 inline constexpr std::array<std::string_view, 2> kPixelFilterNames{"box", "blackman-harris"};
 
-inline constexpr int kMostBounces = 64, kMostThreads = 1024;
+inline constexpr int kMostBounces = 64, kMostThreads = 1024, kMostMaskBits = 64;
 
 // A value, and whether the user set it by an assignment. resolve() chooses values that are not set.
 template <class T>

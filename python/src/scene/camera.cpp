@@ -196,6 +196,20 @@ void bind_camera(nb::module_& module) {
           "A camera that sees everything around `eye`: longitude across, -180 to 180 degrees, with `target` "
           "in the middle;\n"
           "latitude down, 90 to -90. A picture of the shape 2 to 1 has square pixels.")
+      .def(
+          "stereo",
+          [](const Camera& camera, double baseline) {
+            if (!std::isfinite(baseline))
+              throw Error("baseline is a length in scene units; it must be finite");
+            const StereoPair pair = stereo_pair(camera, static_cast<float>(baseline));
+            return std::tuple(pair.left, pair.right);
+          },
+          "baseline"_a,
+          "(left, right): the cameras of two eyes that are `baseline` (scene units) apart, with this camera "
+          "in "
+          "the middle and\n"
+          "parallel axes. A point at depth z lies further left in the right picture by fx * baseline / z "
+          "pixels.")
       .def("project", &projected, "points"_a, "size"_a, nb::rv_policy::reference,
            "(n, 2) float64: where the camera sees points (n, 3) of the world, in pixels of a picture of "
            "`size`; "

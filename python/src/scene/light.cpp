@@ -75,7 +75,7 @@ void bind_light(nb::module_& module) {
           "inner_cone, outer_cone: the spot light's cones, in degrees from its direction.\n"
           "falloff: 'none' (the same strength at any distance) or 'inverse_square'.\n"
           "range: no light reaches beyond it, in scene units.\n"
-          "casts_shadow: at most eight lights of a scene cast shadows.\n"
+          "casts_shadow: each casting light is a bit of Result.mask.\n"
           "radius: of the shining sphere, in scene units. angle: the diameter of a sun's disc, in degrees. "
           "With either,\n"
           "several samples (spp) give soft shadows.\n"

@@ -10,7 +10,7 @@ namespace pinocchio::python {
 namespace {
 
 // Changes whenever the order of what is written does.
-constexpr std::string_view kFormat = "pinocchio_renderer " PINOCCHIO_VERSION " 1";
+constexpr std::string_view kFormat = "pinocchio_renderer " PINOCCHIO_VERSION " 2";
 
 // Copied as they lie in memory.
 template <class T>
@@ -245,9 +245,10 @@ void parts(A& a, Animation& value) {
 }
 template <class A>
 void parts(A& a, Scene& value) {
-  auto& [mesh, lights, cameras, ambient, environment, rotation, strength, nodes, animation, source, files] =
-      value;
-  each(a, mesh, lights, cameras, ambient, environment, rotation, strength, nodes, animation, source, files);
+  auto& [mesh, lights, cameras, ambient, environment, rotation, strength, nodes, animation, variants, source,
+         files] = value;
+  each(a, mesh, lights, cameras, ambient, environment, rotation, strength, nodes, animation, variants, source,
+       files);
 }
 template <class A>
 void parts(A& a, TexturedMaterial& value) {

@@ -32,8 +32,15 @@ std::vector<T> all_of(nb::handle list, const std::string& name, const char* want
   return values;
 }
 
+float diameter(const char* name, double value) {
+  if (!(value >= 0.0) || !std::isfinite(static_cast<float>(value)))
+    throw Error(std::string(name) + " is a diameter in scene units; it must be finite and not negative");
+  return static_cast<float>(value);
+}
+
 PyScene load(const std::filesystem::path& path, bool confine, const std::string& shading,
-             const std::variant<int, std::string>& animation, const std::string& up_axis) {
+             const std::variant<int, std::string>& animation, const std::string& up_axis, double point_size,
+             double line_width, const std::string& variant) {
   Warnings warnings;
   LoadOptions options;
   options.confine = confine;
@@ -45,6 +52,9 @@ PyScene load(const std::filesystem::path& path, bool confine, const std::string&
   const auto axis = parse_name<UpAxis>(kUpAxisNames, up_axis);
   if (!axis) throw Error("up_axis is '" + up_axis + "'; it is 'y' or 'z'");
   options.up_axis = *axis;
+  options.point_size = diameter("point_size", point_size);
+  options.line_width = diameter("line_width", line_width);
+  options.variant = variant;
   Scene scene = value_or_throw(
       without_gil([&](Progress* progress) { return load_scene(path, options, &warnings, progress); }));
   warn_of(warnings);
@@ -182,7 +192,10 @@ void bind_surroundings(SceneClass& bound) {
           "Raises Error if the file cannot be read, or if light is negative or not finite.")
       .def_prop_ro(
           "source", [](const PyScene& s) { return s.scene.source; },
-          "The path of the file that the scene was loaded from.");
+          "The path of the file that the scene was loaded from.")
+      .def_prop_ro(
+          "variants", [](const PyScene& s) { return s.scene.variants; },
+          "The names of the file's variants of its materials: load_scene(path, variant=name).");
   def_three(
       bound, "ambient", [](PyScene& s) -> glm::vec3& { return s.scene.ambient_light; },
       "Light that reaches every point, linear.");
@@ -274,16 +287,22 @@ void bind_scene(nb::module_& module) {
   bind_nodes(bound);
   module.def(
       "load_scene", &load, "path"_a, "confine"_a = false, "shading"_a = "auto", "animation"_a = "",
-      "up_axis"_a = "y",
-      nb::sig("def load_scene(path: str | os.PathLike[str], confine: bool = False, shading: str = 'auto', "
-              "animation: int | str = '', up_axis: str = 'y') -> Scene"),
+      "up_axis"_a = "y", "point_size"_a = 0.0, "line_width"_a = 0.0, "variant"_a = "",
+      nb::sig(
+          "def load_scene(path: str | os.PathLike[str], confine: bool = False, shading: str = 'auto', "
+          "animation: int | str = '', up_axis: str = 'y', point_size: float = 0.0, line_width: float = 0.0, "
+          "variant: str = '') -> Scene"),
       "Reads a scene by its extension, as the program does. What is left out of the file is a warning. With\n"
       "confine, files that it names are opened only below its folder, wherever names and links lead.\n"
       "shading: 'auto', the file's reflection model (glTF's for metallic-roughness materials, else Phong's), "
       "or 'phong'.\n"
       "animation: the name or the number of the file's animation that plays. '': all, together.\n"
       "up_axis: 'z' turns a file whose z points up, as many STL files do.\n"
-      "Raises Error if a word is another one, or if there is no such animation.");
+      "point_size, line_width: diameters, in scene units, of the balls and tubes that draw the file's points "
+      "and lines. 0: they are left out.\n"
+      "variant: the name of one of the file's variants of its materials (Scene.variants). '': those that it "
+      "shows first.\n"
+      "Raises Error if a word is another one, or if there is no such animation or variant.");
   module.def(
       "assemble", &assemble, "parts"_a,
       nb::sig("def assemble(parts: collections.abc.Mapping[str, Scene] | collections.abc.Mapping[str, "

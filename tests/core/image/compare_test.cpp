@@ -102,6 +102,22 @@ TEST_F(CompareTest, MaskBitsWhereSomethingIsSeenInEither) {
   EXPECT_EQ(run(a, b).value().mask.value().bits, 4u);
 }
 
+TEST_F(CompareTest, MasksOfMoreThan32Lights) {
+  ExrFile a = flat(0.0f), b = flat(0.0f);
+  add_uints(a, "shadow.mask", 1);
+  add_uints(a, "shadow.mask1", 0b100);
+  add_uints(b, "shadow.mask", 1);
+  const MaskFigures missing = run(a, b).value().mask.value();  // what b lacks is dark
+  EXPECT_EQ(missing.slots, 35);
+  EXPECT_EQ(missing.differing, 48u);
+  add_uints(b, "shadow.mask1", 0b100);
+  EXPECT_EQ(run(a, b).value().mask.value().differing, 0u);
+  std::string lights = "[0";
+  for (int i = 1; i < 40; ++i) lights += ", 0";
+  b.attributes["pinocchio.lights"] = lights + "]";
+  EXPECT_EQ(run(a, b).value().mask.value().bits, 48u * 40u);
+}
+
 TEST_F(CompareTest, WithoutAMaskItSaysSo) {
   ExrFile a = flat(0.0f);
   add_uints(a, "shadow.mask", 0);

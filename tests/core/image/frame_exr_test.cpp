@@ -187,6 +187,31 @@ TEST(FrameExr, HoldsWhatEachPixelIs) {
   EXPECT_EQ(exr.find("reflection.G")->values, std::vector<float>(12, 0.0f));  // the plan has none
 }
 
+TEST(FrameExr, HasAMaskChannelForEach32CastingLights) {
+  for (const int lights : {8, 9, 32, 33, 70}) {
+    HandMade made;
+    made.scene.lights.resize(static_cast<std::size_t>(lights));
+    made.scene.lights.emplace_back().casts_shadow = false;
+    made.images.mask = MaskImage(kSize, MaskImage::bits_for(lights));
+    made.images.mask.set_bit(2, 1, lights - 1);
+    made.images.mask.set_bit(2, 1, 1);
+    const ExrFile exr = made.exr({});
+    std::vector<std::uint32_t> words;
+    for (int k = 0;; ++k) {
+      const ExrChannel* const channel = exr.find("shadow.mask" + (k == 0 ? "" : std::to_string(k)));
+      if (!channel) break;
+      EXPECT_EQ(channel->type, ExrChannel::Type::uint);
+      words.push_back(channel->uints[6]);
+    }
+    std::vector<std::uint32_t> expected(static_cast<std::size_t>((lights + 31) / 32));
+    expected.front() |= 2u;
+    expected.back() |= 1u << (lights - 1) % 32;
+    EXPECT_EQ(words, expected) << lights;
+  }
+  EXPECT_EQ(*parse_aovs("shadow.mask2"), *parse_aovs("shadow"));
+  EXPECT_FALSE(parse_aovs("shadow.maskx"));
+}
+
 TEST(FrameExr, RenderTimeIsThereOnlyIfGiven) {
   EXPECT_EQ(HandMade().exr({}).attributes.count("renderTimeSeconds"), 0u);
   EXPECT_EQ(std::get<float>(HandMade().exr(2.5).attributes.at("renderTimeSeconds")), 2.5f);

@@ -32,6 +32,9 @@ void read(const std::filesystem::path& file, const std::string& format) {
   }
   const Expected<Scene> loaded = load_scene(scene, nullptr, nullptr, kLimit);
   EXPECT_TRUE(loaded || !loaded.error().what.empty()) << file;
+  const LoadOptions all{.limit_bytes = kLimit, .point_size = 0.1f, .line_width = 0.1f};
+  const Expected<Scene> with_strokes = load_scene(scene, all);
+  EXPECT_TRUE(with_strokes || !with_strokes.error().what.empty()) << file;
 }
 
 TEST(LoadCorpus, IsReadOrRefused) {

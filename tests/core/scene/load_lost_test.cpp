@@ -105,19 +105,38 @@ TEST(LoadLost, SkinsWithoutJointsAndOtherScenes) {
   EXPECT_NE(line_about(warnings, "scene 'other'"), "");
 }
 
-TEST(LoadLost, PointsAndLinesEvenWhereTheyAreAllThereIs) {
+TEST(LoadLost, PointsAndLinesWhereTheyAreAllThereIsAreTheErrorsOnlyLine) {
   Json json = triangle_json();
   json["meshes"][0]["primitives"][0]["mode"] = 1;
   Warnings warnings;
   const Expected<Scene> scene = load(json, &warnings);
-  EXPECT_FALSE(scene);
-  EXPECT_NE(line_about(warnings, "lines are left out"), "");
+  ASSERT_FALSE(scene);
+  EXPECT_NE(scene.error().message().find("only lines; draw them with --line-width D"), std::string::npos)
+      << scene.error().message();
   const auto obj = own_file("lines.obj");
   std::ofstream(obj) << "v 0 0 0\nv 1 0 0\nl 1 2\np 1\n";
-  Warnings of_obj;
-  EXPECT_FALSE(load_scene(obj, &of_obj));
-  EXPECT_NE(line_about(of_obj, "line 3"), "");
-  EXPECT_NE(line_about(of_obj, "points are left out"), "");
+  const Expected<Scene> both = load_scene(obj, &warnings);
+  ASSERT_FALSE(both);
+  EXPECT_NE(
+      both.error().message().find("only points and lines; draw them with --point-size D and --line-width D"),
+      std::string::npos)
+      << both.error().message();
+  EXPECT_TRUE(warnings.empty()) << warnings[0].message();
+}
+
+TEST(LoadLost, PointsAndLinesBesideTriangles) {
+  Json json = triangle_json();
+  json["meshes"][0]["primitives"].push_back({{"attributes", {{"POSITION", 0}}}, {"mode", 0}});
+  const std::string points = line_about(warnings_of(json), "points are left out");
+  EXPECT_NE(points.find("mesh 0"), std::string::npos) << points;
+  EXPECT_NE(points.find("--point-size draws them"), std::string::npos) << points;
+  const auto obj = own_file("lines.obj");
+  std::ofstream(obj) << "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\nl 1 2\nl 2 3\n";
+  Warnings warnings;
+  EXPECT_TRUE(load_scene(obj, &warnings));
+  const std::string lines = line_about(warnings, "lines are left out");
+  EXPECT_NE(lines.find("line 5"), std::string::npos) << lines;
+  EXPECT_NE(lines.find("1 more place"), std::string::npos) << lines;
 }
 
 TEST(LoadLost, VersionAndRequiredExtensionsBeforeAnythingElse) {

@@ -155,10 +155,11 @@ TEST(LoadPly, WhatIsLeftOutIsSaid) {
   Warnings warnings;
   std::string points =
       kHeader.substr(0, kHeader.find("element face")) + "element edge 1\nproperty int vertex1\nend_header\n";
-  EXPECT_FALSE(load_text(points + kRows + "0\n", &warnings));
-  ASSERT_EQ(warnings.size(), 2u);
+  const Expected<Scene> scene = load_text(points + kRows + "0\n", &warnings);
+  ASSERT_FALSE(scene);
+  ASSERT_EQ(warnings.size(), 1u);
   EXPECT_NE(warnings[0].message().find("element edge"), std::string::npos);
-  EXPECT_NE(warnings[1].message().find("points are left out"), std::string::npos);
+  EXPECT_NE(scene.error().message().find("only points; draw them with --point-size D"), std::string::npos);
 }
 
 // A strip of `cells` squares, each of two triangles, in bytes of the other order; all faces but `left_out`

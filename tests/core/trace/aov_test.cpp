@@ -67,10 +67,12 @@ TEST(VisiblePoints, AreTheSurfacesToTheBitAtEveryWidth) {
     const shared::ViewParams view = view_params(scene.cameras.front(), kSize);
     Image<std::uint32_t> ids(kSize);
     trace_visibility({scene, tracer, workers, view}, ids);
+    const LaneMapsOf maps(*scene.mesh);
+    const SceneArrays arrays = SceneArrays::of(*scene.mesh, maps);
     const Points expected = one_by_one(scene, view, ids);
     for (const Isa isa : supported_isas()) {
       SCOPED_TRACE(name + " " + std::string(isa_name(isa)));
-      const Points points = in_lanes({*scene.mesh, lane_steps(isa), view}, ids);
+      const Points points = in_lanes({arrays, lane_steps(isa), view}, ids);
       EXPECT_TRUE(same_bits(points.depth, expected.depth));
       EXPECT_TRUE(same_bits(points.position, expected.position));
       EXPECT_TRUE(same_bits(points.normal, expected.normal));
@@ -87,8 +89,10 @@ TEST(VisiblePoints, WritesWhatIsWantedAlone) {
   FrameArrays to;
   to.depth = depth.data();
   const shared::ViewParams view = view_params(scene.cameras.front(), kSize);
-  write_visible_points({*scene.mesh, lane_steps(default_isa()), view}, {{4, 4}, {7, 6}}, &ids.at(4, 4),
-                       kSize.x, to, 2, 10);
+  const LaneMapsOf maps(*scene.mesh);
+  const SceneArrays arrays = SceneArrays::of(*scene.mesh, maps);
+  write_visible_points({arrays, lane_steps(default_isa()), view}, {{4, 4}, {7, 6}}, &ids.at(4, 4), kSize.x,
+                       to, 2, 10);
   for (std::size_t i = 0; i < depth.size(); ++i)
     EXPECT_EQ(depth[i] == -1.0f, i / 10 > 1 || i % 10 < 2 || i % 10 > 4) << i;
 }

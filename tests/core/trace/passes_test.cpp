@@ -1,5 +1,8 @@
 #include "bench/one_ray/passes.h"
 
+#include <algorithm>
+#include <array>
+
 #include "core/trace/view/view_params.h"
 #include "tests/support/scenes.h"
 #include "tests/support/shade.h"
@@ -39,7 +42,7 @@ bool operator==(const Drawn& a, const Drawn& b) {
 }
 
 // Bits of the visible points of the floor: in the plate's shadow or not.
-unsigned mask_at(const Drawn& drawn, const Scene& scene, const glm::vec3& p_world) {
+unsigned mask_at(const Drawn& drawn, const Scene& scene, const glm::vec3& p_world, int first = 0) {
   const CameraAxes axes = camera_axes(scene.cameras.front());
   const glm::vec3 q = p_world - scene.cameras.front().eye;
   const float z = glm::dot(q, axes.forward);
@@ -47,7 +50,7 @@ unsigned mask_at(const Drawn& drawn, const Scene& scene, const glm::vec3& p_worl
   const float scale = 0.5f * static_cast<float>(kSize.y) / half;
   const int x = static_cast<int>(0.5f * kSize.x + scale * glm::dot(q, axes.right) / z);
   const int y = static_cast<int>(0.5f * kSize.y - scale * glm::dot(q, axes.up) / z);
-  return drawn.mask.get(x, y);
+  return drawn.mask.get(x, y, first);
 }
 
 const glm::vec3 kShadowed{2.0f, 0.0f,
@@ -112,6 +115,25 @@ TEST(ShadowMask, EightLights) {
   EXPECT_EQ(mask_at(drawn, scene, kShadowed), 0xffu & ~(1u << 5));
 }
 
+// A tile's shadow rays are those of eight lights at a time: byte by byte of the mask.
+TEST(ShadowMask, AsManyLightsAsAScene) {
+  for (const int lights : {9, 16, 40, 64, 65, 130}) {
+    Scene scene = plate_over_floor();
+    for (int i = 0; i < lights; ++i)
+      scene.lights.push_back(
+          point_light(i % 5 == 3 ? glm::vec3(-4, 4, 0) : glm::vec3(0.01f * static_cast<float>(i), 6, 9)));
+    const Drawn drawn = draw(scene);
+    EXPECT_EQ(drawn.mask.bits(), lights <= 16 ? 16 : (lights + 63) / 64 * 64);
+    const auto bits_at = [&](const glm::vec3& p_world, int slot) {
+      return mask_at(drawn, scene, p_world, slot / 32 * 32) >> slot % 32 & 1u;
+    };
+    for (int slot = 0; slot < drawn.mask.bits(); ++slot) {
+      EXPECT_EQ(bits_at(kShadowed, slot), slot < lights && slot % 5 != 3 ? 1u : 0u) << slot;
+      EXPECT_EQ(bits_at(kLit, slot), slot < lights ? 1u : 0u) << slot;
+    }
+  }
+}
+
 TEST(ShadowMask, FacingAwayIsZeroWithoutARay) {
   Scene scene = plate_over_floor();
   scene.lights = {point_light({0, -5, 0})};  // below the floor, which is seen from above
@@ -132,6 +154,61 @@ TEST(ShadowMask, BeyondALightsRangeOrConeIsZero) {
   const Drawn drawn = draw(scene);
   EXPECT_EQ(mask_at(drawn, scene, {2, 0, 3}), 0b10u);
   EXPECT_EQ(mask_at(drawn, scene, {-3, 0, 3}), 0u);
+}
+
+TEST(MaskImage, BitsAreTheFewestThatHoldTheLights) {
+  const std::array<std::pair<int, int>, 16> wanted{{{0, 0},
+                                                    {1, 1},
+                                                    {2, 2},
+                                                    {3, 4},
+                                                    {4, 4},
+                                                    {5, 8},
+                                                    {8, 8},
+                                                    {9, 16},
+                                                    {16, 16},
+                                                    {17, 32},
+                                                    {32, 32},
+                                                    {33, 64},
+                                                    {64, 64},
+                                                    {65, 128},
+                                                    {129, 192},
+                                                    {1000, 1024}}};
+  for (const auto& [lights, bits] : wanted) EXPECT_EQ(MaskImage::bits_for(lights), bits) << lights;
+}
+
+TEST(MaskImage, HoldsWordsBeyondAByte) {
+  for (const int bits : {16, 32, 64, 192}) {
+    MaskImage mask({5, 3}, bits), rows({5, 3}, bits);
+    for (int y = 0; y < 3; ++y)
+      for (int byte = 0; byte < bits / 8; ++byte) {
+        std::array<std::uint8_t, 5> row{};
+        for (int x = 0; x < 5; ++x) {
+          const int slot = (3 * x + 7 * y + byte) % 8;
+          mask.set_bit(x, y, 8 * byte + slot);
+          row[static_cast<std::size_t>(x)] = static_cast<std::uint8_t>(1u << slot);
+        }
+        rows.set_row(0, y, row, byte);
+      }
+    EXPECT_TRUE(std::ranges::equal(mask.bytes(), rows.bytes())) << bits;
+    EXPECT_EQ(mask.bytes().size(), static_cast<std::size_t>(15 * bits / 8));
+    for (int first = 0; first < 256; first += 32) {
+      unsigned expected = 0;
+      for (int byte = first / 8; byte < std::min(first + 32, bits) / 8; ++byte)
+        expected |= 1u << (8 * byte - first + (3 * 4 + 7 + byte) % 8);
+      EXPECT_EQ(mask.get(4, 1, first), expected) << bits << " " << first;
+    }
+    std::vector<std::uint8_t> few(5, 0xaa), many(5 * 40, 0xaa);
+    mask.copy_row(0, 2, 5, 1, few.data());
+    mask.copy_row(0, 2, 5, 40, many.data());
+    for (int x = 0; x < 5; ++x)
+      for (int byte = 0; byte < 40; ++byte) {
+        const auto expected = byte < bits / 8 ? mask.get(x, 2, byte / 4 * 32) >> 8 * (byte % 4) & 0xffu : 0u;
+        EXPECT_EQ(many[static_cast<std::size_t>(40 * x + byte)], expected);
+        if (byte == 0) {
+          EXPECT_EQ(few[static_cast<std::size_t>(x)], expected);
+        }
+      }
+  }
 }
 
 TEST(MaskImage, PacksEveryWidth) {

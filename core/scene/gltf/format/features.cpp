@@ -7,8 +7,10 @@
 #include <span>
 #include <string_view>
 
+#include "core/scene/gltf/format/constants.h"
 #include "core/scene/gltf/format/json.h"
 #include "core/scene/gltf/format/material_table.h"
+#include "core/scene/gltf/format/variants.h"
 
 namespace pinocchio {
 namespace {
@@ -46,9 +48,9 @@ constexpr Extension kExtensions[] = {
     {"KHR_materials_anisotropy", "highlights are round", ""},
     {"KHR_materials_dispersion", "glass does not split colours", ""},
     {"KHR_materials_diffuse_transmission", "no light shines through", ""},
-    {"KHR_materials_variants", "the first variant is drawn", ""},
+    {"KHR_materials_variants", "", ""},
     {"KHR_animation_pointer", "what it moves stands still", ""},
-    {"KHR_node_visibility", "what is hidden is drawn", ""},
+    {"KHR_node_visibility", "", ""},
     {"EXT_lights_image_based", "", ""},
 };
 
@@ -115,8 +117,12 @@ std::string place(const std::string& kind, const Json& of, std::size_t index) {
 
 class FeatureAudit {
  public:
-  FeatureAudit(const std::filesystem::path& file, const Json& gltf, Warnings& warnings)
-      : file_(file.string()), gltf_(gltf), warnings_(warnings) {}
+  FeatureAudit(const std::filesystem::path& file, const Json& gltf, int variant, Loading& loading)
+      : file_(file.string()),
+        gltf_(gltf),
+        variant_(variant),
+        strokes_(loading.strokes),
+        warnings_(loading.warnings) {}
 
   void run() {
     check_meshes();
@@ -163,10 +169,10 @@ class FeatureAudit {
     const Json& meshes = array_member(&gltf_, "meshes");
     for (const Json& mesh : meshes)
       for (const Json& primitive : array_member(&mesh, "primitives")) {
-        const double material = number_of(primitive, "material", -1);
+        const double material = material_in_variant(primitive, variant_);
         used_materials_.insert(material);
-        if (number_of(primitive, "mode", kTriangles) < kTriangles)
-          continue;  // points and lines are not drawn
+        const double mode = number_of(primitive, "mode", kTriangles);
+        if (mode < kTriangles && !(mode == kGltfPoints ? strokes_.points : strokes_.lines).drawn()) continue;
         const Json* attributes = member(&primitive, "attributes");
         for (std::size_t set = 0; set < uncovered_.size(); ++set)
           if (!attributes || !attributes->contains("TEXCOORD_" + std::to_string(set)))
@@ -247,6 +253,8 @@ class FeatureAudit {
 
   std::string file_;
   const Json& gltf_;
+  int variant_;
+  const PointsAndLines& strokes_;
   Warnings& warnings_;
   std::set<double> used_materials_;
   // Materials of triangles that lack that set of texture coordinates.
@@ -278,8 +286,9 @@ Expected<void> check_gltf_requirements(const std::filesystem::path& file, const 
   return {};
 }
 
-void add_lost_gltf_features(const std::filesystem::path& file, const Json& gltf, Warnings& warnings) {
-  FeatureAudit(file, gltf, warnings).run();
+void add_lost_gltf_features(const std::filesystem::path& file, const Json& gltf, int variant,
+                            Loading& loading) {
+  FeatureAudit(file, gltf, variant, loading).run();
 }
 
 }  // namespace pinocchio

@@ -4,7 +4,7 @@
 #include <filesystem>
 #include <nlohmann/json_fwd.hpp>
 
-#include "pinocchio/load.h"
+#include "core/files/loading.h"
 
 namespace pinocchio {
 
@@ -14,8 +14,9 @@ namespace pinocchio {
 
 // Adds a warning for every feature of the file that is not read. Its readers warn of what only they know: a
 // damaged image, a camera without a field of view.
-void add_lost_gltf_features(const std::filesystem::path& file, const nlohmann::json& gltf,
-                            Warnings& warnings);
+// `variant`: of the materials, -1 where none is chosen.
+void add_lost_gltf_features(const std::filesystem::path& file, const nlohmann::json& gltf, int variant,
+                            Loading& loading);
 
 // The same for every index that names nothing: an accessor, a camera, a scene.
 void add_lost_gltf_references(const std::filesystem::path& file, const nlohmann::json& gltf,

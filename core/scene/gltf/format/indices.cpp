@@ -24,6 +24,7 @@ constexpr Reference kReferences[] = {
     {"meshes/*/primitives/*/targets/*/*", "accessors", true},
     {"meshes/*/primitives/*/indices", "accessors", true},
     {"meshes/*/primitives/*/material", "materials", true},
+    {"meshes/*/primitives/*/extensions/KHR_materials_variants/mappings/*/material", "materials", true},
     {"accessors/*/bufferView", "bufferViews", true},
     {"bufferViews/*/buffer", "buffers", true},
     {"images/*/bufferView", "bufferViews"},
