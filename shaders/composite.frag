@@ -6,6 +6,7 @@
 //   FREE_LIGHTS_ONLY  lights that cast are left out: the CPU adds them (design 2)
 //   HAS_REFLECTION    the CPU's mirrored and refracted light; traced_light.glsl has its formats
 //   HAS_MAPS          some material has maps
+//   EYE_IN_MEDIUM     the eye lies in a body that absorbs light
 //   HAS_ENVIRONMENT   a picture is seen where no triangle is; HAS_BACKGROUND_COLOR: a colour
 //   HAS_CATCHER       the shadow catcher: where no triangle is, the reflection has the share of light that it lost
 //   TERMINATOR_LIFTS, TERMINATOR_SMOOTHS  remedies of the shadow terminator; neither: none
@@ -76,6 +77,17 @@ float lost_light(ivec2 pixel) {
 }
 #else
 float lost_light(ivec2 pixel) { return 0.0; }
+#endif
+
+#ifdef EYE_IN_MEDIUM
+uniform vec3 eye_medium_color;  // what is left of light after
+uniform float eye_medium_distance;
+
+// What is left of light on its way to the eye (Beer and Lambert).
+vec3 left_of_light(vec3 p_world) {
+  vec3 left = pow(max(eye_medium_color, 1e-30), vec3(distance(eye, p_world) / eye_medium_distance));
+  return mix(vec3(0.0), left, greaterThan(eye_medium_color, vec3(0.0)));
+}
 #endif
 
 uniform vec3 ambient_light;
@@ -151,6 +163,9 @@ void main() {
   }
 #ifdef HAS_MAPS
   sum *= s.alpha;
+#endif
+#ifdef EYE_IN_MEDIUM
+  sum *= left_of_light(s.p_world);
 #endif
 #ifdef HAS_REFLECTION
   sum += reflected_light(source.pixel, id);

@@ -2,6 +2,7 @@
 // triangle of every pixel, wherever that came from (the GPU's visibility buffer or trace_visibility).
 #pragma once
 
+#include "core/trace/tiles/tinted_shadows.h"
 #include "core/trace/tiles/trace_tiles.h"
 
 namespace pinocchio {
@@ -28,7 +29,8 @@ inline RayCounts trace_shadow_mask(const TraceJob& job, const Image<std::uint32_
 }
 
 // Mirrored plus refracted light of every pixel, linear, without the direct light of the visible point
-// itself; generation by generation, `depth` of them at most. radiance is resized to ids' size.
+// itself; generation by generation, `depth` of them at most. radiance is resized to ids' size. With glass,
+// the shadow rays of the visible points are fired, too.
 inline RayCounts trace_reflection(const TraceJob& job, const Image<std::uint32_t>& ids, int depth,
                                   Image<glm::vec3>& radiance) {
   TileOutputs out;
@@ -36,6 +38,7 @@ inline RayCounts trace_reflection(const TraceJob& job, const Image<std::uint32_t
   out.seen = &ids;
   out.depth = depth;
   out.reflection = &radiance;
+  if (tints_shadows(*job.scene.mesh, job.options)) out.mask_bits = kMaxCastingLights;
   return trace_tiles(job, out).rays;
 }
 

@@ -20,15 +20,17 @@ namespace pinocchio {
 class ReferenceTracer {
  public:
   // `tree` may be another scene's with the same triangles. Scene and tree must outlive this object. Of the
-  // options, only the footprint of textures, the terminator, the passed backs, the background and the shadow
-  // catcher are used: the reference follows every ray and takes many samples itself. Jitter other than 0
-  // means that the picture is one of many that are averaged; shadows of surfaces that blend are then grey.
+  // options, only the footprint of textures, the terminator, the passed backs, the shadows of glass, the
+  // background and the shadow catcher are used: the reference follows every ray and takes many samples
+  // itself. Jitter other than 0 means that the picture is one of many that are averaged; shadows of surfaces
+  // that blend are then grey.
   ReferenceTracer(const Scene& scene, const ReferenceTree& tree, const TraceOptions& options = {})
       : scene_(scene), tree_(tree), options_(options) {
     if (scene.environment) environment_.emplace(scene);
     if (const Backdrop b = backdrop_of(scene, options.background); b.picture)
       backdrop_.emplace(*b.picture, static_cast<double>(b.rotation_deg), static_cast<double>(b.strength));
     lobes_ = takes_samples(scene);
+    for (const Material& m : scene.mesh->materials) absorbs_ = absorbs_ || m.attenuates();
   }
 
   struct Pixel {
@@ -43,7 +45,13 @@ class ReferenceTracer {
   [[nodiscard]] Pixel pixel(const shared::ViewParams& view, int x, int y, int depth) const;
 
  private:
-  glm::dvec3 direct(const ReferenceSurface& surface, std::vector<bool>* reached = nullptr) const;
+  // The surface's light without mirrors, glass and environment: what comes unhindered, and what came through
+  // glass.
+  struct Direct {
+    glm::dvec3 free{0.0}, tinted{0.0};
+  };
+  Direct direct(const ReferenceSurface& surface, const Material* medium,
+                std::vector<bool>* reached = nullptr) const;
   // Behind the scene, by a ray straight from the camera that hits nothing: the background, less what the
   // shadow catcher lost, and that share.
   [[nodiscard]] glm::dvec4 behind(const ReferenceRay& ray) const;
@@ -51,7 +59,7 @@ class ReferenceTracer {
   // The share of the background that the camera's ray sees through surfaces that blend, less what the shadow
   // catcher holds back of it.
   [[nodiscard]] double left_behind(ReferenceRay ray, ReferenceHit hit, int depth) const;
-  [[nodiscard]] glm::dvec3 from_sky(const ReferenceSurface& surface) const;
+  [[nodiscard]] glm::dvec3 from_sky(const ReferenceSurface& surface, const Material* medium) const;
   // The footprint of textures at further hits of a ray, and whether it comes from the camera.
   struct Cone {
     double width, angle;
@@ -67,22 +75,34 @@ class ReferenceTracer {
   [[nodiscard]] Media media_at(const Material* of_ray, const ReferenceHit& hit,
                                const ReferenceSurface& surface) const;
   [[nodiscard]] glm::dvec3 bounced(const ReferenceSurface& surface, int depth, const Cone& cone,
-                                   const Media& media, int lobe_side) const;
+                                   const Media& media, int lobe_side, double density) const;
   [[nodiscard]] glm::dvec3 along_lobe(const ReferenceSurface& surface, int depth, const Cone& cone,
-                                      const Media& media, int lobe_side) const;
-  // The light along a ray that begins in `medium`.
-  [[nodiscard]] glm::dvec3 seen(const ReferenceRay& ray, const Material* medium, int depth,
-                                int lobe_side) const;
+                                      const Media& media, int lobe_side, double density) const;
+  // The light along a ray that begins in `medium`. density: of the ray's direction, where samples of the
+  // environment find it too; else 0.
+  [[nodiscard]] glm::dvec3 seen(const ReferenceRay& ray, const Material* medium, int depth, int lobe_side,
+                                double density) const;
 
   [[nodiscard]] ReferenceHit closest_hit(const ReferenceRay& ray) const;
   [[nodiscard]] bool passes_back(const ReferenceRay& ray, std::uint32_t triangle) const;
-  [[nodiscard]] double unblocked(const ReferenceRay& ray) const;
+  // The shares of a light that come along a ray that begins in `medium`: unhindered, and through glass.
+  struct Arrival {
+    double free = 1.0;
+    glm::dvec3 tinted{0.0};
+    [[nodiscard]] glm::dvec3 all() const { return free + tinted; }
+  };
+  [[nodiscard]] Arrival arriving(const ReferenceRay& ray, const Material* medium) const;
+  [[nodiscard]] double passing_alpha(const ReferenceHit& hit) const;
+  [[nodiscard]] glm::dvec3 passing_glass(const ReferenceSurface& surface) const;
+  // The material of the innermost body that absorbs light around the eye; null: none.
+  [[nodiscard]] const Material* medium_of_eye(const shared::ViewParams& view) const;
 
   const Scene& scene_;
   const ReferenceTree& tree_;
   TraceOptions options_;
   std::optional<ReferenceEnvironment> environment_, backdrop_;
-  bool lobes_ = false;  // glossy lobes are sampled; else mirrors are sharp
+  bool lobes_ = false;    // glossy lobes are sampled; else mirrors are sharp
+  bool absorbs_ = false;  // some material absorbs light
 };
 
 // The ray of the pixel (x, y). Its t is z_eye.

@@ -5,6 +5,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include "core/trace/tiles/medium_at.h"
 #include "hybrid/frame/schedule.h"
 
 namespace pinocchio {
@@ -32,7 +33,16 @@ void FrameSlot::begin(FrameRequest&& next, std::uint64_t number, Progress* its_p
   if (model && request.settings.uses_gpu())
     throw std::logic_error("OpenGL cannot draw the view; call draw_on_cpu for its settings");
   options = trace_options(request.settings, request.view);
+  eye_medium = material_around_eye();
   layout = channels_of(request.settings, size());
+}
+
+// Where the GPU shades and the CPU has a part: the tile pass finds it by itself.
+const Material* FrameSlot::material_around_eye() const {
+  const Settings& s = request.settings;
+  if (!s.uses_gpu() || !s.traces() || !request.tracer) return nullptr;
+  const std::uint32_t medium = medium_of_eye(*request.tracer, view.eye, !view.parallel);
+  return medium == kNoMedium ? nullptr : &request.scene.mesh->materials[medium];
 }
 
 void FrameSlot::add_gpu_times(const gl::GpuClock& clock) {

@@ -50,6 +50,7 @@ struct FrameSlot : CpuImages {
   void begin(FrameRequest&& next, std::uint64_t number, Progress* its_progress);
   // Completes the record of a delivered frame.
   void add_gpu_times(const gl::GpuClock& clock);
+  [[nodiscard]] const Material* material_around_eye() const;
   // Whether the CPU is tracing it.
   [[nodiscard]] bool is_tracing() const;
   // Whether its mask and reflection are on the GPU and have the newer frame's meaning.
@@ -63,6 +64,7 @@ struct FrameSlot : CpuImages {
   shared::ViewParams view;
   std::optional<RayModel> model;  // makes the rays; none: `view` does
   TraceOptions options;
+  const Material* eye_medium = nullptr;  // of the scene, absorbs light around the camera; null: none does
   FrameRecord record;
   Progress* progress = nullptr;
   std::vector<ChannelLayout> layout;  // channels that travel for it
@@ -112,6 +114,7 @@ struct FrameSlot : CpuImages {
             .ids = ids_on_gpu,
             .id_bits = id_bits,
             .options = options,
+            .eye_medium = eye_medium,
             .scene = request.scene};
   }
   // Whether the GPU has the finished picture in bytes, clipped at white; the CPU has it unclipped.

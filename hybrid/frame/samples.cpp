@@ -37,6 +37,7 @@ TraceOptions trace_options(const Settings& settings, const View& view) {
           .glossy = settings.glossy,
           .sky_occlusion = settings.sky_occlusion,
           .denoise = settings.denoise,
+          .glass_shadows = settings.glass_shadows,
           .background = settings.background,
           .catcher_height = catcher_height(settings),
           .jitter = view.jitter,

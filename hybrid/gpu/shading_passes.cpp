@@ -15,6 +15,7 @@ void ShadingPasses::composite(const Inputs& inputs, LightSet lights, const Trace
     if (inputs.options.glossy == Glossy::sampled) definitions.emplace_back("HAS_SAMPLED_LOBES");
   }
   if (lights == LightSet::free) definitions.emplace_back("FREE_LIGHTS_ONLY");
+  if (inputs.eye_medium) definitions.emplace_back("EYE_IN_MEDIUM");
   if (traced.mask.texture && inputs.lights.casting() > traced.mask.bits)
     definitions.emplace_back("LIGHTS_IN_REFLECTION");
   const Background& background = inputs.options.background;
@@ -32,6 +33,10 @@ void ShadingPasses::composite(const Inputs& inputs, LightSet lights, const Trace
   p.use();
   const int unit = bind(p, inputs, traced);
   if (backdrop.picture) bind_backdrop(p, backdrop, unit);
+  if (inputs.eye_medium) {
+    p.set("eye_medium_color", inputs.eye_medium->attenuation_color);
+    p.set("eye_medium_distance", inputs.eye_medium->attenuation_distance);
+  }
   if (has_color) p.set("background_color", background.color);
   if (catches) p.set("catcher_height", *inputs.options.catcher_height);
   if (inputs.lights.any_size()) {

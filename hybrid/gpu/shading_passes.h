@@ -38,7 +38,8 @@ class ShadingPasses {
     const gl::Texture& ids;
     int id_bits;
     TraceOptions options;
-    const Scene& scene;  // its environment may be the background
+    const Material* eye_medium;  // absorbs light around the eye; null: none does
+    const Scene& scene;          // its environment may be the background
   };
   // The CPU's answer; null parts are missing.
   struct Traced {

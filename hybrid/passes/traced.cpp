@@ -2,6 +2,7 @@
 #include <bit>
 #include <stdexcept>
 
+#include "core/trace/tiles/tinted_shadows.h"
 #include "core/trace/tiles/trace_tiles.h"
 #include "hybrid/exchange/encode.h"
 #include "hybrid/passes/passes.h"
@@ -44,11 +45,17 @@ void run(Workers& workers, FrameSlot& frame, const TileOutputs& outputs, double 
   record_times(result.times, begin_s, workers.count(), frame.record);
 }
 
+// Whether light at the visible points may come through glass, beside the mask.
+bool tints(const FrameSlot& frame) {
+  return frame.request.settings.mask_bits > 0 && tints_shadows(*frame.request.scene.mesh, frame.options);
+}
+
 // Whether light comes to the visible points by other rays than the mask's.
-bool traces_further(const FrameRequest& r) {
+bool traces_further(const FrameSlot& frame) {
+  const FrameRequest& r = frame.request;
   return r.settings.reflects() &&
          (r.settings.depth > 0 || r.settings.indirect > 0 || r.scene.environment != nullptr ||
-          r.settings.denoise || sends_lights(r.settings, r.scene) ||
+          r.settings.denoise || sends_lights(r.settings, r.scene) || tints(frame) ||
           r.settings.shadow_catcher.value.kind != ShadowCatcher::Kind::off);
 }
 
@@ -71,7 +78,7 @@ void add_mask(FrameSlot& frame, TileOutputs& out) {
 }
 
 void add_reflection(FrameSlot& frame, TileOutputs& out) {
-  if (!traces_further(frame.request)) return;
+  if (!traces_further(frame)) return;
   out.depth = frame.request.settings.depth;
   out.indirect = frame.request.settings.indirect;
   out.environment_light = true;
@@ -107,7 +114,7 @@ void add_filtered(Workers& workers, FrameSlot& frame, Gathering& gathering) {
 void trace(Workers& workers, FrameSlot& frame, Gathering& gathering) {
   const Settings& s = frame.request.settings;
   bool has_ids = s.visibility == Processor::gpu;
-  if (s.reflects() && !traces_further(frame.request))
+  if (s.reflects() && !traces_further(frame))
     frame.reflection = Image<glm::vec3>(scaled_size(frame.size(), s.reflection_scale));
   const bool needs_ids = !has_ids && (s.mask_scale > 1 || s.reflection_scale > 1);
   const bool apart = s.mask_scale != s.reflection_scale && s.mask_bits > 0 && s.reflects();
@@ -121,6 +128,8 @@ void trace(Workers& workers, FrameSlot& frame, Gathering& gathering) {
   if (apart) {
     run(workers, frame, out, share);
     out = outputs_of(frame, s.reflection_scale, has_ids);
+    if (tints(frame))
+      out.mask_bits = mask_bits_of(s, frame.request.scene);  // shadow rays again, for light through glass
   }
   add_reflection(frame, out);
   if (!s.uses_gpu()) out.color = &frame.color;

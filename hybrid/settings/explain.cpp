@@ -88,6 +88,13 @@ std::string why_reflection(const SceneStats& stats, const Settings& s) {
          (stats.transmits() ? "mirrors or refracts" : "mirrors");
 }
 
+std::string why_glass(const Settings& s) {
+  return s.glass_shadows == GlassShadows::tinted
+             ? "shadow rays go straight on through glass: a ray for each surface more, and the light travels "
+               "with the reflection"
+             : "glass casts full shadows: shadow rays end there";
+}
+
 std::string why_sky(const Settings& s) {
   if (s.environment_light == EnvironmentMethod::sampled)
     return "the environment lights by samples: exact in the mean, with noise";
@@ -163,7 +170,9 @@ std::vector<std::string> explain(const SceneStats& stats, const Settings& s) {
   if (s.uses_gpu()) lines.push_back(why_primary(stats, s));
   lines.push_back(why_mask(stats, s));
   lines.push_back(why_reflection(stats, s));
-  if (stats.environment && s.environment_strength > 0.0f && s.reflects()) lines.push_back(why_sky(s));
+  const bool sky = stats.environment && s.environment_strength > 0.0f;
+  if (stats.glass && s.reflects() && (sky || s.mask_bits > 0)) lines.push_back(why_glass(s));
+  if (sky && s.reflects()) lines.push_back(why_sky(s));
   if (s.denoise) lines.push_back(why_denoise(s));
   if (s.background.given || s.background.value.kind != Background::Kind::environment)
     lines.push_back(why_background(stats, s));

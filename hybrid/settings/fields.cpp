@@ -228,6 +228,11 @@ constexpr std::array kTable{
         "sky_occlusion", from_to(0, 64), "0; 8 for the studio",
         "shadow rays at each point that hide a prefiltered environment, about the surface's "
         "normal; 0: it casts no shadows"),
+    field<&S::glass_shadows>(
+        "glass_shadows", one_of(kGlassShadowsNames), glass_shadows_name(kUsualGlassShadows),
+        "shadow rays that meet glass: opaque: they end, it casts a full shadow; tinted: they "
+        "go straight on, with what Fresnel's equations, the glass's colour and the way "
+        "through it leave of the light (docs/glass.md)"),
     field<&S::denoise>(
         "denoise", yes_or_no(), "false; true in the window",
         "filter the light that samples find (environment, lights with a size, rough mirrors, "

@@ -50,16 +50,22 @@ Expected<void> check(const Settings& s, const SceneStats& stats) {
   return check_mask(s, stats);
 }
 
+bool lights_through_glass(const Settings& s, const SceneStats& stats) {
+  return s.glass_shadows == GlassShadows::tinted && stats.glass && stats.casting_lights > 0 &&
+         s.mask_bits > 0;
+}
+
 // The limit loses nothing: beyond the useful depth every ray is below the cutoff.
 void fill_depth(const SceneStats& stats, Settings& s) {
   if (!stats.mirrors) s.depth.value = 0;
   if (s.throughput_cutoff >= kThroughputCutoff) s.depth.value = std::min<int>(s.depth, stats.useful_depth);
   // Samples of an environment, of light from other surfaces and of the shadow catcher travel with mirrored
-  // light.
+  // light, and so does light through glass.
   const bool samples = s.indirect > 0 || (stats.environment && s.environment_strength > 0.0f) ||
                        (s.denoise && stats.sized_lights) ||
                        s.shadow_catcher.value.kind != ShadowCatcher::Kind::off;
-  s.reflection.fill(s.depth > 0 || samples ? ReflectionFormat::half : ReflectionFormat::none);
+  s.reflection.fill(s.depth > 0 || samples || lights_through_glass(s, stats) ? ReflectionFormat::half
+                                                                             : ReflectionFormat::none);
   if (s.reflection == ReflectionFormat::none) s.depth.value = 0;
 }
 
@@ -159,6 +165,8 @@ std::vector<std::string> losses(const Settings& s, const SceneStats& stats) {
         " lights travels with mirrored light, of which reflection rgb8 clips what is brighter than white");
   if (s.reflection.given && !s.reflects() && stats.mirrors)
     lines.emplace_back("reflection none: mirrors and glass are left out");
+  if (s.reflection.given && !s.reflects() && lights_through_glass(s, stats))
+    lines.emplace_back("reflection none: light that comes through glass is left out");
   if (s.reflection.given && !s.reflects() && stats.environment)
     lines.emplace_back("reflection none: the environment is seen, and lights nothing");
   if (s.reflection.given && !s.reflects() && s.indirect > 0)

@@ -28,6 +28,7 @@ void apply_slides(Settings& s) {
   s.reflection = ReflectionFormat::rgb8;
   s.tiles = s.reuse = false;
   s.light_cutoff = 0.0f;
+  s.glass_shadows = GlassShadows::opaque;
   s.id_bits = on_gpu ? 24 : 32;
   s.normals = on_gpu;
   s.wide = !on_gpu;

@@ -119,6 +119,7 @@ void PoseStats::look_at_materials(const Mesh& mesh) {
     stats_.glossy = stats_.glossy || material.is_glossy();
     stats_.microfacets = stats_.microfacets || material.is_microfacet();
     if (material.maps >= 0) note(mesh.maps[static_cast<std::size_t>(material.maps)], stats_);
+    stats_.glass = stats_.glass || material.transmits();
     const bool see_through = sees_through(mesh, material);
     if (!see_through && !mirrors(material, sampled_)) continue;
     kinds_[m] = see_through ? Kind::see_through : Kind::mirror;

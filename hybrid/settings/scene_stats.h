@@ -25,6 +25,7 @@ struct SceneStats {
   bool mirrors = false;             // some triangle's material reflects, transmits or blends
   double mirror_share = 0.0;        // share of the scene's surface that reflects or transmits
   double transmitting_share = 0.0;  // share that transmits
+  bool glass = false;               // some triangle's material transmits, other than by alpha
   bool textures = false;            // some triangle's material has a texture
   bool vertex_colors = false;       // some triangle's material has vertex colours
   bool holes = false;               // some material has holes by its alpha

@@ -27,7 +27,8 @@ namespace {
     carried = carried * terminator_factor(s.n_shading, s.n_geometric, incident.to_light);
   lit = lit & ~(largest(carried) < Float(bounce.options->throughput_cutoff));
   if (lit.bits() == 0) return;
-  append(starts.origins(incident.to_light), incident.to_light, carried, pixel, lit, *bounce.sky);
+  append_shadow_ray(s, starts.origins(incident.to_light), incident.to_light, carried, pixel, lit,
+                    *bounce.sky);
   starts.append_ways_up(lit, *bounce.sky, *bounce.sky_ways_up);
 }
 
@@ -40,7 +41,7 @@ namespace {
   const Vec carried = own * lobe.throughput * light * counts;
   const Mask lit = lobe.lanes & (carried != Vec(0.0f));
   if (lit.bits() != 0)
-    append(offset_origin(s, lobe.direction), lobe.direction, carried, pixel, lit, *bounce.sky);
+    append_shadow_ray(s, offset_origin(s, lobe.direction), lobe.direction, carried, pixel, lit, *bounce.sky);
 }
 
 // A ray towards light from other surfaces, by the cosine about the shading normal; none where that sends it
@@ -91,9 +92,10 @@ void add_environment(const EnvironmentLight& environment, bool counts_samples, c
     if (!any(missed)) continue;
     const Vec direction = Vec::load(rays.direction, i);
     Vec light = light_from_environment(environment, direction, missed);
-    if (counts_samples && rays.density) {
+    if (rays.density) {
       const Float density = Float::load(rays.density + i);
-      const Mask both = missed & (zero < density);
+      light = select(density < zero, Vec(zero), light);
+      const Mask both = counts_samples ? missed & (zero < density) : Mask::from_bits(0);
       if (any(both)) {
         const Float other = density_of_light(environment, direction, both);
         light = light * select(both, density / (density + other), one);

@@ -10,9 +10,6 @@
 namespace pinocchio {
 namespace {
 
-// No picture needs more. The limit ends a walk that rounding keeps going.
-constexpr int kMostLayers = 4096;
-
 glm::vec3 at(float* const (&columns)[3], std::size_t i) {
   return {columns[0][i], columns[1][i], columns[2][i]};
 }
@@ -52,6 +49,11 @@ float threshold_of(const SamplePlace& place, std::uint32_t pixel, std::uint32_t 
 }
 
 }  // namespace
+
+bool passes_hole(const Mesh& mesh, std::uint32_t triangle, const glm::vec3& weights, const SamplePlace& place,
+                 std::uint32_t pixel) {
+  return lets_shadow_ray_pass(mesh, triangle, weights, threshold_of(place, pixel, triangle));
+}
 
 // Appends ray i of `rays` again, from behind the triangle that it met.
 void Holes::go_on(const Tracer& tracer, const RayQueue& rays, std::size_t i, std::uint32_t triangle) {
@@ -104,7 +106,7 @@ void Holes::shadows(const Tracer& tracer, const RayQueue& rays, float reach, con
       }
       const glm::vec3 origin = at(on_.origin, k), direction = at(on_.direction, k);
       const glm::vec3 weights = weights_at(mesh, triangle, origin, direction);
-      if (!lets_shadow_ray_pass(mesh, triangle, weights, threshold_of(place, rays.pixel[from], triangle))) {
+      if (!passes_hole(mesh, triangle, weights, place, rays.pixel[from])) {
         blocked[from] = 1;
         continue;
       }

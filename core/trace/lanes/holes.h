@@ -15,6 +15,15 @@ struct SamplePlace {
   glm::vec2 jitter;   // zero: the only sample, or the first
 };
 
+// No picture needs more surfaces along a ray. The limit ends a walk that rounding keeps going.
+inline constexpr int kMostLayers = 4096;
+
+// Whether a shadow ray of that pixel of the tile, which meets the triangle, passes it as if nothing were
+// there. Where a surface blends it does at alpha below one half, or, in further samples of a pixel, below a
+// random number.
+[[nodiscard]] bool passes_hole(const Mesh& mesh, std::uint32_t triangle, const glm::vec3& weights,
+                               const SamplePlace& place, std::uint32_t pixel);
+
 // Rays through surfaces that let some of them pass (material_maps.h): a ray that meets a hole goes on behind
 // it. The tree does not know about holes, so that scenes without them pay nothing.
 class Holes {
@@ -23,8 +32,7 @@ class Holes {
   // `backs`: those that the rays pass, too; null: none.
   void pass(const Tracer& tracer, RayQueue& rays, const PassedBacks* backs = nullptr);
 
-  // blocked[i] = 1 where something that is no hole lies within shadow ray i, else 0. Where a surface blends,
-  // rays are let through at alpha below one half, or, in further samples of a pixel, below a random number.
+  // blocked[i] = 1 where something that is no hole (passes_hole) lies within shadow ray i, else 0.
   void shadows(const Tracer& tracer, const RayQueue& rays, float reach, const SamplePlace& place,
                std::uint8_t* blocked);
 

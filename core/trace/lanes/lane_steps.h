@@ -60,10 +60,14 @@ struct Bounce {
   const BounceLight* lights = nullptr;
   std::size_t light_count = 0;
   glm::vec3 ambient_light{0.0f};
-  bool visible = false;       // the rays are the camera's
-  bool adds_ambient = false;  // and emission
-  bool attenuates = false;    // some material absorbs light that goes through it
-  bool adds_light = false;    // lights that cast none add theirs to `radiance`, shadow rays carry it
+  bool visible = false;                  // the rays are the camera's
+  bool adds_ambient = false;             // and emission
+  bool attenuates = false;               // some material absorbs light that goes through it
+  std::uint32_t eye_medium = kNoMedium;  // the material around the camera
+  // Light goes straight on through glass: shadow rays carry it, and the medium that they start in.
+  bool tints = false;
+  bool of_matt = false;     // the rays were sent by matt surfaces, which look for the environment themselves
+  bool adds_light = false;  // lights that cast none add theirs to `radiance`, shadow rays carry it
   // Whether anything is sampled; the whole picture's pixel that is (0, 0) in the queues; the distance of the
   // picture's samples in pixels; the first dimension of the rays' generation.
   bool samples = false;
@@ -118,6 +122,11 @@ struct LaneSteps {
   void (*camera_rays)(const shared::ViewParams& view, glm::ivec2 corner, RayQueue& rays);
   // Drops the rays whose triangle is kNoTriangle; the others stay in order.
   void (*keep_hits)(RayQueue& rays);
+  // Takes shadow rays straight on through the surfaces that they met: multiplies their light by what is left
+  // of it (0 behind what does not transmit), and moves them behind the surface. holes: not 0 where a ray
+  // passes the surface as if nothing were there. ends: their light is at t = 1. Reads the bounce's scene and
+  // offset.
+  void (*cross_glass)(const Bounce& bounce, const std::uint32_t* holes, bool ends, RayQueue& rays);
   // Appends to the bounce's queues. All rays have hit.
   void (*bounce)(const Bounce& bounce, const RayQueue& rays);
   // Writes what the camera's rays see. All have hit. Reads the bounce's scene and footprint. `axis`: the one
@@ -126,6 +135,7 @@ struct LaneSteps {
                          const SeenColumns& to);
   // Adds the environment's light along rays that hit nothing to the radiance of the rays' pixels, RGBA.
   // counts_samples: where a ray with a density starts, a sample of the environment may have found the light.
+  // Where the density is negative, another method has found all of it.
   void (*add_environment)(const EnvironmentLight& environment, bool counts_samples, const RayQueue& rays,
                           float* radiance);
   // Adds the environment to the tile's pixels with alpha 0.

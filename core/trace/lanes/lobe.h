@@ -135,8 +135,8 @@ inline LaneMeeting meet_disc(const LightParams& light, const Vec& direction) {
     const Mask lit = lobe.lanes & m.met & (carried != Vec(0.0f));
     if (lit.bits() == 0) continue;
     const Vec origin = offset_origin(s, lobe.direction);
-    append(origin, far ? lobe.direction : m.incident.target - origin, carried, pixel, lit,
-           far ? *bounce.sky : *bounce.lobe_lights);
+    append_shadow_ray(s, origin, far ? lobe.direction : m.incident.target - origin, carried, pixel, lit,
+                      far ? *bounce.sky : *bounce.lobe_lights);
   }
 }
 

@@ -111,7 +111,8 @@ struct SkyLight {
   const auto fire = [&](const Vec& direction, const Vec& light) {
     const Mask lit = lanes & (light != Vec(0.0f)) & (Float(0.0f) < dot(direction, s.n_geometric)) &
                      ~(largest(light) < Float(bounce.options->throughput_cutoff));
-    if (any(lit)) append(offset_origin(s, direction), direction, light, pixel, lit, *bounce.sky);
+    if (any(lit))
+      append_shadow_ray(s, offset_origin(s, direction), direction, light, pixel, lit, *bounce.sky);
   };
   fire(sky.axis, throughput * sky.mirrored);
   const int rays = bounce.options->sky_occlusion;

@@ -58,6 +58,12 @@ inline Float fresnel_dielectric(Float cos_in, Float eta) {
   return select(one <= sin2_out, one, Float(0.5f) * (parallel * parallel + perpendicular * perpendicular));
 }
 
+inline void put(const Vec& v, float* const (&columns)[3], std::size_t i) {
+  v.x.store(columns[0] + i);
+  v.y.store(columns[1] + i);
+  v.z.store(columns[2] + i);
+}
+
 // Appends the rays of `lanes` to the queue.
 inline void append(const Vec& origin, const Vec& direction, const Vec& light, Int pixel, Mask lanes,
                    RayQueue& queue) {
@@ -73,6 +79,13 @@ inline void append(const Vec& origin, const Vec& direction, const Vec& light, In
   store_packed(queue.light[2] + i, light.z, lanes);
   store_packed(queue.pixel + i, pixel, lanes);
   queue.size += static_cast<std::size_t>(__builtin_popcount(lanes.bits()));
+}
+
+// The same for shadow rays that leave the surface.
+inline void append_shadow_ray(const LaneSurface& s, const Vec& origin, const Vec& direction, const Vec& light,
+                              Int pixel, Mask lanes, RayQueue& queue) {
+  if (queue.medium) store_packed(queue.medium + queue.size, s.medium, lanes);
+  append(origin, direction, light, pixel, lanes, queue);
 }
 
 // Appends those rays that are worth `least` in some colour. `medium`: what they go through; null where no
@@ -113,7 +126,7 @@ inline Int lobe_pixel(const Bounce& bounce, const LaneLobe& lobe, Int pixel) {
 inline void go_straight_on(const LaneSurface& s, const LaneMaterial& m, const Vec& throughput, Int pixel,
                            Mask lanes, const Bounce& bounce, const LaneMedia* media) {
   follow(s, -s.to_viewer, throughput * (Float(1.0f) - m.alpha), pixel, lanes & Mask::from_bits(m.blends),
-         bounce.options->throughput_cutoff, *bounce.straight, media ? &media->here : nullptr);
+         bounce.options->throughput_cutoff, *bounce.straight, media ? &media->here : nullptr, s.density);
 }
 
 // Glass: sharp, or about the lobe's facets where it is rough. An infinitely thin wall (ior 1) mirrors by
@@ -148,7 +161,7 @@ template <bool kSampled>
   mirror_share = Vec(share);
   if (thin.bits() != 0) mirror_share = select(thin, schlick(m.specular, m.grazing, cos_in), mirror_share);
   follow(s, through, own * ((one - largest(mirror_share)) * left) * m.transmittance, pixel, lanes, least,
-         *bounce.refracted, media ? &media->beyond : nullptr);
+         *bounce.refracted, media ? &media->beyond : nullptr, s.density);
   follow(s, direction, own * mirror_share * left, pixel, mirrors, least, *bounce.mirrored,
          media ? &media->here : nullptr);
 }

@@ -4,6 +4,7 @@
 #include <optional>
 
 #include "core/trace/lanes/environment.h"
+#include "core/trace/lanes/glass.h"
 #include "core/trace/lanes/lobe.h"
 #include "core/trace/lanes/maps.h"
 #include "core/trace/lanes/sampled.h"
@@ -12,12 +13,6 @@
 
 namespace pinocchio::PINOCCHIO_LANES {
 namespace {
-
-inline void put(const Vec& v, float* const (&columns)[3], std::size_t i) {
-  v.x.store(columns[0] + i);
-  v.y.store(columns[1] + i);
-  v.z.store(columns[2] + i);
-}
 
 inline void parallel_rays(const shared::ViewParams& view, glm::ivec2 corner, RayQueue& rays) {
   const Vec first(view.eye), step_x(view.step_x), step_y(view.step_y), direction(view.corner);
@@ -62,6 +57,7 @@ void keep_hits(RayQueue& rays) {
           store_packed(columns[axis] + kept, Float::load(columns[axis] + i), hits);
       store_packed(rays.pixel + kept, Int::load(rays.pixel + i), hits);
       if (rays.width) store_packed(rays.width + kept, Float::load(rays.width + i), hits);
+      if (rays.density) store_packed(rays.density + kept, Float::load(rays.density + i), hits);
       if (rays.medium) store_packed(rays.medium + kept, Int::load(rays.medium + i), hits);
       store_packed(rays.triangle + kept, triangle, hits);
     }
@@ -71,13 +67,14 @@ void keep_hits(RayQueue& rays) {
 }
 
 // Shadow rays of `lanes` towards a light that casts. They carry `light`.
-inline void append_shadow_rays(const BounceLight& from, const ShadowStarts& starts, const Incident& incident,
-                               const Vec& light, Int pixel, Mask lanes, const Bounce& bounce) {
+inline void append_shadow_rays(const BounceLight& from, const LaneSurface& s, const ShadowStarts& starts,
+                               const Incident& incident, const Vec& light, Int pixel, Mask lanes,
+                               const Bounce& bounce) {
   if (lanes.bits() == 0) return;
   const Vec origin = starts.origins(incident.to_light);
   const bool far = from.params.kind == shared::kLightDirectional;
   const Vec direction = far ? incident.to_light : incident.target - origin;  // the light sits at t = 1
-  append(origin, direction, light, pixel, lanes, bounce.shadow[from.queue]);
+  append_shadow_ray(s, origin, direction, light, pixel, lanes, bounce.shadow[from.queue]);
   starts.append_ways_up(lanes, bounce.shadow[from.queue], bounce.ways_up[from.queue]);
 }
 
@@ -131,7 +128,7 @@ inline Vec light_points(const Bounce& bounce, const Corners& corners, const Lane
     if (lit.bits() == 0) continue;
     Vec term(Float(0.0f));
     const bool apart = kSampled && bounce.sampled != 0 && light.has_size;
-    if (bounce.adds_light || apart)
+    if (bounce.adds_light || apart || bounce.tints)
       term = reflected_light(m, incident, s.n_shading, s.to_viewer, lit, counted);
     if (bounce.options->terminator == Terminator::smoothed)
       term = term * terminator_factor(s.n_shading, s.n_geometric, incident.to_light);
@@ -145,7 +142,7 @@ inline Vec light_points(const Bounce& bounce, const Corners& corners, const Lane
     }
     const Vec carried = throughput * term;
     if (!bounce.visible) lit = lit & ~(largest(carried) < Float(bounce.options->throughput_cutoff));
-    append_shadow_rays(light, starts, incident, carried, pixel, lit, bounce);
+    append_shadow_rays(light, s, starts, incident, carried, pixel, lit, bounce);
   }
   if constexpr (kSampled)
     if (bounce.environment)
@@ -189,7 +186,8 @@ template <bool kSampled>
 void bounce_packets(const Bounce& bounce, const RayQueue& rays) {
   const bool reads_material = bounce.adds_light || bounce.adds_ambient || bounce.mirrored ||
                               (bounce.visible && bounce.options->light_cutoff > 0.0f) || bounce.environment ||
-                              bounce.prefiltered || bounce.diffuse || bounce.sampled != 0 || bounce.points;
+                              bounce.prefiltered || bounce.diffuse || bounce.sampled != 0 || bounce.points ||
+                              bounce.tints;
   const unsigned wanted =
       maps_wanted(reads_material, bounce.adds_ambient,
                   bounce.prefiltered || (bounce.adds_ambient && bounce.ambient_light != glm::vec3(0.0f)));
@@ -219,13 +217,15 @@ void bounce_packets(const Bounce& bounce, const RayQueue& rays) {
     Vec throughput = bounce.visible ? Vec(Float(1.0f)) : Vec::load(rays.light, i);
     std::optional<LaneMedia> surrounding;
     if (bounce.attenuates) {
-      const Int of_ray = rays.medium ? Int::load(rays.medium + i) : Int(kNoMedium);
+      const Int of_ray = rays.medium ? Int::load(rays.medium + i) : Int(bounce.eye_medium);
       surrounding = media_at(bounce, of_ray, corners.material, s, m.ior, lanes);
+      if (bounce.visible) surrounding->here = of_ray;  // the back of an open mesh does not end a medium
       const Vec way = s.p_world - origin;
-      // The eye is outside: the GPU does not know in what it may lie.
-      if (!bounce.visible)
-        throughput = throughput * attenuation(bounce, surrounding->here, sqrt(dot(way, way)), lanes);
+      throughput = throughput * attenuation(bounce, surrounding->here, sqrt(dot(way, way)), lanes);
+      s.medium = surrounding->here;
     }
+    if (bounce.tints)
+      s.density = bounce.of_matt ? Float(-1.0f) : rays.density ? Float::load(rays.density + i) : Float(0.0f);
     const LaneMedia* const media = surrounding ? &*surrounding : nullptr;
     const Vec own = m.blends != 0 ? throughput * m.alpha : throughput;
     std::optional<SampledPixel> sampling;
@@ -298,7 +298,7 @@ void visible_points(const Bounce& bounce, const glm::vec3& axis, const RayQueue&
 
 }  // namespace
 
-const LaneSteps kSteps{camera_rays,    keep_hits,       bounce_rays,
+const LaneSteps kSteps{camera_rays,    keep_hits,       cross_glass,     bounce_rays,
                        visible_points, add_environment, paint_background};
 
 }  // namespace pinocchio::PINOCCHIO_LANES

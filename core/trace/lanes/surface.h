@@ -29,13 +29,15 @@ struct Corners {
 struct LaneSurface {
   Vec weights;  // barycentric
   DoubleVec p_exact;
-  Vec p_world;      // p_exact rounded
-  Vec n_geometric;  // unit, towards the viewer
-  Vec n_shading;    // unit, on n_geometric's side
-  Vec to_viewer;    // unit
-  Mask leaving;     // the ray met the surface from behind
-  Float offset;     // how far off the surface a new ray starts
-  Float width;      // the ray's cone's there, where textures are filtered
+  Vec p_world;            // p_exact rounded
+  Vec n_geometric;        // unit, towards the viewer
+  Vec n_shading;          // unit, on n_geometric's side
+  Vec to_viewer;          // unit
+  Mask leaving;           // the ray met the surface from behind
+  Float offset;           // how far off the surface a new ray starts
+  Float width;            // the ray's cone's there, where textures are filtered
+  Int medium{kNoMedium};  // on the viewer's side, where light goes through glass
+  Float density{0.0f};    // of the ray's direction (RayQueue), likewise
 };
 
 [[gnu::always_inline]] inline Double point_of(Float weight_b, Float weight_c, Float a, Float b, Float c) {

@@ -36,7 +36,7 @@ struct RayQueue {
   std::uint32_t* pixel = nullptr;     // in the tile
   float* width = nullptr;             // of its cone at the origin; null: textures are not filtered
   float* density = nullptr;           // of the direction, per steradian, where other methods find it too;
-                                      // else 0
+                                      // else 0; negative: others find all of the environment's light there
   std::uint32_t* triangle = nullptr;  // hit by the ray
   std::uint32_t* medium =
       nullptr;  // the material that it passes through, or kNoMedium; null: there are no media

@@ -6,6 +6,7 @@
 #include "core/shade/shared.h"
 #include "pinocchio/backfaces.h"
 #include "pinocchio/background.h"
+#include "pinocchio/glass_shadows.h"
 #include "pinocchio/ray.h"
 #include "pinocchio/sampled_light.h"
 #include "pinocchio/terminator.h"
@@ -31,11 +32,12 @@ struct TraceOptions {
   Backfaces backfaces = Backfaces::automatic;  // which backs the camera's rays pass
   EnvironmentMethod environment_light = EnvironmentMethod::sampled;
   Glossy glossy = Glossy::sampled;
-  int sky_occlusion = 0;    // shadow rays about the normal for a prefiltered environment; 0: it casts none
-  bool denoise = false;     // light that is found at random is kept apart for the filter (core/denoise)
-  Background background{};  // behind the scene
+  int sky_occlusion = 0;  // shadow rays about the normal for a prefiltered environment; 0: it casts none
+  bool denoise = false;   // light that is found at random is kept apart for the filter (core/denoise)
+  GlassShadows glass_shadows = kUsualGlassShadows;
+  Background background{};                // behind the scene
   std::optional<float> catcher_height{};  // world y of the shadow catcher (pinocchio/shadow_catcher.h)
-  glm::vec2 jitter{0.0f};  // View's: tells the samples of a pixel apart where they decide at random
+  glm::vec2 jitter{0.0f};       // View's: tells the samples of a pixel apart where they decide at random
   shared::Sampling sampling{};  // the sample of sized lights, rough mirrors and the environment
 
   friend bool operator==(const TraceOptions&, const TraceOptions&) = default;

@@ -204,6 +204,10 @@ void TileTracer::count_lost(const RayQueue& queue, float reach) {
     const float lost = blocked_[i] ? luminance(carried.r, carried.g, carried.b) : 0.0f;
     ground_light_[queue.pixel[i]] += glm::vec4(carried, lost);
   }
+  if (!plan_->tints) return;
+  for (const TintedShadows::Lit& lit : tinted_.lit())  // came through glass, and is not lost
+    if (blocked_[lit.ray])
+      ground_light_[queue.pixel[lit.ray]].a -= luminance(lit.light.r, lit.light.g, lit.light.b);
 }
 
 // Darkens the background where the plane lost light.

@@ -30,6 +30,7 @@ void TileTracer::follow_diffuse(int bounce_count) {
   Bounce step = plan_->further;
   step.mirrored = plan_->out.depth > 0 ? rays_.data() : nullptr;
   step.diffuse = bounce_count < plan_->out.indirect ? &next_diffuse_ : nullptr;
+  step.of_matt = true;
   find_hits(diffuse_, generation);
   plan_->job.tracer.steps().keep_hits(diffuse_);
   bounce(step, generation, diffuse_, rays_, reflected_.data());
@@ -81,6 +82,7 @@ void TileTracer::fire_reflected(RayQueue& queue, float reach, const RayQueue& wa
   if (plan_->out.on_rays) plan_->out.on_rays({queue.columns(reach), queue.size, generation, true});
   ask_occluded(queue, reach);
   block_by_ways_up(ways_up, generation);
+  if (plan_->tints) add_light_through_glass(queue, reflected_.data());
   for (std::size_t i = 0; i < queue.size; ++i)
     if (!blocked_[i])
       reflected_[queue.pixel[i]] += glm::vec4(queue.light[0][i], queue.light[1][i], queue.light[2][i], 0.0f);
@@ -90,9 +92,11 @@ void TileTracer::fire_reflected(RayQueue& queue, float reach, const RayQueue& wa
 void TileTracer::ask_occluded(const RayQueue& queue, float reach) {
   const TilePlan& plan = *plan_;
   counts_.shadow += queue.size;
-  if (plan.has_holes || plan.blends) {
-    holes_.shadows(plan.job.tracer, queue, reach,
-                   {tile_.lo + glm::ivec2(plan.view.first), plan.job.options.jitter}, blocked_.data());
+  const SamplePlace place{tile_.lo + glm::ivec2(plan.view.first), plan.job.options.jitter};
+  if (plan.tints) {
+    tinted_.trace(plan.job.tracer, plan.shadows, queue, reach, place, blocked_.data());
+  } else if (plan.has_holes || plan.blends) {
+    holes_.shadows(plan.job.tracer, queue, reach, place, blocked_.data());
   } else {
     plan.job.tracer.occluded(queue.columns(reach), queue.size, blocked_.data());
   }
@@ -106,7 +110,15 @@ void TileTracer::block_by_ways_up(const RayQueue& up, int generation) {
   if (plan_->out.on_rays) plan_->out.on_rays({up.columns(1.0f), up.size, generation, true});
   plan_->job.tracer.occluded(up.columns(1.0f), up.size, up_blocked_.data());
   counts_.shadow += up.size;
-  for (std::size_t i = 0; i < up.size; ++i) blocked_[up.pixel[i]] |= up_blocked_[i];
+  constexpr std::uint8_t kWholly = 3;
+  for (std::size_t i = 0; i < up.size; ++i) blocked_[up.pixel[i]] |= up_blocked_[i] ? kWholly : 0;
+}
+
+// Adds what came of the last shadow rays' light through glass. It is traced light at visible points, too: the
+// mask has no shades.
+void TileTracer::add_light_through_glass(const RayQueue& queue, glm::vec4* to) {
+  for (const TintedShadows::Lit& lit : tinted_.lit())
+    if (blocked_[lit.ray] == 1) to[queue.pixel[lit.ray]] += glm::vec4(lit.light, 0.0f);
 }
 
 }  // namespace pinocchio

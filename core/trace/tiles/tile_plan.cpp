@@ -5,6 +5,8 @@
 
 #include "core/scene/ground_sky.h"
 #include "core/shade/surface.h"
+#include "core/trace/tiles/medium_at.h"
+#include "core/trace/tiles/tinted_shadows.h"
 #include "core/trace/view/view_params.h"
 
 namespace pinocchio {
@@ -103,6 +105,8 @@ void TilePlan::set_view(const shared::ViewParams& from, const RayModel* rays) {
   if (filters(job))
     seen_footprint = model ? model->footprint(out.size / 2, side) : Footprint::of_camera(view, side);
   further_footprint = seen_footprint.of_cones();
+  const bool one_eye = model ? model->has_one_eye() : !view.parallel;
+  visible.eye_medium = medium_of_eye(job.tracer, view.eye, one_eye);
 }
 
 TilePlan::TilePlan(const TraceJob& j, const TileOutputs& o)
@@ -111,6 +115,7 @@ TilePlan::TilePlan(const TraceJob& j, const TileOutputs& o)
       maps(*j.scene.mesh),
       has_holes(any_maps(*j.scene.mesh, &MaterialMaps::has_holes)),
       blends(any_maps(*j.scene.mesh, &MaterialMaps::blends)),
+      tints((o.reflection || o.color || o.added || o.sampled) && tints_shadows(*j.scene.mesh, j.options)),
       passed_backs(*j.scene.mesh, j.options.backfaces),
       further_lights(groups_of(j.scene)),
       most_casting(most_of(further_lights, [](const BounceLight& light) { return light.slot >= 0; })),
@@ -123,7 +128,6 @@ TilePlan::TilePlan(const TraceJob& j, const TileOutputs& o)
     catcher.emplace(j.scene.mesh->bounds(), *j.options.catcher_height);
   straight_apart = blends && (passed_backs.any() || o.coverage || catcher ||
                               j.options.background.kind != Background::Kind::environment);
-  set_view(j.view, j.model);
   further.scene = SceneArrays::of(*job.scene.mesh, maps);
   further.offset = job.tracer.offset();
   further.options = &job.options;
@@ -136,6 +140,7 @@ TilePlan::TilePlan(const TraceJob& j, const TileOutputs& o)
   further.samples =
       takes_samples(job.scene, job.options.environment_light, job.options.glossy) || out.indirect > 0;
   further.attenuates = std::ranges::any_of(job.scene.mesh->materials, &Material::attenuates);
+  further.tints = tints;
   further.scale = static_cast<std::uint32_t>(out.scale);
   if (job.scene.environment) environment.emplace(job.scene);
   if (environment && environment->shines && o.environment_light) {
@@ -151,6 +156,8 @@ TilePlan::TilePlan(const TraceJob& j, const TileOutputs& o)
   }
   further.lobes =
       further.samples && sampled_lobes && microfacets && (o.reflection || o.color || o.added || o.sampled);
+  shadows = further;
+  shadows.footprint = &no_footprint;
   visible = further;
   visible.footprint = &seen_footprint;
   visible.visible = true;
@@ -159,6 +166,7 @@ TilePlan::TilePlan(const TraceJob& j, const TileOutputs& o)
   visible_lights = visible_groups(further_lights, out, visible.adds_ambient);
   lights_in_reflection = std::ranges::any_of(visible_lights, &LightGroup::in_reflection);
   visible = lit_by(visible_lights.front(), visible);
+  set_view(j.view, j.model);
 }
 
 }  // namespace pinocchio

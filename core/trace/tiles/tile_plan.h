@@ -40,8 +40,9 @@ struct TilePlan {
   shared::ViewParams view;          // of the samples
   const RayModel* model = nullptr;  // makes the camera's rays; null: `view` does
   glm::ivec2 first{0};              // the first pixel, in the whole picture
-  Footprint seen_footprint, further_footprint;
+  Footprint seen_footprint, further_footprint, no_footprint;
   bool has_holes, blends;      // some material does
+  bool tints;                  // shadow rays go on through glass
   bool straight_apart;         // rays that come straight from the camera have a queue of their own
   PassedBacksOf passed_backs;  // by the camera's rays
   // Groups of all lights, and of those that light visible points; the first group may be empty.
@@ -53,6 +54,7 @@ struct TilePlan {
   std::shared_ptr<const Environment> sky_on_ground;       // kept for `ground_sky`
   std::optional<EnvironmentLight> ground_sky;             // the environment, sampled for the catcher's plane
   Bounce visible, further;  // the step of the camera's rays, and of the rays that they spawn
+  Bounce shadows;           // of shadow rays that go on through glass: textures are not averaged
 };
 
 }  // namespace pinocchio

@@ -159,25 +159,28 @@ ExtraColumns TileTracer::extra_columns() const {
 
 void TileTracer::make_room(std::size_t rays, Generation& next) {
   const ExtraColumns extra = extra_columns();
-  ExtraColumns of_mirrored = extra;
+  ExtraColumns of_mirrored = extra, of_straight = extra;
   of_mirrored.density = plan_->further.lobes;
+  of_straight.density =
+      plan_->tints && plan_->environment && (plan_->further.lobes || plan_->out.indirect > 0);
   next[kMirrored].make_room(rays, of_mirrored);
-  next[kRefracted].make_room(rays, extra);
-  next[kStraight].make_room(plan_->blends ? rays : 0, extra);
-  next[kStraightFromCamera].make_room(plan_->straight_apart ? rays : 0, extra);
+  next[kRefracted].make_room(rays, of_straight);
+  next[kStraight].make_room(plan_->blends ? rays : 0, of_straight);
+  next[kStraightFromCamera].make_room(plan_->straight_apart ? rays : 0, of_straight);
   if (plan_->out.indirect > 0) next_diffuse_.make_more_room(rays, extra);
   make_room_for_shadows(rays);
 }
 
 // For the lights of one group.
 void TileTracer::make_room_for_shadows(std::size_t rays) {
-  for (std::size_t i = 0; i < plan_->most_casting; ++i) shadow_[i].make_room(rays);
+  const ExtraColumns of_shadow{.medium = plan_->tints && extra_columns().medium};
+  for (std::size_t i = 0; i < plan_->most_casting; ++i) shadow_[i].make_room(rays, of_shadow);
   // A sample of the environment, one along a lobe, and distant lights that the lobe meets.
   const std::size_t along_lobes = plan_->further.lobes ? plan_->most_sized : 0;
   const std::size_t hiding =
       plan_->further.prefiltered ? static_cast<std::size_t>(plan_->job.options.sky_occlusion) : 0;
-  sky_.make_room(rays * (plan_->further.lobes ? 2 + along_lobes + hiding : 1 + hiding));
-  lobe_lights_.make_room(rays * along_lobes);
+  sky_.make_room(rays * (plan_->further.lobes ? 2 + along_lobes + hiding : 1 + hiding), of_shadow);
+  lobe_lights_.make_room(rays * along_lobes, of_shadow);
   const std::size_t up = plan_->job.options.terminator == Terminator::turned_away ? rays : 0;
   for (std::size_t i = 0; i < plan_->most_casting; ++i) ways_up_[i].make_room(up);
   sky_ways_up_.make_room(plan_->further.environment ? up : 0);
@@ -220,7 +223,8 @@ void TileTracer::light_visible() {
   if (plan_->out.sampled) {
     step.sampled = kSampledPixels;
     step.points = points_.data();
-  } else if (step.environment || step.prefiltered || step.lobes || plan_->lights_in_reflection) {
+  } else if (step.environment || step.prefiltered || step.lobes || step.tints ||
+             plan_->lights_in_reflection) {
     reflects_ = true;
     begin_light();
   }
@@ -258,8 +262,9 @@ void TileTracer::fire_shadows(const LightGroup& group, int generation, glm::vec4
     block_by_ways_up(ways_up_[static_cast<std::size_t>(light.queue)], generation);
     if (visible)  // without a branch, which would be predicted badly at the edges of shadows
       for (std::size_t i = 0; i < queue.size; ++i)
-        mask[queue.pixel[i]] |= static_cast<std::uint8_t>((blocked_[i] ^ 1u) << light.queue);
+        mask[queue.pixel[i]] |= static_cast<std::uint8_t>(((blocked_[i] & 1u) ^ 1u) << light.queue);
     const bool apart = visible && plan_->out.sampled && light.has_size;
+    if (plan_->tints) add_light_through_glass(queue, apart ? &reflected_[kSampledPixels] : reflected_.data());
     if (!adds && !apart) continue;
     glm::vec4* const to = apart ? &reflected_[kSampledPixels] : radiance;
     for (std::size_t i = 0; i < queue.size; ++i)

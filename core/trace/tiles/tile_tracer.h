@@ -10,6 +10,7 @@
 #include "core/trace/lanes/lane_steps.h"
 #include "core/trace/rays/ray_queue.h"
 #include "core/trace/tiles/tile_plan.h"
+#include "core/trace/tiles/tinted_shadows.h"
 
 namespace pinocchio {
 
@@ -60,6 +61,7 @@ class TileTracer {
   void fire_reflected(RayQueue& queue, float reach, const RayQueue& ways_up, int generation);
   void ask_occluded(const RayQueue& queue, float reach);
   void block_by_ways_up(const RayQueue& up, int generation);
+  void add_light_through_glass(const RayQueue& queue, glm::vec4* to);
   void write();
 
   const TilePlan* plan_ = nullptr;
@@ -70,8 +72,11 @@ class TileTracer {
   RayQueue diffuse_, next_diffuse_;
   std::array<RayQueue, kLightGroup> shadow_, ways_up_;
   RayQueue sky_, sky_ways_up_, lobe_lights_;
-  std::vector<std::uint8_t> blocked_, up_blocked_;
+  // By shadow ray. Bit 0: something is in the way; bit 1: nor does light come through glass.
+  std::vector<std::uint8_t> blocked_;
+  std::vector<std::uint8_t> up_blocked_;
   Holes holes_;
+  TintedShadows tinted_;
   Radiance<kPixels> direct_;
   Radiance<2 * kPixels> reflected_;  // from kSampledPixels on: what is kept apart
   std::vector<SampledPoint> points_;

@@ -67,12 +67,14 @@ class Share {
     TileOutputs out = job.outputs;
     out.size = glm::ivec2(kSide);
     out.ids = &images.ids;
-    if (!to.color && !to.mask) out.mask_bits = 0;
+    const bool reflects = to.reflection && tints_shadows(*job.scene.mesh, job.options);
+    if (!to.color && !to.mask && !reflects) out.mask_bits = 0;
     if (!to.color && !to.reflection) {
       out.depth = out.indirect = 0;
       out.environment_light = false;
     }
     out.color = to.color ? &images.color : nullptr;
+    out.reflection = to.reflection ? &images.reflection : nullptr;
     return out;
   }
 

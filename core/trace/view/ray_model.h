@@ -25,6 +25,8 @@ class RayModel {
   // What textures are averaged over near the pixel. `side`: of a sample's share of its pixel. None for the
   // caller's rays, whose neighbours are unknown.
   [[nodiscard]] Footprint footprint(glm::ivec2 pixel, float side) const;
+  // Whether all rays begin at the camera.
+  [[nodiscard]] bool has_one_eye() const { return !view_.rays; }
   // The direction that depth is measured along; zero: it is the distance from the eye.
   [[nodiscard]] glm::vec3 depth_axis() const;
 

@@ -11,6 +11,7 @@
 #include "pinocchio/backfaces.h"
 #include "pinocchio/background.h"
 #include "pinocchio/error.h"
+#include "pinocchio/glass_shadows.h"
 #include "pinocchio/sampled_light.h"
 #include "pinocchio/shadow_catcher.h"
 #include "pinocchio/terminator.h"
@@ -102,6 +103,7 @@ struct Settings {
   Setting<EnvironmentMethod> environment_light;
   Setting<Glossy> glossy;
   Setting<int> sky_occlusion;
+  Setting<GlassShadows> glass_shadows = Setting<GlassShadows>::by_default(kUsualGlassShadows);
   Setting<bool> denoise, average_layers;
   Setting<Background> background;
   Setting<ShadowCatcher> shadow_catcher;

@@ -53,8 +53,9 @@ int mask_bits_of(const Scene& scene) {
 Drawn one_by_one(const TraceJob& job) {
   Drawn drawn;
   drawn.rays += trace_visibility(job, drawn.ids);
-  drawn.rays += trace_shadow_mask(job, drawn.ids, mask_bits_of(job.scene), drawn.mask);
+  const RayCounts of_mask = trace_shadow_mask(job, drawn.ids, mask_bits_of(job.scene), drawn.mask);
   drawn.rays += trace_reflection(job, drawn.ids, kDepth, drawn.reflection);
+  if (!tints_shadows(*job.scene.mesh, job.options)) drawn.rays += of_mask;
   shade(job, drawn.ids, drawn.mask, drawn.reflection, drawn.color);
   return drawn;
 }
@@ -218,6 +219,7 @@ TEST(TraceTiles, EachOutputAloneIsWhatItIsAmongAll) {
   out = {};
   out.size = kSize;
   out.seen = &all.ids;
+  out.mask_bits = mask_bits_of(scene);  // for light through glass
   out.depth = kDepth;
   out.reflection = &reflection;
   trace_tiles(job, out);

@@ -1,0 +1,57 @@
+// Part of walk/kernel.h's files: shadow rays that go straight on through glass.
+#pragma once
+
+#include "core/trace/lanes/maps.h"
+#include "core/trace/lanes/material.h"
+#include "core/trace/lanes/medium.h"
+#include "core/trace/lanes/scatter.h"
+#include "core/trace/lanes/surface.h"
+
+namespace pinocchio::PINOCCHIO_LANES {
+namespace {
+
+// The share of light that passes a surface straight on: what Fresnel's equations leave of it, filtered. The
+// ray is not bent, so its angle counts as the one outside on both sides of a body: inside it would be beyond
+// the critical angle where the bent ray is not. Thin walls of glTF's model mirror by Schlick's formula.
+inline Vec share_straight_on(const LaneSurface& s, const LaneMaterial& m) {
+  const Float one(1.0f), cosine = clamp(dot(s.n_shading, s.to_viewer), 0.0f, 1.0f);
+  Float mirrored = fresnel_dielectric(cosine, m.ior);
+  const Mask thin = (m.ior == one) & Mask::from_bits(m.microfacet);
+  if (thin.bits() != 0) mirrored = select(thin, largest(schlick(m.specular, m.grazing, cosine)), mirrored);
+  return m.transmittance * (one - mirrored);
+}
+
+void cross_glass(const Bounce& bounce, const std::uint32_t* holes, bool ends, RayQueue& rays) {
+  const unsigned wanted = maps_wanted(true, false, false);
+  for (std::size_t i = 0; i < rays.size; i += kWidth) {
+    const Mask lanes = lanes_from(i, rays.size);
+    const Int triangle = Int::load(rays.triangle + i);
+    const Mask met = lanes & ~(triangle == Int(kNoTriangle)), arrived = lanes & ~met;
+    const Vec origin = Vec::load(rays.origin, i), direction = Vec::load(rays.direction, i);
+    Vec light = Vec::load(rays.light, i);
+    const Int medium = rays.medium ? Int::load(rays.medium + i) : Int(kNoMedium);
+    if (rays.medium && ends && arrived.bits() != 0)
+      light = select(arrived, light * attenuation(bounce, medium, length(direction), arrived), light);
+    if (met.bits() != 0) {
+      const Corners corners(bounce.scene, triangle, met);
+      LaneSurface s = surface_of(corners, origin, direction, bounce.offset);
+      LaneMaterial m(bounce.scene, corners.material, met);
+      if (m.mapped != 0) apply_maps(bounce, corners, triangle, origin, direction, Float(0.0f), wanted, s, m);
+      const Mask hole = met & ~(Int::load(holes + i) == Int(0u));
+      light = select(met & ~hole, light * share_straight_on(s, m), light);
+      if (rays.medium) {
+        const LaneMedia media = media_at(bounce, medium, corners.material, s, m.ior, met);
+        const Int here = select(hole, medium, media.here);
+        light = select(met, light * attenuation(bounce, here, length(s.p_world - origin), met), light);
+        select(hole, medium, media.beyond).store(rays.medium + i);
+      }
+      const Vec behind = offset_origin(s, direction);
+      put(behind, rays.origin, i);
+      if (ends) put(origin + direction - behind, rays.direction, i);
+    }
+    put(light, rays.light, i);
+  }
+}
+
+}  // namespace
+}  // namespace pinocchio::PINOCCHIO_LANES

@@ -1,0 +1,47 @@
+#pragma once
+
+#include <cstdint>
+#include <glm/glm.hpp>
+#include <span>
+#include <vector>
+
+#include "core/trace/lanes/holes.h"
+#include "core/trace/lanes/lane_steps.h"
+#include "core/trace/rays/ray_queue.h"
+#include "pinocchio/tracer.h"
+
+namespace pinocchio {
+
+// Whether shadow rays go on through some material of the mesh.
+[[nodiscard]] bool tints_shadows(const Mesh& mesh, const TraceOptions& options);
+
+// Shadow rays that go straight on through glass, surface by surface (lanes/glass.h). Scenes without glass
+// never come here.
+class TintedShadows {
+ public:
+  // What is left of a shadow ray's light that came through nothing but glass and what absorbs light.
+  struct Lit {
+    std::uint32_t ray;  // its place in the queue
+    glm::vec3 light;
+  };
+
+  // blocked[i] = 0 where shadow ray i meets nothing but holes, and does not end in a medium; else 1. A ray
+  // ends where its light is below the options' cutoff. bounce: the step that the rays are from.
+  void trace(const Tracer& tracer, const Bounce& bounce, const RayQueue& rays, float reach,
+             const SamplePlace& place, std::uint8_t* blocked);
+
+  // Of the last trace().
+  [[nodiscard]] std::span<const Lit> lit() const { return lit_; }
+
+ private:
+  void start(const RayQueue& rays, bool ends, std::uint8_t* blocked);
+  void find_holes(const Mesh& mesh, const RayQueue& rays, const SamplePlace& place);
+  void keep_going(float least, std::uint8_t* blocked);
+
+  RayQueue on_;                          // `pixel` is the ray's place in the queue that it is from
+  std::vector<std::uint8_t> is_tinted_;  // by ray of on_: not 0: something was taken from its light
+  AlignedVector<std::uint32_t> holes_;
+  std::vector<Lit> lit_;
+};
+
+}  // namespace pinocchio
