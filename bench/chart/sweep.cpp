@@ -21,6 +21,11 @@ struct Value {
 using Values = std::vector<Value>;
 constexpr bool kFull = false;
 
+Options operator+(Options a, const Options& b) {
+  a.insert(a.end(), b.begin(), b.end());
+  return a;
+}
+
 Values designs(const SweepRequest&) {
   return {{"1", {}},
           {"2", {{"design", "2"}}},
@@ -112,9 +117,26 @@ Values sample_counts(const SweepRequest&) {
   return {{"1", {}}, {"2", {{"spp", "2"}}, kFull}, {"4", {{"spp", "4"}}}, {"8", {{"spp", "8"}}, kFull}};
 }
 
-Options operator+(Options a, const Options& b) {
-  a.insert(a.end(), b.begin(), b.end());
-  return a;
+// Ways to light by a sky: by means, and by samples, which may be filtered.
+Values skies(const SweepRequest& request) {
+  if (!request.stats.environment) return {};
+  const Options prefiltered{{"environment_light", "prefiltered"}}, sampled{{"environment_light", "sampled"}},
+      filtered = sampled + Options{{"denoise", "true"}};
+  const auto spp = [](const char* n) { return Options{{"spp", n}}; };
+  return {{"prefiltered", prefiltered},
+          {"prefiltered, 1 ray", prefiltered + Options{{"sky_occlusion", "1"}}, kFull},
+          {"prefiltered, 8 rays", prefiltered + Options{{"sky_occlusion", "8"}}},
+          {"sampled, 1", sampled},
+          {"sampled, 4", sampled + spp("4")},
+          {"sampled, 16", sampled + spp("16"), kFull},
+          {"sampled, 64", sampled + spp("64"), kFull},
+          {"filtered, 1", filtered},
+          {"filtered, 4", filtered + spp("4")},
+          {"filtered, 16", filtered + spp("16"), kFull}};
+}
+
+Values glass(const SweepRequest& request) {
+  return request.stats.transmits() ? choices_of("glass_shadows") : Values{};
 }
 
 Values combinations(const SweepRequest& request) {
@@ -169,6 +191,8 @@ constexpr std::array kAxes{
     Axis{{"simd", "SIMD width"}, [](const SweepRequest&) { return choices_of("isa"); }},
     Axis{{"threads", "threads"}, thread_counts},
     Axis{{"spp", "samples a pixel"}, sample_counts, "area"},
+    Axis{{"sky", "light of a sky"}, skies, "area"},
+    Axis{{"glass-shadows", "shadows of glass"}, glass},
     Axis{{"combined", "combinations"}, combinations},
 };
 
