@@ -38,7 +38,8 @@ inline RayCounts trace_reflection(const TraceJob& job, const Image<std::uint32_t
   out.seen = &ids;
   out.depth = depth;
   out.reflection = &radiance;
-  if (tints_shadows(*job.scene.mesh, job.options)) out.mask_bits = kMaxCastingLights;
+  if (tints_shadows(*job.scene.mesh, job.options))
+    out.mask_bits = MaskImage::bits_for(static_cast<int>(casting_lights(job.scene).size()));
   return trace_tiles(job, out).rays;
 }
 

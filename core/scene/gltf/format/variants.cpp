@@ -9,13 +9,13 @@
 namespace pinocchio {
 namespace {
 
-constexpr const char* kExtension = "KHR_materials_variants";
+constexpr const char* kVariantsExtension = "KHR_materials_variants";
 
 }  // namespace
 
 std::vector<std::string> gltf_variants(const nlohmann::json& gltf) {
   std::vector<std::string> names;
-  for (const nlohmann::json& variant : array_member(extension(&gltf, kExtension), "variants"))
+  for (const nlohmann::json& variant : array_member(extension(&gltf, kVariantsExtension), "variants"))
     names.push_back(text_member(&variant, "name"));
   return names;
 }
@@ -33,7 +33,7 @@ Expected<int> chosen_gltf_variant(const std::filesystem::path& file, const nlohm
 
 int material_in_variant(const nlohmann::json& primitive, int variant) {
   if (variant >= 0)
-    for (const nlohmann::json& mapping : array_member(extension(&primitive, kExtension), "mappings"))
+    for (const nlohmann::json& mapping : array_member(extension(&primitive, kVariantsExtension), "mappings"))
       if (const std::vector<int> variants = indices_member(&mapping, "variants");
           std::ranges::find(variants, variant) != variants.end())
         return index_member(&mapping, "material");
