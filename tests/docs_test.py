@@ -58,7 +58,7 @@ def main():
     with tempfile.TemporaryDirectory() as folder:
         os.chdir(folder)
         shutil.copytree(source / "scenes", "scenes", ignore=shutil.ignore_patterns("generator"))
-        for made in ("generate cornell -o model.obj", "generate cornell -o boat.glb",
+        for made in ("generate cornell -o model.obj", "generate cornell -o model.glb", "generate cornell -o boat.glb",
                      "render scenes/cornell.gltf --size 40x30 -o a.exr --quiet",
                      "render scenes/cornell.gltf --size 40x30 -o reference.exr --quiet",
                      "render scenes/cornell.gltf --size 40x20 -o sky.exr --aov none --quiet"):

@@ -19,7 +19,8 @@ void send_to_gpu(FrameSlot& frame);
 void composite_on_gpu(GpuPasses& gpu, FrameSlot& frame, const FrameSlot* older);
 
 // The CPU's part, on any thread: the tile pass (core/trace/tiles/trace_tiles.h) makes ids, mask, mirrored
-// light and picture as the settings need them, filtered with the stream's former samples; encode_answer writes the channels to their open buffers.
+// light and picture as the settings need them, filtered with the stream's former samples; encode_answer
+// writes the channels to their open buffers.
 void trace(Workers& workers, FrameSlot& frame, Gathering& gathering);
 void encode_answer(Workers& workers, FrameSlot& frame);
 

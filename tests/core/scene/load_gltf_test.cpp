@@ -227,7 +227,7 @@ TEST(LoadGltf, NormalsOfNoLengthAreMissedBesideOthers) {
   EXPECT_EQ(load(json, &warnings).value().mesh->normals[0], glm::vec3(0.0f));
   ASSERT_EQ(warnings.size(), 1u);
   EXPECT_EQ(warnings[0].where, "mesh 0");
-  EXPECT_NE(warnings[0].what.find("normals of no length"), std::string::npos);
+  EXPECT_NE(warnings[0].what.find("normals of length 0"), std::string::npos);
 }
 
 TEST(MaterialFromSurface, PhongFollowsItsFormula) {

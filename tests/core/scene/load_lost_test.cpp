@@ -92,7 +92,7 @@ TEST(LoadLost, MembersOfTheWrongType) {
         Json{{"pbrMetallicRoughness", {{"metallicFactor", "0"}}}},
         Json{{"pbrMetallicRoughness", {{"baseColorFactor", {1, 1, 1}}}}}, Json{{"alphaMode", "mask"}},
         Json{{"doubleSided", 1}}, Json{{"emissiveFactor", {1, 1, "1"}}}})
-    EXPECT_NE(line_about(warnings_of(with_material(material)), "is not of the type"), "") << material;
+    EXPECT_NE(line_about(warnings_of(with_material(material)), "has the wrong type"), "") << material;
 }
 
 TEST(LoadLost, SkinsWithoutJointsAndOtherScenes) {

@@ -93,7 +93,7 @@ TEST(LoadStl, WhatIsLeftOutIsSaid) {
   for (const auto& [bytes, what] :
        {std::pair(binary({kCorners, broken}, 2), "no finite numbers"),
         std::pair(binary({kCorners}, 1, "", 31), "colours of triangles"),
-        std::pair(binary({kCorners}, 1) + "more", "bytes behind the last triangle"),
+        std::pair(binary({kCorners}, 1) + "more", "bytes after the last triangle"),
         std::pair("solid x\n" + kFacet + "facet\nvertex 0 0 1e99\nvertex 1 0 0\nvertex 0 1 0\nendfacet",
                   "no finite numbers")}) {
     Warnings warnings;

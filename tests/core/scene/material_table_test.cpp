@@ -130,7 +130,7 @@ TEST(MaterialTable, ValuesOfTheWrongTypeAreWarnings) {
       Warnings warnings;
       EXPECT_TRUE(load(json, &warnings)) << row.at;
       ASSERT_EQ(warnings.size(), 1u) << row.at;
-      EXPECT_NE(warnings.begin()->message().find("is not of the type"), std::string::npos) << row.at;
+      EXPECT_NE(warnings.begin()->message().find("has the wrong type"), std::string::npos) << row.at;
     }
   };
   expect_warnings(kPhongParameters);
