@@ -70,7 +70,8 @@ TEST(LoadGltfBad, NumbersThatAreTakenForNoneAreWarnings) {
   has(warning_with("/scene", 4, true), "scene: names 4 of scenes, there are 1");
   has(warning_with("/nodes/0/mesh", -5, false), "nodes.0.mesh: names -5 of meshes, there are 1");
   has(warning_with("/meshes/1", {{"primitives", {{{"attributes", {{"POSITION", 6}}}}}}}, true),
-      "meshes.1.primitives.0.attributes.POSITION: names 6 of accessors, there are 2; the file cannot be drawn");
+      "meshes.1.primitives.0.attributes.POSITION: names 6 of accessors, there are 2; the file cannot be "
+      "drawn");
   has(warning_with("/nodes/0/camera", 2, true), "nodes.0.camera: names 2 of cameras, there are 0");
   has(warning_with("/meshes/0/primitives/0/attributes/POSITION", -1, false),
       "meshes.0.primitives.0.attributes.POSITION: names -1 of accessors, there are 2");
