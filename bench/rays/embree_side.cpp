@@ -6,7 +6,7 @@
 #include <atomic>
 #include <string>
 
-#include "bench/rays/embree_ray.h"
+#include "bench/one_ray/embree_ray.h"
 #include "bench/rays/measure.h"
 #include "pinocchio/error.h"
 

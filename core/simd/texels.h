@@ -1,4 +1,4 @@
-// RGBA texels of 8 bits as rows of floats, from 0 to 1, within a file of core/simd/lanes_NAME.h's namespace:
+// RGBA texels of 8 bits as rows of floats, from 0 to 1, in the namespace of lanes that includes it:
 // one, or those of two levels of a texture side by side.
 #pragma once
 

@@ -5,7 +5,7 @@
 
 #include <algorithm>
 
-#include "bench/rays/embree_ray.h"
+#include "bench/one_ray/embree_ray.h"
 #include "pinocchio/mesh.h"
 
 namespace pinocchio {

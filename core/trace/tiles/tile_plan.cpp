@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cassert>
 
-#include "core/scene/ground_sky.h"
+#include "core/shade/ground_sky.h"
 #include "core/shade/surface.h"
 #include "core/trace/tiles/medium_at.h"
 #include "core/trace/tiles/tinted_shadows.h"

@@ -1,4 +1,4 @@
-#include "core/scene/ground_sky.h"
+#include "core/shade/ground_sky.h"
 
 #include <algorithm>
 #include <cmath>
