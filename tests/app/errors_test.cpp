@@ -60,11 +60,12 @@ TEST_F(ErrorsTest, CameraPaths) {
   expect_error("render" + scene("cornell") + "--plan plan.json -o x.exr", 2, "too large");
 }
 
-TEST_F(ErrorsTest, NineCastingLights) {
+TEST_F(ErrorsTest, NineCastingLightsInAMaskOfEight) {
   std::string lights;
   for (int i = 0; i < 8; ++i) lights += " --light 0,1,0";
-  expect_error("render" + scene("cornell") + lights + " -o x.exr", 4,
-               "9 lights that cast shadows, the shadow mask holds 8");
+  expect_error(
+      "render" + scene("cornell") + lights + " --mask-bits 8 --reflection none --composite gpu -o x.exr", 4,
+      "mask_bits 8 cannot hold the scene's 9 casting lights");
 }
 
 TEST_F(ErrorsTest, Usage) {
