@@ -134,7 +134,7 @@ TEST_F(InfoTest, TheSlidesPlanSaysWhereMoreThanEightLightsTravel) {
       << slides.err;
   const CommandResult refused =
       run("render forty.gltf --size 40x30 --mask-bits 8 --design 1 --reflection none -o x.exr");
-  EXPECT_EQ(refused.exit_code, 2);
+  EXPECT_EQ(refused.exit_code, 4);
   EXPECT_NE(refused.err.find("mask_bits 8 cannot hold the scene's 40 casting lights"), std::string::npos)
       << refused.err;
 }
