@@ -279,7 +279,9 @@ TEST_F(OutputsTest, DeterministicFilesAreTheSameToTheByte) {
 
 TEST_F(OutputsTest, ABackgroundIsInEveryFile) {
   write("t.obj", "v -1 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
-  const std::string render = "render --shadow-catcher t.obj --mode raytrace --size 32x24 ";
+  // The file is no height of the option before it.
+  const std::string options = " t.obj --mode raytrace --size 32x24 ",
+                    render = "render --shadow-catcher" + options;
   const auto color_type = [&](const std::string& more) {  // of the PNG: 2 RGB, 6 RGBA
     const CommandResult result = run(render + more + " --preview t.png");
     EXPECT_EQ(result.exit_code, 0) << result.err;
@@ -293,14 +295,15 @@ TEST_F(OutputsTest, ABackgroundIsInEveryFile) {
   EXPECT_EQ(read_file(folder_ / "three").size(), 32u * 24u * 3u);
   EXPECT_EQ(read_file(folder_ / "four").size(), 32u * 24u * 4u);
   const auto skipped = [&](const std::string& more) {
-    const CommandResult result = run(render + "-o t.exr --preview t.png --skip-existing " + more);
+    const CommandResult result = run("render" + options + "-o t.exr --preview t.png --skip-existing " + more);
     EXPECT_EQ(result.exit_code, 0) << result.err;
     return result.out.find("t.exr\n") == std::string::npos;
   };
   EXPECT_FALSE(skipped("--background transparent"));
   EXPECT_TRUE(skipped("--background transparent"));
   EXPECT_FALSE(skipped("--background white"));
-  EXPECT_TRUE(skipped("--background '#ffffff'"));
+  EXPECT_FALSE(skipped("--background white --shadow-catcher off"));
+  EXPECT_TRUE(skipped("--background '#ffffff' --shadow-catcher off"));
 }
 
 TEST_F(OutputsTest, BackgroundsThatCannotBeSayWhatCan) {
