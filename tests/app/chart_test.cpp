@@ -58,8 +58,12 @@ TEST_F(ChartTest, WritesFiguresPicturesAndAPageOfCharts) {
   std::ostringstream text;
   text << page.rdbuf();
   EXPECT_NE(text.str().find("--mode raytrace"), std::string::npos);
+  std::string whole = text.str();
+  constexpr std::string_view kNoIcon = "href=\"data:,\"";  // which keeps browsers from asking for one
+  if (const std::size_t icon = whole.find(kNoIcon); icon != std::string::npos)
+    whole.erase(icon, kNoIcon.size());
   for (const char* outside : {"/*DATA*/", "src=\"http", "href=", "@import", "fetch("})
-    EXPECT_EQ(text.str().find(outside), std::string::npos) << outside;
+    EXPECT_EQ(whole.find(outside), std::string::npos) << outside;
   const CommandResult xml =
       run_command("cd '" + folder_.string() +
                       "/d' && python3 -c 'import glob, xml.dom.minidom as m; [m.parse(f) for f in "
