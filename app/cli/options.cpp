@@ -96,7 +96,7 @@ void add_preset(CLI::App& verb, const std::string& option, const std::string& he
 // Single settings override presets, which override the plan's file.
 void settle(const GivenSettings& given, DrawOptions& o) {
   if (given.plan.ends_with(".json")) {
-    o.plan_file = given.plan;
+    o.plan = o.plan_file = given.plan;
     const Expected<Settings> loaded = load_settings(given.plan);
     if (!loaded) throw CLI::ValidationError("--plan", loaded.error().message());
     o.settings = *loaded;
@@ -105,6 +105,7 @@ void settle(const GivenSettings& given, DrawOptions& o) {
   apply_preset("mode", given.mode, o.settings);
   override_with(given.settings, o.settings);
   if (apply_preset("plan", given.plan, o.settings)) override_with(given.settings, o.settings);
+  if (given.plan == "slides") o.plan = "--plan slides";
   if (o.precise && o.settings.uses_gpu())
     throw CLI::ValidationError("--precise", "draws with --mode raytrace alone");
 }

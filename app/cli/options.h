@@ -25,6 +25,7 @@ struct DrawOptions {
   glm::ivec2 size{800, 600};
   Settings settings;      // given by the command line and its plan's file
   std::string plan_file;  // --plan FILE.json
+  std::string plan;  // what messages call the plan that is given: its file, or --plan slides; empty: none
   EngineOptions engine;
   std::string camera;  // name or index. Empty: the first, else a view of the whole scene
   std::optional<glm::vec3> eye, target, up;

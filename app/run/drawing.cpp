@@ -47,11 +47,9 @@ Drawing::Drawing(const DrawOptions& options, Scene scene, Exchange usual, bool k
         error.message());
   }
   settings_ = *resolved;
-  if (!options.quiet)
-    for (const std::string& line : losses(settings_, stats_)) {
-      const std::string from = options.plan_file.empty() ? "" : options.plan_file + ": ";
-      std::fprintf(stderr, "pinocchio: warning: %s%s\n", from.c_str(), line.c_str());
-    }
+  if (!options.quiet && !options.plan.empty())  // settings that are given one by one are known
+    for (const std::string& line : losses(settings_, stats_))
+      std::fprintf(stderr, "pinocchio: warning: %s: %s\n", options.plan.c_str(), line.c_str());
   if (!options.quiet && settings_.background.value.is_transparent() && stats_.blends && !settings_.coverage)
     std::fprintf(
         stderr,
