@@ -181,7 +181,8 @@ void bind_result(nb::module_& module) {
            "scene: the scene in its other pose (Scene.posed, Scene.at_time). None: nothing has moved.\n"
            "camera: the other frame's. None: this picture's.\n"
            "Raises Error if the other scene has other triangles.")
-      .def_prop_ro("mask", &mask, doc(Layer::mask))
+      .def_prop_ro("mask", &mask, doc(Layer::mask),
+                   nb::for_getter(nb::sig("def mask(self) -> numpy.typing.NDArray[typing.Any]")))
       .def_prop_ro("reflection", &reflection, doc(Layer::reflection))
       .def_prop_ro("record", &record, nb::sig("def record(self) -> dict[str, typing.Any]"),
                    "The cost as a dict: 'ms', 'stages' (ms), 'bytes', 'rays'.")

@@ -55,7 +55,7 @@ def node_scene():
         (lambda: pn.Camera.from_intrinsics((64.5, 48), 50, 50, 32, 24), "size holds 64.5"),
         (lambda: node_scene().posed({"part": NAN_POSE}), "the transform of 'part' holds nan"),
         (lambda: node_scene().posed({"part": numpy.eye(3)}), r"the transform of 'part' has the shape \(3, 3\)"),
-        (lambda: pn.assemble({"a": "scene"}), "the part 'a' is a scene, or"),
+        (lambda: pn.assemble({"a": "scene"}), "the part 'a' must be a scene, or"),
         (lambda: pn.assemble({"a": (node_scene(), numpy.eye(3))}), r"the matrix of 'a' has the shape \(3, 3\)"),
         (lambda: pn.Tracer(VERTICES, [[0, 1, 2.5]]), "triangles holds 2.5"),
         (lambda: pn.Tracer(VERTICES, TRIANGLES).closest_hits([0, 0, 1], [[0, 0, 1]]), r"origins has the shape \(3,\)"),

@@ -76,7 +76,7 @@ def quad():
 def test_threads_are_the_programs(monkeypatch):
     vertices, triangles = quad()
     for wrong in (-1, 1025, 2**31 - 1):
-        with pytest.raises(pn.Error, match="threads is from 0 .* to 1024"):
+        with pytest.raises(pn.Error, match="threads must be from 0 .* to 1024"):
             pn.Tracer(vertices, triangles, threads=wrong)
     with pytest.raises(TypeError):
         pn.Tracer(vertices, triangles, threads=2.5)

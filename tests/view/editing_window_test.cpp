@@ -58,8 +58,9 @@ class EditingTest : public WindowTest {
 TEST_F(EditingTest, LightsAreAddedColouredAndRemoved) {
   open_with("Lights", scene("cornell"), "--mode raster");
   const auto lights = [this] { return saved()["extensions"]["KHR_lights_punctual"]["lights"]; };
-  const std::vector<int> first = widgets_at(121, 30, 560);  // position, colour, intensity, radius, kinds
-  ASSERT_EQ(first.size(), 5u);
+  // Position, colour, intensity, radius; kinds to add; background, shadows on the ground.
+  const std::vector<int> first = widgets_at(121, 30, 560);
+  ASSERT_EQ(first.size(), 7u);
   click(40, first[4]);
   EXPECT_TRUE(picture_becomes_other("opened.png"));
   ASSERT_EQ(lights().size(), 2u);
@@ -70,8 +71,9 @@ TEST_F(EditingTest, LightsAreAddedColouredAndRemoved) {
   const nlohmann::json color = lights()[0]["color"];
   EXPECT_LT(color[0].get<double>(), 0.5 * color[1].get<double>()) << color;
   settle();
-  std::vector<int> rows = widgets_at(121, 30, 590);
-  click(121, rows.back());  // parallel light
+  const std::vector<int> rows = widgets_at(121, 30, 590);
+  ASSERT_GE(rows.size(), 9u);
+  click(121, rows[8]);  // parallel light
   EXPECT_TRUE(becomes([&] { return lights().size() == 3; }));
   EXPECT_EQ(lights()[2]["type"], "directional");
   settle("three.png");

@@ -120,12 +120,12 @@ TEST_F(PanelsTest, ButtonsLookAlongTheAxes) {
     return v;
   };
   settle();
-  const std::vector<int> rows = widgets_at(150, 30, 250);  // eye, target, two sliders, "Top", "Bottom"
-  ASSERT_GE(rows.size(), 6u);
+  const std::vector<int> rows = widgets_at(150, 30, 280);  // eye, target, two sliders, list, "Top", "Bottom"
+  ASSERT_GE(rows.size(), 7u);
   const std::array<int, 6> xs{42, 92, 136, 39, 85, 140},
       axes{2, 0, 1, 2, 0, 1};  // front, right, top; back ...
   for (std::size_t i = 0; i < xs.size(); ++i) {
-    click(xs[i], rows[i < 3 ? 4 : 5]);
+    click(xs[i], rows[i < 3 ? 5 : 6]);
     EXPECT_TRUE(becomes(
         [&] {
           const std::string command = command_line();
@@ -223,7 +223,7 @@ TEST_F(PanelsTest, TooltipsDoNotLeakThroughPanels) {
   xdo(at(700, 20));
   settle("quiet.png");
   // Wherever a stage is below.
-  for (int y = 444; y < 506; y += 10) {  // beside the camera's buttons
+  for (int y = 464; y < 526; y += 10) {  // beside the camera's buttons
     xdo(at(296, y));
     settle("hovered.png");
     EXPECT_EQ(different_in(box, "quiet.png", "hovered.png"), 0) << y;
