@@ -148,7 +148,7 @@ TEST_F(PanelsTest, ButtonsLookAlongTheAxes) {
 TEST_F(PanelsTest, TheTimelineIsPausedAndZoomed) {
   open_with("Timeline", 400, scene("cornell"));
   constexpr int kAlike = 5;  // percent: the panel lets a little of the picture through
-  const std::string chart = "740x110+18+440";
+  const std::string chart = "740x94+18+440";  // above the message about the printed command
   const auto grabbed = [&](const std::string& file) {
     xdo(at(700, 20));
     settle(file);
