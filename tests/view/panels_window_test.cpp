@@ -147,7 +147,7 @@ TEST_F(PanelsTest, ButtonsLookAlongTheAxes) {
 // Paused it stays while frames are drawn, and is enlarged and dragged; then it follows again.
 TEST_F(PanelsTest, TheTimelineIsPausedAndZoomed) {
   open_with("Timeline", 400, scene("cornell"));
-  constexpr int kAlike = 5;  // percent: the panel lets a little of the picture through
+  constexpr int kAlike = 5;                   // percent: the panel lets a little of the picture through
   const std::string chart = "740x94+18+440";  // above the message about the printed command
   const auto grabbed = [&](const std::string& file) {
     xdo(at(700, 20));
