@@ -232,7 +232,7 @@ TEST(ShadowCatcherPicture, UnderASkyItsMeanIsTheReferences) {
     }
     EXPECT_GT(theirs, 50.0);
     // The prefiltered sky's rays are few directions, the same at all points.
-    EXPECT_NEAR(ours / theirs, 1.0, prefiltered ? 0.08 : 0.02) << prefiltered;
+    EXPECT_NEAR(ours / theirs, 1.0, prefiltered ? 0.06 : 0.02) << prefiltered;
     EXPECT_LT(between / theirs, 0.3) << prefiltered;  // noise where little is lost
   }
 }
