@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """docs_test.py PROGRAM SOURCE_DIR: runs every command line of the program that README.md and docs/*.md show.
 
-In a folder with the scenes and the files that the lines name; small pictures where a line names no size. Lines of
+In a folder with the scenes and the files that the lines name; small pictures, but for tiles of one. Lines of
 'view' need a display and are tested by window_test. Of lines that take minutes (scripts, pinocchio-bench) what they
 name is looked up: files of the tree, options. Farms' are run by tests/farm.
 """
@@ -75,6 +75,8 @@ def main():
                     if verb == "view" or "VERB" in line or "SCENE" in line or "DIR" in line:
                         continue
                     small = " --size 32x24" if verb in DRAWING and "--size" not in line else ""
+                    if "--crop" not in line:
+                        match = PROGRAM.match(re.sub(r"--size \d+x\d+", "--size 64x48", line))
                     small += " --only exchange --repeat 1" if verb == "chart" and "--only" not in line else ""
                     ours, pipe, theirs = match[1].partition(" | ")  # a reader that is not installed is replaced
                     if pipe and not shutil.which(theirs.split()[0]):
