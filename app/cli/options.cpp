@@ -31,7 +31,7 @@ constexpr std::array<std::pair<const char*, std::array<std::string_view, 14>>, 3
     {kSamplesGroup, {"spp", "max_noise", "pixel_filter", "sequence", "seed", "denoise", "average_layers"}},
     {kLightGroup,
      {"indirect", "environment_rotation", "environment_strength", "environment_light", "glossy",
-      "sky_occlusion", "glass_shadows", "background", "shadow_catcher"}},
+      "sky_occlusion", "glass_shadows", "background", "background_blur", "shadow_catcher"}},
     {kExchangeGroup,
      {"visibility", "composite", "by_machine", "exchange", "mask_bits", "mask_scale", "reflection",
       "reflection_scale", "tiles", "id_bits", "normals", "wide", "reuse", "persistent"}},

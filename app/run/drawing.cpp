@@ -55,6 +55,11 @@ Drawing::Drawing(const DrawOptions& options, Scene scene, Exchange usual, bool k
         stderr,
         "pinocchio: warning: the background is transparent, but surfaces that blend have alpha 1: only "
         "the CPU drawing alone counts what they let through (--mode raytrace)\n");
+  if (!options.quiet && settings_.background_blur > 0.0f &&
+      !backdrop_of(scene_, settings_.background).picture)
+    std::fprintf(stderr,
+                 "pinocchio: warning: --background-blur changes nothing: no environment is behind the scene "
+                 "(--environment FILE; --background environment)\n");
   if (!options.quiet && !any_settings) advise(with_usual(options.settings, usual));
   if (scene_.animation)
     poses_.emplace(scene_, &run_progress());

@@ -221,10 +221,10 @@ int show_settings(const InfoOptions& options) {
     return kDone;
   }
   const auto text = [](std::string_view s) { return std::string(s); };
-  std::printf("| setting | option | values | default | what it is |\n|---|---|---|---|---|\n");
+  std::printf("| setting | values | default | what it is |\n|---|---|---|---|\n");
   for (const Field& f : settings_table())
-    std::printf("| `%s` | `%s` | %s | %s | %s |\n", text(f.name).c_str(), f.option().c_str(),
-                f.domain().c_str(), text(f.unset).c_str(), text(f.help).c_str());
+    std::printf("| `%s` | %s | %s | %s |\n", text(f.name).c_str(), f.domain().c_str(), text(f.unset).c_str(),
+                text(f.help).c_str());
   std::printf("\n| preset | what it sets |\n|---|---|\n");
   for (const Preset& p : presets())
     std::printf("| `--%s %s` | %s |\n", text(p.option).c_str(), text(p.value).c_str(), text(p.help).c_str());

@@ -20,6 +20,7 @@ void Leave::request(const Leaving& to) {
 void Leave::leave_now(const Leaving& to) {
   if (to.reload) return source_.reload();
   if (to.up_axis) return source_.turn_up(*to.up_axis);
+  if (to.variant) return source_.choose_variant(*to.variant);
   if (to.file.empty()) {
     model_.unsaved = false;
     return window_.ask_close();

@@ -156,8 +156,19 @@ std::string Recording::print_command(const Settings& settings, const DrawOptions
   } else {
     view.extra_lights = extra_lights(model_.scene.lights, draw);
     view.up_axis = draw.up_axis;
+    view.animation = draw.animation;
+    view.variant = draw.variant;
+    view.point_size = draw.point_size;
+    view.line_width = draw.line_width;
     if (model_.scene.animation) view.time_s = model_.playback.posed_s;
-    if (model_.playback.clip >= 0) model_.messages.hint("render plays all animations of the file together");
+    if (const int clip = model_.playback.clip; clip >= 0) {
+      const std::string& played = model_.playback.all->clips.at(static_cast<std::size_t>(clip)).name;
+      if (played.empty())
+        model_.messages.hint(
+            "the animation has no name: the command plays all animations of the file together");
+      else
+        view.animation = played;
+    }
   }
   view.settings = settings;
   view.camera = model_.camera.camera();

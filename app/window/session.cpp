@@ -126,6 +126,13 @@ bool Session::can_draw(const SceneStats& stats) {
   return false;
 }
 
+// The scene's environment, where neither its file nor the command line brought it.
+std::shared_ptr<const Environment> Session::opened_environment() const {
+  const std::shared_ptr<const Environment>& environment = model_.scene.environment;
+  const std::string file = environment ? environment->source() : "";
+  return is_environment_file(file) && file != source_.options().environment ? environment : nullptr;
+}
+
 void Session::show_scene(SceneLoader::News& news) {
   Scene& scene = *news.scene;
   const UpAxis axis_before = model_.up_axis;
@@ -133,7 +140,10 @@ void Session::show_scene(SceneLoader::News& news) {
   playback_.cancel();
   source_.accept(scene);
   model_.up_axis = source_.options().up_axis;
-  const bool again = model_.scene.source == scene.source && model_.up_axis == axis_before;
+  model_.variant = source_.options().variant;
+  const bool is_same_file = model_.scene.source == scene.source;
+  const bool again = is_same_file && model_.up_axis == axis_before;
+  const std::shared_ptr<const Environment> opened = is_same_file ? opened_environment() : nullptr;
   settings_.set_lights(scene.lights);
   model_.stats = news.stats;
   model_.tracer.reset();
@@ -161,6 +171,7 @@ void Session::show_scene(SceneLoader::News& news) {
                   .extensions = std::move(news.extensions),
                   .warnings = std::move(news.warnings)};
   parts_.begin();
+  if (opened) edits_.set_environment(opened);
   playback_.begin();
   edits_.begin();
 }
@@ -229,6 +240,8 @@ void Session::perform_requests() {
   }
   if (const auto axis = std::exchange(model_.up_axis_to_use, std::nullopt))
     leave_.request({.file = model_.scene.source, .up_axis = axis});
+  if (const auto variant = std::exchange(model_.variant_to_use, std::nullopt))
+    leave_.request({.file = model_.scene.source, .variant = variant});
   if (const int camera = std::exchange(model_.camera_to_show, -1); camera >= 0) show_camera(camera);
 }
 

@@ -45,6 +45,7 @@ class Session {
   void advance();
   void poll_scene();
   [[nodiscard]] bool can_draw(const SceneStats& stats);
+  [[nodiscard]] std::shared_ptr<const Environment> opened_environment() const;
   void show_scene(SceneLoader::News& news);
   void poll_files();
   void apply_changes();

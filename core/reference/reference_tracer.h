@@ -27,8 +27,11 @@ class ReferenceTracer {
   ReferenceTracer(const Scene& scene, const ReferenceTree& tree, const TraceOptions& options = {})
       : scene_(scene), tree_(tree), options_(options) {
     if (scene.environment) environment_.emplace(scene);
-    if (const Backdrop b = backdrop_of(scene, options.background); b.picture)
-      backdrop_.emplace(*b.picture, static_cast<double>(b.rotation_deg), static_cast<double>(b.strength));
+    const Backdrop behind = backdrop_of(scene, options.background, options.background_blur);
+    behind_scene_ = behind.picture;
+    if (behind_scene_)
+      backdrop_.emplace(*behind_scene_, static_cast<double>(behind.rotation_deg),
+                        static_cast<double>(behind.strength));
     lobes_ = takes_samples(scene);
     for (const Material& m : scene.mesh->materials) absorbs_ = absorbs_ || m.attenuates();
   }
@@ -100,6 +103,7 @@ class ReferenceTracer {
   const Scene& scene_;
   const ReferenceTree& tree_;
   TraceOptions options_;
+  std::shared_ptr<const Environment> behind_scene_;  // kept for `backdrop_`
   std::optional<ReferenceEnvironment> environment_, backdrop_;
   bool lobes_ = false;    // glossy lobes are sampled; else mirrors are sharp
   bool absorbs_ = false;  // some material absorbs light

@@ -6,6 +6,7 @@
 
 #include "core/base/decimal.h"
 #include "core/image/tonemap.h"
+#include "core/scene/blurred.h"
 #include "pinocchio/scene.h"
 #include "pinocchio/shadow_catcher.h"
 #include "pinocchio/studio.h"
@@ -90,10 +91,13 @@ std::string to_text(const Background& background) {
   return shortest(c.r) + "," + shortest(c.g) + "," + shortest(c.b);
 }
 
-Backdrop backdrop_of(const Scene& scene, const Background& background) {
-  if (background.kind == Background::Kind::studio) return {studio_sky()};
+Backdrop backdrop_of(const Scene& scene, const Background& background, float blur) {
+  const auto shown = [blur](const std::shared_ptr<const Environment>& picture) {
+    return blurred(picture, kWidestBlur_deg * blur);
+  };
+  if (background.kind == Background::Kind::studio) return {shown(studio_sky())};
   if (background.kind != Background::Kind::environment) return {};
-  return {scene.environment, scene.environment_rotation_deg, scene.environment_strength};
+  return {shown(scene.environment), scene.environment_rotation_deg, scene.environment_strength};
 }
 
 std::optional<ShadowCatcher> parse_shadow_catcher(std::string_view text) {

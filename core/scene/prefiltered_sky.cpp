@@ -6,6 +6,8 @@
 #include <mutex>
 #include <vector>
 
+#include "core/scene/lat_long.h"
+
 namespace pinocchio {
 namespace {
 
@@ -15,39 +17,6 @@ using glm::pi;
 glm::dvec3 direction_of(double u, double v) {
   const double down = pi<double>() * v, turn = 2.0 * pi<double>() * u;
   return {std::sin(down) * std::sin(turn), std::cos(down), -std::sin(down) * std::cos(turn)};
-}
-
-// The picture's light at a place between texels' centres.
-glm::dvec3 light_at(const Image<glm::vec3>& picture, double u, double v) {
-  const glm::ivec2 size = picture.size();
-  const double x = u * size.x - 0.5, y = v * size.y - 0.5;
-  const double column = std::floor(x), row = std::floor(y);
-  const auto texel = [&](double c, double r) {
-    const int i = static_cast<int>(c) % size.x;
-    return glm::dvec3(picture.at(i < 0 ? i + size.x : i, std::clamp(static_cast<int>(r), 0, size.y - 1)));
-  };
-  return glm::mix(glm::mix(texel(column, row), texel(column + 1, row), x - column),
-                  glm::mix(texel(column, row + 1), texel(column + 1, row + 1), x - column), y - row);
-}
-
-// The means of the picture's light over the texels of a picture of that size.
-Image<glm::vec3> reduced(const Image<glm::vec3>& picture, glm::ivec2 size) {
-  const auto steps = [](int from, int to) { return std::max(2, (from + to - 1) / to); };
-  const int across = steps(picture.width(), size.x), down = steps(picture.height(), size.y);
-  Image<glm::vec3> means(size);
-  for (int y = 0; y < size.y; ++y)
-    for (int x = 0; x < size.x; ++x) {
-      glm::dvec3 sum(0.0);
-      double area = 0.0;
-      for (int j = 0; j < down; ++j) {
-        const double v = (y + (j + 0.5) / down) / size.y, sine = std::sin(pi<double>() * v);
-        for (int i = 0; i < across; ++i)
-          sum += sine * light_at(picture, (x + (i + 0.5) / across) / size.x, v);
-        area += sine * across;
-      }
-      means.at(x, y) = glm::vec3(sum / area);
-    }
-  return means;
 }
 
 // Calls visit(direction, solid angle, light) for each texel.

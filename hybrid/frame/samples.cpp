@@ -39,6 +39,7 @@ TraceOptions trace_options(const Settings& settings, const View& view) {
           .denoise = settings.denoise,
           .glass_shadows = settings.glass_shadows,
           .background = settings.background,
+          .background_blur = settings.background_blur,
           .catcher_height = catcher_height(settings),
           .jitter = view.jitter,
           .sampling = {static_cast<int>(settings.sequence.value), static_cast<std::uint32_t>(view.sample),

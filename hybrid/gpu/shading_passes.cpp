@@ -19,7 +19,7 @@ void ShadingPasses::composite(const Inputs& inputs, LightSet lights, const Trace
   if (traced.mask.texture && inputs.lights.casting() > traced.mask.bits)
     definitions.emplace_back("LIGHTS_IN_REFLECTION");
   const Background& background = inputs.options.background;
-  const Backdrop backdrop = backdrop_of(inputs.scene, background);
+  const Backdrop backdrop = backdrop_of(inputs.scene, background, inputs.options.background_blur);
   if (backdrop.picture) {
     definitions.emplace_back("HAS_ENVIRONMENT");
     send(backdrop.picture);  // first: it binds textures of its own

@@ -110,13 +110,20 @@ std::string why_denoise(const Settings& s) {
          ": less noise, and soft detail of light is lost; hard light, sharp mirrors and textures stay exact";
 }
 
+std::string how_blurred(const Settings& s) {
+  if (s.background_blur <= 0.0f) return {};
+  return ", blurred by " + shortest(kWidestBlur_deg * s.background_blur) + " degrees";
+}
+
 std::string why_background(const SceneStats& stats, const Settings& s) {
   const Background& background = s.background.value;
   if (background.kind == Background::Kind::color)
     return "behind the scene is the colour " + to_text(background) + ", linear";
-  if (background.kind == Background::Kind::studio) return "behind the scene is the studio's neutral sky";
+  if (background.kind == Background::Kind::studio)
+    return "behind the scene is the studio's neutral sky" + how_blurred(s);
   if (!background.is_transparent())
-    return stats.environment ? "behind the scene is its environment" : "behind the scene is black";
+    return stats.environment ? "behind the scene is its environment" + how_blurred(s)
+                             : "behind the scene is black";
   if (!stats.blends) return "behind the scene is nothing: alpha is the covered share of a pixel";
   return s.coverage ? "behind the scene is nothing: the CPU draws alone, as it counts what surfaces that "
                       "blend let through (coverage)"
@@ -174,7 +181,8 @@ std::vector<std::string> explain(const SceneStats& stats, const Settings& s) {
   if (stats.glass && s.reflects() && (sky || s.mask_bits > 0)) lines.push_back(why_glass(s));
   if (sky && s.reflects()) lines.push_back(why_sky(s));
   if (s.denoise) lines.push_back(why_denoise(s));
-  if (s.background.given || s.background.value.kind != Background::Kind::environment)
+  if (s.background.given || s.background_blur.given ||
+      s.background.value.kind != Background::Kind::environment)
     lines.push_back(why_background(stats, s));
   if (s.shadow_catcher.value.kind != ShadowCatcher::Kind::off) lines.push_back(why_catcher(s));
   if (s.reflects() && (stats.mirrors || !adds_lights(s, stats.casting_lights)))

@@ -245,6 +245,10 @@ constexpr std::array kTable{
         "background", text(kBackgroundTexts, kBackgrounds), "environment; studio where the studio lights",
         "what is behind the scene; light, mirrors and glass keep the environment. Transparent: alpha 0, "
         "also in PNG files"),
+    field<&S::background_blur>(
+        "background_blur", from_to(0, 1), "0",
+        "how far the environment is blurred where it is the background; 1: by 30 degrees (standard "
+        "deviation). Light, mirrors and glass keep it sharp"),
     field<&S::shadow_catcher>(
         "shadow_catcher", text(kShadowCatcherTexts, kCatchers, "lowest"), "off; lowest for the studio",
         "a ground, at a height or at the scene's lowest point, that shows only the shadows on it: its alpha "

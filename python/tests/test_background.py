@@ -77,6 +77,22 @@ def test_names_and_errors(scene):
         engine.render(scene, size=(8, 8), shadow_catcher="floor")
 
 
+def test_an_environment_is_blurred_behind_the_scene_alone(scene):
+    engine = pn.Engine()
+    sky = np.full((16, 32, 3), 0.1, np.float32)
+    sky[:, 16:] = 0.9
+    scene.environment = sky
+    sharp = engine.render(scene, size=(64, 48))
+    soft = engine.render(scene, size=(64, 48), background_blur=0.5)
+    behind = sharp.ids == 0xFFFFFFFF
+    assert np.array_equal(sharp.color[~behind], soft.color[~behind])
+    assert np.abs(sharp.color[behind] - soft.color[behind]).max() > 0.1
+    many = engine.render_many(scene, scene.cameras, (64, 48), outputs=["color"], background_blur=0.5)["color"]
+    assert np.array_equal(many[0], soft.color)
+    with pytest.raises(pn.Error, match="background_blur is .*it is a number from 0 to 1"):
+        engine.render(scene, size=(8, 8), background_blur=2)
+
+
 def test_png_files(scene, tmp_path):
     engine = pn.Engine()
     path = tmp_path / "picture.png"

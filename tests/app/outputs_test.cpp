@@ -317,6 +317,11 @@ TEST_F(OutputsTest, BackgroundsThatCannotBeSayWhatCan) {
   expect("render t.obj --preview t.png --shadow-catcher=deep", 2, "'deep' is not off, lowest or a height");
   expect("render t.obj --preview t.png --shadow-catcher 0 --design 2", 2, "shadow_catcher does not travel");
   expect("info t.obj --plan --background transparent", 0, "behind the scene is nothing");
+  const std::string render = "render t.obj --mode raytrace --size 32x24 --preview t.png --background-blur ";
+  expect(render + "2", 2, "'2' is not a number from 0 to 1");
+  expect(render + "0.5 --background white", 0, "--background-blur changes nothing");
+  expect(render + "0.5 --light 0,0,5", 0, "--background-blur changes nothing");
+  EXPECT_EQ(run(render + "0.5").err.find("--background-blur"), std::string::npos);  // the studio's sky
   expect("info t.obj --plan", 0, "the shadow catcher at height 0 takes shadow rays");
 }
 

@@ -145,6 +145,69 @@ TEST(BackgroundPicture, MirrorsKeepTheEnvironment) {
   }
 }
 
+// A sky with a bright part, which makes a blur seen.
+Scene under_half_a_sky() {
+  Scene scene = plates(false);
+  Image<glm::vec3> sky({64, 32}, glm::vec3(0.1f));
+  for (int y = 0; y < 32; ++y)
+    for (int x = 0; x < 32; ++x) sky.at(x, y) = {0.9f, 0.5f, 0.2f};
+  scene.environment = std::make_shared<const Environment>(std::move(sky));
+  scene.cameras[0] = {"up", {0.0f, 0.2f, 6.0f}, {0.0f, 1.5f, 0.0f}, {0, 1, 0}, 60.0f};
+  scene.environment_rotation_deg = 10.0f;
+  return scene;
+}
+
+TEST(BackgroundPicture, ABlurIsSeenBehindTheSceneAlone) {
+  const Scene scene = under_half_a_sky();
+  for (Way way : ways()) {
+    const FrameResult sharp = drawn(scene, way.settings, "environment", 1);
+    way.settings.background_blur = 0.5f;
+    const FrameResult soft = drawn(scene, way.settings, "environment", 1);
+    EXPECT_TRUE(same(sharp.reflection, soft.reflection)) << way.name;
+    std::size_t changed = 0;
+    for (std::size_t i = 0; i < sharp.ids.pixels().size(); ++i) {
+      if (sharp.ids[i] != kNoTriangle) {
+        ASSERT_EQ(sharp.color[i], soft.color[i]) << way.name;
+      }
+      changed += glm::distance(sharp.color[i], soft.color[i]) > 0.05f ? 1 : 0;
+    }
+    EXPECT_GT(changed, 1500u) << way.name;
+    // A colour behind the scene has nothing to blur.
+    EXPECT_TRUE(same(drawn(scene, way.settings, "white", 1).color, drawn(
+                                                                       scene,
+                                                                       [&] {
+                                                                         Settings s = way.settings;
+                                                                         s.background_blur = 0.0f;
+                                                                         return s;
+                                                                       }(),
+                                                                       "white", 1)
+                                                                       .color));
+  }
+}
+
+TEST(BackgroundPicture, EveryWayAndTheReferenceBlurTheSame) {
+  const Scene scene = under_half_a_sky();
+  Settings settings = by({{"mode", "raytrace"}});
+  settings.background_blur = 0.3f;
+  settings.background = Background{};
+  const Settings resolved = resolve(settings, analyze(scene)).value();
+  Scene settled = scene;
+  settle_environment(settled, resolved);
+  Workers workers(2);
+  const View view{first_camera(scene), kSize};
+  const ReferencePicture truth =
+      reference_render(settled, view, 8, workers, nullptr, trace_options(resolved, view));
+  for (Way way : ways()) {
+    way.settings.background_blur = 0.3f;
+    const FrameResult own = drawn(scene, way.settings, "environment", 1);
+    for (std::size_t i = 0; i < own.ids.pixels().size(); ++i)
+      if (own.ids[i] == kNoTriangle && truth.ids[i] == kNoTriangle) {
+        const glm::vec3 apart = glm::abs(glm::vec3(own.color[i] - truth.color[i]));
+        ASSERT_LT(std::max({apart.r, apart.g, apart.b}), static_cast<float>(way.most)) << way.name;
+      }
+  }
+}
+
 TEST(BackgroundPicture, StudioIsTheStudiosSkyWhateverLights) {
   Scene scene = plates(false);
   const FrameResult studio = drawn(scene, by({{"mode", "raytrace"}}), "studio", 1);

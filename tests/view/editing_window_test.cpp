@@ -210,6 +210,144 @@ TEST_F(EditingTest, TheEnvironmentIsTurnedAndMadeStronger) {
   expect_clean_close();
 }
 
+// What is behind the scene: the environment blurred, nothing, a colour. Light stays as it is.
+TEST_F(EditingTest, TheBackgroundIsBlurredHiddenAndColoured) {
+  std::ofstream sky(folder_ / "sky.hdr", std::ios::binary);
+  sky << "#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y 32 +X 64\n";
+  for (int i = 0; i < 32 * 64; ++i) sky << (i % 8 < 4 ? "\x20\x40\x7f\x80" : "\x7f\x40\x20\x80");
+  sky.close();
+  std::ofstream(folder_ / "triangle.obj") << "v -1 -1 0\nv 1 -1 0\nv 0 1 0\nf 1 2 3\n";
+  open_with("Lights", "triangle.obj", "--environment sky.hdr --mode raster --eye 0,0,6 --target 0,0,0");
+  // Kinds of lights, turn, strength, kinds of background, blur.
+  const std::vector<int> rows = widgets_at(121, 30, 560);
+  ASSERT_EQ(rows.size(), 5u);
+  const std::string behind = "300x200+450+40";
+  const auto colors = [&] { return count_colors(crop(picture("still"), behind)); };
+  click(200, rows[4]);
+  EXPECT_TRUE(picture_becomes_other("opened.png"));
+  settle("blurred.png");
+  EXPECT_FALSE(option(command_line(), "--background-blur").empty());
+  pause_ms(500);
+  key("ctrl+z");
+  EXPECT_TRUE(picture_becomes("opened.png"));
+  click(315, rows[3]);  // transparent: nothing to blur
+  settle();
+  EXPECT_EQ(option(command_line(), "--background"), "transparent");
+  EXPECT_EQ(colors(), 2u);  // chequers
+  EXPECT_EQ(widgets_at(121, 30, 560).size(), 4u);
+  pause_ms(500);
+  key("ctrl+z");
+  EXPECT_TRUE(picture_becomes("opened.png"));
+  expect_clean_close();
+}
+
+// The file's variants of its materials; an environment that was opened stays.
+TEST_F(EditingTest, AVariantOfTheMaterialsIsChosen) {
+  const std::vector<float> corners{-1.0f, -1.0f, 0.0f, 1.0f, -1.0f, 0.0f, 0.0f, 1.0f, 0.0f};
+  std::ofstream(folder_ / "shoe.bin", std::ios::binary)
+      .write(reinterpret_cast<const char*>(corners.data()),
+             static_cast<std::streamsize>(corners.size() * sizeof(float)));
+  const auto material = [](const char* name, float red, float blue) {
+    return nlohmann::json{
+        {"name", name},
+        {"pbrMetallicRoughness", {{"baseColorFactor", {red, 0.0f, blue, 1.0f}}, {"metallicFactor", 0.0f}}}};
+  };
+  const nlohmann::json mappings = {{{"material", 1}, {"variants", {0}}},
+                                   {{"material", 0}, {"variants", {1}}}};
+  std::ofstream(folder_ / "shoe.gltf") << nlohmann::json{
+      {"asset", {{"version", "2.0"}}},
+      {"extensionsUsed", {"KHR_materials_variants"}},
+      {"extensions",
+       {{"KHR_materials_variants", {{"variants", {{{"name", "sea"}}, {{"name", "sun set"}}}}}}}},
+      {"scene", 0},
+      {"scenes", {{{"nodes", {0}}}}},
+      {"nodes", {{{"mesh", 0}}}},
+      {"meshes",
+       {{{"primitives",
+          {{{"attributes", {{"POSITION", 0}}},
+            {"material", 0},
+            {"extensions", {{"KHR_materials_variants", {{"mappings", mappings}}}}}}}}}}},
+      {"materials", {material("red", 1.0f, 0.0f), material("blue", 0.0f, 1.0f)}},
+      {"buffers", {{{"uri", "shoe.bin"}, {"byteLength", 36}}}},
+      {"bufferViews", {{{"buffer", 0}, {"byteLength", 36}}}},
+      {"accessors", {{{"bufferView", 0}, {"componentType", 5126}, {"count", 3}, {"type", "VEC3"}}}}};
+  open_with("Materials", "shoe.gltf", "--mode raster --light 0,0,5 --eye 0,0,4 --target 0,0,0");
+  const auto color = [this] {
+    settle();
+    return glm::ivec3(picture("still").at(400, 300));
+  };
+  EXPECT_GT(color().r, color().b + 60);
+  const int row = widgets_at(200, 30, 100).at(0);
+  const auto choose = [&](std::size_t line) {
+    click(200, row);
+    pause_ms(300);
+    const std::vector<int> lines = runs(brightness(120, row + 14, 60, 90), row + 14, 120, 6, 20);
+    ASSERT_EQ(lines.size(), 3u);  // the usual one, and two
+    click(150, lines[line]);
+    xdo(at(700, 500));
+  };
+  const auto is_chosen = [&](const std::string& name) {
+    return becomes([&] { return option(command_line(), "--variant") == name; });
+  };
+  ASSERT_NO_FATAL_FAILURE(choose(1));
+  EXPECT_TRUE(is_chosen("sea"));
+  EXPECT_GT(color().b, color().r + 60);
+  EXPECT_EQ(option(command_line(), "--eye"), "0,0,4");  // the camera stays
+  ASSERT_NO_FATAL_FAILURE(choose(2));
+  EXPECT_TRUE(is_chosen("'sun"));  // of a name with a blank
+  EXPECT_GT(color().r, color().b + 60);
+  ASSERT_NO_FATAL_FAILURE(choose(0));
+  EXPECT_TRUE(is_chosen(""));
+  expect_clean_close();
+}
+
+// A scene that is as in its file is named in the command; an edited one is saved for it, which is said.
+TEST_F(EditingTest, PSaysWhichSceneItWrites) {
+  open_with("Scene", scene("cornell"));
+  pause_ms(7000);  // what P said is gone by itself
+  settle("quiet.png");
+  const std::string messages = "560x60+0+510";
+  EXPECT_NE(command_line().find("scenes/cornell"), std::string::npos);
+  EXPECT_EQ(lines_of("the scene as it is shown is in"), 0);
+  EXPECT_FALSE(std::filesystem::exists(folder_ / "cornell-001.gltf"));
+  click(40, widgets_at(75, 240, 460)[1]);  // hides a part
+  xdo(at(700, 500));
+  EXPECT_NE(command_line().find("render cornell-001.gltf"), std::string::npos);
+  EXPECT_EQ(lines_of("the scene as it is shown is in " + (folder_ / "cornell-001.gltf").string()), 1);
+  settle("said.png");
+  EXPECT_GT(different_in(messages, "quiet.png", "said.png"), 500);
+  expect_clean_close();
+}
+
+// A light's name beside its mark does not touch the edge of its box.
+TEST_F(EditingTest, AMarksLabelHasRoomAroundIt) {
+  open_with("Lights", scene("cornell"), "--eye 0,1,3.4 --target 0,1,0 --light 0,1,0,0.5 --mode raster");
+  xdo(at(700, 100));
+  settle("without.png");
+  xdo(at(400, 300));  // the mark, where the camera looks
+  settle("with.png");
+  // The box, beside the pointer; the mark itself may change.
+  glm::ivec2 lo(800, 600), hi(-1), text_lo(800, 600), text_hi(-1);
+  const Picture with = picture("with.png"), without = picture("without.png");
+  for (int y = 200; y < 400; ++y)
+    for (int x = 411; x < 800; ++x) {
+      const glm::ivec3 c(with.at(x, y));
+      if (c == glm::ivec3(without.at(x, y))) continue;
+      lo = glm::min(lo, glm::ivec2(x, y));
+      hi = glm::max(hi, glm::ivec2(x, y));
+      if (std::min({c.r, c.g, c.b}) < 150) continue;
+      text_lo = glm::min(text_lo, glm::ivec2(x, y));
+      text_hi = glm::max(text_hi, glm::ivec2(x, y));
+    }
+  ASSERT_GT(hi.x, lo.x + 40);
+  ASSERT_GT(text_hi.x, text_lo.x + 30);
+  EXPECT_GE(text_lo.x - lo.x, 5);
+  EXPECT_GE(hi.x - text_hi.x, 5);
+  EXPECT_GE(text_lo.y - lo.y, 4);
+  EXPECT_GE(hi.y - text_hi.y, 4);
+  expect_clean_close();
+}
+
 // One part alone, then all again; the command draws what is shown.
 TEST_F(EditingTest, PartsAreHiddenAndShownAlone) {
   open_with("Scene", scene("cornell"));
@@ -299,6 +437,7 @@ TEST_F(EditingTest, AnAnimationIsChosenAndItsSpeed) {
   choose(530);  // "up"
   on();
   expect_at(true, false, true);
+  EXPECT_EQ(option(command_line(), "--animation"), "up");
   // The speed's field: half as fast is typed.
   key("Home");
   click_with("ctrl", 540, 556);
@@ -386,6 +525,13 @@ TEST_F(EditingTest, EnlargementEnds) {
   enlarge();
   EXPECT_TRUE(picture_becomes_other("opened.png"));
   key("r");
+  EXPECT_TRUE(picture_becomes("opened.png"));
+  enlarge();
+  EXPECT_TRUE(picture_becomes_other("opened.png"));
+  for (const char* size : {"1280x800", "800x600"}) {
+    key("F11");
+    EXPECT_TRUE(becomes([&] { return option(command_line(), "--size") == size; }));
+  }
   EXPECT_TRUE(picture_becomes("opened.png"));
   enlarge();
   EXPECT_TRUE(picture_becomes_other("opened.png"));
@@ -487,6 +633,32 @@ TEST_F(PlacesTest, PanelsDoNotCoverEachOther) {
                      b.y < a.y + a.height)
             << a_name << " and " << b_name;
       }
+}
+
+// Drawing has more rows with each channel, and stays whole and in the window.
+TEST_F(PlacesTest, DrawingGrowsWithItsChannel) {
+  open_as_is(scene("cornell"), "800x600", "--spp 1");
+  key("F3");
+  settle("drawing.png");
+  const auto bottom_of = [this](const std::string& name) {  // of its right edge's dark pixels, from above
+    const Picture shown = picture(name);
+    int y = 0;
+    while (y < 599 && std::max({shown.at(787, y).r, shown.at(787, y).g, shown.at(787, y).b}) > 60) ++y;
+    while (y < 599 && std::max({shown.at(787, y).r, shown.at(787, y).g, shown.at(787, y).b}) <= 60) ++y;
+    return y;
+  };
+  const auto rows = [this] { return widgets_at(640, 30, 560).size(); };
+  const std::size_t at_first = rows();
+  for (int channel = 0; channel < 9; ++channel) {
+    key("v");
+    xdo(at(100, 500));
+    settle("channel.png");
+    EXPECT_GE(rows(), at_first) << channel;  // the last row, too
+    EXPECT_LT(bottom_of("channel.png"), 580) << channel;
+  }
+  expect_clean_close();
+  const Box box = boxes().at("Drawing");
+  EXPECT_LE(box.y + box.height, 580);
 }
 
 // At its edge, also one that was closed meanwhile.

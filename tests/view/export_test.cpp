@@ -61,9 +61,15 @@ TEST(Export, WhatIsReadBesideTheSceneIsSaid) {
   view.shading = Shading::phong;
   view.camera.lens_radius = 0.25f;
   view.camera.focus_distance = 3.0f;
+  view.animation = "walk cycle";
+  view.variant = "red";
+  view.point_size = 0.5f;
+  view.line_width = 0.25f;
   const std::string command = render_command(view, "boat");
-  for (const char* part : {" --environment 'a sky.hdr' ", " --load-limit 8192 ", " --confine ",
-                           " --shading phong ", " --lens-radius 0.25 ", " --focus 3 "})
+  for (const char* part :
+       {" --environment 'a sky.hdr' ", " --load-limit 8192 ", " --confine ", " --shading phong ",
+        " --lens-radius 0.25 ", " --focus 3 ", " --animation 'walk cycle' ", " --variant red ",
+        " --point-size 0.5 ", " --line-width 0.25 "})
     EXPECT_TRUE(holds(command, part)) << part << " in " << command;
 }
 

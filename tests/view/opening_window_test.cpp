@@ -141,5 +141,21 @@ TEST_F(OpeningTest, AFileIsOpenedFromThePanelAndIsAmongTheRecent) {
   expect_clean_close();
 }
 
+// The panel has the folder's environments, too: one that is clicked at lights the scene that is shown.
+TEST_F(OpeningTest, AnEnvironmentIsOpenedFromThePanel) {
+  std::ofstream(folder_ / "triangle.obj") << "v -0.3 0 0\nv 0.3 0 0\nv 0 0.3 0\nf 1 2 3\n";
+  std::ofstream(folder_ / "sky.hdr", std::ios::binary)
+      << "#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y 1 +X 2\n\x20\x40\x7f\x80\x20\x40\x7f\x80";
+  remember("Files", 8, 8);
+  open_as_is("triangle.obj", "800x600", "--spp 1 --light 0,1,2");
+  settle();
+  const std::vector<int> lines = lines_of_panel(12, 30);
+  ASSERT_GE(lines.size(), 4u);  // the folder above, sky, triangle, "Recent" and triangle
+  click(60, lines[lines.size() - 4]);
+  EXPECT_TRUE(becomes([this] { return !option(command_line(), "--environment").empty(); }));
+  EXPECT_NE(command_line().find("render triangle.obj"), std::string::npos);
+  expect_clean_close();
+}
+
 }  // namespace
 }  // namespace pinocchio

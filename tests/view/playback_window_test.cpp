@@ -1,4 +1,6 @@
 // An animated scene on a display: play, pause, one frame on or back, and the slider of its time.
+#include <cstdint>
+#include <cstring>
 #include <utility>
 
 #include "tests/view/display.h"
@@ -97,6 +99,35 @@ TEST_F(PlaybackWindowTest, TheSliderStopsAndMovesTheTime) {
   pause_ms(500);
   EXPECT_EQ(time_s(), stopped_s);
   expect_clean_close();
+}
+
+// A warning of the file is above the bar, which works.
+TEST_F(PlaybackWindowTest, AWarningDoesNotCoverTheBar) {
+  const std::string text = text_of(scene("windmill.glb"));
+  const auto number_at = [&text](std::size_t at) {
+    std::uint32_t number = 0;
+    std::memcpy(&number, text.data() + at, sizeof(number));
+    return number;
+  };
+  const std::uint32_t json_size = number_at(12);
+  nlohmann::json json = nlohmann::json::parse(text.substr(20, json_size));
+  json["extensionsUsed"].push_back("VENDOR_unknown");
+  json["materials"][0]["extensions"]["VENDOR_unknown"] = {{"strength", 1}};
+  std::ofstream(folder_ / "mill.bin", std::ios::binary) << text.substr(28 + json_size);
+  json["buffers"][0]["uri"] = "mill.bin";
+  std::ofstream(folder_ / "mill.gltf") << json;
+  open_as_is("mill.gltf");
+  ASSERT_NE(errors().find("VENDOR_unknown"), std::string::npos) << errors();
+  EXPECT_EQ(time_s(), 0.0);
+  constexpr int kMiddle = 350;
+  EXPECT_TRUE(becomes([&] {
+    for (int y = 545; y < 565; y += 4) {
+      pull(kMiddle, y);
+      if (shows([](double s) { return s > 0.0; }, 0.5)) return true;
+    }
+    return false;
+  }));
+  expect_clean_close("VENDOR_unknown");
 }
 
 }  // namespace

@@ -10,6 +10,7 @@
 #include <set>
 
 #include "app/window/overlay/parts.h"
+#include "core/scene/gltf/material_from_surface.h"
 #include "hybrid/settings/resolve.h"
 #include "hybrid/settings/scene_stats.h"
 #include "pinocchio/load.h"
@@ -25,6 +26,7 @@ Model full_model() {
   Model model;
   model.scene = load_scene(PINOCCHIO_SOURCE_DIR "/scenes/cornell").value();
   model.scene.animation = load_scene(PINOCCHIO_SOURCE_DIR "/scenes/windmill").value().animation;
+  model.scene.variants = {"night"};
   model.scene.source = "scene.gltf";  // texts name no folder of a machine
   model.save.folder = "pictures";
   model.stats = analyze(model.scene);
@@ -60,8 +62,8 @@ Model full_model() {
   return model;
 }
 
-// What ImGui was given to show, line by line, numbers as '#'.
-std::set<std::string> shown(Model& model) {
+// What ImGui was given to show.
+std::string logged(Model& model) {
   const std::filesystem::path log = own_folder() / "log.txt";
   std::filesystem::create_directories(log.parent_path());
   std::filesystem::remove(log);
@@ -99,7 +101,12 @@ std::set<std::string> shown(Model& model) {
   }
   ImGui::DestroyContext();
   std::ifstream in(log);
-  std::string all{std::istreambuf_iterator<char>(in), {}};
+  return {std::istreambuf_iterator<char>(in), {}};
+}
+
+// The same line by line, numbers as '#'.
+std::set<std::string> shown(Model& model) {
+  const std::string all = logged(model);
   std::set<std::string> texts;
   std::regex number("-?[0-9]+([.][0-9]+)?"), edge("[\\[\\]]|\\| |   +|\n");
   for (std::sregex_token_iterator at(all.begin(), all.end(), edge, -1), end; at != end; ++at) {
@@ -127,6 +134,76 @@ TEST(Texts, EveryStringIsInTheList) {
   std::set<std::string> listed;
   for (std::string line; std::getline(in, line);) listed.insert(line);
   EXPECT_EQ(texts, listed);
+}
+
+// The panel Scene, in a file that has everything.
+TEST(Texts, FactsAboutTheFileAreItsOwn) {
+  Model model = full_model();
+  const Mesh& mesh = *model.scene.mesh;
+  model.scene.variants = {"day", "night"};
+  model.parts.bytes = 1234567;
+  model.parts.extensions = {"KHR_texture_transform", "KHR_materials_clearcoat"};
+  model.parts.warnings = {"a morph target without positions"};
+  const std::string all = logged(model);
+  const auto has_row = [&all](const std::string& name, const std::string& value) {
+    return std::regex_search(all, std::regex("\n" + name + "\\[[^\\]]*\\] " + value + "\n"));
+  };
+  for (const auto& [name, value] : std::vector<std::pair<std::string, std::string>>{
+           {"file", "scene[.]gltf"},
+           {"size", "1[.]23 MB"},
+           {"triangles", std::to_string(mesh.triangles.size())},
+           {"vertices", std::to_string(mesh.positions.size())},
+           {"materials", std::to_string(mesh.materials.size())},
+           {"variants", "2"},
+           {"textures", "0"},
+           {"lights", "1"},
+           {"cameras", std::to_string(model.scene.cameras.size())},
+           {"animations", "1, 4[.]00 s"}})
+    EXPECT_TRUE(has_row(name, value)) << name << " " << value << " in\n" << all;
+  for (const char* text :
+       {"KHR_texture_transform", "KHR_materials_clearcoat", "left out: a morph target without positions"})
+    EXPECT_NE(all.find(text), std::string::npos) << text;
+}
+
+// Materials have the words of the model that their file gives them.
+TEST(Texts, MaterialsHaveTheWordsOfTheirFile) {
+  const auto words = [](Material material) {
+    Model model = full_model();
+    auto mesh = std::make_shared<Mesh>(*model.scene.mesh);
+    mesh->materials[0] = std::move(material);
+    model.scene.mesh = std::move(mesh);
+    model.material = 0;
+    return shown(model);
+  };
+  const std::vector<std::string> of_gltf{"base colour",  "metallic",   "roughness",    "emitted",
+                                         "transmission", "clear coat", "its roughness"},
+      of_phong{"specular", "shininess"};
+  GltfSurface surface;
+  surface.clearcoat = 0.5f;
+  const std::set<std::string> gltf = words(material_from_surface(surface, Shading::from_file)),
+                              phong = words(material_from_surface(surface, Shading::phong));
+  for (const std::string& word : of_gltf) {
+    EXPECT_TRUE(gltf.contains(word)) << word;
+    EXPECT_FALSE(phong.contains(word)) << word;
+  }
+  for (const std::string& word : of_phong) {
+    EXPECT_FALSE(gltf.contains(word)) << word;
+    EXPECT_TRUE(phong.contains(word)) << word;
+  }
+}
+
+// No frame takes less time than can be measured.
+TEST(Texts, NoFrameTakesNoTime) {
+  Model model = full_model();
+  model.loading = {};
+  model.idle = true;
+  model.history.clear();
+  FrameRecord record;
+  record.frame = {0.0, 1e-6};
+  for (int i = 0; i < 3; ++i) model.history.add(record);
+  const std::set<std::string> texts = shown(model);
+  EXPECT_TRUE(texts.contains("done"));
+  EXPECT_EQ(logged(model).find("0.0 ms a frame"), std::string::npos);
 }
 
 TEST(Texts, TheWordsAreTheFields) {

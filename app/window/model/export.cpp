@@ -66,6 +66,10 @@ std::string render_command(const ExportedView& view, const std::string& name) {
   if (view.shading != Shading::from_file)
     text += " --shading " + std::string(name_of(kShadingNames, view.shading));
   if (view.up_axis != UpAxis::y) text += " --up-axis " + std::string(name_of(kUpAxisNames, view.up_axis));
+  if (!view.animation.empty()) text += " --animation " + quoted(view.animation);
+  if (!view.variant.empty()) text += " --variant " + quoted(view.variant);
+  if (view.point_size > 0.0f) text += " --point-size " + shortest(view.point_size);
+  if (view.line_width > 0.0f) text += " --line-width " + shortest(view.line_width);
   if (view.time_s) text += " --time " + nlohmann::json(*view.time_s).dump();
   if (view.samples > 1) text += " --spp " + std::to_string(view.samples);
   if (view.exposure_ev != 0.0f) text += " --exposure " + shortest(view.exposure_ev);

@@ -26,7 +26,9 @@ struct ExportedView {
   std::uint64_t load_limit = kUsualLoadLimit;  // bytes
   bool confine = false;
   Shading shading = Shading::from_file;
-  UpAxis up_axis = UpAxis::y;  // of the scene's file
+  UpAxis up_axis = UpAxis::y;                  // of the scene's file
+  std::string animation{}, variant{};          // of the scene's file. Empty: all; its usual one
+  float point_size = 0.0f, line_width = 0.0f;  // scene units. 0: left out
 };
 
 // The command line that draws the view to name.exr and name.png. Numbers are exact.

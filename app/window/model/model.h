@@ -63,9 +63,11 @@ struct SavePlace {
 
 // What a person is about to do although the scene has edits that are not saved.
 struct Leaving {
-  std::string file;                 // to open. Empty: the window is closed
-  bool reload = false;              // `file` is the shown scene's, which has changed
-  std::optional<UpAxis> up_axis{};  // `file` is the shown scene's, to be turned. Nothing: it is not
+  std::string file;     // to open. Empty: the window is closed
+  bool reload = false;  // `file` is the shown scene's, which has changed
+  // `file` is the shown scene's, to be read again: turned, or with this variant of its materials.
+  std::optional<UpAxis> up_axis{};
+  std::optional<std::string> variant{};
 };
 
 struct MaterialEdit {
@@ -121,16 +123,18 @@ struct Model {
 
   SceneLoader::Progress loading;
   Messages messages;
-  std::string legend;                    // what the channel's colours mean. Empty: the picture is shown
-  ChannelRange shown_range;              // of the channel that is shown
-  std::string comparison;                // with the reference, in words. Empty: there is none
-  bool is_comparing = false;             // the reference or the error is not complete
-  std::vector<Action> requested;         // by keys and buttons
-  std::string file_to_open;              // requested. Empty: none
-  int camera_to_show = -1;               // requested, one of the scene's. -1: none
-  UpAxis up_axis = UpAxis::y;            // of the scene's file
-  std::optional<UpAxis> up_axis_to_use;  // requested. Nothing: the same
-  std::vector<std::string> recent;       // scene files, newest first
+  std::string legend;                         // what the channel's colours mean. Empty: the picture is shown
+  ChannelRange shown_range;                   // of the channel that is shown
+  std::string comparison;                     // with the reference, in words. Empty: there is none
+  bool is_comparing = false;                  // the reference or the error is not complete
+  std::vector<Action> requested;              // by keys and buttons
+  std::string file_to_open;                   // requested. Empty: none
+  int camera_to_show = -1;                    // requested, one of the scene's. -1: none
+  UpAxis up_axis = UpAxis::y;                 // of the scene's file
+  std::optional<UpAxis> up_axis_to_use;       // requested. Nothing: the same
+  std::string variant;                        // of the file's materials. Empty: the file's usual ones
+  std::optional<std::string> variant_to_use;  // requested. Nothing: the same
+  std::vector<std::string> recent;            // scene files, newest first
 
   glm::ivec2 window_pixels{0, 0}, picture_size{0, 0};
   PictureZoom zoom;

@@ -30,6 +30,13 @@ void draw_background(Model& model) {
   if (has_color && before.kind != background.kind) background.color = kFirstColor;
   if (has_color) edit_color("background colour", background.color, "colour behind the scene");
   if (!(background == before)) settings.background = background;
+  if (backdrop_of(model.scene, background).picture) {
+    const float blur = wanted_settings(model.settings).background_blur;
+    float chosen = blur;
+    if (slider("blur", chosen, 0.0f, 1.0f, format("%.2f", blur),
+               std::string(find_field("background_blur")->help)))
+      settings.background_blur = chosen;
+  }
 
   bool catches = model.drawn.shadow_catcher.value.kind != ShadowCatcher::Kind::off;
   if (checkbox("shadows on the ground", catches,

@@ -80,11 +80,33 @@ void edit(Model& model, const Mesh& mesh) {
   if (changed) model.material_edit = std::move(edited);
 }
 
+// The file is read again.
+void choose_variant(Model& model) {
+  const std::vector<std::string>& variants = model.scene.variants;
+  if (variants.empty()) return;
+  const auto shown = [](const std::string& name) {
+    return name.empty() ? std::string("the file's usual one") : name;
+  };
+  const std::string help = "which of the file's variants of its materials is shown";
+  label("variant", help);
+  if (ImGui::BeginCombo("##variant", shown(model.variant).c_str())) {
+    const auto line = [&](const std::string& name) {
+      if (list_item(shown(name).c_str(), name == model.variant) && name != model.variant)
+        model.variant_to_use = name;
+    };
+    line({});
+    for (const std::string& name : variants) line(name);
+    ImGui::EndCombo();
+  }
+  tooltip(help);
+}
+
 }  // namespace
 
 void draw_materials(Model& model, float scale) {
   if (!model.has_scene()) return paragraph("no scene");
   const Mesh& mesh = *model.scene.mesh;
+  choose_variant(model);
   model.material = std::clamp(model.material, 0, int(mesh.materials.size()) - 1);
   ImGui::BeginChild("list", ImVec2(0.0f, 6.0f * ImGui::GetTextLineHeightWithSpacing()), true);
   for (int i = 0; i < std::ssize(mesh.materials); ++i) {

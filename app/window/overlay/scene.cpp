@@ -30,6 +30,8 @@ void draw_facts(Model& model) {
   count("triangles", mesh.triangles.size(), "also hidden ones");
   count("vertices", mesh.positions.size(), "corners that triangles share count once");
   count("materials", mesh.materials.size(), "F7 shows them");
+  if (!scene.variants.empty())
+    count("variants", scene.variants.size(), "of the materials; F7 chooses among them");
   count("textures", mesh.textures.size(), "pictures on surfaces");
   count("lights", scene.lights.size(), "F5 shows them");
   count("cameras", scene.cameras.size(), "F6 shows them");

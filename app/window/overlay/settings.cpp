@@ -97,11 +97,11 @@ struct Group {
 };
 const std::vector<Group>& groups() {
   static const std::vector<Group> kGroups{
-      {"Samples", {"spp", "max_noise", "pixel_filter", "sequence", "seed"}},
+      {"Samples", {"spp", "max_noise", "pixel_filter", "sequence", "seed", "denoise", "average_layers"}},
       {"Light",
-       {"depth", "indirect", "environment_rotation", "environment_strength", "throughput_cutoff",
-        "light_cutoff", "glass_shadows", "background", "shadow_catcher", "terminator", "backfaces",
-        "filter_textures"}},
+       {"depth", "indirect", "environment_rotation", "environment_strength", "environment_light", "glossy",
+        "sky_occlusion", "throughput_cutoff", "light_cutoff", "glass_shadows", "background",
+        "background_blur", "shadow_catcher", "coverage", "terminator", "backfaces", "filter_textures"}},
       {"Between CPU and GPU",
        {"visibility", "composite", "by_machine", "exchange", "mask_bits", "mask_scale", "reflection",
         "reflection_scale", "tiles", "id_bits", "normals", "wide", "reuse", "persistent"}},

@@ -38,6 +38,12 @@ void SceneSource::turn_up(UpAxis axis) {
   load(draw);
 }
 
+void SceneSource::choose_variant(const std::string& name) {
+  DrawOptions draw = options_;
+  draw.variant = name;
+  load(draw);
+}
+
 void SceneSource::open_unlimited() {
   constexpr std::uint64_t kNoLimit = std::uint64_t{1} << 50;
   model_.is_over_limit = false;

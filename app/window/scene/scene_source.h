@@ -24,6 +24,8 @@ class SceneSource {
   void reload() { load(options_); }
   // The same with another axis of the file pointing up.
   void turn_up(UpAxis axis);
+  // The same with one of the file's variants of its materials. Empty: its usual ones.
+  void choose_variant(const std::string& name);
   // Begins to load the file that was refused for its memory, without a limit.
   void open_unlimited();
   void cancel();

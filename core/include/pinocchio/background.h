@@ -42,6 +42,8 @@ struct Backdrop {
   std::shared_ptr<const Environment> picture;
   float rotation_deg = 0.0f, strength = 1.0f;
 };
-[[nodiscard]] Backdrop backdrop_of(const Scene& scene, const Background& background);
+// blur: how far its light is spread, from 0 to 1, which is a standard deviation of kWidestBlur_deg.
+[[nodiscard]] Backdrop backdrop_of(const Scene& scene, const Background& background, float blur = 0.0f);
+inline constexpr float kWidestBlur_deg = 30.0f;
 
 }  // namespace pinocchio

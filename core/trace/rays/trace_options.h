@@ -35,7 +35,8 @@ struct TraceOptions {
   int sky_occlusion = 0;  // shadow rays about the normal for a prefiltered environment; 0: it casts none
   bool denoise = false;   // light that is found at random is kept apart for the filter (core/denoise)
   GlassShadows glass_shadows = kUsualGlassShadows;
-  Background background{};                // behind the scene
+  Background background{};                // behind the scene ...
+  float background_blur = 0.0f;           // ... and how far a picture there is blurred (backdrop_of)
   std::optional<float> catcher_height{};  // world y of the shadow catcher (pinocchio/shadow_catcher.h)
   glm::vec2 jitter{0.0f};       // View's: tells the samples of a pixel apart where they decide at random
   shared::Sampling sampling{};  // the sample of sized lights, rough mirrors and the environment

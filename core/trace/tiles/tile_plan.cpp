@@ -122,8 +122,9 @@ TilePlan::TilePlan(const TraceJob& j, const TileOutputs& o)
       most_sized(most_of(further_lights,
                          [](const BounceLight& light) { return light.slot >= 0 && light.has_size; })) {
   assert(o.mask_bits == 0 || o.mask_bits >= static_cast<int>(casting_lights(j.scene).size()));
-  const Backdrop behind = backdrop_of(j.scene, j.options.background);
-  if (behind.picture) backdrop.emplace(*behind.picture, behind.rotation_deg, behind.strength);
+  const Backdrop behind = backdrop_of(j.scene, j.options.background, j.options.background_blur);
+  behind_scene = behind.picture;
+  if (behind_scene) backdrop.emplace(*behind_scene, behind.rotation_deg, behind.strength);
   if (j.options.catcher_height && (o.color || o.caught_in_reflection))
     catcher.emplace(j.scene.mesh->bounds(), *j.options.catcher_height);
   straight_apart = blends && (passed_backs.any() || o.coverage || catcher ||

@@ -51,6 +51,7 @@ struct TilePlan {
   bool lights_in_reflection = false;     // some group has
   std::optional<EnvironmentLight> environment, backdrop;  // backdrop: the background, where it is a picture
   std::optional<CatcherPlane> catcher;                    // none: no shadows are caught
+  std::shared_ptr<const Environment> behind_scene;        // kept for `backdrop`
   std::shared_ptr<const Environment> sky_on_ground;       // kept for `ground_sky`
   std::optional<EnvironmentLight> ground_sky;             // the environment, sampled for the catcher's plane
   Bounce visible, further;  // the step of the camera's rays, and of the rays that they spawn

@@ -106,6 +106,7 @@ struct Settings {
   Setting<GlassShadows> glass_shadows = Setting<GlassShadows>::by_default(kUsualGlassShadows);
   Setting<bool> denoise, average_layers;
   Setting<Background> background;
+  Setting<float> background_blur;
   Setting<ShadowCatcher> shadow_catcher;
   Setting<Terminator> terminator = Setting<Terminator>::by_default(kUsualTerminator);
   Setting<Backfaces> backfaces = Setting<Backfaces>::by_default(Backfaces::automatic);
