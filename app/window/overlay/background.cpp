@@ -1,6 +1,6 @@
 // Part of the panel Lights: what is behind the scene, and the shadows on the ground.
+#include <array>
 #include <string>
-#include <vector>
 
 #include "app/window/overlay/parts.h"
 
@@ -9,11 +9,27 @@ namespace {
 
 constexpr glm::vec3 kFirstColor{0.8f};
 
-std::vector<Choice> kinds_of_background() {
-  return {{"environment", "the scene's; black where it has none"},
-          {"studio", "a neutral sky, whatever lights the scene"},
-          {"transparent", "nothing: PNG files have an alpha channel"},
-          {"colour", "a colour of your choice"}};
+struct Kind {
+  const char *name, *help;
+};
+constexpr std::array<Kind, 4> kKinds{
+    {{"environment", "the scene's; black where it has none"},  // in Background::Kind's order
+     {"studio", "a neutral sky, whatever lights the scene"},
+     {"transparent", "nothing: PNG files have an alpha channel"},
+     {"colour", "a colour of your choice"}}};
+
+void choose_kind(Background& background) {
+  const std::string help(find_field("background")->help);
+  const auto now = static_cast<std::size_t>(background.kind);
+  label("background", help);
+  if (ImGui::BeginCombo("##background", kKinds[now].name)) {
+    for (std::size_t i = 0; i < kKinds.size(); ++i) {
+      if (list_item(kKinds[i].name, i == now)) background.kind = static_cast<Background::Kind>(i);
+      tooltip(kKinds[i].help);
+    }
+    ImGui::EndCombo();
+  }
+  tooltip(help);
 }
 
 }  // namespace
@@ -24,8 +40,7 @@ void draw_background(Model& model) {
   Background background =
       settings.background.given ? settings.background.value : model.drawn.background.value;
   const Background before = background;
-  choose_value("background", std::string(find_field("background")->help), kinds_of_background(),
-               background.kind);
+  choose_kind(background);
   const bool has_color = background.kind == Background::Kind::color;
   if (has_color && before.kind != background.kind) background.color = kFirstColor;
   if (has_color) edit_color("background colour", background.color, "colour behind the scene");

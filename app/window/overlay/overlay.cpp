@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -53,7 +54,7 @@ ImVec2 inside(const Area& area, ImVec2 at, ImVec2 size) {
 }
 
 // What the rectangle covers of the other open panels, pixels.
-float covered(const Model& model, Panel panel, ImVec2 at, ImVec2 size) {
+float covered(const Model& model, std::optional<Panel> panel, ImVec2 at, ImVec2 size) {
   float sum = 0.0f;
   for (std::size_t i = 0; i < kPanels.size(); ++i) {
     const auto other = static_cast<Panel>(i);
@@ -69,7 +70,8 @@ float covered(const Model& model, Panel panel, ImVec2 at, ImVec2 size) {
 }
 
 // The place that covers least of the other panels: its usual one, corners, or beside and below others.
-ImVec2 free_place(const Model& model, Panel panel, const Area& area, ImVec2 usual, ImVec2 size, float gap) {
+ImVec2 free_place(const Model& model, std::optional<Panel> panel, const Area& area, ImVec2 usual, ImVec2 size,
+                  float gap) {
   std::vector<ImVec2> places{usual};
   const float right = area.lo.x + area.size.x - size.x, bottom = area.lo.y + area.size.y - size.y;
   for (const float x : {area.lo.x, right})
@@ -185,12 +187,15 @@ void draw_color_scale(float scale) {
 
 }  // namespace
 
-// It lets the mouse through to the picture.
+// It lets the mouse through to the picture, and does not cover panels where there is room beside them.
 void draw_caption(Model& model, float scale) {
   if (model.legend.empty() && model.comparison.empty()) return;
   const ImVec2 display = ImGui::GetIO().DisplaySize;
   const float margin = kMargin * scale;
-  ImGui::SetNextWindowPos(ImVec2(0.5f * display.x, margin), ImGuiCond_Always, ImVec2(0.5f, 0.0f));
+  const ImGuiWindow* const known = ImGui::FindWindowByName("caption");
+  const ImVec2 size = known ? known->Size : ImVec2(0.0f, 0.0f);  // of the last frame
+  const ImVec2 middle(0.5f * (display.x - size.x), margin);
+  ImGui::SetNextWindowPos(free_place(model, std::nullopt, panel_area(model, scale), middle, size, margin));
   ImGui::SetNextWindowSizeConstraints(ImVec2(0.0f, 0.0f), ImVec2(display.x - 2.0f * margin, display.y));
   ImGui::Begin("caption", nullptr,
                kBare | ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoInputs |
