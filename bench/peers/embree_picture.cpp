@@ -4,6 +4,7 @@
 
 #include "bench/peers/embree_rays.h"
 #include "bench/peers/embree_scatter.h"
+#include "core/shade/map_lookup.h"
 #include "core/trace/view/view_params.h"
 
 namespace pinocchio {
@@ -12,6 +13,21 @@ namespace {
 constexpr int kPictureTile = 8;                 // pixels a side
 constexpr float kLeast = 1.0f / 8192.0f;        // rays with less throughput are not followed, as by default
 constexpr float kAtTheLight = 1.0f - 0x1p-20f;  // shadow rays end in front of the light
+
+// Whether a ray passes the triangle there as if nothing were there.
+bool is_hole(const Mesh& mesh, std::uint32_t triangle, const glm::vec3& weights) {
+  const MaterialMaps* const maps = mesh.maps_of(triangle);
+  if (!maps || !maps->has_holes()) return false;
+  return shared::is_hole(static_cast<int>(maps->alpha_mode), Lookup(mesh, triangle, weights).alpha(*maps),
+                         maps->alpha_cutoff);
+}
+
+// Likewise a shadow ray, for the only sample of a pixel.
+bool lets_shadow_ray_pass(const Mesh& mesh, std::uint32_t triangle, const glm::vec3& weights) {
+  const MaterialMaps* const maps = mesh.maps_of(triangle);
+  if (!maps || !maps->blends()) return is_hole(mesh, triangle, weights);
+  return Lookup(mesh, triangle, weights).alpha(*maps) < 0.5f;
+}
 
 }  // namespace
 
@@ -58,7 +74,7 @@ bool EmbreePicture::occluded(const Ray& ray) const {
     rtcIntersect1(embree_, &context, &hit);
     if (hit.hit.geomID == RTC_INVALID_GEOMETRY_ID) return false;
     const glm::vec3 weights(1.0f - hit.hit.u - hit.hit.v, hit.hit.u, hit.hit.v);
-    if (!lets_shadow_ray_pass(*scene_.mesh, hit.hit.primID, weights, 0.5f)) return true;
+    if (!lets_shadow_ray_pass(*scene_.mesh, hit.hit.primID, weights)) return true;
     const float behind = hit.ray.tfar * (1.0f + 0x1p-20f);
     hit = embree_ray(ray.origin, ray.direction, ray.t_max);
     hit.ray.tnear = behind;

@@ -1,6 +1,6 @@
 #include "core/shade/mapped_material.h"
 
-#include "core/shade/map_lookup.h"
+#include "core/shade/shared_maps.h"
 
 namespace pinocchio {
 namespace {
@@ -30,21 +30,6 @@ shared::MaterialPoint plain_material(const Material& m) {
           .transmittance = m.transmittance,
           .ior = m.ior,
           .fresnel = m.fresnel};
-}
-
-bool is_hole(const Mesh& mesh, std::uint32_t triangle, const glm::vec3& weights) {
-  const MaterialMaps* const maps = mesh.maps_of(triangle);
-  if (!maps || !maps->has_holes()) return false;
-  return shared::is_hole(static_cast<int>(maps->alpha_mode), Lookup(mesh, triangle, weights).alpha(*maps),
-                         maps->alpha_cutoff);
-}
-
-bool lets_shadow_ray_pass(const Mesh& mesh, std::uint32_t triangle, const glm::vec3& weights,
-                          float threshold) {
-  const MaterialMaps* const maps = mesh.maps_of(triangle);
-  if (!maps) return false;
-  if (!maps->blends()) return is_hole(mesh, triangle, weights);
-  return Lookup(mesh, triangle, weights).alpha(*maps) < threshold;
 }
 
 }  // namespace pinocchio

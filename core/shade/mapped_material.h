@@ -53,12 +53,6 @@ inline constexpr std::array<MapTexel, 12> kMapTexels{
      {&MaterialMaps::sheen_color, &MapTexels::sheen_color, true},
      {&MaterialMaps::sheen_roughness, &MapTexels::sheen_roughness, false}}};
 
-// Whether a ray passes the triangle there as if nothing were there: by alpha alone, at the point itself.
-[[nodiscard]] bool is_hole(const Mesh& mesh, std::uint32_t triangle, const glm::vec3& weights);
-// Likewise for a shadow ray. A surface that blends lets it pass where alpha is below `threshold`.
-[[nodiscard]] bool lets_shadow_ray_pass(const Mesh& mesh, std::uint32_t triangle, const glm::vec3& weights,
-                                        float threshold);
-
 // A surface as the shared sources have it.
 [[nodiscard]] inline shared::MetallicRoughness metallic_roughness(const GltfSurface& s) {
   return {.base_color = s.base_color,

@@ -130,8 +130,8 @@ Tracer::Tracer(const Scene& scene, const BuildOptions& options, std::optional<Is
 
 void Tracer::closest_hits(std::span<const Ray> rays, std::span<Hit> hits, Backfaces backfaces) const {
   assert(rays.size() == hits.size());
-  const PassedBacksOf passed(*mesh_, backfaces);
-  const PassedBacks backs = passed.columns();
+  const MaterialMarksOf passed(*mesh_, [&](const Material& m) { return passes_backs(m, backfaces); });
+  const MaterialMarks backs = passed.columns();
   Block block;
   alignas(kCacheLine) std::uint32_t triangle[kBlock];
   alignas(kCacheLine) float t[kBlock];
@@ -155,7 +155,7 @@ void Tracer::occluded(std::span<const Ray> rays, std::span<std::uint8_t> blocked
 }
 
 void Tracer::closest_hits(const RayColumns& rays, std::size_t n, std::uint32_t* triangle, float* t,
-                          const PassedBacks* backs) const {
+                          const MaterialMarks* backs) const {
   const Kernel& kernel = kernel_of(isa_, trees_->still->test);
   const auto trace = [&](const RayColumns& from, std::uint32_t* ids, float* distances) {
     if (backs) return kernel.closest_fronts(*trees_, from, n, *backs, ids, distances);
@@ -168,8 +168,11 @@ void Tracer::closest_hits(const RayColumns& rays, std::size_t n, std::uint32_t* 
   sorter.put_back(triangle, t);
 }
 
-void Tracer::occluded(const RayColumns& rays, std::size_t n, std::uint8_t* blocked) const {
-  kernel_of(isa_, trees_->still->test).occluded(*trees_, rays, n, blocked);
+void Tracer::occluded(const RayColumns& rays, std::size_t n, std::uint8_t* blocked,
+                      const PassedSurfaces* passed) const {
+  const Kernel& kernel = kernel_of(isa_, trees_->still->test);
+  if (passed) return kernel.occluded_unless_passed(*trees_, rays, n, *passed, blocked);
+  kernel.occluded(*trees_, rays, n, blocked);
 }
 
 const LaneSteps& Tracer::steps() const {

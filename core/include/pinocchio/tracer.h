@@ -19,7 +19,8 @@ namespace pinocchio {
 
 struct LaneSteps;
 struct MotionState;
-struct PassedBacks;
+struct MaterialMarks;
+struct PassedSurfaces;
 struct RayColumns;
 struct SceneTrees;
 
@@ -62,11 +63,12 @@ class Tracer {
   // blocked[i] is 1 if ray i meets any triangle, else 0. blocked.size() == rays.size().
   void occluded(std::span<const Ray> rays, std::span<std::uint8_t> blocked) const;
 
-  // The same for `n` rays in columns (walk/kernels.h), for the tile pass. `backs`: those that the rays pass;
-  // null: none.
+  // The same for `n` rays in columns (walk/kernels.h), for the tile pass. `backs`: the materials whose backs
+  // the rays pass; `passed`: what may not block them; null: none.
   void closest_hits(const RayColumns& rays, std::size_t n, std::uint32_t* triangle, float* t = nullptr,
-                    const PassedBacks* backs = nullptr) const;
-  void occluded(const RayColumns& rays, std::size_t n, std::uint8_t* blocked) const;
+                    const MaterialMarks* backs = nullptr) const;
+  void occluded(const RayColumns& rays, std::size_t n, std::uint8_t* blocked,
+                const PassedSurfaces* passed = nullptr) const;
   // The steps of the tile pass at this tracer's width.
   [[nodiscard]] const LaneSteps& steps() const;
 

@@ -1,45 +1,84 @@
+// Part of walk/kernel.h's files: points where alpha lets rays pass as if nothing were there.
 #pragma once
 
-#include <cstdint>
-#include <glm/glm.hpp>
-#include <vector>
+#include "core/trace/lanes/maps.h"
+#include "core/trace/lanes/scatter.h"
+#include "core/trace/lanes/surface.h"
+#include "core/trace/walk/passed.h"
 
-#include "core/trace/rays/ray_queue.h"
-#include "pinocchio/tracer.h"
+namespace pinocchio::PINOCCHIO_LANES {
+namespace {
 
-namespace pinocchio {
+unsigned lanes_in_holes(const PassedSurfaces& passed, const RayColumns& rays, std::size_t first,
+                        unsigned asked, std::uint32_t triangle) {
+  const SceneArrays& scene = *passed.scene;
+  const Mask lanes = Mask::from_bits(asked);
+  const glm::uvec3& corners = scene.triangles[triangle];
+  const Vec a(scene.positions[corners.x]);
+  const Vec weights =
+      barycentric_of(Vec::load(rays.origin, first), Vec::load(rays.direction, first), a,
+                     Vec(scene.positions[corners.y]) - a, Vec(scene.positions[corners.z]) - a);
+  const LaneMaps& maps = scene.maps[scene.materials[scene.triangle_materials[triangle]].maps];
+  const Float alpha = alpha_at(scene, maps, Int(triangle), weights, lanes);
+  if (!maps.maps->blends()) return (lanes & (alpha < Float(maps.maps->alpha_cutoff))).bits();
+  alignas(64) float thresholds[kWidth] = {};
+  for (unsigned waiting = asked; waiting != 0; waiting &= waiting - 1) {
+    const int lane = __builtin_ctz(waiting);
+    thresholds[lane] = threshold_of(passed.place, passed.pixel[first + lane], triangle);
+  }
+  return (lanes & (alpha < Float::load(thresholds))).bits();
+}
 
-// The sample that decides whether a surface that blends lets a shadow ray pass.
-struct SamplePlace {
-  glm::ivec2 corner;  // of the tile, in the picture
-  glm::vec2 jitter;   // zero: the only sample, or the first
-};
+// thresholds: of shadow rays, which pass a surface that blends where its alpha is below; null: other rays.
+void find_holes(const Bounce& bounce, const RayQueue& rays, const float* thresholds, std::uint32_t* holes) {
+  const SceneArrays& scene = bounce.scene;
+  const auto maps_of = [&](std::uint32_t material) -> const LaneMaps* {
+    const int index = scene.materials[material].maps;
+    return index < 0 ? nullptr : scene.maps + index;
+  };
+  for (std::size_t i = 0; i < rays.size; i += kWidth) {
+    Int(0u).store(holes + i);
+    if (!scene.maps) continue;
+    const Int triangle = Int::load(rays.triangle + i);
+    Int material(0u);
+    unsigned porous = 0;
+    for_each_distinct(triangle, lanes_from(i, rays.size) & ~(triangle == Int(kNoTriangle)),
+                      [&](std::uint32_t id, Mask same) {
+                        const std::uint32_t of_triangle = scene.triangle_materials[id];
+                        const LaneMaps* const maps = maps_of(of_triangle);
+                        if (!maps || !(maps->maps->has_holes() || (thresholds && maps->maps->blends())))
+                          return;
+                        material = select(same, Int(of_triangle), material);
+                        porous |= same.bits();
+                      });
+    if (porous == 0) continue;
+    const Mask lanes = Mask::from_bits(porous);
+    const Corners corners(scene, triangle, lanes);
+    const Vec& a = corners.position[0];
+    const Vec weights = barycentric_of(Vec::load(rays.origin, i), Vec::load(rays.direction, i), a,
+                                       corners.position[1] - a, corners.position[2] - a);
+    unsigned found = 0;
+    for_each_distinct(material, lanes, [&](std::uint32_t index, Mask same) {
+      const LaneMaps& maps = *maps_of(index);
+      const Float alpha = alpha_at(scene, maps, triangle, weights, same);
+      const Mask is_hole = !maps.maps->blends() ? alpha < Float(maps.maps->alpha_cutoff)
+                           : thresholds         ? alpha < Float::load(thresholds + i)
+                                                : alpha <= Float(0.0f);
+      found |= (same & is_hole).bits();
+    });
+    select(Mask::from_bits(found), Int(1u), Int(0u)).store(holes + i);
+  }
+}
 
-// No picture needs more surfaces along a ray. The limit ends a walk that rounding keeps going.
-inline constexpr int kMostLayers = 4096;
+void go_behind(const Bounce& bounce, bool ends, RayQueue& rays) {
+  for (std::size_t i = 0; i < rays.size; i += kWidth) {
+    const Corners corners(bounce.scene, Int::load(rays.triangle + i), lanes_from(i, rays.size));
+    const Vec origin = Vec::load(rays.origin, i), direction = Vec::load(rays.direction, i);
+    const Vec behind = offset_origin(surface_of(corners, origin, direction, bounce.offset), direction);
+    put(behind, rays.origin, i);
+    if (ends) put(origin + direction - behind, rays.direction, i);
+  }
+}
 
-// Whether a shadow ray of that pixel of the tile, which meets the triangle, passes it as if nothing were
-// there. Where a surface blends it does at alpha below one half, or, in further samples of a pixel, below a
-// random number.
-[[nodiscard]] bool passes_hole(const Mesh& mesh, std::uint32_t triangle, const glm::vec3& weights,
-                               const SamplePlace& place, std::uint32_t pixel);
-
-// Rays through surfaces that let some of them pass (material_maps.h): a ray that meets a hole goes on behind
-// it. The tree does not know about holes, so that scenes without them pay nothing.
-class Holes {
- public:
-  // rays.triangle holds the first triangle of each ray; afterwards, the first one that is no hole there.
-  // `backs`: those that the rays pass, too; null: none.
-  void pass(const Tracer& tracer, RayQueue& rays, const PassedBacks* backs = nullptr);
-
-  // blocked[i] = 1 where something that is no hole (passes_hole) lies within shadow ray i, else 0.
-  void shadows(const Tracer& tracer, const RayQueue& rays, float reach, const SamplePlace& place,
-               std::uint8_t* blocked);
-
- private:
-  void go_on(const Tracer& tracer, const RayQueue& rays, std::size_t i, std::uint32_t triangle);
-
-  RayQueue on_, next_;  // `pixel` is the ray's place in the queue that it is from
-};
-
-}  // namespace pinocchio
+}  // namespace
+}  // namespace pinocchio::PINOCCHIO_LANES

@@ -7,21 +7,17 @@
 #include <glm/glm.hpp>
 #include <tuple>
 
-#include "core/parallel/tiles.h"
 #include "core/shade/footprint.h"
 #include "core/shade/lane_maps.h"
 #include "core/shade/shared.h"
 #include "core/trace/rays/ray_queue.h"
 #include "core/trace/rays/trace_options.h"
+#include "core/trace/walk/passed.h"
 #include "pinocchio/frame_arrays.h"
 #include "pinocchio/ray_offset.h"
 #include "pinocchio/scene.h"
 
 namespace pinocchio {
-
-// A pixel's number within its tile: row by row.
-inline constexpr int kTileBits = 5;
-static_assert(1 << kTileBits == TileGrid::kTileSize);
 
 // Rays whose light is found at random have their pixel's number plus this, where that light is kept apart.
 inline constexpr std::uint32_t kSampledPixels = 1u << (2 * kTileBits);
@@ -122,6 +118,14 @@ struct LaneSteps {
   void (*camera_rays)(const shared::ViewParams& view, glm::ivec2 corner, RayQueue& rays);
   // Drops the rays whose triangle is kNoTriangle; the others stay in order.
   void (*keep_hits)(RayQueue& rays);
+  // Writes 1 for rays that met a point where alpha lets them pass as if nothing were there, else 0.
+  // thresholds: of shadow rays, which pass a surface that blends where its alpha is below; null: other rays.
+  void (*find_holes)(const Bounce& bounce, const RayQueue& rays, const float* thresholds,
+                     std::uint32_t* holes);
+  PassedSurfaces::InHoles lanes_in_holes;
+  // Moves the rays, which have all hit, behind their triangles. ends: what they go to stays at t = 1. This
+  // and find_holes read the bounce's scene and offset.
+  void (*go_behind)(const Bounce& bounce, bool ends, RayQueue& rays);
   // Takes shadow rays straight on through the surfaces that they met: multiplies their light by what is left
   // of it (0 behind what does not transmit), and moves them behind the surface. holes: not 0 where a ray
   // passes the surface as if nothing were there. ends: their light is at t = 1. Reads the bounce's scene and

@@ -5,6 +5,7 @@
 
 #include "core/trace/lanes/environment.h"
 #include "core/trace/lanes/glass.h"
+#include "core/trace/lanes/holes.h"
 #include "core/trace/lanes/lobe.h"
 #include "core/trace/lanes/maps.h"
 #include "core/trace/lanes/sampled.h"
@@ -298,7 +299,7 @@ void visible_points(const Bounce& bounce, const glm::vec3& axis, const RayQueue&
 
 }  // namespace
 
-const LaneSteps kSteps{camera_rays,    keep_hits,       cross_glass,     bounce_rays,
-                       visible_points, add_environment, paint_background};
+const LaneSteps kSteps{camera_rays, keep_hits,   find_holes,     lanes_in_holes,  go_behind,
+                       cross_glass, bounce_rays, visible_points, add_environment, paint_background};
 
 }  // namespace pinocchio::PINOCCHIO_LANES

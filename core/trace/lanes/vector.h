@@ -12,7 +12,7 @@ struct Vec {
   explicit Vec(Float all) : x(all), y(all), z(all) {}
   Vec(const glm::vec3& v) : x(v.x), y(v.y), z(v.z) {}  // NOLINT: all lanes
 
-  static Vec load(float* const (&columns)[3], std::size_t i) {
+  static Vec load(const float* const (&columns)[3], std::size_t i) {
     return {Float::load(columns[0] + i), Float::load(columns[1] + i), Float::load(columns[2] + i)};
   }
 };

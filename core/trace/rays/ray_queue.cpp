@@ -53,4 +53,11 @@ void RayQueue::make_more_room(std::size_t rays, const ExtraColumns& extra) {
   *this = std::move(larger);
 }
 
+void copy_ray(const RayQueue& from, std::size_t i, RayQueue& to, std::size_t k) {
+  for (auto columns : {&RayQueue::origin, &RayQueue::direction, &RayQueue::light})
+    for (int axis = 0; axis < 3; ++axis) (to.*columns)[axis][k] = (from.*columns)[axis][i];
+  if (to.medium) to.medium[k] = from.medium[i];
+  to.triangle[k] = from.triangle[i];
+}
+
 }  // namespace pinocchio

@@ -60,4 +60,7 @@ struct RayQueue {
   std::size_t room_ = 0;
 };
 
+// Copies all but the pixel and columns that not every queue has; of these the medium, where `to` has it.
+void copy_ray(const RayQueue& from, std::size_t i, RayQueue& to, std::size_t k);
+
 }  // namespace pinocchio

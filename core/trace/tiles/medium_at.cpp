@@ -5,8 +5,8 @@
 #include <vector>
 
 #include "core/shade/surface.h"
-#include "core/trace/lanes/holes.h"
 #include "core/trace/rays/ray_queue.h"
+#include "core/trace/tiles/holes.h"
 
 namespace pinocchio {
 namespace {

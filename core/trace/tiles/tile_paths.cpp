@@ -1,6 +1,7 @@
 // The rays of a tile beyond the visible points: mirrored and refracted rays, the environment, light from
 // other surfaces.
 #include "core/trace/tiles/tile_tracer.h"
+#include "core/trace/walk/passed.h"
 
 namespace pinocchio {
 
@@ -93,12 +94,15 @@ void TileTracer::ask_occluded(const RayQueue& queue, float reach) {
   const TilePlan& plan = *plan_;
   counts_.shadow += queue.size;
   const SamplePlace place{tile_.lo + glm::ivec2(plan.view.first), plan.job.options.jitter};
-  if (plan.tints) {
-    tinted_.trace(plan.job.tracer, plan.shadows, queue, reach, place, blocked_.data());
-  } else if (plan.has_holes || plan.blends) {
-    holes_.shadows(plan.job.tracer, queue, reach, place, blocked_.data());
-  } else {
+  const MaterialMarks passed = plan.passed_by_shadows.columns();
+  if (!plan.passed_by_shadows.any()) {
     plan.job.tracer.occluded(queue.columns(reach), queue.size, blocked_.data());
+  } else if (plan.tints) {
+    tinted_.trace(plan.job.tracer, plan.shadows, passed, queue, reach, place, blocked_.data());
+  } else {
+    const PassedSurfaces surfaces{passed, plan.job.tracer.steps().lanes_in_holes, &plan.shadows.scene,
+                                  queue.pixel, place};
+    plan.job.tracer.occluded(queue.columns(reach), queue.size, blocked_.data(), &surfaces);
   }
 }
 

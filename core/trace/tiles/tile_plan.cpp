@@ -5,6 +5,7 @@
 
 #include "core/shade/ground_sky.h"
 #include "core/shade/surface.h"
+#include "core/trace/tiles/holes.h"
 #include "core/trace/tiles/medium_at.h"
 #include "core/trace/tiles/tinted_shadows.h"
 #include "core/trace/view/view_params.h"
@@ -116,7 +117,10 @@ TilePlan::TilePlan(const TraceJob& j, const TileOutputs& o)
       has_holes(any_maps(*j.scene.mesh, &MaterialMaps::has_holes)),
       blends(any_maps(*j.scene.mesh, &MaterialMaps::blends)),
       tints((o.reflection || o.color || o.added || o.sampled) && tints_shadows(*j.scene.mesh, j.options)),
-      passed_backs(*j.scene.mesh, j.options.backfaces),
+      passed_backs(*j.scene.mesh, [&](const Material& m) { return passes_backs(m, j.options.backfaces); }),
+      passed_by_shadows(
+          *j.scene.mesh,
+          [&](const Material& m) { return has_alpha(*j.scene.mesh, m) || (tints && m.transmits()); }),
       further_lights(groups_of(j.scene)),
       most_casting(most_of(further_lights, [](const BounceLight& light) { return light.slot >= 0; })),
       most_sized(most_of(further_lights,

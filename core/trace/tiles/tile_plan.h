@@ -8,7 +8,7 @@
 #include "core/shade/footprint.h"
 #include "core/trace/lanes/environment_params.h"
 #include "core/trace/lanes/lane_steps.h"
-#include "core/trace/rays/passed_backs.h"
+#include "core/trace/rays/material_marks.h"
 #include "core/trace/tiles/catcher_plane.h"
 #include "core/trace/tiles/trace_tiles.h"
 #include "core/trace/view/ray_model.h"
@@ -41,10 +41,11 @@ struct TilePlan {
   const RayModel* model = nullptr;  // makes the camera's rays; null: `view` does
   glm::ivec2 first{0};              // the first pixel, in the whole picture
   Footprint seen_footprint, further_footprint, no_footprint;
-  bool has_holes, blends;      // some material does
-  bool tints;                  // shadow rays go on through glass
-  bool straight_apart;         // rays that come straight from the camera have a queue of their own
-  PassedBacksOf passed_backs;  // by the camera's rays
+  bool has_holes, blends;             // some material does
+  bool tints;                         // shadow rays go on through glass
+  bool straight_apart;                // rays that come straight from the camera have a queue of their own
+  MaterialMarksOf passed_backs;       // by the camera's rays
+  MaterialMarksOf passed_by_shadows;  // by alpha somewhere, or light goes through
   // Groups of all lights, and of those that light visible points; the first group may be empty.
   std::vector<LightGroup> further_lights, visible_lights;
   std::size_t most_casting, most_sized;  // casting lights of a group, and those of them with a size

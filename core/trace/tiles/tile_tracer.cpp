@@ -133,10 +133,10 @@ bool TileTracer::fetch_ids() {
 // of_camera: the rays come straight from the camera.
 void TileTracer::find_hits(RayQueue& rays, int generation, bool of_camera) {
   if (plan_->out.on_rays) plan_->out.on_rays({rays.columns(), rays.size, generation, false});
-  const PassedBacks passed = plan_->passed_backs.columns();
-  const PassedBacks* const backs = of_camera && plan_->passed_backs.any() ? &passed : nullptr;
+  const MaterialMarks passed = plan_->passed_backs.columns();
+  const MaterialMarks* const backs = of_camera && plan_->passed_backs.any() ? &passed : nullptr;
   plan_->job.tracer.closest_hits(rays.columns(), rays.size, rays.triangle, nullptr, backs);
-  if (plan_->has_holes) holes_.pass(plan_->job.tracer, rays, backs);
+  if (plan_->has_holes) holes_.pass(plan_->job.tracer, plan_->shadows, rays, backs);
 }
 
 void TileTracer::find_visible() {

@@ -6,9 +6,9 @@
 #include <vector>
 
 #include "core/parallel/tiles.h"
-#include "core/trace/lanes/holes.h"
 #include "core/trace/lanes/lane_steps.h"
 #include "core/trace/rays/ray_queue.h"
+#include "core/trace/tiles/holes.h"
 #include "core/trace/tiles/tile_plan.h"
 #include "core/trace/tiles/tinted_shadows.h"
 

@@ -2,19 +2,13 @@
 
 #include <algorithm>
 
-#include "core/shade/surface.h"
+#include "core/trace/walk/passed.h"
 
 namespace pinocchio {
 namespace {
 
 glm::vec3 vector_at(float* const (&columns)[3], std::size_t i) {
   return {columns[0][i], columns[1][i], columns[2][i]};
-}
-
-void copy_ray(const RayQueue& from, std::size_t i, RayQueue& to, std::size_t k) {
-  for (auto columns : {&RayQueue::origin, &RayQueue::direction, &RayQueue::light})
-    for (int axis = 0; axis < 3; ++axis) (to.*columns)[axis][k] = (from.*columns)[axis][i];
-  if (to.medium) to.medium[k] = from.medium[i];
 }
 
 }  // namespace
@@ -24,35 +18,24 @@ bool tints_shadows(const Mesh& mesh, const TraceOptions& options) {
          std::ranges::any_of(mesh.materials, &Material::transmits);
 }
 
-// Most rays meet nothing: the others are walked, and those whose light is in the medium with them.
+// Most rays meet nothing, or something that stops them: the others are walked, and those whose light is in
+// the medium with them.
 void TintedShadows::start(const RayQueue& rays, bool ends, std::uint8_t* blocked) {
   on_.make_room(rays.size, {.medium = rays.medium != nullptr});
   is_tinted_.clear();
   lit_.clear();
   for (std::size_t i = 0; i < rays.size; ++i) {
     const bool absorbed = ends && rays.medium && rays.medium[i] != kNoMedium;
-    if (!blocked[i] && !absorbed) continue;
+    if (blocked[i] != kMayPass && (blocked[i] != 0 || !absorbed)) continue;
     blocked[i] = 1;
     copy_ray(rays, i, on_, on_.size);
     on_.pixel[on_.size++] = static_cast<std::uint32_t>(i);
     is_tinted_.push_back(absorbed ? 1 : 0);
   }
-  holes_.assign(on_.size + kQueuePad, 0);
-}
-
-void TintedShadows::find_holes(const Mesh& mesh, const RayQueue& rays, const SamplePlace& place) {
-  for (std::size_t k = 0; k < on_.size; ++k) {
-    const std::uint32_t triangle = on_.triangle[k];
-    holes_[k] = 0;
-    if (triangle == kNoTriangle || !mesh.maps_of(triangle)) continue;
-    const glm::vec3 weights =
-        weights_at(mesh, triangle, vector_at(on_.origin, k), vector_at(on_.direction, k));
-    holes_[k] = passes_hole(mesh, triangle, weights, place, rays.pixel[on_.pixel[k]]) ? 1 : 0;
-  }
 }
 
 // Keeps the rays that are neither at their light nor at their end.
-void TintedShadows::keep_going(float least, std::uint8_t* blocked) {
+void TintedShadows::keep_going(const std::uint32_t* holes, float least, std::uint8_t* blocked) {
   std::size_t kept = 0;
   for (std::size_t k = 0; k < on_.size; ++k) {
     const glm::vec3 light = vector_at(on_.light, k);
@@ -64,7 +47,7 @@ void TintedShadows::keep_going(float least, std::uint8_t* blocked) {
         blocked[from] = 0;
       continue;
     }
-    const bool is_tinted = is_tinted_[k] != 0 || holes_[k] == 0;
+    const bool is_tinted = is_tinted_[k] != 0 || holes[k] == 0;
     const float most = std::max({light.x, light.y, light.z});
     if (is_tinted && !(most > 0.0f && most >= least)) continue;
     copy_ray(on_, k, on_, kept);
@@ -74,16 +57,18 @@ void TintedShadows::keep_going(float least, std::uint8_t* blocked) {
   on_.size = kept;
 }
 
-void TintedShadows::trace(const Tracer& tracer, const Bounce& bounce, const RayQueue& rays, float reach,
-                          const SamplePlace& place, std::uint8_t* blocked) {
+void TintedShadows::trace(const Tracer& tracer, const Bounce& bounce, const MaterialMarks& passed,
+                          const RayQueue& rays, float reach, const SamplePlace& place,
+                          std::uint8_t* blocked) {
   const bool ends = reach == 1.0f;  // a light that has a position stays there
-  tracer.occluded(rays.columns(reach), rays.size, blocked);
+  const PassedSurfaces surfaces{.materials = passed};
+  tracer.occluded(rays.columns(reach), rays.size, blocked, &surfaces);
   start(rays, ends, blocked);
   for (int layer = 0; on_.size > 0 && layer < kMostLayers; ++layer) {
     tracer.closest_hits(on_.columns(reach), on_.size, on_.triangle);
-    find_holes(tracer.mesh(), rays, place);
-    tracer.steps().cross_glass(bounce, holes_.data(), ends, on_);
-    keep_going(bounce.options->throughput_cutoff, blocked);
+    const std::uint32_t* const holes = met_.find(tracer, bounce, on_, rays, place);
+    tracer.steps().cross_glass(bounce, holes, ends, on_);
+    keep_going(holes, bounce.options->throughput_cutoff, blocked);
   }
 }
 

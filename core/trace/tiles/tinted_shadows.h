@@ -5,9 +5,9 @@
 #include <span>
 #include <vector>
 
-#include "core/trace/lanes/holes.h"
 #include "core/trace/lanes/lane_steps.h"
 #include "core/trace/rays/ray_queue.h"
+#include "core/trace/tiles/holes.h"
 #include "pinocchio/tracer.h"
 
 namespace pinocchio {
@@ -26,21 +26,21 @@ class TintedShadows {
   };
 
   // blocked[i] = 0 where shadow ray i meets nothing but holes, and does not end in a medium; else 1. A ray
-  // ends where its light is below the options' cutoff. bounce: the step that the rays are from.
-  void trace(const Tracer& tracer, const Bounce& bounce, const RayQueue& rays, float reach,
-             const SamplePlace& place, std::uint8_t* blocked);
+  // ends where its light is below the options' cutoff. bounce: the step that the rays are from. passed: the
+  // materials that have holes or transmit.
+  void trace(const Tracer& tracer, const Bounce& bounce, const MaterialMarks& passed, const RayQueue& rays,
+             float reach, const SamplePlace& place, std::uint8_t* blocked);
 
   // Of the last trace().
   [[nodiscard]] std::span<const Lit> lit() const { return lit_; }
 
  private:
   void start(const RayQueue& rays, bool ends, std::uint8_t* blocked);
-  void find_holes(const Mesh& mesh, const RayQueue& rays, const SamplePlace& place);
-  void keep_going(float least, std::uint8_t* blocked);
+  void keep_going(const std::uint32_t* holes, float least, std::uint8_t* blocked);
 
   RayQueue on_;                          // `pixel` is the ray's place in the queue that it is from
   std::vector<std::uint8_t> is_tinted_;  // by ray of on_: not 0: something was taken from its light
-  AlignedVector<std::uint32_t> holes_;
+  MetHoles met_;
   std::vector<Lit> lit_;
 };
 

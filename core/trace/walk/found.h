@@ -2,8 +2,9 @@
 #pragma once
 
 #include "core/bsp/scene_trees.h"
-#include "core/trace/rays/passed_backs.h"
+#include "core/trace/rays/material_marks.h"
 #include "core/trace/walk/packet.h"
+#include "core/trace/walk/passed.h"
 
 namespace pinocchio::PINOCCHIO_LANES {
 namespace {
@@ -47,13 +48,13 @@ template <int kPackets>
 struct ClosestFronts : ClosestHits<kPackets> {
   // The packets' rays are those from `first` on.
   ClosestFronts(const Float (&t_max)[kPackets], const SceneTrees& scene, const RayColumns& rays,
-                std::size_t first, const PassedBacks& backs)
+                std::size_t first, const MaterialMarks& backs)
       : ClosestHits<kPackets>(t_max), scene_(scene), rays_(rays), first_(first), backs_(backs) {}
 
   [[gnu::always_inline]] inline unsigned add(unsigned k, Mask lanes, Float t, std::uint32_t triangle) {
     Mask met = this->closer(k, lanes, t, triangle);
     if (met.bits() == 0) return 0;
-    if (backs_.passed[backs_.triangle_materials[triangle]] != 0) met = met & ~from_behind(k, triangle);
+    if (backs_.has(triangle)) met = met & ~from_behind(k, triangle);
     this->keep(k, met, t, triangle);
     return 0;
   }
@@ -82,7 +83,7 @@ struct ClosestFronts : ClosestHits<kPackets> {
   const SceneTrees& scene_;
   const RayColumns& rays_;
   std::size_t first_;
-  PassedBacks backs_;
+  MaterialMarks backs_;
 };
 
 // Whether there is any triangle.
@@ -103,6 +104,51 @@ struct AnyHits {
 
   Float t_best[kPackets];
   unsigned hit[kPackets] = {};
+};
+
+// Whether there is any triangle that the rays cannot pass, and whether there is one that they may.
+template <int kPackets>
+struct AnyNotPassed : AnyHits<kPackets> {
+  // The packets' rays are those from `first` on.
+  AnyNotPassed(const Float (&t_max)[kPackets], const RayColumns& rays, std::size_t first,
+               const PassedSurfaces& passed)
+      : AnyHits<kPackets>(t_max), rays_(rays), first_(first), passed_(passed) {}
+
+  [[gnu::always_inline]] inline unsigned add(unsigned k, Mask lanes, Float t, std::uint32_t triangle) {
+    if (!passed_.materials.has(triangle)) return AnyHits<kPackets>::add(k, lanes, t, triangle);
+    const Mask met = lanes & (t < this->t_best[k]);
+    if (met.bits() == 0) return 0;
+    if (passed_.in_holes) return AnyHits<kPackets>::add(k, blocked(k, met, triangle), t, triangle);
+    may_pass[k] |= met.bits();
+    return 0;
+  }
+
+  unsigned may_pass[kPackets] = {};
+
+ private:
+  // Those of the lanes that the triangle's alpha stops. A triangle is met in every leaf that it reaches into:
+  // the last ones that were passed are known.
+  [[gnu::noinline]] Mask blocked(unsigned k, Mask lanes, std::uint32_t triangle) {
+    Known* known = &known_[k][triangle % kKnown];
+    if (known->triangle != triangle) *known = {triangle, 0};
+    const unsigned asked = lanes.bits() & ~known->lanes;
+    if (asked == 0) return Mask::from_bits(0);
+    const std::size_t i = first_ + k * kWidth;
+    const unsigned through = passed_.in_holes(passed_, rays_, i, asked, triangle);
+    known->lanes |= through;
+    return Mask::from_bits(asked & ~through);
+  }
+
+  struct Known {
+    std::uint32_t triangle = kNoTriangle;
+    unsigned lanes = 0;  // that passed it
+  };
+  static constexpr unsigned kKnown = 4;
+
+  const RayColumns& rays_;
+  std::size_t first_;
+  const PassedSurfaces& passed_;
+  Known known_[kPackets][kKnown];
 };
 
 }  // namespace

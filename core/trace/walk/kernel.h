@@ -261,8 +261,8 @@ void closest_hits(const SceneTrees& scene, const RayColumns& rays, std::size_t n
 }
 
 template <class Test>
-void closest_fronts(const SceneTrees& scene, const RayColumns& rays, std::size_t n, const PassedBacks& backs,
-                    std::uint32_t* triangle, float* t) {
+void closest_fronts(const SceneTrees& scene, const RayColumns& rays, std::size_t n,
+                    const MaterialMarks& backs, std::uint32_t* triangle, float* t) {
   for (std::size_t i = 0; i < n; i += kPackets * kWidth)
     store_hits(hits_of_group<Test, ClosestFronts<kPackets>>(
                    scene, rays, i, n, std::make_index_sequence<kPackets>(), scene, rays, i, backs),
@@ -281,7 +281,22 @@ void occluded(const SceneTrees& scene, const RayColumns& rays, std::size_t n, st
 }
 
 template <class Test>
-constexpr Kernel kKernelOf{closest_hits<Test>, closest_fronts<Test>, occluded<Test>};
+void occluded_unless_passed(const SceneTrees& scene, const RayColumns& rays, std::size_t n,
+                            const PassedSurfaces& passed, std::uint8_t* blocked) {
+  for (std::size_t i = 0; i < n; i += kPackets * kWidth) {
+    const auto found = hits_of_group<Test, AnyNotPassed<kPackets>>(
+        scene, rays, i, n, std::make_index_sequence<kPackets>(), rays, i, passed);
+    for (std::size_t k = 0; k < kPackets && i + k * kWidth < n; ++k)
+      for (unsigned lane = 0; lane < kWidth; ++lane) {
+        const bool met = (found.hit[k] >> lane & 1u) != 0, may_pass = (found.may_pass[k] >> lane & 1u) != 0;
+        blocked[i + k * kWidth + lane] = met ? 1 : may_pass ? kMayPass : 0;
+      }
+  }
+}
+
+template <class Test>
+constexpr Kernel kKernelOf{closest_hits<Test>, closest_fronts<Test>, occluded<Test>,
+                           occluded_unless_passed<Test>};
 
 }  // namespace
 

@@ -7,8 +7,9 @@
 
 #include "core/bsp/scene_trees.h"
 #include "core/simd/isas.h"
-#include "core/trace/rays/passed_backs.h"
+#include "core/trace/rays/material_marks.h"
 #include "core/trace/rays/ray_queue.h"
+#include "core/trace/walk/passed.h"
 
 namespace pinocchio {
 
@@ -21,9 +22,13 @@ struct Kernel {
                        std::uint32_t* triangle, float* t);
   // Likewise, for rays that pass those backs.
   void (*closest_fronts)(const SceneTrees& scene, const RayColumns& rays, std::size_t n,
-                         const PassedBacks& backs, std::uint32_t* triangle, float* t);
+                         const MaterialMarks& backs, std::uint32_t* triangle, float* t);
   // Writes 1 for a ray that meets any triangle, else 0.
   void (*occluded)(const SceneTrees& scene, const RayColumns& rays, std::size_t n, std::uint8_t* blocked);
+  // Writes 1 for a ray that meets a triangle that it cannot pass, else kMayPass for one that meets any that
+  // it may, else 0.
+  void (*occluded_unless_passed)(const SceneTrees& scene, const RayColumns& rays, std::size_t n,
+                                 const PassedSurfaces& passed, std::uint8_t* blocked);
 };
 
 using Kernels = std::array<Kernel, kTriangleTests.size()>;  // by TriangleTest

@@ -1,0 +1,57 @@
+#include "core/trace/tiles/holes.h"
+
+namespace pinocchio {
+bool has_alpha(const Mesh& mesh, const Material& material) {
+  return material.maps >= 0 &&
+         mesh.maps[static_cast<std::size_t>(material.maps)].alpha_mode != AlphaMode::opaque;
+}
+
+const std::uint32_t* MetHoles::find(const Tracer& tracer, const Bounce& bounce, const RayQueue& rays) {
+  if (holes_.size() < rays.size + kQueuePad) holes_.resize(2 * rays.size + kQueuePad);
+  tracer.steps().find_holes(bounce, rays, nullptr, holes_.data());
+  return holes_.data();
+}
+
+const std::uint32_t* MetHoles::find(const Tracer& tracer, const Bounce& bounce, const RayQueue& rays,
+                                    const RayQueue& from, const SamplePlace& place) {
+  if (holes_.size() < rays.size + kQueuePad) holes_.resize(2 * rays.size + kQueuePad);
+  if (thresholds_.size() < rays.size + kQueuePad) thresholds_.resize(2 * rays.size + kQueuePad);
+  for (std::size_t k = 0; k < rays.size; ++k)
+    thresholds_[k] = threshold_of(place, from.pixel[rays.pixel[k]], rays.triangle[k]);
+  tracer.steps().find_holes(bounce, rays, thresholds_.data(), holes_.data());
+  return holes_.data();
+}
+
+// Keeps the rays that met a hole.
+void Holes::keep(const std::uint32_t* holes) {
+  std::size_t kept = 0;
+  for (std::size_t k = 0; k < on_.size; ++k) {
+    if (holes[k] == 0) continue;
+    copy_ray(on_, k, on_, kept);
+    on_.pixel[kept++] = on_.pixel[k];
+  }
+  on_.size = kept;
+}
+
+void Holes::pass(const Tracer& tracer, const Bounce& bounce, RayQueue& rays, const MaterialMarks* backs) {
+  const std::uint32_t* const holes = met_.find(tracer, bounce, rays);
+  on_.make_room(rays.size);
+  for (std::size_t i = 0; i < rays.size; ++i) {
+    if (holes[i] == 0) continue;
+    copy_ray(rays, i, on_, on_.size);
+    on_.pixel[on_.size++] = static_cast<std::uint32_t>(i);
+  }
+  for (int layer = 0; on_.size > 0 && layer < kMostLayers; ++layer) {
+    tracer.steps().go_behind(bounce, false, on_);
+    tracer.closest_hits(on_.columns(), on_.size, on_.triangle, nullptr, backs);
+    for (std::size_t k = 0; k < on_.size; ++k) {
+      const std::size_t i = on_.pixel[k];
+      rays.triangle[i] = on_.triangle[k];
+      // Where it meets that is found by the ray from its first origin, as surfaces are.
+      for (int axis = 0; axis < 3; ++axis) on_.origin[axis][k] = rays.origin[axis][i];
+    }
+    keep(met_.find(tracer, bounce, on_));
+  }
+}
+
+}  // namespace pinocchio

@@ -1,0 +1,50 @@
+#pragma once
+
+#include <cstdint>
+#include <glm/glm.hpp>
+
+#include "core/bsp/tree.h"
+#include "core/trace/lanes/lane_steps.h"
+#include "core/trace/rays/material_marks.h"
+#include "core/trace/rays/ray_queue.h"
+#include "pinocchio/tracer.h"
+
+namespace pinocchio {
+
+// No picture needs more surfaces along a ray. The limit ends a walk that rounding keeps going.
+inline constexpr int kMostLayers = 4096;
+
+// Whether a ray can pass the material somewhere as if nothing were there.
+[[nodiscard]] bool has_alpha(const Mesh& mesh, const Material& material);
+
+// Which rays met a hole: a point where alpha lets them pass as if nothing were there. Not 0: ray i did.
+class MetHoles {
+ public:
+  [[nodiscard]] const std::uint32_t* find(const Tracer& tracer, const Bounce& bounce, const RayQueue& rays);
+  // Of shadow rays, whose `pixel` is the place in the queue that they are from. A surface that blends is a
+  // hole where alpha is below one half, or, in further samples of a pixel, below a random number.
+  [[nodiscard]] const std::uint32_t* find(const Tracer& tracer, const Bounce& bounce, const RayQueue& rays,
+                                          const RayQueue& from, const SamplePlace& place);
+
+ private:
+  AlignedVector<std::uint32_t> holes_;
+  AlignedVector<float> thresholds_;
+};
+
+// Rays through surfaces that let some of them pass (material_maps.h): a ray that meets a hole goes on behind
+// it. The tree does not know about holes, so that scenes without them pay nothing. Shadow rays pass them in
+// the walk (walk/passed.h). `bounce` gives the scene and the offset.
+class Holes {
+ public:
+  // rays.triangle holds the first triangle of each ray; afterwards, the first one that is no hole there.
+  // `backs`: those that the rays pass, too; null: none.
+  void pass(const Tracer& tracer, const Bounce& bounce, RayQueue& rays, const MaterialMarks* backs = nullptr);
+
+ private:
+  void keep(const std::uint32_t* holes);
+
+  RayQueue on_;  // `pixel` is the ray's place in the queue that it is from
+  MetHoles met_;
+};
+
+}  // namespace pinocchio
