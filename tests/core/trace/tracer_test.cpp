@@ -6,8 +6,10 @@
 
 #include "core/bsp/projected_triangle.h"
 #include "core/bsp/tree.h"
+#include "core/trace/rays/ray_queue.h"
 #include "core/trace/rays/ray_sorter.h"
 #include "core/trace/view/view_params.h"
+#include "core/trace/walk/passed.h"
 #include "scenes/generator/mesh_builder.h"
 #include "tests/support/scenes.h"
 
@@ -76,6 +78,47 @@ TEST(Tracer, FindsWhatLookingAtEveryTriangleFinds) {
       EXPECT_EQ(stopped[i] != 0, expected[i].valid()) << "ray " << i;
     }
   }
+}
+
+// Blocked where a mesh without the passed triangles blocks; else a passed one is met or nothing is.
+TEST(Tracer, SaysWhichShadowRaysMeetNothingButPassedMaterials) {
+  Scene scene = random_soup(60, 0.5f, 15);
+  Scene opaque = random_soup(60, 0.5f, 15);
+  {
+    MeshEdit mesh(scene), rest(opaque);
+    mesh->materials.resize(2);
+    for (std::uint32_t i = 0; i < 60; ++i) {
+      mesh->triangle_materials[i] = i % 2;
+      if (i % 2 == 1) rest->triangles[i] = glm::uvec3(rest->triangles[i].x);  // no area
+    }
+  }
+  const std::vector<Ray> rays = random_rays(600, 16);
+  RayQueue queue;
+  queue.make_room(rays.size());
+  for (const Ray& ray : rays) {
+    for (int axis = 0; axis < 3; ++axis) {
+      queue.origin[axis][queue.size] = ray.origin[axis];
+      queue.direction[axis][queue.size] = ray.direction[axis];
+    }
+    ++queue.size;
+  }
+  std::vector<std::uint8_t> all(rays.size() + kQueuePad), unpassed = all, found = all;
+  const std::uint8_t passed[] = {0, 1};
+  const PassedSurfaces surfaces{.materials = {scene.mesh->triangle_materials.data(), passed}};
+  for (const TriangleTest test : kTriangleTests)
+    for (const Isa isa : supported_isas()) {
+      const Tracer tracer(scene.mesh, {.triangle_test = test}, isa);
+      tracer.occluded(queue.columns(), rays.size(), all.data());
+      Tracer(opaque.mesh, {.triangle_test = test}, isa)
+          .occluded(queue.columns(), rays.size(), unpassed.data());
+      tracer.occluded(queue.columns(), rays.size(), found.data(), &surfaces);
+      int met_passed = 0;
+      for (std::size_t i = 0; i < rays.size(); ++i) {
+        EXPECT_EQ(found[i], unpassed[i] ? 1 : all[i] ? kMayPass : 0) << isa_name(isa) << ", ray " << i;
+        if (found[i] == kMayPass) ++met_passed;
+      }
+      EXPECT_GT(met_passed, 50);
+    }
 }
 
 // Every triangle is there twice, so that a passed one is never alone at its distance.
