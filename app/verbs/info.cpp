@@ -105,7 +105,7 @@ std::size_t frames_of(double duration_s) {
   return 1 + std::size_t(std::ceil(std::min(duration_s, 1e9) * kUsualFps));
 }
 
-// What shadows cost where the GPU composites.
+// Says what shadows cost where the GPU composites.
 std::string cost_of_shadows(const SceneStats& stats) {
   if (stats.casting_lights == 0) return "";
   const int bits = mask_bits_for(stats.casting_lights);

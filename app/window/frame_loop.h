@@ -32,7 +32,8 @@ class FrameLoop {
   void restart();
   // Draws the frame once more by other settings, apart from the window's frames, with all its layers.
   [[nodiscard]] FrameResult draw_now(const Settings& settings);
-  // The same on a transparent background, with as many samples as are gathered, as far as that is quick.
+  // Draws the frame on a transparent background, with as many samples as are gathered, as far as that is
+  // quick.
   [[nodiscard]] FrameResult draw_transparent(Settings settings);
   // Gives the picture the mean of the gathered samples; its layers remain those of one sample.
   void add_gathered(FrameResult& picture);

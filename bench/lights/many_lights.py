@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""What many casting lights send: many_lights.py PROGRAM SCENE > docs/measurements/many-lights.csv
+"""Measures how many bytes a frame of many casting lights sends: many_lights.py PROGRAM SCENE > docs/measurements/many-lights.csv
 
 Lamps in a spiral above the scene, beside its own lights, 400 x 300. For each number of lights that cast: the
 automatic plan, narrower masks, the slides' bytes, design 2 and the CPU alone. Bytes a frame by `measure`, and the

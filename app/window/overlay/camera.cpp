@@ -33,7 +33,7 @@ bool edit_vector(const char* name, glm::vec3& value, float speed, const std::str
   return changed;
 }
 
-// What the projection has: a field of view and a lens, or a height.
+// Shows what the projection has: a field of view and a lens, or a height.
 bool edit_angle(Camera& camera, float speed) {
   if (camera.projection == Projection::panorama) return false;
   if (camera.projection == Projection::orthographic) {

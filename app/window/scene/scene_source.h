@@ -19,12 +19,12 @@ class SceneSource {
   [[nodiscard]] const DrawOptions& options() const { return options_; }
   // Begins to load a file. Until it is read, the scene before stays.
   void open(const std::string& file);
-  // The same for a picture of light from all directions.
+  // Begins to load a picture of light from all directions.
   void open_environment(const std::string& file);
   void reload() { load(options_); }
-  // The same with another axis of the file pointing up.
+  // Reads the file again, with another of its axes pointing up.
   void turn_up(UpAxis axis);
-  // The same with one of the file's variants of its materials. Empty: its usual ones.
+  // Reads the file again, with one of its variants of materials. Empty: its usual ones.
   void choose_variant(const std::string& name);
   // Begins to load the file that was refused for its memory, without a limit.
   void open_unlimited();
