@@ -58,7 +58,7 @@ if [ "$how" = subdirectory ]; then
   quietly cmake -G Ninja -S "$tree/tests/consumer/subdirectory" -B "$work/build" -DPINOCCHIO_SOURCE="$tree" "$@"
   (cd "$built" && cp --parents {core,core/compare,core/reference,gl,hybrid}/*.a "$work/build/pinocchio/")
   links_core_alone "$work/build"
-  for example in tracer_alone headless own_window; do
+  for example in tracer_alone headless layers own_window; do
     mkdir -p "$work/build/CMakeFiles/$example.dir/$tree/examples/$example"
     (cd "$work/build" && quietly bash -e <(commands_of "$example"))
   done
@@ -76,7 +76,7 @@ else
     done
   done
   cp -r "$prefix/share/doc/pinocchio/examples" "$work/examples"
-  for example in tracer_alone headless own_window; do
+  for example in tracer_alone headless layers own_window; do
     build "$work/examples/$example" "$work/build-$example" -DCMAKE_PREFIX_PATH="$prefix" "$@"
     mkdir -p "$work/build" && mv "$work/build-$example/$example" "$work/build/"
   done
@@ -98,4 +98,9 @@ fi
 "$work/build/headless" "$tree/scenes/cornell.gltf" "$work/cornell.exr"
 "$built/bin/pinocchio" render "$tree/scenes/cornell.gltf" --depth 4 -o "$work/program.exr" --quiet
 "$built/bin/pinocchio" compare "$work/cornell.exr" "$work/program.exr" --max-error max=0
+# Of the windmill sails move and the tower stands still; the EXR has the layers that are named.
+"$work/build/layers" "$tree/scenes/windmill.glb" 1 "$work/layers.exr" >"$work/nodes"
+grep -qE '^sail 0: [0-9]+ pixels, .*, motion 1\.' "$work/nodes" && grep -qE '^tower: .*, motion 0.00$' "$work/nodes" ||
+  { cat "$work/nodes"; exit 1; }
+for channel in id.node motion.X shadow.mask Z; do grep -qa "$channel" "$work/layers.exr"; done
 quietly xvfb-run -a "$work/build/own_window" "$tree/scenes/cornell.gltf" 5
