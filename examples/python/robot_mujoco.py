@@ -1,7 +1,7 @@
-"""Colour, depth and masks of a MuJoCo model that moves: robot_mujoco.py MODEL.xml OUT.npz [STEPS]
+"""Colour, depth, masks and motion of a MuJoCo model that moves: robot_mujoco.py MODEL.xml OUT.npz [STEPS]
 
 MuJoCo (pip install mujoco) does the physics. Each geom is a node of the scene, which is put together once; each step
-sets poses. Height fields and textures are left out.
+sets poses. Motion leads to the step before. Height fields and textures are left out.
 """
 import sys
 from typing import Any
@@ -72,7 +72,7 @@ def main(file: str, out: str, steps: int = 10) -> None:
     scene, geoms = scene_of(model)
     middle, size = numpy.array(model.stat.center), float(model.stat.extent)
     camera = pn.Camera(eye=middle + size * numpy.array([1.3, -1.3, 0.9]), target=middle, up=(0, 0, 1), fov=45)
-    pictures = []
+    pictures, before = [], None
     mujoco.mj_forward(model, data)
     with pn.Engine() as engine:
         for step in range(steps):
@@ -80,9 +80,10 @@ def main(file: str, out: str, steps: int = 10) -> None:
                 mujoco.mj_step(model, data)
             posed = scene.posed({name: pose_of(data, geom) for name, geom in geoms.items()})
             picture = engine.render(posed, camera, size=SIZE, spp=4)
-            pictures.append((picture.color, picture.depth, picture.objects))
-    color, depth, objects = map(numpy.stack, zip(*pictures))
-    numpy.savez_compressed(out, color=color, depth=depth, objects=objects, names=numpy.array(scene.nodes))
+            pictures.append((picture.color, picture.depth, picture.objects, picture.motion(scene=before or posed)))
+            before = posed
+    color, depth, objects, motion = map(numpy.stack, zip(*pictures))
+    numpy.savez_compressed(out, color=color, depth=depth, objects=objects, motion=motion, names=numpy.array(scene.nodes))
     print(f"{out}: {steps} steps of {len(scene.nodes)} geoms")
 
 

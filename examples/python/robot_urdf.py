@@ -1,7 +1,7 @@
-"""Colour, depth and masks of a robot that moves: robot_urdf.py ROBOT.urdf OUT.npz [STEPS]
+"""Colour, depth, masks and motion of a robot that moves: robot_urdf.py ROBOT.urdf OUT.npz [STEPS]
 
-Reads URDF with yourdfpy (pip install yourdfpy). The scene is put together once; each step sets poses. Every joint that
-moves goes from its lower to its upper limit.
+Reads URDF with yourdfpy (pip install yourdfpy). The scene is put together once; each step is a set of poses. Every joint
+that moves goes from its lower to its upper limit. All steps are drawn in one call; motion leads to the next one.
 """
 import sys
 from typing import Any
@@ -30,16 +30,16 @@ def main(file: str, out: str, steps: int = 10) -> None:
     robot: Any = yourdfpy.URDF.load(file)
     lights = [pn.Light(direction=(-1, -0.5, -2)), pn.Light(direction=(-0.5, 1, -0.3), intensity=0.3)]
     scene = pn.from_trimesh(robot.scene, smooth=False, lights=lights)
-    camera, pictures = camera_of(scene), []
+    poses = []
+    for part in numpy.linspace(0, 1, steps):
+        limits = [joint.limit for joint in robot.actuated_joints]
+        robot.update_cfg([low + part * (high - low) for low, high in
+                          ((limit.lower, limit.upper) if limit else (-numpy.pi, numpy.pi) for limit in limits)])
+        poses.append(poses_of(robot))
     with pn.Engine() as engine:
-        for part in numpy.linspace(0, 1, steps):
-            limits = [joint.limit for joint in robot.actuated_joints]
-            robot.update_cfg([low + part * (high - low) for low, high in
-                              ((limit.lower, limit.upper) if limit else (-numpy.pi, numpy.pi) for limit in limits)])
-            picture = engine.render(scene.posed(poses_of(robot)), camera, size=SIZE, spp=4)
-            pictures.append((picture.color, picture.depth, picture.objects))
-    color, depth, objects = map(numpy.stack, zip(*pictures))
-    numpy.savez_compressed(out, color=color, depth=depth, objects=objects, names=numpy.array(scene.nodes))
+        arrays: dict[str, Any] = engine.render_many(scene, [camera_of(scene)], SIZE, poses=poses, spp=4,
+                                                    outputs=["color", "depth", "objects", "motion"])
+    numpy.savez_compressed(out, names=numpy.array(scene.nodes), **arrays)
     print(f"{out}: {steps} steps of {len(scene.nodes)} nodes")
 
 

@@ -89,8 +89,9 @@ Poses poses_of(const Scene& scene, const std::vector<CameraChoice>& choices,
                 " cameras; give a camera for each pose, or one for all");
   Poses poses;
   std::vector<std::size_t> of_picture;
+  NodeNumbers numbers(scene);
   for (std::size_t i = 0; i < given.size(); ++i) {
-    if (i == 0 || !given[i].is(given[i - 1])) poses.moves.push_back(transforms_of(scene, given[i]));
+    if (i == 0 || !given[i].is(given[i - 1])) poses.moves.push_back(transforms_of(numbers, given[i]));
     of_picture.push_back(poses.moves.size() - 1);
   }
   for (std::size_t i = 0; i < given.size(); ++i) {

@@ -1,7 +1,12 @@
 """The examples with robots, where their packages are installed: `pip install yourdfpy mujoco`."""
+import re
+import subprocess
+import sys
+
 import numpy
-import pinocchio_renderer as pn
 import pytest
+from conftest import TREE
+from PIL import Image
 from test_examples import EXAMPLES, run
 
 URDF = """<robot name="arm">
@@ -26,6 +31,14 @@ def rows_of(objects, names, name):
     return [numpy.nonzero(picture == index)[0].mean() for picture in objects]
 
 
+def assert_motion_leads(motion, objects, node, step):
+    """The mean motion of a node leads to where the node is in the next or the former picture."""
+    places = [numpy.argwhere(picture == node).mean(axis=0)[::-1] for picture in objects]
+    for k in range(len(objects)):
+        if 0 <= k + step < len(objects):
+            numpy.testing.assert_allclose(places[k] + motion[k][objects[k] == node].mean(axis=0), places[k + step], atol=1.0)
+
+
 def test_a_urdf_robot_moves(tmp_path):
     pytest.importorskip("yourdfpy")
     (tmp_path / "arm.urdf").write_text(URDF)
@@ -40,6 +53,8 @@ def test_a_urdf_robot_moves(tmp_path):
     assert rows[hand][0] < rows[hand][1] < rows[hand][2]  # it sinks, and the camera sees it from above
     lowest = [[numpy.nonzero(picture == i)[0].max() for picture in arrays["objects"]] for i in range(3)]
     assert any(numpy.ptp(of_node) == 0 for of_node in lowest)  # the base stays
+    assert_motion_leads(arrays["motion"], arrays["objects"], hand, step=1)
+    assert not arrays["motion"][2].any()  # nothing comes after the last step
     seen = arrays["objects"] != 0xFFFFFFFF
     assert (numpy.isfinite(arrays["depth"]) == seen).all() and arrays["color"][seen].std() > 0.02
 
@@ -52,6 +67,9 @@ def test_a_mujoco_model_falls(tmp_path):
     assert sorted(arrays["names"]) == ["ball", "floor", "pill"]  # what MuJoCo hides is left out
     ball = rows_of(arrays["objects"], arrays["names"], "ball")
     assert all(a < b for a, b in zip(ball, ball[1:]))  # it falls
+    assert_motion_leads(arrays["motion"], arrays["objects"], list(arrays["names"]).index("ball"), step=-1)
+    assert not arrays["motion"][0].any()
+    assert not arrays["motion"][arrays["objects"] == list(arrays["names"]).index("floor")].any()
     pill = rows_of(arrays["objects"], arrays["names"], "pill")
     assert numpy.ptp(pill) < 1
     # The pixels are where MuJoCo's own rays meet the geoms.
@@ -78,12 +96,14 @@ def test_a_mujoco_model_falls(tmp_path):
     assert numpy.mean(same) > 0.99 and numpy.median(off) < 0.005
 
 
+FIRST_PICTURE = re.search(r"```python\n(import yourdfpy\n.*?)```", (TREE / "README.md").read_text(encoding="utf-8"), re.S)[1]
+
+
 def test_the_first_picture_of_a_robot_is_short(tmp_path):
-    """As docs/python.md has it."""
-    yourdfpy = pytest.importorskip("yourdfpy")
-    (tmp_path / "arm.urdf").write_text(URDF)
-    robot = yourdfpy.URDF.load(str(tmp_path / "arm.urdf"))
-    scene = pn.from_trimesh(robot.scene)
-    picture = pn.Engine().render(scene, pn.Camera((2, 2, 1), (0, 0, 0.5), up=(0, 0, 1)), size=(64, 48))
-    picture.write_png(tmp_path / "arm.png")
-    assert len(numpy.unique(picture.objects)) == 4
+    """The README's lines, with a robot of our own."""
+    assert len(FIRST_PICTURE.strip().splitlines()) < 10
+    pytest.importorskip("yourdfpy")
+    (tmp_path / "robot.urdf").write_text(URDF)
+    subprocess.run([sys.executable, "-c", FIRST_PICTURE], cwd=tmp_path, check=True)
+    picture = numpy.asarray(Image.open(tmp_path / "robot.png").convert("RGBA")).astype(float)
+    assert picture.std(axis=(0, 1))[:3].min() > 5

@@ -13,20 +13,11 @@
 namespace pinocchio::python {
 namespace {
 
-int node_of(const Scene& scene, const std::variant<int, std::string>& name) {
-  if (!scene.nodes)
-    throw Error("the scene has no nodes to move; load a glTF file, or combine scenes (assemble)");
-  if (std::holds_alternative<int>(name)) return std::get<int>(name);
-  const std::vector<std::string> names = node_names(scene);
-  const auto found = std::ranges::find(names, std::get<std::string>(name));
-  if (found != names.end()) return static_cast<int>(found - names.begin());
-  throw Error("there is no node '" + std::get<std::string>(name) + "'; Scene.nodes lists them");
-}
-
 // A scene is copied (cheaply) before it is read without the GIL, because other threads may change it.
 PyScene with_transforms(const PyScene& self, const nb::dict& transforms) {
   const Scene scene = self.now();
-  const std::vector<NodeTransform> moves = transforms_of(scene, transforms);
+  NodeNumbers numbers(scene);
+  const std::vector<NodeTransform> moves = transforms_of(numbers, transforms);
   return PyScene(value_or_throw(without_gil([&](Progress*) { return posed(scene, moves); })));
 }
 
@@ -50,11 +41,24 @@ std::vector<std::string> node_names(const Scene& scene) {
   return names;
 }
 
-std::vector<NodeTransform> transforms_of(const Scene& scene, const nb::dict& transforms) {
+int NodeNumbers::of(const std::variant<int, std::string>& name) {
+  if (!scene_.nodes)
+    throw Error("the scene has no nodes to move; load a glTF file, or combine scenes (assemble)");
+  if (std::holds_alternative<int>(name)) return std::get<int>(name);
+  if (by_name_.empty()) {
+    const std::vector<std::string> names = node_names(scene_);
+    for (std::size_t n = 0; n < names.size(); ++n) by_name_.emplace(names[n], static_cast<int>(n));
+  }
+  const auto found = by_name_.find(std::get<std::string>(name));
+  if (found != by_name_.end()) return found->second;
+  throw Error("there is no node '" + std::get<std::string>(name) + "'; Scene.nodes lists them");
+}
+
+std::vector<NodeTransform> transforms_of(NodeNumbers& numbers, const nb::dict& transforms) {
   std::vector<NodeTransform> moves;
   for (const auto& [name, matrix] : transforms)
     moves.push_back(
-        {node_of(scene, nb::cast<std::variant<int, std::string>>(name)),
+        {numbers.of(nb::cast<std::variant<int, std::string>>(name)),
          Matrix{nb::borrow(matrix)}.read("the transform of " + std::string(nb::repr(name).c_str()))});
   return moves;
 }
@@ -117,7 +121,8 @@ void bind_nodes(nb::class_<PyScene>& bound) {
              bool children) -> std::optional<PyScene> {
             const Scene scene = self.now();
             std::vector<int> numbers;
-            for (const auto& node : nodes) numbers.push_back(node_of(scene, node));
+            NodeNumbers all(scene);
+            for (const auto& node : nodes) numbers.push_back(all.of(node));
             const auto below = [&](int node) {
               for (; children && node >= 0; node = scene.nodes->nodes[static_cast<std::size_t>(node)].parent)
                 if (std::ranges::count(numbers, node) > 0) return true;
