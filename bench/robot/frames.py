@@ -7,8 +7,8 @@ bench/robot/frames.py [--urdf FILE] [--size WxH] [--frames N] [--rounds N] [--th
 The robot is Franka Emika's Panda from PyPI's example-robot-data, read by yourdfpy: each mesh of a link is a part, which
 has a pose of its own in each frame, on a floor that stands still, under two lights that cast shadows. Every renderer gets
 the same arrays, poses and camera and gives colour and depth, then colour, depth and masks, as NumPy arrays. Each draws
-in a process of its own; processes take turns for ROUNDS rounds, and a time is the median of the rounds' medians. The depth
-of one frame is compared with ours: the share of pixels within 1 % (edges are seen by one and not by the other).
+in a process of its own; processes take turns for ROUNDS rounds, and a time is the median of the rounds' medians, by the clock
+and of all processors together (which other programs beside it disturb less). The depth of one frame is compared with ours: the share of pixels within 1 % (edges are seen by one and not by the other).
 
 Python packages go to environments of their own under build/peers, as scripts/peers has them; the module comes from this
 tree, or from WHEEL. --docs writes the table into docs/measurements.md.
@@ -127,23 +127,23 @@ def load_peer(script):
 
 
 def draw(script, file, out, size, threads, masks, count, arguments):
-    """Within a peer's process: the median of `count` frames after the warm-up, and the depth of frame 0."""
+    """Within a peer's process: the medians of `count` frames after the warm-up, and the arrays of frame 0."""
     import numpy
 
     job = Job(file, ast.literal_eval(size), int(threads))
     frames = load_peer(script).frames(job, masks == "masks", **ast.literal_eval(arguments))
     times, first, drawn = [], None, 0
     while len(times) < 3 or drawn < int(count):
-        begin = time.perf_counter()
+        begin = time.perf_counter(), time.process_time()
         batch, arrays = next(frames)  # how many frames, and the first one's arrays
-        took = 1e3 * (time.perf_counter() - begin) / batch
+        took = [1e3 * (now - then) / batch for now, then in zip((time.perf_counter(), time.process_time()), begin)]
         if first is None:
             first = {name: numpy.array(array) for name, array in arrays.items()}
             numpy.savez(out, **first)
         drawn += batch
         if drawn > WARM_UP and drawn > batch:
             times.append(took)
-    print(json.dumps({"ms": statistics.median(times)}), flush=True)
+    print(json.dumps({kind: statistics.median(of) for kind, of in zip(("wall", "processor"), zip(*times))}), flush=True)
     os._exit(0)  # some do not survive their end
 
 
@@ -158,7 +158,7 @@ def variants():
 
 
 def measured(options, environment_of, file):
-    """name -> {"plain": [ms], "masks": [ms]}; one process each, in turns."""
+    """name -> {"plain": [times], "masks": [times]}; one process each, in turns."""
     results = {}
     for turn in range(options.rounds):
         for name, (script, arguments, has_masks) in variants().items():
@@ -170,13 +170,15 @@ def measured(options, environment_of, file):
                            str(options.frames), repr(arguments)]
                 try:
                     done = subprocess.run(command, capture_output=True, text=True, timeout=PATIENCE_S)
-                    ms = json.loads(done.stdout.splitlines()[-1])["ms"]
-                except (subprocess.TimeoutExpired, IndexError, ValueError):
-                    said = done.stderr.strip().splitlines()[-1:] if "done" in locals() else "too late"
-                    print(f"{name}, {kind}: left out: {said}", file=sys.stderr)
+                except subprocess.TimeoutExpired:
+                    print(f"{name}, {kind}: left out: no end after {PATIENCE_S} s", file=sys.stderr)
                     continue
-                results.setdefault(name, {}).setdefault(kind, []).append(ms)
-                print(f"round {turn}: {name}, {kind}: {ms:.2f} ms", file=sys.stderr)
+                if not done.stdout.strip():
+                    print(f"{name}, {kind}: left out: {done.stderr.strip().splitlines()[-1:]}", file=sys.stderr)
+                    continue
+                times = json.loads(done.stdout.splitlines()[-1])
+                results.setdefault(name, {}).setdefault(kind, []).append(times)
+                print(f"round {turn}: {name}, {kind}: {times['wall']:.1f} ms, {times['processor']:.1f} of processors", file=sys.stderr)
     return results
 
 
@@ -192,11 +194,15 @@ def agreement(file, script):
 
 
 def table(results, file):
-    lines = ["| 256 × 256, frames/s | colour, depth | with masks | depth as ours |", "|---|---:|---:|---:|"]
+    lines = ["| 256 × 256 | colour, depth: frames/s | processor ms | with masks: frames/s | processor ms | depth as ours |",
+             "|---|---:|---:|---:|---:|---:|"]
     for name, times in results.items():
-        speeds = [f"{1e3 / statistics.median(times[kind]):.3g}" if kind in times else "" for kind in ("plain", "masks")]
-        same = agreement(file, variants()[name][0])
-        lines.append(f"| {name} | {speeds[0]} | {speeds[1]} | {'' if name.startswith('Pinocchio') else f'{100 * same:.2f} %'} |")
+        cells = []
+        for kind in ("plain", "masks"):
+            of = {key: statistics.median(one[key] for one in times.get(kind, [])) for key in ("wall", "processor")} if kind in times else None
+            cells += [f"{1e3 / of['wall']:.3g}", f"{of['processor']:.3g}"] if of else ["", ""]
+        cells.append("" if name.startswith("Pinocchio") else f"{100 * agreement(file, variants()[name][0]):.2f} %")
+        lines.append(f"| {name} | {' | '.join(cells)} |")
     return "\n".join(lines)
 
 

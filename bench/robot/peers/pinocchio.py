@@ -1,6 +1,6 @@
 # needs: numpy THIS_TREE
 """The Python module, on the CPU alone: two exact shadows. One by one, and many poses in one call."""
-VARIANTS = {"Pinocchio, render": {"many": False}, "Pinocchio, render_many": {"many": True}}
+VARIANTS = {"Pinocchio render": {"many": False}, "Pinocchio render_many": {"many": True}}
 MASKS = True
 
 
