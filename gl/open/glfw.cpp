@@ -1,7 +1,5 @@
 #include "gl/open/glfw.h"
 
-#define GLFW_INCLUDE_NONE
-#include <GLFW/glfw3.h>
 #include <dlfcn.h>
 #include <unistd.h>
 
@@ -10,6 +8,7 @@
 #include <utility>
 
 #include "gl/context/error.h"
+#include "gl/open/glfw_library.h"
 
 namespace pinocchio::gl {
 namespace {
@@ -17,7 +16,7 @@ namespace {
 // GLFW's message for its last failure.
 std::string glfw_error() {
   const char* text = nullptr;
-  glfwGetError(&text);
+  glfw().GetError(&text);
   return text ? text : "GLFW does not say why";
 }
 
@@ -40,9 +39,9 @@ void listen_for_lost_display() {
 
 // Whether GLFW is already initialised in this process.
 bool is_initialised() {
-  glfwGetError(nullptr);
-  (void)glfwGetTimerFrequency();
-  return glfwGetError(nullptr) != GLFW_NOT_INITIALIZED;
+  glfw().GetError(nullptr);
+  (void)glfw().GetTimerFrequency();
+  return glfw().GetError(nullptr) != GLFW_NOT_INITIALIZED;
 }
 
 // GLFW is terminated with the last context, unless the caller initialised it and has windows of its own.
@@ -50,10 +49,10 @@ std::shared_ptr<void> init_library() {
   static std::weak_ptr<void> running;
   if (std::shared_ptr<void> library = running.lock()) return library;
   const bool is_callers = is_initialised();
-  if (!glfwInit()) throw Error(glfw_error());
+  if (!glfw().Init()) throw Error(glfw_error());
   listen_for_lost_display();
   std::shared_ptr<void> library(&running, [is_callers](void*) {  // the pointer must not be null
-    if (!is_callers) glfwTerminate();
+    if (!is_callers) glfw().Terminate();
   });
   running = library;
   return library;
@@ -65,23 +64,24 @@ struct Version {
 };
 
 void set_hints(const Version& version, const GlfwContext::Request& request) {
-  glfwDefaultWindowHints();
-  glfwWindowHint(GLFW_CONTEXT_VERSION_MAJOR, version.major);
-  glfwWindowHint(GLFW_CONTEXT_VERSION_MINOR, version.minor);
-  glfwWindowHint(GLFW_OPENGL_PROFILE, GLFW_OPENGL_CORE_PROFILE);
-  glfwWindowHint(GLFW_OPENGL_FORWARD_COMPAT, GLFW_TRUE);
-  glfwWindowHint(GLFW_OPENGL_DEBUG_CONTEXT, request.debug ? GLFW_TRUE : GLFW_FALSE);
-  glfwWindowHint(GLFW_CONTEXT_ROBUSTNESS, version.robust ? GLFW_LOSE_CONTEXT_ON_RESET : GLFW_NO_ROBUSTNESS);
-  glfwWindowHint(GLFW_VISIBLE, request.visible ? GLFW_TRUE : GLFW_FALSE);
-  glfwWindowHint(GLFW_SCALE_TO_MONITOR, GLFW_TRUE);
-  glfwWindowHint(GLFW_DEPTH_BITS, 0);  // framebuffer objects have depth
-  glfwWindowHint(GLFW_STENCIL_BITS, 0);
+  glfw().DefaultWindowHints();
+  glfw().WindowHint(GLFW_CONTEXT_VERSION_MAJOR, version.major);
+  glfw().WindowHint(GLFW_CONTEXT_VERSION_MINOR, version.minor);
+  glfw().WindowHint(GLFW_OPENGL_PROFILE, GLFW_OPENGL_CORE_PROFILE);
+  glfw().WindowHint(GLFW_OPENGL_FORWARD_COMPAT, GLFW_TRUE);
+  glfw().WindowHint(GLFW_OPENGL_DEBUG_CONTEXT, request.debug ? GLFW_TRUE : GLFW_FALSE);
+  glfw().WindowHint(GLFW_CONTEXT_ROBUSTNESS,
+                    version.robust ? GLFW_LOSE_CONTEXT_ON_RESET : GLFW_NO_ROBUSTNESS);
+  glfw().WindowHint(GLFW_VISIBLE, request.visible ? GLFW_TRUE : GLFW_FALSE);
+  glfw().WindowHint(GLFW_SCALE_TO_MONITOR, GLFW_TRUE);
+  glfw().WindowHint(GLFW_DEPTH_BITS, 0);  // framebuffer objects have depth
+  glfw().WindowHint(GLFW_STENCIL_BITS, 0);
 }
 
 }  // namespace
 
 GlfwContext::GlfwContext(const Request& request)
-    : library_(init_library()), callers_window_(glfwGetCurrentContext()) {
+    : library_(init_library()), callers_window_(glfw().GetCurrentContext()) {
   open(request);
   try {
     make_current();
@@ -90,7 +90,7 @@ GlfwContext::GlfwContext(const Request& request)
   } catch (...) {
     release();
     drop_data();
-    glfwDestroyWindow(window_);
+    glfw().DestroyWindow(window_);
     throw;
   }
 }
@@ -99,7 +99,7 @@ GlfwContext::~GlfwContext() {
   callers_window_ = nullptr;  // it may be destroyed already
   release();
   drop_data();
-  glfwDestroyWindow(window_);
+  glfw().DestroyWindow(window_);
 }
 
 void GlfwContext::open(const Request& request) {
@@ -109,9 +109,9 @@ void GlfwContext::open(const Request& request) {
   std::string failure;
   for (const Version& version : kVersions) {
     set_hints(version, request);
-    window_ = glfwCreateWindow(request.size.x, request.size.y, request.title.c_str(), nullptr, nullptr);
+    window_ = glfw().CreateWindow(request.size.x, request.size.y, request.title.c_str(), nullptr, nullptr);
     if (window_) {
-      glfwGetError(nullptr);  // drops the errors of newer versions
+      glfw().GetError(nullptr);  // drops the errors of newer versions
       return;
     }
     failure = glfw_error();
@@ -120,27 +120,27 @@ void GlfwContext::open(const Request& request) {
 }
 
 void GlfwContext::bind() {
-  glfwMakeContextCurrent(window_);
-  if (glfwGetCurrentContext() != window_) throw Error(glfw_error());
+  glfw().MakeContextCurrent(window_);
+  if (glfw().GetCurrentContext() != window_) throw Error(glfw_error());
 }
 
 // GLFW knows only its own windows, and does not notice when another context is made current.
 bool GlfwContext::is_bound() const {
-  return glfwGetCurrentContext() == window_ && native_.is_context_of(NativeContext::now());
+  return glfw().GetCurrentContext() == window_ && native_.is_context_of(NativeContext::now());
 }
 
 void GlfwContext::unbind() {
-  glfwMakeContextCurrent(std::exchange(callers_window_, nullptr));
+  glfw().MakeContextCurrent(std::exchange(callers_window_, nullptr));
 }
 
 void GlfwContext::enter() {
-  callers_window_ = glfwGetCurrentContext();
+  callers_window_ = glfw().GetCurrentContext();
   if (callers_window_ == window_) callers_window_ = nullptr;
   Context::enter();
 }
 
 GLADloadfunc GlfwContext::loader() const {
-  return glfwGetProcAddress;
+  return glfw().GetProcAddress;
 }
 
 Candidate glfw_candidate() {

@@ -1,12 +1,10 @@
 #include "gl/open/window.h"
 
-#define GLFW_INCLUDE_NONE
-#include <GLFW/glfw3.h>
-
 #include <cctype>
 #include <utility>
 
 #include "gl/context/error.h"
+#include "gl/open/glfw_library.h"
 #include "gl/open/probe.h"
 
 namespace pinocchio::gl {
@@ -26,11 +24,11 @@ Modifiers modifiers_of(int mods) {
 }
 
 Events& events_of(GLFWwindow* window) {
-  return *static_cast<Events*>(glfwGetWindowUserPointer(window));
+  return *static_cast<Events*>(glfw().GetWindowUserPointer(window));
 }
 
 int character_of(int key, int scancode) {
-  const char* const name = glfwGetKeyName(key, scancode);
+  const char* const name = glfw().GetKeyName(key, scancode);
   if (!name || name[0] == '\0' || name[1] != '\0') return key;
   return std::toupper(static_cast<unsigned char>(name[0]));
 }
@@ -46,8 +44,8 @@ void on_button(GLFWwindow* window, int button, int action, int mods) {
 
 void on_pointer(GLFWwindow* window, double x, double y) {
   int width = 0, height = 0, pixels_x = 0, pixels_y = 0;
-  glfwGetWindowSize(window, &width, &height);
-  glfwGetFramebufferSize(window, &pixels_x, &pixels_y);
+  glfw().GetWindowSize(window, &width, &height);
+  glfw().GetFramebufferSize(window, &pixels_x, &pixels_y);
   if (width < 1 || height < 1) return;
   const glm::dvec2 scale(static_cast<double>(pixels_x) / width, static_cast<double>(pixels_y) / height);
   events_of(window).push_back(PointerEvent{glm::vec2(glm::dvec2(x, y) * scale)});
@@ -90,14 +88,14 @@ GlfwContext::Request request_of(const std::string& title, glm::ivec2 size, bool 
 GLFWmonitor* monitor_of(const glm::ivec4& window) {
   const glm::ivec2 middle = glm::ivec2(window) + glm::ivec2(window.z, window.w) / 2;
   int count = 0;
-  GLFWmonitor** const monitors = glfwGetMonitors(&count);
+  GLFWmonitor** const monitors = glfw().GetMonitors(&count);
   for (int i = 0; i < count; ++i) {
     glm::ivec4 area(0);
-    glfwGetMonitorWorkarea(monitors[i], &area.x, &area.y, &area.z, &area.w);
+    glfw().GetMonitorWorkarea(monitors[i], &area.x, &area.y, &area.z, &area.w);
     const glm::ivec2 in = middle - glm::ivec2(area);
     if (in.x >= 0 && in.y >= 0 && in.x < area.z && in.y < area.w) return monitors[i];
   }
-  return glfwGetPrimaryMonitor();
+  return glfw().GetPrimaryMonitor();
 }
 
 }  // namespace
@@ -106,101 +104,101 @@ Window::Window(const std::string& title, glm::ivec2 size, bool debug) try
     : context_(request_of(title, size, debug)) {
   probe(context_.info());
   listen();
-  glfwSetWindowSizeLimits(handle(), 64, 64, GLFW_DONT_CARE, GLFW_DONT_CARE);
+  glfw().SetWindowSizeLimits(handle(), 64, 64, GLFW_DONT_CARE, GLFW_DONT_CARE);
   set_vsync(true);
 } catch (const Error& error) {
   throw NoContextError(std::string("no window: ") + error.what());
 }
 
 void Window::listen() {
-  glfwSetWindowUserPointer(handle(), &events_);
-  glfwSetKeyCallback(handle(), on_key);
-  glfwSetMouseButtonCallback(handle(), on_button);
-  glfwSetCursorPosCallback(handle(), on_pointer);
-  glfwSetScrollCallback(handle(), on_scroll);
-  glfwSetDropCallback(handle(), on_drop);
-  glfwSetCharCallback(handle(), on_text);
-  glfwSetWindowRefreshCallback(handle(), on_expose);
-  glfwSetFramebufferSizeCallback(handle(), on_resize);
-  glfwSetWindowFocusCallback(handle(), on_focus);
+  glfw().SetWindowUserPointer(handle(), &events_);
+  glfw().SetKeyCallback(handle(), on_key);
+  glfw().SetMouseButtonCallback(handle(), on_button);
+  glfw().SetCursorPosCallback(handle(), on_pointer);
+  glfw().SetScrollCallback(handle(), on_scroll);
+  glfw().SetDropCallback(handle(), on_drop);
+  glfw().SetCharCallback(handle(), on_text);
+  glfw().SetWindowRefreshCallback(handle(), on_expose);
+  glfw().SetFramebufferSizeCallback(handle(), on_resize);
+  glfw().SetWindowFocusCallback(handle(), on_focus);
 }
 
 std::vector<WindowEvent> Window::take_events(double timeout_s) {
   if (timeout_s > 0.0) {
-    glfwWaitEventsTimeout(timeout_s);
+    glfw().WaitEventsTimeout(timeout_s);
   } else {
-    glfwPollEvents();
+    glfw().PollEvents();
   }
   return std::exchange(events_, {});
 }
 
 bool Window::is_down(int key) const {
-  return glfwGetKey(handle(), key) == GLFW_PRESS;
+  return glfw().GetKey(handle(), key) == GLFW_PRESS;
 }
 
 bool Window::close_asked() const {
-  return glfwWindowShouldClose(handle()) != 0;
+  return glfw().WindowShouldClose(handle()) != 0;
 }
 
 void Window::ask_close() {
-  glfwSetWindowShouldClose(handle(), GLFW_TRUE);
+  glfw().SetWindowShouldClose(handle(), GLFW_TRUE);
 }
 
 void Window::stay_open() {
-  glfwSetWindowShouldClose(handle(), GLFW_FALSE);
+  glfw().SetWindowShouldClose(handle(), GLFW_FALSE);
 }
 
 glm::ivec2 Window::pixels() const {
   glm::ivec2 size(0);
-  glfwGetFramebufferSize(handle(), &size.x, &size.y);
+  glfw().GetFramebufferSize(handle(), &size.x, &size.y);
   return size;
 }
 
 bool Window::minimised() const {
-  return glfwGetWindowAttrib(handle(), GLFW_ICONIFIED) != 0 || pixels().x < 1 || pixels().y < 1;
+  return glfw().GetWindowAttrib(handle(), GLFW_ICONIFIED) != 0 || pixels().x < 1 || pixels().y < 1;
 }
 
 float Window::content_scale() const {
   float x = 1.0f, y = 1.0f;
-  glfwGetWindowContentScale(handle(), &x, &y);
+  glfw().GetWindowContentScale(handle(), &x, &y);
   // A display that enlarges windows itself has large units already.
   int width = 0;
-  glfwGetWindowSize(handle(), &width, nullptr);
+  glfw().GetWindowSize(handle(), &width, nullptr);
   const float pixels_a_unit = width > 0 ? static_cast<float>(pixels().x) / static_cast<float>(width) : 1.0f;
   return x > 0.0f && pixels_a_unit > 0.0f ? x / pixels_a_unit : 1.0f;
 }
 
 bool Window::full_screen() const {
-  return glfwGetWindowMonitor(handle()) != nullptr;
+  return glfw().GetWindowMonitor(handle()) != nullptr;
 }
 
 void Window::set_full_screen(bool on) {
   if (on == full_screen()) return;
   if (on) {
-    glfwGetWindowPos(handle(), &windowed_.x, &windowed_.y);
-    glfwGetWindowSize(handle(), &windowed_.z, &windowed_.w);
+    glfw().GetWindowPos(handle(), &windowed_.x, &windowed_.y);
+    glfw().GetWindowSize(handle(), &windowed_.z, &windowed_.w);
     GLFWmonitor* const monitor = monitor_of(windowed_);
-    const GLFWvidmode* const mode = monitor ? glfwGetVideoMode(monitor) : nullptr;
-    if (mode) glfwSetWindowMonitor(handle(), monitor, 0, 0, mode->width, mode->height, mode->refreshRate);
+    const GLFWvidmode* const mode = monitor ? glfw().GetVideoMode(monitor) : nullptr;
+    if (mode) glfw().SetWindowMonitor(handle(), monitor, 0, 0, mode->width, mode->height, mode->refreshRate);
   } else {
-    glfwSetWindowMonitor(handle(), nullptr, windowed_.x, windowed_.y, windowed_.z, windowed_.w, 0);
+    glfw().SetWindowMonitor(handle(), nullptr, windowed_.x, windowed_.y, windowed_.z, windowed_.w, 0);
   }
 }
 
 void Window::set_title(const std::string& title) {
-  glfwSetWindowTitle(handle(), title.c_str());
+  glfw().SetWindowTitle(handle(), title.c_str());
 }
 
 void Window::set_clipboard(const std::string& text) {
-  glfwSetClipboardString(handle(), text.c_str());
+  glfw().SetClipboardString(handle(), text.c_str());
 }
 
 void Window::set_vsync(bool on) {
-  glfwSwapInterval(on ? 1 : 0);
+  glfw().SwapInterval(on ? 1 : 0);
 }
 
 void Window::present() {
-  glfwSwapBuffers(handle());
+  glfw().SwapBuffers(handle());
   if (context_lost()) throw ContextLostError("the GPU was reset and its OpenGL context is lost; start again");
 }
 

@@ -224,3 +224,54 @@ def test_stl_and_the_axis_that_points_up(tmp_path):
         pn.load_scene(file, up_axis="x")
     with pytest.raises(pn.Error, match="has no animation 'walk'"):
         pn.load_scene(file, animation="walk")
+
+
+def test_mitsubas_rays_are_seen_where_they_come_from():
+    """Of its cameras, those that we have: perspective and orthographic."""
+    mitsuba = pytest.importorskip("mitsuba")
+    mitsuba.set_variant("scalar_rgb")
+    at = mitsuba.ScalarTransform4f().look_at(origin=AT["eye"], target=AT["target"], up=(0, 1, 0))
+    film = {"type": "hdrfilm", "width": SIZE[0], "height": SIZE[1]}
+    height = 3.0
+    across = 0.5 * height * SIZE[0] / SIZE[1]  # theirs is two wide
+    sensors = {
+        pn.Camera(**AT, fov=50): {"type": "perspective", "fov": 50.0, "fov_axis": "y", "to_world": at, "film": film},
+        pn.Camera.orthographic(**AT, height=height): {
+            "type": "orthographic", "to_world": at @ mitsuba.ScalarTransform4f().scale([across, across, 1]), "film": film,
+        },
+    }
+    for camera, description in sensors.items():
+        sensor = mitsuba.load_dict(description)
+        places = numpy.random.default_rng(2).uniform(0.02, 0.98, (100, 2))
+        points = []
+        for place in places:
+            ray, _ = sensor.sample_ray(0.0, 0.5, list(map(float, place)), [0.5, 0.5])
+            points.append(numpy.array(ray.o).ravel() + 4 * numpy.array(ray.d).ravel())
+        numpy.testing.assert_allclose(camera.project(points, SIZE), places * SIZE - 0.5, atol=2e-3)
+
+
+@pytest.mark.parametrize("name", ["orthographic", "panorama", "fisheye", "lens"])
+def test_textures_are_averaged_as_wide_as_the_pixels_of_a_camera(name):
+    """One sample, filtered, is near the mean of many, and nearer than one that is not filtered."""
+    noise = numpy.random.default_rng(5).integers(0, 255, (256, 256, 3), dtype=numpy.uint8)
+    floor = numpy.array([[-20, 0, -20], [20, 0, -20], [20, 0, 20], [-20, 0, 20]], numpy.float32)
+    scene = pn.Scene(floor, [[0, 2, 1], [0, 3, 2]], uvs=[[0, 0], [6, 0], [6, 6], [0, 6]], ambient=(1, 1, 1),
+                     materials=pn.Material(diffuse=(1, 1, 1), texture=noise))
+    scene.lights = [pn.Light(position=(0, 5, 0), intensity=0)]
+    engine, size = pn.Engine(), (120, 60)
+    at = {"eye": (0, 4, 0), "target": (0, 0, -6)}
+    pose = numpy.eye(4)
+    forward = numpy.subtract(at["target"], at["eye"]) / numpy.linalg.norm(numpy.subtract(at["target"], at["eye"]))
+    pose[:3] = numpy.column_stack([(1, 0, 0), numpy.cross(forward, (1, 0, 0)), forward, at["eye"]])
+    camera = {
+        "orthographic": lambda: pn.Camera.orthographic(**at, height=12),
+        "panorama": lambda: pn.Camera.panorama(**at),
+        "fisheye": lambda: pn.Camera.fisheye(**at, fov=150),
+        "lens": lambda: pn.Camera.from_intrinsics(size, 50, 50, 59.5, 29.5, pose, distortion=[-0.1, 0.01, 0, 0]),
+    }[name]()
+    truth = engine.render(scene, camera, size, spp=256).color[..., :3]
+    seen = engine.render(scene, camera, size).ids != 0xFFFFFFFF
+    assert seen.sum() > 1500
+    off = {filtered: numpy.sqrt(((engine.render(scene, camera, size, filter_textures=filtered).color[..., :3] - truth)[seen] ** 2).mean())
+           for filtered in (True, False)}
+    assert off[True] < 0.5 * off[False], off

@@ -4,6 +4,7 @@
 #include <map>
 #include <nlohmann/json.hpp>
 #include <set>
+#include <string_view>
 
 #include "core/base/listed.h"
 #include "core/scene/gltf/deformation.h"
@@ -26,19 +27,57 @@ constexpr NamedPath kPaths[] = {{"translation", Track::Path::translation, 3},
                                 {"scale", Track::Path::scale, 3},
                                 {"weights", Track::Path::weights, 0}};
 
+const NamedPath* path_named(std::string_view name) {
+  const auto* const found = std::ranges::find_if(kPaths, [&](const NamedPath& p) { return name == p.name; });
+  return found == std::end(kPaths) ? nullptr : found;
+}
+
 // A channel of an animation; indices are the file's.
 struct Channel {
   int sampler, node;
   const NamedPath* path;  // null: not one of glTF's own
+  std::string pointer;    // KHR_animation_pointer's, where it names no part of a node that can move
 
   explicit Channel(const Json& json)
       : sampler(index_member(&json, "sampler")), node(index_member(member(&json, "target"), "node")) {
-    const std::string name = text_member(member(&json, "target"), "path");
-    const auto* const found =
-        std::ranges::find_if(kPaths, [&](const NamedPath& p) { return name == p.name; });
-    path = found == std::end(kPaths) ? nullptr : found;
+    const Json* const target = member(&json, "target");
+    const std::string name = text_member(target, "path");
+    path = path_named(name);
+    if (name == "pointer") point_to(text_member(extension(target, "KHR_animation_pointer"), "pointer"));
+  }
+
+ private:
+  // "/nodes/3/translation" is the same as a channel of node 3.
+  void point_to(const std::string& text) {
+    constexpr std::string_view kNodes = "/nodes/";
+    const std::size_t end = text.rfind('/');
+    if (text.starts_with(kNodes) && end > kNodes.size()) {
+      const char *const first = text.data() + kNodes.size(), *const last = text.data() + end;
+      int number = -1;
+      const auto [stop, error] = std::from_chars(first, last, number);
+      path = path_named(std::string_view(text).substr(end + 1));
+      if (path && error == std::errc() && stop == last && number >= 0) {
+        node = number;
+        return;
+      }
+    }
+    path = nullptr;
+    pointer = text;
   }
 };
+
+// "/materials/3/emissiveFactor" as "/materials/N/emissiveFactor", so that each kind is one warning.
+std::string kind_of(const std::string& pointer) {
+  std::string kind;
+  for (std::size_t i = 0; i < pointer.size();) {
+    const std::size_t end = std::min(pointer.find('/', i + 1), pointer.size());
+    const std::string part = pointer.substr(i, end - i);
+    const bool is_number = part.size() > 1 && part.find_first_not_of("0123456789", 1) == std::string::npos;
+    kind += is_number ? "/N" : part;
+    i = end;
+  }
+  return kind;
+}
 
 class AnimationReader {
  public:
@@ -122,6 +161,8 @@ class AnimationReader {
   // None: it moves nothing that is drawn, or is left out with a warning.
   Expected<std::optional<Track>> track_of(const Json& samplers, const Channel& channel) {
     const auto none = [] { return std::optional<Track>(); };
+    if (!channel.pointer.empty())
+      return left_out("KHR_animation_pointer to " + kind_of(channel.pointer) + " is left out");
     if (!channel.path || channel.node < 0) return none();  // an extension's
     if (!in_range(channel.node, place_of_node_))
       return file_.error(where_ + " moves node " + which_of(channel.node, place_of_node_));

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <glm/gtc/constants.hpp>
 #include <glm/gtc/matrix_transform.hpp>
+#include <map>
 
 #include "pinocchio/save.h"
 #include "tests/support/moving_gltf.h"
@@ -48,6 +49,44 @@ TEST(Animation, InterpolatesAsGltfSays) {
                h11 = t * t * t - t * t;
   const auto s = static_cast<float>(2 * h10 * 3 + h01 + 2 * h11 * -1);
   expect_near(at(load_good(cubic.json), 0.5).mesh->positions[1], {s, 0, 0});
+}
+
+// As KHR_animation_pointer names what moves.
+Json& point_to(Moving& moving, const std::string& pointer) {
+  Json& target = moving.json["animations"][0]["channels"].back()["target"];
+  target = {{"path", "pointer"}, {"extensions", {{"KHR_animation_pointer", {{"pointer", pointer}}}}}};
+  return target;
+}
+
+TEST(Animation, PointersToNodesAreChannelsOfThem) {
+  Moving m;
+  m.json["extensionsUsed"] = m.json["extensionsRequired"] = {"KHR_animation_pointer"};
+  m.animate(0, "", {0, 2}, m.floats({0, 0, 0, 4, 2, 0}, "VEC3"));
+  point_to(m, "/nodes/0/translation");
+  Warnings warnings;
+  const Scene scene = load(m.json, &warnings).value();
+  EXPECT_TRUE(warnings.empty());
+  expect_near(at(scene, 1).mesh->positions[0], {2, 1, 0});
+}
+
+TEST(Animation, PointersToOtherThingsAreNamedOnceForEachKind) {
+  Moving m;
+  for (const char* pointer :
+       {"/materials/0/emissiveFactor", "/materials/12/emissiveFactor",
+        "/nodes/0/extensions/KHR_node_visibility/visible", "/nodes/x/translation", "/nodes/translation",
+        "/nodes//scale", "/nodes/99999999999/scale", "translation"}) {
+    m.animate(0, "", {0, 2}, m.floats({0, 0, 0, 4, 2, 0}, "VEC3"));
+    point_to(m, pointer);
+  }
+  Warnings warnings;
+  const Scene scene = load(m.json, &warnings).value();
+  EXPECT_EQ(duration_s(scene), 0.0);
+  std::map<std::string, std::size_t> places;
+  for (const Warning& warning : warnings) places[warning.what] = warning.places;
+  EXPECT_EQ(places.size(), 7u);
+  EXPECT_EQ(places["KHR_animation_pointer to /materials/N/emissiveFactor is left out"], 2u);
+  EXPECT_EQ(places["KHR_animation_pointer to /nodes/N/extensions/KHR_node_visibility/visible is left out"],
+            1u);
 }
 
 // From 30 to 150 degrees around z; the quaternion of the second key is the negative one: the short way
