@@ -52,10 +52,9 @@ TEST(Animation, InterpolatesAsGltfSays) {
 }
 
 // As KHR_animation_pointer names what moves.
-Json& point_to(Moving& moving, const std::string& pointer) {
+void point_to(Moving& moving, const std::string& pointer) {
   Json& target = moving.json["animations"][0]["channels"].back()["target"];
   target = {{"path", "pointer"}, {"extensions", {{"KHR_animation_pointer", {{"pointer", pointer}}}}}};
-  return target;
 }
 
 TEST(Animation, PointersToNodesAreChannelsOfThem) {
