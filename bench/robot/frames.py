@@ -8,7 +8,8 @@ The robot is Franka Emika's Panda from PyPI's example-robot-data, read by yourdf
 has a pose of its own in each frame, on a floor that stands still, under two lights that cast shadows. Every renderer gets
 the same arrays, poses and camera and gives colour and depth, then colour, depth and masks, as NumPy arrays. Each draws
 in a process of its own; processes take turns for ROUNDS rounds, and a time is the median of the rounds' medians, by the clock
-and of all processors together (which other programs beside it disturb less). The depth of one frame is compared with ours: the share of pixels within 1 % (edges are seen by one and not by the other).
+and of all processors together (which other programs beside it disturb less). The depth of one frame is compared with ours: the
+share of pixels within 1 %.
 
 Python packages go to environments of their own under build/peers, as scripts/peers has them; the module comes from this
 tree, or from WHEEL. --docs writes the table into docs/measurements.md.
@@ -194,16 +195,22 @@ def agreement(file, script):
 
 
 def table(results, file):
-    lines = ["| 256 × 256 | colour, depth: frames/s | processor ms | with masks: frames/s | processor ms | depth as ours |",
-             "|---|---:|---:|---:|---:|---:|"]
+    lines = ["| | colour, depth: ms of processors | frames/s of a processor | with masks: ms | frames/s | clock, ms | depth as ours |",
+             "|---|---:|---:|---:|---:|---:|---:|"]
     for name, times in results.items():
         cells = []
         for kind in ("plain", "masks"):
-            of = {key: statistics.median(one[key] for one in times.get(kind, [])) for key in ("wall", "processor")} if kind in times else None
-            cells += [f"{1e3 / of['wall']:.3g}", f"{of['processor']:.3g}"] if of else ["", ""]
+            ms = statistics.median(one["processor"] for one in times[kind]) if kind in times else None
+            cells += [f"{ms:.3g}", f"{1e3 / ms:.3g}"] if ms else ["", ""]
+        cells.append(", ".join(f"{statistics.median(one['wall'] for one in of):.0f}" for of in times.values()))
         cells.append("" if name.startswith("Pinocchio") else f"{100 * agreement(file, variants()[name][0]):.2f} %")
         lines.append(f"| {name} | {' | '.join(cells)} |")
     return "\n".join(lines)
+
+
+def write_docs(text):
+    pattern = re.compile(r"(<!-- begin robot -->\n).*?(<!-- end robot -->)", re.S)
+    PAGE.write_text(pattern.sub(lambda m: m.group(1) + text + "\n" + m.group(2), PAGE.read_text(encoding="utf-8")), encoding="utf-8")
 
 
 def main():
@@ -215,7 +222,7 @@ def main():
     parser.add_argument("--urdf", default="")
     parser.add_argument("--size", default="256x256", type=lambda text: tuple(int(n) for n in text.split("x")))
     parser.add_argument("--frames", type=int, default=60, help="of each renderer in a round")
-    parser.add_argument("--rounds", type=int, default=5)
+    parser.add_argument("--rounds", type=int, default=5, help="0: the table of the last run")
     parser.add_argument("--threads", type=int, default=len(os.sched_getaffinity(0)))
     parser.add_argument("--only", default="")
     parser.add_argument("--module", default="THIS_TREE", help="a wheel of the module")
@@ -230,6 +237,10 @@ def main():
         return peers.environment(script.stem, *needs.replace("THIS_TREE", module).split())
 
     file = peers.WORK / "robot.npz"
+    if options.rounds == 0:  # the table of what was measured before
+        text = table(json.loads((peers.WORK / "robot.json").read_text()), file)
+        print(text)
+        return write_docs(text) if options.docs else None
     reader = peers.environment("urdf", "yourdfpy", "example-robot-data==6.0.0")
     subprocess.run([reader, __file__, "--prepare", file, options.urdf], check=True)
     results = measured(options, environment_of, file)
@@ -237,8 +248,7 @@ def main():
     text = table(results, file)
     print(text)
     if options.docs:
-        pattern = re.compile(r"(<!-- begin robot -->\n).*?(<!-- end robot -->)", re.S)
-        PAGE.write_text(pattern.sub(lambda m: m.group(1) + text + "\n" + m.group(2), PAGE.read_text(encoding="utf-8")), encoding="utf-8")
+        write_docs(text)
 
 
 if __name__ == "__main__":
