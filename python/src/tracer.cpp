@@ -19,9 +19,7 @@
 namespace pinocchio::python {
 namespace {
 
-// Rays that a thread traces at once. Rays that diverge are sorted within a chunk, so that few large ones are
-// faster, as long as every thread has some.
-constexpr std::size_t kLeastChunk = 4096, kMostChunk = 65536;
+constexpr std::size_t kChunk = 4096;  // rays that a thread traces at once
 
 Scene scene_of(const Floats3& vertices, const Words3& triangles) {
   MeshData mesh;
@@ -77,12 +75,11 @@ void for_chunks(std::size_t n, int threads, const Progress* progress,
   std::atomic<std::size_t> next{0};
   std::mutex mutex;
   std::exception_ptr error;
-  const std::size_t chunk = std::clamp(n / (4 * static_cast<std::size_t>(threads)), kLeastChunk, kMostChunk);
   const auto work = [&] {
     try {
-      for (std::size_t first; (first = next.fetch_add(chunk)) < n;) {
+      for (std::size_t first; (first = next.fetch_add(kChunk)) < n;) {
         throw_if_cancelled(progress);
-        body(first, std::min(first + chunk, n));
+        body(first, std::min(first + kChunk, n));
       }
     } catch (...) {
       next = n;
@@ -90,7 +87,7 @@ void for_chunks(std::size_t n, int threads, const Progress* progress,
       if (!error) error = std::current_exception();
     }
   };
-  const auto chunks = static_cast<int>(std::min<std::size_t>((n + chunk - 1) / chunk, 1024));
+  const auto chunks = static_cast<int>(std::min<std::size_t>((n + kChunk - 1) / kChunk, 1024));
   {
     std::vector<std::jthread> helpers;
     try {
@@ -191,8 +188,7 @@ class ArrayTracer {
                .triangle = std::vector<std::uint32_t>(rays.count)};
     without_gil([&](Progress* progress) {
       for_chunks(rays.count, threads_, progress, [&](std::size_t first, std::size_t last) {
-        static thread_local std::vector<Hit> hits;
-        hits.resize(std::max(hits.size(), last - first));
+        static thread_local std::vector<Hit> hits(kChunk);
         for (std::size_t i = first; i < last; ++i) found.rays[i] = rays.ray(i);
         tracer_.closest_hits(std::span(found.rays).subspan(first, last - first),
                              std::span(hits).first(last - first));
@@ -210,8 +206,7 @@ class ArrayTracer {
     const nb::capsule owns(blocked, [](void* p) noexcept { delete[] static_cast<std::uint8_t*>(p); });
     without_gil([&](Progress* progress) {
       for_chunks(rays.count, threads_, progress, [&](std::size_t first, std::size_t last) {
-        static thread_local std::vector<Ray> some;
-        some.resize(std::max(some.size(), last - first));
+        static thread_local std::vector<Ray> some(kChunk);
         for (std::size_t i = first; i < last; ++i) some[i - first] = rays.ray(i);
         tracer_.occluded(std::span(some).first(last - first), {blocked + first, last - first});
       });
