@@ -53,8 +53,9 @@ Isa checked_isa(std::optional<Isa> wanted) {
   return *wanted;
 }
 
-// Rays copied to columns at a time.
-constexpr std::size_t kBlock = 256;
+// Rays copied to columns at a time, 147 KB of the stack. Rays that diverge are sorted within a block: with
+// 256 rays, random ones take 1.25 times as long.
+constexpr std::size_t kBlock = 4096;
 
 class Block {
  public:

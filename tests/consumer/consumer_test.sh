@@ -94,6 +94,12 @@ if ldd "$work/build/tracer_alone" | grep -E 'libGL|libEGL|libglfw'; then
   echo "the tracer alone links OpenGL"
   exit 1
 fi
+for example in headless layers; do
+  if ldd "$work/build/$example" | grep -E 'libglfw|libX11'; then
+    echo "$example opens no window, but links GLFW or X11"
+    exit 1
+  fi
+done
 
 "$work/build/headless" "$tree/scenes/cornell.gltf" "$work/cornell.exr"
 "$built/bin/pinocchio" render "$tree/scenes/cornell.gltf" --depth 4 -o "$work/program.exr" --quiet
