@@ -4,7 +4,7 @@
 #include <glm/glm.hpp>
 #include <memory>
 
-#include "core/scene/prefiltered_sky.h"
+#include "core/scene/sky/prefiltered_sky.h"
 #include "pinocchio/environment.h"
 #include "pinocchio/scene.h"
 

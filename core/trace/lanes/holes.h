@@ -4,7 +4,7 @@
 #include "core/trace/lanes/maps.h"
 #include "core/trace/lanes/scatter.h"
 #include "core/trace/lanes/surface.h"
-#include "core/trace/walk/passed.h"
+#include "core/trace/rays/passed_surfaces.h"
 
 namespace pinocchio::PINOCCHIO_LANES {
 namespace {

@@ -33,7 +33,7 @@ class MetHoles {
 
 // Rays through surfaces that let some of them pass (material_maps.h): a ray that meets a hole goes on behind
 // it. The tree does not know about holes, so that scenes without them pay nothing. Shadow rays pass them in
-// the walk (walk/passed.h). `bounce` gives the scene and the offset.
+// the walk (rays/passed_surfaces.h). `bounce` gives the scene and the offset.
 class Holes {
  public:
   // rays.triangle holds the first triangle of each ray; afterwards, the first one that is no hole there.

@@ -1,7 +1,7 @@
 // The rays of a tile beyond the visible points: mirrored and refracted rays, the environment, light from
 // other surfaces.
+#include "core/trace/rays/passed_surfaces.h"
 #include "core/trace/tiles/tile_tracer.h"
-#include "core/trace/walk/passed.h"
 
 namespace pinocchio {
 

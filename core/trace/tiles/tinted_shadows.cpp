@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "core/trace/walk/passed.h"
+#include "core/trace/rays/passed_surfaces.h"
 
 namespace pinocchio {
 namespace {

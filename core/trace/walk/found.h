@@ -3,8 +3,8 @@
 
 #include "core/bsp/scene_trees.h"
 #include "core/trace/rays/material_marks.h"
+#include "core/trace/rays/passed_surfaces.h"
 #include "core/trace/walk/packet.h"
-#include "core/trace/walk/passed.h"
 
 namespace pinocchio::PINOCCHIO_LANES {
 namespace {

@@ -8,8 +8,8 @@
 #include "core/bsp/scene_trees.h"
 #include "core/simd/isas.h"
 #include "core/trace/rays/material_marks.h"
+#include "core/trace/rays/passed_surfaces.h"
 #include "core/trace/rays/ray_queue.h"
-#include "core/trace/walk/passed.h"
 
 namespace pinocchio {
 

@@ -7,7 +7,7 @@
 #include <cmath>
 
 #include "core/image/tonemap.h"
-#include "core/scene/lat_long.h"
+#include "core/scene/sky/lat_long.h"
 #include "pinocchio/scene.h"
 #include "pinocchio/shadow_catcher.h"
 #include "pinocchio/studio.h"

@@ -6,10 +6,10 @@
 
 #include "core/bsp/projected_triangle.h"
 #include "core/bsp/tree.h"
+#include "core/trace/rays/passed_surfaces.h"
 #include "core/trace/rays/ray_queue.h"
 #include "core/trace/rays/ray_sorter.h"
 #include "core/trace/view/view_params.h"
-#include "core/trace/walk/passed.h"
 #include "scenes/generator/mesh_builder.h"
 #include "tests/support/scenes.h"
 

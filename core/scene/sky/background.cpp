@@ -6,7 +6,7 @@
 
 #include "core/base/decimal.h"
 #include "core/image/tonemap.h"
-#include "core/scene/blurred.h"
+#include "core/scene/sky/blurred.h"
 #include "pinocchio/scene.h"
 #include "pinocchio/shadow_catcher.h"
 #include "pinocchio/studio.h"

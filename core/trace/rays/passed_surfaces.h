@@ -4,7 +4,7 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "core/trace/lanes/alpha_threshold.h"
+#include "core/trace/rays/alpha_threshold.h"
 #include "core/trace/rays/material_marks.h"
 #include "core/trace/rays/ray_queue.h"
 

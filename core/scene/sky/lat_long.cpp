@@ -1,4 +1,4 @@
-#include "core/scene/lat_long.h"
+#include "core/scene/sky/lat_long.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "core/scene/prefiltered_sky.h"
+#include "core/scene/sky/prefiltered_sky.h"
 
 #include <algorithm>
 #include <cmath>
@@ -6,7 +6,7 @@
 #include <mutex>
 #include <vector>
 
-#include "core/scene/lat_long.h"
+#include "core/scene/sky/lat_long.h"
 
 namespace pinocchio {
 namespace {
