@@ -93,7 +93,7 @@ void add_filtered(Workers& workers, FrameSlot& frame, Gathering& gathering) {
   if (!frame.options.denoise) return gathering.release();
   Span& stage = frame.record[Stage::trace_reflection];
   const double begin_s = now_s();
-  gathering.add(frame.request, frame.sampled, workers, frame.filtered);
+  gathering.add(frame.request, {&frame.sampled, &frame.beyond}, workers, frame.filtered);
   const Settings& s = frame.request.settings;
   const bool sends_picture = s.uses_gpu() && s.composite == Processor::cpu;
   const auto width = static_cast<std::size_t>(frame.size().x);
@@ -139,7 +139,10 @@ void trace(Workers& workers, FrameSlot& frame, Gathering& gathering) {
     unpack_srgb(frame.phong_srgb.pixels(), workers, frame.unpacked);
     out.added = &frame.unpacked;
   }
-  if (frame.options.denoise) out.sampled = &frame.sampled;
+  if (frame.options.denoise) {
+    out.sampled = &frame.sampled;
+    out.beyond = &frame.beyond;
+  }
   run(workers, frame, out, share);
   add_filtered(workers, frame, gathering);
 }
