@@ -13,6 +13,8 @@
 //   HAS_SIZED_LIGHTS  some light has a size: the picture is lit by those points of it that the CPU's shadow rays
 //                     of the same sample went to
 //   SIZED_LIGHTS_ARE_TRACED  the CPU's light has theirs, filtered
+//   ADDS_FILTERED     the filter's light of all samples is added in the last one's picture, also where that sample
+//                     sees nothing
 //   REPROJECT         mask and reflection are an older frame's, whose view and ids are given: each pixel reads
 //                     them where its point was seen then. Where neither that pixel nor a neighbour saw the
 //                     same triangle, the pixel is a hole: every light reaches it, and it takes the reflection
@@ -139,7 +141,11 @@ void main() {
   uint id = fetch_id(ids, pixel);
   if (id == kNoTriangle) {
     float lost = lost_light(pixel);
-    color = vec4((1.0 - lost) * min(background(pixel), kLargestHalf), lost);
+    vec3 behind = background(pixel);
+#if defined(ADDS_FILTERED) && !defined(HAS_CATCHER) && !defined(REPROJECT)
+    behind += reflection_at(pixel);
+#endif
+    color = vec4((1.0 - lost) * min(behind, kLargestHalf), lost);
     return;
   }
 

@@ -16,6 +16,10 @@ inline constexpr int kDenoiseRadius = 2;
 // Pixels around the picture that see nothing, so that a level may read beyond its edges.
 inline constexpr int kDenoiseBorder = kDenoiseRadius << (kDenoiseLevels - 1);
 
+// No pixel of the filtered picture depends on others that are further away, across or down: what all levels
+// read, the estimate of the noise, and the slope of the distance.
+inline constexpr int kDenoiseReach = kDenoiseRadius * ((1 << kDenoiseLevels) - 1) + kDenoiseRadius + 1;
+
 // Planes of one number for each pixel. Each pointer is at the picture's first pixel; lines are `stride`
 // apart, and kDenoiseBorder pixels beyond every edge, and a packet, can be read. Lines begin at a cache line.
 struct DenoiseGuides {

@@ -43,44 +43,54 @@ glm::vec3 GatheredLight::returned(const Sum& sum) {
   return glm::max(sum.albedo, glm::vec3(kLeastAlbedo * sum.hits));
 }
 
-void GatheredLight::add(const Image<SampledPoint>& sample, Picture picture, Isa isa, Workers& workers,
+void GatheredLight::add(const Layers& sample, Picture picture, Isa isa, Workers& workers,
                         Image<glm::vec3>& light) {
-  const bool filters = picture == Picture::filtered;
   if (samples_ == 0) {
-    size_ = sample.size();
-    sums_.assign(sample.pixels().size(), Sum{});
+    size_ = sample[0]->size();
+    for (Sums& sums : layers_) sums.clear();
   }
-  assert(sample.size() == size_);
   if (light.size() != size_) light = Image<glm::vec3>(size_);
-  gather(sample, workers);
+  std::ranges::fill(light.pixels(), glm::vec3(0.0f));
   ++samples_;
-  if (filters) {
-    fill_planes(workers);
-    filter(isa, workers);
+  for (std::size_t k = 0; k < layers_.size(); ++k) {
+    Sums& sums = layers_[k];
+    if (sums.empty() && sample[k]->empty()) continue;
+    sums.resize(light.pixels().size());
+    if (!sample[k]->empty()) gather(*sample[k], sums, workers);
+    if (picture == Picture::filtered) {
+      fill_planes(sums, workers);
+      filter(isa, workers);
+    }
+    add_shown(sums, picture, workers, light);
   }
+}
+
+// Adds what the layer's picture shows from now on, less what it has shown.
+void GatheredLight::add_shown(Sums& sums, Picture picture, Workers& workers, Image<glm::vec3>& light) const {
   const auto width = static_cast<std::size_t>(size_.x);
   const auto count = static_cast<float>(samples_);
   for_each_line(size_.y, workers, [&](int y) {
     for (std::size_t x = 0; x < width; ++x) {
       const std::size_t i = static_cast<std::size_t>(y) * width + x;
       const std::ptrdiff_t at = y * stride_ + static_cast<std::ptrdiff_t>(x);
-      Sum& sum = sums_[i];
+      Sum& sum = sums[i];
       glm::vec3 all = picture == Picture::kept ? sum.shown * (count / (count - 1.0f)) : sum.light;
-      if (filters && sum.hits > 0.0f)
+      if (picture == Picture::filtered && sum.hits > 0.0f)
         all = returned(sum) * glm::vec3(now_.light[0][at], now_.light[1][at], now_.light[2][at]);
-      light[i] = all - sum.shown;
+      light[i] += all - sum.shown;
       sum.shown = all;
     }
   });
 }
 
-void GatheredLight::gather(const Image<SampledPoint>& sample, Workers& workers) {
+void GatheredLight::gather(const Image<SampledPoint>& sample, Sums& sums, Workers& workers) const {
+  assert(sample.size() == size_);
   const auto width = static_cast<std::size_t>(size_.x);
   for_each_line(size_.y, workers, [&](int y) {
     for (std::size_t i = static_cast<std::size_t>(y) * width; i < static_cast<std::size_t>(y + 1) * width;
          ++i) {
       const SampledPoint& point = sample[i];
-      Sum& sum = sums_[i];
+      Sum& sum = sums[i];
       const glm::vec3 light = usable(point.light);
       sum.light += light;
       if (!is_surface(point)) continue;
@@ -105,7 +115,7 @@ float* GatheredLight::plane(std::size_t number) {
 }
 
 // Means of the samples. Pixels that see nothing, and those around the picture, are infinitely far.
-void GatheredLight::fill_planes(Workers& workers) {
+void GatheredLight::fill_planes(const Sums& sums, Workers& workers) {
   constexpr int kPacket = static_cast<int>(kCacheLine / sizeof(float));
   static_assert(kDenoiseBorder % kPacket == 0);
   stride_ = (size_.x + 2 * kDenoiseBorder + kPacket + kPacket - 1) / kPacket * kPacket;
@@ -134,7 +144,7 @@ void GatheredLight::fill_planes(Workers& workers) {
   });
   for_each_line(size_.y, workers, [&](int y) {
     for (int x = 0; x < size_.x; ++x) {
-      const Sum& sum = sums_[static_cast<std::size_t>(y) * static_cast<std::size_t>(size_.x) + x];
+      const Sum& sum = sums[static_cast<std::size_t>(y) * static_cast<std::size_t>(size_.x) + x];
       const std::ptrdiff_t at = y * stride_ + x;
       const bool seen = sum.hits > 0.0f;
       const glm::vec3 of_surface = returned(sum), light = seen ? sum.light / of_surface : glm::vec3(0.0f);

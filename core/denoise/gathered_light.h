@@ -1,6 +1,7 @@
 // The sampled light of a picture's samples, and its filter.
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <vector>
 
@@ -20,10 +21,12 @@ class GatheredLight {
   // What the mean of the pictures shows after a sample: the samples' mean, that mean filtered, or what it
   // showed before.
   enum class Picture { mean, filtered, kept };
+  // The layers of a sample, which are filtered one by one: what the camera sees, and what it sees in sharp
+  // mirrors and through glass. Empty: there is none.
+  using Layers = std::array<const Image<SampledPoint>*, 2>;
   // Adds a sample of the same size as the others. `light` becomes the light that its picture has in place of
   // the sampled one, so that the mean of this and all former pictures shows that. It may be below zero.
-  void add(const Image<SampledPoint>& sample, Picture picture, Isa isa, Workers& workers,
-           Image<glm::vec3>& light);
+  void add(const Layers& sample, Picture picture, Isa isa, Workers& workers, Image<glm::vec3>& light);
   // Forgets the samples.
   void reset() { samples_ = 0; }
   // Forgets the samples and frees their memory.
@@ -41,14 +44,16 @@ class GatheredLight {
     float distance, guide_albedo;
   };
   [[nodiscard]] static glm::vec3 returned(const Sum& sum);
-  void gather(const Image<SampledPoint>& sample, Workers& workers);
-  void fill_planes(Workers& workers);
+  using Sums = std::vector<Sum>;
+  void gather(const Image<SampledPoint>& sample, Sums& sums, Workers& workers) const;
+  void add_shown(Sums& sums, Picture picture, Workers& workers, Image<glm::vec3>& light) const;
+  void fill_planes(const Sums& sums, Workers& workers);
   void filter(Isa isa, Workers& workers);
   [[nodiscard]] float* plane(std::size_t number);
 
   int samples_ = 0;
   glm::ivec2 size_{0};
-  std::vector<Sum> sums_;
+  std::array<Sums, 2> layers_;  // of each one; empty: no sample had it
   std::ptrdiff_t stride_ = 0;
   AlignedVector<float> planes_;
   DenoiseGuides guides_;

@@ -7,6 +7,7 @@
 #include <cstddef>
 
 #include "core/denoise/denoise_steps.h"
+#include "pinocchio/ray.h"
 
 namespace pinocchio::PINOCCHIO_LANES {
 namespace {
@@ -78,6 +79,10 @@ inline void load_anywhere(const DenoiseLight& from, std::ptrdiff_t at, Float (&r
   for (int c = 0; c < 3; ++c) rgb[c] = load_anywhere(from.light[c] + at);
 }
 
+inline bool is_anything_seen(const DenoiseGuides& g, std::ptrdiff_t at) {
+  return (Float::load(g.distance + at) < Float(kInfinity)).bits() != 0;
+}
+
 // Calls use(dx, dy) for the pixels around a pixel.
 template <class Use>
 [[gnu::always_inline]] inline void for_each_around(Use use) {
@@ -90,6 +95,7 @@ void estimate(const DenoiseGuides& g, const DenoiseLight& from, bool spatial, in
               const DenoiseContrast& contrast) {
   for (int x = 0; x < g.width; x += kWidth) {
     const std::ptrdiff_t at = y * g.stride + x;
+    if (!is_anything_seen(g, at)) continue;  // nothing reads what is written there
     const Seen seen(g, at);
     const Float tolerance = seen.tolerance(1);
     Float rgb[3];
@@ -135,6 +141,7 @@ void filter_by(const DenoiseGuides& g, const DenoiseLight& from, const DenoiseCo
   constexpr float kMiddle = kSpline[kDenoiseRadius] * kSpline[kDenoiseRadius];
   for (int x = 0; x < g.width; x += kWidth) {
     const std::ptrdiff_t at = y * g.stride + x;
+    if (!is_anything_seen(g, at)) continue;  // nothing reads what is written there
     const Seen seen(g, at);
     const Float tolerance = seen.tolerance(step);
     Float sum[3], rgb[3];

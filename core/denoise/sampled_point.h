@@ -6,15 +6,18 @@
 
 namespace pinocchio {
 
-// What one sample of a pixel sees, for the filter of sampled light.
+// What one sample of a pixel sees, for the filter of sampled light: the surface that its ray meets, or
+// surfaces that are seen in sharp mirrors and through glass, of which the one that shines most tells the
+// place.
 struct SampledPoint {
   glm::vec3 light{0.0f};  // that was found at random, linear: with noise
-  // What the surface returns of the light around it, which the filter divides the light by: of an even light
-  // of 1, or, under a sampled environment, of that without shadows, in units of its mean.
+  // What the surfaces return to the eye of the light around them, which the filter divides the light by: of
+  // an even light of 1, or, under a sampled environment, of that without shadows, in units of its mean.
   glm::vec3 albedo{0.0f};
   glm::vec3 normal{0.0f};      // world shading normal, unit
-  float distance = kInfinity;  // from the ray's origin, scene units; infinite where nothing is hit
+  float distance = kInfinity;  // along the path from the eye, scene units; infinite where nothing is hit
   float guide_albedo = 0.0f;   // luminance of what it returns of an even light
+  float shown = -1.0f;         // the same of what reaches the eye; negative where nothing is hit
 };
 
 }  // namespace pinocchio

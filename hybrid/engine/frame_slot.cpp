@@ -90,7 +90,7 @@ void FrameSlot::release_unused() {
   if (s.mask_bits == 0) mask = {};
   if (!s.reflects()) reflection = {};
   if (!s.denoise) {
-    sampled = {};
+    sampled = beyond = {};
     filtered = {};
   }
   if (!uses_gpu || !s.reflects() || !s.tiles) {

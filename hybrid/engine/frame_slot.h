@@ -83,6 +83,7 @@ struct FrameSlot : CpuImages {
   gl::Texture tile_index_texture;  // tile_index on the GPU
   Image<glm::vec4> color;          // the CPU alone: the finished picture, linear
   Image<SampledPoint> sampled;     // with denoise: this frame's sample
+  Image<SampledPoint> beyond;      // ... of what is seen in sharp mirrors and through glass
   Image<glm::vec3> filtered;       // ... and what its picture shows for it
 
   gl::Framebuffer picture;  // the finished picture, RGBA16F, linear light; none where the CPU draws alone

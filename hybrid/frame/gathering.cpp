@@ -17,7 +17,7 @@ GatheredLight::Picture picture_of(const FrameRequest& request, int samples) {
 
 }  // namespace
 
-void Gathering::add(const FrameRequest& request, const Image<SampledPoint>& sample, Workers& workers,
+void Gathering::add(const FrameRequest& request, const GatheredLight::Layers& sample, Workers& workers,
                     Image<glm::vec3>& light) {
   const bool continues = of_ && same_view(*of_, request) && request.view.sample == light_.samples();
   if (!continues) light_.reset();

@@ -14,7 +14,7 @@ class Gathering {
   // the first samples it is their own, of the last of Settings::spp the filter's. Where each picture is
   // shown, and beyond spp, samples 1, 2, 4, 8 ... are filtered, and the others leave the mean as it is.
   // Another view starts again.
-  void add(const FrameRequest& request, const Image<SampledPoint>& sample, Workers& workers,
+  void add(const FrameRequest& request, const GatheredLight::Layers& sample, Workers& workers,
            Image<glm::vec3>& light);
   // Frees the memory.
   void release();

@@ -14,6 +14,7 @@ void ShadingPasses::composite(const Inputs& inputs, LightSet lights, const Trace
     if (inputs.options.denoise) definitions.emplace_back("SIZED_LIGHTS_ARE_TRACED");
     if (inputs.options.glossy == Glossy::sampled) definitions.emplace_back("HAS_SAMPLED_LOBES");
   }
+  if (inputs.options.denoise && traced.reflection.texture) definitions.emplace_back("ADDS_FILTERED");
   if (lights == LightSet::free) definitions.emplace_back("FREE_LIGHTS_ONLY");
   if (inputs.eye_medium) definitions.emplace_back("EYE_IN_MEDIUM");
   if (traced.mask.texture && inputs.lights.casting() > traced.mask.bits)

@@ -1,9 +1,12 @@
 // The CPU's part of a frame.
+#include <array>
 #include <bit>
+#include <optional>
 #include <stdexcept>
 
 #include "core/trace/tiles/tinted_shadows.h"
 #include "core/trace/tiles/trace_tiles.h"
+#include "core/trace/view/view_params.h"
 #include "hybrid/exchange/encode.h"
 #include "hybrid/passes/passes.h"
 
@@ -26,23 +29,31 @@ void record_times(const TileTimes& times, double begin_s, int threads, FrameReco
   place(Stage::composite, times.composite);
 }
 
-// `share`: of the frame.
-void run(Workers& workers, FrameSlot& frame, const TileOutputs& outputs, double share) {
+TraceJob job_of(Workers& workers, const FrameSlot& frame) {
   const FrameRequest& r = frame.request;
   if (!r.tracer) throw std::logic_error("settings that trace were given no tree (Engine::prepare)");
-  const TraceJob job{.scene = r.scene,
-                     .tracer = *r.tracer,
-                     .workers = workers,
-                     .view = frame.view,
-                     .options = frame.options,
-                     .model = frame.model ? &*frame.model : nullptr,
-                     .left_out = r.left_out.get(),
-                     .progress = frame.progress,
-                     .progress_steps = share};
+  return {.scene = r.scene,
+          .tracer = *r.tracer,
+          .workers = workers,
+          .view = frame.view,
+          .options = frame.options,
+          .model = frame.model ? &*frame.model : nullptr,
+          .left_out = r.left_out.get()};
+}
+
+void run(const TraceJob& job, FrameSlot& frame, const TileOutputs& outputs) {
   const double begin_s = now_s();
   const TileResult result = trace_tiles(job, outputs);
   frame.record.rays += result.rays;
-  record_times(result.times, begin_s, workers.count(), frame.record);
+  record_times(result.times, begin_s, job.workers.count(), frame.record);
+}
+
+// `share`: of the frame.
+void run(Workers& workers, FrameSlot& frame, const TileOutputs& outputs, double share) {
+  TraceJob job = job_of(workers, frame);
+  job.progress = frame.progress;
+  job.progress_steps = share;
+  run(job, frame, outputs);
 }
 
 // Whether light at the visible points may come through glass, beside the mask.
@@ -88,19 +99,72 @@ void add_reflection(FrameSlot& frame, TileOutputs& out) {
   out.caught_in_reflection = frame.options.catcher_height && frame.request.settings.uses_gpu();
 }
 
+// Copies `from` to the place of `to` that begins at `at`.
+void copy_to(const Image<SampledPoint>& from, glm::ivec2 at, Image<SampledPoint>& to) {
+  for (int y = 0; y < from.height(); ++y)
+    for (int x = 0; x < from.width(); ++x) to.at(at.x + x, at.y + y) = from.at(x, y);
+}
+
+// Makes the frame's sampled light that of a larger part of the picture, `all`: the filter reads pixels around
+// those that are drawn, so that parts of a picture fit together.
+void add_margin(Workers& workers, FrameSlot& frame, const PixelBox& all) {
+  const PixelBox part = frame.request.view.box();
+  const std::array<PixelBox, 4> around{{{all.lo, {all.hi.x, part.lo.y}},
+                                        {{all.lo.x, part.hi.y}, all.hi},
+                                        {{all.lo.x, part.lo.y}, {part.lo.x, part.hi.y}},
+                                        {{part.hi.x, part.lo.y}, {all.hi.x, part.hi.y}}}};
+  const std::array<Image<SampledPoint>*, 2> layers{&frame.sampled, &frame.beyond};
+  std::array<Image<SampledPoint>, 2> enlarged;
+  for (std::size_t k = 0; k < layers.size(); ++k)
+    if (!layers[k]->empty()) {
+      enlarged[k] = Image<SampledPoint>(all.size());
+      copy_to(*layers[k], part.lo - all.lo, enlarged[k]);
+    }
+  for (const PixelBox& box : around) {
+    if (box.empty()) continue;
+    View view = frame.request.view;
+    view.part = box;
+    const std::optional<RayModel> model = RayModel::of(view);
+    TraceJob job = job_of(workers, frame);
+    job.view = view_params(view);
+    job.model = model ? &*model : nullptr;
+    std::array<Image<SampledPoint>, 2> seen;
+    Image<glm::vec3> unused;
+    TileOutputs out;
+    add_reflection(frame, out);
+    out.size = box.size();
+    out.mask_bits = mask_bits_of(frame.request.settings, frame.request.scene);
+    out.reflection = &unused;
+    out.caught_in_reflection = false;
+    out.sampled = &seen[0];
+    out.beyond = &seen[1];
+    run(job, frame, out);
+    for (std::size_t k = 0; k < seen.size(); ++k)
+      if (!seen[k].empty()) copy_to(seen[k], box.lo - all.lo, enlarged[k]);
+  }
+  for (std::size_t k = 0; k < layers.size(); ++k) *layers[k] = std::move(enlarged[k]);
+}
+
 // Filters the frame's sampled light with that of the samples before, and adds it to the frame's images.
 void add_filtered(Workers& workers, FrameSlot& frame, Gathering& gathering) {
   if (!frame.options.denoise) return gathering.release();
+  const View& view = frame.request.view;
+  const PixelBox part = view.box();
+  const PixelBox all{glm::max(part.lo - kDenoiseReach, 0), glm::min(part.hi + kDenoiseReach, view.size)};
+  if (!(all == part)) add_margin(workers, frame, all);
   Span& stage = frame.record[Stage::trace_reflection];
   const double begin_s = now_s();
-  gathering.add(frame.request, frame.sampled, workers, frame.filtered);
+  gathering.add(frame.request, {&frame.sampled, &frame.beyond}, workers, frame.filtered);
   const Settings& s = frame.request.settings;
-  const bool sends_picture = s.uses_gpu() && s.composite == Processor::cpu;
+  const bool sends_picture = s.uses_gpu() && s.composite == Processor::cpu,
+             sends_caught = s.uses_gpu() && frame.options.catcher_height;
   const auto width = static_cast<std::size_t>(frame.size().x);
   workers.for_each(static_cast<std::size_t>(frame.size().y), [&](std::size_t line) {
+    const glm::vec3* const lights =
+        &frame.filtered.at(part.lo.x - all.lo.x, part.lo.y - all.lo.y + static_cast<int>(line));
     for (std::size_t i = line * width; i < (line + 1) * width; ++i) {
-      const glm::vec3& light = frame.filtered[i];
-      frame.reflection[i] += light;
+      const glm::vec3& light = lights[i - line * width];
+      if (!sends_caught || frame.ids[i] != kNoTriangle) frame.reflection[i] += light;
       if (!s.uses_gpu()) frame.color[i] += glm::vec4(light, 0.0f);
       if (sends_picture) frame.unpacked[i] += light;
     }
@@ -139,7 +203,10 @@ void trace(Workers& workers, FrameSlot& frame, Gathering& gathering) {
     unpack_srgb(frame.phong_srgb.pixels(), workers, frame.unpacked);
     out.added = &frame.unpacked;
   }
-  if (frame.options.denoise) out.sampled = &frame.sampled;
+  if (frame.options.denoise) {
+    out.sampled = &frame.sampled;
+    out.beyond = &frame.beyond;
+  }
   run(workers, frame, out, share);
   add_filtered(workers, frame, gathering);
 }

@@ -41,10 +41,16 @@ auto noise(unsigned seed) {
       [random = std::mt19937(seed)](int, int) mutable { return glm::vec3(random() % 4 == 0 ? 4.0f : 0.0f); };
 }
 
+void add_to(GatheredLight& gathered, const Image<SampledPoint>& sample, Picture picture, Isa isa,
+            Workers& threads, Image<glm::vec3>& light) {
+  const Image<SampledPoint> none;
+  gathered.add({&sample, &none}, picture, isa, threads, light);
+}
+
 Image<glm::vec3> filtered(const Image<SampledPoint>& sample, Isa isa = default_isa()) {
   GatheredLight gathered;
   Image<glm::vec3> light;
-  gathered.add(sample, Picture::filtered, isa, workers(), light);
+  add_to(gathered, sample, Picture::filtered, isa, workers(), light);
   return light;
 }
 
@@ -126,7 +132,7 @@ TEST(Denoise, CertainEdgesOfLightStaySharp) {
   GatheredLight gathered;
   Image<glm::vec3> sum(kSize), light;
   for (int k = 0; k < 8; ++k) {
-    gathered.add(sample, k == 7 ? Picture::filtered : Picture::mean, default_isa(), workers(), light);
+    add_to(gathered, sample, k == 7 ? Picture::filtered : Picture::mean, default_isa(), workers(), light);
     for (std::size_t i = 0; i < sum.pixels().size(); ++i) sum[i] += light[i];
   }
   for (int y = 0; y < kSize.y; ++y)
@@ -174,7 +180,7 @@ TEST(Denoise, TheMeanOfThePicturesIsTheFilteredMean) {
     GatheredLight gathered;
     Image<glm::vec3> sum(kSize), light;
     for (std::size_t k = 0; k < way.size(); ++k) {
-      gathered.add(wall(noise(10 + static_cast<unsigned>(k))), way[k], default_isa(), workers(), light);
+      add_to(gathered, wall(noise(10 + static_cast<unsigned>(k))), way[k], default_isa(), workers(), light);
       for (std::size_t i = 0; i < sum.pixels().size(); ++i) sum[i] += light[i];
       if (way[k] == Picture::kept && k == 1) {
         for (std::size_t i = 0; i < sum.pixels().size(); ++i)
@@ -200,8 +206,8 @@ TEST(Denoise, ItsInfluenceVanishes) {
     GatheredLight gathered;
     Image<glm::vec3> sum(kSize), light;
     for (int k = 0; k < samples; ++k) {
-      gathered.add(wall(shadow(100 + static_cast<unsigned>(k))),
-                   k + 1 == samples ? Picture::filtered : Picture::mean, default_isa(), workers(), light);
+      add_to(gathered, wall(shadow(100 + static_cast<unsigned>(k))),
+             k + 1 == samples ? Picture::filtered : Picture::mean, default_isa(), workers(), light);
       for (std::size_t i = 0; i < sum.pixels().size(); ++i) sum[i] += light[i];
     }
     double squares = 0.0;
@@ -236,7 +242,7 @@ TEST(Denoise, TheSameBitsOnAllProcessorsAndThreads) {
   Workers one(1);
   GatheredLight gathered;
   Image<glm::vec3> light;
-  gathered.add(sample, Picture::filtered, default_isa(), one, light);
+  add_to(gathered, sample, Picture::filtered, default_isa(), one, light);
   EXPECT_EQ(std::memcmp(light.pixels().data(), expected.pixels().data(), expected.pixels().size_bytes()), 0);
 }
 

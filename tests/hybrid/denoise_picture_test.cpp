@@ -92,7 +92,7 @@ TEST(DenoisedPicture, FewSamplesAreNearTheTruth) {
     const FrameResult truth = picture(scene, with({{"mode", "raytrace"}}, 1024, false));
     const FrameResult plain = picture(scene, with({{"mode", "raytrace"}}, 4, false));
     const FrameResult filtered = picture(scene, with({{"mode", "raytrace"}}, 4));
-    EXPECT_LT(distance_within(filtered, truth), 0.75 * distance_within(plain, truth));
+    EXPECT_LT(distance_within(filtered, truth), 0.6 * distance_within(plain, truth));
   }
 }
 
@@ -117,7 +117,7 @@ TEST(DenoisedPicture, TheLightIsKept) {
     for (const glm::vec4& pixel : filtered.color.pixels()) on += glm::dvec4(pixel);
     for (const glm::vec4& pixel : plain.color.pixels()) off += glm::dvec4(pixel);
     for (int c = 0; c < 3; ++c) EXPECT_NEAR(on[c] / off[c], 1.0, 0.01);
-    EXPECT_EQ(on.a, off.a);
+    EXPECT_NEAR(on.a / off.a, 1.0, 0.003);  // the samples are in other places
   }
 }
 
@@ -127,7 +127,7 @@ TEST(DenoisedPicture, HybridAgreesWithTheCpu) {
       const FrameResult expected = picture(scene, with({{"mode", "raytrace"}}, spp));
       ASSERT_TRUE(expected.settings.denoise);
       const FrameResult on_gpu = picture(scene, with({{"mode", "hybrid"}}, spp));
-      EXPECT_LT(share_off(on_gpu.color, expected.color, 0.01f), 0.004) << spp;
+      EXPECT_LT(share_off(on_gpu.color, expected.color, 0.004f), 0.003) << spp;
       if (spp == 1) continue;  // a single picture of design 2 is packed in 8 bits
       const FrameResult by_cpu = picture(scene, with({{"mode", "hybrid"}, {"design", "2"}}, spp));
       EXPECT_LT(share_off(by_cpu.color, expected.color, 0.01f), 0.003) << spp;
@@ -172,7 +172,7 @@ TEST(DenoisedPicture, ManyPicturesAreTheSingleOnes) {
         0);
 }
 
-// A part is filtered by its own pixels: in its middle it is the whole picture's.
+// A part is the whole picture's, to the last bit: pixels around it are traced for its filter.
 TEST(DenoisedPicture, PartsAndOtherCameras) {
   Scene scene = under_sky();
   const FrameResult whole = picture(scene, with({{"mode", "raytrace"}}, 2));
@@ -181,7 +181,7 @@ TEST(DenoisedPicture, PartsAndOtherCameras) {
   Image<glm::vec4> same(part.size());
   for (int y = 0; y < part.size().y; ++y)
     for (int x = 0; x < part.size().x; ++x) same.at(x, y) = whole.color.at(part.lo.x + x, part.lo.y + y);
-  EXPECT_LT(distance(box.color, same), 0.03);
+  EXPECT_TRUE(same_bits(box.color, same));
   for (const Projection projection : {Projection::orthographic, Projection::panorama}) {
     Camera camera = first_camera(scene);
     camera.projection = projection;
@@ -208,7 +208,7 @@ TEST(DenoisedPicture, ShownSamplesAreFilteredFromTheFirstOn) {
   Image<glm::vec4> sum(kSize), mean(kSize), shown;
   Renderer renderer(engine, {[&](Frame& frame) { frame.read_color(shown); }, {}});
   for (int k = 0; k < 8; ++k) {
-    request.view = at_sample(request.view, k);
+    request.view = at_sample(request.view, k, PixelFilter::box, true);
     renderer.submit(request);
     renderer.drain();
     for (std::size_t i = 0; i < sum.pixels().size(); ++i) sum[i] += shown[i];
@@ -233,7 +233,11 @@ TEST(DenoisedPicture, ContradictionsAreRefusedOrTurnItOff) {
   EXPECT_FALSE(resolve(settings, stats)->denoise);
   settings.max_noise = 0.0f;
   EXPECT_TRUE(resolve(settings, stats)->denoise);
+  EXPECT_EQ(resolve(settings, stats)->sequence, Sequence::blue_noise);
+  settings.indirect = 1;
+  EXPECT_EQ(resolve(settings, stats)->sequence, Sequence::sobol);
   settings.environment_light = EnvironmentMethod::prefiltered;
+  settings.indirect = 0;
   EXPECT_FALSE(resolve(settings, stats)->denoise);
 }
 

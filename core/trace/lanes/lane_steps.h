@@ -19,8 +19,14 @@
 
 namespace pinocchio {
 
-// Rays whose light is found at random have their pixel's number plus this, where that light is kept apart.
+// Where light that is found at random is kept apart for the filter (core/denoise), its rays have their
+// pixel's number plus this; twice this if the random choice was made at a surface that is seen in a sharp
+// mirror or through glass.
 inline constexpr std::uint32_t kSampledPixels = 1u << (2 * kTileBits);
+
+// Smoother lobes mirror a sharp image, which the filter leaves alone: roughness 0.1, and Phong's exponent for
+// it.
+inline constexpr float kSharpAlpha = 0.01f, kSharpGloss = 5000.0f;
 
 struct EnvironmentLight;
 struct SampledPoint;
@@ -84,8 +90,8 @@ struct Bounce {
   RayQueue* diffuse = nullptr;  // towards light from other surfaces
   float* radiance = nullptr;    // a tile's pixels, RGBA
   float* traced = nullptr;      // likewise, for `prefiltered`; from kSampledPixels on for `sampled`
-  // kSampledPixels: what is found at random from here on is kept apart for the filter (core/denoise); 0: it
-  // is not.
+  // What is added to the pixels of rays that find light at random from here on: kSampledPixels, or twice
+  // that; 0: it is not kept apart.
   std::uint32_t sampled = 0;
   SampledPoint* points = nullptr;  // a tile's pixels: the surfaces, for the filter; null: not wanted
 };

@@ -1,4 +1,5 @@
-// Part of walk/kernel.h's files: what the filter of sampled light knows of the points that the camera sees.
+// Part of walk/kernel.h's files: what the filter of sampled light knows of the points that the camera sees,
+// also in sharp mirrors and through glass.
 #pragma once
 
 #include "core/denoise/sampled_point.h"
@@ -34,27 +35,34 @@ inline Vec returned_of_sky(const EnvironmentLight& e, const LaneSurface& s, cons
   return {max(light.x, albedo.x * least), max(light.y, albedo.y * least), max(light.z, albedo.z * least)};
 }
 
-// Writes the points of a packet. way: from the eye.
-[[gnu::noinline]] void write_points(const Bounce& bounce, const LaneSurface& s, const LaneMaterial& m,
-                                    const Vec& way, Int pixels, Mask lanes) {
+// Adds the points of a packet to those of their pixels. throughput: of the paths from the eye to the points.
+[[gnu::noinline]] void add_points(const Bounce& bounce, const LaneSurface& s, const LaneMaterial& m,
+                                  const Vec& throughput, Int pixels, Mask lanes) {
+  lanes = lanes & (pixels < Int(kSampledPixels));  // the others are sampled themselves
+  if (!any(lanes)) return;
   alignas(64) std::uint32_t pixel[kWidth];
-  alignas(64) float values[8][kWidth];
+  alignas(64) float values[9][kWidth];
   const Vec even = sampled_albedo(s, m);
   const bool under_sky = bounce.environment && bounce.environment->prefiltered;
-  const Vec albedo = under_sky ? returned_of_sky(*bounce.environment, s, m, even, lanes) : even;
-  const Float guide =
-      Float(0.2126f) * even.x + Float(0.7152f) * even.y + Float(0.0722f) * even.z;  // Rec. 709
-  const Float all[8] = {
-      albedo.x, albedo.y, albedo.z, s.n_shading.x, s.n_shading.y, s.n_shading.z, sqrt(dot(way, way)), guide};
-  for (int k = 0; k < 8; ++k) all[k].store(values[k]);
+  const Vec albedo =
+      throughput * (under_sky ? returned_of_sky(*bounce.environment, s, m, even, lanes) : even);
+  const auto luminance = [](const Vec& rgb) {
+    return Float(0.2126f) * rgb.x + Float(0.7152f) * rgb.y + Float(0.0722f) * rgb.z;  // Rec. 709
+  };
+  const Float all[9] = {albedo.x,      albedo.y,        albedo.z,
+                        s.n_shading.x, s.n_shading.y,   s.n_shading.z,
+                        s.way,         luminance(even), luminance(throughput * even)};
+  for (int k = 0; k < 9; ++k) all[k].store(values[k]);
   pixels.store(pixel);
   for (unsigned waiting = lanes.bits(); waiting != 0; waiting &= waiting - 1) {
     const int lane = __builtin_ctz(waiting);
     SampledPoint& point = bounce.points[pixel[lane]];
-    point.albedo = {values[0][lane], values[1][lane], values[2][lane]};
+    point.albedo += glm::vec3(values[0][lane], values[1][lane], values[2][lane]);
+    if (!(point.shown < values[8][lane])) continue;
     point.normal = {values[3][lane], values[4][lane], values[5][lane]};
     point.distance = values[6][lane];
     point.guide_albedo = values[7][lane];
+    point.shown = values[8][lane];
   }
 }
 

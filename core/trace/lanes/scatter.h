@@ -96,6 +96,7 @@ inline void follow(const LaneSurface& s, const Vec& direction, const Vec& throug
   if (worth.bits() == 0) return;
   if (queue.density) store_packed(queue.density + queue.size, density, worth);
   if (queue.width) store_packed(queue.width + queue.size, s.width, worth);
+  if (queue.way) store_packed(queue.way + queue.size, s.way, worth);
   if (medium) store_packed(queue.medium + queue.size, *medium, worth);
   append(offset_origin(s, direction), direction, throughput, pixel, worth, queue);
 }
@@ -113,13 +114,15 @@ struct LaneLobe {
   Mask rough = Mask::from_bits(0);  // the points whose lobe mirrors no sharp image
 };
 
-// Smoother lobes mirror a sharp image, which the filter leaves alone: roughness 0.1, and Phong's exponent for
-// it.
-constexpr float kSharpAlpha = 0.01f, kSharpGloss = 5000.0f;
+// The pixels of light that is found at random from here on.
+inline Int sampled_pixel(const Bounce& bounce, Int pixel) {
+  if (bounce.sampled == 0) return pixel;
+  return select(pixel < Int(kSampledPixels), pixel + Int(bounce.sampled), pixel);
+}
 
 // The pixels of the lobe's rays (kSampledPixels).
 inline Int lobe_pixel(const Bounce& bounce, const LaneLobe& lobe, Int pixel) {
-  return bounce.sampled == 0 ? pixel : select(lobe.rough, pixel + Int(bounce.sampled), pixel);
+  return select(lobe.rough, sampled_pixel(bounce, pixel), pixel);
 }
 
 // Rays through a surface that blends, with what it leaves of the light from behind.
@@ -189,7 +192,7 @@ inline void scatter(const LaneSurface& s, const LaneMaterial& m, const Vec& thro
         direction = spread(s, direction, m.gloss,
                            sample_2d(*sampling, bounce.dimension + shared::kMirrorDimension), mirrors);
         const Mask rough = Mask::from_bits(m.glossy) & (m.gloss < Float(kSharpGloss));
-        of_mirror = select(rough, pixel + Int(bounce.sampled), pixel);
+        of_mirror = select(rough, sampled_pixel(bounce, pixel), pixel);
       }
     follow(s, direction, own * (m.reflectance + (Vec(one) - m.reflectance) * grazing), of_mirror, mirrors,
            bounce.options->throughput_cutoff, *bounce.mirrored, medium);

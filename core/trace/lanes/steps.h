@@ -59,6 +59,7 @@ void keep_hits(RayQueue& rays) {
       store_packed(rays.pixel + kept, Int::load(rays.pixel + i), hits);
       if (rays.width) store_packed(rays.width + kept, Float::load(rays.width + i), hits);
       if (rays.density) store_packed(rays.density + kept, Float::load(rays.density + i), hits);
+      if (rays.way) store_packed(rays.way + kept, Float::load(rays.way + i), hits);
       if (rays.medium) store_packed(rays.medium + kept, Int::load(rays.medium + i), hits);
       store_packed(rays.triangle + kept, triangle, hits);
     }
@@ -134,7 +135,7 @@ inline Vec light_points(const Bounce& bounce, const Corners& corners, const Lane
     if (bounce.options->terminator == Terminator::smoothed)
       term = term * terminator_factor(s.n_shading, s.n_geometric, incident.to_light);
     if (apart && light.slot < 0) {
-      add_light(throughput * term, pixel + Int(bounce.sampled), lit, bounce.traced);
+      add_light(throughput * term, sampled_pixel(bounce, pixel), lit, bounce.traced);
       continue;
     }
     if (light.slot < 0) {
@@ -143,11 +144,13 @@ inline Vec light_points(const Bounce& bounce, const Corners& corners, const Lane
     }
     const Vec carried = throughput * term;
     if (!bounce.visible) lit = lit & ~(largest(carried) < Float(bounce.options->throughput_cutoff));
-    append_shadow_rays(light, s, starts, incident, carried, pixel, lit, bounce);
+    // Visible points' rays also set the mask.
+    const Int of = apart && !bounce.visible ? sampled_pixel(bounce, pixel) : pixel;
+    append_shadow_rays(light, s, starts, incident, carried, of, lit, bounce);
   }
   if constexpr (kSampled)
     if (bounce.environment)
-      sample_environment(bounce, starts, s, m, throughput, lobe, *sampling, pixel + Int(bounce.sampled),
+      sample_environment(bounce, starts, s, m, throughput, lobe, *sampling, sampled_pixel(bounce, pixel),
                          lanes);
   return sum;
 }
@@ -242,7 +245,11 @@ void bounce_packets(const Bounce& bounce, const RayQueue& rays) {
         if (bounce.lobes) lobe = sample_lobe(s, m, own, *samples, lanes, bounce);
     }
     if constexpr (kSampled)
-      if (bounce.points) write_points(bounce, s, m, s.p_world - origin, pixel, lanes);
+      if (bounce.points) {
+        s.way = length(s.p_world - origin);
+        if (rays.way) s.way = Float::load(rays.way + i) + s.way;
+        add_points(bounce, s, m, throughput, pixel, lanes);
+      }
     const Vec certain = light_points<kSampled>(bounce, corners, s, m, own, lobe, samples, pixel, lanes);
     if (bounce.adds_light) add_light(own * certain, rays.pixel + i, lanes, bounce.radiance);
     if (bounce.prefiltered) {
@@ -262,7 +269,7 @@ void bounce_packets(const Bounce& bounce, const RayQueue& rays) {
     if (bounce.mirrored) scatter<kSampled>(s, m, throughput, lobe, samples, pixel, lanes, bounce, media);
     if constexpr (kSampled)
       if (bounce.diffuse)
-        scatter_diffuse(bounce, s, m, own, *samples, pixel + Int(bounce.sampled), lanes, media);
+        scatter_diffuse(bounce, s, m, own, *samples, sampled_pixel(bounce, pixel), lanes, media);
   }
 }
 

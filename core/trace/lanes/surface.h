@@ -38,6 +38,7 @@ struct LaneSurface {
   Float width;            // the ray's cone's there, where textures are filtered
   Int medium{kNoMedium};  // on the viewer's side, where light goes through glass
   Float density{0.0f};    // of the ray's direction (RayQueue), likewise
+  Float way{0.0f};        // length of the path from the eye, where the filter wants it
 };
 
 [[gnu::always_inline]] inline Double point_of(Float weight_b, Float weight_c, Float a, Float b, Float c) {

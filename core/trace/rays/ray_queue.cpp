@@ -19,6 +19,7 @@ void RayQueue::make_room(std::size_t rays, const ExtraColumns& extra) {
   width = column_of(widths_, extra.width);
   density = column_of(densities_, extra.density);
   medium = column_of(media_, extra.medium);
+  way = column_of(ways_, extra.way);
   if (needed <= room_) return;
   // Not a power of two apart: columns of one ray would compete for one set of the cache.
   constexpr std::size_t kLine = kCacheLine / sizeof(float);

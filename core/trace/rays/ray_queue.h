@@ -24,7 +24,7 @@ struct RayColumns {
 
 // The columns that not every queue has.
 struct ExtraColumns {
-  bool width = false, medium = false, density = false;
+  bool width = false, medium = false, density = false, way = false;
 };
 
 // A thread's rays of one kind: filled packet by packet, traced, and read again. Lanes append to it by storing
@@ -32,11 +32,12 @@ struct ExtraColumns {
 // meanwhile.
 struct RayQueue {
   float *origin[3] = {}, *direction[3] = {};
-  float* light[3] = {};               // a path's throughput; a shadow ray's light if it is not blocked
-  std::uint32_t* pixel = nullptr;     // in the tile
-  float* width = nullptr;             // of its cone at the origin; null: textures are not filtered
-  float* density = nullptr;           // of the direction, per steradian, where other methods find it too;
-                                      // else 0; negative: others find all of the environment's light there
+  float* light[3] = {};            // a path's throughput; a shadow ray's light if it is not blocked
+  std::uint32_t* pixel = nullptr;  // in the tile
+  float* width = nullptr;          // of its cone at the origin; null: textures are not filtered
+  float* density = nullptr;        // of the direction, per steradian, where other methods find it too;
+                                   // else 0; negative: others find all of the environment's light there
+  float* way = nullptr;  // length of the path from the eye to the origin, scene units; null: not wanted
   std::uint32_t* triangle = nullptr;  // hit by the ray
   std::uint32_t* medium =
       nullptr;  // the material that it passes through, or kNoMedium; null: there are no media
@@ -45,7 +46,7 @@ struct RayQueue {
   // Empties the queue and makes room for `rays` and a packet.
   void make_room(std::size_t rays, const ExtraColumns& extra = {});
 
-  // Keeps the rays and makes room for `rays` more. Densities are not kept.
+  // Keeps the rays and makes room for `rays` more. Densities and ways are not kept.
   void make_more_room(std::size_t rays, const ExtraColumns& extra = {});
 
   [[nodiscard]] RayColumns columns(float reach = kInfinity) const {
@@ -55,7 +56,7 @@ struct RayQueue {
  private:
   AlignedVector<float> floats_;
   AlignedVector<std::uint32_t> words_;
-  AlignedVector<float> widths_, densities_;
+  AlignedVector<float> widths_, densities_, ways_;
   AlignedVector<std::uint32_t> media_;
   std::size_t room_ = 0;
 };

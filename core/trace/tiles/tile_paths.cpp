@@ -53,6 +53,10 @@ void TileTracer::follow_mirrors(int bounce_count) {
     Bounce step = plan_->further;
     step.mirrored = step_count < plan_->out.depth ? next_.data() : nullptr;
     step.diffuse = bounce_count < plan_->out.indirect ? &next_diffuse_ : nullptr;
+    if (bounce_count == 0 && plan_->beyond) {
+      step.sampled = 2 * kSampledPixels;
+      step.points = &points_[kPixels];
+    }
     for (RayQueue& queue : rays_) {
       const bool of_camera = &queue == &rays_[kStraightFromCamera];
       if (of_camera && queue.size == 0) continue;

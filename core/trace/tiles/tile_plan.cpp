@@ -68,6 +68,14 @@ bool any_maps(const Mesh& mesh, bool (MaterialMaps::*is)() const) {
   return std::any_of(mesh.maps.begin(), mesh.maps.end(), [is](const MaterialMaps& m) { return (m.*is)(); });
 }
 
+// Whether a surface of the material may mirror sharply or let see through. lobes: those of glTF's model are
+// sampled.
+bool shows_beyond(const Material& m, bool lobes) {
+  if (m.transmits()) return true;
+  if (lobes && m.is_microfacet()) return m.maps >= 0 || m.coat > 0.0f || m.ggx_alpha <= kSharpAlpha;
+  return m.reflects() && (m.gloss == 0.0f || m.gloss >= kSharpGloss);
+}
+
 }  // namespace
 
 Bounce lit_by(const LightGroup& group, const Bounce& step) {
@@ -161,6 +169,10 @@ TilePlan::TilePlan(const TraceJob& j, const TileOutputs& o)
   }
   further.lobes =
       further.samples && sampled_lobes && microfacets && (o.reflection || o.color || o.added || o.sampled);
+  if (o.sampled && o.beyond && o.depth > 0 &&
+      (blends || std::ranges::any_of(job.scene.mesh->materials,
+                                     [&](const Material& m) { return shows_beyond(m, further.lobes); })))
+    beyond = o.beyond;
   shadows = further;
   shadows.footprint = &no_footprint;
   visible = further;

@@ -34,6 +34,9 @@ struct TilePlan {
   // Sets the view of the samples.
   void set_view(const shared::ViewParams& from, const RayModel* rays);
 
+  // Layers of light that is kept apart for the filter.
+  [[nodiscard]] std::size_t sampled_layers() const { return out.sampled ? (beyond ? 2 : 1) : 0; }
+
   const TraceJob& job;
   const TileOutputs& out;
   LaneMapsOf maps;
@@ -41,11 +44,12 @@ struct TilePlan {
   const RayModel* model = nullptr;  // makes the camera's rays; null: `view` does
   glm::ivec2 first{0};              // the first pixel, in the whole picture
   Footprint seen_footprint, further_footprint, no_footprint;
-  bool has_holes, blends;             // some material does
-  bool tints;                         // shadow rays go on through glass
-  bool straight_apart;                // rays that come straight from the camera have a queue of their own
-  MaterialMarksOf passed_backs;       // by the camera's rays
-  MaterialMarksOf passed_by_shadows;  // by alpha somewhere, or light goes through
+  bool has_holes, blends;                 // some material does
+  bool tints;                             // shadow rays go on through glass
+  bool straight_apart;                    // rays that come straight from the camera have a queue of their own
+  Image<SampledPoint>* beyond = nullptr;  // the output, where some material shows what is beyond it
+  MaterialMarksOf passed_backs;           // by the camera's rays
+  MaterialMarksOf passed_by_shadows;      // by alpha somewhere, or light goes through
   // Groups of all lights, and of those that light visible points; the first group may be empty.
   std::vector<LightGroup> further_lights, visible_lights;
   std::size_t most_casting, most_sized;  // casting lights of a group, and those of them with a size

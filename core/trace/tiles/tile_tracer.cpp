@@ -70,8 +70,9 @@ TileResult TileTracer::trace(const TilePlan& plan, const PixelBox& tile) {
 
 // Nothing is mirrored yet, and nothing seen by the filter.
 void TileTracer::begin_light() {
-  std::fill_n(reflected_.begin(), plan_->out.sampled ? 2 * kPixels : kPixels, glm::vec4(0.0f));
-  if (plan_->out.sampled) points_.assign(kPixels, {});
+  const std::size_t layers = plan_->sampled_layers();
+  std::fill_n(reflected_.begin(), (1 + layers) * kPixels, glm::vec4(0.0f));
+  points_.assign(layers * kPixels, {});
 }
 
 // Makes the rays of the tile's pixels; with given ids, of the pixels that see something.
@@ -159,7 +160,9 @@ ExtraColumns TileTracer::extra_columns() const {
 
 void TileTracer::make_room(std::size_t rays, Generation& next) {
   const ExtraColumns extra = extra_columns();
-  ExtraColumns of_mirrored = extra, of_straight = extra;
+  ExtraColumns of_mirrored = extra;
+  of_mirrored.way = plan_->beyond != nullptr;
+  ExtraColumns of_straight = of_mirrored;
   of_mirrored.density = plan_->further.lobes;
   of_straight.density =
       plan_->tints && plan_->environment && (plan_->further.lobes || plan_->out.indirect > 0);
@@ -286,11 +289,14 @@ void TileTracer::write() {
       std::memset(of(out.reflection), 0, width * sizeof(glm::vec3));
     else if (out.reflection)
       for (std::size_t i = 0; i < width; ++i) of(out.reflection)[i] = glm::vec3(reflected[i]);
-    if (out.sampled)
-      for (std::size_t i = 0; i < width; ++i) {
-        SampledPoint& point = of(out.sampled)[i] = points_[row + i];
-        point.light = glm::vec3(reflected_[kSampledPixels + row + i]);
+    const auto write_sampled = [&](Image<SampledPoint>* image, std::size_t first) {
+      for (std::size_t i = 0; image && i < width; ++i) {
+        SampledPoint& point = of(image)[i] = points_[first + row + i];
+        point.light = glm::vec3(reflected_[kSampledPixels + first + row + i]);
       }
+    };
+    write_sampled(out.sampled, 0);
+    write_sampled(plan_->beyond, kPixels);
     if (empty) {
       if (out.color) std::memset(of(out.color), 0, width * sizeof(glm::vec4));
       continue;

@@ -18,6 +18,8 @@ TileResult trace_tiles(const TraceJob& job, const TileOutputs& outputs) {
   if (outputs.mask) outputs.mask->resize(size, outputs.mask_bits);
 
   const TilePlan plan(job, outputs);
+  if (outputs.beyond && !plan.beyond) *outputs.beyond = {};
+  fit(plan.beyond);
   const TileGrid grid(size);
   TileResult result;
   std::mutex mutex;

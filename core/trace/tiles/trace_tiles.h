@@ -90,8 +90,9 @@ struct TileOutputs {
   // The part of the composite that rays decide (casting lights, reflection) is added to this image.
   Image<glm::vec3>* added = nullptr;
   // The light that is found at random: of lights with a size, the environment, rough mirrors and other
-  // surfaces. It is in none of the images above then. Null: it is in them.
-  Image<SampledPoint>* sampled = nullptr;
+  // surfaces. It is in none of the images above then. Null: it is in them. beyond: with `sampled`, such light
+  // of what is seen in sharp mirrors and through glass, apart as well; empty where no material shows any.
+  Image<SampledPoint>*sampled = nullptr, *beyond = nullptr;
 
   // Called with every batch, from all threads.
   std::function<void(const RayBatch&)> on_rays;

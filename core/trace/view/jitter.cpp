@@ -1,5 +1,7 @@
 #include "core/trace/view/jitter.h"
 
+#include <algorithm>
+#include <bit>
 #include <cmath>
 #include <numbers>
 
@@ -32,12 +34,25 @@ glm::dvec2 even_point(int k, const glm::dvec2& step) {
   return glm::fract(0.5 + static_cast<double>(k) * step);
 }
 
+glm::dvec2 place_of(int k, PixelFilter filter) {
+  const glm::dvec2 at = even_point(k, {0.75487766624669276, 0.56984029099805327});
+  if (filter == PixelFilter::box || k == 0) return at - 0.5;
+  return {place_of_share(at.x), place_of_share(at.y)};
+}
+
 }  // namespace
 
 glm::vec2 jitter_of(int k, PixelFilter filter) {
-  const glm::dvec2 at = even_point(k, {0.75487766624669276, 0.56984029099805327});
-  if (filter == PixelFilter::box || k == 0) return glm::vec2(at - 0.5);
-  return {place_of_share(at.x), place_of_share(at.y)};
+  return glm::vec2(place_of(k, filter));
+}
+
+glm::vec2 balanced_jitter_of(int k, PixelFilter filter) {
+  if (k == 0) return glm::vec2(0.0f);
+  const int first = k < 4 ? 1 : static_cast<int>(std::bit_floor(static_cast<unsigned>(k)));
+  const int end = std::max(4, 2 * first);
+  glm::dvec2 sum(0.0);
+  for (int i = first; i < end; ++i) sum += place_of(i, filter);
+  return glm::vec2(place_of(k, filter) - sum / static_cast<double>(end - first));
 }
 
 glm::vec2 lens_point_of(int k) {
@@ -45,8 +60,8 @@ glm::vec2 lens_point_of(int k) {
   return shared::disc_of_square(glm::vec2(even_point(k, {0.81917251339616444, 0.67104360670378927})));
 }
 
-View at_sample(View view, int k, PixelFilter filter) {
-  view.jitter = jitter_of(k, filter);
+View at_sample(View view, int k, PixelFilter filter, bool balanced) {
+  view.jitter = balanced ? balanced_jitter_of(k, filter) : jitter_of(k, filter);
   view.sample = k;
   return view;
 }

@@ -101,6 +101,27 @@ TEST(PixelFilter, TheBoxIsEvenAndTheWindowIsBlackmansAndHarris) {
   }
 }
 
+// The filter's samples: the pixel's centre is the first one and the mean of them, however few they are.
+TEST(PixelFilter, BalancedSamplesHaveTheCentreAsTheirMean) {
+  for (const PixelFilter filter : {PixelFilter::box, PixelFilter::blackman_harris}) {
+    EXPECT_EQ(balanced_jitter_of(0, filter), glm::vec2(0.0f));
+    glm::dvec2 sum(0.0), usual(0.0);
+    for (int k = 0; k < kFilterSamples; ++k) {
+      const glm::vec2 at = balanced_jitter_of(k, filter);
+      ASSERT_LE(std::max(std::abs(at.x), std::abs(at.y)), filter == PixelFilter::box ? 0.6f : 1.6f) << k;
+      ASSERT_LT(glm::distance(at, jitter_of(k, filter)), k < 4 ? 0.5f : 0.3f) << k;
+      sum += glm::dvec2(at);
+      usual += glm::dvec2(jitter_of(k, filter));
+      if (k >= 3 && ((k + 1) & k) == 0) {
+        EXPECT_LT(glm::length(sum), 1e-5 * (k + 1)) << k + 1 << " samples";
+      }
+      if (k == 3) {
+        EXPECT_GT(glm::length(usual) / 4.0, 0.1) << "what balances";
+      }
+    }
+  }
+}
+
 // An edge between two pixels: sharp by the box, the window's area on either side of it by the other.
 TEST(PixelFilter, AnEdgeHasItsProfile) {
   constexpr int kWidth = 8, kSamples = 512;
