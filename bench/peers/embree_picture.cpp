@@ -14,7 +14,7 @@ constexpr int kPictureTile = 8;                 // pixels a side
 constexpr float kLeast = 1.0f / 8192.0f;        // rays with less throughput are not followed, as by default
 constexpr float kAtTheLight = 1.0f - 0x1p-20f;  // shadow rays end in front of the light
 
-// Whether a ray passes the triangle there as if nothing were there.
+// Whether a ray goes on through that point of the triangle, as its alpha says.
 bool is_hole(const Mesh& mesh, std::uint32_t triangle, const glm::vec3& weights) {
   const MaterialMaps* const maps = mesh.maps_of(triangle);
   if (!maps || !maps->has_holes()) return false;
@@ -22,7 +22,7 @@ bool is_hole(const Mesh& mesh, std::uint32_t triangle, const glm::vec3& weights)
                          maps->alpha_cutoff);
 }
 
-// Likewise a shadow ray, for the only sample of a pixel.
+// Whether a shadow ray does, where a pixel has one sample.
 bool lets_shadow_ray_pass(const Mesh& mesh, std::uint32_t triangle, const glm::vec3& weights) {
   const MaterialMaps* const maps = mesh.maps_of(triangle);
   if (!maps || !maps->blends()) return is_hole(mesh, triangle, weights);

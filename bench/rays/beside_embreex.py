@@ -1,7 +1,7 @@
 """Rays a second of one thread, ours and Embree's by embreex (what trimesh takes), in one process and in turns.
 
 Needs the module, trimesh and embreex: beside_embreex.py [RAYS]. A lidar's rays go row by row from one place above a bumpy
-ball; random ones go from a sphere around it to points near it, in any order. The nearest hit's triangle is asked for. Times
+ball; random ones go from a sphere around it to points near it, in any order. Both find the nearest triangle. Times
 are of the processor, medians of nine.
 """
 import statistics

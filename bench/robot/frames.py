@@ -49,7 +49,7 @@ def shared():
 
 
 class Job:
-    """What a peer draws: parts (vertices, faces, normals, color) and their poses (frames, parts, 4, 4), z upwards."""
+    """The robot as all programs draw it: parts (vertices, faces, normals, color), and poses of shape (frames, parts, 4, 4). z points up."""
 
     def __init__(self, file, size, threads):
         import numpy
@@ -60,26 +60,15 @@ class Job:
         self.poses, colors = arrays["poses"], arrays["colors"]
         self.parts = [(arrays[f"vertices{i}"], arrays[f"faces{i}"], arrays[f"normals{i}"], colors[i]) for i in range(len(colors))]
 
-    def camera_pose(self):
-        """Camera to world, OpenGL's axes (it looks along -z)."""
+    def pose_at(self, place):
+        """What stands at `place` and looks at the target, to world: OpenGL's axes (it looks along -z)."""
         import numpy
 
-        back = numpy.subtract(self.eye, self.target) / numpy.linalg.norm(numpy.subtract(self.eye, self.target))
+        back = numpy.subtract(place, self.target) / numpy.linalg.norm(numpy.subtract(place, self.target))
         right = numpy.cross(self.up, back) / numpy.linalg.norm(numpy.cross(self.up, back))
         pose = numpy.eye(4)
-        pose[:3] = numpy.column_stack([right, numpy.cross(back, right), back, self.eye])
+        pose[:3] = numpy.column_stack([right, numpy.cross(back, right), back, place])
         return pose
-
-    def light_poses(self):
-        """Of spot lights, which look along -z."""
-        import numpy
-
-        for place in self.lights:
-            z = numpy.subtract(place, self.target) / numpy.linalg.norm(numpy.subtract(place, self.target))
-            x = numpy.cross(self.up, z) / numpy.linalg.norm(numpy.cross(self.up, z))
-            pose = numpy.eye(4)
-            pose[:3] = numpy.column_stack([x, numpy.cross(z, x), z, place])
-            yield pose
 
 
 def prepare(file, urdf):

@@ -11,7 +11,7 @@ namespace pinocchio {
 // Cuts a picture into square tiles, row by row: the unit of work of a thread and of ray coherence.
 class TileGrid {
  public:
-  static constexpr int kTileSize = 32;
+  static constexpr int kTileBits = 5, kTileSize = 1 << kTileBits;
 
   explicit TileGrid(glm::ivec2 size) : size_(size), tiles_((size + kTileSize - 1) / kTileSize) {}
 

@@ -12,7 +12,7 @@ namespace pinocchio::gl {
 const GlfwFunctions& glfw() {
   static const GlfwFunctions loaded = [] {
     void* const library = dlopen("libglfw.so.3", RTLD_NOW | RTLD_LOCAL);
-    if (!library) throw Error(dlerror());
+    if (!library) throw Error(std::string(dlerror()) + "; install GLFW 3 (Debian: libglfw3)");
     GlfwFunctions functions;
     const auto resolve = [library](auto& function, const char* name) {
       if (!find_function(library, name, function)) throw Error(std::string("libglfw has no ") + name);

@@ -84,7 +84,8 @@ const int kAlphaOpaque = 0;
 const int kAlphaMask = 1;
 const int kAlphaBlend = 2;
 
-// Whether a ray passes as if nothing were there.
-SHARED bool is_hole(int mode, float alpha, float cutoff) {
-  return mode == kAlphaMask ? alpha < cutoff : (mode == kAlphaBlend && alpha <= 0.0f);
+// Whether rays pass a surface, whose material is not opaque, as if nothing were there.
+SHARED boolean is_hole(int mode, real alpha, float cutoff) {
+  if (mode == kAlphaMask) return alpha < cutoff;
+  return alpha <= 0.0f;
 }

@@ -1,6 +1,9 @@
 // A small glTF that moves.
 #pragma once
 
+#include <glm/gtc/matrix_transform.hpp>
+
+#include "pinocchio/animation.h"
 #include "tests/support/gltf.h"
 
 namespace pinocchio {
@@ -50,5 +53,45 @@ class Moving {
 
   Json& primitive() { return json["meshes"][0]["primitives"][0]; }
 };
+
+// Two joints: vertex 1 follows the second alone, vertex 2 both by halves. The skinned node's own place does
+// not count.
+inline Moving skinned() {
+  Moving m;
+  m.json["nodes"] = {{{"mesh", 0}, {"skin", 0}, {"translation", {100, 0, 0}}},
+                     {{"translation", {1, 0, 0}}, {"children", {2}}},
+                     {{"translation", {0, 1, 0}}}};
+  m.json["scenes"][0]["nodes"] = {0, 1};
+  const glm::mat4 inverse0 = glm::translate(glm::mat4(1.0f), {-1, 0, 0}),
+                  inverse1 = glm::translate(glm::mat4(1.0f), {-1, -1, 0});
+  std::vector<float> matrices(&inverse0[0][0], &inverse0[0][0] + 16);
+  matrices.insert(matrices.end(), &inverse1[0][0], &inverse1[0][0] + 16);
+  m.json["skins"] = {{{"joints", {1, 2}}, {"inverseBindMatrices", m.floats(matrices, "MAT4")}}};
+  m.primitive()["attributes"]["JOINTS_0"] = m.bytes({0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 0, 0}, false);
+  m.primitive()["attributes"]["WEIGHTS_0"] =
+      m.floats({1, 0, 0, 0, 1, 0, 0, 0, 0.5, 0.5, 0, 0, 1, 0, 0, 0}, "VEC4");
+  return m;
+}
+
+// A mesh with two morph targets.
+inline Moving morphed() {
+  Moving m;
+  m.json["meshes"][0]["primitives"][0]["targets"] = {
+      {{"POSITION", m.floats({0, 0, 1, 0, 0, 0, 0, 0, 0, 0, 0, 0}, "VEC3")}},
+      {{"POSITION", m.floats({0, 2, 0, 4, 0, 0, 0, 0, 0, 0, 0, 0}, "VEC3")}}};
+  m.json["meshes"][0]["weights"] = {0.5, 0.25};
+  return m;
+}
+
+inline Scene at(const Scene& scene, double seconds) {
+  Expected<Scene> moved = at_time(scene, seconds);
+  EXPECT_TRUE(moved) << moved.error().message();
+  return moved ? std::move(*moved) : Scene{};
+}
+
+inline void expect_near(const glm::vec3& a, const glm::vec3& b, float tolerance = 2e-6f) {
+  EXPECT_LT(glm::distance(a, b), tolerance)
+      << a.x << " " << a.y << " " << a.z << " is not " << b.x << " " << b.y << " " << b.z;
+}
 
 }  // namespace pinocchio

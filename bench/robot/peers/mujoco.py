@@ -29,7 +29,7 @@ def model_of(job):
         body.add_geom(type=mujoco.mjtGeom.mjGEOM_MESH, meshname=f"mesh {i}", rgba=(*map(float, color), 1.0), contype=0, conaffinity=0)
     for place in job.lights:
         spec.worldbody.add_light(pos=place, dir=numpy.subtract(job.target, place).tolist(), castshadow=True)
-    pose = job.camera_pose()
+    pose = job.pose_at(job.eye)
     spec.worldbody.add_camera(name="eye", pos=pose[:3, 3].tolist(), quat=quaternion(pose[:3, :3]).tolist(), fovy=job.fov)
     return spec.compile()
 

@@ -19,9 +19,9 @@ def frames(job, masks, shadows):
     for vertices, faces, normals, color in job.parts:
         material = pyrender.MetallicRoughnessMaterial(baseColorFactor=(*map(float, color), 1.0), metallicFactor=0.0)
         nodes.append(scene.add(pyrender.Mesh([pyrender.Primitive(positions=vertices, normals=normals, indices=faces, material=material)])))
-    for pose in job.light_poses():
+    for pose in map(job.pose_at, job.lights):
         scene.add(pyrender.SpotLight(intensity=40, outerConeAngle=0.8), pose=pose)
-    scene.add(pyrender.PerspectiveCamera(numpy.radians(job.fov)), pose=job.camera_pose())
+    scene.add(pyrender.PerspectiveCamera(numpy.radians(job.fov)), pose=job.pose_at(job.eye))
     renderer = pyrender.OffscreenRenderer(*job.size)
     flags = pyrender.RenderFlags.SHADOWS_SPOT if shadows else pyrender.RenderFlags.NONE
     colors = {node: (i // 256, i % 256, 1) for i, node in enumerate(nodes)}

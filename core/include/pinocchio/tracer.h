@@ -63,8 +63,8 @@ class Tracer {
   // blocked[i] is 1 if ray i meets any triangle, else 0. blocked.size() == rays.size().
   void occluded(std::span<const Ray> rays, std::span<std::uint8_t> blocked) const;
 
-  // The same for `n` rays in columns (walk/kernels.h), for the tile pass. `backs`: the materials whose backs
-  // the rays pass; `passed`: what may not block them; null: none.
+  // For the tile pass, which has its `n` rays in columns (walk/kernels.h). `backs`: the materials whose backs
+  // the rays pass. `passed`: the surfaces that may let them pass. Null: there are none.
   void closest_hits(const RayColumns& rays, std::size_t n, std::uint32_t* triangle, float* t = nullptr,
                     const MaterialMarks* backs = nullptr) const;
   void occluded(const RayColumns& rays, std::size_t n, std::uint8_t* blocked,

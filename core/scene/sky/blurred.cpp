@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/gtc/constants.hpp>
-#include <mutex>
 #include <vector>
 
 #include "core/scene/sky/lat_long.h"
+#include "core/scene/sky/made_of.h"
 
 namespace pinocchio {
 namespace {
@@ -68,20 +68,19 @@ Image<glm::vec3> spread(const Image<glm::vec3>& sky, double variance) {
 }
 
 // An environment's blurred pictures.
-struct Kept {
-  std::weak_ptr<const Environment> of;
-  std::vector<Image<glm::vec3>> halves;  // each half as wide as the one before; the first: as the environment
-  struct Blurred {
+struct Blurred {
+  struct Picture {
     float deviation_deg;
     std::shared_ptr<const Environment> picture;
   };
-  std::vector<Blurred> newest;
+  std::vector<Image<glm::vec3>> halves;  // each half as wide as the one before; the first: as the environment
+  std::vector<Picture> newest;
 
-  void add(const Environment& environment, float deviation_deg);
+  std::shared_ptr<const Environment> add(const Environment& environment, float deviation_deg);
 };
 
 // The picture's texels are half as wide as the deviation, so that wide blurs are quick.
-void Kept::add(const Environment& environment, float deviation_deg) {
+std::shared_ptr<const Environment> Blurred::add(const Environment& environment, float deviation_deg) {
   const double deviation = glm::radians(static_cast<double>(deviation_deg));
   const double half_width = std::ceil(2.0 * pi<double>() / deviation);
   const int width = 2 * static_cast<int>(std::clamp(half_width, kNarrowest / 2.0, kWidest / 2.0));
@@ -103,6 +102,7 @@ void Kept::add(const Environment& environment, float deviation_deg) {
   constexpr std::size_t kMost = 2;
   if (newest.size() == kMost) newest.erase(newest.begin());
   newest.push_back({deviation_deg, std::move(picture)});
+  return newest.back().picture;
 }
 
 }  // namespace
@@ -110,19 +110,12 @@ void Kept::add(const Environment& environment, float deviation_deg) {
 std::shared_ptr<const Environment> blurred(const std::shared_ptr<const Environment>& environment,
                                            float deviation_deg) {
   if (!environment || deviation_deg <= 0.0f) return environment;
-  static std::mutex mutex;
-  static std::vector<Kept> kept;
-  const std::lock_guard lock(mutex);
-  std::erase_if(kept, [](const Kept& k) { return k.of.expired(); });
-  auto own = std::ranges::find_if(kept, [&](const Kept& k) { return k.of.lock() == environment; });
-  if (own == kept.end()) {
-    kept.push_back({environment, {}, {}});
-    own = kept.end() - 1;
-  }
-  for (const Kept::Blurred& b : own->newest)
-    if (b.deviation_deg == deviation_deg) return b.picture;
-  own->add(*environment, deviation_deg);
-  return own->newest.back().picture;
+  static MadeOfEnvironments<Blurred> all;
+  return all.with(environment, [&](Blurred& own) {
+    for (const Blurred::Picture& b : own.newest)
+      if (b.deviation_deg == deviation_deg) return b.picture;
+    return own.add(*environment, deviation_deg);
+  });
 }
 
 }  // namespace pinocchio

@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/gtc/constants.hpp>
-#include <mutex>
 #include <vector>
 
 #include "core/scene/sky/lat_long.h"
+#include "core/scene/sky/made_of.h"
 
 namespace pinocchio {
 namespace {
@@ -100,18 +100,11 @@ PrefilteredSky::PrefilteredSky(const Environment& environment) {
 }
 
 std::shared_ptr<const PrefilteredSky> prefiltered(const std::shared_ptr<const Environment>& environment) {
-  struct Kept {
-    std::weak_ptr<const Environment> of;
-    std::shared_ptr<const PrefilteredSky> sky;
-  };
-  static std::mutex mutex;
-  static std::vector<Kept> kept;
-  const std::lock_guard lock(mutex);
-  std::erase_if(kept, [](const Kept& k) { return k.of.expired(); });
-  for (const Kept& k : kept)
-    if (k.of.lock() == environment) return k.sky;
-  kept.push_back({environment, std::make_shared<const PrefilteredSky>(*environment)});
-  return kept.back().sky;
+  static MadeOfEnvironments<std::shared_ptr<const PrefilteredSky>> skies;
+  return skies.with(environment, [&](std::shared_ptr<const PrefilteredSky>& sky) {
+    if (!sky) sky = std::make_shared<const PrefilteredSky>(*environment);
+    return sky;
+  });
 }
 
 }  // namespace pinocchio

@@ -9,6 +9,12 @@
 namespace pinocchio::PINOCCHIO_LANES {
 namespace {
 
+// Whether shadow rays pass a surface as if nothing were there. threshold: where it blends.
+inline Mask passes_shadow(const MaterialMaps& maps, Float alpha, Float threshold) {
+  if (maps.blends()) return alpha < threshold;
+  return is_hole(static_cast<int>(maps.alpha_mode), alpha, maps.alpha_cutoff);
+}
+
 unsigned lanes_in_holes(const PassedSurfaces& passed, const RayColumns& rays, std::size_t first,
                         unsigned asked, std::uint32_t triangle) {
   const SceneArrays& scene = *passed.scene;
@@ -20,13 +26,12 @@ unsigned lanes_in_holes(const PassedSurfaces& passed, const RayColumns& rays, st
                      Vec(scene.positions[corners.y]) - a, Vec(scene.positions[corners.z]) - a);
   const LaneMaps& maps = scene.maps[scene.materials[scene.triangle_materials[triangle]].maps];
   const Float alpha = alpha_at(scene, maps, Int(triangle), weights, lanes);
-  if (!maps.maps->blends()) return (lanes & (alpha < Float(maps.maps->alpha_cutoff))).bits();
   alignas(64) float thresholds[kWidth] = {};
-  for (unsigned waiting = asked; waiting != 0; waiting &= waiting - 1) {
+  for (unsigned waiting = maps.maps->blends() ? asked : 0u; waiting != 0; waiting &= waiting - 1) {
     const int lane = __builtin_ctz(waiting);
     thresholds[lane] = threshold_of(passed.place, passed.pixel[first + lane], triangle);
   }
-  return (lanes & (alpha < Float::load(thresholds))).bits();
+  return (lanes & passes_shadow(*maps.maps, alpha, Float::load(thresholds))).bits();
 }
 
 // thresholds: of shadow rays, which pass a surface that blends where its alpha is below; null: other rays.
@@ -61,10 +66,10 @@ void find_holes(const Bounce& bounce, const RayQueue& rays, const float* thresho
     for_each_distinct(material, lanes, [&](std::uint32_t index, Mask same) {
       const LaneMaps& maps = *maps_of(index);
       const Float alpha = alpha_at(scene, maps, triangle, weights, same);
-      const Mask is_hole = !maps.maps->blends() ? alpha < Float(maps.maps->alpha_cutoff)
-                           : thresholds         ? alpha < Float::load(thresholds + i)
-                                                : alpha <= Float(0.0f);
-      found |= (same & is_hole).bits();
+      const Mask passes =
+          thresholds ? passes_shadow(*maps.maps, alpha, Float::load(thresholds + i))
+                     : is_hole(static_cast<int>(maps.maps->alpha_mode), alpha, maps.maps->alpha_cutoff);
+      found |= (same & passes).bits();
     });
     select(Mask::from_bits(found), Int(1u), Int(0u)).store(holes + i);
   }

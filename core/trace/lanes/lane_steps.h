@@ -7,6 +7,7 @@
 #include <glm/glm.hpp>
 #include <tuple>
 
+#include "core/parallel/tiles.h"
 #include "core/shade/footprint.h"
 #include "core/shade/lane_maps.h"
 #include "core/shade/shared.h"
@@ -18,6 +19,9 @@
 #include "pinocchio/scene.h"
 
 namespace pinocchio {
+
+// A pixel's number within its tile: row by row.
+inline constexpr int kTileBits = TileGrid::kTileBits;
 
 // Where light that is found at random is kept apart for the filter (core/denoise), its rays have their
 // pixel's number plus this; twice this if the random choice was made at a surface that is seen in a sharp
@@ -128,6 +132,7 @@ struct LaneSteps {
   // thresholds: of shadow rays, which pass a surface that blends where its alpha is below; null: other rays.
   void (*find_holes)(const Bounce& bounce, const RayQueue& rays, const float* thresholds,
                      std::uint32_t* holes);
+  // The same for the shadow rays of a packet, within the walk.
   PassedSurfaces::InHoles lanes_in_holes;
   // Moves the rays, which have all hit, behind their triangles. ends: what they go to stays at t = 1. This
   // and find_holes read the bounce's scene and offset.

@@ -1,41 +1,18 @@
-// The alpha below which a surface that blends lets a shadow ray pass.
 #pragma once
 
-#include <bit>
 #include <cstdint>
 #include <glm/glm.hpp>
 
-#include "core/parallel/tiles.h"
-
 namespace pinocchio {
-
-// A pixel's number within its tile: row by row.
-inline constexpr int kTileBits = 5;
-static_assert(1 << kTileBits == TileGrid::kTileSize);
 
 struct SamplePlace {
   glm::ivec2 corner;  // of the tile, in the picture
   glm::vec2 jitter;   // zero: the only sample, or the first
 };
 
-inline std::uint32_t mixed(std::uint32_t x) {  // Wellons 2018
-  x = (x ^ x >> 16) * 0x7feb352du;
-  x = (x ^ x >> 15) * 0x846ca68bu;
-  return x ^ x >> 16;
-}
-
-// One half, or, in further samples of a pixel, a random number: the same whatever part of the picture is
-// drawn, and however it is cut in tiles.
-inline float threshold_of(const SamplePlace& place, std::uint32_t pixel, std::uint32_t triangle) {
-  if (place.jitter == glm::vec2(0.0f)) return 0.5f;
-  const auto mask = static_cast<std::uint32_t>(TileGrid::kTileSize - 1);
-  std::uint32_t seed = std::bit_cast<std::uint32_t>(place.jitter.x);
-  for (const std::uint32_t part :
-       {std::bit_cast<std::uint32_t>(place.jitter.y),
-        static_cast<std::uint32_t>(place.corner.x) + (pixel & mask),
-        static_cast<std::uint32_t>(place.corner.y) + (pixel >> kTileBits & mask), triangle})
-    seed = mixed(seed) + part;
-  return static_cast<float>(mixed(seed) >> 8) * 0x1p-24f;
-}
+// The alpha below which a surface that blends lets the shadow ray of that pixel of the tile pass: one half,
+// or, in further samples of a pixel, a random number. It is the same whatever part of the picture is drawn,
+// and however it is cut in tiles.
+[[nodiscard]] float threshold_of(const SamplePlace& place, std::uint32_t pixel, std::uint32_t triangle);
 
 }  // namespace pinocchio
