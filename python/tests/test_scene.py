@@ -1,6 +1,4 @@
 """Scenes from arrays, trimesh and glTF; what moves; cameras by their matrix."""
-import time
-
 import numpy
 import pinocchio_renderer as pn
 import pytest
@@ -121,18 +119,15 @@ def test_nodes_move(scenes):
     assert cornell.posed({"lamp": lamp}).lights[0].position == pytest.approx((0.5, 1, 1))
 
 
-def test_many_nodes_are_found_by_their_names_at_once():
-    count = 2000
+def test_nodes_are_found_by_name_as_by_number():
+    count = 50
     scene = pn.assemble({f"part {i}": pn.Scene(numpy.eye(3), [[0, 1, 2]]) for i in range(count)})
     poses = numpy.tile(numpy.eye(4), (count, 1, 1))
-    took = {}
-    for kind, name in (("number", int), ("name", lambda i: f"part {i}")):
-        moves = {name(i): poses[i] for i in range(count)}
-        begin = time.process_time()
-        for _ in range(3):
-            scene.posed(moves)
-        took[kind] = time.process_time() - begin
-    assert took["name"] < 10 * took["number"] + 0.1  # a search of all names for each took 300 times as long
+    poses[:, 0, 3] = range(count)
+    by_number = scene.posed(dict(enumerate(poses)))
+    by_name = scene.posed({f"part {i}": poses[i] for i in reversed(range(count))})
+    assert numpy.array_equal(by_name.vertices, by_number.vertices)
+    assert by_name.vertices[:, 0].max() == count
 
 
 def test_trimesh():
