@@ -42,7 +42,6 @@ class GpuMesh {
   int bind_backs(const gl::Program& program, int first_unit) const;
 
   [[nodiscard]] const GpuMaps& maps() const { return maps_; }
-  [[nodiscard]] bool shares_geometry_with(const GpuMesh& other) const { return geometry_ == other.geometry_; }
   [[nodiscard]] float z_near() const { return z_near_; }  // scene units
   [[nodiscard]] const Bounds& bounds() const { return bounds_; }
 
