@@ -1,9 +1,11 @@
 // Materials' maps as texture buffers (hybrid/gpu/gpu_maps.cpp), for the shared sources. Expects scene_fetch.glsl
 // before it.
+//   MAP_USES  what some material has, as bits. What none has is constant, so that no code is made of it: llvmpipe
+//             computes both sides of every branch.
 #ifdef HAS_MAPS
 #include "shared/metallic_roughness.glsl"
 
-uniform samplerBuffer maps_buffer;  // kMapTexels a material with maps
+uniform samplerBuffer maps_buffer;  // kMapTexels a material with maps; then each texture's levels
 uniform samplerBuffer texcoords;    // 2 texels a vertex, for each UV set
 uniform samplerBuffer texels;       // RGBA of all textures, level after level, as stored
 uniform int vertex_count;
@@ -11,46 +13,54 @@ uniform int vertex_count;
 uniform samplerBuffer vertex_quads;  // 1 texel a vertex: colours; then, likewise, tangents
 #endif
 
+// Uses of textures: bits of MAP_USES, and places in a material's texels.
+const int kBaseColor = 0;
+const int kMetallicRoughness = 1;
+const int kNormal = 2;
+const int kOcclusion = 3;
+const int kEmissive = 4;
+const int kAlpha = 5;
+const int kSpecular = 6;
+const int kSpecularColor = 7;
+const int kTransmission = 8;
+const int kClearcoat = 9;
+const int kClearcoatRoughness = 10;
+const int kSheenColor = 11;
+const int kSheenRoughness = 12;
+const int kUses = 13;
+// More bits.
+const int kBlends = 13;          // some material blends
+const int kSecondTexcoords = 14; // some texture is read at the second UV set
+const int kOcclusionIsShared = 15;  // occlusion is read where metallic and roughness are, from the same texture
+
+bool some_has(int bit) { return (MAP_USES >> bit & 1) != 0; }
+
+// Texels of a material's maps: three for each use of a texture, then what goes with them.
+const int kParameters = 3 * kUses;
+const int kLayers = kParameters + 6;
+const int kMapTexels = kLayers + 2;
+
 struct TexelSource {
-  int first;
+  int levels;  // in maps_buffer
 };
 
+// The level's first texel, its width and its height.
+ivec3 level_at(TexelSource source, ivec2 size, int level) {
+  vec4 texel = texelFetch(maps_buffer, source.levels + level);  // the first texel is split: high, low 12 bits
+  return ivec3(int(texel.x) * 4096 + int(texel.y), texel.zw);
+}
+
 vec4 texel_at(TexelSource source, int i, bool is_color) {
-  vec4 texel = texelFetch(texels, source.first + i);
+  vec4 texel = texelFetch(texels, i);
   return is_color ? vec4(linear_from_srgb(texel.rgb), texel.a) : texel;
 }
 
 #include "shared/texture.glsl"
 #include "shared/maps.glsl"
 
-// Texels of a material's maps: three for each use of a texture, then what goes with them.
-const int kBaseColor = 0;
-const int kMetallicRoughness = 3;
-const int kNormal = 6;
-const int kOcclusion = 9;
-const int kEmissive = 12;
-const int kAlpha = 15;
-const int kParameters = 18;
-#ifdef HAS_DIELECTRIC_MAPS
-const int kSpecular = 24;
-const int kSpecularColor = 27;
-const int kTransmission = 30;
-const int kLayers = 33;
-#else
-const int kLayers = 24;
-#endif
-#ifdef HAS_LAYER_MAPS
-const int kClearcoat = kLayers + 2;
-const int kClearcoatRoughness = kLayers + 5;
-const int kSheenColor = kLayers + 8;
-const int kSheenRoughness = kLayers + 11;
-const int kMapTexels = kLayers + 14;
-#else
-const int kMapTexels = kLayers;
-#endif
-
 struct MapPoint {
   uvec3 corners;
+  mat3x2 texcoords[2];  // the corners', in each UV set
   vec3 weights;
   vec3 ab;
   vec3 ac;
@@ -71,16 +81,27 @@ vec2 fetch_texcoord(int set, uint vertex) {
   return vec2(texelFetch(texcoords, first).r, texelFetch(texcoords, first + 1).r);
 }
 
+mat3x2 fetch_texcoords(int set, uvec3 corners) {
+  return mat3x2(fetch_texcoord(set, corners.x), fetch_texcoord(set, corners.y), fetch_texcoord(set, corners.z));
+}
+
+MapPoint map_point(uvec3 corners, vec3 weights, vec3 ab, vec3 ac, vec3 moved_x, vec3 moved_y) {
+  mat3x2 first = fetch_texcoords(0, corners);
+  mat3x2 second = first;
+  if (some_has(kSecondTexcoords)) second = fetch_texcoords(1, corners);
+  return MapPoint(corners, mat3x2[2](first, second), weights, ab, ac, moved_x, moved_y);
+}
+
 // Width 0: there is no texture.
 TextureParams fetch_use(int maps, int use) {
-  vec4 place = map_texel(maps, use);     // first texel (high, low 12 bits), width, height
-  vec4 axes = map_texel(maps, use + 1);  // of the transform
-  vec4 rest = map_texel(maps, use + 2);  // its offset, levels, and bits
-  int bits = int(rest.w);                // 1: UV set, 2: nearest, 4 and 8: wrap of u, 16 and 32: of v
+  vec4 place = map_texel(maps, 3 * use);     // place of its levels, how many, width, height
+  vec4 axes = map_texel(maps, 3 * use + 1);  // of the transform
+  vec4 rest = map_texel(maps, 3 * use + 2);  // its offset, and bits
+  int bits = int(rest.z);                    // 1: UV set, 2: nearest, 4 and 8: wrap of u, 16 and 32: of v
   TextureParams t;
-  t.source = TexelSource(int(place.x) * 4096 + int(place.y));
+  t.source = TexelSource(int(place.x));
+  t.levels = int(place.y);
   t.size = ivec2(place.zw);
-  t.levels = int(rest.z);
   t.uv_set = bits & 1;
   t.uv_from_texcoord = mat3x2(axes.xy, axes.zw, rest.xy);
   t.wrap_u = bits >> 2 & 3;
@@ -90,9 +111,10 @@ TextureParams fetch_use(int maps, int use) {
 }
 
 MapTexcoord texcoord_of(TextureParams t, MapPoint p) {
-  vec2 a = t.uv_from_texcoord * vec3(fetch_texcoord(t.uv_set, p.corners.x), 1.0);
-  vec2 b = t.uv_from_texcoord * vec3(fetch_texcoord(t.uv_set, p.corners.y), 1.0);
-  vec2 c = t.uv_from_texcoord * vec3(fetch_texcoord(t.uv_set, p.corners.z), 1.0);
+  mat3x2 corners = t.uv_set == 0 ? p.texcoords[0] : p.texcoords[1];
+  vec2 a = t.uv_from_texcoord * vec3(corners[0], 1.0);
+  vec2 b = t.uv_from_texcoord * vec3(corners[1], 1.0);
+  vec2 c = t.uv_from_texcoord * vec3(corners[2], 1.0);
   return MapTexcoord(p.weights.x * a + p.weights.y * b + p.weights.z * c, b - a, c - a);
 }
 
@@ -102,6 +124,10 @@ vec4 look_up(TextureParams t, MapPoint p, bool is_color) {
   TexturePoint where = TexturePoint(at.uv, uv_change(p.moved_x, at.uv_ab, at.uv_ac),
                                     uv_change(p.moved_y, at.uv_ab, at.uv_ac));
   return sample_texture(t, where, is_color);
+}
+
+vec4 map_value(int maps, int use, MapPoint p, bool is_color) {
+  return some_has(use) ? look_up(fetch_use(maps, use), p, is_color) : vec4(1.0);
 }
 
 #if defined(HAS_COLORS) || defined(HAS_TANGENTS)
@@ -121,6 +147,7 @@ vec4 vertex_color(MapPoint p) {
 }
 
 vec3 mapped_normal_at(int maps, MapPoint p, vec3 n) {
+  if (!some_has(kNormal)) return n;
   TextureParams t = fetch_use(maps, kNormal);
   if (t.size.x == 0) return n;
   vec4 tangent = vec4(0.0);
@@ -147,10 +174,12 @@ ShadingParams mapped_material_at(int maps, MapPoint p, ShadingParams plain, inou
   vec4 strengths = map_texel(maps, kParameters + 4); // of normal and occlusion; from_gltf (2: coat_is_mapped), alpha's channel
   vec4 alpha = map_texel(maps, kParameters + 5);     // mode, factor, cut-off; vertex colours
   MapValues v;
-  v.base_color = look_up(fetch_use(maps, kBaseColor), p, true).rgb;
+  v.base_color = map_value(maps, kBaseColor, p, true).rgb;
   if (alpha.w > 0.0) v.base_color *= vertex_color(p).rgb;
-  v.emissive = look_up(fetch_use(maps, kEmissive), p, true).rgb;
-  v.occlusion = 1.0 + strengths.y * (look_up(fetch_use(maps, kOcclusion), p, false).r - 1.0);
+  v.emissive = map_value(maps, kEmissive, p, true).rgb;
+  vec4 texel = map_value(maps, kMetallicRoughness, p, false);
+  float reached = some_has(kOcclusionIsShared) ? texel.r : map_value(maps, kOcclusion, p, false).r;
+  v.occlusion = 1.0 + strengths.y * (reached - 1.0);
   v.roughness = 1.0;
   v.metallic = 1.0;
   v.specular = 1.0;
@@ -158,49 +187,47 @@ ShadingParams mapped_material_at(int maps, MapPoint p, ShadingParams plain, inou
   v.transmission = 1.0;
   v.layers = GltfLayers(1.0, 1.0, vec3(1.0), 1.0);
   if (strengths.z == 0.0) return mapped_phong(material_point(plain), v).shading;
-  vec4 texel = look_up(fetch_use(maps, kMetallicRoughness), p, false);
   v.roughness = texel.g;
   v.metallic = texel.b;
-#ifdef HAS_DIELECTRIC_MAPS
-  v.specular = look_up(fetch_use(maps, kSpecular), p, false).a;
-  v.specular_color = look_up(fetch_use(maps, kSpecularColor), p, true).rgb;
-  v.transmission = look_up(fetch_use(maps, kTransmission), p, false).r;
-#endif
+  v.specular = map_value(maps, kSpecular, p, false).a;
+  v.specular_color = map_value(maps, kSpecularColor, p, true).rgb;
+  v.transmission = map_value(maps, kTransmission, p, false).r;
   MetallicRoughness s =
       MetallicRoughness(base_metallic.rgb, base_metallic.a, emissive_roughness.a, emissive_roughness.rgb, more.x,
                         specular.a, specular.rgb, more.y, more.z > 0.0, more.w > 0.0);
   MaterialPoint m = mapped_metallic_roughness(s, v, plain.ggx_alpha == 0.0);
   transmits = m.transmittance != vec3(0.0);
-#ifdef HAS_LAYER_MAPS
-  vec4 coat = map_texel(maps, kLayers);  // factor, roughness; sheen's roughness
-  GltfLayers layers;
-  layers.coat = coat.x * look_up(fetch_use(maps, kClearcoat), p, false).r;
-  layers.coat_roughness = coat.y * look_up(fetch_use(maps, kClearcoatRoughness), p, false).g;
-  layers.sheen = map_texel(maps, kLayers + 1).rgb * look_up(fetch_use(maps, kSheenColor), p, true).rgb;
-  layers.sheen_roughness = coat.z * look_up(fetch_use(maps, kSheenRoughness), p, false).a;
-  m = with_layers(m, layers);
-#else
-  if (!transmits) {
+  if (some_has(kClearcoat) || some_has(kClearcoatRoughness) || some_has(kSheenColor) || some_has(kSheenRoughness)) {
+    vec4 coat = map_texel(maps, kLayers);  // factor, roughness; sheen's roughness
+    GltfLayers layers;
+    layers.coat = coat.x * map_value(maps, kClearcoat, p, false).r;
+    layers.coat_roughness = coat.y * map_value(maps, kClearcoatRoughness, p, false).g;
+    layers.sheen = map_texel(maps, kLayers + 1).rgb * map_value(maps, kSheenColor, p, true).rgb;
+    layers.sheen_roughness = coat.z * map_value(maps, kSheenRoughness, p, false).a;
+    m = with_layers(m, layers);
+  } else if (!transmits) {
     m.shading.sheen = plain.sheen;
     m.shading.sheen_alpha = plain.sheen_alpha;
     m.shading.coat = plain.coat;
     m.shading.coat_alpha = plain.coat_alpha;
   }
-#endif
   return m.shading;
 }
 
 float alpha_at(int maps, MapPoint p, vec4 alpha) {
   float result = alpha.y;
-  TextureParams t = fetch_use(maps, kAlpha);
-  if (t.size.x > 0)
-    result *= sample_point(t, texcoord_of(t, p).uv, false)[int(map_texel(maps, kParameters + 4).w)];
+  if (some_has(kAlpha)) {
+    TextureParams t = fetch_use(maps, kAlpha);
+    if (t.size.x > 0)
+      result *= sample_point(t, texcoord_of(t, p).uv, false)[int(map_texel(maps, kParameters + 4).w)];
+  }
   if (alpha.w > 0.0) result *= vertex_color(p).a;
   return result;
 }
 
 // The surface's share of its pixel.
 float coverage_at(int maps, MapPoint p) {
+  if (!some_has(kBlends)) return 1.0;
   vec4 alpha = map_texel(maps, kParameters + 5);
   return int(alpha.x) == kAlphaBlend ? clamp(alpha_at(maps, p, alpha), 0.0, 1.0) : 1.0;
 }

@@ -95,7 +95,7 @@ PixelSurface surface_of(uint id, ivec2 pixel) {
   int maps = fetch_maps(material);
   if (maps >= 0) {
     float t = kParallel ? texture_spread : texture_spread * dot(s.p_world - eye, direction) / dot(direction, direction);
-    MapPoint point = MapPoint(corners, weights, b - a, c - a,
+    MapPoint point = map_point(corners, weights, b - a, c - a,
                               moved_on_triangle(t * step_x, direction, b - a, c - a),
                               moved_on_triangle(t * step_y, direction, b - a, c - a));
     float side = s.n.leaving ? -1.0 : 1.0;

@@ -21,8 +21,13 @@ uvec3 fetch_corners(uint triangle) {
                texelFetch(triangle_corners, first + 2).r);
 }
 
+// c: 0 to 1. ((c + 0.055) / 1.055)^2.4 is a polynomial here, within 3e-6 of its value: with pow(), llvmpipe takes 1.15 times
+// as long for a textured picture.
 vec3 linear_from_srgb(vec3 c) {
-  return mix(c / 12.92, pow((c + 0.055) / 1.055, vec3(2.4)), greaterThan(c, vec3(0.04045)));
+  vec3 s = sqrt((c + 0.055) / 1.055);
+  vec3 s2 = s * s;
+  vec3 rest = 0.03118108 + s * (1.38847717 + s * (-1.04100981 + s * (1.32154628 + s * (-1.1547766 + s * (0.57973269 - s * 0.12515316)))));
+  return mix(c / 12.92, s2 * s2 * rest, greaterThan(c, vec3(0.04045)));
 }
 
 // Where the material's maps are (map_fetch.glsl); -1: it has none.

@@ -39,7 +39,7 @@ void discard_hole() {
   vec3 b = fetch_vec3(positions, corners.y);
   vec3 c = fetch_vec3(positions, corners.z);
   vec3 weights = barycentric_of(pixel_origin(view, pixel), direction, a, b - a, c - a);
-  MapPoint point = MapPoint(corners, weights, b - a, c - a, vec3(0.0, 0.0, 1.0), vec3(0.0, 0.0, 1.0));
+  MapPoint point = map_point(corners, weights, b - a, c - a, vec3(0.0, 0.0, 1.0), vec3(0.0, 0.0, 1.0));
   if (hole_at(maps, point)) discard;
 }
 #else

@@ -32,6 +32,15 @@ struct TexelSource {
   const float* linear_from_srgb8;
 };
 
+[[nodiscard, gnu::always_inline]] inline ivec3 level_at(const TexelSource&, ivec2 size, int level) {
+  int first = 0;
+  for (int i = 0; i < level; ++i) {
+    first += size.x * size.y;
+    size = max(size / 2, ivec2(1));
+  }
+  return {first, size.x, size.y};
+}
+
 [[nodiscard, gnu::always_inline]] inline vec4 texel_at(const TexelSource& source, int i, bool is_color) {
   const glm::u8vec4& t =
       i < source.first_count ? source.first_level[i] : source.others[i - source.first_count];

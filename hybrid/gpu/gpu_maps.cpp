@@ -1,42 +1,48 @@
 #include "hybrid/gpu/gpu_maps.h"
 
 #include <algorithm>
+#include <array>
 #include <span>
+#include <tuple>
 
 namespace pinocchio {
 namespace {
 
-// A texture's first texel is split over two floats, exact up to 2^24 each.
-constexpr std::size_t kPlaceDigit = 4096;
-
-// Layouts of shaders/map_fetch.glsl.
+// Layouts and bits of shaders/map_fetch.glsl.
 struct UseTexels {
   glm::vec4 place{0.0f}, axes{0.0f}, rest{0.0f};
 };
+constexpr std::size_t kUses = std::tuple_size_v<decltype(MaterialMaps().uses())>;
 struct MapTexels {
-  UseTexels base_color, metallic_roughness, normal, occlusion, emissive, alpha;
-  glm::vec4 base_metallic, emissive_roughness, specular, more, strengths, alpha_rule;
+  std::array<UseTexels, kUses> uses;
+  glm::vec4 base_metallic, emissive_roughness, specular, more, strengths, alpha_rule, coat, sheen;
 };
-static_assert(sizeof(MapTexels) == 24 * sizeof(glm::vec4));
-struct DielectricTexels {  // sent where some material has one of these
-  UseTexels specular, specular_color, transmission;
-};
-static_assert(sizeof(DielectricTexels) == 9 * sizeof(glm::vec4));
-struct LayerTexels {  // likewise
-  glm::vec4 coat, sheen;
-  UseTexels clearcoat, clearcoat_roughness, sheen_color, sheen_roughness;
-};
-static_assert(sizeof(LayerTexels) == 14 * sizeof(glm::vec4));
+constexpr std::size_t kTexelsOfMaps = sizeof(MapTexels) / sizeof(glm::vec4);
+static_assert(kTexelsOfMaps == 47);
+enum : unsigned { kBlends = 1u << 13, kSecondTexcoords = 1u << 14, kOcclusionIsShared = 1u << 15 };
+static_assert(kUses == 13);
 
-std::vector<std::size_t> first_texels(const Mesh& mesh) {
-  std::vector<std::size_t> first;
-  std::size_t next = 0;
-  for (const Texture& texture : mesh.textures) {
-    first.push_back(next);
-    next += texture.texels.pixels().size() + texture.smaller_levels.size();
+// A texel of a level is split over two floats, exact up to 2^24 each.
+constexpr std::size_t kPlaceDigit = 4096;
+
+// Where each texture's levels are, and all of them: first texel, width and height.
+struct LevelTable {
+  std::vector<std::size_t> begin;
+  std::vector<glm::vec4> levels;
+
+  explicit LevelTable(const Mesh& mesh) {
+    std::size_t next = 0;
+    for (const Texture& texture : mesh.textures) {
+      begin.push_back(levels.size());
+      glm::ivec2 size = texture.texels.size();
+      for (int i = 0; i < texture.levels(); ++i) {
+        levels.emplace_back(next / kPlaceDigit, next % kPlaceDigit, size.x, size.y);
+        next += static_cast<std::size_t>(size.x) * static_cast<std::size_t>(size.y);
+        size = glm::max(size / 2, 1);
+      }
+    }
   }
-  return first;
-}
+};
 
 std::vector<glm::u8vec4> all_texels(const Mesh& mesh) {
   std::vector<glm::u8vec4> texels;
@@ -48,63 +54,72 @@ std::vector<glm::u8vec4> all_texels(const Mesh& mesh) {
   return texels;
 }
 
-UseTexels use_texels(const Mesh& mesh, const std::vector<std::size_t>& first, const TextureUse& use) {
-  UseTexels t;
-  if (!use.used() || (use.uv_set == 1 ? mesh.texcoords1 : mesh.texcoords).empty()) return t;
-  const auto i = static_cast<std::size_t>(use.texture);
-  const Texture& texture = mesh.textures[i];
+bool is_read(const Mesh& mesh, const TextureUse& use) {
+  return use.used() && !(use.uv_set == 1 ? mesh.texcoords1 : mesh.texcoords).empty();
+}
+
+// `place`: of the texture's levels in the buffer.
+UseTexels use_texels(const Texture& texture, std::size_t place, const TextureUse& use) {
   const glm::mat3x2& m = use.uv_from_texcoord;
   const int bits = (use.uv_set == 1 ? 1 : 0) | (use.nearest ? 2 : 0) | static_cast<int>(use.wrap_u) << 2 |
                    static_cast<int>(use.wrap_v) << 4;
-  t.place = {static_cast<float>(first[i] / kPlaceDigit), static_cast<float>(first[i] % kPlaceDigit),
-             static_cast<float>(texture.texels.width()), static_cast<float>(texture.texels.height())};
-  t.axes = {m[0], m[1]};
-  t.rest = {m[2], static_cast<float>(texture.levels()), static_cast<float>(bits)};
+  return {.place = glm::vec4(place, texture.levels(), texture.texels.size()),
+          .axes = {m[0], m[1]},
+          .rest = {m[2], bits, 0.0f}};
+}
+
+MapTexels map_texels(const Mesh& mesh, const MaterialMaps& m, const LevelTable& table) {
+  const auto flag = [](bool b) { return b ? 1.0f : 0.0f; };
+  const GltfSurface& s = m.surface;
+  MapTexels t{
+      .uses = {},
+      .base_metallic = glm::vec4(s.base_color, s.metallic),
+      .emissive_roughness = glm::vec4(s.emissive, s.roughness),
+      .specular = glm::vec4(s.specular_color, s.specular),
+      .more = glm::vec4(s.ior, s.transmission, flag(s.volume), flag(s.unlit)),
+      .strengths = glm::vec4(m.normal_scale, m.occlusion.used() ? m.occlusion_strength : 0.0f,
+                             flag(m.from_gltf) + flag(m.from_gltf && m.coat_is_mapped), m.alpha_channel),
+      .alpha_rule = glm::vec4(m.alpha_mode, m.alpha_factor, m.alpha_cutoff, flag(m.vertex_colors)),
+      .coat = glm::vec4(s.clearcoat, s.clearcoat_roughness, s.sheen_roughness, 0.0f),
+      .sheen = glm::vec4(s.sheen_color, 0.0f)};
+  const auto uses = m.uses();
+  for (std::size_t i = 0; i < kUses; ++i) {
+    if (!is_read(mesh, *uses[i])) continue;
+    const auto texture = static_cast<std::size_t>(uses[i]->texture);
+    t.uses[i] =
+        use_texels(mesh.textures[texture], mesh.maps.size() * kTexelsOfMaps + table.begin[texture], *uses[i]);
+  }
   return t;
 }
 
-template <class T>
-void append_texels(const T& texels, std::vector<glm::vec4>& to) {
-  const auto* const first = reinterpret_cast<const glm::vec4*>(&texels);
-  to.insert(to.end(), first, first + sizeof(T) / sizeof(glm::vec4));
-}
-
-std::vector<glm::vec4> map_texels(const Mesh& mesh, bool dielectric, bool layers) {
-  const std::vector<std::size_t> first = first_texels(mesh);
-  const auto flag = [](bool b) { return b ? 1.0f : 0.0f; };
+std::vector<glm::vec4> maps_and_levels(const Mesh& mesh) {
+  const LevelTable table(mesh);
   std::vector<glm::vec4> all;
   for (const MaterialMaps& m : mesh.maps) {
-    const GltfSurface& s = m.surface;
-    const auto use = [&](const TextureUse& u) { return use_texels(mesh, first, u); };
-    append_texels(MapTexels{.base_color = use(m.base_color),
-                            .metallic_roughness = use(m.metallic_roughness),
-                            .normal = use(m.normal),
-                            .occlusion = use(m.occlusion),
-                            .emissive = use(m.emissive),
-                            .alpha = use(m.alpha),
-                            .base_metallic = glm::vec4(s.base_color, s.metallic),
-                            .emissive_roughness = glm::vec4(s.emissive, s.roughness),
-                            .specular = glm::vec4(s.specular_color, s.specular),
-                            .more = glm::vec4(s.ior, s.transmission, flag(s.volume), flag(s.unlit)),
-                            .strengths = glm::vec4(m.normal_scale, m.occlusion_strength,
-                                                   flag(m.from_gltf) + flag(m.from_gltf && m.coat_is_mapped),
-                                                   static_cast<float>(m.alpha_channel)),
-                            .alpha_rule = glm::vec4(static_cast<float>(m.alpha_mode), m.alpha_factor,
-                                                    m.alpha_cutoff, flag(m.vertex_colors))},
-                  all);
-    if (dielectric)
-      append_texels(DielectricTexels{use(m.specular), use(m.specular_color), use(m.transmission)}, all);
-    if (layers)
-      append_texels(
-          LayerTexels{.coat = glm::vec4(s.clearcoat, s.clearcoat_roughness, s.sheen_roughness, 0.0f),
-                      .sheen = glm::vec4(s.sheen_color, 0.0f),
-                      .clearcoat = use(m.clearcoat),
-                      .clearcoat_roughness = use(m.clearcoat_roughness),
-                      .sheen_color = use(m.sheen_color),
-                      .sheen_roughness = use(m.sheen_roughness)},
-          all);
+    const MapTexels texels = map_texels(mesh, m, table);
+    const auto* const first = reinterpret_cast<const glm::vec4*>(&texels);
+    all.insert(all.end(), first, first + kTexelsOfMaps);
   }
+  all.insert(all.end(), table.levels.begin(), table.levels.end());
   return all;
+}
+
+// MAP_USES.
+unsigned bits_of_uses(const Mesh& mesh) {
+  unsigned bits = 0;
+  for (const MaterialMaps& m : mesh.maps) {
+    const auto uses = m.uses();
+    for (std::size_t i = 0; i < kUses; ++i) {
+      if (!is_read(mesh, *uses[i])) continue;
+      bits |= 1u << i;
+      if (uses[i]->uv_set == 1) bits |= kSecondTexcoords;
+    }
+    if (m.blends()) bits |= kBlends;
+  }
+  const auto shares = [](const MaterialMaps& m) {
+    return !m.occlusion.used() || m.occlusion == m.metallic_roughness;
+  };
+  return std::ranges::all_of(mesh.maps, shares) ? bits | kOcclusionIsShared : bits;
 }
 
 // Both sets of texture coordinates, one after the other: OpenGL 3.3 has 16 units, so they share one.
@@ -126,11 +141,8 @@ GpuMaps::GpuMaps(const Mesh& mesh, const GpuMaps* shares_textures) {
   if (mesh.maps.empty()) return;
   definitions_.emplace_back("HAS_MAPS");
   has_holes_ = std::any_of(mesh.maps.begin(), mesh.maps.end(), [](const auto& m) { return m.has_holes(); });
-  const bool dielectric = std::ranges::any_of(mesh.maps, [](const auto& m) { return m.maps_dielectric(); });
-  if (dielectric) definitions_.emplace_back("HAS_DIELECTRIC_MAPS");
-  const bool layers = std::ranges::any_of(mesh.maps, [](const auto& m) { return m.maps_layers(); });
-  if (layers) definitions_.emplace_back("HAS_LAYER_MAPS");
-  maps_ = buffer_of(map_texels(mesh, dielectric, layers), GL_RGBA32F, sizeof(glm::vec4));
+  definitions_.push_back("MAP_USES " + std::to_string(bits_of_uses(mesh)));
+  maps_ = buffer_of(maps_and_levels(mesh), GL_RGBA32F, sizeof(glm::vec4));
   texels_ = shares_textures ? shares_textures->texels_ : nullptr;
   if (!texels_)
     texels_ =

@@ -1,6 +1,6 @@
 // Source of GLSL and of C++ (core/shade/shared_maps.h): texture look-ups. Each side defines TexelSource and
-// texel_at(source, i, is_color) before it: the i-th texel, 0 to 1, colour (sRGB) made linear. The lanes have code of
-// their own (core/trace/lanes/texture.h).
+// level_at(source, size, level): the level's first texel, width and height; and texel_at(source, i, is_color): the i-th
+// texel, 0 to 1, colour (sRGB) made linear. The lanes have code of their own (core/trace/lanes/texture.h).
 
 const int kWrapRepeat = 0;
 const int kWrapMirror = 1;
@@ -45,12 +45,9 @@ SHARED vec2 within_periods(TextureParams use, vec2 uv) {
 // differ. (The level is found each time: where it is carried through the loop over taps, Mesa 22's llvmpipe
 // compiles for minutes.)
 SHARED vec4 sample_level(TextureParams use, vec2 uv, int level, bool is_color) {
-  ivec2 size = use.size;
-  int first = 0;
-  for (int i = 0; i < level; ++i) {
-    first += size.x * size.y;
-    size = max(size / 2, ivec2(1));
-  }
+  ivec3 of_level = level_at(use.source, use.size, level);
+  int first = of_level.x;
+  ivec2 size = ivec2(of_level.y, of_level.z);
   vec2 at = use.nearest ? uv * vec2(size) : uv * vec2(size) - 0.5f;
   vec2 base = floor(at);
   ivec2 b = ivec2(base);

@@ -25,13 +25,11 @@ Definitions joined(std::initializer_list<Definitions> all) {
 const std::vector<Definitions> kIds{{"ID_BITS 16"}, {"ID_BITS 24"}, {"ID_BITS 32"}};
 const std::vector<Definitions> kTerminators{{}, {"TERMINATOR_LIFTS"}, {"TERMINATOR_SMOOTHS"}};
 const std::vector<Definitions> kMaps{{},
-                                     {"HAS_MAPS"},
-                                     {"HAS_MAPS", "HAS_DIELECTRIC_MAPS"},
-                                     {"HAS_MAPS", "HAS_LAYER_MAPS"},
-                                     {"HAS_MAPS", "HAS_DIELECTRIC_MAPS", "HAS_LAYER_MAPS"},
-                                     {"HAS_MAPS", "HAS_COLORS"},
-                                     {"HAS_MAPS", "HAS_TANGENTS"},
-                                     {"HAS_MAPS", "HAS_DIELECTRIC_MAPS", "HAS_COLORS", "HAS_TANGENTS"}};
+                                     {"HAS_MAPS", "MAP_USES 0"},
+                                     {"HAS_MAPS", "MAP_USES 32895"},
+                                     {"HAS_MAPS", "MAP_USES 8128", "HAS_COLORS"},
+                                     {"HAS_MAPS", "MAP_USES 16415", "HAS_TANGENTS"},
+                                     {"HAS_MAPS", "MAP_USES 65535", "HAS_COLORS", "HAS_TANGENTS"}};
 const std::vector<Definitions> kLights{{},
                                        {"HAS_SIZED_LIGHTS"},
                                        {"FREE_LIGHTS_ONLY"},

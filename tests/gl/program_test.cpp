@@ -47,7 +47,7 @@ TEST_P(ProgramTest, EveryShaderCompilesInEveryVariant) {
               "REFLECTION_TEXELS 3", "REPROJECT"},
              {"HAS_MASK", "MASK_BITS 2", "MASK_SCALE 4", "HAS_REFLECTION", "REFLECTION_SCALE 2",
               "REFLECTION_TEXELS 1", "REFLECTION_TILE 16"},
-             {"HAS_MAPS", "HAS_COLORS", "HAS_TANGENTS", "FREE_LIGHTS_ONLY"}}) {
+             {"HAS_MAPS", "MAP_USES 65535", "HAS_COLORS", "HAS_TANGENTS", "FREE_LIGHTS_ONLY"}}) {
       definitions.emplace_back(bits);
       EXPECT_NO_THROW(gl::Program(kShaders, "fullscreen.vert", "composite.frag", definitions));
       for (const char* shown : {"SHOW_IDS", "SHOW_NORMALS", "SHOW_MASK", "SHOW_DELAY"}) {
