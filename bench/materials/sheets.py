@@ -13,6 +13,11 @@ def screen(picture, background=0.0):
     return numpy.round(255 * srgb).astype(numpy.uint8)
 
 
+def opaque(picture):
+    """The same of a picture without alpha, or with alpha before black."""
+    return screen(numpy.concatenate([picture[..., :3], numpy.ones_like(picture[..., :1])], -1))
+
+
 def grid(tiles, columns):
     """Tiles of one size, row by row."""
     height, width, _ = tiles[0].shape
