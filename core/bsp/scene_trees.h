@@ -39,9 +39,9 @@ struct SceneTrees {
   std::shared_ptr<const BspTree> still;  // of all that no other tree holds; its root may be an empty leaf
   std::span<const glm::vec3> positions;  // the scene's
   std::span<const glm::uvec3> corners;   // the scene's triangles
-  std::vector<MovingTree> moving{};  // also what stands still and has copies
-  std::vector<TopNode> top{};        // over `moving`, the root first; empty: there are none
-  Bounds bounds{};                   // as of a tree over all
+  std::vector<MovingTree> moving{};      // also what stands still and has copies
+  std::vector<TopNode> top{};            // over `moving`, the root first; empty: there are none
+  Bounds bounds{};                       // as of a tree over all
 };
 
 // The deepest top level: halves of at most 2^30 trees.

@@ -7,12 +7,25 @@
 
 #include "core/bsp/build/build.h"
 #include "core/scene/pose/pose.h"
+#include "core/scene/pose/shared_meshes.h"
 
 namespace pinocchio {
 namespace {
 
-// TODO chart
-constexpr std::size_t kLeastSaved = 0;
+// The meshes whose copies share a tree.
+std::map<int, bool> shared_meshes(const std::vector<MeshCopy>& copies) {
+  std::map<int, MeshPlacings> meshes;
+  for (const MeshCopy& copy : copies) {
+    meshes[copy.mesh].triangles = copy.triangles;  // they all have as many
+    meshes[copy.mesh].placings += 1.0;
+  }
+  std::vector<MeshPlacings> placings;
+  for (const auto& [mesh, of] : meshes) placings.push_back(of);
+  const std::vector<bool> share = share_trees(placings);
+  std::map<int, bool> shared;
+  for (const auto& [mesh, of] : meshes) shared[mesh] = share[shared.size()];
+  return shared;
+}
 
 std::span<const glm::uvec3> triangles_of(const Mesh& mesh, const MeshCopy& copy) {
   return std::span(mesh.triangles).subspan(copy.first_triangle, copy.triangles);
@@ -78,20 +91,14 @@ bool are_all_of(const Node& node, std::span<const MeshCopy> copies) {
 SharedCopies::SharedCopies(const Scene& scene, const BuildOptions& options) {
   if (options.triangle_test != TriangleTest::filtered) return;
   const std::vector<MeshCopy>& copies = scene.nodes->rest->copies;
-  std::map<int, std::size_t> triangles, count;  // of each mesh
-  for (const MeshCopy& copy : copies) {
-    triangles[copy.mesh] += copy.triangles;
-    ++count[copy.mesh];
-  }
-  const auto saves = [&](const MeshCopy& copy) {
-    return triangles[copy.mesh] - triangles[copy.mesh] / count[copy.mesh] >= kLeastSaved;
-  };
+  const std::map<int, bool> shared = shared_meshes(copies);
+  const auto shares = [&](const MeshCopy& copy) { return shared.at(copy.mesh); };
   has_node_.assign(scene.nodes->nodes.size(), false);
   for (std::size_t first = 0, last = 0; first < copies.size(); first = last) {
     const int node = copies[first].node;
     while (last < copies.size() && copies[last].node == node) ++last;
     const std::span of_node = std::span(copies).subspan(first, last - first);
-    if (!std::ranges::all_of(of_node, saves) || !are_all_of(scene.nodes->nodes[node], of_node)) continue;
+    if (!std::ranges::all_of(of_node, shares) || !are_all_of(scene.nodes->nodes[node], of_node)) continue;
     has_node_[node] = true;
     for (std::size_t i = first; i < last; ++i) {
       copies_.push_back({static_cast<std::uint32_t>(i)});

@@ -45,8 +45,8 @@ class SharedCopies {
   };
 
   std::vector<Copy> copies_;
-  std::vector<int> nodes_;      // of each
-  std::vector<bool> has_node_;  // by node
+  std::vector<int> nodes_;                                  // of each
+  std::vector<bool> has_node_;                              // by node
   std::map<int, std::shared_ptr<const SharedTree>> trees_;  // by mesh
 };
 

@@ -157,7 +157,9 @@ class Trees {
     for (std::size_t i = 0; i < n; ++i) {
       const Node& at = scene_.nodes->nodes[i];
       root[i] = motion_->moves[i] >= kMoves ? static_cast<int>(i) : at.parent >= 0 ? root[at.parent] : -1;
-      if (at.triangles == 0 || motion_->copies.has_node(i) || (deforms[i] ? motion_->reshapes[i] < kMoves : root[i] < 0)) continue;
+      if (at.triangles == 0 || motion_->copies.has_node(i) ||
+          (deforms[i] ? motion_->reshapes[i] < kMoves : root[i] < 0))
+        continue;
       still -= at.triangles;
       is_still_[i] = false;
       if (deforms[i]) {
@@ -270,10 +272,11 @@ class Trees {
 
   void place_copies() {
     if (motion_ && !motion_->copies.empty())
-      motion_->copies.place(scene_, options_, [&](std::size_t n, const std::function<void(std::size_t)>& body) {
-        if (options_.threads != 1) return workers().for_each(n, body);
-        for (std::size_t i = 0; i < n; ++i) body(i);
-      });
+      motion_->copies.place(scene_, options_,
+                            [&](std::size_t n, const std::function<void(std::size_t)>& body) {
+                              if (options_.threads != 1) return workers().for_each(n, body);
+                              for (std::size_t i = 0; i < n; ++i) body(i);
+                            });
   }
 
   // Stores triangles as posed. Those without an area are never hit, as if the tree did not have them.

@@ -57,7 +57,7 @@ struct RestPose {
   std::vector<Attached<Light>> lights;
   std::vector<Attached<Camera>> cameras;
   std::vector<Skin> skins;
-  std::vector<Deformation> deformations;              // at most one for each node, in the order of nodes
+  std::vector<Deformation> deformations;  // at most one for each node, in the order of nodes
   std::vector<MeshCopy> copies;  // in the order of triangles; tracers may share a mesh's tree among them
   std::shared_ptr<PosePool> pool = make_pose_pool();  // poses that nobody holds any more, for the next ones
 };

@@ -4,7 +4,6 @@
 //   fetch_ahead(references, count) that they are needed soon
 #pragma once
 
-#include <cmath>
 #include <cstdint>
 
 #include "core/bsp/scene_trees.h"
@@ -47,10 +46,10 @@ class MadeWhenTested {
 
   const ProjectedTriangle& at(std::uint32_t reference, Kept& kept) const {
     const glm::uvec3& c = corners_[reference];
-    return kept = ProjectedTriangle::from(positions_[c.x], positions_[c.y], positions_[c.z],
-                                          first_ + reference);
+    return kept =
+               ProjectedTriangle::from(positions_[c.x], positions_[c.y], positions_[c.z], first_ + reference);
   }
-  static bool is_void(const ProjectedTriangle& triangle) { return std::isnan(triangle.n_u); }
+  static bool is_void(const ProjectedTriangle& triangle) { return triangle.n_u != triangle.n_u; }
   void fetch_ahead(const std::uint32_t* of_leaf, std::uint32_t count) const {
     for (std::uint32_t r = 0; r < count; ++r) __builtin_prefetch(corners_ + of_leaf[r]);
   }
