@@ -10,11 +10,15 @@
 
 namespace pinocchio {
 
-// A tree that was built in an earlier pose and has only been moved since. Rays are brought to where it was
-// built; the triangles that they are tested against are the present pose's.
+// A tree that was built elsewhere: in an earlier pose, and what it holds has only been moved since, or for
+// all copies of a mesh. Rays are brought to where it was built; the triangles that they are tested against
+// are the present pose's.
 struct MovingTree {
   std::shared_ptr<const BspTree> tree;  // without triangles
+  // Null: triangles are made of their corners when they are tested, and the tree refers to them by id, less
+  // `first_triangle`.
   std::shared_ptr<const StoredTriangles> triangles;
+  std::uint32_t first_triangle = 0;
   // Where the tree was built, from the world: three rows.
   float tree_from_world[3][4];
   // A ray's point, brought there, is off by at most margin + kPerOrigin * |row| * |origin| from the point of
@@ -32,20 +36,12 @@ struct TopNode {
 
 // All trees of a scene in one pose.
 struct SceneTrees {
-  std::shared_ptr<const BspTree> still;  // of all that has no tree of its own; its root may be an empty leaf
+  std::shared_ptr<const BspTree> still;  // of all that no other tree holds; its root may be an empty leaf
   std::span<const glm::vec3> positions;  // the scene's
   std::span<const glm::uvec3> corners;   // the scene's triangles
-  std::vector<MovingTree> moving{};
-  std::vector<TopNode> top{};  // the root first; empty: nothing moves
-  Bounds bounds{};             // as of a tree over all
-
-  [[nodiscard]] std::size_t bytes() const {
-    std::size_t sum = still->bytes();
-    for (const MovingTree& m : moving)
-      sum += m.tree->bytes() + m.triangles->triangles.size() * sizeof(ProjectedTriangle) +
-             m.triangles->corner_triangles.size() * sizeof(CornerTriangle);
-    return sum;
-  }
+  std::vector<MovingTree> moving{};      // also what stands still and has copies
+  std::vector<TopNode> top{};            // over `moving`, the root first; empty: there are none
+  Bounds bounds{};                       // as of a tree over all
 };
 
 // The deepest top level: halves of at most 2^30 trees.

@@ -83,6 +83,14 @@ class Assembly {
       tree_.nodes.push_back(node);
       mirrored_.push_back(Placement(world[n]).mirrors());
     }
+    for (MeshCopy copy : tree.rest->copies) {
+      copy.node += root + 1;
+      copy.mesh += meshes_;
+      copy.first_vertex += count(mesh_.positions);
+      copy.first_triangle += count(mesh_.triangles);
+      rest_.copies.push_back(copy);
+    }
+    for (const MeshCopy& copy : rest_.copies) meshes_ = std::max(meshes_, copy.mesh + 1);
     const int skins = static_cast<int>(rest_.skins.size());
     for (Skin skin : tree.rest->skins) {
       for (int& joint : skin.joints) joint += root + 1;
@@ -170,6 +178,7 @@ class Assembly {
   NodeTree tree_;
   RestPose rest_;
   Animation animation_;
+  int meshes_ = 0;              // the copies' numbers of meshes are below
   std::vector<bool> mirrored_;  // by node: its triangles are turned around
 };
 

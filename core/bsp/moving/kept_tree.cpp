@@ -50,6 +50,15 @@ KeptTree build_kept(const Scene& scene, const std::vector<int>& nodes, const glm
 
 std::optional<Motion> motion_since(const KeptTree& kept, const Scene& scene, const std::vector<int>& nodes,
                                    const glm::mat4& world_from_root) {
+  std::vector<std::span<const glm::vec3>> pieces;
+  for (const int n : nodes)
+    pieces.push_back(std::span(scene.mesh->positions)
+                         .subspan(scene.nodes->nodes[n].first_vertex, scene.nodes->nodes[n].vertices));
+  return motion_since(kept, pieces, world_from_root);
+}
+
+std::optional<Motion> motion_since(const KeptTree& kept, std::span<const std::span<const glm::vec3>> pieces,
+                                   const glm::mat4& world_from_root) {
   const glm::dmat4 now(world_from_root);
   if (is_flat(glm::dmat3(now)) || is_flat(glm::dmat3(kept.world_from_root))) return std::nullopt;
   Motion motion{kept.world_from_root * glm::inverse(now), glm::dvec3(0.0)};
@@ -59,17 +68,15 @@ std::optional<Motion> motion_since(const KeptTree& kept, const Scene& scene, con
       shift{m[3].x, m[3].y, m[3].z, 0.0};
   Quad most{0.0, 0.0, 0.0, 0.0}, sum{0.0, 0.0, 0.0, 0.0};
   const glm::vec3* built = kept.vertices.data();
-  for (const int n : nodes) {
-    const Node& node = scene.nodes->nodes[n];
-    const glm::vec3* const now_at = scene.mesh->positions.data() + node.first_vertex;
-    for (std::uint32_t v = 0; v < node.vertices; ++v, ++built) {
-      const Quad off = x * static_cast<double>(now_at[v].x) + y * static_cast<double>(now_at[v].y) +
-                       z * static_cast<double>(now_at[v].z) + shift - Quad{built->x, built->y, built->z, 0.0};
+  for (const std::span<const glm::vec3> piece : pieces)
+    for (const glm::vec3& p : piece) {
+      const Quad off = x * static_cast<double>(p.x) + y * static_cast<double>(p.y) +
+                       z * static_cast<double>(p.z) + shift - Quad{built->x, built->y, built->z, 0.0};
       const Quad size = off < 0.0 ? -off : off;
       most = size > most ? size : most;
       sum += size;  // NaN stays
+      ++built;
     }
-  }
   motion.error = {most[0], most[1], most[2]};
   const double limit = kMostError * static_cast<double>(kept.tree->exact_bounds.diagonal());
   if (!std::isfinite(sum[0] + sum[1] + sum[2]) || std::max({most[0], most[1], most[2]}) > limit)

@@ -4,6 +4,7 @@
 #include <glm/glm.hpp>
 #include <memory>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "core/bsp/scene_trees.h"
@@ -32,7 +33,11 @@ struct Motion {
   // Sets how rays are brought to the tree. `bounds`: of the posed triangles.
   void describe(const Bounds& bounds, MovingTree& tree) const;
 };
-// Nothing: the nodes have not moved as one, or were flattened; the tree has to be built again.
+// `now`: the vertices, in the order of kept.vertices, in several pieces. Nothing: they have not moved as one,
+// or were flattened; the tree has to be built again.
+[[nodiscard]] std::optional<Motion> motion_since(const KeptTree& kept,
+                                                 std::span<const std::span<const glm::vec3>> now,
+                                                 const glm::mat4& world_from_root);
 [[nodiscard]] std::optional<Motion> motion_since(const KeptTree& kept, const Scene& scene,
                                                  const std::vector<int>& nodes,
                                                  const glm::mat4& world_from_root);

@@ -82,6 +82,7 @@ class Trees {
       motion_->nodes = scene.nodes;
       motion_->options = options;
       motion_->options.progress = nullptr;
+      motion_->copies = SharedCopies(scene, options);
     }
     if (before && state && motion_ && build_same_trees(state->options, options) &&
         state->nodes->nodes.size() == scene.nodes->nodes.size()) {
@@ -90,6 +91,7 @@ class Trees {
     }
     if (!trees_->still) build_still();
     place_groups();
+    place_copies();
     join();
   }
 
@@ -104,6 +106,7 @@ class Trees {
     motion_->workers = state.workers;
     differs_.resize(n);
     for (std::size_t i = 0; i < n; ++i) differs_[i] = to.differs(i);
+    if (state.nodes->rest == scene_.nodes->rest) motion_->copies.keep(state.copies, differs_);
     count_moves(state);
     gather_groups();
     std::vector<bool> was_still(n, true);
@@ -111,7 +114,7 @@ class Trees {
       for (const int i : group.nodes) was_still[i] = false;
     bool same = true;
     for (std::size_t i = 0; i < n; ++i) {
-      if (node(static_cast<int>(i)).triangles == 0) continue;
+      if (node(static_cast<int>(i)).triangles == 0 || motion_->copies.has_node(i)) continue;
       same = same && was_still[i] == is_still_[i] && !(is_still_[i] && differs_[i]);
     }
     if (same) trees_->still = before.still;
@@ -154,7 +157,9 @@ class Trees {
     for (std::size_t i = 0; i < n; ++i) {
       const Node& at = scene_.nodes->nodes[i];
       root[i] = motion_->moves[i] >= kMoves ? static_cast<int>(i) : at.parent >= 0 ? root[at.parent] : -1;
-      if (at.triangles == 0 || (deforms[i] ? motion_->reshapes[i] < kMoves : root[i] < 0)) continue;
+      if (at.triangles == 0 || motion_->copies.has_node(i) ||
+          (deforms[i] ? motion_->reshapes[i] < kMoves : root[i] < 0))
+        continue;
       still -= at.triangles;
       is_still_[i] = false;
       if (deforms[i]) {
@@ -177,7 +182,7 @@ class Trees {
   }
 
   void build_still() {
-    if (!motion_ || motion_->groups.empty()) {
+    if (!motion_ || (motion_->groups.empty() && motion_->copies.empty())) {
       trees_->still = std::make_shared<const BspTree>(build_tree(mesh_, options_));
       return;
     }
@@ -185,6 +190,10 @@ class Trees {
     for (const MovingGroup& group : motion_->groups)
       for (const int n : group.nodes)
         std::fill_n(left_out.begin() + node(n).first_triangle, node(n).triangles, true);
+    for (std::size_t n = 0; n < scene_.nodes->nodes.size(); ++n)
+      if (motion_->copies.has_node(n))
+        std::fill_n(left_out.begin() + node(static_cast<int>(n)).first_triangle,
+                    node(static_cast<int>(n)).triangles, true);
     std::vector<std::uint32_t> ids;
     for (std::size_t i = 0; i < left_out.size(); ++i)
       if (!left_out[i]) ids.push_back(static_cast<std::uint32_t>(i));
@@ -261,6 +270,15 @@ class Trees {
     }
   }
 
+  void place_copies() {
+    if (motion_ && !motion_->copies.empty())
+      motion_->copies.place(scene_, options_,
+                            [&](std::size_t n, const std::function<void(std::size_t)>& body) {
+                              if (options_.threads != 1) return workers().for_each(n, body);
+                              for (std::size_t i = 0; i < n; ++i) body(i);
+                            });
+  }
+
   // Stores triangles as posed. Those without an area are never hit, as if the tree did not have them.
   void place(const std::vector<std::uint32_t>& order, Chunk& chunk, StoredTriangles& stored) const {
     for (std::size_t i = chunk.first; i < chunk.last; ++i) {
@@ -302,13 +320,15 @@ class Trees {
     Bounds all = trees_->still->exact_bounds;
     std::vector<Bounds> boxes;
     if (motion_) {
-      for (const MovingGroup& group : motion_->groups) {
-        if (group.bounds.empty()) continue;
-        all.add(group.bounds);
-        trees_->moving.push_back(group.placed);
-        boxes.push_back(group.bounds);
+      const auto add = [&](const MovingTree& placed, const Bounds& bounds) {
+        if (bounds.empty()) return;
+        all.add(bounds);
+        trees_->moving.push_back(placed);
+        boxes.push_back(bounds);
         widen(boxes.back());
-      }
+      };
+      for (const MovingGroup& group : motion_->groups) add(group.placed, group.bounds);
+      for (const SharedCopies::Copy& copy : motion_->copies.copies()) add(copy.placed, copy.bounds);
     }
     trees_->top = build_top_level(boxes);
     widen(all);

@@ -4,6 +4,7 @@
 #include <memory>
 #include <vector>
 
+#include "core/bsp/moving/copies.h"
 #include "core/bsp/moving/kept_tree.h"
 #include "core/bsp/scene_trees.h"
 #include "pinocchio/scene.h"
@@ -30,6 +31,7 @@ struct MotionState {
   // of its own. Empty: never.
   std::vector<std::uint8_t> moves, reshapes;
   std::vector<MovingGroup> groups;
+  SharedCopies copies;
   std::shared_ptr<Workers> workers;  // null: so far there was too little work for them
 };
 

@@ -37,6 +37,16 @@ struct Attached {
   T at_rest;
 };
 
+// A placing of a mesh that nodes place more than once.
+struct MeshCopy {
+  int node;
+  int mesh;  // equal for all copies of a mesh
+  // The copy's part of the scene's mesh, within its node's.
+  std::uint32_t first_vertex = 0, vertices = 0;
+  std::uint32_t first_triangle = 0, triangles = 0;
+  glm::mat4 node_from_mesh{1.0f};
+};
+
 class PosePool;
 [[nodiscard]] std::shared_ptr<PosePool> make_pose_pool();
 
@@ -47,7 +57,8 @@ struct RestPose {
   std::vector<Attached<Light>> lights;
   std::vector<Attached<Camera>> cameras;
   std::vector<Skin> skins;
-  std::vector<Deformation> deformations;              // at most one for each node, in the order of nodes
+  std::vector<Deformation> deformations;  // at most one for each node, in the order of nodes
+  std::vector<MeshCopy> copies;  // in the order of triangles; tracers may share a mesh's tree among them
   std::shared_ptr<PosePool> pool = make_pose_pool();  // poses that nobody holds any more, for the next ones
 };
 

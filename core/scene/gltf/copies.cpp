@@ -5,6 +5,7 @@
 
 #include "core/scene/gltf/file.h"
 #include "core/scene/gltf/format/json.h"
+#include "core/scene/pose/shared_meshes.h"
 #include "core/scene/strokes.h"
 
 namespace pinocchio {
@@ -14,6 +15,7 @@ namespace {
 struct MeshSize {
   double triangles = 0.0, vertices = 0.0;
   double points = 0.0, lines = 0.0;
+  bool morphs = false;
 };
 
 double count_of(const GltfFile& file, int accessor) {
@@ -24,6 +26,7 @@ MeshSize size_of(const GltfFile& file, const GltfMesh& mesh, const PointsAndLine
   MeshSize size;
   std::set<GltfAttributes> known;  // primitives that share their attributes share the vertices
   for (const GltfPrimitive& primitive : mesh.primitives) {
+    size.morphs = size.morphs || !primitive.targets.empty();
     const int position = primitive.attribute("POSITION");
     if (position < 0) continue;
     const double vertices = count_of(file, position);
@@ -52,20 +55,37 @@ double placings_of(const GltfFile& file, const GltfNode& node) {
   return most;
 }
 
-std::map<int, double> placings_by_mesh(const GltfFile& file, std::vector<int> open) {
+struct PlacedMesh {
+  double placings = 0.0;
+  bool is_skinned = false;  // where it is placed once at least
+  MeshSize size{};
+};
+
+std::map<int, PlacedMesh> placed_meshes(const GltfFile& file, std::vector<int> open) {
   const std::vector<GltfNode>& nodes = file.nodes;
   std::vector<bool> seen(nodes.size(), false);
-  std::map<int, double> placings;
+  std::map<int, PlacedMesh> placed;
   while (!open.empty()) {
     const int index = open.back();
     open.pop_back();
     if (!in_range(index, nodes) || seen[index]) continue;  // an error where the nodes are read
     seen[index] = true;
     const GltfNode& node = item_of(nodes, index);
-    if (node.visible && in_range(node.mesh, file.meshes)) placings[node.mesh] += placings_of(file, node);
+    if (node.visible && in_range(node.mesh, file.meshes)) {
+      placed[node.mesh].placings += placings_of(file, node);
+      placed[node.mesh].is_skinned |= node.skin >= 0;
+    }
     open.insert(open.end(), node.children.begin(), node.children.end());
   }
-  return placings;
+  return placed;
+}
+
+// Which of them share a tree among their copies.
+std::vector<bool> sharing(const std::map<int, PlacedMesh>& meshes) {
+  std::vector<MeshPlacings> rigid;
+  for (const auto& [mesh, placed] : meshes)
+    rigid.push_back({placed.size.triangles, placed.is_skinned || placed.size.morphs ? 1.0 : placed.placings});
+  return share_trees(rigid);
 }
 
 std::uint64_t whole(double number) {
@@ -78,15 +98,25 @@ std::uint64_t whole(double number) {
 Expected<void> take_gltf_memory(const GltfFile& file, const std::vector<int>& roots, Loading& loading) {
   // A mesh's first placing, by corner: the file has held its data once already.
   constexpr double kCornerBytes = 40.0;
-  // A copy: vertices at rest and placed, triangles and their share of the tree (measured).
-  constexpr double kTriangleBytes = 160.0, kVertexBytes = 96.0, kPlacingBytes = 128.0;
+  // A copy: vertices at rest and placed, triangles and their share of the tree; or of a tree for all copies
+  // (measured).
+  constexpr double kVertexBytes = 96.0, kTriangleBytes = 160.0, kPlacingBytes = 224.0;
+  constexpr double kSharingTriangleBytes = 24.0, kSharingPlacingBytes = 640.0;
+  std::map<int, PlacedMesh> meshes = placed_meshes(file, roots);
+  for (auto& [mesh, placed] : meshes)
+    placed.size = size_of(file, item_of(file.meshes, mesh), loading.strokes);
+  const std::vector<bool> share = sharing(meshes);
+  std::size_t i = 0;
   double first_bytes = 0.0, bytes = 0.0, triangles = 0.0, copies = 0.0;
   double points = 0.0, lines = 0.0;
-  for (const auto& [mesh, placings] : placings_by_mesh(file, roots)) {
-    const MeshSize size = size_of(file, item_of(file.meshes, mesh), loading.strokes);
+  for (const auto& [mesh, placed] : meshes) {
+    const auto& [placings, is_skinned, size] = placed;
     const double more = std::max(placings - 1.0, 0.0);
+    const bool shares = share[i++];
+    const double triangle_bytes = shares ? kSharingTriangleBytes : kTriangleBytes;
+    const double placing_bytes = shares ? kSharingPlacingBytes : kPlacingBytes;
     first_bytes += kCornerBytes * std::max(size.vertices, 3.0 * size.triangles);
-    bytes += more * (kTriangleBytes * size.triangles + kVertexBytes * size.vertices + kPlacingBytes);
+    bytes += more * (triangle_bytes * size.triangles + kVertexBytes * size.vertices + placing_bytes);
     triangles += placings * size.triangles;
     copies += more;
     points += placings * size.points;

@@ -136,7 +136,7 @@ class SceneReader {
         return file_.error("a node names skin " + which_of(node.skin, file_.skins));
       DeformationReader deformation(file_, node, tree_.nodes.back().first_vertex, loading_.warnings);
       for (const glm::mat4& instance : *instances) {
-        const std::size_t first = mesh_.positions.size();
+        const std::size_t first = mesh_.positions.size(), first_triangle = mesh_.triangles.size();
         const Expected<void> added =
             add_gltf_mesh(file_, node.mesh, world * instance, default_material, mesh_, rest_,
                           deformation.needed() ? &deformation : nullptr, loading_);
@@ -144,6 +144,7 @@ class SceneReader {
         deformation.place(instance, static_cast<std::uint32_t>(first),
                           std::span(rest_.normals).subspan(first));
         if (instance != glm::mat4(1.0f)) place_rest(Placement(instance), first);
+        if (!deformation.needed()) add_copy(node.mesh, instance, first, first_triangle);
       }
       if (deformation.needed()) add_deformation(node, deformation);
     }
@@ -184,6 +185,23 @@ class SceneReader {
     } else {
       warn(where, "has numbers that are not finite and is left out", "its light is missing");
     }
+  }
+
+  // All that was placed since.
+  void add_copy(int mesh, const glm::mat4& node_from_mesh, std::size_t vertex, std::size_t triangle) {
+    const auto vertices = static_cast<std::uint32_t>(mesh_.positions.size() - vertex);
+    const auto triangles = static_cast<std::uint32_t>(mesh_.triangles.size() - triangle);
+    if (triangles == 0) return;
+    rest_.copies.push_back({static_cast<int>(tree_.nodes.size()) - 1, mesh,
+                            static_cast<std::uint32_t>(vertex), vertices,
+                            static_cast<std::uint32_t>(triangle), triangles, node_from_mesh});
+  }
+
+  // Of meshes that were placed once there are no copies.
+  void drop_single_copies() {
+    std::map<int, int> placings;
+    for (const MeshCopy& copy : rest_.copies) ++placings[copy.mesh];
+    std::erase_if(rest_.copies, [&](const MeshCopy& copy) { return placings[copy.mesh] == 1; });
   }
 
   // The deformation is applied once all nodes are known, in add_skins.
@@ -279,6 +297,7 @@ class SceneReader {
     scene_.variants = gltf_variants(*file_.json);
     add_gltf_textures(file_, mesh_, loading_);
     drop_unused_attributes(mesh_, rest_);
+    drop_single_copies();
     if (const Json* scene = shown_scene()) {
       scene_.ambient_light =
           value_member<glm::vec3>(our_extras(scene), "ambient").value_or(scene_.ambient_light);

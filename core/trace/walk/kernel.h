@@ -15,6 +15,7 @@
 #include "core/trace/walk/moeller_trumbore.h"
 #include "core/trace/walk/packet.h"
 #include "core/trace/walk/projected.h"
+#include "core/trace/walk/triangles_of_leaf.h"
 #include "core/trace/walk/watertight.h"
 #include "pinocchio/build_options.h"
 #include "pinocchio/ray.h"
@@ -176,33 +177,25 @@ inline void for_each_octant(Group<kPackets>& group, Body body) {
   }
 }
 
-// A leaf's triangles are anywhere in memory: all are prefetched at once, not one after the other.
-template <class Stored>
-inline void fetch_ahead(const Stored* triangles, const std::uint32_t* of_leaf, std::uint32_t count) {
-  for (std::uint32_t r = 0; r < count; ++r) {
-    const char* const at = reinterpret_cast<const char*>(triangles + of_leaf[r]);
-    __builtin_prefetch(at);
-    __builtin_prefetch(at + sizeof(Stored) - 1);
-  }
-}
-
 // Finds what those lanes of a group of packets, the rays from i on, hit in a tree. `group` has the rays where
 // the tree is, `tests` where the triangles are.
-template <class Test, class Found, int kPackets, class Planes>
+template <class Test, class Found, int kPackets, class Planes, class Triangles>
 [[gnu::always_inline]] inline void hits_in_tree(const SceneTrees& scene, const BspTree& tree,
-                                                const StoredTriangles& stored, const Group<kPackets>& group,
+                                                const Triangles& triangles, const Group<kPackets>& group,
                                                 const Planes& planes, const bool (&negative)[3],
                                                 const Mask (&lanes)[kPackets], const Test (&tests)[kPackets],
                                                 const RayColumns& rays, std::size_t i, Found& found) {
-  const auto* const triangles = Test::stored(stored);
   walk(tree, group, planes, negative, lanes, found.t_best,
        [&](const BspNode& leaf, unsigned(&open)[kPackets]) {
          const std::uint32_t* const of_leaf = tree.references.data() + leaf.first_reference();
-         fetch_ahead(triangles, of_leaf, leaf.reference_count());
-         if (LeafLanes::is_cheaper<Test>(leaf.reference_count(), open))
-           return hits_by_ray(scene, stored, of_leaf, leaf.reference_count(), rays, i, open, found);
+         triangles.fetch_ahead(of_leaf, leaf.reference_count());
+         if constexpr (LeafLanes::serves<Test>)
+           if (LeafLanes::is_cheaper(leaf.reference_count(), open))
+             return hits_by_ray(scene, triangles, of_leaf, leaf.reference_count(), rays, i, open, found);
          for (std::uint32_t r = 0; r < leaf.reference_count(); ++r) {
-           const auto& tri = triangles[of_leaf[r]];
+           typename Triangles::Kept kept;
+           const auto& tri = triangles.at(of_leaf[r], kept);
+           if (Triangles::is_void(tri)) continue;
            for (int k = 0; k < kPackets; ++k) {
              if (open[k] == 0) continue;
              Float t;
@@ -232,9 +225,10 @@ inline Found hits_of_group(const SceneTrees& scene, const RayColumns& rays, std:
   const Test tests[]{Test(scene, group.packets[kIndex])...};
   Found found({group.packets[kIndex].t_max...}, more...);
   const BspTree& tree = *scene.still;
+  const StoredIn stored(Test::stored(tree));
   if (!tree.references.empty())
     for_each_octant(group, [&](const bool(&negative)[3], const Mask(&lanes)[kPackets]) {
-      hits_in_tree(scene, tree, tree, group, ExactPlanes{}, negative, lanes, tests, rays, i, found);
+      hits_in_tree(scene, tree, stored, group, ExactPlanes{}, negative, lanes, tests, rays, i, found);
     });
   if (!scene.top.empty()) add_moving_hits<Test>(scene, rays, i, n, packets, found);
   return found;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "core/trace/walk/filtered.h"
+#include "core/trace/walk/triangles_of_leaf.h"
 
 namespace pinocchio::PINOCCHIO_LANES {
 namespace {
@@ -20,10 +21,13 @@ template <class Lanes>
 // the last bit.
 class LeafLanes {
  public:
+  // Whether leaves may be tested this way.
+  template <class Test>
+  static constexpr bool serves = kWidth > 1 && std::is_same_v<Test, FilteredTest>;
+
   // Whether this is less work than testing the packets, of which these lanes live, against each triangle.
-  template <class Test, int kPackets>
+  template <int kPackets>
   static bool is_cheaper(std::uint32_t triangles, const unsigned (&living)[kPackets]) {
-    if constexpr (kWidth == 1 || !std::is_same_v<Test, FilteredTest>) return false;
     unsigned rays = 0, packets = 0;
     for (const unsigned lanes : living) {
       rays += __builtin_popcount(lanes);
@@ -33,12 +37,19 @@ class LeafLanes {
     return loads * (kLoadCost + kRayCost * rays) < triangles * kPacketCost * packets;
   }
 
-  LeafLanes(const SceneTrees& scene, const StoredTriangles& stored, const std::uint32_t* references,
+  template <class Triangles>
+  LeafLanes(const SceneTrees& scene, const Triangles& triangles, const std::uint32_t* references,
             std::uint32_t count)
       : scene_(scene), lanes_(lanes_from(0, count)) {
     const float* rows[3][kWidth];
+    typename Triangles::Kept kept[kWidth];
     for (std::uint32_t lane = 0; lane < kWidth; ++lane) {
-      const ProjectedTriangle& tri = stored.triangles.data()[references[lane < count ? lane : 0]];
+      if (lane >= count) {
+        for (auto& row : rows) row[lane] = row[0];
+        continue;
+      }
+      const ProjectedTriangle& tri = triangles.at(references[lane], kept[lane]);
+      if (Triangles::is_void(tri)) lanes_ = Mask::from_bits(lanes_.bits() & ~(1u << lane));
       rows[0][lane] = tri.a;  // and k as a[3]
       rows[1][lane] = &tri.n_u;
       rows[2][lane] = &tri.gamma_u;
@@ -123,8 +134,8 @@ class LeafLanes {
 };
 
 // What hits_in_tree (walk/kernel.h) does in a leaf, for the open lanes of the rays from i on.
-template <class Found, int kPackets>
-[[gnu::noinline]] void hits_by_ray(const SceneTrees& scene, const StoredTriangles& stored,
+template <class Found, class Triangles, int kPackets>
+[[gnu::noinline]] void hits_by_ray(const SceneTrees& scene, const Triangles& stored,
                                    const std::uint32_t* of_leaf, std::uint32_t count, const RayColumns& rays,
                                    std::size_t i, unsigned (&open)[kPackets], Found& found) {
   for (std::uint32_t r = 0; r < count; r += kWidth) {

@@ -105,10 +105,17 @@ template <class Test, class Found, std::size_t... kIndex>
     }
     const MovingTree& tree = scene.moving[node.first];
     MovedGroup<kPackets> moved(tree, world, living);
-    for_each_octant(moved.group, [&](const bool(&negative)[3], const Mask(&lanes)[kPackets]) {
-      hits_in_tree(scene, *tree.tree, *tree.triangles, moved.group,
-                   BlurredPlanes<kPackets>(moved.error, negative), negative, lanes, tests, rays, i, found);
-    });
+    const auto add_hits = [&](const auto& triangles) {
+      for_each_octant(moved.group, [&](const bool(&negative)[3], const Mask(&lanes)[kPackets]) {
+        hits_in_tree(scene, *tree.tree, triangles, moved.group,
+                     BlurredPlanes<kPackets>(moved.error, negative), negative, lanes, tests, rays, i, found);
+      });
+    };
+    if (tree.triangles) {
+      add_hits(StoredIn(Test::stored(*tree.triangles)));
+    } else if constexpr (std::is_same_v<Test, FilteredTest>) {  // copies share trees with no other test
+      add_hits(MadeWhenTested(scene, tree.first_triangle));
+    }
   }
 }
 

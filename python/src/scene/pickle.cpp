@@ -213,10 +213,15 @@ void parts(A& a, Deformation& value) {
   each(a, node, targets, skin, influences, per_vertex);
 }
 template <class A>
+void parts(A& a, MeshCopy& value) {
+  auto& [node, mesh, first_vertex, vertices, first_triangle, triangles, node_from_mesh] = value;
+  each(a, node, mesh, first_vertex, vertices, first_triangle, triangles, node_from_mesh);
+}
+template <class A>
 void parts(A& a, RestPose& value) {
-  auto& [positions, normals, tangents, lights, cameras, skins, deformations, pool] =
+  auto& [positions, normals, tangents, lights, cameras, skins, deformations, copies, pool] =
       value;  // a new pool is made
-  each(a, positions, normals, tangents, lights, cameras, skins, deformations);
+  each(a, positions, normals, tangents, lights, cameras, skins, deformations, copies);
 }
 template <class A>
 void parts(A& a, NodeTree& value) {

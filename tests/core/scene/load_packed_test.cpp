@@ -349,7 +349,7 @@ TEST(LoadPacked, CopiesAreCountedBeforeTheyAreMade) {
   json["nodes"][0]["extensions"]["EXT_mesh_gpu_instancing"]["attributes"]["TRANSLATION"] = 2;
   const std::string instances = error_of(json);
   EXPECT_NE(
-      instances.find("placing 20000000 triangles, with 19999999 copies of meshes, needs 12818 MiB of memory"),
+      instances.find("placing 20000000 triangles, with 19999999 copies of meshes, needs 14649 MiB of memory"),
       std::string::npos)
       << instances;
   EXPECT_NE(instances.find("--load-limit MIB"), std::string::npos);
@@ -366,9 +366,25 @@ TEST(LoadPacked, CopiesAreCountedBeforeTheyAreMade) {
   EXPECT_EQ(load_good(shared).mesh->triangles.size(), 3000u);
   const Expected<Scene> refused = load_scene(own_file("test.gltf"), nullptr, nullptr, 1 << 20);
   ASSERT_FALSE(refused);
-  EXPECT_NE(refused.error().message().find("placing 3000 triangles, with 2999 copies of meshes, needs 2 MiB"),
+  EXPECT_NE(refused.error().message().find("placing 3000 triangles, with 2999 copies of meshes, needs 3 MiB"),
             std::string::npos)
       << refused.error().message();
+}
+
+// 31.2 MB a copy: its triangles have no tree of their own.
+TEST(LoadPacked, CopiesThatShareATreeAreCountedAsSuch) {
+  Json json = triangle_json();
+  for (const int zeros : {300000, 1000})
+    json["accessors"].push_back({{"componentType", 5126}, {"count", zeros}, {"type", "VEC3"}});
+  json["meshes"][0]["primitives"] = {{{"attributes", {{"POSITION", 2}}}}};
+  json["nodes"][0]["extensions"]["EXT_mesh_gpu_instancing"]["attributes"]["TRANSLATION"] = 3;
+  const std::string shared = error_of(json);
+  EXPECT_NE(shared.find("placing 100000000 triangles, with 999 copies of meshes, needs 29726 MiB of memory"),
+            std::string::npos)
+      << shared;
+  json["meshes"][0]["primitives"][0]["targets"] = {{{"POSITION", 2}}};
+  const std::string morphs = error_of(json);
+  EXPECT_NE(morphs.find("with 999 copies of meshes, needs 42683 MiB of memory"), std::string::npos) << morphs;
 }
 
 TEST(LoadPacked, WhatOnlyKhrMeshoptKnowsIsSaid) {
