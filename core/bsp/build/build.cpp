@@ -19,7 +19,7 @@ constexpr std::size_t kChunk = 4096;
 
 // Wald and Havran 2006: 8 + 1.3 log2 n holds for triangle meshes of every size.
 int default_depth(std::size_t triangles) {
-  return static_cast<int>(8.0 + 1.3 * std::log2(triangles));
+  return static_cast<int>(8.0 + 1.3 * std::log2(std::max<std::size_t>(triangles, 1)));
 }
 
 int depth_of(const BuildOptions& options, std::size_t triangles) {
