@@ -2,7 +2,7 @@
 import cases
 import figures
 
-SIZE = (80, 60)
+SIZE = (48, 36)
 SAMPLES = 1024  # a picture; two pictures
 REFERENCE_SAMPLES = 16  # of the pixel; 256 of the sky in each
 VIEW = (cases.EYE, cases.TARGET, cases.FOV)

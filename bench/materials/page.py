@@ -8,6 +8,7 @@ import re
 import numpy
 
 import bias
+import shapes
 from spheres import share, worst_colour
 
 LEAST_NOISE = 0.01  # less is not seen: what is exact under an even sky is no measure
@@ -125,6 +126,8 @@ def blocks(results):
         found["beside principled"] = "Even sky, ours / principled:\n\n" + matrix(grid("even"), lambda r: share(r["ours"]["mean"], r["theirs"]["mean"]), "{:.2f}")
     if "bias" in results:
         found["bias"] = bias.table(results["bias"]["rows"])
+    if "shapes" in results:
+        found["shapes"] = shapes.table(results["shapes"]["rows"])
     if models:
         found["models"] = of_models(models)
     return found
