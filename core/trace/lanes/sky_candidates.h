@@ -33,18 +33,19 @@ struct SkyChoice {
                                             const LaneMaterial& m, const Vec& throughput, Float lobe,
                                             const SampledPixel& sampling, Mask lanes) {
   constexpr auto kCount = static_cast<std::uint32_t>(kSkyCandidates);
+  const std::uint32_t count = bounce.one_candidate ? 1 : kCount;
   const std::uint32_t dimension = bounce.dimension + shared::kEnvironmentDimension;
   vec2 number[kCount];
   SampledPixel of_candidate = sampling;
   for (std::uint32_t k = 0; k < kCount; ++k) {
-    of_candidate.sampling.index = sampling.sampling.index * kCount + k;
+    of_candidate.sampling.index = sampling.sampling.index * count + k;
     number[k] = sample_2d(of_candidate, dimension);
   }
   EnvironmentSample sample[kCount];
   sample_directions(*bounce.environment, number, lanes, sample);
   Vec returned[kCount];
   Float weight[kCount], sum[kCount], all(0.0f);
-  for (std::uint32_t k = 0; k < kCount; ++k) {
+  for (std::uint32_t k = 0; k < count; ++k) {
     const Vec& to_light = sample[k].direction;
     const Incident incident{to_light, Vec(1.0f), to_light, density_of_candidates(sample[k].density)};
     const Mask faces = lanes & starts.faces_light(to_light);
@@ -60,8 +61,8 @@ struct SkyChoice {
   Mask waiting = lanes & (Float(0.0f) < all);
   SkyChoice choice{sample[0].direction, Vec(0.0f)};
   EnvironmentSample chosen = sample[0];
-  const Float mean = all / Float(static_cast<float>(kCount));
-  for (std::uint32_t k = 0; k < kCount; ++k) {
+  const Float mean = all / Float(static_cast<float>(count));
+  for (std::uint32_t k = 0; k < count; ++k) {
     const Mask here = waiting & (at < sum[k]);
     waiting = waiting & ~here;
     chosen.direction = select(here, sample[k].direction, chosen.direction);
