@@ -6,22 +6,20 @@ MORE_SAMPLES = 32  # for mean colours, beside two pictures of 16
 MOST_SAMPLES = 1024  # for equal time
 
 
-def two_seeds(render, samples):
-    """Two pictures that differ by their seeds, and the shorter of their times."""
-    (a, first), (b, second) = render(samples, 1), render(samples, 2)
-    return a, b, min(first, second)
+ROUNDS = 3  # of both in turn, so that both have the machine's quiet moments
 
 
 def compare(ours, theirs):
     """`ours` and `theirs` are render(samples, seed) -> picture, ms. Returns the figures, the mask and both pictures of 16 samples."""
-    a, b, our_ms = two_seeds(ours, SAMPLES)
     theirs(SAMPLES, 0)  # compiles
-    c, d, their_ms = two_seeds(theirs, SAMPLES)
+    rounds = [(ours(SAMPLES, seed), theirs(SAMPLES, seed)) for seed in range(1, ROUNDS + 1)]
+    our_ms, their_ms = (min(r[who][1] for r in rounds) for who in (0, 1))
+    (a, c), (b, d) = ([picture for picture, _ in r] for r in rounds[:2])
     many = 0.25 * (a + b) + 0.5 * ours(MORE_SAMPLES, 3)[0]
     their_many = 0.25 * (c + d) + 0.5 * theirs(MORE_SAMPLES, 3)[0]
     mask = figures.covered(a, c)
     as_long = max(1, min(MOST_SAMPLES, round(SAMPLES * their_ms / our_ms)))
-    e, f, _ = two_seeds(ours, as_long)
+    e, f = (ours(as_long, seed)[0] for seed in (1, 2))
     found = {
         "pixels": int(mask.sum()), "finite": all(map(figures.finite, (a, b, many))),
         "ours": {"mean": figures.mean(many, mask).tolist(), "noise": figures.noise(a, b, mask), "ms": our_ms,

@@ -7,6 +7,8 @@ import re
 
 import numpy
 
+import bias
+import shapes
 from spheres import share, worst_colour
 
 LEAST_NOISE = 0.01  # less is not seen: what is exact under an even sky is no measure
@@ -122,6 +124,10 @@ def blocks(results):
         found["colours"] = coloured_of(lambda r: r["metallic"] == 0 or r["base"][0] == 0.5)
         found["further colours"] = coloured_of(lambda r: r["metallic"] != 0 and r["base"][0] != 0.5)  # in no page
         found["beside principled"] = "Even sky, ours / principled:\n\n" + matrix(grid("even"), lambda r: share(r["ours"]["mean"], r["theirs"]["mean"]), "{:.2f}")
+    if "bias" in results:
+        found["bias"] = bias.table(results["bias"]["rows"])
+    if "shapes" in results:
+        found["shapes"] = shapes.table(results["shapes"]["rows"])
     if models:
         found["models"] = of_models(models)
     return found

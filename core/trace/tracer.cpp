@@ -155,6 +155,17 @@ void Tracer::occluded(std::span<const Ray> rays, std::span<std::uint8_t> blocked
   }
 }
 
+namespace {
+
+// Null: the rays are traced in their own order. Allocates once per thread.
+RaySorter* sorter_for(Isa isa, const RayColumns& rays, std::size_t n) {
+  if (n < kLeastSorted || isa == Isa::scalar || !rays_diverge(rays, n)) return nullptr;
+  static thread_local RaySorter sorter;
+  return &sorter;
+}
+
+}  // namespace
+
 void Tracer::closest_hits(const RayColumns& rays, std::size_t n, std::uint32_t* triangle, float* t,
                           const MaterialMarks* backs) const {
   const Kernel& kernel = kernel_of(isa_, trees_->still->test);
@@ -162,18 +173,22 @@ void Tracer::closest_hits(const RayColumns& rays, std::size_t n, std::uint32_t* 
     if (backs) return kernel.closest_fronts(*trees_, from, n, *backs, ids, distances);
     kernel.closest_hits(*trees_, from, n, ids, distances);
   };
-  if (n < kLeastSorted || isa_ == Isa::scalar || !rays_diverge(rays, n)) return trace(rays, triangle, t);
-  static thread_local RaySorter sorter;  // allocates once per thread
-  const RayColumns sorted = sorter.sort(rays, n);
-  trace(sorted, sorter.triangles(), t ? sorter.distances() : nullptr);
-  sorter.put_back(triangle, t);
+  RaySorter* const sorter = sorter_for(isa_, rays, n);
+  if (!sorter) return trace(rays, triangle, t);
+  const RayColumns sorted = sorter->sort(rays, n);
+  trace(sorted, sorter->triangles(), t ? sorter->distances() : nullptr);
+  sorter->put_back(triangle, t);
 }
 
 void Tracer::occluded(const RayColumns& rays, std::size_t n, std::uint8_t* blocked,
                       const PassedSurfaces* passed) const {
   const Kernel& kernel = kernel_of(isa_, trees_->still->test);
   if (passed) return kernel.occluded_unless_passed(*trees_, rays, n, *passed, blocked);
-  kernel.occluded(*trees_, rays, n, blocked);
+  RaySorter* const sorter = sorter_for(isa_, rays, n);
+  if (!sorter) return kernel.occluded(*trees_, rays, n, blocked);
+  const RayColumns sorted = sorter->sort(rays, n);
+  kernel.occluded(*trees_, sorted, n, sorter->blocked());
+  sorter->put_back(blocked);
 }
 
 const LaneSteps& Tracer::steps() const {

@@ -43,12 +43,19 @@ class Environment {
   [[nodiscard]] Shares shares() const {
     return {rows_.data(), columns_.data(), row_guides_.data(), column_guides_.data()};
   }
+  // A word for each square between the middles of four texels: their luminances as numbers of 8 bits
+  // (core/scene/sky/brightness.h), upper left, upper right, lower left, lower right from the lowest bits up.
+  // A row more than the picture has: the first square of a column is above its first texel's middle. Squares
+  // begin at the middles of their columns.
+  [[nodiscard]] const std::uint32_t* brightness() const { return brightness_.data(); }
 
  private:
   Image<glm::vec3> radiance_;
   std::string source_;
-  std::vector<float> rows_, columns_;
-  std::vector<std::uint32_t> row_guides_, column_guides_;
+  std::vector<float> rows_;
+  std::vector<float, PixelAllocator<float>> columns_;
+  std::vector<std::uint32_t> row_guides_;
+  std::vector<std::uint32_t, PixelAllocator<std::uint32_t>> column_guides_, brightness_;
 };
 
 // Reads an EXR or Radiance (.hdr, RGBE) picture, told by its bytes. An EXR has the channels R, G and B, or Y

@@ -5,6 +5,7 @@
 #include <glm/gtc/constants.hpp>
 
 #include "core/math/finite.h"
+#include "core/scene/sky/brightness.h"
 
 namespace pinocchio {
 namespace {
@@ -34,6 +35,27 @@ void find_guides(const float* ends, std::size_t count, std::uint32_t* guides) {
   }
 }
 
+// Environment::brightness()
+template <class Words>
+void pack_brightness(const Image<glm::vec3>& image, Words& words) {
+  const int width = image.width(), height = image.height();
+  float most = 0.0f;
+  for (const glm::vec3& c : image.pixels()) most = std::max(most, brightness_of(c));
+  std::vector<std::uint32_t> packed;
+  packed.reserve(image.pixels().size());
+  for (const glm::vec3& c : image.pixels())
+    packed.push_back(packed_brightness(most > 0.0f ? brightness_of(c) / most : 0.0f));
+  words.reserve(static_cast<std::size_t>(width) * (static_cast<std::size_t>(height) + 1));
+  for (int y = 0; y <= height; ++y) {
+    const std::uint32_t *const above = &packed[image.index(0, std::max(y - 1, 0))],
+                               *const below = &packed[image.index(0, std::min(y, height - 1))];
+    for (int x = 0; x < width; ++x) {
+      const int right = x + 1 < width ? x + 1 : 0;
+      words.push_back(above[x] | above[right] << 8 | below[x] << 16 | below[right] << 24);
+    }
+  }
+}
+
 // Sums so far, made to end with 1 (or all zero).
 void make_to_one(const std::vector<double>& sums, float* ends) {
   const double whole = sums.back();
@@ -60,6 +82,7 @@ Environment::Environment(Image<glm::vec3> radiance, std::string source)
     of_rows[y] = all += sum * (latitude(y) - latitude(y + 1));
   }
   make_to_one(of_rows, rows_.data());
+  pack_brightness(radiance_, brightness_);
   row_guides_.resize(height);
   column_guides_.resize(width * height);
   find_guides(rows_.data(), height, row_guides_.data());

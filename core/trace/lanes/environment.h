@@ -2,12 +2,10 @@
 // environment's light, and one for light from other surfaces.
 #pragma once
 
-#include "core/trace/lanes/environment_light.h"
 #include "core/trace/lanes/lobe.h"
 #include "core/trace/lanes/maps.h"
 #include "core/trace/lanes/prefiltered.h"
-#include "core/trace/lanes/scatter.h"
-#include "core/trace/lanes/terminator.h"
+#include "core/trace/lanes/sky_candidates.h"
 
 namespace pinocchio::PINOCCHIO_LANES {
 namespace {
@@ -16,18 +14,11 @@ namespace {
 [[gnu::noinline]] void sample_environment(const Bounce& bounce, ShadowStarts& starts, const LaneSurface& s,
                                           const LaneMaterial& m, const Vec& throughput, const LaneLobe& lobe,
                                           const SampledPixel& sampling, Int pixel, Mask lanes) {
-  const vec2 number = sample_2d(sampling, bounce.dimension + shared::kEnvironmentDimension);
-  const EnvironmentSample sample = sampled_environment(*bounce.environment, number, lanes);
-  const Incident incident{sample.direction, sample.light, sample.direction, sample.density};
-  Mask lit = lanes & starts.faces_light(incident.to_light) & (incident.radiance != Vec(0.0f));
+  const SkyChoice choice = choose_from_sky(bounce, starts, s, m, throughput, lobe.counted, sampling, lanes);
+  const Mask lit = lanes & starts.faces_light(choice.to_light) & (choice.carried != Vec(0.0f)) &
+                   ~(largest(choice.carried) < Float(bounce.options->throughput_cutoff));
   if (lit.bits() == 0) return;
-  Vec carried =
-      throughput * reflected_light(m, incident, s.n_shading, s.to_viewer, lit, lobe.counted) * brdf_share(m);
-  if (bounce.options->terminator == Terminator::smoothed)
-    carried = carried * terminator_factor(s.n_shading, s.n_geometric, incident.to_light);
-  lit = lit & ~(largest(carried) < Float(bounce.options->throughput_cutoff));
-  if (lit.bits() == 0) return;
-  append_shadow_ray(s, starts.origins(incident.to_light), incident.to_light, carried, pixel, lit,
+  append_shadow_ray(s, starts.origins(choice.to_light), choice.to_light, choice.carried, pixel, lit,
                     *bounce.sky);
   starts.append_ways_up(lit, *bounce.sky, *bounce.sky_ways_up);
 }
@@ -35,7 +26,8 @@ namespace {
 // A shadow ray along the lobe where no ray follows it, with the environment's light.
 [[gnu::noinline]] void sky_along_lobe(const Bounce& bounce, const LaneSurface& s, const LaneLobe& lobe,
                                       const Vec& own, Int pixel) {
-  const Float other = density_of_light(*bounce.environment, lobe.direction, lobe.lanes);
+  const Float other =
+      density_of_candidates(density_of_light(*bounce.environment, lobe.direction, lobe.lanes));
   const Float counts = select(Float(0.0f) < lobe.density, lobe.density / (lobe.density + other), Float(1.0f));
   const Vec light = light_from_environment(*bounce.environment, lobe.direction, lobe.lanes);
   const Vec carried = own * lobe.throughput * light * counts;
@@ -82,26 +74,55 @@ inline void add_light(const Vec& light, Int pixels, Mask lanes, float* radiance)
   add_light(light, pixel, lanes, radiance);
 }
 
+// Of packets of rays: where in the picture they go. Memory is requested for all of them at once.
+template <std::size_t kCount>
+inline void find_seen(const EnvironmentLight& e, const RayQueue& rays, std::size_t first,
+                      const Mask (&missed)[kCount], vec2 (&place)[kCount]) {
+  const auto at = [](Float share, int size) {
+    return to_int(min(share * Float(static_cast<float>(size)), Float(static_cast<float>(size - 1))));
+  };
+  for (std::size_t k = 0; k < kCount; ++k) {
+    if (!any(missed[k])) continue;
+    place[k] = environment_place(params_of(e, missed[k]), Vec::load(rays.direction, first + k * kWidth));
+    const Int texel =
+        at(place[k].y, e.size.y) * Int(static_cast<std::uint32_t>(e.size.x)) + at(place[k].x, e.size.x);
+    fetch(e.pixels, texel, missed[k]);
+    if (rays.density) fetch(e.shares.columns, texel, missed[k]);
+  }
+}
+
 // Adds the environment's light along rays that hit nothing. counts_samples: where the ray starts, a sample of
 // the environment may have found the same light.
 void add_environment(const EnvironmentLight& environment, bool counts_samples, const RayQueue& rays,
                      float* radiance) {
+  constexpr std::size_t kAtOnce = 4;  // packets
   const Float zero(0.0f), one(1.0f);
-  for (std::size_t i = 0; i < rays.size; i += kWidth) {
-    const Mask missed = lanes_from(i, rays.size) & (Int::load(rays.triangle + i) == Int(kNoTriangle));
-    if (!any(missed)) continue;
-    const Vec direction = Vec::load(rays.direction, i);
-    Vec light = light_from_environment(environment, direction, missed);
-    if (rays.density) {
-      const Float density = Float::load(rays.density + i);
-      light = select(density < zero, Vec(zero), light);
-      const Mask both = counts_samples ? missed & (zero < density) : Mask::from_bits(0);
-      if (any(both)) {
-        const Float other = density_of_light(environment, direction, both);
-        light = light * select(both, density / (density + other), one);
-      }
+  for (std::size_t first = 0; first < rays.size; first += kAtOnce * kWidth) {
+    Mask missed[kAtOnce];
+    for (std::size_t k = 0; k < kAtOnce; ++k) {
+      const std::size_t i = first + k * kWidth;
+      missed[k] = i < rays.size
+                      ? lanes_from(i, rays.size) & (Int::load(rays.triangle + i) == Int(kNoTriangle))
+                      : Mask::from_bits(0);
     }
-    add_light(Vec::load(rays.light, i) * light, rays.pixel + i, missed, radiance);
+    vec2 place[kAtOnce];
+    find_seen(environment, rays, first, missed, place);
+    for (std::size_t k = 0; k < kAtOnce; ++k) {
+      if (!any(missed[k])) continue;
+      const std::size_t i = first + k * kWidth;
+      Vec light = environment_at(params_of(environment, missed[k]), place[k]);
+      if (rays.density) {
+        const Float density = Float::load(rays.density + i);
+        light = select(density < zero, Vec(zero), light);
+        const Mask both = counts_samples ? missed[k] & (zero < density) : Mask::from_bits(0);
+        if (any(both)) {
+          const Vec direction = Vec::load(rays.direction, i);
+          const Float other = density_of_candidates(density_of_light(environment, direction, place[k], both));
+          light = light * select(both, density / (density + other), one);
+        }
+      }
+      add_light(Vec::load(rays.light, i) * light, rays.pixel + i, missed[k], radiance);
+    }
   }
 }
 

@@ -19,6 +19,7 @@ struct EnvironmentLight {
         turn(rotation_deg / 360.0f),
         strength(factor),
         shares(environment.shares()),
+        brightness(environment.brightness()),
         shines(factor > 0.0f && !environment.is_black()),
         cos_turn(static_cast<float>(std::cos(glm::radians(double{rotation_deg})))),
         sin_turn(static_cast<float>(std::sin(glm::radians(double{rotation_deg})))) {}
@@ -31,6 +32,7 @@ struct EnvironmentLight {
   float turn;  // about +Y, revolutions
   float strength;
   Environment::Shares shares;
+  const std::uint32_t* brightness;
   bool shines;
   float cos_turn, sin_turn;
   std::shared_ptr<const PrefilteredSky> prefiltered;  // null: nothing reads it

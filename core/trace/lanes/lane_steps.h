@@ -80,6 +80,7 @@ struct Bounce {
   glm::uvec2 corner{0};
   std::uint32_t scale = 1, dimension = 0;
   const EnvironmentLight* environment = nullptr;  // its samples light the points; null: none do
+  bool one_candidate = false;  // no choice among directions of the environment: each brings the same light
   const EnvironmentLight* prefiltered = nullptr;  // its means light the points; null: none do
   bool lobes = false;  // directions of glossy lobes are sampled; else mirrors are sharp
 

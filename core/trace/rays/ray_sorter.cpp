@@ -79,6 +79,7 @@ RayColumns RaySorter::sort(const RayColumns& rays, std::size_t n) {
   from_.resize(n);
   if (triangle_.size() < n + kQueuePad) {
     triangle_.resize(n + kQueuePad);
+    blocked_.resize(n + kQueuePad);
     for (AlignedVector<float>& column : column_) column.resize(n + kQueuePad);
   }
   find_order(rays, n);
@@ -98,6 +99,10 @@ void RaySorter::put_back(std::uint32_t* triangle, float* t) const {
   for (std::size_t i = 0; i < from_.size(); ++i) triangle[from_[i]] = triangle_[i];
   if (t)
     for (std::size_t i = 0; i < from_.size(); ++i) t[from_[i]] = column_[7][i];
+}
+
+void RaySorter::put_back(std::uint8_t* blocked) const {
+  for (std::size_t i = 0; i < from_.size(); ++i) blocked[from_[i]] = blocked_[i];
 }
 
 }  // namespace pinocchio

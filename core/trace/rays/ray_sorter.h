@@ -26,8 +26,10 @@ class RaySorter {
   // Columns for their results, with room for whole packets.
   [[nodiscard]] std::uint32_t* triangles() { return triangle_.data(); }
   [[nodiscard]] float* distances() { return column_[7].data(); }
+  [[nodiscard]] std::uint8_t* blocked() { return blocked_.data(); }
   // Writes the results in the rays' own order. t: null where the caller wants no distances.
   void put_back(std::uint32_t* triangle, float* t) const;
+  void put_back(std::uint8_t* blocked) const;
 
  private:
   void find_order(const RayColumns& rays, std::size_t n);
@@ -37,6 +39,7 @@ class RaySorter {
   // Origin, direction, t_max, and the results' t.
   AlignedVector<float> column_[8];
   AlignedVector<std::uint32_t> triangle_;
+  std::vector<std::uint8_t> blocked_;
 };
 
 }  // namespace pinocchio

@@ -166,6 +166,7 @@ void TileTracer::find_lost(RayQueue& rays) {
   step.footprint = &no_textures;
   step.visible = true;
   step.attenuates = step.lobes = false;
+  step.one_candidate = true;
   step.environment = plan_->ground_sky && plan_->ground_sky->shines ? &*plan_->ground_sky : nullptr;
   make_room(rays.size, next_);
   sky_.make_room(rays.size * (2 + static_cast<std::size_t>(options.sky_occlusion)));

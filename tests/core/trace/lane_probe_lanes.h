@@ -40,11 +40,12 @@ void environment_lights(const EnvironmentLight& environment, const float* const*
 void environment_samples(const EnvironmentLight& environment, const float* u, const float* v,
                          float* const* direction, float* const* light, float* density, std::size_t count) {
   for (std::size_t i = 0; i < count; i += kWidth) {
-    const EnvironmentSample sample =
-        sampled_environment(environment, {Float::load(u + i), Float::load(v + i)}, Mask::from_bits(~0u));
-    store(sample.direction, direction, i);
-    store(sample.light, light, i);
-    sample.density.store(density + i);
+    const vec2 number[1] = {{Float::load(u + i), Float::load(v + i)}};
+    EnvironmentSample sample[1];
+    sample_directions(environment, number, Mask::from_bits(~0u), sample);
+    store(sample[0].direction, direction, i);
+    store(light_of_sample(environment, sample[0].place, sample[0].density, Mask::from_bits(~0u)), light, i);
+    sample[0].density.store(density + i);
   }
 }
 

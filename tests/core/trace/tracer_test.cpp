@@ -287,9 +287,13 @@ TEST(Tracer, SortedRaysKeepTheirPlaces) {
   const std::vector<Hit> expected = trace(Tracer(scene.mesh, {}, Isa::scalar), rays);  // which never sorts
   AlignedVector<std::uint32_t> triangle(room);
   AlignedVector<float> t(room);
+  std::vector<std::uint8_t> stopped(room);
   for (const Isa isa : supported_isas()) {
-    Tracer(scene.mesh, {}, isa).closest_hits(columns, rays.size(), triangle.data(), t.data());
+    const Tracer tracer(scene.mesh, {}, isa);
+    tracer.closest_hits(columns, rays.size(), triangle.data(), t.data());
+    tracer.occluded(columns, rays.size(), stopped.data());
     for (std::size_t i = 0; i < rays.size(); ++i) {
+      ASSERT_EQ(stopped[i], expected[i].valid() ? 1 : 0) << isa_name(isa) << " ray " << i;
       ASSERT_EQ(triangle[i], expected[i].triangle) << isa_name(isa) << " ray " << i;
       if (expected[i].valid()) {
         ASSERT_EQ(t[i], expected[i].t) << isa_name(isa) << " ray " << i;
