@@ -10,7 +10,7 @@
 namespace pinocchio {
 
 // Levels of the filter. Level k reads pixels 2^k apart.
-inline constexpr int kDenoiseLevels = 5;
+inline constexpr int kDenoiseLevels = 4;
 // Pixels on each side that one level reads, in steps of the level.
 inline constexpr int kDenoiseRadius = 2;
 // Pixels around the picture that see nothing, so that a level may read beyond its edges.
@@ -28,6 +28,7 @@ struct DenoiseGuides {
   const float* normal[3] = {};
   const float* distance = nullptr;  // infinite: nothing is seen, and the pixel is left out
   const float* albedo = nullptr;    // luminance
+  float of_luminance = 0.0f;        // squared: standard deviations of the noise that count as x = 1 (lanes.h)
 };
 
 // Light divided by the albedo, and the variance of its luminance.
