@@ -10,7 +10,7 @@
 namespace pinocchio {
 
 // Levels of the filter. Level k reads pixels 2^k apart.
-inline constexpr int kDenoiseLevels = 4;
+inline constexpr int kDenoiseLevels = 5;
 // Pixels on each side that one level reads, in steps of the level.
 inline constexpr int kDenoiseRadius = 2;
 // Pixels around the picture that see nothing, so that a level may read beyond its edges.

@@ -164,7 +164,8 @@ void GatheredLight::fill_planes(const Sums& sums, PartOfLight part, Workers& wor
   guides_.stride = stride_;
   guides_.distance = distance;
   guides_.albedo = albedo;
-  guides_.of_luminance = kOfLuminance[part];
+  // One sample's noise is known from its surroundings alone, and less well.
+  guides_.of_luminance = kOfLuminance[part] * (samples_ == 1 ? 2.0f : 1.0f);
   for_each_line(static_cast<int>(lines), workers, [&](int line) {
     float* const first = distance + (line - kDenoiseBorder) * stride_ - kDenoiseBorder;
     std::fill_n(first, stride_, kInfinity);

@@ -15,7 +15,7 @@ namespace {
 constexpr float kSpline[] = {0.0625f, 0.25f, 0.375f, 0.25f, 0.0625f};  // B3, across and down
 static_assert(sizeof(kSpline) / sizeof(*kSpline) == 2 * kDenoiseRadius + 1);
 
-constexpr float kOfNormal = 8.0f;           // x per 1 - cosine of the angle between normals
+constexpr float kOfNormal = 12.0f;          // x per 1 - cosine of the angle between normals
 constexpr float kOfAlbedo = 4.0f;           // x per squared relative difference of albedos
 constexpr float kSmallestContrast = 1e-4f;  // squared: a share of the luminance below which contrast is noise
 constexpr float kOffPlane = 0.5f;           // of the slope of the distance, that counts as x = 1
