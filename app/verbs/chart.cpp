@@ -27,7 +27,7 @@ using namespace chart;
 constexpr int kDefaultTurntable = 360;  // frames once around: a degree a frame
 constexpr glm::ivec2 kDefaultSize{400, 300}, kQuickSize{160, 120};
 // Where the reference takes its hundreds of samples at each point.
-constexpr glm::ivec2 kQuickSampledSize{48, 36};
+constexpr glm::ivec2 kQuickSampledSize{40, 30};
 constexpr int kQuickSampledSide = 2;
 constexpr std::size_t kFrames = 10, kQuickFrames = 7;  // of the motion; the first warm up
 constexpr BenchSettings kBench{.rounds = 5, .error_frames = 3, .area_side = 6};
@@ -237,7 +237,7 @@ Run add_chart(CLI::App& program) {
   add_studio_option(verb, options->draw, false);
   add_size_option(
       verb, options->draw,
-      "size of the picture, pixels (400x300; with --quick 160x120, or 48x36 under a sky or lights with a "
+      "size of the picture, pixels (400x300; with --quick 160x120, or 40x30 under a sky or lights with a "
       "size)");
   add_animation_options(verb, options->animation);
   verb.add_option(
