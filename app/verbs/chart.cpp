@@ -26,6 +26,9 @@ using namespace chart;
 
 constexpr int kDefaultTurntable = 360;  // frames once around: a degree a frame
 constexpr glm::ivec2 kDefaultSize{400, 300}, kQuickSize{160, 120};
+// Where the reference takes its hundreds of samples at each point.
+constexpr glm::ivec2 kQuickSampledSize{40, 30};
+constexpr int kQuickSampledSide = 2;
 constexpr std::size_t kFrames = 10, kQuickFrames = 7;  // of the motion; the first warm up
 constexpr BenchSettings kBench{.rounds = 5, .error_frames = 3, .area_side = 6};
 constexpr BenchSettings kQuickBench{.rounds = 2, .error_frames = 2, .area_side = 3};
@@ -63,8 +66,10 @@ class ChartRun {
 
   int run() {
     DrawOptions& draw = options_.draw;
-    if (!options_.size_given) draw.size = options_.quick ? kQuickSize : kDefaultSize;
     Scene scene = load_scene_for(draw);
+    is_cut_ = options_.quick && takes_samples(scene);
+    if (!options_.size_given)
+      draw.size = is_cut_ ? kQuickSampledSize : options_.quick ? kQuickSize : kDefaultSize;
     const std::vector<View> views = motion(scene);
     // An animated scene is charted at one time.
     scene = value_or_exit(at_time(scene, *options_.animation.time_s), kBadScene);
@@ -93,6 +98,7 @@ class ChartRun {
  private:
   [[nodiscard]] BenchSettings bench_settings() const {
     BenchSettings settings = options_.quick ? kQuickBench : kBench;
+    if (is_cut_) settings.area_side = kQuickSampledSide;
     if (options_.repeat > 0) settings.rounds = options_.repeat;
     if (options_.clock == "cpu") settings.clock = Clock::cpu;
     settings.progress = &run_progress();
@@ -173,6 +179,13 @@ class ChartRun {
       std::fprintf(stderr,
                    "pinocchio: no page was drawn, as matplotlib is missing; install python3-matplotlib and "
                    "run the same command again (results.csv and results.json are complete)\n");
+    const glm::ivec2 size = options_.draw.size;
+    if (is_cut_ && !options_.draw.quiet)
+      std::printf(
+          "--quick: %d x %d pixels, and a reference of %d samples a pixel: it finds the light of a sky and "
+          "of "
+          "lights with a size by 256 samples at each point\n",
+          size.x, size.y, kQuickSampledSide * kQuickSampledSide);
     if (!options_.draw.quiet)
       std::printf("%zu points\n%s\n", results.json()["points"].size(),
                   (folder_ / (drawn ? "index.html" : "results.csv")).c_str());
@@ -181,6 +194,7 @@ class ChartRun {
 
   ChartOptions& options_;
   std::filesystem::path folder_;
+  bool is_cut_ = false;  // --quick, and the reference takes samples
 };
 
 // chart --stability. Returns kFailed where a default method failed.
@@ -221,7 +235,10 @@ Run add_chart(CLI::App& program) {
   add_scene_options(verb, options->draw);
   add_context_options(verb, options->draw);
   add_studio_option(verb, options->draw, false);
-  add_size_option(verb, options->draw, "size of the picture, pixels (400x300; with --quick 160x120)");
+  add_size_option(
+      verb, options->draw,
+      "size of the picture, pixels (400x300; with --quick 160x120, or 40x30 under a sky or lights with a "
+      "size)");
   add_animation_options(verb, options->animation);
   verb.add_option(
           "-o,--output", options->folder,

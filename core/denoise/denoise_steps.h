@@ -28,6 +28,7 @@ struct DenoiseGuides {
   const float* normal[3] = {};
   const float* distance = nullptr;  // infinite: nothing is seen, and the pixel is left out
   const float* albedo = nullptr;    // luminance
+  float of_luminance = 0.0f;        // squared: standard deviations of the noise that count as x = 1 (lanes.h)
 };
 
 // Light divided by the albedo, and the variance of its luminance.

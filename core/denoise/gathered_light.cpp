@@ -10,8 +10,11 @@ namespace {
 
 constexpr std::size_t kPlanes = 15;
 constexpr int kLines = 8;              // a task
-constexpr float kLeastAlbedo = 0.02f;  // that light is divided by
-constexpr float kMostLight = 1e18f;    // that the filter takes: squares stay finite
+constexpr float kLeastAlbedo = 0.02f;  // that light of others than lamps is divided by
+constexpr float kMostOfLamps = 10.0f;  // times their light without shadows
+// GatheredLight::PartOfLight: standard deviations of the noise, squared, that count as x = 1 (lanes.h).
+constexpr std::array<float, 2> kOfLuminance{8.0f, 2.0f};
+constexpr float kMostLight = 1e18f;  // that the filter takes: squares stay finite
 
 float luminance(const glm::vec3& rgb) {
   return 0.2126f * rgb.r + 0.7152f * rgb.g + 0.0722f * rgb.b;  // Rec. 709
@@ -25,7 +28,15 @@ glm::vec3 usable(const glm::vec3& light) {
 
 bool is_surface(const SampledPoint& point) {
   return point.distance < kInfinity && glm::dot(point.normal, point.normal) < 1.1f &&
-         glm::dot(point.albedo, point.albedo) < kMostLight;
+         glm::dot(point.albedo, point.albedo) < kMostLight &&
+         glm::dot(point.lamp_albedo, point.lamp_albedo) < kMostLight;
+}
+
+// What light of others than lamps, or of lamps, is divided by. Both are of `samples` samples.
+glm::vec3 divisor(bool of_lamps, const glm::vec3& light, const glm::vec3& albedo, float samples) {
+  const glm::vec3 least =
+      of_lamps ? glm::max(light / kMostOfLamps, glm::vec3(1e-12f)) : glm::vec3(kLeastAlbedo * samples);
+  return glm::max(albedo, least);
 }
 
 template <class Body>
@@ -37,11 +48,6 @@ void for_each_line(int lines, Workers& workers, const Body& body) {
 }
 
 }  // namespace
-
-// The sum of what the surfaces return.
-glm::vec3 GatheredLight::returned(const Sum& sum) {
-  return glm::max(sum.albedo, glm::vec3(kLeastAlbedo * sum.hits));
-}
 
 void GatheredLight::add(const Layers& sample, Picture picture, Isa isa, Workers& workers,
                         Image<glm::vec3>& light) {
@@ -58,11 +64,28 @@ void GatheredLight::add(const Layers& sample, Picture picture, Isa isa, Workers&
     sums.resize(light.pixels().size());
     if (!sample[k]->empty()) gather(*sample[k], sums, workers);
     if (picture == Picture::filtered) {
-      fill_planes(sums, workers);
-      filter(isa, workers);
+      for (const PartOfLight part : {kOthers, kLamps}) {
+        fill_planes(sums, part, workers);
+        filter(isa, workers);
+        keep_filtered(part, sums, workers);
+      }
     }
     add_shown(sums, picture, workers, light);
   }
+}
+
+void GatheredLight::keep_filtered(PartOfLight part, Sums& sums, Workers& workers) const {
+  const auto width = static_cast<std::size_t>(size_.x);
+  for_each_line(size_.y, workers, [&](int y) {
+    for (std::size_t x = 0; x < width; ++x) {
+      Sum& sum = sums[static_cast<std::size_t>(y) * width + x];
+      Sum::Part& p = sum.parts[part];
+      const std::ptrdiff_t at = y * stride_ + static_cast<std::ptrdiff_t>(x);
+      const glm::vec3 filtered(now_.light[0][at], now_.light[1][at], now_.light[2][at]);
+      p.filtered =
+          sum.hits > 0.0f ? filtered * divisor(part == kLamps, p.light, p.albedo, sum.hits) : p.light;
+    }
+  });
 }
 
 // Adds what the layer's picture shows from now on, less what it has shown.
@@ -70,13 +93,13 @@ void GatheredLight::add_shown(Sums& sums, Picture picture, Workers& workers, Ima
   const auto width = static_cast<std::size_t>(size_.x);
   const auto count = static_cast<float>(samples_);
   for_each_line(size_.y, workers, [&](int y) {
-    for (std::size_t x = 0; x < width; ++x) {
-      const std::size_t i = static_cast<std::size_t>(y) * width + x;
-      const std::ptrdiff_t at = y * stride_ + static_cast<std::ptrdiff_t>(x);
+    for (std::size_t i = static_cast<std::size_t>(y) * width; i < static_cast<std::size_t>(y + 1) * width;
+         ++i) {
       Sum& sum = sums[i];
-      glm::vec3 all = picture == Picture::kept ? sum.shown * (count / (count - 1.0f)) : sum.light;
-      if (picture == Picture::filtered && sum.hits > 0.0f)
-        all = returned(sum) * glm::vec3(now_.light[0][at], now_.light[1][at], now_.light[2][at]);
+      const auto& [others, lamps] = sum.parts;
+      const glm::vec3 all = picture == Picture::kept       ? sum.shown * (count / (count - 1.0f))
+                            : picture == Picture::filtered ? others.filtered + lamps.filtered
+                                                           : others.light + lamps.light;
       light[i] += all - sum.shown;
       sum.shown = all;
     }
@@ -91,19 +114,22 @@ void GatheredLight::gather(const Image<SampledPoint>& sample, Sums& sums, Worker
          ++i) {
       const SampledPoint& point = sample[i];
       Sum& sum = sums[i];
-      const glm::vec3 light = usable(point.light);
-      sum.light += light;
+      const std::array lights{usable(point.light), usable(point.lamp_light)};
+      for (std::size_t k = 0; k < kParts; ++k) sum.parts[k].light += lights[k];
       if (!is_surface(point)) continue;
-      const float bare = luminance(light / glm::max(point.albedo, glm::vec3(kLeastAlbedo)));
-      sum.albedo += point.albedo;
+      const std::array albedos{point.albedo, point.lamp_albedo};
+      for (const PartOfLight k : {kOthers, kLamps}) {
+        const float bare = luminance(lights[k] / divisor(k == kLamps, lights[k], albedos[k], 1.0f));
+        sum.parts[k].albedo += albedos[k];
+        sum.parts[k].first += bare;
+        sum.parts[k].second += bare * bare;
+      }
       if (sum.hits == 0.0f) {
         sum.normal = point.normal;
         sum.distance = point.distance;
         sum.guide_albedo = point.guide_albedo;
       }
       sum.hits += 1.0f;
-      sum.first += bare;
-      sum.second += bare * bare;
     }
   });
 }
@@ -115,7 +141,7 @@ float* GatheredLight::plane(std::size_t number) {
 }
 
 // Means of the samples. Pixels that see nothing, and those around the picture, are infinitely far.
-void GatheredLight::fill_planes(const Sums& sums, Workers& workers) {
+void GatheredLight::fill_planes(const Sums& sums, PartOfLight part, Workers& workers) {
   constexpr int kPacket = static_cast<int>(kCacheLine / sizeof(float));
   static_assert(kDenoiseBorder % kPacket == 0);
   stride_ = (size_.x + 2 * kDenoiseBorder + kPacket + kPacket - 1) / kPacket * kPacket;
@@ -138,6 +164,8 @@ void GatheredLight::fill_planes(const Sums& sums, Workers& workers) {
   guides_.stride = stride_;
   guides_.distance = distance;
   guides_.albedo = albedo;
+  // One sample's noise is known from its surroundings alone, and less well.
+  guides_.of_luminance = kOfLuminance[part] * (samples_ == 1 ? 2.0f : 1.0f);
   for_each_line(static_cast<int>(lines), workers, [&](int line) {
     float* const first = distance + (line - kDenoiseBorder) * stride_ - kDenoiseBorder;
     std::fill_n(first, stride_, kInfinity);
@@ -147,8 +175,10 @@ void GatheredLight::fill_planes(const Sums& sums, Workers& workers) {
       const Sum& sum = sums[static_cast<std::size_t>(y) * static_cast<std::size_t>(size_.x) + x];
       const std::ptrdiff_t at = y * stride_ + x;
       const bool seen = sum.hits > 0.0f;
-      const glm::vec3 of_surface = returned(sum), light = seen ? sum.light / of_surface : glm::vec3(0.0f);
-      const float mean = sum.first / sum.hits;
+      const Sum::Part& p = sum.parts[part];
+      const glm::vec3 of_surface = divisor(part == kLamps, p.light, p.albedo, sum.hits),
+                      light = seen ? p.light / of_surface : glm::vec3(0.0f);
+      const float mean = p.first / sum.hits;
       for (int c = 0; c < 3; ++c) {
         normal[c][at] = sum.normal[c];
         now_.light[c][at] = light[c];
@@ -157,7 +187,7 @@ void GatheredLight::fill_planes(const Sums& sums, Workers& workers) {
       if (seen) distance[at] = sum.distance;
       // Of the mean.
       now_.variance[at] =
-          sum.hits > 1.0f ? std::max(sum.second / sum.hits - mean * mean, 0.0f) / (sum.hits - 1.0f) : 0.0f;
+          sum.hits > 1.0f ? std::max(p.second / sum.hits - mean * mean, 0.0f) / (sum.hits - 1.0f) : 0.0f;
     }
   });
 }

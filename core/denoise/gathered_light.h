@@ -34,20 +34,26 @@ class GatheredLight {
   [[nodiscard]] int samples() const { return samples_; }
 
  private:
+  // Light of lights with a size is filtered by itself: its shadows have edges, and its noise is less.
+  enum PartOfLight : std::size_t { kOthers, kLamps, kParts };
   // Sums over the samples that hit something, and the surface that the first of them hit: means over several
   // surfaces would be like none of them, and the edges' pixels keep their noise.
   struct Sum {
-    glm::vec3 light, albedo;
-    float hits, first, second;  // moments of the luminance divided by the albedo's
-    glm::vec3 shown;            // sum of all `light`
+    struct Part {
+      glm::vec3 light, albedo, filtered;
+      float first, second;  // moments of the luminance divided by the albedo's
+    };
+    std::array<Part, kParts> parts;
+    float hits;
+    glm::vec3 shown;  // sum of all `light`
     glm::vec3 normal;
     float distance, guide_albedo;
   };
-  [[nodiscard]] static glm::vec3 returned(const Sum& sum);
   using Sums = std::vector<Sum>;
   void gather(const Image<SampledPoint>& sample, Sums& sums, Workers& workers) const;
   void add_shown(Sums& sums, Picture picture, Workers& workers, Image<glm::vec3>& light) const;
-  void fill_planes(const Sums& sums, Workers& workers);
+  void fill_planes(const Sums& sums, PartOfLight part, Workers& workers);
+  void keep_filtered(PartOfLight part, Sums& sums, Workers& workers) const;
   void filter(Isa isa, Workers& workers);
   [[nodiscard]] float* plane(std::size_t number);
 

@@ -15,9 +15,8 @@ namespace {
 constexpr float kSpline[] = {0.0625f, 0.25f, 0.375f, 0.25f, 0.0625f};  // B3, across and down
 static_assert(sizeof(kSpline) / sizeof(*kSpline) == 2 * kDenoiseRadius + 1);
 
-constexpr float kOfNormal = 16.0f;          // x per 1 - cosine of the angle between normals
+constexpr float kOfNormal = 12.0f;          // x per 1 - cosine of the angle between normals
 constexpr float kOfAlbedo = 4.0f;           // x per squared relative difference of albedos
-constexpr float kOfLuminance = 16.0f;       // squared: standard deviations of the noise that count as x = 1
 constexpr float kSmallestContrast = 1e-4f;  // squared: a share of the luminance below which contrast is noise
 constexpr float kOffPlane = 0.5f;           // of the slope of the distance, that counts as x = 1
 constexpr float kOffDistance = 0.002f;      // of the distance, likewise
@@ -156,7 +155,7 @@ void filter_by(const DenoiseGuides& g, const DenoiseLight& from, const DenoiseCo
       const Contrast other = contrast_at<kFound>(from, contrast, rgb, there);
       const Float dl = other.luminance - here.luminance;
       const Float off = seen.off(g, there, dx * step, dy * step, tolerance) +
-                        dl * dl / (Float(kOfLuminance) * (here.variance + other.variance) + least);
+                        dl * dl / (Float(g.of_luminance) * (here.variance + other.variance) + least);
       const Float w = falloff(off) * Float(kSpline[dx + kDenoiseRadius] * kSpline[dy + kDenoiseRadius]);
       for (int c = 0; c < 3; ++c) sum[c] = sum[c] + w * rgb[c];
       weight = weight + w;

@@ -10,10 +10,12 @@ namespace pinocchio {
 // surfaces that are seen in sharp mirrors and through glass, of which the one that shines most tells the
 // place.
 struct SampledPoint {
-  glm::vec3 light{0.0f};  // that was found at random, linear: with noise
+  glm::vec3 light{0.0f};  // that was found at random, linear: with noise; without that of `lamp_light`
   // What the surfaces return to the eye of the light around them, which the filter divides the light by: of
   // an even light of 1, or, under a sampled environment, of that without shadows, in units of its mean.
   glm::vec3 albedo{0.0f};
+  // Light of lights with a size, and what the surfaces return of it where nothing is in its way, about.
+  glm::vec3 lamp_light{0.0f}, lamp_albedo{0.0f};
   glm::vec3 normal{0.0f};      // world shading normal, unit
   float distance = kInfinity;  // along the path from the eye, scene units; infinite where nothing is hit
   float guide_albedo = 0.0f;   // luminance of what it returns of an even light

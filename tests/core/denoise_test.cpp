@@ -126,6 +126,47 @@ TEST(Denoise, TexturesStaySharp) {
     ASSERT_NEAR(light[i].r, sample[i].albedo.r, 1e-5f * sample[i].albedo.r);
 }
 
+// The fall-off of a near lamp is in what it sends without shadows, which its light is divided by.
+TEST(Denoise, ShadingByLampsStays) {
+  Image<SampledPoint> sample = wall([](int, int) { return glm::vec3(0.0f); });
+  std::mt19937 random(6);
+  const auto falloff = [](int x) {
+    const float off = 0.25f * static_cast<float>(x - 40);
+    return 1.0f / (1.0f + off * off);
+  };
+  for (int y = 0; y < kSize.y; ++y)
+    for (int x = 0; x < kSize.x; ++x) {
+      SampledPoint& point = sample.at(x, y);
+      point.lamp_albedo = glm::vec3(falloff(x));
+      point.lamp_light = point.lamp_albedo * (random() % 2 == 0 ? 2.0f : 0.0f);
+    }
+  const Image<glm::vec3> light = filtered(sample);
+  double squares = 0.0;
+  for (int y = 0; y < kSize.y; ++y)
+    for (int x = 0; x < kSize.x; ++x)
+      squares += std::pow(static_cast<double>(light.at(x, y).r / falloff(x)) - 1.0, 2);
+  EXPECT_LT(std::sqrt(squares / (kSize.x * kSize.y)), 0.2) << "before: 1";
+}
+
+// The noise of other light does not blur an edge that the samples of a lamp agree about.
+TEST(Denoise, ShadowsOfLampsStaySharpBesideNoise) {
+  GatheredLight gathered;
+  Image<glm::vec3> sum(kSize), light;
+  for (unsigned k = 0; k < 4; ++k) {
+    Image<SampledPoint> sample = wall(noise(20 + k));
+    for (int y = 0; y < kSize.y; ++y)
+      for (int x = 0; x < kSize.x; ++x) {
+        sample.at(x, y).lamp_albedo = kAlbedo;
+        sample.at(x, y).lamp_light = x < 40 ? glm::vec3(0.0f) : kAlbedo;
+      }
+    add_to(gathered, sample, k == 3 ? Picture::filtered : Picture::mean, default_isa(), workers(), light);
+    for (std::size_t i = 0; i < sum.pixels().size(); ++i) sum[i] += light[i];
+  }
+  const double dark = spread(sum, {34, 0}, {40, kSize.y}).mean / 4.0,
+               lit = spread(sum, {40, 0}, {46, kSize.y}).mean / 4.0;
+  EXPECT_NEAR(lit - dark, 0.5, 0.03);
+}
+
 // An edge of light, as of a shadow, that many samples agree about.
 TEST(Denoise, CertainEdgesOfLightStaySharp) {
   const Image<SampledPoint> sample = wall([](int x, int) { return glm::vec3(x < 40 ? 0.2f : 1.0f); });

@@ -27,6 +27,8 @@ inline constexpr int kTileBits = TileGrid::kTileBits;
 // pixel's number plus this; twice this if the random choice was made at a surface that is seen in a sharp
 // mirror or through glass.
 inline constexpr std::uint32_t kSampledPixels = 1u << (2 * kTileBits);
+// Added to both where the light comes straight from a light with a size: it is filtered by itself.
+inline constexpr std::uint32_t kLampPixels = 2 * kSampledPixels;
 
 // Smoother lobes mirror a sharp image, which the filter leaves alone: roughness 0.1, and Phong's exponent for
 // it.
@@ -99,6 +101,7 @@ struct Bounce {
   // that; 0: it is not kept apart.
   std::uint32_t sampled = 0;
   SampledPoint* points = nullptr;  // a tile's pixels: the surfaces, for the filter; null: not wanted
+  bool lights_alone = false;       // other steps have the same rays' surfaces, and light of other lights
 };
 
 // The points that rays see, a column each, with room behind the last ray for a packet; null: not wanted.

@@ -35,12 +35,69 @@ inline Vec returned_of_sky(const EnvironmentLight& e, const LaneSurface& s, cons
   return {max(light.x, albedo.x * least), max(light.y, albedo.y * least), max(light.z, albedo.z * least)};
 }
 
+// What the point returns of a light with a size where nothing is in its way, about: as if all of it came from
+// the light's middle, with a highlight that is as much wider as the light is.
+[[gnu::noinline]] Vec unshadowed_light(const LightParams& light, const LaneSurface& s,
+                                       const LaneMaterial& m) {
+  const Float zero(0.0f), one(1.0f);
+  const Incident middle = incident_light(light, light.position, s.p_world);
+  Float square(2.0f * light.size);  // of the sine of half the angle under which the light is seen
+  if (light.kind != kLightDirectional) {
+    const Vec way = Vec(light.position) - s.p_world;
+    const Float r2(light.kind == kLightRectangle
+                       ? shared::kOneByPi * glm::length(glm::cross(light.edge_u, light.edge_v))
+                       : light.size * light.size);
+    square = r2 / max(dot(way, way), r2);
+  }
+  // Where a part of the light is below the horizon, the rest falls off with its square.
+  const Float n_dot_l = dot(s.n_shading, middle.to_light), sine = sqrt(square),
+              above = max(n_dot_l + sine, zero);
+  const Float cosine = select(n_dot_l < sine, above * above / (Float(4.0f) * sine), n_dot_l);
+  Vec share = m.diffuse * max(cosine, Float(0.02f));
+  const Mask microfacet = Mask::from_bits(m.microfacet), phong = ~microfacet & (m.specular != Vec(zero)),
+             rough = microfacet & (Float(kSharpAlpha) < m.ggx_alpha);
+  if (any(phong)) {
+    const Float exponent = max(m.shininess, one), wide = exponent / (one + Float(0.25f) * exponent * square);
+    const Vec mirrored = s.n_shading * (Float(2.0f) * n_dot_l) - middle.to_light;
+    const Float highlight = power(max(dot(mirrored, s.to_viewer), Float(1e-3f)), wide) * (wide / exponent);
+    share = select(phong, share + m.specular * highlight, share);
+  }
+  if (any(rough)) {
+    ShadingParams wide = m;
+    wide.ggx_alpha = sqrt(m.ggx_alpha * m.ggx_alpha + Float(0.125f) * square);
+    wide.coat_alpha = sqrt(m.coat_alpha * m.coat_alpha + Float(0.125f) * square);
+    share =
+        select(rough, share + lobe_light(wide, s.n_shading, s.to_viewer, middle.to_light).reflected, share);
+  }
+  return middle.radiance * share;
+}
+
+// Calls add(point, lane) for the filter's points of a packet; others' rays were sent at random themselves.
+template <class Add>
+inline void for_each_point(const Bounce& bounce, Int pixels, Mask lanes, Add add) {
+  alignas(64) std::uint32_t pixel[kWidth];
+  pixels.store(pixel);
+  for (unsigned waiting = lanes.bits(); waiting != 0; waiting &= waiting - 1) {
+    const int lane = __builtin_ctz(waiting);
+    if (pixel[lane] < kSampledPixels) add(bounce.points[pixel[lane]], lane);
+  }
+}
+
+[[gnu::noinline]] void add_unshadowed(const Bounce& bounce, const Vec& light, Int pixels, Mask lanes) {
+  alignas(64) float values[3][kWidth];
+  light.x.store(values[0]);
+  light.y.store(values[1]);
+  light.z.store(values[2]);
+  for_each_point(bounce, pixels, lanes, [&](SampledPoint& point, int lane) {
+    point.lamp_albedo += glm::vec3(values[0][lane], values[1][lane], values[2][lane]);
+  });
+}
+
 // Adds the points of a packet to those of their pixels. throughput: of the paths from the eye to the points.
 [[gnu::noinline]] void add_points(const Bounce& bounce, const LaneSurface& s, const LaneMaterial& m,
                                   const Vec& throughput, Int pixels, Mask lanes) {
   lanes = lanes & (pixels < Int(kSampledPixels));  // the others are sampled themselves
   if (!any(lanes)) return;
-  alignas(64) std::uint32_t pixel[kWidth];
   alignas(64) float values[9][kWidth];
   const Vec even = sampled_albedo(s, m);
   const bool under_sky = bounce.environment && bounce.environment->prefiltered;
@@ -53,17 +110,14 @@ inline Vec returned_of_sky(const EnvironmentLight& e, const LaneSurface& s, cons
                         s.n_shading.x, s.n_shading.y,   s.n_shading.z,
                         s.way,         luminance(even), luminance(throughput * even)};
   for (int k = 0; k < 9; ++k) all[k].store(values[k]);
-  pixels.store(pixel);
-  for (unsigned waiting = lanes.bits(); waiting != 0; waiting &= waiting - 1) {
-    const int lane = __builtin_ctz(waiting);
-    SampledPoint& point = bounce.points[pixel[lane]];
+  for_each_point(bounce, pixels, lanes, [&](SampledPoint& point, int lane) {
     point.albedo += glm::vec3(values[0][lane], values[1][lane], values[2][lane]);
-    if (!(point.shown < values[8][lane])) continue;
+    if (!(point.shown < values[8][lane])) return;
     point.normal = {values[3][lane], values[4][lane], values[5][lane]};
     point.distance = values[6][lane];
     point.guide_albedo = values[7][lane];
     point.shown = values[8][lane];
-  }
+  });
 }
 
 }  // namespace

@@ -120,6 +120,12 @@ inline Int sampled_pixel(const Bounce& bounce, Int pixel) {
   return select(pixel < Int(kSampledPixels), pixel + Int(bounce.sampled), pixel);
 }
 
+// Likewise, of light that comes straight from lights with a size.
+inline Int lamp_pixel(const Bounce& bounce, Int pixel) {
+  if (bounce.sampled == 0) return pixel;
+  return select(pixel < Int(kSampledPixels), pixel + Int(bounce.sampled + kLampPixels), pixel);
+}
+
 // The pixels of the lobe's rays (kSampledPixels).
 inline Int lobe_pixel(const Bounce& bounce, const LaneLobe& lobe, Int pixel) {
   return select(lobe.rough, sampled_pixel(bounce, pixel), pixel);

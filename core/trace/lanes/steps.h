@@ -118,24 +118,25 @@ inline Vec light_points(const Bounce& bounce, const Corners& corners, const Lane
                         const LaneMaterial& m, const Vec& throughput, const LaneLobe& lobe,
                         const SampledPixel* sampling, Int pixel, Mask lanes) {
   ShadowStarts starts(bounce.options->terminator, corners, s);
-  Vec sum(Float(0.0f));
+  Vec sum(Float(0.0f)), unshadowed(Float(0.0f));
   if (bounce.adds_ambient) sum = phong_ambient(m, bounce.ambient_light);
   for (std::size_t i = 0; i < bounce.light_count; ++i) {
     const BounceLight& light = bounce.lights[i];
     const Incident incident = light_from<kSampled>(light, s, sampling, bounce.dimension);
+    const bool apart = kSampled && bounce.sampled != 0 && light.has_size;
+    if (apart && bounce.points) unshadowed = unshadowed + unshadowed_light(light.params, s, m);
     const Float counted = light.slot < 0 ? Float(0.0f) : lobe.counted;  // lobes look for casting lights
     Mask lit = lanes & starts.faces_light(incident.to_light) & (incident.radiance != Vec(0.0f));
     if (bounce.visible && light.slot >= 0 && bounce.options->light_cutoff > 0.0f)
       lit = lit & ~(most_light(m, incident, s, counted) < Float(bounce.options->light_cutoff));
     if (lit.bits() == 0) continue;
     Vec term(Float(0.0f));
-    const bool apart = kSampled && bounce.sampled != 0 && light.has_size;
     if (bounce.adds_light || apart || bounce.tints)
       term = reflected_light(m, incident, s.n_shading, s.to_viewer, lit, counted);
     if (bounce.options->terminator == Terminator::smoothed)
       term = term * terminator_factor(s.n_shading, s.n_geometric, incident.to_light);
     if (apart && light.slot < 0) {
-      add_light(throughput * term, sampled_pixel(bounce, pixel), lit, bounce.traced);
+      add_light(throughput * term, lamp_pixel(bounce, pixel), lit, bounce.traced);
       continue;
     }
     if (light.slot < 0) {
@@ -145,9 +146,11 @@ inline Vec light_points(const Bounce& bounce, const Corners& corners, const Lane
     const Vec carried = throughput * term;
     if (!bounce.visible) lit = lit & ~(largest(carried) < Float(bounce.options->throughput_cutoff));
     // Visible points' rays also set the mask.
-    const Int of = apart && !bounce.visible ? sampled_pixel(bounce, pixel) : pixel;
+    const Int of = apart && !bounce.visible ? lamp_pixel(bounce, pixel) : pixel;
     append_shadow_rays(light, s, starts, incident, carried, of, lit, bounce);
   }
+  if constexpr (kSampled)
+    if (bounce.points) add_unshadowed(bounce, throughput * unshadowed, pixel, lanes);
   if constexpr (kSampled)
     if (bounce.environment)
       sample_environment(bounce, starts, s, m, throughput, lobe, *sampling, sampled_pixel(bounce, pixel),
@@ -245,7 +248,7 @@ void bounce_packets(const Bounce& bounce, const RayQueue& rays) {
         if (bounce.lobes) lobe = sample_lobe(s, m, own, *samples, lanes, bounce);
     }
     if constexpr (kSampled)
-      if (bounce.points) {
+      if (bounce.points && !bounce.lights_alone) {
         s.way = length(s.p_world - origin);
         if (rays.way) s.way = Float::load(rays.way + i) + s.way;
         add_points(bounce, s, m, throughput, pixel, lanes);
@@ -263,7 +266,7 @@ void bounce_packets(const Bounce& bounce, const RayQueue& rays) {
     if constexpr (kSampled)
       if (lobe.lanes.bits() != 0) {
         const Int of_lobe = lobe_pixel(bounce, lobe, pixel);
-        light_along_lobe(bounce, s, lobe, own, of_lobe);
+        light_along_lobe(bounce, s, lobe, own, select(lobe.rough, lamp_pixel(bounce, pixel), pixel));
         if (bounce.environment && !bounce.mirrored) sky_along_lobe(bounce, s, lobe, own, of_lobe);
       }
     if (bounce.mirrored) scatter<kSampled>(s, m, throughput, lobe, samples, pixel, lanes, bounce, media);

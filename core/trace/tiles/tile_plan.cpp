@@ -90,7 +90,7 @@ Bounce lights_alone(const LightGroup& group, const Bounce& step) {
   alone.adds_ambient = false;
   alone.adds_light = step.adds_light || group.in_reflection;
   alone.environment = alone.prefiltered = nullptr;
-  alone.points = nullptr;
+  alone.lights_alone = true;
   alone.mirrored = alone.refracted = alone.straight = alone.diffuse = nullptr;
   return alone;
 }

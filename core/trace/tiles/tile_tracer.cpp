@@ -72,6 +72,7 @@ TileResult TileTracer::trace(const TilePlan& plan, const PixelBox& tile) {
 void TileTracer::begin_light() {
   const std::size_t layers = plan_->sampled_layers();
   std::fill_n(reflected_.begin(), (1 + layers) * kPixels, glm::vec4(0.0f));
+  std::fill_n(reflected_.begin() + kSampledPixels + kLampPixels, layers * kPixels, glm::vec4(0.0f));
   points_.assign(layers * kPixels, {});
 }
 
@@ -267,9 +268,10 @@ void TileTracer::fire_shadows(const LightGroup& group, int generation, glm::vec4
       for (std::size_t i = 0; i < queue.size; ++i)
         mask[queue.pixel[i]] |= static_cast<std::uint8_t>(((blocked_[i] & 1u) ^ 1u) << light.queue);
     const bool apart = visible && plan_->out.sampled && light.has_size;
-    if (plan_->tints) add_light_through_glass(queue, apart ? &reflected_[kSampledPixels] : reflected_.data());
+    glm::vec4* const of_lamps = &reflected_[kSampledPixels + kLampPixels];
+    if (plan_->tints) add_light_through_glass(queue, apart ? of_lamps : reflected_.data());
     if (!adds && !apart) continue;
-    glm::vec4* const to = apart ? &reflected_[kSampledPixels] : radiance;
+    glm::vec4* const to = apart ? of_lamps : radiance;
     for (std::size_t i = 0; i < queue.size; ++i)
       if (!blocked_[i])
         to[queue.pixel[i]] += glm::vec4(queue.light[0][i], queue.light[1][i], queue.light[2][i], 0.0f);
@@ -293,6 +295,7 @@ void TileTracer::write() {
       for (std::size_t i = 0; image && i < width; ++i) {
         SampledPoint& point = of(image)[i] = points_[first + row + i];
         point.light = glm::vec3(reflected_[kSampledPixels + first + row + i]);
+        point.lamp_light = glm::vec3(reflected_[kSampledPixels + kLampPixels + first + row + i]);
       }
     };
     write_sampled(out.sampled, 0);

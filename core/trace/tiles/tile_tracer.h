@@ -78,7 +78,7 @@ class TileTracer {
   Holes holes_;
   TintedShadows tinted_;
   Radiance<kPixels> direct_;
-  Radiance<3 * kPixels> reflected_;   // from kSampledPixels on: what is kept apart
+  Radiance<5 * kPixels> reflected_;   // from kSampledPixels on: what is kept apart
   std::vector<SampledPoint> points_;  // kPixels that the camera sees, then those beyond
   // With a shadow catcher: rays at its plane, of pixels that see nothing, and behind surfaces that blend. By
   // pixel: the light of the plane (RGB) and what shadows take from it (A), then the lost share (A).

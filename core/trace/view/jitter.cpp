@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <iterator>
 #include <numbers>
 
 #include "core/shade/shared.h"
@@ -34,8 +35,16 @@ glm::dvec2 even_point(int k, const glm::dvec2& step) {
   return glm::fract(0.5 + static_cast<double>(k) * step);
 }
 
-glm::dvec2 place_of(int k, PixelFilter filter) {
-  const glm::dvec2 at = even_point(k, {0.75487766624669276, 0.56984029099805327});
+// Samples 1 to 15 of pictures whose noise is filtered, so that outlines are all of their error: the least
+// mean squared error of the share that an edge covers, at all angles and places, of the first 4, 8 and 16.
+constexpr glm::dvec2 kOfOutlines[] = {{-0.406, -0.097}, {0.311, -0.309},  {0.095, 0.406},  {-0.340, 0.326},
+                                      {0.391, 0.228},   {-0.226, -0.390}, {0.175, -0.164}, {-0.438, 0.085},
+                                      {-0.277, -0.287}, {-0.153, 0.444},  {0.022, -0.441}, {0.265, 0.003},
+                                      {0.467, -0.209},  {-0.118, 0.133},  {0.232, 0.272}};
+
+glm::dvec2 place_of(int k, PixelFilter filter, bool outlines = false) {
+  glm::dvec2 at = even_point(k, {0.75487766624669276, 0.56984029099805327});
+  if (outlines && k > 0 && k <= std::ssize(kOfOutlines)) at = kOfOutlines[k - 1] + 0.5;
   if (filter == PixelFilter::box || k == 0) return at - 0.5;
   return {place_of_share(at.x), place_of_share(at.y)};
 }
@@ -51,8 +60,8 @@ glm::vec2 balanced_jitter_of(int k, PixelFilter filter) {
   const int first = k < 4 ? 1 : static_cast<int>(std::bit_floor(static_cast<unsigned>(k)));
   const int end = std::max(4, 2 * first);
   glm::dvec2 sum(0.0);
-  for (int i = first; i < end; ++i) sum += place_of(i, filter);
-  return glm::vec2(place_of(k, filter) - sum / static_cast<double>(end - first));
+  for (int i = first; i < end; ++i) sum += place_of(i, filter, true);
+  return glm::vec2(place_of(k, filter, true) - sum / static_cast<double>(end - first));
 }
 
 glm::vec2 lens_point_of(int k) {
