@@ -14,7 +14,7 @@ struct UseTexels {
 };
 constexpr std::size_t kUses = std::tuple_size_v<decltype(MaterialMaps().uses())>;
 struct MapTexels {
-  std::array<UseTexels, kUses> uses;
+  std::array<UseTexels, kUses> uses;  // as MaterialMaps::uses()
   glm::vec4 base_metallic, emissive_roughness, specular, more, strengths, alpha_rule, coat, sheen;
 };
 constexpr std::size_t kTexelsOfMaps = sizeof(MapTexels) / sizeof(glm::vec4);
