@@ -35,11 +35,13 @@ void BudgetControl::begin(const Settings& exact) {
   if (exact.composite == Processor::cpu || !exact.traces())
     return model_.messages.hint("--budget and --max-error need mode hybrid, design 1", 8.0, kAbout);
   frames_.drain();
-  trial_ = std::make_unique<BudgetTrial>(engine_, exact, options_, [this](const Settings& settings, int) {
-    FrameRequest request = model_.request();
-    request.settings = settings;
-    return request;
-  });
+  // Of one view, though the camera may move meanwhile: errors are differences of pictures.
+  trial_ = std::make_unique<BudgetTrial>(engine_, exact, options_,
+                                         [view = model_.request()](const Settings& settings, int) {
+                                           FrameRequest request = view;
+                                           request.settings = settings;
+                                           return request;
+                                         });
 }
 
 void BudgetControl::measure() {
