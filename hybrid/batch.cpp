@@ -12,6 +12,7 @@
 #include "hybrid/engine/engine_parts.h"
 #include "hybrid/frame/lines.h"
 #include "hybrid/frame/samples.h"
+#include "pinocchio/conversion.h"
 #include "pinocchio/layers.h"
 
 namespace pinocchio {
@@ -194,7 +195,7 @@ Expected<RayCounts> render_many(Engine& engine, const Scene& scene, std::span<co
   const Expected<Settings> resolved = resolve_for(engine, scene, cameras, cameras.size(), size, settings);
   if (!resolved) return Unexpected(resolved.error());
   const std::shared_ptr<const Tracer> tracer = engine.parts().tracer_of(scene, *resolved, progress);
-  begin_phase(progress, "render", static_cast<double>(cameras.size()) * resolved->spp);
+  begin_phase(progress, "render", as_double(cameras.size()) * resolved->spp);
   return draw(engine, {scene, tracer, *resolved, {.camera = cameras.front(), .size = size}}, cameras, to,
               progress, motion);
 }
@@ -208,7 +209,7 @@ Expected<RayCounts> render_many(Engine& engine, const Scene& scene, std::span<co
   };
   const Expected<Settings> first = resolve(scene, cameras_of(scene, pictures));
   if (!first) return Unexpected(first.error());
-  begin_phase(progress, "render", static_cast<double>(pictures.size()) * first->spp);
+  begin_phase(progress, "render", as_double(pictures.size()) * first->spp);
   const std::vector<std::span<const PosedPicture>> runs = runs_of(pictures);
   std::vector<std::span<const NodeTransform>> poses;
   for (const auto& run : runs) poses.push_back(run.front().pose);
@@ -234,7 +235,7 @@ Expected<RayCounts> render_many(Engine& engine, const Scene& scene, std::span<co
     if (to.motion) motion = motion_to_next(posed_scene, cameras, next ? &**next : nullptr, runs, run);
     rays += draw(engine, {posed_scene, tracer, *resolved, {.camera = cameras.front(), .size = size}}, cameras,
                  advanced(to, pixels), progress, motion);
-    pixels += cameras.size() * static_cast<std::size_t>(size.x) * static_cast<std::size_t>(size.y);
+    pixels += cameras.size() * as_size(size.x) * as_size(size.y);
     pose = next ? std::move(next) : maker.next();
   }
   return rays;

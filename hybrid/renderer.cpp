@@ -16,6 +16,7 @@
 #include "hybrid/exchange/encode.h"
 #include "hybrid/frame/schedule.h"
 #include "hybrid/passes/passes.h"
+#include "pinocchio/conversion.h"
 
 namespace pinocchio {
 namespace {
@@ -161,7 +162,7 @@ bool Renderer::Loop::advance() {
 }
 
 int Renderer::Loop::frames_drawn() const {
-  return static_cast<int>(std::ranges::count_if(slots_, [](const std::unique_ptr<FrameSlot>& slot) {
+  return as_int(std::ranges::count_if(slots_, [](const std::unique_ptr<FrameSlot>& slot) {
     return slot && slot->state == FrameSlot::State::drawn;
   }));
 }
@@ -297,8 +298,8 @@ void Renderer::Loop::deliver(FrameSlot& frame, const FrameSlot* older) {
   frame.answer_of = older ? older : frame.answered ? &frame : nullptr;
   frame.state = FrameSlot::State::delivered;
   frame.complete = !older;
-  frame.record.latency_frames = static_cast<int>(next_number_ - 1 - frame.record.number);
-  if (older) frame.record.age_frames = static_cast<int>(frame.record.number - older->record.number);
+  frame.record.latency_frames = as_int(next_number_ - 1 - frame.record.number);
+  if (older) frame.record.age_frames = as_int(frame.record.number - older->record.number);
   show(frame);
   if (!frame.request.settings.traces()) pinocchio::advance(progress_);
 }

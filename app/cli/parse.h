@@ -10,6 +10,7 @@
 
 #include "core/base/listed.h"
 #include "core/parallel/tiles.h"
+#include "pinocchio/conversion.h"
 #include "pinocchio/light.h"
 
 namespace pinocchio::app {
@@ -36,11 +37,9 @@ struct FrameRange {
   int first = 0, last = 0, step = 1;
 
   [[nodiscard]] std::size_t count() const {
-    return static_cast<std::size_t>((static_cast<long long>(last) - first) / step + 1);
+    return as_size((static_cast<long long>(last) - first) / step + 1);
   }
-  [[nodiscard]] int number(std::size_t i) const {
-    return static_cast<int>(first + static_cast<long long>(i) * step);
-  }
+  [[nodiscard]] int number(std::size_t i) const { return as_int(first + static_cast<long long>(i) * step); }
   [[nodiscard]] bool contains(int number) const {
     return number >= first && number <= last && (static_cast<long long>(number) - first) % step == 0;
   }

@@ -7,6 +7,7 @@
 #include "app/cli/console.h"
 #include "app/cli/errors.h"
 #include "app/cli/options.h"
+#include "pinocchio/conversion.h"
 #include "pinocchio/load.h"
 #include "pinocchio/studio.h"
 
@@ -106,7 +107,7 @@ Camera camera_for(const DrawOptions& options, const Scene& scene) {
   if (options.fov_deg) camera.fov_deg = *options.fov_deg;
   if (options.projection) set_projection(*options.projection, camera);
   if (options.fov_deg && *options.fov_deg >= 180.0f && camera.projection != Projection::fisheye)
-    throw Exit(kUsage, "--fov: " + std::to_string(static_cast<int>(*options.fov_deg)) +
+    throw Exit(kUsage, "--fov: " + std::to_string(as_int(*options.fov_deg)) +
                            " degrees are for --projection fisheye; other cameras take less than 180");
   if (options.height) camera.height = *options.height;
   if (options.lens_radius) camera.lens_radius = *options.lens_radius;

@@ -14,6 +14,7 @@
 #include "core/image/rgb.h"
 #include "hybrid/frame/samples.h"
 #include "hybrid/settings/json.h"
+#include "pinocchio/conversion.h"
 
 namespace pinocchio::app {
 namespace {
@@ -76,7 +77,7 @@ namespace {
 std::vector<MeasuredSettings> front_of(Drawing& drawing, const DrawOptions& draw,
                                        const BudgetOptions& options, const CameraFrames& frames) {
   BudgetTrial trial(drawing.engine(), drawing.settings(), options, [&](const Settings& settings, int i) {
-    const std::size_t at = static_cast<std::size_t>(i) * frames.size() / (BudgetTrial::kTimedFrames + 1);
+    const std::size_t at = as_size(i) * frames.size() / (BudgetTrial::kTimedFrames + 1);
     return drawing.request(settings, frames[at]);
   });
   Progress progress(draw.progress_mode(), "measuring plans", trial.count());

@@ -9,6 +9,7 @@
 
 #include "app/cli/check_camera.h"
 #include "app/cli/errors.h"
+#include "pinocchio/conversion.h"
 #include "pinocchio/load.h"
 
 namespace pinocchio::app {
@@ -88,7 +89,7 @@ class PathReader {
     glm::vec3 result(0.0f);
     bool good = value != key.end() && value->is_array() && value->size() == 3;
     for (int i = 0; good && i < 3; ++i) {
-      const nlohmann::json& number = (*value)[static_cast<std::size_t>(i)];
+      const nlohmann::json& number = (*value)[as_size(i)];
       good = number.is_number() && std::abs(number.get<double>()) <= kFarthest;
       if (good) result[i] = number.get<float>();
     }
@@ -132,7 +133,7 @@ std::optional<int> first_coincidence(const CameraPath& path, const FrameRange& r
     const double nearest = a.number + t * (b.number - a.number);
     for (double n = std::floor(nearest) - 1.0; n <= nearest + 2.0; n += 1.0) {
       if (n <= a.number || n >= b.number) continue;
-      const int number = static_cast<int>(n);
+      const int number = as_int(n);
       const Camera camera = camera_on_path(path, number);
       if (range.contains(number) && camera.eye == camera.target) return number;
     }

@@ -6,6 +6,7 @@
 
 #include "app/cli/console.h"
 #include "app/cli/errors.h"
+#include "pinocchio/conversion.h"
 
 namespace pinocchio::app {
 
@@ -30,8 +31,7 @@ float studio_exposure(Drawing& drawing, const CameraFrame& frame) {
     }
   if (light.empty()) return 0.0f;
   const auto part = [&light](float share) {
-    const auto nth =
-        light.begin() + static_cast<std::ptrdiff_t>(share * static_cast<float>(light.size() - 1));
+    const auto nth = light.begin() + static_cast<std::ptrdiff_t>(share * as_float(light.size() - 1));
     std::nth_element(light.begin(), nth, light.end());
     return std::max(*nth, 1e-6f);
   };

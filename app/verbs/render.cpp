@@ -32,6 +32,7 @@
 #include "hybrid/frame/samples.h"
 #include "hybrid/frame/schedule.h"
 #include "pinocchio/animation.h"
+#include "pinocchio/conversion.h"
 #include "pinocchio/studio.h"
 
 namespace pinocchio::app {
@@ -220,7 +221,7 @@ class RenderRun {
     while (const std::optional<CameraFrame> frame = begin_frame(drawing)) {
       FrameRecord record;
       record.number = recorded_;
-      record.processors[static_cast<std::size_t>(Stage::composite)] = Processor::cpu;
+      record.processors[as_size(Stage::composite)] = Processor::cpu;
       record[Stage::composite].begin_s = record.frame.begin_s = now_s();
       FrameResult mean = precise(drawing.untraced_request(*frame), drawing.workers());
       record[Stage::composite].end_s = record.frame.end_s = now_s();
@@ -268,7 +269,7 @@ class RenderRun {
     if (budget_) budget_->report();
     if (options_.output.exposure_ev != 0.0f && options_.exposure->count() == 0)
       std::printf("  the preview is exposed %+.2f stops, by what it shows (--exposure STOPS)\n",
-                  static_cast<double>(options_.output.exposure_ev));
+                  as_double(options_.output.exposure_ev));
     if (skipped_ > 0) std::printf("  %zu frames were there already\n", skipped_);
     for (const int number : written_)
       for (const std::string& pattern : {options_.output.exr, options_.output.preview})

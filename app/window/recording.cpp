@@ -10,6 +10,7 @@
 #include "core/files/atomic_file.h"
 #include "core/image/codecs/png.h"
 #include "hybrid/frame/samples.h"
+#include "pinocchio/conversion.h"
 #include "pinocchio/save.h"
 
 namespace pinocchio::app {
@@ -162,7 +163,7 @@ std::string Recording::print_command(const Settings& settings, const DrawOptions
     view.line_width = draw.line_width;
     if (model_.scene.animation) view.time_s = model_.playback.posed_s;
     if (const int clip = model_.playback.clip; clip >= 0) {
-      const std::string& played = model_.playback.all->clips.at(static_cast<std::size_t>(clip)).name;
+      const std::string& played = model_.playback.all->clips.at(as_size(clip)).name;
       if (played.empty())
         model_.messages.hint(
             "the animation has no name: the command plays all animations of the file together");

@@ -8,6 +8,8 @@
 #include <thread>
 #include <utility>
 
+#include "pinocchio/conversion.h"
+
 namespace pinocchio {
 
 namespace {
@@ -42,7 +44,7 @@ std::string processor_name(std::istream& cpuinfo) {
 
 SystemInfo system_info() {
   std::ifstream cpuinfo("/proc/cpuinfo");
-  return {processor_name(cpuinfo), static_cast<int>(std::max(1u, std::thread::hardware_concurrency()))};
+  return {processor_name(cpuinfo), as_int(std::max(1u, std::thread::hardware_concurrency()))};
 }
 
 std::size_t peak_memory_bytes() {

@@ -5,6 +5,7 @@
 #include <optional>
 #include <span>
 
+#include "pinocchio/conversion.h"
 #include "pinocchio/mesh.h"
 
 namespace pinocchio {
@@ -19,9 +20,7 @@ struct BuildMesh {
   explicit BuildMesh(const Mesh& mesh) : positions(mesh.positions), triangles(mesh.triangles) {}
 
   [[nodiscard]] std::size_t size() const { return ids ? ids->size() : triangles.size(); }
-  [[nodiscard]] std::uint32_t id(std::size_t i) const {
-    return ids ? (*ids)[i] : static_cast<std::uint32_t>(i);
-  }
+  [[nodiscard]] std::uint32_t id(std::size_t i) const { return ids ? (*ids)[i] : as_uint32(i); }
   // Numbers from first_id() on, end_id() - first_id() of them, include every triangle's.
   [[nodiscard]] std::uint32_t first_id() const { return size() == 0 ? 0 : id(0); }
   [[nodiscard]] std::uint32_t end_id() const { return size() == 0 ? 0 : id(size() - 1) + 1; }

@@ -3,6 +3,8 @@
 #include <cmath>
 #include <limits>
 
+#include "pinocchio/conversion.h"
+
 namespace pinocchio {
 namespace {
 
@@ -30,12 +32,12 @@ ProjectedTriangle ProjectedTriangle::from(const glm::vec3& a, const glm::vec3& b
   ProjectedTriangle triangle;
   for (int i = 0; i < 3; ++i) triangle.a[i] = a[i];
   triangle.k = k;
-  triangle.n_u = static_cast<float>(slopes[0]);
-  triangle.n_v = static_cast<float>(slopes[1]);
-  triangle.beta_u = static_cast<float>(beta[0]);
-  triangle.beta_v = static_cast<float>(beta[1]);
-  triangle.gamma_u = static_cast<float>(gamma[0]);
-  triangle.gamma_v = static_cast<float>(gamma[1]);
+  triangle.n_u = as_float(slopes[0]);
+  triangle.n_v = as_float(slopes[1]);
+  triangle.beta_u = as_float(beta[0]);
+  triangle.beta_v = as_float(beta[1]);
+  triangle.gamma_u = as_float(gamma[0]);
+  triangle.gamma_v = as_float(gamma[1]);
   triangle.slope = std::abs(triangle.beta_u) + std::abs(triangle.beta_v) + std::abs(triangle.gamma_u) +
                    std::abs(triangle.gamma_v);
   triangle.id = id;

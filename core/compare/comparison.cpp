@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "core/math/finite.h"
+#include "pinocchio/conversion.h"
 
 namespace pinocchio {
 namespace {
@@ -72,7 +73,7 @@ int named_slots(const ExrFile& exr) {
   const auto found = exr.attributes.find("pinocchio.lights");
   if (found == exr.attributes.end() || !std::holds_alternative<std::string>(found->second)) return 0;
   const auto lights = nlohmann::json::parse(std::get<std::string>(found->second), nullptr, false);
-  return lights.is_array() ? static_cast<int>(lights.size()) : 0;
+  return lights.is_array() ? as_int(lights.size()) : 0;
 }
 
 const ExrChannel* uint_channel(const ExrFile& exr, const std::string& name) {

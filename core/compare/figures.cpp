@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 
+#include "pinocchio/conversion.h"
 #include "pinocchio/ray.h"
 
 namespace pinocchio {
@@ -25,7 +26,7 @@ class ErrorSums {
   }
 
   [[nodiscard]] ErrorFigures figures() const {
-    const double n = std::max(1.0, static_cast<double>(count_));
+    const double n = std::max(1.0, as_double(count_));
     const double psnr_db = clamped_squares_ > 0.0 ? -10.0 * std::log10(clamped_squares_ / n)
                                                   : std::numeric_limits<double>::infinity();
     return {std::sqrt(squares_ / n), relative_ / n, psnr_db, max_};
@@ -95,10 +96,9 @@ MaskFigures mask_figures(const MaskedPixels& a, const MaskedPixels& b, int named
       figures.differing += std::popcount(of_a ^ of_b);
     }
   }
-  figures.slots = std::clamp(named_slots, 0, 32 * static_cast<int>(words));
+  figures.slots = std::clamp(named_slots, 0, 32 * as_int(words));
   for (int word = 0; const std::uint32_t bits : set) {
-    if (bits != 0)
-      figures.slots = std::max(figures.slots, 32 * word + static_cast<int>(std::bit_width(bits)));
+    if (bits != 0) figures.slots = std::max(figures.slots, 32 * word + as_int(std::bit_width(bits)));
     ++word;
   }
   figures.bits = pixels * figures.slots;

@@ -6,6 +6,8 @@
 #include <span>
 #include <vector>
 
+#include "pinocchio/conversion.h"
+
 namespace pinocchio {
 
 // Of finite values. `b` is the reference in all of these.
@@ -37,9 +39,7 @@ struct MaskFigures {
   std::uint64_t bits = 0;  // compared bits in all
   std::uint64_t differing = 0;
 
-  [[nodiscard]] double share() const {
-    return bits == 0 ? 0.0 : static_cast<double>(differing) / static_cast<double>(bits);
-  }
+  [[nodiscard]] double share() const { return bits == 0 ? 0.0 : as_double(differing) / as_double(bits); }
 };
 
 // Compares shadow masks over the pixels where either picture shows a triangle (empty ids: over all pixels):

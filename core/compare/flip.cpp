@@ -8,6 +8,8 @@
 #include <numeric>
 #include <vector>
 
+#include "pinocchio/conversion.h"
+
 namespace pinocchio {
 namespace {
 
@@ -69,7 +71,7 @@ Kernel contrast_kernel(double pixels_per_degree) {
     const double degrees = x / pixels_per_degree;
     glm::dvec4& w = weights.emplace_back(0.0);
     for (int c = 0; c < 4; ++c) {
-      const auto i = static_cast<std::size_t>(c);
+      const auto i = as_size(c);
       w[c] = amplitude[i] * std::exp(-kPi2 * degrees * degrees / kWidth[i]);
     }
     sum += w;
@@ -100,7 +102,7 @@ std::vector<FeatureWeight> feature_weights(double pixels_per_degree) {
   std::vector<FeatureWeight> result;
   for (const glm::dvec3& w : weights) {
     const auto scaled = [&](int c) {
-      return static_cast<float>(w[c] / (w[c] > 0.0 ? positive[c] : std::max(negative[c], 1e-300)));
+      return as_float(w[c] / (w[c] > 0.0 ? positive[c] : std::max(negative[c], 1e-300)));
     };
     result.push_back({scaled(0), scaled(1), scaled(2)});
   }
@@ -129,7 +131,7 @@ Planes filtered(const Planes& in, const Kernel& kernel, glm::ivec2 step, Workers
 
 Planes each_pixel(const Image<glm::vec3>& in, Workers& workers, glm::vec4 (*value)(const glm::vec3&)) {
   Planes out(in.size());
-  const auto width = static_cast<std::size_t>(in.width());
+  const auto width = as_size(in.width());
   workers.for_each(in.height(), [&](std::size_t row) {
     for (std::size_t i = row * width; i < (row + 1) * width; ++i)
       out[i] = value(glm::clamp(in[i], 0.0f, 1.0f));
@@ -183,7 +185,7 @@ Image<float> flip(const Image<glm::vec3>& a, const Image<glm::vec3>& b, float pi
   assert(a.size() == b.size());
   assert(pixels_per_degree >= kLeastPixelsPerDegree && pixels_per_degree <= kMostPixelsPerDegree);
   Image<float> errors(a.size());
-  const auto width = static_cast<std::size_t>(a.width());
+  const auto width = as_size(a.width());
   const auto each = [&](const auto& body) {
     workers.for_each(a.height(), [&](std::size_t row) {
       for (std::size_t i = row * width; i < (row + 1) * width; ++i) body(i);
@@ -204,8 +206,7 @@ Image<float> flip(const Image<glm::vec3>& a, const Image<glm::vec3>& b, float pi
 
 double mean(const Image<float>& errors) {
   const auto values = errors.pixels();
-  return std::accumulate(values.begin(), values.end(), 0.0) /
-         std::max(1.0, static_cast<double>(values.size()));
+  return std::accumulate(values.begin(), values.end(), 0.0) / std::max(1.0, as_double(values.size()));
 }
 
 }  // namespace pinocchio

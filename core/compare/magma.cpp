@@ -4,6 +4,8 @@
 #include <array>
 #include <cstddef>
 
+#include "pinocchio/conversion.h"
+
 namespace pinocchio {
 namespace {
 
@@ -32,10 +34,10 @@ const std::array<glm::vec3, kKnots> kColors{{
 
 glm::u8vec3 color(float error) {
   const float at = 255.0f * std::clamp(error, 0.0f, 1.0f);  // in the map's steps
-  const int knot = std::min(static_cast<int>(at / 16.0f), kKnots - 2);
+  const int knot = std::min(as_int(at / 16.0f), kKnots - 2);
   const float first = 16.0f * knot;
   const float length = knot == kKnots - 2 ? 15.0f : 16.0f;  // the last colour is the 255th, not the 256th
-  const auto i = static_cast<std::size_t>(knot);
+  const auto i = as_size(knot);
   return glm::u8vec3(glm::mix(kColors[i], kColors[i + 1], (at - first) / length) + 0.5f);
 }
 

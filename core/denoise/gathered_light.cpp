@@ -5,6 +5,8 @@
 #include <cmath>
 #include <utility>
 
+#include "pinocchio/conversion.h"
+
 namespace pinocchio {
 namespace {
 
@@ -41,8 +43,8 @@ glm::vec3 divisor(bool of_lamps, const glm::vec3& light, const glm::vec3& albedo
 
 template <class Body>
 void for_each_line(int lines, Workers& workers, const Body& body) {
-  workers.for_each(static_cast<std::size_t>((lines + kLines - 1) / kLines), [&](std::size_t i) {
-    const int first = static_cast<int>(i) * kLines;
+  workers.for_each(as_size((lines + kLines - 1) / kLines), [&](std::size_t i) {
+    const int first = as_int(i) * kLines;
     for (int y = first; y < std::min(first + kLines, lines); ++y) body(y);
   });
 }
@@ -75,10 +77,10 @@ void GatheredLight::add(const Layers& sample, Picture picture, Isa isa, Workers&
 }
 
 void GatheredLight::keep_filtered(PartOfLight part, Sums& sums, Workers& workers) const {
-  const auto width = static_cast<std::size_t>(size_.x);
+  const auto width = as_size(size_.x);
   for_each_line(size_.y, workers, [&](int y) {
     for (std::size_t x = 0; x < width; ++x) {
-      Sum& sum = sums[static_cast<std::size_t>(y) * width + x];
+      Sum& sum = sums[as_size(y) * width + x];
       Sum::Part& p = sum.parts[part];
       const std::ptrdiff_t at = y * stride_ + static_cast<std::ptrdiff_t>(x);
       const glm::vec3 filtered(now_.light[0][at], now_.light[1][at], now_.light[2][at]);
@@ -90,11 +92,10 @@ void GatheredLight::keep_filtered(PartOfLight part, Sums& sums, Workers& workers
 
 // Adds what the layer's picture shows from now on, less what it has shown.
 void GatheredLight::add_shown(Sums& sums, Picture picture, Workers& workers, Image<glm::vec3>& light) const {
-  const auto width = static_cast<std::size_t>(size_.x);
-  const auto count = static_cast<float>(samples_);
+  const auto width = as_size(size_.x);
+  const auto count = as_float(samples_);
   for_each_line(size_.y, workers, [&](int y) {
-    for (std::size_t i = static_cast<std::size_t>(y) * width; i < static_cast<std::size_t>(y + 1) * width;
-         ++i) {
+    for (std::size_t i = as_size(y) * width; i < as_size(y + 1) * width; ++i) {
       Sum& sum = sums[i];
       const auto& [others, lamps] = sum.parts;
       const glm::vec3 all = picture == Picture::kept       ? sum.shown * (count / (count - 1.0f))
@@ -108,10 +109,9 @@ void GatheredLight::add_shown(Sums& sums, Picture picture, Workers& workers, Ima
 
 void GatheredLight::gather(const Image<SampledPoint>& sample, Sums& sums, Workers& workers) const {
   assert(sample.size() == size_);
-  const auto width = static_cast<std::size_t>(size_.x);
+  const auto width = as_size(size_.x);
   for_each_line(size_.y, workers, [&](int y) {
-    for (std::size_t i = static_cast<std::size_t>(y) * width; i < static_cast<std::size_t>(y + 1) * width;
-         ++i) {
+    for (std::size_t i = as_size(y) * width; i < as_size(y + 1) * width; ++i) {
       const SampledPoint& point = sample[i];
       Sum& sum = sums[i];
       const std::array lights{usable(point.light), usable(point.lamp_light)};
@@ -135,18 +135,18 @@ void GatheredLight::gather(const Image<SampledPoint>& sample, Sums& sums, Worker
 }
 
 float* GatheredLight::plane(std::size_t number) {
-  const std::size_t lines = static_cast<std::size_t>(size_.y) + 2 * kDenoiseBorder;
-  const auto stride = static_cast<std::size_t>(stride_);
+  const std::size_t lines = as_size(size_.y) + 2 * kDenoiseBorder;
+  const auto stride = as_size(stride_);
   return planes_.data() + (number * lines + kDenoiseBorder) * stride + kDenoiseBorder;
 }
 
 // Means of the samples. Pixels that see nothing, and those around the picture, are infinitely far.
 void GatheredLight::fill_planes(const Sums& sums, PartOfLight part, Workers& workers) {
-  constexpr int kPacket = static_cast<int>(kCacheLine / sizeof(float));
+  constexpr int kPacket = as_int(kCacheLine / sizeof(float));
   static_assert(kDenoiseBorder % kPacket == 0);
   stride_ = (size_.x + 2 * kDenoiseBorder + kPacket + kPacket - 1) / kPacket * kPacket;
-  const std::size_t lines = static_cast<std::size_t>(size_.y) + 2 * kDenoiseBorder;
-  const std::size_t floats = kPlanes * lines * static_cast<std::size_t>(stride_);
+  const std::size_t lines = as_size(size_.y) + 2 * kDenoiseBorder;
+  const std::size_t floats = kPlanes * lines * as_size(stride_);
   // Numbers everywhere: a weight of 0 times none would be none.
   if (planes_.size() != floats) planes_.assign(floats, 0.0f);
   std::size_t used = 0;
@@ -166,13 +166,13 @@ void GatheredLight::fill_planes(const Sums& sums, PartOfLight part, Workers& wor
   guides_.albedo = albedo;
   // One sample's noise is known from its surroundings alone, and less well.
   guides_.of_luminance = kOfLuminance[part] * (samples_ == 1 ? 2.0f : 1.0f);
-  for_each_line(static_cast<int>(lines), workers, [&](int line) {
+  for_each_line(as_int(lines), workers, [&](int line) {
     float* const first = distance + (line - kDenoiseBorder) * stride_ - kDenoiseBorder;
     std::fill_n(first, stride_, kInfinity);
   });
   for_each_line(size_.y, workers, [&](int y) {
     for (int x = 0; x < size_.x; ++x) {
-      const Sum& sum = sums[static_cast<std::size_t>(y) * static_cast<std::size_t>(size_.x) + x];
+      const Sum& sum = sums[as_size(y) * as_size(size_.x) + x];
       const std::ptrdiff_t at = y * stride_ + x;
       const bool seen = sum.hits > 0.0f;
       const Sum::Part& p = sum.parts[part];

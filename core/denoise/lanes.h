@@ -7,6 +7,7 @@
 #include <cstddef>
 
 #include "core/denoise/denoise_steps.h"
+#include "pinocchio/conversion.h"
 #include "pinocchio/ray.h"
 
 namespace pinocchio::PINOCCHIO_LANES {
@@ -53,14 +54,13 @@ struct Seen {
                                    Float tolerance) const {
     Float cosine = normal[0] * load_anywhere(g.normal[0] + to);
     for (int c = 1; c < 3; ++c) cosine = cosine + normal[c] * load_anywhere(g.normal[c] + to);
-    const Float flat =
-        distance + slope_x * Float(static_cast<float>(dx)) + slope_y * Float(static_cast<float>(dy));
+    const Float flat = distance + slope_x * Float(as_float(dx)) + slope_y * Float(as_float(dy));
     const Float dz = load_anywhere(g.distance + to) - flat, da = load_anywhere(g.albedo + to) - albedo;
     return Float(kOfNormal) * (Float(1.0f) - cosine) + dz * dz * tolerance + da * da * albedo_tolerance();
   }
   [[nodiscard]] Float tolerance(int step) const {
-    const Float length = Float(kOffPlane * static_cast<float>(step)) * (abs(slope_x) + abs(slope_y)) +
-                         Float(kOffDistance) * distance;
+    const Float length =
+        Float(kOffPlane * as_float(step)) * (abs(slope_x) + abs(slope_y)) + Float(kOffDistance) * distance;
     return Float(1.0f) / (length * length);
   }
 

@@ -5,6 +5,7 @@
 #include <cstdint>
 
 #include "core/parallel/parts.h"
+#include "pinocchio/conversion.h"
 
 namespace pinocchio {
 namespace {
@@ -18,8 +19,7 @@ constexpr std::array<std::array<std::uint32_t, 256>, 4> kLetterValues = [] {
   for (std::size_t place = 0; place < 4; ++place) {
     values[place].fill(kNoLetter);
     for (std::size_t i = 0; i < kLetters.size(); ++i)
-      values[place][static_cast<unsigned char>(kLetters[i])] = static_cast<std::uint32_t>(i)
-                                                               << (18 - 6 * place);
+      values[place][static_cast<unsigned char>(kLetters[i])] = as_uint32(i) << (18 - 6 * place);
   }
   return values;
 }();

@@ -6,6 +6,8 @@
 #include <fstream>
 #include <vector>
 
+#include "pinocchio/conversion.h"
+
 namespace pinocchio {
 
 std::optional<std::string> fingerprint(const std::filesystem::path& file) {
@@ -17,7 +19,7 @@ std::optional<std::string> fingerprint(const std::filesystem::path& file) {
   std::uint64_t size = 0;
   while (in) {
     in.read(block.data(), block.size());
-    const auto count = static_cast<std::size_t>(in.gcount());
+    const auto count = as_size(in.gcount());
     crc = libdeflate_crc32(crc, block.data(), count);
     size += count;
   }

@@ -12,6 +12,7 @@
 #include <optional>
 
 #include "core/parallel/parts.h"
+#include "pinocchio/conversion.h"
 
 namespace pinocchio {
 namespace {
@@ -76,7 +77,7 @@ Expected<FileBytes> read_open_file(int descriptor, const std::filesystem::path& 
   const std::optional<struct stat> status = in.status();
   if (!status) return fail(file, "cannot be read", "check its permissions");
   if (!S_ISREG(status->st_mode)) return fail(file, kNoFile, "name a file");
-  const auto size = static_cast<std::size_t>(status->st_size);
+  const auto size = as_size(status->st_size);
   FileBytes bytes(size);
   begin_phase(progress, "read", size);
   constexpr std::size_t kAtOnce = std::size_t{1} << 22;

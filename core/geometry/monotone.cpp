@@ -5,6 +5,8 @@
 #include <numeric>
 #include <set>
 
+#include "pinocchio/conversion.h"
+
 namespace pinocchio {
 namespace {
 
@@ -31,9 +33,7 @@ struct Crossing {
   using is_transparent = void;
   Points p;
 
-  [[nodiscard]] std::uint32_t lower_end(std::uint32_t edge) const {
-    return (edge + 1) % static_cast<std::uint32_t>(p.size());
-  }
+  [[nodiscard]] std::uint32_t lower_end(std::uint32_t edge) const { return (edge + 1) % as_uint32(p.size()); }
   // Positive: `q` is on the left of the edge.
   [[nodiscard]] double side(std::uint32_t edge, std::uint32_t q) const {
     return turn(p[lower_end(edge)], p[edge], p[q]);
@@ -61,7 +61,7 @@ class Sweep {
  public:
   explicit Sweep(Points p)
       : p_(p),
-        n_(static_cast<std::uint32_t>(p.size())),
+        n_(as_uint32(p.size())),
         status_(Crossing{p}),
         helper_(p.size()),
         in_(p.size(), status_.end()) {}
@@ -127,7 +127,7 @@ class Sweep {
 class Pieces {
  public:
   Pieces(Points p, const std::vector<Diagonal>& diagonals)
-      : p_(p), n_(static_cast<std::uint32_t>(p.size())), first_(p.size() + 1, 0) {
+      : p_(p), n_(as_uint32(p.size())), first_(p.size() + 1, 0) {
     for (std::uint32_t v = 0; v <= n_; ++v)
       first_[v] = v;  // the edge to the next corner, before its diagonals
     std::vector<std::uint32_t> count(p.size(), 0);
@@ -184,7 +184,7 @@ class Pieces {
     if ((from + 1) % n_ == at) return first_[at + 1] - 1;
     const auto begin = to_.begin() + first_[at], end = to_.begin() + first_[at + 1];
     const auto back = std::find(begin + 1, end, from);
-    return back == end ? first_[at] : static_cast<std::uint32_t>(back - to_.begin()) - 1;
+    return back == end ? first_[at] : as_uint32(back - to_.begin()) - 1;
   }
 
   Points p_;

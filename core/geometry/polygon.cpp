@@ -4,6 +4,7 @@
 #include <optional>
 
 #include "core/geometry/monotone.h"
+#include "pinocchio/conversion.h"
 
 namespace pinocchio {
 namespace {
@@ -112,7 +113,7 @@ class EarClipper {
   [[nodiscard]] std::size_t steps() const { return steps_; }
 
  private:
-  static constexpr std::size_t kNone = static_cast<std::size_t>(-1);
+  static constexpr std::size_t kNone = as_size(-1);
 
   [[nodiscard]] bool is_ear(std::size_t i) {
     const glm::dvec2 &a = p_[previous_[i]], &b = p_[i], &c = p_[next_[i]];

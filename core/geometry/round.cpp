@@ -6,6 +6,8 @@
 #include <numbers>
 #include <utility>
 
+#include "pinocchio/conversion.h"
+
 namespace pinocchio {
 namespace {
 
@@ -21,7 +23,7 @@ RoundShape octahedron() {
 }
 
 RoundShape icosahedron() {
-  constexpr auto p = static_cast<float>(std::numbers::phi);
+  constexpr auto p = as_float(std::numbers::phi);
   RoundShape shape;
   shape.normals = {{-1, p, 0},  {1, p, 0},  {-1, -p, 0}, {1, -p, 0}, {0, -1, p},  {0, 1, p},
                    {0, -1, -p}, {0, 1, -p}, {p, 0, -1},  {p, 0, 1},  {-p, 0, -1}, {-p, 0, 1}};
@@ -39,8 +41,7 @@ RoundShape icosahedron() {
 void subdivide(RoundShape& shape) {
   std::map<std::pair<std::uint32_t, std::uint32_t>, std::uint32_t> middles;
   const auto middle = [&](std::uint32_t a, std::uint32_t b) {
-    const auto [at, is_new] =
-        middles.try_emplace(std::minmax(a, b), static_cast<std::uint32_t>(shape.normals.size()));
+    const auto [at, is_new] = middles.try_emplace(std::minmax(a, b), as_uint32(shape.normals.size()));
     if (is_new) shape.normals.push_back(glm::normalize(shape.normals[a] + shape.normals[b]));
     return at->second;
   };
@@ -59,7 +60,7 @@ float reach_of_ball(const RoundShape& shape) {
     const glm::dvec3 a(shape.normals[t.x]), b(shape.normals[t.y]), c(shape.normals[t.z]);
     area += 0.5 * glm::length(glm::cross(b - a, c - a));
   }
-  return static_cast<float>(std::sqrt(4.0 * std::numbers::pi / area));
+  return as_float(std::sqrt(4.0 * std::numbers::pi / area));
 }
 
 }  // namespace
@@ -69,7 +70,7 @@ int round_detail_for(double count) {
   const double diameter_pixels = kPicture_pixels / std::sqrt(std::max(count, 1.0));
   int detail = 0;
   while (detail + 1 < std::ssize(kRoundDetails) &&
-         kRoundDetails[static_cast<std::size_t>(detail)].error * diameter_pixels > kMost_pixels)
+         kRoundDetails[as_size(detail)].error * diameter_pixels > kMost_pixels)
     ++detail;
   return detail;
 }
@@ -83,7 +84,7 @@ RoundShape round_ball(int detail) {
 }
 
 RoundShape round_tube(int detail) {
-  const RoundDetail& d = kRoundDetails[static_cast<std::size_t>(detail)];
+  const RoundDetail& d = kRoundDetails[as_size(detail)];
   RoundShape shape;
   for (const int end : {0, 1}) {
     const double side = end == 0 ? -1.0 : 1.0;  // of z, where the end's pole is
@@ -94,11 +95,10 @@ RoundShape round_tube(int detail) {
         shape.normals.emplace_back(std::cos(up) * std::cos(around), std::cos(up) * std::sin(around),
                                    side * std::sin(up));
       }
-    shape.normals.emplace_back(0.0f, 0.0f, static_cast<float>(side));
+    shape.normals.emplace_back(0.0f, 0.0f, as_float(side));
   }
   shape.ends.assign(shape.normals.size(), 0);
-  const auto sides = static_cast<std::uint32_t>(d.sides), rings = static_cast<std::uint32_t>(d.rings),
-             other = sides * rings + 1;
+  const auto sides = as_uint32(d.sides), rings = as_uint32(d.rings), other = sides * rings + 1;
   for (std::uint32_t i = 0; i < other; ++i) shape.ends[other + i] = 1;
   for (std::uint32_t i = 0; i < sides; ++i) {
     const std::uint32_t next = (i + 1) % sides;
@@ -117,7 +117,7 @@ RoundShape round_tube(int detail) {
     }
   }
   // The mean width of a prism's projections is its girth over pi.
-  shape.reach = static_cast<float>(std::numbers::pi / (d.sides * std::sin(std::numbers::pi / d.sides)));
+  shape.reach = as_float(std::numbers::pi / (d.sides * std::sin(std::numbers::pi / d.sides)));
   return shape;
 }
 

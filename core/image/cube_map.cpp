@@ -5,6 +5,7 @@
 #include <glm/gtc/constants.hpp>
 
 #include "core/parallel/workers.h"
+#include "pinocchio/conversion.h"
 
 namespace pinocchio {
 namespace {
@@ -28,7 +29,7 @@ struct Place {
 Place place_of(const glm::vec3& direction) {
   const glm::vec3 size = glm::abs(direction);
   const int axis = size.x >= size.y && size.x >= size.z ? 0 : size.y >= size.z ? 1 : 2;
-  const auto face = static_cast<std::size_t>(2 * axis + (direction[axis] < 0.0f ? 1 : 0));
+  const auto face = as_size(2 * axis + (direction[axis] < 0.0f ? 1 : 0));
   const FaceAxes& axes = kFaces[face];
   return {face, glm::vec2(glm::dot(direction, axes.right), glm::dot(direction, axes.down)) / size[axis]};
 }
@@ -39,9 +40,9 @@ const glm::vec3& texel_at(const CubeMap& cube, std::size_t face, glm::ivec2 at) 
   const auto within = [side](int i) { return i >= 0 && i < side; };
   if (within(at.x) && within(at.y)) return cube[face].at(at.x, at.y);
   const FaceAxes& axes = kFaces[face];
-  const glm::vec2 p = (2.0f * glm::vec2(at) + 1.0f) / static_cast<float>(side) - 1.0f;
+  const glm::vec2 p = (2.0f * glm::vec2(at) + 1.0f) / as_float(side) - 1.0f;
   const Place there = place_of(axes.ahead + p.x * axes.right + p.y * axes.down);
-  const glm::ivec2 texel(0.5f * (there.at + 1.0f) * static_cast<float>(side));
+  const glm::ivec2 texel(0.5f * (there.at + 1.0f) * as_float(side));
   return cube[there.face].at(std::clamp(texel.x, 0, side - 1), std::clamp(texel.y, 0, side - 1));
 }
 
@@ -49,7 +50,7 @@ const glm::vec3& texel_at(const CubeMap& cube, std::size_t face, glm::ivec2 at) 
 
 glm::vec3 cube_light(const CubeMap& cube, const glm::vec3& direction) {
   const Place place = place_of(direction);
-  const glm::vec2 at = 0.5f * (place.at + 1.0f) * static_cast<float>(cube[place.face].width()) - 0.5f;
+  const glm::vec2 at = 0.5f * (place.at + 1.0f) * as_float(cube[place.face].width()) - 0.5f;
   const glm::vec2 base = glm::floor(at), f = at - base;
   const glm::ivec2 b(base);
   const glm::vec3 top =
@@ -68,7 +69,7 @@ Image<glm::vec3> lat_long_of(int side, const std::function<glm::vec3(const glm::
     for (int x = 0; x < size.x; ++x) {
       glm::vec3 sum(0.0f);
       for (int k = 0; k < kPlaces * kPlaces; ++k) {
-        const glm::vec2 within = (glm::vec2(k % kPlaces, k / kPlaces) + 0.5f) / static_cast<float>(kPlaces);
+        const glm::vec2 within = (glm::vec2(k % kPlaces, k / kPlaces) + 0.5f) / as_float(kPlaces);
         const glm::vec2 uv = (glm::vec2(x, y) + within) / glm::vec2(size);
         // The picture's middle is +Z, a quarter of the width to its left is +X, the top row is +Y.
         const float turn = glm::two_pi<float>() * (0.5f - uv.x), down = glm::pi<float>() * uv.y;
@@ -76,7 +77,7 @@ Image<glm::vec3> lat_long_of(int side, const std::function<glm::vec3(const glm::
                                   std::sin(down) * std::cos(turn));
         sum += light(direction);
       }
-      image.at(x, y) = sum / static_cast<float>(kPlaces * kPlaces);
+      image.at(x, y) = sum / as_float(kPlaces * kPlaces);
     }
   });
   return image;

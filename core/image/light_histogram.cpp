@@ -6,6 +6,8 @@
 #include <numeric>
 #include <ranges>
 
+#include "pinocchio/conversion.h"
+
 namespace pinocchio {
 namespace {
 
@@ -30,11 +32,11 @@ LightHistogram::LightHistogram(std::span<const Sample> pixels)
 }
 
 std::vector<float> LightHistogram::by_luminance(float lo_stops, float hi_stops, int bins) const {
-  std::vector<float> counts(static_cast<std::size_t>(bins));
+  std::vector<float> counts(as_size(bins));
   for (std::size_t half = 0; half < kHalves; ++half) {
     if (luminance_[half] == 0) continue;
     const float at = (std::log2(value_of_half(half)) - lo_stops) / (hi_stops - lo_stops) * bins;
-    counts[static_cast<std::size_t>(std::clamp(at, 0.0f, static_cast<float>(bins - 1)))] += luminance_[half];
+    counts[as_size(std::clamp(at, 0.0f, as_float(bins - 1)))] += luminance_[half];
   }
   return counts;
 }
@@ -46,7 +48,7 @@ std::size_t LightHistogram::first_shown_as(std::uint8_t value, float exposure_ev
     return linear_to_srgb8(tone_mapped(glm::vec3(gain * value_of_half(half)), curve).x) < value;
   };
   const auto halves = std::views::iota(std::size_t{0}, kHalves);
-  return static_cast<std::size_t>(std::ranges::partition_point(halves, darker) - halves.begin());
+  return as_size(std::ranges::partition_point(halves, darker) - halves.begin());
 }
 
 std::size_t LightHistogram::shown_white(float exposure_ev, ToneMap curve) const {

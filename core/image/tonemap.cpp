@@ -11,6 +11,7 @@ namespace shared {
 using namespace glm;  // GLSL's names
 
 #define SHARED [[nodiscard]] inline
+#include "pinocchio/conversion.h"
 #include "shaders/shared/tone_map.glsl"
 #undef SHARED
 
@@ -51,7 +52,7 @@ struct SrgbBytes {
     // The byte of the least value with the same exponent and nine digits. The others have this byte or the
     // next.
     for (std::size_t i = 0; i < start.size(); ++i) {
-      const float least = std::bit_cast<float>(kLeast + (static_cast<std::uint32_t>(i) << kDropped));
+      const float least = std::bit_cast<float>(kLeast + (as_uint32(i) << kDropped));
       start[i] = std::upper_bound(first.begin(), first.end(), least) - first.begin() - 1;
     }
   }
@@ -109,7 +110,7 @@ void linear_to_srgb8(std::span<const glm::vec4> linear, glm::u8vec4* to) {
 }
 
 glm::vec3 tone_mapped(const glm::vec3& light, ToneMap curve) {
-  return shared::tone_mapped(light, static_cast<int>(curve));
+  return shared::tone_mapped(light, as_int(curve));
 }
 
 Image<glm::u8vec3> preview(const Image<glm::vec4>& color, float exposure_ev, ToneMap curve,

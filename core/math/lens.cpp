@@ -4,6 +4,8 @@
 #include <cmath>
 #include <glm/gtc/constants.hpp>
 
+#include "pinocchio/conversion.h"
+
 namespace pinocchio {
 namespace {
 
@@ -28,7 +30,7 @@ glm::dmat2 change_of(const LensCoefficients& c, glm::dvec2 at) {
 // Whether the model grows all the way from the axis to `at`.
 bool grows_up_to(const LensCoefficients& k, glm::dvec2 at) {
   for (int i = 1; i <= kPartsOfWay; ++i) {
-    const glm::dmat2 change = change_of(k, (static_cast<double>(i) / kPartsOfWay) * at);
+    const glm::dmat2 change = change_of(k, (as_double(i) / kPartsOfWay) * at);
     if (!(glm::determinant(change) > 0.0 && change[0][0] + change[1][1] > 0.0)) return false;
   }
   return true;

@@ -10,6 +10,7 @@
 
 #include "core/base/system_info.h"
 #include "core/trace/view/view_params.h"
+#include "pinocchio/conversion.h"
 #include "pinocchio/names.h"
 #include "pinocchio/nodes.h"
 
@@ -122,7 +123,7 @@ void add_attributes(ExrFile& exr, const FrameOutput& frame) {
         std::filesystem::path(frame.scene.environment->source()).filename().string();
   exr.attributes["pinocchio.frame"] = frame.frame;
   exr.attributes["pinocchio.time"] =
-      static_cast<float>(frame.time_s.value_or(frame.frame / static_cast<double>(frame.frames_per_second)));
+      as_float(frame.time_s.value_or(frame.frame / as_double(frame.frames_per_second)));
   if (!frame.inputs.empty()) exr.attributes["pinocchio.inputs"] = frame.inputs;
   exr.attributes["pinocchio.camera"] = frame.camera.name;
   if (frame.camera.lens_radius > 0.0f) {
@@ -138,13 +139,13 @@ void add_attributes(ExrFile& exr, const FrameOutput& frame) {
                                               std::to_string(frame.age_frames) +
                                               " frame(s) before, warped; shadow.mask and reflection are left "
                                               "out, as this frame's own were not traced yet";
-  if (frame.render_s) exr.attributes["renderTimeSeconds"] = static_cast<float>(*frame.render_s);
+  if (frame.render_s) exr.attributes["renderTimeSeconds"] = as_float(*frame.render_s);
 }
 
 }  // namespace
 
 std::vector<ExrChannel> frame_channels(const FrameOutput& frame, const AovSet& aovs, int y0, int y1) {
-  const auto count = frame.part.size().x * static_cast<std::size_t>(y1 - y0);
+  const auto count = frame.part.size().x * as_size(y1 - y0);
   FrameArrays to;
   to.mask_bytes = mask_bytes_of(frame.scene);
   std::array<std::vector<std::byte>, kLayers.size()> memory;
@@ -198,9 +199,9 @@ glm::mat4 world_to_camera(const Camera& camera) {
 glm::mat4 world_to_ndc(const Camera& camera, glm::ivec2 size) {
   const CameraAxes axes = camera_axes(camera);
   const bool parallel = camera.projection == Projection::orthographic;
-  const double height = parallel ? static_cast<double>(camera.height)
-                                 : 2.0 * std::tan(glm::radians(static_cast<double>(camera.fov_deg)) * 0.5);
-  const double aspect = static_cast<double>(size.x) / size.y;
+  const double height =
+      parallel ? as_double(camera.height) : 2.0 * std::tan(glm::radians(as_double(camera.fov_deg)) * 0.5);
+  const double aspect = as_double(size.x) / size.y;
   const double width = height * aspect * camera.pixel_aspect;
   const glm::dvec2 axis = 0.5 + glm::dvec2(camera.axis_shift) / glm::dvec2(aspect, 1.0);
   if (parallel)

@@ -7,6 +7,7 @@
 #include <thread>
 
 #include "core/parallel/workers.h"
+#include "pinocchio/conversion.h"
 
 namespace pinocchio {
 
@@ -16,8 +17,7 @@ void for_each_part(std::size_t n, std::size_t at_once, const Body& body) {
   if (n == 0) return;
   const std::size_t parts = (n - 1) / at_once + 1;
   if (parts == 1) return body(std::size_t{0}, n);
-  Workers workers(
-      static_cast<int>(std::min<std::size_t>(parts, std::max(1u, std::thread::hardware_concurrency()))));
+  Workers workers(as_int(std::min<std::size_t>(parts, std::max(1u, std::thread::hardware_concurrency()))));
   workers.for_each(parts, [&](std::size_t i) { body(i * at_once, std::min(n, (i + 1) * at_once)); });
 }
 

@@ -9,6 +9,8 @@
 #include <thread>
 #include <vector>
 
+#include "pinocchio/conversion.h"
+
 namespace pinocchio {
 
 // Worker threads that live as long as this object and take tiles of one job at a time.
@@ -21,7 +23,7 @@ class Workers {
   Workers(const Workers&) = delete;
   Workers& operator=(const Workers&) = delete;
 
-  [[nodiscard]] int count() const { return static_cast<int>(threads_.size()) + 1; }
+  [[nodiscard]] int count() const { return as_int(threads_.size()) + 1; }
 
   // Calls body(i) once for every i in [0, n), on all threads, and returns when all are done. The first
   // exception of a body reaches the caller; the rest of the job is dropped. One job at a time: callers on

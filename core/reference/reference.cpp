@@ -2,12 +2,13 @@
 
 #include "core/parallel/tiles.h"
 #include "core/trace/view/view_params.h"
+#include "pinocchio/conversion.h"
 
 namespace pinocchio {
 
 ReferencePicture reference_render(const Scene& scene, const View& view, int depth, Workers& workers,
                                   Progress* progress, TraceOptions options) {
-  const auto casting = static_cast<int>(casting_lights(scene).size());
+  const auto casting = as_int(casting_lights(scene).size());
   const glm::ivec2 size = view.box().size();
   const bool mirrors = depth > 0 || scene.environment;
   ReferencePicture picture{Image<std::uint32_t>(size), MaskImage(size, MaskImage::bits_for(casting)),
@@ -21,12 +22,12 @@ ReferencePicture reference_render(const Scene& scene, const View& view, int dept
     const ReferenceTracer::Pixel pixel = tracer.pixel(rays, x, y, depth);
     picture.ids.at(x, y) = pixel.triangle;
     for (std::size_t slot = 0; slot < pixel.mask.size(); ++slot)
-      if (pixel.mask[slot]) picture.mask.set_bit(x, y, static_cast<int>(slot));
+      if (pixel.mask[slot]) picture.mask.set_bit(x, y, as_int(slot));
     if (mirrors) picture.reflection.at(x, y) = pixel.reflection;
     picture.color.at(x, y) = pixel.color;
   };
   const TileGrid grid(size);  // a tile's row fills whole bytes of the mask
-  const auto pixels = static_cast<double>(size.x) * size.y;
+  const auto pixels = as_double(size.x) * size.y;
   workers.for_each(grid.count(), [&](std::size_t i) {
     const PixelBox tile = grid.tile(i);
     for (int y = tile.lo.y; y < tile.hi.y; ++y) {

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "pinocchio/conversion.h"
+
 namespace pinocchio {
 namespace {
 
@@ -20,8 +22,7 @@ struct Choice {
 };
 Choice choice_of(const double* sums, std::size_t count, double number) {
   const double wanted = number * sums[count - 1];
-  const auto index =
-      std::min(static_cast<std::size_t>(std::upper_bound(sums, sums + count, wanted) - sums), count - 1);
+  const auto index = std::min(as_size(std::upper_bound(sums, sums + count, wanted) - sums), count - 1);
   const double before = index == 0 ? 0.0 : sums[index - 1], own = sums[index] - before;
   return {index, (wanted - before) / own, own / sums[count - 1]};
 }

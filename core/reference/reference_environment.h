@@ -3,6 +3,7 @@
 #include <glm/glm.hpp>
 #include <vector>
 
+#include "pinocchio/conversion.h"
 #include "pinocchio/scene.h"
 
 namespace pinocchio {
@@ -14,8 +15,8 @@ class ReferenceEnvironment {
   ReferenceEnvironment(const Environment& environment, double rotation_deg, double strength);
   // The scene has an environment, which must outlive this object.
   explicit ReferenceEnvironment(const Scene& scene)
-      : ReferenceEnvironment(*scene.environment, static_cast<double>(scene.environment_rotation_deg),
-                             static_cast<double>(scene.environment_strength)) {}
+      : ReferenceEnvironment(*scene.environment, as_double(scene.environment_rotation_deg),
+                             as_double(scene.environment_strength)) {}
 
   // Linear light from a direction of any length but zero.
   [[nodiscard]] glm::dvec3 radiance(const glm::dvec3& direction) const;

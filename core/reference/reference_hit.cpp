@@ -2,6 +2,8 @@
 
 #include <cmath>
 
+#include "pinocchio/conversion.h"
+
 namespace pinocchio {
 namespace {
 
@@ -18,7 +20,7 @@ double edge_function(const glm::dvec3& p, const glm::dvec3& q) {
   if (area != 0.0) return area;
   const auto px = static_cast<long double>(p.x), py = static_cast<long double>(p.y);
   const auto qx = static_cast<long double>(q.x), qy = static_cast<long double>(q.y);
-  return static_cast<double>(px * qy - py * qx);
+  return as_double(px * qy - py * qx);
 }
 
 }  // namespace

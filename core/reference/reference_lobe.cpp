@@ -6,6 +6,8 @@
 #include <numbers>
 #include <random>
 
+#include "pinocchio/conversion.h"
+
 namespace pinocchio {
 namespace {
 
@@ -83,14 +85,14 @@ double tabulated_sheen_albedo(double n_dot_v, double alpha) {
     std::vector<double> made;
     for (int i = 0; i <= kSide; ++i)
       for (int k = 0; k <= kSide; ++k)
-        made.push_back(sheen_albedo(std::max(square(static_cast<double>(k) / kSide), 0.001),
-                                    std::max(square(static_cast<double>(i) / kSide), 0.005)));
+        made.push_back(sheen_albedo(std::max(square(as_double(k) / kSide), 0.001),
+                                    std::max(square(as_double(i) / kSide), 0.005)));
     return made;
   }();
   const double x = kSide * std::sqrt(n_dot_v), y = kSide * std::sqrt(alpha);
-  const int k = std::min(static_cast<int>(x), kSide - 1), i = std::min(static_cast<int>(y), kSide - 1);
+  const int k = std::min(as_int(x), kSide - 1), i = std::min(as_int(y), kSide - 1);
   const auto row = [&](int r) {
-    const double* const from = &table[static_cast<std::size_t>(r * (kSide + 1) + k)];
+    const double* const from = &table[as_size(r * (kSide + 1) + k)];
     return from[0] + (x - k) * (from[1] - from[0]);
   };
   return row(i) + (y - i) * (row(i + 1) - row(i));
@@ -175,7 +177,7 @@ std::vector<ReferenceLobe> reference_lobe_samples(const ReferenceSurface& s, con
     const double n_dot_l = glm::dot(facets.n, l), outside = glm::dot(s.n_geometric, l);
     if (v_dot_h <= 0.0 || n_dot_l <= 0.0) return;
     const double share =
-        shadowing(n_dot_l, n_dot_v, alpha) * v_dot_h / (n_dot_v * n_dot_h * static_cast<double>(side * side));
+        shadowing(n_dot_l, n_dot_v, alpha) * v_dot_h / (n_dot_v * n_dot_h * as_double(side * side));
     // A direction into the surface is mirrored by its plane; no other method finds it.
     if (outside > 0.0)
       samples.push_back({h, l, share, facet_density(facets.n, h, alpha) * n_dot_h / (4.0 * v_dot_h)});
@@ -187,7 +189,7 @@ std::vector<ReferenceLobe> reference_lobe_samples(const ReferenceSurface& s, con
 
 std::optional<ReferenceMeeting> reference_meeting(const Light& light, const ReferenceSurface& s,
                                                   const glm::dvec3& direction) {
-  const glm::dvec3 strength = glm::dvec3(light.color) * static_cast<double>(light.intensity);
+  const glm::dvec3 strength = glm::dvec3(light.color) * as_double(light.intensity);
   const glm::dvec3 origin = leave(s, direction);
   if (light.kind == Light::Kind::directional) {
     const double least = std::cos(glm::radians(0.5 * light.angle_deg));

@@ -7,6 +7,7 @@
 #include <random>
 
 #include "core/reference/reference_lobe.h"
+#include "pinocchio/conversion.h"
 
 namespace pinocchio {
 
@@ -92,7 +93,7 @@ void reference_cells(int side, const glm::dvec3& place, const std::function<void
   for (int y = 0; y < side; ++y)
     for (int x = 0; x < side; ++x) {
       const double v = within(random), u = within(random);  // in this order on every machine
-      use(glm::dvec2(x + u, y + v) / static_cast<double>(side));
+      use(glm::dvec2(x + u, y + v) / as_double(side));
     }
 }
 
@@ -162,7 +163,7 @@ std::vector<ReferenceLight> rectangle_light(const Light& light, const ReferenceS
 
 std::vector<ReferenceLight> reference_lights(const Light& light, const ReferenceSurface& surface,
                                              Terminator terminator) {
-  glm::dvec3 radiance = glm::dvec3(light.color) * static_cast<double>(light.intensity);
+  glm::dvec3 radiance = glm::dvec3(light.color) * as_double(light.intensity);
   if (light.kind == Light::Kind::rectangle) return rectangle_light(light, surface, radiance, terminator);
   if (light.has_size()) return round_light(light, surface, radiance, terminator);
   std::vector<ReferenceLight> point;
@@ -196,7 +197,7 @@ std::vector<ReferenceBounce> reference_lobe(const ReferenceSurface& s, const Ref
                                             int side) {
   std::vector<ReferenceBounce> rays;
   const glm::dvec3 axis = glm::normalize(mirrored.ray.direction),
-                   weight = mirrored.weight / static_cast<double>(side * side);
+                   weight = mirrored.weight / as_double(side * side);
   reference_cells(side, s.p_world, [&](const glm::dvec2& cell) {
     // The integral of (n + 1) / (2 pi) cos^n up to an angle is 1 - cos^(n + 1).
     const glm::dvec3 direction =

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "core/image/tonemap.h"
+#include "pinocchio/conversion.h"
 
 namespace pinocchio {
 namespace {
@@ -68,7 +69,7 @@ glm::dvec4 ReferenceTexture::mean(const ReferenceSpread& spread, bool is_color) 
     sum += (level + 1.0 - lod) * interpolated(at, level, is_color);
     if (lod > level) sum += (lod - level) * interpolated(at, level + 1, is_color);
   }
-  return sum / static_cast<double>(taps);
+  return sum / as_double(taps);
 }
 
 glm::dmat2x3 ReferenceTexture::point_by_texcoord() const {

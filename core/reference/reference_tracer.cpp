@@ -6,6 +6,7 @@
 
 #include "core/reference/reference_lobe.h"
 #include "core/reference/reference_shading.h"
+#include "pinocchio/conversion.h"
 
 namespace pinocchio {
 namespace {
@@ -35,7 +36,7 @@ ReferenceTracer::Cone ReferenceTracer::cone_after(const ReferenceRay& ray, const
 }
 
 ReferenceTracer::Pixel ReferenceTracer::pixel(const shared::ViewParams& view, int x, int y, int depth) const {
-  const double footprint = static_cast<double>(options_.texture_footprint);
+  const double footprint = as_double(options_.texture_footprint);
   ReferenceRay ray = reference_pixel_ray(view, x, y);
   // The angle between parallel rays is 0, which would mean that nothing is averaged.
   const double height = footprint * glm::length(glm::dvec3(view.step_y));
@@ -63,7 +64,7 @@ ReferenceTracer::Pixel ReferenceTracer::pixel(const shared::ViewParams& view, in
                                      bounced(surface, depth, cone_after(ray, hit), media, kLobeSide, 0.0));
   pixel.reflection = glm::vec3(mirrored);
   const double left = options_.background.is_transparent() ? left_behind(ray, hit, depth) : 0.0;
-  pixel.color = glm::vec4(glm::vec3(way * own.free + mirrored), static_cast<float>(1.0 - left));
+  pixel.color = glm::vec4(glm::vec3(way * own.free + mirrored), as_float(1.0 - left));
   return pixel;
 }
 
@@ -77,7 +78,7 @@ glm::dvec4 ReferenceTracer::behind(const ReferenceRay& ray) const {
 
 // The share of its light that a white matt plane loses to shadows where the ray meets it from above.
 double ReferenceTracer::lost_on_ground(const ReferenceRay& ray) const {
-  const auto height = static_cast<double>(*options_.catcher_height);
+  const auto height = as_double(*options_.catcher_height);
   if (!(ray.direction.y < 0.0 && ray.origin.y > height)) return 0.0;
   const double t = (height - ray.origin.y) / ray.direction.y;
   ReferenceSurface ground{};

@@ -9,6 +9,7 @@
 #include "core/reference/reference_surface.h"
 #include "core/reference/reference_tree.h"
 #include "core/trace/rays/trace_options.h"
+#include "pinocchio/conversion.h"
 #include "pinocchio/scene.h"
 
 namespace pinocchio {
@@ -30,8 +31,7 @@ class ReferenceTracer {
     const Backdrop behind = backdrop_of(scene, options.background, options.background_blur);
     behind_scene_ = behind.picture;
     if (behind_scene_)
-      backdrop_.emplace(*behind_scene_, static_cast<double>(behind.rotation_deg),
-                        static_cast<double>(behind.strength));
+      backdrop_.emplace(*behind_scene_, as_double(behind.rotation_deg), as_double(behind.strength));
     lobes_ = takes_samples(scene);
     for (const Material& m : scene.mesh->materials) absorbs_ = absorbs_ || m.attenuates();
   }

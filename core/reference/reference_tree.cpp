@@ -6,6 +6,7 @@
 #include <numeric>
 
 #include "core/math/components.h"
+#include "pinocchio/conversion.h"
 
 namespace pinocchio {
 namespace {
@@ -49,7 +50,7 @@ ReferenceTree::ReferenceTree(const Mesh& mesh, const Progress* progress)
 
 void ReferenceTree::build(const Progress* progress) {
   nodes_.reserve(2 * order_.size());
-  nodes_.push_back({{}, 0, static_cast<std::uint32_t>(order_.size()), 0});
+  nodes_.push_back({{}, 0, as_uint32(order_.size()), 0});
   for (std::size_t i = 0; i < nodes_.size(); ++i) {
     throw_if_cancelled(progress);
     nodes_[i].box = bounds_of(nodes_[i]);

@@ -2,6 +2,7 @@
 
 #include "core/scene/pose/pose.h"
 #include "pinocchio/animation.h"
+#include "pinocchio/conversion.h"
 #include "pinocchio/load.h"
 
 namespace pinocchio {
@@ -17,7 +18,7 @@ class Assembly {
  public:
   void add(const Part& part) {
     const Scene& scene = part.scene;
-    const int root = static_cast<int>(tree_.nodes.size());
+    const int root = as_int(tree_.nodes.size());
     Node node{part.name, -1, part.world_from_part, count(mesh_.positions), 0, count(mesh_.triangles), 0};
     if (!scene.nodes) {
       node.vertices = count(scene.mesh->positions);
@@ -46,14 +47,14 @@ class Assembly {
     const AttachedPlaces places = attached_places(rest_, result_);
     for (std::size_t n = 0; n < world.size(); ++n) {
       const Placement placement(world[n]);
-      place_attached(rest_, places, static_cast<int>(n), placement, result_);
+      place_attached(rest_, places, as_int(n), placement, result_);
       if (deforms[n]) continue;
       place_vertices(tree_.nodes[n], placement, rest_, mesh_);
       if (placement.mirrors() != mirrored_[n]) turn_around(tree_.nodes[n], mesh_);
     }
     tree_.rest = std::make_shared<const RestPose>(std::move(rest_));
     for (std::size_t d = 0; d < tree_.rest->deformations.size(); ++d) {
-      const auto n = static_cast<std::size_t>(tree_.rest->deformations[d].node);
+      const auto n = as_size(tree_.rest->deformations[d].node);
       const Deformer deformer(tree_, d, world);
       deformer.place(mesh_);
       if (deformer.mirrors() != mirrored_[n]) turn_around(tree_.nodes[n], mesh_);
@@ -69,7 +70,7 @@ class Assembly {
  private:
   template <class T>
   static std::uint32_t count(const std::vector<T>& of) {
-    return static_cast<std::uint32_t>(of.size());
+    return as_uint32(of.size());
   }
 
   void add_nodes(const NodeTree& tree, int root) {
@@ -91,7 +92,7 @@ class Assembly {
       rest_.copies.push_back(copy);
     }
     for (const MeshCopy& copy : rest_.copies) meshes_ = std::max(meshes_, copy.mesh + 1);
-    const int skins = static_cast<int>(rest_.skins.size());
+    const int skins = as_int(rest_.skins.size());
     for (Skin skin : tree.rest->skins) {
       for (int& joint : skin.joints) joint += root + 1;
       rest_.skins.push_back(std::move(skin));
@@ -136,8 +137,8 @@ class Assembly {
   void add_mesh(const Mesh& mesh, const RestPose* rest) {
     if (!rest) mirrored_.push_back(false);
     const auto vertices = count(mesh_.positions), materials = count(mesh_.materials);
-    const auto textures = static_cast<int>(mesh_.textures.size());
-    const auto maps = static_cast<int>(mesh_.maps.size());
+    const auto textures = as_int(mesh_.textures.size());
+    const auto maps = as_int(mesh_.maps.size());
     append(mesh.positions, mesh_.positions);
     append(mesh.normals, mesh_.normals);
     append(rest ? rest->positions : mesh.positions, rest_.positions);

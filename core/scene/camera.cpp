@@ -4,6 +4,7 @@
 #include <glm/gtc/constants.hpp>
 
 #include "core/math/lens.h"
+#include "pinocchio/conversion.h"
 
 namespace pinocchio {
 
@@ -18,9 +19,9 @@ CameraAxes camera_axes(const Camera& camera) {
 
 Camera with_intrinsics(Camera camera, const Intrinsics& k, glm::ivec2 size) {
   const glm::dvec2 full(size);
-  camera.fov_deg = static_cast<float>(glm::degrees(
+  camera.fov_deg = as_float(glm::degrees(
       camera.projection == Projection::fisheye ? full.y / k.fy : 2.0 * std::atan(0.5 * full.y / k.fy)));
-  camera.pixel_aspect = static_cast<float>(k.fy / k.fx);
+  camera.pixel_aspect = as_float(k.fy / k.fx);
   camera.axis_shift = glm::vec2((glm::dvec2(k.cx, k.cy) + 0.5 - 0.5 * full) / full.y);
   return camera;
 }
@@ -28,7 +29,7 @@ Camera with_intrinsics(Camera camera, const Intrinsics& k, glm::ivec2 size) {
 Intrinsics intrinsics_of(const Camera& camera, glm::ivec2 size) {
   const glm::dvec2 full(size);
   const double fy = camera.projection == Projection::fisheye
-                        ? full.y / glm::radians(static_cast<double>(camera.fov_deg))
+                        ? full.y / glm::radians(as_double(camera.fov_deg))
                         : 0.5 * full.y / std::tan(glm::radians(0.5 * camera.fov_deg));
   const glm::dvec2 center = 0.5 * full - 0.5 + glm::dvec2(camera.axis_shift) * full.y;
   return {fy / camera.pixel_aspect, fy, center.x, center.y};
@@ -76,7 +77,7 @@ std::optional<glm::dvec2> pixel_of(const Camera& camera, glm::ivec2 size, const 
       return fisheye_pixel(camera, size, p);
     case Projection::orthographic: {
       if (!(p.z > 0.0)) return std::nullopt;
-      const double fy = full.y / static_cast<double>(camera.height), fx = fy / camera.pixel_aspect;
+      const double fy = full.y / as_double(camera.height), fx = fy / camera.pixel_aspect;
       return glm::dvec2(fx, fy) * glm::dvec2(p) + 0.5 * full - 0.5 + glm::dvec2(camera.axis_shift) * full.y;
     }
     case Projection::panorama: {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <limits>
 
+#include "pinocchio/conversion.h"
 #include "pinocchio/nodes.h"
 
 namespace pinocchio {
@@ -28,7 +29,7 @@ MeshData part_of(const Mesh& mesh, const std::vector<bool>& wanted) {
     for (int corner = 0; corner < 3; ++corner) {
       std::uint32_t& place = place_of[triangle[corner]];
       if (place == kNew) {
-        place = static_cast<std::uint32_t>(vertices.size());
+        place = as_uint32(vertices.size());
         vertices.push_back(triangle[corner]);
       }
       triangle[corner] = place;
@@ -57,14 +58,14 @@ Expected<Scene> extracted(const Scene& scene, std::span<const int> nodes, bool w
   const std::size_t count = scene.nodes ? scene.nodes->nodes.size() : 0;
   std::vector<bool> taken(count, false);
   for (const int node : nodes) {
-    if (node < 0 || static_cast<std::size_t>(node) >= count)
+    if (node < 0 || as_size(node) >= count)
       return fail("there is no node " + std::to_string(node), "there are " + std::to_string(count));
-    taken[static_cast<std::size_t>(node)] = true;
+    taken[as_size(node)] = true;
   }
   std::vector<bool> wanted(scene.mesh->triangles.size(), false);
   for (std::size_t n = 0; n < count; ++n) {
     const Node& node = scene.nodes->nodes[n];
-    if (with_children && node.parent >= 0 && taken[static_cast<std::size_t>(node.parent)]) taken[n] = true;
+    if (with_children && node.parent >= 0 && taken[as_size(node.parent)]) taken[n] = true;
     if (taken[n]) std::fill_n(wanted.begin() + node.first_triangle, node.triangles, true);
   }
   if (std::ranges::none_of(wanted, [](bool is) { return is; }))

@@ -9,6 +9,7 @@
 #include "core/parallel/parts.h"
 #include "core/scene/formats.h"
 #include "core/scene/up_axis.h"
+#include "pinocchio/conversion.h"
 
 namespace pinocchio {
 namespace {
@@ -44,9 +45,7 @@ bool one_each_or_none(const std::vector<T>& of_vertices, const Mesh& mesh) {
 }
 
 bool names_known_textures(const MaterialMaps& m, const Mesh& mesh) {
-  const auto known = [&](const TextureUse* use) {
-    return use->texture < static_cast<int>(mesh.textures.size());
-  };
+  const auto known = [&](const TextureUse* use) { return use->texture < as_int(mesh.textures.size()); };
   return std::ranges::all_of(m.uses(), known);
 }
 
@@ -165,7 +164,7 @@ Expected<void> check_scene(const Scene& scene) {
     if (!is_finite(glm::vec3(mesh.tangents[i])) || !std::isfinite(mesh.tangents[i].w))
       return no_number("the tangent of vertex ", i);
   for (const Material& m : mesh.materials)
-    if (m.maps >= static_cast<int>(mesh.maps.size()))
+    if (m.maps >= as_int(mesh.maps.size()))
       return fail("material '" + m.name + "' names texture maps that do not exist", "export it again");
   if (!std::all_of(mesh.maps.begin(), mesh.maps.end(),
                    [&](const auto& m) { return names_known_textures(m, mesh); }))

@@ -4,6 +4,7 @@
 
 #include "core/parallel/parts.h"
 #include "core/scene/mip_levels.h"
+#include "pinocchio/conversion.h"
 
 namespace pinocchio {
 namespace {
@@ -43,7 +44,7 @@ Bounds bounds_of(const MeshData& mesh) {
 
 MaterialMaps& make_maps(MeshData& mesh, Material& material) {
   if (material.maps < 0) {
-    material.maps = static_cast<int>(mesh.maps.size());
+    material.maps = as_int(mesh.maps.size());
     mesh.maps.emplace_back();
   }
   return mesh.maps[material.maps];

@@ -6,6 +6,7 @@
 
 #include "core/image/tonemap.h"
 #include "core/parallel/workers.h"
+#include "pinocchio/conversion.h"
 
 namespace pinocchio {
 namespace {
@@ -45,12 +46,12 @@ glm::vec4 mean_of_four(const glm::vec4& a, const glm::vec4& b, const glm::vec4& 
 // Half as wide: each pixel is the mean of the stretch that it covers, also for odd widths.
 Level half_as_wide(const Level& from) {
   const int width = std::max(from.width() / 2, 1);
-  const float stretch = from.width() / static_cast<float>(width);
+  const float stretch = from.width() / as_float(width);
   Level to({width, from.height()});
   for (int x = 0; x < width; ++x) {
     const float begin = stretch * x, end = begin + stretch;
-    for (int k = static_cast<int>(begin); k < from.width() && k < end; ++k) {
-      const auto left = static_cast<float>(k);
+    for (int k = as_int(begin); k < from.width() && k < end; ++k) {
+      const auto left = as_float(k);
       const float share = (std::min(end, left + 1.0f) - std::max(begin, left)) / stretch;
       for (int y = 0; y < to.height(); ++y) to.at(x, y) += share * from.at(k, y);
     }
@@ -96,7 +97,7 @@ class LevelWriter {
     for (int k = 1; k <= halvings; ++k) {
       const glm::ivec2 size = texture_.texels.size() / (1 << k);
       first_[k] = at;
-      at += size.x * static_cast<std::size_t>(size.y);
+      at += size.x * as_size(size.y);
     }
     texture_.smaller_levels.resize(at);
     Level last(texture_.texels.size() / side);
@@ -129,14 +130,13 @@ class LevelWriter {
       const int width = texture_.texels.width() >> k;
       for (int y = 0; y < side; ++y) {
         glm::u8vec4* const to =
-            &texture_.smaller_levels[first_[k] +
-                                     static_cast<std::size_t>((block.y * side + y) * width + block.x * side)];
+            &texture_.smaller_levels[first_[k] + as_size((block.y * side + y) * width + block.x * side)];
         const glm::vec4* const from = &texels_[4 * y * side];
         glm::vec4* const means = &texels_[y * side];
         for (int x = 0; x < side; ++x)  // in place: reads are ahead of writes
           means[x] =
               mean_of_four(from[2 * x], from[2 * x + 1], from[2 * side + 2 * x], from[2 * side + 2 * x + 1]);
-        encode({means, static_cast<std::size_t>(side)}, is_color_, to);
+        encode({means, as_size(side)}, is_color_, to);
       }
     }
     return texels_[0];
@@ -158,7 +158,7 @@ std::vector<Needed> needed_of(const MeshData& mesh) {
   std::vector<Needed> needed(mesh.textures.size());
   for (const MaterialMaps& m : mesh.maps)
     for (const TextureUse* use : m.uses())
-      if (use != &m.alpha && use->used() && static_cast<std::size_t>(use->texture) < needed.size()) {
+      if (use != &m.alpha && use->used() && as_size(use->texture) < needed.size()) {
         Needed& n = needed[use->texture];
         n.levels = true;
         n.is_color = n.is_color || use == &m.base_color || use == &m.emissive || use == &m.specular_color ||

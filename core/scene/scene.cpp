@@ -4,13 +4,14 @@
 #include <cmath>
 
 #include "core/scene/light_reach.h"
+#include "pinocchio/conversion.h"
 
 namespace pinocchio {
 
 std::vector<int> casting_lights(const Scene& scene) {
   std::vector<int> casting;
   for (std::size_t i = 0; i < scene.lights.size(); ++i)
-    if (scene.lights[i].casts_shadow) casting.push_back(static_cast<int>(i));
+    if (scene.lights[i].casts_shadow) casting.push_back(as_int(i));
   return casting;
 }
 

@@ -6,6 +6,7 @@
 #include "core/geometry/round.h"
 #include "core/math/finite.h"
 #include "core/scene/formats.h"
+#include "pinocchio/conversion.h"
 
 namespace pinocchio {
 namespace {
@@ -37,7 +38,7 @@ class StrokeMaker {
     const float radius = 0.5f * (stroke.is_point ? how_.points : how_.lines).diameter;
     const RoundShape& shape = is_line ? tube_ : ball_;  // a line of no length is a ball
     const glm::mat3 frame = is_line ? frame_along(along / length) : glm::mat3(1.0f);
-    const auto first = static_cast<std::uint32_t>(to_.positions.size());
+    const auto first = as_uint32(to_.positions.size());
     for (std::size_t i = 0; i < shape.normals.size(); ++i) {
       const std::uint32_t source = shape.ends[i] == 0 ? stroke.begin : stroke.end;
       const glm::vec3 normal = frame * shape.normals[i], offset = radius * shape.reach * normal;
@@ -67,7 +68,7 @@ Expected<void> take_strokes(const std::string& file, double points, double lines
   // A vertex of the mesh and while it is made, a triangle with its share of the tree (measured).
   constexpr double kVertexBytes = 128.0, kTriangleBytes = 160.0;
   loading.strokes.detail = round_detail_for(points + lines);
-  const RoundDetail& detail = kRoundDetails[static_cast<std::size_t>(loading.strokes.detail)];
+  const RoundDetail& detail = kRoundDetails[as_size(loading.strokes.detail)];
   const double triangles = points * detail.ball_triangles + lines * detail.tube_triangles(),
                vertices = points * detail.ball_vertices + lines * detail.tube_vertices();
   constexpr double kMost = 9e18;  // fits 64 bits

@@ -5,6 +5,7 @@
 
 #include "core/image/tonemap.h"
 #include "core/shade/mapped_material.h"
+#include "pinocchio/conversion.h"
 
 namespace pinocchio {
 namespace {
@@ -18,7 +19,7 @@ bool is_readable(const Mesh& mesh, const TextureUse& use) {
 }
 
 const Texture& texture_of(const Mesh& mesh, const TextureUse& use) {
-  return mesh.textures[static_cast<std::size_t>(use.texture)];
+  return mesh.textures[as_size(use.texture)];
 }
 
 bool share_place(const Mesh& mesh, const TextureUse& a, const TextureUse& b) {
@@ -63,8 +64,8 @@ TexturePlace texture_place(const Mesh& mesh, const TextureUse& use) {
   glm::ivec2 size = texture.texels.size();
   std::uint32_t first = 0;
   for (int i = 0; i < place.levels; ++i) {
-    place.level[i] = {first, static_cast<float>(size.x), static_cast<float>(size.y)};
-    if (i > 0) first += static_cast<std::uint32_t>(size.x) * static_cast<std::uint32_t>(size.y);
+    place.level[i] = {first, as_float(size.x), as_float(size.y)};
+    if (i > 0) first += as_uint32(size.x) * as_uint32(size.y);
     size = glm::max(size / 2, glm::ivec2(1));
   }
   place.wrap_u = use.wrap_u;

@@ -3,12 +3,13 @@
 
 #include "core/shade/mapped_material.h"
 #include "core/shade/shared_maps.h"
+#include "pinocchio/conversion.h"
 
 namespace pinocchio {
 
-static_assert(static_cast<int>(Wrap::repeat) == shared::texels::kWrapRepeat &&
-              static_cast<int>(Wrap::mirror) == shared::texels::kWrapMirror &&
-              static_cast<int>(Wrap::clamp) == shared::texels::kWrapClamp);
+static_assert(as_int(Wrap::repeat) == shared::texels::kWrapRepeat &&
+              as_int(Wrap::mirror) == shared::texels::kWrapMirror &&
+              as_int(Wrap::clamp) == shared::texels::kWrapClamp);
 
 template <class T>
 [[nodiscard]] T weighted(const std::vector<T>& of_vertices, const glm::uvec3& corners,
@@ -18,15 +19,15 @@ template <class T>
 }
 
 [[nodiscard]] inline shared::texels::TextureParams params_of(const Mesh& mesh, const TextureUse& use) {
-  const Texture& texture = mesh.textures[static_cast<std::size_t>(use.texture)];
+  const Texture& texture = mesh.textures[as_size(use.texture)];
   const int count = texture.texels.width() * texture.texels.height();
   return {{texture.texels.pixels().data(), texture.smaller_levels.data(), count, linear_from_srgb8().data()},
           texture.texels.size(),
           texture.levels(),
           use.uv_set,
           use.uv_from_texcoord,
-          static_cast<int>(use.wrap_u),
-          static_cast<int>(use.wrap_v),
+          as_int(use.wrap_u),
+          as_int(use.wrap_v),
           use.nearest};
 }
 
@@ -56,7 +57,7 @@ class Lookup {
 
   [[nodiscard]] shared::texels::TexturePoint point_on(const TextureUse& use) const {
     shared::texels::TexturePoint where{coordinate(use), glm::vec2(0.0f), glm::vec2(0.0f)};
-    if (filters_ && mesh_.textures[static_cast<std::size_t>(use.texture)].levels() > 1) {
+    if (filters_ && mesh_.textures[as_size(use.texture)].levels() > 1) {
       const Edges e = edges(use);
       where.change_x = shared::uv_change(moved_x_, e.ab, e.ac);
       where.change_y = shared::uv_change(moved_y_, e.ab, e.ac);

@@ -1,13 +1,14 @@
 #include "core/shade/mapped_material.h"
 
 #include "core/shade/shared_maps.h"
+#include "pinocchio/conversion.h"
 
 namespace pinocchio {
 namespace {
 
-static_assert(static_cast<int>(AlphaMode::opaque) == shared::kAlphaOpaque &&
-              static_cast<int>(AlphaMode::mask) == shared::kAlphaMask &&
-              static_cast<int>(AlphaMode::blend) == shared::kAlphaBlend);
+static_assert(as_int(AlphaMode::opaque) == shared::kAlphaOpaque &&
+              as_int(AlphaMode::mask) == shared::kAlphaMask &&
+              as_int(AlphaMode::blend) == shared::kAlphaBlend);
 
 }  // namespace
 

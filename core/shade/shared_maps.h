@@ -44,10 +44,8 @@ struct TexelSource {
 [[nodiscard, gnu::always_inline]] inline vec4 texel_at(const TexelSource& source, int i, bool is_color) {
   const glm::u8vec4& t =
       i < source.first_count ? source.first_level[i] : source.others[i - source.first_count];
-  const auto a = static_cast<float>(t.a);
-  if (!is_color)
-    return vec4(Channels{static_cast<float>(t.r), static_cast<float>(t.g), static_cast<float>(t.b), a} /
-                255.0f);
+  const auto a = as_float(t.a);
+  if (!is_color) return vec4(Channels{as_float(t.r), as_float(t.g), as_float(t.b), a} / 255.0f);
   const float* const linear = source.linear_from_srgb8;
   return vec4(Channels{linear[t.r], linear[t.g], linear[t.b], a / 255.0f});
 }
@@ -60,6 +58,7 @@ struct TexelSource {
 }  // namespace texels
 
 #define SHARED [[nodiscard]] inline
+#include "pinocchio/conversion.h"
 #include "shaders/shared/maps.glsl"
 #undef SHARED
 

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "core/math/components.h"
+#include "pinocchio/conversion.h"
 
 namespace pinocchio {
 
@@ -15,8 +16,8 @@ BareSurface bare_surface_at(const Mesh& mesh, std::uint32_t id, const glm::vec3&
 
   BareSurface s;
   s.to_viewer = -glm::normalize(direction);
-  s.p_exact = glm::dvec3(a) + static_cast<double>(weights.y) * (glm::dvec3(b) - glm::dvec3(a)) +
-              static_cast<double>(weights.z) * (glm::dvec3(c) - glm::dvec3(a));
+  s.p_exact = glm::dvec3(a) + as_double(weights.y) * (glm::dvec3(b) - glm::dvec3(a)) +
+              as_double(weights.z) * (glm::dvec3(c) - glm::dvec3(a));
   s.p_world = glm::vec3(s.p_exact);
   const glm::vec3 n_geometric = shared::geometric_normal(b - a, c - a, s.to_viewer);
   const glm::vec3 n_shading = shared::shading_normal(
@@ -53,13 +54,13 @@ glm::vec3 offset_origin(const BareSurface& surface, const glm::vec3& direction) 
 }
 
 shared::LightParams light_params(const Light& light) {
-  static_assert(static_cast<int>(Light::Kind::spot) == shared::kLightSpot &&
-                static_cast<int>(Light::Kind::rectangle) == shared::kLightRectangle);
+  static_assert(as_int(Light::Kind::spot) == shared::kLightSpot &&
+                as_int(Light::Kind::rectangle) == shared::kLightRectangle);
   const bool directional = light.kind == Light::Kind::directional,
              rectangle = light.kind == Light::Kind::rectangle;
   // 1 - cos a is 2 sin^2 (a / 2): not lost to rounding for a disc like the sun's.
   const float quarter = std::sin(glm::radians(0.25f * light.angle_deg));
-  return {static_cast<int>(light.kind),
+  return {as_int(light.kind),
           light.falloff == Light::Falloff::inverse_square,
           light.position,
           light.direction,

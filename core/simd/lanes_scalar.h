@@ -5,6 +5,7 @@
 #include <cstdint>
 
 #include "core/simd/isas.h"
+#include "pinocchio/conversion.h"
 
 namespace pinocchio::PINOCCHIO_LANES {
 namespace {
@@ -30,7 +31,7 @@ struct Native {
   static float sqrt(float a) { return __builtin_sqrtf(a); }
   static float floor(float a) { return __builtin_floorf(a); }
   static float select(bool m, float yes, float no) { return m ? yes : no; }
-  static float to_float(std::int32_t a) { return static_cast<float>(a); }
+  static float to_float(std::int32_t a) { return as_float(a); }
   static std::int32_t to_int(float a) {
     return a >= -0x1p31f && a < 0x1p31f ? static_cast<std::int32_t>(a) : INT32_MIN;
   }
@@ -48,7 +49,7 @@ struct Native {
     return __builtin_bit_cast(double, __builtin_bit_cast(std::uint64_t, a) << 52);
   }
   static void widen(float a, double (&out)[1]) { out[0] = a; }
-  static float narrow(const double (&a)[1]) { return static_cast<float>(a[0]); }
+  static float narrow(const double (&a)[1]) { return as_float(a[0]); }
 };
 
 }  // namespace

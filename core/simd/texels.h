@@ -11,6 +11,8 @@
 #include <cstddef>
 #include <cstdint>
 
+#include "pinocchio/conversion.h"
+
 namespace pinocchio::PINOCCHIO_LANES {
 namespace {
 
@@ -33,7 +35,7 @@ inline std::uint32_t texel_bits(const void* from, std::uint32_t i) {
 inline constexpr float kBy255 = 0x1.01p-8f, kBy255Rest = 0x1.010102p-24f;
 constexpr bool is_exact() {
   for (int c = 0; c < 256; ++c) {
-    const auto x = static_cast<float>(c);
+    const auto x = as_float(c);
     if (x * kBy255 + x * kBy255Rest != x / 255.0f) return false;
   }
   return true;
@@ -42,13 +44,13 @@ static_assert(is_exact());
 
 inline TexelRow bytes_of(std::uint32_t bits) {
 #if defined(__SSE4_1__)
-  return TexelRow(_mm_cvtepi32_ps(_mm_cvtepu8_epi32(_mm_cvtsi32_si128(static_cast<int>(bits)))));
+  return TexelRow(_mm_cvtepi32_ps(_mm_cvtepu8_epi32(_mm_cvtsi32_si128(as_int(bits)))));
 #elif defined(__ARM_NEON)
   const uint8x8_t bytes = vreinterpret_u8_u32(vdup_n_u32(bits));
   return TexelRow(vcvtq_f32_u32(vmovl_u16(vget_low_u16(vmovl_u8(bytes)))));
 #else
-  return TexelRow{static_cast<float>(bits & 255u), static_cast<float>(bits >> 8 & 255u),
-                  static_cast<float>(bits >> 16 & 255u), static_cast<float>(bits >> 24)};
+  return TexelRow{as_float(bits & 255u), as_float(bits >> 8 & 255u), as_float(bits >> 16 & 255u),
+                  as_float(bits >> 24)};
 #endif
 }
 

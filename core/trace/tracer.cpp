@@ -11,6 +11,7 @@
 #include "core/trace/lanes/lane_steps.h"
 #include "core/trace/rays/ray_sorter.h"
 #include "core/trace/walk/kernels.h"
+#include "pinocchio/conversion.h"
 #include "pinocchio/error.h"
 
 namespace pinocchio {
@@ -43,7 +44,7 @@ const IsaEntry& entry_of(Isa isa) {
 }
 
 const Kernel& kernel_of(Isa isa, TriangleTest test) {
-  return entry_of(isa).kernels[static_cast<std::size_t>(test)];
+  return entry_of(isa).kernels[as_size(test)];
 }
 
 Isa checked_isa(std::optional<Isa> wanted) {

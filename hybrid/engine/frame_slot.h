@@ -14,6 +14,7 @@
 #include "hybrid/frame/samples.h"
 #include "hybrid/gpu/gpu_mesh.h"
 #include "hybrid/gpu/shading_passes.h"
+#include "pinocchio/conversion.h"
 #include "pinocchio/engine.h"
 #include "pinocchio/renderer.h"
 #include "pinocchio/scene.h"
@@ -70,10 +71,8 @@ struct FrameSlot : CpuImages {
   std::vector<ChannelLayout> layout;  // channels that travel for it
 
   std::vector<ChannelBuffer> buffers;  // by channel
-  [[nodiscard]] ChannelBuffer& operator[](Channel c) { return buffers[static_cast<std::size_t>(c)]; }
-  [[nodiscard]] const ChannelBuffer& operator[](Channel c) const {
-    return buffers[static_cast<std::size_t>(c)];
-  }
+  [[nodiscard]] ChannelBuffer& operator[](Channel c) { return buffers[as_size(c)]; }
+  [[nodiscard]] const ChannelBuffer& operator[](Channel c) const { return buffers[as_size(c)]; }
 
   // GPU: the scene under this frame's lights.
   std::shared_ptr<const GpuMesh> mesh;

@@ -7,6 +7,7 @@
 
 #include "hybrid/exchange/encode.h"
 #include "hybrid/exchange/reflection_tiles.h"
+#include "pinocchio/conversion.h"
 
 namespace pinocchio {
 namespace {
@@ -24,7 +25,7 @@ using Bytes = std::span<const std::byte>;
 using Writable = std::span<std::byte>;
 
 ChannelTexture whole(const gl::PixelFormat& texel, glm::ivec2 texels) {
-  const auto count = static_cast<std::size_t>(texels.x) * static_cast<std::size_t>(texels.y);
+  const auto count = as_size(texels.x) * as_size(texels.y);
   return {.texel = texel, .texels = texels, .most_bytes = count * texel.bytes};
 }
 
@@ -50,11 +51,10 @@ void encode_mask(CpuImages& from, S s, Workers&, Writable to) {
     std::memcpy(to.data(), mask.bytes().data(), to.size());
     return;
   }
-  const auto bytes = static_cast<std::size_t>(s.mask_bits / 8),
-             width = static_cast<std::size_t>(mask.size().x);
+  const auto bytes = as_size(s.mask_bits / 8), width = as_size(mask.size().x);
   for (int y = 0; y < mask.size().y; ++y)
     mask.copy_row(0, y, width, bytes,
-                  reinterpret_cast<std::uint8_t*>(to.data()) + static_cast<std::size_t>(y) * width * bytes);
+                  reinterpret_cast<std::uint8_t*>(to.data()) + as_size(y) * width * bytes);
 }
 
 // In tiles it ends in a texture of whole tiles, and an index travels before them.
@@ -116,14 +116,14 @@ constexpr std::array<ChannelRow, kChannelNames.size()> kRows{{
 }};
 static_assert([] {
   for (std::size_t i = 0; i < kRows.size(); ++i)
-    if (static_cast<std::size_t>(kRows[i].channel) != i) return false;
+    if (as_size(kRows[i].channel) != i) return false;
   return true;
 }());
 
 }  // namespace
 
 const ChannelRow& channel_row(Channel channel) {
-  return kRows[static_cast<std::size_t>(channel)];
+  return kRows[as_size(channel)];
 }
 
 std::vector<ChannelLayout> channels_of(const Settings& s, glm::ivec2 size) {

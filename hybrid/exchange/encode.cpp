@@ -8,6 +8,7 @@
 #include <cstring>
 
 #include "core/image/tonemap.h"
+#include "pinocchio/conversion.h"
 
 namespace pinocchio {
 namespace {
@@ -25,9 +26,8 @@ float from_half_bits(std::uint16_t bits) {
 // Calls body(first, end) with each row's range of pixels, on all threads.
 template <class Body>
 void for_each_row(glm::ivec2 size, Workers& workers, Body body) {
-  const auto width = static_cast<std::size_t>(size.x);
-  workers.for_each(static_cast<std::size_t>(size.y),
-                   [&](std::size_t row) { body(row * width, (row + 1) * width); });
+  const auto width = as_size(size.x);
+  workers.for_each(as_size(size.y), [&](std::size_t row) { body(row * width, (row + 1) * width); });
 }
 
 // The conversion of OpenGL's EXT_texture_shared_exponent: the exponent is the brightest colour's.
@@ -37,11 +37,10 @@ std::uint32_t rgb9e5_bits(const glm::vec3& light) {
   const glm::vec3 c = glm::clamp(light, 0.0f, kLargest);
   int exponent = std::max(-kBias - 1, std::ilogb(std::max({c.r, c.g, c.b, 0x1p-30f}))) + 1 + kBias;
   const auto mantissa = [&](float v) {
-    return static_cast<std::uint32_t>(std::floor(std::ldexp(v, kMantissaBits + kBias - exponent) + 0.5f));
+    return as_uint32(std::floor(std::ldexp(v, kMantissaBits + kBias - exponent) + 0.5f));
   };
   if (mantissa(std::max({c.r, c.g, c.b})) == 1u << kMantissaBits) ++exponent;
-  return mantissa(c.r) | mantissa(c.g) << 9u | mantissa(c.b) << 18u |
-         static_cast<std::uint32_t>(exponent) << 27u;
+  return mantissa(c.r) | mantissa(c.g) << 9u | mantissa(c.b) << 18u | as_uint32(exponent) << 27u;
 }
 
 void pack_srgb8(std::span<const glm::vec3> radiance, std::byte* to) {
@@ -84,7 +83,7 @@ IdFormat id_format(int id_bits) {
 }
 
 void unpack_ids(std::span<const std::byte> bytes, int id_bits, Image<std::uint32_t>& ids) {
-  assert(bytes.size() == ids.pixels().size() * static_cast<std::size_t>(id_bits / 8));
+  assert(bytes.size() == ids.pixels().size() * as_size(id_bits / 8));
   if (id_bits == 32) {
     std::memcpy(ids.pixels().data(), bytes.data(), bytes.size());
   } else if (id_bits == 16) {
@@ -94,7 +93,7 @@ void unpack_ids(std::span<const std::byte> bytes, int id_bits, Image<std::uint32
   } else {
     const auto* b = reinterpret_cast<const std::uint8_t*>(bytes.data());
     for (std::uint32_t& id : ids.pixels()) {
-      id = b[0] | static_cast<std::uint32_t>(b[1]) << 8 | static_cast<std::uint32_t>(b[2]) << 16;
+      id = b[0] | as_uint32(b[1]) << 8 | as_uint32(b[2]) << 16;
       if (id == 0xffffffu) id = 0xffffffffu;
       b += 3;
     }
@@ -108,7 +107,7 @@ void unpack_gbuffer_ids(std::span<const std::byte> bytes, Image<std::uint32_t>& 
 }
 
 void pack_ids(const Image<std::uint32_t>& ids, int id_bits, std::span<std::byte> bytes) {
-  const auto id_bytes = static_cast<std::size_t>(id_bits / 8);
+  const auto id_bytes = as_size(id_bits / 8);
   assert(bytes.size() == ids.pixels().size() * id_bytes);
   std::byte* to = bytes.data();
   for (const std::uint32_t id : ids.pixels()) {  // "none" is all ones in any number of bits
@@ -118,17 +117,17 @@ void pack_ids(const Image<std::uint32_t>& ids, int id_bits, std::span<std::byte>
 }
 
 const Packing& packing(ReflectionFormat format) {
-  return kPackings[static_cast<std::size_t>(format)];
+  return kPackings[as_size(format)];
 }
 
 int bytes_per_pixel(ReflectionFormat format) {
   const Packing& pack = packing(format);
-  return pack.texels * static_cast<int>(pack.texel.bytes);
+  return pack.texels * as_int(pack.texel.bytes);
 }
 
 void pack_radiance(const Image<glm::vec3>& radiance, ReflectionFormat format, Workers& workers,
                    std::span<std::byte> bytes) {
-  const auto pixel_bytes = static_cast<std::size_t>(bytes_per_pixel(format));
+  const auto pixel_bytes = as_size(bytes_per_pixel(format));
   assert(bytes.size() == radiance.pixels().size() * pixel_bytes);
   for_each_row(radiance.size(), workers, [&](std::size_t first, std::size_t end) {
     packing(format).pack({&radiance[first], end - first}, bytes.data() + first * pixel_bytes);
@@ -151,7 +150,7 @@ void unpack_picture(std::span<const std::byte> bytes, Image<glm::vec4>& color) {
   assert(bytes.size() == color.pixels().size() * 4 * sizeof(std::uint16_t));
   const auto* halves = reinterpret_cast<const std::uint16_t*>(bytes.data());
   for (std::size_t i = 0; i < color.pixels().size(); ++i)
-    for (std::size_t c = 0; c < 4; ++c) color[i][static_cast<int>(c)] = from_half_bits(halves[4 * i + c]);
+    for (std::size_t c = 0; c < 4; ++c) color[i][as_int(c)] = from_half_bits(halves[4 * i + c]);
 }
 
 }  // namespace pinocchio

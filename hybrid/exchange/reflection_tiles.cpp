@@ -5,12 +5,13 @@
 
 #include "core/parallel/tiles.h"
 #include "hybrid/exchange/encode.h"
+#include "pinocchio/conversion.h"
 
 namespace pinocchio {
 namespace {
 
 PixelBox box_of(std::size_t tile, int columns, glm::ivec2 size) {
-  const glm::ivec2 cell(static_cast<int>(tile) % columns, static_cast<int>(tile) / columns);
+  const glm::ivec2 cell(as_int(tile) % columns, as_int(tile) / columns);
   const glm::ivec2 lo = cell * kReflectionTile;
   return {lo, glm::min(lo + kReflectionTile, size)};
 }
@@ -27,14 +28,14 @@ bool has_light(const Image<glm::vec3>& radiance, const PixelBox& box) {
 std::size_t most_tile_bytes(glm::ivec2 size, ReflectionFormat format) {
   if (format == ReflectionFormat::none) return 0;
   const glm::ivec2 tiles = tile_columns_rows(size);
-  const auto count = static_cast<std::size_t>(tiles.x) * static_cast<std::size_t>(tiles.y);
+  const auto count = as_size(tiles.x) * as_size(tiles.y);
   return count * (sizeof(std::uint32_t) + bytes_per_tile(format));
 }
 
 std::size_t pack_tiles(const Image<glm::vec3>& radiance, ReflectionFormat format, Workers& workers,
                        std::vector<std::uint32_t>& index, std::span<std::byte> to_gpu) {
   const glm::ivec2 grid = tile_columns_rows(radiance.size());
-  index.resize(static_cast<std::size_t>(grid.x) * static_cast<std::size_t>(grid.y));
+  index.resize(as_size(grid.x) * as_size(grid.y));
   assert(to_gpu.size() >= std::as_bytes(std::span(index)).size());
   workers.for_each(index.size(), [&](std::size_t i) {
     index[i] = has_light(radiance, box_of(i, grid.x, radiance.size())) ? 0 : kNoTile;
@@ -45,10 +46,10 @@ std::size_t pack_tiles(const Image<glm::vec3>& radiance, ReflectionFormat format
   std::ranges::copy(std::as_bytes(std::span(index)), to_gpu.begin());
 
   const std::span<std::byte> tiles = to_gpu.subspan(std::as_bytes(std::span(index)).size());
-  const auto columns = static_cast<std::size_t>(grid.x);
+  const auto columns = as_size(grid.x);
   const std::size_t last_row = count / columns, in_last_row = count % columns;
   const Packing& pack = packing(format);
-  const auto tile_row_bytes = static_cast<std::size_t>(kReflectionTile * bytes_per_pixel(format));
+  const auto tile_row_bytes = as_size(kReflectionTile * bytes_per_pixel(format));
   workers.for_each(index.size(), [&](std::size_t i) {
     if (index[i] == kNoTile) return;
     const std::size_t row = index[i] / columns, column = index[i] % columns;
@@ -56,7 +57,7 @@ std::size_t pack_tiles(const Image<glm::vec3>& radiance, ReflectionFormat format
     std::byte* to = tiles.data() + row * columns * bytes_per_tile(format) + column * tile_row_bytes;
     const PixelBox box = box_of(i, grid.x, radiance.size());
     for (int y = box.lo.y; y < box.hi.y; ++y, to += width * tile_row_bytes)
-      pack.pack({&radiance.at(box.lo.x, y), static_cast<std::size_t>(box.size().x)}, to);
+      pack.pack({&radiance.at(box.lo.x, y), as_size(box.size().x)}, to);
   });
   return count;
 }

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "core/parallel/workers.h"
+#include "pinocchio/conversion.h"
 #include "pinocchio/image.h"
 #include "pinocchio/settings.h"
 
@@ -24,7 +25,7 @@ inline constexpr std::uint32_t kNoTile = 0xffffffff;  // in the index: all of th
 
 // One tile's bytes, whole at the picture's edges too.
 [[nodiscard]] inline std::size_t bytes_per_tile(ReflectionFormat format) {
-  return static_cast<std::size_t>(kReflectionTile * kReflectionTile * bytes_per_pixel(format));
+  return as_size(kReflectionTile * kReflectionTile * bytes_per_pixel(format));
 }
 
 // Bytes of index and tiles where every tile has light; 0 without a reflection.

@@ -9,6 +9,7 @@
 #include "core/trace/tiles/motion.h"
 #include "core/trace/view/ray_model.h"
 #include "core/trace/view/view_params.h"
+#include "pinocchio/conversion.h"
 #include "pinocchio/layers.h"
 
 namespace pinocchio {
@@ -31,18 +32,17 @@ void for_each_band(const FrameResult& frame, const Body& body) {
   constexpr int kLines = 16;  // a task
   const glm::ivec2 size = frame.ids.size();
   Workers workers(frame.settings.threads);
-  workers.for_each(static_cast<std::size_t>((size.y + kLines - 1) / kLines), [&](std::size_t i) {
-    const int y0 = static_cast<int>(i) * kLines;
-    body(y0, std::min(y0 + kLines, size.y), static_cast<std::size_t>(y0) * static_cast<std::size_t>(size.x));
+  workers.for_each(as_size((size.y + kLines - 1) / kLines), [&](std::size_t i) {
+    const int y0 = as_int(i) * kLines;
+    body(y0, std::min(y0 + kLines, size.y), as_size(y0) * as_size(size.x));
   });
 }
 
 }  // namespace
 
 void write_lines(const FrameResult& frame, int y0, int y1, const FrameArrays& to, std::size_t first) {
-  const auto width = static_cast<std::size_t>(frame.ids.width());
-  const std::size_t begin = static_cast<std::size_t>(y0) * width,
-                    count = static_cast<std::size_t>(y1 - y0) * width;
+  const auto width = as_size(frame.ids.width());
+  const std::size_t begin = as_size(y0) * width, count = as_size(y1 - y0) * width;
   const auto copy = [&]<class Value>(const Image<Value>& image, Value* values) {
     if (!values) return;
     if (image.empty()) {
@@ -56,7 +56,7 @@ void write_lines(const FrameResult& frame, int y0, int y1, const FrameArrays& to
   copy(frame.reflection, to.reflection);
   if (count > 0) write_identities(frame.scene, {&frame.ids[begin], count}, to, first);
   for (std::size_t i = 0; to.mask && i < count; i += width)
-    frame.mask.copy_row(0, y0 + static_cast<int>(i / width), width, to.mask_bytes,
+    frame.mask.copy_row(0, y0 + as_int(i / width), width, to.mask_bytes,
                         to.mask + (first + i) * to.mask_bytes);
   if (!(to.wants_surfaces() || to.motion) || count == 0) return;
   View view = frame.view;

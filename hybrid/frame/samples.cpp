@@ -7,6 +7,7 @@
 #include "core/trace/view/jitter.h"
 #include "hybrid/frame/lines.h"
 #include "hybrid/settings/resolve.h"
+#include "pinocchio/conversion.h"
 #include "pinocchio/surface_images.h"
 
 namespace pinocchio {
@@ -16,7 +17,7 @@ namespace {
 float texture_footprint(const Settings& settings, const View& view) {
   if (!settings.filter_textures) return 0.0f;
   const int samples = std::max(settings.spp.value, view.sample + 1);  // accumulated samples exceed spp
-  return samples == 1 ? 1.0f : 1.0f / std::sqrt(static_cast<float>(samples));
+  return samples == 1 ? 1.0f : 1.0f / std::sqrt(as_float(samples));
 }
 
 std::optional<float> catcher_height(const Settings& settings) {
@@ -42,8 +43,7 @@ TraceOptions trace_options(const Settings& settings, const View& view) {
           .background_blur = settings.background_blur,
           .catcher_height = catcher_height(settings),
           .jitter = view.jitter,
-          .sampling = {static_cast<int>(settings.sequence.value), static_cast<std::uint32_t>(view.sample),
-                       static_cast<std::uint32_t>(settings.seed)}};
+          .sampling = {as_int(settings.sequence.value), as_uint32(view.sample), as_uint32(settings.seed)}};
 }
 
 std::optional<glm::vec3> color_behind(const Settings& settings) {
@@ -69,7 +69,7 @@ bool same_view(FrameRequest a, const FrameRequest& b) {
 namespace {
 
 int casting(const Scene& scene) {
-  return static_cast<int>(std::ranges::count_if(scene.lights, &Light::casts_shadow));
+  return as_int(std::ranges::count_if(scene.lights, &Light::casts_shadow));
 }
 
 }  // namespace
@@ -154,7 +154,7 @@ void SampleMean::check_tile(std::size_t tile) {
     sum += (of_mean.x + of_mean.y + of_mean.z) / 3.0;
   });
   const glm::ivec2 size = grid.tile(tile).size();
-  if (std::sqrt(sum / (size.x * size.y)) > static_cast<double>(max_noise_)) return;
+  if (std::sqrt(sum / (size.x * size.y)) > as_double(max_noise_)) return;
   auto finished = finished_ ? std::make_shared<std::vector<std::uint8_t>>(*finished_)
                             : std::make_shared<std::vector<std::uint8_t>>(grid.count());
   (*finished)[tile] = 1;
@@ -164,11 +164,11 @@ void SampleMean::check_tile(std::size_t tile) {
 void SampleMean::finish() {
   const TileGrid grid(sum_.color.size());
   for (std::size_t i = 0; i < grid.count() && samples_ > 1; ++i) {
-    const auto share = static_cast<float>(is_adaptive() ? tile_samples_[i] : samples_);
+    const auto share = as_float(is_adaptive() ? tile_samples_[i] : samples_);
     TileGrid::for_each_pixel(grid.tile(i), [&](int x, int y) { sum_.color.at(x, y) /= share; });
   }
   for (Image<glm::vec3>* const mean : {&sum_.mean_normal, &sum_.mean_albedo})
-    for (glm::vec3& pixel : mean->pixels()) pixel /= static_cast<float>(samples_);
+    for (glm::vec3& pixel : mean->pixels()) pixel /= as_float(samples_);
   samples_ = 0;
   finished_ = nullptr;
   done_(std::move(sum_));

@@ -5,6 +5,8 @@
 #include <span>
 #include <tuple>
 
+#include "pinocchio/conversion.h"
+
 namespace pinocchio {
 namespace {
 
@@ -37,7 +39,7 @@ struct LevelTable {
       glm::ivec2 size = texture.texels.size();
       for (int i = 0; i < texture.levels(); ++i) {
         levels.emplace_back(next / kPlaceDigit, next % kPlaceDigit, size.x, size.y);
-        next += static_cast<std::size_t>(size.x) * static_cast<std::size_t>(size.y);
+        next += as_size(size.x) * as_size(size.y);
         size = glm::max(size / 2, 1);
       }
     }
@@ -61,8 +63,8 @@ bool is_read(const Mesh& mesh, const TextureUse& use) {
 // `place`: of the texture's levels in the buffer.
 UseTexels use_texels(const Texture& texture, std::size_t place, const TextureUse& use) {
   const glm::mat3x2& m = use.uv_from_texcoord;
-  const int bits = (use.uv_set == 1 ? 1 : 0) | (use.nearest ? 2 : 0) | static_cast<int>(use.wrap_u) << 2 |
-                   static_cast<int>(use.wrap_v) << 4;
+  const int bits =
+      (use.uv_set == 1 ? 1 : 0) | (use.nearest ? 2 : 0) | as_int(use.wrap_u) << 2 | as_int(use.wrap_v) << 4;
   return {.place = glm::vec4(place, texture.levels(), texture.texels.size()),
           .axes = {m[0], m[1]},
           .rest = {m[2], bits, 0.0f}};
@@ -85,7 +87,7 @@ MapTexels map_texels(const Mesh& mesh, const MaterialMaps& m, const LevelTable& 
   const auto uses = m.uses();
   for (std::size_t i = 0; i < kUses; ++i) {
     if (!is_read(mesh, *uses[i])) continue;
-    const auto texture = static_cast<std::size_t>(uses[i]->texture);
+    const auto texture = as_size(uses[i]->texture);
     t.uses[i] =
         use_texels(mesh.textures[texture], mesh.maps.size() * kTexelsOfMaps + table.begin[texture], *uses[i]);
   }
@@ -147,7 +149,7 @@ GpuMaps::GpuMaps(const Mesh& mesh, const GpuMaps* shares_textures) {
   if (!texels_)
     texels_ =
         std::make_shared<const gl::TextureBuffer>(buffer_of(all_texels(mesh), GL_RGBA8, sizeof(glm::u8vec4)));
-  vertex_count_ = static_cast<int>(mesh.positions.size());
+  vertex_count_ = as_int(mesh.positions.size());
   texcoords_ = buffer_of(both_sets(mesh), GL_R32F, sizeof(float));
   if (!mesh.colors.empty()) definitions_.emplace_back("HAS_COLORS");
   if (!mesh.tangents.empty()) definitions_.emplace_back("HAS_TANGENTS");

@@ -7,6 +7,7 @@
 
 #include "core/scene/pose/mesh_pose.h"
 #include "core/shade/surface.h"
+#include "pinocchio/conversion.h"
 
 namespace pinocchio {
 namespace {
@@ -23,7 +24,7 @@ std::vector<MaterialTexels> material_texels(const Mesh& mesh) {
   std::vector<MaterialTexels> texels;
   for (const Material& m : mesh.materials)
     texels.push_back(
-        {glm::vec4(m.ambient, m.shininess), glm::vec4(m.diffuse, static_cast<float>(m.maps + 1)),
+        {glm::vec4(m.ambient, m.shininess), glm::vec4(m.diffuse, as_float(m.maps + 1)),
          glm::vec4(m.specular, m.ggx_alpha), glm::vec4(m.emission, 0.0f),
          glm::vec4(m.layer, m.grazing, (m.transmits() ? 1.0f : 0.0f) + (m.has_layers() ? 2.0f : 0.0f)),
          glm::vec4(m.sheen, m.sheen_alpha), glm::vec4(m.coat, m.coat_alpha, 0.0f, 0.0f)});
@@ -61,8 +62,8 @@ std::vector<LightTexels> light_texels(const Scene& scene) {
   const std::vector<int> slots = mask_slots(scene);
   for (std::size_t i = 0; i < slots.size(); ++i) {
     const shared::LightParams p = light_params(scene.lights[i]);
-    const auto slot = static_cast<float>(slots[i]);
-    texels.push_back({.position_kind = glm::vec4(p.position, static_cast<float>(p.kind)),
+    const auto slot = as_float(slots[i]);
+    texels.push_back({.position_kind = glm::vec4(p.position, as_float(p.kind)),
                       .direction_falloff = glm::vec4(p.direction, p.inverse_square ? 1.0f : 0.0f),
                       .radiance_range = glm::vec4(p.radiance, p.range),
                       .cone_slot = glm::vec4(p.cos_inner, p.cos_outer, slot, 0.0f),
@@ -160,14 +161,14 @@ void GpuLights::update(const Scene& scene) {
   lights_ = quads(light_texels(scene));
   sent_ = scene.lights;
   any_size_ = std::ranges::any_of(sent_, &Light::has_size);
-  casting_ = static_cast<int>(std::ranges::count_if(sent_, &Light::casts_shadow));
+  casting_ = as_int(std::ranges::count_if(sent_, &Light::casts_shadow));
   empty_ = false;
 }
 
 int GpuLights::bind(const gl::Program& program, int first_unit) const {
   program.set("lights", first_unit, lights_);
   program.set("ambient_light", ambient_light_);
-  program.set("light_count", static_cast<int>(sent_.size()));
+  program.set("light_count", as_int(sent_.size()));
   return first_unit + 1;
 }
 

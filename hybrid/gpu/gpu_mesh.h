@@ -8,6 +8,7 @@
 #include "gl/objects/texture.h"
 #include "hybrid/gpu/gpu_maps.h"
 #include "pinocchio/backfaces.h"
+#include "pinocchio/conversion.h"
 #include "pinocchio/scene.h"
 
 namespace pinocchio {
@@ -35,9 +36,7 @@ class GpuMesh {
 
   // How many of the triangles have backs that the camera sees through.
   enum class Share { none, some, all };
-  [[nodiscard]] Share passed_backs(Backfaces backfaces) const {
-    return passed_backs_[static_cast<std::size_t>(backfaces)];
-  }
+  [[nodiscard]] Share passed_backs(Backfaces backfaces) const { return passed_backs_[as_size(backfaces)]; }
   // Sets what tells which those are (shaders/visibility.frag), as bind() sets the rest.
   int bind_backs(const gl::Program& program, int first_unit) const;
 

@@ -4,6 +4,7 @@
 #include <string>
 
 #include "hybrid/exchange/encode.h"
+#include "pinocchio/conversion.h"
 
 namespace pinocchio {
 
@@ -74,7 +75,7 @@ void VisibilityPass::draw(const GpuMesh& mesh, const shared::ViewParams& view, g
   }
   if (some_backs) {
     mesh.bind_backs(program, unit);
-    program.set("backfaces", static_cast<int>(backfaces));
+    program.set("backfaces", as_int(backfaces));
   }
   mesh.draw();
 }

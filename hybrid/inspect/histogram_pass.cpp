@@ -6,6 +6,7 @@
 
 #include "hybrid/engine/engine_parts.h"
 #include "hybrid/engine/frame_slot.h"
+#include "pinocchio/conversion.h"
 
 namespace pinocchio {
 
@@ -15,7 +16,7 @@ HistogramPass::HistogramPass(Engine& engine)
 void HistogramPass::start(const gl::Texture& picture) {
   constexpr double kMostPixels = 1 << 20;
   const glm::ivec2 size = picture.size();
-  const int step = static_cast<int>(std::ceil(std::sqrt(static_cast<double>(size.x) * size.y / kMostPixels)));
+  const int step = as_int(std::ceil(std::sqrt(as_double(size.x) * size.y / kMostPixels)));
   engine_.parts().enter([&] {
     fit(target_, (size + step - 1) / step, gl::kRg16F);
     gl::begin_fullscreen_pass(target_);

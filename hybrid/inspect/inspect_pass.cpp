@@ -8,6 +8,7 @@
 #include "core/base/decimal.h"
 #include "hybrid/engine/engine_parts.h"
 #include "hybrid/exchange/encode.h"
+#include "pinocchio/conversion.h"
 
 namespace pinocchio {
 namespace {
@@ -26,21 +27,20 @@ void send(std::span<const std::byte> bytes, glm::ivec2 texels, const gl::PixelFo
 }
 
 std::string text_of(float value) {
-  return decimal(static_cast<double>(value), 4);
+  return decimal(as_double(value), 4);
 }
 
 std::string name_of_slot(int slot, const Scene& scene) {
   const std::vector<int> casting = casting_lights(scene);
-  if (static_cast<std::size_t>(slot) >= casting.size())
-    return "slot " + std::to_string(slot) + ", no light's";
-  const auto light = static_cast<std::size_t>(casting[static_cast<std::size_t>(slot)]);
+  if (as_size(slot) >= casting.size()) return "slot " + std::to_string(slot) + ", no light's";
+  const auto light = as_size(casting[as_size(slot)]);
   const std::string& name = scene.lights[light].name;
   return "slot " + std::to_string(slot) + ", light " + std::to_string(light) +
          (name.empty() ? "" : " '" + name + "'");
 }
 
 int casting_of(const FrameRequest& request) {
-  return static_cast<int>(casting_lights(request.scene).size());
+  return as_int(casting_lights(request.scene).size());
 }
 
 // The slots from `first` on, a multiple of eight; all of a mask with fewer.
@@ -60,8 +60,7 @@ std::string legend_of_range(int axes, const ChannelRange& range) {
   constexpr std::array<const char*, 3> kAxes{": red X", ", green Y", ", blue Z"};
   std::string text;
   for (int i = 0; i < axes; ++i)
-    text += std::string(kAxes[static_cast<std::size_t>(i)]) + " from " + text_of(range.lo[i]) + " to " +
-            text_of(range.hi[i]);
+    text += std::string(kAxes[as_size(i)]) + " from " + text_of(range.lo[i]) + " to " + text_of(range.hi[i]);
   return text;
 }
 

@@ -6,12 +6,13 @@
 #include "gl/objects/framebuffer.h"
 #include "hybrid/engine/frame_slot.h"
 #include "hybrid/gpu/shading_passes.h"
+#include "pinocchio/conversion.h"
 #include "pinocchio/frame_arrays.h"
 
 namespace pinocchio {
 
 // The window shows the layers up to this number as pictures.
-inline constexpr std::size_t kShownLayers = static_cast<std::size_t>(Layer::objects);
+inline constexpr std::size_t kShownLayers = as_size(Layer::objects);
 
 // The values that are shown black and white, by axis.
 struct ChannelRange {

@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "hybrid/engine/engine_parts.h"
+#include "pinocchio/conversion.h"
 
 namespace pinocchio {
 
@@ -30,7 +31,7 @@ void PresentPass::draw(const gl::Texture& picture, glm::ivec2 window_pixels, con
   draw_part(window_pixels, box, [&](const gl::Program& program) {
     program.set("picture", 0, picture);
     program.set("gain", std::exp2(exposure_ev));
-    program.set("tone_curve", static_cast<int>(curve));
+    program.set("tone_curve", as_int(curve));
     program.set("chequer_pixels", background.is_transparent() ? kChequer_pixels : 0);
     program.set("has_color_behind", background.kind == Background::Kind::color ? 1 : 0);
     program.set("color_behind", background.color);

@@ -9,6 +9,7 @@
 #include "core/parallel/start_thread.h"
 #include "core/parallel/workers.h"
 #include "core/reference/reference_tracer.h"
+#include "pinocchio/conversion.h"
 
 namespace pinocchio {
 namespace {
@@ -149,8 +150,8 @@ ProgressiveReference::Progress ProgressiveReference::poll() {
     }
   }
   shown_is_clear_ = shown_is_clear_ && patches.empty();
-  const auto pixels = static_cast<double>(shown_.pixels().size());
-  return {shown_, static_cast<double>(job.samples_taken) / pixels, !patches.empty()};
+  const auto pixels = as_double(shown_.pixels().size());
+  return {shown_, as_double(job.samples_taken) / pixels, !patches.empty()};
 }
 
 void ProgressiveReference::work(const std::stop_token& stop) {

@@ -9,6 +9,7 @@
 #include "core/trace/view/view_params.h"
 #include "hybrid/exchange/encode.h"
 #include "hybrid/passes/passes.h"
+#include "pinocchio/conversion.h"
 
 namespace pinocchio {
 namespace {
@@ -158,10 +159,10 @@ void add_filtered(Workers& workers, FrameSlot& frame, Gathering& gathering) {
   const Settings& s = frame.request.settings;
   const bool sends_picture = s.uses_gpu() && s.composite == Processor::cpu,
              sends_caught = s.uses_gpu() && frame.options.catcher_height;
-  const auto width = static_cast<std::size_t>(frame.size().x);
-  workers.for_each(static_cast<std::size_t>(frame.size().y), [&](std::size_t line) {
+  const auto width = as_size(frame.size().x);
+  workers.for_each(as_size(frame.size().y), [&](std::size_t line) {
     const glm::vec3* const lights =
-        &frame.filtered.at(part.lo.x - all.lo.x, part.lo.y - all.lo.y + static_cast<int>(line));
+        &frame.filtered.at(part.lo.x - all.lo.x, part.lo.y - all.lo.y + as_int(line));
     for (std::size_t i = line * width; i < (line + 1) * width; ++i) {
       const glm::vec3& light = lights[i - line * width];
       if (!sends_caught || frame.ids[i] != kNoTriangle) frame.reflection[i] += light;

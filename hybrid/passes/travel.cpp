@@ -1,6 +1,7 @@
 // A frame's channels between GPU and CPU.
 #include "core/base/clock.h"
 #include "hybrid/passes/passes.h"
+#include "pinocchio/conversion.h"
 
 namespace pinocchio {
 namespace {
@@ -10,13 +11,13 @@ namespace {
 void send_tiles(const ChannelLayout& c, FrameSlot& frame) {
   ChannelBuffer& buffer = frame[c.channel];
   const gl::Texture& to = buffer.texture;
-  const auto columns = static_cast<std::size_t>(c.tiles.x);
-  const auto rows = static_cast<int>(frame.tiles / columns);
-  const auto left = static_cast<int>(frame.tiles % columns);
+  const auto columns = as_size(c.tiles.x);
+  const auto rows = as_int(frame.tiles / columns);
+  const auto left = as_int(frame.tiles % columns);
   const glm::ivec2 tile = c.texels / c.tiles;
   const std::size_t index_bytes = frame.tile_index_texture.bytes();
-  const std::size_t tile_bytes = static_cast<std::size_t>(tile.x * tile.y) * c.texel.bytes;
-  const std::size_t bytes_of_rows = static_cast<std::size_t>(rows) * columns * tile_bytes;
+  const std::size_t tile_bytes = as_size(tile.x * tile.y) * c.texel.bytes;
+  const std::size_t bytes_of_rows = as_size(rows) * columns * tile_bytes;
   buffer.up.send(
       {{.target = &frame.tile_index_texture, .at = {0, 0}, .size = c.tiles, .first_byte = 0},
        {.target = &to, .at = {0, 0}, .size = {to.size().x, rows * tile.y}, .first_byte = index_bytes},

@@ -4,6 +4,7 @@
 
 #include "core/base/decimal.h"
 #include "hybrid/settings/resolve.h"
+#include "pinocchio/conversion.h"
 
 namespace pinocchio {
 namespace {
@@ -13,7 +14,7 @@ std::string plural(int count, const std::string& noun) {
 }
 
 std::string percent(double share) {
-  return std::to_string(static_cast<int>(std::ceil(100.0 * share))) + " %";
+  return std::to_string(as_int(std::ceil(100.0 * share))) + " %";
 }
 
 std::string per_sample(int scale) {

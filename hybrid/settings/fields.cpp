@@ -6,6 +6,7 @@
 
 #include "core/base/decimal.h"
 #include "core/base/listed.h"
+#include "pinocchio/conversion.h"
 #include "pinocchio/settings.h"
 
 namespace pinocchio {
@@ -23,7 +24,7 @@ std::optional<T> number_of(std::string_view text, double lo, double hi) {
   T value{};
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
   if (error != std::errc() || end != text.data() + text.size()) return std::nullopt;
-  const auto wide = static_cast<double>(value);
+  const auto wide = as_double(value);
   return wide >= lo && wide <= hi ? std::optional(value) : std::nullopt;
 }
 
@@ -82,7 +83,7 @@ struct Access {
     } else if constexpr (IsText<T>) {
       return to_text(value);
     } else if constexpr (std::is_enum_v<T>) {
-      return std::string(row().choices[static_cast<std::size_t>(value)]);
+      return std::string(row().choices[as_size(value)]);
     } else {
       return shortest(value);
     }

@@ -6,13 +6,15 @@
 #include <iterator>
 #include <nlohmann/json.hpp>
 
+#include "pinocchio/conversion.h"
+
 namespace pinocchio {
 namespace {
 
 // The line of position `at`, from 1.
 int line_of(const std::string& text, std::size_t at) {
-  return 1 + static_cast<int>(std::count(
-                 text.begin(), text.begin() + static_cast<std::ptrdiff_t>(std::min(at, text.size())), '\n'));
+  return 1 + as_int(std::count(text.begin(),
+                               text.begin() + static_cast<std::ptrdiff_t>(std::min(at, text.size())), '\n'));
 }
 
 // The line of the field, from 1; 0: it is not there.

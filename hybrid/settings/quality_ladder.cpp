@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "core/math/pareto.h"
+#include "pinocchio/conversion.h"
 
 namespace pinocchio {
 namespace {
@@ -107,11 +108,11 @@ std::vector<MeasuredSettings> pareto_front(const std::vector<MeasuredSettings>& 
 std::size_t choose(const std::vector<MeasuredSettings>& front, const Budget& budget) {
   const auto within_error = [&](const MeasuredSettings& one) { return keeps(one, {{}, budget.error}); };
   const auto last = std::find_if_not(front.begin(), front.end(), within_error);
-  const std::size_t fastest = last == front.begin() ? 0 : static_cast<std::size_t>(last - front.begin()) - 1;
+  const std::size_t fastest = last == front.begin() ? 0 : as_size(last - front.begin()) - 1;
   if (!budget.frame_ms) return fastest;
   const auto first = std::find_if(front.begin(), front.end(),
                                   [&](const MeasuredSettings& one) { return keeps(one, budget); });
-  return first == front.end() ? fastest : static_cast<std::size_t>(first - front.begin());
+  return first == front.end() ? fastest : as_size(first - front.begin());
 }
 
 }  // namespace pinocchio

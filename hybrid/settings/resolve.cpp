@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <string>
 
+#include "pinocchio/conversion.h"
 #include "pinocchio/mask_image.h"
 
 namespace pinocchio {
@@ -130,11 +131,10 @@ Expected<Settings> resolve(const Settings& settings, const SceneStats& stats, co
   make_way_for_lights(stats, s);
   // All lights together stay below half a step.
   const bool needs_bits = c.keeps_mask || s.mask_bits == 0;
-  s.light_cutoff.fill(needs_bits ? 0.0f
-                                 : kThroughputCutoff / static_cast<float>(std::max(stats.casting_lights, 1)));
+  s.light_cutoff.fill(needs_bits ? 0.0f : kThroughputCutoff / as_float(std::max(stats.casting_lights, 1)));
   s.tiles.fill(s.composite == Processor::gpu && s.reflects());
-  const double pixels = static_cast<double>(c.size.x) * static_cast<double>(c.size.y);
-  const bool faster_by_rays = static_cast<double>(stats.triangles) > kTrianglesPerPixelForRays * pixels;
+  const double pixels = as_double(c.size.x) * as_double(c.size.y);
+  const bool faster_by_rays = as_double(stats.triangles) > kTrianglesPerPixelForRays * pixels;
   if (c.software_gl && s.exchange != Exchange::reproject && s.composite == Processor::gpu && s.traces() &&
       faster_by_rays)
     s.visibility.fill(Processor::cpu);

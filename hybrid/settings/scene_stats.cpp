@@ -7,6 +7,7 @@
 
 #include "core/scene/light_reach.h"
 #include "core/scene/pose/mesh_pose.h"
+#include "pinocchio/conversion.h"
 #include "pinocchio/studio.h"
 
 namespace pinocchio {
@@ -20,7 +21,7 @@ double area_of(const Mesh& mesh, const glm::uvec3& t) {
 // Whether the triangles all lie in the plane of the first that has an area: a ray from it does not meet it
 // again.
 bool lie_in_one_plane(const Mesh& mesh, std::span<const std::uint32_t> triangles) {
-  const double slack = 1e-7 * static_cast<double>(mesh.bounds().diagonal());
+  const double slack = 1e-7 * as_double(mesh.bounds().diagonal());
   glm::dvec3 n(0.0);
   double d = 0.0;
   for (const std::uint32_t triangle : triangles) {
@@ -41,13 +42,13 @@ bool lie_in_one_plane(const Mesh& mesh, std::span<const std::uint32_t> triangles
 // The most light that a mirror of the material returns.
 double most_mirrored(const Material& m, bool see_through) {
   if (see_through || m.fresnel || m.is_microfacet()) return 1.0;
-  return static_cast<double>(std::max({m.reflectance.x, m.reflectance.y, m.reflectance.z}));
+  return as_double(std::max({m.reflectance.x, m.reflectance.y, m.reflectance.z}));
 }
 
 int depth_of_mirrors(double most) {
   if (most >= 1.0) return kMostBounces;
-  const double bounces = std::log(static_cast<double>(kThroughputCutoff)) / std::log(most);
-  return std::clamp(static_cast<int>(bounces), 1, kMostBounces);
+  const double bounces = std::log(as_double(kThroughputCutoff)) / std::log(most);
+  return std::clamp(as_int(bounces), 1, kMostBounces);
 }
 
 void note(const MaterialMaps& maps, SceneStats& stats) {
@@ -63,8 +64,7 @@ bool mirrors(const Material& material, bool sampled) {
 }
 
 bool sees_through(const Mesh& mesh, const Material& material) {
-  return material.transmits() ||
-         (material.maps >= 0 && mesh.maps[static_cast<std::size_t>(material.maps)].blends());
+  return material.transmits() || (material.maps >= 0 && mesh.maps[as_size(material.maps)].blends());
 }
 
 // The materials of some triangle.
@@ -118,7 +118,7 @@ void PoseStats::look_at_materials(const Mesh& mesh) {
     const Material& material = mesh.materials[m];
     stats_.glossy = stats_.glossy || material.is_glossy();
     stats_.microfacets = stats_.microfacets || material.is_microfacet();
-    if (material.maps >= 0) note(mesh.maps[static_cast<std::size_t>(material.maps)], stats_);
+    if (material.maps >= 0) note(mesh.maps[as_size(material.maps)], stats_);
     stats_.glass = stats_.glass || material.transmits();
     const bool see_through = sees_through(mesh, material);
     if (!see_through && !mirrors(material, sampled_)) continue;
@@ -129,8 +129,7 @@ void PoseStats::look_at_materials(const Mesh& mesh) {
   }
   if (!stats_.mirrors) return;
   for (std::size_t i = 0; i < mesh.triangles.size(); ++i)
-    if (kinds_[mesh.triangle_materials[i]] != Kind::plain)
-      mirroring_.push_back(static_cast<std::uint32_t>(i));
+    if (kinds_[mesh.triangle_materials[i]] != Kind::plain) mirroring_.push_back(as_uint32(i));
 }
 
 PoseStats::Areas PoseStats::areas_of(const Mesh& mesh, std::size_t first, std::size_t last) const {
@@ -174,7 +173,7 @@ void PoseStats::add_areas(const Mesh& mesh, const MeshPose* before) {
 }
 
 void recount_lights(const Scene& scene, SceneStats& stats) {
-  stats.lights = static_cast<int>(scene.lights.size());
+  stats.lights = as_int(scene.lights.size());
   stats.casting_lights = stats.idle_lights = 0;
   stats.environment = scene.environment != nullptr;
   stats.studio = has_studio_light(scene);

@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 
+#include "pinocchio/conversion.h"
 #include "python/src/result.h"
 #include "python/src/support/interrupt.h"
 #include "python/src/support/parts.h"
@@ -16,7 +17,7 @@ using Picture = nb::ndarray<nb::ndim<3>, nb::c_contig, nb::device::cpu>;
 
 // IEC 61966-2-1
 float linear_of(std::uint8_t srgb) {
-  const float c = static_cast<float>(srgb) / 255.0f;
+  const float c = as_float(srgb) / 255.0f;
   return c <= 0.04045f ? c / 12.92f : std::pow((c + 0.055f) / 1.055f, 2.4f);
 }
 
@@ -38,7 +39,7 @@ Image<glm::vec3> image_of(const Picture& array) {
   if (array.dtype() == nb::dtype<std::uint8_t>()) return image_of<std::uint8_t>(array, linear_of);
   if (array.dtype() == nb::dtype<float>()) return image_of<float>(array, [](float v) { return v; });
   if (array.dtype() == nb::dtype<double>())
-    return image_of<double>(array, [](double v) { return static_cast<float>(v); });
+    return image_of<double>(array, [](double v) { return as_float(v); });
   throw Error("a picture must have the type float32 or float64 (linear) or uint8 (sRGB)");
 }
 
@@ -76,9 +77,8 @@ nb::dict compare(const nb::object& a, const nb::object& b, float pixels_per_degr
   result["psnr"] = found->psnr_db;
   result["max"] = found->max;
   result["flip"] = found->flip;
-  result["flip_errors"] =
-      view_of(found->flip_errors.pixels().data(),
-              {static_cast<std::size_t>(picture.height()), static_cast<std::size_t>(picture.width())}, owner);
+  result["flip_errors"] = view_of(found->flip_errors.pixels().data(),
+                                  {as_size(picture.height()), as_size(picture.width())}, owner);
   return result;
 }
 
@@ -86,8 +86,7 @@ nb::dict channels_of(const std::filesystem::path& path) {
   auto* const exr = new ExrFile(value_or_throw(without_gil([&](Progress*) { return read_exr(path); })));
   const nb::capsule owner(exr, [](void* p) noexcept { delete static_cast<ExrFile*>(p); });
   const auto size = exr->data_window.size();
-  const std::initializer_list<std::size_t> shape{static_cast<std::size_t>(size.y),
-                                                 static_cast<std::size_t>(size.x)};
+  const std::initializer_list<std::size_t> shape{as_size(size.y), as_size(size.x)};
   nb::dict channels;
   for (ExrChannel& c : exr->channels) {
     if (c.type == ExrChannel::Type::uint)

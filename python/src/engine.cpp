@@ -6,6 +6,7 @@
 #include <cstring>
 #include <mutex>
 
+#include "pinocchio/conversion.h"
 #include "python/src/layers.h"
 #include "python/src/pictures.h"
 #include "python/src/render_settings.h"
@@ -34,7 +35,7 @@ std::size_t mask_bytes_of(Scene scene, const Settings& settings, bool has_poses)
 
 std::vector<std::size_t> shape_of(const LayerRow& output, std::size_t frames, const glm::ivec2& size,
                                   std::size_t mask_bytes) {
-  std::vector<std::size_t> shape{frames, static_cast<std::size_t>(size.y), static_cast<std::size_t>(size.x)};
+  std::vector<std::size_t> shape{frames, as_size(size.y), as_size(size.x)};
   if (const std::size_t numbers = pixel_type(output, mask_bytes).numbers; numbers > 1)
     shape.push_back(numbers);
   return shape;

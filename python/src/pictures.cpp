@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "pinocchio/conversion.h"
 #include "python/src/support/arguments.h"
 
 namespace pinocchio::python {
@@ -14,8 +15,7 @@ Camera camera_of(const Scene& scene, const CameraChoice& choice) {
     throw Error("the scene has no camera '" + *name + "'; Scene.cameras lists them");
   }
   if (const int* index = std::get_if<int>(&choice)) {
-    if (*index >= 0 && static_cast<std::size_t>(*index) < scene.cameras.size())
-      return scene.cameras[static_cast<std::size_t>(*index)];
+    if (*index >= 0 && as_size(*index) < scene.cameras.size()) return scene.cameras[as_size(*index)];
     throw Error("the scene has no camera " + std::to_string(*index) + ", there are " +
                 std::to_string(scene.cameras.size()));
   }
@@ -100,7 +100,7 @@ Poses poses_of(const Scene& scene, const std::vector<CameraChoice>& choices,
     const auto own = std::ranges::find(scene.cameras, camera);
     const bool is_own = !std::holds_alternative<Camera>(choice) && own != scene.cameras.end();
     PosedPicture picture{poses.moves[of_picture[i]], camera};
-    if (is_own) picture.camera = static_cast<std::size_t>(own - scene.cameras.begin());
+    if (is_own) picture.camera = as_size(own - scene.cameras.begin());
     poses.pictures.push_back(std::move(picture));
   }
   return poses;

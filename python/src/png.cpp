@@ -7,6 +7,8 @@
 #include <cstdint>
 #include <cstring>
 
+#include "pinocchio/conversion.h"
+
 namespace pinocchio::python {
 namespace {
 
@@ -23,7 +25,7 @@ void add_number(std::string& to, std::uint32_t number) {
 
 void add_chunk(std::string& to, const std::string& body,
                const nb::module_& zlib) {  // its type, then its data
-  add_number(to, static_cast<std::uint32_t>(body.size() - 4));
+  add_number(to, as_uint32(body.size() - 4));
   to += body;
   add_number(to, nb::cast<std::uint32_t>(zlib.attr("crc32")(nb::bytes(body.data(), body.size()))));
 }
@@ -51,7 +53,7 @@ nb::bytes png_of(const FrameResult& frame, float exposure) {
   const Background& background = frame.settings.background.value;
   const bool opaque = backdrop_of(frame.scene, background).picture != nullptr;
   std::string rows;
-  rows.reserve(color.pixels().size() * 4 + static_cast<std::size_t>(color.height()));
+  rows.reserve(color.pixels().size() * 4 + as_size(color.height()));
   for (int y = 0; y < color.height(); ++y) {
     rows.push_back(0);  // no filter
     for (int x = 0; x < color.width(); ++x) {
@@ -63,8 +65,8 @@ nb::bytes png_of(const FrameResult& frame, float exposure) {
   const nb::module_ zlib = nb::module_::import_("zlib");
   const nb::bytes packed = nb::cast<nb::bytes>(zlib.attr("compress")(nb::bytes(rows.data(), rows.size())));
   std::string header = "IHDR", file = "\x89PNG\r\n\x1a\n";
-  add_number(header, static_cast<std::uint32_t>(color.width()));
-  add_number(header, static_cast<std::uint32_t>(color.height()));
+  add_number(header, as_uint32(color.width()));
+  add_number(header, as_uint32(color.height()));
   header += std::string("\x08\x06\0\0\0", 5);  // 8 bits, RGBA
   add_chunk(file, header, zlib);
   add_chunk(file, std::string("sRGB\0", 5), zlib);

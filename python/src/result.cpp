@@ -8,6 +8,7 @@
 #include <cstdio>
 #include <map>
 
+#include "pinocchio/conversion.h"
 #include "python/src/layers.h"
 #include "python/src/png.h"
 #include "python/src/scene/scene.h"
@@ -19,17 +20,13 @@ namespace {
 
 template <class T>
 auto picture(Image<T>& image, nb::handle owner) {
-  return view_of<T>(image.pixels().data(),
-                    {static_cast<std::size_t>(image.height()), static_cast<std::size_t>(image.width())},
-                    owner);
+  return view_of<T>(image.pixels().data(), {as_size(image.height()), as_size(image.width())}, owner);
 }
 
 template <int N>
 auto picture(Image<glm::vec<N, float, glm::defaultp>>& image, nb::handle owner) {
-  return view_of<float>(
-      &image.pixels().data()->x,
-      {static_cast<std::size_t>(image.height()), static_cast<std::size_t>(image.width()), std::size_t{N}},
-      owner);
+  return view_of<float>(&image.pixels().data()->x,
+                        {as_size(image.height()), as_size(image.width()), std::size_t{N}}, owner);
 }
 
 // Several threads may compute them at the same time. The first result is kept, because arrays are views of
@@ -79,8 +76,7 @@ nb::ndarray<nb::numpy> mask(nb::handle self) {
     unpack_mask(result.frame, reinterpret_cast<std::uint8_t*>(result.mask.data()), bytes);
   }
   const PixelType type = mask_type(bytes);
-  std::vector<std::size_t> shape{static_cast<std::size_t>(ids.height()),
-                                 static_cast<std::size_t>(ids.width())};
+  std::vector<std::size_t> shape{as_size(ids.height()), as_size(ids.width())};
   if (type.numbers > 1) shape.push_back(type.numbers);
   return {result.mask.data(), shape.size(), shape.data(), self, nullptr, type.type};
 }
@@ -117,17 +113,15 @@ auto motion(const Result& result, const PyScene* scene, const Camera* camera) {
   FrameArrays to;
   to.motion = values.data();
   without_gil([&](Progress*) { return write_layers(frame, to), true; });
-  const auto height = static_cast<std::size_t>(frame.ids.height()),
-             width = static_cast<std::size_t>(frame.ids.width());
+  const auto height = as_size(frame.ids.height()), width = as_size(frame.ids.width());
   return array_that_owns<float>(std::move(values), {height, width, 2});
 }
 
 // Read-only: depth, position, normal, albedo and objects index the scene by them.
 auto ids(nb::handle self) {
   const Image<std::uint32_t>& ids = nb::cast<Result&>(self).frame.ids;
-  return view_of<const std::uint32_t>(
-      ids.pixels().data(), {static_cast<std::size_t>(ids.height()), static_cast<std::size_t>(ids.width())},
-      self);
+  return view_of<const std::uint32_t>(ids.pixels().data(), {as_size(ids.height()), as_size(ids.width())},
+                                      self);
 }
 
 bool has_extension(const std::filesystem::path& path, const char* wanted) {

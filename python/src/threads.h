@@ -7,6 +7,7 @@
 #include <cstdlib>
 #include <thread>
 
+#include "pinocchio/conversion.h"
 #include "python/src/support/convert.h"
 
 namespace pinocchio::python {
@@ -20,7 +21,7 @@ inline int threads_wanted(int given) {
 }
 
 inline int or_one_a_core(int threads) {
-  return threads > 0 ? threads : static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
+  return threads > 0 ? threads : as_int(std::max(1u, std::thread::hardware_concurrency()));
 }
 
 }  // namespace pinocchio::python

@@ -11,6 +11,7 @@
 #include <system_error>
 #include <thread>
 
+#include "pinocchio/conversion.h"
 #include "python/src/scene/scene.h"
 #include "python/src/support/interrupt.h"
 #include "python/src/support/parts.h"
@@ -87,7 +88,7 @@ void for_chunks(std::size_t n, int threads, const Progress* progress,
       if (!error) error = std::current_exception();
     }
   };
-  const auto chunks = static_cast<int>(std::min<std::size_t>((n + kChunk - 1) / kChunk, 1024));
+  const auto chunks = as_int(std::min<std::size_t>((n + kChunk - 1) / kChunk, 1024));
   {
     std::vector<std::jthread> helpers;
     try {
@@ -118,7 +119,7 @@ HitPoint point_of(const Mesh& mesh, const Ray& ray, float t, std::uint32_t trian
   const glm::uvec3 corners = mesh.triangles[triangle];
   const glm::dvec3 a(mesh.positions[corners.x]), ab = glm::dvec3(mesh.positions[corners.y]) - a,
                                                  ac = glm::dvec3(mesh.positions[corners.z]) - a;
-  const glm::dvec3 p = glm::dvec3(ray.origin) + static_cast<double>(t) * glm::dvec3(ray.direction);
+  const glm::dvec3 p = glm::dvec3(ray.origin) + as_double(t) * glm::dvec3(ray.direction);
   const glm::dvec3 n = glm::cross(ab, ac);
   const double area = glm::dot(n, n);
   HitPoint point;
@@ -129,7 +130,7 @@ HitPoint point_of(const Mesh& mesh, const Ray& ray, float t, std::uint32_t trian
     point.facet = glm::vec3(n / std::sqrt(area));
   }
   const glm::vec3& w = point.weights;
-  point.position = glm::vec3(a + static_cast<double>(w.y) * ab + static_cast<double>(w.z) * ac);
+  point.position = glm::vec3(a + as_double(w.y) * ab + as_double(w.z) * ac);
   if (glm::dot(point.facet, ray.direction) > 0.0f) point.facet = -point.facet;
   const glm::vec3 smooth =
       w.x * mesh.normals[corners.x] + w.y * mesh.normals[corners.y] + w.z * mesh.normals[corners.z];
@@ -293,7 +294,7 @@ void bind_hits(nb::module_& module) {
           },
           nb::sig("def __getitem__(self, index: int, /) -> numpy.typing.NDArray[typing.Any]"))
       .def("__repr__", [](const Hits& hits) {
-        const auto missed = static_cast<std::size_t>(std::ranges::count(hits.triangle, kNoTriangle));
+        const auto missed = as_size(std::ranges::count(hits.triangle, kNoTriangle));
         return "<Hits: " + std::to_string(hits.t.size() - missed) + " of " + std::to_string(hits.t.size()) +
                " rays>";
       });

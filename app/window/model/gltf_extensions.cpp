@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "core/scene/formats.h"
+#include "pinocchio/conversion.h"
 
 namespace pinocchio::app {
 namespace {
@@ -20,7 +21,7 @@ std::string json_of(const std::filesystem::path& file) {
   if (lower_extension(file) == ".glb") {
     std::array<unsigned char, 20> header{};
     in.read(reinterpret_cast<char*>(header.data()), header.size());
-    length = header[12] | header[13] << 8 | header[14] << 16 | static_cast<std::uint32_t>(header[15]) << 24;
+    length = header[12] | header[13] << 8 | header[14] << 16 | as_uint32(header[15]) << 24;
   }
   if (unknown || !in || length > kMost_bytes) return {};
   std::string text(length, ' ');

@@ -2,6 +2,8 @@
 
 #include <array>
 
+#include "pinocchio/conversion.h"
+
 namespace pinocchio::app {
 
 // The panels over the picture.
@@ -43,8 +45,8 @@ inline constexpr std::array<PanelInfo, 12> kPanels{{
 // Which panels are open.
 class OpenPanels {
  public:
-  [[nodiscard]] bool& operator[](Panel panel) { return open_[static_cast<std::size_t>(panel)]; }
-  [[nodiscard]] bool operator[](Panel panel) const { return open_[static_cast<std::size_t>(panel)]; }
+  [[nodiscard]] bool& operator[](Panel panel) { return open_[as_size(panel)]; }
+  [[nodiscard]] bool operator[](Panel panel) const { return open_[as_size(panel)]; }
   void toggle(Panel panel) { (*this)[panel] = !(*this)[panel]; }
 
  private:

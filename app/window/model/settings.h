@@ -6,6 +6,7 @@
 
 #include "core/image/tonemap.h"
 #include "hybrid/inspect/inspect_pass.h"
+#include "pinocchio/conversion.h"
 
 namespace pinocchio::app {
 
@@ -61,7 +62,7 @@ const Rule* next_exchange(ViewSettings& settings);
 // The next of an enumeration's first `count` values.
 template <class Enum>
 [[nodiscard]] Enum next(Enum value, int count) {
-  return static_cast<Enum>((static_cast<int>(value) + 1) % count);
+  return static_cast<Enum>((as_int(value) + 1) % count);
 }
 // Changes to the next buffer view; the mask has one view for each slot.
 void next_buffer(ViewSettings& settings, int mask_slots);

@@ -3,6 +3,7 @@
 #include <string>
 
 #include "app/window/overlay/parts.h"
+#include "pinocchio/conversion.h"
 
 namespace pinocchio::app {
 namespace {
@@ -20,7 +21,7 @@ constexpr std::array<Kind, 4> kKinds{
 
 void choose_kind(Background& background) {
   const std::string help(find_field("background")->help);
-  const auto now = static_cast<std::size_t>(background.kind);
+  const auto now = as_size(background.kind);
   label("background", help);
   if (ImGui::BeginCombo("##background", kKinds[now].name)) {
     for (std::size_t i = 0; i < kKinds.size(); ++i) {

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "app/window/overlay/parts.h"
+#include "pinocchio/conversion.h"
 
 namespace pinocchio::app {
 namespace {
@@ -60,7 +61,7 @@ void choose_projection(Model& model) {
       "what is farther away looks smaller", "parallel rays: what is farther away looks as large",
       "all directions, in latitude and longitude; drawn by the CPU",
       "a wide lens: the distance from the middle grows with the angle; drawn by the CPU"};
-  const auto now = static_cast<std::size_t>(model.camera.camera().projection);
+  const auto now = as_size(model.camera.camera().projection);
   label("projection", "how directions become places in the picture");
   if (ImGui::BeginCombo("##projection", std::string(kProjectionNames[now]).c_str())) {
     for (std::size_t i = 0; i < kProjectionNames.size(); ++i) {

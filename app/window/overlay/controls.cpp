@@ -3,6 +3,7 @@
 #include <string>
 
 #include "app/window/overlay/parts.h"
+#include "pinocchio/conversion.h"
 
 namespace pinocchio::app {
 namespace {
@@ -29,8 +30,7 @@ void draw_preset(const char* option, const std::string& help, ViewSettings& s) {
 void draw_exchange(ViewSettings& s) {
   const Field& field = *find_field("exchange");
   const Exchange now = wanted_settings(s).exchange;
-  if (const int clicked =
-          choose("exchange", std::string(field.help), field_choices(field, s), static_cast<std::size_t>(now));
+  if (const int clicked = choose("exchange", std::string(field.help), field_choices(field, s), as_size(now));
       clicked >= 0)
     s.settings.exchange = static_cast<Exchange>(clicked);
 }

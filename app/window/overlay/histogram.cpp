@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "app/window/overlay/parts.h"
+#include "pinocchio/conversion.h"
 
 namespace pinocchio::app {
 namespace {
@@ -33,7 +34,7 @@ void draw_histogram(const Model& model, float scale) {
   const float white_x = at.x + size.x * -kDarkest_stops / (kBrightest_stops - kDarkest_stops);
   for (int i = 0; i < kBins; ++i) {
     const float x = at.x + size.x * i / kBins, next_x = at.x + size.x * (i + 1) / kBins;
-    const float height = size.y * std::sqrt(counts[static_cast<std::size_t>(i)]) / most;
+    const float height = size.y * std::sqrt(counts[as_size(i)]) / most;
     draw.AddRectFilled({x, at.y + size.y - height}, {next_x, at.y + size.y},
                        x < white_x ? IM_COL32(200, 200, 200, 255) : ImGui::GetColorU32(kAccent));
   }

@@ -9,6 +9,7 @@
 
 #include "app/window/overlay/parts.h"
 #include "core/compare/magma.h"
+#include "pinocchio/conversion.h"
 
 namespace pinocchio::app {
 namespace {
@@ -118,7 +119,7 @@ ImVec2 moved_with(PanelPlaces::Area& before, const Area& area, ImVec2 at, ImVec2
 }
 
 void draw_panel(Panel panel, Model& model, float scale) {
-  const auto i = static_cast<std::size_t>(panel);
+  const auto i = as_size(panel);
   const Placement& place = kPlaces[i];
   const Area area = panel_area(model, scale);
   const float width = std::min(place.width * scale, area.size.x);

@@ -5,16 +5,16 @@
 
 #include "app/window/overlay/parts.h"
 #include "pinocchio/animation.h"
+#include "pinocchio/conversion.h"
 
 namespace pinocchio::app {
 namespace {
 
 // The file is read again.
 void choose_up_axis(Model& model) {
-  const int clicked =
-      choose("up axis", "the axis of the file that points up: y in glTF, often z in STL, PLY and OBJ",
-             {{"y", "as in glTF"}, {"z", "the scene is turned, so that its z points up"}},
-             static_cast<std::size_t>(model.up_axis));
+  const int clicked = choose(
+      "up axis", "the axis of the file that points up: y in glTF, often z in STL, PLY and OBJ",
+      {{"y", "as in glTF"}, {"z", "the scene is turned, so that its z points up"}}, as_size(model.up_axis));
   if (clicked >= 0 && static_cast<UpAxis>(clicked) != model.up_axis)
     model.up_axis_to_use = static_cast<UpAxis>(clicked);
 }

@@ -4,6 +4,7 @@
 #include <string>
 
 #include "app/window/overlay/parts.h"
+#include "pinocchio/conversion.h"
 
 namespace pinocchio::app {
 namespace {
@@ -27,9 +28,9 @@ struct Chart {
 
   [[nodiscard]] float x(double at_s) const {
     const double share = (at_s - begin_s) / (end_s - begin_s);
-    return lo.x + static_cast<float>(std::clamp(share, 0.0, 1.0)) * size.x;
+    return lo.x + as_float(std::clamp(share, 0.0, 1.0)) * size.x;
   }
-  [[nodiscard]] float y(Lane lane) const { return lo.y + static_cast<float>(lane) * row_height; }
+  [[nodiscard]] float y(Lane lane) const { return lo.y + as_float(lane) * row_height; }
 };
 
 // Frames differ in brightness, so that each can be followed across the rows.
@@ -110,11 +111,11 @@ const char* stage_label(Stage stage) {
   constexpr std::array<const char*, kStageNames.size()> kLabels{
       "pose",   "build trees", "rasterize", "read back", "trace shadows", "trace reflections",
       "upload", "composite",   "present"};
-  return kLabels[static_cast<std::size_t>(stage)];
+  return kLabels[as_size(stage)];
 }
 
 ImVec4 lane_color(Lane lane) {
-  return kLanes[static_cast<std::size_t>(lane)].color;
+  return kLanes[as_size(lane)].color;
 }
 
 namespace {
@@ -173,7 +174,7 @@ void draw_timeline(Model& model, float scale) {
   view.frames = std::clamp(view.frames, 1, kMostFramesShown);
   view.back = std::clamp(view.back, 0, std::max(count - view.frames, 0));
   const int last = count - (view.paused ? view.back : 0), first = std::max(last - view.frames, 0);
-  const auto at = [&](int i) -> const FrameRecord& { return records[static_cast<std::size_t>(i)]; };
+  const auto at = [&](int i) -> const FrameRecord& { return records[as_size(i)]; };
   const double begin_s = count == 0 ? 0.0 : at(first).frame.begin_s;
   const double end_s = count == 0 ? 1.0 : std::max(at(last - 1).frame.end_s, begin_s + 1e-4);
   ImGui::Text("%d frame%s, %.1f ms%s", last - first, last - first == 1 ? "" : "s", 1e3 * (end_s - begin_s),

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "app/window/model/settings.h"
+#include "pinocchio/conversion.h"
 
 namespace pinocchio::app {
 
@@ -35,7 +36,7 @@ void paragraph(const std::string& text);
 template <class Enum>
 void choose_value(const char* name, const std::string& help, const std::vector<Choice>& choices,
                   Enum& value) {
-  const int clicked = choose(name, help, choices, static_cast<std::size_t>(value));
+  const int clicked = choose(name, help, choices, as_size(value));
   if (clicked >= 0) value = static_cast<Enum>(clicked);
 }
 // shown: the value with its unit, beside the slider.

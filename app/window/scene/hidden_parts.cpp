@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <utility>
 
+#include "pinocchio/conversion.h"
+
 namespace pinocchio::app {
 
 void HiddenParts::begin() {
@@ -20,7 +22,7 @@ std::size_t HiddenParts::part_of(std::uint32_t triangle) const {
   const Scene& scene = model_.scene;
   if (!model_.parts.are_nodes) return scene.mesh->triangle_materials[triangle];
   const int node = scene.nodes->node_of(triangle);
-  return node < 0 ? model_.parts.hidden.size() : static_cast<std::size_t>(node);
+  return node < 0 ? model_.parts.hidden.size() : as_size(node);
 }
 
 bool HiddenParts::apply() {

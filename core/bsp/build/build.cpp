@@ -9,6 +9,7 @@
 #include "core/bsp/build/part_queue.h"
 #include "core/bsp/build/top.h"
 #include "core/parallel/workers.h"
+#include "pinocchio/conversion.h"
 #include "pinocchio/progress.h"
 
 namespace pinocchio {
@@ -19,7 +20,7 @@ constexpr std::size_t kChunk = 4096;
 
 // Wald and Havran 2006: 8 + 1.3 log2 n holds for triangle meshes of every size.
 int default_depth(std::size_t triangles) {
-  return static_cast<int>(8.0 + 1.3 * std::log2(std::max<std::size_t>(triangles, 1)));
+  return as_int(8.0 + 1.3 * std::log2(std::max<std::size_t>(triangles, 1)));
 }
 
 int depth_of(const BuildOptions& options, std::size_t triangles) {
@@ -71,8 +72,7 @@ struct Placed {
 // not depend on the queue's numbers, which vary from run to run.
 class Layout {
  public:
-  Layout(const PartQueue& queue, std::size_t top_nodes)
-      : queue_(queue), nodes_(static_cast<std::uint32_t>(top_nodes)) {
+  Layout(const PartQueue& queue, std::size_t top_nodes) : queue_(queue), nodes_(as_uint32(top_nodes)) {
     placed.reserve(queue.size());
   }
 
@@ -80,8 +80,8 @@ class Layout {
     const Subtree& part = queue_.built(number);
     const std::uint32_t first_node = nodes_;
     placed.push_back({&part, root, first_node, references_});
-    nodes_ += static_cast<std::uint32_t>(part.nodes.size()) - 2;
-    references_ += static_cast<std::uint32_t>(part.references.size());
+    nodes_ += as_uint32(part.nodes.size()) - 2;
+    references_ += as_uint32(part.references.size());
     for (const Subtree::Handed& handed : part.handed) place(handed.part, handed.index - 2 + first_node);
   }
 
@@ -131,7 +131,7 @@ std::vector<std::uint32_t> order_triangles(const BuildMesh& mesh, BspTree& tree)
   for (std::uint32_t& reference : tree.references) {
     std::uint32_t& at = place[reference - first];
     if (at == kNone) {
-      at = static_cast<std::uint32_t>(order.size());
+      at = as_uint32(order.size());
       order.push_back(reference);
     }
     reference = at;

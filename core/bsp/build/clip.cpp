@@ -5,6 +5,8 @@
 #include <cstdint>
 #include <limits>
 
+#include "pinocchio/conversion.h"
+
 namespace pinocchio {
 namespace {
 
@@ -44,11 +46,11 @@ float neighbour(float f, int direction) {
 }
 
 float round_down(double x) {
-  const auto f = static_cast<float>(x);
+  const auto f = as_float(x);
   return f > x ? neighbour(f, -1) : f;
 }
 float round_up(double x) {
-  const auto f = static_cast<float>(x);
+  const auto f = as_float(x);
   return f < x ? neighbour(f, 1) : f;
 }
 

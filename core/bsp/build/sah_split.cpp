@@ -4,6 +4,7 @@
 #include "core/bsp/build/candidate_planes.h"
 #include "core/bsp/build/sah_cost.h"
 #include "core/bsp/build/split.h"
+#include "pinocchio/conversion.h"
 
 namespace pinocchio {
 namespace {
@@ -28,7 +29,7 @@ class SlabCosts {
  public:
   SlabCosts(const Slabs& slabs, std::size_t references, const SahCost& cost, int axis)
       : slabs_(slabs), axis_(axis) {
-    std::uint32_t low = slabs.before_all(axis), high = static_cast<std::uint32_t>(references);
+    std::uint32_t low = slabs.before_all(axis), high = as_uint32(references);
     const int n = slabs.count();
     for (int i = 0; i < n; ++i) {
       low_[i] = low;
@@ -105,7 +106,7 @@ void try_all(std::span<const BuildReference> references, const Bounds& node, int
     behind += unsigned{b >= hi};
   }
   try_planes({std::span(s.lows).first(lows), std::span(s.highs).first(highs), std::span(s.flats).first(flats),
-              static_cast<float>(before), static_cast<float>(behind)},
+              as_float(before), as_float(behind)},
              cost, axis, s.candidates, best);
 }
 

@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "core/bsp/build/part_queue.h"
+#include "pinocchio/conversion.h"
 #include "pinocchio/progress.h"
 
 namespace pinocchio {
@@ -63,7 +64,7 @@ void SubtreeBuilder::build_node(std::uint32_t index, std::size_t begin, std::siz
   if (stack_.size() < high_end + n.low + 1) stack_.resize(2 * (high_end + n.low));
   std::copy_n(low_.begin(), n.low, stack_.begin() + high_end);
 
-  const auto first = static_cast<std::uint32_t>(made_.nodes.size());
+  const auto first = as_uint32(made_.nodes.size());
   made_.nodes.resize(made_.nodes.size() + 2, BspNode::leaf(0, 0));
   made_.nodes[index] = BspNode::inner(plane->axis, plane->position, first);
   const bool hands_over = count > kShared && n.high >= kLeastHanded;
@@ -78,8 +79,7 @@ void SubtreeBuilder::build_node(std::uint32_t index, std::size_t begin, std::siz
 
 std::optional<SplitPlane> SubtreeBuilder::choose(std::span<const BuildReference> references,
                                                  const OpenNode& node) {
-  if (node.depth >= max_depth_ || references.size() <= static_cast<std::size_t>(options_.leaf_size))
-    return std::nullopt;
+  if (node.depth >= max_depth_ || references.size() <= as_size(options_.leaf_size)) return std::nullopt;
   switch (options_.rule) {
     case SplitRule::spatial_median:
       return find_spatial_median(node.box);
@@ -93,8 +93,7 @@ std::optional<SplitPlane> SubtreeBuilder::choose(std::span<const BuildReference>
 
 void SubtreeBuilder::make_leaf(std::uint32_t index, std::size_t begin, std::size_t end, double share) {
   if (share > 0.0) advance(options_.progress, share);
-  made_.nodes[index] = BspNode::leaf(static_cast<std::uint32_t>(made_.references.size()),
-                                     static_cast<std::uint32_t>(end - begin));
+  made_.nodes[index] = BspNode::leaf(as_uint32(made_.references.size()), as_uint32(end - begin));
   for (std::size_t i = begin; i < end; ++i) made_.references.push_back(stack_[i].triangle);
 }
 

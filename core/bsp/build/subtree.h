@@ -8,6 +8,7 @@
 #include "core/bsp/build/references.h"
 #include "core/bsp/build/split.h"
 #include "core/bsp/tree.h"
+#include "pinocchio/conversion.h"
 
 namespace pinocchio {
 
@@ -28,7 +29,7 @@ struct OpenPair {
     ++high.depth;
   }
   void divide_share(const Halves& halves) {
-    const double of_low = halves.low / static_cast<double>(halves.low + halves.high);
+    const double of_low = halves.low / as_double(halves.low + halves.high);
     high.share = low.share * (1.0 - of_low);
     low.share *= of_low;
   }

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "core/bsp/build/slabs.h"
+#include "pinocchio/conversion.h"
 #include "pinocchio/progress.h"
 
 namespace pinocchio {
@@ -144,7 +145,7 @@ class TopBuilder {
       return;
     }
     children.divide_share(size);
-    const auto first = static_cast<std::uint32_t>(top_.nodes.size());
+    const auto first = as_uint32(top_.nodes.size());
     top_.nodes.resize(top_.nodes.size() + 2, BspNode::leaf(0, 0));
     top_.nodes[parent.index] = BspNode::inner(plane->axis, plane->position, first);
     low = {first, children.low, References(size.low)};

@@ -8,6 +8,7 @@
 #include "core/bsp/build/build.h"
 #include "core/scene/pose/pose.h"
 #include "core/scene/pose/shared_meshes.h"
+#include "pinocchio/conversion.h"
 
 namespace pinocchio {
 namespace {
@@ -101,7 +102,7 @@ SharedCopies::SharedCopies(const Scene& scene, const BuildOptions& options) {
     if (!std::ranges::all_of(of_node, shares) || !are_all_of(scene.nodes->nodes[node], of_node)) continue;
     has_node_[node] = true;
     for (std::size_t i = first; i < last; ++i) {
-      copies_.push_back({static_cast<std::uint32_t>(i)});
+      copies_.push_back({as_uint32(i)});
       nodes_.push_back(node);
     }
   }

@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "core/bsp/build/build.h"
+#include "pinocchio/conversion.h"
 
 namespace pinocchio {
 namespace {
@@ -70,15 +71,15 @@ std::optional<Motion> motion_since(const KeptTree& kept, std::span<const std::sp
   const glm::vec3* built = kept.vertices.data();
   for (const std::span<const glm::vec3> piece : pieces)
     for (const glm::vec3& p : piece) {
-      const Quad off = x * static_cast<double>(p.x) + y * static_cast<double>(p.y) +
-                       z * static_cast<double>(p.z) + shift - Quad{built->x, built->y, built->z, 0.0};
+      const Quad off = x * as_double(p.x) + y * as_double(p.y) + z * as_double(p.z) + shift -
+                       Quad{built->x, built->y, built->z, 0.0};
       const Quad size = off < 0.0 ? -off : off;
       most = size > most ? size : most;
       sum += size;  // NaN stays
       ++built;
     }
   motion.error = {most[0], most[1], most[2]};
-  const double limit = kMostError * static_cast<double>(kept.tree->exact_bounds.diagonal());
+  const double limit = kMostError * as_double(kept.tree->exact_bounds.diagonal());
   if (!std::isfinite(sum[0] + sum[1] + sum[2]) || std::max({most[0], most[1], most[2]}) > limit)
     return std::nullopt;
   return motion;
@@ -89,12 +90,12 @@ void Motion::describe(const Bounds& bounds, MovingTree& tree) const {
   for (int i = 0; i < 3; ++i) {
     double size = std::abs(tree_from_world[3][i]);
     for (int j = 0; j < 4; ++j) {
-      tree.tree_from_world[i][j] = static_cast<float>(tree_from_world[j][i]);
+      tree.tree_from_world[i][j] = as_float(tree_from_world[j][i]);
       if (j < 3) size += std::abs(tree_from_world[j][i]) * reach[j];
     }
     // The double sums of `error` are rounded, too; and a plane's error must not vanish.
-    const double margin = static_cast<double>(MovingTree::kPerOrigin) * size + 1.001 * error[i];
-    tree.margin[i] = std::max(static_cast<float>(1.001 * margin), std::numeric_limits<float>::min());
+    const double margin = as_double(MovingTree::kPerOrigin) * size + 1.001 * error[i];
+    tree.margin[i] = std::max(as_float(1.001 * margin), std::numeric_limits<float>::min());
   }
 }
 

@@ -13,6 +13,7 @@
 #include "core/parallel/workers.h"
 #include "core/scene/pose/mesh_pose.h"
 #include "core/scene/pose/pose.h"
+#include "pinocchio/conversion.h"
 
 namespace pinocchio {
 namespace {
@@ -114,7 +115,7 @@ class Trees {
       for (const int i : group.nodes) was_still[i] = false;
     bool same = true;
     for (std::size_t i = 0; i < n; ++i) {
-      if (node(static_cast<int>(i)).triangles == 0 || motion_->copies.has_node(i)) continue;
+      if (node(as_int(i)).triangles == 0 || motion_->copies.has_node(i)) continue;
       same = same && was_still[i] == is_still_[i] && !(is_still_[i] && differs_[i]);
     }
     if (same) trees_->still = before.still;
@@ -156,7 +157,7 @@ class Trees {
     is_still_.assign(n, true);
     for (std::size_t i = 0; i < n; ++i) {
       const Node& at = scene_.nodes->nodes[i];
-      root[i] = motion_->moves[i] >= kMoves ? static_cast<int>(i) : at.parent >= 0 ? root[at.parent] : -1;
+      root[i] = motion_->moves[i] >= kMoves ? as_int(i) : at.parent >= 0 ? root[at.parent] : -1;
       if (at.triangles == 0 || motion_->copies.has_node(i) ||
           (deforms[i] ? motion_->reshapes[i] < kMoves : root[i] < 0))
         continue;
@@ -164,14 +165,13 @@ class Trees {
       is_still_[i] = false;
       if (deforms[i]) {
         deforming += at.triangles;
-        reshaped.push_back(static_cast<int>(i));
+        reshaped.push_back(as_int(i));
       } else {
-        of_root[root[i]].push_back(static_cast<int>(i));
+        of_root[root[i]].push_back(as_int(i));
       }
     }
     for (std::size_t i = 0; i < n; ++i)
-      if (!of_root[i].empty())
-        motion_->groups.push_back({static_cast<int>(i), std::move(of_root[i]), nullptr, {}, {}});
+      if (!of_root[i].empty()) motion_->groups.push_back({as_int(i), std::move(of_root[i]), nullptr, {}, {}});
     // Trees of their own would save little, where most of what is built anyhow deforms.
     for (const int i : reshaped) {
       if (deforming > still)
@@ -192,11 +192,10 @@ class Trees {
         std::fill_n(left_out.begin() + node(n).first_triangle, node(n).triangles, true);
     for (std::size_t n = 0; n < scene_.nodes->nodes.size(); ++n)
       if (motion_->copies.has_node(n))
-        std::fill_n(left_out.begin() + node(static_cast<int>(n)).first_triangle,
-                    node(static_cast<int>(n)).triangles, true);
+        std::fill_n(left_out.begin() + node(as_int(n)).first_triangle, node(as_int(n)).triangles, true);
     std::vector<std::uint32_t> ids;
     for (std::size_t i = 0; i < left_out.size(); ++i)
-      if (!left_out[i]) ids.push_back(static_cast<std::uint32_t>(i));
+      if (!left_out[i]) ids.push_back(as_uint32(i));
     BuildMesh part(mesh_);
     part.ids = ids;
     trees_->still = std::make_shared<const BspTree>(build_tree(part, options_));
@@ -211,7 +210,7 @@ class Trees {
   // Kept from pose to pose: to start threads takes as long as to place thousands of triangles.
   Workers& workers() {
     if (!motion_->workers) {
-      const auto cores = static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
+      const auto cores = as_int(std::max(1u, std::thread::hardware_concurrency()));
       const int wanted = options_.threads > 0 ? options_.threads : cores;
       motion_->workers = std::make_shared<Workers>(std::min(wanted, kMostThreads));
     }

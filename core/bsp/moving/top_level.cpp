@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <numeric>
 
+#include "pinocchio/conversion.h"
+
 namespace pinocchio {
 namespace {
 
@@ -35,7 +37,7 @@ class TopLevel {
                      [&](std::uint32_t a, std::uint32_t b) {
                        return boxes_[a].center()[axis] < boxes_[b].center()[axis];
                      });
-    const auto children = static_cast<std::uint32_t>(nodes.size());
+    const auto children = as_uint32(nodes.size());
     nodes.resize(nodes.size() + 2);
     nodes[index] = {box, children, axis};
     build(children, first, middle);

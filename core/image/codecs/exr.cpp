@@ -16,6 +16,7 @@
 #include <stdexcept>
 
 #include "core/image/codecs/exr_open.h"
+#include "pinocchio/conversion.h"
 
 namespace pinocchio {
 namespace {
@@ -56,7 +57,7 @@ void read_attributes(const Imf::Header& header, ExrFile& exr) {
     if (const auto* whole = dynamic_cast<const Imf::IntAttribute*>(&attribute))
       exr.attributes[it.name()] = whole->value();
     if (const auto* ratio = dynamic_cast<const Imf::RationalAttribute*>(&attribute))
-      exr.attributes[it.name()] = ExrRational{ratio->value().n, static_cast<int>(ratio->value().d)};
+      exr.attributes[it.name()] = ExrRational{ratio->value().n, as_int(ratio->value().d)};
     if (const auto* matrix = dynamic_cast<const Imf::M44fAttribute*>(&attribute))
       exr.attributes[it.name()] = glm_matrix(matrix->value());
   }
@@ -85,7 +86,7 @@ ExrFile read_file(const std::filesystem::path& file, std::uint64_t claim_bytes) 
                             {}});
   }
   const glm::ivec2 size = exr.data_window.size();
-  const std::size_t count = size.x * static_cast<std::size_t>(size.y);
+  const std::size_t count = size.x * as_size(size.y);
   Imf::FrameBuffer pixels;
   for (ExrChannel& channel : exr.channels) {
     if (channel.type == ExrChannel::Type::uint) {

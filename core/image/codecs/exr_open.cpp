@@ -10,6 +10,8 @@
 #include <stdexcept>
 #include <string>
 
+#include "pinocchio/conversion.h"
+
 namespace pinocchio {
 namespace {
 
@@ -17,8 +19,8 @@ namespace {
 double claimed_bytes(const Imf::Header& header) {
   constexpr double kMostLinesInBand = 256.0;  // DWAB's
   const Imath::Box2i& data = header.dataWindow();
-  const double width = static_cast<double>(data.max.x) - data.min.x + 1.0,
-               height = static_cast<double>(data.max.y) - data.min.y + 1.0;
+  const double width = as_double(data.max.x) - data.min.x + 1.0,
+               height = as_double(data.max.y) - data.min.y + 1.0;
   double bytes = 0.0;
   for (auto it = header.channels().begin(); it != header.channels().end(); ++it)
     bytes += 4.0 * width * std::max(height, kMostLinesInBand);

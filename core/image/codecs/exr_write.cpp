@@ -14,6 +14,7 @@
 #include "core/files/atomic_file.h"
 #include "core/image/codecs/exr_bands.h"
 #include "core/image/codecs/exr_pack.h"
+#include "pinocchio/conversion.h"
 
 namespace pinocchio {
 namespace {
@@ -67,7 +68,7 @@ struct SetAttribute {
   void operator()(float value) const { check(exr_attr_set_float(exr, kPart, name, value)); }
   void operator()(int value) const { check(exr_attr_set_int(exr, kPart, name, value)); }
   void operator()(const ExrRational& value) const {
-    const exr_attr_rational_t rational{value.numerator, static_cast<std::uint32_t>(value.denominator)};
+    const exr_attr_rational_t rational{value.numerator, as_uint32(value.denominator)};
     check(exr_attr_set_rational(exr, kPart, name, &rational));
   }
   void operator()(const glm::mat4& m) const {
@@ -86,12 +87,12 @@ void write_header(exr_context_t exr, const ExrFile& file) {
   const exr_attr_v2f_t center{0.0f, 0.0f};
   check(exr_initialize_required_attr(exr, kPart, &display, &data, 1.0f, &center, 1.0f,
                                      EXR_LINEORDER_INCREASING_Y,
-                                     kExrCompressions[static_cast<std::size_t>(file.compression)]));
+                                     kExrCompressions[as_size(file.compression)]));
   const exr_attr_chromaticities_t rec709{0.64f, 0.33f, 0.30f, 0.60f, 0.15f, 0.06f, 0.3127f, 0.3290f};
   check(exr_attr_set_chromaticities(exr, kPart, "chromaticities", &rec709));
   for (const auto& [name, value] : file.attributes) std::visit(SetAttribute{exr, name.c_str()}, value);
   for (const ExrChannel& channel : file.channels)
-    check(exr_add_channel(exr, kPart, channel.name.c_str(), kExrTypes[static_cast<std::size_t>(channel.type)],
+    check(exr_add_channel(exr, kPart, channel.name.c_str(), kExrTypes[as_size(channel.type)],
                           EXR_PERCEPTUALLY_LOGARITHMIC, 1, 1));
   check(exr_write_header(exr));
 }
@@ -103,7 +104,7 @@ std::uint16_t half_bits(float value) {
 // Line after line, with the channels of a line in the order of names.
 std::vector<std::byte> lines_of(std::vector<ExrChannel> channels, int width, int height) {
   std::ranges::sort(channels, {}, &ExrChannel::name);
-  const auto w = static_cast<std::size_t>(width);
+  const auto w = as_size(width);
   std::size_t bytes_of_pixel = 0;
   for (const ExrChannel& channel : channels)
     bytes_of_pixel += channel.type == ExrChannel::Type::half ? sizeof(std::uint16_t) : sizeof(float);

@@ -20,17 +20,18 @@
 #pragma GCC diagnostic pop
 
 #include "core/image/codecs/decoders.h"
+#include "pinocchio/conversion.h"
 
 namespace pinocchio {
 
 bool is_stb(std::span<const unsigned char> bytes) {
   int width = 0, height = 0, channels = 0;
   return bytes.size() <= std::numeric_limits<int>::max() &&
-         stbi_info_from_memory(bytes.data(), static_cast<int>(bytes.size()), &width, &height, &channels) != 0;
+         stbi_info_from_memory(bytes.data(), as_int(bytes.size()), &width, &height, &channels) != 0;
 }
 
 Expected<DecodedImage> decode_stb(const EncodedPicture& picture) {
-  const auto size = static_cast<int>(picture.bytes.size());
+  const auto size = as_int(picture.bytes.size());
   int width = 0, height = 0, channels = 0;
   if (stbi_info_from_memory(picture.bytes.data(), size, &width, &height, &channels) == 0)
     return picture.error(std::string("cannot be decoded: ") + stbi_failure_reason());

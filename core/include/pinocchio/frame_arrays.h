@@ -7,6 +7,7 @@
 #include <string_view>
 #include <variant>
 
+#include "pinocchio/conversion.h"
 #include "pinocchio/exr.h"
 #include "pinocchio/glm_layout.h"
 
@@ -149,7 +150,7 @@ inline constexpr std::array kLayers{
 };
 
 [[nodiscard]] constexpr const LayerRow& layer_row(Layer layer) {
-  return kLayers[static_cast<std::size_t>(layer)];
+  return kLayers[as_size(layer)];
 }
 
 }  // namespace pinocchio

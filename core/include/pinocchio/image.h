@@ -6,6 +6,7 @@
 #include <span>
 #include <vector>
 
+#include "pinocchio/conversion.h"
 #include "pinocchio/glm_layout.h"
 #include "pinocchio/pixel_memory.h"
 
@@ -17,7 +18,7 @@ class Image {
  public:
   Image() = default;
   explicit Image(glm::ivec2 size, const T& value = T{})
-      : size_(size), pixels_(static_cast<std::size_t>(size.x) * static_cast<std::size_t>(size.y), value) {
+      : size_(size), pixels_(as_size(size.x) * as_size(size.y), value) {
     assert(size.x >= 0 && size.y >= 0);
   }
 
@@ -35,7 +36,7 @@ class Image {
   [[nodiscard]] std::span<const T> pixels() const { return pixels_; }
   [[nodiscard]] std::size_t index(int x, int y) const {
     assert(x >= 0 && y >= 0 && x < size_.x && y < size_.y);
-    return static_cast<std::size_t>(y) * static_cast<std::size_t>(size_.x) + static_cast<std::size_t>(x);
+    return as_size(y) * as_size(size_.x) + as_size(x);
   }
 
  private:

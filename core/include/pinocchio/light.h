@@ -6,6 +6,7 @@
 #include <string>
 #include <string_view>
 
+#include "pinocchio/conversion.h"
 #include "pinocchio/glm_layout.h"
 
 namespace pinocchio {
@@ -96,7 +97,7 @@ inline constexpr std::array kLightKinds{
 };
 
 [[nodiscard]] constexpr const LightKind& kind_of(const Light& light) {
-  return kLightKinds[static_cast<std::size_t>(light.kind)];
+  return kLightKinds[as_size(light.kind)];
 }
 
 inline bool Light::has_size() const {

@@ -9,6 +9,7 @@
 #include <span>
 #include <vector>
 
+#include "pinocchio/conversion.h"
 #include "pinocchio/glm_layout.h"
 
 namespace pinocchio {
@@ -23,11 +24,11 @@ class MaskImage {
   // The fewest bits that hold `lights` casting lights.
   [[nodiscard]] static int bits_for(int lights) {
     if (lights > 32) return (lights + 63) / 64 * 64;
-    return lights == 0 ? 0 : static_cast<int>(std::bit_ceil(static_cast<unsigned>(lights)));
+    return lights == 0 ? 0 : as_int(std::bit_ceil(static_cast<unsigned>(lights)));
   }
   // The bytes of a pixel that hold its bits: 1, 2, 4 or a multiple of 8.
   [[nodiscard]] static std::size_t bytes_for(std::size_t lights) {
-    return static_cast<std::size_t>(std::max(bits_for(static_cast<int>(lights)) / 8, 1));
+    return as_size(std::max(bits_for(as_int(lights)) / 8, 1));
   }
   [[nodiscard]] static int row_bytes_for(int width, int bits) { return (width * bits + 7) / 8; }
 
@@ -35,7 +36,7 @@ class MaskImage {
     size_ = size;
     bits_ = bits;
     row_bytes_ = row_bytes_for(size.x, bits);
-    bytes_.assign(static_cast<std::size_t>(row_bytes_) * static_cast<std::size_t>(size.y), 0);
+    bytes_.assign(as_size(row_bytes_) * as_size(size.y), 0);
   }
 
   [[nodiscard]] glm::ivec2 size() const { return size_; }
@@ -49,25 +50,25 @@ class MaskImage {
     if (bits_ < 8) return bytes_[byte_of(x, y)] >> shift_of(x) & ((1u << bits_) - 1u);
     unsigned slots = 0;
     for (int i = std::min(bits_ - first, 32) / 8; i-- > 0;)
-      slots = slots << 8 | bytes_[byte_of(x, y) + static_cast<std::size_t>(first / 8 + i)];
+      slots = slots << 8 | bytes_[byte_of(x, y) + as_size(first / 8 + i)];
     return slots;
   }
   void set_bit(int x, int y, int slot) {
     const int bit = shift_of(x) + slot;
-    bytes_[byte_of(x, y) + static_cast<std::size_t>(bit / 8)] |= static_cast<std::uint8_t>(1u << bit % 8);
+    bytes_[byte_of(x, y) + as_size(bit / 8)] |= static_cast<std::uint8_t>(1u << bit % 8);
   }
 
   // Copies `count` pixels from (x, y) on, `bytes` to each: slot i is bit i % 8 of byte i / 8. Slots that the
   // mask does not have are 0, slots beyond `bytes` are left out.
   void copy_row(int x, int y, std::size_t count, std::size_t bytes, std::uint8_t* to) const {
-    const std::size_t own = static_cast<std::size_t>(bits_) / 8;
+    const std::size_t own = as_size(bits_) / 8;
     if (own == bytes) {
       std::memcpy(to, bytes_.data() + byte_of(x, y), count * bytes);
       return;
     }
     std::fill_n(to, count * bytes, std::uint8_t{0});
     for (std::size_t i = 0; i < count; ++i) {
-      const int at = x + static_cast<int>(i);
+      const int at = x + as_int(i);
       if (bits_ < 8)
         to[i * bytes] = static_cast<std::uint8_t>(get(at, y));
       else
@@ -82,8 +83,7 @@ class MaskImage {
     std::uint8_t* row = bytes_.data() + byte_of(x, y);
     if (bits_ > 8) {
       row += byte;
-      for (std::size_t i = 0; i < pixels.size(); ++i)
-        row[i * static_cast<std::size_t>(bits_ / 8)] = pixels[i];
+      for (std::size_t i = 0; i < pixels.size(); ++i) row[i * as_size(bits_ / 8)] = pixels[i];
       return;
     }
     for (std::size_t first = 0, at = 0; first < pixels.size(); first += 8) {
@@ -96,15 +96,14 @@ class MaskImage {
       // 8 pixels of 8 bits become 4 of 16, 2 of 32, and one of 64, each with so many used bits.
       for (int width = 8, used = bits_; width < 64; width *= 2, used *= 2)
         packed = (packed | packed >> (width - used)) & lowest_bits(used * 2, width * 2);
-      for (std::size_t bytes = (count * static_cast<std::size_t>(bits_) + 7) / 8; bytes-- > 0; packed >>= 8)
+      for (std::size_t bytes = (count * as_size(bits_) + 7) / 8; bytes-- > 0; packed >>= 8)
         row[at++] = static_cast<std::uint8_t>(packed);
     }
   }
 
  private:
   [[nodiscard]] std::size_t byte_of(int x, int y) const {
-    return static_cast<std::size_t>(y) * static_cast<std::size_t>(row_bytes_) +
-           static_cast<std::size_t>(x * bits_ / 8);
+    return as_size(y) * as_size(row_bytes_) + as_size(x * bits_ / 8);
   }
   // A word of fields of `width` bits, each with its lowest `used` bits set.
   [[nodiscard]] static std::uint64_t lowest_bits(int used, int width) {

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "pinocchio/bounds.h"
+#include "pinocchio/conversion.h"
 #include "pinocchio/glm_layout.h"
 #include "pinocchio/material.h"
 #include "pinocchio/material_maps.h"
@@ -50,7 +51,7 @@ struct Mesh : MeshData {
   // Null: the triangle's material is the same at every point.
   [[nodiscard]] const MaterialMaps* maps_of(std::uint32_t triangle) const {
     const int index = material_of(triangle).maps;
-    return index < 0 ? nullptr : &maps[static_cast<std::size_t>(index)];
+    return index < 0 ? nullptr : &maps[as_size(index)];
   }
 
   // Where its nodes are (core/scene/pose/mesh_pose.h); null: posed() did not make it.

@@ -6,6 +6,8 @@
 #include <optional>
 #include <string_view>
 
+#include "pinocchio/conversion.h"
+
 namespace pinocchio {
 
 // The value of an enumeration whose names are listed in its order; none if `name` is not one of them.
@@ -19,7 +21,7 @@ template <class Enum, std::size_t N>
 
 template <class Enum, std::size_t N>
 [[nodiscard]] constexpr std::string_view name_of(const std::array<std::string_view, N>& names, Enum value) {
-  return names[static_cast<std::size_t>(value)];
+  return names[as_size(value)];
 }
 
 }  // namespace pinocchio

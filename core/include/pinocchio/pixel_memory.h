@@ -4,6 +4,8 @@
 #include <cstddef>
 #include <new>
 
+#include "pinocchio/conversion.h"
+
 namespace pinocchio {
 
 // Memory in pages of 2 MiB where that wastes little: the system provides pages of 4 KiB one by one at the
@@ -21,7 +23,7 @@ struct PixelAllocator {
   PixelAllocator(const PixelAllocator<Other>&) {}  // NOLINT: the standard requires it
 
   [[nodiscard]] T* allocate(std::size_t n) {
-    if (n > static_cast<std::size_t>(-1) / (2 * sizeof(T))) throw std::bad_array_new_length();
+    if (n > as_size(-1) / (2 * sizeof(T))) throw std::bad_array_new_length();
     return static_cast<T*>(allocate_pixels(n * sizeof(T)));
   }
   void deallocate(T* memory, std::size_t n) noexcept { free_pixels(memory, n * sizeof(T)); }

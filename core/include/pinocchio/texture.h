@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "pinocchio/conversion.h"
 #include "pinocchio/glm_layout.h"
 #include "pinocchio/image.h"
 
@@ -25,7 +26,7 @@ struct Texture {
 
   [[nodiscard]] int levels() const {
     if (smaller_levels.empty()) return 1;
-    return static_cast<int>(std::bit_width(static_cast<unsigned>(std::max(texels.width(), texels.height()))));
+    return as_int(std::bit_width(static_cast<unsigned>(std::max(texels.width(), texels.height()))));
   }
 };
 

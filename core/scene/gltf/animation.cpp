@@ -9,6 +9,7 @@
 #include "core/base/listed.h"
 #include "core/scene/gltf/deformation.h"
 #include "core/scene/gltf/format/json.h"
+#include "pinocchio/conversion.h"
 
 namespace pinocchio {
 namespace {
@@ -143,7 +144,7 @@ class AnimationReader {
       Expected<std::optional<Track>> track = track_of(array_member(&from, "samplers"), channel);
       if (!track) return Unexpected(track.error());
       if (!*track) continue;
-      clip.duration_s = std::max(clip.duration_s, static_cast<double>((*track)->times_s.back()));
+      clip.duration_s = std::max(clip.duration_s, as_double((*track)->times_s.back()));
       const int node = place_of(channel);
       if (!moved_.emplace(node, (*track)->path).second) {
         warn("a second animation channel for the same property of a node is left out",
@@ -201,7 +202,7 @@ class AnimationReader {
     Expected<std::vector<float>> times = file_.floats(input, 1);
     if (!times) return Unexpected(times.error());
     Expected<std::vector<float>> values =
-        file_.floats(output, path == Track::Path::weights ? 1 : static_cast<int>(width));
+        file_.floats(output, path == Track::Path::weights ? 1 : as_int(width));
     if (!values) return Unexpected(values.error());
     const auto finite = [](float f) { return std::isfinite(f); };
     if (!std::ranges::all_of(*times, finite) || !std::ranges::all_of(*values, finite))

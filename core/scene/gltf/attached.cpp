@@ -10,6 +10,7 @@
 #include "core/math/finite.h"
 #include "core/scene/gltf/format/json.h"
 #include "core/scene/pose/pose.h"
+#include "pinocchio/conversion.h"
 
 namespace pinocchio {
 namespace {
@@ -70,14 +71,12 @@ Light light_of(const Json& json, const GltfNode& node, const glm::mat4& world) {
   light.intensity = value_member<float>(&json, "intensity").value_or(1.0f);
   light.falloff = kind.has_position ? Light::Falloff::inverse_square : Light::Falloff::none;
   if (const double range = value_member<double>(&json, "range").value_or(0.0); range > 0.0)
-    light.range = static_cast<float>(range);
+    light.range = as_float(range);
   if (kind.has_cone) {
     const Json* spot = member(&json, "spot");
     constexpr double kUsualCone = 0.7853981634;
-    light.cos_inner =
-        static_cast<float>(std::cos(value_member<double>(spot, "innerConeAngle").value_or(0.0)));
-    light.cos_outer =
-        static_cast<float>(std::cos(value_member<double>(spot, "outerConeAngle").value_or(kUsualCone)));
+    light.cos_inner = as_float(std::cos(value_member<double>(spot, "innerConeAngle").value_or(0.0)));
+    light.cos_outer = as_float(std::cos(value_member<double>(spot, "outerConeAngle").value_or(kUsualCone)));
   }
   for (const Json* extras : {our_extras(&json), our_extras(node.json)}) add_extras(extras, world, light);
   return light;
@@ -99,7 +98,7 @@ Camera camera_of(const Json& json, const GltfNode& node, const glm::mat4& world)
     camera.height = 2.0f * value_member<float>(member(&json, "orthographic"), "ymag").value_or(0.0f);
   } else {
     const double yfov = value_member<double>(member(&json, "perspective"), "yfov").value_or(0.0);
-    camera.fov_deg = static_cast<float>(glm::degrees(yfov));
+    camera.fov_deg = as_float(glm::degrees(yfov));
   }
   camera.lens_radius = length_member(extras, "lensRadius").value_or(0.0f);
   camera.focus_distance = length_member(extras, "focusDistance").value_or(0.0f);

@@ -8,6 +8,7 @@
 #include "core/files/base64.h"
 #include "core/files/input_file.h"
 #include "core/scene/gltf/format/json.h"
+#include "pinocchio/conversion.h"
 
 namespace pinocchio {
 namespace {
@@ -86,7 +87,7 @@ Expected<GltfBufferView> view_of(GltfFile& file, const Json& json, const std::st
     if (!packed) continue;
     Expected<FileBytes> bytes = unpack_meshopt(file, *packed, name, whose);
     if (!bytes) return Unexpected(bytes.error());
-    const GltfBufferView view{static_cast<int>(file.buffers.size()), 0, bytes->size(),
+    const GltfBufferView view{as_int(file.buffers.size()), 0, bytes->size(),
                               value_member<std::size_t>(packed, "byteStride").value_or(0)};
     file.add_buffer(std::move(*bytes));
     return view;

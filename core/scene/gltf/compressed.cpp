@@ -12,20 +12,21 @@
 
 #include "core/scene/gltf/buffers.h"
 #include "core/scene/gltf/format/json.h"
+#include "pinocchio/conversion.h"
 
 namespace pinocchio {
 namespace {
 
 // Appends an accessor on bytes of its own, elements one after the other.
 int add_accessor(GltfFile& file, FileBytes bytes, int component_type, int components, std::size_t count) {
-  file.buffer_views.push_back({static_cast<int>(file.buffers.size()), 0, bytes.size()});
+  file.buffer_views.push_back({as_int(file.buffers.size()), 0, bytes.size()});
   file.add_buffer(std::move(bytes));
   GltfAccessor& accessor = file.accessors.emplace_back();
-  accessor.buffer_view = static_cast<int>(file.buffer_views.size() - 1);
+  accessor.buffer_view = as_int(file.buffer_views.size() - 1);
   accessor.count = count;
   accessor.component_type = component_type;
   accessor.components = components;
-  return static_cast<int>(file.accessors.size() - 1);
+  return as_int(file.accessors.size() - 1);
 }
 
 template <int kComponents>
@@ -33,8 +34,8 @@ FileBytes values_of(const draco::PointAttribute& attribute, std::size_t points) 
   FileBytes bytes(points * kComponents * sizeof(float));
   for (std::size_t i = 0; i < points; ++i) {
     float values[kComponents] = {};
-    attribute.ConvertValue<float, kComponents>(
-        attribute.mapped_index(draco::PointIndex(static_cast<std::uint32_t>(i))), values);
+    attribute.ConvertValue<float, kComponents>(attribute.mapped_index(draco::PointIndex(as_uint32(i))),
+                                               values);
     std::memcpy(bytes.data() + i * sizeof values, values, sizeof values);
   }
   return bytes;
@@ -78,8 +79,7 @@ class DracoPrimitive {
     for (auto& [name, accessor] : primitive_.attributes) {
       if (!member(ids, name)) continue;  // stays uncompressed
       const int id = index_member(ids, name);
-      const draco::PointAttribute* attribute =
-          id >= 0 ? mesh.GetAttributeByUniqueId(static_cast<std::uint32_t>(id)) : nullptr;
+      const draco::PointAttribute* attribute = id >= 0 ? mesh.GetAttributeByUniqueId(as_uint32(id)) : nullptr;
       if (!attribute || !in_range(accessor, file_.accessors))
         return file_.error(std::string(kWhose) + " lacks its attribute " + name);
       const int components = item_of(file_.accessors, accessor).components;

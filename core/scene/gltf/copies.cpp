@@ -7,6 +7,7 @@
 #include "core/scene/gltf/format/json.h"
 #include "core/scene/pose/shared_meshes.h"
 #include "core/scene/strokes.h"
+#include "pinocchio/conversion.h"
 
 namespace pinocchio {
 namespace {
@@ -34,8 +35,7 @@ MeshSize size_of(const GltfFile& file, const GltfMesh& mesh, const PointsAndLine
     if (is_stroke_mode(primitive.mode)) {
       const bool points = primitive.mode == kGltfPoints;
       if (!(points ? strokes.points : strokes.lines).drawn()) continue;
-      (points ? size.points : size.lines) +=
-          static_cast<double>(stroke_count(primitive.mode, static_cast<std::size_t>(corners)));
+      (points ? size.points : size.lines) += as_double(stroke_count(primitive.mode, as_size(corners)));
       size.vertices += vertices;  // they are read for each placing
       continue;
     }

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "core/math/finite.h"
+#include "pinocchio/conversion.h"
 
 namespace pinocchio {
 namespace {
@@ -99,7 +100,7 @@ Expected<void> DeformationReader::add_target(const GltfAttributes& accessors, st
     if (!file_.limit->take(file_.path.string(), "a morph target", 1,
                            sizeof(std::uint32_t) + 3 * sizeof(glm::vec3)))
       return Unexpected(*file_.limit->error());
-    to.vertices.push_back(first - first_vertex_ + static_cast<std::uint32_t>(v));
+    to.vertices.push_back(first - first_vertex_ + as_uint32(v));
     // Another primitive of the target may lack what this one has.
     for (std::size_t i = 0; i < kept.size(); ++i)
       if (!offsets[i].empty() || !kept[i]->empty()) {
@@ -132,8 +133,7 @@ Expected<void> DeformationReader::add_influences(const GltfPrimitive& primitive,
       if (!(joint >= 0.0f && joint < joints_))
         return file_.error("a vertex names joint " + std::to_string(static_cast<long long>(joint)) +
                            " of skin " + std::to_string(node_.skin) + ", it has " + std::to_string(joints_));
-      influences[i / 4 * stride + set * kInfluencesASet + i % 4] = {static_cast<std::uint32_t>(joint),
-                                                                    weight};
+      influences[i / 4 * stride + set * kInfluencesASet + i % 4] = {as_uint32(joint), weight};
     }
   }
   for (std::size_t v = 0; v < count; ++v) settle_weights(std::span(influences).subspan(v * stride, stride));
@@ -165,7 +165,7 @@ void DeformationReader::place(const glm::mat4& instance, std::uint32_t first,
   const std::uint32_t begin = first - first_vertex_;
   for (MorphTarget& target : deformation_.targets) {
     const auto at = std::ranges::lower_bound(target.vertices, begin) - target.vertices.begin();
-    for (auto i = static_cast<std::size_t>(at); i < target.vertices.size(); ++i) {
+    for (auto i = as_size(at); i < target.vertices.size(); ++i) {
       const std::uint32_t v = target.vertices[i];
       if (v - begin >= normals.size()) break;
       if (!target.positions.empty()) target.positions[i] = linear * target.positions[i];

@@ -7,6 +7,7 @@
 
 #include "core/base/large_memory.h"
 #include "core/parallel/parts.h"
+#include "pinocchio/conversion.h"
 
 namespace pinocchio {
 namespace {
@@ -28,7 +29,7 @@ void convert_from(const Elements& from, std::size_t first, std::size_t count, st
       T value;
       std::memcpy(&value, from.first + i * from.stride + c * sizeof value, sizeof value);
       if constexpr (std::is_same_v<Out, float>)
-        *to++ = static_cast<float>(static_cast<double>(value) * scale);
+        *to++ = as_float(as_double(value) * scale);
       else
         *to++ = static_cast<Out>(value);
     }
@@ -134,7 +135,7 @@ Expected<void> overwrite(const GltfFile& file, const std::string& accessor_name,
       elements(file, whose, sparse.values.buffer_view, sparse.values.byte_offset, count,
                accessor.component_type, accessor.components);
   if (!values) return Unexpected(values.error());
-  const auto width = static_cast<std::size_t>(accessor.components);
+  const auto width = as_size(accessor.components);
   for (std::size_t i = 0; i < count; ++i) {
     if (i % kElementsAtOnce == 0) throw_if_cancelled(file.progress);
     std::uint32_t to = 0;
@@ -157,7 +158,7 @@ Expected<void> append_numbers(const GltfFile& file, int index, int components, s
   constexpr std::size_t kMostElements = 0xffffffffu;
   if (accessor.count > kMostElements) return file.error(whose + " holds too many elements");
 
-  const auto width = static_cast<std::size_t>(components);
+  const auto width = as_size(components);
   const Expected<ComponentType> type = component_type_of(file, whose, accessor.component_type);
   if (!type) return Unexpected(type.error());
   const double scale = accessor.normalized ? 1.0 / type->largest : 1.0;

@@ -18,6 +18,7 @@
 #include "core/scene/formats.h"
 #include "core/scene/gltf/format/constants.h"
 #include "pinocchio/animation.h"
+#include "pinocchio/conversion.h"
 
 namespace pinocchio {
 
@@ -146,7 +147,7 @@ struct GltfFile {
 // Whether an index of the file names one of `items`.
 template <class Items>
 [[nodiscard]] bool in_range(int index, const Items& items) {
-  return index >= 0 && static_cast<std::size_t>(index) < items.size();
+  return index >= 0 && as_size(index) < items.size();
 }
 
 // "7, there are 2", of an index that names nothing.

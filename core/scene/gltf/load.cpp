@@ -9,6 +9,7 @@
 #include "core/scene/gltf/format/json.h"
 #include "core/scene/gltf/format/variants.h"
 #include "core/scene/pose/pose.h"
+#include "pinocchio/conversion.h"
 
 namespace pinocchio {
 namespace {
@@ -57,17 +58,17 @@ class SceneReader {
       const Placed at = open.back();
       open.pop_back();
       if (!in_range(at.node, file_.nodes)) return file_.error("names node " + which_of(at.node, file_.nodes));
-      const auto index = static_cast<std::size_t>(at.node);
+      const auto index = as_size(at.node);
       if (seen[index])
         return file_.error("reaches node " + std::to_string(at.node) + " twice: nodes are no tree");
       seen[index] = true;
       const GltfNode& node = file_.nodes[index];
       const glm::mat4 local = node.parent_from_node(), world = at.world_from_parent * local;
-      place_of_node_[index] = static_cast<int>(tree_.nodes.size());
+      place_of_node_[index] = as_int(tree_.nodes.size());
       begin(node, at.parent, local);
       if (const Expected<void> added = add(node, world); !added) return Unexpected(added.error());
       end(world);
-      const int place = static_cast<int>(tree_.nodes.size()) - 1;
+      const int place = as_int(tree_.nodes.size()) - 1;
       for (auto child = node.children.rbegin(); child != node.children.rend(); ++child)
         open.push_back({*child, place, world});
     }
@@ -90,16 +91,16 @@ class SceneReader {
 
   // What is added between begin() and end() moves with this node.
   void begin(const GltfNode& node, int parent, const glm::mat4& local) {
-    tree_.nodes.push_back({node.name, parent, local, static_cast<std::uint32_t>(mesh_.positions.size()), 0,
-                           static_cast<std::uint32_t>(mesh_.triangles.size()), 0});
+    tree_.nodes.push_back({node.name, parent, local, as_uint32(mesh_.positions.size()), 0,
+                           as_uint32(mesh_.triangles.size()), 0});
     lights_before_ = scene_.lights.size();
     cameras_before_ = scene_.cameras.size();
   }
   void end(const glm::mat4& world) {
     Node& node = tree_.nodes.back();
-    node.vertices = static_cast<std::uint32_t>(mesh_.positions.size()) - node.first_vertex;
-    node.triangles = static_cast<std::uint32_t>(mesh_.triangles.size()) - node.first_triangle;
-    const int index = static_cast<int>(tree_.nodes.size()) - 1;
+    node.vertices = as_uint32(mesh_.positions.size()) - node.first_vertex;
+    node.triangles = as_uint32(mesh_.triangles.size()) - node.first_triangle;
+    const int index = as_int(tree_.nodes.size()) - 1;
     for (std::size_t i = lights_before_; i < scene_.lights.size(); ++i)
       rest_.lights.push_back({index, i, at_rest(world, scene_.lights[i])});
     for (std::size_t i = cameras_before_; i < scene_.cameras.size(); ++i)
@@ -123,13 +124,13 @@ class SceneReader {
         if (in_range(child, is_child)) is_child[child] = true;
     std::vector<int> found;
     for (std::size_t i = 0; i < is_child.size(); ++i)
-      if (!is_child[i]) found.push_back(static_cast<int>(i));
+      if (!is_child[i]) found.push_back(as_int(i));
     return found;
   }
 
   Expected<void> add(const GltfNode& node, const glm::mat4& world) {
     if (node.mesh >= 0 && node.visible) {
-      const auto default_material = static_cast<std::uint32_t>(mesh_.materials.size() - 1);
+      const auto default_material = as_uint32(mesh_.materials.size() - 1);
       Expected<std::vector<glm::mat4>> instances = instances_of(node);
       if (!instances) return Unexpected(instances.error());
       if (node.skin >= 0 && !in_range(node.skin, file_.skins))
@@ -141,8 +142,7 @@ class SceneReader {
             add_gltf_mesh(file_, node.mesh, world * instance, default_material, mesh_, rest_,
                           deformation.needed() ? &deformation : nullptr, loading_);
         if (!added) return added;
-        deformation.place(instance, static_cast<std::uint32_t>(first),
-                          std::span(rest_.normals).subspan(first));
+        deformation.place(instance, as_uint32(first), std::span(rest_.normals).subspan(first));
         if (instance != glm::mat4(1.0f)) place_rest(Placement(instance), first);
         if (!deformation.needed()) add_copy(node.mesh, instance, first, first_triangle);
       }
@@ -189,12 +189,11 @@ class SceneReader {
 
   // All that was placed since.
   void add_copy(int mesh, const glm::mat4& node_from_mesh, std::size_t vertex, std::size_t triangle) {
-    const auto vertices = static_cast<std::uint32_t>(mesh_.positions.size() - vertex);
-    const auto triangles = static_cast<std::uint32_t>(mesh_.triangles.size() - triangle);
+    const auto vertices = as_uint32(mesh_.positions.size() - vertex);
+    const auto triangles = as_uint32(mesh_.triangles.size() - triangle);
     if (triangles == 0) return;
-    rest_.copies.push_back({static_cast<int>(tree_.nodes.size()) - 1, mesh,
-                            static_cast<std::uint32_t>(vertex), vertices,
-                            static_cast<std::uint32_t>(triangle), triangles, node_from_mesh});
+    rest_.copies.push_back({as_int(tree_.nodes.size()) - 1, mesh, as_uint32(vertex), vertices,
+                            as_uint32(triangle), triangles, node_from_mesh});
   }
 
   // Of meshes that were placed once there are no copies.
@@ -207,7 +206,7 @@ class SceneReader {
   // The deformation is applied once all nodes are known, in add_skins.
   void add_deformation(const GltfNode& node, DeformationReader& reader) {
     rest_.deformations.push_back(reader.result());
-    rest_.deformations.back().node = static_cast<int>(tree_.nodes.size()) - 1;
+    rest_.deformations.back().node = as_int(tree_.nodes.size()) - 1;
     rest_.deformations.back().skin = reader.skinned() ? node.skin : -1;  // the file's index until add_skins
     tree_.weights.push_back(reader.weights());
   }
@@ -222,7 +221,7 @@ class SceneReader {
         Expected<std::optional<Skin>> skin = gltf_skin(file_, at->first, place_of_node_);
         if (!skin) return Unexpected(skin.error());
         if (*skin) {
-          at->second = static_cast<int>(rest_.skins.size());
+          at->second = as_int(rest_.skins.size());
           rest_.skins.push_back(std::move(**skin));
         } else {
           warn("skin " + std::to_string(at->first), "skins of joints that are not in the scene are left out",
@@ -303,7 +302,7 @@ class SceneReader {
           value_member<glm::vec3>(our_extras(scene), "ambient").value_or(scene_.ambient_light);
       scene_.environment = gltf_environment(file_, *scene, loading_);
     }
-    const auto last = static_cast<std::uint32_t>(mesh_.materials.size() - 1);
+    const auto last = as_uint32(mesh_.materials.size() - 1);
     if (std::find(mesh_.triangle_materials.begin(), mesh_.triangle_materials.end(), last) ==
             mesh_.triangle_materials.end() &&
         last > 0)

@@ -6,6 +6,7 @@
 #include "core/scene/gltf/format/json.h"
 #include "core/scene/gltf/format/material_table.h"
 #include "core/scene/gltf/material_from_surface.h"
+#include "pinocchio/conversion.h"
 
 namespace pinocchio {
 namespace {
@@ -133,7 +134,7 @@ MaterialMaps maps_of(const GltfFile& file, const Json& json) {
   maps.alpha_cutoff = value_member<float>(&json, "alphaCutoff").value_or(maps.alpha_cutoff);
   maps.alpha_factor = base_color_of(json).a;
   if (const std::vector<double> diffuse = numbers_member(other, "diffuseFactor"); other)
-    maps.alpha_factor = diffuse.size() == 4 ? static_cast<float>(diffuse[3]) : 1.0f;
+    maps.alpha_factor = diffuse.size() == 4 ? as_float(diffuse[3]) : 1.0f;
   // A material that blends with alpha 1 everywhere is opaque.
   if (maps.blends() && maps.alpha_factor >= 1.0f && !maps.alpha.used()) maps.alpha_mode = AlphaMode::opaque;
   return maps;
@@ -166,8 +167,8 @@ std::vector<bool> colored_materials(const GltfFile& file) {
   std::vector<bool> colored(materials + 1, false);
   for (const GltfMesh& mesh : file.meshes)
     for (const GltfPrimitive& p : mesh.primitives)
-      if (p.attributes.contains("COLOR_0") && p.material < static_cast<int>(materials))
-        colored[p.material >= 0 ? static_cast<std::size_t>(p.material) : materials] = true;
+      if (p.attributes.contains("COLOR_0") && p.material < as_int(materials))
+        colored[p.material >= 0 ? as_size(p.material) : materials] = true;
   return colored;
 }
 

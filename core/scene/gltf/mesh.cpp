@@ -10,6 +10,7 @@
 #include "core/parallel/parts.h"
 #include "core/scene/gltf/deformation.h"
 #include "core/scene/strokes.h"
+#include "pinocchio/conversion.h"
 
 namespace pinocchio {
 namespace {
@@ -66,8 +67,7 @@ class MeshPlacer {
     const Expected<std::size_t> count = file_.count(attributes.position);
     if (!count) return Unexpected(count.error());
     // Primitives that share their accessors share the vertices.
-    const auto [at, is_new] =
-        placed_.try_emplace(attributes, static_cast<std::uint32_t>(mesh_.positions.size()));
+    const auto [at, is_new] = placed_.try_emplace(attributes, as_uint32(mesh_.positions.size()));
     const std::uint32_t first = at->second;
     const std::size_t before = mesh_.triangles.size();
     std::vector<Job> jobs;
@@ -159,7 +159,7 @@ class MeshPlacer {
     if (placement_.mirrors())
       for (glm::uvec3& triangle : triangles) std::swap(triangle.y, triangle.z);
     resize_large(mesh_.triangle_materials, mesh_.triangles.size(),
-                 primitive.material >= 0 ? static_cast<std::uint32_t>(primitive.material) : default_material);
+                 primitive.material >= 0 ? as_uint32(primitive.material) : default_material);
     return {};
   }
 
@@ -177,9 +177,7 @@ class MeshPlacer {
       if (!read) return Unexpected(read.error());
       indices = std::move(*read);
     }
-    const auto index = [&](std::size_t i) {
-      return indices.empty() ? static_cast<std::uint32_t>(i) : indices[i];
-    };
+    const auto index = [&](std::size_t i) { return indices.empty() ? as_uint32(i) : indices[i]; };
     const std::size_t before = mesh_.triangles.size(), triangles = triangle_count(primitive.mode, count);
     resize_large(mesh_.triangles, before + triangles);
     for (std::size_t i = 0; i < triangles; ++i) {

@@ -7,6 +7,7 @@
 #include "core/scene/gltf/buffers.h"
 #include "core/scene/gltf/format/json.h"
 #include "core/scene/gltf/format/variants.h"
+#include "pinocchio/conversion.h"
 
 namespace pinocchio {
 namespace {
@@ -90,7 +91,7 @@ void hide_children(std::vector<GltfNode>& nodes) {
     for (const int child : nodes[hidden].children)
       if (in_range(child, nodes) && nodes[child].visible) {
         nodes[child].visible = false;
-        open.push_back(static_cast<std::size_t>(child));
+        open.push_back(as_size(child));
       }
   }
 }

@@ -7,6 +7,7 @@
 #include "core/scene/gltf/buffers.h"
 #include "core/scene/gltf/format/features.h"
 #include "core/scene/gltf/format/variants.h"
+#include "pinocchio/conversion.h"
 
 namespace pinocchio {
 namespace {
@@ -139,7 +140,7 @@ Expected<GltfFile> read_gltf_file(const std::filesystem::path& path, Loading& lo
         outline.json.begin() + static_cast<std::ptrdiff_t>(std::min(e.byte, outline.json.size()));
     const bool encoding = std::string_view(e.what()).find("UTF-8") != std::string_view::npos;
     return Unexpected(
-        InputError{path.string(), 1 + static_cast<int>(std::count(outline.json.begin(), end, '\n')),
+        InputError{path.string(), 1 + as_int(std::count(outline.json.begin(), end, '\n')),
                    encoding ? "is not glTF: its text is not UTF-8" : "is not glTF: its JSON cannot be parsed",
                    "is the export complete?"});
   } catch (const nlohmann::json::exception&) {

@@ -6,6 +6,7 @@
 #include <numeric>
 
 #include "core/scene/gltf/deformation.h"
+#include "pinocchio/conversion.h"
 
 namespace pinocchio {
 namespace {
@@ -124,8 +125,8 @@ Expected<std::size_t> add_gltf_strokes(const GltfFile& file, const GltfPrimitive
     return file.error("names material " + which_of(primitive.material, materials));
   StrokeReader reader(file, primitive);
   if (const Expected<void> read = reader.read(); !read) return Unexpected(read.error());
-  const Expected<std::vector<Stroke>> strokes = reader.strokes(
-      primitive.material >= 0 ? static_cast<std::uint32_t>(primitive.material) : default_material);
+  const Expected<std::vector<Stroke>> strokes =
+      reader.strokes(primitive.material >= 0 ? as_uint32(primitive.material) : default_material);
   if (!strokes) return Unexpected(strokes.error());
   const MeshData& at_rest = reader.vertices;
   MeshData placed;  // the vertices as the world has them
@@ -138,7 +139,7 @@ Expected<std::size_t> add_gltf_strokes(const GltfFile& file, const GltfPrimitive
   place_at_rest(added, at_rest, world_from_mesh, first, to, rest);
   if (deformation && !added.sources.empty())
     if (const Expected<void> deforms =
-            deformation->add(primitive, static_cast<std::uint32_t>(first), reader.count(), added.sources);
+            deformation->add(primitive, as_uint32(first), reader.count(), added.sources);
         !deforms)
       return Unexpected(deforms.error());
   return added.unplaced;

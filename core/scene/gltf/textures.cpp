@@ -7,6 +7,7 @@
 #include "core/scene/gltf/format/json.h"
 #include "core/scene/gltf/material_from_surface.h"
 #include "core/scene/mip_levels.h"
+#include "pinocchio/conversion.h"
 
 namespace pinocchio {
 namespace {
@@ -82,7 +83,7 @@ void add_roughness(const GltfFile& file, MeshData& mesh, Loading& loading) {
     const float glossiness = 1.0f - m.surface.roughness;
     mesh.textures.edit().push_back(roughness_texture(from, glossiness));
     m.metallic_roughness = m.specular_color;
-    m.metallic_roughness.texture = static_cast<int>(mesh.textures.size()) - 1;
+    m.metallic_roughness.texture = as_int(mesh.textures.size()) - 1;
     m.surface.roughness = 1.0f;
   }
 }
@@ -136,7 +137,7 @@ void add_gltf_textures(const GltfFile& file, MeshData& mesh, Loading& loading) {
   std::vector<int> ours(images.size(), -1);
   for (std::size_t i = 0; i < images.size(); ++i) {
     if (!textures[i]) continue;
-    ours[i] = static_cast<int>(mesh.textures.size());
+    ours[i] = as_int(mesh.textures.size());
     mesh.textures.edit().push_back(std::move(*textures[i]));
   }
   for (TextureUse* use : uses) use->texture = ours[place.at(use->texture)];

@@ -6,6 +6,7 @@
 #include "core/scene/obj/mesh.h"
 #include "core/scene/obj/mtl_features.h"
 #include "core/scene/obj/mtl_materials.h"
+#include "pinocchio/conversion.h"
 
 namespace pinocchio {
 namespace {
@@ -80,7 +81,7 @@ class MtlLibraries {
       loading_.warnings.add({mtl.string(), "", "Tr is read as opacity: " + read.opacity_reason,
                              "write d where Tr should make materials transparent"});
     for (MtlMaterial& m : read.materials) {
-      by_name_.try_emplace(m.name, static_cast<int>(materials.size()));
+      by_name_.try_emplace(m.name, as_int(materials.size()));
       materials.push_back(std::move(m));
     }
   }
@@ -104,8 +105,7 @@ Expected<Scene> load_obj(const std::filesystem::path& path, Loading& loading) {
   MeshData mesh;
   mesh.materials.push_back(default_material(!obj->colors.empty()));
   std::vector<std::uint32_t> material_of_name;
-  for (const std::string& name : obj->materials)
-    material_of_name.push_back(static_cast<std::uint32_t>(mtl.find(name) + 1));
+  for (const std::string& name : obj->materials) material_of_name.push_back(as_uint32(mtl.find(name) + 1));
   add_obj_faces(*obj, material_of_name, path, loading, mesh);
   if (const Expected<void> added = add_obj_strokes(*obj, material_of_name, path, loading, mesh); !added)
     return Unexpected(added.error());

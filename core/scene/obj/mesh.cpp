@@ -6,6 +6,7 @@
 #include "core/geometry/polygon.h"
 #include "core/image/tonemap.h"
 #include "core/scene/strokes.h"
+#include "pinocchio/conversion.h"
 
 namespace pinocchio {
 namespace {
@@ -61,8 +62,7 @@ class ObjMeshBuilder {
 
   std::uint32_t vertex_of(const ObjText::Corner& corner, std::uint32_t smoothing_group) {
     const std::uint32_t group = corner.normal < 0 ? smoothing_group : 0;
-    const auto [at, is_new] =
-        vertices_.try_emplace({corner, group}, static_cast<std::uint32_t>(mesh_.positions.size()));
+    const auto [at, is_new] = vertices_.try_emplace({corner, group}, as_uint32(mesh_.positions.size()));
     if (!is_new) return at->second;
     if (group > 0) smooth_vertices_.push_back(at->second);
     append(corner);
@@ -70,7 +70,7 @@ class ObjMeshBuilder {
   }
 
   void append(const ObjText::Corner& corner) {
-    const auto position = static_cast<std::size_t>(corner.position);
+    const auto position = as_size(corner.position);
     mesh_.positions.push_back(obj_.positions[position]);
     mesh_.normals.push_back(corner.normal < 0 ? glm::vec3(0.0f) : obj_.normals[corner.normal]);
     if (!obj_.colors.empty()) mesh_.colors.emplace_back(srgb_to_linear(obj_.colors[position]), 1.0f);
@@ -118,7 +118,7 @@ Expected<void> add_obj_strokes(const ObjText& obj, const std::vector<std::uint32
   if (obj.strokes.empty()) return {};
   double points = 0.0, lines = 0.0;
   for (const ObjText::Stroke& stroke : obj.strokes)
-    (stroke.is_point ? points : lines) += static_cast<double>(stroke.count - (stroke.is_point ? 0 : 1));
+    (stroke.is_point ? points : lines) += as_double(stroke.count - (stroke.is_point ? 0 : 1));
   if (const Expected<void> fits = take_strokes(file.string(), points, lines, loading); !fits) return fits;
   MeshData ends;  // the vertices that points and lines have
   ObjMeshBuilder builder(obj, ends);

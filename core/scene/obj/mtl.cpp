@@ -7,6 +7,7 @@
 
 #include "core/base/decimal.h"
 #include "core/files/text_lines.h"
+#include "pinocchio/conversion.h"
 
 namespace pinocchio {
 namespace {
@@ -139,10 +140,8 @@ constexpr Statement kStatements[] = {
     color_row<&Mtl::tf>("Kt"),
     number_row<&Mtl::ns>("Ns"),
     number_row<&Mtl::ni>("Ni"),
-    {"illum",
-     [](std::string_view line, Mtl& m, Dissolving&) {
-       m.illum = static_cast<int>(std::clamp(number_or(line, 0.0f), 0.0f, 10.0f));
-     }},
+    {"illum", [](std::string_view line, Mtl& m,
+                 Dissolving&) { m.illum = as_int(std::clamp(number_or(line, 0.0f), 0.0f, 10.0f)); }},
     {"Pm", [](std::string_view line, Mtl& m, Dissolving&) { m.metallic = share_or(line, 0.0f); }},
     {"Pr", [](std::string_view line, Mtl& m, Dissolving&) { m.roughness = share_or(line, 0.5f); }},
     {"d",

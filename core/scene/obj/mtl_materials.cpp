@@ -6,6 +6,7 @@
 #include "core/files/input_file.h"
 #include "core/image/codecs/texture_file.h"
 #include "core/scene/gltf/material_from_surface.h"
+#include "pinocchio/conversion.h"
 
 namespace pinocchio {
 namespace {
@@ -74,7 +75,7 @@ void make_normals(Texture& texture, float bump) {
 // The channel that holds alpha: the requested one, else the image's alpha if it has one, else red.
 int alpha_channel(const Texture& texture, char asked) {
   constexpr std::string_view kChannels = "rgbm";
-  if (const std::size_t i = kChannels.find(asked); i != std::string_view::npos) return static_cast<int>(i);
+  if (const std::size_t i = kChannels.find(asked); i != std::string_view::npos) return as_int(i);
   const bool has_alpha = std::any_of(texture.texels.pixels().begin(), texture.texels.pixels().end(),
                                      [](const glm::u8vec4& t) { return t.a != 255; });
   return has_alpha ? 3 : 0;
@@ -105,7 +106,7 @@ MtlMaterials::Loaded MtlMaterials::load(const MtlMaterial& m, const MtlTexture& 
     if (kind == Kind::alpha) result.channel = alpha_channel(texels, texture.channel);
     if (kind == Kind::bump && is_grey(texels))
       make_normals(texels, texture.bump);  // a coloured image is a normal map already
-    result.texture = static_cast<int>(mesh_.textures.size());
+    result.texture = as_int(mesh_.textures.size());
     mesh_.textures.edit().push_back(std::move(texels));
   }
   loaded_.push_back(result);

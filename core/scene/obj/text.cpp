@@ -12,6 +12,7 @@
 #include "core/files/text_lines.h"
 #include "core/math/finite.h"
 #include "core/scene/formats.h"
+#include "pinocchio/conversion.h"
 
 namespace pinocchio {
 namespace {
@@ -22,7 +23,7 @@ std::optional<T> number(std::string_view word) {
   T value{};
   const auto [end, failure] = read_decimal(word, value);
   if (failure != std::errc()) return std::nullopt;
-  const std::string_view more = word.substr(static_cast<std::size_t>(end - word.data()));
+  const std::string_view more = word.substr(as_size(end - word.data()));
   if constexpr (std::is_floating_point_v<T>)  // 1.#IND, 1.#QNAN, 1.#INF: how Microsoft's C library wrote them
     if (more.starts_with("#IND") || more.starts_with("#QNAN") || more.starts_with("#INF"))
       return static_cast<T>(NAN);
@@ -131,8 +132,7 @@ class ObjReader {
   }
 
   int material_of(std::string_view name) {
-    const auto [at, is_new] =
-        material_names_.try_emplace(std::string(name), static_cast<int>(obj_.materials.size()));
+    const auto [at, is_new] = material_names_.try_emplace(std::string(name), as_int(obj_.materials.size()));
     if (is_new) obj_.materials.emplace_back(name);
     return at->second;
   }
@@ -169,7 +169,7 @@ class ObjReader {
       const std::string_view word = next_word(line);
       if (given_ >= least && (word.empty() || word.front() == '#')) break;
       const std::optional<double> value = number<double>(word);
-      values[given_] = static_cast<float>(value.value_or(NAN));
+      values[given_] = as_float(value.value_or(NAN));
       if (std::isfinite(values[given_])) continue;
       if (kind == kVertex && given_ < 3 && value)  // nan
         first_unplaced_ = first_unplaced_ > 0 ? first_unplaced_ : line_;
@@ -241,7 +241,7 @@ class ObjReader {
         return fail(line_, whose_ + " names " + std::string(kKindNames[kind]) + " '" +
                                std::string(word.substr(0, 40)) + "', there are " +
                                std::to_string(count(kind)) + " so far");
-      indices[kind] = static_cast<int>(*index > 0 ? *index - 1 : count(kind) + *index);
+      indices[kind] = as_int(*index > 0 ? *index - 1 : count(kind) + *index);
       if (*index > highest_[kind].index) highest_[kind] = {*index, line_, whose_};
     }
     if (!corner.empty())

@@ -9,6 +9,7 @@
 
 #include "core/base/decimal.h"
 #include "core/files/text_lines.h"
+#include "pinocchio/conversion.h"
 
 namespace pinocchio {
 namespace {
@@ -20,7 +21,7 @@ double read(const char* at, bool swapped) {
   if (swapped) std::reverse(std::begin(bytes), std::end(bytes));
   T value;
   std::memcpy(&value, bytes, sizeof(T));
-  return static_cast<double>(value);
+  return as_double(value);
 }
 
 // In the order of PlyType.
@@ -41,7 +42,7 @@ constexpr TypeRow kPlyTypes[] = {
 };
 
 const TypeRow& type_row(PlyType type) {
-  return kPlyTypes[static_cast<std::size_t>(type)];
+  return kPlyTypes[as_size(type)];
 }
 
 std::optional<PlyType> type_of(std::string_view name) {
@@ -193,7 +194,7 @@ Expected<void> PlyFile::read_row(const PlyElement& element, PlyRow& row) {
     if (!(count >= 0.0 && count <= left) || count != std::floor(count))
       return error("cannot read " + p.name + " of element " + element.name + ": a list of " +
                    shortest(count) + " does not fit the file");
-    row.lists[i].resize(static_cast<std::size_t>(count));
+    row.lists[i].resize(as_size(count));
     for (double& value : row.lists[i])
       if (!read_number(p.type, value)) return cut(p);
   }

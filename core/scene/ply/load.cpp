@@ -12,6 +12,7 @@
 #include "core/scene/formats.h"
 #include "core/scene/ply/file.h"
 #include "core/scene/strokes.h"
+#include "pinocchio/conversion.h"
 
 namespace pinocchio {
 namespace {
@@ -20,12 +21,12 @@ namespace {
 int column(const PlyElement& element, std::initializer_list<const char*> names) {
   for (const char* name : names)
     for (std::size_t i = 0; i < element.properties.size(); ++i)
-      if (element.properties[i].name == name) return static_cast<int>(i);
+      if (element.properties[i].name == name) return as_int(i);
   return -1;
 }
 
 float value(const PlyRow& row, int i) {
-  return static_cast<float>(row.numbers[i]);
+  return as_float(row.numbers[i]);
 }
 
 // Columns of a vertex's or a face's colour; -1: it is missing.
@@ -184,7 +185,7 @@ class PlyBuilder {
       for (std::size_t i = 0; !taken_.empty() && i < corners_.size(); ++i) {
         const glm::vec4 painted = colors ? color.of(row) : glm::vec4(1.0f);
         const glm::vec2 texcoord = texcoords < 0 ? glm::vec2(0.0f) : texcoord_of(row, texcoords, i);
-        corners_[i] = vertex_of(static_cast<std::uint32_t>(corners_[i]), colors ? &painted : nullptr,
+        corners_[i] = vertex_of(as_uint32(corners_[i]), colors ? &painted : nullptr,
                                 texcoords < 0 ? nullptr : &texcoord);
       }
       polygon();
@@ -199,8 +200,7 @@ class PlyBuilder {
       return {};
     }
     const std::size_t count = mesh_.positions.size();
-    if (const Expected<void> fits = take_strokes(path_.string(), static_cast<double>(count), 0.0, loading_);
-        !fits)
+    if (const Expected<void> fits = take_strokes(path_.string(), as_double(count), 0.0, loading_); !fits)
       return fits;
     std::vector<Stroke> strokes(count);
     for (std::uint32_t i = 0; i < count; ++i) strokes[i] = {i, i, true, 0};
@@ -227,7 +227,7 @@ class PlyBuilder {
       for_each_column([v](auto& column) {
         if (!column.empty()) column.push_back(std::decay_t<decltype(column[v])>(column[v]));
       });
-      v = static_cast<std::uint32_t>(mesh_.positions.size() - 1);
+      v = as_uint32(mesh_.positions.size() - 1);
     } else {
       taken_[v] = true;
     }
@@ -249,7 +249,7 @@ class PlyBuilder {
       return lost("element face", "faces of fewer than three corners are left out", "they are not drawn");
     }
     places_.clear();
-    for (const double corner : corners_) places_.push_back(mesh_.positions[static_cast<std::size_t>(corner)]);
+    for (const double corner : corners_) places_.push_back(mesh_.positions[as_size(corner)]);
     if (!std::ranges::all_of(places_, is_finite)) {
       ++odd_faces_;
       return lost("element face", kUnplaced, kNotDrawn);

@@ -5,13 +5,13 @@
 
 #include "core/base/decimal.h"
 #include "core/scene/pose/pose.h"
+#include "pinocchio/conversion.h"
 
 namespace pinocchio {
 namespace {
 
 glm::dquat quaternion(const float* xyzw) {
-  return {static_cast<double>(xyzw[3]), static_cast<double>(xyzw[0]), static_cast<double>(xyzw[1]),
-          static_cast<double>(xyzw[2])};
+  return {as_double(xyzw[3]), as_double(xyzw[0]), as_double(xyzw[1]), as_double(xyzw[2])};
 }
 
 // Zero becomes no rotation.
@@ -20,7 +20,7 @@ glm::dquat unit(const glm::dquat& q) {
 }
 
 void store(const glm::dquat& q, float* xyzw) {
-  for (int i = 0; i < 4; ++i) xyzw[i] = static_cast<float>(i < 3 ? q[i] : q.w);
+  for (int i = 0; i < 4; ++i) xyzw[i] = as_float(i < 3 ? q[i] : q.w);
 }
 
 // Hermite weights of value, tangent, next value and next tangent; tangents are per second.
@@ -86,7 +86,7 @@ void Track::sample(double seconds, std::vector<float>& to) const {
   const auto value = [&](std::size_t key) { return values.data() + (cubic ? 3 * key + 1 : key) * width; };
   const auto after = std::upper_bound(times_s.begin(), times_s.end(), seconds,
                                       [](double s, float key_s) { return s < key_s; });
-  const auto next = static_cast<std::size_t>(after - times_s.begin());
+  const auto next = as_size(after - times_s.begin());
   const std::size_t key = next == 0 ? 0 : next - 1;
   if (next == 0 || next == times_s.size() || interpolation == Interpolation::step) {
     std::copy_n(value(key), width, to.begin());
@@ -101,11 +101,11 @@ void Track::sample(double seconds, std::vector<float>& to) const {
   const Hermite h(t, span_s);
   for (std::size_t i = 0; i < width; ++i) {
     const float *a = value(key) + i, *b = value(next) + i;
-    const double p0 = static_cast<double>(*a), p1 = static_cast<double>(*b);
+    const double p0 = as_double(*a), p1 = as_double(*b);
     // In a spline, a value is between its in-tangent and its out-tangent.
-    to[i] = static_cast<float>(cubic ? h.p0 * p0 + h.m0 * static_cast<double>(*(a + width)) + h.p1 * p1 +
-                                           h.m1 * static_cast<double>(*(b - width))
-                                     : p0 + t * (p1 - p0));
+    to[i] = as_float(cubic ? h.p0 * p0 + h.m0 * as_double(*(a + width)) + h.p1 * p1 +
+                                 h.m1 * as_double(*(b - width))
+                           : p0 + t * (p1 - p0));
   }
 }
 
@@ -130,7 +130,7 @@ std::vector<Camera> cameras_at(const Scene& scene, double seconds) {
   const std::vector<glm::mat4> world = world_matrices(tree->nodes);
   const AttachedPlaces places = attached_places(*tree->rest, moved);
   for (std::size_t n = 0; n < flags.size(); ++n)
-    if (flags[n]) place_attached(*tree->rest, places, static_cast<int>(n), Placement(world[n]), moved);
+    if (flags[n]) place_attached(*tree->rest, places, as_int(n), Placement(world[n]), moved);
   return moved.cameras;
 }
 

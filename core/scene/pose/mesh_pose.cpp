@@ -5,6 +5,8 @@
 #include <thread>
 #include <utility>
 
+#include "pinocchio/conversion.h"
+
 namespace pinocchio {
 namespace {
 
@@ -108,7 +110,7 @@ void PosePool::for_each(std::size_t n, std::size_t vertices, const std::function
   {
     const std::lock_guard lock(mutex_);
     if (!workers_)
-      workers_.emplace(static_cast<int>(std::clamp(std::thread::hardware_concurrency(), 1u, kMostThreads)));
+      workers_.emplace(as_int(std::clamp(std::thread::hardware_concurrency(), 1u, kMostThreads)));
   }
   workers_->for_each(n, body);
 }

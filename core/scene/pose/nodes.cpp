@@ -9,6 +9,7 @@
 #include "core/base/clock.h"
 #include "core/scene/pose/mesh_pose.h"
 #include "core/scene/pose/pose.h"
+#include "pinocchio/conversion.h"
 #include "pinocchio/load.h"
 #include "pinocchio/ray.h"
 #include "pinocchio/scene.h"
@@ -31,8 +32,7 @@ std::vector<std::size_t> places_of(const std::vector<Attached<T>>& attached, con
   for (const Attached<T>& a : attached) {
     const std::vector<std::size_t>&before = were[a.at_rest.name], &after = are[a.at_rest.name];
     if (before.size() == after.size()) {
-      places.push_back(
-          after[static_cast<std::size_t>(std::ranges::lower_bound(before, a.index) - before.begin())]);
+      places.push_back(after[as_size(std::ranges::lower_bound(before, a.index) - before.begin())]);
     } else {
       places.push_back(std::ranges::binary_search(after, a.index) ? a.index : kGone);
     }
@@ -63,19 +63,19 @@ int NodeTree::node_of(std::uint32_t triangle) const {
   for (auto n = after; n != nodes.begin();) {  // nodes without triangles may be in between
     --n;
     if (n->triangles == 0) continue;
-    return triangle < n->first_triangle + n->triangles ? static_cast<int>(n - nodes.begin()) : -1;
+    return triangle < n->first_triangle + n->triangles ? as_int(n - nodes.begin()) : -1;
   }
   return -1;
 }
 
 int NodeTree::find(std::string_view name) const {
   const auto found = std::ranges::find(nodes, name, &Node::name);
-  return found == nodes.end() ? -1 : static_cast<int>(found - nodes.begin());
+  return found == nodes.end() ? -1 : as_int(found - nodes.begin());
 }
 
 std::uint32_t object_of(const Scene& scene, std::uint32_t triangle) {
   if (triangle == kNoTriangle) return kNoTriangle;
-  return scene.nodes ? static_cast<std::uint32_t>(scene.nodes->node_of(triangle)) : 0u;
+  return scene.nodes ? as_uint32(scene.nodes->node_of(triangle)) : 0u;
 }
 
 Placement::Placement(const glm::mat4& m)
@@ -179,7 +179,7 @@ Changes changes_of(const Scene& scene, const NodeTree& tree, const NodeFlags& fl
   const RestPose& rest = *tree.rest;
   for (std::size_t d = 0; d < rest.deformations.size(); ++d) {
     const Deformation& deformation = rest.deformations[d];
-    const auto n = static_cast<std::size_t>(deformation.node);
+    const auto n = as_size(deformation.node);
     changes.deforms[n] = true;
     const std::vector<int> own{deformation.node};
     const std::vector<int>& follows = deformation.skin < 0 ? own : rest.skins[deformation.skin].joints;
@@ -220,7 +220,7 @@ Expected<Scene> placed_anew(const Scene& scene, std::shared_ptr<const NodeTree> 
   Scene result = scene;
   const AttachedPlaces places = attached_places(rest, scene);
   for (std::size_t n = 0; n < now.size(); ++n)
-    if (changes.moved[n]) place_attached(rest, places, static_cast<int>(n), Placement(now[n]), result);
+    if (changes.moved[n]) place_attached(rest, places, as_int(n), Placement(now[n]), result);
   auto pose = was ? std::make_shared<MeshPose>(*was) : nullptr;
   std::vector<std::size_t> nodes;  // those with vertices to place
   std::size_t vertices = 0;
@@ -234,9 +234,8 @@ Expected<Scene> placed_anew(const Scene& scene, std::shared_ptr<const NodeTree> 
     const std::size_t n = nodes[i];
     const Node& node = tree->nodes[n];
     if (changes.deforms[n]) {
-      const auto d = static_cast<std::size_t>(
-          std::ranges::find(rest.deformations, static_cast<int>(n), &Deformation::node) -
-          rest.deformations.begin());
+      const auto d = as_size(std::ranges::find(rest.deformations, as_int(n), &Deformation::node) -
+                             rest.deformations.begin());
       const Deformer deformer(*tree, d, now);
       deformer.place(*mesh);
       if (deformer.mirrors() != Deformer(*scene.nodes, d, before).mirrors()) turn_around(node, *mesh);
@@ -272,9 +271,7 @@ Expected<Scene> posed(const Scene& scene, std::span<const NodeTransform> transfo
   if (!scene.nodes)
     return refused("the scene has no nodes to move", "load a glTF file, or put scenes together");
   auto tree = std::make_shared<NodeTree>(*scene.nodes);
-  const auto unknown = [&](int node) {
-    return node < 0 || static_cast<std::size_t>(node) >= tree->nodes.size();
-  };
+  const auto unknown = [&](int node) { return node < 0 || as_size(node) >= tree->nodes.size(); };
   const auto no_such = [&](int node) {
     return refused("there is no node " + std::to_string(node),
                    "the scene has " + std::to_string(tree->nodes.size()));
@@ -286,7 +283,7 @@ Expected<Scene> posed(const Scene& scene, std::span<const NodeTransform> transfo
   for (const NodeWeights& w : weights) {
     if (unknown(w.node)) return no_such(w.node);
     const auto found = std::ranges::find(tree->rest->deformations, w.node, &Deformation::node);
-    const auto d = static_cast<std::size_t>(found - tree->rest->deformations.begin());
+    const auto d = as_size(found - tree->rest->deformations.begin());
     const std::size_t targets = d < tree->weights.size() ? tree->weights[d].size() : 0;
     if (w.weights.size() != targets)
       return refused("node " + std::to_string(w.node) + " has " + std::to_string(targets) + " morph targets",

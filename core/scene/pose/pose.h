@@ -5,6 +5,7 @@
 #include <span>
 #include <vector>
 
+#include "pinocchio/conversion.h"
 #include "pinocchio/scene.h"
 
 namespace pinocchio {
@@ -28,7 +29,7 @@ void place_vertices(const Node& node, const Placement& now, const RestPose& rest
 // Indices in the scene of the lights and cameras that the rest pose attaches to nodes, in the rest pose's
 // order; kGone: the scene no longer has it. A scene's lists may have changed since: shorter, longer,
 // reordered.
-inline constexpr std::size_t kGone = static_cast<std::size_t>(-1);
+inline constexpr std::size_t kGone = as_size(-1);
 struct AttachedPlaces {
   std::vector<std::size_t> lights, cameras;
 };

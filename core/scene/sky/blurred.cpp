@@ -7,6 +7,7 @@
 
 #include "core/scene/sky/lat_long.h"
 #include "core/scene/sky/made_of.h"
+#include "pinocchio/conversion.h"
 
 namespace pinocchio {
 namespace {
@@ -23,7 +24,7 @@ std::vector<float> weights_of(double theta, double other, double variance, int w
   const double across = std::sin(theta) * std::sin(other), along = std::cos(theta) * std::cos(other);
   for (int column = 0; column <= width / 2; ++column) {
     const double cosine = along + across * std::cos(2.0 * pi<double>() * column / width);
-    const auto weight = static_cast<float>(std::exp((cosine - 1.0) / variance));
+    const auto weight = as_float(std::exp((cosine - 1.0) / variance));
     if (weight < kLeastWeight) break;
     weights.push_back(weight);
   }
@@ -33,16 +34,15 @@ std::vector<float> weights_of(double theta, double other, double variance, int w
 // Adds the row's light, weighted by the distance in columns, to `sums`. Returns the weights' sum.
 float add_row(const glm::vec3* row, float area, const std::vector<float>& weights,
               std::vector<glm::vec3>& around, std::vector<glm::vec3>& sums) {
-  const int width = static_cast<int>(sums.size()), reach = static_cast<int>(weights.size()) - 1;
-  around.resize(static_cast<std::size_t>(width + 2 * reach));
-  for (int i = 0; i < width + 2 * reach; ++i)
-    around[static_cast<std::size_t>(i)] = row[(i - reach + width) % width];
+  const int width = as_int(sums.size()), reach = as_int(weights.size()) - 1;
+  around.resize(as_size(width + 2 * reach));
+  for (int i = 0; i < width + 2 * reach; ++i) around[as_size(i)] = row[(i - reach + width) % width];
   float all = 0.0f;
   const int last = std::min(reach, width - 1 - reach);  // so that no column counts twice
   for (int column = -reach; column <= last; ++column) {
-    const float weight = area * weights[static_cast<std::size_t>(std::abs(column))];
+    const float weight = area * weights[as_size(std::abs(column))];
     const glm::vec3* const from = around.data() + reach + column;
-    for (int x = 0; x < width; ++x) sums[static_cast<std::size_t>(x)] += weight * from[x];
+    for (int x = 0; x < width; ++x) sums[as_size(x)] += weight * from[x];
     all += weight;
   }
   return all;
@@ -54,15 +54,15 @@ Image<glm::vec3> spread(const Image<glm::vec3>& sky, double variance) {
   Image<glm::vec3> result(sky.size());
   std::vector<glm::vec3> around, sums;
   for (int y = 0; y < height; ++y) {
-    sums.assign(static_cast<std::size_t>(width), glm::vec3(0.0f));
+    sums.assign(as_size(width), glm::vec3(0.0f));
     float all = 0.0f;
     for (int row = 0; row < height; ++row) {
       const std::vector<float> weights = weights_of(theta(y + 0.5), theta(row + 0.5), variance, width);
       if (weights.empty()) continue;
       const double area = std::cos(theta(row)) - std::cos(theta(row + 1.0));
-      all += add_row(&sky.at(0, row), static_cast<float>(area), weights, around, sums);
+      all += add_row(&sky.at(0, row), as_float(area), weights, around, sums);
     }
-    for (int x = 0; x < width; ++x) result.at(x, y) = sums[static_cast<std::size_t>(x)] / all;
+    for (int x = 0; x < width; ++x) result.at(x, y) = sums[as_size(x)] / all;
   }
   return result;
 }
@@ -81,9 +81,9 @@ struct Blurred {
 
 // The picture's texels are half as wide as the deviation, so that wide blurs are quick.
 std::shared_ptr<const Environment> Blurred::add(const Environment& environment, float deviation_deg) {
-  const double deviation = glm::radians(static_cast<double>(deviation_deg));
+  const double deviation = glm::radians(as_double(deviation_deg));
   const double half_width = std::ceil(2.0 * pi<double>() / deviation);
-  const int width = 2 * static_cast<int>(std::clamp(half_width, kNarrowest / 2.0, kWidest / 2.0));
+  const int width = 2 * as_int(std::clamp(half_width, kNarrowest / 2.0, kWidest / 2.0));
   const auto last = [&]() -> const Image<glm::vec3>& {
     return halves.empty() ? environment.radiance() : halves.back();
   };

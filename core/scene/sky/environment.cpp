@@ -6,6 +6,7 @@
 
 #include "core/math/finite.h"
 #include "core/scene/sky/brightness.h"
+#include "pinocchio/conversion.h"
 
 namespace pinocchio {
 namespace {
@@ -45,7 +46,7 @@ void pack_brightness(const Image<glm::vec3>& image, Words& words) {
   packed.reserve(image.pixels().size());
   for (const glm::vec3& c : image.pixels())
     packed.push_back(packed_brightness(most > 0.0f ? brightness_of(c) / most : 0.0f));
-  words.reserve(static_cast<std::size_t>(width) * (static_cast<std::size_t>(height) + 1));
+  words.reserve(as_size(width) * (as_size(height) + 1));
   for (int y = 0; y <= height; ++y) {
     const std::uint32_t *const above = &packed[image.index(0, std::max(y - 1, 0))],
                                *const below = &packed[image.index(0, std::min(y, height - 1))];
@@ -59,8 +60,7 @@ void pack_brightness(const Image<glm::vec3>& image, Words& words) {
 // Sums so far, made to end with 1 (or all zero).
 void make_to_one(const std::vector<double>& sums, float* ends) {
   const double whole = sums.back();
-  for (std::size_t i = 0; i < sums.size(); ++i)
-    ends[i] = whole > 0.0 ? static_cast<float>(sums[i] / whole) : 0.0f;
+  for (std::size_t i = 0; i < sums.size(); ++i) ends[i] = whole > 0.0 ? as_float(sums[i] / whole) : 0.0f;
 }
 
 }  // namespace
@@ -75,8 +75,7 @@ Environment::Environment(Image<glm::vec3> radiance, std::string source)
   double all = 0.0;
   for (std::size_t y = 0; y < height; ++y) {
     double sum = 0.0;
-    for (std::size_t x = 0; x < width; ++x)
-      of_row[x] = sum += mean_light(radiance_, static_cast<int>(x), static_cast<int>(y));
+    for (std::size_t x = 0; x < width; ++x) of_row[x] = sum += mean_light(radiance_, as_int(x), as_int(y));
     make_to_one(of_row, &columns_[y * width]);
     const auto latitude = [&](std::size_t row) { return std::cos(glm::pi<double>() * row / height); };
     of_rows[y] = all += sum * (latitude(y) - latitude(y + 1));

@@ -5,6 +5,8 @@
 #include <glm/gtc/constants.hpp>
 #include <vector>
 
+#include "pinocchio/conversion.h"
+
 namespace pinocchio {
 namespace {
 
@@ -16,8 +18,8 @@ glm::dvec3 light_at(const Image<glm::vec3>& picture, double u, double v) {
   const double x = u * size.x - 0.5, y = v * size.y - 0.5;
   const double column = std::floor(x), row = std::floor(y);
   const auto texel = [&](double c, double r) {
-    const int i = static_cast<int>(c) % size.x;
-    return glm::dvec3(picture.at(i < 0 ? i + size.x : i, std::clamp(static_cast<int>(r), 0, size.y - 1)));
+    const int i = as_int(c) % size.x;
+    return glm::dvec3(picture.at(i < 0 ? i + size.x : i, std::clamp(as_int(r), 0, size.y - 1)));
   };
   return glm::mix(glm::mix(texel(column, row), texel(column + 1, row), x - column),
                   glm::mix(texel(column, row + 1), texel(column + 1, row + 1), x - column), y - row);
@@ -29,8 +31,8 @@ struct Overlap {
   std::vector<double> ends;  // of its parts, from the first one's beginning, in texels of `from`
 };
 Overlap overlap_of(int texel, int from, int to) {
-  const double scale = static_cast<double>(from) / to, lo = texel * scale, hi = (texel + 1) * scale;
-  Overlap overlap{static_cast<int>(lo), {lo}};
+  const double scale = as_double(from) / to, lo = texel * scale, hi = (texel + 1) * scale;
+  Overlap overlap{as_int(lo), {lo}};
   for (int edge = overlap.first + 1; edge < hi && edge < from; ++edge) overlap.ends.push_back(edge);
   overlap.ends.push_back(hi);
   return overlap;
@@ -58,7 +60,7 @@ Image<glm::vec3> reduced(const Image<glm::vec3>& picture, glm::ivec2 size) {
 }
 
 Image<glm::vec3> area_means(const Image<glm::vec3>& picture, glm::ivec2 size) {
-  const auto height = static_cast<double>(picture.height());
+  const auto height = as_double(picture.height());
   std::vector<Overlap> columns;
   for (int x = 0; x < size.x; ++x) columns.push_back(overlap_of(x, picture.width(), size.x));
   Image<glm::vec3> means(size);
@@ -70,12 +72,10 @@ Image<glm::vec3> area_means(const Image<glm::vec3>& picture, glm::ivec2 size) {
       double all = 0.0;
       for (std::size_t j = 0; j + 1 < rows.ends.size(); ++j) {
         const double tall = area_above(rows.ends[j + 1]) - area_above(rows.ends[j]);
-        const std::vector<double>& ends = columns[static_cast<std::size_t>(x)].ends;
+        const std::vector<double>& ends = columns[as_size(x)].ends;
         for (std::size_t i = 0; i + 1 < ends.size(); ++i) {
           const double area = tall * (ends[i + 1] - ends[i]);
-          sum +=
-              area * glm::dvec3(picture.at(columns[static_cast<std::size_t>(x)].first + static_cast<int>(i),
-                                           rows.first + static_cast<int>(j)));
+          sum += area * glm::dvec3(picture.at(columns[as_size(x)].first + as_int(i), rows.first + as_int(j)));
           all += area;
         }
       }

@@ -7,6 +7,7 @@
 
 #include "core/scene/sky/lat_long.h"
 #include "core/scene/sky/made_of.h"
+#include "pinocchio/conversion.h"
 
 namespace pinocchio {
 namespace {
@@ -53,13 +54,13 @@ std::array<glm::vec3, 9> irradiance_of(const Image<glm::vec3>& sky) {
 // the cosine (Karis 2013). Pairs of texels with the same rows and distance in longitude have the same weight.
 Image<glm::vec3> seen_by(const Image<glm::vec3>& sky, float roughness, glm::ivec2 size) {
   const int width = sky.width(), height = sky.height(), finer = width / size.x;
-  const double alpha2 = std::pow(static_cast<double>(roughness), 4.0);
+  const double alpha2 = std::pow(as_double(roughness), 4.0);
   Image<glm::vec3> seen(size);
-  std::vector<float> weights(static_cast<std::size_t>(width));
+  std::vector<float> weights(as_size(width));
   for (int y = 0; y < size.y; ++y) {
     const double v = (y + 0.5) / size.y;
     const glm::dvec3 n = direction_of(0.5 * finer / width, v);  // of column 0
-    std::vector<glm::vec3> sums(static_cast<std::size_t>(size.x), glm::vec3(0.0f));
+    std::vector<glm::vec3> sums(as_size(size.x), glm::vec3(0.0f));
     double all = 0.0;
     for (int row = 0; row < height; ++row) {
       const double angle =
@@ -70,7 +71,7 @@ Image<glm::vec3> seen_by(const Image<glm::vec3>& sky, float roughness, glm::ivec
         const double n_dot_h2 = 0.5 * (1.0 + n_dot_l);  // squared
         const double across = n_dot_h2 * (alpha2 - 1.0) + 1.0;
         const double weight = n_dot_l > 0.0 ? angle * n_dot_l / (across * across) : 0.0;
-        weights[static_cast<std::size_t>(column)] = static_cast<float>(weight);
+        weights[as_size(column)] = as_float(weight);
         of_row += weight;
       }
       all += of_row;
@@ -78,12 +79,11 @@ Image<glm::vec3> seen_by(const Image<glm::vec3>& sky, float roughness, glm::ivec
       for (int x = 0; x < size.x; ++x) {
         glm::vec3 sum(0.0f);
         for (int column = 0; column < width; ++column)
-          sum += weights[static_cast<std::size_t>(column)] * sky.at((column + x * finer) % width, row);
-        sums[static_cast<std::size_t>(x)] += sum;
+          sum += weights[as_size(column)] * sky.at((column + x * finer) % width, row);
+        sums[as_size(x)] += sum;
       }
     }
-    for (int x = 0; x < size.x; ++x)
-      seen.at(x, y) = sums[static_cast<std::size_t>(x)] / static_cast<float>(std::max(all, 1e-30));
+    for (int x = 0; x < size.x; ++x) seen.at(x, y) = sums[as_size(x)] / as_float(std::max(all, 1e-30));
   }
   return seen;
 }

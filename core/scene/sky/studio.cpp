@@ -7,6 +7,8 @@
 #include <map>
 #include <vector>
 
+#include "pinocchio/conversion.h"
+
 namespace pinocchio {
 namespace {
 
@@ -129,8 +131,7 @@ Camera studio_camera(const Scene& scene, glm::ivec2 size) {
   Camera camera;
   camera.name = "studio";
   const double portrait = std::max(1.0, 1.0 * size.y / size.x);  // the field of view is the picture's height
-  camera.fov_deg =
-      static_cast<float>(glm::degrees(2.0 * std::atan(portrait * std::tan(glm::radians(0.5 * kFov_deg)))));
+  camera.fov_deg = as_float(glm::degrees(2.0 * std::atan(portrait * std::tan(glm::radians(0.5 * kFov_deg)))));
   camera.target = glm::vec3(0.0f);
   camera.eye = kTowardsEye;
   const CameraAxes axes = camera_axes(camera);
@@ -193,7 +194,7 @@ std::shared_ptr<const Environment> studio_sky() {
             glm::mix(kHorizon, d.y > 0.0 ? kZenith : kFloor, glm::smoothstep(0.0, 1.0, std::abs(d.y)));
         for (const Box& box : boxes)
           light += box.radiance * std::exp(box.sharpness * (glm::dot(d, box.towards) - 1.0));
-        sky.at(column, row) = glm::vec3(static_cast<float>(light));
+        sky.at(column, row) = glm::vec3(as_float(light));
       }
     return std::make_shared<const Environment>(std::move(sky));
   }();

@@ -10,6 +10,7 @@
 #include "core/files/input_file.h"
 #include "core/math/finite.h"
 #include "core/scene/formats.h"
+#include "pinocchio/conversion.h"
 
 namespace pinocchio {
 namespace {
@@ -22,7 +23,7 @@ std::uint64_t bytes_of(std::uint32_t triangles) {
 }
 
 std::uint32_t u32_at(const char* bytes) {
-  const auto byte = [&](int i) { return static_cast<std::uint32_t>(static_cast<unsigned char>(bytes[i])); };
+  const auto byte = [&](int i) { return as_uint32(static_cast<unsigned char>(bytes[i])); };
   return byte(0) | byte(1) << 8 | byte(2) << 16 | byte(3) << 24;
 }
 
@@ -103,7 +104,7 @@ class StlReader {
       std::array<glm::vec3, 3> corners;
       for (int corner = 0; corner < 3; ++corner)
         for (int axis = 0; axis < 3; ++axis)
-          corners[static_cast<std::size_t>(corner)][axis] = float_at(at + 12 + 12 * corner + 4 * axis);
+          corners[as_size(corner)][axis] = float_at(at + 12 + 12 * corner + 4 * axis);
       add(corners);
       colored = colored || at[48] != 0 || at[49] != 0;
       if (i % kRowsBetweenLooks == kRowsBetweenLooks - 1) advance(loading_.progress, kRowsBetweenLooks);
@@ -114,7 +115,7 @@ class StlReader {
 
   // facet normal x y z / outer loop / vertex x y z, three times / endloop / endfacet
   Expected<void> ascii(std::string_view text) {
-    begin_phase(loading_.progress, "mesh", static_cast<double>(text.size()));
+    begin_phase(loading_.progress, "mesh", as_double(text.size()));
     std::array<glm::vec3, 3> corners;
     std::size_t count = 0;  // of the facet's corners
     int line = 0;
@@ -138,7 +139,7 @@ class StlReader {
       }
     }
     if (count != 0) return error(line, "ends within a facet", "is the export complete?");
-    advance(loading_.progress, static_cast<double>(bytes_.size()));
+    advance(loading_.progress, as_double(bytes_.size()));
     return {};
   }
 
@@ -150,14 +151,14 @@ class StlReader {
       const auto [end, failure] = std::from_chars(word.data(), word.data() + word.size(), value);
       if (word.empty() || failure == std::errc::invalid_argument || end != word.data() + word.size())
         return false;
-      point[axis] = failure == std::errc() ? static_cast<float>(value) : HUGE_VALF;
+      point[axis] = failure == std::errc() ? as_float(value) : HUGE_VALF;
     }
     return true;
   }
 
   void add(const std::array<glm::vec3, 3>& corners) {
     if (!std::ranges::all_of(corners, is_finite)) return lost(kUnplaced, kNotDrawn);
-    const auto first = static_cast<std::uint32_t>(mesh_.positions.size());
+    const auto first = as_uint32(mesh_.positions.size());
     mesh_.positions.insert(mesh_.positions.end(), corners.begin(), corners.end());
     mesh_.triangles.emplace_back(first, first + 1, first + 2);
   }

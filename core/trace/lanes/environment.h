@@ -6,6 +6,7 @@
 #include "core/trace/lanes/maps.h"
 #include "core/trace/lanes/prefiltered.h"
 #include "core/trace/lanes/sky_candidates.h"
+#include "pinocchio/conversion.h"
 
 namespace pinocchio::PINOCCHIO_LANES {
 namespace {
@@ -79,13 +80,12 @@ template <std::size_t kCount>
 inline void find_seen(const EnvironmentLight& e, const RayQueue& rays, std::size_t first,
                       const Mask (&missed)[kCount], vec2 (&place)[kCount]) {
   const auto at = [](Float share, int size) {
-    return to_int(min(share * Float(static_cast<float>(size)), Float(static_cast<float>(size - 1))));
+    return to_int(min(share * Float(as_float(size)), Float(as_float(size - 1))));
   };
   for (std::size_t k = 0; k < kCount; ++k) {
     if (!any(missed[k])) continue;
     place[k] = environment_place(params_of(e, missed[k]), Vec::load(rays.direction, first + k * kWidth));
-    const Int texel =
-        at(place[k].y, e.size.y) * Int(static_cast<std::uint32_t>(e.size.x)) + at(place[k].x, e.size.x);
+    const Int texel = at(place[k].y, e.size.y) * Int(as_uint32(e.size.x)) + at(place[k].x, e.size.x);
     fetch(e.pixels, texel, missed[k]);
     if (rays.density) fetch(e.shares.columns, texel, missed[k]);
   }
@@ -140,9 +140,8 @@ void paint_background(const EnvironmentLight& environment, const shared::ViewPar
       unsigned empty = 0;
       for (int i = 0; i < count; ++i) empty |= (pixels[i].a == 0.0f ? 1u : 0u) << i;
       if (empty == 0) continue;
-      const Float column =
-          Float(view.first.x) + to_float(Int::load(kLane) + Int(static_cast<std::uint32_t>(x)));
-      const Float row(view.first.y + static_cast<float>(y));
+      const Float column = Float(view.first.x) + to_float(Int::load(kLane) + Int(as_uint32(x)));
+      const Float row(view.first.y + as_float(y));
       const Vec light = light_from_environment(environment, corner + step_x * column + step_y * row,
                                                Mask::from_bits(empty));
       alignas(64) float rgb[3][kWidth];

@@ -4,12 +4,13 @@
 #include "core/scene/sky/brightness.h"
 #include "core/trace/lanes/environment_params.h"
 #include "core/trace/lanes/shared.h"
+#include "pinocchio/conversion.h"
 
 namespace pinocchio::PINOCCHIO_LANES {
 namespace {
 
 inline EnvironmentParams params_of(const EnvironmentLight& e, Mask lanes) {
-  return {{e.pixels, static_cast<std::uint32_t>(e.size.x), lanes}, e.size, e.turn, e.strength};
+  return {{e.pixels, as_uint32(e.size.x), lanes}, e.size, e.turn, e.strength};
 }
 
 // Where numbers fall among ends that grow to 1: index, place within, 0 to 1, and what this index has of the
@@ -39,7 +40,7 @@ inline Found found_at(const float* ends, Int index, Int first, std::uint32_t cou
 
 // The place of a number's guide.
 inline Int guide_of(Int first, std::uint32_t count, Float number) {
-  const Int last(count - 1), i = to_int(number * Float(static_cast<float>(count)));
+  const Int last(count - 1), i = to_int(number * Float(as_float(count)));
   return first + select(i < last, i, last);
 }
 
@@ -51,12 +52,11 @@ inline Float share_of(const float* ends, Int first, Int i, Mask lanes) {
 
 // The density of a place among those that find_places finds, per unit of u times v.
 inline Float density_of_place(const EnvironmentLight& e, const vec2& place, Mask lanes) {
-  const Float width(static_cast<float>(e.size.x)), height(static_cast<float>(e.size.y)), one(1.0f);
+  const Float width(as_float(e.size.x)), height(as_float(e.size.y)), one(1.0f);
   const Int x = to_int(min(floor(place.x * width), width - one));
   const Int y = to_int(min(floor(place.y * height), height - one));
   const Float row = share_of(e.shares.rows, Int(0), y, lanes);
-  return row * height * share_of(e.shares.columns, y * Int(static_cast<std::uint32_t>(e.size.x)), x, lanes) *
-         width;
+  return row * height * share_of(e.shares.columns, y * Int(as_uint32(e.size.x)), x, lanes) * width;
 }
 
 // Requests the lanes' cache lines at from[index].
@@ -79,8 +79,8 @@ struct SampledPlace {
 template <std::size_t kPlaces>
 inline void find_places(const EnvironmentLight& e, const vec2 (&number)[kPlaces], Mask lanes,
                         SampledPlace (&places)[kPlaces]) {
-  const auto width = static_cast<std::uint32_t>(e.size.x), height = static_cast<std::uint32_t>(e.size.y);
-  const Float across(static_cast<float>(width)), down(static_cast<float>(height));
+  const auto width = as_uint32(e.size.x), height = as_uint32(e.size.y);
+  const Float across(as_float(width)), down(as_float(height));
   const Int none(0);
   Found row[kPlaces];
   Int first[kPlaces], column[kPlaces];
@@ -106,13 +106,12 @@ inline void find_places(const EnvironmentLight& e, const vec2 (&number)[kPlaces]
 
 // The light's luminance there, in units of the brightest texel's, within an eighth; not zero.
 inline Float brightness_at(const EnvironmentLight& e, const vec2& place, Mask lanes) {
-  const Float width(static_cast<float>(e.size.x)), zero(0.0f), half(0.5f);
-  const Float x = place.x * width - half, y = place.y * Float(static_cast<float>(e.size.y)) + half;
+  const Float width(as_float(e.size.x)), zero(0.0f), half(0.5f);
+  const Float x = place.x * width - half, y = place.y * Float(as_float(e.size.y)) + half;
   const Float column = floor(x), row = floor(y);
-  const Int word = gather(e.brightness,
-                          to_int(row) * Int(static_cast<std::uint32_t>(e.size.x)) +
-                              to_int(select(column < zero, column + width, column)),
-                          lanes);
+  const Int word = gather(
+      e.brightness,
+      to_int(row) * Int(as_uint32(e.size.x)) + to_int(select(column < zero, column + width, column)), lanes);
   const auto number = [](Int bits) { return from_bits(bits + Int(kLeastBrightness)); };
   constexpr int kUp = kBrightnessShift;
   const Int byte(0xffu << kUp);

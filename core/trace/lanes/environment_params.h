@@ -5,6 +5,7 @@
 #include <memory>
 
 #include "core/scene/sky/prefiltered_sky.h"
+#include "pinocchio/conversion.h"
 #include "pinocchio/environment.h"
 #include "pinocchio/scene.h"
 
@@ -21,8 +22,8 @@ struct EnvironmentLight {
         shares(environment.shares()),
         brightness(environment.brightness()),
         shines(factor > 0.0f && !environment.is_black()),
-        cos_turn(static_cast<float>(std::cos(glm::radians(double{rotation_deg})))),
-        sin_turn(static_cast<float>(std::sin(glm::radians(double{rotation_deg})))) {}
+        cos_turn(as_float(std::cos(glm::radians(double{rotation_deg})))),
+        sin_turn(as_float(std::sin(glm::radians(double{rotation_deg})))) {}
   // The scene has an environment.
   explicit EnvironmentLight(const Scene& scene)
       : EnvironmentLight(*scene.environment, scene.environment_rotation_deg, scene.environment_strength) {}

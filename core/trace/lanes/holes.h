@@ -5,6 +5,7 @@
 #include "core/trace/lanes/scatter.h"
 #include "core/trace/lanes/surface.h"
 #include "core/trace/rays/passed_surfaces.h"
+#include "pinocchio/conversion.h"
 
 namespace pinocchio::PINOCCHIO_LANES {
 namespace {
@@ -12,7 +13,7 @@ namespace {
 // Whether shadow rays pass a surface as if nothing were there. threshold: where it blends.
 inline Mask passes_shadow(const MaterialMaps& maps, Float alpha, Float threshold) {
   if (maps.blends()) return alpha < threshold;
-  return is_hole(static_cast<int>(maps.alpha_mode), alpha, maps.alpha_cutoff);
+  return is_hole(as_int(maps.alpha_mode), alpha, maps.alpha_cutoff);
 }
 
 unsigned lanes_in_holes(const PassedSurfaces& passed, const RayColumns& rays, std::size_t first,
@@ -66,9 +67,8 @@ void find_holes(const Bounce& bounce, const RayQueue& rays, const float* thresho
     for_each_distinct(material, lanes, [&](std::uint32_t index, Mask same) {
       const LaneMaps& maps = *maps_of(index);
       const Float alpha = alpha_at(scene, maps, triangle, weights, same);
-      const Mask passes =
-          thresholds ? passes_shadow(*maps.maps, alpha, Float::load(thresholds + i))
-                     : is_hole(static_cast<int>(maps.maps->alpha_mode), alpha, maps.maps->alpha_cutoff);
+      const Mask passes = thresholds ? passes_shadow(*maps.maps, alpha, Float::load(thresholds + i))
+                                     : is_hole(as_int(maps.maps->alpha_mode), alpha, maps.maps->alpha_cutoff);
       found |= (same & passes).bits();
     });
     select(Mask::from_bits(found), Int(1u), Int(0u)).store(holes + i);

@@ -5,6 +5,7 @@
 #include "core/trace/lanes/material.h"
 #include "core/trace/lanes/scatter.h"
 #include "core/trace/lanes/surface.h"
+#include "pinocchio/conversion.h"
 
 namespace pinocchio::PINOCCHIO_LANES {
 namespace {
@@ -13,8 +14,8 @@ namespace {
 // to sample.
 inline Vec sky_ray(int k, int rays, std::uint32_t sample) {
   constexpr float kGolden = 0.618034f;
-  const float turn = kGolden * static_cast<float>(k) + 0.754878f * static_cast<float>(sample & 0xffffu);
-  const float square = (static_cast<float>(k) + 0.5f) / static_cast<float>(rays);
+  const float turn = kGolden * as_float(k) + 0.754878f * as_float(sample & 0xffffu);
+  const float square = (as_float(k) + 0.5f) / as_float(rays);
   const Angle angle = angle_of(Float(turn) - floor(Float(turn)));
   const Float across = sqrt(Float(square));
   return {across * angle.cosine, across * angle.sine, sqrt(Float(1.0f - square))};
@@ -30,7 +31,7 @@ inline Vec sky_ray(int k, int rays, std::uint32_t sample) {
       const Image<glm::vec3>& seen = e.prefiltered->levels[i - 1];
       params.size = seen.size();
       params.texels.pixels = seen.pixels().data();
-      params.texels.width = static_cast<std::uint32_t>(seen.width());
+      params.texels.width = as_uint32(seen.width());
     }
     return environment_at(params, place);
   };
@@ -116,7 +117,7 @@ struct SkyLight {
   };
   fire(sky.axis, throughput * sky.mirrored);
   const int rays = bounce.options->sky_occlusion;
-  const Vec part = throughput * sky.matt * Float(1.0f / static_cast<float>(rays));
+  const Vec part = throughput * sky.matt * Float(1.0f / as_float(rays));
   for (int k = 0; k < rays; ++k) {
     fire(around(s.n_shading, sky_ray(k, rays, bounce.options->sampling.index)), part);
   }

@@ -5,6 +5,7 @@
 #include "core/trace/lanes/material.h"
 #include "core/trace/lanes/medium.h"
 #include "core/trace/lanes/surface.h"
+#include "pinocchio/conversion.h"
 
 namespace pinocchio::PINOCCHIO_LANES {
 namespace {
@@ -78,7 +79,7 @@ inline void append(const Vec& origin, const Vec& direction, const Vec& light, In
   store_packed(queue.light[1] + i, light.y, lanes);
   store_packed(queue.light[2] + i, light.z, lanes);
   store_packed(queue.pixel + i, pixel, lanes);
-  queue.size += static_cast<std::size_t>(__builtin_popcount(lanes.bits()));
+  queue.size += as_size(__builtin_popcount(lanes.bits()));
 }
 
 // The same for shadow rays that leave the surface.

@@ -5,6 +5,7 @@
 #include "core/trace/lanes/material.h"
 #include "core/trace/lanes/scatter.h"
 #include "core/trace/lanes/terminator.h"
+#include "pinocchio/conversion.h"
 
 namespace pinocchio::PINOCCHIO_LANES {
 namespace {
@@ -17,7 +18,7 @@ constexpr std::size_t kSkyCandidates = 4;
 
 // How many of the environment's samples the balance heuristic counts, times their density.
 inline Float density_of_candidates(Float density) {
-  return Float(static_cast<float>(kSkyCandidates)) * density;
+  return Float(as_float(kSkyCandidates)) * density;
 }
 
 inline Float luminance_of(const Vec& c) {
@@ -32,7 +33,7 @@ struct SkyChoice {
 [[gnu::noinline]] SkyChoice choose_from_sky(const Bounce& bounce, ShadowStarts& starts, const LaneSurface& s,
                                             const LaneMaterial& m, const Vec& throughput, Float lobe,
                                             const SampledPixel& sampling, Mask lanes) {
-  constexpr auto kCount = static_cast<std::uint32_t>(kSkyCandidates);
+  constexpr auto kCount = as_uint32(kSkyCandidates);
   const std::uint32_t count = bounce.one_candidate ? 1 : kCount;
   const std::uint32_t dimension = bounce.dimension + shared::kEnvironmentDimension;
   vec2 number[kCount];
@@ -61,7 +62,7 @@ struct SkyChoice {
   Mask waiting = lanes & (Float(0.0f) < all);
   SkyChoice choice{sample[0].direction, Vec(0.0f)};
   EnvironmentSample chosen = sample[0];
-  const Float mean = all / Float(static_cast<float>(count));
+  const Float mean = all / Float(as_float(count));
   for (std::uint32_t k = 0; k < count; ++k) {
     const Mask here = waiting & (at < sum[k]);
     waiting = waiting & ~here;

@@ -11,6 +11,7 @@
 #include "core/trace/lanes/sampled.h"
 #include "core/trace/lanes/scatter.h"
 #include "core/trace/lanes/terminator.h"
+#include "pinocchio/conversion.h"
 
 namespace pinocchio::PINOCCHIO_LANES {
 namespace {
@@ -19,9 +20,9 @@ inline void parallel_rays(const shared::ViewParams& view, glm::ivec2 corner, Ray
   const Vec first(view.eye), step_x(view.step_x), step_y(view.step_y), direction(view.corner);
   for (std::size_t i = 0; i < rays.size; i += kWidth) {
     const Int pixel = Int::load(rays.pixel + i), row = shift_right<kTileBits>(pixel);
-    const Float x = Float(view.first.x) +
-                    to_float(pixel - shift_left<kTileBits>(row) + Int(static_cast<std::uint32_t>(corner.x)));
-    const Float y = Float(view.first.y) + to_float(row + Int(static_cast<std::uint32_t>(corner.y)));
+    const Float x =
+        Float(view.first.x) + to_float(pixel - shift_left<kTileBits>(row) + Int(as_uint32(corner.x)));
+    const Float y = Float(view.first.y) + to_float(row + Int(as_uint32(corner.y)));
     put(first + step_x * x + step_y * y, rays.origin, i);
     put(direction, rays.direction, i);
   }
@@ -32,9 +33,9 @@ void camera_rays(const shared::ViewParams& view, glm::ivec2 corner, RayQueue& ra
   if (view.parallel) return parallel_rays(view, corner, rays);
   for (std::size_t i = 0; i < rays.size; i += kWidth) {
     const Int pixel = Int::load(rays.pixel + i), row = shift_right<kTileBits>(pixel);
-    const Float x = Float(view.first.x) +
-                    to_float(pixel - shift_left<kTileBits>(row) + Int(static_cast<std::uint32_t>(corner.x)));
-    const Float y = Float(view.first.y) + to_float(row + Int(static_cast<std::uint32_t>(corner.y)));
+    const Float x =
+        Float(view.first.x) + to_float(pixel - shift_left<kTileBits>(row) + Int(as_uint32(corner.x)));
+    const Float y = Float(view.first.y) + to_float(row + Int(as_uint32(corner.y)));
     const Vec direction = first + step_x * x + step_y * y;
     direction.x.store(rays.direction[0] + i);
     direction.y.store(rays.direction[1] + i);
@@ -63,7 +64,7 @@ void keep_hits(RayQueue& rays) {
       if (rays.medium) store_packed(rays.medium + kept, Int::load(rays.medium + i), hits);
       store_packed(rays.triangle + kept, triangle, hits);
     }
-    kept += static_cast<std::size_t>(__builtin_popcount(bits));
+    kept += as_size(__builtin_popcount(bits));
   }
   rays.size = kept;
 }

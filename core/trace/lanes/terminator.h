@@ -3,6 +3,7 @@
 
 #include "core/trace/lanes/scatter.h"
 #include "core/trace/lanes/surface.h"
+#include "pinocchio/conversion.h"
 
 namespace pinocchio::PINOCCHIO_LANES {
 namespace {
@@ -50,8 +51,7 @@ class ShadowStarts {
   [[gnu::noinline]] void append_lifted(Mask lanes, const RayQueue& shadow, RayQueue& up) const {
     const Vec from = offset_origin(s_, s_.n_geometric);
     alignas(64) std::uint32_t place[kWidth] = {};
-    auto next = static_cast<std::uint32_t>(shadow.size) -
-                static_cast<std::uint32_t>(__builtin_popcount(lanes.bits()));
+    auto next = as_uint32(shadow.size) - as_uint32(__builtin_popcount(lanes.bits()));
     for (unsigned rest = lanes.bits(); rest != 0; rest &= rest - 1) place[__builtin_ctz(rest)] = next++;
     append(from, lifted_origin() - from, Vec(Float(0.0f)), Int::load(place), lanes & Mask::from_bits(lifted_),
            up);

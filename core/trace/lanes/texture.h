@@ -9,6 +9,7 @@
 #include "core/shade/lane_maps.h"
 #include "core/simd/texels.h"
 #include "core/trace/lanes/shared.h"
+#include "pinocchio/conversion.h"
 
 namespace pinocchio::PINOCCHIO_LANES {
 namespace {
@@ -36,12 +37,12 @@ struct LaneLevels {
   LaneLevels(const TexturePlace& place, unsigned lanes, unsigned filtered, const float* texels_apart) {
     for (unsigned waiting = lanes; waiting != 0; waiting &= waiting - 1) {
       const int lane = __builtin_ctz(waiting);
-      const float most = static_cast<float>(place.levels - 1);
+      const float most = as_float(place.levels - 1);
       float lod = 0.0f;
       if (filtered >> lane & 1) lod = ::log2f(texels_apart[lane] < 65536.0f ? texels_apart[lane] : 65536.0f);
       lod = lod < 0.0f ? 0.0f : (most < lod ? most : lod);
-      const int fine = static_cast<int>(lod);
-      part[lane] = lod - static_cast<float>(fine);
+      const int fine = as_int(lod);
+      part[lane] = lod - as_float(fine);
       if (fine == 0) largest |= 1u << lane;
       for (int i = 0; i < 2; ++i) {
         const TextureLevel& level = place.level[fine + i < place.levels ? fine + i : fine];

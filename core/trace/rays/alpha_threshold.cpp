@@ -3,6 +3,7 @@
 #include <bit>
 
 #include "core/parallel/tiles.h"
+#include "pinocchio/conversion.h"
 
 namespace pinocchio {
 namespace {
@@ -17,14 +18,13 @@ std::uint32_t mixed(std::uint32_t x) {  // Wellons 2018
 
 float threshold_of(const SamplePlace& place, std::uint32_t pixel, std::uint32_t triangle) {
   if (place.jitter == glm::vec2(0.0f)) return 0.5f;
-  const auto mask = static_cast<std::uint32_t>(TileGrid::kTileSize - 1);
+  const auto mask = as_uint32(TileGrid::kTileSize - 1);
   std::uint32_t seed = std::bit_cast<std::uint32_t>(place.jitter.x);
   for (const std::uint32_t part :
-       {std::bit_cast<std::uint32_t>(place.jitter.y),
-        static_cast<std::uint32_t>(place.corner.x) + (pixel & mask),
-        static_cast<std::uint32_t>(place.corner.y) + (pixel >> TileGrid::kTileBits & mask), triangle})
+       {std::bit_cast<std::uint32_t>(place.jitter.y), as_uint32(place.corner.x) + (pixel & mask),
+        as_uint32(place.corner.y) + (pixel >> TileGrid::kTileBits & mask), triangle})
     seed = mixed(seed) + part;
-  return static_cast<float>(mixed(seed) >> 8) * 0x1p-24f;
+  return as_float(mixed(seed) >> 8) * 0x1p-24f;
 }
 
 }  // namespace pinocchio

@@ -4,6 +4,8 @@
 #include <array>
 #include <cmath>
 
+#include "pinocchio/conversion.h"
+
 namespace pinocchio {
 namespace {
 
@@ -71,7 +73,7 @@ void RaySorter::find_order(const RayColumns& rays, std::size_t n) {
     ++first[key + 1];
   }
   for (std::size_t key = 0; key < kKeys; ++key) first[key + 1] += first[key];
-  for (std::size_t i = 0; i < n; ++i) from_[first[key_[i]]++] = static_cast<std::uint32_t>(i);
+  for (std::size_t i = 0; i < n; ++i) from_[first[key_[i]]++] = as_uint32(i);
 }
 
 RayColumns RaySorter::sort(const RayColumns& rays, std::size_t n) {

@@ -7,12 +7,13 @@
 #include "core/parallel/tiles.h"
 #include "core/trace/view/ray_model.h"
 #include "core/trace/view/view_params.h"
+#include "pinocchio/conversion.h"
 #include "pinocchio/tracer.h"
 
 namespace pinocchio {
 namespace {
 
-constexpr std::size_t kRays = static_cast<std::size_t>(TileGrid::kTileSize) * TileGrid::kTileSize;
+constexpr std::size_t kRays = as_size(TileGrid::kTileSize) * TileGrid::kTileSize;
 
 // A thread's memory for a tile.
 struct SeenTile {
@@ -40,8 +41,8 @@ void for_each_layer(const FrameArrays& to, SeenColumns& seen, const Use& use) {
 void put_rays(glm::ivec2 size, const std::uint32_t* ids, std::size_t ids_width, RayQueue& rays) {
   rays.make_room(kRays);
   TileGrid::for_each_pixel({{0, 0}, size}, [&](int x, int y) {
-    const std::uint32_t triangle = ids[static_cast<std::size_t>(y) * ids_width + static_cast<std::size_t>(x)];
-    rays.pixel[rays.size] = static_cast<std::uint32_t>(y << kTileBits | x);
+    const std::uint32_t triangle = ids[as_size(y) * ids_width + as_size(x)];
+    rays.pixel[rays.size] = as_uint32(y << kTileBits | x);
     rays.triangle[rays.size] = triangle;
     rays.size += triangle != kNoTriangle ? 1 : 0;
   });
@@ -58,8 +59,7 @@ void write_visible_points(const VisibleScene& of, const PixelBox& tile, const st
   std::size_t used = 0;
   for_each_layer(to, seen, [&](auto* values, std::span<float*> columns, const auto& nothing) {
     for (float*& column : columns) column = memory.columns[used++];
-    for (int y = 0; y < size.y; ++y)
-      std::fill_n(values + first + static_cast<std::size_t>(y) * width, size.x, nothing);
+    for (int y = 0; y < size.y; ++y) std::fill_n(values + first + as_size(y) * width, size.x, nothing);
   });
 
   RayQueue& rays = memory.rays;
@@ -93,11 +93,11 @@ void write_visible_points(const VisibleScene& of, const PixelBox& tile, const st
 void write_visible_lines(const VisibleScene& of, const Image<std::uint32_t>& ids, int y0, int y1,
                          const FrameArrays& to, std::size_t first) {
   const glm::ivec2 size{ids.width(), y1 - y0};
-  const auto width = static_cast<std::size_t>(size.x);
+  const auto width = as_size(size.x);
   const TileGrid grid(size);
   for (std::size_t i = 0; i < grid.count(); ++i) {
     const PixelBox box = grid.tile(i), tile{box.lo + glm::ivec2(0, y0), box.hi + glm::ivec2(0, y0)};
-    const std::size_t place = static_cast<std::size_t>(box.lo.y) * width + static_cast<std::size_t>(box.lo.x);
+    const std::size_t place = as_size(box.lo.y) * width + as_size(box.lo.x);
     write_visible_points(of, tile, &ids.at(tile.lo.x, tile.lo.y), width, to, first + place, width);
   }
 }

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "pinocchio/conversion.h"
+
 namespace pinocchio {
 
 CatcherPlane::CatcherPlane(const Bounds& scene, float height) : height_(height) {
@@ -14,7 +16,7 @@ CatcherPlane::CatcherPlane(const Bounds& scene, float height) : height_(height) 
     const auto at = [&](float x, float z) {
       return glm::vec3(center_.x + reach * x, height, center_.y + reach * z);
     };
-    const auto first = static_cast<std::uint32_t>(3 * i);
+    const auto first = as_uint32(3 * i);
     positions_[first] = at(-1.5f, -1.5f);  // the square from -1 to 1 is well inside
     positions_[first + 1] = at(-1.5f, 5.0f);
     positions_[first + 2] = at(5.0f, -1.5f);

@@ -1,9 +1,10 @@
 #include "core/trace/tiles/holes.h"
 
+#include "pinocchio/conversion.h"
+
 namespace pinocchio {
 bool has_alpha(const Mesh& mesh, const Material& material) {
-  return material.maps >= 0 &&
-         mesh.maps[static_cast<std::size_t>(material.maps)].alpha_mode != AlphaMode::opaque;
+  return material.maps >= 0 && mesh.maps[as_size(material.maps)].alpha_mode != AlphaMode::opaque;
 }
 
 const std::uint32_t* MetHoles::find(const Tracer& tracer, const Bounce& bounce, const RayQueue& rays) {
@@ -39,7 +40,7 @@ void Holes::pass(const Tracer& tracer, const Bounce& bounce, RayQueue& rays, con
   for (std::size_t i = 0; i < rays.size; ++i) {
     if (holes[i] == 0) continue;
     copy_ray(rays, i, on_, on_.size);
-    on_.pixel[on_.size++] = static_cast<std::uint32_t>(i);
+    on_.pixel[on_.size++] = as_uint32(i);
   }
   for (int layer = 0; on_.size > 0 && layer < kMostLayers; ++layer) {
     tracer.steps().go_behind(bounce, false, on_);

@@ -1,5 +1,6 @@
 #include "core/trace/tiles/identities.h"
 
+#include "pinocchio/conversion.h"
 #include "pinocchio/nodes.h"
 #include "pinocchio/ray.h"
 
@@ -8,7 +9,7 @@ namespace {
 
 std::uint32_t primitive_of(const Scene& scene, std::uint32_t triangle) {
   const int node = scene.nodes ? scene.nodes->node_of(triangle) : -1;
-  return node < 0 ? triangle : triangle - scene.nodes->nodes[static_cast<std::size_t>(node)].first_triangle;
+  return node < 0 ? triangle : triangle - scene.nodes->nodes[as_size(node)].first_triangle;
 }
 
 }  // namespace

@@ -6,6 +6,7 @@
 
 #include "core/trace/view/ray_model.h"
 #include "core/trace/view/view_params.h"
+#include "pinocchio/conversion.h"
 
 namespace pinocchio {
 namespace {
@@ -41,9 +42,8 @@ void write_motion(const Mesh& mesh, const View& view, const MotionTo& other, con
   const glm::ivec2 size = tile.size();
   for (int y = 0; y < size.y; ++y)
     for (int x = 0; x < size.x; ++x) {
-      const std::uint32_t triangle =
-          ids[static_cast<std::size_t>(y) * ids_width + static_cast<std::size_t>(x)];
-      glm::vec2& motion = to[first + static_cast<std::size_t>(y) * width + static_cast<std::size_t>(x)];
+      const std::uint32_t triangle = ids[as_size(y) * ids_width + as_size(x)];
+      glm::vec2& motion = to[first + as_size(y) * width + as_size(x)];
       motion = glm::vec2(0.0f);
       if (triangle == kNoTriangle) continue;
       const glm::ivec2 pixel = tile.lo + glm::ivec2(x, y);

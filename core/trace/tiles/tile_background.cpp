@@ -3,6 +3,7 @@
 
 #include "core/trace/tiles/tile_tracer.h"
 #include "core/trace/view/view_params.h"
+#include "pinocchio/conversion.h"
 
 namespace pinocchio {
 namespace {
@@ -105,15 +106,15 @@ void TileTracer::paint_backdrop() {
       if (plan_->out.color->at(x, y).a != 0.0f) continue;
       const glm::vec3 direction = plan_->model->ray(x, y).direction;
       if (direction == glm::vec3(0.0f)) continue;
-      const auto pixel = static_cast<std::uint32_t>((y - tile_.lo.y) << kTileBits | (x - tile_.lo.x));
+      const auto pixel = as_uint32((y - tile_.lo.y) << kTileBits | (x - tile_.lo.x));
       put({glm::vec3(0.0f), kInfinity, direction}, pixel, 1.0f, kNoTriangle, sky_.size++, sky_);
     }
   reflected_.fill(glm::vec4(0.0f));
   steps.add_environment(*plan_->backdrop, false, sky_, &reflected_[0].x);
   for (std::size_t i = 0; i < sky_.size; ++i) {
     const std::uint32_t pixel = sky_.pixel[i], row = pixel >> kTileBits;
-    plan_->out.color->at(tile_.lo.x + static_cast<int>(pixel - (row << kTileBits)),
-                         tile_.lo.y + static_cast<int>(row)) = reflected_[pixel];
+    plan_->out.color->at(tile_.lo.x + as_int(pixel - (row << kTileBits)), tile_.lo.y + as_int(row)) =
+        reflected_[pixel];
   }
 }
 
@@ -126,8 +127,7 @@ void TileTracer::catch_shadows() {
   rays.make_room(kPixels);
   for (int y = 0; y < tile_.size().y; ++y)
     for (int x = 0; x < tile_.size().x; ++x)
-      if (const auto pixel = static_cast<std::uint32_t>(y << kTileBits | x); !covered[pixel])
-        rays.pixel[rays.size++] = pixel;
+      if (const auto pixel = as_uint32(y << kTileBits | x); !covered[pixel]) rays.pixel[rays.size++] = pixel;
   if (plan_->model)
     plan_->model->fill(tile_.lo, kTileBits, rays);
   else
@@ -169,7 +169,7 @@ void TileTracer::find_lost(RayQueue& rays) {
   step.one_candidate = true;
   step.environment = plan_->ground_sky && plan_->ground_sky->shines ? &*plan_->ground_sky : nullptr;
   make_room(rays.size, next_);
-  sky_.make_room(rays.size * (2 + static_cast<std::size_t>(options.sky_occlusion)));
+  sky_.make_room(rays.size * (2 + as_size(options.sky_occlusion)));
   step.corner = glm::uvec2(plan_->first + tile_.lo * plan_->out.scale);
   step.shadow = shadow_.data();
   step.ways_up = ways_up_.data();
@@ -183,7 +183,7 @@ void TileTracer::find_lost(RayQueue& rays) {
     plan_->job.tracer.steps().bounce(is_first ? step : lights_alone(group, step), rays);
     for (const BounceLight& light : group.lights)
       if (light.slot >= 0)
-        count_lost(shadow_[static_cast<std::size_t>(light.queue)],
+        count_lost(shadow_[as_size(light.queue)],
                    light.params.kind == shared::kLightDirectional ? kInfinity : 1.0f);
     if (is_first) count_lost(sky_, kInfinity);
   }

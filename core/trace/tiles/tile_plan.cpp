@@ -9,24 +9,25 @@
 #include "core/trace/tiles/medium_at.h"
 #include "core/trace/tiles/tinted_shadows.h"
 #include "core/trace/view/view_params.h"
+#include "pinocchio/conversion.h"
 
 namespace pinocchio {
 namespace {
 
 // In the scene's order.
 std::vector<LightGroup> groups_of(const Scene& scene) {
-  constexpr int kGroup = static_cast<int>(kLightGroup);
+  constexpr int kGroup = as_int(kLightGroup);
   const std::vector<int> slots = mask_slots(scene);
   std::vector<LightGroup> groups(1);
   for (std::size_t i = 0; i < slots.size(); ++i) {
     const shared::LightParams params = light_params(scene.lights[i]);
     const int slot = slots[i], byte = std::max(slot, 0) / kGroup;
-    if (static_cast<std::size_t>(byte) == groups.size()) groups.push_back({.lights = {}, .byte = byte});
-    groups[static_cast<std::size_t>(byte)].lights.push_back({.params = params,
-                                                             .slot = slot,
-                                                             .queue = slot < 0 ? -1 : slot % kGroup,
-                                                             .has_size = shared::has_size(params),
-                                                             .index = static_cast<std::uint32_t>(i)});
+    if (as_size(byte) == groups.size()) groups.push_back({.lights = {}, .byte = byte});
+    groups[as_size(byte)].lights.push_back({.params = params,
+                                            .slot = slot,
+                                            .queue = slot < 0 ? -1 : slot % kGroup,
+                                            .has_size = shared::has_size(params),
+                                            .index = as_uint32(i)});
   }
   return groups;
 }
@@ -36,7 +37,7 @@ template <class Is>
 std::size_t most_of(const std::vector<LightGroup>& groups, Is is) {
   std::size_t most = 0;
   for (const LightGroup& group : groups)
-    most = std::max(most, static_cast<std::size_t>(std::ranges::count_if(group.lights, is)));
+    most = std::max(most, as_size(std::ranges::count_if(group.lights, is)));
   return most;
 }
 
@@ -47,7 +48,7 @@ std::vector<LightGroup> visible_groups(const std::vector<LightGroup>& all, const
   std::vector<LightGroup> groups;
   for (const LightGroup& from : all) {
     LightGroup group{.lights = {}, .byte = from.byte};
-    group.in_reflection = out.reflection && from.byte * static_cast<int>(kLightGroup) >= out.first_added_slot;
+    group.in_reflection = out.reflection && from.byte * as_int(kLightGroup) >= out.first_added_slot;
     for (const BounceLight& light : from.lights)
       if (light.slot >= 0 ? out.mask_bits > 0 || group.in_reflection
                           : adds_ambient || (out.sampled && light.has_size))
@@ -133,7 +134,7 @@ TilePlan::TilePlan(const TraceJob& j, const TileOutputs& o)
       most_casting(most_of(further_lights, [](const BounceLight& light) { return light.slot >= 0; })),
       most_sized(most_of(further_lights,
                          [](const BounceLight& light) { return light.slot >= 0 && light.has_size; })) {
-  assert(o.mask_bits == 0 || o.mask_bits >= static_cast<int>(casting_lights(j.scene).size()));
+  assert(o.mask_bits == 0 || o.mask_bits >= as_int(casting_lights(j.scene).size()));
   const Backdrop behind = backdrop_of(j.scene, j.options.background, j.options.background_blur);
   behind_scene = behind.picture;
   if (behind_scene) backdrop.emplace(*behind_scene, behind.rotation_deg, behind.strength);
@@ -154,7 +155,7 @@ TilePlan::TilePlan(const TraceJob& j, const TileOutputs& o)
       takes_samples(job.scene, job.options.environment_light, job.options.glossy) || out.indirect > 0;
   further.attenuates = std::ranges::any_of(job.scene.mesh->materials, &Material::attenuates);
   further.tints = tints;
-  further.scale = static_cast<std::uint32_t>(out.scale);
+  further.scale = as_uint32(out.scale);
   if (job.scene.environment) environment.emplace(job.scene);
   if (environment && environment->shines && o.environment_light) {
     const bool sampled = job.options.environment_light == EnvironmentMethod::sampled;

@@ -7,6 +7,7 @@
 
 #include "core/shade/surface.h"
 #include "core/trace/view/view_params.h"
+#include "pinocchio/conversion.h"
 
 namespace pinocchio {
 namespace {
@@ -32,9 +33,8 @@ class Lap {
 const std::vector<std::uint32_t>& z_curve() {
   static const std::vector<std::uint32_t> kCurve = [] {
     std::vector<std::uint32_t> curve;
-    TileGrid::for_each_pixel({{0, 0}, glm::ivec2(TileGrid::kTileSize)}, [&](int x, int y) {
-      curve.push_back(static_cast<std::uint32_t>(y << kTileBits | x));
-    });
+    TileGrid::for_each_pixel({{0, 0}, glm::ivec2(TileGrid::kTileSize)},
+                             [&](int x, int y) { curve.push_back(as_uint32(y << kTileBits | x)); });
     return curve;
   }();
   return kCurve;
@@ -90,7 +90,7 @@ void TileTracer::start() {
   } else {
     if (!given)
       for (int y = 0; y < tile_.size().y; ++y)
-        std::fill_n(&ids_[static_cast<std::size_t>(y) << kTileBits], tile_.size().x, 0u);
+        std::fill_n(&ids_[as_size(y) << kTileBits], tile_.size().x, 0u);
     std::size_t count = 0;
     for (const std::uint32_t pixel : z_curve()) {
       const std::uint32_t triangle = ids_[pixel];
@@ -115,17 +115,17 @@ constexpr std::size_t kTilesAhead = 4;
 bool TileTracer::fetch_ids() {
   const Image<std::uint32_t>& seen = *plan_->out.seen;
   const int scale = plan_->out.scale;
-  const auto width = static_cast<std::size_t>(tile_.size().x);
+  const auto width = as_size(tile_.size().x);
   std::uint32_t all = kNoTriangle;
   for (int y = tile_.lo.y; y < tile_.hi.y; ++y) {
     const std::uint32_t* const from = &seen.at(tile_.lo.x * scale, y * scale);
-    std::uint32_t* const to = &ids_[static_cast<std::size_t>(y - tile_.lo.y) << kTileBits];
+    std::uint32_t* const to = &ids_[as_size(y - tile_.lo.y) << kTileBits];
     for (std::size_t i = 0; i < width; i += kCacheLine / sizeof(*from))
       __builtin_prefetch(from + kTilesAhead * width + i);
     if (scale == 1) {
       std::memcpy(to, from, width * sizeof(*to));
     } else {
-      for (std::size_t i = 0; i < width; ++i) to[i] = from[i * static_cast<std::size_t>(scale)];
+      for (std::size_t i = 0; i < width; ++i) to[i] = from[i * as_size(scale)];
     }
     for (int i = 0; i < TileGrid::kTileSize; ++i) all &= to[i];  // none beyond `width`
   }
@@ -149,8 +149,8 @@ void TileTracer::find_visible() {
   if (out.ids) {
     for (std::size_t i = 0; i < seen_.size; ++i) ids_[seen_.pixel[i]] = seen_.triangle[i];
     for (int y = tile_.lo.y; y < tile_.hi.y; ++y)
-      std::memcpy(&out.ids->at(tile_.lo.x, y), &ids_[static_cast<std::size_t>(y - tile_.lo.y) << kTileBits],
-                  static_cast<std::size_t>(tile_.size().x) * sizeof(std::uint32_t));
+      std::memcpy(&out.ids->at(tile_.lo.x, y), &ids_[as_size(y - tile_.lo.y) << kTileBits],
+                  as_size(tile_.size().x) * sizeof(std::uint32_t));
   }
   plan_->job.tracer.steps().keep_hits(seen_);
 }
@@ -181,8 +181,7 @@ void TileTracer::make_room_for_shadows(std::size_t rays) {
   for (std::size_t i = 0; i < plan_->most_casting; ++i) shadow_[i].make_room(rays, of_shadow);
   // A sample of the environment, one along a lobe, and distant lights that the lobe meets.
   const std::size_t along_lobes = plan_->further.lobes ? plan_->most_sized : 0;
-  const std::size_t hiding =
-      plan_->further.prefiltered ? static_cast<std::size_t>(plan_->job.options.sky_occlusion) : 0;
+  const std::size_t hiding = plan_->further.prefiltered ? as_size(plan_->job.options.sky_occlusion) : 0;
   sky_.make_room(rays * (plan_->further.lobes ? 2 + along_lobes + hiding : 1 + hiding), of_shadow);
   lobe_lights_.make_room(rays * along_lobes, of_shadow);
   const std::size_t up = plan_->job.options.terminator == Terminator::turned_away ? rays : 0;
@@ -193,7 +192,7 @@ void TileTracer::make_room_for_shadows(std::size_t rays) {
 void TileTracer::bounce(Bounce step, int generation, const RayQueue& rays, Generation& next,
                         glm::vec4* radiance, bool of_camera) {
   step.corner = glm::uvec2(plan_->first + tile_.lo * plan_->out.scale);
-  step.dimension = static_cast<std::uint32_t>(generation) * shared::kDimensionsOfBounce;
+  step.dimension = as_uint32(generation) * shared::kDimensionsOfBounce;
   step.shadow = shadow_.data();
   step.ways_up = ways_up_.data();
   step.sky = &sky_;
@@ -210,7 +209,7 @@ void TileTracer::bounce(Bounce step, int generation, const RayQueue& rays, Gener
 }
 
 void TileTracer::light_visible() {
-  mask_.assign(static_cast<std::size_t>(plan_->visible_lights.back().byte + 1) * kPixels, 0);
+  mask_.assign(as_size(plan_->visible_lights.back().byte + 1) * kPixels, 0);
   if (plan_->visible.adds_light) {
     direct_.fill(glm::vec4(0.0f));
     for (std::size_t i = 0; i < seen_.size; ++i) direct_[seen_.pixel[i]].a = 1.0f;
@@ -254,16 +253,16 @@ void TileTracer::light_points(const Bounce& step, int generation, std::span<cons
 
 void TileTracer::fire_shadows(const LightGroup& group, int generation, glm::vec4* radiance) {
   const bool visible = generation == 0, adds = !visible || plan_->visible.adds_light || group.in_reflection;
-  std::uint8_t* const mask = visible ? &mask_[static_cast<std::size_t>(group.byte) * kPixels] : nullptr;
+  std::uint8_t* const mask = visible ? &mask_[as_size(group.byte) * kPixels] : nullptr;
   for (const BounceLight& light : group.lights) {
     if (light.slot < 0) continue;
-    const RayQueue& queue = shadow_[static_cast<std::size_t>(light.queue)];
+    const RayQueue& queue = shadow_[as_size(light.queue)];
     if (queue.size == 0) continue;
     if (blocked_.size() < queue.size + kQueuePad) blocked_.resize(2 * queue.size + kQueuePad);
     const float reach = light.params.kind == shared::kLightDirectional ? kInfinity : 1.0f;
     if (plan_->out.on_rays) plan_->out.on_rays({queue.columns(reach), queue.size, generation, true});
     ask_occluded(queue, reach);
-    block_by_ways_up(ways_up_[static_cast<std::size_t>(light.queue)], generation);
+    block_by_ways_up(ways_up_[as_size(light.queue)], generation);
     if (visible)  // without a branch, which would be predicted badly at the edges of shadows
       for (std::size_t i = 0; i < queue.size; ++i)
         mask[queue.pixel[i]] |= static_cast<std::uint8_t>(((blocked_[i] & 1u) ^ 1u) << light.queue);
@@ -280,10 +279,10 @@ void TileTracer::fire_shadows(const LightGroup& group, int generation, glm::vec4
 
 void TileTracer::write() {
   const TileOutputs& out = plan_->out;
-  const auto width = static_cast<std::size_t>(tile_.size().x);
+  const auto width = as_size(tile_.size().x);
   const bool empty = seen_.size == 0, mirrors = reflects_;
   for (int y = tile_.lo.y; y < tile_.hi.y; ++y) {
-    const std::size_t row = static_cast<std::size_t>(y - tile_.lo.y) << kTileBits;
+    const std::size_t row = as_size(y - tile_.lo.y) << kTileBits;
     const auto of = [&](auto* image) { return &image->at(tile_.lo.x, y); };
     const glm::vec4 *const direct = &direct_[row], *const reflected = &reflected_[row];
     const auto light = [&](std::size_t i) { return mirrors ? direct[i] + reflected[i] : direct[i]; };
@@ -311,8 +310,7 @@ void TileTracer::write() {
     if (out.added)
       for (std::size_t i = 0; i < width; ++i) of(out.added)[i] += glm::vec3(light(i));
     for (std::size_t i = 0; out.mask && i < mask_.size(); i += kPixels)
-      out.mask->set_row(tile_.lo.x, y, std::span(mask_).subspan(i + row, width),
-                        static_cast<int>(i / kPixels));
+      out.mask->set_row(tile_.lo.x, y, std::span(mask_).subspan(i + row, width), as_int(i / kPixels));
   }
   if (out.color) paint_background();
   if (plan_->catcher) write_lost();

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "core/trace/rays/passed_surfaces.h"
+#include "pinocchio/conversion.h"
 
 namespace pinocchio {
 namespace {
@@ -29,7 +30,7 @@ void TintedShadows::start(const RayQueue& rays, bool ends, std::uint8_t* blocked
     if (blocked[i] != kMayPass && (blocked[i] != 0 || !absorbed)) continue;
     blocked[i] = 1;
     copy_ray(rays, i, on_, on_.size);
-    on_.pixel[on_.size++] = static_cast<std::uint32_t>(i);
+    on_.pixel[on_.size++] = as_uint32(i);
     is_tinted_.push_back(absorbed ? 1 : 0);
   }
 }

@@ -10,6 +10,7 @@
 #include "core/trace/tiles/tile_tracer.h"
 #include "core/trace/view/jitter.h"
 #include "core/trace/view/view_params.h"
+#include "pinocchio/conversion.h"
 
 namespace pinocchio {
 namespace {
@@ -45,7 +46,7 @@ class Share {
     for (int k = 0; k < samples; ++k) {
       TraceOptions& options = trace_job_.options;
       options.jitter = jitter_of(k, job_.filter);
-      options.sampling.index = job_.options.sampling.index + static_cast<std::uint32_t>(k);
+      options.sampling.index = job_.options.sampling.index + as_uint32(k);
       const std::optional<RayModel> model = model_of(camera, tile, options.jitter);
       plan_.set_view(view_params(camera, job_.size, options.jitter, tile.lo, lens_point_of(k)),
                      model ? &*model : nullptr);
@@ -88,15 +89,14 @@ class Share {
 
   // The place in the arrays of the first pixel in row y of the tile.
   [[nodiscard]] std::size_t row_of(std::size_t frame, const PixelBox& tile, int y) const {
-    const auto width = static_cast<std::size_t>(job_.size.x), height = static_cast<std::size_t>(job_.size.y);
-    return (frame * height + static_cast<std::size_t>(tile.lo.y + y)) * width +
-           static_cast<std::size_t>(tile.lo.x);
+    const auto width = as_size(job_.size.x), height = as_size(job_.size.y);
+    return (frame * height + as_size(tile.lo.y + y)) * width + as_size(tile.lo.x);
   }
 
   void copy(std::size_t frame, const PixelBox& tile, int samples) {
     const glm::ivec2 size = tile.size();
     const Image<glm::vec4>& color = samples > 1 ? images_.sum : images_.color;
-    const auto share = static_cast<float>(samples);
+    const auto share = as_float(samples);
     for (int y = 0; y < size.y; ++y) {
       const std::size_t row = row_of(frame, tile, y);
       const auto put = [&](const auto& image, auto* to) {
@@ -106,13 +106,13 @@ class Share {
       put(images_.reflection, to_.reflection);
       put(color, to_.color);
       if (samples > 1)
-        for (int x = 0; x < size.x; ++x) to_.color[row + static_cast<std::size_t>(x)] /= share;
-      const auto width = static_cast<std::size_t>(size.x);
+        for (int x = 0; x < size.x; ++x) to_.color[row + as_size(x)] /= share;
+      const auto width = as_size(size.x);
       if (to_.mask && job_.outputs.mask_bits > 0)
         images_.mask.copy_row(0, y, width, to_.mask_bytes, to_.mask + row * to_.mask_bytes);
       else if (to_.mask)
         std::fill_n(to_.mask + row * to_.mask_bytes, width * to_.mask_bytes, std::uint8_t{0});
-      write_identities(job_.scene, {&images_.ids.at(0, y), static_cast<std::size_t>(size.x)}, to_, row);
+      write_identities(job_.scene, {&images_.ids.at(0, y), as_size(size.x)}, to_, row);
     }
   }
 
@@ -129,14 +129,14 @@ class Share {
                           view_params(camera, job_.size, glm::vec2(0.0f), tile.lo),
                           job_.options.texture_footprint > 0.0f, model ? &*model : nullptr};
     write_visible_points(of, {{0, 0}, tile.size()}, &images_.ids.at(0, 0), kSide, to_, row_of(frame, tile, 0),
-                         static_cast<std::size_t>(job_.size.x));
+                         as_size(job_.size.x));
   }
 
   void add_motion(const View& view, std::size_t frame, const PixelBox& tile) {
     const MotionTo still{nullptr, view.camera};
     write_motion(*job_.scene.mesh, view, job_.motion.empty() ? still : job_.motion[frame],
                  {{0, 0}, tile.size()}, &images_.ids.at(0, 0), kSide, to_.motion, row_of(frame, tile, 0),
-                 static_cast<std::size_t>(job_.size.x));
+                 as_size(job_.size.x));
   }
 
   const FramesJob& job_;
@@ -156,14 +156,14 @@ RayCounts trace_frames(const FramesJob& job, const FrameArrays& to) {
   std::mutex mutex;
   RayCounts rays;
   // One body a thread; each takes tiles until none is left.
-  job.workers.for_each(static_cast<std::size_t>(job.workers.count()), [&](std::size_t) {
+  job.workers.for_each(as_size(job.workers.count()), [&](std::size_t) {
     static thread_local TileImages images;
     Share share(job, to, images);
     RayCounts own;
     try {
       for (std::size_t i; (i = next.fetch_add(1, std::memory_order_relaxed)) < all;) {
         own += share.draw(i / grid.count(), grid.tile(i % grid.count()));
-        advance(job.progress, job.spp / static_cast<double>(grid.count()));
+        advance(job.progress, job.spp / as_double(grid.count()));
       }
     } catch (...) {
       next = all;

@@ -3,6 +3,7 @@
 #include <mutex>
 
 #include "core/trace/tiles/tile_tracer.h"
+#include "pinocchio/conversion.h"
 
 namespace pinocchio {
 
@@ -30,7 +31,7 @@ TileResult trace_tiles(const TraceJob& job, const TileOutputs& outputs) {
     const std::lock_guard lock(mutex);
     result.rays += of_tile.rays;
     result.times += of_tile.times;
-    advance(job.progress, job.progress_steps / static_cast<double>(grid.count()));
+    advance(job.progress, job.progress_steps / as_double(grid.count()));
   });
   return result;
 }

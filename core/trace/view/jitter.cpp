@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "core/shade/shared.h"
+#include "pinocchio/conversion.h"
 
 namespace pinocchio {
 namespace {
@@ -32,7 +33,7 @@ double place_of_share(double share) {
 
 // Point k of an additive recurrence (Roberts 2018), evenly spread at any length; the first is the middle.
 glm::dvec2 even_point(int k, const glm::dvec2& step) {
-  return glm::fract(0.5 + static_cast<double>(k) * step);
+  return glm::fract(0.5 + as_double(k) * step);
 }
 
 // Samples 1 to 15 of pictures whose noise is filtered, so that outlines are all of their error: the least
@@ -57,11 +58,11 @@ glm::vec2 jitter_of(int k, PixelFilter filter) {
 
 glm::vec2 balanced_jitter_of(int k, PixelFilter filter) {
   if (k == 0) return glm::vec2(0.0f);
-  const int first = k < 4 ? 1 : static_cast<int>(std::bit_floor(static_cast<unsigned>(k)));
+  const int first = k < 4 ? 1 : as_int(std::bit_floor(static_cast<unsigned>(k)));
   const int end = std::max(4, 2 * first);
   glm::dvec2 sum(0.0);
   for (int i = first; i < end; ++i) sum += place_of(i, filter, true);
-  return glm::vec2(place_of(k, filter, true) - sum / static_cast<double>(end - first));
+  return glm::vec2(place_of(k, filter, true) - sum / as_double(end - first));
 }
 
 glm::vec2 lens_point_of(int k) {

@@ -5,6 +5,7 @@
 
 #include "core/math/finite.h"
 #include "core/math/lens.h"
+#include "pinocchio/conversion.h"
 
 namespace pinocchio {
 
@@ -47,8 +48,7 @@ glm::dvec3 RayModel::to_world(const glm::dvec3& d) const {
 Ray RayModel::ray(int x, int y) const {
   const glm::ivec2 pixel = first_ + glm::ivec2(x, y);
   if (const PixelRays* const given = view_.rays.get()) {
-    const auto i = static_cast<std::size_t>(pixel.y) * static_cast<std::size_t>(view_.size.x) +
-                   static_cast<std::size_t>(pixel.x);
+    const auto i = as_size(pixel.y) * as_size(view_.size.x) + as_size(pixel.x);
     const glm::vec3 &origin = given->origins[i], &direction = given->directions[i];
     if (!is_finite(origin) || !is_finite(direction)) return {glm::vec3(0.0f), kInfinity, glm::vec3(0.0f)};
     return {origin, kInfinity, direction};
@@ -59,7 +59,7 @@ Ray RayModel::ray(int x, int y) const {
 
 void RayModel::fill(glm::ivec2 corner, int bits, RayQueue& rays) const {
   for (std::size_t i = 0; i < rays.size; ++i) {
-    const auto number = static_cast<int>(rays.pixel[i]);
+    const auto number = as_int(rays.pixel[i]);
     const int row = number >> bits;
     const Ray made = ray(corner.x + number - (row << bits), corner.y + row);
     for (int axis = 0; axis < 3; ++axis) {
@@ -79,7 +79,7 @@ Footprint RayModel::footprint(glm::ivec2 pixel, float side) const {
   Footprint footprint;
   footprint.step_x = side * glm::vec3(to_world(right - here));
   footprint.step_y = side * glm::vec3(to_world(below - here));
-  footprint.angle = static_cast<float>(side * glm::length(glm::normalize(below) - glm::normalize(here)));
+  footprint.angle = as_float(side * glm::length(glm::normalize(below) - glm::normalize(here)));
   return footprint;
 }
 

@@ -6,6 +6,7 @@
 #include "core/trace/view/jitter.h"
 #include "core/trace/view/ray_model.h"
 #include "core/trace/view/view_params.h"
+#include "pinocchio/conversion.h"
 
 namespace pinocchio {
 namespace {
@@ -32,12 +33,12 @@ shared::ViewParams view_params(const Camera& camera, glm::ivec2 size, glm::vec2 
                                glm::vec2 lens) {
   const CameraAxes axes = camera_axes(camera);
   const float half_height = half_height_of(camera);
-  const float pixel = 2.0f * half_height / static_cast<float>(size.y);
+  const float pixel = 2.0f * half_height / as_float(size.y);
   shared::ViewParams view;
   view.eye = camera.eye;
   view.step_x = axes.right * (pixel * camera.pixel_aspect);
   view.step_y = axes.up * -pixel;
-  const glm::vec2 axis = camera.axis_shift * static_cast<float>(size.y);
+  const glm::vec2 axis = camera.axis_shift * as_float(size.y);
   const glm::vec2 to_first_center = glm::vec2(0.5f) + jitter - 0.5f * glm::vec2(size) - axis;
   view.first = glm::vec2(first);
   view.parallel = camera.projection == Projection::orthographic;

@@ -3,6 +3,7 @@
 #include <glm/glm.hpp>
 
 #include "core/shade/shared.h"
+#include "pinocchio/conversion.h"
 #include "pinocchio/view.h"
 
 namespace pinocchio {
@@ -27,7 +28,7 @@ namespace pinocchio {
 // The view of every scale-th pixel, across and down; scale is a power of two, so that the rays are the same
 // to the last bit.
 [[nodiscard]] inline shared::ViewParams scaled_view(shared::ViewParams view, int scale) {
-  const auto factor = static_cast<float>(scale);
+  const auto factor = as_float(scale);
   view.step_x *= factor;
   view.step_y *= factor;
   view.first /= factor;

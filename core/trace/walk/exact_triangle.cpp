@@ -4,6 +4,8 @@
 #include <cmath>
 #include <limits>
 
+#include "pinocchio/conversion.h"
+
 namespace pinocchio {
 namespace {
 
@@ -38,7 +40,7 @@ bool meets_exactly(const SceneTrees& scene, std::uint32_t id, const float (&orig
   const double sum = u + v + w;
   const double exact_t = (u / sum * a.z + v / sum * b.z + w / sum * c.z) / d[kz];
   if (!(exact_t > 0.0)) return false;
-  t = std::max(static_cast<float>(exact_t), std::numeric_limits<float>::denorm_min());
+  t = std::max(as_float(exact_t), std::numeric_limits<float>::denorm_min());
   return true;
 }
 

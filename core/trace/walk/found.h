@@ -5,6 +5,7 @@
 #include "core/trace/rays/material_marks.h"
 #include "core/trace/rays/passed_surfaces.h"
 #include "core/trace/walk/packet.h"
+#include "pinocchio/conversion.h"
 
 namespace pinocchio::PINOCCHIO_LANES {
 namespace {
@@ -75,8 +76,8 @@ struct ClosestFronts : ClosestHits<kPackets> {
     if (longest == 0.0) return Mask::from_bits(0);
     Float along(0.0f);
     for (int axis = 0; axis < 3; ++axis)
-      along = along + Float(static_cast<float>(n[axis] / longest)) *
-                          Float::load(rays_.direction[axis] + first_ + k * kWidth);
+      along = along +
+              Float(as_float(n[axis] / longest)) * Float::load(rays_.direction[axis] + first_ + k * kWidth);
     return Float(0.0f) < along;
   }
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "core/trace/walk/packet.h"
+#include "pinocchio/conversion.h"
 
 namespace pinocchio::PINOCCHIO_LANES {
 namespace {
@@ -70,7 +71,7 @@ class WatertightTest {
     area.store(areas);
     for (int lane = 0; lane < kWidth; ++lane)
       if (areas[lane] == 0.0f)
-        areas[lane] = static_cast<float>(double{px[lane]} * qy[lane] - double{py[lane]} * qx[lane]);
+        areas[lane] = as_float(double{px[lane]} * qy[lane] - double{py[lane]} * qx[lane]);
     area = Float::load(areas);
   }
 

@@ -9,6 +9,7 @@
 #include <string>
 #include <string_view>
 
+#include "pinocchio/conversion.h"
 #include "pinocchio/exr.h"
 #include "pinocchio/image.h"
 #include "pinocchio/mask_image.h"
@@ -84,12 +85,10 @@ struct FrameRecord {
   std::array<std::size_t, kChannelNames.size()> bytes{};
   RayCounts rays;
 
-  [[nodiscard]] Span& operator[](Stage stage) { return stages[static_cast<std::size_t>(stage)]; }
-  [[nodiscard]] const Span& operator[](Stage stage) const { return stages[static_cast<std::size_t>(stage)]; }
-  [[nodiscard]] std::size_t& operator[](Channel channel) { return bytes[static_cast<std::size_t>(channel)]; }
-  [[nodiscard]] std::size_t operator[](Channel channel) const {
-    return bytes[static_cast<std::size_t>(channel)];
-  }
+  [[nodiscard]] Span& operator[](Stage stage) { return stages[as_size(stage)]; }
+  [[nodiscard]] const Span& operator[](Stage stage) const { return stages[as_size(stage)]; }
+  [[nodiscard]] std::size_t& operator[](Channel channel) { return bytes[as_size(channel)]; }
+  [[nodiscard]] std::size_t operator[](Channel channel) const { return bytes[as_size(channel)]; }
   // The sum of all channels to the CPU, or to the GPU.
   [[nodiscard]] std::size_t bytes_to_cpu() const { return sum_bytes(true); }
   [[nodiscard]] std::size_t bytes_to_gpu() const { return sum_bytes(false); }

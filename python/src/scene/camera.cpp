@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "pinocchio/conversion.h"
 #include "python/src/scene/pickle.h"
 #include "python/src/support/parts.h"
 
@@ -201,7 +202,7 @@ void bind_camera(nb::module_& module) {
           [](const Camera& camera, double baseline) {
             if (!std::isfinite(baseline))
               throw Error("baseline is a length in scene units; it must be finite");
-            const StereoPair pair = stereo_pair(camera, static_cast<float>(baseline));
+            const StereoPair pair = stereo_pair(camera, as_float(baseline));
             return std::tuple(pair.left, pair.right);
           },
           "baseline"_a,

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "pinocchio/conversion.h"
 #include "python/src/support/interrupt.h"
 
 namespace pinocchio::python {
@@ -44,9 +45,8 @@ nb::object environment_of(const PyScene& self) {
   const nb::capsule owner(
       kept, [](void* p) noexcept { delete static_cast<std::shared_ptr<const Environment>*>(p); });
   const Image<glm::vec3>& light = (*kept)->radiance();
-  return nb::cast(view_of<const float>(
-      &light.pixels().data()->x,
-      {static_cast<std::size_t>(light.height()), static_cast<std::size_t>(light.width()), 3}, owner));
+  return nb::cast(view_of<const float>(&light.pixels().data()->x,
+                                       {as_size(light.height()), as_size(light.width()), 3}, owner));
 }
 
 }  // namespace pinocchio::python

@@ -5,6 +5,8 @@
 #include <array>
 #include <map>
 
+#include "pinocchio/conversion.h"
+
 namespace pinocchio::python {
 namespace {
 
@@ -14,7 +16,7 @@ void color_triangles(const std::vector<glm::vec3>& colors, MeshData& mesh) {
   const std::vector<Material> given = mesh.materials;
   for (std::size_t t = 0; t < colors.size(); ++t) {
     const glm::vec3& c = colors[t];
-    const auto [at, is_new] = known.try_emplace({c.x, c.y, c.z}, static_cast<std::uint32_t>(known.size()));
+    const auto [at, is_new] = known.try_emplace({c.x, c.y, c.z}, as_uint32(known.size()));
     mesh.triangle_materials[t] = at->second;
   }
   mesh.materials.assign(known.size(), given.front());
@@ -27,7 +29,7 @@ void add_materials(const std::vector<TexturedMaterial>& materials, MeshData& mes
     mesh.materials.push_back(m.material);
     mesh.materials.back().maps = -1;  // of the scene that the material was read from
     if (!m.texture) continue;
-    make_maps(mesh, mesh.materials.back()).base_color.texture = static_cast<int>(mesh.textures.size());
+    make_maps(mesh, mesh.materials.back()).base_color.texture = as_int(mesh.textures.size());
     mesh.textures.edit().push_back(*m.texture);
   }
   if (mesh.materials.empty()) mesh.materials.emplace_back();

@@ -1,5 +1,6 @@
 #include <cmath>
 
+#include "pinocchio/conversion.h"
 #include "python/src/scene/pickle.h"
 #include "python/src/support/parts.h"
 
@@ -99,9 +100,7 @@ void bind_material(nb::module_& module) {
             if (!texture) return std::nullopt;
             const Image<glm::u8vec4>& texels = texture->texels;
             return nb::ndarray<const std::uint8_t, nb::numpy, nb::shape<-1, -1, 4>>(
-                &texels.pixels().data()->x,
-                {static_cast<std::size_t>(texels.height()), static_cast<std::size_t>(texels.width()), 4},
-                self);
+                &texels.pixels().data()->x, {as_size(texels.height()), as_size(texels.width()), 4}, self);
           },
           "(height, width, 4) uint8, sRGB, or None. The array is not a copy.")
       .def("__repr__",

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <set>
 
+#include "pinocchio/conversion.h"
 #include "python/src/scene/scene.h"
 #include "python/src/support/interrupt.h"
 
@@ -47,7 +48,7 @@ int NodeNumbers::of(const std::variant<int, std::string>& name) {
   if (std::holds_alternative<int>(name)) return std::get<int>(name);
   if (by_name_.empty()) {
     const std::vector<std::string> names = node_names(scene_);
-    for (std::size_t n = 0; n < names.size(); ++n) by_name_.emplace(names[n], static_cast<int>(n));
+    for (std::size_t n = 0; n < names.size(); ++n) by_name_.emplace(names[n], as_int(n));
   }
   const auto found = by_name_.find(std::get<std::string>(name));
   if (found != by_name_.end()) return found->second;
@@ -96,8 +97,7 @@ void bind_nodes(nb::class_<PyScene>& bound) {
           "triangle_nodes",
           [](const PyScene& s) {
             std::vector<std::uint32_t> nodes(s.scene.mesh->triangles.size());
-            for (std::size_t t = 0; t < nodes.size(); ++t)
-              nodes[t] = object_of(s.scene, static_cast<std::uint32_t>(t));
+            for (std::size_t t = 0; t < nodes.size(); ++t) nodes[t] = object_of(s.scene, as_uint32(t));
             const std::size_t n = nodes.size();
             return array_that_owns<std::uint32_t>(std::move(nodes), {n});
           },
@@ -124,14 +124,14 @@ void bind_nodes(nb::class_<PyScene>& bound) {
             NodeNumbers all(scene);
             for (const auto& node : nodes) numbers.push_back(all.of(node));
             const auto below = [&](int node) {
-              for (; children && node >= 0; node = scene.nodes->nodes[static_cast<std::size_t>(node)].parent)
+              for (; children && node >= 0; node = scene.nodes->nodes[as_size(node)].parent)
                 if (std::ranges::count(numbers, node) > 0) return true;
               return std::ranges::count(numbers, node) > 0;
             };
             bool any = false;
             for (std::size_t n = 0; n < scene.nodes->nodes.size(); ++n)
-              any = any || (scene.nodes->nodes[n].triangles > 0 && below(static_cast<int>(n)));
-            const auto count = static_cast<int>(scene.nodes->nodes.size());
+              any = any || (scene.nodes->nodes[n].triangles > 0 && below(as_int(n)));
+            const auto count = as_int(scene.nodes->nodes.size());
             const bool known = std::ranges::all_of(numbers, [&](int n) { return n >= 0 && n < count; });
             if (known && !any) return std::nullopt;
             return PyScene(

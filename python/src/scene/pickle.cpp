@@ -6,6 +6,8 @@
 #include <cstring>
 #include <type_traits>
 
+#include "pinocchio/conversion.h"
+
 namespace pinocchio::python {
 namespace {
 
@@ -105,8 +107,7 @@ class Reader {
   void operator()(Image<T>& image) {
     glm::ivec2 size{};
     (*this)(size);
-    if (size.x < 0 || size.y < 0 ||
-        static_cast<std::size_t>(size.x) * static_cast<std::size_t>(size.y) > left_ / sizeof(T))
+    if (size.x < 0 || size.y < 0 || as_size(size.x) * as_size(size.y) > left_ / sizeof(T))
       throw Error("the pickle is damaged: a picture's size is impossible");
     image = Image<T>(size);
     raw(image.pixels().data(), image.pixels().size_bytes());

@@ -10,6 +10,7 @@
 #include <array>
 #include <cmath>
 
+#include "pinocchio/conversion.h"
 #include "python/src/scene/environment.h"
 #include "python/src/scene/make_scene.h"
 #include "python/src/scene/pickle.h"
@@ -33,9 +34,9 @@ std::vector<T> all_of(nb::handle list, const std::string& name, const char* want
 }
 
 float diameter(const char* name, double value) {
-  if (!(value >= 0.0) || !std::isfinite(static_cast<float>(value)))
+  if (!(value >= 0.0) || !std::isfinite(as_float(value)))
     throw Error(std::string(name) + " is a diameter in scene units; it must be finite and not negative");
-  return static_cast<float>(value);
+  return as_float(value);
 }
 
 PyScene load(const std::filesystem::path& path, bool confine, const std::string& shading,
@@ -85,10 +86,8 @@ std::vector<TexturedMaterial> materials_of(const Mesh& mesh) {
   for (const Material& material : mesh.materials) {
     all.push_back({material, nullptr});
     if (material.maps < 0) continue;
-    const TextureUse& use = mesh.maps[static_cast<std::size_t>(material.maps)].base_color;
-    if (use.used())
-      all.back().texture =
-          std::make_shared<const Texture>(mesh.textures[static_cast<std::size_t>(use.texture)]);
+    const TextureUse& use = mesh.maps[as_size(material.maps)].base_color;
+    if (use.used()) all.back().texture = std::make_shared<const Texture>(mesh.textures[as_size(use.texture)]);
   }
   return all;
 }

@@ -3,6 +3,8 @@
 #include <cmath>
 #include <limits>
 
+#include "pinocchio/conversion.h"
+
 namespace pinocchio::python {
 namespace {
 
@@ -77,7 +79,7 @@ std::vector<float> numbers_of(nb::handle source, const std::string& name, int co
 }
 
 float number_within(double value, const char* name, double lo, double hi) {
-  if (std::isfinite(value) && value >= lo && value <= hi) return static_cast<float>(value);
+  if (std::isfinite(value) && value >= lo && value <= hi) return as_float(value);
   const auto text = [](double number) { return text_of(nb::float_(number)); };
   const bool has_end = std::isfinite(hi) && hi < std::numeric_limits<float>::max();
   throw Error(std::string(name) + " is " + text(value) + "; it is a finite number" +
@@ -91,7 +93,7 @@ glm::mat4 Matrix::read(const std::string& name) const {
       nb::cast<nb::ndarray<const double, nb::ndim<2>, nb::c_contig, nb::device::cpu>>(array, false);
   glm::mat4 result;
   for (int i = 0; i < 16; ++i) {
-    const auto number = static_cast<float>(m.data()[i]);
+    const auto number = as_float(m.data()[i]);
     if (!std::isfinite(number))
       throw Error(name + " holds " + text_of(array[nb::make_tuple(i / 4, i % 4)]) +
                   "; it needs finite numbers");
@@ -107,7 +109,7 @@ glm::ivec2 Size::read() const {
   if (n.data()[0] < 1 || n.data()[1] < 1 || n.data()[0] > 65536 || n.data()[1] > 65536)
     throw Error("size is " + std::to_string(n.data()[0]) + "x" + std::to_string(n.data()[1]) +
                 "; it must be (width, height) in pixels");
-  return {static_cast<int>(n.data()[0]), static_cast<int>(n.data()[1])};
+  return {as_int(n.data()[0]), as_int(n.data()[1])};
 }
 
 }  // namespace pinocchio::python

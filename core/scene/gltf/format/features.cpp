@@ -11,6 +11,7 @@
 #include "core/scene/gltf/format/json.h"
 #include "core/scene/gltf/format/material_table.h"
 #include "core/scene/gltf/format/variants.h"
+#include "pinocchio/conversion.h"
 
 namespace pinocchio {
 namespace {
@@ -130,13 +131,13 @@ class FeatureAudit {
       if (!items.is_array() || collection.empty()) continue;
       const std::string kind = collection == "meshes" ? "mesh" : collection.substr(0, collection.size() - 1);
       for (std::size_t i = 0; i < items.size(); ++i)
-        if (collection != "materials" || used_materials_.contains(static_cast<double>(i)))
+        if (collection != "materials" || used_materials_.contains(as_double(i)))
           find_extensions_in(items[i], place(kind, items[i], i));
     }
     if (const Json* extensions = member(&gltf_, "extensions")) check_extensions(*extensions, "");
     const Json& materials = array_member(&gltf_, "materials");
     for (std::size_t i = 0; i < materials.size(); ++i)
-      if (used_materials_.contains(static_cast<double>(i)))
+      if (used_materials_.contains(as_double(i)))
         check_material(i, materials[i], place("material", materials[i], i));
     check_scenes();
   }
@@ -224,7 +225,7 @@ class FeatureAudit {
            "its texture is placed as if there were none");
     const double usual = number_of(info, "texCoord", 0),
                  set = transform ? number_of(*transform, "texCoord", usual) : usual;
-    if (uncovered_[set == 1 ? 1 : 0].contains(static_cast<double>(material)))
+    if (uncovered_[set == 1 ? 1 : 0].contains(as_double(material)))
       lost(where, which + " lies on triangles without texture coordinates", "it has one colour there");
   }
 
@@ -238,13 +239,13 @@ class FeatureAudit {
 
   [[nodiscard]] const Json* element_of(const std::string& collection, double index) const {
     const Json& items = array_member(&gltf_, collection);
-    return index >= 0 && index < items.size() ? &items[static_cast<std::size_t>(index)] : nullptr;
+    return index >= 0 && index < items.size() ? &items[as_size(index)] : nullptr;
   }
 
   void check_scenes() {
     const Json& scenes = array_member(&gltf_, "scenes");
     const double named = number_of(gltf_, "scene", 0);
-    const std::size_t shown = element_of("scenes", named) ? static_cast<std::size_t>(named) : 0;
+    const std::size_t shown = element_of("scenes", named) ? as_size(named) : 0;
     for (std::size_t i = 0; i < scenes.size(); ++i)
       if (i != shown)
         lost(place("scene", scenes[i], i), "scenes other than the default one are left out",

@@ -5,6 +5,8 @@
 #include <limits>
 #include <nlohmann/json.hpp>
 
+#include "pinocchio/conversion.h"
+
 namespace pinocchio {
 namespace {
 
@@ -31,7 +33,7 @@ std::optional<double> value_of(const Json& value) {
 
 template <>
 std::optional<float> value_of(const Json& value) {
-  return value.is_number() ? std::optional(static_cast<float>(value.get<double>())) : std::nullopt;
+  return value.is_number() ? std::optional(as_float(value.get<double>())) : std::nullopt;
 }
 
 template <>
@@ -45,7 +47,7 @@ std::optional<std::size_t> value_of(const Json& value) {
   const double number = value_of<double>(value).value_or(-1.0);
   constexpr double kMost = 9e15;  // every whole number below it is a double
   if (!(number >= 0.0 && number < kMost && number == std::floor(number))) return std::nullopt;
-  return static_cast<std::size_t>(number);
+  return as_size(number);
 }
 
 template <>
@@ -64,7 +66,7 @@ std::optional<glm::vec3> value_of(const Json& value) {
 int index_of(const Json& value) {
   constexpr std::size_t kMost = std::numeric_limits<int>::max();
   const std::optional<std::size_t> index = value_of<std::size_t>(value);
-  return index ? static_cast<int>(std::min(*index, kMost)) : -1;
+  return index ? as_int(std::min(*index, kMost)) : -1;
 }
 
 const Json* member(const Json* object, const std::string& key) {

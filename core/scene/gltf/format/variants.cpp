@@ -5,6 +5,7 @@
 
 #include "core/base/listed.h"
 #include "core/scene/gltf/format/json.h"
+#include "pinocchio/conversion.h"
 
 namespace pinocchio {
 namespace {
@@ -25,7 +26,7 @@ Expected<int> chosen_gltf_variant(const std::filesystem::path& file, const nlohm
   if (name.empty()) return -1;
   std::vector<std::string> names = gltf_variants(gltf);
   const auto found = std::ranges::find(names, name);
-  if (found != names.end()) return static_cast<int>(found - names.begin());
+  if (found != names.end()) return as_int(found - names.begin());
   for (std::string& other : names) other = "'" + other + "'";
   return Unexpected(InputError{file.string(), 0, "has no variant '" + name + "' of its materials",
                                names.empty() ? "it has none" : "choose from " + listed(names, ", ", " or ")});

@@ -7,6 +7,7 @@
 #include <string_view>
 
 #include "core/scene/gltf/format/constants.h"
+#include "pinocchio/conversion.h"
 
 namespace pinocchio {
 
@@ -21,7 +22,7 @@ struct GltfData {
     json["bufferViews"].push_back(
         {{"buffer", 0}, {"byteOffset", binary.size()}, {"byteLength", bytes.size()}});
     binary.append(bytes);
-    return static_cast<int>(json["bufferViews"].size()) - 1;
+    return as_int(json["bufferViews"].size()) - 1;
   }
 
   template <class T>
@@ -31,7 +32,7 @@ struct GltfData {
                                  {"componentType", component_type},
                                  {"count", elements.size()},
                                  {"type", type}});
-    return static_cast<int>(json["accessors"].size()) - 1;
+    return as_int(json["accessors"].size()) - 1;
   }
 
   // The last accessor's bounds, which the specification requires of positions and times.
@@ -42,7 +43,7 @@ struct GltfData {
 
   // is_root: a node of the scene; else its parent has to list it.
   int add_node(Json node, bool is_root = true) {
-    const int index = static_cast<int>(json["nodes"].size());
+    const int index = as_int(json["nodes"].size());
     if (is_root) json["scenes"][0]["nodes"].push_back(index);
     json["nodes"].push_back(std::move(node));
     return index;

@@ -7,6 +7,7 @@
 #include "core/scene/gltf/format/constants.h"
 #include "core/scene/gltf/material_from_surface.h"
 #include "core/scene/gltf/save/data.h"
+#include "pinocchio/conversion.h"
 
 namespace pinocchio {
 namespace {
@@ -147,7 +148,7 @@ Json GltfMaterialWriter::texture(const TextureUse& use, int image) {
                      {"magFilter", use.nearest ? kGltfNearest : kGltfLinear}};
   const auto place = [](Json& all, const Json& one) {
     const auto found = std::find(all.begin(), all.end(), one);
-    const auto index = static_cast<int>(found - all.begin());
+    const auto index = as_int(found - all.begin());
     if (found == all.end()) all.push_back(one);
     return index;
   };
@@ -194,7 +195,7 @@ int GltfMaterialWriter::add_image(const Texture& texture) {
   images_.push_back({{"name", texture.name},
                      {"bufferView", add_view_(encode_png(texture.texels))},
                      {"mimeType", "image/png"}});
-  return static_cast<int>(images_.size()) - 1;
+  return as_int(images_.size()) - 1;
 }
 
 void GltfMaterialWriter::finish(Json& gltf) const {

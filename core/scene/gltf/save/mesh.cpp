@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "core/scene/gltf/save/materials.h"
+#include "pinocchio/conversion.h"
 
 namespace pinocchio {
 namespace {
@@ -75,7 +76,7 @@ Json gltf_primitives(const Mesh& mesh, const SavedPart& part, const Json& more, 
       indices.insert(indices.end(), {t.x, part.turned ? t.z : t.y, part.turned ? t.y : t.z});
     }
     Json own = attributes;
-    add_attributes(known, mesh.maps_of(static_cast<std::uint32_t>(first)), part, indices, own);
+    add_attributes(known, mesh.maps_of(as_uint32(first)), part, indices, own);
     primitives.push_back(
         {{"attributes", own},
          {"indices", data.add_accessor(std::span<const std::uint32_t>(indices), kGltfUnsignedInt, "SCALAR")},

@@ -8,6 +8,7 @@
 #include "core/scene/gltf/save/mesh.h"
 #include "core/scene/pose/pose.h"
 #include "pinocchio/animation.h"
+#include "pinocchio/conversion.h"
 
 namespace pinocchio {
 namespace {
@@ -18,7 +19,7 @@ constexpr std::size_t kInfluencesASet = 4;
 
 // Of a node whose transform tracks take the place of; else null.
 const AnimatedNode* animated_by(const Animation& animation, std::size_t node) {
-  const auto found = std::ranges::find(animation.nodes, static_cast<int>(node), &AnimatedNode::node);
+  const auto found = std::ranges::find(animation.nodes, as_int(node), &AnimatedNode::node);
   const auto moves = [](const Track& t) { return t.path != Track::Path::weights; };
   return found != animation.nodes.end() && std::ranges::any_of(found->tracks, moves) ? &*found : nullptr;
 }
@@ -70,8 +71,8 @@ Json influences_json(const Deformation& deformation, std::uint32_t vertices, Glt
     for (std::size_t v = 0; v < vertices; ++v)
       for (std::size_t i = 0; i < kInfluencesASet; ++i) {
         const Influence& by = deformation.influences[v * stride + set * kInfluencesASet + i];
-        joints[v][static_cast<int>(i)] = static_cast<std::uint16_t>(by.joint);
-        weights[v][static_cast<int>(i)] = by.weight;
+        joints[v][as_int(i)] = static_cast<std::uint16_t>(by.joint);
+        weights[v][as_int(i)] = by.weight;
       }
     const std::string number = "_" + std::to_string(set);
     attributes["JOINTS" + number] =
@@ -100,11 +101,11 @@ void add_mesh(const Scene& scene, std::size_t index, const std::vector<glm::mat4
                  part_of(rest.normals, node),
                  scene.mesh->tangents.empty() ? std::span<const glm::vec4>() : part_of(rest.tangents, node),
                  Placement(world[index]).mirrors()};
-  const auto found = std::ranges::find(rest.deformations, static_cast<int>(index), &Deformation::node);
+  const auto found = std::ranges::find(rest.deformations, as_int(index), &Deformation::node);
   if (found == rest.deformations.end()) {
     data.json["meshes"].push_back({{"primitives", gltf_primitives(*scene.mesh, part, Json::object(), data)}});
   } else {
-    const auto d = static_cast<std::size_t>(found - rest.deformations.begin());
+    const auto d = as_size(found - rest.deformations.begin());
     part.turned = Deformer(tree, d, world).mirrors();
     Json primitives = gltf_primitives(*scene.mesh, part, influences_json(*found, node.vertices, data), data);
     if (const Json targets = targets_json(*found, node.vertices, data); !targets.empty())
@@ -118,14 +119,14 @@ void add_mesh(const Scene& scene, std::size_t index, const std::vector<glm::mat4
 
 const char* path_name(Track::Path path) {
   constexpr const char* kNames[] = {"translation", "rotation", "scale", "weights"};
-  return kNames[static_cast<int>(path)];
+  return kNames[as_int(path)];
 }
 
 Json sampler_json(const Track& track, GltfData& data) {
   constexpr const char* kInterpolations[] = {"STEP", "LINEAR", "CUBICSPLINE"};
   Json json{{"input", data.add_accessor(std::span(track.times_s), kGltfFloat, "SCALAR")}};
   data.add_bounds({track.times_s.front()}, {track.times_s.back()});
-  json["interpolation"] = kInterpolations[static_cast<int>(track.interpolation)];
+  json["interpolation"] = kInterpolations[as_int(track.interpolation)];
   const std::span values(track.values);
   const auto elements = [&]<class T>(const T*) {
     return std::span(reinterpret_cast<const T*>(values.data()), values.size() / track.width);
@@ -158,7 +159,7 @@ std::vector<int> add_moving_nodes(const Scene& scene, GltfData& data) {
     if (nodes[n].triangles > 0) add_mesh(scene, n, world, data, json);
     place.push_back(data.add_node(std::move(json), nodes[n].parent < 0));
     if (nodes[n].parent >= 0) {
-      const auto parent = static_cast<std::size_t>(place[nodes[n].parent]);
+      const auto parent = as_size(place[nodes[n].parent]);
       data.json["nodes"][parent]["children"].push_back(place.back());
     }
   }

@@ -13,6 +13,7 @@
 #include "core/scene/gltf/save/motion.h"
 #include "core/scene/pose/pose.h"
 #include "pinocchio/animation.h"
+#include "pinocchio/conversion.h"
 #include "pinocchio/error.h"
 #include "pinocchio/save.h"
 
@@ -121,8 +122,7 @@ class GltfWriter {
   // All of it in the world, on one node.
   void add_mesh() {
     const Mesh& mesh = *scene_.mesh;
-    const SavedPart all{
-        0, 0, static_cast<std::uint32_t>(mesh.triangles.size()), mesh.positions, mesh.normals, mesh.tangents};
+    const SavedPart all{0, 0, as_uint32(mesh.triangles.size()), mesh.positions, mesh.normals, mesh.tangents};
     json_["meshes"] = Json::array({{{"primitives", gltf_primitives(mesh, all, Json::object(), data_)}}});
     data_.add_node({{"mesh", 0}});
   }
@@ -133,7 +133,7 @@ class GltfWriter {
     const RestPose& rest = *scene_.nodes->rest;
     const auto hang = [&](int node, Json json) {
       const int index = data_.add_node(std::move(json), false);
-      Json& children = json_["nodes"][static_cast<std::size_t>(place[node])]["children"];
+      Json& children = json_["nodes"][as_size(place[node])]["children"];
       if (children.is_null()) children = Json::array();
       children.insert(children.begin(), index);
     };
@@ -148,7 +148,7 @@ class GltfWriter {
     };
     for (std::size_t a = rest.cameras.size(); a-- > 0;) {
       if (places.cameras[a] == kGone) continue;
-      const auto n = static_cast<std::size_t>(rest.cameras[a].node);
+      const auto n = as_size(rest.cameras[a].node);
       const Camera camera = as_node_sees(rest.cameras[a], scene_.cameras[places.cameras[a]], now[n]);
       Camera in_world = scene_.cameras[places.cameras[a]];
       if (const Placement placement(world[n]); world[n] != now[n]) {
@@ -177,7 +177,7 @@ class GltfWriter {
           {"type", "orthographic"},
           {"orthographic",
            {{"xmag", 0.5 * camera.height}, {"ymag", 0.5 * camera.height}, {"znear", 0.0}, {"zfar", 1e6}}}};
-    const double yfov = glm::radians(static_cast<double>(camera.fov_deg));
+    const double yfov = glm::radians(as_double(camera.fov_deg));
     return {{"type", "perspective"}, {"perspective", {{"yfov", yfov}, {"znear", 0.01}}}};
   }
 
@@ -241,7 +241,7 @@ std::string text_of(const Json& json, int indent) {
 }
 
 void append_u32(std::string& to, std::size_t value) {
-  const auto word = static_cast<std::uint32_t>(value);
+  const auto word = as_uint32(value);
   to.append(reinterpret_cast<const char*>(&word), sizeof word);
 }
 

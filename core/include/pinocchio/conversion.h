@@ -1,0 +1,31 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+
+namespace pinocchio {
+
+// Numbers as numbers of another type, which holds the value as the caller knows. Always inlined: translation
+// units for one instruction set must not lend their code to others.
+template <class T>
+[[nodiscard, gnu::always_inline]] constexpr std::size_t as_size(T value) {
+  return static_cast<std::size_t>(value);
+}
+template <class T>
+[[nodiscard, gnu::always_inline]] constexpr int as_int(T value) {
+  return static_cast<int>(value);
+}
+template <class T>
+[[nodiscard, gnu::always_inline]] constexpr std::uint32_t as_uint32(T value) {
+  return static_cast<std::uint32_t>(value);
+}
+template <class T>
+[[nodiscard, gnu::always_inline]] constexpr float as_float(T value) {
+  return static_cast<float>(value);
+}
+template <class T>
+[[nodiscard, gnu::always_inline]] constexpr double as_double(T value) {
+  return static_cast<double>(value);
+}
+
+}  // namespace pinocchio
