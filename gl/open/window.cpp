@@ -6,7 +6,6 @@
 #include "gl/context/error.h"
 #include "gl/open/glfw_library.h"
 #include "gl/open/probe.h"
-#include "pinocchio/conversion.h"
 
 namespace pinocchio::gl {
 namespace {
@@ -48,12 +47,12 @@ void on_pointer(GLFWwindow* window, double x, double y) {
   glfw().GetWindowSize(window, &width, &height);
   glfw().GetFramebufferSize(window, &pixels_x, &pixels_y);
   if (width < 1 || height < 1) return;
-  const glm::dvec2 scale(as_double(pixels_x) / width, as_double(pixels_y) / height);
+  const glm::dvec2 scale(static_cast<double>(pixels_x) / width, static_cast<double>(pixels_y) / height);
   events_of(window).push_back(PointerEvent{glm::vec2(glm::dvec2(x, y) * scale)});
 }
 
 void on_scroll(GLFWwindow* window, double, double y) {
-  events_of(window).push_back(ScrollEvent{as_float(y)});
+  events_of(window).push_back(ScrollEvent{static_cast<float>(y)});
 }
 
 void on_drop(GLFWwindow* window, int count, const char** paths) {
@@ -165,7 +164,7 @@ float Window::content_scale() const {
   // A display that enlarges windows itself has large units already.
   int width = 0;
   glfw().GetWindowSize(handle(), &width, nullptr);
-  const float pixels_a_unit = width > 0 ? as_float(pixels().x) / as_float(width) : 1.0f;
+  const float pixels_a_unit = width > 0 ? static_cast<float>(pixels().x) / static_cast<float>(width) : 1.0f;
   return x > 0.0f && pixels_a_unit > 0.0f ? x / pixels_a_unit : 1.0f;
 }
 
