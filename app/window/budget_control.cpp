@@ -26,12 +26,16 @@ Settings BudgetControl::settings_for(const Settings& exact) {
   return still_ ? exact : cheaper;
 }
 
-void BudgetControl::begin(const Settings& exact) {
+void BudgetControl::begin_over(const Settings& exact) {
   controller_.reset();
   trial_.reset();
   exact_ = exact;
   model_.given_up.clear();
   model_.is_cheaper = false;
+}
+
+void BudgetControl::begin(const Settings& exact) {
+  begin_over(exact);
   if (exact.composite == Processor::cpu || !exact.traces())
     return model_.messages.hint("--budget and --max-error need mode hybrid, design 1", 8.0, kAbout);
   frames_.drain();

@@ -18,6 +18,8 @@ class BudgetControl {
   // scene stand still.
   [[nodiscard]] Settings settings_for(const Settings& exact);
   void note(double frame_ms);
+  // Another scene is shown: its plans are measured anew.
+  void forget() { begin_over(Settings{}); }
   [[nodiscard]] bool is_measuring() const { return trial_ != nullptr; }
   // Makes explicit in `settings` what was given up for the budget.
   void add_given_up(Settings& settings) const;
@@ -25,6 +27,7 @@ class BudgetControl {
  private:
   void measure();
   void begin(const Settings& exact);
+  void begin_over(const Settings& exact);
   [[nodiscard]] bool stands_still();
   void tell_given_up(const Settings& cheaper);
 

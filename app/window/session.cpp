@@ -138,6 +138,7 @@ void Session::show_scene(SceneLoader::News& news) {
   const UpAxis axis_before = model_.up_axis;
   frames_.drain();
   playback_.cancel();
+  budget_.forget();
   source_.accept(scene);
   model_.up_axis = source_.options().up_axis;
   model_.variant = source_.options().variant;
