@@ -13,32 +13,7 @@ uniform int vertex_count;
 uniform samplerBuffer vertex_quads;  // 1 texel a vertex: colours; then, likewise, tangents
 #endif
 
-// Uses of textures: bits of MAP_USES, and places in a material's texels.
-const int kBaseColor = 0;
-const int kMetallicRoughness = 1;
-const int kNormal = 2;
-const int kOcclusion = 3;
-const int kEmissive = 4;
-const int kAlpha = 5;
-const int kSpecular = 6;
-const int kSpecularColor = 7;
-const int kTransmission = 8;
-const int kClearcoat = 9;
-const int kClearcoatRoughness = 10;
-const int kSheenColor = 11;
-const int kSheenRoughness = 12;
-const int kUses = 13;
-// More bits.
-const int kBlends = 13;          // some material blends
-const int kSecondTexcoords = 14; // some texture is read at the second UV set
-const int kOcclusionIsShared = 15;  // occlusion is read where metallic and roughness are, from the same texture
-
 bool some_has(int bit) { return (MAP_USES >> bit & 1) != 0; }
-
-// Texels of a material's maps: three for each use of a texture, then what goes with them.
-const int kParameters = 3 * kUses;
-const int kLayers = kParameters + 6;
-const int kMapTexels = kLayers + 2;
 
 struct TexelSource {
   int levels;  // in maps_buffer
@@ -57,6 +32,16 @@ vec4 texel_at(TexelSource source, int i, bool is_color) {
 
 #include "shared/texture.glsl"
 #include "shared/maps.glsl"
+
+// Bits of MAP_USES, after those of the textures.
+const int kBlends = kUses;                 // some material blends
+const int kSecondTexcoords = kUses + 1;    // some texture is read at the second UV set
+const int kOcclusionIsShared = kUses + 2;  // occlusion is read where metallic and roughness are, from the same texture
+
+// Texels of a material's maps: three for each use of a texture, then what goes with them.
+const int kParameters = 3 * kUses;
+const int kLayers = kParameters + 6;
+const int kMapTexels = kLayers + 2;
 
 struct MapPoint {
   uvec3 corners;

@@ -1,6 +1,7 @@
 #include "app/cli/options.h"
 
 #include <algorithm>
+#include <array>
 #include <limits>
 #include <memory>
 
@@ -10,6 +11,7 @@
 #include "app/cli/groups.h"
 #include "core/scene/formats.h"
 #include "hybrid/settings/json.h"
+#include "pinocchio/conversion.h"
 #include "pinocchio/load.h"
 #include "pinocchio/names.h"
 #include "pinocchio/studio.h"
@@ -23,26 +25,13 @@ std::optional<glm::ivec2> parse_picture_size(const std::string& text) {
   return static_cast<long long>(size->x) * size->y <= kMaxPixels ? size : std::nullopt;
 }
 
-// The settings that are neither methods nor of the machine.
-constexpr std::array<std::pair<const char*, std::array<std::string_view, 14>>, 3> kGroupedFields{{
-    {kSamplesGroup, {"spp", "max_noise", "pixel_filter", "sequence", "seed", "denoise", "average_layers"}},
-    {kLightGroup,
-     {"indirect", "environment_rotation", "environment_strength", "environment_light", "glossy",
-      "sky_occlusion", "glass_shadows", "background", "background_blur", "shadow_catcher"}},
-    {kExchangeGroup,
-     {"visibility", "composite", "by_machine", "exchange", "mask_bits", "mask_scale", "reflection",
-      "reflection_scale", "tiles", "id_bits", "normals", "wide", "reuse", "persistent"}},
-}};
-
-const char* group_of(const Field& field) {
-  for (const auto& [group, names] : kGroupedFields)
-    if (std::ranges::find(names, field.name) != names.end()) return group;
-  return field.name == "threads" || field.name == "isa" ? kMachineGroup : kMethodGroup;
-}
+// By Field::Group.
+constexpr std::array kGroups{kSamplesGroup,  kLightGroup,  kMethodGroup,
+                             kExchangeGroup, kMethodGroup, kMachineGroup};
 
 // "--mask-bits" and the like. What is given goes to `given`.
 void add_field(CLI::App& verb, const Field& field, Settings& given) {
-  begin_group(verb, group_of(field));
+  begin_group(verb, kGroups[as_size(field.group)]);
   const std::string help = std::string(field.help) +
                            (field.kind == Field::Kind::text ? ": " + field.domain() : "") + " (" +
                            std::string(field.unset) + ")";

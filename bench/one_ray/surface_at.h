@@ -7,8 +7,8 @@
 #include <optional>
 #include <vector>
 
-#include "core/shade/map_lookup.h"
-#include "core/shade/mapped_material.h"
+#include "bench/one_ray/map_lookup.h"
+#include "core/shade/gltf_surface.h"
 #include "core/shade/surface.h"
 #include "pinocchio/ray.h"
 #include "pinocchio/scene.h"
@@ -24,38 +24,69 @@ struct SurfaceInteraction : BareSurface {  // n_shading: normal map applied
   float alpha = 1.0f;              // the surface's share; the rest is what a ray sees that goes straight on
 };
 
+struct MappedMaterial {
+  shared::MaterialPoint surface;
+  glm::vec3 n_shading;  // as the normal map has it
+  float alpha;          // the surface's share; the rest is what a ray sees that goes straight on
+};
+
+// The material as it stands, without maps.
+[[nodiscard]] inline shared::MaterialPoint plain_material(const Material& m) {
+  return {.shading = {.ambient = m.ambient,
+                      .diffuse = m.diffuse,
+                      .specular = m.specular,
+                      .shininess = m.shininess,
+                      .emission = m.emission,
+                      .occlusion = 1.0f,
+                      .ggx_alpha = m.ggx_alpha,
+                      .grazing = m.grazing,
+                      .layer = m.layer,
+                      .sheen = m.sheen,
+                      .sheen_alpha = m.sheen_alpha,
+                      .coat = m.coat,
+                      .coat_alpha = m.coat_alpha,
+                      .coat_normal = glm::vec3(0.0f)},
+          .reflectance = m.reflectance,
+          .transmittance = m.transmittance,
+          .ior = m.ior,
+          .fresnel = m.fresnel};
+}
+
 // The triangle's material has maps.
 [[nodiscard]] inline MappedMaterial mapped_material(const Mesh& mesh, const MapPoint& point) {
   const MaterialMaps& maps = *mesh.maps_of(point.triangle);
   const Lookup lookup(mesh, point);
-  MapTexels texels;
-  for (const MapTexel& map : kMapTexels) {
-    const TextureUse& use = maps.*map.use;
-    if (lookup.readable(use))
-      texels.*map.texel =
-          glm::vec4(shared::texels::sample_texture(params_of(mesh, use), lookup.point_on(use), map.is_color));
-  }
-  shared::MapValues v{glm::vec3(texels.base_color),
-                      texels.metallic_roughness.b,
-                      texels.metallic_roughness.g,
-                      1.0f + maps.occlusion_strength * (texels.occlusion.r - 1.0f),
-                      glm::vec3(texels.emissive),
-                      texels.specular.a,
-                      glm::vec3(texels.specular_color),
-                      texels.transmission.r,
-                      {texels.clearcoat.r, texels.clearcoat_roughness.g, glm::vec3(texels.sheen_color),
-                       texels.sheen_roughness.a}};
+  // White where there is no texture.
+  const auto texel = [&](int map) {
+    const auto& [member, is_color] = kMapUses[as_size(map)];
+    const TextureUse& use = maps.*member;
+    if (!lookup.readable(use)) return glm::vec4(1.0f);
+    return glm::vec4(shared::texels::sample_texture(params_of(mesh, use), lookup.point_on(use), is_color));
+  };
+  const glm::vec4 metallic_roughness_texel = texel(shared::kMetallicRoughness);
+  shared::MapValues v{glm::vec3(texel(shared::kBaseColor)),
+                      metallic_roughness_texel.b,
+                      metallic_roughness_texel.g,
+                      1.0f + maps.occlusion_strength * (texel(shared::kOcclusion).r - 1.0f),
+                      glm::vec3(texel(shared::kEmissive)),
+                      texel(shared::kSpecular).a,
+                      glm::vec3(texel(shared::kSpecularColor)),
+                      texel(shared::kTransmission).r,
+                      {texel(shared::kClearcoat).r, texel(shared::kClearcoatRoughness).g,
+                       glm::vec3(texel(shared::kSheenColor)), texel(shared::kSheenRoughness).a}};
   if (maps.vertex_colors) v.base_color *= glm::vec3(lookup.color());
 
   MappedMaterial mapped;
   const Material& plain = mesh.material_of(point.triangle);
-  mapped.surface = maps.from_gltf
-                       ? shared::with_layers(shared::mapped_metallic_roughness(
-                                                 metallic_roughness(maps.surface), v, !plain.is_microfacet()),
-                                             shared::mapped_layers(layers(maps.surface), v.layers))
-                       : shared::mapped_phong(plain_material(plain), v);
-  mapped.n_shading =
-      lookup.normal(maps.normal, maps.normal_scale, glm::vec3(texels.normal), point.n_shading, point.leaving);
+  mapped.surface =
+      maps.from_gltf
+          ? shared::with_layers(
+                shared::mapped_metallic_roughness(metallic_roughness<shared::MetallicRoughness>(maps.surface),
+                                                  v, !plain.is_microfacet()),
+                shared::mapped_layers(layers<shared::GltfLayers>(maps.surface), v.layers))
+          : shared::mapped_phong(plain_material(plain), v);
+  mapped.n_shading = lookup.normal(maps.normal, maps.normal_scale, glm::vec3(texel(shared::kNormal)),
+                                   point.n_shading, point.leaving);
   mapped.alpha = maps.blends() ? glm::clamp(lookup.alpha(maps), 0.0f, 1.0f) : 1.0f;
   return mapped;
 }

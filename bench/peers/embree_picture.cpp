@@ -2,9 +2,9 @@
 
 #include <string>
 
+#include "bench/one_ray/map_lookup.h"
 #include "bench/peers/embree_rays.h"
 #include "bench/peers/embree_scatter.h"
-#include "core/shade/map_lookup.h"
 #include "core/trace/view/view_params.h"
 
 namespace pinocchio {

@@ -5,7 +5,6 @@
 
 #include "bench/rays/measure.h"
 #include "core/shade/footprint.h"
-#include "core/shade/map_lookup.h"
 #include "core/shade/surface.h"
 
 namespace pinocchio::bench {
@@ -17,11 +16,10 @@ glm::vec4 sum_of_texels(const Mesh& mesh, const MapPoint& point) {
   const MaterialMaps& maps = *mesh.maps_of(point.triangle);
   const Lookup lookup(mesh, point);
   glm::vec4 sum(0.0f);
-  for (const MapTexel& map : kMapTexels) {
-    const TextureUse& use = maps.*map.use;
-    if (lookup.readable(use))
-      sum +=
-          glm::vec4(shared::texels::sample_texture(params_of(mesh, use), lookup.point_on(use), map.is_color));
+  for (const auto& [member, is_color] : kMapUses) {
+    const TextureUse& use = maps.*member;
+    if (member != &MaterialMaps::alpha && lookup.readable(use))
+      sum += glm::vec4(shared::texels::sample_texture(params_of(mesh, use), lookup.point_on(use), is_color));
   }
   return sum;
 }

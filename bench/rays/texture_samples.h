@@ -2,14 +2,14 @@
 
 #include <vector>
 
+#include "bench/one_ray/map_lookup.h"
 #include "bench/rays/ray_sets.h"
-#include "core/shade/mapped_material.h"
 #include "core/shade/shared.h"
 
 namespace pinocchio::bench {
 
 // The texture samples of a frame's hits, taken by a plain loop: a hit after the other, a texture after the
-// other (core/shade/map_lookup.h).
+// other (bench/one_ray/map_lookup.h).
 class TextureSamples {
  public:
   // `view`: the camera's. Mirrored rays are taken as cones that begin where they do.

@@ -2,7 +2,6 @@
 #pragma once
 
 #include <glm/glm.hpp>
-#include <optional>
 #include <vector>
 
 #include "core/reference/reference_shading.h"
@@ -45,16 +44,5 @@ struct ReferenceLobe {
 [[nodiscard]] double reference_below_layers(const ReferenceSurface& surface);
 // What sheen returns of light from there, times its cosine.
 [[nodiscard]] glm::dvec3 reference_sheen(const ReferenceSurface& surface, const glm::dvec3& to_light);
-
-// The light that meets a direction, divided by nothing, and the density with which reference_lights() finds
-// it.
-struct ReferenceMeeting {
-  glm::dvec3 radiance;
-  double density;
-  ReferenceRay shadow;
-};
-[[nodiscard]] std::optional<ReferenceMeeting> reference_meeting(const Light& light,
-                                                                const ReferenceSurface& surface,
-                                                                const glm::dvec3& direction);
 
 }  // namespace pinocchio

@@ -181,6 +181,47 @@ std::vector<ReferenceLight> reference_lights(const Light& light, const Reference
   return point;
 }
 
+std::optional<ReferenceMeeting> reference_meeting(const Light& light, const ReferenceSurface& s,
+                                                  const glm::dvec3& direction) {
+  const glm::dvec3 strength = glm::dvec3(light.color) * as_double(light.intensity);
+  const glm::dvec3 origin = leave(s, direction);
+  if (light.kind == Light::Kind::directional) {
+    const double least = std::cos(glm::radians(0.5 * light.angle_deg));
+    if (glm::dot(direction, -glm::dvec3(light.direction)) < least) return {};
+    const double radiance = 1.0 / (std::numbers::pi * (1.0 - square(least)));
+    return ReferenceMeeting{
+        radiance * strength, 1.0 / (2.0 * std::numbers::pi * (1.0 - least)), {origin, direction}};
+  }
+  const glm::dvec3 offset = glm::dvec3(light.position) - s.p_world;
+  const auto up_to = [&](double t) { return ReferenceRay{origin, s.p_world + t * direction - origin, 1.0}; };
+  const bool falls = light.falloff == Light::Falloff::inverse_square;
+  if (light.kind == Light::Kind::rectangle) {
+    const glm::dvec3 u(light.edge_u), v(light.edge_v), n(light.direction);
+    const double towards = -glm::dot(direction, n), t = -glm::dot(offset, n) / towards;
+    if (towards <= 0.0 || t <= 0.0 || t > light.range) return {};
+    const glm::dvec3 at = t * direction - offset, normal = glm::cross(u, v);
+    const double area2 = glm::dot(normal, normal);
+    if (std::abs(glm::dot(glm::cross(at, v), normal)) > 0.5 * area2 ||
+        std::abs(glm::dot(glm::cross(u, at), normal)) > 0.5 * area2)
+      return {};
+    const double density = square(t) / (towards * std::sqrt(area2));
+    const double share = towards / (falls ? std::max(square(t), 1e-12) : 1.0);
+    return ReferenceMeeting{share * density * strength, density, up_to(t)};
+  }
+  const double distance2 = glm::dot(offset, offset), r = light.radius, along = glm::dot(direction, offset);
+  const double chord2 = square(along) - distance2 + square(r);
+  const bool inside = distance2 <= square(r);
+  if (chord2 <= 0.0 || (!inside && along <= 0.0) || std::sqrt(distance2) > light.range) return {};
+  const double least = inside ? -1.0 : std::sqrt(1.0 - square(r) / distance2);
+  // Radiance I / (pi r^2); a light without falloff is treated as if at distance 1.
+  const double own_square = inside ? 1.0 : square(r) / distance2;
+  double radiance = 1.0 / (std::numbers::pi * own_square);
+  if (falls) radiance /= std::max(std::max(distance2, square(r)), 1e-12);
+  if (light.kind == Light::Kind::spot) radiance *= reference_cone_share(light, direction);
+  return ReferenceMeeting{radiance * strength, 1.0 / (2.0 * std::numbers::pi * (1.0 - least)),
+                          up_to(inside ? along + std::sqrt(chord2) : along - std::sqrt(chord2))};
+}
+
 std::vector<ReferenceLight> reference_sky(const ReferenceEnvironment& environment,
                                           const ReferenceSurface& surface, Terminator terminator) {
   const double share =

@@ -3,6 +3,7 @@
 #include <array>
 #include <functional>
 #include <glm/glm.hpp>
+#include <optional>
 #include <vector>
 
 #include "core/reference/reference_environment.h"
@@ -45,6 +46,17 @@ inline constexpr int kReferencePoints = 16;
 [[nodiscard]] std::vector<ReferenceLight> reference_lights(const Light& light,
                                                            const ReferenceSurface& surface,
                                                            Terminator terminator);
+
+// The light that meets a direction, divided by nothing, and the density with which reference_lights() finds
+// it.
+struct ReferenceMeeting {
+  glm::dvec3 radiance;
+  double density;
+  ReferenceRay shadow;
+};
+[[nodiscard]] std::optional<ReferenceMeeting> reference_meeting(const Light& light,
+                                                                const ReferenceSurface& surface,
+                                                                const glm::dvec3& direction);
 
 // The environment's light, in as many samples.
 [[nodiscard]] std::vector<ReferenceLight> reference_sky(const ReferenceEnvironment& environment,

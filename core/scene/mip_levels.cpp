@@ -157,13 +157,13 @@ struct Needed {
 std::vector<Needed> needed_of(const MeshData& mesh) {
   std::vector<Needed> needed(mesh.textures.size());
   for (const MaterialMaps& m : mesh.maps)
-    for (const TextureUse* use : m.uses())
-      if (use != &m.alpha && use->used() && as_size(use->texture) < needed.size()) {
-        Needed& n = needed[use->texture];
-        n.levels = true;
-        n.is_color = n.is_color || use == &m.base_color || use == &m.emissive || use == &m.specular_color ||
-                     use == &m.sheen_color;
-      }
+    for (const auto& [member, is_color] : kMapUses) {
+      const TextureUse& use = m.*member;
+      if (member == &MaterialMaps::alpha || !use.used() || as_size(use.texture) >= needed.size()) continue;
+      Needed& n = needed[use.texture];
+      n.levels = true;
+      n.is_color = n.is_color || is_color;
+    }
   return needed;
 }
 

@@ -4,7 +4,6 @@
 #include <cstddef>
 
 #include "core/image/tonemap.h"
-#include "core/shade/mapped_material.h"
 #include "pinocchio/conversion.h"
 
 namespace pinocchio {
@@ -29,25 +28,26 @@ bool share_place(const Mesh& mesh, const TextureUse& a, const TextureUse& b) {
   return a == same && s.texels.size() == t.texels.size() && s.levels() == t.levels();
 }
 
-// The rows of kMapTexels that a texture is read for.
+// The rows of kMapUses that a texture is read for.
 struct TextureRead {
   const TextureUse* use;
   bool is_color;
   unsigned maps;
 };
 
-// Each texture once, whatever reads it.
+// Each texture once, whatever reads it; without alpha, which is read apart.
 std::vector<TextureRead> textures_read(const Mesh& mesh, const MaterialMaps& maps) {
   std::vector<TextureRead> reads;
-  for (std::size_t i = 0; i < kMapTexels.size(); ++i) {
-    const TextureUse& use = maps.*kMapTexels[i].use;
-    if (!is_readable(mesh, use)) continue;
+  for (std::size_t i = 0; i < kMapUses.size(); ++i) {
+    const auto& [member, is_color] = kMapUses[i];
+    const TextureUse& use = maps.*member;
+    if (member == &MaterialMaps::alpha || !is_readable(mesh, use)) continue;
     const auto same = std::ranges::find_if(
-        reads, [&](const TextureRead& r) { return *r.use == use && r.is_color == kMapTexels[i].is_color; });
+        reads, [&](const TextureRead& r) { return *r.use == use && r.is_color == kMapUses[i].is_color; });
     if (same != reads.end())
       same->maps |= 1u << i;
     else
-      reads.push_back({&use, kMapTexels[i].is_color, 1u << i});
+      reads.push_back({&use, is_color, 1u << i});
   }
   return reads;
 }
@@ -83,7 +83,7 @@ LaneTexture lane_texture(const Mesh& mesh, const TextureUse& use, bool is_color,
 LaneMapsOf::LaneMapsOf(const Mesh& mesh) {
   if (mesh.maps.empty()) return;
   // Nothing moves when one more is added: others point at it.
-  const std::size_t most = mesh.maps.size() * (kMapTexels.size() + 1);
+  const std::size_t most = mesh.maps.size() * kMapUses.size();
   places_.reserve(most);
   textures_.reserve(most);
   for (const MaterialMaps& maps : mesh.maps) {

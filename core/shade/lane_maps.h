@@ -15,7 +15,7 @@ inline constexpr int kMostLevels = 31;  // a side has less than 2^31 texels
 struct LaneTexture {
   const void *first_level, *others;  // 32 bits a texel; the smaller levels, one after the other
   const float* linear_from_srgb8;    // 256; null: the texture is no colour
-  unsigned maps;                     // bit i: row i of kMapTexels (shade/mapped_material.h) reads it
+  unsigned maps;                     // bit i: row i of kMapUses reads it
 };
 
 struct TextureLevel {

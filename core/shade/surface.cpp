@@ -56,8 +56,7 @@ glm::vec3 offset_origin(const BareSurface& surface, const glm::vec3& direction) 
 shared::LightParams light_params(const Light& light) {
   static_assert(as_int(Light::Kind::spot) == shared::kLightSpot &&
                 as_int(Light::Kind::rectangle) == shared::kLightRectangle);
-  const bool directional = light.kind == Light::Kind::directional,
-             rectangle = light.kind == Light::Kind::rectangle;
+  const bool directional = light.kind == Light::Kind::directional;
   // 1 - cos a is 2 sin^2 (a / 2): not lost to rounding for a disc like the sun's.
   const float quarter = std::sin(glm::radians(0.25f * light.angle_deg));
   return {as_int(light.kind),
@@ -68,9 +67,9 @@ shared::LightParams light_params(const Light& light) {
           light.range,
           light.cos_inner,
           light.cos_outer,
-          directional ? 2.0f * quarter * quarter
-          : rectangle ? 0.0f
-                      : light.radius,
+          directional                ? 2.0f * quarter * quarter
+          : kind_of(light).has_sides ? 0.0f
+                                     : light.radius,
           light.edge_u,
           light.edge_v};
 }

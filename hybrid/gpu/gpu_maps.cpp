@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <span>
-#include <tuple>
 
 #include "pinocchio/conversion.h"
 
@@ -14,15 +13,14 @@ namespace {
 struct UseTexels {
   glm::vec4 place{0.0f}, axes{0.0f}, rest{0.0f};
 };
-constexpr std::size_t kUses = std::tuple_size_v<decltype(MaterialMaps().uses())>;
+constexpr std::size_t kUses = kMapUses.size();
 struct MapTexels {
   std::array<UseTexels, kUses> uses;  // as MaterialMaps::uses()
   glm::vec4 base_metallic, emissive_roughness, specular, more, strengths, alpha_rule, coat, sheen;
 };
 constexpr std::size_t kTexelsOfMaps = sizeof(MapTexels) / sizeof(glm::vec4);
-static_assert(kTexelsOfMaps == 47);
-enum : unsigned { kBlends = 1u << 13, kSecondTexcoords = 1u << 14, kOcclusionIsShared = 1u << 15 };
-static_assert(kUses == 13);
+static_assert(kTexelsOfMaps == 3 * kUses + 8);
+enum : unsigned { kBlends = 1u << kUses, kSecondTexcoords = kBlends << 1, kOcclusionIsShared = kBlends << 2 };
 
 // A texel of a level is split over two floats, exact up to 2^24 each.
 constexpr std::size_t kPlaceDigit = 4096;

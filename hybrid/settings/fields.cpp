@@ -117,8 +117,8 @@ struct Access {
 };
 
 template <auto M>
-constexpr Field field(std::string_view name, Domain domain, std::string_view unset, std::string_view help,
-                      bool of_machine = false, std::string_view formerly = {}) {
+constexpr Field field(Field::Group group, std::string_view name, Domain domain, std::string_view unset,
+                      std::string_view help, bool of_machine = false, std::string_view formerly = {}) {
   using T = typename Access<M>::T;
   const auto kind = IsText<T>                  ? Field::Kind::text
                     : std::is_same_v<T, bool>  ? Field::Kind::flag
@@ -126,7 +126,8 @@ constexpr Field field(std::string_view name, Domain domain, std::string_view uns
                     : std::is_same_v<T, float> ? Field::Kind::number
                                                : Field::Kind::whole;
   using A = Access<M>;
-  return {.name = name,
+  return {.group = group,
+          .name = name,
           .kind = kind,
           .choices = domain.choices,
           .lo = domain.lo,
@@ -146,137 +147,147 @@ constexpr Field field(std::string_view name, Domain domain, std::string_view uns
 }
 
 using S = Settings;
+using G = Field::Group;
 constexpr bool kOfMachine = true;
 constexpr std::array kTable{
-    field<&S::visibility>("visibility", one_of(kProcessorNames),
+    field<&S::visibility>(G::exchange, "visibility", one_of(kProcessorNames),
                           "gpu; cpu where a software rasteriser would take longer than the rays",
                           "the processor that finds each pixel's visible triangle"),
-    field<&S::composite>("composite", one_of(kProcessorNames), "gpu",
+    field<&S::composite>(G::exchange, "composite", one_of(kProcessorNames), "gpu",
                          "the processor that composites the picture"),
     field<&S::by_machine>(
-        "by_machine", yes_or_no(), "false",
+        G::exchange, "by_machine", yes_or_no(), "false",
         "choose visibility and composite, where they are not given: the GPU where OpenGL is "
         "hardware, else the CPU, and no OpenGL is opened",
         kOfMachine),
     field<&S::exchange>(
-        "exchange", one_of(kExchangeNames), "pipelined over several frames, sync for one",
+        G::exchange, "exchange", one_of(kExchangeNames), "pipelined over several frames, sync for one",
         "sync: wait for the CPU; pipelined: its part comes frames later, GPU and CPU work on "
         "different frames; reproject: newest raster, the last mask and reflection warped to it"),
-    field<&S::spp>("spp", from_to(1, 65536), "1", "jittered samples a pixel, averaged in linear light"),
+    field<&S::spp>(G::samples, "spp", from_to(1, 65536), "1",
+                   "jittered samples a pixel, averaged in linear light"),
     field<&S::max_noise>(
-        "max_noise", from_to(0, 1), "0",
+        G::samples, "max_noise", from_to(0, 1), "0",
         "a tile of 32x32 pixels takes no more samples once the standard error of its pixels' "
         "means, linear, is below this; 0: every pixel takes all samples"),
-    field<&S::pixel_filter>("pixel_filter", one_of(kPixelFilterNames), "box",
+    field<&S::pixel_filter>(G::samples, "pixel_filter", one_of(kPixelFilterNames), "box",
                             "how a pixel's samples are spread: evenly over the pixel, or over 3 pixels by a "
                             "window that smooths edges"),
-    field<&S::sequence>("sequence", one_of(kSequenceNames),
+    field<&S::sequence>(G::samples, "sequence", one_of(kSequenceNames),
                         "sobol; blue-noise with denoise and without indirect",
                         "sequence of a pixel's samples: scrambled Sobol points; one Sobol sequence rotated "
                         "from pixel to pixel, so that noise is fine-grained; or random numbers"),
-    field<&S::seed>("seed", from_to(0, 65535), "0", "another seed gives other samples"),
-    field<&S::depth>("depth", from_to(0, kMostBounces), "8, or fewer where the scene's mirrors need no more",
-                     "most bounces"),
-    field<&S::mask_bits>("mask_bits", one_of(kMaskBits),
+    field<&S::seed>(G::samples, "seed", from_to(0, 65535), "0", "another seed gives other samples"),
+    field<&S::depth>(G::rays, "depth", from_to(0, kMostBounces),
+                     "8, or fewer where the scene's mirrors need no more", "most bounces"),
+    field<&S::mask_bits>(G::exchange, "mask_bits", one_of(kMaskBits),
                          "the fewest that hold the casting lights, at most 64",
                          "bits a pixel of the shadow mask that goes to the GPU, one a light; from 8 on, the "
                          "light of casting lights beyond them travels with mirrored light; 0: no shadows"),
-    field<&S::mask_scale>("mask_scale", one_of(kScales), "1",
+    field<&S::mask_scale>(G::exchange, "mask_scale", one_of(kScales), "1",
                           "pixels a side that share a sample of the shadow mask"),
-    field<&S::reflection>("reflection", one_of(kReflectionFormatNames), "half where something mirrors",
+    field<&S::reflection>(G::exchange, "reflection", one_of(kReflectionFormatNames),
+                          "half where something mirrors",
                           "how mirrored and refracted light travels to the GPU; none: it is not traced"),
-    field<&S::reflection_scale>("reflection_scale", one_of(kScales), "1",
+    field<&S::reflection_scale>(G::exchange, "reflection_scale", one_of(kScales), "1",
                                 "pixels a side that share a sample of mirrored light"),
-    field<&S::tiles>("tiles", yes_or_no(), "true where mirrored light travels",
+    field<&S::tiles>(G::exchange, "tiles", yes_or_no(), "true where mirrored light travels",
                      "send only the tiles of 8x8 pixels that have mirrored light"),
-    field<&S::id_bits>("id_bits", one_of(kIdBits), "the fewest of 16 and 32 that name every triangle",
+    field<&S::id_bits>(G::exchange, "id_bits", one_of(kIdBits),
+                       "the fewest of 16 and 32 that name every triangle",
                        "bits of a triangle's id in transfers"),
-    field<&S::normals>("normals", yes_or_no(), "false",
+    field<&S::normals>(G::exchange, "normals", yes_or_no(), "false",
                        "send shading normals to the CPU as well, 3 bytes a pixel, as in 2005"),
-    field<&S::wide>("wide", yes_or_no(), "false",
+    field<&S::wide>(G::exchange, "wide", yes_or_no(), "false",
                     "send the 128 bits a pixel of 2005 to the CPU instead of ids alone"),
     field<&S::throughput_cutoff>(
-        "throughput_cutoff", from_to(0, 1), "0.00012207031",
+        G::rays, "throughput_cutoff", from_to(0, 1), "0.00012207031",
         "a mirrored ray is not fired where it would bring its pixel less light than this, "
         "linear; 0: all are fired",
         false, "least_contribution"),
     field<&S::light_cutoff>(
-        "light_cutoff", from_to(0, 1),
+        G::rays, "light_cutoff", from_to(0, 1),
         "0 where the mask itself is kept, else half a step of an 8-bit picture",
         "a shadow ray is not fired where it would bring its visible point less light than "
         "this, linear; 0: all are fired",
         false, "least_light"),
-    field<&S::coverage>("coverage", yes_or_no(), "false",
+    field<&S::coverage>(G::rays, "coverage", yes_or_no(), "false",
                         "alpha counts what surfaces that blend let through; the CPU draws alone"),
-    field<&S::filter_textures>("filter_textures", yes_or_no(), "true",
+    field<&S::filter_textures>(G::rays, "filter_textures", yes_or_no(), "true",
                                "average textures over the area that a pixel or its mirror image covers"),
-    field<&S::indirect>("indirect", from_to(0, kMostBounces), "0",
+    field<&S::indirect>(G::light, "indirect", from_to(0, kMostBounces), "0",
                         "most bounces of light from one matt surface to the next, by samples; above 0 there "
                         "is no ambient light (docs/environment.md)"),
-    field<&S::environment_rotation>("environment_rotation", from_to(-360, 360), "0",
+    field<&S::environment_rotation>(G::light, "environment_rotation", from_to(-360, 360), "0",
                                     "rotation of the environment about the upward axis, degrees"),
-    field<&S::environment_strength>("environment_strength", from_to(0, 1e6), "1",
+    field<&S::environment_strength>(G::light, "environment_strength", from_to(0, 1e6), "1",
                                     "factor of the environment's light; 0: no environment"),
-    field<&S::environment_light>("environment_light", one_of(kEnvironmentMethodNames),
+    field<&S::environment_light>(G::light, "environment_light", one_of(kEnvironmentMethodNames),
                                  "sampled; prefiltered for the studio",
                                  "how the environment lights surfaces: sampled, exact with many samples; "
                                  "prefiltered, by means, without noise "
                                  "and without shadows of the sky (docs/environment.md)"),
     field<&S::glossy>(
-        "glossy", one_of(kGlossyNames), "sampled; sharp where the environment is prefiltered",
+        G::light, "glossy", one_of(kGlossyNames), "sampled; sharp where the environment is prefiltered",
         "what rough surfaces mirror: sampled, all that their lobes see; sharp, an image that fades "
         "out with roughness, without noise"),
     field<&S::sky_occlusion>(
-        "sky_occlusion", from_to(0, 64), "0; 8 for the studio",
+        G::light, "sky_occlusion", from_to(0, 64), "0; 8 for the studio",
         "shadow rays at each point that hide a prefiltered environment, about the surface's "
         "normal; 0: it casts no shadows"),
     field<&S::glass_shadows>(
-        "glass_shadows", one_of(kGlassShadowsNames), glass_shadows_name(kUsualGlassShadows),
+        G::light, "glass_shadows", one_of(kGlassShadowsNames), glass_shadows_name(kUsualGlassShadows),
         "shadow rays that meet glass: opaque: they end, it casts a full shadow; tinted: they "
         "go straight on, with what Fresnel's equations, the glass's colour and the way "
         "through it leave of the light (docs/glass.md)"),
     field<&S::denoise>(
-        "denoise", yes_or_no(), "false; true in the window",
+        G::samples, "denoise", yes_or_no(), "false; true in the window",
         "filter the light that samples find (environment, lights with a size, rough mirrors, "
         "other surfaces), for few samples; hard light, sharp mirrors and textures stay as they are "
         "(docs/denoise.md)"),
-    field<&S::average_layers>("average_layers", yes_or_no(), "false",
+    field<&S::average_layers>(G::samples, "average_layers", yes_or_no(), "false",
                               "the layers N and Albedo are means over the samples, as denoisers want them, "
                               "not of the first sample"),
     field<&S::background>(
-        "background", text(kBackgroundTexts, kBackgrounds), "environment; studio where the studio lights",
+        G::light, "background", text(kBackgroundTexts, kBackgrounds),
+        "environment; studio where the studio lights",
         "what is behind the scene; light, mirrors and glass keep the environment. Transparent: alpha 0, "
         "also in PNG files"),
     field<&S::background_blur>(
-        "background_blur", from_to(0, 1), "0",
+        G::light, "background_blur", from_to(0, 1), "0",
         "how far the environment is blurred where it is the background; 1: by 30 degrees (standard "
         "deviation). Light, mirrors and glass keep it sharp"),
     field<&S::shadow_catcher>(
-        "shadow_catcher", text(kShadowCatcherTexts, kCatchers, "lowest"), "off; lowest for the studio",
+        G::light, "shadow_catcher", text(kShadowCatcherTexts, kCatchers, "lowest"),
+        "off; lowest for the studio",
         "a ground, at a height or at the scene's lowest point, that shows only the shadows on it: its alpha "
         "is the share of light that they take"),
     field<&S::terminator>(
-        "terminator", one_of(kTerminatorNames), terminator_name(kUsualTerminator),
+        G::rays, "terminator", one_of(kTerminatorNames), terminator_name(kUsualTerminator),
         "where a coarse mesh's shading normals face a light and its facets do not: off: dark; "
         "smoothed: light falls to zero there; displaced: shadow rays start on the curved "
         "surface; turned-away: the same, on facets that turn away only (docs/terminator.md)"),
     field<&S::backfaces>(
-        "backfaces", one_of(kBackfacesNames), "auto",
+        G::rays, "backfaces", one_of(kBackfacesNames), "auto",
         "surfaces that the camera sees through from behind: auto: those whose file says that they are "
         "single-sided, as glTF does; draw: none; cull: all whose file does not say that they are "
         "double-sided. Shadows, mirrors and glass keep both sides"),
-    field<&S::reuse>("reuse", yes_or_no(), "true",
+    field<&S::reuse>(G::exchange, "reuse", yes_or_no(), "true",
                      "do not draw a frame again whose request equals the last one's"),
-    field<&S::persistent>("persistent", yes_or_no(), "false", "keep transfer buffers mapped", kOfMachine),
-    field<&S::threads>("threads", from_to(0, kMostThreads), "0", "worker threads; 0: one a core", kOfMachine),
-    field<&S::isa>("isa", one_of(kIsaNames), "the widest that the processor has", "SIMD level", kOfMachine),
-    field<&S::tree>("tree", one_of(kSplitRuleNames), "sah", "how the BSP tree is split"),
-    field<&S::tree_depth>("tree_depth", from_to(0, kMaxTreeDepth), "0",
+    field<&S::persistent>(G::exchange, "persistent", yes_or_no(), "false", "keep transfer buffers mapped",
+                          kOfMachine),
+    field<&S::threads>(G::machine, "threads", from_to(0, kMostThreads), "0", "worker threads; 0: one a core",
+                       kOfMachine),
+    field<&S::isa>(G::machine, "isa", one_of(kIsaNames), "the widest that the processor has", "SIMD level",
+                   kOfMachine),
+    field<&S::tree>(G::tree, "tree", one_of(kSplitRuleNames), "sah", "how the BSP tree is split"),
+    field<&S::tree_depth>(G::tree, "tree_depth", from_to(0, kMaxTreeDepth), "0",
                           "most levels of the BSP tree; 0: from the number of triangles"),
-    field<&S::tree_leaf>("tree_leaf", from_to(1, 1 << 20), "2", "triangles that are not split further"),
-    field<&S::triangle_test>("triangle_test", one_of(kTriangleTestNames), "filtered",
+    field<&S::tree_leaf>(G::tree, "tree_leaf", from_to(1, 1 << 20), "2",
+                         "triangles that are not split further"),
+    field<&S::triangle_test>(G::tree, "triangle_test", one_of(kTriangleTestNames), "filtered",
                              "how a ray meets a triangle (docs/stability.md)"),
-    field<&S::offset>("offset", one_of(kOffsetMethodNames), "error-bound",
+    field<&S::offset>(G::tree, "offset", one_of(kOffsetMethodNames), "error-bound",
                       "distance from a surface at which its shadow and mirrored rays start: one length, one "
                       "length a scene, or a bound of the rounding error there"),
 };
@@ -342,9 +353,8 @@ BuildOptions build_options(const Settings& settings) {
 }
 
 bool same_tracer(const Settings& a, const Settings& b) {
-  for (const char* name : {"isa", "tree", "tree_depth", "tree_leaf", "triangle_test", "offset"})
-    if (!find_field(name)->same(a, b)) return false;
-  return true;
+  return std::ranges::all_of(
+      kTable, [&](const Field& f) { return (f.group != G::tree && f.name != "isa") || f.same(a, b); });
 }
 
 }  // namespace pinocchio

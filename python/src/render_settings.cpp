@@ -23,11 +23,6 @@ constexpr std::array kRenamed{
             "'reflection_format'"},
 };
 
-// What changes how the parts of a frame travel between CPU and GPU; help lists it last.
-constexpr std::array<std::string_view, 14> kTransport{
-    "visibility",       "composite", "by_machine", "exchange", "mask_bits", "mask_scale", "reflection",
-    "reflection_scale", "tiles",     "id_bits",    "normals",  "wide",      "reuse",      "persistent"};
-
 std::string_view python_name(const Field& field) {
   for (const Renamed& row : kRenamed)
     if (row.field == field.name) return row.python;
@@ -119,9 +114,7 @@ Settings settings_of(const nb::kwargs& arguments, int threads) {
 }
 
 std::string settings_help() {
-  const auto is_transport = [](const Field& f) {
-    return std::ranges::find(kTransport, f.name) != kTransport.end();
-  };
+  const auto is_transport = [](const Field& f) { return f.group == Field::Group::exchange; };
   std::string text;
   // What a picture needs first, in this order; then the others as the table has them.
   constexpr std::array<std::string_view, 4> kFirst{"spp", "depth", "indirect", "seed"};

@@ -19,4 +19,6 @@ struct LightParams {
   vec3 edge_v;
 };
 
-SHARED bool has_size(LightParams light) { return light.size > 0.0f || light.kind == kLightRectangle; }
+SHARED bool has_sides(LightParams light) { return light.kind == kLightRectangle; }
+SHARED bool has_size(LightParams light) { return light.size > 0.0f || has_sides(light); }
+SHARED float area_of_sides(LightParams light) { return length(cross(light.edge_u, light.edge_v)); }

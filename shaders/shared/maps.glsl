@@ -1,6 +1,23 @@
 // Source of GLSL and of C++ (core/shade/shared_maps.h, core/trace/lanes/shared.h): a material with textures, vertex
 // colours and alpha. Expects metallic_roughness.glsl.
 
+// The textures of a material, in the order of kMapUses (pinocchio/material_maps.h): bits of MAP_USES and of the lanes'
+// maps, and places in a material's texels.
+const int kBaseColor = 0;
+const int kMetallicRoughness = 1;
+const int kNormal = 2;
+const int kOcclusion = 3;
+const int kEmissive = 4;
+const int kAlpha = 5;
+const int kSpecular = 6;
+const int kSpecularColor = 7;
+const int kTransmission = 8;
+const int kClearcoat = 9;
+const int kClearcoatRoughness = 10;
+const int kSheenColor = 11;
+const int kSheenRoughness = 12;
+const int kUses = 13;
+
 // The maps' values at the point; all ones where there is no texture.
 struct MapValues {
   vec3 base_color;  // times the vertex colour

@@ -52,7 +52,7 @@ SHARED Incident incident_light(LightParams light, vec3 position, vec3 p_world) {
   result.radiance = pick(distance > light.range, vec3(0.0f), result.radiance);
   if (light.inverse_square) result.radiance /= max(distance * distance, 1e-12f);
   if (light.kind == kLightSpot) result.radiance *= cone_share(light, result.to_light);
-  if (light.kind == kLightRectangle) result.radiance *= max(dot(-result.to_light, light.direction), 0.0f);
+  if (has_sides(light)) result.radiance *= max(dot(-result.to_light, light.direction), 0.0f);
   return result;
 }
 

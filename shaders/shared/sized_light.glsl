@@ -82,14 +82,14 @@ SHARED Incident rectangle_light(LightParams light, vec3 p_world, vec2 square) {
   vec3 position = light.position + light.edge_u * (square.x - 0.5f) + light.edge_v * (square.y - 0.5f);
   Incident result = incident_light(light, position, p_world);
   vec3 offset = position - p_world;
-  real area = length(cross(light.edge_u, light.edge_v)) * max(dot(-result.to_light, light.direction), 0.0f);
+  real area = area_of_sides(light) * max(dot(-result.to_light, light.direction), 0.0f);
   result.density = pick(area > 0.0f, dot(offset, offset) / area, 0.0f);
   return result;
 }
 
 // What comes from the light's point `square`, in [0, 1)^2, standing for the whole light.
 SHARED Incident sampled_light(LightParams light, vec3 p_world, vec2 square) {
-  if (light.kind == kLightRectangle) return rectangle_light(light, p_world, square);
+  if (has_sides(light)) return rectangle_light(light, p_world, square);
   if (!(light.size > 0.0f)) return incident_light(light, light.position, p_world);
   vec2 disc = disc_of_square(square);
   if (light.kind != kLightDirectional) return ball_light(light, p_world, disc);
@@ -99,4 +99,67 @@ SHARED Incident sampled_light(LightParams light, vec3 p_world, vec2 square) {
   result.density = kOneByTwoPi / light.size;
   result.radiance = light.radiance * (2.0f / (2.0f - light.size));
   return result;
+}
+
+// How a direction meets a light with a size: as if that light had been sampled there.
+struct Meeting {
+  boolean met;
+  Incident incident;
+};
+
+SHARED Meeting meet_ball(LightParams light, vec3 p_world, vec3 direction) {
+  vec3 offset = light.position - p_world;
+  real square = dot(offset, offset);
+  real r2 = light.size * light.size;
+  real along = dot(direction, offset);
+  vec3 off = offset - direction * along;
+  real rest = r2 - dot(off, off);
+  boolean inside = square <= r2;
+  Meeting m;
+  m.met = rest > 0.0f && (inside || along > 0.0f) && !(sqrt(square) > light.range);
+  real sine2 = pick(inside, 1.0f, r2 / square);
+  real cosine = sqrt(1.0f - sine2);
+  real one_minus_cos = pick(inside, 2.0f, sine2 / (1.0f + cosine));
+  real chord = sqrt(max(rest, 0.0f));
+  m.incident.to_light = direction;
+  m.incident.target = p_world + direction * pick(inside, along + chord, along - chord);
+  m.incident.density = kOneByTwoPi / one_minus_cos;
+  m.incident.radiance = light.radiance * pick(inside, 4.0f, 2.0f / (1.0f + cosine));
+  if (light.inverse_square) m.incident.radiance /= max(max(square, r2), 1e-12f);
+  if (light.kind == kLightSpot) m.incident.radiance *= cone_share(light, direction);
+  return m;
+}
+
+SHARED Meeting meet_rectangle(LightParams light, vec3 p_world, vec3 direction) {
+  vec3 across = cross(light.edge_u, light.edge_v);
+  real square = dot(across, across);
+  real towards = -dot(direction, light.direction);
+  vec3 offset = p_world - light.position;
+  real distance = dot(offset, light.direction) / towards;
+  vec3 at = offset + direction * distance;
+  // Along the sides, -1/2 to 1/2 on the light.
+  real u = dot(at, cross(light.edge_v, across) / square);
+  real v = dot(at, cross(across, light.edge_u) / square);
+  Meeting m;
+  m.met = towards > 0.0f && distance > 0.0f && abs(u) <= 0.5f && abs(v) <= 0.5f && !(distance > light.range);
+  m.incident.to_light = direction;
+  m.incident.target = p_world + direction * distance;
+  m.incident.density = distance * distance / (towards * sqrt(square));
+  m.incident.radiance = light.radiance * towards;
+  if (light.inverse_square) m.incident.radiance /= max(distance * distance, 1e-12f);
+  return m;
+}
+
+// The target is set for lights that are not directional.
+SHARED Meeting meet_light(LightParams light, vec3 p_world, vec3 direction) {
+  if (has_sides(light)) return meet_rectangle(light, p_world, direction);
+  if (light.kind != kLightDirectional) return meet_ball(light, p_world, direction);
+  vec3 off = direction + light.direction;  // its square is 2 - 2 cos
+  Meeting m;
+  m.met = dot(off, off) * 0.5f <= light.size;
+  m.incident.to_light = direction;
+  m.incident.target = vec3(0.0f);
+  m.incident.density = kOneByTwoPi / light.size;
+  m.incident.radiance = light.radiance * (2.0f / (2.0f - light.size));
+  return m;
 }

@@ -90,29 +90,15 @@ void draw_row(const Row& row, const Settings& wanted) {
   tooltip("default: " + std::string(field.unset));
 }
 
-// The groups in which settings are listed; the last has all others.
-struct Group {
+// The settings of some groups under one name.
+struct Groups {
   const char* name;
-  std::vector<std::string_view> fields;
+  Field::Group first, last;
 };
-const std::vector<Group>& groups() {
-  static const std::vector<Group> kGroups{
-      {"Samples", {"spp", "max_noise", "pixel_filter", "sequence", "seed", "denoise", "average_layers"}},
-      {"Light",
-       {"depth", "indirect", "environment_rotation", "environment_strength", "environment_light", "glossy",
-        "sky_occlusion", "throughput_cutoff", "light_cutoff", "glass_shadows", "background",
-        "background_blur", "shadow_catcher", "coverage", "terminator", "backfaces", "filter_textures"}},
-      {"Between CPU and GPU",
-       {"visibility", "composite", "by_machine", "exchange", "mask_bits", "mask_scale", "reflection",
-        "reflection_scale", "tiles", "id_bits", "normals", "wide", "reuse", "persistent"}},
-      {"Tree and machine", {}}};
-  return kGroups;
-}
-
-bool is_in(const Group& group, const Field& field) {
-  const auto has = [&](const Group& g) { return std::ranges::find(g.fields, field.name) != g.fields.end(); };
-  return group.fields.empty() ? std::ranges::none_of(groups(), has) : has(group);
-}
+constexpr Groups kGroups[]{{"Samples", Field::Group::samples, Field::Group::samples},
+                           {"Light", Field::Group::light, Field::Group::rays},
+                           {"Between CPU and GPU", Field::Group::exchange, Field::Group::exchange},
+                           {"Tree and machine", Field::Group::tree, Field::Group::machine}};
 
 // Whether name, help or value have the words that are searched for.
 bool is_found(const Row& row, const std::string& search) {
@@ -133,17 +119,17 @@ void draw_search(Model& model) {
   tooltip("a word of a setting's name, help or value");
 }
 
-void draw_group(const Group& group, Model& model, const Settings& wanted) {
+void draw_groups(const Groups& groups, Model& model, const Settings& wanted) {
   bool is_first = true;
   for (const Field& field : settings_table()) {
-    if (!is_in(group, field)) continue;
+    if (field.group < groups.first || field.group > groups.last) continue;
     const Row row{field, model, field.text(field.given(wanted) ? wanted : model.drawn),
                   field_choices(field, model.settings)};
     if (!is_found(row, model.settings_search)) continue;
     if (std::exchange(is_first, false)) {
       ImGui::TableNextRow();
       ImGui::TableNextColumn();
-      ImGui::TextColored(kAccent, "%s", group.name);
+      ImGui::TextColored(kAccent, "%s", groups.name);
     }
     ImGui::PushID(field.name.data());
     draw_row(row, wanted);
@@ -161,7 +147,7 @@ void draw_all_settings(Model& model, float) {
   ImGui::TableSetupColumn("default", ImGuiTableColumnFlags_WidthStretch);
   ImGui::TableHeadersRow();
   const Settings wanted = wanted_settings(model.settings);
-  for (const Group& group : groups()) draw_group(group, model, wanted);
+  for (const Groups& groups : kGroups) draw_groups(groups, model, wanted);
   ImGui::EndTable();
 }
 

@@ -3,6 +3,7 @@
 #include <array>
 #include <cstdint>
 #include <glm/glm.hpp>
+#include <tuple>
 
 #include "pinocchio/glm_layout.h"
 #include "pinocchio/texture.h"
@@ -78,39 +79,38 @@ struct MaterialMaps {
     return clearcoat.used() || clearcoat_roughness.used() || sheen_color.used() || sheen_roughness.used();
   }
 
-  // All textures that the material may have.
-  [[nodiscard]] std::array<TextureUse*, 13> uses() {
-    return {&base_color,
-            &metallic_roughness,
-            &normal,
-            &occlusion,
-            &emissive,
-            &alpha,
-            &specular,
-            &specular_color,
-            &transmission,
-            &clearcoat,
-            &clearcoat_roughness,
-            &sheen_color,
-            &sheen_roughness};
-  }
-  [[nodiscard]] std::array<const TextureUse*, 13> uses() const {
-    return {&base_color,
-            &metallic_roughness,
-            &normal,
-            &occlusion,
-            &emissive,
-            &alpha,
-            &specular,
-            &specular_color,
-            &transmission,
-            &clearcoat,
-            &clearcoat_roughness,
-            &sheen_color,
-            &sheen_roughness};
-  }
+  // All textures that the material may have, in the order of kMapUses.
+  [[nodiscard]] auto uses();
+  [[nodiscard]] auto uses() const;
 
   friend bool operator==(const MaterialMaps&, const MaterialMaps&) = default;
 };
+
+struct MapUse {
+  TextureUse MaterialMaps::*use;
+  bool is_color = false;  // sRGB
+};
+inline constexpr std::array kMapUses{
+    MapUse{&MaterialMaps::base_color, true},
+    MapUse{&MaterialMaps::metallic_roughness},
+    MapUse{&MaterialMaps::normal},
+    MapUse{&MaterialMaps::occlusion},
+    MapUse{&MaterialMaps::emissive, true},
+    MapUse{&MaterialMaps::alpha},
+    MapUse{&MaterialMaps::specular},
+    MapUse{&MaterialMaps::specular_color, true},
+    MapUse{&MaterialMaps::transmission},
+    MapUse{&MaterialMaps::clearcoat},
+    MapUse{&MaterialMaps::clearcoat_roughness},
+    MapUse{&MaterialMaps::sheen_color, true},
+    MapUse{&MaterialMaps::sheen_roughness},
+};
+
+inline auto MaterialMaps::uses() {
+  return std::apply([this](const auto&... row) { return std::array{&(this->*row.use)...}; }, kMapUses);
+}
+inline auto MaterialMaps::uses() const {
+  return std::apply([this](const auto&... row) { return std::array{&(this->*row.use)...}; }, kMapUses);
+}
 
 }  // namespace pinocchio

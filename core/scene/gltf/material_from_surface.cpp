@@ -4,13 +4,16 @@
 #include <cmath>
 #include <glm/gtc/constants.hpp>
 
-#include "core/shade/mapped_material.h"
+#include "core/shade/gltf_surface.h"
+#include "core/shade/shared_material.h"
 
 namespace pinocchio {
 
 Material material_from_surface(const GltfSurface& s, Shading shading) {
-  const shared::MaterialPoint p = shared::with_layers(
-      shared::from_metallic_roughness(metallic_roughness(s), shading == Shading::phong), layers(s));
+  const shared::MaterialPoint p =
+      shared::with_layers(shared::from_metallic_roughness(metallic_roughness<shared::MetallicRoughness>(s),
+                                                          shading == Shading::phong),
+                          layers<shared::GltfLayers>(s));
   Material m;
   m.ambient = p.shading.ambient;
   m.diffuse = p.shading.diffuse;

@@ -60,64 +60,6 @@ namespace {
   return lobe;
 }
 
-// How a lobe's direction meets a light with a size: as if that light had been sampled there.
-struct LaneMeeting {
-  Mask met;
-  Incident incident;
-};
-
-inline LaneMeeting meet_ball(const LightParams& light, const Vec& p_world, const Vec& direction) {
-  const Vec offset = Vec(light.position) - p_world;
-  const Float square = dot(offset, offset), r2(light.size * light.size), along = dot(direction, offset);
-  const Vec off = offset - direction * along;
-  const Float rest = r2 - dot(off, off), zero(0.0f), one(1.0f);
-  const Mask inside = square <= r2;
-  LaneMeeting m;
-  m.met = (zero < rest) & (inside | (zero < along));
-  const Float sine2 = select(inside, one, r2 / square), cosine = sqrt(one - sine2);
-  const Float one_minus_cos = select(inside, Float(2.0f), sine2 / (one + cosine));
-  const Float chord = sqrt(max(rest, zero));
-  m.incident.target = p_world + direction * select(inside, along + chord, along - chord);
-  m.incident.density = Float(shared::kOneByTwoPi) / one_minus_cos;
-  m.incident.radiance = Vec(light.radiance) * select(inside, Float(4.0f), Float(2.0f) / (one + cosine));
-  m.met = m.met & ~(Float(light.range) < sqrt(square));
-  if (light.inverse_square) m.incident.radiance = m.incident.radiance / max(max(square, r2), Float(1e-12f));
-  if (light.kind == kLightSpot) m.incident.radiance = m.incident.radiance * cone_share(light, direction);
-  return m;
-}
-
-inline LaneMeeting meet_rectangle(const LightParams& light, const Vec& p_world, const Vec& direction) {
-  const Vec n(light.direction);
-  const glm::vec3 across = glm::cross(light.edge_u, light.edge_v);
-  const float square = glm::dot(across, across);
-  // Coordinates along the sides, -1/2 to 1/2 on the light.
-  const Vec to_u(glm::cross(light.edge_v, across) / square), to_v(glm::cross(across, light.edge_u) / square);
-  const Float zero(0.0f), towards = -dot(direction, n);
-  const Vec offset = p_world - Vec(light.position);
-  const Float distance = dot(offset, n) / towards;
-  const Vec at = offset + direction * distance;
-  const Float u = dot(at, to_u), v = dot(at, to_v), half(0.5f);
-  LaneMeeting m;
-  m.met = (zero < towards) & (zero < distance) & (abs(u) <= half) & (abs(v) <= half) &
-          ~(Float(light.range) < distance);
-  m.incident.target = p_world + direction * distance;
-  m.incident.density = distance * distance / (towards * Float(std::sqrt(square)));
-  m.incident.radiance = Vec(light.radiance) * towards;
-  if (light.inverse_square)
-    m.incident.radiance = m.incident.radiance / max(distance * distance, Float(1e-12f));
-  return m;
-}
-
-inline LaneMeeting meet_disc(const LightParams& light, const Vec& direction) {
-  const Vec off = direction + Vec(light.direction);  // its square is 2 - 2 cos
-  LaneMeeting m;
-  m.met = dot(off, off) * Float(0.5f) <= Float(light.size);
-  m.incident.target = direction;
-  m.incident.density = Float(shared::kOneByTwoPi / light.size);
-  m.incident.radiance = Vec(light.radiance) * Float(2.0f / (2.0f - light.size));
-  return m;
-}
-
 // Fires shadow rays along the lobe at the casting lights with a size that it meets.
 [[gnu::noinline]] void light_along_lobe(const Bounce& bounce, const LaneSurface& s, const LaneLobe& lobe,
                                         const Vec& own, Int pixel) {
@@ -125,10 +67,7 @@ inline LaneMeeting meet_disc(const LightParams& light, const Vec& direction) {
     const BounceLight& light = bounce.lights[i];
     if (!light.has_size || light.slot < 0) continue;
     const bool far = light.params.kind == shared::kLightDirectional;
-    const LaneMeeting m = far ? meet_disc(light.params, lobe.direction)
-                          : light.params.kind == shared::kLightRectangle
-                              ? meet_rectangle(light.params, s.p_world, lobe.direction)
-                              : meet_ball(light.params, s.p_world, lobe.direction);
+    const Meeting m = meet_light(light.params, s.p_world, lobe.direction);
     const Float combined = lobe.density + m.incident.density;
     const Float counts = select(Float(0.0f) < lobe.density, lobe.density / combined, Float(1.0f));
     const Vec carried = own * lobe.throughput * m.incident.radiance * (m.incident.density * counts);

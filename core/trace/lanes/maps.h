@@ -1,7 +1,7 @@
 // Part of walk/kernel.h's files: materials with maps, for the lanes that have one.
 #pragma once
 
-#include "core/shade/mapped_material.h"
+#include "core/shade/gltf_surface.h"
 #include "core/trace/lanes/material.h"
 #include "core/trace/lanes/surface.h"
 #include "core/trace/lanes/texture.h"
@@ -9,24 +9,10 @@
 namespace pinocchio::PINOCCHIO_LANES {
 namespace {
 
-// Rows of kMapTexels, as bits.
-enum : unsigned {
-  kBaseColorMap = 1u << 0,
-  kEmissiveMap = 1u << 1,
-  kMetallicRoughnessMap = 1u << 2,
-  kOcclusionMap = 1u << 3,
-  kNormalMap = 1u << 4,
-  kSpecularMap = 1u << 5,
-  kSpecularColorMap = 1u << 6,
-  kTransmissionMap = 1u << 7,
-  kClearcoatMap = 1u << 8,
-  kClearcoatRoughnessMap = 1u << 9,
-  kSheenColorMap = 1u << 10,
-  kSheenRoughnessMap = 1u << 11,
-  kAllMaps = (1u << 12) - 1u,
-};
-static_assert(kMapTexels[4].use == &MaterialMaps::normal &&
-              kMapTexels[11].use == &MaterialMaps::sheen_roughness);
+static_assert(kMapUses.size() == kUses && kMapUses[kNormal].use == &MaterialMaps::normal &&
+              kMapUses[kSheenRoughness].use == &MaterialMaps::sheen_roughness);
+static_assert(as_int(AlphaMode::opaque) == kAlphaOpaque && as_int(AlphaMode::mask) == kAlphaMask &&
+              as_int(AlphaMode::blend) == kAlphaBlend);
 
 // Where rays with maps meet their triangles, and how far their neighbours are.
 struct MapPoints {
@@ -157,7 +143,7 @@ struct MapTexelLanes {
       y.x.store(p.change_y[0]);
       y.y.store(p.change_y[1]);
       sample_textures(place, lanes.bits(), wanted, p);
-      if ((place.maps & kNormalMap) != 0) {
+      if ((place.maps & 1u << kNormal) != 0) {
         normal_ab = at.ab;
         normal_ac = at.ac;
         has_normal = true;
@@ -169,21 +155,22 @@ struct MapTexelLanes {
 
  private:
   void use(const TexelColumns& t, unsigned maps) {
-    if (maps & kBaseColorMap) v.base_color = t.rgb();
-    if (maps & kEmissiveMap) v.emissive = t.rgb();
-    if (maps & kMetallicRoughnessMap) {
+    const auto is = [maps](int map) { return (maps >> map & 1u) != 0; };
+    if (is(kBaseColor)) v.base_color = t.rgb();
+    if (is(kEmissive)) v.emissive = t.rgb();
+    if (is(kMetallicRoughness)) {
       v.roughness = t.c[1];
       v.metallic = t.c[2];
     }
-    if (maps & kOcclusionMap) v.occlusion = t.c[0];
-    if (maps & kNormalMap) normal_texel = t.rgb();
-    if (maps & kSpecularMap) v.specular = t.c[3];
-    if (maps & kSpecularColorMap) v.specular_color = t.rgb();
-    if (maps & kTransmissionMap) v.transmission = t.c[0];
-    if (maps & kClearcoatMap) v.layers.coat = t.c[0];
-    if (maps & kClearcoatRoughnessMap) v.layers.coat_roughness = t.c[1];
-    if (maps & kSheenColorMap) v.layers.sheen = t.rgb();
-    if (maps & kSheenRoughnessMap) v.layers.sheen_roughness = t.c[3];
+    if (is(kOcclusion)) v.occlusion = t.c[0];
+    if (is(kNormal)) normal_texel = t.rgb();
+    if (is(kSpecular)) v.specular = t.c[3];
+    if (is(kSpecularColor)) v.specular_color = t.rgb();
+    if (is(kTransmission)) v.transmission = t.c[0];
+    if (is(kClearcoat)) v.layers.coat = t.c[0];
+    if (is(kClearcoatRoughness)) v.layers.coat_roughness = t.c[1];
+    if (is(kSheenColor)) v.layers.sheen = t.rgb();
+    if (is(kSheenRoughness)) v.layers.sheen_roughness = t.c[3];
   }
 };
 
@@ -211,26 +198,10 @@ struct MapTexelLanes {
 
 // The reflection model of a material of glTF's at the points.
 inline MaterialPoint gltf_material(const MaterialMaps& maps, const Material& plain, const MapValues& v) {
-  const GltfSurface& s = maps.surface;
-  MetallicRoughness surface;
-  surface.base_color = s.base_color;
-  surface.metallic = s.metallic;
-  surface.roughness = s.roughness;
-  surface.emissive = s.emissive;
-  surface.ior = s.ior;
-  surface.specular = s.specular;
-  surface.specular_color = s.specular_color;
-  surface.transmission = s.transmission;
-  surface.volume = s.volume;
-  surface.unlit = s.unlit;
-  MaterialPoint point = mapped_metallic_roughness(surface, v, !plain.is_microfacet());
+  const auto surface = metallic_roughness<MetallicRoughness>(maps.surface);
+  const MaterialPoint point = mapped_metallic_roughness(surface, v, !plain.is_microfacet());
   if (!plain.has_layers()) return point;
-  GltfLayers layers;
-  layers.coat = s.clearcoat;
-  layers.coat_roughness = s.clearcoat_roughness;
-  layers.sheen = s.sheen_color;
-  layers.sheen_roughness = s.sheen_roughness;
-  return with_layers(point, mapped_layers(layers, v.layers));
+  return with_layers(point, mapped_layers(layers<GltfLayers>(maps.surface), v.layers));
 }
 
 // Sets what the maps of one material change, for its lanes.
@@ -246,11 +217,7 @@ inline void set_material(const MaterialMaps& maps, const Material& plain, const 
   }
   const MaterialPoint point = gltf_material(maps, plain, v);
   const ShadingParams& shading = point.shading;
-  m.ambient = select(same, shading.ambient, m.ambient);
-  m.diffuse = select(same, shading.diffuse, m.diffuse);
-  m.specular = select(same, shading.specular, m.specular);
-  m.emission = select(same, shading.emission, m.emission);
-  m.shininess = select(same, shading.shininess, m.shininess);
+  m.set_model(shading, plain, same);
   m.occlusion = select(same, shading.occlusion, m.occlusion);
   m.reflectance = select(same, point.reflectance, m.reflectance);
   m.transmittance = select(same, point.transmittance, m.transmittance);
@@ -259,25 +226,15 @@ inline void set_material(const MaterialMaps& maps, const Material& plain, const 
   const auto any_component = [&](const Vec& c) { return (same & (Float(0.0f) < c.x + c.y + c.z)).bits(); };
   m.reflects = (m.reflects & ~bits) | any_component(point.reflectance);
   m.transmits = (m.transmits & ~bits) | any_component(point.transmittance);
-  if (plain.is_microfacet()) {
-    m.ggx_alpha = select(same, shading.ggx_alpha, m.ggx_alpha);
-    m.grazing = select(same, shading.grazing, m.grazing);
-    m.layer.x = select(same, shading.layer.x, m.layer.x);
-    m.layer.y = select(same, shading.layer.y, m.layer.y);
-  }
-  if (!plain.has_layers()) return;
-  m.sheen = select(same, shading.sheen, m.sheen);
-  m.sheen_alpha = select(same, shading.sheen_alpha, m.sheen_alpha);
-  m.coat = select(same, shading.coat, m.coat);
-  m.coat_alpha = select(same, shading.coat_alpha, m.coat_alpha);
 }
 
 // The maps of which a step reads what they change.
 inline unsigned maps_wanted(bool reads_material, bool adds_ambient, bool ambient_light) {
-  unsigned wanted = kNormalMap;
-  if (reads_material) wanted |= kAllMaps & ~(kEmissiveMap | kOcclusionMap);
-  if (adds_ambient) wanted |= kEmissiveMap;
-  if (ambient_light) wanted |= kOcclusionMap;
+  constexpr unsigned kOfAmbient = 1u << kEmissive, kOfAmbientLight = 1u << kOcclusion;
+  unsigned wanted = 1u << kNormal;
+  if (reads_material) wanted |= ~(kOfAmbient | kOfAmbientLight);
+  if (adds_ambient) wanted |= kOfAmbient;
+  if (ambient_light) wanted |= kOfAmbientLight;
   return wanted;
 }
 
@@ -309,7 +266,7 @@ inline unsigned maps_wanted(bool reads_material, bool adds_ambient, bool ambient
       m.alpha = select(blends, alpha, m.alpha);
       m.blends |= blends.bits();
     }
-    if ((wanted & kBaseColorMap) == 0) return;
+    if ((wanted & 1u << kBaseColor) == 0) return;
     texels.v.occlusion = Float(1.0f) + Float(maps.occlusion_strength) * (texels.v.occlusion - Float(1.0f));
     if (maps.vertex_colors && scene.colors)
       texels.v.base_color =

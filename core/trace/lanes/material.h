@@ -27,31 +27,15 @@ struct LaneMaterial : ShadingParams {
     sheen_alpha = coat_alpha = 1.0f;
     for_each_distinct(materials, lanes, [&](std::uint32_t index, Mask same) {
       const Material& m = scene.materials[index];
-      ambient = select(same, Vec(m.ambient), ambient);
-      diffuse = select(same, Vec(m.diffuse), diffuse);
-      specular = select(same, Vec(m.specular), specular);
-      emission = select(same, Vec(m.emission), emission);
-      shininess = select(same, Float(m.shininess), shininess);
+      set_model(m, m, same);
       reflectance = select(same, Vec(m.reflectance), reflectance);
       transmittance = select(same, Vec(m.transmittance), transmittance);
       ior = select(same, Float(m.ior), ior);
       const unsigned bits = same.bits();
       if (m.fresnel) fresnel |= bits;
       if (m.brdf) brdf |= bits;
-      if (m.is_microfacet()) {
-        ggx_alpha = select(same, Float(m.ggx_alpha), ggx_alpha);
-        grazing = select(same, Float(m.grazing), grazing);
-        layer.x = select(same, Float(m.layer.x), layer.x);
-        layer.y = select(same, Float(m.layer.y), layer.y);
-        microfacet |= bits;
-      }
-      if (m.has_layers()) {
-        sheen = select(same, Vec(m.sheen), sheen);
-        sheen_alpha = select(same, Float(m.sheen_alpha), sheen_alpha);
-        coat = select(same, Float(m.coat), coat);
-        coat_alpha = select(same, Float(m.coat_alpha), coat_alpha);
-        layered |= bits;
-      }
+      if (m.is_microfacet()) microfacet |= bits;
+      if (m.has_layers()) layered |= bits;
       if (m.gloss > 0.0f) {
         gloss = select(same, Float(m.gloss), gloss);
         glossy |= bits;
@@ -60,6 +44,27 @@ struct LaneMaterial : ShadingParams {
       if (any_component(m.transmittance)) transmits |= bits;
       if (m.maps >= 0) mapped |= bits;
     });
+  }
+
+  // Sets the reflection model of these lanes from a Material or ShadingParams, as far as `plain` has it.
+  template <class From>
+  void set_model(const From& m, const Material& plain, Mask same) {
+    ambient = select(same, Vec(m.ambient), ambient);
+    diffuse = select(same, Vec(m.diffuse), diffuse);
+    specular = select(same, Vec(m.specular), specular);
+    emission = select(same, Vec(m.emission), emission);
+    shininess = select(same, Float(m.shininess), shininess);
+    if (plain.is_microfacet()) {
+      ggx_alpha = select(same, Float(m.ggx_alpha), ggx_alpha);
+      grazing = select(same, Float(m.grazing), grazing);
+      layer.x = select(same, Float(m.layer.x), layer.x);
+      layer.y = select(same, Float(m.layer.y), layer.y);
+    }
+    if (!plain.has_layers()) return;
+    sheen = select(same, Vec(m.sheen), sheen);
+    sheen_alpha = select(same, Float(m.sheen_alpha), sheen_alpha);
+    coat = select(same, Float(m.coat), coat);
+    coat_alpha = select(same, Float(m.coat_alpha), coat_alpha);
   }
 };
 

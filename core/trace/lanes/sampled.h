@@ -44,9 +44,7 @@ inline Vec returned_of_sky(const EnvironmentLight& e, const LaneSurface& s, cons
   Float square(2.0f * light.size);  // of the sine of half the angle under which the light is seen
   if (light.kind != kLightDirectional) {
     const Vec way = Vec(light.position) - s.p_world;
-    const Float r2(light.kind == kLightRectangle
-                       ? shared::kOneByPi * glm::length(glm::cross(light.edge_u, light.edge_v))
-                       : light.size * light.size);
+    const Float r2(has_sides(light) ? shared::kOneByPi * area_of_sides(light) : light.size * light.size);
     square = r2 / max(dot(way, way), r2);
   }
   // Where a part of the light is below the horizon, the rest falls off with its square.

@@ -136,7 +136,9 @@ struct Settings {
 // A field of Settings, for code that reads, writes or shows settings by name.
 struct Field {
   enum class Kind { choice, whole, number, flag, text };
+  enum class Group { samples, light, rays, exchange, tree, machine };  // help and window list them so
 
+  Group group;
   std::string_view name;  // as in JSON; on the command line with '-' instead of '_'
   Kind kind;
   std::span<const std::string_view> choices;  // all values; empty: numbers from lo to hi, a flag or a text

@@ -4,7 +4,7 @@
 #include <cstring>
 #include <limits>
 
-#include "core/shade/map_lookup.h"
+#include "bench/one_ray/map_lookup.h"
 #include "core/simd/isas.h"
 #include "tests/core/trace/lane_probe.h"
 #include "tests/support/scenes.h"

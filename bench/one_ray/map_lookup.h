@@ -1,15 +1,25 @@
 // Textures and vertex colours at a point of a triangle, one at a time.
 #pragma once
 
-#include "core/shade/mapped_material.h"
+#include "core/shade/footprint.h"
 #include "core/shade/shared_maps.h"
 #include "pinocchio/conversion.h"
+#include "pinocchio/mesh.h"
 
 namespace pinocchio {
 
 static_assert(as_int(Wrap::repeat) == shared::texels::kWrapRepeat &&
               as_int(Wrap::mirror) == shared::texels::kWrapMirror &&
               as_int(Wrap::clamp) == shared::texels::kWrapClamp);
+
+// Where a ray meets a triangle.
+struct MapPoint {
+  std::uint32_t triangle;
+  glm::vec3 weights;    // barycentric
+  glm::vec3 n_shading;  // facing the viewer, as
+  bool leaving;         // says: the surface is seen from behind
+  RaySpread spread{};   // the area that textures are averaged over
+};
 
 template <class T>
 [[nodiscard]] T weighted(const std::vector<T>& of_vertices, const glm::uvec3& corners,
