@@ -30,7 +30,7 @@ struct Options {
   std::string tree = "sah", test{triangle_test_name(BuildOptions{}.triangle_test)};
   int triangles = 0, repeat = 7, build_repeat = 3, threads = 0;
   bool mirror_all = false, robust = false, no_pass = false, no_speeds = false, frame = false,
-       known_eye = false, animation = false;
+       known_eye = false, processor_time = false, animation = false;
   MotionOptions motion{.moving = 0};
 };
 
@@ -68,6 +68,8 @@ void add_options(CLI::App& program, Options& o) {
   program.add_flag("--no-pass", o.no_pass, "leave out the whole shadow pass");
   program.add_flag("--no-speeds", o.no_speeds, "leave out the speeds by kind of ray");
   program.add_flag("--frame", o.frame, "add whole frames, with the materials as they are (or --mirror-all)");
+  program.add_flag("--processor-time", o.processor_time,
+                   "times of the process's processors, not of the clock (a busy machine, --threads 1)");
   program.add_flag("--animation", o.animation,
                    "instead: frames of an animated scene, their trees built anew, with each rule (a still "
                    "scene is turned)");
@@ -145,6 +147,7 @@ void run_motion(const Options& o) {
 
 void run(const Options& o) {
   if (!o.json.empty()) check_writable(o.json);
+  if (o.processor_time) count_processor_time();
   if (o.motion.moving > 0) return run_motion(o);
   Scene scene = scene_of(o);
   if (o.animation) {

@@ -1,5 +1,7 @@
 #include "bench/rays/measure.h"
 
+#include <time.h>
+
 #include <algorithm>
 #include <chrono>
 #include <cmath>
@@ -23,6 +25,16 @@ std::size_t count_different(const std::vector<Hit>& a, const std::vector<Hit>& b
   return different;
 }
 
+bool by_processor = false;  // count_processor_time
+
+double now() {
+  if (!by_processor)
+    return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
+  timespec time{};
+  clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &time);
+  return static_cast<double>(time.tv_sec) + 1e-9 * static_cast<double>(time.tv_nsec);
+}
+
 void trace_all(RayBackend& backend, std::size_t rays, Workers& workers) {
   workers.for_each((rays + kChunk - 1) / kChunk, [&](std::size_t chunk) {
     const std::size_t first = chunk * kChunk;
@@ -32,10 +44,14 @@ void trace_all(RayBackend& backend, std::size_t rays, Workers& workers) {
 
 }  // namespace
 
+void count_processor_time() {
+  by_processor = true;
+}
+
 double seconds_of(const std::function<void()>& run) {
-  const auto start = std::chrono::steady_clock::now();
+  const double start = now();
   run();
-  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  return now() - start;
 }
 
 double median_seconds(int repeat, const std::function<void()>& prepare, const std::function<void()>& run) {

@@ -14,6 +14,10 @@ namespace pinocchio::bench {
 [[nodiscard]] double median_seconds(int repeat, const std::function<void()>& prepare,
                                     const std::function<void()>& run);
 
+// From here on times are of the processors that the process uses, not of the clock: for a machine that other
+// programs use, with one thread.
+void count_processor_time();
+
 // The wall time of one call, in seconds.
 [[nodiscard]] double seconds_of(const std::function<void()>& run);
 

@@ -4,6 +4,7 @@
 #include <array>
 #include <bit>
 
+#include "core/base/large_memory.h"
 #include "core/image/tonemap.h"
 #include "core/parallel/workers.h"
 #include "pinocchio/conversion.h"
@@ -172,7 +173,7 @@ std::vector<Needed> needed_of(const MeshData& mesh) {
 void make_smaller_levels(Texture& texture, bool is_color) {
   texture.smaller_levels.clear();
   if (texture.texels.width() <= 1 && texture.texels.height() <= 1) return;
-  texture.smaller_levels.reserve(texture.texels.pixels().size() / 3 + 1);
+  reserve_large(texture.smaller_levels, texture.texels.pixels().size() / 3 + 1);
   LevelWriter writer(texture, is_color);
   const int halvings = halvings_of(texture.texels.size());
   Level level = halvings > 0 ? writer.write_blocks(halvings) : writer.whole();

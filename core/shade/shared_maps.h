@@ -59,7 +59,9 @@ struct TexelSource {
 
 #define SHARED [[nodiscard]] inline
 #include "pinocchio/conversion.h"
+#define READ_ONLY(type) const type&
 #include "shaders/shared/maps.glsl"
+#undef READ_ONLY
 #undef SHARED
 
 }  // namespace pinocchio::shared

@@ -25,6 +25,7 @@ template <class T>
 }
 
 #define SHARED [[nodiscard]] inline
+#define READ_ONLY(type) const type&
 // In the order in which they need each other:
 // clang-format off
 #include "shaders/shared/light_params.glsl"
@@ -32,6 +33,7 @@ template <class T>
 #include "shaders/shared/microfacet.glsl"
 #include "shaders/shared/metallic_roughness.glsl"
 // clang-format on
+#undef READ_ONLY
 #undef SHARED
 
 }  // namespace pinocchio::shared

@@ -55,6 +55,15 @@ struct Float {
   friend Float select(Mask m, Float yes, Float no) { return of(Native::select(m.m, yes.v, no.v)); }
 };
 
+// Of the lanes that are given as bits, those where a < b does not hold, as with NaN.
+template <class N = Native>
+inline unsigned not_less(Float a, Float b, unsigned of) {
+  if constexpr (requires { N::not_less(a.v, b.v, of); })
+    return N::not_less(a.v, b.v, of);
+  else
+    return of & ~(a < b).bits();
+}
+
 // Triangle ids, below 2^30 (kNoTriangle compares as -1), or bits.
 struct Int {
   NativeInt v;

@@ -27,6 +27,9 @@ struct Native {
   static NativeMask less(NativeFloat a, NativeFloat b) { return _mm512_cmp_ps_mask(a, b, _CMP_LT_OS); }
   static NativeMask less_equal(NativeFloat a, NativeFloat b) { return _mm512_cmp_ps_mask(a, b, _CMP_LE_OS); }
   static NativeMask equal(NativeFloat a, NativeFloat b) { return _mm512_cmp_ps_mask(a, b, _CMP_EQ_OQ); }
+  static unsigned not_less(NativeFloat a, NativeFloat b, unsigned of) {
+    return _mm512_mask_cmp_ps_mask(mask(of), a, b, _CMP_NLT_US);
+  }
   static NativeMask less(NativeSigned a, NativeSigned b) {
     return _mm512_cmplt_epi32_mask(__m512i(a), __m512i(b));
   }

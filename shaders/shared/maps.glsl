@@ -31,7 +31,7 @@ struct MapValues {
   GltfLayers layers;
 };
 
-SHARED MaterialPoint mapped_phong(MaterialPoint plain, MapValues v) {
+SHARED MaterialPoint mapped_phong(READ_ONLY(MaterialPoint) plain, READ_ONLY(MapValues) v) {
   MaterialPoint m = plain;
   m.shading.ambient *= v.base_color;
   m.shading.occlusion = v.occlusion;
@@ -40,7 +40,8 @@ SHARED MaterialPoint mapped_phong(MaterialPoint plain, MapValues v) {
   return m;
 }
 
-SHARED MaterialPoint mapped_metallic_roughness(MetallicRoughness plain, MapValues v, bool as_phong) {
+SHARED MaterialPoint mapped_metallic_roughness(READ_ONLY(MetallicRoughness) plain, READ_ONLY(MapValues) v,
+                                               bool as_phong) {
   MetallicRoughness s = plain;
   s.base_color *= v.base_color;
   s.metallic *= v.metallic;
@@ -54,7 +55,7 @@ SHARED MaterialPoint mapped_metallic_roughness(MetallicRoughness plain, MapValue
   return m;
 }
 
-SHARED GltfLayers mapped_layers(GltfLayers plain, GltfLayers v) {
+SHARED GltfLayers mapped_layers(READ_ONLY(GltfLayers) plain, READ_ONLY(GltfLayers) v) {
   GltfLayers l = plain;
   l.coat *= v.coat;
   l.coat_roughness *= v.coat_roughness;

@@ -73,7 +73,7 @@ SHARED ShadingParams phong_params(vec3 ambient, vec3 diffuse, vec3 specular, rea
   return m;
 }
 
-SHARED MaterialPoint material_point(ShadingParams shading) {
+SHARED MaterialPoint material_point(READ_ONLY(ShadingParams) shading) {
   MaterialPoint point;
   point.shading = shading;
   point.reflectance = vec3(0.0f);
@@ -94,7 +94,7 @@ SHARED real sharp_share(real roughness) {
   return sharp * sharp;
 }
 
-SHARED MaterialPoint from_metallic_roughness(MetallicRoughness s, bool as_phong) {
+SHARED MaterialPoint from_metallic_roughness(READ_ONLY(MetallicRoughness) s, bool as_phong) {
   if (s.unlit) return material_point(phong_params(vec3(0.0f), vec3(0.0f), vec3(0.0f), 1.0f, s.base_color));
   real root = (s.ior - 1.0f) / (s.ior + 1.0f);
   vec3 dielectric_f0 = min(root * root * s.specular * s.specular_color, vec3(1.0f));
@@ -121,7 +121,7 @@ SHARED MaterialPoint from_metallic_roughness(MetallicRoughness s, bool as_phong)
 }
 
 // Adds the layers to a material of glTF's model. On glass they are left out.
-SHARED MaterialPoint with_layers(MaterialPoint m, GltfLayers l) {
+SHARED MaterialPoint with_layers(READ_ONLY(MaterialPoint) m, READ_ONLY(GltfLayers) l) {
   MaterialPoint layered = m;
   boolean above = m.shading.ggx_alpha != 0.0f && m.transmittance == vec3(0.0f);
   layered.shading.sheen = pick(above, l.sheen, m.shading.sheen);

@@ -69,24 +69,26 @@ SHARED vec2 ggx_albedo(real n_dot_v, real alpha) {
 SHARED real brightest(vec3 v) { return max(max(v.x, v.y), v.z); }
 
 // The brightest share that the lobe mirrors of light from all around.
-SHARED real lobe_share(ShadingParams m, real n_dot_v) {
-  vec2 albedo = ggx_albedo(n_dot_v, m.ggx_alpha);
+SHARED real lobe_share(READ_ONLY(ShadingParams) m, real alpha, real n_dot_v) {
+  vec2 albedo = ggx_albedo(n_dot_v, alpha);
   return brightest(m.specular) * albedo.x + m.grazing * albedo.y;
 }
 
-SHARED real layer_fresnel(ShadingParams m, real fifth) { return m.layer.x + (m.layer.y - m.layer.x) * fifth; }
+SHARED real layer_fresnel(READ_ONLY(ShadingParams) m, real fifth) {
+  return m.layer.x + (m.layer.y - m.layer.x) * fifth;
+}
 
 // The share of light from all around that reaches the matt part. The mean of (1 - V.H)^5 over that light is a polynomial
 // within 1e-4.
-SHARED real mean_below(ShadingParams m, real n_dot_v) {
+SHARED real mean_below(READ_ONLY(ShadingParams) m, real n_dot_v) {
   real x = 1.0f - n_dot_v;
   return 1.0f - layer_fresnel(m, x * (0.0044f + x * (0.0257f * x - 0.002f)));
 }
 
 // The factor of the matt part so that lobe and matt part return no more than all light from all around.
-SHARED real matt_limit(ShadingParams m, real n_dot_v) {
+SHARED real matt_limit(READ_ONLY(ShadingParams) m, real n_dot_v) {
   real matt = kPi * brightest(m.diffuse) * mean_below(m, n_dot_v);
-  return min((1.0f - lobe_share(m, n_dot_v)) / max(matt, 1e-6f), 1.0f);
+  return min((1.0f - lobe_share(m, m.ggx_alpha, n_dot_v)) / max(matt, 1e-6f), 1.0f);
 }
 
 // Sheen's density of fibres, from the squared sine of their angle.
@@ -109,7 +111,7 @@ SHARED real sheen_albedo(real n_dot_v, real alpha) {
 }
 
 // The material with what sheen and coat leave of the light to what lies below them, for one viewer.
-SHARED ShadingParams below_layers(vec3 to_viewer, vec3 n, ShadingParams m) {
+SHARED ShadingParams below_layers(vec3 to_viewer, vec3 n, READ_ONLY(ShadingParams) m) {
   ShadingParams below = m;
   real away = fifth_power(1.0f - cosine_of_view(m.coat_normal, to_viewer));
   below.coat = m.coat * (kCoatF0 + (1.0f - kCoatF0) * away);
@@ -126,23 +128,29 @@ SHARED ShadingParams below_layers(vec3 to_viewer, vec3 n, ShadingParams m) {
   return below;
 }
 
+// The matt part for one viewer, without what layers take. Phong's is the same for all.
+SHARED vec3 viewed_diffuse(vec3 to_viewer, vec3 n, READ_ONLY(ShadingParams) m) {
+  return pick(m.ggx_alpha > 0.0f, m.diffuse * matt_limit(m, cosine_of_view(n, to_viewer)), m.diffuse);
+}
+
 // The parameters for one viewer. Phong's are the same for all.
-SHARED ShadingParams viewed_from(vec3 to_viewer, vec3 n, ShadingParams m) {
+SHARED ShadingParams viewed_from(vec3 to_viewer, vec3 n, READ_ONLY(ShadingParams) m) {
   ShadingParams viewed = m;
-  boolean microfacet = m.ggx_alpha > 0.0f;
-  if (any(microfacet)) {
-    viewed.diffuse = pick(microfacet, m.diffuse * matt_limit(m, cosine_of_view(n, to_viewer)), m.diffuse);
+  if (any(m.ggx_alpha > 0.0f)) {
+    viewed.diffuse = viewed_diffuse(to_viewer, n, m);
     if (any(m.coat > 0.0f || m.sheen != vec3(0.0f))) viewed = below_layers(to_viewer, n, viewed);
   }
   return viewed;
 }
 
 // Of parameters for one viewer: the brightest share that lobe and coat mirror of light from all around.
-SHARED real mirrored_share(ShadingParams viewed, real n_dot_v) { return lobe_share(viewed, n_dot_v) + viewed.coat; }
+SHARED real mirrored_share(READ_ONLY(ShadingParams) viewed, real n_dot_v) {
+  return lobe_share(viewed, viewed.ggx_alpha, n_dot_v) + viewed.coat;
+}
 
-// How often a sample of the lobe is one of the coat's.
-SHARED real coat_chance(ShadingParams viewed, real n_dot_v) {
-  return viewed.coat / max(mirrored_share(viewed, n_dot_v), 1e-6f);
+// How often a sample of the lobe, as wide as `alpha`, is one of the coat's.
+SHARED real coat_chance(READ_ONLY(ShadingParams) viewed, real alpha, real n_dot_v) {
+  return viewed.coat / max(lobe_share(viewed, alpha, n_dot_v) + viewed.coat, 1e-6f);
 }
 
 // A direction of the lobe, and the density with which it is sampled, per steradian.
@@ -157,34 +165,35 @@ SHARED vec3 halfway(vec3 to_viewer, vec3 to_light) {
   return sum / sqrt(max(dot(sum, sum), 1e-20f));
 }
 
-// Of parameters for one viewer.
-SHARED LobeLight lobe_light(ShadingParams m, vec3 n, vec3 to_viewer, vec3 to_light) {
+// Of parameters for one viewer, with a lobe and a coat as wide as these.
+SHARED LobeLight lobe_light(READ_ONLY(ShadingParams) m, real alpha, real coat_alpha, vec3 n, vec3 to_viewer,
+                            vec3 to_light) {
   vec3 h = halfway(to_viewer, to_light);
   vec3 off = cross(n, h);
   real n_dot_v = cosine_of_view(n, to_viewer);
   real n_dot_l = max(dot(n, to_light), 0.0f);
-  real d = ggx(dot(n, h), dot(off, off), m.ggx_alpha);
+  real d = ggx(dot(n, h), dot(off, off), alpha);
   LobeLight result;
   real fifth = fifth_power(1.0f - clamp(dot(to_viewer, h), 0.0f, 1.0f));
   result.below = 1.0f - layer_fresnel(m, fifth);
   result.reflected = (m.specular + (vec3(m.grazing) - m.specular) * fifth) *
-                     (d * ggx_visibility(max(n_dot_l, 1e-7f), n_dot_v, m.ggx_alpha) * n_dot_l);
-  result.density = 0.5f * d * ggx_viewed(n_dot_v, m.ggx_alpha);
+                     (d * ggx_visibility(max(n_dot_l, 1e-7f), n_dot_v, alpha) * n_dot_l);
+  result.density = 0.5f * d * ggx_viewed(n_dot_v, alpha);
   if (any(m.coat > 0.0f)) {
     vec3 off_coat = cross(m.coat_normal, h);
     real coat_dot_v = cosine_of_view(m.coat_normal, to_viewer);
     real coat_dot_l = max(dot(m.coat_normal, to_light), 0.0f);
-    real coat_d = ggx(dot(m.coat_normal, h), dot(off_coat, off_coat), m.coat_alpha);
-    real visible = ggx_visibility(max(coat_dot_l, 1e-7f), coat_dot_v, m.coat_alpha);
+    real coat_d = ggx(dot(m.coat_normal, h), dot(off_coat, off_coat), coat_alpha);
+    real visible = ggx_visibility(max(coat_dot_l, 1e-7f), coat_dot_v, coat_alpha);
     result.reflected += vec3(m.coat * (coat_d * visible * coat_dot_l));
-    real density = 0.5f * coat_d * ggx_viewed(coat_dot_v, m.coat_alpha);
-    result.density = result.density + (density - result.density) * coat_chance(m, n_dot_v);
+    real density = 0.5f * coat_d * ggx_viewed(coat_dot_v, coat_alpha);
+    result.density = result.density + (density - result.density) * coat_chance(m, alpha, n_dot_v);
   }
   return result;
 }
 
 // What sheen returns of light from there, times N.L.
-SHARED vec3 sheen_light(ShadingParams m, vec3 n, vec3 to_viewer, vec3 to_light) {
+SHARED vec3 sheen_light(READ_ONLY(ShadingParams) m, vec3 n, vec3 to_viewer, vec3 to_light) {
   vec3 off = cross(n, halfway(to_viewer, to_light));
   real n_dot_v = cosine_of_view(n, to_viewer);
   real n_dot_l = max(dot(n, to_light), 0.0f);
@@ -213,16 +222,15 @@ SHARED vec3 visible_normal(vec3 to_viewer, real alpha, vec2 disc) {
 // What one light adds where it reaches the point of those parameters (viewed_from): where `lit` holds, the light is before
 // n. n, to_viewer and incident.to_light are unit vectors. lobe: 1 where rays along the lobe look for lights with a size
 // too, so that a sample of such a light counts in part (Veach and Guibas 1995, balance heuristic); else 0.
-SHARED vec3 reflected_light(ShadingParams m, Incident incident, vec3 n, vec3 to_viewer, boolean lit, real lobe) {
+SHARED vec3 reflected_light(READ_ONLY(ShadingParams) m, READ_ONLY(Incident) incident, vec3 n, vec3 to_viewer, boolean lit,
+                            real lobe) {
   vec3 sum = phong_light(m, incident, n, to_viewer, lit && m.ggx_alpha <= 0.0f);
   boolean glossy = lit && m.ggx_alpha > 0.0f;
   if (any(glossy)) {
-    ShadingParams wide = m;
     boolean sized = incident.density > 0.0f;
     real least = pick(sized, kLeastAlpha, kLeastHighlight);
-    wide.ggx_alpha = max(m.ggx_alpha, least);
-    wide.coat_alpha = max(m.coat_alpha, least);
-    LobeLight light = lobe_light(wide, n, to_viewer, incident.to_light);
+    LobeLight light =
+        lobe_light(m, max(m.ggx_alpha, least), max(m.coat_alpha, least), n, to_viewer, incident.to_light);
     real counts = pick(sized, incident.density / (incident.density + lobe * light.density), 1.0f);
     vec3 share = m.diffuse * (light.below * dot(n, incident.to_light)) + light.reflected * counts;
     if (any(m.sheen != vec3(0.0f))) share += sheen_light(m, n, to_viewer, incident.to_light);

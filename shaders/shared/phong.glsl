@@ -62,13 +62,14 @@ SHARED boolean faces_light(vec3 n_shading, vec3 n_geometric, vec3 to_light) {
   return dot(n_shading, to_light) > 0.0f && dot(n_geometric, to_light) > 0.0f;
 }
 
-SHARED vec3 phong_ambient(ShadingParams material, vec3 ambient_light) {
+SHARED vec3 phong_ambient(READ_ONLY(ShadingParams) material, vec3 ambient_light) {
   return material.ambient * material.occlusion * ambient_light + material.emission;
 }
 
 // Phong's Id + Is of one light where it reaches the point: where `lit` holds, the light is before n. n, to_viewer and
 // incident.to_light are unit vectors.
-SHARED vec3 phong_light(ShadingParams material, Incident incident, vec3 n, vec3 to_viewer, boolean lit) {
+SHARED vec3 phong_light(READ_ONLY(ShadingParams) material, READ_ONLY(Incident) incident, vec3 n, vec3 to_viewer,
+                        boolean lit) {
   real n_dot_l = dot(n, incident.to_light);
   vec3 sum = material.diffuse * n_dot_l;
   if (any(lit && material.specular != vec3(0.0f))) {

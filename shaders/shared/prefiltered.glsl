@@ -24,16 +24,16 @@ SHARED vec3 lobe_axis(vec3 n, vec3 mirrored, real alpha) {
 SHARED real alpha_of_phong(real shininess) { return sqrt(2.0f / (4.0f * shininess + 2.0f)); }
 
 // The share of light from all around that Phong's highlight returns.
-SHARED vec3 phong_albedo(ShadingParams m) { return m.specular * (2.0f * kPi / (m.shininess + 1.0f)); }
+SHARED vec3 phong_albedo(READ_ONLY(ShadingParams) m) { return m.specular * (2.0f * kPi / (m.shininess + 1.0f)); }
 
 // Of parameters for one viewer: the share of light from all around that the lobe mirrors.
-SHARED vec3 lobe_albedo(ShadingParams viewed, real n_dot_v) {
+SHARED vec3 lobe_albedo(READ_ONLY(ShadingParams) viewed, real n_dot_v) {
   vec2 albedo = ggx_albedo(n_dot_v, viewed.ggx_alpha);
   return viewed.specular * albedo.x + vec3(viewed.grazing * albedo.y);
 }
 
 // What matt part and sheen return.
-SHARED vec3 matt_albedo(ShadingParams viewed, real n_dot_v) {
+SHARED vec3 matt_albedo(READ_ONLY(ShadingParams) viewed, real n_dot_v) {
   vec3 share = viewed.diffuse * (kPi * mean_below(viewed, n_dot_v));
   if (any(viewed.sheen != vec3(0.0f))) share += viewed.sheen * sheen_albedo(n_dot_v, viewed.sheen_alpha);
   return share;

@@ -50,7 +50,7 @@ namespace {
   const Float up = sqrt(max(Float(1.0f) - (disc.x * disc.x + disc.y * disc.y), Float(0.0f)));
   const Vec direction = around(s.n_shading, {disc.x, disc.y, up});
   if (m.microfacet != 0) {
-    const Float below = lobe_light(m, s.n_shading, s.to_viewer, direction).below;
+    const Float below = lobe_light(m, m.ggx_alpha, m.coat_alpha, s.n_shading, s.to_viewer, direction).below;
     light = select(Mask::from_bits(m.microfacet), light * below, light);
   }
   follow(s, direction, light, pixel, lanes & (Float(0.0f) < dot(direction, s.n_geometric)),
@@ -59,13 +59,15 @@ namespace {
 
 // Adds the lanes' light to their pixels, lane after lane.
 inline void add_light(const Vec& light, const std::uint32_t* pixel, Mask lanes, float* radiance) {
+  using Row [[gnu::vector_size(16), gnu::may_alias, gnu::aligned(4)]] = float;  // of RGBA
   alignas(64) float rgb[3][kWidth];
   light.x.store(rgb[0]);
   light.y.store(rgb[1]);
   light.z.store(rgb[2]);
   for (unsigned waiting = lanes.bits(); waiting != 0; waiting &= waiting - 1) {
     const int lane = __builtin_ctz(waiting);
-    for (std::size_t c = 0; c < 3; ++c) radiance[4 * pixel[lane] + c] += rgb[c][lane];
+    Row& to = *reinterpret_cast<Row*>(radiance + 4 * std::size_t{pixel[lane]});
+    to = to + Row{rgb[0][lane], rgb[1][lane], rgb[2][lane], 0.0f};
   }
 }
 

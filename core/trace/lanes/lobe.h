@@ -24,7 +24,7 @@ namespace {
   Float alpha = m.ggx_alpha, n_dot_v = base_dot_v;
   if (coated.bits() != 0) {
     // One number tells which layer, and what is left of it is a number again.
-    const Float chance = coat_chance(m, base_dot_v);
+    const Float chance = coat_chance(m, m.ggx_alpha, base_dot_v);
     const Mask by_coat = coated & (number.x < chance);
     const Float rest = select(by_coat, number.x / chance, (number.x - chance) / (one - chance));
     number.x = select(coated, clamp(rest, 0.0f, 0x1.fffffep-1f), number.x);
@@ -46,7 +46,7 @@ namespace {
   lobe.throughput = schlick(m.specular, m.grazing, v_dot_h) * lobe.unshadowed;
   Float density = Float(0.5f) * ggx(h.z, h.x * h.x + h.y * h.y, alpha) * ggx_viewed(n_dot_v, alpha);
   if (coated.bits() != 0) {
-    const LobeLight both = lobe_light(m, s.n_shading, s.to_viewer, direction);
+    const LobeLight both = lobe_light(m, m.ggx_alpha, m.coat_alpha, s.n_shading, s.to_viewer, direction);
     lobe.throughput =
         select(coated, select(zero < n_dot_l, both.reflected / both.density, Vec(zero)), lobe.throughput);
     density = select(coated, both.density, density);

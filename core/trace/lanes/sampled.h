@@ -61,11 +61,11 @@ inline Vec returned_of_sky(const EnvironmentLight& e, const LaneSurface& s, cons
     share = select(phong, share + m.specular * highlight, share);
   }
   if (any(rough)) {
-    ShadingParams wide = m;
-    wide.ggx_alpha = sqrt(m.ggx_alpha * m.ggx_alpha + Float(0.125f) * square);
-    wide.coat_alpha = sqrt(m.coat_alpha * m.coat_alpha + Float(0.125f) * square);
-    share =
-        select(rough, share + lobe_light(wide, s.n_shading, s.to_viewer, middle.to_light).reflected, share);
+    const Float alpha = sqrt(m.ggx_alpha * m.ggx_alpha + Float(0.125f) * square);
+    const Float coat_alpha = sqrt(m.coat_alpha * m.coat_alpha + Float(0.125f) * square);
+    share = select(
+        rough, share + lobe_light(m, alpha, coat_alpha, s.n_shading, s.to_viewer, middle.to_light).reflected,
+        share);
   }
   return middle.radiance * share;
 }

@@ -156,6 +156,7 @@ struct SkyIrradiance {
 #define min(a, b) min(b, a)
 #define max(a, b) max(b, a)
 #define SHARED [[nodiscard, maybe_unused, gnu::always_inline]] inline
+#define READ_ONLY(type) const type&
 // clang-format off
 #include "shaders/shared/phong.glsl"
 #include "shaders/shared/microfacet.glsl"
@@ -168,6 +169,7 @@ struct SkyIrradiance {
 #include "shaders/shared/environment.glsl"
 #include "shaders/shared/prefiltered.glsl"
 // clang-format on
+#undef READ_ONLY
 #undef SHARED
 #undef min
 #undef max

@@ -242,9 +242,10 @@ void bounce_packets(const Bounce& bounce, const RayQueue& rays) {
     const SampledPixel* const samples = kSampled ? &*sampling : nullptr;
     LaneLobe lobe;
     if (m.microfacet != 0) {
-      const ShadingParams viewed = viewed_from(s.to_viewer, s.n_shading, m);
-      m.diffuse = viewed.diffuse;
-      if (m.layered != 0) static_cast<ShadingParams&>(m) = viewed;
+      if (m.layered != 0)
+        static_cast<ShadingParams&>(m) = viewed_from(s.to_viewer, s.n_shading, m);
+      else
+        m.diffuse = viewed_diffuse(s.to_viewer, s.n_shading, m);
       if constexpr (kSampled)
         if (bounce.lobes) lobe = sample_lobe(s, m, own, *samples, lanes, bounce);
     }

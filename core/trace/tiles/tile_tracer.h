@@ -77,13 +77,13 @@ class TileTracer {
   std::vector<std::uint8_t> up_blocked_;
   Holes holes_;
   TintedShadows tinted_;
-  Radiance<kPixels> direct_;
-  Radiance<5 * kPixels> reflected_;   // from kSampledPixels on: what is kept apart
-  std::vector<SampledPoint> points_;  // kPixels that the camera sees, then those beyond
+  alignas(16) Radiance<kPixels> direct_;
+  alignas(16) Radiance<5 * kPixels> reflected_;  // from kSampledPixels on: what is kept apart
+  std::vector<SampledPoint> points_;             // kPixels that the camera sees, then those beyond
   // With a shadow catcher: rays at its plane, of pixels that see nothing, and behind surfaces that blend. By
   // pixel: the light of the plane (RGB) and what shadows take from it (A), then the lost share (A).
   RayQueue ground_, straight_ground_;
-  Radiance<kPixels> ground_light_;
+  alignas(16) Radiance<kPixels> ground_light_;
   Footprint seen_footprint_;                // of the tile, where a RayModel makes the rays
   bool reflects_ = false;                   // reflected_ may hold light
   std::vector<std::uint8_t> mask_;          // kPixels for each byte of the mask

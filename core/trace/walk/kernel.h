@@ -103,8 +103,8 @@ inline void walk(const BspTree& tree, const Group<kPackets>& group, const Planes
         for (int k = 0; k < kPackets; ++k) {
           planes.cross(k, axis, split - group.packets[k].o[axis], group.octants[k].inverse[axis], early[k],
                        late[k]);
-          enter_first |= living[k] & ~(late[k] < t_near[k]).bits();
-          enter_second |= living[k] & ~(t_far[k] < early[k]).bits();
+          enter_first |= not_less(late[k], t_near[k], living[k]);
+          enter_second |= not_less(t_far[k], early[k], living[k]);
         }
         if (enter_first == 0) {
           index = second;

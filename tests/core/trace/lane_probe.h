@@ -21,6 +21,7 @@ enum class LaneOp {
   less,
   less_equal,
   equal,
+  not_less,
   abs,
   sqrt,
   floor,

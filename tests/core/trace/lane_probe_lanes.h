@@ -74,6 +74,10 @@ Int value(LaneOp op, Int x, Int y, const std::uint32_t* table) {
       return bits_of(a <= b);
     case LaneOp::equal:
       return bits_of(a == b);
+    case LaneOp::not_less: {
+      const unsigned every_other = 0x5555u & Mask::from_bits(~0u).bits(), met = not_less(a, b, every_other);
+      return Int(met == every_other ? 1u : met == 0 ? 0u : 2u);
+    }
     case LaneOp::abs:
       return bits_of(abs(a));
     case LaneOp::sqrt:

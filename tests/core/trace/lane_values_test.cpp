@@ -61,6 +61,11 @@ const Row kRows[]{
     holds(LaneOp::equal, 0.0f, -0.0f, true),
     holds(LaneOp::equal, kNan, kNan, false),
     holds(LaneOp::equal, kTiny, 0.0f, false),
+    holds(LaneOp::not_less, 1, 2, false),
+    holds(LaneOp::not_less, 2, 1, true),
+    holds(LaneOp::not_less, -0.0f, 0.0f, true),
+    holds(LaneOp::not_less, kNan, 1, true),
+    holds(LaneOp::not_less, 1, kNan, true),
 
     row(LaneOp::abs, -0.0f, 0, 0.0f),
     row(LaneOp::abs, -kInfinity, 0, kInfinity),
