@@ -32,6 +32,7 @@ const int kUses = 13;
 const int kBlends = 13;          // some material blends
 const int kSecondTexcoords = 14; // some texture is read at the second UV set
 const int kOcclusionIsShared = 15;  // occlusion is read where metallic and roughness are, from the same texture
+const int kLayersVary = 16;  // textures change some material's coat or sheen, or where it has one
 
 bool some_has(int bit) { return (MAP_USES >> bit & 1) != 0; }
 
@@ -197,7 +198,7 @@ ShadingParams mapped_material_at(int maps, MapPoint p, ShadingParams plain, inou
                         specular.a, specular.rgb, more.y, more.z > 0.0, more.w > 0.0);
   MaterialPoint m = mapped_metallic_roughness(s, v, plain.ggx_alpha == 0.0);
   transmits = m.transmittance != vec3(0.0);
-  if (some_has(kClearcoat) || some_has(kClearcoatRoughness) || some_has(kSheenColor) || some_has(kSheenRoughness)) {
+  if (some_has(kLayersVary)) {
     vec4 coat = map_texel(maps, kLayers);  // factor, roughness; sheen's roughness
     GltfLayers layers;
     layers.coat = coat.x * map_value(maps, kClearcoat, p, false).r;

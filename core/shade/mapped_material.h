@@ -69,6 +69,11 @@ inline constexpr std::array<MapTexel, 12> kMapTexels{
 [[nodiscard]] inline shared::GltfLayers layers(const GltfSurface& s) {
   return {s.clearcoat, s.clearcoat_roughness, s.sheen_color, s.sheen_roughness};
 }
+// Whether a coat or sheen lies on it where no light goes through, which textures may decide.
+[[nodiscard, gnu::always_inline]] inline bool has_layers(const MaterialMaps& m) {
+  const glm::vec3& sheen = m.surface.sheen_color;
+  return m.from_gltf && (m.surface.clearcoat > 0.0f || sheen.x + sheen.y + sheen.z > 0.0f);
+}
 
 // The material as it stands, without maps.
 [[nodiscard]] shared::MaterialPoint plain_material(const Material& material);

@@ -5,6 +5,7 @@
 #include <span>
 #include <tuple>
 
+#include "core/shade/mapped_material.h"
 #include "pinocchio/conversion.h"
 
 namespace pinocchio {
@@ -21,7 +22,12 @@ struct MapTexels {
 };
 constexpr std::size_t kTexelsOfMaps = sizeof(MapTexels) / sizeof(glm::vec4);
 static_assert(kTexelsOfMaps == 47);
-enum : unsigned { kBlends = 1u << 13, kSecondTexcoords = 1u << 14, kOcclusionIsShared = 1u << 15 };
+enum : unsigned {
+  kBlends = 1u << 13,
+  kSecondTexcoords = 1u << 14,
+  kOcclusionIsShared = 1u << 15,
+  kLayersVary = 1u << 16
+};
 static_assert(kUses == 13);
 
 // A texel of a level is split over two floats, exact up to 2^24 each.
@@ -106,6 +112,11 @@ std::vector<glm::vec4> maps_and_levels(const Mesh& mesh) {
   return all;
 }
 
+// Textures that coat and sheen depend on: they are left out where light goes through.
+constexpr std::array kOfLayers{&MaterialMaps::transmission, &MaterialMaps::clearcoat,
+                               &MaterialMaps::clearcoat_roughness, &MaterialMaps::sheen_color,
+                               &MaterialMaps::sheen_roughness};
+
 // MAP_USES.
 unsigned bits_of_uses(const Mesh& mesh) {
   unsigned bits = 0;
@@ -117,6 +128,8 @@ unsigned bits_of_uses(const Mesh& mesh) {
       if (uses[i]->uv_set == 1) bits |= kSecondTexcoords;
     }
     if (m.blends()) bits |= kBlends;
+    if (has_layers(m) && std::ranges::any_of(kOfLayers, [&](auto use) { return is_read(mesh, m.*use); }))
+      bits |= kLayersVary;
   }
   const auto shares = [](const MaterialMaps& m) {
     return !m.occlusion.used() || m.occlusion == m.metallic_roughness;

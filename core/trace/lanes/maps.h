@@ -224,7 +224,7 @@ inline MaterialPoint gltf_material(const MaterialMaps& maps, const Material& pla
   surface.volume = s.volume;
   surface.unlit = s.unlit;
   MaterialPoint point = mapped_metallic_roughness(surface, v, !plain.is_microfacet());
-  if (!plain.has_layers()) return point;
+  if (!has_layers(maps)) return point;
   GltfLayers layers;
   layers.coat = s.clearcoat;
   layers.coat_roughness = s.clearcoat_roughness;
@@ -265,7 +265,7 @@ inline void set_material(const MaterialMaps& maps, const Material& plain, const 
     m.layer.x = select(same, shading.layer.x, m.layer.x);
     m.layer.y = select(same, shading.layer.y, m.layer.y);
   }
-  if (!plain.has_layers()) return;
+  if (!has_layers(maps)) return;
   m.sheen = select(same, shading.sheen, m.sheen);
   m.sheen_alpha = select(same, shading.sheen_alpha, m.sheen_alpha);
   m.coat = select(same, shading.coat, m.coat);
@@ -301,7 +301,7 @@ inline unsigned maps_wanted(bool reads_material, bool adds_ambient, bool ambient
           side * mapped_normal(side * n_vertices, tangent.xyz, tangent.w, points.ab, points.ac,
                                texels.normal_ab, texels.normal_ac, texels.normal_texel, maps.normal_scale);
       s.n_shading = select(same, n, s.n_shading);
-      if (maps.coat_is_mapped && plain.has_layers()) m.coat_normal = select(same, n, m.coat_normal);
+      if (maps.coat_is_mapped && has_layers(maps)) m.coat_normal = select(same, n, m.coat_normal);
     }
     if (maps.blends()) {
       const Float alpha = clamp(alpha_at(scene, lane_maps, triangle, s.weights, same), 0.0f, 1.0f);

@@ -1,6 +1,7 @@
 // Part of walk/kernel.h's files: the materials that a packet's rays meet.
 #pragma once
 
+#include "core/shade/mapped_material.h"
 #include "core/trace/lanes/shared.h"
 
 namespace pinocchio::PINOCCHIO_LANES {
@@ -8,6 +9,12 @@ namespace {
 
 inline bool any_component(const glm::vec3& v) {
   return v.x + v.y + v.z > 0.0f;
+}
+
+// Whether a coat or sheen lies on the material, perhaps only where its maps let no light through.
+inline bool has_layers(const SceneArrays& scene, const Material& m) {
+  return m.has_layers() ||
+         (m.is_microfacet() && m.maps >= 0 && pinocchio::has_layers(*scene.maps[m.maps].maps));
 }
 
 struct LaneMaterial : ShadingParams {
@@ -45,7 +52,7 @@ struct LaneMaterial : ShadingParams {
         layer.y = select(same, Float(m.layer.y), layer.y);
         microfacet |= bits;
       }
-      if (m.has_layers()) {
+      if (has_layers(scene, m)) {
         sheen = select(same, Vec(m.sheen), sheen);
         sheen_alpha = select(same, Float(m.sheen_alpha), sheen_alpha);
         coat = select(same, Float(m.coat), coat);
