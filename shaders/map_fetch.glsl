@@ -37,6 +37,7 @@ vec4 texel_at(TexelSource source, int i, bool is_color) {
 const int kBlends = kUses;                 // some material blends
 const int kSecondTexcoords = kUses + 1;    // some texture is read at the second UV set
 const int kOcclusionIsShared = kUses + 2;  // occlusion is read where metallic and roughness are, from the same texture
+const int kLayersVary = kUses + 3;  // textures change some material's coat or sheen, or where it has one
 
 // Texels of a material's maps: three for each use of a texture, then what goes with them.
 const int kParameters = 3 * kUses;
@@ -182,7 +183,7 @@ ShadingParams mapped_material_at(int maps, MapPoint p, ShadingParams plain, inou
                         specular.a, specular.rgb, more.y, more.z > 0.0, more.w > 0.0);
   MaterialPoint m = mapped_metallic_roughness(s, v, plain.ggx_alpha == 0.0);
   transmits = m.transmittance != vec3(0.0);
-  if (some_has(kClearcoat) || some_has(kClearcoatRoughness) || some_has(kSheenColor) || some_has(kSheenRoughness)) {
+  if (some_has(kLayersVary)) {
     vec4 coat = map_texel(maps, kLayers);  // factor, roughness; sheen's roughness
     GltfLayers layers;
     layers.coat = coat.x * map_value(maps, kClearcoat, p, false).r;

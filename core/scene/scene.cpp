@@ -62,8 +62,9 @@ const Camera* find_camera(const Scene& scene, const std::string& name) {
 Camera camera_for_whole_scene(const Scene& scene) {
   Bounds bounds = scene.mesh->bounds();
   if (bounds.empty()) bounds.add(glm::vec3(0.0f));
-  // At least what single precision distinguishes from the centre: eye and target have to differ.
-  const float least = std::max(1e-4f * glm::length(bounds.center()), 1e-6f);
+  // At least what single precision distinguishes from the centre: eye and target have to differ. Scenes of
+  // molecules are in units of 1e-10.
+  const float least = std::max(1e-4f * glm::length(bounds.center()), 1e-12f);
   const float radius = std::max(0.5f * bounds.diagonal(), least);
   Camera camera;
   camera.name = "whole scene";

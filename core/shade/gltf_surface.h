@@ -31,4 +31,10 @@ template <class GltfLayers>
   return l;
 }
 
+// Whether a coat or sheen lies on it where no light goes through, which textures may decide.
+[[nodiscard, gnu::always_inline]] inline bool has_layers(const MaterialMaps& m) {
+  const glm::vec3& sheen = m.surface.sheen_color;
+  return m.from_gltf && (m.surface.clearcoat > 0.0f || sheen.x + sheen.y + sheen.z > 0.0f);
+}
+
 }  // namespace pinocchio

@@ -4,6 +4,7 @@
 #include <array>
 #include <span>
 
+#include "core/shade/gltf_surface.h"
 #include "pinocchio/conversion.h"
 
 namespace pinocchio {
@@ -20,7 +21,12 @@ struct MapTexels {
 };
 constexpr std::size_t kTexelsOfMaps = sizeof(MapTexels) / sizeof(glm::vec4);
 static_assert(kTexelsOfMaps == 3 * kUses + 8);
-enum : unsigned { kBlends = 1u << kUses, kSecondTexcoords = kBlends << 1, kOcclusionIsShared = kBlends << 2 };
+enum : unsigned {
+  kBlends = 1u << kUses,
+  kSecondTexcoords = kBlends << 1,
+  kOcclusionIsShared = kBlends << 2,
+  kLayersVary = kBlends << 3
+};
 
 // A texel of a level is split over two floats, exact up to 2^24 each.
 constexpr std::size_t kPlaceDigit = 4096;
@@ -104,6 +110,11 @@ std::vector<glm::vec4> maps_and_levels(const Mesh& mesh) {
   return all;
 }
 
+// Textures that coat and sheen depend on: they are left out where light goes through.
+constexpr std::array kOfLayers{&MaterialMaps::transmission, &MaterialMaps::clearcoat,
+                               &MaterialMaps::clearcoat_roughness, &MaterialMaps::sheen_color,
+                               &MaterialMaps::sheen_roughness};
+
 // MAP_USES.
 unsigned bits_of_uses(const Mesh& mesh) {
   unsigned bits = 0;
@@ -115,6 +126,8 @@ unsigned bits_of_uses(const Mesh& mesh) {
       if (uses[i]->uv_set == 1) bits |= kSecondTexcoords;
     }
     if (m.blends()) bits |= kBlends;
+    if (has_layers(m) && std::ranges::any_of(kOfLayers, [&](auto use) { return is_read(mesh, m.*use); }))
+      bits |= kLayersVary;
   }
   const auto shares = [](const MaterialMaps& m) {
     return !m.occlusion.used() || m.occlusion == m.metallic_roughness;

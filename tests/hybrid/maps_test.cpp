@@ -186,6 +186,35 @@ TEST(Maps, LookTheSameToGpuCpuAndReference) {
   }
 }
 
+// Coats are left out on glass. A texture may leave parts of a material opaque.
+TEST(Maps, ACoatLiesWhereTexturesLetNoLightThrough) {
+  Workers workers(2);
+  MaterialMaps maps;
+  maps.from_gltf = true;
+  maps.surface.metallic = 0.0f;
+  maps.surface.transmission = maps.surface.clearcoat = 1.0f;
+  maps.surface.clearcoat_roughness = 0.3f;
+  maps.surface.sheen_color = {0.6f, 0.3f, 0.1f};
+  maps.surface.sheen_roughness = 0.5f;
+  maps.transmission = use();
+  maps.transmission.nearest = true;
+  Texture halves = flat({255, 255, 255, 255});
+  halves.texels = Image<glm::u8vec4>({2, 1}, glm::u8vec4(255));
+  halves.texels.at(0, 0) = glm::u8vec4(0, 0, 0, 255);
+  const Scene coated = plate_with(maps, halves, material_from_surface(maps.surface, Shading::from_file));
+  const auto draw = [](const Scene& scene, const char* mode) {
+    return draw_one(scene, {.settings = by({{"mode", mode}}), .size = kSize}).color;
+  };
+  const Image<glm::vec4> traced = draw(coated, "raytrace");
+  EXPECT_LT(share_apart(draw(coated, "hybrid"), traced), 0.002);
+  EXPECT_LT(share_apart(traced, reference_render(coated, {first_camera(coated), kSize}, 8, workers).color),
+            0.002);
+  maps.surface.clearcoat = 0.0f;
+  maps.surface.sheen_color = glm::vec3(0.0f);
+  const Scene bare = plate_with(maps, halves, material_from_surface(maps.surface, Shading::from_file));
+  EXPECT_GT(share_apart(traced, draw(bare, "raytrace")), 0.01);
+}
+
 // The mean of the reference's samples, each of which averages textures over a square of that side.
 Image<glm::vec4> precise_mean(const Scene& scene, int samples, float texture_footprint, Workers& workers) {
   Image<glm::vec4> sum(kSize);

@@ -126,8 +126,9 @@ Camera studio_camera(const Scene& scene, glm::ivec2 size) {
   Bounds bounds;
   for (const glm::vec3& p : corners) bounds.add(p);
   const glm::dvec3 center(bounds.center());
-  // At least what single precision distinguishes from the centre: eye and target have to differ.
-  const double least = std::max(1e-4 * glm::length(center), 1e-6);
+  // At least what single precision distinguishes from the centre: eye and target have to differ. Scenes of
+  // molecules are in units of 1e-10.
+  const double least = std::max(1e-4 * glm::length(center), 1e-12);
   Camera camera;
   camera.name = "studio";
   const double portrait = std::max(1.0, 1.0 * size.y / size.x);  // the field of view is the picture's height

@@ -200,7 +200,7 @@ struct MapTexelLanes {
 inline MaterialPoint gltf_material(const MaterialMaps& maps, const Material& plain, const MapValues& v) {
   const auto surface = metallic_roughness<MetallicRoughness>(maps.surface);
   const MaterialPoint point = mapped_metallic_roughness(surface, v, !plain.is_microfacet());
-  if (!plain.has_layers()) return point;
+  if (!has_layers(maps)) return point;
   return with_layers(point, mapped_layers(layers<GltfLayers>(maps.surface), v.layers));
 }
 
@@ -217,7 +217,7 @@ inline void set_material(const MaterialMaps& maps, const Material& plain, const 
   }
   const MaterialPoint point = gltf_material(maps, plain, v);
   const ShadingParams& shading = point.shading;
-  m.set_model(shading, plain, same);
+  m.set_model(shading, plain.is_microfacet(), has_layers(maps), same);
   m.occlusion = select(same, shading.occlusion, m.occlusion);
   m.reflectance = select(same, point.reflectance, m.reflectance);
   m.transmittance = select(same, point.transmittance, m.transmittance);
@@ -258,7 +258,7 @@ inline unsigned maps_wanted(bool reads_material, bool adds_ambient, bool ambient
           side * mapped_normal(side * n_vertices, tangent.xyz, tangent.w, points.ab, points.ac,
                                texels.normal_ab, texels.normal_ac, texels.normal_texel, maps.normal_scale);
       s.n_shading = select(same, n, s.n_shading);
-      if (maps.coat_is_mapped && plain.has_layers()) m.coat_normal = select(same, n, m.coat_normal);
+      if (maps.coat_is_mapped && has_layers(maps)) m.coat_normal = select(same, n, m.coat_normal);
     }
     if (maps.blends()) {
       const Float alpha = clamp(alpha_at(scene, lane_maps, triangle, s.weights, same), 0.0f, 1.0f);

@@ -1,6 +1,7 @@
 // Part of walk/kernel.h's files: the materials that a packet's rays meet.
 #pragma once
 
+#include "core/shade/gltf_surface.h"
 #include "core/trace/lanes/shared.h"
 
 namespace pinocchio::PINOCCHIO_LANES {
@@ -8,6 +9,12 @@ namespace {
 
 inline bool any_component(const glm::vec3& v) {
   return v.x + v.y + v.z > 0.0f;
+}
+
+// Whether a coat or sheen lies on the material, perhaps only where its maps let no light through.
+inline bool has_layers(const SceneArrays& scene, const Material& m) {
+  return m.has_layers() ||
+         (m.is_microfacet() && m.maps >= 0 && pinocchio::has_layers(*scene.maps[m.maps].maps));
 }
 
 struct LaneMaterial : ShadingParams {
@@ -27,7 +34,8 @@ struct LaneMaterial : ShadingParams {
     sheen_alpha = coat_alpha = 1.0f;
     for_each_distinct(materials, lanes, [&](std::uint32_t index, Mask same) {
       const Material& m = scene.materials[index];
-      set_model(m, m, same);
+      const bool has_coat_or_sheen = has_layers(scene, m);
+      set_model(m, m.is_microfacet(), has_coat_or_sheen, same);
       reflectance = select(same, Vec(m.reflectance), reflectance);
       transmittance = select(same, Vec(m.transmittance), transmittance);
       ior = select(same, Float(m.ior), ior);
@@ -35,7 +43,7 @@ struct LaneMaterial : ShadingParams {
       if (m.fresnel) fresnel |= bits;
       if (m.brdf) brdf |= bits;
       if (m.is_microfacet()) microfacet |= bits;
-      if (m.has_layers()) layered |= bits;
+      if (has_coat_or_sheen) layered |= bits;
       if (m.gloss > 0.0f) {
         gloss = select(same, Float(m.gloss), gloss);
         glossy |= bits;
@@ -46,21 +54,21 @@ struct LaneMaterial : ShadingParams {
     });
   }
 
-  // Sets the reflection model of these lanes from a Material or ShadingParams, as far as `plain` has it.
+  // Sets the reflection model of these lanes from a Material or ShadingParams, as far as the material has it.
   template <class From>
-  void set_model(const From& m, const Material& plain, Mask same) {
+  void set_model(const From& m, bool is_microfacet, bool is_layered, Mask same) {
     ambient = select(same, Vec(m.ambient), ambient);
     diffuse = select(same, Vec(m.diffuse), diffuse);
     specular = select(same, Vec(m.specular), specular);
     emission = select(same, Vec(m.emission), emission);
     shininess = select(same, Float(m.shininess), shininess);
-    if (plain.is_microfacet()) {
+    if (is_microfacet) {
       ggx_alpha = select(same, Float(m.ggx_alpha), ggx_alpha);
       grazing = select(same, Float(m.grazing), grazing);
       layer.x = select(same, Float(m.layer.x), layer.x);
       layer.y = select(same, Float(m.layer.y), layer.y);
     }
-    if (!plain.has_layers()) return;
+    if (!is_layered) return;
     sheen = select(same, Vec(m.sheen), sheen);
     sheen_alpha = select(same, Float(m.sheen_alpha), sheen_alpha);
     coat = select(same, Float(m.coat), coat);

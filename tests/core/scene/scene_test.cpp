@@ -58,18 +58,23 @@ TEST(Scene, CamerasAreFoundByName) {
 }
 
 TEST(Scene, TheCameraForTheWholeSceneSeesEveryVertex) {
-  const Scene scene = random_soup(200, 0.5f, 7);
-  const Camera camera = camera_for_whole_scene(scene);
-  const CameraAxes axes = camera_axes(camera);
-  const float edge = std::tan(glm::radians(0.5f * camera.fov_deg));
-  for (const glm::vec3& p : scene.mesh->positions) {
-    const glm::vec3 d = p - camera.eye;
-    const float depth = glm::dot(d, axes.forward);
-    ASSERT_GT(depth, 0.0f);
-    EXPECT_LT(std::abs(glm::dot(d, axes.right)), edge * depth);
-    EXPECT_LT(std::abs(glm::dot(d, axes.up)), edge * depth);
+  for (const float size : {1.0f, 1e-9f, 1e6f}) {
+    MeshData mesh = *random_soup(200, 0.5f, 7).mesh;
+    for (glm::vec3& p : mesh.positions) p *= size;
+    const Scene scene(std::move(mesh));
+    const Camera camera = camera_for_whole_scene(scene);
+    EXPECT_LT(glm::length(camera.eye - camera.target), 5.0f * scene.mesh->bounds().diagonal());
+    const CameraAxes axes = camera_axes(camera);
+    const float edge = std::tan(glm::radians(0.5f * camera.fov_deg));
+    for (const glm::vec3& p : scene.mesh->positions) {
+      const glm::vec3 d = p - camera.eye;
+      const float depth = glm::dot(d, axes.forward);
+      ASSERT_GT(depth, 0.0f);
+      EXPECT_LT(std::abs(glm::dot(d, axes.right)), edge * depth);
+      EXPECT_LT(std::abs(glm::dot(d, axes.up)), edge * depth);
+    }
+    EXPECT_GT(camera.eye.y, camera.target.y);
   }
-  EXPECT_GT(camera.eye.y, camera.target.y);
 }
 
 TEST(Scene, MovingALightCopiesNoGeometry) {

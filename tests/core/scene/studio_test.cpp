@@ -54,6 +54,13 @@ TEST(StudioCamera, FillsTheShorterSideOfAnyPicture) {
   }
 }
 
+TEST(StudioCamera, FramesWhatIsTiny) {
+  MeshData mesh = *random_soup(200, 0.5f, 7).mesh;
+  for (glm::vec3& p : mesh.positions) p *= 1e-10f;
+  const Scene scene(std::move(mesh));
+  expect_framed(scene, {800, 600}, scene.mesh->triangles.size());
+}
+
 TEST(StudioCamera, GroundAndSkyDoNotPushItAway) {
   MeshData mesh = *random_soup(200, 0.3f, 3).mesh;
   const std::size_t object = mesh.triangles.size();
