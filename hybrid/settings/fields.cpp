@@ -170,10 +170,10 @@ constexpr std::array kTable{
     field<&S::pixel_filter>("pixel_filter", one_of(kPixelFilterNames), "box",
                             "how a pixel's samples are spread: evenly over the pixel, or over 3 pixels by a "
                             "window that smooths edges"),
-    field<&S::sequence>("sequence", one_of(kSequenceNames),
-                        "sobol; blue-noise with denoise and without indirect",
+    field<&S::sequence>("sequence", one_of(kSequenceNames), "sobol; z-order with denoise",
                         "sequence of a pixel's samples: scrambled Sobol points; one Sobol sequence rotated "
-                        "from pixel to pixel, so that noise is fine-grained; or random numbers"),
+                        "from pixel to pixel, so that noise is fine-grained; random numbers; or one Sobol "
+                        "sequence through all pixels, so that neighbours' samples complement each other"),
     field<&S::seed>("seed", from_to(0, 65535), "0", "another seed gives other samples"),
     field<&S::depth>("depth", from_to(0, kMostBounces), "8, or fewer where the scene's mirrors need no more",
                      "most bounces"),
