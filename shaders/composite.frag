@@ -103,11 +103,12 @@ const float kLargestHalf = 65504.0;
 uniform int sequence;
 uniform uint sample_index;  // the mask's frame's
 uniform uint sample_seed;
+uniform uint sample_count;
 uniform float throughput_cutoff;
 
 Incident light_at(int i, vec3 p_world, ivec2 pixel) {
   LightParams light = fetch_light(i);
-  SampledPixel sampled = sampled_pixel(Sampling(sequence, sample_index, sample_seed), uvec2(ivec2(first) + pixel));
+  SampledPixel sampled = sampled_pixel(Sampling(sequence, sample_index, sample_seed, sample_count), uvec2(ivec2(first) + pixel));
   return sampled_light(light, p_world, sample_2d(sampled, kLightDimension + uint(i)));
 }
 #else

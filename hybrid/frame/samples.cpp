@@ -1,6 +1,7 @@
 #include "hybrid/frame/samples.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 
 #include "core/parallel/tiles.h"
@@ -26,6 +27,12 @@ std::optional<float> catcher_height(const Settings& settings) {
                                                                         : std::nullopt;
 }
 
+// The samples of a pixel that are spread together with its neighbours'. A picture that is shown while it
+// gathers takes more than spp.
+std::uint32_t together(int spp) {
+  return std::bit_ceil(as_uint32(std::clamp(spp, 4, 1024)));
+}
+
 }  // namespace
 
 TraceOptions trace_options(const Settings& settings, const View& view) {
@@ -43,7 +50,10 @@ TraceOptions trace_options(const Settings& settings, const View& view) {
           .background_blur = settings.background_blur,
           .catcher_height = catcher_height(settings),
           .jitter = view.jitter,
-          .sampling = {as_int(settings.sequence.value), as_uint32(view.sample), as_uint32(settings.seed)}};
+          .sampling = {.sequence = as_int(settings.sequence.value),
+                       .index = as_uint32(view.sample),
+                       .seed = as_uint32(settings.seed),
+                       .count = together(settings.spp)}};
 }
 
 std::optional<glm::vec3> color_behind(const Settings& settings) {

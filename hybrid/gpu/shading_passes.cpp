@@ -45,6 +45,7 @@ void ShadingPasses::composite(const Inputs& inputs, LightSet lights, const Trace
     p.set("sequence", sampling.sequence);
     p.set("sample_index", sampling.index);
     p.set("sample_seed", sampling.seed);
+    p.set("sample_count", sampling.count);
     p.set("throughput_cutoff", inputs.options.throughput_cutoff);
   }
   triangle_.draw();

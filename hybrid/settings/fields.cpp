@@ -174,9 +174,10 @@ constexpr std::array kTable{
                             "how a pixel's samples are spread: evenly over the pixel, or over 3 pixels by a "
                             "window that smooths edges"),
     field<&S::sequence>(G::samples, "sequence", one_of(kSequenceNames),
-                        "sobol; blue-noise with denoise and without indirect",
+                        "sobol; z-order with denoise",
                         "sequence of a pixel's samples: scrambled Sobol points; one Sobol sequence rotated "
-                        "from pixel to pixel, so that noise is fine-grained; or random numbers"),
+                        "from pixel to pixel, so that noise is fine-grained; random numbers; or one Sobol "
+                        "sequence through all pixels, so that neighbours' samples complement each other"),
     field<&S::seed>(G::samples, "seed", from_to(0, 65535), "0", "another seed gives other samples"),
     field<&S::depth>(G::rays, "depth", from_to(0, kMostBounces),
                      "8, or fewer where the scene's mirrors need no more", "most bounces"),

@@ -141,9 +141,8 @@ Expected<Settings> resolve(const Settings& settings, const SceneStats& stats, co
   // Filtered light travels with mirrored light.
   if (!takes_samples(stats, s) || !s.reflects() || (!s.denoise.given && !can_denoise(s)))
     s.denoise.value = false;
-  // What neighbouring pixels find is complementary then, so that less noise is left of their mean. With
-  // further bounces their dimensions depend on each other, and the whole picture is off.
-  s.sequence.fill(s.denoise && s.indirect == 0 ? Sequence::blue_noise : Sequence::sobol);
+  // What neighbouring pixels find is complementary then, so that less noise is left of their mean.
+  s.sequence.fill(s.denoise ? Sequence::z_order : Sequence::sobol);
   if (const Expected<void> checked = check(s, stats); !checked) return Unexpected(checked.error());
   return s;
 }

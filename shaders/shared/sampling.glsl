@@ -54,6 +54,19 @@ SHARED whole2 dither_rotation(whole2 pixel, whole way) {
   return whole2(p.x * 0xc13fa9a9u + p.y * 0x91e10da5u, p.x * 0x91e10da5u - p.y * 0xc13fa9a9u);
 }
 
+// A number's lower half, a 0 above each bit.
+SHARED whole spread_bits(whole x) {
+  x = (x | (x << 8u)) & 0x00ff00ffu;
+  x = (x | (x << 4u)) & 0x0f0f0f0fu;
+  x = (x | (x << 2u)) & 0x33333333u;
+  return (x | (x << 1u)) & 0x55555555u;
+}
+
+// A pixel's place along the curve that goes through squares of 2, 4, 8 ... pixels, one after the other (Morton 1966).
+SHARED whole z_order(whole2 pixel) {
+  return spread_bits(pixel.x & 0xffffu) | (spread_bits(pixel.y & 0xffffu) << 1u);
+}
+
 // A pixel of the whole picture, and what its samples have in picture_seed.
 struct SampledPixel {
   Sampling sampling;
@@ -73,14 +86,20 @@ SHARED SampledPixel sampled_pixel(Sampling sampling, whole2 at) {
 SHARED vec2 sample_2d(SampledPixel pixel, uint dimension) {
   uint of_dimension = dimension * 0x9e3779b9u;
   whole2 bits;
-  if (pixel.sampling.sequence == kSequenceBlueNoise) {
+  if (pixel.sampling.sequence == kSequenceZOrder && pixel.sampling.index < pixel.sampling.count) {
+    // One sequence through the whole picture, so that the samples of pixels side by side are evenly spread together, in
+    // each dimension by itself (Ahmed and Wonka, "Screen-space Blue-noise Diffusion of Monte Carlo Sampling Error via
+    // Hierarchical Ordering of Pixels", 2020).
+    whole picture_seed = mixed_bits(mixed_bits(pixel.sampling.seed) + of_dimension);
+    bits = scrambled_sobol(z_order(pixel.at) * pixel.sampling.count + pixel.sampling.index, picture_seed);
+  } else if (pixel.sampling.sequence == kSequenceBlueNoise) {
     // All pixels have the same points, turned by the pixel's place (Georgiev and Fajardo, "Blue-noise Dithered
     // Sampling", 2016).
     whole picture_seed = mixed_bits(mixed_bits(pixel.sampling.seed) + of_dimension);
     bits = scrambled_sobol(pixel.sampling.index, picture_seed) + dither_rotation(pixel.at, picture_seed);
   } else {
     whole own = mixed_bits(pixel.seed + of_dimension);
-    if (pixel.sampling.sequence == kSequenceSobol) {
+    if (pixel.sampling.sequence != kSequenceRandom) {
       bits = scrambled_sobol(pixel.sampling.index, own);
     } else {
       whole x = mixed_bits(own + pixel.sampling.index * 0x9e3779b9u);

@@ -3,11 +3,13 @@
 const int kSequenceSobol = 0;
 const int kSequenceBlueNoise = 1;
 const int kSequenceRandom = 2;
+const int kSequenceZOrder = 3;
 
 struct Sampling {
   int sequence;
   uint index;  // the sample's: 0, 1, 2, ... in every pixel
   uint seed;   // changes the picture's noise and nothing else
+  uint count;  // of kSequenceZOrder: a power of two; a pixel's samples from this on are Sobol's, its own
 };
 
 // Each thing that is sampled has a dimension of its own; each bounce has as many again.

@@ -208,11 +208,13 @@ TEST(DenoisedPicture, PartsAndOtherCameras) {
   }
 }
 
-// Each sample's picture is shown: the mean of those so far is filtered after the samples 1, 2, 4, 8 ...
-TEST(DenoisedPicture, ShownSamplesAreFilteredFromTheFirstOn) {
+// Each sample's picture is shown: the mean of those so far is filtered after the samples 1, 2, 4, 8 ... How
+// many will follow is not known, so that in z-order only the first four are those of a picture of as many.
+void expect_shown_samples_filtered(Sequence sequence, const std::vector<int>& counts) {
   const Scene scene = under_sky();
   Engine engine;
   FrameRequest request{scene, nullptr, with({{"mode", "raytrace"}}, 1), {first_camera(scene), kSize}};
+  request.settings.sequence = sequence;
   request.settings = engine.resolve(scene, kSize, request.settings).value();
   request.tracer = Engine::prepare(scene, request.settings);
   request.shows_samples = true;
@@ -223,13 +225,42 @@ TEST(DenoisedPicture, ShownSamplesAreFilteredFromTheFirstOn) {
     renderer.submit(request);
     renderer.drain();
     for (std::size_t i = 0; i < sum.pixels().size(); ++i) sum[i] += shown[i];
-    for (const int spp : {1, 4, 8})
+    for (const int spp : counts)
       if (k + 1 == spp) {
         for (std::size_t i = 0; i < sum.pixels().size(); ++i) mean[i] = sum[i] / static_cast<float>(spp);
         Settings settings = with({{"mode", "raytrace"}}, spp);
         settings.filter_textures = request.settings.filter_textures;
+        settings.sequence = sequence;
         EXPECT_LT(distance(mean, picture(scene, settings).color), 1e-4) << spp;
       }
+  }
+}
+
+TEST(DenoisedPicture, ShownSamplesAreFilteredFromTheFirstOn) {
+  expect_shown_samples_filtered(Sequence::sobol, {1, 4, 8});
+  expect_shown_samples_filtered(Sequence::z_order, {1, 2, 4});
+}
+
+// Neighbours' samples complement each other in z-order, and the filter takes their mean.
+TEST(DenoisedPicture, NeighboursSamplesComplementEachOther) {
+  const auto error = [](const Scene& scene, const FrameResult& truth, Sequence sequence) {
+    double sum = 0.0;
+    for (const int seed : {0, 1, 2, 3}) {
+      Settings settings = with({{"mode", "raytrace"}}, 4);
+      settings.seed = seed;
+      settings.sequence = sequence;
+      sum += distance_within(picture(scene, settings), truth);
+    }
+    return sum;
+  };
+  for (const Scene& scene : {under_sky(), under_lamp()}) {
+    Settings settings = with({{"mode", "raytrace"}}, 4096, false);
+    settings.seed = 77;
+    const FrameResult truth = picture(scene, settings);
+    const double z_order = error(scene, truth, Sequence::z_order);
+    const double sobol = error(scene, truth, Sequence::sobol);
+    std::printf("  error: z-order %.4f, Sobol %.4f\n", z_order, sobol);
+    EXPECT_LT(z_order, 0.94 * sobol);
   }
 }
 
@@ -244,9 +275,9 @@ TEST(DenoisedPicture, ContradictionsAreRefusedOrTurnItOff) {
   EXPECT_FALSE(resolve(settings, stats)->denoise);
   settings.max_noise = 0.0f;
   EXPECT_TRUE(resolve(settings, stats)->denoise);
-  EXPECT_EQ(resolve(settings, stats)->sequence, Sequence::blue_noise);
+  EXPECT_EQ(resolve(settings, stats)->sequence, Sequence::z_order);
   settings.indirect = 1;
-  EXPECT_EQ(resolve(settings, stats)->sequence, Sequence::sobol);
+  EXPECT_EQ(resolve(settings, stats)->sequence, Sequence::z_order);
   settings.environment_light = EnvironmentMethod::prefiltered;
   settings.indirect = 0;
   EXPECT_FALSE(resolve(settings, stats)->denoise);

@@ -152,6 +152,7 @@ TEST(SoftShadows, ErrorFallsFasterThanByChance) {
   EXPECT_NEAR(random, -0.5, 0.08);
   EXPECT_LT(sobol, -0.6);
   EXPECT_LT(blue_noise, -0.6);
+  EXPECT_LT(slope_of(Sequence::z_order, truth, scene), -0.6);
 }
 
 // What the reference, in double and by points of its own, draws of every kind of light.

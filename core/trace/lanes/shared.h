@@ -130,7 +130,7 @@ using uint = std::uint32_t;
 using LightParams = const shared::LightParams&;
 using Sampling = shared::Sampling;
 using shared::kLightDirectional, shared::kLightRectangle, shared::kLightSpot;
-using shared::kSequenceBlueNoise, shared::kSequenceSobol;
+using shared::kSequenceBlueNoise, shared::kSequenceRandom, shared::kSequenceZOrder;
 
 using ivec2 = glm::ivec2;
 

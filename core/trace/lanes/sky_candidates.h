@@ -38,6 +38,7 @@ struct SkyChoice {
   const std::uint32_t dimension = bounce.dimension + shared::kEnvironmentDimension;
   vec2 number[kCount];
   SampledPixel of_candidate = sampling;
+  of_candidate.sampling.count *= count;
   for (std::uint32_t k = 0; k < kCount; ++k) {
     of_candidate.sampling.index = sampling.sampling.index * count + k;
     number[k] = sample_2d(of_candidate, dimension);

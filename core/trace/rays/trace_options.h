@@ -15,7 +15,7 @@ namespace pinocchio {
 
 namespace shared {
 [[nodiscard]] inline bool operator==(const Sampling& a, const Sampling& b) {
-  return a.sequence == b.sequence && a.index == b.index && a.seed == b.seed;
+  return a.sequence == b.sequence && a.index == b.index && a.seed == b.seed && a.count == b.count;
 }
 }  // namespace shared
 

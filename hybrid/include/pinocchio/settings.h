@@ -50,8 +50,10 @@ enum class Sequence {
   sobol,       // scrambled Sobol points, different for each pixel: the error falls faster than at random
   blue_noise,  // one sequence, shifted from pixel to pixel: the remaining error is fine-grained
   random,
+  z_order,  // one sequence through the picture: neighbours' samples are evenly spread together, for the
+            // filter
 };
-inline constexpr std::array<std::string_view, 3> kSequenceNames{"sobol", "blue-noise", "random"};
+inline constexpr std::array<std::string_view, 4> kSequenceNames{"sobol", "blue-noise", "random", "z-order"};
 
 inline constexpr std::array<std::string_view, 2> kPixelFilterNames{"box", "blackman-harris"};
 
