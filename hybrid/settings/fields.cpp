@@ -173,8 +173,7 @@ constexpr std::array kTable{
     field<&S::pixel_filter>(G::samples, "pixel_filter", one_of(kPixelFilterNames), "box",
                             "how a pixel's samples are spread: evenly over the pixel, or over 3 pixels by a "
                             "window that smooths edges"),
-    field<&S::sequence>(G::samples, "sequence", one_of(kSequenceNames),
-                        "sobol; z-order with denoise",
+    field<&S::sequence>(G::samples, "sequence", one_of(kSequenceNames), "sobol; z-order with denoise",
                         "sequence of a pixel's samples: scrambled Sobol points; one Sobol sequence rotated "
                         "from pixel to pixel, so that noise is fine-grained; random numbers; or one Sobol "
                         "sequence through all pixels, so that neighbours' samples complement each other"),
