@@ -16,7 +16,8 @@ constexpr float kLeastAlbedo = 0.02f;  // that light of others than lamps is div
 constexpr float kMostOfLamps = 10.0f;  // times their light without shadows
 // GatheredLight::PartOfLight: standard deviations of the noise, squared, that count as x = 1 (lanes.h).
 constexpr std::array<float, 2> kOfLuminance{8.0f, 2.0f};
-constexpr float kMostLight = 1e18f;  // that the filter takes: squares stay finite
+constexpr float kMostLight =
+    1e16f;  // that the filter takes: divided by an albedo and squared it stays finite
 
 float luminance(const glm::vec3& rgb) {
   return 0.2126f * rgb.r + 0.7152f * rgb.g + 0.0722f * rgb.b;  // Rec. 709
