@@ -161,7 +161,8 @@ struct type_caster<glm::vec3> {
 
   bool from_python(handle, uint32_t, cleanup_list*) noexcept { return false; }
   static handle from_cpp(const glm::vec3& v, rv_policy, cleanup_list*) noexcept {
-    return Py_BuildValue("(ddd)", as_double(v.x), as_double(v.y), as_double(v.z));
+    return Py_BuildValue("(ddd)", static_cast<double>(v.x), static_cast<double>(v.y),
+                         static_cast<double>(v.z));
   }
 };
 template <>
