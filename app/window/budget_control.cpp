@@ -39,7 +39,8 @@ void BudgetControl::begin(const Settings& exact) {
   if (exact.composite == Processor::cpu || !exact.traces())
     return model_.messages.hint("--budget and --max-error need mode hybrid, design 1", 8.0, kAbout);
   frames_.drain();
-  // Of one view, though the camera may move meanwhile: errors are differences of pictures.
+  // All plans are measured from one view, even if the camera moves: a plan's error is a difference of
+  // pictures.
   trial_ = std::make_unique<BudgetTrial>(engine_, exact, options_,
                                          [view = model_.request()](const Settings& settings, int) {
                                            FrameRequest request = view;

@@ -12,12 +12,12 @@ static_assert(as_int(Wrap::repeat) == shared::texels::kWrapRepeat &&
               as_int(Wrap::mirror) == shared::texels::kWrapMirror &&
               as_int(Wrap::clamp) == shared::texels::kWrapClamp);
 
-// Where a ray meets a triangle.
+// A point of a triangle at which maps are looked up.
 struct MapPoint {
   std::uint32_t triangle;
   glm::vec3 weights;    // barycentric
-  glm::vec3 n_shading;  // facing the viewer, as
-  bool leaving;         // says: the surface is seen from behind
+  glm::vec3 n_shading;  // faces the viewer
+  bool leaving;         // the surface is seen from behind
   RaySpread spread{};   // the area that textures are averaged over
 };
 

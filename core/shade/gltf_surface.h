@@ -31,7 +31,8 @@ template <class GltfLayers>
   return l;
 }
 
-// Whether a coat or sheen lies on it where no light goes through, which textures may decide.
+// True if the opaque parts of the material have a coat or sheen. A transmission texture may decide which
+// parts those are.
 [[nodiscard, gnu::always_inline]] inline bool has_layers(const MaterialMaps& m) {
   const glm::vec3& sheen = m.surface.sheen_color;
   return m.from_gltf && (m.surface.clearcoat > 0.0f || sheen.x + sheen.y + sheen.z > 0.0f);

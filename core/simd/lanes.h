@@ -55,7 +55,7 @@ struct Float {
   friend Float select(Mask m, Float yes, Float no) { return of(Native::select(m.m, yes.v, no.v)); }
 };
 
-// Of the lanes that are given as bits, those where a < b does not hold, as with NaN.
+// The lanes of `of` in which a < b is false, as bits. It is false where a or b is NaN.
 template <class N = Native>
 inline unsigned not_less(Float a, Float b, unsigned of) {
   if constexpr (requires { N::not_less(a.v, b.v, of); })

@@ -141,7 +141,7 @@ Expected<Settings> resolve(const Settings& settings, const SceneStats& stats, co
   // Filtered light travels with mirrored light.
   if (!takes_samples(stats, s) || !s.reflects() || (!s.denoise.given && !can_denoise(s)))
     s.denoise.value = false;
-  // What neighbouring pixels find is complementary then, so that less noise is left of their mean.
+  // The samples of neighbouring pixels then complement each other, and the filter's means have less noise.
   s.sequence.fill(s.denoise ? Sequence::z_order : Sequence::sobol);
   if (const Expected<void> checked = check(s, stats); !checked) return Unexpected(checked.error());
   return s;

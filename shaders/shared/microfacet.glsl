@@ -143,7 +143,7 @@ SHARED ShadingParams viewed_from(vec3 to_viewer, vec3 n, READ_ONLY(ShadingParams
   return viewed;
 }
 
-// Of parameters for one viewer: the brightest share that lobe and coat mirror of light from all around.
+// The brightest share of light from all around that lobe and coat mirror. viewed: parameters for one viewer.
 SHARED real mirrored_share(READ_ONLY(ShadingParams) viewed, real n_dot_v) {
   return lobe_share(viewed, viewed.ggx_alpha, n_dot_v) + viewed.coat;
 }
@@ -165,7 +165,7 @@ SHARED vec3 halfway(vec3 to_viewer, vec3 to_light) {
   return sum / sqrt(max(dot(sum, sum), 1e-20f));
 }
 
-// Of parameters for one viewer, with a lobe and a coat as wide as these.
+// m: parameters for one viewer. Lobe and coat have the widths `alpha` and `coat_alpha`.
 SHARED LobeLight lobe_light(READ_ONLY(ShadingParams) m, real alpha, real coat_alpha, vec3 n, vec3 to_viewer,
                             vec3 to_light) {
   vec3 h = halfway(to_viewer, to_light);

@@ -26,7 +26,7 @@ SHARED real alpha_of_phong(real shininess) { return sqrt(2.0f / (4.0f * shinines
 // The share of light from all around that Phong's highlight returns.
 SHARED vec3 phong_albedo(READ_ONLY(ShadingParams) m) { return m.specular * (2.0f * kPi / (m.shininess + 1.0f)); }
 
-// Of parameters for one viewer: the share of light from all around that the lobe mirrors.
+// The share of light from all around that the lobe mirrors. viewed: parameters for one viewer.
 SHARED vec3 lobe_albedo(READ_ONLY(ShadingParams) viewed, real n_dot_v) {
   vec2 albedo = ggx_albedo(n_dot_v, viewed.ggx_alpha);
   return viewed.specular * albedo.x + vec3(viewed.grazing * albedo.y);

@@ -43,7 +43,8 @@ void predict(std::span<const std::byte> lines, std::byte* to) {
   for (; i < n; ++i) (i % 2 == 0 ? even : odd)[i / 2] = static_cast<unsigned char>(in[i] - in[i - 2] + 128);
 }
 
-// What a thread packs with, chunk after chunk: the system would zero memory anew for each.
+// A thread's compressor and memory. It keeps them from chunk to chunk, since the system clears new memory
+// each time.
 struct Packer {
   std::unique_ptr<libdeflate_compressor, decltype(&libdeflate_free_compressor)> compressor{
       libdeflate_alloc_compressor(kLevel), libdeflate_free_compressor};

@@ -11,7 +11,8 @@ inline bool any_component(const glm::vec3& v) {
   return v.x + v.y + v.z > 0.0f;
 }
 
-// Whether a coat or sheen lies on the material, perhaps only where its maps let no light through.
+// True if the material has a coat or sheen somewhere. A transmission texture may limit them to its opaque
+// parts.
 inline bool has_layers(const SceneArrays& scene, const Material& m) {
   return m.has_layers() ||
          (m.is_microfacet() && m.maps >= 0 && pinocchio::has_layers(*scene.maps[m.maps].maps));
