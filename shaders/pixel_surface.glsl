@@ -106,6 +106,11 @@ PixelSurface surface_of(uint id, ivec2 pixel) {
     s.alpha = coverage_at(maps, point);
   }
 #endif
+  if (s.material.ggx_alpha > 0.0) {
+    s.material.coat_normal =
+        normal_seen(s.material.coat_normal, s.n.geometric, s.to_viewer, s.material.coat_alpha);
+    s.n.shading = normal_seen(s.n.shading, s.n.geometric, s.to_viewer, s.material.ggx_alpha);
+  }
   s.material = viewed_from(s.to_viewer, s.n.shading, s.material);
   return s;
 }

@@ -110,7 +110,7 @@ ReferenceFacets reference_base(const ReferenceSurface& s) {
 }
 
 ReferenceFacets reference_coat(const ReferenceSurface& s) {
-  return {s.material.coat_is_mapped ? s.n_shading : s.n_vertices, s.material.coat_alpha};
+  return {s.n_coat, s.material.coat_alpha};
 }
 
 double reference_coat_share(const ReferenceSurface& s) {

@@ -39,6 +39,30 @@ glm::dvec3 lift_of(const Mesh& mesh, const ReferenceHit& hit, const ReferenceSur
   return glm::dot(lift, s.n_geometric) > kLeast * size ? lift : glm::dvec3(0.0);
 }
 
+// The normal bent towards the geometric one, as far as shaders/shared/microfacet.glsl says (normal_seen). The angle is found
+// by bisection: from the bent normal on, the mirrored ray sinks.
+glm::dvec3 normal_seen(const glm::dvec3& n, const ReferenceSurface& s, double alpha) {
+  const double rise = glm::dot(s.to_viewer, s.n_geometric);
+  const double smooth = std::min(0.9 * rise, 0.025), rough = -0.9 * rise;
+  const double least = smooth + (rough - smooth) * alpha;
+  const auto is_seen = [&](const glm::dvec3& normal) {
+    return glm::dot(normal, s.to_viewer) > 0.0 && glm::dot(normal, s.n_geometric) > 0.0 &&
+           glm::dot(glm::reflect(-s.to_viewer, normal), s.n_geometric) >= least;
+  };
+  const glm::dvec3 across = n - glm::dot(n, s.n_geometric) * s.n_geometric;
+  if (is_seen(n)) return n;
+  if (glm::dot(across, across) <= 1e-12) return s.n_geometric;
+  double kept = 0.0, lost = std::acos(std::clamp(glm::dot(n, s.n_geometric), -1.0, 1.0));
+  const auto turned = [&](double angle) {
+    return std::cos(angle) * s.n_geometric + std::sin(angle) * glm::normalize(across);
+  };
+  for (int i = 0; i < 50; ++i) {
+    const double angle = 0.5 * (kept + lost);
+    (is_seen(turned(angle)) ? kept : lost) = angle;
+  }
+  return turned(kept);
+}
+
 }  // namespace
 
 ReferenceSurface reference_surface(const Mesh& mesh, const ReferenceRay& ray, const ReferenceHit& hit,
@@ -69,6 +93,10 @@ ReferenceSurface reference_surface(const Mesh& mesh, const ReferenceRay& ray, co
     s.n_vertices = -s.n_vertices;
   }
   s.lift = lift_of(mesh, hit, s);
+  if (s.material.ggx_alpha > 0.0) {
+    s.n_coat = normal_seen(s.material.coat_is_mapped ? s.n_shading : s.n_vertices, s, s.material.coat_alpha);
+    s.n_shading = normal_seen(s.n_shading, s, s.material.ggx_alpha);
+  }
   return s;
 }
 

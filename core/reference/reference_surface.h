@@ -13,6 +13,7 @@ struct ReferenceSurface {
   glm::dvec3 p_world;
   glm::dvec3 n_geometric;      // unit, towards the viewer
   glm::dvec3 n_shading;        // unit, interpolated, normal map applied, turned with n_geometric
+  glm::dvec3 n_coat;           // unit, of a coat
   glm::dvec3 n_vertices;       // the same without normal map
   glm::dvec3 lift;             // to the curved surface of the vertex normals; zero: flat or concave
   glm::dvec3 to_viewer;        // unit

@@ -66,6 +66,32 @@ SHARED vec2 ggx_albedo(real n_dot_v, real alpha) {
   return vec2(clamp(a / of_a, 0.0f, 1.0f), clamp(b / of_b, 0.0f, 1.0f));
 }
 
+// How high above the surface a mirrored ray stays, as a cosine, and as a share of the viewer's.
+const float kLeastRise = 0.025f;
+const float kLeastShareOfRise = 0.9f;
+
+// A smooth or mapped normal may send the mirrored ray into the surface, or have the viewer behind it; it would be black.
+// Such a normal is bent towards the geometric one, no further than needed: a smooth surface's so that the mirrored ray
+// leaves the surface, a rough one's so that the viewer is before it. All are unit vectors, the geometric one is on the
+// viewer's side.
+SHARED vec3 normal_seen(vec3 n, vec3 n_geometric, vec3 to_viewer, real alpha) {
+  real rise = dot(to_viewer, n_geometric);
+  real steepness = dot(n, n_geometric);
+  real faced = dot(n, to_viewer);
+  real least = mix(min(kLeastShareOfRise * rise, kLeastRise), -kLeastShareOfRise * rise, alpha);
+  boolean bent = faced <= 0.0f || steepness <= 0.0f || 2.0f * faced * steepness - rise < least;
+  if (!any(bent)) return n;
+  // In the plane of both normals, at the angle a from the geometric one, the mirrored ray rises to x sin 2a + rise cos 2a.
+  vec3 across = n - steepness * n_geometric;
+  real square = dot(across, across);
+  across /= sqrt(max(square, 1e-20f));
+  real x = dot(to_viewer, across);
+  real all = x * x + rise * rise;
+  real cosine = clamp((rise * least - x * sqrt(max(all - least * least, 0.0f))) / max(all, 1e-20f), -1.0f, 1.0f);
+  vec3 turned = across * sqrt(0.5f - 0.5f * cosine) + n_geometric * sqrt(0.5f + 0.5f * cosine);
+  return pick(bent, pick(square > 1e-12f, turned, n_geometric), n);
+}
+
 SHARED real brightest(vec3 v) { return max(max(v.x, v.y), v.z); }
 
 // The brightest share that the lobe mirrors of light from all around.

@@ -37,6 +37,7 @@ void cross_glass(const Bounce& bounce, const std::uint32_t* holes, bool ends, Ra
       LaneSurface s = surface_of(corners, origin, direction, bounce.offset);
       LaneMaterial m(bounce.scene, corners.material, met);
       if (m.mapped != 0) apply_maps(bounce, corners, triangle, origin, direction, Float(0.0f), wanted, s, m);
+      if (m.microfacet != 0) turn_normals_to_viewer(s, m);
       const Mask hole = met & ~(Int::load(holes + i) == Int(0u));
       light = select(met & ~hole, light * share_straight_on(s, m), light);
       if (rays.medium) {

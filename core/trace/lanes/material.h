@@ -3,6 +3,7 @@
 
 #include "core/shade/gltf_surface.h"
 #include "core/trace/lanes/shared.h"
+#include "core/trace/lanes/surface.h"
 
 namespace pinocchio::PINOCCHIO_LANES {
 namespace {
@@ -76,6 +77,13 @@ struct LaneMaterial : ShadingParams {
     coat_alpha = select(same, Float(m.coat_alpha), coat_alpha);
   }
 };
+
+// Normals of glTF's model, maps applied, as they can be seen.
+inline void turn_normals_to_viewer(LaneSurface& s, LaneMaterial& m) {
+  if (m.layered != 0) m.coat_normal = normal_seen(m.coat_normal, s.n_geometric, s.to_viewer, m.coat_alpha);
+  s.n_shading = select(Mask::from_bits(m.microfacet),
+                       normal_seen(s.n_shading, s.n_geometric, s.to_viewer, m.ggx_alpha), s.n_shading);
+}
 
 // The factor on light from all around. Where Phong's coefficients are not a BRDF's, the lights hold their 1 /
 // pi, and other light needs it here.

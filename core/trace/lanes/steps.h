@@ -242,6 +242,7 @@ void bounce_packets(const Bounce& bounce, const RayQueue& rays) {
     const SampledPixel* const samples = kSampled ? &*sampling : nullptr;
     LaneLobe lobe;
     if (m.microfacet != 0) {
+      turn_normals_to_viewer(s, m);
       if (m.layered != 0)
         static_cast<ShadingParams&>(m) = viewed_from(s.to_viewer, s.n_shading, m);
       else
