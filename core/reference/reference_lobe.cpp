@@ -39,7 +39,8 @@ double shadowing(double n_dot_l, double n_dot_v, double alpha) {
 }
 
 // The share of light from all around that the lobe mirrors: the model's definition is this fit to the
-// integrals (MaterialX 1.38, mx_ggx_dir_albedo_analytic).
+// integrals (MaterialX 1.38, mx_ggx_dir_albedo_analytic), and Schlick's formula where the surface is smooth
+// for the angle.
 double albedo(double f0, double f90, double x, double y) {
   const double of[9] = {1.0, x, y, x * y, x * x, y * y, x * x * y, x * y * y, x * x * y * y};
   constexpr double k[4][9] = {{0.1003, -0.6303, 9.748, -2.038, 29.34, -8.245, -26.44, 19.99, -5.448},
@@ -49,7 +50,12 @@ double albedo(double f0, double f90, double x, double y) {
   double sum[4] = {};
   for (int row = 0; row < 4; ++row)
     for (int i = 0; i < 9; ++i) sum[row] += k[row][i] * of[i];
-  return f0 * std::clamp(sum[0] / sum[2], 0.0, 1.0) + f90 * std::clamp(sum[1] / sum[3], 0.0, 1.0);
+  const double polished = std::max(1.0 - 2.0 * y / x, 0.0), fifth = std::pow(1.0 - x, 5.0);
+  const auto blended = [&](double fit, double exact) {
+    return fit + polished * (exact - fit);
+  };
+  return f0 * blended(std::clamp(sum[0] / sum[2], 0.0, 1.0), 1.0 - fifth) +
+         f90 * blended(std::clamp(sum[1] / sum[3], 0.0, 1.0), fifth);
 }
 
 double largest(const glm::dvec3& v) {

@@ -49,7 +49,8 @@ SHARED real ggx_viewed(real n_dot_v, real alpha) {
 SHARED real cosine_of_view(vec3 n, vec3 to_viewer) { return max(dot(n, to_viewer), kLeastCosine); }
 
 // The share of light from all around that GGX mirrors towards the viewer: x times F0 plus y times F90. Within 0.03, beyond
-// grazing angles 0.01 (fitted to integrals: MaterialX 1.38, mx_ggx_dir_albedo_analytic).
+// grazing angles 0.01 (fitted to integrals: MaterialX 1.38, mx_ggx_dir_albedo_analytic); of surfaces that are smooth for
+// the angle, where the fit is 0.03 too low, Schlick's formula itself.
 SHARED vec2 ggx_albedo(real n_dot_v, real alpha) {
   real x = n_dot_v;
   real y = alpha;
@@ -63,7 +64,10 @@ SHARED vec2 ggx_albedo(real n_dot_v, real alpha) {
               15.86f * x * y2 + 33.37f * x2 * y2;
   real of_b = 1.0f + 0.2281f * x + 15.94f * y - 55.83f * x * y + 13.08f * x2 + 41.26f * y2 + 54.9f * x2 * y +
               300.2f * x * y2 - 285.1f * x2 * y2;
-  return vec2(clamp(a / of_a, 0.0f, 1.0f), clamp(b / of_b, 0.0f, 1.0f));
+  vec2 fit = vec2(clamp(a / of_a, 0.0f, 1.0f), clamp(b / of_b, 0.0f, 1.0f));
+  real polished = max(1.0f - 2.0f * alpha / max(n_dot_v, kLeastCosine), 0.0f);
+  real fifth = fifth_power(1.0f - n_dot_v);
+  return fit + polished * (vec2(1.0f - fifth, fifth) - fit);
 }
 
 // How high above the surface a mirrored ray stays, as a cosine, and as a share of the viewer's.

@@ -17,11 +17,11 @@ Material material(const glm::vec3& base, float metallic, float roughness) {
                                Shading::from_file);
 }
 
-Scene ball(const Material& of, Image<glm::vec3> sky) {
+Scene ball(const Material& of, Image<glm::vec3> sky, int segments = 64) {
   MeshData mesh;
   MeshBuilder builder(mesh);
   builder.use(of);
-  builder.sphere(glm::vec3(0.0f), 1.0f, 64);
+  builder.sphere(glm::vec3(0.0f), 1.0f, segments);
   Scene scene(mesh);
   scene.ambient_light = glm::vec3(0.0f);
   scene.environment = std::make_shared<const Environment>(std::move(sky));
@@ -129,15 +129,31 @@ TEST(ReflectionModel, NoPixelIsBlackUnderASunnySky) {
   }
 }
 
-// Materials side by side, under a sky with a sun, a lamp and a window.
+// At the rim of a coarse ball the vertices' normals turn away from the viewer.
+TEST(ReflectionModel, ACoarseBallHasNoDarkRim) {
+  for (const auto& mode : {by({{"mode", "raytrace"}}), by({{"mode", "hybrid"}})})
+    for (const float roughness : {0.0f, 0.3f, 1.0f})
+      for (const Material& of : {material(glm::vec3(0.9f), 0.0f, roughness),
+                                 material(glm::vec3(0.9f), 1.0f, roughness), coated(roughness)}) {
+        const Returned fine = returned_by(draw_one(ball(of, even_sky()), {sampled(mode, 16), {64, 48}}));
+        const FrameResult drawn = draw_one(ball(of, even_sky(), 8), {sampled(mode, 16), {64, 48}});
+        float darkest = 1.0f;
+        for (const glm::vec4& c : drawn.color.pixels())
+          if (c.a == 1.0f) darkest = std::min(darkest, c.g);
+        EXPECT_GT(static_cast<double>(darkest), 0.6 * fine.mean) << roughness;
+      }
+}
+
+// Materials side by side, some balls coarse, under a sky with a sun, a lamp and a window.
 Scene many_balls() {
   MeshData mesh;
   MeshBuilder builder(mesh);
   int i = 0;
   const auto add = [&](const Material& of) {
     builder.use(of);
+    const int segments = i % 3 == 1 ? 10 : 48;
     builder.sphere(1.1f * glm::vec3(static_cast<float>(i % 3 - 1), static_cast<float>(1 - i / 3), 0.0f), 0.5f,
-                   48);
+                   segments);
     ++i;
   };
   for (const float metallic : {0.0f, 1.0f})

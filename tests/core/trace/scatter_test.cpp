@@ -2,7 +2,9 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <random>
 
+#include "core/shade/shared_material.h"
 #include "core/trace/tiles/trace_tiles.h"
 #include "core/trace/view/view_params.h"
 #include "scenes/generator/mesh_builder.h"
@@ -103,6 +105,41 @@ TEST(Scatter, GlassSharesByFresnel) {
   EXPECT_NEAR(scattered(std::atan(1.5f), glass_of(1.5f)).mirrored,
               0.5f * only_perpendicular * only_perpendicular, 1e-6f);
   EXPECT_EQ(scattered(0.5f, glass_of(1.0f)).rays.size(), 1u);  // no boundary: all goes through
+}
+
+glm::vec3 random_unit(std::mt19937& random) {
+  std::normal_distribution<float> normal;
+  return glm::normalize(glm::vec3(normal(random), normal(random), normal(random)));
+}
+
+// The cosine at which the viewer's ray, mirrored by `n`, leaves the surface.
+float rise_of_mirrored(const glm::vec3& n, const glm::vec3& n_geometric, const glm::vec3& to_viewer) {
+  return glm::dot(glm::reflect(-to_viewer, n), n_geometric);
+}
+
+TEST(Scatter, NormalsAreBentNoFurtherThanTheyAreSeen) {
+  std::mt19937 random(1);
+  const glm::vec3 up{0.0f, 0.0f, 1.0f};
+  int bent = 0;
+  for (int i = 0; i < 20000; ++i) {
+    glm::vec3 to_viewer = random_unit(random);
+    to_viewer.z = std::abs(to_viewer.z);
+    const glm::vec3 n = random_unit(random);
+    const float alpha = i % 3 == 0 ? 0.0005f : i % 3 == 1 ? 0.3f : 1.0f;
+    const glm::vec3 seen = shared::normal_seen(n, up, to_viewer, alpha);
+    const float smooth = std::min(0.9f * to_viewer.z, 0.025f),
+                least = smooth + alpha * (-0.9f * to_viewer.z - smooth),
+                rise = rise_of_mirrored(seen, up, to_viewer);
+    ASSERT_NEAR(glm::length(seen), 1.0f, 1e-5f);
+    ASSERT_GT(glm::dot(seen, to_viewer), 0.0f);
+    ASSERT_GT(rise, least - 1e-3f);
+    if (seen == n) continue;
+    ++bent;
+    ASSERT_NEAR(rise, least, 1e-3f) << "further than needed";
+    ASSERT_NEAR(glm::dot(glm::cross(n, up), seen), 0.0f, 1e-5f) << "out of the plane of both normals";
+  }
+  EXPECT_GT(bent, 5000);
+  EXPECT_EQ(shared::normal_seen(-up, up, up, 0.0f), up);
 }
 
 TEST(Scatter, WhatIsNotSeenIsNotFollowed) {
