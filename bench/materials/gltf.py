@@ -60,6 +60,17 @@ def reduced(document, steel=None):
     return left
 
 
+def flat(document):
+    """Without vertex normals and normal maps."""
+    document = copy.deepcopy(document)
+    for mesh in document.get("meshes", []):
+        for primitive in mesh["primitives"]:
+            primitive["attributes"].pop("NORMAL", None)
+    for material in document.get("materials", []):
+        material.pop("normalTexture", None)
+    return document
+
+
 def textures_of(material):
     of_base = material.get("pbrMetallicRoughness", {})
     named = (of_base.get("baseColorTexture"), of_base.get("metallicRoughnessTexture"), material.get("normalTexture"))

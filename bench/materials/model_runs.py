@@ -14,6 +14,7 @@ import theirs
 FOV = 30.0
 MARGIN = 1.08
 REFERENCE_SAMPLES = 128
+FLAT_SAMPLES = 64
 
 
 def view_of(document, data, towards, size):
@@ -42,7 +43,13 @@ def compare(mitsuba, ours, model, document, data, sky, folder):
     shapes = gltf_in_mitsuba.shapes(mitsuba, document, data, parts, "gltf")
     reference = theirs.Scene(mitsuba, shapes, skies.sunny(), view, ours.size, {"type": "mirrors"}).mean_of(REFERENCE_SAMPLES, 10)
     pictures["reference"] = reference
-    return {"name": model.name, **found, "appendix_b": {"mix": figures.mean(reference, mask).tolist()}}, pictures
+    flat = gltf.flat(document)
+    of_flat = folder / "flat.glb"
+    gltf.write(of_flat, flat, data)
+    shapes = gltf_in_mitsuba.shapes(mitsuba, flat, data, parts, "gltf")
+    exact = theirs.Scene(mitsuba, shapes, skies.sunny(), view, ours.size, {"type": "mirrors"}).mean_of(REFERENCE_SAMPLES, 10)
+    means = {"ours": figures.mean(ours.render(of_flat, view, sky, FLAT_SAMPLES, 1)[0], mask).tolist(), "appendix_b": figures.mean(exact, mask).tolist()}
+    return {"name": model.name, **found, "appendix_b": {"mix": figures.mean(reference, mask).tolist()}, "flat": means}, pictures
 
 
 def run(mitsuba, ours, sky, folder, cache, quick, tell):
