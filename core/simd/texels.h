@@ -81,17 +81,17 @@ struct TexelWeights {
 
 struct TexelRows {
   __m256 v;
-  void set(std::uint32_t a, std::uint32_t b) {
-    const __m128i bits = _mm_cvtsi64_si128(static_cast<long long>(a | std::uint64_t{b} << 32));
-    const __m256 bytes = _mm256_cvtepi32_ps(_mm256_cvtepu8_epi32(bits));
-    v = bytes * _mm256_set1_ps(kBy255) + bytes * _mm256_set1_ps(kBy255Rest);
-  }
-  void set_colors(std::uint32_t a, std::uint32_t b, const float* linear) {
-    v = _mm256_set_m128(__m128(color_row(b, linear)), __m128(color_row(a, linear)));
-  }
   [[nodiscard]] TexelRow first() const { return TexelRow(_mm256_castps256_ps128(v)); }
   [[nodiscard]] TexelRow second() const { return TexelRow(_mm256_extractf128_ps(v, 1)); }
 };
+inline TexelRows texel_rows(std::uint32_t a, std::uint32_t b) {
+  const __m128i bits = _mm_cvtsi64_si128(static_cast<long long>(a | std::uint64_t{b} << 32));
+  const __m256 bytes = _mm256_cvtepi32_ps(_mm256_cvtepu8_epi32(bits));
+  return {bytes * _mm256_set1_ps(kBy255) + bytes * _mm256_set1_ps(kBy255Rest)};
+}
+inline TexelRows color_rows(std::uint32_t a, std::uint32_t b, const float* linear) {
+  return {_mm256_set_m128(__m128(color_row(b, linear)), __m128(color_row(a, linear)))};
+}
 inline TexelRows mixed(const TexelRows& a, const TexelRows& b, const TexelWeights& share) {
   return {a.v * share.first + b.v * share.second};
 }
@@ -108,17 +108,15 @@ struct TexelWeights {
 
 struct TexelRows {
   TexelRow a, b;
-  void set(std::uint32_t of_a, std::uint32_t of_b) {
-    a = texel_row(of_a);
-    b = texel_row(of_b);
-  }
-  void set_colors(std::uint32_t of_a, std::uint32_t of_b, const float* linear) {
-    a = color_row(of_a, linear);
-    b = color_row(of_b, linear);
-  }
   [[nodiscard]] TexelRow first() const { return a; }
   [[nodiscard]] TexelRow second() const { return b; }
 };
+inline TexelRows texel_rows(std::uint32_t a, std::uint32_t b) {
+  return {texel_row(a), texel_row(b)};
+}
+inline TexelRows color_rows(std::uint32_t a, std::uint32_t b, const float* linear) {
+  return {color_row(a, linear), color_row(b, linear)};
+}
 inline TexelRows mixed(const TexelRows& p, const TexelRows& q, const TexelWeights& share) {
   return {mixed(p.a, q.a, share.fine), mixed(p.b, q.b, share.coarse)};
 }

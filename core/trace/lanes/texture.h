@@ -85,6 +85,12 @@ struct LaneQuads {
   }
 };
 
+// Four texels, row(0) to row(3), mixed by the place among them.
+template <class Row, class Share>
+[[gnu::always_inline]] inline auto mixed_quad(const Share& x, const Share& y, Row row) {
+  return mixed(mixed(row(0), row(1), x), mixed(row(2), row(3), x), y);
+}
+
 // A tap of each lane of `on`, added to the textures' sums.
 struct Taps {
   LaneQuads quads[2];  // of the finer level, and of the coarser one
@@ -95,32 +101,26 @@ struct Taps {
       const int lane = __builtin_ctz(on);
       const bool largest = (levels.largest >> lane & 1u) != 0, both = (between >> lane & 1u) != 0;
       const LaneQuads &fine = quads[0], &coarse = quads[1];
-      const float part = levels.part[lane];
+      const float part = levels.part[lane], fine_x = fine.x[lane], fine_y = fine.y[lane];
       TexelWeights x, y;
-      x.set(fine.x[lane], coarse.x[lane]);
-      y.set(fine.y[lane], coarse.y[lane]);
+      x.set(fine_x, coarse.x[lane]);
+      y.set(fine_y, coarse.y[lane]);
       for (int i = 0; i < place.count; ++i) {
         const LaneTexture& t = place.textures[i];
         if ((t.maps & maps) == 0) continue;
+        const float* const linear = t.linear_from_srgb8;
         const void* const from = largest ? t.first_level : t.others;
+        const auto bits = [&](int k) { return texel_bits(from, fine.texel[k][lane]); };
+        const auto coarse_bits = [&](int k) { return texel_bits(t.others, coarse.texel[k][lane]); };
         TexelRow sum = load_row(p.texel[i][lane]);
         if (both) {
-          TexelRows quad[4];
-          for (int k = 0; k < 4; ++k) {
-            const std::uint32_t a = texel_bits(from, fine.texel[k][lane]),
-                                b = texel_bits(t.others, coarse.texel[k][lane]);
-            t.linear_from_srgb8 ? quad[k].set_colors(a, b, t.linear_from_srgb8) : quad[k].set(a, b);
-          }
-          const TexelRows at = mixed(mixed(quad[0], quad[1], x), mixed(quad[2], quad[3], x), y);
+          const TexelRows at =
+              linear ? mixed_quad(x, y, [&](int k) { return color_rows(bits(k), coarse_bits(k), linear); })
+                     : mixed_quad(x, y, [&](int k) { return texel_rows(bits(k), coarse_bits(k)); });
           sum = sum + (at.first() * (1.0f - part) + at.second() * part);
         } else {
-          TexelRow quad[4];
-          for (int k = 0; k < 4; ++k) {
-            const std::uint32_t a = texel_bits(from, fine.texel[k][lane]);
-            quad[k] = t.linear_from_srgb8 ? color_row(a, t.linear_from_srgb8) : texel_row(a);
-          }
-          const float fx = fine.x[lane], fy = fine.y[lane];
-          sum = sum + mixed(mixed(quad[0], quad[1], fx), mixed(quad[2], quad[3], fx), fy);
+          sum = sum + (linear ? mixed_quad(fine_x, fine_y, [&](int k) { return color_row(bits(k), linear); })
+                              : mixed_quad(fine_x, fine_y, [&](int k) { return texel_row(bits(k)); }));
         }
         store_row(p.texel[i][lane], sum);
       }
