@@ -51,9 +51,7 @@ double albedo(double f0, double f90, double x, double y) {
   for (int row = 0; row < 4; ++row)
     for (int i = 0; i < 9; ++i) sum[row] += k[row][i] * of[i];
   const double polished = std::max(1.0 - 2.0 * y / x, 0.0), fifth = std::pow(1.0 - x, 5.0);
-  const auto blended = [&](double fit, double exact) {
-    return fit + polished * (exact - fit);
-  };
+  const auto blended = [&](double fit, double exact) { return fit + polished * (exact - fit); };
   return f0 * blended(std::clamp(sum[0] / sum[2], 0.0, 1.0), 1.0 - fifth) +
          f90 * blended(std::clamp(sum[1] / sum[3], 0.0, 1.0), fifth);
 }

@@ -39,8 +39,8 @@ glm::dvec3 lift_of(const Mesh& mesh, const ReferenceHit& hit, const ReferenceSur
   return glm::dot(lift, s.n_geometric) > kLeast * size ? lift : glm::dvec3(0.0);
 }
 
-// The normal bent towards the geometric one, as far as shaders/shared/microfacet.glsl says (normal_seen). The angle is found
-// by bisection: from the bent normal on, the mirrored ray sinks.
+// The normal bent towards the geometric one, as far as shaders/shared/microfacet.glsl says (normal_seen). The
+// angle is found by bisection: from the bent normal on, the mirrored ray sinks.
 glm::dvec3 normal_seen(const glm::dvec3& n, const ReferenceSurface& s, double alpha) {
   const double rise = glm::dot(s.to_viewer, s.n_geometric);
   const double smooth = std::min(0.9 * rise, 0.025), rough = -0.9 * rise;
