@@ -25,6 +25,7 @@
 #include "shared/surface.glsl"
 #include "shared/terminator.glsl"
 #include "shared/light_params.glsl"
+#include "shared/layers.glsl"
 #include "shared/phong.glsl"
 #include "shared/microfacet.glsl"
 #ifdef HAS_SIZED_LIGHTS

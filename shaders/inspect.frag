@@ -11,6 +11,7 @@
 #include "shared/surface.glsl"
 #include "shared/terminator.glsl"
 #include "shared/light_params.glsl"
+#include "shared/layers.glsl"
 #include "shared/phong.glsl"
 #include "shared/microfacet.glsl"
 #include "scene_fetch.glsl"

@@ -10,6 +10,7 @@
 #include "shared/view.glsl"
 #include "shared/surface.glsl"
 #include "shared/light_params.glsl"
+#include "shared/layers.glsl"
 #include "shared/phong.glsl"
 #include "shared/microfacet.glsl"
 #include "scene_fetch.glsl"

@@ -24,10 +24,10 @@ bool edit_surface(GltfSurface& s, bool textured) {
   changed = edit_color("emitted", s.emissive, "light that the surface emits" + times) || changed;
   changed = slide("transmission", s.transmission, 0.0f, 1.0f, "1: glass" + times) || changed;
   changed = slide("index", s.ior, 1.0f, 3.0f, "index of refraction; 1.5 for glass and plastic") || changed;
-  changed = slide("clear coat", s.clearcoat, 0.0f, 1.0f, "a layer of varnish" + times) || changed;
-  if (s.clearcoat > 0.0f)
+  changed = slide("clear coat", s.layers.coat, 0.0f, 1.0f, "a layer of varnish" + times) || changed;
+  if (s.layers.coat > 0.0f)
     changed =
-        slide("its roughness", s.clearcoat_roughness, 0.0f, 1.0f, "of the clear coat" + times) || changed;
+        slide("its roughness", s.layers.coat_roughness, 0.0f, 1.0f, "of the clear coat" + times) || changed;
   return changed;
 }
 

@@ -50,7 +50,8 @@ namespace {
   const Float up = sqrt(max(Float(1.0f) - (disc.x * disc.x + disc.y * disc.y), Float(0.0f)));
   const Vec direction = around(s.n_shading, {disc.x, disc.y, up});
   if (m.microfacet != 0) {
-    const Float below = lobe_light(m, m.ggx_alpha, m.coat_alpha, s.n_shading, s.to_viewer, direction).below;
+    const Float below =
+        lobe_light(m, m.ggx_alpha, coat_alpha(m.layers), s.n_shading, s.to_viewer, direction).below;
     light = select(Mask::from_bits(m.microfacet), light * below, light);
   }
   follow(s, direction, light, pixel, lanes & (Float(0.0f) < dot(direction, s.n_geometric)),
