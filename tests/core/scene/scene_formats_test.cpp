@@ -16,7 +16,7 @@ namespace {
 
 template <class Do>
 void for_each_extension(const Do& visit) {
-  for (const SceneFormat& format : kSceneFormats)
+  for (const SceneFormat& format : scene_formats())
     for (const std::string_view extension : format.extensions)
       if (!extension.empty()) visit(format, std::string(extension));
 }
