@@ -1,7 +1,8 @@
-// Materials' maps as texture buffers (hybrid/gpu/gpu_maps.cpp), for the shared sources. Expects scene_fetch.glsl
-// before it.
+// Materials' maps as texture buffers (hybrid/gpu/gpu_maps.cpp), for the shared sources.
 //   MAP_USES  what some material has, as bits. What none has is constant, so that no code is made of it: llvmpipe
 //             computes both sides of every branch.
+#include "scene_fetch.glsl"
+
 #ifdef HAS_MAPS
 #include "shared/metallic_roughness.glsl"
 

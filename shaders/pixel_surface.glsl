@@ -1,6 +1,9 @@
 // What the pixel sees, from the id that the visibility pass left: the shared sources fed from the scene's
-// buffers. Expects the shared sources and scene_fetch.glsl before it.
+// buffers.
 //   PARALLEL_RAYS  the camera is orthographic
+
+#include "map_fetch.glsl"
+#include "shared/terminator.glsl"
 
 uniform usampler2D ids;
 uniform vec3 eye;

@@ -1,5 +1,13 @@
 // The scene as texture buffers: what gpu/gpu_mesh.cpp uploads, read back as the shared sources' structs.
 
+#include "shared/glsl.glsl"
+#include "shared/view.glsl"
+#include "shared/surface.glsl"
+#include "shared/light_params.glsl"
+#include "shared/layers.glsl"
+#include "shared/phong.glsl"
+#include "shared/microfacet.glsl"
+
 uniform usamplerBuffer triangle_corners;    // 3 texels a triangle
 uniform usamplerBuffer triangle_materials;  // 1 texel a triangle
 uniform samplerBuffer positions;            // 3 texels a vertex

@@ -170,12 +170,7 @@ void TileTracer::find_lost(RayQueue& rays) {
   step.environment = plan_->ground_sky && plan_->ground_sky->shines ? &*plan_->ground_sky : nullptr;
   make_room(rays.size, next_);
   sky_.make_room(rays.size * (2 + as_size(options.sky_occlusion)));
-  step.corner = glm::uvec2(plan_->first + tile_.lo * plan_->out.scale);
-  step.shadow = shadow_.data();
-  step.ways_up = ways_up_.data();
-  step.sky = &sky_;
-  step.sky_ways_up = &sky_ways_up_;
-  step.lobe_lights = &lobe_lights_;
+  use_queues(step);
   step.radiance = step.traced = &ground_light_[0].x;
   for (const LightGroup& group : plan_->further_lights) {
     const bool is_first = &group == &plan_->further_lights.front();
