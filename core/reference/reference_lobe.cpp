@@ -78,7 +78,7 @@ double sheen_albedo(double n_dot_v, double alpha) {
   return 2.0 * kPi * sum / square(kSide);
 }
 
-// Of a table, as every point asks for it.
+// Looked up in a table, as every point needs it.
 double tabulated_sheen_albedo(double n_dot_v, double alpha) {
   constexpr int kSide = 48;
   static const std::vector<double> table = [] {

@@ -154,7 +154,7 @@ std::vector<Feature> features() {
   return all;
 }
 
-// Of 255, on a screen.
+// In steps of a screen, which has 255.
 float difference(const glm::vec4& a, const glm::vec4& b) {
   float largest = 0.0f;
   for (int c = 0; c < 3; ++c)

@@ -1,4 +1,4 @@
-// The panel Materials.
+// The panel Materials: an edit is left in model.material_edit.
 #include <algorithm>
 #include <string>
 #include <utility>
@@ -13,7 +13,7 @@ bool slide(const char* name, float& value, float lo, float hi, const std::string
   return slider(name, value, lo, hi, format("%.2f", value), help);
 }
 
-// In the words of glTF and of the programs that write it.
+// A control for each parameter, named as glTF and the programs that write it do. True: one was moved.
 bool edit_surface(GltfSurface& s, bool textured) {
   const std::string times = textured ? "; multiplies the texture's" : "";
   bool changed = edit_color("base colour", s.base_color, "colour of the surface" + times);

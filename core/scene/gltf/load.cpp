@@ -196,7 +196,7 @@ class SceneReader {
                             as_uint32(triangle), triangles, node_from_mesh});
   }
 
-  // Of meshes that were placed once there are no copies.
+  // A mesh that was placed once has no copies.
   void drop_single_copies() {
     std::map<int, int> placings;
     for (const MeshCopy& copy : rest_.copies) ++placings[copy.mesh];

@@ -78,7 +78,7 @@ inline void add_light(const Vec& light, Int pixels, Mask lanes, float* radiance)
   add_light(light, pixel, lanes, radiance);
 }
 
-// Of packets of rays: where in the picture they go. Memory is requested for all of them at once.
+// Finds where in the picture the rays of some packets go. Memory is requested for all of them at once.
 template <std::size_t kCount>
 inline void find_seen(const EnvironmentLight& e, const RayQueue& rays, std::size_t first,
                       const Mask (&missed)[kCount], vec2 (&place)[kCount]) {

@@ -79,6 +79,7 @@ bool shows_beyond(const Material& m, bool lobes) {
 
 }  // namespace
 
+// The step with the lights of one group.
 Bounce lit_by(const LightGroup& group, const Bounce& step) {
   Bounce lit = step;
   lit.lights = group.lights.data();

@@ -47,7 +47,7 @@ inline constexpr GltfParameter kSurfaceParameters[] = {
     {"/extensions/KHR_materials_sheen/sheenRoughnessFactor", &GltfLayers::sheen_roughness},
 };
 
-// Of what both kinds of materials may have inside.
+// The inside of a body, which both kinds of materials may have.
 inline constexpr GltfParameter kVolumeParameters[] = {
     {"/extensions/KHR_materials_volume/attenuationColor", &Material::attenuation_color},
     {"/extensions/KHR_materials_volume/attenuationDistance", &Material::attenuation_distance},
