@@ -21,7 +21,7 @@ struct Material {
   float ggx_alpha = 0.0f;
   float grazing = 1.0f;   // glTF's model: F90, mirrored at grazing incidence
   glm::vec2 layer{0.0f};  // glTF's model: F0 and F90 of the dielectric layer above the matt one
-  GltfLayers layers;      // glTF's model: above that
+  GltfLayers layers{};    // glTF's model: above that
   // Weight of the mirrored ray where mirrors are not sampled; with `fresnel`: at normal incidence.
   glm::vec3 reflectance{0.0f};
   // Exponent of the lobe over which samples spread the mirrored rays. Lower is rougher.

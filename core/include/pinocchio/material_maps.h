@@ -22,7 +22,7 @@ struct GltfSurface {
   float specular = 1.0f;     // KHR_materials_specular
   glm::vec3 specular_color{1.0f};
   float transmission = 0.0f;  // KHR_materials_transmission
-  GltfLayers layers;
+  GltfLayers layers{};
   bool volume = false;  // KHR_materials_volume with a thickness: the surface refracts
   bool unlit = false;   // KHR_materials_unlit
 
