@@ -20,21 +20,12 @@
 //                     same triangle, the pixel is a hole: every light reaches it, and it takes the reflection
 //                     that is there; its alpha is kHole.
 
-#include "shared/glsl.glsl"
-#include "shared/view.glsl"
-#include "shared/surface.glsl"
-#include "shared/terminator.glsl"
-#include "shared/light_params.glsl"
-#include "shared/phong.glsl"
-#include "shared/microfacet.glsl"
+#include "pixel_surface.glsl"
 #ifdef HAS_SIZED_LIGHTS
 #include "shared/sampling_params.glsl"
 #include "shared/sampling.glsl"
 #include "shared/sized_light.glsl"
 #endif
-#include "scene_fetch.glsl"
-#include "map_fetch.glsl"
-#include "pixel_surface.glsl"
 #include "traced_light.glsl"
 
 #ifdef HAS_ENVIRONMENT

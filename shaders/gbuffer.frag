@@ -6,15 +6,6 @@
 //                 fractions, its z's sign in the lowest bit of x; z_eye as a float; the diffuse colour in
 //                 four bytes
 
-#include "shared/glsl.glsl"
-#include "shared/view.glsl"
-#include "shared/surface.glsl"
-#include "shared/terminator.glsl"
-#include "shared/light_params.glsl"
-#include "shared/phong.glsl"
-#include "shared/microfacet.glsl"
-#include "scene_fetch.glsl"
-#include "map_fetch.glsl"
 #include "pixel_surface.glsl"
 
 #ifdef NORMALS_ONLY

@@ -6,15 +6,6 @@
 //   SHOW_POSITION, SHOW_ALBEDO; with none, all is grey
 //   HAS_MASK, HAS_REFLECTION, REPROJECT and what goes with them: traced_light.glsl
 
-#include "shared/glsl.glsl"
-#include "shared/view.glsl"
-#include "shared/surface.glsl"
-#include "shared/terminator.glsl"
-#include "shared/light_params.glsl"
-#include "shared/phong.glsl"
-#include "shared/microfacet.glsl"
-#include "scene_fetch.glsl"
-#include "map_fetch.glsl"
 #include "pixel_surface.glsl"
 #include "traced_light.glsl"
 

@@ -1,7 +1,8 @@
-// Materials' maps as texture buffers (hybrid/gpu/gpu_maps.cpp), for the shared sources. Expects scene_fetch.glsl
-// before it.
+// Materials' maps as texture buffers (hybrid/gpu/gpu_maps.cpp), for the shared sources.
 //   MAP_USES  what some material has, as bits. What none has is constant, so that no code is made of it: llvmpipe
 //             computes both sides of every branch.
+#include "scene_fetch.glsl"
+
 #ifdef HAS_MAPS
 #include "shared/metallic_roughness.glsl"
 
@@ -30,6 +31,24 @@ vec4 texel_at(TexelSource source, int i, bool is_color) {
   return is_color ? vec4(linear_from_srgb(texel.rgb), texel.a) : texel;
 }
 
+struct MapPoint {
+  uvec3 corners;
+  mat3x2 texcoords[2];  // the corners', in each UV set
+  vec3 weights;
+  vec3 ab;
+  vec3 ac;
+  vec3 moved_x;  // to the next pixel (moved_on_triangle)
+  vec3 moved_y;
+};
+
+// What the textures of a material's maps hold at a point.
+struct MapTexels {
+  int maps;
+  MapPoint point;
+};
+
+vec4 texel_of(MapTexels texels, int use, bool is_color);
+
 #include "shared/texture.glsl"
 #include "shared/maps.glsl"
 
@@ -43,16 +62,6 @@ const int kLayersVary = kUses + 3;  // textures change some material's coat or s
 const int kParameters = 3 * kUses;
 const int kLayers = kParameters + 6;
 const int kMapTexels = kLayers + 2;
-
-struct MapPoint {
-  uvec3 corners;
-  mat3x2 texcoords[2];  // the corners', in each UV set
-  vec3 weights;
-  vec3 ab;
-  vec3 ac;
-  vec3 moved_x;  // to the next pixel (moved_on_triangle)
-  vec3 moved_y;
-};
 
 struct MapTexcoord {
   vec2 uv;
@@ -116,6 +125,10 @@ vec4 map_value(int maps, int use, MapPoint p, bool is_color) {
   return some_has(use) ? look_up(fetch_use(maps, use), p, is_color) : vec4(1.0);
 }
 
+vec4 texel_of(MapTexels texels, int use, bool is_color) {
+  return map_value(texels.maps, use, texels.point, is_color);
+}
+
 #if defined(HAS_COLORS) || defined(HAS_TANGENTS)
 vec4 weighted_quad(MapPoint p, int first) {
   ivec3 at = first + ivec3(p.corners);
@@ -171,7 +184,6 @@ ShadingParams mapped_material_at(int maps, MapPoint p, ShadingParams plain, inou
   v.specular = 1.0;
   v.specular_color = vec3(1.0);
   v.transmission = 1.0;
-  v.layers = GltfLayers(1.0, 1.0, vec3(1.0), 1.0);
   if (strengths.z == 0.0) return mapped_phong(material_point(plain), v).shading;
   v.roughness = texel.g;
   v.metallic = texel.b;
@@ -183,20 +195,10 @@ ShadingParams mapped_material_at(int maps, MapPoint p, ShadingParams plain, inou
                         specular.a, specular.rgb, more.y, more.z > 0.0, more.w > 0.0);
   MaterialPoint m = mapped_metallic_roughness(s, v, plain.ggx_alpha == 0.0);
   transmits = m.transmittance != vec3(0.0);
-  if (some_has(kLayersVary)) {
-    vec4 coat = map_texel(maps, kLayers);  // factor, roughness; sheen's roughness
-    GltfLayers layers;
-    layers.coat = coat.x * map_value(maps, kClearcoat, p, false).r;
-    layers.coat_roughness = coat.y * map_value(maps, kClearcoatRoughness, p, false).g;
-    layers.sheen = map_texel(maps, kLayers + 1).rgb * map_value(maps, kSheenColor, p, true).rgb;
-    layers.sheen_roughness = coat.z * map_value(maps, kSheenRoughness, p, false).a;
-    m = with_layers(m, layers);
-  } else if (!transmits) {
-    m.shading.sheen = plain.sheen;
-    m.shading.sheen_alpha = plain.sheen_alpha;
-    m.shading.coat = plain.coat;
-    m.shading.coat_alpha = plain.coat_alpha;
-  }
+  if (some_has(kLayersVary))
+    m = with_layers(m, mapped_layers(fetch_layers(maps_buffer, kMapTexels * maps + kLayers), MapTexels(maps, p)));
+  else if (!transmits)
+    m.shading.layers = plain.layers;
   return m.shading;
 }
 

@@ -1,6 +1,9 @@
 // What the pixel sees, from the id that the visibility pass left: the shared sources fed from the scene's
-// buffers. Expects the shared sources and scene_fetch.glsl before it.
+// buffers.
 //   PARALLEL_RAYS  the camera is orthographic
+
+#include "map_fetch.glsl"
+#include "shared/terminator.glsl"
 
 uniform usampler2D ids;
 uniform vec3 eye;
@@ -108,7 +111,7 @@ PixelSurface surface_of(uint id, ivec2 pixel) {
 #endif
   if (s.material.ggx_alpha > 0.0) {
     s.material.coat_normal =
-        normal_seen(s.material.coat_normal, s.n.geometric, s.to_viewer, s.material.coat_alpha);
+        normal_seen(s.material.coat_normal, s.n.geometric, s.to_viewer, coat_alpha(s.material.layers));
     s.n.shading = normal_seen(s.n.shading, s.n.geometric, s.to_viewer, s.material.ggx_alpha);
   }
   s.material = viewed_from(s.to_viewer, s.n.shading, s.material);

@@ -1,5 +1,13 @@
 // The scene as texture buffers: what gpu/gpu_mesh.cpp uploads, read back as the shared sources' structs.
 
+#include "shared/glsl.glsl"
+#include "shared/view.glsl"
+#include "shared/surface.glsl"
+#include "shared/light_params.glsl"
+#include "shared/layers.glsl"
+#include "shared/phong.glsl"
+#include "shared/microfacet.glsl"
+
 uniform usamplerBuffer triangle_corners;    // 3 texels a triangle
 uniform usamplerBuffer triangle_materials;  // 1 texel a triangle
 uniform samplerBuffer positions;            // 3 texels a vertex
@@ -33,6 +41,10 @@ vec3 linear_from_srgb(vec3 c) {
 // Where the material's maps are (map_fetch.glsl); -1: it has none.
 int fetch_maps(int material) { return int(texelFetch(materials, kMaterialTexels * material + 1).w) - 1; }
 
+Layers fetch_layers(samplerBuffer buffer, int first) {
+  return layers_of(texelFetch(buffer, first), texelFetch(buffer, first + 1));
+}
+
 // A material without its maps.
 ShadingParams fetch_material(int material, out bool transmits) {
   int first = kMaterialTexels * material;
@@ -51,17 +63,9 @@ ShadingParams fetch_material(int material, out bool transmits) {
   m.grazing = layer.z;
   int bits = int(layer.w);
   transmits = (bits & 1) != 0;
-  m.sheen = vec3(0.0);
-  m.sheen_alpha = m.coat_alpha = 1.0;
-  m.coat = 0.0;
+  m.layers = no_layers();
+  if ((bits & 2) != 0) m.layers = fetch_layers(materials, first + 5);
   m.coat_normal = vec3(0.0);
-  if ((bits & 2) != 0) {
-    vec4 sheen = texelFetch(materials, first + 5), coat = texelFetch(materials, first + 6);
-    m.sheen = sheen.rgb;
-    m.sheen_alpha = sheen.a;
-    m.coat = coat.x;
-    m.coat_alpha = coat.y;
-  }
   return m;
 }
 

@@ -2,15 +2,6 @@
 // Design 2: the CPU's finished picture, sRGB, to linear light.
 //   ID_BITS  16, 24 or 32
 
-#include "shared/glsl.glsl"
-#include "shared/view.glsl"
-#include "shared/surface.glsl"
-#include "shared/terminator.glsl"
-#include "shared/light_params.glsl"
-#include "shared/phong.glsl"
-#include "shared/microfacet.glsl"
-#include "scene_fetch.glsl"
-#include "map_fetch.glsl"
 #include "pixel_surface.glsl"
 
 uniform sampler2D finished;

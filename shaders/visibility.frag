@@ -6,13 +6,6 @@
 //   PASSES_BACKS  the backs of some materials are not drawn
 
 #ifdef HAS_HOLES
-#include "shared/glsl.glsl"
-#include "shared/view.glsl"
-#include "shared/surface.glsl"
-#include "shared/light_params.glsl"
-#include "shared/phong.glsl"
-#include "shared/microfacet.glsl"
-#include "scene_fetch.glsl"
 #include "map_fetch.glsl"
 
 uniform vec3 eye;

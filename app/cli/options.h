@@ -48,7 +48,7 @@ struct DrawOptions {
   std::string variant;                         // of the file's materials. Empty: those that it shows first
   bool strict = false;                         // fail where a part of the scene would be ignored
 
-  // Of a Progress.
+  // The mode of a Progress.
   [[nodiscard]] std::string progress_mode() const { return quiet ? "off" : progress; }
 };
 

@@ -26,7 +26,7 @@ class Drawing {
   [[nodiscard]] const SceneStats& stats() const { return stats_; }
   [[nodiscard]] const Settings& settings() const { return settings_; }
   [[nodiscard]] Workers& workers() const { return engine_.workers(settings_.threads); }
-  // Of the context that draws. Null: the CPU draws alone.
+  // The context that draws. Null: the CPU draws alone.
   [[nodiscard]] const gl::ContextInfo* gl_info() const {
     return settings_.uses_gpu() ? engine_.gl_info() : nullptr;
   }

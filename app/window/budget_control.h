@@ -18,7 +18,7 @@ class BudgetControl {
   // scene stand still.
   [[nodiscard]] Settings settings_for(const Settings& exact);
   void note(double frame_ms);
-  // Another scene is shown: its plans are measured anew.
+  // Another scene is shown: its plans are measured from the start.
   void forget() { begin_over(Settings{}); }
   [[nodiscard]] bool is_measuring() const { return trial_ != nullptr; }
   // Makes explicit in `settings` what was given up for the budget.

@@ -30,7 +30,7 @@ class FrameLoop {
   void deliver_again() { again_ = true; }
   // The same request is another picture now.
   void restart();
-  // Draws the frame once more by other settings, apart from the window's frames, with all its layers.
+  // Draws the frame again by other settings, apart from the window's frames, with all its layers.
   [[nodiscard]] FrameResult draw_now(const Settings& settings);
   // Draws the frame on a transparent background, with as many samples as are gathered, as far as that is
   // quick.

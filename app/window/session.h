@@ -37,7 +37,7 @@ class Session {
   [[nodiscard]] bool is_loading() const { return source_.is_busy(); }
   [[nodiscard]] const Pace& pace() const { return screen_.pace(); }
   [[nodiscard]] const Scene& scene() const { return model_.scene; }
-  // Of the verb: why no scene could be opened.
+  // The verb's exit code: why no scene could be opened.
   [[nodiscard]] ExitCode code() const { return source_.code(); }
 
  private:

@@ -1,8 +1,8 @@
 // Textures and vertex colours at a point of a triangle, one at a time.
 #pragma once
 
+#include "bench/one_ray/shared_maps.h"
 #include "core/shade/footprint.h"
-#include "core/shade/shared_maps.h"
 #include "pinocchio/conversion.h"
 #include "pinocchio/mesh.h"
 

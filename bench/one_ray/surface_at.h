@@ -2,6 +2,7 @@
 // lanes are tested and charted against.
 #pragma once
 
+#include <bit>
 #include <cstdint>
 #include <glm/glm.hpp>
 #include <optional>
@@ -41,10 +42,7 @@ struct MappedMaterial {
                       .ggx_alpha = m.ggx_alpha,
                       .grazing = m.grazing,
                       .layer = m.layer,
-                      .sheen = m.sheen,
-                      .sheen_alpha = m.sheen_alpha,
-                      .coat = m.coat,
-                      .coat_alpha = m.coat_alpha,
+                      .layers = std::bit_cast<shared::Layers>(m.layers),
                       .coat_normal = glm::vec3(0.0f)},
           .reflectance = m.reflectance,
           .transmittance = m.transmittance,
@@ -56,13 +54,15 @@ struct MappedMaterial {
 [[nodiscard]] inline MappedMaterial mapped_material(const Mesh& mesh, const MapPoint& point) {
   const MaterialMaps& maps = *mesh.maps_of(point.triangle);
   const Lookup lookup(mesh, point);
-  // White where there is no texture.
-  const auto texel = [&](int map) {
-    const auto& [member, is_color] = kMapUses[as_size(map)];
-    const TextureUse& use = maps.*member;
-    if (!lookup.readable(use)) return glm::vec4(1.0f);
-    return glm::vec4(shared::texels::sample_texture(params_of(mesh, use), lookup.point_on(use), is_color));
-  };
+  shared::MapTexels texels;
+  for (std::size_t i = 0; i < kMapUses.size(); ++i) {
+    const TextureUse& use = maps.*kMapUses[i].use;
+    texels.of[i] = !lookup.readable(use)
+                       ? glm::vec4(1.0f)
+                       : glm::vec4(shared::texels::sample_texture(params_of(mesh, use), lookup.point_on(use),
+                                                                  kMapUses[i].is_color));
+  }
+  const auto texel = [&](int map) { return texels.of[map]; };
   const glm::vec4 metallic_roughness_texel = texel(shared::kMetallicRoughness);
   shared::MapValues v{glm::vec3(texel(shared::kBaseColor)),
                       metallic_roughness_texel.b,
@@ -71,9 +71,7 @@ struct MappedMaterial {
                       glm::vec3(texel(shared::kEmissive)),
                       texel(shared::kSpecular).a,
                       glm::vec3(texel(shared::kSpecularColor)),
-                      texel(shared::kTransmission).r,
-                      {texel(shared::kClearcoat).r, texel(shared::kClearcoatRoughness).g,
-                       glm::vec3(texel(shared::kSheenColor)), texel(shared::kSheenRoughness).a}};
+                      texel(shared::kTransmission).r};
   if (maps.vertex_colors) v.base_color *= glm::vec3(lookup.color());
 
   MappedMaterial mapped;
@@ -83,7 +81,7 @@ struct MappedMaterial {
           ? shared::with_layers(
                 shared::mapped_metallic_roughness(metallic_roughness<shared::MetallicRoughness>(maps.surface),
                                                   v, !plain.is_microfacet()),
-                shared::mapped_layers(layers<shared::GltfLayers>(maps.surface), v.layers))
+                shared::mapped_layers(std::bit_cast<shared::Layers>(maps.surface.layers), texels))
           : shared::mapped_phong(plain_material(plain), v);
   mapped.n_shading = lookup.normal(maps.normal, maps.normal_scale, glm::vec3(texel(shared::kNormal)),
                                    point.n_shading, point.leaving);

@@ -31,7 +31,7 @@ struct Motion {
   double rebuild_ms = 0.0;  // one tree over all
   std::size_t differ = 0;   // pixels that differ from those with one tree over all
 
-  // Of the still scene's frame rate.
+  // Share of the still scene's frame rate.
   [[nodiscard]] double lost() const { return 1.0 - still_ms / frame_ms; }
   [[nodiscard]] double lost_by_rebuilding() const {
     return 1.0 - still_ms / (pose_ms + rebuild_ms + still_ms);

@@ -16,7 +16,7 @@ glm::vec4 sum_of_texels(const Mesh& mesh, const MapPoint& point) {
   const MaterialMaps& maps = *mesh.maps_of(point.triangle);
   const Lookup lookup(mesh, point);
   glm::vec4 sum(0.0f);
-  for (const auto& [member, is_color] : kMapUses) {
+  for (const auto& [member, is_color, of_layers] : kMapUses) {
     const TextureUse& use = maps.*member;
     if (member != &MaterialMaps::alpha && lookup.readable(use))
       sum += glm::vec4(shared::texels::sample_texture(params_of(mesh, use), lookup.point_on(use), is_color));

@@ -54,6 +54,7 @@ Expected<void> check_finite(const NamedExr& file, const Image<glm::vec3>& rgb) {
                                "no error figure can be given"});
 }
 
+// The picture in R, G and B; an error where one is missing, or is of integers, NaN or infinity.
 Expected<Image<glm::vec3>> rgb_of(const NamedExr& file) {
   Image<glm::vec3> rgb(file.exr.data_window.size());
   const std::array<const char*, 3> names{"R", "G", "B"};

@@ -10,7 +10,7 @@
 
 namespace pinocchio {
 
-// Of finite values. `b` is the reference in all of these.
+// Errors of finite values. `b` is the reference in all of these.
 struct ErrorFigures {
   double rmse = 0.0;
   double relative_mse = 0.0;    // mean of (a - b)^2 / (b^2 + 0.01)

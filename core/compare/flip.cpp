@@ -148,6 +148,7 @@ Planes seen(const Image<glm::vec3>& image, const Kernel& kernel, Workers& worker
   return filtered(filtered(opponent, kernel, {1, 0}, workers), kernel, {0, 1}, workers);
 }
 
+// Colour of a pixel of seen() in FLIP's space, which Hunt's effect bends.
 glm::vec3 lab_of_seen(const glm::vec4& c) {
   return hunt_lab(glm::clamp(rgb_of_ycxcz({c.x, c.y, c.z + c.w}), 0.0f, 1.0f));
 }

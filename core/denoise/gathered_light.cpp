@@ -186,7 +186,7 @@ void GatheredLight::fill_planes(const Sums& sums, PartOfLight part, Workers& wor
       }
       albedo[at] = sum.guide_albedo;
       if (seen) distance[at] = sum.distance;
-      // Of the mean.
+      // The variance of the mean.
       now_.variance[at] =
           sum.hits > 1.0f ? std::max(p.second / sum.hits - mean * mean, 0.0f) / (sum.hits - 1.0f) : 0.0f;
     }

@@ -41,8 +41,8 @@ struct FrameOutput {
 // World to OpenEXR's camera space: left-handed, x right, y up, looking along +z. Column vectors.
 [[nodiscard]] glm::mat4 world_to_camera(const Camera& camera);
 // World to x and y in [0, 1] across the picture, y down, after division by w = z_eye; z is z_near / z_eye
-// of an infinite view, 1 at z_eye = 1, 0 at infinity. Of an orthographic camera, w is 1 and z is z_eye. Other
-// cameras have no such matrix.
+// of an infinite view, 1 at z_eye = 1, 0 at infinity. For an orthographic camera, w is 1 and z is z_eye.
+// Other cameras have no such matrix.
 [[nodiscard]] glm::mat4 world_to_ndc(const Camera& camera, glm::ivec2 size);
 // The casting lights in mask-slot order, and the lights that cast no shadow: name, kind, world position or
 // direction, colour and intensity of each.

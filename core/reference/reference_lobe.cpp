@@ -82,7 +82,7 @@ double sheen_albedo(double n_dot_v, double alpha) {
   return 2.0 * kPi * sum / square(kSide);
 }
 
-// Of a table, as every point asks for it.
+// Looked up in a table, as every point needs it.
 double tabulated_sheen_albedo(double n_dot_v, double alpha) {
   constexpr int kSide = 48;
   static const std::vector<double> table = [] {
@@ -102,9 +102,13 @@ double tabulated_sheen_albedo(double n_dot_v, double alpha) {
   return row(i) + (y - i) * (row(i + 1) - row(i));
 }
 
+double sheen_alpha(const ReferenceSurface& s) {
+  return squared_roughness(s.material.layers.sheen_roughness, 0.005);
+}
+
 double sheen_returned(const ReferenceSurface& s) {
-  if (s.material.sheen == glm::dvec3(0.0)) return 0.0;
-  return largest(s.material.sheen) * tabulated_sheen_albedo(cosine_of_view(s), s.material.sheen_alpha);
+  if (s.material.layers.sheen == glm::dvec3(0.0)) return 0.0;
+  return largest(s.material.layers.sheen) * tabulated_sheen_albedo(cosine_of_view(s), sheen_alpha(s));
 }
 
 }  // namespace
@@ -114,12 +118,12 @@ ReferenceFacets reference_base(const ReferenceSurface& s) {
 }
 
 ReferenceFacets reference_coat(const ReferenceSurface& s) {
-  return {s.n_coat, s.material.coat_alpha};
+  return {s.n_coat, s.material.layers.coat_alpha()};
 }
 
 double reference_coat_share(const ReferenceSurface& s) {
-  if (s.material.coat == 0.0) return 0.0;
-  return s.material.coat * (0.04 + 0.96 * std::pow(1.0 - cosine_of_view(reference_coat(s).n, s), 5.0));
+  if (s.material.layers.coat == 0.0) return 0.0;
+  return s.material.layers.coat * (0.04 + 0.96 * std::pow(1.0 - cosine_of_view(reference_coat(s).n, s), 5.0));
 }
 
 double reference_below_layers(const ReferenceSurface& s) {
@@ -128,11 +132,11 @@ double reference_below_layers(const ReferenceSurface& s) {
 
 glm::dvec3 reference_sheen(const ReferenceSurface& s, const glm::dvec3& to_light) {
   const double n_dot_l = glm::dot(s.n_shading, to_light);
-  if (s.material.sheen == glm::dvec3(0.0) || n_dot_l <= 0.0) return glm::dvec3(0.0);
+  if (s.material.layers.sheen == glm::dvec3(0.0) || n_dot_l <= 0.0) return glm::dvec3(0.0);
   const glm::dvec3 h = glm::normalize(to_light + s.to_viewer);
   const double sine2 = std::max(1.0 - square(glm::dot(s.n_shading, h)), 1e-12);
   return (1.0 - reference_coat_share(s)) / std::max(sheen_returned(s), 1.0) *
-         sheen_of(sine2, n_dot_l, cosine_of_view(s), s.material.sheen_alpha) * s.material.sheen;
+         sheen_of(sine2, n_dot_l, cosine_of_view(s), sheen_alpha(s)) * s.material.layers.sheen;
 }
 
 glm::dvec3 reference_matt(const ReferenceSurface& s, const glm::dvec3& to_light) {

@@ -13,6 +13,15 @@ glm::dvec3 scaled(const glm::vec3& a, const glm::dvec3& b) {
   return glm::dvec3(a) * b;
 }
 
+// `texel`: of a texture at the point, sRGB or not.
+template <class Texel>
+ReferenceLayers layers_of(const GltfLayers& l, const MaterialMaps& maps, const Texel& texel) {
+  return {.coat = l.coat * texel(maps.clearcoat, false).r,
+          .coat_roughness = l.coat_roughness * texel(maps.clearcoat_roughness, false).g,
+          .sheen = scaled(l.sheen, glm::dvec3(texel(maps.sheen_color, true))),
+          .sheen_roughness = l.sheen_roughness * texel(maps.sheen_roughness, false).a};
+}
+
 ReferenceMaterial as_it_stands(const Material& m) {
   return {glm::dvec3(m.ambient),
           glm::dvec3(m.diffuse),
@@ -28,23 +37,15 @@ ReferenceMaterial as_it_stands(const Material& m) {
           m.grazing,
           glm::dvec2(m.layer),
           m.gloss,
-          glm::dvec3(m.sheen),
-          m.sheen_alpha,
-          m.coat,
-          m.coat_alpha};
+          layers_of(m.layers, {}, [](const TextureUse&, bool) { return glm::dvec4(1.0); })};
 }
 
 // A surface's textured values at a point.
 struct PointSurface {
   glm::dvec3 base, emissive, specular;  // specular: factor times colour
   double strength, metallic, roughness, transmission;
-  glm::dvec3 sheen;
-  double sheen_roughness, coat, coat_roughness;
+  ReferenceLayers layers;
 };
-
-double squared_roughness(double roughness, double least) {
-  return std::clamp(roughness * roughness, least, 1.0);
-}
 
 // How much of a mirror is left where no samples are taken.
 double sharpness(double roughness) {
@@ -57,8 +58,7 @@ glm::dvec3 or_none(const glm::dvec3& mirror) {
 
 // docs/conventions.md, "Metallic-roughness".
 ReferenceMaterial material_of(const GltfSurface& s, const PointSurface& at, bool phong) {
-  const auto& [base, emissive, specular, strength, metallic, roughness, transmission, sheen, sheen_roughness,
-               coat, coat_roughness] = at;
+  const auto& [base, emissive, specular, strength, metallic, roughness, transmission, layers] = at;
   ReferenceMaterial m{};
   m.brdf = true;
   m.shininess = m.ior = 1.0;
@@ -87,13 +87,10 @@ ReferenceMaterial material_of(const GltfSurface& s, const PointSurface& at, bool
   }
   m.reflectance = or_none(sharpness(roughness) * f0);
   if (!phong) {
-    m.sheen = sheen;
-    m.sheen_alpha = squared_roughness(sheen_roughness, 0.005);
-    m.coat = coat;
-    m.coat_alpha = squared_roughness(coat_roughness, 0.0005);
-    const double of_coat = 0.04 * coat;
+    m.layers = layers;
+    const double of_coat = 0.04 * layers.coat;
     m.reflectance =
-        or_none((1.0 - of_coat) * m.reflectance + glm::dvec3(of_coat * sharpness(coat_roughness)));
+        or_none((1.0 - of_coat) * m.reflectance + glm::dvec3(of_coat * sharpness(layers.coat_roughness)));
   }
   m.fresnel = m.reflects();
   return m;
@@ -176,11 +173,7 @@ ReferenceMaterial reference_material(const Mesh& mesh, const ReferenceHit& hit, 
                     {scaled(s.base_color, base), scaled(s.emissive, emissive),
                      specular * scaled(s.specular_color, glm::dvec3(texel(maps->specular_color, true))),
                      specular, s.metallic * rough_metal.b, s.roughness * rough_metal.g,
-                     s.transmission * texel(maps->transmission, false).r,
-                     scaled(s.sheen_color, glm::dvec3(texel(maps->sheen_color, true))),
-                     s.sheen_roughness * texel(maps->sheen_roughness, false).a,
-                     s.clearcoat * texel(maps->clearcoat, false).r,
-                     s.clearcoat_roughness * texel(maps->clearcoat_roughness, false).g},
+                     s.transmission * texel(maps->transmission, false).r, layers_of(s.layers, *maps, texel)},
                     !plain.is_microfacet());
     m.coat_is_mapped = maps->coat_is_mapped;
   } else {

@@ -1,11 +1,26 @@
 #pragma once
 
+#include <algorithm>
 #include <glm/glm.hpp>
 
 #include "core/reference/reference_hit.h"
 #include "pinocchio/mesh.h"
 
 namespace pinocchio {
+
+// What glTF calls alpha. Smaller ones are drawn as the least.
+[[nodiscard]] inline double squared_roughness(double roughness, double least) {
+  return std::clamp(roughness * roughness, least, 1.0);
+}
+
+// KHR_materials_clearcoat and KHR_materials_sheen.
+struct ReferenceLayers {
+  double coat = 0.0, coat_roughness = 0.0;
+  glm::dvec3 sheen{0.0};
+  double sheen_roughness = 0.0;
+
+  [[nodiscard]] double coat_alpha() const { return squared_roughness(coat_roughness, 0.0005); }
+};
 
 // A material at a point, in double precision.
 struct ReferenceMaterial {
@@ -17,10 +32,9 @@ struct ReferenceMaterial {
   double grazing = 1.0;    // F90; `specular` is F0
   glm::dvec2 layer{0.0};   // F0 and F90 of the layer above the matt one
   double gloss = 0.0;      // exponent of the mirrored rays' lobe; 0: sharp
-  glm::dvec3 sheen{0.0};   // KHR_materials_sheen
-  double sheen_alpha = 1.0, coat = 0.0, coat_alpha = 1.0;  // KHR_materials_clearcoat
-  bool coat_is_mapped = false;                             // the normal map is the coat's too
-  double alpha = 1.0;                                      // the surface's share of the light at the point
+  ReferenceLayers layers;
+  bool coat_is_mapped = false;  // the normal map is the coat's too
+  double alpha = 1.0;           // the surface's share of the light at the point
 
   [[nodiscard]] bool reflects() const { return reflectance != glm::dvec3(0.0); }
   [[nodiscard]] bool transmits() const { return transmittance != glm::dvec3(0.0); }

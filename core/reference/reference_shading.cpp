@@ -264,7 +264,7 @@ glm::dvec3 reference_reflected(const ReferenceSurface& s, const ReferenceLight& 
         reference_below_layers(s) * (n_dot_l * reference_matt(s, light.to_light) +
                                      mirrored(reference_base(s)) * reference_schlick(s.material, v_dot_h)) +
         reference_sheen(s, light.to_light);
-    if (s.material.coat > 0.0) share += reference_coat_share(s) * mirrored(reference_coat(s));
+    if (s.material.layers.coat > 0.0) share += reference_coat_share(s) * mirrored(reference_coat(s));
     return light.radiance * share;
   }
   const double r_dot_v = glm::dot(2.0 * n_dot_l * s.n_shading - light.to_light, s.to_viewer);

@@ -212,7 +212,7 @@ glm::dvec3 ReferenceTracer::along_lobe(const ReferenceSurface& s, int depth, con
     return light + along(lobe.direction, media.here, glass ? 0.0 : lobe.density);
   };
   glm::dvec3 sum(0.0);
-  if (m.coat > 0.0)
+  if (m.layers.coat > 0.0)
     for (const ReferenceLobe& lobe : reference_lobe_samples(s, reference_coat(s), lobe_side))
       sum += lobe.share * reference_coat_share(s) * found(lobe);
   const double below = reference_below_layers(s);

@@ -20,8 +20,8 @@ namespace pinocchio {
 // bounce. May be called from many threads.
 class ReferenceTracer {
  public:
-  // `tree` may be another scene's with the same triangles. Scene and tree must outlive this object. Of the
-  // options, only the footprint of textures, the terminator, the passed backs, the shadows of glass, the
+  // `tree` may be another scene's with the same triangles. Scene and tree must outlive this object. Only
+  // the options for the footprint of textures, the terminator, the passed backs, the shadows of glass, the
   // background and the shadow catcher are used: the reference follows every ray and takes many samples
   // itself. Jitter other than 0 means that the picture is one of many that are averaged; shadows of surfaces
   // that blend are then grey.

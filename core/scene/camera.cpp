@@ -37,7 +37,7 @@ Intrinsics intrinsics_of(const Camera& camera, glm::ivec2 size) {
 
 namespace {
 
-// Of a point in camera space: x right, y down, z forward. None: it is not seen.
+// The pixel of a point in camera space: x right, y down, z forward. None: it is not seen.
 std::optional<glm::dvec2> perspective_pixel(const Camera& camera, glm::ivec2 size, const glm::dvec3& p) {
   if (!(p.z > 0.0)) return std::nullopt;
   glm::dvec2 at = glm::dvec2(p) / p.z;

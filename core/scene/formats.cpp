@@ -8,6 +8,15 @@
 
 namespace pinocchio {
 
+namespace room {
+extern const SceneFormat PINOCCHIO_SCENE_FORMATS;  // core/CMakeLists.txt lists them from the rooms' load.cpp
+constexpr std::reference_wrapper<const SceneFormat> kAll[] = {PINOCCHIO_SCENE_FORMATS};
+}  // namespace room
+
+std::span<const std::reference_wrapper<const SceneFormat>> scene_formats() {
+  return room::kAll;
+}
+
 std::string lower_extension(const std::filesystem::path& file) {
   std::string extension = file.extension().string();
   std::ranges::transform(extension, extension.begin(),
@@ -18,15 +27,14 @@ std::string lower_extension(const std::filesystem::path& file) {
 const SceneFormat* find_scene_format(const std::filesystem::path& file) {
   const std::string extension = lower_extension(file);
   if (extension.empty()) return nullptr;
-  const auto* const found = std::ranges::find_if(kSceneFormats, [&](const SceneFormat& format) {
-    return std::ranges::find(format.extensions, extension) != format.extensions.end();
-  });
-  return found == std::end(kSceneFormats) ? nullptr : found;
+  for (const SceneFormat& format : scene_formats())
+    if (std::ranges::find(format.extensions, extension) != format.extensions.end()) return &format;
+  return nullptr;
 }
 
 std::string scene_extensions(FormatUse use) {
   std::vector<std::string> all;
-  for (const SceneFormat& format : kSceneFormats)
+  for (const SceneFormat& format : scene_formats())
     for (const std::string_view extension : format.extensions)
       if (!extension.empty() && (use == FormatUse::read || format.save)) all.emplace_back(extension);
   return listed(all, ", ", " or ");
@@ -34,7 +42,7 @@ std::string scene_extensions(FormatUse use) {
 
 std::string scene_format_names() {
   std::vector<std::string> names;
-  for (const SceneFormat& format : kSceneFormats) {
+  for (const SceneFormat& format : scene_formats()) {
     const auto& [first, second] = format.extensions;
     names.emplace_back(format.name);
     if (!second.empty()) names.back().append(" (").append(first).append(", ").append(second).append(")");

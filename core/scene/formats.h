@@ -1,8 +1,10 @@
-// The scene formats, one row each: whatever lists formats or extensions asks this table.
+// The scene formats: whatever lists formats or extensions asks scene_formats().
 #pragma once
 
 #include <array>
 #include <filesystem>
+#include <functional>
+#include <span>
 #include <string>
 #include <string_view>
 
@@ -12,6 +14,7 @@
 
 namespace pinocchio {
 
+// A format's room defines one in its load.cpp, in the namespace room and by the room's name.
 struct SceneFormat {
   std::string_view name;
   std::array<std::string_view, 2> extensions;  // in lower case; empty: none
@@ -19,18 +22,9 @@ struct SceneFormat {
   void (*save)(const Scene&, const std::filesystem::path&, Progress*, Warnings*);  // null: it is only read
 };
 
-[[nodiscard]] Expected<Scene> load_gltf(const std::filesystem::path& path, Loading& loading);
-[[nodiscard]] Expected<Scene> load_obj(const std::filesystem::path& path, Loading& loading);
-[[nodiscard]] Expected<Scene> load_ply(const std::filesystem::path& path, Loading& loading);
-[[nodiscard]] Expected<Scene> load_stl(const std::filesystem::path& path, Loading& loading);
-
-// A path without an extension names the first of these files that exists.
-inline constexpr SceneFormat kSceneFormats[] = {
-    {"glTF", {".gltf", ".glb"}, load_gltf, save_gltf},
-    {"OBJ", {".obj"}, load_obj, save_obj},
-    {"PLY", {".ply"}, load_ply, nullptr},
-    {"STL", {".stl"}, load_stl, nullptr},
-};
+// In the order of the rooms in core/CMakeLists.txt. A path without an extension names the first of these
+// files that exists.
+[[nodiscard]] std::span<const std::reference_wrapper<const SceneFormat>> scene_formats();
 
 // The warning about triangles with a vertex that is NaN or infinite, for every format.
 inline constexpr const char* kUnplaced = "faces on vertices that are no finite numbers are left out";

@@ -27,7 +27,7 @@ Expected<std::filesystem::path> find_scene_file(const std::filesystem::path& pat
   if (std::filesystem::exists(status) && !std::filesystem::is_directory(status)) return path;
   const std::filesystem::path trimmed = path.has_filename() ? path : path.parent_path();
   for (const std::filesystem::path& stem : {trimmed, trimmed / trimmed.filename()})
-    for (const SceneFormat& format : kSceneFormats)
+    for (const SceneFormat& format : scene_formats())
       for (const std::string_view extension : format.extensions)
         if (std::filesystem::path file = stem.string().append(extension);
             !extension.empty() && std::filesystem::is_regular_file(file, ignored))

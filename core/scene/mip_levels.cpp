@@ -158,7 +158,7 @@ struct Needed {
 std::vector<Needed> needed_of(const MeshData& mesh) {
   std::vector<Needed> needed(mesh.textures.size());
   for (const MaterialMaps& m : mesh.maps)
-    for (const auto& [member, is_color] : kMapUses) {
+    for (const auto& [member, is_color, of_layers] : kMapUses) {
       const TextureUse& use = m.*member;
       if (member == &MaterialMaps::alpha || !use.used() || as_size(use.texture) >= needed.size()) continue;
       Needed& n = needed[use.texture];

@@ -24,7 +24,7 @@ struct Stroke {
 
 // What add_strokes appended to a mesh.
 struct AddedStrokes {
-  // Of each new vertex: the file's vertex that it surrounds, and where it is from there.
+  // For each new vertex: the file's vertex that it surrounds, and its offset from there.
   std::vector<std::uint32_t> sources;
   std::vector<glm::vec3> offsets;
   std::size_t unplaced = 0;  // strokes that are left out, as an end of theirs is no finite number

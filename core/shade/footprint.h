@@ -19,7 +19,7 @@ struct RaySpread {
 struct Footprint {
   glm::vec3 step_x{0.0f}, step_y{0.0f};  // ViewParams', for camera rays; zero: cones
   float angle = 0.0f;                    // radians; 0: nothing is averaged
-  // Of camera rays: the cones' width where they begin; whether they are parallel.
+  // For camera rays: the cones' width where they begin; whether the rays are parallel.
   float start_width = 0.0f;
   bool parallel = false;
 

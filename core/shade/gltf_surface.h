@@ -1,6 +1,9 @@
 // A surface of glTF's as the shared sources have it: scalar (core/shade/shared_material.h) or in lanes.
 #pragma once
 
+#include <cstring>
+#include <type_traits>
+
 #include "pinocchio/material_maps.h"
 
 namespace pinocchio {
@@ -21,21 +24,22 @@ template <class MetallicRoughness>
   return m;
 }
 
-template <class GltfLayers>
-[[nodiscard]] GltfLayers layers(const GltfSurface& s) {
-  GltfLayers l;
-  l.coat = s.clearcoat;
-  l.coat_roughness = s.clearcoat_roughness;
-  l.sheen = s.sheen_color;
-  l.sheen_roughness = s.sheen_roughness;
-  return l;
+// The members of the layers in their order, filled up with zeros: what layers_of reads
+// (shaders/shared/layers.glsl).
+struct LayerTexels {
+  glm::vec4 first{0.0f}, second{0.0f};
+};
+[[nodiscard, gnu::always_inline]] inline LayerTexels layer_texels(const GltfLayers& layers) {
+  static_assert(std::is_trivially_copyable_v<GltfLayers> && sizeof(GltfLayers) <= sizeof(LayerTexels));
+  LayerTexels texels;
+  std::memcpy(static_cast<void*>(&texels), &layers, sizeof layers);
+  return texels;
 }
 
 // True if the opaque parts of the material have a coat or sheen. A transmission texture may decide which
 // parts those are.
 [[nodiscard, gnu::always_inline]] inline bool has_layers(const MaterialMaps& m) {
-  const glm::vec3& sheen = m.surface.sheen_color;
-  return m.from_gltf && (m.surface.clearcoat > 0.0f || sheen.x + sheen.y + sheen.z > 0.0f);
+  return m.from_gltf && m.surface.layers.any();
 }
 
 }  // namespace pinocchio

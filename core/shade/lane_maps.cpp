@@ -39,7 +39,7 @@ struct TextureRead {
 std::vector<TextureRead> textures_read(const Mesh& mesh, const MaterialMaps& maps) {
   std::vector<TextureRead> reads;
   for (std::size_t i = 0; i < kMapUses.size(); ++i) {
-    const auto& [member, is_color] = kMapUses[i];
+    const auto& [member, is_color, of_layers] = kMapUses[i];
     const TextureUse& use = maps.*member;
     if (member == &MaterialMaps::alpha || !is_readable(mesh, use)) continue;
     const auto same = std::ranges::find_if(

@@ -29,6 +29,7 @@ template <class T>
 // In the order in which they need each other:
 // clang-format off
 #include "shaders/shared/light_params.glsl"
+#include "shaders/shared/layers.glsl"
 #include "shaders/shared/phong.glsl"
 #include "shaders/shared/microfacet.glsl"
 #include "shaders/shared/metallic_roughness.glsl"

@@ -19,8 +19,8 @@ struct ChannelTexture {
   std::size_t most_bytes;  // that travel in a frame
   glm::ivec2 tiles{0};  // columns and rows of tiles, of which only some travel behind their index; 0: whole
 };
-// Of MaskImage's bytes with so many bits a sample, at most kMostMaskBits: a texel is a byte of the row where
-// that holds a whole number of samples, else a sample.
+// MaskImage's bytes with `bits` a sample, at most kMostMaskBits, as a texture: a texel is a byte of the row
+// where that holds a whole number of samples, else a sample.
 [[nodiscard]] ChannelTexture packed_mask_texture(int bits, glm::ivec2 samples);
 struct ChannelLayout : ChannelTexture {
   Channel channel;

@@ -17,7 +17,8 @@ struct UseTexels {
 constexpr std::size_t kUses = kMapUses.size();
 struct MapTexels {
   std::array<UseTexels, kUses> uses;  // as MaterialMaps::uses()
-  glm::vec4 base_metallic, emissive_roughness, specular, more, strengths, alpha_rule, coat, sheen;
+  glm::vec4 base_metallic, emissive_roughness, specular, more, strengths, alpha_rule;
+  LayerTexels layers;
 };
 constexpr std::size_t kTexelsOfMaps = sizeof(MapTexels) / sizeof(glm::vec4);
 static_assert(kTexelsOfMaps == 3 * kUses + 8);
@@ -86,8 +87,7 @@ MapTexels map_texels(const Mesh& mesh, const MaterialMaps& m, const LevelTable& 
       .strengths = glm::vec4(m.normal_scale, m.occlusion.used() ? m.occlusion_strength : 0.0f,
                              flag(m.from_gltf) + flag(m.from_gltf && m.coat_is_mapped), m.alpha_channel),
       .alpha_rule = glm::vec4(m.alpha_mode, m.alpha_factor, m.alpha_cutoff, flag(m.vertex_colors)),
-      .coat = glm::vec4(s.clearcoat, s.clearcoat_roughness, s.sheen_roughness, 0.0f),
-      .sheen = glm::vec4(s.sheen_color, 0.0f)};
+      .layers = layer_texels(s.layers)};
   const auto uses = m.uses();
   for (std::size_t i = 0; i < kUses; ++i) {
     if (!is_read(mesh, *uses[i])) continue;
@@ -110,24 +110,20 @@ std::vector<glm::vec4> maps_and_levels(const Mesh& mesh) {
   return all;
 }
 
-// Textures that coat and sheen depend on: they are left out where light goes through.
-constexpr std::array kOfLayers{&MaterialMaps::transmission, &MaterialMaps::clearcoat,
-                               &MaterialMaps::clearcoat_roughness, &MaterialMaps::sheen_color,
-                               &MaterialMaps::sheen_roughness};
-
 // MAP_USES.
 unsigned bits_of_uses(const Mesh& mesh) {
   unsigned bits = 0;
   for (const MaterialMaps& m : mesh.maps) {
-    const auto uses = m.uses();
     for (std::size_t i = 0; i < kUses; ++i) {
-      if (!is_read(mesh, *uses[i])) continue;
+      const MapUse& row = kMapUses[i];
+      const TextureUse& use = m.*row.use;
+      if (!is_read(mesh, use)) continue;
       bits |= 1u << i;
-      if (uses[i]->uv_set == 1) bits |= kSecondTexcoords;
+      if (use.uv_set == 1) bits |= kSecondTexcoords;
+      // Where light goes through, layers are left out.
+      if (has_layers(m) && (row.of_layers || row.use == &MaterialMaps::transmission)) bits |= kLayersVary;
     }
     if (m.blends()) bits |= kBlends;
-    if (has_layers(m) && std::ranges::any_of(kOfLayers, [&](auto use) { return is_read(mesh, m.*use); }))
-      bits |= kLayersVary;
   }
   const auto shares = [](const MaterialMaps& m) {
     return !m.occlusion.used() || m.occlusion == m.metallic_roughness;

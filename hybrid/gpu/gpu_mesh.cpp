@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "core/scene/pose/mesh_pose.h"
+#include "core/shade/gltf_surface.h"
 #include "core/shade/surface.h"
 #include "pinocchio/conversion.h"
 
@@ -14,7 +15,8 @@ namespace {
 
 // Layouts of shaders/scene_fetch.glsl.
 struct MaterialTexels {
-  glm::vec4 ambient_shininess, diffuse_maps, specular_alpha, emission, layer_grazing, sheen, coat;
+  glm::vec4 ambient_shininess, diffuse_maps, specular_alpha, emission, layer_grazing;
+  LayerTexels layers;
 };
 struct LightTexels {
   glm::vec4 position_kind, direction_falloff, radiance_range, cone_slot, edge_u_size, edge_v;
@@ -26,8 +28,8 @@ std::vector<MaterialTexels> material_texels(const Mesh& mesh) {
     texels.push_back(
         {glm::vec4(m.ambient, m.shininess), glm::vec4(m.diffuse, as_float(m.maps + 1)),
          glm::vec4(m.specular, m.ggx_alpha), glm::vec4(m.emission, 0.0f),
-         glm::vec4(m.layer, m.grazing, (m.transmits() ? 1.0f : 0.0f) + (m.has_layers() ? 2.0f : 0.0f)),
-         glm::vec4(m.sheen, m.sheen_alpha), glm::vec4(m.coat, m.coat_alpha, 0.0f, 0.0f)});
+         glm::vec4(m.layer, m.grazing, (m.transmits() ? 1.0f : 0.0f) + (m.layers.any() ? 2.0f : 0.0f)),
+         layer_texels(m.layers)});
   return texels;
 }
 

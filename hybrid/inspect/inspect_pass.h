@@ -40,7 +40,7 @@ class InspectPass {
  private:
   void draw_buffer(const Frame& frame, Layer view, int slot, const ChannelRange& range);
   // Sends the layer of a frame that the CPU has alone: where it composites, and for slots beyond the mask
-  // that the GPU has. Of the mask, eight slots from `first_slot` on.
+  // that the GPU has. A mask is sent in part: eight slots from `first_slot` on.
   [[nodiscard]] ShadingPasses::Traced send_from_cpu(const FrameSlot& frame, Layer view, int first_slot);
 
   // The frame's inputs for the GPU's passes; ids that only the CPU has are sent.

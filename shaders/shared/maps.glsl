@@ -1,4 +1,4 @@
-// Source of GLSL and of C++ (core/shade/shared_maps.h, core/trace/lanes/shared.h): a material with textures, vertex
+// Source of GLSL and of C++ (bench/one_ray/shared_maps.h, core/trace/lanes/shared.h): a material with textures, vertex
 // colours and alpha. Expects metallic_roughness.glsl.
 
 // The textures of a material, in the order of kMapUses (pinocchio/material_maps.h): bits of MAP_USES and of the lanes'
@@ -28,7 +28,6 @@ struct MapValues {
   real specular;
   vec3 specular_color;
   real transmission;
-  GltfLayers layers;
 };
 
 SHARED MaterialPoint mapped_phong(READ_ONLY(MaterialPoint) plain, READ_ONLY(MapValues) v) {
@@ -55,13 +54,14 @@ SHARED MaterialPoint mapped_metallic_roughness(READ_ONLY(MetallicRoughness) plai
   return m;
 }
 
-SHARED GltfLayers mapped_layers(READ_ONLY(GltfLayers) plain, READ_ONLY(GltfLayers) v) {
-  GltfLayers l = plain;
-  l.coat *= v.coat;
-  l.coat_roughness *= v.coat_roughness;
-  l.sheen *= v.sheen;
-  l.sheen_roughness *= v.sheen_roughness;
-  return l;
+// The layers times their textures. Each side defines MapTexels, and texel_of, which is white where there is no texture.
+SHARED Layers mapped_layers(READ_ONLY(Layers) plain, READ_ONLY(MapTexels) texels) {
+  Layers v;
+  v.coat = texel_of(texels, kClearcoat, false).x;
+  v.coat_roughness = texel_of(texels, kClearcoatRoughness, false).y;
+  v.sheen = vec3(texel_of(texels, kSheenColor, true));
+  v.sheen_roughness = texel_of(texels, kSheenRoughness, false).w;
+  return layers_times(plain, v);
 }
 
 // The ray's point moves by `spread` and then along `direction` back to the plane of triangle (a, a + ab, a + ac):

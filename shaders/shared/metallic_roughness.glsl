@@ -35,14 +35,6 @@ struct MetallicRoughness {
   bool unlit;
 };
 
-// KHR_materials_clearcoat and _sheen.
-struct GltfLayers {
-  real coat;
-  real coat_roughness;
-  vec3 sheen;
-  real sheen_roughness;
-};
-
 // The whole material at a point.
 struct MaterialPoint {
   ShadingParams shading;
@@ -65,10 +57,7 @@ SHARED ShadingParams phong_params(vec3 ambient, vec3 diffuse, vec3 specular, rea
   m.ggx_alpha = 0.0f;
   m.grazing = 1.0f;
   m.layer = vec2(0.0f);
-  m.sheen = vec3(0.0f);
-  m.sheen_alpha = 1.0f;
-  m.coat = 0.0f;
-  m.coat_alpha = 1.0f;
+  m.layers = no_layers();
   m.coat_normal = vec3(0.0f);
   return m;
 }
@@ -121,15 +110,10 @@ SHARED MaterialPoint from_metallic_roughness(READ_ONLY(MetallicRoughness) s, boo
 }
 
 // Adds the layers to a material of glTF's model. On glass they are left out.
-SHARED MaterialPoint with_layers(READ_ONLY(MaterialPoint) m, READ_ONLY(GltfLayers) l) {
+SHARED MaterialPoint with_layers(READ_ONLY(MaterialPoint) m, READ_ONLY(Layers) l) {
   MaterialPoint layered = m;
   boolean above = m.shading.ggx_alpha != 0.0f && m.transmittance == vec3(0.0f);
-  layered.shading.sheen = pick(above, l.sheen, m.shading.sheen);
-  layered.shading.sheen_alpha =
-      pick(above, clamp(l.sheen_roughness * l.sheen_roughness, kLeastSheenAlpha, 1.0f), m.shading.sheen_alpha);
-  layered.shading.coat = pick(above, l.coat, m.shading.coat);
-  layered.shading.coat_alpha =
-      pick(above, clamp(l.coat_roughness * l.coat_roughness, kLeastAlpha, 1.0f), m.shading.coat_alpha);
+  layered.shading.layers = pick_layers(above, l, m.shading.layers);
   real coat_f0 = kCoatF0 * l.coat;
   vec3 mirror = m.reflectance * (1.0f - coat_f0) + vec3(coat_f0 * sharp_share(l.coat_roughness));
   boolean mirrors = above && largest_of(mirror) > kLeastReflectance;

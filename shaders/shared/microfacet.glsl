@@ -96,6 +96,12 @@ SHARED vec3 normal_seen(vec3 n, vec3 n_geometric, vec3 to_viewer, real alpha) {
   return pick(bent, pick(square > 1e-12f, turned, n_geometric), n);
 }
 
+SHARED real coat_alpha(READ_ONLY(Layers) l) { return clamp(l.coat_roughness * l.coat_roughness, kLeastAlpha, 1.0f); }
+
+SHARED real sheen_alpha(READ_ONLY(Layers) l) {
+  return clamp(l.sheen_roughness * l.sheen_roughness, kLeastSheenAlpha, 1.0f);
+}
+
 SHARED real brightest(vec3 v) { return max(max(v.x, v.y), v.z); }
 
 // The brightest share that the lobe mirrors of light from all around.
@@ -144,11 +150,11 @@ SHARED real sheen_albedo(real n_dot_v, real alpha) {
 SHARED ShadingParams below_layers(vec3 to_viewer, vec3 n, READ_ONLY(ShadingParams) m) {
   ShadingParams below = m;
   real away = fifth_power(1.0f - cosine_of_view(m.coat_normal, to_viewer));
-  below.coat = m.coat * (kCoatF0 + (1.0f - kCoatF0) * away);
-  real left = 1.0f - below.coat;
-  if (any(m.sheen != vec3(0.0f))) {
-    real returned = brightest(m.sheen) * sheen_albedo(cosine_of_view(n, to_viewer), m.sheen_alpha);
-    below.sheen = m.sheen * (left / max(returned, 1.0f));
+  below.layers.coat = m.layers.coat * (kCoatF0 + (1.0f - kCoatF0) * away);
+  real left = 1.0f - below.layers.coat;
+  if (any(m.layers.sheen != vec3(0.0f))) {
+    real returned = brightest(m.layers.sheen) * sheen_albedo(cosine_of_view(n, to_viewer), sheen_alpha(m.layers));
+    below.layers.sheen = m.layers.sheen * (left / max(returned, 1.0f));
     left = left * (1.0f - min(returned, 1.0f));
   }
   below.diffuse = m.diffuse * left;
@@ -168,19 +174,19 @@ SHARED ShadingParams viewed_from(vec3 to_viewer, vec3 n, READ_ONLY(ShadingParams
   ShadingParams viewed = m;
   if (any(m.ggx_alpha > 0.0f)) {
     viewed.diffuse = viewed_diffuse(to_viewer, n, m);
-    if (any(m.coat > 0.0f || m.sheen != vec3(0.0f))) viewed = below_layers(to_viewer, n, viewed);
+    if (any(m.layers.coat > 0.0f || m.layers.sheen != vec3(0.0f))) viewed = below_layers(to_viewer, n, viewed);
   }
   return viewed;
 }
 
 // The brightest share of light from all around that lobe and coat mirror. viewed: parameters for one viewer.
 SHARED real mirrored_share(READ_ONLY(ShadingParams) viewed, real n_dot_v) {
-  return lobe_share(viewed, viewed.ggx_alpha, n_dot_v) + viewed.coat;
+  return lobe_share(viewed, viewed.ggx_alpha, n_dot_v) + viewed.layers.coat;
 }
 
 // How often a sample of the lobe, as wide as `alpha`, is one of the coat's.
 SHARED real coat_chance(READ_ONLY(ShadingParams) viewed, real alpha, real n_dot_v) {
-  return viewed.coat / max(lobe_share(viewed, alpha, n_dot_v) + viewed.coat, 1e-6f);
+  return viewed.layers.coat / max(lobe_share(viewed, alpha, n_dot_v) + viewed.layers.coat, 1e-6f);
 }
 
 // A direction of the lobe, and the density with which it is sampled, per steradian.
@@ -195,8 +201,8 @@ SHARED vec3 halfway(vec3 to_viewer, vec3 to_light) {
   return sum / sqrt(max(dot(sum, sum), 1e-20f));
 }
 
-// m: parameters for one viewer. Lobe and coat have the widths `alpha` and `coat_alpha`.
-SHARED LobeLight lobe_light(READ_ONLY(ShadingParams) m, real alpha, real coat_alpha, vec3 n, vec3 to_viewer,
+// m: parameters for one viewer. Lobe and coat have the widths `alpha` and `alpha_of_coat`.
+SHARED LobeLight lobe_light(READ_ONLY(ShadingParams) m, real alpha, real alpha_of_coat, vec3 n, vec3 to_viewer,
                             vec3 to_light) {
   vec3 h = halfway(to_viewer, to_light);
   vec3 off = cross(n, h);
@@ -209,14 +215,14 @@ SHARED LobeLight lobe_light(READ_ONLY(ShadingParams) m, real alpha, real coat_al
   result.reflected = (m.specular + (vec3(m.grazing) - m.specular) * fifth) *
                      (d * ggx_visibility(max(n_dot_l, 1e-7f), n_dot_v, alpha) * n_dot_l);
   result.density = 0.5f * d * ggx_viewed(n_dot_v, alpha);
-  if (any(m.coat > 0.0f)) {
+  if (any(m.layers.coat > 0.0f)) {
     vec3 off_coat = cross(m.coat_normal, h);
     real coat_dot_v = cosine_of_view(m.coat_normal, to_viewer);
     real coat_dot_l = max(dot(m.coat_normal, to_light), 0.0f);
-    real coat_d = ggx(dot(m.coat_normal, h), dot(off_coat, off_coat), coat_alpha);
-    real visible = ggx_visibility(max(coat_dot_l, 1e-7f), coat_dot_v, coat_alpha);
-    result.reflected += vec3(m.coat * (coat_d * visible * coat_dot_l));
-    real density = 0.5f * coat_d * ggx_viewed(coat_dot_v, coat_alpha);
+    real coat_d = ggx(dot(m.coat_normal, h), dot(off_coat, off_coat), alpha_of_coat);
+    real visible = ggx_visibility(max(coat_dot_l, 1e-7f), coat_dot_v, alpha_of_coat);
+    result.reflected += vec3(m.layers.coat * (coat_d * visible * coat_dot_l));
+    real density = 0.5f * coat_d * ggx_viewed(coat_dot_v, alpha_of_coat);
     result.density = result.density + (density - result.density) * coat_chance(m, alpha, n_dot_v);
   }
   return result;
@@ -228,7 +234,7 @@ SHARED vec3 sheen_light(READ_ONLY(ShadingParams) m, vec3 n, vec3 to_viewer, vec3
   real n_dot_v = cosine_of_view(n, to_viewer);
   real n_dot_l = max(dot(n, to_light), 0.0f);
   real visible = 0.25f / (n_dot_l + n_dot_v - n_dot_l * n_dot_v);
-  return m.sheen * (charlie(dot(off, off), m.sheen_alpha) * visible * n_dot_l);
+  return m.layers.sheen * (charlie(dot(off, off), sheen_alpha(m.layers)) * visible * n_dot_l);
 }
 
 // A microfacet's normal as the viewer sees them (Heitz, "Sampling the GGX Distribution of Visible Normals", JCGT 7(4),
@@ -259,11 +265,11 @@ SHARED vec3 reflected_light(READ_ONLY(ShadingParams) m, READ_ONLY(Incident) inci
   if (any(glossy)) {
     boolean sized = incident.density > 0.0f;
     real least = pick(sized, kLeastAlpha, kLeastHighlight);
-    LobeLight light =
-        lobe_light(m, max(m.ggx_alpha, least), max(m.coat_alpha, least), n, to_viewer, incident.to_light);
+    LobeLight light = lobe_light(m, max(m.ggx_alpha, least), max(coat_alpha(m.layers), least), n, to_viewer,
+                                 incident.to_light);
     real counts = pick(sized, incident.density / (incident.density + lobe * light.density), 1.0f);
     vec3 share = m.diffuse * (light.below * dot(n, incident.to_light)) + light.reflected * counts;
-    if (any(m.sheen != vec3(0.0f))) share += sheen_light(m, n, to_viewer, incident.to_light);
+    if (any(m.layers.sheen != vec3(0.0f))) share += sheen_light(m, n, to_viewer, incident.to_light);
     sum = pick(glossy, incident.radiance * share, sum);
   }
   return sum;

@@ -2,7 +2,7 @@
 // colour,
 //   I = Ia + sum over lights of mask * (Id + Is) + emission     (Phong 1975)
 // The mirrored and refracted terms Ir and It come from the ray tracer, a generation at a time.
-// Expects light_params.glsl.
+// Expects light_params.glsl and layers.glsl.
 
 // A point's reflection model: Phong's, or glTF's (microfacet.glsl).
 struct ShadingParams {
@@ -15,11 +15,8 @@ struct ShadingParams {
   real ggx_alpha;  // glTF: roughness squared, above 0. Phong: 0
   real grazing;    // glTF: F90, mirrored at grazing incidence
   vec2 layer;      // glTF: F0 and F90 of the dielectric layer on the matt one, in its brightest colour
-  vec3 sheen;      // KHR_materials_sheen: what it returns; black: none
-  real sheen_alpha;   // its roughness squared
-  real coat;       // KHR_materials_clearcoat: the coat's factor; viewed_from makes it the share that it mirrors
-  real coat_alpha;    // its roughness squared
-  vec3 coat_normal;   // unit, facing the viewer; set where there is a coat
+  Layers layers;   // glTF: above that
+  vec3 coat_normal;  // unit, facing the viewer; set where there is a coat
 };
 
 struct Incident {

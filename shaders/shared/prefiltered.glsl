@@ -35,6 +35,7 @@ SHARED vec3 lobe_albedo(READ_ONLY(ShadingParams) viewed, real n_dot_v) {
 // What matt part and sheen return.
 SHARED vec3 matt_albedo(READ_ONLY(ShadingParams) viewed, real n_dot_v) {
   vec3 share = viewed.diffuse * (kPi * mean_below(viewed, n_dot_v));
-  if (any(viewed.sheen != vec3(0.0f))) share += viewed.sheen * sheen_albedo(n_dot_v, viewed.sheen_alpha);
+  if (any(viewed.layers.sheen != vec3(0.0f)))
+    share += viewed.layers.sheen * sheen_albedo(n_dot_v, sheen_alpha(viewed.layers));
   return share;
 }

@@ -1,4 +1,4 @@
-// Source of GLSL and of C++ (core/shade/shared_maps.h): texture look-ups. Each side defines TexelSource and
+// Source of GLSL and of C++ (bench/one_ray/shared_maps.h): texture look-ups. Each side defines TexelSource and
 // level_at(source, size, level): the level's first texel, width and height; and texel_at(source, i, is_color): the i-th
 // texel, 0 to 1, colour (sRGB) made linear. The lanes have code of their own (core/trace/lanes/texture.h).
 

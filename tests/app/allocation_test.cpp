@@ -25,7 +25,7 @@ TEST_F(AllocationTest, OneThatFailsIsOneLine) {
       "--mode raytrace --size 24x16 --threads 2 --frames 0-1 --turntable 2 --quiet -o x#.exr";
   ASSERT_EQ(run("generate cornell -o x.obj").exit_code, 0);  // read without nlohmann::json
   const std::string draw = "render x.obj " + how;
-  // Of the verb alone.
+  // The allocations of the verb alone.
   const long first = allocations("render none.gltf " + how), last = allocations(draw);
   ASSERT_GT(last, first + 100);
   std::filesystem::remove(folder_ / "x0.exr");

@@ -28,7 +28,7 @@ const std::map<std::string, std::set<std::string>> kMaySee{
     {"app", {"core", "gl", "hybrid", "bench", "scenes"}},
     {"python", {}},
     {"scenes", {"core"}},
-    {"bench", {"core", "gl", "hybrid", "scenes"}}};
+    {"bench", {"core", "gl", "hybrid", "scenes", "shaders"}}};
 const std::set<std::string> kErrors{"pinocchio/error.h", "pinocchio/open_gl_error.h"};
 // The only files of the program that may see the laboratory.
 const std::set<std::string> kLaboratory{"bench", "scenes"}, kLaboratoryVerbs{"chart.cpp", "generate.cpp"};

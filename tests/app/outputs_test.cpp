@@ -59,7 +59,7 @@ TEST_F(ApartTest, NoOutputIsAnother) {
   expect_refused("measure x.gltf --stats-json y.json --trace ./y.json");
 }
 
-// Of a range any frame's file may be one that is there by another name.
+// Any frame's file of a range may be an existing one by another name.
 TEST_F(ApartTest, NoFrameOfARangeIsAnInputOrAnother) {
   std::filesystem::create_symlink("x.gltf", folder_ / "f07.exr");
   expect_refused("render x.gltf --size 16x12 --turntable 9 -o f##.exr");

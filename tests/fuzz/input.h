@@ -14,7 +14,7 @@ namespace pinocchio::fuzz {
 // That a header may claim. Small: runs a second count, and address sanitizers mark every byte.
 inline constexpr std::uint64_t kMemory_bytes = std::uint64_t{4} << 20;
 
-// Of this process alone, removed at its end.
+// A folder of this process alone, removed at its end.
 inline const std::filesystem::path& folder() {
   static const std::filesystem::path path = [] {
     const std::filesystem::path memory = "/dev/shm";

@@ -63,7 +63,7 @@ TEST_P(TransferTest, FenceAndTimerTellThatTheGpuIsDone) {
   EXPECT_LT(span.end_s, gl::steady_now_s() + kClockError_s);
 }
 
-// Of all buffers of the context.
+// Summed over all buffers of the context.
 GLint64 mapped_bytes() {
   constexpr GLuint kMostNames = 64;
   GLint64 sum = 0;

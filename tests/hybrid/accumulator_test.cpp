@@ -55,7 +55,7 @@ TEST_P(AccumulatorTest, IsTheRenderersMeanOfAsManySamples) {
   }
 }
 
-// Of light that is brighter than white, which design 2's bytes cut off, nothing is lost.
+// Light that is brighter than white, which design 2's bytes cut off, is kept.
 TEST_P(AccumulatorTest, IsTheRenderersMeanWhereThePictureTravelsInBytes) {
   Scene scene = load_or_die(source_path("scenes/cornell"));
   for (Light& light : scene.lights) light.intensity *= 4.0f;

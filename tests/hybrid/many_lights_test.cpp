@@ -113,7 +113,7 @@ ReferencePicture truth_of(const Scene& scene, glm::ivec2 size = kSize) {
   return reference_render(scene, {.camera = first_camera(scene), .size = size}, 8, workers);
 }
 
-// Of the pixels that see the same triangle: bits that differ, and how far colours are apart in the mean.
+// Pixels that see the same triangle: bits that differ, and the mean distance of their colours.
 struct Apart {
   double bits = 0.0, pixels = 0.0, mean = 0.0;
 };

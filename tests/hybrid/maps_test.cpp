@@ -122,9 +122,9 @@ std::vector<Feature> features() {
   add("clear coat and sheen", [](MaterialMaps& m) {
     m.from_gltf = m.coat_is_mapped = true;
     m.surface.metallic = 0.0f;
-    m.surface.clearcoat = m.surface.clearcoat_roughness = 0.7f;
-    m.surface.sheen_color = {0.4f, 0.5f, 0.6f};
-    m.surface.sheen_roughness = 0.9f;
+    m.surface.layers.coat = m.surface.layers.coat_roughness = 0.7f;
+    m.surface.layers.sheen = {0.4f, 0.5f, 0.6f};
+    m.surface.layers.sheen_roughness = 0.9f;
     m.normal = m.clearcoat = m.sheen_color = use();
     m.clearcoat_roughness = m.sheen_roughness = use(Wrap::mirror, Wrap::clamp);
   });
@@ -132,8 +132,8 @@ std::vector<Feature> features() {
   add("normal map below a smooth coat", [](MaterialMaps& m) {
     m.from_gltf = true;
     m.surface.metallic = 1.0f;
-    m.surface.clearcoat = 1.0f;
-    m.surface.clearcoat_roughness = 0.4f;
+    m.surface.layers.coat = 1.0f;
+    m.surface.layers.coat_roughness = 0.4f;
     m.normal = use();
     m.normal_scale = 0.4f;
   });
@@ -154,7 +154,7 @@ std::vector<Feature> features() {
   return all;
 }
 
-// Of 255, on a screen.
+// In steps of a screen, which has 255.
 float difference(const glm::vec4& a, const glm::vec4& b) {
   float largest = 0.0f;
   for (int c = 0; c < 3; ++c)
@@ -192,10 +192,10 @@ TEST(Maps, ACoatLiesWhereTexturesLetNoLightThrough) {
   MaterialMaps maps;
   maps.from_gltf = true;
   maps.surface.metallic = 0.0f;
-  maps.surface.transmission = maps.surface.clearcoat = 1.0f;
-  maps.surface.clearcoat_roughness = 0.3f;
-  maps.surface.sheen_color = {0.6f, 0.3f, 0.1f};
-  maps.surface.sheen_roughness = 0.5f;
+  maps.surface.transmission = maps.surface.layers.coat = 1.0f;
+  maps.surface.layers.coat_roughness = 0.3f;
+  maps.surface.layers.sheen = {0.6f, 0.3f, 0.1f};
+  maps.surface.layers.sheen_roughness = 0.5f;
   maps.transmission = use();
   maps.transmission.nearest = true;
   Texture halves = flat({255, 255, 255, 255});
@@ -209,8 +209,8 @@ TEST(Maps, ACoatLiesWhereTexturesLetNoLightThrough) {
   EXPECT_LT(share_apart(draw(coated, "hybrid"), traced), 0.002);
   EXPECT_LT(share_apart(traced, reference_render(coated, {first_camera(coated), kSize}, 8, workers).color),
             0.002);
-  maps.surface.clearcoat = 0.0f;
-  maps.surface.sheen_color = glm::vec3(0.0f);
+  maps.surface.layers.coat = 0.0f;
+  maps.surface.layers.sheen = glm::vec3(0.0f);
   const Scene bare = plate_with(maps, halves, material_from_surface(maps.surface, Shading::from_file));
   EXPECT_GT(share_apart(traced, draw(bare, "raytrace")), 0.01);
 }

@@ -80,8 +80,7 @@ Material gltf(float metallic, float roughness, float coat = 0.0f) {
   return material_from_surface({.base_color = {0.8f, 0.6f, 0.4f},
                                 .metallic = metallic,
                                 .roughness = roughness,
-                                .clearcoat = coat,
-                                .clearcoat_roughness = 0.3f},
+                                .layers = {.coat = coat, .coat_roughness = 0.3f}},
                                Shading::from_file);
 }
 

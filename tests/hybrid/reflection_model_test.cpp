@@ -40,14 +40,13 @@ Material coated(float roughness, float metallic = 1.0f) {
   return material_from_surface({.base_color = glm::vec3(1.0f),
                                 .metallic = metallic,
                                 .roughness = 0.5f,
-                                .clearcoat = 1.0f,
-                                .clearcoat_roughness = roughness},
+                                .layers = {.coat = 1.0f, .coat_roughness = roughness}},
                                Shading::from_file);
 }
 
 Material cloth(const glm::vec3& base, const glm::vec3& sheen, float roughness) {
   return material_from_surface(
-      {.base_color = base, .metallic = 0.0f, .sheen_color = sheen, .sheen_roughness = roughness},
+      {.base_color = base, .metallic = 0.0f, .layers = {.sheen = sheen, .sheen_roughness = roughness}},
       Shading::from_file);
 }
 

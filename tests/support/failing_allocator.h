@@ -4,7 +4,7 @@
 
 namespace pinocchio {
 
-// Of the program that failing_allocator.cpp is compiled into or loaded before.
+// Counts of the program that failing_allocator.cpp is compiled into or loaded before.
 extern std::atomic<long> allocations_made;    // since the beginning
 extern std::atomic<long> failing_allocation;  // the one that fails, by that count
 extern std::atomic<long> blocks_alive;        // made by operator new and not deleted

@@ -225,7 +225,7 @@ class WindowTest : public testing::Test {
       return different_pixels(picture(name), screen_->picture_of(id())) == 0;
     })) << "the window does not come to rest";
   }
-  // Of what the program printed, those with this in them.
+  // How many printed lines have these words in them.
   [[nodiscard]] long lines_of(const std::string& words) const {
     const std::string all = text_of(folder_ / "out.txt");
     long count = 0;

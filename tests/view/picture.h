@@ -16,7 +16,7 @@ using Picture = Image<glm::u8vec3>;
 // A PNG file; no pixels where it cannot be read.
 [[nodiscard]] Picture picture_of_file(const std::filesystem::path& file);
 
-// Of a box "WIDTHxHEIGHT+X+Y", as far as it lies in the picture.
+// The part in a box "WIDTHxHEIGHT+X+Y", as far as it lies in the picture.
 [[nodiscard]] Picture crop(const Picture& picture, const std::string& box);
 
 // Pixels of which a channel differs by more than `percent` of its range; -1: one is empty, or they differ in

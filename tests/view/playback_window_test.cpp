@@ -14,7 +14,7 @@ constexpr double kFrame_s = 1.0 / 24.0;
 
 class PlaybackWindowTest : public WindowTest {
  protected:
-  // Of the pose that is shown; -1: the command names none.
+  // The time of the pose that is shown; -1: the command names none.
   [[nodiscard]] double time_s() {
     const std::string time = option(command_line(), "--time");
     return time.empty() ? -1.0 : std::stod(time);

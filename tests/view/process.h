@@ -89,7 +89,7 @@ class Process {
     if (!becomes([this] { return !running(); }, seconds)) return -2;
     return WIFEXITED(*status_) ? WEXITSTATUS(*status_) : -1;
   }
-  // Of all processors, since it began.
+  // Processor time of all cores since it began.
   [[nodiscard]] double cpu_s() const {
     const std::string stat = text_of("/proc/" + std::to_string(id_) + "/stat");
     std::istringstream rest(stat.substr(stat.rfind(')') + 2));

@@ -37,7 +37,7 @@ class History {
 };
 
 inline constexpr std::size_t kMedianOf = 20;  // frames for the median of a shown figure
-// Of the newest `count` values. 0: there are none.
+// The median of the newest `count` values. 0: there are none.
 [[nodiscard]] float median_of_newest(const std::vector<float>& values, std::size_t count);
 
 }  // namespace pinocchio::app

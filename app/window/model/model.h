@@ -159,7 +159,7 @@ struct Model {
   void set_window_pixels(glm::ivec2 pixels);
   // Whether pixels are enlarged so far that their values can be read on them.
   [[nodiscard]] bool wants_numbers() const;
-  // Of the picture for the window, pixels.
+  // The size of the picture for the window, pixels.
   [[nodiscard]] glm::ivec2 wanted_size() const;
   // The frame that shows all this, sampled at the pixels' centres.
   [[nodiscard]] FrameRequest request() const;

@@ -30,7 +30,7 @@ class Gui {
   [[nodiscard]] bool wants_text() const;
   // Closes the innermost popup or text field. False: there is none.
   bool close_popup();
-  // Of the open panels, the one that was opened or used last. Nothing: none is open.
+  // The open panel that was opened or used last. Nothing: none is open.
   [[nodiscard]] std::optional<Panel> front_panel(const OpenPanels& panels) const;
   // Whether a control is held.
   [[nodiscard]] bool is_active() const;

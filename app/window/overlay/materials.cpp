@@ -1,4 +1,4 @@
-// The panel Materials.
+// The panel Materials: an edit is left in model.material_edit.
 #include <algorithm>
 #include <string>
 #include <utility>
@@ -13,7 +13,7 @@ bool slide(const char* name, float& value, float lo, float hi, const std::string
   return slider(name, value, lo, hi, format("%.2f", value), help);
 }
 
-// In the words of glTF and of the programs that write it.
+// A control for each parameter, named as glTF and the programs that write it do. True: one was moved.
 bool edit_surface(GltfSurface& s, bool textured) {
   const std::string times = textured ? "; multiplies the texture's" : "";
   bool changed = edit_color("base colour", s.base_color, "colour of the surface" + times);
@@ -24,10 +24,10 @@ bool edit_surface(GltfSurface& s, bool textured) {
   changed = edit_color("emitted", s.emissive, "light that the surface emits" + times) || changed;
   changed = slide("transmission", s.transmission, 0.0f, 1.0f, "1: glass" + times) || changed;
   changed = slide("index", s.ior, 1.0f, 3.0f, "index of refraction; 1.5 for glass and plastic") || changed;
-  changed = slide("clear coat", s.clearcoat, 0.0f, 1.0f, "a layer of varnish" + times) || changed;
-  if (s.clearcoat > 0.0f)
+  changed = slide("clear coat", s.layers.coat, 0.0f, 1.0f, "a layer of varnish" + times) || changed;
+  if (s.layers.coat > 0.0f)
     changed =
-        slide("its roughness", s.clearcoat_roughness, 0.0f, 1.0f, "of the clear coat" + times) || changed;
+        slide("its roughness", s.layers.coat_roughness, 0.0f, 1.0f, "of the clear coat" + times) || changed;
   return changed;
 }
 

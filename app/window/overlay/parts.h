@@ -45,7 +45,7 @@ void draw_playback(Model& model, float scale);
 void draw_loading(Model& model, float scale);
 // Whether edits that are not saved are dropped.
 void draw_question(Model& model, float scale);
-// Of the animation's bar with the gap above it; 0: the scene has no animation.
+// The height of the animation's bar with the gap above it. 0: the scene has no animation.
 [[nodiscard]] float playback_height(const Model& model, float scale);
 // What the picture's colours mean, at the window's upper edge.
 void draw_caption(Model& model, float scale);

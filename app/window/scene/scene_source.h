@@ -31,7 +31,7 @@ class SceneSource {
   void cancel();
   // What the background has finished. An error becomes a message.
   [[nodiscard]] SceneLoader::News poll();
-  // Of the verb, where no scene could be opened.
+  // The verb's exit code where no scene could be opened.
   [[nodiscard]] ExitCode code() const { return model_.has_scene() ? kDone : code_; }
   [[nodiscard]] bool is_busy() const { return loader_.busy(); }
 

@@ -9,8 +9,8 @@
 
 namespace pinocchio {
 
-// How many references begin and end in each of equal slabs of a node, on all three axes. Of two bounds in
-// different slabs the one in the lower slab is lower, despite rounding.
+// How many references begin and end in each of equal slabs of a node, on all three axes. Despite
+// rounding, a bound in a lower slab is lower than one in a higher slab.
 class Slabs {
  public:
   static constexpr int kMost = 256;

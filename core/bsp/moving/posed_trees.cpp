@@ -303,7 +303,7 @@ class Trees {
     return bounds;
   }
 
-  // Of its triangles that have an area.
+  // The bounds of its triangles that have an area.
   [[nodiscard]] Bounds bounds_with_area(const MovingGroup& group) const {
     Bounds bounds;
     for (const std::uint32_t id : group.kept->order) {

@@ -97,6 +97,7 @@ class HeaderWalk {
     return value;
   }
 
+  // Reads an attribute's value only to throw where its parts go beyond its size; `end` is where it ends.
   void check_value(const std::string& type, std::int64_t size, std::int64_t end) {
     if (const auto fixed = fixed_bytes().find(type); fixed != fixed_bytes().end() && fixed->second != size)
       damaged();

@@ -30,7 +30,7 @@ struct PictureFormat {
 // A picture of any format with texels. Any thread.
 [[nodiscard]] Expected<DecodedImage> decode_texture(const EncodedPicture& picture);
 
-// A picture of a format that is written. Of one with texels, the linear channels R, G and B.
+// Reads a picture of a format that is written. Texels become the linear channels R, G and B.
 [[nodiscard]] Expected<ExrFile> read_picture(const std::filesystem::path& file);
 
 }  // namespace pinocchio

@@ -29,8 +29,8 @@ struct FrameArrays {
   std::uint32_t* materials = nullptr;
   std::uint32_t* primitives = nullptr;
   glm::vec2* motion = nullptr;
-  // Of a pixel in `mask`: slot i is bit i % 8 of byte i / 8. MaskImage::bytes_for() holds every casting
-  // light, fewer hold the lowest slots.
+  // Bytes of a pixel in `mask`: slot i is bit i % 8 of byte i / 8. MaskImage::bytes_for() holds all casting
+  // lights, fewer hold the lowest slots.
   std::size_t mask_bytes = 1;
 
   [[nodiscard]] bool wants_light() const { return color || mask || reflection; }

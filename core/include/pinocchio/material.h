@@ -5,6 +5,7 @@
 #include <string>
 
 #include "pinocchio/glm_layout.h"
+#include "pinocchio/gltf_layers.h"
 
 namespace pinocchio {
 
@@ -20,11 +21,7 @@ struct Material {
   float ggx_alpha = 0.0f;
   float grazing = 1.0f;   // glTF's model: F90, mirrored at grazing incidence
   glm::vec2 layer{0.0f};  // glTF's model: F0 and F90 of the dielectric layer above the matt one
-  // glTF's model: sheen and clear coat, with their roughness squared.
-  glm::vec3 sheen{0.0f};
-  float sheen_alpha = 1.0f;
-  float coat = 0.0f;
-  float coat_alpha = 1.0f;
+  GltfLayers layers{};    // glTF's model: above that
   // Weight of the mirrored ray where mirrors are not sampled; with `fresnel`: at normal incidence.
   glm::vec3 reflectance{0.0f};
   // Exponent of the lobe over which samples spread the mirrored rays. Lower is rougher.
@@ -48,7 +45,6 @@ struct Material {
   int maps = -1;
 
   [[nodiscard]] bool is_microfacet() const { return ggx_alpha > 0.0f; }
-  [[nodiscard]] bool has_layers() const { return coat > 0.0f || sheen.x + sheen.y + sheen.z > 0.0f; }
   [[nodiscard]] bool reflects() const { return reflectance.x + reflectance.y + reflectance.z > 0.0f; }
   [[nodiscard]] bool is_glossy() const { return gloss > 0.0f && (reflects() || transmits()); }
   [[nodiscard]] bool transmits() const { return transmittance.x + transmittance.y + transmittance.z > 0.0f; }

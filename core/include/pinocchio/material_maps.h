@@ -1,11 +1,13 @@
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <glm/glm.hpp>
 #include <tuple>
 
 #include "pinocchio/glm_layout.h"
+#include "pinocchio/gltf_layers.h"
 #include "pinocchio/texture.h"
 
 namespace pinocchio {
@@ -20,10 +22,7 @@ struct GltfSurface {
   float specular = 1.0f;     // KHR_materials_specular
   glm::vec3 specular_color{1.0f};
   float transmission = 0.0f;  // KHR_materials_transmission
-  float clearcoat = 0.0f;     // KHR_materials_clearcoat
-  float clearcoat_roughness = 0.0f;
-  glm::vec3 sheen_color{0.0f};  // KHR_materials_sheen
-  float sheen_roughness = 0.0f;
+  GltfLayers layers{};
   bool volume = false;  // KHR_materials_volume with a thickness: the surface refracts
   bool unlit = false;   // KHR_materials_unlit
 
@@ -46,10 +45,10 @@ struct MaterialMaps {
   TextureUse specular;             // A; multiplies `surface.specular`
   TextureUse specular_color;       // sRGB; multiplies `surface.specular_color`
   TextureUse transmission;         // R; multiplies `surface.transmission`
-  TextureUse clearcoat;            // R; multiplies `surface.clearcoat`
-  TextureUse clearcoat_roughness;  // G; multiplies `surface.clearcoat_roughness`
-  TextureUse sheen_color;          // sRGB; multiplies `surface.sheen_color`
-  TextureUse sheen_roughness;      // A; multiplies `surface.sheen_roughness`
+  TextureUse clearcoat;            // R; multiplies `layers.coat`
+  TextureUse clearcoat_roughness;  // G; multiplies `layers.coat_roughness`
+  TextureUse sheen_color;          // sRGB; multiplies `layers.sheen`
+  TextureUse sheen_roughness;      // A; multiplies `layers.sheen_roughness`
   int alpha_channel = 3;           // of the texture `alpha`: 0 R to 3 A
   float normal_scale = 1.0f;
   bool coat_is_mapped = false;  // the normal map is the clear coat's too
@@ -74,10 +73,8 @@ struct MaterialMaps {
   [[nodiscard]] bool maps_dielectric() const {
     return specular.used() || specular_color.used() || transmission.used();
   }
-  // Likewise of clear coat and sheen.
-  [[nodiscard]] bool maps_layers() const {
-    return clearcoat.used() || clearcoat_roughness.used() || sheen_color.used() || sheen_roughness.used();
-  }
+  // Whether textures change what `surface.layers` says.
+  [[nodiscard]] bool maps_layers() const;
 
   // All textures that the material may have, in the order of kMapUses.
   [[nodiscard]] auto uses();
@@ -88,7 +85,8 @@ struct MaterialMaps {
 
 struct MapUse {
   TextureUse MaterialMaps::*use;
-  bool is_color = false;  // sRGB
+  bool is_color = false;   // sRGB
+  bool of_layers = false;  // changes `surface.layers`
 };
 inline constexpr std::array kMapUses{
     MapUse{&MaterialMaps::base_color, true},
@@ -100,10 +98,10 @@ inline constexpr std::array kMapUses{
     MapUse{&MaterialMaps::specular},
     MapUse{&MaterialMaps::specular_color, true},
     MapUse{&MaterialMaps::transmission},
-    MapUse{&MaterialMaps::clearcoat},
-    MapUse{&MaterialMaps::clearcoat_roughness},
-    MapUse{&MaterialMaps::sheen_color, true},
-    MapUse{&MaterialMaps::sheen_roughness},
+    MapUse{.use = &MaterialMaps::clearcoat, .of_layers = true},
+    MapUse{.use = &MaterialMaps::clearcoat_roughness, .of_layers = true},
+    MapUse{.use = &MaterialMaps::sheen_color, .is_color = true, .of_layers = true},
+    MapUse{.use = &MaterialMaps::sheen_roughness, .of_layers = true},
 };
 
 inline auto MaterialMaps::uses() {
@@ -111,6 +109,10 @@ inline auto MaterialMaps::uses() {
 }
 inline auto MaterialMaps::uses() const {
   return std::apply([this](const auto&... row) { return std::array{&(this->*row.use)...}; }, kMapUses);
+}
+inline bool MaterialMaps::maps_layers() const {
+  return std::ranges::any_of(kMapUses,
+                             [this](const MapUse& row) { return row.of_layers && (this->*row.use).used(); });
 }
 
 }  // namespace pinocchio

@@ -40,7 +40,7 @@ inline constexpr std::array<std::string_view, 5> kIsaNames{"scalar", "sse4", "av
 
 // A shared mesh and its trees: closest hits and occlusion of any number of rays. Rays need not be coherent;
 // neighbours in the span with similar directions are traced as one packet. A ray's hit does not depend, to
-// the last bit, on its neighbours or the packet's width. Of triangles at the same distance, the one with the
+// the last bit, on its neighbours or the packet's width. Where triangles are equally far, the one with the
 // lowest id is hit. A ray with NaN or infinity in its origin or direction, or with a zero direction, hits
 // nothing. May be called from many threads.
 class Tracer {

@@ -13,6 +13,7 @@ namespace {
 constexpr std::size_t kInfluencesASet = 4;
 constexpr float kMostOffSum = 0.02f;  // larger than the rounding of 8-bit weights
 
+// The attribute's accessor. -1: the primitive has none.
 int accessor_of(const GltfAttributes& attributes, const std::string& name) {
   const auto found = attributes.find(name);
   return found == attributes.end() ? -1 : found->second;

@@ -196,7 +196,7 @@ class SceneReader {
                             as_uint32(triangle), triangles, node_from_mesh});
   }
 
-  // Of meshes that were placed once there are no copies.
+  // A mesh that was placed once has no copies.
   void drop_single_copies() {
     std::map<int, int> placings;
     for (const MeshCopy& copy : rest_.copies) ++placings[copy.mesh];
@@ -319,12 +319,16 @@ class SceneReader {
   std::size_t lights_before_ = 0, cameras_before_ = 0;
 };
 
-}  // namespace
-
 Expected<Scene> load_gltf(const std::filesystem::path& path, Loading& loading) {
   const Expected<GltfFile> file = read_gltf_file(path, loading);
   if (!file) return Unexpected(file.error());
   return SceneReader(*file, loading).read();
 }
+
+}  // namespace
+
+namespace room {
+extern const SceneFormat gltf{"glTF", {".gltf", ".glb"}, load_gltf, save_gltf};
+}  // namespace room
 
 }  // namespace pinocchio

@@ -1,6 +1,7 @@
 #include "core/scene/gltf/material_from_surface.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <glm/gtc/constants.hpp>
 
@@ -13,7 +14,7 @@ Material material_from_surface(const GltfSurface& s, Shading shading) {
   const shared::MaterialPoint p =
       shared::with_layers(shared::from_metallic_roughness(metallic_roughness<shared::MetallicRoughness>(s),
                                                           shading == Shading::phong),
-                          layers<shared::GltfLayers>(s));
+                          std::bit_cast<shared::Layers>(s.layers));
   Material m;
   m.ambient = p.shading.ambient;
   m.diffuse = p.shading.diffuse;
@@ -22,10 +23,7 @@ Material material_from_surface(const GltfSurface& s, Shading shading) {
   m.ggx_alpha = p.shading.ggx_alpha;
   m.grazing = p.shading.grazing;
   m.layer = p.shading.layer;
-  m.sheen = p.shading.sheen;
-  m.sheen_alpha = p.shading.sheen_alpha;
-  m.coat = p.shading.coat;
-  m.coat_alpha = p.shading.coat_alpha;
+  m.layers = std::bit_cast<GltfLayers>(p.shading.layers);
   m.emission = p.shading.emission;
   m.reflectance = p.reflectance;
   m.transmittance = p.transmittance;
@@ -41,10 +39,7 @@ GltfSurface surface_of_material(const Material& m) {
   GltfSurface s;
   s.roughness = m.ggx_alpha > shared::kLeastAlpha ? std::sqrt(m.ggx_alpha) : 0.0f;
   s.emissive = m.emission;
-  s.clearcoat = m.coat;
-  if (m.coat > 0.0f && m.coat_alpha > shared::kLeastAlpha) s.clearcoat_roughness = std::sqrt(m.coat_alpha);
-  s.sheen_color = m.sheen;
-  if (m.sheen != glm::vec3(0.0f)) s.sheen_roughness = std::sqrt(m.sheen_alpha);
+  s.layers = m.layers;
   // Base colour times what is not metal, and its parts that are matt and let light through.
   const glm::vec3 matt = m.diffuse * glm::pi<float>(), plastic = matt + m.transmittance;
   const float opaque = brightest(matt), all = brightest(plastic);

@@ -116,7 +116,7 @@ class MeshPlacer {
   // What fills arrays of its own, so that all of them can be done at once.
   using Job = std::function<Expected<void>()>;
 
-  // Of several errors, the first job's.
+  // Returns the first job's error where several fail.
   static Expected<void> run(std::span<const Job> jobs, std::size_t elements) {
     constexpr std::size_t kFew = std::size_t{1} << 15;  // are done before another thread has begun
     std::vector<Expected<void>> done(jobs.size());

@@ -91,8 +91,6 @@ class MtlLibraries {
   std::map<std::string, int> by_name_;
 };
 
-}  // namespace
-
 Expected<Scene> load_obj(const std::filesystem::path& path, Loading& loading) {
   Expected<FileBytes> bytes = read_input_file(path, loading.progress);
   if (!bytes) return Unexpected(bytes.error());
@@ -117,5 +115,11 @@ Expected<Scene> load_obj(const std::filesystem::path& path, Loading& loading) {
   scene.source_files = std::move(mtl.files);
   return scene;
 }
+
+}  // namespace
+
+namespace room {
+extern const SceneFormat obj{"OBJ", {".obj"}, load_obj, save_obj};
+}  // namespace room
 
 }  // namespace pinocchio

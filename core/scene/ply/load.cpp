@@ -312,8 +312,6 @@ class PlyBuilder {
   std::size_t faces_ = 0, odd_faces_ = 0;
 };
 
-}  // namespace
-
 Expected<Scene> load_ply(const std::filesystem::path& path, Loading& loading) {
   Expected<FileBytes> bytes = read_input_file(path, loading.progress);
   if (!bytes) return Unexpected(bytes.error());
@@ -323,5 +321,11 @@ Expected<Scene> load_ply(const std::filesystem::path& path, Loading& loading) {
   if (!mesh) return Unexpected(mesh.error());
   return Scene(std::move(*mesh));
 }
+
+}  // namespace
+
+namespace room {
+extern const SceneFormat ply{"PLY", {".ply"}, load_ply, nullptr};
+}  // namespace room
 
 }  // namespace pinocchio

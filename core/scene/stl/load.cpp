@@ -169,8 +169,6 @@ class StlReader {
   MeshData mesh_;
 };
 
-}  // namespace
-
 Expected<Scene> load_stl(const std::filesystem::path& path, Loading& loading) {
   const Expected<FileBytes> bytes = read_input_file(path, loading.progress);
   if (!bytes) return Unexpected(bytes.error());
@@ -178,5 +176,11 @@ Expected<Scene> load_stl(const std::filesystem::path& path, Loading& loading) {
   if (!mesh) return Unexpected(mesh.error());
   return Scene(std::move(*mesh));
 }
+
+}  // namespace
+
+namespace room {
+extern const SceneFormat stl{"STL", {".stl"}, load_stl, nullptr};
+}  // namespace room
 
 }  // namespace pinocchio

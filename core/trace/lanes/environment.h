@@ -50,7 +50,8 @@ namespace {
   const Float up = sqrt(max(Float(1.0f) - (disc.x * disc.x + disc.y * disc.y), Float(0.0f)));
   const Vec direction = around(s.n_shading, {disc.x, disc.y, up});
   if (m.microfacet != 0) {
-    const Float below = lobe_light(m, m.ggx_alpha, m.coat_alpha, s.n_shading, s.to_viewer, direction).below;
+    const Float below =
+        lobe_light(m, m.ggx_alpha, coat_alpha(m.layers), s.n_shading, s.to_viewer, direction).below;
     light = select(Mask::from_bits(m.microfacet), light * below, light);
   }
   follow(s, direction, light, pixel, lanes & (Float(0.0f) < dot(direction, s.n_geometric)),
@@ -77,7 +78,7 @@ inline void add_light(const Vec& light, Int pixels, Mask lanes, float* radiance)
   add_light(light, pixel, lanes, radiance);
 }
 
-// Of packets of rays: where in the picture they go. Memory is requested for all of them at once.
+// Finds where in the picture the rays of some packets go. Memory is requested for all of them at once.
 template <std::size_t kCount>
 inline void find_seen(const EnvironmentLight& e, const RayQueue& rays, std::size_t first,
                       const Mask (&missed)[kCount], vec2 (&place)[kCount]) {

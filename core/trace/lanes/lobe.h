@@ -13,7 +13,7 @@ namespace {
 [[gnu::noinline]] LaneLobe sample_lobe(const LaneSurface& s, const LaneMaterial& m, const Vec& own,
                                        const SampledPixel& sampling, Mask lanes, const Bounce& bounce) {
   const Float zero(0.0f), one(1.0f), two(2.0f);
-  const Mask glass = Mask::from_bits(m.transmits), coated = zero < m.coat;
+  const Mask glass = Mask::from_bits(m.transmits), coated = zero < m.layers.coat;
   const Float base_dot_v = cosine_of_view(s.n_shading, s.to_viewer);
   LaneLobe lobe;
   lobe.lanes =
@@ -29,7 +29,7 @@ namespace {
     const Float rest = select(by_coat, number.x / chance, (number.x - chance) / (one - chance));
     number.x = select(coated, clamp(rest, 0.0f, 0x1.fffffep-1f), number.x);
     n = select(by_coat, m.coat_normal, n);
-    alpha = select(by_coat, m.coat_alpha, alpha);
+    alpha = select(by_coat, coat_alpha(m.layers), alpha);
     n_dot_v = cosine_of_view(n, s.to_viewer);
   }
   const vec2 disc = disc_of_square(number);
@@ -46,7 +46,8 @@ namespace {
   lobe.throughput = schlick(m.specular, m.grazing, v_dot_h) * lobe.unshadowed;
   Float density = Float(0.5f) * ggx(h.z, h.x * h.x + h.y * h.y, alpha) * ggx_viewed(n_dot_v, alpha);
   if (coated.bits() != 0) {
-    const LobeLight both = lobe_light(m, m.ggx_alpha, m.coat_alpha, s.n_shading, s.to_viewer, direction);
+    const LobeLight both =
+        lobe_light(m, m.ggx_alpha, coat_alpha(m.layers), s.n_shading, s.to_viewer, direction);
     lobe.throughput =
         select(coated, select(zero < n_dot_l, both.reflected / both.density, Vec(zero)), lobe.throughput);
     density = select(coated, both.density, density);

@@ -102,31 +102,22 @@ inline VertexQuad weighted_quad(const SceneArrays& scene, const glm::vec4* quads
   return {{of[0], of[1], of[2]}, of[3]};
 }
 
-struct TexelColumns {
-  Float c[4];
-  [[nodiscard]] Vec rgb() const { return {c[0], c[1], c[2]}; }
-};
-inline TexelColumns columns_of(const float (&rows)[kMostLanes][4]) {
+inline vec4 texels_of(const float (&rows)[kMostLanes][4]) {
   const float* of[kWidth];
   for (unsigned lane = 0; lane < kWidth; ++lane) of[lane] = rows[lane];
-  TexelColumns texels;
-  load_columns(of, texels.c);
-  return texels;
+  Float columns[4];
+  load_columns(of, columns);
+  return vec4(columns);
 }
 
-// A material's texels at the points where some of them are; white where there is no texture.
-struct MapTexelLanes {
-  MapValues v;
-  Vec normal_texel;
+// A material's texels at the points where some of them are.
+struct MapTexelLanes : MapTexels {
   vec2 normal_ab, normal_ac;  // the normal map's coordinates along the edges
   bool has_normal = false;
 
   [[gnu::noinline]] MapTexelLanes(const SceneArrays& scene, const LaneMaps& maps, const MapPoints& points,
                                   Int triangle, const Vec& weights, Mask lanes, unsigned wanted) {
-    const Vec white(Float(1.0f));
-    v.base_color = v.emissive = v.specular_color = v.layers.sheen = white;
-    v.metallic = v.roughness = v.occlusion = v.specular = v.transmission = Float(1.0f);
-    v.layers.coat = v.layers.coat_roughness = v.layers.sheen_roughness = Float(1.0f);
+    for (vec4& texel : of) texel = vec4(Float(1.0f));
     for (int i = 0; i < maps.count; ++i) {
       const TexturePlace& place = maps.places[i];
       if ((place.maps & wanted) == 0) continue;
@@ -149,28 +140,26 @@ struct MapTexelLanes {
         has_normal = true;
       }
       for (int k = 0; k < place.count; ++k)
-        if ((place.textures[k].maps & wanted) != 0) use(columns_of(p.texel[k]), place.textures[k].maps);
+        if ((place.textures[k].maps & wanted) != 0) set(texels_of(p.texel[k]), place.textures[k].maps);
     }
   }
 
+  [[nodiscard]] MapValues values() const {
+    MapValues v;
+    v.base_color = vec3(of[kBaseColor]);
+    v.roughness = of[kMetallicRoughness].y;
+    v.metallic = of[kMetallicRoughness].z;
+    v.occlusion = of[kOcclusion].x;
+    v.emissive = vec3(of[kEmissive]);
+    v.specular = of[kSpecular].w;
+    v.specular_color = vec3(of[kSpecularColor]);
+    v.transmission = of[kTransmission].x;
+    return v;
+  }
+
  private:
-  void use(const TexelColumns& t, unsigned maps) {
-    const auto is = [maps](int map) { return (maps >> map & 1u) != 0; };
-    if (is(kBaseColor)) v.base_color = t.rgb();
-    if (is(kEmissive)) v.emissive = t.rgb();
-    if (is(kMetallicRoughness)) {
-      v.roughness = t.c[1];
-      v.metallic = t.c[2];
-    }
-    if (is(kOcclusion)) v.occlusion = t.c[0];
-    if (is(kNormal)) normal_texel = t.rgb();
-    if (is(kSpecular)) v.specular = t.c[3];
-    if (is(kSpecularColor)) v.specular_color = t.rgb();
-    if (is(kTransmission)) v.transmission = t.c[0];
-    if (is(kClearcoat)) v.layers.coat = t.c[0];
-    if (is(kClearcoatRoughness)) v.layers.coat_roughness = t.c[1];
-    if (is(kSheenColor)) v.layers.sheen = t.rgb();
-    if (is(kSheenRoughness)) v.layers.sheen_roughness = t.c[3];
+  void set(const vec4& texel, unsigned maps) {
+    for (; maps != 0; maps &= maps - 1) of[std::countr_zero(maps)] = texel;
   }
 };
 
@@ -188,7 +177,9 @@ struct MapTexelLanes {
       Float(0.0f).store(p.change_y[axis]);
     }
     sample_textures(*maps.alpha, lanes.bits(), ~0u, p);
-    texel = columns_of(p.texel[0]).c[maps.maps->alpha_channel];
+    const vec4 all = texels_of(p.texel[0]);
+    const Float channels[] = {all.x, all.y, all.z, all.w};
+    texel = channels[maps.maps->alpha_channel];
   }
   Float alpha = Float(maps.maps->alpha_factor) * texel;
   if (maps.maps->vertex_colors && scene.colors)
@@ -197,16 +188,17 @@ struct MapTexelLanes {
 }
 
 // The reflection model of a material of glTF's at the points.
-inline MaterialPoint gltf_material(const MaterialMaps& maps, const Material& plain, const MapValues& v) {
+inline MaterialPoint gltf_material(const MaterialMaps& maps, const Material& plain, const MapValues& v,
+                                   const MapTexels& texels) {
   const auto surface = metallic_roughness<MetallicRoughness>(maps.surface);
   const MaterialPoint point = mapped_metallic_roughness(surface, v, !plain.is_microfacet());
   if (!has_layers(maps)) return point;
-  return with_layers(point, mapped_layers(layers<GltfLayers>(maps.surface), v.layers));
+  return with_layers(point, mapped_layers(layers_of(maps.surface.layers), texels));
 }
 
 // Sets what the maps of one material change, for its lanes.
-inline void set_material(const MaterialMaps& maps, const Material& plain, const MapValues& v, Mask same,
-                         LaneMaterial& m) {
+inline void set_material(const MaterialMaps& maps, const Material& plain, const MapValues& v,
+                         const MapTexels& texels, Mask same, LaneMaterial& m) {
   const unsigned bits = same.bits();
   if (!maps.from_gltf) {
     m.ambient = select(same, m.ambient * v.base_color, m.ambient);
@@ -215,7 +207,7 @@ inline void set_material(const MaterialMaps& maps, const Material& plain, const 
     m.emission = select(same, m.emission * v.emissive, m.emission);
     return;
   }
-  const MaterialPoint point = gltf_material(maps, plain, v);
+  const MaterialPoint point = gltf_material(maps, plain, v, texels);
   const ShadingParams& shading = point.shading;
   m.set_model(shading, plain.is_microfacet(), has_layers(maps), same);
   m.occlusion = select(same, shading.occlusion, m.occlusion);
@@ -254,9 +246,9 @@ inline unsigned maps_wanted(bool reads_material, bool adds_ambient, bool ambient
     if (texels.has_normal) {
       VertexQuad tangent{Vec(Float(0.0f)), Float(0.0f)};
       if (scene.tangents) tangent = weighted_quad(scene, scene.tangents, triangle, s.weights, same);
-      const Vec n =
-          side * mapped_normal(side * n_vertices, tangent.xyz, tangent.w, points.ab, points.ac,
-                               texels.normal_ab, texels.normal_ac, texels.normal_texel, maps.normal_scale);
+      const Vec n = side * mapped_normal(side * n_vertices, tangent.xyz, tangent.w, points.ab, points.ac,
+                                         texels.normal_ab, texels.normal_ac, vec3(texels.of[kNormal]),
+                                         maps.normal_scale);
       s.n_shading = select(same, n, s.n_shading);
       if (maps.coat_is_mapped && has_layers(maps)) m.coat_normal = select(same, n, m.coat_normal);
     }
@@ -267,11 +259,11 @@ inline unsigned maps_wanted(bool reads_material, bool adds_ambient, bool ambient
       m.blends |= blends.bits();
     }
     if ((wanted & 1u << kBaseColor) == 0) return;
-    texels.v.occlusion = Float(1.0f) + Float(maps.occlusion_strength) * (texels.v.occlusion - Float(1.0f));
+    MapValues v = texels.values();
+    v.occlusion = Float(1.0f) + Float(maps.occlusion_strength) * (v.occlusion - Float(1.0f));
     if (maps.vertex_colors && scene.colors)
-      texels.v.base_color =
-          texels.v.base_color * weighted_quad(scene, scene.colors, triangle, s.weights, same).xyz;
-    set_material(maps, plain, texels.v, same, m);
+      v.base_color = v.base_color * weighted_quad(scene, scene.colors, triangle, s.weights, same).xyz;
+    set_material(maps, plain, v, texels, same, m);
   });
 }
 

@@ -15,7 +15,7 @@ inline bool any_component(const glm::vec3& v) {
 // True if the material has a coat or sheen somewhere. A transmission texture may limit them to its opaque
 // parts.
 inline bool has_layers(const SceneArrays& scene, const Material& m) {
-  return m.has_layers() ||
+  return m.layers.any() ||
          (m.is_microfacet() && m.maps >= 0 && pinocchio::has_layers(*scene.maps[m.maps].maps));
 }
 
@@ -31,9 +31,8 @@ struct LaneMaterial : ShadingParams {
     ambient = diffuse = specular = emission = Vec(Float(0.0f));
     shininess = ggx_alpha = grazing = layer.x = layer.y = 0.0f;
     occlusion = 1.0f;
-    sheen = coat_normal = Vec(Float(0.0f));
-    coat = 0.0f;
-    sheen_alpha = coat_alpha = 1.0f;
+    layers = no_layers();
+    coat_normal = Vec(Float(0.0f));
     for_each_distinct(materials, lanes, [&](std::uint32_t index, Mask same) {
       const Material& m = scene.materials[index];
       const bool has_coat_or_sheen = has_layers(scene, m);
@@ -70,17 +69,14 @@ struct LaneMaterial : ShadingParams {
       layer.x = select(same, Float(m.layer.x), layer.x);
       layer.y = select(same, Float(m.layer.y), layer.y);
     }
-    if (!is_layered) return;
-    sheen = select(same, Vec(m.sheen), sheen);
-    sheen_alpha = select(same, Float(m.sheen_alpha), sheen_alpha);
-    coat = select(same, Float(m.coat), coat);
-    coat_alpha = select(same, Float(m.coat_alpha), coat_alpha);
+    if (is_layered) layers = pick_layers(same, layers_of(m.layers), layers);
   }
 };
 
 // Normals of glTF's model, maps applied, as they can be seen.
 inline void turn_normals_to_viewer(LaneSurface& s, LaneMaterial& m) {
-  if (m.layered != 0) m.coat_normal = normal_seen(m.coat_normal, s.n_geometric, s.to_viewer, m.coat_alpha);
+  if (m.layered != 0)
+    m.coat_normal = normal_seen(m.coat_normal, s.n_geometric, s.to_viewer, coat_alpha(m.layers));
   s.n_shading = select(Mask::from_bits(m.microfacet),
                        normal_seen(s.n_shading, s.n_geometric, s.to_viewer, m.ggx_alpha), s.n_shading);
 }

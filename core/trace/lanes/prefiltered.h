@@ -86,18 +86,18 @@ struct SkyLight {
     Vec left(one), base = lobe_albedo(m, n_dot_v);
     if (mirrors && (m.reflects & lit.bits()) != 0) {
       const Vec sharp = m.reflectance + (Vec(one) - m.reflectance) * fifth_power(one - n_dot_v);
-      const Vec all = base + Vec(m.coat);
+      const Vec all = base + Vec(m.layers.coat);
       const auto rest = [&](Float a, Float b) { return max((a - b) / max(a, Float(1e-6f)), zero); };
       left = select(Mask::from_bits(m.reflects),
                     Vec(rest(all.x, sharp.x), rest(all.y, sharp.y), rest(all.z, sharp.z)), left);
     }
     sky.axis = select(lit, lobe_axis(n, direction, m.ggx_alpha), sky.axis);
     Vec mirrored = base * light_of_lobe(e, sky.axis, m.ggx_alpha, lit);
-    if (const Mask coated = lit & (zero < m.coat); any(coated)) {
+    if (const Mask coated = lit & (zero < m.layers.coat); any(coated)) {
       const Vec about = reflect(-s.to_viewer, m.coat_normal);
+      const Float alpha = coat_alpha(m.layers);
       mirrored =
-          mirrored +
-          light_of_lobe(e, lobe_axis(m.coat_normal, about, m.coat_alpha), m.coat_alpha, coated) * m.coat;
+          mirrored + light_of_lobe(e, lobe_axis(m.coat_normal, about, alpha), alpha, coated) * m.layers.coat;
     }
     sky.mirrored = select(lit, mirrored * left, sky.mirrored);
   }

@@ -17,7 +17,8 @@ inline Vec sampled_albedo(const LaneSurface& s, const LaneMaterial& m) {
   Vec albedo = (m.diffuse * Float(shared::kPi) + phong_albedo(m)) * brdf_share(m) +
                select(Mask::from_bits(m.glossy), m.reflectance, Vec(Float(0.0f)));
   if (any(microfacet))
-    albedo = select(microfacet, matt_albedo(m, n_dot_v) + lobe_albedo(m, n_dot_v) + Vec(m.coat), albedo);
+    albedo =
+        select(microfacet, matt_albedo(m, n_dot_v) + lobe_albedo(m, n_dot_v) + Vec(m.layers.coat), albedo);
   return m.blends != 0 ? albedo * m.alpha : albedo;
 }
 
@@ -62,9 +63,10 @@ inline Vec returned_of_sky(const EnvironmentLight& e, const LaneSurface& s, cons
   }
   if (any(rough)) {
     const Float alpha = sqrt(m.ggx_alpha * m.ggx_alpha + Float(0.125f) * square);
-    const Float coat_alpha = sqrt(m.coat_alpha * m.coat_alpha + Float(0.125f) * square);
+    const Float of_coat = coat_alpha(m.layers);
+    const Float coat_rough = sqrt(of_coat * of_coat + Float(0.125f) * square);
     share = select(
-        rough, share + lobe_light(m, alpha, coat_alpha, s.n_shading, s.to_viewer, middle.to_light).reflected,
+        rough, share + lobe_light(m, alpha, coat_rough, s.n_shading, s.to_viewer, middle.to_light).reflected,
         share);
   }
   return middle.radiance * share;

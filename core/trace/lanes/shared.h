@@ -2,6 +2,7 @@
 // for all points of a packet (a light, the sampling) stays scalar, so that branches on it are branches.
 #pragma once
 
+#include "core/shade/gltf_surface.h"
 #include "core/shade/shared.h"
 #include "core/trace/lanes/power.h"
 #include "core/trace/lanes/vector.h"
@@ -88,6 +89,23 @@ inline vec2 operator-(const vec2& a, const vec2& b) {
   return {a.x - b.x, a.y - b.y};
 }
 
+struct vec4 {
+  Float x, y, z, w;
+  vec4() = default;
+  explicit vec4(Float all) : x(all), y(all), z(all), w(all) {}
+  explicit vec4(const glm::vec4& all) : x(all.x), y(all.y), z(all.z), w(all.w) {}
+  explicit vec4(const Float (&c)[4]) : x(c[0]), y(c[1]), z(c[2]), w(c[3]) {}
+  explicit operator Vec() const { return {x, y, z}; }
+};
+
+// The textures of a material's maps at the points, by kMapUses; white where there is none.
+struct MapTexels {
+  vec4 of[kMapUses.size()];
+};
+inline const vec4& texel_of(const MapTexels& texels, int use, bool) {
+  return texels.of[use];
+}
+
 // Bits without a sign.
 struct whole {
   Int v;
@@ -158,6 +176,7 @@ struct SkyIrradiance {
 #define SHARED [[nodiscard, maybe_unused, gnu::always_inline]] inline
 #define READ_ONLY(type) const type&
 // clang-format off
+#include "shaders/shared/layers.glsl"
 #include "shaders/shared/phong.glsl"
 #include "shaders/shared/microfacet.glsl"
 #include "shaders/shared/metallic_roughness.glsl"
@@ -173,6 +192,14 @@ struct SkyIrradiance {
 #undef SHARED
 #undef min
 #undef max
+
+inline Layers layers_of(const GltfLayers& layers) {
+  const LayerTexels texels = layer_texels(layers);
+  return layers_of(vec4(texels.first), vec4(texels.second));
+}
+inline const Layers& layers_of(const Layers& layers) {
+  return layers;
+}
 
 }  // namespace
 }  // namespace pinocchio::PINOCCHIO_LANES

@@ -12,8 +12,8 @@ namespace {
 
 // Directions that the environment's light is looked up in for each shadow ray; the ray is sent along one of
 // them, likelier along one that brings more light (resampled importance sampling: Talbot, Cline and Egbert
-// 2005). Where nothing blocks the light, the result is the mean of all candidates. Of 1, 2, 4 and 8 this
-// number has little noise in a given time, also in shadow (docs/environment.md).
+// 2005). Where nothing blocks the light, the result is the mean of all candidates. This number, among 1, 2,
+// 4 and 8, has little noise in a given time, also in shadow (docs/environment.md).
 constexpr std::size_t kSkyCandidates = 4;
 
 // How many of the environment's samples the balance heuristic counts, times their density.

@@ -16,33 +16,17 @@
 namespace pinocchio::PINOCCHIO_LANES {
 namespace {
 
-inline void parallel_rays(const shared::ViewParams& view, glm::ivec2 corner, RayQueue& rays) {
-  const Vec first(view.eye), step_x(view.step_x), step_y(view.step_y), direction(view.corner);
-  for (std::size_t i = 0; i < rays.size; i += kWidth) {
-    const Int pixel = Int::load(rays.pixel + i), row = shift_right<kTileBits>(pixel);
-    const Float x =
-        Float(view.first.x) + to_float(pixel - shift_left<kTileBits>(row) + Int(as_uint32(corner.x)));
-    const Float y = Float(view.first.y) + to_float(row + Int(as_uint32(corner.y)));
-    put(first + step_x * x + step_y * y, rays.origin, i);
-    put(direction, rays.direction, i);
-  }
-}
-
 void camera_rays(const shared::ViewParams& view, glm::ivec2 corner, RayQueue& rays) {
-  const Vec first(view.corner), step_x(view.step_x), step_y(view.step_y), eye(view.eye);
-  if (view.parallel) return parallel_rays(view, corner, rays);
+  // Parallel rays differ in their origins, other rays in their directions.
+  const Vec first(view.parallel ? view.eye : view.corner), same(view.parallel ? view.corner : view.eye);
+  const Vec step_x(view.step_x), step_y(view.step_y);
   for (std::size_t i = 0; i < rays.size; i += kWidth) {
     const Int pixel = Int::load(rays.pixel + i), row = shift_right<kTileBits>(pixel);
     const Float x =
         Float(view.first.x) + to_float(pixel - shift_left<kTileBits>(row) + Int(as_uint32(corner.x)));
     const Float y = Float(view.first.y) + to_float(row + Int(as_uint32(corner.y)));
-    const Vec direction = first + step_x * x + step_y * y;
-    direction.x.store(rays.direction[0] + i);
-    direction.y.store(rays.direction[1] + i);
-    direction.z.store(rays.direction[2] + i);
-    eye.x.store(rays.origin[0] + i);
-    eye.y.store(rays.origin[1] + i);
-    eye.z.store(rays.origin[2] + i);
+    put(first + step_x * x + step_y * y, view.parallel ? rays.origin : rays.direction, i);
+    put(same, view.parallel ? rays.direction : rays.origin, i);
   }
 }
 

@@ -25,7 +25,7 @@ constexpr std::array<std::uint16_t, kGrid> kSpread{0, 1, 8, 9, 64, 65, 72, 73};
 struct Grid {
   float lo[3], scale[3];
 
-  // Of every `step`-th ray.
+  // The grid around every `step`-th ray.
   Grid(const RayColumns& rays, std::size_t n, std::size_t step) {
     for (int axis = 0; axis < 3; ++axis) {
       const float* const origin = rays.origin[axis];

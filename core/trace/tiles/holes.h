@@ -21,7 +21,7 @@ inline constexpr int kMostLayers = 4096;
 class MetHoles {
  public:
   [[nodiscard]] const std::uint32_t* find(const Tracer& tracer, const Bounce& bounce, const RayQueue& rays);
-  // Of shadow rays, whose `pixel` is the place in the queue that they are from. A surface that blends is a
+  // For shadow rays, whose `pixel` is their place in the queue they are from. A surface that blends is a
   // hole where alpha is below one half, or, in further samples of a pixel, below a random number.
   [[nodiscard]] const std::uint32_t* find(const Tracer& tracer, const Bounce& bounce, const RayQueue& rays,
                                           const RayQueue& from, const SamplePlace& place);

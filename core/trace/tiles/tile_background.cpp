@@ -8,7 +8,7 @@
 namespace pinocchio {
 namespace {
 
-// Of what is hit, however clear it is: 0 is where nothing is.
+// The least coverage of what is hit, however clear it is: 0 is where nothing is.
 constexpr float kLeastCoverage = 1e-30f;
 
 // Rays at a prefiltered sky, for each of a surface's: on ground of one colour the edge of each direction's
@@ -151,8 +151,8 @@ void TileTracer::catch_shadows() {
   add_background(straight_ground_);
 }
 
-// Lights the plane where the rays meet it, as a white matt surface, with and without shadows. Of the pixels'
-// ground_light_, A is the lost share then.
+// Lights the plane where the rays meet it, as a white matt surface, with and without shadows. Writes the lost
+// share to A of the pixels' ground_light_.
 void TileTracer::find_lost(RayQueue& rays) {
   if (rays.size == 0) return;
   for (std::size_t i = 0; i < rays.size; ++i) ground_light_[rays.pixel[i]] = glm::vec4(0.0f);
@@ -170,12 +170,7 @@ void TileTracer::find_lost(RayQueue& rays) {
   step.environment = plan_->ground_sky && plan_->ground_sky->shines ? &*plan_->ground_sky : nullptr;
   make_room(rays.size, next_);
   sky_.make_room(rays.size * (2 + as_size(options.sky_occlusion)));
-  step.corner = glm::uvec2(plan_->first + tile_.lo * plan_->out.scale);
-  step.shadow = shadow_.data();
-  step.ways_up = ways_up_.data();
-  step.sky = &sky_;
-  step.sky_ways_up = &sky_ways_up_;
-  step.lobe_lights = &lobe_lights_;
+  use_queues(step);
   step.radiance = step.traced = &ground_light_[0].x;
   for (const LightGroup& group : plan_->further_lights) {
     const bool is_first = &group == &plan_->further_lights.front();

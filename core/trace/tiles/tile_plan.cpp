@@ -73,12 +73,13 @@ bool any_maps(const Mesh& mesh, bool (MaterialMaps::*is)() const) {
 // sampled.
 bool shows_beyond(const Material& m, bool lobes) {
   if (m.transmits()) return true;
-  if (lobes && m.is_microfacet()) return m.maps >= 0 || m.coat > 0.0f || m.ggx_alpha <= kSharpAlpha;
+  if (lobes && m.is_microfacet()) return m.maps >= 0 || m.layers.coat > 0.0f || m.ggx_alpha <= kSharpAlpha;
   return m.reflects() && (m.gloss == 0.0f || m.gloss >= kSharpGloss);
 }
 
 }  // namespace
 
+// The step with the lights of one group.
 Bounce lit_by(const LightGroup& group, const Bounce& step) {
   Bounce lit = step;
   lit.lights = group.lights.data();

@@ -189,15 +189,19 @@ void TileTracer::make_room_for_shadows(std::size_t rays) {
   sky_ways_up_.make_room(plan_->further.environment ? up : 0);
 }
 
-void TileTracer::bounce(Bounce step, int generation, const RayQueue& rays, Generation& next,
-                        glm::vec4* radiance, bool of_camera) {
+void TileTracer::use_queues(Bounce& step) {
   step.corner = glm::uvec2(plan_->first + tile_.lo * plan_->out.scale);
-  step.dimension = as_uint32(generation) * shared::kDimensionsOfBounce;
   step.shadow = shadow_.data();
   step.ways_up = ways_up_.data();
   step.sky = &sky_;
   step.sky_ways_up = &sky_ways_up_;
   step.lobe_lights = &lobe_lights_;
+}
+
+void TileTracer::bounce(Bounce step, int generation, const RayQueue& rays, Generation& next,
+                        glm::vec4* radiance, bool of_camera) {
+  use_queues(step);
+  step.dimension = as_uint32(generation) * shared::kDimensionsOfBounce;
   step.radiance = &radiance->x;
   step.traced = &reflected_[0].x;
   if (step.mirrored) {

@@ -49,6 +49,7 @@ class TileTracer {
   void find_lost(RayQueue& rays);
   void count_lost(const RayQueue& queue, float reach);
   void write_lost();
+  void use_queues(Bounce& step);  // what the step appends goes to this tile's queues
   void bounce(Bounce step, int generation, const RayQueue& rays, Generation& next, glm::vec4* radiance,
               bool of_camera = false);
   [[nodiscard]] ExtraColumns extra_columns() const;

@@ -31,7 +31,7 @@ class TintedShadows {
   void trace(const Tracer& tracer, const Bounce& bounce, const MaterialMarks& passed, const RayQueue& rays,
              float reach, const SamplePlace& place, std::uint8_t* blocked);
 
-  // Of the last trace().
+  // What the last trace() found.
   [[nodiscard]] std::span<const Lit> lit() const { return lit_; }
 
  private:

@@ -11,8 +11,8 @@
 namespace pinocchio {
 namespace {
 
-// Half of the picture's height at a distance of 1; of parallel rays, at any distance. Of cameras whose rays a
-// RayModel makes, about that.
+// Half of the picture's height at a distance of 1; of parallel rays, at any distance. About that for
+// cameras whose rays a RayModel makes.
 float half_height_of(const Camera& camera) {
   switch (camera.projection) {
     case Projection::perspective:

@@ -169,12 +169,10 @@ void parts(A& a, Light& value) {
 }
 template <class A>
 void parts(A& a, Material& value) {
-  auto& [name, ambient, diffuse, specular, shininess, alpha, grazing, layer, sheen, sheen_alpha, coat,
-         coat_alpha, reflectance, gloss, transmittance, ior, color, distance, fresnel, emission, brdf, sides,
-         maps] = value;
-  each(a, name, ambient, diffuse, specular, shininess, alpha, grazing, layer, sheen, sheen_alpha, coat,
-       coat_alpha, reflectance, gloss, transmittance, ior, color, distance, fresnel, emission, brdf, sides,
-       maps);
+  auto& [name, ambient, diffuse, specular, shininess, alpha, grazing, layer, layers, reflectance, gloss,
+         transmittance, ior, color, distance, fresnel, emission, brdf, sides, maps] = value;
+  each(a, name, ambient, diffuse, specular, shininess, alpha, grazing, layer, layers, reflectance, gloss,
+       transmittance, ior, color, distance, fresnel, emission, brdf, sides, maps);
 }
 template <class A>
 void parts(A& a, Texture& value) {

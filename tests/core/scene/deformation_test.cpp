@@ -64,7 +64,7 @@ TEST(Morph, ComesBeforeTheSkin) {
   expect_near(load_good(m.json).mesh->positions[1], {2, 2, 0});  // (2,0) about (1,1)
 }
 
-// Of a sparse target only what it names is moved; normals follow their targets.
+// A sparse target moves only what it names; normals follow their targets.
 TEST(Morph, ReadsSparseTargetsAndNormals) {
   Moving m;
   m.primitive()["attributes"]["NORMAL"] = m.floats({0, 0, 1, 0, 0, 1, 0, 0, 1, 0, 0, 1}, "VEC3");

@@ -275,10 +275,10 @@ TEST(LoadGltf, ClearCoatAndSheenLieAboveTheBase) {
   material["extensions"]["KHR_materials_sheen"] = {{"sheenColorFactor", {0.1, 0.2, 0.3}},
                                                    {"sheenRoughnessFactor", 0.5}};
   const Material m = load_good(json).mesh->materials[0];
-  EXPECT_FLOAT_EQ(m.coat, 0.5f);
-  EXPECT_FLOAT_EQ(m.coat_alpha, 0.0625f);
-  EXPECT_FLOAT_EQ(m.sheen.z, 0.3f);
-  EXPECT_FLOAT_EQ(m.sheen_alpha, 0.25f);
+  EXPECT_FLOAT_EQ(m.layers.coat, 0.5f);
+  EXPECT_FLOAT_EQ(m.layers.coat_roughness, 0.25f);
+  EXPECT_FLOAT_EQ(m.layers.sheen.z, 0.3f);
+  EXPECT_FLOAT_EQ(m.layers.sheen_roughness, 0.5f);
   material["normalTexture"] = {{"index", 0}};
   material["extensions"]["KHR_materials_clearcoat"]["clearcoatTexture"] = {{"index", 0}};
   for (const char* follows : {"", "clearcoatNormalTexture"}) {
@@ -293,9 +293,9 @@ TEST(LoadGltf, ClearCoatAndSheenLieAboveTheBase) {
 // On glass, layers are left out.
 TEST(MaterialFromSurface, GlassHasNoLayers) {
   const Material glass = material_from_surface(
-      {.metallic = 0.0f, .transmission = 1.0f, .clearcoat = 1.0f, .sheen_color = glm::vec3(1.0f)},
+      {.metallic = 0.0f, .transmission = 1.0f, .layers = {.coat = 1.0f, .sheen = glm::vec3(1.0f)}},
       Shading::from_file);
-  EXPECT_FALSE(glass.has_layers());
+  EXPECT_FALSE(glass.layers.any());
 }
 
 // KHR_materials_pbrSpecularGlossiness, which wins over metallic-roughness.
@@ -336,19 +336,14 @@ TEST(MaterialFromSurface, TheSurfaceComesBack) {
                  .volume = true};
   surfaces[5] = {.base_color = glm::vec3(0.4f), .metallic = 0.0f, .roughness = 0.2f, .transmission = 1.0f};
   surfaces[6] = {.base_color = {0.2f, 0.3f, 0.4f}, .metallic = 0.5f, .specular_color = {0.2f, 1.0f, 0.5f}};
-  surfaces[7] = {.base_color = {0.2f, 0.3f, 0.4f},
-                 .metallic = 0.0f,
-                 .roughness = 0.3f,
-                 .clearcoat = 0.5f,
-                 .clearcoat_roughness = 0.2f,
-                 .sheen_color = {0.1f, 0.2f, 0.3f},
-                 .sheen_roughness = 0.6f};
+  surfaces[7] = {
+      .base_color = {0.2f, 0.3f, 0.4f},
+      .metallic = 0.0f,
+      .roughness = 0.3f,
+      .layers = {.coat = 0.5f, .coat_roughness = 0.2f, .sheen = {0.1f, 0.2f, 0.3f}, .sheen_roughness = 0.6f}};
   for (const GltfSurface& s : surfaces) {
     const GltfSurface back = surface_of_material(material_from_surface(s, Shading::from_file));
-    EXPECT_NEAR(back.clearcoat_roughness, s.clearcoat_roughness, 1e-5f);
-    EXPECT_NEAR(back.sheen_roughness, s.sheen_roughness, 1e-5f);
-    EXPECT_EQ(back.clearcoat, s.clearcoat);
-    EXPECT_EQ(back.sheen_color, s.sheen_color);
+    EXPECT_EQ(back.layers, s.layers);
     for (int c = 0; c < 3; ++c) {
       EXPECT_NEAR(back.base_color[c], s.base_color[c], 1e-5f);
       EXPECT_NEAR(back.specular_color[c], s.specular_color[c], 1e-4f);

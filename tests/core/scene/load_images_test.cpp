@@ -111,7 +111,7 @@ TEST(LoadImages, DamagedOnesAreErrorsOrSaySo) {
   }
 }
 
-// Of any white, 8 bits or 16, high byte first.
+// Files with any white, 8 bits or 16, high byte first.
 TEST(LoadImages, NetpbmGreyAndRgb) {
   const auto texels = [](const std::string& bytes) {
     const Expected<DecodedImage> image = decode(bytes);

@@ -120,7 +120,7 @@ TEST(Save, DirectionalAndSpotLightsKeepTheirDirection) {
   EXPECT_NEAR(loaded.lights[1].cos_outer, 0.7f, 1e-5f);
 }
 
-// Of two uses: the same texels, seen the same way.
+// Expects that two uses read the same texels, seen the same way.
 void expect_same_use(const Mesh& a, const TextureUse& of_a, const Mesh& b, TextureUse of_b) {
   ASSERT_EQ(of_a.used(), of_b.used());
   if (!of_a.used()) return;

@@ -16,7 +16,7 @@ namespace {
 
 template <class Do>
 void for_each_extension(const Do& visit) {
-  for (const SceneFormat& format : kSceneFormats)
+  for (const SceneFormat& format : scene_formats())
     for (const std::string_view extension : format.extensions)
       if (!extension.empty()) visit(format, std::string(extension));
 }
@@ -74,10 +74,13 @@ TEST(SceneFormats, ErrorsListThem) {
 }
 
 // No other source lists extensions: PLY's, which nothing but a list would name.
+// A format's room alone names its extensions.
 TEST(SceneFormats, ThereIsOneList) {
   for (const char* folder : {"core", "hybrid", "app"})
     for (const auto& entry : std::filesystem::recursive_directory_iterator(source_path(folder))) {
-      if (entry.path().extension() != ".cpp" || entry.path().filename() == "formats.cpp") continue;
+      const std::filesystem::path room = entry.path().parent_path().filename();
+      if (entry.path().extension() != ".cpp" || entry.path().filename() == "formats.cpp" || room == "ply")
+        continue;
       std::ifstream in(entry.path());
       const std::string text((std::istreambuf_iterator<char>(in)), {});
       EXPECT_EQ(text.find(".ply\""), std::string::npos) << entry.path();

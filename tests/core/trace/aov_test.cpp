@@ -81,7 +81,7 @@ TEST(VisiblePoints, AreTheSurfacesToTheBitAtEveryWidth) {
   }
 }
 
-// Of arrays that are not wanted, none is written; of those that are, no more than the tile.
+// Arrays that are not wanted are not written; the others are written in the tile only.
 TEST(VisiblePoints, WritesWhatIsWantedAlone) {
   const Scene scene = load_or_die(source_path("scenes/two-lights.gltf"));
   const Image<std::uint32_t> ids(kSize, 0u);

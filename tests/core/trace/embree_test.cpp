@@ -145,7 +145,7 @@ void compare_masks(const Comparison& c) {
   tally.finish();
 }
 
-// Of a surface that mirrors.
+// The mirrored ray of a surface that mirrors.
 std::optional<Ray> mirrored_ray(const SurfaceInteraction& s) {
   const glm::vec3 shares = s.material.reflectance + s.material.transmittance;
   if (shares == glm::vec3(0.0f)) return std::nullopt;

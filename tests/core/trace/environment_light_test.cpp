@@ -8,7 +8,7 @@
 #include "core/trace/view/jitter.h"
 #include "core/trace/view/view_params.h"
 #include "scenes/generator/mesh_builder.h"
-#include "tests/core/scene/skies.h"
+#include "tests/core/scene/sky/skies.h"
 #include "tests/support/scenes.h"
 
 namespace pinocchio {

@@ -8,11 +8,13 @@
 namespace pinocchio {
 namespace {
 
-// The one of the two objects that has a member of class C.
+// What has a member of class C: the material, the surface or its layers.
 template <class C, class M, class S>
 auto& owner_of(M& material, S& surface) {
   if constexpr (std::is_same_v<C, Material>)
     return material;
+  else if constexpr (std::is_same_v<C, GltfLayers>)
+    return surface.layers;
   else
     return surface;
 }

@@ -12,11 +12,11 @@
 
 namespace pinocchio {
 
-// A member of GltfSurface, or one of Material. The default is the member's.
+// A member of GltfSurface, of its layers, or of Material. The default is the member's.
 struct GltfParameter {
   const char* at;  // JSON pointer in a material
   std::variant<float Material::*, glm::vec3 Material::*, bool Material::*, float GltfSurface::*,
-               glm::vec3 GltfSurface::*>
+               glm::vec3 GltfSurface::*, float GltfLayers::*, glm::vec3 GltfLayers::*>
       member;
 };
 
@@ -41,13 +41,13 @@ inline constexpr GltfParameter kSurfaceParameters[] = {
     {"/extensions/KHR_materials_specular/specularFactor", &GltfSurface::specular},
     {"/extensions/KHR_materials_specular/specularColorFactor", &GltfSurface::specular_color},
     {"/extensions/KHR_materials_transmission/transmissionFactor", &GltfSurface::transmission},
-    {"/extensions/KHR_materials_clearcoat/clearcoatFactor", &GltfSurface::clearcoat},
-    {"/extensions/KHR_materials_clearcoat/clearcoatRoughnessFactor", &GltfSurface::clearcoat_roughness},
-    {"/extensions/KHR_materials_sheen/sheenColorFactor", &GltfSurface::sheen_color},
-    {"/extensions/KHR_materials_sheen/sheenRoughnessFactor", &GltfSurface::sheen_roughness},
+    {"/extensions/KHR_materials_clearcoat/clearcoatFactor", &GltfLayers::coat},
+    {"/extensions/KHR_materials_clearcoat/clearcoatRoughnessFactor", &GltfLayers::coat_roughness},
+    {"/extensions/KHR_materials_sheen/sheenColorFactor", &GltfLayers::sheen},
+    {"/extensions/KHR_materials_sheen/sheenRoughnessFactor", &GltfLayers::sheen_roughness},
 };
 
-// Of what both kinds of materials may have inside.
+// The inside of a body, which both kinds of materials may have.
 inline constexpr GltfParameter kVolumeParameters[] = {
     {"/extensions/KHR_materials_volume/attenuationColor", &Material::attenuation_color},
     {"/extensions/KHR_materials_volume/attenuationDistance", &Material::attenuation_distance},

@@ -138,7 +138,7 @@ void GltfMaterialWriter::add_maps(const Material& m, const MaterialMaps& maps, J
     Json& info = json[Json::json_pointer(row.at)] = texture(use, image_of(use.texture));
     if (row.factor) info[row.factor] = maps.*row.factor_value;
   }
-  if (maps.coat_is_mapped && maps.surface.clearcoat > 0.0f)
+  if (maps.coat_is_mapped && maps.surface.layers.coat > 0.0f)
     json["extensions"]["KHR_materials_clearcoat"]["clearcoatNormalTexture"] = json["normalTexture"];
 }
 

@@ -17,7 +17,7 @@ using Json = GltfData::Json;
 
 constexpr std::size_t kInfluencesASet = 4;
 
-// Of a node whose transform tracks take the place of; else null.
+// The tracks that replace the node's transform. Null: there are none.
 const AnimatedNode* animated_by(const Animation& animation, std::size_t node) {
   const auto found = std::ranges::find(animation.nodes, as_int(node), &AnimatedNode::node);
   const auto moves = [](const Track& t) { return t.path != Track::Path::weights; };

@@ -5,6 +5,8 @@
 
 #include "core/image/tonemap.h"
 #include "core/shade/shared.h"
+#include "pinocchio/conversion.h"
+#include "pinocchio/material_maps.h"
 #include "pinocchio/texture.h"
 
 namespace pinocchio::shared {
@@ -57,8 +59,15 @@ struct TexelSource {
 
 }  // namespace texels
 
+// What the textures of a material's maps hold at a point, by kMapUses; white where there is none.
+struct MapTexels {
+  glm::vec4 of[kMapUses.size()];
+};
+[[nodiscard]] inline const glm::vec4& texel_of(const MapTexels& texels, int use, bool) {
+  return texels.of[use];
+}
+
 #define SHARED [[nodiscard]] inline
-#include "pinocchio/conversion.h"
 #define READ_ONLY(type) const type&
 #include "shaders/shared/maps.glsl"
 #undef READ_ONLY

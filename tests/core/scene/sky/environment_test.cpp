@@ -8,7 +8,7 @@
 
 #include "core/scene/sky/brightness.h"
 #include "pinocchio/exr.h"
-#include "tests/core/scene/skies.h"
+#include "tests/core/scene/sky/skies.h"
 #include "tests/core/trace/environment_columns.h"
 #include "tests/support/own_file.h"
 
