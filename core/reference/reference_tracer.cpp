@@ -310,15 +310,9 @@ ReferenceHit ReferenceTracer::closest_hit(const ReferenceRay& ray) const {
   }
 }
 
-// The share of light that passes the point as if nothing were there. In a single sample, surfaces that blend
-// block it if alpha is at least one half. In a mean over samples, they let through what they do not cover.
-double ReferenceTracer::passing_alpha(const ReferenceHit& hit) const {
-  const MaterialMaps* const maps = scene_.mesh->maps_of(hit.triangle);
-  if (!maps || maps->alpha_mode == AlphaMode::opaque) return 0.0;
-  if (maps->alpha_mode == AlphaMode::mask) return reference_hole(*scene_.mesh, hit) ? 1.0 : 0.0;
-  const double alpha = std::clamp(reference_alpha(*scene_.mesh, hit), 0.0, 1.0);
-  const bool one_of_many = options_.jitter != glm::vec2(0.0f);
-  return one_of_many ? 1.0 - alpha : alpha < 0.5 ? 1.0 : 0.0;
+// The share of light that the surface does not stop: beside what blends, and through glass.
+glm::dvec3 ReferenceTracer::passing(const ReferenceSurface& s) const {
+  return (1.0 - s.material.alpha) + s.material.alpha * passing_glass(s);
 }
 
 // The share of light that glass lets go straight on, by the angle outside.
@@ -346,15 +340,15 @@ ReferenceTracer::Arrival ReferenceTracer::arriving(const ReferenceRay& ray, cons
       return arrival;
     }
     const ReferenceSurface surface = reference_surface(*scene_.mesh, rest, hit);
-    const double hole = passing_alpha(hit);
-    const glm::dvec3 glass = passing_glass(surface);
-    const bool in_glass = hole < 1.0;
-    const Media media = in_glass ? media_at(medium, hit, surface) : Media{medium, medium};
+    const bool hole = reference_hole(*scene_.mesh, hit);
+    const Media media = hole ? Media{medium, medium} : media_at(medium, hit, surface);
     const glm::dvec3 left = left_of_light(media.here, hit.t * glm::length(rest.direction));
     of_free *= left;
-    arrival.tinted =
-        left * arrival.tinted * (hole + (1.0 - hole) * glass) + arrival.free * of_free * (1.0 - hole) * glass;
-    arrival.free *= hole;
+    arrival.tinted *= left;
+    if (!hole) {
+      arrival.tinted = passing(surface) * (arrival.tinted + arrival.free * of_free);
+      arrival.free = 0.0;
+    }
     if (arrival.all() == glm::dvec3(0.0)) return arrival;
     medium = media.beyond;
     rest = continued(*scene_.mesh, rest, hit);

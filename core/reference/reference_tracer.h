@@ -88,14 +88,15 @@ class ReferenceTracer {
 
   [[nodiscard]] ReferenceHit closest_hit(const ReferenceRay& ray) const;
   [[nodiscard]] bool passes_back(const ReferenceRay& ray, std::uint32_t triangle) const;
-  // The shares of a light that come along a ray that begins in `medium`: unhindered, and through glass.
+  // The shares of a light that come along a ray that begins in `medium`: unhindered, and through glass and
+  // what blends.
   struct Arrival {
     double free = 1.0;
     glm::dvec3 tinted{0.0};
     [[nodiscard]] glm::dvec3 all() const { return free + tinted; }
   };
   [[nodiscard]] Arrival arriving(const ReferenceRay& ray, const Material* medium) const;
-  [[nodiscard]] double passing_alpha(const ReferenceHit& hit) const;
+  [[nodiscard]] glm::dvec3 passing(const ReferenceSurface& surface) const;
   [[nodiscard]] glm::dvec3 passing_glass(const ReferenceSurface& surface) const;
   // The material of the innermost body that absorbs light around the eye; null: none.
   [[nodiscard]] const Material* medium_of_eye(const shared::ViewParams& view) const;

@@ -1,4 +1,4 @@
-// Part of walk/kernel.h's files: shadow rays that go straight on through glass.
+// Part of walk/kernel.h's files: shadow rays that go straight on through glass, and through what blends.
 #pragma once
 
 #include "core/trace/lanes/maps.h"
@@ -21,8 +21,15 @@ inline Vec share_straight_on(const LaneSurface& s, const LaneMaterial& m) {
   return m.transmittance * (one - mirrored);
 }
 
+// The share of light that the surfaces do not stop: beside a surface that blends, and through glass.
+inline Vec share_passed(const Bounce& bounce, const LaneSurface& s, const LaneMaterial& m) {
+  const bool tinted = m.transmits != 0 && bounce.options->glass_shadows == GlassShadows::tinted;
+  const Vec through = tinted ? share_straight_on(s, m) : Vec(Float(0.0f));
+  if (m.blends == 0) return through;
+  return Vec(Float(1.0f) - m.alpha) + m.alpha * through;
+}
+
 void cross_glass(const Bounce& bounce, const std::uint32_t* holes, bool ends, RayQueue& rays) {
-  const unsigned wanted = maps_wanted(true, false, false);
   for (std::size_t i = 0; i < rays.size; i += kWidth) {
     const Mask lanes = lanes_from(i, rays.size);
     const Int triangle = Int::load(rays.triangle + i);
@@ -36,10 +43,11 @@ void cross_glass(const Bounce& bounce, const std::uint32_t* holes, bool ends, Ra
       const Corners corners(bounce.scene, triangle, met);
       LaneSurface s = surface_of(corners, origin, direction, bounce.offset);
       LaneMaterial m(bounce.scene, corners.material, met);
+      const unsigned wanted = m.transmits != 0 ? maps_wanted(true, false, false) : 0u;
       if (m.mapped != 0) apply_maps(bounce, corners, triangle, origin, direction, Float(0.0f), wanted, s, m);
       if (m.microfacet != 0) turn_normals_to_viewer(s, m);
       const Mask hole = met & ~(Int::load(holes + i) == Int(0u));
-      light = select(met & ~hole, light * share_straight_on(s, m), light);
+      light = select(met & ~hole, light * share_passed(bounce, s, m), light);
       if (rays.medium) {
         const LaneMedia media = media_at(bounce, medium, corners.material, s, m.ior, met);
         const Int here = select(hole, medium, media.here);

@@ -10,12 +10,6 @@
 namespace pinocchio::PINOCCHIO_LANES {
 namespace {
 
-// Whether shadow rays pass a surface as if nothing were there. threshold: where it blends.
-inline Mask passes_shadow(const MaterialMaps& maps, Float alpha, Float threshold) {
-  if (maps.blends()) return alpha < threshold;
-  return is_hole(as_int(maps.alpha_mode), alpha, maps.alpha_cutoff);
-}
-
 unsigned lanes_in_holes(const PassedSurfaces& passed, const RayColumns& rays, std::size_t first,
                         unsigned asked, std::uint32_t triangle) {
   const SceneArrays& scene = *passed.scene;
@@ -27,16 +21,10 @@ unsigned lanes_in_holes(const PassedSurfaces& passed, const RayColumns& rays, st
                      Vec(scene.positions[corners.y]) - a, Vec(scene.positions[corners.z]) - a);
   const LaneMaps& maps = scene.maps[scene.materials[scene.triangle_materials[triangle]].maps];
   const Float alpha = alpha_at(scene, maps, Int(triangle), weights, lanes);
-  alignas(64) float thresholds[kWidth] = {};
-  for (unsigned waiting = maps.maps->blends() ? asked : 0u; waiting != 0; waiting &= waiting - 1) {
-    const int lane = __builtin_ctz(waiting);
-    thresholds[lane] = threshold_of(passed.place, passed.pixel[first + lane], triangle);
-  }
-  return (lanes & passes_shadow(*maps.maps, alpha, Float::load(thresholds))).bits();
+  return (lanes & is_hole(as_int(maps.maps->alpha_mode), alpha, maps.maps->alpha_cutoff)).bits();
 }
 
-// thresholds: of shadow rays, which pass a surface that blends where its alpha is below; null: other rays.
-void find_holes(const Bounce& bounce, const RayQueue& rays, const float* thresholds, std::uint32_t* holes) {
+void find_holes(const Bounce& bounce, const RayQueue& rays, std::uint32_t* holes) {
   const SceneArrays& scene = bounce.scene;
   const auto maps_of = [&](std::uint32_t material) -> const LaneMaps* {
     const int index = scene.materials[material].maps;
@@ -52,8 +40,7 @@ void find_holes(const Bounce& bounce, const RayQueue& rays, const float* thresho
                       [&](std::uint32_t id, Mask same) {
                         const std::uint32_t of_triangle = scene.triangle_materials[id];
                         const LaneMaps* const maps = maps_of(of_triangle);
-                        if (!maps || !(maps->maps->has_holes() || (thresholds && maps->maps->blends())))
-                          return;
+                        if (!maps || !maps->maps->has_holes()) return;
                         material = select(same, Int(of_triangle), material);
                         porous |= same.bits();
                       });
@@ -67,9 +54,7 @@ void find_holes(const Bounce& bounce, const RayQueue& rays, const float* thresho
     for_each_distinct(material, lanes, [&](std::uint32_t index, Mask same) {
       const LaneMaps& maps = *maps_of(index);
       const Float alpha = alpha_at(scene, maps, triangle, weights, same);
-      const Mask passes = thresholds ? passes_shadow(*maps.maps, alpha, Float::load(thresholds + i))
-                                     : is_hole(as_int(maps.maps->alpha_mode), alpha, maps.maps->alpha_cutoff);
-      found |= (same & passes).bits();
+      found |= (same & is_hole(as_int(maps.maps->alpha_mode), alpha, maps.maps->alpha_cutoff)).bits();
     });
     select(Mask::from_bits(found), Int(1u), Int(0u)).store(holes + i);
   }

@@ -133,18 +133,16 @@ struct LaneSteps {
   // Drops the rays whose triangle is kNoTriangle; the others stay in order.
   void (*keep_hits)(RayQueue& rays);
   // Writes 1 for rays that met a point where alpha lets them pass as if nothing were there, else 0.
-  // thresholds: of shadow rays, which pass a surface that blends where its alpha is below; null: other rays.
-  void (*find_holes)(const Bounce& bounce, const RayQueue& rays, const float* thresholds,
-                     std::uint32_t* holes);
+  void (*find_holes)(const Bounce& bounce, const RayQueue& rays, std::uint32_t* holes);
   // The same for the shadow rays of a packet, within the walk.
   PassedSurfaces::InHoles lanes_in_holes;
   // Moves the rays, which have all hit, behind their triangles. ends: what they go to stays at t = 1. This
   // and find_holes read the bounce's scene and offset.
   void (*go_behind)(const Bounce& bounce, bool ends, RayQueue& rays);
   // Takes shadow rays straight on through the surfaces that they met: multiplies their light by what is left
-  // of it (0 behind what does not transmit), and moves them behind the surface. holes: not 0 where a ray
-  // passes the surface as if nothing were there. ends: their light is at t = 1. Reads the bounce's scene and
-  // offset.
+  // of it (0 behind what neither transmits nor blends), and moves them behind the surface. holes: not 0 where
+  // a ray passes the surface as if nothing were there. ends: their light is at t = 1. Reads the bounce's
+  // scene and offset.
   void (*cross_glass)(const Bounce& bounce, const std::uint32_t* holes, bool ends, RayQueue& rays);
   // Appends to the bounce's queues. All rays have hit.
   void (*bounce)(const Bounce& bounce, const RayQueue& rays);

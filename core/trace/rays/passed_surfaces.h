@@ -4,7 +4,6 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "core/trace/rays/alpha_threshold.h"
 #include "core/trace/rays/material_marks.h"
 #include "core/trace/rays/ray_queue.h"
 
@@ -15,16 +14,18 @@ struct SceneArrays;  // trace/lanes/lane_steps.h
 // What `occluded` writes for a ray that meets nothing but surfaces that it may pass.
 inline constexpr std::uint8_t kMayPass = 2;
 
+// Marks of materials: with holes, which alpha lets rays pass as if nothing were there; and such that a share
+// of the light goes on through, where there is no hole.
+inline constexpr std::uint8_t kHasHoles = 1, kPassesLight = 2;
+
 struct PassedSurfaces {
-  // Which lanes of a packet, the rays from `first` on, pass the triangle, as its alpha says.
+  // Which lanes of a packet, the rays from `first` on, meet a hole of the triangle.
   using InHoles = unsigned (*)(const PassedSurfaces& passed, const RayColumns& rays, std::size_t first,
                                unsigned lanes, std::uint32_t triangle);
 
-  MaterialMarks materials;     // that have holes or transmit
-  InHoles in_holes = nullptr;  // null: a ray that meets such a material may pass
-  const SceneArrays* scene = nullptr;
-  const std::uint32_t* pixel = nullptr;  // the rays'
-  SamplePlace place{};
+  MaterialMarks materials;
+  InHoles in_holes;
+  const SceneArrays* scene;
 };
 
 }  // namespace pinocchio

@@ -3,23 +3,14 @@
 #include "pinocchio/conversion.h"
 
 namespace pinocchio {
-bool has_alpha(const Mesh& mesh, const Material& material) {
-  return material.maps >= 0 && mesh.maps[as_size(material.maps)].alpha_mode != AlphaMode::opaque;
+
+bool has_holes(const Mesh& mesh, const Material& material) {
+  return material.maps >= 0 && mesh.maps[as_size(material.maps)].has_holes();
 }
 
 const std::uint32_t* MetHoles::find(const Tracer& tracer, const Bounce& bounce, const RayQueue& rays) {
   if (holes_.size() < rays.size + kQueuePad) holes_.resize(2 * rays.size + kQueuePad);
-  tracer.steps().find_holes(bounce, rays, nullptr, holes_.data());
-  return holes_.data();
-}
-
-const std::uint32_t* MetHoles::find(const Tracer& tracer, const Bounce& bounce, const RayQueue& rays,
-                                    const RayQueue& from, const SamplePlace& place) {
-  if (holes_.size() < rays.size + kQueuePad) holes_.resize(2 * rays.size + kQueuePad);
-  if (thresholds_.size() < rays.size + kQueuePad) thresholds_.resize(2 * rays.size + kQueuePad);
-  for (std::size_t k = 0; k < rays.size; ++k)
-    thresholds_[k] = threshold_of(place, from.pixel[rays.pixel[k]], rays.triangle[k]);
-  tracer.steps().find_holes(bounce, rays, thresholds_.data(), holes_.data());
+  tracer.steps().find_holes(bounce, rays, holes_.data());
   return holes_.data();
 }
 

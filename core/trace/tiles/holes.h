@@ -14,21 +14,16 @@ namespace pinocchio {
 // No picture needs more surfaces along a ray. The limit ends a walk that rounding keeps going.
 inline constexpr int kMostLayers = 4096;
 
-// Whether a ray can pass the material somewhere as if nothing were there.
-[[nodiscard]] bool has_alpha(const Mesh& mesh, const Material& material);
+// Whether rays pass the material somewhere as if nothing were there.
+[[nodiscard]] bool has_holes(const Mesh& mesh, const Material& material);
 
 // Which rays met a hole: a point where alpha lets them pass as if nothing were there. Not 0: ray i did.
 class MetHoles {
  public:
   [[nodiscard]] const std::uint32_t* find(const Tracer& tracer, const Bounce& bounce, const RayQueue& rays);
-  // For shadow rays, whose `pixel` is their place in the queue they are from. A surface that blends is a
-  // hole where alpha is below one half, or, in further samples of a pixel, below a random number.
-  [[nodiscard]] const std::uint32_t* find(const Tracer& tracer, const Bounce& bounce, const RayQueue& rays,
-                                          const RayQueue& from, const SamplePlace& place);
 
  private:
   AlignedVector<std::uint32_t> holes_;
-  AlignedVector<float> thresholds_;
 };
 
 // Rays through surfaces that let some of them pass (material_maps.h): a ray that meets a hole goes on behind

@@ -97,17 +97,16 @@ void TileTracer::fire_reflected(RayQueue& queue, float reach, const RayQueue& wa
 void TileTracer::ask_occluded(const RayQueue& queue, float reach) {
   const TilePlan& plan = *plan_;
   counts_.shadow += queue.size;
-  const SamplePlace place{tile_.lo + glm::ivec2(plan.view.first), plan.job.options.jitter};
-  const MaterialMarks passed = plan.passed_by_shadows.columns();
   if (!plan.passed_by_shadows.any()) {
     plan.job.tracer.occluded(queue.columns(reach), queue.size, blocked_.data());
-  } else if (plan.tints) {
-    tinted_.trace(plan.job.tracer, plan.shadows, passed, queue, reach, place, blocked_.data());
-  } else {
-    const PassedSurfaces surfaces{passed, plan.job.tracer.steps().lanes_in_holes, &plan.shadows.scene,
-                                  queue.pixel, place};
-    plan.job.tracer.occluded(queue.columns(reach), queue.size, blocked_.data(), &surfaces);
+    return;
   }
+  const PassedSurfaces passed{plan.passed_by_shadows.columns(), plan.job.tracer.steps().lanes_in_holes,
+                              &plan.shadows.scene};
+  if (plan.tints)
+    tinted_.trace(plan.job.tracer, plan.shadows, passed, queue, reach, blocked_.data());
+  else
+    plan.job.tracer.occluded(queue.columns(reach), queue.size, blocked_.data(), &passed);
 }
 
 // A ray that would start behind something, after it was lifted, counts as blocked. Holes are ignored: the way

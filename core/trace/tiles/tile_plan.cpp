@@ -128,9 +128,12 @@ TilePlan::TilePlan(const TraceJob& j, const TileOutputs& o)
       blends(any_maps(*j.scene.mesh, &MaterialMaps::blends)),
       tints((o.reflection || o.color || o.added || o.sampled) && tints_shadows(*j.scene.mesh, j.options)),
       passed_backs(*j.scene.mesh, [&](const Material& m) { return passes_backs(m, j.options.backfaces); }),
-      passed_by_shadows(
-          *j.scene.mesh,
-          [&](const Material& m) { return has_alpha(*j.scene.mesh, m) || (tints && m.transmits()); }),
+      passed_by_shadows(*j.scene.mesh,
+                        [&](const Material& m) {
+                          const unsigned holes = pinocchio::has_holes(*j.scene.mesh, m) ? kHasHoles : 0u;
+                          return holes |
+                                 (tints && passes_light(*j.scene.mesh, m, j.options) ? kPassesLight : 0u);
+                        }),
       further_lights(groups_of(j.scene)),
       most_casting(most_of(further_lights, [](const BounceLight& light) { return light.slot >= 0; })),
       most_sized(most_of(further_lights,

@@ -14,9 +14,14 @@ glm::vec3 vector_at(float* const (&columns)[3], std::size_t i) {
 
 }  // namespace
 
+bool passes_light(const Mesh& mesh, const Material& material, const TraceOptions& options) {
+  return (options.glass_shadows == GlassShadows::tinted && material.transmits()) ||
+         (material.maps >= 0 && mesh.maps[as_size(material.maps)].blends());
+}
+
 bool tints_shadows(const Mesh& mesh, const TraceOptions& options) {
-  return options.glass_shadows == GlassShadows::tinted &&
-         std::ranges::any_of(mesh.materials, &Material::transmits);
+  return std::ranges::any_of(mesh.materials,
+                             [&](const Material& m) { return passes_light(mesh, m, options); });
 }
 
 // Most rays meet nothing, or something that stops them: the others are walked, and those whose light is in
@@ -58,16 +63,14 @@ void TintedShadows::keep_going(const std::uint32_t* holes, float least, std::uin
   on_.size = kept;
 }
 
-void TintedShadows::trace(const Tracer& tracer, const Bounce& bounce, const MaterialMarks& passed,
-                          const RayQueue& rays, float reach, const SamplePlace& place,
-                          std::uint8_t* blocked) {
+void TintedShadows::trace(const Tracer& tracer, const Bounce& bounce, const PassedSurfaces& passed,
+                          const RayQueue& rays, float reach, std::uint8_t* blocked) {
   const bool ends = reach == 1.0f;  // a light that has a position stays there
-  const PassedSurfaces surfaces{.materials = passed};
-  tracer.occluded(rays.columns(reach), rays.size, blocked, &surfaces);
+  tracer.occluded(rays.columns(reach), rays.size, blocked, &passed);
   start(rays, ends, blocked);
   for (int layer = 0; on_.size > 0 && layer < kMostLayers; ++layer) {
     tracer.closest_hits(on_.columns(reach), on_.size, on_.triangle);
-    const std::uint32_t* const holes = met_.find(tracer, bounce, on_, rays, place);
+    const std::uint32_t* const holes = met_.find(tracer, bounce, on_);
     tracer.steps().cross_glass(bounce, holes, ends, on_);
     keep_going(holes, bounce.options->throughput_cutoff, blocked);
   }

@@ -12,24 +12,26 @@
 
 namespace pinocchio {
 
-// Whether shadow rays go on through some material of the mesh.
+// Whether a share of a shadow ray's light goes on through the material: through glass, or what blends.
+[[nodiscard]] bool passes_light(const Mesh& mesh, const Material& material, const TraceOptions& options);
+// Through some material of the mesh.
 [[nodiscard]] bool tints_shadows(const Mesh& mesh, const TraceOptions& options);
 
-// Shadow rays that go straight on through glass, surface by surface (lanes/glass.h). Scenes without glass
-// never come here.
+// Shadow rays that go straight on through glass and what blends, surface by surface (lanes/glass.h). Scenes
+// with neither never come here.
 class TintedShadows {
  public:
-  // What is left of a shadow ray's light that came through nothing but glass and what absorbs light.
+  // What is left of a shadow ray's light that came through nothing but glass, what blends and what absorbs
+  // it.
   struct Lit {
     std::uint32_t ray;  // its place in the queue
     glm::vec3 light;
   };
 
   // blocked[i] = 0 where shadow ray i meets nothing but holes, and does not end in a medium; else 1. A ray
-  // ends where its light is below the options' cutoff. bounce: the step that the rays are from. passed: the
-  // materials that have holes or transmit.
-  void trace(const Tracer& tracer, const Bounce& bounce, const MaterialMarks& passed, const RayQueue& rays,
-             float reach, const SamplePlace& place, std::uint8_t* blocked);
+  // ends where its light is below the options' cutoff. bounce: the step that the rays are from.
+  void trace(const Tracer& tracer, const Bounce& bounce, const PassedSurfaces& passed, const RayQueue& rays,
+             float reach, std::uint8_t* blocked);
 
   // What the last trace() found.
   [[nodiscard]] std::span<const Lit> lit() const { return lit_; }

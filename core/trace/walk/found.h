@@ -116,10 +116,12 @@ struct AnyNotPassed : AnyHits<kPackets> {
       : AnyHits<kPackets>(t_max), rays_(rays), first_(first), passed_(passed) {}
 
   [[gnu::always_inline]] inline unsigned add(unsigned k, Mask lanes, Float t, std::uint32_t triangle) {
-    if (!passed_.materials.has(triangle)) return AnyHits<kPackets>::add(k, lanes, t, triangle);
-    const Mask met = lanes & (t < this->t_best[k]);
+    const std::uint8_t mark = passed_.materials.mark_of(triangle);
+    if (mark == 0) return AnyHits<kPackets>::add(k, lanes, t, triangle);
+    Mask met = lanes & (t < this->t_best[k]);
     if (met.bits() == 0) return 0;
-    if (passed_.in_holes) return AnyHits<kPackets>::add(k, blocked(k, met, triangle), t, triangle);
+    if ((mark & kHasHoles) != 0) met = outside_holes(k, met, triangle);
+    if ((mark & kPassesLight) == 0) return AnyHits<kPackets>::add(k, met, t, triangle);
     may_pass[k] |= met.bits();
     return 0;
   }
@@ -127,9 +129,9 @@ struct AnyNotPassed : AnyHits<kPackets> {
   unsigned may_pass[kPackets] = {};
 
  private:
-  // Those of the lanes that the triangle's alpha stops. A triangle is met in every leaf that it reaches into:
-  // the last ones that were passed are known.
-  [[gnu::noinline]] Mask blocked(unsigned k, Mask lanes, std::uint32_t triangle) {
+  // The lanes that meet no hole of the triangle. A triangle is met in every leaf that it reaches into: the
+  // last ones that were passed are known.
+  [[gnu::noinline]] Mask outside_holes(unsigned k, Mask lanes, std::uint32_t triangle) {
     Known* known = &known_[k][triangle % kKnown];
     if (known->triangle != triangle) *known = {triangle, 0};
     const unsigned asked = lanes.bits() & ~known->lanes;

@@ -25,8 +25,8 @@ struct Kernel {
                          const MaterialMarks& backs, std::uint32_t* triangle, float* t);
   // Writes 1 for a ray that meets any triangle, else 0.
   void (*occluded)(const SceneTrees& scene, const RayColumns& rays, std::size_t n, std::uint8_t* blocked);
-  // Writes 1 for a ray that meets a triangle that it cannot pass, else kMayPass for one that meets any that
-  // it may, else 0.
+  // Writes 1 for a ray that meets a triangle that stops it, else kMayPass for one that meets any that a share
+  // of light passes, else 0.
   void (*occluded_unless_passed)(const SceneTrees& scene, const RayColumns& rays, std::size_t n,
                                  const PassedSurfaces& passed, std::uint8_t* blocked);
 };
