@@ -94,8 +94,8 @@ ReferenceSurface reference_surface(const Mesh& mesh, const ReferenceRay& ray, co
   }
   s.lift = lift_of(mesh, hit, s);
   if (s.material.ggx_alpha > 0.0) {
-    s.n_coat =
-        normal_seen(s.material.coat_is_mapped ? s.n_shading : s.n_vertices, s, s.material.layers.coat_alpha());
+    s.n_coat = normal_seen(s.material.coat_is_mapped ? s.n_shading : s.n_vertices, s,
+                           s.material.layers.coat_alpha());
     s.n_shading = normal_seen(s.n_shading, s, s.material.ggx_alpha);
   }
   return s;
