@@ -179,7 +179,7 @@ TEST(Texts, MaterialsHaveTheWordsOfTheirFile) {
                                          "transmission", "clear coat", "its roughness"},
       of_phong{"specular", "shininess"};
   GltfSurface surface;
-  surface.clearcoat = 0.5f;
+  surface.layers.coat = 0.5f;
   const std::set<std::string> gltf = words(material_from_surface(surface, Shading::from_file)),
                               phong = words(material_from_surface(surface, Shading::phong));
   for (const std::string& word : of_gltf) {
