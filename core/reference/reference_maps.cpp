@@ -80,12 +80,13 @@ ReferenceMaterial material_of(const GltfSurface& s, const PointSurface& at, bool
     m.grazing = f90 + (1.0 - f90) * metallic;
     m.layer = {most, f90};
   }
-  if (transmission > 0.0 && metallic < 1.0) {
+  const bool glass = transmission > 0.0 && metallic < 1.0;
+  if (glass) {
     m.transmittance = (1.0 - metallic) * transmission * base;
     if (s.volume) m.ior = n;
-    return m;
   }
-  m.reflectance = or_none(sharpness(roughness) * f0);
+  if (m.transmits()) return m;
+  if (!glass) m.reflectance = or_none(sharpness(roughness) * f0);
   if (!phong) {
     m.layers = layers;
     const double of_coat = 0.04 * layers.coat;

@@ -206,9 +206,15 @@ TEST(Maps, ACoatLiesWhereTexturesLetNoLightThrough) {
     return draw_one(scene, {.settings = by({{"mode", mode}}), .size = kSize}).color;
   };
   const Image<glm::vec4> traced = draw(coated, "raytrace");
-  EXPECT_LT(share_apart(draw(coated, "hybrid"), traced), 0.002);
-  EXPECT_LT(share_apart(traced, reference_render(coated, {first_camera(coated), kSize}, 8, workers).color),
-            0.002);
+  maps.surface.base_color = glm::vec3(0.0f);  // lets no light through
+  const Scene black = plate_with(maps, halves, material_from_surface(maps.surface, Shading::from_file));
+  for (const Scene* scene : {&coated, &black}) {
+    const Image<glm::vec4> picture = draw(*scene, "raytrace");
+    EXPECT_LT(share_apart(draw(*scene, "hybrid"), picture), 0.002);
+    EXPECT_LT(share_apart(picture, reference_render(*scene, {first_camera(*scene), kSize}, 8, workers).color),
+              0.002);
+  }
+  maps.surface.base_color = glm::vec3(1.0f);
   maps.surface.layers.coat = 0.0f;
   maps.surface.layers.sheen = glm::vec3(0.0f);
   const Scene bare = plate_with(maps, halves, material_from_surface(maps.surface, Shading::from_file));

@@ -1,6 +1,7 @@
 // glTF's reflection model in pictures: what it returns, who draws it, and where it could fail.
 #include <cmath>
 #include <glm/gtc/constants.hpp>
+#include <random>
 
 #include "core/reference/reference.h"
 #include "core/scene/gltf/material_from_surface.h"
@@ -254,6 +255,55 @@ TEST(ReflectionModel, EveryScheduleDrawsTheSame) {
     }
     EXPECT_LT(sum / all, 0.01);
   }
+}
+
+// A plate seen at a grazing angle, whose normal map has directions all around, half of them away from the
+// viewer.
+Scene rugged_plate(float metallic, float roughness) {
+  MeshData mesh;
+  MeshBuilder builder(mesh);
+  const GltfSurface surface{.base_color = glm::vec3(1.0f), .metallic = metallic, .roughness = roughness};
+  Material of = material_from_surface(surface, Shading::from_file);
+  of.maps = 0;
+  builder.use(of);
+  builder.quad({-2, 0, 2}, {2, 0, 2}, {2, 0, -2}, {-2, 0, -2});
+  Scene scene(mesh);
+  {
+    MeshEdit edit(scene);
+    Texture normals{.name = "rugged", .texels = Image<glm::u8vec4>({64, 64})};
+    std::mt19937 random(5);
+    for (glm::u8vec4& texel : normals.texels.pixels())
+      texel = {random(), random(), 128 + random() % 128, 255};
+    edit->textures = {normals};
+    for (const glm::vec3& p : edit->positions) edit->texcoords.emplace_back(0.25f * p.x, 0.25f * p.z);
+    MaterialMaps maps;
+    maps.from_gltf = true;
+    maps.surface = surface;
+    maps.normal.texture = 0;
+    maps.normal.nearest = true;
+    edit->maps = {maps};
+  }
+  scene.ambient_light = glm::vec3(0.0f);
+  scene.environment = std::make_shared<const Environment>(even_sky());
+  Camera camera;
+  camera.eye = {0, 0.25f, 2.5f};
+  camera.target = {0, 0, 0};
+  scene.cameras = {camera};
+  return scene;
+}
+
+TEST(ReflectionModel, NormalMapsThatTurnAwayNeitherBlackenNorShine) {
+  for (const auto& mode : {by({{"mode", "raytrace"}}), by({{"mode", "hybrid"}})})
+    for (const float metallic : {0.0f, 1.0f})
+      for (const float roughness : {0.0f, 0.5f, 1.0f}) {
+        const Returned back =
+            returned_by(draw_one(rugged_plate(metallic, roughness), {sampled(mode, 16), {64, 48}}));
+        EXPECT_TRUE(back.finite) << metallic << ", " << roughness;
+        EXPECT_LT(back.mean, 1.005) << metallic << ", " << roughness;
+        EXPECT_GT(back.mean, 0.4) << metallic << ", " << roughness;
+        std::printf(" %.3f", back.mean);
+      }
+  std::printf("\n");
 }
 
 // Parameters at their limits, and skies that are not right.

@@ -103,8 +103,9 @@ TEST(Tracer, SaysWhichShadowRaysMeetNothingButPassedMaterials) {
     ++queue.size;
   }
   std::vector<std::uint8_t> all(rays.size() + kQueuePad), unpassed = all, found = all;
-  const std::uint8_t passed[] = {0, 1};
-  const PassedSurfaces surfaces{.materials = {scene.mesh->triangle_materials.data(), passed}};
+  const std::uint8_t passed[] = {0, kPassesLight};
+  const PassedSurfaces surfaces{
+      .materials = {scene.mesh->triangle_materials.data(), passed}, .in_holes = nullptr, .scene = nullptr};
   for (const TriangleTest test : kTriangleTests)
     for (const Isa isa : supported_isas()) {
       const Tracer tracer(scene.mesh, {.triangle_test = test}, isa);
