@@ -6,7 +6,9 @@
 #include <string>
 #include <utility>
 
+#include <cstdlib>
 #include "core/base/clock.h"
+#include "core/bsp/wide/wide_tree.h"
 #include "core/bsp/moving/posed_trees.h"
 #include "core/trace/lanes/lane_steps.h"
 #include "core/trace/rays/ray_sorter.h"
@@ -22,11 +24,12 @@ struct IsaEntry {
   bool (*is_supported)();
   const Kernels& kernels;
   const LaneSteps& steps;
+  const WideKernel& wide;
 };
 
 // The instruction sets of this architecture, narrowest first.
 #define PINOCCHIO_ENTRY(name, lanes, feature) \
-  {Isa::name, [] { return PINOCCHIO_PROCESSOR_HAS(feature); }, name::kKernels, name::kSteps},
+  {Isa::name, [] { return PINOCCHIO_PROCESSOR_HAS(feature); }, name::kKernels, name::kSteps, name::kWideKernel},
 const IsaEntry kIsas[]{PINOCCHIO_ISAS(PINOCCHIO_ENTRY)};
 #undef PINOCCHIO_ENTRY
 
@@ -45,6 +48,10 @@ const IsaEntry& entry_of(Isa isa) {
 
 const Kernel& kernel_of(Isa isa, TriangleTest test) {
   return entry_of(isa).kernels[as_size(test)];
+}
+
+const WideKernel& wide_kernel_of(Isa isa) {
+  return entry_of(isa == Isa::avx512 ? Isa::avx2 : isa).wide;
 }
 
 Isa checked_isa(std::optional<Isa> wanted) {
@@ -127,6 +134,8 @@ Tracer::Tracer(const Scene& scene, const BuildOptions& options, std::optional<Is
   trees_ = std::move(posed.trees);
   motion_ = std::move(posed.motion);
   offset_ = RayOffset::of(offset, trees_->bounds);
+  if (const char* w = std::getenv("PINOCCHIO_WIDE"); w && *w != '0')
+    wide_ = std::make_shared<const WideTree>(build_wide(*trees_->still, trees_->positions, trees_->corners));
   build_end_s_ = now_s();
 }
 
@@ -171,6 +180,8 @@ void Tracer::closest_hits(const RayColumns& rays, std::size_t n, std::uint32_t* 
                           const MaterialMarks* backs) const {
   const Kernel& kernel = kernel_of(isa_, trees_->still->test);
   const auto trace = [&](const RayColumns& from, std::uint32_t* ids, float* distances) {
+    if (wide_ && !backs)
+      return wide_kernel_of(isa_).closest_hits(*trees_, *wide_, from, n, ids, distances);
     if (backs) return kernel.closest_fronts(*trees_, from, n, *backs, ids, distances);
     kernel.closest_hits(*trees_, from, n, ids, distances);
   };
@@ -185,6 +196,7 @@ void Tracer::occluded(const RayColumns& rays, std::size_t n, std::uint8_t* block
                       const PassedSurfaces* passed) const {
   const Kernel& kernel = kernel_of(isa_, trees_->still->test);
   if (passed) return kernel.occluded_unless_passed(*trees_, rays, n, *passed, blocked);
+  if (wide_) return wide_kernel_of(isa_).occluded(*trees_, *wide_, rays, n, blocked);
   RaySorter* const sorter = sorter_for(isa_, rays, n);
   if (!sorter) return kernel.occluded(*trees_, rays, n, blocked);
   const RayColumns sorted = sorter->sort(rays, n);

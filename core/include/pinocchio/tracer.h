@@ -23,6 +23,7 @@ struct MaterialMarks;
 struct PassedSurfaces;
 struct RayColumns;
 struct SceneTrees;
+struct WideTree;
 
 // The instruction set, which sets the width of ray packets.
 // All architectures use the same names: x86-64 has the first four, 64-bit Arm has scalar and neon.
@@ -86,6 +87,7 @@ class Tracer {
   std::shared_ptr<const Mesh> mesh_;
   std::shared_ptr<const MotionState> motion_;  // for the next pose's tracer; null: the scene has no nodes
   std::shared_ptr<const SceneTrees> trees_;
+  std::shared_ptr<const WideTree> wide_;
   Isa isa_;
   RayOffset offset_;
 };

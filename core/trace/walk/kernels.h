@@ -15,6 +15,7 @@ namespace pinocchio {
 
 // Kernels for n rays. All columns, the results' included, are read and written in whole packets: they are
 // aligned and have room for kQueuePad more rays (rays/ray_queue.h).
+struct WideTree;
 struct Kernel {
   // Writes the triangle that each ray hits (kNoTriangle: none) and, unless `t` is null, its distance (t_max:
   // none).
@@ -31,6 +32,14 @@ struct Kernel {
                                  const PassedSurfaces& passed, std::uint8_t* blocked);
 };
 
+// One ray at a time, through the wide tree.
+struct WideKernel {
+  void (*closest_hits)(const SceneTrees& scene, const WideTree& wide, const RayColumns& rays, std::size_t n,
+                       std::uint32_t* triangle, float* t);
+  void (*occluded)(const SceneTrees& scene, const WideTree& wide, const RayColumns& rays, std::size_t n,
+                   std::uint8_t* blocked);
+};
+
 using Kernels = std::array<Kernel, kTriangleTests.size()>;  // by TriangleTest
 
 struct LaneSteps;  // trace/lanes/lane_steps.h
@@ -38,6 +47,7 @@ struct LaneSteps;  // trace/lanes/lane_steps.h
 #define PINOCCHIO_DECLARE(name, lanes, feature) \
   namespace name {                              \
   extern const Kernels kKernels;                \
+  extern const WideKernel kWideKernel;          \
   extern const LaneSteps kSteps;                \
   }
 PINOCCHIO_ISAS(PINOCCHIO_DECLARE)

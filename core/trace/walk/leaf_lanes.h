@@ -1,6 +1,7 @@
 // Part of walk/kernel.h.
 #pragma once
 
+#include "core/bsp/wide/wide_tree.h"
 #include "core/trace/walk/filtered.h"
 #include "core/trace/walk/triangles_of_leaf.h"
 
@@ -70,6 +71,22 @@ class LeafLanes {
     plane_.gamma_v = rest[1];
     plane_.slope = rest[3];
     id_ = bits_of(rest[2]);
+  }
+
+  LeafLanes(const SceneTrees& scene, const WideLeaf& leaf, int from) : scene_(scene) {
+    id_ = Int::load(leaf.id + from);
+    lanes_ = ~(id_ == Int(kNoTriangle));
+    const Int k = Int::load(leaf.k + from);
+    k_is_x_ = k == Int(0u);
+    k_is_y_ = k == Int(1u);
+    for (int i = 0; i < 3; ++i) a_[i] = Float::load(leaf.a[i] + from);
+    plane_.n_u = Float::load(leaf.n_u + from);
+    plane_.n_v = Float::load(leaf.n_v + from);
+    plane_.beta_u = Float::load(leaf.beta_u + from);
+    plane_.beta_v = Float::load(leaf.beta_v + from);
+    plane_.gamma_u = Float::load(leaf.gamma_u + from);
+    plane_.gamma_v = Float::load(leaf.gamma_v + from);
+    plane_.slope = Float::load(leaf.slope + from);
   }
 
   // Which of the triangles ray i meets at 0 < t; sets their t.
