@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "core/base/clock.h"
+#include "core/base/large_memory.h"
 #include "pinocchio/conversion.h"
 #include "pinocchio/ray.h"
 
@@ -41,7 +42,12 @@ class WideBuilder {
   WideTree build() {
     wide_.nodes.emplace_back();
     fill(0, range_of(0, items_.size()));
-    return std::move(wide_);
+    WideTree packed;
+    reserve_large(packed.nodes, wide_.nodes.size());
+    reserve_large(packed.blocks, wide_.blocks.size());
+    packed.nodes = wide_.nodes;
+    packed.blocks = wide_.blocks;
+    return packed;
   }
 
  private:

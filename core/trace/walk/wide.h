@@ -19,6 +19,7 @@ struct OneRay {
   bool valid;
   float t_max;
 
+  OneRay() = default;
   OneRay(const RayColumns& rays, std::size_t i) {
     t_max = rays.t_max ? rays.t_max[i] : rays.reach;
     valid = 0.0f < t_max;
@@ -36,7 +37,7 @@ struct OneRay {
 };
 
 struct ClosestOne {
-  float t_best;
+  float t_best = 0.0f;
   std::uint32_t id = kNoTriangle;
   bool add(float t, std::uint32_t triangle) {
     if (t < t_best || (t == t_best && static_cast<std::int32_t>(triangle) < static_cast<std::int32_t>(id))) {
@@ -47,7 +48,7 @@ struct ClosestOne {
   }
 };
 struct AnyOne {
-  float t_best;
+  float t_best = 0.0f;
   bool hit = false;
   bool add(float t, std::uint32_t) {
     hit |= t < t_best;
@@ -55,20 +56,47 @@ struct AnyOne {
   }
 };
 
-template <class Found>
+#ifndef WIDE_RAYS
+#define WIDE_RAYS 4
+#endif
+// Rays in turns: while one waits for memory, the others go on.
+template <class Found, class Done>
 [[gnu::always_inline]] inline void wide_hits(const SceneTrees& scene, const WideTree& wide,
-                                             const RayColumns& rays, std::size_t i, Found& found) {
-  if constexpr (kWidth > 8) return;
-  const OneRay ray(rays, i);
-  if (!ray.valid) return;
+                                             const RayColumns& rays, std::size_t n, Done done) {
   const WideNode* const nodes = wide.nodes.data();
   const WideLeaf* const blocks = wide.blocks.data();
-  WideEntry stack[512];
-  int top = 0;
-  std::uint32_t current = 0;
-  while (true) {
-    if (!(current & WideNode::kLeaf)) {
-      const WideNode& node = nodes[current];
+  struct State {
+    OneRay ray;
+    Found found;
+    std::size_t i;
+    std::uint32_t current;
+    int top;
+    WideEntry stack[256];
+  };
+  std::size_t next = 0;
+  State states[WIDE_RAYS];
+  int live = 0;
+  const auto start = [&](State& s) {
+    for (; next < n; ++next) {
+      s.ray = OneRay(rays, next);
+      s.found = Found{rays.t_max ? rays.t_max[next] : rays.reach};
+      s.i = next;
+      s.current = 0;
+      s.top = 0;
+      if (s.ray.valid) {
+        ++next;
+        return true;
+      }
+      done(next, s.found);
+    }
+    return false;
+  };
+  while (live < WIDE_RAYS && start(states[live])) ++live;
+  const auto step = [&](State& s) {
+    const OneRay& ray = s.ray;
+    Found& found = s.found;
+    if (!(s.current & WideNode::kLeaf)) {
+      const WideNode& node = nodes[s.current];
       alignas(64) float t_near[WideNode::kChildren];
       unsigned reached = 0;
       const Float end(found.t_best * kLate);
@@ -87,71 +115,98 @@ template <class Found>
       if (reached != 0) {
         const int first = __builtin_ctz(reached);
         reached &= reached - 1;
-        current = node.child[first];
-        if (reached == 0) continue;
+        s.current = node.child[first];
+        if (reached == 0) return true;
         const int second = __builtin_ctz(reached);
         reached &= reached - 1;
         if (reached == 0) {
           if (t_near[second] < t_near[first]) {
-            stack[top++] = {t_near[first], current};
-            current = node.child[second];
+            s.stack[s.top++] = {t_near[first], s.current};
+            s.current = node.child[second];
           } else {
-            stack[top++] = {t_near[second], node.child[second]};
+            s.stack[s.top++] = {t_near[second], node.child[second]};
           }
-          continue;
+          return true;
         }
-        const int bottom = top;
+        const int bottom = s.top;
         const auto push = [&](int c) {
           WideEntry entry{t_near[c], node.child[c]};
-          int at = top++;
-          for (; at > bottom && stack[at - 1].t < entry.t; --at) stack[at] = stack[at - 1];
-          stack[at] = entry;
+          int at = s.top++;
+          for (; at > bottom && s.stack[at - 1].t < entry.t; --at) s.stack[at] = s.stack[at - 1];
+          s.stack[at] = entry;
         };
         push(first);
         push(second);
         for (; reached != 0; reached &= reached - 1) push(__builtin_ctz(reached));
-        current = stack[--top].child;
-        continue;
+        s.current = s.stack[--s.top].child;
+        return true;
       }
     } else {
-      const WideLeaf& block = blocks[current & ~WideNode::kLeaf];
+      const WideLeaf& block = blocks[s.current & ~WideNode::kLeaf];
 #pragma GCC unroll 2
       for (int part = 0; part < WideLeaf::kTriangles; part += kWidth) {
         const LeafLanes lanes(scene, block, part);
         Float t;
-        unsigned met = lanes.intersect(rays, i, t).bits();
+        unsigned met = lanes.intersect(rays, s.i, t).bits();
         if (met == 0) continue;
         alignas(64) float ts[kWidth];
         t.store(ts);
         for (; met != 0; met &= met - 1) {
           const int m = __builtin_ctz(met);
-          if (found.add(ts[m], block.id[part + m])) return;
+          if (found.add(ts[m], block.id[part + m])) return false;
         }
       }
     }
     do {
-      if (top == 0) return;
-      current = stack[--top].child;
-    } while (!(stack[top].t * kEarly <= found.t_best * kLate));
-  }
+      if (s.top == 0) return false;
+      s.current = s.stack[--s.top].child;
+    } while (!(s.stack[s.top].t * kEarly <= found.t_best * kLate));
+    return true;
+  };
+  const auto prefetch = [&](std::uint32_t current) {
+    const char* const at = (current & WideNode::kLeaf)
+                               ? reinterpret_cast<const char*>(blocks + (current & ~WideNode::kLeaf))
+                               : reinterpret_cast<const char*>(nodes + current);
+    for (int line = 0; line < 4; ++line) __builtin_prefetch(at + 64 * line);
+    if (current & WideNode::kLeaf) {
+      __builtin_prefetch(at + 256);
+      __builtin_prefetch(at + 320);
+    }
+  };
+  while (live > 0)
+    for (int r = 0; r < live;) {
+      State& s = states[r];
+      if (step(s)) {
+        if constexpr (WIDE_RAYS > 1) prefetch(s.current);
+        ++r;
+        continue;
+      }
+      done(s.i, s.found);
+      if (start(s)) {
+        ++r;
+        continue;
+      }
+      if (r != --live) {
+        State& last = states[live];
+        s.ray = last.ray; s.found = last.found; s.i = last.i; s.current = last.current; s.top = last.top;
+        for (int e = 0; e < s.top; ++e) s.stack[e] = last.stack[e];
+      }
+    }
 }
 
 void wide_closest_hits(const SceneTrees& scene, const WideTree& wide, const RayColumns& rays, std::size_t n,
                        std::uint32_t* triangle, float* t) {
-  for (std::size_t i = 0; i < n; ++i) {
-    ClosestOne found{rays.t_max ? rays.t_max[i] : rays.reach};
-    wide_hits(scene, wide, rays, i, found);
+  if constexpr (kWidth > 8) return;
+  wide_hits<ClosestOne>(scene, wide, rays, n, [&](std::size_t i, const ClosestOne& found) {
     triangle[i] = found.id;
     if (t) t[i] = found.t_best;
-  }
+  });
 }
 void wide_occluded(const SceneTrees& scene, const WideTree& wide, const RayColumns& rays, std::size_t n,
                    std::uint8_t* blocked) {
-  for (std::size_t i = 0; i < n; ++i) {
-    AnyOne found{rays.t_max ? rays.t_max[i] : rays.reach};
-    wide_hits(scene, wide, rays, i, found);
-    blocked[i] = found.hit;
-  }
+  if constexpr (kWidth > 8) return;
+  wide_hits<AnyOne>(scene, wide, rays, n,
+                    [&](std::size_t i, const AnyOne& found) { blocked[i] = found.hit ? 1 : 0; });
 }
 
 }  // namespace
