@@ -210,7 +210,6 @@ template <class Test, class Found, int kPackets, class Planes, class Triangles>
 }  // namespace pinocchio::PINOCCHIO_LANES
 
 #include "core/trace/walk/moving.h"
-#include "core/trace/walk/wide.h"
 
 namespace pinocchio::PINOCCHIO_LANES {
 namespace {
@@ -298,6 +297,5 @@ constexpr Kernel kKernelOf{closest_hits<Test>, closest_fronts<Test>, occluded<Te
 // In the order of TriangleTest.
 const Kernels kKernels{kKernelOf<ProjectedTest>, kKernelOf<MoellerTrumboreTest>, kKernelOf<WatertightTest>,
                        kKernelOf<FilteredTest>};
-const WideKernel kWideKernel{wide_closest_hits, wide_occluded};
 
 }  // namespace pinocchio::PINOCCHIO_LANES

@@ -79,6 +79,7 @@ class LeafLanes {
     const Int k = Int::load(leaf.k + from);
     k_is_x_ = k == Int(0u);
     k_is_y_ = k == Int(1u);
+#pragma GCC unroll 3
     for (int i = 0; i < 3; ++i) a_[i] = Float::load(leaf.a[i] + from);
     plane_.n_u = Float::load(leaf.n_u + from);
     plane_.n_v = Float::load(leaf.n_v + from);
@@ -93,6 +94,7 @@ class LeafLanes {
   [[gnu::always_inline]] inline Mask intersect(const RayColumns& rays, std::size_t i, Float& t) const {
     Float o[3], d[3];
     const Float zero(0.0f);
+#pragma GCC unroll 3
     for (int axis = 0; axis < 3; ++axis) {
       o[axis] = Float(rays.origin[axis][i]);
       d[axis] = Float(rays.direction[axis][i]) + zero;  // turns -0 into +0, as Packet::load does
