@@ -137,7 +137,8 @@ Tracer::Tracer(const Scene& scene, const BuildOptions& options, std::optional<Is
   trees_ = std::move(posed.trees);
   motion_ = std::move(posed.motion);
   offset_ = RayOffset::of(offset, trees_->bounds);
-  if (WideOnDemand::serves(*trees_)) wide_ = std::make_shared<WideOnDemand>(trees_, options.threads);
+  if (WideOnDemand::serves(*trees_, isa_))
+    wide_ = std::make_shared<WideOnDemand>(trees_, isa_, options.threads);
   build_end_s_ = now_s();
 }
 
@@ -179,15 +180,17 @@ RaySorter* sorter_for(Isa isa, const RayColumns& rays, std::size_t n) {
 }  // namespace
 
 const WideTree* Tracer::wide_tree_for(const RayColumns& rays, std::size_t n) const {
-  if (!wide_ || !rays_part(rays, n, trees_->bounds, wide_->triangle_size())) return nullptr;
+  if (!wide_ || !rays_part(rays, n, wide_->center(), wide_->apart())) return nullptr;
   return wide_->tree_after(n);
 }
 
 void Tracer::closest_hits(const RayColumns& rays, std::size_t n, std::uint32_t* triangle, float* t,
                           const MaterialMarks* backs) const {
-  if (!backs)
-    if (const WideTree* const wide = wide_tree_for(rays, n))
-      return wide_kernel(isa_).closest_hits(*trees_, *wide, rays, n, triangle, t);
+  if (const WideTree* const wide = wide_tree_for(rays, n)) {
+    const WideKernel& kernel = wide_kernel(isa_);
+    if (backs) return kernel.closest_fronts(*trees_, *wide, rays, n, *backs, triangle, t);
+    return kernel.closest_hits(*trees_, *wide, rays, n, triangle, t);
+  }
   const Kernel& kernel = kernel_of(isa_, trees_->still->test);
   const auto trace = [&](const RayColumns& from, std::uint32_t* ids, float* distances) {
     if (backs) return kernel.closest_fronts(*trees_, from, n, *backs, ids, distances);

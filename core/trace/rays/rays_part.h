@@ -1,14 +1,14 @@
 #pragma once
 
 #include <cstddef>
+#include <glm/glm.hpp>
 
 #include "core/trace/rays/ray_queue.h"
-#include "pinocchio/bounds.h"
 
 namespace pinocchio {
 
-// Whether neighbouring rays go to places that are many triangles apart, so that packets would share little of
-// their way; judged by a sample. triangle_size: about the length of a triangle's sides.
-[[nodiscard]] bool rays_part(const RayColumns& rays, std::size_t n, const Bounds& scene, float triangle_size);
+// Whether neighbouring rays are further apart than that at the scene's center, so that packets would share
+// little of their way; judged by a sample.
+[[nodiscard]] bool rays_part(const RayColumns& rays, std::size_t n, const glm::vec3& center, float apart);
 
 }  // namespace pinocchio

@@ -5,6 +5,7 @@
 #include <type_traits>
 
 #include "core/bsp/wide/wide_tree.h"
+#include "core/trace/walk/found.h"
 #include "core/trace/walk/kernels.h"
 #include "core/trace/walk/leaf_lanes.h"
 
@@ -36,23 +37,56 @@ struct WideRay {
   }
 };
 
-// What one ray has hit so far, as ClosestHits and AnyHits of packets (walk/found.h) decide it.
+// What one ray has hit so far, decided as ClosestHits, ClosestFronts and AnyHits of packets (walk/found.h) do.
+//   t_best           where the ray's interval ends
 //   add(t, triangle) notes that it meets the triangle at t; returns whether it needs no other
 struct ClosestHit {
-  float t_best;
+  float t_best = 0.0f;
   std::uint32_t id = kNoTriangle;
 
   bool add(float t, std::uint32_t triangle) {
-    const bool lower = static_cast<std::int32_t>(triangle) < static_cast<std::int32_t>(id);
-    if (t < t_best || (t == t_best && lower)) {
-      t_best = t;
-      id = triangle;
-    }
+    if (is_closer(t, triangle)) keep(t, triangle);
     return false;
   }
+
+ protected:
+  [[nodiscard]] bool is_closer(float t, std::uint32_t triangle) const {
+    return t < t_best || (t == t_best && triangle < id && id != kNoTriangle);
+  }
+  void keep(float t, std::uint32_t triangle) {
+    t_best = t;
+    id = triangle;
+  }
 };
+
+struct ClosestFront : ClosestHit {
+  ClosestFront() = default;
+  ClosestFront(float t_max, const SceneTrees& scene, const RayColumns& rays, std::size_t i,
+               const MaterialMarks& backs)
+      : ClosestHit{t_max}, scene_(&scene), rays_(&rays), backs_(&backs), i_(i) {}
+
+  bool add(float t, std::uint32_t triangle) {
+    if (is_closer(t, triangle) && !(backs_->has(triangle) && is_from_behind(triangle))) keep(t, triangle);
+    return false;
+  }
+
+ private:
+  [[nodiscard, gnu::noinline]] bool is_from_behind(std::uint32_t triangle) const {
+    float normal[3];
+    if (!scaled_normal(*scene_, triangle, normal)) return false;
+    float along = 0.0f;
+    for (int axis = 0; axis < 3; ++axis) along = along + normal[axis] * rays_->direction[axis][i_];
+    return 0.0f < along;
+  }
+
+  const SceneTrees* scene_ = nullptr;
+  const RayColumns* rays_ = nullptr;
+  const MaterialMarks* backs_ = nullptr;
+  std::size_t i_ = 0;
+};
+
 struct AnyHit {
-  float t_best;
+  float t_best = 0.0f;
   bool hit = false;
 
   bool add(float t, std::uint32_t) { return hit = t < t_best; }
@@ -66,12 +100,12 @@ class WideWalk {
   WideWalk(const SceneTrees& scene, const WideTree& tree, const RayColumns& rays, std::size_t n)
       : scene_(scene), nodes_(tree.nodes.data()), leaves_(tree.leaves.data()), rays_(rays), n_(n) {}
 
-  // Calls done(i, found) for each ray, in any order.
-  template <class Done>
-  void run(Done done) {
+  // Calls done(i, found) for each ray, in any order. make(i, t_max): what ray i has hit before the walk.
+  template <class Make, class Done>
+  void run(Make make, Done done) {
     Walker walkers[kInTurns];
     int count = 0;
-    while (count < kInTurns && start(walkers[count], done)) ++count;
+    while (count < kInTurns && start(walkers[count], make, done)) ++count;
     while (count > 0)
       for (int w = 0; w < count; ++w) {
         Walker& walker = walkers[w];
@@ -80,7 +114,7 @@ class WideWalk {
           continue;
         }
         done(walker.i, walker.found);
-        if (!start(walker, done) && w != --count) walker.take(walkers[count]);
+        if (!start(walker, make, done) && w != --count) walker.take(walkers[count]);
       }
   }
 
@@ -113,19 +147,19 @@ class WideWalk {
   };
 
   // The next ray that can be traced; false: there is none.
-  template <class Done>
-  [[gnu::always_inline]] inline bool start(Walker& to, Done& done) {
+  template <class Make, class Done>
+  [[gnu::always_inline]] inline bool start(Walker& to, Make& make, Done& done) {
     for (; next_ < n_; ++next_) {
       const float t_max = rays_.t_max ? rays_.t_max[next_] : rays_.reach;
       to.ray = WideRay(rays_, next_, t_max);
       if (to.ray.can_be_traced) {
-        to.found = Found{t_max};
+        to.found = make(next_, t_max);
         to.i = next_++;
         to.at = 0;
         to.waiting = 0;
         return true;
       }
-      done(next_, Found{-1.0f});
+      done(next_, make(next_, -1.0f));
     }
     return false;
   }
@@ -234,22 +268,36 @@ constexpr bool kHasWide = kWidth <= WideNode::kChildren;
 template <bool kServes>
 void wide_closest_hits(const SceneTrees& scene, const WideTree& tree, const RayColumns& rays, std::size_t n,
                        std::uint32_t* triangle, float* t) {
-  WideWalk<ClosestHit>(scene, tree, rays, n).run([&](std::size_t i, const ClosestHit& found) {
-    triangle[i] = found.id;
-    if (t) t[i] = found.t_best;
-  });
+  WideWalk<ClosestHit>(scene, tree, rays, n)
+      .run([](std::size_t, float t_max) { return ClosestHit{t_max}; },
+           [&](std::size_t i, const ClosestHit& found) {
+             triangle[i] = found.id;
+             if (t) t[i] = found.t_best;
+           });
+}
+
+template <bool kServes>
+void wide_closest_fronts(const SceneTrees& scene, const WideTree& tree, const RayColumns& rays,
+                         std::size_t n, const MaterialMarks& backs, std::uint32_t* triangle, float* t) {
+  WideWalk<ClosestFront>(scene, tree, rays, n)
+      .run([&](std::size_t i, float t_max) { return ClosestFront(t_max, scene, rays, i, backs); },
+           [&](std::size_t i, const ClosestFront& found) {
+             triangle[i] = found.id;
+             if (t) t[i] = found.t_best;
+           });
 }
 
 template <bool kServes>
 void wide_occluded(const SceneTrees& scene, const WideTree& tree, const RayColumns& rays, std::size_t n,
                    std::uint8_t* blocked) {
-  WideWalk<AnyHit>(scene, tree, rays, n).run([&](std::size_t i, const AnyHit& found) {
-    blocked[i] = found.hit ? 1 : 0;
-  });
+  WideWalk<AnyHit>(scene, tree, rays, n)
+      .run([](std::size_t, float t_max) { return AnyHit{t_max}; },
+           [&](std::size_t i, const AnyHit& found) { blocked[i] = found.hit ? 1 : 0; });
 }
 
 template <bool kServes>
-constexpr WideKernel kWideKernelIf{wide_closest_hits<kServes>, wide_occluded<kServes>};
+constexpr WideKernel kWideKernelIf{wide_closest_hits<kServes>, wide_closest_fronts<kServes>,
+                                   wide_occluded<kServes>};
 template <>
 constexpr WideKernel kWideKernelIf<false>{};
 

@@ -101,15 +101,22 @@ void expect_same_bits(const Tracer& scalar, const std::vector<Ray>& rays, const 
   std::vector<std::uint8_t> blocked(room), found_blocked(room);
   scalar.closest_hits(columns.get(), n, triangle.data(), t.data());
   scalar.occluded(columns.get(), n, blocked.data());
+  AlignedVector<std::uint32_t> front(room), found_front(room);
+  std::vector<std::uint8_t> passes(scalar.mesh().materials.size(), 1);
+  const MaterialMarks backs{scalar.mesh().triangle_materials.data(), passes.data()};
+  scalar.closest_hits(columns.get(), n, front.data(), nullptr, &backs);
   const WideTree tree = build_wide_tree(scalar.trees(), 2);
   for (const Isa isa : supported_isas()) {
     const WideKernel& kernel = wide_kernel(isa);
     kernel.closest_hits(scalar.trees(), tree, columns.get(), n, found.data(), found_t.data());
     kernel.occluded(scalar.trees(), tree, columns.get(), n, found_blocked.data());
+    kernel.closest_fronts(scalar.trees(), tree, columns.get(), n, backs, found_front.data(), nullptr);
     for (std::size_t i = 0; i < n; ++i) {
+      ASSERT_EQ(found_front[i], front[i]) << what << ", " << isa_name(isa) << ", ray " << i;
       ASSERT_EQ(found[i], triangle[i]) << what << ", " << isa_name(isa) << ", ray " << i;
-      if (triangle[i] != kNoTriangle)
+      if (triangle[i] != kNoTriangle) {
         ASSERT_EQ(found_t[i], t[i]) << what << ", " << isa_name(isa) << ", ray " << i;
+      }
       ASSERT_EQ(found_blocked[i], blocked[i]) << what << ", " << isa_name(isa) << ", ray " << i;
     }
   }
@@ -195,15 +202,17 @@ TEST(Wide, BoxesHoldEveryTriangleOnce) {
 TEST(Wide, IsBuiltOnceEnoughRaysPart) {
   const Tracer tracer(jagged_ball(glm::vec3(0.0f), 32), {}, Isa::scalar);
   const auto trees = std::shared_ptr<const SceneTrees>(&tracer.trees(), [](const SceneTrees*) {});
-  ASSERT_TRUE(WideOnDemand::serves(*trees));
-  WideOnDemand wide(trees, 1);
+  ASSERT_TRUE(WideOnDemand::serves(*trees, Isa::sse4));
+  EXPECT_FALSE(WideOnDemand::serves(*trees, Isa::scalar));
+  WideOnDemand wide(trees, Isa::sse4, 1);
   const std::size_t triangles = trees->still->triangles.size();
   EXPECT_EQ(wide.tree_after(triangles / 4), nullptr);
   const WideTree* const tree = wide.tree_after(triangles);
   ASSERT_NE(tree, nullptr);
   EXPECT_EQ(wide.tree_after(1), tree);
   EXPECT_FALSE(WideOnDemand::serves(
-      Tracer(random_soup(60, 0.5f, 1).mesh, {.triangle_test = TriangleTest::watertight}, Isa::scalar).trees()));
+      Tracer(random_soup(60, 0.5f, 1).mesh, {.triangle_test = TriangleTest::watertight}, Isa::scalar).trees(),
+      Isa::sse4));
 }
 
 // Rays of one array are traced by packets at first and then through the wide tree.
@@ -228,9 +237,8 @@ TEST(Wide, NoHitDependsOnWhenItIsBuilt) {
 
 TEST(RaysPart, InSmallPicturesOfManyTrianglesAndInNoOrder) {
   const Scene scene = plate_over_floor();
-  const Bounds box{glm::vec3(-1.0f), glm::vec3(1.0f)};
-  const auto part = [&box](const std::vector<Ray>& rays, float triangle_size) {
-    return rays_part(Columns(rays).get(), rays.size(), box, triangle_size);
+  const auto part = [](const std::vector<Ray>& rays, float apart) {
+    return rays_part(Columns(rays).get(), rays.size(), glm::vec3(0.0f), apart);
   };
   const auto picture = [&scene](int size) {
     Camera camera = scene.cameras.empty() ? Camera{} : scene.cameras.front();
@@ -242,9 +250,9 @@ TEST(RaysPart, InSmallPicturesOfManyTrianglesAndInNoOrder) {
       for (int x = 0; x < size; ++x) rays.push_back(pixel_ray(view, x, y));
     return rays;
   };
-  EXPECT_TRUE(part(picture(32), 0.002f));
-  EXPECT_FALSE(part(picture(32), 0.2f));
-  EXPECT_FALSE(part(picture(512), 0.002f));
+  EXPECT_TRUE(part(picture(32), 0.02f));
+  EXPECT_FALSE(part(picture(32), 0.5f));
+  EXPECT_FALSE(part(picture(512), 0.02f));
   Random random(1);
   std::vector<Ray> rays;
   for (int i = 0; i < 100; ++i) rays.push_back({random_point(random, 3.0f), kInfinity, random_point(random, 1.0f)});
