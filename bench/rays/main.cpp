@@ -22,6 +22,7 @@ namespace {
 
 constexpr std::array<std::string_view, 5> kRaced{"primary", "shadow", "reflection", "second bounce",
                                                  "random"};
+constexpr std::size_t kRandomRays = 100'000;
 constexpr float kMirror = 0.5f;  // the reflectance with --mirror-all
 
 struct Options {
@@ -178,6 +179,7 @@ void run(const Options& o) {
     if (tracers.size() == 1) report.ours = cost;
     backends.push_back(our_backend(*tracers.back()));
   }
+  report.wide = cost_of_wide_tree(*tracers.front(), o.threads, o.build_repeat);
   const EmbreeSide embree(*scene.mesh, o.robust, all.count(), o.build_repeat, widest(o));
   report.embree = embree.cost();
   backends.push_back(embree.packets());
@@ -192,7 +194,7 @@ void run(const Options& o) {
     }
   report.all_mirrors |= make_mirrors(scene, false);
   std::vector<RaySet> sets = frame_ray_sets(scene, *tracers.front(), size);
-  sets.push_back(random_rays(tracers.front()->mesh(), 100'000));
+  sets.push_back(random_rays(*scene.mesh, kRandomRays));
   for (const RaySet& set : sets) {
     const bool raced = std::find(kRaced.begin(), kRaced.end(), set.name) != kRaced.end();
     if (!raced || o.no_speeds) continue;

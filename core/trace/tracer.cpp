@@ -28,7 +28,7 @@ struct IsaEntry {
 };
 
 // The instruction sets of this architecture, narrowest first.
-#define PINOCCHIO_ENTRY(name, lanes, feature) \
+#define PINOCCHIO_ENTRY(name, lanes, feature)                                                \
   {Isa::name, [] { return PINOCCHIO_PROCESSOR_HAS(feature); }, name::kKernels, name::kSteps, \
    name::kWideKernel},
 const IsaEntry kIsas[]{PINOCCHIO_ISAS(PINOCCHIO_ENTRY)};

@@ -104,7 +104,8 @@ class WideBuilder {
       : stored_(scene.still->triangles), workers_(threads), items_(stored_.size()) {
     constexpr std::size_t kItemsAtOnce = 4096;
     workers_.for_each((items_.size() + kItemsAtOnce - 1) / kItemsAtOnce, [&](std::size_t chunk) {
-      for (std::size_t i = chunk * kItemsAtOnce; i < std::min(items_.size(), (chunk + 1) * kItemsAtOnce); ++i) {
+      for (std::size_t i = chunk * kItemsAtOnce; i < std::min(items_.size(), (chunk + 1) * kItemsAtOnce);
+           ++i) {
         const glm::uvec3& corners = scene.corners[stored_[i].id];
         for (int c = 0; c < 3; ++c) items_[i].box.add(scene.positions[corners[c]]);
         items_[i].stored = as_uint32(i);

@@ -10,8 +10,8 @@
 namespace pinocchio::PINOCCHIO_LANES {
 namespace {
 
-// The triangle's normal in the scene, scaled, as the product of short or long edges would leave float's range;
-// false: it has no area.
+// The triangle's normal in the scene, scaled, as the product of short or long edges would leave float's
+// range; false: it has no area.
 inline bool scaled_normal(const SceneTrees& scene, std::uint32_t triangle, float (&normal)[3]) {
   const glm::uvec3& corners = scene.corners.data()[triangle];
   const glm::vec3* const positions = scene.positions.data();

@@ -43,9 +43,8 @@ struct WideTree;   // bsp/wide/wide_tree.h
 struct WideKernel {
   void (*closest_hits)(const SceneTrees& scene, const WideTree& tree, const RayColumns& rays, std::size_t n,
                        std::uint32_t* triangle, float* t) = nullptr;
-  void (*closest_fronts)(const SceneTrees& scene, const WideTree& tree, const RayColumns& rays,
-                         std::size_t n, const MaterialMarks& backs, std::uint32_t* triangle,
-                         float* t) = nullptr;
+  void (*closest_fronts)(const SceneTrees& scene, const WideTree& tree, const RayColumns& rays, std::size_t n,
+                         const MaterialMarks& backs, std::uint32_t* triangle, float* t) = nullptr;
   void (*occluded)(const SceneTrees& scene, const WideTree& tree, const RayColumns& rays, std::size_t n,
                    std::uint8_t* blocked) = nullptr;
 };

@@ -114,7 +114,9 @@ class LeafLanes {
     return settle(rays, i, filter.doubtful, filter.inside, t);
   }
 
-  [[nodiscard]] Int ids() const { return id_; }
+  [[nodiscard]] Int ids() const {
+    return id_;
+  }
 
  private:
   // In units of each other; measured (docs/measurements.md, "What was tried").

@@ -14,8 +14,8 @@ namespace {
 
 // A ray in all lanes.
 struct WideRay {
-  Float o[3], inverse[3];             // 1 / d
-  std::uint32_t first[3], last[3];    // where a node has the planes that the ray meets first and last
+  Float o[3], inverse[3];           // 1 / d
+  std::uint32_t first[3], last[3];  // where a node has the planes that the ray meets first and last
   bool can_be_traced;
 
   WideRay() = default;
@@ -37,7 +37,8 @@ struct WideRay {
   }
 };
 
-// What one ray has hit so far, decided as ClosestHits, ClosestFronts and AnyHits of packets (walk/found.h) do.
+// What one ray has hit so far, decided as ClosestHits, ClosestFronts and AnyHits of packets (walk/found.h)
+// do.
 //   t_best           where the ray's interval ends
 //   add(t, triangle) notes that it meets the triangle at t; returns whether it needs no other
 struct ClosestHit {
@@ -123,6 +124,9 @@ class WideWalk {
   static constexpr int kInTurns = 8;
   static constexpr int kStack = (WideNode::kChildren - 1) * WideTree::kMostDepth + 1;
 
+  // An interval's end is widened for its begin, too: more than kLate / kEarly.
+  static constexpr float kLatest = 1.0f + 3.0f * 0x1p-21f;
+
   struct Waiting {
     float t;  // where the ray enters the node or leaf
     std::uint32_t at;
@@ -174,7 +178,7 @@ class WideWalk {
     do {
       if (walker.waiting == 0) return false;
       walker.at = walker.stack[--walker.waiting].at;
-    } while (!(walker.stack[walker.waiting].t * kEarly <= walker.found.t_best * kLate));
+    } while (!(walker.stack[walker.waiting].t <= walker.found.t_best * kLatest));
     return true;
   }
 
@@ -188,7 +192,7 @@ class WideWalk {
     unsigned met = 0;
 #pragma GCC unroll 2
     for (int from = 0; from < WideNode::kChildren; from += kWidth) {
-      Float near(0.0f), far(walker.found.t_best * kLate);
+      Float near(0.0f), far(walker.found.t_best);
       // min and max return their second operand for NaN: a ray in a face of the box (0 * inf) may meet it.
 #pragma GCC unroll 3
       for (int axis = 0; axis < 3; ++axis) {
@@ -198,7 +202,7 @@ class WideWalk {
         far = min((last - ray.o[axis]) * ray.inverse[axis], far);
       }
       near.store(t_near + from);
-      met |= (near * Float(kEarly) <= far * Float(kLate)).bits() << from;
+      met |= (near <= far * Float(kLatest)).bits() << from;
     }
     if (met == 0) return false;
     const auto pop_lowest = [&met] {
@@ -212,14 +216,16 @@ class WideWalk {
     const int second = pop_lowest();
     if (met == 0) {
       const bool swapped = t_near[second] < t_near[first];
-      walker.stack[walker.waiting++] = {t_near[swapped ? first : second], node.child[swapped ? first : second]};
+      walker.stack[walker.waiting++] = {t_near[swapped ? first : second],
+                                        node.child[swapped ? first : second]};
       walker.at = node.child[swapped ? second : first];
       return true;
     }
     const int bottom = walker.waiting;
     const auto insert = [&](int child) {
       int to = walker.waiting++;
-      for (; to > bottom && walker.stack[to - 1].t < t_near[child]; --to) walker.stack[to] = walker.stack[to - 1];
+      for (; to > bottom && walker.stack[to - 1].t < t_near[child]; --to)
+        walker.stack[to] = walker.stack[to - 1];
       walker.stack[to] = {t_near[child], node.child[child]};
     };
     insert(first);
@@ -277,8 +283,8 @@ void wide_closest_hits(const SceneTrees& scene, const WideTree& tree, const RayC
 }
 
 template <bool kServes>
-void wide_closest_fronts(const SceneTrees& scene, const WideTree& tree, const RayColumns& rays,
-                         std::size_t n, const MaterialMarks& backs, std::uint32_t* triangle, float* t) {
+void wide_closest_fronts(const SceneTrees& scene, const WideTree& tree, const RayColumns& rays, std::size_t n,
+                         const MaterialMarks& backs, std::uint32_t* triangle, float* t) {
   WideWalk<ClosestFront>(scene, tree, rays, n)
       .run([&](std::size_t i, float t_max) { return ClosestFront(t_max, scene, rays, i, backs); },
            [&](std::size_t i, const ClosestFront& found) {

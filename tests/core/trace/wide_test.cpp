@@ -70,21 +70,40 @@ std::vector<Ray> odd_rays(const Mesh& mesh, int count, std::uint64_t seed) {
     Ray ray{from, i % 5 == 0 ? 0.7f : kInfinity, to - from};
     const int axis = i / 16 % 3;
     switch (i % 16) {
-      case 1: ray.direction[axis] = 0.0f; break;
-      case 2: ray.direction[axis] = -0.0f; break;
+      case 1:
+        ray.direction[axis] = 0.0f;
+        break;
+      case 2:
+        ray.direction[axis] = -0.0f;
+        break;
       case 3:  // along an axis, through a vertex and in the faces of boxes there
         ray.direction = glm::vec3(0.0f);
         ray.direction[axis] = i % 32 == 3 ? size : -size;
         ray.origin = vertex - 2.0f * ray.direction;
         break;
-      case 4: ray.origin = vertex; break;
-      case 5: ray.direction *= 1e-18f; break;
-      case 6: ray.direction *= 1e18f; break;
-      case 7: ray.origin[axis] = kNan; break;
-      case 8: ray.direction[axis] = kInfinity; break;
-      case 9: ray.direction = glm::vec3(0.0f); break;
-      case 10: ray.t_max = i % 32 == 10 ? kNan : -1.0f; break;
-      default: break;
+      case 4:
+        ray.origin = vertex;
+        break;
+      case 5:
+        ray.direction *= 1e-18f;
+        break;
+      case 6:
+        ray.direction *= 1e18f;
+        break;
+      case 7:
+        ray.origin[axis] = kNan;
+        break;
+      case 8:
+        ray.direction[axis] = kInfinity;
+        break;
+      case 9:
+        ray.direction = glm::vec3(0.0f);
+        break;
+      case 10:
+        ray.t_max = i % 32 == 10 ? kNan : -1.0f;
+        break;
+      default:
+        break;
     }
     rays.push_back(ray);
   }
@@ -159,7 +178,8 @@ void expect_every_triangle_once(const std::shared_ptr<const Mesh>& mesh) {
   const WideTree tree = build_wide_tree(tracer.trees(), 1);
   std::vector<int> times(mesh->triangles.size());
   int depth = 0;
-  const std::function<std::vector<std::uint32_t>(std::uint32_t, int)> ids_below = [&](std::uint32_t at, int level) {
+  const std::function<std::vector<std::uint32_t>(std::uint32_t, int)> ids_below = [&](std::uint32_t at,
+                                                                                      int level) {
     depth = std::max(depth, level);
     std::vector<std::uint32_t> ids;
     const WideNode& node = tree.nodes.at(at);
@@ -258,7 +278,8 @@ TEST(RaysPart, InSmallPicturesOfManyTrianglesAndInNoOrder) {
   EXPECT_FALSE(part(picture(512), 0.02f));
   Random random(1);
   std::vector<Ray> rays;
-  for (int i = 0; i < 100; ++i) rays.push_back({random_point(random, 3.0f), kInfinity, random_point(random, 1.0f)});
+  for (int i = 0; i < 100; ++i)
+    rays.push_back({random_point(random, 3.0f), kInfinity, random_point(random, 1.0f)});
   EXPECT_TRUE(part(rays, 0.1f));
   EXPECT_FALSE(part({rays.front()}, 0.1f));
   EXPECT_FALSE(part({}, 0.1f));
