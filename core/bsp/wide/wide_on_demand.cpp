@@ -21,7 +21,7 @@ float distance_apart(const BspTree& tree, Isa isa) {
   const float triangles = as_float(tree.triangles.size());
   const float triangle_size =
       std::sqrt(2.0f * tree.exact_bounds.half_area() / triangles);  // of the box's sides
-  const float sizes = (isa == Isa::avx512 ? 2.5f : 1.25f) * std::pow(1e6f / triangles, 0.75f);
+  const float sizes = (isa == Isa::avx512 ? 2.5f : 1.25f) * std::pow(1e6f / triangles, 0.7f);
   return std::min(sizes * triangle_size, 0.2f * tree.exact_bounds.diagonal());
 }
 

@@ -12,7 +12,7 @@ glm::vec3 row(const float* const (&columns)[3], std::size_t i) {
 }  // namespace
 
 bool rays_part(const RayColumns& rays, std::size_t n, const glm::vec3& center, float apart) {
-  constexpr std::size_t kSamples = 32;  // pairs of neighbours
+  constexpr std::size_t kSamples = 16;  // pairs of neighbours
   const std::size_t step = std::max<std::size_t>(n / kSamples, 2);
   std::size_t pairs = 0, parting = 0;
   for (std::size_t i = 0; i + 1 < n; i += step) {
