@@ -93,8 +93,8 @@ struct AnyHit {
   bool add(float t, std::uint32_t) { return hit = t < t_best; }
 };
 
-// Walks several rays in turns, a node or a leaf at a time: while the memory that one needs next is fetched,
-// the others go on.
+// Walks several rays interleaved, a node or a leaf of each at a time: while the memory that one needs next is
+// fetched, the others go on.
 template <class Found>
 class WideWalk {
  public:
@@ -104,9 +104,9 @@ class WideWalk {
   // Calls done(i, found) for each ray, in any order. make(i, t_max): what ray i has hit before the walk.
   template <class Make, class Done>
   void run(Make make, Done done) {
-    Walker walkers[kInTurns];
+    Walker walkers[kInterleaved];
     int count = 0;
-    while (count < kInTurns && start(walkers[count], make, done)) ++count;
+    while (count < kInterleaved && start(walkers[count], make, done)) ++count;
     while (count > 0)
       for (int w = 0; w < count; ++w) {
         Walker& walker = walkers[w];
@@ -120,8 +120,8 @@ class WideWalk {
   }
 
  private:
-  // Measured: 8 against 1 and 4 (docs/measurements/kernel-kept.csv).
-  static constexpr int kInTurns = 8;
+  // Measured: 8 against 1, 4 and 12 (docs/measurements/kernel-kept.csv).
+  static constexpr int kInterleaved = 8;
   static constexpr int kStack = (WideNode::kChildren - 1) * WideTree::kMostDepth + 1;
 
   // An interval's end is widened for its begin, too: more than kLate / kEarly.
