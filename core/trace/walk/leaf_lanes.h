@@ -73,6 +73,7 @@ class LeafLanes {
     id_ = bits_of(rest[2]);
   }
 
+  // The triangles of a leaf of the wide tree, from number `from` on.
   LeafLanes(const SceneTrees& scene, const WideLeaf& leaf, int from) : scene_(scene) {
     id_ = Int::load(leaf.id + from);
     lanes_ = ~(id_ == Int(kNoTriangle));
