@@ -4,6 +4,7 @@
 #include <array>
 #include <cstdio>
 #include <exception>
+#include <iterator>
 #include <string_view>
 #include <utility>
 
@@ -20,8 +21,9 @@
 namespace pinocchio::bench {
 namespace {
 
-constexpr glm::ivec2 kSize{800, 600};
-constexpr std::array<std::string_view, 4> kRaced{"primary", "shadow", "reflection", "second bounce"};
+constexpr std::array<std::string_view, 5> kRaced{"primary", "shadow", "reflection", "second bounce",
+                                                 "random"};
+constexpr std::size_t kRandomRays = 100'000;
 constexpr float kMirror = 0.5f;  // the reflectance with --mirror-all
 
 struct Options {
@@ -31,6 +33,7 @@ struct Options {
   int triangles = 0, repeat = 7, build_repeat = 3, threads = 0;
   bool mirror_all = false, robust = false, no_pass = false, no_speeds = false, frame = false,
        known_eye = false, processor_time = false, animation = false;
+  std::vector<int> size{800, 600};
   MotionOptions motion{.moving = 0};
 };
 
@@ -84,6 +87,9 @@ void add_options(CLI::App& program, Options& o) {
   program.add_option("--pixels", o.motion.size.x, "width and height of the picture, with --motion (256)")
       ->check(CLI::Range(1, 8192))
       ->needs(motion);
+  program.add_option("--size", o.size, "width and height of the picture (800 600)")
+      ->expected(2)
+      ->check(CLI::Range(1, 8192));
   program.add_option("--json", o.json, "write everything to this file");
 }
 
@@ -147,13 +153,14 @@ void run_motion(const Options& o) {
 
 void run(const Options& o) {
   if (!o.json.empty()) check_writable(o.json);
+  const glm::ivec2 size(o.size[0], o.size[1]);
   if (o.processor_time) count_processor_time();
   if (o.motion.moving > 0) return run_motion(o);
   Scene scene = scene_of(o);
   if (o.animation) {
     const int frames = std::max(4 * o.repeat, 8);
     return print(
-        measure_animated_frames(scene, build_options(o, scene), kSize, Workers(o.threads).count(), frames));
+        measure_animated_frames(scene, build_options(o, scene), size, Workers(o.threads).count(), frames));
   }
   Report report;
   report.scene = o.generate.empty() ? o.scene : o.generate;
@@ -173,6 +180,7 @@ void run(const Options& o) {
     if (tracers.size() == 1) report.ours = cost;
     backends.push_back(our_backend(*tracers.back()));
   }
+  report.wide = cost_of_wide_tree(*tracers.front(), o.threads, o.build_repeat);
   const EmbreeSide embree(*scene.mesh, o.robust, all.count(), o.build_repeat, widest(o));
   report.embree = embree.cost();
   backends.push_back(embree.packets());
@@ -182,11 +190,14 @@ void run(const Options& o) {
   if (all.count() > 1) on.push_back(&all);
   if (o.frame)
     for (const auto& tracer : tracers) {
-      const std::vector<WholeFrame> frames = measure_frames(scene, *tracer, embree, kSize, on, o.repeat);
+      const std::vector<WholeFrame> frames = measure_frames(scene, *tracer, embree, size, on, o.repeat);
       report.frames.insert(report.frames.end(), frames.begin(), frames.end());
     }
   report.all_mirrors |= make_mirrors(scene, false);
-  for (const RaySet& set : frame_ray_sets(scene, *tracers.front(), kSize)) {
+  // Random rays are first: after them the tracers have their wide trees.
+  std::vector<RaySet> sets{random_rays(*scene.mesh, kRandomRays)};
+  std::ranges::move(frame_ray_sets(scene, *tracers.front(), size), std::back_inserter(sets));
+  for (const RaySet& set : sets) {
     const bool raced = std::find(kRaced.begin(), kRaced.end(), set.name) != kRaced.end();
     if (!raced || o.no_speeds) continue;
     for (Workers* workers : {&one, &all}) {
@@ -195,13 +206,14 @@ void run(const Options& o) {
       report.speeds.insert(report.speeds.end(), speeds.begin(), speeds.end());
     }
   }
-  if (!o.no_pass) report.shadow_passes = measure_shadow_passes(scene, *tracers.front(), embree, kSize, on);
+  if (!o.no_pass) report.shadow_passes = measure_shadow_passes(scene, *tracers.front(), embree, size, on);
   print_report(report);
   if (!o.json.empty()) save_report(report, o.json);
 }
 
 int parse_and_run(int argc, char** argv) {
-  CLI::App program("Our tracer beside Embree on the rays of one frame of 800x600", "pinocchio-bench");
+  CLI::App program("Our tracer beside Embree on the rays of one frame, and on random rays",
+                   "pinocchio-bench");
   Options options;
   add_options(program, options);
   try {

@@ -4,6 +4,8 @@
 
 #include "bench/rays/measure.h"
 #include "core/bsp/scene_trees.h"
+#include "core/bsp/wide/build_wide.h"
+#include "core/bsp/wide/wide_on_demand.h"
 #include "core/trace/rays/ray_queue.h"
 
 namespace pinocchio::bench {
@@ -79,6 +81,16 @@ std::unique_ptr<Tracer> build_ours(const std::shared_ptr<const Mesh>& mesh, cons
   const BspTree& tree = *tracer->trees().still;
   cost.bytes = held(tree.nodes) + held(tree.references) + held(tree.triangles) + held(tree.corner_triangles);
   return tracer;
+}
+
+BuildCost cost_of_wide_tree(const Tracer& tracer, int threads, int repeat) {
+  BuildCost cost{.name = "wide"};
+  if (!WideOnDemand::serves(tracer.trees(), tracer.isa())) return cost;
+  WideTree tree;
+  cost.seconds = median_seconds(
+      repeat, [&] { tree = {}; }, [&] { tree = build_wide_tree(tracer.trees(), threads); });
+  cost.bytes = held(tree.nodes) + held(tree.leaves);
+  return cost;
 }
 
 std::unique_ptr<RayBackend> our_backend(const Tracer& tracer) {

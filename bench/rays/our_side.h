@@ -13,6 +13,9 @@ namespace pinocchio::bench {
                                                  const BuildOptions& options, Isa isa, int repeat,
                                                  BuildCost& cost);
 
+// The cost of the wide tree, which a tracer builds when it is needed; the median of `repeat`. None: 0 bytes.
+[[nodiscard]] BuildCost cost_of_wide_tree(const Tracer& tracer, int threads, int repeat);
+
 // Our tracer as a backend. `tracer` must outlive it.
 [[nodiscard]] std::unique_ptr<RayBackend> our_backend(const Tracer& tracer);
 

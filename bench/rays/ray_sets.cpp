@@ -1,6 +1,7 @@
 #include "bench/rays/ray_sets.h"
 
 #include <map>
+#include <random>
 #include <utility>
 
 #include "bench/rays/drawing.h"
@@ -35,6 +36,22 @@ std::vector<RaySet> frame_ray_sets(const Scene& scene, const Tracer& tracer, glm
     named.push_back(std::move(set));
   }
   return named;
+}
+
+RaySet random_rays(const Mesh& mesh, std::size_t count) {
+  Bounds box;
+  for (const glm::vec3& p : mesh.positions) box.add(p);
+  std::mt19937 random(1);
+  std::normal_distribution<float> normal;
+  std::uniform_real_distribution<float> part;
+  RaySet set{"random", Query::closest, {}};
+  for (std::size_t i = 0; i < count; ++i) {
+    const glm::vec3 away = glm::normalize(glm::vec3(normal(random), normal(random), normal(random)));
+    const glm::vec3 from = box.center() + 1.5f * box.diagonal() * away;
+    const glm::vec3 to = box.lo + glm::vec3(part(random), part(random), part(random)) * box.extent();
+    set.rays.push_back({from, kInfinity, to - from});
+  }
+  return set;
 }
 
 }  // namespace pinocchio::bench

@@ -25,4 +25,7 @@ struct RaySet {
 // refracted once; "second bounce" and its shadow; and so on. Kinds without rays are left out.
 [[nodiscard]] std::vector<RaySet> frame_ray_sets(const Scene& scene, const Tracer& tracer, glm::ivec2 size);
 
+// "random": rays in no order, from a sphere around the mesh to points in its box.
+[[nodiscard]] RaySet random_rays(const Mesh& mesh, std::size_t count);
+
 }  // namespace pinocchio::bench

@@ -109,6 +109,9 @@ void print_report(const Report& report) {
       report.ours.seconds, report.embree.seconds, report.ours.seconds / report.embree.seconds,
       per_triangle(report, report.ours), per_triangle(report, report.embree),
       per_triangle(report, report.ours) / per_triangle(report, report.embree));
+  if (report.wide.bytes > 0)
+    std::printf("for rays that part: a wide tree, %.3f s, %.1f bytes a triangle\n", report.wide.seconds,
+                per_triangle(report, report.wide));
   std::printf("%-14s %8s %7s  %-11s %7s %9s %10s %9s %9s\n", "set", "rays", "threads", "tracer", "Mrays/s",
               "embree 1", "packets", "ours/best", "differ");
   for (const Speed& speed : report.speeds)
@@ -119,19 +122,21 @@ void print_report(const Report& report) {
 
 void save_report(const Report& report, const std::filesystem::path& file) {
   const SystemInfo system = system_info();
-  nlohmann::json json{{"scene", report.scene},
-                      {"triangles", report.triangles},
-                      {"tree", report.tree},
-                      {"embree_test", report.robust ? "robust" : "fast"},
-                      {"all_mirrors", report.all_mirrors},
-                      {"repeat", report.repeat},
-                      {"cpu", system.cpu},
-                      {"cores", system.cores},
-                      {"compiler", PINOCCHIO_COMPILER},
-                      {"commit", PINOCCHIO_COMMIT},
-                      {"version", version()},
-                      {"embree_version", embree_version()},
-                      {"build", {{"ours", to_json(report.ours)}, {"embree", to_json(report.embree)}}}};
+  nlohmann::json json{
+      {"scene", report.scene},
+      {"triangles", report.triangles},
+      {"tree", report.tree},
+      {"embree_test", report.robust ? "robust" : "fast"},
+      {"all_mirrors", report.all_mirrors},
+      {"repeat", report.repeat},
+      {"cpu", system.cpu},
+      {"cores", system.cores},
+      {"compiler", PINOCCHIO_COMPILER},
+      {"commit", PINOCCHIO_COMMIT},
+      {"version", version()},
+      {"embree_version", embree_version()},
+      {"build",
+       {{"ours", to_json(report.ours)}, {"wide", to_json(report.wide)}, {"embree", to_json(report.embree)}}}};
   nlohmann::json& speeds = json["speeds"] = nlohmann::json::array();
   for (const Speed& speed : report.speeds) speeds.push_back(to_json(speed));
   nlohmann::json& passes = json["shadow_passes"] = nlohmann::json::array();

@@ -18,7 +18,7 @@ struct Report {
   bool robust = false;
   bool all_mirrors = false;  // all materials are mirrors
   int repeat = 0;
-  BuildCost ours, embree;
+  BuildCost ours, wide, embree;
   std::vector<Speed> speeds;
   std::vector<ShadowPass> shadow_passes;
   std::vector<WholeFrame> frames;

@@ -8,8 +8,10 @@
 
 #include "core/base/clock.h"
 #include "core/bsp/moving/posed_trees.h"
+#include "core/bsp/wide/wide_on_demand.h"
 #include "core/trace/lanes/lane_steps.h"
 #include "core/trace/rays/ray_sorter.h"
+#include "core/trace/rays/rays_part.h"
 #include "core/trace/walk/kernels.h"
 #include "pinocchio/conversion.h"
 #include "pinocchio/error.h"
@@ -22,11 +24,13 @@ struct IsaEntry {
   bool (*is_supported)();
   const Kernels& kernels;
   const LaneSteps& steps;
+  const WideKernel& wide;
 };
 
 // The instruction sets of this architecture, narrowest first.
-#define PINOCCHIO_ENTRY(name, lanes, feature) \
-  {Isa::name, [] { return PINOCCHIO_PROCESSOR_HAS(feature); }, name::kKernels, name::kSteps},
+#define PINOCCHIO_ENTRY(name, lanes, feature)                                                \
+  {Isa::name, [] { return PINOCCHIO_PROCESSOR_HAS(feature); }, name::kKernels, name::kSteps, \
+   name::kWideKernel},
 const IsaEntry kIsas[]{PINOCCHIO_ISAS(PINOCCHIO_ENTRY)};
 #undef PINOCCHIO_ENTRY
 
@@ -89,6 +93,12 @@ const LaneSteps& lane_steps(Isa isa) {
   return entry_of(isa).steps;
 }
 
+const WideKernel& wide_kernel(Isa isa) {
+  const IsaEntry* entry = &entry_of(isa);
+  while (!entry->wide.closest_hits && entry != kIsas) --entry;
+  return entry->wide;
+}
+
 bool isa_supported(Isa isa) {
   const IsaEntry* const entry = find_entry(isa);
   return entry && entry->is_supported();
@@ -127,6 +137,8 @@ Tracer::Tracer(const Scene& scene, const BuildOptions& options, std::optional<Is
   trees_ = std::move(posed.trees);
   motion_ = std::move(posed.motion);
   offset_ = RayOffset::of(offset, trees_->bounds);
+  if (WideOnDemand::serves(*trees_, isa_))
+    wide_ = std::make_shared<WideOnDemand>(trees_, isa_, options.threads);
   build_end_s_ = now_s();
 }
 
@@ -167,8 +179,18 @@ RaySorter* sorter_for(Isa isa, const RayColumns& rays, std::size_t n) {
 
 }  // namespace
 
+const WideTree* Tracer::wide_tree_for(const RayColumns& rays, std::size_t n) const {
+  if (!wide_ || !rays_part(rays, n, wide_->center(), wide_->apart())) return nullptr;
+  return wide_->tree_after(n);
+}
+
 void Tracer::closest_hits(const RayColumns& rays, std::size_t n, std::uint32_t* triangle, float* t,
                           const MaterialMarks* backs) const {
+  if (const WideTree* const wide = wide_tree_for(rays, n)) {
+    const WideKernel& kernel = wide_kernel(isa_);
+    if (backs) return kernel.closest_fronts(*trees_, *wide, rays, n, *backs, triangle, t);
+    return kernel.closest_hits(*trees_, *wide, rays, n, triangle, t);
+  }
   const Kernel& kernel = kernel_of(isa_, trees_->still->test);
   const auto trace = [&](const RayColumns& from, std::uint32_t* ids, float* distances) {
     if (backs) return kernel.closest_fronts(*trees_, from, n, *backs, ids, distances);
@@ -185,6 +207,8 @@ void Tracer::occluded(const RayColumns& rays, std::size_t n, std::uint8_t* block
                       const PassedSurfaces* passed) const {
   const Kernel& kernel = kernel_of(isa_, trees_->still->test);
   if (passed) return kernel.occluded_unless_passed(*trees_, rays, n, *passed, blocked);
+  if (const WideTree* const wide = wide_tree_for(rays, n))
+    return wide_kernel(isa_).occluded(*trees_, *wide, rays, n, blocked);
   RaySorter* const sorter = sorter_for(isa_, rays, n);
   if (!sorter) return kernel.occluded(*trees_, rays, n, blocked);
   const RayColumns sorted = sorter->sort(rays, n);

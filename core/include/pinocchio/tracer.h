@@ -23,6 +23,8 @@ struct MaterialMarks;
 struct PassedSurfaces;
 struct RayColumns;
 struct SceneTrees;
+struct WideTree;
+class WideOnDemand;
 
 // The instruction set, which sets the width of ray packets.
 // All architectures use the same names: x86-64 has the first four, 64-bit Arm has scalar and neon.
@@ -82,10 +84,14 @@ class Tracer {
   [[nodiscard]] double build_end_s() const { return build_end_s_; }
 
  private:
+  // Null: packets are faster for these rays, or there have been few that part so far.
+  [[nodiscard]] const WideTree* wide_tree_for(const RayColumns& rays, std::size_t n) const;
+
   double build_begin_s_, build_end_s_ = 0.0;
   std::shared_ptr<const Mesh> mesh_;
   std::shared_ptr<const MotionState> motion_;  // for the next pose's tracer; null: the scene has no nodes
   std::shared_ptr<const SceneTrees> trees_;
+  std::shared_ptr<WideOnDemand> wide_;  // null: the trees have none
   Isa isa_;
   RayOffset offset_;
 };

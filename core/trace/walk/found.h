@@ -10,6 +10,22 @@
 namespace pinocchio::PINOCCHIO_LANES {
 namespace {
 
+// The triangle's normal in the scene, scaled, as the product of short or long edges would leave float's
+// range; false: it has no area.
+inline bool scaled_normal(const SceneTrees& scene, std::uint32_t triangle, float (&normal)[3]) {
+  const glm::uvec3& corners = scene.corners.data()[triangle];
+  const glm::vec3* const positions = scene.positions.data();
+  const glm::vec3 &a = positions[corners.x], &b = positions[corners.y], &c = positions[corners.z];
+  const double ab[3] = {double{b.x} - a.x, double{b.y} - a.y, double{b.z} - a.z};
+  const double ac[3] = {double{c.x} - a.x, double{c.y} - a.y, double{c.z} - a.z};
+  const double n[3] = {ab[1] * ac[2] - ab[2] * ac[1], ab[2] * ac[0] - ab[0] * ac[2],
+                       ab[0] * ac[1] - ab[1] * ac[0]};
+  double longest = 0.0;
+  for (const double x : n) longest = longest < x ? x : longest < -x ? -x : longest;
+  for (int axis = 0; axis < 3; ++axis) normal[axis] = as_float(n[axis] / longest);
+  return longest != 0.0;
+}
+
 // What the rays of a group of packets have hit so far. A class of this kind has
 //   t_best[k]                  where the interval of packet k's rays ends
 //   add(k, lanes, t, triangle) notes that these lanes of packet k meet the triangle at t; returns the lanes
@@ -61,23 +77,13 @@ struct ClosestFronts : ClosestHits<kPackets> {
   }
 
  private:
-  // The lanes of packet k that run along the triangle's normal. The normal is scaled, as the product of short
-  // or long edges would leave float's range.
+  // The lanes of packet k that run along the triangle's normal.
   [[gnu::noinline]] Mask from_behind(unsigned k, std::uint32_t triangle) const {
-    const glm::uvec3& corners = scene_.corners.data()[triangle];
-    const glm::vec3* const positions = scene_.positions.data();
-    const glm::vec3 &a = positions[corners.x], &b = positions[corners.y], &c = positions[corners.z];
-    const double ab[3] = {double{b.x} - a.x, double{b.y} - a.y, double{b.z} - a.z};
-    const double ac[3] = {double{c.x} - a.x, double{c.y} - a.y, double{c.z} - a.z};
-    const double n[3] = {ab[1] * ac[2] - ab[2] * ac[1], ab[2] * ac[0] - ab[0] * ac[2],
-                         ab[0] * ac[1] - ab[1] * ac[0]};
-    double longest = 0.0;
-    for (const double x : n) longest = longest < x ? x : longest < -x ? -x : longest;
-    if (longest == 0.0) return Mask::from_bits(0);
+    float normal[3];
+    if (!scaled_normal(scene_, triangle, normal)) return Mask::from_bits(0);
     Float along(0.0f);
     for (int axis = 0; axis < 3; ++axis)
-      along = along +
-              Float(as_float(n[axis] / longest)) * Float::load(rays_.direction[axis] + first_ + k * kWidth);
+      along = along + Float(normal[axis]) * Float::load(rays_.direction[axis] + first_ + k * kWidth);
     return Float(0.0f) < along;
   }
 

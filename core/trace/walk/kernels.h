@@ -10,6 +10,7 @@
 #include "core/trace/rays/material_marks.h"
 #include "core/trace/rays/passed_surfaces.h"
 #include "core/trace/rays/ray_queue.h"
+#include "pinocchio/tracer.h"
 
 namespace pinocchio {
 
@@ -34,10 +35,27 @@ struct Kernel {
 using Kernels = std::array<Kernel, kTriangleTests.size()>;  // by TriangleTest
 
 struct LaneSteps;  // trace/lanes/lane_steps.h
+struct WideTree;   // bsp/wide/wide_tree.h
+
+// Kernels for n rays through the wide tree over the triangles of scene.still, one ray at a time. Hits have
+// the bits of `Kernel` for TriangleTest::filtered. Columns are read and written ray by ray. Null where an
+// instruction set has more lanes than a node has children.
+struct WideKernel {
+  void (*closest_hits)(const SceneTrees& scene, const WideTree& tree, const RayColumns& rays, std::size_t n,
+                       std::uint32_t* triangle, float* t) = nullptr;
+  void (*closest_fronts)(const SceneTrees& scene, const WideTree& tree, const RayColumns& rays, std::size_t n,
+                         const MaterialMarks& backs, std::uint32_t* triangle, float* t) = nullptr;
+  void (*occluded)(const SceneTrees& scene, const WideTree& tree, const RayColumns& rays, std::size_t n,
+                   std::uint8_t* blocked) = nullptr;
+};
+
+// The kernel of the widest instruction set that has one, at most `isa`.
+[[nodiscard]] const WideKernel& wide_kernel(Isa isa);
 
 #define PINOCCHIO_DECLARE(name, lanes, feature) \
   namespace name {                              \
   extern const Kernels kKernels;                \
+  extern const WideKernel kWideKernel;          \
   extern const LaneSteps kSteps;                \
   }
 PINOCCHIO_ISAS(PINOCCHIO_DECLARE)

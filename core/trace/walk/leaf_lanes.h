@@ -1,6 +1,7 @@
 // Part of walk/kernel.h.
 #pragma once
 
+#include "core/bsp/wide/wide_tree.h"
 #include "core/trace/walk/filtered.h"
 #include "core/trace/walk/triangles_of_leaf.h"
 
@@ -72,10 +73,29 @@ class LeafLanes {
     id_ = bits_of(rest[2]);
   }
 
+  // The triangles of a leaf of the wide tree, from number `from` on.
+  LeafLanes(const SceneTrees& scene, const WideLeaf& leaf, int from) : scene_(scene) {
+    id_ = Int::load(leaf.id + from);
+    lanes_ = ~(id_ == Int(kNoTriangle));
+    const Int k = Int::load(leaf.k + from);
+    k_is_x_ = k == Int(0u);
+    k_is_y_ = k == Int(1u);
+#pragma GCC unroll 3
+    for (int i = 0; i < 3; ++i) a_[i] = Float::load(leaf.a[i] + from);
+    plane_.n_u = Float::load(leaf.n_u + from);
+    plane_.n_v = Float::load(leaf.n_v + from);
+    plane_.beta_u = Float::load(leaf.beta_u + from);
+    plane_.beta_v = Float::load(leaf.beta_v + from);
+    plane_.gamma_u = Float::load(leaf.gamma_u + from);
+    plane_.gamma_v = Float::load(leaf.gamma_v + from);
+    plane_.slope = Float::load(leaf.slope + from);
+  }
+
   // Which of the triangles ray i meets at 0 < t; sets their t.
   [[gnu::always_inline]] inline Mask intersect(const RayColumns& rays, std::size_t i, Float& t) const {
     Float o[3], d[3];
     const Float zero(0.0f);
+#pragma GCC unroll 3
     for (int axis = 0; axis < 3; ++axis) {
       o[axis] = Float(rays.origin[axis][i]);
       d[axis] = Float(rays.direction[axis][i]) + zero;  // turns -0 into +0, as Packet::load does
@@ -95,7 +115,9 @@ class LeafLanes {
     return settle(rays, i, filter.doubtful, filter.inside, t);
   }
 
-  [[nodiscard]] Int ids() const { return id_; }
+  [[nodiscard]] Int ids() const {
+    return id_;
+  }
 
  private:
   // In units of each other; measured (docs/measurements.md, "What was tried").

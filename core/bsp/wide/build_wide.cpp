@@ -1,0 +1,269 @@
+#include "core/bsp/wide/build_wide.h"
+
+#include <algorithm>
+#include <limits>
+#include <utility>
+#include <vector>
+
+#include "core/base/large_memory.h"
+#include "core/parallel/workers.h"
+#include "pinocchio/conversion.h"
+#include "pinocchio/ray.h"
+
+namespace pinocchio {
+namespace {
+
+// A triangle: its box, and its place among those that the binary tree stores.
+struct WideItem {
+  Bounds box;
+  std::uint32_t stored;
+};
+
+// Adjacent items.
+struct WideRange {
+  std::size_t begin = 0, end = 0;
+  Bounds box;
+  [[nodiscard]] std::size_t size() const { return end - begin; }
+  [[nodiscard]] bool is_leaf() const { return size() <= WideLeaf::kTriangles; }
+};
+
+// A node that is not written yet.
+struct WideTask {
+  std::uint32_t node = 0;
+  int depth = 0;
+  WideRange range;
+};
+
+// Where items are cut by the surface area heuristic, from bins of their centres along each axis.
+struct WideCut {
+  static constexpr int kBins = 16;
+  int axis = -1;  // none: all centres are in one place
+  int last_bin = 0;
+  float lo = 0.0f, scale = 0.0f;
+
+  WideCut(const std::vector<WideItem>& items, const WideRange& range) {
+    Bounds centers;
+    for (std::size_t i = range.begin; i < range.end; ++i) centers.add(items[i].box.center());
+    float least = std::numeric_limits<float>::infinity();
+    for (int a = 0; a < 3; ++a) {
+      const float along = static_cast<float>(kBins) / centers.extent()[a];
+      if (!(along > 0.0f && along < std::numeric_limits<float>::infinity())) continue;
+      Bounds boxes[kBins];
+      std::size_t counts[kBins] = {};
+      for (std::size_t i = range.begin; i < range.end; ++i) {
+        const int bin = bin_of(items[i].box.center()[a], centers.lo[a], along);
+        boxes[bin].add(items[i].box);
+        ++counts[bin];
+      }
+      float cost_above[kBins];
+      Bounds box;
+      std::size_t count = 0;
+      for (int b = kBins - 1; b > 0; --b) {
+        box.add(boxes[b]);
+        count += counts[b];
+        cost_above[b] = cost(box, count);
+      }
+      box = {};
+      count = 0;
+      for (int b = 0; b + 1 < kBins; ++b) {
+        box.add(boxes[b]);
+        count += counts[b];
+        const float both = cost(box, count) + cost_above[b + 1];
+        if (count == 0 || count == range.size() || !(both < least)) continue;
+        least = both;
+        axis = a;
+        last_bin = b;
+        lo = centers.lo[a];
+        scale = along;
+      }
+    }
+  }
+
+  [[nodiscard]] bool is_below(const WideItem& item) const {
+    return bin_of(item.box.center()[axis], lo, scale) <= last_bin;
+  }
+
+ private:
+  static int bin_of(float center, float lo, float scale) {
+    return std::min(static_cast<int>((center - lo) * scale), kBins - 1);
+  }
+  static float cost(const Bounds& box, std::size_t count) {
+    return count == 0 ? 0.0f : box.half_area() * static_cast<float>(count);
+  }
+};
+
+// Nodes and leaves of a part of the tree. Indices are the part's own.
+struct WidePart {
+  std::vector<WideNode> nodes;
+  std::vector<WideLeaf> leaves;
+};
+
+class WideBuilder {
+ public:
+  WideBuilder(const SceneTrees& scene, int threads)
+      : stored_(scene.still->triangles), workers_(threads), items_(stored_.size()) {
+    constexpr std::size_t kItemsAtOnce = 4096;
+    workers_.for_each((items_.size() + kItemsAtOnce - 1) / kItemsAtOnce, [&](std::size_t chunk) {
+      for (std::size_t i = chunk * kItemsAtOnce; i < std::min(items_.size(), (chunk + 1) * kItemsAtOnce);
+           ++i) {
+        const glm::uvec3& corners = scene.corners[stored_[i].id];
+        for (int c = 0; c < 3; ++c) items_[i].box.add(scene.positions[corners[c]]);
+        items_[i].stored = as_uint32(i);
+      }
+    });
+  }
+
+  WideTree build() {
+    // The top: nodes of many triangles, one after the other. What is below them is shared by the threads.
+    std::vector<WideTask> open{{0, 0, range_of(0, items_.size())}}, roots;
+    WidePart top{std::vector<WideNode>(1), {}};
+    while (!open.empty()) {
+      const WideTask task = open.back();
+      open.pop_back();
+      if (task.range.size() <= kPart)
+        roots.push_back(task);
+      else
+        write_node(task, top, open);
+    }
+    std::vector<WidePart> parts(roots.size());
+    workers_.for_each(roots.size(), [&](std::size_t i) {
+      parts[i].nodes.resize(1);
+      std::vector<WideTask> waiting{{0, roots[i].depth, roots[i].range}};
+      while (!waiting.empty()) {
+        const WideTask task = waiting.back();
+        waiting.pop_back();
+        write_node(task, parts[i], waiting);
+      }
+    });
+    return join(top, roots, parts);
+  }
+
+ private:
+  // Triangles of a part that one thread builds.
+  static constexpr std::size_t kPart = 16384;
+  // From here on halves have equally many triangles, so that no tree is deeper than kMostDepth.
+  static constexpr int kEvenDepth = 24;
+
+  [[nodiscard]] WideRange range_of(std::size_t begin, std::size_t end) const {
+    WideRange range{begin, end, {}};
+    for (std::size_t i = begin; i < end; ++i) range.box.add(items_[i].box);
+    return range;
+  }
+
+  std::pair<WideRange, WideRange> split(const WideRange& range, bool evenly) {
+    std::size_t middle = range.begin + range.size() / 2;
+    if (!evenly) {
+      const WideCut cut(items_, range);
+      if (cut.axis >= 0) {
+        const auto first = items_.begin();
+        middle = as_size(std::partition(first + range.begin, first + range.end,
+                                        [&](const WideItem& item) { return cut.is_below(item); }) -
+                         first);
+      }
+    }
+    return {range_of(range.begin, middle), range_of(middle, range.end)};
+  }
+
+  // The ranges of a node's children: the one whose box is largest is split until there are eight.
+  std::vector<WideRange> children_of(const WideTask& task) {
+    const bool evenly = task.depth >= kEvenDepth;
+    std::vector<WideRange> children{task.range};
+    while (children.size() < WideNode::kChildren) {
+      const auto weight = [evenly](const WideRange& range) {
+        return range.is_leaf() ? -1.0f : evenly ? static_cast<float>(range.size()) : range.box.half_area();
+      };
+      const auto largest = std::ranges::max_element(children, {}, weight);
+      if (largest->is_leaf()) break;
+      const auto [low, high] = split(*largest, evenly);
+      *largest = low;
+      children.push_back(high);
+    }
+    return children;
+  }
+
+  // Writes the task's node and leaves; adds its inner children to `waiting`.
+  void write_node(const WideTask& task, WidePart& to, std::vector<WideTask>& waiting) {
+    const std::vector<WideRange> children = children_of(task);
+    WideNode node;
+    std::uint32_t next = as_uint32(to.nodes.size());
+    for (std::size_t i = 0; i < WideNode::kChildren; ++i) {
+      const WideRange range = i < children.size() ? children[i] : WideRange{};
+      for (int axis = 0; axis < 3; ++axis) {
+        node.planes[0][axis][i] = range.box.lo[axis];
+        node.planes[1][axis][i] = range.box.hi[axis];
+      }
+      if (range.is_leaf()) {
+        node.child[i] = WideNode::kLeaf | as_uint32(to.leaves.size());
+        if (range.size() > 0) to.leaves.push_back(leaf_of(range));
+      } else {
+        node.child[i] = next;
+        waiting.push_back({next++, task.depth + 1, range});
+      }
+    }
+    to.nodes[task.node] = node;
+    to.nodes.resize(next);
+  }
+
+  [[nodiscard]] WideLeaf leaf_of(const WideRange& range) const {
+    WideLeaf leaf;
+    for (std::size_t i = 0; i < WideLeaf::kTriangles; ++i) {
+      const bool used = i < range.size();
+      const ProjectedTriangle& from = stored_[items_[range.begin + (used ? i : 0)].stored];
+      const unsigned k = from.k, u = (k + 1) % 3, v = (k + 2) % 3;
+      leaf.a[0][i] = from.a[k];
+      leaf.a[1][i] = from.a[u];
+      leaf.a[2][i] = from.a[v];
+      leaf.n_u[i] = from.n_u;
+      leaf.n_v[i] = from.n_v;
+      leaf.beta_u[i] = from.beta_u;
+      leaf.beta_v[i] = from.beta_v;
+      leaf.gamma_u[i] = from.gamma_u;
+      leaf.gamma_v[i] = from.gamma_v;
+      leaf.slope[i] = from.slope;
+      leaf.id[i] = used ? from.id : kNoTriangle;
+      leaf.k[i] = k;
+    }
+    return leaf;
+  }
+
+  // The top, then the parts. A part's root has its place in the top.
+  WideTree join(const WidePart& top, const std::vector<WideTask>& roots, const std::vector<WidePart>& parts) {
+    std::vector<std::size_t> first_node(parts.size()), first_leaf(parts.size());
+    std::size_t nodes = top.nodes.size(), leaves = top.leaves.size();
+    for (std::size_t i = 0; i < parts.size(); ++i) {
+      first_node[i] = nodes;
+      first_leaf[i] = leaves;
+      nodes += parts[i].nodes.size() - 1;
+      leaves += parts[i].leaves.size();
+    }
+    WideTree tree;
+    reserve_large(tree.nodes, nodes);
+    reserve_large(tree.leaves, leaves);
+    tree.nodes.resize(nodes);
+    tree.leaves.resize(leaves);
+    std::ranges::copy(top.nodes, tree.nodes.begin());
+    std::ranges::copy(top.leaves, tree.leaves.begin());
+    workers_.for_each(parts.size(), [&](std::size_t i) {
+      for (std::size_t n = 0; n < parts[i].nodes.size(); ++n) {
+        WideNode& to = tree.nodes[n == 0 ? roots[i].node : first_node[i] + n - 1];
+        to = parts[i].nodes[n];
+        for (std::uint32_t& child : to.child)
+          child += as_uint32(child & WideNode::kLeaf ? first_leaf[i] : first_node[i] - 1);
+      }
+      std::ranges::copy(parts[i].leaves, tree.leaves.begin() + first_leaf[i]);
+    });
+    return tree;
+  }
+
+  const AlignedVector<ProjectedTriangle>& stored_;
+  Workers workers_;
+  std::vector<WideItem> items_;
+};
+
+}  // namespace
+
+WideTree build_wide_tree(const SceneTrees& scene, int threads) {
+  return WideBuilder(scene, threads).build();
+}
+
+}  // namespace pinocchio

@@ -1,0 +1,46 @@
+#pragma once
+
+#include <atomic>
+#include <cstddef>
+#include <memory>
+
+#include "core/bsp/scene_trees.h"
+#include "core/bsp/wide/wide_tree.h"
+#include "pinocchio/tracer.h"
+
+namespace pinocchio {
+
+// The wide tree of one pose's trees, which is built when rays that part have been so many that it pays.
+// Until then it takes neither time nor memory. May be called from many threads.
+class WideOnDemand {
+ public:
+  // Whether these trees can have one: one tree without copies and moving parts, whose triangles are stored
+  // for the filtered test. One lane at a time never uses it, as what all other ways are tested against.
+  [[nodiscard]] static bool serves(const SceneTrees& trees, Isa isa);
+
+  // isa: of the packets. threads: for the build; 0: one for each core.
+  WideOnDemand(std::shared_ptr<const SceneTrees> trees, Isa isa, int threads);
+
+  // Counts so many rays that part. Null: packets are to trace them. The caller whose rays are enough builds
+  // the tree, while the others go on with packets.
+  [[nodiscard]] const WideTree* tree_after(std::size_t rays);
+
+  // How far apart neighbouring rays are at the scene's center where they part, scene units.
+  [[nodiscard]] float apart() const { return apart_; }
+  [[nodiscard]] const glm::vec3& center() const { return center_; }
+
+ private:
+  void build() noexcept;
+
+  std::shared_ptr<const SceneTrees> trees_;
+  int threads_;
+  glm::vec3 center_;
+  float apart_;
+  std::size_t enough_;  // rays
+  std::atomic<std::size_t> rays_ = 0;
+  std::atomic<bool> begun_ = false;
+  std::unique_ptr<const WideTree> tree_;
+  std::atomic<const WideTree*> built_ = nullptr;  // tree_, once it may be used
+};
+
+}  // namespace pinocchio
