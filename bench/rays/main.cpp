@@ -8,9 +8,9 @@
 #include <string_view>
 #include <utility>
 
+#include "bench/rays/animated_frames.h"
 #include "bench/rays/embree_side.h"
-#include "bench/rays/frames/animated_frames.h"
-#include "bench/rays/frames/motion.h"
+#include "bench/rays/motion.h"
 #include "bench/rays/our_side.h"
 #include "bench/rays/report.h"
 #include "core/files/atomic_file.h"

@@ -4,9 +4,9 @@
 #include <string>
 #include <vector>
 
-#include "bench/rays/frames/whole_frame.h"
 #include "bench/rays/measure.h"
 #include "bench/rays/shadow_pass.h"
+#include "bench/rays/whole_frame.h"
 
 namespace pinocchio::bench {
 

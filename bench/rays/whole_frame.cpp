@@ -1,11 +1,11 @@
-#include "bench/rays/frames/whole_frame.h"
+#include "bench/rays/whole_frame.h"
 
 #include <algorithm>
 #include <utility>
 
 #include "bench/rays/drawing.h"
-#include "bench/rays/frames/texture_samples.h"
 #include "bench/rays/measure.h"
+#include "bench/rays/texture_samples.h"
 #include "core/math/median.h"
 
 namespace pinocchio::bench {

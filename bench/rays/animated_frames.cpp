@@ -1,4 +1,4 @@
-#include "bench/rays/frames/animated_frames.h"
+#include "bench/rays/animated_frames.h"
 
 #include <cmath>
 #include <cstdio>

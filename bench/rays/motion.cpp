@@ -1,4 +1,4 @@
-#include "bench/rays/frames/motion.h"
+#include "bench/rays/motion.h"
 
 #include <algorithm>
 #include <cmath>

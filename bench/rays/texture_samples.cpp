@@ -1,4 +1,4 @@
-#include "bench/rays/frames/texture_samples.h"
+#include "bench/rays/texture_samples.h"
 
 #include <algorithm>
 #include <atomic>
