@@ -4,7 +4,7 @@
 #include <cstdio>
 #include <future>
 
-#include "bench/rays/measure.h"
+#include "bench/rays/sides/measure.h"
 #include "core/math/median.h"
 #include "core/parallel/start_thread.h"
 #include "core/trace/tiles/trace_tiles.h"

@@ -9,10 +9,10 @@
 #include <utility>
 
 #include "bench/rays/animated_frames.h"
-#include "bench/rays/embree_side.h"
 #include "bench/rays/motion.h"
-#include "bench/rays/our_side.h"
 #include "bench/rays/report.h"
+#include "bench/rays/sides/embree_side.h"
+#include "bench/rays/sides/our_side.h"
 #include "core/files/atomic_file.h"
 #include "core/shade/surface.h"
 #include "pinocchio/load.h"

@@ -7,7 +7,7 @@
 #include <nlohmann/json.hpp>
 #include <vector>
 
-#include "bench/rays/measure.h"
+#include "bench/rays/sides/measure.h"
 #include "core/files/atomic_file.h"
 #include "core/math/median.h"
 #include "core/parallel/workers.h"

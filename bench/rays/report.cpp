@@ -4,7 +4,7 @@
 #include <cstdio>
 #include <nlohmann/json.hpp>
 
-#include "bench/rays/embree_side.h"
+#include "bench/rays/sides/embree_side.h"
 #include "core/base/system_info.h"
 #include "core/files/atomic_file.h"
 

@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
-#include "bench/rays/measure.h"
 #include "bench/rays/shadow_pass.h"
+#include "bench/rays/sides/measure.h"
 #include "bench/rays/whole_frame.h"
 
 namespace pinocchio::bench {

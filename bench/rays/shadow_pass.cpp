@@ -6,7 +6,7 @@
 
 #include "bench/one_ray/passes.h"
 #include "bench/one_ray/surface_at.h"
-#include "bench/rays/measure.h"
+#include "bench/rays/sides/measure.h"
 #include "core/math/median.h"
 #include "core/parallel/tiles.h"
 #include "core/trace/view/view_params.h"

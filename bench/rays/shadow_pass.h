@@ -3,7 +3,7 @@
 #include <cstddef>
 #include <vector>
 
-#include "bench/rays/embree_side.h"
+#include "bench/rays/sides/embree_side.h"
 #include "pinocchio/tracer.h"
 
 namespace pinocchio::bench {

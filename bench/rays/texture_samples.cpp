@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <atomic>
 
-#include "bench/rays/measure.h"
+#include "bench/rays/sides/measure.h"
 #include "core/shade/footprint.h"
 #include "core/shade/surface.h"
 

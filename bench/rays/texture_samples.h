@@ -3,7 +3,7 @@
 #include <vector>
 
 #include "bench/one_ray/map_lookup.h"
-#include "bench/rays/ray_sets.h"
+#include "bench/rays/sides/ray_sets.h"
 #include "core/shade/shared.h"
 
 namespace pinocchio::bench {

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <utility>
 
-#include "bench/rays/drawing.h"
-#include "bench/rays/measure.h"
+#include "bench/rays/sides/drawing.h"
+#include "bench/rays/sides/measure.h"
 #include "bench/rays/texture_samples.h"
 #include "core/math/median.h"
 

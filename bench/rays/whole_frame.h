@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "bench/rays/embree_side.h"
+#include "bench/rays/sides/embree_side.h"
 #include "pinocchio/tracer.h"
 
 namespace pinocchio::bench {

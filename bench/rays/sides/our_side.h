@@ -3,7 +3,7 @@
 #include <memory>
 #include <vector>
 
-#include "bench/rays/ray_backend.h"
+#include "bench/rays/sides/ray_backend.h"
 #include "pinocchio/tracer.h"
 
 namespace pinocchio::bench {

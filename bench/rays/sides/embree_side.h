@@ -3,7 +3,7 @@
 #include <memory>
 #include <span>
 
-#include "bench/rays/ray_backend.h"
+#include "bench/rays/sides/ray_backend.h"
 #include "pinocchio/mesh.h"
 #include "pinocchio/tracer.h"
 

@@ -1,4 +1,4 @@
-#include "bench/rays/embree_side.h"
+#include "bench/rays/sides/embree_side.h"
 
 #include <embree3/rtcore.h>
 
@@ -7,7 +7,7 @@
 #include <string>
 
 #include "bench/one_ray/embree_ray.h"
-#include "bench/rays/measure.h"
+#include "bench/rays/sides/measure.h"
 #include "pinocchio/error.h"
 
 namespace pinocchio::bench {

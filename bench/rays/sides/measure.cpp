@@ -1,4 +1,4 @@
-#include "bench/rays/measure.h"
+#include "bench/rays/sides/measure.h"
 
 #include <time.h>
 

@@ -1,8 +1,8 @@
-#include "bench/rays/our_side.h"
+#include "bench/rays/sides/our_side.h"
 
 #include <array>
 
-#include "bench/rays/measure.h"
+#include "bench/rays/sides/measure.h"
 #include "core/bsp/scene_trees.h"
 #include "core/bsp/wide/build_wide.h"
 #include "core/bsp/wide/wide_on_demand.h"

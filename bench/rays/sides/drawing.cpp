@@ -1,4 +1,4 @@
-#include "bench/rays/drawing.h"
+#include "bench/rays/sides/drawing.h"
 
 #include <algorithm>
 

@@ -1,10 +1,10 @@
-#include "bench/rays/ray_sets.h"
+#include "bench/rays/sides/ray_sets.h"
 
 #include <map>
 #include <random>
 #include <utility>
 
-#include "bench/rays/drawing.h"
+#include "bench/rays/sides/drawing.h"
 
 namespace pinocchio::bench {
 namespace {

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "bench/rays/ray_backend.h"
+#include "bench/rays/sides/ray_backend.h"
 #include "core/parallel/workers.h"
 
 namespace pinocchio::bench {

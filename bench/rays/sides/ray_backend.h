@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "bench/rays/ray_sets.h"
+#include "bench/rays/sides/ray_sets.h"
 #include "pinocchio/ray.h"
 
 namespace pinocchio::bench {
