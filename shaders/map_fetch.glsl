@@ -41,7 +41,7 @@ struct MapPoint {
   vec3 moved_y;
 };
 
-// What the textures of a material's maps hold at a point.
+// The texels of a material's maps at a point.
 struct MapTexels {
   int maps;
   MapPoint point;

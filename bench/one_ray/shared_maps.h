@@ -59,7 +59,7 @@ struct TexelSource {
 
 }  // namespace texels
 
-// What the textures of a material's maps hold at a point, by kMapUses; white where there is none.
+// The texels of a material's maps at a point, in the order of kMapUses. A map that is not used is white.
 struct MapTexels {
   glm::vec4 of[kMapUses.size()];
 };

@@ -8,7 +8,7 @@
 
 namespace pinocchio {
 
-// What glTF calls alpha. Smaller ones are drawn as the least.
+// The microfacet model's width, which glTF calls alpha: roughness squared, but at least `least`.
 [[nodiscard]] inline double squared_roughness(double roughness, double least) {
   return std::clamp(roughness * roughness, least, 1.0);
 }

@@ -1,5 +1,5 @@
-// Source of GLSL and of C++ (core/shade/shared_material.h, core/trace/lanes/shared.h): what lies above the base of a
-// surface of glTF's, KHR_materials_clearcoat and KHR_materials_sheen. microfacet.glsl says how they reflect.
+// Source of GLSL and of C++ (core/shade/shared_material.h, core/trace/lanes/shared.h): the layers above the base of
+// a glTF surface, KHR_materials_clearcoat and KHR_materials_sheen. microfacet.glsl says how they reflect.
 
 struct Layers {
   real coat;  // factor; viewed_from makes it the share that the coat mirrors

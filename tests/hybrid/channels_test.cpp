@@ -12,17 +12,9 @@ std::size_t bytes_of(const std::vector<ChannelLayout>& layout, Channel channel) 
   return 0;
 }
 
-Scene scene_with(int casting, int plain, bool mirror) {
-  Scene scene = plate_over_floor();
-  for (int i = 0; i < casting; ++i) scene.lights.push_back(point_light({0, 5, 0}));
-  for (int i = 0; i < plain; ++i) scene.lights.push_back(point_light({0, 5, 0}, false));
-  if (mirror) MeshEdit(scene)->materials[0].reflectance = glm::vec3(0.5f);
-  return scene;
-}
-
 TEST(Channels, TheSlidesMoveTheirBytes) {
   for (const bool mirrors : {false, true}) {  // whatever the scene needs
-    const SceneStats stats = analyze(scene_with(1, 1, mirrors));
+    const SceneStats stats = analyze(plate_with_lights(1, 1, mirrors));
     const TrafficBytes one =
         traffic_of(*resolve(by({{"design", "1"}, {"plan", "slides"}}), stats), {800, 600});
     EXPECT_EQ(one.to_cpu, 2'880'000u);
@@ -36,7 +28,7 @@ TEST(Channels, TheSlidesMoveTheirBytes) {
 
 TEST(Channels, WhatASceneDoesNotNeedIsNotSent) {
   const auto traffic = [](int casting, bool mirror) {
-    return traffic_of(*resolve({}, analyze(scene_with(casting, 1, mirror))), {800, 600});
+    return traffic_of(*resolve({}, analyze(plate_with_lights(casting, 1, mirror))), {800, 600});
   };
   EXPECT_EQ(traffic(0, false).to_cpu + traffic(0, false).to_gpu, 0u);
   EXPECT_EQ(traffic(1, false).to_gpu, 60'000u);  // one bit a pixel
@@ -47,7 +39,7 @@ TEST(Channels, WhatASceneDoesNotNeedIsNotSent) {
 }
 
 TEST(Channels, OneProcessorAloneSendsNothing) {
-  const SceneStats stats = analyze(scene_with(1, 1, true));
+  const SceneStats stats = analyze(plate_with_lights(1, 1, true));
   EXPECT_TRUE(channels_of(*resolve(by({{"mode", "raytrace"}}), stats), {800, 600}).empty());
   EXPECT_TRUE(channels_of(*resolve(by({{"mode", "raster"}}), stats), {800, 600}).empty());
 }

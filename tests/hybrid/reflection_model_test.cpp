@@ -18,19 +18,23 @@ Material material(const glm::vec3& base, float metallic, float roughness) {
                                Shading::from_file);
 }
 
+// The scene under a sky alone, seen from the eye.
+Scene under(Image<glm::vec3> sky, Scene scene, const glm::vec3& eye) {
+  scene.ambient_light = glm::vec3(0.0f);
+  scene.environment = std::make_shared<const Environment>(std::move(sky));
+  Camera camera;
+  camera.eye = eye;
+  camera.target = {0, 0, 0};
+  scene.cameras = {camera};
+  return scene;
+}
+
 Scene ball(const Material& of, Image<glm::vec3> sky, int segments = 64) {
   MeshData mesh;
   MeshBuilder builder(mesh);
   builder.use(of);
   builder.sphere(glm::vec3(0.0f), 1.0f, segments);
-  Scene scene(mesh);
-  scene.ambient_light = glm::vec3(0.0f);
-  scene.environment = std::make_shared<const Environment>(std::move(sky));
-  Camera camera;
-  camera.eye = {0, 0, 3};
-  camera.target = {0, 0, 0};
-  scene.cameras = {camera};
-  return scene;
+  return under(std::move(sky), Scene(mesh), {0, 0, 3});
 }
 
 Image<glm::vec3> even_sky() {
@@ -161,9 +165,7 @@ Scene many_balls() {
   add(coated(0.15f));
   add(coated(0.5f, 0.0f));
   add(cloth({0.3f, 0.1f, 0.1f}, {0.5f, 0.6f, 0.9f}, 0.4f));
-  Scene scene(mesh);
-  scene.ambient_light = glm::vec3(0.0f);
-  scene.environment = std::make_shared<const Environment>(sunny_sky());
+  Scene scene = under(sunny_sky(), Scene(mesh), {0, 0, 4});
   Light lamp;
   lamp.position = {1.5f, 2.0f, 2.0f};
   lamp.radius = 0.5f;
@@ -182,10 +184,6 @@ Scene many_balls() {
   sun.angle_deg = 4.0f;
   sun.intensity = 0.5f;
   scene.lights = {lamp, window, sun};
-  Camera camera;
-  camera.eye = {0, 0, 4};
-  camera.target = {0, 0, 0};
-  scene.cameras = {camera};
   return scene;
 }
 
@@ -283,13 +281,7 @@ Scene rugged_plate(float metallic, float roughness) {
     maps.normal.nearest = true;
     edit->maps = {maps};
   }
-  scene.ambient_light = glm::vec3(0.0f);
-  scene.environment = std::make_shared<const Environment>(even_sky());
-  Camera camera;
-  camera.eye = {0, 0.25f, 2.5f};
-  camera.target = {0, 0, 0};
-  scene.cameras = {camera};
-  return scene;
+  return under(even_sky(), std::move(scene), {0, 0.25f, 2.5f});
 }
 
 TEST(ReflectionModel, NormalMapsThatTurnAwayNeitherBlackenNorShine) {

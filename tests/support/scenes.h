@@ -100,4 +100,13 @@ inline Scene plate_over_floor() {
   return scene;
 }
 
+// plate_over_floor() under so many lights that cast shadows, and so many that do not; `mirror`: it reflects.
+inline Scene plate_with_lights(int casting, int plain, bool mirror) {
+  Scene scene = plate_over_floor();
+  for (int i = 0; i < casting; ++i) scene.lights.push_back(point_light({0, 5, 0}));
+  for (int i = 0; i < plain; ++i) scene.lights.push_back(point_light({0, 5, 0}, false));
+  if (mirror) MeshEdit(scene)->materials[0].reflectance = glm::vec3(0.5f);
+  return scene;
+}
+
 }  // namespace pinocchio

@@ -34,7 +34,8 @@ struct WideTask {
   WideRange range;
 };
 
-// Where items are cut by the surface area heuristic, from bins of their centres along each axis.
+// The cut of a range that the surface area heuristic chooses. It sorts the items into bins by their centres,
+// along each axis, and tries the borders between bins.
 struct WideCut {
   static constexpr int kBins = 16;
   int axis = -1;  // none: all centres are in one place
@@ -46,7 +47,7 @@ struct WideCut {
     for (std::size_t i = range.begin; i < range.end; ++i) centers.add(items[i].box.center());
     float least = std::numeric_limits<float>::infinity();
     for (int a = 0; a < 3; ++a) {
-      const float along = static_cast<float>(kBins) / centers.extent()[a];
+      const float along = as_float(kBins) / centers.extent()[a];
       if (!(along > 0.0f && along < std::numeric_limits<float>::infinity())) continue;
       Bounds boxes[kBins];
       std::size_t counts[kBins] = {};
@@ -85,10 +86,10 @@ struct WideCut {
 
  private:
   static int bin_of(float center, float lo, float scale) {
-    return std::min(static_cast<int>((center - lo) * scale), kBins - 1);
+    return std::min(as_int((center - lo) * scale), kBins - 1);
   }
   static float cost(const Bounds& box, std::size_t count) {
-    return count == 0 ? 0.0f : box.half_area() * static_cast<float>(count);
+    return count == 0 ? 0.0f : box.half_area() * as_float(count);
   }
 };
 
@@ -170,7 +171,7 @@ class WideBuilder {
     std::vector<WideRange> children{task.range};
     while (children.size() < WideNode::kChildren) {
       const auto weight = [evenly](const WideRange& range) {
-        return range.is_leaf() ? -1.0f : evenly ? static_cast<float>(range.size()) : range.box.half_area();
+        return range.is_leaf() ? -1.0f : evenly ? as_float(range.size()) : range.box.half_area();
       };
       const auto largest = std::ranges::max_element(children, {}, weight);
       if (largest->is_leaf()) break;

@@ -14,8 +14,8 @@ namespace pinocchio {
 // Until then it takes neither time nor memory. May be called from many threads.
 class WideOnDemand {
  public:
-  // Whether these trees can have one: one tree without copies and moving parts, whose triangles are stored
-  // for the filtered test. One lane at a time never uses it, as what all other ways are tested against.
+  // True if `trees` is a single tree, without copies and moving parts, and stores its triangles for the
+  // filtered test. Isa::scalar is never served: tests compare all other ways with it.
   [[nodiscard]] static bool serves(const SceneTrees& trees, Isa isa);
 
   // isa: of the packets. threads: for the build; 0: one for each core.

@@ -6,8 +6,8 @@
 
 namespace pinocchio {
 
-// What lies above the base of a surface of glTF's: KHR_materials_clearcoat and KHR_materials_sheen. Numbers
-// alone, which shading reads in this order (shaders/shared/layers.glsl).
+// The layers above the base of a glTF surface: KHR_materials_clearcoat and KHR_materials_sheen. It holds
+// nothing but floats, which shaders/shared/layers.glsl reads in this order.
 struct GltfLayers {
   float coat = 0.0f;
   float coat_roughness = 0.0f;

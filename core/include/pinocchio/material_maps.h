@@ -73,7 +73,7 @@ struct MaterialMaps {
   [[nodiscard]] bool maps_dielectric() const {
     return specular.used() || specular_color.used() || transmission.used();
   }
-  // Whether textures change what `surface.layers` says.
+  // True if some texture scales `surface.layers`.
   [[nodiscard]] bool maps_layers() const;
 
   // All textures that the material may have, in the order of kMapUses.

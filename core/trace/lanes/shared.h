@@ -98,7 +98,7 @@ struct vec4 {
   explicit operator Vec() const { return {x, y, z}; }
 };
 
-// The textures of a material's maps at the points, by kMapUses; white where there is none.
+// The texels of a material's maps at the points, in the order of kMapUses. A map that is not used is white.
 struct MapTexels {
   vec4 of[kMapUses.size()];
 };

@@ -11,11 +11,11 @@ namespace pinocchio {
 
 struct SceneArrays;  // trace/lanes/lane_steps.h
 
-// What `occluded` writes for a ray that meets nothing but surfaces that it may pass.
+// `occluded` writes this for a ray that meets nothing but surfaces that a share of light passes.
 inline constexpr std::uint8_t kMayPass = 2;
 
-// Marks of materials: with holes, which alpha lets rays pass as if nothing were there; and such that a share
-// of the light goes on through, where there is no hole.
+// Marks of materials. kHasHoles: alpha lets rays pass some points as if nothing were there. kPassesLight: a
+// share of the light goes on where there is no hole.
 inline constexpr std::uint8_t kHasHoles = 1, kPassesLight = 2;
 
 struct PassedSurfaces {

@@ -7,8 +7,8 @@
 
 namespace pinocchio {
 
-// Whether neighbouring rays are further apart than that at the scene's center, so that packets would share
-// little of their way; judged by a sample.
+// True if neighbouring rays are mostly further apart than `apart` at the scene's center: packets of them
+// would share little of their way. Looks at a sample of the rays.
 [[nodiscard]] bool rays_part(const RayColumns& rays, std::size_t n, const glm::vec3& center, float apart);
 
 }  // namespace pinocchio

@@ -268,7 +268,8 @@ class WideWalk {
   std::size_t n_, next_ = 0;
 };
 
-// Lanes are children and triangles: more lanes than these have no use.
+// Lanes are children and triangles: more lanes than these have no use. The walks are templates so that they
+// are compiled where kHasWide is true alone.
 constexpr bool kHasWide = kWidth <= WideNode::kChildren;
 
 template <bool kServes>

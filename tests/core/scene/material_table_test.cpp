@@ -1,7 +1,9 @@
+// The parameters of glTF's materials, and the materials they make.
 #include "core/scene/gltf/format/material_table.h"
 
 #include <set>
 
+#include "core/scene/gltf/material_from_surface.h"
 #include "pinocchio/save.h"
 #include "tests/support/gltf.h"
 
@@ -146,6 +148,87 @@ TEST(MaterialTable, ItsExtensionsAreRead) {
     Json json = triangle_json();
     json["extensionsRequired"] = {extension};
     EXPECT_TRUE(load(json)) << extension;
+  }
+}
+
+TEST(MaterialFromSurface, PhongFollowsItsFormula) {
+  GltfSurface s;
+  s.base_color = {0.5f, 0.6f, 0.7f};
+  s.metallic = 0.0f;
+  s.roughness = 0.5f;
+  const Material plastic = material_from_surface(s, Shading::phong);
+  EXPECT_NEAR(plastic.diffuse.x, 0.5f * 0.96f / 3.14159265f, 1e-6f);
+  EXPECT_NEAR(plastic.shininess, 0.25f * (2.0f / 0.0625f - 2.0f), 1e-4f);
+  EXPECT_NEAR(plastic.specular.x, 0.04f * (plastic.shininess + 2.0f) / (2.0f * 3.14159265f), 1e-5f);
+  EXPECT_FALSE(plastic.reflects());  // too rough for a mirror
+  s.metallic = 1.0f;
+  s.roughness = 0.1f;
+  const Material metal = material_from_surface(s, Shading::phong);
+  EXPECT_EQ(metal.diffuse, glm::vec3(0.0f));
+  EXPECT_NEAR(metal.reflectance.y, 0.6f * 0.36f, 1e-5f);
+  EXPECT_TRUE(metal.fresnel);
+  EXPECT_FALSE(metal.is_microfacet());
+}
+
+// glTF 2.0, appendix B, with KHR_materials_specular and _ior.
+TEST(MaterialFromSurface, GltfsModelHasItsParameters) {
+  GltfSurface s;
+  s.base_color = {0.5f, 0.6f, 0.7f};
+  s.metallic = 0.25f;
+  s.roughness = 0.5f;
+  s.specular = 0.5f;
+  const Material m = material_from_surface(s, Shading::from_file);
+  EXPECT_TRUE(m.is_microfacet());
+  EXPECT_FLOAT_EQ(m.ggx_alpha, 0.25f);
+  EXPECT_FLOAT_EQ(m.diffuse.x, 0.5f * 0.75f / 3.14159265f);
+  EXPECT_FLOAT_EQ(m.layer.x, 0.02f);
+  EXPECT_FLOAT_EQ(m.layer.y, 0.5f);
+  EXPECT_FLOAT_EQ(m.specular.z, 0.75f * 0.02f + 0.25f * 0.7f);
+  EXPECT_FLOAT_EQ(m.grazing, 0.75f * 0.5f + 0.25f);
+  EXPECT_TRUE(m.brdf);
+}
+
+// On glass, layers are left out.
+TEST(MaterialFromSurface, GlassHasNoLayers) {
+  const Material glass = material_from_surface(
+      {.metallic = 0.0f, .transmission = 1.0f, .layers = {.coat = 1.0f, .sheen = glm::vec3(1.0f)}},
+      Shading::from_file);
+  EXPECT_FALSE(glass.layers.any());
+}
+
+// Saving writes the surface that a material came from.
+TEST(MaterialFromSurface, TheSurfaceComesBack) {
+  std::vector<GltfSurface> surfaces(8);
+  surfaces[0] = {.base_color = {0.5f, 0.6f, 0.1f}, .metallic = 0.25f, .roughness = 0.5f};
+  surfaces[1] = {.base_color = {0.9f, 0.6f, 0.1f}, .metallic = 1.0f, .roughness = 0.1f};
+  surfaces[2] = {.base_color = glm::vec3(1.0f), .metallic = 0.0f, .roughness = 1.0f, .specular = 0.5f};
+  surfaces[3] = {.base_color = glm::vec3(0.0f), .metallic = 0.0f, .roughness = 0.7f};
+  surfaces[4] = {.base_color = glm::vec3(0.4f),
+                 .metallic = 0.0f,
+                 .roughness = 0.2f,
+                 .ior = 1.7f,
+                 .transmission = 0.5f,
+                 .volume = true};
+  surfaces[5] = {.base_color = glm::vec3(0.4f), .metallic = 0.0f, .roughness = 0.2f, .transmission = 1.0f};
+  surfaces[6] = {.base_color = {0.2f, 0.3f, 0.4f}, .metallic = 0.5f, .specular_color = {0.2f, 1.0f, 0.5f}};
+  surfaces[7] = {
+      .base_color = {0.2f, 0.3f, 0.4f},
+      .metallic = 0.0f,
+      .roughness = 0.3f,
+      .layers = {.coat = 0.5f, .coat_roughness = 0.2f, .sheen = {0.1f, 0.2f, 0.3f}, .sheen_roughness = 0.6f}};
+  for (const GltfSurface& s : surfaces) {
+    const GltfSurface back = surface_of_material(material_from_surface(s, Shading::from_file));
+    EXPECT_EQ(back.layers, s.layers);
+    for (int c = 0; c < 3; ++c) {
+      EXPECT_NEAR(back.base_color[c], s.base_color[c], 1e-5f);
+      EXPECT_NEAR(back.specular_color[c], s.specular_color[c], 1e-4f);
+    }
+    EXPECT_NEAR(back.metallic, s.metallic, 1e-5f);
+    EXPECT_NEAR(back.roughness, s.roughness, 1e-5f);
+    EXPECT_NEAR(back.transmission, s.transmission, 1e-5f);
+    EXPECT_NEAR(back.specular, s.specular, 1e-5f);
+    EXPECT_NEAR(back.ior, s.ior, 1e-5f);
+    EXPECT_EQ(back.volume, s.volume);
   }
 }
 

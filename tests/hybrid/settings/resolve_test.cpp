@@ -12,14 +12,6 @@
 namespace pinocchio {
 namespace {
 
-Scene scene_with(int casting, int plain, bool mirror) {
-  Scene scene = plate_over_floor();
-  for (int i = 0; i < casting; ++i) scene.lights.push_back(point_light({0, 5, 0}));
-  for (int i = 0; i < plain; ++i) scene.lights.push_back(point_light({0, 5, 0}, false));
-  if (mirror) MeshEdit(scene)->materials[0].reflectance = glm::vec3(0.5f);
-  return scene;
-}
-
 Settings settings_for(const Scene& scene, const Settings& wanted = {}) {
   return resolve(wanted, analyze(scene)).value();
 }
@@ -31,24 +23,24 @@ Settings by_mode(std::string_view mode) {
 }
 
 TEST(Resolve, ModelsWhatTheSceneNeeds) {
-  EXPECT_FALSE(settings_for(scene_with(0, 2, false)).traces());
-  EXPECT_EQ(settings_for(scene_with(1, 3, false)).mask_bits, 1);
-  EXPECT_EQ(settings_for(scene_with(2, 0, false)).mask_bits, 2);
-  EXPECT_EQ(settings_for(scene_with(3, 0, false)).mask_bits, 4);
-  EXPECT_EQ(settings_for(scene_with(5, 0, false)).mask_bits, 8);
-  EXPECT_EQ(settings_for(scene_with(8, 1, false)).mask_bits, 8);
-  EXPECT_EQ(settings_for(scene_with(9, 0, false)).mask_bits, 16);
-  EXPECT_EQ(settings_for(scene_with(17, 0, false)).mask_bits, 32);
-  EXPECT_EQ(settings_for(scene_with(64, 0, false)).mask_bits, 64);
-  EXPECT_FALSE(settings_for(scene_with(64, 0, false)).reflects());
-  EXPECT_FALSE(settings_for(scene_with(1, 0, false)).reflects());
-  EXPECT_TRUE(settings_for(scene_with(0, 0, true)).reflects());
-  EXPECT_FALSE(settings_for(scene_with(4, 0, true), by_mode("raster")).traces());
+  EXPECT_FALSE(settings_for(plate_with_lights(0, 2, false)).traces());
+  EXPECT_EQ(settings_for(plate_with_lights(1, 3, false)).mask_bits, 1);
+  EXPECT_EQ(settings_for(plate_with_lights(2, 0, false)).mask_bits, 2);
+  EXPECT_EQ(settings_for(plate_with_lights(3, 0, false)).mask_bits, 4);
+  EXPECT_EQ(settings_for(plate_with_lights(5, 0, false)).mask_bits, 8);
+  EXPECT_EQ(settings_for(plate_with_lights(8, 1, false)).mask_bits, 8);
+  EXPECT_EQ(settings_for(plate_with_lights(9, 0, false)).mask_bits, 16);
+  EXPECT_EQ(settings_for(plate_with_lights(17, 0, false)).mask_bits, 32);
+  EXPECT_EQ(settings_for(plate_with_lights(64, 0, false)).mask_bits, 64);
+  EXPECT_FALSE(settings_for(plate_with_lights(64, 0, false)).reflects());
+  EXPECT_FALSE(settings_for(plate_with_lights(1, 0, false)).reflects());
+  EXPECT_TRUE(settings_for(plate_with_lights(0, 0, true)).reflects());
+  EXPECT_FALSE(settings_for(plate_with_lights(4, 0, true), by_mode("raster")).traces());
 }
 
 // --mode auto: no OpenGL where it would run on the tracer's cores, unless other settings need it.
 TEST(Resolve, AutoDrawsWhereItIsFaster) {
-  const SceneStats stats = analyze(scene_with(1, 0, true));
+  const SceneStats stats = analyze(plate_with_lights(1, 0, true));
   const Settings automatic = by_mode("auto");
   EXPECT_FALSE(resolve(automatic, stats, {.software_gl = true})->uses_gpu());
   const Settings on_gpu = resolve(automatic, stats, {.software_gl = false}).value();
@@ -64,7 +56,7 @@ TEST(Resolve, AutoDrawsWhereItIsFaster) {
 }
 
 TEST(Resolve, AMaterialThatNoTriangleHasIsNotNeeded) {
-  Scene scene = scene_with(1, 0, false);
+  Scene scene = plate_with_lights(1, 0, false);
   MeshEdit(scene)->materials.emplace_back().reflectance = glm::vec3(1.0f);
   EXPECT_FALSE(settings_for(scene).reflects());
 }
@@ -78,7 +70,7 @@ TEST(Resolve, IdsTakeAsManyBitsAsThereAreTriangles) {
 }
 
 TEST(Resolve, LightsBeyondTheMaskTravelAsLight) {
-  const SceneStats stats = analyze(scene_with(65, 0, false));
+  const SceneStats stats = analyze(plate_with_lights(65, 0, false));
   const Settings settings = resolve({}, stats).value();
   EXPECT_EQ(settings.mask_bits, 64);
   EXPECT_EQ(settings.reflection, ReflectionFormat::half);
@@ -97,7 +89,7 @@ TEST(Resolve, LightsBeyondTheMaskTravelAsLight) {
 }
 
 TEST(Resolve, LightsThatCannotTravelAreTheCpusOrAnError) {
-  const SceneStats stats = analyze(scene_with(65, 0, false));
+  const SceneStats stats = analyze(plate_with_lights(65, 0, false));
   Settings wanted;
   wanted.reflection = ReflectionFormat::none;
   EXPECT_EQ(resolve(wanted, stats)->composite, Processor::cpu);
@@ -115,7 +107,8 @@ TEST(Resolve, LightsThatCannotTravelAreTheCpusOrAnError) {
 }
 
 TEST(Resolve, TheSlidesEightBitsSayWhatTheyCost) {
-  const SceneStats few = analyze(scene_with(8, 0, false)), many = analyze(scene_with(9, 0, false));
+  const SceneStats few = analyze(plate_with_lights(8, 0, false)),
+                   many = analyze(plate_with_lights(9, 0, false));
   Settings slides;
   EXPECT_TRUE(apply_preset("plan", "slides", slides));
   EXPECT_TRUE(losses(resolve(slides, few).value(), few).empty());
@@ -126,7 +119,7 @@ TEST(Resolve, TheSlidesEightBitsSayWhatTheyCost) {
 
 TEST(Resolve, WhatASceneDoesNotNeedIsNotSent) {
   const auto traffic = [](int casting, bool mirror) {
-    return traffic_of(settings_for(scene_with(casting, 1, mirror)), {800, 600});
+    return traffic_of(settings_for(plate_with_lights(casting, 1, mirror)), {800, 600});
   };
   EXPECT_EQ(traffic(0, false).to_cpu + traffic(0, false).to_gpu, 0u);
   EXPECT_EQ(traffic(1, false).to_gpu, 60'000u);  // one bit a pixel
@@ -140,7 +133,7 @@ TEST(Resolve, WhatASceneDoesNotNeedIsNotSent) {
 }
 
 TEST(Resolve, SoftwareRasterisersLeaveManyTrianglesToTheRays) {
-  SceneStats stats = analyze(scene_with(1, 0, true));
+  SceneStats stats = analyze(plate_with_lights(1, 0, true));
   const auto visibility = [&](bool software_gl, const Settings& wanted = {}) {
     return resolve(wanted, stats, {.software_gl = software_gl})->visibility.value;
   };
@@ -161,7 +154,7 @@ TEST(Resolve, SoftwareRasterisersLeaveManyTrianglesToTheRays) {
 }
 
 TEST(Resolve, WhatIsGivenStaysOrIsAnErrorThatSaysWhy) {
-  const SceneStats stats = analyze(scene_with(2, 0, true));
+  const SceneStats stats = analyze(plate_with_lights(2, 0, true));
   const auto error_of = [&](std::string_view field, std::string_view value, SceneStats of) {
     Settings wanted;
     EXPECT_TRUE(set(wanted, field, value));
@@ -195,7 +188,7 @@ TEST(Resolve, WhatIsGivenStaysOrIsAnErrorThatSaysWhy) {
 }
 
 TEST(Resolve, ARayIsSparedOnlyWhereTheMaskIsNotKept) {
-  const SceneStats stats = analyze(scene_with(2, 0, false));
+  const SceneStats stats = analyze(plate_with_lights(2, 0, false));
   EXPECT_EQ(resolve({}, stats)->light_cutoff, 0.0f);
   EXPECT_EQ(resolve({}, stats, {.keeps_mask = false})->light_cutoff, kThroughputCutoff / 2);
 }

@@ -8,7 +8,7 @@
 namespace pinocchio {
 namespace {
 
-// What has a member of class C: the material, the surface or its layers.
+// Returns the one that has class C's members: the material, the surface, or the surface's layers.
 template <class C, class M, class S>
 auto& owner_of(M& material, S& surface) {
   if constexpr (std::is_same_v<C, Material>)
