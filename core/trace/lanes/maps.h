@@ -110,14 +110,17 @@ inline vec4 texels_of(const float (&rows)[kMostLanes][4]) {
   return vec4(columns);
 }
 
-// A material's texels at the points where some of them are.
+// A material's texels at the points where some of them are; white until they are read.
 struct MapTexelLanes : MapTexels {
   vec2 normal_ab, normal_ac;  // the normal map's coordinates along the edges
   bool has_normal = false;
 
-  [[gnu::noinline]] MapTexelLanes(const SceneArrays& scene, const LaneMaps& maps, const MapPoints& points,
-                                  Int triangle, const Vec& weights, Mask lanes, unsigned wanted) {
+  MapTexelLanes() {
     for (vec4& texel : of) texel = vec4(Float(1.0f));
+  }
+
+  [[gnu::noinline]] void read(const SceneArrays& scene, const LaneMaps& maps, const MapPoints& points, Int triangle,
+                              const Vec& weights, Mask lanes, unsigned wanted) {
     for (int i = 0; i < maps.count; ++i) {
       const TexturePlace& place = maps.places[i];
       if ((place.maps & wanted) == 0) continue;
@@ -134,13 +137,13 @@ struct MapTexelLanes : MapTexels {
       y.x.store(p.change_y[0]);
       y.y.store(p.change_y[1]);
       sample_textures(place, lanes.bits(), wanted, p);
-      if ((place.maps & 1u << kNormal) != 0) {
+      if ((place.maps & wanted & 1u << kNormal) != 0) {
         normal_ab = at.ab;
         normal_ac = at.ac;
         has_normal = true;
       }
       for (int k = 0; k < place.count; ++k)
-        if ((place.textures[k].maps & wanted) != 0) set(texels_of(p.texel[k]), place.textures[k].maps);
+        if (const unsigned read = place.textures[k].maps & wanted; read != 0) set(texels_of(p.texel[k]), read, lanes);
     }
   }
 
@@ -158,8 +161,14 @@ struct MapTexelLanes : MapTexels {
   }
 
  private:
-  void set(const vec4& texel, unsigned maps) {
-    for (; maps != 0; maps &= maps - 1) of[std::countr_zero(maps)] = texel;
+  void set(const vec4& texel, unsigned maps, Mask lanes) {
+    for (; maps != 0; maps &= maps - 1) {
+      vec4& to = of[std::countr_zero(maps)];
+      to.x = select(lanes, texel.x, to.x);
+      to.y = select(lanes, texel.y, to.y);
+      to.z = select(lanes, texel.z, to.z);
+      to.w = select(lanes, texel.w, to.w);
+    }
   }
 };
 
@@ -220,20 +229,46 @@ inline void set_material(const MaterialMaps& maps, const Material& plain, const 
   m.transmits = (m.transmits & ~bits) | any_component(point.transmittance);
 }
 
-// The maps of which a step reads what they change.
-inline unsigned maps_wanted(bool reads_material, bool adds_ambient, bool ambient_light) {
-  constexpr unsigned kOfAmbient = 1u << kEmissive, kOfAmbientLight = 1u << kOcclusion;
-  unsigned wanted = 1u << kNormal;
-  if (reads_material) wanted |= ~(kOfAmbient | kOfAmbientLight);
-  if (adds_ambient) wanted |= kOfAmbient;
-  if (ambient_light) wanted |= kOfAmbientLight;
-  return wanted;
+// The maps that a step reads (bit i: row i of kMapUses).
+struct MapsWanted {
+  unsigned everywhere = 0;
+  // Where a point mirrors or transmits, which roughness, metal and coats decide; white elsewhere, so that at most too
+  // many shadow rays are worth their light.
+  unsigned where_colored = 0;
+
+  MapsWanted() = default;
+  // colors: the step returns light of the points themselves; else it may follow mirrored light.
+  MapsWanted(bool colors, bool reads_material, bool adds_ambient, bool ambient_light) {
+    constexpr unsigned kOfAmbient = 1u << kEmissive, kOfAmbientLight = 1u << kOcclusion;
+    constexpr unsigned kColors = 1u << kBaseColor | 1u << kSpecular | 1u << kSpecularColor;
+    everywhere = 1u << kNormal;
+    if (reads_material) everywhere |= ~(kOfAmbient | kOfAmbientLight);
+    if (adds_ambient) everywhere |= kOfAmbient;
+    if (ambient_light) everywhere |= kOfAmbientLight;
+    if (colors) return;
+    where_colored = everywhere & kColors;
+    everywhere &= ~kColors;
+  }
+
+  [[nodiscard]] unsigned of_material() const { return (everywhere | where_colored) & ~(1u << kNormal); }
+};
+
+// The points whose colours change what they mirror or transmit.
+inline Mask colored(const MaterialMaps& maps, const Material& plain, const MapTexelLanes& texels) {
+  if (!maps.from_gltf) return Mask::from_bits(0);
+  const MapValues v = texels.values();
+  const MaterialPoint whitest = gltf_material(maps, plain, v, texels);
+  const Float zero(0.0f);
+  const Mask transmits = zero < whitest.transmittance.x + whitest.transmittance.y + whitest.transmittance.z;
+  const bool dielectrics = maps.specular.used() || maps.specular_color.used();
+  const Mask colors = dielectrics ? Mask::from_bits(~0u) : zero < Float(maps.surface.metallic) * v.metallic;
+  return transmits | (whitest.fresnel & colors);
 }
 
 // Not inlined: it is large, and most packets have no maps.
 [[gnu::noinline]] void apply_maps(const Bounce& bounce, const Corners& corners, Int triangle,
-                                  const Vec& origin, const Vec& direction, Float width, unsigned wanted,
-                                  LaneSurface& s, LaneMaterial& m) {
+                                  const Vec& origin, const Vec& direction, Float width,
+                                  const MapsWanted& wanted, LaneSurface& s, LaneMaterial& m) {
   const SceneArrays& scene = bounce.scene;
   const MapPoints points(*bounce.footprint, corners, origin, direction, s.p_world, width);
   const Float side = select(s.leaving, Float(-1.0f), Float(1.0f));
@@ -242,7 +277,8 @@ inline unsigned maps_wanted(bool reads_material, bool adds_ambient, bool ambient
     const Material& plain = scene.materials[index];
     const LaneMaps& lane_maps = scene.maps[plain.maps];
     const MaterialMaps& maps = *lane_maps.maps;
-    MapTexelLanes texels(scene, lane_maps, points, triangle, s.weights, same, wanted);
+    MapTexelLanes texels;
+    texels.read(scene, lane_maps, points, triangle, s.weights, same, wanted.everywhere);
     if (texels.has_normal) {
       VertexQuad tangent{Vec(Float(0.0f)), Float(0.0f)};
       if (scene.tangents) tangent = weighted_quad(scene, scene.tangents, triangle, s.weights, same);
@@ -258,7 +294,10 @@ inline unsigned maps_wanted(bool reads_material, bool adds_ambient, bool ambient
       m.alpha = select(blends, alpha, m.alpha);
       m.blends |= blends.bits();
     }
-    if ((wanted & 1u << kBaseColor) == 0) return;
+    if (wanted.of_material() == 0) return;
+    if (wanted.where_colored != 0)
+      if (const Mask lanes = same & colored(maps, plain, texels); lanes.bits() != 0)
+        texels.read(scene, lane_maps, points, triangle, s.weights, lanes, wanted.where_colored);
     MapValues v = texels.values();
     v.occlusion = Float(1.0f) + Float(maps.occlusion_strength) * (v.occlusion - Float(1.0f));
     if (maps.vertex_colors && scene.colors)

@@ -176,13 +176,13 @@ inline void fetch_corners(const SceneArrays& scene, const RayQueue& rays, std::s
 // nothing for it.
 template <bool kSampled>
 void bounce_packets(const Bounce& bounce, const RayQueue& rays) {
-  const bool reads_material = bounce.adds_light || bounce.adds_ambient || bounce.mirrored ||
-                              (bounce.visible && bounce.options->light_cutoff > 0.0f) || bounce.environment ||
-                              bounce.prefiltered || bounce.diffuse || bounce.sampled != 0 || bounce.points ||
-                              bounce.tints;
-  const unsigned wanted =
-      maps_wanted(reads_material, bounce.adds_ambient,
-                  bounce.prefiltered || (bounce.adds_ambient && bounce.ambient_light != glm::vec3(0.0f)));
+  const bool colors = bounce.adds_light || bounce.adds_ambient || bounce.environment || bounce.prefiltered ||
+                      bounce.diffuse || bounce.sampled != 0 || bounce.points || bounce.tints;
+  const bool reads_material =
+      colors || bounce.mirrored || (bounce.visible && bounce.options->light_cutoff > 0.0f);
+  const MapsWanted wanted(
+      colors, reads_material, bounce.adds_ambient,
+      bounce.prefiltered || (bounce.adds_ambient && bounce.ambient_light != glm::vec3(0.0f)));
   for (std::size_t i = 0; i < kTrianglesAhead; i += kWidth) fetch_triangles(bounce.scene, rays, i);
   for (std::size_t i = 0; i < kCornersAhead; i += kWidth) fetch_corners(bounce.scene, rays, i);
   for (std::size_t i = 0; i < rays.size; i += kWidth) {
@@ -270,7 +270,7 @@ void bounce_rays(const Bounce& bounce, const RayQueue& rays) {
 void visible_points(const Bounce& bounce, const glm::vec3& axis, const RayQueue& rays,
                     const SeenColumns& to) {
   const bool reads_material = to.albedo[0] != nullptr;
-  const unsigned wanted = maps_wanted(reads_material, false, false);
+  const MapsWanted wanted(true, reads_material, false, false);
   const bool by_distance = axis == glm::vec3(0.0f);
   for (std::size_t i = 0; i < rays.size; i += kWidth) {
     fetch_triangles(bounce.scene, rays, i + kTrianglesAhead);
