@@ -13,18 +13,52 @@
 namespace pinocchio {
 namespace {
 
-// A triangle: its box, and its place among those that the binary tree stores.
-struct WideItem {
-  Bounds box;
-  std::uint32_t stored;
+using WideFloats [[gnu::vector_size(16)]] = float;
+using WideInts [[gnu::vector_size(16)]] = std::int32_t;
+
+inline WideFloats least_of(WideFloats a, WideFloats b) {
+  return a < b ? a : b;
+}
+inline WideFloats most_of(WideFloats a, WideFloats b) {
+  return a < b ? b : a;
+}
+
+// x, y and z of a box's corners; the fourth numbers mean nothing.
+struct WideBox {
+  WideFloats lo = WideFloats{} + std::numeric_limits<float>::infinity();
+  WideFloats hi = WideFloats{} - std::numeric_limits<float>::infinity();
+
+  void add(WideFloats p) {
+    lo = least_of(lo, p);
+    hi = most_of(hi, p);
+  }
+  void add(const WideBox& b) {
+    lo = least_of(lo, b.lo);
+    hi = most_of(hi, b.hi);
+  }
+  [[nodiscard]] float half_area() const {
+    const WideFloats e = hi - lo;
+    return e[0] * e[1] + e[1] * e[2] + e[2] * e[0];
+  }
 };
 
-// Adjacent items.
+// A triangle: its box, and its place among those that the binary tree stores.
+struct WideItem {
+  WideBox box;
+  std::uint32_t stored;
+  [[nodiscard]] WideFloats twice_center() const { return box.lo + box.hi; }
+};
+
+// Adjacent items: the box about them, and that of their boxes' centres, twice as large.
 struct WideRange {
   std::size_t begin = 0, end = 0;
-  Bounds box;
+  WideBox box, centers;
   [[nodiscard]] std::size_t size() const { return end - begin; }
   [[nodiscard]] bool is_leaf() const { return size() <= WideLeaf::kTriangles; }
+  void add(const WideItem& item) {
+    box.add(item.box);
+    centers.add(item.twice_center());
+  }
 };
 
 // A node that is not written yet.
@@ -37,60 +71,66 @@ struct WideTask {
 // The cut of a range that the surface area heuristic chooses. It sorts the items into bins by their centres,
 // along each axis, and tries the borders between bins.
 struct WideCut {
-  static constexpr int kBins = 16;
   int axis = -1;  // none: all centres are in one place
   int last_bin = 0;
-  float lo = 0.0f, scale = 0.0f;
 
-  WideCut(const std::vector<WideItem>& items, const WideRange& range) {
-    Bounds centers;
-    for (std::size_t i = range.begin; i < range.end; ++i) centers.add(items[i].box.center());
-    float least = std::numeric_limits<float>::infinity();
-    for (int a = 0; a < 3; ++a) {
-      const float along = as_float(kBins) / centers.extent()[a];
-      if (!(along > 0.0f && along < std::numeric_limits<float>::infinity())) continue;
-      Bounds boxes[kBins];
-      std::size_t counts[kBins] = {};
-      for (std::size_t i = range.begin; i < range.end; ++i) {
-        const int bin = bin_of(items[i].box.center()[a], centers.lo[a], along);
-        boxes[bin].add(items[i].box);
-        ++counts[bin];
-      }
-      float cost_above[kBins];
-      Bounds box;
-      std::size_t count = 0;
-      for (int b = kBins - 1; b > 0; --b) {
-        box.add(boxes[b]);
-        count += counts[b];
-        cost_above[b] = cost(box, count);
-      }
-      box = {};
-      count = 0;
-      for (int b = 0; b + 1 < kBins; ++b) {
-        box.add(boxes[b]);
-        count += counts[b];
-        const float both = cost(box, count) + cost_above[b + 1];
-        if (count == 0 || count == range.size() || !(both < least)) continue;
-        least = both;
-        axis = a;
-        last_bin = b;
-        lo = centers.lo[a];
-        scale = along;
+  WideCut(const std::vector<WideItem>& items, const WideRange& range)
+      : bins_(as_int(std::min(range.size(), kMostBins))), lo_(range.centers.lo) {
+    const WideFloats along = as_float(bins_) / (range.centers.hi - range.centers.lo);
+    for (int a = 0; a < 3; ++a)
+      if (along[a] > 0.0f && along[a] < std::numeric_limits<float>::infinity()) scale_[a] = along[a];
+    WideBox boxes[3][kMostBins];
+    std::uint32_t counts[3][kMostBins] = {};
+    for (std::size_t i = range.begin; i < range.end; ++i) {
+      const WideInts bins = bins_of(items[i]);
+      for (int a = 0; a < 3; ++a) {
+        boxes[a][bins[a]].add(items[i].box);
+        ++counts[a][bins[a]];
       }
     }
+    float least = std::numeric_limits<float>::infinity();
+    for (int a = 0; a < 3; ++a)
+      if (scale_[a] > 0.0f) try_borders(boxes[a], counts[a], range.size(), a, least);
   }
 
-  [[nodiscard]] bool is_below(const WideItem& item) const {
-    return bin_of(item.box.center()[axis], lo, scale) <= last_bin;
-  }
+  [[nodiscard]] bool is_below(const WideItem& item) const { return bins_of(item)[axis] <= last_bin; }
 
  private:
-  static int bin_of(float center, float lo, float scale) {
-    return std::min(as_int((center - lo) * scale), kBins - 1);
+  static constexpr std::size_t kMostBins = 16;
+
+  // Along each axis.
+  [[nodiscard]] WideInts bins_of(const WideItem& item) const {
+    const WideInts bins = __builtin_convertvector((item.twice_center() - lo_) * scale_, WideInts);
+    const WideInts last = WideInts{} + (bins_ - 1);
+    return bins < last ? bins : last;
   }
-  static float cost(const Bounds& box, std::size_t count) {
+  void try_borders(const WideBox* boxes, const std::uint32_t* counts, std::size_t size, int a, float& least) {
+    float cost_above[kMostBins];
+    WideBox box;
+    std::size_t count = 0;
+    for (int b = bins_ - 1; b > 0; --b) {
+      box.add(boxes[b]);
+      count += counts[b];
+      cost_above[b] = cost(box, count);
+    }
+    box = {};
+    count = 0;
+    for (int b = 0; b + 1 < bins_; ++b) {
+      box.add(boxes[b]);
+      count += counts[b];
+      const float both = cost(box, count) + cost_above[b + 1];
+      if (count == 0 || count == size || !(both < least)) continue;
+      least = both;
+      axis = a;
+      last_bin = b;
+    }
+  }
+  static float cost(const WideBox& box, std::size_t count) {
     return count == 0 ? 0.0f : box.half_area() * as_float(count);
   }
+
+  int bins_;
+  WideFloats lo_, scale_{};
 };
 
 // Nodes and leaves of a part of the tree. Indices are the part's own.
@@ -108,7 +148,10 @@ class WideBuilder {
       for (std::size_t i = chunk * kItemsAtOnce; i < std::min(items_.size(), (chunk + 1) * kItemsAtOnce);
            ++i) {
         const glm::uvec3& corners = scene.corners[stored_[i].id];
-        for (int c = 0; c < 3; ++c) items_[i].box.add(scene.positions[corners[c]]);
+        for (int c = 0; c < 3; ++c) {
+          const glm::vec3& p = scene.positions[corners[c]];
+          items_[i].box.add(WideFloats{p.x, p.y, p.z, 0.0f});
+        }
         items_[i].stored = as_uint32(i);
       }
     });
@@ -146,23 +189,31 @@ class WideBuilder {
   static constexpr int kEvenDepth = 24;
 
   [[nodiscard]] WideRange range_of(std::size_t begin, std::size_t end) const {
-    WideRange range{begin, end, {}};
-    for (std::size_t i = begin; i < end; ++i) range.box.add(items_[i].box);
+    WideRange range{begin, end, {}, {}};
+    for (std::size_t i = begin; i < end; ++i) range.add(items_[i]);
     return range;
   }
 
   std::pair<WideRange, WideRange> split(const WideRange& range, bool evenly) {
-    std::size_t middle = range.begin + range.size() / 2;
-    if (!evenly) {
-      const WideCut cut(items_, range);
-      if (cut.axis >= 0) {
-        const auto first = items_.begin();
-        middle = as_size(std::partition(first + range.begin, first + range.end,
-                                        [&](const WideItem& item) { return cut.is_below(item); }) -
-                         first);
+    if (!evenly)
+      if (const WideCut cut(items_, range); cut.axis >= 0) return split_at(cut, range);
+    const std::size_t middle = range.begin + range.size() / 2;
+    return {range_of(range.begin, middle), range_of(middle, range.end)};
+  }
+
+  std::pair<WideRange, WideRange> split_at(const WideCut& cut, const WideRange& range) {
+    WideRange below{range.begin, range.begin, {}, {}}, above{range.end, range.end, {}, {}};
+    while (below.end < above.begin) {
+      WideItem& item = items_[below.end];
+      if (cut.is_below(item)) {
+        below.add(item);
+        ++below.end;
+      } else {
+        above.add(item);
+        std::swap(item, items_[--above.begin]);
       }
     }
-    return {range_of(range.begin, middle), range_of(middle, range.end)};
+    return {below, above};
   }
 
   // The ranges of a node's children: the one whose box is largest is split until there are eight.

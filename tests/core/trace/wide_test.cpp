@@ -230,7 +230,7 @@ TEST(Wide, IsBuiltOnceEnoughRaysPart) {
   WideOnDemand wide(trees, Isa::sse4, 1);
   const std::size_t triangles = trees->still->triangles.size();
   EXPECT_EQ(wide.tree_after(triangles / 4), nullptr);
-  const WideTree* const tree = wide.tree_after(triangles);
+  const WideTree* const tree = wide.tree_after(4 * triangles);
   ASSERT_NE(tree, nullptr);
   EXPECT_EQ(wide.tree_after(1), tree);
   EXPECT_FALSE(WideOnDemand::serves(
