@@ -26,6 +26,8 @@ ivec3 level_at(TexelSource source, ivec2 size, int level) {
   return ivec3(int(texel.x) * 4096 + int(texel.y), texel.zw);
 }
 
+int texel_place(int width, int x, int y) { return y * width + x; }
+
 vec4 texel_at(TexelSource source, int i, bool is_color) {
   vec4 texel = texelFetch(texels, i);
   return is_color ? vec4(linear_from_srgb(texel.rgb), texel.a) : texel;

@@ -85,8 +85,8 @@ std::uint32_t checksum_of(const Scene& scene) {
   for (const Material& material : scene.mesh->materials) add_material(checksum, material);
   for (const MaterialMaps& maps : scene.mesh->maps) add_maps(checksum, maps);
   for (const Texture& texture : scene.mesh->textures) {
-    checksum.add(texture.texels.size());
-    checksum.add_all(texture.texels.pixels());
+    checksum.add(texture.size());
+    checksum.add_all(texture.image().pixels());
   }
   for (const Light& light : scene.lights) add_light(checksum, light);
   checksum.add(scene.ambient_light);

@@ -30,9 +30,8 @@ template <class T>
 
 [[nodiscard]] inline shared::texels::TextureParams params_of(const Mesh& mesh, const TextureUse& use) {
   const Texture& texture = mesh.textures[as_size(use.texture)];
-  const int count = texture.texels.width() * texture.texels.height();
-  return {{texture.texels.pixels().data(), texture.smaller_levels.data(), count, linear_from_srgb8().data()},
-          texture.texels.size(),
+  return {{&texture.blocks, linear_from_srgb8().data()},
+          texture.size(),
           texture.levels(),
           use.uv_set,
           use.uv_from_texcoord,

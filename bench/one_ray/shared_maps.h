@@ -29,23 +29,21 @@ struct vec4 {
 }
 
 struct TexelSource {
-  const glm::u8vec4 *first_level, *others;
-  int first_count;
+  const TexelBlocks* blocks;
   const float* linear_from_srgb8;
 };
 
-[[nodiscard, gnu::always_inline]] inline ivec3 level_at(const TexelSource&, ivec2 size, int level) {
-  int first = 0;
-  for (int i = 0; i < level; ++i) {
-    first += size.x * size.y;
-    size = max(size / 2, ivec2(1));
-  }
-  return {first, size.x, size.y};
+[[nodiscard, gnu::always_inline]] inline ivec3 level_at(const TexelSource& source, ivec2, int level) {
+  const ivec2 size = source.blocks->size(level);
+  return {as_int(source.blocks->first(level)), size.x, size.y};
+}
+
+[[nodiscard, gnu::always_inline]] inline int texel_place(int width, int x, int y) {
+  return as_int(TexelBlocks::place(width, x, y));
 }
 
 [[nodiscard, gnu::always_inline]] inline vec4 texel_at(const TexelSource& source, int i, bool is_color) {
-  const glm::u8vec4& t =
-      i < source.first_count ? source.first_level[i] : source.others[i - source.first_count];
+  const glm::u8vec4& t = source.blocks->data()[i];
   const auto a = as_float(t.a);
   if (!is_color) return vec4(Channels{as_float(t.r), as_float(t.g), as_float(t.b), a} / 255.0f);
   const float* const linear = source.linear_from_srgb8;

@@ -52,7 +52,7 @@ glm::dvec4 ReferenceTexture::at_point(bool is_color) const {
 // Up to eight taps along the longer side of the pixel's parallelogram, each interpolated between two levels.
 glm::dvec4 ReferenceTexture::mean(const ReferenceSpread& spread, bool is_color) const {
   if (!texture_ || texture_->levels() == 1 || spread.direction == glm::dvec3(0.0)) return at_point(is_color);
-  const glm::dvec2 size(texture_->texels.size());
+  const glm::dvec2 size(texture_->size());
   const glm::dvec2 across = texcoord_by_move(spread.x, spread.direction);
   const glm::dvec2 down = texcoord_by_move(spread.y, spread.direction);
   const double longer = std::max(glm::length(across * size), glm::length(down * size));
@@ -88,7 +88,7 @@ glm::dvec2 ReferenceTexture::texcoord_by_move(const glm::dvec3& spread, const gl
 }
 
 glm::dvec4 ReferenceTexture::interpolated(const glm::dvec2& texcoord, int level, bool is_color) const {
-  const glm::ivec2 size = glm::max(texture_->texels.size() >> level, glm::ivec2(1));
+  const glm::ivec2 size = texture_->blocks.size(level);
   glm::dvec2 within = texcoord;
   for (int axis = 0; axis < 2; ++axis)
     if ((axis == 0 ? use_.wrap_u : use_.wrap_v) == Wrap::clamp)
@@ -106,14 +106,9 @@ glm::dvec4 ReferenceTexture::interpolated(const glm::dvec2& texcoord, int level,
 }
 
 glm::dvec4 ReferenceTexture::texel(int level, std::int64_t x, std::int64_t y, bool is_color) const {
-  const glm::u8vec4* texels = texture_->texels.pixels().data();
-  glm::ivec2 size = texture_->texels.size();
-  if (level > 0) texels = texture_->smaller_levels.data();
-  for (int i = 1; i <= level; ++i) {
-    size = glm::max(size / 2, glm::ivec2(1));
-    if (i < level) texels += size.x * size.y;
-  }
-  const glm::u8vec4& t = texels[wrapped(y, size.y, use_.wrap_v) * size.x + wrapped(x, size.x, use_.wrap_u)];
+  const glm::ivec2 size = texture_->blocks.size(level);
+  const glm::u8vec4& t = texture_->blocks.at(level, as_int(wrapped(x, size.x, use_.wrap_u)),
+                                             as_int(wrapped(y, size.y, use_.wrap_v)));
   if (!is_color) return glm::dvec4(t) / 255.0;
   return {srgb8_to_linear(t.r), srgb8_to_linear(t.g), srgb8_to_linear(t.b), t.a / 255.0};
 }

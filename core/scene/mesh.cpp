@@ -52,7 +52,7 @@ MaterialMaps& make_maps(MeshData& mesh, Material& material) {
 
 Mesh::Mesh(MeshData data) : MeshData(std::move(data)), bounds_(bounds_of(*this)) {
   let_vertex_colors_count(*this);
-  make_smaller_levels(*this, nullptr);
+  finish_textures(*this, nullptr);
 }
 
 Mesh::Mesh(const Mesh& other) : MeshData(other), bounds_(other.bounds_) {}

@@ -86,68 +86,73 @@ int halvings_of(const glm::ivec2& size) {
   return std::min(std::countr_zero(both), kMostHalvings);
 }
 
-// Writes a texture's levels, largest first, to their places in `smaller_levels`.
+// Makes a texture's smaller levels, largest first, row by row.
 class LevelWriter {
  public:
-  LevelWriter(Texture& texture, bool is_color) : texture_(texture), is_color_(is_color), decode_(is_color) {}
+  LevelWriter(const Image<glm::u8vec4>& texels, bool is_color)
+      : texels_(texels), is_color_(is_color), decode_(is_color) {
+    reserve_large(levels_, texels.pixels().size() / 3 + 1);
+  }
 
   // Makes the first `halvings` levels; returns the values of the last.
   Level write_blocks(int halvings) {
     const int side = 1 << halvings;
     std::size_t at = 0;
     for (int k = 1; k <= halvings; ++k) {
-      const glm::ivec2 size = texture_.texels.size() / (1 << k);
+      const glm::ivec2 size = texels_.size() / (1 << k);
       first_[k] = at;
       at += size.x * as_size(size.y);
     }
-    texture_.smaller_levels.resize(at);
-    Level last(texture_.texels.size() / side);
+    levels_.resize(at);
+    Level last(texels_.size() / side);
     for (int y = 0; y < last.height(); ++y)
       for (int x = 0; x < last.width(); ++x) last.at(x, y) = write_block({x, y}, halvings);
     return last;
   }
 
   void append(const Level& level) {
-    std::vector<glm::u8vec4>& all = texture_.smaller_levels;
-    all.resize(all.size() + level.pixels().size());
-    encode(level.pixels(), is_color_, &all[all.size() - level.pixels().size()]);
+    levels_.resize(levels_.size() + level.pixels().size());
+    encode(level.pixels(), is_color_, &levels_[levels_.size() - level.pixels().size()]);
   }
 
   [[nodiscard]] Level whole() const {
-    Level level(texture_.texels.size());
-    for (std::size_t i = 0; i < level.pixels().size(); ++i) level[i] = decode_(texture_.texels[i]);
+    Level level(texels_.size());
+    for (std::size_t i = 0; i < level.pixels().size(); ++i) level[i] = decode_(texels_[i]);
     return level;
   }
+
+  [[nodiscard]] std::span<const glm::u8vec4> levels() const { return levels_; }
 
  private:
   glm::vec4 write_block(const glm::ivec2& block, int halvings) {
     int side = 1 << halvings;
     for (int y = 0; y < side; ++y) {
-      const glm::u8vec4* const row = &texture_.texels.at(block.x * side, block.y * side + y);
-      for (int x = 0; x < side; ++x) texels_[y * side + x] = decode_(row[x]);
+      const glm::u8vec4* const row = &texels_.at(block.x * side, block.y * side + y);
+      for (int x = 0; x < side; ++x) values_[y * side + x] = decode_(row[x]);
     }
     for (int k = 1; k <= halvings; ++k) {
       side /= 2;
-      const int width = texture_.texels.width() >> k;
+      const int width = texels_.width() >> k;
       for (int y = 0; y < side; ++y) {
         glm::u8vec4* const to =
-            &texture_.smaller_levels[first_[k] + as_size((block.y * side + y) * width + block.x * side)];
-        const glm::vec4* const from = &texels_[4 * y * side];
-        glm::vec4* const means = &texels_[y * side];
+            &levels_[first_[k] + as_size((block.y * side + y) * width + block.x * side)];
+        const glm::vec4* const from = &values_[4 * y * side];
+        glm::vec4* const means = &values_[y * side];
         for (int x = 0; x < side; ++x)  // in place: reads are ahead of writes
           means[x] =
               mean_of_four(from[2 * x], from[2 * x + 1], from[2 * side + 2 * x], from[2 * side + 2 * x + 1]);
         encode({means, as_size(side)}, is_color_, to);
       }
     }
-    return texels_[0];
+    return values_[0];
   }
 
-  Texture& texture_;
+  const Image<glm::u8vec4>& texels_;
+  std::vector<glm::u8vec4> levels_;
   bool is_color_;
   TexelDecoder decode_;
   std::array<std::size_t, kMostHalvings + 1> first_{};  // texel of each level
-  std::array<glm::vec4, std::size_t{1} << (2 * kMostHalvings)> texels_{};
+  std::array<glm::vec4, std::size_t{1} << (2 * kMostHalvings)> values_{};
 };
 
 // For each texture: whether its smaller levels are used, and whether it is colour.
@@ -168,34 +173,41 @@ std::vector<Needed> needed_of(const MeshData& mesh) {
   return needed;
 }
 
-}  // namespace
-
-void make_smaller_levels(Texture& texture, bool is_color) {
-  texture.smaller_levels.clear();
-  if (texture.texels.width() <= 1 && texture.texels.height() <= 1) return;
-  reserve_large(texture.smaller_levels, texture.texels.pixels().size() / 3 + 1);
-  LevelWriter writer(texture, is_color);
-  const int halvings = halvings_of(texture.texels.size());
-  Level level = halvings > 0 ? writer.write_blocks(halvings) : writer.whole();
-  while (level.width() > 1 || level.height() > 1) {
-    level = halved(level);
-    writer.append(level);
-  }
+bool is_finished(const Texture& texture, const Needed& needed) {
+  const glm::ivec2 size = texture.size();
+  if (size.x == 0) return true;
+  return texture.texels.empty() && (!needed.levels || texture.levels() > 1 || size == glm::ivec2(1));
 }
 
-void make_smaller_levels(MeshData& mesh, Progress* progress) {
+void finish(Texture& texture, const Needed& needed) {
+  if (texture.texels.empty()) texture.texels = texture.image();
+  const glm::ivec2 size = texture.texels.size();
+  LevelWriter writer(texture.texels, needed.is_color);
+  if (needed.levels && size != glm::ivec2(1)) {
+    const int halvings = halvings_of(size);
+    Level level = halvings > 0 ? writer.write_blocks(halvings) : writer.whole();
+    while (level.width() > 1 || level.height() > 1) {
+      level = halved(level);
+      writer.append(level);
+    }
+  }
+  texture.blocks = TexelBlocks(texture.texels, writer.levels());
+  texture.texels = {};
+}
+
+}  // namespace
+
+void finish_textures(MeshData& mesh, Progress* progress) {
   const std::vector<Needed> needed = needed_of(mesh);
-  std::vector<std::size_t> missing;
+  std::vector<std::size_t> unfinished;
   for (std::size_t i = 0; i < needed.size(); ++i)
-    if (needed[i].levels && mesh.textures[i].smaller_levels.empty() &&
-        mesh.textures[i].texels.pixels().size() > 1)
-      missing.push_back(i);
-  if (missing.empty()) return;
-  begin_phase(progress, "textures", missing.size());
+    if (!is_finished(mesh.textures[i], needed[i])) unfinished.push_back(i);
+  if (unfinished.empty()) return;
+  begin_phase(progress, "textures", unfinished.size());
   std::vector<Texture>& textures = mesh.textures.edit();
-  Workers workers(missing.size() > 1 ? 0 : 1);
-  workers.for_each(missing.size(), [&](std::size_t i) {
-    make_smaller_levels(textures[missing[i]], needed[missing[i]].is_color);
+  Workers workers(unfinished.size() > 1 ? 0 : 1);
+  workers.for_each(unfinished.size(), [&](std::size_t i) {
+    finish(textures[unfinished[i]], needed[unfinished[i]]);
     advance(progress);
   });
 }

@@ -5,11 +5,8 @@
 
 namespace pinocchio {
 
-// Fills in texture.smaller_levels; colour is averaged in linear light.
-void make_smaller_levels(Texture& texture, bool is_color);
-
-// The same for all textures that maps interpolate and that have no levels yet, on all of the machine's
-// threads. Phase "textures".
-void make_smaller_levels(MeshData& mesh, Progress* progress);
+// Moves the textures' texels to their blocks, with smaller levels where maps interpolate; colour is averaged in linear
+// light. On all of the machine's threads. Phase "textures".
+void finish_textures(MeshData& mesh, Progress* progress);
 
 }  // namespace pinocchio

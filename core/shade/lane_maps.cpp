@@ -25,7 +25,7 @@ bool share_place(const Mesh& mesh, const TextureUse& a, const TextureUse& b) {
   TextureUse same = b;
   same.texture = a.texture;
   const Texture &s = texture_of(mesh, a), &t = texture_of(mesh, b);
-  return a == same && s.texels.size() == t.texels.size() && s.levels() == t.levels();
+  return a == same && s.size() == t.size() && s.levels() == t.levels();
 }
 
 // The rows of kMapUses that a texture is read for.
@@ -61,12 +61,9 @@ TexturePlace texture_place(const Mesh& mesh, const TextureUse& use) {
   for (int column = 0; column < 3; ++column)
     for (int row = 0; row < 2; ++row) place.uv_from_texcoord[column][row] = use.uv_from_texcoord[column][row];
   place.levels = texture.levels();
-  glm::ivec2 size = texture.texels.size();
-  std::uint32_t first = 0;
   for (int i = 0; i < place.levels; ++i) {
-    place.level[i] = {first, as_float(size.x), as_float(size.y)};
-    if (i > 0) first += as_uint32(size.x) * as_uint32(size.y);
-    size = glm::max(size / 2, glm::ivec2(1));
+    const glm::ivec2 size = texture.blocks.size(i);
+    place.level[i] = {as_uint32(texture.blocks.first(i)), as_float(size.x), as_float(size.y)};
   }
   place.wrap_u = use.wrap_u;
   place.wrap_v = use.wrap_v;
@@ -76,7 +73,7 @@ TexturePlace texture_place(const Mesh& mesh, const TextureUse& use) {
 
 LaneTexture lane_texture(const Mesh& mesh, const TextureUse& use, bool is_color, unsigned maps) {
   const Texture& t = texture_of(mesh, use);
-  return {t.texels.pixels().data(), t.smaller_levels.data(), is_color ? linear_from_srgb8().data() : nullptr,
+  return {t.blocks.data(), is_color ? linear_from_srgb8().data() : nullptr,
           maps};
 }
 

@@ -41,11 +41,10 @@ struct LevelTable {
     std::size_t next = 0;
     for (const Texture& texture : mesh.textures) {
       begin.push_back(levels.size());
-      glm::ivec2 size = texture.texels.size();
       for (int i = 0; i < texture.levels(); ++i) {
+        const glm::ivec2 size = texture.blocks.size(i);
         levels.emplace_back(next / kPlaceDigit, next % kPlaceDigit, size.x, size.y);
         next += as_size(size.x) * as_size(size.y);
-        size = glm::max(size / 2, 1);
       }
     }
   }
@@ -54,8 +53,10 @@ struct LevelTable {
 std::vector<glm::u8vec4> all_texels(const Mesh& mesh) {
   std::vector<glm::u8vec4> texels;
   for (const Texture& texture : mesh.textures) {
-    texels.insert(texels.end(), texture.texels.pixels().begin(), texture.texels.pixels().end());
-    texels.insert(texels.end(), texture.smaller_levels.begin(), texture.smaller_levels.end());
+    for (int i = 0; i < texture.levels(); ++i) {
+      const Image<glm::u8vec4> level = texture.blocks.level(i);
+      texels.insert(texels.end(), level.pixels().begin(), level.pixels().end());
+    }
   }
   if (texels.empty()) texels.resize(1);  // a texture buffer cannot be empty
   return texels;
@@ -70,7 +71,7 @@ UseTexels use_texels(const Texture& texture, std::size_t place, const TextureUse
   const glm::mat3x2& m = use.uv_from_texcoord;
   const int bits =
       (use.uv_set == 1 ? 1 : 0) | (use.nearest ? 2 : 0) | as_int(use.wrap_u) << 2 | as_int(use.wrap_v) << 4;
-  return {.place = glm::vec4(place, texture.levels(), texture.texels.size()),
+  return {.place = glm::vec4(place, texture.levels(), texture.size()),
           .axes = {m[0], m[1]},
           .rest = {m[2], bits, 0.0f}};
 }

@@ -1,13 +1,13 @@
 // Source of GLSL and of C++ (bench/one_ray/shared_maps.h): texture look-ups. Each side defines TexelSource and
-// level_at(source, size, level): the level's first texel, width and height; and texel_at(source, i, is_color): the i-th
-// texel, 0 to 1, colour (sRGB) made linear. The lanes have code of their own (core/trace/lanes/texture.h).
+// level_at(source, size, level): the level's first texel, width and height; texel_place(width, x, y): a texel's place behind it;
+// and texel_at(source, i, is_color): the i-th texel, 0 to 1, colour (sRGB) made linear. The lanes have code of their own (core/trace/lanes/texture.h).
 
 const int kWrapRepeat = 0;
 const int kWrapMirror = 1;
 const int kWrapClamp = 2;
 
 struct TextureParams {
-  TexelSource source;  // all levels, one after the other, row by row
+  TexelSource source;  // all levels, one after the other
   ivec2 size;          // the first level's; 0: there is no texture
   int levels;
   int uv_set;
@@ -52,13 +52,15 @@ SHARED vec4 sample_level(TextureParams use, vec2 uv, int level, bool is_color) {
   vec2 base = floor(at);
   ivec2 b = ivec2(base);
   int x = wrapped_texel(b.x, size.x, use.wrap_u);
-  int row = first + wrapped_texel(b.y, size.y, use.wrap_v) * size.x;
-  if (use.nearest) return texel_at(use.source, row + x, is_color);
+  int y = wrapped_texel(b.y, size.y, use.wrap_v);
+  if (use.nearest) return texel_at(use.source, first + texel_place(size.x, x, y), is_color);
   int right = wrapped_texel(b.x + 1, size.x, use.wrap_u);
-  int below = first + wrapped_texel(b.y + 1, size.y, use.wrap_v) * size.x;
+  int below = wrapped_texel(b.y + 1, size.y, use.wrap_v);
   vec2 f = at - base;
-  return mix(mix(texel_at(use.source, row + x, is_color), texel_at(use.source, row + right, is_color), f.x),
-             mix(texel_at(use.source, below + x, is_color), texel_at(use.source, below + right, is_color), f.x),
+  return mix(mix(texel_at(use.source, first + texel_place(size.x, x, y), is_color),
+                 texel_at(use.source, first + texel_place(size.x, right, y), is_color), f.x),
+             mix(texel_at(use.source, first + texel_place(size.x, x, below), is_color),
+                 texel_at(use.source, first + texel_place(size.x, right, below), is_color), f.x),
              f.y);
 }
 

@@ -1,33 +1,69 @@
 #pragma once
 
 #include <algorithm>
-#include <bit>
+#include <cstddef>
 #include <cstdint>
 #include <glm/glm.hpp>
 #include <initializer_list>
 #include <memory>
+#include <span>
 #include <string>
 #include <vector>
 
 #include "pinocchio/conversion.h"
 #include "pinocchio/glm_layout.h"
 #include "pinocchio/image.h"
+#include "pinocchio/pixel_memory.h"
 
 namespace pinocchio {
+
+// The levels of a texture, largest first, each half as large as the one before and the mean of it. Texels are in blocks of
+// 4 x 4, a cache line each, so that those below and above are as near as those beside; a level's sides are padded to whole
+// blocks.
+class TexelBlocks {
+ public:
+  static constexpr int kSide = 4, kTexels = kSide * kSide;
+
+  TexelBlocks() = default;
+  // smaller: the other levels row by row, one after the other; none: there is one level.
+  TexelBlocks(const Image<glm::u8vec4>& largest, std::span<const glm::u8vec4> smaller);
+
+  [[nodiscard]] bool empty() const { return texels_.empty(); }
+  [[nodiscard]] int levels() const { return levels_; }
+  [[nodiscard]] glm::ivec2 size(int level) const { return glm::max(size_ >> level, glm::ivec2(1)); }
+  [[nodiscard]] Image<glm::u8vec4> level(int level) const;
+  [[nodiscard]] const glm::u8vec4& at(int level, int x, int y) const {
+    return texels_[first(level) + place(size(level).x, x, y)];
+  }
+
+  // A level's first texel, and the place of others behind it.
+  [[nodiscard]] std::size_t first(int level) const;
+  [[nodiscard]] static std::size_t place(int width, int x, int y) {
+    return as_size(y / kSide) * as_size((width + kSide - 1) / kSide * kTexels) + as_size(x / kSide * kTexels) +
+           as_size(y % kSide * kSide + x % kSide);
+  }
+  [[nodiscard]] const glm::u8vec4* data() const { return texels_.data(); }
+
+  friend bool operator==(const TexelBlocks&, const TexelBlocks&) = default;
+
+ private:
+  void set_level(int level, const glm::u8vec4* rows);
+
+  glm::ivec2 size_{0};
+  int levels_ = 0;
+  std::vector<glm::u8vec4, PixelAllocator<glm::u8vec4>> texels_;
+};
 
 // RGBA, 8 bits for each channel. Colour is sRGB, as the file stores it; alpha and other data are linear. Row
 // 0 is the top row.
 struct Texture {
   std::string name;
-  Image<glm::u8vec4> texels;
-  // Mipmap levels from half the size down to one texel, each the mean of the previous. A finished mesh has
-  // them for the textures that are interpolated.
-  std::vector<glm::u8vec4> smaller_levels{};
+  Image<glm::u8vec4> texels;  // none in a finished mesh, whose textures have `blocks`
+  TexelBlocks blocks{};       // with levels down to one texel where the texture is interpolated
 
-  [[nodiscard]] int levels() const {
-    if (smaller_levels.empty()) return 1;
-    return as_int(std::bit_width(static_cast<unsigned>(std::max(texels.width(), texels.height()))));
-  }
+  [[nodiscard]] glm::ivec2 size() const { return blocks.empty() ? texels.size() : blocks.size(0); }
+  [[nodiscard]] int levels() const { return std::max(blocks.levels(), 1); }
+  [[nodiscard]] Image<glm::u8vec4> image() const { return blocks.empty() ? texels : blocks.level(0); }
 };
 
 // A mesh's textures. Copies share them until one is edited, so that meshes with different vertices hold them

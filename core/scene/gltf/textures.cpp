@@ -142,9 +142,9 @@ void add_gltf_textures(const GltfFile& file, MeshData& mesh, Loading& loading) {
   }
   for (TextureUse* use : uses) use->texture = ours[place.at(use->texture)];
   add_roughness(file, mesh, loading);
-  make_smaller_levels(mesh, loading.progress);
   for (Material& material : mesh.materials)
     if (material.maps >= 0) bound_rays(mesh, material, mesh.maps[material.maps]);
+  finish_textures(mesh, loading.progress);
 }
 
 }  // namespace pinocchio

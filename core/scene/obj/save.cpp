@@ -80,7 +80,7 @@ class ObjWriter {
 
   void write_textures() const {
     for (const auto& [texture, name] : texture_files_)
-      write_text(file_.parent_path() / name, encode_png(mesh_.textures[texture].texels));
+      write_text(file_.parent_path() / name, encode_png(mesh_.textures[texture].image()));
   }
 
  private:

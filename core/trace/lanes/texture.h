@@ -32,7 +32,6 @@ struct LaneLevels {
   alignas(64) std::uint32_t first[2][kMostLanes]{};
   alignas(64) float width[2][kMostLanes]{}, height[2][kMostLanes]{};
   alignas(64) float part[kMostLanes]{};  // of the second
-  unsigned largest = 0;                  // lanes whose first level is the texture's
 
   LaneLevels(const TexturePlace& place, unsigned lanes, unsigned filtered, const float* texels_apart) {
     for (unsigned waiting = lanes; waiting != 0; waiting &= waiting - 1) {
@@ -43,7 +42,6 @@ struct LaneLevels {
       lod = lod < 0.0f ? 0.0f : (most < lod ? most : lod);
       const int fine = as_int(lod);
       part[lane] = lod - as_float(fine);
-      if (fine == 0) largest |= 1u << lane;
       for (int i = 0; i < 2; ++i) {
         const TextureLevel& level = place.level[fine + i < place.levels ? fine + i : fine];
         first[i][lane] = level.first;
@@ -51,6 +49,23 @@ struct LaneLevels {
         height[i][lane] = level.height;
       }
     }
+  }
+};
+
+// The place of texels behind their level's first: TexelBlocks::place().
+struct LanePlaces {
+  static_assert(TexelBlocks::kSide == 4);
+  Int row_of_blocks;  // texels
+
+  explicit LanePlaces(Float width) : row_of_blocks(shift_left<4>(shift_right<2>(to_int(width) + Int(3u)))) {}
+
+  [[nodiscard]] static Int along_row(Float x) {
+    const Int column = to_int(x);
+    return shift_left<2>(column & Int(~3u)) + (column & Int(3u));
+  }
+  [[nodiscard]] Int of_row(Float y) const {
+    const Int row = to_int(y);
+    return shift_right<2>(row) * row_of_blocks + shift_left<2>(row & Int(3u));
   }
 };
 
@@ -62,9 +77,10 @@ struct LaneQuads {
   [[gnu::always_inline]] inline void find(const TexturePlace& place, Float u, Float v, Int first, Float width,
                                           Float height) {
     const Float one(1.0f);
+    const LanePlaces places(width);
     if (place.nearest) {
-      const Int at = first + to_int(wrapped_texel(floor(v * height), height, place.wrap_v)) * to_int(width) +
-                     to_int(wrapped_texel(floor(u * width), width, place.wrap_u));
+      const Int at = first + places.of_row(wrapped_texel(floor(v * height), height, place.wrap_v)) +
+                     LanePlaces::along_row(wrapped_texel(floor(u * width), width, place.wrap_u));
       for (auto& column : texel) at.store(column);
       Float(0.0f).store(x);
       Float(0.0f).store(y);
@@ -72,10 +88,10 @@ struct LaneQuads {
     }
     const Float at_x = u * width - Float(0.5f), at_y = v * height - Float(0.5f);
     const Float base_x = floor(at_x), base_y = floor(at_y);
-    const Int left = to_int(wrapped_texel(base_x, width, place.wrap_u));
-    const Int right = to_int(wrapped_texel(base_x + one, width, place.wrap_u));
-    const Int above = first + to_int(wrapped_texel(base_y, height, place.wrap_v)) * to_int(width);
-    const Int below = first + to_int(wrapped_texel(base_y + one, height, place.wrap_v)) * to_int(width);
+    const Int left = LanePlaces::along_row(wrapped_texel(base_x, width, place.wrap_u));
+    const Int right = LanePlaces::along_row(wrapped_texel(base_x + one, width, place.wrap_u));
+    const Int above = first + places.of_row(wrapped_texel(base_y, height, place.wrap_v));
+    const Int below = first + places.of_row(wrapped_texel(base_y + one, height, place.wrap_v));
     (above + left).store(texel[0]);
     (above + right).store(texel[1]);
     (below + left).store(texel[2]);
@@ -99,7 +115,7 @@ struct Taps {
                                          unsigned between, unsigned maps, TexturePoints& p) const {
     for (; on != 0; on &= on - 1) {
       const int lane = __builtin_ctz(on);
-      const bool largest = (levels.largest >> lane & 1u) != 0, both = (between >> lane & 1u) != 0;
+      const bool both = (between >> lane & 1u) != 0;
       const LaneQuads &fine = quads[0], &coarse = quads[1];
       const float part = levels.part[lane], fine_x = fine.x[lane], fine_y = fine.y[lane];
       TexelWeights x, y;
@@ -109,9 +125,8 @@ struct Taps {
         const LaneTexture& t = place.textures[i];
         if ((t.maps & maps) == 0) continue;
         const float* const linear = t.linear_from_srgb8;
-        const void* const from = largest ? t.first_level : t.others;
-        const auto bits = [&](int k) { return texel_bits(from, fine.texel[k][lane]); };
-        const auto coarse_bits = [&](int k) { return texel_bits(t.others, coarse.texel[k][lane]); };
+        const auto bits = [&](int k) { return texel_bits(t.texels, fine.texel[k][lane]); };
+        const auto coarse_bits = [&](int k) { return texel_bits(t.texels, coarse.texel[k][lane]); };
         TexelRow sum = load_row(p.texel[i][lane]);
         if (both) {
           const TexelRows at =

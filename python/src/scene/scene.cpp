@@ -87,7 +87,9 @@ std::vector<TexturedMaterial> materials_of(const Mesh& mesh) {
     all.push_back({material, nullptr});
     if (material.maps < 0) continue;
     const TextureUse& use = mesh.maps[as_size(material.maps)].base_color;
-    if (use.used()) all.back().texture = std::make_shared<const Texture>(mesh.textures[as_size(use.texture)]);
+    if (!use.used()) continue;
+    const Texture& texture = mesh.textures[as_size(use.texture)];
+    all.back().texture = std::make_shared<const Texture>(Texture{texture.name, texture.image()});
   }
   return all;
 }

@@ -271,7 +271,7 @@ TEST(LoadGltf, SpecularAndGlossinessAreAMattPartWithAMirroringLayer) {
   ASSERT_TRUE(maps.metallic_roughness.used());
   EXPECT_EQ(maps.surface.roughness, 1.0f);
   // The image is opaque: glossiness is its factor everywhere.
-  EXPECT_EQ(scene.mesh->textures[static_cast<std::size_t>(maps.metallic_roughness.texture)].texels.at(0, 0).g,
+  EXPECT_EQ(scene.mesh->textures[static_cast<std::size_t>(maps.metallic_roughness.texture)].image().at(0, 0).g,
             64);
 }
 
@@ -327,7 +327,7 @@ TEST(LoadGltf, ImagesBesideTheFileAreTextures) {
   const Scene scene = load_good(textured_json({{"uri", "texel.ppm"}}));
   ASSERT_EQ(scene.mesh->textures.size(), 1u);
   EXPECT_EQ(scene.mesh->maps_of(0)->base_color.texture, 0);
-  EXPECT_EQ(scene.mesh->textures[0].texels.at(0, 0), glm::u8vec4(10, 20, 30, 255));
+  EXPECT_EQ(scene.mesh->textures[0].image().at(0, 0), glm::u8vec4(10, 20, 30, 255));
   ASSERT_EQ(scene.source_files.size(), 3u);  // and a buffer
   EXPECT_EQ(scene.source_files.front(), scene.source);
   EXPECT_EQ(std::filesystem::path(scene.source_files.back()), own_file("texel.ppm"));

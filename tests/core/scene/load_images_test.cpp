@@ -181,12 +181,40 @@ TEST(LoadImages, SmallerLevelsAreMeans) {
   texture.texels.at(0, 0) = glm::u8vec4(40, 0, 0, 255);
   texture.texels.at(3, 1) = glm::u8vec4(0, 80, 0, 255);
   const Mesh finished(mesh);
-  ASSERT_EQ(finished.textures[0].smaller_levels.size(), 3u);
-  EXPECT_EQ(finished.textures[0].smaller_levels[0], glm::u8vec4(10, 0, 0, 64));
-  EXPECT_EQ(finished.textures[0].smaller_levels[1], glm::u8vec4(0, 20, 0, 64));
-  EXPECT_EQ(finished.textures[0].smaller_levels[2], glm::u8vec4(5, 10, 0, 64));
+  const TexelBlocks& blocks = finished.textures[0].blocks;
+  ASSERT_EQ(blocks.levels(), 3);
+  EXPECT_EQ(blocks.at(0, 3, 1), glm::u8vec4(0, 80, 0, 255));
+  EXPECT_EQ(blocks.at(1, 0, 0), glm::u8vec4(10, 0, 0, 64));
+  EXPECT_EQ(blocks.at(1, 1, 0), glm::u8vec4(0, 20, 0, 64));
+  EXPECT_EQ(blocks.at(2, 0, 0), glm::u8vec4(5, 10, 0, 64));
   mesh.textures.edit()[0].texels = Image<glm::u8vec4>({3, 1}, glm::u8vec4(30, 60, 90, 255));
-  EXPECT_EQ(Mesh(mesh).textures[0].smaller_levels.at(0), glm::u8vec4(30, 60, 90, 255));
+  EXPECT_EQ(Mesh(mesh).textures[0].blocks.at(1, 0, 0), glm::u8vec4(30, 60, 90, 255));
+}
+
+// Sides that are no multiples of a block's, and less than one.
+TEST(LoadImages, BlocksHoldWhatRowsHeld) {
+  for (const glm::ivec2 size : {glm::ivec2(1), {3, 2}, {4, 4}, {5, 9}, {17, 1}}) {
+    Image<glm::u8vec4> largest(size);
+    for (std::size_t i = 0; i < largest.pixels().size(); ++i) largest[i] = glm::u8vec4(i, 1, 2, 3);
+    std::vector<glm::u8vec4> smaller;
+    for (glm::ivec2 level = size; level != glm::ivec2(1);) {
+      level = glm::max(level / 2, glm::ivec2(1));
+      for (int i = 0; i < level.x * level.y; ++i) smaller.emplace_back(7 * i, level.x, level.y, 4);
+    }
+    const TexelBlocks blocks(largest, smaller);
+    EXPECT_EQ(blocks.size(0), size);
+    auto from = smaller.begin();
+    for (int level = 0; level < blocks.levels(); ++level) {
+      const Image<glm::u8vec4> rows = blocks.level(level);
+      for (int y = 0; y < rows.height(); ++y)
+        for (int x = 0; x < rows.width(); ++x) {
+          const glm::u8vec4 texel = level == 0 ? largest.at(x, y) : *from++;
+          EXPECT_EQ(rows.at(x, y), texel) << level << " " << x << " " << y;
+          EXPECT_EQ(blocks.at(level, x, y), texel);
+        }
+    }
+    EXPECT_EQ(from, smaller.end());
+  }
 }
 
 }  // namespace

@@ -97,7 +97,7 @@ TEST(LoadObj, TextureCoordinatesGrowDownwards) {
   const Scene scene =
       load_text(kTriangle + "vt 0.25 0.75\nusemtl m\nf 1/1 2/1 3/1\n", "newmtl m\nmap_Kd t.ppm\n");
   ASSERT_EQ(scene.mesh->textures.size(), 1u);
-  EXPECT_EQ(scene.mesh->textures[0].texels.at(0, 0), glm::u8vec4(10, 20, 30, 255));
+  EXPECT_EQ(scene.mesh->textures[0].image().at(0, 0), glm::u8vec4(10, 20, 30, 255));
   EXPECT_EQ(scene.mesh->texcoords[0], glm::vec2(0.25f, 0.25f));
 }
 

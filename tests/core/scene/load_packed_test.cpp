@@ -167,7 +167,7 @@ TEST(LoadPacked, LongBuffersInTheFile) {
     ASSERT_TRUE(scene) << scene.error().message();
     EXPECT_EQ(scene->mesh->positions[1], glm::vec3(1, 0, 0));
     ASSERT_EQ(scene->mesh->textures.size(), 1u);
-    EXPECT_EQ(scene->mesh->textures[0].texels.at(19, 19), glm::u8vec4('m', 'm', 'm', 255));
+    EXPECT_EQ(scene->mesh->textures[0].image().at(19, 19), glm::u8vec4('m', 'm', 'm', 255));
   }
   json["buffers"][0]["byteLength"] = 20002;
   EXPECT_NE(error_of(json).find("holds 20001 bytes"), std::string::npos);
@@ -281,7 +281,7 @@ Json textured_with(const std::string& image) {
 }
 
 TEST(LoadPacked, ImagesClaimNoMemoryBeforeTheLimitIsAsked) {
-  EXPECT_EQ(load_good(textured_with(png_of(2, 2))).mesh->textures[0].texels.at(0, 0),
+  EXPECT_EQ(load_good(textured_with(png_of(2, 2))).mesh->textures[0].image().at(0, 0),
             glm::u8vec4(10, 20, 30, 255));
   EXPECT_NE(error_of(textured_with(png_of(60000, 60000))).find("60000 x 60000 pixels needs 13733 MiB"),
             std::string::npos);

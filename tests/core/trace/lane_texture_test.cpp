@@ -13,19 +13,19 @@ namespace pinocchio {
 namespace {
 
 Texture noise(const glm::ivec2& size, bool with_levels, Random& random) {
-  Texture texture{"noise", Image<glm::u8vec4>(size)};
+  Image<glm::u8vec4> texels(size);
+  std::vector<glm::u8vec4> smaller;
   const auto texel = [&] {
     glm::u8vec4 t;
     for (int c = 0; c < 4; ++c) t[c] = static_cast<std::uint8_t>(random.between(0.0f, 255.99f));
     return t;
   };
-  for (glm::u8vec4& t : texture.texels.pixels()) t = texel();
-  if (!with_levels) return texture;
-  for (glm::ivec2 level = size; level != glm::ivec2(1);) {
+  for (glm::u8vec4& t : texels.pixels()) t = texel();
+  for (glm::ivec2 level = size; with_levels && level != glm::ivec2(1);) {
     level = glm::max(level / 2, glm::ivec2(1));
-    for (int i = 0; i < level.x * level.y; ++i) texture.smaller_levels.push_back(texel());
+    for (int i = 0; i < level.x * level.y; ++i) smaller.push_back(texel());
   }
-  return texture;
+  return {"noise", {}, TexelBlocks(texels, smaller)};
 }
 
 // Whole numbers, edges, far outside, and how much a pixel sees: nothing to the whole texture, NaN and

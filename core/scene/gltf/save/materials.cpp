@@ -171,16 +171,18 @@ int GltfMaterialWriter::base_image(const Material& m, const MaterialMaps& maps) 
   const Texture *color = texture_of(maps.base_color), *alpha = texture_of(maps.alpha);
   if (!color && !alpha) return -1;
   if (color && alpha &&
-      !(lie_alike(maps.base_color, maps.alpha) && color->texels.size() == alpha->texels.size())) {
+      !(lie_alike(maps.base_color, maps.alpha) && color->size() == alpha->size())) {
     warnings_.add({file_, "material '" + m.name + "'",
                    "an alpha texture placed differently from the colour's is left out",
                    "its opacity is the same everywhere"});
     alpha = nullptr;
   }
-  Texture both = color ? *color : *alpha;
-  for (std::size_t i = 0; i < both.texels.pixels().size(); ++i) {
-    const glm::u8vec3 rgb = color ? glm::u8vec3(color->texels[i]) : glm::u8vec3(255);
-    both.texels[i] = glm::u8vec4(rgb, alpha ? alpha->texels[i][maps.alpha_channel] : std::uint8_t{255});
+  const Image<glm::u8vec4> colors = color ? color->image() : alpha->image();
+  const Image<glm::u8vec4> alphas = alpha ? alpha->image() : colors;
+  Texture both{(color ? color : alpha)->name, colors};
+  for (std::size_t i = 0; i < colors.pixels().size(); ++i) {
+    const glm::u8vec3 rgb = color ? glm::u8vec3(colors[i]) : glm::u8vec3(255);
+    both.texels[i] = glm::u8vec4(rgb, alpha ? alphas[i][maps.alpha_channel] : std::uint8_t{255});
   }
   return add_image(both);
 }
@@ -193,7 +195,7 @@ int GltfMaterialWriter::image_of(int texture) {
 
 int GltfMaterialWriter::add_image(const Texture& texture) {
   images_.push_back({{"name", texture.name},
-                     {"bufferView", add_view_(encode_png(texture.texels))},
+                     {"bufferView", add_view_(encode_png(texture.image()))},
                      {"mimeType", "image/png"}});
   return as_int(images_.size()) - 1;
 }
