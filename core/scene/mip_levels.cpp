@@ -134,8 +134,7 @@ class LevelWriter {
       side /= 2;
       const int width = texels_.width() >> k;
       for (int y = 0; y < side; ++y) {
-        glm::u8vec4* const to =
-            &levels_[first_[k] + as_size((block.y * side + y) * width + block.x * side)];
+        glm::u8vec4* const to = &levels_[first_[k] + as_size((block.y * side + y) * width + block.x * side)];
         const glm::vec4* const from = &values_[4 * y * side];
         glm::vec4* const means = &values_[y * side];
         for (int x = 0; x < side; ++x)  // in place: reads are ahead of writes

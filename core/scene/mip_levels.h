@@ -5,8 +5,8 @@
 
 namespace pinocchio {
 
-// Moves the textures' texels to their blocks, with smaller levels where maps interpolate; colour is averaged in linear
-// light. On all of the machine's threads. Phase "textures".
+// Moves the textures' texels to their blocks, with smaller levels where maps interpolate; colour is averaged
+// in linear light. On all of the machine's threads. Phase "textures".
 void finish_textures(MeshData& mesh, Progress* progress);
 
 }  // namespace pinocchio

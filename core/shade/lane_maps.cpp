@@ -73,8 +73,7 @@ TexturePlace texture_place(const Mesh& mesh, const TextureUse& use) {
 
 LaneTexture lane_texture(const Mesh& mesh, const TextureUse& use, bool is_color, unsigned maps) {
   const Texture& t = texture_of(mesh, use);
-  return {t.blocks.data(), is_color ? linear_from_srgb8().data() : nullptr,
-          maps};
+  return {t.blocks.data(), is_color ? linear_from_srgb8().data() : nullptr, maps};
 }
 
 LaneMapsOf::LaneMapsOf(const Mesh& mesh) {

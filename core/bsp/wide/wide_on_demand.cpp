@@ -11,8 +11,8 @@
 namespace pinocchio {
 namespace {
 
-// So many rays that the time they could have saved is the build's, 0.32 microseconds a triangle. A ray saves 0.1
-// microseconds in a small tree, 0.2 in one of 70,000 triangles, 1.5 in one of a million.
+// So many rays that the time they could have saved is the build's, 0.32 microseconds a triangle. A ray saves
+// 0.1 microseconds in a small tree, 0.2 in one of 70,000 triangles, 1.5 in one of a million.
 std::size_t enough_rays(const BspTree& tree) {
   const float triangles = as_float(tree.triangles.size());
   const float saved = std::max(0.1f, 0.2f * std::pow(triangles / 70000.0f, 0.75f));

@@ -17,9 +17,9 @@
 
 namespace pinocchio {
 
-// The levels of a texture, largest first, each half as large as the one before and the mean of it. Texels are in blocks of
-// 4 x 4, a cache line each, so that those below and above are as near as those beside; a level's sides are padded to whole
-// blocks.
+// The levels of a texture, largest first, each half as large as the one before and the mean of it. Texels are
+// in blocks of 4 x 4, a cache line each, so that those below and above are as near as those beside; a level's
+// sides are padded to whole blocks.
 class TexelBlocks {
  public:
   static constexpr int kSide = 4, kTexels = kSide * kSide;
@@ -39,8 +39,8 @@ class TexelBlocks {
   // A level's first texel, and the place of others behind it.
   [[nodiscard]] std::size_t first(int level) const;
   [[nodiscard]] static std::size_t place(int width, int x, int y) {
-    return as_size(y / kSide) * as_size((width + kSide - 1) / kSide * kTexels) + as_size(x / kSide * kTexels) +
-           as_size(y % kSide * kSide + x % kSide);
+    return as_size(y / kSide) * as_size((width + kSide - 1) / kSide * kTexels) +
+           as_size(x / kSide * kTexels) + as_size(y % kSide * kSide + x % kSide);
   }
   [[nodiscard]] const glm::u8vec4* data() const { return texels_.data(); }
 

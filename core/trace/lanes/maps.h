@@ -119,8 +119,8 @@ struct MapTexelLanes : MapTexels {
     for (vec4& texel : of) texel = vec4(Float(1.0f));
   }
 
-  [[gnu::noinline]] void read(const SceneArrays& scene, const LaneMaps& maps, const MapPoints& points, Int triangle,
-                              const Vec& weights, Mask lanes, unsigned wanted) {
+  [[gnu::noinline]] void read(const SceneArrays& scene, const LaneMaps& maps, const MapPoints& points,
+                              Int triangle, const Vec& weights, Mask lanes, unsigned wanted) {
     for (int i = 0; i < maps.count; ++i) {
       const TexturePlace& place = maps.places[i];
       if ((place.maps & wanted) == 0) continue;
@@ -143,7 +143,8 @@ struct MapTexelLanes : MapTexels {
         has_normal = true;
       }
       for (int k = 0; k < place.count; ++k)
-        if (const unsigned read = place.textures[k].maps & wanted; read != 0) set(texels_of(p.texel[k]), read, lanes);
+        if (const unsigned read = place.textures[k].maps & wanted; read != 0)
+          set(texels_of(p.texel[k]), read, lanes);
     }
   }
 
@@ -232,8 +233,8 @@ inline void set_material(const MaterialMaps& maps, const Material& plain, const 
 // The maps that a step reads (bit i: row i of kMapUses).
 struct MapsWanted {
   unsigned everywhere = 0;
-  // Where a point mirrors or transmits, which roughness, metal and coats decide; white elsewhere, so that at most too
-  // many shadow rays are worth their light.
+  // Where a point mirrors or transmits, which roughness, metal and coats decide; white elsewhere, so that at
+  // most too many shadow rays are worth their light.
   unsigned where_colored = 0;
 
   MapsWanted() = default;

@@ -84,17 +84,34 @@ template <bool kSampled>
   return incident_light(light.params, light.params.position, s.p_world);
 }
 
+// What glTF's model returns of the light where matt part and mirrored share are white, without coat and
+// sheen.
+inline Float light_of_white(Float alpha, const Incident& incident, const LaneSurface& s, Float n_dot_l) {
+  const Vec h = halfway(s.to_viewer, incident.to_light), off = cross(s.n_shading, h);
+  const Float least = select(Float(0.0f) < incident.density, Float(kLeastAlpha), Float(kLeastHighlight));
+  const Float widest = max(alpha, least);
+  const Float visible =
+      ggx_visibility(max(n_dot_l, Float(1e-7f)), cosine_of_view(s.n_shading, s.to_viewer), widest);
+  const Float highlight = ggx(dot(s.n_shading, h), dot(off, off), widest) * visible;
+  return largest(incident.radiance) * (n_dot_l * (Float(kOneByPi) + highlight));
+}
+
 // An upper bound of what the light adds to the point, in its brightest colour: Phong's terms with the
-// highlight at its greatest; what glTF's model returns.
+// highlight at its greatest; what glTF's model returns. Points with maps count as white, as not every step
+// reads their colours, and as lit if coat or sheen is above.
 inline Float most_light(const LaneMaterial& material, const Incident& incident, const LaneSurface& s,
                         Float lobe) {
+  const Mask mapped = Mask::from_bits(material.mapped), layered = Mask::from_bits(material.layered);
+  const Mask microfacet = Mask::from_bits(material.microfacet), exact = microfacet & ~mapped;
   const Float n_dot_l = max(dot(s.n_shading, incident.to_light), Float(0.0f));
-  const Float phong = largest(incident.radiance * (material.diffuse * n_dot_l + material.specular));
-  if (material.microfacet == 0) return phong;
-  const Mask microfacet = Mask::from_bits(material.microfacet);
-  return select(microfacet,
-                largest(reflected_light(material, incident, s.n_shading, s.to_viewer, microfacet, lobe)),
-                phong);
+  const Vec diffuse = select(mapped, Vec(1.0f), material.diffuse);
+  Float most = largest(incident.radiance * (diffuse * n_dot_l + material.specular));
+  if (const Mask white = microfacet & mapped; white.bits() != 0)
+    most = select(white, light_of_white(material.ggx_alpha, incident, s, n_dot_l), most);
+  if (exact.bits() != 0)
+    most = select(exact, largest(reflected_light(material, incident, s.n_shading, s.to_viewer, exact, lobe)),
+                  most);
+  return select(mapped & layered, Float(kInfinity), most);
 }
 
 // Lights the points of a packet: appends shadow rays and returns the light that needs none.

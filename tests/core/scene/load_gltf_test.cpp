@@ -271,8 +271,8 @@ TEST(LoadGltf, SpecularAndGlossinessAreAMattPartWithAMirroringLayer) {
   ASSERT_TRUE(maps.metallic_roughness.used());
   EXPECT_EQ(maps.surface.roughness, 1.0f);
   // The image is opaque: glossiness is its factor everywhere.
-  EXPECT_EQ(scene.mesh->textures[static_cast<std::size_t>(maps.metallic_roughness.texture)].image().at(0, 0).g,
-            64);
+  EXPECT_EQ(
+      scene.mesh->textures[static_cast<std::size_t>(maps.metallic_roughness.texture)].image().at(0, 0).g, 64);
 }
 
 TEST(LoadGltf, SparseAccessorsAreFilledIn) {

@@ -170,8 +170,7 @@ int GltfMaterialWriter::base_image(const Material& m, const MaterialMaps& maps) 
   };
   const Texture *color = texture_of(maps.base_color), *alpha = texture_of(maps.alpha);
   if (!color && !alpha) return -1;
-  if (color && alpha &&
-      !(lie_alike(maps.base_color, maps.alpha) && color->size() == alpha->size())) {
+  if (color && alpha && !(lie_alike(maps.base_color, maps.alpha) && color->size() == alpha->size())) {
     warnings_.add({file_, "material '" + m.name + "'",
                    "an alpha texture placed differently from the colour's is left out",
                    "its opacity is the same everywhere"});
