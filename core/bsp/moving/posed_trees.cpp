@@ -201,9 +201,9 @@ class Trees {
     trees_->still = std::make_shared<const BspTree>(build_tree(part, options_));
   }
 
-  // The part of a group's triangles that one thread places.
+  // Triangles that one thread places: of the group that is number `moved` of those that moved.
   struct Chunk {
-    std::size_t group, first, last;
+    std::size_t moved, first, last;
     bool any_flat;  // a triangle has no area
   };
 
@@ -234,6 +234,8 @@ class Trees {
     };
     std::vector<std::optional<Motion>> motions(motion_->groups.size());
     std::vector<std::shared_ptr<StoredTriangles>> stored(motion_->groups.size());
+    std::vector<Chunk> whole(moved.size()), parts;
+    // Small groups at once: to wake the other threads takes as long as to place a thousand triangles.
     for_each(moved.size(), [&](std::size_t i) {
       MovingGroup& group = motion_->groups[moved[i]];
       const glm::mat4 root = group.root < 0 ? glm::mat4(1.0f) : world[group.root];
@@ -245,27 +247,26 @@ class Trees {
       }
       stored[moved[i]] = std::make_shared<StoredTriangles>();
       stored[moved[i]]->test = options_.triangle_test;
-      stored[moved[i]]->make_room(group.kept->order.size());
+      const std::vector<std::uint32_t>& order = group.kept->order;
+      stored[moved[i]]->make_room(order.size());
+      whole[i] = {i, 0, order.size(), false};
+      if (order.size() <= kPosedChunk) place(order, whole[i], *stored[moved[i]]);
     });
-    std::vector<Chunk> chunks;
-    for (const std::size_t g : moved)
-      for (std::size_t first = 0, n = motion_->groups[g].kept->order.size(); first < n; first += kPosedChunk)
-        chunks.push_back({g, first, std::min(n, first + kPosedChunk), false});
-    for_each(chunks.size(), [&](std::size_t i) {
-      place(motion_->groups[chunks[i].group].kept->order, chunks[i], *stored[chunks[i].group]);
+    for (const Chunk& chunk : whole)
+      if (chunk.last > kPosedChunk)
+        for (std::size_t first = 0; first < chunk.last; first += kPosedChunk)
+          parts.push_back({chunk.moved, first, std::min(chunk.last, first + kPosedChunk), false});
+    for_each(parts.size(), [&](std::size_t i) {
+      const std::size_t g = moved[parts[i].moved];
+      place(motion_->groups[g].kept->order, parts[i], *stored[g]);
     });
-    for (std::size_t i = 0; i < chunks.size();) {
-      MovingGroup& group = motion_->groups[chunks[i].group];
-      bool any_flat = false;
-      for (const std::size_t of = chunks[i].group; i < chunks.size() && chunks[i].group == of; ++i)
-        any_flat |= chunks[i].any_flat;
-      group.bounds = any_flat ? bounds_with_area(group) : bounds_of(group);
-    }
-    for (const std::size_t g : moved) {
-      MovingGroup& group = motion_->groups[g];
+    for (const Chunk& part : parts) whole[part.moved].any_flat |= part.any_flat;
+    for (std::size_t i = 0; i < moved.size(); ++i) {
+      MovingGroup& group = motion_->groups[moved[i]];
+      group.bounds = whole[i].any_flat ? bounds_with_area(group) : bounds_of(group);
       group.placed.tree = group.kept->tree;
-      group.placed.triangles = std::move(stored[g]);
-      if (!group.bounds.empty()) motions[g]->describe(group.bounds, group.placed);
+      group.placed.triangles = std::move(stored[moved[i]]);
+      if (!group.bounds.empty()) motions[moved[i]]->describe(group.bounds, group.placed);
     }
   }
 
