@@ -17,7 +17,10 @@ constexpr double kMostError = 1e-3;
 // Least determinant of a matrix whose greatest entry is 1: below it, a tree has nearly lost a dimension.
 constexpr double kFlat = 1e-6;
 
-using Quad [[gnu::vector_size(32)]] = double;
+using Quad [[gnu::vector_size(16)]] = float;
+Quad quad(const glm::vec3& v) {
+  return Quad{v.x, v.y, v.z, 0.0f};
+}
 
 bool is_flat(const glm::dmat3& m) {
   double most = 0.0;
@@ -64,16 +67,15 @@ std::optional<Motion> motion_since(const KeptTree& kept, std::span<const std::sp
   if (is_flat(glm::dmat3(now)) || is_flat(glm::dmat3(kept.world_from_root))) return std::nullopt;
   Motion motion{kept.world_from_root * glm::inverse(now), glm::dvec3(0.0)};
   if (is_flat(glm::dmat3(motion.tree_from_world))) return std::nullopt;
-  const glm::dmat4& m = motion.tree_from_world;
-  const Quad x{m[0].x, m[0].y, m[0].z, 0.0}, y{m[1].x, m[1].y, m[1].z, 0.0}, z{m[2].x, m[2].y, m[2].z, 0.0},
-      shift{m[3].x, m[3].y, m[3].z, 0.0};
-  Quad most{0.0, 0.0, 0.0, 0.0}, sum{0.0, 0.0, 0.0, 0.0};
+  const glm::mat4 m(motion.tree_from_world);
+  const Quad x = quad(glm::vec3(m[0])), y = quad(glm::vec3(m[1])), z = quad(glm::vec3(m[2])),
+             shift = quad(glm::vec3(m[3]));
+  Quad most{}, sum{};
   const glm::vec3* built = kept.vertices.data();
   for (const std::span<const glm::vec3> piece : pieces)
     for (const glm::vec3& p : piece) {
-      const Quad off = x * as_double(p.x) + y * as_double(p.y) + z * as_double(p.z) + shift -
-                       Quad{built->x, built->y, built->z, 0.0};
-      const Quad size = off < 0.0 ? -off : off;
+      const Quad off = x * p.x + y * p.y + z * p.z + shift - quad(*built);
+      const Quad size = off < 0.0f ? -off : off;
       most = size > most ? size : most;
       sum += size;  // NaN stays
       ++built;
