@@ -26,9 +26,13 @@ std::vector<WholeFrame> measure_frames(const Scene& scene, const Tracer& tracer,
   const TextureSamples textures(scene, tracer, view, sets);
   const auto single = embree.single(), packets = embree.packets();
 
+  // As the engine has it, where the mask is not kept.
+  const float cutoff = kThroughputCutoff / as_float(std::max<std::size_t>(casting_lights(scene).size(), 1));
+
   std::vector<WholeFrame> frames;
   for (Workers* workers : on) {
-    const TraceJob job{scene, tracer, *workers, view};
+    TraceJob job{scene, tracer, *workers, view};
+    job.options.light_cutoff = cutoff;
     Drawing raytrace(job, size), hybrid(job, size, &raytrace.ids);
     std::vector<double> raytrace_s, hybrid_s, textures_s;
     std::vector<Times> theirs(sets.size());

@@ -43,7 +43,7 @@ void cross_glass(const Bounce& bounce, const std::uint32_t* holes, bool ends, Ra
       const Corners corners(bounce.scene, triangle, met);
       LaneSurface s = surface_of(corners, origin, direction, bounce.offset);
       LaneMaterial m(bounce.scene, corners.material, met);
-      const MapsWanted wanted = m.transmits != 0 ? MapsWanted(true, true, false, false) : MapsWanted();
+      const MapsWanted wanted = m.transmits != 0 ? MapsWanted(true, true, true, false, false) : MapsWanted();
       if (m.mapped != 0) apply_maps(bounce, corners, triangle, origin, direction, Float(0.0f), wanted, s, m);
       if (m.microfacet != 0) turn_normals_to_viewer(s, m);
       const Mask hole = met & ~(Int::load(holes + i) == Int(0u));

@@ -230,41 +230,52 @@ inline void set_material(const MaterialMaps& maps, const Material& plain, const 
   m.transmits = (m.transmits & ~bits) | any_component(point.transmittance);
 }
 
-// The maps that a step reads (bit i: row i of kMapUses).
+// The maps that a step reads (bit i: row i of kMapUses), and where: others decide whether a point mirrors or
+// transmits, and whether colours change what.
 struct MapsWanted {
-  unsigned everywhere = 0;
-  // Where a point mirrors or transmits, which roughness, metal and coats decide; white elsewhere, so that at
-  // most too many shadow rays are worth their light.
-  unsigned where_colored = 0;
+  unsigned everywhere = 0, where_mirrored = 0, where_colored = 0;
 
   MapsWanted() = default;
-  // colors: the step returns light of the points themselves; else it may follow mirrored light.
-  MapsWanted(bool colors, bool reads_material, bool adds_ambient, bool ambient_light) {
+  // colors: the step returns light of the points themselves. mirrored: it follows what they mirror. facing:
+  // it asks which of them face lights.
+  MapsWanted(bool colors, bool mirrored, bool facing, bool adds_ambient, bool ambient_light) {
     constexpr unsigned kOfAmbient = 1u << kEmissive, kOfAmbientLight = 1u << kOcclusion;
     constexpr unsigned kColors = 1u << kBaseColor | 1u << kSpecular | 1u << kSpecularColor;
-    everywhere = 1u << kNormal;
-    if (reads_material) everywhere |= ~(kOfAmbient | kOfAmbientLight);
+    everywhere = colors || mirrored || facing ? 1u << kNormal : 0u;
+    if (colors || mirrored) everywhere |= ~(kOfAmbient | kOfAmbientLight);
     if (adds_ambient) everywhere |= kOfAmbient;
     if (ambient_light) everywhere |= kOfAmbientLight;
     if (colors) return;
     where_colored = everywhere & kColors;
-    everywhere &= ~kColors;
+    if (!facing) where_mirrored = everywhere & 1u << kNormal;
+    everywhere &= ~(where_colored | where_mirrored);
   }
 
+  [[nodiscard]] bool any() const { return (everywhere | where_mirrored) != 0; }
   [[nodiscard]] unsigned of_material() const { return (everywhere | where_colored) & ~(1u << kNormal); }
 };
 
-// The points whose colours change what they mirror or transmit.
-inline Mask colored(const MaterialMaps& maps, const Material& plain, const MapTexelLanes& texels) {
-  if (!maps.from_gltf) return Mask::from_bits(0);
-  const MapValues v = texels.values();
-  const MaterialPoint whitest = gltf_material(maps, plain, v, texels);
-  const Float zero(0.0f);
-  const Mask transmits = zero < whitest.transmittance.x + whitest.transmittance.y + whitest.transmittance.z;
-  const bool dielectrics = maps.specular.used() || maps.specular_color.used();
-  const Mask colors = dielectrics ? Mask::from_bits(~0u) : zero < Float(maps.surface.metallic) * v.metallic;
-  return transmits | (whitest.fresnel & colors);
-}
+// The points that mirror or transmit, and of them those whose colours change it.
+struct MirroringPoints {
+  Mask all, colored;
+
+  MirroringPoints(const MaterialMaps& maps, const Material& plain, const MapTexelLanes& texels, Mask lanes) {
+    if (!maps.from_gltf) {
+      all =
+          any_component(plain.reflectance) || any_component(plain.transmittance) ? lanes : Mask::from_bits(0);
+      colored = Mask::from_bits(0);
+      return;
+    }
+    const MapValues v = texels.values();
+    const MaterialPoint whitest = gltf_material(maps, plain, v, texels);
+    const Vec& passed = whitest.transmittance;
+    const Mask transmits = lanes & (Float(0.0f) < passed.x + passed.y + passed.z);
+    all = transmits | (lanes & whitest.fresnel);
+    const bool dielectrics = maps.specular.used() || maps.specular_color.used();
+    colored =
+        dielectrics ? all : transmits | (all & (Float(0.0f) < Float(maps.surface.metallic) * v.metallic));
+  }
+};
 
 // Not inlined: it is large, and most packets have no maps.
 [[gnu::noinline]] void apply_maps(const Bounce& bounce, const Corners& corners, Int triangle,
@@ -279,16 +290,18 @@ inline Mask colored(const MaterialMaps& maps, const Material& plain, const MapTe
     const LaneMaps& lane_maps = scene.maps[plain.maps];
     const MaterialMaps& maps = *lane_maps.maps;
     MapTexelLanes texels;
-    texels.read(scene, lane_maps, points, triangle, s.weights, same, wanted.everywhere);
-    if (texels.has_normal) {
+    const auto read = [&](Mask lanes, unsigned of) {
+      if (lanes.bits() != 0) texels.read(scene, lane_maps, points, triangle, s.weights, lanes, of);
+      if ((of & 1u << kNormal) == 0 || !texels.has_normal) return;
       VertexQuad tangent{Vec(Float(0.0f)), Float(0.0f)};
-      if (scene.tangents) tangent = weighted_quad(scene, scene.tangents, triangle, s.weights, same);
+      if (scene.tangents) tangent = weighted_quad(scene, scene.tangents, triangle, s.weights, lanes);
       const Vec n = side * mapped_normal(side * n_vertices, tangent.xyz, tangent.w, points.ab, points.ac,
                                          texels.normal_ab, texels.normal_ac, vec3(texels.of[kNormal]),
                                          maps.normal_scale);
-      s.n_shading = select(same, n, s.n_shading);
-      if (maps.coat_is_mapped && has_layers(maps)) m.coat_normal = select(same, n, m.coat_normal);
-    }
+      s.n_shading = select(lanes, n, s.n_shading);
+      if (maps.coat_is_mapped && has_layers(maps)) m.coat_normal = select(lanes, n, m.coat_normal);
+    };
+    read(same, wanted.everywhere);
     if (maps.blends()) {
       const Float alpha = clamp(alpha_at(scene, lane_maps, triangle, s.weights, same), 0.0f, 1.0f);
       const Mask blends = same & (alpha < Float(1.0f));
@@ -296,9 +309,11 @@ inline Mask colored(const MaterialMaps& maps, const Material& plain, const MapTe
       m.blends |= blends.bits();
     }
     if (wanted.of_material() == 0) return;
-    if (wanted.where_colored != 0)
-      if (const Mask lanes = same & colored(maps, plain, texels); lanes.bits() != 0)
-        texels.read(scene, lane_maps, points, triangle, s.weights, lanes, wanted.where_colored);
+    if (wanted.where_colored != 0) {
+      const MirroringPoints mirroring(maps, plain, texels, same);
+      read(mirroring.all, wanted.where_mirrored);
+      read(mirroring.colored, wanted.where_colored);
+    }
     MapValues v = texels.values();
     v.occlusion = Float(1.0f) + Float(maps.occlusion_strength) * (v.occlusion - Float(1.0f));
     if (maps.vertex_colors && scene.colors)

@@ -84,34 +84,17 @@ template <bool kSampled>
   return incident_light(light.params, light.params.position, s.p_world);
 }
 
-// What glTF's model returns of the light where matt part and mirrored share are white, without coat and
-// sheen.
-inline Float light_of_white(Float alpha, const Incident& incident, const LaneSurface& s, Float n_dot_l) {
-  const Vec h = halfway(s.to_viewer, incident.to_light), off = cross(s.n_shading, h);
-  const Float least = select(Float(0.0f) < incident.density, Float(kLeastAlpha), Float(kLeastHighlight));
-  const Float widest = max(alpha, least);
-  const Float visible =
-      ggx_visibility(max(n_dot_l, Float(1e-7f)), cosine_of_view(s.n_shading, s.to_viewer), widest);
-  const Float highlight = ggx(dot(s.n_shading, h), dot(off, off), widest) * visible;
-  return largest(incident.radiance) * (n_dot_l * (Float(kOneByPi) + highlight));
-}
-
 // An upper bound of what the light adds to the point, in its brightest colour: Phong's terms with the
-// highlight at its greatest; what glTF's model returns. Points with maps count as white, as not every step
-// reads their colours, and as lit if coat or sheen is above.
+// highlight at its greatest; what glTF's model returns. Of points without maps, which not every step reads.
 inline Float most_light(const LaneMaterial& material, const Incident& incident, const LaneSurface& s,
                         Float lobe) {
-  const Mask mapped = Mask::from_bits(material.mapped), layered = Mask::from_bits(material.layered);
-  const Mask microfacet = Mask::from_bits(material.microfacet), exact = microfacet & ~mapped;
   const Float n_dot_l = max(dot(s.n_shading, incident.to_light), Float(0.0f));
-  const Vec diffuse = select(mapped, Vec(1.0f), material.diffuse);
-  Float most = largest(incident.radiance * (diffuse * n_dot_l + material.specular));
-  if (const Mask white = microfacet & mapped; white.bits() != 0)
-    most = select(white, light_of_white(material.ggx_alpha, incident, s, n_dot_l), most);
-  if (exact.bits() != 0)
-    most = select(exact, largest(reflected_light(material, incident, s.n_shading, s.to_viewer, exact, lobe)),
-                  most);
-  return select(mapped & layered, Float(kInfinity), most);
+  const Float phong = largest(incident.radiance * (material.diffuse * n_dot_l + material.specular));
+  const Mask microfacet = Mask::from_bits(material.microfacet & ~material.mapped);
+  if (microfacet.bits() == 0) return phong;
+  return select(microfacet,
+                largest(reflected_light(material, incident, s.n_shading, s.to_viewer, microfacet, lobe)),
+                phong);
 }
 
 // Lights the points of a packet: appends shadow rays and returns the light that needs none.
@@ -119,6 +102,9 @@ template <bool kSampled>
 inline Vec light_points(const Bounce& bounce, const Corners& corners, const LaneSurface& s,
                         const LaneMaterial& m, const Vec& throughput, const LaneLobe& lobe,
                         const SampledPixel* sampling, Int pixel, Mask lanes) {
+  // Where the mask is not kept, a ray is fired from a point with maps also if its mapped normal faces away.
+  const bool cuts = bounce.visible && bounce.options->light_cutoff > 0.0f;
+  const unsigned mapped = cuts ? m.mapped : 0;
   ShadowStarts starts(bounce.options->terminator, corners, s);
   Vec sum(Float(0.0f)), unshadowed(Float(0.0f));
   if (bounce.adds_ambient) sum = phong_ambient(m, bounce.ambient_light);
@@ -128,13 +114,15 @@ inline Vec light_points(const Bounce& bounce, const Corners& corners, const Lane
     const bool apart = kSampled && bounce.sampled != 0 && light.has_size;
     if (apart && bounce.points) unshadowed = unshadowed + unshadowed_light(light.params, s, m);
     const Float counted = light.slot < 0 ? Float(0.0f) : lobe.counted;  // lobes look for casting lights
-    Mask lit = lanes & starts.faces_light(incident.to_light) & (incident.radiance != Vec(0.0f));
-    if (bounce.visible && light.slot >= 0 && bounce.options->light_cutoff > 0.0f)
-      lit = lit & ~(most_light(m, incident, s, counted) < Float(bounce.options->light_cutoff));
+    Mask lit = lanes & starts.faces_light(incident.to_light, Mask::from_bits(mapped)) &
+               (incident.radiance != Vec(0.0f));
+    if (const Mask plain = lit & ~Mask::from_bits(mapped); cuts && light.slot >= 0 && plain.bits() != 0)
+      lit = lit & ~(plain & (most_light(m, incident, s, counted) < Float(bounce.options->light_cutoff)));
     if (lit.bits() == 0) continue;
     Vec term(Float(0.0f));
     if (bounce.adds_light || apart || bounce.tints)
       term = reflected_light(m, incident, s.n_shading, s.to_viewer, lit, counted);
+    if (mapped != 0) term = select(Float(0.0f) < dot(s.n_shading, incident.to_light), term, Vec(0.0f));
     if (bounce.options->terminator == Terminator::smoothed)
       term = term * terminator_factor(s.n_shading, s.n_geometric, incident.to_light);
     if (apart && light.slot < 0) {
@@ -195,11 +183,12 @@ template <bool kSampled>
 void bounce_packets(const Bounce& bounce, const RayQueue& rays) {
   const bool colors = bounce.adds_light || bounce.adds_ambient || bounce.environment || bounce.prefiltered ||
                       bounce.diffuse || bounce.sampled != 0 || bounce.points || bounce.tints;
-  const bool reads_material =
-      colors || bounce.mirrored || (bounce.visible && bounce.options->light_cutoff > 0.0f);
+  const bool cuts = bounce.visible && bounce.options->light_cutoff > 0.0f;
+  const bool reads_material = colors || bounce.mirrored || cuts;
   const MapsWanted wanted(
-      colors, reads_material, bounce.adds_ambient,
+      colors, bounce.mirrored != nullptr, !cuts, bounce.adds_ambient,
       bounce.prefiltered || (bounce.adds_ambient && bounce.ambient_light != glm::vec3(0.0f)));
+  const bool reads_maps = bounce.scene.maps && wanted.any();
   for (std::size_t i = 0; i < kTrianglesAhead; i += kWidth) fetch_triangles(bounce.scene, rays, i);
   for (std::size_t i = 0; i < kCornersAhead; i += kWidth) fetch_corners(bounce.scene, rays, i);
   for (std::size_t i = 0; i < rays.size; i += kWidth) {
@@ -213,14 +202,16 @@ void bounce_packets(const Bounce& bounce, const RayQueue& rays) {
     LaneMaterial m(bounce.scene, corners.material,
                    reads_material || bounce.scene.maps ? lanes : Mask::from_bits(0));
     if (m.layered != 0) m.coat_normal = s.n_shading;
+    s.n_vertices = s.n_shading;
     s.width = Float(0.0f);
     if (bounce.footprint->angle > 0.0f) {
       const Float before =
           bounce.visible ? Float(bounce.footprint->start_width) : Float::load(rays.width + i);
       const Vec way = s.p_world - origin;
       s.width = before + Float(bounce.footprint->angle) * sqrt(dot(way, way));
-      if (m.mapped != 0) apply_maps(bounce, corners, triangle, origin, direction, before, wanted, s, m);
-    } else if (m.mapped != 0) {
+      if (reads_maps && m.mapped != 0)
+        apply_maps(bounce, corners, triangle, origin, direction, before, wanted, s, m);
+    } else if (reads_maps && m.mapped != 0) {
       apply_maps(bounce, corners, triangle, origin, direction, s.width, wanted, s, m);
     }
     Vec throughput = bounce.visible ? Vec(Float(1.0f)) : Vec::load(rays.light, i);
@@ -287,7 +278,7 @@ void bounce_rays(const Bounce& bounce, const RayQueue& rays) {
 void visible_points(const Bounce& bounce, const glm::vec3& axis, const RayQueue& rays,
                     const SeenColumns& to) {
   const bool reads_material = to.albedo[0] != nullptr;
-  const MapsWanted wanted(true, reads_material, false, false);
+  const MapsWanted wanted(reads_material, false, true, false, false);
   const bool by_distance = axis == glm::vec3(0.0f);
   for (std::size_t i = 0; i < rays.size; i += kWidth) {
     fetch_triangles(bounce.scene, rays, i + kTrianglesAhead);

@@ -32,6 +32,7 @@ struct LaneSurface {
   Vec p_world;            // p_exact rounded
   Vec n_geometric;        // unit, towards the viewer
   Vec n_shading;          // unit, on n_geometric's side
+  Vec n_vertices;         // the same without maps, in a step's points
   Vec to_viewer;          // unit
   Mask leaving;           // the ray met the surface from behind
   Float offset;           // how far off the surface a new ray starts

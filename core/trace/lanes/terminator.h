@@ -17,17 +17,21 @@ class ShadowStarts {
   }
 
   // Whether a shadow ray is fired that way. Decides which of the next origins() are lifted.
-  [[nodiscard, gnu::always_inline]] Mask faces_light(const Vec& to_light) {
+  // by_geometry: points for which it does not count where their mapped normal faces.
+  [[nodiscard, gnu::always_inline]] Mask faces_light(const Vec& to_light,
+                                                     Mask by_geometry = Mask::from_bits(0)) {
     lifted_ = 0;
-    const Mask usual = PINOCCHIO_LANES::faces_light(s_.n_shading, s_.n_geometric, to_light);
-    if (!lifts(method_)) return usual;
     const Float zero(0.0f);
-    const Mask turned = (zero < dot(s_.n_shading, to_light)) & ~(zero < dot(s_.n_geometric, to_light));
+    const Mask towards = zero < dot(s_.n_geometric, to_light);
+    const Mask usual = ((zero < dot(s_.n_shading, to_light)) | by_geometry) & towards;
+    if (!lifts(method_)) return usual;
+    const Vec n = select(by_geometry, s_.n_vertices, s_.n_shading);
+    const Mask turned = (zero < dot(n, to_light)) & ~towards;
     if (method_ == Terminator::turned_away) {
       if (turned.bits() == 0) return usual;
       if (!found_) find_lift();
     }
-    const Mask kept = turned & has_lift_ & faces_light_lifted(s_.n_shading, n_vertices_, to_light);
+    const Mask kept = turned & has_lift_ & faces_light_lifted(n, n_vertices_, to_light);
     lifted_ = (method_ == Terminator::displaced ? kept | (usual & has_lift_) : kept).bits();
     return usual | kept;
   }
