@@ -7,6 +7,7 @@
 #include "core/base/large_memory.h"
 #include "core/image/tonemap.h"
 #include "core/parallel/workers.h"
+#include "core/scene/least_green.h"
 #include "pinocchio/conversion.h"
 
 namespace pinocchio {
@@ -154,9 +155,9 @@ class LevelWriter {
   std::array<glm::vec4, std::size_t{1} << (2 * kMostHalvings)> values_{};
 };
 
-// For each texture: whether its smaller levels are used, and whether it is colour.
+// For each texture: whether its smaller levels are used, whether it is colour, and whether it holds roughness.
 struct Needed {
-  bool levels = false, is_color = false;
+  bool levels = false, is_color = false, roughness = false;
 };
 
 std::vector<Needed> needed_of(const MeshData& mesh) {
@@ -168,6 +169,7 @@ std::vector<Needed> needed_of(const MeshData& mesh) {
       Needed& n = needed[use.texture];
       n.levels = true;
       n.is_color = n.is_color || is_color;
+      n.roughness = n.roughness || member == &MaterialMaps::metallic_roughness;
     }
   return needed;
 }
@@ -190,6 +192,7 @@ void finish(Texture& texture, const Needed& needed) {
       writer.append(level);
     }
   }
+  if (needed.roughness) find_least_green(texture);
   texture.blocks = TexelBlocks(texture.texels, writer.levels());
   texture.texels = {};
 }

@@ -77,6 +77,13 @@ struct MapCoordinates {
   }
 };
 
+// Zero where the texture is not filtered.
+inline vec2 uv_to_neighbour(const MapPoints& points, const Vec& moved, const TexturePlace& place,
+                            const MapCoordinates& at) {
+  if (points.filters && place.levels > 1) return uv_change(moved, at.ab, at.ac);
+  return {Float(0.0f), Float(0.0f)};
+}
+
 // A vertex's four numbers (colours, tangents) at the points.
 struct VertexQuad {
   Vec xyz;
@@ -125,13 +132,11 @@ struct MapTexelLanes : MapTexels {
       const TexturePlace& place = maps.places[i];
       if ((place.maps & wanted) == 0) continue;
       const MapCoordinates at(scene, place, triangle, weights, lanes);
+      const vec2 x = uv_to_neighbour(points, points.moved_x, place, at),
+                 y = uv_to_neighbour(points, points.moved_y, place, at);
       TexturePoints p;
       at.uv.x.store(p.uv[0]);
       at.uv.y.store(p.uv[1]);
-      const bool filters = points.filters && place.levels > 1;
-      const vec2 none{Float(0.0f), Float(0.0f)};
-      const vec2 x = filters ? uv_change(points.moved_x, at.ab, at.ac) : none;
-      const vec2 y = filters ? uv_change(points.moved_y, at.ab, at.ac) : none;
       x.x.store(p.change_x[0]);
       x.y.store(p.change_x[1]);
       y.x.store(p.change_y[0]);
@@ -277,6 +282,26 @@ struct MirroringPoints {
   }
 };
 
+// The points that are too rough to mirror, wherever a quick look at the neighbourhood says so.
+inline Mask surely_rough(const SceneArrays& scene, const LaneMaps& lane_maps, const MapPoints& points,
+                         Int triangle, const Vec& weights, Mask lanes) {
+  const MaterialMaps& maps = *lane_maps.maps;
+  const float roughness = maps.surface.roughness;
+  if (!maps.from_gltf || has_layers(maps) || maps.surface.transmission > 0.0f) return Mask::from_bits(0);
+  for (int i = 0; i < lane_maps.count; ++i) {
+    const TexturePlace& place = lane_maps.places[i];
+    for (int k = 0; k < place.count; ++k) {
+      const LaneTexture& texture = place.textures[k];
+      if ((texture.maps >> kMetallicRoughness & 1u) == 0 || !texture.least_green[0]) continue;
+      const MapCoordinates at(scene, place, triangle, weights, lanes);
+      const LaneFootprints footprints(place, uv_to_neighbour(points, points.moved_x, place, at),
+                                      uv_to_neighbour(points, points.moved_y, place, at), lanes);
+      return all_green(place, texture, at.uv, footprints, kRoughestMirror / roughness, lanes);
+    }
+  }
+  return Mask::from_bits(0);
+}
+
 // Not inlined: it is large, and most packets have no maps.
 [[gnu::noinline]] void apply_maps(const Bounce& bounce, const Corners& corners, Int triangle,
                                   const Vec& origin, const Vec& direction, Float width,
@@ -301,7 +326,16 @@ struct MirroringPoints {
       s.n_shading = select(lanes, n, s.n_shading);
       if (maps.coat_is_mapped && has_layers(maps)) m.coat_normal = select(lanes, n, m.coat_normal);
     };
-    read(same, wanted.everywhere);
+    const Mask rough = wanted.where_mirrored != 0
+                           ? surely_rough(scene, lane_maps, points, triangle, s.weights, same)
+                           : Mask::from_bits(0);
+    if ((same & ~rough).bits() == 0 && !maps.blends()) {
+      m.reflectance = select(same, Vec(0.0f), m.reflectance);
+      m.reflects &= ~same.bits();
+      m.fresnel &= ~same.bits();
+      return;
+    }
+    read(same & ~rough, wanted.everywhere);
     if (maps.blends()) {
       const Float alpha = clamp(alpha_at(scene, lane_maps, triangle, s.weights, same), 0.0f, 1.0f);
       const Mask blends = same & (alpha < Float(1.0f));

@@ -143,23 +143,62 @@ struct Taps {
   }
 };
 
+// How much of a texture's largest level a pixel sees, at the points of some lanes.
+struct LaneFootprints {
+  Mask filtered;
+  Float longer;            // texels
+  Float taps;              // 1 where the texture is not filtered
+  Float along_u, along_v;  // the longer side
+
+  LaneFootprints(const TexturePlace& place, const vec2& x, const vec2& y, Mask lanes) {
+    const Float one(1.0f), zero(0.0f), width(place.level[0].width), height(place.level[0].height);
+    const Float x0 = x.x * width, x1 = x.y * height, y0 = y.x * width, y1 = y.y * height;
+    const Float xx = x0 * x0 + x1 * x1, yy = y0 * y0 + y1 * y1;
+    longer = sqrt(max(yy, xx));
+    filtered = place.levels > 1 ? lanes & (one < longer) & (longer < Float(1.0e18f)) & (zero < xx + yy)
+                                : Mask::from_bits(0);
+    const Float shorter = max(abs(x0 * y1 - x1 * y0) / longer, one);
+    const Float many = -floor(-(longer / shorter));
+    taps = select(filtered, min(max(many, one), Float(8.0f)), one);
+    along_u = select(filtered, select(yy < xx, x.x, y.x), zero);
+    along_v = select(filtered, select(yy < xx, x.y, y.y), zero);
+  }
+};
+
+// The lanes whose texels, of all that are read there, have at least this green.
+inline Mask all_green(const TexturePlace& place, const LaneTexture& texture, const vec2& uv,
+                      const LaneFootprints& footprints, float least, Mask lanes) {
+  if (!texture.least_green[0]) return Mask::from_bits(0);
+  const Float width(place.level[0].width), height(place.level[0].height);
+  const Float x = wrapped_texel(floor(within_period(uv.x, place.wrap_u) * width), width, place.wrap_u);
+  const Float y = wrapped_texel(floor(within_period(uv.y, place.wrap_v) * height), height, place.wrap_v);
+  // Half of the longer side, and one and a half texels of a level that is at most twice as coarse as its
+  // taps. Sides that are no powers of two make a level's texels a little larger.
+  const Float reach =
+      select(footprints.filtered,
+             Float(0.5f) * footprints.longer +
+                 Float(3.4f) * max(footprints.longer / footprints.taps, Float(1.0f)) + Float(1.0f),
+             Float(2.0f));
+  Mask all = Mask::from_bits(0);
+  for (std::size_t k = 0; k < Texture::kLeastSides.size(); ++k) {
+    const float side = as_float(Texture::kLeastSides[k]);
+    const Mask asked = lanes & ~all & (reach <= Float(side));
+    if (asked.bits() == 0) continue;
+    const std::uint32_t squares = (as_uint32(place.level[0].width) + as_uint32(side) - 1) / as_uint32(side);
+    const Int square =
+        to_int(floor(y * Float(1.0f / side))) * Int(squares) + to_int(floor(x * Float(1.0f / side)));
+    all = all | (asked & (Float(least) <= from_bits(gather(texture.least_green[k], square, asked))));
+  }
+  return all;
+}
+
 [[gnu::noinline]] void sample_textures(const TexturePlace& place, unsigned wanted, unsigned maps,
                                        TexturePoints& p) {
   const Mask lanes = Mask::from_bits(wanted);
-  const Float one(1.0f), zero(0.0f), width(place.level[0].width), height(place.level[0].height);
-  const Float xu = Float::load(p.change_x[0]), xv = Float::load(p.change_x[1]);
-  const Float yu = Float::load(p.change_y[0]), yv = Float::load(p.change_y[1]);
-  const Float x0 = xu * width, x1 = xv * height, y0 = yu * width, y1 = yv * height;
-  const Float xx = x0 * x0 + x1 * x1, yy = y0 * y0 + y1 * y1;
-  const Float longer = sqrt(max(yy, xx));
-  const Mask filtered = place.levels > 1
-                            ? lanes & (one < longer) & (longer < Float(1.0e18f)) & (zero < xx + yy)
-                            : Mask::from_bits(0);
-  const Float shorter = max(abs(x0 * y1 - x1 * y0) / longer, one);
-  const Float many = -floor(-(longer / shorter));
-  const Float taps = select(filtered, min(max(many, one), Float(8.0f)), one);
-  const Float along_u = select(filtered, select(yy < xx, xu, yu), zero);
-  const Float along_v = select(filtered, select(yy < xx, xv, yv), zero);
+  const LaneFootprints footprints(place, vec2(Float::load(p.change_x[0]), Float::load(p.change_x[1])),
+                                  vec2(Float::load(p.change_y[0]), Float::load(p.change_y[1])), lanes);
+  const auto& [filtered, longer, taps, along_u, along_v] = footprints;
+  const Float zero(0.0f);
 
   alignas(64) float texels_apart[kMostLanes];
   (longer / taps).store(texels_apart);
