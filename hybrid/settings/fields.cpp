@@ -208,8 +208,8 @@ constexpr std::array kTable{
     field<&S::light_cutoff>(
         G::rays, "light_cutoff", from_to(0, 1),
         "0 where the mask itself is kept, else half a step of an 8-bit picture",
-        "a shadow ray is not fired where it would bring its visible point less light than "
-        "this, linear, if textures were white; 0: all are fired",
+        "a shadow ray is not fired where it would bring its visible point, if that has no textures, "
+        "less light than this, linear; 0: all are fired",
         false, "least_light"),
     field<&S::coverage>(G::rays, "coverage", yes_or_no(), "false",
                         "alpha counts what surfaces that blend let through; the CPU draws alone"),

@@ -182,7 +182,7 @@ inline void fetch_corners(const SceneArrays& scene, const RayQueue& rays, std::s
 template <bool kSampled>
 void bounce_packets(const Bounce& bounce, const RayQueue& rays) {
   const bool colors = bounce.adds_light || bounce.adds_ambient || bounce.environment || bounce.prefiltered ||
-                      bounce.diffuse || bounce.sampled != 0 || bounce.points || bounce.tints;
+                      bounce.diffuse || bounce.sampled != 0 || bounce.points || bounce.tints || bounce.lobes;
   const bool cuts = bounce.visible && bounce.options->light_cutoff > 0.0f;
   const bool reads_material = colors || bounce.mirrored || cuts;
   const MapsWanted wanted(
