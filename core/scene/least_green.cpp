@@ -61,7 +61,7 @@ void find_least_green(Texture& texture) {
   Bytes green(size);
   for (std::size_t i = 0; i < green.pixels().size(); ++i) green[i] = texture.texels[i].g;
   for (std::size_t k = 0; k < texture.least_green.size(); ++k) {
-    const int side = Texture::kLeastSides[k];
+    const int side = Texture::side_of_square(k);
     texture.least_green[k] = with_neighbours(least_of_squares(green, side), size, side);
   }
 }

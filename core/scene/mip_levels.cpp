@@ -155,7 +155,8 @@ class LevelWriter {
   std::array<glm::vec4, std::size_t{1} << (2 * kMostHalvings)> values_{};
 };
 
-// For each texture: whether its smaller levels are used, whether it is colour, and whether it holds roughness.
+// For each texture: whether its smaller levels are used, whether it is colour, and whether it holds
+// roughness.
 struct Needed {
   bool levels = false, is_color = false, roughness = false;
 };

@@ -61,11 +61,13 @@ struct Texture {
   std::string name;
   Image<glm::u8vec4> texels;  // none in a finished mesh, whose textures have `blocks`
   TexelBlocks blocks{};       // with levels down to one texel where the texture is interpolated
-  // A finished mesh's textures of roughness have these: for squares of kLeastSides texels, row by row, the
+  // A finished mesh's textures of roughness have these, for small and for large squares, row by row: the
   // least green, 0 to 1, of the square and of the texels up to its side around it, beyond edges those of the
   // other side.
-  static constexpr std::array<int, 2> kLeastSides{8, 32};
   std::array<std::vector<float>, 2> least_green{};
+  [[nodiscard, gnu::always_inline]] static constexpr int side_of_square(std::size_t kind) {  // texels
+    return kind == 0 ? 8 : 32;
+  }
 
   [[nodiscard]] glm::ivec2 size() const { return blocks.empty() ? texels.size() : blocks.size(0); }
   [[nodiscard]] int levels() const { return std::max(blocks.levels(), 1); }

@@ -180,8 +180,8 @@ inline Mask all_green(const TexturePlace& place, const LaneTexture& texture, con
                  Float(3.4f) * max(footprints.longer / footprints.taps, Float(1.0f)) + Float(1.0f),
              Float(2.0f));
   Mask all = Mask::from_bits(0);
-  for (std::size_t k = 0; k < Texture::kLeastSides.size(); ++k) {
-    const float side = as_float(Texture::kLeastSides[k]);
+  for (std::size_t k = 0; k < 2; ++k) {
+    const float side = as_float(Texture::side_of_square(k));
     const Mask asked = lanes & ~all & (reach <= Float(side));
     if (asked.bits() == 0) continue;
     const std::uint32_t squares = (as_uint32(place.level[0].width) + as_uint32(side) - 1) / as_uint32(side);

@@ -13,14 +13,15 @@ namespace {
 
 constexpr glm::ivec2 kSize{150, 90};
 
-// Rough, with few small smooth spots; all metal.
+// Just too rough to mirror, with few smooth spots; all metal. A little of a spot makes a footprint's mean
+// mirror.
 Texture spotted(glm::ivec2 size, Random& random) {
-  Texture texture{"spotted", Image<glm::u8vec4>(size, glm::u8vec4(255, 200, 255, 255))};
+  Texture texture{"spotted", Image<glm::u8vec4>(size, glm::u8vec4(255, 66, 255, 255))};
   for (int spot = 0; spot < 12; ++spot) {
     const glm::ivec2 at(random.next() % as_uint32(size.x), random.next() % as_uint32(size.y));
-    const auto green = static_cast<std::uint8_t>(random.next() % 64);
-    for (int y = 0; y < 3; ++y)
-      for (int x = 0; x < 3; ++x) texture.texels.at((at.x + x) % size.x, (at.y + y) % size.y).g = green;
+    const auto green = static_cast<std::uint8_t>(random.next() % 8);
+    for (int y = 0; y < 9; ++y)
+      for (int x = 0; x < 9; ++x) texture.texels.at((at.x + x) % size.x, (at.y + y) % size.y).g = green;
   }
   return texture;
 }
