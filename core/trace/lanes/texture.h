@@ -179,6 +179,9 @@ inline Mask all_green(const TexturePlace& place, const LaneTexture& texture, con
              Float(0.5f) * footprints.longer +
                  Float(3.4f) * max(footprints.longer / footprints.taps, Float(1.0f)) + Float(1.0f),
              Float(2.0f));
+  // Further away, the rounding of a tap's coordinate is above a quarter of a texel.
+  const Float far(0x1p22f);
+  lanes = lanes & (abs(uv.x) * width < far) & (abs(uv.y) * height < far);
   Mask all = Mask::from_bits(0);
   for (std::size_t k = 0; k < 2; ++k) {
     const float side = as_float(Texture::side_of_square(k));
