@@ -25,7 +25,7 @@ int squares_of(int texels, int side) {
   return (texels + side - 1) / side;
 }
 
-// The least of each square of `from`, whose pixels stand for `size` texels.
+// The least of each square of `from`.
 Bytes least_of_squares(const Bytes& from, int side) {
   Bytes to({squares_of(from.width(), side), squares_of(from.height(), side)}, 255);
   for (int y = 0; y < from.height(); ++y)

@@ -46,10 +46,10 @@ struct WideBox {
 struct WideItem {
   WideBox box;
   std::uint32_t stored;
-  [[nodiscard]] WideFloats twice_center() const { return box.lo + box.hi; }
+  [[nodiscard]] WideFloats center() const { return 0.5f * box.lo + 0.5f * box.hi; }
 };
 
-// Adjacent items: the box about them, and that of their boxes' centres, twice as large.
+// Adjacent items: the box about them, and that of their boxes' centres.
 struct WideRange {
   std::size_t begin = 0, end = 0;
   WideBox box, centers;
@@ -57,7 +57,7 @@ struct WideRange {
   [[nodiscard]] bool is_leaf() const { return size() <= WideLeaf::kTriangles; }
   void add(const WideItem& item) {
     box.add(item.box);
-    centers.add(item.twice_center());
+    centers.add(item.center());
   }
 };
 
@@ -100,9 +100,11 @@ struct WideCut {
 
   // Along each axis.
   [[nodiscard]] WideInts bins_of(const WideItem& item) const {
-    const WideInts bins = __builtin_convertvector((item.twice_center() - lo_) * scale_, WideInts);
-    const WideInts last = WideInts{} + (bins_ - 1);
-    return bins < last ? bins : last;
+    const WideInts bins = __builtin_convertvector((item.center() - lo_) * scale_, WideInts);
+    const WideInts first{}, last = first + (bins_ - 1);
+    const WideInts from_first =
+        bins < first ? first : bins;  // NaN and what is too large are the lowest integer
+    return from_first < last ? from_first : last;
   }
   void try_borders(const WideBox* boxes, const std::uint32_t* counts, std::size_t size, int a, float& least) {
     float cost_above[kMostBins];

@@ -12,7 +12,7 @@ namespace pinocchio::python {
 namespace {
 
 // Changes whenever the order of what is written does.
-constexpr std::string_view kFormat = "pinocchio_renderer " PINOCCHIO_VERSION " 2";
+constexpr std::string_view kFormat = "pinocchio_renderer " PINOCCHIO_VERSION " 3";
 
 // Copied as they lie in memory.
 template <class T>
@@ -47,7 +47,8 @@ class Writer {
     raw(image.pixels().data(), image.pixels().size_bytes());
   }
   void operator()(Textures& textures) {
-    std::vector<Texture> all(textures.begin(), textures.end());
+    std::vector<Texture> all;
+    for (const Texture& texture : textures) all.push_back({texture.name, texture.image()});
     (*this)(all);
   }
   template <class T>
@@ -176,8 +177,8 @@ void parts(A& a, Material& value) {
 }
 template <class A>
 void parts(A& a, Texture& value) {
-  auto& [name, texels, smaller] = value;
-  each(a, name, texels, smaller);
+  auto& [name, texels, blocks, least_green] = value;  // a mesh makes the last two of the texels
+  each(a, name, texels);
 }
 template <class A>
 void parts(A& a, MeshData& value) {
