@@ -7,7 +7,7 @@
 namespace pinocchio {
 namespace {
 
-using Bytes = Image<std::uint8_t>;
+using GreenImage = Image<std::uint8_t>;
 
 // Squares that the texels from `first` to `last` of a side of `texels` are in, where they may be beyond the
 // side's ends by less than its length: calls visit(square), for some more than once.
@@ -26,8 +26,8 @@ int squares_of(int texels, int side) {
 }
 
 // The least of each square of `from`.
-Bytes least_of_squares(const Bytes& from, int side) {
-  Bytes to({squares_of(from.width(), side), squares_of(from.height(), side)}, 255);
+GreenImage least_of_squares(const GreenImage& from, int side) {
+  GreenImage to({squares_of(from.width(), side), squares_of(from.height(), side)}, 255);
   for (int y = 0; y < from.height(); ++y)
     for (int x = 0; x < from.width(); ++x) {
       std::uint8_t& least = to.at(x / side, y / side);
@@ -37,13 +37,13 @@ Bytes least_of_squares(const Bytes& from, int side) {
 }
 
 // With the texels up to a square's side around each.
-std::vector<float> with_neighbours(const Bytes& squares, glm::ivec2 texels, int side) {
-  Bytes rows(squares.size(), 255);
+std::vector<float> with_neighbours(const GreenImage& squares, glm::ivec2 texels, int side) {
+  GreenImage rows(squares.size(), 255);
   for (int x = 0; x < rows.width(); ++x)
     for_each_square((x - 1) * side, (x + 2) * side - 1, texels.x, side, [&](int from) {
       for (int y = 0; y < rows.height(); ++y) rows.at(x, y) = std::min(rows.at(x, y), squares.at(from, y));
     });
-  Bytes all(squares.size(), 255);
+  GreenImage all(squares.size(), 255);
   for (int y = 0; y < rows.height(); ++y)
     for_each_square((y - 1) * side, (y + 2) * side - 1, texels.y, side, [&](int from) {
       for (int x = 0; x < rows.width(); ++x) all.at(x, y) = std::min(all.at(x, y), rows.at(x, from));
@@ -58,7 +58,7 @@ std::vector<float> with_neighbours(const Bytes& squares, glm::ivec2 texels, int 
 void find_least_green(Texture& texture) {
   const glm::ivec2 size = texture.texels.size();
   if (std::min(size.x, size.y) < 64) return;
-  Bytes green(size);
+  GreenImage green(size);
   for (std::size_t i = 0; i < green.pixels().size(); ++i) green[i] = texture.texels[i].g;
   for (std::size_t k = 0; k < texture.least_green.size(); ++k) {
     const int side = Texture::side_of_square(k);
