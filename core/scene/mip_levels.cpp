@@ -177,7 +177,7 @@ std::vector<Needed> needed_of(const MeshData& mesh) {
 
 bool is_finished(const Texture& texture, const Needed& needed) {
   const glm::ivec2 size = texture.size();
-  if (size.x == 0) return true;
+  if (size.x == 0 || size.y == 0) return true;
   return texture.texels.empty() && (!needed.levels || texture.levels() > 1 || size == glm::ivec2(1));
 }
 
