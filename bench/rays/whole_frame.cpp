@@ -27,7 +27,7 @@ std::vector<WholeFrame> measure_frames(const Scene& scene, const Tracer& tracer,
   const auto single = embree.single(), packets = embree.packets();
 
   // As the engine has it, where the mask is not kept.
-  const float cutoff = kThroughputCutoff / as_float(std::max<std::size_t>(casting_lights(scene).size(), 1));
+  const float cutoff = light_cutoff_of(as_int(casting_lights(scene).size()));
 
   std::vector<WholeFrame> frames;
   for (Workers* workers : on) {

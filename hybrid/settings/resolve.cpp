@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <string>
 
+#include "core/trace/rays/trace_options.h"
 #include "pinocchio/conversion.h"
 #include "pinocchio/mask_image.h"
 
@@ -129,9 +130,8 @@ Expected<Settings> resolve(const Settings& settings, const SceneStats& stats, co
   }
   if (c.needs_rays) draw_on_cpu(s);
   make_way_for_lights(stats, s);
-  // All lights together stay below half a step.
   const bool needs_bits = c.keeps_mask || s.mask_bits == 0;
-  s.light_cutoff.fill(needs_bits ? 0.0f : kThroughputCutoff / as_float(std::max(stats.casting_lights, 1)));
+  s.light_cutoff.fill(needs_bits ? 0.0f : light_cutoff_of(stats.casting_lights));
   s.tiles.fill(s.composite == Processor::gpu && s.reflects());
   const double pixels = as_double(c.size.x) * as_double(c.size.y);
   const bool faster_by_rays = as_double(stats.triangles) > kTrianglesPerPixelForRays * pixels;

@@ -1,6 +1,7 @@
 // Source of GLSL and of C++ (bench/one_ray/shared_maps.h): texture look-ups. Each side defines TexelSource and
-// level_at(source, size, level): the level's first texel, width and height; texel_place(width, x, y): a texel's place behind it;
-// and texel_at(source, i, is_color): the i-th texel, 0 to 1, colour (sRGB) made linear. The lanes have code of their own (core/trace/lanes/texture.h).
+// level_at(source, size, level): the level's first texel, width and height; texel_place(width, x, y): a texel's place
+// behind the first; and texel_at(source, i, is_color): the i-th texel, 0 to 1, colour (sRGB) made linear. The lanes have
+// code of their own (core/trace/lanes/texture.h).
 
 const int kWrapRepeat = 0;
 const int kWrapMirror = 1;

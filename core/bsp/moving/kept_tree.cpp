@@ -95,7 +95,8 @@ void Motion::describe(const Bounds& bounds, MovingTree& tree) const {
       tree.tree_from_world[i][j] = as_float(tree_from_world[j][i]);
       if (j < 3) size += std::abs(tree_from_world[j][i]) * reach[j];
     }
-    // The double sums of `error` are rounded, too; and a plane's error must not vanish.
+    // kPerOrigin also holds the rounding of `error`'s sums, an eighth of it; and a plane's error must not
+    // vanish.
     const double margin = as_double(MovingTree::kPerOrigin) * size + 1.001 * error[i];
     tree.margin[i] = std::max(as_float(1.001 * margin), std::numeric_limits<float>::min());
   }

@@ -102,6 +102,9 @@ struct Bounce {
   std::uint32_t sampled = 0;
   SampledPoint* points = nullptr;  // a tile's pixels: the surfaces, for the filter; null: not wanted
   bool lights_alone = false;       // other steps have the same rays' surfaces, and light of other lights
+
+  // Whether no shadow ray is fired for light that is too faint.
+  [[nodiscard]] bool cuts_light() const { return visible && options->light_cutoff > 0.0f; }
 };
 
 // The points that rays see, a column each, with room behind the last ray for a packet; null: not wanted.

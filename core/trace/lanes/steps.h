@@ -102,8 +102,8 @@ template <bool kSampled>
 inline Vec light_points(const Bounce& bounce, const Corners& corners, const LaneSurface& s,
                         const LaneMaterial& m, const Vec& throughput, const LaneLobe& lobe,
                         const SampledPixel* sampling, Int pixel, Mask lanes) {
-  // Where the mask is not kept, a ray is fired from a point with maps also if its mapped normal faces away.
-  const bool cuts = bounce.visible && bounce.options->light_cutoff > 0.0f;
+  // With a cutoff, no step asks the maps of a visible point for its shadow rays: its geometry decides alone.
+  const bool cuts = bounce.cuts_light();
   const unsigned mapped = cuts ? m.mapped : 0;
   ShadowStarts starts(bounce.options->terminator, corners, s);
   Vec sum(Float(0.0f)), unshadowed(Float(0.0f));
@@ -120,9 +120,10 @@ inline Vec light_points(const Bounce& bounce, const Corners& corners, const Lane
       lit = lit & ~(plain & (most_light(m, incident, s, counted) < Float(bounce.options->light_cutoff)));
     if (lit.bits() == 0) continue;
     Vec term(Float(0.0f));
-    if (bounce.adds_light || apart || bounce.tints)
+    if (bounce.adds_light || apart || bounce.tints) {
       term = reflected_light(m, incident, s.n_shading, s.to_viewer, lit, counted);
-    if (mapped != 0) term = select(Float(0.0f) < dot(s.n_shading, incident.to_light), term, Vec(0.0f));
+      if (mapped != 0) term = select(Float(0.0f) < dot(s.n_shading, incident.to_light), term, Vec(0.0f));
+    }
     if (bounce.options->terminator == Terminator::smoothed)
       term = term * terminator_factor(s.n_shading, s.n_geometric, incident.to_light);
     if (apart && light.slot < 0) {
@@ -183,7 +184,7 @@ template <bool kSampled>
 void bounce_packets(const Bounce& bounce, const RayQueue& rays) {
   const bool colors = bounce.adds_light || bounce.adds_ambient || bounce.environment || bounce.prefiltered ||
                       bounce.diffuse || bounce.sampled != 0 || bounce.points || bounce.tints || bounce.lobes;
-  const bool cuts = bounce.visible && bounce.options->light_cutoff > 0.0f;
+  const bool cuts = bounce.cuts_light();
   const bool reads_material = colors || bounce.mirrored || cuts;
   const MapsWanted wanted(
       colors, bounce.mirrored != nullptr, !cuts, bounce.adds_ambient,

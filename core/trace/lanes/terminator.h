@@ -17,16 +17,16 @@ class ShadowStarts {
   }
 
   // Whether a shadow ray is fired that way. Decides which of the next origins() are lifted.
-  // by_geometry: points for which it does not count where their mapped normal faces.
+  // by_geometry: points whose mapped normal does not count.
   [[nodiscard, gnu::always_inline]] Mask faces_light(const Vec& to_light,
                                                      Mask by_geometry = Mask::from_bits(0)) {
     lifted_ = 0;
-    const Float zero(0.0f);
-    const Mask towards = zero < dot(s_.n_geometric, to_light);
-    const Mask usual = ((zero < dot(s_.n_shading, to_light)) | by_geometry) & towards;
+    const Mask usual = PINOCCHIO_LANES::faces_light(select(by_geometry, s_.n_geometric, s_.n_shading),
+                                                    s_.n_geometric, to_light);
     if (!lifts(method_)) return usual;
+    const Float zero(0.0f);
     const Vec n = select(by_geometry, s_.n_vertices, s_.n_shading);
-    const Mask turned = (zero < dot(n, to_light)) & ~towards;
+    const Mask turned = (zero < dot(n, to_light)) & ~(zero < dot(s_.n_geometric, to_light));
     if (method_ == Terminator::turned_away) {
       if (turned.bits() == 0) return usual;
       if (!found_) find_lift();

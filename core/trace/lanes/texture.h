@@ -5,6 +5,7 @@
 #pragma once
 
 #include <cmath>
+#include <iterator>
 
 #include "core/shade/lane_maps.h"
 #include "core/simd/texels.h"
@@ -165,16 +166,16 @@ struct LaneFootprints {
   }
 };
 
-// The lanes whose texels, of all that are read there, have at least this green.
+// The lanes whose texels, of all that are read there, surely have at least this green. The texture has
+// `least_green`.
 inline Mask all_green(const TexturePlace& place, const LaneTexture& texture, const vec2& uv,
                       const LaneFootprints& footprints, float least, Mask lanes) {
-  if (!texture.least_green[0]) return Mask::from_bits(0);
   const Float width(place.level[0].width), height(place.level[0].height);
   const Float x = wrapped_texel(floor(within_period(uv.x, place.wrap_u) * width), width, place.wrap_u);
   const Float y = wrapped_texel(floor(within_period(uv.y, place.wrap_v) * height), height, place.wrap_v);
   // Half of the longer side, and one and a half texels of a level that is at most twice as coarse as its
   // taps. Sides that are no powers of two make a level's texels a little larger.
-  const Float reach =
+  const Float reach =  // texels
       select(footprints.filtered,
              Float(0.5f) * footprints.longer +
                  Float(3.4f) * max(footprints.longer / footprints.taps, Float(1.0f)) + Float(1.0f),
@@ -183,7 +184,7 @@ inline Mask all_green(const TexturePlace& place, const LaneTexture& texture, con
   const Float far(0x1p22f);
   lanes = lanes & (abs(uv.x) * width < far) & (abs(uv.y) * height < far);
   Mask all = Mask::from_bits(0);
-  for (std::size_t k = 0; k < 2; ++k) {
+  for (std::size_t k = 0; k < std::size(texture.least_green); ++k) {
     const float side = as_float(Texture::side_of_square(k));
     const Mask asked = lanes & ~all & (reach <= Float(side));
     if (asked.bits() == 0) continue;

@@ -6,6 +6,7 @@
 #include "core/shade/shared.h"
 #include "pinocchio/backfaces.h"
 #include "pinocchio/background.h"
+#include "pinocchio/conversion.h"
 #include "pinocchio/glass_shadows.h"
 #include "pinocchio/ray.h"
 #include "pinocchio/sampled_light.h"
@@ -19,13 +20,19 @@ namespace shared {
 }
 }  // namespace shared
 
+// TraceOptions::light_cutoff for so many lights: what all together leave out stays below kThroughputCutoff.
+[[nodiscard]] constexpr float light_cutoff_of(int lights) {
+  return kThroughputCutoff / as_float(lights > 1 ? lights : 1);
+}
+
 // How rays are followed and points shaded. Everything that traces or shades reads this one value: the tile
 // pass, batches of pictures, the bounce step, the GPU's passes and the reference.
 struct TraceOptions {
   // Mirrored and refracted rays, and the shadow rays of what they hit, are not fired where they would bring
   // their pixel less light than this, linear.
   float throughput_cutoff = kThroughputCutoff;
-  // The same for shadow rays of visible points. 0: all are fired, so that every bit of the mask is exact.
+  // The same for shadow rays of visible points; those with textures have all of them, also where a mapped
+  // normal faces away. 0: every bit of the mask is exact.
   float light_cutoff = 0.0f;
   float texture_footprint = 1.0f;  // side of the square that textures are averaged over, pixels; 0: a point
   Terminator terminator = kUsualTerminator;

@@ -14,7 +14,7 @@ namespace pinocchio {
 
 // Whether a share of a shadow ray's light goes on through the material: through glass, or what blends.
 [[nodiscard]] bool passes_light(const Mesh& mesh, const Material& material, const TraceOptions& options);
-// Whether that is so of some material of the mesh.
+// True if passes_light() is, for some material of the mesh.
 [[nodiscard]] bool tints_shadows(const Mesh& mesh, const TraceOptions& options);
 
 // Shadow rays that go straight on through glass and what blends, surface by surface (lanes/glass.h). Scenes
