@@ -178,11 +178,11 @@ std::vector<Needed> needed_of(const MeshData& mesh) {
 bool is_finished(const Texture& texture, const Needed& needed) {
   const glm::ivec2 size = texture.size();
   if (size.x == 0 || size.y == 0) return true;
-  return texture.texels.empty() && (!needed.levels || texture.levels() > 1 || size == glm::ivec2(1));
+  return texture.in_blocks() && (!needed.levels || texture.levels() > 1 || size == glm::ivec2(1));
 }
 
 void finish(Texture& texture, const Needed& needed) {
-  if (texture.texels.empty()) texture.texels = texture.image();
+  if (texture.in_blocks()) texture.texels = texture.image();
   const glm::ivec2 size = texture.texels.size();
   LevelWriter writer(texture.texels, needed.is_color);
   if (needed.levels && size != glm::ivec2(1)) {
@@ -193,6 +193,7 @@ void finish(Texture& texture, const Needed& needed) {
       writer.append(level);
     }
   }
+  texture.least_green = {};
   if (needed.roughness) find_least_green(texture);
   texture.blocks = TexelBlocks(texture.texels, writer.levels());
   texture.texels = {};

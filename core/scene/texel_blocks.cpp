@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <bit>
 
 #include "pinocchio/texture.h"
 
@@ -6,9 +7,7 @@ namespace pinocchio {
 namespace {
 
 int levels_down_to_one(glm::ivec2 size) {
-  int levels = 1;
-  for (int side = std::max(size.x, size.y); side > 1; side /= 2) ++levels;
-  return levels;
+  return as_int(std::bit_width(as_uint32(std::max(size.x, size.y))));
 }
 
 std::size_t padded(glm::ivec2 size) {

@@ -59,7 +59,7 @@ class TexelBlocks {
 // 0 is the top row.
 struct Texture {
   std::string name;
-  Image<glm::u8vec4> texels;  // none in a finished mesh, whose textures have `blocks`
+  Image<glm::u8vec4> texels;  // for a new mesh, which moves them to `blocks`; none in a finished one
   TexelBlocks blocks{};       // with levels down to one texel where the texture is interpolated
   // A finished mesh's textures of roughness have these, for small and for large squares, row by row: the
   // least green, 0 to 1, of the square and of the texels up to its side around it, beyond edges those of the
@@ -69,9 +69,10 @@ struct Texture {
     return kind == 0 ? 8 : 32;
   }
 
-  [[nodiscard]] glm::ivec2 size() const { return blocks.empty() ? texels.size() : blocks.size(0); }
+  [[nodiscard]] bool in_blocks() const { return texels.empty() && !blocks.empty(); }
+  [[nodiscard]] glm::ivec2 size() const { return in_blocks() ? blocks.size(0) : texels.size(); }
   [[nodiscard]] int levels() const { return std::max(blocks.levels(), 1); }
-  [[nodiscard]] Image<glm::u8vec4> image() const { return blocks.empty() ? texels : blocks.level(0); }
+  [[nodiscard]] Image<glm::u8vec4> image() const { return in_blocks() ? blocks.level(0) : texels; }
 };
 
 // A mesh's textures. Copies share them until one is edited, so that meshes with different vertices hold them

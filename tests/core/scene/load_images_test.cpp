@@ -191,6 +191,21 @@ TEST(LoadImages, SmallerLevelsAreMeans) {
   EXPECT_EQ(Mesh(mesh).textures[0].blocks.at(1, 0, 0), glm::u8vec4(30, 60, 90, 255));
 }
 
+// New texels for a texture that a mesh has finished.
+TEST(LoadImages, TexelsOfAFinishedTextureAreReplaced) {
+  MeshData mesh;
+  make_maps(mesh, mesh.materials.emplace_back()).metallic_roughness.texture = 0;
+  mesh.textures.edit().push_back({"rough", Image<glm::u8vec4>({64, 64}, glm::u8vec4(255))});
+  MeshData finished = Mesh(mesh);
+  EXPECT_EQ(finished.textures[0].size(), glm::ivec2(64));
+  EXPECT_EQ(finished.textures[0].least_green[0].size(), 64u);
+  finished.textures.edit()[0].texels = Image<glm::u8vec4>({2, 1}, glm::u8vec4(0));
+  EXPECT_EQ(finished.textures[0].image().size(), glm::ivec2(2, 1));
+  const Mesh again(finished);
+  EXPECT_EQ(again.textures[0].levels(), 2);
+  EXPECT_TRUE(again.textures[0].least_green[0].empty());
+}
+
 // Sides that are no multiples of a block's, and less than one.
 TEST(LoadImages, BlocksHoldWhatRowsHeld) {
   for (const glm::ivec2 size : {glm::ivec2(1), {3, 2}, {4, 4}, {5, 9}, {17, 1}}) {
