@@ -50,6 +50,23 @@ glm::dvec2 place_of(int k, PixelFilter filter, bool outlines = false) {
   return {place_of_share(at.x), place_of_share(at.y)};
 }
 
+// The mean of the samples from `first` to twice as far (of the first three, from 1 to 3). Frames ask it once a sample, one
+// after another, so that a thread keeps the last one.
+glm::dvec2 mean_from(int first, PixelFilter filter) {
+  struct Mean {
+    int first = 0;
+    PixelFilter filter{};
+    glm::dvec2 value{};
+  };
+  thread_local Mean last;
+  if (last.first == first && last.filter == filter) return last.value;
+  const int end = std::max(4, 2 * first);
+  glm::dvec2 sum(0.0);
+  for (int i = first; i < end; ++i) sum += place_of(i, filter, true);
+  last = {first, filter, sum / as_double(end - first)};
+  return last.value;
+}
+
 }  // namespace
 
 glm::vec2 jitter_of(int k, PixelFilter filter) {
@@ -59,10 +76,7 @@ glm::vec2 jitter_of(int k, PixelFilter filter) {
 glm::vec2 balanced_jitter_of(int k, PixelFilter filter) {
   if (k == 0) return glm::vec2(0.0f);
   const int first = k < 4 ? 1 : as_int(std::bit_floor(static_cast<unsigned>(k)));
-  const int end = std::max(4, 2 * first);
-  glm::dvec2 sum(0.0);
-  for (int i = first; i < end; ++i) sum += place_of(i, filter, true);
-  return glm::vec2(place_of(k, filter, true) - sum / as_double(end - first));
+  return glm::vec2(place_of(k, filter, true) - mean_from(first, filter));
 }
 
 glm::vec2 lens_point_of(int k) {
