@@ -15,7 +15,13 @@ class TileGrid {
 
   explicit TileGrid(glm::ivec2 size) : size_(size), tiles_((size + kTileSize - 1) / kTileSize) {}
 
+  [[nodiscard]] std::size_t columns() const { return as_size(tiles_.x); }
+  [[nodiscard]] std::size_t rows() const { return as_size(tiles_.y); }
   [[nodiscard]] std::size_t count() const { return std::size_t(tiles_.x) * tiles_.y; }
+  [[nodiscard]] std::size_t tile_of(glm::ivec2 pixel) const {
+    const glm::ivec2 cell = pixel / kTileSize;
+    return std::size_t(cell.y) * tiles_.x + cell.x;
+  }
   [[nodiscard]] PixelBox tile(std::size_t i) const {
     const std::size_t row_length = tiles_.x;
     const glm::ivec2 cell(i % row_length, i / row_length);

@@ -71,7 +71,7 @@ ChannelTexture reflection_texture(S s, glm::ivec2 size) {
 
 void encode_reflection(CpuImages& from, S s, Workers& workers, Writable to) {
   if (!s.tiles) return pack_radiance(from.reflection, s.reflection, workers, to);
-  from.tiles = pack_tiles(from.reflection, s.reflection, workers, from.tile_index, to);
+  from.tiles = pack_tiles(from.reflection, from.black_tiles, s.reflection, workers, from.tile_index, to);
 }
 
 void decode_phong(Bytes bytes, S, CpuImages& to) {

@@ -33,6 +33,7 @@ struct CpuImages {
   Image<glm::vec3> unpacked;      // ... and the picture that is sent, before it is rounded and clipped
   MaskImage mask;                 // one sample for mask_scale pixels a side
   Image<glm::vec3> reflection;    // likewise, for reflection_scale
+  std::vector<std::uint8_t> black_tiles;  // of the reflection (TileOutputs::black_tiles)
   std::vector<std::uint32_t> tile_index;  // places of the reflection's tiles
   std::size_t tiles = 0;                  // of the reflection that travel
 };

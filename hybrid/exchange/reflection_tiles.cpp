@@ -10,6 +10,8 @@
 namespace pinocchio {
 namespace {
 
+static_assert(TileGrid::kTileSize % kReflectionTile == 0, "each lies in one of the tracer's");
+
 PixelBox box_of(std::size_t tile, int columns, glm::ivec2 size) {
   const glm::ivec2 cell(as_int(tile) % columns, as_int(tile) / columns);
   const glm::ivec2 lo = cell * kReflectionTile;
@@ -32,13 +34,17 @@ std::size_t most_tile_bytes(glm::ivec2 size, ReflectionFormat format) {
   return count * (sizeof(std::uint32_t) + bytes_per_tile(format));
 }
 
-std::size_t pack_tiles(const Image<glm::vec3>& radiance, ReflectionFormat format, Workers& workers,
-                       std::vector<std::uint32_t>& index, std::span<std::byte> to_gpu) {
+std::size_t pack_tiles(const Image<glm::vec3>& radiance, std::span<const std::uint8_t> black,
+                       ReflectionFormat format, Workers& workers, std::vector<std::uint32_t>& index,
+                       std::span<std::byte> to_gpu) {
   const glm::ivec2 grid = tile_columns_rows(radiance.size());
   index.resize(as_size(grid.x) * as_size(grid.y));
   assert(to_gpu.size() >= std::as_bytes(std::span(index)).size());
+  const TileGrid traced(radiance.size());
   workers.for_each(index.size(), [&](std::size_t i) {
-    index[i] = has_light(radiance, box_of(i, grid.x, radiance.size())) ? 0 : kNoTile;
+    const PixelBox box = box_of(i, grid.x, radiance.size());
+    const bool known = !black.empty() && black[traced.tile_of(box.lo)] != 0;
+    index[i] = !known && has_light(radiance, box) ? 0 : kNoTile;
   });
   std::uint32_t count = 0;
   for (std::uint32_t& entry : index)

@@ -35,7 +35,9 @@ inline constexpr std::uint32_t kNoTile = 0xffffffff;  // in the index: all of th
 // texture, tile_columns_rows().x tiles wide; the last row has the tiles that are left. Returns how many tiles
 // were written. `to_gpu` is only written, as it is mapped for writing; the index is built in `index`, whose
 // memory the caller keeps from frame to frame.
-std::size_t pack_tiles(const Image<glm::vec3>& radiance, ReflectionFormat format, Workers& workers,
-                       std::vector<std::uint32_t>& index, std::span<std::byte> to_gpu);
+// black: the tracer's tiles (TileOutputs::black_tiles) that are known to be black; empty: none is.
+std::size_t pack_tiles(const Image<glm::vec3>& radiance, std::span<const std::uint8_t> black,
+                       ReflectionFormat format, Workers& workers, std::vector<std::uint32_t>& index,
+                       std::span<std::byte> to_gpu);
 
 }  // namespace pinocchio

@@ -95,6 +95,7 @@ void add_reflection(FrameSlot& frame, TileOutputs& out) {
   out.indirect = frame.request.settings.indirect;
   out.environment_light = true;
   out.reflection = &frame.reflection;
+  out.black_tiles = &frame.black_tiles;
   if (sends_lights(frame.request.settings, frame.request.scene))
     out.first_added_slot = frame.request.settings.mask_bits;
   out.caught_in_reflection = frame.options.catcher_height && frame.request.settings.uses_gpu();
@@ -136,6 +137,7 @@ void add_margin(Workers& workers, FrameSlot& frame, const PixelBox& all) {
     out.size = box.size();
     out.mask_bits = mask_bits_of(frame.request.settings, frame.request.scene);
     out.reflection = &unused;
+    out.black_tiles = nullptr;
     out.caught_in_reflection = false;
     out.sampled = &seen[0];
     out.beyond = &seen[1];
@@ -160,6 +162,7 @@ void add_filtered(Workers& workers, FrameSlot& frame, Gathering& gathering) {
   const bool sends_picture = s.uses_gpu() && s.composite == Processor::cpu,
              sends_caught = s.uses_gpu() && frame.options.catcher_height;
   const auto width = as_size(frame.size().x);
+  frame.black_tiles.clear();
   workers.for_each(as_size(frame.size().y), [&](std::size_t line) {
     const glm::vec3* const lights =
         &frame.filtered.at(part.lo.x - all.lo.x, part.lo.y - all.lo.y + as_int(line));
@@ -179,8 +182,10 @@ void add_filtered(Workers& workers, FrameSlot& frame, Gathering& gathering) {
 void trace(Workers& workers, FrameSlot& frame, Gathering& gathering) {
   const Settings& s = frame.request.settings;
   bool has_ids = s.visibility == Processor::gpu;
-  if (s.reflects() && !traces_further(frame))
+  if (s.reflects() && !traces_further(frame)) {
     frame.reflection = Image<glm::vec3>(scaled_size(frame.size(), s.reflection_scale));
+    frame.black_tiles.clear();
+  }
   const bool needs_ids = !has_ids && (s.mask_scale > 1 || s.reflection_scale > 1);
   const bool apart = s.mask_scale != s.reflection_scale && s.mask_bits > 0 && s.reflects();
   const double share = 1.0 / (1.0 + needs_ids + apart);

@@ -24,6 +24,7 @@ Drawing::Drawing(const TraceJob& job, glm::ivec2 size, const Image<std::uint32_t
       std::ranges::any_of(job.scene.mesh->maps, &MaterialMaps::blends)) {
     out_.depth = kDepth;
     out_.reflection = &reflection_;
+    out_.black_tiles = &black_tiles_;
   }
   if (seen) return;
   out_.ids = &ids;

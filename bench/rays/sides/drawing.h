@@ -26,6 +26,7 @@ class Drawing {
   TileOutputs out_;
   MaskImage mask_;
   Image<glm::vec3> reflection_;
+  std::vector<std::uint8_t> black_tiles_;
   Image<glm::vec4> color_;
 };
 

@@ -42,9 +42,10 @@ const std::vector<std::uint32_t>& z_curve() {
 
 }  // namespace
 
-TileResult TileTracer::trace(const TilePlan& plan, const PixelBox& tile) {
+TileResult TileTracer::trace(const TilePlan& plan, const PixelBox& tile, const KnownOfTile& known) {
   plan_ = &plan;
   tile_ = tile;
+  known_ = known;
   counts_ = {};
   reflects_ = plan.out.sampled != nullptr;
   if (reflects_) begin_light();
@@ -82,8 +83,9 @@ void TileTracer::start() {
   ground_.make_room(0);
   straight_ground_.make_room(0);
   const bool given = plan_->out.seen != nullptr, whole = tile_.size() == glm::ivec2(TileGrid::kTileSize);
+  if (known_.sees_nothing) return;
   if (!whole) ids_.fill(kNoTriangle);
-  if (given && !fetch_ids()) return;
+  if (given) fetch_ids();
   if (whole && !given) {
     std::copy(z_curve().begin(), z_curve().end(), seen_.pixel);
     seen_.size = kPixels;
@@ -108,28 +110,18 @@ void TileTracer::start() {
         plan_->model->footprint((tile_.lo + tile_.hi) / 2, plan_->job.options.texture_footprint);
 }
 
-// Tiles whose ids are prefetched while one is traced: many tiles see nothing and are done at once.
-constexpr std::size_t kTilesAhead = 4;
-
-// Copies the tile's ids. False: no pixel sees anything.
-bool TileTracer::fetch_ids() {
+// Copies the tile's given ids.
+void TileTracer::fetch_ids() {
   const Image<std::uint32_t>& seen = *plan_->out.seen;
-  const int scale = plan_->out.scale;
-  const auto width = as_size(tile_.size().x);
-  std::uint32_t all = kNoTriangle;
+  const auto scale = as_size(plan_->out.scale), width = as_size(tile_.size().x);
   for (int y = tile_.lo.y; y < tile_.hi.y; ++y) {
-    const std::uint32_t* const from = &seen.at(tile_.lo.x * scale, y * scale);
+    const std::uint32_t* const from = &seen.at(tile_.lo.x * plan_->out.scale, y * plan_->out.scale);
     std::uint32_t* const to = &ids_[as_size(y - tile_.lo.y) << kTileBits];
-    for (std::size_t i = 0; i < width; i += kCacheLine / sizeof(*from))
-      __builtin_prefetch(from + kTilesAhead * width + i);
-    if (scale == 1) {
+    if (scale == 1)
       std::memcpy(to, from, width * sizeof(*to));
-    } else {
-      for (std::size_t i = 0; i < width; ++i) to[i] = from[i * as_size(scale)];
-    }
-    for (int i = 0; i < TileGrid::kTileSize; ++i) all &= to[i];  // none beyond `width`
+    else
+      for (std::size_t i = 0; i < width; ++i) to[i] = from[i * scale];
   }
-  return all != kNoTriangle;
 }
 
 // of_camera: the rays come straight from the camera.
@@ -281,8 +273,26 @@ void TileTracer::fire_shadows(const LightGroup& group, int generation, glm::vec4
   }
 }
 
+// Black light is not written again where it is known to be there.
+void TileTracer::write_reflection() {
+  Image<glm::vec3>& to = *plan_->out.reflection;
+  const bool was_black = known_.black && *known_.black != 0;
+  if (known_.black) *known_.black = reflects_ ? 0 : 1;
+  if (was_black && !reflects_) return;
+  const auto width = as_size(tile_.size().x);
+  for (int y = tile_.lo.y; y < tile_.hi.y; ++y) {
+    glm::vec3* const pixels = &to.at(tile_.lo.x, y);
+    const glm::vec4* const reflected = &reflected_[as_size(y - tile_.lo.y) << kTileBits];
+    if (reflects_)
+      for (std::size_t i = 0; i < width; ++i) pixels[i] = glm::vec3(reflected[i]);
+    else
+      std::fill_n(pixels, width, glm::vec3(0.0f));
+  }
+}
+
 void TileTracer::write() {
   const TileOutputs& out = plan_->out;
+  if (out.reflection) write_reflection();
   const auto width = as_size(tile_.size().x);
   const bool empty = seen_.size == 0, mirrors = reflects_;
   for (int y = tile_.lo.y; y < tile_.hi.y; ++y) {
@@ -290,10 +300,6 @@ void TileTracer::write() {
     const auto of = [&](auto* image) { return &image->at(tile_.lo.x, y); };
     const glm::vec4 *const direct = &direct_[row], *const reflected = &reflected_[row];
     const auto light = [&](std::size_t i) { return mirrors ? direct[i] + reflected[i] : direct[i]; };
-    if (out.reflection && !mirrors)
-      std::memset(of(out.reflection), 0, width * sizeof(glm::vec3));
-    else if (out.reflection)
-      for (std::size_t i = 0; i < width; ++i) of(out.reflection)[i] = glm::vec3(reflected[i]);
     const auto write_sampled = [&](Image<SampledPoint>* image, std::size_t first) {
       for (std::size_t i = 0; image && i < width; ++i) {
         SampledPoint& point = of(image)[i] = points_[first + row + i];

@@ -14,10 +14,16 @@
 
 namespace pinocchio {
 
+// What is known of a tile before it is traced.
+struct KnownOfTile {
+  bool sees_nothing = false;      // as the given ids say
+  std::uint8_t* black = nullptr;  // whether `reflection` is black in it, before and after; null: not kept
+};
+
 // Traces tiles with one thread's memory.
 class TileTracer {
  public:
-  TileResult trace(const TilePlan& plan, const PixelBox& tile);
+  TileResult trace(const TilePlan& plan, const PixelBox& tile, const KnownOfTile& known = {});
 
  private:
   static constexpr std::size_t kPixels = std::size_t{TileGrid::kTileSize} * TileGrid::kTileSize;
@@ -32,7 +38,7 @@ class TileTracer {
 
   void start();
   void begin_light();
-  [[nodiscard]] bool fetch_ids();
+  void fetch_ids();
   void find_hits(RayQueue& rays, int generation, bool of_camera = false);
   void find_visible();
   void light_visible();
@@ -63,10 +69,12 @@ class TileTracer {
   void ask_occluded(const RayQueue& queue, float reach);
   void block_by_ways_up(const RayQueue& up, int generation);
   void add_light_through_glass(const RayQueue& queue, glm::vec4* to);
+  void write_reflection();
   void write();
 
   const TilePlan* plan_ = nullptr;
   PixelBox tile_;
+  KnownOfTile known_;
   RayCounts counts_;
   RayQueue seen_;
   Generation rays_, next_;

@@ -1,7 +1,9 @@
 #include "core/trace/tiles/trace_tiles.h"
 
 #include <mutex>
+#include <optional>
 
+#include "core/trace/tiles/seen_tiles.h"
 #include "core/trace/tiles/tile_tracer.h"
 #include "pinocchio/conversion.h"
 
@@ -10,10 +12,12 @@ namespace pinocchio {
 TileResult trace_tiles(const TraceJob& job, const TileOutputs& outputs) {
   const glm::ivec2 size = outputs.size;
   const auto fit = [size](auto* image) {
-    if (image && image->size() != size) *image = std::remove_pointer_t<decltype(image)>(size);
+    const bool fits = !image || image->size() == size;
+    if (!fits) *image = std::remove_pointer_t<decltype(image)>(size);
+    return fits;
   };
   fit(outputs.ids);
-  fit(outputs.reflection);
+  const bool kept_reflection = fit(outputs.reflection);
   fit(outputs.color);
   fit(outputs.sampled);
   if (outputs.mask) outputs.mask->resize(size, outputs.mask_bits);
@@ -22,12 +26,23 @@ TileResult trace_tiles(const TraceJob& job, const TileOutputs& outputs) {
   if (outputs.beyond && !plan.beyond) *outputs.beyond = {};
   fit(plan.beyond);
   const TileGrid grid(size);
+  std::vector<std::uint8_t>* black = outputs.black_tiles;
+  if (black && plan.catcher) {  // writes to the image itself
+    black->clear();
+    black = nullptr;
+  } else if (black && (!kept_reflection || black->size() != grid.count())) {
+    black->assign(grid.count(), kept_reflection ? 0 : 1);
+  }
+  std::optional<SeenTiles> seen;
+  if (outputs.seen) seen.emplace(*outputs.seen, outputs.scale, grid);
   TileResult result;
   std::mutex mutex;
   job.workers.for_each(grid.count(), [&](std::size_t i) {
     static thread_local TileTracer tracer;  // allocated once a thread
     const bool left_out = job.left_out && outputs.scale == 1 && (*job.left_out)[i] != 0;
-    const TileResult of_tile = left_out ? TileResult{} : tracer.trace(plan, grid.tile(i));
+    TileResult of_tile;
+    if (!left_out)
+      of_tile = tracer.trace(plan, grid.tile(i), {seen && !seen->any(i), black ? &(*black)[i] : nullptr});
     const std::lock_guard lock(mutex);
     result.rays += of_tile.rays;
     result.times += of_tile.times;

@@ -55,7 +55,7 @@ TEST(WriteOnly, Tiles) {
   for (const ReflectionFormat format : kFormats) {
     std::vector<std::uint32_t> index;
     expect_only_written(most_tile_bytes(light.size(), format), [&](std::span<std::byte> to) {
-      const std::size_t tiles = pack_tiles(light, format, workers, index, to);
+      const std::size_t tiles = pack_tiles(light, {}, format, workers, index, to);
       EXPECT_GT(tiles, 0u);
       return std::as_bytes(std::span(index)).size() + tiles * bytes_per_tile(format);
     });

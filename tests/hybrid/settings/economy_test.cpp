@@ -271,7 +271,7 @@ TEST(ReflectionTiles, OnlyThoseWithLight) {
   image.at(25, 9) = glm::vec3(0.5f);
   std::vector<std::uint32_t> index;
   std::vector<std::byte> bytes(most_tile_bytes(image.size(), ReflectionFormat::full));
-  ASSERT_EQ(pack_tiles(image, ReflectionFormat::full, workers, index, bytes), 2u);
+  ASSERT_EQ(pack_tiles(image, {}, ReflectionFormat::full, workers, index, bytes), 2u);
   EXPECT_EQ(index, (std::vector<std::uint32_t>{kNoTile, 0, kNoTile, kNoTile, kNoTile, kNoTile, kNoTile, 1}));
   // Two tiles side by side in the texture's first, incomplete row.
   const std::span<const std::byte> sent_index = std::as_bytes(std::span(index));
@@ -279,6 +279,8 @@ TEST(ReflectionTiles, OnlyThoseWithLight) {
   const auto* light = reinterpret_cast<const glm::vec3*>(bytes.data() + sent_index.size());
   EXPECT_EQ(light[3 * 2 * kReflectionTile + 1], glm::vec3(1.0f, 2.0f, 3.0f));
   EXPECT_EQ(light[1 * 2 * kReflectionTile + kReflectionTile + 1], glm::vec3(0.5f));
+  const std::vector<std::uint8_t> black{1};  // of the tracer's one tile: the picture is not looked at
+  EXPECT_EQ(pack_tiles(image, black, ReflectionFormat::full, workers, index, bytes), 0u);
 }
 
 }  // namespace
