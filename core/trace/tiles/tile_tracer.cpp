@@ -286,7 +286,7 @@ void TileTracer::write_reflection() {
     if (reflects_)
       for (std::size_t i = 0; i < width; ++i) pixels[i] = glm::vec3(reflected[i]);
     else
-      std::fill_n(pixels, width, glm::vec3(0.0f));
+      std::memset(pixels, 0, width * sizeof(glm::vec3));
   }
 }
 
