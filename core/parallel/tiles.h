@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <glm/glm.hpp>
 
+#include "pinocchio/conversion.h"
 #include "pinocchio/pixel_box.h"
 
 namespace pinocchio {
