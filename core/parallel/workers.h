@@ -1,5 +1,6 @@
 #pragma once
 
+#include <atomic>
 #include <condition_variable>
 #include <cstddef>
 #include <cstdint>
@@ -34,6 +35,7 @@ class Workers {
  private:
   struct Job;
   void work(Job& job);
+  void await_helpers_awake() const;
   void run_thread(int number);
   void keep(int threads);
 
@@ -43,7 +45,7 @@ class Workers {
   std::condition_variable done_;
   Job* job_ = nullptr;
   std::uint64_t generation_ = 0;                // counts jobs, so that a thread takes each once
-  int busy_ = 0;                                // threads at the job
+  std::atomic<int> busy_ = 0;                   // threads at the job; changes under the mutex
   int kept_ = std::numeric_limits<int>::max();  // threads with this number and above end
   std::vector<std::thread> threads_;
 };

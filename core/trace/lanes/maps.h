@@ -329,12 +329,7 @@ inline Mask surely_rough(const SceneArrays& scene, const LaneMaps& lane_maps, co
     const Mask rough = wanted.where_mirrored != 0
                            ? surely_rough(scene, lane_maps, points, triangle, s.weights, same)
                            : Mask::from_bits(0);
-    if ((same & ~rough).bits() == 0 && !maps.blends()) {
-      m.reflectance = select(same, Vec(0.0f), m.reflectance);
-      m.reflects &= ~same.bits();
-      m.fresnel &= ~same.bits();
-      return;
-    }
+    if ((same & ~rough).bits() == 0 && !maps.blends()) return m.show_nothing_beyond(same);
     read(same & ~rough, wanted.everywhere);
     if (maps.blends()) {
       const Float alpha = clamp(alpha_at(scene, lane_maps, triangle, s.weights, same), 0.0f, 1.0f);
@@ -345,6 +340,7 @@ inline Mask surely_rough(const SceneArrays& scene, const LaneMaps& lane_maps, co
     if (wanted.of_material() == 0) return;
     if (wanted.where_colored != 0) {
       const MirroringPoints mirroring(maps, plain, texels, same);
+      if (mirroring.all.bits() == 0 && !maps.blends()) return m.show_nothing_beyond(same);
       read(mirroring.all, wanted.where_mirrored);
       read(mirroring.colored, wanted.where_colored);
     }

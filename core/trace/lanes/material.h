@@ -55,6 +55,15 @@ struct LaneMaterial : ShadingParams {
     });
   }
 
+  // These lanes neither mirror nor transmit.
+  void show_nothing_beyond(Mask lanes) {
+    reflectance = select(lanes, Vec(0.0f), reflectance);
+    transmittance = select(lanes, Vec(0.0f), transmittance);
+    reflects &= ~lanes.bits();
+    fresnel &= ~lanes.bits();
+    transmits &= ~lanes.bits();
+  }
+
   // Sets the reflection model of these lanes from a Material or ShadingParams, as far as the material has it.
   template <class From>
   void set_model(const From& m, bool is_microfacet, bool is_layered, Mask same) {

@@ -6,6 +6,7 @@
 #include <cstring>
 
 #include "core/shade/surface.h"
+#include "core/trace/tiles/tile_frustum.h"
 #include "core/trace/view/view_params.h"
 #include "pinocchio/conversion.h"
 
@@ -46,6 +47,7 @@ TileResult TileTracer::trace(const TilePlan& plan, const PixelBox& tile, const K
   plan_ = &plan;
   tile_ = tile;
   known_ = known;
+  if (sees_nothing()) known_.sees_nothing = true;
   counts_ = {};
   reflects_ = plan.out.sampled != nullptr;
   if (reflects_) begin_light();
@@ -67,6 +69,12 @@ TileResult TileTracer::trace(const TilePlan& plan, const PixelBox& tile, const K
   write();
   times.composite = lap.restart();
   return {counts_, times};
+}
+
+// Whether no camera ray of the tile comes near the scene. Whoever wants to know the rays gets them all.
+bool TileTracer::sees_nothing() const {
+  return !plan_->out.seen && !plan_->out.on_rays && !plan_->model &&
+         misses(TileFrustum(plan_->view, tile_), plan_->job.tracer.trees());
 }
 
 // Nothing is mirrored yet, and nothing seen by the filter.
@@ -136,9 +144,10 @@ void TileTracer::find_hits(RayQueue& rays, int generation, bool of_camera) {
 void TileTracer::find_visible() {
   const TileOutputs& out = plan_->out;
   if (out.seen) return;
-  find_hits(seen_, 0, true);
-  counts_.primary += seen_.size;
+  counts_.primary += as_size(tile_.size().x) * as_size(tile_.size().y);
+  if (!known_.sees_nothing) find_hits(seen_, 0, true);
   if (out.ids) {
+    if (known_.sees_nothing) ids_.fill(kNoTriangle);
     for (std::size_t i = 0; i < seen_.size; ++i) ids_[seen_.pixel[i]] = seen_.triangle[i];
     for (int y = tile_.lo.y; y < tile_.hi.y; ++y)
       std::memcpy(&out.ids->at(tile_.lo.x, y), &ids_[as_size(y - tile_.lo.y) << kTileBits],

@@ -16,7 +16,7 @@ namespace pinocchio {
 
 // What is known of a tile before it is traced.
 struct KnownOfTile {
-  bool sees_nothing = false;      // as the given ids say
+  bool sees_nothing = false;      // of it no pixel does
   std::uint8_t* black = nullptr;  // whether `reflection` is black in it, before and after; null: not kept
 };
 
@@ -36,6 +36,7 @@ class TileTracer {
   using Radiance = std::array<glm::vec4, kCount>;
   static_assert(kSampledPixels == kPixels);
 
+  [[nodiscard]] bool sees_nothing() const;
   void start();
   void begin_light();
   void fetch_ids();
