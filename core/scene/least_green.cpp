@@ -21,36 +21,32 @@ void for_each_square(int first, int last, int texels, int side, Visit visit) {
   if (last >= texels) within(0, last - texels);
 }
 
-int squares_of(int texels, int side) {
-  return (texels + side - 1) / side;
-}
+constexpr int kSide = Texture::kGreenSide;
 
-// The least of each square of `from`.
-GreenImage least_of_squares(const GreenImage& from, int side) {
-  GreenImage to({squares_of(from.width(), side), squares_of(from.height(), side)}, 255);
-  for (int y = 0; y < from.height(); ++y)
-    for (int x = 0; x < from.width(); ++x) {
-      std::uint8_t& least = to.at(x / side, y / side);
-      least = std::min(least, from.at(x, y));
+// The least of each square.
+GreenImage least_of_squares(const Image<glm::u8vec4>& texels) {
+  GreenImage least((texels.size() + kSide - 1) / kSide, 255);
+  for (int y = 0; y < texels.height(); ++y)
+    for (int x = 0; x < texels.width(); ++x) {
+      std::uint8_t& of = least.at(x / kSide, y / kSide);
+      of = std::min(of, texels.at(x, y).g);
     }
-  return to;
+  return least;
 }
 
-// With the texels up to a square's side around each.
-std::vector<float> with_neighbours(const GreenImage& squares, glm::ivec2 texels, int side) {
+// With the texels up to `reach` around each square.
+GreenImage with_neighbours(const GreenImage& squares, glm::ivec2 texels, int reach) {
   GreenImage rows(squares.size(), 255);
   for (int x = 0; x < rows.width(); ++x)
-    for_each_square((x - 1) * side, (x + 2) * side - 1, texels.x, side, [&](int from) {
+    for_each_square(x * kSide - reach, (x + 1) * kSide - 1 + reach, texels.x, kSide, [&](int from) {
       for (int y = 0; y < rows.height(); ++y) rows.at(x, y) = std::min(rows.at(x, y), squares.at(from, y));
     });
   GreenImage all(squares.size(), 255);
   for (int y = 0; y < rows.height(); ++y)
-    for_each_square((y - 1) * side, (y + 2) * side - 1, texels.y, side, [&](int from) {
+    for_each_square(y * kSide - reach, (y + 1) * kSide - 1 + reach, texels.y, kSide, [&](int from) {
       for (int x = 0; x < rows.width(); ++x) all.at(x, y) = std::min(all.at(x, y), rows.at(x, from));
     });
-  std::vector<float> least;
-  for (const std::uint8_t byte : all.pixels()) least.push_back(as_float(byte) / 255.0f);
-  return least;
+  return all;
 }
 
 }  // namespace
@@ -58,11 +54,12 @@ std::vector<float> with_neighbours(const GreenImage& squares, glm::ivec2 texels,
 void find_least_green(Texture& texture) {
   const glm::ivec2 size = texture.texels.size();
   if (std::min(size.x, size.y) < 64) return;
-  GreenImage green(size);
-  for (std::size_t i = 0; i < green.pixels().size(); ++i) green[i] = texture.texels[i].g;
-  for (std::size_t k = 0; k < texture.least_green.size(); ++k) {
-    const int side = Texture::side_of_square(k);
-    texture.least_green[k] = with_neighbours(least_of_squares(green, side), size, side);
+  const GreenImage squares = least_of_squares(texture.texels);
+  texture.least_green.assign(squares.pixels().size(), 0u);
+  for (int k = 0; k < Texture::kGreenReaches; ++k) {
+    const GreenImage least = with_neighbours(squares, size, kSide << k);
+    for (std::size_t i = 0; i < least.pixels().size(); ++i)
+      texture.least_green[i] |= as_uint32(least[i]) << 8 * k;
   }
 }
 

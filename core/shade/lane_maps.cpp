@@ -73,10 +73,8 @@ TexturePlace texture_place(const Mesh& mesh, const TextureUse& use) {
 
 LaneTexture lane_texture(const Mesh& mesh, const TextureUse& use, bool is_color, unsigned maps) {
   const Texture& t = texture_of(mesh, use);
-  LaneTexture lanes{t.blocks.data(), is_color ? linear_from_srgb8().data() : nullptr, maps, {}};
-  for (std::size_t k = 0; k < t.least_green.size(); ++k)
-    if (!t.least_green[k].empty()) lanes.least_green[k] = t.least_green[k].data();
-  return lanes;
+  return {t.blocks.data(), is_color ? linear_from_srgb8().data() : nullptr, maps,
+          t.least_green.empty() ? nullptr : t.least_green.data()};
 }
 
 LaneMapsOf::LaneMapsOf(const Mesh& mesh) {

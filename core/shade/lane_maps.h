@@ -16,7 +16,7 @@ struct LaneTexture {
   const void* texels;              // of all levels, in blocks (pinocchio/texture.h), 32 bits each
   const float* linear_from_srgb8;  // 256; null: the texture is no colour
   unsigned maps;                   // bit i: row i of kMapUses reads it
-  const float* least_green[2];     // of Texture; null: there are none
+  const std::uint32_t* least_green;  // Texture's; null: it has none
 };
 
 struct TextureLevel {

@@ -61,13 +61,11 @@ struct Texture {
   std::string name;
   Image<glm::u8vec4> texels;  // for a new mesh, which moves them to `blocks`; none in a finished one
   TexelBlocks blocks{};       // with levels down to one texel where the texture is interpolated
-  // A finished mesh's textures of roughness have these, for small and for large squares, row by row: the
-  // least green, 0 to 1, of the square and of the texels up to its side around it, beyond edges those of the
-  // other side.
-  std::array<std::vector<float>, 2> least_green{};
-  [[nodiscard, gnu::always_inline]] static constexpr int side_of_square(std::size_t kind) {  // texels
-    return kind == 0 ? 8 : 32;
-  }
+  // A finished mesh's textures of roughness have this of each square of kGreenSide texels a side, row by row:
+  // byte k is the least green of the square and of the texels up to kGreenSide << k around it, beyond edges
+  // those of the other side.
+  std::vector<std::uint32_t> least_green{};
+  static constexpr int kGreenSide = 4, kGreenReaches = 4;
 
   [[nodiscard]] bool in_blocks() const { return texels.empty() && !blocks.empty(); }
   [[nodiscard]] glm::ivec2 size() const { return in_blocks() ? blocks.size(0) : texels.size(); }

@@ -292,7 +292,7 @@ inline Mask surely_rough(const SceneArrays& scene, const LaneMaps& lane_maps, co
     const TexturePlace& place = lane_maps.places[i];
     for (int k = 0; k < place.count; ++k) {
       const LaneTexture& texture = place.textures[k];
-      if ((texture.maps >> kMetallicRoughness & 1u) == 0 || !texture.least_green[0]) continue;
+      if ((texture.maps >> kMetallicRoughness & 1u) == 0 || !texture.least_green) continue;
       const MapCoordinates at(scene, place, triangle, weights, lanes);
       const LaneFootprints footprints(place, uv_to_neighbour(points, points.moved_x, place, at),
                                       uv_to_neighbour(points, points.moved_y, place, at), lanes);

@@ -166,34 +166,34 @@ struct LaneFootprints {
   }
 };
 
-// The lanes whose texels, of all that are read there, surely have at least this green. The texture has
-// `least_green`.
+// The lanes whose texels, of all that are read there, surely have at least this green, 0 to 1. The texture
+// has `least_green`.
 inline Mask all_green(const TexturePlace& place, const LaneTexture& texture, const vec2& uv,
                       const LaneFootprints& footprints, float least, Mask lanes) {
   const Float width(place.level[0].width), height(place.level[0].height);
   const Float x = wrapped_texel(floor(within_period(uv.x, place.wrap_u) * width), width, place.wrap_u);
   const Float y = wrapped_texel(floor(within_period(uv.y, place.wrap_v) * height), height, place.wrap_v);
-  // Half of the longer side, and one and a half texels of a level that is at most twice as coarse as its
-  // taps. Sides that are no powers of two make a level's texels a little larger.
-  const Float reach =  // texels
-      select(footprints.filtered,
-             Float(0.5f) * footprints.longer +
-                 Float(3.4f) * max(footprints.longer / footprints.taps, Float(1.0f)) + Float(1.0f),
+  // Half of the longer side, and one and a half texels of the coarser of the levels. Sides that are no powers
+  // of two make a level's texels up to 1.13 times as large.
+  const Float apart = max(footprints.longer / footprints.taps, Float(1.0f));
+  const Float side_of_texel = from_bits((bits_of(apart) + Int(0x007fffffu)) & Int(0x7f800000u));  // 2^n
+  const Float reach =                                                                             // texels
+      select(footprints.filtered, Float(0.5f) * footprints.longer + Float(1.7f) * side_of_texel + Float(1.0f),
              Float(2.0f));
   // Further away, the rounding of a tap's coordinate is above a quarter of a texel.
   const Float far(0x1p22f);
   lanes = lanes & (abs(uv.x) * width < far) & (abs(uv.y) * height < far);
-  Mask all = Mask::from_bits(0);
-  for (std::size_t k = 0; k < std::size(texture.least_green); ++k) {
-    const float side = as_float(Texture::side_of_square(k));
-    const Mask asked = lanes & ~all & (reach <= Float(side));
-    if (asked.bits() == 0) continue;
-    const std::uint32_t squares = (as_uint32(place.level[0].width) + as_uint32(side) - 1) / as_uint32(side);
-    const Int square =
-        to_int(floor(y * Float(1.0f / side))) * Int(squares) + to_int(floor(x * Float(1.0f / side)));
-    all = all | (asked & (Float(least) <= from_bits(gather(texture.least_green[k], square, asked))));
-  }
-  return all;
+  constexpr int kSide = Texture::kGreenSide;
+  static_assert(Texture::kGreenReaches == 4);
+  lanes = lanes & (reach <= Float(8.0f * kSide));
+  if (lanes.bits() == 0) return lanes;
+  const auto square_of = [](Float texel) { return to_int(floor(texel * Float(1.0f / kSide))); };
+  const auto squares = (as_uint32(place.level[0].width) + kSide - 1) / kSide;
+  const Int found = gather(texture.least_green, square_of(y) * Int(squares) + square_of(x), lanes);
+  Int green = select(Float(1.0f * kSide) < reach, shift_right<8>(found), found);
+  green = select(Float(2.0f * kSide) < reach, shift_right<16>(found), green);
+  green = select(Float(4.0f * kSide) < reach, shift_right<24>(found), green);
+  return lanes & (Float(least) <= to_float(green & Int(0xffu)) / Float(255.0f));
 }
 
 [[gnu::noinline]] void sample_textures(const TexturePlace& place, unsigned wanted, unsigned maps,

@@ -198,12 +198,12 @@ TEST(LoadImages, TexelsOfAFinishedTextureAreReplaced) {
   mesh.textures.edit().push_back({"rough", Image<glm::u8vec4>({64, 64}, glm::u8vec4(255))});
   MeshData finished = Mesh(mesh);
   EXPECT_EQ(finished.textures[0].size(), glm::ivec2(64));
-  EXPECT_EQ(finished.textures[0].least_green[0].size(), 64u);
+  EXPECT_EQ(finished.textures[0].least_green.size(), 256u);
   finished.textures.edit()[0].texels = Image<glm::u8vec4>({2, 1}, glm::u8vec4(0));
   EXPECT_EQ(finished.textures[0].image().size(), glm::ivec2(2, 1));
   const Mesh again(finished);
   EXPECT_EQ(again.textures[0].levels(), 2);
-  EXPECT_TRUE(again.textures[0].least_green[0].empty());
+  EXPECT_TRUE(again.textures[0].least_green.empty());
 }
 
 // Sides that are no multiples of a block's, and less than one.

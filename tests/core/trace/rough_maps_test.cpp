@@ -13,15 +13,19 @@ namespace {
 
 constexpr glm::ivec2 kSize{150, 90};
 
-// Just too rough to mirror, with few smooth spots; all metal. A little of a spot makes a footprint's mean
-// mirror.
+// Just too rough to mirror, with few smooth spots, small and large; all metal. A ten thousandth of a spot makes
+// a footprint's mean mirror.
+constexpr int kGreen = 250;
+const float kRoughness = 1.0001f * shared::kRoughestMirror * 255.0f / kGreen;
+
 Texture spotted(glm::ivec2 size, Random& random) {
-  Texture texture{"spotted", Image<glm::u8vec4>(size, glm::u8vec4(255, 66, 255, 255))};
-  for (int spot = 0; spot < 12; ++spot) {
+  Texture texture{"spotted", Image<glm::u8vec4>(size, glm::u8vec4(255, kGreen, 255, 255))};
+  for (int spot = 0; spot < 40; ++spot) {
     const glm::ivec2 at(random.next() % as_uint32(size.x), random.next() % as_uint32(size.y));
     const auto green = static_cast<std::uint8_t>(random.next() % 8);
-    for (int y = 0; y < 9; ++y)
-      for (int x = 0; x < 9; ++x) texture.texels.at((at.x + x) % size.x, (at.y + y) % size.y).g = green;
+    const int side = 1 << spot % 5;
+    for (int y = 0; y < side; ++y)
+      for (int x = 0; x < side; ++x) texture.texels.at((at.x + x) % size.x, (at.y + y) % size.y).g = green;
   }
   return texture;
 }
@@ -45,7 +49,7 @@ Scene spotted_floor(glm::ivec2 size, Wrap wrap, float density, float offset, Ran
   mesh->triangle_materials = {0, 0, 1, 1};
   MaterialMaps maps;
   maps.from_gltf = true;
-  surface.roughness = 1.0f;
+  surface.roughness = kRoughness;
   maps.surface = surface;
   maps.metallic_roughness.texture = 0;
   maps.metallic_roughness.wrap_u = maps.metallic_roughness.wrap_v = wrap;
@@ -75,6 +79,7 @@ Traced traced(TraceJob job, float light_cutoff, Image<std::uint32_t>& ids) {
   out.depth = 2;
   out.reflection = &result.reflection;
   job.options.light_cutoff = light_cutoff;
+  job.options.throughput_cutoff = 0.0f;
   trace_tiles(job, out);
   shade(job, ids, result.mask, result.reflection, result.color);
   return result;
@@ -89,7 +94,7 @@ TEST(RoughMaps, ThePictureIsTheSameAsIfAllWereAsked) {
   Random random(5);
   for (const glm::ivec2 size : {glm::ivec2(64), {100, 70}, {257, 64}, {512, 512}, {63, 200}})
     for (const Wrap wrap : {Wrap::repeat, Wrap::mirror, Wrap::clamp})
-      for (const float density : {0.1f, 0.7f, 4.0f}) {
+      for (const float density : {0.1f, 0.3f, 0.7f, 4.0f}) {
         const float offset = random.between(0, 1) < 0.5f ? 0.3f : 90000.3f;
         const Scene scene = spotted_floor(size, wrap, density, offset, random);
         Workers workers(2);
