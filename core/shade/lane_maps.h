@@ -13,9 +13,9 @@ inline constexpr unsigned kMostLanes = 16;
 inline constexpr int kMostLevels = 31;  // a side has less than 2^31 texels
 
 struct LaneTexture {
-  const void* texels;              // of all levels, in blocks (pinocchio/texture.h), 32 bits each
-  const float* linear_from_srgb8;  // 256; null: the texture is no colour
-  unsigned maps;                   // bit i: row i of kMapUses reads it
+  const void* texels;                // of all levels, in blocks (pinocchio/texture.h), 32 bits each
+  const float* linear_from_srgb8;    // 256; null: the texture is no colour
+  unsigned maps;                     // bit i: row i of kMapUses reads it
   const std::uint32_t* least_green;  // Texture's; null: it has none
 };
 

@@ -6,7 +6,7 @@
 #include <cstring>
 
 #include "core/shade/surface.h"
-#include "core/trace/tiles/tile_frustum.h"
+#include "core/trace/view/tile_frustum.h"
 #include "core/trace/view/view_params.h"
 #include "pinocchio/conversion.h"
 

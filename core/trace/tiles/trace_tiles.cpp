@@ -3,8 +3,8 @@
 #include <mutex>
 #include <optional>
 
-#include "core/trace/tiles/seen_tiles.h"
 #include "core/trace/tiles/tile_tracer.h"
+#include "core/trace/view/seen_tiles.h"
 #include "pinocchio/conversion.h"
 
 namespace pinocchio {

@@ -50,8 +50,8 @@ glm::dvec2 place_of(int k, PixelFilter filter, bool outlines = false) {
   return {place_of_share(at.x), place_of_share(at.y)};
 }
 
-// The mean of the samples from `first` to twice as far (of the first three, from 1 to 3). Frames ask it once a sample, one
-// after another, so that a thread keeps the last one.
+// The mean of the samples from `first` to twice as far (of the first three, from 1 to 3). Frames ask it once
+// a sample, one after another, so that a thread keeps the last one.
 glm::dvec2 mean_from(int first, PixelFilter filter) {
   struct Mean {
     int first = 0;

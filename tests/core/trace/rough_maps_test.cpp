@@ -13,8 +13,8 @@ namespace {
 
 constexpr glm::ivec2 kSize{150, 90};
 
-// Just too rough to mirror, with few smooth spots, small and large; all metal. A ten thousandth of a spot makes
-// a footprint's mean mirror.
+// Just too rough to mirror, with few smooth spots, small and large; all metal. A ten thousandth of a spot
+// makes a footprint's mean mirror.
 constexpr int kGreen = 250;
 const float kRoughness = 1.0001f * shared::kRoughestMirror * 255.0f / kGreen;
 

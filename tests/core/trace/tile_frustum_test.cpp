@@ -1,6 +1,6 @@
 // Tiles whose rays come near nothing are not traced: every picture has the bits that it has with all rays
 // traced.
-#include "core/trace/tiles/tile_frustum.h"
+#include "core/trace/view/tile_frustum.h"
 
 #include <cstring>
 

@@ -1,4 +1,4 @@
-#include "core/trace/tiles/tile_frustum.h"
+#include "core/trace/view/tile_frustum.h"
 
 #include <algorithm>
 #include <cmath>

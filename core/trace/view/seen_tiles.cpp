@@ -1,4 +1,4 @@
-#include "core/trace/tiles/seen_tiles.h"
+#include "core/trace/view/seen_tiles.h"
 
 #include "pinocchio/conversion.h"
 #include "pinocchio/ray.h"
