@@ -72,22 +72,23 @@ void Workers::for_each(std::size_t n, const std::function<void(std::size_t)>& bo
   }
   work(job);
   if (helpers > 0) {
+    {
+      const std::lock_guard lock(mutex_);
+      job_ = nullptr;
+    }
+    wait_awake();
     std::unique_lock lock(mutex_);
-    job_ = nullptr;
-    lock.unlock();
-    await_helpers_awake();
-    lock.lock();
     done_.wait(lock, [this] { return busy_ == 0; });
   }
   if (job.error) std::rethrow_exception(job.error);
 }
 
-// To be woken takes longer than most last tiles: 50 microseconds and more on a virtual machine.
-void Workers::await_helpers_awake() const {
-  constexpr auto kMost = std::chrono::microseconds(100);
-  for (const auto begin = std::chrono::steady_clock::now();
-       busy_ != 0 && std::chrono::steady_clock::now() - begin < kMost;)
-    std::this_thread::yield();  // a helper may wait for this core
+// Waits for the helpers, for a while without sleeping: waking up takes 50 microseconds on a virtual machine,
+// longer than many a last tile.
+void Workers::wait_awake() const {
+  using Clock = std::chrono::steady_clock;
+  const Clock::time_point end = Clock::now() + std::chrono::microseconds(100);
+  while (busy_ != 0 && Clock::now() < end) std::this_thread::yield();  // a helper may need this core
 }
 
 void Workers::work(Job& job) {

@@ -35,7 +35,7 @@ class Workers {
  private:
   struct Job;
   void work(Job& job);
-  void await_helpers_awake() const;
+  void wait_awake() const;
   void run_thread(int number);
   void keep(int threads);
 

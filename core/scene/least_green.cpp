@@ -1,6 +1,7 @@
 #include "core/scene/least_green.h"
 
 #include <algorithm>
+#include <vector>
 
 #include "pinocchio/conversion.h"
 
@@ -9,19 +10,24 @@ namespace {
 
 using GreenImage = Image<std::uint8_t>;
 
-// Squares that the texels from `first` to `last` of a side of `texels` are in, where they may be beyond the
-// side's ends by less than its length: calls visit(square), for some more than once.
-template <class Visit>
-void for_each_square(int first, int last, int texels, int side, Visit visit) {
-  const auto within = [&](int begin, int end) {
-    for (int i = begin / side; i <= end / side; ++i) visit(i);
-  };
-  within(std::max(first, 0), std::min(last, texels - 1));
-  if (first < 0) within(texels + first, texels - 1);
-  if (last >= texels) within(0, last - texels);
-}
-
 constexpr int kSide = Texture::kGreenSide;
+
+struct Source {
+  int square, from;
+};
+
+// For the squares of a side of `texels`: those that their own texels and the ones `way` texels before and
+// behind are in. Beyond the side's ends it begins anew.
+std::vector<Source> sources_of(int texels, int way) {
+  std::vector<Source> sources;
+  for (int square = 0; square * kSide < texels; ++square)
+    for (const int offset : {-way, 0, way})
+      for (int i = 0; i < kSide; ++i) {
+        const int from = (square * kSide + offset + i + texels) % texels / kSide;
+        if (i == 0 || from != sources.back().from) sources.push_back({square, from});
+      }
+  return sources;
+}
 
 // The least of each square.
 GreenImage least_of_squares(const Image<glm::u8vec4>& texels) {
@@ -34,18 +40,14 @@ GreenImage least_of_squares(const Image<glm::u8vec4>& texels) {
   return least;
 }
 
-// With the texels up to `reach` around each square.
-GreenImage with_neighbours(const GreenImage& squares, glm::ivec2 texels, int reach) {
-  GreenImage rows(squares.size(), 255);
-  for (int x = 0; x < rows.width(); ++x)
-    for_each_square(x * kSide - reach, (x + 1) * kSide - 1 + reach, texels.x, kSide, [&](int from) {
-      for (int y = 0; y < rows.height(); ++y) rows.at(x, y) = std::min(rows.at(x, y), squares.at(from, y));
-    });
-  GreenImage all(squares.size(), 255);
+// The least of each square and of those `way` texels from it, across, down and both.
+GreenImage least_around(const GreenImage& squares, glm::ivec2 texels, int way) {
+  GreenImage rows(squares.size(), 255), all(squares.size(), 255);
+  const std::vector<Source> across = sources_of(texels.x, way), down = sources_of(texels.y, way);
   for (int y = 0; y < rows.height(); ++y)
-    for_each_square(y * kSide - reach, (y + 1) * kSide - 1 + reach, texels.y, kSide, [&](int from) {
-      for (int x = 0; x < rows.width(); ++x) all.at(x, y) = std::min(all.at(x, y), rows.at(x, from));
-    });
+    for (const auto& [x, from] : across) rows.at(x, y) = std::min(rows.at(x, y), squares.at(from, y));
+  for (const auto& [y, from] : down)
+    for (int x = 0; x < all.width(); ++x) all.at(x, y) = std::min(all.at(x, y), rows.at(x, from));
   return all;
 }
 
@@ -54,10 +56,11 @@ GreenImage with_neighbours(const GreenImage& squares, glm::ivec2 texels, int rea
 void find_least_green(Texture& texture) {
   const glm::ivec2 size = texture.texels.size();
   if (std::min(size.x, size.y) < 64) return;
-  const GreenImage squares = least_of_squares(texture.texels);
-  texture.least_green.assign(squares.pixels().size(), 0u);
+  GreenImage least = least_of_squares(texture.texels);
+  texture.least_green.assign(least.pixels().size(), 0u);
   for (int k = 0; k < Texture::kGreenReaches; ++k) {
-    const GreenImage least = with_neighbours(squares, size, kSide << k);
+    // Each holds the least as far around it as the next ones are away.
+    least = least_around(least, size, kSide << std::max(k - 1, 0));
     for (std::size_t i = 0; i < least.pixels().size(); ++i)
       texture.least_green[i] |= as_uint32(least[i]) << 8 * k;
   }

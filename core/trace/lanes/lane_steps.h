@@ -103,7 +103,7 @@ struct Bounce {
   SampledPoint* points = nullptr;  // a tile's pixels: the surfaces, for the filter; null: not wanted
   bool lights_alone = false;       // other steps have the same rays' surfaces, and light of other lights
 
-  // Whether no shadow ray is fired for light that is too faint.
+  // Whether light that is too faint gets no shadow ray.
   [[nodiscard]] bool cuts_light() const { return visible && options->light_cutoff > 0.0f; }
 };
 

@@ -47,7 +47,7 @@ TileResult TileTracer::trace(const TilePlan& plan, const PixelBox& tile, const K
   plan_ = &plan;
   tile_ = tile;
   known_ = known;
-  if (sees_nothing()) known_.sees_nothing = true;
+  if (rays_miss_scene()) known_.sees_nothing = true;
   counts_ = {};
   reflects_ = plan.out.sampled != nullptr;
   if (reflects_) begin_light();
@@ -71,8 +71,8 @@ TileResult TileTracer::trace(const TilePlan& plan, const PixelBox& tile, const K
   return {counts_, times};
 }
 
-// Whether no camera ray of the tile comes near the scene. Whoever wants to know the rays gets them all.
-bool TileTracer::sees_nothing() const {
+// Whether all camera rays of the tile pass the scene by. Not looked for if on_rays wants all rays.
+bool TileTracer::rays_miss_scene() const {
   return !plan_->out.seen && !plan_->out.on_rays && !plan_->model &&
          misses(TileFrustum(plan_->view, tile_), plan_->job.tracer.trees());
 }

@@ -14,9 +14,9 @@
 
 namespace pinocchio {
 
-// What is known of a tile before it is traced.
+// Known before a tile is traced.
 struct KnownOfTile {
-  bool sees_nothing = false;      // of it no pixel does
+  bool sees_nothing = false;      // no pixel sees a triangle
   std::uint8_t* black = nullptr;  // whether `reflection` is black in it, before and after; null: not kept
 };
 
@@ -36,7 +36,7 @@ class TileTracer {
   using Radiance = std::array<glm::vec4, kCount>;
   static_assert(kSampledPixels == kPixels);
 
-  [[nodiscard]] bool sees_nothing() const;
+  [[nodiscard]] bool rays_miss_scene() const;
   void start();
   void begin_light();
   void fetch_ids();

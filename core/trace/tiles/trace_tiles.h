@@ -70,9 +70,8 @@ struct TileOutputs {
   // `depth` generations at most.
   int depth = 0;
   Image<glm::vec3>* reflection = nullptr;
-  // The tiles (TileGrid's) of `reflection` that are black all over: not 0 for each, kept beside the image
-  // from frame to frame, so that what is black already is not written again. Whoever changes the image
-  // empties it.
+  // For each tile (TileGrid's) of `reflection`, 1 if it is black, else 0. Kept beside the image from frame to
+  // frame, so that what is black is not written again. Whoever else changes the image empties it.
   std::vector<std::uint8_t>* black_tiles = nullptr;
   // Also in `reflection`: one sample of the environment's light, and one of light from other matt surfaces,
   // with at most `indirect` bounces.

@@ -10,14 +10,14 @@
 
 namespace pinocchio {
 
-// Which tiles of given ids see anything. A row of tiles is read as a whole by the first thread that asks for
-// one of it: line by line of the picture, as memory is read fastest.
+// Which tiles see a triangle, by given ids. The first thread that asks for a tile reads the ids of its whole
+// row of tiles, line by line of the picture: memory is fastest in that order.
 class SeenTiles {
  public:
-  // Every scale-th pixel of `ids`, which outlives this, is one of the grid's.
+  // The grid's pixels are every scale-th of `ids`, across and down. Both outlive this.
   SeenTiles(const Image<std::uint32_t>& ids, int scale, const TileGrid& grid);
 
-  // Whether some pixel of the tile sees something. From any thread.
+  // Whether any pixel of the tile sees a triangle. Any thread may call it.
   [[nodiscard]] bool any(std::size_t tile);
 
  private:

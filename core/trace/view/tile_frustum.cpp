@@ -23,7 +23,7 @@ class Search {
  public:
   explicit Search(const TileFrustum& frustum) : frustum_(frustum) {}
 
-  // Whether some triangle of a tree may be near.
+  // False only if all rays pass all triangles of the tree, or trees, by.
   [[nodiscard]] bool reaches(const BspTree& tree) {
     left_ = kMostBoxes;
     return reaches(tree, 0, tree.bounds);

@@ -10,13 +10,13 @@
 
 namespace pinocchio {
 
-// The space between the camera's rays of a tile and a pixel around it, which is more than rounding moves
-// them.
+// The space that the camera's rays of a tile go through, and a pixel around it: far more than rounding moves
+// rays.
 class TileFrustum {
  public:
   TileFrustum(const shared::ViewParams& view, const PixelBox& tile);
 
-  // Whether no ray of the tile comes near the box. May be false where that is so.
+  // True only if all rays pass the box by.
   [[nodiscard]] bool misses(const Bounds& box) const;
 
  private:
@@ -28,7 +28,8 @@ class TileFrustum {
   double reach_ = 0.0;  // the greatest coordinate of where the rays begin
 };
 
-// Whether no triangle is near the tile's rays, as far as a few boxes of the trees tell.
+// True only if all rays pass all triangles by. It looks at a few boxes of the trees, so that it may be false
+// even then.
 [[nodiscard]] bool misses(const TileFrustum& frustum, const SceneTrees& trees);
 
 }  // namespace pinocchio

@@ -206,6 +206,39 @@ TEST(LoadImages, TexelsOfAFinishedTextureAreReplaced) {
   EXPECT_TRUE(again.textures[0].least_green.empty());
 }
 
+// Byte k of a square: the least of the texels up to kGreenSide << k around it, beyond edges those of the
+// other side. Where a side is no multiple of a square's, of some more.
+TEST(LoadImages, TheLeastGreenAroundIsFound) {
+  constexpr int kSquare = Texture::kGreenSide;
+  for (const glm::ivec2 size : {glm::ivec2(64), {128, 64}, {71, 90}}) {
+    MeshData mesh;
+    make_maps(mesh, mesh.materials.emplace_back()).metallic_roughness.texture = 0;
+    Image<glm::u8vec4> texels(size);
+    Random random(3);
+    for (glm::u8vec4& texel : texels.pixels())
+      texel.g = static_cast<std::uint8_t>(255 - random.next() % 256 / 4);
+    mesh.textures.edit().push_back({"rough", texels});
+    const Mesh finished(mesh);
+    const std::vector<std::uint32_t>& found = finished.textures[0].least_green;
+    const glm::ivec2 squares = (size + kSquare - 1) / kSquare;
+    ASSERT_EQ(found.size(), as_size(squares.x * squares.y));
+    for (int k = 0; k < Texture::kGreenReaches; ++k)
+      for (std::size_t i = 0; i < found.size(); ++i) {
+        const int reach = kSquare << k;
+        const glm::ivec2 at = kSquare * glm::ivec2(as_int(i) % squares.x, as_int(i) / squares.x);
+        unsigned least = 255;
+        for (int y = at.y - reach; y < at.y + kSquare + reach; ++y)
+          for (int x = at.x - reach; x < at.x + kSquare + reach; ++x)
+            least = std::min<unsigned>(least, texels.at((x + size.x) % size.x, (y + size.y) % size.y).g);
+        const unsigned byte = found[i] >> 8 * k & 0xffu;
+        ASSERT_LE(byte, least) << size.x << ", " << i << ", " << k;
+        if (size % kSquare == glm::ivec2(0)) {
+          ASSERT_EQ(byte, least) << size.x << ", " << i << ", " << k;
+        }
+      }
+  }
+}
+
 // Sides that are no multiples of a block's, and less than one.
 TEST(LoadImages, BlocksHoldWhatRowsHeld) {
   for (const glm::ivec2 size : {glm::ivec2(1), {3, 2}, {4, 4}, {5, 9}, {17, 1}}) {

@@ -13,11 +13,12 @@ namespace {
 
 constexpr glm::ivec2 kSize{150, 90};
 
-// Just too rough to mirror, with few smooth spots, small and large; all metal. A ten thousandth of a spot
-// makes a footprint's mean mirror.
+// Just too rough to mirror where green is kGreen: a ten thousandth of a smooth spot in a footprint makes it
+// mirror.
 constexpr int kGreen = 250;
 const float kRoughness = 1.0001f * shared::kRoughestMirror * 255.0f / kGreen;
 
+// All metal, with few smooth spots, small and large.
 Texture spotted(glm::ivec2 size, Random& random) {
   Texture texture{"spotted", Image<glm::u8vec4>(size, glm::u8vec4(255, kGreen, 255, 255))};
   for (int spot = 0; spot < 40; ++spot) {

@@ -226,41 +226,6 @@ TEST(TraceTiles, EachOutputAloneIsWhatItIsAmongAll) {
   EXPECT_TRUE(same_bits(reflection, all.reflection));
 }
 
-// Parts of a larger picture, one after the other into one image: what a tile mirrored before is not left
-// there.
-TEST(TraceTiles, BlackTilesAreThoseWithoutMirroredLight) {
-  const Scene scene = all_sorts();
-  const Tracer tracer(scene.mesh);
-  Workers workers(2);
-  const TileGrid grid(kSize);
-  Image<glm::vec3> kept;
-  std::vector<std::uint8_t> black;
-  int black_before_and_after = 0, black_after_light = 0;
-  for (const glm::ivec2 first : {glm::ivec2(0, 0), {16, 16}, {225, 135}, {450, 270}, {225, 135}, {0, 0}}) {
-    const TraceJob job{scene, tracer, workers, view_params(camera_of(scene), {600, 360}, {}, first)};
-    const Drawn expected = by_tiles(job);
-    const std::vector<std::uint8_t> before = black;
-    TileOutputs out;
-    out.size = kSize;
-    out.seen = &expected.ids;
-    out.mask_bits = mask_bits_of(scene);
-    out.depth = kDepth;
-    out.reflection = &kept;
-    out.black_tiles = &black;
-    trace_tiles(job, out);
-    EXPECT_TRUE(same_bits(kept, expected.reflection));
-    ASSERT_EQ(black.size(), grid.count());
-    for (std::size_t i = 0; i < black.size(); ++i) {
-      if (black[i] == 0) continue;
-      TileGrid::for_each_pixel(grid.tile(i),
-                               [&](int x, int y) { ASSERT_EQ(kept.at(x, y), glm::vec3(0.0f)); });
-      if (!before.empty()) ++(before[i] != 0 ? black_before_and_after : black_after_light);
-    }
-  }
-  EXPECT_GT(black_before_and_after, 0);
-  EXPECT_GT(black_after_light, 0);
-}
-
 TEST(TraceTiles, AddedLightIsWhatIsAddedPixelByPixel) {
   const Scene scene = all_sorts();
   const Tracer tracer(scene.mesh);

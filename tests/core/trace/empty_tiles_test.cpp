@@ -1,11 +1,10 @@
-// Tiles whose rays come near nothing are not traced: every picture has the bits that it has with all rays
-// traced.
-#include "core/trace/view/tile_frustum.h"
-
+// Tiles whose rays come near nothing are not traced, and black light is not written twice: every picture has
+// the bits that it has otherwise.
 #include <cstring>
 
 #include "core/parallel/tiles.h"
 #include "core/trace/tiles/trace_tiles.h"
+#include "core/trace/view/tile_frustum.h"
 #include "core/trace/view/view_params.h"
 #include "pinocchio/animation.h"
 #include "pinocchio/view.h"
@@ -116,6 +115,14 @@ TEST(TileFrustum, PicturesOfMovedPartsAreTheSame) {
   EXPECT_GT(tiles.found, tiles.empty / 2);
 }
 
+TEST(TileFrustum, PicturesOfCopiesAreTheSame) {
+  const Scene scene = load_copies();
+  const Tracer tracer(scene, {}, std::nullopt, OffsetMethod::error_bound, nullptr);
+  ASSERT_FALSE(tracer.trees().top.empty());
+  const Tiles tiles = expect_same_pictures(scene, tracer, 60, 29);
+  EXPECT_GT(tiles.found, tiles.empty / 2);
+}
+
 // A pixel wide strip of the scene's box beside a tile is not missed; two pixels away it is.
 TEST(TileFrustum, KnowsAPixelMoreThanItsTile) {
   Camera camera;
@@ -128,6 +135,43 @@ TEST(TileFrustum, KnowsAPixelMoreThanItsTile) {
   EXPECT_FALSE(frustum.misses(column(right - 1.0f)));
   EXPECT_FALSE(frustum.misses(column(right + 0.2f)));
   EXPECT_TRUE(frustum.misses(column(right + 1.0f)));
+}
+
+// Parts of a larger picture, one after the other into one image: what a tile mirrored before is not left
+// there.
+TEST(BlackTiles, AreThoseWithoutMirroredLight) {
+  const Scene scene = load_or_die(source_path("scenes/two-lights.gltf"));
+  const Tracer tracer(scene.mesh);
+  Workers workers(2);
+  const TileGrid grid(kSize);
+  Image<glm::vec3> kept;
+  std::vector<std::uint8_t> black;
+  int black_before_and_after = 0, black_after_light = 0;
+  for (const glm::ivec2 first : {glm::ivec2(0), {16, 16}, {250, 190}, {500, 380}, {250, 190}, {0, 0}}) {
+    const TraceJob job{scene, tracer, workers, view_params(scene.cameras.front(), 3 * kSize, {}, first)};
+    const Image<std::uint32_t> ids = drawn(job, true).ids;
+    const std::vector<std::uint8_t> before = black;
+    Image<glm::vec3> expected;
+    TileOutputs out;
+    out.size = kSize;
+    out.seen = &ids;
+    out.depth = 3;
+    out.reflection = &expected;
+    trace_tiles(job, out);
+    out.reflection = &kept;
+    out.black_tiles = &black;
+    trace_tiles(job, out);
+    EXPECT_TRUE(same_bits(kept, expected));
+    ASSERT_EQ(black.size(), grid.count());
+    for (std::size_t i = 0; i < black.size(); ++i) {
+      if (black[i] == 0) continue;
+      TileGrid::for_each_pixel(grid.tile(i),
+                               [&](int x, int y) { ASSERT_EQ(kept.at(x, y), glm::vec3(0.0f)); });
+      if (!before.empty()) ++(before[i] != 0 ? black_before_and_after : black_after_light);
+    }
+  }
+  EXPECT_GT(black_before_and_after, 0);
+  EXPECT_GT(black_after_light, 0);
 }
 
 }  // namespace
