@@ -3,6 +3,10 @@
 // lanes are those of simd/lanes.h.
 #pragma once
 
+#if defined(__SSE2__)
+#include <immintrin.h>
+#endif
+
 #include <cstdint>
 
 namespace pinocchio {
@@ -19,6 +23,20 @@ inline Four load_four(const float* p) {
 }
 inline void store_four(float* p, Four v) {
   *reinterpret_cast<Four*>(p) = v;
+}
+// Past the caches, for memory that is larger than they are: it is not read before it is written, and what the
+// caches hold stays there. Others see it after finish_streams(). Aligned to 16 bytes.
+inline void stream_four(float* p, Four v) {
+#if defined(__SSE2__)
+  _mm_stream_ps(p, __m128(v));
+#else
+  store_four(p, v);
+#endif
+}
+inline void finish_streams() {
+#if defined(__SSE2__)
+  _mm_sfence();
+#endif
 }
 inline Four load_unaligned(const float* p) {
   Four v;

@@ -131,14 +131,14 @@ void add_environment(const EnvironmentLight& environment, bool counts_samples, c
 
 // Adds the environment to the tile's pixels that show nothing; alpha stays 0.
 void paint_background(const EnvironmentLight& environment, const shared::ViewParams& view,
-                      const PixelBox& tile, Image<glm::vec4>& color) {
+                      const PixelBox& tile, glm::vec4* color) {
   static_assert(kWidth <= 16);
   alignas(64) static constexpr std::uint32_t kLane[16] = {0, 1, 2,  3,  4,  5,  6,  7,
                                                           8, 9, 10, 11, 12, 13, 14, 15};
   const Vec corner(view.corner), step_x(view.step_x), step_y(view.step_y);
   for (int y = tile.lo.y; y < tile.hi.y; ++y)
     for (int x = tile.lo.x; x < tile.hi.x; x += kWidth) {
-      glm::vec4* const pixels = &color.at(x, y);
+      glm::vec4* const pixels = color + (as_size(y - tile.lo.y) << kTileBits) + as_size(x - tile.lo.x);
       const int count = tile.hi.x - x < kWidth ? tile.hi.x - x : kWidth;
       unsigned empty = 0;
       for (int i = 0; i < count; ++i) empty |= (pixels[i].a == 0.0f ? 1u : 0u) << i;

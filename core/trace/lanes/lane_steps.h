@@ -158,9 +158,9 @@ struct LaneSteps {
   // Where the density is negative, another method has found all of it.
   void (*add_environment)(const EnvironmentLight& environment, bool counts_samples, const RayQueue& rays,
                           float* radiance);
-  // Adds the environment to the tile's pixels with alpha 0.
+  // Adds the environment to the tile's pixels with alpha 0, of which `color` has kTileSize a row.
   void (*paint_background)(const EnvironmentLight& environment, const shared::ViewParams& view,
-                           const PixelBox& tile, Image<glm::vec4>& color);
+                           const PixelBox& tile, glm::vec4* color);
 };
 
 enum class Isa;  // pinocchio/tracer.h

@@ -85,37 +85,30 @@ void TileTracer::uncover(std::uint32_t pixel, float by) {
 // Adds the background where nothing is hit; alpha stays 0.
 void TileTracer::paint_background() {
   const Background& background = plan_->job.options.background;
+  is_black_ = false;
   if (plan_->backdrop) paint_backdrop();
   if (background.kind != Background::Kind::color) return;
-  for (int y = tile_.lo.y; y < tile_.hi.y; ++y)
-    for (int x = tile_.lo.x; x < tile_.hi.x; ++x) {
-      glm::vec4& pixel = plan_->out.color->at(x, y);
-      if (pixel.a == 0.0f) pixel = glm::vec4(background.color, 0.0f);
-    }
+  for (glm::vec4& pixel : direct_)
+    if (pixel.a == 0.0f) pixel = glm::vec4(background.color, 0.0f);
 }
 
 void TileTracer::paint_backdrop() {
   const LaneSteps& steps = plan_->job.tracer.steps();
   if (!plan_->model) {
-    steps.paint_background(*plan_->backdrop, plan_->view, tile_, *plan_->out.color);
+    steps.paint_background(*plan_->backdrop, plan_->view, tile_, direct_.data());
     return;
   }
   sky_.make_room(kPixels);
   for (int y = tile_.lo.y; y < tile_.hi.y; ++y)
     for (int x = tile_.lo.x; x < tile_.hi.x; ++x) {
-      if (plan_->out.color->at(x, y).a != 0.0f) continue;
+      const auto pixel = as_uint32((y - tile_.lo.y) << kTileBits | (x - tile_.lo.x));
+      if (direct_[pixel].a != 0.0f) continue;
       const glm::vec3 direction = plan_->model->ray(x, y).direction;
       if (direction == glm::vec3(0.0f)) continue;
-      const auto pixel = as_uint32((y - tile_.lo.y) << kTileBits | (x - tile_.lo.x));
       put({glm::vec3(0.0f), kInfinity, direction}, pixel, 1.0f, kNoTriangle, sky_.size++, sky_);
     }
-  reflected_.fill(glm::vec4(0.0f));
-  steps.add_environment(*plan_->backdrop, false, sky_, &reflected_[0].x);
-  for (std::size_t i = 0; i < sky_.size; ++i) {
-    const std::uint32_t pixel = sky_.pixel[i], row = pixel >> kTileBits;
-    plan_->out.color->at(tile_.lo.x + as_int(pixel - (row << kTileBits)), tile_.lo.y + as_int(row)) =
-        reflected_[pixel];
-  }
+  for (std::size_t i = 0; i < sky_.size; ++i) direct_[sky_.pixel[i]] = glm::vec4(0.0f);
+  steps.add_environment(*plan_->backdrop, false, sky_, &direct_[0].x);
 }
 
 // Finds the share of light that shadows take from the shadow catcher: at the pixels that see nothing, and
@@ -207,16 +200,21 @@ void TileTracer::count_lost(const RayQueue& queue, float reach) {
 }
 
 // Darkens the background where the plane lost light.
+void TileTracer::darken_by_lost() {
+  is_black_ = false;
+  for (std::size_t i = 0; i < ground_.size; ++i) {
+    const std::uint32_t pixel = ground_.pixel[i];
+    const float lost = ground_light_[pixel].a;
+    direct_[pixel] = glm::vec4((1.0f - lost) * glm::vec3(direct_[pixel]), lost);
+  }
+}
+
+// Writes the lost share in place of mirrored light.
 void TileTracer::write_lost() {
-  const TileOutputs& out = plan_->out;
   for (std::size_t i = 0; i < ground_.size; ++i) {
     const std::uint32_t pixel = ground_.pixel[i], row = pixel >> kTileBits;
     const glm::ivec2 at = tile_.lo + glm::ivec2(pixel - (row << kTileBits), row);
-    const float lost = ground_light_[pixel].a;
-    if (out.caught_in_reflection) out.reflection->at(at.x, at.y) = glm::vec3(lost);
-    if (!out.color) continue;
-    glm::vec4& color = out.color->at(at.x, at.y);
-    color = glm::vec4((1.0f - lost) * glm::vec3(color), lost);
+    plan_->out.reflection->at(at.x, at.y) = glm::vec3(ground_light_[pixel].a);
   }
 }
 

@@ -6,12 +6,16 @@
 #include <cstring>
 
 #include "core/shade/surface.h"
+#include "core/simd/four.h"
 #include "core/trace/view/tile_frustum.h"
 #include "core/trace/view/view_params.h"
 #include "pinocchio/conversion.h"
 
 namespace pinocchio {
 namespace {
+
+// Pictures of this size are written past the caches: what they hold is needed for the next tiles.
+constexpr std::size_t kStreamedBytes = std::size_t{4} << 20;
 
 double seconds() {
   return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
@@ -217,6 +221,7 @@ void TileTracer::light_visible() {
   mask_.assign(as_size(plan_->visible_lights.back().byte + 1) * kPixels, 0);
   if (plan_->visible.adds_light) {
     direct_.fill(glm::vec4(0.0f));
+    is_black_ = false;
     for (std::size_t i = 0; i < seen_.size; ++i) direct_[seen_.pixel[i]].a = 1.0f;
   }
   next_diffuse_.make_room(0, extra_columns());
@@ -299,40 +304,67 @@ void TileTracer::write_reflection() {
   }
 }
 
+void TileTracer::write_sampled(Image<SampledPoint>& to, std::size_t first) const {
+  const auto width = as_size(tile_.size().x);
+  for (int y = tile_.lo.y; y < tile_.hi.y; ++y) {
+    const std::size_t row = first + (as_size(y - tile_.lo.y) << kTileBits);
+    for (std::size_t i = row; i < row + width; ++i) {
+      SampledPoint& point = (&to.at(tile_.lo.x, y))[i - row] = points_[i];
+      point.light = glm::vec3(reflected_[kSampledPixels + i]);
+      point.lamp_light = glm::vec3(reflected_[kSampledPixels + kLampPixels + i]);
+    }
+  }
+}
+
+void TileTracer::write_mask(MaskImage& to) const {
+  for (int y = tile_.lo.y; y < tile_.hi.y; ++y)
+    for (std::size_t i = 0; i < mask_.size(); i += kPixels)
+      to.set_row(tile_.lo.x, y,
+                 std::span(mask_).subspan(i + (as_size(y - tile_.lo.y) << kTileBits), as_size(tile_.size().x)),
+                 as_int(i / kPixels));
+}
+
+// Puts the light of all pixels together, in direct_.
+void TileTracer::composite() {
+  if (seen_.size == 0) {
+    if (!is_black_) direct_.fill(glm::vec4(0.0f));
+    is_black_ = true;
+  } else if (reflects_) {
+    for (std::size_t i = 0; i < kPixels; ++i) direct_[i] += reflected_[i];
+  }
+}
+
+void TileTracer::write_color(Image<glm::vec4>& to) const {
+  const bool large = to.pixels().size_bytes() >= kStreamedBytes;
+  for (int y = tile_.lo.y; y < tile_.hi.y; ++y) {
+    glm::vec4* const pixels = &to.at(tile_.lo.x, y);
+    const glm::vec4* const light = &direct_[as_size(y - tile_.lo.y) << kTileBits];
+    const auto width = as_size(tile_.size().x);
+    if (large)
+      for (std::size_t i = 0; i < width; ++i) stream_four(&pixels[i].x, load_four(&light[i].x));
+    else
+      std::memcpy(pixels, light, width * sizeof(glm::vec4));
+  }
+  if (large) finish_streams();
+}
+
 void TileTracer::write() {
   const TileOutputs& out = plan_->out;
   if (out.reflection) write_reflection();
-  const auto width = as_size(tile_.size().x);
-  const bool empty = seen_.size == 0, mirrors = reflects_;
-  for (int y = tile_.lo.y; y < tile_.hi.y; ++y) {
-    const std::size_t row = as_size(y - tile_.lo.y) << kTileBits;
-    const auto of = [&](auto* image) { return &image->at(tile_.lo.x, y); };
-    const glm::vec4 *const direct = &direct_[row], *const reflected = &reflected_[row];
-    const auto light = [&](std::size_t i) { return mirrors ? direct[i] + reflected[i] : direct[i]; };
-    const auto write_sampled = [&](Image<SampledPoint>* image, std::size_t first) {
-      for (std::size_t i = 0; image && i < width; ++i) {
-        SampledPoint& point = of(image)[i] = points_[first + row + i];
-        point.light = glm::vec3(reflected_[kSampledPixels + first + row + i]);
-        point.lamp_light = glm::vec3(reflected_[kSampledPixels + kLampPixels + first + row + i]);
-      }
-    };
-    write_sampled(out.sampled, 0);
-    write_sampled(plan_->beyond, kPixels);
-    if (empty) {
-      if (out.color) std::memset(of(out.color), 0, width * sizeof(glm::vec4));
-      continue;
-    }
-    if (out.color && !mirrors)
-      std::memcpy(of(out.color), direct, width * sizeof(glm::vec4));
-    else if (out.color)
-      for (std::size_t i = 0; i < width; ++i) of(out.color)[i] = light(i);
-    if (out.added)
-      for (std::size_t i = 0; i < width; ++i) of(out.added)[i] += glm::vec3(light(i));
-    for (std::size_t i = 0; out.mask && i < mask_.size(); i += kPixels)
-      out.mask->set_row(tile_.lo.x, y, std::span(mask_).subspan(i + row, width), as_int(i / kPixels));
-  }
-  if (out.color) paint_background();
-  if (plan_->catcher) write_lost();
+  if (out.reflection && out.caught_in_reflection) write_lost();
+  if (out.sampled) write_sampled(*out.sampled, 0);
+  if (plan_->beyond) write_sampled(*plan_->beyond, kPixels);
+  if (out.mask && seen_.size > 0) write_mask(*out.mask);
+  if (!out.color && !out.added) return;
+  composite();
+  if (out.added && seen_.size > 0)
+    for (int y = tile_.lo.y; y < tile_.hi.y; ++y)
+      for (int x = tile_.lo.x; x < tile_.hi.x; ++x)
+        out.added->at(x, y) += glm::vec3(direct_[as_size(y - tile_.lo.y) << kTileBits | as_size(x - tile_.lo.x)]);
+  if (!out.color) return;
+  if (plan_->backdrop || plan_->job.options.background.kind == Background::Kind::color) paint_background();
+  if (plan_->catcher) darken_by_lost();
+  write_color(*out.color);
 }
 
 }  // namespace pinocchio

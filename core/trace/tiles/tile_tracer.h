@@ -55,6 +55,7 @@ class TileTracer {
   void catch_shadows();
   void find_lost(RayQueue& rays);
   void count_lost(const RayQueue& queue, float reach);
+  void darken_by_lost();
   void write_lost();
   void use_queues(Bounce& step);  // what the step appends goes to this tile's queues
   void bounce(Bounce step, int generation, const RayQueue& rays, Generation& next, glm::vec4* radiance,
@@ -71,6 +72,10 @@ class TileTracer {
   void block_by_ways_up(const RayQueue& up, int generation);
   void add_light_through_glass(const RayQueue& queue, glm::vec4* to);
   void write_reflection();
+  void write_sampled(Image<SampledPoint>& to, std::size_t first) const;
+  void write_mask(MaskImage& to) const;
+  void composite();
+  void write_color(Image<glm::vec4>& to) const;
   void write();
 
   const TilePlan* plan_ = nullptr;
@@ -87,7 +92,8 @@ class TileTracer {
   std::vector<std::uint8_t> up_blocked_;
   Holes holes_;
   TintedShadows tinted_;
-  alignas(16) Radiance<kPixels> direct_;
+  alignas(16) Radiance<kPixels> direct_;  // at last all light
+  bool is_black_ = false;                 // direct_ is all 0
   alignas(16) Radiance<5 * kPixels> reflected_;  // from kSampledPixels on: what is kept apart
   std::vector<SampledPoint> points_;             // kPixels that the camera sees, then those beyond
   // With a shadow catcher: rays at its plane, of pixels that see nothing, and behind surfaces that blend. By
