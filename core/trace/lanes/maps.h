@@ -314,6 +314,10 @@ inline Mask surely_rough(const SceneArrays& scene, const LaneMaps& lane_maps, co
     const Material& plain = scene.materials[index];
     const LaneMaps& lane_maps = scene.maps[plain.maps];
     const MaterialMaps& maps = *lane_maps.maps;
+    const Mask rough = wanted.where_mirrored != 0
+                           ? surely_rough(scene, lane_maps, points, triangle, s.weights, same)
+                           : Mask::from_bits(0);
+    if ((same & ~rough).bits() == 0 && !maps.blends()) return m.show_nothing_beyond(same);
     MapTexelLanes texels;
     const auto read = [&](Mask lanes, unsigned of) {
       if (lanes.bits() != 0) texels.read(scene, lane_maps, points, triangle, s.weights, lanes, of);
@@ -326,10 +330,6 @@ inline Mask surely_rough(const SceneArrays& scene, const LaneMaps& lane_maps, co
       s.n_shading = select(lanes, n, s.n_shading);
       if (maps.coat_is_mapped && has_layers(maps)) m.coat_normal = select(lanes, n, m.coat_normal);
     };
-    const Mask rough = wanted.where_mirrored != 0
-                           ? surely_rough(scene, lane_maps, points, triangle, s.weights, same)
-                           : Mask::from_bits(0);
-    if ((same & ~rough).bits() == 0 && !maps.blends()) return m.show_nothing_beyond(same);
     read(same & ~rough, wanted.everywhere);
     if (maps.blends()) {
       const Float alpha = clamp(alpha_at(scene, lane_maps, triangle, s.weights, same), 0.0f, 1.0f);
