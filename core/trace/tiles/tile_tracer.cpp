@@ -319,9 +319,10 @@ void TileTracer::write_sampled(Image<SampledPoint>& to, std::size_t first) const
 void TileTracer::write_mask(MaskImage& to) const {
   for (int y = tile_.lo.y; y < tile_.hi.y; ++y)
     for (std::size_t i = 0; i < mask_.size(); i += kPixels)
-      to.set_row(tile_.lo.x, y,
-                 std::span(mask_).subspan(i + (as_size(y - tile_.lo.y) << kTileBits), as_size(tile_.size().x)),
-                 as_int(i / kPixels));
+      to.set_row(
+          tile_.lo.x, y,
+          std::span(mask_).subspan(i + (as_size(y - tile_.lo.y) << kTileBits), as_size(tile_.size().x)),
+          as_int(i / kPixels));
 }
 
 // Puts the light of all pixels together, in direct_.
@@ -360,7 +361,8 @@ void TileTracer::write() {
   if (out.added && seen_.size > 0)
     for (int y = tile_.lo.y; y < tile_.hi.y; ++y)
       for (int x = tile_.lo.x; x < tile_.hi.x; ++x)
-        out.added->at(x, y) += glm::vec3(direct_[as_size(y - tile_.lo.y) << kTileBits | as_size(x - tile_.lo.x)]);
+        out.added->at(x, y) +=
+            glm::vec3(direct_[as_size(y - tile_.lo.y) << kTileBits | as_size(x - tile_.lo.x)]);
   if (!out.color) return;
   if (plan_->backdrop || plan_->job.options.background.kind == Background::Kind::color) paint_background();
   if (plan_->catcher) darken_by_lost();

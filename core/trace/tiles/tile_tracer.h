@@ -92,8 +92,8 @@ class TileTracer {
   std::vector<std::uint8_t> up_blocked_;
   Holes holes_;
   TintedShadows tinted_;
-  alignas(16) Radiance<kPixels> direct_;  // at last all light
-  bool is_black_ = false;                 // direct_ is all 0
+  alignas(16) Radiance<kPixels> direct_;         // at last all light
+  bool is_black_ = false;                        // direct_ is all 0
   alignas(16) Radiance<5 * kPixels> reflected_;  // from kSampledPixels on: what is kept apart
   std::vector<SampledPoint> points_;             // kPixels that the camera sees, then those beyond
   // With a shadow catcher: rays at its plane, of pixels that see nothing, and behind surfaces that blend. By

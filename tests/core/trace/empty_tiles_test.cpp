@@ -174,5 +174,43 @@ TEST(BlackTiles, AreThoseWithoutMirroredLight) {
   EXPECT_GT(black_after_light, 0);
 }
 
+// A large picture, which is written past the caches, has the pixels of its parts, which are not. One thread,
+// whose memory holds what a tile showed before.
+TEST(EmptyTiles, ShowTheirBackgroundAlone) {
+  using enum Background::Kind;
+  const Scene scene = random_soup(40, 0.2f, 3);
+  const Tracer tracer(scene.mesh);
+  Workers workers(1);
+  const Camera camera = camera_for_whole_scene(scene);
+  const glm::ivec2 size = 3 * kSize;
+  for (const Background::Kind kind : {color, transparent, studio, environment, transparent}) {
+    const auto drawn_from = [&](glm::ivec2 first, glm::ivec2 part) {
+      TraceJob job{scene, tracer, workers, view_params(camera, size, {}, first)};
+      job.options.background = {kind, {0.1f, 0.2f, 0.3f}};
+      Image<glm::vec4> picture;
+      TileOutputs out;
+      out.size = part;
+      out.color = &picture;
+      trace_tiles(job, out);
+      return picture;
+    };
+    const Image<glm::vec4> whole = drawn_from({0, 0}, size);
+    int empty = 0, black = 0;
+    for (const glm::ivec2 first : {glm::ivec2(0), {250, 190}, {500, 0}, {500, 380}}) {
+      const Image<glm::vec4> part = drawn_from(first, kSize);
+      for (int y = 0; y < kSize.y; ++y)
+        for (int x = 0; x < kSize.x; ++x) {
+          const glm::vec4 pixel = part.at(x, y);
+          ASSERT_EQ(whole.at(first.x + x, first.y + y), pixel);
+          if (pixel.a != 0.0f) continue;
+          ++empty;
+          black += glm::vec3(pixel) == glm::vec3(0.0f) ? 1 : 0;
+        }
+    }
+    EXPECT_GT(empty, kSize.x * kSize.y);
+    EXPECT_EQ(black, kind == transparent || kind == environment ? empty : 0);
+  }
+}
+
 }  // namespace
 }  // namespace pinocchio
