@@ -66,6 +66,12 @@ unsigned Frame::texture_name() const {
   return texture().name();
 }
 
+const Image<glm::vec4>& Frame::color(Image<glm::vec4>& memory) const {
+  if (!slot_.request.settings.uses_gpu()) return slot_.color;
+  read_color(memory);
+  return memory;
+}
+
 void Frame::read_color(Image<glm::vec4>& color) const {
   const Settings& s = slot_.request.settings;
   if (!s.uses_gpu()) {

@@ -105,17 +105,13 @@ void submit_samples(Renderer& renderer, FrameRequest request, SampleMean* mean) 
 }
 
 void SampleMean::add(Frame& frame) {
-  if (samples_ == 0) {
-    sum_ = frame.read();
-    if (is_adaptive()) sample_ = sum_.color;
-  } else {
-    frame.read_color(sample_);
-  }
+  if (samples_ == 0) sum_ = frame.read();
+  const Image<glm::vec4>& sample = samples_ == 0 ? sum_.color : frame.color(sample_);
   if (frame.request().settings.average_layers && spp_ > 1) add_surfaces(frame);
   if (is_adaptive()) {
-    add_tiles(frame.request());
+    add_tiles(frame.request(), sample);
   } else if (samples_ > 0) {
-    for (std::size_t i = 0; i < sample_.pixels().size(); ++i) sum_.color[i] += sample_[i];
+    for (std::size_t i = 0; i < sample.pixels().size(); ++i) sum_.color[i] += sample[i];
   }
   if (++samples_ == spp_) finish();
 }
@@ -137,7 +133,7 @@ void SampleMean::add_surfaces(const Frame& frame) {
 }
 
 // Adds the tiles that the frame traced.
-void SampleMean::add_tiles(const FrameRequest& request) {
+void SampleMean::add_tiles(const FrameRequest& request, const Image<glm::vec4>& picture) {
   const TileGrid grid(sum_.color.size());
   if (samples_ == 0) {
     squares_ = Image<glm::vec3>(sum_.color.size());
@@ -146,7 +142,7 @@ void SampleMean::add_tiles(const FrameRequest& request) {
   for (std::size_t i = 0; i < grid.count(); ++i) {
     if (request.left_out && (*request.left_out)[i] != 0) continue;
     TileGrid::for_each_pixel(grid.tile(i), [&](int x, int y) {
-      const glm::vec4& sample = sample_.at(x, y);
+      const glm::vec4& sample = picture.at(x, y);
       if (samples_ > 0) sum_.color.at(x, y) += sample;
       squares_.at(x, y) += glm::vec3(sample) * glm::vec3(sample);
     });

@@ -52,7 +52,7 @@ class SampleMean {
   friend void submit_samples(Renderer& renderer, FrameRequest request, SampleMean* mean);
   [[nodiscard]] bool is_adaptive() const { return max_noise_ > 0.0f && spp_ > 1; }
   void add_surfaces(const Frame& frame);
-  void add_tiles(const FrameRequest& request);
+  void add_tiles(const FrameRequest& request, const Image<glm::vec4>& picture);
   void check_tile(std::size_t tile);
   void finish();
 

@@ -54,6 +54,8 @@ class Frame {
   [[nodiscard]] FrameResult read() const;
   // The same without ids, mask and reflection.
   void read_color(Image<glm::vec4>& color) const;
+  // Without a copy where the CPU put the picture together; else it is read into `memory`, which is returned.
+  [[nodiscard]] const Image<glm::vec4>& color(Image<glm::vec4>& memory) const;
   // All data of the frame, for hybrid/inspect.
   [[nodiscard]] FrameSlot& slot() const { return slot_; }
 
